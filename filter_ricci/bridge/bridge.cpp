@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bridge.h"
+
+#include "parameters.h"
+#include "results.h"
+
+#include <ricci/error.h>
+#include <ricci/progress.h>
+
+#include <vcg/complex/algorithms/update/bounding.h>
+#include <vcg/complex/algorithms/update/color.h>
+#include <vcg/complex/algorithms/update/normal.h>
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+namespace filter_ricci {
+
+namespace {
+
+class HostProgress : public ricci::Progress
+{
+public:
+	HostProgress(vcg::CallBackPos* callback, const Log& log) : callback_(callback), log_(log) {}
+
+	void log(const std::string& line) override { log_(line); }
+
+	bool update(double fraction, const std::string& what) override
+	{
+		if (callback_ == nullptr)
+			return true;
+		const int percent = static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0));
+		return callback_(percent, what.c_str());
+	}
+
+private:
+	vcg::CallBackPos* callback_;
+	const Log& log_;
+};
+
+MeshModel& checkedMesh(MeshDocument& md, const Settings& settings)
+{
+	MeshModel* model = md.mm();
+	if (model == nullptr)
+		throw ricci::InvalidMesh("There is no mesh. Open one first.");
+	if (model->cm.fn == 0)
+		throw ricci::InvalidMesh(
+			model->cm.vn == 0
+				? "The mesh is empty. Choose a mesh with triangles."
+				: "The mesh is a point cloud: it has vertices but no faces. Reconstruct a surface "
+				  "first.");
+	if (settings.flow.target == ricci::TargetCurvature::Prescribed &&
+		!model->hasDataMask(MeshModel::MM_VERTQUALITY))
+		throw ricci::InvalidOption(
+			"target_curvature is From vertex quality, but the mesh has no vertex quality. Store "
+			"the curvature of each vertex, in radians, as its quality first.");
+	return *model;
+}
+
+/// Fills a new layer; it disappears again when filling it fails.
+void addFlatLayer(MeshDocument& md, MeshModel& model, const Flow::Result& result)
+{
+	MeshModel* flat = md.addNewMesh(QString(), "Flat " + model.label(), false);
+	try {
+		flat->updateDataMask(MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY);
+		Flow::BuildFlatMesh(model.cm, result, flat->cm);
+		vcg::tri::UpdateBounding<CMeshO>::Box(flat->cm);
+		vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(flat->cm);
+		host::copyTextures(model, *flat);
+	}
+	catch (...) {
+		host::removeMesh(md, flat);
+		throw;
+	}
+}
+
+void colorizeByDistortion(MeshModel& model, const ricci::Report& report)
+{
+	// A ramp needs two different ends, and a plane has no distortion at all.
+	const double top = std::max(report.qcP99, 1.0 + 1e-6);
+	vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(
+		model.cm, static_cast<Scalarm>(1.0), static_cast<Scalarm>(top));
+}
+
+int changedElements(const Settings& settings)
+{
+	int elements = MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY;
+	if (settings.colorize)
+		elements |= MeshModel::MM_VERTCOLOR;
+	return elements;
+}
+
+/// The new layer, which needs the most memory, comes first: a failure there leaves the mesh alone.
+void writeResult(
+	MeshDocument& md, MeshModel& model, const Settings& settings, const Flow::Result& result)
+{
+	if (settings.flatLayer)
+		addFlatLayer(md, model, result);
+	model.updateDataMask(changedElements(settings));
+	Flow::WriteWedgeTexCoord(model.cm, result);
+	Flow::WriteVertexQuality(model.cm, result);
+	if (settings.colorize)
+		colorizeByDistortion(model, result.report);
+}
+
+} // namespace
+
+int preConditions()
+{
+	return MeshModel::MM_FACENUMBER;
+}
+
+int postConditions()
+{
+	return MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR |
+		   MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
+}
+
+Outcome applyFilter(
+	int filter,
+	const RichParameterList& par,
+	MeshDocument& md,
+	vcg::CallBackPos* callback,
+	const Log& log)
+{
+	const Settings settings = readSettings(filter, par);
+	MeshModel& model = checkedMesh(md, settings);
+	HostProgress progress(callback, log);
+	const Flow::Result result = Flow::Compute(model.cm, settings.flow, progress);
+	for (const std::string& note : result.notes)
+		log(note);
+	writeResult(md, model, settings, result);
+	const Results results = toResults(result.report);
+	for (const std::string& line : toLogLines(results))
+		log(line);
+	return {results, changedElements(settings)};
+}
+
+std::string currentErrorSentence()
+{
+	try {
+		throw;
+	}
+	catch (const ricci::Error& error) {
+		return error.what();
+	}
+	catch (const std::bad_alloc&) {
+		return "There is not enough memory for this mesh. The mesh is unchanged.";
+	}
+	catch (const std::exception& error) {
+		return std::string("The filter failed unexpectedly (") + error.what() +
+			   "). Please report this, with the mesh if you can.";
+	}
+	catch (...) {
+		return "The filter failed unexpectedly, for an unknown reason. Please report this, with "
+			   "the "
+			   "mesh if you can.";
+	}
+}
+
+} // namespace filter_ricci

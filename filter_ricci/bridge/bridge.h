@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What every host shares: the filter's texts and parameters, one run of the filter on the current
+// mesh of a document, and the way a failure is put into words. The hosts' plugin classes only pass
+// calls on.
+#ifndef FILTER_RICCI_BRIDGE_H
+#define FILTER_RICCI_BRIDGE_H
+
+// Each host has its own host.h, found through the include path of its target.
+#include "host.h"
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace filter_ricci {
+
+/// Ids of the filters of this plugin, in menu order.
+enum FilterId { Euclidean };
+
+struct FilterText
+{
+	QString name;       ///< menu entry, and the name in .mlx scripts
+	QString pythonName; ///< name in PyMeshLab
+	QString info;       ///< HTML for the filter's dialog and the documentation
+};
+
+FilterText filterText(int filter);
+
+/// The parameters in the order that stored .mlx scripts rely on.
+RichParameterList filterParameters(int filter);
+
+/// MeshModel::MeshElement bits the host checks before a run.
+int preConditions();
+
+/// MeshModel::MeshElement bits the filter may change. They contain the element-number bits on
+/// purpose: hosts offer no live preview then, and a preview would solve the whole flow again at
+/// every change of a parameter and leave a new layer each time.
+int postConditions();
+
+using Value = std::variant<bool, int, double>;
+using Results = std::vector<std::pair<std::string, Value>>;
+using Log = std::function<void(const std::string&)>;
+
+struct Outcome
+{
+	Results results;
+	int changedElements; ///< MeshModel::MeshElement bits
+};
+
+/// Runs the filter on the current mesh of \p md. Nothing is written before everything is computed.
+/// \throw ricci::Error, std::bad_alloc and what vcglib throws; see currentErrorSentence().
+Outcome applyFilter(
+	int filter,
+	const RichParameterList& par,
+	MeshDocument& md,
+	vcg::CallBackPos* callback,
+	const Log& log);
+
+/// The exception being handled as a sentence for the user. Call it inside a catch block only.
+std::string currentErrorSentence();
+
+} // namespace filter_ricci
+
+#endif

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parameters.h"
+
+#include <ricci/error.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace filter_ricci {
+
+namespace {
+
+// The order of each list is that of the enum of the same name in ricci/options.h.
+QStringList targetCurvatureChoices()
+{
+	return {
+		"Automatic",
+		"Flat everywhere",
+		"Disk",
+		"Rectangle",
+		"Cones at selected vertices",
+		"From vertex quality"};
+}
+
+QStringList circlePackingChoices()
+{
+	return {"Inversive distance", "Thurston"};
+}
+
+QStringList surgeryChoices()
+{
+	return {"None", "Edge swap"};
+}
+
+int checkedChoice(const RichParameterList& par, const char* id, const QStringList& choices)
+{
+	const int chosen = par.getEnum(id);
+	if (chosen >= 0 && chosen < choices.size())
+		return chosen;
+	std::ostringstream sentence;
+	sentence << "The value " << chosen << " of " << id << " is not one of its choices. Use ";
+	for (int i = 0; i < choices.size(); ++i) {
+		if (i > 0)
+			sentence << (i + 1 == choices.size() ? " or " : ", ");
+		sentence << i << " (" << choices[i].toStdString() << ")";
+	}
+	sentence << ".";
+	throw ricci::InvalidOption(sentence.str());
+}
+
+double checkedEpsilon(const RichParameterList& par)
+{
+	const double epsilon = static_cast<double>(par.getFloat("epsilon"));
+	if (std::isfinite(epsilon) && epsilon > 0.0)
+		return epsilon;
+	std::ostringstream sentence;
+	sentence << "The value " << epsilon
+			 << " of epsilon cannot be used. Use a number of radians greater than 0, for example "
+				"1e-8.";
+	throw ricci::InvalidOption(sentence.str());
+}
+
+int checkedIterations(const RichParameterList& par)
+{
+	const int iterations = par.getInt("max_iterations");
+	if (iterations >= 1)
+		return iterations;
+	std::ostringstream sentence;
+	sentence << "The value " << iterations
+			 << " of max_iterations cannot be used. Use 1 or more Newton steps.";
+	throw ricci::InvalidOption(sentence.str());
+}
+
+} // namespace
+
+RichParameterList filterParameters(int)
+{
+	const ricci::Options defaults;
+	RichParameterList list;
+	list.addParam(RichEnum(
+		"target_curvature",
+		static_cast<int>(defaults.target),
+		targetCurvatureChoices(),
+		"Target curvature",
+		"The Gaussian curvature that the flow is asked to reach.<br>"
+		"<b>Automatic</b>: a disk and any other surface with boundary keeps the metric of its "
+		"boundary; an annulus and a torus become flat.<br>"
+		"<b>Flat everywhere</b>: zero at every vertex, boundary included; for an annulus or a "
+		"torus.<br>"
+		"<b>Disk</b>: the image of a disk-like surface is a round disk.<br>"
+		"<b>Rectangle</b>: the image of a disk-like surface is a rectangle; select its four "
+		"corners "
+		"on the boundary, or none to have them chosen.<br>"
+		"<b>Cones at selected vertices</b>: the selected vertices share the total curvature "
+		"equally, all others are flat.<br>"
+		"<b>From vertex quality</b>: each vertex's quality is its curvature in radians."));
+	list.addParam(RichBool(
+		"free_boundary",
+		defaults.freeBoundary,
+		"Free boundary",
+		"The boundary keeps the metric that it has on the mesh, and the target curvature holds "
+		"inside only: the least distortion for a surface with boundary. Disk, Rectangle and the "
+		"flat "
+		"annulus prescribe the boundary and ignore this. No effect on closed surfaces."));
+	list.addParam(RichFloat(
+		"epsilon",
+		static_cast<Scalarm>(defaults.epsilon),
+		"Epsilon (rad)",
+		"The flow stops when the curvature of every vertex is this close to its target, in "
+		"radians. "
+		"Where rounding does not allow it, the flow stops at the floor that rounding sets, and "
+		"reports that as residual_floor."));
+	list.addParam(RichEnum(
+		"circle_packing",
+		static_cast<int>(defaults.packing),
+		circlePackingChoices(),
+		"Circle packing",
+		"<b>Inversive distance</b>: the generalized flow; circles may intersect or be disjoint, "
+		"and "
+		"the metric of the mesh is reproduced exactly.<br>"
+		"<b>Thurston</b>: the conventional flow; circles have to intersect at acute angles, so the "
+		"metric is changed where the mesh does not allow it, and distortion grows. For "
+		"comparison."));
+	list.addParam(RichEnum(
+		"surgery",
+		static_cast<int>(defaults.surgery),
+		surgeryChoices(),
+		"Surgery",
+		"What to do where the flow breaks the triangle inequality.<br>"
+		"<b>None</b>: the triangulation stays as it is.<br>"
+		"<b>Edge swap</b>: the paper's remedy, the longest edge of the broken triangle is swapped. "
+		"The mesh itself is not changed."));
+	list.addParam(RichInt(
+		"max_iterations",
+		defaults.maxIterations,
+		"Max Newton steps",
+		"The flow gives up with an error after this many Newton steps. A run takes fewer than 30 "
+		"as "
+		"a rule."));
+	list.addParam(RichBool(
+		"normalize_uv",
+		Flow::Params().normalizeUV,
+		"Fit into the unit square",
+		"Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale of "
+		"the metric, so that distances in the texture plane are those on the mesh where the scale "
+		"factor is 1."));
+	list.addParam(RichBool(
+		"colorize",
+		false,
+		"Colour by distortion",
+		"Colour the vertices by their quasi-conformal distortion: from 1 (no distortion) to the "
+		"99th "
+		"percentile over the faces."));
+	list.addParam(RichBool(
+		"flat_layer",
+		false,
+		"Flat mesh as new layer",
+		"Add a layer with the mesh laid out in the plane, cut along its seams."));
+	return list;
+}
+
+Settings readSettings(int, const RichParameterList& par)
+{
+	Settings settings;
+	settings.flow.target = static_cast<ricci::TargetCurvature>(
+		checkedChoice(par, "target_curvature", targetCurvatureChoices()));
+	settings.flow.freeBoundary = par.getBool("free_boundary");
+	settings.flow.epsilon = checkedEpsilon(par);
+	settings.flow.packing = static_cast<ricci::CirclePacking>(
+		checkedChoice(par, "circle_packing", circlePackingChoices()));
+	settings.flow.surgery =
+		static_cast<ricci::Surgery>(checkedChoice(par, "surgery", surgeryChoices()));
+	settings.flow.maxIterations = checkedIterations(par);
+	settings.flow.normalizeUV = par.getBool("normalize_uv");
+	settings.colorize = par.getBool("colorize");
+	settings.flatLayer = par.getBool("flat_layer");
+	return settings;
+}
+
+} // namespace filter_ricci

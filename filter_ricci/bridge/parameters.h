@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef FILTER_RICCI_PARAMETERS_H
+#define FILTER_RICCI_PARAMETERS_H
+
+#include "bridge.h"
+
+#include <vcg/complex/algorithms/parametrization/ricci_flow.h>
+
+namespace filter_ricci {
+
+using Flow = vcg::tri::RicciFlow<CMeshO>;
+
+struct Settings
+{
+	Flow::Params flow;
+	bool colorize = false;
+	bool flatLayer = false;
+};
+
+/// Reads and checks the parameters. Scripts can hold any number for a choice, and no host checks
+/// the range of a number.
+/// \throw ricci::InvalidOption
+Settings readSettings(int filter, const RichParameterList& par);
+
+} // namespace filter_ricci
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef FILTER_RICCI_RESULTS_H
+#define FILTER_RICCI_RESULTS_H
+
+#include "bridge.h"
+
+#include <ricci/report.h>
+
+#include <string>
+#include <vector>
+
+namespace filter_ricci {
+
+/// The report under the names that scripts read; an invariant that does not exist is left out.
+Results toResults(const ricci::Report& report);
+
+/// The same pairs as "key=value key=value ...", for hosts that show only the log: one line with
+/// what the flow reached, one with what the surface is.
+std::vector<std::string> toLogLines(const Results& results);
+
+} // namespace filter_ricci
+
+#endif

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_ricci.h"
+
+#include "bridge.h"
+
+FilterRicciPlugin::FilterRicciPlugin()
+{
+	typeList << filter_ricci::Euclidean;
+	for (const FilterIDType filter : types())
+		actionList << new QAction(filterName(filter), this);
+}
+
+QString FilterRicciPlugin::pluginName() const
+{
+	return "FilterRicci";
+}
+
+QString FilterRicciPlugin::filterName(FilterIDType filter) const
+{
+	return filter_ricci::filterText(filter).name;
+}
+
+QString FilterRicciPlugin::filterInfo(FilterIDType filter) const
+{
+	return filter_ricci::filterText(filter).info;
+}
+
+FilterRicciPlugin::FilterClass FilterRicciPlugin::getClass(QAction*)
+{
+	return FilterClass(Texture | Quality);
+}
+
+FilterRicciPlugin::FILTER_ARITY FilterRicciPlugin::filterArity(QAction*) const
+{
+	return SINGLE_MESH;
+}
+
+int FilterRicciPlugin::getPreConditions(QAction*) const
+{
+	return filter_ricci::preConditions();
+}
+
+int FilterRicciPlugin::postCondition(QAction*) const
+{
+	return filter_ricci::postConditions();
+}
+
+// The variant with a document, because the host's default asks a document without a mesh for one.
+void FilterRicciPlugin::initParameterSet(QAction* action, MeshDocument&, RichParameterList& par)
+{
+	par.join(filter_ricci::filterParameters(ID(action)));
+}
+
+bool FilterRicciPlugin::applyFilter(
+	QAction* action, MeshDocument& md, const RichParameterList& par, vcg::CallBackPos* cb)
+{
+	errorMessage.clear();
+	try {
+		const auto toLog = [this](const std::string& line) { Log(line); };
+		filter_ricci::applyFilter(ID(action), par, md, cb, toLog);
+		return true;
+	}
+	catch (...) {
+		// meshlabserver prints the log only, the window shows errorMessage only.
+		const std::string sentence = filter_ricci::currentErrorSentence();
+		Log(sentence);
+		errorMessage = QString::fromStdString(sentence);
+		return false;
+	}
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// MeshLab 2020.09 as the bridge sees it.
+#ifndef FILTER_RICCI_HOST_H
+#define FILTER_RICCI_HOST_H
+
+#include <common/interfaces.h>
+
+#include <type_traits>
+
+// This MeshLab loads any plugin unchecked: one with another layout of the mesh crashes it.
+static_assert(std::is_same_v<Scalarm, float>, "MeshLab 2020.09 needs MESHLAB_SCALAR=float");
+#ifdef _GLIBCXX_DEBUG
+#error "MeshLab's containers are those without _GLIBCXX_DEBUG"
+#endif
+
+namespace filter_ricci::host {
+
+inline void removeMesh(MeshDocument& md, MeshModel* mesh)
+{
+	md.delMesh(mesh);
+}
+
+/// Textures are files here, known by their names only.
+inline void copyTextures(const MeshModel& from, MeshModel& to)
+{
+	to.cm.textures = from.cm.textures;
+}
+
+} // namespace filter_ricci::host
+
+#endif

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "filter_ricci.h"
+
+#include "bridge.h"
+
+namespace {
+
+std::map<std::string, QVariant> toMap(const filter_ricci::Results& results)
+{
+	std::map<std::string, QVariant> map;
+	for (const auto& [key, value] : results)
+		map[key] = std::visit([](auto v) { return QVariant(v); }, value);
+	return map;
+}
+
+} // namespace
+
+FilterRicciPlugin::FilterRicciPlugin()
+{
+	typeList = {filter_ricci::Euclidean};
+	for (const ActionIDType filter : types())
+		actionList.push_back(new QAction(filterName(filter), this));
+}
+
+QString FilterRicciPlugin::pluginName() const
+{
+	return "FilterRicci";
+}
+
+QString FilterRicciPlugin::vendor() const
+{
+	return "Generalized Ricci Flow";
+}
+
+QString FilterRicciPlugin::filterName(ActionIDType filter) const
+{
+	return filter_ricci::filterText(filter).name;
+}
+
+QString FilterRicciPlugin::pythonFilterName(ActionIDType filter) const
+{
+	return filter_ricci::filterText(filter).pythonName;
+}
+
+QString FilterRicciPlugin::filterInfo(ActionIDType filter) const
+{
+	return filter_ricci::filterText(filter).info;
+}
+
+FilterRicciPlugin::FilterClass FilterRicciPlugin::getClass(const QAction*) const
+{
+	return FilterClass(Texture | Quality);
+}
+
+FilterRicciPlugin::FilterArity FilterRicciPlugin::filterArity(const QAction*) const
+{
+	return SINGLE_MESH;
+}
+
+int FilterRicciPlugin::getPreConditions(const QAction*) const
+{
+	return filter_ricci::preConditions();
+}
+
+int FilterRicciPlugin::postCondition(const QAction*) const
+{
+	return filter_ricci::postConditions();
+}
+
+// The variant with a document, because the host's default asks a document without a mesh for one.
+RichParameterList FilterRicciPlugin::initParameterList(const QAction* action, const MeshDocument&)
+{
+	return filter_ricci::filterParameters(ID(action));
+}
+
+std::map<std::string, QVariant> FilterRicciPlugin::applyFilter(
+	const QAction* action,
+	const RichParameterList& par,
+	MeshDocument& md,
+	unsigned int& postConditionMask,
+	vcg::CallBackPos* cb)
+{
+	try {
+		const auto toLog = [this](const std::string& line) { this->log(line); };
+		const auto outcome = filter_ricci::applyFilter(ID(action), par, md, cb, toLog);
+		postConditionMask = static_cast<unsigned int>(outcome.changedElements);
+		return toMap(outcome.results);
+	}
+	catch (...) {
+		throw MLException(QString::fromStdString(filter_ricci::currentErrorSentence()));
+	}
+}
