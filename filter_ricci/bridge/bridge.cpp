@@ -31,7 +31,7 @@ public:
 		if (callback_ == nullptr)
 			return true;
 		const int percent = static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0));
-		return callback_(percent, what.c_str());
+		return callback_(percent, host::progressText(what).c_str());
 	}
 
 private:

@@ -5,6 +5,7 @@
 
 #include <common/interfaces.h>
 
+#include <string>
 #include <type_traits>
 
 // This MeshLab loads any plugin unchecked: one with another layout of the mesh crashes it.
@@ -24,6 +25,12 @@ inline void removeMesh(MeshDocument& md, MeshModel* mesh)
 inline void copyTextures(const MeshModel& from, MeshModel& to)
 {
 	to.cm.textures = from.cm.textures;
+}
+
+/// meshlabserver prints the texts one after the other, without line ends.
+inline std::string progressText(const std::string& what)
+{
+	return what + "\n";
 }
 
 } // namespace filter_ricci::host

@@ -5,6 +5,8 @@
 
 #include <common/plugins/interfaces/filter_plugin.h>
 
+#include <string>
+
 namespace filter_ricci::host {
 
 inline void removeMesh(MeshDocument& md, MeshModel* mesh)
@@ -16,6 +18,11 @@ inline void copyTextures(const MeshModel& from, MeshModel& to)
 {
 	for (const std::string& name : from.cm.textures)
 		to.addTexture(name, from.getTexture(name));
+}
+
+inline const std::string& progressText(const std::string& what)
+{
+	return what;
 }
 
 } // namespace filter_ricci::host

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the host tests share. A test that cannot run says why and exits with 77."""
+
+import os
+import sys
+import unittest
+
+BUILD = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else ""
+REPOSITORY = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+NAME = "Generalized Ricci Flow (Euclidean)"
+PYTHON_NAME = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge"
+
+ALWAYS = {
+    "converged": bool, "iterations": int, "max_curvature_error": float, "residual_floor": float,
+    "qc_mean": float, "qc_vertex_mean": float, "qc_area_mean": float, "qc_p99": float,
+    "qc_max": float, "flipped_faces": int, "edge_swaps": int, "euler_characteristic": int,
+    "genus": int, "boundary_loops": int, "components": int, "seam_edges": int}
+INVARIANTS = {
+    "torus_tau_re": float, "torus_tau_im": float, "annulus_modulus": float,
+    "rectangle_aspect": float}
+
+# Parameter ids in the order of the public interface.
+TARGET = ["Automatic", "Flat everywhere", "Disk", "Rectangle", "Cones at selected vertices",
+          "From vertex quality"]
+CHOICES = {"target_curvature": TARGET, "circle_packing": ["Inversive distance", "Thurston"],
+           "surgery": ["None", "Edge swap"]}
+PARAMETERS = [
+    ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("epsilon", "Float", 1e-8),
+    ("circle_packing", "Enum", 0), ("surgery", "Enum", 0), ("max_iterations", "Int", 200),
+    ("normalize_uv", "Bool", True), ("colorize", "Bool", False), ("flat_layer", "Bool", False)]
+
+
+def skip(reason):
+    print(f"SKIPPED: {reason}", flush=True)
+    sys.exit(77)
+
+
+def main():
+    program = unittest.main(exit=False, verbosity=2)
+    sys.exit(0 if program.result.wasSuccessful() and program.result.testsRun > 0 else 1)

@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# run_in_venv.sh BUILD_DIR SCRIPT ARGUMENT...: SCRIPT BUILD_DIR ARGUMENT... with PyMeshLab's Python.
+set -euo pipefail
+build=$1 script=$2
+shift 2
+python=$build/venv/bin/python
+if [ ! -x "$python" ]; then
+	echo "SKIPPED: there is no Python with PyMeshLab in build/venv"
+	exit 77
+fi
+exec "$python" "$script" "$build" "$@"

@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The plugin in stock meshlabserver 2020.09. Usage: test_meshlabserver.py BUILD_DIR [TEST...]"""
+
+import glob
+import math
+import os
+import re
+import tempfile
+import unittest
+
+import common
+import meshes
+import meshlabserver as server
+
+
+def run_on(mesh, before="", **values):
+    return server.Run(server.script(before, **values), lambda path: meshes.write_ply(path, mesh))
+
+
+class Results(unittest.TestCase):
+    """Meshes that the filter solves."""
+
+    def check(self, mesh, before="", faces_may_be_flipped=False, **values):
+        run = run_on(mesh, before, **values)
+        self.assertEqual(run.code, 0, run.text)
+        pairs = server.results(run.text)
+        self.assertLessEqual(set(common.ALWAYS), set(pairs), run.text)
+        self.assertLessEqual(set(pairs), set(common.ALWAYS) | set(common.INVARIANTS))
+        self.assertEqual(pairs["converged"], "true", run.text)
+        self.assertLess(float(pairs["max_curvature_error"]), 1e-8)
+        self.assertTrue(run.saved)
+        self.check_geometry(run.mesh, pairs, **values)
+        return pairs, run
+
+    def check_geometry(self, mesh, pairs, normalize_uv=True, **_):
+        self.assertIsNotNone(mesh.wedges)
+        corners = [uv for wedge in mesh.wedges for uv in wedge]
+        self.assertTrue(all(math.isfinite(c) for uv in corners for c in uv))
+        if normalize_uv:
+            self.assertTrue(all(-1e-6 <= c <= 1 + 1e-6 for uv in corners for c in uv))
+            self.assertAlmostEqual(max(c for uv in corners for c in uv), 1.0, delta=1e-6)
+        areas = [meshes.uv_area(wedge) for wedge in mesh.wedges]
+        self.assertEqual(sum(area <= 0 for area in areas), int(pairs["flipped_faces"]))
+        own = [meshes.distortion([mesh.vertices[v] for v in face], wedge)
+               for face, wedge in zip(mesh.faces, mesh.wedges)]
+        self.assertAlmostEqual(sum(own) / len(own), float(pairs["qc_mean"]), delta=1e-3)
+        self.assertAlmostEqual(max(own), float(pairs["qc_max"]), delta=1e-2)
+        self.assertAlmostEqual(sum(mesh.quality) / len(mesh.quality),
+                               float(pairs["qc_vertex_mean"]), delta=1e-4)
+
+    def test_torus_automatic(self):
+        pairs, run = self.check(meshes.torus())
+        self.assertEqual((pairs["genus"], pairs["euler_characteristic"]), ("1", "0"))
+        self.assertIn("torus_tau_im", pairs)
+        self.assertGreater(int(pairs["seam_edges"]), 0)
+        self.assertEqual(int(pairs["flipped_faces"]), 0, run.text)
+
+    def test_torus_flat_thurston(self):
+        inversive, _ = self.check(meshes.torus(), target_curvature=1)
+        thurston, _ = self.check(meshes.torus(), target_curvature=1, circle_packing=1)
+        self.assertGreaterEqual(float(thurston["qc_mean"]), float(inversive["qc_mean"]) - 1e-9)
+
+    def test_annulus_flat(self):
+        pairs, _ = self.check(meshes.annulus(), target_curvature=1)
+        self.assertEqual(pairs["boundary_loops"], "2")
+        self.assertIn("annulus_modulus", pairs)
+
+    def test_disk_automatic(self):
+        pairs, _ = self.check(meshes.hill())
+        self.assertEqual((pairs["euler_characteristic"], pairs["seam_edges"]), ("1", "0"))
+
+    def test_disk_is_round(self):
+        _, run = self.check(meshes.hill(), target_curvature=2)
+        boundary = boundary_uvs(run.mesh)
+        radii = [math.hypot(u - 0.5, v - 0.5) for u, v in boundary]
+        self.assertLess(max(radii) - min(radii), 1e-5)
+
+    def test_rectangle(self):
+        pairs, run = self.check(meshes.hill(), target_curvature=3)
+        self.assertGreaterEqual(float(pairs["rectangle_aspect"]), 1.0)
+        self.check_corners(run.mesh)
+
+    def test_rectangle_with_selected_corners(self):
+        corners = "(x==0 || x==1) && (y==0 || y==1)"
+        pairs, run = self.check(meshes.hill(), server.selection(corners), target_curvature=3)
+        self.assertAlmostEqual(float(pairs["rectangle_aspect"]), 1.0, delta=0.05)
+        self.check_corners(run.mesh)
+
+    def check_corners(self, mesh):
+        boundary = boundary_uvs(mesh)
+        self.assertGreater(len(boundary), 8)
+        us, vs = [u for u, _ in boundary], [v for _, v in boundary]
+        # The chart may stand in any direction, so measure the area of the hull of its boundary
+        # only where it is parallel to the axes.
+        area = sum(abs(meshes.uv_area(wedge)) for wedge in mesh.wedges)
+        self.assertLessEqual(area, (max(us) - min(us)) * (max(vs) - min(vs)) + 1e-5)
+
+    def test_cones(self):
+        pairs, _ = self.check(meshes.sphere(), server.selection("abs(z) > 0.99"), target_curvature=4)
+        self.assertEqual((pairs["genus"], pairs["euler_characteristic"]), ("0", "2"))
+
+    def test_from_vertex_quality(self):
+        mesh = meshes.torus()
+        zeros = meshes.with_quality(mesh, [0.0] * len(mesh.vertices))
+        self.check(zeros, target_curvature=5)
+
+    def test_two_components(self):
+        one, two = meshes.torus(), meshes.hill()
+        shift = len(one.vertices)
+        both = meshes.Mesh(one.vertices + [(x + 9, y, z) for x, y, z in two.vertices],
+                           one.faces + [tuple(v + shift for v in f) for f in two.faces])
+        pairs, _ = self.check(both)
+        self.assertEqual(pairs["components"], "2")
+        self.assertFalse(set(common.INVARIANTS) & set(pairs))
+
+    def test_own_scale(self):
+        self.check(meshes.torus(), normalize_uv=False)
+
+    def test_safe_treatment_is_announced(self):
+        for mesh, word in ((meshes.with_flipped_faces(meshes.torus()), "orient"),
+                           (meshes.with_unreferenced_vertex(meshes.torus()), "unreferenced")):
+            with self.subTest(word):
+                run = run_on(mesh)
+                self.assertEqual(run.code, 0, run.text)
+                self.assertRegex(run.text, f"(?i){word}")
+
+    def test_texture_coordinates_in_obj(self):
+        run = server.Run(server.script(), lambda path: meshes.write_ply(path, meshes.torus()),
+                         output="out.obj")
+        self.assertEqual(run.code, 0, run.text)
+        self.assertRegex(run.saved_text, r"(?m)^vt \d")
+        self.assertRegex(run.saved_text, r"(?m)^f \d+/\d+")
+
+    def test_progress_and_layers(self):
+        run = run_on(meshes.torus(), colorize=True, flat_layer=True)
+        self.assertEqual(run.code, 0, run.text)
+        self.assertIn("converged=true", run.text)
+
+    def test_every_line_of_the_log_starts_a_line(self):
+        run = run_on(meshes.torus())
+        self.assertRegex(run.text, r"(?m)^Result: converged=true iterations=\d+ ")
+        self.assertRegex(run.text, r"(?m)^Surface: euler_characteristic=0 ")
+
+
+def boundary_uvs(mesh):
+    """The UVs of boundary vertices of the mesh in space."""
+    owner = {}
+    for face, wedge in zip(mesh.faces, mesh.wedges):
+        for k in range(3):
+            owner[(face[k], face[(k + 1) % 3])] = wedge[k]
+    return [uv for (a, b), uv in owner.items() if (b, a) not in owner]
+
+
+class BadInput(unittest.TestCase):
+    """A clear sentence, exit code 255, nothing saved, and no crash."""
+
+    def check(self, words, mesh, before="", **values):
+        run = run_on(mesh, before, **values)
+        self.refused(run, words)
+
+    def refused(self, run, words):
+        self.assertEqual(run.code, 255, run.text)
+        self.assertFalse(run.saved, run.text)
+        self.assertRegex(run.text, rf"(?i)(?m)^.*(?:{words}).*\.$")
+        self.assertIn("Problem with filter: " + common.NAME, run.text)
+
+    def test_no_mesh(self):
+        self.refused(server.Run(server.script()), "no mesh")
+
+    def test_point_cloud(self):
+        self.check("point cloud|no faces", meshes.point_cloud())
+
+    def test_non_manifold_edge(self):
+        self.check("manifold", meshes.with_fin(meshes.torus()))
+
+    def test_non_manifold_vertex(self):
+        self.check("manifold", meshes.bow_tie())
+
+    def test_not_orientable(self):
+        self.check("orient", meshes.moebius())
+
+    def test_zero_area_face(self):
+        self.check("area", meshes.with_zero_area_face(meshes.torus()))
+
+    def test_zero_length_edge(self):
+        self.check("length|area", meshes.with_zero_length_edge(meshes.torus()))
+
+    def test_not_finite(self):
+        self.check("finite|NaN|not a number", meshes.with_nan(meshes.torus()))
+
+    def test_sphere_without_cones(self):
+        self.check("genus 0|cone", meshes.sphere())
+
+    def test_flat_disk(self):
+        self.check("Euler|flat", meshes.hill(), target_curvature=1)
+
+    def test_disk_of_a_torus(self):
+        self.check("disk", meshes.torus(), target_curvature=2)
+
+    def test_rectangle_with_three_corners(self):
+        self.check("four|corner", meshes.hill(),
+                   server.selection("(x==0 || x==1) && (y==0 || y==1) && (x+y < 1.5)"),
+                   target_curvature=3)
+
+    def test_rectangle_with_corner_inside(self):
+        self.check("boundary|loop|corner", meshes.hill(),
+                   server.selection("(x==0 || x==1) && (y==0 || y==1) && (x+y < 1.5) || "
+                                    "abs(x-0.5) < 0.01 && abs(y-0.5) < 0.01"),
+                   target_curvature=3)
+
+    def test_no_cone_selected(self):
+        self.check("select", meshes.sphere(), target_curvature=4)
+
+    def test_one_cone_for_a_whole_sphere(self):
+        self.check("cone|2 ?pi|curvature", meshes.sphere(), server.selection("z > 0.99"),
+                   target_curvature=4)
+
+    def test_no_quality(self):
+        self.check("quality", meshes.torus(), target_curvature=5)
+
+    def test_gauss_bonnet(self):
+        mesh = meshes.torus()
+        self.check("Gauss|Euler|sum", meshes.with_quality(mesh, [0.01] * len(mesh.vertices)),
+                   target_curvature=5)
+
+    def test_inadmissible_curvature(self):
+        mesh = meshes.torus()
+        values = [-7.0 / (len(mesh.vertices) - 1)] * len(mesh.vertices)
+        values[0] = 7.0
+        self.check("2 ?pi|curvature", meshes.with_quality(mesh, values), target_curvature=5)
+
+    def test_numbers_out_of_range(self):
+        for words, values in (
+                (r"epsilon.*greater than 0", {"epsilon": 0.0}),
+                (r"epsilon.*greater than 0", {"epsilon": -1e-8}),
+                (r"max_iterations.*1 or more", {"max_iterations": 0}),
+                (r"target_curvature.*5 \(From vertex quality\)", {"target_curvature": 6}),
+                (r"target_curvature.*0 \(Automatic\)", {"target_curvature": -1}),
+                (r"circle_packing.*1 \(Thurston\)", {"circle_packing": 2}),
+                (r"surgery.*Edge swap", {"surgery": 7})):
+            with self.subTest(values):
+                self.check(words, meshes.torus(), **values)
+
+    def test_too_few_iterations(self):
+        self.check("Newton|iteration|step", meshes.torus(), max_iterations=1)
+
+
+class Samples(unittest.TestCase):
+    """The scripts that users start from list every parameter, and run."""
+
+    MESHES = {"disk": meshes.hill, "rectangle": meshes.hill}
+
+    def test_every_sample(self):
+        paths = sorted(glob.glob(os.path.join(common.REPOSITORY, "filter_ricci", "samples", "*.mlx")))
+        self.assertGreaterEqual(len(paths), 4)
+        for path in paths:
+            name = os.path.splitext(os.path.basename(path))[0]
+            with self.subTest(name):
+                with open(path, encoding="utf-8") as source:
+                    text = source.read()
+                self.check_parameters(text)
+                mesh = self.MESHES.get(name, meshes.torus)()
+                run = server.Run(text, lambda target: meshes.write_ply(target, mesh))
+                self.assertEqual(run.code, 0, run.text)
+                self.assertIn("converged=true", run.text)
+
+    def check_parameters(self, text):
+        listed = re.findall(r'<Param type="Rich(\w+)" name="(\w+)"', text)
+        self.assertEqual(listed, [(kind, name) for name, kind, _ in common.PARAMETERS])
+        for name, choices in common.CHOICES.items():
+            line = re.search(f'<Param[^>]*name="{name}"[^>]*>', text).group()
+            self.assertIn(f'enum_cardinality="{len(choices)}"', line)
+            self.assertEqual(re.findall(r'enum_val\d+="([^"]*)"', line), choices)
+
+    def test_plugin_has_these_parameters(self):
+        """The host's own list of the loaded plugin: types and order."""
+        with tempfile.TemporaryDirectory() as folder:
+            server.run(["-d", "dump.txt"], folder)
+            with open(os.path.join(folder, "dump.txt"), encoding="utf-8") as source:
+                dump = source.read()
+        section = dump.split(common.NAME, 1)[1].split("</TABLE>", 1)[0]
+        kinds = re.findall(r"<TR><TD> \\c (\w+)", section)
+        self.assertEqual(kinds, [kind for _, kind, _ in common.PARAMETERS])
+
+
+if __name__ == "__main__":
+    common.main()

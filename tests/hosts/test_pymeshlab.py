@@ -1,0 +1,298 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The plugin in PyMeshLab. Usage: test_pymeshlab.py BUILD_DIR [TEST...], with PyMeshLab's Python."""
+
+import os
+import subprocess
+import sys
+import unittest
+
+import common
+import meshes
+
+try:
+    import numpy
+    import pymeshlab
+except ImportError as problem:
+    common.skip(f"PyMeshLab cannot be imported here: {problem}")
+
+PLUGIN = os.path.join(common.BUILD, "pymeshlab-2025.7", "libfilter_ricci.so")
+if not os.path.exists(PLUGIN):
+    common.skip("the plugin for PyMeshLab is not built")
+pymeshlab.load_plugin(PLUGIN)
+
+
+def mesh_set(mesh):
+    arrays = {"vertex_matrix": numpy.array(mesh.vertices, dtype=float).reshape(-1, 3),
+              "face_matrix": numpy.array(mesh.faces, dtype=numpy.int32).reshape(-1, 3)}
+    if mesh.quality is not None:
+        arrays["v_scalar_array"] = numpy.array(mesh.quality, dtype=float)
+    documents = pymeshlab.MeshSet(verbose=False)
+    documents.add_mesh(pymeshlab.Mesh(**arrays))
+    return documents
+
+
+def select(documents, condition):
+    documents.compute_selection_by_condition_per_vertex(condselect=condition)
+
+
+def run(documents, **values):
+    return documents.apply_filter(common.PYTHON_NAME, **values)
+
+
+def state(mesh):
+    """Everything that a refused run must leave as it was."""
+    arrays = [mesh.vertex_matrix(), mesh.face_matrix(), mesh.vertex_scalar_array(),
+              mesh.vertex_color_matrix(), mesh.vertex_normal_matrix(),
+              mesh.vertex_selection_array(), mesh.face_selection_array()]
+    if mesh.has_wedge_tex_coord():
+        arrays.append(mesh.wedge_tex_coord_matrix())
+    flags = (mesh.has_wedge_tex_coord(), mesh.has_vertex_scalar(), mesh.has_vertex_color(),
+             mesh.vertex_number(), mesh.face_number(), len(mesh.textures()))
+    return flags, [numpy.array(a) for a in arrays]
+
+
+def same(one, two):
+    return one[0] == two[0] and len(one[1]) == len(two[1]) and all(
+        numpy.array_equal(a, b, equal_nan=True) for a, b in zip(one[1], two[1]))
+
+
+class Results(unittest.TestCase):
+    def check(self, documents, **values):
+        returned = run(documents, **values)
+        self.assertLessEqual(set(common.ALWAYS), set(returned))
+        types = {**common.ALWAYS, **common.INVARIANTS}
+        for key, value in returned.items():
+            self.assertIs(type(value), types[key], key)
+        self.assertTrue(returned["converged"])
+        self.assertLess(returned["max_curvature_error"], 1e-8)
+        mesh = documents.current_mesh()
+        self.assertTrue(mesh.has_wedge_tex_coord())
+        self.assertTrue(mesh.has_vertex_scalar())
+        self.check_geometry(mesh, returned)
+        return returned
+
+    def check_geometry(self, mesh, returned):
+        wedges = mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+        self.assertTrue(numpy.isfinite(wedges).all())
+        flipped = sum(meshes.uv_area(wedge) <= 0 for wedge in wedges)
+        self.assertEqual(flipped, returned["flipped_faces"])
+        corners = mesh.vertex_matrix()[mesh.face_matrix()]
+        own = [meshes.distortion(c, w) for c, w in zip(corners, wedges)]
+        self.assertAlmostEqual(float(numpy.mean(own)), returned["qc_mean"], delta=1e-3)
+        self.assertAlmostEqual(float(numpy.mean(mesh.vertex_scalar_array())),
+                               returned["qc_vertex_mean"], delta=1e-9)
+
+    def test_torus(self):
+        documents = mesh_set(meshes.torus())
+        before = documents.current_mesh().vertex_matrix()
+        returned = self.check(documents)
+        self.assertEqual(returned["genus"], 1)
+        self.assertIn("torus_tau_im", returned)
+        self.assertTrue(numpy.array_equal(before, documents.current_mesh().vertex_matrix()))
+        u = documents.current_mesh().vertex_custom_scalar_attribute_array("ricci_u")
+        self.assertTrue(numpy.isfinite(u).all())
+        self.assertGreater(numpy.ptp(u), 0.0)
+
+    def test_names_of_choices(self):
+        documents = mesh_set(meshes.annulus())
+        returned = self.check(documents, target_curvature="Flat everywhere",
+                              circle_packing="Inversive distance", surgery="None")
+        self.assertIn("annulus_modulus", returned)
+
+    def test_disk_and_rectangle(self):
+        documents = mesh_set(meshes.hill())
+        self.check(documents)
+        self.check(documents, target_curvature="Disk")
+        returned = self.check(documents, target_curvature="Rectangle")
+        self.assertGreaterEqual(returned["rectangle_aspect"], 1.0)
+
+    def test_cones(self):
+        documents = mesh_set(meshes.sphere())
+        select(documents, "abs(z) > 0.99")
+        self.check(documents, target_curvature="Cones at selected vertices")
+
+    def test_quality_is_read_before_it_is_overwritten(self):
+        mesh = meshes.torus()
+        curvature = numpy.zeros(len(mesh.vertices))
+        curvature[0], curvature[200] = 0.5, -0.5
+        documents = mesh_set(meshes.with_quality(mesh, curvature))
+        self.check(documents, target_curvature="From vertex quality")
+        current = documents.current_mesh()
+        kept = current.vertex_custom_scalar_attribute_array("ricci_target_curvature")
+        self.assertTrue(numpy.allclose(kept, curvature, atol=1e-9))
+        self.assertGreaterEqual(current.vertex_scalar_array().min(), 1.0 - 1e-9)
+
+    def test_flat_layer(self):
+        documents = mesh_set(meshes.torus())
+        self.check(documents, flat_layer=True)
+        self.assertEqual(documents.mesh_number(), 2)
+        self.assertEqual(documents.current_mesh_id(), 0)
+        flat = documents.mesh(1)
+        self.assertEqual(flat.face_number(), documents.mesh(0).face_number())
+        self.assertTrue((flat.vertex_matrix()[:, 2] == 0).all())
+        self.assertTrue(flat.has_wedge_tex_coord())
+        corners = flat.vertex_matrix()[flat.face_matrix()][:, :, :2]
+        wedges = flat.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+        self.assertLess(numpy.abs(corners - wedges).max(), 1e-6)
+
+    def test_colorize(self):
+        documents = mesh_set(meshes.hill())
+        self.check(documents, colorize=True)
+        colors = documents.current_mesh().vertex_color_matrix()
+        self.assertGreater(len(numpy.unique(colors.round(3), axis=0)), 5)
+
+    def test_repeatable(self):
+        documents = mesh_set(meshes.torus())
+        self.check(documents)
+        first = documents.current_mesh().wedge_tex_coord_matrix()
+        self.check(documents)
+        self.assertTrue(numpy.array_equal(first, documents.current_mesh().wedge_tex_coord_matrix()))
+
+    def test_saved_obj_has_texture_coordinates(self):
+        documents = mesh_set(meshes.torus())
+        self.check(documents)
+        path = os.path.join(common.BUILD, "test_pymeshlab_out.obj")
+        documents.save_current_mesh(path, save_wedge_texcoord=True)
+        with open(path, encoding="utf-8") as source:
+            text = source.read()
+        os.remove(path)
+        self.assertRegex(text, r"(?m)^vt \d")
+
+    def test_parameters_and_defaults(self):
+        documents = mesh_set(meshes.torus())
+        run(documents)
+        values = documents.filter_parameter_values(common.PYTHON_NAME)
+        self.assertEqual(list(values), [name for name, _, _ in common.PARAMETERS])
+        for name, kind, default in common.PARAMETERS:
+            if kind == "Float":
+                self.assertAlmostEqual(values[name], default, delta=1e-6 * default)
+            else:
+                self.assertEqual(values[name], default, name)
+
+
+class BadInput(unittest.TestCase):
+    """A clear sentence as PyMeshLabException, and the mesh untouched."""
+
+    def check(self, words, mesh, condition=None, **values):
+        documents = mesh_set(mesh)
+        if condition is not None:
+            select(documents, condition)
+        before = state(documents.current_mesh())
+        with self.assertRaisesRegex(pymeshlab.PyMeshLabException, f"(?is)(?:{words}).*\\.$") as caught:
+            run(documents, **values)
+        self.assertIn("Details: ", str(caught.exception))
+        self.assertTrue(same(before, state(documents.current_mesh())))
+        self.assertEqual(documents.mesh_number(), 1)
+
+    def test_no_mesh(self):
+        with self.assertRaisesRegex(pymeshlab.PyMeshLabException, "at least one mesh"):
+            run(pymeshlab.MeshSet())
+
+    def test_no_faces(self):
+        empty = pymeshlab.MeshSet(verbose=False)
+        empty.add_mesh(pymeshlab.Mesh())
+        for documents in (mesh_set(meshes.point_cloud()), empty):
+            with self.assertRaisesRegex(pymeshlab.PyMeshLabException, "Any Faces"):
+                run(documents)
+
+    def test_non_manifold(self):
+        self.check("manifold", meshes.with_fin(meshes.torus()))
+        self.check("manifold", meshes.bow_tie())
+
+    def test_not_orientable(self):
+        self.check("orient", meshes.moebius())
+
+    def test_degenerate(self):
+        self.check("area", meshes.with_zero_area_face(meshes.torus()))
+        self.check("length|area", meshes.with_zero_length_edge(meshes.torus()))
+
+    def test_not_finite(self):
+        self.check("finite|NaN|not a number", meshes.with_nan(meshes.torus()))
+
+    def test_sphere_without_cones(self):
+        self.check("genus 0|cone", meshes.sphere())
+        self.check("select", meshes.sphere(), target_curvature="Cones at selected vertices")
+        self.check("cone|2 ?pi|curvature", meshes.sphere(), "z > 0.99",
+                   target_curvature="Cones at selected vertices")
+
+    def test_topology_does_not_fit(self):
+        self.check("Euler|flat", meshes.hill(), target_curvature="Flat everywhere")
+        self.check("disk", meshes.torus(), target_curvature="Disk")
+        self.check("four|corner|disk", meshes.annulus(), target_curvature="Rectangle")
+
+    def test_corners(self):
+        self.check("four|corner", meshes.hill(),
+                   "(x==0 || x==1) && (y==0 || y==1) && (x+y < 1.5)", target_curvature="Rectangle")
+
+    def test_quality(self):
+        mesh = meshes.torus()
+        self.check("quality", mesh, target_curvature="From vertex quality")
+        self.check("Gauss|Euler|sum", meshes.with_quality(mesh, [0.01] * len(mesh.vertices)),
+                   target_curvature="From vertex quality")
+        self.check("finite|NaN|not a number",
+                   meshes.with_quality(mesh, [float("nan")] * len(mesh.vertices)),
+                   target_curvature="From vertex quality")
+
+    def test_numbers_out_of_range(self):
+        for words, values in (
+                ("epsilon.*greater than 0", {"epsilon": 0.0}),
+                ("epsilon.*greater than 0", {"epsilon": -1.0}),
+                ("epsilon.*greater than 0", {"epsilon": float("nan")}),
+                ("max_iterations.*1 or more", {"max_iterations": 0}),
+                # One past the end is the only wrong choice that PyMeshLab lets through.
+                ("target_curvature.*Rectangle", {"target_curvature": 6}),
+                ("circle_packing.*Thurston", {"circle_packing": 2}),
+                ("surgery.*Edge swap", {"surgery": 2})):
+            with self.subTest(values):
+                self.check(words, meshes.torus(), **values)
+        for value in (7, -1, "Nonsense"):
+            with self.assertRaises(pymeshlab.PyMeshLabException):
+                run(mesh_set(meshes.torus()), target_curvature=value)
+
+    def test_sentences_survive_the_host(self):
+        """The host turns messages into the local 8-bit encoding, which may be plain ASCII."""
+        program = (
+            "import sys; sys.argv = ['x', sys.argv[1]]\n"
+            "import common, meshes, test_pymeshlab as t, pymeshlab\n"
+            "try:\n"
+            "    mesh = meshes.torus()\n"
+            "    t.run(t.mesh_set(meshes.with_quality(mesh, [0.01] * len(mesh.vertices))),"
+            " target_curvature=5)\n"
+            "except pymeshlab.PyMeshLabException as e:\n"
+            "    print(ascii(str(e)))\n")
+        finished = subprocess.run(
+            [sys.executable, "-c", program, common.BUILD], capture_output=True, text=True,
+            cwd=os.path.dirname(os.path.abspath(__file__)), env={**os.environ, "LC_ALL": "C"})
+        self.assertEqual(finished.returncode, 0, finished.stderr)
+        self.assertNotIn("?", finished.stdout)
+        self.assertIn("Details: ", finished.stdout)
+
+
+class Treatment(unittest.TestCase):
+    """What the filter repairs for the run by itself."""
+
+    def test_orientation(self):
+        straight = run(mesh_set(meshes.torus()))
+        documents = mesh_set(meshes.with_flipped_faces(meshes.torus()))
+        faces = documents.current_mesh().face_matrix()
+        returned = run(documents)
+        self.assertAlmostEqual(returned["qc_mean"], straight["qc_mean"], delta=1e-6)
+        self.assertTrue(numpy.array_equal(faces, documents.current_mesh().face_matrix()))
+
+    def test_unreferenced_vertex(self):
+        documents = mesh_set(meshes.with_unreferenced_vertex(meshes.torus()))
+        self.assertTrue(run(documents)["converged"])
+        self.assertTrue(numpy.isfinite(documents.current_mesh().vertex_scalar_array()).all())
+
+    def test_quads(self):
+        documents = pymeshlab.MeshSet(verbose=False)
+        grid = meshes.hill(4)
+        quads = [[i * 5 + j, (i + 1) * 5 + j, (i + 1) * 5 + j + 1, i * 5 + j + 1]
+                 for i in range(4) for j in range(4)]
+        documents.add_mesh(pymeshlab.Mesh(vertex_matrix=numpy.array(grid.vertices),
+                                          face_list_of_indices=quads))
+        self.assertTrue(run(documents)["converged"])
+
+
+if __name__ == "__main__":
+    common.main()
