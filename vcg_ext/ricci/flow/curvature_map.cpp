@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "curvature_map.h"
+
+#include "../metric/euclidean.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+std::size_t at(int index)
+{
+	return static_cast<std::size_t>(index);
+}
+
+} // namespace
+
+CurvatureMap::CurvatureMap(CirclePacking packing) :
+		m_packing(std::move(packing)), m_boundary(m_packing.triangulation.boundaryVertices())
+{
+	const Triangulation& t = m_packing.triangulation;
+	m_curvature.resize(t.vertexCount());
+	m_lengths.resize(at(t.edgeCount()));
+	m_weights.resize(at(t.edgeCount()));
+	m_cosineLess1.resize(at(t.edgeCount()));
+	m_angles.assign(at(t.halfedgeCount()), 0.0);
+}
+
+void CurvatureMap::swapEdge(int e, double delta)
+{
+	m_packing.triangulation.flip(e);
+	m_packing.delta[at(e)] = delta;
+	++m_revision;
+}
+
+template<class Geometry>
+GeometricCurvatureMap<Geometry>::GeometricCurvatureMap(CirclePacking packing) :
+		CurvatureMap(std::move(packing)),
+		m_circles(at(m_packing.triangulation.vertexCount())),
+		m_edges(at(m_packing.triangulation.edgeCount()))
+{
+}
+
+template<class Geometry>
+void GeometricCurvatureMap<Geometry>::evaluate(const Eigen::VectorXd& u)
+{
+	evaluateCircles(u);
+	evaluateEdges();
+	evaluateTriangles();
+}
+
+template<class Geometry>
+void GeometricCurvatureMap<Geometry>::evaluateCircles(const Eigen::VectorXd& u)
+{
+	for (std::size_t v = 0; v < m_circles.size(); ++v)
+		m_circles[v] = Geometry::circle(u[static_cast<Eigen::Index>(v)]);
+}
+
+template<class Geometry>
+void GeometricCurvatureMap<Geometry>::evaluateEdges()
+{
+	const Triangulation& t = m_packing.triangulation;
+	for (int e = 0; e < t.edgeCount(); ++e) {
+		m_edges[at(e)] = Geometry::edge(
+			m_circles[at(t.origin(2 * e))], m_circles[at(t.target(2 * e))], m_packing.delta[at(e)]);
+		m_lengths[at(e)]     = m_edges[at(e)].length;
+		m_cosineLess1[at(e)] = m_edges[at(e)].cosineLess1;
+	}
+}
+
+template<class Geometry>
+void GeometricCurvatureMap<Geometry>::evaluateTriangles()
+{
+	const Triangulation& t = m_packing.triangulation;
+	std::fill(m_weights.begin(), m_weights.end(), 0.0);
+	for (int v = 0; v < t.vertexCount(); ++v)
+		m_curvature[v] = m_boundary[at(v)] ? kPi : 2.0 * kPi;
+	m_broken      = 0;
+	m_needleRatio = 1.0;
+
+	for (int f = 0; f < t.faceCount(); ++f) {
+		// Vertex k is the origin of halfedge k; side k runs from vertex k to k + 1.
+		const std::array<int, 3> h = t.halfedges(f);
+		std::array<int, 3>       vertex, edge;
+		for (std::size_t k = 0; k < 3; ++k) {
+			vertex[k] = t.origin(h[k]);
+			edge[k]   = Triangulation::edge(h[k]);
+		}
+		// tau_k = (two adjacent sides - opposite side) / 2, free of cancellation in the radii.
+		std::array<double, 3> tau, angle;
+		for (std::size_t k = 0; k < 3; ++k)
+			tau[k] = m_circles[at(vertex[k])].radius +
+					 0.5 * (m_edges[at(edge[k])].excess + m_edges[at(edge[(k + 2) % 3])].excess -
+							m_edges[at(edge[(k + 1) % 3])].excess);
+		const auto shortest = std::min_element(tau.begin(), tau.end());
+		if (!(*shortest > 0.0)) {
+			++m_broken;
+			angle                             = {0.0, 0.0, 0.0};
+			angle[at(static_cast<int>(shortest - tau.begin()))] = kPi;
+		}
+		else {
+			const double s = Geometry::heron(tau[0] + tau[1] + tau[2]);
+			const double a = Geometry::heron(tau[0]), b = Geometry::heron(tau[1]),
+						 c = Geometry::heron(tau[2]);
+			angle[0]          = 2.0 * std::atan2(std::sqrt(b * c), std::sqrt(s * a));
+			angle[1]          = 2.0 * std::atan2(std::sqrt(c * a), std::sqrt(s * b));
+			angle[2]          = 2.0 * std::atan2(std::sqrt(a * b), std::sqrt(s * c));
+			const double area = 2.0 * std::sqrt(s * a * b * c); // product of two sides and a sine
+
+			std::array<double, 3> inversive, radius, kappa;
+			for (std::size_t k = 0; k < 3; ++k) {
+				inversive[k] = 1.0 + m_packing.delta[at(edge[k])];
+				radius[k]    = m_circles[at(vertex[k])].s;
+				kappa[k]     = m_circles[at(vertex[k])].kappa;
+			}
+			double longest = 0.0, least = m_lengths[at(edge[0])];
+			for (std::size_t k = 0; k < 3; ++k) {
+				// Derivative of the angle at i by u_j, side ij = side k, apex m.
+				const std::size_t i = k, j = (k + 1) % 3, m = (k + 2) % 3;
+				const double      ij = inversive[k], jm = inversive[j], mi = inversive[m];
+				const double      d = m_packing.delta[at(edge[k])];
+				const double      height = kappa[i] * (mi + jm * ij) + kappa[j] * (jm + mi * ij) -
+									  kappa[m] * d * (d + 2.0);
+				m_weights[at(edge[k])] += radius[i] * radius[i] * radius[j] * radius[j] * radius[m] *
+										  height / (area * m_edges[at(edge[k])].sine2);
+				longest = std::max(longest, m_lengths[at(edge[k])]);
+				least   = std::min(least, m_lengths[at(edge[k])]);
+			}
+			m_needleRatio = std::max(m_needleRatio, longest / least);
+		}
+		for (std::size_t k = 0; k < 3; ++k) {
+			m_angles[at(h[k])] = angle[k];
+			m_curvature[vertex[k]] -= angle[k];
+		}
+	}
+}
+
+template class GeometricCurvatureMap<Euclidean>;
+
+} // namespace ricci

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_CURVATURE_MAP_H
+#define RICCI_CURVATURE_MAP_H
+
+#include "../metric/circle_packing.h"
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <vector>
+
+namespace ricci {
+
+/// The map u -> K(u) of a circle packing (Eqs 1, 2, 4), the gradient of the convex Ricci energy
+/// (Eq. 10; as printed its sign is that of a concave one), together with its derivative, the
+/// Hessian of the energy (Eqs 7-9, 11, 12). The one seam between the flow and its background
+/// geometry: Newton's method sees only this class.
+///
+/// Where a triangle breaks the triangle inequality its angles are continued by the constants
+/// pi, 0, 0 and its derivatives by 0. The energy then is C^1 and convex for every u.
+class CurvatureMap
+{
+public:
+	virtual ~CurvatureMap() = default;
+
+	/// Computes everything below at \p u (one entry for each vertex).
+	virtual void evaluate(const Eigen::VectorXd& u) = 0;
+
+	/// Whether adding a constant to u changes nothing (Euclidean background).
+	virtual bool scaleInvariant() const = 0;
+
+	const Triangulation&       triangulation() const { return m_packing.triangulation; }
+	const std::vector<double>& delta() const { return m_packing.delta; }
+
+	/// K in radians: 2 pi (pi on the boundary) less the angles at the vertex (Eq. 2).
+	const Eigen::VectorXd& curvature() const { return m_curvature; }
+
+	/// [edge] Length in the metric of the last u.
+	const std::vector<double>& lengths() const { return m_lengths; }
+
+	/// [halfedge] Angle in radians at the halfedge's origin; 0 on outer halfedges.
+	const std::vector<double>& angles() const { return m_angles; }
+
+	/// [edge] w_ij of Eq. 12: minus the derivative of K_i by u_j.
+	const std::vector<double>& weights() const { return m_weights; }
+
+	/// [edge] cosh(length) - 1, what the hyperbolic plane adds to the diagonal; 0 in the Euclidean.
+	const std::vector<double>& cosineLess1() const { return m_cosineLess1; }
+
+	/// Number of triangles that break the triangle inequality.
+	int brokenTriangles() const { return m_broken; }
+
+	/// Largest quotient of two sides of one triangle: the amplification of rounding in its angles.
+	double needleRatio() const { return m_needleRatio; }
+
+	/// Changes when the connectivity does, so that a sparsity pattern can be kept as long as possible.
+	int revision() const { return m_revision; }
+
+	/// Puts the connectivity at the present state; reject() returns to it.
+	virtual void accept() {}
+	virtual void reject() {}
+
+	/// Edge flips in the present state since the start.
+	virtual int flips() const { return 0; }
+
+	/// Replaces interior edge \p e by the other diagonal of its two triangles, with \p delta.
+	void swapEdge(int e, double delta);
+
+protected:
+	explicit CurvatureMap(CirclePacking packing);
+
+	CirclePacking       m_packing;
+	std::vector<char>   m_boundary; // by vertex
+	Eigen::VectorXd     m_curvature;
+	std::vector<double> m_lengths, m_weights, m_cosineLess1, m_angles;
+	int                 m_broken      = 0;
+	double              m_needleRatio = 1.0;
+	int                 m_revision    = 0;
+};
+
+/// CurvatureMap of the background geometry \p Geometry (see Euclidean).
+template<class Geometry>
+class GeometricCurvatureMap : public CurvatureMap
+{
+public:
+	explicit GeometricCurvatureMap(CirclePacking packing);
+
+	void evaluate(const Eigen::VectorXd& u) override;
+	bool scaleInvariant() const override { return Geometry::scaleInvariant; }
+
+protected:
+	void evaluateCircles(const Eigen::VectorXd& u);
+	void evaluateEdges();
+	void evaluateTriangles();
+
+	std::vector<typename Geometry::Circle> m_circles; // by vertex
+	std::vector<typename Geometry::Edge>   m_edges;
+};
+
+} // namespace ricci
+
+#endif

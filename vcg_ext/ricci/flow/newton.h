@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_NEWTON_H
+#define RICCI_NEWTON_H
+
+#include "../progress.h"
+#include "curvature_map.h"
+#include "hessian.h"
+#include "sparse_cholesky.h"
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <vector>
+
+namespace ricci {
+
+/// When Newton's method stops.
+struct NewtonOptions
+{
+	double epsilon       = 1e-8; ///< radians: wanted bound of max |target - K|
+	int    maxIterations = 200;
+};
+
+struct NewtonResult
+{
+	bool   converged  = false;
+	int    iterations = 0;
+	double residual   = 0.0; ///< max |target - K| over the free vertices, radians
+	double floor      = 0.0; ///< estimate of what rounding lets the residual reach, radians
+};
+
+/// Residuals above this are never called converged because of the rounding floor.
+constexpr double kLargestFloor = 1e-8;
+
+/// Globalised Newton's method for K(u) = target (paper 4.2): the minimiser of the convex Ricci
+/// energy. The only place that decides when the flow stops. Keeps its work space, pattern and
+/// symbolic factorisation between calls, so that a warm start costs no set-up.
+class NewtonSolver
+{
+public:
+	/// Called at every accepted iterate; returns true if it changed the map (edge swaps), after which
+	/// the map is evaluated anew.
+	using Surgeon = std::function<bool(CurvatureMap&)>;
+
+	/// \p fixed: [vertex] 1 where u keeps its value (du = 0); the target is ignored there. If nothing
+	/// is fixed and the background is scale invariant, the mean of u is kept.
+	NewtonSolver(CurvatureMap& map, std::vector<char> fixed);
+
+	/// Solves from \p u, which holds the solution afterwards. \p target: K at each vertex, radians.
+	/// \p report is called with the iteration number and the residual before each step; it may
+	/// throw to cancel. Never throws for lack of convergence: see NewtonResult.
+	NewtonResult solve(
+		Eigen::VectorXd&                         u,
+		const Eigen::VectorXd&                   target,
+		const NewtonOptions&                     options,
+		const std::function<void(int, double)>& report,
+		const Surgeon&                           surgeon = nullptr);
+
+private:
+	double residual(const Eigen::VectorXd& target);
+	void   updatePattern();
+	void   direction(bool refactor);
+	void   applyStep(const Eigen::VectorXd& from, double t, Eigen::VectorXd& to) const;
+	double roundingFloor(const Eigen::VectorXd& u);
+
+	CurvatureMap&     m_map;
+	std::vector<char> m_fixed;
+	std::vector<int>  m_unknown; // [vertex] row, or -1
+	int               m_unknownCount = 0;
+	bool              m_gaugeFree    = false; // the mean of u is free
+	int               m_revision     = -1;
+	Hessian           m_hessian;
+	SparseCholesky    m_cholesky;
+	Eigen::VectorXd   m_gradient;                      // [vertex] K - target, 0 where fixed
+	Eigen::VectorXd   m_rhs, m_solution;               // [unknown]
+	Eigen::VectorXd   m_direction, m_trial, m_diagonal; // [vertex]
+};
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "distortion.h"
+
+#include "orientation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace ricci {
+
+namespace {
+
+std::size_t at(int index)
+{
+	return static_cast<std::size_t>(index);
+}
+
+/// The triangle drawn in the plane, first corner at 0, second on the positive real axis.
+struct DrawnTriangle
+{
+	double               base, height;
+	std::complex<double> apex;
+
+	explicit DrawnTriangle(const std::array<Point3, 3>& p)
+	{
+		double a[3], b[3], dot = 0.0;
+		for (std::size_t i = 0; i < 3; ++i) {
+			a[i] = p[1][i] - p[0][i];
+			b[i] = p[2][i] - p[0][i];
+			dot += a[i] * b[i];
+		}
+		base   = std::hypot(a[0], a[1], a[2]);
+		height = std::hypot(
+					 a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]) /
+				 base;
+		apex = {dot / base, height};
+	}
+};
+
+} // namespace
+
+double triangleArea(const std::array<Point3, 3>& p)
+{
+	const DrawnTriangle drawn(p);
+	return drawn.base > 0.0 ? 0.5 * drawn.base * drawn.height : 0.0;
+}
+
+double quasiConformalDistortion(const std::array<Point3, 3>& surface, const std::array<Point2, 3>& plane)
+{
+	const DrawnTriangle drawn(surface);
+	if (!(drawn.base > 0.0) || !(drawn.height > 0.0))
+		return std::numeric_limits<double>::quiet_NaN();
+	// The map z -> alpha z + beta conj(z) sends base to b and the apex to c.
+	const std::complex<double> b(plane[1][0] - plane[0][0], plane[1][1] - plane[0][1]);
+	const std::complex<double> c(plane[2][0] - plane[0][0], plane[2][1] - plane[0][1]);
+	const std::complex<double> alongBase = b / drawn.base;
+	const std::complex<double> across    = (c - alongBase * drawn.apex.real()) / drawn.height;
+	const std::complex<double> i(0.0, 1.0);
+	const double               alpha = std::abs(alongBase - i * across);
+	const double               beta  = std::abs(alongBase + i * across);
+	const double               least = std::abs(alpha - beta);
+	return least > 0.0 ? (alpha + beta) / least : std::numeric_limits<double>::infinity();
+}
+
+DistortionField measureDistortion(
+	const SurfaceMesh&                        mesh,
+	const std::vector<std::array<Point2, 3>>& plane,
+	const std::vector<char>&                  reversed,
+	Report&                                   report)
+{
+	DistortionField field;
+	field.face.resize(mesh.triangles.size());
+	field.vertex.assign(mesh.positions.size(), 0.0);
+	std::vector<double> ringArea(mesh.positions.size(), 0.0), measured;
+	double              sum = 0.0, areaSum = 0.0, weightedSum = 0.0;
+	report.flippedFaces = 0;
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+		std::array<Point3, 3> corners;
+		for (std::size_t k = 0; k < 3; ++k)
+			corners[k] = mesh.positions[at(mesh.triangles[f][k])];
+		const double qc = field.face[f] = quasiConformalDistortion(corners, plane[f]);
+		const int    wanted             = reversed[f] ? -1 : 1;
+		report.flippedFaces += orientation(plane[f][0], plane[f][1], plane[f][2]) != wanted;
+		if (!std::isfinite(qc))
+			continue;
+		const double area = triangleArea(corners);
+		measured.push_back(qc);
+		sum += qc;
+		areaSum += area;
+		weightedSum += area * qc;
+		for (int v : mesh.triangles[f]) {
+			field.vertex[at(v)] += area * qc;
+			ringArea[at(v)] += area;
+		}
+	}
+	double      vertexSum   = 0.0;
+	std::size_t vertexCount = 0;
+	for (std::size_t v = 0; v < field.vertex.size(); ++v) {
+		if (ringArea[v] > 0.0) {
+			field.vertex[v] /= ringArea[v];
+			vertexSum += field.vertex[v];
+			++vertexCount;
+		}
+		else
+			field.vertex[v] = 1.0;
+	}
+	if (measured.empty())
+		return field;
+	report.qcMean       = sum / static_cast<double>(measured.size());
+	report.qcAreaMean   = weightedSum / areaSum;
+	report.qcVertexMean = vertexSum / static_cast<double>(vertexCount);
+	report.qcMax        = *std::max_element(measured.begin(), measured.end());
+	const auto rank     = static_cast<std::size_t>(
+        std::ceil(0.99 * static_cast<double>(measured.size())) - 1.0);
+	std::nth_element(
+		measured.begin(), measured.begin() + static_cast<std::ptrdiff_t>(rank), measured.end());
+	report.qcP99 = measured[rank];
+	return field;
+}
+
+} // namespace ricci

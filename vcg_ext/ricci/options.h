@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_OPTIONS_H
+#define RICCI_OPTIONS_H
+
+namespace ricci {
+
+/// Which curvature the flow is asked to reach (paper 5.2). The order is that of the filter's menu.
+enum class TargetCurvature {
+	Automatic,     ///< disk: free boundary; annulus, torus: flat; other boundaries: free boundary
+	Flat,          ///< K = 0 at every vertex, boundary included; needs Euler characteristic 0
+	Disk,          ///< the image of a topological disk is a round disk
+	Rectangle,     ///< four corners of pi/2 on the boundary of a topological disk
+	SelectedCones, ///< equal shares of 2 pi chi at the selected vertices, 0 elsewhere
+	Prescribed     ///< one value for each vertex, in radians
+};
+
+/// How the circles of the two ends of an edge may lie.
+enum class PackingScheme {
+	InversiveDistance, ///< generalized flow: intersecting or disjoint, the mesh's own metric exactly
+	Thurston           ///< conventional flow: inversive distance clamped to [0,1] (acute angles)
+};
+
+/// What happens where the flow would break the triangle inequality.
+enum class Surgery {
+	None,    ///< the triangulation is kept; the energy is extended past broken triangles
+	EdgeSwap ///< paper 5.4: swap the edge, its inversive distance from the original 3D distance
+};
+
+struct Options
+{
+	TargetCurvature target = TargetCurvature::Automatic;
+
+	/// Fix u on the boundary (paper 5.3: du = 0), so that the boundary keeps its metric; the
+	/// prescribed curvature then holds at interior vertices only. Disk, Rectangle and the flat
+	/// annulus prescribe the boundary and ignore this.
+	bool freeBoundary = true;
+
+	/// Stop when max |target - K| falls below this, in radians. Must be positive.
+	double epsilon = 1e-8;
+
+	PackingScheme packing = PackingScheme::InversiveDistance;
+	Surgery       surgery = Surgery::None;
+
+	/// Newton steps of one solve, at least 1.
+	int maxIterations = 200;
+};
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parametrize.h"
+
+#include "error.h"
+#include "flow/euclidean_flow.h"
+#include "layout/cut_graph.h"
+#include "layout/distortion.h"
+#include "layout/invariants.h"
+#include "surface/component.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace ricci {
+
+namespace {
+
+/// A curvature above this makes an interior vertex a cone, which the cut must reach.
+constexpr double kConeCurvature = 1e-9;
+
+/// Starts of the flow that the splitting of boundary edges may ask for (paper 5.4).
+constexpr int kMostStarts = 20;
+
+/// Share of a component's progress that is spent before the flow, and after it.
+constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1;
+
+std::size_t at(int index)
+{
+	return static_cast<std::size_t>(index);
+}
+
+std::string text(const char* format, double x)
+{
+	char buffer[64];
+	std::snprintf(buffer, sizeof buffer, format, x);
+	return buffer;
+}
+
+/// Progress of one component among several: an interval of the whole.
+class Interval
+{
+public:
+	Interval(Progress& progress, double from, double to) :
+			m_progress(progress), m_from(from), m_to(to)
+	{
+	}
+	void step(double fraction, const std::string& what)
+	{
+		m_progress.step(m_from + fraction * (m_to - m_from), what);
+	}
+	void log(const std::string& line) { m_progress.log(line); }
+
+private:
+	Progress& m_progress;
+	double    m_from, m_to;
+};
+
+/// The flow's progress bar: the residual falls by orders of magnitude, so each step closes a part
+/// of the distance to epsilon on the logarithmic scale.
+class FlowProgress
+{
+public:
+	FlowProgress(Interval& interval, double epsilon) : m_interval(interval), m_epsilon(epsilon) {}
+
+	void operator()(int step, double residual)
+	{
+		if (m_first < 0.0)
+			m_first = std::max(residual, 10 * m_epsilon);
+		const double done =
+			std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon);
+		m_done = std::max(m_done, std::clamp(done, 0.0, 1.0));
+		const std::string line =
+			"Newton step " + std::to_string(step) + ": max |target - K| = " + text("%.3e", residual);
+		m_interval.log(line);
+		m_interval.step(kBeforeFlow + m_done * (1.0 - kBeforeFlow - kAfterFlow), line);
+	}
+
+private:
+	Interval& m_interval;
+	double    m_epsilon, m_first = -1.0, m_done = 0.0;
+};
+
+/// A component's mesh as the flow uses it: equal to the component until boundary edges are split.
+struct WorkingMesh
+{
+	std::vector<Point3>   positions;
+	std::vector<Triangle> triangles;
+	int                   inputVertexCount = 0;
+	std::vector<char>     selected;
+	std::vector<double>   prescribed;
+	/// [component face][corner] -> 3 face + corner of triangles
+	std::vector<std::array<int, 3>> corner;
+
+	WorkingMesh(const Component& component, const VertexInput& input) :
+			positions(component.positions), triangles(component.triangles),
+			inputVertexCount(static_cast<int>(component.positions.size()))
+	{
+		for (int v : component.vertex) {
+			selected.push_back(input.selected.empty() ? char(0) : input.selected[at(v)]);
+			prescribed.push_back(input.targetCurvature.empty() ? 0.0 : input.targetCurvature[at(v)]);
+		}
+		corner.resize(triangles.size());
+		for (std::size_t f = 0; f < triangles.size(); ++f)
+			for (std::size_t k = 0; k < 3; ++k)
+				corner[f][k] = static_cast<int>(3 * f + k);
+	}
+
+	/// Splits the side k of face f, on the boundary, at its middle (paper 5.4).
+	void split(int f, int k)
+	{
+		const int i = triangles[at(f)][at(k)], j = triangles[at(f)][at((k + 1) % 3)];
+		const int apex = triangles[at(f)][at((k + 2) % 3)];
+		const int middle = static_cast<int>(positions.size());
+		const int added  = static_cast<int>(triangles.size());
+		Point3    p;
+		for (std::size_t x = 0; x < 3; ++x)
+			p[x] = 0.5 * (positions[at(i)][x] + positions[at(j)][x]);
+		positions.push_back(p);
+		selected.push_back(0);
+		prescribed.push_back(0.0);
+		for (std::array<int, 3>& corners : corner)
+			for (int& c : corners)
+				if (c == 3 * f + (k + 1) % 3)
+					c = 3 * added + 1;
+		triangles[at(f)] = {i, middle, apex};
+		triangles.push_back({middle, j, apex});
+		for (std::array<int, 3>& corners : corner) // the face now starts at i
+			for (int& c : corners)
+				if (c / 3 == f)
+					c = 3 * f + (c % 3 == k ? 0 : 2);
+	}
+};
+
+/// One component: flow, cut and layout.
+class ComponentRun
+{
+public:
+	ComponentRun(
+		const Component&   component,
+		const VertexInput& input,
+		const Options&     options,
+		Interval           interval) :
+			m_component(component),
+			m_mesh(component, input), m_precision(input.precision), m_options(options),
+			m_interval(interval)
+	{
+	}
+
+	void run(Parametrization& result)
+	{
+		flow();
+		m_interval.step(1.0 - kAfterFlow, "Cutting and layout");
+		cutOpen();
+		layOut();
+		store(result);
+		invariants(result.report);
+	}
+
+private:
+	void flow()
+	{
+		for (int start = 0; start < kMostStarts; ++start) {
+			m_interval.step(0.0, "Circle packing");
+			m_base     = Triangulation(static_cast<int>(m_mesh.positions.size()), m_mesh.triangles);
+			m_topology = topologyOf(m_base);
+			m_lengths  = edgeLengths(m_base, m_mesh.positions);
+			TargetRequest request;
+			request.mode                = m_options.target;
+			request.freeBoundary        = m_options.freeBoundary;
+			request.selected            = m_mesh.selected;
+			request.prescribed          = m_mesh.prescribed;
+			request.prescribedPrecision = m_precision;
+			Target target = chooseTarget(m_base, m_topology, m_lengths, m_mesh.positions, request);
+			if (start == 0) {
+				m_interval.log(
+					"Component of " + std::to_string(m_mesh.positions.size()) + " vertices, " +
+					std::to_string(m_mesh.triangles.size()) + " faces: " + m_topology.name() + ".");
+				for (const std::string& note : target.notes)
+					m_interval.log(note);
+			}
+			FlowProgress progress(m_interval, m_options.epsilon);
+			m_flow = runEuclideanFlow(
+				m_base,
+				m_lengths,
+				m_mesh.positions,
+				std::move(target),
+				m_topology.loops.empty() ? std::vector<int>() : m_topology.loops.front(),
+				m_options,
+				[&](int step, double residual) { progress(m_iterations + step, residual); });
+			m_iterations += m_flow.iterations;
+			m_swaps += m_flow.edgeSwaps;
+			if (m_flow.edgesToSplit.empty())
+				return;
+			splitBoundary();
+		}
+		throw NotConverged(
+			"Triangles on the boundary kept breaking after " + std::to_string(m_splits) +
+			" boundary edges were split: remesh the boundary.");
+	}
+
+	void splitBoundary()
+	{
+		std::vector<int> edges = m_flow.edgesToSplit;
+		std::sort(edges.begin(), edges.end());
+		edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+		std::vector<char> touched(m_mesh.triangles.size(), 0);
+		for (int e : edges) {
+			const int h = m_base.isOuter(2 * e) ? 2 * e + 1 : 2 * e;
+			const int f = m_base.face(h);
+			if (touched[at(f)])
+				continue;
+			touched[at(f)]    = 1;
+			const Triangle& t = m_mesh.triangles[at(f)];
+			const int       k =
+				static_cast<int>(std::find(t.begin(), t.end(), m_base.origin(h)) - t.begin());
+			m_mesh.split(f, k);
+			++m_splits;
+		}
+		m_interval.log(std::to_string(m_splits) + " boundary edges split; the flow starts anew.");
+	}
+
+	/// The cut runs on edges of the input that the flow has kept and reaches every cone.
+	void cutOpen()
+	{
+		std::vector<char> marked(m_mesh.positions.size(), 0), forbidden;
+		for (std::size_t v = 0; v < marked.size(); ++v)
+			marked[v] = !m_topology.boundary[v] &&
+						std::abs(m_flow.target.curvature[static_cast<Eigen::Index>(v)]) > kConeCurvature;
+		if (m_swaps > 0 || m_splits > 0) {
+			forbidden = m_flow.swapped;
+			forbidden.resize(at(m_base.edgeCount()), 0);
+			for (int e = 0; e < m_base.edgeCount(); ++e)
+				if (std::max(m_base.origin(2 * e), m_base.target(2 * e)) >= m_mesh.inputVertexCount)
+					forbidden[at(e)] = 1;
+		}
+		m_cut = cutToDisk(m_flow.metric->triangulation(), m_lengths, marked, forbidden);
+	}
+
+	void layOut()
+	{
+		m_layout = layOutInPlane(
+			m_flow.metric->triangulation(), m_flow.metric->lengths(), m_flow.metric->angles(), m_cut.isCut);
+		// The flow leaves the scale open unless the boundary keeps its metric.
+		const bool scaled = std::find(m_flow.target.fixed.begin(), m_flow.target.fixed.end(), 1) !=
+							m_flow.target.fixed.end();
+		if (scaled)
+			return;
+		double area = 0.0;
+		for (const Triangle& t : m_mesh.triangles)
+			area += triangleArea(
+				{m_mesh.positions[at(t[0])], m_mesh.positions[at(t[1])], m_mesh.positions[at(t[2])]});
+		m_scale = std::sqrt(area / layoutArea(m_flow.metric->triangulation(), m_layout));
+		for (Point2& p : m_layout.position)
+			for (double& x : p)
+				x *= m_scale;
+	}
+
+	/// Point of a corner of the input: the sector of the layout that begins at the same cut or
+	/// boundary halfedge, which the flow never moves; any sector where the vertex is not cut.
+	const Point2& pointOf(int halfedge, const std::vector<int>& anyHalfedge) const
+	{
+		int h = halfedge;
+		do {
+			const int e = Triangulation::edge(h);
+			if (m_cut.isCut[at(e)] || m_base.isBoundaryEdge(e))
+				return m_layout.at(h);
+			h = m_base.next(Triangulation::twin(h));
+		} while (h != halfedge);
+		return m_layout.at(anyHalfedge[at(m_base.origin(halfedge))]);
+	}
+
+	void store(Parametrization& result) const
+	{
+		const Triangulation& end = m_flow.metric->triangulation();
+		std::vector<int>     anyHalfedge(m_mesh.positions.size(), -1);
+		for (int h = end.halfedgeCount() - 1; h >= 0; --h)
+			if (!end.isOuter(h))
+				anyHalfedge[at(end.origin(h))] = h;
+		// Halfedge of every corner of the working mesh, in the triangulation before any swap.
+		std::vector<int> cornerHalfedge(3 * m_mesh.triangles.size());
+		for (int f = 0; f < m_base.faceCount(); ++f) {
+			const auto h = m_base.halfedges(f);
+			for (int k = 0; k < 3; ++k)
+				cornerHalfedge[at(3 * f + k)] = h[at(k)];
+		}
+		Chart chart;
+		chart.faces = m_component.face;
+		result.charts.push_back(std::move(chart));
+		for (std::size_t f = 0; f < m_component.face.size(); ++f) {
+			const std::size_t inputFace = at(m_component.face[f]);
+			result.reversed[inputFace]  = m_component.reversed[f];
+			for (std::size_t k = 0; k < 3; ++k)
+				result.uv[inputFace][m_component.inputCorner(f, k)] =
+					pointOf(cornerHalfedge[at(m_mesh.corner[f][k])], anyHalfedge);
+		}
+		for (std::size_t v = 0; v < m_component.vertex.size(); ++v) {
+			const std::size_t inputVertex = at(m_component.vertex[v]);
+			const auto        i           = static_cast<Eigen::Index>(v);
+			result.u[inputVertex]         = m_flow.u[i] + std::log(m_scale);
+			result.targetCurvature[inputVertex] =
+				m_flow.target.fixed[v] ? m_flow.metric->curvature()[i] : m_flow.target.curvature[i];
+		}
+		Report& report = result.report;
+		report.iterations += m_iterations;
+		report.maxCurvatureError = std::max(report.maxCurvatureError, m_flow.residual);
+		report.residualFloor     = std::max(report.residualFloor, m_flow.floor);
+		report.edgeSwaps += m_swaps;
+		report.boundarySplits += m_splits;
+		report.eulerCharacteristic += m_topology.eulerCharacteristic;
+		report.genus += m_topology.genus;
+		report.boundaryLoops += static_cast<int>(m_topology.loops.size());
+		report.seamEdges += m_cut.edgeCount;
+	}
+
+	void invariants(Report& report) const
+	{
+		const Triangulation& t    = m_flow.metric->triangulation();
+		const bool           flat = m_flow.target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
+		const bool           free = std::find(m_flow.target.fixed.begin(), m_flow.target.fixed.end(), 1) !=
+						  m_flow.target.fixed.end();
+		if (m_topology.isTorus() && flat) {
+			const auto tau    = torusModulus(t, m_layout, m_cut);
+			report.torusTauRe = tau.real();
+			report.torusTauIm = tau.imag();
+		}
+		if (m_topology.isAnnulus() && flat && !free)
+			report.annulusModulus = annulusModulus(t, m_layout, m_cut);
+		if (m_flow.target.isRectangle)
+			report.rectangleAspect = rectangleAspect();
+	}
+
+	double rectangleAspect() const
+	{
+		std::array<Point2, 4> corner;
+		const Triangulation&  t = m_flow.metric->triangulation();
+		for (int h = 0; h < t.halfedgeCount(); ++h)
+			for (std::size_t k = 0; k < 4; ++k)
+				if (!t.isOuter(h) && t.origin(h) == m_flow.target.corners[k])
+					corner[k] = m_layout.at(h);
+		double side[4];
+		for (std::size_t k = 0; k < 4; ++k)
+			side[k] = std::hypot(
+				corner[k][0] - corner[(k + 1) % 4][0], corner[k][1] - corner[(k + 1) % 4][1]);
+		const double a = side[0] + side[2], b = side[1] + side[3];
+		return std::max(a, b) / std::min(a, b);
+	}
+
+	const Component&    m_component;
+	WorkingMesh         m_mesh;
+	double              m_precision;
+	const Options&      m_options;
+	Interval            m_interval;
+	Triangulation       m_base; ///< before any swap
+	Topology            m_topology;
+	std::vector<double> m_lengths;
+	FlowResult          m_flow;
+	CutGraph            m_cut;
+	PlanarLayout        m_layout;
+	double              m_scale      = 1.0;
+	int                 m_iterations = 0, m_swaps = 0, m_splits = 0;
+};
+
+void checkOptions(const Options& options)
+{
+	if (!(options.epsilon > 0.0))
+		throw InvalidOption("epsilon must be greater than 0 (radians), not " +
+							text("%g", options.epsilon) + ".");
+	if (options.maxIterations < 1)
+		throw InvalidOption(
+			"max_iterations must be at least 1, not " + std::to_string(options.maxIterations) + ".");
+}
+
+} // namespace
+
+Parametrization parametrizeEuclidean(
+	const SurfaceMesh& mesh,
+	const VertexInput& input,
+	const Options&     options,
+	Progress&          progress)
+{
+	checkOptions(options);
+	progress.step(0.0, "Checking the mesh");
+	Parametrization              result;
+	const std::vector<Component> components = splitIntoComponents(mesh, result.notes);
+	for (const std::string& note : result.notes)
+		progress.log(note);
+	result.uv.resize(mesh.triangles.size());
+	result.reversed.assign(mesh.triangles.size(), 0);
+	result.u.assign(mesh.positions.size(), 0.0);
+	result.targetCurvature.assign(mesh.positions.size(), 0.0);
+	result.report.components = static_cast<int>(components.size());
+
+	std::size_t facesDone = 0;
+	for (const Component& component : components) {
+		const auto   share = static_cast<double>(mesh.triangles.size());
+		const double from  = static_cast<double>(facesDone) / share;
+		facesDone += component.triangles.size();
+		ComponentRun run(
+			component, input, options, Interval(progress, from, static_cast<double>(facesDone) / share));
+		try {
+			run.run(result);
+		}
+		catch (const Cancelled&) {
+			throw;
+		}
+		catch (const Error& error) {
+			if (components.size() == 1)
+				throw;
+			throw Error(
+				"Component with face " + std::to_string(component.face.front()) + " (" +
+				std::to_string(component.face.size()) + " faces): " + error.what());
+		}
+	}
+	if (components.size() > 1) {
+		result.report.torusTauRe.reset();
+		result.report.torusTauIm.reset();
+		result.report.annulusModulus.reset();
+		result.report.rectangleAspect.reset();
+	}
+	result.report.converged   = true;
+	DistortionField distortion = measureDistortion(mesh, result.uv, result.reversed, result.report);
+	result.faceQC             = std::move(distortion.face);
+	result.vertexQC           = std::move(distortion.vertex);
+	progress.step(1.0, "Layout done");
+	return result;
+}
+
+} // namespace ricci

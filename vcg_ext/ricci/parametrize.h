@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_PARAMETRIZE_H
+#define RICCI_PARAMETRIZE_H
+
+#include "layout/planar_layout.h"
+#include "options.h"
+#include "progress.h"
+#include "report.h"
+#include "surface/surface_mesh.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace ricci {
+
+/// Values at the vertices of the mesh that some targets read. Empty where the mode has no use for
+/// them.
+struct VertexInput
+{
+	std::vector<char>   selected;        ///< Rectangle, SelectedCones
+	std::vector<double> targetCurvature; ///< Prescribed, radians
+	double              precision = 2.3e-16; ///< relative rounding error of targetCurvature
+};
+
+/// One component laid out in the plane by its own metric, not yet packed beside the others.
+struct Chart
+{
+	std::vector<int> faces; ///< indices into SurfaceMesh::triangles
+};
+
+/// A map of the whole mesh to the plane.
+struct Parametrization
+{
+	Report                             report;
+	std::vector<std::string>           notes; ///< what was done or chosen without being asked
+	std::vector<Chart>                 charts;
+	std::vector<std::array<Point2, 3>> uv;       ///< [face][corner]; each chart in a frame of its own
+	std::vector<char>                  reversed; ///< [face] 1 if the face was turned round
+	std::vector<double>                faceQC;   ///< sigma1 / sigma2
+	std::vector<double>                vertexQC; ///< area-weighted mean over the faces at the vertex
+	std::vector<double>                u;        ///< [vertex] ln radius; 0 at unused vertices
+	std::vector<double>                targetCurvature; ///< [vertex] radians, as reached
+};
+
+/// The Euclidean generalized Ricci flow from a mesh to the plane, component by component: circle
+/// packing (paper 4.1), flow (4.2), cut and layout (4.3), distortion (5.1). A chart keeps the area
+/// of its component unless its boundary is free, which fixes the scale.
+/// \throw InvalidMesh, InvalidOption, InadmissibleCurvature, NotConverged, Cancelled
+Parametrization parametrizeEuclidean(
+	const SurfaceMesh& mesh,
+	const VertexInput& input,
+	const Options&     options,
+	Progress&          progress);
+
+} // namespace ricci
+
+#endif

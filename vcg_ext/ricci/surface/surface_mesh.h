@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_SURFACE_MESH_H
+#define RICCI_SURFACE_MESH_H
+
+#include <array>
+#include <vector>
+
+namespace ricci {
+
+using Point3   = std::array<double, 3>;
+using Triangle = std::array<int, 3>;
+
+/// A triangle soup with shared vertices, as the rim hands it over. Positions are only read for
+/// lengths and distances; the flow itself never sees them.
+struct SurfaceMesh
+{
+	std::vector<Point3>   positions;
+	std::vector<Triangle> triangles; ///< indices into positions
+};
+
+/// Euclidean distance of two points.
+double distance(const Point3& a, const Point3& b);
+
+} // namespace ricci
+
+#endif
