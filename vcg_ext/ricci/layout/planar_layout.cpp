@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planar_layout.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ricci {
 
 namespace {
+
+constexpr double kPi = 3.14159265358979323846;
 
 std::size_t at(int index)
 {
@@ -60,21 +63,29 @@ PlanarLayout layOutInPlane(
 			layout.position[at(s)] = p;
 		}
 	};
-	// Apex of the triangle on the left of h, from the points at both ends of h.
-	const auto placeApex = [&](int h) {
-		const Point2 p = layout.at(h), q = layout.at(t.next(h));
-		const int    apex  = t.previous(h);
-		const double scale = lengths[at(Triangulation::edge(apex))] / lengths[at(Triangulation::edge(h))];
-		const double x = scale * std::cos(angles[at(h)]), y = scale * std::sin(angles[at(h)]);
-		const double dx = q[0] - p[0], dy = q[1] - p[1];
-		place(apex, {p[0] + x * dx - y * dy, p[1] + x * dy + y * dx});
+	// Directions are carried from triangle to triangle as angles, never measured between points: across
+	// a short side of a needle that would magnify the error of the points without bound.
+	std::vector<double> direction(at(t.halfedgeCount()), 0.0);
+	const auto          placeTriangle = [&](int h, double along) {
+        const int    second = t.next(h), third = t.previous(h);
+        const double toApex   = along + angles[at(h)]; // from the origin of h
+        const double fromBase = along + kPi - angles[at(second)];
+        direction[at(h)]      = along;
+        direction[at(second)] = fromBase;
+        direction[at(third)]  = toApex - kPi;
+        const double left = lengths[at(Triangulation::edge(third))];
+        const double right = lengths[at(Triangulation::edge(second))];
+        const bool   nearer = right < left;
+        const Point2 from   = layout.at(nearer ? second : h);
+        const double angle = nearer ? fromBase : toApex, length = std::min(left, right);
+        place(third, {from[0] + length * std::cos(angle), from[1] + length * std::sin(angle)});
 	};
 
 	std::vector<int> queue;
 	const int        root = t.halfedge(0);
 	place(root, {0.0, 0.0});
 	place(t.next(root), {lengths[at(Triangulation::edge(root))], 0.0});
-	placeApex(root);
+	placeTriangle(root, 0.0);
 	queue.push_back(t.face(root));
 	seen[at(t.face(root))] = 1;
 	for (std::size_t head = 0; head < queue.size(); ++head)
@@ -84,7 +95,7 @@ PlanarLayout layOutInPlane(
 				continue;
 			seen[at(t.face(across))] = 1;
 			queue.push_back(t.face(across));
-			placeApex(across);
+			placeTriangle(across, std::remainder(direction[at(h)] + kPi, 2 * kPi));
 		}
 	return layout;
 }
