@@ -36,7 +36,7 @@ fetch_sources 2020.09 2025.07
 say "PyMeshLab"
 make_venv
 say "Build"
-configure_and_build "$@"
+configure_and_build -DBUILD_TESTING=ON "$@"
 say "Tests"
 status=0
 run_tests || status=$?

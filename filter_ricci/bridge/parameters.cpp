@@ -166,7 +166,7 @@ Settings readSettings(int, const RichParameterList& par)
 		checkedChoice(par, "target_curvature", targetCurvatureChoices()));
 	settings.flow.freeBoundary = par.getBool("free_boundary");
 	settings.flow.epsilon = checkedEpsilon(par);
-	settings.flow.packing = static_cast<ricci::CirclePacking>(
+	settings.flow.packing = static_cast<ricci::PackingScheme>(
 		checkedChoice(par, "circle_packing", circlePackingChoices()));
 	settings.flow.surgery =
 		static_cast<ricci::Surgery>(checkedChoice(par, "surgery", surgeryChoices()));

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash
+# Drives the real MeshLab 2020.09 window on a private display without a screen. Source it, then call
+# open_display FOLDER, open_meshlab PROGRAM FILE..., run_filter, picture FILE, close_display.
+
+window_needs() {
+	local tool missing=()
+	for tool in Xvfb openbox xdotool import; do
+		command -v "$tool" >/dev/null || missing+=("$tool")
+	done
+	[ ${#missing[@]} -eq 0 ] || { echo "not installed: ${missing[*]}"; return 1; }
+}
+
+# A display of its own, a window manager, and settings that keep MeshLab quiet and its canvas white.
+open_display() {
+	window_folder=$1
+	mkdir -p "$window_folder/home/.config/VCG" "$window_folder/home/runtime"
+	chmod 700 "$window_folder/home/runtime"
+	Xvfb -displayfd 3 -screen 0 1400x900x24 -nolisten tcp 3>"$window_folder/display" \
+		>"$window_folder/xvfb.log" 2>&1 &
+	xvfb_pid=$!
+	wait_until 20 test -s "$window_folder/display" || return 1
+	DISPLAY=:$(cat "$window_folder/display")
+	HOME=$window_folder/home
+	XDG_CONFIG_HOME=$HOME/.config
+	XDG_RUNTIME_DIR=$HOME/runtime
+	export DISPLAY HOME XDG_CONFIG_HOME XDG_RUNTIME_DIR LIBGL_ALWAYS_SOFTWARE=1
+	write_settings >"$XDG_CONFIG_HOME/VCG/MeshLab_64bit_fp.conf"
+	openbox >"$window_folder/openbox.log" 2>&1 &
+	openbox_pid=$!
+	sleep 1
+}
+
+close_display() {
+	local pid
+	for pid in "${meshlab_pid-}" "${openbox_pid-}" "${xvfb_pid-}"; do
+		[ -z "$pid" ] || kill "$pid" 2>/dev/null || true
+	done
+	wait 2>/dev/null || true
+}
+
+write_settings() {
+	printf '[General]\n'
+	color_setting backgroundTopColor 255 255 255
+	color_setting backgroundBotColor 255 255 255
+	color_setting logAreaColor 90 90 90
+}
+
+color_setting() {
+	printf 'MeshLab%%3A%%3AAppearance%%3A%%3A%s=' "$1"
+	printf '"<Param name=\\"MeshLab::Appearance::%s\\" type=\\"RichColor\\" r=\\"%s\\" g=\\"%s\\" b=\\"%s\\" a=\\"255\\"/>"\n' "$@"
+}
+
+# wait_until SECONDS COMMAND...
+wait_until() {
+	local tries=$(($1 * 4))
+	shift
+	while ! "$@" >/dev/null 2>&1; do
+		tries=$((tries - 1))
+		[ $tries -gt 0 ] || return 1
+		sleep 0.25
+	done
+}
+
+# open_meshlab PROGRAM FILE...: from the folder of the files, where textures are looked for.
+open_meshlab() {
+	meshlab_log=$window_folder/meshlab.log
+	"$@" >"$meshlab_log" 2>&1 &
+	meshlab_pid=$!
+	wait_until 60 grep -q 'All files opened' "$meshlab_log" || return 1
+	main_window=$(xdotool search --onlyvisible --name 'MeshLab 2020' | head -n 1)
+	[ -n "$main_window" ] || return 1
+	sleep 1
+	xdotool windowactivate --sync "$main_window"
+}
+
+close_meshlab() {
+	kill "$meshlab_pid" 2>/dev/null || true
+	wait "$meshlab_pid" 2>/dev/null || true
+	meshlab_pid=
+}
+
+# open_filter NAME: through the search field, as a user would.
+open_filter() {
+	xdotool key --window "$main_window" ctrl+f
+	sleep 1
+	xdotool type --delay 20 "$1"
+	sleep 1
+	xdotool key Down
+	sleep 0.5
+	xdotool key Return
+	wait_until 10 find_window "$1" || return 1
+	sleep 1
+}
+
+# xdotool searches for a regular expression.
+find_window() {
+	xdotool search --onlyvisible --name "^${1//[()]/.}\$" | grep . | tail -n 1
+}
+
+picture() {
+	import -window root "$1"
+}
+
+# press_apply NAME: the filter's dialog has Apply as its lower right button, above the frame.
+press_apply() {
+	local dialog X Y WIDTH HEIGHT SCREEN WINDOW
+	dialog=$(find_window "$1")
+	eval "$(xdotool getwindowgeometry --shell "$dialog")"
+	xdotool mousemove $((X + WIDTH * 3 / 4)) $((Y + HEIGHT - 21)) click 1
+}

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# test_window.sh BUILD_DIR: the filter in the real MeshLab 2020.09 window: through its search field,
+# its dialog and Apply, once on a mesh that it solves and once on one that it refuses. Leaves
+# pictures in BUILD_DIR/pictures. Exit 77: the window cannot be opened on this machine.
+set -euo pipefail
+build=$(cd "$1" && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+scripts=$here/../../filter_ricci/scripts
+name="Generalized Ricci Flow (Euclidean)"
+pictures=$build/pictures
+folder=$(mktemp -d)
+
+# shellcheck source=../../filter_ricci/scripts/window.sh
+source "$scripts/window.sh"
+
+fail() {
+	echo "FAILED: $*"
+	[ ! -f "${meshlab_log-}" ] || tail -n 30 "$meshlab_log"
+	picture "$pictures/failed.png" || true
+	exit 1
+}
+
+finish() {
+	close_display
+	rm -rf "$folder"
+}
+
+write_meshes() {
+	cd "$here"
+	python3 -c "import meshes
+meshes.write_ply('$folder/torus.ply', meshes.torus())
+meshes.write_ply('$folder/sphere.ply', meshes.sphere())"
+	cd "$folder"
+}
+
+solved() {
+	open_meshlab "$program" torus.ply || fail "MeshLab did not open the torus"
+	open_filter "$name" || fail "the filter's dialog did not open"
+	picture "$pictures/dialog.png"
+	press_apply "$name"
+	wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "no result in the log"
+	sleep 2
+	picture "$pictures/result.png"
+	kill -0 "$meshlab_pid" || fail "MeshLab has ended"
+	close_meshlab
+}
+
+refused() {
+	open_meshlab "$program" sphere.ply || fail "MeshLab did not open the sphere"
+	open_filter "$name" || fail "the filter's dialog did not open"
+	press_apply "$name"
+	wait_until 60 xdotool search --onlyvisible --name 'Filter Failure' || fail "no message box"
+	sleep 1
+	picture "$pictures/refused.png"
+	xdotool key Return
+	sleep 2
+	kill -0 "$meshlab_pid" || fail "MeshLab has ended"
+	close_meshlab
+}
+
+needed=$(window_needs) || { echo "SKIPPED: $needed"; exit 77; }
+prefix=$(bash "$scripts/stage_meshlab_2020.sh" "$build") || exit $?
+program=$prefix/bin/meshlab
+mkdir -p "$pictures"
+trap finish EXIT
+write_meshes
+open_display "$folder/display" || { echo "SKIPPED: no display could be opened"; exit 77; }
+solved
+refused
+echo "The filter ran in the window; pictures are in $pictures"
