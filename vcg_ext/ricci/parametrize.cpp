@@ -6,6 +6,7 @@
 #include "layout/cut_graph.h"
 #include "layout/distortion.h"
 #include "layout/invariants.h"
+#include "layout/least_rectangle.h"
 #include "surface/component.h"
 
 #include <algorithm>
@@ -241,6 +242,7 @@ private:
 	{
 		m_layout = layOutInPlane(
 			m_flow.metric->triangulation(), m_flow.metric->lengths(), m_flow.metric->angles(), m_cut.isCut);
+		turnUpright();
 		// The flow leaves the scale open unless the boundary keeps its metric.
 		const bool scaled = std::find(m_flow.target.fixed.begin(), m_flow.target.fixed.end(), 1) !=
 							m_flow.target.fixed.end();
@@ -254,6 +256,16 @@ private:
 		for (Point2& p : m_layout.position)
 			for (double& x : p)
 				x *= m_scale;
+	}
+
+	/// Turns the layout so that its least bounding rectangle lies along the axes, from the origin.
+	void turnUpright()
+	{
+		const OrientedRectangle r = leastRectangle(m_layout.position);
+		for (Point2& p : m_layout.position) {
+			const Point2 q = r.inFrame(p);
+			p              = {q[0] - r.low[0], q[1] - r.low[1]};
+		}
 	}
 
 	/// Point of a corner of the input: the sector of the layout that begins at the same cut or

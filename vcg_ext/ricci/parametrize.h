@@ -35,7 +35,8 @@ struct Parametrization
 	Report                             report;
 	std::vector<std::string>           notes; ///< what was done or chosen without being asked
 	std::vector<Chart>                 charts;
-	std::vector<std::array<Point2, 3>> uv;       ///< [face][corner]; each chart in a frame of its own
+	std::vector<std::array<Point2, 3>> uv;       ///< [face][corner]; each chart with its least bounding rectangle
+	                                          ///< along the axes, from the origin
 	std::vector<char>                  reversed; ///< [face] 1 if the face was turned round
 	std::vector<double>                faceQC;   ///< sigma1 / sigma2
 	std::vector<double>                vertexQC; ///< area-weighted mean over the faces at the vertex

@@ -2,6 +2,7 @@
 #include "target_curvature.h"
 
 #include "../error.h"
+#include "../layout/least_rectangle.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -325,7 +326,7 @@ Target chooseTarget(
 namespace {
 
 /// The loop's points in the plane through their mean that fits them best.
-std::vector<std::array<double, 2>>
+std::vector<Point2>
 projectToBestPlane(const std::vector<int>& loop, const std::vector<Point3>& positions)
 {
 	Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -338,45 +339,12 @@ projectToBestPlane(const std::vector<int>& loop, const std::vector<Point3>& posi
 		covariance += p * p.transpose();
 	}
 	const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
-	std::vector<std::array<double, 2>>                   points;
+	std::vector<Point2>                                  points;
 	for (int v : loop) {
 		const Eigen::Vector3d p = Eigen::Map<const Eigen::Vector3d>(positions[at(v)].data()) - mean;
 		points.push_back({axes.eigenvectors().col(2).dot(p), axes.eigenvectors().col(1).dot(p)});
 	}
 	return points;
-}
-
-struct Rectangle
-{
-	double cosine = 1.0, sine = 0.0;
-	double low[2], high[2];
-	double area = std::numeric_limits<double>::infinity();
-};
-
-/// Least enclosing rectangle over directions half a degree apart.
-Rectangle leastRectangle(const std::vector<std::array<double, 2>>& points)
-{
-	Rectangle best;
-	for (int step = 0; step < 180; ++step) {
-		Rectangle r;
-		r.cosine = std::cos(step * kPi / 360);
-		r.sine   = std::sin(step * kPi / 360);
-		for (int k = 0; k < 2; ++k) {
-			r.low[k]  = std::numeric_limits<double>::infinity();
-			r.high[k] = -r.low[k];
-		}
-		for (const auto& p : points) {
-			const double q[2] = {r.cosine * p[0] + r.sine * p[1], r.cosine * p[1] - r.sine * p[0]};
-			for (int k = 0; k < 2; ++k) {
-				r.low[k]  = std::min(r.low[k], q[k]);
-				r.high[k] = std::max(r.high[k], q[k]);
-			}
-		}
-		r.area = (r.high[0] - r.low[0]) * (r.high[1] - r.low[1]);
-		if (r.area < best.area * (1.0 - 1e-12))
-			best = r;
-	}
-	return best;
 }
 
 std::array<int, 4>
@@ -404,17 +372,16 @@ quartersByLength(const std::vector<int>& loop, const std::vector<Point3>& positi
 std::array<int, 4>
 rectangleCorners(const std::vector<int>& loop, const std::vector<Point3>& positions)
 {
-	const auto      points = projectToBestPlane(loop, positions);
-	const Rectangle r      = leastRectangle(points);
-	const std::array<std::array<double, 2>, 4> wanted {
+	const std::vector<Point2>   points = projectToBestPlane(loop, positions);
+	const OrientedRectangle     r      = leastRectangle(points);
+	const std::array<Point2, 4> wanted {
 		{{r.low[0], r.low[1]}, {r.high[0], r.low[1]}, {r.high[0], r.high[1]}, {r.low[0], r.high[1]}}};
 	std::array<std::size_t, 4> nearest;
 	for (std::size_t k = 0; k < 4; ++k) {
 		double least = std::numeric_limits<double>::infinity();
 		for (std::size_t i = 0; i < points.size(); ++i) {
-			const double x = r.cosine * points[i][0] + r.sine * points[i][1];
-			const double y = r.cosine * points[i][1] - r.sine * points[i][0];
-			const double d = std::hypot(x - wanted[k][0], y - wanted[k][1]);
+			const Point2 x = r.inFrame(points[i]);
+			const double d = std::hypot(x[0] - wanted[k][0], x[1] - wanted[k][1]);
 			if (d < least)
 				least = d, nearest[k] = i;
 		}
