@@ -128,8 +128,6 @@ Outcome applyFilter(
 	MeshModel& model = checkedMesh(md, settings);
 	HostProgress progress(callback, log);
 	const Flow::Result result = Flow::Compute(model.cm, settings.flow, progress);
-	for (const std::string& note : result.notes)
-		log(note);
 	writeResult(md, model, settings, result);
 	const Results results = toResults(result.report);
 	for (const std::string& line : toLogLines(results))

@@ -55,7 +55,7 @@ def hill(size=14):
     return grid(size, size, lambda s, t: (s, t, 0.3 * math.sin(math.pi * s) * math.sin(math.pi * t)))
 
 
-def sphere(columns=16, rows=9):
+def sphere(columns=16, rows=10):
     """Closed, genus 0: circles of latitude between two poles."""
     vertices = [(0.0, 0.0, 1.0)]
     for j in range(1, rows):
@@ -121,13 +121,19 @@ def with_flipped_faces(mesh, every=3):
     return Mesh(mesh.vertices, faces)
 
 
+def plane(size=8):
+    """A disk whose coordinates, and those of its midpoints, are exact in single precision."""
+    return grid(size, size, lambda s, t: (s, t, 0.0))
+
+
 def with_zero_area_face(mesh):
     """A face without area fills the slit between an edge and its own midpoint."""
-    a, b, c = mesh.faces[0]
+    a, b, c = mesh.faces[len(mesh.faces) // 2]
     vertices = list(mesh.vertices)
     vertices.append(tuple((p + q) / 2 for p, q in zip(vertices[a], vertices[b])))
     m = len(vertices) - 1
-    return Mesh(vertices, [(a, m, c), (m, b, c), (a, b, m)] + mesh.faces[1:])
+    others = [face for face in mesh.faces if face != (a, b, c)]
+    return Mesh(vertices, [(a, m, c), (m, b, c), (a, b, m)] + others)
 
 
 def with_zero_length_edge(mesh):
