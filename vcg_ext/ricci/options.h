@@ -22,8 +22,9 @@ enum class PackingScheme {
 
 /// What happens where the flow would break the triangle inequality.
 enum class Surgery {
-	None,    ///< the triangulation is kept; the energy is extended past broken triangles
-	EdgeSwap ///< paper 5.4: swap the edge, its inversive distance from the original 3D distance
+	None,     ///< the triangulation is kept; the energy is extended past broken triangles
+	EdgeSwap, ///< paper 5.4: swap the edge, its inversive distance from the original 3D distance
+	IntrinsicFlips ///< weighted-Delaunay flips that keep the conformal class: no triangle breaks
 };
 
 struct Options

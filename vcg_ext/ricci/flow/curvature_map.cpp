@@ -139,6 +139,36 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 	}
 }
 
+template<class Geometry>
+void FlippingCurvatureMap<Geometry>::evaluate(const Eigen::VectorXd& u)
+{
+	this->evaluateCircles(u);
+	m_kappa.resize(this->m_circles.size());
+	for (std::size_t v = 0; v < m_kappa.size(); ++v)
+		m_kappa[v] = this->m_circles[v].kappa;
+	CirclePacking& packing = this->m_packing;
+	if (makeWeightedDelaunay(packing.triangulation, packing.delta, m_kappa, m_journal, m_queue) > 0)
+		++this->m_revision;
+	this->evaluateEdges();
+	this->evaluateTriangles();
+}
+
+template<class Geometry>
+void FlippingCurvatureMap<Geometry>::accept()
+{
+	m_journal.appendTo(m_flips);
+	m_journal.clear();
+}
+
+template<class Geometry>
+void FlippingCurvatureMap<Geometry>::reject()
+{
+	if (m_journal.size() > 0)
+		++this->m_revision;
+	m_journal.rewind(this->m_packing.triangulation, this->m_packing.delta);
+}
+
 template class GeometricCurvatureMap<Euclidean>;
+template class FlippingCurvatureMap<Euclidean>;
 
 } // namespace ricci

@@ -3,6 +3,7 @@
 #define RICCI_CURVATURE_MAP_H
 
 #include "../metric/circle_packing.h"
+#include "../metric/conformal_flip.h"
 
 #include <Eigen/Core>
 
@@ -56,12 +57,9 @@ public:
 	/// Changes when the connectivity does, so that a sparsity pattern can be kept as long as possible.
 	int revision() const { return m_revision; }
 
-	/// Puts the connectivity at the present state; reject() returns to it.
+	/// Keeps the connectivity that the last evaluate() left; reject() returns to the one last kept.
 	virtual void accept() {}
 	virtual void reject() {}
-
-	/// Edge flips in the present state since the start.
-	virtual int flips() const { return 0; }
 
 	/// Replaces interior edge \p e by the other diagonal of its two triangles, with \p delta.
 	void swapEdge(int e, double delta);
@@ -95,6 +93,29 @@ protected:
 
 	std::vector<typename Geometry::Circle> m_circles; // by vertex
 	std::vector<typename Geometry::Edge>   m_edges;
+};
+
+/// The same map on the weighted Delaunay triangulation of every u, reached by flips that keep the
+/// conformal class (conformal_flip.h). K(u) then is continuously differentiable for all u, no
+/// triangle breaks, and all weights are non-negative (off the boundary, whose edges stay).
+template<class Geometry>
+class FlippingCurvatureMap : public GeometricCurvatureMap<Geometry>
+{
+public:
+	using GeometricCurvatureMap<Geometry>::GeometricCurvatureMap;
+
+	void evaluate(const Eigen::VectorXd& u) override;
+	void accept() override;
+	void reject() override;
+
+	/// Edges flipped since the start, in order, up to the last accept().
+	const std::vector<int>& flips() const { return m_flips; }
+
+private:
+	std::vector<double> m_kappa; // by vertex
+	FlipJournal         m_journal;
+	DelaunayQueue       m_queue;
+	std::vector<int>    m_flips;
 };
 
 } // namespace ricci

@@ -131,6 +131,16 @@ private:
 	std::vector<double>     m_weights, m_arcs;
 };
 
+CirclePacking pack(
+	const Triangulation&       t,
+	const std::vector<double>& lengths,
+	const std::vector<double>& radii,
+	PackingScheme              scheme)
+{
+	return scheme == PackingScheme::Thurston ? thurstonPacking(t, lengths, radii) :
+											   inversiveDistancePacking(t, lengths, radii);
+}
+
 } // namespace
 
 FlowResult runEuclideanFlow(
@@ -142,15 +152,30 @@ FlowResult runEuclideanFlow(
 	const Options&                          options,
 	const std::function<void(int, double)>& report)
 {
-	const std::vector<double> radii   = initialRadii(t, lengths);
-	CirclePacking             packing = options.packing == PackingScheme::Thurston ?
-											thurstonPacking(t, lengths, radii) :
-											inversiveDistancePacking(t, lengths, radii);
-	FlowResult                result;
-	result.u = Eigen::Map<const Eigen::VectorXd>(
-		packing.u.data(), static_cast<Eigen::Index>(packing.u.size()));
+	FlowResult                    result;
+	std::shared_ptr<CurvatureMap> map;
+	std::vector<double>           radii;
+	FlippingCurvatureMap<Euclidean>* flipping = nullptr;
+	if (options.surgery == Surgery::IntrinsicFlips) {
+		DelaunayStart start = delaunayStart({t, lengths}, {});
+		radii               = start.radii;
+		auto flips = std::make_shared<FlippingCurvatureMap<Euclidean>>(
+			pack(start.mesh.triangulation, start.mesh.lengths, radii, options.packing));
+		flipping          = flips.get();
+		map               = std::move(flips);
+		result.start      = std::move(start.mesh);
+		result.startFlips = std::move(start.flips);
+	}
+	else {
+		radii = initialRadii(t, lengths);
+		map   = std::make_shared<GeometricCurvatureMap<Euclidean>>(
+            pack(t, lengths, radii, options.packing));
+	}
+	result.u.resize(t.vertexCount());
+	for (int v = 0; v < t.vertexCount(); ++v)
+		result.u[v] = std::log(radii[at(v)]);
+	result.startU = result.u;
 
-	auto         map = std::make_shared<GeometricCurvatureMap<Euclidean>>(std::move(packing));
 	NewtonSolver newton(*map, target.fixed);
 	EdgeSwapper  swapper(positions, radii);
 	const NewtonSolver::Surgeon surgeon = [&](CurvatureMap& m) { return swapper(m); };
@@ -174,6 +199,8 @@ FlowResult runEuclideanFlow(
 			solve(options.epsilon);
 
 	result.metric       = map;
+	if (flipping)
+		result.flowFlips = flipping->flips();
 	result.residual     = solved.residual;
 	result.floor        = solved.floor;
 	result.edgeSwaps    = swapper.swaps();

@@ -4,6 +4,7 @@
 
 #include "../options.h"
 #include "../progress.h"
+#include "../metric/delaunay_start.h"
 #include "../surface/triangulation.h"
 #include "newton.h"
 #include "target_curvature.h"
@@ -26,6 +27,12 @@ struct FlowResult
 	int                                 edgeSwaps  = 0;
 	std::vector<char>                   swapped;      ///< [edge] 1 where it is not an edge of the input
 	std::vector<int>                    edgesToSplit; ///< boundary edges; the flow must start anew if any
+
+	// Intrinsic flips only.
+	IntrinsicMesh       start;      ///< the input's metric on the triangulation of the first step
+	Eigen::VectorXd     startU;
+	std::vector<int>    startFlips; ///< from the input's triangulation to the start's, in order
+	std::vector<int>    flowFlips;  ///< from the start's triangulation to the last, in order
 };
 
 /// Runs the flow from the metric \p lengths to \p target.

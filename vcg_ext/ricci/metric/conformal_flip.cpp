@@ -11,6 +11,9 @@ namespace {
 /// An edge counts as Delaunay while T_k + T_l is above minus this share of its terms' magnitude.
 constexpr double kTieTolerance = 1e-15;
 
+/// The flips end by themselves; this bounds them where values run out of range.
+constexpr int kMostFlipsPerEdge = 1000;
+
 std::size_t at(int index)
 {
 	return static_cast<std::size_t>(index);
@@ -61,7 +64,8 @@ bool isWeightedDelaunay(
 		positive += (ki * (k.ik + c * k.jk) + kj * (k.jk + c * k.ik)) / k.rootD;
 		negative += kk * c2 / k.rootD;
 	}
-	return positive - negative >= -kTieTolerance * (positive + negative);
+	// Written so that values out of range count as Delaunay and end the flips.
+	return !(positive - negative < -kTieTolerance * (positive + negative));
 }
 
 void FlipJournal::rewind(Triangulation& t, std::vector<double>& delta)
@@ -86,8 +90,9 @@ int makeWeightedDelaunay(
 	edges.clear();
 	queued.assign(at(edgeCount), 0);
 	int        flips = 0;
-	const auto visit = [&](int e) {
-		if (isWeightedDelaunay(t, delta, kappa, e))
+	const int  mostFlips = kMostFlipsPerEdge * edgeCount;
+	const auto visit     = [&](int e) {
+		if (isWeightedDelaunay(t, delta, kappa, e) || flips >= mostFlips)
 			return;
 		const std::array<int, 4> quad {
 			t.next(2 * e), t.previous(2 * e), t.next(2 * e + 1), t.previous(2 * e + 1)};

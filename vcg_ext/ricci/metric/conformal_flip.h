@@ -38,6 +38,13 @@ public:
 	void   record(int e, double delta) { m_flips.push_back({e, delta}); }
 	int    size() const { return static_cast<int>(m_flips.size()); }
 
+	/// Appends the recorded edges to \p edges, in order.
+	void appendTo(std::vector<int>& edges) const
+	{
+		for (const Flip& flip : m_flips)
+			edges.push_back(flip.edge);
+	}
+
 	/// Undoes every recorded flip, last first, bit for bit, and clears the journal.
 	void rewind(Triangulation& t, std::vector<double>& delta);
 

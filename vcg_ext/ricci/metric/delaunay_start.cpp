@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "delaunay_start.h"
+
+#include "circle_packing.h"
+#include "euclidean.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// Ties within this share of the terms' magnitude count as Delaunay.
+constexpr double kTieTolerance = 1e-14;
+
+/// Radii of the ends of an edge with I < 1 are multiplied by this, and the flips start anew.
+constexpr double kShrink = 0.5;
+
+constexpr int kMostShrinks = 60;
+
+std::size_t at(int index)
+{
+	return static_cast<std::size_t>(index);
+}
+
+/// Apex of the triangle on the left of h, with the origin of h at 0 and h on the x axis.
+struct Apex
+{
+	double along, height;
+};
+
+Apex apexOf(const IntrinsicMesh& mesh, int h)
+{
+	const Triangulation& t     = mesh.triangulation;
+	const double         l     = mesh.lengths[at(Triangulation::edge(h))];
+	const double         right = mesh.lengths[at(Triangulation::edge(t.next(h)))];
+	const double         left  = mesh.lengths[at(Triangulation::edge(t.previous(h)))];
+	const double heron = (l + left + right) * (l + left - right) * (l + right - left) * (left + right - l);
+	return {0.5 * ((left - right) * (left + right) / l + l), std::sqrt(std::max(0.0, heron)) / (2 * l)};
+}
+
+/// Whether e passes the weighted Delaunay test for circles of these radii (none: the plain test).
+/// The radical axes of the two triangles cross the edge's perpendicular at heights whose sum is the
+/// dual edge's length: Delaunay where that is not negative.
+bool isDelaunay(const IntrinsicMesh& mesh, const std::vector<double>& radii, int e)
+{
+	const Triangulation& t = mesh.triangulation;
+	if (!t.isFlippable(e))
+		return true;
+	const double l = mesh.lengths[at(e)];
+	// Foot of the perpendicular bisector (radical axis) on the edge, from the origin of 2 e.
+	double gi = 0.0, gj = 0.0;
+	if (!radii.empty()) {
+		gi = radii[at(t.origin(2 * e))];
+		gj = radii[at(t.target(2 * e))];
+	}
+	double sum = 0.0, magnitude = 0.0;
+	for (int h : {2 * e, 2 * e + 1}) {
+		const Apex   apex = apexOf(mesh, h);
+		const double g    = radii.empty() ? 0.0 : radii[at(t.origin(t.previous(h)))];
+		const double foot = 0.5 * (l + (gi - gj) * (gi + gj) / l);
+		const double own  = h == 2 * e ? foot : l - foot;
+		const double go   = h == 2 * e ? gi : gj;
+		// Height of the power centre over the edge: equal powers of apex and origin.
+		const double plus  = apex.height * apex.height + apex.along * apex.along + go * go;
+		const double minus = 2 * apex.along * own + g * g;
+		if (!(apex.height > 0.0)) // all or nothing: the apex lies on the edge, or beyond its ends
+			return !(plus < minus);
+		sum += (plus - minus) / (2 * apex.height);
+		magnitude += (plus + std::abs(minus)) / (2 * apex.height);
+	}
+	return sum >= -kTieTolerance * magnitude;
+}
+
+template<class Test>
+void flipUntil(IntrinsicMesh& mesh, std::vector<int>& log, Test isGood)
+{
+	Triangulation&    t = mesh.triangulation;
+	std::vector<int>  stack;
+	std::vector<char> queued(at(t.edgeCount()), 0);
+	const auto        visit = [&](int e) {
+        if (isGood(e))
+            return;
+        const std::array<int, 4> quad {
+            t.next(2 * e), t.previous(2 * e), t.next(2 * e + 1), t.previous(2 * e + 1)};
+        mesh.lengths[at(e)] = flippedLength(mesh, e);
+        t.flip(e);
+        log.push_back(e);
+        for (int h : quad)
+            if (!queued[at(Triangulation::edge(h))]) {
+                queued[at(Triangulation::edge(h))] = 1;
+                stack.push_back(Triangulation::edge(h));
+            }
+	};
+	for (int e = 0; e < t.edgeCount(); ++e) {
+		visit(e);
+		while (!stack.empty()) {
+			const int side = stack.back();
+			stack.pop_back();
+			queued[at(side)] = 0;
+			visit(side);
+		}
+	}
+}
+
+} // namespace
+
+double mollify(const Triangulation& t, std::vector<double>& lengths, double margin)
+{
+	const double mean =
+		std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
+	double added = 0.0;
+	for (int f = 0; f < t.faceCount(); ++f) {
+		double sum = 0.0, longest = 0.0;
+		for (int h : t.halfedges(f)) {
+			sum += lengths[at(Triangulation::edge(h))];
+			longest = std::max(longest, lengths[at(Triangulation::edge(h))]);
+		}
+		added = std::max(added, margin * mean - (sum - 2 * longest));
+	}
+	for (double& l : lengths)
+		l += added;
+	return added;
+}
+
+double flippedLength(const IntrinsicMesh& mesh, int e)
+{
+	const Apex k = apexOf(mesh, 2 * e), l = apexOf(mesh, 2 * e + 1);
+	return std::hypot(k.along - (mesh.lengths[at(e)] - l.along), k.height + l.height);
+}
+
+DelaunayStart delaunayStart(IntrinsicMesh mesh, const std::vector<int>& mirror)
+{
+	DelaunayStart start;
+	flipUntil(mesh, start.flips, [&](int e) { return isDelaunay(mesh, {}, e); });
+	start.radii = initialRadii(mesh.triangulation, mesh.lengths);
+	for (std::size_t v = 0; v < mirror.size(); ++v)
+		start.radii[v] = std::min(start.radii[v], start.radii[at(mirror[v])]);
+	for (std::size_t v = 0; v < mirror.size(); ++v)
+		start.radii[v] = start.radii[at(mirror[v])] =
+			std::min(start.radii[v], start.radii[at(mirror[v])]);
+
+	for (int attempt = 0; attempt < kMostShrinks; ++attempt) {
+		flipUntil(mesh, start.flips, [&](int e) { return isDelaunay(mesh, start.radii, e); });
+		const Triangulation& t       = mesh.triangulation;
+		bool                 overlap = false;
+		for (int e = 0; e < t.edgeCount(); ++e) {
+			double &gi = start.radii[at(t.origin(2 * e))], &gj = start.radii[at(t.target(2 * e))];
+			if (gi + gj <= mesh.lengths[at(e)] * (1.0 + 1e-12))
+				continue;
+			overlap = true;
+			for (int v : {t.origin(2 * e), t.target(2 * e)}) {
+				start.radii[at(v)] *= kShrink;
+				if (!mirror.empty())
+					start.radii[at(mirror[at(v)])] = start.radii[at(v)];
+			}
+		}
+		if (!overlap)
+			break;
+	}
+	start.mesh = std::move(mesh);
+	return start;
+}
+
+} // namespace ricci

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_DELAUNAY_START_H
+#define RICCI_DELAUNAY_START_H
+
+#include "../surface/triangulation.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// A flat surface with cone points: the metric of a mesh carried by some triangulation of it.
+struct IntrinsicMesh
+{
+	Triangulation       triangulation;
+	std::vector<double> lengths; ///< [edge]
+};
+
+/// Where the flow with flips starts: the mesh's own metric on its weighted Delaunay triangulation.
+/// Starting anywhere else would keep a conformal class that is not the surface's (blueprint of the
+/// flip: it is isometric only where the edge is both in and out of the weighted Delaunay
+/// triangulation).
+struct DelaunayStart
+{
+	IntrinsicMesh       mesh;
+	std::vector<double> radii; ///< [vertex] as initialRadii(), possibly smaller
+	std::vector<int>    flips; ///< edges flipped since the input, in order
+};
+
+/// Adds the least constant to all lengths that leaves every triangle with sides that satisfy
+/// l_ij + l_jk - l_ki >= \p margin times the mean length (intrinsic mollification, Sharp and Crane
+/// 2020). \return the constant; 0 where nothing is degenerate, and nothing is changed then
+double mollify(const Triangulation& t, std::vector<double>& lengths, double margin);
+
+/// Length of the other diagonal of the two plane triangles at edge \p e.
+double flippedLength(const IntrinsicMesh& mesh, int e);
+
+/// Flips to the intrinsic Delaunay triangulation of the metric, then, with the initial radii of
+/// that, to the weighted one. Radii are lowered where a new edge would have I < 1.
+/// \param mirror [vertex] the vertex whose radius must be the same (its image in a double, or
+/// itself); may be empty
+DelaunayStart delaunayStart(IntrinsicMesh mesh, const std::vector<int>& mirror);
+
+} // namespace ricci
+
+#endif
