@@ -94,7 +94,7 @@ short_number() {
 	esac
 }
 
-# The result in the real window, with the filter's dialog.
+# The textured result in the real window, after one more run from the filter's dialog.
 make_picture() {
 	[ -n "$stage" ] || return 0
 	local needed
@@ -103,11 +103,22 @@ make_picture() {
 		cd "$demo"
 		trap close_display EXIT
 		open_display "$demo/display" || { skipped "picture: no display could be opened"; exit 0; }
-		open_meshlab "$stage/bin/meshlab" textured.ply || { echo "FAILED: MeshLab's window"; exit 1; }
-		open_filter "$name" || { echo "FAILED: the filter's dialog"; exit 1; }
-		picture "$demo/window.png"
+		show_result || { echo "FAILED: $problem; see build/demo/display/meshlab.log"; exit 1; }
 	) || return 1
 	[ ! -f "$demo/window.png" ] || echo "Picture: build/demo/window.png"
+}
+
+show_result() {
+	problem="MeshLab's window did not open"
+	open_meshlab "$stage/bin/meshlab" textured.ply || return 1
+	tilt_and_move_aside
+	problem="the filter's dialog did not open"
+	open_filter "$name" || return 1
+	problem="the filter did not run in the window"
+	press_apply "$name"
+	wait_until 120 grep -q 'Result: converged=true' "$meshlab_log" || return 1
+	sleep 2
+	picture "$demo/window.png"
 }
 
 mkdir -p "$build/sources"

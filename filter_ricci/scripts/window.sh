@@ -109,3 +109,26 @@ press_apply() {
 	eval "$(xdotool getwindowgeometry --shell "$dialog")"
 	xdotool mousemove $((X + WIDTH * 3 / 4)) $((Y + HEIGHT - 21)) click 1
 }
+
+# Turns the mesh away from the straight view from above, moves it out from under the place where
+# dialogs open, and hides the trackball.
+tilt_and_move_aside() {
+	xdotool key --window "$main_window" shift+h
+	drag 1 480 400 480 300
+	xdotool keydown ctrl
+	drag 1 480 480 680 480
+	xdotool keyup ctrl
+	sleep 1
+}
+
+# drag BUTTON X Y X Y
+drag() {
+	local step
+	xdotool mousemove "$2" "$3" mousedown "$1"
+	for step in 1 2 3 4 5 6 7 8; do
+		xdotool mousemove $(($2 + ($4 - $2) * step / 8)) $(($3 + ($5 - $3) * step / 8))
+		sleep 0.1
+	done
+	xdotool mouseup "$1"
+	sleep 0.5
+}
