@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace ricci {
 
@@ -231,16 +233,21 @@ FacePartition walkFaces(std::size_t faceCount, const std::vector<Side>& sides)
 void checkMetric(const std::vector<Component>& components)
 {
 	std::size_t noLength = 0, noArea = 0;
-	for (const Component& c : components)
+	for (const Component& c : components) {
+		std::set<std::pair<int, int>> edgesWithoutLength; // an edge inside has two sides
 		for (const Triangle& t : c.triangles) {
 			std::array<double, 3> l;
 			for (std::size_t k = 0; k < 3; ++k) {
-				l[k] = distance(c.positions[at(t[k])], c.positions[at(t[(k + 1) % 3])]);
-				noLength += l[k] == 0.0 && t[k] < t[(k + 1) % 3];
+				const int a = t[k], b = t[(k + 1) % 3];
+				l[k] = distance(c.positions[at(a)], c.positions[at(b)]);
+				if (l[k] == 0.0)
+					edgesWithoutLength.insert({std::min(a, b), std::max(a, b)});
 			}
 			const double longest = *std::max_element(l.begin(), l.end());
 			noArea += !(l[0] + l[1] + l[2] - 2 * longest > 0.0);
 		}
+		noLength += edgesWithoutLength.size();
+	}
 	if (noLength > 0)
 		throw InvalidMesh(
 			count(noLength, "edge has", "edges have") +
