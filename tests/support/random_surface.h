@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_TESTS_RANDOM_SURFACE_H
+#define RICCI_TESTS_RANDOM_SURFACE_H
+
+#include "random.h"
+
+#include <ricci/surface/surface_mesh.h>
+
+namespace ricci::testing {
+
+/// Random triangulation of about the unit square at z = 0: a grid of n x n cells with jittered
+/// vertices (cells stay convex) and a random diagonal in each. Counter-clockwise.
+SurfaceMesh randomPlanarDisk(int n, Random& random);
+
+/// Wavy disk over a grid whose n rows and n columns have widths from 10^-decades to 1, drawn
+/// uniformly on the logarithmic scale: slivers of all directions.
+SurfaceMesh sliverDisk(int n, double decades, Random& random);
+
+/// Torus of revolution whose angles and radii are jittered, with a random diagonal in each cell.
+SurfaceMesh bumpyTorus(int nu, int nv, Random& random);
+
+/// Every vertex moved by up to \p amount in each coordinate.
+SurfaceMesh shaken(SurfaceMesh mesh, double amount, Random& random);
+
+/// The diagonal of each pair of triangles (2 i, 2 i + 1) that form a cell of grid() swapped at
+/// random.
+void swapDiagonalsAtRandom(SurfaceMesh& mesh, Random& random);
+
+} // namespace ricci::testing
+
+#endif

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shapes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace ricci::testing {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+} // namespace
+
+SurfaceMesh
+grid(int nu, int nv, Ends alongU, Ends alongV, const std::function<Point3(int, int)>& point)
+{
+	const int columns = nu + (alongU == Ends::Open), rows = nv + (alongV == Ends::Open);
+	SurfaceMesh mesh;
+	for (int i = 0; i < columns; ++i)
+		for (int j = 0; j < rows; ++j)
+			mesh.positions.push_back(point(i, j));
+	const auto vertex = [&](int i, int j) { return (i % columns) * rows + j % rows; };
+	for (int i = 0; i < nu; ++i)
+		for (int j = 0; j < nv; ++j) {
+			const int a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
+					  d = vertex(i, j + 1);
+			mesh.triangles.push_back({a, b, c});
+			mesh.triangles.push_back({a, c, d});
+		}
+	return mesh;
+}
+
+SurfaceMesh rectangle(int nx, int ny, double width, double height)
+{
+	return grid(nx, ny, Ends::Open, Ends::Open, [&](int i, int j) {
+		return Point3{width * i / nx, height * j / ny, 0.0};
+	});
+}
+
+SurfaceMesh torus(double R, double r, int nu, int nv)
+{
+	return grid(nu, nv, Ends::Joined, Ends::Joined, [&](int i, int j) {
+		const double u = 2 * kPi * i / nu, v = 2 * kPi * j / nv, d = R + r * std::cos(v);
+		return Point3{d * std::cos(u), d * std::sin(u), r * std::sin(v)};
+	});
+}
+
+SurfaceMesh ring(double r1, double r2, int around, int across)
+{
+	return grid(across, around, Ends::Open, Ends::Joined, [&](int i, int j) {
+		const double r = r1 * std::pow(r2 / r1, static_cast<double>(i) / across);
+		const double a = 2 * kPi * j / around;
+		return Point3{r * std::cos(a), r * std::sin(a), 0.0};
+	});
+}
+
+SurfaceMesh tetrahedron()
+{
+	const double s = 1.0 / std::sqrt(3.0);
+	return {
+		{{s, s, s}, {s, -s, -s}, {-s, s, -s}, {-s, -s, s}},
+		{{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
+}
+
+SurfaceMesh perforatedSlab(int genus, int subdivision)
+{
+	const std::array<int, 3> size{2 * genus + 1, 3, 1};
+	const auto solid = [&](std::array<int, 3> c) {
+		for (std::size_t k = 0; k < 3; ++k)
+			if (c[k] < 0 || c[k] >= size[k])
+				return false;
+		return !(c[1] == 1 && c[0] % 2 == 1);
+	};
+	SurfaceMesh mesh;
+	std::map<std::array<int, 3>, int> index; // lattice point, in units of 1 / subdivision
+	const auto vertex = [&](std::array<int, 3> p) {
+		const auto [found, isNew] = index.insert({p, static_cast<int>(mesh.positions.size())});
+		if (isNew)
+			mesh.positions.push_back(
+				{double(p[0]) / subdivision,
+				 double(p[1]) / subdivision,
+				 double(p[2]) / subdivision});
+		return found->second;
+	};
+	const auto addSquare = [&](std::array<int, 3> cube, std::size_t axis, int side) {
+		const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+		for (int i = 0; i < subdivision; ++i)
+			for (int j = 0; j < subdivision; ++j) {
+				std::array<int, 4> corner;
+				for (int k = 0; k < 4; ++k) {
+					std::array<int, 3> p;
+					p[axis] = (cube[axis] + side) * subdivision;
+					p[u] = cube[u] * subdivision + i + (k == 1 || k == 2);
+					p[v] = cube[v] * subdivision + j + (k >= 2);
+					corner[at(k)] = vertex(p);
+				}
+				if (side == 0)
+					std::swap(corner[1], corner[3]);
+				mesh.triangles.push_back({corner[0], corner[1], corner[2]});
+				mesh.triangles.push_back({corner[0], corner[2], corner[3]});
+			}
+	};
+	for (int x = 0; x < size[0]; ++x)
+		for (int y = 0; y < size[1]; ++y) {
+			const std::array<int, 3> cube{x, y, 0};
+			if (!solid(cube))
+				continue;
+			for (std::size_t axis = 0; axis < 3; ++axis)
+				for (int side : {0, 1}) {
+					std::array<int, 3> beyond = cube;
+					beyond[axis] += 2 * side - 1;
+					if (!solid(beyond))
+						addSquare(cube, axis, side);
+				}
+		}
+	return mesh;
+}
+
+SurfaceMesh moebiusBand(int n)
+{
+	SurfaceMesh mesh;
+	for (int i = 0; i < n; ++i)
+		for (int side : {-1, 1}) {
+			const double u = 2 * kPi * i / n, w = 0.3 * side, d = 1.0 + w * std::cos(0.5 * u);
+			mesh.positions.push_back({d * std::cos(u), d * std::sin(u), w * std::sin(0.5 * u)});
+		}
+	for (int i = 0; i < n; ++i) {
+		const bool last = i + 1 == n; // there the two sides change places
+		const int a = 2 * i, b = 2 * i + 1;
+		const int c = last ? 1 : a + 2, d = last ? 0 : a + 3;
+		mesh.triangles.push_back({a, c, d});
+		mesh.triangles.push_back({a, d, b});
+	}
+	return mesh;
+}
+
+SurfaceMesh sideBySide(const SurfaceMesh& a, const SurfaceMesh& b, double shift)
+{
+	SurfaceMesh both = a;
+	const int offset = static_cast<int>(a.positions.size());
+	for (const Point3& p : b.positions)
+		both.positions.push_back({p[0] + shift, p[1], p[2]});
+	for (const Triangle& t : b.triangles)
+		both.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+	return both;
+}
+
+SurfaceMesh withoutStars(const SurfaceMesh& mesh, const std::vector<int>& vertices)
+{
+	SurfaceMesh open;
+	std::vector<int> index(mesh.positions.size(), -1);
+	for (const Triangle& t : mesh.triangles) {
+		if (std::any_of(t.begin(), t.end(), [&](int v) {
+				return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
+			}))
+			continue;
+		Triangle kept;
+		for (std::size_t k = 0; k < 3; ++k) {
+			int& i = index[at(t[k])];
+			if (i < 0) {
+				i = static_cast<int>(open.positions.size());
+				open.positions.push_back(mesh.positions[at(t[k])]);
+			}
+			kept[k] = i;
+		}
+		open.triangles.push_back(kept);
+	}
+	return open;
+}
+
+} // namespace ricci::testing

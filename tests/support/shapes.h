@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_TESTS_SHAPES_H
+#define RICCI_TESTS_SHAPES_H
+
+#include <ricci/surface/surface_mesh.h>
+
+#include <functional>
+
+namespace ricci::testing {
+
+inline std::size_t at(int index)
+{
+	return static_cast<std::size_t>(index);
+}
+
+/// Number of places in a grid direction: open, or closed into a ring.
+enum class Ends { Open, Joined };
+
+/// Grid of (nu by nv) cells, each cut into two triangles along the diagonal from (i,j) to
+/// (i+1,j+1), counter-clockwise in (u,v). \p point maps grid coordinates to space; along a joined
+/// direction the last row of cells ends at the first row of vertices.
+SurfaceMesh
+grid(int nu, int nv, Ends alongU, Ends alongV, const std::function<Point3(int, int)>& point);
+
+/// Flat rectangle, [0, width] x [0, height] at z = 0.
+SurfaceMesh rectangle(int nx, int ny, double width, double height);
+
+/// Torus of revolution, major radius R, minor radius r, outward orientation.
+SurfaceMesh torus(double R, double r, int nu, int nv);
+
+/// Flat ring between radii r1 < r2 at z = 0, counter-clockwise, radii in geometric progression.
+SurfaceMesh ring(double r1, double r2, int around, int across);
+
+/// Regular tetrahedron with corners on the unit sphere, outward.
+SurfaceMesh tetrahedron();
+
+/// Closed surface of any genus: the skin of a slab of unit cubes, (2 genus + 1) x 3 x 1, with
+/// \p genus separate cubes taken out; each square is cut into 2 (subdivision)^2 triangles.
+SurfaceMesh perforatedSlab(int genus, int subdivision);
+
+/// Moebius band of \p n squares.
+SurfaceMesh moebiusBand(int n);
+
+/// Both meshes in one, the second moved by \p shift along x.
+SurfaceMesh sideBySide(const SurfaceMesh& a, const SurfaceMesh& b, double shift);
+
+/// \p mesh without the faces at \p vertices (and without unreferenced vertices): opens one hole for
+/// each vertex whose neighbours are not on the boundary or in the list.
+SurfaceMesh withoutStars(const SurfaceMesh& mesh, const std::vector<int>& vertices);
+
+} // namespace ricci::testing
+
+#endif
