@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/packed.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <ricci/flow/curvature_map.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+using Map = GeometricCurvatureMap<Euclidean>;
+
+/// Closed, with boundaries, of several genera, and with angles down to 1e-3 degrees.
+std::vector<Packed> surfaces()
+{
+	Random random(40);
+	return {
+		Packed(tetrahedron()),
+		Packed(bumpyTorus(12, 8, random)),
+		Packed(randomPlanarDisk(8, random)),
+		Packed(sliverDisk(12, 3.0, random)),
+		Packed(ring(1, 3, 12, 4)),
+		Packed(shaken(perforatedSlab(3, 2), 0.05, random))};
+}
+
+Eigen::VectorXd disturbed(Eigen::VectorXd u, double spread, Random& random)
+{
+	for (double& x : u)
+		x += random.real(-spread, spread);
+	return u;
+}
+
+TEST(CurvatureMap, AnglesFollowTheLawOfCosines)
+{
+	Random random(41);
+	int triangles = 0;
+	for (const Packed& mesh : surfaces()) {
+		Map map = mesh.map();
+		const Eigen::VectorXd u = disturbed(mesh.u(), 0.05, random);
+		map.evaluate(u);
+		const Triangulation& t = map.triangulation();
+		for (int f = 0; f < t.faceCount(); ++f) {
+			const auto h = t.halfedges(f);
+			std::array<long double, 3> l; // side k runs from corner k to k + 1
+			for (std::size_t k = 0; k < 3; ++k) {
+				const long double gi = std::exp(static_cast<long double>(u[t.origin(h[k])]));
+				const long double gj = std::exp(static_cast<long double>(u[t.target(h[k])]));
+				const long double I = 1.0L + map.delta()[at(Triangulation::edge(h[k]))];
+				l[k] = std::sqrt(gi * gi + gj * gj + 2 * I * gi * gj);
+			}
+			const long double longest = *std::max_element(l.begin(), l.end());
+			const long double slack = l[0] + l[1] + l[2] - 2 * longest;
+			if (slack < 1e-9L * longest)
+				continue; // the extended precision of acos itself ends here
+			++triangles;
+			const long double shortest = *std::min_element(l.begin(), l.end());
+			for (std::size_t k = 0; k < 3; ++k) {
+				const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
+				const long double cosine =
+					(l[k] * l[k] + l[last] * l[last] - l[next] * l[next]) / (2 * l[k] * l[last]);
+				// Rounding of u and of the sides, relative to the slack of the triangle inequality:
+				// the angle is a quotient of square roots of such slacks. The reference's own is
+				// last.
+				const double amplification =
+					static_cast<double>(longest / std::min(slack, shortest));
+				const double reference = static_cast<double>(
+					1e-18L * longest / shortest / std::sqrt(1 - cosine * cosine));
+				EXPECT_NEAR(
+					map.angles()[at(h[k])],
+					static_cast<double>(std::acos(cosine)),
+					32 * kEpsilon * (1 + amplification * std::abs(map.angles()[at(h[k])])) +
+						reference);
+			}
+		}
+	}
+	EXPECT_GT(triangles, 500);
+}
+
+TEST(CurvatureMap, CurvatureIsTheAngleDefect)
+{
+	for (const Packed& mesh : surfaces()) {
+		Map map = mesh.map();
+		map.evaluate(mesh.u());
+		const Triangulation& t = map.triangulation();
+		const std::vector<char> boundary = t.boundaryVertices();
+		Eigen::VectorXd defect(t.vertexCount());
+		for (int v = 0; v < t.vertexCount(); ++v)
+			defect[v] = boundary[at(v)] ? kPi : 2 * kPi;
+		for (int h = 0; h < t.halfedgeCount(); ++h) {
+			if (t.isOuter(h)) {
+				EXPECT_EQ(map.angles()[at(h)], 0.0);
+			}
+			defect[t.origin(h)] -= map.angles()[at(h)];
+		}
+		EXPECT_LT((map.curvature() - defect).lpNorm<Eigen::Infinity>(), 1e-14);
+	}
+}
+
+TEST(CurvatureMap, KnownCurvatures)
+{
+	Packed tetra(tetrahedron());
+	Map map = tetra.map();
+	map.evaluate(tetra.u());
+	for (double K : map.curvature())
+		EXPECT_NEAR(K, kPi, 1e-14);
+	// The skin of a cube: pi/2 at 8 corners, 0 elsewhere (the slab 1 x 3 x 1 of genus 0).
+	const SurfaceMesh slab = perforatedSlab(0, 1);
+	const Packed packed(slab);
+	Map flat = packed.map();
+	flat.evaluate(packed.u());
+	for (std::size_t v = 0; v < slab.positions.size(); ++v) {
+		const bool corner = slab.positions[v][1] == 0.0 || slab.positions[v][1] == 3.0;
+		EXPECT_NEAR(flat.curvature()[static_cast<Eigen::Index>(v)], corner ? kPi / 2 : 0.0, 1e-14);
+	}
+}
+
+TEST(CurvatureMap, GaussBonnet)
+{
+	Random random(42);
+	for (const Packed& mesh : surfaces()) {
+		Map map = mesh.map();
+		for (double spread : {0.0, 0.1, 1.0, 5.0}) { // broken triangles keep the angle sum pi
+			map.evaluate(disturbed(mesh.u(), spread, random));
+			EXPECT_NEAR(
+				map.curvature().sum(), 2 * kPi * map.triangulation().eulerCharacteristic(), 1e-10);
+		}
+	}
+}
+
+TEST(CurvatureMap, ScaleChangesLengthsAndNothingElse)
+{
+	for (const Packed& mesh : surfaces()) {
+		Map original = mesh.map(), other = mesh.map();
+		original.evaluate(mesh.u());
+		const double shift = 3.0 * std::log(10.0);
+		other.evaluate(mesh.u().array() + shift);
+		for (std::size_t e = 0; e < original.lengths().size(); ++e)
+			EXPECT_NEAR(other.lengths()[e] / original.lengths()[e], 1000.0, 1e-11);
+		const double amplification = 100 * kEpsilon * original.needleRatio();
+		for (std::size_t h = 0; h < original.angles().size(); ++h)
+			EXPECT_NEAR(other.angles()[h], original.angles()[h], 1e-12 + amplification);
+		EXPECT_TRUE(original.scaleInvariant());
+	}
+}
+
+TEST(CurvatureMap, BrokenTrianglesHaveTheAnglesPiZeroZeroAndNoDerivative)
+{
+	Random random(43);
+	int broken = 0;
+	for (const Packed& mesh : surfaces()) {
+		Map map = mesh.map();
+		const Eigen::VectorXd u = disturbed(mesh.u(), 3.0, random);
+		map.evaluate(u);
+		const Triangulation& t = map.triangulation();
+		std::vector<char> weighed(at(t.faceCount()), 1);
+		int count = 0;
+		for (int f = 0; f < t.faceCount(); ++f) {
+			const auto h = t.halfedges(f);
+			std::array<double, 3> l, angle;
+			for (std::size_t k = 0; k < 3; ++k) {
+				l[k] = map.lengths()[at(Triangulation::edge(h[k]))];
+				angle[k] = map.angles()[at(h[k])];
+			}
+			const std::size_t longest =
+				static_cast<std::size_t>(std::max_element(l.begin(), l.end()) - l.begin());
+			const double slack = l[0] + l[1] + l[2] - 2 * l[longest];
+			if (std::abs(slack) < 1e-12 * l[longest])
+				continue;
+			EXPECT_NEAR(angle[0] + angle[1] + angle[2], kPi, 1e-14);
+			if (slack > 0) {
+				EXPECT_LT(*std::max_element(angle.begin(), angle.end()), kPi);
+				continue;
+			}
+			++count;
+			EXPECT_EQ(angle[(longest + 2) % 3], kPi);
+			weighed[at(f)] = 0;
+			EXPECT_EQ(angle[longest], 0.0);
+			EXPECT_EQ(angle[(longest + 1) % 3], 0.0);
+		}
+		EXPECT_EQ(map.brokenTriangles(), count);
+		broken += count;
+		const auto hasWeight = [&](int h) { return !t.isOuter(h) && weighed[at(t.face(h))]; };
+		for (int e = 0; e < t.edgeCount(); ++e)
+			if (!hasWeight(2 * e) && !hasWeight(2 * e + 1)) {
+				EXPECT_EQ(map.weights()[at(e)], 0.0);
+			}
+	}
+	EXPECT_GT(broken, 100);
+}
+
+TEST(CurvatureMap, CurvatureIsContinuousWhereATriangleBreaks)
+{
+	// Equilateral triangle of touching circles with delta = 2 on one edge: growing that edge's ends
+	// breaks it. Angles approach pi and 0 like the square root of the distance to the break.
+	const Triangulation t(3, {{0, 1, 2}});
+	CirclePacking packing{t, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+	for (int e = 0; e < 3; ++e)
+		if (t.origin(2 * e) != 2 && t.target(2 * e) != 2)
+			packing.delta[at(e)] = 2.0;
+	Map map(packing);
+	const auto brokenAt = [&](double x) {
+		Eigen::VectorXd u(3);
+		u << x, x, 0.0;
+		map.evaluate(u);
+		return map.brokenTriangles() == 1;
+	};
+	double whole = 0.0, broken = 5.0;
+	ASSERT_FALSE(brokenAt(whole));
+	ASSERT_TRUE(brokenAt(broken));
+	while (broken - whole > 1e-14) {
+		const double middle = 0.5 * (whole + broken);
+		(brokenAt(middle) ? broken : whole) = middle;
+	}
+	// Radii g, g, 1 and sides sqrt(8) g, g + 1, g + 1.
+	EXPECT_NEAR(std::exp(broken), 1.0 + std::sqrt(2.0), 1e-12);
+	double previous = 0.0;
+	for (int k = 3; k <= 9; ++k) {
+		Eigen::VectorXd u(3);
+		u << broken - std::pow(10.0, -k), broken - std::pow(10.0, -k), 0.0;
+		map.evaluate(u);
+		ASSERT_EQ(map.brokenTriangles(), 0);
+		const double defect = map.curvature()[2]; // pi less an angle that is not yet pi
+		EXPECT_GT(defect, 0.0);
+		if (k > 3) {
+			EXPECT_NEAR(previous / defect, std::sqrt(10.0), 0.02);
+		}
+		previous = defect;
+	}
+	EXPECT_TRUE(brokenAt(broken + 1e-9));
+	EXPECT_EQ(map.curvature()[2], 0.0);
+	EXPECT_EQ(map.curvature()[0], kPi);
+	EXPECT_EQ(map.curvature()[1], kPi);
+}
+
+TEST(CurvatureMap, GradientIsMonotone)
+{
+	// The energy is convex on all of R^n if and only if (K(u) - K(v)) (u - v) >= 0 everywhere,
+	// broken triangles included.
+	Random random(44);
+	int brokenPairs = 0;
+	for (const Packed& mesh : surfaces()) {
+		Map map = mesh.map();
+		for (int trial = 0; trial < 200; ++trial) {
+			const double spread = std::pow(10.0, random.real(-2, 1));
+			const Eigen::VectorXd u = disturbed(mesh.u(), spread, random);
+			const Eigen::VectorXd v = disturbed(u, spread, random);
+			map.evaluate(u);
+			brokenPairs += map.brokenTriangles() > 0;
+			const Eigen::VectorXd Ku = map.curvature();
+			map.evaluate(v);
+			const double rounding = 1e-12 * map.needleRatio() * (u - v).lpNorm<1>();
+			EXPECT_GE((Ku - map.curvature()).dot(u - v), -rounding);
+		}
+	}
+	EXPECT_GT(brokenPairs, 300);
+}
+
+TEST(CurvatureMap, NeedleRatioIsTheLargestQuotientOfTwoSides)
+{
+	for (const Packed& mesh : surfaces()) {
+		Map map = mesh.map();
+		map.evaluate(mesh.u());
+		double largest = 1.0;
+		for (int f = 0; f < mesh.triangulation.faceCount(); ++f)
+			for (int g : mesh.triangulation.halfedges(f))
+				for (int h : mesh.triangulation.halfedges(f))
+					largest = std::max(
+						largest,
+						mesh.lengths[at(Triangulation::edge(g))] /
+							mesh.lengths[at(Triangulation::edge(h))]);
+		EXPECT_NEAR(map.needleRatio() / largest, 1.0, 1e-13);
+	}
+}
+
+TEST(CurvatureMap, SwapEdgeChangesTheConnectivityAndTheRevision)
+{
+	Packed mesh(rectangle(1, 1, 1, 1));
+	Map map = mesh.map();
+	const int before = map.revision();
+	int e = 0;
+	while (!mesh.triangulation.isFlippable(e))
+		++e;
+	map.swapEdge(e, 0.75);
+	EXPECT_NE(map.revision(), before);
+	EXPECT_EQ(map.delta()[at(e)], 0.75);
+	Triangulation expected = mesh.triangulation;
+	expected.flip(e);
+	for (int h = 0; h < expected.halfedgeCount(); ++h)
+		EXPECT_EQ(map.triangulation().next(h), expected.next(h));
+}
+
+} // namespace
+} // namespace ricci::testing
