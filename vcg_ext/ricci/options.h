@@ -27,6 +27,12 @@ enum class Surgery {
 	IntrinsicFlips ///< weighted-Delaunay flips that keep the conformal class: no triangle breaks
 };
 
+/// What a map on flipped triangles is given back on.
+enum class OutputTriangulation {
+	KeepMesh,        ///< the input's faces; each takes the flow's map at its corners
+	CommonRefinement ///< the overlay of the input's and the flow's triangles, on which the map is exact
+};
+
 struct Options
 {
 	TargetCurvature target = TargetCurvature::Automatic;
@@ -40,7 +46,8 @@ struct Options
 	double epsilon = 1e-8;
 
 	PackingScheme packing = PackingScheme::InversiveDistance;
-	Surgery       surgery = Surgery::None;
+	Surgery       surgery = Surgery::IntrinsicFlips;
+	OutputTriangulation output = OutputTriangulation::KeepMesh;
 
 	/// Newton steps of one solve, at least 1.
 	int maxIterations = 200;

@@ -235,37 +235,67 @@ private:
 				if (std::max(m_base.origin(2 * e), m_base.target(2 * e)) >= m_mesh.inputVertexCount)
 					forbidden[at(e)] = 1;
 		}
-		m_cut = cutToDisk(m_flow.metric->triangulation(), m_lengths, marked, forbidden);
+		m_cut = cutToDisk(layoutTriangulation(), m_lengths, marked, forbidden);
+	}
+
+	bool flips() const { return m_options.surgery == Surgery::IntrinsicFlips; }
+
+	/// The layout is known at the corners of these triangles: with flips the input's, else the flow's.
+	const Triangulation& layoutTriangulation() const
+	{
+		return flips() ? m_base : m_flow.metric->triangulation();
 	}
 
 	void layOut()
 	{
-		m_layout = layOutInPlane(
-			m_flow.metric->triangulation(), m_flow.metric->lengths(), m_flow.metric->angles(), m_cut.isCut);
-		turnUpright();
+		const CurvatureMap& metric = *m_flow.metric;
+		if (!flips())
+			m_layout = layOutInPlane(
+				metric.triangulation(), metric.lengths(), metric.angles(), m_cut.isCut);
+		else {
+			FlippedSurface surface;
+			surface.input        = &m_base;
+			surface.startFlips   = &m_flow.startFlips;
+			surface.start        = &m_flow.start.triangulation;
+			surface.startLengths = &m_flow.start.lengths;
+			surface.startDelta   = &m_flow.startDelta;
+			surface.startU       = &m_flow.startU;
+			surface.flowFlips    = &m_flow.flowFlips;
+			surface.end          = &metric.triangulation();
+			surface.endLengths   = &metric.lengths();
+			surface.endAngles    = &metric.angles();
+			surface.endU         = &m_flow.u;
+			m_refinement         = commonRefinement(surface, m_mesh.positions, m_cut.isCut);
+			m_layout             = m_refinement.inputLayout;
+		}
 		// The flow leaves the scale open unless the boundary keeps its metric.
 		const bool scaled = std::find(m_flow.target.fixed.begin(), m_flow.target.fixed.end(), 1) !=
 							m_flow.target.fixed.end();
-		if (scaled)
-			return;
-		double area = 0.0;
-		for (const Triangle& t : m_mesh.triangles)
-			area += triangleArea(
-				{m_mesh.positions[at(t[0])], m_mesh.positions[at(t[1])], m_mesh.positions[at(t[2])]});
-		m_scale = std::sqrt(area / layoutArea(m_flow.metric->triangulation(), m_layout));
-		for (Point2& p : m_layout.position)
-			for (double& x : p)
-				x *= m_scale;
+		if (!scaled) {
+			double area = 0.0;
+			for (const Triangle& t : m_mesh.triangles)
+				area += triangleArea(
+					{m_mesh.positions[at(t[0])], m_mesh.positions[at(t[1])], m_mesh.positions[at(t[2])]});
+			m_scale = std::sqrt(
+				area / metricArea(metric.triangulation(), metric.lengths(), metric.angles()));
+		}
+		turnUpright();
 	}
 
-	/// Turns the layout so that its least bounding rectangle lies along the axes, from the origin.
+	/// Turns and scales the layout so that its least bounding rectangle lies along the axes, from the
+	/// origin.
 	void turnUpright()
 	{
-		const OrientedRectangle r = leastRectangle(m_layout.position);
-		for (Point2& p : m_layout.position) {
-			const Point2 q = r.inFrame(p);
-			p              = {q[0] - r.low[0], q[1] - r.low[1]};
-		}
+		const OrientedRectangle r    = leastRectangle(m_layout.position);
+		const auto              move = [&](Point2& p) {
+            const Point2 q = r.inFrame(p);
+            p              = {m_scale * (q[0] - r.low[0]), m_scale * (q[1] - r.low[1])};
+		};
+		for (Point2& p : m_layout.position)
+			move(p);
+		for (std::array<Point2, 3>& triangle : m_refinement.uv)
+			for (Point2& p : triangle)
+				move(p);
 	}
 
 	/// Point of a corner of the input: the sector of the layout that begins at the same cut or
@@ -284,7 +314,7 @@ private:
 
 	void store(Parametrization& result) const
 	{
-		const Triangulation& end = m_flow.metric->triangulation();
+		const Triangulation& end = layoutTriangulation();
 		std::vector<int>     anyHalfedge(m_mesh.positions.size(), -1);
 		for (int h = end.halfedgeCount() - 1; h >= 0; --h)
 			if (!end.isOuter(h))
@@ -298,6 +328,8 @@ private:
 		}
 		Chart chart;
 		chart.faces = m_component.face;
+		if (m_options.output == OutputTriangulation::CommonRefinement)
+			storeRefinement(result, chart);
 		result.charts.push_back(std::move(chart));
 		for (std::size_t f = 0; f < m_component.face.size(); ++f) {
 			const std::size_t inputFace = at(m_component.face[f]);
@@ -318,6 +350,8 @@ private:
 		report.maxCurvatureError = std::max(report.maxCurvatureError, m_flow.residual);
 		report.residualFloor     = std::max(report.residualFloor, m_flow.floor);
 		report.edgeSwaps += m_swaps;
+		report.flips += static_cast<int>(m_flow.startFlips.size() + m_flow.flowFlips.size());
+		report.refinementPoints += static_cast<int>(m_refinement.crossings);
 		report.boundarySplits += m_splits;
 		report.eulerCharacteristic += m_topology.eulerCharacteristic;
 		report.genus += m_topology.genus;
@@ -325,9 +359,43 @@ private:
 		report.seamEdges += m_cut.edgeCount;
 	}
 
+	/// Appends the refinement, in the indices and the orientation of the whole input.
+	void storeRefinement(Parametrization& result, Chart& chart) const
+	{
+		RefinedMesh& refined     = result.refined;
+		const auto   vertexCount = m_component.vertex.size();
+		std::vector<int> pointOfNode(m_refinement.points.size());
+		for (std::size_t i = 0; i < m_refinement.points.size(); ++i) {
+			if (i < vertexCount) {
+				pointOfNode[i] = m_component.vertex[i];
+				continue;
+			}
+			SurfacePoint p = m_refinement.points[i];
+			for (int& v : p.vertex)
+				v = m_component.vertex[at(v)];
+			pointOfNode[i] = static_cast<int>(refined.points.size());
+			refined.points.push_back(p);
+		}
+		for (std::size_t f = 0; f < m_refinement.triangles.size(); ++f) {
+			const auto  local = at(m_refinement.inputFace[f]);
+			Triangle    t     = m_refinement.triangles[f];
+			auto        uv    = m_refinement.uv[f];
+			for (int& v : t)
+				v = pointOfNode[at(v)];
+			if (m_component.reversed[local]) {
+				std::swap(t[1], t[2]);
+				std::swap(uv[1], uv[2]);
+			}
+			chart.refined.push_back(static_cast<int>(refined.triangles.size()));
+			refined.triangles.push_back(t);
+			refined.uv.push_back(uv);
+			refined.inputFace.push_back(m_component.face[local]);
+		}
+	}
+
 	void invariants(Report& report) const
 	{
-		const Triangulation& t    = m_flow.metric->triangulation();
+		const Triangulation& t    = layoutTriangulation();
 		const bool           flat = m_flow.target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
 		const bool           free = std::find(m_flow.target.fixed.begin(), m_flow.target.fixed.end(), 1) !=
 						  m_flow.target.fixed.end();
@@ -337,7 +405,15 @@ private:
 			report.torusTauIm = tau.imag();
 		}
 		if (m_topology.isAnnulus() && flat && !free)
-			report.annulusModulus = annulusModulus(t, m_layout, m_cut);
+			report.annulusModulus = annulusModulus(
+				t,
+				m_layout,
+				m_cut,
+				m_scale * m_scale *
+					metricArea(
+						m_flow.metric->triangulation(),
+						m_flow.metric->lengths(),
+						m_flow.metric->angles()));
 		if (m_flow.target.isRectangle)
 			report.rectangleAspect = rectangleAspect();
 	}
@@ -345,7 +421,7 @@ private:
 	double rectangleAspect() const
 	{
 		std::array<Point2, 4> corner;
-		const Triangulation&  t = m_flow.metric->triangulation();
+		const Triangulation&  t = layoutTriangulation();
 		for (int h = 0; h < t.halfedgeCount(); ++h)
 			for (std::size_t k = 0; k < 4; ++k)
 				if (!t.isOuter(h) && t.origin(h) == m_flow.target.corners[k])
@@ -368,13 +444,35 @@ private:
 	std::vector<double> m_lengths;
 	FlowResult          m_flow;
 	CutGraph            m_cut;
+	CommonRefinement    m_refinement; ///< with flips
 	PlanarLayout        m_layout;
 	double              m_scale      = 1.0;
 	int                 m_iterations = 0, m_swaps = 0, m_splits = 0;
 };
 
+/// Distortion of the refinement, into the report.
+void measureRefinement(const SurfaceMesh& mesh, Parametrization& result)
+{
+	RefinedMesh&      refined = result.refined;
+	SurfaceMesh       surface;
+	std::vector<char> reversed;
+	for (const SurfacePoint& p : refined.points)
+		surface.positions.push_back(placeOnSurface(p, mesh.positions));
+	surface.triangles = refined.triangles;
+	for (int f : refined.inputFace)
+		reversed.push_back(result.reversed[at(f)]);
+	DistortionField distortion = measureDistortion(surface, refined.uv, reversed, result.report);
+	refined.faceQC             = std::move(distortion.face);
+	refined.vertexQC           = std::move(distortion.vertex);
+}
+
 void checkOptions(const Options& options)
 {
+	if (options.output == OutputTriangulation::CommonRefinement &&
+		options.surgery != Surgery::IntrinsicFlips)
+		throw InvalidOption(
+			"The output 'Common refinement' belongs to the surgery 'Intrinsic flips': choose both, or "
+			"'Keep the mesh'.");
 	if (!(options.epsilon > 0.0))
 		throw InvalidOption("epsilon must be greater than 0 (radians), not " +
 							text("%g", options.epsilon) + ".");
@@ -402,6 +500,13 @@ Parametrization parametrizeEuclidean(
 	result.u.assign(mesh.positions.size(), 0.0);
 	result.targetCurvature.assign(mesh.positions.size(), 0.0);
 	result.report.components = static_cast<int>(components.size());
+	const bool refine        = options.output == OutputTriangulation::CommonRefinement;
+	if (refine)
+		for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+			SurfacePoint p;
+			p.vertex[0] = static_cast<int>(v);
+			result.refined.points.push_back(p);
+		}
 
 	std::size_t facesDone = 0;
 	for (const Component& component : components) {
@@ -431,9 +536,14 @@ Parametrization parametrizeEuclidean(
 		result.report.rectangleAspect.reset();
 	}
 	result.report.converged   = true;
-	DistortionField distortion = measureDistortion(mesh, result.uv, result.reversed, result.report);
-	result.faceQC             = std::move(distortion.face);
-	result.vertexQC           = std::move(distortion.vertex);
+	Report keptReport          = result.report;
+	DistortionField distortion = measureDistortion(mesh, result.uv, result.reversed, keptReport);
+	result.faceQC              = std::move(distortion.face);
+	result.vertexQC            = std::move(distortion.vertex);
+	if (refine)
+		measureRefinement(mesh, result);
+	else
+		result.report = keptReport;
 	progress.step(1.0, "Layout done");
 	return result;
 }

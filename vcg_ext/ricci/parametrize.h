@@ -2,6 +2,7 @@
 #ifndef RICCI_PARAMETRIZE_H
 #define RICCI_PARAMETRIZE_H
 
+#include "layout/common_refinement.h"
 #include "layout/planar_layout.h"
 #include "options.h"
 #include "progress.h"
@@ -26,7 +27,19 @@ struct VertexInput
 /// One component laid out in the plane by its own metric, not yet packed beside the others.
 struct Chart
 {
-	std::vector<int> faces; ///< indices into SurfaceMesh::triangles
+	std::vector<int> faces;   ///< indices into SurfaceMesh::triangles
+	std::vector<int> refined; ///< indices into RefinedMesh::triangles
+};
+
+/// The common refinement of the input with the triangles on which the map was found.
+struct RefinedMesh
+{
+	std::vector<SurfacePoint>          points;    ///< the input's vertices first, in order
+	std::vector<Triangle>              triangles; ///< into points, in the input's orientation
+	std::vector<int>                   inputFace; ///< [triangle] index into SurfaceMesh::triangles
+	std::vector<std::array<Point2, 3>> uv;        ///< [triangle][corner]
+	std::vector<double>                faceQC;    ///< sigma1 / sigma2
+	std::vector<double>                vertexQC;  ///< [point]
 };
 
 /// A map of the whole mesh to the plane.
@@ -42,6 +55,8 @@ struct Parametrization
 	std::vector<double>                vertexQC; ///< area-weighted mean over the faces at the vertex
 	std::vector<double>                u;        ///< [vertex] ln radius; 0 at unused vertices
 	std::vector<double>                targetCurvature; ///< [vertex] radians, as reached
+	RefinedMesh                        refined; ///< filled for OutputTriangulation::CommonRefinement;
+	                                            ///< the report's qc fields and flippedFaces then are its own
 };
 
 /// The Euclidean generalized Ricci flow from a mesh to the plane, component by component: circle

@@ -23,6 +23,8 @@ struct Report
 
 	int flippedFaces    = 0; ///< faces whose image in the plane is reversed or has no area
 	int edgeSwaps       = 0; ///< paper 5.4
+	int flips           = 0; ///< intrinsic flips, those to the start's triangulation included
+	int refinementPoints = 0; ///< points of the common refinement that are not vertices of the input
 	int boundarySplits  = 0; ///< paper 5.4: boundary edges split before a new start
 	int brokenTriangles = 0; ///< faces that break the triangle inequality at the end
 

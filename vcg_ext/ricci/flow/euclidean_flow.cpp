@@ -162,6 +162,7 @@ FlowResult runEuclideanFlow(
 		auto flips = std::make_shared<FlippingCurvatureMap<Euclidean>>(
 			pack(start.mesh.triangulation, start.mesh.lengths, radii, options.packing));
 		flipping          = flips.get();
+		result.startDelta = flips->delta();
 		map               = std::move(flips);
 		result.start      = std::move(start.mesh);
 		result.startFlips = std::move(start.flips);

@@ -30,6 +30,7 @@ struct FlowResult
 
 	// Intrinsic flips only.
 	IntrinsicMesh       start;      ///< the input's metric on the triangulation of the first step
+	std::vector<double> startDelta; ///< [edge] of start: inversive distance less one
 	Eigen::VectorXd     startU;
 	std::vector<int>    startFlips; ///< from the input's triangulation to the start's, in order
 	std::vector<int>    flowFlips;  ///< from the start's triangulation to the last, in order

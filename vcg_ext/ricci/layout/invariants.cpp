@@ -55,20 +55,25 @@ torusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGraph&
 	return reduceToFundamentalDomain(tau.imag() > 0.0 ? tau : 1.0 / tau);
 }
 
-double annulusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGraph& cut)
+double annulusModulus(
+	const Triangulation& t,
+	const PlanarLayout&  layout,
+	const CutGraph&      cut,
+	double               area)
 {
 	const auto e = std::find(cut.isCut.begin(), cut.isCut.end(), 1) - cut.isCut.begin();
-	return layoutArea(t, layout) / std::norm(period(t, layout, static_cast<int>(e)));
+	return area / std::norm(period(t, layout, static_cast<int>(e)));
 }
 
-double layoutArea(const Triangulation& t, const PlanarLayout& layout)
+double
+metricArea(const Triangulation& t, const std::vector<double>& lengths, const std::vector<double>& angles)
 {
-	double area = 0.0;
+	const auto at   = [](int index) { return static_cast<std::size_t>(index); };
+	double     area = 0.0;
 	for (int f = 0; f < t.faceCount(); ++f) {
-		const auto                 h = t.halfedges(f);
-		const std::complex<double> p = asComplex(layout.at(h[0]));
-		const std::complex<double> a = asComplex(layout.at(h[1])) - p, b = asComplex(layout.at(h[2])) - p;
-		area += 0.5 * (std::conj(a) * b).imag();
+		const int h = t.halfedge(f);
+		area += 0.5 * lengths[at(Triangulation::edge(h))] *
+				lengths[at(Triangulation::edge(t.previous(h)))] * std::sin(angles[at(h)]);
 	}
 	return area;
 }

@@ -23,11 +23,16 @@ std::complex<double>
 torusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGraph& cut);
 
 /// Conformal modulus ln(r2/r1) / 2 pi of a flat annulus with straight boundaries, a cylinder: its
-/// height over its circumference, from its area and the translation across the cut.
-double annulusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGraph& cut);
+/// height over its circumference, from its \p area and the translation across the cut.
+double annulusModulus(
+	const Triangulation& t,
+	const PlanarLayout&  layout,
+	const CutGraph&      cut,
+	double               area);
 
-/// Area of the layout.
-double layoutArea(const Triangulation& t, const PlanarLayout& layout);
+/// Area of a flat metric. \param lengths [edge], \param angles [halfedge]
+double
+metricArea(const Triangulation& t, const std::vector<double>& lengths, const std::vector<double>& angles);
 
 } // namespace ricci
 

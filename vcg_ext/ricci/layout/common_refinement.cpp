@@ -1,0 +1,1311 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common_refinement.h"
+
+#include "../error.h"
+#include "../surface/normal_coordinates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+namespace ricci {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Crossings stay this far from the ends of their edge, relative to its length: rounding must not put
+/// them on a vertex.
+constexpr double kEndGap = 1e-14;
+
+/// A crossing with an input edge and one with an end edge that are this near to each other on a start
+/// edge, relative to its length, are one point.
+constexpr double kMergeGap = 1e-12;
+
+std::size_t at(int index)
+{
+	return static_cast<std::size_t>(index);
+}
+
+double mix(double a, double b, double t)
+{
+	return (1.0 - t) * a + t * b;
+}
+
+double keepInside(double t)
+{
+	return std::min(std::max(std::isfinite(t) ? t : 0.5, kEndGap), 1.0 - kEndGap);
+}
+
+/// Affine combination of two points, merging equal vertices.
+SurfacePoint mix(const SurfacePoint& a, const SurfacePoint& b, double t)
+{
+	SurfacePoint p;
+	p.weight    = {0, 0, 0, 0};
+	int  used   = 0;
+	auto gather = [&](const SurfacePoint& q, double share) {
+		for (std::size_t i = 0; i < 4; ++i) {
+			if (q.weight[i] == 0.0)
+				continue;
+			int k = 0;
+			while (k < used && p.vertex[at(k)] != q.vertex[i])
+				++k;
+			if (k == 4)
+				continue;
+			if (k == used)
+				p.vertex[at(used++)] = q.vertex[i];
+			p.weight[at(k)] += share * q.weight[i];
+		}
+	};
+	gather(a, 1.0 - t);
+	gather(b, t);
+	return p;
+}
+
+/// Where a node lies on the end triangulation.
+struct EndPlace
+{
+	enum Kind { Vertex, Edge, Face } kind = Vertex;
+	int                   element = -1;     ///< vertex, edge or face
+	double                along   = 0.0;    ///< Edge: from the origin of its even halfedge
+	std::array<double, 3> corner {0, 0, 0}; ///< Face: weights of the origins of halfedges(face)
+};
+
+/// A corner of a piece.
+struct PieceCorner
+{
+	int node;
+	int place;    ///< on the start triangle's border, counted counter-clockwise; -1 inside
+	int chord;    ///< of the end edge that made an inner node
+	int edge;     ///< name of the side to the next corner, shared with the neighbour piece
+	int onChord;  ///< chord that this side is part of, or -1
+	int input;    ///< input halfedge along this side, or -1
+	int end;      ///< end halfedge along this side, or -1
+	int inputCorner = -1; ///< at a vertex: input halfedge whose corner this is
+	int endCorner   = -1; ///< at a vertex: end halfedge whose corner this is
+};
+
+/// A part of an input or end edge inside one start triangle.
+struct Chord
+{
+	int  face;
+	int  from, to;       ///< corner: halfedge with that origin; side: halfedge
+	int  fromIndex, toIndex; ///< on a side: index among its nodes from the halfedge's origin; else -1
+	int  curve;          ///< input or end edge; runs in the direction of its even halfedge
+	double fromAlong, toAlong; ///< position on the curve
+	bool ofInput;
+};
+
+/// Crossing of an end edge with a start edge, as one vector of R^{2,1} in two bases.
+struct HomogeneousPoint
+{
+	int                   curve = -1;
+	std::array<double, 2> onStart {0, 0}; ///< weights of the ends of the start edge's even halfedge
+	std::array<double, 2> onEnd {0, 0};   ///< weights of the ends of the end edge's even halfedge
+};
+
+struct InputPoint
+{
+	int    curve = -1;
+	double along = 0.0;   ///< on the input edge
+	double onStart = 0.0; ///< on the start edge
+};
+
+class Overlay
+{
+public:
+	Overlay(
+		const FlippedSurface&      s,
+		const std::vector<Point3>& positions,
+		const std::vector<char>&   isCut) :
+			m_s(s),
+			m_positions(positions), m_isCut(isCut), m_input(*s.input), m_start(*s.start), m_end(*s.end)
+	{
+	}
+
+	CommonRefinement run()
+	{
+		trace();
+		placeInputCrossings();
+		placeEndCrossings();
+		makeNodes();
+		collectChords();
+		for (int f = 0; f < m_start.faceCount(); ++f)
+			divide(f);
+		linkPieces();
+		findFaces();
+		layOut();
+		return result();
+	}
+
+private:
+	using Curve = NormalCoordinates::Curve;
+
+	/// Position of a crossing counted from the origin of its edge's even halfedge.
+	static int fromEven(const NormalCoordinates::Crossing& x, int count)
+	{
+		return x.halfedge % 2 == 0 ? x.position : count - 1 - x.position;
+	}
+
+	double startRadius(int v) const { return std::exp((*m_s.startU)[v]); }
+	double endRadius(int v) const { return std::exp((*m_s.endU)[v]); }
+
+	void trace()
+	{
+		m_inputOnStart = std::make_unique<NormalCoordinates>(m_input);
+		for (int e : *m_s.startFlips)
+			m_inputOnStart->flip(e);
+		m_endOnStart = std::make_unique<NormalCoordinates>(m_end);
+		for (auto e = m_s.flowFlips->rbegin(); e != m_s.flowFlips->rend(); ++e)
+			m_endOnStart->unflip(*e);
+		NormalCoordinates startOnEnd(m_start);
+		for (int e : *m_s.flowFlips)
+			startOnEnd.flip(e);
+		m_inputCurves = m_inputOnStart->trace();
+		m_endCurves   = m_endOnStart->trace();
+		m_startCurves = startOnEnd.trace();
+
+		const int n = m_start.edgeCount();
+		m_firstInput.assign(at(n) + 1, 0);
+		m_firstEnd.assign(at(n) + 1, 0);
+		for (int e = 0; e < n; ++e) {
+			m_firstInput[at(e) + 1] = m_firstInput[at(e)] + m_inputOnStart->crossings(e);
+			m_firstEnd[at(e) + 1]   = m_firstEnd[at(e)] + m_endOnStart->crossings(e);
+		}
+		m_inputPoints.resize(at(m_firstInput.back()));
+		m_endPoints.resize(at(m_firstEnd.back()));
+	}
+
+	int inputSlot(const NormalCoordinates::Crossing& x) const
+	{
+		const int e = Triangulation::edge(x.halfedge);
+		return m_firstInput[at(e)] + fromEven(x, m_inputOnStart->crossings(e));
+	}
+
+	int endSlot(const NormalCoordinates::Crossing& x) const
+	{
+		const int e = Triangulation::edge(x.halfedge);
+		return m_firstEnd[at(e)] + fromEven(x, m_endOnStart->crossings(e));
+	}
+
+	/// Unfolds the start triangles along each input edge; the edge is straight there.
+	void placeInputCrossings()
+	{
+		const auto& lengths = *m_s.startLengths;
+		const auto  length  = [&](int h) { return lengths[at(Triangulation::edge(h))]; };
+		// Angle at the origin of h, by half-angles.
+		const auto angle = [&](int h) {
+			const double a = length(h), b = length(m_start.previous(h)), c = length(m_start.next(h));
+			const double s = 0.5 * (a + b + c);
+			return 2.0 * std::atan2(
+							 std::sqrt(std::max(0.0, (s - a) * (s - b))),
+							 std::sqrt(std::max(0.0, s * (s - c))));
+		};
+		struct Side
+		{
+			Point2 from, to; // ends of the crossed halfedge
+		};
+		std::vector<Side> strip;
+		for (int e = 0; e < m_input.edgeCount(); ++e) {
+			const Curve& curve = m_inputCurves[at(e)];
+			if (curve.crossings.empty())
+				continue;
+			strip.clear();
+			// The first triangle with its corner at 0; then one triangle after another, with
+			// directions carried as angles.
+			const int h     = curve.first;
+			double    theta = angle(h), along = kPi - angle(m_start.next(h));
+			Side      side;
+			side.from = {length(h), 0.0};
+			side.to   = {length(m_start.previous(h)) * std::cos(theta),
+                       length(m_start.previous(h)) * std::sin(theta)};
+			Point2 last {0.0, 0.0};
+			for (std::size_t i = 0; i < curve.crossings.size(); ++i) {
+				const int x = curve.crossings[i].halfedge;
+				strip.push_back(side);
+				const int y = Triangulation::twin(x);
+				// y runs from side.to to side.from, in direction along + pi.
+				const double direction = along + kPi;
+				const double toApex    = direction + angle(y);
+				const double fromBase  = direction + kPi - angle(m_start.next(y));
+				const double left = length(m_start.previous(y)), right = length(m_start.next(y));
+				Point2       apex;
+				if (right < left)
+					apex = {side.from[0] + right * std::cos(fromBase),
+							side.from[1] + right * std::sin(fromBase)};
+				else
+					apex = {side.to[0] + left * std::cos(toApex), side.to[1] + left * std::sin(toApex)};
+				if (i + 1 == curve.crossings.size()) {
+					last = apex;
+					break;
+				}
+				if (curve.crossings[i + 1].halfedge == m_start.next(y)) { // from side.from to the apex
+					side.to = apex;
+					along   = fromBase;
+				}
+				else { // from the apex to side.to
+					side.from = apex;
+					along     = toApex - kPi;
+				}
+			}
+			const double size2 = last[0] * last[0] + last[1] * last[1];
+			double       below = 0.0;
+			for (std::size_t i = 0; i < strip.size(); ++i) {
+				const Point2 &p = strip[i].from, &q = strip[i].to;
+				const double  dp = p[0] * last[1] - p[1] * last[0], dq = q[0] * last[1] - q[1] * last[0];
+				const double  t = keepInside(dp / (dp - dq));
+				const Point2  x {mix(p[0], q[0], t), mix(p[1], q[1], t)};
+				double        s = keepInside((x[0] * last[0] + x[1] * last[1]) / size2);
+				s               = std::max(s, below);
+				below           = s;
+				const int halfedge = curve.crossings[i].halfedge;
+				m_inputPoints[at(inputSlot(curve.crossings[i]))] = {
+					e, s, halfedge % 2 == 0 ? t : 1.0 - t};
+			}
+		}
+	}
+
+	/// Inversive distances of the start triangle on the left of h = ij, apex k.
+	struct StartTriangle
+	{
+		double ij, jk, ki, rootD;
+	};
+
+	StartTriangle startTriangle(int h) const
+	{
+		const auto&   d = *m_s.startDelta;
+		StartTriangle x;
+		x.ij    = 1.0 + d[at(Triangulation::edge(h))];
+		x.jk    = 1.0 + d[at(Triangulation::edge(m_start.next(h)))];
+		x.ki    = 1.0 + d[at(Triangulation::edge(m_start.previous(h)))];
+		x.rootD = std::sqrt(
+			x.ij * x.ij + x.jk * x.jk + x.ki * x.ki + 2.0 * x.ij * x.jk * x.ki - 1.0);
+		return x;
+	}
+
+	/// Value at the apex of the triangle across h = ij of a linear function on R^{2,1} that is
+	/// fi, fj, fk at i, j and the apex k on the left of h:
+	/// rootD_l x_k + rootD_k x_l = M_i x_i + M_j x_j.
+	double across(int h, double fi, double fj, double fk) const
+	{
+		const StartTriangle a = startTriangle(h), b = startTriangle(Triangulation::twin(h));
+		const double        d  = (*m_s.startDelta)[at(Triangulation::edge(h))];
+		const double        c2 = d * (d + 2.0);
+		const double        pi = b.rootD * a.ki + a.rootD * b.jk; // pairs with x_i: I_ik, I_il
+		const double        pj = b.rootD * a.jk + a.rootD * b.ki;
+		const double        mi = (pi + a.ij * pj) / c2, mj = (pj + a.ij * pi) / c2;
+		return (mi * fi + mj * fj - b.rootD * fk) / a.rootD;
+	}
+
+	/// The end edges on the start triangulation: along the strip of start triangles of an end edge
+	/// ab, linear functions on R^{2,1} are carried from triangle to triangle, each a triple of values
+	/// at the present corners. The one that vanishes at a and b gives the crossings.
+	void placeEndCrossings()
+	{
+		struct Values
+		{
+			double from, to; // at the ends of the crossed halfedge
+		};
+		std::vector<Values> first, second, atA;
+		for (int e = 0; e < m_end.edgeCount(); ++e) {
+			const Curve& curve = m_endCurves[at(e)];
+			const int    n     = static_cast<int>(curve.crossings.size());
+			if (n == 0)
+				continue;
+			// first: 0 at a, (1, 0) on the first side; second: (0, 1); atA: 1 at a, (0, 0).
+			first.assign(1, {1, 0});
+			second.assign(1, {0, 1});
+			atA.assign(1, {0, 0});
+			double apex[3] = {0, 0, 1};
+			for (int i = 0; i < n; ++i) {
+				const int x = curve.crossings[at(i)].halfedge, y = Triangulation::twin(x);
+				double    next[3];
+				std::vector<Values>* functions[3] = {&first, &second, &atA};
+				const bool           fromStays =
+					i + 1 < n && curve.crossings[at(i) + 1].halfedge == m_start.next(y);
+				for (int k = 0; k < 3; ++k) {
+					const Values v = functions[k]->back();
+					next[k]        = across(x, v.from, v.to, apex[k]);
+					if (i + 1 == n)
+						continue;
+					if (fromStays) { // the triangle's third corner is the old "to"
+						functions[k]->push_back({v.from, next[k]});
+						apex[k] = v.to;
+					}
+					else {
+						functions[k]->push_back({next[k], v.to});
+						apex[k] = v.from;
+					}
+				}
+				if (i + 1 == n)
+					std::copy(next, next + 3, apex);
+			}
+			// l = apex[1] first - apex[0] second vanishes at a and b; apex holds the values at b.
+			double below = 0.0;
+			for (int i = 0; i < n; ++i) {
+				const double from = apex[1] * first[at(i)].from - apex[0] * second[at(i)].from;
+				const double to   = apex[1] * first[at(i)].to - apex[0] * second[at(i)].to;
+				// y = |to| x_from + |from| x_to, both weights positive.
+				double wf = std::abs(to), wt = std::abs(from);
+				if (!(wf > 0.0) || !(wt > 0.0) || !std::isfinite(wf) || !std::isfinite(wt) || from * to > 0.0)
+					wf = wt = 1.0;
+				const double scale = 1.0 / (wf + wt);
+				wf *= scale, wt *= scale;
+				// y = wa x_a + wb x_b: evaluate atA and the function that is 1 on the side's sum.
+				const double ya = wf * atA[at(i)].from + wt * atA[at(i)].to;
+				const double y1 = wf * first[at(i)].from + wt * first[at(i)].to;
+				const double y2 = wf * second[at(i)].from + wt * second[at(i)].to;
+				// first + second is 0 at a and apex[0] + apex[1] at b.
+				double wb = (y1 + y2) / (apex[0] + apex[1]);
+				double wa = ya - wb * apex[2];
+				if (!(wb > 0.0) || !(wa > 0.0) || !std::isfinite(wa) || !std::isfinite(wb)) {
+					const double share = static_cast<double>(i + 1) / (n + 1);
+					wa = 1.0 - share, wb = share;
+				}
+				// Order along the end edge, against rounding.
+				if (wb / (wa + wb) < below) {
+					const double sum = wa + wb;
+					wb = below * sum, wa = sum - wb;
+				}
+				below = wb / (wa + wb);
+				const int        halfedge = curve.crossings[at(i)].halfedge;
+				HomogeneousPoint p;
+				p.curve   = e;
+				p.onStart = halfedge % 2 == 0 ? std::array<double, 2> {wf, wt} :
+												std::array<double, 2> {wt, wf};
+				p.onEnd   = {wa, wb};
+				m_endPoints[at(endSlot(curve.crossings[at(i)]))] = p;
+			}
+		}
+	}
+
+	/// Position of a homogeneous point on a start or end edge, from the origin of the even halfedge.
+	static double along(const std::array<double, 2>& w, double gi, double gj)
+	{
+		const double a = w[0] / gi, b = w[1] / gj;
+		return b / (a + b);
+	}
+
+	struct Node
+	{
+		SurfacePoint point;
+		EndPlace     end;
+		double       scale = 1.0; ///< weight sum in the end metric over that in the start metric
+	};
+
+	/// Puts the crossings of both kinds in order on each start edge and makes them nodes.
+	void makeNodes()
+	{
+		const int n = m_start.edgeCount();
+		m_nodes.resize(at(m_start.vertexCount()));
+		for (int v = 0; v < m_start.vertexCount(); ++v) {
+			m_nodes[at(v)].point.vertex[0] = v;
+			m_nodes[at(v)].end.element     = v;
+			m_nodes[at(v)].scale           = startRadius(v) / endRadius(v);
+		}
+		m_firstOnEdge.assign(at(n) + 1, 0);
+		m_indexOfInput.resize(m_inputPoints.size());
+		m_indexOfEnd.resize(m_endPoints.size());
+		for (int e = 0; e < n; ++e) {
+			makeNodesOn(e);
+			m_firstOnEdge[at(e) + 1] = static_cast<int>(m_onEdge.size());
+		}
+	}
+
+	/// A point of a start edge on which something crosses.
+	struct EdgePoint
+	{
+		double along;
+		int    input = -1, end = -1; // slots
+	};
+
+	void makeNodesOn(int e)
+	{
+		const int    i = m_start.origin(2 * e), j = m_start.target(2 * e);
+		const double gi = startRadius(i), gj = startRadius(j);
+		m_edgePoints.clear();
+		int a = m_firstInput[at(e)], b = m_firstEnd[at(e)];
+		while (a < m_firstInput[at(e) + 1] || b < m_firstEnd[at(e) + 1]) {
+			const double none = std::numeric_limits<double>::infinity();
+			const double ta   = a < m_firstInput[at(e) + 1] ? m_inputPoints[at(a)].onStart : none;
+			const double tb =
+				b < m_firstEnd[at(e) + 1] ? keepInside(along(m_endPoints[at(b)].onStart, gi, gj)) : none;
+			EdgePoint p;
+			p.along          = std::min(ta, tb);
+			const bool takeA = ta <= tb + kMergeGap, takeB = tb <= ta + kMergeGap;
+			if (takeA)
+				p.input = a++;
+			if (takeB)
+				p.end = b++;
+			m_edgePoints.push_back(p);
+		}
+		const int base = static_cast<int>(m_onEdge.size());
+		for (std::size_t k = 0; k < m_edgePoints.size(); ++k) {
+			const EdgePoint& p = m_edgePoints[k];
+			if (p.input >= 0)
+				m_indexOfInput[at(p.input)] = static_cast<int>(k);
+			if (p.end >= 0)
+				m_indexOfEnd[at(p.end)] = static_cast<int>(k);
+			m_onEdge.push_back(static_cast<int>(m_nodes.size()) + static_cast<int>(k));
+			m_alongEdge.push_back(p.along);
+		}
+		m_nodes.resize(m_nodes.size() + m_edgePoints.size());
+		locateOnInput(e, base);
+		locateOnEnd(e, base, gi, gj);
+	}
+
+	/// Fills SurfacePoint of the nodes of start edge e: exact on input edges, straight between them.
+	void locateOnInput(int e, int base)
+	{
+		const int    count = static_cast<int>(m_edgePoints.size());
+		SurfacePoint before, after;
+		before.vertex[0]   = m_start.origin(2 * e);
+		double beforeAlong = 0.0;
+		for (int k = 0; k < count; ++k) {
+			Node& node = m_nodes[at(m_onEdge[at(base + k)])];
+			if (m_edgePoints[at(k)].input >= 0) {
+				node.point  = onInputEdge(m_inputPoints[at(m_edgePoints[at(k)].input)]);
+				before      = node.point;
+				beforeAlong = m_edgePoints[at(k)].along;
+				continue;
+			}
+			int next = k + 1;
+			while (next < count && m_edgePoints[at(next)].input < 0)
+				++next;
+			double afterAlong = 1.0;
+			after             = SurfacePoint();
+			after.vertex[0]   = m_start.target(2 * e);
+			if (next < count) {
+				after      = onInputEdge(m_inputPoints[at(m_edgePoints[at(next)].input)]);
+				afterAlong = m_edgePoints[at(next)].along;
+			}
+			const double gap = afterAlong - beforeAlong;
+			node.point       = mix(
+                before, after, gap > 0.0 ? (m_edgePoints[at(k)].along - beforeAlong) / gap : 0.5);
+		}
+	}
+
+	SurfacePoint onInputEdge(const InputPoint& p) const
+	{
+		SurfacePoint x;
+		x.vertex = {m_input.origin(2 * p.curve), m_input.target(2 * p.curve), 0, 0};
+		x.weight = {1.0 - p.along, p.along, 0.0, 0.0};
+		return x;
+	}
+
+	/// Fills EndPlace and scale of the nodes of start edge e: on end edges, or between two of them.
+	void locateOnEnd(int e, int base, double gi, double gj)
+	{
+		const int             count = static_cast<int>(m_edgePoints.size());
+		const Curve&          way   = m_startCurves[at(e)];
+		std::array<double, 2> before {1.0, 0.0};
+		double                beforeSum = 1.0 / endRadius(m_start.origin(2 * e));
+		int                   passed    = 0; // end edges crossed so far
+		for (int k = 0; k < count; ++k) {
+			Node&                 node = m_nodes[at(m_onEdge[at(base + k)])];
+			const double          t    = m_edgePoints[at(k)].along;
+			std::array<double, 2> here {(1.0 - t) * gi, t * gj};
+			if (m_edgePoints[at(k)].end >= 0) {
+				const HomogeneousPoint& p  = m_endPoints[at(m_edgePoints[at(k)].end)];
+				const double            ga = endRadius(m_end.origin(2 * p.curve));
+				const double            gb = endRadius(m_end.target(2 * p.curve));
+				node.end.kind              = EndPlace::Edge;
+				node.end.element           = p.curve;
+				node.end.along             = keepInside(along(p.onEnd, ga, gb));
+				before                     = p.onStart;
+				beforeSum                  = p.onEnd[0] / ga + p.onEnd[1] / gb;
+				node.scale                 = beforeSum / (p.onStart[0] / gi + p.onStart[1] / gj);
+				++passed;
+				continue;
+			}
+			if (way.crossings.empty()) { // the start edge is an end edge
+				const int    c = Triangulation::edge(way.first);
+				const double ea = here[0] / endRadius(m_start.origin(2 * e));
+				const double eb = here[1] / endRadius(m_start.target(2 * e));
+				node.end.kind    = EndPlace::Edge;
+				node.end.element = c;
+				node.end.along   = keepInside(way.first % 2 == 0 ? eb / (ea + eb) : ea / (ea + eb));
+				node.scale       = ea + eb;
+				continue;
+			}
+			int next = k + 1;
+			while (next < count && m_edgePoints[at(next)].end < 0)
+				++next;
+			std::array<double, 2> after {0.0, 1.0};
+			double                afterSum = 1.0 / endRadius(m_start.target(2 * e));
+			if (next < count) {
+				const HomogeneousPoint& p = m_endPoints[at(m_edgePoints[at(next)].end)];
+				after                     = p.onStart;
+				afterSum                  = p.onEnd[0] / endRadius(m_end.origin(2 * p.curve)) +
+						   p.onEnd[1] / endRadius(m_end.target(2 * p.curve));
+			}
+			// here = s before + r after.
+			const double det = before[0] * after[1] - before[1] * after[0];
+			const double s   = std::max(0.0, (here[0] * after[1] - here[1] * after[0]) / det) * beforeSum;
+			const double r   = std::max(0.0, (before[0] * here[1] - before[1] * here[0]) / det) * afterSum;
+			const double share = keepInside(r / (s + r));
+			node.scale         = s + r;
+			node.end.kind      = EndPlace::Face;
+			const auto from    = startOfInterval(way, passed, e);
+			const auto to      = endOfInterval(way, passed, e);
+			node.end.element   = from.first;
+			for (std::size_t c = 0; c < 3; ++c)
+				node.end.corner[c] = mix(from.second[c], to.second[c], share);
+		}
+	}
+
+	using InFace = std::pair<int, std::array<double, 3>>;
+
+	/// Weights, in end face face(g), of the point on g at \p x from its origin.
+	InFace onSide(int g, double x) const
+	{
+		InFace     p {m_end.face(g), {0, 0, 0}};
+		const auto h = m_end.halfedges(p.first);
+		for (std::size_t k = 0; k < 3; ++k)
+			if (h[k] == g) {
+				p.second[k]           = 1.0 - x;
+				p.second[(k + 1) % 3] = x;
+			}
+		return p;
+	}
+
+	/// The end point of a start edge's way that is number \p index of its crossings, seen from halfedge
+	/// g of the end triangulation.
+	InFace crossingOn(int g, int index, int e) const
+	{
+		const HomogeneousPoint& p = m_endPoints[at(m_firstEnd[at(e)] + index)];
+		const double            x = keepInside(along(
+            p.onEnd, endRadius(m_end.origin(2 * p.curve)), endRadius(m_end.target(2 * p.curve))));
+		return onSide(g, g % 2 == 0 ? x : 1.0 - x);
+	}
+
+	InFace startOfInterval(const Curve& way, int passed, int e) const
+	{
+		if (passed == 0)
+			return onSide(way.first, 0.0);
+		return crossingOn(Triangulation::twin(way.crossings[at(passed - 1)].halfedge), passed - 1, e);
+	}
+
+	InFace endOfInterval(const Curve& way, int passed, int e) const
+	{
+		if (passed == static_cast<int>(way.crossings.size()))
+			return onSide(way.last, 0.0);
+		return crossingOn(way.crossings[at(passed)].halfedge, passed, e);
+	}
+
+	int countOn(int e) const { return m_firstOnEdge[at(e) + 1] - m_firstOnEdge[at(e)]; }
+
+	/// Index of a node of a side counted from the origin of halfedge h.
+	int indexFrom(int h, int index) const
+	{
+		return h % 2 == 0 ? index : countOn(Triangulation::edge(h)) - 1 - index;
+	}
+
+	int nodeOn(int h, int index) const
+	{
+		return m_onEdge[at(m_firstOnEdge[at(Triangulation::edge(h))] + indexFrom(h, index))];
+	}
+
+	double alongOn(int h, int index) const
+	{
+		const double t =
+			m_alongEdge[at(m_firstOnEdge[at(Triangulation::edge(h))] + indexFrom(h, index))];
+		return h % 2 == 0 ? t : 1.0 - t;
+	}
+
+	void collectChords()
+	{
+		const auto collect = [&](const std::vector<Curve>& curves, bool ofInput) {
+			for (std::size_t c = 0; c < curves.size(); ++c) {
+				const Curve& curve = curves[c];
+				if (curve.crossings.empty())
+					continue;
+				Chord chord;
+				chord.curve     = static_cast<int>(c);
+				chord.ofInput   = ofInput;
+				chord.from      = curve.first;
+				chord.fromIndex = -1;
+				chord.fromAlong = 0.0;
+				for (const auto& x : curve.crossings) {
+					const int slot  = ofInput ? inputSlot(x) : endSlot(x);
+					const int index = ofInput ? m_indexOfInput[at(slot)] : m_indexOfEnd[at(slot)];
+					const int node =
+						m_onEdge[at(m_firstOnEdge[at(Triangulation::edge(x.halfedge))] + index)];
+					chord.face    = m_start.face(x.halfedge);
+					chord.to      = x.halfedge;
+					chord.toIndex = indexFrom(x.halfedge, index);
+					chord.toAlong = ofInput ? m_inputPoints[at(slot)].along : m_nodes[at(node)].end.along;
+					m_chords.push_back(chord);
+					chord.from      = Triangulation::twin(x.halfedge);
+					chord.fromIndex = indexFrom(chord.from, index);
+					chord.fromAlong = chord.toAlong;
+				}
+				chord.face    = m_start.face(chord.from);
+				chord.to      = curve.last;
+				chord.toIndex = -1;
+				chord.toAlong = 1.0;
+				m_chords.push_back(chord);
+			}
+		};
+		collect(m_inputCurves, true);
+		collect(m_endCurves, false);
+		std::stable_sort(m_chords.begin(), m_chords.end(), [](const Chord& a, const Chord& b) {
+			return a.face < b.face;
+		});
+		m_firstChord.assign(at(m_start.faceCount()) + 1, 0);
+		for (const Chord& c : m_chords)
+			++m_firstChord[at(c.face) + 1];
+		std::partial_sum(m_firstChord.begin(), m_firstChord.end(), m_firstChord.begin());
+		// Sides on start edges come first among the names of sides.
+		m_firstSide.assign(at(m_start.edgeCount()) + 1, 0);
+		for (int e = 0; e < m_start.edgeCount(); ++e)
+			m_firstSide[at(e) + 1] = m_firstSide[at(e)] + countOn(e) + 1;
+		m_sideCount = m_firstSide.back();
+	}
+
+	/// Input halfedge that start halfedge h coincides with, or -1; likewise for the end.
+	int inputAlong(int h) const
+	{
+		return m_inputOnStart->isCurve(Triangulation::edge(h)) ? m_inputOnStart->originalAtOrBefore(h) : -1;
+	}
+
+	int endAlong(int h) const
+	{
+		return m_endOnStart->isCurve(Triangulation::edge(h)) ? m_endOnStart->originalAtOrBefore(h) : -1;
+	}
+
+	/// Divides start triangle f by its chords.
+	void divide(int f)
+	{
+		const auto h = m_start.halfedges(f);
+		m_cornerPlace[0] = 0;
+		for (std::size_t k = 0; k < 3; ++k)
+			m_cornerPlace[k + 1] = m_cornerPlace[k] + 1 + countOn(Triangulation::edge(h[k]));
+		std::vector<PieceCorner> whole;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const int e = Triangulation::edge(h[k]), count = countOn(e);
+			const int input = inputAlong(h[k]), end = endAlong(h[k]);
+			for (int i = -1; i < count; ++i) {
+				PieceCorner c;
+				c.node    = i < 0 ? m_start.origin(h[k]) : nodeOn(h[k], i);
+				c.place   = static_cast<int>(whole.size());
+				c.chord   = -1;
+				c.edge    = m_firstSide[at(e)] + (h[k] % 2 == 0 ? i + 1 : count - 1 - i);
+				c.onChord = -1;
+				c.input   = input;
+				c.end     = end;
+				whole.push_back(c);
+			}
+		}
+		const std::size_t firstPiece = m_pieces.size();
+		m_pieces.push_back(std::move(whole));
+		m_pieceStart.push_back(f);
+		for (int c = m_firstChord[at(f)]; c < m_firstChord[at(f) + 1]; ++c)
+			if (m_chords[at(c)].ofInput)
+				splitBy(c, f, firstPiece);
+		for (int c = m_firstChord[at(f)]; c < m_firstChord[at(f) + 1]; ++c)
+			if (!m_chords[at(c)].ofInput)
+				splitBy(c, f, firstPiece);
+		nameCorners(f, firstPiece);
+	}
+
+	int placeOf(int f, int halfedge, int index) const
+	{
+		const auto h = m_start.halfedges(f);
+		for (std::size_t k = 0; k < 3; ++k)
+			if (h[k] == halfedge)
+				return m_cornerPlace[k] + 1 + index; // a corner has index -1
+		throw Error("The overlay is inconsistent.");
+	}
+
+	/// +1 for places strictly between the chord's ends counter-clockwise, -1 on the other side, 0 at
+	/// the ends.
+	static int sideOf(int place, int from, int to)
+	{
+		if (place == from || place == to)
+			return 0;
+		return from < to ? (place > from && place < to ? 1 : -1) :
+						   (place > from || place < to ? 1 : -1);
+	}
+
+	int sideOf(const PieceCorner& c, int f, int from, int to) const
+	{
+		if (c.place >= 0)
+			return sideOf(c.place, from, to);
+		// An inner node lies on an end edge's chord, which does not cross this one.
+		const Chord& other = m_chords[at(c.chord)];
+		const int    side  = sideOf(placeOf(f, other.from, other.fromIndex), from, to);
+		return side != 0 ? side : sideOf(placeOf(f, other.to, other.toIndex), from, to);
+	}
+
+	struct SplitSide
+	{
+		int node, firstHalf, secondHalf; // halves in the direction of the input's even halfedge
+	};
+
+	void splitBy(int chordIndex, int f, std::size_t firstPiece)
+	{
+		const Chord& chord = m_chords[at(chordIndex)];
+		const int    from  = placeOf(f, chord.from, chord.fromIndex);
+		const int    to    = placeOf(f, chord.to, chord.toIndex);
+		m_splitSides.clear();
+		const std::size_t pieceCount = m_pieces.size();
+		for (std::size_t p = firstPiece; p < pieceCount; ++p) {
+			const auto& piece = m_pieces[p];
+			m_sides.resize(piece.size());
+			bool left = false, right = false;
+			for (std::size_t i = 0; i < piece.size(); ++i) {
+				m_sides[i] = sideOf(piece[i], f, from, to);
+				left |= m_sides[i] > 0;
+				right |= m_sides[i] < 0;
+			}
+			if (!left || !right) {
+				labelSide(p, chordIndex, from, to);
+				continue;
+			}
+			splitPiece(p, chordIndex, f);
+		}
+	}
+
+	/// A chord that joins the same two places as one of an input edge runs along it.
+	void labelSide(std::size_t p, int chordIndex, int from, int to)
+	{
+		const Chord& chord = m_chords[at(chordIndex)];
+		if (chord.ofInput)
+			return;
+		auto& piece = m_pieces[p];
+		for (std::size_t i = 0; i < piece.size(); ++i) {
+			const PieceCorner& next = piece[(i + 1) % piece.size()];
+			if (piece[i].onChord < 0)
+				continue;
+			if (piece[i].place == from && next.place == to)
+				piece[i].end = 2 * chord.curve;
+			else if (piece[i].place == to && next.place == from)
+				piece[i].end = 2 * chord.curve + 1;
+		}
+	}
+
+	void splitPiece(std::size_t p, int chordIndex, int f)
+	{
+		const Chord                    chord = m_chords[at(chordIndex)];
+		const std::vector<PieceCorner> piece = m_pieces[p];
+		const std::size_t              n     = piece.size();
+		std::vector<PieceCorner>       left, right; // left: places between from and to
+		const int                      newSide = m_sideCount++;
+		const auto                     leaves  = [&](PieceCorner c, bool ofLeft) {
+            // The left part runs back from the chord's end to its beginning.
+            const int direction = 2 * chord.curve + (ofLeft ? 1 : 0);
+            c.edge              = newSide;
+            c.onChord           = chordIndex;
+            c.input             = chord.ofInput ? direction : -1;
+            c.end               = chord.ofInput ? -1 : direction;
+            (ofLeft ? left : right).push_back(c);
+		};
+		for (std::size_t i = 0; i < n; ++i) {
+			const PieceCorner& c     = piece[i];
+			const int          here  = m_sides[i], after = m_sides[(i + 1) % n];
+			const int          before = m_sides[(i + n - 1) % n];
+			if (here > 0)
+				left.push_back(c);
+			else if (here < 0)
+				right.push_back(c);
+			else {
+				// An end of the chord: the left part enters at the beginning and leaves at the end.
+				const bool endsLeft = before > 0 || after < 0;
+				if (endsLeft) {
+					leaves(c, true);
+					right.push_back(c);
+				}
+				else {
+					leaves(c, false);
+					left.push_back(c);
+				}
+			}
+			if (here * after < 0) {
+				const SplitSide split   = crossSide(c, chordIndex, f);
+				const bool      forward = c.input % 2 == 0;
+				PieceCorner     x       = c;
+				x.node                  = split.node;
+				x.place                 = -1;
+				x.chord                 = chordIndex;
+				x.edge                  = forward ? split.secondHalf : split.firstHalf;
+				(here > 0 ? left : right).back().edge = forward ? split.firstHalf : split.secondHalf;
+				if (here > 0) { // from left to right
+					leaves(x, true);
+					right.push_back(x);
+				}
+				else {
+					leaves(x, false);
+					left.push_back(x);
+				}
+			}
+		}
+		m_pieces[p] = std::move(left);
+		m_pieces.push_back(std::move(right));
+		m_pieceStart.push_back(f);
+	}
+
+	/// The node where an end edge's chord crosses a part of an input edge's chord.
+	SplitSide crossSide(const PieceCorner& side, int endChord, int f)
+	{
+		const auto known = m_splitSides.find(side.edge);
+		if (known != m_splitSides.end())
+			return known->second;
+		const Chord &a = m_chords[at(side.onChord)], &b = m_chords[at(endChord)];
+		const Point2 p = pointOf(f, a.from, a.fromIndex), q = pointOf(f, a.to, a.toIndex);
+		const Point2 r = pointOf(f, b.from, b.fromIndex), s = pointOf(f, b.to, b.toIndex);
+		const auto   cross = [](const Point2& o, const Point2& x, const Point2& y) {
+            return (x[0] - o[0]) * (y[1] - o[1]) - (x[1] - o[1]) * (y[0] - o[0]);
+		};
+		const double onA = keepInside(cross(r, s, p) / (cross(r, s, p) - cross(r, s, q)));
+		const double onB = keepInside(cross(p, q, r) / (cross(p, q, r) - cross(p, q, s)));
+
+		Node       node;
+		InputPoint x;
+		x.curve          = a.curve;
+		x.along          = mix(a.fromAlong, a.toAlong, onA);
+		node.point       = onInputEdge(x);
+		const double w0  = (1.0 - onB) * m_nodes[at(nodeAt(b.from, b.fromIndex))].scale;
+		const double w1  = onB * m_nodes[at(nodeAt(b.to, b.toIndex))].scale;
+		node.end.kind    = EndPlace::Edge;
+		node.end.element = b.curve;
+		node.end.along   = keepInside(mix(b.fromAlong, b.toAlong, w1 / (w0 + w1)));
+		SplitSide split {static_cast<int>(m_nodes.size()), m_sideCount, m_sideCount + 1};
+		m_sideCount += 2;
+		m_nodes.push_back(node);
+		m_splitSides.emplace(side.edge, split);
+		return split;
+	}
+
+	int nodeAt(int h, int index) const { return index < 0 ? m_start.origin(h) : nodeOn(h, index); }
+
+	/// A place on the border of start triangle f, in affine coordinates of the triangle.
+	Point2 pointOf(int f, int h, int index) const
+	{
+		static constexpr Point2 corner[3] = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
+		const auto              halfedges = m_start.halfedges(f);
+		const auto k = static_cast<std::size_t>(std::find(halfedges.begin(), halfedges.end(), h) -
+												halfedges.begin());
+		if (index < 0)
+			return corner[k];
+		const double t = alongOn(h, index);
+		const Point2 &a = corner[k], &b = corner[(k + 1) % 3];
+		return {mix(a[0], b[0], t), mix(a[1], b[1], t)};
+	}
+
+	/// At the vertices of start triangle f: which corner of the input's and of the end's triangles each
+	/// piece has, by counting the chords that leave the vertex clockwise before the piece.
+	void nameCorners(int f, std::size_t firstPiece)
+	{
+		const auto h      = m_start.halfedges(f);
+		const int  places = m_cornerPlace[3];
+		for (std::size_t p = firstPiece; p < m_pieces.size(); ++p) {
+			auto& piece = m_pieces[p];
+			for (PieceCorner& c : piece) {
+				if (c.place < 0)
+					continue;
+				const auto corner =
+					std::find(m_cornerPlace.begin(), m_cornerPlace.begin() + 3, c.place) -
+					m_cornerPlace.begin();
+				if (corner == 3)
+					continue;
+				const int halfedge = h[static_cast<std::size_t>(corner)];
+				c.inputCorner = cornerAfter(c, f, halfedge, places, true);
+				c.endCorner   = cornerAfter(c, f, halfedge, places, false);
+			}
+		}
+	}
+
+	int cornerAfter(const PieceCorner& c, int f, int halfedge, int places, bool ofInput) const
+	{
+		const int along = ofInput ? c.input : c.end;
+		if (along >= 0)
+			return along;
+		const NormalCoordinates& coordinates = ofInput ? *m_inputOnStart : *m_endOnStart;
+		const Triangulation&     t           = ofInput ? m_input : m_end;
+		int                      corner      = coordinates.originalAtOrBefore(halfedge);
+		if (c.onChord < 0)
+			return corner;
+		const auto distanceTo = [&](const Chord& chord) {
+			const int from = placeOf(f, chord.from, chord.fromIndex);
+			const int to   = placeOf(f, chord.to, chord.toIndex);
+			const int far  = from == c.place ? to : to == c.place ? from : -1;
+			return far < 0 ? -1 : (far - c.place + places) % places;
+		};
+		const int mine = distanceTo(m_chords[at(c.onChord)]);
+		for (int k = m_firstChord[at(f)]; k < m_firstChord[at(f) + 1]; ++k) {
+			const Chord& other = m_chords[at(k)];
+			if (other.ofInput != ofInput)
+				continue;
+			const int distance = distanceTo(other);
+			if (distance >= 0 && distance < mine)
+				corner = Triangulation::twin(t.previous(corner));
+		}
+		return corner;
+	}
+
+	/// The two pieces at every side.
+	struct Link
+	{
+		int piece = -1, corner = -1;
+	};
+
+	void linkPieces()
+	{
+		m_links.assign(at(m_sideCount), {Link(), Link()});
+		for (std::size_t p = 0; p < m_pieces.size(); ++p)
+			for (std::size_t i = 0; i < m_pieces[p].size(); ++i) {
+				auto& link = m_links[at(m_pieces[p][i].edge)];
+				(link[0].piece < 0 ? link[0] : link[1]) = {static_cast<int>(p), static_cast<int>(i)};
+			}
+	}
+
+	Link across(int piece, int corner) const
+	{
+		const auto& link = m_links[at(m_pieces[at(piece)][at(corner)].edge)];
+		return link[0].piece == piece && link[0].corner == corner ? link[1] : link[0];
+	}
+
+	/// Input and end face of every piece: from its sides, corners or nodes, else from a neighbour.
+	void findFaces()
+	{
+		m_inputFace.assign(m_pieces.size(), -1);
+		m_endFace.assign(m_pieces.size(), -1);
+		for (std::size_t p = 0; p < m_pieces.size(); ++p)
+			for (const PieceCorner& c : m_pieces[p]) {
+				if (c.input >= 0)
+					m_inputFace[p] = m_input.face(c.input);
+				else if (c.inputCorner >= 0)
+					m_inputFace[p] = m_input.face(c.inputCorner);
+				if (c.end >= 0)
+					m_endFace[p] = m_end.face(c.end);
+				else if (c.endCorner >= 0)
+					m_endFace[p] = m_end.face(c.endCorner);
+				else if (m_nodes[at(c.node)].end.kind == EndPlace::Face)
+					m_endFace[p] = m_nodes[at(c.node)].end.element;
+			}
+		spread(m_inputFace, [](const PieceCorner& c) { return c.input >= 0; });
+		spread(m_endFace, [](const PieceCorner& c) { return c.end >= 0; });
+	}
+
+	template<class IsBorder>
+	void spread(std::vector<int>& face, IsBorder isBorder) const
+	{
+		std::vector<int> queue;
+		for (std::size_t p = 0; p < face.size(); ++p)
+			if (face[p] >= 0)
+				queue.push_back(static_cast<int>(p));
+		for (std::size_t head = 0; head < queue.size(); ++head) {
+			const auto& piece = m_pieces[at(queue[head])];
+			for (std::size_t i = 0; i < piece.size(); ++i) {
+				if (isBorder(piece[i]))
+					continue;
+				const Link next = across(queue[head], static_cast<int>(i));
+				if (next.piece >= 0 && face[at(next.piece)] < 0) {
+					face[at(next.piece)] = face[at(queue[head])];
+					queue.push_back(next.piece);
+				}
+			}
+		}
+	}
+
+	/// Position of a piece's corner in its end triangle, drawn with its first halfedge on the x axis.
+	Point2 inEndTriangle(int p, std::size_t corner) const
+	{
+		const auto&        piece = m_pieces[at(p)];
+		const PieceCorner& c     = piece[corner];
+		const int          f     = m_endFace[at(p)];
+		const auto         h     = m_end.halfedges(f);
+		const EndPlace&    end   = m_nodes[at(c.node)].end;
+		InFace             weights;
+		if (end.kind == EndPlace::Face)
+			weights = {f, end.corner};
+		else if (end.kind == EndPlace::Vertex) {
+			int g = c.endCorner;
+			if (g < 0 || m_end.face(g) != f)
+				for (int other : h)
+					if (m_end.origin(other) == end.element)
+						g = other;
+			weights = onSide(g, 0.0);
+		}
+		else {
+			int        g      = -1;
+			const auto offer  = [&](int other) {
+                if (other >= 0 && Triangulation::edge(other) == end.element && m_end.face(other) == f)
+                    g = other;
+			};
+			for (int other : h)
+				offer(other);
+			offer(piece[(corner + piece.size() - 1) % piece.size()].end);
+			offer(c.end);
+			if (g < 0)
+				throw Error("The overlay is inconsistent.");
+			weights = onSide(g, g % 2 == 0 ? end.along : 1.0 - end.along);
+		}
+		const double base  = (*m_s.endLengths)[at(Triangulation::edge(h[0]))];
+		const double left  = (*m_s.endLengths)[at(Triangulation::edge(h[2]))];
+		const double theta = (*m_s.endAngles)[at(h[0])];
+		return {weights.second[1] * base + weights.second[2] * left * std::cos(theta),
+				weights.second[2] * left * std::sin(theta)};
+	}
+
+	/// Direction of halfedge g in the drawing of its end triangle.
+	double directionOf(int g) const
+	{
+		const auto h = m_end.halfedges(m_end.face(g));
+		if (g == h[0])
+			return 0.0;
+		if (g == h[1])
+			return kPi - (*m_s.endAngles)[at(h[1])];
+		return (*m_s.endAngles)[at(h[0])] - kPi;
+	}
+
+	bool isClosed(const PieceCorner& c) const
+	{
+		return c.input >= 0 && m_isCut[at(Triangulation::edge(c.input))];
+	}
+
+	/// Lays the pieces out breadth first across everything but the cut. A piece is drawn in the frame
+	/// of its end triangle: turned by an angle, then moved.
+	void layOut()
+	{
+		// Corners of pieces that are one point of the layout.
+		m_firstCorner.assign(m_pieces.size() + 1, 0);
+		for (std::size_t p = 0; p < m_pieces.size(); ++p)
+			m_firstCorner[p + 1] = m_firstCorner[p] + static_cast<int>(m_pieces[p].size());
+		std::vector<int> parent(at(m_firstCorner.back()));
+		std::iota(parent.begin(), parent.end(), 0);
+		const auto find = [&](int i) {
+			while (parent[at(i)] != i)
+				i = parent[at(i)] = parent[at(parent[at(i)])];
+			return i;
+		};
+		const auto merge = [&](int a, int b) {
+			a = find(a), b = find(b);
+			parent[at(std::max(a, b))] = std::min(a, b);
+		};
+		const auto cornerOf = [&](int p, int i) {
+			const int n = static_cast<int>(m_pieces[at(p)].size());
+			return m_firstCorner[at(p)] + i % n;
+		};
+		for (const auto& link : m_links) {
+			if (link[1].piece < 0 || isClosed(m_pieces[at(link[0].piece)][at(link[0].corner)]))
+				continue;
+			merge(cornerOf(link[0].piece, link[0].corner), cornerOf(link[1].piece, link[1].corner + 1));
+			merge(cornerOf(link[0].piece, link[0].corner + 1), cornerOf(link[1].piece, link[1].corner));
+		}
+
+		struct Frame
+		{
+			double turn = 0.0, x = 0.0, y = 0.0;
+			Point2 operator()(const Point2& p) const
+			{
+				const double c = std::cos(turn), s = std::sin(turn);
+				return {x + c * p[0] - s * p[1], y + s * p[0] + c * p[1]};
+			}
+		};
+		std::vector<Frame> frames(m_pieces.size());
+		std::vector<char>  seen(m_pieces.size(), 0);
+		m_point.resize(at(m_firstCorner.back()));
+		std::vector<char> placed(m_point.size(), 0);
+		const auto        placePiece = [&](int p) {
+            for (std::size_t i = 0; i < m_pieces[at(p)].size(); ++i) {
+                const int c = find(cornerOf(p, static_cast<int>(i)));
+                if (!placed[at(c)]) {
+                    placed[at(c)]  = 1;
+                    m_point[at(c)] = frames[at(p)](inEndTriangle(p, i));
+                }
+            }
+		};
+		std::vector<int> queue {0};
+		seen[0] = 1;
+		placePiece(0);
+		for (std::size_t head = 0; head < queue.size(); ++head) {
+			const int p = queue[head];
+			for (std::size_t i = 0; i < m_pieces[at(p)].size(); ++i) {
+				const PieceCorner& c    = m_pieces[at(p)][i];
+				const Link         next = across(p, static_cast<int>(i));
+				if (next.piece < 0 || isClosed(c) || seen[at(next.piece)])
+					continue;
+				Frame frame = frames[at(p)];
+				if (c.end >= 0) {
+					const int there = Triangulation::twin(c.end);
+					frame.turn      = std::remainder(
+                        frame.turn + directionOf(c.end) + kPi - directionOf(there), 2 * kPi);
+					const InFace near = onSide(c.end, 0.5), far = onSide(there, 0.5);
+					const Point2 a = frames[at(p)](drawn(near)), b = frame(drawn(far));
+					frame.x += a[0] - b[0];
+					frame.y += a[1] - b[1];
+				}
+				seen[at(next.piece)]   = 1;
+				frames[at(next.piece)] = frame;
+				queue.push_back(next.piece);
+				placePiece(next.piece);
+			}
+		}
+		for (std::size_t c = 0; c < m_point.size(); ++c)
+			m_point[c] = m_point[at(find(static_cast<int>(c)))];
+	}
+
+	Point2 drawn(const InFace& p) const
+	{
+		const auto   h     = m_end.halfedges(p.first);
+		const double base  = (*m_s.endLengths)[at(Triangulation::edge(h[0]))];
+		const double left  = (*m_s.endLengths)[at(Triangulation::edge(h[2]))];
+		const double theta = (*m_s.endAngles)[at(h[0])];
+		return {p.second[1] * base + p.second[2] * left * std::cos(theta),
+				p.second[2] * left * std::sin(theta)};
+	}
+
+	CommonRefinement result()
+	{
+		CommonRefinement r;
+		r.crossings = m_nodes.size() - at(m_start.vertexCount());
+		for (const Node& node : m_nodes)
+			r.points.push_back(node.point);
+		std::vector<Point3> space;
+		for (const SurfacePoint& p : r.points)
+			space.push_back(placeOnSurface(p, m_positions));
+		for (std::size_t p = 0; p < m_pieces.size(); ++p)
+			triangulate(p, space, r);
+
+		int sectorCount      = 0;
+		r.inputLayout.sector = cornerSectors(m_input, m_isCut, sectorCount);
+		r.inputLayout.position.assign(at(sectorCount), {0.0, 0.0});
+		for (std::size_t p = 0; p < m_pieces.size(); ++p)
+			for (std::size_t i = 0; i < m_pieces[p].size(); ++i) {
+				const int h = m_pieces[p][i].inputCorner;
+				if (h >= 0 && !m_input.isOuter(h))
+					r.inputLayout.position[at(r.inputLayout.sector[at(h)])] =
+						m_point[at(m_firstCorner[p]) + i];
+			}
+		return r;
+	}
+
+	/// Triangles of a convex piece, some of whose corners may be straight: the triangulation whose
+	/// worst triangle, in the plane and in space, is best.
+	void triangulate(std::size_t p, const std::vector<Point3>& space, CommonRefinement& r) const
+	{
+		const auto&       piece = m_pieces[p];
+		const std::size_t n     = piece.size();
+		const auto        emit  = [&](std::size_t a, std::size_t b, std::size_t c) {
+            const Point2* plane = &m_point[at(m_firstCorner[p])];
+            r.triangles.push_back({piece[a].node, piece[b].node, piece[c].node});
+            r.inputFace.push_back(m_inputFace[p]);
+            r.uv.push_back({plane[a], plane[b], plane[c]});
+		};
+		if (n == 3)
+			return emit(0, 1, 2);
+		const auto quality = [&](std::size_t a, std::size_t b, std::size_t c) {
+			const Point2* plane = &m_point[at(m_firstCorner[p])];
+			double        area = (plane[b][0] - plane[a][0]) * (plane[c][1] - plane[a][1]) -
+						  (plane[b][1] - plane[a][1]) * (plane[c][0] - plane[a][0]);
+			double longest = 0.0, longestInSpace = 0.0;
+			const std::size_t corner[3] = {a, b, c};
+			for (int k = 0; k < 3; ++k) {
+				const std::size_t x = corner[k], y = corner[(k + 1) % 3];
+				longest = std::max(
+					longest,
+					std::hypot(plane[y][0] - plane[x][0], plane[y][1] - plane[x][1]));
+				longestInSpace = std::max(
+					longestInSpace, distance(space[at(piece[x].node)], space[at(piece[y].node)]));
+			}
+			const Point3 &o = space[at(piece[a].node)], &q = space[at(piece[b].node)],
+						 &s = space[at(piece[c].node)];
+			double e[3], g[3];
+			for (std::size_t k = 0; k < 3; ++k)
+				e[k] = q[k] - o[k], g[k] = s[k] - o[k];
+			const double inSpace = std::hypot(
+				e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2], e[0] * g[1] - e[1] * g[0]);
+			const double plain = longest > 0.0 ? area / (longest * longest) : 0.0;
+			return longestInSpace > 0.0 ?
+					   std::min(plain, inSpace / (longestInSpace * longestInSpace)) :
+					   plain;
+		};
+		// best[i][j]: least quality in the best triangulation of corners i .. j; apex of side ij there.
+		std::vector<double>      best(n * n, std::numeric_limits<double>::infinity());
+		std::vector<std::size_t> apex(n * n, 0);
+		for (std::size_t span = 2; span < n; ++span)
+			for (std::size_t i = 0; i + span < n; ++i) {
+				const std::size_t j = i + span;
+				best[i * n + j]     = -std::numeric_limits<double>::infinity();
+				for (std::size_t k = i + 1; k < j; ++k) {
+					const double q =
+						std::min({quality(i, k, j), best[i * n + k], best[k * n + j]});
+					if (q > best[i * n + j] || k == i + 1) {
+						best[i * n + j] = q;
+						apex[i * n + j] = k;
+					}
+				}
+			}
+		std::vector<std::pair<std::size_t, std::size_t>> stack {{0, n - 1}};
+		while (!stack.empty()) {
+			const auto [i, j] = stack.back();
+			stack.pop_back();
+			if (j - i < 2)
+				continue;
+			const std::size_t k = apex[i * n + j];
+			emit(i, k, j);
+			stack.push_back({i, k});
+			stack.push_back({k, j});
+		}
+	}
+
+	const FlippedSurface&      m_s;
+	const std::vector<Point3>& m_positions;
+	const std::vector<char>&   m_isCut;
+	const Triangulation&       m_input;
+	const Triangulation&       m_start;
+	const Triangulation&       m_end;
+
+	std::unique_ptr<NormalCoordinates> m_inputOnStart, m_endOnStart;
+	std::vector<Curve>                 m_inputCurves, m_endCurves, m_startCurves;
+	std::vector<int>                   m_firstInput, m_firstEnd; // [start edge] into the points
+	std::vector<InputPoint>            m_inputPoints;
+	std::vector<HomogeneousPoint>      m_endPoints;
+
+	std::vector<Node>      m_nodes;
+	std::vector<int>       m_firstOnEdge, m_onEdge; // [start edge] its inner nodes, in order
+	std::vector<double>    m_alongEdge;
+	std::vector<int>       m_indexOfInput, m_indexOfEnd; // [slot] index on its start edge
+	std::vector<EdgePoint> m_edgePoints;
+
+	std::vector<Chord> m_chords; // by start face
+	std::vector<int>   m_firstChord, m_firstSide;
+	int                m_sideCount = 0;
+
+	std::array<int, 4>                       m_cornerPlace {0, 0, 0, 0};
+	std::vector<std::vector<PieceCorner>>    m_pieces;
+	std::vector<int>                         m_pieceStart; // start face
+	std::vector<int>                         m_sides;
+	std::unordered_map<int, SplitSide>       m_splitSides;
+	std::vector<std::array<Link, 2>>         m_links;
+	std::vector<int>                         m_inputFace, m_endFace;
+	std::vector<int>                         m_firstCorner;
+	std::vector<Point2>                      m_point; // [corner of a piece]
+};
+
+} // namespace
+
+Point3 placeOnSurface(const SurfacePoint& p, const std::vector<Point3>& positions)
+{
+	Point3 x {0, 0, 0};
+	for (std::size_t i = 0; i < 4; ++i)
+		if (p.weight[i] != 0.0)
+			for (std::size_t k = 0; k < 3; ++k)
+				x[k] += p.weight[i] * positions[at(p.vertex[i])][k];
+	return x;
+}
+
+CommonRefinement commonRefinement(
+	const FlippedSurface&      surface,
+	const std::vector<Point3>& positions,
+	const std::vector<char>&   isCut)
+{
+	return Overlay(surface, positions, isCut).run();
+}
+
+} // namespace ricci
