@@ -123,7 +123,7 @@ RichParameterList filterParameters(int)
 		"comparison."));
 	list.addParam(RichEnum(
 		"surgery",
-		static_cast<int>(defaults.surgery),
+		static_cast<int>(ricci::Surgery::None),
 		surgeryChoices(),
 		"Surgery",
 		"What to do where the flow breaks the triangle inequality.<br>"

@@ -9,27 +9,7 @@ import unittest
 
 import common
 import meshes
-
-try:
-    import numpy
-    import pymeshlab
-except ImportError as problem:
-    common.skip(f"PyMeshLab cannot be imported here: {problem}")
-
-PLUGIN = os.path.join(common.BUILD, "pymeshlab-2025.7", "libfilter_ricci.so")
-if not os.path.exists(PLUGIN):
-    common.skip("the plugin for PyMeshLab is not built")
-pymeshlab.load_plugin(PLUGIN)
-
-
-def mesh_set(mesh):
-    arrays = {"vertex_matrix": numpy.array(mesh.vertices, dtype=float).reshape(-1, 3),
-              "face_matrix": numpy.array(mesh.faces, dtype=numpy.int32).reshape(-1, 3)}
-    if mesh.quality is not None:
-        arrays["v_scalar_array"] = numpy.array(mesh.quality, dtype=float)
-    documents = pymeshlab.MeshSet(verbose=False)
-    documents.add_mesh(pymeshlab.Mesh(**arrays))
-    return documents
+from pymeshlab_host import numpy, pymeshlab, load, mesh_set, run, select
 
 
 def loaded(mesh):
@@ -37,17 +17,7 @@ def loaded(mesh):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "mesh.ply")
         meshes.write_ply(path, mesh)
-        documents = pymeshlab.MeshSet(verbose=False)
-        documents.load_new_mesh(path)
-    return documents
-
-
-def select(documents, condition):
-    documents.compute_selection_by_condition_per_vertex(condselect=condition)
-
-
-def run(documents, **values):
-    return documents.apply_filter(common.PYTHON_NAME, **values)
+        return load(path)
 
 
 def state(mesh):
@@ -197,7 +167,7 @@ class BadInput(unittest.TestCase):
 
     def test_no_mesh(self):
         with self.assertRaisesRegex(pymeshlab.PyMeshLabException, "at least one mesh"):
-            run(pymeshlab.MeshSet())
+            run(mesh_set(None))
 
     def test_no_faces(self):
         empty = mesh_set(meshes.hill())
@@ -267,7 +237,8 @@ class BadInput(unittest.TestCase):
         """The host turns messages into the local 8-bit encoding, which may be plain ASCII."""
         program = (
             "import sys; sys.argv = ['x', sys.argv[1]]\n"
-            "import common, meshes, test_pymeshlab as t, pymeshlab\n"
+            "import meshes, pymeshlab\n"
+            "import pymeshlab_host as t\n"
             "try:\n"
             "    mesh = meshes.torus()\n"
             "    t.run(t.mesh_set(meshes.with_quality(mesh, [0.01] * len(mesh.vertices))),"
@@ -299,7 +270,7 @@ class Treatment(unittest.TestCase):
         self.assertTrue(numpy.isfinite(documents.current_mesh().vertex_scalar_array()).all())
 
     def test_quads(self):
-        documents = pymeshlab.MeshSet(verbose=False)
+        documents = mesh_set(None)
         grid = meshes.hill(4)
         quads = [[i * 5 + j, (i + 1) * 5 + j, (i + 1) * 5 + j + 1, i * 5 + j + 1]
                  for i in range(4) for j in range(4)]

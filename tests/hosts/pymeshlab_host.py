@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The plugin in PyMeshLab, for the tests."""
+
+import os
+
+import common
+
+try:
+    import numpy
+    import pymeshlab
+except ImportError as problem:
+    common.skip(f"PyMeshLab cannot be imported here: {problem}")
+
+_PLUGIN = os.path.join(common.BUILD, "pymeshlab-2025.7", "libfilter_ricci.so")
+if not os.path.exists(_PLUGIN):
+    common.skip("the plugin for PyMeshLab is not built")
+pymeshlab.load_plugin(_PLUGIN)
+
+# PyMeshLab 2025.7 crashes at a later load when a MeshSet in which any filter, stock filters too, has
+# failed is destroyed: so every MeshSet lives as long as the program.
+_alive = []
+
+
+def _new_set():
+    _alive.append(pymeshlab.MeshSet(verbose=False))
+    return _alive[-1]
+
+
+def mesh_set(mesh):
+    """A MeshSet that holds the mesh, or nothing."""
+    documents = _new_set()
+    if mesh is not None:
+        arrays = {"vertex_matrix": numpy.array(mesh.vertices, dtype=float).reshape(-1, 3),
+                  "face_matrix": numpy.array(mesh.faces, dtype=numpy.int32).reshape(-1, 3)}
+        if mesh.quality is not None:
+            arrays["v_scalar_array"] = numpy.array(mesh.quality, dtype=float)
+        documents.add_mesh(pymeshlab.Mesh(**arrays))
+    return documents
+
+
+def load(path):
+    documents = _new_set()
+    documents.load_new_mesh(path)
+    return documents
+
+
+def select(documents, condition):
+    documents.compute_selection_by_condition_per_vertex(condselect=condition)
+
+
+def run(documents, **values):
+    return documents.apply_filter(common.PYTHON_NAME, **values)
