@@ -1012,55 +1012,36 @@ private:
 		}
 	}
 
-	/// Position of a piece's corner in its end triangle, drawn with its first halfedge on the x axis.
-	Point2 inEndTriangle(int p, std::size_t corner) const
+	/// Weights of the corners of a piece's end triangle, in the order of halfedges(), at a corner of
+	/// the piece.
+	std::array<double, 3> inEndTriangle(int p, std::size_t corner) const
 	{
 		const auto&        piece = m_pieces[at(p)];
 		const PieceCorner& c     = piece[corner];
 		const int          f     = m_endFace[at(p)];
-		const auto         h     = m_end.halfedges(f);
 		const EndPlace&    end   = m_nodes[at(c.node)].end;
-		InFace             weights;
 		if (end.kind == EndPlace::Face)
-			weights = {f, end.corner};
-		else if (end.kind == EndPlace::Vertex) {
-			int g = c.endCorner;
+			return end.corner;
+		int g = -1;
+		if (end.kind == EndPlace::Vertex) {
+			g = c.endCorner;
 			if (g < 0 || m_end.face(g) != f)
-				for (int other : h)
+				for (int other : m_end.halfedges(f))
 					if (m_end.origin(other) == end.element)
 						g = other;
-			weights = onSide(g, 0.0);
+			return onSide(g, 0.0).second;
 		}
-		else {
-			int        g      = -1;
-			const auto offer  = [&](int other) {
-                if (other >= 0 && Triangulation::edge(other) == end.element && m_end.face(other) == f)
-                    g = other;
-			};
-			for (int other : h)
-				offer(other);
-			offer(piece[(corner + piece.size() - 1) % piece.size()].end);
-			offer(c.end);
-			if (g < 0)
-				throw Error("The overlay is inconsistent.");
-			weights = onSide(g, g % 2 == 0 ? end.along : 1.0 - end.along);
-		}
-		const double base  = (*m_s.endLengths)[at(Triangulation::edge(h[0]))];
-		const double left  = (*m_s.endLengths)[at(Triangulation::edge(h[2]))];
-		const double theta = (*m_s.endAngles)[at(h[0])];
-		return {weights.second[1] * base + weights.second[2] * left * std::cos(theta),
-				weights.second[2] * left * std::sin(theta)};
-	}
-
-	/// Direction of halfedge g in the drawing of its end triangle.
-	double directionOf(int g) const
-	{
-		const auto h = m_end.halfedges(m_end.face(g));
-		if (g == h[0])
-			return 0.0;
-		if (g == h[1])
-			return kPi - (*m_s.endAngles)[at(h[1])];
-		return (*m_s.endAngles)[at(h[0])] - kPi;
+		const auto offer = [&](int other) {
+			if (other >= 0 && Triangulation::edge(other) == end.element && m_end.face(other) == f)
+				g = other;
+		};
+		for (int other : m_end.halfedges(f))
+			offer(other);
+		offer(piece[(corner + piece.size() - 1) % piece.size()].end);
+		offer(c.end);
+		if (g < 0)
+			throw Error("The overlay is inconsistent.");
+		return onSide(g, g % 2 == 0 ? end.along : 1.0 - end.along).second;
 	}
 
 	bool isClosed(const PieceCorner& c) const
@@ -1068,96 +1049,113 @@ private:
 		return c.input >= 0 && m_isCut[at(Triangulation::edge(c.input))];
 	}
 
-	/// Lays the pieces out breadth first across everything but the cut. A piece is drawn in the frame
-	/// of its end triangle: turned by an angle, then moved.
+	/// Lays the end triangles out and places the pieces in them. The cut runs on input edges, through
+	/// end triangles: a triangle that it divides is drawn once for each of its parts ("sheets").
 	void layOut()
 	{
-		// Corners of pieces that are one point of the layout.
+		std::vector<int> parent(m_pieces.size());
+		std::iota(parent.begin(), parent.end(), 0);
+		for (const auto& link : m_links) {
+			const PieceCorner& side = m_pieces[at(link[0].piece)][at(link[0].corner)];
+			if (link[1].piece >= 0 && !isClosed(side) && side.end < 0)
+				mergeSets(parent, link[0].piece, link[1].piece);
+		}
+		std::vector<int>      sheet(m_pieces.size(), -1);
+		std::vector<Triangle> triangles;
+		std::vector<int>      faceOfSheet;
+		for (std::size_t p = 0; p < m_pieces.size(); ++p) {
+			if (findSet(parent, static_cast<int>(p)) != static_cast<int>(p))
+				continue;
+			sheet[p]     = static_cast<int>(triangles.size());
+			const auto h = m_end.halfedges(m_endFace[p]);
+			triangles.push_back({m_end.origin(h[0]), m_end.origin(h[1]), m_end.origin(h[2])});
+			faceOfSheet.push_back(m_endFace[p]);
+		}
+		for (std::size_t p = 0; p < m_pieces.size(); ++p)
+			sheet[p] = sheet[at(findSet(parent, static_cast<int>(p)))];
+
+		const auto sideOfSheet = [&](int s, int halfedge) {
+			const auto h = m_end.halfedges(faceOfSheet[at(s)]);
+			return 3 * s + static_cast<int>(std::find(h.begin(), h.end(), halfedge) - h.begin());
+		};
+		std::vector<int> glued(3 * triangles.size(), -1);
+		for (const auto& link : m_links) {
+			const PieceCorner& side = m_pieces[at(link[0].piece)][at(link[0].corner)];
+			if (link[1].piece < 0 || isClosed(side) || side.end < 0)
+				continue;
+			const int a = sideOfSheet(sheet[at(link[0].piece)], side.end);
+			const int b = sideOfSheet(sheet[at(link[1].piece)], Triangulation::twin(side.end));
+			glued[at(a)] = b;
+			glued[at(b)] = a;
+		}
+		const Triangulation sheets(m_end.vertexCount(), triangles, glued);
+		std::vector<double> lengths(at(sheets.edgeCount())), angles(at(sheets.halfedgeCount()), 0.0);
+		for (int s = 0; s < sheets.faceCount(); ++s) {
+			const auto h = sheets.halfedges(s), original = m_end.halfedges(faceOfSheet[at(s)]);
+			for (std::size_t k = 0; k < 3; ++k) {
+				lengths[at(Triangulation::edge(h[k]))] =
+					(*m_s.endLengths)[at(Triangulation::edge(original[k]))];
+				angles[at(h[k])] = (*m_s.endAngles)[at(original[k])];
+			}
+		}
+		const PlanarLayout plane =
+			layOutInPlane(sheets, lengths, angles, std::vector<char>(lengths.size(), 0));
+		placePieces(sheet, sheets, plane);
+	}
+
+	/// Corners of pieces that meet off the cut are one point of the layout.
+	void placePieces(
+		const std::vector<int>& sheet,
+		const Triangulation&    sheets,
+		const PlanarLayout&     plane)
+	{
 		m_firstCorner.assign(m_pieces.size() + 1, 0);
 		for (std::size_t p = 0; p < m_pieces.size(); ++p)
 			m_firstCorner[p + 1] = m_firstCorner[p] + static_cast<int>(m_pieces[p].size());
+		const auto cornerOf = [&](int p, int i) {
+			return m_firstCorner[at(p)] + i % static_cast<int>(m_pieces[at(p)].size());
+		};
 		std::vector<int> parent(at(m_firstCorner.back()));
 		std::iota(parent.begin(), parent.end(), 0);
-		const auto find = [&](int i) {
-			while (parent[at(i)] != i)
-				i = parent[at(i)] = parent[at(parent[at(i)])];
-			return i;
-		};
-		const auto merge = [&](int a, int b) {
-			a = find(a), b = find(b);
-			parent[at(std::max(a, b))] = std::min(a, b);
-		};
-		const auto cornerOf = [&](int p, int i) {
-			const int n = static_cast<int>(m_pieces[at(p)].size());
-			return m_firstCorner[at(p)] + i % n;
-		};
 		for (const auto& link : m_links) {
-			if (link[1].piece < 0 || isClosed(m_pieces[at(link[0].piece)][at(link[0].corner)]))
+			const Link &a = link[0], &b = link[1];
+			if (b.piece < 0 || isClosed(m_pieces[at(a.piece)][at(a.corner)]))
 				continue;
-			merge(cornerOf(link[0].piece, link[0].corner), cornerOf(link[1].piece, link[1].corner + 1));
-			merge(cornerOf(link[0].piece, link[0].corner + 1), cornerOf(link[1].piece, link[1].corner));
+			mergeSets(parent, cornerOf(a.piece, a.corner), cornerOf(b.piece, b.corner + 1));
+			mergeSets(parent, cornerOf(a.piece, a.corner + 1), cornerOf(b.piece, b.corner));
 		}
-
-		struct Frame
-		{
-			double turn = 0.0, x = 0.0, y = 0.0;
-			Point2 operator()(const Point2& p) const
-			{
-				const double c = std::cos(turn), s = std::sin(turn);
-				return {x + c * p[0] - s * p[1], y + s * p[0] + c * p[1]};
-			}
-		};
-		std::vector<Frame> frames(m_pieces.size());
-		std::vector<char>  seen(m_pieces.size(), 0);
 		m_point.resize(at(m_firstCorner.back()));
-		std::vector<char> placed(m_point.size(), 0);
-		const auto        placePiece = [&](int p) {
-            for (std::size_t i = 0; i < m_pieces[at(p)].size(); ++i) {
-                const int c = find(cornerOf(p, static_cast<int>(i)));
-                if (!placed[at(c)]) {
-                    placed[at(c)]  = 1;
-                    m_point[at(c)] = frames[at(p)](inEndTriangle(p, i));
-                }
-            }
-		};
-		std::vector<int> queue {0};
-		seen[0] = 1;
-		placePiece(0);
-		for (std::size_t head = 0; head < queue.size(); ++head) {
-			const int p = queue[head];
-			for (std::size_t i = 0; i < m_pieces[at(p)].size(); ++i) {
-				const PieceCorner& c    = m_pieces[at(p)][i];
-				const Link         next = across(p, static_cast<int>(i));
-				if (next.piece < 0 || isClosed(c) || seen[at(next.piece)])
+		for (std::size_t p = 0; p < m_pieces.size(); ++p) {
+			const auto h = sheets.halfedges(sheet[p]);
+			for (std::size_t i = 0; i < m_pieces[p].size(); ++i) {
+				const int corner = cornerOf(static_cast<int>(p), static_cast<int>(i));
+				const int first  = findSet(parent, corner);
+				if (first != corner) {
+					m_point[at(corner)] = m_point[at(first)];
 					continue;
-				Frame frame = frames[at(p)];
-				if (c.end >= 0) {
-					const int there = Triangulation::twin(c.end);
-					frame.turn      = std::remainder(
-                        frame.turn + directionOf(c.end) + kPi - directionOf(there), 2 * kPi);
-					const InFace near = onSide(c.end, 0.5), far = onSide(there, 0.5);
-					const Point2 a = frames[at(p)](drawn(near)), b = frame(drawn(far));
-					frame.x += a[0] - b[0];
-					frame.y += a[1] - b[1];
 				}
-				seen[at(next.piece)]   = 1;
-				frames[at(next.piece)] = frame;
-				queue.push_back(next.piece);
-				placePiece(next.piece);
+				const auto weight = inEndTriangle(static_cast<int>(p), i);
+				Point2     x {0.0, 0.0};
+				for (std::size_t k = 0; k < 3; ++k)
+					for (std::size_t j = 0; j < 2; ++j)
+						x[j] += weight[k] * plane.at(h[k])[j];
+				m_point[at(corner)] = x;
 			}
 		}
-		for (std::size_t c = 0; c < m_point.size(); ++c)
-			m_point[c] = m_point[at(find(static_cast<int>(c)))];
 	}
 
-	Point2 drawn(const InFace& p) const
+	static int findSet(std::vector<int>& parent, int i)
 	{
-		const auto   h     = m_end.halfedges(p.first);
-		const double base  = (*m_s.endLengths)[at(Triangulation::edge(h[0]))];
-		const double left  = (*m_s.endLengths)[at(Triangulation::edge(h[2]))];
-		const double theta = (*m_s.endAngles)[at(h[0])];
-		return {p.second[1] * base + p.second[2] * left * std::cos(theta),
-				p.second[2] * left * std::sin(theta)};
+		while (parent[at(i)] != i)
+			i = parent[at(i)] = parent[at(parent[at(i)])];
+		return i;
+	}
+
+	/// The lowest member stands for its set.
+	static void mergeSets(std::vector<int>& parent, int a, int b)
+	{
+		a = findSet(parent, a), b = findSet(parent, b);
+		parent[at(std::max(a, b))] = std::min(a, b);
 	}
 
 	CommonRefinement result()
