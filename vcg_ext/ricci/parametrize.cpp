@@ -191,6 +191,10 @@ private:
 				[&](int step, double residual) { progress(m_iterations + step, residual); });
 			m_iterations += m_flow.iterations;
 			m_swaps += m_flow.edgeSwaps;
+			if (m_flow.lengthened > 0.0)
+				m_interval.log(
+					"Some faces have no area, or an edge without length: the flow sees every edge longer by " +
+					text("%.3g", m_flow.lengthened) + ".");
 			if (m_flow.edgesToSplit.empty())
 				return;
 			splitBoundary();
@@ -493,6 +497,8 @@ Parametrization parametrizeEuclidean(
 	progress.step(0.0, "Checking the mesh");
 	Parametrization              result;
 	const std::vector<Component> components = splitIntoComponents(mesh, result.notes);
+	if (options.surgery != Surgery::IntrinsicFlips)
+		requireAreaEverywhere(components);
 	for (const std::string& note : result.notes)
 		progress.log(note);
 	result.uv.resize(mesh.triangles.size());

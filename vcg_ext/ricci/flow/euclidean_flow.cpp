@@ -166,6 +166,7 @@ FlowResult runEuclideanFlow(
 		map               = std::move(flips);
 		result.start      = std::move(start.mesh);
 		result.startFlips = std::move(start.flips);
+		result.lengthened = start.lengthened;
 	}
 	else {
 		radii = initialRadii(t, lengths);

@@ -33,6 +33,7 @@ struct FlowResult
 	std::vector<double> startDelta; ///< [edge] of start: inversive distance less one
 	Eigen::VectorXd     startU;
 	std::vector<int>    startFlips; ///< from the input's triangulation to the start's, in order
+	double              lengthened = 0.0; ///< added to every edge of a degenerate mesh, see mollify()
 	std::vector<int>    flowFlips;  ///< from the start's triangulation to the last, in order
 };
 

@@ -37,6 +37,15 @@ struct DrawnTriangle
 				 base;
 		apex = {dot / base, height};
 	}
+
+	/// Below this quotient of height and longest side a triangle's shape is rounding.
+	static constexpr double kLeastHeight = 1e-9;
+
+	bool hasArea() const
+	{
+		const double longest = std::max({base, std::abs(apex), std::abs(apex - base)});
+		return base > 0.0 && base * height > kLeastHeight * longest * longest;
+	}
 };
 
 } // namespace
@@ -50,7 +59,7 @@ double triangleArea(const std::array<Point3, 3>& p)
 double quasiConformalDistortion(const std::array<Point3, 3>& surface, const std::array<Point2, 3>& plane)
 {
 	const DrawnTriangle drawn(surface);
-	if (!(drawn.base > 0.0) || !(drawn.height > 0.0))
+	if (!drawn.hasArea())
 		return std::numeric_limits<double>::quiet_NaN();
 	// The map z -> alpha z + beta conj(z) sends base to b and the apex to c.
 	const std::complex<double> b(plane[1][0] - plane[0][0], plane[1][1] - plane[0][1]);

@@ -12,7 +12,8 @@
 namespace ricci {
 
 /// Quasi-conformal distortion of the linear map from a 3D triangle to a plane one: sigma1 / sigma2,
-/// at least 1 (paper 5.1). A 3D triangle without area has none: NaN. A plane one without area:
+/// at least 1 (paper 5.1). A 3D triangle without area (its least height
+/// is below 1e-9 of its longest side) has none: NaN. A plane one without area:
 /// infinity.
 double quasiConformalDistortion(const std::array<Point3, 3>& surface, const std::array<Point2, 3>& plane);
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace ricci {
@@ -20,6 +19,18 @@ constexpr double kTieTolerance = 1e-14;
 constexpr double kShrink = 0.5;
 
 constexpr int kMostShrinks = 60;
+
+/// A triangle whose longest side is within this of the other two together, relative to it, has no
+/// shape that rounding respects.
+constexpr double kDegenerate = 1e-13;
+
+/// Nor has one whose sides differ by more than this factor: rounding moves its angles by as many
+/// units of the last place.
+constexpr double kNeedle = 1e6;
+
+/// Excess of two sides over the third that a degenerate triangle is given, in its longest sides. Less
+/// leaves needles whose rounding floor is above what counts as converged.
+constexpr double kMargin = 1e-5;
 
 std::size_t at(int index)
 {
@@ -108,18 +119,17 @@ void flipUntil(IntrinsicMesh& mesh, std::vector<int>& log, Test isGood)
 
 } // namespace
 
-double mollify(const Triangulation& t, std::vector<double>& lengths, double margin)
+double mollify(const Triangulation& t, std::vector<double>& lengths)
 {
-	const double mean =
-		std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
 	double added = 0.0;
 	for (int f = 0; f < t.faceCount(); ++f) {
-		double sum = 0.0, longest = 0.0;
-		for (int h : t.halfedges(f)) {
-			sum += lengths[at(Triangulation::edge(h))];
-			longest = std::max(longest, lengths[at(Triangulation::edge(h))]);
-		}
-		added = std::max(added, margin * mean - (sum - 2 * longest));
+		std::array<double, 3> l;
+		for (std::size_t k = 0; k < 3; ++k)
+			l[k] = lengths[at(Triangulation::edge(t.halfedges(f)[k]))];
+		std::sort(l.begin(), l.end());
+		const double excess = (l[0] - l[2]) + l[1];
+		if (excess <= kDegenerate * l[2] || l[0] * kNeedle <= l[2])
+			added = std::max(added, kMargin * l[2] - excess);
 	}
 	for (double& l : lengths)
 		l += added;
@@ -135,6 +145,7 @@ double flippedLength(const IntrinsicMesh& mesh, int e)
 DelaunayStart delaunayStart(IntrinsicMesh mesh, const std::vector<int>& mirror)
 {
 	DelaunayStart start;
+	start.lengthened = mollify(mesh.triangulation, mesh.lengths);
 	flipUntil(mesh, start.flips, [&](int e) { return isDelaunay(mesh, {}, e); });
 	start.radii = initialRadii(mesh.triangulation, mesh.lengths);
 	for (std::size_t v = 0; v < mirror.size(); ++v)

@@ -24,18 +24,22 @@ struct DelaunayStart
 	IntrinsicMesh       mesh;
 	std::vector<double> radii; ///< [vertex] as initialRadii(), possibly smaller
 	std::vector<int>    flips; ///< edges flipped since the input, in order
+	double              lengthened = 0.0; ///< what mollify() added to every edge
 };
 
-/// Adds the least constant to all lengths that leaves every triangle with sides that satisfy
-/// l_ij + l_jk - l_ki >= \p margin times the mean length (intrinsic mollification, Sharp and Crane
-/// 2020). \return the constant; 0 where nothing is degenerate, and nothing is changed then
-double mollify(const Triangulation& t, std::vector<double>& lengths, double margin);
+/// Where triangles are degenerate (they satisfy the triangle inequality by less than rounding can
+/// tell, or have a side a million times shorter than another), adds one constant to all lengths, so
+/// large that in those triangles every two sides exceed the third by 1e-5 of their longest (intrinsic
+/// mollification, Sharp and Crane 2020). No face is lost, and no length changes by more than the
+/// constant.
+/// \return the constant, 0 where no triangle is degenerate
+double mollify(const Triangulation& t, std::vector<double>& lengths);
 
 /// Length of the other diagonal of the two plane triangles at edge \p e.
 double flippedLength(const IntrinsicMesh& mesh, int e);
 
 /// Flips to the intrinsic Delaunay triangulation of the metric, then, with the initial radii of
-/// that, to the weighted one. Radii are lowered where a new edge would have I < 1.
+/// that, to the weighted one. Degenerate triangles are given a little area first (mollify()). Radii are lowered where a new edge would have I < 1.
 /// \param mirror [vertex] the vertex whose radius must be the same (its image in a double, or
 /// itself); may be empty
 DelaunayStart delaunayStart(IntrinsicMesh mesh, const std::vector<int>& mirror);

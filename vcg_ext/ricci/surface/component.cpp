@@ -230,32 +230,19 @@ FacePartition walkFaces(std::size_t faceCount, const std::vector<Side>& sides)
 	return part;
 }
 
-void checkMetric(const std::vector<Component>& components)
+void requireSize(const std::vector<Component>& components)
 {
-	std::size_t noLength = 0, noArea = 0;
+	std::size_t points = 0;
 	for (const Component& c : components) {
-		std::set<std::pair<int, int>> edgesWithoutLength; // an edge inside has two sides
-		for (const Triangle& t : c.triangles) {
-			std::array<double, 3> l;
-			for (std::size_t k = 0; k < 3; ++k) {
-				const int a = t[k], b = t[(k + 1) % 3];
-				l[k] = distance(c.positions[at(a)], c.positions[at(b)]);
-				if (l[k] == 0.0)
-					edgesWithoutLength.insert({std::min(a, b), std::max(a, b)});
-			}
-			const double longest = *std::max_element(l.begin(), l.end());
-			noArea += !(l[0] + l[1] + l[2] - 2 * longest > 0.0);
-		}
-		noLength += edgesWithoutLength.size();
+		const Point3& first = c.positions.front();
+		points += std::all_of(c.positions.begin(), c.positions.end(), [&](const Point3& p) {
+			return p == first;
+		});
 	}
-	if (noLength > 0)
+	if (points > 0)
 		throw InvalidMesh(
-			count(noLength, "edge has", "edges have") +
-			" no length: run 'Merge Close Vertices' and 'Remove Zero Area Faces' first.");
-	if (noArea > 0)
-		throw InvalidMesh(
-			count(noArea, "face has", "faces have") +
-			" no area: run 'Remove Zero Area Faces' or 'Remove T-Vertices' first.");
+			count(points, "component has", "components have") +
+			" all vertices in one point: delete it first.");
 }
 
 } // namespace
@@ -291,7 +278,7 @@ std::vector<Component> splitIntoComponents(const SurfaceMesh& mesh, std::vector<
 		}
 		c.triangles.push_back(local);
 	}
-	checkMetric(components);
+	requireSize(components);
 
 	const auto unreferenced = std::count(localVertex.begin(), localVertex.end(), -1);
 	if (unreferenced > 0)
@@ -304,6 +291,34 @@ std::vector<Component> splitIntoComponents(const SurfaceMesh& mesh, std::vector<
 			" oriented against the rest of the surface and counted as turned round; 'Re-Orient all "
 			"faces coherently' makes that permanent.");
 	return components;
+}
+
+void requireAreaEverywhere(const std::vector<Component>& components)
+{
+	std::size_t noLength = 0, noArea = 0;
+	for (const Component& c : components) {
+		std::set<std::pair<int, int>> edgesWithoutLength; // an edge inside has two sides
+		for (const Triangle& t : c.triangles) {
+			std::array<double, 3> l;
+			for (std::size_t k = 0; k < 3; ++k) {
+				const int a = t[k], b = t[(k + 1) % 3];
+				l[k] = distance(c.positions[at(a)], c.positions[at(b)]);
+				if (l[k] == 0.0)
+					edgesWithoutLength.insert({std::min(a, b), std::max(a, b)});
+			}
+			const double longest = *std::max_element(l.begin(), l.end());
+			noArea += !(l[0] + l[1] + l[2] - 2 * longest > 0.0);
+		}
+		noLength += edgesWithoutLength.size();
+	}
+	if (noLength > 0)
+		throw InvalidMesh(
+			count(noLength, "edge has", "edges have") +
+			" no length: run 'Merge Close Vertices' and 'Remove Zero Area Faces' first.");
+	if (noArea > 0)
+		throw InvalidMesh(
+			count(noArea, "face has", "faces have") +
+			" no area: run 'Remove Zero Area Faces' or 'Remove T-Vertices' first.");
 }
 
 } // namespace ricci

@@ -30,9 +30,11 @@ struct Component
 /// majority of each component keeps its order), and vertices without a face are left out.
 /// \throw InvalidMesh naming what is wrong, how often, and the MeshLab filter that mends it: no
 /// faces; coordinates that are not finite; faces that use a vertex twice; duplicate faces;
-/// non-manifold edges or vertices; a component that is not orientable; edges without length or faces
-/// without area.
+/// non-manifold edges or vertices; a component that is not orientable or has no area at all.
 std::vector<Component> splitIntoComponents(const SurfaceMesh& mesh, std::vector<std::string>& notes);
+
+/// \throw InvalidMesh if edges have no length or faces no area
+void requireAreaEverywhere(const std::vector<Component>& components);
 
 } // namespace ricci
 
