@@ -116,7 +116,7 @@ tilt_and_move_aside() {
 	xdotool key --window "$main_window" shift+h
 	drag 1 480 400 480 300
 	xdotool keydown ctrl
-	drag 1 480 480 680 480
+	drag 1 480 480 740 480
 	xdotool keyup ctrl
 	sleep 1
 }

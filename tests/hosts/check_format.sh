@@ -17,5 +17,13 @@ if [ -z "$formatter" ]; then
 	exit 77
 fi
 mapfile -d '' files < <(find filter_ricci vcg_ext tests -name '*.h' -print0 -o -name '*.cpp' -print0)
-"$formatter" --dry-run --Werror "${files[@]}"
+bad=()
+for file in "${files[@]}"; do
+	"$formatter" --dry-run --Werror "$file" 2>/dev/null || bad+=("$file")
+done
+if [ ${#bad[@]} -gt 0 ]; then
+	echo "Not formatted; run $formatter -i on them:"
+	printf '%s\n' "${bad[@]}"
+	exit 1
+fi
 echo "${#files[@]} files are formatted."
