@@ -68,7 +68,7 @@ open_meshlab() {
 	"$@" >"$meshlab_log" 2>&1 &
 	meshlab_pid=$!
 	wait_until 60 grep -q 'All files opened' "$meshlab_log" || return 1
-	main_window=$(xdotool search --onlyvisible --name 'MeshLab 2020' | head -n 1)
+	main_window=$(xdotool search --onlyvisible --name 'MeshLab 20[0-9][0-9]' | head -n 1)
 	[ -n "$main_window" ] || return 1
 	sleep 1
 	xdotool windowactivate --sync "$main_window"

@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# window_2025.sh BUILD_DIR FOLDER: the filter in the real window of MeshLab 2025.07, which Debian 12
+# does not have: a newer Debian is unpacked into FOLDER (1 GB, some minutes; kept for the next time)
+# and MeshLab runs inside. For a person to start, as root; it is no part of tests/run.sh. Leaves
+# pictures in BUILD_DIR/pictures. Exit 77: it cannot run on this machine.
+set -euo pipefail
+build=$(cd "${1:?usage: window_2025.sh BUILD_DIR FOLDER}" && pwd)
+mkdir -p "${2:?usage: window_2025.sh BUILD_DIR FOLDER}"
+folder=$(cd "$2" && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+plugin=$build/meshlab-2025.07/libfilter_ricci.so
+packages=(meshlab xvfb openbox xdotool libgl1-mesa-dri imagemagick lib3ds-1-3 libgomp1
+	libmuparser2v5 libopenctm1 libqhull-r8.0 fonts-dejavu-core)
+
+give_up() {
+	echo "SKIPPED: $*"
+	exit 77
+}
+
+inside() {
+	chroot "$folder/root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
+		DEBIAN_FRONTEND=noninteractive "$@"
+}
+
+mount_all() {
+	mount -t proc proc "$folder/root/proc"
+	mount -t tmpfs tmpfs "$folder/root/dev/shm"
+}
+
+unmount_all() {
+	umount "$folder/root/proc" "$folder/root/dev/shm" 2>/dev/null || true
+}
+
+unpack_debian() {
+	local mirror
+	mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' \
+		'Component: main' | head -n 1)
+	[ -n "$mirror" ] || give_up "this machine names no Debian archive"
+	echo "Unpacking a newer Debian into $folder/root"
+	debootstrap --variant=minbase forky "$folder/root" "$mirror" sid >"$folder/debootstrap.log" 2>&1 ||
+		give_up "debootstrap failed; see $folder/debootstrap.log"
+	echo "deb [check-valid-until=no] $mirror forky main" >"$folder/root/etc/apt/sources.list"
+	cp /etc/resolv.conf /etc/hosts "$folder/root/etc/"
+}
+
+install_meshlab() {
+	{ inside apt-get update -q && inside apt-get install -q -y --no-install-recommends "${packages[@]}"; } \
+		>"$folder/apt.log" 2>&1 || give_up "MeshLab could not be installed; see $folder/apt.log"
+}
+
+stage() {
+	local work=$folder/root/ricci
+	rm -rf "$work"
+	mkdir -p "$work"
+	cp "$here/../../filter_ricci/scripts/window.sh" "$here/window_2025_inside.sh" "$plugin" "$work/"
+	(cd "$here" && python3 -c "import meshes
+meshes.write_ply('$work/torus.ply', meshes.torus())
+meshes.write_ply('$work/sphere.ply', meshes.sphere())")
+}
+
+[ "$(id -u)" -eq 0 ] || give_up "root is needed to enter another system"
+command -v debootstrap >/dev/null || give_up "debootstrap is not installed"
+[ -f "$plugin" ] || give_up "the plugin for MeshLab 2025.07 is not built"
+[ -d "$folder/root/usr" ] || unpack_debian
+trap unmount_all EXIT
+unmount_all
+mount_all
+inside dpkg-query -W meshlab 2>/dev/null | grep -q 2025.07 || install_meshlab
+inside dpkg-query -W meshlab | grep -q 2025.07 || give_up "that Debian has another MeshLab by now"
+stage
+status=0
+inside bash /ricci/window_2025_inside.sh || status=$?
+mkdir -p "$build/pictures"
+cp "$folder"/root/ricci/*.png "$build/pictures/" 2>/dev/null || true
+exit $status

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The part of window_2025.sh that runs inside the newer Debian, in a folder with all it needs.
+set -euo pipefail
+cd /ricci
+source ./window.sh
+name="Generalized Ricci Flow (Euclidean)"
+
+fail() {
+	echo "FAILED: $*"
+	tail -n 30 "$meshlab_log" || true
+	picture failed_2025.png || true
+	exit 1
+}
+
+install_plugin() {
+	local extra=$HOME/.local/share/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/2025.07
+	mkdir -p "$extra"
+	cp libfilter_ricci.so "$extra/"
+}
+
+trap close_display EXIT
+open_display /ricci/display || { echo "SKIPPED: no display could be opened"; exit 77; }
+install_plugin
+open_meshlab meshlab torus.ply || fail "MeshLab did not open the torus"
+open_filter "$name" || fail "the filter's dialog did not open"
+picture dialog_2025.png
+press_apply "$name"
+wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "no result in the log"
+sleep 2
+picture result_2025.png
+close_meshlab
+open_meshlab meshlab sphere.ply || fail "MeshLab did not open the sphere"
+open_filter "$name" || fail "the filter's dialog did not open"
+press_apply "$name"
+wait_until 60 xdotool search --onlyvisible --name 'Filter Failure' || fail "no message box"
+sleep 1
+picture refused_2025.png
+xdotool key Return
+sleep 2
+kill -0 "$meshlab_pid" || fail "MeshLab has ended"
+echo "The filter ran in the window of MeshLab 2025.07."
