@@ -185,16 +185,16 @@ private:
 				m_base,
 				m_lengths,
 				m_mesh.positions,
-				std::move(target),
+				target,
 				m_topology.loops.empty() ? std::vector<int>() : m_topology.loops.front(),
 				m_options,
 				[&](int step, double residual) { progress(m_iterations + step, residual); });
 			m_iterations += m_flow.iterations;
 			m_swaps += m_flow.edgeSwaps;
-			if (m_flow.lengthened > 0.0)
+			if (m_flow.history.lengthened > 0.0)
 				m_interval.log(
 					"Some faces have no area, or an edge without length: the flow sees every edge longer by " +
-					text("%.3g", m_flow.lengthened) + ".");
+					text("%.3g", m_flow.history.lengthened) + ".");
 			if (m_flow.edgesToSplit.empty())
 				return;
 			splitBoundary();
@@ -257,20 +257,7 @@ private:
 			m_layout = layOutInPlane(
 				metric.triangulation(), metric.lengths(), metric.angles(), m_cut.isCut);
 		else {
-			FlippedSurface surface;
-			surface.input        = &m_base;
-			surface.startFlips   = &m_flow.startFlips;
-			surface.start        = &m_flow.start.triangulation;
-			surface.startLengths = &m_flow.start.lengths;
-			surface.startDelta   = &m_flow.startDelta;
-			surface.startU       = &m_flow.startU;
-			surface.flowFlips    = &m_flow.flowFlips;
-			surface.end          = &metric.triangulation();
-			surface.endLengths   = &metric.lengths();
-			surface.endAngles    = &metric.angles();
-			surface.endU         = &m_flow.u;
-			m_refinement         = commonRefinement(surface, m_mesh.positions, m_cut.isCut);
-			m_layout             = m_refinement.inputLayout;
+			layOutFlipped();
 		}
 		// The flow leaves the scale open unless the boundary keeps its metric.
 		const bool scaled = std::find(m_flow.target.fixed.begin(), m_flow.target.fixed.end(), 1) !=
@@ -280,10 +267,42 @@ private:
 			for (const Triangle& t : m_mesh.triangles)
 				area += triangleArea(
 					{m_mesh.positions[at(t[0])], m_mesh.positions[at(t[1])], m_mesh.positions[at(t[2])]});
-			m_scale = std::sqrt(
-				area / metricArea(metric.triangulation(), metric.lengths(), metric.angles()));
+			m_scale = std::sqrt(area / m_flow.area);
 		}
 		turnUpright();
+	}
+
+	void layOutFlipped()
+	{
+		const FlipHistory&  history = m_flow.history;
+		const CurvatureMap& metric  = *m_flow.metric;
+		FlippedSurface      surface;
+		surface.input        = &history.input;
+		surface.startFlips   = &history.startFlips;
+		surface.start        = &history.start.triangulation;
+		surface.startLengths = &history.start.lengths;
+		surface.startDelta   = &history.startDelta;
+		surface.startU       = &history.startU;
+		surface.flowFlips    = &history.flowFlips;
+		surface.end          = &metric.triangulation();
+		surface.endLengths   = &metric.lengths();
+		surface.endAngles    = &metric.angles();
+		surface.endU         = &m_flow.u;
+		surface.keptFaces    = m_base.faceCount();
+		// In a double the surface ends at its boundary.
+		std::vector<char> isCut = m_cut.isCut;
+		for (int e = 0; e < m_base.edgeCount(); ++e)
+			if (m_flow.doubled && m_base.isBoundaryEdge(e))
+				isCut[at(e)] = 1;
+		isCut.resize(at(history.input.edgeCount()), 0);
+		m_refinement = commonRefinement(surface, m_mesh.positions, isCut);
+
+		int sectorCount = 0;
+		m_layout.sector = cornerSectors(m_base, m_cut.isCut, sectorCount);
+		m_layout.position.resize(at(sectorCount));
+		for (int h = 0; h < m_base.halfedgeCount(); ++h)
+			if (!m_base.isOuter(h))
+				m_layout.position[at(m_layout.sector[at(h)])] = m_refinement.inputLayout.at(h);
 	}
 
 	/// Turns and scales the layout so that its least bounding rectangle lies along the axes, from the
@@ -347,14 +366,14 @@ private:
 			const auto        i           = static_cast<Eigen::Index>(v);
 			result.u[inputVertex]         = m_flow.u[i] + std::log(m_scale);
 			result.targetCurvature[inputVertex] =
-				m_flow.target.fixed[v] ? m_flow.metric->curvature()[i] : m_flow.target.curvature[i];
+				m_flow.target.fixed[v] ? m_flow.curvature[i] : m_flow.target.curvature[i];
 		}
 		Report& report = result.report;
 		report.iterations += m_iterations;
 		report.maxCurvatureError = std::max(report.maxCurvatureError, m_flow.residual);
 		report.residualFloor     = std::max(report.residualFloor, m_flow.floor);
 		report.edgeSwaps += m_swaps;
-		report.flips += static_cast<int>(m_flow.startFlips.size() + m_flow.flowFlips.size());
+		report.flips += static_cast<int>(m_flow.history.startFlips.size() + m_flow.history.flowFlips.size());
 		report.refinementPoints += static_cast<int>(m_refinement.crossings);
 		report.boundarySplits += m_splits;
 		report.eulerCharacteristic += m_topology.eulerCharacteristic;
@@ -409,15 +428,8 @@ private:
 			report.torusTauIm = tau.imag();
 		}
 		if (m_topology.isAnnulus() && flat && !free)
-			report.annulusModulus = annulusModulus(
-				t,
-				m_layout,
-				m_cut,
-				m_scale * m_scale *
-					metricArea(
-						m_flow.metric->triangulation(),
-						m_flow.metric->lengths(),
-						m_flow.metric->angles()));
+			report.annulusModulus =
+				annulusModulus(t, m_layout, m_cut, m_scale * m_scale * m_flow.area);
 		if (m_flow.target.isRectangle)
 			report.rectangleAspect = rectangleAspect();
 	}

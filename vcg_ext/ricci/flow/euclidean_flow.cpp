@@ -2,7 +2,10 @@
 #include "euclidean_flow.h"
 
 #include "../error.h"
+#include "../layout/invariants.h"
+#include "../layout/unfold.h"
 #include "../metric/euclidean.h"
+#include "../surface/double_surface.h"
 #include "circular_boundary.h"
 #include "edge_swap.h"
 
@@ -38,26 +41,6 @@ std::string number(double x)
 	return text;
 }
 
-/// Halfedges that run along a boundary loop (surface on the left), in its order.
-std::vector<int> halfedgesAlong(const Triangulation& t, const std::vector<int>& loop)
-{
-	std::vector<int> leaving(at(t.vertexCount()), -1), along;
-	for (int h = 0; h < t.halfedgeCount(); ++h)
-		if (t.isOuter(h))
-			leaving[at(t.target(h))] = Triangulation::twin(h);
-	for (int v : loop)
-		along.push_back(leaving[at(v)]);
-	return along;
-}
-
-std::vector<double> lengthsOf(const std::vector<int>& halfedges, const std::vector<double>& lengths)
-{
-	std::vector<double> sides;
-	for (int h : halfedges)
-		sides.push_back(lengths[at(Triangulation::edge(h))]);
-	return sides;
-}
-
 /// Largest difference of the points on the circle that two sequences of arcs describe.
 double largestTurn(const std::vector<double>& a, const std::vector<double>& b)
 {
@@ -76,22 +59,19 @@ double largestTurn(const std::vector<double>& a, const std::vector<double>& b)
 class CircularBoundarySolve
 {
 public:
-	CircularBoundarySolve(
-		const Triangulation&       t,
-		const std::vector<int>&    loop,
-		const std::vector<double>& lengths) :
-			m_loop(loop),
-			m_along(halfedgesAlong(t, loop))
+	/// \p sides: lengths of the boundary's edges before the flow, in the order of the loop.
+	explicit CircularBoundarySolve(const std::vector<double>& sides)
 	{
-		const std::vector<double> sides = lengthsOf(m_along, lengths);
 		m_weights.resize(sides.size());
 		for (std::size_t i = 0; i < sides.size(); ++i)
 			m_weights[i] = sides[i] + sides[(i + sides.size() - 1) % sides.size()];
 		m_arcs = centredArcs(inscribedPolygon(sides).arcs, m_weights);
 	}
 
-	template<class Solve>
-	NewtonResult run(const CurvatureMap& map, Target& target, double epsilon, Solve solve)
+	/// \p sides() returns the present lengths of the boundary's edges; \p solve(angles, epsilon) solves
+	/// for exterior angles in the order of the loop.
+	template<class Sides, class Solve>
+	NewtonResult run(double epsilon, Sides sides, Solve solve)
 	{
 		AndersonMixing mixing(kMixingDepth);
 		double         change = 1.0;
@@ -99,12 +79,10 @@ public:
 			const bool   last = change < kCircleTolerance;
 			const double accuracy =
 				last ? epsilon : std::max(epsilon, std::min(kInnerAccuracy, kInnerAccuracy * change));
-			setTarget(target);
-			const NewtonResult result = solve(accuracy);
+			const NewtonResult result = solve(exteriorAngles(m_arcs), accuracy);
 			if (last || !result.converged)
 				return result;
-			const std::vector<double> image = centredArcs(
-				inscribedPolygon(lengthsOf(m_along, map.lengths())).arcs, m_weights);
+			const std::vector<double> image = centredArcs(inscribedPolygon(sides()).arcs, m_weights);
 			change = largestTurn(image, m_arcs);
 			std::vector<double> next = mixing.next(m_arcs, image);
 			if (*std::min_element(next.begin(), next.end()) <= 0.0) {
@@ -119,16 +97,7 @@ public:
 	}
 
 private:
-	void setTarget(Target& target) const
-	{
-		const std::vector<double> angles = exteriorAngles(m_arcs);
-		for (std::size_t i = 0; i < m_loop.size(); ++i)
-			target.curvature[m_loop[i]] = angles[i];
-	}
-
-	const std::vector<int>& m_loop;
-	std::vector<int>        m_along;
-	std::vector<double>     m_weights, m_arcs;
+	std::vector<double> m_weights, m_arcs;
 };
 
 CirclePacking pack(
@@ -141,91 +110,280 @@ CirclePacking pack(
 											   inversiveDistancePacking(t, lengths, radii);
 }
 
+/// One surface on which the flow is tried: the input or its double.
+struct Surface
+{
+	Triangulation       triangulation;
+	std::vector<double> lengths;
+	std::vector<int>    mirror; // of a double, else empty
+	Target              target;
+	std::vector<int>    loop, loopEdges; // of a circular target
+	int                 vertexCount = 0; // of the input
+};
+
+Surface wholeSurface(
+	const Triangulation&       t,
+	const std::vector<double>& lengths,
+	const Target&              target,
+	const std::vector<int>&    loop)
+{
+	Surface s;
+	s.triangulation = t;
+	s.lengths       = lengths;
+	s.target        = target;
+	s.loop          = loop;
+	s.vertexCount   = t.vertexCount();
+	std::vector<int> leaving(at(t.vertexCount()), -1); // boundary edge that leaves a vertex
+	for (int h = 0; h < t.halfedgeCount(); ++h)
+		if (t.isOuter(h))
+			leaving[at(t.target(h))] = Triangulation::edge(h);
+	for (int v : loop)
+		s.loopEdges.push_back(leaving[at(v)]);
+	return s;
+}
+
+/// The double: curvature is twice as large on the boundary.
+Surface doubledSurface(const Surface& half)
+{
+	DoubleSurface d = doubleOf(half.triangulation);
+	Surface       s;
+	s.lengths.resize(d.edgeOf.size());
+	for (std::size_t e = 0; e < d.edgeOf.size(); ++e)
+		s.lengths[e] = half.lengths[at(d.edgeOf[e])];
+	s.target                = half.target;
+	const auto vertexCount  = static_cast<Eigen::Index>(d.mirror.size());
+	const int  ownCount     = half.vertexCount;
+	s.target.curvature.conservativeResize(vertexCount);
+	s.target.fixed.resize(d.mirror.size());
+	for (int v = 0; v < ownCount; ++v) {
+		const int image = d.mirror[at(v)];
+		if (image == v)
+			s.target.curvature[v] *= 2.0;
+		s.target.curvature[image] = s.target.curvature[v];
+		s.target.fixed[at(image)] = s.target.fixed[at(v)];
+	}
+	s.loop          = half.loop;
+	s.loopEdges     = half.loopEdges;
+	s.vertexCount   = ownCount;
+	s.mirror        = std::move(d.mirror);
+	s.triangulation = std::move(d.triangulation);
+	return s;
+}
+
+/// One run of the flow on one surface.
+class Run
+{
+public:
+	Run(Surface                                 surface,
+		const std::vector<Point3>&              positions,
+		const Options&                          options,
+		int                                     stepsBefore,
+		const std::function<void(int, double)>& report) :
+			m_surface(std::move(surface)),
+			m_options(options), m_report(report)
+	{
+		m_result.iterations = stepsBefore;
+		makeMap();
+		m_swapper = std::make_unique<EdgeSwapper>(positions, m_radii);
+		m_newton  = std::make_unique<NewtonSolver>(*m_map, m_surface.target.fixed);
+	}
+
+	/// \throw NotConverged if a circular boundary does not settle
+	bool solve()
+	{
+		if (!m_surface.target.circular)
+			m_solved = solveFor(m_options.epsilon);
+		else {
+			CircularBoundarySolve circle(originalSides());
+			m_solved = circle.run(
+				m_options.epsilon,
+				[&] { return presentSides(); },
+				[&](const std::vector<double>& angles, double epsilon) {
+					for (std::size_t i = 0; i < angles.size(); ++i)
+						m_surface.target.curvature[m_surface.loop[i]] =
+							doubled() ? 2.0 * angles[i] : angles[i];
+					return solveFor(epsilon);
+				});
+		}
+		return m_solved.converged;
+	}
+
+	int iterations() const { return m_result.iterations; }
+
+	FlowResult result()
+	{
+		m_result.metric       = m_map;
+		m_result.doubled      = doubled();
+		m_result.residual     = m_solved.residual;
+		m_result.floor        = m_solved.floor;
+		m_result.edgeSwaps    = m_swapper->swaps();
+		m_result.swapped      = m_swapper->swapped();
+		m_result.edgesToSplit = m_swapper->boundaryEdgesToSplit();
+		if (m_flipping)
+			m_result.history.flowFlips = m_flipping->flips();
+		m_result.area = metricArea(m_map->triangulation(), m_map->lengths(), m_map->angles());
+		m_result.curvature = m_map->curvature().head(m_surface.vertexCount);
+		m_result.target    = m_surface.target;
+		m_result.target.curvature.conservativeResize(m_surface.vertexCount);
+		m_result.target.fixed.resize(at(m_surface.vertexCount));
+		if (doubled()) {
+			m_result.area *= 0.5;
+			for (int v = 0; v < m_surface.vertexCount; ++v)
+				if (m_surface.mirror[at(v)] == v) {
+					m_result.curvature[v] *= 0.5;
+					m_result.target.curvature[v] *= 0.5;
+				}
+		}
+		return std::move(m_result);
+	}
+
+	std::string failure() const
+	{
+		if (m_map->brokenTriangles() > 0)
+			return std::to_string(m_map->brokenTriangles()) +
+				   " triangles break the triangle inequality at the end of the flow" +
+				   (m_options.surgery == Surgery::EdgeSwap ?
+						", with " + std::to_string(m_swapper->swaps()) + " edges swapped" :
+						std::string()) +
+				   (m_options.surgery == Surgery::IntrinsicFlips ?
+						": remesh the worst triangles." :
+						": choose the surgery 'Intrinsic flips'.");
+		return "The flow stopped after " + std::to_string(m_result.iterations) +
+			   " Newton steps with a curvature error of " + number(m_solved.residual) +
+			   " (wanted: " + number(m_options.epsilon) +
+			   ", rounding floor: " + number(m_solved.floor) + "): raise max_iterations or epsilon.";
+	}
+
+private:
+	bool doubled() const { return !m_surface.mirror.empty(); }
+
+	void makeMap()
+	{
+		const Triangulation& t = m_surface.triangulation;
+		if (m_options.surgery == Surgery::IntrinsicFlips) {
+			DelaunayStart start = delaunayStart({t, m_surface.lengths}, m_surface.mirror);
+			m_radii             = start.radii;
+			auto flipping       = std::make_shared<FlippingCurvatureMap<Euclidean>>(
+                pack(start.mesh.triangulation, start.mesh.lengths, m_radii, m_options.packing));
+			FlipHistory& history = m_result.history;
+			history.input        = t;
+			history.start        = std::move(start.mesh);
+			history.startDelta   = flipping->delta();
+			history.startFlips   = std::move(start.flips);
+			history.lengthened   = start.lengthened;
+			m_flipping           = flipping.get();
+			m_map                = std::move(flipping);
+		}
+		else {
+			m_radii = initialRadii(t, m_surface.lengths);
+			m_map   = std::make_shared<GeometricCurvatureMap<Euclidean>>(
+                pack(t, m_surface.lengths, m_radii, m_options.packing));
+		}
+		m_result.u.resize(t.vertexCount());
+		for (int v = 0; v < t.vertexCount(); ++v)
+			m_result.u[v] = std::log(m_radii[at(v)]);
+		m_result.history.startU = m_result.u;
+	}
+
+	NewtonResult solveFor(double epsilon)
+	{
+		NewtonOptions newtonOptions;
+		newtonOptions.epsilon               = epsilon;
+		newtonOptions.maxIterations         = m_options.maxIterations;
+		const NewtonSolver::Surgeon surgeon = [&](CurvatureMap& m) { return (*m_swapper)(m); };
+		const NewtonResult          solved  = m_newton->solve(
+            m_result.u,
+            m_surface.target.curvature,
+            newtonOptions,
+            [&](int step, double residual) { m_report(m_result.iterations + step, residual); },
+            m_options.surgery == Surgery::EdgeSwap ? surgeon : nullptr);
+		m_result.iterations += solved.iterations;
+		return solved;
+	}
+
+	std::vector<double> originalSides() const
+	{
+		std::vector<double> sides;
+		for (int e : m_surface.loopEdges)
+			sides.push_back(m_surface.lengths[at(e)]);
+		return sides;
+	}
+
+	/// Lengths of the boundary's edges in the present metric. In a double they may have been flipped
+	/// away; they stay the axis of symmetry, a straight line across the present triangles.
+	std::vector<double> presentSides() const
+	{
+		std::vector<double> sides;
+		for (int e : m_surface.loopEdges)
+			sides.push_back(m_map->lengths()[at(e)]);
+		if (!doubled())
+			return sides;
+		NormalCoordinates coordinates(m_surface.triangulation);
+		for (int e : m_result.history.startFlips)
+			coordinates.flip(e);
+		for (int e : m_flipping->flips())
+			coordinates.flip(e);
+		const auto curves = coordinates.trace();
+		Strip      strip;
+		for (std::size_t i = 0; i < sides.size(); ++i) {
+			const auto& curve = curves[at(m_surface.loopEdges[i])];
+			if (curve.crossings.empty()) {
+				sides[i] = m_map->lengths()[at(Triangulation::edge(curve.first))];
+				continue;
+			}
+			unfold(m_map->triangulation(), m_map->lengths(), curve, strip);
+			sides[i] = std::hypot(strip.end[0], strip.end[1]);
+		}
+		return sides;
+	}
+
+	Surface                                 m_surface;
+	const Options&                          m_options;
+	const std::function<void(int, double)>& m_report;
+	FlowResult                              m_result;
+	std::vector<double>                     m_radii;
+	std::shared_ptr<CurvatureMap>           m_map;
+	FlippingCurvatureMap<Euclidean>*        m_flipping = nullptr;
+	std::unique_ptr<EdgeSwapper>            m_swapper;
+	std::unique_ptr<NewtonSolver>           m_newton;
+	NewtonResult                            m_solved;
+};
+
 } // namespace
 
 FlowResult runEuclideanFlow(
 	const Triangulation&                    t,
 	const std::vector<double>&              lengths,
 	const std::vector<Point3>&              positions,
-	Target                                  target,
+	const Target&                           target,
 	const std::vector<int>&                 boundaryLoop,
 	const Options&                          options,
 	const std::function<void(int, double)>& report)
 {
-	FlowResult                    result;
-	std::shared_ptr<CurvatureMap> map;
-	std::vector<double>           radii;
-	FlippingCurvatureMap<Euclidean>* flipping = nullptr;
-	if (options.surgery == Surgery::IntrinsicFlips) {
-		DelaunayStart start = delaunayStart({t, lengths}, {});
-		radii               = start.radii;
-		auto flips = std::make_shared<FlippingCurvatureMap<Euclidean>>(
-			pack(start.mesh.triangulation, start.mesh.lengths, radii, options.packing));
-		flipping          = flips.get();
-		result.startDelta = flips->delta();
-		map               = std::move(flips);
-		result.start      = std::move(start.mesh);
-		result.startFlips = std::move(start.flips);
-		result.lengthened = start.lengthened;
+	const Surface whole      = wholeSurface(t, lengths, target, boundaryLoop);
+	const bool    canDouble  = options.surgery == Surgery::IntrinsicFlips && !t.boundaryLoops().empty();
+	int           iterations = 0;
+	try {
+		Run        run(whole, positions, options, 0, report);
+		const bool solved = run.solve();
+		iterations        = run.iterations();
+		if (solved)
+			return run.result();
+		if (!canDouble) {
+			FlowResult result = run.result();
+			if (!result.edgesToSplit.empty())
+				return result;
+			throw NotConverged(run.failure());
+		}
 	}
-	else {
-		radii = initialRadii(t, lengths);
-		map   = std::make_shared<GeometricCurvatureMap<Euclidean>>(
-            pack(t, lengths, radii, options.packing));
+	catch (const NotConverged&) {
+		if (!canDouble)
+			throw;
 	}
-	result.u.resize(t.vertexCount());
-	for (int v = 0; v < t.vertexCount(); ++v)
-		result.u[v] = std::log(radii[at(v)]);
-	result.startU = result.u;
-
-	NewtonSolver newton(*map, target.fixed);
-	EdgeSwapper  swapper(positions, radii);
-	const NewtonSolver::Surgeon surgeon = [&](CurvatureMap& m) { return swapper(m); };
-
-	const auto solve = [&](double epsilon) {
-		NewtonOptions newtonOptions;
-		newtonOptions.epsilon       = epsilon;
-		newtonOptions.maxIterations = options.maxIterations;
-		const NewtonResult solved   = newton.solve(
-            result.u,
-            target.curvature,
-            newtonOptions,
-            [&](int step, double residual) { report(result.iterations + step, residual); },
-            options.surgery == Surgery::EdgeSwap ? surgeon : nullptr);
-		result.iterations += solved.iterations;
-		return solved;
-	};
-	const NewtonResult solved =
-		target.circular ?
-			CircularBoundarySolve(t, boundaryLoop, lengths).run(*map, target, options.epsilon, solve) :
-			solve(options.epsilon);
-
-	result.metric       = map;
-	if (flipping)
-		result.flowFlips = flipping->flips();
-	result.residual     = solved.residual;
-	result.floor        = solved.floor;
-	result.edgeSwaps    = swapper.swaps();
-	result.swapped      = swapper.swapped();
-	result.edgesToSplit = swapper.boundaryEdgesToSplit();
-	result.target       = std::move(target);
-	if (!result.edgesToSplit.empty())
-		return result;
-	if (map->brokenTriangles() > 0)
-		throw NotConverged(
-			std::to_string(map->brokenTriangles()) +
-			" triangles break the triangle inequality at the end of the flow, with " +
-			std::to_string(result.edgeSwaps) + " edges swapped: " +
-			(options.surgery == Surgery::None ?
-				 "choose the surgery 'Edge swap', or remesh the worst triangles." :
-				 "remesh the worst triangles."));
-	if (!solved.converged)
-		throw NotConverged(
-			"The flow stopped after " + std::to_string(result.iterations) +
-			" Newton steps with a curvature error of " + number(solved.residual) +
-			" (wanted: " + number(options.epsilon) + ", rounding floor: " + number(solved.floor) +
-			"): raise max_iterations or epsilon.");
-	return result;
+	Run run(doubledSurface(whole), positions, options, iterations, report);
+	if (!run.solve())
+		throw NotConverged(run.failure());
+	return run.result();
 }
 
 } // namespace ricci

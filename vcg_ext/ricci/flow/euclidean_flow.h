@@ -2,50 +2,65 @@
 #ifndef RICCI_EUCLIDEAN_FLOW_H
 #define RICCI_EUCLIDEAN_FLOW_H
 
-#include "../options.h"
-#include "../progress.h"
 #include "../metric/delaunay_start.h"
+#include "../options.h"
 #include "../surface/triangulation.h"
 #include "newton.h"
 #include "target_curvature.h"
 
+#include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace ricci {
 
+/// The flow with intrinsic flips: what leads from the input's triangles to those of the result.
+struct FlipHistory
+{
+	Triangulation       input;      ///< the surface, or its double
+	IntrinsicMesh       start;      ///< the input's metric on the triangulation of the first step
+	std::vector<double> startDelta; ///< [edge of start] inversive distance less one
+	Eigen::VectorXd     startU;
+	std::vector<int>    startFlips; ///< from the input's triangulation to the start's, in order
+	std::vector<int>    flowFlips;  ///< from the start's triangulation to the last, in order
+	double lengthened = 0.0; ///< added to every edge of a degenerate mesh, see mollify()
+};
+
 /// The flat metric (with cones) that the flow found on one connected surface.
 struct FlowResult
 {
-	std::shared_ptr<const CurvatureMap> metric; ///< triangulation, lengths, angles at the end
-	Eigen::VectorXd                     u;
-	Target                              target; ///< as reached (a disk adapts its boundary)
-	double                              residual   = 0.0;
-	double                              floor      = 0.0;
-	int                                 iterations = 0;
-	int                                 edgeSwaps  = 0;
-	std::vector<char>                   swapped;      ///< [edge] 1 where it is not an edge of the input
-	std::vector<int>                    edgesToSplit; ///< boundary edges; the flow must start anew if any
+	/// Triangulation, lengths and angles at the end; of the double of the surface if doubled.
+	std::shared_ptr<const CurvatureMap> metric;
+	bool                                doubled = false;
 
-	// Intrinsic flips only.
-	IntrinsicMesh       start;      ///< the input's metric on the triangulation of the first step
-	std::vector<double> startDelta; ///< [edge] of start: inversive distance less one
-	Eigen::VectorXd     startU;
-	std::vector<int>    startFlips; ///< from the input's triangulation to the start's, in order
-	double              lengthened = 0.0; ///< added to every edge of a degenerate mesh, see mollify()
-	std::vector<int>    flowFlips;  ///< from the start's triangulation to the last, in order
+	Eigen::VectorXd   u;         ///< [vertex of metric] ln radius
+	Eigen::VectorXd   curvature; ///< [vertex of the surface] K at the end, radians
+	Target            target;    ///< as reached (a disk adapts its boundary)
+	double            area       = 0.0; ///< of the surface in the metric
+	double            residual   = 0.0; ///< max |target - K|
+	double            floor      = 0.0; ///< what rounding lets the residual reach
+	int               iterations = 0;
+	int               edgeSwaps  = 0;
+	std::vector<char> swapped;      ///< [edge] 1 where it is not an edge of the input
+	std::vector<int>  edgesToSplit; ///< boundary edges; the flow must start anew if any
+	FlipHistory       history;      ///< Surgery::IntrinsicFlips only
 };
 
-/// Runs the flow from the metric \p lengths to \p target.
-/// \p positions are read by Surgery::EdgeSwap alone. \p report gets the number of Newton steps so
-/// far and the residual before each step.
+/// Runs the flow from the metric \p lengths on \p t to \p target.
+///
+/// With intrinsic flips the boundary's edges stay at first. If that breaks a triangle or fails, the
+/// flow runs on the double of the surface, which is closed, so that every admissible target is
+/// reached; the solution is symmetric, and the surface is one half of it.
+///
+/// \param positions read by Surgery::EdgeSwap alone
+/// \param boundaryLoop the one boundary loop of a circular target
+/// \param report gets the number of Newton steps so far and the residual before each step
 /// \throw NotConverged if the target is not reached within the options' limits
 FlowResult runEuclideanFlow(
 	const Triangulation&                    t,
 	const std::vector<double>&              lengths,
 	const std::vector<Point3>&              positions,
-	Target                                  target,
+	const Target&                           target,
 	const std::vector<int>&                 boundaryLoop,
 	const Options&                          options,
 	const std::function<void(int, double)>& report);

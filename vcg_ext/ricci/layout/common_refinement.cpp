@@ -3,6 +3,7 @@
 
 #include "../error.h"
 #include "../surface/normal_coordinates.h"
+#include "unfold.h"
 
 #include <algorithm>
 #include <cmath>
@@ -137,6 +138,7 @@ public:
 			divide(f);
 		linkPieces();
 		findFaces();
+		dropPieces();
 		layOut();
 		return result();
 	}
@@ -194,67 +196,17 @@ private:
 	/// Unfolds the start triangles along each input edge; the edge is straight there.
 	void placeInputCrossings()
 	{
-		const auto& lengths = *m_s.startLengths;
-		const auto  length  = [&](int h) { return lengths[at(Triangulation::edge(h))]; };
-		// Angle at the origin of h, by half-angles.
-		const auto angle = [&](int h) {
-			const double a = length(h), b = length(m_start.previous(h)), c = length(m_start.next(h));
-			const double s = 0.5 * (a + b + c);
-			return 2.0 * std::atan2(
-							 std::sqrt(std::max(0.0, (s - a) * (s - b))),
-							 std::sqrt(std::max(0.0, s * (s - c))));
-		};
-		struct Side
-		{
-			Point2 from, to; // ends of the crossed halfedge
-		};
-		std::vector<Side> strip;
+		Strip strip;
 		for (int e = 0; e < m_input.edgeCount(); ++e) {
 			const Curve& curve = m_inputCurves[at(e)];
 			if (curve.crossings.empty())
 				continue;
-			strip.clear();
-			// The first triangle with its corner at 0; then one triangle after another, with
-			// directions carried as angles.
-			const int h     = curve.first;
-			double    theta = angle(h), along = kPi - angle(m_start.next(h));
-			Side      side;
-			side.from = {length(h), 0.0};
-			side.to   = {length(m_start.previous(h)) * std::cos(theta),
-                       length(m_start.previous(h)) * std::sin(theta)};
-			Point2 last {0.0, 0.0};
-			for (std::size_t i = 0; i < curve.crossings.size(); ++i) {
-				const int x = curve.crossings[i].halfedge;
-				strip.push_back(side);
-				const int y = Triangulation::twin(x);
-				// y runs from side.to to side.from, in direction along + pi.
-				const double direction = along + kPi;
-				const double toApex    = direction + angle(y);
-				const double fromBase  = direction + kPi - angle(m_start.next(y));
-				const double left = length(m_start.previous(y)), right = length(m_start.next(y));
-				Point2       apex;
-				if (right < left)
-					apex = {side.from[0] + right * std::cos(fromBase),
-							side.from[1] + right * std::sin(fromBase)};
-				else
-					apex = {side.to[0] + left * std::cos(toApex), side.to[1] + left * std::sin(toApex)};
-				if (i + 1 == curve.crossings.size()) {
-					last = apex;
-					break;
-				}
-				if (curve.crossings[i + 1].halfedge == m_start.next(y)) { // from side.from to the apex
-					side.to = apex;
-					along   = fromBase;
-				}
-				else { // from the apex to side.to
-					side.from = apex;
-					along     = toApex - kPi;
-				}
-			}
+			unfold(m_start, *m_s.startLengths, curve, strip);
+			const Point2 last  = strip.end;
 			const double size2 = last[0] * last[0] + last[1] * last[1];
 			double       below = 0.0;
-			for (std::size_t i = 0; i < strip.size(); ++i) {
-				const Point2 &p = strip[i].from, &q = strip[i].to;
+			for (std::size_t i = 0; i < strip.sides.size(); ++i) {
+				const Point2 &p = strip.sides[i].from, &q = strip.sides[i].to;
 				const double  dp = p[0] * last[1] - p[1] * last[0], dq = q[0] * last[1] - q[1] * last[0];
 				const double  t = keepInside(dp / (dp - dq));
 				const Point2  x {mix(p[0], q[0], t), mix(p[1], q[1], t)};
@@ -702,7 +654,6 @@ private:
 		}
 		const std::size_t firstPiece = m_pieces.size();
 		m_pieces.push_back(std::move(whole));
-		m_pieceStart.push_back(f);
 		for (int c = m_firstChord[at(f)]; c < m_firstChord[at(f) + 1]; ++c)
 			if (m_chords[at(c)].ofInput)
 				splitBy(c, f, firstPiece);
@@ -845,7 +796,6 @@ private:
 		}
 		m_pieces[p] = std::move(left);
 		m_pieces.push_back(std::move(right));
-		m_pieceStart.push_back(f);
 	}
 
 	/// The node where an end edge's chord crosses a part of an input edge's chord.
@@ -989,6 +939,28 @@ private:
 			}
 		spread(m_inputFace, [](const PieceCorner& c) { return c.input >= 0; });
 		spread(m_endFace, [](const PieceCorner& c) { return c.end >= 0; });
+	}
+
+	/// Forgets the pieces of the input's faces that are not wanted.
+	void dropPieces()
+	{
+		if (m_s.keptFaces >= m_input.faceCount())
+			return;
+		std::size_t kept = 0;
+		for (std::size_t p = 0; p < m_pieces.size(); ++p) {
+			if (m_inputFace[p] >= m_s.keptFaces)
+				continue;
+			if (kept != p) {
+				m_pieces[kept]    = std::move(m_pieces[p]);
+				m_inputFace[kept] = m_inputFace[p];
+				m_endFace[kept]   = m_endFace[p];
+			}
+			++kept;
+		}
+		m_pieces.resize(kept);
+		m_inputFace.resize(kept);
+		m_endFace.resize(kept);
+		linkPieces();
 	}
 
 	template<class IsBorder>
@@ -1161,9 +1133,22 @@ private:
 	CommonRefinement result()
 	{
 		CommonRefinement r;
-		r.crossings = m_nodes.size() - at(m_start.vertexCount());
-		for (const Node& node : m_nodes)
-			r.points.push_back(node.point);
+		// The input's vertices (of the kept faces, which come first) and the crossings in use.
+		const int        vertices = static_cast<int>(m_positions.size());
+		std::vector<int> point(m_nodes.size(), -1);
+		for (int v = 0; v < vertices; ++v) {
+			point[at(v)] = v;
+			r.points.push_back(m_nodes[at(v)].point);
+		}
+		for (auto& piece : m_pieces)
+			for (PieceCorner& c : piece) {
+				if (point[at(c.node)] < 0) {
+					point[at(c.node)] = static_cast<int>(r.points.size());
+					r.points.push_back(m_nodes[at(c.node)].point);
+				}
+				c.node = point[at(c.node)];
+			}
+		r.crossings = r.points.size() - at(vertices);
 		std::vector<Point3> space;
 		for (const SurfacePoint& p : r.points)
 			space.push_back(placeOnSurface(p, m_positions));
@@ -1277,7 +1262,6 @@ private:
 
 	std::array<int, 4>                       m_cornerPlace {0, 0, 0, 0};
 	std::vector<std::vector<PieceCorner>>    m_pieces;
-	std::vector<int>                         m_pieceStart; // start face
 	std::vector<int>                         m_sides;
 	std::unordered_map<int, SplitSide>       m_splitSides;
 	std::vector<std::array<Link, 2>>         m_links;

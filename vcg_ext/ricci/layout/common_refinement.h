@@ -28,6 +28,8 @@ struct FlippedSurface
 	const std::vector<double>* endLengths = nullptr; ///< [edge] the flat metric
 	const std::vector<double>* endAngles = nullptr;  ///< [halfedge]
 	const Eigen::VectorXd*     endU = nullptr;
+	/// Only faces of the input below this are wanted, and only vertices that have a position.
+	int keptFaces = 0;
 };
 
 /// A point of the input's surface as an affine combination of the input's vertices. The weights of

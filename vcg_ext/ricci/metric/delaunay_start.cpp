@@ -15,6 +15,11 @@ namespace {
 /// Ties within this share of the terms' magnitude count as Delaunay.
 constexpr double kTieTolerance = 1e-14;
 
+/// Share of the paper's radii that is used. Circles that touch (I = 1), which the full radii always
+/// produce, bound the curvature that the flow can reach: the angle at a vertex in a link of n tangent
+/// edges stays below n pi however small its circle is, and tangent edges cannot be flipped.
+constexpr double kRadiusShare = 0.5;
+
 /// Radii of the ends of an edge with I < 1 are multiplied by this, and the flips start anew.
 constexpr double kShrink = 0.5;
 
@@ -148,6 +153,8 @@ DelaunayStart delaunayStart(IntrinsicMesh mesh, const std::vector<int>& mirror)
 	start.lengthened = mollify(mesh.triangulation, mesh.lengths);
 	flipUntil(mesh, start.flips, [&](int e) { return isDelaunay(mesh, {}, e); });
 	start.radii = initialRadii(mesh.triangulation, mesh.lengths);
+	for (double& radius : start.radii)
+		radius *= kRadiusShare;
 	for (std::size_t v = 0; v < mirror.size(); ++v)
 		start.radii[v] = std::min(start.radii[v], start.radii[at(mirror[v])]);
 	for (std::size_t v = 0; v < mirror.size(); ++v)
@@ -160,7 +167,7 @@ DelaunayStart delaunayStart(IntrinsicMesh mesh, const std::vector<int>& mirror)
 		bool                 overlap = false;
 		for (int e = 0; e < t.edgeCount(); ++e) {
 			double &gi = start.radii[at(t.origin(2 * e))], &gj = start.radii[at(t.target(2 * e))];
-			if (gi + gj <= mesh.lengths[at(e)] * (1.0 + 1e-12))
+			if (gi + gj < mesh.lengths[at(e)])
 				continue;
 			overlap = true;
 			for (int v : {t.origin(2 * e), t.target(2 * e)}) {

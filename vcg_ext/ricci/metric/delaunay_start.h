@@ -22,7 +22,7 @@ struct IntrinsicMesh
 struct DelaunayStart
 {
 	IntrinsicMesh       mesh;
-	std::vector<double> radii; ///< [vertex] as initialRadii(), possibly smaller
+	std::vector<double> radii; ///< [vertex] half of initialRadii() or less: I > 1 on every edge
 	std::vector<int>    flips; ///< edges flipped since the input, in order
 	double              lengthened = 0.0; ///< what mollify() added to every edge
 };
@@ -38,8 +38,8 @@ double mollify(const Triangulation& t, std::vector<double>& lengths);
 /// Length of the other diagonal of the two plane triangles at edge \p e.
 double flippedLength(const IntrinsicMesh& mesh, int e);
 
-/// Flips to the intrinsic Delaunay triangulation of the metric, then, with the initial radii of
-/// that, to the weighted one. Degenerate triangles are given a little area first (mollify()). Radii are lowered where a new edge would have I < 1.
+/// Flips to the intrinsic Delaunay triangulation of the metric, then, with half the initial
+/// radii of that, to the weighted one. Degenerate triangles are given a little area first (mollify()). Radii are lowered further where circles would touch.
 /// \param mirror [vertex] the vertex whose radius must be the same (its image in a double, or
 /// itself); may be empty
 DelaunayStart delaunayStart(IntrinsicMesh mesh, const std::vector<int>& mirror);
