@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flat_map.h"
+
+#include "shapes.h"
+
+#include <ricci/error.h>
+#include <ricci/surface/triangulation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace ricci::testing {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+using Complex = std::complex<double>;
+
+Complex asComplex(const Point2& p)
+{
+	return {p[0], p[1]};
+}
+
+} // namespace
+
+FlatMap::FlatMap(const SurfaceMesh& mesh, const UV& uv)
+{
+	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
+	boundary = t.boundaryVertices();
+	for (char b : boundary)
+		curvature.push_back(b ? kPi : 2 * kPi);
+	std::vector<Complex> place(at(t.halfedgeCount()));
+	for (int f = 0; f < t.faceCount(); ++f) {
+		const auto h = t.halfedges(f);
+		std::array<Complex, 3> p;
+		for (std::size_t k = 0; k < 3; ++k)
+			place[at(h[k])] = p[k] = asComplex(uv[at(f)][k]);
+		area += 0.5 * (std::conj(p[1] - p[0]) * (p[2] - p[0])).imag();
+		for (std::size_t k = 0; k < 3; ++k)
+			curvature[at(t.origin(h[k]))] -=
+				std::abs(std::arg((p[(k + 2) % 3] - p[k]) / (p[(k + 1) % 3] - p[k])));
+	}
+	for (int e = 0; e < t.edgeCount(); ++e) {
+		if (t.isBoundaryEdge(e))
+			continue;
+		const int h = 2 * e, g = 2 * e + 1;
+		const Complex a = place[at(h)], b = place[at(t.next(h))];
+		const Complex c = place[at(t.next(g))], d = place[at(g)];
+		if (a == c && b == d)
+			continue;
+		++seamEdges;
+		seamMismatch = std::max(seamMismatch, std::abs(std::abs(b - a) / std::abs(d - c) - 1.0));
+	}
+}
+
+double FlatMap::insideError(const std::vector<double>& target) const
+{
+	double largest = 0.0;
+	for (std::size_t v = 0; v < curvature.size(); ++v)
+		if (!boundary[v])
+			largest = std::max(largest, std::abs(curvature[v] - target[v]));
+	return largest;
+}
+
+double FlatMap::error(const std::vector<double>& target) const
+{
+	double largest = 0.0;
+	for (std::size_t v = 0; v < curvature.size(); ++v)
+		largest = std::max(largest, std::abs(curvature[v] - target[v]));
+	return largest;
+}
+
+Parametrization run(const SurfaceMesh& mesh, const Options& options, const VertexInput& input)
+{
+	Progress silent;
+	return parametrizeEuclidean(mesh, input, options, silent);
+}
+
+Options fixedTriangulation(TargetCurvature target)
+{
+	Options options;
+	options.target = target;
+	options.surgery = Surgery::None;
+	return options;
+}
+
+std::string reason(const SurfaceMesh& mesh, const Options& options, const VertexInput& input)
+{
+	try {
+		run(mesh, options, input);
+	}
+	catch (const Error& error) {
+		return error.what();
+	}
+	return {};
+}
+
+} // namespace ricci::testing

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_TESTS_FLAT_MAP_H
+#define RICCI_TESTS_FLAT_MAP_H
+
+#include <ricci/parametrize.h>
+
+#include <array>
+#include <vector>
+
+namespace ricci::testing {
+
+using UV = std::vector<std::array<Point2, 3>>;
+
+/// What can be seen of a map to the plane without knowing how it was made. Faces must be coherently
+/// oriented.
+struct FlatMap
+{
+	double seamMismatch = 0.0; ///< relative difference of an edge's lengths on its two sides
+	int seamEdges = 0;         ///< edges whose two sides lie at different places
+	double area = 0.0;
+	std::vector<double> curvature; ///< [vertex] 2 pi (boundary: pi) less the angles in the plane
+	std::vector<char> boundary;    ///< [vertex]
+
+	FlatMap(const SurfaceMesh& mesh, const UV& uv);
+
+	/// Largest |curvature - target| over inner vertices, or over all.
+	double insideError(const std::vector<double>& target) const;
+	double error(const std::vector<double>& target) const;
+};
+
+/// Runs the core with a listener that never cancels.
+Parametrization run(const SurfaceMesh& mesh, const Options& options, const VertexInput& input = {});
+
+/// Options of the flow on the given triangulation.
+Options fixedTriangulation(TargetCurvature target = TargetCurvature::Automatic);
+
+/// The sentence with which run() ends; empty if it succeeds.
+std::string reason(const SurfaceMesh& mesh, const Options& options, const VertexInput& input = {});
+
+} // namespace ricci::testing
+
+#endif
