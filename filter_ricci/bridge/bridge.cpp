@@ -88,6 +88,8 @@ int changedElements(const Settings& settings)
 	int elements = MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY;
 	if (settings.colorize)
 		elements |= MeshModel::MM_VERTCOLOR;
+	if (settings.flow.output == ricci::OutputTriangulation::CommonRefinement)
+		elements |= MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
 	return elements;
 }
 
@@ -98,8 +100,15 @@ void writeResult(
 	if (settings.flatLayer)
 		addFlatLayer(md, model, result);
 	model.updateDataMask(changedElements(settings));
-	Flow::WriteWedgeTexCoord(model.cm, result);
-	Flow::WriteVertexQuality(model.cm, result);
+	if (settings.flow.output == ricci::OutputTriangulation::CommonRefinement) {
+		model.clearDataMask(MeshModel::MM_FACEFACETOPO | MeshModel::MM_VERTFACETOPO);
+		Flow::WriteRefinement(model.cm, result);
+		vcg::tri::UpdateNormal<CMeshO>::PerFaceNormalized(model.cm);
+	}
+	else {
+		Flow::WriteWedgeTexCoord(model.cm, result);
+		Flow::WriteVertexQuality(model.cm, result);
+	}
 	if (settings.colorize)
 		colorizeByDistortion(model, result.report);
 }

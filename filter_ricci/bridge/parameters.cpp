@@ -29,7 +29,12 @@ QStringList circlePackingChoices()
 
 QStringList surgeryChoices()
 {
-	return {"None", "Edge swap"};
+	return {"None", "Edge swap", "Intrinsic flips"};
+}
+
+QStringList outputTriangulationChoices()
+{
+	return {"Keep the mesh", "Common refinement"};
 }
 
 int checkedChoice(const RichParameterList& par, const char* id, const QStringList& choices)
@@ -123,13 +128,28 @@ RichParameterList filterParameters(int)
 		"comparison."));
 	list.addParam(RichEnum(
 		"surgery",
-		static_cast<int>(ricci::Surgery::None),
+		static_cast<int>(defaults.surgery),
 		surgeryChoices(),
 		"Surgery",
 		"What to do where the flow breaks the triangle inequality.<br>"
 		"<b>None</b>: the triangulation stays as it is.<br>"
 		"<b>Edge swap</b>: the paper's remedy, the longest edge of the broken triangle is swapped. "
-		"The mesh itself is not changed."));
+		"The mesh itself is not changed.<br>"
+		"<b>Intrinsic flips</b>: the flow runs on intrinsic triangles whose edges flip without "
+		"leaving the conformal class, so that no triangle ever breaks and every curvature that "
+		"Gauss-Bonnet allows is reached."));
+	list.addParam(RichEnum(
+		"output_triangulation",
+		static_cast<int>(defaults.output),
+		outputTriangulationChoices(),
+		"Output triangulation",
+		"Where the intrinsic flips differ from the mesh, its own faces only approximate the "
+		"map.<br>"
+		"<b>Keep the mesh</b>: vertices and faces stay as they are; faces that come out flipped "
+		"are counted.<br>"
+		"<b>Common refinement</b>: faces are divided where the intrinsic edges cross them, so that "
+		"the map is exact on every piece and none is flipped. Vertices keep their numbers, new ones "
+		"are appended."));
 	list.addParam(RichInt(
 		"max_iterations",
 		defaults.maxIterations,
@@ -170,6 +190,8 @@ Settings readSettings(int, const RichParameterList& par)
 		checkedChoice(par, "circle_packing", circlePackingChoices()));
 	settings.flow.surgery =
 		static_cast<ricci::Surgery>(checkedChoice(par, "surgery", surgeryChoices()));
+	settings.flow.output = static_cast<ricci::OutputTriangulation>(
+		checkedChoice(par, "output_triangulation", outputTriangulationChoices()));
 	settings.flow.maxIterations = checkedIterations(par);
 	settings.flow.normalizeUV = par.getBool("normalize_uv");
 	settings.colorize = par.getBool("colorize");

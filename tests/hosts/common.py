@@ -14,7 +14,8 @@ PYTHON_NAME = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge"
 ALWAYS = {
     "converged": bool, "iterations": int, "max_curvature_error": float, "residual_floor": float,
     "qc_mean": float, "qc_vertex_mean": float, "qc_area_mean": float, "qc_p99": float,
-    "qc_max": float, "flipped_faces": int, "edge_swaps": int, "euler_characteristic": int,
+    "qc_max": float, "flipped_faces": int, "flipped_by_rounding": int, "flips": int,
+    "refinement_points": int, "edge_swaps": int, "boundary_splits": int, "euler_characteristic": int,
     "genus": int, "boundary_loops": int, "components": int, "seam_edges": int}
 INVARIANTS = {
     "torus_tau_re": float, "torus_tau_im": float, "annulus_modulus": float,
@@ -24,10 +25,12 @@ INVARIANTS = {
 TARGET = ["Automatic", "Flat everywhere", "Disk", "Rectangle", "Cones at selected vertices",
           "From vertex quality"]
 CHOICES = {"target_curvature": TARGET, "circle_packing": ["Inversive distance", "Thurston"],
-           "surgery": ["None", "Edge swap"]}
+           "surgery": ["None", "Edge swap", "Intrinsic flips"],
+           "output_triangulation": ["Keep the mesh", "Common refinement"]}
 PARAMETERS = [
     ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("epsilon", "Float", 1e-8),
-    ("circle_packing", "Enum", 0), ("surgery", "Enum", 0), ("max_iterations", "Int", 200),
+    ("circle_packing", "Enum", 0), ("surgery", "Enum", 2),
+    ("output_triangulation", "Enum", 0), ("max_iterations", "Int", 200),
     ("normalize_uv", "Bool", True), ("colorize", "Bool", False), ("flat_layer", "Bool", False)]
 
 

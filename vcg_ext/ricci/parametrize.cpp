@@ -485,10 +485,10 @@ void measureRefinement(const SurfaceMesh& mesh, Parametrization& result)
 void checkOptions(const Options& options)
 {
 	if (options.output == OutputTriangulation::CommonRefinement &&
-		options.surgery != Surgery::IntrinsicFlips)
+		(options.surgery != Surgery::IntrinsicFlips || options.packing == PackingScheme::Thurston))
 		throw InvalidOption(
-			"The output 'Common refinement' belongs to the surgery 'Intrinsic flips': choose both, or "
-			"'Keep the mesh'.");
+			"The output 'Common refinement' belongs to the surgery 'Intrinsic flips' with the circle "
+			"packing 'Inversive distance': choose these, or the output 'Keep the mesh'.");
 	if (!(options.epsilon > 0.0))
 		throw InvalidOption("epsilon must be greater than 0 (radians), not " +
 							text("%g", options.epsilon) + ".");
@@ -502,12 +502,18 @@ void checkOptions(const Options& options)
 Parametrization parametrizeEuclidean(
 	const SurfaceMesh& mesh,
 	const VertexInput& input,
-	const Options&     options,
+	const Options&     asked,
 	Progress&          progress)
 {
-	checkOptions(options);
+	checkOptions(asked);
 	progress.step(0.0, "Checking the mesh");
-	Parametrization              result;
+	Parametrization result;
+	Options         options = asked;
+	if (options.packing == PackingScheme::Thurston && options.surgery == Surgery::IntrinsicFlips) {
+		// Flips need circles that do not overlap.
+		options.surgery = Surgery::None;
+		result.notes.push_back("The Thurston packing runs on the mesh's own triangles, without flips.");
+	}
 	const std::vector<Component> components = splitIntoComponents(mesh, result.notes);
 	if (options.surgery != Surgery::IntrinsicFlips)
 		requireAreaEverywhere(components);

@@ -22,6 +22,7 @@ struct Report
 	double qcMax        = 1.0;
 
 	int flippedFaces    = 0; ///< faces whose image in the plane is reversed or has no area
+	int flippedByRounding = 0; ///< more of them once the coordinates are rounded to float
 	int edgeSwaps       = 0; ///< paper 5.4
 	int flips           = 0; ///< intrinsic flips, those to the start's triangulation included
 	int refinementPoints = 0; ///< points of the common refinement that are not vertices of the input

@@ -29,6 +29,9 @@ constexpr std::size_t kMixingDepth = 10;
 /// The inner solves of the disk target are this much more exact than the last change of the target.
 constexpr double kInnerAccuracy = 1e-2;
 
+/// Newton steps given to the surface itself where its double is there to fall back on.
+constexpr int kStepsBeforeDoubling = 40;
+
 std::size_t at(int index)
 {
 	return static_cast<std::size_t>(index);
@@ -364,7 +367,10 @@ FlowResult runEuclideanFlow(
 	const bool    canDouble  = options.surgery == Surgery::IntrinsicFlips && !t.boundaryLoops().empty();
 	int           iterations = 0;
 	try {
-		Run        run(whole, positions, options, 0, report);
+		Options ownOptions = options;
+		if (canDouble)
+			ownOptions.maxIterations = std::min(options.maxIterations, kStepsBeforeDoubling);
+		Run        run(whole, positions, ownOptions, 0, report);
 		const bool solved = run.solve();
 		iterations        = run.iterations();
 		if (solved)

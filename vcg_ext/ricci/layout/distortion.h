@@ -37,6 +37,11 @@ DistortionField measureDistortion(
 	const std::vector<char>&                  reversed,
 	Report&                                   report);
 
+/// Number of triangles that are properly oriented as given but not with coordinates rounded to float.
+int countFlippedByRounding(
+	const std::vector<std::array<Point2, 3>>& plane,
+	const std::vector<char>&                  reversed);
+
 } // namespace ricci
 
 #endif

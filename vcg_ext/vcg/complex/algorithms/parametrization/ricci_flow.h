@@ -7,6 +7,7 @@
 #define __VCGLIB_RICCI_FLOW
 
 #include <ricci/error.h>
+#include <ricci/layout/distortion.h>
 #include <ricci/options.h>
 #include <ricci/parametrize.h>
 #include <ricci/progress.h>
@@ -70,6 +71,9 @@ public:
 		std::vector<double>      faceQC;
 		std::vector<double>      u;               ///< ln radius of the vertex circle
 		std::vector<double>      targetCurvature; ///< radians
+		/// Common refinement, if asked for; its points and faces index the mesh's vertex and face
+		/// vectors, its points beyond them are new.
+		ricci::RefinedMesh refined;
 	};
 
 	/// Computes; \p m is only read: positions, faces, selected vertices (Rectangle, SelectedCones),
@@ -86,6 +90,7 @@ public:
 		r.report = flat.report;
 		r.notes  = flat.notes;
 		PackCharts(flat, par.normalizeUV);
+		CountFlippedByRounding(flat, r.report);
 		r.wedgeUV.resize(m.face.size());
 		r.faceQC.assign(m.face.size(), 1.0);
 		for (size_t f = 0; f < faceIndex.size(); ++f) {
@@ -95,6 +100,9 @@ public:
 		r.vertexQC        = std::move(flat.vertexQC);
 		r.u               = std::move(flat.u);
 		r.targetCurvature = std::move(flat.targetCurvature);
+		r.refined         = std::move(flat.refined);
+		for (int& f : r.refined.inputFace)
+			f = faceIndex[size_t(f)];
 		return r;
 	}
 
@@ -105,12 +113,8 @@ public:
 		for (size_t f = 0; f < m.face.size(); ++f) {
 			if (m.face[f].IsD())
 				continue;
-			for (int k = 0; k < 3; ++k) {
-				typedef typename FaceType::TexCoordType::ScalarType TexScalar;
-				m.face[f].WT(k).U() = TexScalar(r.wedgeUV[f][size_t(k)][0]);
-				m.face[f].WT(k).V() = TexScalar(r.wedgeUV[f][size_t(k)][1]);
-				m.face[f].WT(k).N() = 0;
-			}
+			for (int k = 0; k < 3; ++k)
+				SetWedge(m.face[f], k, r.wedgeUV[f][size_t(k)]);
 		}
 	}
 
@@ -133,6 +137,62 @@ public:
 		}
 	}
 
+	/// Replaces the faces of \p m by those of the common refinement. New vertices take position, normal,
+	/// colour and texture coordinate from the input's face by interpolation and the distortion as
+	/// quality; a face keeps its number for its first piece, and every piece copies its face's data.
+	/// Wedge texture coordinates must be enabled; adjacency becomes invalid.
+	static void WriteRefinement(MeshType& m, const Result& r)
+	{
+		RequirePerFaceWedgeTexCoord(m);
+		RequirePerVertexQuality(m);
+		const ricci::RefinedMesh& refined = r.refined;
+		const size_t              oldVertices = m.vert.size(), oldFaces = m.face.size();
+		if (refined.points.size() > oldVertices)
+			Allocator<MeshType>::AddVertices(m, refined.points.size() - oldVertices);
+		typename MeshType::template PerVertexAttributeHandle<ScalarType> u =
+			Allocator<MeshType>::template GetPerVertexAttribute<ScalarType>(m, "ricci_u");
+		typename MeshType::template PerVertexAttributeHandle<ScalarType> target =
+			Allocator<MeshType>::template GetPerVertexAttribute<ScalarType>(
+				m, "ricci_target_curvature");
+		for (size_t v = 0; v < oldVertices; ++v)
+			if (!m.vert[v].IsD()) {
+				u[v]      = ScalarType(r.u[v]);
+				target[v] = ScalarType(r.targetCurvature[v]);
+			}
+		for (size_t v = oldVertices; v < refined.points.size(); ++v) {
+			Interpolate(m, refined.points[v], m.vert[v]);
+			double logRadius = 0.0;
+			for (size_t i = 0; i < 4; ++i)
+				logRadius += refined.points[v].weight[i] * r.u[size_t(refined.points[v].vertex[i])];
+			u[v]      = ScalarType(logRadius);
+			target[v] = ScalarType(0);
+		}
+		for (size_t v = 0; v < refined.points.size(); ++v)
+			if (!m.vert[v].IsD())
+				m.vert[v].Q() = typename VertexType::QualityType(refined.vertexQC[v]);
+
+		// The first piece of a face takes its place, the others are appended.
+		std::vector<int>  slot(refined.triangles.size(), -1);
+		std::vector<char> taken(oldFaces, 0);
+		size_t            added = 0;
+		for (size_t i = 0; i < refined.triangles.size(); ++i) {
+			const size_t f = size_t(refined.inputFace[i]);
+			slot[i]        = taken[f] ? int(oldFaces + added++) : int(f);
+			taken[f]       = 1;
+		}
+		if (added > 0)
+			Allocator<MeshType>::AddFaces(m, added);
+		for (size_t i = 0; i < refined.triangles.size(); ++i) {
+			FaceType& face = m.face[size_t(slot[i])];
+			if (size_t(slot[i]) >= oldFaces)
+				face.ImportData(m.face[size_t(refined.inputFace[i])]);
+			for (int k = 0; k < 3; ++k) {
+				face.V(k) = &m.vert[size_t(refined.triangles[i][size_t(k)])];
+				SetWedge(face, k, refined.uv[i][size_t(k)]);
+			}
+		}
+	}
+
 	/// Fills the empty mesh \p flat with the layout: its vertices are the vertices of \p m, once for
 	/// each place they have in the plane, at z = 0, with their quality; wedge texture coordinates are
 	/// written where they are enabled on \p flat.
@@ -142,25 +202,34 @@ public:
 		std::map<Place, size_t>                  index;
 		std::vector<Place>                       places;
 		std::vector<std::array<size_t, 3>>       faces;
-		for (size_t f = 0; f < m.face.size(); ++f) {
-			if (m.face[f].IsD())
-				continue;
+		const auto addFace = [&](const std::array<size_t, 3>& vertex, const WedgeUV& uv) {
 			std::array<size_t, 3> corner;
-			for (int k = 0; k < 3; ++k) {
-				const Place place(Index(m, m.face[f].cV(k)), r.wedgeUV[f][size_t(k)]);
+			for (size_t k = 0; k < 3; ++k) {
+				const Place place(vertex[k], uv[k]);
 				const auto  found = index.insert(std::make_pair(place, places.size()));
 				if (found.second)
 					places.push_back(place);
-				corner[size_t(k)] = found.first->second;
+				corner[k] = found.first->second;
 			}
 			faces.push_back(corner);
+		};
+		const bool                 refined = !r.refined.triangles.empty();
+		const std::vector<double>& quality = refined ? r.refined.vertexQC : r.vertexQC;
+		for (size_t i = 0; i < r.refined.triangles.size(); ++i) {
+			const ricci::Triangle& t = r.refined.triangles[i];
+			addFace({size_t(t[0]), size_t(t[1]), size_t(t[2])}, r.refined.uv[i]);
 		}
+		for (size_t f = 0; f < m.face.size() && !refined; ++f)
+			if (!m.face[f].IsD())
+				addFace(
+					{Index(m, m.face[f].cV(0)), Index(m, m.face[f].cV(1)), Index(m, m.face[f].cV(2))},
+					r.wedgeUV[f]);
 		Allocator<MeshType>::AddVertices(flat, places.size());
 		for (size_t i = 0; i < places.size(); ++i) {
 			const ricci::Point2& p = places[i].second;
 			flat.vert[i].P()       = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(0));
 			flat.vert[i].N()       = CoordType(0, 0, 1);
-			flat.vert[i].Q() = typename VertexType::QualityType(r.vertexQC[places[i].first]);
+			flat.vert[i].Q() = typename VertexType::QualityType(quality[places[i].first]);
 		}
 		FaceIterator fi = Allocator<MeshType>::AddFaces(flat, faces.size());
 		for (size_t f = 0; f < faces.size(); ++f, ++fi) {
@@ -168,16 +237,58 @@ public:
 				fi->V(k) = &flat.vert[faces[f][size_t(k)]];
 			fi->N() = CoordType(0, 0, 1);
 			if (HasPerWedgeTexCoord(flat))
-				for (int k = 0; k < 3; ++k) {
-					typedef typename FaceType::TexCoordType::ScalarType TexScalar;
-					fi->WT(k).U() = TexScalar(places[faces[f][size_t(k)]].second[0]);
-					fi->WT(k).V() = TexScalar(places[faces[f][size_t(k)]].second[1]);
-					fi->WT(k).N() = 0;
-				}
+				for (int k = 0; k < 3; ++k)
+					SetWedge(*fi, k, places[faces[f][size_t(k)]].second);
 		}
 	}
 
 private:
+	static void SetWedge(FaceType& face, int k, const ricci::Point2& p)
+	{
+		typedef typename FaceType::TexCoordType::ScalarType TexScalar;
+		face.WT(k).U() = TexScalar(p[0]);
+		face.WT(k).V() = TexScalar(p[1]);
+		face.WT(k).N() = 0;
+	}
+
+	/// Position, normal, and the colour and texture coordinate where there are any, at an affine
+	/// combination of vertices of \p m.
+	static void Interpolate(const MeshType& m, const ricci::SurfacePoint& p, VertexType& to)
+	{
+		double place[3] = {0, 0, 0}, normal[3] = {0, 0, 0}, colour[4] = {0, 0, 0, 0};
+		for (size_t i = 0; i < 4; ++i) {
+			if (p.weight[i] == 0.0)
+				continue;
+			const VertexType& v = m.vert[size_t(p.vertex[i])];
+			for (int k = 0; k < 3; ++k) {
+				place[k] += p.weight[i] * double(v.cP()[k]);
+				normal[k] += p.weight[i] * double(v.cN()[k]);
+			}
+			if (HasPerVertexColor(m))
+				for (int k = 0; k < 4; ++k)
+					colour[k] += p.weight[i] * double(v.cC()[k]);
+		}
+		to.P() = CoordType(ScalarType(place[0]), ScalarType(place[1]), ScalarType(place[2]));
+		to.N() = CoordType(ScalarType(normal[0]), ScalarType(normal[1]), ScalarType(normal[2]));
+		to.N().Normalize();
+		if (HasPerVertexColor(m))
+			for (int k = 0; k < 4; ++k)
+				to.C()[k] = static_cast<unsigned char>(
+					std::min(255.0, std::max(0.0, std::round(colour[k]))));
+	}
+
+	static void CountFlippedByRounding(const ricci::Parametrization& flat, ricci::Report& report)
+	{
+		if (flat.refined.triangles.empty()) {
+			report.flippedByRounding = ricci::countFlippedByRounding(flat.uv, flat.reversed);
+			return;
+		}
+		std::vector<char> reversed;
+		for (int f : flat.refined.inputFace)
+			reversed.push_back(flat.reversed[size_t(f)]);
+		report.flippedByRounding = ricci::countFlippedByRounding(flat.refined.uv, reversed);
+	}
+
 	static ricci::SurfaceMesh ReadSurface(const MeshType& m, std::vector<int>& faceIndex)
 	{
 		ricci::SurfaceMesh mesh;
@@ -223,6 +334,9 @@ private:
 		for (int f : chart.faces)
 			for (const ricci::Point2& p : flat.uv[size_t(f)])
 				box.Add(Point2d(p[0], p[1]));
+		for (int f : chart.refined)
+			for (const ricci::Point2& p : flat.refined.uv[size_t(f)])
+				box.Add(Point2d(p[0], p[1]));
 		return box;
 	}
 
@@ -230,9 +344,14 @@ private:
 	static void
 	Transform(ricci::Parametrization& flat, const ricci::Chart& chart, double scale, Point2d shift)
 	{
-		for (int f : chart.faces)
-			for (ricci::Point2& p : flat.uv[size_t(f)])
+		const auto move = [&](WedgeUV& uv) {
+			for (ricci::Point2& p : uv)
 				p = {scale * p[0] + shift[0], scale * p[1] + shift[1]};
+		};
+		for (int f : chart.faces)
+			move(flat.uv[size_t(f)]);
+		for (int f : chart.refined)
+			move(flat.refined.uv[size_t(f)]);
 	}
 
 	/// Places the charts' bounding boxes side by side, then scales the whole into [0,1]^2 if asked.
@@ -254,10 +373,12 @@ private:
 		const double size = std::max(whole.DimX(), whole.DimY());
 		for (const ricci::Chart& chart : flat.charts)
 			Transform(flat, chart, 1.0 / size, -whole.min / size);
-		for (WedgeUV& face : flat.uv) // rounding may leave the square by one unit
-			for (ricci::Point2& p : face)
-				for (double& x : p)
-					x = std::min(std::max(x, 0.0), 1.0);
+		// Rounding may leave the square by one unit.
+		for (std::vector<WedgeUV>* faces : {&flat.uv, &flat.refined.uv})
+			for (WedgeUV& face : *faces)
+				for (ricci::Point2& p : face)
+					for (double& x : p)
+						x = std::min(std::max(x, 0.0), 1.0);
 	}
 
 	/// vcglib's rectangle packer on a grid fine enough for the number of boxes. It refuses what does
