@@ -550,6 +550,45 @@ TEST(Parametrize, ErrorsOfTheListenerPassThrough)
 		std::runtime_error);
 }
 
+/// Seven triangles round a vertex; the sides of the polygon span equal angles, except for one of
+/// \p gap degrees.
+SurfaceMesh fanWithGap(double gap)
+{
+	SurfaceMesh fan;
+	fan.positions.push_back({0, 0, 0});
+	for (int i = 0; i < 7; ++i) {
+		const double angle = (gap + (360 - gap) * i / 6) * kPi / 180;
+		fan.positions.push_back({std::cos(angle), std::sin(angle), 0});
+		fan.triangles.push_back({0, i + 1, (i + 1) % 7 + 1});
+	}
+	return fan;
+}
+
+TEST(Parametrize, SplitsABoundaryEdgeThatWouldBreakItsTriangle)
+{
+	// The more negative the curvature asked of the middle, the nearer its vertex comes to the long
+	// side, whose triangle breaks. A boundary edge cannot be swapped: it is split.
+	const SurfaceMesh fan = fanWithGap(100);
+	VertexInput input;
+	input.targetCurvature.assign(8, 0.0);
+	Options options = fixedTriangulation(TargetCurvature::Prescribed);
+	options.surgery = Surgery::EdgeSwap;
+	for (double K : {-1.0, -2.0, -3.0}) {
+		input.targetCurvature[0] = K;
+		const Parametrization flat = run(fan, options, input);
+		EXPECT_EQ(flat.report.boundarySplits, K < -2.5 ? 1 : 0);
+		EXPECT_EQ(flat.report.edgeSwaps, 0);
+		EXPECT_EQ(flat.report.brokenTriangles, 0);
+		EXPECT_EQ(flat.report.flippedFaces, 0);
+		EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+		const FlatMap map(fan, flat.uv);
+		EXPECT_NEAR(map.curvature[0], K, 1e-9);
+		ASSERT_EQ(flat.u.size(), fan.positions.size()); // the new vertex stays inside
+	}
+	options.surgery = Surgery::None;
+	EXPECT_NE(reason(fan, options, input).find("break the triangle inequality"), std::string::npos);
+}
+
 TEST(Parametrize, ReportedRadiiBelongToTheLayout)
 {
 	// Scaling the layout to the area of the surface shifts u; edges of the layout must follow it.

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/flat_map.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/vcg_mesh.h"
+
+#include <vcg/complex/algorithms/parametrization/ricci_flow.h>
+
+#include <ricci/error.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <string>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+template<class Mesh>
+using Flow = vcg::tri::RicciFlow<Mesh>;
+
+template<class Mesh>
+class Facade : public ::testing::Test
+{
+};
+
+using Meshes = ::testing::Types<FloatMesh, DoubleMesh>;
+TYPED_TEST_SUITE(Facade, Meshes);
+
+/// Every bit of a mesh that a filter might touch.
+template<class Mesh>
+std::vector<double> contents(const Mesh& m)
+{
+	std::vector<double> all{
+		double(m.vn),
+		double(m.fn),
+		double(m.vert.size()),
+		double(m.face.size()),
+		double(m.vert_attr.size()),
+		double(m.face_attr.size())};
+	for (const auto& v : m.vert) {
+		for (int k = 0; k < 3; ++k) {
+			all.push_back(double(v.cP()[k]));
+			all.push_back(double(v.cN()[k]));
+		}
+		all.push_back(double(v.cQ()));
+		all.push_back(double(v.cFlags()));
+	}
+	for (const auto& f : m.face) {
+		for (int k = 0; k < 3; ++k) {
+			all.push_back(double(vcg::tri::Index(m, f.cV(k))));
+			all.push_back(double(f.cWT(k).U()));
+			all.push_back(double(f.cWT(k).V()));
+			all.push_back(double(f.cWT(k).N()));
+		}
+		all.push_back(double(f.cFlags()));
+	}
+	return all;
+}
+
+/// A mesh whose every field holds something.
+template<class Mesh>
+void fill(const SurfaceMesh& shape, Mesh& m)
+{
+	toVcg(shape, m);
+	int i = 0;
+	for (auto& v : m.vert) {
+		v.Q() = typename Mesh::VertexType::QualityType(0.25 * ++i);
+		v.N() = typename Mesh::CoordType(1, 2, 3);
+	}
+	for (auto& f : m.face)
+		for (int k = 0; k < 3; ++k) {
+			f.WT(k).U() = 0.125f * static_cast<float>(++i);
+			f.WT(k).V() = -1.0f;
+			f.WT(k).N() = 3;
+		}
+}
+
+template<class Mesh>
+typename Flow<Mesh>::Params
+onFixedTriangulation(TargetCurvature target = TargetCurvature::Automatic)
+{
+	typename Flow<Mesh>::Params par;
+	par.target = target;
+	par.surgery = Surgery::None;
+	return par;
+}
+
+template<class Mesh>
+typename Flow<Mesh>::Result compute(const Mesh& m, const typename Flow<Mesh>::Params& par)
+{
+	Progress silent;
+	return Flow<Mesh>::Compute(m, par, silent);
+}
+
+TYPED_TEST(Facade, ComputeReadsOnly)
+{
+	Random random(300);
+	TypeParam m;
+	fill(bumpyTorus(12, 8, random), m);
+	const auto before = contents(m);
+	compute(m, onFixedTriangulation<TypeParam>());
+	EXPECT_EQ(contents(m), before);
+}
+
+TYPED_TEST(Facade, ARefusalLeavesTheMeshAsItWas)
+{
+	TypeParam m;
+	fill(tetrahedron(), m);
+	const auto before = contents(m);
+	EXPECT_THROW(compute(m, onFixedTriangulation<TypeParam>()), InvalidOption);
+	auto par = onFixedTriangulation<TypeParam>();
+	par.epsilon = -1;
+	EXPECT_THROW(compute(m, par), InvalidOption);
+	EXPECT_EQ(contents(m), before);
+}
+
+TYPED_TEST(Facade, CancellingLeavesTheMeshAsItWas)
+{
+	struct Impatient : Progress
+	{
+		int left;
+		bool update(double, const std::string&) override { return --left > 0; }
+	} impatient;
+	Random random(301);
+	TypeParam m;
+	fill(bumpyTorus(12, 8, random), m);
+	const auto before = contents(m);
+	for (int calls = 1; calls < 8; ++calls) {
+		impatient.left = calls;
+		EXPECT_THROW(
+			Flow<TypeParam>::Compute(m, onFixedTriangulation<TypeParam>(), impatient), Cancelled);
+		EXPECT_EQ(contents(m), before);
+	}
+}
+
+TYPED_TEST(Facade, EmptyMeshAndPointCloudAreRefused)
+{
+	TypeParam m;
+	EXPECT_THROW(compute(m, onFixedTriangulation<TypeParam>()), InvalidMesh);
+	vcg::tri::Allocator<TypeParam>::AddVertices(m, 3);
+	EXPECT_THROW(compute(m, onFixedTriangulation<TypeParam>()), InvalidMesh);
+}
+
+TYPED_TEST(Facade, MatchesTheCore)
+{
+	Random random(302);
+	TypeParam m;
+	toVcg(bumpyTorus(12, 8, random), m);
+	const auto par = onFixedTriangulation<TypeParam>();
+	const auto result = compute(m, par);
+	const auto core = run(fromVcg(m), par);
+	EXPECT_EQ(result.report.qcMean, core.report.qcMean);
+	EXPECT_EQ(result.report.maxCurvatureError, core.report.maxCurvatureError);
+	EXPECT_EQ(result.report.torusTauIm, core.report.torusTauIm);
+	EXPECT_EQ(result.u, core.u);
+	EXPECT_EQ(result.vertexQC, core.vertexQC);
+	EXPECT_EQ(result.targetCurvature, core.targetCurvature);
+	EXPECT_EQ(result.notes, core.notes);
+}
+
+TYPED_TEST(Facade, WritesWedgesQualityAndAttributes)
+{
+	Random random(303);
+	TypeParam m;
+	fill(bumpyTorus(12, 8, random), m);
+	const auto result = compute(m, onFixedTriangulation<TypeParam>());
+	Flow<TypeParam>::WriteWedgeTexCoord(m, result);
+	Flow<TypeParam>::WriteVertexQuality(m, result);
+	for (std::size_t f = 0; f < m.face.size(); ++f)
+		for (int k = 0; k < 3; ++k) {
+			EXPECT_EQ(m.face[f].cWT(k).U(), static_cast<float>(result.wedgeUV[f][at(k)][0]));
+			EXPECT_EQ(m.face[f].cWT(k).V(), static_cast<float>(result.wedgeUV[f][at(k)][1]));
+			EXPECT_EQ(m.face[f].cWT(k).N(), 0);
+		}
+	using Scalar = typename TypeParam::ScalarType;
+	auto u = vcg::tri::Allocator<TypeParam>::template FindPerVertexAttribute<Scalar>(m, "ricci_u");
+	auto target = vcg::tri::Allocator<TypeParam>::template FindPerVertexAttribute<Scalar>(
+		m, "ricci_target_curvature");
+	ASSERT_TRUE(vcg::tri::Allocator<TypeParam>::IsValidHandle(m, u));
+	ASSERT_TRUE(vcg::tri::Allocator<TypeParam>::IsValidHandle(m, target));
+	for (std::size_t v = 0; v < m.vert.size(); ++v) {
+		EXPECT_EQ(m.vert[v].cQ(), static_cast<Scalar>(result.vertexQC[v]));
+		EXPECT_GE(m.vert[v].cQ(), Scalar(1));
+		EXPECT_EQ(u[v], static_cast<Scalar>(result.u[v]));
+		EXPECT_EQ(target[v], static_cast<Scalar>(result.targetCurvature[v]));
+	}
+	// A second run finds its attributes and makes no others.
+	const auto count = m.vert_attr.size();
+	Flow<TypeParam>::WriteVertexQuality(m, result);
+	EXPECT_EQ(m.vert_attr.size(), count);
+}
+
+TYPED_TEST(Facade, ReadsThePrescribedCurvatureFromTheQuality)
+{
+	Random random(304);
+	TypeParam m;
+	toVcg(bumpyTorus(12, 8, random), m);
+	std::vector<double> wanted;
+	double sum = 0.0;
+	for (std::size_t v = 0; v < m.vert.size(); ++v)
+		sum += wanted.emplace_back(random.real(-0.3, 0.3));
+	using Quality = typename TypeParam::VertexType::QualityType;
+	for (std::size_t v = 0; v < m.vert.size(); ++v)
+		m.vert[v].Q() = static_cast<Quality>(wanted[v] - sum / static_cast<double>(m.vert.size()));
+	const auto result = compute(m, onFixedTriangulation<TypeParam>(TargetCurvature::Prescribed));
+	for (std::size_t v = 0; v < m.vert.size(); ++v)
+		EXPECT_NEAR(
+			result.targetCurvature[v],
+			double(m.vert[v].cQ()),
+			100 * double(std::numeric_limits<Quality>::epsilon()));
+	// An error beyond rounding is not spread.
+	m.vert[0].Q() += Quality(0.01);
+	EXPECT_THROW(
+		compute(m, onFixedTriangulation<TypeParam>(TargetCurvature::Prescribed)),
+		InadmissibleCurvature);
+}
+
+TYPED_TEST(Facade, ReadsTheSelection)
+{
+	TypeParam m;
+	toVcg(rectangle(6, 4, 6, 4), m);
+	for (int v : {0, 4, 30, 34})
+		m.vert[at(v)].SetS();
+	const auto result = compute(m, onFixedTriangulation<TypeParam>(TargetCurvature::Rectangle));
+	for (int v = 0; v < 35; ++v)
+		EXPECT_EQ(
+			result.targetCurvature[at(v)], v == 0 || v == 4 || v == 30 || v == 34 ? kPi / 2 : 0.0);
+	ASSERT_TRUE(result.report.rectangleAspect);
+	EXPECT_NEAR(*result.report.rectangleAspect, 1.5, 1e-6);
+	m.vert[0].ClearS();
+	EXPECT_THROW(
+		compute(m, onFixedTriangulation<TypeParam>(TargetCurvature::Rectangle)), InvalidOption);
+}
+
+TYPED_TEST(Facade, DeletedElementsTakeNoPart)
+{
+	Random random(305);
+	const SurfaceMesh shape = bumpyTorus(12, 8, random);
+	TypeParam clean, dirty;
+	toVcg(shape, clean);
+	SurfaceMesh more = sideBySide(tetrahedron(), shape, 0);
+	for (std::size_t v = 0; v < 4; ++v)
+		more.positions[v] = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
+	toVcg(more, dirty);
+	for (std::size_t f = 0; f < 4; ++f)
+		vcg::tri::Allocator<TypeParam>::DeleteFace(dirty, dirty.face[f]);
+	for (std::size_t v = 0; v < 4; ++v)
+		vcg::tri::Allocator<TypeParam>::DeleteVertex(dirty, dirty.vert[v]);
+	const auto a = compute(clean, onFixedTriangulation<TypeParam>());
+	const auto b = compute(dirty, onFixedTriangulation<TypeParam>());
+	EXPECT_EQ(a.report.qcMean, b.report.qcMean);
+	ASSERT_EQ(b.wedgeUV.size(), a.wedgeUV.size() + 4);
+	for (std::size_t f = 0; f < a.wedgeUV.size(); ++f)
+		EXPECT_EQ(a.wedgeUV[f], b.wedgeUV[f + 4]);
+	for (std::size_t v = 0; v < a.u.size(); ++v)
+		EXPECT_EQ(a.u[v], b.u[v + 4]);
+	Flow<TypeParam>::WriteWedgeTexCoord(dirty, b);
+	Flow<TypeParam>::WriteVertexQuality(dirty, b);
+}
+
+TYPED_TEST(Facade, NormalisedUvsFillTheUnitSquareInOneDirection)
+{
+	TypeParam m;
+	toVcg(rectangle(6, 3, 600, 200), m);
+	auto par = onFixedTriangulation<TypeParam>();
+	auto result = compute(m, par);
+	Point2 high{0, 0};
+	for (const auto& face : result.wedgeUV)
+		for (const Point2& p : face)
+			for (std::size_t k = 0; k < 2; ++k) {
+				EXPECT_GE(p[k], 0.0);
+				EXPECT_LE(p[k], 1.0);
+				high[k] = std::max(high[k], p[k]);
+			}
+	EXPECT_EQ(high[0], 1.0);
+	EXPECT_NEAR(high[1], 1.0 / 3, 1e-12); // the aspect is kept
+	par.normalizeUV = false;
+	result = compute(m, par);
+	high = {0, 0};
+	for (const auto& face : result.wedgeUV)
+		for (const Point2& p : face)
+			for (std::size_t k = 0; k < 2; ++k)
+				high[k] = std::max(high[k], p[k]);
+	EXPECT_NEAR(high[0], 600.0, 1e-9);
+	EXPECT_NEAR(high[1], 200.0, 1e-9);
+}
+
+TYPED_TEST(Facade, ChartsOfSeveralComponentsDoNotOverlap)
+{
+	Random random(306);
+	for (int count : {2, 7, 40, 150}) {
+		SurfaceMesh shape;
+		std::vector<int> first; // face of each component
+		for (int i = 0; i < count; ++i) {
+			first.push_back(static_cast<int>(shape.triangles.size()));
+			const double w = std::exp(random.real(-3, 1)), h = w * std::exp(random.real(-2, 2));
+			shape = sideBySide(shape, rectangle(2, 3, w, h), 10.0 * i);
+		}
+		first.push_back(static_cast<int>(shape.triangles.size()));
+		TypeParam m;
+		toVcg(shape, m);
+		for (bool normalize : {true, false}) {
+			auto par = onFixedTriangulation<TypeParam>();
+			par.normalizeUV = normalize;
+			const auto result = compute(m, par);
+			EXPECT_EQ(result.report.components, count);
+			struct Box
+			{
+				Point2 low{1e300, 1e300}, high{-1e300, -1e300};
+			};
+			std::vector<Box> boxes(at(count));
+			for (int c = 0; c < count; ++c)
+				for (int f = first[at(c)]; f < first[at(c + 1)]; ++f)
+					for (const Point2& p : result.wedgeUV[at(f)])
+						for (std::size_t k = 0; k < 2; ++k) {
+							Box& box = boxes[at(c)];
+							box.low[k] = std::min(box.low[k], p[k]);
+							box.high[k] = std::max(box.high[k], p[k]);
+							if (normalize) {
+								EXPECT_TRUE(p[k] >= 0.0 && p[k] <= 1.0);
+							}
+						}
+			int overlaps = 0;
+			for (std::size_t a = 0; a < boxes.size(); ++a)
+				for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+					bool apart = false;
+					for (std::size_t k = 0; k < 2; ++k)
+						apart |= boxes[a].high[k] <= boxes[b].low[k] ||
+								 boxes[b].high[k] <= boxes[a].low[k];
+					overlaps += !apart;
+				}
+			EXPECT_EQ(overlaps, 0) << count << " charts";
+			// One scale for all.
+			const SurfaceMesh read = fromVcg(m);
+			double scale = 0.0;
+			for (int c = 0; c < count; ++c) {
+				const Triangle& t = read.triangles[at(first[at(c)])];
+				const auto& face = result.wedgeUV[at(first[at(c)])];
+				const double s = std::hypot(face[0][0] - face[1][0], face[0][1] - face[1][1]) /
+								 distance(read.positions[at(t[0])], read.positions[at(t[1])]);
+				if (c == 0)
+					scale = s;
+				EXPECT_NEAR(s / scale, 1.0, 1e-9);
+			}
+		}
+	}
+}
+
+TYPED_TEST(Facade, FlatMeshIsTheLayout)
+{
+	Random random(307);
+	TypeParam m, flat;
+	toVcg(bumpyTorus(12, 8, random), m);
+	const auto result = compute(m, onFixedTriangulation<TypeParam>());
+	Flow<TypeParam>::BuildFlatMesh(m, result, flat);
+	ASSERT_EQ(flat.FN(), m.FN());
+	const SurfaceMesh shape = fromVcg(flat);
+	const Triangulation t(flat.VN(), shape.triangles);
+	EXPECT_EQ(t.eulerCharacteristic(), 1); // a torus cut open is a disk
+	EXPECT_EQ(t.boundaryLoops().size(), 1u);
+	int boundary = 0;
+	for (int e = 0; e < t.edgeCount(); ++e)
+		boundary += t.isBoundaryEdge(e);
+	EXPECT_EQ(boundary, 2 * result.report.seamEdges);
+	using Scalar = typename TypeParam::ScalarType;
+	for (std::size_t f = 0; f < shape.triangles.size(); ++f)
+		for (int k = 0; k < 3; ++k) {
+			EXPECT_EQ(flat.face[f].cP(k)[0], static_cast<Scalar>(result.wedgeUV[f][at(k)][0]));
+			EXPECT_EQ(flat.face[f].cP(k)[1], static_cast<Scalar>(result.wedgeUV[f][at(k)][1]));
+			EXPECT_EQ(flat.face[f].cP(k)[2], Scalar(0));
+		}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Real meshes, where they lie beside the repository. They may not be redistributed, so the tests
+// are skipped on a machine without them.
+#include "support/flat_map.h"
+#include "support/mesh_file.h"
+#include "support/obj_writer.h"
+
+#include <ricci/error.h>
+#include <ricci/parametrize.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace ricci::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kShared = RICCI_SHARED_DIR;
+const fs::path kChecker = kShared / "verify_uv.py";
+
+/// Shell words of a path.
+std::string quoted(const fs::path& path)
+{
+	return "'" + path.string() + "'";
+}
+
+/// A Python that can run the checker, or nothing.
+std::string pythonWithNumpy()
+{
+	for (const std::string& python : {std::string(RICCI_VENV_PYTHON), std::string("python3")})
+		if (std::system((python + " -c 'import numpy' >/dev/null 2>&1").c_str()) == 0)
+			return python;
+	return {};
+}
+
+class SharedMeshes : public ::testing::Test
+{
+protected:
+	/// False, and the test is skipped, if the mesh is not there.
+	bool load(const std::string& name)
+	{
+		const fs::path path = kShared / "meshes" / name;
+		if (!fs::exists(path))
+			return false;
+		m_mesh = readMesh(path.string());
+		return true;
+	}
+
+	/// Has the independent checker, if it can run, judge the doubles of the core.
+	void expectVerified(const Parametrization& flat, const std::string& name)
+	{
+		const std::string python = pythonWithNumpy();
+		if (python.empty() || !fs::exists(kChecker))
+			return; // told by CheckerCanRun
+		const fs::path obj =
+			fs::temp_directory_path() /
+			("ricci_" + name + "_" +
+			 std::to_string(std::hash<std::string>{}(RICCI_VENV_PYTHON) % 100000) + ".obj");
+		writeObj(obj.string(), m_mesh, flat.uv);
+		const int status = std::system(
+			(python + " " + quoted(kChecker) + " " + quoted(obj) + " --seam-tol 1e-9 >/dev/null")
+				.c_str());
+		fs::remove(obj);
+		EXPECT_EQ(status, 0) << "verify_uv.py found a fault";
+	}
+
+	/// Run, check in the plane and by the checker; or a reason, which is returned.
+	std::string judge(const std::string& name, TargetCurvature target)
+	{
+		if (!load(name))
+			return "missing";
+		try {
+			const Parametrization flat = run(m_mesh, fixedTriangulation(target));
+			const FlatMap map(m_mesh, flat.uv);
+			EXPECT_LT(map.seamMismatch, 1e-9) << name;
+			EXPECT_EQ(flat.report.flippedFaces, 0) << name;
+			EXPECT_LT(flat.report.maxCurvatureError, 1e-8) << name;
+			EXPECT_LT(map.insideError(flat.targetCurvature), 1e-7) << name;
+			expectVerified(flat, fs::path(name).stem().string());
+			return {};
+		}
+		catch (const Error& error) {
+			return error.what();
+		}
+	}
+
+	SurfaceMesh m_mesh;
+};
+
+#define SKIP_IF_MISSING(name)                                                                      \
+	if (!load(name))                                                                               \
+	GTEST_SKIP() << "SKIPPED: " << (kShared / "meshes" / name).string() << " is missing"
+
+TEST_F(SharedMeshes, CheckerCanRun)
+{
+	if (!fs::exists(kChecker))
+		GTEST_SKIP() << "SKIPPED: " << kChecker.string() << " is missing";
+	if (pythonWithNumpy().empty())
+		GTEST_SKIP() << "SKIPPED: no Python with numpy for verify_uv.py";
+}
+
+TEST_F(SharedMeshes, RockerArm)
+{
+	SKIP_IF_MISSING("g1_rocker_arm.ply");
+	const Parametrization flat = run(m_mesh, fixedTriangulation(TargetCurvature::Flat));
+	EXPECT_LT(flat.report.maxCurvatureError, 1e-10);
+	EXPECT_LE(flat.report.qcVertexMean, 1.0466); // the paper's Table 1: 1.0461
+	EXPECT_EQ(flat.report.flippedFaces, 0);
+	const FlatMap map(m_mesh, flat.uv);
+	EXPECT_LT(map.seamMismatch, 1e-9);
+	EXPECT_EQ(map.seamEdges, flat.report.seamEdges);
+	expectVerified(flat, "g1_rocker_arm");
+}
+
+TEST_F(SharedMeshes, RockerArmByTheConventionalFlow)
+{
+	SKIP_IF_MISSING("g1_rocker_arm.ply");
+	Options options = fixedTriangulation(TargetCurvature::Flat);
+	options.packing = PackingScheme::Thurston;
+	const Parametrization flat = run(m_mesh, options);
+	EXPECT_NEAR(flat.report.qcVertexMean, 1.739, 0.005); // the paper's Table 1: 1.7405
+	EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+}
+
+TEST_F(SharedMeshes, DisksAnnuliAndToriAreFlatOrRefusedWithAReason)
+{
+	const struct
+	{
+		const char* name;
+		bool isDisk;
+	} meshes[] = {
+		{"g1_mc_torus_small.ply", false},
+		{"annulus_mc_catenoid.ply", false},
+		{"disk_mc_terrain.ply", true},
+		{"disk_camel_head.ply", true},
+		{"peers/mc_torus_g1.ply", false},
+		{"peers/mc_blob_annulus.ply", false},
+		{"peers/mc_blob_disk.ply", true}};
+	int present = 0;
+	for (const auto& m : meshes) {
+		if (!load(m.name))
+			continue;
+		++present;
+		std::vector<TargetCurvature> targets{TargetCurvature::Automatic};
+		if (m.isDisk)
+			targets.insert(targets.end(), {TargetCurvature::Disk, TargetCurvature::Rectangle});
+		for (TargetCurvature target : targets) {
+			const std::string sentence = judge(m.name, target);
+			if (!sentence.empty()) {
+				EXPECT_NE(sentence.find("break the triangle inequality"), std::string::npos)
+					<< m.name << ": " << sentence;
+			}
+		}
+	}
+	if (present == 0)
+		GTEST_SKIP() << "SKIPPED: " << (kShared / "meshes").string() << " is missing";
+}
+
+TEST_F(SharedMeshes, FaultyMeshesAreRefusedWithTheirCounts)
+{
+	// Counts of INDEX.tsv, which another program made.
+	const struct
+	{
+		const char *name, *part;
+	} meshes[] = {
+		{"dirty_moebius.ply", "1 component is not orientable"},
+		{"dirty_cow.ply", "1 non-manifold vertex"},
+		{"g0_fandisk.ply", "genus 0"},
+		{"g2_eight.ply", "genus 2"}};
+	int present = 0;
+	for (const auto& m : meshes) {
+		if (!load(m.name))
+			continue;
+		++present;
+		const std::string sentence = reason(m_mesh, fixedTriangulation());
+		EXPECT_NE(sentence.find(m.part), std::string::npos) << m.name << ": " << sentence;
+	}
+	if (present == 0)
+		GTEST_SKIP() << "SKIPPED: " << (kShared / "meshes").string() << " is missing";
+}
+
+} // namespace
+} // namespace ricci::testing

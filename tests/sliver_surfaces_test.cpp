@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surfaces of marching cubes: 6 % of their triangles have an angle below 5 degrees. On a fixed
+// triangulation some have no solution; then the flow must say so, and the remedies must work.
+#include "support/flat_map.h"
+#include "support/implicit_surface.h"
+#include "support/random.h"
+#include "support/shapes.h"
+
+#include <ricci/error.h>
+#include <ricci/parametrize.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace ricci::testing {
+namespace {
+
+VertexInput randomCones(const SurfaceMesh& mesh, int count, Random& random)
+{
+	VertexInput input;
+	input.selected.assign(mesh.positions.size(), 0);
+	for (int i = 0; i < count; ++i)
+		input.selected[at(random.index(static_cast<int>(mesh.positions.size())))] = 1;
+	return input;
+}
+
+struct Case
+{
+	std::string name;
+	SurfaceMesh mesh;
+	Options options;
+	VertexInput input;
+	int genus, loops;
+};
+
+std::vector<Case> cases(std::uint64_t seed)
+{
+	Random random(seed);
+	std::vector<Case> all;
+	for (int genus : {0, 2, 3}) {
+		const SurfaceMesh mesh = implicitClosed(genus, 9, seed);
+		all.push_back(
+			{"genus " + std::to_string(genus),
+			 mesh,
+			 fixedTriangulation(TargetCurvature::SelectedCones),
+			 randomCones(mesh, 8, random),
+			 genus,
+			 0});
+	}
+	all.push_back({"torus", implicitClosed(1, 10, seed), fixedTriangulation(), {}, 1, 0});
+	all.push_back({"annulus", implicitAnnulus(24, seed), fixedTriangulation(), {}, 0, 2});
+	const SurfaceMesh disk = implicitDisk(24, seed);
+	all.push_back({"free disk", disk, fixedTriangulation(), {}, 0, 1});
+	all.push_back({"disk", disk, fixedTriangulation(TargetCurvature::Disk), {}, 0, 1});
+	all.push_back({"rectangle", disk, fixedTriangulation(TargetCurvature::Rectangle), {}, 0, 1});
+	return all;
+}
+
+/// The prescribed metric, seen in the plane.
+void expectFlat(const Case& c, const Parametrization& flat)
+{
+	const Report& report = flat.report;
+	EXPECT_TRUE(report.converged);
+	EXPECT_EQ(report.genus, c.genus);
+	EXPECT_EQ(report.boundaryLoops, c.loops);
+	EXPECT_EQ(report.brokenTriangles, 0);
+	EXPECT_LT(report.maxCurvatureError, 1e-8);
+	EXPECT_EQ(report.flippedFaces, 0);
+	const FlatMap map(c.mesh, flat.uv);
+	EXPECT_EQ(map.seamEdges, report.seamEdges);
+	EXPECT_LT(map.seamMismatch, 1e-9);
+	EXPECT_LT(map.insideError(flat.targetCurvature), 1e-8);
+}
+
+TEST(SliverSurfaces, EndInAFlatMetricOrAReason)
+{
+	int solved = 0, refused = 0;
+	for (std::uint64_t seed : {1, 2, 3})
+		for (const Case& c : cases(seed)) {
+			SCOPED_TRACE(c.name + ", seed " + std::to_string(seed));
+			try {
+				expectFlat(c, run(c.mesh, c.options, c.input));
+				++solved;
+			}
+			catch (const NotConverged& error) {
+				const std::string sentence = error.what();
+				EXPECT_NE(sentence.find("break the triangle inequality"), std::string::npos)
+					<< sentence;
+				EXPECT_NE(sentence.find("Edge swap"), std::string::npos) << sentence;
+				++refused;
+			}
+		}
+	EXPECT_GT(solved, refused);
+	EXPECT_GT(refused, 0); // or the next test says nothing
+}
+
+TEST(SliverSurfaces, EdgeSwapsMendWhatBreaks)
+{
+	int mended = 0, swapped = 0;
+	for (std::uint64_t seed : {1, 3})
+		for (Case& c : cases(seed)) {
+			if (reason(c.mesh, c.options, c.input).empty())
+				continue;
+			SCOPED_TRACE(c.name + ", seed " + std::to_string(seed));
+			c.options.surgery = Surgery::EdgeSwap;
+			try {
+				const Parametrization flat = run(c.mesh, c.options, c.input);
+				++mended;
+				swapped += flat.report.edgeSwaps > 0;
+				EXPECT_GT(flat.report.edgeSwaps + flat.report.boundarySplits, 0);
+				EXPECT_TRUE(flat.report.converged);
+				EXPECT_EQ(flat.report.brokenTriangles, 0);
+				EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+				// The cut runs on edges that were not swapped: both its sides are still equal.
+				EXPECT_LT(FlatMap(c.mesh, flat.uv).seamMismatch, 1e-8);
+			}
+			catch (const NotConverged& error) {
+				EXPECT_NE(std::string(error.what()).find("remesh"), std::string::npos)
+					<< error.what();
+			}
+		}
+	EXPECT_GT(mended, 3);
+	EXPECT_GT(swapped, 3);
+}
+
+TEST(SliverSurfaces, EdgeSwapChangesNothingWhereNothingBreaks)
+{
+	for (const Case& c : cases(2)) {
+		if (c.name != "torus" && c.name != "annulus" && c.name != "free disk")
+			continue;
+		Options options = c.options;
+		const Parametrization own = run(c.mesh, options, c.input);
+		options.surgery = Surgery::EdgeSwap;
+		const Parametrization other = run(c.mesh, options, c.input);
+		EXPECT_EQ(other.report.edgeSwaps, 0);
+		EXPECT_EQ(other.u, own.u);
+		EXPECT_EQ(other.uv, own.uv);
+	}
+}
+
+TEST(SliverSurfaces, ResultsAreTheSameOnEveryRun)
+{
+	for (const Case& c : cases(2)) {
+		if (!reason(c.mesh, c.options, c.input).empty())
+			continue;
+		EXPECT_EQ(run(c.mesh, c.options, c.input).uv, run(c.mesh, c.options, c.input).uv);
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Prints a table of what the algorithm makes of meshes: one row for each mesh and target, with
+// tabulators between the columns; the last column is the refusal, if there is one.
+#include "flat_map.h"
+#include "mesh_file.h"
+#include "obj_writer.h"
+
+#include <ricci/parametrize.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace ricci;
+
+const char* const kUsage =
+	"usage: mesh_table [option...] MESH...\n"
+	"  --target T           automatic, flat, disk, rectangle; may be given several times\n"
+	"  --surgery S          none, swap, flips\n"
+	"  --packing P          inversive, thurston\n"
+	"  --prescribe-boundary free_boundary off\n"
+	"  --epsilon X          radians\n"
+	"  --max-iterations N\n"
+	"  --obj FOLDER         write each result with 17 digits to FOLDER/MESH.TARGET.obj\n"
+	"  --verbose            the log on standard error\n";
+
+struct NamedTarget
+{
+	const char* name;
+	TargetCurvature value;
+};
+
+constexpr NamedTarget kTargets[] = {
+	{"automatic", TargetCurvature::Automatic},
+	{"flat", TargetCurvature::Flat},
+	{"disk", TargetCurvature::Disk},
+	{"rectangle", TargetCurvature::Rectangle}};
+
+struct Arguments
+{
+	Options options;
+	std::vector<NamedTarget> targets;
+	std::vector<std::string> meshes;
+	std::string objFolder;
+	bool verbose = false;
+};
+
+[[noreturn]] void fail(const std::string& why)
+{
+	std::cerr << why << "\n" << kUsage;
+	std::exit(2);
+}
+
+/// The value that belongs to \p word in a list of names.
+template<class Value>
+Value choose(const std::string& word, std::initializer_list<std::pair<const char*, Value>> names)
+{
+	for (const auto& [name, value] : names)
+		if (word == name)
+			return value;
+	fail("Unknown word: " + word);
+}
+
+NamedTarget targetByName(const std::string& word)
+{
+	for (const NamedTarget& target : kTargets)
+		if (word == target.name)
+			return target;
+	fail("Unknown target: " + word);
+}
+
+Arguments parse(int argc, char** argv)
+{
+	Arguments a;
+	for (int i = 1; i < argc; ++i) {
+		const std::string word = argv[i];
+		const auto value = [&]() -> std::string {
+			if (++i >= argc)
+				fail(word + " needs a value.");
+			return argv[i];
+		};
+		if (word == "--target")
+			a.targets.push_back(targetByName(value()));
+		else if (word == "--surgery")
+			a.options.surgery = choose<Surgery>(
+				value(),
+				{{"none", Surgery::None},
+				 {"swap", Surgery::EdgeSwap},
+				 {"flips", Surgery::IntrinsicFlips}});
+		else if (word == "--packing")
+			a.options.packing = choose<PackingScheme>(
+				value(),
+				{{"inversive", PackingScheme::InversiveDistance},
+				 {"thurston", PackingScheme::Thurston}});
+		else if (word == "--prescribe-boundary")
+			a.options.freeBoundary = false;
+		else if (word == "--epsilon")
+			a.options.epsilon = std::atof(value().c_str());
+		else if (word == "--max-iterations")
+			a.options.maxIterations = std::atoi(value().c_str());
+		else if (word == "--obj")
+			a.objFolder = value();
+		else if (word == "--verbose")
+			a.verbose = true;
+		else if (word.rfind("--", 0) == 0)
+			fail("Unknown option: " + word);
+		else
+			a.meshes.push_back(word);
+	}
+	if (a.meshes.empty())
+		fail("No mesh.");
+	if (a.targets.empty())
+		a.targets.push_back(kTargets[0]);
+	return a;
+}
+
+class Listener : public Progress
+{
+public:
+	explicit Listener(bool verbose) : m_verbose(verbose) {}
+	void log(const std::string& line) override
+	{
+		if (m_verbose)
+			std::cerr << "  " << line << "\n";
+	}
+
+private:
+	bool m_verbose;
+};
+
+void printHeader()
+{
+	std::puts(
+		"mesh\ttarget\tV\tF\tcomponents\tchi\tgenus\tloops\titerations\tresidual\tfloor\tqc_mean\t"
+		"qc_vertex_mean\tqc_area_mean\tqc_p99\tqc_max\tflipped\tswaps\tsplits\tbroken\tseam_edges\t"
+		"seam_mismatch\ttau_re\ttau_im\tmodulus\taspect\trefused");
+}
+
+/// A number, or a dash where there is none.
+std::string number(const std::optional<double>& x)
+{
+	if (!x)
+		return "-";
+	char text[32];
+	std::snprintf(text, sizeof text, "%.9g", *x);
+	return text;
+}
+
+void printResult(const SurfaceMesh& mesh, const Parametrization& flat)
+{
+	const Report& r = flat.report;
+	std::printf(
+		"\t%d\t%d\t%d\t%d\t%d\t%.2e\t%.2e\t%.4f\t%.4f\t%.4f\t%.3f\t%.4g\t%d\t%d\t%d\t%d\t%d\t",
+		r.components,
+		r.eulerCharacteristic,
+		r.genus,
+		r.boundaryLoops,
+		r.iterations,
+		r.maxCurvatureError,
+		r.residualFloor,
+		r.qcMean,
+		r.qcVertexMean,
+		r.qcAreaMean,
+		r.qcP99,
+		r.qcMax,
+		r.flippedFaces,
+		r.edgeSwaps,
+		r.boundarySplits,
+		r.brokenTriangles,
+		r.seamEdges);
+	// The measure takes coherent faces; turned ones would look like a tear.
+	bool coherent = true;
+	for (char reversed : flat.reversed)
+		coherent &= reversed == 0;
+	if (coherent)
+		std::printf("%.1e", testing::FlatMap(mesh, flat.uv).seamMismatch);
+	else
+		std::printf("-");
+	std::printf(
+		"\t%s\t%s\t%s\t%s\t-\n",
+		number(r.torusTauRe).c_str(),
+		number(r.torusTauIm).c_str(),
+		number(r.annulusModulus).c_str(),
+		number(r.rectangleAspect).c_str());
+}
+
+/// \return whether a map was found
+bool addRow(const Arguments& a, const std::string& path, const NamedTarget& target)
+{
+	const std::string name = std::filesystem::path(path).stem().string();
+	std::printf("%s\t%s", name.c_str(), target.name);
+	try {
+		const SurfaceMesh mesh = testing::readMesh(path);
+		std::printf("\t%zu\t%zu", mesh.positions.size(), mesh.triangles.size());
+		std::fflush(stdout);
+		Options options = a.options;
+		options.target = target.value;
+		Listener listener(a.verbose);
+		const Parametrization flat = parametrizeEuclidean(mesh, {}, options, listener);
+		printResult(mesh, flat);
+		for (const std::string& note : flat.notes)
+			listener.log(note);
+		if (!a.objFolder.empty())
+			testing::writeObj(
+				(std::filesystem::path(a.objFolder) / (name + "." + target.name + ".obj")).string(),
+				mesh,
+				flat.uv);
+		return true;
+	}
+	catch (const std::exception& error) {
+		for (int column = 0; column < 22; ++column)
+			std::printf("\t-");
+		std::printf("\t%s\n", error.what());
+		return false;
+	}
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+	const Arguments a = parse(argc, argv);
+	printHeader();
+	bool allMapped = true;
+	for (const std::string& mesh : a.meshes)
+		for (const NamedTarget& target : a.targets) {
+			allMapped &= addRow(a, mesh, target);
+			std::fflush(stdout);
+		}
+	return allMapped ? 0 : 1;
+}
