@@ -46,18 +46,24 @@ GeometricCurvatureMap<Geometry>::GeometricCurvatureMap(CirclePacking packing) :
 }
 
 template<class Geometry>
-void GeometricCurvatureMap<Geometry>::evaluate(const Eigen::VectorXd& u)
+void GeometricCurvatureMap<Geometry>::evaluate(
+	const Eigen::VectorXd& u,
+	const Eigen::VectorXd& rest)
 {
-	evaluateCircles(u);
+	evaluateCircles(u, rest);
 	evaluateEdges();
 	evaluateTriangles();
 }
 
 template<class Geometry>
-void GeometricCurvatureMap<Geometry>::evaluateCircles(const Eigen::VectorXd& u)
+void GeometricCurvatureMap<Geometry>::evaluateCircles(
+	const Eigen::VectorXd& u,
+	const Eigen::VectorXd& rest)
 {
-	for (std::size_t v = 0; v < m_circles.size(); ++v)
-		m_circles[v] = Geometry::circle(u[static_cast<Eigen::Index>(v)]);
+	for (std::size_t v = 0; v < m_circles.size(); ++v) {
+		const auto i = static_cast<Eigen::Index>(v);
+		m_circles[v] = Geometry::circle(u[i], rest.size() > 0 ? rest[i] : 0.0);
+	}
 }
 
 template<class Geometry>
@@ -67,14 +73,15 @@ void GeometricCurvatureMap<Geometry>::evaluateEdges()
 	for (int e = 0; e < t.edgeCount(); ++e) {
 		m_edges[at(e)] = Geometry::edge(
 			m_circles[at(t.origin(2 * e))], m_circles[at(t.target(2 * e))], m_packing.delta[at(e)]);
-		m_lengths[at(e)]     = m_edges[at(e)].length;
-		m_cosineLess1[at(e)] = m_edges[at(e)].cosineLess1;
+		m_lengths[at(e)]     = static_cast<double>(m_edges[at(e)].length);
+		m_cosineLess1[at(e)] = static_cast<double>(m_edges[at(e)].cosineLess1);
 	}
 }
 
 template<class Geometry>
 void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 {
+	using Real             = typename Geometry::Real;
 	const Triangulation& t = m_packing.triangulation;
 	std::fill(m_weights.begin(), m_weights.end(), 0.0);
 	for (int v = 0; v < t.vertexCount(); ++v)
@@ -91,10 +98,11 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 			edge[k]   = Triangulation::edge(h[k]);
 		}
 		// tau_k = (two adjacent sides - opposite side) / 2, free of cancellation in the radii.
-		std::array<double, 3> tau, angle;
+		std::array<Real, 3>   tau;
+		std::array<double, 3> angle;
 		for (std::size_t k = 0; k < 3; ++k)
 			tau[k] = m_circles[at(vertex[k])].radius +
-					 0.5 * (m_edges[at(edge[k])].excess + m_edges[at(edge[(k + 2) % 3])].excess -
+					 Real(0.5) * (m_edges[at(edge[k])].excess + m_edges[at(edge[(k + 2) % 3])].excess -
 							m_edges[at(edge[(k + 1) % 3])].excess);
 		const auto shortest = std::min_element(tau.begin(), tau.end());
 		if (!(*shortest > 0.0)) {
@@ -103,17 +111,17 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 			angle[at(static_cast<int>(shortest - tau.begin()))] = kPi;
 		}
 		else {
-			const double s = Geometry::heron(tau[0] + tau[1] + tau[2]);
-			const double a = Geometry::heron(tau[0]), b = Geometry::heron(tau[1]),
-						 c = Geometry::heron(tau[2]);
-			angle[0]          = 2.0 * std::atan2(std::sqrt(b * c), std::sqrt(s * a));
-			angle[1]          = 2.0 * std::atan2(std::sqrt(c * a), std::sqrt(s * b));
-			angle[2]          = 2.0 * std::atan2(std::sqrt(a * b), std::sqrt(s * c));
-			const double area = 2.0 * std::sqrt(s * a * b * c); // product of two sides and a sine
+			const Real s = Geometry::heron(tau[0] + tau[1] + tau[2]);
+			const Real a = Geometry::heron(tau[0]), b = Geometry::heron(tau[1]),
+					   c = Geometry::heron(tau[2]);
+			angle[0] = static_cast<double>(2 * std::atan2(std::sqrt(b * c), std::sqrt(s * a)));
+			angle[1] = static_cast<double>(2 * std::atan2(std::sqrt(c * a), std::sqrt(s * b)));
+			angle[2] = static_cast<double>(2 * std::atan2(std::sqrt(a * b), std::sqrt(s * c)));
+			const Real area = 2 * std::sqrt(s * a * b * c); // product of two sides and a sine
 
-			std::array<double, 3> inversive, radius, kappa;
+			std::array<Real, 3> inversive, radius, kappa;
 			for (std::size_t k = 0; k < 3; ++k) {
-				inversive[k] = 1.0 + m_packing.delta[at(edge[k])];
+				inversive[k] = 1 + Real(m_packing.delta[at(edge[k])]);
 				radius[k]    = m_circles[at(vertex[k])].s;
 				kappa[k]     = m_circles[at(vertex[k])].kappa;
 			}
@@ -121,12 +129,13 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 			for (std::size_t k = 0; k < 3; ++k) {
 				// Derivative of the angle at i by u_j, side ij = side k, apex m.
 				const std::size_t i = k, j = (k + 1) % 3, m = (k + 2) % 3;
-				const double      ij = inversive[k], jm = inversive[j], mi = inversive[m];
-				const double      d = m_packing.delta[at(edge[k])];
-				const double      height = kappa[i] * (mi + jm * ij) + kappa[j] * (jm + mi * ij) -
-									  kappa[m] * d * (d + 2.0);
-				m_weights[at(edge[k])] += radius[i] * radius[i] * radius[j] * radius[j] * radius[m] *
-										  height / (area * m_edges[at(edge[k])].sine2);
+				const Real        ij = inversive[k], jm = inversive[j], mi = inversive[m];
+				const Real        d      = m_packing.delta[at(edge[k])];
+				const Real        height = kappa[i] * (mi + jm * ij) + kappa[j] * (jm + mi * ij) -
+									  kappa[m] * d * (d + 2);
+				m_weights[at(edge[k])] += static_cast<double>(
+					radius[i] * radius[i] * radius[j] * radius[j] * radius[m] * height /
+					(area * m_edges[at(edge[k])].sine2));
 				longest = std::max(longest, m_lengths[at(edge[k])]);
 				least   = std::min(least, m_lengths[at(edge[k])]);
 			}
@@ -140,12 +149,14 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 }
 
 template<class Geometry>
-void FlippingCurvatureMap<Geometry>::evaluate(const Eigen::VectorXd& u)
+void FlippingCurvatureMap<Geometry>::evaluate(
+	const Eigen::VectorXd& u,
+	const Eigen::VectorXd& rest)
 {
-	this->evaluateCircles(u);
+	this->evaluateCircles(u, rest);
 	m_kappa.resize(this->m_circles.size());
 	for (std::size_t v = 0; v < m_kappa.size(); ++v)
-		m_kappa[v] = this->m_circles[v].kappa;
+		m_kappa[v] = static_cast<double>(this->m_circles[v].kappa);
 	CirclePacking& packing = this->m_packing;
 	if (makeWeightedDelaunay(packing.triangulation, packing.delta, m_kappa, m_journal, m_queue) > 0)
 		++this->m_revision;
@@ -170,5 +181,7 @@ void FlippingCurvatureMap<Geometry>::reject()
 
 template class GeometricCurvatureMap<Euclidean>;
 template class FlippingCurvatureMap<Euclidean>;
+template class GeometricCurvatureMap<EuclideanGeometry<long double>>;
+template class FlippingCurvatureMap<EuclideanGeometry<long double>>;
 
 } // namespace ricci

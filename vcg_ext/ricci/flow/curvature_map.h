@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace ricci {
@@ -24,12 +25,17 @@ class CurvatureMap
 public:
 	virtual ~CurvatureMap() = default;
 
-	/// Computes everything below at \p u (one entry for each vertex).
-	virtual void evaluate(const Eigen::VectorXd& u) = 0;
+	/// Computes everything below at u + \p rest, one entry for each vertex: \p rest is what the doubles
+	/// of \p u cannot hold (below their last place), or empty. Radii then are exact to their own last
+	/// place, not to that of u.
+	virtual void evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest) = 0;
+
+	void evaluate(const Eigen::VectorXd& u) { evaluate(u, Eigen::VectorXd()); }
 
 	/// Whether adding a constant to u changes nothing (Euclidean background).
 	virtual bool scaleInvariant() const = 0;
 
+	const CirclePacking&       packing() const { return m_packing; }
 	const Triangulation&       triangulation() const { return m_packing.triangulation; }
 	const std::vector<double>& delta() const { return m_packing.delta; }
 
@@ -50,6 +56,9 @@ public:
 
 	/// Number of triangles that break the triangle inequality.
 	int brokenTriangles() const { return m_broken; }
+
+	/// Unit of rounding of the arithmetic in which the map is evaluated.
+	virtual double precision() const = 0;
 
 	/// Largest quotient of two sides of one triangle: the amplification of rounding in its angles.
 	double needleRatio() const { return m_needleRatio; }
@@ -83,11 +92,16 @@ class GeometricCurvatureMap : public CurvatureMap
 public:
 	explicit GeometricCurvatureMap(CirclePacking packing);
 
-	void evaluate(const Eigen::VectorXd& u) override;
-	bool scaleInvariant() const override { return Geometry::scaleInvariant; }
+	using CurvatureMap::evaluate;
+	void evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest) override;
+	bool   scaleInvariant() const override { return Geometry::scaleInvariant; }
+	double precision() const override
+	{
+		return static_cast<double>(std::numeric_limits<typename Geometry::Real>::epsilon());
+	}
 
 protected:
-	void evaluateCircles(const Eigen::VectorXd& u);
+	void evaluateCircles(const Eigen::VectorXd& u, const Eigen::VectorXd& rest);
 	void evaluateEdges();
 	void evaluateTriangles();
 
@@ -104,7 +118,8 @@ class FlippingCurvatureMap : public GeometricCurvatureMap<Geometry>
 public:
 	using GeometricCurvatureMap<Geometry>::GeometricCurvatureMap;
 
-	void evaluate(const Eigen::VectorXd& u) override;
+	using CurvatureMap::evaluate;
+	void evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest) override;
 	void accept() override;
 	void reject() override;
 

@@ -29,6 +29,9 @@ constexpr std::size_t kMixingDepth = 10;
 /// The inner solves of the disk target are this much more exact than the last change of the target.
 constexpr double kInnerAccuracy = 1e-2;
 
+/// Below this residual a solve that rounding stopped goes on in extended precision.
+constexpr double kWorthExtending = 1e-4;
+
 /// Newton steps given to the surface itself where its double is there to fall back on.
 constexpr int kStepsBeforeDoubling = 40;
 
@@ -208,6 +211,8 @@ public:
 					return solveFor(epsilon);
 				});
 		}
+		if (!m_solved.converged && m_flipping && m_solved.residual < kWorthExtending)
+			m_solved = solveExtended();
 		return m_solved.converged;
 	}
 
@@ -222,8 +227,7 @@ public:
 		m_result.edgeSwaps    = m_swapper->swaps();
 		m_result.swapped      = m_swapper->swapped();
 		m_result.edgesToSplit = m_swapper->boundaryEdgesToSplit();
-		if (m_flipping)
-			m_result.history.flowFlips = m_flipping->flips();
+		m_result.history.flowFlips = flowFlips();
 		m_result.area = metricArea(m_map->triangulation(), m_map->lengths(), m_map->angles());
 		m_result.curvature = m_map->curvature().head(m_surface.vertexCount);
 		m_result.target    = m_surface.target;
@@ -304,6 +308,29 @@ private:
 		return solved;
 	}
 
+	/// Goes on from the present state in long double.
+	NewtonResult solveExtended()
+	{
+		using Extended = FlippingCurvatureMap<EuclideanGeometry<long double>>;
+		auto                map      = std::make_shared<Extended>(m_map->packing());
+		auto                newton   = std::make_unique<NewtonSolver>(*map, m_surface.target.fixed);
+		std::vector<int>    flips    = flowFlips();
+		const Extended*     extended = map.get();
+		newton->setRest(m_newton->rest());
+		m_newton         = std::move(newton);
+		m_map            = std::move(map);
+		const auto solved = solveFor(m_options.epsilon);
+		flips.insert(flips.end(), extended->flips().begin(), extended->flips().end());
+		m_result.history.flowFlips = std::move(flips);
+		m_flipping                 = nullptr;
+		return solved;
+	}
+
+	std::vector<int> flowFlips() const
+	{
+		return m_flipping ? m_flipping->flips() : m_result.history.flowFlips;
+	}
+
 	std::vector<double> originalSides() const
 	{
 		std::vector<double> sides;
@@ -324,7 +351,7 @@ private:
 		NormalCoordinates coordinates(m_surface.triangulation);
 		for (int e : m_result.history.startFlips)
 			coordinates.flip(e);
-		for (int e : m_flipping->flips())
+		for (int e : flowFlips())
 			coordinates.flip(e);
 		const auto curves = coordinates.trace();
 		Strip      strip;
@@ -346,7 +373,7 @@ private:
 	FlowResult                              m_result;
 	std::vector<double>                     m_radii;
 	std::shared_ptr<CurvatureMap>           m_map;
-	FlippingCurvatureMap<Euclidean>*        m_flipping = nullptr;
+	FlippingCurvatureMap<Euclidean>*        m_flipping = nullptr; // m_map, while it is in double
 	std::unique_ptr<EdgeSwapper>            m_swapper;
 	std::unique_ptr<NewtonSolver>           m_newton;
 	NewtonResult                            m_solved;

@@ -53,6 +53,8 @@ NewtonSolver::NewtonSolver(CurvatureMap& map, std::vector<char> fixed) :
 	m_direction.resize(n);
 	m_trial.resize(n);
 	m_diagonal.resize(n);
+	m_trialRest.resize(n);
+	m_rest.setZero(n);
 	m_rhs.resize(m_unknownCount);
 	m_solution.resize(m_unknownCount);
 }
@@ -106,14 +108,20 @@ void NewtonSolver::direction(bool refactor)
 		m_direction.array() -= m_direction.mean();
 }
 
-void NewtonSolver::applyStep(const Eigen::VectorXd& from, double t, Eigen::VectorXd& to) const
+/// m_trial + m_trialRest = u + m_rest + t m_direction, with the rounding error of the sum kept.
+void NewtonSolver::applyStep(const Eigen::VectorXd& u, double t)
 {
-	to.noalias() = from + t * m_direction;
+	for (Eigen::Index v = 0; v < u.size(); ++v) {
+		const double step = m_rest[v] + t * m_direction[v];
+		const double sum = u[v] + step, virtualStep = sum - u[v];
+		m_trial[v]     = sum;
+		m_trialRest[v] = (u[v] - (sum - virtualStep)) + (step - virtualStep);
+	}
 }
 
-/// Rounding of u moves K by up to eps |u| H_ii, and rounding of the sides of a needle by up to eps
-/// times their quotient.
-double NewtonSolver::roundingFloor(const Eigen::VectorXd& u)
+/// Rounding of the radii moves K by up to eps H_ii, and rounding of the sides of a needle by up to
+/// eps times their quotient.
+double NewtonSolver::roundingFloor()
 {
 	m_diagonal.setZero();
 	const Triangulation& t = m_map.triangulation();
@@ -123,9 +131,9 @@ double NewtonSolver::roundingFloor(const Eigen::VectorXd& u)
 		m_diagonal[t.target(2 * e)] += w;
 	}
 	double amplification = m_map.needleRatio();
-	for (Eigen::Index v = 0; v < u.size(); ++v)
-		amplification = std::max(amplification, m_diagonal[v] * std::max(1.0, std::abs(u[v])));
-	return 4.0 * std::numeric_limits<double>::epsilon() * amplification;
+	amplification = std::max(amplification, m_diagonal.maxCoeff());
+	// Angles and their sums are kept as doubles in any case.
+	return 4.0 * (m_map.precision() * amplification + std::numeric_limits<double>::epsilon());
 }
 
 NewtonResult NewtonSolver::solve(
@@ -136,17 +144,17 @@ NewtonResult NewtonSolver::solve(
 	const Surgeon&                           surgeon)
 {
 	NewtonResult result;
-	m_map.evaluate(u);
+	m_map.evaluate(u, m_rest);
 	m_map.accept();
 	if (surgeon && surgeon(m_map))
-		m_map.evaluate(u);
+		m_map.evaluate(u, m_rest);
 	result.residual  = residual(target);
 	int  polishing   = 0;
 	bool searchFails = false;
 
 	while (true) {
 		report(result.iterations, result.residual);
-		result.floor       = roundingFloor(u);
+		result.floor       = roundingFloor();
 		const bool valid   = m_map.brokenTriangles() == 0;
 		const bool reached = valid && result.residual < options.epsilon;
 		const bool atFloor = valid && result.residual <= result.floor;
@@ -164,8 +172,8 @@ NewtonResult NewtonSolver::solve(
 		double       after   = 0.0;
 		double       trialResidual;
 		while (true) {
-			applyStep(u, t, m_trial);
-			m_map.evaluate(m_trial);
+			applyStep(u, t);
+			m_map.evaluate(m_trial, m_trialRest);
 			trialResidual = residual(target);
 			after         = m_gradient.norm();
 			if (std::isfinite(trialResidual) && after <= (1.0 - kDecrease * t) * before)
@@ -179,11 +187,12 @@ NewtonResult NewtonSolver::solve(
 			}
 		}
 		if (searchFails) {
-			m_map.evaluate(u);
+			m_map.evaluate(u, m_rest);
 			result.residual = residual(target);
 			continue;
 		}
 		u.swap(m_trial);
+		m_rest.swap(m_trialRest);
 		m_map.accept();
 		result.residual = trialResidual;
 		if (reached)
@@ -191,7 +200,7 @@ NewtonResult NewtonSolver::solve(
 		else
 			++result.iterations;
 		if (surgeon && surgeon(m_map)) {
-			m_map.evaluate(u);
+			m_map.evaluate(u, m_rest);
 			result.residual = residual(target);
 		}
 	}

@@ -46,7 +46,12 @@ public:
 	/// is fixed and the background is scale invariant, the mean of u is kept.
 	NewtonSolver(CurvatureMap& map, std::vector<char> fixed);
 
-	/// Solves from \p u, which holds the solution afterwards. \p target: K at each vertex, radians.
+	/// Part of u below the last place of its doubles, as the last solve left it.
+	const Eigen::VectorXd& rest() const { return m_rest; }
+	void                   setRest(const Eigen::VectorXd& rest) { m_rest = rest; }
+
+	/// Solves from \p u, which holds the solution afterwards (to its last place; the map is left at the
+	/// solution's full precision, from which a further call with the same \p u goes on). \p target: K at each vertex, radians.
 	/// \p report is called with the iteration number and the residual before each step; it may
 	/// throw to cancel. Never throws for lack of convergence: see NewtonResult.
 	NewtonResult solve(
@@ -60,8 +65,8 @@ private:
 	double residual(const Eigen::VectorXd& target);
 	void   updatePattern();
 	void   direction(bool refactor);
-	void   applyStep(const Eigen::VectorXd& from, double t, Eigen::VectorXd& to) const;
-	double roundingFloor(const Eigen::VectorXd& u);
+	void   applyStep(const Eigen::VectorXd& u, double t);
+	double roundingFloor();
 
 	CurvatureMap&     m_map;
 	std::vector<char> m_fixed;
@@ -74,6 +79,7 @@ private:
 	Eigen::VectorXd   m_gradient;                      // [vertex] K - target, 0 where fixed
 	Eigen::VectorXd   m_rhs, m_solution;               // [unknown]
 	Eigen::VectorXd   m_direction, m_trial, m_diagonal; // [vertex]
+	Eigen::VectorXd   m_rest, m_trialRest;             // [vertex] of u, below its last place
 };
 
 } // namespace ricci

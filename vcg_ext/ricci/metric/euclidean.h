@@ -10,40 +10,43 @@ namespace ricci {
 /// The hyperbolic plane offers the same members, so that the flow is written once.
 ///
 /// Everything is a function of u (log-radius) and delta = I - 1 (inversive distance less one; no
-/// cancellation for nearly tangent circles).
-struct Euclidean
+/// cancellation for nearly tangent circles), evaluated in the precision of \p T.
+template<class T>
+struct EuclideanGeometry
 {
+	using Real = T;
+
 	/// A metric is determined up to one common scale: constants are in the kernel of the Hessian.
 	static constexpr bool scaleInvariant = true;
 
 	struct Circle
 	{
-		double radius;
-		double s;     ///< factor of the length formula: the radius
-		double kappa; ///< curvature of the circle: 1 / radius
+		Real radius;
+		Real s;     ///< factor of the length formula: the radius
+		Real kappa; ///< curvature of the circle: 1 / radius
 	};
 
-	/// \p u = ln radius (Eq. 6).
-	static Circle circle(double u)
+	/// u + \p rest = ln radius (Eq. 6); \p rest is at most a unit in the last place of \p u.
+	static Circle circle(double u, double rest = 0.0)
 	{
-		const double radius = std::exp(u);
-		return {radius, radius, 1.0 / radius};
+		const Real whole = std::exp(Real(u)), radius = whole + whole * Real(rest);
+		return {radius, radius, 1 / radius};
 	}
 
 	struct Edge
 	{
-		double length; ///< Eq. 4; NaN if the circles are nested (I < -1)
-		double excess; ///< length less the sum of the radii, without cancellation
-		double sine2;  ///< square of the length function of the law of sines: length^2
-		double cosineLess1; ///< cosh(length) - 1 in the hyperbolic plane; 0 here
+		Real length; ///< Eq. 4; NaN if the circles are nested (I < -1)
+		Real excess; ///< length less the sum of the radii, without cancellation
+		Real sine2;  ///< square of the length function of the law of sines: length^2
+		Real cosineLess1; ///< cosh(length) - 1 in the hyperbolic plane; 0 here
 	};
 
 	/// Eq. 4 written with delta: l^2 = (gi + gj)^2 + 2 delta gi gj.
 	static Edge edge(const Circle& i, const Circle& j, double delta)
 	{
-		const double sum = i.radius + j.radius, p = 2.0 * delta * i.radius * j.radius;
-		const double length2 = sum * sum + p, length = std::sqrt(length2);
-		return {length, p / (length + sum), length2, 0.0};
+		const Real sum = i.radius + j.radius, p = 2 * Real(delta) * i.radius * j.radius;
+		const Real length2 = sum * sum + p, length = std::sqrt(length2);
+		return {length, p / (length + sum), length2, 0};
 	}
 
 	/// delta of an edge of length \p l between circles of radii \p gi, \p gj (Eq. 3 less one).
@@ -53,8 +56,10 @@ struct Euclidean
 	}
 
 	/// Length function of Heron's formula: the identity; sinh in the hyperbolic plane.
-	static double heron(double x) { return x; }
+	static Real heron(Real x) { return x; }
 };
+
+using Euclidean = EuclideanGeometry<double>;
 
 } // namespace ricci
 
