@@ -36,7 +36,7 @@ Eigen::VectorXd smoothedCurvature(const Packed& mesh)
 struct Solved
 {
 	NewtonResult result;
-	Eigen::VectorXd u;
+	Eigen::VectorXd u, rest;
 };
 
 Solved solve(
@@ -51,20 +51,21 @@ Solved solve(
 	Solved solved;
 	solved.result = solver.solve(start, target, options, silent);
 	solved.u = start;
+	solved.rest = solver.rest();
 	return solved;
 }
 
 /// max |target - K| by a map of its own.
 double residualAt(
 	const Packed& mesh,
-	const Eigen::VectorXd& u,
+	const Solved& solved,
 	const Eigen::VectorXd& target,
 	const std::vector<char>& fixed)
 {
 	Map map = mesh.map();
-	map.evaluate(u);
+	map.evaluate(solved.u, solved.rest);
 	double largest = 0.0;
-	for (Eigen::Index v = 0; v < u.size(); ++v)
+	for (Eigen::Index v = 0; v < target.size(); ++v)
 		if (!fixed[static_cast<std::size_t>(v)])
 			largest = std::max(largest, std::abs(target[v] - map.curvature()[v]));
 	return largest;
@@ -80,7 +81,7 @@ TEST(Newton, ReachesTheTargetAndReportsTheTrueResidual)
 		const Solved solved = solve(mesh, target, mesh.u(), nothingFixed(mesh));
 		EXPECT_TRUE(solved.result.converged);
 		EXPECT_LT(solved.result.residual, 1e-8);
-		EXPECT_EQ(solved.result.residual, residualAt(mesh, solved.u, target, nothingFixed(mesh)));
+		EXPECT_EQ(solved.result.residual, residualAt(mesh, solved, target, nothingFixed(mesh)));
 	}
 }
 
@@ -139,7 +140,7 @@ TEST(Newton, KeepsFixedVerticesToTheBit)
 			moved += solved.u[v] != mesh.u()[v];
 	}
 	EXPECT_GT(moved, 0);
-	EXPECT_EQ(solved.result.residual, residualAt(mesh, solved.u, target, fixed));
+	EXPECT_EQ(solved.result.residual, residualAt(mesh, solved, target, fixed));
 }
 
 TEST(Newton, ConvergesQuadratically)

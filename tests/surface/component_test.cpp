@@ -19,7 +19,7 @@ std::string refusal(const SurfaceMesh& mesh)
 {
 	std::vector<std::string> notes;
 	try {
-		splitIntoComponents(mesh, notes);
+		requireAreaEverywhere(splitIntoComponents(mesh, notes));
 	}
 	catch (const InvalidMesh& error) {
 		return error.what();
@@ -163,6 +163,22 @@ TEST(Component, RefusesFacesWithoutArea)
 		p[1] = 0.0;
 	mesh.positions[3][0] = 0.5;
 	expectRefusal(mesh, "3 faces have no area", "Remove T-Vertices");
+}
+
+TEST(Component, SplittingLeavesDegenerateFacesToTheCaller)
+{
+	const SurfaceMesh mesh{
+		{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}};
+	std::vector<std::string> notes;
+	EXPECT_EQ(splitIntoComponents(mesh, notes).size(), 1u);
+}
+
+TEST(Component, RefusesComponentsWithoutExtent)
+{
+	SurfaceMesh mesh = sideBySide(tetrahedron(), tetrahedron(), 5);
+	for (std::size_t v = 4; v < 8; ++v)
+		mesh.positions[v] = {1, 2, 3};
+	expectRefusal(mesh, "1 component has all vertices in one point", "delete it");
 }
 
 TEST(Component, OrientsTheMinorityLikeTheMajorityAndTellsIt)

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// CPU time of each stage for one mesh, and the time of the flow as a multiple of one analysis,
+// factorisation and solution of the same matrix: a number that does not depend on the machine's
+// speed. One process measures one mesh, so that the peak of its memory means something.
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#ifdef RICCI_HAVE_VCGLIB
+#include "support/mesh_file.h"
+#endif
+
+#include <ricci/flow/euclidean_flow.h>
+#include <ricci/flow/hessian.h>
+#include <ricci/flow/sparse_cholesky.h>
+#include <ricci/flow/target_curvature.h>
+#include <ricci/layout/cut_graph.h>
+#include <ricci/layout/distortion.h>
+#include <ricci/layout/planar_layout.h>
+#include <ricci/metric/delaunay_start.h>
+#include <ricci/metric/euclidean.h>
+#include <ricci/surface/component.h>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace ricci;
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// The cheapest of these is taken: the first one also pays for cold caches.
+constexpr int kFactorisations = 3;
+
+/// Columns of the table; bench.sh prints them once for all meshes.
+const char* const kHeader = "mesh\tfaces\tgeometry\tsolve_cpu_s\tone_factor_cpu_"
+							"s\tratio\titerations\tflips\tresidual\tpeak_mb\t"
+							"read_cpu_s\tpacking_cpu_s\tflow_cpu_s\tcut_cpu_s\tlayout_cpu_"
+							"s\tdistortion_cpu_s\ttarget\tsurgery\t"
+							"solver\tremark";
+
+double cpuSeconds()
+{
+	timespec now{};
+	clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+	return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double peakMegabytes()
+{
+	rusage usage{};
+	getrusage(RUSAGE_SELF, &usage);
+	return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+template<class Work>
+double timeOf(Work work)
+{
+	const double start = cpuSeconds();
+	work();
+	return cpuSeconds() - start;
+}
+
+struct Row
+{
+	std::string name, target, surgery, remark = "-";
+	std::size_t faces = 0;
+	double read = 0, packing = 0, flow = 0, oneFactor = 0, cut = 0, layout = 0, distortion = 0;
+	double residual = 0;
+	int iterations = 0;
+	std::size_t flips = 0;
+
+	void print() const
+	{
+		std::printf("%s\t%zu\teuclidean", name.c_str(), faces);
+		if (remark == "-")
+			std::printf(
+				"\t%.4f\t%.4f\t%.2f\t%d\t%zu\t%.1e\t%.0f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f",
+				flow,
+				oneFactor,
+				flow / oneFactor,
+				iterations,
+				flips,
+				residual,
+				peakMegabytes(),
+				read,
+				packing,
+				flow,
+				cut,
+				layout,
+				distortion);
+		else
+			for (int column = 0; column < 13; ++column)
+				std::printf("\t-");
+		std::printf(
+			"\t%s\t%s\t%s\t%s\n",
+			target.c_str(),
+			surgery.c_str(),
+			SparseCholesky::name(),
+			remark.c_str());
+	}
+};
+
+/// The automatic target, and uniform curvature where a closed surface has none.
+TargetRequest chooseRequest(const Topology& topology, std::size_t vertexCount, std::string& name)
+{
+	TargetRequest request;
+	request.selected.assign(vertexCount, 0);
+	request.prescribed.assign(vertexCount, 0.0);
+	name = "automatic";
+	if (!topology.isClosed() || topology.isTorus())
+		return request;
+	name = "uniform";
+	request.mode = TargetCurvature::Prescribed;
+	request.prescribedPrecision = 1e-12;
+	std::fill(
+		request.prescribed.begin(),
+		request.prescribed.end(),
+		2 * kPi * topology.eulerCharacteristic / static_cast<double>(vertexCount));
+	return request;
+}
+
+double oneFactorisation(const CurvatureMap& map, const Target& target)
+{
+	std::vector<int> unknown(target.fixed.size(), -1);
+	const bool anyFixed =
+		std::find(target.fixed.begin(), target.fixed.end(), 1) != target.fixed.end();
+	int count = 0;
+	for (std::size_t v = anyFixed ? 0 : 1; v < unknown.size(); ++v)
+		if (!target.fixed[v])
+			unknown[v] = count++;
+	Hessian hessian;
+	hessian.layOut(map, unknown, count);
+	hessian.fill(map, 0.0);
+	const Eigen::VectorXd rhs = Eigen::VectorXd::Ones(count);
+	Eigen::VectorXd x(count);
+	double least = INFINITY;
+	for (int i = 0; i < kFactorisations; ++i) {
+		SparseCholesky cholesky;
+		least = std::min(least, timeOf([&] {
+							 cholesky.analyze(hessian.matrix());
+							 if (!cholesky.factorize(hessian.matrix()))
+								 throw std::runtime_error("The matrix is not positive definite.");
+							 cholesky.solve(rhs, x);
+						 }));
+	}
+	return least;
+}
+
+/// The first component of the mesh; the others would only add up.
+void measure(const SurfaceMesh& mesh, const Options& options, Row& row)
+{
+	Component component;
+	Triangulation t;
+	std::vector<double> lengths;
+	row.read += timeOf([&] {
+		std::vector<std::string> notes;
+		component = std::move(splitIntoComponents(mesh, notes).front());
+		t = Triangulation(static_cast<int>(component.positions.size()), component.triangles);
+		lengths = edgeLengths(t, component.positions);
+	});
+	row.faces = component.triangles.size();
+	const Topology topology = topologyOf(t);
+	const Target target = chooseTarget(
+		t,
+		topology,
+		lengths,
+		component.positions,
+		chooseRequest(topology, component.positions.size(), row.target));
+
+	// By itself once more; the flow includes it.
+	row.packing = timeOf([&] {
+		if (options.surgery == Surgery::IntrinsicFlips) {
+			const DelaunayStart start = delaunayStart({t, lengths}, {});
+			inversiveDistancePacking(start.mesh.triangulation, start.mesh.lengths, start.radii);
+		}
+		else
+			inversiveDistancePacking(t, lengths, initialRadii(t, lengths));
+	});
+	FlowResult flow;
+	row.flow = timeOf([&] {
+		flow = runEuclideanFlow(
+			t,
+			lengths,
+			component.positions,
+			target,
+			topology.loops.empty() ? std::vector<int>() : topology.loops.front(),
+			options,
+			[](int, double) {});
+	});
+	row.iterations = flow.iterations;
+	row.residual = flow.residual;
+	row.flips = flow.history.startFlips.size() + flow.history.flowFlips.size() +
+				static_cast<std::size_t>(flow.edgeSwaps);
+	// The matrix of the flow's last step; where the flow ran on the double of the surface, that of
+	// the surface itself at the start.
+	GeometricCurvatureMap<Euclidean> start(
+		inversiveDistancePacking(t, lengths, initialRadii(t, lengths)));
+	start.evaluate(Eigen::Map<const Eigen::VectorXd>(
+		start.packing().u.data(), static_cast<Eigen::Index>(start.packing().u.size())));
+	row.oneFactor = oneFactorisation(flow.doubled ? start : *flow.metric, flow.target);
+
+	// Cut, layout and distortion on the input's triangles with the input's metric: the work is that
+	// on the flat one.
+	CutGraph cut;
+	PlanarLayout layout;
+	const std::vector<char> marked(component.positions.size(), 0);
+	row.cut = timeOf([&] { cut = cutToDisk(t, lengths, marked, {}); });
+	row.layout = timeOf([&] { layout = layOutInPlane(t, lengths, start.angles(), cut.isCut); });
+	std::vector<std::array<Point2, 3>> uv;
+	for (int f = 0; f < t.faceCount(); ++f) {
+		const auto h = t.halfedges(f);
+		uv.push_back({layout.at(h[0]), layout.at(h[1]), layout.at(h[2])});
+	}
+	const SurfaceMesh surface{component.positions, component.triangles};
+	Report report;
+	const std::vector<char> reversed(uv.size(), 0);
+	row.distortion = timeOf([&] { measureDistortion(surface, uv, reversed, report); });
+}
+
+SurfaceMesh read(const std::string& path)
+{
+	if (path == "generated") {
+		testing::Random random(1);
+		return testing::bumpyTorus(200, 125, random);
+	}
+#ifdef RICCI_HAVE_VCGLIB
+	return testing::readMesh(path);
+#else
+	throw std::runtime_error("Without vcglib only the mesh 'generated' can be measured.");
+#endif
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+	Options options;
+	std::string path;
+	const auto surgeryName = [&] {
+		return options.surgery == Surgery::None       ? "none"
+			   : options.surgery == Surgery::EdgeSwap ? "edge_swap"
+													  : "intrinsic_flips";
+	};
+	for (int i = 1; i < argc; ++i) {
+		const std::string word = argv[i];
+		if (word == "--header") {
+			std::puts(kHeader);
+			return 0;
+		}
+		if (word == "--surgery=none")
+			options.surgery = Surgery::None;
+		else if (word == "--surgery=edge_swap")
+			options.surgery = Surgery::EdgeSwap;
+		else if (word == "--surgery=intrinsic_flips")
+			options.surgery = Surgery::IntrinsicFlips;
+		else if (path.empty() && word.rfind("--", 0) != 0)
+			path = word;
+		else
+			path.clear(), i = argc;
+	}
+	if (path.empty()) {
+		std::cerr << "usage: ricci_bench --header | [--surgery=none|edge_swap|intrinsic_flips] "
+					 "MESH|generated\n";
+		return 2;
+	}
+	Row row;
+	row.name = std::filesystem::path(path).stem().string();
+	row.surgery = surgeryName();
+	int status = 0;
+	try {
+		SurfaceMesh mesh;
+		row.read = timeOf([&] { mesh = read(path); });
+		measure(mesh, options, row);
+	}
+	catch (const std::exception& error) {
+		row.remark = error.what();
+		status = 1;
+	}
+	row.print();
+	return status;
+}
