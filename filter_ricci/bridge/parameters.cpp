@@ -148,7 +148,8 @@ RichParameterList filterParameters(int)
 		"<b>Keep the mesh</b>: vertices and faces stay as they are; faces that come out flipped "
 		"are counted.<br>"
 		"<b>Common refinement</b>: faces are divided where the intrinsic edges cross them, so that "
-		"the map is exact on every piece and none is flipped. Vertices keep their numbers, new ones "
+		"the map is exact on every piece and none is flipped. Vertices keep their numbers, new "
+		"ones "
 		"are appended."));
 	list.addParam(RichInt(
 		"max_iterations",

@@ -16,7 +16,8 @@ enum class TargetCurvature {
 
 /// How the circles of the two ends of an edge may lie.
 enum class PackingScheme {
-	InversiveDistance, ///< generalized flow: intersecting or disjoint, the mesh's own metric exactly
+	InversiveDistance, ///< generalized flow: intersecting or disjoint, the mesh's own metric
+					   ///< exactly
 	Thurston           ///< conventional flow: inversive distance clamped to [0,1] (acute angles)
 };
 
@@ -30,7 +31,8 @@ enum class Surgery {
 /// What a map on flipped triangles is given back on.
 enum class OutputTriangulation {
 	KeepMesh,        ///< the input's faces; each takes the flow's map at its corners
-	CommonRefinement ///< the overlay of the input's and the flow's triangles, on which the map is exact
+	CommonRefinement ///< the overlay of the input's and the flow's triangles, on which the map is
+					 ///< exact
 };
 
 struct Options
@@ -46,7 +48,7 @@ struct Options
 	double epsilon = 1e-8;
 
 	PackingScheme packing = PackingScheme::InversiveDistance;
-	Surgery       surgery = Surgery::IntrinsicFlips;
+	Surgery surgery = Surgery::IntrinsicFlips;
 	OutputTriangulation output = OutputTriangulation::KeepMesh;
 
 	/// Newton steps of one solve, at least 1.

@@ -54,7 +54,7 @@ public:
 
 private:
 	Progress& m_progress;
-	double    m_from, m_to;
+	double m_from, m_to;
 };
 
 /// The flow's progress bar: the residual falls by orders of magnitude, so each step closes a part
@@ -71,25 +71,25 @@ public:
 		const double done =
 			std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon);
 		m_done = std::max(m_done, std::clamp(done, 0.0, 1.0));
-		const std::string line =
-			"Newton step " + std::to_string(step) + ": max |target - K| = " + text("%.3e", residual);
+		const std::string line = "Newton step " + std::to_string(step) +
+								 ": max |target - K| = " + text("%.3e", residual);
 		m_interval.log(line);
 		m_interval.step(kBeforeFlow + m_done * (1.0 - kBeforeFlow - kAfterFlow), line);
 	}
 
 private:
 	Interval& m_interval;
-	double    m_epsilon, m_first = -1.0, m_done = 0.0;
+	double m_epsilon, m_first = -1.0, m_done = 0.0;
 };
 
 /// A component's mesh as the flow uses it: equal to the component until boundary edges are split.
 struct WorkingMesh
 {
-	std::vector<Point3>   positions;
+	std::vector<Point3> positions;
 	std::vector<Triangle> triangles;
-	int                   inputVertexCount = 0;
-	std::vector<char>     selected;
-	std::vector<double>   prescribed;
+	int inputVertexCount = 0;
+	std::vector<char> selected;
+	std::vector<double> prescribed;
 	/// [component face][corner] -> 3 face + corner of triangles
 	std::vector<std::array<int, 3>> corner;
 
@@ -99,7 +99,8 @@ struct WorkingMesh
 	{
 		for (int v : component.vertex) {
 			selected.push_back(input.selected.empty() ? char(0) : input.selected[at(v)]);
-			prescribed.push_back(input.targetCurvature.empty() ? 0.0 : input.targetCurvature[at(v)]);
+			prescribed.push_back(
+				input.targetCurvature.empty() ? 0.0 : input.targetCurvature[at(v)]);
 		}
 		corner.resize(triangles.size());
 		for (std::size_t f = 0; f < triangles.size(); ++f)
@@ -113,8 +114,8 @@ struct WorkingMesh
 		const int i = triangles[at(f)][at(k)], j = triangles[at(f)][at((k + 1) % 3)];
 		const int apex = triangles[at(f)][at((k + 2) % 3)];
 		const int middle = static_cast<int>(positions.size());
-		const int added  = static_cast<int>(triangles.size());
-		Point3    p;
+		const int added = static_cast<int>(triangles.size());
+		Point3 p;
 		for (std::size_t x = 0; x < 3; ++x)
 			p[x] = 0.5 * (positions[at(i)][x] + positions[at(j)][x]);
 		positions.push_back(p);
@@ -138,10 +139,10 @@ class ComponentRun
 {
 public:
 	ComponentRun(
-		const Component&   component,
+		const Component& component,
 		const VertexInput& input,
-		const Options&     options,
-		Interval           interval) :
+		const Options& options,
+		Interval interval) :
 			m_component(component),
 			m_mesh(component, input), m_precision(input.precision), m_options(options),
 			m_interval(interval)
@@ -163,14 +164,14 @@ private:
 	{
 		for (int start = 0; start < kMostStarts; ++start) {
 			m_interval.step(0.0, "Circle packing");
-			m_base     = Triangulation(static_cast<int>(m_mesh.positions.size()), m_mesh.triangles);
+			m_base = Triangulation(static_cast<int>(m_mesh.positions.size()), m_mesh.triangles);
 			m_topology = topologyOf(m_base);
-			m_lengths  = edgeLengths(m_base, m_mesh.positions);
+			m_lengths = edgeLengths(m_base, m_mesh.positions);
 			TargetRequest request;
-			request.mode                = m_options.target;
-			request.freeBoundary        = m_options.freeBoundary;
-			request.selected            = m_mesh.selected;
-			request.prescribed          = m_mesh.prescribed;
+			request.mode = m_options.target;
+			request.freeBoundary = m_options.freeBoundary;
+			request.selected = m_mesh.selected;
+			request.prescribed = m_mesh.prescribed;
 			request.prescribedPrecision = m_precision;
 			Target target = chooseTarget(m_base, m_topology, m_lengths, m_mesh.positions, request);
 			if (start == 0) {
@@ -193,7 +194,8 @@ private:
 			m_swaps += m_flow.edgeSwaps;
 			if (m_flow.history.lengthened > 0.0)
 				m_interval.log(
-					"Some faces have no area, or an edge without length: the flow sees every edge longer by " +
+					"Some faces have no area, or an edge without length: the flow sees every edge "
+					"longer by " +
 					text("%.3g", m_flow.history.lengthened) + ".");
 			if (m_flow.edgesToSplit.empty())
 				return;
@@ -215,9 +217,9 @@ private:
 			const int f = m_base.face(h);
 			if (touched[at(f)])
 				continue;
-			touched[at(f)]    = 1;
+			touched[at(f)] = 1;
 			const Triangle& t = m_mesh.triangles[at(f)];
-			const int       k =
+			const int k =
 				static_cast<int>(std::find(t.begin(), t.end(), m_base.origin(h)) - t.begin());
 			m_mesh.split(f, k);
 			++m_splits;
@@ -230,8 +232,9 @@ private:
 	{
 		std::vector<char> marked(m_mesh.positions.size(), 0), forbidden;
 		for (std::size_t v = 0; v < marked.size(); ++v)
-			marked[v] = !m_topology.boundary[v] &&
-						std::abs(m_flow.target.curvature[static_cast<Eigen::Index>(v)]) > kConeCurvature;
+			marked[v] =
+				!m_topology.boundary[v] &&
+				std::abs(m_flow.target.curvature[static_cast<Eigen::Index>(v)]) > kConeCurvature;
 		if (m_swaps > 0 || m_splits > 0) {
 			forbidden = m_flow.swapped;
 			forbidden.resize(at(m_base.edgeCount()), 0);
@@ -244,7 +247,8 @@ private:
 
 	bool flips() const { return m_options.surgery == Surgery::IntrinsicFlips; }
 
-	/// The layout is known at the corners of these triangles: with flips the input's, else the flow's.
+	/// The layout is known at the corners of these triangles: with flips the input's, else the
+	/// flow's.
 	const Triangulation& layoutTriangulation() const
 	{
 		return flips() ? m_base : m_flow.metric->triangulation();
@@ -266,7 +270,9 @@ private:
 			double area = 0.0;
 			for (const Triangle& t : m_mesh.triangles)
 				area += triangleArea(
-					{m_mesh.positions[at(t[0])], m_mesh.positions[at(t[1])], m_mesh.positions[at(t[2])]});
+					{m_mesh.positions[at(t[0])],
+					 m_mesh.positions[at(t[1])],
+					 m_mesh.positions[at(t[2])]});
 			m_scale = std::sqrt(area / m_flow.area);
 		}
 		turnUpright();
@@ -274,21 +280,21 @@ private:
 
 	void layOutFlipped()
 	{
-		const FlipHistory&  history = m_flow.history;
-		const CurvatureMap& metric  = *m_flow.metric;
-		FlippedSurface      surface;
-		surface.input        = &history.input;
-		surface.startFlips   = &history.startFlips;
-		surface.start        = &history.start.triangulation;
+		const FlipHistory& history = m_flow.history;
+		const CurvatureMap& metric = *m_flow.metric;
+		FlippedSurface surface;
+		surface.input = &history.input;
+		surface.startFlips = &history.startFlips;
+		surface.start = &history.start.triangulation;
 		surface.startLengths = &history.start.lengths;
-		surface.startDelta   = &history.startDelta;
-		surface.startU       = &history.startU;
-		surface.flowFlips    = &history.flowFlips;
-		surface.end          = &metric.triangulation();
-		surface.endLengths   = &metric.lengths();
-		surface.endAngles    = &metric.angles();
-		surface.endU         = &m_flow.u;
-		surface.keptFaces    = m_base.faceCount();
+		surface.startDelta = &history.startDelta;
+		surface.startU = &history.startU;
+		surface.flowFlips = &history.flowFlips;
+		surface.end = &metric.triangulation();
+		surface.endLengths = &metric.lengths();
+		surface.endAngles = &metric.angles();
+		surface.endU = &m_flow.u;
+		surface.keptFaces = m_base.faceCount();
 		// In a double the surface ends at its boundary.
 		std::vector<char> isCut = m_cut.isCut;
 		for (int e = 0; e < m_base.edgeCount(); ++e)
@@ -305,14 +311,14 @@ private:
 				m_layout.position[at(m_layout.sector[at(h)])] = m_refinement.inputLayout.at(h);
 	}
 
-	/// Turns and scales the layout so that its least bounding rectangle lies along the axes, from the
-	/// origin.
+	/// Turns and scales the layout so that its least bounding rectangle lies along the axes, from
+	/// the origin.
 	void turnUpright()
 	{
-		const OrientedRectangle r    = leastRectangle(m_layout.position);
-		const auto              move = [&](Point2& p) {
-            const Point2 q = r.inFrame(p);
-            p              = {m_scale * (q[0] - r.low[0]), m_scale * (q[1] - r.low[1])};
+		const OrientedRectangle r = leastRectangle(m_layout.position);
+		const auto move = [&](Point2& p) {
+			const Point2 q = r.inFrame(p);
+			p = {m_scale * (q[0] - r.low[0]), m_scale * (q[1] - r.low[1])};
 		};
 		for (Point2& p : m_layout.position)
 			move(p);
@@ -338,7 +344,7 @@ private:
 	void store(Parametrization& result) const
 	{
 		const Triangulation& end = layoutTriangulation();
-		std::vector<int>     anyHalfedge(m_mesh.positions.size(), -1);
+		std::vector<int> anyHalfedge(m_mesh.positions.size(), -1);
 		for (int h = end.halfedgeCount() - 1; h >= 0; --h)
 			if (!end.isOuter(h))
 				anyHalfedge[at(end.origin(h))] = h;
@@ -356,24 +362,25 @@ private:
 		result.charts.push_back(std::move(chart));
 		for (std::size_t f = 0; f < m_component.face.size(); ++f) {
 			const std::size_t inputFace = at(m_component.face[f]);
-			result.reversed[inputFace]  = m_component.reversed[f];
+			result.reversed[inputFace] = m_component.reversed[f];
 			for (std::size_t k = 0; k < 3; ++k)
 				result.uv[inputFace][m_component.inputCorner(f, k)] =
 					pointOf(cornerHalfedge[at(m_mesh.corner[f][k])], anyHalfedge);
 		}
 		for (std::size_t v = 0; v < m_component.vertex.size(); ++v) {
 			const std::size_t inputVertex = at(m_component.vertex[v]);
-			const auto        i           = static_cast<Eigen::Index>(v);
-			result.u[inputVertex]         = m_flow.u[i] + std::log(m_scale);
+			const auto i = static_cast<Eigen::Index>(v);
+			result.u[inputVertex] = m_flow.u[i] + std::log(m_scale);
 			result.targetCurvature[inputVertex] =
 				m_flow.target.fixed[v] ? m_flow.curvature[i] : m_flow.target.curvature[i];
 		}
 		Report& report = result.report;
 		report.iterations += m_iterations;
 		report.maxCurvatureError = std::max(report.maxCurvatureError, m_flow.residual);
-		report.residualFloor     = std::max(report.residualFloor, m_flow.floor);
+		report.residualFloor = std::max(report.residualFloor, m_flow.floor);
 		report.edgeSwaps += m_swaps;
-		report.flips += static_cast<int>(m_flow.history.startFlips.size() + m_flow.history.flowFlips.size());
+		report.flips +=
+			static_cast<int>(m_flow.history.startFlips.size() + m_flow.history.flowFlips.size());
 		report.refinementPoints += static_cast<int>(m_refinement.crossings);
 		report.boundarySplits += m_splits;
 		report.eulerCharacteristic += m_topology.eulerCharacteristic;
@@ -385,8 +392,8 @@ private:
 	/// Appends the refinement, in the indices and the orientation of the whole input.
 	void storeRefinement(Parametrization& result, Chart& chart) const
 	{
-		RefinedMesh& refined     = result.refined;
-		const auto   vertexCount = m_component.vertex.size();
+		RefinedMesh& refined = result.refined;
+		const auto vertexCount = m_component.vertex.size();
 		std::vector<int> pointOfNode(m_refinement.points.size());
 		for (std::size_t i = 0; i < m_refinement.points.size(); ++i) {
 			if (i < vertexCount) {
@@ -400,9 +407,9 @@ private:
 			refined.points.push_back(p);
 		}
 		for (std::size_t f = 0; f < m_refinement.triangles.size(); ++f) {
-			const auto  local = at(m_refinement.inputFace[f]);
-			Triangle    t     = m_refinement.triangles[f];
-			auto        uv    = m_refinement.uv[f];
+			const auto local = at(m_refinement.inputFace[f]);
+			Triangle t = m_refinement.triangles[f];
+			auto uv = m_refinement.uv[f];
 			for (int& v : t)
 				v = pointOfNode[at(v)];
 			if (m_component.reversed[local]) {
@@ -418,12 +425,12 @@ private:
 
 	void invariants(Report& report) const
 	{
-		const Triangulation& t    = layoutTriangulation();
-		const bool           flat = m_flow.target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
-		const bool           free = std::find(m_flow.target.fixed.begin(), m_flow.target.fixed.end(), 1) !=
+		const Triangulation& t = layoutTriangulation();
+		const bool flat = m_flow.target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
+		const bool free = std::find(m_flow.target.fixed.begin(), m_flow.target.fixed.end(), 1) !=
 						  m_flow.target.fixed.end();
 		if (m_topology.isTorus() && flat) {
-			const auto tau    = torusModulus(t, m_layout, m_cut);
+			const auto tau = torusModulus(t, m_layout, m_cut);
 			report.torusTauRe = tau.real();
 			report.torusTauIm = tau.imag();
 		}
@@ -437,7 +444,7 @@ private:
 	double rectangleAspect() const
 	{
 		std::array<Point2, 4> corner;
-		const Triangulation&  t = layoutTriangulation();
+		const Triangulation& t = layoutTriangulation();
 		for (int h = 0; h < t.halfedgeCount(); ++h)
 			for (std::size_t k = 0; k < 4; ++k)
 				if (!t.isOuter(h) && t.origin(h) == m_flow.target.corners[k])
@@ -450,27 +457,27 @@ private:
 		return std::max(a, b) / std::min(a, b);
 	}
 
-	const Component&    m_component;
-	WorkingMesh         m_mesh;
-	double              m_precision;
-	const Options&      m_options;
-	Interval            m_interval;
-	Triangulation       m_base; ///< before any swap
-	Topology            m_topology;
+	const Component& m_component;
+	WorkingMesh m_mesh;
+	double m_precision;
+	const Options& m_options;
+	Interval m_interval;
+	Triangulation m_base; ///< before any swap
+	Topology m_topology;
 	std::vector<double> m_lengths;
-	FlowResult          m_flow;
-	CutGraph            m_cut;
-	CommonRefinement    m_refinement; ///< with flips
-	PlanarLayout        m_layout;
-	double              m_scale      = 1.0;
-	int                 m_iterations = 0, m_swaps = 0, m_splits = 0;
+	FlowResult m_flow;
+	CutGraph m_cut;
+	CommonRefinement m_refinement; ///< with flips
+	PlanarLayout m_layout;
+	double m_scale = 1.0;
+	int m_iterations = 0, m_swaps = 0, m_splits = 0;
 };
 
 /// Distortion of the refinement, into the report.
 void measureRefinement(const SurfaceMesh& mesh, Parametrization& result)
 {
-	RefinedMesh&      refined = result.refined;
-	SurfaceMesh       surface;
+	RefinedMesh& refined = result.refined;
+	SurfaceMesh surface;
 	std::vector<char> reversed;
 	for (const SurfacePoint& p : refined.points)
 		surface.positions.push_back(placeOnSurface(p, mesh.positions));
@@ -478,8 +485,8 @@ void measureRefinement(const SurfaceMesh& mesh, Parametrization& result)
 	for (int f : refined.inputFace)
 		reversed.push_back(result.reversed[at(f)]);
 	DistortionField distortion = measureDistortion(surface, refined.uv, reversed, result.report);
-	refined.faceQC             = std::move(distortion.face);
-	refined.vertexQC           = std::move(distortion.vertex);
+	refined.faceQC = std::move(distortion.face);
+	refined.vertexQC = std::move(distortion.vertex);
 }
 
 void checkOptions(const Options& options)
@@ -487,32 +494,32 @@ void checkOptions(const Options& options)
 	if (options.output == OutputTriangulation::CommonRefinement &&
 		(options.surgery != Surgery::IntrinsicFlips || options.packing == PackingScheme::Thurston))
 		throw InvalidOption(
-			"The output 'Common refinement' belongs to the surgery 'Intrinsic flips' with the circle "
+			"The output 'Common refinement' belongs to the surgery 'Intrinsic flips' with the "
+			"circle "
 			"packing 'Inversive distance': choose these, or the output 'Keep the mesh'.");
 	if (!(options.epsilon > 0.0))
-		throw InvalidOption("epsilon must be greater than 0 (radians), not " +
-							text("%g", options.epsilon) + ".");
+		throw InvalidOption(
+			"epsilon must be greater than 0 (radians), not " + text("%g", options.epsilon) + ".");
 	if (options.maxIterations < 1)
 		throw InvalidOption(
-			"max_iterations must be at least 1, not " + std::to_string(options.maxIterations) + ".");
+			"max_iterations must be at least 1, not " + std::to_string(options.maxIterations) +
+			".");
 }
 
 } // namespace
 
 Parametrization parametrizeEuclidean(
-	const SurfaceMesh& mesh,
-	const VertexInput& input,
-	const Options&     asked,
-	Progress&          progress)
+	const SurfaceMesh& mesh, const VertexInput& input, const Options& asked, Progress& progress)
 {
 	checkOptions(asked);
 	progress.step(0.0, "Checking the mesh");
 	Parametrization result;
-	Options         options = asked;
+	Options options = asked;
 	if (options.packing == PackingScheme::Thurston && options.surgery == Surgery::IntrinsicFlips) {
 		// Flips need circles that do not overlap.
 		options.surgery = Surgery::None;
-		result.notes.push_back("The Thurston packing runs on the mesh's own triangles, without flips.");
+		result.notes.push_back(
+			"The Thurston packing runs on the mesh's own triangles, without flips.");
 	}
 	const std::vector<Component> components = splitIntoComponents(mesh, result.notes);
 	if (options.surgery != Surgery::IntrinsicFlips)
@@ -524,7 +531,7 @@ Parametrization parametrizeEuclidean(
 	result.u.assign(mesh.positions.size(), 0.0);
 	result.targetCurvature.assign(mesh.positions.size(), 0.0);
 	result.report.components = static_cast<int>(components.size());
-	const bool refine        = options.output == OutputTriangulation::CommonRefinement;
+	const bool refine = options.output == OutputTriangulation::CommonRefinement;
 	if (refine)
 		for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
 			SurfacePoint p;
@@ -534,11 +541,14 @@ Parametrization parametrizeEuclidean(
 
 	std::size_t facesDone = 0;
 	for (const Component& component : components) {
-		const auto   share = static_cast<double>(mesh.triangles.size());
-		const double from  = static_cast<double>(facesDone) / share;
+		const auto share = static_cast<double>(mesh.triangles.size());
+		const double from = static_cast<double>(facesDone) / share;
 		facesDone += component.triangles.size();
 		ComponentRun run(
-			component, input, options, Interval(progress, from, static_cast<double>(facesDone) / share));
+			component,
+			input,
+			options,
+			Interval(progress, from, static_cast<double>(facesDone) / share));
 		try {
 			run.run(result);
 		}
@@ -559,11 +569,11 @@ Parametrization parametrizeEuclidean(
 		result.report.annulusModulus.reset();
 		result.report.rectangleAspect.reset();
 	}
-	result.report.converged   = true;
-	Report keptReport          = result.report;
+	result.report.converged = true;
+	Report keptReport = result.report;
 	DistortionField distortion = measureDistortion(mesh, result.uv, result.reversed, keptReport);
-	result.faceQC              = std::move(distortion.face);
-	result.vertexQC            = std::move(distortion.vertex);
+	result.faceQC = std::move(distortion.face);
+	result.vertexQC = std::move(distortion.vertex);
 	if (refine)
 		measureRefinement(mesh, result);
 	else

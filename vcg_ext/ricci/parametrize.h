@@ -19,9 +19,9 @@ namespace ricci {
 /// them.
 struct VertexInput
 {
-	std::vector<char>   selected;        ///< Rectangle, SelectedCones
+	std::vector<char> selected;          ///< Rectangle, SelectedCones
 	std::vector<double> targetCurvature; ///< Prescribed, radians
-	double              precision = 2.3e-16; ///< relative rounding error of targetCurvature
+	double precision = 2.3e-16;          ///< relative rounding error of targetCurvature
 };
 
 /// One component laid out in the plane by its own metric, not yet packed beside the others.
@@ -34,29 +34,29 @@ struct Chart
 /// The common refinement of the input with the triangles on which the map was found.
 struct RefinedMesh
 {
-	std::vector<SurfacePoint>          points;    ///< the input's vertices first, in order
-	std::vector<Triangle>              triangles; ///< into points, in the input's orientation
-	std::vector<int>                   inputFace; ///< [triangle] index into SurfaceMesh::triangles
-	std::vector<std::array<Point2, 3>> uv;        ///< [triangle][corner]
-	std::vector<double>                faceQC;    ///< sigma1 / sigma2
-	std::vector<double>                vertexQC;  ///< [point]
+	std::vector<SurfacePoint> points;      ///< the input's vertices first, in order
+	std::vector<Triangle> triangles;       ///< into points, in the input's orientation
+	std::vector<int> inputFace;            ///< [triangle] index into SurfaceMesh::triangles
+	std::vector<std::array<Point2, 3>> uv; ///< [triangle][corner]
+	std::vector<double> faceQC;            ///< sigma1 / sigma2
+	std::vector<double> vertexQC;          ///< [point]
 };
 
 /// A map of the whole mesh to the plane.
 struct Parametrization
 {
-	Report                             report;
-	std::vector<std::string>           notes; ///< what was done or chosen without being asked
-	std::vector<Chart>                 charts;
-	std::vector<std::array<Point2, 3>> uv;       ///< [face][corner]; each chart with its least bounding rectangle
-	                                          ///< along the axes, from the origin
-	std::vector<char>                  reversed; ///< [face] 1 if the face was turned round
-	std::vector<double>                faceQC;   ///< sigma1 / sigma2
-	std::vector<double>                vertexQC; ///< area-weighted mean over the faces at the vertex
-	std::vector<double>                u;        ///< [vertex] ln radius; 0 at unused vertices
-	std::vector<double>                targetCurvature; ///< [vertex] radians, as reached
-	RefinedMesh                        refined; ///< filled for OutputTriangulation::CommonRefinement;
-	                                            ///< the report's qc fields and flippedFaces then are its own
+	Report report;
+	std::vector<std::string> notes; ///< what was done or chosen without being asked
+	std::vector<Chart> charts;
+	std::vector<std::array<Point2, 3>> uv; ///< [face][corner]; each chart with its least bounding
+										   ///< rectangle along the axes, from the origin
+	std::vector<char> reversed;          ///< [face] 1 if the face was turned round
+	std::vector<double> faceQC;          ///< sigma1 / sigma2
+	std::vector<double> vertexQC;        ///< area-weighted mean over the faces at the vertex
+	std::vector<double> u;               ///< [vertex] ln radius; 0 at unused vertices
+	std::vector<double> targetCurvature; ///< [vertex] radians, as reached
+	RefinedMesh refined;                 ///< filled for OutputTriangulation::CommonRefinement;
+						 ///< the report's qc fields and flippedFaces then are its own
 };
 
 /// The Euclidean generalized Ricci flow from a mesh to the plane, component by component: circle
@@ -64,10 +64,7 @@ struct Parametrization
 /// of its component unless its boundary is free, which fixes the scale.
 /// \throw InvalidMesh, InvalidOption, InadmissibleCurvature, NotConverged, Cancelled
 Parametrization parametrizeEuclidean(
-	const SurfaceMesh& mesh,
-	const VertexInput& input,
-	const Options&     options,
-	Progress&          progress);
+	const SurfaceMesh& mesh, const VertexInput& input, const Options& options, Progress& progress);
 
 } // namespace ricci
 

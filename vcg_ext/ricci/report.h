@@ -10,30 +10,31 @@ namespace ricci {
 /// faces, and the conformal invariants are left empty.
 struct Report
 {
-	bool   converged         = false;
-	int    iterations        = 0;   ///< Newton steps, over all solves
+	bool converged = false;
+	int iterations = 0;             ///< Newton steps, over all solves
 	double maxCurvatureError = 0.0; ///< max |target - K| in radians, where K is prescribed
-	double residualFloor     = 0.0; ///< radians: what rounding allows max |target - K| to reach
+	double residualFloor = 0.0;     ///< radians: what rounding allows max |target - K| to reach
 
-	double qcMean       = 1.0; ///< mean of sigma1/sigma2 over the faces
+	double qcMean = 1.0;       ///< mean of sigma1/sigma2 over the faces
 	double qcVertexMean = 1.0; ///< mean over vertices of the area-weighted ring value (paper 5.1)
-	double qcAreaMean   = 1.0; ///< mean over the faces, weighted by their 3D area
-	double qcP99        = 1.0; ///< 99th percentile over the faces
-	double qcMax        = 1.0;
+	double qcAreaMean = 1.0;   ///< mean over the faces, weighted by their 3D area
+	double qcP99 = 1.0;        ///< 99th percentile over the faces
+	double qcMax = 1.0;
 
-	int flippedFaces    = 0; ///< faces whose image in the plane is reversed or has no area
+	int flippedFaces = 0;      ///< faces whose image in the plane is reversed or has no area
 	int flippedByRounding = 0; ///< more of them once the coordinates are rounded to float
-	int edgeSwaps       = 0; ///< paper 5.4
-	int flips           = 0; ///< intrinsic flips, those to the start's triangulation included
-	int refinementPoints = 0; ///< points of the common refinement that are not vertices of the input
-	int boundarySplits  = 0; ///< paper 5.4: boundary edges split before a new start
+	int edgeSwaps = 0;         ///< paper 5.4
+	int flips = 0;             ///< intrinsic flips, those to the start's triangulation included
+	int refinementPoints =
+		0;                   ///< points of the common refinement that are not vertices of the input
+	int boundarySplits = 0;  ///< paper 5.4: boundary edges split before a new start
 	int brokenTriangles = 0; ///< faces that break the triangle inequality at the end
 
 	int eulerCharacteristic = 0;
-	int genus               = 0;
-	int boundaryLoops       = 0;
-	int components          = 0;
-	int seamEdges           = 0; ///< edges of the input along which the layout is cut
+	int genus = 0;
+	int boundaryLoops = 0;
+	int components = 0;
+	int seamEdges = 0; ///< edges of the input along which the layout is cut
 
 	std::optional<double> torusTauRe, torusTauIm; ///< reduced to the fundamental domain
 	std::optional<double> annulusModulus;         ///< ln(r2/r1) / 2 pi

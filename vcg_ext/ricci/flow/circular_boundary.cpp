@@ -24,19 +24,20 @@ double arcOf(double side, double radius)
 
 InscribedPolygon inscribedPolygon(const std::vector<double>& sides)
 {
-	const auto   longestSide = std::max_element(sides.begin(), sides.end());
-	const double longest     = *longestSide;
+	const auto longestSide = std::max_element(sides.begin(), sides.end());
+	const double longest = *longestSide;
 	// Angle sum less 2 pi as a function of the radius: decreasing while the centre is inside. If it
 	// is negative already where the longest side is a diameter, the centre lies beyond that side,
 	// whose arc then is the larger of the two.
 	const auto excess = [&](double radius, bool outside) {
 		double sum = 0.0;
 		for (auto side = sides.begin(); side != sides.end(); ++side)
-			sum += outside && side == longestSide ? 2 * kPi - arcOf(*side, radius) : arcOf(*side, radius);
+			sum += outside && side == longestSide ? 2 * kPi - arcOf(*side, radius)
+												  : arcOf(*side, radius);
 		return sum - 2 * kPi;
 	};
 	const bool outside = excess(0.5 * longest, false) < 0.0;
-	double     low = 0.5 * longest, high = longest;
+	double low = 0.5 * longest, high = longest;
 	const auto beyond = [&](double radius) {
 		return outside ? excess(radius, true) > 0.0 : excess(radius, false) < 0.0;
 	};
@@ -48,7 +49,7 @@ InscribedPolygon inscribedPolygon(const std::vector<double>& sides)
 	}
 	InscribedPolygon polygon;
 	polygon.radius = 0.5 * (low + high);
-	double sum     = 0.0;
+	double sum = 0.0;
 	for (auto side = sides.begin(); side != sides.end(); ++side) {
 		const double arc = arcOf(*side, polygon.radius);
 		polygon.arcs.push_back(outside && side == longestSide ? 2 * kPi - arc : arc);
@@ -69,9 +70,9 @@ std::vector<double> exteriorAngles(const std::vector<double>& arcs)
 
 std::vector<double> centredArcs(const std::vector<double>& arcs, const std::vector<double>& weights)
 {
-	const std::size_t    n = arcs.size();
+	const std::size_t n = arcs.size();
 	std::vector<Complex> z(n);
-	double               angle = 0.0, total = 0.0;
+	double angle = 0.0, total = 0.0;
 	for (std::size_t i = 0; i < n; ++i) {
 		z[i] = std::polar(1.0, angle);
 		angle += arcs[i];
@@ -79,8 +80,8 @@ std::vector<double> centredArcs(const std::vector<double>& arcs, const std::vect
 	}
 	if (*std::max_element(weights.begin(), weights.end()) >= 0.5 * total)
 		return arcs;
-	// Newton's method on the barycentre b of the present points: moving w to the centre changes b by
-	// -w + conj(w) mean(z^2) to first order.
+	// Newton's method on the barycentre b of the present points: moving w to the centre changes b
+	// by -w + conj(w) mean(z^2) to first order.
 	for (int iteration = 0; iteration < 100; ++iteration) {
 		Complex b = 0.0, square = 0.0;
 		for (std::size_t i = 0; i < n; ++i) {
@@ -90,7 +91,7 @@ std::vector<double> centredArcs(const std::vector<double>& arcs, const std::vect
 		b /= total, square /= total;
 		if (std::abs(b) < 1e-15)
 			break;
-		Complex      w    = (b + square * std::conj(b)) / (1.0 - std::norm(square));
+		Complex w = (b + square * std::conj(b)) / (1.0 - std::norm(square));
 		const double size = std::abs(w);
 		if (!(size < 0.5))
 			w = b / std::abs(b) * 0.5 * std::abs(b);
@@ -100,7 +101,7 @@ std::vector<double> centredArcs(const std::vector<double>& arcs, const std::vect
 		}
 	}
 	std::vector<double> centred(n);
-	double              sum = 0.0;
+	double sum = 0.0;
 	for (std::size_t i = 0; i < n; ++i) {
 		double arc = std::arg(z[(i + 1) % n] * std::conj(z[i]));
 		if (arc < 0.0)
@@ -115,7 +116,7 @@ std::vector<double> centredArcs(const std::vector<double>& arcs, const std::vect
 std::vector<double>
 AndersonMixing::next(const std::vector<double>& x, const std::vector<double>& image)
 {
-	const std::size_t   n = x.size();
+	const std::size_t n = x.size();
 	std::vector<double> residual(n);
 	for (std::size_t i = 0; i < n; ++i)
 		residual[i] = image[i] - x[i];

@@ -9,7 +9,7 @@ namespace ricci {
 /// Polygon inscribed in a circle. Side i runs from corner i to corner i + 1 (cyclic).
 struct InscribedPolygon
 {
-	double              radius = 0.0;
+	double radius = 0.0;
 	std::vector<double> arcs; ///< [side] central angle in radians; they add up to 2 pi
 };
 
@@ -39,7 +39,7 @@ public:
 	void restart() { m_points.clear(), m_residuals.clear(); }
 
 private:
-	std::size_t                      m_depth;
+	std::size_t m_depth;
 	std::vector<std::vector<double>> m_points, m_residuals; ///< images and image - x, oldest first
 };
 

@@ -12,6 +12,10 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
+/// pi less the double next to it. Left out, it would add up over the vertices and break
+/// Gauss-Bonnet by as much, all of which a pinned vertex would bear.
+constexpr double kPiRest = 1.2246467991473531772e-16;
+
 std::size_t at(int index)
 {
 	return static_cast<std::size_t>(index);
@@ -39,16 +43,14 @@ void CurvatureMap::swapEdge(int e, double delta)
 
 template<class Geometry>
 GeometricCurvatureMap<Geometry>::GeometricCurvatureMap(CirclePacking packing) :
-		CurvatureMap(std::move(packing)),
-		m_circles(at(m_packing.triangulation.vertexCount())),
+		CurvatureMap(std::move(packing)), m_circles(at(m_packing.triangulation.vertexCount())),
 		m_edges(at(m_packing.triangulation.edgeCount()))
 {
 }
 
 template<class Geometry>
 void GeometricCurvatureMap<Geometry>::evaluate(
-	const Eigen::VectorXd& u,
-	const Eigen::VectorXd& rest)
+	const Eigen::VectorXd& u, const Eigen::VectorXd& rest)
 {
 	evaluateCircles(u, rest);
 	evaluateEdges();
@@ -57,8 +59,7 @@ void GeometricCurvatureMap<Geometry>::evaluate(
 
 template<class Geometry>
 void GeometricCurvatureMap<Geometry>::evaluateCircles(
-	const Eigen::VectorXd& u,
-	const Eigen::VectorXd& rest)
+	const Eigen::VectorXd& u, const Eigen::VectorXd& rest)
 {
 	for (std::size_t v = 0; v < m_circles.size(); ++v) {
 		const auto i = static_cast<Eigen::Index>(v);
@@ -73,7 +74,7 @@ void GeometricCurvatureMap<Geometry>::evaluateEdges()
 	for (int e = 0; e < t.edgeCount(); ++e) {
 		m_edges[at(e)] = Geometry::edge(
 			m_circles[at(t.origin(2 * e))], m_circles[at(t.target(2 * e))], m_packing.delta[at(e)]);
-		m_lengths[at(e)]     = static_cast<double>(m_edges[at(e)].length);
+		m_lengths[at(e)] = static_cast<double>(m_edges[at(e)].length);
 		m_cosineLess1[at(e)] = static_cast<double>(m_edges[at(e)].cosineLess1);
 	}
 }
@@ -81,33 +82,34 @@ void GeometricCurvatureMap<Geometry>::evaluateEdges()
 template<class Geometry>
 void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 {
-	using Real             = typename Geometry::Real;
+	using Real = typename Geometry::Real;
 	const Triangulation& t = m_packing.triangulation;
 	std::fill(m_weights.begin(), m_weights.end(), 0.0);
 	for (int v = 0; v < t.vertexCount(); ++v)
 		m_curvature[v] = m_boundary[at(v)] ? kPi : 2.0 * kPi;
-	m_broken      = 0;
+	m_broken = 0;
 	m_needleRatio = 1.0;
 
 	for (int f = 0; f < t.faceCount(); ++f) {
 		// Vertex k is the origin of halfedge k; side k runs from vertex k to k + 1.
 		const std::array<int, 3> h = t.halfedges(f);
-		std::array<int, 3>       vertex, edge;
+		std::array<int, 3> vertex, edge;
 		for (std::size_t k = 0; k < 3; ++k) {
 			vertex[k] = t.origin(h[k]);
-			edge[k]   = Triangulation::edge(h[k]);
+			edge[k] = Triangulation::edge(h[k]);
 		}
 		// tau_k = (two adjacent sides - opposite side) / 2, free of cancellation in the radii.
-		std::array<Real, 3>   tau;
+		std::array<Real, 3> tau;
 		std::array<double, 3> angle;
 		for (std::size_t k = 0; k < 3; ++k)
-			tau[k] = m_circles[at(vertex[k])].radius +
-					 Real(0.5) * (m_edges[at(edge[k])].excess + m_edges[at(edge[(k + 2) % 3])].excess -
-							m_edges[at(edge[(k + 1) % 3])].excess);
+			tau[k] =
+				m_circles[at(vertex[k])].radius +
+				Real(0.5) * (m_edges[at(edge[k])].excess + m_edges[at(edge[(k + 2) % 3])].excess -
+							 m_edges[at(edge[(k + 1) % 3])].excess);
 		const auto shortest = std::min_element(tau.begin(), tau.end());
 		if (!(*shortest > 0.0)) {
 			++m_broken;
-			angle                             = {0.0, 0.0, 0.0};
+			angle = {0.0, 0.0, 0.0};
 			angle[at(static_cast<int>(shortest - tau.begin()))] = kPi;
 		}
 		else {
@@ -122,22 +124,22 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 			std::array<Real, 3> inversive, radius, kappa;
 			for (std::size_t k = 0; k < 3; ++k) {
 				inversive[k] = 1 + Real(m_packing.delta[at(edge[k])]);
-				radius[k]    = m_circles[at(vertex[k])].s;
-				kappa[k]     = m_circles[at(vertex[k])].kappa;
+				radius[k] = m_circles[at(vertex[k])].s;
+				kappa[k] = m_circles[at(vertex[k])].kappa;
 			}
 			double longest = 0.0, least = m_lengths[at(edge[0])];
 			for (std::size_t k = 0; k < 3; ++k) {
 				// Derivative of the angle at i by u_j, side ij = side k, apex m.
 				const std::size_t i = k, j = (k + 1) % 3, m = (k + 2) % 3;
-				const Real        ij = inversive[k], jm = inversive[j], mi = inversive[m];
-				const Real        d      = m_packing.delta[at(edge[k])];
-				const Real        height = kappa[i] * (mi + jm * ij) + kappa[j] * (jm + mi * ij) -
-									  kappa[m] * d * (d + 2);
+				const Real ij = inversive[k], jm = inversive[j], mi = inversive[m];
+				const Real d = m_packing.delta[at(edge[k])];
+				const Real height =
+					kappa[i] * (mi + jm * ij) + kappa[j] * (jm + mi * ij) - kappa[m] * d * (d + 2);
 				m_weights[at(edge[k])] += static_cast<double>(
 					radius[i] * radius[i] * radius[j] * radius[j] * radius[m] * height /
 					(area * m_edges[at(edge[k])].sine2));
 				longest = std::max(longest, m_lengths[at(edge[k])]);
-				least   = std::min(least, m_lengths[at(edge[k])]);
+				least = std::min(least, m_lengths[at(edge[k])]);
 			}
 			m_needleRatio = std::max(m_needleRatio, longest / least);
 		}
@@ -146,12 +148,12 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 			m_curvature[vertex[k]] -= angle[k];
 		}
 	}
+	for (int v = 0; v < t.vertexCount(); ++v)
+		m_curvature[v] += m_boundary[at(v)] ? kPiRest : 2.0 * kPiRest;
 }
 
 template<class Geometry>
-void FlippingCurvatureMap<Geometry>::evaluate(
-	const Eigen::VectorXd& u,
-	const Eigen::VectorXd& rest)
+void FlippingCurvatureMap<Geometry>::evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest)
 {
 	this->evaluateCircles(u, rest);
 	m_kappa.resize(this->m_circles.size());

@@ -25,9 +25,9 @@ class CurvatureMap
 public:
 	virtual ~CurvatureMap() = default;
 
-	/// Computes everything below at u + \p rest, one entry for each vertex: \p rest is what the doubles
-	/// of \p u cannot hold (below their last place), or empty. Radii then are exact to their own last
-	/// place, not to that of u.
+	/// Computes everything below at u + \p rest, one entry for each vertex: \p rest is what the
+	/// doubles of \p u cannot hold (below their last place), or empty. Radii then are exact to
+	/// their own last place, not to that of u.
 	virtual void evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest) = 0;
 
 	void evaluate(const Eigen::VectorXd& u) { evaluate(u, Eigen::VectorXd()); }
@@ -35,8 +35,8 @@ public:
 	/// Whether adding a constant to u changes nothing (Euclidean background).
 	virtual bool scaleInvariant() const = 0;
 
-	const CirclePacking&       packing() const { return m_packing; }
-	const Triangulation&       triangulation() const { return m_packing.triangulation; }
+	const CirclePacking& packing() const { return m_packing; }
+	const Triangulation& triangulation() const { return m_packing.triangulation; }
 	const std::vector<double>& delta() const { return m_packing.delta; }
 
 	/// K in radians: 2 pi (pi on the boundary) less the angles at the vertex (Eq. 2).
@@ -63,7 +63,8 @@ public:
 	/// Largest quotient of two sides of one triangle: the amplification of rounding in its angles.
 	double needleRatio() const { return m_needleRatio; }
 
-	/// Changes when the connectivity does, so that a sparsity pattern can be kept as long as possible.
+	/// Changes when the connectivity does, so that a sparsity pattern can be kept as long as
+	/// possible.
 	int revision() const { return m_revision; }
 
 	/// Keeps the connectivity that the last evaluate() left; reject() returns to the one last kept.
@@ -76,13 +77,13 @@ public:
 protected:
 	explicit CurvatureMap(CirclePacking packing);
 
-	CirclePacking       m_packing;
-	std::vector<char>   m_boundary; // by vertex
-	Eigen::VectorXd     m_curvature;
+	CirclePacking m_packing;
+	std::vector<char> m_boundary; // by vertex
+	Eigen::VectorXd m_curvature;
 	std::vector<double> m_lengths, m_weights, m_cosineLess1, m_angles;
-	int                 m_broken      = 0;
-	double              m_needleRatio = 1.0;
-	int                 m_revision    = 0;
+	int m_broken = 0;
+	double m_needleRatio = 1.0;
+	int m_revision = 0;
 };
 
 /// CurvatureMap of the background geometry \p Geometry (see Euclidean).
@@ -94,7 +95,7 @@ public:
 
 	using CurvatureMap::evaluate;
 	void evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest) override;
-	bool   scaleInvariant() const override { return Geometry::scaleInvariant; }
+	bool scaleInvariant() const override { return Geometry::scaleInvariant; }
 	double precision() const override
 	{
 		return static_cast<double>(std::numeric_limits<typename Geometry::Real>::epsilon());
@@ -106,7 +107,7 @@ protected:
 	void evaluateTriangles();
 
 	std::vector<typename Geometry::Circle> m_circles; // by vertex
-	std::vector<typename Geometry::Edge>   m_edges;
+	std::vector<typename Geometry::Edge> m_edges;
 };
 
 /// The same map on the weighted Delaunay triangulation of every u, reached by flips that keep the
@@ -128,9 +129,9 @@ public:
 
 private:
 	std::vector<double> m_kappa; // by vertex
-	FlipJournal         m_journal;
-	DelaunayQueue       m_queue;
-	std::vector<int>    m_flips;
+	FlipJournal m_journal;
+	DelaunayQueue m_queue;
+	std::vector<int> m_flips;
 };
 
 } // namespace ricci

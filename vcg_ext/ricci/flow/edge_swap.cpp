@@ -37,11 +37,12 @@ bool EdgeSwapper::operator()(CurvatureMap& map)
 	m_touched.assign(at(t.faceCount()), 0);
 	std::vector<int> longestEdges;
 	for (int f = 0; f < t.faceCount(); ++f) {
-		const auto h       = t.halfedges(f);
-		const auto length  = [&](int g) { return map.lengths()[at(Triangulation::edge(g))]; };
-		const int  longest = *std::max_element(
-            h.begin(), h.end(), [&](int a, int b) { return length(a) < length(b); });
-		// The angle opposite the longest edge of a broken triangle is the constant pi, its others 0.
+		const auto h = t.halfedges(f);
+		const auto length = [&](int g) { return map.lengths()[at(Triangulation::edge(g))]; };
+		const int longest = *std::max_element(
+			h.begin(), h.end(), [&](int a, int b) { return length(a) < length(b); });
+		// The angle opposite the longest edge of a broken triangle is the constant pi, its others
+		// 0.
 		if (map.angles()[at(t.next(longest))] == 0.0 && map.angles()[at(longest)] == 0.0)
 			longestEdges.push_back(longest);
 	}
@@ -62,7 +63,9 @@ bool EdgeSwapper::operator()(CurvatureMap& map)
 		left = right = 1;
 		// Circles that overlap by more than a right angle (I < 0) would end the convexity.
 		const double delta = Euclidean::delta(
-			distance(m_positions[at(k)], m_positions[at(l)]), m_initialRadii[at(k)], m_initialRadii[at(l)]);
+			distance(m_positions[at(k)], m_positions[at(l)]),
+			m_initialRadii[at(k)],
+			m_initialRadii[at(l)]);
 		map.swapEdge(e, std::max(delta, -1.0));
 		m_swapped[at(e)] = 1;
 		++m_timesSwapped[at(e)];

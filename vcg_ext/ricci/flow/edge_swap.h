@@ -33,12 +33,12 @@ public:
 
 private:
 	const std::vector<Point3>& m_positions;
-	std::vector<double>        m_initialRadii;
-	std::vector<char>          m_swapped;
-	std::vector<int>           m_timesSwapped;
-	std::vector<char>          m_touched; // [face] in the present call
-	std::vector<int>           m_toSplit;
-	int                        m_swaps = 0;
+	std::vector<double> m_initialRadii;
+	std::vector<char> m_swapped;
+	std::vector<int> m_timesSwapped;
+	std::vector<char> m_touched; // [face] in the present call
+	std::vector<int> m_toSplit;
+	int m_swaps = 0;
 };
 
 } // namespace ricci

@@ -32,6 +32,13 @@ constexpr double kInnerAccuracy = 1e-2;
 /// Below this residual a solve that rounding stopped goes on in extended precision.
 constexpr double kWorthExtending = 1e-4;
 
+/// Above this rounding floor the last steps are made in extended precision, so that the layout
+/// closes.
+constexpr double kLargestGap = 1e-12;
+
+/// A weight above minus this is that of co-circular triangles.
+constexpr double kTieWeight = 1e-9;
+
 /// Newton steps given to the surface itself where its double is there to fall back on.
 constexpr int kStepsBeforeDoubling = 40;
 
@@ -53,7 +60,7 @@ double largestTurn(const std::vector<double>& a, const std::vector<double>& b)
 	double turn = 0.0, low = 0.0, high = 0.0;
 	for (std::size_t i = 0; i < a.size(); ++i) {
 		turn += a[i] - b[i];
-		low  = std::min(low, turn);
+		low = std::min(low, turn);
 		high = std::max(high, turn);
 	}
 	return high - low;
@@ -66,29 +73,36 @@ class CircularBoundarySolve
 {
 public:
 	/// \p sides: lengths of the boundary's edges before the flow, in the order of the loop.
-	explicit CircularBoundarySolve(const std::vector<double>& sides)
+	/// \p arcs: where to start, or empty.
+	CircularBoundarySolve(const std::vector<double>& sides, std::vector<double> arcs) :
+			m_arcs(std::move(arcs))
 	{
 		m_weights.resize(sides.size());
 		for (std::size_t i = 0; i < sides.size(); ++i)
 			m_weights[i] = sides[i] + sides[(i + sides.size() - 1) % sides.size()];
-		m_arcs = centredArcs(inscribedPolygon(sides).arcs, m_weights);
+		if (m_arcs.empty())
+			m_arcs = centredArcs(inscribedPolygon(sides).arcs, m_weights);
 	}
 
-	/// \p sides() returns the present lengths of the boundary's edges; \p solve(angles, epsilon) solves
-	/// for exterior angles in the order of the loop.
+	const std::vector<double>& arcs() const { return m_arcs; }
+
+	/// \p sides() returns the present lengths of the boundary's edges; \p solve(angles, epsilon)
+	/// solves for exterior angles in the order of the loop.
 	template<class Sides, class Solve>
 	NewtonResult run(double epsilon, Sides sides, Solve solve)
 	{
 		AndersonMixing mixing(kMixingDepth);
-		double         change = 1.0;
+		double change = 1.0;
 		for (int step = 0; step < kMostCircleSteps; ++step) {
-			const bool   last = change < kCircleTolerance;
+			const bool last = change < kCircleTolerance;
 			const double accuracy =
-				last ? epsilon : std::max(epsilon, std::min(kInnerAccuracy, kInnerAccuracy * change));
+				last ? epsilon
+					 : std::max(epsilon, std::min(kInnerAccuracy, kInnerAccuracy * change));
 			const NewtonResult result = solve(exteriorAngles(m_arcs), accuracy);
 			if (last || !result.converged)
 				return result;
-			const std::vector<double> image = centredArcs(inscribedPolygon(sides()).arcs, m_weights);
+			const std::vector<double> image =
+				centredArcs(inscribedPolygon(sides()).arcs, m_weights);
 			change = largestTurn(image, m_arcs);
 			std::vector<double> next = mixing.next(m_arcs, image);
 			if (*std::min_element(next.begin(), next.end()) <= 0.0) {
@@ -107,38 +121,38 @@ private:
 };
 
 CirclePacking pack(
-	const Triangulation&       t,
+	const Triangulation& t,
 	const std::vector<double>& lengths,
 	const std::vector<double>& radii,
-	PackingScheme              scheme)
+	PackingScheme scheme)
 {
-	return scheme == PackingScheme::Thurston ? thurstonPacking(t, lengths, radii) :
-											   inversiveDistancePacking(t, lengths, radii);
+	return scheme == PackingScheme::Thurston ? thurstonPacking(t, lengths, radii)
+											 : inversiveDistancePacking(t, lengths, radii);
 }
 
 /// One surface on which the flow is tried: the input or its double.
 struct Surface
 {
-	Triangulation       triangulation;
+	Triangulation triangulation;
 	std::vector<double> lengths;
-	std::vector<int>    mirror; // of a double, else empty
-	Target              target;
-	std::vector<int>    loop, loopEdges; // of a circular target
-	int                 vertexCount = 0; // of the input
+	std::vector<int> mirror; // of a double, else empty
+	Target target;
+	std::vector<int> loop, loopEdges; // of a circular target
+	int vertexCount = 0;              // of the input
 };
 
 Surface wholeSurface(
-	const Triangulation&       t,
+	const Triangulation& t,
 	const std::vector<double>& lengths,
-	const Target&              target,
-	const std::vector<int>&    loop)
+	const Target& target,
+	const std::vector<int>& loop)
 {
 	Surface s;
 	s.triangulation = t;
-	s.lengths       = lengths;
-	s.target        = target;
-	s.loop          = loop;
-	s.vertexCount   = t.vertexCount();
+	s.lengths = lengths;
+	s.target = target;
+	s.loop = loop;
+	s.vertexCount = t.vertexCount();
 	std::vector<int> leaving(at(t.vertexCount()), -1); // boundary edge that leaves a vertex
 	for (int h = 0; h < t.halfedgeCount(); ++h)
 		if (t.isOuter(h))
@@ -152,13 +166,13 @@ Surface wholeSurface(
 Surface doubledSurface(const Surface& half)
 {
 	DoubleSurface d = doubleOf(half.triangulation);
-	Surface       s;
+	Surface s;
 	s.lengths.resize(d.edgeOf.size());
 	for (std::size_t e = 0; e < d.edgeOf.size(); ++e)
 		s.lengths[e] = half.lengths[at(d.edgeOf[e])];
-	s.target                = half.target;
-	const auto vertexCount  = static_cast<Eigen::Index>(d.mirror.size());
-	const int  ownCount     = half.vertexCount;
+	s.target = half.target;
+	const auto vertexCount = static_cast<Eigen::Index>(d.mirror.size());
+	const int ownCount = half.vertexCount;
 	s.target.curvature.conservativeResize(vertexCount);
 	s.target.fixed.resize(d.mirror.size());
 	for (int v = 0; v < ownCount; ++v) {
@@ -168,10 +182,10 @@ Surface doubledSurface(const Surface& half)
 		s.target.curvature[image] = s.target.curvature[v];
 		s.target.fixed[at(image)] = s.target.fixed[at(v)];
 	}
-	s.loop          = half.loop;
-	s.loopEdges     = half.loopEdges;
-	s.vertexCount   = ownCount;
-	s.mirror        = std::move(d.mirror);
+	s.loop = half.loop;
+	s.loopEdges = half.loopEdges;
+	s.vertexCount = ownCount;
+	s.mirror = std::move(d.mirror);
 	s.triangulation = std::move(d.triangulation);
 	return s;
 }
@@ -180,10 +194,10 @@ Surface doubledSurface(const Surface& half)
 class Run
 {
 public:
-	Run(Surface                                 surface,
-		const std::vector<Point3>&              positions,
-		const Options&                          options,
-		int                                     stepsBefore,
+	Run(Surface surface,
+		const std::vector<Point3>& positions,
+		const Options& options,
+		int stepsBefore,
 		const std::function<void(int, double)>& report) :
 			m_surface(std::move(surface)),
 			m_options(options), m_report(report)
@@ -191,7 +205,7 @@ public:
 		m_result.iterations = stepsBefore;
 		makeMap();
 		m_swapper = std::make_unique<EdgeSwapper>(positions, m_radii);
-		m_newton  = std::make_unique<NewtonSolver>(*m_map, m_surface.target.fixed);
+		m_newton = std::make_unique<NewtonSolver>(*m_map, m_surface.target.fixed);
 	}
 
 	/// \throw NotConverged if a circular boundary does not settle
@@ -200,7 +214,7 @@ public:
 		if (!m_surface.target.circular)
 			m_solved = solveFor(m_options.epsilon);
 		else {
-			CircularBoundarySolve circle(originalSides());
+			CircularBoundarySolve circle(originalSides(), m_arcs);
 			m_solved = circle.run(
 				m_options.epsilon,
 				[&] { return presentSides(); },
@@ -210,27 +224,61 @@ public:
 							doubled() ? 2.0 * angles[i] : angles[i];
 					return solveFor(epsilon);
 				});
+			m_arcs = circle.arcs();
 		}
-		if (!m_solved.converged && m_flipping && m_solved.residual < kWorthExtending)
+		const bool stopped = !m_solved.converged && m_solved.residual < kWorthExtending;
+		const bool gaps = m_solved.converged && m_solved.floor > kLargestGap && !isDisk();
+		if (m_flipping && (stopped || gaps))
 			m_solved = solveExtended();
 		return m_solved.converged;
+	}
+
+	/// Starts from what another run found on the half of this double: its conformal factor and the
+	/// arcs of a circular boundary.
+	void startFrom(const Eigen::VectorXd& factor, const std::vector<double>& arcs)
+	{
+		m_arcs = arcs;
+		for (int v = 0; v < m_surface.vertexCount; ++v) {
+			m_result.u[v] += factor[v];
+			const int image = m_surface.mirror[at(v)];
+			if (image != v)
+				m_result.u[image] += factor[v];
+		}
+	}
+
+	const std::vector<double>& arcs() const { return m_arcs; }
+
+	/// Logarithmic conformal factor at the input's vertices, end less start.
+	Eigen::VectorXd factor() const
+	{
+		return (m_result.u - m_result.history.startU).head(m_surface.vertexCount);
+	}
+
+	/// Whether a boundary edge would have to flip in the double: its triangle's circle bulges out.
+	bool bendsAtBoundary() const
+	{
+		const Triangulation& t = m_map->triangulation();
+		for (int e = 0; e < t.edgeCount(); ++e)
+			if (t.isBoundaryEdge(e) && m_map->weights()[at(e)] < -kTieWeight)
+				return true;
+		return false;
 	}
 
 	int iterations() const { return m_result.iterations; }
 
 	FlowResult result()
 	{
-		m_result.metric       = m_map;
-		m_result.doubled      = doubled();
-		m_result.residual     = m_solved.residual;
-		m_result.floor        = m_solved.floor;
-		m_result.edgeSwaps    = m_swapper->swaps();
-		m_result.swapped      = m_swapper->swapped();
+		m_result.metric = m_map;
+		m_result.doubled = doubled();
+		m_result.residual = m_solved.residual;
+		m_result.floor = m_solved.floor;
+		m_result.edgeSwaps = m_swapper->swaps();
+		m_result.swapped = m_swapper->swapped();
 		m_result.edgesToSplit = m_swapper->boundaryEdgesToSplit();
 		m_result.history.flowFlips = flowFlips();
 		m_result.area = metricArea(m_map->triangulation(), m_map->lengths(), m_map->angles());
 		m_result.curvature = m_map->curvature().head(m_surface.vertexCount);
-		m_result.target    = m_surface.target;
+		m_result.target = m_surface.target;
 		m_result.target.curvature.conservativeResize(m_surface.vertexCount);
 		m_result.target.fixed.resize(at(m_surface.vertexCount));
 		if (doubled()) {
@@ -249,16 +297,17 @@ public:
 		if (m_map->brokenTriangles() > 0)
 			return std::to_string(m_map->brokenTriangles()) +
 				   " triangles break the triangle inequality at the end of the flow" +
-				   (m_options.surgery == Surgery::EdgeSwap ?
-						", with " + std::to_string(m_swapper->swaps()) + " edges swapped" :
-						std::string()) +
-				   (m_options.surgery == Surgery::IntrinsicFlips ?
-						": remesh the worst triangles." :
-						": choose the surgery 'Intrinsic flips'.");
+				   (m_options.surgery == Surgery::EdgeSwap
+						? ", with " + std::to_string(m_swapper->swaps()) + " edges swapped"
+						: std::string()) +
+				   (m_options.surgery == Surgery::IntrinsicFlips
+						? ": remesh the worst triangles."
+						: ": choose the surgery 'Intrinsic flips'.");
 		return "The flow stopped after " + std::to_string(m_result.iterations) +
 			   " Newton steps with a curvature error of " + number(m_solved.residual) +
 			   " (wanted: " + number(m_options.epsilon) +
-			   ", rounding floor: " + number(m_solved.floor) + "): raise max_iterations or epsilon.";
+			   ", rounding floor: " + number(m_solved.floor) +
+			   "): raise max_iterations or epsilon.";
 	}
 
 private:
@@ -269,22 +318,22 @@ private:
 		const Triangulation& t = m_surface.triangulation;
 		if (m_options.surgery == Surgery::IntrinsicFlips) {
 			DelaunayStart start = delaunayStart({t, m_surface.lengths}, m_surface.mirror);
-			m_radii             = start.radii;
-			auto flipping       = std::make_shared<FlippingCurvatureMap<Euclidean>>(
-                pack(start.mesh.triangulation, start.mesh.lengths, m_radii, m_options.packing));
+			m_radii = start.radii;
+			auto flipping = std::make_shared<FlippingCurvatureMap<Euclidean>>(
+				pack(start.mesh.triangulation, start.mesh.lengths, m_radii, m_options.packing));
 			FlipHistory& history = m_result.history;
-			history.input        = t;
-			history.start        = std::move(start.mesh);
-			history.startDelta   = flipping->delta();
-			history.startFlips   = std::move(start.flips);
-			history.lengthened   = start.lengthened;
-			m_flipping           = flipping.get();
-			m_map                = std::move(flipping);
+			history.input = t;
+			history.start = std::move(start.mesh);
+			history.startDelta = flipping->delta();
+			history.startFlips = std::move(start.flips);
+			history.lengthened = start.lengthened;
+			m_flipping = flipping.get();
+			m_map = std::move(flipping);
 		}
 		else {
 			m_radii = initialRadii(t, m_surface.lengths);
-			m_map   = std::make_shared<GeometricCurvatureMap<Euclidean>>(
-                pack(t, m_surface.lengths, m_radii, m_options.packing));
+			m_map = std::make_shared<GeometricCurvatureMap<Euclidean>>(
+				pack(t, m_surface.lengths, m_radii, m_options.packing));
 		}
 		m_result.u.resize(t.vertexCount());
 		for (int v = 0; v < t.vertexCount(); ++v)
@@ -295,34 +344,39 @@ private:
 	NewtonResult solveFor(double epsilon)
 	{
 		NewtonOptions newtonOptions;
-		newtonOptions.epsilon               = epsilon;
-		newtonOptions.maxIterations         = m_options.maxIterations;
+		newtonOptions.epsilon = epsilon;
+		newtonOptions.maxIterations = m_options.maxIterations;
 		const NewtonSolver::Surgeon surgeon = [&](CurvatureMap& m) { return (*m_swapper)(m); };
-		const NewtonResult          solved  = m_newton->solve(
-            m_result.u,
-            m_surface.target.curvature,
-            newtonOptions,
-            [&](int step, double residual) { m_report(m_result.iterations + step, residual); },
-            m_options.surgery == Surgery::EdgeSwap ? surgeon : nullptr);
+		const NewtonResult solved = m_newton->solve(
+			m_result.u,
+			m_surface.target.curvature,
+			newtonOptions,
+			[&](int step, double residual) { m_report(m_result.iterations + step, residual); },
+			m_options.surgery == Surgery::EdgeSwap ? surgeon : nullptr);
 		m_result.iterations += solved.iterations;
 		return solved;
+	}
+
+	/// Nothing has to close round a disk without cones.
+	bool isDisk() const
+	{
+		return !doubled() && m_surface.triangulation.eulerCharacteristic() == 1 &&
+			   m_surface.target.curvature.isZero(0.0);
 	}
 
 	/// Goes on from the present state in long double.
 	NewtonResult solveExtended()
 	{
 		using Extended = FlippingCurvatureMap<EuclideanGeometry<long double>>;
-		auto                map      = std::make_shared<Extended>(m_map->packing());
-		auto                newton   = std::make_unique<NewtonSolver>(*map, m_surface.target.fixed);
-		std::vector<int>    flips    = flowFlips();
-		const Extended*     extended = map.get();
-		newton->setRest(m_newton->rest());
-		m_newton         = std::move(newton);
-		m_map            = std::move(map);
+		auto map = std::make_shared<Extended>(m_map->packing());
+		std::vector<int> flips = flowFlips();
+		const Extended* extended = map.get();
+		m_newton->continueOn(*map);
+		m_map = std::move(map);
 		const auto solved = solveFor(m_options.epsilon);
 		flips.insert(flips.end(), extended->flips().begin(), extended->flips().end());
 		m_result.history.flowFlips = std::move(flips);
-		m_flipping                 = nullptr;
+		m_flipping = nullptr;
 		return solved;
 	}
 
@@ -339,8 +393,8 @@ private:
 		return sides;
 	}
 
-	/// Lengths of the boundary's edges in the present metric. In a double they may have been flipped
-	/// away; they stay the axis of symmetry, a straight line across the present triangles.
+	/// Lengths of the boundary's edges in the present metric. In a double they may have been
+	/// flipped away; they stay the axis of symmetry, a straight line across the present triangles.
 	std::vector<double> presentSides() const
 	{
 		std::vector<double> sides;
@@ -354,7 +408,7 @@ private:
 		for (int e : flowFlips())
 			coordinates.flip(e);
 		const auto curves = coordinates.trace();
-		Strip      strip;
+		Strip strip;
 		for (std::size_t i = 0; i < sides.size(); ++i) {
 			const auto& curve = curves[at(m_surface.loopEdges[i])];
 			if (curve.crossings.empty()) {
@@ -367,41 +421,50 @@ private:
 		return sides;
 	}
 
-	Surface                                 m_surface;
-	const Options&                          m_options;
+	Surface m_surface;
+	const Options& m_options;
 	const std::function<void(int, double)>& m_report;
-	FlowResult                              m_result;
-	std::vector<double>                     m_radii;
-	std::shared_ptr<CurvatureMap>           m_map;
-	FlippingCurvatureMap<Euclidean>*        m_flipping = nullptr; // m_map, while it is in double
-	std::unique_ptr<EdgeSwapper>            m_swapper;
-	std::unique_ptr<NewtonSolver>           m_newton;
-	NewtonResult                            m_solved;
+	FlowResult m_result;
+	std::vector<double> m_radii;
+	std::shared_ptr<CurvatureMap> m_map;
+	FlippingCurvatureMap<Euclidean>* m_flipping = nullptr; // m_map, while it is in double
+	std::unique_ptr<EdgeSwapper> m_swapper;
+	std::unique_ptr<NewtonSolver> m_newton;
+	NewtonResult m_solved;
+	std::vector<double> m_arcs; // of a circular boundary
 };
 
 } // namespace
 
 FlowResult runEuclideanFlow(
-	const Triangulation&                    t,
-	const std::vector<double>&              lengths,
-	const std::vector<Point3>&              positions,
-	const Target&                           target,
-	const std::vector<int>&                 boundaryLoop,
-	const Options&                          options,
+	const Triangulation& t,
+	const std::vector<double>& lengths,
+	const std::vector<Point3>& positions,
+	const Target& target,
+	const std::vector<int>& boundaryLoop,
+	const Options& options,
 	const std::function<void(int, double)>& report)
 {
-	const Surface whole      = wholeSurface(t, lengths, target, boundaryLoop);
-	const bool    canDouble  = options.surgery == Surgery::IntrinsicFlips && !t.boundaryLoops().empty();
-	int           iterations = 0;
+	const Surface whole = wholeSurface(t, lengths, target, boundaryLoop);
+	const bool canDouble = options.surgery == Surgery::IntrinsicFlips && !t.boundaryLoops().empty();
+	const bool prescribed =
+		std::find(target.fixed.begin(), target.fixed.end(), 1) == target.fixed.end();
+	int iterations = 0;
+	Eigen::VectorXd factor;
+	std::vector<double> arcs;
 	try {
 		Options ownOptions = options;
 		if (canDouble)
 			ownOptions.maxIterations = std::min(options.maxIterations, kStepsBeforeDoubling);
-		Run        run(whole, positions, ownOptions, 0, report);
+		Run run(whole, positions, ownOptions, 0, report);
 		const bool solved = run.solve();
-		iterations        = run.iterations();
-		if (solved)
+		iterations = run.iterations();
+		if (solved && !(canDouble && prescribed && run.bendsAtBoundary()))
 			return run.result();
+		if (solved) {
+			factor = run.factor();
+			arcs = run.arcs();
+		}
 		if (!canDouble) {
 			FlowResult result = run.result();
 			if (!result.edgesToSplit.empty())
@@ -414,6 +477,8 @@ FlowResult runEuclideanFlow(
 			throw;
 	}
 	Run run(doubledSurface(whole), positions, options, iterations, report);
+	if (factor.size() > 0)
+		run.startFrom(factor, arcs);
 	if (!run.solve())
 		throw NotConverged(run.failure());
 	return run.result();

@@ -17,13 +17,13 @@ namespace ricci {
 /// The flow with intrinsic flips: what leads from the input's triangles to those of the result.
 struct FlipHistory
 {
-	Triangulation       input;      ///< the surface, or its double
-	IntrinsicMesh       start;      ///< the input's metric on the triangulation of the first step
+	Triangulation input;            ///< the surface, or its double
+	IntrinsicMesh start;            ///< the input's metric on the triangulation of the first step
 	std::vector<double> startDelta; ///< [edge of start] inversive distance less one
-	Eigen::VectorXd     startU;
-	std::vector<int>    startFlips; ///< from the input's triangulation to the start's, in order
-	std::vector<int>    flowFlips;  ///< from the start's triangulation to the last, in order
-	double lengthened = 0.0; ///< added to every edge of a degenerate mesh, see mollify()
+	Eigen::VectorXd startU;
+	std::vector<int> startFlips; ///< from the input's triangulation to the start's, in order
+	std::vector<int> flowFlips;  ///< from the start's triangulation to the last, in order
+	double lengthened = 0.0;     ///< added to every edge of a degenerate mesh, see mollify()
 };
 
 /// The flat metric (with cones) that the flow found on one connected surface.
@@ -31,25 +31,26 @@ struct FlowResult
 {
 	/// Triangulation, lengths and angles at the end; of the double of the surface if doubled.
 	std::shared_ptr<const CurvatureMap> metric;
-	bool                                doubled = false;
+	bool doubled = false;
 
-	Eigen::VectorXd   u;         ///< [vertex of metric] ln radius
-	Eigen::VectorXd   curvature; ///< [vertex of the surface] K at the end, radians
-	Target            target;    ///< as reached (a disk adapts its boundary)
-	double            area       = 0.0; ///< of the surface in the metric
-	double            residual   = 0.0; ///< max |target - K|
-	double            floor      = 0.0; ///< what rounding lets the residual reach
-	int               iterations = 0;
-	int               edgeSwaps  = 0;
-	std::vector<char> swapped;      ///< [edge] 1 where it is not an edge of the input
-	std::vector<int>  edgesToSplit; ///< boundary edges; the flow must start anew if any
-	FlipHistory       history;      ///< Surgery::IntrinsicFlips only
+	Eigen::VectorXd u;         ///< [vertex of metric] ln radius
+	Eigen::VectorXd curvature; ///< [vertex of the surface] K at the end, radians
+	Target target;             ///< as reached (a disk adapts its boundary)
+	double area = 0.0;         ///< of the surface in the metric
+	double residual = 0.0;     ///< max |target - K|
+	double floor = 0.0;        ///< what rounding lets the residual reach
+	int iterations = 0;
+	int edgeSwaps = 0;
+	std::vector<char> swapped;     ///< [edge] 1 where it is not an edge of the input
+	std::vector<int> edgesToSplit; ///< boundary edges; the flow must start anew if any
+	FlipHistory history;           ///< Surgery::IntrinsicFlips only
 };
 
 /// Runs the flow from the metric \p lengths on \p t to \p target.
 ///
-/// With intrinsic flips the boundary's edges stay at first. If that breaks a triangle or fails, the
-/// flow runs on the double of the surface, which is closed, so that every admissible target is
+/// With intrinsic flips the boundary's edges stay at first. If that breaks a triangle or fails, or
+/// leaves edges of a prescribed boundary that are not Delaunay (which costs conformality there),
+/// the flow runs on the double of the surface, which is closed, so that every admissible target is
 /// reached; the solution is symmetric, and the surface is one half of it.
 ///
 /// \param positions read by Surgery::EdgeSwap alone
@@ -57,12 +58,12 @@ struct FlowResult
 /// \param report gets the number of Newton steps so far and the residual before each step
 /// \throw NotConverged if the target is not reached within the options' limits
 FlowResult runEuclideanFlow(
-	const Triangulation&                    t,
-	const std::vector<double>&              lengths,
-	const std::vector<Point3>&              positions,
-	const Target&                           target,
-	const std::vector<int>&                 boundaryLoop,
-	const Options&                          options,
+	const Triangulation& t,
+	const std::vector<double>& lengths,
+	const std::vector<Point3>& positions,
+	const Target& target,
+	const std::vector<int>& boundaryLoop,
+	const Options& options,
 	const std::function<void(int, double)>& report);
 
 } // namespace ricci

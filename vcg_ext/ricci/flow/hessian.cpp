@@ -16,8 +16,8 @@ std::size_t at(int index)
 
 void Hessian::layOut(const CurvatureMap& map, const std::vector<int>& unknown, int unknownCount)
 {
-	const Triangulation& t         = map.triangulation();
-	const int            edgeCount = t.edgeCount();
+	const Triangulation& t = map.triangulation();
+	const int edgeCount = t.edgeCount();
 	m_rowOfOrigin.resize(at(edgeCount));
 	m_rowOfTarget.resize(at(edgeCount));
 	m_offDiagonal.assign(at(edgeCount), -1);
@@ -39,7 +39,7 @@ void Hessian::layOut(const CurvatureMap& map, const std::vector<int>& unknown, i
 		int row, edge;
 	};
 	std::vector<Entry> entries(at(columnStart.back()));
-	std::vector<int>   cursor(columnStart.begin(), columnStart.end() - 1);
+	std::vector<int> cursor(columnStart.begin(), columnStart.end() - 1);
 	for (int c = 0; c < unknownCount; ++c)
 		entries[at(cursor[at(c)]++)] = {c, -1};
 	for (int e = 0; e < edgeCount; ++e) {
@@ -52,10 +52,10 @@ void Hessian::layOut(const CurvatureMap& map, const std::vector<int>& unknown, i
 	m_matrix.resizeNonZeros(columnStart.back());
 	int* outer = m_matrix.outerIndexPtr();
 	int* inner = m_matrix.innerIndexPtr();
-	int  slot  = 0;
+	int slot = 0;
 	for (int c = 0; c < unknownCount; ++c) {
 		const auto first = entries.begin() + columnStart[at(c)];
-		const auto last  = entries.begin() + columnStart[at(c) + 1];
+		const auto last = entries.begin() + columnStart[at(c) + 1];
 		std::sort(first, last, [](const Entry& a, const Entry& b) {
 			return a.row != b.row ? a.row < b.row : a.edge < b.edge;
 		});
@@ -82,7 +82,7 @@ void Hessian::fill(const CurvatureMap& map, double shift)
 	for (std::size_t e = 0; e < m_offDiagonal.size(); ++e) {
 		const double w = map.weights()[e];
 		const double C = map.cosineLess1()[e];
-		const int    a = m_rowOfOrigin[e], b = m_rowOfTarget[e];
+		const int a = m_rowOfOrigin[e], b = m_rowOfTarget[e];
 		if (a >= 0 && a == b) {
 			// A loop has its own circle at both ends: 2 w cosh(l) - 2 w. Two ends that are
 			// different vertices never share a row.

@@ -25,12 +25,12 @@ public:
 	void fill(const CurvatureMap& map, double shift);
 
 	const Matrix& matrix() const { return m_matrix; }
-	double        largestDiagonal() const;
+	double largestDiagonal() const;
 
 private:
-	Matrix           m_matrix;
-	std::vector<int> m_diagonal;                // [unknown] slot in the value array
-	std::vector<int> m_offDiagonal;             // [edge] slot, or -1
+	Matrix m_matrix;
+	std::vector<int> m_diagonal;                   // [unknown] slot in the value array
+	std::vector<int> m_offDiagonal;                // [edge] slot, or -1
 	std::vector<int> m_rowOfOrigin, m_rowOfTarget; // [edge] unknown, or -1
 };
 

@@ -21,8 +21,8 @@ constexpr double kDecrease = 1e-4;
 /// Below this step length the search direction has failed.
 constexpr double kLeastStep = 1e-10;
 
-/// Added to the diagonal, relative to its largest entry, while triangles are broken or the matrix is
-/// not positive definite.
+/// Added to the diagonal, relative to its largest entry, while triangles are broken or the matrix
+/// is not positive definite.
 constexpr double kRegularisation = 1e-6;
 
 /// Steps with the last factor after epsilon is reached; each removes about as many digits as the
@@ -40,10 +40,10 @@ std::size_t at(Eigen::Index index)
 } // namespace
 
 NewtonSolver::NewtonSolver(CurvatureMap& map, std::vector<char> fixed) :
-		m_map(map), m_fixed(std::move(fixed)), m_unknown(m_fixed.size(), -1)
+		m_map(&map), m_fixed(std::move(fixed)), m_unknown(m_fixed.size(), -1)
 {
 	const bool anyFixed = std::find(m_fixed.begin(), m_fixed.end(), 1) != m_fixed.end();
-	m_gaugeFree         = !anyFixed && map.scaleInvariant();
+	m_gaugeFree = !anyFixed && map.scaleInvariant();
 	// In a scale invariant background one row is redundant; leaving it out pins that vertex.
 	for (std::size_t v = m_gaugeFree ? 1 : 0; v < m_fixed.size(); ++v)
 		if (!m_fixed[v])
@@ -59,12 +59,21 @@ NewtonSolver::NewtonSolver(CurvatureMap& map, std::vector<char> fixed) :
 	m_solution.resize(m_unknownCount);
 }
 
+void NewtonSolver::continueOn(CurvatureMap& map)
+{
+	if (m_revision == m_map->revision())
+		m_revision = map.revision();
+	else
+		m_revision = -1;
+	m_map = &map;
+}
+
 /// Computes the gradient; returns its largest entry, infinity if it is not finite.
 double NewtonSolver::residual(const Eigen::VectorXd& target)
 {
 	double largest = 0.0;
 	for (Eigen::Index v = 0; v < m_gradient.size(); ++v) {
-		m_gradient[v] = m_fixed[at(v)] ? 0.0 : m_map.curvature()[v] - target[v];
+		m_gradient[v] = m_fixed[at(v)] ? 0.0 : m_map->curvature()[v] - target[v];
 		if (!std::isfinite(m_gradient[v]))
 			return std::numeric_limits<double>::infinity();
 		largest = std::max(largest, std::abs(m_gradient[v]));
@@ -74,11 +83,11 @@ double NewtonSolver::residual(const Eigen::VectorXd& target)
 
 void NewtonSolver::updatePattern()
 {
-	if (m_revision == m_map.revision())
+	if (m_revision == m_map->revision())
 		return;
-	m_hessian.layOut(m_map, m_unknown, m_unknownCount);
+	m_hessian.layOut(*m_map, m_unknown, m_unknownCount);
 	m_cholesky.analyze(m_hessian.matrix());
-	m_revision = m_map.revision();
+	m_revision = m_map->revision();
 }
 
 /// Solves H d = -(K - target), with the last factor unless \p refactor.
@@ -86,24 +95,26 @@ void NewtonSolver::direction(bool refactor)
 {
 	if (refactor) {
 		updatePattern();
-		m_hessian.fill(m_map, 0.0);
+		m_hessian.fill(*m_map, 0.0);
 		const double scale = std::max(m_hessian.largestDiagonal(), 1.0);
-		double       shift = m_map.brokenTriangles() > 0 ? kRegularisation * scale : 0.0;
+		double shift = m_map->brokenTriangles() > 0 ? kRegularisation * scale : 0.0;
 		if (shift > 0.0)
-			m_hessian.fill(m_map, shift);
+			m_hessian.fill(*m_map, shift);
 		while (!m_cholesky.factorize(m_hessian.matrix())) {
 			shift = std::max(100.0 * shift, 1e-14 * scale);
 			if (shift > scale)
 				throw Error("The linear solver failed: its matrix is not positive definite.");
-			m_hessian.fill(m_map, shift);
+			m_hessian.fill(*m_map, shift);
 		}
+		m_factored = true;
 	}
 	for (std::size_t v = 0; v < m_unknown.size(); ++v)
 		if (m_unknown[v] >= 0)
 			m_rhs[m_unknown[v]] = -m_gradient[static_cast<Eigen::Index>(v)];
 	m_cholesky.solve(m_rhs, m_solution);
 	for (std::size_t v = 0; v < m_unknown.size(); ++v)
-		m_direction[static_cast<Eigen::Index>(v)] = m_unknown[v] >= 0 ? m_solution[m_unknown[v]] : 0.0;
+		m_direction[static_cast<Eigen::Index>(v)] =
+			m_unknown[v] >= 0 ? m_solution[m_unknown[v]] : 0.0;
 	if (m_gaugeFree)
 		m_direction.array() -= m_direction.mean();
 }
@@ -114,7 +125,7 @@ void NewtonSolver::applyStep(const Eigen::VectorXd& u, double t)
 	for (Eigen::Index v = 0; v < u.size(); ++v) {
 		const double step = m_rest[v] + t * m_direction[v];
 		const double sum = u[v] + step, virtualStep = sum - u[v];
-		m_trial[v]     = sum;
+		m_trial[v] = sum;
 		m_trialRest[v] = (u[v] - (sum - virtualStep)) + (step - virtualStep);
 	}
 }
@@ -124,61 +135,63 @@ void NewtonSolver::applyStep(const Eigen::VectorXd& u, double t)
 double NewtonSolver::roundingFloor()
 {
 	m_diagonal.setZero();
-	const Triangulation& t = m_map.triangulation();
+	const Triangulation& t = m_map->triangulation();
 	for (int e = 0; e < t.edgeCount(); ++e) {
-		const double w = std::abs(m_map.weights()[at(e)]) * (1.0 + m_map.cosineLess1()[at(e)]);
+		const double w = std::abs(m_map->weights()[at(e)]) * (1.0 + m_map->cosineLess1()[at(e)]);
 		m_diagonal[t.origin(2 * e)] += w;
 		m_diagonal[t.target(2 * e)] += w;
 	}
-	double amplification = m_map.needleRatio();
+	double amplification = m_map->needleRatio();
 	amplification = std::max(amplification, m_diagonal.maxCoeff());
 	// Angles and their sums are kept as doubles in any case.
-	return 4.0 * (m_map.precision() * amplification + std::numeric_limits<double>::epsilon());
+	return 4.0 * (m_map->precision() * amplification + std::numeric_limits<double>::epsilon());
 }
 
 NewtonResult NewtonSolver::solve(
-	Eigen::VectorXd&                         u,
-	const Eigen::VectorXd&                   target,
-	const NewtonOptions&                     options,
+	Eigen::VectorXd& u,
+	const Eigen::VectorXd& target,
+	const NewtonOptions& options,
 	const std::function<void(int, double)>& report,
-	const Surgeon&                           surgeon)
+	const Surgeon& surgeon)
 {
 	NewtonResult result;
-	m_map.evaluate(u, m_rest);
-	m_map.accept();
-	if (surgeon && surgeon(m_map))
-		m_map.evaluate(u, m_rest);
-	result.residual  = residual(target);
-	int  polishing   = 0;
+	m_map->evaluate(u, m_rest);
+	m_map->accept();
+	if (surgeon && surgeon(*m_map))
+		m_map->evaluate(u, m_rest);
+	result.residual = residual(target);
+	int polishing = 0;
 	bool searchFails = false;
 
 	while (true) {
 		report(result.iterations, result.residual);
-		result.floor       = roundingFloor();
-		const bool valid   = m_map.brokenTriangles() == 0;
+		result.floor = roundingFloor();
+		const bool valid = m_map->brokenTriangles() == 0;
 		const bool reached = valid && result.residual < options.epsilon;
 		const bool atFloor = valid && result.residual <= result.floor;
 		if (atFloor || searchFails || (reached && polishing >= kPolishingSteps) ||
 			(!reached && result.iterations >= options.maxIterations))
 			break;
 
-		const bool refactor = !reached || result.iterations == 0;
+		// With the last factor of an earlier iterate a step still gains digits once epsilon is
+		// reached.
+		const bool refactor = !reached || !m_factored;
 		direction(refactor);
 		const double largest = m_direction.lpNorm<Eigen::Infinity>();
 		if (!std::isfinite(largest))
 			break;
-		double       t       = largest > kStepCap ? kStepCap / largest : 1.0;
-		const double before  = m_gradient.norm();
-		double       after   = 0.0;
-		double       trialResidual;
+		double t = largest > kStepCap ? kStepCap / largest : 1.0;
+		const double before = m_gradient.norm();
+		double after = 0.0;
+		double trialResidual;
 		while (true) {
 			applyStep(u, t);
-			m_map.evaluate(m_trial, m_trialRest);
+			m_map->evaluate(m_trial, m_trialRest);
 			trialResidual = residual(target);
-			after         = m_gradient.norm();
+			after = m_gradient.norm();
 			if (std::isfinite(trialResidual) && after <= (1.0 - kDecrease * t) * before)
 				break;
-			m_map.reject();
+			m_map->reject();
 			t *= 0.5;
 			// A full step that only rounding keeps from descending is the end, not a failure.
 			if (t < kLeastStep || reached) {
@@ -187,27 +200,27 @@ NewtonResult NewtonSolver::solve(
 			}
 		}
 		if (searchFails) {
-			m_map.evaluate(u, m_rest);
+			m_map->evaluate(u, m_rest);
 			result.residual = residual(target);
 			continue;
 		}
 		u.swap(m_trial);
 		m_rest.swap(m_trialRest);
-		m_map.accept();
+		m_map->accept();
 		result.residual = trialResidual;
 		if (reached)
 			++polishing;
 		else
 			++result.iterations;
-		if (surgeon && surgeon(m_map)) {
-			m_map.evaluate(u, m_rest);
+		if (surgeon && surgeon(*m_map)) {
+			m_map->evaluate(u, m_rest);
 			result.residual = residual(target);
 		}
 	}
 	const double observedFloor = searchFails ? kFloorUncertainty * result.floor : result.floor;
-	const bool   atFloor = result.residual < kLargestFloor && result.residual <= observedFloor;
+	const bool atFloor = result.residual < kLargestFloor && result.residual <= observedFloor;
 	result.converged =
-		m_map.brokenTriangles() == 0 && (result.residual < options.epsilon || atFloor);
+		m_map->brokenTriangles() == 0 && (result.residual < options.epsilon || atFloor);
 	return result;
 }
 

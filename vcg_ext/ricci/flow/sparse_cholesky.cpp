@@ -21,10 +21,10 @@ struct SparseCholesky::Implementation
 	{
 		// One ordering by approximate minimum degree: the same result on every run, and no search
 		// through other methods at every change of connectivity.
-		solver.cholmod().nmethods           = 1;
+		solver.cholmod().nmethods = 1;
 		solver.cholmod().method[0].ordering = CHOLMOD_AMD;
-		solver.cholmod().postorder          = 1;
-		solver.cholmod().print              = 0;
+		solver.cholmod().postorder = 1;
+		solver.cholmod().print = 0;
 	}
 };
 
@@ -47,14 +47,17 @@ const char* SparseCholesky::name()
 
 #endif
 
-SparseCholesky::SparseCholesky() : m_implementation(std::make_unique<Implementation>()) {}
+SparseCholesky::SparseCholesky() : m_implementation(std::make_unique<Implementation>())
+{
+}
 SparseCholesky::~SparseCholesky() = default;
 
 void SparseCholesky::analyze(const Matrix& pattern)
 {
 	m_implementation->solver.analyzePattern(pattern);
 	if (m_implementation->solver.info() != Eigen::Success)
-		throw Error("The linear solver could not analyse its matrix: there may be too little memory.");
+		throw Error(
+			"The linear solver could not analyse its matrix: there may be too little memory.");
 }
 
 bool SparseCholesky::factorize(const Matrix& matrix)

@@ -59,10 +59,7 @@ void noteImpliedBoundary(const TargetRequest& request, const Topology& topology,
 /// Total curvature \p total on the loops, in proportion to the length of the two boundary edges at
 /// each vertex.
 void spreadOverBoundary(
-	const Triangulation&       t,
-	const std::vector<double>& lengths,
-	double                     total,
-	Target&                    target)
+	const Triangulation& t, const std::vector<double>& lengths, double total, Target& target)
 {
 	double perimeter = 0.0;
 	for (int h = 0; h < t.halfedgeCount(); ++h)
@@ -88,11 +85,11 @@ void setFlat(const Topology& topology, const TargetRequest& request, Target& tar
 }
 
 void setDisk(
-	const Triangulation&       t,
-	const Topology&            topology,
+	const Triangulation& t,
+	const Topology& topology,
 	const std::vector<double>& lengths,
-	const TargetRequest&       request,
-	Target&                    target)
+	const TargetRequest& request,
+	Target& target)
 {
 	if (!topology.isDisk())
 		throw InvalidOption(
@@ -104,26 +101,27 @@ void setDisk(
 }
 
 void setRectangle(
-	const Topology&            topology,
+	const Topology& topology,
 	const std::vector<Point3>& positions,
-	const TargetRequest&       request,
-	Target&                    target)
+	const TargetRequest& request,
+	Target& target)
 {
 	if (!topology.isDisk())
 		throw InvalidOption(
-			"'Rectangle' needs a topological disk (genus 0, one boundary loop), but the surface is " +
+			"'Rectangle' needs a topological disk (genus 0, one boundary loop), but the surface "
+			"is " +
 			topology.name() + ".");
-	const std::vector<int>& loop     = topology.loops.front();
-	const std::vector<int>  selected = selectedVertices(request);
+	const std::vector<int>& loop = topology.loops.front();
+	const std::vector<int> selected = selectedVertices(request);
 	if (loop.size() < 4)
 		throw InvalidOption(
 			"'Rectangle' needs four boundary vertices, but the boundary has " +
 			std::to_string(loop.size()) + ".");
 	if (selected.empty()) {
 		target.corners = rectangleCorners(loop, positions);
-		target.notes.push_back(
-			"No vertices are selected: the corners are the boundary vertices nearest to the corners "
-			"of the least rectangle round the boundary.");
+		target.notes.push_back("No vertices are selected: the corners are the boundary vertices "
+							   "nearest to the corners "
+							   "of the least rectangle round the boundary.");
 	}
 	else {
 		if (selected.size() != 4)
@@ -151,8 +149,7 @@ void setCones(const Topology& topology, const TargetRequest& request, Target& ta
 	if (cones.empty())
 		throw InvalidOption(
 			"'Cones at selected vertices' needs selected vertices, but none is selected.");
-	const double share =
-		2 * kPi * topology.eulerCharacteristic / static_cast<double>(cones.size());
+	const double share = 2 * kPi * topology.eulerCharacteristic / static_cast<double>(cones.size());
 	bool onBoundary = false;
 	for (int v : cones) {
 		target.curvature[v] = share;
@@ -165,8 +162,8 @@ void setCones(const Topology& topology, const TargetRequest& request, Target& ta
 	if (request.freeBoundary && !onBoundary)
 		freeTheBoundary(topology, target);
 	else if (request.freeBoundary)
-		target.notes.push_back(
-			"Cones lie on the boundary, which is therefore prescribed: free_boundary has no effect.");
+		target.notes.push_back("Cones lie on the boundary, which is therefore prescribed: "
+							   "free_boundary has no effect.");
 }
 
 /// Copies the prescribed values; a defect of rounding size is spread in proportion to |K|.
@@ -202,18 +199,19 @@ void setPrescribed(const Topology& topology, const TargetRequest& request, Targe
 }
 
 void setAutomatic(
-	const Triangulation&       t,
-	const Topology&            topology,
+	const Triangulation& t,
+	const Topology& topology,
 	const std::vector<double>& lengths,
-	const TargetRequest&       request,
-	Target&                    target)
+	const TargetRequest& request,
+	Target& target)
 {
 	if (topology.isTorus() || topology.isAnnulus())
 		return setFlat(topology, request, target);
 	if (topology.isClosed())
 		throw InvalidOption(
 			"The surface is " + topology.name() +
-			", which has no flat metric without cones: select vertices and choose 'Cones at selected "
+			", which has no flat metric without cones: select vertices and choose 'Cones at "
+			"selected "
 			"vertices', or give the curvatures by 'From vertex quality'.");
 	if (request.freeBoundary)
 		return freeTheBoundary(topology, target);
@@ -227,10 +225,10 @@ void setAutomatic(
 /// Existence: bounds at each vertex, and the sum where the boundary is free.
 void checkAdmissible(const Topology& topology, const Target& target)
 {
-	int    tooLarge = 0, worst = -1;
+	int tooLarge = 0, worst = -1;
 	double insideSum = 0.0;
-	int    boundaryCount = 0;
-	bool   anyFixed      = false;
+	int boundaryCount = 0;
+	bool anyFixed = false;
 	for (int v = 0; v < static_cast<int>(target.fixed.size()); ++v) {
 		const bool onBoundary = topology.boundary[at(v)] != 0;
 		boundaryCount += onBoundary;
@@ -261,7 +259,8 @@ void checkAdmissible(const Topology& topology, const Target& target)
 		throw InadmissibleCurvature(
 			"The curvature inside adds up to " + number(insideSum) +
 			", but with a free boundary of " + std::to_string(boundaryCount) +
-			" vertices it must be more than 2 pi chi - pi (boundary vertices) = " + number(bound) + ".");
+			" vertices it must be more than 2 pi chi - pi (boundary vertices) = " + number(bound) +
+			".");
 }
 
 } // namespace
@@ -269,9 +268,9 @@ void checkAdmissible(const Topology& topology, const Target& target)
 std::string Topology::name() const
 {
 	if (isClosed())
-		return genus == 0 ? "a closed surface of genus 0 (a sphere)" :
-			   genus == 1 ? "a closed surface of genus 1 (a torus)" :
-							"a closed surface of genus " + std::to_string(genus);
+		return genus == 0   ? "a closed surface of genus 0 (a sphere)"
+			   : genus == 1 ? "a closed surface of genus 1 (a torus)"
+							: "a closed surface of genus " + std::to_string(genus);
 	if (isDisk())
 		return "a disk";
 	if (isAnnulus())
@@ -283,12 +282,12 @@ std::string Topology::name() const
 Topology topologyOf(const Triangulation& t)
 {
 	Topology topology;
-	topology.boundary            = t.boundaryVertices();
+	topology.boundary = t.boundaryVertices();
 	topology.eulerCharacteristic = t.eulerCharacteristic();
 	for (int first : t.boundaryLoops()) {
 		// Outer halfedges run with the surface on their right: collect and reverse.
 		std::vector<int> loop;
-		int              h = first;
+		int h = first;
 		do {
 			loop.push_back(t.origin(h));
 			h = t.next(h);
@@ -302,22 +301,34 @@ Topology topologyOf(const Triangulation& t)
 }
 
 Target chooseTarget(
-	const Triangulation&       t,
-	const Topology&            topology,
+	const Triangulation& t,
+	const Topology& topology,
 	const std::vector<double>& lengths,
 	const std::vector<Point3>& positions,
-	const TargetRequest&       request)
+	const TargetRequest& request)
 {
 	Target target;
 	target.curvature = Eigen::VectorXd::Zero(t.vertexCount());
 	target.fixed.assign(at(t.vertexCount()), 0);
 	switch (request.mode) {
-	case TargetCurvature::Automatic: setAutomatic(t, topology, lengths, request, target); break;
-	case TargetCurvature::Flat: setFlat(topology, request, target); break;
-	case TargetCurvature::Disk: setDisk(t, topology, lengths, request, target); break;
-	case TargetCurvature::Rectangle: setRectangle(topology, positions, request, target); break;
-	case TargetCurvature::SelectedCones: setCones(topology, request, target); break;
-	case TargetCurvature::Prescribed: setPrescribed(topology, request, target); break;
+	case TargetCurvature::Automatic:
+		setAutomatic(t, topology, lengths, request, target);
+		break;
+	case TargetCurvature::Flat:
+		setFlat(topology, request, target);
+		break;
+	case TargetCurvature::Disk:
+		setDisk(t, topology, lengths, request, target);
+		break;
+	case TargetCurvature::Rectangle:
+		setRectangle(topology, positions, request, target);
+		break;
+	case TargetCurvature::SelectedCones:
+		setCones(topology, request, target);
+		break;
+	case TargetCurvature::Prescribed:
+		setPrescribed(topology, request, target);
+		break;
 	}
 	checkAdmissible(topology, target);
 	return target;
@@ -339,7 +350,7 @@ projectToBestPlane(const std::vector<int>& loop, const std::vector<Point3>& posi
 		covariance += p * p.transpose();
 	}
 	const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
-	std::vector<Point2>                                  points;
+	std::vector<Point2> points;
 	for (int v : loop) {
 		const Eigen::Vector3d p = Eigen::Map<const Eigen::Vector3d>(positions[at(v)].data()) - mean;
 		points.push_back({axes.eigenvectors().col(2).dot(p), axes.eigenvectors().col(1).dot(p)});
@@ -350,19 +361,20 @@ projectToBestPlane(const std::vector<int>& loop, const std::vector<Point3>& posi
 std::array<int, 4>
 quartersByLength(const std::vector<int>& loop, const std::vector<Point3>& positions)
 {
-	const std::size_t   n = loop.size();
+	const std::size_t n = loop.size();
 	std::vector<double> along(n + 1, 0.0);
 	for (std::size_t i = 0; i < n; ++i)
-		along[i + 1] = along[i] + distance(positions[at(loop[i])], positions[at(loop[(i + 1) % n])]);
+		along[i + 1] =
+			along[i] + distance(positions[at(loop[i])], positions[at(loop[(i + 1) % n])]);
 	std::array<int, 4> corners;
-	std::size_t        previous = 0;
+	std::size_t previous = 0;
 	for (std::size_t k = 0; k < 4; ++k) {
 		const double wanted = along[n] * static_cast<double>(k) / 4;
-		const auto   above  = std::lower_bound(along.begin(), along.end() - 1, wanted);
-		std::size_t  i      = static_cast<std::size_t>(above - along.begin());
-		i                   = std::min(std::max(i, k == 0 ? 0 : previous + 1), n - 4 + k);
-		corners[k]          = loop[i];
-		previous            = i;
+		const auto above = std::lower_bound(along.begin(), along.end() - 1, wanted);
+		std::size_t i = static_cast<std::size_t>(above - along.begin());
+		i = std::min(std::max(i, k == 0 ? 0 : previous + 1), n - 4 + k);
+		corners[k] = loop[i];
+		previous = i;
 	}
 	return corners;
 }
@@ -372,10 +384,13 @@ quartersByLength(const std::vector<int>& loop, const std::vector<Point3>& positi
 std::array<int, 4>
 rectangleCorners(const std::vector<int>& loop, const std::vector<Point3>& positions)
 {
-	const std::vector<Point2>   points = projectToBestPlane(loop, positions);
-	const OrientedRectangle     r      = leastRectangle(points);
-	const std::array<Point2, 4> wanted {
-		{{r.low[0], r.low[1]}, {r.high[0], r.low[1]}, {r.high[0], r.high[1]}, {r.low[0], r.high[1]}}};
+	const std::vector<Point2> points = projectToBestPlane(loop, positions);
+	const OrientedRectangle r = leastRectangle(points);
+	const std::array<Point2, 4> wanted{
+		{{r.low[0], r.low[1]},
+		 {r.high[0], r.low[1]},
+		 {r.high[0], r.high[1]},
+		 {r.low[0], r.high[1]}}};
 	std::array<std::size_t, 4> nearest;
 	for (std::size_t k = 0; k < 4; ++k) {
 		double least = std::numeric_limits<double>::infinity();

@@ -16,10 +16,10 @@ namespace ricci {
 /// Topology of one connected surface.
 struct Topology
 {
-	std::vector<char>             boundary; ///< [vertex] 1 on the boundary
-	std::vector<std::vector<int>> loops;    ///< vertices of each boundary loop, surface on the left
-	int                           eulerCharacteristic = 0;
-	int                           genus               = 0;
+	std::vector<char> boundary;          ///< [vertex] 1 on the boundary
+	std::vector<std::vector<int>> loops; ///< vertices of each boundary loop, surface on the left
+	int eulerCharacteristic = 0;
+	int genus = 0;
 
 	bool isClosed() const { return loops.empty(); }
 	bool isDisk() const { return genus == 0 && loops.size() == 1; }
@@ -35,21 +35,21 @@ Topology topologyOf(const Triangulation& t);
 /// What the user chose beyond the mode.
 struct TargetRequest
 {
-	TargetCurvature     mode = TargetCurvature::Automatic;
-	bool                freeBoundary = true;
-	std::vector<char>   selected;   ///< [vertex] for Rectangle and SelectedCones
-	std::vector<double> prescribed; ///< [vertex] radians, for Prescribed
-	double              prescribedPrecision = 0.0; ///< relative rounding error of prescribed values
+	TargetCurvature mode = TargetCurvature::Automatic;
+	bool freeBoundary = true;
+	std::vector<char> selected;       ///< [vertex] for Rectangle and SelectedCones
+	std::vector<double> prescribed;   ///< [vertex] radians, for Prescribed
+	double prescribedPrecision = 0.0; ///< relative rounding error of prescribed values
 };
 
 /// A target curvature that Gauss-Bonnet allows.
 struct Target
 {
-	Eigen::VectorXd          curvature; ///< [vertex] radians; meaningless where fixed
-	std::vector<char>        fixed;     ///< [vertex] 1 where u keeps its value (free boundary)
-	bool                     circular = false; ///< boundary curvature to be adapted to a round disk
-	std::array<int, 4>       corners {-1, -1, -1, -1}; ///< of a rectangle, in boundary order
-	bool                     isRectangle = false;
+	Eigen::VectorXd curvature; ///< [vertex] radians; meaningless where fixed
+	std::vector<char> fixed;   ///< [vertex] 1 where u keeps its value (free boundary)
+	bool circular = false;     ///< boundary curvature to be adapted to a round disk
+	std::array<int, 4> corners{-1, -1, -1, -1}; ///< of a rectangle, in boundary order
+	bool isRectangle = false;
 	std::vector<std::string> notes; ///< sentences for the log
 };
 
@@ -60,11 +60,11 @@ struct Target
 /// \throw InvalidOption if the mode does not fit the topology or the selection
 /// \throw InadmissibleCurvature with both numbers otherwise
 Target chooseTarget(
-	const Triangulation&       t,
-	const Topology&            topology,
+	const Triangulation& t,
+	const Topology& topology,
 	const std::vector<double>& lengths,
 	const std::vector<Point3>& positions,
-	const TargetRequest&       request);
+	const TargetRequest& request);
 
 /// Four vertices of \p loop for the corners of a rectangle: those nearest to the corners of the
 /// rectangle of least area round the loop, in the plane that fits the loop best, so that a patch

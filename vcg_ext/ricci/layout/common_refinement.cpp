@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <unordered_map>
 
@@ -18,12 +18,12 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Crossings stay this far from the ends of their edge, relative to its length: rounding must not put
-/// them on a vertex.
+/// Crossings stay this far from the ends of their edge, relative to its length: rounding must not
+/// put them on a vertex.
 constexpr double kEndGap = 1e-14;
 
-/// A crossing with an input edge and one with an end edge that are this near to each other on a start
-/// edge, relative to its length, are one point.
+/// A crossing with an input edge and one with an end edge that are this near to each other on a
+/// start edge, relative to its length, are one point.
 constexpr double kMergeGap = 1e-12;
 
 std::size_t at(int index)
@@ -45,8 +45,8 @@ double keepInside(double t)
 SurfacePoint mix(const SurfacePoint& a, const SurfacePoint& b, double t)
 {
 	SurfacePoint p;
-	p.weight    = {0, 0, 0, 0};
-	int  used   = 0;
+	p.weight = {0, 0, 0, 0};
+	int used = 0;
 	auto gather = [&](const SurfacePoint& q, double share) {
 		for (std::size_t i = 0; i < 4; ++i) {
 			if (q.weight[i] == 0.0)
@@ -70,32 +70,33 @@ SurfacePoint mix(const SurfacePoint& a, const SurfacePoint& b, double t)
 struct EndPlace
 {
 	enum Kind { Vertex, Edge, Face } kind = Vertex;
-	int                   element = -1;     ///< vertex, edge or face
-	double                along   = 0.0;    ///< Edge: from the origin of its even halfedge
-	std::array<double, 3> corner {0, 0, 0}; ///< Face: weights of the origins of halfedges(face)
+	int element = -1;                      ///< vertex, edge or face
+	double along = 0.0;                    ///< Edge: from the origin of its even halfedge
+	std::array<double, 3> corner{0, 0, 0}; ///< Face: weights of the origins of halfedges(face)
 };
 
 /// A corner of a piece.
 struct PieceCorner
 {
 	int node;
-	int place;    ///< on the start triangle's border, counted counter-clockwise; -1 inside
-	int chord;    ///< of the end edge that made an inner node
-	int edge;     ///< name of the side to the next corner, shared with the neighbour piece
-	int onChord;  ///< chord that this side is part of, or -1
-	int input;    ///< input halfedge along this side, or -1
-	int end;      ///< end halfedge along this side, or -1
+	int place;            ///< on the start triangle's border, counted counter-clockwise; -1 inside
+	int chord;            ///< of the end edge that made an inner node
+	int edge;             ///< name of the side to the next corner, shared with the neighbour piece
+	int onChord;          ///< chord that this side is part of, or -1
+	int input;            ///< input halfedge along this side, or -1
+	int end;              ///< end halfedge along this side, or -1
 	int inputCorner = -1; ///< at a vertex: input halfedge whose corner this is
-	int endCorner   = -1; ///< at a vertex: end halfedge whose corner this is
+	int endCorner = -1;   ///< at a vertex: end halfedge whose corner this is
 };
 
 /// A part of an input or end edge inside one start triangle.
 struct Chord
 {
-	int  face;
-	int  from, to;       ///< corner: halfedge with that origin; side: halfedge
-	int  fromIndex, toIndex; ///< on a side: index among its nodes from the halfedge's origin; else -1
-	int  curve;          ///< input or end edge; runs in the direction of its even halfedge
+	int face;
+	int from, to; ///< corner: halfedge with that origin; side: halfedge
+	int fromIndex,
+		toIndex; ///< on a side: index among its nodes from the halfedge's origin; else -1
+	int curve;   ///< input or end edge; runs in the direction of its even halfedge
 	double fromAlong, toAlong; ///< position on the curve
 	bool ofInput;
 };
@@ -103,14 +104,14 @@ struct Chord
 /// Crossing of an end edge with a start edge, as one vector of R^{2,1} in two bases.
 struct HomogeneousPoint
 {
-	int                   curve = -1;
-	std::array<double, 2> onStart {0, 0}; ///< weights of the ends of the start edge's even halfedge
-	std::array<double, 2> onEnd {0, 0};   ///< weights of the ends of the end edge's even halfedge
+	int curve = -1;
+	std::array<double, 2> onStart{0, 0}; ///< weights of the ends of the start edge's even halfedge
+	std::array<double, 2> onEnd{0, 0};   ///< weights of the ends of the end edge's even halfedge
 };
 
 struct InputPoint
 {
-	int    curve = -1;
+	int curve = -1;
 	double along = 0.0;   ///< on the input edge
 	double onStart = 0.0; ///< on the start edge
 };
@@ -119,11 +120,12 @@ class Overlay
 {
 public:
 	Overlay(
-		const FlippedSurface&      s,
+		const FlippedSurface& s,
 		const std::vector<Point3>& positions,
-		const std::vector<char>&   isCut) :
+		const std::vector<char>& isCut) :
 			m_s(s),
-			m_positions(positions), m_isCut(isCut), m_input(*s.input), m_start(*s.start), m_end(*s.end)
+			m_positions(positions), m_isCut(isCut), m_input(*s.input), m_start(*s.start),
+			m_end(*s.end)
 	{
 	}
 
@@ -167,7 +169,7 @@ private:
 		for (int e : *m_s.flowFlips)
 			startOnEnd.flip(e);
 		m_inputCurves = m_inputOnStart->trace();
-		m_endCurves   = m_endOnStart->trace();
+		m_endCurves = m_endOnStart->trace();
 		m_startCurves = startOnEnd.trace();
 
 		const int n = m_start.edgeCount();
@@ -175,7 +177,7 @@ private:
 		m_firstEnd.assign(at(n) + 1, 0);
 		for (int e = 0; e < n; ++e) {
 			m_firstInput[at(e) + 1] = m_firstInput[at(e)] + m_inputOnStart->crossings(e);
-			m_firstEnd[at(e) + 1]   = m_firstEnd[at(e)] + m_endOnStart->crossings(e);
+			m_firstEnd[at(e) + 1] = m_firstEnd[at(e)] + m_endOnStart->crossings(e);
 		}
 		m_inputPoints.resize(at(m_firstInput.back()));
 		m_endPoints.resize(at(m_firstEnd.back()));
@@ -202,17 +204,18 @@ private:
 			if (curve.crossings.empty())
 				continue;
 			unfold(m_start, *m_s.startLengths, curve, strip);
-			const Point2 last  = strip.end;
+			const Point2 last = strip.end;
 			const double size2 = last[0] * last[0] + last[1] * last[1];
-			double       below = 0.0;
+			double below = 0.0;
 			for (std::size_t i = 0; i < strip.sides.size(); ++i) {
 				const Point2 &p = strip.sides[i].from, &q = strip.sides[i].to;
-				const double  dp = p[0] * last[1] - p[1] * last[0], dq = q[0] * last[1] - q[1] * last[0];
-				const double  t = keepInside(dp / (dp - dq));
-				const Point2  x {mix(p[0], q[0], t), mix(p[1], q[1], t)};
-				double        s = keepInside((x[0] * last[0] + x[1] * last[1]) / size2);
-				s               = std::max(s, below);
-				below           = s;
+				const double dp = p[0] * last[1] - p[1] * last[0],
+							 dq = q[0] * last[1] - q[1] * last[0];
+				const double t = keepInside(dp / (dp - dq));
+				const Point2 x{mix(p[0], q[0], t), mix(p[1], q[1], t)};
+				double s = keepInside((x[0] * last[0] + x[1] * last[1]) / size2);
+				s = std::max(s, below);
+				below = s;
 				const int halfedge = curve.crossings[i].halfedge;
 				m_inputPoints[at(inputSlot(curve.crossings[i]))] = {
 					e, s, halfedge % 2 == 0 ? t : 1.0 - t};
@@ -228,13 +231,13 @@ private:
 
 	StartTriangle startTriangle(int h) const
 	{
-		const auto&   d = *m_s.startDelta;
+		const auto& d = *m_s.startDelta;
 		StartTriangle x;
-		x.ij    = 1.0 + d[at(Triangulation::edge(h))];
-		x.jk    = 1.0 + d[at(Triangulation::edge(m_start.next(h)))];
-		x.ki    = 1.0 + d[at(Triangulation::edge(m_start.previous(h)))];
-		x.rootD = std::sqrt(
-			x.ij * x.ij + x.jk * x.jk + x.ki * x.ki + 2.0 * x.ij * x.jk * x.ki - 1.0);
+		x.ij = 1.0 + d[at(Triangulation::edge(h))];
+		x.jk = 1.0 + d[at(Triangulation::edge(m_start.next(h)))];
+		x.ki = 1.0 + d[at(Triangulation::edge(m_start.previous(h)))];
+		x.rootD =
+			std::sqrt(x.ij * x.ij + x.jk * x.jk + x.ki * x.ki + 2.0 * x.ij * x.jk * x.ki - 1.0);
 		return x;
 	}
 
@@ -244,17 +247,17 @@ private:
 	double across(int h, double fi, double fj, double fk) const
 	{
 		const StartTriangle a = startTriangle(h), b = startTriangle(Triangulation::twin(h));
-		const double        d  = (*m_s.startDelta)[at(Triangulation::edge(h))];
-		const double        c2 = d * (d + 2.0);
-		const double        pi = b.rootD * a.ki + a.rootD * b.jk; // pairs with x_i: I_ik, I_il
-		const double        pj = b.rootD * a.jk + a.rootD * b.ki;
-		const double        mi = (pi + a.ij * pj) / c2, mj = (pj + a.ij * pi) / c2;
+		const double d = (*m_s.startDelta)[at(Triangulation::edge(h))];
+		const double c2 = d * (d + 2.0);
+		const double pi = b.rootD * a.ki + a.rootD * b.jk; // pairs with x_i: I_ik, I_il
+		const double pj = b.rootD * a.jk + a.rootD * b.ki;
+		const double mi = (pi + a.ij * pj) / c2, mj = (pj + a.ij * pi) / c2;
 		return (mi * fi + mj * fj - b.rootD * fk) / a.rootD;
 	}
 
 	/// The end edges on the start triangulation: along the strip of start triangles of an end edge
-	/// ab, linear functions on R^{2,1} are carried from triangle to triangle, each a triple of values
-	/// at the present corners. The one that vanishes at a and b gives the crossings.
+	/// ab, linear functions on R^{2,1} are carried from triangle to triangle, each a triple of
+	/// values at the present corners. The one that vanishes at a and b gives the crossings.
 	void placeEndCrossings()
 	{
 		struct Values
@@ -264,7 +267,7 @@ private:
 		std::vector<Values> first, second, atA;
 		for (int e = 0; e < m_end.edgeCount(); ++e) {
 			const Curve& curve = m_endCurves[at(e)];
-			const int    n     = static_cast<int>(curve.crossings.size());
+			const int n = static_cast<int>(curve.crossings.size());
 			if (n == 0)
 				continue;
 			// first: 0 at a, (1, 0) on the first side; second: (0, 1); atA: 1 at a, (0, 0).
@@ -274,13 +277,13 @@ private:
 			double apex[3] = {0, 0, 1};
 			for (int i = 0; i < n; ++i) {
 				const int x = curve.crossings[at(i)].halfedge, y = Triangulation::twin(x);
-				double    next[3];
+				double next[3];
 				std::vector<Values>* functions[3] = {&first, &second, &atA};
-				const bool           fromStays =
+				const bool fromStays =
 					i + 1 < n && curve.crossings[at(i) + 1].halfedge == m_start.next(y);
 				for (int k = 0; k < 3; ++k) {
 					const Values v = functions[k]->back();
-					next[k]        = across(x, v.from, v.to, apex[k]);
+					next[k] = across(x, v.from, v.to, apex[k]);
 					if (i + 1 == n)
 						continue;
 					if (fromStays) { // the triangle's third corner is the old "to"
@@ -299,10 +302,11 @@ private:
 			double below = 0.0;
 			for (int i = 0; i < n; ++i) {
 				const double from = apex[1] * first[at(i)].from - apex[0] * second[at(i)].from;
-				const double to   = apex[1] * first[at(i)].to - apex[0] * second[at(i)].to;
+				const double to = apex[1] * first[at(i)].to - apex[0] * second[at(i)].to;
 				// y = |to| x_from + |from| x_to, both weights positive.
 				double wf = std::abs(to), wt = std::abs(from);
-				if (!(wf > 0.0) || !(wt > 0.0) || !std::isfinite(wf) || !std::isfinite(wt) || from * to > 0.0)
+				if (!(wf > 0.0) || !(wt > 0.0) || !std::isfinite(wf) || !std::isfinite(wt) ||
+					from * to > 0.0)
 					wf = wt = 1.0;
 				const double scale = 1.0 / (wf + wt);
 				wf *= scale, wt *= scale;
@@ -323,18 +327,19 @@ private:
 					wb = below * sum, wa = sum - wb;
 				}
 				below = wb / (wa + wb);
-				const int        halfedge = curve.crossings[at(i)].halfedge;
+				const int halfedge = curve.crossings[at(i)].halfedge;
 				HomogeneousPoint p;
-				p.curve   = e;
-				p.onStart = halfedge % 2 == 0 ? std::array<double, 2> {wf, wt} :
-												std::array<double, 2> {wt, wf};
-				p.onEnd   = {wa, wb};
+				p.curve = e;
+				p.onStart = halfedge % 2 == 0 ? std::array<double, 2>{wf, wt}
+											  : std::array<double, 2>{wt, wf};
+				p.onEnd = {wa, wb};
 				m_endPoints[at(endSlot(curve.crossings[at(i)]))] = p;
 			}
 		}
 	}
 
-	/// Position of a homogeneous point on a start or end edge, from the origin of the even halfedge.
+	/// Position of a homogeneous point on a start or end edge, from the origin of the even
+	/// halfedge.
 	static double along(const std::array<double, 2>& w, double gi, double gj)
 	{
 		const double a = w[0] / gi, b = w[1] / gj;
@@ -344,8 +349,8 @@ private:
 	struct Node
 	{
 		SurfacePoint point;
-		EndPlace     end;
-		double       scale = 1.0; ///< weight sum in the end metric over that in the start metric
+		EndPlace end;
+		double scale = 1.0; ///< weight sum in the end metric over that in the start metric
 	};
 
 	/// Puts the crossings of both kinds in order on each start edge and makes them nodes.
@@ -355,8 +360,8 @@ private:
 		m_nodes.resize(at(m_start.vertexCount()));
 		for (int v = 0; v < m_start.vertexCount(); ++v) {
 			m_nodes[at(v)].point.vertex[0] = v;
-			m_nodes[at(v)].end.element     = v;
-			m_nodes[at(v)].scale           = startRadius(v) / endRadius(v);
+			m_nodes[at(v)].end.element = v;
+			m_nodes[at(v)].scale = startRadius(v) / endRadius(v);
 		}
 		m_firstOnEdge.assign(at(n) + 1, 0);
 		m_indexOfInput.resize(m_inputPoints.size());
@@ -371,22 +376,23 @@ private:
 	struct EdgePoint
 	{
 		double along;
-		int    input = -1, end = -1; // slots
+		int input = -1, end = -1; // slots
 	};
 
 	void makeNodesOn(int e)
 	{
-		const int    i = m_start.origin(2 * e), j = m_start.target(2 * e);
+		const int i = m_start.origin(2 * e), j = m_start.target(2 * e);
 		const double gi = startRadius(i), gj = startRadius(j);
 		m_edgePoints.clear();
 		int a = m_firstInput[at(e)], b = m_firstEnd[at(e)];
 		while (a < m_firstInput[at(e) + 1] || b < m_firstEnd[at(e) + 1]) {
 			const double none = std::numeric_limits<double>::infinity();
-			const double ta   = a < m_firstInput[at(e) + 1] ? m_inputPoints[at(a)].onStart : none;
-			const double tb =
-				b < m_firstEnd[at(e) + 1] ? keepInside(along(m_endPoints[at(b)].onStart, gi, gj)) : none;
+			const double ta = a < m_firstInput[at(e) + 1] ? m_inputPoints[at(a)].onStart : none;
+			const double tb = b < m_firstEnd[at(e) + 1]
+								  ? keepInside(along(m_endPoints[at(b)].onStart, gi, gj))
+								  : none;
 			EdgePoint p;
-			p.along          = std::min(ta, tb);
+			p.along = std::min(ta, tb);
 			const bool takeA = ta <= tb + kMergeGap, takeB = tb <= ta + kMergeGap;
 			if (takeA)
 				p.input = a++;
@@ -409,18 +415,19 @@ private:
 		locateOnEnd(e, base, gi, gj);
 	}
 
-	/// Fills SurfacePoint of the nodes of start edge e: exact on input edges, straight between them.
+	/// Fills SurfacePoint of the nodes of start edge e: exact on input edges, straight between
+	/// them.
 	void locateOnInput(int e, int base)
 	{
-		const int    count = static_cast<int>(m_edgePoints.size());
+		const int count = static_cast<int>(m_edgePoints.size());
 		SurfacePoint before, after;
-		before.vertex[0]   = m_start.origin(2 * e);
+		before.vertex[0] = m_start.origin(2 * e);
 		double beforeAlong = 0.0;
 		for (int k = 0; k < count; ++k) {
 			Node& node = m_nodes[at(m_onEdge[at(base + k)])];
 			if (m_edgePoints[at(k)].input >= 0) {
-				node.point  = onInputEdge(m_inputPoints[at(m_edgePoints[at(k)].input)]);
-				before      = node.point;
+				node.point = onInputEdge(m_inputPoints[at(m_edgePoints[at(k)].input)]);
+				before = node.point;
 				beforeAlong = m_edgePoints[at(k)].along;
 				continue;
 			}
@@ -428,15 +435,15 @@ private:
 			while (next < count && m_edgePoints[at(next)].input < 0)
 				++next;
 			double afterAlong = 1.0;
-			after             = SurfacePoint();
-			after.vertex[0]   = m_start.target(2 * e);
+			after = SurfacePoint();
+			after.vertex[0] = m_start.target(2 * e);
 			if (next < count) {
-				after      = onInputEdge(m_inputPoints[at(m_edgePoints[at(next)].input)]);
+				after = onInputEdge(m_inputPoints[at(m_edgePoints[at(next)].input)]);
 				afterAlong = m_edgePoints[at(next)].along;
 			}
 			const double gap = afterAlong - beforeAlong;
-			node.point       = mix(
-                before, after, gap > 0.0 ? (m_edgePoints[at(k)].along - beforeAlong) / gap : 0.5);
+			node.point = mix(
+				before, after, gap > 0.0 ? (m_edgePoints[at(k)].along - beforeAlong) / gap : 0.5);
 		}
 	}
 
@@ -451,59 +458,61 @@ private:
 	/// Fills EndPlace and scale of the nodes of start edge e: on end edges, or between two of them.
 	void locateOnEnd(int e, int base, double gi, double gj)
 	{
-		const int             count = static_cast<int>(m_edgePoints.size());
-		const Curve&          way   = m_startCurves[at(e)];
-		std::array<double, 2> before {1.0, 0.0};
-		double                beforeSum = 1.0 / endRadius(m_start.origin(2 * e));
-		int                   passed    = 0; // end edges crossed so far
+		const int count = static_cast<int>(m_edgePoints.size());
+		const Curve& way = m_startCurves[at(e)];
+		std::array<double, 2> before{1.0, 0.0};
+		double beforeSum = 1.0 / endRadius(m_start.origin(2 * e));
+		int passed = 0; // end edges crossed so far
 		for (int k = 0; k < count; ++k) {
-			Node&                 node = m_nodes[at(m_onEdge[at(base + k)])];
-			const double          t    = m_edgePoints[at(k)].along;
-			std::array<double, 2> here {(1.0 - t) * gi, t * gj};
+			Node& node = m_nodes[at(m_onEdge[at(base + k)])];
+			const double t = m_edgePoints[at(k)].along;
+			std::array<double, 2> here{(1.0 - t) * gi, t * gj};
 			if (m_edgePoints[at(k)].end >= 0) {
-				const HomogeneousPoint& p  = m_endPoints[at(m_edgePoints[at(k)].end)];
-				const double            ga = endRadius(m_end.origin(2 * p.curve));
-				const double            gb = endRadius(m_end.target(2 * p.curve));
-				node.end.kind              = EndPlace::Edge;
-				node.end.element           = p.curve;
-				node.end.along             = keepInside(along(p.onEnd, ga, gb));
-				before                     = p.onStart;
-				beforeSum                  = p.onEnd[0] / ga + p.onEnd[1] / gb;
-				node.scale                 = beforeSum / (p.onStart[0] / gi + p.onStart[1] / gj);
+				const HomogeneousPoint& p = m_endPoints[at(m_edgePoints[at(k)].end)];
+				const double ga = endRadius(m_end.origin(2 * p.curve));
+				const double gb = endRadius(m_end.target(2 * p.curve));
+				node.end.kind = EndPlace::Edge;
+				node.end.element = p.curve;
+				node.end.along = keepInside(along(p.onEnd, ga, gb));
+				before = p.onStart;
+				beforeSum = p.onEnd[0] / ga + p.onEnd[1] / gb;
+				node.scale = beforeSum / (p.onStart[0] / gi + p.onStart[1] / gj);
 				++passed;
 				continue;
 			}
 			if (way.crossings.empty()) { // the start edge is an end edge
-				const int    c = Triangulation::edge(way.first);
+				const int c = Triangulation::edge(way.first);
 				const double ea = here[0] / endRadius(m_start.origin(2 * e));
 				const double eb = here[1] / endRadius(m_start.target(2 * e));
-				node.end.kind    = EndPlace::Edge;
+				node.end.kind = EndPlace::Edge;
 				node.end.element = c;
-				node.end.along   = keepInside(way.first % 2 == 0 ? eb / (ea + eb) : ea / (ea + eb));
-				node.scale       = ea + eb;
+				node.end.along = keepInside(way.first % 2 == 0 ? eb / (ea + eb) : ea / (ea + eb));
+				node.scale = ea + eb;
 				continue;
 			}
 			int next = k + 1;
 			while (next < count && m_edgePoints[at(next)].end < 0)
 				++next;
-			std::array<double, 2> after {0.0, 1.0};
-			double                afterSum = 1.0 / endRadius(m_start.target(2 * e));
+			std::array<double, 2> after{0.0, 1.0};
+			double afterSum = 1.0 / endRadius(m_start.target(2 * e));
 			if (next < count) {
 				const HomogeneousPoint& p = m_endPoints[at(m_edgePoints[at(next)].end)];
-				after                     = p.onStart;
-				afterSum                  = p.onEnd[0] / endRadius(m_end.origin(2 * p.curve)) +
+				after = p.onStart;
+				afterSum = p.onEnd[0] / endRadius(m_end.origin(2 * p.curve)) +
 						   p.onEnd[1] / endRadius(m_end.target(2 * p.curve));
 			}
 			// here = s before + r after.
 			const double det = before[0] * after[1] - before[1] * after[0];
-			const double s   = std::max(0.0, (here[0] * after[1] - here[1] * after[0]) / det) * beforeSum;
-			const double r   = std::max(0.0, (before[0] * here[1] - before[1] * here[0]) / det) * afterSum;
+			const double s =
+				std::max(0.0, (here[0] * after[1] - here[1] * after[0]) / det) * beforeSum;
+			const double r =
+				std::max(0.0, (before[0] * here[1] - before[1] * here[0]) / det) * afterSum;
 			const double share = keepInside(r / (s + r));
-			node.scale         = s + r;
-			node.end.kind      = EndPlace::Face;
-			const auto from    = startOfInterval(way, passed, e);
-			const auto to      = endOfInterval(way, passed, e);
-			node.end.element   = from.first;
+			node.scale = s + r;
+			node.end.kind = EndPlace::Face;
+			const auto from = startOfInterval(way, passed, e);
+			const auto to = endOfInterval(way, passed, e);
+			node.end.element = from.first;
 			for (std::size_t c = 0; c < 3; ++c)
 				node.end.corner[c] = mix(from.second[c], to.second[c], share);
 		}
@@ -514,23 +523,23 @@ private:
 	/// Weights, in end face face(g), of the point on g at \p x from its origin.
 	InFace onSide(int g, double x) const
 	{
-		InFace     p {m_end.face(g), {0, 0, 0}};
+		InFace p{m_end.face(g), {0, 0, 0}};
 		const auto h = m_end.halfedges(p.first);
 		for (std::size_t k = 0; k < 3; ++k)
 			if (h[k] == g) {
-				p.second[k]           = 1.0 - x;
+				p.second[k] = 1.0 - x;
 				p.second[(k + 1) % 3] = x;
 			}
 		return p;
 	}
 
-	/// The end point of a start edge's way that is number \p index of its crossings, seen from halfedge
-	/// g of the end triangulation.
+	/// The end point of a start edge's way that is number \p index of its crossings, seen from
+	/// halfedge g of the end triangulation.
 	InFace crossingOn(int g, int index, int e) const
 	{
 		const HomogeneousPoint& p = m_endPoints[at(m_firstEnd[at(e)] + index)];
-		const double            x = keepInside(along(
-            p.onEnd, endRadius(m_end.origin(2 * p.curve)), endRadius(m_end.target(2 * p.curve))));
+		const double x = keepInside(along(
+			p.onEnd, endRadius(m_end.origin(2 * p.curve)), endRadius(m_end.target(2 * p.curve))));
 		return onSide(g, g % 2 == 0 ? x : 1.0 - x);
 	}
 
@@ -538,7 +547,8 @@ private:
 	{
 		if (passed == 0)
 			return onSide(way.first, 0.0);
-		return crossingOn(Triangulation::twin(way.crossings[at(passed - 1)].halfedge), passed - 1, e);
+		return crossingOn(
+			Triangulation::twin(way.crossings[at(passed - 1)].halfedge), passed - 1, e);
 	}
 
 	InFace endOfInterval(const Curve& way, int passed, int e) const
@@ -576,27 +586,28 @@ private:
 				if (curve.crossings.empty())
 					continue;
 				Chord chord;
-				chord.curve     = static_cast<int>(c);
-				chord.ofInput   = ofInput;
-				chord.from      = curve.first;
+				chord.curve = static_cast<int>(c);
+				chord.ofInput = ofInput;
+				chord.from = curve.first;
 				chord.fromIndex = -1;
 				chord.fromAlong = 0.0;
 				for (const auto& x : curve.crossings) {
-					const int slot  = ofInput ? inputSlot(x) : endSlot(x);
+					const int slot = ofInput ? inputSlot(x) : endSlot(x);
 					const int index = ofInput ? m_indexOfInput[at(slot)] : m_indexOfEnd[at(slot)];
 					const int node =
 						m_onEdge[at(m_firstOnEdge[at(Triangulation::edge(x.halfedge))] + index)];
-					chord.face    = m_start.face(x.halfedge);
-					chord.to      = x.halfedge;
+					chord.face = m_start.face(x.halfedge);
+					chord.to = x.halfedge;
 					chord.toIndex = indexFrom(x.halfedge, index);
-					chord.toAlong = ofInput ? m_inputPoints[at(slot)].along : m_nodes[at(node)].end.along;
+					chord.toAlong =
+						ofInput ? m_inputPoints[at(slot)].along : m_nodes[at(node)].end.along;
 					m_chords.push_back(chord);
-					chord.from      = Triangulation::twin(x.halfedge);
+					chord.from = Triangulation::twin(x.halfedge);
 					chord.fromIndex = indexFrom(chord.from, index);
 					chord.fromAlong = chord.toAlong;
 				}
-				chord.face    = m_start.face(chord.from);
-				chord.to      = curve.last;
+				chord.face = m_start.face(chord.from);
+				chord.to = curve.last;
 				chord.toIndex = -1;
 				chord.toAlong = 1.0;
 				m_chords.push_back(chord);
@@ -621,12 +632,15 @@ private:
 	/// Input halfedge that start halfedge h coincides with, or -1; likewise for the end.
 	int inputAlong(int h) const
 	{
-		return m_inputOnStart->isCurve(Triangulation::edge(h)) ? m_inputOnStart->originalAtOrBefore(h) : -1;
+		return m_inputOnStart->isCurve(Triangulation::edge(h))
+				   ? m_inputOnStart->originalAtOrBefore(h)
+				   : -1;
 	}
 
 	int endAlong(int h) const
 	{
-		return m_endOnStart->isCurve(Triangulation::edge(h)) ? m_endOnStart->originalAtOrBefore(h) : -1;
+		return m_endOnStart->isCurve(Triangulation::edge(h)) ? m_endOnStart->originalAtOrBefore(h)
+															 : -1;
 	}
 
 	/// Divides start triangle f by its chords.
@@ -642,13 +656,13 @@ private:
 			const int input = inputAlong(h[k]), end = endAlong(h[k]);
 			for (int i = -1; i < count; ++i) {
 				PieceCorner c;
-				c.node    = i < 0 ? m_start.origin(h[k]) : nodeOn(h[k], i);
-				c.place   = static_cast<int>(whole.size());
-				c.chord   = -1;
-				c.edge    = m_firstSide[at(e)] + (h[k] % 2 == 0 ? i + 1 : count - 1 - i);
+				c.node = i < 0 ? m_start.origin(h[k]) : nodeOn(h[k], i);
+				c.place = static_cast<int>(whole.size());
+				c.chord = -1;
+				c.edge = m_firstSide[at(e)] + (h[k] % 2 == 0 ? i + 1 : count - 1 - i);
 				c.onChord = -1;
-				c.input   = input;
-				c.end     = end;
+				c.input = input;
+				c.end = end;
 				whole.push_back(c);
 			}
 		}
@@ -672,14 +686,14 @@ private:
 		throw Error("The overlay is inconsistent.");
 	}
 
-	/// +1 for places strictly between the chord's ends counter-clockwise, -1 on the other side, 0 at
-	/// the ends.
+	/// +1 for places strictly between the chord's ends counter-clockwise, -1 on the other side, 0
+	/// at the ends.
 	static int sideOf(int place, int from, int to)
 	{
 		if (place == from || place == to)
 			return 0;
-		return from < to ? (place > from && place < to ? 1 : -1) :
-						   (place > from || place < to ? 1 : -1);
+		return from < to ? (place > from && place < to ? 1 : -1)
+						 : (place > from || place < to ? 1 : -1);
 	}
 
 	int sideOf(const PieceCorner& c, int f, int from, int to) const
@@ -688,7 +702,7 @@ private:
 			return sideOf(c.place, from, to);
 		// An inner node lies on an end edge's chord, which does not cross this one.
 		const Chord& other = m_chords[at(c.chord)];
-		const int    side  = sideOf(placeOf(f, other.from, other.fromIndex), from, to);
+		const int side = sideOf(placeOf(f, other.from, other.fromIndex), from, to);
 		return side != 0 ? side : sideOf(placeOf(f, other.to, other.toIndex), from, to);
 	}
 
@@ -700,8 +714,8 @@ private:
 	void splitBy(int chordIndex, int f, std::size_t firstPiece)
 	{
 		const Chord& chord = m_chords[at(chordIndex)];
-		const int    from  = placeOf(f, chord.from, chord.fromIndex);
-		const int    to    = placeOf(f, chord.to, chord.toIndex);
+		const int from = placeOf(f, chord.from, chord.fromIndex);
+		const int to = placeOf(f, chord.to, chord.toIndex);
 		m_splitSides.clear();
 		const std::size_t pieceCount = m_pieces.size();
 		for (std::size_t p = firstPiece; p < pieceCount; ++p) {
@@ -741,24 +755,24 @@ private:
 
 	void splitPiece(std::size_t p, int chordIndex, int f)
 	{
-		const Chord                    chord = m_chords[at(chordIndex)];
+		const Chord chord = m_chords[at(chordIndex)];
 		const std::vector<PieceCorner> piece = m_pieces[p];
-		const std::size_t              n     = piece.size();
-		std::vector<PieceCorner>       left, right; // left: places between from and to
-		const int                      newSide = m_sideCount++;
-		const auto                     leaves  = [&](PieceCorner c, bool ofLeft) {
-            // The left part runs back from the chord's end to its beginning.
-            const int direction = 2 * chord.curve + (ofLeft ? 1 : 0);
-            c.edge              = newSide;
-            c.onChord           = chordIndex;
-            c.input             = chord.ofInput ? direction : -1;
-            c.end               = chord.ofInput ? -1 : direction;
-            (ofLeft ? left : right).push_back(c);
+		const std::size_t n = piece.size();
+		std::vector<PieceCorner> left, right; // left: places between from and to
+		const int newSide = m_sideCount++;
+		const auto leaves = [&](PieceCorner c, bool ofLeft) {
+			// The left part runs back from the chord's end to its beginning.
+			const int direction = 2 * chord.curve + (ofLeft ? 1 : 0);
+			c.edge = newSide;
+			c.onChord = chordIndex;
+			c.input = chord.ofInput ? direction : -1;
+			c.end = chord.ofInput ? -1 : direction;
+			(ofLeft ? left : right).push_back(c);
 		};
 		for (std::size_t i = 0; i < n; ++i) {
-			const PieceCorner& c     = piece[i];
-			const int          here  = m_sides[i], after = m_sides[(i + 1) % n];
-			const int          before = m_sides[(i + n - 1) % n];
+			const PieceCorner& c = piece[i];
+			const int here = m_sides[i], after = m_sides[(i + 1) % n];
+			const int before = m_sides[(i + n - 1) % n];
 			if (here > 0)
 				left.push_back(c);
 			else if (here < 0)
@@ -776,14 +790,15 @@ private:
 				}
 			}
 			if (here * after < 0) {
-				const SplitSide split   = crossSide(c, chordIndex, f);
-				const bool      forward = c.input % 2 == 0;
-				PieceCorner     x       = c;
-				x.node                  = split.node;
-				x.place                 = -1;
-				x.chord                 = chordIndex;
-				x.edge                  = forward ? split.secondHalf : split.firstHalf;
-				(here > 0 ? left : right).back().edge = forward ? split.firstHalf : split.secondHalf;
+				const SplitSide split = crossSide(c, chordIndex, f);
+				const bool forward = c.input % 2 == 0;
+				PieceCorner x = c;
+				x.node = split.node;
+				x.place = -1;
+				x.chord = chordIndex;
+				x.edge = forward ? split.secondHalf : split.firstHalf;
+				(here > 0 ? left : right).back().edge =
+					forward ? split.firstHalf : split.secondHalf;
 				if (here > 0) { // from left to right
 					leaves(x, true);
 					right.push_back(x);
@@ -807,23 +822,23 @@ private:
 		const Chord &a = m_chords[at(side.onChord)], &b = m_chords[at(endChord)];
 		const Point2 p = pointOf(f, a.from, a.fromIndex), q = pointOf(f, a.to, a.toIndex);
 		const Point2 r = pointOf(f, b.from, b.fromIndex), s = pointOf(f, b.to, b.toIndex);
-		const auto   cross = [](const Point2& o, const Point2& x, const Point2& y) {
-            return (x[0] - o[0]) * (y[1] - o[1]) - (x[1] - o[1]) * (y[0] - o[0]);
+		const auto cross = [](const Point2& o, const Point2& x, const Point2& y) {
+			return (x[0] - o[0]) * (y[1] - o[1]) - (x[1] - o[1]) * (y[0] - o[0]);
 		};
 		const double onA = keepInside(cross(r, s, p) / (cross(r, s, p) - cross(r, s, q)));
 		const double onB = keepInside(cross(p, q, r) / (cross(p, q, r) - cross(p, q, s)));
 
-		Node       node;
+		Node node;
 		InputPoint x;
-		x.curve          = a.curve;
-		x.along          = mix(a.fromAlong, a.toAlong, onA);
-		node.point       = onInputEdge(x);
-		const double w0  = (1.0 - onB) * m_nodes[at(nodeAt(b.from, b.fromIndex))].scale;
-		const double w1  = onB * m_nodes[at(nodeAt(b.to, b.toIndex))].scale;
-		node.end.kind    = EndPlace::Edge;
+		x.curve = a.curve;
+		x.along = mix(a.fromAlong, a.toAlong, onA);
+		node.point = onInputEdge(x);
+		const double w0 = (1.0 - onB) * m_nodes[at(nodeAt(b.from, b.fromIndex))].scale;
+		const double w1 = onB * m_nodes[at(nodeAt(b.to, b.toIndex))].scale;
+		node.end.kind = EndPlace::Edge;
 		node.end.element = b.curve;
-		node.end.along   = keepInside(mix(b.fromAlong, b.toAlong, w1 / (w0 + w1)));
-		SplitSide split {static_cast<int>(m_nodes.size()), m_sideCount, m_sideCount + 1};
+		node.end.along = keepInside(mix(b.fromAlong, b.toAlong, w1 / (w0 + w1)));
+		SplitSide split{static_cast<int>(m_nodes.size()), m_sideCount, m_sideCount + 1};
 		m_sideCount += 2;
 		m_nodes.push_back(node);
 		m_splitSides.emplace(side.edge, split);
@@ -836,9 +851,9 @@ private:
 	Point2 pointOf(int f, int h, int index) const
 	{
 		static constexpr Point2 corner[3] = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
-		const auto              halfedges = m_start.halfedges(f);
-		const auto k = static_cast<std::size_t>(std::find(halfedges.begin(), halfedges.end(), h) -
-												halfedges.begin());
+		const auto halfedges = m_start.halfedges(f);
+		const auto k = static_cast<std::size_t>(
+			std::find(halfedges.begin(), halfedges.end(), h) - halfedges.begin());
 		if (index < 0)
 			return corner[k];
 		const double t = alongOn(h, index);
@@ -846,12 +861,12 @@ private:
 		return {mix(a[0], b[0], t), mix(a[1], b[1], t)};
 	}
 
-	/// At the vertices of start triangle f: which corner of the input's and of the end's triangles each
-	/// piece has, by counting the chords that leave the vertex clockwise before the piece.
+	/// At the vertices of start triangle f: which corner of the input's and of the end's triangles
+	/// each piece has, by counting the chords that leave the vertex clockwise before the piece.
 	void nameCorners(int f, std::size_t firstPiece)
 	{
-		const auto h      = m_start.halfedges(f);
-		const int  places = m_cornerPlace[3];
+		const auto h = m_start.halfedges(f);
+		const int places = m_cornerPlace[3];
 		for (std::size_t p = firstPiece; p < m_pieces.size(); ++p) {
 			auto& piece = m_pieces[p];
 			for (PieceCorner& c : piece) {
@@ -864,7 +879,7 @@ private:
 					continue;
 				const int halfedge = h[static_cast<std::size_t>(corner)];
 				c.inputCorner = cornerAfter(c, f, halfedge, places, true);
-				c.endCorner   = cornerAfter(c, f, halfedge, places, false);
+				c.endCorner = cornerAfter(c, f, halfedge, places, false);
 			}
 		}
 	}
@@ -875,14 +890,14 @@ private:
 		if (along >= 0)
 			return along;
 		const NormalCoordinates& coordinates = ofInput ? *m_inputOnStart : *m_endOnStart;
-		const Triangulation&     t           = ofInput ? m_input : m_end;
-		int                      corner      = coordinates.originalAtOrBefore(halfedge);
+		const Triangulation& t = ofInput ? m_input : m_end;
+		int corner = coordinates.originalAtOrBefore(halfedge);
 		if (c.onChord < 0)
 			return corner;
 		const auto distanceTo = [&](const Chord& chord) {
 			const int from = placeOf(f, chord.from, chord.fromIndex);
-			const int to   = placeOf(f, chord.to, chord.toIndex);
-			const int far  = from == c.place ? to : to == c.place ? from : -1;
+			const int to = placeOf(f, chord.to, chord.toIndex);
+			const int far = from == c.place ? to : to == c.place ? from : -1;
 			return far < 0 ? -1 : (far - c.place + places) % places;
 		};
 		const int mine = distanceTo(m_chords[at(c.onChord)]);
@@ -909,7 +924,8 @@ private:
 		for (std::size_t p = 0; p < m_pieces.size(); ++p)
 			for (std::size_t i = 0; i < m_pieces[p].size(); ++i) {
 				auto& link = m_links[at(m_pieces[p][i].edge)];
-				(link[0].piece < 0 ? link[0] : link[1]) = {static_cast<int>(p), static_cast<int>(i)};
+				(link[0].piece < 0 ? link[0]
+								   : link[1]) = {static_cast<int>(p), static_cast<int>(i)};
 			}
 	}
 
@@ -951,9 +967,9 @@ private:
 			if (m_inputFace[p] >= m_s.keptFaces)
 				continue;
 			if (kept != p) {
-				m_pieces[kept]    = std::move(m_pieces[p]);
+				m_pieces[kept] = std::move(m_pieces[p]);
 				m_inputFace[kept] = m_inputFace[p];
-				m_endFace[kept]   = m_endFace[p];
+				m_endFace[kept] = m_endFace[p];
 			}
 			++kept;
 		}
@@ -984,14 +1000,14 @@ private:
 		}
 	}
 
-	/// Weights of the corners of a piece's end triangle, in the order of halfedges(), at a corner of
-	/// the piece.
+	/// Weights of the corners of a piece's end triangle, in the order of halfedges(), at a corner
+	/// of the piece.
 	std::array<double, 3> inEndTriangle(int p, std::size_t corner) const
 	{
-		const auto&        piece = m_pieces[at(p)];
-		const PieceCorner& c     = piece[corner];
-		const int          f     = m_endFace[at(p)];
-		const EndPlace&    end   = m_nodes[at(c.node)].end;
+		const auto& piece = m_pieces[at(p)];
+		const PieceCorner& c = piece[corner];
+		const int f = m_endFace[at(p)];
+		const EndPlace& end = m_nodes[at(c.node)].end;
 		if (end.kind == EndPlace::Face)
 			return end.corner;
 		int g = -1;
@@ -1021,8 +1037,9 @@ private:
 		return c.input >= 0 && m_isCut[at(Triangulation::edge(c.input))];
 	}
 
-	/// Lays the end triangles out and places the pieces in them. The cut runs on input edges, through
-	/// end triangles: a triangle that it divides is drawn once for each of its parts ("sheets").
+	/// Lays the end triangles out and places the pieces in them. The cut runs on input edges,
+	/// through end triangles: a triangle that it divides is drawn once for each of its parts
+	/// ("sheets").
 	void layOut()
 	{
 		std::vector<int> parent(m_pieces.size());
@@ -1032,13 +1049,13 @@ private:
 			if (link[1].piece >= 0 && !isClosed(side) && side.end < 0)
 				mergeSets(parent, link[0].piece, link[1].piece);
 		}
-		std::vector<int>      sheet(m_pieces.size(), -1);
+		std::vector<int> sheet(m_pieces.size(), -1);
 		std::vector<Triangle> triangles;
-		std::vector<int>      faceOfSheet;
+		std::vector<int> faceOfSheet;
 		for (std::size_t p = 0; p < m_pieces.size(); ++p) {
 			if (findSet(parent, static_cast<int>(p)) != static_cast<int>(p))
 				continue;
-			sheet[p]     = static_cast<int>(triangles.size());
+			sheet[p] = static_cast<int>(triangles.size());
 			const auto h = m_end.halfedges(m_endFace[p]);
 			triangles.push_back({m_end.origin(h[0]), m_end.origin(h[1]), m_end.origin(h[2])});
 			faceOfSheet.push_back(m_endFace[p]);
@@ -1061,7 +1078,8 @@ private:
 			glued[at(b)] = a;
 		}
 		const Triangulation sheets(m_end.vertexCount(), triangles, glued);
-		std::vector<double> lengths(at(sheets.edgeCount())), angles(at(sheets.halfedgeCount()), 0.0);
+		std::vector<double> lengths(at(sheets.edgeCount())),
+			angles(at(sheets.halfedgeCount()), 0.0);
 		for (int s = 0; s < sheets.faceCount(); ++s) {
 			const auto h = sheets.halfedges(s), original = m_end.halfedges(faceOfSheet[at(s)]);
 			for (std::size_t k = 0; k < 3; ++k) {
@@ -1077,9 +1095,7 @@ private:
 
 	/// Corners of pieces that meet off the cut are one point of the layout.
 	void placePieces(
-		const std::vector<int>& sheet,
-		const Triangulation&    sheets,
-		const PlanarLayout&     plane)
+		const std::vector<int>& sheet, const Triangulation& sheets, const PlanarLayout& plane)
 	{
 		m_firstCorner.assign(m_pieces.size() + 1, 0);
 		for (std::size_t p = 0; p < m_pieces.size(); ++p)
@@ -1101,13 +1117,13 @@ private:
 			const auto h = sheets.halfedges(sheet[p]);
 			for (std::size_t i = 0; i < m_pieces[p].size(); ++i) {
 				const int corner = cornerOf(static_cast<int>(p), static_cast<int>(i));
-				const int first  = findSet(parent, corner);
+				const int first = findSet(parent, corner);
 				if (first != corner) {
 					m_point[at(corner)] = m_point[at(first)];
 					continue;
 				}
 				const auto weight = inEndTriangle(static_cast<int>(p), i);
-				Point2     x {0.0, 0.0};
+				Point2 x{0.0, 0.0};
 				for (std::size_t k = 0; k < 3; ++k)
 					for (std::size_t j = 0; j < 2; ++j)
 						x[j] += weight[k] * plane.at(h[k])[j];
@@ -1134,7 +1150,7 @@ private:
 	{
 		CommonRefinement r;
 		// The input's vertices (of the kept faces, which come first) and the crossings in use.
-		const int        vertices = static_cast<int>(m_positions.size());
+		const int vertices = static_cast<int>(m_positions.size());
 		std::vector<int> point(m_nodes.size(), -1);
 		for (int v = 0; v < vertices; ++v) {
 			point[at(v)] = v;
@@ -1155,7 +1171,7 @@ private:
 		for (std::size_t p = 0; p < m_pieces.size(); ++p)
 			triangulate(p, space, r);
 
-		int sectorCount      = 0;
+		int sectorCount = 0;
 		r.inputLayout.sector = cornerSectors(m_input, m_isCut, sectorCount);
 		r.inputLayout.position.assign(at(sectorCount), {0.0, 0.0});
 		for (std::size_t p = 0; p < m_pieces.size(); ++p)
@@ -1172,27 +1188,26 @@ private:
 	/// worst triangle, in the plane and in space, is best.
 	void triangulate(std::size_t p, const std::vector<Point3>& space, CommonRefinement& r) const
 	{
-		const auto&       piece = m_pieces[p];
-		const std::size_t n     = piece.size();
-		const auto        emit  = [&](std::size_t a, std::size_t b, std::size_t c) {
-            const Point2* plane = &m_point[at(m_firstCorner[p])];
-            r.triangles.push_back({piece[a].node, piece[b].node, piece[c].node});
-            r.inputFace.push_back(m_inputFace[p]);
-            r.uv.push_back({plane[a], plane[b], plane[c]});
+		const auto& piece = m_pieces[p];
+		const std::size_t n = piece.size();
+		const auto emit = [&](std::size_t a, std::size_t b, std::size_t c) {
+			const Point2* plane = &m_point[at(m_firstCorner[p])];
+			r.triangles.push_back({piece[a].node, piece[b].node, piece[c].node});
+			r.inputFace.push_back(m_inputFace[p]);
+			r.uv.push_back({plane[a], plane[b], plane[c]});
 		};
 		if (n == 3)
 			return emit(0, 1, 2);
 		const auto quality = [&](std::size_t a, std::size_t b, std::size_t c) {
 			const Point2* plane = &m_point[at(m_firstCorner[p])];
-			double        area = (plane[b][0] - plane[a][0]) * (plane[c][1] - plane[a][1]) -
+			double area = (plane[b][0] - plane[a][0]) * (plane[c][1] - plane[a][1]) -
 						  (plane[b][1] - plane[a][1]) * (plane[c][0] - plane[a][0]);
 			double longest = 0.0, longestInSpace = 0.0;
 			const std::size_t corner[3] = {a, b, c};
 			for (int k = 0; k < 3; ++k) {
 				const std::size_t x = corner[k], y = corner[(k + 1) % 3];
 				longest = std::max(
-					longest,
-					std::hypot(plane[y][0] - plane[x][0], plane[y][1] - plane[x][1]));
+					longest, std::hypot(plane[y][0] - plane[x][0], plane[y][1] - plane[x][1]));
 				longestInSpace = std::max(
 					longestInSpace, distance(space[at(piece[x].node)], space[at(piece[y].node)]));
 			}
@@ -1204,27 +1219,27 @@ private:
 			const double inSpace = std::hypot(
 				e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2], e[0] * g[1] - e[1] * g[0]);
 			const double plain = longest > 0.0 ? area / (longest * longest) : 0.0;
-			return longestInSpace > 0.0 ?
-					   std::min(plain, inSpace / (longestInSpace * longestInSpace)) :
-					   plain;
+			return longestInSpace > 0.0
+					   ? std::min(plain, inSpace / (longestInSpace * longestInSpace))
+					   : plain;
 		};
-		// best[i][j]: least quality in the best triangulation of corners i .. j; apex of side ij there.
-		std::vector<double>      best(n * n, std::numeric_limits<double>::infinity());
+		// best[i][j]: least quality in the best triangulation of corners i .. j; apex of side ij
+		// there.
+		std::vector<double> best(n * n, std::numeric_limits<double>::infinity());
 		std::vector<std::size_t> apex(n * n, 0);
 		for (std::size_t span = 2; span < n; ++span)
 			for (std::size_t i = 0; i + span < n; ++i) {
 				const std::size_t j = i + span;
-				best[i * n + j]     = -std::numeric_limits<double>::infinity();
+				best[i * n + j] = -std::numeric_limits<double>::infinity();
 				for (std::size_t k = i + 1; k < j; ++k) {
-					const double q =
-						std::min({quality(i, k, j), best[i * n + k], best[k * n + j]});
+					const double q = std::min({quality(i, k, j), best[i * n + k], best[k * n + j]});
 					if (q > best[i * n + j] || k == i + 1) {
 						best[i * n + j] = q;
 						apex[i * n + j] = k;
 					}
 				}
 			}
-		std::vector<std::pair<std::size_t, std::size_t>> stack {{0, n - 1}};
+		std::vector<std::pair<std::size_t, std::size_t>> stack{{0, n - 1}};
 		while (!stack.empty()) {
 			const auto [i, j] = stack.back();
 			stack.pop_back();
@@ -1237,44 +1252,44 @@ private:
 		}
 	}
 
-	const FlippedSurface&      m_s;
+	const FlippedSurface& m_s;
 	const std::vector<Point3>& m_positions;
-	const std::vector<char>&   m_isCut;
-	const Triangulation&       m_input;
-	const Triangulation&       m_start;
-	const Triangulation&       m_end;
+	const std::vector<char>& m_isCut;
+	const Triangulation& m_input;
+	const Triangulation& m_start;
+	const Triangulation& m_end;
 
 	std::unique_ptr<NormalCoordinates> m_inputOnStart, m_endOnStart;
-	std::vector<Curve>                 m_inputCurves, m_endCurves, m_startCurves;
-	std::vector<int>                   m_firstInput, m_firstEnd; // [start edge] into the points
-	std::vector<InputPoint>            m_inputPoints;
-	std::vector<HomogeneousPoint>      m_endPoints;
+	std::vector<Curve> m_inputCurves, m_endCurves, m_startCurves;
+	std::vector<int> m_firstInput, m_firstEnd; // [start edge] into the points
+	std::vector<InputPoint> m_inputPoints;
+	std::vector<HomogeneousPoint> m_endPoints;
 
-	std::vector<Node>      m_nodes;
-	std::vector<int>       m_firstOnEdge, m_onEdge; // [start edge] its inner nodes, in order
-	std::vector<double>    m_alongEdge;
-	std::vector<int>       m_indexOfInput, m_indexOfEnd; // [slot] index on its start edge
+	std::vector<Node> m_nodes;
+	std::vector<int> m_firstOnEdge, m_onEdge; // [start edge] its inner nodes, in order
+	std::vector<double> m_alongEdge;
+	std::vector<int> m_indexOfInput, m_indexOfEnd; // [slot] index on its start edge
 	std::vector<EdgePoint> m_edgePoints;
 
 	std::vector<Chord> m_chords; // by start face
-	std::vector<int>   m_firstChord, m_firstSide;
-	int                m_sideCount = 0;
+	std::vector<int> m_firstChord, m_firstSide;
+	int m_sideCount = 0;
 
-	std::array<int, 4>                       m_cornerPlace {0, 0, 0, 0};
-	std::vector<std::vector<PieceCorner>>    m_pieces;
-	std::vector<int>                         m_sides;
-	std::unordered_map<int, SplitSide>       m_splitSides;
-	std::vector<std::array<Link, 2>>         m_links;
-	std::vector<int>                         m_inputFace, m_endFace;
-	std::vector<int>                         m_firstCorner;
-	std::vector<Point2>                      m_point; // [corner of a piece]
+	std::array<int, 4> m_cornerPlace{0, 0, 0, 0};
+	std::vector<std::vector<PieceCorner>> m_pieces;
+	std::vector<int> m_sides;
+	std::unordered_map<int, SplitSide> m_splitSides;
+	std::vector<std::array<Link, 2>> m_links;
+	std::vector<int> m_inputFace, m_endFace;
+	std::vector<int> m_firstCorner;
+	std::vector<Point2> m_point; // [corner of a piece]
 };
 
 } // namespace
 
 Point3 placeOnSurface(const SurfacePoint& p, const std::vector<Point3>& positions)
 {
-	Point3 x {0, 0, 0};
+	Point3 x{0, 0, 0};
 	for (std::size_t i = 0; i < 4; ++i)
 		if (p.weight[i] != 0.0)
 			for (std::size_t k = 0; k < 3; ++k)
@@ -1283,9 +1298,9 @@ Point3 placeOnSurface(const SurfacePoint& p, const std::vector<Point3>& position
 }
 
 CommonRefinement commonRefinement(
-	const FlippedSurface&      surface,
+	const FlippedSurface& surface,
 	const std::vector<Point3>& positions,
-	const std::vector<char>&   isCut)
+	const std::vector<char>& isCut)
 {
 	return Overlay(surface, positions, isCut).run();
 }

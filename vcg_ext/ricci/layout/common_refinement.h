@@ -17,17 +17,17 @@ namespace ricci {
 /// there), and the end of the flow (reached by flips in the conformal class).
 struct FlippedSurface
 {
-	const Triangulation*       input = nullptr;
-	const std::vector<int>*    startFlips = nullptr; ///< input -> start, in order
-	const Triangulation*       start = nullptr;
+	const Triangulation* input = nullptr;
+	const std::vector<int>* startFlips = nullptr; ///< input -> start, in order
+	const Triangulation* start = nullptr;
 	const std::vector<double>* startLengths = nullptr; ///< [edge] the input's metric
 	const std::vector<double>* startDelta = nullptr;   ///< [edge] inversive distance less one
-	const Eigen::VectorXd*     startU = nullptr;       ///< ln radius
-	const std::vector<int>*    flowFlips = nullptr;    ///< start -> end, in order
-	const Triangulation*       end = nullptr;
+	const Eigen::VectorXd* startU = nullptr;           ///< ln radius
+	const std::vector<int>* flowFlips = nullptr;       ///< start -> end, in order
+	const Triangulation* end = nullptr;
 	const std::vector<double>* endLengths = nullptr; ///< [edge] the flat metric
 	const std::vector<double>* endAngles = nullptr;  ///< [halfedge]
-	const Eigen::VectorXd*     endU = nullptr;
+	const Eigen::VectorXd* endU = nullptr;
 	/// Only faces of the input below this are wanted, and only vertices that have a position.
 	int keptFaces = 0;
 };
@@ -36,8 +36,8 @@ struct FlippedSurface
 /// vertices that are not used are 0.
 struct SurfacePoint
 {
-	std::array<int, 4>    vertex {0, 0, 0, 0};
-	std::array<double, 4> weight {1, 0, 0, 0};
+	std::array<int, 4> vertex{0, 0, 0, 0};
+	std::array<double, 4> weight{1, 0, 0, 0};
 };
 
 /// The point in space.
@@ -47,12 +47,12 @@ Point3 placeOnSurface(const SurfacePoint& p, const std::vector<Point3>& position
 /// of each, and the map to the plane is the flow's own there.
 struct CommonRefinement
 {
-	std::vector<SurfacePoint>       points;    ///< the input's vertices first, in order
-	std::vector<Triangle>           triangles; ///< into points, the input's orientation
-	std::vector<int>                inputFace; ///< [triangle]
-	std::vector<std::array<Point2, 3>> uv;     ///< [triangle][corner]
-	PlanarLayout                    inputLayout; ///< of the corners of the input's triangles
-	std::size_t                     crossings = 0; ///< points that are not vertices of the input
+	std::vector<SurfacePoint> points;      ///< the input's vertices first, in order
+	std::vector<Triangle> triangles;       ///< into points, the input's orientation
+	std::vector<int> inputFace;            ///< [triangle]
+	std::vector<std::array<Point2, 3>> uv; ///< [triangle][corner]
+	PlanarLayout inputLayout;              ///< of the corners of the input's triangles
+	std::size_t crossings = 0;             ///< points that are not vertices of the input
 };
 
 /// Computes the overlay and lays it out, cut along the input's edges with \p isCut.
@@ -68,11 +68,12 @@ struct CommonRefinement
 ///
 /// Positions: affine on the input's faces; in the plane by the projective map of the decorated
 /// discrete conformal equivalence, b'_i ~ b_i exp(-(u_i - u0_i)) between a start triangle and an
-/// end triangle with the same vertices (Springborn, Schroeder, Pinkall 2008; Bobenko and Lutz 2023).
+/// end triangle with the same vertices (Springborn, Schroeder, Pinkall 2008; Bobenko and Lutz
+/// 2023).
 CommonRefinement commonRefinement(
-	const FlippedSurface&      surface,
+	const FlippedSurface& surface,
 	const std::vector<Point3>& positions,
-	const std::vector<char>&   isCut);
+	const std::vector<char>& isCut);
 
 } // namespace ricci
 

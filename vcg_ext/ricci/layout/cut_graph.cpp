@@ -34,7 +34,7 @@ public:
 			int h = first;
 			do {
 				m_node[at(t.origin(h))] = t.origin(first);
-				h                       = t.next(h);
+				h = t.next(h);
 			} while (h != first);
 			m_fixed[at(t.origin(first))] = 1;
 			m_loops.push_back(t.origin(first));
@@ -56,7 +56,7 @@ public:
 				m_halfedges[at(cursor[at(m_node[at(t.origin(h))])]++)] = h;
 	}
 
-	int                     node(int vertex) const { return m_node[at(vertex)]; }
+	int node(int vertex) const { return m_node[at(vertex)]; }
 	const std::vector<int>& loopNodes() const { return m_loops; }
 
 	/// Nodes that the cut must reach: boundary loops and marked vertices.
@@ -73,23 +73,23 @@ public:
 	const int* end(int node) const { return m_halfedges.data() + m_start[at(node) + 1]; }
 
 private:
-	std::vector<int>  m_node;  // [vertex]
+	std::vector<int> m_node;   // [vertex]
 	std::vector<char> m_fixed; // [node] a boundary loop
-	std::vector<int>  m_loops;
-	std::vector<int>  m_start, m_halfedges;
+	std::vector<int> m_loops;
+	std::vector<int> m_start, m_halfedges;
 };
 
 struct ShortestPaths
 {
 	std::vector<double> distance; // [node]
-	std::vector<int>    parent;   // [node] halfedge that arrives, or -1
+	std::vector<int> parent;      // [node] halfedge that arrives, or -1
 };
 
 ShortestPaths dijkstra(
-	const Triangulation&       t,
-	const ContractedGraph&     graph,
+	const Triangulation& t,
+	const ContractedGraph& graph,
 	const std::vector<double>& lengths,
-	int                        root)
+	int root)
 {
 	ShortestPaths paths;
 	paths.distance.assign(at(t.vertexCount()), kFar);
@@ -104,11 +104,11 @@ ShortestPaths dijkstra(
 		if (d > paths.distance[at(node)])
 			continue;
 		for (const int* h = graph.begin(node); h != graph.end(node); ++h) {
-			const int    to    = graph.node(t.target(*h));
+			const int to = graph.node(t.target(*h));
 			const double there = d + lengths[at(Triangulation::edge(*h))];
 			if (there < paths.distance[at(to)]) {
 				paths.distance[at(to)] = there;
-				paths.parent[at(to)]   = *h;
+				paths.parent[at(to)] = *h;
 				queue.push({there, to});
 			}
 		}
@@ -125,27 +125,28 @@ int findSet(std::vector<int>& parent, int i)
 
 /// Interior edges that are neither in the shortest-path tree nor crossed by the cotree.
 std::vector<int> leftOver(
-	const Triangulation&       t,
-	const ContractedGraph&     graph,
+	const Triangulation& t,
+	const ContractedGraph& graph,
 	const std::vector<double>& lengths,
-	const std::vector<char>&   forbidden,
-	const ShortestPaths&       paths,
-	const std::vector<char>&   inTree)
+	const std::vector<char>& forbidden,
+	const ShortestPaths& paths,
+	const std::vector<char>& inTree)
 {
-	std::vector<int>    edges;
+	std::vector<int> edges;
 	std::vector<double> loopLength(at(t.edgeCount()), 0.0);
 	for (int e = 0; e < t.edgeCount(); ++e) {
 		if (t.isBoundaryEdge(e) || inTree[at(e)])
 			continue;
 		const bool passable = forbidden.empty() || !forbidden[at(e)];
-		loopLength[at(e)] =
-			passable ? paths.distance[at(graph.node(t.origin(2 * e)))] +
-						   paths.distance[at(graph.node(t.target(2 * e)))] + lengths[at(e)] :
-					   kFar;
+		loopLength[at(e)] = passable ? paths.distance[at(graph.node(t.origin(2 * e)))] +
+										   paths.distance[at(graph.node(t.target(2 * e)))] +
+										   lengths[at(e)]
+									 : kFar;
 		edges.push_back(e);
 	}
 	std::sort(edges.begin(), edges.end(), [&](int a, int b) {
-		return loopLength[at(a)] != loopLength[at(b)] ? loopLength[at(a)] > loopLength[at(b)] : a < b;
+		return loopLength[at(a)] != loopLength[at(b)] ? loopLength[at(a)] > loopLength[at(b)]
+													  : a < b;
 	});
 	std::vector<int> parent(at(t.faceCount())), rest;
 	std::iota(parent.begin(), parent.end(), 0);
@@ -163,10 +164,10 @@ std::vector<int> leftOver(
 
 /// Removes dead ends that are not terminals.
 void prune(
-	const Triangulation&     t,
-	const ContractedGraph&   graph,
+	const Triangulation& t,
+	const ContractedGraph& graph,
 	const std::vector<char>& terminal,
-	std::vector<char>&       isCut)
+	std::vector<char>& isCut)
 {
 	std::vector<int> degree(at(t.vertexCount()), 0);
 	for (int e = 0; e < t.edgeCount(); ++e)
@@ -184,7 +185,7 @@ void prune(
 			if (!isCut[at(Triangulation::edge(*h))])
 				continue;
 			isCut[at(Triangulation::edge(*h))] = 0;
-			const int other                    = graph.node(t.target(*h));
+			const int other = graph.node(t.target(*h));
 			--degree[at(leaf)];
 			if (--degree[at(other)] == 1 && !terminal[at(other)])
 				leaves.push_back(other);
@@ -193,12 +194,12 @@ void prune(
 }
 
 CutGraph cutFrom(
-	const Triangulation&       t,
-	const ContractedGraph&     graph,
+	const Triangulation& t,
+	const ContractedGraph& graph,
 	const std::vector<double>& lengths,
-	const std::vector<char>&   forbidden,
-	const std::vector<char>&   terminal,
-	const ShortestPaths&       paths)
+	const std::vector<char>& forbidden,
+	const std::vector<char>& terminal,
+	const ShortestPaths& paths)
 {
 	CutGraph cut;
 	cut.isCut.assign(at(t.edgeCount()), 0);
@@ -220,22 +221,22 @@ CutGraph cutFrom(
 } // namespace
 
 CutGraph cutToDisk(
-	const Triangulation&       t,
+	const Triangulation& t,
 	const std::vector<double>& lengths,
-	const std::vector<char>&   marked,
-	const std::vector<char>&   forbidden)
+	const std::vector<char>& marked,
+	const std::vector<char>& forbidden)
 {
-	const ContractedGraph   graph(t, forbidden);
+	const ContractedGraph graph(t, forbidden);
 	const std::vector<char> terminal = graph.terminals(marked);
 	// On a surface with boundary the first loop is the root. On a closed one every next root is the
 	// node furthest from the roots before it.
-	const bool          closed = graph.loopNodes().empty();
-	int                 root   = closed ? t.origin(t.halfedge(0)) : graph.loopNodes().front();
-	const auto          firstMark = std::find(terminal.begin(), terminal.end(), 1);
+	const bool closed = graph.loopNodes().empty();
+	int root = closed ? t.origin(t.halfedge(0)) : graph.loopNodes().front();
+	const auto firstMark = std::find(terminal.begin(), terminal.end(), 1);
 	if (closed && firstMark != terminal.end())
 		root = static_cast<int>(firstMark - terminal.begin());
 	std::vector<double> fromRoots;
-	CutGraph            best;
+	CutGraph best;
 	for (int attempt = 0; attempt < (closed ? kRoots : 1); ++attempt) {
 		const ShortestPaths paths = dijkstra(t, graph, lengths, root);
 		CutGraph cut = cutFrom(t, graph, lengths, forbidden, terminal, paths);
@@ -248,7 +249,7 @@ CutGraph cutToDisk(
 			fromRoots[n] = std::min(fromRoots[n], paths.distance[n]);
 			if (fromRoots[n] < kFar && fromRoots[n] > furthest) {
 				furthest = fromRoots[n];
-				root     = static_cast<int>(n);
+				root = static_cast<int>(n);
 			}
 		}
 	}

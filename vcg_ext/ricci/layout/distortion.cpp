@@ -20,7 +20,7 @@ std::size_t at(int index)
 /// The triangle drawn in the plane, first corner at 0, second on the positive real axis.
 struct DrawnTriangle
 {
-	double               base, height;
+	double base, height;
 	std::complex<double> apex;
 
 	explicit DrawnTriangle(const std::array<Point3, 3>& p)
@@ -31,10 +31,11 @@ struct DrawnTriangle
 			b[i] = p[2][i] - p[0][i];
 			dot += a[i] * b[i];
 		}
-		base   = std::hypot(a[0], a[1], a[2]);
-		height = std::hypot(
-					 a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]) /
-				 base;
+		base = std::hypot(a[0], a[1], a[2]);
+		height =
+			std::hypot(
+				a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]) /
+			base;
 		apex = {dot / base, height};
 	}
 
@@ -56,7 +57,8 @@ double triangleArea(const std::array<Point3, 3>& p)
 	return drawn.base > 0.0 ? 0.5 * drawn.base * drawn.height : 0.0;
 }
 
-double quasiConformalDistortion(const std::array<Point3, 3>& surface, const std::array<Point2, 3>& plane)
+double
+quasiConformalDistortion(const std::array<Point3, 3>& surface, const std::array<Point2, 3>& plane)
 {
 	const DrawnTriangle drawn(surface);
 	if (!drawn.hasArea())
@@ -65,32 +67,32 @@ double quasiConformalDistortion(const std::array<Point3, 3>& surface, const std:
 	const std::complex<double> b(plane[1][0] - plane[0][0], plane[1][1] - plane[0][1]);
 	const std::complex<double> c(plane[2][0] - plane[0][0], plane[2][1] - plane[0][1]);
 	const std::complex<double> alongBase = b / drawn.base;
-	const std::complex<double> across    = (c - alongBase * drawn.apex.real()) / drawn.height;
+	const std::complex<double> across = (c - alongBase * drawn.apex.real()) / drawn.height;
 	const std::complex<double> i(0.0, 1.0);
-	const double               alpha = std::abs(alongBase - i * across);
-	const double               beta  = std::abs(alongBase + i * across);
-	const double               least = std::abs(alpha - beta);
+	const double alpha = std::abs(alongBase - i * across);
+	const double beta = std::abs(alongBase + i * across);
+	const double least = std::abs(alpha - beta);
 	return least > 0.0 ? (alpha + beta) / least : std::numeric_limits<double>::infinity();
 }
 
 DistortionField measureDistortion(
-	const SurfaceMesh&                        mesh,
+	const SurfaceMesh& mesh,
 	const std::vector<std::array<Point2, 3>>& plane,
-	const std::vector<char>&                  reversed,
-	Report&                                   report)
+	const std::vector<char>& reversed,
+	Report& report)
 {
 	DistortionField field;
 	field.face.resize(mesh.triangles.size());
 	field.vertex.assign(mesh.positions.size(), 0.0);
 	std::vector<double> ringArea(mesh.positions.size(), 0.0), measured;
-	double              sum = 0.0, areaSum = 0.0, weightedSum = 0.0;
+	double sum = 0.0, areaSum = 0.0, weightedSum = 0.0;
 	report.flippedFaces = 0;
 	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
 		std::array<Point3, 3> corners;
 		for (std::size_t k = 0; k < 3; ++k)
 			corners[k] = mesh.positions[at(mesh.triangles[f][k])];
 		const double qc = field.face[f] = quasiConformalDistortion(corners, plane[f]);
-		const int    wanted             = reversed[f] ? -1 : 1;
+		const int wanted = reversed[f] ? -1 : 1;
 		report.flippedFaces += orientation(plane[f][0], plane[f][1], plane[f][2]) != wanted;
 		if (!std::isfinite(qc))
 			continue;
@@ -104,7 +106,7 @@ DistortionField measureDistortion(
 			ringArea[at(v)] += area;
 		}
 	}
-	double      vertexSum   = 0.0;
+	double vertexSum = 0.0;
 	std::size_t vertexCount = 0;
 	for (std::size_t v = 0; v < field.vertex.size(); ++v) {
 		if (ringArea[v] > 0.0) {
@@ -117,12 +119,12 @@ DistortionField measureDistortion(
 	}
 	if (measured.empty())
 		return field;
-	report.qcMean       = sum / static_cast<double>(measured.size());
-	report.qcAreaMean   = weightedSum / areaSum;
+	report.qcMean = sum / static_cast<double>(measured.size());
+	report.qcAreaMean = weightedSum / areaSum;
 	report.qcVertexMean = vertexSum / static_cast<double>(vertexCount);
-	report.qcMax        = *std::max_element(measured.begin(), measured.end());
-	const auto rank     = static_cast<std::size_t>(
-        std::ceil(0.99 * static_cast<double>(measured.size())) - 1.0);
+	report.qcMax = *std::max_element(measured.begin(), measured.end());
+	const auto rank =
+		static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(measured.size())) - 1.0);
 	std::nth_element(
 		measured.begin(), measured.begin() + static_cast<std::ptrdiff_t>(rank), measured.end());
 	report.qcP99 = measured[rank];
@@ -130,16 +132,15 @@ DistortionField measureDistortion(
 }
 
 int countFlippedByRounding(
-	const std::vector<std::array<Point2, 3>>& plane,
-	const std::vector<char>&                  reversed)
+	const std::vector<std::array<Point2, 3>>& plane, const std::vector<char>& reversed)
 {
-	int        flipped = 0;
+	int flipped = 0;
 	const auto rounded = [](const Point2& p) {
-		return Point2 {double(static_cast<float>(p[0])), double(static_cast<float>(p[1]))};
+		return Point2{double(static_cast<float>(p[0])), double(static_cast<float>(p[1]))};
 	};
 	for (std::size_t f = 0; f < plane.size(); ++f) {
-		const auto& p      = plane[f];
-		const int   wanted = reversed[f] ? -1 : 1;
+		const auto& p = plane[f];
+		const int wanted = reversed[f] ? -1 : 1;
 		flipped += orientation(p[0], p[1], p[2]) == wanted &&
 				   orientation(rounded(p[0]), rounded(p[1]), rounded(p[2])) != wanted;
 	}

@@ -15,7 +15,8 @@ namespace ricci {
 /// at least 1 (paper 5.1). A 3D triangle without area (its least height
 /// is below 1e-9 of its longest side) has none: NaN. A plane one without area:
 /// infinity.
-double quasiConformalDistortion(const std::array<Point3, 3>& surface, const std::array<Point2, 3>& plane);
+double
+quasiConformalDistortion(const std::array<Point3, 3>& surface, const std::array<Point2, 3>& plane);
 
 /// Area of a triangle in space.
 double triangleArea(const std::array<Point3, 3>& p);
@@ -23,24 +24,25 @@ double triangleArea(const std::array<Point3, 3>& p);
 /// Distortion of a whole map.
 struct DistortionField
 {
-	std::vector<double> face;   ///< sigma1 / sigma2; NaN where the 3D face has no area
-	std::vector<double> vertex; ///< mean over the faces at the vertex, weighted by 3D area (paper 5.1)
+	std::vector<double> face; ///< sigma1 / sigma2; NaN where the 3D face has no area
+	std::vector<double>
+		vertex; ///< mean over the faces at the vertex, weighted by 3D area (paper 5.1)
 };
 
 /// Measures the map that sends corner k of face f to plane[f][k], fills the qc fields and
-/// flippedFaces of \p report. Faces without 3D area, or with infinite distortion, are kept out of the
-/// means. Orientation is exact; the plane image of face f should be counter-clockwise unless
+/// flippedFaces of \p report. Faces without 3D area, or with infinite distortion, are kept out of
+/// the means. Orientation is exact; the plane image of face f should be counter-clockwise unless
 /// reversed[f].
 DistortionField measureDistortion(
-	const SurfaceMesh&                        mesh,
+	const SurfaceMesh& mesh,
 	const std::vector<std::array<Point2, 3>>& plane,
-	const std::vector<char>&                  reversed,
-	Report&                                   report);
+	const std::vector<char>& reversed,
+	Report& report);
 
-/// Number of triangles that are properly oriented as given but not with coordinates rounded to float.
+/// Number of triangles that are properly oriented as given but not with coordinates rounded to
+/// float.
 int countFlippedByRounding(
-	const std::vector<std::array<Point2, 3>>& plane,
-	const std::vector<char>&                  reversed);
+	const std::vector<std::array<Point2, 3>>& plane, const std::vector<char>& reversed);
 
 } // namespace ricci
 

@@ -37,7 +37,7 @@ std::complex<double> reduceToFundamentalDomain(std::complex<double> tau)
 		tau = -1.0 / tau;
 	}
 	const bool onSide = tau.real() <= -0.5 + kBorder;
-	const bool onArc  = std::norm(tau) <= 1.0 + kBorder && tau.real() < 0.0;
+	const bool onArc = std::norm(tau) <= 1.0 + kBorder && tau.real() < 0.0;
 	if (onSide)
 		tau += 1.0;
 	else if (onArc)
@@ -55,21 +55,18 @@ torusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGraph&
 	return reduceToFundamentalDomain(tau.imag() > 0.0 ? tau : 1.0 / tau);
 }
 
-double annulusModulus(
-	const Triangulation& t,
-	const PlanarLayout&  layout,
-	const CutGraph&      cut,
-	double               area)
+double
+annulusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGraph& cut, double area)
 {
 	const auto e = std::find(cut.isCut.begin(), cut.isCut.end(), 1) - cut.isCut.begin();
 	return area / std::norm(period(t, layout, static_cast<int>(e)));
 }
 
-double
-metricArea(const Triangulation& t, const std::vector<double>& lengths, const std::vector<double>& angles)
+double metricArea(
+	const Triangulation& t, const std::vector<double>& lengths, const std::vector<double>& angles)
 {
-	const auto at   = [](int index) { return static_cast<std::size_t>(index); };
-	double     area = 0.0;
+	const auto at = [](int index) { return static_cast<std::size_t>(index); };
+	double area = 0.0;
 	for (int f = 0; f < t.faceCount(); ++f) {
 		const int h = t.halfedge(f);
 		area += 0.5 * lengths[at(Triangulation::edge(h))] *

@@ -10,8 +10,8 @@
 
 namespace ricci {
 
-/// Translation (in the plane of the layout) between the two sides of cut edge \p e: from the side of
-/// halfedge 2 e to that of its twin. Meaningful where the metric's holonomy is a translation.
+/// Translation (in the plane of the layout) between the two sides of cut edge \p e: from the side
+/// of halfedge 2 e to that of its twin. Meaningful where the metric's holonomy is a translation.
 std::complex<double> period(const Triangulation& t, const PlanarLayout& layout, int e);
 
 /// Moves a quotient of two periods into the fundamental domain of the modular group:
@@ -25,14 +25,11 @@ torusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGraph&
 /// Conformal modulus ln(r2/r1) / 2 pi of a flat annulus with straight boundaries, a cylinder: its
 /// height over its circumference, from its \p area and the translation across the cut.
 double annulusModulus(
-	const Triangulation& t,
-	const PlanarLayout&  layout,
-	const CutGraph&      cut,
-	double               area);
+	const Triangulation& t, const PlanarLayout& layout, const CutGraph& cut, double area);
 
 /// Area of a flat metric. \param lengths [edge], \param angles [halfedge]
-double
-metricArea(const Triangulation& t, const std::vector<double>& lengths, const std::vector<double>& angles);
+double metricArea(
+	const Triangulation& t, const std::vector<double>& lengths, const std::vector<double>& angles);
 
 } // namespace ricci
 

@@ -13,7 +13,7 @@ namespace ricci {
 struct OrientedRectangle
 {
 	double cosine = 1.0, sine = 0.0;
-	Point2 low {0.0, 0.0}, high {0.0, 0.0};
+	Point2 low{0.0, 0.0}, high{0.0, 0.0};
 
 	/// Coordinates of \p p in the rectangle's frame.
 	Point2 inFrame(const Point2& p) const

@@ -36,22 +36,22 @@ private:
 		for (std::size_t i = 0; i < m_size; ++i) {
 			const double sum = m_terms[i] + term, virtualTerm = sum - m_terms[i];
 			m_terms[i] = (m_terms[i] - (sum - virtualTerm)) + (term - virtualTerm);
-			term       = sum;
+			term = sum;
 		}
 		m_terms[m_size++] = term;
 	}
 
 	std::array<double, 12> m_terms;
-	std::size_t            m_size = 0;
+	std::size_t m_size = 0;
 };
 
 } // namespace
 
 int orientation(const Point2& a, const Point2& b, const Point2& c)
 {
-	const double left  = (b[0] - a[0]) * (c[1] - a[1]);
+	const double left = (b[0] - a[0]) * (c[1] - a[1]);
 	const double right = (b[1] - a[1]) * (c[0] - a[0]);
-	const double area  = left - right;
+	const double area = left - right;
 	const double bound =
 		4.0 * std::numeric_limits<double>::epsilon() * (std::abs(left) + std::abs(right));
 	if (std::abs(area) > bound && bound > std::numeric_limits<double>::min())

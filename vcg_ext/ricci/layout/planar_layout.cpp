@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <queue>
+#include <utility>
 
 namespace ricci {
 
@@ -25,10 +28,10 @@ std::vector<int> cornerSectors(const Triangulation& t, const std::vector<char>& 
 		if (t.isOuter(start) || sector[at(start)] >= 0)
 			continue;
 		const auto closes = [&](int e) { return isCut[at(e)] || t.isBoundaryEdge(e); };
-		int        h      = start;
+		int h = start;
 		do { // counter-clockwise
 			sector[at(h)] = count;
-			const int in  = t.previous(h);
+			const int in = t.previous(h);
 			if (closes(Triangulation::edge(in)))
 				break;
 			h = Triangulation::twin(in);
@@ -45,58 +48,76 @@ std::vector<int> cornerSectors(const Triangulation& t, const std::vector<char>& 
 }
 
 PlanarLayout layOutInPlane(
-	const Triangulation&       t,
+	const Triangulation& t,
 	const std::vector<double>& lengths,
 	const std::vector<double>& angles,
-	const std::vector<char>&   isCut)
+	const std::vector<char>& isCut)
 {
 	PlanarLayout layout;
-	int          sectorCount = 0;
-	layout.sector            = cornerSectors(t, isCut, sectorCount);
+	int sectorCount = 0;
+	layout.sector = cornerSectors(t, isCut, sectorCount);
 	layout.position.assign(at(sectorCount), {0.0, 0.0});
 	std::vector<char> placed(at(sectorCount), 0), seen(at(t.faceCount()), 0);
 
 	const auto place = [&](int h, const Point2& p) {
 		const int s = layout.sector[at(h)];
 		if (!placed[at(s)]) {
-			placed[at(s)]          = 1;
+			placed[at(s)] = 1;
 			layout.position[at(s)] = p;
 		}
 	};
-	// Directions are carried from triangle to triangle as angles, never measured between points: across
-	// a short side of a needle that would magnify the error of the points without bound.
+	// Directions are carried from triangle to triangle as angles, never measured between points:
+	// across a short side of a needle that would magnify the error of the points without bound.
 	std::vector<double> direction(at(t.halfedgeCount()), 0.0);
-	const auto          placeTriangle = [&](int h, double along) {
-        const int    second = t.next(h), third = t.previous(h);
-        const double toApex   = along + angles[at(h)]; // from the origin of h
-        const double fromBase = along + kPi - angles[at(second)];
-        direction[at(h)]      = along;
-        direction[at(second)] = fromBase;
-        direction[at(third)]  = toApex - kPi;
-        const double left = lengths[at(Triangulation::edge(third))];
-        const double right = lengths[at(Triangulation::edge(second))];
-        const bool   nearer = right < left;
-        const Point2 from   = layout.at(nearer ? second : h);
-        const double angle = nearer ? fromBase : toApex, length = std::min(left, right);
-        place(third, {from[0] + length * std::cos(angle), from[1] + length * std::sin(angle)});
+	const auto placeTriangle = [&](int h, double along) {
+		const int second = t.next(h), third = t.previous(h);
+		const double toApex = along + angles[at(h)]; // from the origin of h
+		const double fromBase = along + kPi - angles[at(second)];
+		direction[at(h)] = along;
+		direction[at(second)] = fromBase;
+		direction[at(third)] = toApex - kPi;
+		const double left = lengths[at(Triangulation::edge(third))];
+		const double right = lengths[at(Triangulation::edge(second))];
+		const bool nearer = right < left;
+		const Point2 from = layout.at(nearer ? second : h);
+		const double angle = nearer ? fromBase : toApex, length = std::min(left, right);
+		place(third, {from[0] + length * std::cos(angle), from[1] + length * std::sin(angle)});
 	};
 
-	std::vector<int> queue;
-	const int        root = t.halfedge(0);
+	// Across a side that is short in its triangle, directions are lost by as many units of rounding
+	// as the longest side is longer: triangles are reached by the way that loses least.
+	const auto loss = [&](int across) {
+		double longest = 0.0;
+		for (int h : {across, Triangulation::twin(across)})
+			for (int side : t.halfedges(t.face(h)))
+				longest = std::max(longest, lengths[at(Triangulation::edge(side))]);
+		return longest / lengths[at(Triangulation::edge(across))];
+	};
+	using Entry = std::pair<double, int>; // accumulated loss, halfedge that leads into a triangle
+	std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+	const auto leave = [&](int f, double lost) {
+		for (int h : t.halfedges(f)) {
+			const int across = Triangulation::twin(h);
+			if (!isCut[at(Triangulation::edge(h))] && !t.isOuter(across) &&
+				!seen[at(t.face(across))])
+				queue.push({lost + loss(across), across});
+		}
+	};
+	const int root = t.halfedge(0);
 	place(root, {0.0, 0.0});
 	place(t.next(root), {lengths[at(Triangulation::edge(root))], 0.0});
 	placeTriangle(root, 0.0);
-	queue.push_back(t.face(root));
 	seen[at(t.face(root))] = 1;
-	for (std::size_t head = 0; head < queue.size(); ++head)
-		for (int h : t.halfedges(queue[head])) {
-			const int across = Triangulation::twin(h);
-			if (isCut[at(Triangulation::edge(h))] || t.isOuter(across) || seen[at(t.face(across))])
-				continue;
-			seen[at(t.face(across))] = 1;
-			queue.push_back(t.face(across));
-			placeTriangle(across, std::remainder(direction[at(h)] + kPi, 2 * kPi));
-		}
+	leave(t.face(root), 0.0);
+	while (!queue.empty()) {
+		const auto [lost, h] = queue.top();
+		queue.pop();
+		if (seen[at(t.face(h))])
+			continue;
+		seen[at(t.face(h))] = 1;
+		placeTriangle(h, std::remainder(direction[at(Triangulation::twin(h))] + kPi, 2 * kPi));
+		leave(t.face(h), lost);
+	}
 	return layout;
 }
 

@@ -18,10 +18,10 @@ Point2 walk(const Point2& from, double length, double direction)
 } // namespace
 
 void unfold(
-	const Triangulation&            t,
-	const std::vector<double>&      lengths,
+	const Triangulation& t,
+	const std::vector<double>& lengths,
 	const NormalCoordinates::Curve& curve,
-	Strip&                          strip)
+	Strip& strip)
 {
 	const auto length = [&](int h) {
 		return lengths[static_cast<std::size_t>(Triangulation::edge(h))];
@@ -35,15 +35,15 @@ void unfold(
 						 std::sqrt(std::max(0.0, s * (s - c))));
 	};
 	strip.sides.clear();
-	const int   h     = curve.first;
-	double      along = kPi - angle(t.next(h)); // direction of the crossed halfedge
-	Strip::Side side {{length(h), 0.0}, walk({0.0, 0.0}, length(t.previous(h)), angle(h))};
+	const int h = curve.first;
+	double along = kPi - angle(t.next(h)); // direction of the crossed halfedge
+	Strip::Side side{{length(h), 0.0}, walk({0.0, 0.0}, length(t.previous(h)), angle(h))};
 	for (std::size_t i = 0; i < curve.crossings.size(); ++i) {
 		strip.sides.push_back(side);
-		const int    y         = Triangulation::twin(curve.crossings[i].halfedge); // from side.to
+		const int y = Triangulation::twin(curve.crossings[i].halfedge); // from side.to
 		const double direction = along + kPi;
-		const double toApex    = direction + angle(y);
-		const double fromBase  = direction + kPi - angle(t.next(y));
+		const double toApex = direction + angle(y);
+		const double fromBase = direction + kPi - angle(t.next(y));
 		const double left = length(t.previous(y)), right = length(t.next(y));
 		const Point2 apex =
 			right < left ? walk(side.from, right, fromBase) : walk(side.to, left, toApex);
@@ -51,11 +51,11 @@ void unfold(
 			strip.end = apex;
 		else if (curve.crossings[i + 1].halfedge == t.next(y)) {
 			side.to = apex;
-			along   = fromBase;
+			along = fromBase;
 		}
 		else {
 			side.from = apex;
-			along     = toApex - kPi;
+			along = toApex - kPi;
 		}
 	}
 }

@@ -18,16 +18,16 @@ struct Strip
 		Point2 from, to; ///< ends of the crossed halfedge
 	};
 	std::vector<Side> sides; ///< of every crossing
-	Point2            end {0.0, 0.0};
+	Point2 end{0.0, 0.0};
 };
 
-/// Unfolds \p curve (with at least one crossing) in a flat metric. Directions are carried as angles,
-/// as in layOutInPlane(). \p strip is overwritten.
+/// Unfolds \p curve (with at least one crossing) in a flat metric. Directions are carried as
+/// angles, as in layOutInPlane(). \p strip is overwritten.
 void unfold(
-	const Triangulation&            t,
-	const std::vector<double>&      lengths,
+	const Triangulation& t,
+	const std::vector<double>& lengths,
 	const NormalCoordinates::Curve& curve,
-	Strip&                          strip);
+	Strip& strip);
 
 } // namespace ricci
 

@@ -19,10 +19,10 @@ std::size_t at(int index)
 
 template<class Clamp>
 CirclePacking pack(
-	Triangulation              triangulation,
+	Triangulation triangulation,
 	const std::vector<double>& lengths,
 	const std::vector<double>& radii,
-	Clamp                      clamp)
+	Clamp clamp)
 {
 	CirclePacking packing;
 	packing.delta.resize(lengths.size());
@@ -32,7 +32,8 @@ CirclePacking pack(
 		packing.delta[at(e)] = clamp(Euclidean::delta(lengths[at(e)], gi, gj));
 	}
 	packing.u.resize(radii.size());
-	std::transform(radii.begin(), radii.end(), packing.u.begin(), [](double g) { return std::log(g); });
+	std::transform(
+		radii.begin(), radii.end(), packing.u.begin(), [](double g) { return std::log(g); });
 	packing.triangulation = std::move(triangulation);
 	return packing;
 }
@@ -57,18 +58,18 @@ initialRadii(const Triangulation& triangulation, const std::vector<double>& leng
 	for (int f = 0; f < triangulation.faceCount(); ++f) {
 		const auto h = triangulation.halfedges(f);
 		for (std::size_t k = 0; k < 3; ++k) {
-			const double left     = lengths[at(Triangulation::edge(h[k]))];
+			const double left = lengths[at(Triangulation::edge(h[k]))];
 			const double opposite = lengths[at(Triangulation::edge(h[(k + 1) % 3]))];
-			const double right    = lengths[at(Triangulation::edge(h[(k + 2) % 3]))];
-			double&      radius   = radii[at(triangulation.origin(h[k]))];
-			radius                = std::min(radius, 0.5 * (left + right - opposite));
+			const double right = lengths[at(Triangulation::edge(h[(k + 2) % 3]))];
+			double& radius = radii[at(triangulation.origin(h[k]))];
+			radius = std::min(radius, 0.5 * (left + right - opposite));
 		}
 	}
 	return radii;
 }
 
 CirclePacking inversiveDistancePacking(
-	Triangulation              triangulation,
+	Triangulation triangulation,
 	const std::vector<double>& lengths,
 	const std::vector<double>& radii)
 {
@@ -78,7 +79,7 @@ CirclePacking inversiveDistancePacking(
 }
 
 CirclePacking thurstonPacking(
-	Triangulation              triangulation,
+	Triangulation triangulation,
 	const std::vector<double>& lengths,
 	const std::vector<double>& radii)
 {

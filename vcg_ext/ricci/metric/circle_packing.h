@@ -12,7 +12,7 @@ namespace ricci {
 /// distance on each edge, and a circle at each vertex.
 struct CirclePacking
 {
-	Triangulation       triangulation;
+	Triangulation triangulation;
 	std::vector<double> delta; ///< [edge] I - 1; at least 0 where circles are tangent or disjoint
 	std::vector<double> u;     ///< [vertex] ln radius (Eq. 6, Euclidean)
 };
@@ -30,14 +30,14 @@ initialRadii(const Triangulation& triangulation, const std::vector<double>& leng
 /// Inversive distances (Eq. 3, Euclidean) that make the packing metric equal \p lengths exactly.
 /// \p radii as of initialRadii(): values of delta that rounding puts below 0 become 0.
 CirclePacking inversiveDistancePacking(
-	Triangulation              triangulation,
+	Triangulation triangulation,
 	const std::vector<double>& lengths,
 	const std::vector<double>& radii);
 
 /// Conventional flow of paper 5.1: the same radii, each inversive distance forced into [0, 1], so
 /// that the packing metric no longer is the mesh's own.
 CirclePacking thurstonPacking(
-	Triangulation              triangulation,
+	Triangulation triangulation,
 	const std::vector<double>& lengths,
 	const std::vector<double>& radii);
 

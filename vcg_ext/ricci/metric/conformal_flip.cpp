@@ -28,9 +28,9 @@ struct Apex
 	Apex(const Triangulation& t, const std::vector<double>& delta, int h)
 	{
 		const double c = 1.0 + delta[at(Triangulation::edge(h))];
-		jk             = 1.0 + delta[at(Triangulation::edge(t.next(h)))];
-		ik             = 1.0 + delta[at(Triangulation::edge(t.previous(h)))];
-		rootD          = std::sqrt(c * c + ik * ik + jk * jk + 2.0 * c * ik * jk - 1.0);
+		jk = 1.0 + delta[at(Triangulation::edge(t.next(h)))];
+		ik = 1.0 + delta[at(Triangulation::edge(t.previous(h)))];
+		rootD = std::sqrt(c * c + ik * ik + jk * jk + 2.0 * c * ik * jk - 1.0);
 	}
 };
 
@@ -39,8 +39,8 @@ struct Apex
 double flippedDelta(const Triangulation& t, const std::vector<double>& delta, int e)
 {
 	const double d = delta[at(e)], c = 1.0 + d, c2 = d * (d + 2.0);
-	const Apex   k(t, delta, 2 * e);
-	const Apex   reversed(t, delta, 2 * e + 1); // its i is our j
+	const Apex k(t, delta, 2 * e);
+	const Apex reversed(t, delta, 2 * e + 1); // its i is our j
 	const double il = reversed.jk, jl = reversed.ik;
 	const double numerator =
 		k.ik * il + k.jk * jl + c * (k.ik * jl + k.jk * il) + k.rootD * reversed.rootD;
@@ -48,17 +48,17 @@ double flippedDelta(const Triangulation& t, const std::vector<double>& delta, in
 }
 
 bool isWeightedDelaunay(
-	const Triangulation&       t,
+	const Triangulation& t,
 	const std::vector<double>& delta,
 	const std::vector<double>& kappa,
-	int                        e)
+	int e)
 {
 	if (!t.isFlippable(e))
 		return true;
 	const double d = delta[at(e)], c = 1.0 + d, c2 = d * (d + 2.0);
-	double       positive = 0.0, negative = 0.0;
+	double positive = 0.0, negative = 0.0;
 	for (int h : {2 * e, 2 * e + 1}) {
-		const Apex   k(t, delta, h);
+		const Apex k(t, delta, h);
 		const double ki = kappa[at(t.origin(h))], kj = kappa[at(t.target(h))];
 		const double kk = kappa[at(t.origin(t.previous(h)))];
 		positive += (ki * (k.ik + c * k.jk) + kj * (k.jk + c * k.ik)) / k.rootD;
@@ -78,23 +78,23 @@ void FlipJournal::rewind(Triangulation& t, std::vector<double>& delta)
 }
 
 int makeWeightedDelaunay(
-	Triangulation&             t,
-	std::vector<double>&       delta,
+	Triangulation& t,
+	std::vector<double>& delta,
 	const std::vector<double>& kappa,
-	FlipJournal&               journal,
-	DelaunayQueue&             queue)
+	FlipJournal& journal,
+	DelaunayQueue& queue)
 {
 	const int edgeCount = t.edgeCount();
-	auto&     edges     = queue.edges;
-	auto&     queued    = queue.queued;
+	auto& edges = queue.edges;
+	auto& queued = queue.queued;
 	edges.clear();
 	queued.assign(at(edgeCount), 0);
-	int        flips = 0;
-	const int  mostFlips = kMostFlipsPerEdge * edgeCount;
-	const auto visit     = [&](int e) {
+	int flips = 0;
+	const int mostFlips = kMostFlipsPerEdge * edgeCount;
+	const auto visit = [&](int e) {
 		if (isWeightedDelaunay(t, delta, kappa, e) || flips >= mostFlips)
 			return;
-		const std::array<int, 4> quad {
+		const std::array<int, 4> quad{
 			t.next(2 * e), t.previous(2 * e), t.next(2 * e + 1), t.previous(2 * e + 1)};
 		journal.record(e, delta[at(e)]);
 		delta[at(e)] = flippedDelta(t, delta, e);

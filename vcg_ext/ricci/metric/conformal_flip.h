@@ -19,24 +19,24 @@ namespace ricci {
 /// All terms are positive. \p e must be flippable and delta[e] > 0.
 double flippedDelta(const Triangulation& t, const std::vector<double>& delta, int e);
 
-/// Whether edge \p e is locally weighted Delaunay for circles of curvature \p kappa: T_k + T_l >= 0,
-/// T_k = [kappa_i (I_ik + I_ij I_jk) + kappa_j (I_jk + I_ij I_ik) - kappa_k (I_ij^2 - 1)] / sqrt(D_k).
-/// Once all triangles exist this says that the weight of the edge in the Hessian is not negative.
-/// Equality within rounding counts as Delaunay; boundary edges and edges with the same triangle on
-/// both sides are Delaunay.
+/// Whether edge \p e is locally weighted Delaunay for circles of curvature \p kappa: T_k + T_l >=
+/// 0, T_k = [kappa_i (I_ik + I_ij I_jk) + kappa_j (I_jk + I_ij I_ik) - kappa_k (I_ij^2 - 1)] /
+/// sqrt(D_k). Once all triangles exist this says that the weight of the edge in the Hessian is not
+/// negative. Equality within rounding counts as Delaunay; boundary edges and edges with the same
+/// triangle on both sides are Delaunay.
 bool isWeightedDelaunay(
-	const Triangulation&       t,
+	const Triangulation& t,
 	const std::vector<double>& delta,
 	const std::vector<double>& kappa,
-	int                        e);
+	int e);
 
 /// Edges flipped, in order, with what is needed to go back.
 class FlipJournal
 {
 public:
-	void   clear() { m_flips.clear(); }
-	void   record(int e, double delta) { m_flips.push_back({e, delta}); }
-	int    size() const { return static_cast<int>(m_flips.size()); }
+	void clear() { m_flips.clear(); }
+	void record(int e, double delta) { m_flips.push_back({e, delta}); }
+	int size() const { return static_cast<int>(m_flips.size()); }
 
 	/// Appends the recorded edges to \p edges, in order.
 	void appendTo(std::vector<int>& edges) const
@@ -51,7 +51,7 @@ public:
 private:
 	struct Flip
 	{
-		int    edge;
+		int edge;
 		double delta;
 	};
 	std::vector<Flip> m_flips;
@@ -60,18 +60,18 @@ private:
 /// Reusable work space of makeWeightedDelaunay().
 struct DelaunayQueue
 {
-	std::vector<int>  edges;
+	std::vector<int> edges;
 	std::vector<char> queued;
 };
 
 /// Flips edges until every one is weighted Delaunay, in an order that depends on the input alone.
 /// \return number of flips
 int makeWeightedDelaunay(
-	Triangulation&             t,
-	std::vector<double>&       delta,
+	Triangulation& t,
+	std::vector<double>& delta,
 	const std::vector<double>& kappa,
-	FlipJournal&               journal,
-	DelaunayQueue&             queue);
+	FlipJournal& journal,
+	DelaunayQueue& queue);
 
 } // namespace ricci
 

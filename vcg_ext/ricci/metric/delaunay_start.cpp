@@ -16,8 +16,8 @@ namespace {
 constexpr double kTieTolerance = 1e-14;
 
 /// Share of the paper's radii that is used. Circles that touch (I = 1), which the full radii always
-/// produce, bound the curvature that the flow can reach: the angle at a vertex in a link of n tangent
-/// edges stays below n pi however small its circle is, and tangent edges cannot be flipped.
+/// produce, bound the curvature that the flow can reach: the angle at a vertex in a link of n
+/// tangent edges stays below n pi however small its circle is, and tangent edges cannot be flipped.
 constexpr double kRadiusShare = 0.5;
 
 /// Radii of the ends of an edge with I < 1 are multiplied by this, and the flips start anew.
@@ -33,8 +33,8 @@ constexpr double kDegenerate = 1e-13;
 /// units of the last place.
 constexpr double kNeedle = 1e6;
 
-/// Excess of two sides over the third that a degenerate triangle is given, in its longest sides. Less
-/// leaves needles whose rounding floor is above what counts as converged.
+/// Excess of two sides over the third that a degenerate triangle is given, in its longest sides.
+/// Less leaves needles whose rounding floor is above what counts as converged.
 constexpr double kMargin = 1e-5;
 
 std::size_t at(int index)
@@ -50,12 +50,14 @@ struct Apex
 
 Apex apexOf(const IntrinsicMesh& mesh, int h)
 {
-	const Triangulation& t     = mesh.triangulation;
-	const double         l     = mesh.lengths[at(Triangulation::edge(h))];
-	const double         right = mesh.lengths[at(Triangulation::edge(t.next(h)))];
-	const double         left  = mesh.lengths[at(Triangulation::edge(t.previous(h)))];
-	const double heron = (l + left + right) * (l + left - right) * (l + right - left) * (left + right - l);
-	return {0.5 * ((left - right) * (left + right) / l + l), std::sqrt(std::max(0.0, heron)) / (2 * l)};
+	const Triangulation& t = mesh.triangulation;
+	const double l = mesh.lengths[at(Triangulation::edge(h))];
+	const double right = mesh.lengths[at(Triangulation::edge(t.next(h)))];
+	const double left = mesh.lengths[at(Triangulation::edge(t.previous(h)))];
+	const double heron =
+		(l + left + right) * (l + left - right) * (l + right - left) * (left + right - l);
+	return {
+		0.5 * ((left - right) * (left + right) / l + l), std::sqrt(std::max(0.0, heron)) / (2 * l)};
 }
 
 /// Whether e passes the weighted Delaunay test for circles of these radii (none: the plain test).
@@ -75,13 +77,13 @@ bool isDelaunay(const IntrinsicMesh& mesh, const std::vector<double>& radii, int
 	}
 	double sum = 0.0, magnitude = 0.0;
 	for (int h : {2 * e, 2 * e + 1}) {
-		const Apex   apex = apexOf(mesh, h);
-		const double g    = radii.empty() ? 0.0 : radii[at(t.origin(t.previous(h)))];
+		const Apex apex = apexOf(mesh, h);
+		const double g = radii.empty() ? 0.0 : radii[at(t.origin(t.previous(h)))];
 		const double foot = 0.5 * (l + (gi - gj) * (gi + gj) / l);
-		const double own  = h == 2 * e ? foot : l - foot;
-		const double go   = h == 2 * e ? gi : gj;
+		const double own = h == 2 * e ? foot : l - foot;
+		const double go = h == 2 * e ? gi : gj;
 		// Height of the power centre over the edge: equal powers of apex and origin.
-		const double plus  = apex.height * apex.height + apex.along * apex.along + go * go;
+		const double plus = apex.height * apex.height + apex.along * apex.along + go * go;
 		const double minus = 2 * apex.along * own + g * g;
 		if (!(apex.height > 0.0)) // all or nothing: the apex lies on the edge, or beyond its ends
 			return !(plus < minus);
@@ -94,22 +96,22 @@ bool isDelaunay(const IntrinsicMesh& mesh, const std::vector<double>& radii, int
 template<class Test>
 void flipUntil(IntrinsicMesh& mesh, std::vector<int>& log, Test isGood)
 {
-	Triangulation&    t = mesh.triangulation;
-	std::vector<int>  stack;
+	Triangulation& t = mesh.triangulation;
+	std::vector<int> stack;
 	std::vector<char> queued(at(t.edgeCount()), 0);
-	const auto        visit = [&](int e) {
-        if (isGood(e))
-            return;
-        const std::array<int, 4> quad {
-            t.next(2 * e), t.previous(2 * e), t.next(2 * e + 1), t.previous(2 * e + 1)};
-        mesh.lengths[at(e)] = flippedLength(mesh, e);
-        t.flip(e);
-        log.push_back(e);
-        for (int h : quad)
-            if (!queued[at(Triangulation::edge(h))]) {
-                queued[at(Triangulation::edge(h))] = 1;
-                stack.push_back(Triangulation::edge(h));
-            }
+	const auto visit = [&](int e) {
+		if (isGood(e))
+			return;
+		const std::array<int, 4> quad{
+			t.next(2 * e), t.previous(2 * e), t.next(2 * e + 1), t.previous(2 * e + 1)};
+		mesh.lengths[at(e)] = flippedLength(mesh, e);
+		t.flip(e);
+		log.push_back(e);
+		for (int h : quad)
+			if (!queued[at(Triangulation::edge(h))]) {
+				queued[at(Triangulation::edge(h))] = 1;
+				stack.push_back(Triangulation::edge(h));
+			}
 	};
 	for (int e = 0; e < t.edgeCount(); ++e) {
 		visit(e);
@@ -163,8 +165,8 @@ DelaunayStart delaunayStart(IntrinsicMesh mesh, const std::vector<int>& mirror)
 
 	for (int attempt = 0; attempt < kMostShrinks; ++attempt) {
 		flipUntil(mesh, start.flips, [&](int e) { return isDelaunay(mesh, start.radii, e); });
-		const Triangulation& t       = mesh.triangulation;
-		bool                 overlap = false;
+		const Triangulation& t = mesh.triangulation;
+		bool overlap = false;
 		for (int e = 0; e < t.edgeCount(); ++e) {
 			double &gi = start.radii[at(t.origin(2 * e))], &gj = start.radii[at(t.target(2 * e))];
 			if (gi + gj < mesh.lengths[at(e)])

@@ -35,9 +35,9 @@ struct EuclideanGeometry
 
 	struct Edge
 	{
-		Real length; ///< Eq. 4; NaN if the circles are nested (I < -1)
-		Real excess; ///< length less the sum of the radii, without cancellation
-		Real sine2;  ///< square of the length function of the law of sines: length^2
+		Real length;      ///< Eq. 4; NaN if the circles are nested (I < -1)
+		Real excess;      ///< length less the sum of the radii, without cancellation
+		Real sine2;       ///< square of the length function of the law of sines: length^2
 		Real cosineLess1; ///< cosh(length) - 1 in the hyperbolic plane; 0 here
 	};
 

@@ -26,7 +26,7 @@ std::string count(std::size_t n, const std::string& one, const std::string& many
 /// One side of a triangle, sortable so that the sides of an edge become neighbours.
 struct Side
 {
-	int  low, high, face, corner;
+	int low, high, face, corner;
 	bool ascending;
 };
 
@@ -41,7 +41,9 @@ std::vector<Side> sortedSides(const std::vector<Triangle>& triangles)
 				{std::min(a, b), std::max(a, b), static_cast<int>(f), static_cast<int>(k), a < b});
 		}
 	std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-		return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.face < b.face;
+		return a.low != b.low     ? a.low < b.low
+			   : a.high != b.high ? a.high < b.high
+								  : a.face < b.face;
 	});
 	return sides;
 }
@@ -59,10 +61,10 @@ void checkElements(const SurfaceMesh& mesh)
 {
 	if (mesh.triangles.empty())
 		throw InvalidMesh(
-			mesh.positions.empty() ?
-				"The mesh is empty: open or create a triangle mesh first." :
-				"The mesh has " + count(mesh.positions.size(), "vertex", "vertices") +
-					" but no faces: reconstruct a surface from the points first.");
+			mesh.positions.empty()
+				? "The mesh is empty: open or create a triangle mesh first."
+				: "The mesh has " + count(mesh.positions.size(), "vertex", "vertices") +
+					  " but no faces: reconstruct a surface from the points first.");
 	std::size_t notFinite = 0;
 	for (const Point3& p : mesh.positions)
 		notFinite += !(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]));
@@ -135,11 +137,11 @@ private:
 /// A vertex is manifold if its corners form a single fan. Edges must be manifold already.
 void checkManifoldVertices(const SurfaceMesh& mesh, const std::vector<Side>& sides)
 {
-	const int    faceCount = static_cast<int>(mesh.triangles.size());
+	const int faceCount = static_cast<int>(mesh.triangles.size());
 	DisjointSets fans(3 * faceCount);
-	const auto   cornerAt = [&](const Side& s, int vertex) {
-        const bool atStart = mesh.triangles[at(s.face)][at(s.corner)] == vertex;
-        return 3 * s.face + (s.corner + (atStart ? 0 : 1)) % 3;
+	const auto cornerAt = [&](const Side& s, int vertex) {
+		const bool atStart = mesh.triangles[at(s.face)][at(s.corner)] == vertex;
+		return 3 * s.face + (s.corner + (atStart ? 0 : 1)) % 3;
 	};
 	for (std::size_t first = 0, last; first < sides.size(); first = last) {
 		last = edgeEnd(sides, first);
@@ -157,24 +159,28 @@ void checkManifoldVertices(const SurfaceMesh& mesh, const std::vector<Side>& sid
 		std::count_if(fanCount.begin(), fanCount.end(), [](int n) { return n > 1; });
 	if (nonManifold > 0)
 		throw InvalidMesh(
-			count(static_cast<std::size_t>(nonManifold), "non-manifold vertex", "non-manifold vertices") +
-			" (their faces form more than one fan): run 'Repair non Manifold Vertices by splitting' "
+			count(
+				static_cast<std::size_t>(nonManifold),
+				"non-manifold vertex",
+				"non-manifold vertices") +
+			" (their faces form more than one fan): run 'Repair non Manifold Vertices by "
+			"splitting' "
 			"first.");
 }
 
 /// Breadth-first walk over face adjacency: component and relative orientation of every face.
 struct FacePartition
 {
-	std::vector<int>  component;
+	std::vector<int> component;
 	std::vector<char> reversed;
-	int               componentCount = 0;
+	int componentCount = 0;
 };
 
 FacePartition walkFaces(std::size_t faceCount, const std::vector<Side>& sides)
 {
 	struct Neighbour
 	{
-		int  face = -1;
+		int face = -1;
 		bool agrees = true;
 	};
 	std::vector<Neighbour> neighbours(3 * faceCount);
@@ -183,20 +189,20 @@ FacePartition walkFaces(std::size_t faceCount, const std::vector<Side>& sides)
 		if (last - first < 2)
 			continue;
 		const Side &a = sides[first], &b = sides[first + 1];
-		const bool  agrees                        = a.ascending != b.ascending;
-		neighbours[at(3 * a.face + a.corner)]     = {b.face, agrees};
-		neighbours[at(3 * b.face + b.corner)]     = {a.face, agrees};
+		const bool agrees = a.ascending != b.ascending;
+		neighbours[at(3 * a.face + a.corner)] = {b.face, agrees};
+		neighbours[at(3 * b.face + b.corner)] = {a.face, agrees};
 	}
-	FacePartition    part;
+	FacePartition part;
 	std::vector<int> queue;
-	std::size_t      oneSided = 0;
+	std::size_t oneSided = 0;
 	part.component.assign(faceCount, -1);
 	part.reversed.assign(faceCount, 0);
 	for (std::size_t seed = 0; seed < faceCount; ++seed) {
 		if (part.component[seed] >= 0)
 			continue;
-		bool        orientable = true;
-		std::size_t turned     = 0;
+		bool orientable = true;
+		std::size_t turned = 0;
 		queue.assign(1, static_cast<int>(seed));
 		part.component[seed] = part.componentCount;
 		for (std::size_t head = 0; head < queue.size(); ++head) {
@@ -208,7 +214,7 @@ FacePartition walkFaces(std::size_t faceCount, const std::vector<Side>& sides)
 				const char wanted = static_cast<char>(part.reversed[at(f)] ^ (n.agrees ? 0 : 1));
 				if (part.component[at(n.face)] < 0) {
 					part.component[at(n.face)] = part.componentCount;
-					part.reversed[at(n.face)]  = wanted;
+					part.reversed[at(n.face)] = wanted;
 					turned += wanted != 0;
 					queue.push_back(n.face);
 				}
@@ -235,9 +241,8 @@ void requireSize(const std::vector<Component>& components)
 	std::size_t points = 0;
 	for (const Component& c : components) {
 		const Point3& first = c.positions.front();
-		points += std::all_of(c.positions.begin(), c.positions.end(), [&](const Point3& p) {
-			return p == first;
-		});
+		points += std::all_of(
+			c.positions.begin(), c.positions.end(), [&](const Point3& p) { return p == first; });
 	}
 	if (points > 0)
 		throw InvalidMesh(
@@ -257,12 +262,12 @@ std::vector<Component> splitIntoComponents(const SurfaceMesh& mesh, std::vector<
 	const FacePartition part = walkFaces(mesh.triangles.size(), sides);
 
 	std::vector<Component> components(at(part.componentCount));
-	std::vector<int>       localVertex(mesh.positions.size(), -1);
-	std::size_t            turned = 0;
+	std::vector<int> localVertex(mesh.positions.size(), -1);
+	std::size_t turned = 0;
 	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-		Component&     c        = components[at(part.component[f])];
-		const Triangle t        = mesh.triangles[f];
-		const char     reversed = part.reversed[f];
+		Component& c = components[at(part.component[f])];
+		const Triangle t = mesh.triangles[f];
+		const char reversed = part.reversed[f];
 		turned += reversed != 0;
 		c.face.push_back(static_cast<int>(f));
 		c.reversed.push_back(reversed);

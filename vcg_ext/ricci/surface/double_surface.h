@@ -13,9 +13,9 @@ namespace ricci {
 /// first copy (an outer halfedge becomes the second copy's inner one).
 struct DoubleSurface
 {
-	Triangulation    triangulation;
-	std::vector<int> mirror;   ///< [vertex] its image in the other copy; itself on the boundary
-	std::vector<int> edgeOf;   ///< [edge] the surface's edge that it is or mirrors
+	Triangulation triangulation;
+	std::vector<int> mirror; ///< [vertex] its image in the other copy; itself on the boundary
+	std::vector<int> edgeOf; ///< [edge] the surface's edge that it is or mirrors
 };
 
 DoubleSurface doubleOf(const Triangulation& t);

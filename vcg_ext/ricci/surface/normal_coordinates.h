@@ -11,8 +11,8 @@ namespace ricci {
 
 /// Where the edges of one triangulation run on another that flips have made of it, in integers
 /// alone: for each edge the number of crossings, and for each halfedge its place among the original
-/// halfedges round its origin (normal coordinates and roundabouts, Gillespie, Sharp and Crane 2021).
-/// "Curves" below are the edges of the original triangulation, pulled tight.
+/// halfedges round its origin (normal coordinates and roundabouts, Gillespie, Sharp and Crane
+/// 2021). "Curves" below are the edges of the original triangulation, pulled tight.
 class NormalCoordinates
 {
 public:
@@ -42,7 +42,7 @@ public:
 	struct Curve
 	{
 		int first = -1; ///< halfedge from which the curve leaves counter-clockwise, at its origin;
-		                ///< where the curve is an edge, that edge's halfedge in its direction
+						///< where the curve is an edge, that edge's halfedge in its direction
 		int last = -1;  ///< the same, seen from the curve's other end
 		std::vector<Crossing> crossings; ///< empty where the curve is an edge
 	};
@@ -62,15 +62,16 @@ private:
 	};
 
 	Corners cornersOf(int h) const;
-	int     flipped(int e) const;
-	void    updateRoundabout(int h);
+	int flipped(int e) const;
+	void updateRoundabout(int h);
 
-	Triangulation    m_triangulation;
+	Triangulation m_triangulation;
 	std::vector<int> m_crossings; // [edge]; -1 where the edge is a curve
-	std::vector<int> m_roundabout; // [halfedge] rank, at its origin, of the first curve at or after it
-	std::vector<int> m_degree;     // [vertex] original halfedges that start there
-	std::vector<int> m_start;      // [vertex] into m_ranked
-	std::vector<int> m_ranked;     // original halfedges, counter-clockwise round each vertex
+	std::vector<int>
+		m_roundabout;          // [halfedge] rank, at its origin, of the first curve at or after it
+	std::vector<int> m_degree; // [vertex] original halfedges that start there
+	std::vector<int> m_start;  // [vertex] into m_ranked
+	std::vector<int> m_ranked; // original halfedges, counter-clockwise round each vertex
 };
 
 } // namespace ricci

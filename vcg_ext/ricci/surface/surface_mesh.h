@@ -7,14 +7,14 @@
 
 namespace ricci {
 
-using Point3   = std::array<double, 3>;
+using Point3 = std::array<double, 3>;
 using Triangle = std::array<int, 3>;
 
 /// A triangle soup with shared vertices, as the rim hands it over. Positions are only read for
 /// lengths and distances; the flow itself never sees them.
 struct SurfaceMesh
 {
-	std::vector<Point3>   positions;
+	std::vector<Point3> positions;
 	std::vector<Triangle> triangles; ///< indices into positions
 };
 

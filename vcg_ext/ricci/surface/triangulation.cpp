@@ -28,8 +28,8 @@ std::vector<int> sidesByVertexPair(const std::vector<Triangle>& triangles)
 	struct Side
 	{
 		std::int64_t low, high;
-		int          index;
-		bool         ascending;
+		int index;
+		bool ascending;
 	};
 	std::vector<Side> sides;
 	sides.reserve(3 * triangles.size());
@@ -39,9 +39,9 @@ std::vector<int> sidesByVertexPair(const std::vector<Triangle>& triangles)
 			sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(3 * f + k), a < b});
 		}
 	std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-		return a.low != b.low   ? a.low < b.low :
-			   a.high != b.high ? a.high < b.high :
-								  a.index < b.index;
+		return a.low != b.low     ? a.low < b.low
+			   : a.high != b.high ? a.high < b.high
+								  : a.index < b.index;
 	});
 	std::vector<int> glued(sides.size(), -1);
 	for (std::size_t first = 0, last; first < sides.size(); first = last) {
@@ -54,7 +54,7 @@ std::vector<int> sidesByVertexPair(const std::vector<Triangle>& triangles)
 			throw InvalidMesh(
 				"The edge between vertices " + std::to_string(sides[first].low) + " and " +
 				std::to_string(sides[first].high) + " is not shared by two coherent triangles.");
-		glued[at(sides[first].index)]     = sides[first + 1].index;
+		glued[at(sides[first].index)] = sides[first + 1].index;
 		glued[at(sides[first + 1].index)] = sides[first].index;
 	}
 	return glued;
@@ -69,9 +69,7 @@ Triangulation::Triangulation(int vertexCount, const std::vector<Triangle>& trian
 }
 
 Triangulation::Triangulation(
-	int                          vertexCount,
-	const std::vector<Triangle>& triangles,
-	const std::vector<int>&      glued) :
+	int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& glued) :
 		m_vertexCount(vertexCount)
 {
 	glue(triangles, glued);
@@ -80,8 +78,8 @@ Triangulation::Triangulation(
 void Triangulation::glue(const std::vector<Triangle>& triangles, const std::vector<int>& glued)
 {
 	const std::size_t sideCount = 3 * triangles.size();
-	std::vector<int>  halfedgeOf(sideCount, -1);
-	int               count = 0;
+	std::vector<int> halfedgeOf(sideCount, -1);
+	int count = 0;
 	for (std::size_t side = 0; side < sideCount; ++side) {
 		if (halfedgeOf[side] >= 0)
 			continue;
@@ -97,10 +95,10 @@ void Triangulation::glue(const std::vector<Triangle>& triangles, const std::vect
 	for (std::size_t f = 0; f < triangles.size(); ++f) {
 		m_faceHalfedge[f] = halfedgeOf[3 * f];
 		for (std::size_t k = 0; k < 3; ++k) {
-			const int h      = halfedgeOf[3 * f + k];
-			m_next[at(h)]    = halfedgeOf[3 * f + (k + 1) % 3];
-			m_origin[at(h)]  = triangles[f][k];
-			m_face[at(h)]    = static_cast<int>(f);
+			const int h = halfedgeOf[3 * f + k];
+			m_next[at(h)] = halfedgeOf[3 * f + (k + 1) % 3];
+			m_origin[at(h)] = triangles[f][k];
+			m_face[at(h)] = static_cast<int>(f);
 			m_origin[at(twin(h))] = triangles[f][(k + 1) % 3];
 		}
 	}
@@ -127,7 +125,7 @@ std::vector<char> Triangulation::boundaryVertices() const
 
 std::vector<int> Triangulation::boundaryLoops() const
 {
-	std::vector<int>  loops;
+	std::vector<int> loops;
 	std::vector<char> seen(m_next.size(), 0);
 	for (int h = 0; h < halfedgeCount(); ++h) {
 		if (!isOuter(h) || seen[at(h)])
@@ -152,17 +150,17 @@ int Triangulation::eulerCharacteristic() const
 void Triangulation::rewire(int h, std::array<int, 4> quad, int from, int to)
 {
 	const int t = twin(h), f = face(h), g = face(t);
-	const std::array<int, 3> left {h, quad[0], quad[1]}, right {t, quad[2], quad[3]};
+	const std::array<int, 3> left{h, quad[0], quad[1]}, right{t, quad[2], quad[3]};
 	for (std::size_t k = 0; k < 3; ++k) {
-		m_next[at(left[k])]  = left[(k + 1) % 3];
-		m_face[at(left[k])]  = f;
+		m_next[at(left[k])] = left[(k + 1) % 3];
+		m_face[at(left[k])] = f;
 		m_next[at(right[k])] = right[(k + 1) % 3];
 		m_face[at(right[k])] = g;
 	}
 	m_faceHalfedge[at(f)] = h;
 	m_faceHalfedge[at(g)] = t;
-	m_origin[at(h)]       = from;
-	m_origin[at(t)]       = to;
+	m_origin[at(h)] = from;
+	m_origin[at(t)] = to;
 }
 
 void Triangulation::flip(int e)

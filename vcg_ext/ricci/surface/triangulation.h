@@ -9,9 +9,9 @@
 
 namespace ricci {
 
-/// Triangles glued along their sides: a connected or disconnected, oriented surface, with or without
-/// boundary. Loops, several edges between the same two vertices and triangles glued to themselves
-/// are legal, so an edge is always named by its index, never by its two vertices.
+/// Triangles glued along their sides: a connected or disconnected, oriented surface, with or
+/// without boundary. Loops, several edges between the same two vertices and triangles glued to
+/// themselves are legal, so an edge is always named by its index, never by its two vertices.
 ///
 /// Halfedges come in pairs: twin(h) = h ^ 1, edge(h) = h >> 1. A halfedge on the outer side of a
 /// boundary edge has face kOutside; the outer halfedges of one boundary loop are linked by next().
@@ -28,13 +28,11 @@ public:
 	/// \throw InvalidMesh if an oriented vertex pair occurs twice.
 	Triangulation(int vertexCount, const std::vector<Triangle>& triangles);
 
-	/// Glues triangles along explicit pairs of sides, for surfaces whose edges are not determined by
-	/// their vertices. Side 3 f + k runs from triangles[f][k] to triangles[f][(k + 1) % 3];
-	/// \p glued[side] is the other side, or -1 on the boundary.
+	/// Glues triangles along explicit pairs of sides, for surfaces whose edges are not determined
+	/// by their vertices. Side 3 f + k runs from triangles[f][k] to triangles[f][(k + 1) % 3]; \p
+	/// glued[side] is the other side, or -1 on the boundary.
 	Triangulation(
-		int                          vertexCount,
-		const std::vector<Triangle>& triangles,
-		const std::vector<int>&      glued);
+		int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& glued);
 
 	int vertexCount() const { return m_vertexCount; }
 	int faceCount() const { return static_cast<int>(m_faceHalfedge.size()); }
@@ -92,7 +90,7 @@ private:
 	void glue(const std::vector<Triangle>& triangles, const std::vector<int>& glued);
 	void rewire(int h, std::array<int, 4> quad, int from, int to);
 
-	int              m_vertexCount = 0;
+	int m_vertexCount = 0;
 	std::vector<int> m_next, m_origin, m_face; // by halfedge
 	std::vector<int> m_faceHalfedge;           // by face
 };

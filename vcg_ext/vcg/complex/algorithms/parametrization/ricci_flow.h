@@ -43,20 +43,21 @@ template<class MeshType>
 class RicciFlow
 {
 public:
-	typedef typename MeshType::ScalarType     ScalarType;
-	typedef typename MeshType::CoordType      CoordType;
-	typedef typename MeshType::VertexType     VertexType;
+	typedef typename MeshType::ScalarType ScalarType;
+	typedef typename MeshType::CoordType CoordType;
+	typedef typename MeshType::VertexType VertexType;
 	typedef typename MeshType::VertexIterator VertexIterator;
-	typedef typename MeshType::FaceType       FaceType;
-	typedef typename MeshType::FaceIterator   FaceIterator;
+	typedef typename MeshType::FaceType FaceType;
+	typedef typename MeshType::FaceIterator FaceIterator;
 
 	/// One point of the plane for each corner of a face.
 	typedef std::array<ricci::Point2, 3> WedgeUV;
 
 	struct Params : public ricci::Options
 	{
-		/// Fit the charts into [0,1]^2, all with one scale and their aspect kept; false: keep the scale
-		/// at which a chart has the area of its component (or its boundary the input's length).
+		/// Fit the charts into [0,1]^2, all with one scale and their aspect kept; false: keep the
+		/// scale at which a chart has the area of its component (or its boundary the input's
+		/// length).
 		bool normalizeUV = true;
 	};
 
@@ -64,13 +65,13 @@ public:
 	/// elements included; their entries mean nothing).
 	struct Result
 	{
-		ricci::Report            report;
-		std::vector<std::string> notes;   ///< what was done without being asked
-		std::vector<WedgeUV>     wedgeUV; ///< [face][corner] charts packed, normalised if asked
-		std::vector<double>      vertexQC; ///< area-weighted mean of sigma1 / sigma2 round the vertex
-		std::vector<double>      faceQC;
-		std::vector<double>      u;               ///< ln radius of the vertex circle
-		std::vector<double>      targetCurvature; ///< radians
+		ricci::Report report;
+		std::vector<std::string> notes; ///< what was done without being asked
+		std::vector<WedgeUV> wedgeUV;   ///< [face][corner] charts packed, normalised if asked
+		std::vector<double> vertexQC;   ///< area-weighted mean of sigma1 / sigma2 round the vertex
+		std::vector<double> faceQC;
+		std::vector<double> u;               ///< ln radius of the vertex circle
+		std::vector<double> targetCurvature; ///< radians
 		/// Common refinement, if asked for; its points and faces index the mesh's vertex and face
 		/// vectors, its points beyond them are new.
 		ricci::RefinedMesh refined;
@@ -81,26 +82,26 @@ public:
 	/// \throw ricci::Error and its derived classes, with a sentence for the user
 	static Result Compute(const MeshType& m, const Params& par, ricci::Progress& progress)
 	{
-		std::vector<int>        faceIndex; // [compact] -> index in m.face
-		const ricci::SurfaceMesh mesh  = ReadSurface(m, faceIndex);
+		std::vector<int> faceIndex; // [compact] -> index in m.face
+		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex);
 		const ricci::VertexInput input = ReadVertexInput(m, par);
-		ricci::Parametrization   flat  = ricci::parametrizeEuclidean(mesh, input, par, progress);
+		ricci::Parametrization flat = ricci::parametrizeEuclidean(mesh, input, par, progress);
 
 		Result r;
 		r.report = flat.report;
-		r.notes  = flat.notes;
+		r.notes = flat.notes;
 		PackCharts(flat, par.normalizeUV);
 		CountFlippedByRounding(flat, r.report);
 		r.wedgeUV.resize(m.face.size());
 		r.faceQC.assign(m.face.size(), 1.0);
 		for (size_t f = 0; f < faceIndex.size(); ++f) {
 			r.wedgeUV[size_t(faceIndex[f])] = flat.uv[f];
-			r.faceQC[size_t(faceIndex[f])]  = flat.faceQC[f];
+			r.faceQC[size_t(faceIndex[f])] = flat.faceQC[f];
 		}
-		r.vertexQC        = std::move(flat.vertexQC);
-		r.u               = std::move(flat.u);
+		r.vertexQC = std::move(flat.vertexQC);
+		r.u = std::move(flat.u);
 		r.targetCurvature = std::move(flat.targetCurvature);
-		r.refined         = std::move(flat.refined);
+		r.refined = std::move(flat.refined);
 		for (int& f : r.refined.inputFace)
 			f = faceIndex[size_t(f)];
 		return r;
@@ -132,21 +133,21 @@ public:
 			if (m.vert[v].IsD())
 				continue;
 			m.vert[v].Q() = typename VertexType::QualityType(r.vertexQC[v]);
-			u[v]          = ScalarType(r.u[v]);
-			target[v]     = ScalarType(r.targetCurvature[v]);
+			u[v] = ScalarType(r.u[v]);
+			target[v] = ScalarType(r.targetCurvature[v]);
 		}
 	}
 
-	/// Replaces the faces of \p m by those of the common refinement. New vertices take position, normal,
-	/// colour and texture coordinate from the input's face by interpolation and the distortion as
-	/// quality; a face keeps its number for its first piece, and every piece copies its face's data.
-	/// Wedge texture coordinates must be enabled; adjacency becomes invalid.
+	/// Replaces the faces of \p m by those of the common refinement. New vertices take position,
+	/// normal, colour and texture coordinate from the input's face by interpolation and the
+	/// distortion as quality; a face keeps its number for its first piece, and every piece copies
+	/// its face's data. Wedge texture coordinates must be enabled; adjacency becomes invalid.
 	static void WriteRefinement(MeshType& m, const Result& r)
 	{
 		RequirePerFaceWedgeTexCoord(m);
 		RequirePerVertexQuality(m);
 		const ricci::RefinedMesh& refined = r.refined;
-		const size_t              oldVertices = m.vert.size(), oldFaces = m.face.size();
+		const size_t oldVertices = m.vert.size(), oldFaces = m.face.size();
 		if (refined.points.size() > oldVertices)
 			Allocator<MeshType>::AddVertices(m, refined.points.size() - oldVertices);
 		typename MeshType::template PerVertexAttributeHandle<ScalarType> u =
@@ -156,7 +157,7 @@ public:
 				m, "ricci_target_curvature");
 		for (size_t v = 0; v < oldVertices; ++v)
 			if (!m.vert[v].IsD()) {
-				u[v]      = ScalarType(r.u[v]);
+				u[v] = ScalarType(r.u[v]);
 				target[v] = ScalarType(r.targetCurvature[v]);
 			}
 		for (size_t v = oldVertices; v < refined.points.size(); ++v) {
@@ -164,7 +165,7 @@ public:
 			double logRadius = 0.0;
 			for (size_t i = 0; i < 4; ++i)
 				logRadius += refined.points[v].weight[i] * r.u[size_t(refined.points[v].vertex[i])];
-			u[v]      = ScalarType(logRadius);
+			u[v] = ScalarType(logRadius);
 			target[v] = ScalarType(0);
 		}
 		for (size_t v = 0; v < refined.points.size(); ++v)
@@ -172,13 +173,13 @@ public:
 				m.vert[v].Q() = typename VertexType::QualityType(refined.vertexQC[v]);
 
 		// The first piece of a face takes its place, the others are appended.
-		std::vector<int>  slot(refined.triangles.size(), -1);
+		std::vector<int> slot(refined.triangles.size(), -1);
 		std::vector<char> taken(oldFaces, 0);
-		size_t            added = 0;
+		size_t added = 0;
 		for (size_t i = 0; i < refined.triangles.size(); ++i) {
 			const size_t f = size_t(refined.inputFace[i]);
-			slot[i]        = taken[f] ? int(oldFaces + added++) : int(f);
-			taken[f]       = 1;
+			slot[i] = taken[f] ? int(oldFaces + added++) : int(f);
+			taken[f] = 1;
 		}
 		if (added > 0)
 			Allocator<MeshType>::AddFaces(m, added);
@@ -193,27 +194,27 @@ public:
 		}
 	}
 
-	/// Fills the empty mesh \p flat with the layout: its vertices are the vertices of \p m, once for
-	/// each place they have in the plane, at z = 0, with their quality; wedge texture coordinates are
-	/// written where they are enabled on \p flat.
+	/// Fills the empty mesh \p flat with the layout: its vertices are the vertices of \p m, once
+	/// for each place they have in the plane, at z = 0, with their quality; wedge texture
+	/// coordinates are written where they are enabled on \p flat.
 	static void BuildFlatMesh(const MeshType& m, const Result& r, MeshType& flat)
 	{
 		typedef std::pair<size_t, ricci::Point2> Place; // vertex, point
-		std::map<Place, size_t>                  index;
-		std::vector<Place>                       places;
-		std::vector<std::array<size_t, 3>>       faces;
+		std::map<Place, size_t> index;
+		std::vector<Place> places;
+		std::vector<std::array<size_t, 3>> faces;
 		const auto addFace = [&](const std::array<size_t, 3>& vertex, const WedgeUV& uv) {
 			std::array<size_t, 3> corner;
 			for (size_t k = 0; k < 3; ++k) {
 				const Place place(vertex[k], uv[k]);
-				const auto  found = index.insert(std::make_pair(place, places.size()));
+				const auto found = index.insert(std::make_pair(place, places.size()));
 				if (found.second)
 					places.push_back(place);
 				corner[k] = found.first->second;
 			}
 			faces.push_back(corner);
 		};
-		const bool                 refined = !r.refined.triangles.empty();
+		const bool refined = !r.refined.triangles.empty();
 		const std::vector<double>& quality = refined ? r.refined.vertexQC : r.vertexQC;
 		for (size_t i = 0; i < r.refined.triangles.size(); ++i) {
 			const ricci::Triangle& t = r.refined.triangles[i];
@@ -222,13 +223,15 @@ public:
 		for (size_t f = 0; f < m.face.size() && !refined; ++f)
 			if (!m.face[f].IsD())
 				addFace(
-					{Index(m, m.face[f].cV(0)), Index(m, m.face[f].cV(1)), Index(m, m.face[f].cV(2))},
+					{Index(m, m.face[f].cV(0)),
+					 Index(m, m.face[f].cV(1)),
+					 Index(m, m.face[f].cV(2))},
 					r.wedgeUV[f]);
 		Allocator<MeshType>::AddVertices(flat, places.size());
 		for (size_t i = 0; i < places.size(); ++i) {
 			const ricci::Point2& p = places[i].second;
-			flat.vert[i].P()       = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(0));
-			flat.vert[i].N()       = CoordType(0, 0, 1);
+			flat.vert[i].P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(0));
+			flat.vert[i].N() = CoordType(0, 0, 1);
 			flat.vert[i].Q() = typename VertexType::QualityType(quality[places[i].first]);
 		}
 		FaceIterator fi = Allocator<MeshType>::AddFaces(flat, faces.size());
@@ -314,7 +317,7 @@ private:
 	static ricci::VertexInput ReadVertexInput(const MeshType& m, const Params& par)
 	{
 		typedef typename VertexType::QualityType QualityType;
-		ricci::VertexInput                       input;
+		ricci::VertexInput input;
 		if (par.target == ricci::TargetCurvature::Rectangle ||
 			par.target == ricci::TargetCurvature::SelectedCones)
 			for (size_t v = 0; v < m.vert.size(); ++v)
@@ -381,21 +384,21 @@ private:
 						x = std::min(std::max(x, 0.0), 1.0);
 	}
 
-	/// vcglib's rectangle packer on a grid fine enough for the number of boxes. It refuses what does
-	/// not fit, so the wanted occupancy is lowered until it agrees.
+	/// vcglib's rectangle packer on a grid fine enough for the number of boxes. It refuses what
+	/// does not fit, so the wanted occupancy is lowered until it agrees.
 	static std::vector<Similarity2<double>> PackBoxes(const std::vector<Box>& boxes)
 	{
 		const int grid = std::max(256, 16 * int(std::ceil(std::sqrt(double(boxes.size())))));
-		double    area = 0.0, longest = 0.0;
+		double area = 0.0, longest = 0.0;
 		for (const Box& box : boxes) {
 			area += box.DimX() * box.DimY();
 			longest = std::max(longest, std::max(box.DimX(), box.DimY()));
 		}
 		// A box must stay below the grid's own size.
 		const double most = (grid - 2) / longest / grid * std::sqrt(area);
-		double       occupancy = std::min(0.9, most * most);
+		double occupancy = std::min(0.9, most * most);
 		std::vector<Similarity2<double>> place;
-		Point2d                          covered;
+		Point2d covered;
 		while (!RectPacker<double>::PackOccupancy(
 			boxes, Point2i(grid, grid), occupancy, place, covered))
 			occupancy *= 0.85;
