@@ -26,8 +26,9 @@ struct PlanarLayout
 
 /// Unfolds the triangles one after another across the edges with isCut 0, which must leave the
 /// surface connected and simply connected, along the tree that loses least to rounding.
-/// Counter-clockwise triangles stay counter-clockwise. \param lengths [edge] Euclidean, \param
-/// angles [halfedge] radians, at the halfedge's origin
+/// Counter-clockwise triangles stay counter-clockwise.
+/// \param lengths [edge] Euclidean
+/// \param angles [halfedge] radians, at the halfedge's origin
 PlanarLayout layOutInPlane(
 	const Triangulation& t,
 	const std::vector<double>& lengths,

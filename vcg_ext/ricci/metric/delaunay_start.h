@@ -31,7 +31,8 @@ struct DelaunayStart
 /// tell, or have a side a million times shorter than another), adds one constant to all lengths, so
 /// large that in those triangles every two sides exceed the third by 1e-5 of their longest
 /// (intrinsic mollification, Sharp and Crane 2020). No face is lost, and no length changes by more
-/// than the constant. \return the constant, 0 where no triangle is degenerate
+/// than the constant.
+/// \return the constant, 0 where no triangle is degenerate
 double mollify(const Triangulation& t, std::vector<double>& lengths);
 
 /// Length of the other diagonal of the two plane triangles at edge \p e.
@@ -39,8 +40,9 @@ double flippedLength(const IntrinsicMesh& mesh, int e);
 
 /// Flips to the intrinsic Delaunay triangulation of the metric, then, with half the initial
 /// radii of that, to the weighted one. Degenerate triangles are given a little area first
-/// (mollify()). Radii are lowered further where circles would touch. \param mirror [vertex] the
-/// vertex whose radius must be the same (its image in a double, or itself); may be empty
+/// (mollify()). Radii are lowered further where circles would touch.
+/// \param mirror [vertex] the vertex whose radius must be the same (its image in a double, or
+/// itself); may be empty
 DelaunayStart delaunayStart(IntrinsicMesh mesh, const std::vector<int>& mirror);
 
 } // namespace ricci
