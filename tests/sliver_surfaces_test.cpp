@@ -7,7 +7,10 @@
 #include "support/shapes.h"
 
 #include <ricci/error.h>
+#include <ricci/layout/common_refinement.h>
+#include <ricci/layout/distortion.h>
 #include <ricci/parametrize.h>
+#include <ricci/surface/triangulation.h>
 
 #include <gtest/gtest.h>
 
@@ -24,6 +27,12 @@ VertexInput randomCones(const SurfaceMesh& mesh, int count, Random& random)
 	for (int i = 0; i < count; ++i)
 		input.selected[at(random.index(static_cast<int>(mesh.positions.size())))] = 1;
 	return input;
+}
+
+double areaOf(const SurfaceMesh& mesh, const Triangle& t)
+{
+	return triangleArea(
+		{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]});
 }
 
 struct Case
@@ -123,6 +132,41 @@ TEST(SliverSurfaces, EdgeSwapsMendWhatBreaks)
 		}
 	EXPECT_GT(mended, 3);
 	EXPECT_GT(swapped, 3);
+}
+
+TEST(SliverSurfaces, IntrinsicFlipsSolveAll)
+{
+	for (std::uint64_t seed : {1, 2, 3})
+		for (Case& c : cases(seed)) {
+			SCOPED_TRACE(c.name + ", seed " + std::to_string(seed));
+			c.options.surgery = Surgery::IntrinsicFlips;
+			c.options.output = OutputTriangulation::CommonRefinement;
+			const Parametrization flat = run(c.mesh, c.options, c.input);
+			const RefinedMesh& pieces = flat.refined;
+			EXPECT_TRUE(flat.report.converged);
+			EXPECT_EQ(flat.report.brokenTriangles, 0);
+			EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+			EXPECT_EQ(flat.report.flippedFaces, 0);
+			EXPECT_GT(flat.report.flips, 0);
+			// The refinement is the same surface, whole and flat off the cones.
+			SurfaceMesh refined;
+			for (const SurfacePoint& p : pieces.points)
+				refined.positions.push_back(placeOnSurface(p, c.mesh.positions));
+			refined.triangles = pieces.triangles;
+			const Triangulation t(static_cast<int>(refined.positions.size()), refined.triangles);
+			EXPECT_EQ(t.eulerCharacteristic(), flat.report.eulerCharacteristic);
+			EXPECT_EQ(static_cast<int>(t.boundaryLoops().size()), c.loops);
+			std::vector<double> target = flat.targetCurvature;
+			target.resize(refined.positions.size(), 0.0);
+			const FlatMap map(refined, pieces.uv);
+			EXPECT_LT(map.insideError(target), 1e-6);
+			double inputArea = 0.0, area = 0.0;
+			for (const Triangle& f : c.mesh.triangles)
+				inputArea += areaOf(c.mesh, f);
+			for (const Triangle& f : refined.triangles)
+				area += areaOf(refined, f);
+			EXPECT_NEAR(area / inputArea, 1.0, 1e-12);
+		}
 }
 
 TEST(SliverSurfaces, EdgeSwapChangesNothingWhereNothingBreaks)

@@ -93,7 +93,7 @@ TEST(ConformalFlip, OrthogonalCirclesInThePlaneGiveTheOtherDiagonal)
 	// where flipping in the conformal class is flipping in the plane.
 	Random random(31);
 	int cases = 0;
-	while (cases < 500) {
+	while (cases < 100) {
 		std::array<Point3, 4> p; // i, l, j, k counter-clockwise round the origin
 		std::array<double, 4> radius;
 		const double power = random.real(0.1, 0.95);
