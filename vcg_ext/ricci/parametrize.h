@@ -50,13 +50,13 @@ struct Parametrization
 	std::vector<Chart> charts;
 	std::vector<std::array<Point2, 3>> uv; ///< [face][corner]; each chart with its least bounding
 										   ///< rectangle along the axes, from the origin
-	std::vector<char> reversed;          ///< [face] 1 if the face was turned round
-	std::vector<double> faceQC;          ///< sigma1 / sigma2
-	std::vector<double> vertexQC;        ///< area-weighted mean over the faces at the vertex
-	std::vector<double> u;               ///< [vertex] ln radius; 0 at unused vertices
-	std::vector<double> targetCurvature; ///< [vertex] radians, as reached
-	RefinedMesh refined;                 ///< filled for OutputTriangulation::CommonRefinement;
-						 ///< the report's qc fields and flippedFaces then are its own
+	std::vector<char> reversed;            ///< [face] 1 if the face was turned round
+	std::vector<double> faceQC;            ///< sigma1 / sigma2
+	std::vector<double> vertexQC;          ///< area-weighted mean over the faces at the vertex
+	std::vector<double> u;                 ///< [vertex] ln radius; 0 at unused vertices
+	std::vector<double> targetCurvature;   ///< [vertex] radians, as reached
+	RefinedMesh refined;                   ///< filled for OutputTriangulation::CommonRefinement;
+		///< the report's qc fields and flippedFaces then are its own
 };
 
 /// The Euclidean generalized Ricci flow from a mesh to the plane, component by component: circle

@@ -78,6 +78,12 @@ double NewtonSolver::residual(const Eigen::VectorXd& target)
 			return std::numeric_limits<double>::infinity();
 		largest = std::max(largest, std::abs(m_gradient[v]));
 	}
+	if (m_gaugeFree) {
+		// By Gauss-Bonnet the gradient adds up to 0 but for the rounding of the target's sum, which
+		// the pinned vertex would have to bear alone.
+		m_gradient.array() -= m_gradient.mean();
+		largest = m_gradient.lpNorm<Eigen::Infinity>();
+	}
 	return largest;
 }
 
