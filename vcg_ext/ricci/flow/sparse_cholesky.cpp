@@ -26,6 +26,8 @@ struct SparseCholesky::Implementation
 		solver.cholmod().postorder = 1;
 		solver.cholmod().print = 0;
 	}
+
+	bool succeeded() const { return solver.info() == Eigen::Success; }
 };
 
 const char* SparseCholesky::name()
@@ -38,6 +40,12 @@ const char* SparseCholesky::name()
 struct SparseCholesky::Implementation
 {
 	Eigen::SimplicialLDLT<Matrix, Eigen::Lower> solver;
+
+	/// LDLT goes through negative pivots without complaint.
+	bool succeeded() const
+	{
+		return solver.info() == Eigen::Success && (solver.vectorD().array() > 0.0).all();
+	}
 };
 
 const char* SparseCholesky::name()
@@ -63,7 +71,7 @@ void SparseCholesky::analyze(const Matrix& pattern)
 bool SparseCholesky::factorize(const Matrix& matrix)
 {
 	m_implementation->solver.factorize(matrix);
-	return m_implementation->solver.info() == Eigen::Success;
+	return m_implementation->succeeded();
 }
 
 void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
