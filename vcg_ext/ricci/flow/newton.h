@@ -50,6 +50,9 @@ public:
 	/// with the present factorisation: the same equations in other precision.
 	void continueOn(CurvatureMap& map);
 
+	/// [vertex] Part of u below the last place of its doubles, as the last solve left it.
+	const Eigen::VectorXd& rest() const { return m_rest; }
+
 	/// Solves from \p u, which holds the solution afterwards (to its last place; the map is left at
 	/// the solution's full precision, from which a further call with the same \p u goes on). \p
 	/// target: K at each vertex, radians. \p report is called with the iteration number and the
