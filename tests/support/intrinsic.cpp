@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "intrinsic.h"
+
+#include "shapes.h"
+
+#include <ricci/metric/circle_packing.h>
+
+#include <array>
+#include <cmath>
+
+namespace ricci::testing {
+
+namespace {
+
+constexpr long double kPi = 3.14159265358979323846264338327950288L;
+
+/// Least angle that a side of the quad may turn by at the ends of a flipped edge.
+constexpr long double kConvexityMargin = 1e-3L;
+
+/// Corner between sides a and b of a triangle, opposite c.
+struct Corner
+{
+	long double angle, cotangent;
+	bool valid;
+};
+
+/// Kahan's triangle: the products are formed so that nothing is lost to cancellation.
+Corner cornerOf(long double a, long double b, long double c)
+{
+	if (a < b)
+		std::swap(a, b);
+	const long double difference = a - b;
+	const long double mu = c > b ? b - (a - c) : c - difference;
+	const long double sine = (difference + c) * mu, cosine = (a + (b + c)) * ((a - c) + b);
+	const bool valid = sine > 0 && cosine > 0;
+	if (!valid)
+		return {0, 0, false};
+	const long double half = std::sqrt(sine / cosine); // tan(angle / 2)
+	return {2 * std::atan(half), (1 / half - half) / 2, true};
+}
+
+long double cornerAt(const IntrinsicMesh& mesh, int h)
+{
+	const Triangulation& t = mesh.triangulation;
+	const auto length = [&](int g) { return mesh.lengths[at(Triangulation::edge(g))]; };
+	return cornerOf(length(h), length(t.previous(h)), length(t.next(h))).angle;
+}
+
+Point3 onCircle(int i, int n)
+{
+	const double a = 2 * static_cast<double>(kPi) * i / n;
+	return {std::cos(a), std::sin(a), 0.0};
+}
+
+} // namespace
+
+Triangulation glued(const SurfaceMesh& mesh)
+{
+	return Triangulation(static_cast<int>(mesh.positions.size()), mesh.triangles);
+}
+
+IntrinsicMesh intrinsicMesh(const SurfaceMesh& mesh)
+{
+	const Triangulation t = glued(mesh);
+	return {t, edgeLengths(t, mesh.positions)};
+}
+
+Triangulation oneVertexTorus()
+{
+	// Sides 0..2 of the first triangle are bottom, right, diagonal; of the second: top, left,
+	// diagonal.
+	return Triangulation(1, {{0, 0, 0}, {0, 0, 0}}, {3, 4, 5, 0, 1, 2});
+}
+
+MetricMeasure::MetricMeasure(const Triangulation& t, const std::vector<double>& lengths) :
+		curvature(at(t.vertexCount()), 2 * kPi), cotangent(at(t.edgeCount()), 0.0L)
+{
+	const std::vector<char> boundary = t.boundaryVertices();
+	for (std::size_t v = 0; v < boundary.size(); ++v)
+		if (boundary[v])
+			curvature[v] = kPi;
+	for (int f = 0; f < t.faceCount(); ++f) {
+		const auto h = t.halfedges(f);
+		std::array<long double, 3> l;
+		for (std::size_t k = 0; k < 3; ++k)
+			l[k] = lengths[at(Triangulation::edge(h[k]))];
+		bool valid = true;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Corner c = cornerOf(l[k], l[(k + 2) % 3], l[(k + 1) % 3]);
+			valid &= c.valid;
+			curvature[at(t.origin(h[k]))] -= c.angle;
+			cotangent[at(Triangulation::edge(h[(k + 1) % 3]))] += c.cotangent;
+			if (k == 0)
+				area += l[0] * l[2] * std::sin(c.angle) / 2;
+		}
+		broken += !valid;
+	}
+}
+
+std::vector<double> curvatureInSpace(const SurfaceMesh& mesh)
+{
+	const IntrinsicMesh m = intrinsicMesh(mesh);
+	const MetricMeasure measure(m.triangulation, m.lengths);
+	std::vector<double> curvature;
+	for (long double k : measure.curvature)
+		curvature.push_back(static_cast<double>(k));
+	return curvature;
+}
+
+std::vector<int> flipIsometrically(IntrinsicMesh& mesh, int attempts, Random& random)
+{
+	Triangulation& t = mesh.triangulation;
+	std::vector<int> flipped;
+	for (int i = 0; i < attempts; ++i) {
+		const int e = random.index(t.edgeCount());
+		if (!t.isFlippable(e))
+			continue;
+		const int h = 2 * e, g = 2 * e + 1;
+		const long double start = cornerAt(mesh, h) + cornerAt(mesh, t.next(g));
+		const long double end = cornerAt(mesh, g) + cornerAt(mesh, t.next(h));
+		if (start > kPi - kConvexityMargin || end > kPi - kConvexityMargin)
+			continue;
+		const long double a = mesh.lengths[at(Triangulation::edge(t.previous(h)))];
+		const long double b = mesh.lengths[at(Triangulation::edge(t.next(g)))];
+		const long double sine = std::sin(start / 2);
+		mesh.lengths[at(e)] =
+			static_cast<double>(std::sqrt((a - b) * (a - b) + 4 * a * b * sine * sine));
+		t.flip(e);
+		flipped.push_back(e);
+	}
+	return flipped;
+}
+
+SurfaceMesh fan(int sides, double height)
+{
+	SurfaceMesh mesh;
+	for (int i = 0; i < sides; ++i) {
+		mesh.positions.push_back(onCircle(i, sides));
+		mesh.triangles.push_back({i, (i + 1) % sides, sides});
+	}
+	mesh.positions.push_back({0.0, 0.0, height});
+	return mesh;
+}
+
+SurfaceMesh bipyramid(int sides, double height)
+{
+	SurfaceMesh mesh = fan(sides, height);
+	mesh.positions.push_back({0.0, 0.0, -height});
+	for (int i = 0; i < sides; ++i)
+		mesh.triangles.push_back({(i + 1) % sides, i, sides + 1});
+	return mesh;
+}
+
+} // namespace ricci::testing

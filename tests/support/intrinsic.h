@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_TESTS_INTRINSIC_H
+#define RICCI_TESTS_INTRINSIC_H
+
+#include "random.h"
+
+#include <ricci/metric/delaunay_start.h>
+#include <ricci/surface/surface_mesh.h>
+#include <ricci/surface/triangulation.h>
+
+#include <vector>
+
+namespace ricci::testing {
+
+Triangulation glued(const SurfaceMesh& mesh);
+
+/// The metric that a mesh has in space.
+IntrinsicMesh intrinsicMesh(const SurfaceMesh& mesh);
+
+/// A square with opposite sides glued: two triangles, three edges, one vertex.
+Triangulation oneVertexTorus();
+
+/// What the lengths of a triangulation's edges say of it, in extended precision and by formulas of
+/// its own, so that nothing of the core is trusted.
+struct MetricMeasure
+{
+	std::vector<long double> curvature; ///< [vertex] 2 pi (boundary: pi) less the angles
+	std::vector<long double> cotangent; ///< [edge] sum of the cotangents of the opposite angles
+	long double area = 0.0L;
+	int broken = 0; ///< triangles without the strict triangle inequality
+
+	MetricMeasure(const Triangulation& t, const std::vector<double>& lengths);
+};
+
+/// Curvature of the surface that a mesh is in space.
+std::vector<double> curvatureInSpace(const SurfaceMesh& mesh);
+
+/// Flips random edges, \p attempts times where the two triangles form a quad that is convex by a
+/// margin; the metric stays the same. Returns the flipped edges in order.
+std::vector<int> flipIsometrically(IntrinsicMesh& mesh, int attempts, Random& random);
+
+/// Cone over a polygon with \p sides sides; a second, lower apex closes it.
+SurfaceMesh fan(int sides, double height);
+SurfaceMesh bipyramid(int sides, double height);
+
+} // namespace ricci::testing
+
+#endif
