@@ -5,6 +5,7 @@
 #include "mesh_file.h"
 #include "obj_writer.h"
 
+#include <ricci/layout/common_refinement.h>
 #include <ricci/parametrize.h>
 
 #include <cstdio>
@@ -24,6 +25,7 @@ const char* const kUsage =
 	"  --target T           automatic, flat, disk, rectangle; may be given several times\n"
 	"  --surgery S          none, swap, flips\n"
 	"  --packing P          inversive, thurston\n"
+	"  --refine             give the map on the common refinement (surgery flips)\n"
 	"  --prescribe-boundary free_boundary off\n"
 	"  --epsilon X          radians\n"
 	"  --max-iterations N\n"
@@ -98,6 +100,8 @@ Arguments parse(int argc, char** argv)
 				value(),
 				{{"inversive", PackingScheme::InversiveDistance},
 				 {"thurston", PackingScheme::Thurston}});
+		else if (word == "--refine")
+			a.options.output = OutputTriangulation::CommonRefinement;
 		else if (word == "--prescribe-boundary")
 			a.options.freeBoundary = false;
 		else if (word == "--epsilon")
@@ -138,7 +142,8 @@ void printHeader()
 {
 	std::puts(
 		"mesh\ttarget\tV\tF\tcomponents\tchi\tgenus\tloops\titerations\tresidual\tfloor\tqc_mean\t"
-		"qc_vertex_mean\tqc_area_mean\tqc_p99\tqc_max\tflipped\tswaps\tsplits\tbroken\tseam_edges\t"
+		"qc_vertex_mean\tqc_area_mean\tqc_p99\tqc_max\tflipped\tflipped_float\tflips\tadded_"
+		"points\tswaps\tsplits\tbroken\tseam_edges\t"
 		"seam_mismatch\ttau_re\ttau_im\tmodulus\taspect\trefused");
 }
 
@@ -152,11 +157,13 @@ std::string number(const std::optional<double>& x)
 	return text;
 }
 
-void printResult(const SurfaceMesh& mesh, const Parametrization& flat)
+/// \p drawn, \p uv: the input or its refinement, with its map.
+void printResult(const Parametrization& flat, const SurfaceMesh& drawn, const testing::UV& uv)
 {
 	const Report& r = flat.report;
 	std::printf(
-		"\t%d\t%d\t%d\t%d\t%d\t%.2e\t%.2e\t%.4f\t%.4f\t%.4f\t%.3f\t%.4g\t%d\t%d\t%d\t%d\t%d\t",
+		"\t%d\t%d\t%d\t%d\t%d\t%.2e\t%.2e\t%.4f\t%.4f\t%.4f\t%.3f\t%.4g\t%d\t%d\t%d\t%d\t%d\t%d\t%"
+		"d\t%d\t",
 		r.components,
 		r.eulerCharacteristic,
 		r.genus,
@@ -170,6 +177,9 @@ void printResult(const SurfaceMesh& mesh, const Parametrization& flat)
 		r.qcP99,
 		r.qcMax,
 		r.flippedFaces,
+		r.flippedFaces + r.flippedByRounding,
+		r.flips,
+		r.refinementPoints,
 		r.edgeSwaps,
 		r.boundarySplits,
 		r.brokenTriangles,
@@ -179,7 +189,7 @@ void printResult(const SurfaceMesh& mesh, const Parametrization& flat)
 	for (char reversed : flat.reversed)
 		coherent &= reversed == 0;
 	if (coherent)
-		std::printf("%.1e", testing::FlatMap(mesh, flat.uv).seamMismatch);
+		std::printf("%.1e", testing::FlatMap(drawn, uv).seamMismatch);
 	else
 		std::printf("-");
 	std::printf(
@@ -202,19 +212,31 @@ bool addRow(const Arguments& a, const std::string& path, const NamedTarget& targ
 		Options options = a.options;
 		options.target = target.value;
 		Listener listener(a.verbose);
+		SurfaceMesh drawn;
+		testing::UV uv;
 		const Parametrization flat = parametrizeEuclidean(mesh, {}, options, listener);
-		printResult(mesh, flat);
+		if (options.output == OutputTriangulation::CommonRefinement) {
+			for (const SurfacePoint& p : flat.refined.points)
+				drawn.positions.push_back(placeOnSurface(p, mesh.positions));
+			drawn.triangles = flat.refined.triangles;
+			uv = flat.refined.uv;
+		}
+		else {
+			drawn = mesh;
+			uv = flat.uv;
+		}
+		printResult(flat, drawn, uv);
 		for (const std::string& note : flat.notes)
 			listener.log(note);
 		if (!a.objFolder.empty())
 			testing::writeObj(
 				(std::filesystem::path(a.objFolder) / (name + "." + target.name + ".obj")).string(),
-				mesh,
-				flat.uv);
+				drawn,
+				uv);
 		return true;
 	}
 	catch (const std::exception& error) {
-		for (int column = 0; column < 22; ++column)
+		for (int column = 0; column < 25; ++column)
 			std::printf("\t-");
 		std::printf("\t%s\n", error.what());
 		return false;
