@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 namespace ricci::testing {
 
@@ -42,6 +43,10 @@ FlatMap::FlatMap(const SurfaceMesh& mesh, const UV& uv)
 			curvature[at(t.origin(h[k]))] -=
 				std::abs(std::arg((p[(k + 2) % 3] - p[k]) / (p[(k + 1) % 3] - p[k])));
 	}
+	// What the coordinates' own last places make of a length.
+	double rounding = 0.0;
+	for (const Complex& p : place)
+		rounding = std::max(rounding, 8 * std::numeric_limits<double>::epsilon() * std::abs(p));
 	for (int e = 0; e < t.edgeCount(); ++e) {
 		if (t.isBoundaryEdge(e))
 			continue;
@@ -51,7 +56,8 @@ FlatMap::FlatMap(const SurfaceMesh& mesh, const UV& uv)
 		if (a == c && b == d)
 			continue;
 		++seamEdges;
-		seamMismatch = std::max(seamMismatch, std::abs(std::abs(b - a) / std::abs(d - c) - 1.0));
+		const double difference = std::abs(std::abs(b - a) - std::abs(d - c));
+		seamMismatch = std::max(seamMismatch, (difference - rounding) / std::abs(d - c));
 	}
 }
 

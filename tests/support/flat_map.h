@@ -15,8 +15,9 @@ using UV = std::vector<std::array<Point2, 3>>;
 /// oriented.
 struct FlatMap
 {
-	double seamMismatch = 0.0; ///< relative difference of an edge's lengths on its two sides
-	int seamEdges = 0;         ///< edges whose two sides lie at different places
+	double seamMismatch =
+		0.0; ///< worst relative difference of a seam's two lengths, beyond the coordinates' rounding
+	int seamEdges = 0; ///< edges whose two sides lie at different places
 	double area = 0.0;
 	std::vector<double> curvature; ///< [vertex] 2 pi (boundary: pi) less the angles in the plane
 	std::vector<char> boundary;    ///< [vertex]

@@ -226,9 +226,10 @@ public:
 				});
 			m_arcs = circle.arcs();
 		}
-		const bool stopped = !m_solved.converged && m_solved.residual < kWorthExtending;
+		const bool stopped = !m_solved.converged && m_solved.residual < kWorthExtending &&
+							 m_map->brokenTriangles() == 0;
 		const bool gaps = m_solved.converged && m_solved.floor > kLargestGap && !isDisk();
-		if (m_flipping && (stopped || gaps))
+		if (stopped || gaps)
 			m_solved = solveExtended();
 		return m_solved.converged;
 	}
@@ -367,14 +368,19 @@ private:
 	/// Goes on from the present state in long double.
 	NewtonResult solveExtended()
 	{
-		using Extended = FlippingCurvatureMap<EuclideanGeometry<long double>>;
-		auto map = std::make_shared<Extended>(m_map->packing());
+		using Real = EuclideanGeometry<long double>;
 		std::vector<int> flips = flowFlips();
-		const Extended* extended = map.get();
+		std::shared_ptr<FlippingCurvatureMap<Real>> flipping;
+		std::shared_ptr<CurvatureMap> map;
+		if (m_flipping)
+			map = flipping = std::make_shared<FlippingCurvatureMap<Real>>(m_map->packing());
+		else
+			map = std::make_shared<GeometricCurvatureMap<Real>>(m_map->packing());
 		m_newton->continueOn(*map);
 		m_map = std::move(map);
-		const auto solved = solveFor(m_options.epsilon);
-		flips.insert(flips.end(), extended->flips().begin(), extended->flips().end());
+		const NewtonResult solved = solveFor(m_options.epsilon);
+		if (flipping)
+			flips.insert(flips.end(), flipping->flips().begin(), flipping->flips().end());
 		m_result.history.flowFlips = std::move(flips);
 		m_flipping = nullptr;
 		return solved;

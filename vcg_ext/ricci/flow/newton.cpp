@@ -68,7 +68,7 @@ void NewtonSolver::continueOn(CurvatureMap& map)
 	m_map = &map;
 }
 
-/// Computes the gradient; returns its largest entry, infinity if it is not finite.
+/// Computes the gradient; returns max |target - K|, infinity if it is not finite.
 double NewtonSolver::residual(const Eigen::VectorXd& target)
 {
 	double largest = 0.0;
@@ -82,7 +82,6 @@ double NewtonSolver::residual(const Eigen::VectorXd& target)
 		// By Gauss-Bonnet the gradient adds up to 0 but for the rounding of the target's sum, which
 		// the pinned vertex would have to bear alone.
 		m_gradient.array() -= m_gradient.mean();
-		largest = m_gradient.lpNorm<Eigen::Infinity>();
 	}
 	return largest;
 }
