@@ -65,7 +65,8 @@ wait_until() {
 # open_meshlab PROGRAM FILE...: from the folder of the files, where textures are looked for.
 open_meshlab() {
 	meshlab_log=$window_folder/meshlab.log
-	"$@" >"$meshlab_log" 2>&1 &
+	: >"$meshlab_log" # here, or the wait below may still read the last run's log
+	"$@" >>"$meshlab_log" 2>&1 &
 	meshlab_pid=$!
 	wait_until 60 grep -q 'All files opened' "$meshlab_log" || return 1
 	main_window=$(xdotool search --onlyvisible --name 'MeshLab 20[0-9][0-9]' | head -n 1)
