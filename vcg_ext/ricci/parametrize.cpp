@@ -7,6 +7,7 @@
 #include "layout/distortion.h"
 #include "layout/invariants.h"
 #include "layout/least_rectangle.h"
+#include "numbers.h"
 #include "surface/component.h"
 
 #include <algorithm>
@@ -25,11 +26,6 @@ constexpr int kMostStarts = 20;
 
 /// Share of a component's progress that is spent before the flow, and after it.
 constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1;
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 std::string text(const char* format, double x)
 {

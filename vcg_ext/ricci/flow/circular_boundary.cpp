@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "circular_boundary.h"
 
+#include "../numbers.h"
+
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -10,8 +12,6 @@
 namespace ricci {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 using Complex = std::complex<double>;
 

@@ -2,26 +2,12 @@
 #include "curvature_map.h"
 
 #include "../metric/euclidean.h"
+#include "../numbers.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace ricci {
-
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-/// pi less the double next to it. Left out, it would add up over the vertices and break
-/// Gauss-Bonnet by as much, all of which a pinned vertex would bear.
-constexpr double kPiRest = 1.2246467991473531772e-16;
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
-
-} // namespace
 
 CurvatureMap::CurvatureMap(CirclePacking packing) :
 		m_packing(std::move(packing)), m_boundary(m_packing.triangulation.boundaryVertices())
@@ -148,6 +134,7 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 			m_curvature[vertex[k]] -= angle[k];
 		}
 	}
+	// Left out, the rest of pi would add up over the vertices and break Gauss-Bonnet by as much.
 	for (int v = 0; v < t.vertexCount(); ++v)
 		m_curvature[v] += m_boundary[at(v)] ? kPiRest : 2.0 * kPiRest;
 }

@@ -2,6 +2,7 @@
 #include "edge_swap.h"
 
 #include "../metric/euclidean.h"
+#include "../numbers.h"
 
 #include <algorithm>
 #include <utility>
@@ -12,11 +13,6 @@ namespace {
 
 /// An edge that is swapped this often is left alone: the remedy has no proof that it ends.
 constexpr int kMostSwapsOfOneEdge = 4;
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 } // namespace
 

@@ -5,6 +5,7 @@
 #include "../layout/invariants.h"
 #include "../layout/unfold.h"
 #include "../metric/euclidean.h"
+#include "../numbers.h"
 #include "../surface/double_surface.h"
 #include "circular_boundary.h"
 #include "edge_swap.h"
@@ -41,11 +42,6 @@ constexpr double kTieWeight = 1e-9;
 
 /// Newton steps given to the surface itself where its double is there to fall back on.
 constexpr int kStepsBeforeDoubling = 40;
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 std::string number(double x)
 {

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hessian.h"
 
+#include "../numbers.h"
+
 #include <algorithm>
 
 namespace ricci {
-
-namespace {
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
-
-} // namespace
 
 void Hessian::layOut(const CurvatureMap& map, const std::vector<int>& unknown, int unknownCount)
 {

@@ -2,6 +2,7 @@
 #include "newton.h"
 
 #include "../error.h"
+#include "../numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,11 +32,6 @@ constexpr int kPolishingSteps = 2;
 
 /// How far the estimate of the rounding floor may be from what is observed.
 constexpr double kFloorUncertainty = 20.0;
-
-std::size_t at(Eigen::Index index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 } // namespace
 

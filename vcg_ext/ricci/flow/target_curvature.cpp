@@ -3,6 +3,7 @@
 
 #include "../error.h"
 #include "../layout/least_rectangle.h"
+#include "../numbers.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -15,16 +16,9 @@ namespace ricci {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Share of sum |K| that rounding may put between a prescribed curvature and Gauss-Bonnet, in
 /// units of the precision of its values.
 constexpr double kRoundingShare = 4.0;
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 std::string number(double x)
 {

@@ -2,6 +2,7 @@
 #include "common_refinement.h"
 
 #include "../error.h"
+#include "../numbers.h"
 #include "../surface/normal_coordinates.h"
 #include "unfold.h"
 
@@ -16,8 +17,6 @@ namespace ricci {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Crossings stay this far from the ends of their edge, relative to its length: rounding must not
 /// put them on a vertex.
 constexpr double kEndGap = 1e-14;
@@ -25,11 +24,6 @@ constexpr double kEndGap = 1e-14;
 /// A crossing with an input edge and one with an end edge that are this near to each other on a
 /// start edge, relative to its length, are one point.
 constexpr double kMergeGap = 1e-12;
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 double mix(double a, double b, double t)
 {

@@ -2,6 +2,7 @@
 #include "cut_graph.h"
 
 #include "../error.h"
+#include "../numbers.h"
 
 #include <algorithm>
 #include <limits>
@@ -16,11 +17,6 @@ namespace {
 constexpr int kRoots = 4;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 /// The edge graph of the surface with every boundary loop drawn together into one node.
 class ContractedGraph

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distortion.h"
 
+#include "../numbers.h"
 #include "orientation.h"
 
 #include <algorithm>
@@ -11,11 +12,6 @@
 namespace ricci {
 
 namespace {
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 /// The triangle drawn in the plane, first corner at 0, second on the positive real axis.
 struct DrawnTriangle

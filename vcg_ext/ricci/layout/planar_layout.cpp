@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planar_layout.h"
 
+#include "../numbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,17 +10,6 @@
 #include <utility>
 
 namespace ricci {
-
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
-
-} // namespace
 
 std::vector<int> cornerSectors(const Triangulation& t, const std::vector<char>& isCut, int& count)
 {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "unfold.h"
 
+#include "../numbers.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace ricci {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 Point2 walk(const Point2& from, double length, double direction)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "circle_packing.h"
 
+#include "../numbers.h"
 #include "euclidean.h"
 
 #include <algorithm>
@@ -11,11 +12,6 @@
 namespace ricci {
 
 namespace {
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 template<class Clamp>
 CirclePacking pack(

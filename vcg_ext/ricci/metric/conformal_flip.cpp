@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "conformal_flip.h"
 
+#include "../numbers.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,11 +15,6 @@ constexpr double kTieTolerance = 1e-15;
 
 /// The flips end by themselves; this bounds them where values run out of range.
 constexpr int kMostFlipsPerEdge = 1000;
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 /// Inversive distances of the triangle on the left of halfedge h = ij, apex k.
 struct Apex

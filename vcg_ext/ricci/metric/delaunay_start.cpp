@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "delaunay_start.h"
 
+#include "../numbers.h"
 #include "circle_packing.h"
 #include "euclidean.h"
 
@@ -36,11 +37,6 @@ constexpr double kNeedle = 1e6;
 /// Excess of two sides over the third that a degenerate triangle is given, in its longest sides.
 /// Less leaves needles whose rounding floor is above what counts as converged.
 constexpr double kMargin = 1e-5;
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 /// Apex of the triangle on the left of h, with the origin of h at 0 and h on the x axis.
 struct Apex

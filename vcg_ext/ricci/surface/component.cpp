@@ -2,6 +2,7 @@
 #include "component.h"
 
 #include "../error.h"
+#include "../numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +12,6 @@
 namespace ricci {
 
 namespace {
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 /// "1 face", "12 faces".
 std::string count(std::size_t n, const std::string& one, const std::string& many)

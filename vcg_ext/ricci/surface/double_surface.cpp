@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "double_surface.h"
 
+#include "../numbers.h"
+
 namespace ricci {
-
-namespace {
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
-
-} // namespace
 
 DoubleSurface doubleOf(const Triangulation& t)
 {

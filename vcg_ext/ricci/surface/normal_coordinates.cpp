@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "normal_coordinates.h"
 
+#include "../numbers.h"
+
 #include <algorithm>
 
 namespace ricci {
-
-namespace {
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
-
-} // namespace
 
 NormalCoordinates::NormalCoordinates(const Triangulation& original) :
 		m_triangulation(original), m_crossings(at(original.edgeCount()), -1),

@@ -2,6 +2,7 @@
 #include "triangulation.h"
 
 #include "../error.h"
+#include "../numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +17,6 @@ double distance(const Point3& a, const Point3& b)
 }
 
 namespace {
-
-std::size_t at(int index)
-{
-	return static_cast<std::size_t>(index);
-}
 
 /// For each side of each triangle the side that runs the other way between the same two vertices.
 std::vector<int> sidesByVertexPair(const std::vector<Triangle>& triangles)
