@@ -73,7 +73,8 @@ Triangulation oneVertexTorus()
 }
 
 MetricMeasure::MetricMeasure(const Triangulation& t, const std::vector<double>& lengths) :
-		curvature(at(t.vertexCount()), 2 * kPi), cotangent(at(t.edgeCount()), 0.0L)
+		curvature(at(t.vertexCount()), 2 * kPi), cotangent(at(t.edgeCount()), 0.0L),
+		sensitivity(at(t.vertexCount()), 0.0L)
 {
 	const std::vector<char> boundary = t.boundaryVertices();
 	for (std::size_t v = 0; v < boundary.size(); ++v)
@@ -85,15 +86,19 @@ MetricMeasure::MetricMeasure(const Triangulation& t, const std::vector<double>& 
 		for (std::size_t k = 0; k < 3; ++k)
 			l[k] = lengths[at(Triangulation::edge(h[k]))];
 		bool valid = true;
+		long double cotangents = 0.0L;
 		for (std::size_t k = 0; k < 3; ++k) {
 			const Corner c = cornerOf(l[k], l[(k + 2) % 3], l[(k + 1) % 3]);
 			valid &= c.valid;
 			curvature[at(t.origin(h[k]))] -= c.angle;
 			cotangent[at(Triangulation::edge(h[(k + 1) % 3]))] += c.cotangent;
+			cotangents += std::abs(c.cotangent);
 			if (k == 0)
 				area += l[0] * l[2] * std::sin(c.angle) / 2;
 		}
 		broken += !valid;
+		for (int side : h)
+			sensitivity[at(t.origin(side))] += 2 * cotangents;
 	}
 }
 

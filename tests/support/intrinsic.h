@@ -26,6 +26,8 @@ struct MetricMeasure
 {
 	std::vector<long double> curvature; ///< [vertex] 2 pi (boundary: pi) less the angles
 	std::vector<long double> cotangent; ///< [edge] sum of the cotangents of the opposite angles
+	/// [vertex] Bound of the change of curvature for a relative change of 1 of every length.
+	std::vector<long double> sensitivity;
 	long double area = 0.0L;
 	int broken = 0; ///< triangles without the strict triangle inequality
 

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The overlay of the input's, the start's and the end's triangles after the flow.
+#include "support/flat_map.h"
+#include "support/flipped_flow.h"
+#include "support/implicit_surface.h"
+#include "support/intrinsic.h"
+#include "support/random.h"
+#include "support/random_surface.h"
+#include "support/refinement_check.h"
+#include "support/shapes.h"
+
+#include <ricci/layout/common_refinement.h>
+#include <ricci/parametrize.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+struct Problem
+{
+	std::string name;
+	SurfaceMesh mesh;
+	TargetRequest request;
+	double epsilon = 1e-10;
+};
+
+TargetRequest someCones(const SurfaceMesh& mesh, int count, Random& random)
+{
+	std::vector<int> cones;
+	for (int i = 0; i < count; ++i)
+		cones.push_back(random.index(static_cast<int>(mesh.positions.size())));
+	return conesAt(mesh, cones);
+}
+
+std::vector<Problem> problems(std::uint64_t seed)
+{
+	Random random(500 + seed);
+	std::vector<Problem> all;
+	for (int genus : {0, 2}) {
+		const SurfaceMesh mesh = implicitClosed(genus, 7, seed);
+		all.push_back({"genus " + std::to_string(genus), mesh, someCones(mesh, 6, random)});
+		const SurfaceMesh slab = shaken(perforatedSlab(genus, 2), 0.1, random);
+		all.push_back(
+			{"slab of genus " + std::to_string(genus),
+			 slab,
+			 prescribed(randomCurvature(
+				 static_cast<int>(slab.positions.size()), 2 - 2 * genus, -3, 3, 1.0, random))});
+	}
+	const SurfaceMesh donut = implicitClosed(1, 8, seed);
+	all.push_back({"torus", donut, requestOf(TargetCurvature::Flat)});
+	all.push_back(
+		{"torus with cones",
+		 donut,
+		 prescribed(
+			 randomCurvature(static_cast<int>(donut.positions.size()), 0, -3, 3, 0.1, random))});
+	all.push_back({"annulus", implicitAnnulus(16, seed), requestOf(TargetCurvature::Flat, false)});
+	all.push_back(
+		{"free annulus", implicitAnnulus(16, seed), requestOf(TargetCurvature::Automatic)});
+	const SurfaceMesh disk = implicitDisk(16, seed);
+	all.push_back({"free disk", disk, requestOf(TargetCurvature::Automatic)});
+	all.push_back({"disk", disk, requestOf(TargetCurvature::Disk)});
+	all.push_back({"rectangle", disk, requestOf(TargetCurvature::Rectangle)});
+	const SurfaceMesh sliver = sliverDisk(9, 1.5, random);
+	all.push_back({"sliver disk", sliver, requestOf(TargetCurvature::Disk)});
+	all.push_back({"sliver rectangle", sliver, requestOf(TargetCurvature::Rectangle)});
+	return all;
+}
+
+RefinedMap mapOf(const CommonRefinement& r)
+{
+	return {r.points, r.triangles, r.inputFace, r.uv};
+}
+
+std::vector<double> targetOf(const FlippedFlow& flow)
+{
+	const Eigen::VectorXd& k = flow.result.target.curvature;
+	return {k.data(), k.data() + k.size()};
+}
+
+void expectSound(const FlippedFlow& flow, const CommonRefinement& refinement)
+{
+	const RefinementCheck check(flow.mesh, mapOf(refinement), targetOf(flow));
+	EXPECT_LT(check.areaError, 1e-9);
+	EXPECT_GE(check.leastWeight, -1e-12);
+	EXPECT_LT(check.weightError, 1e-14);
+	EXPECT_EQ(check.notPositive, 0);
+	EXPECT_LT(check.seamMismatch, 1e-9);
+	EXPECT_EQ(check.seamsInside, 0);
+	EXPECT_LT(check.angleError, 1e-8);
+	EXPECT_EQ(check.eulerCharacteristic, flow.topology.eulerCharacteristic);
+	EXPECT_EQ(check.boundaryLoops, static_cast<int>(flow.topology.loops.size()));
+	EXPECT_NEAR(check.area / flow.result.area, 1.0, 1e-9);
+	EXPECT_EQ(refinement.points.size(), flow.mesh.positions.size() + refinement.crossings);
+	for (std::size_t v = 0; v < flow.mesh.positions.size(); ++v) {
+		EXPECT_EQ(refinement.points[v].vertex[0], static_cast<int>(v));
+		EXPECT_EQ(refinement.points[v].weight[0], 1.0);
+	}
+}
+
+TEST(CommonRefinement, IsTheSurfaceWithAMapWithoutFlips)
+{
+	std::size_t crossings = 0;
+	for (std::uint64_t seed : {1, 2, 3})
+		for (const Problem& p : problems(seed)) {
+			SCOPED_TRACE(p.name + ", seed " + std::to_string(seed));
+			const FlippedFlow flow(p.mesh, p.request, p.epsilon);
+			const CommonRefinement refinement = flow.refinement(flow.cut());
+			expectSound(flow, refinement);
+			crossings += refinement.crossings;
+		}
+	EXPECT_GT(crossings, 5000u); // or the test says little
+}
+
+/// Every edge at the end of the flow is made of the refinement's edges, is straight in the plane
+/// across all of them, and as long as the flow says.
+TEST(CommonRefinement, EdgesOfTheEndAreStraight)
+{
+	for (std::uint64_t seed : {1, 2})
+		for (const Problem& p : problems(seed)) {
+			SCOPED_TRACE(p.name + ", seed " + std::to_string(seed));
+			const FlippedFlow flow(p.mesh, p.request, p.epsilon);
+			if (flow.result.doubled)
+				continue; // edges across the seam are cut in two
+			const CommonRefinement refinement = flow.refinement(flow.cut());
+			const auto lines = straightLines(flow.mesh, mapOf(refinement), 1e-3);
+			const Triangulation& end = flow.result.metric->triangulation();
+			int missing = 0;
+			for (int e = 0; e < end.edgeCount(); ++e) {
+				const double length = flow.result.metric->lengths()[at(e)];
+				missing += std::none_of(lines.begin(), lines.end(), [&](const StraightLine& line) {
+					return line.from == end.origin(2 * e) && line.to == end.target(2 * e) &&
+						   std::abs(line.length / length - 1.0) < 1e-9;
+				});
+			}
+			EXPECT_EQ(missing, 0);
+		}
+}
+
+/// The layout of the input's corners is that of the pieces at them, off the cut as well as on it.
+TEST(CommonRefinement, LayoutOfTheInputIsThatOfItsPieces)
+{
+	for (const Problem& p : problems(4)) {
+		SCOPED_TRACE(p.name);
+		const FlippedFlow flow(p.mesh, p.request, p.epsilon);
+		const CommonRefinement r = flow.refinement(flow.cut());
+		int seen = 0;
+		for (std::size_t piece = 0; piece < r.triangles.size(); ++piece) {
+			const auto h = flow.base.halfedges(r.inputFace[piece]);
+			for (std::size_t k = 0; k < 3; ++k)
+				for (int side : h)
+					if (flow.base.origin(side) == r.triangles[piece][k]) {
+						EXPECT_EQ(r.inputLayout.at(side), r.uv[piece][k]);
+						++seen;
+					}
+		}
+		EXPECT_GE(seen, 3 * flow.base.faceCount());
+	}
+}
+
+TEST(CommonRefinement, IsTheInputWhereNothingFlips)
+{
+	// Equilateral triangles are Delaunay with room, and flat already.
+	const SurfaceMesh mesh = grid(6, 5, Ends::Open, Ends::Open, [](int i, int j) {
+		// The grid's diagonal is the third direction of the lattice.
+		return Point3{0.5 * (i + j), (i - j) * -0.5 * std::sqrt(3.0), 0.0};
+	});
+	const FlippedFlow flow(mesh, requestOf(TargetCurvature::Automatic));
+	ASSERT_TRUE(flow.result.history.startFlips.empty());
+	ASSERT_TRUE(flow.result.history.flowFlips.empty());
+	const CommonRefinement r = flow.refinement(flow.cut());
+	EXPECT_EQ(r.points.size(), mesh.positions.size());
+	EXPECT_EQ(r.crossings, 0u);
+	ASSERT_EQ(r.triangles.size(), mesh.triangles.size());
+	std::vector<char> met(mesh.triangles.size(), 0);
+	for (std::size_t piece = 0; piece < r.triangles.size(); ++piece) {
+		Triangle t = r.triangles[piece];
+		const Triangle& face = mesh.triangles[at(r.inputFace[piece])];
+		for (int turn = 0; turn < 3 && t != face; ++turn)
+			std::rotate(t.begin(), t.begin() + 1, t.end());
+		EXPECT_EQ(t, face);
+		met[at(r.inputFace[piece])] = 1;
+	}
+	EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<long>(met.size()));
+}
+
+/// A plane surface with a free boundary is mapped to itself, at every crossing too.
+TEST(CommonRefinement, APlaneIsMappedToItself)
+{
+	using Complex = std::complex<double>;
+	Random random(510);
+	for (int i = 0; i < 4; ++i) {
+		SurfaceMesh mesh = randomPlanarDisk(9, random);
+		if (i == 3)
+			for (Point3& p : mesh.positions)
+				p[0] *= 30.0; // needles
+		const FlippedFlow flow(mesh, requestOf(TargetCurvature::Automatic));
+		EXPECT_GT(flow.result.history.startFlips.size(), 10u);
+		const CommonRefinement r = flow.refinement(flow.cut());
+		EXPECT_GT(r.crossings, 10u);
+		expectSound(flow, r);
+		const auto source = [&](int point) {
+			const Point3 p = placeOnSurface(r.points[at(point)], mesh.positions);
+			return Complex(p[0], p[1]);
+		};
+		const auto image = [&](std::size_t piece, std::size_t k) {
+			return Complex(r.uv[piece][k][0], r.uv[piece][k][1]);
+		};
+		// The similarity that fits best: through the two corners farthest apart.
+		Complex a, b, fa, fb;
+		for (std::size_t piece = 0; piece < r.triangles.size(); ++piece)
+			for (std::size_t k = 0; k < 3; ++k) {
+				const Complex z = source(r.triangles[piece][k]);
+				if ((piece == 0 && k == 0) || z.real() + z.imag() < a.real() + a.imag())
+					a = z, fa = image(piece, k);
+				if ((piece == 0 && k == 0) || z.real() + z.imag() > b.real() + b.imag())
+					b = z, fb = image(piece, k);
+			}
+		const Complex factor = (fb - fa) / (b - a);
+		double error = 0.0;
+		for (std::size_t piece = 0; piece < r.triangles.size(); ++piece)
+			for (std::size_t k = 0; k < 3; ++k)
+				error = std::max(
+					error,
+					std::abs(fa + factor * (source(r.triangles[piece][k]) - a) - image(piece, k)));
+		EXPECT_LT(error / std::abs(fb - fa), 1e-9);
+	}
+}
+
+/// With the surface's own curvature as target the flow stands still: the map is the development of
+/// the surface, straight on every face of the input.
+TEST(CommonRefinement, IsTheDevelopmentWhereTheMetricStays)
+{
+	Random random(520);
+	std::vector<SurfaceMesh> meshes{
+		shaken(tetrahedron(), 0.4, random),
+		shaken(fan(6, 0.3), 0.3, random),
+		shaken(bipyramid(5, 0.2), 0.3, random),
+		shaken(bipyramid(3, 0.1), 0.1, random),
+		shaken(perforatedSlab(0, 1), 0.3, random),
+		shaken(rectangle(2, 2, 1, 1), 0.3, random)};
+	int flips = 0;
+	for (int round = 0; round < 30; ++round)
+		for (const SurfaceMesh& original : meshes) {
+			SCOPED_TRACE("round " + std::to_string(round));
+			const SurfaceMesh mesh = shaken(original, 0.2, random);
+			const FlippedFlow flow(mesh, prescribed(curvatureInSpace(mesh)));
+			const FlowResult& result = flow.result;
+			if (result.doubled)
+				continue;
+			flips += static_cast<int>(result.history.startFlips.size());
+			const CommonRefinement r = flow.refinement(flow.cut());
+			ASSERT_LT((result.u - result.history.startU).lpNorm<Eigen::Infinity>(), 1e-9);
+			expectSound(flow, r);
+			for (std::size_t piece = 0; piece < r.triangles.size(); ++piece) {
+				const auto h = flow.base.halfedges(r.inputFace[piece]);
+				std::array<Point3, 3> p;
+				for (std::size_t k = 0; k < 3; ++k) {
+					const SurfacePoint& point = r.points[at(r.triangles[piece][k])];
+					p[k] = placeOnSurface(point, mesh.positions);
+					Point2 developed{0.0, 0.0};
+					for (int side : h)
+						for (std::size_t i = 0; i < 4; ++i)
+							if (point.weight[i] != 0.0 && point.vertex[i] == flow.base.origin(side))
+								for (std::size_t x = 0; x < 2; ++x)
+									developed[x] += point.weight[i] * r.inputLayout.at(side)[x];
+					EXPECT_NEAR(developed[0], r.uv[piece][k][0], 1e-8);
+					EXPECT_NEAR(developed[1], r.uv[piece][k][1], 1e-8);
+				}
+				for (std::size_t k = 0; k < 3; ++k) {
+					const Point2 &a = r.uv[piece][k], &b = r.uv[piece][(k + 1) % 3];
+					EXPECT_NEAR(
+						std::hypot(a[0] - b[0], a[1] - b[1]), distance(p[k], p[(k + 1) % 3]), 1e-8);
+				}
+			}
+		}
+	EXPECT_GT(flips, 100);
+}
+
+/// The same surface through the whole algorithm: what it hands over is the same refinement, scaled.
+TEST(CommonRefinement, AreaIsThatOfTheSurfaceInTheResult)
+{
+	for (const Problem& p : problems(5)) {
+		if (p.request.mode == TargetCurvature::Prescribed)
+			continue;
+		SCOPED_TRACE(p.name);
+		Options options;
+		options.target = p.request.mode;
+		options.freeBoundary = p.request.freeBoundary;
+		options.epsilon = p.epsilon;
+		options.output = OutputTriangulation::CommonRefinement;
+		VertexInput input;
+		input.selected = p.request.selected;
+		const Parametrization flat = run(p.mesh, options, input);
+		const RefinedMesh& r = flat.refined;
+		const RefinementCheck check(
+			p.mesh, {r.points, r.triangles, r.inputFace, r.uv}, flat.targetCurvature);
+		EXPECT_EQ(check.notPositive, 0);
+		EXPECT_EQ(flat.report.flippedFaces, 0);
+		EXPECT_LT(check.seamMismatch, 1e-9);
+		EXPECT_LT(check.angleError, 1e-8);
+		EXPECT_LT(check.areaError, 1e-9);
+		const FlippedFlow flow(p.mesh, p.request, p.epsilon);
+		const bool free =
+			std::count(flow.result.target.fixed.begin(), flow.result.target.fixed.end(), 1) > 0;
+		double area = flow.result.area;
+		if (!free) {
+			area = 0.0;
+			const MetricMeasure measure(flow.base, flow.lengths);
+			area = static_cast<double>(measure.area);
+		}
+		EXPECT_NEAR(check.area / area, 1.0, 1e-9);
+		EXPECT_EQ(
+			flat.report.refinementPoints,
+			static_cast<int>(r.points.size() - p.mesh.positions.size()));
+	}
+}
+
+} // namespace
+} // namespace ricci::testing
