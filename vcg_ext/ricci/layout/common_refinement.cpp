@@ -3,8 +3,8 @@
 
 #include "../error.h"
 #include "../numbers.h"
-#include "../surface/normal_coordinates.h"
-#include "unfold.h"
+#include "edge_crossings.h"
+#include "piece_triangulation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,26 +17,12 @@ namespace ricci {
 
 namespace {
 
-/// Crossings stay this far from the ends of their edge, relative to its length: rounding must not
-/// put them on a vertex.
-constexpr double kEndGap = 1e-14;
-
 /// A crossing with an input edge and one with an end edge that are this near to each other on a
 /// start edge, relative to its length, are one point.
 constexpr double kMergeGap = 1e-12;
 
-double mix(double a, double b, double t)
-{
-	return (1.0 - t) * a + t * b;
-}
-
-double keepInside(double t)
-{
-	return std::min(std::max(std::isfinite(t) ? t : 0.5, kEndGap), 1.0 - kEndGap);
-}
-
 /// Affine combination of two points, merging equal vertices.
-SurfacePoint mix(const SurfacePoint& a, const SurfacePoint& b, double t)
+SurfacePoint between(const SurfacePoint& a, const SurfacePoint& b, double t)
 {
 	SurfacePoint p;
 	p.weight = {0, 0, 0, 0};
@@ -95,21 +81,6 @@ struct Chord
 	bool ofInput;
 };
 
-/// Crossing of an end edge with a start edge, as one vector of R^{2,1} in two bases.
-struct HomogeneousPoint
-{
-	int curve = -1;
-	std::array<double, 2> onStart{0, 0}; ///< weights of the ends of the start edge's even halfedge
-	std::array<double, 2> onEnd{0, 0};   ///< weights of the ends of the end edge's even halfedge
-};
-
-struct InputPoint
-{
-	int curve = -1;
-	double along = 0.0;   ///< on the input edge
-	double onStart = 0.0; ///< on the start edge
-};
-
 class Overlay
 {
 public:
@@ -119,15 +90,12 @@ public:
 		const std::vector<char>& isCut) :
 			m_s(s),
 			m_positions(positions), m_isCut(isCut), m_input(*s.input), m_start(*s.start),
-			m_end(*s.end)
+			m_end(*s.end), m_crossings(s)
 	{
 	}
 
 	CommonRefinement run()
 	{
-		trace();
-		placeInputCrossings();
-		placeEndCrossings();
 		makeNodes();
 		collectChords();
 		for (int f = 0; f < m_start.faceCount(); ++f)
@@ -142,195 +110,8 @@ public:
 private:
 	using Curve = NormalCoordinates::Curve;
 
-	/// Position of a crossing counted from the origin of its edge's even halfedge.
-	static int fromEven(const NormalCoordinates::Crossing& x, int count)
-	{
-		return x.halfedge % 2 == 0 ? x.position : count - 1 - x.position;
-	}
-
 	double startRadius(int v) const { return std::exp((*m_s.startU)[v]); }
 	double endRadius(int v) const { return std::exp((*m_s.endU)[v]); }
-
-	void trace()
-	{
-		m_inputOnStart = std::make_unique<NormalCoordinates>(m_input);
-		for (int e : *m_s.startFlips)
-			m_inputOnStart->flip(e);
-		m_endOnStart = std::make_unique<NormalCoordinates>(m_end);
-		for (auto e = m_s.flowFlips->rbegin(); e != m_s.flowFlips->rend(); ++e)
-			m_endOnStart->unflip(*e);
-		NormalCoordinates startOnEnd(m_start);
-		for (int e : *m_s.flowFlips)
-			startOnEnd.flip(e);
-		m_inputCurves = m_inputOnStart->trace();
-		m_endCurves = m_endOnStart->trace();
-		m_startCurves = startOnEnd.trace();
-
-		const int n = m_start.edgeCount();
-		m_firstInput.assign(at(n) + 1, 0);
-		m_firstEnd.assign(at(n) + 1, 0);
-		for (int e = 0; e < n; ++e) {
-			m_firstInput[at(e) + 1] = m_firstInput[at(e)] + m_inputOnStart->crossings(e);
-			m_firstEnd[at(e) + 1] = m_firstEnd[at(e)] + m_endOnStart->crossings(e);
-		}
-		m_inputPoints.resize(at(m_firstInput.back()));
-		m_endPoints.resize(at(m_firstEnd.back()));
-	}
-
-	int inputSlot(const NormalCoordinates::Crossing& x) const
-	{
-		const int e = Triangulation::edge(x.halfedge);
-		return m_firstInput[at(e)] + fromEven(x, m_inputOnStart->crossings(e));
-	}
-
-	int endSlot(const NormalCoordinates::Crossing& x) const
-	{
-		const int e = Triangulation::edge(x.halfedge);
-		return m_firstEnd[at(e)] + fromEven(x, m_endOnStart->crossings(e));
-	}
-
-	/// Unfolds the start triangles along each input edge; the edge is straight there.
-	void placeInputCrossings()
-	{
-		Strip strip;
-		for (int e = 0; e < m_input.edgeCount(); ++e) {
-			const Curve& curve = m_inputCurves[at(e)];
-			if (curve.crossings.empty())
-				continue;
-			unfold(m_start, *m_s.startLengths, curve, strip);
-			const Point2 last = strip.end;
-			const double size2 = last[0] * last[0] + last[1] * last[1];
-			double below = 0.0;
-			for (std::size_t i = 0; i < strip.sides.size(); ++i) {
-				const Point2 &p = strip.sides[i].from, &q = strip.sides[i].to;
-				const double dp = p[0] * last[1] - p[1] * last[0],
-							 dq = q[0] * last[1] - q[1] * last[0];
-				const double t = keepInside(dp / (dp - dq));
-				const Point2 x{mix(p[0], q[0], t), mix(p[1], q[1], t)};
-				double s = keepInside((x[0] * last[0] + x[1] * last[1]) / size2);
-				s = std::max(s, below);
-				below = s;
-				const int halfedge = curve.crossings[i].halfedge;
-				m_inputPoints[at(inputSlot(curve.crossings[i]))] = {
-					e, s, halfedge % 2 == 0 ? t : 1.0 - t};
-			}
-		}
-	}
-
-	/// Inversive distances of the start triangle on the left of h = ij, apex k.
-	struct StartTriangle
-	{
-		double ij, jk, ki, rootD;
-	};
-
-	StartTriangle startTriangle(int h) const
-	{
-		const auto& d = *m_s.startDelta;
-		StartTriangle x;
-		x.ij = 1.0 + d[at(Triangulation::edge(h))];
-		x.jk = 1.0 + d[at(Triangulation::edge(m_start.next(h)))];
-		x.ki = 1.0 + d[at(Triangulation::edge(m_start.previous(h)))];
-		x.rootD =
-			std::sqrt(x.ij * x.ij + x.jk * x.jk + x.ki * x.ki + 2.0 * x.ij * x.jk * x.ki - 1.0);
-		return x;
-	}
-
-	/// Value at the apex of the triangle across h = ij of a linear function on R^{2,1} that is
-	/// fi, fj, fk at i, j and the apex k on the left of h:
-	/// rootD_l x_k + rootD_k x_l = M_i x_i + M_j x_j.
-	double across(int h, double fi, double fj, double fk) const
-	{
-		const StartTriangle a = startTriangle(h), b = startTriangle(Triangulation::twin(h));
-		const double d = (*m_s.startDelta)[at(Triangulation::edge(h))];
-		const double c2 = d * (d + 2.0);
-		const double pi = b.rootD * a.ki + a.rootD * b.jk; // pairs with x_i: I_ik, I_il
-		const double pj = b.rootD * a.jk + a.rootD * b.ki;
-		const double mi = (pi + a.ij * pj) / c2, mj = (pj + a.ij * pi) / c2;
-		return (mi * fi + mj * fj - b.rootD * fk) / a.rootD;
-	}
-
-	/// The end edges on the start triangulation: along the strip of start triangles of an end edge
-	/// ab, linear functions on R^{2,1} are carried from triangle to triangle, each a triple of
-	/// values at the present corners. The one that vanishes at a and b gives the crossings.
-	void placeEndCrossings()
-	{
-		struct Values
-		{
-			double from, to; // at the ends of the crossed halfedge
-		};
-		std::vector<Values> first, second, atA;
-		for (int e = 0; e < m_end.edgeCount(); ++e) {
-			const Curve& curve = m_endCurves[at(e)];
-			const int n = static_cast<int>(curve.crossings.size());
-			if (n == 0)
-				continue;
-			// first: 0 at a, (1, 0) on the first side; second: (0, 1); atA: 1 at a, (0, 0).
-			first.assign(1, {1, 0});
-			second.assign(1, {0, 1});
-			atA.assign(1, {0, 0});
-			double apex[3] = {0, 0, 1};
-			for (int i = 0; i < n; ++i) {
-				const int x = curve.crossings[at(i)].halfedge, y = Triangulation::twin(x);
-				double next[3];
-				std::vector<Values>* functions[3] = {&first, &second, &atA};
-				const bool fromStays =
-					i + 1 < n && curve.crossings[at(i) + 1].halfedge == m_start.next(y);
-				for (int k = 0; k < 3; ++k) {
-					const Values v = functions[k]->back();
-					next[k] = across(x, v.from, v.to, apex[k]);
-					if (i + 1 == n)
-						continue;
-					if (fromStays) { // the triangle's third corner is the old "to"
-						functions[k]->push_back({v.from, next[k]});
-						apex[k] = v.to;
-					}
-					else {
-						functions[k]->push_back({next[k], v.to});
-						apex[k] = v.from;
-					}
-				}
-				if (i + 1 == n)
-					std::copy(next, next + 3, apex);
-			}
-			// l = apex[1] first - apex[0] second vanishes at a and b; apex holds the values at b.
-			double below = 0.0;
-			for (int i = 0; i < n; ++i) {
-				const double from = apex[1] * first[at(i)].from - apex[0] * second[at(i)].from;
-				const double to = apex[1] * first[at(i)].to - apex[0] * second[at(i)].to;
-				// y = |to| x_from + |from| x_to, both weights positive.
-				double wf = std::abs(to), wt = std::abs(from);
-				if (!(wf > 0.0) || !(wt > 0.0) || !std::isfinite(wf) || !std::isfinite(wt) ||
-					from * to > 0.0)
-					wf = wt = 1.0;
-				const double scale = 1.0 / (wf + wt);
-				wf *= scale, wt *= scale;
-				// y = wa x_a + wb x_b: evaluate atA and the function that is 1 on the side's sum.
-				const double ya = wf * atA[at(i)].from + wt * atA[at(i)].to;
-				const double y1 = wf * first[at(i)].from + wt * first[at(i)].to;
-				const double y2 = wf * second[at(i)].from + wt * second[at(i)].to;
-				// first + second is 0 at a and apex[0] + apex[1] at b.
-				double wb = (y1 + y2) / (apex[0] + apex[1]);
-				double wa = ya - wb * apex[2];
-				if (!(wb > 0.0) || !(wa > 0.0) || !std::isfinite(wa) || !std::isfinite(wb)) {
-					const double share = static_cast<double>(i + 1) / (n + 1);
-					wa = 1.0 - share, wb = share;
-				}
-				// Order along the end edge, against rounding.
-				if (wb / (wa + wb) < below) {
-					const double sum = wa + wb;
-					wb = below * sum, wa = sum - wb;
-				}
-				below = wb / (wa + wb);
-				const int halfedge = curve.crossings[at(i)].halfedge;
-				HomogeneousPoint p;
-				p.curve = e;
-				p.onStart = halfedge % 2 == 0 ? std::array<double, 2>{wf, wt}
-											  : std::array<double, 2>{wt, wf};
-				p.onEnd = {wa, wb};
-				m_endPoints[at(endSlot(curve.crossings[at(i)]))] = p;
-			}
-		}
-	}
 
 	/// Position of a homogeneous point on a start or end edge, from the origin of the even
 	/// halfedge.
@@ -358,8 +139,8 @@ private:
 			m_nodes[at(v)].scale = startRadius(v) / endRadius(v);
 		}
 		m_firstOnEdge.assign(at(n) + 1, 0);
-		m_indexOfInput.resize(m_inputPoints.size());
-		m_indexOfEnd.resize(m_endPoints.size());
+		m_indexOfInput.resize(m_crossings.inputPoints.size());
+		m_indexOfEnd.resize(m_crossings.endPoints.size());
 		for (int e = 0; e < n; ++e) {
 			makeNodesOn(e);
 			m_firstOnEdge[at(e) + 1] = static_cast<int>(m_onEdge.size());
@@ -378,12 +159,14 @@ private:
 		const int i = m_start.origin(2 * e), j = m_start.target(2 * e);
 		const double gi = startRadius(i), gj = startRadius(j);
 		m_edgePoints.clear();
-		int a = m_firstInput[at(e)], b = m_firstEnd[at(e)];
-		while (a < m_firstInput[at(e) + 1] || b < m_firstEnd[at(e) + 1]) {
+		int a = m_crossings.firstInput[at(e)], b = m_crossings.firstEnd[at(e)];
+		while (a < m_crossings.firstInput[at(e) + 1] || b < m_crossings.firstEnd[at(e) + 1]) {
 			const double none = std::numeric_limits<double>::infinity();
-			const double ta = a < m_firstInput[at(e) + 1] ? m_inputPoints[at(a)].onStart : none;
-			const double tb = b < m_firstEnd[at(e) + 1]
-								  ? keepInside(along(m_endPoints[at(b)].onStart, gi, gj))
+			const double ta = a < m_crossings.firstInput[at(e) + 1]
+								  ? m_crossings.inputPoints[at(a)].onStart
+								  : none;
+			const double tb = b < m_crossings.firstEnd[at(e) + 1]
+								  ? keepInside(along(m_crossings.endPoints[at(b)].onStart, gi, gj))
 								  : none;
 			EdgePoint p;
 			p.along = std::min(ta, tb);
@@ -420,7 +203,7 @@ private:
 		for (int k = 0; k < count; ++k) {
 			Node& node = m_nodes[at(m_onEdge[at(base + k)])];
 			if (m_edgePoints[at(k)].input >= 0) {
-				node.point = onInputEdge(m_inputPoints[at(m_edgePoints[at(k)].input)]);
+				node.point = onInputEdge(m_crossings.inputPoints[at(m_edgePoints[at(k)].input)]);
 				before = node.point;
 				beforeAlong = m_edgePoints[at(k)].along;
 				continue;
@@ -432,11 +215,11 @@ private:
 			after = SurfacePoint();
 			after.vertex[0] = m_start.target(2 * e);
 			if (next < count) {
-				after = onInputEdge(m_inputPoints[at(m_edgePoints[at(next)].input)]);
+				after = onInputEdge(m_crossings.inputPoints[at(m_edgePoints[at(next)].input)]);
 				afterAlong = m_edgePoints[at(next)].along;
 			}
 			const double gap = afterAlong - beforeAlong;
-			node.point = mix(
+			node.point = between(
 				before, after, gap > 0.0 ? (m_edgePoints[at(k)].along - beforeAlong) / gap : 0.5);
 		}
 	}
@@ -453,7 +236,7 @@ private:
 	void locateOnEnd(int e, int base, double gi, double gj)
 	{
 		const int count = static_cast<int>(m_edgePoints.size());
-		const Curve& way = m_startCurves[at(e)];
+		const Curve& way = m_crossings.startCurves[at(e)];
 		std::array<double, 2> before{1.0, 0.0};
 		double beforeSum = 1.0 / endRadius(m_start.origin(2 * e));
 		int passed = 0; // end edges crossed so far
@@ -462,7 +245,7 @@ private:
 			const double t = m_edgePoints[at(k)].along;
 			std::array<double, 2> here{(1.0 - t) * gi, t * gj};
 			if (m_edgePoints[at(k)].end >= 0) {
-				const HomogeneousPoint& p = m_endPoints[at(m_edgePoints[at(k)].end)];
+				const HomogeneousPoint& p = m_crossings.endPoints[at(m_edgePoints[at(k)].end)];
 				const double ga = endRadius(m_end.origin(2 * p.curve));
 				const double gb = endRadius(m_end.target(2 * p.curve));
 				node.end.kind = EndPlace::Edge;
@@ -490,7 +273,7 @@ private:
 			std::array<double, 2> after{0.0, 1.0};
 			double afterSum = 1.0 / endRadius(m_start.target(2 * e));
 			if (next < count) {
-				const HomogeneousPoint& p = m_endPoints[at(m_edgePoints[at(next)].end)];
+				const HomogeneousPoint& p = m_crossings.endPoints[at(m_edgePoints[at(next)].end)];
 				after = p.onStart;
 				afterSum = p.onEnd[0] / endRadius(m_end.origin(2 * p.curve)) +
 						   p.onEnd[1] / endRadius(m_end.target(2 * p.curve));
@@ -531,7 +314,7 @@ private:
 	/// halfedge g of the end triangulation.
 	InFace crossingOn(int g, int index, int e) const
 	{
-		const HomogeneousPoint& p = m_endPoints[at(m_firstEnd[at(e)] + index)];
+		const HomogeneousPoint& p = m_crossings.endPoints[at(m_crossings.firstEnd[at(e)] + index)];
 		const double x = keepInside(along(
 			p.onEnd, endRadius(m_end.origin(2 * p.curve)), endRadius(m_end.target(2 * p.curve))));
 		return onSide(g, g % 2 == 0 ? x : 1.0 - x);
@@ -586,15 +369,15 @@ private:
 				chord.fromIndex = -1;
 				chord.fromAlong = 0.0;
 				for (const auto& x : curve.crossings) {
-					const int slot = ofInput ? inputSlot(x) : endSlot(x);
+					const int slot = ofInput ? m_crossings.inputSlot(x) : m_crossings.endSlot(x);
 					const int index = ofInput ? m_indexOfInput[at(slot)] : m_indexOfEnd[at(slot)];
 					const int node =
 						m_onEdge[at(m_firstOnEdge[at(Triangulation::edge(x.halfedge))] + index)];
 					chord.face = m_start.face(x.halfedge);
 					chord.to = x.halfedge;
 					chord.toIndex = indexFrom(x.halfedge, index);
-					chord.toAlong =
-						ofInput ? m_inputPoints[at(slot)].along : m_nodes[at(node)].end.along;
+					chord.toAlong = ofInput ? m_crossings.inputPoints[at(slot)].along
+											: m_nodes[at(node)].end.along;
 					m_chords.push_back(chord);
 					chord.from = Triangulation::twin(x.halfedge);
 					chord.fromIndex = indexFrom(chord.from, index);
@@ -607,8 +390,8 @@ private:
 				m_chords.push_back(chord);
 			}
 		};
-		collect(m_inputCurves, true);
-		collect(m_endCurves, false);
+		collect(m_crossings.inputCurves, true);
+		collect(m_crossings.endCurves, false);
 		std::stable_sort(m_chords.begin(), m_chords.end(), [](const Chord& a, const Chord& b) {
 			return a.face < b.face;
 		});
@@ -626,15 +409,16 @@ private:
 	/// Input halfedge that start halfedge h coincides with, or -1; likewise for the end.
 	int inputAlong(int h) const
 	{
-		return m_inputOnStart->isCurve(Triangulation::edge(h))
-				   ? m_inputOnStart->originalAtOrBefore(h)
+		return m_crossings.inputOnStart.isCurve(Triangulation::edge(h))
+				   ? m_crossings.inputOnStart.originalAtOrBefore(h)
 				   : -1;
 	}
 
 	int endAlong(int h) const
 	{
-		return m_endOnStart->isCurve(Triangulation::edge(h)) ? m_endOnStart->originalAtOrBefore(h)
-															 : -1;
+		return m_crossings.endOnStart.isCurve(Triangulation::edge(h))
+				   ? m_crossings.endOnStart.originalAtOrBefore(h)
+				   : -1;
 	}
 
 	/// Divides start triangle f by its chords.
@@ -883,7 +667,8 @@ private:
 		const int along = ofInput ? c.input : c.end;
 		if (along >= 0)
 			return along;
-		const NormalCoordinates& coordinates = ofInput ? *m_inputOnStart : *m_endOnStart;
+		const NormalCoordinates& coordinates =
+			ofInput ? m_crossings.inputOnStart : m_crossings.endOnStart;
 		const Triangulation& t = ofInput ? m_input : m_end;
 		int corner = coordinates.originalAtOrBefore(halfedge);
 		if (c.onChord < 0)
@@ -1163,7 +948,7 @@ private:
 		for (const SurfacePoint& p : r.points)
 			space.push_back(placeOnSurface(p, m_positions));
 		for (std::size_t p = 0; p < m_pieces.size(); ++p)
-			triangulate(p, space, r);
+			emit(p, space, r);
 
 		int sectorCount = 0;
 		r.inputLayout.sector = cornerSectors(m_input, m_isCut, sectorCount);
@@ -1178,71 +963,19 @@ private:
 		return r;
 	}
 
-	/// Triangles of a convex piece, some of whose corners may be straight: the triangulation whose
-	/// worst triangle, in the plane and in space, is best.
-	void triangulate(std::size_t p, const std::vector<Point3>& space, CommonRefinement& r) const
+	/// Triangles of a piece, into the result.
+	void emit(std::size_t p, const std::vector<Point3>& space, CommonRefinement& r) const
 	{
 		const auto& piece = m_pieces[p];
-		const std::size_t n = piece.size();
-		const auto emit = [&](std::size_t a, std::size_t b, std::size_t c) {
-			const Point2* plane = &m_point[at(m_firstCorner[p])];
-			r.triangles.push_back({piece[a].node, piece[b].node, piece[c].node});
+		const Point2* plane = &m_point[at(m_firstCorner[p])];
+		std::vector<Point2> inPlane(plane, plane + piece.size());
+		std::vector<Point3> inSpace;
+		for (const PieceCorner& c : piece)
+			inSpace.push_back(space[at(c.node)]);
+		for (const auto& t : triangulatePiece(inPlane, inSpace)) {
+			r.triangles.push_back({piece[t[0]].node, piece[t[1]].node, piece[t[2]].node});
 			r.inputFace.push_back(m_inputFace[p]);
-			r.uv.push_back({plane[a], plane[b], plane[c]});
-		};
-		if (n == 3)
-			return emit(0, 1, 2);
-		const auto quality = [&](std::size_t a, std::size_t b, std::size_t c) {
-			const Point2* plane = &m_point[at(m_firstCorner[p])];
-			double area = (plane[b][0] - plane[a][0]) * (plane[c][1] - plane[a][1]) -
-						  (plane[b][1] - plane[a][1]) * (plane[c][0] - plane[a][0]);
-			double longest = 0.0, longestInSpace = 0.0;
-			const std::size_t corner[3] = {a, b, c};
-			for (int k = 0; k < 3; ++k) {
-				const std::size_t x = corner[k], y = corner[(k + 1) % 3];
-				longest = std::max(
-					longest, std::hypot(plane[y][0] - plane[x][0], plane[y][1] - plane[x][1]));
-				longestInSpace = std::max(
-					longestInSpace, distance(space[at(piece[x].node)], space[at(piece[y].node)]));
-			}
-			const Point3 &o = space[at(piece[a].node)], &q = space[at(piece[b].node)],
-						 &s = space[at(piece[c].node)];
-			double e[3], g[3];
-			for (std::size_t k = 0; k < 3; ++k)
-				e[k] = q[k] - o[k], g[k] = s[k] - o[k];
-			const double inSpace = std::hypot(
-				e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2], e[0] * g[1] - e[1] * g[0]);
-			const double plain = longest > 0.0 ? area / (longest * longest) : 0.0;
-			return longestInSpace > 0.0
-					   ? std::min(plain, inSpace / (longestInSpace * longestInSpace))
-					   : plain;
-		};
-		// best[i][j]: least quality in the best triangulation of corners i .. j; apex of side ij
-		// there.
-		std::vector<double> best(n * n, std::numeric_limits<double>::infinity());
-		std::vector<std::size_t> apex(n * n, 0);
-		for (std::size_t span = 2; span < n; ++span)
-			for (std::size_t i = 0; i + span < n; ++i) {
-				const std::size_t j = i + span;
-				best[i * n + j] = -std::numeric_limits<double>::infinity();
-				for (std::size_t k = i + 1; k < j; ++k) {
-					const double q = std::min({quality(i, k, j), best[i * n + k], best[k * n + j]});
-					if (q > best[i * n + j] || k == i + 1) {
-						best[i * n + j] = q;
-						apex[i * n + j] = k;
-					}
-				}
-			}
-		std::vector<std::pair<std::size_t, std::size_t>> stack{{0, n - 1}};
-		while (!stack.empty()) {
-			const auto [i, j] = stack.back();
-			stack.pop_back();
-			if (j - i < 2)
-				continue;
-			const std::size_t k = apex[i * n + j];
-			emit(i, k, j);
-			stack.push_back({i, k});
-			stack.push_back({k, j});
+			r.uv.push_back({plane[t[0]], plane[t[1]], plane[t[2]]});
 		}
 	}
 
@@ -1253,11 +986,7 @@ private:
 	const Triangulation& m_start;
 	const Triangulation& m_end;
 
-	std::unique_ptr<NormalCoordinates> m_inputOnStart, m_endOnStart;
-	std::vector<Curve> m_inputCurves, m_endCurves, m_startCurves;
-	std::vector<int> m_firstInput, m_firstEnd; // [start edge] into the points
-	std::vector<InputPoint> m_inputPoints;
-	std::vector<HomogeneousPoint> m_endPoints;
+	const EdgeCrossings m_crossings;
 
 	std::vector<Node> m_nodes;
 	std::vector<int> m_firstOnEdge, m_onEdge; // [start edge] its inner nodes, in order
