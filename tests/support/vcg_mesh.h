@@ -37,6 +37,9 @@ class FloatFace :
 };
 class FloatMesh : public vcg::tri::TriMesh<std::vector<FloatVertex>, std::vector<FloatFace>>
 {
+public:
+	// vcglib leaves its attributes behind.
+	~FloatMesh() override { ClearAttributes(); }
 };
 
 class DoubleFace;
@@ -66,6 +69,9 @@ class DoubleFace :
 };
 class DoubleMesh : public vcg::tri::TriMesh<std::vector<DoubleVertex>, std::vector<DoubleFace>>
 {
+public:
+	// vcglib leaves its attributes behind.
+	~DoubleMesh() override { ClearAttributes(); }
 };
 
 /// Fills the empty VCG mesh \p to.
