@@ -17,6 +17,9 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
+/// Rounding of a place in the plane, relative to the size of the map.
+constexpr double kPlaceRounding = 1e-15;
+
 using Complex = std::complex<double>;
 
 Complex asComplex(const Point2& p)
@@ -120,6 +123,9 @@ RefinementCheck::RefinementCheck(
 		if (!boundary[v])
 			angleError = std::max(
 				angleError, std::abs(defect[v] - (v < curvature.size() ? curvature[v] : 0.0)));
+	double extent = 0.0;
+	for (const Complex& z : glued.place)
+		extent = std::max({extent, std::abs(z.real()), std::abs(z.imag())});
 	for (int e = 0; e < t.edgeCount(); ++e) {
 		if (t.isBoundaryEdge(e))
 			continue;
@@ -128,7 +134,8 @@ RefinementCheck::RefinementCheck(
 			glued.place[at(t.next(h))] == glued.place[at(g)])
 			continue;
 		++seamEdges;
-		seamMismatch = std::max(seamMismatch, std::abs(glued.length(h) / glued.length(g) - 1.0));
+		const double gap = std::abs(glued.length(h) - glued.length(g));
+		seamMismatch = std::max(seamMismatch, (gap - kPlaceRounding * extent) / glued.length(h));
 		std::vector<int> ends = support(map.points[at(t.origin(h))]);
 		for (int v : support(map.points[at(t.target(h))]))
 			if (std::find(ends.begin(), ends.end(), v) == ends.end())

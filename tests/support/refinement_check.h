@@ -23,11 +23,13 @@ struct RefinedMap
 /// What can be seen of it without knowing how it was made.
 struct RefinementCheck
 {
-	double areaError = 0.0;    ///< relative: pieces of an input face against the face, in space
-	double leastWeight = 0.0;  ///< barycentric, in the input face of the piece; -1 if not in it
-	double weightError = 0.0;  ///< of the sum of the weights of a point
-	int notPositive = 0;       ///< triangles of the plane that are not counter-clockwise, exactly
-	double seamMismatch = 0.0; ///< relative, of an edge's two sides
+	double areaError = 0.0;   ///< relative: pieces of an input face against the face, in space
+	double leastWeight = 0.0; ///< barycentric, in the input face of the piece; -1 if not in it
+	double weightError = 0.0; ///< of the sum of the weights of a point
+	int notPositive = 0;      ///< triangles of the plane that are not counter-clockwise, exactly
+	/// Relative difference of an edge's lengths on its two sides, past what rounding of the places
+	/// accounts for: an edge that is tiny in the map has no more digits.
+	double seamMismatch = 0.0;
 	int seamEdges = 0;
 	int seamsInside = 0;     ///< edges whose sides lie apart and that are not part of an input edge
 	double angleError = 0.0; ///< at inner points, against 2 pi less \p curvature there
