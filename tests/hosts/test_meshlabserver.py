@@ -181,10 +181,15 @@ class BadInput(unittest.TestCase):
         self.check("orient", meshes.moebius())
 
     def test_zero_area_face(self):
-        self.check("area", meshes.with_zero_area_face(meshes.plane()))
+        self.check("area", meshes.with_zero_area_face(meshes.plane()), surgery=0)
+        self.assertIn("converged=true", run_on(meshes.with_zero_area_face(meshes.plane())).text)
 
     def test_zero_length_edge(self):
-        self.check("length|area", meshes.with_zero_length_edge(meshes.torus()))
+        self.check("length|area", meshes.with_zero_length_edge(meshes.torus()), surgery=0)
+        self.assertIn("converged=true", run_on(meshes.with_zero_length_edge(meshes.torus())).text)
+
+    def test_refinement_without_flips(self):
+        self.check("Intrinsic flips", meshes.torus(), surgery=0, output_triangulation=1)
 
     def test_not_finite(self):
         self.check("finite|NaN|not a number", meshes.with_nan(meshes.torus()))

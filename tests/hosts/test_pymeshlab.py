@@ -185,8 +185,17 @@ class BadInput(unittest.TestCase):
         self.check("orient", meshes.moebius())
 
     def test_degenerate(self):
-        self.check("area", meshes.with_zero_area_face(meshes.plane()))
-        self.check("length|area", meshes.with_zero_length_edge(meshes.torus()))
+        self.check("area", meshes.with_zero_area_face(meshes.plane()), surgery="None")
+        self.check("length|area", meshes.with_zero_length_edge(meshes.torus()), surgery="None")
+        for mesh in (meshes.with_zero_area_face(meshes.plane()),
+                     meshes.with_zero_length_edge(meshes.torus())):
+            returned = run(mesh_set(mesh), output_triangulation="Common refinement")
+            self.assertTrue(returned["converged"])
+            self.assertEqual(returned["flipped_faces"], 0)
+
+    def test_refinement_without_flips(self):
+        self.check("Intrinsic flips", meshes.torus(), surgery="None",
+                   output_triangulation="Common refinement")
 
     def test_not_finite(self):
         self.check("finite|NaN|not a number", meshes.with_nan(meshes.torus()))
