@@ -291,15 +291,17 @@ public:
 
 	std::string failure() const
 	{
-		if (m_map->brokenTriangles() > 0)
-			return std::to_string(m_map->brokenTriangles()) +
-				   " triangles break the triangle inequality at the end of the flow" +
+		const int broken = m_map->brokenTriangles();
+		if (broken > 0)
+			return std::to_string(broken) +
+				   (broken == 1 ? " triangle breaks" : " triangles break") +
+				   " the triangle inequality at the end of the flow" +
 				   (m_options.surgery == Surgery::EdgeSwap
 						? ", with " + std::to_string(m_swapper->swaps()) + " edges swapped"
 						: std::string()) +
 				   (m_options.surgery == Surgery::IntrinsicFlips
 						? ": remesh the worst triangles."
-						: ": choose the surgery 'Intrinsic flips'.");
+						: ": choose the surgery 'Intrinsic flips', or remesh the worst triangles.");
 		return "The flow stopped after " + std::to_string(m_result.iterations) +
 			   " Newton steps with a curvature error of " + number(m_solved.residual) +
 			   " (wanted: " + number(m_options.epsilon) +

@@ -22,13 +22,18 @@ constexpr double kDecrease = 1e-4;
 /// Below this step length the search direction has failed.
 constexpr double kLeastStep = 1e-10;
 
-/// Added to the diagonal, relative to its largest entry, while triangles are broken or the matrix
-/// is not positive definite.
+/// Added to the diagonal, whose typical entries are of order 1, while triangles are broken: their
+/// derivatives are 0.
 constexpr double kRegularisation = 1e-6;
 
 /// Steps with the last factor after epsilon is reached; each removes about as many digits as the
 /// last full step did, for the price of one evaluation.
 constexpr int kPolishingSteps = 2;
+
+/// A minimum with broken triangles is no metric, and the energy is flat beside it: where |K - target|
+/// has not fallen by this factor in so many steps, the flow ends there.
+constexpr double kStagnation = 0.9;
+constexpr int kStagnationSteps = 20;
 
 /// How far the estimate of the rounding floor may be from what is observed.
 constexpr double kFloorUncertainty = 20.0;
@@ -98,7 +103,7 @@ void NewtonSolver::direction(bool refactor)
 		updatePattern();
 		m_hessian.fill(*m_map, 0.0);
 		const double scale = std::max(m_hessian.largestDiagonal(), 1.0);
-		double shift = m_map->brokenTriangles() > 0 ? kRegularisation * scale : 0.0;
+		double shift = m_map->brokenTriangles() > 0 ? kRegularisation : 0.0;
 		if (shift > 0.0)
 			m_hessian.fill(*m_map, shift);
 		while (!m_cholesky.factorize(m_hessian.matrix())) {
@@ -162,6 +167,7 @@ NewtonResult NewtonSolver::solve(
 		m_map->evaluate(u, m_rest);
 	result.residual = residual(target);
 	int polishing = 0;
+	double normThen = m_gradient.norm(); // kStagnationSteps ago
 	bool searchFails = false;
 
 	while (true) {
@@ -211,8 +217,10 @@ NewtonResult NewtonSolver::solve(
 		result.residual = trialResidual;
 		if (reached)
 			++polishing;
-		else
-			++result.iterations;
+		else if (++result.iterations % kStagnationSteps == 0) {
+			searchFails = m_map->brokenTriangles() > 0 && after > kStagnation * normThen;
+			normThen = after;
+		}
 		if (surgeon && surgeon(*m_map)) {
 			m_map->evaluate(u, m_rest);
 			result.residual = residual(target);

@@ -824,8 +824,10 @@ private:
 		std::vector<int> parent(m_pieces.size());
 		std::iota(parent.begin(), parent.end(), 0);
 		for (const auto& link : m_links) {
+			if (link[1].piece < 0)
+				continue;
 			const PieceCorner& side = m_pieces[at(link[0].piece)][at(link[0].corner)];
-			if (link[1].piece >= 0 && !isClosed(side) && side.end < 0)
+			if (!isClosed(side) && side.end < 0)
 				mergeSets(parent, link[0].piece, link[1].piece);
 		}
 		std::vector<int> sheet(m_pieces.size(), -1);
@@ -848,8 +850,10 @@ private:
 		};
 		std::vector<int> glued(3 * triangles.size(), -1);
 		for (const auto& link : m_links) {
+			if (link[1].piece < 0)
+				continue;
 			const PieceCorner& side = m_pieces[at(link[0].piece)][at(link[0].corner)];
-			if (link[1].piece < 0 || isClosed(side) || side.end < 0)
+			if (isClosed(side) || side.end < 0)
 				continue;
 			const int a = sideOfSheet(sheet[at(link[0].piece)], side.end);
 			const int b = sideOfSheet(sheet[at(link[1].piece)], Triangulation::twin(side.end));

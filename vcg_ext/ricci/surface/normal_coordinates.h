@@ -42,8 +42,8 @@ public:
 	struct Curve
 	{
 		int first = -1; ///< halfedge from which the curve leaves counter-clockwise, at its origin;
-			///< where the curve is an edge, that edge's halfedge in its direction
-		int last = -1;                   ///< the same, seen from the curve's other end
+						///< where the curve is an edge, that edge's halfedge in its direction
+		int last = -1;  ///< the same, seen from the curve's other end
 		std::vector<Crossing> crossings; ///< empty where the curve is an edge
 	};
 

@@ -83,7 +83,7 @@ public:
 	/// isFlippable(e) must hold. Halfedge 2 e then runs from l to k.
 	void flip(int e);
 
-	/// Undoes flip(e) exactly, halfedge for halfedge.
+	/// Undoes flip(e) exactly, halfedge for halfedge; only which halfedge halfedge(f) names may differ.
 	void unflip(int e);
 
 private:
