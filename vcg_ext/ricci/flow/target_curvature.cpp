@@ -163,13 +163,15 @@ void setCones(const Topology& topology, const TargetRequest& request, Target& ta
 /// Copies the prescribed values; a defect of rounding size is spread in proportion to |K|.
 void setPrescribed(const Topology& topology, const TargetRequest& request, Target& target)
 {
-	double sum = 0.0, magnitude = 0.0;
+	// A sum of many equal values in double drifts by more than their own rounding.
+	long double exactSum = 0.0L;
+	double magnitude = 0.0;
 	std::size_t notFinite = 0;
 	for (std::size_t v = 0; v < request.prescribed.size(); ++v) {
 		const double K = request.prescribed[v];
 		notFinite += !std::isfinite(K);
 		target.curvature[static_cast<Eigen::Index>(v)] = K;
-		sum += K;
+		exactSum += K;
 		magnitude += std::abs(K);
 	}
 	if (notFinite > 0)
@@ -181,6 +183,7 @@ void setPrescribed(const Topology& topology, const TargetRequest& request, Targe
 		freeTheBoundary(topology, target);
 		return;
 	}
+	const auto sum = static_cast<double>(exactSum);
 	const double wanted = 2 * kPi * topology.eulerCharacteristic;
 	const double defect = wanted - sum;
 	if (std::abs(defect) > kRoundingShare * request.prescribedPrecision * (magnitude + 2 * kPi))
