@@ -254,6 +254,19 @@ TEST(EuclideanFlow, ReachesRandomCurvatures)
 		}
 }
 
+/// Equal shares of the total curvature, each rounded, add up to it as well as they can.
+TEST(EuclideanFlow, TakesEqualSharesOfTheTotalCurvature)
+{
+	for (int subdivision : {3, 7, 12, 17, 25}) {
+		const SurfaceMesh mesh = perforatedSlab(5, subdivision);
+		const Triangulation t = glued(mesh);
+		const double share = -16 * kPi / t.vertexCount();
+		TargetRequest request = prescribed(std::vector<double>(at(t.vertexCount()), share));
+		request.prescribedPrecision = std::numeric_limits<double>::epsilon();
+		EXPECT_NO_THROW(chooseTarget(t, topologyOf(t), {}, mesh.positions, request));
+	}
+}
+
 TEST(EuclideanFlow, ReachesConesNearTheBound)
 {
 	Random random(460);
