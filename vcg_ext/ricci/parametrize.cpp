@@ -69,13 +69,16 @@ public:
 		m_done = std::max(m_done, std::clamp(done, 0.0, 1.0));
 		const std::string line = "Newton step " + std::to_string(step) +
 								 ": max |target - K| = " + text("%.3e", residual);
-		m_interval.log(line);
+		if (step != m_step) // a repeated number: a step that only polishes
+			m_interval.log(line);
+		m_step = step;
 		m_interval.step(kBeforeFlow + m_done * (1.0 - kBeforeFlow - kAfterFlow), line);
 	}
 
 private:
 	Interval& m_interval;
 	double m_epsilon, m_first = -1.0, m_done = 0.0;
+	int m_step = -1;
 };
 
 /// A component's mesh as the flow uses it: equal to the component until boundary edges are split.

@@ -227,7 +227,8 @@ FacePartition walkFaces(std::size_t faceCount, const std::vector<Side>& sides)
 	if (oneSided > 0)
 		throw InvalidMesh(
 			count(oneSided, "component is", "components are") +
-			" not orientable (one-sided, like a Moebius band): cut it into an orientable surface "
+			" not orientable (one-sided, like a Moebius band): cut the mesh into an orientable "
+			"surface "
 			"first.");
 	return part;
 }
@@ -285,7 +286,7 @@ std::vector<Component> splitIntoComponents(const SurfaceMesh& mesh, std::vector<
 	if (unreferenced > 0)
 		notes.push_back(
 			count(static_cast<std::size_t>(unreferenced), "vertex belongs", "vertices belong") +
-			" to no face and takes no part.");
+			" to no face: left out.");
 	if (turned > 0)
 		notes.push_back(
 			count(turned, "face was", "faces were") +
