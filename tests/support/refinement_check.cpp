@@ -51,6 +51,14 @@ struct Glued
 	double length(int h) const { return std::abs(place[at(t.next(h))] - place[at(h)]); }
 };
 
+/// Least height of a triangle that has hardly any area.
+double heightOf(const std::array<Point2, 3>& p)
+{
+	const Complex a = asComplex(p[1]) - asComplex(p[0]), b = asComplex(p[2]) - asComplex(p[0]);
+	const double longest = std::max({std::abs(a), std::abs(b), std::abs(a - b)});
+	return longest > 0.0 ? std::abs((std::conj(a) * b).imag()) / longest : 0.0;
+}
+
 /// Weight of vertex v in point p.
 double weightOf(const SurfacePoint& p, int v)
 {
@@ -84,6 +92,10 @@ RefinementCheck::RefinementCheck(
 			sum += w;
 		weightError = std::max(weightError, std::abs(sum - 1.0));
 	}
+	double extent = 0.0;
+	for (const auto& triangle : map.uv)
+		for (const Point2& p : triangle)
+			extent = std::max({extent, std::abs(p[0]), std::abs(p[1])});
 	std::vector<double> areas(mesh.triangles.size(), 0.0);
 	for (std::size_t f = 0; f < map.triangles.size(); ++f) {
 		const Triangle& t = map.triangles[f];
@@ -97,8 +109,10 @@ RefinementCheck::RefinementCheck(
 				leastWeight = std::min(leastWeight, inFace ? weightOf(p, v) : -1.0);
 			}
 		}
-		const auto& uv = map.uv[f];
-		notPositive += orientation(uv[0], uv[1], uv[2]) <= 0;
+		if (orientation(map.uv[f][0], map.uv[f][1], map.uv[f][2]) > 0)
+			continue;
+		++notPositive;
+		notPositiveByRounding += heightOf(map.uv[f]) <= kPlaceRounding * extent;
 	}
 	for (std::size_t f = 0; f < areas.size(); ++f) {
 		const Triangle& t = mesh.triangles[f];
@@ -123,9 +137,6 @@ RefinementCheck::RefinementCheck(
 		if (!boundary[v])
 			angleError = std::max(
 				angleError, std::abs(defect[v] - (v < curvature.size() ? curvature[v] : 0.0)));
-	double extent = 0.0;
-	for (const Complex& z : glued.place)
-		extent = std::max({extent, std::abs(z.real()), std::abs(z.imag())});
 	for (int e = 0; e < t.edgeCount(); ++e) {
 		if (t.isBoundaryEdge(e))
 			continue;

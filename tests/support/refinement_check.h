@@ -27,6 +27,7 @@ struct RefinementCheck
 	double leastWeight = 0.0; ///< barycentric, in the input face of the piece; -1 if not in it
 	double weightError = 0.0; ///< of the sum of the weights of a point
 	int notPositive = 0;      ///< triangles of the plane that are not counter-clockwise, exactly
+	int notPositiveByRounding = 0; ///< of these, so thin that the places' last digit decides
 	/// Relative difference of an edge's lengths on its two sides, past what rounding of the places
 	/// accounts for: an edge that is tiny in the map has no more digits.
 	double seamMismatch = 0.0;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline_check.h"
+
+#include "flat_map.h"
+#include "refinement_check.h"
+#include "shapes.h"
+
+#include <ricci/error.h>
+#include <ricci/parametrize.h>
+#include <ricci/surface/component.h>
+#include <ricci/surface/triangulation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+namespace ricci::testing {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Cones of a closed component for each 2 pi of its curvature, and at least: few and strong ones
+/// shrink the rest of the surface below what one chart of doubles can hold.
+constexpr int kConesPerTurn = 16, kLeastCones = 4;
+
+/// Curvature that every component admits, its boundary being free.
+std::vector<double> admissibleCurvature(const SurfaceMesh& mesh)
+{
+	std::vector<double> curvature(mesh.positions.size(), 0.0);
+	std::vector<std::string> notes;
+	for (const Component& c : splitIntoComponents(mesh, notes)) {
+		const Triangulation t(static_cast<int>(c.positions.size()), c.triangles);
+		if (!t.boundaryLoops().empty())
+			continue;
+		const int count = static_cast<int>(c.vertex.size());
+		const int chi = t.eulerCharacteristic();
+		const int cones =
+			std::min(chi > 0 ? kLeastCones : kConesPerTurn * std::max(1, -chi), count);
+		for (int i = 0; i < cones; ++i)
+			curvature[at(c.vertex[static_cast<std::size_t>(i) * at(count) / at(cones)])] =
+				2 * kPi * chi / cones;
+	}
+	return curvature;
+}
+
+/// The map with every face turned as the algorithm turned it.
+struct CoherentMap
+{
+	SurfaceMesh mesh;
+	RefinedMesh refined;
+
+	CoherentMap(const SurfaceMesh& input, const Parametrization& flat) :
+			mesh(input), refined(flat.refined)
+	{
+		for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+			if (flat.reversed[f])
+				std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+		for (std::size_t f = 0; f < refined.triangles.size(); ++f)
+			if (flat.reversed[at(refined.inputFace[f])]) {
+				std::swap(refined.triangles[f][1], refined.triangles[f][2]);
+				std::swap(refined.uv[f][1], refined.uv[f][2]);
+			}
+	}
+};
+
+std::string defectOf(const SurfaceMesh& input, const Parametrization& flat, int& belowResolution)
+{
+	const Report& report = flat.report;
+	const CoherentMap map(input, flat);
+	const RefinedMesh& r = map.refined;
+	const RefinementCheck check(
+		map.mesh, {r.points, r.triangles, r.inputFace, r.uv}, flat.targetCurvature);
+	std::vector<char> covered(input.triangles.size(), 0);
+	for (int f : r.inputFace)
+		covered[at(f)] = 1;
+	std::string defects;
+	const auto require = [&](bool good, const char* name, double value) {
+		if (good)
+			return;
+		char text[80];
+		std::snprintf(text, sizeof text, "%s%s %.3g", defects.empty() ? "" : ", ", name, value);
+		defects += text;
+	};
+	require(report.converged, "converged", report.converged);
+	require(
+		report.maxCurvatureError <= std::max(1e-9, report.residualFloor),
+		"residual",
+		report.maxCurvatureError);
+	require(report.residualFloor <= 1e-8, "floor", report.residualFloor);
+	require(report.brokenTriangles == 0, "broken", report.brokenTriangles);
+	belowResolution = check.notPositiveByRounding;
+	const int flipped = check.notPositive - check.notPositiveByRounding;
+	require(flipped == 0, "flipped", flipped);
+	require(report.flippedFaces == check.notPositive, "flipped by the report", report.flippedFaces);
+	require(check.seamMismatch < 1e-9, "seam mismatch", check.seamMismatch);
+	require(check.seamsInside == 0, "seams inside faces", check.seamsInside);
+	require(check.leastWeight >= -1e-12, "weight", check.leastWeight);
+	require(check.weightError < 1e-14, "sum of weights", check.weightError);
+	require(
+		check.eulerCharacteristic == report.eulerCharacteristic,
+		"characteristic",
+		check.eulerCharacteristic);
+	require(check.boundaryLoops == report.boundaryLoops, "boundary loops", check.boundaryLoops);
+	const auto lost = std::count(covered.begin(), covered.end(), 0);
+	require(lost == 0, "faces lost", static_cast<double>(lost));
+	bool finite = true;
+	for (const auto& triangle : r.uv)
+		for (const Point2& p : triangle)
+			finite &= std::isfinite(p[0]) && std::isfinite(p[1]);
+	for (double u : flat.u)
+		finite &= std::isfinite(u);
+	require(finite, "finite", finite);
+	return defects;
+}
+
+} // namespace
+
+PipelineCheck::PipelineCheck(const SurfaceMesh& mesh)
+{
+	Options options;
+	options.target = TargetCurvature::Prescribed;
+	options.freeBoundary = true;
+	options.epsilon = 1e-10;
+	options.output = OutputTriangulation::CommonRefinement;
+	try {
+		VertexInput input;
+		input.targetCurvature = admissibleCurvature(mesh);
+		const Parametrization flat = run(mesh, options, input);
+		report = flat.report;
+		defect = defectOf(mesh, flat, belowResolution);
+	}
+	catch (const Error& error) {
+		refusal = error.what();
+	}
+}
+
+} // namespace ricci::testing
