@@ -331,7 +331,11 @@ TEST(EuclideanFlow, DoubledSolutionIsSymmetric)
 			{"rectangle", implicitDisk(14, seed), TargetCurvature::Rectangle},
 			{"annulus", implicitAnnulus(14, seed), TargetCurvature::Flat},
 			{"sliver disk", sliverDisk(9, 1.5, random), TargetCurvature::Disk},
-			{"sliver rectangle", sliverDisk(9, 1.5, random), TargetCurvature::Rectangle}};
+			{"sliver rectangle", sliverDisk(9, 1.5, random), TargetCurvature::Rectangle},
+			{"ragged rectangle",
+			 shaken(rectangle(8, 3, 8, 1), 0.2, random),
+			 TargetCurvature::Rectangle},
+			{"ragged disk", shaken(rectangle(6, 6, 1, 1), 0.08, random), TargetCurvature::Disk}};
 		for (const auto& c : cases) {
 			SCOPED_TRACE(std::string(c.name) + ", seed " + std::to_string(seed));
 			const FlippedFlow flow(c.mesh, requestOf(c.target, false));

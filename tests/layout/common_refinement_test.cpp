@@ -11,13 +11,16 @@
 
 #include <ricci/layout/common_refinement.h>
 #include <ricci/parametrize.h>
+#include <ricci/surface/normal_coordinates.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ricci::testing {
@@ -141,6 +144,78 @@ TEST(CommonRefinement, EdgesOfTheEndAreStraight)
 			}
 			EXPECT_EQ(missing, 0);
 		}
+}
+
+/// The support of a point on an edge of the input; empty elsewhere.
+std::vector<int> inputEdgeAt(const SurfacePoint& x)
+{
+	std::vector<int> support;
+	for (std::size_t i = 0; i < 4; ++i)
+		if (x.weight[i] != 0.0)
+			support.push_back(x.vertex[i]);
+	std::sort(support.begin(), support.end());
+	return support.size() == 2 ? support : std::vector<int>();
+}
+
+/// Ends of the edges of the input that are not edges of the start.
+std::set<std::pair<int, int>> flippedInputEdges(const FlippedFlow& flow)
+{
+	NormalCoordinates coordinates(flow.result.history.input);
+	for (int e : flow.result.history.startFlips)
+		coordinates.flip(e);
+	const auto curves = coordinates.trace();
+	std::set<std::pair<int, int>> flipped;
+	for (int e = 0; e < flow.base.edgeCount(); ++e)
+		if (!curves[at(e)].crossings.empty())
+			flipped.insert(std::minmax(flow.base.origin(2 * e), flow.base.target(2 * e)));
+	return flipped;
+}
+
+double crossRatio(double a, double b, double c, double d)
+{
+	return (c - a) * (d - b) / ((c - b) * (d - a));
+}
+
+/// Inside a start triangle an edge of the end is straight on the surface as well as in the plane,
+/// and the map between the two is projective: it keeps the cross-ratio of any four points there.
+TEST(CommonRefinement, TheMapIsProjectiveInsideTheTrianglesOfTheStart)
+{
+	int checked = 0, curved = 0;
+	for (std::uint64_t seed : {1, 2, 3})
+		for (const Problem& p : problems(seed)) {
+			SCOPED_TRACE(p.name + ", seed " + std::to_string(seed));
+			const FlippedFlow flow(p.mesh, p.request, p.epsilon);
+			const CommonRefinement r = flow.refinement(flow.cut());
+			const auto flipped = flippedInputEdges(flow);
+			for (const StraightLine& line : straightLines(p.mesh, mapOf(r), 1e-3))
+				for (std::size_t i = 1; i + 2 < line.points.size(); ++i) {
+					// Two points where input edges, but no start edges, cross the line.
+					const auto here = inputEdgeAt(r.points[at(line.points[i])]);
+					const auto next = inputEdgeAt(r.points[at(line.points[i + 1])]);
+					if (here.empty() || next.empty() || here == next ||
+						flipped.count({here[0], here[1]}) == 0 ||
+						flipped.count({next[0], next[1]}) == 0)
+						continue;
+					const auto &s = line.inSpace, &u = line.inPlane;
+					double least = 1.0;
+					for (std::size_t k = i - 1; k < i + 2; ++k)
+						least = std::min(
+							{least,
+							 (s[k + 1] - s[k]) / (s[i + 2] - s[i - 1]),
+							 (u[k + 1] - u[k]) / (u[i + 2] - u[i - 1])});
+					if (least < 1e-4)
+						continue;
+					++checked;
+					const double onSurface = crossRatio(s[i - 1], s[i], s[i + 1], s[i + 2]);
+					EXPECT_NEAR(
+						crossRatio(u[i - 1], u[i], u[i + 1], u[i + 2]) / onSurface, 1.0, 1e-7);
+					curved += std::abs(
+								  (u[i] - u[i - 1]) / (u[i + 2] - u[i - 1]) -
+								  (s[i] - s[i - 1]) / (s[i + 2] - s[i - 1])) > 1e-3;
+				}
+		}
+	EXPECT_GT(checked, 100);
+	EXPECT_GT(curved, 30); // where an affine map would fail
 }
 
 /// The layout of the input's corners is that of the pieces at them, off the cut as well as on it.

@@ -179,21 +179,26 @@ straightLines(const SurfaceMesh& mesh, const RefinedMap& map, double angleTolera
 		} while (g != t.next(h));
 		return best;
 	};
+	std::vector<Point3> space;
+	for (const SurfacePoint& p : map.points)
+		space.push_back(placeOnSurface(p, mesh.positions));
 	std::vector<StraightLine> lines;
 	for (int start = 0; start < t.halfedgeCount(); ++start) {
 		if (t.isOuter(start) || t.origin(start) >= vertexCount)
 			continue;
-		StraightLine line{t.origin(start), -1, glued.length(start)};
-		int h = start, steps = 0;
-		while (h >= 0 && t.target(h) >= vertexCount && ++steps < t.edgeCount()) {
-			h = straightOn(h);
-			if (h >= 0)
-				line.length += glued.length(h);
+		StraightLine line{t.origin(start), -1, 0.0, {t.origin(start)}, {0.0}, {0.0}};
+		for (int h = start; h >= 0 && at(t.edgeCount()) > line.points.size(); h = straightOn(h)) {
+			line.length += glued.length(h);
+			line.points.push_back(t.target(h));
+			line.inPlane.push_back(line.length);
+			line.inSpace.push_back(
+				line.inSpace.back() + distance(space[at(t.origin(h))], space[at(t.target(h))]));
+			if (t.target(h) < vertexCount) {
+				line.to = t.target(h);
+				lines.push_back(line);
+				break;
+			}
 		}
-		if (h < 0 || t.target(h) >= vertexCount)
-			continue;
-		line.to = t.target(h);
-		lines.push_back(line);
 	}
 	return lines;
 }

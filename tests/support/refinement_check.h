@@ -49,6 +49,9 @@ struct StraightLine
 {
 	int from, to;
 	double length;
+	std::vector<int> points;     ///< of the refinement, both ends included
+	std::vector<double> inPlane; ///< [point] way from the beginning
+	std::vector<double> inSpace; ///< the same on the surface
 };
 std::vector<StraightLine>
 straightLines(const SurfaceMesh& mesh, const RefinedMap& map, double angleTolerance);
