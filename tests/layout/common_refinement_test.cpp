@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -176,46 +177,132 @@ double crossRatio(double a, double b, double c, double d)
 	return (c - a) * (d - b) / ((c - b) * (d - a));
 }
 
+/// A map of [0,1] to itself that keeps both ends and takes x to y is the projective
+/// t -> r t / (1 - t + r t); this is r.
+double projectiveFactor(double x, double y)
+{
+	return y * (1.0 - x) / ((1.0 - y) * x);
+}
+
+/// What is seen along one edge of the end.
+struct AlongEndEdge
+{
+	const StraightLine& line;
+	const std::vector<SurfacePoint>& points;
+	const std::set<std::pair<int, int>>& flipped;
+
+	/// Whether an input edge, but no start edge, crosses at point i of the line.
+	bool isInside(std::size_t i) const
+	{
+		const auto edge = inputEdgeAt(points[at(line.points[i])]);
+		return !edge.empty() && flipped.count({edge[0], edge[1]}) > 0;
+	}
+
+	/// Largest change of the cross-ratio of four points in one start triangle; -1 without such.
+	double crossRatioChange() const
+	{
+		double worst = -1.0;
+		const auto &s = line.inSpace, &u = line.inPlane;
+		for (std::size_t i = 1; i + 2 < line.points.size(); ++i) {
+			if (!isInside(i) || !isInside(i + 1))
+				continue;
+			double least = 1.0;
+			for (std::size_t k = i - 1; k < i + 2; ++k)
+				least = std::min(
+					{least,
+					 (s[k + 1] - s[k]) / (s[i + 2] - s[i - 1]),
+					 (u[k + 1] - u[k]) / (u[i + 2] - u[i - 1])});
+			if (least > 1e-4)
+				worst = std::max(
+					worst,
+					std::abs(
+						crossRatio(u[i - 1], u[i], u[i + 1], u[i + 2]) /
+							crossRatio(s[i - 1], s[i], s[i + 1], s[i + 2]) -
+						1.0));
+		}
+		return worst;
+	}
+
+	/// Product of the projective factors of the line's parts in the start triangles; 0 if one of
+	/// them has no point well inside. \p parts receives their number.
+	double factor(int& parts) const
+	{
+		const auto &s = line.inSpace, &u = line.inPlane;
+		double product = 1.0;
+		parts = 0;
+		for (std::size_t from = 0, to; from + 1 < s.size(); from = to) {
+			double best = 1e-3, found = 0.0;
+			for (to = from + 1; to + 1 < s.size() && isInside(to);)
+				++to;
+			for (std::size_t i = from + 1; i < to; ++i) {
+				const double x = (s[i] - s[from]) / (s[to] - s[from]);
+				const double y = (u[i] - u[from]) / (u[to] - u[from]);
+				if (x * (1 - x) * y * (1 - y) > best) {
+					best = x * (1 - x) * y * (1 - y);
+					found = projectiveFactor(x, y);
+				}
+			}
+			product *= found;
+			++parts;
+		}
+		return product;
+	}
+};
+
 /// Inside a start triangle an edge of the end is straight on the surface as well as in the plane,
 /// and the map between the two is projective: it keeps the cross-ratio of any four points there.
-TEST(CommonRefinement, TheMapIsProjectiveInsideTheTrianglesOfTheStart)
+/// Along the whole edge ab its factors multiply to exp(-(du_b - du_a)), du being the change of the
+/// logarithmic radii: the decorated discrete conformal map.
+TEST(CommonRefinement, TheMapIsTheProjectiveOneOfTheRadii)
 {
-	int checked = 0, curved = 0;
+	int crossRatios = 0, factors = 0;
+	double largest = 0.0;
 	for (std::uint64_t seed : {1, 2, 3})
 		for (const Problem& p : problems(seed)) {
 			SCOPED_TRACE(p.name + ", seed " + std::to_string(seed));
 			const FlippedFlow flow(p.mesh, p.request, p.epsilon);
+			const FlowResult& result = flow.result;
 			const CommonRefinement r = flow.refinement(flow.cut());
 			const auto flipped = flippedInputEdges(flow);
-			for (const StraightLine& line : straightLines(p.mesh, mapOf(r), 1e-3))
-				for (std::size_t i = 1; i + 2 < line.points.size(); ++i) {
-					// Two points where input edges, but no start edges, cross the line.
-					const auto here = inputEdgeAt(r.points[at(line.points[i])]);
-					const auto next = inputEdgeAt(r.points[at(line.points[i + 1])]);
-					if (here.empty() || next.empty() || here == next ||
-						flipped.count({here[0], here[1]}) == 0 ||
-						flipped.count({next[0], next[1]}) == 0)
-						continue;
-					const auto &s = line.inSpace, &u = line.inPlane;
-					double least = 1.0;
-					for (std::size_t k = i - 1; k < i + 2; ++k)
-						least = std::min(
-							{least,
-							 (s[k + 1] - s[k]) / (s[i + 2] - s[i - 1]),
-							 (u[k + 1] - u[k]) / (u[i + 2] - u[i - 1])});
-					if (least < 1e-4)
-						continue;
-					++checked;
-					const double onSurface = crossRatio(s[i - 1], s[i], s[i + 1], s[i + 2]);
-					EXPECT_NEAR(
-						crossRatio(u[i - 1], u[i], u[i + 1], u[i + 2]) / onSurface, 1.0, 1e-7);
-					curved += std::abs(
-								  (u[i] - u[i - 1]) / (u[i + 2] - u[i - 1]) -
-								  (s[i] - s[i - 1]) / (s[i + 2] - s[i - 1])) > 1e-3;
-				}
+			const Eigen::VectorXd change = result.u - result.history.startU;
+			const Triangulation& end = result.metric->triangulation();
+			std::map<std::pair<int, int>, std::vector<double>> lengths;
+			for (int e = 0; e < end.edgeCount(); ++e)
+				for (int h : {2 * e, 2 * e + 1})
+					lengths[{end.origin(h), end.target(h)}].push_back(
+						result.metric->lengths()[at(e)]);
+			for (const StraightLine& line : straightLines(p.mesh, mapOf(r), 1e-3)) {
+				const auto& known = lengths[{line.from, line.to}];
+				if (std::none_of(known.begin(), known.end(), [&](double length) {
+						return std::abs(line.length / length - 1.0) < 1e-9;
+					}))
+					continue;
+				// An edge of the input that is kept, or as good as straight, is no test.
+				bool inInputEdge = false;
+				for (std::size_t i = 1; i + 1 < line.points.size(); ++i)
+					inInputEdge |= inputEdgeAt(r.points[at(line.points[i])]) ==
+								   std::vector<int>{
+									   std::min(line.from, line.to), std::max(line.from, line.to)};
+				if (inInputEdge)
+					continue;
+				const AlongEndEdge along{line, r.points, flipped};
+				const double ratio = along.crossRatioChange();
+				EXPECT_LT(ratio, 1e-7);
+				crossRatios += ratio >= 0.0;
+				int parts = 0;
+				const double factor = along.factor(parts);
+				if (factor == 0.0)
+					continue;
+				const double expected = std::exp(change[line.from] - change[line.to]);
+				EXPECT_NEAR(factor / expected, 1.0, 1e-7) << parts << " parts";
+				factors += parts > 1;
+				if (parts > 1)
+					largest = std::max(largest, std::abs(std::log(expected)));
+			}
 		}
-	EXPECT_GT(checked, 100);
-	EXPECT_GT(curved, 30); // where an affine map would fail
+	EXPECT_GT(crossRatios, 100);
+	EXPECT_GT(factors, 30);
+	EXPECT_GT(largest, 0.3); // where an affine map would fail
 }
 
 /// The layout of the input's corners is that of the pieces at them, off the cut as well as on it.
