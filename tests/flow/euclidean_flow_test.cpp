@@ -375,6 +375,11 @@ TEST(EuclideanFlow, StartFlippedBackIsTheInput)
 		const FlippedFlow flow(p.mesh, prescribed(p.curvature));
 		const FlipHistory& history = flow.result.history;
 		EXPECT_GT(history.startFlips.size(), 0u);
+		const MetricMeasure before(flow.base, flow.lengths);
+		const MetricMeasure start(history.start.triangulation, history.start.lengths);
+		EXPECT_NEAR(static_cast<double>(start.area / before.area), 1.0, 1e-13);
+		for (std::size_t v = 0; v < before.curvature.size(); ++v)
+			EXPECT_NEAR(static_cast<double>(start.curvature[v] - before.curvature[v]), 0.0, 1e-12);
 		IntrinsicMesh metric = history.start;
 		for (auto e = history.startFlips.rbegin(); e != history.startFlips.rend(); ++e) {
 			metric.lengths[at(*e)] = flippedLength(metric, *e);
