@@ -130,9 +130,9 @@ TEST(Component, RefusesNonManifoldVertices)
 TEST(Component, RefusesOneSidedSurfaces)
 {
 	const SurfaceMesh band = moebiusBand(9);
-	expectRefusal(band, "1 component is not orientable", "cut it");
-	expectRefusal(sideBySide(band, band, 10), "2 components are not orientable", "cut it");
-	expectRefusal(sideBySide(tetrahedron(), band, 10), "1 component is not orientable", "cut it");
+	expectRefusal(band, "1 component is not orientable", "cut the mesh");
+	expectRefusal(sideBySide(band, band, 10), "2 components are not orientable", "cut the mesh");
+	expectRefusal(sideBySide(tetrahedron(), band, 10), "1 component is not orientable", "cut the mesh");
 }
 
 TEST(Component, RefusesEdgesWithoutLength)
