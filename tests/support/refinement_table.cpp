@@ -2,7 +2,7 @@
 // Prints a table of what the algorithm with intrinsic flips and the common refinement makes of
 // meshes: one row for each mesh, with tabulators between the columns. "bad" rows say what is wrong
 // with the map.
-#include "mesh_file.h"
+#include "off_file.h"
 #include "pipeline_check.h"
 
 #include <cstdio>
@@ -20,7 +20,7 @@ bool addRow(const std::string& path)
 	std::printf("%s", std::filesystem::path(path).stem().string().c_str());
 	std::fflush(stdout);
 	try {
-		const SurfaceMesh mesh = testing::readMesh(path);
+		const SurfaceMesh mesh = testing::readOff(path);
 		std::printf("\t%zu\t%zu", mesh.positions.size(), mesh.triangles.size());
 		std::fflush(stdout);
 		const testing::PipelineCheck check(mesh);
@@ -54,7 +54,7 @@ bool addRow(const std::string& path)
 int main(int argc, char** argv)
 {
 	if (argc < 2) {
-		std::fprintf(stderr, "usage: refinement_table MESH...\n");
+		std::fprintf(stderr, "usage: refinement_table MESH.off...\n");
 		return 2;
 	}
 	std::puts("mesh\tV\tF\tchi\tverdict\titerations\tresidual\tflips\tflipped\tbelow_"
