@@ -586,7 +586,8 @@ TEST(Parametrize, SplitsABoundaryEdgeThatWouldBreakItsTriangle)
 		ASSERT_EQ(flat.u.size(), fan.positions.size()); // the new vertex stays inside
 	}
 	options.surgery = Surgery::None;
-	EXPECT_NE(reason(fan, options, input).find("the triangle inequality at the end"), std::string::npos);
+	EXPECT_NE(
+		reason(fan, options, input).find("the triangle inequality at the end"), std::string::npos);
 }
 
 TEST(Parametrize, ReportedRadiiBelongToTheLayout)

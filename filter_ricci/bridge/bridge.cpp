@@ -59,7 +59,7 @@ MeshModel& checkedMesh(MeshDocument& md, const Settings& settings)
 }
 
 /// Fills a new layer; it disappears again when filling it fails.
-void addFlatLayer(MeshDocument& md, MeshModel& model, const Flow::Result& result)
+MeshModel* addFlatLayer(MeshDocument& md, MeshModel& model, const Flow::Result& result)
 {
 	MeshModel* flat = md.addNewMesh(QString(), "Flat " + model.label(), false);
 	try {
@@ -68,6 +68,7 @@ void addFlatLayer(MeshDocument& md, MeshModel& model, const Flow::Result& result
 		vcg::tri::UpdateBounding<CMeshO>::Box(flat->cm);
 		vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(flat->cm);
 		host::copyTextures(model, *flat);
+		return flat;
 	}
 	catch (...) {
 		host::removeMesh(md, flat);
@@ -93,12 +94,8 @@ int changedElements(const Settings& settings)
 	return elements;
 }
 
-/// The new layer, which needs the most memory, comes first: a failure there leaves the mesh alone.
-void writeResult(
-	MeshDocument& md, MeshModel& model, const Settings& settings, const Flow::Result& result)
+void writeMesh(MeshModel& model, const Settings& settings, const Flow::Result& result)
 {
-	if (settings.flatLayer)
-		addFlatLayer(md, model, result);
 	model.updateDataMask(changedElements(settings));
 	if (settings.flow.output == ricci::OutputTriangulation::CommonRefinement) {
 		model.clearDataMask(MeshModel::MM_FACEFACETOPO | MeshModel::MM_VERTFACETOPO);
@@ -111,6 +108,21 @@ void writeResult(
 	}
 	if (settings.colorize)
 		colorizeByDistortion(model, result.report);
+}
+
+/// The new layer, which needs the most memory, comes first: a failure there leaves the mesh alone.
+void writeResult(
+	MeshDocument& md, MeshModel& model, const Settings& settings, const Flow::Result& result)
+{
+	MeshModel* layer = settings.flatLayer ? addFlatLayer(md, model, result) : nullptr;
+	try {
+		writeMesh(model, settings, result);
+	}
+	catch (...) {
+		if (layer != nullptr)
+			host::removeMesh(md, layer);
+		throw;
+	}
 }
 
 } // namespace

@@ -155,7 +155,7 @@ RichParameterList filterParameters(int)
 		"max_iterations",
 		defaults.maxIterations,
 		"Max Newton steps",
-		"The flow gives up with an error after this many Newton steps. A run takes fewer than 30 "
+		"One solve gives up with an error after this many Newton steps. A run takes fewer than 30 "
 		"as "
 		"a rule."));
 	list.addParam(RichBool(

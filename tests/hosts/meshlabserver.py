@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs stock meshlabserver 2020.09 in a private folder that also holds the plugin."""
 
+import atexit
+import functools
 import os
 import re
 import shutil
@@ -18,17 +20,31 @@ def _stage():
         common.skip(run.stderr.strip().replace("SKIPPED: ", ""))
     if run.returncode != 0:
         raise RuntimeError(run.stderr)
-    if shutil.which("xvfb-run") is None:
-        common.skip("meshlabserver needs a display, and xvfb-run is not installed")
+    if shutil.which("Xvfb") is None:
+        common.skip("meshlabserver needs a display, and Xvfb is not installed")
     return os.path.join(run.stdout.strip(), "bin", "meshlabserver")
 
 
 SERVER = _stage()
 
 
+@functools.lru_cache(maxsize=None)
+def display():
+    """A display of its own for all runs of this process; xvfb-run sometimes fails to clean up."""
+    reading, writing = os.pipe()
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
+        pass_fds=(writing,), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    atexit.register(server.wait)
+    atexit.register(server.terminate)
+    os.close(writing)
+    with os.fdopen(reading) as numbers:
+        return ":" + numbers.readline().strip()
+
+
 def run(arguments, folder):
-    environment = dict(os.environ, HOME=folder, XDG_RUNTIME_DIR=folder)
-    return subprocess.run(["xvfb-run", "-a", SERVER] + arguments, cwd=folder, env=environment,
+    environment = dict(os.environ, HOME=folder, XDG_RUNTIME_DIR=folder, DISPLAY=display())
+    return subprocess.run([SERVER] + arguments, cwd=folder, env=environment,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
 
 

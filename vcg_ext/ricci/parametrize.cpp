@@ -162,7 +162,8 @@ private:
 	void flow()
 	{
 		for (int start = 0; start < kMostStarts; ++start) {
-			m_interval.step(0.0, "Circle packing");
+			if (start == 0)
+				m_interval.step(0.0, "Circle packing");
 			m_base = Triangulation(static_cast<int>(m_mesh.positions.size()), m_mesh.triangles);
 			m_topology = topologyOf(m_base);
 			m_lengths = edgeLengths(m_base, m_mesh.positions);
@@ -193,8 +194,9 @@ private:
 			m_swaps += m_flow.edgeSwaps;
 			if (m_flow.history.lengthened > 0.0)
 				m_interval.log(
-					"Some faces have no area, or an edge without length: the flow sees every edge "
-					"longer by " +
+					"Some faces have no area, or one side a million times shorter than another: "
+					"the "
+					"flow sees every edge longer by " +
 					text("%.3g", m_flow.history.lengthened) + ".");
 			if (m_flow.edgesToSplit.empty())
 				return;
@@ -378,6 +380,7 @@ private:
 		report.maxCurvatureError = std::max(report.maxCurvatureError, m_flow.residual);
 		report.residualFloor = std::max(report.residualFloor, m_flow.floor);
 		report.edgeSwaps += m_swaps;
+		report.brokenTriangles += m_flow.metric->brokenTriangles();
 		report.flips +=
 			static_cast<int>(m_flow.history.startFlips.size() + m_flow.history.flowFlips.size());
 		report.refinementPoints += static_cast<int>(m_refinement.crossings);

@@ -393,7 +393,7 @@ private:
 	{
 		std::vector<double> sides;
 		for (int e : m_surface.loopEdges)
-			sides.push_back(m_surface.lengths[at(e)]);
+			sides.push_back(m_surface.lengths[at(e)] + m_result.history.lengthened);
 		return sides;
 	}
 
@@ -453,39 +453,46 @@ FlowResult runEuclideanFlow(
 	const bool canDouble = options.surgery == Surgery::IntrinsicFlips && !t.boundaryLoops().empty();
 	const bool prescribed =
 		std::find(target.fixed.begin(), target.fixed.end(), 1) == target.fixed.end();
-	int iterations = 0;
-	Eigen::VectorXd factor;
-	std::vector<double> arcs;
-	try {
-		Options ownOptions = options;
-		if (canDouble)
-			ownOptions.maxIterations = std::min(options.maxIterations, kStepsBeforeDoubling);
-		Run run(whole, positions, ownOptions, 0, report);
+	if (!canDouble) {
+		Run run(whole, positions, options, 0, report);
 		const bool solved = run.solve();
-		iterations = run.iterations();
-		if (solved && !(canDouble && prescribed && run.bendsAtBoundary()))
-			return run.result();
-		if (solved) {
-			factor = run.factor();
-			arcs = run.arcs();
-		}
-		if (!canDouble) {
-			FlowResult result = run.result();
-			if (!result.edgesToSplit.empty())
-				return result;
-			throw NotConverged(run.failure());
-		}
+		FlowResult result = run.result();
+		if (solved || !result.edgesToSplit.empty())
+			return result;
+		throw NotConverged(run.failure());
 	}
-	catch (const NotConverged&) {
-		if (!canDouble)
+
+	Options halfOptions = options;
+	halfOptions.maxIterations = std::min(options.maxIterations, kStepsBeforeDoubling);
+	Run half(whole, positions, halfOptions, 0, report);
+	bool solved = false;
+	try {
+		solved = half.solve();
+	}
+	catch (const Cancelled&) {
+		throw;
+	}
+	catch (const Error&) { // the double may do better
+	}
+	if (solved && !(prescribed && half.bendsAtBoundary()))
+		return half.result();
+	Run twice(doubledSurface(whole), positions, options, half.iterations(), report);
+	if (solved)
+		twice.startFrom(half.factor(), half.arcs());
+	try {
+		if (twice.solve())
+			return twice.result();
+	}
+	catch (const Cancelled&) {
+		throw;
+	}
+	catch (const Error&) {
+		if (!solved)
 			throw;
 	}
-	Run run(doubledSurface(whole), positions, options, iterations, report);
-	if (factor.size() > 0)
-		run.startFrom(factor, arcs);
-	if (!run.solve())
-		throw NotConverged(run.failure());
-	return run.result();
+	if (solved) // less conformal at the boundary, but the metric asked for
+		return half.result();
+	throw NotConverged(twice.failure());
 }
 
 } // namespace ricci

@@ -33,7 +33,7 @@ struct NewtonResult
 constexpr double kLargestFloor = 1e-8;
 
 /// Globalised Newton's method for K(u) = target (paper 4.2): the minimiser of the convex Ricci
-/// energy. The only place that decides when the flow stops. Keeps its work space, pattern and
+/// energy. The only place that decides when a solve stops. Keeps its work space, pattern and
 /// symbolic factorisation between calls, so that a warm start costs no set-up.
 class NewtonSolver
 {

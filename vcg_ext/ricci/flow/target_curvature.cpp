@@ -59,6 +59,8 @@ void spreadOverBoundary(
 	for (int h = 0; h < t.halfedgeCount(); ++h)
 		if (t.isOuter(h))
 			perimeter += lengths[at(Triangulation::edge(h))];
+	if (!(perimeter > 0.0))
+		throw InvalidMesh("The boundary has no length: all its vertices lie in one point.");
 	for (int h = 0; h < t.halfedgeCount(); ++h) {
 		if (!t.isOuter(h))
 			continue;
@@ -168,7 +170,9 @@ void setPrescribed(const Topology& topology, const TargetRequest& request, Targe
 	double magnitude = 0.0;
 	std::size_t notFinite = 0;
 	for (std::size_t v = 0; v < request.prescribed.size(); ++v) {
-		const double K = request.prescribed[v];
+		double K = request.prescribed[v];
+		if (std::abs(K) <= kRoundingShare * request.prescribedPrecision) // no cone
+			K = 0.0;
 		notFinite += !std::isfinite(K);
 		target.curvature[static_cast<Eigen::Index>(v)] = K;
 		exactSum += K;

@@ -46,6 +46,11 @@ SurfacePoint between(const SurfacePoint& a, const SurfacePoint& b, double t)
 	return p;
 }
 
+/// Integers decide how the triangulations lie on each other, so this is a fault of the program.
+constexpr const char* kInconsistent =
+	"The overlay of the triangulations is inconsistent: choose the output 'Keep the mesh' with the "
+	"surgery 'None' or 'Edge swap', and report the mesh.";
+
 /// Where a node lies on the end triangulation.
 struct EndPlace
 {
@@ -461,7 +466,7 @@ private:
 		for (std::size_t k = 0; k < 3; ++k)
 			if (h[k] == halfedge)
 				return m_cornerPlace[k] + 1 + index; // a corner has index -1
-		throw Error("The overlay is inconsistent.");
+		throw Error(kInconsistent);
 	}
 
 	/// +1 for places strictly between the chord's ends counter-clockwise, -1 on the other side, 0
@@ -734,6 +739,9 @@ private:
 			}
 		spread(m_inputFace, [](const PieceCorner& c) { return c.input >= 0; });
 		spread(m_endFace, [](const PieceCorner& c) { return c.end >= 0; });
+		for (std::size_t p = 0; p < m_pieces.size(); ++p)
+			if (m_inputFace[p] < 0 || m_endFace[p] < 0)
+				throw Error(kInconsistent);
 	}
 
 	/// Forgets the pieces of the input's faces that are not wanted.
@@ -796,6 +804,8 @@ private:
 				for (int other : m_end.halfedges(f))
 					if (m_end.origin(other) == end.element)
 						g = other;
+			if (g < 0)
+				throw Error(kInconsistent);
 			return onSide(g, 0.0).second;
 		}
 		const auto offer = [&](int other) {
@@ -807,7 +817,7 @@ private:
 		offer(piece[(corner + piece.size() - 1) % piece.size()].end);
 		offer(c.end);
 		if (g < 0)
-			throw Error("The overlay is inconsistent.");
+			throw Error(kInconsistent);
 		return onSide(g, g % 2 == 0 ? end.along : 1.0 - end.along).second;
 	}
 

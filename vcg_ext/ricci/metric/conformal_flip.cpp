@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace ricci {
 
@@ -14,7 +15,7 @@ namespace {
 constexpr double kTieTolerance = 1e-15;
 
 /// The flips end by themselves; this bounds them where values run out of range.
-constexpr int kMostFlipsPerEdge = 1000;
+constexpr std::int64_t kMostFlipsPerEdge = 1000;
 
 /// Inversive distances of the triangle on the left of halfedge h = ij, apex k.
 struct Apex
@@ -87,7 +88,7 @@ int makeWeightedDelaunay(
 	edges.clear();
 	queued.assign(at(edgeCount), 0);
 	int flips = 0;
-	const int mostFlips = kMostFlipsPerEdge * edgeCount;
+	const std::int64_t mostFlips = kMostFlipsPerEdge * edgeCount;
 	const auto visit = [&](int e) {
 		if (isWeightedDelaunay(t, delta, kappa, e) || flips >= mostFlips)
 			return;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace ricci {
@@ -25,6 +26,9 @@ constexpr double kRadiusShare = 0.5;
 constexpr double kShrink = 0.5;
 
 constexpr int kMostShrinks = 60;
+
+/// The flips end by themselves; this bounds them where rounding decides.
+constexpr std::int64_t kMostFlipsPerEdge = 1000;
 
 /// A triangle whose longest side is within this of the other two together, relative to it, has no
 /// shape that rounding respects.
@@ -95,9 +99,11 @@ void flipUntil(IntrinsicMesh& mesh, std::vector<int>& log, Test isGood)
 	Triangulation& t = mesh.triangulation;
 	std::vector<int> stack;
 	std::vector<char> queued(at(t.edgeCount()), 0);
+	std::int64_t flipsLeft = kMostFlipsPerEdge * t.edgeCount();
 	const auto visit = [&](int e) {
-		if (isGood(e))
+		if (flipsLeft <= 0 || isGood(e))
 			return;
+		--flipsLeft;
 		const std::array<int, 4> quad{
 			t.next(2 * e), t.previous(2 * e), t.next(2 * e + 1), t.previous(2 * e + 1)};
 		mesh.lengths[at(e)] = flippedLength(mesh, e);

@@ -16,9 +16,8 @@ struct IntrinsicMesh
 };
 
 /// Where the flow with flips starts: the mesh's own metric on its weighted Delaunay triangulation.
-/// Starting anywhere else would keep a conformal class that is not the surface's (blueprint of the
-/// flip: it is isometric only where the edge is both in and out of the weighted Delaunay
-/// triangulation).
+/// Starting anywhere else would keep a conformal class that is not the surface's: a conformal flip
+/// is isometric only where the edge is both in and out of the weighted Delaunay triangulation.
 struct DelaunayStart
 {
 	IntrinsicMesh mesh;

@@ -57,9 +57,10 @@ void checkElements(const SurfaceMesh& mesh)
 {
 	if (mesh.triangles.empty())
 		throw InvalidMesh(
-			mesh.positions.empty()
+			mesh.positions.size() == mesh.absent
 				? "The mesh is empty: open or create a triangle mesh first."
-				: "The mesh has " + count(mesh.positions.size(), "vertex", "vertices") +
+				: "The mesh has " +
+					  count(mesh.positions.size() - mesh.absent, "vertex", "vertices") +
 					  " but no faces: reconstruct a surface from the points first.");
 	std::size_t notFinite = 0;
 	for (const Point3& p : mesh.positions)
@@ -233,18 +234,36 @@ FacePartition walkFaces(std::size_t faceCount, const std::vector<Side>& sides)
 	return part;
 }
 
+/// A component none of whose triangles has this share of a square is a line.
+constexpr double kLeastArea = 1e-12;
+
 void requireSize(const std::vector<Component>& components)
 {
-	std::size_t points = 0;
+	std::size_t flat = 0;
 	for (const Component& c : components) {
-		const Point3& first = c.positions.front();
-		points += std::all_of(
-			c.positions.begin(), c.positions.end(), [&](const Point3& p) { return p == first; });
+		// Twice the largest area of a triangle against the square of the longest side.
+		double area = 0.0, longest = 0.0;
+		for (const Triangle& t : c.triangles) {
+			const Point3 &p = c.positions[at(t[0])], &q = c.positions[at(t[1])],
+						 &r = c.positions[at(t[2])];
+			double a[3], b[3];
+			for (std::size_t k = 0; k < 3; ++k)
+				a[k] = q[k] - p[k], b[k] = r[k] - p[k];
+			area = std::max(
+				area,
+				std::hypot(
+					a[1] * b[2] - a[2] * b[1],
+					a[2] * b[0] - a[0] * b[2],
+					a[0] * b[1] - a[1] * b[0]));
+			longest = std::max({longest, distance(p, q), distance(q, r), distance(r, p)});
+		}
+		flat += !(area > kLeastArea * longest * longest);
 	}
-	if (points > 0)
+	if (flat > 0)
 		throw InvalidMesh(
-			count(points, "component has", "components have") +
-			" all vertices in one point: delete it first.");
+			count(flat, "component has", "components have") +
+			" no area at all (all vertices on one line, or in one point): delete such pieces "
+			"first.");
 }
 
 } // namespace
@@ -282,7 +301,8 @@ std::vector<Component> splitIntoComponents(const SurfaceMesh& mesh, std::vector<
 	}
 	requireSize(components);
 
-	const auto unreferenced = std::count(localVertex.begin(), localVertex.end(), -1);
+	const auto unreferenced = std::count(localVertex.begin(), localVertex.end(), -1) -
+							  static_cast<std::ptrdiff_t>(mesh.absent);
 	if (unreferenced > 0)
 		notes.push_back(
 			count(static_cast<std::size_t>(unreferenced), "vertex belongs", "vertices belong") +

@@ -41,9 +41,10 @@ public:
 	/// The way of one original edge, from the origin of its even halfedge.
 	struct Curve
 	{
-		int first = -1; ///< halfedge from which the curve leaves counter-clockwise, at its origin;
-						///< where the curve is an edge, that edge's halfedge in its direction
-		int last = -1;  ///< the same, seen from the curve's other end
+		/// Halfedge from which the curve leaves counter-clockwise, at its origin; where the curve is
+		/// an edge, that edge's halfedge in its direction.
+		int first = -1;
+		int last = -1;                   ///< the same, seen from the curve's other end
 		std::vector<Crossing> crossings; ///< empty where the curve is an edge
 	};
 

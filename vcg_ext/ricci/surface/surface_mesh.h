@@ -3,6 +3,7 @@
 #define RICCI_SURFACE_MESH_H
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace ricci {
@@ -10,12 +11,13 @@ namespace ricci {
 using Point3 = std::array<double, 3>;
 using Triangle = std::array<int, 3>;
 
-/// A triangle soup with shared vertices, as the rim hands it over. Positions are only read for
-/// lengths and distances; the flow itself never sees them.
+/// A triangle soup with shared vertices, as the rim hands it over. The flow itself sees lengths
+/// only; positions are read for the corners of a rectangle, edge swaps, areas and distortion.
 struct SurfaceMesh
 {
 	std::vector<Point3> positions;
 	std::vector<Triangle> triangles; ///< indices into positions
+	std::size_t absent = 0;          ///< positions that stand for no vertex (deleted elements)
 };
 
 /// Euclidean distance of two points.

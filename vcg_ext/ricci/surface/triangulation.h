@@ -24,7 +24,7 @@ public:
 	Triangulation() = default;
 
 	/// Glues triangles along equal vertex pairs. The triangles must be coherently oriented and
-	/// manifold (see prepareSurface()); halfedge(f, k) then starts at triangles[f][k].
+	/// manifold (see splitIntoComponents()); halfedge(f, k) then starts at triangles[f][k].
 	/// \throw InvalidMesh if an oriented vertex pair occurs twice.
 	Triangulation(int vertexCount, const std::vector<Triangle>& triangles);
 

@@ -69,8 +69,7 @@ public:
 		std::vector<std::string> notes; ///< what was done without being asked
 		std::vector<WedgeUV> wedgeUV;   ///< [face][corner] charts packed, normalised if asked
 		std::vector<double> vertexQC;   ///< area-weighted mean of sigma1 / sigma2 round the vertex
-		std::vector<double> faceQC;
-		std::vector<double> u;               ///< ln radius of the vertex circle
+		std::vector<double> u;          ///< ln radius of the vertex circle
 		std::vector<double> targetCurvature; ///< radians
 		/// Common refinement, if asked for; its points and faces index the mesh's vertex and face
 		/// vectors, its points beyond them are new.
@@ -93,11 +92,8 @@ public:
 		PackCharts(flat, par.normalizeUV);
 		CountFlippedByRounding(flat, r.report);
 		r.wedgeUV.resize(m.face.size());
-		r.faceQC.assign(m.face.size(), 1.0);
-		for (size_t f = 0; f < faceIndex.size(); ++f) {
+		for (size_t f = 0; f < faceIndex.size(); ++f)
 			r.wedgeUV[size_t(faceIndex[f])] = flat.uv[f];
-			r.faceQC[size_t(faceIndex[f])] = flat.faceQC[f];
-		}
 		r.vertexQC = std::move(flat.vertexQC);
 		r.u = std::move(flat.u);
 		r.targetCurvature = std::move(flat.targetCurvature);
@@ -119,16 +115,13 @@ public:
 		}
 	}
 
-	/// Writes the distortion as vertex quality (and as face quality where that is enabled), and the
-	/// per-vertex attributes of type ScalarType "ricci_u" and "ricci_target_curvature".
+	/// Writes the distortion as vertex quality and the per-vertex attributes of type ScalarType
+	/// "ricci_u" and "ricci_target_curvature".
 	static void WriteVertexQuality(MeshType& m, const Result& r)
 	{
 		RequirePerVertexQuality(m);
-		typename MeshType::template PerVertexAttributeHandle<ScalarType> u =
-			Allocator<MeshType>::template GetPerVertexAttribute<ScalarType>(m, "ricci_u");
-		typename MeshType::template PerVertexAttributeHandle<ScalarType> target =
-			Allocator<MeshType>::template GetPerVertexAttribute<ScalarType>(
-				m, "ricci_target_curvature");
+		VertexAttribute u = Attribute(m, "ricci_u");
+		VertexAttribute target = Attribute(m, "ricci_target_curvature");
 		for (size_t v = 0; v < m.vert.size(); ++v) {
 			if (m.vert[v].IsD())
 				continue;
@@ -139,22 +132,33 @@ public:
 	}
 
 	/// Replaces the faces of \p m by those of the common refinement. New vertices take position,
-	/// normal, colour and texture coordinate from the input's face by interpolation and the
-	/// distortion as quality; a face keeps its number for its first piece, and every piece copies
-	/// its face's data. Wedge texture coordinates must be enabled; adjacency becomes invalid.
+	/// normal and colour from the input's face by interpolation and the distortion as quality; their
+	/// custom attributes other than ricci_u are empty. A face keeps its number for its first piece,
+	/// and every piece copies its face's data; only sides on a faux edge stay faux. Wedge texture
+	/// coordinates must be enabled; adjacency becomes invalid. If memory runs out, what was appended
+	/// is deleted again and nothing else has changed.
 	static void WriteRefinement(MeshType& m, const Result& r)
 	{
 		RequirePerFaceWedgeTexCoord(m);
 		RequirePerVertexQuality(m);
 		const ricci::RefinedMesh& refined = r.refined;
 		const size_t oldVertices = m.vert.size(), oldFaces = m.face.size();
-		if (refined.points.size() > oldVertices)
-			Allocator<MeshType>::AddVertices(m, refined.points.size() - oldVertices);
-		typename MeshType::template PerVertexAttributeHandle<ScalarType> u =
-			Allocator<MeshType>::template GetPerVertexAttribute<ScalarType>(m, "ricci_u");
-		typename MeshType::template PerVertexAttributeHandle<ScalarType> target =
-			Allocator<MeshType>::template GetPerVertexAttribute<ScalarType>(
-				m, "ricci_target_curvature");
+		std::vector<FaceSides> before;
+		for (size_t f = 0; f < oldFaces; ++f)
+			before.push_back(SidesOf(m, m.face[f]));
+		// The first piece of a face takes its place, the others are appended.
+		std::vector<int> slot(refined.triangles.size(), -1);
+		std::vector<char> taken(oldFaces, 0);
+		size_t added = 0;
+		for (size_t i = 0; i < refined.triangles.size(); ++i) {
+			const size_t f = size_t(refined.inputFace[i]);
+			slot[i] = taken[f] ? int(oldFaces + added++) : int(f);
+			taken[f] = 1;
+		}
+		Append(m, refined.points.size() - oldVertices, added);
+		VertexAttribute u = Attribute(m, "ricci_u");
+		VertexAttribute target = Attribute(m, "ricci_target_curvature");
+
 		for (size_t v = 0; v < oldVertices; ++v)
 			if (!m.vert[v].IsD()) {
 				u[v] = ScalarType(r.u[v]);
@@ -171,25 +175,21 @@ public:
 		for (size_t v = 0; v < refined.points.size(); ++v)
 			if (!m.vert[v].IsD())
 				m.vert[v].Q() = typename VertexType::QualityType(refined.vertexQC[v]);
-
-		// The first piece of a face takes its place, the others are appended.
-		std::vector<int> slot(refined.triangles.size(), -1);
-		std::vector<char> taken(oldFaces, 0);
-		size_t added = 0;
-		for (size_t i = 0; i < refined.triangles.size(); ++i) {
-			const size_t f = size_t(refined.inputFace[i]);
-			slot[i] = taken[f] ? int(oldFaces + added++) : int(f);
-			taken[f] = 1;
-		}
-		if (added > 0)
-			Allocator<MeshType>::AddFaces(m, added);
 		for (size_t i = 0; i < refined.triangles.size(); ++i) {
 			FaceType& face = m.face[size_t(slot[i])];
 			if (size_t(slot[i]) >= oldFaces)
 				face.ImportData(m.face[size_t(refined.inputFace[i])]);
+			face.ClearAllF();
 			for (int k = 0; k < 3; ++k) {
-				face.V(k) = &m.vert[size_t(refined.triangles[i][size_t(k)])];
+				const ricci::Triangle& t = refined.triangles[i];
+				face.V(k) = &m.vert[size_t(t[size_t(k)])];
 				SetWedge(face, k, refined.uv[i][size_t(k)]);
+				face.ClearB(k);
+				face.ClearFaceEdgeS(k);
+				const ricci::SurfacePoint& p = refined.points[size_t(t[size_t(k)])];
+				const ricci::SurfacePoint& q = refined.points[size_t(t[size_t(k + 1) % 3])];
+				if (before[size_t(refined.inputFace[i])].IsFaux(p, q))
+					face.SetF(k);
 			}
 		}
 	}
@@ -246,6 +246,72 @@ public:
 	}
 
 private:
+	typedef typename MeshType::template PerVertexAttributeHandle<ScalarType> VertexAttribute;
+
+	/// The attribute of that name, made anew if there is one of another type.
+	static VertexAttribute Attribute(MeshType& m, const char* name)
+	{
+		VertexAttribute found =
+			Allocator<MeshType>::template FindPerVertexAttribute<ScalarType>(m, name);
+		if (Allocator<MeshType>::IsValidHandle(m, found))
+			return found;
+		if (HasPerVertexAttribute(m, name))
+			Allocator<MeshType>::DeletePerVertexAttribute(m, name);
+		return Allocator<MeshType>::template AddPerVertexAttribute<ScalarType>(m, name);
+	}
+
+	/// A face's vertices and which of its sides are faux (inside a polygon).
+	struct FaceSides
+	{
+		std::array<int, 3> vertex{0, 0, 0};
+		std::array<bool, 3> faux{false, false, false};
+
+		/// Whether both points lie on one faux side.
+		bool IsFaux(const ricci::SurfacePoint& p, const ricci::SurfacePoint& q) const
+		{
+			for (size_t k = 0; k < 3; ++k)
+				if (faux[k] && OnSide(p, k) && OnSide(q, k))
+					return true;
+			return false;
+		}
+
+		bool OnSide(const ricci::SurfacePoint& p, size_t k) const
+		{
+			for (size_t i = 0; i < 4; ++i)
+				if (p.weight[i] != 0.0 && p.vertex[i] != vertex[k] &&
+					p.vertex[i] != vertex[(k + 1) % 3])
+					return false;
+			return true;
+		}
+	};
+
+	static FaceSides SidesOf(const MeshType& m, const FaceType& face)
+	{
+		FaceSides sides;
+		for (int k = 0; k < 3 && !face.IsD(); ++k) {
+			sides.vertex[size_t(k)] = int(Index(m, face.cV(k)));
+			sides.faux[size_t(k)] = face.IsF(k);
+		}
+		return sides;
+	}
+
+	/// Appends elements, all or none (what could be appended is deleted again).
+	static void Append(MeshType& m, size_t vertices, size_t faces)
+	{
+		const size_t oldVertices = m.vert.size();
+		if (vertices > 0)
+			Allocator<MeshType>::AddVertices(m, vertices);
+		try {
+			if (faces > 0)
+				Allocator<MeshType>::AddFaces(m, faces);
+		}
+		catch (...) {
+			for (size_t v = oldVertices; v < m.vert.size(); ++v)
+				Allocator<MeshType>::DeleteVertex(m, m.vert[v]);
+			throw;
+		}
+	}
+
 	static void SetWedge(FaceType& face, int k, const ricci::Point2& p)
 	{
 		typedef typename FaceType::TexCoordType::ScalarType TexScalar;
@@ -254,8 +320,8 @@ private:
 		face.WT(k).N() = 0;
 	}
 
-	/// Position, normal, and the colour and texture coordinate where there are any, at an affine
-	/// combination of vertices of \p m.
+	/// Position, normal, and the colour where there is any, at an affine combination of vertices of
+	/// \p m.
 	static void Interpolate(const MeshType& m, const ricci::SurfacePoint& p, VertexType& to)
 	{
 		double place[3] = {0, 0, 0}, normal[3] = {0, 0, 0}, colour[4] = {0, 0, 0, 0};
@@ -300,6 +366,7 @@ private:
 			if (!m.vert[v].IsD()) // a deleted vertex may hold anything
 				for (int k = 0; k < 3; ++k)
 					mesh.positions[v][size_t(k)] = double(m.vert[v].cP()[k]);
+		mesh.absent = m.vert.size() - size_t(m.vn);
 		for (size_t f = 0; f < m.face.size(); ++f) {
 			if (m.face[f].IsD())
 				continue;
@@ -309,8 +376,6 @@ private:
 			mesh.triangles.push_back(t);
 			faceIndex.push_back(int(f));
 		}
-		if (m.vn == 0)
-			mesh.positions.clear();
 		return mesh;
 	}
 
@@ -400,8 +465,11 @@ private:
 		std::vector<Similarity2<double>> place;
 		Point2d covered;
 		while (!RectPacker<double>::PackOccupancy(
-			boxes, Point2i(grid, grid), occupancy, place, covered))
+			boxes, Point2i(grid, grid), occupancy, place, covered)) {
 			occupancy *= 0.85;
+			if (!(occupancy > 1e-12))
+				throw ricci::Error("The charts could not be packed side by side.");
+		}
 		return place;
 	}
 };
