@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -376,6 +377,81 @@ TYPED_TEST(Facade, FlatMeshIsTheLayout)
 			EXPECT_EQ(flat.face[f].cP(k)[1], static_cast<Scalar>(result.wedgeUV[f][at(k)][1]));
 			EXPECT_EQ(flat.face[f].cP(k)[2], Scalar(0));
 		}
+}
+
+TYPED_TEST(Facade, RefinementKeepsTheSurface)
+{
+	using Scalar = typename TypeParam::ScalarType;
+	Random random(308);
+	// Deleted elements, two components, some faces turned round, a loose vertex, faux sides.
+	SurfaceMesh shape = sideBySide(
+		tetrahedron(),
+		sideBySide(shaken(bumpyTorus(14, 9, random), 0.3, random), rectangle(3, 3, 1, 1), 9),
+		20);
+	for (std::size_t f = 4; f < shape.triangles.size(); f += 7)
+		std::swap(shape.triangles[f][1], shape.triangles[f][2]);
+	shape.positions.push_back({1, 2, 3});
+	TypeParam m;
+	toVcg(shape, m);
+	for (std::size_t f = 0; f < 4; ++f)
+		vcg::tri::Allocator<TypeParam>::DeleteFace(m, m.face[f]);
+	for (std::size_t v = 0; v < 4; ++v)
+		vcg::tri::Allocator<TypeParam>::DeleteVertex(m, m.vert[v]);
+	for (auto& v : m.vert)
+		v.N() = typename TypeParam::CoordType(0, 0, 1);
+	for (auto& f : m.face)
+		f.SetF(0);
+	vcg::tri::Allocator<TypeParam>::template AddPerVertexAttribute<char>(m, "ricci_u");
+
+	const auto sums = [](const TypeParam& mesh) { // area, length of faux sides
+		std::array<double, 2> sum{0, 0};
+		for (const auto& f : mesh.face) {
+			if (f.IsD())
+				continue;
+			sum[0] += 0.5 * double(((f.cP(1) - f.cP(0)) ^ (f.cP(2) - f.cP(0))).Norm());
+			for (int k = 0; k < 3; ++k)
+				if (f.IsF(k))
+					sum[1] += double((f.cP((k + 1) % 3) - f.cP(k)).Norm());
+		}
+		return sum;
+	};
+	const auto before = sums(m);
+	std::vector<typename TypeParam::CoordType> places;
+	for (const auto& v : m.vert)
+		places.push_back(v.cP());
+
+	typename Flow<TypeParam>::Params params;
+	params.output = OutputTriangulation::CommonRefinement;
+	const auto result = compute(m, params);
+	ASSERT_GT(result.report.refinementPoints, 0);
+	EXPECT_EQ(result.report.flippedFaces, 0);
+	const int vertices = m.VN(), faces = m.FN();
+	Flow<TypeParam>::WriteRefinement(m, result);
+	EXPECT_EQ(m.VN(), vertices + result.report.refinementPoints);
+	EXPECT_EQ(m.FN(), static_cast<int>(result.refined.triangles.size()));
+	EXPECT_GT(m.FN(), faces);
+
+	const double precision = 30 * double(std::numeric_limits<Scalar>::epsilon());
+	const auto after = sums(m);
+	EXPECT_NEAR(after[0], before[0], precision * before[0]);
+	EXPECT_NEAR(after[1], before[1], precision * before[1]);
+	for (std::size_t v = 0; v < places.size(); ++v)
+		EXPECT_TRUE(m.vert[v].cP() == places[v]);
+	for (std::size_t v = places.size(); v < m.vert.size(); ++v)
+		EXPECT_NEAR(double(m.vert[v].cN()[2]), 1.0, precision);
+	for (const auto& f : m.face)
+		for (int k = 0; k < 3 && !f.IsD(); ++k) {
+			EXPECT_FALSE(f.cV(k)->IsD());
+			EXPECT_GE(f.cWT(k).U(), 0.0f);
+			EXPECT_LE(f.cWT(k).U(), 1.0f);
+		}
+	const auto u =
+		vcg::tri::Allocator<TypeParam>::template FindPerVertexAttribute<Scalar>(m, "ricci_u");
+	EXPECT_TRUE(vcg::tri::Allocator<TypeParam>::IsValidHandle(m, u));
+
+	TypeParam flat;
+	Flow<TypeParam>::BuildFlatMesh(m, result, flat);
+	EXPECT_EQ(flat.FN(), m.FN());
 }
 
 } // namespace
