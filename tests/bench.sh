@@ -19,7 +19,7 @@ done
 [ ${#meshes[@]} -gt 0 ] || meshes=(generated)
 
 {
-	[ -f "$build/CMakeCache.txt" ] || cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release
+	cmake -S "$root" -B "$build" -DBUILD_TESTING=ON
 	cmake --build "$build" --target ricci_bench
 } >&2
 
