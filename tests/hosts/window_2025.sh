@@ -19,17 +19,17 @@ give_up() {
 }
 
 inside() {
-	chroot "$folder/root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
+	chroot "$folder/debian" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
 		DEBIAN_FRONTEND=noninteractive "$@"
 }
 
 mount_all() {
-	mount -t proc proc "$folder/root/proc"
-	mount -t tmpfs tmpfs "$folder/root/dev/shm"
+	mount -t proc proc "$folder/debian/proc"
+	mount -t tmpfs tmpfs "$folder/debian/dev/shm"
 }
 
 unmount_all() {
-	umount "$folder/root/proc" "$folder/root/dev/shm" 2>/dev/null || true
+	umount "$folder/debian/proc" "$folder/debian/dev/shm" 2>/dev/null || true
 }
 
 unpack_debian() {
@@ -37,11 +37,11 @@ unpack_debian() {
 	mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' \
 		'Component: main' | head -n 1)
 	[ -n "$mirror" ] || give_up "this machine names no Debian archive"
-	echo "Unpacking a newer Debian into $folder/root"
-	debootstrap --variant=minbase forky "$folder/root" "$mirror" sid >"$folder/debootstrap.log" 2>&1 ||
+	echo "Unpacking a newer Debian into $folder/debian"
+	debootstrap --variant=minbase forky "$folder/debian" "$mirror" sid >"$folder/debootstrap.log" 2>&1 ||
 		give_up "debootstrap failed; see $folder/debootstrap.log"
-	echo "deb [check-valid-until=no] $mirror forky main" >"$folder/root/etc/apt/sources.list"
-	cp /etc/resolv.conf /etc/hosts "$folder/root/etc/"
+	echo "deb [check-valid-until=no] $mirror forky main" >"$folder/debian/etc/apt/sources.list"
+	cp /etc/resolv.conf /etc/hosts "$folder/debian/etc/"
 }
 
 install_meshlab() {
@@ -50,7 +50,7 @@ install_meshlab() {
 }
 
 stage() {
-	local work=$folder/root/ricci
+	local work=$folder/debian/ricci
 	rm -rf "$work"
 	mkdir -p "$work"
 	cp "$here/../../filter_ricci/scripts/window.sh" "$here/window_2025_inside.sh" "$plugin" "$work/"
@@ -62,7 +62,7 @@ meshes.write_ply('$work/sphere.ply', meshes.sphere())")
 [ "$(id -u)" -eq 0 ] || give_up "root is needed to enter another system"
 command -v debootstrap >/dev/null || give_up "debootstrap is not installed"
 [ -f "$plugin" ] || give_up "the plugin for MeshLab 2025.07 is not built"
-[ -d "$folder/root/usr" ] || unpack_debian
+[ -d "$folder/debian/usr" ] || unpack_debian
 trap unmount_all EXIT
 unmount_all
 mount_all
