@@ -72,5 +72,5 @@ stage
 status=0
 inside bash /ricci/window_2025_inside.sh || status=$?
 mkdir -p "$build/pictures"
-cp "$folder"/root/ricci/*.png "$build/pictures/" 2>/dev/null || true
+cp "$folder"/debian/ricci/*.png "$build/pictures/" 2>/dev/null || true
 exit $status
