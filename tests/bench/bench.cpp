@@ -8,8 +8,8 @@
 #include "support/mesh_file.h"
 #endif
 
-#include <ricci/flow/euclidean_flow.h>
 #include <ricci/flow/hessian.h>
+#include <ricci/flow/ricci_flow.h>
 #include <ricci/flow/sparse_cholesky.h>
 #include <ricci/flow/target_curvature.h>
 #include <ricci/layout/cut_graph.h>
@@ -187,7 +187,8 @@ void measure(const SurfaceMesh& mesh, const Options& options, Row& row)
 	});
 	FlowResult flow;
 	row.flow = timeOf([&] {
-		flow = runEuclideanFlow(
+		flow = runRicciFlow(
+			Background::EuclideanPlane,
 			t,
 			lengths,
 			component.positions,

@@ -49,7 +49,8 @@ void FlippedFlow::run(TargetRequest request, double epsilon)
 	Options options;
 	options.surgery = Surgery::IntrinsicFlips;
 	options.epsilon = epsilon;
-	result = runEuclideanFlow(
+	result = runRicciFlow(
+		Background::EuclideanPlane,
 		base,
 		lengths,
 		mesh.positions,
@@ -77,7 +78,7 @@ CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
 	surface.start = &history.start.triangulation;
 	surface.startLengths = &history.start.lengths;
 	surface.startDelta = &history.startDelta;
-	surface.startU = &history.startU;
+	surface.startRadii = &history.startRadii;
 	surface.flowFlips = &history.flowFlips;
 	surface.end = &result.metric->triangulation();
 	surface.endLengths = &result.metric->lengths();

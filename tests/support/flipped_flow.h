@@ -4,7 +4,7 @@
 
 #include "random.h"
 
-#include <ricci/flow/euclidean_flow.h>
+#include <ricci/flow/ricci_flow.h>
 #include <ricci/flow/target_curvature.h>
 #include <ricci/layout/common_refinement.h>
 #include <ricci/layout/cut_graph.h>
@@ -24,7 +24,7 @@ struct FlippedFlow
 	Topology topology;
 	FlowResult result;
 
-	/// \throw what chooseTarget() and runEuclideanFlow() throw
+	/// \throw what chooseTarget() and runRicciFlow() throw
 	FlippedFlow(const SurfaceMesh& mesh, const TargetRequest& request, double epsilon = 1e-10);
 
 	/// From any triangulation; targets that need places in space are not for it.

@@ -35,7 +35,27 @@ enum class OutputTriangulation {
 					 ///< exact
 };
 
-struct Options
+/// Geometry of the plane that triangles are cut from (Definition 3.1).
+enum class Background {
+	EuclideanPlane, ///< flat triangles
+	HyperbolicPlane ///< triangles of curvature -1
+};
+
+/// What the flow itself needs to know.
+struct FlowOptions
+{
+	/// Stop when max |target - K| falls below this, in radians. Must be positive.
+	double epsilon = 1e-8;
+
+	PackingScheme packing = PackingScheme::InversiveDistance;
+	Surgery surgery = Surgery::IntrinsicFlips;
+
+	/// Newton steps of one solve, at least 1.
+	int maxIterations = 200;
+};
+
+/// Options of the Euclidean flow.
+struct Options : FlowOptions
 {
 	TargetCurvature target = TargetCurvature::Automatic;
 
@@ -44,15 +64,7 @@ struct Options
 	/// annulus prescribe the boundary and ignore this.
 	bool freeBoundary = true;
 
-	/// Stop when max |target - K| falls below this, in radians. Must be positive.
-	double epsilon = 1e-8;
-
-	PackingScheme packing = PackingScheme::InversiveDistance;
-	Surgery surgery = Surgery::IntrinsicFlips;
 	OutputTriangulation output = OutputTriangulation::KeepMesh;
-
-	/// Newton steps of one solve, at least 1.
-	int maxIterations = 200;
 };
 
 } // namespace ricci

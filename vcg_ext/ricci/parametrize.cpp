@@ -2,7 +2,7 @@
 #include "parametrize.h"
 
 #include "error.h"
-#include "flow/euclidean_flow.h"
+#include "flow/ricci_flow.h"
 #include "layout/cut_graph.h"
 #include "layout/distortion.h"
 #include "layout/invariants.h"
@@ -182,7 +182,8 @@ private:
 					m_interval.log(note);
 			}
 			FlowProgress progress(m_interval, m_options.epsilon);
-			m_flow = runEuclideanFlow(
+			m_flow = runRicciFlow(
+				Background::EuclideanPlane,
 				m_base,
 				m_lengths,
 				m_mesh.positions,
@@ -289,7 +290,7 @@ private:
 		surface.start = &history.start.triangulation;
 		surface.startLengths = &history.start.lengths;
 		surface.startDelta = &history.startDelta;
-		surface.startU = &history.startU;
+		surface.startRadii = &history.startRadii;
 		surface.flowFlips = &history.flowFlips;
 		surface.end = &metric.triangulation();
 		surface.endLengths = &metric.lengths();

@@ -2,6 +2,7 @@
 #include "curvature_map.h"
 
 #include "../metric/euclidean.h"
+#include "../metric/hyperbolic.h"
 #include "../numbers.h"
 
 #include <algorithm>
@@ -156,7 +157,7 @@ void FlippingCurvatureMap<Geometry>::evaluate(const Eigen::VectorXd& u, const Ei
 template<class Geometry>
 void FlippingCurvatureMap<Geometry>::accept()
 {
-	m_journal.appendTo(m_flips);
+	m_journal.appendTo(this->m_flips);
 	m_journal.clear();
 }
 
@@ -172,5 +173,9 @@ template class GeometricCurvatureMap<Euclidean>;
 template class FlippingCurvatureMap<Euclidean>;
 template class GeometricCurvatureMap<EuclideanGeometry<long double>>;
 template class FlippingCurvatureMap<EuclideanGeometry<long double>>;
+template class GeometricCurvatureMap<Hyperbolic>;
+template class FlippingCurvatureMap<Hyperbolic>;
+template class GeometricCurvatureMap<HyperbolicGeometry<long double>>;
+template class FlippingCurvatureMap<HyperbolicGeometry<long double>>;
 
 } // namespace ricci

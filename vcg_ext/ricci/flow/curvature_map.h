@@ -71,6 +71,9 @@ public:
 	virtual void accept() {}
 	virtual void reject() {}
 
+	/// Edges that evaluate() flipped since the start, in order, up to the last accept().
+	const std::vector<int>& flips() const { return m_flips; }
+
 	/// Replaces interior edge \p e by the other diagonal of its two triangles, with \p delta.
 	void swapEdge(int e, double delta);
 
@@ -82,11 +85,12 @@ protected:
 	Eigen::VectorXd m_curvature;
 	std::vector<double> m_lengths, m_weights, m_cosineLess1, m_angles;
 	int m_broken = 0;
+	std::vector<int> m_flips;
 	double m_needleRatio = 1.0;
 	int m_revision = 0;
 };
 
-/// CurvatureMap of the background geometry \p Geometry (see Euclidean).
+/// CurvatureMap of the background geometry \p Geometry (see Euclidean, Hyperbolic).
 template<class Geometry>
 class GeometricCurvatureMap : public CurvatureMap
 {
@@ -124,14 +128,10 @@ public:
 	void accept() override;
 	void reject() override;
 
-	/// Edges flipped since the start, in order, up to the last accept().
-	const std::vector<int>& flips() const { return m_flips; }
-
 private:
 	std::vector<double> m_kappa; // by vertex
 	FlipJournal m_journal;
 	DelaunayQueue m_queue;
-	std::vector<int> m_flips;
 };
 
 } // namespace ricci

@@ -16,6 +16,9 @@ namespace {
 /// out of range.
 constexpr double kStepCap = 4.0;
 
+/// In the hyperbolic plane u is negative; a step covers at most this share of the way to 0.
+constexpr double kShareOfRange = 0.9;
+
 /// Sufficient decrease of |K - target| asked of a step of length t: by the factor 1 - kDecrease t.
 constexpr double kDecrease = 1e-4;
 
@@ -125,6 +128,17 @@ void NewtonSolver::direction(bool refactor)
 		m_direction.array() -= m_direction.mean();
 }
 
+/// Share of m_direction, whose largest entry is \p largest, that keeps u in range.
+double NewtonSolver::longestStep(const Eigen::VectorXd& u, double largest) const
+{
+	double t = largest > kStepCap ? kStepCap / largest : 1.0;
+	if (!m_map->scaleInvariant())
+		for (Eigen::Index v = 0; v < u.size(); ++v)
+			if (m_direction[v] > 0.0)
+				t = std::min(t, kShareOfRange * -u[v] / m_direction[v]);
+	return t;
+}
+
 /// m_trial + m_trialRest = u + m_rest + t m_direction, with the rounding error of the sum kept.
 void NewtonSolver::applyStep(const Eigen::VectorXd& u, double t)
 {
@@ -187,7 +201,7 @@ NewtonResult NewtonSolver::solve(
 		const double largest = m_direction.lpNorm<Eigen::Infinity>();
 		if (!std::isfinite(largest))
 			break;
-		double t = largest > kStepCap ? kStepCap / largest : 1.0;
+		double t = longestStep(u, largest);
 		const double before = m_gradient.norm();
 		double after = 0.0;
 		double trialResidual;

@@ -69,6 +69,7 @@ private:
 	double residual(const Eigen::VectorXd& target);
 	void updatePattern();
 	void direction(bool refactor);
+	double longestStep(const Eigen::VectorXd& u, double largest) const;
 	void applyStep(const Eigen::VectorXd& u, double t);
 	double roundingFloor();
 

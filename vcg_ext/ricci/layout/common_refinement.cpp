@@ -2,6 +2,8 @@
 #include "common_refinement.h"
 
 #include "../error.h"
+#include "../metric/euclidean.h"
+#include "../metric/hyperbolic.h"
 #include "../numbers.h"
 #include "edge_crossings.h"
 #include "piece_triangulation.h"
@@ -97,6 +99,11 @@ public:
 			m_positions(positions), m_isCut(isCut), m_input(*s.input), m_start(*s.start),
 			m_end(*s.end), m_crossings(s)
 	{
+		m_endRadius.resize(at(m_end.vertexCount()));
+		for (int v = 0; v < m_end.vertexCount(); ++v)
+			m_endRadius[at(v)] = s.background == Background::EuclideanPlane
+									 ? Euclidean::circle((*s.endU)[v]).s
+									 : Hyperbolic::circle((*s.endU)[v]).s;
 	}
 
 	CommonRefinement run()
@@ -115,8 +122,11 @@ public:
 private:
 	using Curve = NormalCoordinates::Curve;
 
-	double startRadius(int v) const { return std::exp((*m_s.startU)[v]); }
-	double endRadius(int v) const { return std::exp((*m_s.endU)[v]); }
+	double startRadius(int v) const { return (*m_s.startRadii)[at(v)]; }
+
+	/// Weight of an end vertex: its vector in R^{2,1} is the point of the plane over its radius
+	/// (Euclidean), or the point of the hyperboloid over the sinh of its radius.
+	double endRadius(int v) const { return m_endRadius[at(v)]; }
 
 	/// Position of a homogeneous point on a start or end edge, from the origin of the even
 	/// halfedge.
@@ -1001,6 +1011,7 @@ private:
 	const Triangulation& m_end;
 
 	const EdgeCrossings m_crossings;
+	std::vector<double> m_endRadius; // [vertex]
 
 	std::vector<Node> m_nodes;
 	std::vector<int> m_firstOnEdge, m_onEdge; // [start edge] its inner nodes, in order

@@ -2,6 +2,7 @@
 #ifndef RICCI_COMMON_REFINEMENT_H
 #define RICCI_COMMON_REFINEMENT_H
 
+#include "../options.h"
 #include "../surface/triangulation.h"
 #include "planar_layout.h"
 
@@ -22,12 +23,13 @@ struct FlippedSurface
 	const Triangulation* start = nullptr;
 	const std::vector<double>* startLengths = nullptr; ///< [edge] the input's metric
 	const std::vector<double>* startDelta = nullptr;   ///< [edge] inversive distance less one
-	const Eigen::VectorXd* startU = nullptr;           ///< ln radius
+	const std::vector<double>* startRadii = nullptr;   ///< [vertex] in the input's metric
 	const std::vector<int>* flowFlips = nullptr;       ///< start -> end, in order
 	const Triangulation* end = nullptr;
-	const std::vector<double>* endLengths = nullptr; ///< [edge] the flat metric
-	const std::vector<double>* endAngles = nullptr;  ///< [halfedge]
-	const Eigen::VectorXd* endU = nullptr;
+	const std::vector<double>* endLengths = nullptr;    ///< [edge] the metric found
+	const std::vector<double>* endAngles = nullptr;     ///< [halfedge]
+	const Eigen::VectorXd* endU = nullptr;              ///< Eq. 6
+	Background background = Background::EuclideanPlane; ///< of the end
 	/// Only faces of the input below this are wanted, and only vertices that have a position.
 	int keptFaces = 0;
 };

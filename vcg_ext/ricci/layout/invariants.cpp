@@ -62,17 +62,4 @@ annulusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGrap
 	return area / std::norm(period(t, layout, static_cast<int>(e)));
 }
 
-double metricArea(
-	const Triangulation& t, const std::vector<double>& lengths, const std::vector<double>& angles)
-{
-	const auto at = [](int index) { return static_cast<std::size_t>(index); };
-	double area = 0.0;
-	for (int f = 0; f < t.faceCount(); ++f) {
-		const int h = t.halfedge(f);
-		area += 0.5 * lengths[at(Triangulation::edge(h))] *
-				lengths[at(Triangulation::edge(t.previous(h)))] * std::sin(angles[at(h)]);
-	}
-	return area;
-}
-
 } // namespace ricci

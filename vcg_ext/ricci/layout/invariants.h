@@ -27,10 +27,6 @@ torusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGraph&
 double annulusModulus(
 	const Triangulation& t, const PlanarLayout& layout, const CutGraph& cut, double area);
 
-/// Area of a flat metric. \param lengths [edge], \param angles [halfedge]
-double metricArea(
-	const Triangulation& t, const std::vector<double>& lengths, const std::vector<double>& angles);
-
 } // namespace ricci
 
 #endif

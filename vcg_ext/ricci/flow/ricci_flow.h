@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_EUCLIDEAN_FLOW_H
-#define RICCI_EUCLIDEAN_FLOW_H
+#ifndef RICCI_RICCI_FLOW_H
+#define RICCI_RICCI_FLOW_H
 
 #include "../metric/delaunay_start.h"
 #include "../options.h"
@@ -20,20 +20,20 @@ struct FlipHistory
 	Triangulation input;            ///< the surface, or its double
 	IntrinsicMesh start;            ///< the input's metric on the triangulation of the first step
 	std::vector<double> startDelta; ///< [edge of start] inversive distance less one
-	Eigen::VectorXd startU;
-	std::vector<int> startFlips; ///< from the input's triangulation to the start's, in order
-	std::vector<int> flowFlips;  ///< from the start's triangulation to the last, in order
-	double lengthened = 0.0;     ///< added to every edge of a degenerate mesh, see mollify()
+	std::vector<double> startRadii; ///< [vertex] Euclidean, in the input's metric
+	std::vector<int> startFlips;    ///< from the input's triangulation to the start's, in order
+	std::vector<int> flowFlips;     ///< from the start's triangulation to the last, in order
+	double lengthened = 0.0;        ///< added to every edge of a degenerate mesh, see mollify()
 };
 
-/// The flat metric (with cones) that the flow found on one connected surface.
+/// The metric of constant curvature (with cones) that the flow found on one connected surface.
 struct FlowResult
 {
 	/// Triangulation, lengths and angles at the end; of the double of the surface if doubled.
 	std::shared_ptr<const CurvatureMap> metric;
 	bool doubled = false;
 
-	Eigen::VectorXd u;         ///< [vertex of metric] ln radius
+	Eigen::VectorXd u;         ///< [vertex of metric] Eq. 6: ln radius, or ln tanh(radius / 2)
 	Eigen::VectorXd curvature; ///< [vertex of the surface] K at the end, radians
 	Target target;             ///< as reached (a disk adapts its boundary)
 	double area = 0.0;         ///< of the surface in the metric
@@ -48,6 +48,11 @@ struct FlowResult
 
 /// Runs the flow from the metric \p lengths on \p t to \p target.
 ///
+/// The start is the same in both backgrounds: the Euclidean inversive distances, which have no
+/// scale, on the weighted Delaunay triangulation of the flat triangles. So the Euclidean and the
+/// hyperbolic flow find metrics of one discrete conformal class. The hyperbolic start has about
+/// the area that Gauss-Bonnet gives to the target, sum K - 2 pi chi, which must be positive.
+///
 /// With intrinsic flips the boundary's edges stay at first. If that breaks a triangle or fails, or
 /// leaves edges of a prescribed boundary that are not Delaunay (which costs conformality there),
 /// the flow runs on the double of the surface, which is closed, so that every admissible target is
@@ -57,13 +62,14 @@ struct FlowResult
 /// \param boundaryLoop the one boundary loop of a circular target
 /// \param report gets the number of Newton steps so far and the residual before each step
 /// \throw NotConverged if the target is not reached within the options' limits
-FlowResult runEuclideanFlow(
+FlowResult runRicciFlow(
+	Background background,
 	const Triangulation& t,
 	const std::vector<double>& lengths,
 	const std::vector<Point3>& positions,
 	const Target& target,
 	const std::vector<int>& boundaryLoop,
-	const Options& options,
+	const FlowOptions& options,
 	const std::function<void(int, double)>& report);
 
 } // namespace ricci

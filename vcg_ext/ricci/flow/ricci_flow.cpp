@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "euclidean_flow.h"
+#include "ricci_flow.h"
 
 #include "../error.h"
-#include "../layout/invariants.h"
 #include "../layout/unfold.h"
+#include "../metric/area.h"
 #include "../metric/euclidean.h"
+#include "../metric/hyperbolic.h"
 #include "../numbers.h"
 #include "../surface/double_surface.h"
 #include "circular_boundary.h"
@@ -39,6 +40,9 @@ constexpr double kLargestGap = 1e-12;
 
 /// A weight above minus this is that of co-circular triangles.
 constexpr double kTieWeight = 1e-9;
+
+/// Bound of u at a hyperbolic start, below the 0 that stands for an infinite radius.
+constexpr double kLargestStartU = -1e-3;
 
 /// Newton steps given to the surface itself where its double is there to fall back on.
 constexpr int kStepsBeforeDoubling = 40;
@@ -190,13 +194,14 @@ Surface doubledSurface(const Surface& half)
 class Run
 {
 public:
-	Run(Surface surface,
+	Run(Background background,
+		Surface surface,
 		const std::vector<Point3>& positions,
-		const Options& options,
+		const FlowOptions& options,
 		int stepsBefore,
 		const std::function<void(int, double)>& report) :
-			m_surface(std::move(surface)),
-			m_options(options), m_report(report)
+			m_background(background),
+			m_surface(std::move(surface)), m_options(options), m_report(report)
 	{
 		m_result.iterations = stepsBefore;
 		makeMap();
@@ -246,10 +251,7 @@ public:
 	const std::vector<double>& arcs() const { return m_arcs; }
 
 	/// Logarithmic conformal factor at the input's vertices, end less start.
-	Eigen::VectorXd factor() const
-	{
-		return (m_result.u - m_result.history.startU).head(m_surface.vertexCount);
-	}
+	Eigen::VectorXd factor() const { return (m_result.u - m_startU).head(m_surface.vertexCount); }
 
 	/// Whether a boundary edge would have to flip in the double: its triangle's circle bulges out.
 	bool bendsAtBoundary() const
@@ -273,7 +275,9 @@ public:
 		m_result.swapped = m_swapper->swapped();
 		m_result.edgesToSplit = m_swapper->boundaryEdgesToSplit();
 		m_result.history.flowFlips = flowFlips();
-		m_result.area = metricArea(m_map->triangulation(), m_map->lengths(), m_map->angles());
+		m_result.area = m_background == Background::EuclideanPlane
+							? euclideanArea(m_map->triangulation(), m_map->lengths())
+							: hyperbolicArea(m_map->triangulation(), m_map->lengths());
 		m_result.curvature = m_map->curvature().head(m_surface.vertexCount);
 		m_result.target = m_surface.target;
 		m_result.target.curvature.conservativeResize(m_surface.vertexCount);
@@ -314,30 +318,59 @@ private:
 
 	void makeMap()
 	{
-		const Triangulation& t = m_surface.triangulation;
-		if (m_options.surgery == Surgery::IntrinsicFlips) {
-			DelaunayStart start = delaunayStart({t, m_surface.lengths}, m_surface.mirror);
-			m_radii = start.radii;
-			auto flipping = std::make_shared<FlippingCurvatureMap<Euclidean>>(
-				pack(start.mesh.triangulation, start.mesh.lengths, m_radii, m_options.packing));
+		IntrinsicMesh mesh{m_surface.triangulation, m_surface.lengths};
+		const bool flips = m_options.surgery == Surgery::IntrinsicFlips;
+		if (flips) {
+			DelaunayStart start = delaunayStart(std::move(mesh), m_surface.mirror);
+			m_radii = std::move(start.radii);
+			mesh = std::move(start.mesh);
+			m_result.history.startFlips = std::move(start.flips);
+			m_result.history.lengthened = start.lengthened;
+		}
+		else
+			m_radii = initialRadii(mesh.triangulation, mesh.lengths);
+		m_result.u = startU(mesh);
+		CirclePacking packing = pack(mesh.triangulation, mesh.lengths, m_radii, m_options.packing);
+		if (flips) {
 			FlipHistory& history = m_result.history;
-			history.input = t;
-			history.start = std::move(start.mesh);
-			history.startDelta = flipping->delta();
-			history.startFlips = std::move(start.flips);
-			history.lengthened = start.lengthened;
-			m_flipping = flipping.get();
-			m_map = std::move(flipping);
+			history.input = m_surface.triangulation;
+			history.start = std::move(mesh);
+			history.startDelta = packing.delta;
+			history.startRadii = m_radii;
 		}
-		else {
-			m_radii = initialRadii(t, m_surface.lengths);
-			m_map = std::make_shared<GeometricCurvatureMap<Euclidean>>(
-				pack(t, m_surface.lengths, m_radii, m_options.packing));
+		m_startU = m_result.u;
+		m_map = m_background == Background::EuclideanPlane
+					? makeMap<Euclidean>(std::move(packing))
+					: makeMap<Hyperbolic>(std::move(packing));
+	}
+
+	template<class Geometry>
+	std::shared_ptr<CurvatureMap> makeMap(CirclePacking packing) const
+	{
+		if (m_options.surgery == Surgery::IntrinsicFlips)
+			return std::make_shared<FlippingCurvatureMap<Geometry>>(std::move(packing));
+		return std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
+	}
+
+	/// ln radius, in the hyperbolic plane with the radii scaled so that the area is that of the
+	/// metric to be found: there tanh(radius / 2) is nearly radius / 2, and the inversive distances
+	/// are the Euclidean ones, which know no scale.
+	Eigen::VectorXd startU(const IntrinsicMesh& mesh) const
+	{
+		Eigen::VectorXd u(static_cast<Eigen::Index>(m_radii.size()));
+		double scale = 1.0;
+		if (m_background == Background::HyperbolicPlane) {
+			double area = -2 * kPi * m_surface.triangulation.eulerCharacteristic();
+			for (std::size_t v = 0; v < m_surface.target.fixed.size(); ++v)
+				if (!m_surface.target.fixed[v])
+					area += m_surface.target.curvature[static_cast<Eigen::Index>(v)];
+			scale = 0.5 * std::sqrt(area / euclideanArea(mesh.triangulation, mesh.lengths));
 		}
-		m_result.u.resize(t.vertexCount());
-		for (int v = 0; v < t.vertexCount(); ++v)
-			m_result.u[v] = std::log(m_radii[at(v)]);
-		m_result.history.startU = m_result.u;
+		for (std::size_t v = 0; v < m_radii.size(); ++v)
+			u[static_cast<Eigen::Index>(v)] = std::log(scale * m_radii[v]);
+		if (m_background == Background::HyperbolicPlane)
+			u = u.cwiseMin(kLargestStartU);
+		return u;
 	}
 
 	NewtonResult solveFor(double epsilon)
@@ -366,27 +399,21 @@ private:
 	/// Goes on from the present state in long double.
 	NewtonResult solveExtended()
 	{
-		using Real = EuclideanGeometry<long double>;
-		std::vector<int> flips = flowFlips();
-		std::shared_ptr<FlippingCurvatureMap<Real>> flipping;
-		std::shared_ptr<CurvatureMap> map;
-		if (m_flipping)
-			map = flipping = std::make_shared<FlippingCurvatureMap<Real>>(m_map->packing());
-		else
-			map = std::make_shared<GeometricCurvatureMap<Real>>(m_map->packing());
+		m_flipsBefore = flowFlips();
+		std::shared_ptr<CurvatureMap> map =
+			m_background == Background::EuclideanPlane
+				? makeMap<EuclideanGeometry<long double>>(m_map->packing())
+				: makeMap<HyperbolicGeometry<long double>>(m_map->packing());
 		m_newton->continueOn(*map);
 		m_map = std::move(map);
-		const NewtonResult solved = solveFor(m_options.epsilon);
-		if (flipping)
-			flips.insert(flips.end(), flipping->flips().begin(), flipping->flips().end());
-		m_result.history.flowFlips = std::move(flips);
-		m_flipping = nullptr;
-		return solved;
+		return solveFor(m_options.epsilon);
 	}
 
 	std::vector<int> flowFlips() const
 	{
-		return m_flipping ? m_flipping->flips() : m_result.history.flowFlips;
+		std::vector<int> flips = m_flipsBefore;
+		flips.insert(flips.end(), m_map->flips().begin(), m_map->flips().end());
+		return flips;
 	}
 
 	std::vector<double> originalSides() const
@@ -425,13 +452,15 @@ private:
 		return sides;
 	}
 
+	Background m_background;
 	Surface m_surface;
-	const Options& m_options;
+	const FlowOptions& m_options;
 	const std::function<void(int, double)>& m_report;
 	FlowResult m_result;
 	std::vector<double> m_radii;
+	Eigen::VectorXd m_startU;
 	std::shared_ptr<CurvatureMap> m_map;
-	FlippingCurvatureMap<Euclidean>* m_flipping = nullptr; // m_map, while it is in double
+	std::vector<int> m_flipsBefore; // those of the map in double, once the map is an extended one
 	std::unique_ptr<EdgeSwapper> m_swapper;
 	std::unique_ptr<NewtonSolver> m_newton;
 	NewtonResult m_solved;
@@ -440,13 +469,14 @@ private:
 
 } // namespace
 
-FlowResult runEuclideanFlow(
+FlowResult runRicciFlow(
+	Background background,
 	const Triangulation& t,
 	const std::vector<double>& lengths,
 	const std::vector<Point3>& positions,
 	const Target& target,
 	const std::vector<int>& boundaryLoop,
-	const Options& options,
+	const FlowOptions& options,
 	const std::function<void(int, double)>& report)
 {
 	const Surface whole = wholeSurface(t, lengths, target, boundaryLoop);
@@ -454,7 +484,7 @@ FlowResult runEuclideanFlow(
 	const bool prescribed =
 		std::find(target.fixed.begin(), target.fixed.end(), 1) == target.fixed.end();
 	if (!canDouble) {
-		Run run(whole, positions, options, 0, report);
+		Run run(background, whole, positions, options, 0, report);
 		const bool solved = run.solve();
 		FlowResult result = run.result();
 		if (solved || !result.edgesToSplit.empty())
@@ -462,9 +492,9 @@ FlowResult runEuclideanFlow(
 		throw NotConverged(run.failure());
 	}
 
-	Options halfOptions = options;
+	FlowOptions halfOptions = options;
 	halfOptions.maxIterations = std::min(options.maxIterations, kStepsBeforeDoubling);
-	Run half(whole, positions, halfOptions, 0, report);
+	Run half(background, whole, positions, halfOptions, 0, report);
 	bool solved = false;
 	try {
 		solved = half.solve();
@@ -476,7 +506,7 @@ FlowResult runEuclideanFlow(
 	}
 	if (solved && !(prescribed && half.bendsAtBoundary()))
 		return half.result();
-	Run twice(doubledSurface(whole), positions, options, half.iterations(), report);
+	Run twice(background, doubledSurface(whole), positions, options, half.iterations(), report);
 	if (solved)
 		twice.startFrom(half.factor(), half.arcs());
 	try {
