@@ -42,6 +42,8 @@ Results toResults(const ricci::Report& report)
 		{"qc_area_mean", report.qcAreaMean},
 		{"qc_p99", report.qcP99},
 		{"qc_max", report.qcMax},
+		{"area_distortion_mean", report.areaDistortionMean},
+		{"area_distortion_spread", report.areaDistortionSpread},
 		{"flipped_faces", report.flippedFaces},
 		{"flipped_by_rounding", report.flippedByRounding},
 		{"flips", report.flips},

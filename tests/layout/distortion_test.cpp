@@ -5,6 +5,7 @@
 
 #include <ricci/layout/distortion.h>
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <gtest/gtest.h>
 
@@ -192,6 +193,45 @@ TEST(Distortion, CountsFacesWithTheWrongOrNoOrientation)
 	EXPECT_TRUE(std::isinf(field.face[2]));
 	EXPECT_NEAR(report.qcMax, 1.0, 1e-14); // it is kept out of the means
 	EXPECT_NEAR(report.qcMean, 1.0, 1e-14);
+}
+
+TEST(AreaDistortion, OfASimilarityIsOneAndOfALinearMapToo)
+{
+	Random random(118);
+	const SurfaceMesh mesh = randomPlanarDisk(8, random);
+	for (int trial = 0; trial < 20; ++trial) {
+		Eigen::Matrix2d A;
+		for (double& x : A.reshaped())
+			x = random.real(-1, 1);
+		if (std::abs(A.determinant()) < 0.1)
+			continue;
+		Report report;
+		measureDistortion(
+			mesh, mapped(mesh, A), std::vector<char>(mesh.triangles.size(), 0), report);
+		EXPECT_NEAR(report.areaDistortionMean, 1.0, 1e-6);
+		EXPECT_NEAR(report.areaDistortionSpread, 0.0, 1e-6);
+	}
+}
+
+TEST(AreaDistortion, OfTwoScalesHasAClosedForm)
+{
+	// Shares p and 1 - p of the area; the second part grows by q. The factors relative to the total
+	// are 1 / (p + q - p q) and q times that.
+	for (const double p : {0.2, 0.5, 0.9})
+		for (const double q : {0.1, 1.0, 3.0, 1e6}) {
+			const double first = 1.0 / (p + (1 - p) * q), second = q * first;
+			const AreaDistortion a = areaDistortion({3 * p, 3 * (1 - p)}, {p, (1 - p) * q});
+			EXPECT_NEAR(
+				a.mean / (p * std::max(first, 1 / first) + (1 - p) * std::max(second, 1 / second)),
+				1.0,
+				1e-13);
+			EXPECT_NEAR(a.spread, std::sqrt(p * (1 - p)) * std::abs(std::log(q)), 1e-12);
+			// A common scale changes nothing, parts without area are left out.
+			const AreaDistortion b =
+				areaDistortion({p, 0.0, 1 - p, 7.0}, {5 * p, 2.0, 5 * (1 - p) * q, 0.0});
+			EXPECT_NEAR(b.mean / a.mean, 1.0, 1e-13);
+			EXPECT_NEAR(b.spread, a.spread, 1e-12);
+		}
 }
 
 } // namespace

@@ -26,6 +26,7 @@ const char* const kUsage =
 	"  --surgery S          none, swap, flips\n"
 	"  --packing P          inversive, thurston\n"
 	"  --refine             give the map on the common refinement (surgery flips)\n"
+	"  --separate           cut charts that cover themselves\n"
 	"  --prescribe-boundary free_boundary off\n"
 	"  --epsilon X          radians\n"
 	"  --max-iterations N\n"
@@ -102,6 +103,8 @@ Arguments parse(int argc, char** argv)
 				 {"thurston", PackingScheme::Thurston}});
 		else if (word == "--refine")
 			a.options.output = OutputTriangulation::CommonRefinement;
+		else if (word == "--separate")
+			a.options.resolveOverlap = true;
 		else if (word == "--prescribe-boundary")
 			a.options.freeBoundary = false;
 		else if (word == "--epsilon")
@@ -142,9 +145,11 @@ void printHeader()
 {
 	std::puts(
 		"mesh\ttarget\tV\tF\tcomponents\tchi\tgenus\tloops\titerations\tresidual\tfloor\tqc_mean\t"
-		"qc_vertex_mean\tqc_area_mean\tqc_p99\tqc_max\tflipped\tflipped_float\tflips\tadded_"
+		"qc_vertex_mean\tqc_area_mean\tqc_p99\tqc_max\tarea_mean\tarea_spread\tflipped\tflipped_"
+		"float\tflips\tadded_"
 		"points\tswaps\tsplits\tbroken\tseam_edges\t"
-		"seam_mismatch\ttau_re\ttau_im\tmodulus\taspect\trefused");
+		"seam_mismatch\tcharts\toverlapping\toverlap_faces\toverlap_cuts\ttau_re\ttau_"
+		"im\tmodulus\taspect\trefused");
 }
 
 /// A number, or a dash where there is none.
@@ -162,8 +167,8 @@ void printResult(const Parametrization& flat, const SurfaceMesh& drawn, const te
 {
 	const Report& r = flat.report;
 	std::printf(
-		"\t%d\t%d\t%d\t%d\t%d\t%.2e\t%.2e\t%.4f\t%.4f\t%.4f\t%.3f\t%.4g\t%d\t%d\t%d\t%d\t%d\t%d\t%"
-		"d\t%d\t",
+		"\t%d\t%d\t%d\t%d\t%d\t%.2e\t%.2e\t%.4f\t%.4f\t%.4f\t%.3f\t%.4g\t%.4g\t%.4f\t%d\t%d\t%d\t"
+		"%d\t%d\t%d\t%d\t%d\t",
 		r.components,
 		r.eulerCharacteristic,
 		r.genus,
@@ -176,6 +181,8 @@ void printResult(const Parametrization& flat, const SurfaceMesh& drawn, const te
 		r.qcAreaMean,
 		r.qcP99,
 		r.qcMax,
+		r.areaDistortionMean,
+		r.areaDistortionSpread,
 		r.flippedFaces,
 		r.flippedFaces + r.flippedByRounding,
 		r.flips,
@@ -193,7 +200,11 @@ void printResult(const Parametrization& flat, const SurfaceMesh& drawn, const te
 	else
 		std::printf("-");
 	std::printf(
-		"\t%s\t%s\t%s\t%s\t-\n",
+		"\t%zu\t%d\t%d\t%d\t%s\t%s\t%s\t%s\t-\n",
+		flat.charts.size(),
+		r.overlappingCharts,
+		r.overlappingFaces,
+		r.overlapCuts,
 		number(r.torusTauRe).c_str(),
 		number(r.torusTauIm).c_str(),
 		number(r.annulusModulus).c_str(),
@@ -236,7 +247,7 @@ bool addRow(const Arguments& a, const std::string& path, const NamedTarget& targ
 		return true;
 	}
 	catch (const std::exception& error) {
-		for (int column = 0; column < 25; ++column)
+		for (int column = 0; column < 31; ++column)
 			std::printf("\t-");
 		std::printf("\t%s\n", error.what());
 		return false;

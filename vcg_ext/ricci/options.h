@@ -65,6 +65,9 @@ struct Options : FlowOptions
 	bool freeBoundary = true;
 
 	OutputTriangulation output = OutputTriangulation::KeepMesh;
+
+	/// Cut a chart that covers a part of the plane more than once into several that do not.
+	bool resolveOverlap = false;
 };
 
 } // namespace ricci

@@ -8,6 +8,7 @@
 #include "layout/invariants.h"
 #include "layout/least_rectangle.h"
 #include "numbers.h"
+#include "separate_charts.h"
 #include "surface/component.h"
 
 #include <algorithm>
@@ -581,6 +582,7 @@ Parametrization parametrizeEuclidean(
 		measureRefinement(mesh, result);
 	else
 		result.report = keptReport;
+	separateCharts(mesh, options.resolveOverlap, result);
 	progress.step(1.0, "Layout done");
 	return result;
 }

@@ -21,6 +21,11 @@ struct Report
 	double qcP99 = 1.0;        ///< 99th percentile over the faces
 	double qcMax = 1.0;
 
+	/// Area factor s of a face: its share of the area in the plane over its share in space. Mean of
+	/// max(s, 1/s) over the faces, weighted by their 3D area: 1 where all areas keep their ratios.
+	double areaDistortionMean = 1.0;
+	double areaDistortionSpread = 0.0; ///< standard deviation of ln s, weighted by 3D area
+
 	int flippedFaces = 0;      ///< faces whose image in the plane is reversed or has no area
 	int flippedByRounding = 0; ///< more of them once the coordinates are rounded to float
 	int edgeSwaps = 0;         ///< paper 5.4
@@ -35,6 +40,10 @@ struct Report
 	int boundaryLoops = 0;
 	int components = 0;
 	int seamEdges = 0; ///< edges of the input along which the layout is cut
+
+	int overlappingCharts = 0; ///< charts that cover a part of the plane more than once
+	int overlappingFaces = 0;  ///< faces (of the output) that meet another of their chart
+	int overlapCuts = 0;       ///< edges of the output cut so that no chart covers itself
 
 	std::optional<double> torusTauRe, torusTauIm; ///< reduced to the fundamental domain
 	std::optional<double> annulusModulus;         ///< ln(r2/r1) / 2 pi

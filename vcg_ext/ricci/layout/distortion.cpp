@@ -45,6 +45,13 @@ struct DrawnTriangle
 	}
 };
 
+double planeArea(const std::array<Point2, 3>& p)
+{
+	const double ax = p[1][0] - p[0][0], ay = p[1][1] - p[0][1];
+	const double bx = p[2][0] - p[0][0], by = p[2][1] - p[0][1];
+	return 0.5 * std::abs(ax * by - ay * bx);
+}
+
 } // namespace
 
 double triangleArea(const std::array<Point3, 3>& p)
@@ -71,6 +78,33 @@ quasiConformalDistortion(const std::array<Point3, 3>& surface, const std::array<
 	return least > 0.0 ? (alpha + beta) / least : std::numeric_limits<double>::infinity();
 }
 
+AreaDistortion areaDistortion(const std::vector<double>& before, const std::vector<double>& after)
+{
+	double totalBefore = 0.0, totalAfter = 0.0;
+	const auto counts = [&](std::size_t f) { return before[f] > 0.0 && after[f] > 0.0; };
+	for (std::size_t f = 0; f < before.size(); ++f)
+		if (counts(f)) {
+			totalBefore += before[f];
+			totalAfter += after[f];
+		}
+	AreaDistortion distortion;
+	if (!(totalBefore > 0.0))
+		return distortion;
+	double mean = 0.0, logMean = 0.0, logSquare = 0.0;
+	for (std::size_t f = 0; f < before.size(); ++f) {
+		if (!counts(f))
+			continue;
+		const double weight = before[f] / totalBefore;
+		const double logFactor = std::log(after[f] / totalAfter) - std::log(weight);
+		mean += weight * std::exp(std::abs(logFactor));
+		logMean += weight * logFactor;
+		logSquare += weight * logFactor * logFactor;
+	}
+	distortion.mean = mean;
+	distortion.spread = std::sqrt(std::max(0.0, logSquare - logMean * logMean));
+	return distortion;
+}
+
 DistortionField measureDistortion(
 	const SurfaceMesh& mesh,
 	const std::vector<std::array<Point2, 3>>& plane,
@@ -82,6 +116,7 @@ DistortionField measureDistortion(
 	field.vertex.assign(mesh.positions.size(), 0.0);
 	std::vector<double> ringArea(mesh.positions.size(), 0.0), measured;
 	double sum = 0.0, areaSum = 0.0, weightedSum = 0.0;
+	std::vector<double> areaBefore(mesh.triangles.size(), 0.0), areaAfter = areaBefore;
 	report.flippedFaces = 0;
 	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
 		std::array<Point3, 3> corners;
@@ -93,6 +128,8 @@ DistortionField measureDistortion(
 		if (!std::isfinite(qc))
 			continue;
 		const double area = triangleArea(corners);
+		areaBefore[f] = area;
+		areaAfter[f] = planeArea(plane[f]);
 		measured.push_back(qc);
 		sum += qc;
 		areaSum += area;
@@ -102,6 +139,9 @@ DistortionField measureDistortion(
 			ringArea[at(v)] += area;
 		}
 	}
+	const AreaDistortion areas = areaDistortion(areaBefore, areaAfter);
+	report.areaDistortionMean = areas.mean;
+	report.areaDistortionSpread = areas.spread;
 	double vertexSum = 0.0;
 	std::size_t vertexCount = 0;
 	for (std::size_t v = 0; v < field.vertex.size(); ++v) {

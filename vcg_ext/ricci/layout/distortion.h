@@ -29,8 +29,19 @@ struct DistortionField
 		vertex; ///< mean over the faces at the vertex, weighted by 3D area (paper 5.1)
 };
 
-/// Measures the map that sends corner k of face f to plane[f][k], fills the qc fields and
-/// flippedFaces of \p report. Faces without 3D area, or with infinite distortion, are kept out of
+/// Change of area by a map of triangles: their areas before and after, each relative to its total.
+struct AreaDistortion
+{
+	double mean = 1.0;   ///< of max(s, 1/s) for the area factors s, weighted by the area before
+	double spread = 0.0; ///< standard deviation of ln s, weighted by the area before
+};
+
+/// \param before, after [triangle] areas, not negative. Triangles where either is 0 are left out,
+/// of the totals too.
+AreaDistortion areaDistortion(const std::vector<double>& before, const std::vector<double>& after);
+
+/// Measures the map that sends corner k of face f to plane[f][k], fills the qc and area distortion
+/// fields and flippedFaces of \p report. Faces without 3D area, or with infinite distortion, are kept out of
 /// the means. Orientation is exact; the plane image of face f should be counter-clockwise unless
 /// reversed[f].
 DistortionField measureDistortion(

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_SEPARATE_CHARTS_H
+#define RICCI_SEPARATE_CHARTS_H
+
+#include "parametrize.h"
+
+namespace ricci {
+
+/// Counts the charts of \p map that cover a part of the plane more than once, and their faces (see
+/// overlappingPairs()), on the triangles of the output: the refinement's where there is one. With
+/// \p resolve such charts are replaced by the parts of divideChart(), each with its least bounding
+/// rectangle along the axes, from the origin; the report then counts no overlap, and the edges that
+/// were cut. Faces of the input go with their first piece.
+void separateCharts(const SurfaceMesh& mesh, bool resolve, Parametrization& map);
+
+} // namespace ricci
+
+#endif
