@@ -26,6 +26,7 @@ const char* const kUsage =
 	"  --surgery S          none, swap, flips\n"
 	"  --packing P          inversive, thurston\n"
 	"  --refine             give the map on the common refinement (surgery flips)\n"
+	"  --capped             close all boundary loops but the longest for the flow\n"
 	"  --separate           cut charts that cover themselves\n"
 	"  --prescribe-boundary free_boundary off\n"
 	"  --epsilon X          radians\n"
@@ -103,6 +104,8 @@ Arguments parse(int argc, char** argv)
 				 {"thurston", PackingScheme::Thurston}});
 		else if (word == "--refine")
 			a.options.output = OutputTriangulation::CommonRefinement;
+		else if (word == "--capped")
+			a.options.holes = Holes::Capped;
 		else if (word == "--separate")
 			a.options.resolveOverlap = true;
 		else if (word == "--prescribe-boundary")

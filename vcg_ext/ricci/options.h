@@ -28,6 +28,12 @@ enum class Surgery {
 	IntrinsicFlips ///< weighted-Delaunay flips that keep the conformal class: no triangle breaks
 };
 
+/// What the boundary loops other than the longest are.
+enum class Holes {
+	Boundaries, ///< boundary like the longest loop: free or prescribed, with seams that join them
+	Capped      ///< closed by caps that take part in the flow and are not written, see hole_caps.h
+};
+
 /// What a map on flipped triangles is given back on.
 enum class OutputTriangulation {
 	KeepMesh,        ///< the input's faces; each takes the flow's map at its corners
@@ -65,6 +71,8 @@ struct Options : FlowOptions
 	bool freeBoundary = true;
 
 	OutputTriangulation output = OutputTriangulation::KeepMesh;
+
+	Holes holes = Holes::Boundaries;
 
 	/// Cut a chart that covers a part of the plane more than once into several that do not.
 	bool resolveOverlap = false;

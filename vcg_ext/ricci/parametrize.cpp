@@ -5,11 +5,13 @@
 #include "flow/ricci_flow.h"
 #include "layout/cut_graph.h"
 #include "layout/distortion.h"
+#include "layout/hole_seams.h"
 #include "layout/invariants.h"
 #include "layout/least_rectangle.h"
 #include "numbers.h"
 #include "separate_charts.h"
 #include "surface/component.h"
+#include "surface/hole_caps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -168,13 +170,20 @@ private:
 			m_base = Triangulation(static_cast<int>(m_mesh.positions.size()), m_mesh.triangles);
 			m_topology = topologyOf(m_base);
 			m_lengths = edgeLengths(m_base, m_mesh.positions);
+			closeHoles();
 			TargetRequest request;
 			request.mode = m_options.target;
 			request.freeBoundary = m_options.freeBoundary;
 			request.selected = m_mesh.selected;
 			request.prescribed = m_mesh.prescribed;
 			request.prescribedPrecision = m_precision;
-			Target target = chooseTarget(m_base, m_topology, m_lengths, m_mesh.positions, request);
+			request.selected.resize(m_solved.positions.size(), 0);
+			request.prescribed.resize(m_solved.positions.size(), 0.0);
+			const Topology topology = topologyOf(m_solved.triangulation);
+			const std::vector<double> lengths =
+				edgeLengths(m_solved.triangulation, m_solved.positions);
+			Target target = chooseTarget(
+				m_solved.triangulation, topology, lengths, m_solved.positions, request);
 			if (start == 0) {
 				m_interval.log(
 					"Component of " + std::to_string(m_mesh.positions.size()) + " vertices, " +
@@ -185,11 +194,11 @@ private:
 			FlowProgress progress(m_interval, m_options.epsilon);
 			m_flow = runRicciFlow(
 				Background::EuclideanPlane,
-				m_base,
-				m_lengths,
-				m_mesh.positions,
+				m_solved.triangulation,
+				lengths,
+				m_solved.positions,
 				target,
-				m_topology.loops.empty() ? std::vector<int>() : m_topology.loops.front(),
+				topology.loops.empty() ? std::vector<int>() : topology.loops.front(),
 				m_options,
 				[&](int step, double residual) { progress(m_iterations + step, residual); });
 			m_iterations += m_flow.iterations;
@@ -207,6 +216,19 @@ private:
 		throw NotConverged(
 			"Triangles on the boundary kept breaking after " + std::to_string(m_splits) +
 			" boundary edges were split: remesh the boundary.");
+	}
+
+	/// The surface of the flow: the component, or with caps on its holes.
+	void closeHoles()
+	{
+		if (m_options.holes == Holes::Capped && m_topology.loops.size() > 1)
+			m_solved = capInnerLoops(m_base, m_mesh.positions);
+		else {
+			m_solved = CappedSurface();
+			m_solved.triangulation = m_base;
+			m_solved.positions = m_mesh.positions;
+			m_solved.onHole.assign(m_mesh.positions.size(), 0);
+		}
 	}
 
 	void splitBoundary()
@@ -236,7 +258,7 @@ private:
 		std::vector<char> marked(m_mesh.positions.size(), 0), forbidden;
 		for (std::size_t v = 0; v < marked.size(); ++v)
 			marked[v] =
-				!m_topology.boundary[v] &&
+				(!m_topology.boundary[v] || m_solved.onHole[v]) &&
 				std::abs(m_flow.target.curvature[static_cast<Eigen::Index>(v)]) > kConeCurvature;
 		if (m_swaps > 0 || m_splits > 0) {
 			forbidden = m_flow.swapped;
@@ -246,6 +268,8 @@ private:
 					forbidden[at(e)] = 1;
 		}
 		m_cut = cutToDisk(layoutTriangulation(), m_lengths, marked, forbidden);
+		if (m_solved.holes > 0)
+			dropSeamsToHoles(m_base, m_lengths, m_solved.onHole, marked, m_cut);
 	}
 
 	bool flips() const { return m_options.surgery == Surgery::IntrinsicFlips; }
@@ -276,7 +300,7 @@ private:
 					{m_mesh.positions[at(t[0])],
 					 m_mesh.positions[at(t[1])],
 					 m_mesh.positions[at(t[2])]});
-			m_scale = std::sqrt(area / m_flow.area);
+			m_scale = std::sqrt(area / areaInPlane());
 		}
 		turnUpright();
 	}
@@ -298,10 +322,11 @@ private:
 		surface.endAngles = &metric.angles();
 		surface.endU = &m_flow.u;
 		surface.keptFaces = m_base.faceCount();
-		// In a double the surface ends at its boundary.
+		// In a double, and at a cap, the surface ends at its boundary.
 		std::vector<char> isCut = m_cut.isCut;
+		const bool goesOn = m_flow.doubled || m_solved.holes > 0;
 		for (int e = 0; e < m_base.edgeCount(); ++e)
-			if (m_flow.doubled && m_base.isBoundaryEdge(e))
+			if (goesOn && m_base.isBoundaryEdge(e))
 				isCut[at(e)] = 1;
 		isCut.resize(at(history.input.edgeCount()), 0);
 		m_refinement = commonRefinement(surface, m_mesh.positions, isCut);
@@ -312,6 +337,18 @@ private:
 		for (int h = 0; h < m_base.halfedgeCount(); ++h)
 			if (!m_base.isOuter(h))
 				m_layout.position[at(m_layout.sector[at(h)])] = m_refinement.inputLayout.at(h);
+	}
+
+	/// Area of the component in the flow's metric, without caps.
+	double areaInPlane() const
+	{
+		if (m_solved.holes == 0)
+			return m_flow.area;
+		double area = 0.0;
+		for (const auto& p : m_refinement.uv)
+			area += 0.5 * ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) -
+						   (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]));
+		return area;
 	}
 
 	/// Turns and scales the layout so that its least bounding rectangle lies along the axes, from
@@ -391,6 +428,7 @@ private:
 		report.genus += m_topology.genus;
 		report.boundaryLoops += static_cast<int>(m_topology.loops.size());
 		report.seamEdges += m_cut.edgeCount;
+		report.cappedHoles += m_solved.holes;
 	}
 
 	/// Appends the refinement, in the indices and the orientation of the whole input.
@@ -468,6 +506,7 @@ private:
 	Interval m_interval;
 	Triangulation m_base; ///< before any swap
 	Topology m_topology;
+	CappedSurface m_solved; ///< m_base, with caps on its holes if asked for
 	std::vector<double> m_lengths;
 	FlowResult m_flow;
 	CutGraph m_cut;
@@ -501,6 +540,11 @@ void checkOptions(const Options& options)
 			"The output 'Common refinement' belongs to the surgery 'Intrinsic flips' with the "
 			"circle "
 			"packing 'Inversive distance': choose these, or the output 'Keep the mesh'.");
+	if (options.holes == Holes::Capped &&
+		(options.surgery != Surgery::IntrinsicFlips || options.packing == PackingScheme::Thurston))
+		throw InvalidOption(
+			"The holes 'Capped' belong to the surgery 'Intrinsic flips' with the circle packing "
+			"'Inversive distance': choose these, or the holes 'Boundaries'.");
 	if (!(options.epsilon > 0.0))
 		throw InvalidOption(
 			"epsilon must be greater than 0 (radians), not " + text("%g", options.epsilon) + ".");

@@ -41,6 +41,8 @@ struct Report
 	int components = 0;
 	int seamEdges = 0; ///< edges of the input along which the layout is cut
 
+	int cappedHoles = 0; ///< boundary loops closed for the flow
+
 	int overlappingCharts = 0; ///< charts that cover a part of the plane more than once
 	int overlappingFaces = 0;  ///< faces (of the output) that meet another of their chart
 	int overlapCuts = 0;       ///< edges of the output cut so that no chart covers itself

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/flat_map.h"
+#include "support/random.h"
+#include "support/shapes.h"
+
+#include <ricci/layout/chart_overlap.h>
+#include <ricci/layout/hole_seams.h>
+#include <ricci/metric/circle_packing.h>
+#include <ricci/parametrize.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ricci::testing {
+namespace {
+
+/// A bumpy square of n x n cells without the stars of some inner vertices.
+SurfaceMesh perforated(int n, double height)
+{
+	const auto vertex = [&](int i, int j) { return i * (n + 1) + j; };
+	const SurfaceMesh whole = grid(n, n, Ends::Open, Ends::Open, [=](int i, int j) {
+		const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
+		return Point3{x, y, height * std::sin(3 * x + 1) * std::cos(4 * y)};
+	});
+	return withoutStars(whole, {vertex(3, 3), vertex(n - 3, 4), vertex(n / 2, n - 3)});
+}
+
+/// Half of the curvature of a disk.
+constexpr double kPiForCones = 3.14159265358979323846;
+
+Options capped()
+{
+	Options options;
+	options.holes = Holes::Capped;
+	return options;
+}
+
+TEST(HoleSeams, AreDroppedBackToWhatTheCutMustReach)
+{
+	const SurfaceMesh mesh = perforated(14, 0.0);
+	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
+	const std::vector<double> lengths = edgeLengths(t, mesh.positions);
+	std::vector<char> marked(mesh.positions.size(), 0), closes = marked;
+	const CutGraph whole = cutToDisk(t, lengths, marked, {});
+	ASSERT_GT(whole.edgeCount, 0);
+
+	CutGraph cut = whole; // no hole closes: nothing is dropped
+	dropSeamsToHoles(t, lengths, closes, marked, cut);
+	EXPECT_EQ(cut.isCut, whole.isCut);
+	EXPECT_EQ(cut.edgeCount, whole.edgeCount);
+
+	std::size_t longest = 0, loops = 0;
+	std::vector<int> longestLoop, hole;
+	for (int first : t.boundaryLoops()) {
+		std::vector<int> loop;
+		int h = first;
+		do {
+			loop.push_back(t.origin(h));
+			h = t.next(h);
+		} while (h != first);
+		if (loop.size() > longest)
+			longest = loop.size(), longestLoop = loop;
+		else
+			hole = loop;
+		++loops;
+		for (int v : loop)
+			closes[at(v)] = 1;
+	}
+	ASSERT_EQ(loops, 4u);
+	for (int v : longestLoop)
+		closes[at(v)] = 0;
+	cut = whole; // all close: nothing is left
+	dropSeamsToHoles(t, lengths, closes, marked, cut);
+	EXPECT_EQ(cut.edgeCount, 0);
+	EXPECT_EQ(std::count(cut.isCut.begin(), cut.isCut.end(), 1), 0);
+
+	marked[at(hole.front())] = 1; // a cone on the rim of one
+	cut = whole;
+	dropSeamsToHoles(t, lengths, closes, marked, cut);
+	EXPECT_GT(cut.edgeCount, 0);
+	EXPECT_EQ(std::count(cut.isCut.begin(), cut.isCut.end(), 1), cut.edgeCount);
+	double length = 0.0;
+	for (int e = 0; e < t.edgeCount(); ++e)
+		if (cut.isCut[at(e)])
+			length += lengths[at(e)];
+	EXPECT_NEAR(cut.length, length, 1e-12);
+	EXPECT_LE(cut.edgeCount, whole.edgeCount);
+}
+
+TEST(CappedHoles, OfAPlaneDoNotMoveIt)
+{
+	const SurfaceMesh mesh = perforated(16, 0.0);
+	for (const OutputTriangulation output :
+		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+		Options options = capped();
+		options.output = output;
+		const Parametrization flat = run(mesh, options);
+		EXPECT_EQ(flat.report.cappedHoles, 3);
+		EXPECT_EQ(flat.report.boundaryLoops, 4);
+		EXPECT_EQ(flat.report.seamEdges, 0);
+		EXPECT_EQ(flat.report.overlappingCharts, 0);
+		EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-10);
+		EXPECT_NEAR(flat.report.areaDistortionSpread, 0.0, 1e-6);
+		EXPECT_EQ(flat.uv.size(), mesh.triangles.size());
+		for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+			for (std::size_t k = 0; k < 3; ++k) {
+				const std::size_t j = (k + 1) % 3;
+				EXPECT_NEAR(
+					std::hypot(
+						flat.uv[f][k][0] - flat.uv[f][j][0], flat.uv[f][k][1] - flat.uv[f][j][1]),
+					distance(
+						mesh.positions[at(mesh.triangles[f][k])],
+						mesh.positions[at(mesh.triangles[f][j])]),
+					1e-11);
+			}
+	}
+}
+
+TEST(CappedHoles, GiveOneChartWithoutSeamsForEveryTargetOfADisk)
+{
+	const SurfaceMesh mesh = perforated(16, 0.3);
+	for (const TargetCurvature target :
+		 {TargetCurvature::Automatic, TargetCurvature::Disk, TargetCurvature::Rectangle})
+		for (const bool freeBoundary : {true, false}) {
+			Options options = capped();
+			options.target = target;
+			options.freeBoundary = freeBoundary;
+			const Parametrization flat = run(mesh, options);
+			EXPECT_EQ(flat.report.seamEdges, 0);
+			EXPECT_EQ(flat.report.flippedFaces, 0);
+			EXPECT_EQ(flat.report.overlappingCharts, 0);
+			ASSERT_EQ(flat.charts.size(), 1u);
+			// Every vertex has one place in the plane: holes close by rotation and translation.
+			std::vector<Point2> place(mesh.positions.size(), {1e9, 1e9});
+			for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+				for (std::size_t k = 0; k < 3; ++k) {
+					Point2& p = place[at(mesh.triangles[f][k])];
+					if (p[0] > 1e8)
+						p = flat.uv[f][k];
+					EXPECT_EQ(p, flat.uv[f][k]);
+				}
+			// The chart is flat inside, and its boundary keeps its lengths where it is free.
+			const FlatMap map(mesh, flat.uv);
+			EXPECT_LT(map.insideError(std::vector<double>(mesh.positions.size(), 0.0)), 1e-9);
+		}
+}
+
+TEST(CappedHoles, TurnAnAnnulusIntoADisk)
+{
+	// Removing a disk from the middle of a disk and closing it again is no change of the conformal
+	// structure in the limit: the ring becomes the plane ring that it is.
+	const SurfaceMesh mesh = ring(0.2, 1.0, 48, 12);
+	Options options = capped();
+	const Parametrization flat = run(mesh, options);
+	EXPECT_EQ(flat.report.genus, 0);
+	EXPECT_EQ(flat.report.boundaryLoops, 2);
+	EXPECT_EQ(flat.report.seamEdges, 0);
+	EXPECT_FALSE(flat.report.annulusModulus);
+	EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
+	options.target = TargetCurvature::Disk;
+	const Parametrization disk = run(mesh, options);
+	EXPECT_NEAR(disk.report.qcMax, 1.0, 1e-7);
+}
+
+TEST(CappedHoles, CarryConesOnTheirRim)
+{
+	const SurfaceMesh mesh = perforated(16, 0.2);
+	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
+	VertexInput input;
+	input.selected.assign(mesh.positions.size(), 0);
+	const auto vertex = [](int i, int j) { return i * 17 + j; };
+	const int rim = vertex(3, 3); // the number of the removed vertex's next one, on the rim
+	ASSERT_TRUE(t.boundaryVertices()[at(rim)]);
+	input.selected[at(rim)] = 1;
+	Options options = capped();
+	options.target = TargetCurvature::SelectedCones;
+	options.freeBoundary = false;
+	// The whole curvature of the disk in one cone would be 2 pi: too much, by the sentence of inner
+	// vertices.
+	EXPECT_NE(reason(mesh, options, input).find("interior vertex"), std::string::npos);
+	input.selected[at(vertex(8, 8))] = 1;
+	const Parametrization flat = run(mesh, options, input);
+	EXPECT_GT(flat.report.seamEdges, 0);
+	EXPECT_NEAR(flat.targetCurvature[at(rim)], kPiForCones, 1e-12);
+}
+
+TEST(CappedHoles, BelongToIntrinsicFlips)
+{
+	Options options = capped();
+	for (const Surgery surgery : {Surgery::None, Surgery::EdgeSwap}) {
+		options.surgery = surgery;
+		EXPECT_NE(reason(perforated(9, 0.1), options).find("'Capped'"), std::string::npos);
+	}
+	options = capped();
+	options.packing = PackingScheme::Thurston;
+	EXPECT_NE(reason(perforated(9, 0.1), options).find("'Capped'"), std::string::npos);
+}
+
+} // namespace
+} // namespace ricci::testing

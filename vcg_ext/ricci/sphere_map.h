@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_SPHERE_MAP_H
+#define RICCI_SPHERE_MAP_H
+
+#include "options.h"
+#include "progress.h"
+#include "surface/surface_mesh.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// A closed surface of genus 0 on the unit sphere.
+struct SphereMap
+{
+	std::vector<Point3> positions;  ///< [vertex] on the unit sphere; the origin at unused vertices
+	int pole = -1;                  ///< the vertex at which the surface was punctured
+	int iterations = 0;             ///< Newton steps
+	double maxCurvatureError = 0.0; ///< of the flow, radians
+	double offset = 0.0; ///< length of the mean of the positions, weighted by area: 0 if centred
+
+	/// Of the map from the mesh's triangles to the straight ones between the positions.
+	double qcAreaMean = 1.0, qcMax = 1.0;
+	double areaDistortionMean = 1.0, areaDistortionSpread = 0.0;
+	int flippedFaces = 0; ///< seen from the centre, against the orientation of the rest
+};
+
+/// Maps a mesh of one closed component of genus 0 conformally to the unit sphere.
+///
+/// The surface is punctured at a vertex: an inversion of space about it, which is conformal, sends
+/// it to infinity and its neighbours to the boundary of a disk; the flow makes the disk flat with
+/// the boundary's metric kept (the Euclidean flow of the punctured surface), and the inverse
+/// stereographic projection takes the plane to the sphere, the puncture to the pole. So every
+/// polyhedron inscribed in a sphere is mapped to itself, up to a Moebius transformation (Springborn
+/// 2019 for the vertex at infinity). Of these transformations the one that brings the conformal
+/// barycentre of the area to the centre is chosen, and of the rotations the one that turns the
+/// vertices most nearly towards their places on the mesh.
+///
+/// \param options epsilon and maxIterations are used; the flow has intrinsic flips
+/// \throw InvalidMesh, InvalidOption (another topology), NotConverged, Cancelled
+SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress& progress);
+
+} // namespace ricci
+
+#endif
