@@ -14,10 +14,14 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <vector>
 
 namespace filter_ricci {
 
 namespace {
+
+/// Share of the work that the map to the sphere takes beside the map to the plane.
+constexpr double kSphereShare = 0.4;
 
 class HostProgress : public ricci::Progress
 {
@@ -37,6 +41,27 @@ public:
 private:
 	vcg::CallBackPos* callback_;
 	const Log& log_;
+};
+
+/// A part of the work of a run, on the whole's scale.
+class PartOfProgress : public ricci::Progress
+{
+public:
+	PartOfProgress(ricci::Progress& whole, double from, double to) :
+			whole_(whole), from_(from), to_(to)
+	{
+	}
+
+	void log(const std::string& line) override { whole_.log(line); }
+
+	bool update(double fraction, const std::string& what) override
+	{
+		return whole_.update(from_ + fraction * (to_ - from_), what);
+	}
+
+private:
+	ricci::Progress& whole_;
+	double from_, to_;
 };
 
 MeshModel& checkedMesh(MeshDocument& md, const Settings& settings)
@@ -76,6 +101,22 @@ MeshModel* addFlatLayer(MeshDocument& md, MeshModel& model, const Flow::Result& 
 	}
 }
 
+/// The same with the mesh on the sphere.
+MeshModel* addSphereLayer(MeshDocument& md, MeshModel& model, const ricci::SphereMap& map)
+{
+	MeshModel* sphere = md.addNewMesh(QString(), "Sphere of " + model.label(), false);
+	try {
+		Flow::BuildSphereMesh(model.cm, map, sphere->cm);
+		vcg::tri::UpdateBounding<CMeshO>::Box(sphere->cm);
+		vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(sphere->cm);
+		return sphere;
+	}
+	catch (...) {
+		host::removeMesh(md, sphere);
+		throw;
+	}
+}
+
 void colorizeByDistortion(MeshModel& model, const ricci::Report& report)
 {
 	// A ramp needs two different ends, and a plane has no distortion at all.
@@ -110,16 +151,24 @@ void writeMesh(MeshModel& model, const Settings& settings, const Flow::Result& r
 		colorizeByDistortion(model, result.report);
 }
 
-/// The new layer, which needs the most memory, comes first: a failure there leaves the mesh alone.
+/// The new layers, which need the most memory, come first: a failure there leaves the mesh alone.
 void writeResult(
-	MeshDocument& md, MeshModel& model, const Settings& settings, const Flow::Result& result)
+	MeshDocument& md,
+	MeshModel& model,
+	const Settings& settings,
+	const Flow::Result& result,
+	const ricci::SphereMap& sphere)
 {
-	MeshModel* layer = settings.flatLayer ? addFlatLayer(md, model, result) : nullptr;
+	std::vector<MeshModel*> layers;
 	try {
+		if (settings.flatLayer)
+			layers.push_back(addFlatLayer(md, model, result));
+		if (settings.sphereLayer)
+			layers.push_back(addSphereLayer(md, model, sphere));
 		writeMesh(model, settings, result);
 	}
 	catch (...) {
-		if (layer != nullptr)
+		for (MeshModel* layer : layers)
 			host::removeMesh(md, layer);
 		throw;
 	}
@@ -148,9 +197,17 @@ Outcome applyFilter(
 	const Settings settings = readSettings(filter, par);
 	MeshModel& model = checkedMesh(md, settings);
 	HostProgress progress(callback, log);
-	const Flow::Result result = Flow::Compute(model.cm, settings.flow, progress);
-	writeResult(md, model, settings, result);
-	const Results results = toResults(result.report);
+	// The sphere first: it refuses most surfaces.
+	const double share = settings.sphereLayer ? kSphereShare : 0.0;
+	PartOfProgress before(progress, 0.0, share), after(progress, share, 1.0);
+	ricci::SphereMap sphere;
+	if (settings.sphereLayer)
+		sphere = Flow::ComputeSphere(model.cm, settings.flow, before);
+	const Flow::Result result = Flow::Compute(model.cm, settings.flow, after);
+	writeResult(md, model, settings, result, sphere);
+	Results results = toResults(result.report);
+	if (settings.sphereLayer)
+		addSphereResults(sphere, results);
 	for (const std::string& line : toLogLines(results))
 		log(line);
 	return {results, changedElements(settings)};

@@ -37,6 +37,11 @@ QStringList outputTriangulationChoices()
 	return {"Keep the mesh", "Common refinement"};
 }
 
+QStringList holesChoices()
+{
+	return {"Boundaries", "Capped"};
+}
+
 int checkedChoice(const RichParameterList& par, const char* id, const QStringList& choices)
 {
 	const int chosen = par.getEnum(id);
@@ -177,6 +182,30 @@ RichParameterList filterParameters(int)
 		false,
 		"Flat mesh as new layer",
 		"Add a layer with the mesh laid out in the plane, cut along its seams."));
+	list.addParam(RichEnum(
+		"holes",
+		static_cast<int>(defaults.holes),
+		holesChoices(),
+		"Holes",
+		"What the boundary loops other than the longest are.<br>"
+		"<b>Boundaries</b>: boundary like the longest one, with seams that join them: less "
+		"distortion.<br>"
+		"<b>Capped</b>: each is closed by a flat cap that takes part in the flow and is not "
+		"written, so that the chart goes round the holes in one piece, without seams to them. It "
+		"needs 'Intrinsic flips' and 'Inversive distance'."));
+	list.addParam(RichBool(
+		"resolve_overlap",
+		defaults.resolveOverlap,
+		"Cut charts that overlap",
+		"A chart can cover a part of the plane twice although none of its triangles is turned "
+		"round. Such charts are cut further, along the shortest lines that part what overlaps, "
+		"into charts that do not. Off: they are counted only."));
+	list.addParam(RichBool(
+		"sphere_layer",
+		false,
+		"Sphere as new layer",
+		"Add a layer with the mesh mapped conformally to the unit sphere, its faces and vertices "
+		"in the same order. Only for a mesh that is one closed surface of genus 0."));
 	return list;
 }
 
@@ -197,6 +226,9 @@ Settings readSettings(int, const RichParameterList& par)
 	settings.flow.normalizeUV = par.getBool("normalize_uv");
 	settings.colorize = par.getBool("colorize");
 	settings.flatLayer = par.getBool("flat_layer");
+	settings.flow.holes = static_cast<ricci::Holes>(checkedChoice(par, "holes", holesChoices()));
+	settings.flow.resolveOverlap = par.getBool("resolve_overlap");
+	settings.sphereLayer = par.getBool("sphere_layer");
 	return settings;
 }
 

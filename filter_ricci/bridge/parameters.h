@@ -15,6 +15,7 @@ struct Settings
 	Flow::Params flow;
 	bool colorize = false;
 	bool flatLayer = false;
+	bool sphereLayer = false;
 };
 
 /// Reads and checks the parameters. Scripts can hold any number for a choice, and no host checks

@@ -54,12 +54,24 @@ Results toResults(const ricci::Report& report)
 		{"genus", report.genus},
 		{"boundary_loops", report.boundaryLoops},
 		{"components", report.components},
-		{"seam_edges", report.seamEdges}};
+		{"seam_edges", report.seamEdges},
+		{"charts", report.charts},
+		{"capped_holes", report.cappedHoles},
+		{"overlapping_charts", report.overlappingCharts},
+		{"overlapping_faces", report.overlappingFaces},
+		{"overlap_cuts", report.overlapCuts}};
 	addIfPresent(results, "torus_tau_re", report.torusTauRe);
 	addIfPresent(results, "torus_tau_im", report.torusTauIm);
 	addIfPresent(results, "annulus_modulus", report.annulusModulus);
 	addIfPresent(results, "rectangle_aspect", report.rectangleAspect);
 	return results;
+}
+
+void addSphereResults(const ricci::SphereMap& sphere, Results& results)
+{
+	results.emplace_back("sphere_qc_area_mean", sphere.qcAreaMean);
+	results.emplace_back("sphere_area_distortion_mean", sphere.areaDistortionMean);
+	results.emplace_back("sphere_flipped_faces", sphere.flippedFaces);
 }
 
 std::vector<std::string> toLogLines(const Results& results)

@@ -5,6 +5,7 @@
 #include "bridge.h"
 
 #include <ricci/report.h>
+#include <ricci/sphere_map.h>
 
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ namespace filter_ricci {
 
 /// The report under the names that scripts read; an invariant that does not exist is left out.
 Results toResults(const ricci::Report& report);
+
+/// Adds what the map to the sphere measured.
+void addSphereResults(const ricci::SphereMap& sphere, Results& results);
 
 /// The same pairs as "key=value key=value ...", for hosts that show only the log: one line with
 /// what the flow reached, one with what the surface is.

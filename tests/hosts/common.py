@@ -14,24 +14,32 @@ PYTHON_NAME = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge"
 ALWAYS = {
     "converged": bool, "iterations": int, "max_curvature_error": float, "residual_floor": float,
     "qc_mean": float, "qc_vertex_mean": float, "qc_area_mean": float, "qc_p99": float,
-    "qc_max": float, "flipped_faces": int, "flipped_by_rounding": int, "flips": int,
+    "qc_max": float, "area_distortion_mean": float, "area_distortion_spread": float,
+    "flipped_faces": int, "flipped_by_rounding": int, "flips": int,
     "refinement_points": int, "edge_swaps": int, "boundary_splits": int, "euler_characteristic": int,
-    "genus": int, "boundary_loops": int, "components": int, "seam_edges": int}
+    "genus": int, "boundary_loops": int, "components": int, "seam_edges": int, "charts": int,
+    "capped_holes": int, "overlapping_charts": int, "overlapping_faces": int,
+    "overlap_cuts": int}
 INVARIANTS = {
     "torus_tau_re": float, "torus_tau_im": float, "annulus_modulus": float,
     "rectangle_aspect": float}
+SPHERE = {
+    "sphere_qc_area_mean": float, "sphere_area_distortion_mean": float,
+    "sphere_flipped_faces": int}
 
 # Parameter ids in the order of the public interface.
 TARGET = ["Automatic", "Flat everywhere", "Disk", "Rectangle", "Cones at selected vertices",
           "From vertex quality"]
 CHOICES = {"target_curvature": TARGET, "circle_packing": ["Inversive distance", "Thurston"],
            "surgery": ["None", "Edge swap", "Intrinsic flips"],
-           "output_triangulation": ["Keep the mesh", "Common refinement"]}
+           "output_triangulation": ["Keep the mesh", "Common refinement"],
+           "holes": ["Boundaries", "Capped"]}
 PARAMETERS = [
     ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("epsilon", "Float", 1e-8),
     ("circle_packing", "Enum", 0), ("surgery", "Enum", 2),
     ("output_triangulation", "Enum", 0), ("max_iterations", "Int", 200),
-    ("normalize_uv", "Bool", True), ("colorize", "Bool", False), ("flat_layer", "Bool", False)]
+    ("normalize_uv", "Bool", True), ("colorize", "Bool", False), ("flat_layer", "Bool", False),
+    ("holes", "Enum", 0), ("resolve_overlap", "Bool", False), ("sphere_layer", "Bool", False)]
 
 
 def skip(reason):

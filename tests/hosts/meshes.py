@@ -50,6 +50,16 @@ def annulus(columns=32, rows=6):
     return grid(columns, rows, point, True)
 
 
+def screw(columns=60, rows=4):
+    """A strip round an axis, one and a half turns: flat, it covers a part of the plane twice."""
+
+    def point(s, t):
+        angle, radius = 3 * math.pi * s, 1 + t
+        return (radius * math.cos(angle), radius * math.sin(angle), 0.3 * angle)
+
+    return grid(columns, rows, point)
+
+
 def hill(size=14):
     """A disk: a bump over a square."""
     return grid(size, size, lambda s, t: (s, t, 0.3 * math.sin(math.pi * s) * math.sin(math.pi * t)))

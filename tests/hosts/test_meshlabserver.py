@@ -255,7 +255,7 @@ class BadInput(unittest.TestCase):
 class Samples(unittest.TestCase):
     """The scripts that users start from list every parameter, and run."""
 
-    MESHES = {"disk": meshes.hill, "rectangle": meshes.hill}
+    MESHES = {"disk": meshes.hill, "rectangle": meshes.hill, "holes": meshes.annulus}
 
     def test_every_sample(self):
         paths = sorted(glob.glob(os.path.join(common.REPOSITORY, "filter_ricci", "samples", "*.mlx")))

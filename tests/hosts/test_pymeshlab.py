@@ -41,7 +41,7 @@ class Results(unittest.TestCase):
     def check(self, documents, **values):
         returned = run(documents, **values)
         self.assertLessEqual(set(common.ALWAYS), set(returned))
-        types = {**common.ALWAYS, **common.INVARIANTS}
+        types = {**common.ALWAYS, **common.INVARIANTS, **common.SPHERE}
         for key, value in returned.items():
             self.assertIs(type(value), types[key], key)
         self.assertTrue(returned["converged"])
@@ -115,6 +115,45 @@ class Results(unittest.TestCase):
         corners = flat.vertex_matrix()[flat.face_matrix()][:, :, :2]
         wedges = flat.wedge_tex_coord_matrix().reshape(-1, 3, 2)
         self.assertLess(numpy.abs(corners - wedges).max(), 1e-6)
+
+    def test_capped_holes(self):
+        documents = mesh_set(meshes.annulus())
+        returned = self.check(documents, holes="Capped")
+        self.assertEqual((returned["boundary_loops"], returned["capped_holes"]), (2, 1))
+        self.assertEqual((returned["seam_edges"], returned["charts"]), (0, 1))
+        open_ring = self.check(mesh_set(meshes.annulus()))
+        self.assertEqual(open_ring["capped_holes"], 0)
+        self.assertGreater(open_ring["seam_edges"], 0)
+
+    def test_overlap(self):
+        counted = self.check(mesh_set(meshes.screw()))
+        self.assertEqual(counted["overlapping_charts"], 1)
+        self.assertGreater(counted["overlapping_faces"], 0)
+        documents = mesh_set(meshes.screw())
+        resolved = self.check(documents, resolve_overlap=True)
+        self.assertEqual((resolved["overlapping_charts"], resolved["charts"]), (0, 2))
+        self.assertGreater(resolved["overlap_cuts"], 0)
+        # No point of the square is covered twice.
+        wedges = documents.current_mesh().wedge_tex_coord_matrix().reshape(-1, 3, 2)
+        random = numpy.random.default_rng(1)
+        for point in random.random((300, 2)):
+            sides = [[numpy.linalg.det([w[(k + 1) % 3] - w[k], point - w[k]]) > 0
+                      for k in range(3)] for w in wedges]
+            self.assertLessEqual(sum(all(s) for s in sides), 1)
+
+    def test_sphere_layer(self):
+        documents = mesh_set(meshes.sphere())
+        select(documents, "abs(z) > 0.99 || abs(x) > 0.99")
+        returned = self.check(documents, target_curvature="Cones at selected vertices",
+                              sphere_layer=True)
+        self.assertEqual(returned["sphere_flipped_faces"], 0)
+        self.assertLess(returned["sphere_qc_area_mean"], 1.2)
+        self.assertEqual(documents.mesh_number(), 2)
+        self.assertEqual(documents.current_mesh_id(), 0)
+        sphere = documents.mesh(1)
+        self.assertTrue(numpy.array_equal(sphere.face_matrix(), documents.mesh(0).face_matrix()))
+        lengths = numpy.linalg.norm(sphere.vertex_matrix(), axis=1)
+        self.assertLess(numpy.abs(lengths - 1).max(), 1e-12)
 
     def test_colorize(self):
         documents = mesh_set(meshes.hill())
@@ -196,6 +235,13 @@ class BadInput(unittest.TestCase):
     def test_refinement_without_flips(self):
         self.check("Intrinsic flips", meshes.torus(), surgery="None",
                    output_triangulation="Common refinement")
+
+    def test_capped_without_flips(self):
+        self.check("Intrinsic flips", meshes.annulus(), surgery="None", holes="Capped")
+
+    def test_sphere_layer_of_another_surface(self):
+        self.check("genus 0.*torus", meshes.torus(), sphere_layer=True)
+        self.check("genus 0.*disk", meshes.hill(), sphere_layer=True)
 
     def test_not_finite(self):
         self.check("finite|NaN|not a number", meshes.with_nan(meshes.torus()))

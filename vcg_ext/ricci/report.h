@@ -41,6 +41,7 @@ struct Report
 	int components = 0;
 	int seamEdges = 0; ///< edges of the input along which the layout is cut
 
+	int charts = 0;
 	int cappedHoles = 0; ///< boundary loops closed for the flow
 
 	int overlappingCharts = 0; ///< charts that cover a part of the plane more than once

@@ -121,6 +121,7 @@ void separateCharts(const SurfaceMesh& mesh, bool resolve, Parametrization& map)
 		}
 	}
 	map.charts = std::move(charts);
+	map.report.charts = static_cast<int>(map.charts.size());
 }
 
 } // namespace ricci

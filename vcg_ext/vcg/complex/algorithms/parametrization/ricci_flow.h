@@ -12,6 +12,7 @@
 #include <ricci/parametrize.h>
 #include <ricci/progress.h>
 #include <ricci/report.h>
+#include <ricci/sphere_map.h>
 
 #include <vcg/complex/allocate.h>
 #include <vcg/complex/complex.h>
@@ -242,6 +243,44 @@ public:
 			if (HasPerWedgeTexCoord(flat))
 				for (int k = 0; k < 3; ++k)
 					SetWedge(*fi, k, places[faces[f][size_t(k)]].second);
+		}
+	}
+
+	/// Maps a mesh of one closed component of genus 0 to the unit sphere (see ricci::mapToSphere());
+	/// \p m is only read. The result is indexed like the mesh's vertex vector.
+	/// \throw ricci::Error and its derived classes, with a sentence for the user
+	static ricci::SphereMap
+	ComputeSphere(const MeshType& m, const Params& par, ricci::Progress& progress)
+	{
+		std::vector<int> faceIndex;
+		return ricci::mapToSphere(ReadSurface(m, faceIndex), par, progress);
+	}
+
+	/// Fills the empty mesh \p sphere with the vertices and faces of \p m, without the deleted ones
+	/// but otherwise in their order, at their places on the unit sphere. Vertices without a face lie
+	/// at the origin.
+	static void BuildSphereMesh(const MeshType& m, const ricci::SphereMap& map, MeshType& sphere)
+	{
+		std::vector<size_t> index(m.vert.size(), 0);
+		VertexIterator vi = Allocator<MeshType>::AddVertices(sphere, size_t(m.vn));
+		size_t next = 0;
+		for (size_t v = 0; v < m.vert.size(); ++v) {
+			if (m.vert[v].IsD())
+				continue;
+			const ricci::Point3& p = map.positions[v];
+			vi->P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(p[2]));
+			if (HasPerVertexColor(m) && HasPerVertexColor(sphere))
+				vi->C() = m.vert[v].cC();
+			index[v] = next++;
+			++vi;
+		}
+		FaceIterator fi = Allocator<MeshType>::AddFaces(sphere, size_t(m.fn));
+		for (size_t f = 0; f < m.face.size(); ++f) {
+			if (m.face[f].IsD())
+				continue;
+			for (int k = 0; k < 3; ++k)
+				fi->V(k) = &sphere.vert[index[Index(m, m.face[f].cV(k))]];
+			++fi;
 		}
 	}
 
