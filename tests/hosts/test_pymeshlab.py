@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The plugin in PyMeshLab. Usage: test_pymeshlab.py BUILD_DIR [TEST...], with PyMeshLab's Python."""
 
+import math
 import os
 import subprocess
 import sys
@@ -154,6 +155,23 @@ class Results(unittest.TestCase):
         self.assertTrue(numpy.array_equal(sphere.face_matrix(), documents.mesh(0).face_matrix()))
         lengths = numpy.linalg.norm(sphere.vertex_matrix(), axis=1)
         self.assertLess(numpy.abs(lengths - 1).max(), 1e-12)
+
+    def test_compare_shapes(self):
+        script = os.path.join(common.REPOSITORY, "filter_ricci", "samples", "compare_shapes.py")
+        plugin = os.path.join(common.BUILD, "pymeshlab-2025.7", "libfilter_ricci.so")
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [os.path.join(folder, name) for name in ("one.ply", "two.ply", "three.ply")]
+            meshes.write_ply(paths[0], meshes.torus(40, 40, 2, 1))
+            meshes.write_ply(paths[1], meshes.torus(40, 40, 6, 3))
+            meshes.write_ply(paths[2], meshes.torus(40, 40, 3, 1))
+            distances = []
+            for other in paths[1:]:
+                done = subprocess.run([sys.executable, script, plugin, paths[0], other],
+                                      capture_output=True, text=True, check=True)
+                distances.append(float(done.stdout.split("distance ")[1].split(",")[0]))
+        self.assertLess(distances[0], 1e-5)
+        # Rectangles i sqrt(3) and i sqrt(8): their distance is the logarithm of the quotient.
+        self.assertAlmostEqual(distances[1], 0.5 * math.log(8 / 3), delta=5e-3)
 
     def test_colorize(self):
         documents = mesh_set(meshes.hill())
