@@ -25,7 +25,7 @@ done
 
 bench=$build/tests/ricci_bench
 # One thread: CPU seconds of several would add up to more than the work.
-export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
+export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 OMP_THREAD_LIMIT=1
 "$bench" --header
 status=0
 for mesh in "${meshes[@]}"; do

@@ -38,6 +38,25 @@ constexpr int kPolishingSteps = 2;
 constexpr double kStagnation = 0.9;
 constexpr int kStagnationSteps = 20;
 
+/// Newton's direction is wanted to this accuracy at first, and to that of the residual afterwards:
+/// then every step still squares the residual.
+constexpr double kLeastAccuracy = 0.1;
+
+/// Rate of a factorisation's arithmetic, which stays in the cache, over that of a solution, which
+/// reads the factor from memory.
+constexpr double kFactorizationRate = 5.0;
+
+/// Bounds of the number of conjugate gradient iterations that are worth a factorisation.
+constexpr int kLeastIterations = 8, kMostIterations = 50;
+
+int solutionsPerFactorization(const SparseCholesky& cholesky)
+{
+	const double solution = 4.0 * cholesky.factorEntries();
+	const double quotient = cholesky.factorFlops() / (kFactorizationRate * solution);
+	return static_cast<int>(
+		std::clamp(quotient, double(kLeastIterations), double(kMostIterations)));
+}
+
 /// How far the estimate of the rounding floor may be from what is observed.
 constexpr double kFloorUncertainty = 20.0;
 
@@ -90,37 +109,92 @@ double NewtonSolver::residual(const Eigen::VectorXd& target)
 	return largest;
 }
 
-void NewtonSolver::updatePattern()
+/// The Hessian at the map's state, with \p shift added to its diagonal.
+void NewtonSolver::updateMatrix(double shift)
 {
-	if (m_revision == m_map->revision())
-		return;
-	m_hessian.layOut(*m_map, m_unknown, m_unknownCount);
-	m_cholesky.analyze(m_hessian.matrix());
-	m_revision = m_map->revision();
+	if (m_revision != m_map->revision()) {
+		m_hessian.layOut(*m_map, m_unknown, m_unknownCount);
+		m_analyzed = false;
+		m_revision = m_map->revision();
+	}
+	if (!m_ordered) {
+		const std::vector<int> order = m_cholesky.order(m_hessian.matrix());
+		std::vector<int> number(order.size());
+		for (std::size_t i = 0; i < order.size(); ++i)
+			number[at(order[i])] = static_cast<int>(i);
+		for (int& row : m_unknown)
+			if (row >= 0)
+				row = number[at(row)];
+		m_hessian.layOut(*m_map, m_unknown, m_unknownCount);
+		m_ordered = true;
+		m_analyzed = false;
+		m_factored = false;
+	}
+	m_hessian.fill(*m_map, shift);
 }
 
-/// Solves H d = -(K - target), with the last factor unless \p refactor.
-void NewtonSolver::direction(bool refactor)
+void NewtonSolver::factorize()
 {
-	if (refactor) {
-		updatePattern();
-		m_hessian.fill(*m_map, 0.0);
-		const double scale = std::max(m_hessian.largestDiagonal(), 1.0);
-		double shift = m_map->brokenTriangles() > 0 ? kRegularisation : 0.0;
-		if (shift > 0.0)
-			m_hessian.fill(*m_map, shift);
-		while (!m_cholesky.factorize(m_hessian.matrix())) {
-			shift = std::max(100.0 * shift, 1e-14 * scale);
-			if (shift > scale)
-				throw Error("The linear solver failed: its matrix is not positive definite.");
-			m_hessian.fill(*m_map, shift);
-		}
-		m_factored = true;
+	if (!m_analyzed) {
+		m_cholesky.analyze(m_hessian.matrix());
+		m_analyzed = true;
 	}
+	double shift = m_map->brokenTriangles() > 0 ? kRegularisation : 0.0;
+	if (shift > 0.0)
+		updateMatrix(shift);
+	const double scale = std::max(m_hessian.largestDiagonal(), 1.0);
+	while (!m_cholesky.factorize(m_hessian.matrix())) {
+		shift = std::max(100.0 * shift, 1e-14 * scale);
+		if (shift > scale)
+			throw Error("The linear solver failed: its matrix is not positive definite.");
+		updateMatrix(shift);
+	}
+	m_factored = true;
+	m_worn = false;
+	m_shifted = shift > 0.0;
+}
+
+/// Conjugate gradients with the last factor for preconditioner, for the matrix as it is. \return
+/// whether |H d + gradient| <= \p accuracy |gradient| was reached.
+bool NewtonSolver::iterate(double accuracy, int mostIterations)
+{
+	m_gradients.preconditioner().attach(m_cholesky);
+	m_gradients.setTolerance(accuracy);
+	m_gradients.setMaxIterations(mostIterations);
+	m_gradients.compute(m_hessian.matrix());
+	m_solution = m_gradients.solve(m_rhs);
+	return m_gradients.info() == Eigen::Success && m_solution.allFinite();
+}
+
+/// Solves H d = -(K - target) so that what is left is at most \p accuracy of the right side, with
+/// the last factor as long as that takes less work than a new one. Once epsilon is reached, the last
+/// factor has to do.
+void NewtonSolver::direction(double accuracy, bool reached)
+{
+	updateMatrix(0.0);
 	for (std::size_t v = 0; v < m_unknown.size(); ++v)
 		if (m_unknown[v] >= 0)
 			m_rhs[m_unknown[v]] = -m_gradient[static_cast<Eigen::Index>(v)];
-	m_cholesky.solve(m_rhs, m_solution);
+	const bool usable = m_factored && !m_shifted && m_map->brokenTriangles() == 0;
+	bool solved = false;
+	if (usable && (!m_worn || reached)) {
+		const int limit = solutionsPerFactorization(m_cholesky);
+		solved = iterate(accuracy, limit);
+		m_worn = !solved || 2 * m_gradients.iterations() > limit;
+		fprintf(
+			stderr,
+			"   cg eta %.1e its %d/%d err %.1e worn %d\n",
+			accuracy,
+			(int) m_gradients.iterations(),
+			limit,
+			m_gradients.error(),
+			(int) m_worn);
+	}
+	if (!solved && !reached) {
+		fprintf(stderr, "   factor\n");
+		factorize();
+		m_cholesky.solve(m_rhs, m_solution);
+	}
 	for (std::size_t v = 0; v < m_unknown.size(); ++v)
 		m_direction[static_cast<Eigen::Index>(v)] =
 			m_unknown[v] >= 0 ? m_solution[m_unknown[v]] : 0.0;
@@ -185,6 +259,14 @@ NewtonResult NewtonSolver::solve(
 	bool searchFails = false;
 
 	while (true) {
+		fprintf(
+			stderr,
+			"it %d res %.3e floor %.1e broken %d rev %d\n",
+			result.iterations,
+			result.residual,
+			roundingFloor(),
+			m_map->brokenTriangles(),
+			m_map->revision());
 		report(result.iterations, result.residual);
 		result.floor = roundingFloor();
 		const bool valid = m_map->brokenTriangles() == 0;
@@ -194,10 +276,10 @@ NewtonResult NewtonSolver::solve(
 			(!reached && result.iterations >= options.maxIterations))
 			break;
 
-		// With the last factor of an earlier iterate a step still gains digits once epsilon is
-		// reached.
-		const bool refactor = !reached || !m_factored;
-		direction(refactor);
+		// Nothing is gained by solving for less than rounding leaves.
+		direction(
+			std::clamp(result.residual, 0.5 * result.floor / result.residual, kLeastAccuracy),
+			reached && m_factored);
 		const double largest = m_direction.lpNorm<Eigen::Infinity>();
 		if (!std::isfinite(largest))
 			break;

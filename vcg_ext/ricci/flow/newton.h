@@ -8,6 +8,7 @@
 #include "sparse_cholesky.h"
 
 #include <Eigen/Core>
+#include <Eigen/IterativeLinearSolvers>
 
 #include <functional>
 #include <vector>
@@ -32,9 +33,47 @@ struct NewtonResult
 /// Residuals above this are never called converged because of the rounding floor.
 constexpr double kLargestFloor = 1e-8;
 
+/// A Cholesky factor of a nearby matrix, in the form in which Eigen wants a preconditioner.
+class FactorPreconditioner
+{
+public:
+	void attach(SparseCholesky& cholesky) { m_cholesky = &cholesky; }
+
+	template<class Matrix>
+	FactorPreconditioner& analyzePattern(const Matrix&)
+	{
+		return *this;
+	}
+	template<class Matrix>
+	FactorPreconditioner& factorize(const Matrix&)
+	{
+		return *this;
+	}
+	template<class Matrix>
+	FactorPreconditioner& compute(const Matrix&)
+	{
+		return *this;
+	}
+	const Eigen::VectorXd& solve(const Eigen::VectorXd& residual) const
+	{
+		m_cholesky->solve(residual, m_solution);
+		return m_solution;
+	}
+	Eigen::ComputationInfo info() { return Eigen::Success; }
+
+private:
+	SparseCholesky* m_cholesky = nullptr;
+	mutable Eigen::VectorXd m_solution; // kept as work space
+};
+
 /// Globalised Newton's method for K(u) = target (paper 4.2): the minimiser of the convex Ricci
 /// energy. The only place that decides when a solve stops. Keeps its work space, pattern and
-/// symbolic factorisation between calls, so that a warm start costs no set-up.
+/// factor between calls, so that a warm start costs no set-up.
+///
+/// A factorisation costs as much as a dozen or more solutions with it, and the Hessian of one step
+/// is close to that of the next, flips included. So the factor of one step is the preconditioner of
+/// conjugate gradients in the later ones (an inexact Newton method, Dembo, Eisenstat and Steihaug
+/// 1982) until it takes more work than a new one.
 class NewtonSolver
 {
 public:
@@ -49,6 +88,9 @@ public:
 	/// Goes on with \p map, which has the triangulation of the present one, from the present u and
 	/// with the present factorisation: the same equations in other precision.
 	void continueOn(CurvatureMap& map);
+
+	/// What the linear solver has done since the construction.
+	const CholeskyWork& work() const { return m_cholesky.work(); }
 
 	/// [vertex] Part of u below the last place of its doubles, as the last solve left it.
 	const Eigen::VectorXd& rest() const { return m_rest; }
@@ -67,8 +109,10 @@ public:
 
 private:
 	double residual(const Eigen::VectorXd& target);
-	void updatePattern();
-	void direction(bool refactor);
+	void updateMatrix(double shift);
+	bool iterate(double accuracy, int mostIterations);
+	void factorize();
+	void direction(double accuracy, bool reached);
 	double longestStep(const Eigen::VectorXd& u, double largest) const;
 	void applyStep(const Eigen::VectorXd& u, double t);
 	double roundingFloor();
@@ -79,9 +123,15 @@ private:
 	int m_unknownCount = 0;
 	bool m_gaugeFree = false; // the mean of u is free
 	int m_revision = -1;      // of the map, when the pattern was laid out
+	bool m_ordered = false;   // the unknowns are numbered in elimination order
+	bool m_analyzed = false;  // the symbolic factorisation is that of the pattern
 	bool m_factored = false;
+	bool m_shifted = false;      // the factor is that of a matrix with a shift
+	bool m_worn = false;         // the factor has become a bad preconditioner
+	double m_orderedFlops = 0.0; // of a factorisation, when the order was new
 	Hessian m_hessian;
 	SparseCholesky m_cholesky;
+	Eigen::ConjugateGradient<Hessian::Matrix, Eigen::Lower, FactorPreconditioner> m_gradients;
 	Eigen::VectorXd m_gradient;                       // [vertex] K - target, 0 where fixed
 	Eigen::VectorXd m_rhs, m_solution;                // [unknown]
 	Eigen::VectorXd m_direction, m_trial, m_diagonal; // [vertex]
