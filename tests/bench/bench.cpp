@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CPU time of each stage for one mesh, and the time of the flow as a multiple of one analysis,
 // factorisation and solution of the same matrix: a number that does not depend on the machine's
-// speed. One process measures one mesh, so that the peak of its memory means something.
+// speed. One process measures one mesh, so that the peak of its memory means something; it is that of
+// the whole way from mesh to plane, which runs first.
 #include "support/random_surface.h"
 #include "support/shapes.h"
 #ifdef RICCI_HAVE_VCGLIB
@@ -17,6 +18,7 @@
 #include <ricci/layout/planar_layout.h>
 #include <ricci/metric/delaunay_start.h>
 #include <ricci/metric/euclidean.h>
+#include <ricci/parametrize.h>
 #include <ricci/surface/component.h>
 
 #ifdef RICCI_USE_CHOLMOD
@@ -51,11 +53,11 @@ int repetitions(std::size_t faces)
 }
 
 /// Columns of the table; bench.sh prints them once for all meshes.
-const char* const kHeader = "mesh\tfaces\tgeometry\tsolve_cpu_s\tone_factor_cpu_"
-							"s\tratio\titerations\tflips\tresidual\tpeak_mb\t"
-							"read_cpu_s\tpacking_cpu_s\tflow_cpu_s\tcut_cpu_s\tlayout_cpu_"
-							"s\tdistortion_cpu_s\ttarget\tsurgery\t"
-							"solver\tremark";
+const char* const kHeader =
+	"mesh\tfaces\tgeometry\tsolve_cpu_s\tone_factor_cpu_s\tratio\titerations\tflips\tresidual"
+	"\tpeak_mb\tread_cpu_s\tpacking_cpu_s\tcut_cpu_s\tlayout_cpu_s\tdistortion_cpu_s"
+	"\twhole_cpu_s\twhole_wall_s\tfactorizations\tsolutions\tgflop\ttarget\tsurgery\tsolver"
+	"\tremark";
 
 double cpuSeconds()
 {
@@ -79,36 +81,50 @@ double timeOf(Work work)
 	return cpuSeconds() - start;
 }
 
+double wallSeconds()
+{
+	timespec now{};
+	clock_gettime(CLOCK_MONOTONIC, &now);
+	return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 struct Row
 {
-	std::string name, target, surgery, remark = "-";
+	std::string name, geometry, target, surgery, remark = "-";
 	std::size_t faces = 0;
 	double read = 0, packing = 0, flow = 0, oneFactor = 0, cut = 0, layout = 0, distortion = 0;
+	double whole = 0, wholeWall = 0, peak = 0;
 	double residual = 0;
 	int iterations = 0;
 	std::size_t flips = 0;
+	CholeskyWork work;
 
 	void print() const
 	{
-		std::printf("%s\t%zu\teuclidean", name.c_str(), faces);
+		std::printf("%s\t%zu\t%s", name.c_str(), faces, geometry.c_str());
 		if (remark == "-")
 			std::printf(
-				"\t%.4f\t%.4f\t%.2f\t%d\t%zu\t%.1e\t%.0f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f",
+				"\t%.4f\t%.4f\t%.2f\t%d\t%zu\t%.1e\t%.0f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f"
+				"\t%d\t%d\t%.3f",
 				flow,
 				oneFactor,
 				flow / oneFactor,
 				iterations,
 				flips,
 				residual,
-				peakMegabytes(),
+				peak,
 				read,
 				packing,
-				flow,
 				cut,
 				layout,
-				distortion);
+				distortion,
+				whole,
+				wholeWall,
+				work.factorizations,
+				work.solutions,
+				1e-9 * work.flops);
 		else
-			for (int column = 0; column < 13; ++column)
+			for (int column = 0; column < 17; ++column)
 				std::printf("\t-");
 		std::printf(
 			"\t%s\t%s\t%s\t%s\n",
@@ -188,7 +204,7 @@ double oneFactorisation(const CurvatureMap& map, const Target& target, int repea
 	const bool anyFixed =
 		std::find(target.fixed.begin(), target.fixed.end(), 1) != target.fixed.end();
 	int count = 0;
-	for (std::size_t v = anyFixed ? 0 : 1; v < unknown.size(); ++v)
+	for (std::size_t v = anyFixed || !map.scaleInvariant() ? 0 : 1; v < unknown.size(); ++v)
 		if (!target.fixed[v])
 			unknown[v] = count++;
 	Hessian hessian;
@@ -201,7 +217,7 @@ double oneFactorisation(const CurvatureMap& map, const Target& target, int repea
 }
 
 /// The first component of the mesh; the others would only add up.
-void measure(const SurfaceMesh& mesh, const Options& options, Row& row)
+void measure(const SurfaceMesh& mesh, Background background, const Options& options, Row& row)
 {
 	Component component;
 	Triangulation t;
@@ -214,12 +230,27 @@ void measure(const SurfaceMesh& mesh, const Options& options, Row& row)
 	});
 	row.faces = component.triangles.size();
 	const Topology topology = topologyOf(t);
-	const Target target = chooseTarget(
-		t,
-		topology,
-		lengths,
-		component.positions,
-		chooseRequest(topology, component.positions.size(), row.target));
+	Target target;
+	if (background == Background::EuclideanPlane)
+		target = chooseTarget(
+			t,
+			topology,
+			lengths,
+			component.positions,
+			chooseRequest(topology, component.positions.size(), row.target));
+	else {
+		row.target = "zero";
+		target.curvature.setZero(t.vertexCount());
+		target.fixed.assign(component.positions.size(), 0);
+	}
+	// A uniform curvature makes every vertex a cone, which no one wants to see cut open.
+	if (row.target == "automatic") {
+		Progress silent;
+		const double start = wallSeconds();
+		row.whole = timeOf([&] { parametrizeEuclidean(mesh, {}, options, silent); });
+		row.wholeWall = wallSeconds() - start;
+		row.peak = peakMegabytes();
+	}
 
 	// By itself once more; the flow includes it.
 	row.packing = timeOf([&] {
@@ -238,7 +269,7 @@ void measure(const SurfaceMesh& mesh, const Options& options, Row& row)
 		row.flow =
 			std::min(row.flow, timeOf([&] {
 						 flow = runRicciFlow(
-							 Background::EuclideanPlane,
+							 background,
 							 t,
 							 lengths,
 							 component.positions,
@@ -248,6 +279,9 @@ void measure(const SurfaceMesh& mesh, const Options& options, Row& row)
 							 [](int, double) {});
 					 }));
 	}
+	if (row.peak == 0.0)
+		row.peak = peakMegabytes();
+	row.work = flow.work;
 	row.iterations = flow.iterations;
 	row.residual = flow.residual;
 	row.flips = flow.history.startFlips.size() + flow.history.flowFlips.size() +
@@ -278,16 +312,34 @@ void measure(const SurfaceMesh& mesh, const Options& options, Row& row)
 	row.distortion = timeOf([&] { measureDistortion(surface, uv, reversed, report); });
 }
 
+/// A smooth torus with about so many triangles, its vertices jittered on the surface and the
+/// diagonals of its cells random.
+SurfaceMesh wavyTorus(double faces)
+{
+	testing::Random random(1);
+	const int nv = std::max(3, static_cast<int>(std::sqrt(faces / 4.0))), nu = 2 * nv;
+	SurfaceMesh mesh = testing::grid(
+		nu, nv, testing::Ends::Joined, testing::Ends::Joined, [&](int i, int j) -> Point3 {
+			const double u = 2 * kPi * (i + random.real(-0.25, 0.25)) / nu;
+			const double v = 2 * kPi * (j + random.real(-0.25, 0.25)) / nv;
+			const double r = 1.0 + 0.2 * std::sin(5 * u) * std::cos(3 * v),
+						 d = 3.0 + r * std::cos(v);
+			return {d * std::cos(u), d * std::sin(u), r * std::sin(v)};
+		});
+	testing::swapDiagonalsAtRandom(mesh, random);
+	return mesh;
+}
+
 SurfaceMesh read(const std::string& path)
 {
-	if (path == "generated") {
-		testing::Random random(1);
-		return testing::bumpyTorus(200, 125, random);
-	}
+	const std::string generated = "generated";
+	if (path.rfind(generated, 0) == 0)
+		return wavyTorus(
+			path == generated ? 50000.0 : std::stod(path.substr(generated.size() + 1)));
 #ifdef RICCI_HAVE_VCGLIB
 	return testing::readMesh(path);
 #else
-	throw std::runtime_error("Without vcglib only the mesh 'generated' can be measured.");
+	throw std::runtime_error("Without vcglib only the meshes generated:FACES can be measured.");
 #endif
 }
 
@@ -296,6 +348,7 @@ SurfaceMesh read(const std::string& path)
 int main(int argc, char** argv)
 {
 	Options options;
+	Background background = Background::EuclideanPlane;
 	std::string path;
 	const auto surgeryName = [&] {
 		return options.surgery == Surgery::None       ? "none"
@@ -314,6 +367,10 @@ int main(int argc, char** argv)
 			options.surgery = Surgery::EdgeSwap;
 		else if (word == "--surgery=intrinsic_flips")
 			options.surgery = Surgery::IntrinsicFlips;
+		else if (word == "--geometry=euclidean")
+			background = Background::EuclideanPlane;
+		else if (word == "--geometry=hyperbolic")
+			background = Background::HyperbolicPlane;
 		else if (path.empty() && word.rfind("--", 0) != 0)
 			path = word;
 		else
@@ -321,17 +378,18 @@ int main(int argc, char** argv)
 	}
 	if (path.empty()) {
 		std::cerr << "usage: ricci_bench --header | [--surgery=none|edge_swap|intrinsic_flips] "
-					 "MESH|generated\n";
+					 "[--geometry=euclidean|hyperbolic] MESH|generated[:FACES]\n";
 		return 2;
 	}
 	Row row;
 	row.name = std::filesystem::path(path).stem().string();
 	row.surgery = surgeryName();
+	row.geometry = background == Background::EuclideanPlane ? "euclidean" : "hyperbolic";
 	int status = 0;
 	try {
 		SurfaceMesh mesh;
 		row.read = timeOf([&] { mesh = read(path); });
-		measure(mesh, options, row);
+		measure(mesh, background, options, row);
 	}
 	catch (const std::exception& error) {
 		row.remark = error.what();

@@ -4,14 +4,17 @@
 #include "../metric/euclidean.h"
 #include "../metric/hyperbolic.h"
 #include "../numbers.h"
+#include "../parallel.h"
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
 
 namespace ricci {
 
 CurvatureMap::CurvatureMap(CirclePacking packing) :
-		m_packing(std::move(packing)), m_boundary(m_packing.triangulation.boundaryVertices())
+		m_packing(std::move(packing)), m_boundary(m_packing.triangulation.boundaryVertices()),
+		m_threads(defaultThreads())
 {
 	const Triangulation& t = m_packing.triangulation;
 	m_curvature.resize(t.vertexCount());
@@ -31,7 +34,8 @@ void CurvatureMap::swapEdge(int e, double delta)
 template<class Geometry>
 GeometricCurvatureMap<Geometry>::GeometricCurvatureMap(CirclePacking packing) :
 		CurvatureMap(std::move(packing)), m_circles(at(m_packing.triangulation.vertexCount())),
-		m_edges(at(m_packing.triangulation.edgeCount()))
+		m_excess(at(m_packing.triangulation.edgeCount())), m_ratio(m_excess.size()),
+		m_halfWeights(at(m_packing.triangulation.halfedgeCount()), 0.0)
 {
 }
 
@@ -48,96 +52,127 @@ template<class Geometry>
 void GeometricCurvatureMap<Geometry>::evaluateCircles(
 	const Eigen::VectorXd& u, const Eigen::VectorXd& rest)
 {
-	for (std::size_t v = 0; v < m_circles.size(); ++v) {
-		const auto i = static_cast<Eigen::Index>(v);
-		m_circles[v] = Geometry::circle(u[i], rest.size() > 0 ? rest[i] : 0.0);
-	}
+	const bool whole = rest.size() == 0;
+	inParallel(static_cast<int>(m_circles.size()), m_threads, [&](int first, int last) {
+		for (int v = first; v < last; ++v)
+			m_circles[at(v)] = Geometry::circle(u[v], whole ? 0.0 : rest[v]);
+	});
 }
 
 template<class Geometry>
 void GeometricCurvatureMap<Geometry>::evaluateEdges()
 {
 	const Triangulation& t = m_packing.triangulation;
-	for (int e = 0; e < t.edgeCount(); ++e) {
-		m_edges[at(e)] = Geometry::edge(
-			m_circles[at(t.origin(2 * e))], m_circles[at(t.target(2 * e))], m_packing.delta[at(e)]);
-		m_lengths[at(e)] = static_cast<double>(m_edges[at(e)].length);
-		m_cosineLess1[at(e)] = static_cast<double>(m_edges[at(e)].cosineLess1);
-	}
+	inParallel(t.edgeCount(), m_threads, [&](int first, int last) {
+		for (int e = first; e < last; ++e) {
+			const auto& i = m_circles[at(t.origin(2 * e))];
+			const auto& j = m_circles[at(t.target(2 * e))];
+			const auto edge = Geometry::edge(i, j, m_packing.delta[at(e)]);
+			m_lengths[at(e)] = static_cast<double>(edge.length);
+			m_cosineLess1[at(e)] = static_cast<double>(edge.cosineLess1);
+			m_excess[at(e)] = edge.excess;
+			m_ratio[at(e)] = static_cast<double>(i.s * j.s / edge.sine2);
+		}
+	});
 }
 
 template<class Geometry>
 void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 {
-	using Real = typename Geometry::Real;
 	const Triangulation& t = m_packing.triangulation;
-	std::fill(m_weights.begin(), m_weights.end(), 0.0);
-	for (int v = 0; v < t.vertexCount(); ++v)
-		m_curvature[v] = m_boundary[at(v)] ? kPi : 2.0 * kPi;
 	m_broken = 0;
 	m_needleRatio = 1.0;
+	std::mutex summary;
+	inParallel(t.faceCount(), m_threads, [&](int first, int last) {
+		int broken = 0;
+		double needleRatio = 1.0;
+		for (int f = first; f < last; ++f)
+			if (!evaluateTriangle(f, needleRatio))
+				++broken;
+		const std::lock_guard<std::mutex> lock(summary);
+		m_broken += broken;
+		m_needleRatio = std::max(m_needleRatio, needleRatio);
+	});
+	inParallel(t.edgeCount(), m_threads, [&](int first, int last) {
+		for (int e = first; e < last; ++e)
+			m_weights[at(e)] = m_halfWeights[at(2 * e)] + m_halfWeights[at(2 * e + 1)];
+	});
 
-	for (int f = 0; f < t.faceCount(); ++f) {
-		// Vertex k is the origin of halfedge k; side k runs from vertex k to k + 1.
-		const std::array<int, 3> h = t.halfedges(f);
-		std::array<int, 3> vertex, edge;
-		for (std::size_t k = 0; k < 3; ++k) {
-			vertex[k] = t.origin(h[k]);
-			edge[k] = Triangulation::edge(h[k]);
-		}
-		// tau_k = (two adjacent sides - opposite side) / 2, free of cancellation in the radii.
-		std::array<Real, 3> tau;
-		std::array<double, 3> angle;
-		for (std::size_t k = 0; k < 3; ++k)
-			tau[k] =
-				m_circles[at(vertex[k])].radius +
-				Real(0.5) * (m_edges[at(edge[k])].excess + m_edges[at(edge[(k + 2) % 3])].excess -
-							 m_edges[at(edge[(k + 1) % 3])].excess);
-		const auto shortest = std::min_element(tau.begin(), tau.end());
-		if (!(*shortest > 0.0)) {
-			++m_broken;
-			angle = {0.0, 0.0, 0.0};
-			angle[at(static_cast<int>(shortest - tau.begin()))] = kPi;
-		}
-		else {
-			const Real s = Geometry::heron(tau[0] + tau[1] + tau[2]);
-			const Real a = Geometry::heron(tau[0]), b = Geometry::heron(tau[1]),
-					   c = Geometry::heron(tau[2]);
-			angle[0] = static_cast<double>(2 * std::atan2(std::sqrt(b * c), std::sqrt(s * a)));
-			angle[1] = static_cast<double>(2 * std::atan2(std::sqrt(c * a), std::sqrt(s * b)));
-			angle[2] = static_cast<double>(2 * std::atan2(std::sqrt(a * b), std::sqrt(s * c)));
-			const Real area = 2 * std::sqrt(s * a * b * c); // product of two sides and a sine
-
-			std::array<Real, 3> inversive, radius, kappa;
-			for (std::size_t k = 0; k < 3; ++k) {
-				inversive[k] = 1 + Real(m_packing.delta[at(edge[k])]);
-				radius[k] = m_circles[at(vertex[k])].s;
-				kappa[k] = m_circles[at(vertex[k])].kappa;
-			}
-			double longest = 0.0, least = m_lengths[at(edge[0])];
-			for (std::size_t k = 0; k < 3; ++k) {
-				// Derivative of the angle at i by u_j, side ij = side k, apex m.
-				const std::size_t i = k, j = (k + 1) % 3, m = (k + 2) % 3;
-				const Real ij = inversive[k], jm = inversive[j], mi = inversive[m];
-				const Real d = m_packing.delta[at(edge[k])];
-				const Real height =
-					kappa[i] * (mi + jm * ij) + kappa[j] * (jm + mi * ij) - kappa[m] * d * (d + 2);
-				m_weights[at(edge[k])] += static_cast<double>(
-					radius[i] * radius[i] * radius[j] * radius[j] * radius[m] * height /
-					(area * m_edges[at(edge[k])].sine2));
-				longest = std::max(longest, m_lengths[at(edge[k])]);
-				least = std::min(least, m_lengths[at(edge[k])]);
-			}
-			m_needleRatio = std::max(m_needleRatio, longest / least);
-		}
-		for (std::size_t k = 0; k < 3; ++k) {
-			m_angles[at(h[k])] = angle[k];
-			m_curvature[vertex[k]] -= angle[k];
-		}
-	}
-	// Left out, the rest of pi would add up over the vertices and break Gauss-Bonnet by as much.
+	for (int v = 0; v < t.vertexCount(); ++v)
+		m_curvature[v] = m_boundary[at(v)] ? kPi : 2.0 * kPi;
+	for (int f = 0; f < t.faceCount(); ++f)
+		for (int h : t.halfedges(f))
+			m_curvature[t.origin(h)] -= m_angles[at(h)];
+	// Left out, the rest of pi would add up over the vertices and break
+	// Gauss-Bonnet by as much.
 	for (int v = 0; v < t.vertexCount(); ++v)
 		m_curvature[v] += m_boundary[at(v)] ? kPiRest : 2.0 * kPiRest;
+}
+
+/// Angles and weights of face \p f; raises \p needleRatio to that of the face.
+/// \return false if the face breaks the triangle inequality
+template<class Geometry>
+bool GeometricCurvatureMap<Geometry>::evaluateTriangle(int f, double& needleRatio)
+{
+	using Real = typename Geometry::Real;
+	const Triangulation& t = m_packing.triangulation;
+	// Vertex k is the origin of halfedge k; side k runs from vertex k to k + 1.
+	const std::array<int, 3> h = t.halfedges(f);
+	std::array<std::size_t, 3> vertex, edge;
+	for (std::size_t k = 0; k < 3; ++k) {
+		vertex[k] = at(t.origin(h[k]));
+		edge[k] = at(Triangulation::edge(h[k]));
+	}
+	// tau_k = (two adjacent sides - opposite side) / 2, free of cancellation in
+	// the radii.
+	std::array<Real, 3> tau;
+	for (std::size_t k = 0; k < 3; ++k)
+		tau[k] = m_circles[vertex[k]].radius +
+				 Real(0.5) * (m_excess[edge[k]] + m_excess[edge[(k + 2) % 3]] -
+							  m_excess[edge[(k + 1) % 3]]);
+	const auto shortest = std::min_element(tau.begin(), tau.end());
+	if (!(*shortest > 0.0)) {
+		for (std::size_t k = 0; k < 3; ++k) {
+			m_angles[at(h[k])] = 0.0;
+			m_halfWeights[at(h[k])] = 0.0;
+		}
+		m_angles[at(h[at(static_cast<int>(shortest - tau.begin()))])] = kPi;
+		return false;
+	}
+	// The tau hold what cancellation could lose: from here on doubles do. With s
+	// their sum, the tangents of the half angles are r / tau_k, r = sqrt(tau_0
+	// tau_1 tau_2 / s), the radius of the inscribed circle.
+	const double s = static_cast<double>(Geometry::heron(tau[0] + tau[1] + tau[2]));
+	std::array<double, 3> x;
+	for (std::size_t k = 0; k < 3; ++k)
+		x[k] = static_cast<double>(Geometry::heron(tau[k]));
+	const double r = std::sqrt(x[0] * (x[1] / s) * x[2]);
+	for (std::size_t k = 0; k < 3; ++k)
+		m_angles[at(h[k])] = 2.0 * std::atan(r / x[k]);
+
+	std::array<double, 3> inversive, radius, kappa;
+	for (std::size_t k = 0; k < 3; ++k) {
+		inversive[k] = 1.0 + m_packing.delta[edge[k]];
+		radius[k] = static_cast<double>(m_circles[vertex[k]].s);
+		kappa[k] = static_cast<double>(m_circles[vertex[k]].kappa);
+	}
+	// 2 s r is the product of two sides and the sine between them.
+	const double factor = radius[0] * radius[1] * radius[2] / (2.0 * s * r);
+	double longest = 0.0, least = m_lengths[edge[0]];
+	for (std::size_t k = 0; k < 3; ++k) {
+		// Derivative of the angle at i by u_j, side ij = side k, apex m.
+		const std::size_t i = k, j = (k + 1) % 3, m = (k + 2) % 3;
+		const double ij = inversive[k], jm = inversive[j], mi = inversive[m];
+		const double d = m_packing.delta[edge[k]];
+		const double height =
+			kappa[i] * (mi + jm * ij) + kappa[j] * (jm + mi * ij) - kappa[m] * d * (d + 2.0);
+		m_halfWeights[at(h[k])] = factor * m_ratio[edge[k]] * height;
+		longest = std::max(longest, m_lengths[edge[k]]);
+		least = std::min(least, m_lengths[edge[k]]);
+	}
+	if (longest > needleRatio * least)
+		needleRatio = longest / least;
+	return true;
 }
 
 template<class Geometry>
@@ -148,7 +183,9 @@ void FlippingCurvatureMap<Geometry>::evaluate(const Eigen::VectorXd& u, const Ei
 	for (std::size_t v = 0; v < m_kappa.size(); ++v)
 		m_kappa[v] = static_cast<double>(this->m_circles[v].kappa);
 	CirclePacking& packing = this->m_packing;
-	if (makeWeightedDelaunay(packing.triangulation, packing.delta, m_kappa, m_journal, m_queue) > 0)
+	const int flips = makeWeightedDelaunay(
+		packing.triangulation, packing.delta, m_kappa, m_journal, m_queue, this->m_threads);
+	if (flips > 0)
 		++this->m_revision;
 	this->evaluateEdges();
 	this->evaluateTriangles();

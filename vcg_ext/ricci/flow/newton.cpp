@@ -4,6 +4,8 @@
 #include "../error.h"
 #include "../numbers.h"
 
+#include <Eigen/IterativeLinearSolvers>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,6 +48,10 @@ constexpr double kLeastAccuracy = 0.1;
 /// reads the factor from memory.
 constexpr double kFactorizationRate = 5.0;
 
+/// Where flips have made a factorisation more expensive than this times the first, the unknowns are
+/// ordered anew.
+constexpr double kMostGrowth = 1.5;
+
 /// Bounds of the number of conjugate gradient iterations that are worth a factorisation.
 constexpr int kLeastIterations = 8, kMostIterations = 50;
 
@@ -59,6 +65,39 @@ int solutionsPerFactorization(const SparseCholesky& cholesky)
 
 /// How far the estimate of the rounding floor may be from what is observed.
 constexpr double kFloorUncertainty = 20.0;
+
+/// A Cholesky factor of a nearby matrix, in the form in which Eigen wants a preconditioner.
+class FactorPreconditioner
+{
+public:
+	void attach(SparseCholesky& cholesky) { m_cholesky = &cholesky; }
+
+	template<class Matrix>
+	FactorPreconditioner& analyzePattern(const Matrix&)
+	{
+		return *this;
+	}
+	template<class Matrix>
+	FactorPreconditioner& factorize(const Matrix&)
+	{
+		return *this;
+	}
+	template<class Matrix>
+	FactorPreconditioner& compute(const Matrix&)
+	{
+		return *this;
+	}
+	const Eigen::VectorXd& solve(const Eigen::VectorXd& residual) const
+	{
+		m_cholesky->solve(residual, m_solution);
+		return m_solution;
+	}
+	Eigen::ComputationInfo info() { return Eigen::Success; }
+
+private:
+	SparseCholesky* m_cholesky = nullptr;
+	mutable Eigen::VectorXd m_solution; // kept as work space
+};
 
 } // namespace
 
@@ -137,6 +176,14 @@ void NewtonSolver::factorize()
 {
 	if (!m_analyzed) {
 		m_cholesky.analyze(m_hessian.matrix());
+		if (m_orderedFlops == 0.0)
+			m_orderedFlops = m_cholesky.factorFlops();
+		if (m_cholesky.factorFlops() > kMostGrowth * m_orderedFlops) {
+			m_ordered = false;
+			updateMatrix(0.0);
+			m_cholesky.analyze(m_hessian.matrix());
+			m_orderedFlops = m_cholesky.factorFlops();
+		}
 		m_analyzed = true;
 	}
 	double shift = m_map->brokenTriangles() > 0 ? kRegularisation : 0.0;
@@ -154,16 +201,27 @@ void NewtonSolver::factorize()
 	m_shifted = shift > 0.0;
 }
 
-/// Conjugate gradients with the last factor for preconditioner, for the matrix as it is. \return
-/// whether |H d + gradient| <= \p accuracy |gradient| was reached.
-bool NewtonSolver::iterate(double accuracy, int mostIterations)
+/// Conjugate gradients with the last factor for preconditioner, for the matrix as it is, until
+/// |H d + gradient| <= \p accuracy |gradient|. \return number of iterations, more than \p
+/// mostIterations if they do not suffice
+int NewtonSolver::iterate(double accuracy, int mostIterations)
 {
-	m_gradients.preconditioner().attach(m_cholesky);
-	m_gradients.setTolerance(accuracy);
-	m_gradients.setMaxIterations(mostIterations);
-	m_gradients.compute(m_hessian.matrix());
-	m_solution = m_gradients.solve(m_rhs);
-	return m_gradients.info() == Eigen::Success && m_solution.allFinite();
+	Eigen::ConjugateGradient<Hessian::Matrix, Eigen::Lower, FactorPreconditioner> gradients;
+	gradients.preconditioner().attach(m_cholesky);
+	gradients.setTolerance(accuracy);
+	gradients.setMaxIterations(mostIterations);
+	gradients.compute(m_hessian.matrix());
+	m_solution = gradients.solve(m_rhs);
+	const bool solved = gradients.info() == Eigen::Success && m_solution.allFinite();
+	return solved ? static_cast<int>(gradients.iterations()) : mostIterations + 1;
+}
+
+/// Right side of Newton's equations in the order of the unknowns.
+void NewtonSolver::gatherRightSide()
+{
+	for (std::size_t v = 0; v < m_unknown.size(); ++v)
+		if (m_unknown[v] >= 0)
+			m_rhs[m_unknown[v]] = -m_gradient[static_cast<Eigen::Index>(v)];
 }
 
 /// Solves H d = -(K - target) so that what is left is at most \p accuracy of the right side, with
@@ -172,27 +230,18 @@ bool NewtonSolver::iterate(double accuracy, int mostIterations)
 void NewtonSolver::direction(double accuracy, bool reached)
 {
 	updateMatrix(0.0);
-	for (std::size_t v = 0; v < m_unknown.size(); ++v)
-		if (m_unknown[v] >= 0)
-			m_rhs[m_unknown[v]] = -m_gradient[static_cast<Eigen::Index>(v)];
+	gatherRightSide();
 	const bool usable = m_factored && !m_shifted && m_map->brokenTriangles() == 0;
 	bool solved = false;
 	if (usable && (!m_worn || reached)) {
 		const int limit = solutionsPerFactorization(m_cholesky);
-		solved = iterate(accuracy, limit);
-		m_worn = !solved || 2 * m_gradients.iterations() > limit;
-		fprintf(
-			stderr,
-			"   cg eta %.1e its %d/%d err %.1e worn %d\n",
-			accuracy,
-			(int) m_gradients.iterations(),
-			limit,
-			m_gradients.error(),
-			(int) m_worn);
+		const int iterations = iterate(accuracy, limit);
+		solved = iterations <= limit;
+		m_worn = 2 * iterations > limit;
 	}
 	if (!solved && !reached) {
-		fprintf(stderr, "   factor\n");
 		factorize();
+		gatherRightSide(); // the unknowns may have been renumbered
 		m_cholesky.solve(m_rhs, m_solution);
 	}
 	for (std::size_t v = 0; v < m_unknown.size(); ++v)
@@ -259,14 +308,6 @@ NewtonResult NewtonSolver::solve(
 	bool searchFails = false;
 
 	while (true) {
-		fprintf(
-			stderr,
-			"it %d res %.3e floor %.1e broken %d rev %d\n",
-			result.iterations,
-			result.residual,
-			roundingFloor(),
-			m_map->brokenTriangles(),
-			m_map->revision());
 		report(result.iterations, result.residual);
 		result.floor = roundingFloor();
 		const bool valid = m_map->brokenTriangles() == 0;
@@ -277,9 +318,8 @@ NewtonResult NewtonSolver::solve(
 			break;
 
 		// Nothing is gained by solving for less than rounding leaves.
-		direction(
-			std::clamp(result.residual, 0.5 * result.floor / result.residual, kLeastAccuracy),
-			reached && m_factored);
+		const double accuracy = std::max(result.residual, 0.5 * result.floor / result.residual);
+		direction(std::min(accuracy, kLeastAccuracy), reached && m_factored);
 		const double largest = m_direction.lpNorm<Eigen::Infinity>();
 		if (!std::isfinite(largest))
 			break;

@@ -8,7 +8,6 @@
 #include "sparse_cholesky.h"
 
 #include <Eigen/Core>
-#include <Eigen/IterativeLinearSolvers>
 
 #include <functional>
 #include <vector>
@@ -32,39 +31,6 @@ struct NewtonResult
 
 /// Residuals above this are never called converged because of the rounding floor.
 constexpr double kLargestFloor = 1e-8;
-
-/// A Cholesky factor of a nearby matrix, in the form in which Eigen wants a preconditioner.
-class FactorPreconditioner
-{
-public:
-	void attach(SparseCholesky& cholesky) { m_cholesky = &cholesky; }
-
-	template<class Matrix>
-	FactorPreconditioner& analyzePattern(const Matrix&)
-	{
-		return *this;
-	}
-	template<class Matrix>
-	FactorPreconditioner& factorize(const Matrix&)
-	{
-		return *this;
-	}
-	template<class Matrix>
-	FactorPreconditioner& compute(const Matrix&)
-	{
-		return *this;
-	}
-	const Eigen::VectorXd& solve(const Eigen::VectorXd& residual) const
-	{
-		m_cholesky->solve(residual, m_solution);
-		return m_solution;
-	}
-	Eigen::ComputationInfo info() { return Eigen::Success; }
-
-private:
-	SparseCholesky* m_cholesky = nullptr;
-	mutable Eigen::VectorXd m_solution; // kept as work space
-};
 
 /// Globalised Newton's method for K(u) = target (paper 4.2): the minimiser of the convex Ricci
 /// energy. The only place that decides when a solve stops. Keeps its work space, pattern and
@@ -110,8 +76,9 @@ public:
 private:
 	double residual(const Eigen::VectorXd& target);
 	void updateMatrix(double shift);
-	bool iterate(double accuracy, int mostIterations);
+	int iterate(double accuracy, int mostIterations);
 	void factorize();
+	void gatherRightSide();
 	void direction(double accuracy, bool reached);
 	double longestStep(const Eigen::VectorXd& u, double largest) const;
 	void applyStep(const Eigen::VectorXd& u, double t);
@@ -131,7 +98,6 @@ private:
 	double m_orderedFlops = 0.0; // of a factorisation, when the order was new
 	Hessian m_hessian;
 	SparseCholesky m_cholesky;
-	Eigen::ConjugateGradient<Hessian::Matrix, Eigen::Lower, FactorPreconditioner> m_gradients;
 	Eigen::VectorXd m_gradient;                       // [vertex] K - target, 0 where fixed
 	Eigen::VectorXd m_rhs, m_solution;                // [unknown]
 	Eigen::VectorXd m_direction, m_trial, m_diagonal; // [vertex]

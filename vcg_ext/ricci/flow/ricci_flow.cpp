@@ -271,6 +271,7 @@ public:
 		m_result.doubled = doubled();
 		m_result.residual = m_solved.residual;
 		m_result.floor = m_solved.floor;
+		m_result.work = m_newton->work();
 		m_result.edgeSwaps = m_swapper->swaps();
 		m_result.swapped = m_swapper->swapped();
 		m_result.edgesToSplit = m_swapper->boundaryEdgesToSplit();

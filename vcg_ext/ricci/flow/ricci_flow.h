@@ -40,6 +40,7 @@ struct FlowResult
 	double residual = 0.0;     ///< max |target - K|
 	double floor = 0.0;        ///< what rounding lets the residual reach
 	int iterations = 0;
+	CholeskyWork work; ///< of the linear solver, on the surface the result is from
 	int edgeSwaps = 0;
 	std::vector<char> swapped;     ///< [edge] 1 where it is not an edge of the input
 	std::vector<int> edgesToSplit; ///< boundary edges; the flow must start anew if any

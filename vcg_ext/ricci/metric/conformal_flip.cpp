@@ -2,6 +2,7 @@
 #include "conformal_flip.h"
 
 #include "../numbers.h"
+#include "../parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,8 @@ namespace ricci {
 
 namespace {
 
-/// An edge counts as Delaunay while T_k + T_l is above minus this share of its terms' magnitude.
+/// An edge counts as Delaunay while T_k + T_l is above minus this share of its
+/// terms' magnitude.
 constexpr double kTieTolerance = 1e-15;
 
 /// The flips end by themselves; this bounds them where values run out of range.
@@ -80,13 +82,20 @@ int makeWeightedDelaunay(
 	std::vector<double>& delta,
 	const std::vector<double>& kappa,
 	FlipJournal& journal,
-	DelaunayQueue& queue)
+	DelaunayQueue& queue,
+	int threads)
 {
 	const int edgeCount = t.edgeCount();
 	auto& edges = queue.edges;
 	auto& queued = queue.queued;
 	edges.clear();
-	queued.assign(at(edgeCount), 0);
+	// Most edges are good already. Those that are not wait for their turn below;
+	// one that a flip makes bad is queued by that flip.
+	queued.resize(at(edgeCount));
+	inParallel(edgeCount, threads, [&](int first, int last) {
+		for (int e = first; e < last; ++e)
+			queued[at(e)] = !isWeightedDelaunay(t, delta, kappa, e);
+	});
 	int flips = 0;
 	const std::int64_t mostFlips = kMostFlipsPerEdge * edgeCount;
 	const auto visit = [&](int e) {
@@ -107,6 +116,9 @@ int makeWeightedDelaunay(
 		}
 	};
 	for (int e = 0; e < edgeCount; ++e) {
+		if (!queued[at(e)])
+			continue;
+		queued[at(e)] = 0;
 		visit(e);
 		while (!edges.empty()) {
 			const int side = edges.back();
