@@ -300,5 +300,32 @@ TEST(CurvatureMap, SwapEdgeChangesTheConnectivityAndTheRevision)
 		EXPECT_EQ(map.triangulation().next(h), expected.next(h));
 }
 
+TEST(CurvatureMap, NumberOfThreadsChangesNoBit)
+{
+	// Large enough for several parts, and so far from the start that edges flip.
+	Random random(90);
+	const Packed mesh(bumpyTorus(300, 150, random));
+	Eigen::VectorXd u = mesh.u();
+	for (double& x : u)
+		x += random.real(-0.3, 0.3);
+	FlippingCurvatureMap<Euclidean> one(mesh.packing);
+	one.useThreads(1);
+	one.evaluate(u);
+	one.accept();
+	EXPECT_GT(one.flips().size(), 1000u);
+	for (int threads : {2, 3, 5}) {
+		FlippingCurvatureMap<Euclidean> several(mesh.packing);
+		several.useThreads(threads);
+		several.evaluate(u);
+		several.accept();
+		EXPECT_EQ(several.flips(), one.flips());
+		EXPECT_EQ(several.curvature(), one.curvature());
+		EXPECT_EQ(several.weights(), one.weights());
+		EXPECT_EQ(several.angles(), one.angles());
+		EXPECT_EQ(several.lengths(), one.lengths());
+		EXPECT_EQ(several.needleRatio(), one.needleRatio());
+	}
+}
+
 } // namespace
 } // namespace ricci::testing

@@ -263,6 +263,57 @@ TEST(Newton, CancelsWhereTheReportThrows)
 	}
 }
 
+TEST(Newton, WorkGrowsWithTheMeshAndStaysThatOfFewFactorisations)
+{
+	// Refinements of one smooth surface: the number of steps belongs to the surface, not to the mesh,
+	// and the first factor serves all of them, so that the arithmetic is below that of three steps
+	// with a factorisation each.
+	std::vector<int> iterations;
+	for (int n : {24, 48, 96}) {
+		const Packed mesh(torus(2.0, 1.0, 2 * n, n));
+		const auto workOf = [&](int mostIterations) {
+			Map map = mesh.map();
+			NewtonSolver solver(map, nothingFixed(mesh));
+			Eigen::VectorXd u = mesh.u();
+			NewtonOptions options;
+			options.maxIterations = mostIterations;
+			const NewtonResult result =
+				solver.solve(u, Eigen::VectorXd::Zero(u.size()), options, silent);
+			EXPECT_EQ(result.converged, mostIterations > 1);
+			iterations.push_back(result.iterations);
+			return solver.work();
+		};
+		const CholeskyWork oneStep = workOf(1), all = workOf(200);
+		EXPECT_EQ(oneStep.factorizations, 1);
+		EXPECT_EQ(oneStep.solutions, 1);
+		EXPECT_EQ(all.orderings, 1);
+		EXPECT_LE(all.factorizations, 2);
+		EXPECT_LT(all.flops, 3 * oneStep.flops);
+		EXPECT_LE(iterations.back(), 10);
+	}
+	EXPECT_LE(std::abs(iterations[5] - iterations[1]), 1);
+}
+
+TEST(Newton, StepsWithAnOldFactorReachTheSameMetric)
+{
+	// The same equations from a start whose factor is none of theirs: another start, another target.
+	Random random(80);
+	const Packed mesh(bumpyTorus(30, 20, random));
+	NewtonOptions options;
+	options.epsilon = 1e-12;
+	const Eigen::VectorXd zero = Eigen::VectorXd::Zero(mesh.u().size());
+	const Solved direct = solve(mesh, zero, mesh.u(), nothingFixed(mesh), options);
+	Map map = mesh.map();
+	NewtonSolver solver(map, nothingFixed(mesh));
+	Eigen::VectorXd u = mesh.u();
+	ASSERT_TRUE(solver.solve(u, smoothedCurvature(mesh), options, silent).converged);
+	ASSERT_TRUE(solver.solve(u, zero, options, silent).converged);
+	EXPECT_LT(solver.work().factorizations, solver.work().solutions);
+	Eigen::VectorXd difference = u - direct.u;
+	difference.array() -= difference.mean();
+	EXPECT_LT(difference.lpNorm<Eigen::Infinity>(), 1e-10);
+}
+
 TEST(Newton, FollowsASurgeonThatChangesTheConnectivity)
 {
 	// Swapping the diagonal of a square keeps the flat metric if the new edge gets its length.

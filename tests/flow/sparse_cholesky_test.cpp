@@ -7,7 +7,9 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -69,6 +71,51 @@ TEST(SparseCholesky, AnotherPatternCanFollow)
 		// Rows of a Laplacian sum to zero, so that the ones are solved by themselves.
 		EXPECT_LT((x - b).lpNorm<Eigen::Infinity>(), 1e-12);
 	}
+}
+
+TEST(SparseCholesky, OrderingReducesFillAndSolvesTheRenumberedSystem)
+{
+	// An arrow that points the wrong way: eliminating its tip first fills the whole matrix, last
+	// nothing.
+	const int n = 50;
+	SparseCholesky::Matrix A(n, n);
+	for (int i = 0; i < n; ++i) {
+		A.insert(i, 0) = i == 0 ? n + 1.0 : -1.0;
+		if (i > 0)
+			A.insert(i, i) = 2.0;
+	}
+	A.makeCompressed();
+	SparseCholesky natural;
+	natural.analyze(A);
+	EXPECT_EQ(natural.factorEntries(), n * (n + 1) / 2);
+
+	SparseCholesky ordered;
+	const std::vector<int> order = ordered.order(A);
+	std::vector<int> sorted = order;
+	std::sort(sorted.begin(), sorted.end());
+	for (int i = 0; i < n; ++i)
+		ASSERT_EQ(sorted[static_cast<std::size_t>(i)], i);
+	SparseCholesky::Matrix B(n, n);
+	for (int i = 0; i < n; ++i)
+		for (int j = 0; j <= i; ++j) {
+			const int a = order[static_cast<std::size_t>(i)],
+					  b = order[static_cast<std::size_t>(j)];
+			const double x = A.coeff(std::max(a, b), std::min(a, b));
+			if (x != 0.0)
+				B.insert(i, j) = x;
+		}
+	B.makeCompressed();
+	ordered.analyze(B);
+	EXPECT_EQ(ordered.factorEntries(), 2 * n - 1);
+	ASSERT_TRUE(ordered.factorize(B));
+	const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0);
+	Eigen::VectorXd solution(n);
+	ordered.solve(B.selfadjointView<Eigen::Lower>() * x, solution);
+	EXPECT_LT((solution - x).lpNorm<Eigen::Infinity>(), 1e-13);
+	EXPECT_EQ(ordered.work().orderings, 1);
+	EXPECT_EQ(ordered.work().factorizations, 1);
+	EXPECT_EQ(ordered.work().solutions, 1);
+	EXPECT_GT(ordered.work().flops, 0.0);
 }
 
 TEST(SparseCholesky, TellsWhenAMatrixIsNotPositiveDefinite)
