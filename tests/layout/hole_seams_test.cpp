@@ -89,6 +89,34 @@ TEST(HoleSeams, AreDroppedBackToWhatTheCutMustReach)
 	EXPECT_LE(cut.edgeCount, whole.edgeCount);
 }
 
+TEST(HoleSeams, AreLeftOutWhereTheMetricCloses)
+{
+	// A plane is flat as it is, and goes round its holes in one piece; a bumpy surface does not.
+	for (const Surgery surgery : {Surgery::IntrinsicFlips, Surgery::None})
+		for (const double height : {0.0, 0.3}) {
+			const SurfaceMesh mesh = perforated(16, height);
+			Options options;
+			options.surgery = surgery;
+			const Parametrization flat = run(mesh, options);
+			EXPECT_EQ(flat.report.cappedHoles, 0);
+			EXPECT_EQ(flat.report.seamEdges == 0, height == 0.0);
+			EXPECT_EQ(flat.report.flippedFaces, 0);
+			const FlatMap map(mesh, flat.uv);
+			EXPECT_LT(map.seamMismatch, 1e-10);
+			if (height > 0.0)
+				continue;
+			EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
+			std::vector<Point2> place(mesh.positions.size(), {1e9, 1e9});
+			for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+				for (std::size_t k = 0; k < 3; ++k) {
+					Point2& p = place[at(mesh.triangles[f][k])];
+					if (p[0] > 1e8)
+						p = flat.uv[f][k];
+					EXPECT_EQ(p, flat.uv[f][k]);
+				}
+		}
+}
+
 TEST(CappedHoles, OfAPlaneDoNotMoveIt)
 {
 	const SurfaceMesh mesh = perforated(16, 0.0);

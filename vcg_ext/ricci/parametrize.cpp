@@ -270,6 +270,7 @@ private:
 		m_cut = cutToDisk(layoutTriangulation(), m_lengths, marked, forbidden);
 		if (m_solved.holes > 0)
 			dropSeamsToHoles(m_base, m_lengths, m_solved.onHole, marked, m_cut);
+		m_marked = std::move(marked);
 	}
 
 	bool flips() const { return m_options.surgery == Surgery::IntrinsicFlips; }
@@ -283,12 +284,14 @@ private:
 
 	void layOut()
 	{
-		const CurvatureMap& metric = *m_flow.metric;
-		if (!flips())
-			m_layout = layOutInPlane(
-				metric.triangulation(), metric.lengths(), metric.angles(), m_cut.isCut);
-		else {
-			layOutFlipped();
+		placeCorners();
+		if (m_topology.loops.size() > 1 && m_solved.holes == 0) { // seams where the metric asks
+			const Triangulation& t = layoutTriangulation();
+			const int edges = m_cut.edgeCount;
+			dropSeamsToHoles(
+				t, m_lengths, loopsThatClose(t, m_layout, m_cut.isCut), m_marked, m_cut);
+			if (m_cut.edgeCount < edges)
+				placeCorners();
 		}
 		// The flow leaves the scale open unless the boundary keeps its metric.
 		const bool scaled = std::find(m_flow.target.fixed.begin(), m_flow.target.fixed.end(), 1) !=
@@ -303,6 +306,17 @@ private:
 			m_scale = std::sqrt(area / areaInPlane());
 		}
 		turnUpright();
+	}
+
+	/// The layout, open along the cut.
+	void placeCorners()
+	{
+		const CurvatureMap& metric = *m_flow.metric;
+		if (flips())
+			layOutFlipped();
+		else
+			m_layout = layOutInPlane(
+				metric.triangulation(), metric.lengths(), metric.angles(), m_cut.isCut);
 	}
 
 	void layOutFlipped()
@@ -510,6 +524,7 @@ private:
 	std::vector<double> m_lengths;
 	FlowResult m_flow;
 	CutGraph m_cut;
+	std::vector<char> m_marked;    ///< [vertex] 1 at cones
 	CommonRefinement m_refinement; ///< with flips
 	PlanarLayout m_layout;
 	double m_scale = 1.0;

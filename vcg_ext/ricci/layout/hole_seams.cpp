@@ -3,9 +3,52 @@
 
 #include "../numbers.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace ricci {
+
+namespace {
+
+/// Sides of a seam that are this near to each other, relative to the layout's size, differ by
+/// rounding.
+constexpr double kOnePlace = 1e-9;
+
+} // namespace
+
+std::vector<char>
+loopsThatClose(const Triangulation& t, const PlanarLayout& layout, const std::vector<char>& isCut)
+{
+	double size = 0.0;
+	for (const Point2& p : layout.position)
+		size = std::max({size, std::abs(p[0]), std::abs(p[1])});
+	const auto apart = [&](const Point2& p, const Point2& q) {
+		return !(std::hypot(p[0] - q[0], p[1] - q[1]) <= kOnePlace * size);
+	};
+	std::vector<char> opens(at(t.vertexCount()), 0); // at an edge whose sides lie apart
+	for (int e = 0; e < t.edgeCount(); ++e) {
+		if (!isCut[at(e)] || t.isBoundaryEdge(e))
+			continue;
+		const int h = 2 * e, g = h + 1;
+		if (apart(layout.at(h), layout.at(t.next(g))) || apart(layout.at(t.next(h)), layout.at(g)))
+			opens[at(t.origin(h))] = opens[at(t.origin(g))] = 1;
+	}
+	std::vector<char> closes(at(t.vertexCount()), 0);
+	for (int first : t.boundaryLoops()) {
+		bool all = true;
+		int h = first;
+		do {
+			all &= !opens[at(t.origin(h))];
+			h = t.next(h);
+		} while (h != first);
+		do {
+			closes[at(t.origin(h))] = all;
+			h = t.next(h);
+		} while (h != first);
+	}
+	return closes;
+}
 
 void dropSeamsToHoles(
 	const Triangulation& t,

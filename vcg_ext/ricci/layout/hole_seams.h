@@ -3,10 +3,17 @@
 #define RICCI_HOLE_SEAMS_H
 
 #include "cut_graph.h"
+#include "planar_layout.h"
 
 #include <vector>
 
 namespace ricci {
+
+/// [vertex] 1 on the boundary loops at which every edge of the cut has both of its sides in one place
+/// of the layout. Where the cut ends at such a loop, the metric closes round it, by rotation and
+/// translation, and needs no seam there.
+std::vector<char>
+loopsThatClose(const Triangulation& t, const PlanarLayout& layout, const std::vector<char>& isCut);
 
 /// Takes back the parts of \p cut that end at holes round which the metric closes: the chart goes
 /// round them in one piece. Seams that lead on from such a hole stay, with it as a part of them.
