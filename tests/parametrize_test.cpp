@@ -117,6 +117,36 @@ TEST(Parametrize, AChartStandsUprightInItsLeastRectangle)
 	EXPECT_NEAR(high[1], 4.0, 1e-11);
 }
 
+TEST(Parametrize, TheStatesOfTheFlowRunFromTheMeshToTheResult)
+{
+	const SurfaceMesh mesh = torus(2.0, 1.0, 24, 14);
+	const Parametrization flat = run(mesh, fixedTriangulation());
+	const std::vector<FlowState>& states = flat.report.flowStates;
+	ASSERT_GE(states.size(), 2u);
+	// The flow starts at the mesh's own metric, whose curvatures are the angle defects.
+	std::vector<double> defect(mesh.positions.size(), 2 * kPi);
+	for (const Triangle& t : mesh.triangles)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const double a =
+				distance(mesh.positions[at(t[(k + 1) % 3])], mesh.positions[at(t[(k + 2) % 3])]);
+			const double b = distance(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 1) % 3])]);
+			const double c = distance(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 2) % 3])]);
+			defect[at(t[k])] -= std::acos((b * b + c * c - a * a) / (2 * b * c));
+		}
+	double largest = 0.0;
+	for (double d : defect)
+		largest = std::max(largest, std::abs(d));
+	EXPECT_EQ(states.front().step, 0);
+	EXPECT_NEAR(states.front().residual, largest, 1e-12);
+	EXPECT_EQ(states.back().step, flat.report.iterations);
+	EXPECT_NEAR(states.back().residual, flat.report.maxCurvatureError, 1e-14);
+	for (std::size_t i = 1; i < states.size(); ++i) {
+		EXPECT_EQ(states[i].component, 0);
+		EXPECT_GE(states[i].step, states[i - 1].step);
+		EXPECT_LE(states[i].step, states[i - 1].step + 1);
+	}
+}
+
 TEST(Parametrize, ModulusOfToriOfRevolutionConvergesWithSecondOrder)
 {
 	// Conformal coordinates (u, integral of r dv / (R + r cos v)) make the torus a rectangle of

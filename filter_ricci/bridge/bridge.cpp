@@ -3,6 +3,7 @@
 
 #include "parameters.h"
 #include "results.h"
+#include "run_report.h"
 
 #include <ricci/error.h>
 #include <ricci/progress.h>
@@ -196,6 +197,7 @@ Outcome applyFilter(
 {
 	const Settings settings = readSettings(filter, par);
 	MeshModel& model = checkedMesh(md, settings);
+	const ReportFiles reportFiles(settings.report, model.pathName());
 	HostProgress progress(callback, log);
 	// The sphere first: it refuses most surfaces.
 	const double share = settings.sphereLayer ? kSphereShare : 0.0;
@@ -204,12 +206,22 @@ Outcome applyFilter(
 	if (settings.sphereLayer)
 		sphere = Flow::ComputeSphere(model.cm, settings.flow, before);
 	const Flow::Result result = Flow::Compute(model.cm, settings.flow, after);
-	writeResult(md, model, settings, result, sphere);
 	Results results = toResults(result.report);
 	if (settings.sphereLayer)
 		addSphereResults(sphere, results);
+	// Before the mesh, so that a full disk leaves it as it was.
+	const std::vector<std::string> written = reportFiles.write(
+		{filterText(filter).name.toStdString(),
+		 model.shortName().toStdString(),
+		 settingsAsText(par),
+		 result.notes,
+		 results,
+		 result.report});
+	writeResult(md, model, settings, result, sphere);
 	for (const std::string& line : toLogLines(results))
 		log(line);
+	for (const std::string& file : written)
+		log("Report: " + file);
 	return {results, changedElements(settings)};
 }
 

@@ -206,6 +206,15 @@ RichParameterList filterParameters(int)
 		"Sphere as new layer",
 		"Add a layer with the mesh mapped conformally to the unit sphere, its faces and vertices "
 		"in the same order. Only for a mesh that is one closed surface of genus 0."));
+	list.addParam(RichString(
+		"report",
+		QString(),
+		"Report file",
+		"A file for a report of the run: a page with diagrams and tables if its name ends in "
+		".html, "
+		"with the data beside it as .csv, or the data alone if it ends in .csv. Without a folder "
+		"it "
+		"lies beside the mesh. A file of that name is replaced. Empty: no report."));
 	return list;
 }
 
@@ -229,6 +238,7 @@ Settings readSettings(int, const RichParameterList& par)
 	settings.flow.holes = static_cast<ricci::Holes>(checkedChoice(par, "holes", holesChoices()));
 	settings.flow.resolveOverlap = par.getBool("resolve_overlap");
 	settings.sphereLayer = par.getBool("sphere_layer");
+	settings.report = par.getString("report");
 	return settings;
 }
 

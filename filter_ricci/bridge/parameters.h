@@ -16,6 +16,7 @@ struct Settings
 	bool colorize = false;
 	bool flatLayer = false;
 	bool sphereLayer = false;
+	QString report; ///< file, empty: none
 };
 
 /// Reads and checks the parameters. Scripts can hold any number for a choice, and no host checks

@@ -39,7 +39,8 @@ PARAMETERS = [
     ("circle_packing", "Enum", 0), ("surgery", "Enum", 2),
     ("output_triangulation", "Enum", 0), ("max_iterations", "Int", 200),
     ("normalize_uv", "Bool", True), ("colorize", "Bool", False), ("flat_layer", "Bool", False),
-    ("holes", "Enum", 0), ("resolve_overlap", "Bool", False), ("sphere_layer", "Bool", False)]
+    ("holes", "Enum", 0), ("resolve_overlap", "Bool", False), ("sphere_layer", "Bool", False),
+    ("report", "String", "")]
 
 
 def skip(reason):

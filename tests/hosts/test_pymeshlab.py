@@ -2,11 +2,14 @@
 """The plugin in PyMeshLab. Usage: test_pymeshlab.py BUILD_DIR [TEST...], with PyMeshLab's Python."""
 
 import math
+import csv
 import os
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 import common
 import meshes
@@ -206,6 +209,88 @@ class Results(unittest.TestCase):
                 self.assertAlmostEqual(values[name], default, delta=1e-6 * default)
             else:
                 self.assertEqual(values[name], default, name)
+
+
+class Report(unittest.TestCase):
+    """The files of the parameter report."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        meshes.write_ply(self.path("torus <1>.ply"), meshes.torus())
+        self.documents = load(self.path("torus <1>.ply"))
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def rows(self, name):
+        with open(self.path(name), encoding="utf-8", newline="") as source:
+            return list(csv.DictReader(source))
+
+    def test_page_and_data_beside_the_mesh(self):
+        returned = run(self.documents, report="page.html", target_curvature="Flat everywhere")
+        self.assertEqual(sorted(os.listdir(self.folder.name)),
+                         ["page.csv", "page.html", "torus <1>.ply"])
+        rows = self.rows("page.csv")
+        results = {row["key"]: row["value"] for row in rows if row["table"] == "result"}
+        self.assertEqual(set(results), set(returned))
+        for key, value in returned.items():
+            if isinstance(value, bool):
+                self.assertEqual(results[key], str(value).lower())
+            else:
+                self.assertAlmostEqual(float(results[key]), value, delta=1e-8 * abs(value))
+        settings = {row["key"]: row["value"] for row in rows if row["table"] == "setting"}
+        self.assertEqual(settings["target_curvature"], "Flat everywhere")
+        self.assertEqual(settings["mesh"], "torus <1>.ply")
+        counts = [int(row["value"]) for row in rows if row["table"] == "qc_histogram"]
+        self.assertEqual(sum(counts), self.documents.current_mesh().vertex_number())
+        steps = [float(row["value"]) for row in rows if row["table"] == "newton"]
+        self.assertAlmostEqual(steps[-1], returned["max_curvature_error"], delta=1e-14)
+        self.check_page(returned)
+
+    def check_page(self, returned):
+        with open(self.path("page.html"), encoding="utf-8") as source:
+            text = source.read()
+        self.assertNotRegex(text, r"(?:src|href)=")  # needs no other file
+        page = xml.etree.ElementTree.fromstring(
+            re.sub(r"&(?!lt;|gt;|amp;|quot;)#?\w+;", "", text.replace("<!DOCTYPE html>", "")
+                   .replace('<meta charset="utf-8">', "")))
+        cells = [cell.text for cell in page.iter("td")]
+        self.assertLessEqual(set(returned), set(cells))
+        self.assertIn("torus <1>.ply", [p.text for p in page.iter("p")])
+        self.assertEqual(len([e for e in page.iter() if e.tag.endswith("}svg")]), 2)
+
+    def test_data_alone_and_in_another_folder(self):
+        os.mkdir(self.path("out"))
+        run(self.documents, report=self.path("out/data.CSV"))
+        self.assertEqual(os.listdir(self.path("out")), ["data.CSV"])
+
+    def test_repeatable(self):
+        run(self.documents, report="first.html")
+        run(self.documents, report="second.html")
+        texts = []
+        for name in ("first", "second"):
+            with open(self.path(name + ".csv"), encoding="utf-8") as source:
+                texts.append(source.read().replace(name, ""))
+        self.assertEqual(*texts)
+
+    def test_unwritable(self):
+        os.mkdir(self.path("folder.html"))
+        before = state(self.documents.current_mesh())
+        present = sorted(os.listdir(self.folder.name))
+        for name, words in (("nowhere/page.html", "cannot be written.*choose another place"),
+                            ("folder.html", "is a folder"),
+                            ("page.pdf", "must end in .html"), ("page", "must end in .html")):
+            with self.subTest(name):
+                with self.assertRaisesRegex(pymeshlab.PyMeshLabException, f"(?s){words}"):
+                    run(self.documents, report=name)
+                self.assertTrue(same(before, state(self.documents.current_mesh())))
+                self.assertEqual(sorted(os.listdir(self.folder.name)), present)
+
+    def test_refused_mesh_leaves_no_report(self):
+        with self.assertRaises(pymeshlab.PyMeshLabException):
+            run(self.documents, report="page.html", target_curvature="Disk")
+        self.assertEqual(os.listdir(self.folder.name), ["torus <1>.ply"])
 
 
 class BadInput(unittest.TestCase):

@@ -157,6 +157,28 @@ TEST(Distortion, MeansByFaceAreaAndVertex)
 	EXPECT_EQ(report.flippedFaces, 0);
 }
 
+TEST(Distortion, TheHistogramRunsOverTheVerticesThatHaveFaces)
+{
+	SurfaceMesh mesh = rectangle(3, 3, 1, 1);
+	const std::size_t vertices = mesh.positions.size();
+	mesh.positions.push_back({9, 9, 9}); // in no face
+	const Eigen::Matrix2d stretch = Eigen::Vector2d(1.5, 1.0).asDiagonal();
+	const auto plane = mapped(mesh, stretch);
+	Report report;
+	measureDistortion(mesh, plane, std::vector<char>(plane.size(), 0), report);
+	const Histogram& h = report.qcHistogram;
+	std::size_t counted = h.below + h.above;
+	for (std::size_t i = 0; i < h.counts.size(); ++i) {
+		counted += h.counts[i];
+		if (h.counts[i] > 0) {
+			EXPECT_LE(h.lowEdge(i), 1.5 + 1e-12);
+			EXPECT_GE(h.lowEdge(i) + h.binWidth(), 1.5 - 1e-12);
+		}
+	}
+	EXPECT_EQ(counted, vertices);
+	EXPECT_EQ(h.below + h.above, 0u);
+}
+
 TEST(Distortion, PercentileIsTheValueThat99PercentDoNotExceed)
 {
 	// 200 faces with distortions 1, 2, ..., 200.

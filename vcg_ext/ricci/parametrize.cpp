@@ -61,10 +61,16 @@ private:
 class FlowProgress
 {
 public:
-	FlowProgress(Interval& interval, double epsilon) : m_interval(interval), m_epsilon(epsilon) {}
+	FlowProgress(
+		Interval& interval, double epsilon, int component, std::vector<FlowState>& states) :
+			m_interval(interval),
+			m_epsilon(epsilon), m_component(component), m_states(states)
+	{
+	}
 
 	void operator()(int step, double residual)
 	{
+		m_states.push_back({m_component, step, residual});
 		if (m_first < 0.0)
 			m_first = std::max(residual, 10 * m_epsilon);
 		const double done =
@@ -81,6 +87,8 @@ public:
 private:
 	Interval& m_interval;
 	double m_epsilon, m_first = -1.0, m_done = 0.0;
+	int m_component;
+	std::vector<FlowState>& m_states;
 	int m_step = -1;
 };
 
@@ -153,7 +161,7 @@ public:
 
 	void run(Parametrization& result)
 	{
-		flow();
+		flow(static_cast<int>(result.charts.size()), result.report.flowStates);
 		m_interval.step(1.0 - kAfterFlow, "Cutting and layout");
 		cutOpen();
 		layOut();
@@ -162,7 +170,7 @@ public:
 	}
 
 private:
-	void flow()
+	void flow(int number, std::vector<FlowState>& states)
 	{
 		for (int start = 0; start < kMostStarts; ++start) {
 			if (start == 0)
@@ -191,7 +199,7 @@ private:
 				for (const std::string& note : target.notes)
 					m_interval.log(note);
 			}
-			FlowProgress progress(m_interval, m_options.epsilon);
+			FlowProgress progress(m_interval, m_options.epsilon, number, states);
 			m_flow = runRicciFlow(
 				Background::EuclideanPlane,
 				m_solved.triangulation,

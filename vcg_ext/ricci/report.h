@@ -2,9 +2,21 @@
 #ifndef RICCI_REPORT_H
 #define RICCI_REPORT_H
 
+#include "layout/histogram.h"
+
 #include <optional>
+#include <vector>
 
 namespace ricci {
+
+/// The flow before one of its Newton steps, or at its end.
+struct FlowState
+{
+	int component = 0;     ///< number of the component, from 0
+	int step = 0;          ///< Newton steps done; a step with the last factor that only polishes is
+						   ///< not counted
+	double residual = 0.0; ///< max |target - K| in radians
+};
 
 /// What a run measured. With several components counts are sums, errors maxima, means run over all
 /// faces, and the conformal invariants are left empty.
@@ -20,6 +32,9 @@ struct Report
 	double qcAreaMean = 1.0;   ///< mean over the faces, weighted by their 3D area
 	double qcP99 = 1.0;        ///< 99th percentile over the faces
 	double qcMax = 1.0;
+	Histogram qcHistogram; ///< over the vertices that qcVertexMean runs over
+
+	std::vector<FlowState> flowStates; ///< in the order in which they were passed
 
 	/// Area factor s of a face: its share of the area in the plane over its share in space. Mean of
 	/// max(s, 1/s) over the faces, weighted by their 3D area: 1 where all areas keep their ratios.

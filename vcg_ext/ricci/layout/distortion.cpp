@@ -143,12 +143,12 @@ DistortionField measureDistortion(
 	report.areaDistortionMean = areas.mean;
 	report.areaDistortionSpread = areas.spread;
 	double vertexSum = 0.0;
-	std::size_t vertexCount = 0;
+	std::vector<double> measuredVertices;
 	for (std::size_t v = 0; v < field.vertex.size(); ++v) {
 		if (ringArea[v] > 0.0) {
 			field.vertex[v] /= ringArea[v];
 			vertexSum += field.vertex[v];
-			++vertexCount;
+			measuredVertices.push_back(field.vertex[v]);
 		}
 		else
 			field.vertex[v] = 1.0;
@@ -157,13 +157,10 @@ DistortionField measureDistortion(
 		return field;
 	report.qcMean = sum / static_cast<double>(measured.size());
 	report.qcAreaMean = weightedSum / areaSum;
-	report.qcVertexMean = vertexSum / static_cast<double>(vertexCount);
+	report.qcVertexMean = vertexSum / static_cast<double>(measuredVertices.size());
+	report.qcHistogram = distortionHistogram(std::move(measuredVertices));
 	report.qcMax = *std::max_element(measured.begin(), measured.end());
-	const auto rank =
-		static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(measured.size())) - 1.0);
-	std::nth_element(
-		measured.begin(), measured.begin() + static_cast<std::ptrdiff_t>(rank), measured.end());
-	report.qcP99 = measured[rank];
+	report.qcP99 = percentile(std::move(measured), 0.99);
 	return field;
 }
 

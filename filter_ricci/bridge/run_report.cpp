@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "run_report.h"
+
+#include <ricci/error.h>
+
+#include <QDir>
+#include <QFileInfo>
+#include <QSaveFile>
+
+#include <algorithm>
+#include <cmath>
+#include <ios>
+#include <locale>
+#include <sstream>
+
+namespace filter_ricci {
+
+namespace {
+
+/// Never the host's locale: a comma for a point would break page and table.
+std::ostringstream plainStream(int precision)
+{
+	std::ostringstream out;
+	out.imbue(std::locale::classic());
+	out.precision(precision);
+	out << std::boolalpha;
+	return out;
+}
+
+std::string number(double x, int precision = 6)
+{
+	std::ostringstream out = plainStream(precision);
+	out << x;
+	return out.str();
+}
+
+std::string text(const Value& value)
+{
+	std::ostringstream out = plainStream(10);
+	std::visit([&out](auto x) { out << x; }, value);
+	return out.str();
+}
+
+std::string escaped(const std::string& plain)
+{
+	std::string html;
+	for (char c : plain)
+		switch (c) {
+		case '&':
+			html += "&amp;";
+			break;
+		case '<':
+			html += "&lt;";
+			break;
+		case '>':
+			html += "&gt;";
+			break;
+		case '"':
+			html += "&quot;";
+			break;
+		default:
+			html += c;
+		}
+	return html;
+}
+
+std::string csvField(const std::string& plain)
+{
+	if (plain.find_first_of(",\"\n\r") == std::string::npos)
+		return plain;
+	std::string quoted = "\"";
+	for (char c : plain)
+		quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+	return quoted + "\"";
+}
+
+// Pictures: the frame of a diagram lies between (kLeft, kTop) and (kRight, kBottom).
+constexpr double kWidth = 560, kHeight = 300;
+constexpr double kLeft = 64, kRight = kWidth - 16, kTop = 16, kBottom = kHeight - 46;
+
+std::string coordinate(double x)
+{
+	return number(std::round(100.0 * x) / 100.0, 7);
+}
+
+/// A diagram with linear axes; its ends are the axes' labels.
+class Diagram
+{
+public:
+	Diagram(double x0, double x1, double y0, double y1) : m_x0(x0), m_x1(x1), m_y0(y0), m_y1(y1)
+	{
+		m_svg << "<svg viewBox=\"0 0 " << kWidth << " " << kHeight
+			  << "\" role=\"img\" xmlns=\"http://www.w3.org/2000/svg\">\n";
+	}
+
+	double x(double value) const
+	{
+		return kLeft + (value - m_x0) / (m_x1 - m_x0) * (kRight - kLeft);
+	}
+	double y(double value) const
+	{
+		return kBottom - (value - m_y0) / (m_y1 - m_y0) * (kBottom - kTop);
+	}
+
+	void bar(double from, double to, double height)
+	{
+		m_svg << "<rect class=\"bar\" x=\"" << coordinate(x(from)) << "\" y=\""
+			  << coordinate(y(height)) << "\" width=\"" << coordinate(x(to) - x(from))
+			  << "\" height=\"" << coordinate(kBottom - y(height)) << "\"/>\n";
+	}
+
+	void line(const std::vector<std::pair<double, double>>& points)
+	{
+		m_svg << "<polyline class=\"line\" points=\"";
+		for (const auto& [px, py] : points)
+			m_svg << coordinate(x(px)) << "," << coordinate(y(py)) << " ";
+		m_svg << "\"/>\n";
+		for (const auto& [px, py] : points)
+			m_svg << "<circle class=\"dot\" cx=\"" << coordinate(x(px)) << "\" cy=\""
+				  << coordinate(y(py)) << "\" r=\"3\"/>\n";
+	}
+
+	void tickX(double at, const std::string& label)
+	{
+		m_svg << "<line class=\"axis\" x1=\"" << coordinate(x(at)) << "\" x2=\""
+			  << coordinate(x(at)) << "\" y1=\"" << kBottom << "\" y2=\"" << kBottom + 5
+			  << "\"/>\n<text x=\"" << coordinate(x(at)) << "\" y=\"" << kBottom + 18
+			  << "\" text-anchor=\"middle\">" << label << "</text>\n";
+	}
+
+	void tickY(double at, const std::string& label)
+	{
+		m_svg << "<line class=\"grid\" x1=\"" << kLeft << "\" x2=\"" << kRight << "\" y1=\""
+			  << coordinate(y(at)) << "\" y2=\"" << coordinate(y(at)) << "\"/>\n<text x=\""
+			  << kLeft - 6 << "\" y=\"" << coordinate(y(at) + 4) << "\" text-anchor=\"end\">"
+			  << label << "</text>\n";
+	}
+
+	std::string finish(const std::string& labelX)
+	{
+		m_svg << "<line class=\"axis\" x1=\"" << kLeft << "\" x2=\"" << kRight << "\" y1=\""
+			  << kBottom << "\" y2=\"" << kBottom << "\"/>\n<text x=\"" << (kLeft + kRight) / 2
+			  << "\" y=\"" << kHeight - 8 << "\" text-anchor=\"middle\">" << labelX
+			  << "</text>\n</svg>\n";
+		return m_svg.str();
+	}
+
+private:
+	double m_x0, m_x1, m_y0, m_y1;
+	std::ostringstream m_svg = plainStream(7);
+};
+
+std::string histogramPicture(const ricci::Histogram& h, const std::string& label)
+{
+	const std::size_t most = std::max<std::size_t>(
+		1, h.counts.empty() ? 1 : *std::max_element(h.counts.begin(), h.counts.end()));
+	Diagram diagram(h.low, h.high, 0.0, static_cast<double>(most));
+	for (int i = 0; i <= 4; ++i) {
+		const double count = std::round(static_cast<double>(most) * i / 4.0);
+		diagram.tickY(count, number(count, 9));
+	}
+	for (std::size_t i = 0; i < h.counts.size(); ++i)
+		if (h.counts[i] > 0)
+			diagram.bar(
+				h.lowEdge(i), h.lowEdge(i) + h.binWidth(), static_cast<double>(h.counts[i]));
+	for (int i = 0; i <= 5; ++i) {
+		const double at = h.low + (h.high - h.low) * i / 5.0;
+		diagram.tickX(at, number(at, 8));
+	}
+	return diagram.finish(label);
+}
+
+std::vector<std::vector<double>> residualsByComponent(const ricci::Report& data)
+{
+	std::vector<std::vector<double>> residuals;
+	for (const ricci::FlowState& state : data.flowStates) {
+		residuals.resize(std::max(residuals.size(), static_cast<std::size_t>(state.component) + 1));
+		residuals[static_cast<std::size_t>(state.component)].push_back(state.residual);
+	}
+	return residuals;
+}
+
+/// More components than this make the diagram unreadable; the data has them all.
+constexpr std::size_t kMostLines = 20;
+
+std::string residualPicture(const ricci::Report& data)
+{
+	std::vector<std::vector<double>> residuals = residualsByComponent(data);
+	if (residuals.size() > kMostLines)
+		residuals.resize(kMostLines);
+	double low = 0.0, high = -99.0;
+	std::size_t length = 2;
+	for (std::vector<double>& component : residuals) {
+		length = std::max(length, component.size());
+		for (double& r : component) {
+			r = std::log10(std::max(r, 1e-17));
+			low = std::min(low, std::floor(r));
+			high = std::max(high, std::ceil(r));
+		}
+	}
+	high = std::max(high, low + 1.0);
+	Diagram diagram(0.0, static_cast<double>(length - 1), low, high);
+	const double step = std::max(1.0, std::ceil((high - low) / 8.0));
+	for (double exponent = high; exponent >= low; exponent -= step)
+		diagram.tickY(exponent, "1e" + number(exponent));
+	const std::size_t stride = (length + 9) / 10;
+	for (std::size_t i = 0; i < length; i += stride)
+		diagram.tickX(static_cast<double>(i), std::to_string(i));
+	for (const std::vector<double>& component : residuals) {
+		std::vector<std::pair<double, double>> points;
+		for (std::size_t i = 0; i < component.size(); ++i)
+			points.emplace_back(static_cast<double>(i), component[i]);
+		diagram.line(points);
+	}
+	return diagram.finish("step");
+}
+
+const char* const kStyle =
+	"body{font:15px/1.45 system-ui,sans-serif;max-width:1180px;margin:2em auto;padding:0 1em;"
+	"color:#222;background:#fff}\n"
+	"h1{font-size:1.5em}h2{font-size:1.1em;margin:1.6em 0 .3em}\n"
+	".pair{display:flex;flex-wrap:wrap;gap:2em}.pair>section{flex:1 1 480px}\n"
+	"svg{width:100%;height:auto;font:12px system-ui,sans-serif}\n"
+	".bar{fill:#3b6ea5}.line{fill:none;stroke:#b5462f;stroke-width:1.5}.dot{fill:#b5462f}\n"
+	".axis{stroke:#222}.grid{stroke:#ddd}\n"
+	"table{border-collapse:collapse}td,th{padding:.15em 1em .15em 0;text-align:left;"
+	"border-bottom:1px solid #e4e4e4;font-variant-numeric:tabular-nums}\n";
+
+std::string tableRow(const std::string& key, const std::string& value)
+{
+	return "<tr><td>" + escaped(key) + "</td><td>" + escaped(value) + "</td></tr>\n";
+}
+
+QString absolutePath(const QString& wanted, const QString& folder)
+{
+	return QDir::cleanPath(QDir(folder).absoluteFilePath(wanted));
+}
+
+/// A QSaveFile writes beside its target and renames: opening it shows that both are allowed, and
+/// giving it up leaves nothing behind.
+QString whyNotWritable(const QString& path)
+{
+	if (QFileInfo(path).isDir())
+		return "it is a folder";
+	QSaveFile file(path);
+	return file.open(QIODevice::WriteOnly) ? QString() : file.errorString();
+}
+
+void save(const QString& path, const std::string& content)
+{
+	QSaveFile file(path);
+	const auto size = static_cast<qint64>(content.size());
+	if (file.open(QIODevice::WriteOnly) && file.write(content.data(), size) == size &&
+		file.commit())
+		return;
+	throw ricci::Error(
+		"The report " + path.toStdString() + " could not be written (" +
+		file.errorString().toStdString() +
+		"): choose another place for it. The mesh is unchanged.");
+}
+
+} // namespace
+
+std::vector<std::pair<std::string, std::string>> settingsAsText(const RichParameterList& par)
+{
+	std::vector<std::pair<std::string, std::string>> settings;
+	for (const RichParameter& p : par) {
+		std::ostringstream value = plainStream(7);
+		if (const auto* choice = dynamic_cast<const RichEnum*>(&p)) {
+			const int chosen = par.getEnum(p.name());
+			// A script's list of choices is its own: the names are those of the filter, if any.
+			value
+				<< (chosen >= 0 && chosen < choice->enumvalues.size()
+						? choice->enumvalues[chosen].toStdString()
+						: std::to_string(chosen));
+		}
+		else if (dynamic_cast<const RichBool*>(&p) != nullptr)
+			value << par.getBool(p.name());
+		else if (dynamic_cast<const RichInt*>(&p) != nullptr)
+			value << par.getInt(p.name());
+		else if (dynamic_cast<const RichFloat*>(&p) != nullptr)
+			value << par.getFloat(p.name());
+		else if (dynamic_cast<const RichString*>(&p) != nullptr)
+			value << par.getString(p.name()).toStdString();
+		else
+			continue;
+		settings.emplace_back(p.name().toStdString(), value.str());
+	}
+	return settings;
+}
+
+std::string toHtml(const RunReport& report)
+{
+	const ricci::Histogram& qc = report.data.qcHistogram;
+	std::ostringstream page = plainStream(10);
+	page << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>"
+		 << escaped(report.filter + ": " + report.mesh) << "</title>\n<style>\n"
+		 << kStyle << "</style>\n</head>\n<body>\n<h1>" << escaped(report.filter) << "</h1>\n<p>"
+		 << escaped(report.mesh) << "</p>\n";
+	for (const std::string& note : report.notes)
+		page << "<p>" << escaped(note) << "</p>\n";
+	page << "<div class=\"pair\">\n<section>\n<h2>Quasi-conformal distortion of the vertices</h2>\n"
+		 << histogramPicture(
+				qc, "&sigma;&#8321;/&sigma;&#8322;, mean of the faces at the vertex by area")
+		 << "<p>1 where angles are kept. " << qc.above << " vertices lie beyond the scale.</p>\n"
+		 << "</section>\n<section>\n<h2>Largest curvature error before each Newton step</h2>\n"
+		 << residualPicture(report.data)
+		 << "<p>max |K&#772; &minus; K| in radians; one line for each component"
+		 << (residualsByComponent(report.data).size() > kMostLines ? ", the first 20" : "")
+		 << ".</p>\n</section>\n</div>\n";
+	page << "<div class=\"pair\">\n<section>\n<h2>Results</h2>\n<table>\n";
+	for (const auto& [key, value] : report.results)
+		page << tableRow(key, text(value));
+	page << "</table>\n</section>\n<section>\n<h2>Parameters</h2>\n<table>\n";
+	for (const auto& [id, value] : report.settings)
+		page << tableRow(id, value);
+	page << "</table>\n</section>\n</div>\n</body>\n</html>\n";
+	return page.str();
+}
+
+std::string toCsv(const RunReport& report)
+{
+	std::ostringstream csv = plainStream(10);
+	csv << "table,group,key,value\n";
+	csv << "setting,,filter," << csvField(report.filter) << "\n";
+	csv << "setting,,mesh," << csvField(report.mesh) << "\n";
+	for (const auto& [id, value] : report.settings)
+		csv << "setting,," << id << "," << csvField(value) << "\n";
+	for (const auto& [key, value] : report.results)
+		csv << "result,," << key << "," << csvField(text(value)) << "\n";
+	const auto residuals = residualsByComponent(report.data);
+	for (std::size_t c = 0; c < residuals.size(); ++c)
+		for (std::size_t i = 0; i < residuals[c].size(); ++i)
+			csv << "newton," << c << "," << i << "," << residuals[c][i] << "\n";
+	const ricci::Histogram& qc = report.data.qcHistogram;
+	for (std::size_t i = 0; i < qc.counts.size(); ++i)
+		csv << "qc_histogram,vertices," << qc.lowEdge(i) << "," << qc.counts[i] << "\n";
+	csv << "qc_histogram,vertices," << qc.high << "," << qc.above << "\n";
+	return csv.str();
+}
+
+ReportFiles::ReportFiles(const QString& wanted, const QString& folder)
+{
+	const QString trimmed = wanted.trimmed();
+	if (trimmed.isEmpty())
+		return;
+	const QString path = absolutePath(trimmed, folder);
+	const QString ending = QFileInfo(path).suffix().toLower();
+	if (ending != "html" && ending != "csv")
+		throw ricci::InvalidOption(
+			"The report " + trimmed.toStdString() +
+			" cannot be written: its name must end in .html (page, and its data beside it) or .csv "
+			"(data alone).");
+	if (ending == "html")
+		m_html = path;
+	m_csv = ending == "csv" ? path : path.left(path.size() - ending.size()) + "csv";
+	for (const QString& file : {m_html, m_csv}) {
+		const QString reason = file.isEmpty() ? QString() : whyNotWritable(file);
+		if (!reason.isEmpty())
+			throw ricci::InvalidOption(
+				"The report " + file.toStdString() + " cannot be written (" + reason.toStdString() +
+				"): choose another place for it.");
+	}
+}
+
+std::vector<std::string> ReportFiles::write(const RunReport& report) const
+{
+	std::vector<std::string> written;
+	if (!m_html.isEmpty()) {
+		save(m_html, toHtml(report));
+		written.push_back(m_html.toStdString());
+	}
+	if (!m_csv.isEmpty()) {
+		save(m_csv, toCsv(report));
+		written.push_back(m_csv.toStdString());
+	}
+	return written;
+}
+
+} // namespace filter_ricci

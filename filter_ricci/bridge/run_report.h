@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parameter "report": a run of the filter as one HTML page that needs no other file, and as CSV.
+#ifndef FILTER_RICCI_RUN_REPORT_H
+#define FILTER_RICCI_RUN_REPORT_H
+
+#include "bridge.h"
+
+#include <ricci/report.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace filter_ricci {
+
+struct RunReport
+{
+	std::string filter, mesh;                                  ///< their names
+	std::vector<std::pair<std::string, std::string>> settings; ///< parameter id, value as text
+	std::vector<std::string> notes;                            ///< what the log said of the mesh
+	Results results;
+	ricci::Report data;
+};
+
+/// The parameters as text, choices by their names.
+std::vector<std::pair<std::string, std::string>> settingsAsText(const RichParameterList& par);
+
+/// The page: histogram of the distortion, residual of every Newton step, tables of results and
+/// settings; pictures are SVG inside it. UTF-8.
+std::string toHtml(const RunReport& report);
+
+/// The same data as rows "table,group,key,value": tables "setting" and "result" without a group,
+/// "newton" (group: component, key: evaluation, value: residual in radians), "qc_histogram" (group:
+/// vertices, key: lower end of the bin, value: vertices). UTF-8, fields quoted where they need it.
+std::string toCsv(const RunReport& report);
+
+/// The files of a report, found writable before the run that it is about.
+class ReportFiles
+{
+public:
+	/// \param wanted a path that ends in .html (page, and data beside it) or in .csv (data alone);
+	/// a relative one starts from \p folder; empty: no report
+	/// \throw ricci::InvalidOption if no file can be written there; nothing has been written then
+	ReportFiles(const QString& wanted, const QString& folder);
+
+	/// Each file appears complete, or not at all.
+	/// \return the names of the files
+	/// \throw ricci::Error if one cannot be written after all (a full disk)
+	std::vector<std::string> write(const RunReport& report) const;
+
+private:
+	QString m_html, m_csv; // empty: not wanted
+};
+
+} // namespace filter_ricci
+
+#endif
