@@ -220,7 +220,7 @@ const char* const kStyle =
 	"color:#222;background:#fff}\n"
 	"h1{font-size:1.5em}h2{font-size:1.1em;margin:1.6em 0 .3em}\n"
 	".pair{display:flex;flex-wrap:wrap;gap:2em}.pair>section{flex:1 1 480px}\n"
-	"svg{width:100%;height:auto;font:12px system-ui,sans-serif}\n"
+	"section>p{margin:0}svg{width:100%;height:auto;font:12px system-ui,sans-serif}\n"
 	".bar{fill:#3b6ea5}.line{fill:none;stroke:#b5462f;stroke-width:1.5}.dot{fill:#b5462f}\n"
 	".axis{stroke:#222}.grid{stroke:#ddd}\n"
 	"table{border-collapse:collapse}td,th{padding:.15em 1em .15em 0;text-align:left;"
@@ -229,6 +229,15 @@ const char* const kStyle =
 std::string tableRow(const std::string& key, const std::string& value)
 {
 	return "<tr><td>" + escaped(key) + "</td><td>" + escaped(value) + "</td></tr>\n";
+}
+
+void addHistogram(std::ostream& csv, const char* start, const ricci::Histogram& h)
+{
+	if (h.below > 0)
+		csv << start << "-inf," << h.below << "\n";
+	for (std::size_t i = 0; i < h.counts.size(); ++i)
+		csv << start << h.lowEdge(i) << "," << h.counts[i] << "\n";
+	csv << start << h.high << "," << h.above << "\n";
 }
 
 QString absolutePath(const QString& wanted, const QString& folder)
@@ -292,6 +301,7 @@ std::vector<std::pair<std::string, std::string>> settingsAsText(const RichParame
 std::string toHtml(const RunReport& report)
 {
 	const ricci::Histogram& qc = report.data.qcHistogram;
+	const ricci::Histogram& areas = report.data.areaHistogram;
 	std::ostringstream page = plainStream(10);
 	page << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>"
 		 << escaped(report.filter + ": " + report.mesh) << "</title>\n<style>\n"
@@ -303,6 +313,10 @@ std::string toHtml(const RunReport& report)
 		 << histogramPicture(
 				qc, "&sigma;&#8321;/&sigma;&#8322;, mean of the faces at the vertex by area")
 		 << "<p>1 where angles are kept. " << qc.above << " vertices lie beyond the scale.</p>\n"
+		 << "</section>\n<section>\n<h2>Area factor of the faces</h2>\n"
+		 << histogramPicture(areas, "log&#8322; of the share in the plane over the share in space")
+		 << "<p>0 where areas keep their ratios. " << areas.below + areas.above
+		 << " faces lie beyond the scale.</p>\n"
 		 << "</section>\n<section>\n<h2>Largest curvature error before each Newton step</h2>\n"
 		 << residualPicture(report.data)
 		 << "<p>max |K&#772; &minus; K| in radians; one line for each component"
@@ -332,10 +346,8 @@ std::string toCsv(const RunReport& report)
 	for (std::size_t c = 0; c < residuals.size(); ++c)
 		for (std::size_t i = 0; i < residuals[c].size(); ++i)
 			csv << "newton," << c << "," << i << "," << residuals[c][i] << "\n";
-	const ricci::Histogram& qc = report.data.qcHistogram;
-	for (std::size_t i = 0; i < qc.counts.size(); ++i)
-		csv << "qc_histogram,vertices," << qc.lowEdge(i) << "," << qc.counts[i] << "\n";
-	csv << "qc_histogram,vertices," << qc.high << "," << qc.above << "\n";
+	addHistogram(csv, "qc_histogram,vertices,", report.data.qcHistogram);
+	addHistogram(csv, "area_histogram,faces,", report.data.areaHistogram);
 	return csv.str();
 }
 

@@ -25,13 +25,14 @@ struct RunReport
 /// The parameters as text, choices by their names.
 std::vector<std::pair<std::string, std::string>> settingsAsText(const RichParameterList& par);
 
-/// The page: histogram of the distortion, residual of every Newton step, tables of results and
-/// settings; pictures are SVG inside it. UTF-8.
+/// The page: histograms of the distortion and of the area factors, residual of every Newton step,
+/// tables of results and settings; pictures are SVG inside it. UTF-8.
 std::string toHtml(const RunReport& report);
 
 /// The same data as rows "table,group,key,value": tables "setting" and "result" without a group,
 /// "newton" (group: component, key: evaluation, value: residual in radians), "qc_histogram" (group:
-/// vertices, key: lower end of the bin, value: vertices). UTF-8, fields quoted where they need it.
+/// vertices, key: lower end of the bin, value: vertices), "area_histogram" (group: faces, key: lower
+/// end in log2 of the area factor, value: faces). UTF-8, fields quoted where they need it.
 std::string toCsv(const RunReport& report);
 
 /// The files of a report, found writable before the run that it is about.

@@ -11,7 +11,7 @@ export LC_ALL=C.UTF-8
 say() { printf '\n== %s\n' "$*"; }
 skipped() { printf 'SKIPPED: %s\n' "$*"; }
 
-packages_build=(ca-certificates cmake g++ ninja-build xz-utils
+packages_build=(ca-certificates cmake dpkg-dev g++ ninja-build xz-utils
 	libeigen3-dev libsuitesparse-dev libmetis-dev
 	qtbase5-dev libqt5opengl5-dev libglew-dev libgl1-mesa-dev libglu1-mesa-dev)
 packages_test=(libgtest-dev clang-format)
@@ -135,6 +135,14 @@ make_venv() {
 	fi
 	"$build/venv/bin/python" -c 'import pymeshlab' 2>>"$build/venv.log" ||
 		skipped "PyMeshLab: installed in build/venv, but it cannot be imported; see build/venv.log"
+}
+
+# Dask runs filter_ricci/samples/batch.py; nothing else needs it.
+add_dask() {
+	[ -x "$build/venv/bin/pip" ] || return 0
+	"$build/venv/bin/python" -c 'import dask.distributed' 2>/dev/null ||
+		"$build/venv/bin/pip" install -q 'dask[distributed]' >>"$build/venv.log" 2>&1 ||
+		skipped "Dask: pip could not install it; see build/venv.log"
 }
 
 configure_and_build() {

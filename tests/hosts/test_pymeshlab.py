@@ -244,6 +244,8 @@ class Report(unittest.TestCase):
         self.assertEqual(settings["mesh"], "torus <1>.ply")
         counts = [int(row["value"]) for row in rows if row["table"] == "qc_histogram"]
         self.assertEqual(sum(counts), self.documents.current_mesh().vertex_number())
+        counts = [int(row["value"]) for row in rows if row["table"] == "area_histogram"]
+        self.assertEqual(sum(counts), self.documents.current_mesh().face_number())
         steps = [float(row["value"]) for row in rows if row["table"] == "newton"]
         self.assertAlmostEqual(steps[-1], returned["max_curvature_error"], delta=1e-14)
         self.check_page(returned)
@@ -258,7 +260,7 @@ class Report(unittest.TestCase):
         cells = [cell.text for cell in page.iter("td")]
         self.assertLessEqual(set(returned), set(cells))
         self.assertIn("torus <1>.ply", [p.text for p in page.iter("p")])
-        self.assertEqual(len([e for e in page.iter() if e.tag.endswith("}svg")]), 2)
+        self.assertEqual(len([e for e in page.iter() if e.tag.endswith("}svg")]), 3)
 
     def test_data_alone_and_in_another_folder(self):
         os.mkdir(self.path("out"))

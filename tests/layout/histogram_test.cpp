@@ -80,5 +80,22 @@ TEST(Histogram, TheScaleOfDistortionsIsRoundAndHoldsAlmostAll)
 	EXPECT_EQ(distortionHistogram({}).above, 0u);
 }
 
+TEST(Histogram, TheScaleOfFactorsIsSymmetric)
+{
+	Random random(212);
+	std::vector<double> logs;
+	for (int i = 0; i < 1000; ++i)
+		logs.push_back(random.real(-0.3, 0.7));
+	const Histogram h = factorHistogram(logs);
+	EXPECT_EQ(h.low, -h.high);
+	EXPECT_EQ(h.high, 1.0); // the least of 0.1, 0.2, 0.5, 1 ... that holds 99 of 100
+	EXPECT_EQ(h.below + h.above, 0u);
+	for (double& x : logs)
+		x = -x;
+	std::vector<std::size_t> mirrored = factorHistogram(logs).counts;
+	std::reverse(mirrored.begin(), mirrored.end());
+	EXPECT_EQ(mirrored, h.counts);
+}
+
 } // namespace
 } // namespace ricci::testing

@@ -40,6 +40,7 @@ struct Report
 	/// max(s, 1/s) over the faces, weighted by their 3D area: 1 where all areas keep their ratios.
 	double areaDistortionMean = 1.0;
 	double areaDistortionSpread = 0.0; ///< standard deviation of ln s, weighted by 3D area
+	Histogram areaHistogram;           ///< binary logarithms of s over the faces
 
 	int flippedFaces = 0;      ///< faces whose image in the plane is reversed or has no area
 	int flippedByRounding = 0; ///< more of them once the coordinates are rounded to float

@@ -91,15 +91,18 @@ AreaDistortion areaDistortion(const std::vector<double>& before, const std::vect
 	if (!(totalBefore > 0.0))
 		return distortion;
 	double mean = 0.0, logMean = 0.0, logSquare = 0.0;
+	std::vector<double> binaryLogs;
 	for (std::size_t f = 0; f < before.size(); ++f) {
 		if (!counts(f))
 			continue;
 		const double weight = before[f] / totalBefore;
 		const double logFactor = std::log(after[f] / totalAfter) - std::log(weight);
+		binaryLogs.push_back(logFactor / std::log(2.0));
 		mean += weight * std::exp(std::abs(logFactor));
 		logMean += weight * logFactor;
 		logSquare += weight * logFactor * logFactor;
 	}
+	distortion.histogram = factorHistogram(binaryLogs);
 	distortion.mean = mean;
 	distortion.spread = std::sqrt(std::max(0.0, logSquare - logMean * logMean));
 	return distortion;
@@ -142,6 +145,7 @@ DistortionField measureDistortion(
 	const AreaDistortion areas = areaDistortion(areaBefore, areaAfter);
 	report.areaDistortionMean = areas.mean;
 	report.areaDistortionSpread = areas.spread;
+	report.areaHistogram = areas.histogram;
 	double vertexSum = 0.0;
 	std::vector<double> measuredVertices;
 	for (std::size_t v = 0; v < field.vertex.size(); ++v) {

@@ -34,6 +34,7 @@ struct AreaDistortion
 {
 	double mean = 1.0;   ///< of max(s, 1/s) for the area factors s, weighted by the area before
 	double spread = 0.0; ///< standard deviation of ln s, weighted by the area before
+	Histogram histogram; ///< of log2 s over the triangles
 };
 
 /// \param before, after [triangle] areas, not negative. Triangles where either is 0 are left out,

@@ -11,7 +11,7 @@ namespace ricci {
 
 namespace {
 
-constexpr std::size_t kDistortionBins = 50;
+constexpr std::size_t kBins = 50;
 
 /// Finer scales than this show rounding alone.
 constexpr double kFinestScale = 1e-6;
@@ -52,7 +52,17 @@ Histogram distortionHistogram(std::vector<double> values)
 	const double top = percentile(values, 0.99);
 	// An infinite distortion has no scale of its own.
 	const double high = std::isfinite(top) ? leastRoundNumberAbove(top - 1.0) : 1.0;
-	return countInBins(values, 1.0, 1.0 + high, kDistortionBins);
+	return countInBins(values, 1.0, 1.0 + high, kBins);
+}
+
+Histogram factorHistogram(const std::vector<double>& binaryLogarithms)
+{
+	std::vector<double> sizes;
+	for (double x : binaryLogarithms)
+		sizes.push_back(std::abs(x));
+	const double top = percentile(std::move(sizes), 0.99);
+	const double end = std::isfinite(top) ? leastRoundNumberAbove(top) : 1.0;
+	return countInBins(binaryLogarithms, -end, end, kBins);
 }
 
 double percentile(std::vector<double> values, double share)

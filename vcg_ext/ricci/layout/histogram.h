@@ -26,6 +26,10 @@ Histogram countInBins(const std::vector<double>& values, double low, double high
 /// 99th percentile, in 50 bins.
 Histogram distortionHistogram(std::vector<double> values);
 
+/// Counts binary logarithms of factors, in 50 bins between -x and x, x the least (1, 2 or 5) 10^k that
+/// is above the 99th percentile of their absolute values.
+Histogram factorHistogram(const std::vector<double>& binaryLogarithms);
+
 /// The least value that is not below \p share of \p values (nearest rank), 0 < \p share <= 1; NaN
 /// if there is none. NaN among the values is left out.
 double percentile(std::vector<double> values, double share);

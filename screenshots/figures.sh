@@ -1,0 +1,167 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# figures.sh [ROCKER_ARM.ply]: the pictures after the paper's figures. PyMeshLab runs the filter on
+# MeshLab's own surfaces and on Debian's libcgal-demo meshes, and the window of stock MeshLab 2020.09
+# shows the layers on a display without a screen. Needs what tests/run.sh installs and builds.
+# RICCI_PICTURES="bunny lion" makes some of them only.
+set -euo pipefail
+# shellcheck source=../filter_ricci/scripts/machine.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../filter_ricci/scripts/machine.sh"
+# shellcheck source=../filter_ricci/scripts/window.sh
+source "$root/filter_ricci/scripts/window.sh"
+
+here=$root/screenshots
+work=$build/figures
+# The part of the display that shows the mesh and nothing else.
+canvas=960x650+4+92
+
+fail() {
+	echo "FAILED: $*"
+	exit 1
+}
+
+canvas_sum() {
+	import -window root -crop "$canvas" "$work/now.png"
+	identify -format '%# %k' "$work/now.png"
+}
+
+# Waits until something is drawn and does not change any more.
+settle() {
+	local before=none now tries
+	for ((tries = 0; tries < 120; tries++)); do
+		sleep 1
+		now=$(canvas_sum)
+		[ "$now" != "$before" ] || [ "${now##* }" -lt 20 ] || return 0
+		before=$now
+	done
+	fail "MeshLab drew nothing"
+}
+
+# shoot NAME FILE...: one picture of the layers, smoothly shaded, trimmed.
+shoot() {
+	local name=$1
+	shift
+	open_meshlab "$stage/bin/meshlab" "$@" || fail "MeshLab's window did not open"
+	settle
+	xdotool key --window "$main_window" shift+h
+	xdotool mousemove 1371 689 click 1 # apply to all visible layers
+	sleep 1
+	xdotool mousemove 1167 500 click 1 # Shading: Vert
+	xdotool mousemove 1167 800
+	sleep 2
+	settle
+	convert "$work/now.png" -trim +repage -bordercolor white -border 10 "$work/$name.png"
+	close_meshlab
+}
+
+has() {
+	[[ " ${RICCI_PICTURES-kitten bunny lion mask bust} " == *" $1 "* ]]
+}
+
+# row OUT NAME=TEXT...: pictures side by side on white, of one height, with a line of text under each.
+row() {
+	local out=$1 pair parts=()
+	shift
+	for pair in "$@"; do
+		parts+=('(' "$work/${pair%%=*}.png" -resize x460 -gravity center -background white
+			-bordercolor white -border 8 -pointsize 17 "label:${pair#*=}" -append ')')
+	done
+	convert -background white -font DejaVu-Sans "${parts[@]}" -gravity south +append -strip \
+		-define png:compression-level=9 "$here/$out.png"
+	echo "screenshots/$out.png: $(($(stat -c %s "$here/$out.png") / 1024)) KB"
+}
+
+# histogram NAME KIND: bars of one flow, on the scale of both.
+histogram() {
+	python3 - "$work/$1_qc.json" "$2" <<'PYTHON' | convert -density 96 svg:- "$work/$1_histogram_$2.png"
+import json
+import sys
+
+table = json.load(open(sys.argv[1], encoding="utf-8"))
+flow = table[sys.argv[2]]
+most = max(max(table[kind]["counts"]) for kind in ("generalized", "conventional"))
+width, height, left, base = 520, 330, 20, 270
+bar = (width - 2 * left) / table["bins"]
+out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}">',
+       f'<rect width="{width}" height="{height}" fill="white"/>']
+for i, count in enumerate(flow["counts"]):
+    t = 4 * (i + 0.5) / table["bins"]
+    stops = [(0, 0, 255), (0, 255, 255), (0, 255, 0), (255, 255, 0), (255, 0, 0)]
+    a, b = stops[int(t)], stops[min(int(t) + 1, 4)]
+    colour = tuple(round(p + (t - int(t)) * (q - p)) for p, q in zip(a, b))
+    high = (base - 20) * count / most
+    out.append(f'<rect x="{left + i * bar:.2f}" y="{base - high:.2f}" width="{bar:.2f}" '
+               f'height="{high:.2f}" fill="rgb{colour}"/>')
+out.append(f'<line x1="{left}" x2="{width - left}" y1="{base}" y2="{base}" stroke="black"/>')
+for share in (0, 0.5, 1):
+    x = left + share * (width - 2 * left)
+    anchor = ("start", "middle", "end")[round(2 * share)]
+    out.append(f'<text x="{x}" y="{base + 20}" font-family="DejaVu Sans" font-size="15" '
+               f'text-anchor="{anchor}">{1 + share * (table["top"] - 1):.2f}</text>')
+share = 100 * flow["beyond"] / flow["vertices"]
+out.append(f'<text x="{width / 2}" y="{base + 46}" font-family="DejaVu Sans" font-size="15" '
+           f'text-anchor="middle">mean {flow["mean"]:.4f}; {share:.1f} % of the vertices beyond the '
+           'scale, in the last bar</text>')
+print("\n".join(out + ["</svg>"]))
+PYTHON
+}
+
+compare() {
+	shoot "$1_qc_generalized" "$1_qc_generalized.ply"
+	shoot "$1_qc_conventional" "$1_qc_conventional.ply"
+	histogram "$1" generalized
+	histogram "$1" conventional
+	row "$2" "$1_qc_conventional=conventional flow" "$1_histogram_conventional= " \
+		"$1_qc_generalized=generalized flow" "$1_histogram_generalized= "
+}
+
+make_pictures() {
+	cd "$work"
+	if has kitten; then
+		shoot kitten_conventional kitten_conventional.ply
+		shoot kitten_generalized kitten_generalized.ply
+		row kitten "kitten_conventional=conventional flow (Fig. 5)" \
+			"kitten_generalized=generalized flow (Fig. 7)"
+		compare kitten kitten_distortion
+	fi
+	if has bunny; then
+		shoot bunny_circles bunny_circles.ply
+		shoot bunny_seams bunny_checkerboard.ply bunny_seams.ply
+		row bunny "bunny_circles=circles of the plane on the surface (Fig. 1)" \
+			"bunny_seams=seams and cones"
+	fi
+	if has lion; then
+		local outline
+		for outline in disk rectangle; do
+			shoot lion_$outline lion_$outline.ply
+			shoot lion_${outline}_chart lion_${outline}_chart.ply
+		done
+		row outlines "lion_disk=Disk" "lion_disk_chart=its chart" "lion_rectangle=Rectangle" \
+			"lion_rectangle_chart=its chart"
+	fi
+	if has mask; then
+		shoot mask mask.ply
+		shoot mask_chart mask_chart.ply
+		row free_boundary "mask=free boundary (Fig. 12)" "mask_chart=its chart"
+	fi
+	if has bust; then
+		shoot bust bust.ply
+		shoot bust_chart bust_chart.ply
+		row annulus "bust=an annulus, edges swapped (Fig. 13)" "bust_chart=its chart"
+	fi
+	[ $# -eq 0 ] || compare rocker_arm rocker_arm_distortion
+}
+
+mkdir -p "$work"
+rocker_arm=()
+[ $# -eq 0 ] || rocker_arm=("$(realpath "$1")")
+stage=$(bash "$root/filter_ricci/scripts/stage_meshlab_2020.sh" "$build") || exit $?
+needed=$(window_needs) || fail "$needed"
+python=$build/venv/bin/python
+[ -x "$python" ] || fail "there is no Python with PyMeshLab in build/venv"
+bash "$root/tests/unpack_cgal_meshes.sh" "$build/cgal_meshes" || fail "libcgal-demo cannot be had"
+"$python" "$here/layers.py" "$build/pymeshlab-2025.7/libfilter_ricci.so" "$build/cgal_meshes/data" \
+	"$work" "${rocker_arm[@]}"
+trap close_display EXIT
+open_display "$work/display" || fail "no display could be opened"
+make_pictures "${rocker_arm[@]}"

@@ -1,0 +1,383 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Makes the layers that make.sh shows in MeshLab's window, with PyMeshLab and the plugin.
+
+    python layers.py PLUGIN MESHES OUT [ROCKER_ARM]
+
+MESHES is the folder data/ of Debian's package libcgal-demo. Every surface is turned here so that
+MeshLab's first view, from the front, is the one wanted: pictures of one surface share their camera.
+"""
+
+import json
+import os
+import struct
+import sys
+import zlib
+
+import numpy
+import pymeshlab
+
+FILTER = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge"
+INK = (124, 143, 166)
+SEAM = (205, 60, 40)
+CONE = (30, 30, 30)
+
+_alive = []  # PyMeshLab 2025.7 may crash when a MeshSet goes in which a filter has failed
+
+
+def documents():
+    _alive.append(pymeshlab.MeshSet(verbose=False))
+    return _alive[-1]
+
+
+# Textures
+
+
+def write_png(path, pixels):
+    height, width, _ = pixels.shape
+    rows = b"".join(b"\0" + row.tobytes() for row in pixels.astype(numpy.uint8))
+
+    def chunk(kind, data):
+        return (struct.pack(">I", len(data)) + kind + data
+                + struct.pack(">I", zlib.crc32(kind + data)))
+
+    with open(path, "wb") as out:
+        out.write(b"\x89PNG\r\n\x1a\n"
+                  + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+                  + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+
+
+def blend(share, ink=INK):
+    """White with a share of ink, as pixels."""
+    return 255 + (numpy.array(ink) - 255) * share[:, :, None]
+
+
+def checkerboard(path, cells, size=2048):
+    i = numpy.arange(size) * cells // size
+    write_png(path, blend((i[:, None] + i[None, :]) % 2.0))
+
+
+def circles(path, across, size=2048):
+    """Equal circles, each touched by six others."""
+    x, y = numpy.meshgrid((numpy.arange(size) + 0.5) / size, (numpy.arange(size) + 0.5) / size)
+    step = 1.0 / across
+    high = step * 3 ** 0.5
+    distance = numpy.full_like(x, 9.0)
+    for dx, dy in ((0, 0), (step / 2, high / 2)):
+        u = (x - dx + step / 2) % step - step / 2
+        v = (y - dy + high / 2) % high - high / 2
+        distance = numpy.minimum(distance, numpy.hypot(u, v))
+    edge = (0.5 * step - distance) * size  # pixels inside the circle
+    rim = numpy.clip(edge, 0, 1) * numpy.clip(5 - edge, 0, 1)
+    disk = numpy.clip(edge - 5, 0, 1)
+    ink = blend(disk, (236, 190, 110)) / 255 * blend(rim, (90, 60, 30))
+    write_png(path, ink)
+
+
+# Layers
+
+
+def normals(points, faces):
+    """By area, one for each vertex."""
+    face = numpy.cross(points[faces[:, 1]] - points[faces[:, 0]],
+                       points[faces[:, 2]] - points[faces[:, 0]])
+    sums = numpy.zeros_like(points)
+    for k in range(3):
+        numpy.add.at(sums, faces[:, k], face)
+    return sums / numpy.maximum(numpy.linalg.norm(sums, axis=1), 1e-30)[:, None]
+
+
+def write_ply(path, points, faces, colours=None, wedges=None, texture=None, normal=None):
+    normal = normals(points, faces) if normal is None else normal
+    colours = numpy.full((len(points), 3), 255) if colours is None else colours
+    vertex = numpy.empty(len(points), dtype=[("p", "<f4", 3), ("n", "<f4", 3), ("c", "u1", 4)])
+    vertex["p"], vertex["n"], vertex["c"][:, :3], vertex["c"][:, 3] = points, normal, colours, 255
+    header = ["ply", "format binary_little_endian 1.0"]
+    header += [f"comment TextureFile {texture}"] if texture else []
+    header += [f"element vertex {len(points)}", *(f"property float {a}" for a in "x y z nx ny nz".split()),
+               *(f"property uchar {c}" for c in "red green blue alpha".split()),
+               f"element face {len(faces)}", "property list uchar int vertex_indices"]
+    kinds = [("k", "u1"), ("v", "<i4", 3)]
+    if wedges is not None:
+        header.append("property list uchar float texcoord")
+        kinds += [("m", "u1"), ("t", "<f4", 6)]
+    face = numpy.zeros(len(faces), dtype=kinds)
+    face["k"], face["v"] = 3, faces
+    if wedges is not None:
+        face["m"], face["t"] = 6, wedges.reshape(-1, 6)
+    with open(path, "wb") as out:
+        out.write(("\n".join(header + ["end_header"]) + "\n").encode())
+        out.write(vertex.tobytes() + face.tobytes())
+
+
+def turned(points, about_y=0.0, about_x=0.0):
+    """Turned by degrees, first about the upright axis, then towards the viewer."""
+    a, b = numpy.radians([about_y, about_x])
+    y = numpy.array([[numpy.cos(a), 0, numpy.sin(a)], [0, 1, 0], [-numpy.sin(a), 0, numpy.cos(a)]])
+    x = numpy.array([[1, 0, 0], [0, numpy.cos(b), -numpy.sin(b)], [0, numpy.sin(b), numpy.cos(b)]])
+    return points @ (x @ y).T
+
+
+class Surface:
+    """A mesh on which the filter has run."""
+
+    def __init__(self, source, name=FILTER, selected=None, **parameters):
+        ms = documents()
+        ms.add_mesh(pymeshlab.Mesh(source.vertex_matrix(), source.face_matrix()))
+        if selected is not None:
+            ms.compute_selection_by_condition_per_vertex(
+                condselect=" || ".join(f"(vi=={v})" for v in selected))
+        self.results = ms.apply_filter(name, **parameters)
+        mesh = ms.current_mesh()
+        self.points, self.faces = mesh.vertex_matrix(), mesh.face_matrix()
+        self.wedges = mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+        self.quality = mesh.vertex_scalar_array()
+
+    def textured(self, path, texture, view, repeat=1.0):
+        write_ply(path, turned(self.points, *view), self.faces, wedges=self.wedges * repeat,
+                  texture=texture)
+
+    def coloured(self, path, view, top):
+        """MeshLab's colours by quality are red, green, blue; the paper's are blue for 1, red for
+        the top."""
+        write_ply(path, turned(self.points, *view), self.faces, colours=ramp(self.quality, top))
+
+    def chart(self, path, view, texture=None, repeat=1.0):
+        """The plane, shaded as the surface is in that view, so that its features can be seen."""
+        normal = turned(normals(self.points, self.faces), *view)
+        light = numpy.clip(0.35 + 0.65 * normal[:, 2], 0.15, 1.0)[self.faces].reshape(-1)
+        corners = self.wedges.reshape(-1, 2)
+        # MeshLab shades one vertex for all faces at it: corners at one place are one vertex.
+        places, of_corner = numpy.unique(
+            numpy.column_stack([corners, self.faces.reshape(-1)]), axis=0, return_inverse=True)
+        of_corner = of_corner.reshape(-1)
+        grey = numpy.zeros(len(places))
+        grey[of_corner] = light
+        points = numpy.column_stack([places[:, :2], numpy.zeros(len(places))])
+        faces = of_corner.reshape(-1, 3)
+        write_ply(path, points, faces, colours=numpy.repeat((255 * grey)[:, None], 3, axis=1),
+                  wedges=self.wedges * repeat if texture else None, texture=texture,
+                  normal=numpy.tile([0.0, 0.0, 1.0], (len(points), 1)))
+
+    def seams(self):
+        """Edges whose sides lie in different places of the plane, as pairs of vertices."""
+        places = {}
+        for f, face in enumerate(self.faces):
+            for k in range(3):
+                i, j = k, (k + 1) % 3
+                a, b = face[i], face[j]
+                uv = (tuple(self.wedges[f, i]), tuple(self.wedges[f, j]))
+                if a > b:
+                    a, b, uv = b, a, uv[::-1]
+                places.setdefault((a, b), set()).add(uv)
+        return [edge for edge, sides in places.items() if len(sides) > 1]
+
+    def write_seams(self, path, view, cones=()):
+        """Seams as red rods and cones as black balls, a little larger than life."""
+        points = turned(self.points, *view)
+        size = numpy.linalg.norm(numpy.ptp(points, axis=0))
+        parts = [rod(points[a], points[b], 0.0022 * size) for a, b in self.seams()]
+        colours = [SEAM] * len(parts)
+        parts += [ball(points[v], 0.011 * size) for v in cones]
+        colours += [CONE] * len(cones)
+        write_parts(path, parts, colours)
+
+
+def ramp(values, top):
+    """Blue, cyan, green, yellow, red from 1 to the top."""
+    t = numpy.clip((values - 1.0) / (top - 1.0), 0.0, 1.0)
+    stops = numpy.linspace(0, 1, 5)
+    colours = numpy.array([(0, 0, 255), (0, 255, 255), (0, 255, 0), (255, 255, 0), (255, 0, 0)])
+    return numpy.column_stack([numpy.interp(t, stops, colours[:, c]) for c in range(3)])
+
+
+def rod(a, b, radius, sides=6):
+    axis = (b - a) / max(numpy.linalg.norm(b - a), 1e-30)
+    across = numpy.cross(axis, numpy.eye(3)[numpy.argmin(numpy.abs(axis))])
+    across /= numpy.linalg.norm(across)
+    other = numpy.cross(axis, across)
+    angles = 2 * numpy.pi * numpy.arange(sides) / sides
+    ring = radius * (numpy.outer(numpy.cos(angles), across) + numpy.outer(numpy.sin(angles), other))
+    points = numpy.concatenate([a - radius * axis + ring, b + radius * axis + ring])
+    i, j = numpy.arange(sides), (numpy.arange(sides) + 1) % sides
+    return points, numpy.concatenate([numpy.column_stack([i, j, j + sides]),
+                                      numpy.column_stack([i, j + sides, i + sides])])
+
+
+def ball(centre, radius, rings=10):
+    points = [centre + [0, 0, radius]]
+    for r in range(1, rings):
+        for s in range(2 * rings):
+            a, b = numpy.pi * r / rings, numpy.pi * s / rings
+            points.append(centre + radius * numpy.array(
+                [numpy.sin(a) * numpy.cos(b), numpy.sin(a) * numpy.sin(b), numpy.cos(a)]))
+    points.append(centre - [0, 0, radius])
+    n, faces = 2 * rings, []
+    for s in range(n):
+        t = (s + 1) % n
+        faces.append((0, 1 + s, 1 + t))
+        for r in range(rings - 2):
+            a, b = 1 + r * n, 1 + (r + 1) * n
+            faces += [(a + s, b + s, b + t), (a + s, b + t, a + t)]
+        faces.append((1 + (rings - 2) * n + s, len(points) - 1, 1 + (rings - 2) * n + t))
+    return numpy.array(points), numpy.array(faces)
+
+
+def write_parts(path, parts, colours):
+    counts = numpy.cumsum([0] + [len(points) for points, _ in parts])
+    write_ply(path, numpy.concatenate([points for points, _ in parts]),
+              numpy.concatenate([faces + counts[i] for i, (_, faces) in enumerate(parts)]),
+              colours=numpy.concatenate([numpy.tile(colour, (len(points), 1))
+                                         for (points, _), colour in zip(parts, colours)]))
+
+
+# Surfaces
+
+
+def load(path):
+    ms = documents()
+    ms.load_new_mesh(path)
+    return ms
+
+
+def marching_cubes_kitten(meshes):
+    """MeshLab's Poisson surface through libcgal-demo's points, then its marching cubes: the second
+    makes the thin triangles, as in the paper's Fig. 4."""
+    ms = load(os.path.join(meshes, "points_3", "kitten.xyz"))
+    ms.generate_surface_reconstruction_screened_poisson(depth=7, threads=1)
+    ms.generate_resampled_uniform_mesh(cellsize=pymeshlab.PercentageValue(0.7))
+    return ms.current_mesh()
+
+
+def cut_below(ms, share, axis=1):
+    """The part of the current mesh above a plane, cut by MeshLab: share of its height goes."""
+    box = ms.current_mesh().bounding_box()
+    low, high = box.min()[axis], box.max()[axis]
+    height = low + share * (high - low)
+    ms.compute_selection_by_condition_per_face(
+        condselect=" && ".join(f"({'xyz'[axis]}{k} < {height})" for k in range(3)))
+    ms.meshing_remove_selected_vertices_and_faces()
+    return ms
+
+
+def far_apart(points, count, first):
+    """Vertices, each as far from those before as possible."""
+    chosen = [first]
+    distance = numpy.linalg.norm(points - points[first], axis=1)
+    while len(chosen) < count:
+        chosen.append(int(numpy.argmax(distance)))
+        distance = numpy.minimum(distance, numpy.linalg.norm(points - points[chosen[-1]], axis=1))
+    return chosen
+
+
+# Pictures
+
+
+def kitten(meshes, out, _):
+    """The paper's Figs 5, 7 and 10: the conventional against the generalized flow."""
+    mesh = marching_cubes_kitten(meshes)
+    generalized = Surface(mesh)
+    conventional = Surface(mesh, circle_packing="Thurston")
+    for name, surface in (("generalized", generalized), ("conventional", conventional)):
+        surface.textured(f"{out}/kitten_{name}.ply", "checkerboard.png", KITTEN, 1.5)
+    compare("kitten", generalized, conventional, out, KITTEN)
+
+
+def rocker_arm(_, out, path):
+    mesh = load(path).current_mesh()
+    compare("rocker_arm", Surface(mesh, target_curvature="Flat everywhere"),
+            Surface(mesh, target_curvature="Flat everywhere", circle_packing="Thurston"), out, (0, 0))
+
+
+def compare(name, generalized, conventional, out, view):
+    """Colours and histograms of both on one scale: from 1 to the generalized flow's largest value."""
+    top = float(generalized.quality.max())
+    table = {"top": top, "bins": 60}
+    for kind, surface in (("generalized", generalized), ("conventional", conventional)):
+        surface.coloured(f"{out}/{name}_qc_{kind}.ply", view, top)
+        counts, _ = numpy.histogram(numpy.clip(surface.quality, 1, top), bins=60, range=(1, top))
+        table[kind] = {"counts": [int(c) for c in counts],
+                       "beyond": int((surface.quality > top).sum()),
+                       "vertices": len(surface.quality),
+                       "mean": surface.results["qc_vertex_mean"]}
+    with open(f"{out}/{name}_qc.json", "w", encoding="utf-8") as target:
+        json.dump(table, target, indent=1)
+
+
+def bunny(meshes, out, _):
+    """The paper's Fig. 1: circles go to circles. Eight cones take the whole curvature."""
+    mesh = load(os.path.join(meshes, "meshes", "bunny00.off")).current_mesh()
+    points = mesh.vertex_matrix()
+    cones = far_apart(points, 8, int(numpy.argmax(points[:, 1])))
+    surface = Surface(mesh, selected=cones, target_curvature="Cones at selected vertices")
+    surface.textured(f"{out}/bunny_circles.ply", "circles.png", BUNNY, 3.0)
+    surface.textured(f"{out}/bunny_checkerboard.ply", "checkerboard.png", BUNNY, 3.0)
+    surface.write_seams(f"{out}/bunny_seams.ply", BUNNY, cones)
+
+
+def lion(meshes, out, _):
+    """The paper's Fig. 11: one surface, two outlines."""
+    mesh = load(os.path.join(meshes, "meshes", "lion-head.off")).current_mesh()
+    for outline in ("Disk", "Rectangle"):
+        surface = Surface(mesh, target_curvature=outline)
+        surface.textured(f"{out}/lion_{outline.lower()}.ply", "checkerboard.png", LION)
+        surface.chart(f"{out}/lion_{outline.lower()}_chart.ply", LION, "checkerboard.png")
+
+
+def mask(meshes, out, _):
+    """The paper's Fig. 12: the boundary keeps its lengths."""
+    ms = cut_below(load(os.path.join(meshes, "meshes", "mannequin-devil.off")), 0.0)
+    upright(ms)
+    cut_below(ms, 0.35, 2)
+    surface = Surface(largest(ms))
+    surface.textured(f"{out}/mask.ply", "checkerboard.png", (20, 0))
+    surface.chart(f"{out}/mask_chart.ply", (20, 0))
+    surface.chart(f"{out}/mask_chart_checkerboard.ply", (20, 0), "checkerboard.png")
+
+
+def bust(meshes, out, _):
+    """The paper's Fig. 13: a bust with a cut in its crown is an annulus; edges are swapped."""
+    ms = load(os.path.join(meshes, "meshes", "mannequin-devil.off"))
+    upright(ms)
+    points = ms.current_mesh().vertex_matrix()
+    top = points[:, 1].max()
+    ms.compute_selection_by_condition_per_vertex(condselect=f"(y > {top - 1.2})")
+    ms.compute_selection_transfer_vertex_to_face()
+    ms.meshing_remove_selected_faces()
+    surface = Surface(largest(ms), target_curvature="Flat everywhere", surgery="Edge swap")
+    print("bust: edge swaps", surface.results["edge_swaps"])
+    surface.textured(f"{out}/bust.ply", "checkerboard.png", (25, 25), 2.0)
+    surface.chart(f"{out}/bust_chart.ply", (25, 25), "checkerboard.png", 2.0)
+
+
+def upright(ms):
+    """The mannequin lies on its back."""
+    ms.compute_matrix_from_rotation(rotaxis="X axis", angle=-90)
+
+
+def largest(ms):
+    """The largest component, without vertices of no face."""
+    ms.generate_splitting_by_connected_components()
+    parts = [ms.mesh(i) for i in range(1, ms.mesh_number())]
+    return max(parts, key=lambda part: part.face_number())
+
+
+KITTEN, BUNNY, LION = (10, 8), (-25, 5), (60, 0)
+PICTURES = {"kitten": kitten, "bunny": bunny, "lion": lion, "mask": mask, "bust": bust}
+
+
+def main(arguments):
+    if len(arguments) < 3:
+        sys.exit(__doc__)
+    plugin, meshes, out = arguments[:3]
+    pymeshlab.load_plugin(plugin)
+    checkerboard(f"{out}/checkerboard.png", 48)
+    circles(f"{out}/circles.png", 36)
+    wanted = os.environ.get("RICCI_PICTURES", " ".join(PICTURES)).split()
+    for name in wanted:
+        PICTURES[name](meshes, out, None)
+    if len(arguments) > 3:
+        rocker_arm(meshes, out, arguments[3])
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

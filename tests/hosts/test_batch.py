@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The sample batch.py: nothing is lost and nothing is done twice.
+Usage: test_batch.py BUILD_DIR [TEST...], with a Python that has PyMeshLab and Dask."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import common
+import meshes
+
+try:
+    from dask import distributed
+except ImportError as problem:
+    common.skip(f"Dask cannot be imported here: {problem}")
+try:
+    import pymeshlab  # noqa: F401
+except ImportError as problem:
+    common.skip(f"PyMeshLab cannot be imported here: {problem}")
+
+PLUGIN = os.path.join(common.BUILD, "pymeshlab-2025.7", "libfilter_ricci.so")
+if not os.path.exists(PLUGIN):
+    common.skip("the plugin for PyMeshLab is not built")
+SCRIPT = os.path.join(common.REPOSITORY, "filter_ricci", "samples", "batch.py")
+COUNT = 12
+
+
+class Batch(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.meshes = os.path.join(folder.name, "meshes")
+        self.out = os.path.join(folder.name, "out")
+        os.makedirs(os.path.join(self.meshes, "more"))
+
+    def write(self, name, mesh):
+        meshes.write_ply(os.path.join(self.meshes, name), mesh)
+
+    def write_tori(self):
+        names = [f"{i}.ply" if i % 2 else f"more/{i}.ply" for i in range(COUNT)]
+        for i, name in enumerate(names):
+            self.write(name, meshes.torus(columns=10 + i))
+        return names
+
+    def start(self, *options, plugin=PLUGIN):
+        return subprocess.Popen([sys.executable, SCRIPT, plugin, self.meshes, self.out, *options],
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def start_cluster(self):
+        """Two workers in a process of their own; the scheduler's address."""
+        cluster = subprocess.Popen(
+            [sys.executable, "-c",
+             "from dask.distributed import LocalCluster\n"
+             "with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as c:\n"
+             "    print(c.scheduler_address, flush=True)\n"
+             "    input()\n"],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.addCleanup(cluster.wait)
+        self.addCleanup(cluster.stdout.close)
+        self.addCleanup(cluster.stdin.close)
+        return cluster.stdout.readline().strip()
+
+    def batch(self, *options, **others):
+        process = self.start(*options, **others)
+        printed, errors = process.communicate(timeout=800)
+        return process.returncode, printed + errors
+
+    def records(self):
+        found = {}
+        for place, _, names in os.walk(self.out):
+            for name in names:
+                if name.endswith(".json"):
+                    path = os.path.join(place, name)
+                    with open(path, encoding="utf-8") as source:
+                        found[os.path.relpath(path, self.out)[:-5]] = json.load(source)
+        return found
+
+    def times(self):
+        return {mesh: os.stat(os.path.join(self.out, mesh + ".json")).st_mtime_ns
+                for mesh in self.records()}
+
+    def check_solved(self, names):
+        records = self.records()
+        self.assertEqual(set(records), set(names))
+        for name in names:
+            self.assertEqual(records[name]["state"], "solved", records[name])
+            self.assertEqual(records[name]["results"]["genus"], 1)
+            mesh = meshes.read_ply(os.path.join(self.out, name + ".ply"))
+            self.assertIsNotNone(mesh.wedges)
+        with open(os.path.join(self.out, "results.csv"), encoding="utf-8", newline="") as source:
+            rows = list(csv.DictReader(source))
+        self.assertEqual(sorted(row["mesh"] for row in rows), sorted(names))
+        self.assertEqual(os.path.getsize(os.path.join(self.out, "failures.txt")), 0)
+        left = [name for _, _, files in os.walk(self.out) for name in files if ".part" in name]
+        self.assertEqual(left, [])
+
+    def test_killed_worker_loses_nothing(self):
+        names = self.write_tori()
+        address = self.start_cluster()
+        process = self.start("--scheduler", address)
+        with distributed.Client(address) as client:
+            while len(self.records()) < 2 and process.poll() is None:
+                time.sleep(0.05)
+            self.assertIsNone(process.poll(), "the batch ended too early")
+            workers = client.run(os.getpid)
+            os.kill(next(iter(workers.values())), signal.SIGKILL)
+            self.assertLess(len(self.records()), COUNT, "the batch was over already")
+        printed, errors = process.communicate(timeout=800)
+        self.assertEqual(process.returncode, 0, printed + errors)
+        self.check_solved(names)
+
+        # A second run has nothing to do; without two of the results, those two.
+        before = self.times()
+        code, text = self.batch("--workers", "1")
+        self.assertEqual(code, 0, text)
+        self.assertIn(f"{COUNT} meshes, {COUNT} done before, 0 to run", text)
+        self.assertEqual(self.times(), before)
+        missing = [names[3], names[4]]
+        for name in missing:
+            os.remove(os.path.join(self.out, name + ".json"))
+        code, text = self.batch("--workers", "1")
+        self.assertEqual(code, 0, text)
+        self.assertIn("2 to run", text)
+        after = self.times()
+        self.assertEqual({name for name in names if after[name] != before[name]}, set(missing))
+        self.check_solved(names)
+
+    def test_other_parameters_or_another_mesh_run_again(self):
+        self.write("one.ply", meshes.hill(6))
+        self.write("two.ply", meshes.hill(7))
+        self.assertEqual(self.batch("--workers", "1")[0], 0)
+        code, text = self.batch("--workers", "1", "--set", "target_curvature=Disk")
+        self.assertIn("2 to run", text)
+        self.write("two.ply", meshes.hill(8))
+        code, text = self.batch("--workers", "1", "--set", "target_curvature=Disk")
+        self.assertEqual(code, 0, text)
+        self.assertIn("1 to run", text)
+
+    def test_refusals_and_failures_are_listed(self):
+        self.write("good.ply", meshes.torus())
+        self.write("moebius.ply", meshes.moebius())
+        code, text = self.batch("--workers", "1")
+        self.assertEqual(code, 0, text)
+        record = self.records()["moebius.ply"]
+        self.assertEqual(record["state"], "refused")
+        self.assertIn("not orientable", record["reason"])
+        with open(os.path.join(self.out, "failures.txt"), encoding="utf-8") as source:
+            self.assertRegex(source.read(), r"^moebius.ply\trefused\t.*not orientable")
+
+        # A process that dies or lasts too long is a failure of its mesh alone.
+        code, text = self.batch("--workers", "1", "--timeout", "0.001", "--set", "max_iterations=99")
+        self.assertEqual(code, 1, text)
+        self.assertEqual({r["state"] for r in self.records().values()}, {"timeout"})
+        with open(os.path.join(self.out, "broken.so"), "wb") as broken:
+            broken.write(b"no plugin")
+        code, text = self.batch("--workers", "1", plugin=os.path.join(self.out, "broken.so"))
+        self.assertEqual(code, 1, text)
+        self.assertEqual({r["state"] for r in self.records().values()}, {"crashed"})
+        self.assertIn("0 to run", self.batch("--workers", "1", plugin=os.path.join(
+            self.out, "broken.so"))[1])
+        self.assertIn("2 to run", self.batch("--workers", "1", "--retry", plugin=os.path.join(
+            self.out, "broken.so"))[1])
+
+
+if __name__ == "__main__":
+    common.main()

@@ -1,0 +1,110 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# test_packages.sh BUILD_DIR: what a person installs is complete, needs only what its host brings, and
+# can be taken back. Exit 77: CPack is missing.
+set -euo pipefail
+build=$(cd "${1:?usage: test_packages.sh BUILD_DIR}" && pwd)
+folder=$(mktemp -d)
+name=meshlab-filter-ricci
+
+fail() {
+	echo "FAILED: $*"
+	exit 1
+}
+
+# An installation that the user made from this build folder must stay known to "uninstall".
+put_manifests_away() {
+	mkdir "$folder/manifests"
+	mv "$build"/install_manifest*.txt "$folder/manifests/" 2>/dev/null || true
+}
+
+finish() {
+	rm -f "$build"/install_manifest*.txt
+	mv "$folder"/manifests/* "$build/" 2>/dev/null || true
+	rm -rf "$folder"
+}
+
+hosts() {
+	local host
+	for host in meshlab-2020.09 meshlab-2022.02 meshlab-2025.07 pymeshlab-2025.7; do
+		[ ! -f "$build/$host/libfilter_ricci.so" ] || echo "$host"
+	done
+}
+
+check_folder() {
+	local file kind=mlx
+	[[ $2 != pymeshlab* ]] || kind=py
+	for file in libfilter_ricci.so INSTALL.txt LICENSE; do
+		[ -s "$1/$2/$file" ] || fail "$1/$2 has no $file"
+	done
+	compgen -G "$1/$2/samples/*.$kind" >/dev/null || fail "$1/$2 has no samples"
+	check_needs "$1/$2/libfilter_ricci.so" "$2"
+}
+
+# Only the MeshLab of Debian 12 has SuiteSparse beside it.
+check_needs() {
+	local allowed='lib(meshlab-common|Qt5(Widgets|Gui|Core|Xml|OpenGL|Network)|stdc\+\+|m|gcc_s|c|gomp)\.so'
+	[ "$2" != meshlab-2020.09 ] || allowed="($allowed|libcholmod\.so)"
+	readelf -d "$1" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' | grep -Ev "^$allowed|^ld-linux" &&
+		fail "$1 needs a library that its host may not have"
+	readelf -d "$1" | grep -E 'RPATH|RUNPATH' && fail "$1 looks for libraries in a folder of this machine"
+	return 0
+}
+
+check_install() {
+	cmake --install "$build" --prefix "$folder/prefix" >"$folder/log" || fail "cmake --install"
+	local host
+	for host in $(hosts); do check_folder "$folder/prefix" "$host"; done
+	uninstall
+	[ -z "$(find "$folder/prefix" -type f)" ] || fail "uninstall leaves $(find "$folder/prefix" -type f)"
+}
+
+check_system_install() {
+	[ -f "$build/meshlab-2020.09/libfilter_ricci.so" ] || return 0
+	export DESTDIR=$folder/root
+	cmake --install "$build" --prefix /usr --component system >"$folder/log" || fail "cmake --install"
+	compgen -G "$DESTDIR/usr/lib/*/meshlab/plugins/libfilter_ricci.so" >/dev/null ||
+		fail "the plugin is not in MeshLab's folder"
+	uninstall
+	[ -z "$(find "$DESTDIR" -type f)" ] || fail "uninstall leaves $(find "$DESTDIR" -type f)"
+	unset DESTDIR
+}
+
+uninstall() {
+	cmake "-DBUILD_DIR=$build" -P "$here/../../filter_ricci/packaging/uninstall.cmake" >"$folder/log" ||
+		fail "uninstall"
+}
+
+check_packages() {
+	(cd "$folder" && cpack --config "$build/CPackConfig.cmake" -B "$folder/packages" >"$folder/log" 2>&1) ||
+		{ tail -n 20 "$folder/log"; fail "cpack"; }
+	local host archive
+	for host in $(hosts); do
+		archive=$(compgen -G "$folder/packages/$name-*-$host-*.tar.gz") || fail "no archive for $host"
+		tar -xzf "$archive" -C "$folder"
+		check_folder "$folder" "$host"
+	done
+	grep -q 'CPACK_GENERATOR "TGZ;DEB"' "$build/CPackConfig.cmake" || return 0
+	check_deb "$(compgen -G "$folder/packages/$name"_*.deb)"
+}
+
+check_deb() {
+	dpkg-deb -f "$1" Depends | tee "$folder/depends"
+	local wanted
+	for wanted in 'meshlab (>= 2020.09)' 'meshlab (<< 2020.10)' libqt5widgets5 libstdc++6; do
+		grep -qF "$wanted" "$folder/depends" || fail "the .deb does not depend on $wanted"
+	done
+	dpkg-deb -c "$1" >"$folder/content"
+	grep -q '/usr/lib/[^/]*/meshlab/plugins/libfilter_ricci.so$' "$folder/content" || fail "the .deb has no plugin"
+	grep -q "/usr/share/doc/$name/copyright$" "$folder/content" || fail "the .deb has no licence"
+}
+
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+command -v cpack >/dev/null || { echo "SKIPPED: cpack is not installed"; exit 77; }
+[ -n "$(hosts)" ] || { echo "SKIPPED: no plugin is built"; exit 77; }
+trap finish EXIT
+put_manifests_away
+check_install
+check_system_install
+check_packages
+echo "Installed, packed and removed again: $(hosts | tr '\n' ' ')"
