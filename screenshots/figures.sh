@@ -3,7 +3,7 @@
 # figures.sh [ROCKER_ARM.ply]: the pictures after the paper's figures. PyMeshLab runs the filter on
 # MeshLab's own surfaces and on Debian's libcgal-demo meshes, and the window of stock MeshLab 2020.09
 # shows the layers on a display without a screen. Needs what tests/run.sh installs and builds.
-# RICCI_PICTURES="bunny lion" makes some of them only.
+# RICCI_PICTURES="bunny bust" makes some of them only.
 set -euo pipefail
 # shellcheck source=../filter_ricci/scripts/machine.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../filter_ricci/scripts/machine.sh"
@@ -55,7 +55,7 @@ shoot() {
 }
 
 has() {
-	[[ " ${RICCI_PICTURES-kitten bunny lion mask bust} " == *" $1 "* ]]
+	[[ " ${RICCI_PICTURES-kitten bunny mask bust} " == *" $1 "* ]]
 }
 
 # row OUT NAME=TEXT...: pictures side by side on white, of one height, with a line of text under each.
@@ -66,44 +66,41 @@ row() {
 		parts+=('(' "$work/${pair%%=*}.png" -resize x460 -gravity center -background white
 			-bordercolor white -border 8 -pointsize 17 "label:${pair#*=}" -append ')')
 	done
-	convert -background white -font DejaVu-Sans "${parts[@]}" -gravity south +append -strip \
+	convert -background white -font DejaVu-Sans "${parts[@]}" -gravity south +append -strip +dither -colors 255 \
 		-define png:compression-level=9 "$here/$out.png"
 	echo "screenshots/$out.png: $(($(stat -c %s "$here/$out.png") / 1024)) KB"
 }
 
 # histogram NAME KIND: bars of one flow, on the scale of both.
 histogram() {
-	python3 - "$work/$1_qc.json" "$2" <<'PYTHON' | convert -density 96 svg:- "$work/$1_histogram_$2.png"
+	local drawing
+	drawing=$(python3 - "$work/$1_qc.json" "$2" <<'PYTHON'
 import json
 import sys
 
 table = json.load(open(sys.argv[1], encoding="utf-8"))
 flow = table[sys.argv[2]]
-most = max(max(table[kind]["counts"]) for kind in ("generalized", "conventional"))
-width, height, left, base = 520, 330, 20, 270
-bar = (width - 2 * left) / table["bins"]
-out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}">',
-       f'<rect width="{width}" height="{height}" fill="white"/>']
+most = max(flow["counts"])
+left, right, top, base = 20, 500, 20, 270
+bar = (right - left) / table["bins"]
+stops = [(0, 0, 255), (0, 255, 255), (0, 255, 0), (255, 255, 0), (255, 0, 0)]
 for i, count in enumerate(flow["counts"]):
     t = 4 * (i + 0.5) / table["bins"]
-    stops = [(0, 0, 255), (0, 255, 255), (0, 255, 0), (255, 255, 0), (255, 0, 0)]
     a, b = stops[int(t)], stops[min(int(t) + 1, 4)]
-    colour = tuple(round(p + (t - int(t)) * (q - p)) for p, q in zip(a, b))
-    high = (base - 20) * count / most
-    out.append(f'<rect x="{left + i * bar:.2f}" y="{base - high:.2f}" width="{bar:.2f}" '
-               f'height="{high:.2f}" fill="rgb{colour}"/>')
-out.append(f'<line x1="{left}" x2="{width - left}" y1="{base}" y2="{base}" stroke="black"/>')
-for share in (0, 0.5, 1):
-    x = left + share * (width - 2 * left)
-    anchor = ("start", "middle", "end")[round(2 * share)]
-    out.append(f'<text x="{x}" y="{base + 20}" font-family="DejaVu Sans" font-size="15" '
-               f'text-anchor="{anchor}">{1 + share * (table["top"] - 1):.2f}</text>')
-share = 100 * flow["beyond"] / flow["vertices"]
-out.append(f'<text x="{width / 2}" y="{base + 46}" font-family="DejaVu Sans" font-size="15" '
-           f'text-anchor="middle">mean {flow["mean"]:.4f}; {share:.1f} % of the vertices beyond the '
-           'scale, in the last bar</text>')
-print("\n".join(out + ["</svg>"]))
+    colour = ",".join(str(round(p + (t - int(t)) * (q - p))) for p, q in zip(a, b))
+    high = (base - top) * count / most
+    if count:
+        print(f"fill rgb({colour}) rectangle {left + i * bar:.1f},{base - max(high, 1):.1f} "
+              f"{left + (i + 1) * bar - 1:.1f},{base}")
+print(f"fill black line {left},{base} {right},{base}")
+beyond = 100 * flow["beyond"] / flow["vertices"]
+for x, y, text in ((left, 20, "1"), (right - 40, 20, f"{table['top']:.3f}"),
+                   (left + 60, 44, f"mean {flow['mean']:.4f}, {beyond:.1f} % beyond, in the last bar")):
+    print(f"text {x},{base + y} '{text}'")
 PYTHON
+	)
+	convert -size 520x330 xc:white -font DejaVu-Sans -pointsize 15 -draw "$drawing" \
+		"$work/$1_histogram_$2.png"
 }
 
 compare() {
@@ -130,24 +127,20 @@ make_pictures() {
 		row bunny "bunny_circles=circles of the plane on the surface (Fig. 1)" \
 			"bunny_seams=seams and cones"
 	fi
-	if has lion; then
-		local outline
-		for outline in disk rectangle; do
-			shoot lion_$outline lion_$outline.ply
-			shoot lion_${outline}_chart lion_${outline}_chart.ply
-		done
-		row outlines "lion_disk=Disk" "lion_disk_chart=its chart" "lion_rectangle=Rectangle" \
-			"lion_rectangle_chart=its chart"
-	fi
 	if has mask; then
-		shoot mask mask.ply
-		shoot mask_chart mask_chart.ply
-		row free_boundary "mask=free boundary (Fig. 12)" "mask_chart=its chart"
+		local outline
+		for outline in disk rectangle free; do
+			shoot mask_$outline mask_$outline.ply
+			shoot mask_${outline}_chart mask_${outline}_chart.ply
+		done
+		row outlines "mask_disk=Disk" "mask_disk_chart=its chart" \
+			"mask_rectangle=Rectangle" "mask_rectangle_chart=its chart (Fig. 11)"
+		row free_boundary "mask_free=free boundary (Fig. 12)" "mask_free_chart=its chart"
 	fi
 	if has bust; then
 		shoot bust bust.ply
 		shoot bust_chart bust_chart.ply
-		row annulus "bust=an annulus, edges swapped (Fig. 13)" "bust_chart=its chart"
+		row annulus "bust=$(cat bust.txt)" "bust_chart=its chart"
 	fi
 	[ $# -eq 0 ] || compare rocker_arm rocker_arm_distortion
 }

@@ -126,6 +126,17 @@ void colorizeByDistortion(MeshModel& model, const ricci::Report& report)
 		model.cm, static_cast<Scalarm>(1.0), static_cast<Scalarm>(top));
 }
 
+/// Nothing of what the filter writes is drawn by itself.
+const char* whereToLook(const Settings& settings)
+{
+	return settings.colorize
+			   ? "To see it: 'Set Texture' (Filters > Texture) lays an image on the surface; the "
+				 "colours show the distortion, Render > 'Quality Histogram' how it is spread."
+			   : "To see it: 'Set Texture' (Filters > Texture) lays an image on the surface; "
+				 "'Colorize by vertex Quality' (Filters > Color Creation and Processing) shows the "
+				 "distortion, Render > 'Quality Histogram' how it is spread.";
+}
+
 int changedElements(const Settings& settings)
 {
 	int elements = MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY;
@@ -222,6 +233,7 @@ Outcome applyFilter(
 		log(line);
 	for (const std::string& file : written)
 		log("Report: " + file);
+	log(whereToLook(settings));
 	return {results, changedElements(settings)};
 }
 

@@ -16,6 +16,7 @@ open_display() {
 	window_folder=$1
 	mkdir -p "$window_folder/home/.config/VCG" "$window_folder/home/runtime"
 	chmod 700 "$window_folder/home/runtime"
+	rm -f "$window_folder/display" # that of an earlier run
 	Xvfb -displayfd 3 -screen 0 1400x900x24 -nolisten tcp 3>"$window_folder/display" \
 		>"$window_folder/xvfb.log" 2>&1 &
 	xvfb_pid=$!
@@ -68,7 +69,7 @@ open_meshlab() {
 	: >"$meshlab_log" # here, or the wait below may still read the last run's log
 	"$@" >>"$meshlab_log" 2>&1 &
 	meshlab_pid=$!
-	wait_until 60 grep -q 'All files opened' "$meshlab_log" || return 1
+	wait_until 240 grep -q 'All files opened' "$meshlab_log" || return 1
 	main_window=$(xdotool search --onlyvisible --name 'MeshLab 20[0-9][0-9]' | head -n 1)
 	[ -n "$main_window" ] || return 1
 	sleep 1
