@@ -156,15 +156,21 @@ def solve_here(job):
         answer["results"] = documents.apply_filter(job["filter"], **job["parameters"])
         answer["results"] = {key: result if isinstance(result, (bool, int, float)) else list(result)
                              for key, result in answer["results"].items()}
-        target = os.path.join(job["out"], job["mesh"] + ".ply")
-        partial = f"{target}.{os.getpid()}.part.ply"
-        documents.save_current_mesh(partial, save_wedge_texcoord=True, save_vertex_quality=True)
-        os.replace(partial, target)
     except pymeshlab.PyMeshLabException as refusal:
         answer = {"state": "refused", "reason": str(refusal).split("Details: ")[-1].strip()}
+    if answer["state"] == "solved":
+        save(documents, os.path.join(job["out"], job["mesh"] + ".ply"))
     print("\n" + json.dumps(answer), flush=True)
     # PyMeshLab 2025.7 may crash while it takes down a MeshSet in which a filter has failed.
     os._exit(0)
+
+
+def save(documents, target):
+    """Complete or not at all. What it throws ends the process: the mesh then counts as crashed."""
+    os.makedirs(os.path.dirname(target), exist_ok=True)
+    partial = f"{target}.{os.getpid()}.part.ply"
+    documents.save_current_mesh(partial, save_wedge_texcoord=True, save_vertex_quality=True)
+    os.replace(partial, target)
 
 
 def run_all(options, jobs):

@@ -13,16 +13,42 @@ fail() {
 	exit 1
 }
 
-install_plugin() {
-	local extra=$HOME/.local/share/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/2025.07
-	mkdir -p "$extra"
-	cp libfilter_ricci.so "$extra/"
+extra=MeshLab_64bit_fp/MeshLabExtraPlugins/2025.07/libfilter_ricci.so
+
+# Help > Plugin Info > Load Plugins, as a person would.
+load_plugin() {
+	local dialog X Y WIDTH HEIGHT SCREEN WINDOW
+	xdotool mousemove 375 28 click 1
+	sleep 2
+	xdotool mousemove 416 73
+	sleep 1
+	xdotool click 1
+	wait_until 60 find_window 'Plugin Information' || return 1
+	sleep 3
+	dialog=$(find_window 'Plugin Information')
+	eval "$(xdotool getwindowgeometry --shell "$dialog")"
+	xdotool mousemove --window "$dialog" 52 $((HEIGHT - 24))
+	sleep 1
+	xdotool click 1
+	wait_until 60 find_window 'Load Plugins' || return 1
+	sleep 2
+	xdotool type --delay 60 "$PWD/libfilter_ricci.so"
+	sleep 2
+	xdotool key Return # the name that the field proposes
+	sleep 2
+	xdotool key Return
+	wait_until 60 test -f "$HOME/.local/share/VCG/$extra" || return 1
+	sleep 3
+	picture plugin_2025.png
+	xdotool key Return
+	sleep 2
 }
 
 trap close_display EXIT
 open_display /ricci/display || { echo "SKIPPED: no display could be opened"; exit 77; }
-install_plugin
+rm -f "$HOME/.local/share/VCG/$extra"
 open_meshlab meshlab torus.ply || fail "MeshLab did not open the torus"
+load_plugin || fail "the plugin was not loaded through the menu"
 open_filter "$name" || fail "the filter's dialog did not open"
 picture dialog_2025.png
 press_apply "$name"
