@@ -54,6 +54,20 @@ struct BasicDiskIsometry
 	/// 2 |cos(angle / 2)| for a rotation.
 	T trace() const { return 2 * a.real(); }
 
+	/// End points on the unit circle of the geodesic along which the motion moves its points, in its
+	/// direction. \return false if there is none (rotations and limits of rotations)
+	bool axis(Complex& from, Complex& to) const
+	{
+		// Fixed points: conj(b) z^2 - 2 i Im(a) z - b = 0.
+		const T sine = a.imag(), root = std::abs(b) * std::abs(b) - sine * sine;
+		if (!(root > 0) || !(std::abs(a.real()) > 1))
+			return false;
+		const T sign = a.real() < 0 ? -1 : 1;
+		to = (Complex(0, sine) + sign * std::sqrt(root)) / std::conj(b);
+		from = (Complex(0, sine) - sign * std::sqrt(root)) / std::conj(b);
+		return true;
+	}
+
 	/// Divides by the root of |a|^2 - |b|^2, which products of rounded factors keep at 1 only
 	/// nearly (and not at all where both are above 1e8).
 	BasicDiskIsometry normalised() const
