@@ -24,6 +24,12 @@ namespace {
 /// Share of the work that the map to the sphere takes beside the map to the plane.
 constexpr double kSphereShare = 0.4;
 
+/// Faces that the layer of the universal cover may have.
+constexpr std::size_t kMostCoverFaces = 5000000;
+
+/// Edges that an axis is drawn with.
+constexpr int kAxisPieces = 200;
+
 class HostProgress : public ricci::Progress
 {
 public:
@@ -65,7 +71,7 @@ private:
 	double from_, to_;
 };
 
-MeshModel& checkedMesh(MeshDocument& md, const Settings& settings)
+MeshModel& checkedMesh(MeshDocument& md, bool readsQuality)
 {
 	MeshModel* model = md.mm();
 	if (model == nullptr)
@@ -76,46 +82,74 @@ MeshModel& checkedMesh(MeshDocument& md, const Settings& settings)
 				? "The mesh is empty. Choose a mesh with triangles."
 				: "The mesh is a point cloud: it has vertices but no faces. Reconstruct a surface "
 				  "first.");
-	if (settings.flow.target == ricci::TargetCurvature::Prescribed &&
-		!model->hasDataMask(MeshModel::MM_VERTQUALITY))
+	if (readsQuality && !model->hasDataMask(MeshModel::MM_VERTQUALITY))
 		throw ricci::InvalidOption(
 			"target_curvature is From vertex quality, but the mesh has no vertex quality. Store "
 			"the curvature of each vertex, in radians, as its quality first.");
 	return *model;
 }
 
-/// Fills a new layer; it disappears again when filling it fails.
-MeshModel* addFlatLayer(MeshDocument& md, MeshModel& model, const Flow::Result& result)
+/// Layers added by one run; they disappear again unless it comes to its end.
+class NewLayers
 {
-	MeshModel* flat = md.addNewMesh(QString(), "Flat " + model.label(), false);
-	try {
-		flat->updateDataMask(MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY);
-		Flow::BuildFlatMesh(model.cm, result, flat->cm);
-		vcg::tri::UpdateBounding<CMeshO>::Box(flat->cm);
-		vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(flat->cm);
-		host::copyTextures(model, *flat);
-		return flat;
+public:
+	explicit NewLayers(MeshDocument& md) : m_md(md) {}
+	NewLayers(const NewLayers&) = delete;
+	NewLayers& operator=(const NewLayers&) = delete;
+	~NewLayers()
+	{
+		for (MeshModel* layer : m_layers)
+			host::removeMesh(m_md, layer);
 	}
-	catch (...) {
-		host::removeMesh(md, flat);
-		throw;
+
+	MeshModel& add(const QString& label)
+	{
+		m_layers.reserve(m_layers.size() + 1);
+		m_layers.push_back(m_md.addNewMesh(QString(), label, false));
+		return *m_layers.back();
 	}
+
+	void keep() { m_layers.clear(); }
+
+private:
+	MeshDocument& m_md;
+	std::vector<MeshModel*> m_layers;
+};
+
+void addFlatLayer(
+	NewLayers& layers, MeshModel& model, const QString& name, const Flow::Result& result)
+{
+	MeshModel& flat = layers.add(name + " " + model.label());
+	flat.updateDataMask(MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY);
+	Flow::BuildFlatMesh(model.cm, result, flat.cm);
+	vcg::tri::UpdateBounding<CMeshO>::Box(flat.cm);
+	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(flat.cm);
+	host::copyTextures(model, flat);
 }
 
-/// The same with the mesh on the sphere.
-MeshModel* addSphereLayer(MeshDocument& md, MeshModel& model, const ricci::SphereMap& map)
+void addCoverLayer(NewLayers& layers, MeshModel& model, int rings, const Flow::Result& result)
 {
-	MeshModel* sphere = md.addNewMesh(QString(), "Sphere of " + model.label(), false);
-	try {
-		Flow::BuildSphereMesh(model.cm, map, sphere->cm);
-		vcg::tri::UpdateBounding<CMeshO>::Box(sphere->cm);
-		vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(sphere->cm);
-		return sphere;
-	}
-	catch (...) {
-		host::removeMesh(md, sphere);
-		throw;
-	}
+	MeshModel& cover = layers.add("Universal cover " + model.label());
+	cover.updateDataMask(MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY);
+	Flow::BuildUniversalCover(model.cm, result, rings, kMostCoverFaces, cover.cm);
+	vcg::tri::UpdateBounding<CMeshO>::Box(cover.cm);
+	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(cover.cm);
+}
+
+void addAxesLayer(NewLayers& layers, MeshModel& model, const Flow::Result& result)
+{
+	MeshModel& axes = layers.add("Axes " + model.label());
+	Flow::BuildAxes(result, kAxisPieces, axes.cm);
+	vcg::tri::UpdateBounding<CMeshO>::Box(axes.cm);
+}
+
+/// The mesh on the sphere.
+void addSphereLayer(NewLayers& layers, MeshModel& model, const ricci::SphereMap& map)
+{
+	MeshModel& sphere = layers.add("Sphere of " + model.label());
+	Flow::BuildSphereMesh(model.cm, map, sphere.cm);
+	vcg::tri::UpdateBounding<CMeshO>::Box(sphere.cm);
+	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(sphere.cm);
 }
 
 void colorizeByDistortion(MeshModel& model, const ricci::Report& report)
@@ -127,30 +161,31 @@ void colorizeByDistortion(MeshModel& model, const ricci::Report& report)
 }
 
 /// Nothing of what the filter writes is drawn by itself.
-const char* whereToLook(const Settings& settings)
+const char* whereToLook(bool colorize)
 {
-	return settings.colorize
+	return colorize
 			   ? "To see it: 'Set Texture' (Filters > Texture) lays an image on the surface; the "
 				 "colours show the distortion, Render > 'Quality Histogram' how it is spread."
 			   : "To see it: 'Set Texture' (Filters > Texture) lays an image on the surface; "
-				 "'Colorize by vertex Quality' (Filters > Color Creation and Processing) shows the "
-				 "distortion, Render > 'Quality Histogram' how it is spread.";
+				 "'Colorize by vertex Quality' (Filters > Color Creation and Processing) shows "
+				 "the distortion, Render > 'Quality Histogram' how it is spread.";
 }
 
-int changedElements(const Settings& settings)
+int changedElements(bool colorize, ricci::OutputTriangulation output)
 {
 	int elements = MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY;
-	if (settings.colorize)
+	if (colorize)
 		elements |= MeshModel::MM_VERTCOLOR;
-	if (settings.flow.output == ricci::OutputTriangulation::CommonRefinement)
+	if (output == ricci::OutputTriangulation::CommonRefinement)
 		elements |= MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
 	return elements;
 }
 
-void writeMesh(MeshModel& model, const Settings& settings, const Flow::Result& result)
+void writeMesh(
+	MeshModel& model, bool colorize, ricci::OutputTriangulation output, const Flow::Result& result)
 {
-	model.updateDataMask(changedElements(settings));
-	if (settings.flow.output == ricci::OutputTriangulation::CommonRefinement) {
+	model.updateDataMask(changedElements(colorize, output));
+	if (output == ricci::OutputTriangulation::CommonRefinement) {
 		model.clearDataMask(MeshModel::MM_FACEFACETOPO | MeshModel::MM_VERTFACETOPO);
 		Flow::WriteRefinement(model.cm, result);
 		vcg::tri::UpdateNormal<CMeshO>::PerFaceNormalized(model.cm);
@@ -159,31 +194,79 @@ void writeMesh(MeshModel& model, const Settings& settings, const Flow::Result& r
 		Flow::WriteWedgeTexCoord(model.cm, result);
 		Flow::WriteVertexQuality(model.cm, result);
 	}
-	if (settings.colorize)
+	if (colorize)
 		colorizeByDistortion(model, result.report);
 }
 
-/// The new layers, which need the most memory, come first: a failure there leaves the mesh alone.
-void writeResult(
-	MeshDocument& md,
-	MeshModel& model,
-	const Settings& settings,
+// The new layers, which need the most memory, come before the mesh: a failure there leaves it alone.
+
+/// Before the mesh is touched, so that a full disk leaves it as it was.
+void writeReport(
+	const ReportFiles& files,
+	int filter,
+	const RichParameterList& par,
+	const MeshModel& model,
 	const Flow::Result& result,
-	const ricci::SphereMap& sphere)
+	const Results& results,
+	ricci::Progress& progress)
 {
-	std::vector<MeshModel*> layers;
-	try {
-		if (settings.flatLayer)
-			layers.push_back(addFlatLayer(md, model, result));
-		if (settings.sphereLayer)
-			layers.push_back(addSphereLayer(md, model, sphere));
-		writeMesh(model, settings, result);
-	}
-	catch (...) {
-		for (MeshModel* layer : layers)
-			host::removeMesh(md, layer);
-		throw;
-	}
+	const RunReport report = {
+		filterText(filter).name.toStdString(),
+		model.shortName().toStdString(),
+		settingsAsText(par),
+		result.notes,
+		results,
+		result.report};
+	for (const std::string& file : files.write(report))
+		progress.log("Report: " + file);
+}
+
+Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Progress& progress)
+{
+	const Settings settings = readSettings(par);
+	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::TargetCurvature::Prescribed);
+	const ReportFiles reportFiles(settings.report, model.pathName());
+	// The sphere first: it refuses most surfaces.
+	const double share = settings.sphereLayer ? kSphereShare : 0.0;
+	PartOfProgress before(progress, 0.0, share), after(progress, share, 1.0);
+	ricci::SphereMap sphere;
+	if (settings.sphereLayer)
+		sphere = Flow::ComputeSphere(model.cm, settings.flow, before);
+	const Flow::Result result = Flow::Compute(model.cm, settings.flow, after);
+	Results results = toResults(result.report);
+	if (settings.sphereLayer)
+		addSphereResults(sphere, results);
+	writeReport(reportFiles, Euclidean, par, model, result, results, progress);
+	NewLayers layers(md);
+	if (settings.flatLayer)
+		addFlatLayer(layers, model, "Flat", result);
+	if (settings.sphereLayer)
+		addSphereLayer(layers, model, sphere);
+	writeMesh(model, settings.colorize, settings.flow.output, result);
+	layers.keep();
+	return {results, changedElements(settings.colorize, settings.flow.output)};
+}
+
+Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::Progress& progress)
+{
+	const HyperbolicSettings settings = readHyperbolicSettings(par);
+	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::HyperbolicTarget::Prescribed);
+	const ReportFiles reportFiles(settings.report, model.pathName());
+	const Flow::Result result = Flow::ComputeHyperbolic(model.cm, settings.flow, progress);
+	Results results = toResults(result.report);
+	if (result.groups.size() == 1)
+		results.emplace_back("generators", toNumbers(result.groups.front()));
+	writeReport(reportFiles, Hyperbolic, par, model, result, results, progress);
+	NewLayers layers(md);
+	if (settings.flatLayer)
+		addFlatLayer(layers, model, "Disk", result);
+	if (settings.coverRings > 0)
+		addCoverLayer(layers, model, settings.coverRings, result);
+	if (settings.axes)
+		addAxesLayer(layers, model, result);
+	writeMesh(model, settings.colorize, settings.flow.output, result);
+	layers.keep();
+	return {results, changedElements(settings.colorize, settings.flow.output)};
 }
 
 } // namespace
@@ -206,35 +289,13 @@ Outcome applyFilter(
 	vcg::CallBackPos* callback,
 	const Log& log)
 {
-	const Settings settings = readSettings(filter, par);
-	MeshModel& model = checkedMesh(md, settings);
-	const ReportFiles reportFiles(settings.report, model.pathName());
 	HostProgress progress(callback, log);
-	// The sphere first: it refuses most surfaces.
-	const double share = settings.sphereLayer ? kSphereShare : 0.0;
-	PartOfProgress before(progress, 0.0, share), after(progress, share, 1.0);
-	ricci::SphereMap sphere;
-	if (settings.sphereLayer)
-		sphere = Flow::ComputeSphere(model.cm, settings.flow, before);
-	const Flow::Result result = Flow::Compute(model.cm, settings.flow, after);
-	Results results = toResults(result.report);
-	if (settings.sphereLayer)
-		addSphereResults(sphere, results);
-	// Before the mesh, so that a full disk leaves it as it was.
-	const std::vector<std::string> written = reportFiles.write(
-		{filterText(filter).name.toStdString(),
-		 model.shortName().toStdString(),
-		 settingsAsText(par),
-		 result.notes,
-		 results,
-		 result.report});
-	writeResult(md, model, settings, result, sphere);
-	for (const std::string& line : toLogLines(results))
+	const Outcome outcome = filter == Hyperbolic ? applyHyperbolic(par, md, progress)
+												 : applyEuclidean(par, md, progress);
+	for (const std::string& line : toLogLines(outcome.results))
 		log(line);
-	for (const std::string& file : written)
-		log("Report: " + file);
-	log(whereToLook(settings));
-	return {results, changedElements(settings)};
+	log(whereToLook(par.getBool("colorize")));
+	return outcome;
 }
 
 std::string currentErrorSentence()

@@ -17,7 +17,7 @@
 namespace filter_ricci {
 
 /// Ids of the filters of this plugin, in menu order.
-enum FilterId { Euclidean };
+enum FilterId { Euclidean, Hyperbolic };
 
 struct FilterText
 {
@@ -39,7 +39,7 @@ int preConditions();
 /// every change of a parameter and leave a new layer each time.
 int postConditions();
 
-using Value = std::variant<bool, int, double>;
+using Value = std::variant<bool, int, double, std::vector<double>>;
 using Results = std::vector<std::pair<std::string, Value>>;
 using Log = std::function<void(const std::string&)>;
 

@@ -42,6 +42,17 @@ QStringList holesChoices()
 	return {"Boundaries", "Capped"};
 }
 
+QStringList hyperbolicTargetChoices()
+{
+	return {"Hyperbolic metric", "Cones at selected vertices", "From vertex quality"};
+}
+
+// The hyperbolic flow has no edge swap.
+QStringList hyperbolicSurgeryChoices()
+{
+	return {"None", "Intrinsic flips"};
+}
+
 int checkedChoice(const RichParameterList& par, const char* id, const QStringList& choices)
 {
 	const int chosen = par.getEnum(id);
@@ -81,9 +92,76 @@ int checkedIterations(const RichParameterList& par)
 	throw ricci::InvalidOption(sentence.str());
 }
 
-} // namespace
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-RichParameterList filterParameters(int)
+/// More rings than this are beyond what the disk can show.
+constexpr int kMostRings = 20;
+
+RichEnum outputTriangulationParameter(ricci::OutputTriangulation chosen)
+{
+	return RichEnum(
+		"output_triangulation",
+		static_cast<int>(chosen),
+		outputTriangulationChoices(),
+		"Output triangulation",
+		"Where the intrinsic flips differ from the mesh, its own faces only approximate the "
+		"map.<br>"
+		"<b>Keep the mesh</b>: vertices and faces stay as they are; faces that come out flipped "
+		"are counted.<br>"
+		"<b>Common refinement</b>: faces are divided where the intrinsic edges cross them, so that "
+		"the map is exact on every piece and none is flipped. Vertices keep their numbers, new "
+		"ones "
+		"are appended.");
+}
+
+RichFloat epsilonParameter(double chosen)
+{
+	return RichFloat(
+		"epsilon",
+		static_cast<Scalarm>(chosen),
+		"Epsilon (rad)",
+		"The flow stops when the curvature of every vertex is this close to its target, in "
+		"radians. "
+		"Where rounding does not allow it, the flow stops at the floor that rounding sets, and "
+		"reports that as residual_floor.");
+}
+
+RichInt iterationsParameter(int chosen)
+{
+	return RichInt(
+		"max_iterations",
+		chosen,
+		"Max Newton steps",
+		"One solve gives up with an error after this many Newton steps. A run takes fewer than 30 "
+		"as "
+		"a rule.");
+}
+
+RichBool colorizeParameter()
+{
+	return RichBool(
+		"colorize",
+		false,
+		"Colour by distortion",
+		"Colour the vertices by their quasi-conformal distortion: from 1 (no distortion) to the "
+		"99th "
+		"percentile over the faces.");
+}
+
+RichString reportParameter()
+{
+	return RichString(
+		"report",
+		QString(),
+		"Report file",
+		"A file for a report of the run: a page with diagrams and tables if its name ends in "
+		".html, "
+		"with the data beside it as .csv, or the data alone if it ends in .csv. Without a folder "
+		"it "
+		"lies beside the mesh. A file of that name is replaced. Empty: no report.");
+}
+
+RichParameterList euclideanParameters()
 {
 	const ricci::Options defaults;
 	RichParameterList list;
@@ -112,14 +190,7 @@ RichParameterList filterParameters(int)
 		"inside only: the least distortion for a surface with boundary. Disk, Rectangle and the "
 		"flat "
 		"annulus prescribe the boundary and ignore this. No effect on closed surfaces."));
-	list.addParam(RichFloat(
-		"epsilon",
-		static_cast<Scalarm>(defaults.epsilon),
-		"Epsilon (rad)",
-		"The flow stops when the curvature of every vertex is this close to its target, in "
-		"radians. "
-		"Where rounding does not allow it, the flow stops at the floor that rounding sets, and "
-		"reports that as residual_floor."));
+	list.addParam(epsilonParameter(defaults.epsilon));
 	list.addParam(RichEnum(
 		"circle_packing",
 		static_cast<int>(defaults.packing),
@@ -143,26 +214,8 @@ RichParameterList filterParameters(int)
 		"<b>Intrinsic flips</b>: the flow runs on intrinsic triangles whose edges flip without "
 		"leaving the conformal class, so that no triangle ever breaks and every curvature that "
 		"Gauss-Bonnet allows is reached."));
-	list.addParam(RichEnum(
-		"output_triangulation",
-		static_cast<int>(defaults.output),
-		outputTriangulationChoices(),
-		"Output triangulation",
-		"Where the intrinsic flips differ from the mesh, its own faces only approximate the "
-		"map.<br>"
-		"<b>Keep the mesh</b>: vertices and faces stay as they are; faces that come out flipped "
-		"are counted.<br>"
-		"<b>Common refinement</b>: faces are divided where the intrinsic edges cross them, so that "
-		"the map is exact on every piece and none is flipped. Vertices keep their numbers, new "
-		"ones "
-		"are appended."));
-	list.addParam(RichInt(
-		"max_iterations",
-		defaults.maxIterations,
-		"Max Newton steps",
-		"One solve gives up with an error after this many Newton steps. A run takes fewer than 30 "
-		"as "
-		"a rule."));
+	list.addParam(outputTriangulationParameter(defaults.output));
+	list.addParam(iterationsParameter(defaults.maxIterations));
 	list.addParam(RichBool(
 		"normalize_uv",
 		Flow::Params().normalizeUV,
@@ -170,13 +223,7 @@ RichParameterList filterParameters(int)
 		"Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale of "
 		"the metric, so that distances in the texture plane are those on the mesh where the scale "
 		"factor is 1."));
-	list.addParam(RichBool(
-		"colorize",
-		false,
-		"Colour by distortion",
-		"Colour the vertices by their quasi-conformal distortion: from 1 (no distortion) to the "
-		"99th "
-		"percentile over the faces."));
+	list.addParam(colorizeParameter());
 	list.addParam(RichBool(
 		"flat_layer",
 		false,
@@ -206,19 +253,82 @@ RichParameterList filterParameters(int)
 		"Sphere as new layer",
 		"Add a layer with the mesh mapped conformally to the unit sphere, its faces and vertices "
 		"in the same order. Only for a mesh that is one closed surface of genus 0."));
-	list.addParam(RichString(
-		"report",
-		QString(),
-		"Report file",
-		"A file for a report of the run: a page with diagrams and tables if its name ends in "
-		".html, "
-		"with the data beside it as .csv, or the data alone if it ends in .csv. Without a folder "
-		"it "
-		"lies beside the mesh. A file of that name is replaced. Empty: no report."));
+	list.addParam(reportParameter());
 	return list;
 }
 
-Settings readSettings(int, const RichParameterList& par)
+RichParameterList hyperbolicParameters()
+{
+	const ricci::HyperbolicOptions defaults;
+	RichParameterList list;
+	list.addParam(RichEnum(
+		"target_curvature",
+		static_cast<int>(defaults.target),
+		hyperbolicTargetChoices(),
+		"Target curvature",
+		"The curvature that the hyperbolic metric is asked to have at the vertices, beyond the "
+		"constant -1 of its triangles.<br>"
+		"<b>Hyperbolic metric</b>: none; the one metric of curvature -1 that is conformal to the "
+		"mesh (uniformization). The surface must have a negative Euler characteristic, as every "
+		"closed one with two handles or more has; a boundary becomes geodesic.<br>"
+		"<b>Cones at selected vertices</b>: each selected vertex becomes a cone of the angle "
+		"below.<br>"
+		"<b>From vertex quality</b>: each vertex's quality is its curvature in radians, 2 pi less "
+		"the angle there."));
+	list.addParam(RichFloat(
+		"cone_angle",
+		static_cast<Scalarm>(defaults.coneAngle / kDegree),
+		"Cone angle (degrees)",
+		"The sum of the angles at each selected vertex, for 'Cones at selected vertices'. 360 is "
+		"no cone."));
+	list.addParam(RichBool(
+		"free_boundary",
+		defaults.freeBoundary,
+		"Free boundary",
+		"The circles of the boundary's vertices keep their radii, and the target holds inside "
+		"only. Off: the target holds on the boundary too. No effect on closed surfaces."));
+	list.addParam(epsilonParameter(defaults.epsilon));
+	list.addParam(RichEnum(
+		"surgery",
+		defaults.surgery == ricci::Surgery::IntrinsicFlips ? 1 : 0,
+		hyperbolicSurgeryChoices(),
+		"Surgery",
+		"What to do where the flow breaks the triangle inequality.<br>"
+		"<b>None</b>: the triangulation stays as it is.<br>"
+		"<b>Intrinsic flips</b>: the flow runs on intrinsic triangles whose edges flip without "
+		"leaving the conformal class, so that no triangle ever breaks."));
+	list.addParam(outputTriangulationParameter(defaults.output));
+	list.addParam(iterationsParameter(defaults.maxIterations));
+	list.addParam(colorizeParameter());
+	list.addParam(RichBool(
+		"flat_layer",
+		false,
+		"Disk as new layer",
+		"Add a layer with the mesh laid out in the Poincaré disk, cut along its seams."));
+	list.addParam(RichInt(
+		"universal_cover",
+		0,
+		"Universal cover (rings)",
+		"Add a layer with copies of the laid-out mesh, each in a colour of its own, that tile the "
+		"Poincaré disk: the mesh itself and this many rings of copies round it. 0: no layer."));
+	list.addParam(RichBool(
+		"generator_axes",
+		false,
+		"Axes of the generators",
+		"Add a layer with the axes of the generators of the Fuchsian group in the Poincaré disk, "
+		"as edges. On the surface they are closed geodesics."));
+	list.addParam(reportParameter());
+	return list;
+}
+
+} // namespace
+
+RichParameterList filterParameters(int filter)
+{
+	return filter == Hyperbolic ? hyperbolicParameters() : euclideanParameters();
+}
+
+Settings readSettings(const RichParameterList& par)
 {
 	Settings settings;
 	settings.flow.target = static_cast<ricci::TargetCurvature>(
@@ -238,6 +348,33 @@ Settings readSettings(int, const RichParameterList& par)
 	settings.flow.holes = static_cast<ricci::Holes>(checkedChoice(par, "holes", holesChoices()));
 	settings.flow.resolveOverlap = par.getBool("resolve_overlap");
 	settings.sphereLayer = par.getBool("sphere_layer");
+	settings.report = par.getString("report");
+	return settings;
+}
+
+HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
+{
+	HyperbolicSettings settings;
+	settings.flow.target = static_cast<ricci::HyperbolicTarget>(
+		checkedChoice(par, "target_curvature", hyperbolicTargetChoices()));
+	settings.flow.coneAngle = static_cast<double>(par.getFloat("cone_angle")) * kDegree;
+	settings.flow.freeBoundary = par.getBool("free_boundary");
+	settings.flow.epsilon = checkedEpsilon(par);
+	settings.flow.surgery = checkedChoice(par, "surgery", hyperbolicSurgeryChoices()) == 1
+								? ricci::Surgery::IntrinsicFlips
+								: ricci::Surgery::None;
+	settings.flow.output = static_cast<ricci::OutputTriangulation>(
+		checkedChoice(par, "output_triangulation", outputTriangulationChoices()));
+	settings.flow.maxIterations = checkedIterations(par);
+	settings.colorize = par.getBool("colorize");
+	settings.flatLayer = par.getBool("flat_layer");
+	settings.coverRings = par.getInt("universal_cover");
+	if (settings.coverRings < 0 || settings.coverRings > kMostRings)
+		throw ricci::InvalidOption(
+			"The value " + std::to_string(settings.coverRings) +
+			" of universal_cover cannot be used. Use 0 to " + std::to_string(kMostRings) +
+			" rings.");
+	settings.axes = par.getBool("generator_axes");
 	settings.report = par.getString("report");
 	return settings;
 }

@@ -19,10 +19,21 @@ struct Settings
 	QString report; ///< file, empty: none
 };
 
+struct HyperbolicSettings
+{
+	Flow::HyperbolicParams flow;
+	bool colorize = false;
+	bool flatLayer = false;
+	int coverRings = 0;
+	bool axes = false;
+	QString report; ///< file, empty: none
+};
+
 /// Reads and checks the parameters. Scripts can hold any number for a choice, and no host checks
 /// the range of a number.
 /// \throw ricci::InvalidOption
-Settings readSettings(int filter, const RichParameterList& par);
+Settings readSettings(const RichParameterList& par);
+HyperbolicSettings readHyperbolicSettings(const RichParameterList& par);
 
 } // namespace filter_ricci
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <ios>
 #include <optional>
+#include <ostream>
 #include <sstream>
 
 namespace filter_ricci {
@@ -16,6 +17,20 @@ void addIfPresent(Results& results, const char* key, const std::optional<double>
 		results.emplace_back(key, *value);
 }
 
+template<class Number>
+void print(std::ostream& line, Number value)
+{
+	line << value;
+}
+
+/// "[x,y,...]", without blanks so that a line of pairs stays easy to take apart.
+void print(std::ostream& line, const std::vector<double>& values)
+{
+	for (std::size_t i = 0; i < values.size(); ++i)
+		line << (i == 0 ? '[' : ',') << values[i];
+	line << (values.empty() ? "[]" : "]");
+}
+
 std::string keyValueLine(Results::const_iterator begin, Results::const_iterator end)
 {
 	std::ostringstream line;
@@ -23,7 +38,7 @@ std::string keyValueLine(Results::const_iterator begin, Results::const_iterator 
 	line << std::boolalpha;
 	for (auto result = begin; result != end; ++result) {
 		line << (result == begin ? "" : " ") << result->first << "=";
-		std::visit([&line](auto value) { line << value; }, result->second);
+		std::visit([&line](const auto& value) { print(line, value); }, result->second);
 	}
 	return line.str();
 }
@@ -64,6 +79,8 @@ Results toResults(const ricci::Report& report)
 	addIfPresent(results, "torus_tau_im", report.torusTauIm);
 	addIfPresent(results, "annulus_modulus", report.annulusModulus);
 	addIfPresent(results, "rectangle_aspect", report.rectangleAspect);
+	addIfPresent(results, "hyperbolic_area", report.hyperbolicArea);
+	addIfPresent(results, "relation_error", report.relationError);
 	return results;
 }
 
@@ -72,6 +89,15 @@ void addSphereResults(const ricci::SphereMap& sphere, Results& results)
 	results.emplace_back("sphere_qc_area_mean", sphere.qcAreaMean);
 	results.emplace_back("sphere_area_distortion_mean", sphere.areaDistortionMean);
 	results.emplace_back("sphere_flipped_faces", sphere.flippedFaces);
+}
+
+std::vector<double> toNumbers(const ricci::FuchsianGroup& group)
+{
+	std::vector<double> numbers;
+	for (const auto* motions : {&group.handles, &group.ends})
+		for (const ricci::DiskIsometry& g : *motions)
+			numbers.insert(numbers.end(), {g.a.real(), g.a.imag(), g.b.real(), g.b.imag()});
+	return numbers;
 }
 
 std::vector<std::string> toLogLines(const Results& results)

@@ -4,6 +4,7 @@
 
 #include "bridge.h"
 
+#include <ricci/layout/fuchsian_group.h>
 #include <ricci/report.h>
 #include <ricci/sphere_map.h>
 
@@ -17,6 +18,10 @@ Results toResults(const ricci::Report& report);
 
 /// Adds what the map to the sphere measured.
 void addSphereResults(const ricci::SphereMap& sphere, Results& results);
+
+/// Re a, Im a, Re b, Im b of each motion: a canonical basis a1, b1, ..., then one motion for each
+/// boundary loop and cone.
+std::vector<double> toNumbers(const ricci::FuchsianGroup& group);
 
 /// The same pairs as "key=value key=value ...", for hosts that show only the log: one line with
 /// what the flow reached, one with what the surface is.

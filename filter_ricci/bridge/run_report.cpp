@@ -34,10 +34,22 @@ std::string number(double x, int precision = 6)
 	return out.str();
 }
 
+template<class Number>
+void print(std::ostream& out, Number value)
+{
+	out << value;
+}
+
+void print(std::ostream& out, const std::vector<double>& values)
+{
+	for (std::size_t i = 0; i < values.size(); ++i)
+		out << (i == 0 ? "" : " ") << values[i];
+}
+
 std::string text(const Value& value)
 {
 	std::ostringstream out = plainStream(10);
-	std::visit([&out](auto x) { out << x; }, value);
+	std::visit([&out](const auto& x) { print(out, x); }, value);
 	return out.str();
 }
 

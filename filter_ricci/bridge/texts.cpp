@@ -28,6 +28,29 @@ FilterText euclideanText()
 	return text;
 }
 
+FilterText hyperbolicText()
+{
+	FilterText text;
+	text.name = "Generalized Ricci Flow (Hyperbolic)";
+	text.pythonName = "compute_texcoord_parametrization_ricci_flow_hyperbolic_per_wedge";
+	text.info =
+		"<b>Hyperbolic uniformization</b>: the discrete Ricci flow finds the metric of curvature "
+		"-1 "
+		"that is conformal to the mesh's own, and unrolls it into the Poincaré disk. For surfaces "
+		"with two handles or more, or with a handle or two holes and a boundary.<br>"
+		"<b>Input:</b> a manifold triangle mesh of negative Euler characteristic, or one with "
+		"cones. "
+		"<b>Output:</b> per-wedge texture coordinates (the disk fills the unit square), the "
+		"quasi-conformal distortion as vertex quality, the generators of the Fuchsian group, and "
+		"on "
+		"request layers with the disk and its tiling.<br>"
+		"See: <br />"
+		"<i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng Gu</i><br/>"
+		"<b>\"Generalized Discrete Ricci Flow\"</b><br/>"
+		"Computer Graphics Forum, volume 28, Issue 7, Pages 2005-2014, 2009.<br/>";
+	return text;
+}
+
 } // namespace
 
 FilterText filterText(int filter)
@@ -35,6 +58,8 @@ FilterText filterText(int filter)
 	switch (filter) {
 	case Euclidean:
 		return euclideanText();
+	case Hyperbolic:
+		return hyperbolicText();
 	default:
 		throw std::logic_error("This plugin has no filter with that id.");
 	}

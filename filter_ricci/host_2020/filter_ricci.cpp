@@ -5,7 +5,7 @@
 
 FilterRicciPlugin::FilterRicciPlugin()
 {
-	typeList << filter_ricci::Euclidean;
+	typeList << filter_ricci::Euclidean << filter_ricci::Hyperbolic;
 	for (const FilterIDType filter : types())
 		actionList << new QAction(filterName(filter), this);
 }

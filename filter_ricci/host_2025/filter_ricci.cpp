@@ -5,11 +5,24 @@
 
 namespace {
 
+QVariant toVariant(const std::vector<double>& values)
+{
+	const Eigen::VectorXd vector =
+		Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+	return QVariant::fromValue(vector);
+}
+
+template<class Number>
+QVariant toVariant(Number value)
+{
+	return QVariant(value);
+}
+
 std::map<std::string, QVariant> toMap(const filter_ricci::Results& results)
 {
 	std::map<std::string, QVariant> map;
 	for (const auto& [key, value] : results)
-		map[key] = std::visit([](auto v) { return QVariant(v); }, value);
+		map[key] = std::visit([](const auto& v) { return toVariant(v); }, value);
 	return map;
 }
 
@@ -17,7 +30,7 @@ std::map<std::string, QVariant> toMap(const filter_ricci::Results& results)
 
 FilterRicciPlugin::FilterRicciPlugin()
 {
-	typeList = {filter_ricci::Euclidean};
+	typeList = {filter_ricci::Euclidean, filter_ricci::Hyperbolic};
 	for (const ActionIDType filter : types())
 		actionList.push_back(new QAction(filterName(filter), this));
 }

@@ -3,6 +3,7 @@
 
 import os
 import sys
+import types
 import unittest
 
 BUILD = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else ""
@@ -41,6 +42,22 @@ PARAMETERS = [
     ("normalize_uv", "Bool", True), ("colorize", "Bool", False), ("flat_layer", "Bool", False),
     ("holes", "Enum", 0), ("resolve_overlap", "Bool", False), ("sphere_layer", "Bool", False),
     ("report", "String", "")]
+
+HYPERBOLIC = types.SimpleNamespace(
+    NAME="Generalized Ricci Flow (Hyperbolic)",
+    PYTHON_NAME="compute_texcoord_parametrization_ricci_flow_hyperbolic_per_wedge",
+    CHOICES={
+        "target_curvature": ["Hyperbolic metric", "Cones at selected vertices",
+                             "From vertex quality"],
+        "surgery": ["None", "Intrinsic flips"],
+        "output_triangulation": ["Keep the mesh", "Common refinement"]},
+    PARAMETERS=[
+        ("target_curvature", "Enum", 0), ("cone_angle", "Float", 180.0),
+        ("free_boundary", "Bool", False), ("epsilon", "Float", 1e-8), ("surgery", "Enum", 1),
+        ("output_triangulation", "Enum", 0), ("max_iterations", "Int", 200),
+        ("colorize", "Bool", False), ("flat_layer", "Bool", False),
+        ("universal_cover", "Int", 0), ("generator_axes", "Bool", False),
+        ("report", "String", "")])
 
 
 def skip(reason):

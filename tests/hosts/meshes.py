@@ -86,6 +86,35 @@ def sphere(columns=16, rows=10):
     return Mesh(vertices, faces)
 
 
+def double_torus(parts=2):
+    """A slab with two holes, of unit cubes divided into parts^3: genus 2."""
+    solid = {(i, j, k) for i in range(5 * parts) for j in range(3 * parts) for k in range(parts)
+             if (i // parts, j // parts) not in ((1, 1), (3, 1))}
+    index, faces = {}, []
+
+    def vertex(*point):
+        return index.setdefault(point, len(index))
+
+    for cube in sorted(solid):
+        for axis in range(3):
+            for side in (0, 1):
+                neighbour = list(cube)
+                neighbour[axis] += 2 * side - 1
+                if tuple(neighbour) in solid:
+                    continue
+                corners = []
+                for s, t in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                    point = list(cube)
+                    point[axis] += side
+                    point[(axis + 1) % 3] += s
+                    point[(axis + 2) % 3] += t
+                    corners.append(vertex(*point))
+                a, b, c, d = corners if side else reversed(corners)
+                faces += [(a, b, c), (a, c, d)]
+    vertices = [tuple(x / parts for x in point) for point in index]
+    return Mesh(vertices, faces)
+
+
 def moebius(columns=24, rows=3):
     def point(i, j):
         a = 2 * math.pi * i / columns

@@ -48,25 +48,25 @@ def run(arguments, folder):
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=300)
 
 
-def parameter_xml(name, kind, value):
+def parameter_xml(name, kind, value, choices_of):
     if kind == "Bool":
         value = "true" if value else "false"
     extra = ""
     if kind == "Enum":
-        choices = common.CHOICES[name]
+        choices = choices_of[name]
         extra = f' enum_cardinality="{len(choices)}"' + "".join(
             f" enum_val{i}={quoteattr(choice)}" for i, choice in enumerate(choices))
     return f'  <Param type="Rich{kind}" name="{name}" value="{value}"{extra}/>\n'
 
 
-def script(before="", **values):
+def script(before="", our_filter=common, **values):
     """A filter script with our filter, with the defaults where no value is given."""
-    unknown = set(values) - {name for name, _, _ in common.PARAMETERS}
+    unknown = set(values) - {name for name, _, _ in our_filter.PARAMETERS}
     if unknown:
         raise ValueError(f"unknown parameters {unknown}")
-    lines = "".join(parameter_xml(name, kind, values.get(name, default))
-                    for name, kind, default in common.PARAMETERS)
-    return (f'<!DOCTYPE FilterScript>\n<FilterScript>\n{before} <filter name="{common.NAME}">\n'
+    lines = "".join(parameter_xml(name, kind, values.get(name, default), our_filter.CHOICES)
+                    for name, kind, default in our_filter.PARAMETERS)
+    return (f'<!DOCTYPE FilterScript>\n<FilterScript>\n{before} <filter name="{our_filter.NAME}">\n'
             f"{lines} </filter>\n</FilterScript>\n")
 
 

@@ -48,5 +48,5 @@ def select(documents, condition):
     documents.compute_selection_by_condition_per_vertex(condselect=condition)
 
 
-def run(documents, **values):
-    return documents.apply_filter(common.PYTHON_NAME, **values)
+def run(documents, our_filter=common, **values):
+    return documents.apply_filter(our_filter.PYTHON_NAME, **values)

@@ -252,10 +252,55 @@ class BadInput(unittest.TestCase):
         self.check("Newton|iteration|step", meshes.torus(), max_iterations=1)
 
 
+class Hyperbolic(unittest.TestCase):
+    """The second filter of the plugin."""
+
+    def run_on(self, mesh, before="", **values):
+        return server.Run(server.script(before, common.HYPERBOLIC, **values),
+                          lambda path: meshes.write_ply(path, mesh))
+
+    def test_double_torus(self):
+        run = self.run_on(meshes.double_torus())
+        self.assertEqual(run.code, 0, run.text)
+        pairs = server.results(run.text)
+        self.assertEqual((pairs["converged"], pairs["genus"]), ("true", "2"))
+        self.assertAlmostEqual(float(pairs["hyperbolic_area"]), 4 * math.pi, delta=1e-7)
+        self.assertLess(float(pairs["relation_error"]), 1e-8)
+        self.assertEqual(len(pairs["generators"].strip("[]").split(",")), 16)
+        corners = [uv for wedge in run.mesh.wedges for uv in wedge]
+        self.assertLess(max(math.hypot(2 * u - 1, 2 * v - 1) for u, v in corners), 1.0)
+        self.assertAlmostEqual(sum(run.mesh.quality) / len(run.mesh.quality),
+                               float(pairs["qc_vertex_mean"]), delta=1e-4)
+
+    def test_cones_on_a_torus(self):
+        # Two cones of 60 degrees: sum K = 20 pi / 6 > 0.
+        run = self.run_on(meshes.torus(), server.selection("vi == 0 || vi == 200"),
+                          target_curvature=1, cone_angle=60)
+        self.assertEqual(run.code, 0, run.text)
+        area = float(server.results(run.text)["hyperbolic_area"])
+        self.assertAlmostEqual(area, 2 * (2 * math.pi - math.pi / 3), delta=1e-6)
+
+    def test_refusals(self):
+        for words, mesh, values in (
+                ("Euler characteristic.*Euclidean", meshes.torus(), {}),
+                ("Euler characteristic.*Euclidean", meshes.hill(), {}),
+                ("needs selected vertices", meshes.double_torus(), {"target_curvature": 1}),
+                ("no vertex quality", meshes.double_torus(), {"target_curvature": 2}),
+                ("universal_cover", meshes.double_torus(), {"universal_cover": -1}),
+                ("Intrinsic flips", meshes.double_torus(),
+                 {"surgery": 0, "output_triangulation": 1})):
+            with self.subTest(words):
+                run = self.run_on(mesh, **values)
+                self.assertNotEqual(run.code, 0, run.text)
+                self.assertRegex(run.text, words)
+                self.assertIn("Problem with filter: " + common.HYPERBOLIC.NAME, run.text)
+
+
 class Samples(unittest.TestCase):
     """The scripts that users start from list every parameter, and run."""
 
-    MESHES = {"disk": meshes.hill, "rectangle": meshes.hill, "holes": meshes.annulus}
+    MESHES = {"disk": meshes.hill, "rectangle": meshes.hill, "holes": meshes.annulus,
+              "hyperbolic": meshes.double_torus}
 
     def test_every_sample(self):
         paths = sorted(glob.glob(os.path.join(common.REPOSITORY, "filter_ricci", "samples", "*.mlx")))
@@ -272,9 +317,10 @@ class Samples(unittest.TestCase):
                 self.assertIn("converged=true", run.text)
 
     def check_parameters(self, text):
+        our_filter = common.HYPERBOLIC if common.HYPERBOLIC.NAME in text else common
         listed = re.findall(r'<Param type="Rich(\w+)" name="(\w+)"', text)
-        self.assertEqual(listed, [(kind, name) for name, kind, _ in common.PARAMETERS])
-        for name, choices in common.CHOICES.items():
+        self.assertEqual(listed, [(kind, name) for name, kind, _ in our_filter.PARAMETERS])
+        for name, choices in our_filter.CHOICES.items():
             line = re.search(f'<Param[^>]*name="{name}"[^>]*>', text).group()
             self.assertIn(f'enum_cardinality="{len(choices)}"', line)
             self.assertEqual(re.findall(r'enum_val\d+="([^"]*)"', line), choices)
@@ -285,9 +331,10 @@ class Samples(unittest.TestCase):
             server.run(["-d", "dump.txt"], folder)
             with open(os.path.join(folder, "dump.txt"), encoding="utf-8") as source:
                 dump = source.read()
-        section = dump.split(common.NAME, 1)[1].split("</TABLE>", 1)[0]
-        kinds = re.findall(r"<TR><TD> \\c (\w+)", section)
-        self.assertEqual(kinds, [kind for _, kind, _ in common.PARAMETERS])
+        for our_filter in (common, common.HYPERBOLIC):
+            section = dump.split(our_filter.NAME, 1)[1].split("</TABLE>", 1)[0]
+            kinds = re.findall(r"<TR><TD> \\c (\w+)", section)
+            self.assertEqual(kinds, [kind for _, kind, _ in our_filter.PARAMETERS])
 
 
 if __name__ == "__main__":

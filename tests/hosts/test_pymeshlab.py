@@ -295,6 +295,94 @@ class Report(unittest.TestCase):
         self.assertEqual(os.listdir(self.folder.name), ["torus <1>.ply"])
 
 
+class Hyperbolic(unittest.TestCase):
+    """The second filter of the plugin."""
+
+    def check(self, documents, **values):
+        returned = run(documents, common.HYPERBOLIC, **values)
+        self.assertTrue(returned["converged"])
+        self.assertLess(returned["max_curvature_error"], 1e-8)
+        self.assertLess(returned["relation_error"], 1e-8)
+        disk = 2 * documents.mesh(0).wedge_tex_coord_matrix() - 1
+        self.assertLess(numpy.hypot(disk[:, 0], disk[:, 1]).max(), 1.0)
+        return returned
+
+    def motions(self, returned):
+        """2 x 2 matrices of SU(1,1)."""
+        for re_a, im_a, re_b, im_b in numpy.array(returned["generators"]).reshape(-1, 4):
+            a, b = re_a + 1j * im_a, re_b + 1j * im_b
+            self.assertAlmostEqual(abs(a) ** 2 - abs(b) ** 2, 1.0, delta=1e-6)
+            yield numpy.array([[a, b], [b.conjugate(), a.conjugate()]])
+
+    def test_double_torus(self):
+        documents = mesh_set(meshes.double_torus())
+        returned = self.check(documents, output_triangulation="Common refinement")
+        self.assertAlmostEqual(returned["hyperbolic_area"], 4 * numpy.pi, delta=1e-9)
+        self.assertEqual(returned["flipped_faces"], 0)
+        a, b, c, d = self.motions(returned)
+        inverse = numpy.linalg.inv
+        relation = a @ b @ inverse(a) @ inverse(b) @ c @ d @ inverse(c) @ inverse(d)
+        self.assertLess(numpy.abs(relation - numpy.sign(relation[0, 0].real) * numpy.eye(2)).max(),
+                        1e-8)
+        for motion in (a, b, c, d):
+            self.assertGreater(abs(numpy.trace(motion).real), 2.0)
+
+    def test_sides_of_a_seam_differ_by_a_motion(self):
+        documents = mesh_set(meshes.double_torus())
+        self.check(documents)
+        mesh = documents.current_mesh()
+        wedges = (2 * mesh.wedge_tex_coord_matrix() - 1).reshape(-1, 3, 2)
+        disk = wedges[:, :, 0] + 1j * wedges[:, :, 1]
+        sides = {}
+        for face, z in zip(mesh.face_matrix(), disk):
+            for k in range(3):
+                p, q = z[k], z[(k + 1) % 3]
+                length = abs(p - q) / numpy.sqrt((1 - abs(p) ** 2) * (1 - abs(q) ** 2))
+                sides.setdefault(frozenset((face[k], face[(k + 1) % 3])), []).append(length)
+        for one, two in sides.values():
+            self.assertAlmostEqual(one / two, 1.0, delta=1e-3)  # wedges are floats
+
+    def test_layers(self):
+        documents = mesh_set(meshes.double_torus(1))
+        faces = documents.current_mesh().face_number()
+        self.check(documents, flat_layer=True, universal_cover=1, generator_axes=True)
+        self.assertEqual(documents.mesh_number(), 4)
+        cover, axes = documents.mesh(2), documents.mesh(3)
+        self.assertEqual(cover.face_number() % faces, 0)
+        self.assertGreaterEqual(cover.face_number() // faces, 9)  # 8 neighbours across 8 sides
+        points = 2 * cover.vertex_matrix()[:, :2] - 1
+        self.assertLess(numpy.hypot(points[:, 0], points[:, 1]).max(), 1.0)
+        self.assertEqual(axes.edge_number(), 4 * 200)
+
+    def test_too_many_rings_leave_the_mesh_alone(self):
+        documents = mesh_set(meshes.double_torus())
+        before = state(documents.current_mesh())
+        with self.assertRaisesRegex(pymeshlab.PyMeshLabException, "universal_cover: 20 rings"):
+            run(documents, common.HYPERBOLIC, universal_cover=20)
+        self.assertEqual(documents.mesh_number(), 1)
+        self.assertTrue(same(before, state(documents.current_mesh())))
+
+    def test_refusals(self):
+        for words, mesh, values in (
+                ("Euler characteristic.*Euclidean", meshes.torus(), {}),
+                ("2 pi chi", meshes.torus(),
+                 {"target_curvature": "Cones at selected vertices", "cone_angle": 400.0}),
+                ("cone_angle", meshes.torus(),
+                 {"target_curvature": "Cones at selected vertices", "cone_angle": 0.0})):
+            with self.subTest(words):
+                documents = mesh_set(mesh)
+                select(documents, "vi == 0")
+                before = state(documents.current_mesh())
+                with self.assertRaisesRegex(pymeshlab.PyMeshLabException, words):
+                    run(documents, common.HYPERBOLIC, **values)
+                self.assertTrue(same(before, state(documents.current_mesh())))
+
+    def test_parameters_and_defaults(self):
+        documents = mesh_set(meshes.double_torus(1))
+        values = documents.filter_parameter_values(common.HYPERBOLIC.PYTHON_NAME)
+        self.assertEqual(list(values), [name for name, _, _ in common.HYPERBOLIC.PARAMETERS])
+
+
 class BadInput(unittest.TestCase):
     """A clear sentence as PyMeshLabException, and the mesh untouched."""
 

@@ -60,6 +60,13 @@ struct FlowOptions
 	int maxIterations = 200;
 };
 
+/// Which curvature the hyperbolic flow is asked to reach. The order is that of the filter's menu.
+enum class HyperbolicTarget {
+	HyperbolicMetric, ///< K = 0 at every vertex; a boundary becomes geodesic
+	SelectedCones,    ///< one total angle at each selected vertex, K = 0 elsewhere
+	Prescribed        ///< one value for each vertex, in radians
+};
+
 /// Options of the Euclidean flow.
 struct Options : FlowOptions
 {
@@ -76,6 +83,20 @@ struct Options : FlowOptions
 
 	/// Cut a chart that covers a part of the plane more than once into several that do not.
 	bool resolveOverlap = false;
+};
+
+/// Options of the hyperbolic flow.
+struct HyperbolicOptions : FlowOptions
+{
+	HyperbolicTarget target = HyperbolicTarget::HyperbolicMetric;
+
+	/// Total angle at each cone of SelectedCones, in radians.
+	double coneAngle = 3.14159265358979323846;
+
+	/// Fix u on the boundary at its start; the curvature then is prescribed inside only.
+	bool freeBoundary = false;
+
+	OutputTriangulation output = OutputTriangulation::KeepMesh;
 };
 
 } // namespace ricci

@@ -9,13 +9,14 @@
 #include "layout/invariants.h"
 #include "layout/least_rectangle.h"
 #include "numbers.h"
+#include "result_assembly.h"
+#include "run_progress.h"
 #include "separate_charts.h"
 #include "surface/component.h"
 #include "surface/hole_caps.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ricci {
 
@@ -26,71 +27,6 @@ constexpr double kConeCurvature = 1e-9;
 
 /// Starts of the flow that the splitting of boundary edges may ask for (paper 5.4).
 constexpr int kMostStarts = 20;
-
-/// Share of a component's progress that is spent before the flow, and after it.
-constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1;
-
-std::string text(const char* format, double x)
-{
-	char buffer[64];
-	std::snprintf(buffer, sizeof buffer, format, x);
-	return buffer;
-}
-
-/// Progress of one component among several: an interval of the whole.
-class Interval
-{
-public:
-	Interval(Progress& progress, double from, double to) :
-			m_progress(progress), m_from(from), m_to(to)
-	{
-	}
-	void step(double fraction, const std::string& what)
-	{
-		m_progress.step(m_from + fraction * (m_to - m_from), what);
-	}
-	void log(const std::string& line) { m_progress.log(line); }
-
-private:
-	Progress& m_progress;
-	double m_from, m_to;
-};
-
-/// The flow's progress bar: the residual falls by orders of magnitude, so each step closes a part
-/// of the distance to epsilon on the logarithmic scale.
-class FlowProgress
-{
-public:
-	FlowProgress(
-		Interval& interval, double epsilon, int component, std::vector<FlowState>& states) :
-			m_interval(interval),
-			m_epsilon(epsilon), m_component(component), m_states(states)
-	{
-	}
-
-	void operator()(int step, double residual)
-	{
-		m_states.push_back({m_component, step, residual});
-		if (m_first < 0.0)
-			m_first = std::max(residual, 10 * m_epsilon);
-		const double done =
-			std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon);
-		m_done = std::max(m_done, std::clamp(done, 0.0, 1.0));
-		const std::string line = "Newton step " + std::to_string(step) +
-								 ": max |target - K| = " + text("%.3e", residual);
-		if (step != m_step) // a repeated number: a step that only polishes
-			m_interval.log(line);
-		m_step = step;
-		m_interval.step(kBeforeFlow + m_done * (1.0 - kBeforeFlow - kAfterFlow), line);
-	}
-
-private:
-	Interval& m_interval;
-	double m_epsilon, m_first = -1.0, m_done = 0.0;
-	int m_component;
-	std::vector<FlowState>& m_states;
-	int m_step = -1;
-};
 
 /// A component's mesh as the flow uses it: equal to the component until boundary edges are split.
 struct WorkingMesh
@@ -420,7 +356,7 @@ private:
 		Chart chart;
 		chart.faces = m_component.face;
 		if (m_options.output == OutputTriangulation::CommonRefinement)
-			storeRefinement(result, chart);
+			appendRefinement(m_refinement, m_component, result.refined, chart);
 		result.charts.push_back(std::move(chart));
 		for (std::size_t f = 0; f < m_component.face.size(); ++f) {
 			const std::size_t inputFace = at(m_component.face[f]);
@@ -451,40 +387,6 @@ private:
 		report.boundaryLoops += static_cast<int>(m_topology.loops.size());
 		report.seamEdges += m_cut.edgeCount;
 		report.cappedHoles += m_solved.holes;
-	}
-
-	/// Appends the refinement, in the indices and the orientation of the whole input.
-	void storeRefinement(Parametrization& result, Chart& chart) const
-	{
-		RefinedMesh& refined = result.refined;
-		const auto vertexCount = m_component.vertex.size();
-		std::vector<int> pointOfNode(m_refinement.points.size());
-		for (std::size_t i = 0; i < m_refinement.points.size(); ++i) {
-			if (i < vertexCount) {
-				pointOfNode[i] = m_component.vertex[i];
-				continue;
-			}
-			SurfacePoint p = m_refinement.points[i];
-			for (int& v : p.vertex)
-				v = m_component.vertex[at(v)];
-			pointOfNode[i] = static_cast<int>(refined.points.size());
-			refined.points.push_back(p);
-		}
-		for (std::size_t f = 0; f < m_refinement.triangles.size(); ++f) {
-			const auto local = at(m_refinement.inputFace[f]);
-			Triangle t = m_refinement.triangles[f];
-			auto uv = m_refinement.uv[f];
-			for (int& v : t)
-				v = pointOfNode[at(v)];
-			if (m_component.reversed[local]) {
-				std::swap(t[1], t[2]);
-				std::swap(uv[1], uv[2]);
-			}
-			chart.refined.push_back(static_cast<int>(refined.triangles.size()));
-			refined.triangles.push_back(t);
-			refined.uv.push_back(uv);
-			refined.inputFace.push_back(m_component.face[local]);
-		}
 	}
 
 	void invariants(Report& report) const
@@ -539,22 +441,6 @@ private:
 	int m_iterations = 0, m_swaps = 0, m_splits = 0;
 };
 
-/// Distortion of the refinement, into the report.
-void measureRefinement(const SurfaceMesh& mesh, Parametrization& result)
-{
-	RefinedMesh& refined = result.refined;
-	SurfaceMesh surface;
-	std::vector<char> reversed;
-	for (const SurfacePoint& p : refined.points)
-		surface.positions.push_back(placeOnSurface(p, mesh.positions));
-	surface.triangles = refined.triangles;
-	for (int f : refined.inputFace)
-		reversed.push_back(result.reversed[at(f)]);
-	DistortionField distortion = measureDistortion(surface, refined.uv, reversed, result.report);
-	refined.faceQC = std::move(distortion.face);
-	refined.vertexQC = std::move(distortion.vertex);
-}
-
 void checkOptions(const Options& options)
 {
 	if (options.output == OutputTriangulation::CommonRefinement &&
@@ -597,43 +483,10 @@ Parametrization parametrizeEuclidean(
 		requireAreaEverywhere(components);
 	for (const std::string& note : result.notes)
 		progress.log(note);
-	result.uv.resize(mesh.triangles.size());
-	result.reversed.assign(mesh.triangles.size(), 0);
-	result.u.assign(mesh.positions.size(), 0.0);
-	result.targetCurvature.assign(mesh.positions.size(), 0.0);
-	result.report.components = static_cast<int>(components.size());
-	const bool refine = options.output == OutputTriangulation::CommonRefinement;
-	if (refine)
-		for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-			SurfacePoint p;
-			p.vertex[0] = static_cast<int>(v);
-			result.refined.points.push_back(p);
-		}
-
-	std::size_t facesDone = 0;
-	for (const Component& component : components) {
-		const auto share = static_cast<double>(mesh.triangles.size());
-		const double from = static_cast<double>(facesDone) / share;
-		facesDone += component.triangles.size();
-		ComponentRun run(
-			component,
-			input,
-			options,
-			Interval(progress, from, static_cast<double>(facesDone) / share));
-		try {
-			run.run(result);
-		}
-		catch (const Cancelled&) {
-			throw;
-		}
-		catch (const Error& error) {
-			if (components.size() == 1)
-				throw;
-			throw Error(
-				"Component with face " + std::to_string(component.face.front()) + " (" +
-				std::to_string(component.face.size()) + " faces): " + error.what());
-		}
-	}
+	startResult(mesh, options.output, components, result);
+	runComponents(mesh, components, progress, [&](const Component& component, Interval interval) {
+		ComponentRun(component, input, options, interval).run(result);
+	});
 	if (components.size() > 1) {
 		result.report.torusTauRe.reset();
 		result.report.torusTauIm.reset();
@@ -645,7 +498,7 @@ Parametrization parametrizeEuclidean(
 	DistortionField distortion = measureDistortion(mesh, result.uv, result.reversed, keptReport);
 	result.faceQC = std::move(distortion.face);
 	result.vertexQC = std::move(distortion.vertex);
-	if (refine)
+	if (options.output == OutputTriangulation::CommonRefinement)
 		measureRefinement(mesh, result);
 	else
 		result.report = keptReport;

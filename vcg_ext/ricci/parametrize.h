@@ -3,6 +3,7 @@
 #define RICCI_PARAMETRIZE_H
 
 #include "layout/common_refinement.h"
+#include "layout/fuchsian_group.h"
 #include "layout/planar_layout.h"
 #include "options.h"
 #include "progress.h"
@@ -24,11 +25,12 @@ struct VertexInput
 	double precision = 2.3e-16;          ///< relative rounding error of targetCurvature
 };
 
-/// One component laid out in the plane by its own metric, not yet packed beside the others.
+/// One component laid out by its own metric, not yet packed beside the others.
 struct Chart
 {
 	std::vector<int> faces;   ///< indices into SurfaceMesh::triangles
 	std::vector<int> refined; ///< indices into RefinedMesh::triangles
+	FuchsianGroup group;      ///< hyperbolic flow
 };
 
 /// The common refinement of the input with the triangles on which the map was found.
@@ -53,7 +55,7 @@ struct Parametrization
 	std::vector<char> reversed;            ///< [face] 1 if the face was turned round
 	std::vector<double> faceQC;            ///< sigma1 / sigma2
 	std::vector<double> vertexQC;          ///< area-weighted mean over the faces at the vertex
-	std::vector<double> u;                 ///< [vertex] ln radius; 0 at unused vertices
+	std::vector<double> u;                 ///< [vertex] Eq. 6; 0 at unused vertices
 	std::vector<double> targetCurvature;   ///< [vertex] radians, as reached
 	RefinedMesh refined;                   ///< filled for OutputTriangulation::CommonRefinement;
 		///< the report's qc fields and flippedFaces then are its own
@@ -65,6 +67,18 @@ struct Parametrization
 /// \throw InvalidMesh, InvalidOption, InadmissibleCurvature, NotConverged, Cancelled
 Parametrization parametrizeEuclidean(
 	const SurfaceMesh& mesh, const VertexInput& input, const Options& options, Progress& progress);
+
+/// The hyperbolic generalized Ricci flow from a mesh to the Poincaré disk, component by component.
+/// The uv coordinates are points of the unit disk, the middle of each component at 0; u is
+/// ln tanh(radius / 2). Distortion is that of the linear maps from the faces to the triangles of
+/// their corners' chords in the hyperboloid model, with sides 2 sinh(l / 2): the disk's own picture
+/// would add its distortion. A face counts as flipped if its geodesic triangle is.
+/// \throw InvalidMesh, InvalidOption, InadmissibleCurvature, NotConverged, Cancelled
+Parametrization parametrizeHyperbolic(
+	const SurfaceMesh& mesh,
+	const VertexInput& input,
+	const HyperbolicOptions& options,
+	Progress& progress);
 
 } // namespace ricci
 

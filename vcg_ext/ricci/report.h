@@ -67,6 +67,14 @@ struct Report
 	std::optional<double> torusTauRe, torusTauIm; ///< reduced to the fundamental domain
 	std::optional<double> annulusModulus;         ///< ln(r2/r1) / 2 pi
 	std::optional<double> rectangleAspect;        ///< longer over shorter side
+
+	/// Hyperbolic flow: area of the metric by its side lengths, which Gauss-Bonnet puts at sum K - 2
+	/// pi chi.
+	std::optional<double> hyperbolicArea;
+	/// Hyperbolic flow: what the layout misses at most, in three ways: the relation of the Fuchsian
+	/// group as the fundamental polygon spells it, the ways round the polygon's other corners, and
+	/// the lengths of geodesic boundaries against the traces of their motions.
+	std::optional<double> relationError;
 };
 
 } // namespace ricci

@@ -6,10 +6,12 @@
 #include "../metric/hyperbolic.h"
 #include "../numbers.h"
 #include "edge_crossings.h"
+#include "hyperbolic_layout.h"
 #include "piece_triangulation.h"
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -891,14 +893,111 @@ private:
 				angles[at(h[k])] = (*m_s.endAngles)[at(original[k])];
 			}
 		}
-		const PlanarLayout plane =
-			layOutInPlane(sheets, lengths, angles, std::vector<char>(lengths.size(), 0));
-		placePieces(sheet, sheets, plane);
+		const std::vector<char> noCut(lengths.size(), 0);
+		if (m_s.background == Background::EuclideanPlane) {
+			const PlanarLayout plane = layOutInPlane(sheets, lengths, angles, noCut);
+			placePieces([&](int p, std::size_t corner) {
+				const auto h = sheets.halfedges(sheet[at(p)]);
+				const auto weight = inEndTriangle(p, corner);
+				Point2 x{0.0, 0.0};
+				for (std::size_t k = 0; k < 3; ++k)
+					for (std::size_t j = 0; j < 2; ++j)
+						x[j] += weight[k] * plane.at(h[k])[j];
+				return x;
+			});
+			return;
+		}
+		const HyperbolicLayout disk = layOutInDisk(sheets, lengths, angles, noCut);
+		placePieces([&](int p, std::size_t corner) {
+			const int h = sheets.halfedge(sheet[at(p)]);
+			const double side = lengths[at(Triangulation::edge(h))];
+			const double other = lengths[at(Triangulation::edge(sheets.previous(h)))];
+			const std::complex<double> z = rounded(disk.frame[at(h)])(
+				hyperbolicPlace(inEndTriangle(p, corner), side, other, angles[at(h)]).inDisk());
+			return Point2{z.real(), z.imag()};
+		});
+		m_kleinPoint.reserve(m_point.size());
+		for (std::size_t p = 0; p < m_pieces.size(); ++p) {
+			const int h = sheets.halfedge(sheet[p]);
+			const double side = lengths[at(Triangulation::edge(h))];
+			const double other = lengths[at(Triangulation::edge(sheets.previous(h)))];
+			for (std::size_t i = 0; i < m_pieces[p].size(); ++i)
+				m_kleinPoint.push_back(
+					hyperbolicPlace(
+						inEndTriangle(static_cast<int>(p), i), side, other, angles[at(h)])
+						.inKleinModel());
+		}
+		findTransitions(sheet, sheets, lengths, disk);
+	}
+
+	/// A vector of R^{2,1} that stands for the point of the hyperbolic plane on its line.
+	struct HyperboloidVector
+	{
+		double x0 = 0.0;
+		std::complex<double> x = 0.0;
+
+		void add(double weight, double distance, double direction)
+		{
+			x0 += weight * std::cosh(distance);
+			x += std::polar(weight * std::sinh(distance), direction);
+		}
+		std::complex<double> inDisk() const
+		{
+			const double r = std::abs(x);
+			return x / (x0 + std::sqrt((x0 - r) * (x0 + r)));
+		}
+		Point2 inKleinModel() const { return {x.real() / x0, x.imag() / x0}; }
+	};
+
+	/// The point with these weights of the corners of a triangle, whose first corner is at 0 and
+	/// whose second is on the positive real axis. \p side, \p other: sides at the first corner.
+	static HyperboloidVector
+	hyperbolicPlace(const std::array<double, 3>& weight, double side, double other, double angle)
+	{
+		HyperboloidVector p;
+		p.add(weight[0], 0.0, 0.0);
+		p.add(weight[1], side, 0.0);
+		p.add(weight[2], other, angle);
+		return p;
+	}
+
+	/// How the layout goes on across the cut.
+	void findTransitions(
+		const std::vector<int>& sheet,
+		const Triangulation& sheets,
+		const std::vector<double>& lengths,
+		const HyperbolicLayout& disk)
+	{
+		m_transition.resize(at(m_input.edgeCount()));
+		for (const auto& link : m_links) {
+			if (link[1].piece < 0)
+				continue;
+			const bool firstIsLeft = m_pieces[at(link[0].piece)][at(link[0].corner)].input % 2 == 0;
+			const Link &left = link[firstIsLeft ? 0 : 1], &right = link[firstIsLeft ? 1 : 0];
+			const PieceCorner& side = m_pieces[at(left.piece)][at(left.corner)];
+			if (!isClosed(side))
+				continue;
+			Transition& transition = m_transition[at(Triangulation::edge(side.input))];
+			const auto a = sheets.halfedges(sheet[at(left.piece)]);
+			const auto b = sheets.halfedges(sheet[at(right.piece)]);
+			if (side.end < 0) { // through one end triangle
+				transition.offer(disk.frame[at(a[0])], disk.frame[at(b[0])]);
+				continue;
+			}
+			const auto position = [&](int piece, int halfedge) {
+				const auto h = m_end.halfedges(m_endFace[at(piece)]);
+				return std::find(h.begin(), h.end(), halfedge) - h.begin();
+			};
+			const int h = a[at(position(left.piece, side.end))];
+			const int twin = b[at(position(right.piece, Triangulation::twin(side.end)))];
+			offerTransition(disk, lengths[at(Triangulation::edge(h))], h, twin, transition);
+		}
 	}
 
 	/// Corners of pieces that meet off the cut are one point of the layout.
-	void placePieces(
-		const std::vector<int>& sheet, const Triangulation& sheets, const PlanarLayout& plane)
+	/// \p place(piece, corner) gives the point that the corner's own sheet has for it.
+	template<class Place>
+	void placePieces(Place place)
 	{
 		m_firstCorner.assign(m_pieces.size() + 1, 0);
 		for (std::size_t p = 0; p < m_pieces.size(); ++p)
@@ -916,23 +1015,13 @@ private:
 			mergeSets(parent, cornerOf(a.piece, a.corner + 1), cornerOf(b.piece, b.corner));
 		}
 		m_point.resize(at(m_firstCorner.back()));
-		for (std::size_t p = 0; p < m_pieces.size(); ++p) {
-			const auto h = sheets.halfedges(sheet[p]);
+		for (std::size_t p = 0; p < m_pieces.size(); ++p)
 			for (std::size_t i = 0; i < m_pieces[p].size(); ++i) {
 				const int corner = cornerOf(static_cast<int>(p), static_cast<int>(i));
 				const int first = findSet(parent, corner);
-				if (first != corner) {
-					m_point[at(corner)] = m_point[at(first)];
-					continue;
-				}
-				const auto weight = inEndTriangle(static_cast<int>(p), i);
-				Point2 x{0.0, 0.0};
-				for (std::size_t k = 0; k < 3; ++k)
-					for (std::size_t j = 0; j < 2; ++j)
-						x[j] += weight[k] * plane.at(h[k])[j];
-				m_point[at(corner)] = x;
+				m_point[at(corner)] =
+					first == corner ? place(static_cast<int>(p), i) : m_point[at(first)];
 			}
-		}
 	}
 
 	static int findSet(std::vector<int>& parent, int i)
@@ -974,6 +1063,7 @@ private:
 		for (std::size_t p = 0; p < m_pieces.size(); ++p)
 			emit(p, space, r);
 
+		r.transition = m_transition;
 		int sectorCount = 0;
 		r.inputLayout.sector = cornerSectors(m_input, m_isCut, sectorCount);
 		r.inputLayout.position.assign(at(sectorCount), {0.0, 0.0});
@@ -992,7 +1082,9 @@ private:
 	{
 		const auto& piece = m_pieces[p];
 		const Point2* plane = &m_point[at(m_firstCorner[p])];
-		std::vector<Point2> inPlane(plane, plane + piece.size());
+		// Geodesics are straight in the Klein model.
+		const Point2* straight = m_kleinPoint.empty() ? plane : &m_kleinPoint[at(m_firstCorner[p])];
+		const std::vector<Point2> inPlane(straight, straight + piece.size());
 		std::vector<Point3> inSpace;
 		for (const PieceCorner& c : piece)
 			inSpace.push_back(space[at(c.node)]);
@@ -1030,7 +1122,9 @@ private:
 	std::vector<std::array<Link, 2>> m_links;
 	std::vector<int> m_inputFace, m_endFace;
 	std::vector<int> m_firstCorner;
-	std::vector<Point2> m_point; // [corner of a piece]
+	std::vector<Point2> m_point;          // [corner of a piece]
+	std::vector<Point2> m_kleinPoint;     // [corner of a piece] as its own end triangle sees it
+	std::vector<Transition> m_transition; // [input edge] in the hyperbolic plane
 };
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include "../options.h"
 #include "../surface/triangulation.h"
+#include "hyperbolic_layout.h"
 #include "planar_layout.h"
 
 #include <Eigen/Core>
@@ -52,7 +53,8 @@ struct CommonRefinement
 	std::vector<SurfacePoint> points;      ///< the input's vertices first, in order
 	std::vector<Triangle> triangles;       ///< into points, the input's orientation
 	std::vector<int> inputFace;            ///< [triangle]
-	std::vector<std::array<Point2, 3>> uv; ///< [triangle][corner]
+	std::vector<std::array<Point2, 3>> uv; ///< [triangle][corner] in the plane or Poincaré disk
+	std::vector<Transition> transition;    ///< [input edge] hyperbolic: across the cut
 	PlanarLayout inputLayout;              ///< of the corners of the input's triangles
 	std::size_t crossings = 0;             ///< points that are not vertices of the input
 };

@@ -2,12 +2,10 @@
 #include "planar_layout.h"
 
 #include "../numbers.h"
+#include "layout_tree.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <queue>
-#include <utility>
 
 namespace ricci {
 
@@ -48,7 +46,7 @@ PlanarLayout layOutInPlane(
 	int sectorCount = 0;
 	layout.sector = cornerSectors(t, isCut, sectorCount);
 	layout.position.assign(at(sectorCount), {0.0, 0.0});
-	std::vector<char> placed(at(sectorCount), 0), seen(at(t.faceCount()), 0);
+	std::vector<char> placed(at(sectorCount), 0);
 
 	const auto place = [&](int h, const Point2& p) {
 		const int s = layout.sector[at(h)];
@@ -75,40 +73,12 @@ PlanarLayout layOutInPlane(
 		place(third, {from[0] + length * std::cos(angle), from[1] + length * std::sin(angle)});
 	};
 
-	// Across a side that is short in its triangle, directions are lost by as many units of rounding
-	// as the longest side is longer: triangles are reached by the way that loses least.
-	const auto loss = [&](int across) {
-		double longest = 0.0;
-		for (int h : {across, Triangulation::twin(across)})
-			for (int side : t.halfedges(t.face(h)))
-				longest = std::max(longest, lengths[at(Triangulation::edge(side))]);
-		return longest / lengths[at(Triangulation::edge(across))];
-	};
-	using Entry = std::pair<double, int>; // accumulated loss, halfedge that leads into a triangle
-	std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
-	const auto leave = [&](int f, double lost) {
-		for (int h : t.halfedges(f)) {
-			const int across = Triangulation::twin(h);
-			if (!isCut[at(Triangulation::edge(h))] && !t.isOuter(across) &&
-				!seen[at(t.face(across))])
-				queue.push({lost + loss(across), across});
-		}
-	};
 	const int root = t.halfedge(0);
 	place(root, {0.0, 0.0});
 	place(t.next(root), {lengths[at(Triangulation::edge(root))], 0.0});
 	placeTriangle(root, 0.0);
-	seen[at(t.face(root))] = 1;
-	leave(t.face(root), 0.0);
-	while (!queue.empty()) {
-		const auto [lost, h] = queue.top();
-		queue.pop();
-		if (seen[at(t.face(h))])
-			continue;
-		seen[at(t.face(h))] = 1;
+	for (int h : layoutTree(t, lengths, isCut, t.face(root)))
 		placeTriangle(h, std::remainder(direction[at(Triangulation::twin(h))] + kPi, 2 * kPi));
-		leave(t.face(h), lost);
-	}
 	return layout;
 }
 

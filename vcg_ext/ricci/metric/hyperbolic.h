@@ -43,9 +43,9 @@ struct HyperbolicGeometry
 		// x holds rest in the wider type alone; in double its effect is added to first order.
 		const Real lost = Real(rest) - (x - Real(u));
 		const Real s0 = -1 / sinh(x), kappa0 = cosh(x);
-		// d radius / du = sinh(radius), ds / du = s kappa, d kappa / du = sinh(u) = -1 / s.
+		// d radius / du = s, ds / du = s^2 kappa, d kappa / du = sinh(u) = -1 / s.
 		const Real radius = log1p(2 * exp(x) / -expm1(x)) + s0 * lost;
-		return {radius, s0 + s0 * kappa0 * lost, kappa0 - lost / s0};
+		return {radius, s0 + s0 * s0 * kappa0 * lost, kappa0 - lost / s0};
 	}
 
 	struct Edge

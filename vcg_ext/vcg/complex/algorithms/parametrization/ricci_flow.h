@@ -16,11 +16,13 @@
 
 #include <vcg/complex/allocate.h>
 #include <vcg/complex/complex.h>
+#include <vcg/space/color4.h>
 #include <vcg/space/rect_packer.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <map>
 #include <string>
@@ -62,6 +64,9 @@ public:
 		bool normalizeUV = true;
 	};
 
+	/// The hyperbolic flow takes these as they are.
+	typedef ricci::HyperbolicOptions HyperbolicParams;
+
 	/// Everything that a run computed, indexed like the mesh's face and vertex vectors (deleted
 	/// elements included; their entries mean nothing).
 	struct Result
@@ -75,6 +80,10 @@ public:
 		/// Common refinement, if asked for; its points and faces index the mesh's vertex and face
 		/// vectors, its points beyond them are new.
 		ricci::RefinedMesh refined;
+		/// Hyperbolic flow: one for each component, with the square that its disk fills in the
+		/// texture plane.
+		std::vector<ricci::FuchsianGroup> groups;
+		std::vector<Box2<double>> disks;
 	};
 
 	/// Computes; \p m is only read: positions, faces, selected vertices (Rectangle, SelectedCones),
@@ -84,7 +93,11 @@ public:
 	{
 		std::vector<int> faceIndex; // [compact] -> index in m.face
 		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex);
-		const ricci::VertexInput input = ReadVertexInput(m, par);
+		const ricci::VertexInput input = ReadVertexInput(
+			m,
+			par.target == ricci::TargetCurvature::Rectangle ||
+				par.target == ricci::TargetCurvature::SelectedCones,
+			par.target == ricci::TargetCurvature::Prescribed);
 		ricci::Parametrization flat = ricci::parametrizeEuclidean(mesh, input, par, progress);
 
 		Result r;
@@ -92,15 +105,38 @@ public:
 		r.notes = flat.notes;
 		PackCharts(flat, par.normalizeUV);
 		CountFlippedByRounding(flat, r.report);
-		r.wedgeUV.resize(m.face.size());
-		for (size_t f = 0; f < faceIndex.size(); ++f)
-			r.wedgeUV[size_t(faceIndex[f])] = flat.uv[f];
-		r.vertexQC = std::move(flat.vertexQC);
-		r.u = std::move(flat.u);
-		r.targetCurvature = std::move(flat.targetCurvature);
-		r.refined = std::move(flat.refined);
-		for (int& f : r.refined.inputFace)
-			f = faceIndex[size_t(f)];
+		TakeOver(flat, m.face.size(), faceIndex, r);
+		return r;
+	}
+
+	/// Computes the hyperbolic flow; \p m is only read, as by Compute(). The Poincaré disk fills
+	/// [0,1]^2; with several components each has a disk of its own, side by side.
+	/// \throw ricci::Error and its derived classes, with a sentence for the user
+	static Result
+	ComputeHyperbolic(const MeshType& m, const HyperbolicParams& par, ricci::Progress& progress)
+	{
+		std::vector<int> faceIndex; // [compact] -> index in m.face
+		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex);
+		const ricci::VertexInput input = ReadVertexInput(
+			m,
+			par.target == ricci::HyperbolicTarget::SelectedCones,
+			par.target == ricci::HyperbolicTarget::Prescribed);
+		ricci::Parametrization disk = ricci::parametrizeHyperbolic(mesh, input, par, progress);
+
+		Result r;
+		r.report = disk.report;
+		r.notes = disk.notes;
+		const int perRow = int(std::ceil(std::sqrt(double(disk.charts.size()))));
+		const double side = 1.0 / perRow;
+		for (size_t i = 0; i < disk.charts.size(); ++i) {
+			const Point2d corner(side * double(int(i) % perRow), side * double(int(i) / perRow));
+			r.disks.push_back(Box(corner, corner + Point2d(side, side)));
+			r.groups.push_back(disk.charts[i].group);
+			Transform(disk, disk.charts[i], 0.5 * side, r.disks[i].Center());
+		}
+		ClampToUnitSquare(disk);
+		CountFlippedByRounding(disk, r.report);
+		TakeOver(disk, m.face.size(), faceIndex, r);
 		return r;
 	}
 
@@ -284,7 +320,125 @@ public:
 		}
 	}
 
+	/// Fills the empty mesh \p cover with copies of the layout in the Poincaré disk: the component
+	/// itself and \p rings rings of neighbours in its universal cover, all within the disk's square
+	/// of the texture plane, at z = 0. Each copy has its own colour, where vertices or faces of
+	/// \p cover have any.
+	/// \throw ricci::InvalidOption if that is more than \p mostFaces faces
+	static void BuildUniversalCover(
+		const MeshType& m, const Result& r, int rings, size_t mostFaces, MeshType& cover)
+	{
+		MeshType one;
+		BuildFlatMesh(m, r, one);
+		std::vector<int> chart(size_t(one.vn), 0); // by its square
+		for (size_t v = 0; v < chart.size(); ++v)
+			for (size_t i = 0; i < r.disks.size(); ++i)
+				if (r.disks[i].IsIn(Point2d(one.vert[v].P()[0], one.vert[v].P()[1])))
+					chart[v] = int(i);
+		std::vector<ricci::Tiling> tilings;
+		size_t most = 0;
+		for (const ricci::FuchsianGroup& group : r.groups) {
+			const size_t limit = mostFaces / std::max<size_t>(1, size_t(one.fn)) + 2;
+			tilings.push_back(ricci::tiling(group.sides, rings, int(limit)));
+			most = std::max(most, tilings.back().motions.size());
+		}
+		if (most * size_t(one.fn) > mostFaces)
+			throw ricci::InvalidOption(
+				"universal_cover: " + std::to_string(rings) + " rings would need more than " +
+				std::to_string(mostFaces) + " faces. Ask for fewer rings, or simplify the mesh.");
+		for (size_t copy = 0; copy < most; ++copy) {
+			std::vector<VertexType*> place(size_t(one.vn), nullptr);
+			size_t vertices = 0, faces = 0;
+			const auto has = [&](int i) { return copy < tilings[size_t(i)].motions.size(); };
+			for (size_t v = 0; v < place.size(); ++v)
+				vertices += has(chart[v]);
+			for (const FaceType& f : one.face)
+				faces += has(chart[Index(one, f.cV(0))]);
+			VertexIterator vi = Allocator<MeshType>::AddVertices(cover, vertices);
+			for (size_t v = 0; v < place.size(); ++v) {
+				if (!has(chart[v]))
+					continue;
+				const Box& square = r.disks[size_t(chart[v])];
+				const double radius = 0.5 * square.DimX();
+				const Point2d middle = square.Center();
+				const std::complex<double> z =
+					tilings[size_t(chart[v])].motions[copy](std::complex<double>(
+						(double(one.vert[v].P()[0]) - middle[0]) / radius,
+						(double(one.vert[v].P()[1]) - middle[1]) / radius));
+				vi->P() = CoordType(
+					ScalarType(middle[0] + radius * z.real()),
+					ScalarType(middle[1] + radius * z.imag()),
+					ScalarType(0));
+				vi->N() = CoordType(0, 0, 1);
+				vi->Q() = one.vert[v].Q();
+				if (HasPerVertexColor(cover))
+					vi->C() = TileColor(copy, most);
+				place[v] = &*vi++;
+			}
+			FaceIterator fi = Allocator<MeshType>::AddFaces(cover, faces);
+			for (const FaceType& f : one.face) {
+				if (!has(chart[Index(one, f.cV(0))]))
+					continue;
+				for (int k = 0; k < 3; ++k)
+					fi->V(k) = place[Index(one, f.cV(k))];
+				fi->N() = CoordType(0, 0, 1);
+				if (HasPerFaceColor(cover))
+					fi->C() = TileColor(copy, most);
+				++fi;
+			}
+		}
+	}
+
+	/// Fills the empty mesh \p curves with edges: the axes of the generators in the Poincaré disk,
+	/// which are closed geodesics of the surface, each as a polyline of \p pieces edges. Rotations
+	/// have no axis.
+	static void BuildAxes(const Result& r, int pieces, MeshType& curves)
+	{
+		for (size_t i = 0; i < r.groups.size(); ++i) {
+			std::vector<ricci::DiskIsometry> motions = r.groups[i].handles;
+			motions.insert(motions.end(), r.groups[i].ends.begin(), r.groups[i].ends.end());
+			for (const ricci::DiskIsometry& g : motions) {
+				std::complex<double> from, to;
+				if (!g.axis(from, to))
+					continue;
+				// The straight line in the Klein model, from one fixed point to the other.
+				VertexIterator vi = Allocator<MeshType>::AddVertices(curves, size_t(pieces) + 1);
+				std::vector<VertexType*> points;
+				for (int k = 0; k <= pieces; ++k, ++vi) {
+					// Denser towards the ends, where the disk is smaller.
+					const double t = 0.5 - 0.5 * std::cos(M_PI * k / pieces);
+					const std::complex<double> klein = (1.0 - t) * from + t * to;
+					const std::complex<double> z =
+						klein / (1.0 + std::sqrt(std::max(0.0, 1.0 - std::norm(klein))));
+					const Point2d p = r.disks[i].Center() +
+									  Point2d(z.real(), z.imag()) * (0.5 * r.disks[i].DimX());
+					vi->P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(0));
+					vi->N() = CoordType(0, 0, 1);
+					points.push_back(&*vi);
+				}
+				typename MeshType::EdgeIterator ei =
+					Allocator<MeshType>::AddEdges(curves, size_t(pieces));
+				for (size_t k = 0; k < size_t(pieces); ++k, ++ei) {
+					ei->V(0) = points[k];
+					ei->V(1) = points[k + 1];
+				}
+			}
+		}
+	}
+
 private:
+	/// Different for copies that are near to each other in their order; the first one is white.
+	static Color4b TileColor(size_t copy, size_t)
+	{
+		if (copy == 0)
+			return Color4b(255, 255, 255, 255);
+		// Steps of the golden section round the circle of hues.
+		const double hue = std::fmod(0.618033988749895 * double(copy), 1.0);
+		Color4b color;
+		color.SetHSVColor(float(hue), copy % 2 == 0 ? 0.45f : 0.7f, copy % 3 == 0 ? 0.8f : 0.95f);
+		return color;
+	}
+
 	typedef typename MeshType::template PerVertexAttributeHandle<ScalarType> VertexAttribute;
 
 	/// The attribute of that name, made anew if there is one of another type.
@@ -418,17 +572,15 @@ private:
 		return mesh;
 	}
 
-	static ricci::VertexInput ReadVertexInput(const MeshType& m, const Params& par)
+	static ricci::VertexInput
+	ReadVertexInput(const MeshType& m, bool readSelection, bool readQuality)
 	{
 		typedef typename VertexType::QualityType QualityType;
 		ricci::VertexInput input;
-		if (par.target == ricci::TargetCurvature::Rectangle ||
-			par.target == ricci::TargetCurvature::SelectedCones)
-			for (size_t v = 0; v < m.vert.size(); ++v)
-				input.selected.push_back(!m.vert[v].IsD() && m.vert[v].IsS());
-		if (par.target == ricci::TargetCurvature::Prescribed)
-			for (size_t v = 0; v < m.vert.size(); ++v)
-				input.targetCurvature.push_back(m.vert[v].IsD() ? 0.0 : double(m.vert[v].cQ()));
+		for (size_t v = 0; v < m.vert.size() && readSelection; ++v)
+			input.selected.push_back(!m.vert[v].IsD() && m.vert[v].IsS());
+		for (size_t v = 0; v < m.vert.size() && readQuality; ++v)
+			input.targetCurvature.push_back(m.vert[v].IsD() ? 0.0 : double(m.vert[v].cQ()));
 		input.precision = double(std::numeric_limits<QualityType>::epsilon());
 		return input;
 	}
@@ -480,12 +632,32 @@ private:
 		const double size = std::max(whole.DimX(), whole.DimY());
 		for (const ricci::Chart& chart : flat.charts)
 			Transform(flat, chart, 1.0 / size, -whole.min / size);
-		// Rounding may leave the square by one unit.
+		ClampToUnitSquare(flat);
+	}
+
+	/// Rounding may leave the square by one unit.
+	static void ClampToUnitSquare(ricci::Parametrization& flat)
+	{
 		for (std::vector<WedgeUV>* faces : {&flat.uv, &flat.refined.uv})
 			for (WedgeUV& face : *faces)
 				for (ricci::Point2& p : face)
 					for (double& x : p)
 						x = std::min(std::max(x, 0.0), 1.0);
+	}
+
+	/// The arrays of \p flat, in the indices of the mesh.
+	static void TakeOver(
+		ricci::Parametrization& flat, size_t faces, const std::vector<int>& faceIndex, Result& r)
+	{
+		r.wedgeUV.resize(faces);
+		for (size_t f = 0; f < faceIndex.size(); ++f)
+			r.wedgeUV[size_t(faceIndex[f])] = flat.uv[f];
+		r.vertexQC = std::move(flat.vertexQC);
+		r.u = std::move(flat.u);
+		r.targetCurvature = std::move(flat.targetCurvature);
+		r.refined = std::move(flat.refined);
+		for (int& f : r.refined.inputFace)
+			f = faceIndex[size_t(f)];
 	}
 
 	/// vcglib's rectangle packer on a grid fine enough for the number of boxes. It refuses what

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parametrize.h"
+
+#include "error.h"
+#include "flow/hyperbolic_target.h"
+#include "flow/ricci_flow.h"
+#include "layout/cut_graph.h"
+#include "layout/distortion.h"
+#include "layout/hyperbolic_layout.h"
+#include "metric/hyperbolic.h"
+#include "numbers.h"
+#include "result_assembly.h"
+#include "surface/component.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace ricci {
+
+namespace {
+
+/// A curvature above this makes an interior vertex a cone, which the cut must reach.
+constexpr double kConeCurvature = 1e-9;
+
+using Triangle2 = std::array<Point2, 3>;
+
+std::complex<double> asComplex(const Point2& p)
+{
+	return {p[0], p[1]};
+}
+
+/// The flat triangle whose sides are the chords of a geodesic triangle of the disk, with the
+/// triangle's orientation. Where no flat triangle has these sides its height is 0.
+Triangle2 chordTriangle(const Triangle2& p)
+{
+	const std::complex<double> x = asComplex(p[0]), y = asComplex(p[1]), z = asComplex(p[2]);
+	const double base = chordLength(x, y), left = chordLength(x, z), right = chordLength(y, z);
+	if (!(base > 0.0))
+		return {};
+	const double along = 0.5 * ((left - right) * (left + right) / base + base);
+	const double heron = (base + left + right) * (base + left - right) * (base + right - left) *
+						 (left + right - base);
+	const double height = std::sqrt(std::max(0.0, heron)) / (2.0 * base);
+	return {
+		{{0.0, 0.0}, {base, 0.0}, {along, hyperbolicOrientation(x, y, z) < 0 ? -height : height}}};
+}
+
+int countFlipped(const std::vector<Triangle2>& uv, const std::vector<char>& reversed)
+{
+	int flipped = 0;
+	for (std::size_t f = 0; f < uv.size(); ++f)
+		flipped +=
+			hyperbolicOrientation(asComplex(uv[f][0]), asComplex(uv[f][1]), asComplex(uv[f][2])) !=
+			(reversed[f] ? -1 : 1);
+	return flipped;
+}
+
+DistortionField measure(
+	const SurfaceMesh& mesh,
+	const std::vector<Triangle2>& uv,
+	const std::vector<char>& reversed,
+	Report& report)
+{
+	std::vector<Triangle2> chords(uv.size());
+	std::transform(uv.begin(), uv.end(), chords.begin(), chordTriangle);
+	DistortionField field = measureDistortion(mesh, chords, reversed, report);
+	report.flippedFaces = countFlipped(uv, reversed);
+	return field;
+}
+
+/// One component: flow, cut and layout.
+class HyperbolicRun
+{
+public:
+	HyperbolicRun(
+		const Component& component,
+		const VertexInput& input,
+		const HyperbolicOptions& options,
+		Interval interval) :
+			m_component(component),
+			m_input(input), m_options(options), m_interval(interval)
+	{
+	}
+
+	void run(Parametrization& result)
+	{
+		flow(static_cast<int>(result.charts.size()), result.report.flowStates);
+		m_interval.step(1.0 - kAfterFlow, "Cutting and layout");
+		markCones();
+		m_cut = cutToDisk(m_base, hyperbolicLengths(), m_cones, {});
+		m_group = layOut();
+		store(result);
+	}
+
+private:
+	void flow(int number, std::vector<FlowState>& states)
+	{
+		m_interval.step(0.0, "Circle packing");
+		m_base =
+			Triangulation(static_cast<int>(m_component.positions.size()), m_component.triangles);
+		m_topology = topologyOf(m_base);
+		m_interval.log(
+			"Component of " + std::to_string(m_component.positions.size()) + " vertices, " +
+			std::to_string(m_component.triangles.size()) + " faces: " + m_topology.name() + ".");
+		HyperbolicRequest request;
+		request.mode = m_options.target;
+		request.freeBoundary = m_options.freeBoundary;
+		request.coneAngle = m_options.coneAngle;
+		request.prescribedPrecision = m_input.precision;
+		for (int v : m_component.vertex) {
+			request.selected.push_back(
+				m_input.selected.empty() ? char(0) : m_input.selected[at(v)]);
+			request.prescribed.push_back(
+				m_input.targetCurvature.empty() ? 0.0 : m_input.targetCurvature[at(v)]);
+		}
+		const Target target = chooseHyperbolicTarget(m_topology, m_base.vertexCount(), request);
+		for (const std::string& note : target.notes)
+			m_interval.log(note);
+		FlowProgress progress(m_interval, m_options.epsilon, number, states);
+		m_flow = runRicciFlow(
+			Background::HyperbolicPlane,
+			m_base,
+			edgeLengths(m_base, m_component.positions),
+			m_component.positions,
+			target,
+			{},
+			m_options,
+			[&](int step, double residual) { progress(step, residual); });
+		if (m_flow.history.lengthened > 0.0)
+			m_interval.log(
+				"Some faces have no area, or one side a million times shorter than another: the "
+				"flow sees every edge longer by " +
+				text("%.3g", m_flow.history.lengthened) + ".");
+	}
+
+	bool flips() const { return m_options.surgery == Surgery::IntrinsicFlips; }
+
+	void markCones()
+	{
+		m_cones.assign(at(m_base.vertexCount()), 0);
+		for (std::size_t v = 0; v < m_cones.size(); ++v)
+			m_cones[v] =
+				!m_topology.boundary[v] &&
+				std::abs(m_flow.target.curvature[static_cast<Eigen::Index>(v)]) > kConeCurvature;
+	}
+
+	/// About how long the input's edges are in the metric found: by the circles at their ends, which
+	/// is exact for edges that no flip has touched.
+	std::vector<double> hyperbolicLengths() const
+	{
+		if (!flips())
+			return m_flow.metric->lengths();
+		std::vector<double> lengths = edgeLengths(m_base, m_component.positions);
+		const std::vector<double>& radii = m_flow.history.startRadii;
+		for (int e = 0; e < m_base.edgeCount(); ++e) {
+			const int i = m_base.origin(2 * e), j = m_base.target(2 * e);
+			const double l = lengths[at(e)] + m_flow.history.lengthened;
+			const double gi = radii[at(i)], gj = radii[at(j)];
+			const double delta = std::max(0.0, (l - gi - gj) * (l + gi + gj) / (2.0 * gi * gj));
+			lengths[at(e)] =
+				Hyperbolic::edge(
+					Hyperbolic::circle(m_flow.u[i]), Hyperbolic::circle(m_flow.u[j]), delta)
+					.length;
+		}
+		return lengths;
+	}
+
+	FuchsianGroup layOut()
+	{
+		std::vector<Transition> transition(at(m_base.edgeCount()));
+		int sectorCount = 0;
+		m_layout.sector = cornerSectors(m_base, m_cut.isCut, sectorCount);
+		m_layout.position.resize(at(sectorCount));
+		if (flips()) {
+			m_refinement = overlay();
+			for (std::size_t e = 0; e < transition.size(); ++e)
+				transition[e] = m_refinement.transition[e];
+			for (int h = 0; h < m_base.halfedgeCount(); ++h)
+				if (!m_base.isOuter(h))
+					m_layout.position[at(m_layout.sector[at(h)])] = m_refinement.inputLayout.at(h);
+		}
+		else {
+			const CurvatureMap& metric = *m_flow.metric;
+			const HyperbolicLayout disk =
+				layOutInDisk(m_base, metric.lengths(), metric.angles(), m_cut.isCut);
+			for (int e = 0; e < m_base.edgeCount(); ++e)
+				if (m_cut.isCut[at(e)])
+					offerTransition(
+						disk, metric.lengths()[at(e)], 2 * e, 2 * e + 1, transition[at(e)]);
+			for (int h = m_base.halfedgeCount() - 1; h >= 0; --h)
+				if (!m_base.isOuter(h)) {
+					const std::complex<double> z = disk.at(h);
+					m_layout.position[at(m_layout.sector[at(h)])] = {z.real(), z.imag()};
+				}
+		}
+		return fuchsianGroup(m_base, m_cut, transition, m_cones);
+	}
+
+	CommonRefinement overlay() const
+	{
+		const FlipHistory& history = m_flow.history;
+		const CurvatureMap& metric = *m_flow.metric;
+		FlippedSurface surface;
+		surface.input = &history.input;
+		surface.startFlips = &history.startFlips;
+		surface.start = &history.start.triangulation;
+		surface.startLengths = &history.start.lengths;
+		surface.startDelta = &history.startDelta;
+		surface.startRadii = &history.startRadii;
+		surface.flowFlips = &history.flowFlips;
+		surface.end = &metric.triangulation();
+		surface.endLengths = &metric.lengths();
+		surface.endAngles = &metric.angles();
+		surface.endU = &m_flow.u;
+		surface.background = Background::HyperbolicPlane;
+		surface.keptFaces = m_base.faceCount();
+		// In a double the surface ends at its boundary.
+		std::vector<char> isCut = m_cut.isCut;
+		for (int e = 0; e < m_base.edgeCount(); ++e)
+			if (m_flow.doubled && m_base.isBoundaryEdge(e))
+				isCut[at(e)] = 1;
+		isCut.resize(at(history.input.edgeCount()), 0);
+		return commonRefinement(surface, m_component.positions, isCut);
+	}
+
+	/// Largest difference between a boundary loop's length and that of the closed geodesic its
+	/// motion moves along: they are one curve where the boundary has no curvature.
+	double boundaryError() const
+	{
+		double error = 0.0;
+		for (std::size_t i = 0; i < m_group.ends.size(); ++i)
+			for (const std::vector<int>& loop : m_topology.loops)
+				if (std::find(loop.begin(), loop.end(), m_group.endVertex[i]) != loop.end() &&
+					isGeodesic(loop)) {
+					const double half = 0.5 * std::abs(m_group.ends[i].trace());
+					error = std::max(
+						error, std::abs(2.0 * std::acosh(std::max(half, 1.0)) - lengthOf(loop)));
+				}
+		return error;
+	}
+
+	bool isGeodesic(const std::vector<int>& loop) const
+	{
+		return std::all_of(loop.begin(), loop.end(), [&](int v) {
+			return !m_flow.target.fixed[at(v)] && m_flow.target.curvature[v] == 0.0;
+		});
+	}
+
+	double lengthOf(const std::vector<int>& loop) const
+	{
+		double length = 0.0;
+		for (int h = 0; h < m_base.halfedgeCount(); ++h) {
+			if (m_base.isOuter(h) || !m_base.isBoundaryEdge(Triangulation::edge(h)) ||
+				std::find(loop.begin(), loop.end(), m_base.origin(h)) == loop.end())
+				continue;
+			const double chord =
+				chordLength(asComplex(m_layout.at(h)), asComplex(m_layout.at(m_base.next(h))));
+			length += 2.0 * std::asinh(0.5 * chord);
+		}
+		return length;
+	}
+
+	void store(Parametrization& result) const
+	{
+		Chart chart;
+		chart.faces = m_component.face;
+		chart.group = m_group;
+		if (m_options.output == OutputTriangulation::CommonRefinement)
+			appendRefinement(m_refinement, m_component, result.refined, chart);
+		result.charts.push_back(std::move(chart));
+		for (int f = 0; f < m_base.faceCount(); ++f) {
+			const std::size_t inputFace = at(m_component.face[at(f)]);
+			const auto h = m_base.halfedges(f);
+			result.reversed[inputFace] = m_component.reversed[at(f)];
+			for (std::size_t k = 0; k < 3; ++k)
+				result.uv[inputFace][m_component.inputCorner(at(f), k)] = m_layout.at(h[k]);
+		}
+		for (std::size_t v = 0; v < m_component.vertex.size(); ++v) {
+			const std::size_t inputVertex = at(m_component.vertex[v]);
+			const auto i = static_cast<Eigen::Index>(v);
+			result.u[inputVertex] = m_flow.u[i];
+			result.targetCurvature[inputVertex] =
+				m_flow.target.fixed[v] ? m_flow.curvature[i] : m_flow.target.curvature[i];
+		}
+		Report& report = result.report;
+		report.iterations += m_flow.iterations;
+		report.maxCurvatureError = std::max(report.maxCurvatureError, m_flow.residual);
+		report.residualFloor = std::max(report.residualFloor, m_flow.floor);
+		report.brokenTriangles += m_flow.metric->brokenTriangles();
+		report.flips +=
+			static_cast<int>(m_flow.history.startFlips.size() + m_flow.history.flowFlips.size());
+		report.refinementPoints += static_cast<int>(m_refinement.crossings);
+		report.eulerCharacteristic += m_topology.eulerCharacteristic;
+		report.genus += m_topology.genus;
+		report.boundaryLoops += static_cast<int>(m_topology.loops.size());
+		report.seamEdges += m_cut.edgeCount;
+		report.hyperbolicArea = report.hyperbolicArea.value_or(0.0) + m_flow.area;
+		report.relationError = std::max(
+			{report.relationError.value_or(0.0),
+			 m_group.polygonError,
+			 m_group.closingError,
+			 boundaryError()});
+	}
+
+	const Component& m_component;
+	const VertexInput& m_input;
+	const HyperbolicOptions& m_options;
+	Interval m_interval;
+	Triangulation m_base;
+	Topology m_topology;
+	FlowResult m_flow;
+	std::vector<char> m_cones;
+	CutGraph m_cut;
+	CommonRefinement m_refinement; // with flips
+	PlanarLayout m_layout;         // points of the disk
+	FuchsianGroup m_group;
+};
+
+void checkOptions(const HyperbolicOptions& options)
+{
+	if (options.surgery == Surgery::EdgeSwap || options.packing == PackingScheme::Thurston)
+		throw InvalidOption(
+			"The hyperbolic flow runs with inversive distances and the surgery 'None' or "
+			"'Intrinsic "
+			"flips' only.");
+	if (options.output == OutputTriangulation::CommonRefinement &&
+		options.surgery != Surgery::IntrinsicFlips)
+		throw InvalidOption(
+			"The output 'Common refinement' belongs to the surgery 'Intrinsic flips': choose this, "
+			"or the output 'Keep the mesh'.");
+	if (!(options.epsilon > 0.0))
+		throw InvalidOption(
+			"epsilon must be greater than 0 (radians), not " + text("%g", options.epsilon) + ".");
+	if (options.maxIterations < 1)
+		throw InvalidOption(
+			"max_iterations must be at least 1, not " + std::to_string(options.maxIterations) +
+			".");
+}
+
+} // namespace
+
+Parametrization parametrizeHyperbolic(
+	const SurfaceMesh& mesh,
+	const VertexInput& input,
+	const HyperbolicOptions& options,
+	Progress& progress)
+{
+	checkOptions(options);
+	progress.step(0.0, "Checking the mesh");
+	Parametrization result;
+	const std::vector<Component> components = splitIntoComponents(mesh, result.notes);
+	if (!(options.surgery == Surgery::IntrinsicFlips))
+		requireAreaEverywhere(components);
+	for (const std::string& note : result.notes)
+		progress.log(note);
+	startResult(mesh, options.output, components, result);
+	runComponents(mesh, components, progress, [&](const Component& component, Interval interval) {
+		HyperbolicRun(component, input, options, interval).run(result);
+	});
+	result.report.converged = true;
+	Report keptReport = result.report;
+	DistortionField distortion = measure(mesh, result.uv, result.reversed, keptReport);
+	result.faceQC = std::move(distortion.face);
+	result.vertexQC = std::move(distortion.vertex);
+	if (options.output == OutputTriangulation::CommonRefinement) {
+		std::vector<char> reversed;
+		const SurfaceMesh surface = refinedSurface(mesh, result, reversed);
+		distortion = measure(surface, result.refined.uv, reversed, result.report);
+		result.refined.faceQC = std::move(distortion.face);
+		result.refined.vertexQC = std::move(distortion.vertex);
+	}
+	else
+		result.report = keptReport;
+	progress.step(1.0, "Layout done");
+	return result;
+}
+
+} // namespace ricci

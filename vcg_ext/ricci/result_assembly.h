@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the Euclidean and the hyperbolic parametrization share: from components to one result.
+#ifndef RICCI_RESULT_ASSEMBLY_H
+#define RICCI_RESULT_ASSEMBLY_H
+
+#include "error.h"
+#include "parametrize.h"
+#include "run_progress.h"
+#include "surface/component.h"
+
+#include <string>
+#include <vector>
+
+namespace ricci {
+
+/// Sizes the arrays of \p result and puts the input's vertices into its refinement if one is asked
+/// for.
+void startResult(
+	const SurfaceMesh& mesh,
+	OutputTriangulation output,
+	const std::vector<Component>& components,
+	Parametrization& result);
+
+/// Appends the refinement of one component, in the indices and the orientation of the whole input.
+void appendRefinement(
+	const CommonRefinement& refinement,
+	const Component& component,
+	RefinedMesh& refined,
+	Chart& chart);
+
+/// The refinement as a mesh in space, and which of its faces are reversed.
+SurfaceMesh
+refinedSurface(const SurfaceMesh& mesh, const Parametrization& result, std::vector<char>& reversed);
+
+/// Distortion of the refinement, into \p result and its report.
+void measureRefinement(const SurfaceMesh& mesh, Parametrization& result);
+
+/// Runs \p run(component, interval) on every component with its share of the progress. An error
+/// names its component where there are several.
+template<class Run>
+void runComponents(
+	const SurfaceMesh& mesh, const std::vector<Component>& components, Progress& progress, Run run)
+{
+	std::size_t facesDone = 0;
+	for (const Component& component : components) {
+		const auto share = static_cast<double>(mesh.triangles.size());
+		const double from = static_cast<double>(facesDone) / share;
+		facesDone += component.triangles.size();
+		try {
+			run(component, Interval(progress, from, static_cast<double>(facesDone) / share));
+		}
+		catch (const Cancelled&) {
+			throw;
+		}
+		catch (const Error& error) {
+			if (components.size() == 1)
+				throw;
+			throw Error(
+				"Component with face " + std::to_string(component.face.front()) + " (" +
+				std::to_string(component.face.size()) + " faces): " + error.what());
+		}
+	}
+}
+
+} // namespace ricci
+
+#endif

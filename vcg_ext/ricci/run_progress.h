@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_RUN_PROGRESS_H
+#define RICCI_RUN_PROGRESS_H
+
+#include "progress.h"
+#include "report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace ricci {
+
+/// \p x in printf \p format.
+inline std::string text(const char* format, double x)
+{
+	char buffer[64];
+	std::snprintf(buffer, sizeof buffer, format, x);
+	return buffer;
+}
+
+/// Share of a component's progress that is spent before the flow, and after it.
+constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1;
+
+/// Progress of one component among several: an interval of the whole.
+class Interval
+{
+public:
+	Interval(Progress& progress, double from, double to) :
+			m_progress(progress), m_from(from), m_to(to)
+	{
+	}
+	void step(double fraction, const std::string& what)
+	{
+		m_progress.step(m_from + fraction * (m_to - m_from), what);
+	}
+	void log(const std::string& line) { m_progress.log(line); }
+
+private:
+	Progress& m_progress;
+	double m_from, m_to;
+};
+
+/// The flow's progress bar: the residual falls by orders of magnitude, so each step closes a part
+/// of the distance to epsilon on the logarithmic scale.
+class FlowProgress
+{
+public:
+	/// Every state that is passed is appended to \p states as one of \p component.
+	FlowProgress(
+		Interval& interval, double epsilon, int component, std::vector<FlowState>& states) :
+			m_interval(interval),
+			m_epsilon(epsilon), m_component(component), m_states(states)
+	{
+	}
+
+	void operator()(int step, double residual)
+	{
+		m_states.push_back({m_component, step, residual});
+		if (m_first < 0.0)
+			m_first = std::max(residual, 10 * m_epsilon);
+		const double done =
+			std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon);
+		m_done = std::max(m_done, std::clamp(done, 0.0, 1.0));
+		const std::string line = "Newton step " + std::to_string(step) +
+								 ": max |target - K| = " + text("%.3e", residual);
+		if (step != m_step) // a repeated number: a step that only polishes
+			m_interval.log(line);
+		m_step = step;
+		m_interval.step(kBeforeFlow + m_done * (1.0 - kBeforeFlow - kAfterFlow), line);
+	}
+
+private:
+	Interval& m_interval;
+	double m_epsilon, m_first = -1.0, m_done = 0.0;
+	int m_component;
+	std::vector<FlowState>& m_states;
+	int m_step = -1;
+};
+
+} // namespace ricci
+
+#endif
