@@ -8,7 +8,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <set>
 
 namespace ricci {
 
@@ -397,25 +399,30 @@ public:
 	{
 		std::vector<int> whole(m_chart.triangles.size());
 		std::iota(whole.begin(), whole.end(), 0);
-		std::vector<std::vector<int>> open{std::move(whole)}, done;
+		std::vector<std::vector<int>> open{std::move(whole)};
 		while (!open.empty()) {
 			const std::vector<int> part = std::move(open.back());
 			open.pop_back();
 			const int seed = largestWithRival(part);
-			if (seed < 0) {
-				done.push_back(part);
+			if (seed < 0)
 				continue;
-			}
 			cut(part, seed);
 			for (std::vector<int>& piece : connectedPieces(part))
 				open.push_back(std::move(piece));
 		}
+		rejoin();
+		std::map<int, std::vector<int>> byNumber;
+		for (std::size_t i = 0; i < m_part.size(); ++i)
+			byNumber[m_part[i]].push_back(static_cast<int>(i));
+		std::vector<std::vector<int>> parts;
+		for (auto& part : byNumber)
+			parts.push_back(std::move(part.second));
+		std::sort(parts.begin(), parts.end());
 		cutEdges = 0;
 		for (std::size_t s = 0; s < m_joined.size(); ++s)
 			if (m_joined[s] > static_cast<int>(s))
 				cutEdges += m_part[s / 3] != m_part[at(m_joined[s] / 3)];
-		std::sort(done.begin(), done.end());
-		return done;
+		return parts;
 	}
 
 private:
@@ -496,6 +503,47 @@ private:
 		for (int i : part)
 			if (side[at(node[at(i)])])
 				m_part[at(i)] = m_partCount;
+	}
+
+	/// Joins neighbouring parts that do not cover each other again, those with the longest common
+	/// border first: a later cut can make an earlier one needless.
+	void rejoin()
+	{
+		using Neighbours = std::array<int, 2>; // part numbers, the lower first
+		std::set<Neighbours> rivals;
+		for (std::size_t i = 0; i < m_part.size(); ++i)
+			for (int k = m_start[i]; k < m_start[i + 1]; ++k) {
+				const int a = m_part[i], b = m_part[at(m_rivals[at(k)])];
+				rivals.insert({std::min(a, b), std::max(a, b)});
+			}
+		for (;;) {
+			std::map<Neighbours, double> borders;
+			for (std::size_t s = 0; s < m_joined.size(); ++s) {
+				if (m_joined[s] <= static_cast<int>(s))
+					continue;
+				const int a = m_part[s / 3], b = m_part[at(m_joined[s] / 3)];
+				const Neighbours pair{std::min(a, b), std::max(a, b)};
+				if (a != b && !rivals.count(pair))
+					borders[pair] += m_edgeLength[s / 3][s % 3];
+			}
+			if (borders.empty())
+				return;
+			const Neighbours best =
+				std::max_element(borders.begin(), borders.end(), [](const auto& x, const auto& y) {
+					return x.second < y.second;
+				})->first;
+			for (int& part : m_part)
+				if (part == best[1])
+					part = best[0];
+			std::set<Neighbours> renamed;
+			for (Neighbours pair : rivals) {
+				for (int& part : pair)
+					if (part == best[1])
+						part = best[0];
+				renamed.insert({std::min(pair[0], pair[1]), std::max(pair[0], pair[1])});
+			}
+			rivals.swap(renamed);
+		}
 	}
 
 	/// Pieces of \p part, each under a number of its own.

@@ -44,7 +44,8 @@ std::vector<std::array<int, 2>> overlappingPairs(const DrawnChart& chart);
 /// As long as a part has an overlap, one sheet of it is grown from its largest triangle, and the
 /// shortest cut between this sheet and all that it covers (a minimal cut of the dual graph, whose
 /// edges are as dear as their length in space) divides the part. Cutting moves nothing in the plane,
-/// so each cut removes pairs and makes none. Deterministic.
+/// so each cut removes pairs and makes none. Neighbouring parts that do not cover each other in the
+/// end are joined again. Deterministic.
 /// \param edgeLength [triangle][side] in space; side k runs from corner k to corner k + 1
 /// \param cutEdges receives the number of edges that were cut
 /// \return the triangles of each connected part, in increasing order, the parts by their first
