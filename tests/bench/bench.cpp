@@ -217,7 +217,8 @@ double oneFactorisation(const CurvatureMap& map, const Target& target, int repea
 }
 
 /// The first component of the mesh; the others would only add up.
-void measure(const SurfaceMesh& mesh, Background background, const Options& options, Row& row)
+void measure(
+	const SurfaceMesh& mesh, Background background, bool flowOnly, const Options& options, Row& row)
 {
 	Component component;
 	Triangulation t;
@@ -244,7 +245,7 @@ void measure(const SurfaceMesh& mesh, Background background, const Options& opti
 		target.fixed.assign(component.positions.size(), 0);
 	}
 	// A uniform curvature makes every vertex a cone, which no one wants to see cut open.
-	if (row.target == "automatic") {
+	if (row.target == "automatic" && !flowOnly) {
 		Progress silent;
 		const double start = wallSeconds();
 		row.whole = timeOf([&] { parametrizeEuclidean(mesh, {}, options, silent); });
@@ -349,6 +350,7 @@ int main(int argc, char** argv)
 {
 	Options options;
 	Background background = Background::EuclideanPlane;
+	bool flowOnly = false; // not the whole way from mesh to plane, which needs more memory
 	std::string path;
 	const auto surgeryName = [&] {
 		return options.surgery == Surgery::None       ? "none"
@@ -367,6 +369,8 @@ int main(int argc, char** argv)
 			options.surgery = Surgery::EdgeSwap;
 		else if (word == "--surgery=intrinsic_flips")
 			options.surgery = Surgery::IntrinsicFlips;
+		else if (word == "--flow-only")
+			flowOnly = true;
 		else if (word == "--geometry=euclidean")
 			background = Background::EuclideanPlane;
 		else if (word == "--geometry=hyperbolic")
@@ -378,7 +382,7 @@ int main(int argc, char** argv)
 	}
 	if (path.empty()) {
 		std::cerr << "usage: ricci_bench --header | [--surgery=none|edge_swap|intrinsic_flips] "
-					 "[--geometry=euclidean|hyperbolic] MESH|generated[:FACES]\n";
+					 "[--geometry=euclidean|hyperbolic] [--flow-only] MESH|generated[:FACES]\n";
 		return 2;
 	}
 	Row row;
@@ -389,7 +393,7 @@ int main(int argc, char** argv)
 	try {
 		SurfaceMesh mesh;
 		row.read = timeOf([&] { mesh = read(path); });
-		measure(mesh, background, options, row);
+		measure(mesh, background, flowOnly, options, row);
 	}
 	catch (const std::exception& error) {
 		row.remark = error.what();

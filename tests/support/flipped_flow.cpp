@@ -8,6 +8,7 @@
 #include <ricci/surface/double_surface.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -17,6 +18,7 @@ namespace ricci::testing {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr long double kExtendedPi = 3.14159265358979323846264338327950288L;
 
 /// Curvature above which a vertex counts as a cone.
 constexpr double kCone = 1e-9;
@@ -37,6 +39,29 @@ FlippedFlow::FlippedFlow(
 	run(request, epsilon);
 }
 
+FlippedFlow::FlippedFlow(const SurfaceMesh& m, const HyperbolicRequest& request, double epsilon) :
+		mesh(m), background(Background::HyperbolicPlane), base(glued(m)),
+		lengths(edgeLengths(base, m.positions))
+{
+	run(request, epsilon);
+}
+
+FlippedFlow::FlippedFlow(
+	const IntrinsicMesh& metric, const HyperbolicRequest& request, double epsilon) :
+		background(Background::HyperbolicPlane),
+		base(metric.triangulation), lengths(metric.lengths)
+{
+	run(request, epsilon);
+}
+
+void FlippedFlow::run(HyperbolicRequest request, double epsilon)
+{
+	topology = topologyOf(base);
+	request.selected.resize(at(base.vertexCount()), 0);
+	request.prescribed.resize(at(base.vertexCount()), 0.0);
+	run(chooseHyperbolicTarget(topology, base.vertexCount(), request), epsilon);
+}
+
 void FlippedFlow::run(TargetRequest request, double epsilon)
 {
 	topology = topologyOf(base);
@@ -45,12 +70,16 @@ void FlippedFlow::run(TargetRequest request, double epsilon)
 	request.prescribed.resize(vertexCount, 0.0);
 	if (request.prescribedPrecision == 0.0)
 		request.prescribedPrecision = std::numeric_limits<double>::epsilon();
-	const Target target = chooseTarget(base, topology, lengths, mesh.positions, request);
-	Options options;
+	run(chooseTarget(base, topology, lengths, mesh.positions, request), epsilon);
+}
+
+void FlippedFlow::run(const Target& target, double epsilon)
+{
+	FlowOptions options;
 	options.surgery = Surgery::IntrinsicFlips;
 	options.epsilon = epsilon;
 	result = runRicciFlow(
-		Background::EuclideanPlane,
+		background,
 		base,
 		lengths,
 		mesh.positions,
@@ -60,13 +89,18 @@ void FlippedFlow::run(TargetRequest request, double epsilon)
 		[](int, double) {});
 }
 
+std::vector<char> FlippedFlow::cones() const
+{
+	std::vector<char> cone(at(base.vertexCount()), 0);
+	for (std::size_t v = 0; v < cone.size(); ++v)
+		cone[v] = !topology.boundary[v] &&
+				  std::abs(result.target.curvature[static_cast<Eigen::Index>(v)]) > kCone;
+	return cone;
+}
+
 CutGraph FlippedFlow::cut() const
 {
-	std::vector<char> cones(at(base.vertexCount()), 0);
-	for (std::size_t v = 0; v < cones.size(); ++v)
-		cones[v] = !topology.boundary[v] &&
-				   std::abs(result.target.curvature[static_cast<Eigen::Index>(v)]) > kCone;
-	return cutToDisk(base, lengths, cones, {});
+	return cutToDisk(base, lengths, cones(), {});
 }
 
 CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
@@ -84,6 +118,7 @@ CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
 	surface.endLengths = &result.metric->lengths();
 	surface.endAngles = &result.metric->angles();
 	surface.endU = &result.u;
+	surface.background = background;
 	surface.keptFaces = base.faceCount();
 	std::vector<char> isCut = cutGraph.isCut;
 	for (int e = 0; e < base.edgeCount(); ++e)
@@ -117,6 +152,21 @@ TargetRequest prescribed(std::vector<double> curvature, bool freeBoundary)
 	return request;
 }
 
+HyperbolicRequest hyperbolicMetric(bool freeBoundary)
+{
+	HyperbolicRequest request;
+	request.freeBoundary = freeBoundary;
+	return request;
+}
+
+HyperbolicRequest hyperbolicPrescribed(std::vector<double> curvature)
+{
+	HyperbolicRequest request;
+	request.mode = HyperbolicTarget::Prescribed;
+	request.prescribed = std::move(curvature);
+	return request;
+}
+
 std::vector<double>
 randomCurvature(int vertexCount, int chi, double low, double high, double share, Random& random)
 {
@@ -136,10 +186,54 @@ randomCurvature(int vertexCount, int chi, double low, double high, double share,
 	return curvature;
 }
 
+HyperbolicMeasure::HyperbolicMeasure(const Triangulation& t, const std::vector<double>& lengths) :
+		curvature(at(t.vertexCount()), 2 * kExtendedPi), sensitivity(at(t.vertexCount()), 0.0L)
+{
+	const std::vector<char> boundary = t.boundaryVertices();
+	for (std::size_t v = 0; v < boundary.size(); ++v)
+		if (boundary[v])
+			curvature[v] = kExtendedPi;
+	for (int f = 0; f < t.faceCount(); ++f) {
+		const auto h = t.halfedges(f);
+		std::array<long double, 3> l;
+		for (std::size_t k = 0; k < 3; ++k)
+			l[k] = lengths[at(Triangulation::edge(h[k]))];
+		const long double s = (l[0] + l[1] + l[2]) / 2;
+		if (!(std::max({l[0], l[1], l[2]}) < s)) {
+			++broken;
+			continue;
+		}
+		long double sum = 0.0L, cotangents = 0.0L;
+		for (std::size_t k = 0; k < 3; ++k) {
+			// Half the angle between sides k and k - 1, opposite side k + 1.
+			const long double opposite = l[(k + 1) % 3];
+			const long double tangent = std::sqrt(
+				std::sinh(s - l[k]) * std::sinh(s - l[(k + 2) % 3]) /
+				(std::sinh(s) * std::sinh(s - opposite)));
+			curvature[at(t.origin(h[k]))] -= 2 * std::atan(tangent);
+			sum += 2 * std::atan(tangent);
+			cotangents += 1 / tangent + tangent;
+		}
+		area += kExtendedPi - sum;
+		// The flat triangle's bound, times what a length adds in the hyperbolic plane.
+		for (int side : h)
+			sensitivity[at(t.origin(side))] += 2 * cotangents * (1 + s) * std::cosh(s);
+	}
+}
+
 IndependentError::IndependentError(const FlippedFlow& flow)
 {
+	if (flow.background == Background::HyperbolicPlane)
+		compare<HyperbolicMeasure>(flow);
+	else
+		compare<MetricMeasure>(flow);
+}
+
+template<class Measure>
+void IndependentError::compare(const FlippedFlow& flow)
+{
 	const Triangulation& t = flow.result.metric->triangulation();
-	const MetricMeasure measure(t, flow.result.metric->lengths());
+	const Measure measure(t, flow.result.metric->lengths());
 	for (int v = 0; v < flow.base.vertexCount(); ++v) {
 		if (flow.result.target.fixed[at(v)])
 			continue;

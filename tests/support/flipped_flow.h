@@ -4,6 +4,7 @@
 
 #include "random.h"
 
+#include <ricci/flow/hyperbolic_target.h>
 #include <ricci/flow/ricci_flow.h>
 #include <ricci/flow/target_curvature.h>
 #include <ricci/layout/common_refinement.h>
@@ -19,6 +20,7 @@ namespace ricci::testing {
 struct FlippedFlow
 {
 	SurfaceMesh mesh;
+	Background background = Background::EuclideanPlane;
 	Triangulation base;
 	std::vector<double> lengths;
 	Topology topology;
@@ -30,23 +32,49 @@ struct FlippedFlow
 	/// From any triangulation; targets that need places in space are not for it.
 	FlippedFlow(const IntrinsicMesh& metric, const TargetRequest& request, double epsilon = 1e-10);
 
+	/// Hyperbolic, on a mesh or on any triangulation.
+	/// \throw what chooseHyperbolicTarget() and runRicciFlow() throw
+	FlippedFlow(const SurfaceMesh& mesh, const HyperbolicRequest& request, double epsilon = 1e-11);
+	FlippedFlow(
+		const IntrinsicMesh& metric, const HyperbolicRequest& request, double epsilon = 1e-11);
+
+	/// [vertex] 1 where the metric found has a cone inside.
+	std::vector<char> cones() const;
+
 	/// Input's metric flattened cut open along a cut graph through all cones, and laid out.
 	CutGraph cut() const;
 	CommonRefinement refinement(const CutGraph& cut) const;
 
 private:
 	void run(TargetRequest request, double epsilon);
+	void run(HyperbolicRequest request, double epsilon);
+	void run(const Target& target, double epsilon);
 };
 
 /// Requests by name.
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary = true);
 TargetRequest conesAt(const SurfaceMesh& mesh, const std::vector<int>& vertices);
 TargetRequest prescribed(std::vector<double> curvature, bool freeBoundary = false);
+HyperbolicRequest hyperbolicMetric(bool freeBoundary = false);
+HyperbolicRequest hyperbolicPrescribed(std::vector<double> curvature);
 
 /// Values uniform in [low, high) at a random \p share of the vertices, 0 elsewhere, then moved
 /// together so that they add up to 2 pi chi, with \p high as a bound. \p chi as of a closed surface.
 std::vector<double>
 randomCurvature(int vertexCount, int chi, double low, double high, double share, Random& random);
+
+/// What the lengths of triangles of curvature -1 say, in extended precision and by formulas of its
+/// own, so that nothing of the core is trusted.
+struct HyperbolicMeasure
+{
+	std::vector<long double> curvature; ///< [vertex] 2 pi (boundary: pi) less the angles
+	/// [vertex] Bound of the change of curvature for a relative change of 1 of every length.
+	std::vector<long double> sensitivity;
+	long double area = 0.0L; ///< sum of pi less the angles
+	int broken = 0;          ///< triangles without the strict triangle inequality
+
+	HyperbolicMeasure(const Triangulation& t, const std::vector<double>& lengths);
+};
 
 /// Curvature error of a result by its lengths alone, in extended precision, and the part of it that
 /// the last place of the lengths accounts for.
@@ -56,6 +84,10 @@ struct IndependentError
 	double rounding = 0.0; ///< what one unit in the last place of all lengths makes of K
 
 	explicit IndependentError(const FlippedFlow& flow);
+
+private:
+	template<class Measure>
+	void compare(const FlippedFlow& flow);
 };
 
 } // namespace ricci::testing

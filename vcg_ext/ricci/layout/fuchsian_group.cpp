@@ -107,13 +107,16 @@ private:
 
 	int startOfWalk() const
 	{
+		int loop = -1; // all that is cut where the tree is one vertex
 		for (int h = 0; h < m_t.halfedgeCount(); ++h) {
 			const int e = Triangulation::edge(h);
-			if (!m_t.isOuter(h) &&
-				(m_t.isBoundaryEdge(e) || (m_cut.isCut[at(e)] && m_generatorOf[at(e)] < 0)))
+			if (m_t.isOuter(h) || !(m_t.isBoundaryEdge(e) || m_cut.isCut[at(e)]))
+				continue;
+			if (m_t.isBoundaryEdge(e) || m_generatorOf[at(e)] < 0)
 				return h;
+			loop = h;
 		}
-		return -1;
+		return loop;
 	}
 
 	/// From the sector on the left of h, turning counter-clockwise about its origin.

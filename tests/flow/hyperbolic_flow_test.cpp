@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The hyperbolic flow, seen from its result alone.
+#include "support/flipped_flow.h"
+#include "support/implicit_surface.h"
+#include "support/intrinsic.h"
+#include "support/random.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/transform.h"
+
+#include <ricci/error.h>
+#include <ricci/metric/hyperbolic.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// The target is reached, by the flow's word and by the lengths it gives; the area is what
+/// Gauss-Bonnet says.
+void expectReached(const FlippedFlow& flow)
+{
+	const FlowResult& r = flow.result;
+	EXPECT_LE(r.residual, std::max(1e-10, r.floor));
+	EXPECT_LE(r.floor, 1e-9);
+	EXPECT_EQ(r.metric->brokenTriangles(), 0);
+	EXPECT_LT(r.u.maxCoeff(), 0.0);
+	const HyperbolicMeasure measure(r.metric->triangulation(), r.metric->lengths());
+	EXPECT_EQ(measure.broken, 0);
+	const IndependentError independent(flow);
+	EXPECT_LE(independent.error, std::max(1e-10, r.floor) + independent.rounding);
+	if (std::find(r.target.fixed.begin(), r.target.fixed.end(), 1) != r.target.fixed.end())
+		return;
+	const double area = r.target.curvature.sum() - 2 * kPi * flow.topology.eulerCharacteristic;
+	// Every curvature is rounded to the last place of 2 pi.
+	EXPECT_NEAR(r.area, area, 1e-10 * area + 1e-15 * flow.base.vertexCount());
+}
+
+TEST(HyperbolicFlow, FindsTheMetricOfCurvatureMinusOne)
+{
+	Random random(500);
+	for (int genus : {2, 3}) {
+		std::vector<SurfaceMesh> meshes{
+			perforatedSlab(genus, 2), shaken(perforatedSlab(genus, 3), 0.08, random)};
+		for (std::uint64_t seed : {1, 2})
+			meshes.push_back(implicitClosed(genus, 5, seed));
+		for (const SurfaceMesh& mesh : meshes) {
+			SCOPED_TRACE(
+				"genus " + std::to_string(genus) + ", " + std::to_string(mesh.positions.size()) +
+				" vertices");
+			const FlippedFlow flow(mesh, hyperbolicMetric());
+			expectReached(flow);
+			EXPECT_NEAR(flow.result.area / (4 * kPi * (genus - 1)), 1.0, 1e-10);
+		}
+	}
+}
+
+TEST(HyperbolicFlow, ReachesRandomCones)
+{
+	for (int genus : {0, 1, 2})
+		for (std::uint64_t seed : {1, 2, 3}) {
+			Random random(510 + seed);
+			for (const SurfaceMesh& mesh :
+				 {shaken(perforatedSlab(genus, 3), 0.08, random), implicitClosed(genus, 5, seed)}) {
+				SCOPED_TRACE("genus " + std::to_string(genus) + ", seed " + std::to_string(seed));
+				std::vector<double> curvature(mesh.positions.size(), 0.0);
+				double sum = 0.0;
+				for (int i = 0; i < 12; ++i) {
+					double& K = curvature[at(random.index(static_cast<int>(curvature.size())))];
+					sum -= K;
+					K = random.real(-4.0, 6.0);
+					sum += K;
+				}
+				for (std::size_t v = 0; sum <= 4 * kPi * (1 - genus) + 0.1; ++v) {
+					sum += 3.0 - curvature[v];
+					curvature[v] = 3.0;
+				}
+				expectReached(FlippedFlow(mesh, hyperbolicPrescribed(curvature)));
+			}
+		}
+}
+
+TEST(HyperbolicFlow, SharpAndWideCones)
+{
+	Random random(520);
+	const SurfaceMesh sphere = shaken(perforatedSlab(0, 3), 0.05, random);
+	for (double gap : {0.3, 0.05}) {
+		std::vector<double> curvature(sphere.positions.size(), 0.0);
+		for (std::size_t v : {3u, 20u, 40u})
+			curvature[v] = 2 * kPi - gap;
+		expectReached(FlippedFlow(sphere, hyperbolicPrescribed(curvature)));
+	}
+	const SurfaceMesh genus2 = shaken(perforatedSlab(2, 3), 0.05, random);
+	std::vector<double> curvature(genus2.positions.size(), 0.0);
+	curvature[7] = -4 * kPi + 0.5; // little area is left
+	expectReached(FlippedFlow(genus2, hyperbolicPrescribed(curvature)));
+}
+
+/// Without curvature at its vertices a boundary is a closed geodesic.
+TEST(HyperbolicFlow, BoundaryBecomesGeodesic)
+{
+	Random random(530);
+	const SurfaceMesh meshes[] = {
+		withoutStars(shaken(perforatedSlab(1, 4), 0.03, random), {0}),
+		withoutStars(shaken(perforatedSlab(0, 5), 0.03, random), {0, 60, 120}),
+		withoutStars(shaken(perforatedSlab(2, 3), 0.03, random), {5, 70})};
+	for (const SurfaceMesh& mesh : meshes) {
+		const FlippedFlow flow(mesh, hyperbolicMetric());
+		ASSERT_LT(flow.topology.eulerCharacteristic, 0);
+		SCOPED_TRACE(flow.topology.name());
+		expectReached(flow);
+		for (int v = 0; v < flow.base.vertexCount(); ++v)
+			EXPECT_NEAR(flow.result.curvature[v], 0.0, 1e-10);
+	}
+}
+
+TEST(HyperbolicFlow, FreeBoundaryKeepsItsCircles)
+{
+	Random random(540);
+	const SurfaceMesh mesh = withoutStars(shaken(perforatedSlab(1, 4), 0.03, random), {0});
+	const FlippedFlow flow(mesh, hyperbolicMetric(true));
+	expectReached(flow);
+	ASSERT_FALSE(flow.result.doubled);
+	// All radii are scaled alike at the start.
+	double factor = 0.0;
+	for (int v = 0; v < flow.base.vertexCount(); ++v) {
+		if (!flow.topology.boundary[at(v)]) {
+			EXPECT_NEAR(flow.result.curvature[v], 0.0, 1e-10);
+			continue;
+		}
+		const double own = std::exp(flow.result.u[v]) / flow.result.history.startRadii[at(v)];
+		factor = factor == 0.0 ? own : factor;
+		EXPECT_NEAR(own / factor, 1.0, 1e-14);
+	}
+}
+
+/// One metric in each class: the solver finds it from everywhere.
+TEST(HyperbolicFlow, DistortedStartsLeadToTheSameMetric)
+{
+	Random random(550);
+	for (int genus : {2, 3}) {
+		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 2), 0.05, random);
+		const FlippedFlow flow(mesh, hyperbolicMetric(), 1e-13);
+		const Eigen::VectorXd& u = flow.result.u;
+		for (double spread : {0.1, 1.0, 3.0}) {
+			SCOPED_TRACE(spread);
+			FlippingCurvatureMap<Hyperbolic> map(flow.result.metric->packing());
+			Eigen::VectorXd found = u;
+			for (double& x : found)
+				x = std::min(x + random.real(-spread, spread), -0.05);
+			NewtonSolver solver(map, std::vector<char>(at(flow.base.vertexCount()), 0));
+			NewtonOptions options;
+			options.epsilon = 1e-12;
+			const NewtonResult solved =
+				solver.solve(found, Eigen::VectorXd::Zero(u.size()), options, [](int, double) {});
+			EXPECT_TRUE(solved.converged);
+			EXPECT_LT((found - u).lpNorm<Eigen::Infinity>(), 1e-9);
+			// Lengths of the edges that both triangulations have.
+			for (int e = 0; e < flow.base.edgeCount(); ++e)
+				if (map.delta()[at(e)] == flow.result.metric->delta()[at(e)]) {
+					EXPECT_NEAR(
+						map.lengths()[at(e)] / flow.result.metric->lengths()[at(e)], 1.0, 1e-9);
+				}
+		}
+	}
+}
+
+TEST(HyperbolicFlow, DoesNotDependOnScaleNumbersOrTheTriangulationOfTheInput)
+{
+	Random random(560);
+	const SurfaceMesh mesh = shaken(perforatedSlab(2, 2), 0.06, random);
+	const FlippedFlow flow(mesh, hyperbolicMetric());
+	for (double factor : {1e-3, 1.0 / 3.0, 1e4}) {
+		const FlippedFlow same(scaled(mesh, factor), hyperbolicMetric());
+		EXPECT_LT((same.result.u - flow.result.u).lpNorm<Eigen::Infinity>(), 1e-9);
+	}
+	const Renumbered other = renumbered(mesh, random);
+	const FlippedFlow same(other.mesh, hyperbolicMetric());
+	for (std::size_t v = 0; v < other.vertex.size(); ++v)
+		EXPECT_NEAR(
+			same.result.u[static_cast<Eigen::Index>(v)], flow.result.u[other.vertex[v]], 1e-9);
+	IntrinsicMesh metric = intrinsicMesh(mesh);
+	EXPECT_GT(flipIsometrically(metric, 400, random).size(), 60u);
+	const FlippedFlow flipped(metric, hyperbolicMetric());
+	EXPECT_LT((flipped.result.u - flow.result.u).lpNorm<Eigen::Infinity>(), 1e-9);
+}
+
+/// On a torus whose curvatures leave the area \p s the metric is the Euclidean flow's but for the
+/// scale, up to the order of s.
+TEST(HyperbolicFlow, BothBackgroundsAgreeWhereTheAreaVanishes)
+{
+	Random random(570);
+	const SurfaceMesh mesh = bumpyTorus(14, 10, random);
+	const auto n = mesh.positions.size();
+	std::vector<double> curvature(n, 0.0);
+	curvature[17] = 0.5;
+	curvature[91] = -0.5;
+	const FlippedFlow flat(mesh, prescribed(curvature), 1e-12);
+	const double flatScale = 0.5 * std::log(flat.result.area);
+	std::vector<double> radii, lengths;
+	for (double s : {1e-2, 1e-3, 1e-4}) {
+		curvature[17] = 0.5 + s;
+		const FlippedFlow curved(mesh, hyperbolicPrescribed(curvature), 1e-12);
+		expectReached(curved);
+		EXPECT_NEAR(curved.result.area / s, 1.0, 1e-8);
+		const double scale = 0.5 * std::log(curved.result.area);
+		double error = 0.0;
+		for (std::size_t v = 0; v < n; ++v) {
+			const auto i = static_cast<Eigen::Index>(v);
+			const double radius = Hyperbolic::circle(curved.result.u[i]).radius;
+			error = std::max(
+				error, std::abs(std::log(radius) - scale - (flat.result.u[i] - flatScale)));
+		}
+		radii.push_back(error);
+		error = 0.0;
+		std::size_t common = 0;
+		for (int e = 0; e < flat.base.edgeCount(); ++e) {
+			const auto& a = *flat.result.metric;
+			const auto& b = *curved.result.metric;
+			if (a.delta()[at(e)] != b.delta()[at(e)])
+				continue;
+			++common;
+			error = std::max(
+				error,
+				std::abs(std::log(b.lengths()[at(e)] / a.lengths()[at(e)]) - scale + flatScale));
+		}
+		EXPECT_GT(common, 0.9 * flat.base.edgeCount());
+		lengths.push_back(error);
+	}
+	for (const std::vector<double>& errors : {radii, lengths})
+		for (std::size_t i = 1; i < errors.size(); ++i)
+			EXPECT_NEAR(errors[i - 1] / errors[i], 10.0, 0.5);
+	EXPECT_LT(lengths.back(), 1e-3);
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// CurvatureMap and Hessian with the hyperbolic background.
+#include "support/flipped_flow.h"
+#include "support/packed.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <ricci/flow/hessian.h>
+#include <ricci/metric/hyperbolic.h>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+using Fixed = GeometricCurvatureMap<Hyperbolic>;
+using Flipping = FlippingCurvatureMap<Hyperbolic>;
+using ExtendedFixed = GeometricCurvatureMap<HyperbolicGeometry<long double>>;
+
+std::vector<Packed> smallSurfaces()
+{
+	Random random(90);
+	return {
+		Packed(tetrahedron()),
+		Packed(bumpyTorus(8, 6, random)),
+		Packed(randomPlanarDisk(5, random)),
+		Packed(sliverDisk(6, 2.0, random)),
+		Packed(ring(1, 3, 8, 3)),
+		Packed(shaken(perforatedSlab(2, 1), 0.05, random))};
+}
+
+/// The packing's circles, the largest of hyperbolic size: u = \p largest.
+Eigen::VectorXd hyperbolicU(const Packed& mesh, double largest)
+{
+	const Eigen::VectorXd u = mesh.u();
+	return u.array() + (largest - u.maxCoeff());
+}
+
+Eigen::VectorXd disturbed(Eigen::VectorXd u, double spread, Random& random)
+{
+	for (double& x : u)
+		x = std::min(x + random.real(-spread, spread), -1e-2);
+	return u;
+}
+
+Eigen::MatrixXd denseHessian(const CurvatureMap& map)
+{
+	const int n = map.triangulation().vertexCount();
+	std::vector<int> unknown(at(n));
+	std::iota(unknown.begin(), unknown.end(), 0);
+	Hessian hessian;
+	hessian.layOut(map, unknown, n);
+	hessian.fill(map, 0.0);
+	const Eigen::MatrixXd lower = hessian.matrix();
+	return lower.selfadjointView<Eigen::Lower>();
+}
+
+/// The derivative of K by u_j where the combinatorics of the map are kept: central differences in
+/// extended precision, extrapolated.
+Eigen::MatrixXd differences(const CurvatureMap& state, const Eigen::VectorXd& u)
+{
+	ExtendedFixed map(state.packing());
+	Eigen::MatrixXd derivative(u.size(), u.size());
+	const double h = 1e-3 * std::min(1.0, -u.maxCoeff());
+	for (Eigen::Index j = 0; j < u.size(); ++j) {
+		const auto slope = [&](double step) {
+			Eigen::VectorXd moved = u;
+			moved[j] = u[j] + step;
+			const double above = moved[j];
+			map.evaluate(moved);
+			Eigen::VectorXd K = map.curvature();
+			moved[j] = u[j] - step;
+			const double below = moved[j];
+			map.evaluate(moved);
+			K -= map.curvature();
+			return Eigen::VectorXd(K / (above - below));
+		};
+		const Eigen::VectorXd a = slope(h), b = slope(h / 2), c = slope(h / 4);
+		const Eigen::VectorXd ab = (4 * b - a) / 3, bc = (4 * c - b) / 3;
+		derivative.col(j) = (16 * bc - ab) / 15;
+	}
+	return derivative;
+}
+
+void expectDerivative(const CurvatureMap& map, const Eigen::VectorXd& u)
+{
+	ASSERT_EQ(map.brokenTriangles(), 0);
+	const Eigen::MatrixXd H = denseHessian(map), D = differences(map, u);
+	const double largest = H.cwiseAbs().maxCoeff();
+	// K is rounded to a double before the differences are taken.
+	const double noise = 64 * kEpsilon / (1e-3 * std::min(1.0, -u.maxCoeff()));
+	for (Eigen::Index i = 0; i < u.size(); ++i)
+		for (Eigen::Index j = 0; j < u.size(); ++j)
+			EXPECT_NEAR(D(i, j), H(i, j), 2e-8 * largest + noise * (1 + largest))
+				<< "entry " << i << ", " << j;
+}
+
+TEST(HyperbolicMap, AnglesFollowTheLawOfCosines)
+{
+	Random random(91);
+	for (const Packed& mesh : smallSurfaces())
+		for (double largest : {-0.1, -1.0, -3.0}) {
+			const Eigen::VectorXd u = disturbed(hyperbolicU(mesh, largest), 0.02, random);
+			Fixed map(mesh.packing);
+			map.evaluate(u);
+			if (map.brokenTriangles() > 0)
+				continue;
+			const HyperbolicMeasure measure(map.triangulation(), map.lengths());
+			for (std::size_t v = 0; v < measure.curvature.size(); ++v)
+				EXPECT_NEAR(
+					map.curvature()[static_cast<Eigen::Index>(v)],
+					static_cast<double>(measure.curvature[v]),
+					4 * kEpsilon * (16 + static_cast<double>(measure.sensitivity[v])));
+		}
+}
+
+TEST(HyperbolicMap, HessianIsTheDerivativeOfTheCurvature)
+{
+	Random random(92);
+	int checked = 0;
+	for (const Packed& mesh : smallSurfaces())
+		for (double largest : {-0.2, -1.0, -4.0}) {
+			SCOPED_TRACE(largest);
+			const Eigen::VectorXd u = disturbed(hyperbolicU(mesh, largest), 0.02, random);
+			Fixed map(mesh.packing);
+			map.evaluate(u);
+			if (map.brokenTriangles() > 0)
+				continue;
+			++checked;
+			expectDerivative(map, u);
+		}
+	EXPECT_GE(checked, 14);
+}
+
+/// The same far from the start, where flips have changed the triangulation.
+TEST(HyperbolicMap, HessianIsTheDerivativeOfTheCurvatureAfterFlips)
+{
+	Random random(93);
+	std::size_t flips = 0;
+	for (const Packed& mesh : smallSurfaces())
+		for (double largest : {-0.2, -1.0, -3.0})
+			for (double spread : {0.3, 1.0}) {
+				SCOPED_TRACE(largest);
+				if (!mesh.triangulation.boundaryLoops().empty())
+					continue; // edges of the boundary cannot flip: triangles may break
+				const Eigen::VectorXd u = disturbed(hyperbolicU(mesh, largest), spread, random);
+				Flipping map(mesh.packing);
+				map.evaluate(u);
+				map.accept();
+				flips += map.flips().size();
+				expectDerivative(map, u);
+			}
+	EXPECT_GT(flips, 50u);
+}
+
+TEST(HyperbolicMap, DiagonalIsTheWeightsTimesCoshOfTheLengths)
+{
+	Random random(94);
+	for (const Packed& mesh : smallSurfaces()) {
+		const Eigen::VectorXd u = disturbed(hyperbolicU(mesh, -0.5), 0.01, random);
+		Fixed map(mesh.packing);
+		map.evaluate(u);
+		const Triangulation& t = map.triangulation();
+		const Eigen::MatrixXd H = denseHessian(map);
+		Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(u.size());
+		for (int e = 0; e < t.edgeCount(); ++e) {
+			const double cosine = std::cosh(map.lengths()[at(e)]);
+			EXPECT_NEAR((1 + map.cosineLess1()[at(e)]) / cosine, 1.0, 1e-13);
+			ASSERT_NE(t.origin(2 * e), t.target(2 * e));
+			diagonal[t.origin(2 * e)] += map.weights()[at(e)] * cosine;
+			diagonal[t.target(2 * e)] += map.weights()[at(e)] * cosine;
+		}
+		for (Eigen::Index v = 0; v < u.size(); ++v)
+			EXPECT_NEAR(H(v, v), diagonal[v], 1e-12 * H.cwiseAbs().maxCoeff());
+	}
+}
+
+/// Where every edge is weighted Delaunay no triangle breaks, all weights are non-negative, and the
+/// Hessian is strictly positive definite.
+TEST(HyperbolicMap, WeightsAreNotNegativeOnTheWeightedDelaunayTriangulation)
+{
+	Random random(95);
+	std::size_t flips = 0;
+	const Packed meshes[] = {
+		Packed(tetrahedron()),
+		Packed(bumpyTorus(8, 6, random)),
+		Packed(shaken(perforatedSlab(2, 1), 0.05, random)),
+		Packed(shaken(perforatedSlab(3, 2), 0.05, random))};
+	for (const Packed& mesh : meshes)
+		for (double largest : {-1e-2, -1.0, -6.0})
+			for (double spread : {0.5, 2.0, 5.0}) {
+				Flipping map(mesh.packing);
+				map.evaluate(disturbed(hyperbolicU(mesh, largest), spread, random));
+				map.accept();
+				flips += map.flips().size();
+				EXPECT_EQ(map.brokenTriangles(), 0);
+				const double most = *std::max_element(map.weights().begin(), map.weights().end());
+				for (double w : map.weights())
+					EXPECT_GE(w, -1e-13 * most);
+				const Eigen::MatrixXd H = denseHessian(map);
+				const Eigen::VectorXd scale = H.diagonal().cwiseSqrt().cwiseInverse();
+				const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+					scale.asDiagonal() * H * scale.asDiagonal());
+				EXPECT_GT(eigen.eigenvalues()[0], 0.0);
+			}
+	EXPECT_GT(flips, 300u);
+}
+
+TEST(HyperbolicMap, GaussBonnet)
+{
+	Random random(96);
+	for (const Packed& mesh : smallSurfaces()) {
+		const Eigen::VectorXd u = disturbed(hyperbolicU(mesh, -0.3), 0.01, random);
+		Fixed map(mesh.packing);
+		map.evaluate(u);
+		if (map.brokenTriangles() > 0)
+			continue;
+		const HyperbolicMeasure measure(map.triangulation(), map.lengths());
+		EXPECT_NEAR(
+			map.curvature().sum() - 2 * kPi * map.triangulation().eulerCharacteristic(),
+			static_cast<double>(measure.area),
+			1e-12 * (1 + static_cast<double>(measure.area)));
+	}
+}
+
+/// Circles of radius 2 exp(u) -> 0: lengths, angles and weights become the Euclidean ones, and
+/// differ by the square of the size.
+TEST(HyperbolicMap, SmallSurfacesAreEuclidean)
+{
+	struct Gap
+	{
+		double lengths = 0.0, angles = 0.0, weights = 0.0;
+	};
+	for (const Packed& mesh : smallSurfaces()) {
+		GeometricCurvatureMap<Euclidean> flat(mesh.packing);
+		flat.evaluate(mesh.u());
+		const double scaleOfWeights = std::abs(
+			*std::max_element(flat.weights().begin(), flat.weights().end(), [](double a, double b) {
+				return std::abs(a) < std::abs(b);
+			}));
+		const auto gapAt = [&](double largest) {
+			const Eigen::VectorXd u = hyperbolicU(mesh, largest);
+			ExtendedFixed map(mesh.packing);
+			map.evaluate(u);
+			const double factor = 2.0 * std::exp(u[0] - mesh.u()[0]);
+			Gap gap;
+			for (std::size_t e = 0; e < map.lengths().size(); ++e) {
+				gap.lengths = std::max(
+					gap.lengths, std::abs(map.lengths()[e] / flat.lengths()[e] / factor - 1.0));
+				gap.weights = std::max(
+					gap.weights, std::abs(map.weights()[e] - flat.weights()[e]) / scaleOfWeights);
+			}
+			for (std::size_t h = 0; h < map.angles().size(); ++h)
+				gap.angles = std::max(gap.angles, std::abs(map.angles()[h] - flat.angles()[h]));
+			return gap;
+		};
+		const Gap coarse = gapAt(-7.0), fine = gapAt(-8.0), none = gapAt(-20.0);
+		const double ratio = std::exp(2.0);
+		EXPECT_NEAR(coarse.lengths / fine.lengths, ratio, 0.1);
+		EXPECT_NEAR(coarse.angles / fine.angles, ratio, 0.1);
+		EXPECT_NEAR(coarse.weights / fine.weights, ratio, 0.1);
+		const double rounding = 32 * kEpsilon * (20 + flat.needleRatio() * scaleOfWeights);
+		EXPECT_LT(none.lengths, rounding);
+		EXPECT_LT(none.angles, rounding);
+		EXPECT_LT(none.weights, rounding);
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

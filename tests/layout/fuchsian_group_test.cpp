@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/flipped_flow.h"
+#include "support/intrinsic.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/transform.h"
+
+#include <ricci/layout/fuchsian_group.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+using Complex = std::complex<double>;
+
+/// From a mesh to its group.
+struct Uniformized
+{
+	FlippedFlow flow;
+	CutGraph cut;
+	CommonRefinement refinement;
+	FuchsianGroup group;
+
+	/// \param detour vertices that the cut is to reach although nothing is there
+	Uniformized(
+		const SurfaceMesh& mesh,
+		const HyperbolicRequest& request,
+		const std::vector<int>& detour = {}) :
+			flow(mesh, request, 1e-12)
+	{
+		std::vector<char> marked = flow.cones();
+		for (int v : detour)
+			marked[at(v)] = 1;
+		cut = cutToDisk(flow.base, flow.lengths, marked, {});
+		refinement = flow.refinement(cut);
+		group = fuchsianGroup(
+			flow.base,
+			cut,
+			std::vector<Transition>(
+				refinement.transition.begin(),
+				refinement.transition.begin() + flow.base.edgeCount()),
+			flow.cones());
+	}
+
+	/// In the metric found, of the boundary loop through \p vertex.
+	double boundaryLength(int vertex) const
+	{
+		const Triangulation& t = flow.base;
+		double length = 0.0;
+		for (const std::vector<int>& loop : flow.topology.loops) {
+			if (std::find(loop.begin(), loop.end(), vertex) == loop.end())
+				continue;
+			for (int h = 0; h < t.halfedgeCount(); ++h) {
+				if (t.isOuter(h) || !t.isOuter(Triangulation::twin(h)) ||
+					std::find(loop.begin(), loop.end(), t.origin(h)) == loop.end())
+					continue;
+				const auto place = [&](int g) {
+					const Point2& p = refinement.inputLayout.at(g);
+					return Complex(p[0], p[1]);
+				};
+				length += 2 * std::asinh(0.5 * chordLength(place(h), place(t.next(h))));
+			}
+		}
+		return length;
+	}
+};
+
+/// The left-hand side of the canonical relation, from the rounded motions, against +-1: in units of
+/// what rounding each motion may add.
+double relationInUnitsOfRounding(const FuchsianGroup& group)
+{
+	std::vector<ExtendedIsometry> word;
+	const auto extended = [](const DiskIsometry& m) {
+		return ExtendedIsometry{std::complex<long double>(m.a), std::complex<long double>(m.b)};
+	};
+	for (std::size_t i = 0; i + 1 < group.handles.size(); i += 2) {
+		const ExtendedIsometry a = extended(group.handles[i]), b = extended(group.handles[i + 1]);
+		word.insert(word.end(), {a, b, a.inverse(), b.inverse()});
+	}
+	for (const DiskIsometry& end : group.ends)
+		word.push_back(extended(end));
+	const auto size = [](const ExtendedIsometry& m) { return std::abs(m.a) + std::abs(m.b); };
+	std::vector<ExtendedIsometry> suffix(word.size() + 1);
+	for (std::size_t i = word.size(); i-- > 0;)
+		suffix[i] = word[i] * suffix[i + 1];
+	ExtendedIsometry prefix;
+	long double rounding = 0.0L;
+	for (std::size_t i = 0; i < word.size(); ++i) {
+		rounding += size(prefix) * size(word[i]) * size(suffix[i + 1]);
+		prefix = prefix * word[i];
+	}
+	return static_cast<double>(
+		prefix.distanceFromIdentity() / (kEpsilon * rounding + group.relationError));
+}
+
+/// The least |traces| of motions along axes, each once: twice cosh of half the lengths of the
+/// shortest closed geodesics.
+std::vector<double> traceSpectrum(const FuchsianGroup& group, std::size_t count)
+{
+	std::vector<double> traces, spectrum;
+	for (const DiskIsometry& m : tiling(group.sides, 4, 20000).motions)
+		if (m.distanceFromIdentity() > 1e-3)
+			traces.push_back(std::abs(m.trace()));
+	std::sort(traces.begin(), traces.end());
+	for (double x : traces)
+		if (spectrum.size() < count && (spectrum.empty() || x > spectrum.back() * (1 + 1e-7)))
+			spectrum.push_back(x);
+	return spectrum;
+}
+
+TEST(FuchsianGroup, ClosedSurfacesSatisfyTheCanonicalRelation)
+{
+	Random random(650);
+	const struct
+	{
+		int genus;
+		SurfaceMesh mesh;
+	} cases[] = {
+		{2, perforatedSlab(2, 2)},
+		{2, shaken(perforatedSlab(2, 3), 0.06, random)},
+		{3, shaken(perforatedSlab(3, 2), 0.06, random)}};
+	for (const auto& c : cases) {
+		SCOPED_TRACE(c.genus);
+		const Uniformized surface(c.mesh, hyperbolicMetric());
+		const FuchsianGroup& group = surface.group;
+		ASSERT_EQ(group.handles.size(), at(2 * c.genus));
+		EXPECT_TRUE(group.ends.empty());
+		EXPECT_LT(group.polygonError, 1e-9);
+		EXPECT_LT(group.closingError, 1e-9);
+		if (c.genus == 2) {
+			EXPECT_LT(group.relationError, 1e-9);
+		}
+		EXPECT_LT(relationInUnitsOfRounding(group), 4.0);
+		// Nothing but the identity has a fixed point: all motions are along axes.
+		for (const std::vector<DiskIsometry>& motions : {group.handles, group.sides})
+			for (const DiskIsometry& m : motions) {
+				EXPECT_GT(std::abs(m.trace()), 2.0);
+				EXPECT_NEAR(std::norm(m.a) - std::norm(m.b), 1.0, 1e-14 * std::norm(m.a));
+			}
+		// a and b of a handle cross once, so they do not commute.
+		for (std::size_t i = 0; i < group.handles.size(); i += 2) {
+			const DiskIsometry &a = group.handles[i], &b = group.handles[i + 1];
+			const double trace = (a * b * a.inverse() * b.inverse()).trace();
+			EXPECT_LT(trace, -2.0); // Fricke: of a torus with a hole
+		}
+	}
+}
+
+TEST(FuchsianGroup, LengthsOfGeodesicsDoNotDependOnTheCutOrTheNumbers)
+{
+	Random random(660);
+	for (int genus : {2, 3}) {
+		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 2), 0.06, random);
+		const std::vector<double> wanted =
+			traceSpectrum(Uniformized(mesh, hyperbolicMetric()).group, 8);
+		ASSERT_EQ(wanted.size(), 8u);
+		EXPECT_GT(wanted.front(), 2.0);
+		const Uniformized detour(mesh, hyperbolicMetric(), {3, 11});
+		EXPECT_LT(detour.group.closingError, 1e-9); // regular points, although the cut ends there
+		const Uniformized other(renumbered(mesh, random).mesh, hyperbolicMetric());
+		for (const Uniformized* same : {&detour, &other}) {
+			const std::vector<double> found = traceSpectrum(same->group, 8);
+			ASSERT_EQ(found.size(), 8u);
+			for (std::size_t i = 0; i < 8; ++i)
+				EXPECT_NEAR(found[i] / wanted[i], 1.0, 1e-8);
+		}
+	}
+}
+
+TEST(FuchsianGroup, GeodesicBoundariesAreAxes)
+{
+	Random random(670);
+	const struct
+	{
+		SurfaceMesh mesh;
+		std::size_t loops;
+	} cases[] = {
+		{withoutStars(shaken(perforatedSlab(1, 4), 0.03, random), {0}), 1},
+		{withoutStars(shaken(perforatedSlab(0, 5), 0.03, random), {0, 60, 120}), 3},
+		{withoutStars(shaken(perforatedSlab(2, 3), 0.03, random), {5, 70}), 2}};
+	for (const auto& c : cases) {
+		const Uniformized surface(c.mesh, hyperbolicMetric());
+		SCOPED_TRACE(surface.flow.topology.name());
+		ASSERT_EQ(surface.flow.topology.loops.size(), c.loops);
+		const FuchsianGroup& group = surface.group;
+		ASSERT_EQ(group.ends.size(), surface.flow.topology.loops.size());
+		EXPECT_EQ(group.handles.size(), at(2 * surface.flow.topology.genus));
+		EXPECT_LT(group.polygonError, 1e-9);
+		EXPECT_LT(group.closingError, 1e-9);
+		EXPECT_LT(group.relationError, 1e-8);
+		EXPECT_LT(relationInUnitsOfRounding(group), 4.0);
+		std::vector<int> loops;
+		for (std::size_t i = 0; i < group.ends.size(); ++i) {
+			const double length = surface.boundaryLength(group.endVertex[i]);
+			EXPECT_GT(length, 0.01);
+			EXPECT_NEAR(
+				std::abs(group.ends[i].trace()),
+				2 * std::cosh(length / 2),
+				1e-9 * std::cosh(length / 2));
+			for (std::size_t j = 0; j < surface.flow.topology.loops.size(); ++j) {
+				const auto& loop = surface.flow.topology.loops[j];
+				if (std::find(loop.begin(), loop.end(), group.endVertex[i]) != loop.end())
+					loops.push_back(static_cast<int>(j));
+			}
+		}
+		std::sort(loops.begin(), loops.end()); // each once
+		for (std::size_t j = 0; j < loops.size(); ++j)
+			EXPECT_EQ(loops[j], static_cast<int>(j));
+	}
+}
+
+TEST(FuchsianGroup, ConesAreRotations)
+{
+	Random random(680);
+	const SurfaceMesh sphere = shaken(perforatedSlab(0, 3), 0.05, random);
+	const SurfaceMesh donut = bumpyTorus(12, 9, random);
+	const struct
+	{
+		const SurfaceMesh& mesh;
+		std::vector<std::pair<int, double>> cones; // vertex, total angle
+	} cases[] = {
+		{sphere, {{3, 2 * kPi / 3}, {20, 2 * kPi / 4}, {40, 2 * kPi / 5}}},
+		{sphere, {{3, 1.0}, {20, 1.5}, {40, 2.0}, {11, 7.0}}},
+		{donut, {{5, 1.0}, {60, 2.5}}},
+		{donut, {{17, kPi}}}};
+	for (const auto& c : cases) {
+		std::vector<double> curvature(c.mesh.positions.size(), 0.0);
+		for (const auto& [v, angle] : c.cones)
+			curvature[at(v)] = 2 * kPi - angle;
+		const Uniformized surface(c.mesh, hyperbolicPrescribed(curvature));
+		const FuchsianGroup& group = surface.group;
+		ASSERT_EQ(group.ends.size(), c.cones.size());
+		EXPECT_LT(group.polygonError, 1e-9);
+		EXPECT_LT(group.closingError, 1e-9);
+		EXPECT_LT(group.relationError, 1e-9);
+		EXPECT_LT(relationInUnitsOfRounding(group), 4.0);
+		for (const auto& [v, angle] : c.cones) {
+			const auto i = static_cast<std::size_t>(
+				std::find(group.endVertex.begin(), group.endVertex.end(), v) -
+				group.endVertex.begin());
+			ASSERT_LT(i, group.ends.size());
+			EXPECT_NEAR(std::abs(group.ends[i].trace()), 2 * std::abs(std::cos(angle / 2)), 1e-9);
+		}
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

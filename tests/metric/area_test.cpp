@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/intrinsic.h"
+#include "support/random.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <ricci/layout/distortion.h>
+#include <ricci/metric/area.h>
+#include <ricci/metric/circle_packing.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <complex>
+
+namespace ricci::testing {
+namespace {
+
+using Complex = std::complex<long double>;
+
+const Triangulation& oneTriangle()
+{
+	static const Triangulation t(3, {{0, 1, 2}});
+	return t;
+}
+
+/// Lengths of one triangle by the number of its edges, from sides between corners k and k + 1.
+std::vector<double> ofSides(const std::array<double, 3>& side)
+{
+	const Triangulation& t = oneTriangle();
+	std::vector<double> lengths(3, 0.0);
+	for (int h : t.halfedges(0))
+		lengths[at(Triangulation::edge(h))] = side[at(t.origin(h))];
+	return lengths;
+}
+
+long double distanceInDisk(Complex z, Complex w)
+{
+	return 2 * std::atanh(std::abs((z - w) / (1.0L - std::conj(w) * z)));
+}
+
+/// Angle at p of the geodesic triangle pqr.
+long double angleInDisk(Complex p, Complex q, Complex r)
+{
+	const auto seen = [&](Complex z) { return (z - p) / (1.0L - std::conj(p) * z); };
+	return std::abs(std::arg(seen(r) / seen(q)));
+}
+
+TEST(Area, OfFlatTrianglesIsThatOfTheirPlacesInSpace)
+{
+	Random random(70);
+	const SurfaceMesh meshes[] = {
+		tetrahedron(), bumpyTorus(12, 8, random), sliverDisk(12, 2.0, random), ring(1, 3, 12, 4)};
+	for (const SurfaceMesh& mesh : meshes) {
+		const IntrinsicMesh metric = intrinsicMesh(mesh);
+		double area = 0.0;
+		for (const Triangle& t : mesh.triangles)
+			area += triangleArea(
+				{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]});
+		EXPECT_NEAR(euclideanArea(metric.triangulation, metric.lengths) / area, 1.0, 1e-12);
+	}
+}
+
+TEST(Area, OfATriangleOfCurvatureMinusOneIsPiLessItsAngles)
+{
+	Random random(71);
+	for (int i = 0; i < 2000; ++i) {
+		std::array<Complex, 3> p;
+		for (Complex& z : p)
+			z = std::polar(
+				std::sqrt(static_cast<long double>(random.real(0.0, 0.99))),
+				static_cast<long double>(random.real(0.0, 6.28)));
+		long double area = std::acos(-1.0L);
+		std::array<double, 3> side;
+		for (std::size_t k = 0; k < 3; ++k) {
+			area -= angleInDisk(p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
+			side[k] = static_cast<double>(distanceInDisk(p[k], p[(k + 1) % 3]));
+		}
+		// Rounding of a side by a unit changes half the slack of the flattest triangle by as much,
+		// and the area by the root.
+		const double perimeter = side[0] + side[1] + side[2];
+		const double slack = perimeter - 2 * std::max({side[0], side[1], side[2]});
+		const double found = hyperbolicArea(oneTriangle(), ofSides(side));
+		EXPECT_NEAR(
+			found, static_cast<double>(area), 1e-15 * (1 + perimeter / slack * found) + 1e-17)
+			<< slack;
+	}
+}
+
+TEST(Area, OfASmallTriangleOfCurvatureMinusOneIsTheFlatOne)
+{
+	for (double scale : {1e-2, 1e-3, 1e-6, 1e-9}) {
+		const std::vector<double> lengths = ofSides({3 * scale, 4 * scale, 5 * scale});
+		EXPECT_NEAR(
+			hyperbolicArea(oneTriangle(), lengths) / euclideanArea(oneTriangle(), lengths),
+			1.0,
+			1e-14 + 25 * scale * scale);
+	}
+}
+
+TEST(Area, OfADegenerateTriangleIsZero)
+{
+	for (const std::array<double, 3>& side :
+		 {std::array<double, 3>{1, 2, 3}, {0.25, 0.5, 0.75}, {1, 1, 0}, {0, 0, 0}, {1, 1, 3}}) {
+		EXPECT_EQ(euclideanArea(oneTriangle(), ofSides(side)), 0.0);
+		EXPECT_EQ(hyperbolicArea(oneTriangle(), ofSides(side)), 0.0);
+	}
+}
+
+} // namespace
+} // namespace ricci::testing
