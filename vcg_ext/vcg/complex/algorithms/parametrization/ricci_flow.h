@@ -378,7 +378,7 @@ public:
 				vi->N() = CoordType(0, 0, 1);
 				vi->Q() = one.vert[v].Q();
 				if (HasPerVertexColor(cover))
-					vi->C() = TileColor(copy, most);
+					vi->C() = TileColor(copy);
 				place[v] = &*vi++;
 			}
 			FaceIterator fi = Allocator<MeshType>::AddFaces(cover, faces);
@@ -389,7 +389,7 @@ public:
 					fi->V(k) = place[Index(one, f.cV(k))];
 				fi->N() = CoordType(0, 0, 1);
 				if (HasPerFaceColor(cover))
-					fi->C() = TileColor(copy, most);
+					fi->C() = TileColor(copy);
 				++fi;
 			}
 		}
@@ -433,15 +433,15 @@ public:
 	}
 
 private:
-	/// Different for copies that are near to each other in their order; the first one is white.
-	static Color4b TileColor(size_t copy, size_t)
+	/// Different for copies that are near to each other in their order; the first one is grey.
+	static Color4b TileColor(size_t copy)
 	{
 		if (copy == 0)
-			return Color4b(255, 255, 255, 255);
+			return Color4b(200, 200, 200, 255);
 		// Steps of the golden section round the circle of hues.
 		const double hue = std::fmod(0.618033988749895 * double(copy), 1.0);
 		Color4b color;
-		color.SetHSVColor(float(hue), copy % 2 == 0 ? 0.45f : 0.7f, copy % 3 == 0 ? 0.8f : 0.95f);
+		color.SetHSVColor(float(hue), copy % 2 == 0 ? 0.3f : 0.5f, copy % 3 == 0 ? 0.8f : 0.95f);
 		return color;
 	}
 
