@@ -74,7 +74,7 @@ trap close_display EXIT
 open_display "$work/display" || fail "no display could be opened"
 shoot surface 60 0 surface.ply
 shoot disk 0 0 disk.ply
-shoot universal_cover 0 1 cover.ply axes.ply
+shoot universal_cover 0 0 cover.ply axes.ply
 convert surface.png disk.png -gravity center +append hyperbolic.png
 publish hyperbolic
 publish universal_cover
