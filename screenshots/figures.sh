@@ -55,7 +55,7 @@ shoot() {
 }
 
 has() {
-	[[ " ${RICCI_PICTURES-kitten bunny mask bust hyperbolic} " == *" $1 "* ]]
+	[[ " ${RICCI_PICTURES-kitten bunny mask bust} " == *" $1 "* ]]
 }
 
 # row OUT NAME=TEXT...: pictures side by side on white, of one height, with a line of text under each.
@@ -141,13 +141,6 @@ make_pictures() {
 		shoot bust bust.ply
 		shoot bust_chart bust_chart.ply
 		row annulus "bust=$(cat bust.txt)" "bust_chart=its chart"
-	fi
-	if has hyperbolic; then
-		shoot genus2 genus2.ply
-		shoot genus2_disk genus2_disk.ply
-		shoot genus2_cover genus2_cover.ply
-		row hyperbolic "genus2=genus 2" "genus2_disk=fundamental domain in the disk (Figs 8, 9)" \
-			"genus2_cover=its copies tile the disk"
 	fi
 	[ $# -eq 0 ] || compare rocker_arm rocker_arm_distortion
 }

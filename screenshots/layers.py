@@ -17,7 +17,6 @@ import numpy
 import pymeshlab
 
 FILTER = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge"
-HYPERBOLIC = "compute_texcoord_parametrization_ricci_flow_hyperbolic_per_wedge"
 INK = (124, 143, 166)
 SEAM = (205, 60, 40)
 CONE = (30, 30, 30)
@@ -346,27 +345,6 @@ def bust(meshes, out, _):
     surface.chart(f"{out}/bust_chart.ply", BUST, "checkerboard.png", 2.0)
 
 
-def hyperbolic(_, out, __):
-    """As the paper's Figs 8 and 9: a surface of genus 2, its fundamental domain in the Poincare disk,
-    and the tiling of the disk by its copies. The layers are the filter's own."""
-    ms = documents()
-    ms.create_implicit_surface(
-        voxelsize=0.03, minx=-1.4, miny=-0.9, minz=-0.5, maxx=1.4, maxy=0.9, maxz=0.5,
-        expr="(x*x*(1-x*x)-y*y)^2+0.5*z*z-0.012")
-    ms.apply_filter(HYPERBOLIC, flat_layer=True, universal_cover=2)
-    mesh = ms.mesh(0)
-    points, faces = mesh.vertex_matrix(), mesh.face_matrix()
-    write_ply(f"{out}/genus2.ply", turned(points, *GENUS2), faces,
-              wedges=mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2), texture="checkerboard.png")
-    for i, name in ((1, "disk"), (2, "cover")):
-        layer = ms.mesh(i)
-        colours = None
-        if layer.has_vertex_color():
-            colours = 255 * layer.vertex_color_matrix()[:, :3]
-        write_ply(f"{out}/genus2_{name}.ply", layer.vertex_matrix(), layer.face_matrix(),
-                  colours=colours, normal=numpy.tile([0.0, 0.0, 1.0], (layer.vertex_number(), 1)))
-
-
 def upright(ms):
     """The mannequin lies on its back."""
     ms.compute_matrix_from_rotation(rotaxis="X axis", angle=-90)
@@ -379,8 +357,8 @@ def largest(ms):
     return max(parts, key=lambda part: part.face_number())
 
 
-KITTEN, BUNNY, MASK, BUST, GENUS2 = (10, 8), (-25, 5), (20, 0), (25, 25), (15, -35)
-PICTURES = {"kitten": kitten, "bunny": bunny, "mask": mask, "bust": bust, "hyperbolic": hyperbolic}
+KITTEN, BUNNY, MASK, BUST = (10, 8), (-25, 5), (20, 0), (25, 25)
+PICTURES = {"kitten": kitten, "bunny": bunny, "mask": mask, "bust": bust}
 
 
 def main(arguments):

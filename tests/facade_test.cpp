@@ -115,8 +115,12 @@ TYPED_TEST(Facade, ARefusalLeavesTheMeshAsItWas)
 	TypeParam m;
 	fill(tetrahedron(), m);
 	const auto before = contents(m);
-	EXPECT_THROW(compute(m, onFixedTriangulation<TypeParam>()), InvalidOption);
-	auto par = onFixedTriangulation<TypeParam>();
+	auto par = onFixedTriangulation<TypeParam>(TargetCurvature::Disk);
+	EXPECT_THROW(compute(m, par), InvalidOption);
+	par = onFixedTriangulation<TypeParam>();
+	par.chartMargin = 0.5;
+	EXPECT_THROW(compute(m, par), InvalidOption);
+	par = onFixedTriangulation<TypeParam>();
 	par.epsilon = -1;
 	EXPECT_THROW(compute(m, par), InvalidOption);
 	EXPECT_EQ(contents(m), before);
@@ -307,9 +311,11 @@ TYPED_TEST(Facade, ChartsOfSeveralComponentsDoNotOverlap)
 		first.push_back(static_cast<int>(shape.triangles.size()));
 		TypeParam m;
 		toVcg(shape, m);
-		for (bool normalize : {true, false}) {
+		for (const auto& [normalize, margin] :
+			 {std::pair(true, 0.0), std::pair(true, 0.004), std::pair(false, 0.0)}) {
 			auto par = onFixedTriangulation<TypeParam>();
 			par.normalizeUV = normalize;
+			par.chartMargin = margin;
 			const auto result = compute(m, par);
 			EXPECT_EQ(result.report.components, count);
 			struct Box
@@ -325,7 +331,8 @@ TYPED_TEST(Facade, ChartsOfSeveralComponentsDoNotOverlap)
 							box.low[k] = std::min(box.low[k], p[k]);
 							box.high[k] = std::max(box.high[k], p[k]);
 							if (normalize) {
-								EXPECT_TRUE(p[k] >= 0.0 && p[k] <= 1.0);
+								EXPECT_GE(p[k], margin);
+								EXPECT_LE(p[k], 1.0 - margin);
 							}
 						}
 			int overlaps = 0;
@@ -333,8 +340,8 @@ TYPED_TEST(Facade, ChartsOfSeveralComponentsDoNotOverlap)
 				for (std::size_t b = a + 1; b < boxes.size(); ++b) {
 					bool apart = false;
 					for (std::size_t k = 0; k < 2; ++k)
-						apart |= boxes[a].high[k] <= boxes[b].low[k] ||
-								 boxes[b].high[k] <= boxes[a].low[k];
+						apart |= boxes[a].high[k] + margin <= boxes[b].low[k] ||
+								 boxes[b].high[k] + margin <= boxes[a].low[k];
 					overlaps += !apart;
 				}
 			EXPECT_EQ(overlaps, 0) << count << " charts";
@@ -352,6 +359,20 @@ TYPED_TEST(Facade, ChartsOfSeveralComponentsDoNotOverlap)
 			}
 		}
 	}
+}
+
+TYPED_TEST(Facade, AMarginThatLeavesNoRoomIsRefused)
+{
+	SurfaceMesh shape;
+	for (int i = 0; i < 30; ++i)
+		shape = sideBySide(shape, rectangle(2, 3, 1, 1), 3.0 * i);
+	TypeParam m;
+	toVcg(shape, m);
+	auto par = onFixedTriangulation<TypeParam>();
+	par.chartMargin = 0.25; // 30 charts need more than 5 such margins side by side
+	EXPECT_THROW(compute(m, par), InvalidOption);
+	par.chartMargin = 0.01;
+	EXPECT_NO_THROW(compute(m, par));
 }
 
 TYPED_TEST(Facade, FlatMeshIsTheLayout)

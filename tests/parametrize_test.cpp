@@ -451,7 +451,7 @@ TEST(Parametrize, SeveralComponentsAreSolvedOneByOne)
 TEST(Parametrize, TheRefusalOfOneComponentNamesIt)
 {
 	const SurfaceMesh both = sideBySide(rectangle(2, 2, 1, 1), tetrahedron(), 10);
-	const std::string sentence = reason(both, fixedTriangulation());
+	const std::string sentence = reason(both, fixedTriangulation(TargetCurvature::Disk));
 	EXPECT_NE(sentence.find("Component with face 8 (4 faces)"), std::string::npos) << sentence;
 	EXPECT_NE(sentence.find("genus 0"), std::string::npos) << sentence;
 }

@@ -19,7 +19,13 @@ QStringList targetCurvatureChoices()
 		"Disk",
 		"Rectangle",
 		"Cones at selected vertices",
-		"From vertex quality"};
+		"From vertex quality",
+		"Placed cones"};
+}
+
+QStringList coneRoundingChoices()
+{
+	return {"Free", "Multiples of pi/2"};
 }
 
 QStringList circlePackingChoices()
@@ -78,6 +84,41 @@ double checkedEpsilon(const RichParameterList& par)
 	sentence << "The value " << epsilon
 			 << " of epsilon cannot be used. Use a number of radians greater than 0, for example "
 				"1e-8.";
+	throw ricci::InvalidOption(sentence.str());
+}
+
+int checkedConeCount(const RichParameterList& par)
+{
+	const int count = par.getInt("cone_count");
+	if (count >= 0)
+		return count;
+	std::ostringstream sentence;
+	sentence << "The value " << count
+			 << " of cone_count cannot be used. Use the number of cones, or 0 to have it chosen by "
+				"cone_distortion.";
+	throw ricci::InvalidOption(sentence.str());
+}
+
+/// A number from 0 up to \p most.
+double checkedShare(const RichParameterList& par, const char* id, double most)
+{
+	const double share = static_cast<double>(par.getFloat(id));
+	if (share >= 0.0 && share <= most)
+		return share;
+	std::ostringstream sentence;
+	sentence << "The value " << share << " of " << id << " cannot be used. Use a number from 0 to "
+			 << most << ".";
+	throw ricci::InvalidOption(sentence.str());
+}
+
+double checkedConeDistortion(const RichParameterList& par)
+{
+	const double distortion = static_cast<double>(par.getFloat("cone_distortion"));
+	if (std::isfinite(distortion) && distortion > 0.0)
+		return distortion;
+	std::ostringstream sentence;
+	sentence << "The value " << distortion
+			 << " of cone_distortion cannot be used. Use a number greater than 0, for example 0.5.";
 	throw ricci::InvalidOption(sentence.str());
 }
 
@@ -172,7 +213,8 @@ RichParameterList euclideanParameters()
 		"Target curvature",
 		"The Gaussian curvature that the flow is asked to reach.<br>"
 		"<b>Automatic</b>: a disk and any other surface with boundary keeps the metric of its "
-		"boundary; an annulus and a torus become flat.<br>"
+		"boundary; an annulus and a torus become flat; other closed surfaces get placed "
+		"cones.<br>"
 		"<b>Flat everywhere</b>: zero at every vertex, boundary included; for an annulus or a "
 		"torus.<br>"
 		"<b>Disk</b>: the image of a disk-like surface is a round disk.<br>"
@@ -181,7 +223,30 @@ RichParameterList euclideanParameters()
 		"on the boundary, or none to have them chosen.<br>"
 		"<b>Cones at selected vertices</b>: the selected vertices share the total curvature "
 		"equally, all others are flat.<br>"
-		"<b>From vertex quality</b>: each vertex's quality is its curvature in radians."));
+		"<b>From vertex quality</b>: each vertex's quality is its curvature in radians.<br>"
+		"<b>Placed cones</b>: a few vertices chosen so that areas change little carry the "
+		"curvature; the next three parameters say how many and how strong."));
+	list.addParam(RichInt(
+		"cone_count",
+		defaults.coneCount,
+		"Cones: number",
+		"The number of placed cones. 0: as many as it takes to reach the next parameter. Read by "
+		"<b>Placed cones</b>, and by <b>Automatic</b> on closed surfaces other than a torus."));
+	list.addParam(RichFloat(
+		"cone_distortion",
+		static_cast<Scalarm>(defaults.coneDistortion),
+		"Cones: area distortion",
+		"Cones are added until the expected area_distortion_spread is below this: the standard "
+		"deviation of the logarithm of the change of areas. 0.5 means that areas typically are 50% "
+		"larger or smaller than on average. Read where the number of cones is 0."));
+	list.addParam(RichEnum(
+		"cone_rounding",
+		static_cast<int>(defaults.coneRounding),
+		coneRoundingChoices(),
+		"Cones: curvatures",
+		"<b>Free</b>: the curvatures that change areas least.<br>"
+		"<b>Multiples of pi/2</b>: as quadrangulations need them. On a surface of genus 0 the "
+		"seams then differ by quarter turns; handles are not asked to."));
 	list.addParam(RichBool(
 		"free_boundary",
 		defaults.freeBoundary,
@@ -215,6 +280,12 @@ RichParameterList euclideanParameters()
 		"leaving the conformal class, so that no triangle ever breaks and every curvature that "
 		"Gauss-Bonnet allows is reached."));
 	list.addParam(outputTriangulationParameter(defaults.output));
+	list.addParam(RichFloat(
+		"seam_hiding",
+		static_cast<Scalarm>(defaults.seamHiding),
+		"Seams: hide in hollows",
+		"0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to ten times "
+		"its length, so that the seams run through hollows where there are some."));
 	list.addParam(iterationsParameter(defaults.maxIterations));
 	list.addParam(RichBool(
 		"normalize_uv",
@@ -223,6 +294,14 @@ RichParameterList euclideanParameters()
 		"Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale of "
 		"the metric, so that distances in the texture plane are those on the mesh where the scale "
 		"factor is 1."));
+	list.addParam(RichFloat(
+		"chart_margin",
+		static_cast<Scalarm>(Flow::Params().chartMargin),
+		"Margin of the charts",
+		"Room between two charts, and between the charts and the border of the unit square, as a "
+		"share of the side of the square: 0.004 is 4 pixels of an image 1024 wide. For baking "
+		"textures. Where the charts are not fitted into the square: of the side of the square that "
+		"holds them all."));
 	list.addParam(colorizeParameter());
 	list.addParam(RichBool(
 		"flat_layer",
@@ -333,6 +412,10 @@ Settings readSettings(const RichParameterList& par)
 	Settings settings;
 	settings.flow.target = static_cast<ricci::TargetCurvature>(
 		checkedChoice(par, "target_curvature", targetCurvatureChoices()));
+	settings.flow.coneCount = checkedConeCount(par);
+	settings.flow.coneDistortion = checkedConeDistortion(par);
+	settings.flow.coneRounding = static_cast<ricci::ConeRounding>(
+		checkedChoice(par, "cone_rounding", coneRoundingChoices()));
 	settings.flow.freeBoundary = par.getBool("free_boundary");
 	settings.flow.epsilon = checkedEpsilon(par);
 	settings.flow.packing = static_cast<ricci::PackingScheme>(
@@ -341,8 +424,10 @@ Settings readSettings(const RichParameterList& par)
 		static_cast<ricci::Surgery>(checkedChoice(par, "surgery", surgeryChoices()));
 	settings.flow.output = static_cast<ricci::OutputTriangulation>(
 		checkedChoice(par, "output_triangulation", outputTriangulationChoices()));
+	settings.flow.seamHiding = checkedShare(par, "seam_hiding", 1.0);
 	settings.flow.maxIterations = checkedIterations(par);
 	settings.flow.normalizeUV = par.getBool("normalize_uv");
+	settings.flow.chartMargin = checkedShare(par, "chart_margin", Flow::kMostMargin);
 	settings.colorize = par.getBool("colorize");
 	settings.flatLayer = par.getBool("flat_layer");
 	settings.flow.holes = static_cast<ricci::Holes>(checkedChoice(par, "holes", holesChoices()));

@@ -172,10 +172,12 @@ TEST(TargetCurvature, AutomaticByTopology)
 	const Surface pierced(withoutStars(torus(3, 1, 9, 9), {0, 40}));
 	const Target free = pierced.choose(TargetCurvature::Automatic);
 	EXPECT_EQ(free.fixed, pierced.topology.boundary);
-	expectRefusal<InvalidOption>(
-		sphere(), sphere().request(TargetCurvature::Automatic), {"genus 0", "Cones at selected"});
-	expectRefusal<InvalidOption>(
-		genus2(), genus2().request(TargetCurvature::Automatic), {"genus 2", "From vertex quality"});
+	for (const Surface* s : {&sphere(), &genus2()}) { // cones
+		const Target target = s->choose(TargetCurvature::Automatic);
+		EXPECT_TRUE(isPrescribed(target));
+		EXPECT_NEAR(target.curvature.sum(), 2 * kPi * s->topology.eulerCharacteristic, 1e-11);
+		EXPECT_LT(target.curvature.maxCoeff(), 2 * kPi);
+	}
 }
 
 TEST(TargetCurvature, FreeBoundaryFixesTheBoundaryAndAsksForAFlatInside)

@@ -18,9 +18,9 @@ ALWAYS = {
     "qc_max": float, "area_distortion_mean": float, "area_distortion_spread": float,
     "flipped_faces": int, "flipped_by_rounding": int, "flips": int,
     "refinement_points": int, "edge_swaps": int, "boundary_splits": int, "euler_characteristic": int,
-    "genus": int, "boundary_loops": int, "components": int, "seam_edges": int, "charts": int,
-    "capped_holes": int, "overlapping_charts": int, "overlapping_faces": int,
-    "overlap_cuts": int}
+    "genus": int, "boundary_loops": int, "components": int, "cones": int, "seam_edges": int,
+    "seam_length": float, "seam_length_relative": float, "charts": int, "capped_holes": int,
+    "overlapping_charts": int, "overlapping_faces": int, "overlap_cuts": int}
 INVARIANTS = {
     "torus_tau_re": float, "torus_tau_im": float, "annulus_modulus": float,
     "rectangle_aspect": float}
@@ -30,17 +30,20 @@ SPHERE = {
 
 # Parameter ids in the order of the public interface.
 TARGET = ["Automatic", "Flat everywhere", "Disk", "Rectangle", "Cones at selected vertices",
-          "From vertex quality"]
-CHOICES = {"target_curvature": TARGET, "circle_packing": ["Inversive distance", "Thurston"],
+          "From vertex quality", "Placed cones"]
+CHOICES = {"target_curvature": TARGET, "cone_rounding": ["Free", "Multiples of pi/2"],
+           "circle_packing": ["Inversive distance", "Thurston"],
            "surgery": ["None", "Edge swap", "Intrinsic flips"],
            "output_triangulation": ["Keep the mesh", "Common refinement"],
            "holes": ["Boundaries", "Capped"]}
 PARAMETERS = [
-    ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("epsilon", "Float", 1e-8),
+    ("target_curvature", "Enum", 0), ("cone_count", "Int", 0), ("cone_distortion", "Float", 0.5),
+    ("cone_rounding", "Enum", 0), ("free_boundary", "Bool", True), ("epsilon", "Float", 1e-8),
     ("circle_packing", "Enum", 0), ("surgery", "Enum", 2),
-    ("output_triangulation", "Enum", 0), ("max_iterations", "Int", 200),
-    ("normalize_uv", "Bool", True), ("colorize", "Bool", False), ("flat_layer", "Bool", False),
-    ("holes", "Enum", 0), ("resolve_overlap", "Bool", False), ("sphere_layer", "Bool", False),
+    ("output_triangulation", "Enum", 0), ("seam_hiding", "Float", 0.0),
+    ("max_iterations", "Int", 200), ("normalize_uv", "Bool", True), ("chart_margin", "Float", 0.0),
+    ("colorize", "Bool", False), ("flat_layer", "Bool", False), ("holes", "Enum", 0),
+    ("resolve_overlap", "Bool", False), ("sphere_layer", "Bool", False),
     ("report", "String", "")]
 
 HYPERBOLIC = types.SimpleNamespace(

@@ -194,8 +194,8 @@ class BadInput(unittest.TestCase):
     def test_not_finite(self):
         self.check("finite|NaN|not a number", meshes.with_nan(meshes.torus()))
 
-    def test_sphere_without_cones(self):
-        self.check("genus 0|cone", meshes.sphere())
+    def test_too_few_placed_cones(self):
+        self.check("at least 3", meshes.sphere(), cone_count=2)
 
     def test_flat_disk(self):
         self.check("Euler|flat", meshes.hill(), target_curvature=1)
@@ -241,7 +241,12 @@ class BadInput(unittest.TestCase):
                 (r"epsilon.*greater than 0", {"epsilon": 0.0}),
                 (r"epsilon.*greater than 0", {"epsilon": -1e-8}),
                 (r"max_iterations.*1 or more", {"max_iterations": 0}),
-                (r"target_curvature.*5 \(From vertex quality\)", {"target_curvature": 6}),
+                (r"target_curvature.*6 \(Placed cones\)", {"target_curvature": 7}),
+                (r"cone_count.*0", {"cone_count": -1}),
+                (r"cone_distortion.*greater than 0", {"cone_distortion": 0.0}),
+                (r"cone_rounding.*1 \(Multiples of pi/2\)", {"cone_rounding": 2}),
+                (r"seam_hiding.*from 0 to 1", {"seam_hiding": 1.5}),
+                (r"chart_margin.*from 0 to 0.25", {"chart_margin": -0.1}),
                 (r"target_curvature.*0 \(Automatic\)", {"target_curvature": -1}),
                 (r"circle_packing.*1 \(Thurston\)", {"circle_packing": 2}),
                 (r"surgery.*Edge swap", {"surgery": 7})):
@@ -300,7 +305,7 @@ class Samples(unittest.TestCase):
     """The scripts that users start from list every parameter, and run."""
 
     MESHES = {"disk": meshes.hill, "rectangle": meshes.hill, "holes": meshes.annulus,
-              "hyperbolic": meshes.double_torus}
+              "cones": meshes.sphere, "hyperbolic": meshes.double_torus}
 
     def test_every_sample(self):
         paths = sorted(glob.glob(os.path.join(common.REPOSITORY, "filter_ricci", "samples", "*.mlx")))

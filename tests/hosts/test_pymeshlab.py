@@ -96,6 +96,35 @@ class Results(unittest.TestCase):
         select(documents, "abs(z) > 0.99 || abs(x) > 0.99")
         self.check(documents, target_curvature="Cones at selected vertices")
 
+    def test_placed_cones_come_back_from_quality(self):
+        documents = mesh_set(meshes.sphere())
+        returned = self.check(documents, cone_count=5)
+        self.assertEqual(returned["cones"], 5)
+        placed = documents.current_mesh().vertex_custom_scalar_attribute_array(
+            "ricci_target_curvature")
+        self.assertEqual(numpy.count_nonzero(placed), 5)
+        self.assertAlmostEqual(placed.sum(), 4 * math.pi, delta=1e-10)
+        for precision in (numpy.float64, numpy.float32):
+            stored = placed.astype(precision).astype(numpy.float64)  # as a file keeps them
+            again = mesh_set(meshes.with_quality(meshes.sphere(), stored))
+            other = self.check(again, target_curvature="From vertex quality")
+            self.assertEqual(other["cones"], 5)
+            kept = again.current_mesh().vertex_custom_scalar_attribute_array(
+                "ricci_target_curvature")
+            self.assertTrue(numpy.allclose(kept, placed, atol=1e-6))
+            self.assertAlmostEqual(other["qc_mean"], returned["qc_mean"], delta=1e-5)
+
+    def test_script_edits_placed_cones(self):
+        documents = mesh_set(meshes.sphere())
+        self.check(documents, cone_count=4, cone_rounding="Multiples of pi/2")
+        documents.compute_scalar_by_function_per_vertex(q="ricci_target_curvature")
+        quality = documents.current_mesh().vertex_scalar_array()
+        quarters = quality / (math.pi / 2)
+        self.assertTrue(numpy.allclose(quarters, quarters.round(), atol=1e-9))
+        self.assertAlmostEqual(quality.sum(), 4 * math.pi, delta=1e-9)
+        returned = self.check(documents, target_curvature="From vertex quality")
+        self.assertEqual(returned["cones"], numpy.count_nonzero(quality))
+
     def test_quality_is_read_before_it_is_overwritten(self):
         mesh = meshes.torus()
         curvature = numpy.zeros(len(mesh.vertices))
@@ -440,7 +469,7 @@ class BadInput(unittest.TestCase):
         self.check("finite|NaN|not a number", meshes.with_nan(meshes.torus()))
 
     def test_sphere_without_cones(self):
-        self.check("genus 0|cone", meshes.sphere())
+        self.check("at least 3", meshes.sphere(), cone_count=2)
         self.check("select", meshes.sphere(), target_curvature="Cones at selected vertices")
         self.check("2 ?pi.*cones", meshes.sphere(), "abs(z) > 0.99",
                    target_curvature="Cones at selected vertices")
@@ -474,7 +503,7 @@ class BadInput(unittest.TestCase):
 
     def test_choices_out_of_range(self):
         """PyMeshLab itself refuses what is not a choice."""
-        for values in ({"target_curvature": 6}, {"target_curvature": -1}, {"surgery": "Nonsense"}):
+        for values in ({"target_curvature": 7}, {"target_curvature": -1}, {"surgery": "Nonsense"}):
             documents = mesh_set(meshes.torus())
             before = state(documents.current_mesh())
             with self.assertRaisesRegex(Exception, "^Enum .* not (valid|found)"):

@@ -22,7 +22,10 @@ using namespace ricci;
 
 const char* const kUsage =
 	"usage: mesh_table [option...] MESH...\n"
-	"  --target T           automatic, flat, disk, rectangle; may be given several times\n"
+	"  --target T           automatic, flat, disk, rectangle, cones; may be given several times\n"
+	"  --cone-count N       of placed cones\n"
+	"  --cone-distortion X  that decides their number\n"
+	"  --cone-rounding R    free, quarter\n"
 	"  --surgery S          none, swap, flips\n"
 	"  --packing P          inversive, thurston\n"
 	"  --refine             give the map on the common refinement (surgery flips)\n"
@@ -44,7 +47,8 @@ constexpr NamedTarget kTargets[] = {
 	{"automatic", TargetCurvature::Automatic},
 	{"flat", TargetCurvature::Flat},
 	{"disk", TargetCurvature::Disk},
-	{"rectangle", TargetCurvature::Rectangle}};
+	{"rectangle", TargetCurvature::Rectangle},
+	{"cones", TargetCurvature::PlacedCones}};
 
 struct Arguments
 {
@@ -114,6 +118,13 @@ Arguments parse(int argc, char** argv)
 			a.options.epsilon = std::atof(value().c_str());
 		else if (word == "--max-iterations")
 			a.options.maxIterations = std::atoi(value().c_str());
+		else if (word == "--cone-count")
+			a.options.coneCount = std::atoi(value().c_str());
+		else if (word == "--cone-distortion")
+			a.options.coneDistortion = std::atof(value().c_str());
+		else if (word == "--cone-rounding")
+			a.options.coneRounding = choose<ConeRounding>(
+				value(), {{"free", ConeRounding::Free}, {"quarter", ConeRounding::QuarterTurns}});
 		else if (word == "--obj")
 			a.objFolder = value();
 		else if (word == "--verbose")

@@ -6,12 +6,20 @@ namespace ricci {
 
 /// Which curvature the flow is asked to reach (paper 5.2). The order is that of the filter's menu.
 enum class TargetCurvature {
-	Automatic,     ///< disk: free boundary; annulus, torus: flat; other boundaries: free boundary
+	Automatic,     ///< disk: free boundary; annulus, torus: flat; other boundaries: free boundary;
+				   ///< other closed surfaces: placed cones
 	Flat,          ///< K = 0 at every vertex, boundary included; needs Euler characteristic 0
 	Disk,          ///< the image of a topological disk is a round disk
 	Rectangle,     ///< four corners of pi/2 on the boundary of a topological disk
 	SelectedCones, ///< equal shares of 2 pi chi at the selected vertices, 0 elsewhere
-	Prescribed     ///< one value for each vertex, in radians
+	Prescribed,    ///< one value for each vertex, in radians
+	PlacedCones    ///< cones where they lower the distortion of area, see placeCones()
+};
+
+/// Which curvatures placed cones may have.
+enum class ConeRounding {
+	Free,        ///< any below 2 pi
+	QuarterTurns ///< multiples of pi / 2
 };
 
 /// How the circles of the two ends of an edge may lie.
@@ -71,6 +79,15 @@ enum class HyperbolicTarget {
 struct Options : FlowOptions
 {
 	TargetCurvature target = TargetCurvature::Automatic;
+
+	/// Placed cones: their number, or 0 for as many as it takes to bring the expected
+	/// Report::areaDistortionSpread below coneDistortion.
+	int coneCount = 0;
+	double coneDistortion = 0.5;
+	ConeRounding coneRounding = ConeRounding::Free;
+
+	/// How much longer a seam may be to run in hollows, 0 to 1; see seamCost().
+	double seamHiding = 0.0;
 
 	/// Fix u on the boundary (paper 5.3: du = 0), so that the boundary keeps its metric; the
 	/// prescribed curvature then holds at interior vertices only. Disk, Rectangle and the flat

@@ -8,6 +8,7 @@
 #include "layout/hole_seams.h"
 #include "layout/invariants.h"
 #include "layout/least_rectangle.h"
+#include "layout/seam_cost.h"
 #include "numbers.h"
 #include "result_assembly.h"
 #include "run_progress.h"
@@ -121,6 +122,10 @@ private:
 			request.selected = m_mesh.selected;
 			request.prescribed = m_mesh.prescribed;
 			request.prescribedPrecision = m_precision;
+			request.coneCount = m_options.coneCount;
+			request.coneDistortion = m_options.coneDistortion;
+			request.coneRounding = m_options.coneRounding;
+			request.coneVertices = static_cast<int>(m_mesh.positions.size());
 			request.selected.resize(m_solved.positions.size(), 0);
 			request.prescribed.resize(m_solved.positions.size(), 0.0);
 			const Topology topology = topologyOf(m_solved.triangulation);
@@ -204,6 +209,7 @@ private:
 			marked[v] =
 				(!m_topology.boundary[v] || m_solved.onHole[v]) &&
 				std::abs(m_flow.target.curvature[static_cast<Eigen::Index>(v)]) > kConeCurvature;
+		m_cones = static_cast<int>(std::count(marked.begin(), marked.end(), 1));
 		if (m_swaps > 0 || m_splits > 0) {
 			forbidden = m_flow.swapped;
 			forbidden.resize(at(m_base.edgeCount()), 0);
@@ -211,7 +217,11 @@ private:
 				if (std::max(m_base.origin(2 * e), m_base.target(2 * e)) >= m_mesh.inputVertexCount)
 					forbidden[at(e)] = 1;
 		}
-		m_cut = cutToDisk(layoutTriangulation(), m_lengths, marked, forbidden);
+		m_cut = cutToDisk(
+			layoutTriangulation(),
+			seamCost(m_base, m_lengths, m_mesh.positions, m_options.seamHiding),
+			marked,
+			forbidden);
 		if (m_solved.holes > 0)
 			dropSeamsToHoles(m_base, m_lengths, m_solved.onHole, marked, m_cut);
 		m_marked = std::move(marked);
@@ -387,6 +397,9 @@ private:
 		report.boundaryLoops += static_cast<int>(m_topology.loops.size());
 		report.seamEdges += m_cut.edgeCount;
 		report.cappedHoles += m_solved.holes;
+		for (std::size_t e = 0; e < m_cut.isCut.size(); ++e)
+			report.seamLength += m_cut.isCut[e] ? m_lengths[e] : 0.0;
+		report.cones += m_cones;
 	}
 
 	void invariants(Report& report) const
@@ -438,7 +451,7 @@ private:
 	CommonRefinement m_refinement; ///< with flips
 	PlanarLayout m_layout;
 	double m_scale = 1.0;
-	int m_iterations = 0, m_swaps = 0, m_splits = 0;
+	int m_iterations = 0, m_swaps = 0, m_splits = 0, m_cones = 0;
 };
 
 void checkOptions(const Options& options)
@@ -457,6 +470,16 @@ void checkOptions(const Options& options)
 	if (!(options.epsilon > 0.0))
 		throw InvalidOption(
 			"epsilon must be greater than 0 (radians), not " + text("%g", options.epsilon) + ".");
+	if (options.coneCount < 0)
+		throw InvalidOption(
+			"cone_count must be 0 or more, not " + std::to_string(options.coneCount) + ".");
+	if (!(options.coneDistortion > 0.0))
+		throw InvalidOption(
+			"cone_distortion must be greater than 0, not " + text("%g", options.coneDistortion) +
+			".");
+	if (!(options.seamHiding >= 0.0 && options.seamHiding <= 1.0))
+		throw InvalidOption(
+			"seam_hiding must be between 0 and 1, not " + text("%g", options.seamHiding) + ".");
 	if (options.maxIterations < 1)
 		throw InvalidOption(
 			"max_iterations must be at least 1, not " + std::to_string(options.maxIterations) +
@@ -493,6 +516,11 @@ Parametrization parametrizeEuclidean(
 		result.report.annulusModulus.reset();
 		result.report.rectangleAspect.reset();
 	}
+	double area = 0.0;
+	for (const Triangle& t : mesh.triangles)
+		area += triangleArea(
+			{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]});
+	result.report.seamLengthRelative = result.report.seamLength / std::sqrt(area);
 	result.report.converged = true;
 	Report keptReport = result.report;
 	DistortionField distortion = measureDistortion(mesh, result.uv, result.reversed, keptReport);

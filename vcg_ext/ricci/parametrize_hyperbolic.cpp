@@ -295,6 +295,7 @@ private:
 		report.genus += m_topology.genus;
 		report.boundaryLoops += static_cast<int>(m_topology.loops.size());
 		report.seamEdges += m_cut.edgeCount;
+		report.cones += static_cast<int>(std::count(m_cones.begin(), m_cones.end(), 1));
 		report.hyperbolicArea = report.hyperbolicArea.value_or(0.0) + m_flow.area;
 		report.relationError = std::max(
 			{report.relationError.value_or(0.0),

@@ -55,7 +55,10 @@ struct Report
 	int genus = 0;
 	int boundaryLoops = 0;
 	int components = 0;
-	int seamEdges = 0; ///< edges of the input along which the layout is cut
+	int cones = 0;                   ///< vertices inside that are not flat
+	int seamEdges = 0;               ///< edges of the input along which the layout is cut
+	double seamLength = 0.0;         ///< of these edges on the mesh, each counted once
+	double seamLengthRelative = 0.0; ///< seamLength over the square root of the mesh's area
 
 	int charts = 0;
 	int cappedHoles = 0; ///< boundary loops closed for the flow

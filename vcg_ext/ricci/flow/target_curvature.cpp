@@ -4,6 +4,7 @@
 #include "../error.h"
 #include "../layout/least_rectangle.h"
 #include "../numbers.h"
+#include "cone_placement.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -199,6 +200,43 @@ void setPrescribed(const Topology& topology, const TargetRequest& request, Targe
 		target.curvature += (defect / magnitude) * target.curvature.cwiseAbs();
 }
 
+/// Cones where they lower the distortion of area; a boundary is free or, if it is not to be, takes
+/// the rest of the curvature in proportion to its length.
+void setPlacedCones(
+	const Triangulation& t,
+	const Topology& topology,
+	const std::vector<double>& lengths,
+	const TargetRequest& request,
+	Target& target)
+{
+	const bool prescribed = !topology.isClosed() && !request.freeBoundary;
+	ConeRequest wanted;
+	wanted.count = request.coneCount;
+	wanted.distortion = request.coneDistortion;
+	wanted.rounding = request.coneRounding;
+	wanted.vertices = request.coneVertices;
+	wanted.boundary = prescribed ? ConeBoundary::Prescribed : ConeBoundary::Fixed;
+	const PlacedCones cones = placeCones(t, lengths, wanted);
+	double total = 0.0;
+	std::string list;
+	for (std::size_t i = 0; i < cones.vertices.size(); ++i) {
+		target.curvature[cones.vertices[i]] = cones.curvatures[i];
+		total += cones.curvatures[i];
+		list += (i == 0 ? " " : ", ") + std::to_string(cones.vertices[i]) + " (" +
+				number(cones.curvatures[i] / kPi) + ")";
+	}
+	target.notes.push_back(
+		std::to_string(cones.vertices.size()) + " cones placed, expected area distortion " +
+		number(cones.distortion) + " (spread); vertex (curvature / pi):" + list + ".");
+	if (prescribed) {
+		spreadOverBoundary(t, lengths, 2 * kPi * topology.eulerCharacteristic - total, target);
+		target.notes.push_back(
+			"The boundary is prescribed: its curvature is proportional to its length.");
+	}
+	else if (!topology.isClosed())
+		freeTheBoundary(topology, target);
+}
+
 void setAutomatic(
 	const Triangulation& t,
 	const Topology& topology,
@@ -209,11 +247,7 @@ void setAutomatic(
 	if (topology.isTorus() || topology.isAnnulus())
 		return setFlat(topology, request, target);
 	if (topology.isClosed())
-		throw InvalidOption(
-			"The surface is " + topology.name() +
-			", which has no flat metric without cones: select vertices and choose 'Cones at "
-			"selected "
-			"vertices', or give the curvatures by 'From vertex quality'.");
+		return setPlacedCones(t, topology, lengths, request, target);
 	if (request.freeBoundary)
 		return freeTheBoundary(topology, target);
 	if (topology.isDisk())
@@ -329,6 +363,9 @@ Target chooseTarget(
 		break;
 	case TargetCurvature::Prescribed:
 		setPrescribed(topology, request, target);
+		break;
+	case TargetCurvature::PlacedCones:
+		setPlacedCones(t, topology, lengths, request, target);
 		break;
 	}
 	checkAdmissible(topology, target);

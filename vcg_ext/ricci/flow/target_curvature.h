@@ -40,6 +40,10 @@ struct TargetRequest
 	std::vector<char> selected;       ///< [vertex] for Rectangle and SelectedCones
 	std::vector<double> prescribed;   ///< [vertex] radians, for Prescribed
 	double prescribedPrecision = 0.0; ///< relative rounding error of prescribed values
+	int coneCount = 0;                ///< of placed cones, see ConeRequest
+	double coneDistortion = 0.5;
+	ConeRounding coneRounding = ConeRounding::Free;
+	int coneVertices = -1; ///< cones may be placed at the first so many vertices; -1: at all
 };
 
 /// A target curvature that Gauss-Bonnet allows.

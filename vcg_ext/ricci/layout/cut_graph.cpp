@@ -3,6 +3,7 @@
 
 #include "../error.h"
 #include "../numbers.h"
+#include "seams.h"
 
 #include <algorithm>
 #include <limits>
@@ -189,6 +190,17 @@ void prune(
 	}
 }
 
+void measure(const Triangulation& t, const std::vector<double>& lengths, CutGraph& cut)
+{
+	cut.edgeCount = 0;
+	cut.length = 0.0;
+	for (int e = 0; e < t.edgeCount(); ++e)
+		if (cut.isCut[at(e)]) {
+			++cut.edgeCount;
+			cut.length += lengths[at(e)];
+		}
+}
+
 CutGraph cutFrom(
 	const Triangulation& t,
 	const ContractedGraph& graph,
@@ -202,16 +214,30 @@ CutGraph cutFrom(
 	for (int h : paths.parent)
 		if (h >= 0)
 			cut.isCut[at(Triangulation::edge(h))] = 1;
-	cut.generators = leftOver(t, graph, lengths, forbidden, paths, cut.isCut);
-	for (int e : cut.generators)
+	for (int e : leftOver(t, graph, lengths, forbidden, paths, cut.isCut))
 		cut.isCut[at(e)] = 1;
 	prune(t, graph, terminal, cut.isCut);
-	for (int e = 0; e < t.edgeCount(); ++e)
-		if (cut.isCut[at(e)]) {
-			++cut.edgeCount;
-			cut.length += lengths[at(e)];
-		}
+	measure(t, lengths, cut);
 	return cut;
+}
+
+/// Edges of the cut outside a spanning tree of it.
+std::vector<int>
+generators(const Triangulation& t, const ContractedGraph& graph, const CutGraph& cut)
+{
+	std::vector<int> parent(at(t.vertexCount())), edges;
+	std::iota(parent.begin(), parent.end(), 0);
+	for (int e = 0; e < t.edgeCount(); ++e) {
+		if (!cut.isCut[at(e)])
+			continue;
+		const int a = findSet(parent, graph.node(t.origin(2 * e)));
+		const int b = findSet(parent, graph.node(t.target(2 * e)));
+		if (a != b)
+			parent[at(std::max(a, b))] = std::min(a, b);
+		else
+			edges.push_back(e);
+	}
+	return edges;
 }
 
 } // namespace
@@ -249,6 +275,9 @@ CutGraph cutToDisk(
 			}
 		}
 	}
+	shortenCut(t, lengths, marked, forbidden, best.isCut);
+	measure(t, lengths, best);
+	best.generators = generators(t, graph, best);
 	return best;
 }
 

@@ -23,8 +23,8 @@ struct CutGraph
 /// generators, paper's [EW05]): a shortest-path tree of the edges, a spanning tree of the dual with
 /// the longest loops first, and the 2 genus edges in neither. Every boundary loop counts as one
 /// point and is reached by the cut, as is every vertex with \p marked (cones). The shortest of the
-/// graphs from a few well-spread roots is returned. Deterministic.
-/// \param lengths [edge] positive
+/// graphs from a few well-spread roots is shortened further (shortenCut()). Deterministic.
+/// \param lengths [edge] positive; or whatever else is to be short in sum
 /// \param forbidden [edge] 1 where the cut must not run; may be empty
 /// \throw Error if the forbidden edges leave no cut
 CutGraph cutToDisk(

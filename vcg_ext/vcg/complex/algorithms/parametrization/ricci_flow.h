@@ -62,7 +62,13 @@ public:
 		/// scale at which a chart has the area of its component (or its boundary the input's
 		/// length).
 		bool normalizeUV = true;
+
+		/// Least distance between the bounding boxes of two charts, and from them to the border of
+		/// the square that holds all, as a share of its side; at most kMostMargin.
+		double chartMargin = 0.0;
 	};
+
+	static constexpr double kMostMargin = 0.25;
 
 	/// The hyperbolic flow takes these as they are.
 	typedef ricci::HyperbolicOptions HyperbolicParams;
@@ -103,7 +109,7 @@ public:
 		Result r;
 		r.report = flat.report;
 		r.notes = flat.notes;
-		PackCharts(flat, par.normalizeUV);
+		PackCharts(flat, par.normalizeUV, par.chartMargin);
 		CountFlippedByRounding(flat, r.report);
 		TakeOver(flat, m.face.size(), faceIndex, r);
 		return r;
@@ -372,7 +378,7 @@ public:
 				vi->N() = CoordType(0, 0, 1);
 				vi->Q() = one.vert[v].Q();
 				if (HasPerVertexColor(cover))
-					vi->C() = TileColor(copy, most);
+					vi->C() = TileColor(copy);
 				place[v] = &*vi++;
 			}
 			FaceIterator fi = Allocator<MeshType>::AddFaces(cover, faces);
@@ -383,7 +389,7 @@ public:
 					fi->V(k) = place[Index(one, f.cV(k))];
 				fi->N() = CoordType(0, 0, 1);
 				if (HasPerFaceColor(cover))
-					fi->C() = TileColor(copy, most);
+					fi->C() = TileColor(copy);
 				++fi;
 			}
 		}
@@ -427,15 +433,15 @@ public:
 	}
 
 private:
-	/// Different for copies that are near to each other in their order; the first one is white.
-	static Color4b TileColor(size_t copy, size_t)
+	/// Different for copies that are near to each other in their order; the first one is grey.
+	static Color4b TileColor(size_t copy)
 	{
 		if (copy == 0)
-			return Color4b(255, 255, 255, 255);
+			return Color4b(200, 200, 200, 255);
 		// Steps of the golden section round the circle of hues.
 		const double hue = std::fmod(0.618033988749895 * double(copy), 1.0);
 		Color4b color;
-		color.SetHSVColor(float(hue), copy % 2 == 0 ? 0.45f : 0.7f, copy % 3 == 0 ? 0.8f : 0.95f);
+		color.SetHSVColor(float(hue), copy % 2 == 0 ? 0.3f : 0.5f, copy % 3 == 0 ? 0.8f : 0.95f);
 		return color;
 	}
 
@@ -575,13 +581,13 @@ private:
 	static ricci::VertexInput
 	ReadVertexInput(const MeshType& m, bool readSelection, bool readQuality)
 	{
-		typedef typename VertexType::QualityType QualityType;
 		ricci::VertexInput input;
 		for (size_t v = 0; v < m.vert.size() && readSelection; ++v)
 			input.selected.push_back(!m.vert[v].IsD() && m.vert[v].IsS());
 		for (size_t v = 0; v < m.vert.size() && readQuality; ++v)
 			input.targetCurvature.push_back(m.vert[v].IsD() ? 0.0 : double(m.vert[v].cQ()));
-		input.precision = double(std::numeric_limits<QualityType>::epsilon());
+		// A quality of type double may have come from a file that holds floats.
+		input.precision = double(std::numeric_limits<float>::epsilon());
 		return input;
 	}
 
@@ -614,24 +620,43 @@ private:
 	}
 
 	/// Places the charts' bounding boxes side by side, then scales the whole into [0,1]^2 if asked.
-	static void PackCharts(ricci::Parametrization& flat, bool normalize)
+	static void PackCharts(ricci::Parametrization& flat, bool normalize, double margin)
 	{
+		if (!(margin >= 0.0 && margin <= kMostMargin))
+			throw ricci::InvalidOption(
+				"chart_margin must be between 0 and " + std::to_string(kMostMargin) + ".");
 		std::vector<Box> boxes;
 		for (const ricci::Chart& chart : flat.charts)
 			boxes.push_back(ChartBox(flat, chart));
-		if (flat.charts.size() > 1) {
-			std::vector<Similarity2<double>> place = PackBoxes(boxes);
-			for (size_t i = 0; i < place.size(); ++i) // undo the common scale
-				Transform(flat, flat.charts[i], 1.0, place[i].tra / place[i].sca);
+		// The margin is a share of a square that grows with the margin.
+		std::vector<Point2d> shift;
+		double size = 0.0, room = 0.0;
+		Box whole;
+		for (int attempt = 0; attempt == 0 || room < margin * size; ++attempt) {
+			if (attempt == 60)
+				throw ricci::InvalidOption(
+					"A chart_margin of " + std::to_string(margin) + " leaves no room for " +
+					std::to_string(boxes.size()) + " charts: choose a smaller one.");
+			room = (1.0 + 1e-6) * margin * size;
+			shift = ShiftsSideBySide(boxes, room);
+			whole = Box();
+			for (size_t i = 0; i < boxes.size(); ++i) {
+				whole.Add(boxes[i].min + shift[i]);
+				whole.Add(boxes[i].max + shift[i]);
+			}
+			size = std::max(whole.DimX(), whole.DimY()) + 2.0 * room;
 		}
+		const Point2d corner = whole.min - Point2d(room, room);
+		const double scale = normalize ? 1.0 / size : 1.0;
+		for (size_t i = 0; i < boxes.size(); ++i)
+			if (normalize || boxes.size() > 1)
+				Transform(
+					flat,
+					flat.charts[i],
+					scale,
+					normalize ? (shift[i] - corner) * scale : shift[i]);
 		if (!normalize)
 			return;
-		Box whole;
-		for (const ricci::Chart& chart : flat.charts)
-			whole.Add(ChartBox(flat, chart));
-		const double size = std::max(whole.DimX(), whole.DimY());
-		for (const ricci::Chart& chart : flat.charts)
-			Transform(flat, chart, 1.0 / size, -whole.min / size);
 		ClampToUnitSquare(flat);
 	}
 
@@ -658,6 +683,19 @@ private:
 		r.refined = std::move(flat.refined);
 		for (int& f : r.refined.inputFace)
 			f = faceIndex[size_t(f)];
+	}
+
+	/// Translations that leave at least \p room between any two of \p boxes.
+	static std::vector<Point2d> ShiftsSideBySide(std::vector<Box> boxes, double room)
+	{
+		if (boxes.size() == 1)
+			return {Point2d(0, 0)};
+		for (Box& box : boxes)
+			box.Offset(0.5 * room);
+		std::vector<Point2d> shift;
+		for (const Similarity2<double>& place : PackBoxes(boxes))
+			shift.push_back(place.tra / place.sca); // undo the common scale
+		return shift;
 	}
 
 	/// vcglib's rectangle packer on a grid fine enough for the number of boxes. It refuses what
