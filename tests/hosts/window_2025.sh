@@ -56,7 +56,8 @@ stage() {
 	cp "$here/../../filter_ricci/scripts/window.sh" "$here/window_2025_inside.sh" "$plugin" "$work/"
 	(cd "$here" && python3 -c "import meshes
 meshes.write_ply('$work/torus.ply', meshes.torus())
-meshes.write_ply('$work/sphere.ply', meshes.sphere())")
+meshes.write_ply('$work/moebius.ply', meshes.moebius())
+meshes.write_ply('$work/double_torus.ply', meshes.double_torus())")
 }
 
 [ "$(id -u)" -eq 0 ] || give_up "root is needed to enter another system"
