@@ -39,10 +39,10 @@ load_plugin() {
 	sleep 2
 	xdotool key Return
 	wait_until 60 test -f "$HOME/.local/share/VCG/$extra" || return 1
-	sleep 3
+	sleep 6
 	picture plugin_2025.png
-	xdotool key Return
-	sleep 2
+	xdotool key Escape # Return would press Load Plugins again
+	sleep 3
 }
 
 trap close_display EXIT
