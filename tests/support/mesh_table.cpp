@@ -161,7 +161,7 @@ void printHeader()
 		"mesh\ttarget\tV\tF\tcomponents\tchi\tgenus\tloops\titerations\tresidual\tfloor\tqc_mean\t"
 		"qc_vertex_mean\tqc_area_mean\tqc_p99\tqc_max\tarea_mean\tarea_spread\tflipped\tflipped_"
 		"float\tflips\tadded_"
-		"points\tswaps\tsplits\tbroken\tseam_edges\t"
+		"points\tswaps\tsplits\tbroken\tcones\tseam_edges\tseam_length\tseam_relative\t"
 		"seam_mismatch\tcharts\toverlapping\toverlap_faces\toverlap_cuts\ttau_re\ttau_"
 		"im\tmodulus\taspect\trefused");
 }
@@ -182,7 +182,7 @@ void printResult(const Parametrization& flat, const SurfaceMesh& drawn, const te
 	const Report& r = flat.report;
 	std::printf(
 		"\t%d\t%d\t%d\t%d\t%d\t%.2e\t%.2e\t%.4f\t%.4f\t%.4f\t%.3f\t%.4g\t%.4g\t%.4f\t%d\t%d\t%d\t"
-		"%d\t%d\t%d\t%d\t%d\t",
+		"%d\t%d\t%d\t%d\t%d\t%d\t%.5g\t%.4f\t",
 		r.components,
 		r.eulerCharacteristic,
 		r.genus,
@@ -204,7 +204,10 @@ void printResult(const Parametrization& flat, const SurfaceMesh& drawn, const te
 		r.edgeSwaps,
 		r.boundarySplits,
 		r.brokenTriangles,
-		r.seamEdges);
+		r.cones,
+		r.seamEdges,
+		r.seamLength,
+		r.seamLengthRelative);
 	// The measure takes coherent faces; turned ones would look like a tear.
 	bool coherent = true;
 	for (char reversed : flat.reversed)
@@ -261,7 +264,7 @@ bool addRow(const Arguments& a, const std::string& path, const NamedTarget& targ
 		return true;
 	}
 	catch (const std::exception& error) {
-		for (int column = 0; column < 31; ++column)
+		for (int column = 0; column < 34; ++column)
 			std::printf("\t-");
 		std::printf("\t%s\n", error.what());
 		return false;

@@ -296,6 +296,9 @@ private:
 		report.boundaryLoops += static_cast<int>(m_topology.loops.size());
 		report.seamEdges += m_cut.edgeCount;
 		report.cones += static_cast<int>(std::count(m_cones.begin(), m_cones.end(), 1));
+		const std::vector<double> lengths = edgeLengths(m_base, m_component.positions);
+		for (std::size_t e = 0; e < m_cut.isCut.size(); ++e)
+			report.seamLength += m_cut.isCut[e] ? lengths[e] : 0.0;
 		report.hyperbolicArea = report.hyperbolicArea.value_or(0.0) + m_flow.area;
 		report.relationError = std::max(
 			{report.relationError.value_or(0.0),
@@ -359,6 +362,11 @@ Parametrization parametrizeHyperbolic(
 	runComponents(mesh, components, progress, [&](const Component& component, Interval interval) {
 		HyperbolicRun(component, input, options, interval).run(result);
 	});
+	double area = 0.0;
+	for (const Triangle& t : mesh.triangles)
+		area += triangleArea(
+			{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]});
+	result.report.seamLengthRelative = result.report.seamLength / std::sqrt(area);
 	result.report.converged = true;
 	Report keptReport = result.report;
 	DistortionField distortion = measure(mesh, result.uv, result.reversed, keptReport);

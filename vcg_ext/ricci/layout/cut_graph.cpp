@@ -80,21 +80,24 @@ struct ShortestPaths
 {
 	std::vector<double> distance; // [node]
 	std::vector<int> parent;      // [node] halfedge that arrives, or -1
+	std::vector<int> bridges;     // edges that join the trees of several roots
 };
 
 ShortestPaths dijkstra(
 	const Triangulation& t,
 	const ContractedGraph& graph,
 	const std::vector<double>& lengths,
-	int root)
+	const std::vector<int>& roots)
 {
 	ShortestPaths paths;
 	paths.distance.assign(at(t.vertexCount()), kFar);
 	paths.parent.assign(at(t.vertexCount()), -1);
 	using Entry = std::pair<double, int>; // ties by node, so that the tree is always the same
 	std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
-	paths.distance[at(root)] = 0.0;
-	queue.push({0.0, root});
+	for (int root : roots) {
+		paths.distance[at(root)] = 0.0;
+		queue.push({0.0, root});
+	}
 	while (!queue.empty()) {
 		const auto [d, node] = queue.top();
 		queue.pop();
@@ -118,6 +121,43 @@ int findSet(std::vector<int>& parent, int i)
 	while (parent[at(i)] != i)
 		i = parent[at(i)] = parent[at(parent[at(i)])];
 	return i;
+}
+
+/// Shortest paths to the nearest terminal, and the edges that join them to a spanning tree, those
+/// that belong to the shortest connections first: what is left of it without its dead ends is at
+/// most twice as long as the shortest tree through the terminals (Mehlhorn 1988).
+ShortestPaths treeOfTerminals(
+	const Triangulation& t,
+	const ContractedGraph& graph,
+	const std::vector<double>& lengths,
+	const std::vector<char>& forbidden,
+	const std::vector<int>& terminals)
+{
+	ShortestPaths paths = dijkstra(t, graph, lengths, terminals);
+	std::vector<int> parent(at(t.vertexCount()));
+	std::iota(parent.begin(), parent.end(), 0);
+	for (int h : paths.parent)
+		if (h >= 0)
+			parent[at(findSet(parent, graph.node(t.target(h))))] =
+				findSet(parent, graph.node(t.origin(h)));
+	std::vector<std::pair<double, int>> connections;
+	for (int e = 0; e < t.edgeCount(); ++e) {
+		const int a = graph.node(t.origin(2 * e)), b = graph.node(t.target(2 * e));
+		if (!t.isBoundaryEdge(e) && (forbidden.empty() || !forbidden[at(e)]) &&
+			findSet(parent, a) != findSet(parent, b))
+			connections.push_back(
+				{paths.distance[at(a)] + lengths[at(e)] + paths.distance[at(b)], e});
+	}
+	std::sort(connections.begin(), connections.end());
+	for (const auto& [length, e] : connections) {
+		const int a = findSet(parent, graph.node(t.origin(2 * e)));
+		const int b = findSet(parent, graph.node(t.target(2 * e)));
+		if (a == b)
+			continue;
+		parent[at(std::max(a, b))] = std::min(a, b);
+		paths.bridges.push_back(e);
+	}
+	return paths;
 }
 
 /// Interior edges that are neither in the shortest-path tree nor crossed by the cotree.
@@ -214,6 +254,8 @@ CutGraph cutFrom(
 	for (int h : paths.parent)
 		if (h >= 0)
 			cut.isCut[at(Triangulation::edge(h))] = 1;
+	for (int e : paths.bridges)
+		cut.isCut[at(e)] = 1;
 	for (int e : leftOver(t, graph, lengths, forbidden, paths, cut.isCut))
 		cut.isCut[at(e)] = 1;
 	prune(t, graph, terminal, cut.isCut);
@@ -259,10 +301,26 @@ CutGraph cutToDisk(
 		root = static_cast<int>(firstMark - terminal.begin());
 	std::vector<double> fromRoots;
 	CutGraph best;
-	for (int attempt = 0; attempt < (closed ? kRoots : 1); ++attempt) {
-		const ShortestPaths paths = dijkstra(t, graph, lengths, root);
+	std::vector<int> terminals;
+	for (std::size_t n = 0; n < terminal.size(); ++n)
+		if (terminal[n])
+			terminals.push_back(static_cast<int>(n));
+	const bool hasTree = terminals.size() > 1;
+	if (hasTree)
+		best = cutFrom(
+			t,
+			graph,
+			lengths,
+			forbidden,
+			terminal,
+			treeOfTerminals(t, graph, lengths, forbidden, terminals));
+	// A tree through the terminals is all that a sphere with holes needs.
+	const bool planar =
+		hasTree && t.eulerCharacteristic() + static_cast<int>(graph.loopNodes().size()) == 2;
+	for (int attempt = 0; !planar && attempt < (closed ? kRoots : 1); ++attempt) {
+		const ShortestPaths paths = dijkstra(t, graph, lengths, {root});
 		CutGraph cut = cutFrom(t, graph, lengths, forbidden, terminal, paths);
-		if (attempt == 0 || cut.length < best.length)
+		if ((attempt == 0 && !hasTree) || cut.length < best.length)
 			best = std::move(cut);
 		if (attempt == 0)
 			fromRoots = paths.distance;
