@@ -35,9 +35,9 @@ load_plugin() {
 	sleep 2
 	xdotool type --delay 60 "$PWD/libfilter_ricci.so"
 	sleep 2
-	xdotool key Return # the name that the field proposes
-	sleep 2
 	xdotool key Return
+	# The first Return may only have closed the list of names that the field proposes.
+	wait_until 10 test -f "$HOME/.local/share/VCG/$extra" || xdotool key Return
 	wait_until 60 test -f "$HOME/.local/share/VCG/$extra" || return 1
 	sleep 6
 	picture plugin_2025.png
