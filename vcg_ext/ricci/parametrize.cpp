@@ -290,6 +290,8 @@ private:
 		surface.endAngles = &metric.angles();
 		surface.endU = &m_flow.u;
 		surface.keptFaces = m_base.faceCount();
+		surface.cornersOnly =
+			m_options.output == OutputTriangulation::KeepMesh && m_solved.holes == 0;
 		// In a double, and at a cap, the surface ends at its boundary.
 		std::vector<char> isCut = m_cut.isCut;
 		const bool goesOn = m_flow.doubled || m_solved.holes > 0;

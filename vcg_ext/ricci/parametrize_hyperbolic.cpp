@@ -215,6 +215,7 @@ private:
 		surface.endU = &m_flow.u;
 		surface.background = Background::HyperbolicPlane;
 		surface.keptFaces = m_base.faceCount();
+		surface.cornersOnly = m_options.output == OutputTriangulation::KeepMesh;
 		// In a double the surface ends at its boundary.
 		std::vector<char> isCut = m_cut.isCut;
 		for (int e = 0; e < m_base.edgeCount(); ++e)

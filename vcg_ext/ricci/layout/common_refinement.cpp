@@ -114,10 +114,14 @@ public:
 		collectChords();
 		for (int f = 0; f < m_start.faceCount(); ++f)
 			divide(f);
+		m_chords = std::vector<Chord>();
+		m_onEdge = std::vector<int>();
+		m_alongEdge = std::vector<double>();
 		linkPieces();
 		findFaces();
 		dropPieces();
 		layOut();
+		m_links = std::vector<std::array<Link, 2>>();
 		return result();
 	}
 
@@ -1043,25 +1047,29 @@ private:
 		CommonRefinement r;
 		// The input's vertices (of the kept faces, which come first) and the crossings in use.
 		const int vertices = static_cast<int>(m_positions.size());
-		std::vector<int> point(m_nodes.size(), -1);
+		std::vector<int> point(m_nodes.size(), -1), nodes; // node of each point
 		for (int v = 0; v < vertices; ++v) {
 			point[at(v)] = v;
-			r.points.push_back(m_nodes[at(v)].point);
+			nodes.push_back(v);
 		}
 		for (auto& piece : m_pieces)
 			for (PieceCorner& c : piece) {
 				if (point[at(c.node)] < 0) {
-					point[at(c.node)] = static_cast<int>(r.points.size());
-					r.points.push_back(m_nodes[at(c.node)].point);
+					point[at(c.node)] = static_cast<int>(nodes.size());
+					nodes.push_back(c.node);
 				}
 				c.node = point[at(c.node)];
 			}
-		r.crossings = r.points.size() - at(vertices);
-		std::vector<Point3> space;
-		for (const SurfacePoint& p : r.points)
-			space.push_back(placeOnSurface(p, m_positions));
-		for (std::size_t p = 0; p < m_pieces.size(); ++p)
-			emit(p, space, r);
+		r.crossings = nodes.size() - at(vertices);
+		if (!m_s.cornersOnly) {
+			std::vector<Point3> space;
+			for (int node : nodes) {
+				r.points.push_back(m_nodes[at(node)].point);
+				space.push_back(placeOnSurface(r.points.back(), m_positions));
+			}
+			for (std::size_t p = 0; p < m_pieces.size(); ++p)
+				emit(p, space, r);
+		}
 
 		r.transition = m_transition;
 		int sectorCount = 0;

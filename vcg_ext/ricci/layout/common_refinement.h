@@ -33,6 +33,8 @@ struct FlippedSurface
 	Background background = Background::EuclideanPlane; ///< of the end
 	/// Only faces of the input below this are wanted, and only vertices that have a position.
 	int keptFaces = 0;
+	/// The layout of the input's corners is all that is wanted: no points, triangles and uv.
+	bool cornersOnly = false;
 };
 
 /// A point of the input's surface as an affine combination of the input's vertices. The weights of
