@@ -215,10 +215,13 @@ Execution run(const HostileMesh& hostile)
 	typename Flow::Params params;
 	static_cast<Options&>(params) = hostile.options;
 	params.normalizeUV = hostile.normalizeUV;
+	typename Flow::HyperbolicParams hyperbolicParams;
+	static_cast<HyperbolicOptions&>(hyperbolicParams) = hostile.hyperbolicOptions;
 	Watch watch(hostile.cancelAt, hostile.mesh.triangles.size());
 	typename Flow::Result result;
 	try {
-		result = Flow::Compute(m, params, watch);
+		result = hostile.hyperbolic ? Flow::ComputeHyperbolic(m, hyperbolicParams, watch)
+									: Flow::Compute(m, params, watch);
 		execution.verdict = Verdict::Mapped;
 	}
 	catch (const Cancelled& cancelled) {
@@ -245,7 +248,8 @@ Execution run(const HostileMesh& hostile)
 	execution.defect = defectOf(result.report, hostile.options);
 	if (!execution.defect.empty())
 		return execution;
-	execution.defect = miscounted(m, result, wantedOrientation(m));
+	if (!hostile.hyperbolic) // whose faces are geodesic triangles
+		execution.defect = miscounted(m, result, wantedOrientation(m));
 	if (!execution.defect.empty())
 		return execution;
 	Mesh flat;
@@ -255,7 +259,7 @@ Execution run(const HostileMesh& hostile)
 		Flow::WriteWedgeTexCoord(m, result);
 		Flow::WriteVertexQuality(m, result);
 	}
-	execution.defect = defectOfWritten(m, hostile.normalizeUV);
+	execution.defect = defectOfWritten(m, hostile.normalizeUV || hostile.hyperbolic);
 	Flow::BuildFlatMesh(m, result, flat);
 	if (execution.defect.empty() && flat.FN() != m.FN())
 		execution.defect = "the flat mesh has another number of faces";

@@ -430,6 +430,14 @@ std::vector<double> anyQuality(const SurfaceMesh& mesh, ByteSource& bytes)
 HostileMesh::HostileMesh(ByteSource& bytes)
 {
 	options = anyOptions(bytes);
+	hyperbolic = bytes.oneIn(4);
+	if (hyperbolic) {
+		static_cast<FlowOptions&>(hyperbolicOptions) = options;
+		hyperbolicOptions.target = static_cast<HyperbolicTarget>(bytes.below(3));
+		hyperbolicOptions.coneAngle = bytes.oneIn(8) ? awkward(bytes) : bytes.real(-1, 13);
+		hyperbolicOptions.freeBoundary = bytes.below(2) != 0;
+		hyperbolicOptions.output = options.output;
+	}
 	normalizeUV = bytes.below(4) != 0;
 	doublePrecision = bytes.below(2) != 0;
 	mesh = shape(bytes);
@@ -457,12 +465,15 @@ HostileMesh::HostileMesh(ByteSource& bytes)
 			deletedVertex[v] = !used[v] || (evenInUse && bytes.oneIn(8));
 	}
 	selected.assign(mesh.positions.size(), 0);
-	if (options.target == TargetCurvature::SelectedCones ||
-		options.target == TargetCurvature::Rectangle)
+	const bool selects = hyperbolic ? hyperbolicOptions.target == HyperbolicTarget::SelectedCones
+									: options.target == TargetCurvature::SelectedCones ||
+										  options.target == TargetCurvature::Rectangle;
+	if (selects)
 		for (int i = bytes.below(8); i > 0 && !mesh.positions.empty(); --i)
 			selected[at(bytes.below(vertexCount(mesh)))] = 1;
 	quality.assign(mesh.positions.size(), 0.0);
-	if (options.target == TargetCurvature::Prescribed)
+	if (hyperbolic ? hyperbolicOptions.target == HyperbolicTarget::Prescribed
+				   : options.target == TargetCurvature::Prescribed)
 		quality = anyQuality(mesh, bytes);
 	if (bytes.oneIn(8))
 		cancelAt = bytes.below(20);

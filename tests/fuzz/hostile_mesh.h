@@ -21,6 +21,8 @@ struct HostileMesh
 	std::vector<char> selected;                   ///< [vertex]
 	std::vector<double> quality;                  ///< [vertex]
 	Options options;
+	bool hyperbolic = false; ///< which of the two flows
+	HyperbolicOptions hyperbolicOptions;
 	bool normalizeUV = true;
 	bool doublePrecision = false; ///< which of the hosts' scalar types
 	int cancelAt = -1;            ///< number of the progress call that cancels; -1: none

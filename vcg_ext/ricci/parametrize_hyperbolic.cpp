@@ -95,6 +95,7 @@ public:
 		m_group = layOut();
 		m_interval.step(1.0, "Checking the result");
 		requireMetric(Background::HyperbolicPlane, m_flow, m_base.boundaryVertices());
+		requireInsideDisk();
 		store(result);
 	}
 
@@ -137,6 +138,20 @@ private:
 				"Some faces have no area, or one side a million times shorter than another: the "
 				"flow sees every edge longer by " +
 				numberText(m_flow.history.lengthened, 3) + ".");
+	}
+
+	/// Far from the root of the layout the doubles of the disk end.
+	void requireInsideDisk() const
+	{
+		std::size_t outside = 0;
+		const auto check = [&](const Point2& p) { outside += !(p[0] * p[0] + p[1] * p[1] <= 1.0); };
+		for (const Point2& p : m_layout.position)
+			check(p);
+		for (const Triangle2& triangle : m_refinement.uv)
+			for (const Point2& p : triangle)
+				check(p);
+		if (outside > 0)
+			failCheck(std::to_string(outside) + " points lie outside the disk");
 	}
 
 	bool flips() const { return m_options.surgery == Surgery::IntrinsicFlips; }
