@@ -548,23 +548,45 @@ private:
 		return sides;
 	}
 
-	/// Gives all attributes room for \p count elements; their size stays.
-	template<class Attributes>
-	static void Reserve(Attributes& attributes, size_t size, size_t count)
+	/// Takes the attributes of a vector of elements away while it grows: vcglib would resize them
+	/// after the vector, and copies their names on the way, for which there may be no memory any
+	/// more. They get room before, and their size when they are put back.
+	template<class Attributes, class Elements>
+	class HeldAttributes
 	{
-		for (auto& attribute : attributes) {
-			attribute._handle->Resize(count);
-			attribute._handle->Resize(size);
+	public:
+		HeldAttributes(Attributes& attributes, const Elements& elements, size_t added) :
+				m_attributes(attributes), m_elements(elements)
+		{
+			for (auto& attribute : attributes) {
+				attribute._handle->Resize(elements.size() + added);
+				attribute._handle->Resize(elements.size());
+			}
+			m_held.swap(attributes);
 		}
-	}
+		~HeldAttributes()
+		{
+			m_held.swap(m_attributes);
+			for (auto& attribute : m_attributes)
+				attribute._handle->Resize(m_elements.size());
+		}
+		HeldAttributes(const HeldAttributes&) = delete;
+		HeldAttributes& operator=(const HeldAttributes&) = delete;
+
+	private:
+		Attributes m_held;
+		Attributes& m_attributes;
+		const Elements& m_elements;
+	};
 
 	/// Appends elements, all or none.
 	static void Append(MeshType& m, size_t vertices, size_t faces)
 	{
-		const size_t oldVertices = m.vert.size(), oldFaces = m.face.size();
-		// vcglib enlarges the vector first and its attributes after it, which then must not fail.
-		Reserve(m.vert_attr, oldVertices, oldVertices + vertices);
-		Reserve(m.face_attr, oldFaces, oldFaces + faces);
+		const size_t oldVertices = m.vert.size();
+		const HeldAttributes<decltype(m.vert_attr), decltype(m.vert)> ofVertices(
+			m.vert_attr, m.vert, vertices);
+		const HeldAttributes<decltype(m.face_attr), decltype(m.face)> ofFaces(
+			m.face_attr, m.face, faces);
 		if (vertices > 0)
 			Allocator<MeshType>::AddVertices(m, vertices);
 		try {
@@ -574,8 +596,6 @@ private:
 		catch (...) {
 			m.vert.resize(oldVertices);
 			m.vn -= int(vertices);
-			for (auto& attribute : m.vert_attr)
-				attribute._handle->Resize(oldVertices);
 			throw;
 		}
 	}
