@@ -63,7 +63,10 @@ public:
 		if (step != m_step) // a repeated number: a step that only polishes
 			m_interval.log(line);
 		m_step = step;
-		m_interval.step(kBeforeFlow + m_done * (1.0 - kBeforeFlow - kAfterFlow), line);
+		// Rounding must not carry the bar past the stage that follows.
+		m_interval.step(
+			std::min(kBeforeFlow + m_done * (1.0 - kBeforeFlow - kAfterFlow), 1.0 - kAfterFlow),
+			line);
 	}
 
 private:
