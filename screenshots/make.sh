@@ -78,6 +78,23 @@ make_meshes() {
 	then_filter flat.mlx "Delete Current Mesh"
 	white flat.mlx
 	run_script flat.mlx -i generalized.ply -o flat.ply -m wt vc vn
+	make_statue
+}
+
+# A closed statue with the cones that the filter places. Where the texture is cut, vertices are split,
+# and the border that appears is coloured.
+make_statue() {
+	bash "$root/tests/unpack_cgal_meshes.sh" "$build/cgal_meshes" || fail "no statue without libcgal-demo"
+	cp "$build/cgal_meshes/data/meshes/armadillo.off" "$work/statue.off"
+	script statue.mlx colorize=false output_triangulation=1
+	white statue.mlx
+	textured statue.mlx
+	then_filter statue.mlx "Convert PerWedge UV into PerVertex UV"
+	then_filter statue.mlx "Select Border"
+	then_filter statue.mlx "Vertex Color Filling" \
+		'type="RichColor" name="color1" r="190" g="30" b="20" a="255"' \
+		'type="RichBool" name="onSelected" value="true"'
+	run_script statue.mlx -i statue.off -o statue.ply -m wt vc vn
 }
 
 # show FILE: opens it in the window, always from the same side, smoothly shaded.
@@ -156,6 +173,17 @@ flat() {
 	close_meshlab
 }
 
+statue() {
+	show statue.ply
+	drag 1 300 400 660 400
+	drag 1 300 400 560 400
+	drag 1 300 400 500 400
+	zoom 1
+	shift_by 0 -20
+	shoot statue
+	close_meshlab
+}
+
 make_pictures() {
 	cd "$work"
 	around generalized.ply checkerboard
@@ -163,6 +191,7 @@ make_pictures() {
 	around distortion.ply distortion
 	dialog
 	flat
+	statue
 }
 
 rm -rf "$work"
@@ -175,8 +204,10 @@ open_display "$work/display" || fail "no display could be opened"
 make_pictures
 mesh_only checkerboard
 mesh_only thurston
+mesh_only statue
+mv "$work/pictures/statue_mesh.png" "$work/pictures/statue.png"
 cd "$work/pictures"
 convert thurston_mesh.png checkerboard_mesh.png +append before_after.png
-for file in before_after checkerboard distortion dialog flat; do
+for file in before_after checkerboard distortion dialog flat statue; do
 	publish "$file"
 done

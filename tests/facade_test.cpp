@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/flat_map.h"
+#include "support/mesh_contents.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 #include "support/vcg_mesh.h"
@@ -33,37 +34,6 @@ class Facade : public ::testing::Test
 
 using Meshes = ::testing::Types<FloatMesh, DoubleMesh>;
 TYPED_TEST_SUITE(Facade, Meshes);
-
-/// Every bit of a mesh that a filter might touch.
-template<class Mesh>
-std::vector<double> contents(const Mesh& m)
-{
-	std::vector<double> all{
-		double(m.vn),
-		double(m.fn),
-		double(m.vert.size()),
-		double(m.face.size()),
-		double(m.vert_attr.size()),
-		double(m.face_attr.size())};
-	for (const auto& v : m.vert) {
-		for (int k = 0; k < 3; ++k) {
-			all.push_back(double(v.cP()[k]));
-			all.push_back(double(v.cN()[k]));
-		}
-		all.push_back(double(v.cQ()));
-		all.push_back(double(v.cFlags()));
-	}
-	for (const auto& f : m.face) {
-		for (int k = 0; k < 3; ++k) {
-			all.push_back(double(vcg::tri::Index(m, f.cV(k))));
-			all.push_back(double(f.cWT(k).U()));
-			all.push_back(double(f.cWT(k).V()));
-			all.push_back(double(f.cWT(k).N()));
-		}
-		all.push_back(double(f.cFlags()));
-	}
-	return all;
-}
 
 /// A mesh whose every field holds something.
 template<class Mesh>
@@ -268,6 +238,32 @@ TYPED_TEST(Facade, DeletedElementsTakeNoPart)
 		EXPECT_EQ(a.u[v], b.u[v + 4]);
 	Flow<TypeParam>::WriteWedgeTexCoord(dirty, b);
 	Flow<TypeParam>::WriteVertexQuality(dirty, b);
+}
+
+TYPED_TEST(Facade, FacesWithoutTheirVerticesAreRefused)
+{
+	TypeParam m, other;
+	toVcg(rectangle(2, 2, 1, 1), m);
+	toVcg(tetrahedron(), other);
+	const auto refused = [&](const char* beginning) {
+		const auto before = contents(m);
+		try {
+			compute(m, onFixedTriangulation<TypeParam>());
+			ADD_FAILURE() << "accepted";
+		}
+		catch (const InvalidMesh& error) {
+			EXPECT_EQ(std::string(error.what()).rfind(beginning, 0), 0u) << error.what();
+		}
+		EXPECT_EQ(contents(m), before);
+	};
+	m.face[0].V(1) = nullptr;
+	refused("1 face uses vertices that are deleted or not in the mesh");
+	m.face[5].V(2) = &other.vert[3];
+	refused("2 faces use vertices that are deleted or not in the mesh");
+	vcg::tri::Allocator<TypeParam>::DeleteFace(m, m.face[0]);
+	vcg::tri::Allocator<TypeParam>::DeleteFace(m, m.face[5]);
+	vcg::tri::Allocator<TypeParam>::DeleteVertex(m, m.vert[4]); // in the middle: of six faces
+	refused("4 faces use vertices that are deleted or not in the mesh");
 }
 
 TYPED_TEST(Facade, NormalisedUvsFillTheUnitSquareInOneDirection)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bridge.h"
 
+#include "free_memory.h"
 #include "parameters.h"
 #include "results.h"
 #include "run_report.h"
@@ -191,8 +192,8 @@ void writeMesh(
 		vcg::tri::UpdateNormal<CMeshO>::PerFaceNormalized(model.cm);
 	}
 	else {
+		Flow::WriteVertexQuality(model.cm, result); // first, because memory may run out there
 		Flow::WriteWedgeTexCoord(model.cm, result);
-		Flow::WriteVertexQuality(model.cm, result);
 	}
 	if (colorize)
 		colorizeByDistortion(model, result.report);
@@ -223,7 +224,8 @@ void writeReport(
 
 Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Progress& progress)
 {
-	const Settings settings = readSettings(par);
+	Settings settings = readSettings(par);
+	settings.flow.memoryLimit = freeMemory();
 	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::TargetCurvature::Prescribed);
 	const ReportFiles reportFiles(settings.report, model.pathName());
 	// The sphere first: it refuses most surfaces.
@@ -249,7 +251,8 @@ Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Pr
 
 Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::Progress& progress)
 {
-	const HyperbolicSettings settings = readHyperbolicSettings(par);
+	HyperbolicSettings settings = readHyperbolicSettings(par);
+	settings.flow.memoryLimit = freeMemory();
 	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::HyperbolicTarget::Prescribed);
 	const ReportFiles reportFiles(settings.report, model.pathName());
 	const Flow::Result result = Flow::ComputeHyperbolic(model.cm, settings.flow, progress);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <ios>
+#include <locale>
 #include <optional>
 #include <ostream>
 #include <sstream>
@@ -34,6 +35,7 @@ void print(std::ostream& line, const std::vector<double>& values)
 std::string keyValueLine(Results::const_iterator begin, Results::const_iterator end)
 {
 	std::ostringstream line;
+	line.imbue(std::locale::classic());
 	line.precision(10);
 	line << std::boolalpha;
 	for (auto result = begin; result != end; ++result) {

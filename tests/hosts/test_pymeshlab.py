@@ -556,5 +556,39 @@ class Treatment(unittest.TestCase):
         self.assertTrue(run(documents)["converged"])
 
 
+class OneProcess(unittest.TestCase):
+    """Runs that share a process know nothing of each other."""
+
+    def result(self, mesh, **values):
+        documents = mesh_set(mesh)
+        returned = run(documents, **values)
+        return returned, documents.current_mesh().wedge_tex_coord_matrix()
+
+    def same(self, one, two):
+        self.assertEqual(one[0], two[0])
+        self.assertTrue(numpy.array_equal(one[1], two[1]))
+
+    def test_two_documents(self):
+        torus, hill = self.result(meshes.torus()), self.result(meshes.hill(), target_curvature=2)
+        first, second = mesh_set(meshes.torus()), mesh_set(meshes.hill())
+        untouched = state(second.current_mesh())
+        found = run(first)
+        self.assertTrue(same(untouched, state(second.current_mesh())))
+        with self.assertRaises(pymeshlab.PyMeshLabException):
+            run(first, target_curvature=2)
+        done = state(first.current_mesh())
+        other = run(second, target_curvature=2)
+        self.assertTrue(same(done, state(first.current_mesh())))
+        self.same(torus, (found, first.current_mesh().wedge_tex_coord_matrix()))
+        self.same(hill, (other, second.current_mesh().wedge_tex_coord_matrix()))
+
+    def test_one_after_the_other(self):
+        documents = mesh_set(meshes.torus())
+        first = run(documents)
+        after = state(documents.current_mesh())
+        self.assertEqual(run(documents), first)
+        self.assertTrue(same(after, state(documents.current_mesh())))
+
+
 if __name__ == "__main__":
     common.main()

@@ -256,5 +256,23 @@ TEST(AreaDistortion, OfTwoScalesHasAClosedForm)
 		}
 }
 
+TEST(Distortion, FacesThatRoundingToFloatFlips)
+{
+	// Corners that differ by less than a unit in the last place of a float, and one that does not.
+	const double ulp = 0x1p-24;
+	const std::vector<std::array<Point2, 3>> plane{
+		{{{0.5, 0.25}, {0.5 + 0.3 * ulp, 0.25}, {0.25, 0.75}}},
+		{{{0.5, 0.25}, {0.5 + 4 * ulp, 0.25}, {0.25, 0.75}}},
+		{{{0.5, 0.25}, {0.25, 0.75}, {0.5 + 0.3 * ulp, 0.25}}}};
+	const auto count = [&](const std::vector<char>& reversed) {
+		Report report;
+		countFlipped(plane, reversed, report);
+		return std::make_pair(report.flippedFaces, report.flippedByRounding);
+	};
+	EXPECT_EQ(count({0, 0, 0}), std::make_pair(1, 1));
+	EXPECT_EQ(count({0, 0, 1}), std::make_pair(0, 2));
+	EXPECT_EQ(count({1, 1, 0}), std::make_pair(3, 0));
+}
+
 } // namespace
 } // namespace ricci::testing

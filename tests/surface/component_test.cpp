@@ -261,5 +261,23 @@ TEST(Component, SeparatesComponentsInTheOrderOfTheirLowestFace)
 	EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(seen.size()));
 }
 
+TEST(Component, RefusesSizesWhoseProductsAreNoNumbers)
+{
+	SurfaceMesh mesh = tetrahedron();
+	mesh.positions[2][1] = -2e50;
+	expectRefusal(mesh, "1 vertex has coordinates beyond 1e50", "Scale, Normalize");
+	for (double size : {3.4e38, 1e-38}) { // what single precision has
+		mesh = tetrahedron();
+		for (Point3& p : mesh.positions)
+			for (double& x : p)
+				x *= size;
+		EXPECT_EQ(refusal(mesh), "") << size;
+	}
+	for (Point3& p : mesh.positions)
+		for (double& x : p)
+			x *= 1e-20;
+	expectRefusal(mesh, "1 component is smaller than 1e-50", "Scale, Normalize");
+}
+
 } // namespace
 } // namespace ricci::testing

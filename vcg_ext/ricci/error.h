@@ -38,6 +38,12 @@ class NotConverged : public Error
 	using Error::Error;
 };
 
+/// The mesh needs more memory than there is, or more elements than int can number.
+class TooLarge : public Error
+{
+	using Error::Error;
+};
+
 /// The caller's progress callback asked to stop.
 class Cancelled : public Error
 {

@@ -66,6 +66,9 @@ struct FlowOptions
 
 	/// Newton steps of one solve, at least 1.
 	int maxIterations = 200;
+
+	/// Bytes of memory that may be used; a run whose estimate is higher is refused. 0: no limit.
+	double memoryLimit = 0.0;
 };
 
 /// Which curvature the hyperbolic flow is asked to reach. The order is that of the filter's menu.

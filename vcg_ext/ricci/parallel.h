@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -38,6 +39,8 @@ void inParallel(int count, int threads, const Work& work)
 				[&work, first = bound(own), last = bound(own + 1)] { work(first, last); });
 	}
 	catch (const std::system_error&) { // no more threads to be had
+	}
+	catch (const std::bad_alloc&) { // nor memory for one
 	}
 	work(0, bound(1));
 	if (own < parts)

@@ -9,12 +9,16 @@
 #include "layout/invariants.h"
 #include "layout/least_rectangle.h"
 #include "layout/seam_cost.h"
+#include "memory.h"
 #include "numbers.h"
 #include "result_assembly.h"
 #include "run_progress.h"
 #include "separate_charts.h"
 #include "surface/component.h"
 #include "surface/hole_caps.h"
+#include "text.h"
+#include "verify/flow_check.h"
+#include "verify/map_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +29,9 @@ namespace {
 
 /// A curvature above this makes an interior vertex a cone, which the cut must reach.
 constexpr double kConeCurvature = 1e-9;
+
+/// The check of the result allows this share of a chart's extent: a thousandth of a texel.
+constexpr double kCheckedGap = 1e-6;
 
 /// Starts of the flow that the splitting of boundary edges may ask for (paper 5.4).
 constexpr int kMostStarts = 20;
@@ -103,6 +110,8 @@ public:
 		cutOpen();
 		layOut();
 		store(result);
+		m_interval.step(1.0, "Checking the result");
+		verify(result);
 		invariants(result.report);
 	}
 
@@ -157,9 +166,15 @@ private:
 					"Some faces have no area, or one side a million times shorter than another: "
 					"the "
 					"flow sees every edge longer by " +
-					text("%.3g", m_flow.history.lengthened) + ".");
-			if (m_flow.edgesToSplit.empty())
+					numberText(m_flow.history.lengthened, 3) + ".");
+			if (m_flow.edgesToSplit.empty()) {
+				if (m_flow.residual >= m_options.epsilon)
+					m_interval.log(
+						"epsilon is below what rounding allows: the curvature is reached to " +
+						numberText(m_flow.residual, 3) + " (rounding floor " +
+						numberText(m_flow.floor, 3) + ").");
 				return;
+			}
 			splitBoundary();
 		}
 		throw NotConverged(
@@ -404,6 +419,43 @@ private:
 		report.cones += m_cones;
 	}
 
+	/// Checks what was found by other formulas than those that found it.
+	/// \throw NotConverged
+	void verify(const Parametrization& result) const
+	{
+		requireMetric(
+			Background::EuclideanPlane, m_flow, m_solved.triangulation.boundaryVertices());
+		const bool refined = !m_refinement.triangles.empty() &&
+							 m_options.output == OutputTriangulation::CommonRefinement;
+		std::vector<Triangle> triangles;
+		std::vector<std::array<Point2, 3>> plane;
+		std::vector<char> reversed;
+		const Chart& chart = result.charts.back();
+		for (std::size_t i = 0; i < (refined ? chart.refined : chart.faces).size(); ++i) {
+			const std::size_t f = at((refined ? chart.refined : chart.faces)[i]);
+			if (refined)
+				triangles.push_back(result.refined.triangles[f]);
+			else { // in the input's order of corners
+				Triangle t;
+				for (std::size_t k = 0; k < 3; ++k)
+					t[m_component.inputCorner(i, k)] = m_component.triangles[i][k];
+				triangles.push_back(t);
+			}
+			plane.push_back(refined ? result.refined.uv[f] : result.uv[f]);
+			reversed.push_back(result.reversed[refined ? at(result.refined.inputFace[f]) : f]);
+		}
+		const double tolerance = kCheckedGap + openCurvature(m_flow);
+		const MapCheck map = checkMap(triangles, plane, reversed, tolerance);
+		// Where flips or splits bend the edges of the input, its straight faces may turn.
+		const bool bent =
+			!refined && (!m_flow.history.startFlips.empty() || !m_flow.history.flowFlips.empty() ||
+						 m_flow.doubled || m_swaps > 0 || m_splits > 0);
+		if (!map.finite || !(map.seamGap <= tolerance) || (map.turned > 0 && !bent))
+			failCheck(
+				"seams " + numberText(map.seamGap, 3) + " of the chart apart, " +
+				std::to_string(map.turned) + " faces turned round");
+	}
+
 	void invariants(Report& report) const
 	{
 		const Triangulation& t = layoutTriangulation();
@@ -471,17 +523,18 @@ void checkOptions(const Options& options)
 			"'Inversive distance': choose these, or the holes 'Boundaries'.");
 	if (!(options.epsilon > 0.0))
 		throw InvalidOption(
-			"epsilon must be greater than 0 (radians), not " + text("%g", options.epsilon) + ".");
+			"epsilon must be greater than 0 (radians), not " + numberText(options.epsilon, 6) +
+			".");
 	if (options.coneCount < 0)
 		throw InvalidOption(
 			"cone_count must be 0 or more, not " + std::to_string(options.coneCount) + ".");
 	if (!(options.coneDistortion > 0.0))
 		throw InvalidOption(
-			"cone_distortion must be greater than 0, not " + text("%g", options.coneDistortion) +
+			"cone_distortion must be greater than 0, not " + numberText(options.coneDistortion, 6) +
 			".");
 	if (!(options.seamHiding >= 0.0 && options.seamHiding <= 1.0))
 		throw InvalidOption(
-			"seam_hiding must be between 0 and 1, not " + text("%g", options.seamHiding) + ".");
+			"seam_hiding must be between 0 and 1, not " + numberText(options.seamHiding, 6) + ".");
 	if (options.maxIterations < 1)
 		throw InvalidOption(
 			"max_iterations must be at least 1, not " + std::to_string(options.maxIterations) +
@@ -506,6 +559,11 @@ Parametrization parametrizeEuclidean(
 	const std::vector<Component> components = splitIntoComponents(mesh, result.notes);
 	if (options.surgery != Surgery::IntrinsicFlips)
 		requireAreaEverywhere(components);
+	requireMemory(
+		largestComponent(components),
+		mesh.triangles.size(),
+		options.output == OutputTriangulation::CommonRefinement,
+		options.memoryLimit);
 	for (const std::string& note : result.notes)
 		progress.log(note);
 	startResult(mesh, options.output, components, result);

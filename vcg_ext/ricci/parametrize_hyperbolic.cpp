@@ -7,10 +7,13 @@
 #include "layout/cut_graph.h"
 #include "layout/distortion.h"
 #include "layout/hyperbolic_layout.h"
+#include "memory.h"
 #include "metric/hyperbolic.h"
 #include "numbers.h"
 #include "result_assembly.h"
 #include "surface/component.h"
+#include "text.h"
+#include "verify/flow_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -90,6 +93,9 @@ public:
 		markCones();
 		m_cut = cutToDisk(m_base, hyperbolicLengths(), m_cones, {});
 		m_group = layOut();
+		m_interval.step(1.0, "Checking the result");
+		requireMetric(Background::HyperbolicPlane, m_flow, m_base.boundaryVertices());
+		requireInsideDisk();
 		store(result);
 	}
 
@@ -131,7 +137,21 @@ private:
 			m_interval.log(
 				"Some faces have no area, or one side a million times shorter than another: the "
 				"flow sees every edge longer by " +
-				text("%.3g", m_flow.history.lengthened) + ".");
+				numberText(m_flow.history.lengthened, 3) + ".");
+	}
+
+	/// Far from the root of the layout the doubles of the disk end.
+	void requireInsideDisk() const
+	{
+		std::size_t outside = 0;
+		const auto check = [&](const Point2& p) { outside += !(p[0] * p[0] + p[1] * p[1] <= 1.0); };
+		for (const Point2& p : m_layout.position)
+			check(p);
+		for (const Triangle2& triangle : m_refinement.uv)
+			for (const Point2& p : triangle)
+				check(p);
+		if (outside > 0)
+			failCheck(std::to_string(outside) + " points lie outside the disk");
 	}
 
 	bool flips() const { return m_options.surgery == Surgery::IntrinsicFlips; }
@@ -336,7 +356,8 @@ void checkOptions(const HyperbolicOptions& options)
 			"or the output 'Keep the mesh'.");
 	if (!(options.epsilon > 0.0))
 		throw InvalidOption(
-			"epsilon must be greater than 0 (radians), not " + text("%g", options.epsilon) + ".");
+			"epsilon must be greater than 0 (radians), not " + numberText(options.epsilon, 6) +
+			".");
 	if (options.maxIterations < 1)
 		throw InvalidOption(
 			"max_iterations must be at least 1, not " + std::to_string(options.maxIterations) +
@@ -357,6 +378,11 @@ Parametrization parametrizeHyperbolic(
 	const std::vector<Component> components = splitIntoComponents(mesh, result.notes);
 	if (!(options.surgery == Surgery::IntrinsicFlips))
 		requireAreaEverywhere(components);
+	requireMemory(
+		largestComponent(components),
+		mesh.triangles.size(),
+		options.output == OutputTriangulation::CommonRefinement,
+		options.memoryLimit);
 	for (const std::string& note : result.notes)
 		progress.log(note);
 	startResult(mesh, options.output, components, result);

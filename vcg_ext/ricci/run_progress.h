@@ -4,22 +4,14 @@
 
 #include "progress.h"
 #include "report.h"
+#include "text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 namespace ricci {
-
-/// \p x in printf \p format.
-inline std::string text(const char* format, double x)
-{
-	char buffer[64];
-	std::snprintf(buffer, sizeof buffer, format, x);
-	return buffer;
-}
 
 /// Share of a component's progress that is spent before the flow, and after it.
 constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1;
@@ -32,15 +24,17 @@ public:
 			m_progress(progress), m_from(from), m_to(to)
 	{
 	}
+	/// Stays where it is when a stage starts anew.
 	void step(double fraction, const std::string& what)
 	{
-		m_progress.step(m_from + fraction * (m_to - m_from), what);
+		m_done = std::max(m_done, fraction);
+		m_progress.step(m_from + m_done * (m_to - m_from), what);
 	}
 	void log(const std::string& line) { m_progress.log(line); }
 
 private:
 	Progress& m_progress;
-	double m_from, m_to;
+	double m_from, m_to, m_done = 0.0;
 };
 
 /// The flow's progress bar: the residual falls by orders of magnitude, so each step closes a part
@@ -64,8 +58,8 @@ public:
 		const double done =
 			std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon);
 		m_done = std::max(m_done, std::clamp(done, 0.0, 1.0));
-		const std::string line = "Newton step " + std::to_string(step) +
-								 ": max |target - K| = " + text("%.3e", residual);
+		const std::string line = "Newton step " + std::to_string(step) + ": max |target - K| = " +
+								 numberText(residual, 3, std::chars_format::scientific);
 		if (step != m_step) // a repeated number: a step that only polishes
 			m_interval.log(line);
 		m_step = step;

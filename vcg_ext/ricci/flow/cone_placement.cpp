@@ -32,10 +32,10 @@ constexpr double kQuarterTurn = 0.5 * kPi;
 constexpr double kNegligible = 0.3;
 
 /// Rounds in which every cone may move.
-constexpr int kMostRounds = 8;
+constexpr int kMostRounds = 5;
 
 /// A move must lower the energy by this share.
-constexpr double kLeastGain = 0.01;
+constexpr double kLeastGain = 0.02;
 
 /// A cone weaker than this, in radians, is not worth its seam.
 constexpr double kLeastCurvature = 0.02;

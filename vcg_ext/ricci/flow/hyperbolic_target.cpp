@@ -3,9 +3,9 @@
 
 #include "../error.h"
 #include "../numbers.h"
+#include "../text.h"
 
 #include <cmath>
-#include <cstdio>
 
 namespace ricci {
 
@@ -16,9 +16,7 @@ constexpr double kRoundingShare = 4.0;
 
 std::string number(double x)
 {
-	char text[32];
-	std::snprintf(text, sizeof text, "%.9g", x);
-	return text;
+	return numberText(x, 9);
 }
 
 void setCones(const Topology& topology, const HyperbolicRequest& request, Target& target)

@@ -8,12 +8,12 @@
 #include "../metric/hyperbolic.h"
 #include "../numbers.h"
 #include "../surface/double_surface.h"
+#include "../text.h"
 #include "circular_boundary.h"
 #include "edge_swap.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace ricci {
 
@@ -49,9 +49,7 @@ constexpr int kStepsBeforeDoubling = 40;
 
 std::string number(double x)
 {
-	char text[32];
-	std::snprintf(text, sizeof text, "%.3g", x);
-	return text;
+	return numberText(x, 3);
 }
 
 /// Largest difference of the points on the circle that two sequences of arcs describe.

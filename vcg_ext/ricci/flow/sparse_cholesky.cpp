@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sparse_cholesky.h"
 
-#include "../error.h"
 #include "../numbers.h"
 
+#include <new>
 #include <numeric>
 
 #ifdef RICCI_USE_CHOLMOD
@@ -30,7 +30,7 @@ namespace {
 
 [[noreturn]] void tooLittleMemory()
 {
-	throw Error("The linear solver could not work on its matrix: there may be too little memory.");
+	throw std::bad_alloc();
 }
 
 } // namespace
@@ -194,6 +194,13 @@ void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
 	b.x = const_cast<double*>(rhs.data());
 	b.xtype = CHOLMOD_REAL;
 	b.dtype = CHOLMOD_DOUBLE;
+	// cholmod_solve2() would make these itself, but sees the failure of the second only.
+	const auto make = [&](cholmod_dense*& space, std::size_t rows, std::size_t columns) {
+		if (!cholmod_ensure_dense(&space, rows, columns, rows, CHOLMOD_REAL, &own.common))
+			tooLittleMemory();
+	};
+	make(own.workspace, b.nrow, 1);
+	make(own.workspace2, 1, own.factor->maxesize);
 	if (!cholmod_solve2(
 			CHOLMOD_A,
 			own.factor,

@@ -34,16 +34,16 @@ public:
 	/// Fill-reducing ordering of the unknowns of \p pattern: [number wanted] unknown. Approximate
 	/// minimum degree, and nested dissection (METIS, with CHOLMOD only) where the factor would be
 	/// large.
-	/// \throw Error where memory does not suffice
+	/// \throw std::bad_alloc
 	std::vector<int> order(const Matrix& pattern);
 
 	/// Symbolic factorisation. Stays valid while the pattern does. Costs nothing for the pattern
 	/// that order() has just been given, renumbered.
-	/// \throw Error where memory does not suffice
+	/// \throw std::bad_alloc
 	void analyze(const Matrix& pattern);
 
 	/// Numeric factorisation. \return false if \p matrix is not positive definite.
-	/// \throw Error where memory does not suffice
+	/// \throw std::bad_alloc
 	bool factorize(const Matrix& matrix);
 
 	/// Solves with the last factor.

@@ -4,13 +4,13 @@
 #include "../error.h"
 #include "../layout/least_rectangle.h"
 #include "../numbers.h"
+#include "../text.h"
 #include "cone_placement.h"
 
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace ricci {
@@ -23,9 +23,7 @@ constexpr double kRoundingShare = 4.0;
 
 std::string number(double x)
 {
-	char text[32];
-	std::snprintf(text, sizeof text, "%.9g", x);
-	return text;
+	return numberText(x, 9);
 }
 
 std::vector<int> selectedVertices(const TargetRequest& request)
@@ -181,8 +179,8 @@ void setPrescribed(const Topology& topology, const TargetRequest& request, Targe
 	}
 	if (notFinite > 0)
 		throw InadmissibleCurvature(
-			std::to_string(notFinite) +
-			" vertices have a quality that is not a finite number: 'From vertex quality' needs the "
+			std::to_string(notFinite) + (notFinite == 1 ? " vertex has" : " vertices have") +
+			" a quality that is not a finite number: 'From vertex quality' needs the "
 			"target curvature in radians at every vertex.");
 	if (!topology.isClosed() && request.freeBoundary) {
 		freeTheBoundary(topology, target);

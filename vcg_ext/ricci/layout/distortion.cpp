@@ -168,20 +168,34 @@ DistortionField measureDistortion(
 	return field;
 }
 
-int countFlippedByRounding(
-	const std::vector<std::array<Point2, 3>>& plane, const std::vector<char>& reversed)
+namespace {
+
+/// Not inlined, because GCC 12 takes a vectorised double(float(x)) for x.
+[[gnu::noinline]] float roundedToFloat(double x)
 {
-	int flipped = 0;
+	return static_cast<float>(x);
+}
+
+} // namespace
+
+void countFlipped(
+	const std::vector<std::array<Point2, 3>>& plane,
+	const std::vector<char>& reversed,
+	Report& report)
+{
+	report.flippedFaces = report.flippedByRounding = 0;
 	const auto rounded = [](const Point2& p) {
-		return Point2{double(static_cast<float>(p[0])), double(static_cast<float>(p[1]))};
+		return Point2{double(roundedToFloat(p[0])), double(roundedToFloat(p[1]))};
 	};
 	for (std::size_t f = 0; f < plane.size(); ++f) {
 		const auto& p = plane[f];
 		const int wanted = reversed[f] ? -1 : 1;
-		flipped += orientation(p[0], p[1], p[2]) == wanted &&
-				   orientation(rounded(p[0]), rounded(p[1]), rounded(p[2])) != wanted;
+		if (orientation(p[0], p[1], p[2]) != wanted)
+			++report.flippedFaces;
+		else
+			report.flippedByRounding +=
+				orientation(rounded(p[0]), rounded(p[1]), rounded(p[2])) != wanted;
 	}
-	return flipped;
 }
 
 } // namespace ricci

@@ -51,10 +51,12 @@ DistortionField measureDistortion(
 	const std::vector<char>& reversed,
 	Report& report);
 
-/// Number of triangles that are properly oriented as given but not with coordinates rounded to
-/// float.
-int countFlippedByRounding(
-	const std::vector<std::array<Point2, 3>>& plane, const std::vector<char>& reversed);
+/// Sets flippedFaces, the number of triangles that are not properly oriented as given, and
+/// flippedByRounding, how many more are not with coordinates rounded to float. Exact.
+void countFlipped(
+	const std::vector<std::array<Point2, 3>>& plane,
+	const std::vector<char>& reversed,
+	Report& report);
 
 } // namespace ricci
 

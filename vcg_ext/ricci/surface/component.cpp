@@ -53,6 +53,9 @@ std::size_t edgeEnd(const std::vector<Side>& sides, std::size_t first)
 	return last;
 }
 
+/// Products of four lengths must be numbers. Every mesh in single precision is within these.
+constexpr double kMostSize = 1e50, kLeastSize = 1e-50;
+
 void checkElements(const SurfaceMesh& mesh)
 {
 	if (mesh.triangles.empty())
@@ -69,6 +72,13 @@ void checkElements(const SurfaceMesh& mesh)
 		throw InvalidMesh(
 			count(notFinite, "vertex has", "vertices have") +
 			" coordinates that are not finite numbers (NaN or infinite): delete them first.");
+	std::size_t huge = 0;
+	for (const Point3& p : mesh.positions)
+		huge += std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) > kMostSize;
+	if (huge > 0)
+		throw InvalidMesh(
+			count(huge, "vertex has", "vertices have") +
+			" coordinates beyond 1e50: run 'Transform: Scale, Normalize' first.");
 	std::size_t collapsed = 0;
 	for (const Triangle& t : mesh.triangles)
 		collapsed += t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
@@ -239,7 +249,7 @@ constexpr double kLeastArea = 1e-12;
 
 void requireSize(const std::vector<Component>& components)
 {
-	std::size_t flat = 0;
+	std::size_t flat = 0, tiny = 0;
 	for (const Component& c : components) {
 		// Twice the largest area of a triangle against the square of the longest side.
 		double area = 0.0, longest = 0.0;
@@ -257,8 +267,15 @@ void requireSize(const std::vector<Component>& components)
 					a[0] * b[1] - a[1] * b[0]));
 			longest = std::max({longest, distance(p, q), distance(q, r), distance(r, p)});
 		}
-		flat += !(area > kLeastArea * longest * longest);
+		if (longest > 0.0 && longest < kLeastSize)
+			++tiny;
+		else
+			flat += !(area > kLeastArea * longest * longest);
 	}
+	if (tiny > 0)
+		throw InvalidMesh(
+			count(tiny, "component is", "components are") +
+			" smaller than 1e-50: run 'Transform: Scale, Normalize' first, or delete such pieces.");
 	if (flat > 0)
 		throw InvalidMesh(
 			count(flat, "component has", "components have") +

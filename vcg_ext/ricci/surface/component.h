@@ -29,8 +29,9 @@ struct Component
 /// face. Two safe repairs are made and told in \p notes: faces of incoherent order are turned (the
 /// majority of each component keeps its order), and vertices without a face are left out.
 /// \throw InvalidMesh naming what is wrong, how often, and the MeshLab filter that mends it: no
-/// faces; coordinates that are not finite; faces that use a vertex twice; duplicate faces;
-/// non-manifold edges or vertices; a component that is not orientable or has no area at all.
+/// faces; coordinates that are not finite or beyond 1e50; faces that use a vertex twice; duplicate faces;
+/// non-manifold edges or vertices; a component that is not orientable, has no area at all, or is
+/// smaller than 1e-50.
 std::vector<Component>
 splitIntoComponents(const SurfaceMesh& mesh, std::vector<std::string>& notes);
 

@@ -7,6 +7,7 @@
 #define __VCGLIB_RICCI_FLOW
 
 #include <ricci/error.h>
+#include <ricci/floating_point.h>
 #include <ricci/layout/distortion.h>
 #include <ricci/options.h>
 #include <ricci/parametrize.h>
@@ -23,6 +24,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <limits>
 #include <map>
 #include <string>
@@ -97,6 +99,7 @@ public:
 	/// \throw ricci::Error and its derived classes, with a sentence for the user
 	static Result Compute(const MeshType& m, const Params& par, ricci::Progress& progress)
 	{
+		const ricci::DefaultFloatingPoint defaultEnvironment;
 		std::vector<int> faceIndex; // [compact] -> index in m.face
 		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex);
 		const ricci::VertexInput input = ReadVertexInput(
@@ -110,7 +113,7 @@ public:
 		r.report = flat.report;
 		r.notes = flat.notes;
 		PackCharts(flat, par.normalizeUV, par.chartMargin);
-		CountFlippedByRounding(flat, r.report);
+		CountFlipped(flat, r.report);
 		TakeOver(flat, m.face.size(), faceIndex, r);
 		return r;
 	}
@@ -121,6 +124,7 @@ public:
 	static Result
 	ComputeHyperbolic(const MeshType& m, const HyperbolicParams& par, ricci::Progress& progress)
 	{
+		const ricci::DefaultFloatingPoint defaultEnvironment;
 		std::vector<int> faceIndex; // [compact] -> index in m.face
 		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex);
 		const ricci::VertexInput input = ReadVertexInput(
@@ -141,7 +145,9 @@ public:
 			Transform(disk, disk.charts[i], 0.5 * side, r.disks[i].Center());
 		}
 		ClampToUnitSquare(disk);
-		CountFlippedByRounding(disk, r.report);
+		const int flipped = r.report.flippedFaces; // of geodesic triangles
+		CountFlipped(disk, r.report);
+		r.report.flippedFaces = flipped;
 		TakeOver(disk, m.face.size(), faceIndex, r);
 		return r;
 	}
@@ -159,12 +165,14 @@ public:
 	}
 
 	/// Writes the distortion as vertex quality and the per-vertex attributes of type ScalarType
-	/// "ricci_u" and "ricci_target_curvature".
+	/// "ricci_u" and "ricci_target_curvature". If memory runs out, nothing has changed.
 	static void WriteVertexQuality(MeshType& m, const Result& r)
 	{
 		RequirePerVertexQuality(m);
-		VertexAttribute u = Attribute(m, "ricci_u");
-		VertexAttribute target = Attribute(m, "ricci_target_curvature");
+		NewAttributes attributes(m);
+		attributes.Keep();
+		VertexAttribute& u = attributes.u;
+		VertexAttribute& target = attributes.target;
 		for (size_t v = 0; v < m.vert.size(); ++v) {
 			if (m.vert[v].IsD())
 				continue;
@@ -178,8 +186,8 @@ public:
 	/// normal and colour from the input's face by interpolation and the distortion as quality; their
 	/// custom attributes other than ricci_u are empty. A face keeps its number for its first piece,
 	/// and every piece copies its face's data; only sides on a faux edge stay faux. Wedge texture
-	/// coordinates must be enabled; adjacency becomes invalid. If memory runs out, what was appended
-	/// is deleted again and nothing else has changed.
+	/// coordinates must be enabled; adjacency becomes invalid. If memory runs out, nothing has
+	/// changed.
 	static void WriteRefinement(MeshType& m, const Result& r)
 	{
 		RequirePerFaceWedgeTexCoord(m);
@@ -198,9 +206,11 @@ public:
 			slot[i] = taken[f] ? int(oldFaces + added++) : int(f);
 			taken[f] = 1;
 		}
+		NewAttributes attributes(m);
 		Append(m, refined.points.size() - oldVertices, added);
-		VertexAttribute u = Attribute(m, "ricci_u");
-		VertexAttribute target = Attribute(m, "ricci_target_curvature");
+		attributes.Keep();
+		VertexAttribute& u = attributes.u;
+		VertexAttribute& target = attributes.target;
 
 		for (size_t v = 0; v < oldVertices; ++v)
 			if (!m.vert[v].IsD()) {
@@ -295,6 +305,7 @@ public:
 	ComputeSphere(const MeshType& m, const Params& par, ricci::Progress& progress)
 	{
 		std::vector<int> faceIndex;
+		const ricci::DefaultFloatingPoint defaultEnvironment;
 		return ricci::mapToSphere(ReadSurface(m, faceIndex), par, progress);
 	}
 
@@ -459,6 +470,49 @@ private:
 		return Allocator<MeshType>::template AddPerVertexAttribute<ScalarType>(m, name);
 	}
 
+	/// The two attributes; those that were not there before disappear again unless kept.
+	class NewAttributes
+	{
+	public:
+		explicit NewAttributes(MeshType& m) : m_mesh(m)
+		{
+			m_hadU = HasPerVertexAttribute(m, "ricci_u");
+			m_hadTarget = HasPerVertexAttribute(m, "ricci_target_curvature");
+			u = Attribute(m, "ricci_u");
+			try {
+				target = Attribute(m, "ricci_target_curvature");
+			}
+			catch (...) {
+				Remove();
+				throw;
+			}
+		}
+		~NewAttributes()
+		{
+			if (!m_kept)
+				Remove();
+		}
+		NewAttributes(const NewAttributes&) = delete;
+		NewAttributes& operator=(const NewAttributes&) = delete;
+
+		void Keep() { m_kept = true; }
+
+		VertexAttribute u, target;
+
+	private:
+		void Remove()
+		{
+			// By handle: a name would be copied, for which there may be no memory.
+			if (!m_hadU)
+				Allocator<MeshType>::DeletePerVertexAttribute(m_mesh, u);
+			if (!m_hadTarget && Allocator<MeshType>::IsValidHandle(m_mesh, target))
+				Allocator<MeshType>::DeletePerVertexAttribute(m_mesh, target);
+		}
+
+		MeshType& m_mesh;
+		bool m_hadU = false, m_hadTarget = false, m_kept = false;
+	};
+
 	/// A face's vertices and which of its sides are faux (inside a polygon).
 	struct FaceSides
 	{
@@ -494,10 +548,45 @@ private:
 		return sides;
 	}
 
-	/// Appends elements, all or none (what could be appended is deleted again).
+	/// Takes the attributes of a vector of elements away while it grows: vcglib would resize them
+	/// after the vector, and copies their names on the way, for which there may be no memory any
+	/// more. They get room before, and their size when they are put back.
+	template<class Attributes, class Elements>
+	class HeldAttributes
+	{
+	public:
+		HeldAttributes(Attributes& attributes, const Elements& elements, size_t added) :
+				m_attributes(attributes), m_elements(elements)
+		{
+			for (auto& attribute : attributes) {
+				attribute._handle->Resize(elements.size() + added);
+				attribute._handle->Resize(elements.size());
+			}
+			m_held.swap(attributes);
+		}
+		~HeldAttributes()
+		{
+			m_held.swap(m_attributes);
+			for (auto& attribute : m_attributes)
+				attribute._handle->Resize(m_elements.size());
+		}
+		HeldAttributes(const HeldAttributes&) = delete;
+		HeldAttributes& operator=(const HeldAttributes&) = delete;
+
+	private:
+		Attributes m_held;
+		Attributes& m_attributes;
+		const Elements& m_elements;
+	};
+
+	/// Appends elements, all or none.
 	static void Append(MeshType& m, size_t vertices, size_t faces)
 	{
 		const size_t oldVertices = m.vert.size();
+		const HeldAttributes<decltype(m.vert_attr), decltype(m.vert)> ofVertices(
+			m.vert_attr, m.vert, vertices);
+		const HeldAttributes<decltype(m.face_attr), decltype(m.face)> ofFaces(
+			m.face_attr, m.face, faces);
 		if (vertices > 0)
 			Allocator<MeshType>::AddVertices(m, vertices);
 		try {
@@ -505,8 +594,8 @@ private:
 				Allocator<MeshType>::AddFaces(m, faces);
 		}
 		catch (...) {
-			for (size_t v = oldVertices; v < m.vert.size(); ++v)
-				Allocator<MeshType>::DeleteVertex(m, m.vert[v]);
+			m.vert.resize(oldVertices);
+			m.vn -= int(vertices);
 			throw;
 		}
 	}
@@ -545,16 +634,30 @@ private:
 					std::min(255.0, std::max(0.0, std::round(colour[k]))));
 	}
 
-	static void CountFlippedByRounding(const ricci::Parametrization& flat, ricci::Report& report)
+	/// Anew, because packing rounds.
+	static void CountFlipped(const ricci::Parametrization& flat, ricci::Report& report)
 	{
 		if (flat.refined.triangles.empty()) {
-			report.flippedByRounding = ricci::countFlippedByRounding(flat.uv, flat.reversed);
+			ricci::countFlipped(flat.uv, flat.reversed, report);
 			return;
 		}
 		std::vector<char> reversed;
 		for (int f : flat.refined.inputFace)
 			reversed.push_back(flat.reversed[size_t(f)]);
-		report.flippedByRounding = ricci::countFlippedByRounding(flat.refined.uv, reversed);
+		ricci::countFlipped(flat.refined.uv, reversed, report);
+	}
+
+	/// Whether the face's vertices are in the mesh's vector and not deleted.
+	static bool HasItsVertices(const MeshType& m, const FaceType& face)
+	{
+		const std::less<const VertexType*> before;
+		for (int k = 0; k < 3; ++k) {
+			const VertexType* v = face.cV(k);
+			if (m.vert.empty() || before(v, &m.vert.front()) || before(&m.vert.back(), v) ||
+				v->IsD())
+				return false;
+		}
+		return true;
 	}
 
 	static ricci::SurfaceMesh ReadSurface(const MeshType& m, std::vector<int>& faceIndex)
@@ -566,15 +669,24 @@ private:
 				for (int k = 0; k < 3; ++k)
 					mesh.positions[v][size_t(k)] = double(m.vert[v].cP()[k]);
 		mesh.absent = m.vert.size() - size_t(m.vn);
+		size_t damaged = 0;
 		for (size_t f = 0; f < m.face.size(); ++f) {
 			if (m.face[f].IsD())
 				continue;
+			if (!HasItsVertices(m, m.face[f])) {
+				++damaged;
+				continue;
+			}
 			ricci::Triangle t;
 			for (int k = 0; k < 3; ++k)
 				t[size_t(k)] = int(Index(m, m.face[f].cV(k)));
 			mesh.triangles.push_back(t);
 			faceIndex.push_back(int(f));
 		}
+		if (damaged > 0)
+			throw ricci::InvalidMesh(
+				std::to_string(damaged) + (damaged == 1 ? " face uses" : " faces use") +
+				" vertices that are deleted or not in the mesh: open its file again.");
 		return mesh;
 	}
 

@@ -1,0 +1,480 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whatever goes wrong in the middle of a run, the mesh is bit for bit what it was.
+#include "support/mesh_contents.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/vcg_mesh.h"
+
+#include <vcg/complex/algorithms/parametrization/ricci_flow.h>
+
+#include <ricci/error.h>
+#include <ricci/memory.h>
+#include <ricci/parallel.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cfenv>
+#include <clocale>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <string>
+#include <vector>
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+#define RICCI_CAN_FAIL_MALLOC
+#include <link.h>
+#endif
+
+namespace {
+
+/// Which allocation fails: -1 none; else the so-manieth from now, and all that follow if lasting.
+long allocationsLeft = -1;
+bool lasting = false;
+long failures = 0;
+
+#ifdef RICCI_CAN_FAIL_MALLOC
+
+/// Where libgomp's code lies, which CHOLMOD calls. It ends the process when an allocation of its
+/// own fails, so none of those is made to.
+struct Range
+{
+	std::uintptr_t begin = 0, end = 0;
+};
+
+Range openMp()
+{
+	Range range;
+	dl_iterate_phdr(
+		[](dl_phdr_info* info, std::size_t, void* data) {
+			if (std::strstr(info->dlpi_name, "libgomp") == nullptr)
+				return 0;
+			auto* found = static_cast<Range*>(data);
+			found->begin = info->dlpi_addr;
+			for (int i = 0; i < info->dlpi_phnum; ++i)
+				found->end = std::max<std::uintptr_t>(
+					found->end,
+					info->dlpi_addr + info->dlpi_phdr[i].p_vaddr + info->dlpi_phdr[i].p_memsz);
+			return 1;
+		},
+		&range);
+	return range;
+}
+
+const Range kOpenMp = openMp();
+
+bool mustFail(const void* caller)
+{
+	if (allocationsLeft < 0)
+		return false;
+	const auto address = reinterpret_cast<std::uintptr_t>(caller);
+	if (address >= kOpenMp.begin && address < kOpenMp.end)
+		return false;
+	if (allocationsLeft > 0) {
+		--allocationsLeft;
+		return false;
+	}
+	if (!lasting)
+		allocationsLeft = -1;
+	++failures;
+	errno = ENOMEM;
+	return true;
+}
+
+#endif
+
+} // namespace
+
+#ifdef RICCI_CAN_FAIL_MALLOC
+
+// These take the place of the C library's for the whole process, CHOLMOD and BLAS included.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* block, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size)
+{
+	return mustFail(__builtin_return_address(0)) ? nullptr : __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size)
+{
+	return mustFail(__builtin_return_address(0)) ? nullptr : __libc_calloc(count, size);
+}
+void* realloc(void* block, std::size_t size)
+{
+	return mustFail(__builtin_return_address(0)) ? nullptr : __libc_realloc(block, size);
+}
+void* memalign(std::size_t alignment, std::size_t size)
+{
+	return mustFail(__builtin_return_address(0)) ? nullptr : __libc_memalign(alignment, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size)
+{
+	return mustFail(__builtin_return_address(0)) ? nullptr : __libc_memalign(alignment, size);
+}
+int posix_memalign(void** block, std::size_t alignment, std::size_t size)
+{
+	if (mustFail(__builtin_return_address(0)))
+		return ENOMEM;
+	*block = __libc_memalign(alignment, size);
+	return *block == nullptr ? ENOMEM : 0;
+}
+}
+
+#endif
+
+namespace ricci::testing {
+namespace {
+
+using Mesh = FloatMesh;
+using Flow = vcg::tri::RicciFlow<Mesh>;
+
+struct Case
+{
+	const char* name;
+	SurfaceMesh mesh;
+	Flow::Params params;
+};
+
+Flow::Params params(
+	TargetCurvature target, OutputTriangulation output, Surgery surgery = Surgery::IntrinsicFlips)
+{
+	Flow::Params p;
+	p.target = target;
+	p.output = output;
+	p.surgery = surgery;
+	return p;
+}
+
+/// Small meshes that between them reach every stage: flips, the double, splits, seams, packing.
+std::vector<Case> cases()
+{
+	Random random(500);
+	const SurfaceMesh torus = shaken(bumpyTorus(5, 4, random), 0.4, random);
+	const SurfaceMesh sheet = shaken(rectangle(3, 3, 3, 3), 0.35, random);
+	return {
+		{"torus, refined",
+		 torus,
+		 params(TargetCurvature::Automatic, OutputTriangulation::CommonRefinement)},
+		{"torus, kept",
+		 bumpyTorus(5, 4, random),
+		 params(TargetCurvature::Automatic, OutputTriangulation::KeepMesh, Surgery::None)},
+		{"disk, round",
+		 sheet,
+		 params(TargetCurvature::Disk, OutputTriangulation::CommonRefinement)},
+		{"disk, swaps",
+		 sheet,
+		 params(TargetCurvature::Automatic, OutputTriangulation::KeepMesh, Surgery::EdgeSwap)},
+		{"two disks",
+		 sideBySide(sheet, rectangle(1, 2, 1, 1), 9),
+		 params(TargetCurvature::Automatic, OutputTriangulation::KeepMesh)}};
+}
+
+void build(const SurfaceMesh& shape, Mesh& m)
+{
+	toVcg(shape, m);
+	float value = 0.0f;
+	for (auto& v : m.vert)
+		v.Q() = value += 0.25f;
+	for (auto& f : m.face)
+		for (int k = 0; k < 3; ++k) {
+			f.WT(k).U() = value += 0.125f;
+			f.WT(k).N() = 3;
+		}
+}
+
+void write(Mesh& m, const Flow::Params& params, const Flow::Result& result)
+{
+	if (params.output == OutputTriangulation::CommonRefinement) {
+		Flow::WriteRefinement(m, result);
+		return;
+	}
+	Flow::WriteVertexQuality(m, result);
+	Flow::WriteWedgeTexCoord(m, result);
+}
+
+/// Fails the n-th allocation of \p action, for n = 0, 1, ... until it runs through without one.
+/// \return how many n were tried
+template<class Prepare, class Action, class Check>
+long failEveryAllocation(bool allThatFollow, Prepare prepare, Action action, Check check)
+{
+	for (long n = 0;; ++n) {
+		prepare();
+		failures = 0;
+		lasting = allThatFollow;
+		bool completed = false, expected = true;
+		allocationsLeft = n;
+		try {
+			action();
+			completed = true;
+		}
+		catch (const std::bad_alloc&) {
+		}
+		catch (...) {
+			expected = false;
+		}
+		allocationsLeft = -1;
+		EXPECT_TRUE(expected) << "another exception than bad_alloc at allocation " << n;
+		check(completed, n);
+		if (failures == 0 || ::testing::Test::HasFailure())
+			return n;
+	}
+}
+
+#ifdef RICCI_CAN_FAIL_MALLOC
+#define NEEDS_FAILING_MALLOC
+#else
+#define NEEDS_FAILING_MALLOC                                                                       \
+	GTEST_SKIP() << "SKIPPED: allocations can be made to fail with glibc and without sanitizers"
+#endif
+
+TEST(Faults, OutOfMemoryWhileComputingLeavesTheMesh)
+{
+	NEEDS_FAILING_MALLOC;
+	for (const Case& c : cases())
+		for (bool allThatFollow : {false, true}) {
+			Mesh m;
+			build(c.mesh, m);
+			const std::string before = contents(m);
+			const long tried = failEveryAllocation(
+				allThatFollow,
+				[] {},
+				[&] {
+					Progress silent;
+					Flow::Compute(m, c.params, silent);
+				},
+				[&](bool completed, long n) {
+					EXPECT_EQ(contents(m) == before, true) << c.name << ", allocation " << n;
+					// What goes on after a failure had a way round it (CHOLMOD's).
+					if (allThatFollow && failures > 0) {
+						EXPECT_FALSE(completed) << c.name << ", allocation " << n;
+					}
+				});
+			EXPECT_GT(tried, 100) << c.name;
+		}
+}
+
+TEST(Faults, OutOfMemoryWhileWritingLeavesTheMesh)
+{
+	NEEDS_FAILING_MALLOC;
+	for (const Case& c : cases())
+		for (bool allThatFollow : {false, true}) {
+			Mesh original;
+			build(c.mesh, original);
+			Progress silent;
+			const Flow::Result result = Flow::Compute(original, c.params, silent);
+			std::unique_ptr<Mesh> m;
+			std::string before;
+			const long tried = failEveryAllocation(
+				allThatFollow,
+				[&] {
+					m = std::make_unique<Mesh>();
+					build(c.mesh, *m);
+					before = contents(*m);
+				},
+				[&] { write(*m, c.params, result); },
+				[&](bool completed, long n) {
+					if (!completed) {
+						EXPECT_EQ(contents(*m) == before, true) << c.name << ", allocation " << n;
+					}
+				});
+			EXPECT_GT(tried, 1) << c.name;
+		}
+}
+
+TEST(Faults, WithoutMemoryForThreadsTheWorkIsDoneAllTheSame)
+{
+	NEEDS_FAILING_MALLOC;
+	constexpr int kCount = 100000;
+	std::vector<int> done;
+	const long tried = failEveryAllocation(
+		true,
+		[&] { done.assign(kCount, 0); },
+		[&] {
+			inParallel(kCount, 4, [&](int first, int last) {
+				for (int i = first; i < last; ++i)
+					++done[at(i)];
+			});
+		},
+		[&](bool completed, long n) {
+			EXPECT_TRUE(completed) << "allocation " << n;
+			EXPECT_EQ(std::count(done.begin(), done.end(), 1), kCount) << "allocation " << n;
+		});
+	EXPECT_GT(tried, 1);
+}
+
+class CancelAt : public Progress
+{
+public:
+	explicit CancelAt(int call) : m_call(call) {}
+	bool update(double fraction, const std::string& what) override
+	{
+		EXPECT_GE(fraction, m_fraction) << what;
+		EXPECT_LE(fraction, 1.0) << what;
+		EXPECT_FALSE(what.empty());
+		newtonSteps += what.rfind("Newton step", 0) == 0;
+		m_fraction = fraction;
+		return calls++ != m_call;
+	}
+	int calls = 0, newtonSteps = 0;
+
+private:
+	int m_call;
+	double m_fraction = 0.0;
+};
+
+TEST(Faults, CancellingAtAnyCallLeavesTheMesh)
+{
+	for (const Case& c : cases()) {
+		Mesh m;
+		build(c.mesh, m);
+		const std::string before = contents(m);
+		CancelAt never(-1);
+		const auto result = Flow::Compute(m, c.params, never);
+		EXPECT_GE(never.newtonSteps, result.report.iterations) << c.name;
+		for (int call = 0; call < never.calls; ++call) {
+			CancelAt cancel(call);
+			EXPECT_THROW(Flow::Compute(m, c.params, cancel), Cancelled) << c.name;
+			EXPECT_EQ(cancel.calls, call + 1) << "called again after a refusal to go on";
+			EXPECT_EQ(contents(m) == before, true) << c.name << ", call " << call;
+		}
+	}
+}
+
+TEST(Faults, AnEstimateAboveTheMemoryIsRefused)
+{
+	Mesh m;
+	build(rectangle(20, 20, 1, 1), m);
+	const std::string before = contents(m);
+	Flow::Params p;
+	p.memoryLimit = 1000;
+	Progress silent;
+	try {
+		Flow::Compute(m, p, silent);
+		FAIL() << "accepted";
+	}
+	catch (const TooLarge& error) {
+		const std::string sentence = error.what();
+		EXPECT_EQ(sentence.rfind("The mesh has 800 faces", 0), 0u) << sentence;
+		EXPECT_NE(
+			sentence.find("'Simplification: Quadric Edge Collapse Decimation'"), sentence.npos);
+		EXPECT_EQ(sentence.back(), '.');
+	}
+	EXPECT_EQ(contents(m) == before, true);
+	p.memoryLimit = 1e9;
+	EXPECT_NO_THROW(Flow::Compute(m, p, silent));
+	EXPECT_NO_THROW(requireMemory(100000000, 100000000, false, 0.0));
+	EXPECT_THROW(requireMemory(400000000, 400000000, false, 0.0), TooLarge);
+}
+
+TEST(Faults, TheMemoryEstimateGrowsWithTheMeshAndTheRefinement)
+{
+	const bool kept = false, refined = true;
+	for (std::size_t n : {1000u, 100000u, 10000000u}) {
+		EXPECT_GE(estimatedMemory(2 * n, 2 * n, kept), 2 * estimatedMemory(n, n, kept));
+		EXPECT_LT(estimatedMemory(2 * n, 2 * n, kept), 3 * estimatedMemory(n, n, kept));
+		EXPECT_GT(estimatedMemory(n, n, refined), estimatedMemory(n, n, kept));
+		EXPECT_LT(estimatedMemory(n / 100, n, kept), estimatedMemory(n, n, kept));
+	}
+}
+
+TEST(Faults, AHostThatTrapsFloatingPointExceptionsGetsTheSameResult)
+{
+#ifdef __GLIBC__
+	for (const Case& c : cases()) {
+		Mesh m;
+		build(c.mesh, m);
+		Progress silent;
+		const auto expected = Flow::Compute(m, c.params, silent);
+		const int traps = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+		std::fesetround(FE_UPWARD);
+		feclearexcept(FE_ALL_EXCEPT);
+		feenableexcept(traps);
+		const auto found = Flow::Compute(m, c.params, silent);
+		const int trapsLeft = fegetexcept(), rounding = std::fegetround();
+		fedisableexcept(traps);
+		std::fesetround(FE_TONEAREST);
+		EXPECT_EQ(trapsLeft, traps) << c.name;
+		EXPECT_EQ(rounding, FE_UPWARD) << c.name;
+		EXPECT_EQ(found.u, expected.u) << c.name;
+		EXPECT_EQ(found.wedgeUV, expected.wedgeUV) << c.name;
+		EXPECT_EQ(found.report.maxCurvatureError, expected.report.maxCurvatureError) << c.name;
+	}
+#else
+	GTEST_SKIP() << "SKIPPED: floating-point traps can be set with glibc only";
+#endif
+}
+
+TEST(Faults, AHostWithDecimalCommasGetsTheSameSentences)
+{
+	const std::string own = std::setlocale(LC_NUMERIC, nullptr);
+	bool found = false;
+	for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "it_IT.UTF-8", "de_DE"})
+		found = found || std::setlocale(LC_NUMERIC, name) != nullptr;
+	std::string sentence;
+	Mesh m;
+	build(rectangle(2, 2, 1, 1), m);
+	Flow::Params p;
+	p.epsilon = -0.5;
+	Progress silent;
+	try {
+		Flow::Compute(m, p, silent);
+	}
+	catch (const Error& error) {
+		sentence = error.what();
+	}
+	std::setlocale(LC_NUMERIC, own.c_str());
+	EXPECT_EQ(sentence, "epsilon must be greater than 0 (radians), not -0.5.");
+	if (!found)
+		GTEST_SKIP() << "SKIPPED: this machine has no locale with decimal commas";
+}
+
+TEST(Faults, ASecondRunGivesTheSame)
+{
+	for (const Case& c : cases()) {
+		if (c.params.output == OutputTriangulation::CommonRefinement)
+			continue; // the second run has another mesh
+		Mesh m;
+		build(c.mesh, m);
+		Progress silent;
+		const auto first = Flow::Compute(m, c.params, silent);
+		write(m, c.params, first);
+		const std::string after = contents(m);
+		const auto second = Flow::Compute(m, c.params, silent);
+		write(m, c.params, second);
+		EXPECT_EQ(second.u, first.u) << c.name;
+		EXPECT_EQ(contents(m) == after, true) << c.name;
+	}
+}
+
+TEST(Faults, AnAttributeOfAnotherTypeIsReplaced)
+{
+	Mesh m;
+	build(rectangle(2, 2, 1, 1), m);
+	using Allocator = vcg::tri::Allocator<Mesh>;
+	Allocator::AddPerVertexAttribute<vcg::Point3d>(m, "ricci_u");
+	auto old = Allocator::AddPerVertexAttribute<float>(m, "ricci_target_curvature");
+	for (std::size_t v = 0; v < m.vert.size(); ++v)
+		old[v] = 7.0f;
+	Progress silent;
+	const auto result = Flow::Compute(m, {}, silent);
+	Flow::WriteVertexQuality(m, result);
+	EXPECT_EQ(m.vert_attr.size(), 2u);
+	auto u = Allocator::FindPerVertexAttribute<float>(m, "ricci_u");
+	auto target = Allocator::FindPerVertexAttribute<float>(m, "ricci_target_curvature");
+	ASSERT_TRUE(Allocator::IsValidHandle(m, u));
+	ASSERT_TRUE(Allocator::IsValidHandle(m, target));
+	for (std::size_t v = 0; v < m.vert.size(); ++v) {
+		EXPECT_EQ(u[v], static_cast<float>(result.u[v]));
+		EXPECT_EQ(target[v], static_cast<float>(result.targetCurvature[v]));
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,482 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hostile_mesh.h"
+
+#include "support/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace ricci::testing {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+using Limits = std::numeric_limits<double>;
+
+int vertexCount(const SurfaceMesh& mesh)
+{
+	return static_cast<int>(mesh.positions.size());
+}
+
+int faceCount(const SurfaceMesh& mesh)
+{
+	return static_cast<int>(mesh.triangles.size());
+}
+
+Point3 randomPoint(ByteSource& bytes)
+{
+	const double x = bytes.real(-1, 1), y = bytes.real(-1, 1), z = bytes.real(-1, 1);
+	return {x, y, z};
+}
+
+/// Faces of any vertices.
+SurfaceMesh soup(ByteSource& bytes)
+{
+	SurfaceMesh mesh;
+	const int vertices = bytes.below(12), faces = bytes.below(20);
+	for (int v = 0; v < vertices; ++v)
+		mesh.positions.push_back(randomPoint(bytes));
+	for (int f = 0; f < faces && vertices > 0; ++f)
+		mesh.triangles.push_back(
+			{bytes.below(vertices), bytes.below(vertices), bytes.below(vertices)});
+	return mesh;
+}
+
+/// Sheet, tube or torus.
+SurfaceMesh patch(ByteSource& bytes)
+{
+	const int nu = 1 + bytes.below(7), nv = 1 + bytes.below(7);
+	const Ends u = bytes.below(2) ? Ends::Joined : Ends::Open;
+	const Ends v = bytes.below(2) ? Ends::Joined : Ends::Open;
+	const double bump = bytes.below(3) * 0.2;
+	const bool round = bytes.below(4) != 0;
+	return grid(nu, nv, u, v, [&](int i, int j) {
+		Point3 p{double(i), double(j), 0.0};
+		if (round && (u == Ends::Joined || v == Ends::Joined)) {
+			const double a = 2 * kPi * i / nu, b = 2 * kPi * j / nv;
+			const double r = v == Ends::Joined ? 3.0 + std::cos(b) : 1.0 + j;
+			p = {r * std::cos(a), r * std::sin(a), v == Ends::Joined ? std::sin(b) : 0.0};
+			if (u == Ends::Open)
+				p = {std::cos(b), std::sin(b), double(i)};
+		}
+		for (double& x : p)
+			x += bump > 0.0 ? bytes.real(-bump, bump) : 0.0;
+		return p;
+	});
+}
+
+/// A star round one vertex, open, closed, or with a second centre.
+SurfaceMesh star(ByteSource& bytes)
+{
+	const int n =
+		bytes.oneIn(256) && bytes.oneIn(4) ? 2000 + bytes.below(2000) : 2 + bytes.below(40);
+	const int kind = bytes.below(3);
+	SurfaceMesh mesh;
+	mesh.positions.push_back({0, 0, 1});
+	for (int i = 0; i < n; ++i)
+		mesh.positions.push_back({std::cos(2 * kPi * i / n), std::sin(2 * kPi * i / n), 0});
+	for (int i = 0; i + (kind == 0 ? 1 : 0) < n; ++i)
+		mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
+	if (kind == 2) {
+		mesh.positions.push_back({0, 0, bytes.real(-2, 2)});
+		for (int i = 0; i < n; ++i)
+			mesh.triangles.push_back({n + 1, 1 + (i + 1) % n, 1 + i});
+	}
+	return mesh;
+}
+
+/// A sphere made by putting vertices into faces of a tetrahedron.
+SurfaceMesh stackedSphere(ByteSource& bytes)
+{
+	SurfaceMesh mesh = tetrahedron();
+	const int added = bytes.below(24);
+	for (int i = 0; i < added; ++i) {
+		const auto f = at(bytes.below(faceCount(mesh)));
+		const Triangle t = mesh.triangles[f];
+		const int v = vertexCount(mesh);
+		Point3 p{0, 0, 0};
+		for (std::size_t k = 0; k < 3; ++k)
+			for (int corner : t)
+				p[k] += mesh.positions[at(corner)][k] / 3;
+		const double out = bytes.real(0.5, 2.0);
+		for (double& x : p)
+			x *= out;
+		mesh.positions.push_back(p);
+		mesh.triangles[f] = {t[0], t[1], v};
+		mesh.triangles.push_back({t[1], t[2], v});
+		mesh.triangles.push_back({t[2], t[0], v});
+	}
+	return mesh;
+}
+
+/// Triangles whose sides are glued in random pairs, subdivided until every face has three vertices:
+/// any topology, orientable or not.
+SurfaceMesh gluedAtRandom(ByteSource& bytes)
+{
+	const int n = 1 + bytes.below(5);
+	std::vector<int> parent(at(3 * n));
+	for (int i = 0; i < 3 * n; ++i)
+		parent[at(i)] = i;
+	const auto find = [&](int i) {
+		while (parent[at(i)] != i)
+			i = parent[at(i)];
+		return i;
+	};
+	const auto corner = [&](int side, int end) { return 3 * (side / 3) + (side % 3 + end) % 3; };
+	std::vector<int> free(at(3 * n)), mate(at(3 * n), -1);
+	std::vector<char> twisted(at(3 * n), 0);
+	for (int i = 0; i < 3 * n; ++i)
+		free[at(i)] = i;
+	const int pairs = bytes.below(3 * n / 2 + 1);
+	const bool mayTwist = bytes.oneIn(4);
+	for (int i = 0; i < pairs; ++i) {
+		int side[2];
+		for (int& s : side) {
+			const auto k = bytes.below(static_cast<int>(free.size()));
+			s = free[at(k)];
+			free.erase(free.begin() + k);
+		}
+		const bool twist = mayTwist && bytes.oneIn(2);
+		for (int end : {0, 1})
+			parent[at(find(corner(side[0], end)))] = find(corner(side[1], twist ? end : 1 - end));
+		mate[at(side[0])] = side[1];
+		mate[at(side[1])] = side[0];
+		twisted[at(side[0])] = twisted[at(side[1])] = twist;
+	}
+	// Each triangle in 9 pieces of side 1/3; sides that are glued share their inner vertices.
+	SurfaceMesh mesh;
+	std::vector<int> vertexOf(at(3 * n), -1);
+	std::vector<std::array<int, 2>> onSide(at(3 * n), {-1, -1});
+	const auto add = [&] {
+		mesh.positions.push_back(randomPoint(bytes));
+		return vertexCount(mesh) - 1;
+	};
+	for (int s = 0; s < 3 * n; ++s) {
+		if (vertexOf[at(find(s))] < 0)
+			vertexOf[at(find(s))] = add();
+		if (onSide[at(s)][0] >= 0)
+			continue;
+		onSide[at(s)] = {add(), add()};
+		const int m = mate[at(s)];
+		if (m >= 0)
+			onSide[at(m)] = twisted[at(s)] ? onSide[at(s)]
+										   : std::array<int, 2>{onSide[at(s)][1], onSide[at(s)][0]};
+	}
+	for (int f = 0; f < n; ++f) {
+		const int middle = add();
+		std::array<int, 9> rim;
+		for (int k = 0; k < 3; ++k) {
+			rim[at(3 * k)] = vertexOf[at(find(3 * f + k))];
+			rim[at(3 * k + 1)] = onSide[at(3 * f + k)][0];
+			rim[at(3 * k + 2)] = onSide[at(3 * f + k)][1];
+		}
+		for (std::size_t k = 0; k < 9; ++k) {
+			// In turns 2, 2, 2 ... would leave long sides between rim vertices; a second ring keeps
+			// the result free of double edges.
+			const int a = rim[k], b = rim[(k + 1) % 9];
+			const int inner = add();
+			mesh.triangles.push_back({a, b, inner});
+			mesh.triangles.push_back({b, middle, inner});
+			mesh.triangles.push_back({middle, a, inner});
+		}
+	}
+	return mesh;
+}
+
+SurfaceMesh oneShape(ByteSource& bytes)
+{
+	switch (bytes.below(9)) {
+	case 0:
+		return soup(bytes);
+	case 1:
+	case 2:
+		return patch(bytes);
+	case 3:
+		return star(bytes);
+	case 4:
+		return stackedSphere(bytes);
+	case 5:
+		return gluedAtRandom(bytes);
+	case 6:
+		return perforatedSlab(bytes.below(3), 1);
+	case 7:
+		return moebiusBand(3 + bytes.below(5));
+	default: {
+		SurfaceMesh mesh; // 0 to 3 faces
+		const int faces = bytes.below(4);
+		for (int v = 0; v < 5; ++v)
+			mesh.positions.push_back(randomPoint(bytes));
+		for (int f = 0; f < faces; ++f)
+			mesh.triangles.push_back({f, f + 1, f + 2});
+		return mesh;
+	}
+	}
+}
+
+SurfaceMesh shape(ByteSource& bytes)
+{
+	SurfaceMesh mesh = oneShape(bytes);
+	if (bytes.oneIn(4)) {
+		const int more = 1 + bytes.below(4);
+		for (int i = 0; i < more; ++i)
+			mesh = sideBySide(mesh, oneShape(bytes), 10.0 * i);
+	}
+	if (bytes.oneIn(32)) { // crumbs
+		const int crumbs = bytes.oneIn(256) && bytes.oneIn(32) ? 10000 : bytes.below(60);
+		for (int i = 0; i < crumbs; ++i) {
+			const int v = vertexCount(mesh);
+			for (int k = 0; k < 3; ++k)
+				mesh.positions.push_back(randomPoint(bytes));
+			mesh.triangles.push_back({v, v + 1, v + 2});
+		}
+	}
+	return mesh;
+}
+
+/// A coordinate that breaks careless arithmetic.
+double awkward(ByteSource& bytes)
+{
+	static const double values[] = {
+		0.0,
+		-0.0,
+		1e-45,
+		1e-40,
+		1e-38,
+		1e38,
+		3.4028234663852886e38,
+		-3.4028234663852886e38,
+		Limits::denorm_min(),
+		Limits::min(),
+		1e-300,
+		1e-160,
+		1e-150,
+		1e150,
+		1e160,
+		1e300,
+		Limits::max(),
+		-Limits::max(),
+		Limits::infinity(),
+		-Limits::infinity(),
+		Limits::quiet_NaN(),
+		Limits::epsilon(),
+		1.0 + Limits::epsilon(),
+		1e7,
+		1e-7};
+	return values[bytes.below(static_cast<int>(std::size(values)))];
+}
+
+void changeCoordinates(SurfaceMesh& mesh, ByteSource& bytes)
+{
+	const int n = vertexCount(mesh);
+	const auto v = at(bytes.below(n)), w = at(bytes.below(n));
+	const auto k = at(bytes.below(3));
+	switch (bytes.below(7)) {
+	case 0:
+		mesh.positions[v][k] = bytes.oneIn(4) ? awkward(bytes) : bytes.real(-4, 4);
+		break;
+	case 1:
+		mesh.positions[v] = mesh.positions[w];
+		break;
+	case 2: { // middle of an edge
+		for (std::size_t i = 0; i < 3; ++i)
+			mesh.positions[v][i] = 0.5 * (mesh.positions[v][i] + mesh.positions[w][i]);
+		break;
+	}
+	case 3: { // flat, or nearly
+		const double factor = bytes.oneIn(2) ? 0.0 : std::pow(10.0, -bytes.below(40));
+		for (Point3& p : mesh.positions)
+			p[k] *= factor;
+		break;
+	}
+	case 4: { // huge or tiny
+		const double factor =
+			std::pow(10.0, bytes.oneIn(4) ? bytes.below(640) - 320 : bytes.below(80) - 40);
+		for (Point3& p : mesh.positions)
+			for (double& x : p)
+				x *= factor;
+		break;
+	}
+	case 5: { // far from the origin
+		const double shift = std::pow(10.0, bytes.below(20));
+		for (Point3& p : mesh.positions)
+			p[k] += shift;
+		break;
+	}
+	default: { // slivers
+		const double factor = std::pow(10.0, -bytes.below(16));
+		for (std::size_t i = v; i < mesh.positions.size(); i += 1 + w)
+			for (double& x : mesh.positions[i])
+				x *= factor;
+		break;
+	}
+	}
+}
+
+void changeFaces(SurfaceMesh& mesh, ByteSource& bytes)
+{
+	const auto f = at(bytes.below(faceCount(mesh)));
+	Triangle& t = mesh.triangles[f];
+	switch (bytes.below(7)) {
+	case 0:
+		std::swap(t[0], t[1]);
+		break;
+	case 1:
+		mesh.triangles.push_back(Triangle(t));
+		break;
+	case 2:
+		t[at(bytes.below(3))] = t[at(bytes.below(3))];
+		break;
+	case 3:
+		t[at(bytes.below(3))] = bytes.below(vertexCount(mesh));
+		break;
+	case 4:
+		mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(f));
+		break;
+	case 5: { // two vertices become one
+		const int from = bytes.below(vertexCount(mesh)), to = bytes.below(vertexCount(mesh));
+		for (Triangle& face : mesh.triangles)
+			for (int& v : face)
+				v = v == from ? to : v;
+		break;
+	}
+	default:
+		mesh.triangles.push_back({t[1], t[0], bytes.below(vertexCount(mesh))});
+		break;
+	}
+}
+
+Options anyOptions(ByteSource& bytes)
+{
+	static const double epsilons[] = {
+		1e-8,
+		1e-8,
+		1e-8,
+		1e-10,
+		1e-16,
+		1e-3,
+		1.0,
+		1e300,
+		Limits::denorm_min(),
+		0.0,
+		-1.0,
+		Limits::infinity(),
+		Limits::quiet_NaN()};
+	static const int iterations[] = {200, 200, 200, 50, 5, 1, 0, -1, 2147483647};
+	Options options;
+	options.target = static_cast<TargetCurvature>(bytes.below(6));
+	options.freeBoundary = bytes.below(2) != 0;
+	options.packing = bytes.oneIn(5) ? PackingScheme::Thurston : PackingScheme::InversiveDistance;
+	const int surgery = bytes.below(5);
+	options.surgery = surgery == 0   ? Surgery::None
+					  : surgery == 1 ? Surgery::EdgeSwap
+									 : Surgery::IntrinsicFlips;
+	const bool mayRefine = (options.surgery == Surgery::IntrinsicFlips &&
+							options.packing == PackingScheme::InversiveDistance) ||
+						   bytes.oneIn(32);
+	options.output = mayRefine && bytes.below(2) ? OutputTriangulation::CommonRefinement
+												 : OutputTriangulation::KeepMesh;
+	options.epsilon = epsilons[bytes.oneIn(6) ? bytes.below(13) : 0];
+	options.maxIterations = iterations[bytes.oneIn(16) ? bytes.below(9) : 0];
+	options.holes = mayRefine && bytes.oneIn(4) ? Holes::Capped : Holes::Boundaries;
+	options.resolveOverlap = bytes.oneIn(4);
+	return options;
+}
+
+/// Euler characteristic, and the vertices that are in use.
+int euler(const SurfaceMesh& mesh, std::vector<int>& used)
+{
+	std::set<std::pair<int, int>> edges;
+	std::set<int> vertices;
+	for (const Triangle& t : mesh.triangles)
+		for (std::size_t k = 0; k < 3; ++k) {
+			vertices.insert(t[k]);
+			edges.insert(std::minmax({t[k], t[(k + 1) % 3]}));
+		}
+	used.assign(vertices.begin(), vertices.end());
+	return static_cast<int>(used.size()) - static_cast<int>(edges.size()) + faceCount(mesh);
+}
+
+/// Often the curvature of some metric, sometimes anything.
+std::vector<double> anyQuality(const SurfaceMesh& mesh, ByteSource& bytes)
+{
+	std::vector<double> quality(mesh.positions.size(), 0.0);
+	std::vector<int> used;
+	const double total = 2 * kPi * euler(mesh, used);
+	if (used.empty())
+		return quality;
+	const auto any = [&] { return used[at(bytes.below(static_cast<int>(used.size())))]; };
+	const int cones = bytes.oneIn(4) ? static_cast<int>(used.size()) : 1 + bytes.below(6);
+	double sum = 0.0;
+	for (int i = 0; i < cones; ++i) {
+		const int v = any();
+		const double K = bytes.oneIn(4) ? bytes.real(-30, 7) : bytes.real(-3, 3);
+		quality[at(v)] += K;
+		sum += K;
+	}
+	const int sharers = bytes.oneIn(2) ? 1 + bytes.below(6) : static_cast<int>(used.size());
+	for (int i = 0; i < sharers; ++i)
+		quality[at(sharers > 6 ? used[at(i)] : any())] += (total - sum) / sharers;
+	if (bytes.oneIn(16))
+		quality[at(any())] = awkward(bytes);
+	return quality;
+}
+
+} // namespace
+
+HostileMesh::HostileMesh(ByteSource& bytes)
+{
+	options = anyOptions(bytes);
+	hyperbolic = bytes.oneIn(4);
+	if (hyperbolic) {
+		static_cast<FlowOptions&>(hyperbolicOptions) = options;
+		hyperbolicOptions.target = static_cast<HyperbolicTarget>(bytes.below(3));
+		hyperbolicOptions.coneAngle = bytes.oneIn(8) ? awkward(bytes) : bytes.real(-1, 13);
+		hyperbolicOptions.freeBoundary = bytes.below(2) != 0;
+		hyperbolicOptions.output = options.output;
+	}
+	normalizeUV = bytes.below(4) != 0;
+	doublePrecision = bytes.below(2) != 0;
+	mesh = shape(bytes);
+	const int changes = bytes.oneIn(2) ? 0 : bytes.below(6);
+	for (int i = 0; i < changes; ++i) {
+		if (!mesh.positions.empty() && bytes.below(3) != 0)
+			changeCoordinates(mesh, bytes);
+		else if (!mesh.triangles.empty() && !mesh.positions.empty())
+			changeFaces(mesh, bytes);
+	}
+	if (bytes.oneIn(4)) // vertices that no face uses
+		for (int i = bytes.below(4); i > 0; --i)
+			mesh.positions.push_back({awkward(bytes), awkward(bytes), awkward(bytes)});
+	deletedVertex.assign(mesh.positions.size(), 0);
+	deletedFace.assign(mesh.triangles.size(), 0);
+	if (bytes.oneIn(4)) {
+		for (int i = bytes.below(6); i > 0 && !mesh.triangles.empty(); --i)
+			deletedFace[at(bytes.below(faceCount(mesh)))] = 1;
+		std::vector<char> used(mesh.positions.size(), 0);
+		for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+			for (int v : mesh.triangles[f])
+				used[at(v)] |= deletedFace[f] == 0;
+		const bool evenInUse = bytes.oneIn(16);
+		for (std::size_t v = 0; v < used.size(); ++v)
+			deletedVertex[v] = !used[v] || (evenInUse && bytes.oneIn(8));
+	}
+	selected.assign(mesh.positions.size(), 0);
+	const bool selects = hyperbolic ? hyperbolicOptions.target == HyperbolicTarget::SelectedCones
+									: options.target == TargetCurvature::SelectedCones ||
+										  options.target == TargetCurvature::Rectangle;
+	if (selects)
+		for (int i = bytes.below(8); i > 0 && !mesh.positions.empty(); --i)
+			selected[at(bytes.below(vertexCount(mesh)))] = 1;
+	quality.assign(mesh.positions.size(), 0.0);
+	if (hyperbolic ? hyperbolicOptions.target == HyperbolicTarget::Prescribed
+				   : options.target == TargetCurvature::Prescribed)
+		quality = anyQuality(mesh, bytes);
+	if (bytes.oneIn(8))
+		cancelAt = bytes.below(20);
+}
+
+} // namespace ricci::testing

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_TESTS_HOSTILE_MESH_H
+#define RICCI_TESTS_HOSTILE_MESH_H
+
+#include "byte_source.h"
+
+#include <ricci/options.h>
+#include <ricci/surface/surface_mesh.h>
+
+#include <vector>
+
+namespace ricci::testing {
+
+/// A mesh and parameters such as no user means but some program writes: random connectivity,
+/// duplicated and collapsed faces, deleted elements, coordinates that are huge, denormal or no
+/// numbers, stars of thousands of faces, thousands of components.
+struct HostileMesh
+{
+	SurfaceMesh mesh;
+	std::vector<char> deletedVertex, deletedFace; ///< stay in the vectors of a VCG mesh
+	std::vector<char> selected;                   ///< [vertex]
+	std::vector<double> quality;                  ///< [vertex]
+	Options options;
+	bool hyperbolic = false; ///< which of the two flows
+	HyperbolicOptions hyperbolicOptions;
+	bool normalizeUV = true;
+	bool doublePrecision = false; ///< which of the hosts' scalar types
+	int cancelAt = -1;            ///< number of the progress call that cancels; -1: none
+
+	explicit HostileMesh(ByteSource& bytes);
+};
+
+} // namespace ricci::testing
+
+#endif

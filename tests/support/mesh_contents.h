@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_TESTS_MESH_CONTENTS_H
+#define RICCI_TESTS_MESH_CONTENTS_H
+
+#include <vcg/complex/complex.h>
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+namespace ricci::testing {
+
+/// Every bit of a VCG mesh that a filter might touch: elements with their flags, deleted ones
+/// included, counts, and per-vertex and per-face attributes with their names and values.
+template<class Mesh>
+std::string contents(const Mesh& m)
+{
+	std::string all;
+	const auto put = [&](const auto& value) {
+		char bytes[sizeof value];
+		std::memcpy(bytes, &value, sizeof value);
+		all.append(bytes, sizeof value);
+	};
+	put(m.vn);
+	put(m.fn);
+	put(m.vert.size());
+	put(m.face.size());
+	for (const auto& v : m.vert) {
+		for (int k = 0; k < 3; ++k) {
+			put(v.cP()[k]);
+			put(v.cN()[k]);
+		}
+		put(v.cQ());
+		put(v.cFlags());
+		if (vcg::tri::HasPerVertexColor(m))
+			for (int k = 0; k < 4; ++k)
+				put(v.cC()[k]);
+	}
+	const auto base = reinterpret_cast<std::uintptr_t>(m.vert.data());
+	for (const auto& f : m.face) {
+		for (int k = 0; k < 3; ++k) {
+			put(reinterpret_cast<std::uintptr_t>(f.cV(k)) -
+				base); // a number, wherever the vector lies
+			put(f.cWT(k).U());
+			put(f.cWT(k).V());
+			put(f.cWT(k).N());
+			put(f.cN()[k]);
+		}
+		put(f.cFlags());
+	}
+	const auto putAttributes = [&](const auto& attributes, std::size_t count) {
+		for (const auto& a : attributes) {
+			all += a._name;
+			put(a._sizeof);
+			for (std::size_t i = 0; i < count; ++i)
+				all.append(
+					static_cast<const char*>(a._handle->At(i)),
+					static_cast<std::size_t>(a._sizeof));
+		}
+	};
+	putAttributes(m.vert_attr, m.vert.size());
+	putAttributes(m.face_attr, m.face.size());
+	return all;
+}
+
+} // namespace ricci::testing
+
+#endif

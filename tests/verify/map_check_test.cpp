@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <ricci/verify/map_check.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace ricci::testing {
+namespace {
+
+/// A plane mesh as its own map, with every second face clockwise, like its vertices.
+struct Sheet
+{
+	SurfaceMesh mesh;
+	std::vector<std::array<Point2, 3>> plane;
+	std::vector<char> reversed;
+
+	Sheet()
+	{
+		Random random(610);
+		mesh = randomPlanarDisk(5, random);
+		for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+			Triangle& t = mesh.triangles[f];
+			reversed.push_back(f % 2 == 1);
+			if (f % 2 == 1)
+				std::swap(t[1], t[2]);
+			std::array<Point2, 3> p;
+			for (std::size_t k = 0; k < 3; ++k)
+				p[k] = {mesh.positions[at(t[k])][0], mesh.positions[at(t[k])][1]};
+			plane.push_back(p);
+		}
+	}
+
+	MapCheck check(double tolerance = 1e-9) const
+	{
+		return checkMap(mesh.triangles, plane, reversed, tolerance);
+	}
+};
+
+TEST(MapCheck, AcceptsAMapWithAndWithoutSeams)
+{
+	Sheet s;
+	MapCheck check = s.check();
+	EXPECT_TRUE(check.finite);
+	EXPECT_EQ(check.seamGap, 0.0);
+	EXPECT_EQ(check.turned, 0);
+	// Cut apart by a motion of a half: all its border becomes a seam.
+	for (std::size_t f = 0; f < s.plane.size() / 2; ++f)
+		for (Point2& p : s.plane[f])
+			p = {3.0 - p[1], p[0]};
+	check = s.check();
+	EXPECT_LT(check.seamGap, 1e-15);
+	EXPECT_EQ(check.turned, 0);
+}
+
+TEST(MapCheck, SeesSeamsOfDifferentLengths)
+{
+	Sheet s;
+	for (Point2& p : s.plane[20])
+		p = {1.001 * p[0], 1.001 * p[1]};
+	double extent = 0.0;
+	for (std::size_t k = 0; k < 2; ++k) {
+		double low = 0.0, high = 0.0;
+		for (const Point3& p : s.mesh.positions) {
+			low = std::min(low, p[k]);
+			high = std::max(high, p[k]);
+		}
+		extent = std::max(extent, high - low);
+	}
+	const auto longest = [&] { // of the face's sides, all inside
+		double l = 0.0;
+		for (std::size_t k = 0; k < 3; ++k)
+			l = std::max(
+				l,
+				std::hypot(
+					s.plane[20][k][0] - s.plane[20][(k + 1) % 3][0],
+					s.plane[20][k][1] - s.plane[20][(k + 1) % 3][1]));
+		return l;
+	};
+	EXPECT_NEAR(s.check().seamGap, longest() * (1 - 1 / 1.001) / extent, 1e-14);
+}
+
+TEST(MapCheck, SeesTurnedAndFlatFaces)
+{
+	Sheet s;
+	std::swap(s.reversed[7], s.reversed[8]);
+	EXPECT_EQ(s.check().turned, 2);
+	std::swap(s.reversed[7], s.reversed[8]);
+	// A face turned by less than the tolerance is left to rounding.
+	auto& p = s.plane[4];
+	const double x = p[1][0] - p[0][0], y = p[1][1] - p[0][1], l = std::hypot(x, y);
+	p[2] = {p[0][0] + 0.5 * x + 1e-10 * y / l, p[0][1] + 0.5 * y - 1e-10 * x / l};
+	EXPECT_EQ(s.check(1e-9).turned, 0);
+	EXPECT_EQ(s.check(1e-11).turned, 1);
+}
+
+TEST(MapCheck, SeesWhatIsNoNumber)
+{
+	Sheet s;
+	s.plane[9][2][1] = std::numeric_limits<double>::quiet_NaN();
+	EXPECT_FALSE(s.check().finite);
+	s.plane[9][2][1] = std::numeric_limits<double>::infinity();
+	EXPECT_FALSE(s.check().finite);
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "memory.h"
+
+#include "error.h"
+#include "text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace ricci {
+
+namespace {
+
+/// Bytes for each face of the mesh; for each face of the component at work; and the same for each
+/// doubling of their number (the factor). Fitted from above to measured peaks of 5e4 to 2e5 faces (1.6 to 1.8 kB for each).
+constexpr double kEveryFace = 400.0, kFaceAtWork = 700.0, kFaceInFactor = 60.0;
+
+/// Of the arrays for the output of the common refinement, for each face at work.
+constexpr double kFaceRefined = 400.0;
+
+/// More faces than this have more halfedges than int has numbers, or could have after refinement.
+constexpr std::size_t kMostFaces = 300000000;
+
+constexpr double kGigabyte = 1e9;
+
+} // namespace
+
+double estimatedMemory(std::size_t faces, std::size_t allFaces, bool refines)
+{
+	const auto n = static_cast<double>(faces);
+	double each = kFaceAtWork + kFaceInFactor * std::log2(std::max(n, 2.0));
+	if (refines)
+		each += kFaceRefined;
+	return kEveryFace * static_cast<double>(allFaces) + each * n;
+}
+
+void requireMemory(std::size_t faces, std::size_t allFaces, bool refines, double limit)
+{
+	const std::string remedy = ": simplify it first ('Simplification: Quadric Edge Collapse "
+							   "Decimation'), or cut it into pieces.";
+	if (allFaces > kMostFaces)
+		throw TooLarge(
+			"The mesh has " + std::to_string(allFaces) + " faces, but at most " +
+			std::to_string(kMostFaces) + " can be numbered" + remedy);
+	const double needed = estimatedMemory(faces, allFaces, refines);
+	if (limit > 0.0 && needed > limit)
+		throw TooLarge(
+			"The mesh has " + std::to_string(allFaces) + " faces and needs about " +
+			numberText(needed / kGigabyte, 3) + " GB of memory, but only " +
+			numberText(limit / kGigabyte, 3) + " GB are free" + remedy);
+}
+
+std::size_t largestComponent(const std::vector<Component>& components)
+{
+	std::size_t largest = 0;
+	for (const Component& component : components)
+		largest = std::max(largest, component.triangles.size());
+	return largest;
+}
+
+} // namespace ricci

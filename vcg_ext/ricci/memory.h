@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_MEMORY_H
+#define RICCI_MEMORY_H
+
+#include "surface/component.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace ricci {
+
+/// Bytes that a run needs at its peak for a surface of \p faces triangles in its largest component
+/// and \p allFaces in all, with the common refinement as output if it \p refines, estimated on the safe side from measured runs: arrays in proportion to
+/// the faces, and the factor of the Hessian, which grows like n log n on surfaces.
+double estimatedMemory(std::size_t faces, std::size_t allFaces, bool refines);
+
+/// \throw TooLarge with both numbers if the estimate is above \p limit (0: none), or if indices
+/// would not fit into int
+void requireMemory(std::size_t faces, std::size_t allFaces, bool refines, double limit);
+
+/// Faces of the component that has most.
+std::size_t largestComponent(const std::vector<Component>& components);
+
+} // namespace ricci
+
+#endif
