@@ -231,7 +231,7 @@ const char* const kStyle =
 	"body{font:15px/1.45 system-ui,sans-serif;max-width:1180px;margin:2em auto;padding:0 1em;"
 	"color:#222;background:#fff}\n"
 	"h1{font-size:1.5em}h2{font-size:1.1em;margin:1.6em 0 .3em}\n"
-	".pair{display:flex;flex-wrap:wrap;gap:2em}.pair>section{flex:1 1 480px}\n"
+	".pair{display:flex;flex-wrap:wrap;gap:2em}.pair>section{flex:1 1 480px;max-width:575px}\n"
 	"section>p{margin:0}svg{width:100%;height:auto;font:12px system-ui,sans-serif}\n"
 	".bar{fill:#3b6ea5}.line{fill:none;stroke:#b5462f;stroke-width:1.5}.dot{fill:#b5462f}\n"
 	".axis{stroke:#222}.grid{stroke:#ddd}\n"
