@@ -41,7 +41,7 @@ constexpr double kLeastGain = 0.02;
 constexpr double kLeastCurvature = 0.02;
 
 /// Cones move once the distortion is within this of the wanted one.
-constexpr double kNearlyEnough = 1.5;
+constexpr double kNearlyEnough = 1.1;
 
 /// Steps of the search for rounded curvatures, for each cone.
 constexpr int kRoundingSteps = 50;
