@@ -28,7 +28,7 @@ public:
 	void step(double fraction, const std::string& what)
 	{
 		m_done = std::max(m_done, fraction);
-		m_progress.step(m_from + m_done * (m_to - m_from), what);
+		m_progress.step(std::min(m_to, m_from + m_done * (m_to - m_from)), what);
 	}
 	void log(const std::string& line) { m_progress.log(line); }
 

@@ -634,6 +634,19 @@ private:
 					std::min(255.0, std::max(0.0, std::round(colour[k]))));
 	}
 
+	/// Texture coordinates are floats in every host.
+	static void RequireFloats(const std::vector<WedgeUV>& faces)
+	{
+		for (const WedgeUV& face : faces)
+			for (const ricci::Point2& p : face)
+				for (double x : p)
+					if (!(std::abs(x) <= double(std::numeric_limits<float>::max())))
+						throw ricci::InvalidMesh(
+							"The mesh is too large for texture coordinates in its own scale: "
+							"choose "
+							"normalize_uv, or run 'Transform: Scale, Normalize' first.");
+	}
+
 	/// Anew, because packing rounds.
 	static void CountFlipped(const ricci::Parametrization& flat, ricci::Report& report)
 	{
@@ -767,8 +780,11 @@ private:
 					flat.charts[i],
 					scale,
 					normalize ? (shift[i] - corner) * scale : shift[i]);
-		if (!normalize)
+		if (!normalize) {
+			RequireFloats(flat.uv);
+			RequireFloats(flat.refined.uv);
 			return;
+		}
 		ClampToUnitSquare(flat);
 	}
 
