@@ -33,20 +33,5 @@ run_sanitized() {
 	return $status
 }
 
-# ctest does not show why a test was skipped.
-print_summary() {
-	local total failed skipped
-	total=$(junit_count tests)
-	failed=$(junit_count failures)
-	skipped=$(($(junit_count skipped) + $(junit_count disabled)))
-	echo
-	sed -n 's/.*\(SKIPPED: .*\)/\1/p' "$build/tests.xml" | sed 's/&quot;/"/g; s/&apos;/'"'"'/g' | sort -u
-	echo "$((total - failed - skipped)) passed, $failed failed, $skipped skipped"
-}
-
-junit_count() {
-	grep -o "[[:space:]]$1=\"[0-9]*\"" "$build/tests.xml" | head -n 1 | tr -dc '0-9'
-}
-
 say "Sanitizers"
 run_sanitized
