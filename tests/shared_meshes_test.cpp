@@ -167,17 +167,18 @@ TEST_F(SharedMeshes, FaultyMeshesAreRefusedWithTheirCounts)
 	const struct
 	{
 		const char *name, *part;
+		TargetCurvature target;
 	} meshes[] = {
-		{"dirty_moebius.ply", "1 component is not orientable"},
-		{"dirty_cow.ply", "1 non-manifold vertex"},
-		{"g0_fandisk.ply", "genus 0"},
-		{"g2_eight.ply", "genus 2"}};
+		{"dirty_moebius.ply", "1 component is not orientable", TargetCurvature::Automatic},
+		{"dirty_cow.ply", "1 non-manifold vertex", TargetCurvature::Automatic},
+		{"g0_fandisk.ply", "genus 0", TargetCurvature::Flat},
+		{"g2_eight.ply", "genus 2", TargetCurvature::Flat}};
 	int present = 0;
 	for (const auto& m : meshes) {
 		if (!load(m.name))
 			continue;
 		++present;
-		const std::string sentence = reason(m_mesh, fixedTriangulation());
+		const std::string sentence = reason(m_mesh, fixedTriangulation(m.target));
 		EXPECT_NE(sentence.find(m.part), std::string::npos) << m.name << ": " << sentence;
 	}
 	if (present == 0)

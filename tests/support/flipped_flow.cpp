@@ -5,6 +5,7 @@
 #include "shapes.h"
 
 #include <ricci/metric/circle_packing.h>
+#include <ricci/result_assembly.h>
 #include <ricci/surface/double_surface.h>
 
 #include <algorithm>
@@ -105,27 +106,8 @@ CutGraph FlippedFlow::cut() const
 
 CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
 {
-	const FlipHistory& history = result.history;
-	FlippedSurface surface;
-	surface.input = &history.input;
-	surface.startFlips = &history.startFlips;
-	surface.start = &history.start.triangulation;
-	surface.startLengths = &history.start.lengths;
-	surface.startDelta = &history.startDelta;
-	surface.startRadii = &history.startRadii;
-	surface.flowFlips = &history.flowFlips;
-	surface.end = &result.metric->triangulation();
-	surface.endLengths = &result.metric->lengths();
-	surface.endAngles = &result.metric->angles();
-	surface.endU = &result.u;
-	surface.background = background;
-	surface.keptFaces = base.faceCount();
-	std::vector<char> isCut = cutGraph.isCut;
-	for (int e = 0; e < base.edgeCount(); ++e)
-		if (result.doubled && base.isBoundaryEdge(e))
-			isCut[at(e)] = 1;
-	isCut.resize(at(history.input.edgeCount()), 0);
-	return commonRefinement(surface, mesh.positions, isCut);
+	return overlayOfFlow(
+		result, background, base, mesh.positions, cutGraph.isCut, result.doubled, false);
 }
 
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary)

@@ -290,31 +290,14 @@ private:
 
 	void layOutFlipped()
 	{
-		const FlipHistory& history = m_flow.history;
-		const CurvatureMap& metric = *m_flow.metric;
-		FlippedSurface surface;
-		surface.input = &history.input;
-		surface.startFlips = &history.startFlips;
-		surface.start = &history.start.triangulation;
-		surface.startLengths = &history.start.lengths;
-		surface.startDelta = &history.startDelta;
-		surface.startRadii = &history.startRadii;
-		surface.flowFlips = &history.flowFlips;
-		surface.end = &metric.triangulation();
-		surface.endLengths = &metric.lengths();
-		surface.endAngles = &metric.angles();
-		surface.endU = &m_flow.u;
-		surface.keptFaces = m_base.faceCount();
-		surface.cornersOnly =
-			m_options.output == OutputTriangulation::KeepMesh && m_solved.holes == 0;
-		// In a double, and at a cap, the surface ends at its boundary.
-		std::vector<char> isCut = m_cut.isCut;
-		const bool goesOn = m_flow.doubled || m_solved.holes > 0;
-		for (int e = 0; e < m_base.edgeCount(); ++e)
-			if (goesOn && m_base.isBoundaryEdge(e))
-				isCut[at(e)] = 1;
-		isCut.resize(at(history.input.edgeCount()), 0);
-		m_refinement = commonRefinement(surface, m_mesh.positions, isCut);
+		m_refinement = overlayOfFlow(
+			m_flow,
+			Background::EuclideanPlane,
+			m_base,
+			m_mesh.positions,
+			m_cut.isCut,
+			m_flow.doubled || m_solved.holes > 0,
+			m_options.output == OutputTriangulation::KeepMesh && m_solved.holes == 0);
 
 		int sectorCount = 0;
 		m_layout.sector = cornerSectors(m_base, m_cut.isCut, sectorCount);

@@ -193,7 +193,14 @@ private:
 		m_layout.sector = cornerSectors(m_base, m_cut.isCut, sectorCount);
 		m_layout.position.resize(at(sectorCount));
 		if (flips()) {
-			m_refinement = overlay();
+			m_refinement = overlayOfFlow(
+				m_flow,
+				Background::HyperbolicPlane,
+				m_base,
+				m_component.positions,
+				m_cut.isCut,
+				m_flow.doubled,
+				m_options.output == OutputTriangulation::KeepMesh);
 			for (std::size_t e = 0; e < transition.size(); ++e)
 				transition[e] = m_refinement.transition[e];
 			for (int h = 0; h < m_base.halfedgeCount(); ++h)
@@ -215,34 +222,6 @@ private:
 				}
 		}
 		return fuchsianGroup(m_base, m_cut, transition, m_cones);
-	}
-
-	CommonRefinement overlay() const
-	{
-		const FlipHistory& history = m_flow.history;
-		const CurvatureMap& metric = *m_flow.metric;
-		FlippedSurface surface;
-		surface.input = &history.input;
-		surface.startFlips = &history.startFlips;
-		surface.start = &history.start.triangulation;
-		surface.startLengths = &history.start.lengths;
-		surface.startDelta = &history.startDelta;
-		surface.startRadii = &history.startRadii;
-		surface.flowFlips = &history.flowFlips;
-		surface.end = &metric.triangulation();
-		surface.endLengths = &metric.lengths();
-		surface.endAngles = &metric.angles();
-		surface.endU = &m_flow.u;
-		surface.background = Background::HyperbolicPlane;
-		surface.keptFaces = m_base.faceCount();
-		surface.cornersOnly = m_options.output == OutputTriangulation::KeepMesh;
-		// In a double the surface ends at its boundary.
-		std::vector<char> isCut = m_cut.isCut;
-		for (int e = 0; e < m_base.edgeCount(); ++e)
-			if (m_flow.doubled && m_base.isBoundaryEdge(e))
-				isCut[at(e)] = 1;
-		isCut.resize(at(history.input.edgeCount()), 0);
-		return commonRefinement(surface, m_component.positions, isCut);
 	}
 
 	/// Largest difference between a boundary loop's length and that of the closed geodesic its

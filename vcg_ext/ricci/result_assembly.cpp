@@ -28,6 +28,38 @@ void startResult(
 	}
 }
 
+CommonRefinement overlayOfFlow(
+	const FlowResult& flow,
+	Background background,
+	const Triangulation& base,
+	const std::vector<Point3>& positions,
+	std::vector<char> isCut,
+	bool endsAtBoundary,
+	bool cornersOnly)
+{
+	const FlipHistory& history = flow.history;
+	FlippedSurface surface;
+	surface.input = &history.input;
+	surface.startFlips = &history.startFlips;
+	surface.start = &history.start.triangulation;
+	surface.startLengths = &history.start.lengths;
+	surface.startDelta = &history.startDelta;
+	surface.startRadii = &history.startRadii;
+	surface.flowFlips = &history.flowFlips;
+	surface.end = &flow.metric->triangulation();
+	surface.endLengths = &flow.metric->lengths();
+	surface.endAngles = &flow.metric->angles();
+	surface.endU = &flow.u;
+	surface.background = background;
+	surface.keptFaces = base.faceCount();
+	surface.cornersOnly = cornersOnly;
+	for (int e = 0; e < base.edgeCount(); ++e)
+		if (endsAtBoundary && base.isBoundaryEdge(e))
+			isCut[at(e)] = 1;
+	isCut.resize(at(history.input.edgeCount()), 0);
+	return commonRefinement(surface, positions, isCut);
+}
+
 void appendRefinement(
 	const CommonRefinement& refinement,
 	const Component& component,

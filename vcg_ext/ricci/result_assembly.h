@@ -4,6 +4,7 @@
 #define RICCI_RESULT_ASSEMBLY_H
 
 #include "error.h"
+#include "flow/ricci_flow.h"
 #include "parametrize.h"
 #include "run_progress.h"
 #include "surface/component.h"
@@ -20,6 +21,20 @@ void startResult(
 	OutputTriangulation output,
 	const std::vector<Component>& components,
 	Parametrization& result);
+
+/// The overlay of the triangles that the flow with flips went through, for the faces of \p base, the
+/// triangulation of the component. \p isCut [edge of base]: where the layout is cut.
+/// \param endsAtBoundary whether the flow's surface goes on beyond that of base (its double, caps on
+/// holes), which then ends there
+/// \param cornersOnly see FlippedSurface
+CommonRefinement overlayOfFlow(
+	const FlowResult& flow,
+	Background background,
+	const Triangulation& base,
+	const std::vector<Point3>& positions,
+	std::vector<char> isCut,
+	bool endsAtBoundary,
+	bool cornersOnly);
 
 /// Appends the refinement of one component, in the indices and the orientation of the whole input.
 void appendRefinement(
