@@ -125,7 +125,7 @@ mkdir -p "$build/sources"
 say "Packages"
 install_packages "${packages_build[@]}" "${packages_meshlab[@]}" "${packages_python[@]}"
 say "MeshLab's headers"
-fetch_sources 2020.09 2025.07
+fetch_sources 2020.09 2022.02 2025.07
 say "PyMeshLab"
 make_venv
 say "Build"

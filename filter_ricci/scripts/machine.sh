@@ -91,7 +91,7 @@ fetch_sources() {
 	done
 	[ ${#wanted[@]} -gt 0 ] || return 0
 	if ! command -v apt-get >/dev/null || ! source_apt_options; then
-		skipped "MeshLab sources (${wanted[*]}): this machine has no Debian package archive. Name source trees with -DMESHLAB_2020_SOURCE_DIR=... and -DMESHLAB_2025_SOURCE_DIR=..."
+		skipped "MeshLab sources (${wanted[*]}): this machine has no Debian package archive. Name source trees with -DMESHLAB_2020_SOURCE_DIR=..., -DMESHLAB_2022_SOURCE_DIR=... and -DMESHLAB_2025_SOURCE_DIR=..."
 		return 0
 	fi
 	apt-get "${apt_options[@]}" update -q >"$build/sources/apt.log" 2>&1 || true

@@ -209,6 +209,14 @@ def write_ply(path, mesh):
             out.write(struct.pack(f"<B{len(face)}i", len(face), *face))
 
 
+def name_texture(path, image):
+    """Makes the host load an image with a PLY file, to be seen once there are coordinates for it."""
+    with open(path, "rb") as source:
+        content = source.read()
+    with open(path, "wb") as out:
+        out.write(content.replace(b"\nelement", f"\ncomment TextureFile {image}\nelement".encode(), 1))
+
+
 _FORMATS = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I",
             "float": "f", "double": "d"}
 

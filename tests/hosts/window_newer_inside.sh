@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The part of window_2025.sh that runs inside the newer Debian, in a folder with all it needs.
+# VERSION: the part of window_newer.sh that runs inside the newer Debian, in a folder with all it needs.
 set -euo pipefail
+version=$1
+year=${version%.*}
 cd /ricci
 source ./window.sh
 name="Generalized Ricci Flow (Euclidean)"
@@ -10,11 +12,25 @@ hyperbolic="Generalized Ricci Flow (Hyperbolic)"
 fail() {
 	echo "FAILED: $*"
 	tail -n 30 "$meshlab_log" || true
-	picture failed_2025.png || true
+	picture "failed_$year.png" || true
 	exit 1
 }
 
-extra=MeshLab_64bit_fp/MeshLabExtraPlugins/2025.07/libfilter_ricci.so
+extra=MeshLab_64bit_fp/MeshLabExtraPlugins/$version/libfilter_ricci.so
+
+open_mesh() {
+	open_meshlab meshlab "$1" || fail "MeshLab did not open $1"
+}
+
+# apply FILTER PICTURE: the filter in its dialog, on the open mesh.
+apply() {
+	open_filter "$1" || fail "the dialog of $1 did not open"
+	press_apply "$1"
+	wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "no result of $1 in the log"
+	sleep 2
+	picture "$2_$year.png"
+	close_meshlab
+}
 
 # Help > Plugin Info > Load Plugins, as a person would.
 load_plugin() {
@@ -40,7 +56,11 @@ load_plugin() {
 	wait_until 10 test -f "$HOME/.local/share/VCG/$extra" || xdotool key Return
 	wait_until 60 test -f "$HOME/.local/share/VCG/$extra" || return 1
 	sleep 6
-	picture plugin_2025.png
+	# The list finds a name that is typed, and shows its row.
+	xdotool mousemove --window "$dialog" 150 100 click 1
+	xdotool type --delay 20 FilterRicci
+	sleep 1
+	picture "plugin_$year.png"
 	xdotool key Escape # Return would press Load Plugins again
 	sleep 3
 }
@@ -48,29 +68,20 @@ load_plugin() {
 trap close_display EXIT
 open_display /ricci/display || { echo "SKIPPED: no display could be opened"; exit 77; }
 rm -f "$HOME/.local/share/VCG/$extra"
-open_meshlab meshlab torus.ply || fail "MeshLab did not open the torus"
+open_mesh torus.ply
 load_plugin || fail "the plugin was not loaded through the menu"
-open_filter "$name" || fail "the filter's dialog did not open"
-picture dialog_2025.png
-press_apply "$name"
-wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "no result in the log"
-sleep 2
-picture result_2025.png
-close_meshlab
-open_meshlab meshlab double_torus.ply || fail "MeshLab did not open the double torus"
-open_filter "$hyperbolic" || fail "the hyperbolic filter's dialog did not open"
-press_apply "$hyperbolic"
-wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "no result in the log"
-sleep 2
-picture hyperbolic_2025.png
-close_meshlab
-open_meshlab meshlab moebius.ply || fail "MeshLab did not open the Moebius band"
+apply "$name" result
+open_mesh double_torus.ply
+apply "$hyperbolic" hyperbolic
+open_mesh moebius.ply
 open_filter "$name" || fail "the filter's dialog did not open"
 press_apply "$name"
 wait_until 60 xdotool search --onlyvisible --name 'Filter Failure' || fail "no message box"
 sleep 1
-picture refused_2025.png
+picture "refused_$year.png"
 xdotool key Return
 sleep 2
 kill -0 "$meshlab_pid" || fail "MeshLab has ended"
-echo "Both filters ran in the window of MeshLab 2025.07, loaded through its menu."
+montage "plugin_$year.png" "result_$year.png" "hyperbolic_$year.png" "refused_$year.png" -tile 2x2 \
+	-geometry 1000x+4+4 -strip +dither -colors 255 -define png:compression-level=9 "window_$year.png"
+echo "Both filters ran in the window of MeshLab $version, loaded through its menu."
