@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -38,6 +39,10 @@ public:
 	virtual bool scaleInvariant() const = 0;
 
 	const CirclePacking& packing() const { return m_packing; }
+
+	/// Gives the packing away, for a map of other precision; nothing else may be asked of this one
+	/// afterwards but revision() and flips().
+	CirclePacking releasePacking() { return std::move(m_packing); }
 	const Triangulation& triangulation() const { return m_packing.triangulation; }
 	const std::vector<double>& delta() const { return m_packing.delta; }
 

@@ -399,10 +399,11 @@ private:
 	NewtonResult solveExtended()
 	{
 		m_flipsBefore = flowFlips();
+		CirclePacking packing = m_map->releasePacking();
 		std::shared_ptr<CurvatureMap> map =
 			m_background == Background::EuclideanPlane
-				? makeMap<EuclideanGeometry<long double>>(m_map->packing())
-				: makeMap<HyperbolicGeometry<long double>>(m_map->packing());
+				? makeMap<EuclideanGeometry<long double>>(std::move(packing))
+				: makeMap<HyperbolicGeometry<long double>>(std::move(packing));
 		m_newton->continueOn(*map);
 		m_map = std::move(map);
 		return solveFor(m_options.epsilon);
