@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole way from a mesh to the Poincaré disk.
+#include "support/complex.h"
+#include "support/expect.h"
+#include "support/flat_map.h"
 #include "support/flipped_flow.h"
+#include "support/impatient.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 #include "support/transform.h"
@@ -23,14 +27,6 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-using Complex = std::complex<double>;
-using UV = std::vector<std::array<Point2, 3>>;
-
-Complex asComplex(const Point2& p)
-{
-	return {p[0], p[1]};
-}
-
 Parametrization
 run(const SurfaceMesh& mesh, const HyperbolicOptions& options = {}, const VertexInput& input = {})
 {
@@ -50,31 +46,7 @@ template<class E>
 std::string
 reason(const SurfaceMesh& mesh, const HyperbolicOptions& options, const VertexInput& input = {})
 {
-	try {
-		run(mesh, options, input);
-	}
-	catch (const E& error) {
-		return error.what();
-	}
-	catch (const Error& error) {
-		ADD_FAILURE() << "another kind of error: " << error.what();
-	}
-	return "";
-}
-
-void expectWords(const std::string& sentence, const std::vector<std::string>& words)
-{
-	for (const std::string& word : words)
-		EXPECT_NE(sentence.find(word), std::string::npos) << word << " is not in: " << sentence;
-}
-
-VertexInput selecting(const SurfaceMesh& mesh, const std::vector<int>& vertices)
-{
-	VertexInput input;
-	input.selected.assign(mesh.positions.size(), 0);
-	for (int v : vertices)
-		input.selected[at(v)] = 1;
-	return input;
+	return sentenceOf<E>([&] { run(mesh, options, input); });
 }
 
 SurfaceMesh genusTwo(std::uint64_t seed = 700, int subdivision = 3)
@@ -402,23 +374,6 @@ TEST(ParametrizeHyperbolic, TheGivenTriangulationCanBeKept)
 		EXPECT_NEAR(K, 0.0, 1e-8);
 	EXPECT_NEAR(area / (4 * kPi), 1.0, 1e-8);
 }
-
-/// Cancels at the n-th call and keeps all fractions.
-class Impatient : public Progress
-{
-public:
-	explicit Impatient(int last) : m_last(last) {}
-	bool update(double fraction, const std::string&) override
-	{
-		fractions.push_back(fraction);
-		return static_cast<int>(fractions.size()) < m_last;
-	}
-
-	std::vector<double> fractions;
-
-private:
-	int m_last;
-};
 
 TEST(ParametrizeHyperbolic, CanBeCancelledAtEveryCall)
 {

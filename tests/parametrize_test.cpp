@@ -2,6 +2,7 @@
 // The whole way from a mesh to the plane, on surfaces whose conformal map is known or whose flat
 // metric can be checked in the plane.
 #include "support/flat_map.h"
+#include "support/impatient.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 #include "support/transform.h"
@@ -43,15 +44,6 @@ double surfaceArea(const SurfaceMesh& mesh)
 		area += triangleArea(
 			{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]});
 	return area;
-}
-
-VertexInput selecting(const SurfaceMesh& mesh, const std::vector<int>& vertices)
-{
-	VertexInput input;
-	input.selected.assign(mesh.positions.size(), 0);
-	for (int v : vertices)
-		input.selected[at(v)] = 1;
-	return input;
 }
 
 /// A bumpy patch with a round outline that is not centred on anything.
@@ -520,25 +512,6 @@ TEST(Parametrize, TellsWhyItStoppedEarly)
 	EXPECT_NE(sentence.find("after 1 Newton steps"), std::string::npos) << sentence;
 	EXPECT_NE(sentence.find("raise max_iterations"), std::string::npos) << sentence;
 }
-
-/// Cancels at the n-th call and keeps all fractions.
-class Impatient : public Progress
-{
-public:
-	explicit Impatient(int last) : m_last(last) {}
-	bool update(double fraction, const std::string&) override
-	{
-		fractions.push_back(fraction);
-		return static_cast<int>(fractions.size()) < m_last;
-	}
-	void log(const std::string& line) override { lines.push_back(line); }
-
-	std::vector<double> fractions;
-	std::vector<std::string> lines;
-
-private:
-	int m_last;
-};
 
 TEST(Parametrize, ProgressRisesFromZeroToOne)
 {

@@ -11,11 +11,12 @@ Each mesh is a task, and each task a process of its own: a crash or a hang of a 
 mesh and nothing else. For meshes/a/b.off the folder out then holds a/b.off.json (state, results or
 reason, seconds) and a/b.off.ply, written last and renamed into place. A mesh whose .json is there is
 not run again unless mesh, parameters or plugin differ: a run that was interrupted goes on where it
-stopped, and what a lost worker held is given to another. --retry runs again what crashed or ran out of time;
-refusals stay, they would be the same. At the end out/results.csv has a row for each mesh and
+stopped, and what a lost worker held is given to another. --retry runs again what crashed or ran out of
+time; refusals stay, they would be the same. At the end out/results.csv has a row for each mesh and
 out/failures.txt the meshes without a result, with the reason.
 
-With a cluster the plugin and both folders must have the same paths on every machine.
+one_mesh.py has to lie beside this file. With a cluster both files, the plugin and both folders must
+have the same paths on every machine.
 Exit: 0 every mesh has a result or a refusal, 1 some crashed, ran out of time or were lost.
 """
 
@@ -29,7 +30,8 @@ import subprocess
 import sys
 import time
 
-FILTER = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge"
+from one_mesh import FILTER, parameters_of
+
 ENDINGS = (".ply", ".off", ".obj", ".stl")
 FINAL = ("solved", "refused")  # states that a second run would only repeat
 FAILED = ("crashed", "timeout")
@@ -49,18 +51,6 @@ def parse(arguments):
     parser.add_argument("--timeout", type=float, default=3600, help="seconds for one mesh")
     parser.add_argument("--retry", action="store_true", help="run failures again")
     return parser.parse_args(arguments)
-
-
-def value(text):
-    """A parameter's value as Python has it: bool, int, float or str."""
-    if text in ("true", "false"):
-        return text == "true"
-    for kind in (int, float):
-        try:
-            return kind(text)
-        except ValueError:
-            pass
-    return text
 
 
 def find_meshes(folder):
@@ -227,8 +217,7 @@ def main(arguments):
         import dask.distributed  # noqa: F401
     except ImportError:
         sys.exit('Dask is missing: pip install "dask[distributed]"')
-    parameters = {name: value(text)
-                  for name, _, text in (pair.partition("=") for pair in options.set)}
+    parameters = parameters_of(options.set)
     plugin, folder, out = (os.path.abspath(p) for p in (options.plugin, options.meshes, options.out))
     if not os.path.isfile(plugin):
         sys.exit(f"There is no plugin {plugin}.")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compares two shapes by their conformal invariants.
+"""Compares two shapes by their conformal invariants. one_mesh.py has to lie beside this file.
 
     python compare_shapes.py PLUGIN MESH MESH
 
@@ -15,7 +15,7 @@ import sys
 
 import pymeshlab
 
-FILTER = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge"
+from one_mesh import FILTER
 
 
 def invariants(path):

@@ -11,8 +11,6 @@ filter refuses the mesh, and says why.
 
 import sys
 
-import pymeshlab
-
 FILTER = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge"
 
 
@@ -28,11 +26,17 @@ def value(text):
     return text
 
 
+def parameters_of(pairs):
+    """The parameters that texts like id=value name, batch.py's too."""
+    return {name: value(text) for name, _, text in (pair.partition("=") for pair in pairs)}
+
+
 def main(arguments):
     if len(arguments) < 3:
         sys.exit(__doc__)
+    import pymeshlab
     plugin, mesh, out, *pairs = arguments
-    parameters = {name: value(text) for name, _, text in (pair.partition("=") for pair in pairs)}
+    parameters = parameters_of(pairs)
     pymeshlab.load_plugin(plugin)
     documents = pymeshlab.MeshSet(verbose=False)
     documents.load_new_mesh(mesh)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/derivative.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -19,25 +20,6 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 using Map = GeometricCurvatureMap<Euclidean>;
-
-/// A symmetric matrix from its lower triangle.
-Eigen::MatrixXd bothTriangles(const Hessian::Matrix& matrix)
-{
-	const Eigen::MatrixXd lower = matrix;
-	return lower.selfadjointView<Eigen::Lower>();
-}
-
-/// The whole Hessian with all vertices unknown, both triangles.
-Eigen::MatrixXd denseHessian(const Map& map, double shift = 0.0)
-{
-	const int n = map.triangulation().vertexCount();
-	std::vector<int> unknown(at(n));
-	std::iota(unknown.begin(), unknown.end(), 0);
-	Hessian hessian;
-	hessian.layOut(map, unknown, n);
-	hessian.fill(map, shift);
-	return bothTriangles(hessian.matrix());
-}
 
 /// Two triangles of a flat torus, one of them cut into three by a second vertex: loops at the first
 /// vertex, and several edges between the two.
@@ -91,21 +73,10 @@ TEST(Hessian, EveryEntryIsTheDerivativeOfTheCurvature)
 		// A sliver's angles vary on the scale of the reciprocal of its weights.
 		const double h = 1e-4 / std::max(1.0, largest);
 		const double noise = 16 * kEpsilon * std::max(map.needleRatio(), largest * 4.0) / h;
-		const auto difference = [&](Eigen::Index j, double step) {
-			Eigen::VectorXd moved = u;
-			moved[j] = u[j] + step;
-			const double above = moved[j];
-			map.evaluate(moved);
-			Eigen::VectorXd K = map.curvature();
-			moved[j] = u[j] - step;
-			const double below = moved[j];
-			map.evaluate(moved);
-			K -= map.curvature();
-			return Eigen::VectorXd(K / (above - below));
-		};
 		EXPECT_LT(noise, 1e-4 * largest);
 		for (Eigen::Index j = 0; j < u.size(); ++j) {
-			const Eigen::VectorXd coarse = difference(j, h), fine = difference(j, 0.5 * h);
+			const Eigen::VectorXd coarse = curvatureSlope(map, u, j, h);
+			const Eigen::VectorXd fine = curvatureSlope(map, u, j, 0.5 * h);
 			const Eigen::VectorXd extrapolated = (4.0 * fine - coarse) / 3.0;
 			for (Eigen::Index i = 0; i < u.size(); ++i) {
 				const double truncation = std::abs(coarse[i] - fine[i]);

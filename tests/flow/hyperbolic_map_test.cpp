@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CurvatureMap and Hessian with the hyperbolic background.
+#include "support/derivative.h"
 #include "support/flipped_flow.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
@@ -53,18 +54,6 @@ Eigen::VectorXd disturbed(Eigen::VectorXd u, double spread, Random& random)
 	return u;
 }
 
-Eigen::MatrixXd denseHessian(const CurvatureMap& map)
-{
-	const int n = map.triangulation().vertexCount();
-	std::vector<int> unknown(at(n));
-	std::iota(unknown.begin(), unknown.end(), 0);
-	Hessian hessian;
-	hessian.layOut(map, unknown, n);
-	hessian.fill(map, 0.0);
-	const Eigen::MatrixXd lower = hessian.matrix();
-	return lower.selfadjointView<Eigen::Lower>();
-}
-
 /// The derivative of K by u_j where the combinatorics of the map are kept: central differences in
 /// extended precision, extrapolated.
 Eigen::MatrixXd differences(const CurvatureMap& state, const Eigen::VectorXd& u)
@@ -73,18 +62,7 @@ Eigen::MatrixXd differences(const CurvatureMap& state, const Eigen::VectorXd& u)
 	Eigen::MatrixXd derivative(u.size(), u.size());
 	const double h = 1e-3 * std::min(1.0, -u.maxCoeff());
 	for (Eigen::Index j = 0; j < u.size(); ++j) {
-		const auto slope = [&](double step) {
-			Eigen::VectorXd moved = u;
-			moved[j] = u[j] + step;
-			const double above = moved[j];
-			map.evaluate(moved);
-			Eigen::VectorXd K = map.curvature();
-			moved[j] = u[j] - step;
-			const double below = moved[j];
-			map.evaluate(moved);
-			K -= map.curvature();
-			return Eigen::VectorXd(K / (above - below));
-		};
+		const auto slope = [&](double step) { return curvatureSlope(map, u, j, step); };
 		const Eigen::VectorXd a = slope(h), b = slope(h / 2), c = slope(h / 4);
 		const Eigen::VectorXd ab = (4 * b - a) / 3, bc = (4 * c - b) / 3;
 		derivative.col(j) = (16 * bc - ab) / 15;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/expect.h"
 #include "support/flipped_flow.h"
 #include "support/intrinsic.h"
 #include "support/shapes.h"
@@ -40,22 +41,7 @@ HyperbolicRequest cones(const std::vector<int>& vertices, double angle, std::siz
 template<class E>
 std::string refusal(const SurfaceMesh& mesh, const HyperbolicRequest& request)
 {
-	try {
-		choose(mesh, request);
-	}
-	catch (const E& error) {
-		return error.what();
-	}
-	catch (const Error& error) {
-		ADD_FAILURE() << "another kind of error: " << error.what();
-	}
-	return "";
-}
-
-void expectWords(const std::string& sentence, const std::vector<std::string>& words)
-{
-	for (const std::string& word : words)
-		EXPECT_NE(sentence.find(word), std::string::npos) << word << " is not in: " << sentence;
+	return sentenceOf<E>([&] { choose(mesh, request); });
 }
 
 TEST(HyperbolicTarget, AHyperbolicMetricHasNoCurvature)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The flow with intrinsic flips, seen from its result alone.
+#include "support/expect.h"
 #include "support/flipped_flow.h"
 #include "support/implicit_surface.h"
 #include "support/intrinsic.h"
@@ -28,15 +29,7 @@ constexpr double kPi = 3.14159265358979323846;
 /// The target is reached, by the flow's word and by the lengths it gives.
 void expectReached(const FlippedFlow& flow)
 {
-	const FlowResult& r = flow.result;
-	EXPECT_LE(r.residual, std::max(1e-10, r.floor));
-	EXPECT_LE(r.floor, 1e-8);
-	EXPECT_EQ(r.metric->brokenTriangles(), 0);
-	EXPECT_TRUE(r.u.allFinite());
-	const MetricMeasure measure(r.metric->triangulation(), r.metric->lengths());
-	EXPECT_EQ(measure.broken, 0);
-	const IndependentError independent(flow);
-	EXPECT_LE(independent.error, std::max(1e-10, r.floor) + independent.rounding);
+	expectTarget<MetricMeasure>(flow, 1e-8);
 }
 
 /// Least weight of an edge, relative to the terms it is made of, from lengths and radii alone: the

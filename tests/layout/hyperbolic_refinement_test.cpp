@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The common refinement and the layout of hyperbolic results.
 #include "support/bolza.h"
+#include "support/complex.h"
 #include "support/flipped_flow.h"
 #include "support/implicit_surface.h"
 #include "support/intrinsic.h"
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <string>
 #include <vector>
 
@@ -25,13 +25,6 @@ namespace ricci::testing {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-using Complex = std::complex<double>;
-
-Complex asComplex(const Point2& p)
-{
-	return {p[0], p[1]};
-}
 
 struct Problem
 {

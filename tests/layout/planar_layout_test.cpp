@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/complex.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -12,19 +13,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 namespace ricci::testing {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-using Complex = std::complex<double>;
-
-Complex asComplex(const Point2& p)
-{
-	return {p[0], p[1]};
-}
 
 struct LaidOut
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_map.h"
 
+#include "complex.h"
 #include "shapes.h"
 
 #include <ricci/error.h>
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
 
 namespace ricci::testing {
@@ -16,13 +16,6 @@ namespace ricci::testing {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-using Complex = std::complex<double>;
-
-Complex asComplex(const Point2& p)
-{
-	return {p[0], p[1]};
-}
 
 } // namespace
 
@@ -82,6 +75,15 @@ Parametrization run(const SurfaceMesh& mesh, const Options& options, const Verte
 {
 	Progress silent;
 	return parametrizeEuclidean(mesh, input, options, silent);
+}
+
+VertexInput selecting(const SurfaceMesh& mesh, const std::vector<int>& vertices)
+{
+	VertexInput input;
+	input.selected.assign(mesh.positions.size(), 0);
+	for (int v : vertices)
+		input.selected[at(v)] = 1;
+	return input;
 }
 
 Options fixedTriangulation(TargetCurvature target)

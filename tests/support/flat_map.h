@@ -32,6 +32,9 @@ struct FlatMap
 /// Runs the core with a listener that never cancels.
 Parametrization run(const SurfaceMesh& mesh, const Options& options, const VertexInput& input = {});
 
+/// These vertices selected.
+VertexInput selecting(const SurfaceMesh& mesh, const std::vector<int>& vertices);
+
 /// Options of the flow on the given triangulation.
 Options fixedTriangulation(TargetCurvature target = TargetCurvature::Automatic);
 

@@ -75,4 +75,17 @@ SurfaceMesh shaken(SurfaceMesh mesh, double amount, Random& random)
 	return mesh;
 }
 
+std::vector<SurfaceMesh> surfacesOfEveryKind(Random& random)
+{
+	std::vector<SurfaceMesh> meshes;
+	for (int genus = 0; genus <= 3; ++genus) {
+		meshes.push_back(shaken(perforatedSlab(genus, 3), 0.03, random));
+		meshes.push_back(withoutStars(meshes.back(), {0}));
+		meshes.push_back(withoutStars(perforatedSlab(genus, 3), {0, 40}));
+	}
+	meshes.push_back(bumpyTorus(14, 9, random));
+	meshes.push_back(ring(1, 4, 12, 5));
+	return meshes;
+}
+
 } // namespace ricci::testing

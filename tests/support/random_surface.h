@@ -6,6 +6,8 @@
 
 #include <ricci/surface/surface_mesh.h>
 
+#include <vector>
+
 namespace ricci::testing {
 
 /// Random triangulation of about the unit square at z = 0: a grid of n x n cells with jittered
@@ -21,6 +23,9 @@ SurfaceMesh bumpyTorus(int nu, int nv, Random& random);
 
 /// Every vertex moved by up to \p amount in each coordinate.
 SurfaceMesh shaken(SurfaceMesh mesh, double amount, Random& random);
+
+/// Genus 0 to 3, each closed, with one boundary loop and with two; a torus and an annulus.
+std::vector<SurfaceMesh> surfacesOfEveryKind(Random& random);
 
 /// The diagonal of each pair of triangles (2 i, 2 i + 1) that form a cell of grid() swapped at
 /// random.

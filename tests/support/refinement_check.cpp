@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refinement_check.h"
 
+#include "complex.h"
 #include "shapes.h"
 
 #include <ricci/layout/distortion.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 namespace ricci::testing {
 
@@ -19,13 +19,6 @@ constexpr double kPi = 3.14159265358979323846;
 
 /// Rounding of a place in the plane, relative to the size of the map.
 constexpr double kPlaceRounding = 1e-15;
-
-using Complex = std::complex<double>;
-
-Complex asComplex(const Point2& p)
-{
-	return {p[0], p[1]};
-}
 
 /// The refinement as glued triangles with their places in the plane.
 struct Glued
