@@ -4,8 +4,10 @@
 #include "../numbers.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
+#include <map>
 #include <queue>
 #include <utility>
 
@@ -52,18 +54,22 @@ public:
 		m_queue.push({distance, v});
 	}
 
-	/// The next vertex whose distance is final, or -1 if none nearer than \p bound is left.
+	/// Distance of the vertex whose turn is next, infinite if none is left.
+	double nearest()
+	{
+		while (!m_queue.empty() && m_queue.top().first != m_distance[at(m_queue.top().second)])
+			m_queue.pop();
+		return m_queue.empty() ? kFar : m_queue.top().first;
+	}
+
+	/// The next vertex, whose distance is final, or -1 if none nearer than \p bound is left.
 	int next(double bound)
 	{
-		while (!m_queue.empty()) {
-			const auto [distance, v] = m_queue.top();
-			if (!(distance < bound))
-				return -1;
-			m_queue.pop();
-			if (distance == m_distance[at(v)])
-				return v;
-		}
-		return -1;
+		if (!(nearest() < bound))
+			return -1;
+		const int v = m_queue.top().second;
+		m_queue.pop();
+		return v;
 	}
 
 	double operator[](int v) const { return m_distance[at(v)]; }
@@ -106,19 +112,37 @@ public:
 			if (marked[at(v)] && !m_boundary[at(v)] && m_any[at(v)] >= 0)
 				m_marks.push_back(v);
 		m_distances.assign(3, Distances(t.vertexCount()));
+		m_onGraph.resize(at(t.vertexCount()));
+		for (int v = 0; v < t.vertexCount(); ++v)
+			noteVertex(v);
+		m_usable.resize(at(t.edgeCount()));
+		for (int e = 0; e < t.edgeCount(); ++e)
+			noteEdge(e);
 	}
 
 	void run()
 	{
+		std::map<int, int> failedExchange, failedRebuild; // by edge and vertex: changes until then
+		int changes = 0;
 		for (int round = 0; round < kMostRounds; ++round) {
-			bool changed = false;
+			const int before = changes;
+			const auto attempt =
+				[&](std::map<int, int>& failed, int element, bool (Shortener::*move)(int)) {
+					const auto [at, first] = failed.try_emplace(element, -1);
+					if (at->second == changes)
+						return; // nothing has changed since it failed
+					if ((this->*move)(element))
+						++changes;
+					else
+						at->second = changes;
+				};
 			for (int e : representatives())
 				if (m_isCut[at(e)])
-					changed |= exchange(e);
+					attempt(failedExchange, e, &Shortener::exchange);
 			for (int v : joints())
 				if (m_degree[at(v)] > 1)
-					changed |= rebuild(v);
-			if (!changed)
+					attempt(failedRebuild, v, &Shortener::rebuild);
+			if (changes == before)
 				return;
 		}
 	}
@@ -130,15 +154,17 @@ private:
 	}
 
 	/// Whether \p v lies on the cut or the boundary, or must be reached by the cut.
-	bool onGraph(int v) const
-	{
-		return m_degree[at(v)] > 0 || m_marked[at(v)] || m_boundary[at(v)];
-	}
-
+	bool onGraph(int v) const { return m_onGraph[at(v)]; }
 	bool isBorder(int e) const { return m_isCut[at(e)] || m_t.isBoundaryEdge(e); }
-	bool usable(int e) const
+	bool usable(int e) const { return m_usable[at(e)]; }
+
+	void noteVertex(int v)
 	{
-		return !isBorder(e) && (m_forbidden.empty() || !m_forbidden[at(e)]);
+		m_onGraph[at(v)] = m_degree[at(v)] > 0 || m_marked[at(v)] || m_boundary[at(v)];
+	}
+	void noteEdge(int e)
+	{
+		m_usable[at(e)] = !isBorder(e) && (m_forbidden.empty() || !m_forbidden[at(e)]);
 	}
 
 	/// Halfedges that leave \p v, each once.
@@ -161,8 +187,11 @@ private:
 		if (cut)
 			m_cutEdges.push_back(e);
 		const int by = cut ? 1 : -1;
-		m_degree[at(m_t.origin(2 * e))] += by;
-		m_degree[at(m_t.target(2 * e))] += by;
+		for (int v : {m_t.origin(2 * e), m_t.target(2 * e)}) {
+			m_degree[at(v)] += by;
+			noteVertex(v);
+		}
+		noteEdge(e);
 	}
 
 	/// Appends the cut edges from halfedge \p h on to the next node, \p h included. \return the node
@@ -314,11 +343,13 @@ private:
 		return count;
 	}
 
-	void startFrom(int circle, double bound, Distances& distances)
+	/// Distances from the circles for which \p chosen(circle) holds.
+	template<class Chosen>
+	void startFrom(Chosen chosen, double bound, Distances& distances)
 	{
 		distances.clear();
 		for (int h : m_labelled)
-			if (m_circle[at(h)] == circle && usable(Triangulation::edge(h)) &&
+			if (chosen(m_circle[at(h)]) && usable(Triangulation::edge(h)) &&
 				!onGraph(m_t.target(h)) && m_cost[at(Triangulation::edge(h))] < bound)
 				distances.offer(m_t.target(h), m_cost[at(Triangulation::edge(h))], h);
 	}
@@ -344,38 +375,69 @@ private:
 		return !path.empty();
 	}
 
+	/// A shortest path between circles of two sets.
+	struct Bridge
+	{
+		double length;
+		int halfedge = -1; // where the searches from both ends met, or -1
+	};
+
+	/// Shortest path from a circle with \p isStart to one with \p isEnd, shorter than \p bound, by
+	/// searches from both ends. Of these the one that has seen less goes on, so that a path to a
+	/// point does not cost a search from all of a long cut.
+	template<class IsStart, class IsEnd>
+	Bridge shortestPath(IsStart isStart, IsEnd isEnd, double bound)
+	{
+		Bridge best{bound};
+		const auto offer = [&](int h, double length) {
+			if (length < best.length)
+				best = {length, h};
+		};
+		for (int h : m_labelled)
+			if (isStart(m_circle[at(h)]) && usable(Triangulation::edge(h)) &&
+				m_circle[at(Triangulation::twin(h))] >= 0 &&
+				isEnd(m_circle[at(Triangulation::twin(h))]))
+				offer(h, m_cost[at(Triangulation::edge(h))]);
+		Distances &from = m_distances[0], &to = m_distances[1];
+		startFrom(isStart, best.length, from);
+		startFrom(isEnd, best.length, to);
+		const auto step = [&](Distances& own, const Distances& other, auto isOther, auto towards) {
+			const int v = own.next(best.length);
+			around(v, [&](int h) {
+				const int e = Triangulation::edge(h), w = m_t.target(h);
+				if (!usable(e))
+					return;
+				const double d = own[v] + m_cost[at(e)];
+				if (onGraph(w)) {
+					if (isOther(m_circle[at(Triangulation::twin(h))]))
+						offer(towards(h), d);
+					return;
+				}
+				if (!(d < best.length))
+					return;
+				own.offer(w, d, h);
+				offer(towards(h), d + other[w]);
+			});
+		};
+		while (from.nearest() + to.nearest() < best.length)
+			if (from.reached().size() <= to.reached().size())
+				step(from, to, isEnd, [](int h) { return h; });
+			else
+				step(to, from, isStart, [](int h) { return Triangulation::twin(h); });
+		return best;
+	}
+
 	/// Shortest path from circle 0 to another, empty if none is shorter than \p bound.
 	std::vector<int> shortestBridge(double bound)
 	{
-		Distances& distances = m_distances.front();
-		startFrom(0, bound, distances);
-		double least = bound;
-		int last = -1; // halfedge that arrives at the other circle
-		const auto arrive = [&](int h, double before) {
-			const double whole = before + m_cost[at(Triangulation::edge(h))];
-			if (m_circle[at(Triangulation::twin(h))] > 0 && whole < least) {
-				least = whole;
-				last = h;
-			}
-		};
-		for (int h : m_labelled)
-			if (m_circle[at(h)] == 0 && usable(Triangulation::edge(h)))
-				arrive(h, 0.0);
-		for (int v; (v = distances.next(least)) >= 0;)
-			around(v, [&](int h) {
-				if (!usable(Triangulation::edge(h)))
-					return;
-				if (onGraph(m_t.target(h)))
-					arrive(h, distances[v]);
-				else if (const double d = distances[v] + m_cost[at(Triangulation::edge(h))];
-						 d < least)
-					distances.offer(m_t.target(h), d, h);
-			});
+		const Bridge bridge = shortestPath(
+			[](int circle) { return circle == 0; }, [](int circle) { return circle > 0; }, bound);
 		std::vector<int> path;
-		if (last < 0)
+		if (bridge.halfedge < 0)
 			return path;
-		path.push_back(Triangulation::edge(last));
-		appendPath(distances, m_t.origin(last), path);
+		path.push_back(Triangulation::edge(bridge.halfedge));
+		appendPath(m_distances[0], m_t.origin(bridge.halfedge), path);
+		appendPath(m_distances[1], m_t.target(bridge.halfedge), path);
 		return path;
 	}
 
@@ -441,13 +503,22 @@ private:
 	/// than \p bound together.
 	std::vector<int> bestTripod(double bound)
 	{
+		// Two of the paths join their circles, so the third has at most the rest of the bound.
+		std::array<double, 3> longest;
+		for (int circle = 0; circle < 3; ++circle) {
+			const int second = (circle + 1) % 3, third = (circle + 2) % 3;
+			const Bridge opposite = shortestPath(
+				[&](int c) { return c == second; }, [&](int c) { return c == third; }, bound);
+			longest[at(circle)] = bound - opposite.length;
+		}
 		for (int circle = 0; circle < 3; ++circle) {
 			Distances& distances = m_distances[at(circle)];
-			startFrom(circle, bound, distances);
-			for (int v; (v = distances.next(bound)) >= 0;)
+			const double limit = longest[at(circle)];
+			startFrom([&](int c) { return c == circle; }, limit, distances);
+			for (int v; (v = distances.next(limit)) >= 0;)
 				around(v, [&](int h) {
 					const double d = distances[v] + m_cost[at(Triangulation::edge(h))];
-					if (usable(Triangulation::edge(h)) && !onGraph(m_t.target(h)) && d < bound)
+					if (usable(Triangulation::edge(h)) && !onGraph(m_t.target(h)) && d < limit)
 						distances.offer(m_t.target(h), d, h);
 				});
 		}
@@ -485,6 +556,8 @@ private:
 	std::vector<char>& m_isCut;
 	std::vector<char> m_boundary;
 	std::vector<int> m_degree;   // [vertex] cut edges
+	std::vector<char> m_onGraph; // [vertex] the searches end there, see onGraph()
+	std::vector<char> m_usable;  // [edge] a path may run there
 	std::vector<int> m_any;      // [vertex] a halfedge that leaves it
 	std::vector<int> m_circle;   // [halfedge] boundary of the open surface at its origin, or -1
 	std::vector<int> m_labelled; // halfedges with a circle
