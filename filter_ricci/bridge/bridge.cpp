@@ -162,14 +162,16 @@ void colorizeByDistortion(MeshModel& model, const ricci::Report& report)
 }
 
 /// Nothing of what the filter writes is drawn by itself.
-const char* whereToLook(bool colorize)
+std::string whereToLook(bool colorize)
 {
-	return colorize
-			   ? "To see it: 'Set Texture' (Filters > Texture) lays an image on the surface; the "
-				 "colours show the distortion, Render > 'Quality Histogram' how it is spread."
-			   : "To see it: 'Set Texture' (Filters > Texture) lays an image on the surface; "
-				 "'Colorize by vertex Quality' (Filters > Color Creation and Processing) shows "
-				 "the distortion, Render > 'Quality Histogram' how it is spread.";
+	const std::string colours =
+		colorize
+			? "The colours show the distortion (drawn where Color is Vert)"
+			: "Filters > Color Creation and Processing > 'Colorize by vertex Quality' colours the "
+			  "mesh by its distortion";
+	return "To see it: Filters > Texture > 'Set Texture' lays an image, such as a checkerboard, "
+		   "on the surface. " +
+		   colours + "; Render > '" + host::kHistogramName + "' shows how it is spread.";
 }
 
 int changedElements(bool colorize, ricci::OutputTriangulation output)
@@ -297,6 +299,7 @@ Outcome applyFilter(
 												 : applyEuclidean(par, md, progress);
 	for (const std::string& line : toLogLines(outcome.results))
 		log(line);
+	log(toSentence(outcome.results));
 	log(whereToLook(par.getBool("colorize")));
 	return outcome;
 }

@@ -149,10 +149,9 @@ RichEnum outputTriangulationParameter(ricci::OutputTriangulation chosen)
 		"map.<br>"
 		"<b>Keep the mesh</b>: vertices and faces stay as they are; faces that come out flipped "
 		"are counted.<br>"
-		"<b>Common refinement</b>: faces are divided where the intrinsic edges cross them, so that "
-		"the map is exact on every piece and none is flipped. Vertices keep their numbers, new "
-		"ones "
-		"are appended.");
+		"<b>Common refinement</b>: faces are divided where the intrinsic edges cross them, so "
+		"that the map is exact on every piece and none is flipped. Vertices keep their numbers, "
+		"new ones are appended.");
 }
 
 RichFloat epsilonParameter(double chosen)
@@ -162,9 +161,8 @@ RichFloat epsilonParameter(double chosen)
 		static_cast<Scalarm>(chosen),
 		"Epsilon (rad)",
 		"The flow stops when the curvature of every vertex is this close to its target, in "
-		"radians. "
-		"Where rounding does not allow it, the flow stops at the floor that rounding sets, and "
-		"reports that as residual_floor.");
+		"radians. Where rounding does not allow it, the flow stops at the floor that rounding "
+		"sets, and reports that as residual_floor.");
 }
 
 RichInt iterationsParameter(int chosen)
@@ -173,9 +171,8 @@ RichInt iterationsParameter(int chosen)
 		"max_iterations",
 		chosen,
 		"Max Newton steps",
-		"One solve gives up with an error after this many Newton steps. A run takes fewer than 30 "
-		"as "
-		"a rule.");
+		"One solve gives up with an error after this many Newton steps. A run takes fewer than "
+		"30 as a rule.");
 }
 
 RichBool colorizeParameter()
@@ -185,8 +182,7 @@ RichBool colorizeParameter()
 		false,
 		"Colour by distortion",
 		"Colour the vertices by their quasi-conformal distortion: from 1 (no distortion) to the "
-		"99th "
-		"percentile over the faces.");
+		"99th percentile over the faces.");
 }
 
 RichString reportParameter()
@@ -196,10 +192,8 @@ RichString reportParameter()
 		QString(),
 		"Report file",
 		"A file for a report of the run: a page with diagrams and tables if its name ends in "
-		".html, "
-		"with the data beside it as .csv, or the data alone if it ends in .csv. Without a folder "
-		"it "
-		"lies beside the mesh. A file of that name is replaced. Empty: no report.");
+		".html, with the data beside it as .csv, or the data alone if it ends in .csv. Without a "
+		"folder it lies beside the mesh. A file of that name is replaced. Empty: no report.");
 }
 
 RichParameterList euclideanParameters()
@@ -219,95 +213,20 @@ RichParameterList euclideanParameters()
 		"torus.<br>"
 		"<b>Disk</b>: the image of a disk-like surface is a round disk.<br>"
 		"<b>Rectangle</b>: the image of a disk-like surface is a rectangle; select its four "
-		"corners "
-		"on the boundary, or none to have them chosen.<br>"
+		"corners on the boundary, or none to have them chosen.<br>"
 		"<b>Cones at selected vertices</b>: the selected vertices share the total curvature "
 		"equally, all others are flat.<br>"
 		"<b>From vertex quality</b>: each vertex's quality is its curvature in radians.<br>"
 		"<b>Placed cones</b>: a few vertices chosen so that areas change little carry the "
-		"curvature; the next three parameters say how many and how strong."));
-	list.addParam(RichInt(
-		"cone_count",
-		defaults.coneCount,
-		"Cones: number",
-		"The number of placed cones. 0: as many as it takes to reach the next parameter. Read by "
-		"<b>Placed cones</b>, and by <b>Automatic</b> on closed surfaces other than a torus."));
-	list.addParam(RichFloat(
-		"cone_distortion",
-		static_cast<Scalarm>(defaults.coneDistortion),
-		"Cones: area distortion",
-		"Cones are added until the expected area_distortion_spread is below this: the standard "
-		"deviation of the logarithm of the change of areas. 0.5 means that areas typically are 50% "
-		"larger or smaller than on average. Read where the number of cones is 0."));
-	list.addParam(RichEnum(
-		"cone_rounding",
-		static_cast<int>(defaults.coneRounding),
-		coneRoundingChoices(),
-		"Cones: curvatures",
-		"<b>Free</b>: the curvatures that change areas least.<br>"
-		"<b>Multiples of pi/2</b>: as quadrangulations need them. On a surface of genus 0 the "
-		"seams then differ by quarter turns; handles are not asked to."));
+		"curvature; the parameters 'Cones: ...' say how many and how strong."));
 	list.addParam(RichBool(
 		"free_boundary",
 		defaults.freeBoundary,
 		"Free boundary",
 		"The boundary keeps the metric that it has on the mesh, and the target curvature holds "
 		"inside only: the least distortion for a surface with boundary. Disk, Rectangle and the "
-		"flat "
-		"annulus prescribe the boundary and ignore this. No effect on closed surfaces."));
-	list.addParam(epsilonParameter(defaults.epsilon));
-	list.addParam(RichEnum(
-		"circle_packing",
-		static_cast<int>(defaults.packing),
-		circlePackingChoices(),
-		"Circle packing",
-		"<b>Inversive distance</b>: the generalized flow; circles may intersect or be disjoint, "
-		"and "
-		"the metric of the mesh is reproduced exactly.<br>"
-		"<b>Thurston</b>: the conventional flow; circles have to intersect at acute angles, so the "
-		"metric is changed where the mesh does not allow it, and distortion grows. For "
-		"comparison."));
-	list.addParam(RichEnum(
-		"surgery",
-		static_cast<int>(defaults.surgery),
-		surgeryChoices(),
-		"Surgery",
-		"What to do where the flow breaks the triangle inequality.<br>"
-		"<b>None</b>: the triangulation stays as it is.<br>"
-		"<b>Edge swap</b>: the paper's remedy, the longest edge of the broken triangle is swapped. "
-		"The mesh itself is not changed.<br>"
-		"<b>Intrinsic flips</b>: the flow runs on intrinsic triangles whose edges flip without "
-		"leaving the conformal class, so that no triangle ever breaks and every curvature that "
-		"Gauss-Bonnet allows is reached."));
+		"flat annulus prescribe the boundary and ignore this. No effect on closed surfaces."));
 	list.addParam(outputTriangulationParameter(defaults.output));
-	list.addParam(RichFloat(
-		"seam_hiding",
-		static_cast<Scalarm>(defaults.seamHiding),
-		"Seams: hide in hollows",
-		"0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to ten times "
-		"its length, so that the seams run through hollows where there are some."));
-	list.addParam(iterationsParameter(defaults.maxIterations));
-	list.addParam(RichBool(
-		"normalize_uv",
-		Flow::Params().normalizeUV,
-		"Fit into the unit square",
-		"Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale of "
-		"the metric, so that distances in the texture plane are those on the mesh where the scale "
-		"factor is 1."));
-	list.addParam(RichFloat(
-		"chart_margin",
-		static_cast<Scalarm>(Flow::Params().chartMargin),
-		"Margin of the charts",
-		"Room between two charts, and between the charts and the border of the unit square, as a "
-		"share of the side of the square: 0.004 is 4 pixels of an image 1024 wide. For baking "
-		"textures. Where the charts are not fitted into the square: of the side of the square that "
-		"holds them all."));
-	list.addParam(colorizeParameter());
-	list.addParam(RichBool(
-		"flat_layer",
-		false,
-		"Flat mesh as new layer",
-		"Add a layer with the mesh laid out in the plane, cut along its seams."));
 	list.addParam(RichEnum(
 		"holes",
 		static_cast<int>(defaults.holes),
@@ -317,8 +236,8 @@ RichParameterList euclideanParameters()
 		"<b>Boundaries</b>: boundary like the longest one, with seams that join them: less "
 		"distortion.<br>"
 		"<b>Capped</b>: each is closed by a flat cap that takes part in the flow and is not "
-		"written, so that the chart goes round the holes in one piece, without seams to them. It "
-		"needs 'Intrinsic flips' and 'Inversive distance'."));
+		"written, so that the chart goes round the holes in one piece, without seams to them. "
+		"It needs 'Intrinsic flips' and 'Inversive distance'."));
 	list.addParam(RichBool(
 		"resolve_overlap",
 		defaults.resolveOverlap,
@@ -326,13 +245,86 @@ RichParameterList euclideanParameters()
 		"A chart can cover a part of the plane twice although none of its triangles is turned "
 		"round. Such charts are cut further, along the shortest lines that part what overlaps, "
 		"into charts that do not. Off: they are counted only."));
+	list.addParam(RichInt(
+		"cone_count",
+		defaults.coneCount,
+		"Cones: number",
+		"The number of placed cones. 0: as many as it takes to reach 'Cones: area distortion'. "
+		"Read by <b>Placed cones</b>, and by <b>Automatic</b> on closed surfaces other than a "
+		"torus."));
+	list.addParam(RichFloat(
+		"cone_distortion",
+		static_cast<Scalarm>(defaults.coneDistortion),
+		"Cones: area distortion",
+		"Cones are added until the expected area_distortion_spread is below this: the standard "
+		"deviation of the logarithm of the change of areas. 0.5 means that areas typically are "
+		"50% larger or smaller than on average. Read where the number of cones is 0."));
+	list.addParam(RichEnum(
+		"cone_rounding",
+		static_cast<int>(defaults.coneRounding),
+		coneRoundingChoices(),
+		"Cones: curvatures",
+		"<b>Free</b>: the curvatures that change areas least.<br>"
+		"<b>Multiples of pi/2</b>: as quadrangulations need them. On a surface of genus 0 the "
+		"seams then differ by quarter turns; handles are not asked to."));
+	list.addParam(RichFloat(
+		"seam_hiding",
+		static_cast<Scalarm>(defaults.seamHiding),
+		"Seams: hide in hollows",
+		"0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to ten "
+		"times its length, so that the seams run through hollows where there are some."));
+	list.addParam(RichBool(
+		"normalize_uv",
+		Flow::Params().normalizeUV,
+		"Fit into the unit square",
+		"Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale "
+		"of the metric, so that distances in the texture plane are those on the mesh where the "
+		"scale factor is 1."));
+	list.addParam(RichFloat(
+		"chart_margin",
+		static_cast<Scalarm>(Flow::Params().chartMargin),
+		"Margin of the charts",
+		"Room between two charts, and between the charts and the border of the unit square, as "
+		"a share of the side of the square: 0.004 is 4 pixels of an image 1024 wide. For baking "
+		"textures. Where the charts are not fitted into the square: of the side of the square "
+		"that holds them all."));
+	list.addParam(colorizeParameter());
+	list.addParam(RichBool(
+		"flat_layer",
+		false,
+		"Flat mesh as new layer",
+		"Add a layer with the mesh laid out in the plane, cut along its seams."));
 	list.addParam(RichBool(
 		"sphere_layer",
 		false,
 		"Sphere as new layer",
-		"Add a layer with the mesh mapped conformally to the unit sphere, its faces and vertices "
-		"in the same order. Only for a mesh that is one closed surface of genus 0."));
+		"Add a layer with the mesh mapped conformally to the unit sphere, its faces and "
+		"vertices in the same order. Only for a mesh that is one closed surface of genus 0."));
 	list.addParam(reportParameter());
+	list.addParam(RichEnum(
+		"circle_packing",
+		static_cast<int>(defaults.packing),
+		circlePackingChoices(),
+		"Circle packing",
+		"<b>Inversive distance</b>: the generalized flow; circles may intersect or be disjoint, "
+		"and the metric of the mesh is reproduced exactly.<br>"
+		"<b>Thurston</b>: the conventional flow; circles have to intersect at acute angles, so "
+		"the metric is changed where the mesh does not allow it, and distortion grows. For "
+		"comparison."));
+	list.addParam(RichEnum(
+		"surgery",
+		static_cast<int>(defaults.surgery),
+		surgeryChoices(),
+		"Surgery",
+		"What to do where the flow breaks the triangle inequality.<br>"
+		"<b>None</b>: the triangulation stays as it is.<br>"
+		"<b>Edge swap</b>: the paper's remedy, the longest edge of the broken triangle is "
+		"swapped. The mesh itself is not changed.<br>"
+		"<b>Intrinsic flips</b>: the flow runs on intrinsic triangles whose edges flip without "
+		"leaving the conformal class, so that no triangle ever breaks and every curvature that "
+		"Gauss-Bonnet allows is reached."));
+	list.addParam(epsilonParameter(defaults.epsilon));
+	list.addParam(iterationsParameter(defaults.maxIterations));
 	return list;
 }
 
@@ -347,37 +339,26 @@ RichParameterList hyperbolicParameters()
 		"Target curvature",
 		"The curvature that the hyperbolic metric is asked to have at the vertices, beyond the "
 		"constant -1 of its triangles.<br>"
-		"<b>Hyperbolic metric</b>: none; the one metric of curvature -1 that is conformal to the "
-		"mesh (uniformization). The surface must have a negative Euler characteristic, as every "
-		"closed one with two handles or more has; a boundary becomes geodesic.<br>"
+		"<b>Hyperbolic metric</b>: none; the one metric of curvature -1 that is conformal to "
+		"the mesh (uniformization). The surface must have a negative Euler characteristic, as "
+		"every closed one with two handles or more has; a boundary becomes geodesic.<br>"
 		"<b>Cones at selected vertices</b>: each selected vertex becomes a cone of the angle "
 		"below.<br>"
-		"<b>From vertex quality</b>: each vertex's quality is its curvature in radians, 2 pi less "
-		"the angle there."));
+		"<b>From vertex quality</b>: each vertex's quality is its curvature in radians, 2 pi "
+		"less the angle there."));
 	list.addParam(RichFloat(
 		"cone_angle",
 		static_cast<Scalarm>(defaults.coneAngle / kDegree),
 		"Cone angle (degrees)",
-		"The sum of the angles at each selected vertex, for 'Cones at selected vertices'. 360 is "
-		"no cone."));
+		"The sum of the angles at each selected vertex, for 'Cones at selected vertices'. 360 "
+		"is no cone."));
 	list.addParam(RichBool(
 		"free_boundary",
 		defaults.freeBoundary,
 		"Free boundary",
 		"The circles of the boundary's vertices keep their radii, and the target holds inside "
 		"only. Off: the target holds on the boundary too. No effect on closed surfaces."));
-	list.addParam(epsilonParameter(defaults.epsilon));
-	list.addParam(RichEnum(
-		"surgery",
-		defaults.surgery == ricci::Surgery::IntrinsicFlips ? 1 : 0,
-		hyperbolicSurgeryChoices(),
-		"Surgery",
-		"What to do where the flow breaks the triangle inequality.<br>"
-		"<b>None</b>: the triangulation stays as it is.<br>"
-		"<b>Intrinsic flips</b>: the flow runs on intrinsic triangles whose edges flip without "
-		"leaving the conformal class, so that no triangle ever breaks."));
 	list.addParam(outputTriangulationParameter(defaults.output));
-	list.addParam(iterationsParameter(defaults.maxIterations));
 	list.addParam(colorizeParameter());
 	list.addParam(RichBool(
 		"flat_layer",
@@ -388,15 +369,26 @@ RichParameterList hyperbolicParameters()
 		"universal_cover",
 		0,
 		"Universal cover (rings)",
-		"Add a layer with copies of the laid-out mesh, each in a colour of its own, that tile the "
-		"Poincaré disk: the mesh itself and this many rings of copies round it. 0: no layer."));
+		"Add a layer with copies of the laid-out mesh, each in a colour of its own, that tile "
+		"the Poincaré disk: the mesh itself and this many rings of copies round it. 0: no layer."));
 	list.addParam(RichBool(
 		"generator_axes",
 		false,
 		"Axes of the generators",
-		"Add a layer with the axes of the generators of the Fuchsian group in the Poincaré disk, "
-		"as edges. On the surface they are closed geodesics."));
+		"Add a layer with the axes of the generators of the Fuchsian group in the Poincaré "
+		"disk, as edges. On the surface they are closed geodesics."));
 	list.addParam(reportParameter());
+	list.addParam(RichEnum(
+		"surgery",
+		defaults.surgery == ricci::Surgery::IntrinsicFlips ? 1 : 0,
+		hyperbolicSurgeryChoices(),
+		"Surgery",
+		"What to do where the flow breaks the triangle inequality.<br>"
+		"<b>None</b>: the triangulation stays as it is.<br>"
+		"<b>Intrinsic flips</b>: the flow runs on intrinsic triangles whose edges flip without "
+		"leaving the conformal class, so that no triangle ever breaks."));
+	list.addParam(epsilonParameter(defaults.epsilon));
+	list.addParam(iterationsParameter(defaults.maxIterations));
 	return list;
 }
 

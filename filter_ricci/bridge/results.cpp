@@ -2,11 +2,13 @@
 #include "results.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <ios>
 #include <locale>
 #include <optional>
 #include <ostream>
 #include <sstream>
+#include <stdexcept>
 
 namespace filter_ricci {
 
@@ -43,6 +45,15 @@ std::string keyValueLine(Results::const_iterator begin, Results::const_iterator 
 		std::visit([&line](const auto& value) { print(line, value); }, result->second);
 	}
 	return line.str();
+}
+
+template<class Value>
+Value valueOf(const Results& results, const char* key)
+{
+	for (const auto& [name, value] : results)
+		if (name == key)
+			return std::get<Value>(value);
+	throw std::logic_error(std::string("There is no result ") + key + ".");
 }
 
 } // namespace
@@ -103,6 +114,21 @@ std::vector<double> toNumbers(const ricci::FuchsianGroup& group)
 		for (const ricci::DiskIsometry& g : *motions)
 			numbers.insert(numbers.end(), {g.a.real(), g.a.imag(), g.b.real(), g.b.imag()});
 	return numbers;
+}
+
+std::string toSentence(const Results& results)
+{
+	const int charts = valueOf<int>(results, "charts");
+	std::ostringstream line;
+	line.imbue(std::locale::classic());
+	line.precision(2);
+	line << "Curvature within " << valueOf<double>(results, "max_curvature_error")
+		 << " rad of the target after " << valueOf<int>(results, "iterations")
+		 << " Newton steps. Distortion " << std::fixed << std::setprecision(3)
+		 << valueOf<double>(results, "qc_area_mean") << " on average (1 keeps all angles), "
+		 << valueOf<int>(results, "flipped_faces") << " flipped faces, " << charts
+		 << (charts == 1 ? " chart." : " charts.");
+	return line.str();
 }
 
 std::vector<std::string> toLogLines(const Results& results)

@@ -23,6 +23,9 @@ void addSphereResults(const ricci::SphereMap& sphere, Results& results);
 /// boundary loop and cone.
 std::vector<double> toNumbers(const ricci::FuchsianGroup& group);
 
+/// What a person wants to know of a run.
+std::string toSentence(const Results& results);
+
 /// The same pairs as "key=value key=value ...", for hosts that show only the log: one line with
 /// what the flow reached, one with what the surface is.
 std::vector<std::string> toLogLines(const Results& results);

@@ -14,17 +14,16 @@ FilterText euclideanText()
 	text.pythonName = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge";
 	text.info =
 		"<b>Conformal parametrization</b> into per-wedge texture coordinates: the discrete Ricci "
-		"flow "
-		"finds the metric, conformal to the mesh's own, with the curvature asked for, and unrolls "
-		"it "
-		"into the plane. Thin triangles need no remeshing.<br>"
-		"<b>Input:</b> a manifold triangle mesh, with or without boundary. "
-		"<b>Output:</b> texture coordinates, the quasi-conformal distortion (1 = angles kept) as "
-		"vertex quality, the log-radii as vertex attribute <i>ricci_u</i>.<br>"
-		"See: <br />"
-		"<i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng Gu</i><br/>"
-		"<b>\"Generalized Discrete Ricci Flow\"</b><br/>"
-		"Computer Graphics Forum, volume 28, Issue 7, Pages 2005-2014, 2009.<br/>";
+		"flow finds the metric, conformal to the mesh's own, with the curvature asked for, and "
+		"unrolls it into the plane. Thin triangles need no remeshing.<br>"
+		"<b>Input:</b> a manifold triangle mesh of any topology, with or without boundary.<br>"
+		"<b>Output:</b> texture coordinates, to be seen with <i>Set Texture</i>; the "
+		"quasi-conformal distortion (1 = angles kept) as vertex quality; the log-radii as vertex "
+		"attribute <i>ricci_u</i>. Vertices and faces stay as they are unless the common "
+		"refinement is asked for. A mesh that cannot be mapped is refused and left unchanged.<br>"
+		"See: <br /><i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng "
+		"Gu</i><br/><b>\"Generalized Discrete Ricci Flow\"</b><br/>Computer Graphics Forum, "
+		"volume 28, Issue 7, Pages 2005-2014, 2009.<br/>";
 	return text;
 }
 
@@ -35,19 +34,18 @@ FilterText hyperbolicText()
 	text.pythonName = "compute_texcoord_parametrization_ricci_flow_hyperbolic_per_wedge";
 	text.info =
 		"<b>Hyperbolic uniformization</b>: the discrete Ricci flow finds the metric of curvature "
-		"-1 "
-		"that is conformal to the mesh's own, and unrolls it into the Poincaré disk. For surfaces "
-		"with two handles or more, or with a handle or two holes and a boundary.<br>"
-		"<b>Input:</b> a manifold triangle mesh of negative Euler characteristic, or one with "
-		"cones. "
-		"<b>Output:</b> per-wedge texture coordinates (the disk fills the unit square), the "
-		"quasi-conformal distortion as vertex quality, the generators of the Fuchsian group, and "
-		"on "
-		"request layers with the disk and its tiling.<br>"
-		"See: <br />"
-		"<i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng Gu</i><br/>"
-		"<b>\"Generalized Discrete Ricci Flow\"</b><br/>"
-		"Computer Graphics Forum, volume 28, Issue 7, Pages 2005-2014, 2009.<br/>";
+		"-1 that is conformal to the mesh's own, and unrolls it into the Poincaré disk. For "
+		"surfaces with two handles or more, with a handle and a boundary, or with three "
+		"boundaries.<br>"
+		"<b>Input:</b> a manifold triangle mesh of negative Euler characteristic, or any with "
+		"cones that make up for it.<br>"
+		"<b>Output:</b> per-wedge texture coordinates (the disk fills the unit square), to be "
+		"seen with <i>Set Texture</i>; the quasi-conformal distortion as vertex quality; the "
+		"generators of the Fuchsian group; on request layers with the disk and its tiling. "
+		"Vertices and faces stay as they are unless the common refinement is asked for.<br>"
+		"See: <br /><i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng "
+		"Gu</i><br/><b>\"Generalized Discrete Ricci Flow\"</b><br/>Computer Graphics Forum, "
+		"volume 28, Issue 7, Pages 2005-2014, 2009.<br/>";
 	return text;
 }
 

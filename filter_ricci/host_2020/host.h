@@ -16,6 +16,9 @@ static_assert(std::is_same_v<Scalarm, float>, "MeshLab 2020.09 needs MESHLAB_SCA
 
 namespace filter_ricci::host {
 
+/// Of the entry of the menu Render that draws the histogram of the vertex quality.
+constexpr const char* kHistogramName = "Show Quality Histogram";
+
 inline void removeMesh(MeshDocument& md, MeshModel* mesh)
 {
 	md.delMesh(mesh);

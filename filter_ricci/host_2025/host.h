@@ -9,6 +9,9 @@
 
 namespace filter_ricci::host {
 
+/// Of the entry of the menu Render that draws the histogram of the vertex quality.
+constexpr const char* kHistogramName = "Show Vertex Quality Histogram";
+
 inline void removeMesh(MeshDocument& md, MeshModel* mesh)
 {
 	md.delMesh(static_cast<unsigned int>(mesh->id()));

@@ -37,14 +37,13 @@ CHOICES = {"target_curvature": TARGET, "cone_rounding": ["Free", "Multiples of p
            "output_triangulation": ["Keep the mesh", "Common refinement"],
            "holes": ["Boundaries", "Capped"]}
 PARAMETERS = [
-    ("target_curvature", "Enum", 0), ("cone_count", "Int", 0), ("cone_distortion", "Float", 0.5),
-    ("cone_rounding", "Enum", 0), ("free_boundary", "Bool", True), ("epsilon", "Float", 1e-8),
-    ("circle_packing", "Enum", 0), ("surgery", "Enum", 2),
-    ("output_triangulation", "Enum", 0), ("seam_hiding", "Float", 0.0),
-    ("max_iterations", "Int", 200), ("normalize_uv", "Bool", True), ("chart_margin", "Float", 0.0),
-    ("colorize", "Bool", False), ("flat_layer", "Bool", False), ("holes", "Enum", 0),
-    ("resolve_overlap", "Bool", False), ("sphere_layer", "Bool", False),
-    ("report", "String", "")]
+    ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True),
+    ("output_triangulation", "Enum", 0), ("holes", "Enum", 0), ("resolve_overlap", "Bool", False),
+    ("cone_count", "Int", 0), ("cone_distortion", "Float", 0.5), ("cone_rounding", "Enum", 0),
+    ("seam_hiding", "Float", 0.0), ("normalize_uv", "Bool", True), ("chart_margin", "Float", 0.0),
+    ("colorize", "Bool", False), ("flat_layer", "Bool", False), ("sphere_layer", "Bool", False),
+    ("report", "String", ""), ("circle_packing", "Enum", 0), ("surgery", "Enum", 2),
+    ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200)]
 
 HYPERBOLIC = types.SimpleNamespace(
     NAME="Generalized Ricci Flow (Hyperbolic)",
@@ -56,11 +55,11 @@ HYPERBOLIC = types.SimpleNamespace(
         "output_triangulation": ["Keep the mesh", "Common refinement"]},
     PARAMETERS=[
         ("target_curvature", "Enum", 0), ("cone_angle", "Float", 180.0),
-        ("free_boundary", "Bool", False), ("epsilon", "Float", 1e-8), ("surgery", "Enum", 1),
-        ("output_triangulation", "Enum", 0), ("max_iterations", "Int", 200),
+        ("free_boundary", "Bool", False), ("output_triangulation", "Enum", 0),
         ("colorize", "Bool", False), ("flat_layer", "Bool", False),
         ("universal_cover", "Int", 0), ("generator_axes", "Bool", False),
-        ("report", "String", "")])
+        ("report", "String", ""), ("surgery", "Enum", 1), ("epsilon", "Float", 1e-8),
+        ("max_iterations", "Int", 200)])
 
 
 def skip(reason):

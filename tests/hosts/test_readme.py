@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The README's tables of parameters and results, and its script, are those of the plugin.
+Usage: test_readme.py BUILD_DIR [TEST...]. common.py holds what the plugins are tested against."""
+
+import os
+import re
+import unittest
+
+import common
+
+KINDS = {"enum": "Enum", "int": "Int", "float": "Float", "bool": "Bool", "string": "String"}
+
+
+def read(*path):
+    with open(os.path.join(common.REPOSITORY, *path), encoding="utf-8") as source:
+        return source.read()
+
+
+def tables(text, header):
+    """The rows below each such header, as lists of cells."""
+    found = []
+    for part in text.split(header + "\n")[1:]:
+        rows = []
+        for line in part.splitlines()[1:]:
+            if not line.startswith("|"):
+                break
+            rows.append([cell.strip() for cell in line.replace("\\|", " ").strip("|").split("|")])
+        found.append(rows)
+    return found
+
+
+class Readme(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.text = read("README.md")
+
+    def check_parameters(self, rows, expected, choices):
+        source = read("filter_ricci", "bridge", "parameters.cpp")
+        self.assertEqual([row[1].strip("`") for row in rows], [name for name, _, _ in expected])
+        for (label, name, kind, default, note), (_, wanted, value) in zip(rows, expected):
+            name = name.strip("`")
+            with self.subTest(parameter=name):
+                self.assertIn(f'"{label}"', source)
+                self.assertEqual(KINDS[kind], wanted)
+                written = {"true": True, "false": False, "empty": ""}.get(default)
+                self.assertEqual(float(default) if written is None else written, value)
+                listed = ", ".join(f"{i} {c}" for i, c in enumerate(choices.get(name, [])))
+                self.assertEqual(note if name in choices else "", listed)
+
+    def test_parameters(self):
+        euclidean, hyperbolic = tables(self.text, "| label | id | type | default | choices, unit |")
+        self.check_parameters(euclidean, common.PARAMETERS, common.CHOICES)
+        self.check_parameters(
+            hyperbolic, common.HYPERBOLIC.PARAMETERS, common.HYPERBOLIC.CHOICES)
+
+    def test_results(self):
+        euclidean, hyperbolic = (
+            {key: kind for row in rows
+             for key, kind in zip(re.findall(r"`(\w+)`", row[0]),
+                                  row[1].split(", ") * (1 if ", " in row[1] else 9))}
+            for rows in tables(self.text, "| key | type | |"))
+        expected = {**common.ALWAYS, **common.INVARIANTS, **common.SPHERE}
+        self.assertEqual(euclidean, {key: kind.__name__ for key, kind in expected.items()})
+        self.assertEqual(
+            hyperbolic, {"hyperbolic_area": "float", "relation_error": "float", "generators": "vector"})
+
+    def test_script(self):
+        script = re.search(r"```xml\n(.*?)```", self.text, re.DOTALL).group(1)
+        sample = read("filter_ricci", "samples", "automatic.mlx")
+        self.assertEqual(script.split(), sample.split())
+
+
+if __name__ == "__main__":
+    common.main()
