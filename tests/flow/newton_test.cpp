@@ -235,6 +235,25 @@ TEST(Newton, DoesNotCallABrokenMetricConverged)
 		EXPECT_TRUE(std::isfinite(x));
 }
 
+TEST(Newton, EndsWhereNoVertexIsFree)
+{
+	Random random(79);
+	const Packed mesh(bumpyTorus(12, 8, random));
+	const std::vector<char> allFixed(mesh.radii.size(), 1);
+	Map map = mesh.map();
+	map.evaluate(mesh.u());
+	const Eigen::VectorXd own = map.curvature();
+	EXPECT_TRUE(solve(mesh, own, mesh.u(), allFixed).result.converged);
+	Eigen::VectorXd broken = mesh.u();
+	for (Eigen::Index v = 0; v < broken.size(); v += 2)
+		broken[v] += 8.0;
+	map.evaluate(broken);
+	ASSERT_GT(map.brokenTriangles(), 0);
+	const Solved solved = solve(mesh, own, broken, allFixed);
+	EXPECT_FALSE(solved.result.converged);
+	EXPECT_EQ(solved.u, broken);
+}
+
 TEST(Newton, CancelsWhereTheReportThrows)
 {
 	Random random(79);

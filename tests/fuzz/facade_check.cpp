@@ -199,6 +199,58 @@ std::string defectOf(const Report& r, const Options& options)
 	return {};
 }
 
+template<class Mesh>
+bool finitePositions(const Mesh& m)
+{
+	for (const auto& v : m.vert)
+		for (int k = 0; k < 3; ++k)
+			if (!v.IsD() && !std::isfinite(double(v.cP()[k])))
+				return false;
+	return true;
+}
+
+template<class Mesh>
+std::string defectOfSphere(const Mesh& m, const SphereMap& map)
+{
+	for (double x :
+		 {map.maxCurvatureError, map.offset, map.qcAreaMean, map.qcMax, map.areaDistortionMean})
+		if (!std::isfinite(x) || x < 0.0)
+			return "a value of the sphere's report is " + std::to_string(x);
+	std::vector<char> used(m.vert.size(), 0);
+	for (const auto& face : m.face)
+		for (int k = 0; k < 3 && !face.IsD(); ++k)
+			used[vcg::tri::Index(m, face.cV(k))] = 1;
+	for (std::size_t v = 0; v < used.size(); ++v) {
+		const Point3& p = map.positions[v];
+		const double radius = std::hypot(p[0], p[1], p[2]);
+		if (used[v] && !(std::abs(radius - 1.0) < 1e-9))
+			return "a point at the distance " + std::to_string(radius) + " is not on the sphere";
+	}
+	Mesh sphere;
+	vcg::tri::RicciFlow<Mesh>::BuildSphereMesh(m, map, sphere);
+	return finitePositions(sphere) && sphere.FN() == m.FN() ? "" : "the sphere's mesh is broken";
+}
+
+/// The layers of the hyperbolic filter.
+template<class Mesh>
+std::string
+defectOfCover(const Mesh& m, const typename vcg::tri::RicciFlow<Mesh>::Result& result, int rings)
+{
+	constexpr std::size_t kMostFaces = 2000;
+	Mesh cover;
+	try {
+		vcg::tri::RicciFlow<Mesh>::BuildUniversalCover(m, result, rings, kMostFaces, cover);
+	}
+	catch (const InvalidOption&) {
+		return {};
+	}
+	if (!finitePositions(cover))
+		return "the universal cover is not finite";
+	if (cover.FN() < m.FN() || static_cast<std::size_t>(cover.FN()) > kMostFaces)
+		return "the universal cover has " + std::to_string(cover.FN()) + " faces";
+	return {};
+}
+
 bool isSentence(const std::string& text)
 {
 	return text.size() > 2 && text.back() == '.' && text.find('\n') == std::string::npos;
@@ -217,11 +269,16 @@ Execution run(const HostileMesh& hostile)
 	params.normalizeUV = hostile.normalizeUV;
 	typename Flow::HyperbolicParams hyperbolicParams;
 	static_cast<HyperbolicOptions&>(hyperbolicParams) = hostile.hyperbolicOptions;
+	params.chartMargin = hostile.chartMargin;
 	Watch watch(hostile.cancelAt, hostile.mesh.triangles.size());
 	typename Flow::Result result;
+	SphereMap sphere;
 	try {
-		result = hostile.hyperbolic ? Flow::ComputeHyperbolic(m, hyperbolicParams, watch)
-									: Flow::Compute(m, params, watch);
+		if (hostile.sphere)
+			sphere = Flow::ComputeSphere(m, params, watch);
+		else
+			result = hostile.hyperbolic ? Flow::ComputeHyperbolic(m, hyperbolicParams, watch)
+										: Flow::Compute(m, params, watch);
 		execution.verdict = Verdict::Mapped;
 	}
 	catch (const Cancelled& cancelled) {
@@ -245,11 +302,19 @@ Execution run(const HostileMesh& hostile)
 	if (!execution.defect.empty() || execution.verdict != Verdict::Mapped)
 		return execution;
 
+	if (hostile.sphere) {
+		execution.defect = defectOfSphere(m, sphere);
+		return execution;
+	}
 	execution.defect = defectOf(result.report, hostile.options);
 	if (!execution.defect.empty())
 		return execution;
 	if (!hostile.hyperbolic) // whose faces are geodesic triangles
 		execution.defect = miscounted(m, result, wantedOrientation(m));
+	if (!execution.defect.empty())
+		return execution;
+	if (hostile.hyperbolic)
+		execution.defect = defectOfCover<Mesh>(m, result, hostile.rings);
 	if (!execution.defect.empty())
 		return execution;
 	Mesh flat;

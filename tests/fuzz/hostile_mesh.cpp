@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -72,8 +73,11 @@ SurfaceMesh patch(ByteSource& bytes)
 /// A star round one vertex, open, closed, or with a second centre.
 SurfaceMesh star(ByteSource& bytes)
 {
-	const int n =
-		bytes.oneIn(256) && bytes.oneIn(4) ? 2000 + bytes.below(2000) : 2 + bytes.below(40);
+	// A fan makes as many crossings as its valence squared.
+	const bool large = bytes.oneIn(256) && bytes.oneIn(4);
+	const int n = !large            ? 2 + bytes.below(40)
+				  : bytes.oneIn(64) ? 2000 + bytes.below(2000)
+									: 200 + bytes.below(200);
 	const int kind = bytes.below(3);
 	SurfaceMesh mesh;
 	mesh.positions.push_back({0, 0, 1});
@@ -477,6 +481,104 @@ HostileMesh::HostileMesh(ByteSource& bytes)
 		quality = anyQuality(mesh, bytes);
 	if (bytes.oneIn(8))
 		cancelAt = bytes.below(20);
+	drawRarerOptions(bytes);
+	if (bytes.below(5) == 0) {
+		mend();
+		if (bytes.oneIn(2))
+			options.target = TargetCurvature::Automatic; // fits every surface
+		hyperbolic = hyperbolic && bytes.oneIn(2);
+	}
+}
+
+/// Drawn behind everything else: an input keeps its mesh whatever is added here.
+void HostileMesh::drawRarerOptions(ByteSource& bytes)
+{
+	const auto number = [&](double low, double high) {
+		return bytes.oneIn(16) ? awkward(bytes) : bytes.real(low, high);
+	};
+	if (bytes.oneIn(8)) {
+		options.target = TargetCurvature::PlacedCones;
+		options.coneCount = bytes.oneIn(2) ? bytes.below(9) - (bytes.oneIn(16) ? 9 : 0) : 0;
+	}
+	if (bytes.oneIn(4)) {
+		options.coneDistortion = number(0.05, 3.0);
+		options.coneRounding = bytes.oneIn(2) ? ConeRounding::QuarterTurns : ConeRounding::Free;
+	}
+	if (bytes.oneIn(8))
+		options.seamHiding = number(0.0, 1.0);
+	if (bytes.oneIn(8))
+		chartMargin = number(0.0, 0.25);
+	if (bytes.oneIn(64))
+		options.memoryLimit = hyperbolicOptions.memoryLimit = awkward(bytes);
+	sphere = bytes.oneIn(16);
+	rings = bytes.below(3);
+}
+
+/// Takes the cheapest reasons for a refusal away, so that more inputs come as far as the flow.
+void HostileMesh::mend()
+{
+	if (hyperbolicOptions.surgery == Surgery::EdgeSwap)
+		hyperbolicOptions.surgery = Surgery::IntrinsicFlips;
+	hyperbolicOptions.packing = PackingScheme::InversiveDistance;
+	for (FlowOptions* flow :
+		 {static_cast<FlowOptions*>(&options), static_cast<FlowOptions*>(&hyperbolicOptions)}) {
+		if (!(flow->epsilon > 0.0))
+			flow->epsilon = 1e-8;
+		flow->maxIterations = std::max(flow->maxIterations, 1);
+	}
+	for (Point3& p : mesh.positions)
+		for (double& x : p)
+			if (!std::isfinite(x))
+				x = 0.0;
+	// Each directed side once, no face twice: an oriented surface but for its vertices, which take a
+	// copy for every fan.
+	std::map<std::pair<int, int>, int> cornerAt;
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+		const Triangle& t = mesh.triangles[f];
+		bool kept = !deletedFace[f] && t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+		for (std::size_t k = 0; k < 3; ++k)
+			kept = kept && cornerAt.count({t[k], t[(k + 1) % 3]}) == 0;
+		const auto opposite = cornerAt.find({t[1], t[0]});
+		if (kept && opposite != cornerAt.end())
+			kept = mesh.triangles[at(opposite->second / 3)][at((opposite->second + 2) % 3)] != t[2];
+		deletedFace[f] = !kept;
+		for (std::size_t k = 0; k < 3 && kept; ++k)
+			cornerAt[{t[k], t[(k + 1) % 3]}] = static_cast<int>(3 * f + k);
+	}
+	const SurfaceMesh old = mesh;
+	std::vector<char> done(3 * old.triangles.size(), 0), taken(old.positions.size(), 0);
+	for (std::size_t first = 0; first < done.size(); ++first) {
+		if (deletedFace[first / 3] || done[first])
+			continue;
+		const int v = old.triangles[first / 3][first % 3];
+		int own = v;
+		if (taken[at(v)]) {
+			own = vertexCount(mesh);
+			mesh.positions.push_back(old.positions[at(v)]);
+			selected.push_back(selected[at(v)]);
+			quality.push_back(0.0);
+			deletedVertex.push_back(0);
+		}
+		taken[at(v)] = 1;
+		deletedVertex[at(own)] = 0;
+		// Round the vertex both ways, over the side that leaves it and the one that arrives.
+		for (bool leaving : {true, false})
+			for (std::size_t corner = first;;) {
+				done[corner] = 1;
+				mesh.triangles[corner / 3][corner % 3] = own;
+				const Triangle& t = old.triangles[corner / 3];
+				const std::size_t k = corner % 3;
+				const auto next = cornerAt.find(
+					leaving ? std::make_pair(t[(k + 1) % 3], t[k])
+							: std::make_pair(t[k], t[(k + 2) % 3]));
+				if (next == cornerAt.end())
+					break;
+				const auto c = static_cast<std::size_t>(next->second);
+				corner = leaving ? c - c % 3 + (c + 1) % 3 : c;
+				if (done[corner])
+					break;
+			}
+	}
 }
 
 } // namespace ricci::testing

@@ -25,9 +25,16 @@ struct HostileMesh
 	HyperbolicOptions hyperbolicOptions;
 	bool normalizeUV = true;
 	bool doublePrecision = false; ///< which of the hosts' scalar types
-	int cancelAt = -1;            ///< number of the progress call that cancels; -1: none
+	double chartMargin = 0.0;
+	int cancelAt = -1;   ///< number of the progress call that cancels; -1: none
+	bool sphere = false; ///< map to the sphere in place of the plane
+	int rings = 0;       ///< of the universal cover
 
 	explicit HostileMesh(ByteSource& bytes);
+
+private:
+	void drawRarerOptions(ByteSource& bytes);
+	void mend();
 };
 
 } // namespace ricci::testing

@@ -450,7 +450,8 @@ private:
 			report.torusTauRe = tau.real();
 			report.torusTauIm = tau.imag();
 		}
-		if (m_topology.isAnnulus() && flat && !free)
+		// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
+		if (m_topology.isAnnulus() && flat && !free && m_cut.edgeCount > 0)
 			report.annulusModulus =
 				annulusModulus(t, m_layout, m_cut, m_scale * m_scale * m_flow.area);
 		if (m_flow.target.isRectangle)

@@ -313,7 +313,8 @@ NewtonResult NewtonSolver::solve(
 		const bool valid = m_map->brokenTriangles() == 0;
 		const bool reached = valid && result.residual < options.epsilon;
 		const bool atFloor = valid && result.residual <= result.floor;
-		if (atFloor || searchFails || (reached && polishing >= kPolishingSteps) ||
+		if (atFloor || searchFails || m_unknownCount == 0 ||
+			(reached && polishing >= kPolishingSteps) ||
 			(!reached && result.iterations >= options.maxIterations))
 			break;
 
