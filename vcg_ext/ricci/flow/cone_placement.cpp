@@ -163,8 +163,10 @@ private:
 		double shift = 0.0;
 		while (!m_cholesky.factorize(hessian.matrix())) {
 			shift = std::max(100.0 * shift, 1e-14 * scale);
-			if (shift > scale)
-				throw Error("The linear solver failed: its matrix is not positive definite.");
+			if (!(shift <= scale) || std::isinf(shift))
+				throw Error(
+					"The linear solver failed: its matrix is not positive definite. Remesh the "
+					"worst triangles.");
 			hessian.fill(map, shift);
 		}
 	}

@@ -192,8 +192,10 @@ void NewtonSolver::factorize()
 	const double scale = std::max(m_hessian.largestDiagonal(), 1.0);
 	while (!m_cholesky.factorize(m_hessian.matrix())) {
 		shift = std::max(100.0 * shift, 1e-14 * scale);
-		if (shift > scale)
-			throw Error("The linear solver failed: its matrix is not positive definite.");
+		if (!(shift <= scale) || std::isinf(shift))
+			throw Error(
+				"The linear solver failed: its matrix is not positive definite. Remesh the worst "
+				"triangles.");
 		updateMatrix(shift);
 	}
 	m_factored = true;

@@ -82,7 +82,9 @@ std::vector<double> exposure(
 	SparseCholesky cholesky;
 	cholesky.analyze(matrix);
 	if (!cholesky.factorize(matrix))
-		throw Error("The linear solver failed: its matrix is not positive definite.");
+		throw Error("The linear solver failed: its matrix is not positive definite. Set "
+					"seam_hiding to 0, or "
+					"remesh the worst triangles.");
 	Eigen::MatrixX3d smooth(n, 3);
 	for (int k = 0; k < 3; ++k) {
 		Eigen::VectorXd column(n);
