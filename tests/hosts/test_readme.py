@@ -64,6 +64,23 @@ class Readme(unittest.TestCase):
         self.assertEqual(
             hyperbolic, {"hyperbolic_area": "float", "relation_error": "float", "generators": "vector"})
 
+    def test_messages(self):
+        """Every part of a message between two values ends in words that a source has in that order."""
+        sources = ""
+        for folder in ("vcg_ext", "filter_ricci"):
+            for place, _, names in os.walk(os.path.join(common.REPOSITORY, folder)):
+                for name in sorted(n for n in names if n.endswith((".cpp", ".h"))):
+                    sources += re.sub(r'"\s*"', "", read(place, name)).replace('\\"', '"')
+        rows, = tables(self.text, "| input | message |")
+        self.assertGreater(len(rows), 30)
+        for row in rows:
+            with self.subTest(input=row[0]):
+                parts = re.split(r"\b(?:[NX]|NAME|REASON|WHAT|ID)\b|…", row[1].split("Use 0 (")[0])
+                self.assertTrue(any(len(part.split()) >= 4 for part in parts))
+                for words in (part.split() for part in parts):
+                    if len(words) >= 6:
+                        self.assertIn(" ".join(words[-4:]), sources)
+
     def test_script(self):
         script = re.search(r"```xml\n(.*?)```", self.text, re.DOTALL).group(1)
         sample = read("filter_ricci", "samples", "automatic.mlx")
