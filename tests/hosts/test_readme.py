@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The README's tables of parameters and results, and its script, are those of the plugin.
+"""What README.md and CONTRIBUTING.md say of the plugin and of the code is so.
 Usage: test_readme.py BUILD_DIR [TEST...]. common.py holds what the plugins are tested against."""
 
 import os
@@ -14,6 +14,13 @@ KINDS = {"enum": "Enum", "int": "Int", "float": "Float", "bool": "Bool", "string
 def read(*path):
     with open(os.path.join(common.REPOSITORY, *path), encoding="utf-8") as source:
         return source.read()
+
+
+def files(*path):
+    """C++ files below a folder, relative to it."""
+    folder = os.path.join(common.REPOSITORY, *path)
+    return [os.path.relpath(os.path.join(place, name), folder)
+            for place, _, names in os.walk(folder) for name in names if name.endswith((".cpp", ".h"))]
 
 
 def tables(text, header):
@@ -66,11 +73,8 @@ class Readme(unittest.TestCase):
 
     def test_messages(self):
         """Every part of a message between two values ends in words that a source has in that order."""
-        sources = ""
-        for folder in ("vcg_ext", "filter_ricci"):
-            for place, _, names in os.walk(os.path.join(common.REPOSITORY, folder)):
-                for name in sorted(n for n in names if n.endswith((".cpp", ".h"))):
-                    sources += re.sub(r'"\s*"', "", read(place, name)).replace('\\"', '"')
+        sources = "".join(re.sub(r'"\s*"', "", read(folder, name))
+                          for folder in ("vcg_ext", "filter_ricci") for name in sorted(files(folder)))
         rows, = tables(self.text, "| input | message |")
         self.assertGreater(len(rows), 30)
         for row in rows:
@@ -80,6 +84,18 @@ class Readme(unittest.TestCase):
                 for words in (part.split() for part in parts):
                     if len(words) >= 6:
                         self.assertIn(" ".join(words[-4:]), sources)
+
+    def test_code_map(self):
+        """The map names every source of the core and every test, and nothing else."""
+        named = set(re.findall(r"`([\w/]+\.(?:cpp|h))`", read("CONTRIBUTING.md")))
+        core = set(files("vcg_ext", "ricci"))
+        tests = {name for name in files("tests") if name.endswith("_test.cpp")}
+        pairs = {name.rsplit(".", 1)[0] for name in named}
+        self.assertEqual([name for name in sorted(core) if name.rsplit(".", 1)[0] not in pairs], [])
+        self.assertEqual(sorted(tests - named), [])
+        elsewhere = {name for name in named - core - tests
+                     if not os.path.exists(os.path.join(common.REPOSITORY, name))}
+        self.assertEqual(sorted(elsewhere), [])
 
     def test_script(self):
         script = re.search(r"```xml\n(.*?)```", self.text, re.DOTALL).group(1)
