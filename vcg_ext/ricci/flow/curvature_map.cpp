@@ -12,6 +12,16 @@
 
 namespace ricci {
 
+namespace {
+
+template<class Vector>
+void release(Vector& vector)
+{
+	vector = Vector();
+}
+
+} // namespace
+
 CurvatureMap::CurvatureMap(CirclePacking packing) :
 		m_packing(std::move(packing)), m_boundary(m_packing.triangulation.boundaryVertices()),
 		m_threads(defaultThreads())
@@ -46,6 +56,15 @@ void GeometricCurvatureMap<Geometry>::evaluate(
 	evaluateCircles(u, rest);
 	evaluateEdges();
 	evaluateTriangles();
+}
+
+template<class Geometry>
+void GeometricCurvatureMap<Geometry>::releaseWorkSpace()
+{
+	release(m_circles);
+	release(m_excess);
+	release(m_ratio);
+	release(m_halfWeights);
 }
 
 template<class Geometry>
@@ -189,6 +208,14 @@ void FlippingCurvatureMap<Geometry>::evaluate(const Eigen::VectorXd& u, const Ei
 		++this->m_revision;
 	this->evaluateEdges();
 	this->evaluateTriangles();
+}
+
+template<class Geometry>
+void FlippingCurvatureMap<Geometry>::releaseWorkSpace()
+{
+	GeometricCurvatureMap<Geometry>::releaseWorkSpace();
+	release(m_kappa);
+	m_queue = DelaunayQueue();
 }
 
 template<class Geometry>

@@ -87,6 +87,9 @@ public:
 	/// accept().
 	const std::vector<int>& flips() const { return m_flips; }
 
+	/// Frees what only evaluate() needs, which must not be called again.
+	virtual void releaseWorkSpace() = 0;
+
 	/// Threads that evaluate() may use (all of the machine's unless told
 	/// otherwise). Their number does not change a bit of the result.
 	void useThreads(int threads) { m_threads = threads; }
@@ -120,6 +123,7 @@ public:
 	using CurvatureMap::evaluate;
 	void evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest) override;
 	bool scaleInvariant() const override { return Geometry::scaleInvariant; }
+	void releaseWorkSpace() override;
 	double precision() const override
 	{
 		return static_cast<double>(std::numeric_limits<typename Geometry::Real>::epsilon());
@@ -149,6 +153,7 @@ public:
 
 	using CurvatureMap::evaluate;
 	void evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest) override;
+	void releaseWorkSpace() override;
 	void accept() override;
 	void reject() override;
 

@@ -265,6 +265,7 @@ public:
 
 	FlowResult result()
 	{
+		m_map->releaseWorkSpace();
 		m_result.metric = m_map;
 		m_result.doubled = doubled();
 		m_result.residual = m_solved.residual;
@@ -332,7 +333,7 @@ private:
 		CirclePacking packing = pack(mesh.triangulation, mesh.lengths, m_radii, m_options.packing);
 		if (flips) {
 			FlipHistory& history = m_result.history;
-			history.input = m_surface.triangulation;
+			history.input = std::move(m_surface.triangulation);
 			history.start = std::move(mesh);
 			history.startDelta = packing.delta;
 			history.startRadii = m_radii;
@@ -359,7 +360,7 @@ private:
 		Eigen::VectorXd u(static_cast<Eigen::Index>(m_radii.size()));
 		double scale = 1.0;
 		if (m_background == Background::HyperbolicPlane) {
-			double area = -2 * kPi * m_surface.triangulation.eulerCharacteristic();
+			double area = -2 * kPi * mesh.triangulation.eulerCharacteristic();
 			for (std::size_t v = 0; v < m_surface.target.fixed.size(); ++v)
 				if (!m_surface.target.fixed[v])
 					area += m_surface.target.curvature[static_cast<Eigen::Index>(v)];
@@ -391,7 +392,7 @@ private:
 	/// Nothing has to close round a disk without cones.
 	bool isDisk() const
 	{
-		return !doubled() && m_surface.triangulation.eulerCharacteristic() == 1 &&
+		return !doubled() && m_map->triangulation().eulerCharacteristic() == 1 &&
 			   m_surface.target.curvature.isZero(0.0);
 	}
 
@@ -433,7 +434,7 @@ private:
 			sides.push_back(m_map->lengths()[at(e)]);
 		if (!doubled())
 			return sides;
-		NormalCoordinates coordinates(m_surface.triangulation);
+		NormalCoordinates coordinates(m_result.history.input);
 		for (int e : m_result.history.startFlips)
 			coordinates.flip(e);
 		for (int e : flowFlips())
@@ -453,7 +454,7 @@ private:
 	}
 
 	Background m_background;
-	Surface m_surface;
+	Surface m_surface; // without its triangulation once the history has it
 	const FlowOptions& m_options;
 	const std::function<void(int, double)>& m_report;
 	FlowResult m_result;
@@ -479,12 +480,12 @@ FlowResult runRicciFlow(
 	const FlowOptions& options,
 	const std::function<void(int, double)>& report)
 {
-	const Surface whole = wholeSurface(t, lengths, target, boundaryLoop);
+	Surface whole = wholeSurface(t, lengths, target, boundaryLoop);
 	const bool canDouble = options.surgery == Surgery::IntrinsicFlips && !t.boundaryLoops().empty();
 	const bool prescribed =
 		std::find(target.fixed.begin(), target.fixed.end(), 1) == target.fixed.end();
 	if (!canDouble) {
-		Run run(background, whole, positions, options, 0, report);
+		Run run(background, std::move(whole), positions, options, 0, report);
 		const bool solved = run.solve();
 		FlowResult result = run.result();
 		if (solved || !result.edgesToSplit.empty())
