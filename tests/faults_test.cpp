@@ -10,20 +10,29 @@
 #include <ricci/error.h>
 #include <ricci/memory.h>
 #include <ricci/parallel.h>
+#include <ricci/time_limit.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cfenv>
+#include <chrono>
 #include <clocale>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <new>
 #include <string>
+#include <thread>
 #include <vector>
+
+#ifdef __linux__
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 #define RICCI_CAN_FAIL_MALLOC
@@ -347,6 +356,53 @@ TEST(Faults, CancellingAtAnyCallLeavesTheMesh)
 	}
 }
 
+TEST(Faults, ATimeLimitLeavesTheMesh)
+{
+	/// Takes a while over its first call.
+	class Slow : public Progress
+	{
+	public:
+		bool update(double, const std::string&) override
+		{
+			if (calls++ == 0)
+				std::this_thread::sleep_for(std::chrono::milliseconds(20));
+			return true;
+		}
+		int calls = 0;
+	};
+	for (const Case& c : cases()) {
+		Mesh m;
+		build(c.mesh, m);
+		const std::string before = contents(m);
+		Slow slow;
+		TimeLimit progress(slow, 0.01);
+		try {
+			Flow::Compute(m, c.params, progress);
+			ADD_FAILURE() << c.name << " takes no time";
+		}
+		catch (const TimeOut& late) {
+			EXPECT_NE(std::string(late.what()).find("time_limit: 0.01)"), std::string::npos);
+		}
+		EXPECT_EQ(slow.calls, 1) << c.name;
+		EXPECT_EQ(contents(m) == before, true) << c.name;
+	}
+}
+
+TEST(Faults, ATimeLimitThatIsNotReachedChangesNothing)
+{
+	for (const Case& c : cases())
+		for (double seconds : {0.0, 1e6}) {
+			Mesh m;
+			build(c.mesh, m);
+			Progress silent;
+			TimeLimit progress(silent, seconds);
+			EXPECT_EQ(
+				Flow::Compute(m, c.params, progress).wedgeUV,
+				Flow::Compute(m, c.params, silent).wedgeUV)
+				<< c.name;
+		}
+}
+
 TEST(Faults, AnEstimateAboveTheMemoryIsRefused)
 {
 	Mesh m;
@@ -411,29 +467,138 @@ TEST(Faults, AHostThatTrapsFloatingPointExceptionsGetsTheSameResult)
 #endif
 }
 
-TEST(Faults, AHostWithDecimalCommasGetsTheSameSentences)
+/// Takes the decimal comma of some locale for the process while it lives.
+class DecimalCommas
 {
-	const std::string own = std::setlocale(LC_NUMERIC, nullptr);
-	bool found = false;
-	for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "it_IT.UTF-8", "de_DE"})
-		found = found || std::setlocale(LC_NUMERIC, name) != nullptr;
-	std::string sentence;
-	Mesh m;
-	build(rectangle(2, 2, 1, 1), m);
-	Flow::Params p;
-	p.epsilon = -0.5;
-	Progress silent;
-	try {
-		Flow::Compute(m, p, silent);
+public:
+	DecimalCommas() : m_own(std::setlocale(LC_NUMERIC, nullptr))
+	{
+#ifdef RICCI_LOCALES
+		setenv("LOCPATH", RICCI_LOCALES, 1); // where the build has made one
+#endif
+		for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "it_IT.UTF-8"})
+			if (std::setlocale(LC_NUMERIC, name) != nullptr)
+				break;
+#ifdef RICCI_LOCALES
+		unsetenv("LOCPATH");
+#endif
+		char text[8];
+		std::snprintf(text, sizeof text, "%.1f", 0.5);
+		m_found = std::string(text) == "0,5";
 	}
-	catch (const Error& error) {
-		sentence = error.what();
+	~DecimalCommas()
+	{
+		std::setlocale(LC_NUMERIC, m_own.c_str());
 	}
-	std::setlocale(LC_NUMERIC, own.c_str());
-	EXPECT_EQ(sentence, "epsilon must be greater than 0 (radians), not -0.5.");
-	if (!found)
-		GTEST_SKIP() << "SKIPPED: this machine has no locale with decimal commas";
+	DecimalCommas(const DecimalCommas&) = delete;
+	DecimalCommas& operator=(const DecimalCommas&) = delete;
+
+	bool found() const
+	{
+		return m_found;
+	}
+
+private:
+	std::string m_own;
+	bool m_found = false;
+};
+
+TEST(Faults, AHostWithDecimalCommasGetsTheSame)
+{
+	/// Keeps what it is told.
+	class Listener : public Progress
+	{
+	public:
+		void log(const std::string& line) override { heard += line + "\n"; }
+		std::string heard;
+	};
+	const auto all = [] {
+		std::string text;
+		for (const Case& c : cases()) {
+			Mesh m;
+			build(c.mesh, m);
+			const std::string before = contents(m);
+			Listener listener;
+			const Flow::Result result = Flow::Compute(m, c.params, listener);
+			Flow::Params refused = c.params;
+			refused.epsilon = -0.5;
+			try {
+				Flow::Compute(m, refused, listener);
+			}
+			catch (const Error& error) {
+				listener.log(error.what());
+			}
+			EXPECT_EQ(contents(m) == before, true) << c.name;
+			write(m, c.params, result);
+			text += listener.heard + contents(m);
+		}
+		return text;
+	};
+	const std::string wanted = all();
+	EXPECT_NE(
+		wanted.find("epsilon must be greater than 0 (radians), not -0.5."), std::string::npos);
+	const DecimalCommas commas;
+	if (!commas.found())
+		GTEST_SKIP() << "SKIPPED: this machine has no locale with decimal commas, nor localedef "
+						"and Debian's package locales to make one";
+	EXPECT_EQ(all() == wanted, true);
 }
+
+#ifdef __linux__
+/// Makes the whole pages of a vector's storage read-only while it lives.
+template<class T>
+class ReadOnly
+{
+public:
+	explicit ReadOnly(std::vector<T>& items)
+	{
+		const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+		const auto first = reinterpret_cast<std::uintptr_t>(items.data());
+		const auto last = first + items.size() * sizeof(T);
+		m_begin = (first + page - 1) / page * page;
+		m_size = last / page * page - m_begin;
+		m_works = protect(PROT_READ);
+	}
+	~ReadOnly() { protect(PROT_READ | PROT_WRITE); }
+	ReadOnly(const ReadOnly&) = delete;
+	ReadOnly& operator=(const ReadOnly&) = delete;
+
+	bool works() const { return m_works && m_size > 0; }
+
+private:
+	bool protect(int access) const
+	{
+		return mprotect(reinterpret_cast<void*>(m_begin), m_size, access) == 0;
+	}
+
+	std::uintptr_t m_begin = 0;
+	std::size_t m_size = 0;
+	bool m_works = false;
+};
+
+TEST(Faults, AReadOnlyMeshIsOnlyRead)
+{
+	Random random(503);
+	for (const SurfaceMesh& shape : {bumpyTorus(40, 30, random), rectangle(30, 30, 1, 1)})
+		for (OutputTriangulation output :
+			 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+			Mesh m;
+			build(shape, m);
+			const std::string before = contents(m);
+			{
+				const ReadOnly vertices(m.vert);
+				const ReadOnly faces(m.face);
+				ASSERT_TRUE(vertices.works() && faces.works());
+				Progress silent;
+				Flow::Compute(m, params(TargetCurvature::Automatic, output), silent);
+				EXPECT_THROW(
+					Flow::Compute(m, params(TargetCurvature::SelectedCones, output), silent),
+					InvalidOption);
+			}
+			EXPECT_EQ(contents(m) == before, true);
+		}
+}
+#endif
 
 TEST(Faults, ASecondRunGivesTheSame)
 {

@@ -8,6 +8,7 @@
 
 #include <ricci/error.h>
 #include <ricci/progress.h>
+#include <ricci/time_limit.h>
 
 #include <vcg/complex/algorithms/update/bounding.h>
 #include <vcg/complex/algorithms/update/color.h>
@@ -224,9 +225,10 @@ void writeReport(
 		progress.log("Report: " + file);
 }
 
-Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Progress& progress)
+Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Progress& listener)
 {
 	Settings settings = readSettings(par);
+	ricci::TimeLimit progress(listener, settings.timeLimit);
 	settings.flow.memoryLimit = freeMemory();
 	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::TargetCurvature::Prescribed);
 	const ReportFiles reportFiles(settings.report, model.pathName());
@@ -251,9 +253,10 @@ Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Pr
 	return {results, changedElements(settings.colorize, settings.flow.output)};
 }
 
-Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::Progress& progress)
+Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::Progress& listener)
 {
 	HyperbolicSettings settings = readHyperbolicSettings(par);
+	ricci::TimeLimit progress(listener, settings.timeLimit);
 	settings.flow.memoryLimit = freeMemory();
 	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::HyperbolicTarget::Prescribed);
 	const ReportFiles reportFiles(settings.report, model.pathName());

@@ -133,6 +133,17 @@ int checkedIterations(const RichParameterList& par)
 	throw ricci::InvalidOption(sentence.str());
 }
 
+double checkedTimeLimit(const RichParameterList& par)
+{
+	const double seconds = static_cast<double>(par.getFloat("time_limit"));
+	if (std::isfinite(seconds) && seconds >= 0.0)
+		return seconds;
+	std::ostringstream sentence;
+	sentence << "The value " << seconds
+			 << " of time_limit cannot be used. Use a number of seconds, or 0 for no limit.";
+	throw ricci::InvalidOption(sentence.str());
+}
+
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 /// More rings than this are beyond what the disk can show.
@@ -173,6 +184,18 @@ RichInt iterationsParameter(int chosen)
 		"Max Newton steps",
 		"One solve gives up with an error after this many Newton steps. A run takes fewer than "
 		"30 as a rule.");
+}
+
+RichFloat timeLimitParameter()
+{
+	return RichFloat(
+		"time_limit",
+		0,
+		"Time limit (seconds)",
+		"A run that takes longer ends with an error and leaves the mesh as it was. It is looked at "
+		"between stages and at every Newton step, so that large meshes can take somewhat longer. "
+		"0: "
+		"no limit.");
 }
 
 RichBool colorizeParameter()
@@ -325,6 +348,7 @@ RichParameterList euclideanParameters()
 		"Gauss-Bonnet allows is reached."));
 	list.addParam(epsilonParameter(defaults.epsilon));
 	list.addParam(iterationsParameter(defaults.maxIterations));
+	list.addParam(timeLimitParameter());
 	return list;
 }
 
@@ -389,6 +413,7 @@ RichParameterList hyperbolicParameters()
 		"leaving the conformal class, so that no triangle ever breaks."));
 	list.addParam(epsilonParameter(defaults.epsilon));
 	list.addParam(iterationsParameter(defaults.maxIterations));
+	list.addParam(timeLimitParameter());
 	return list;
 }
 
@@ -426,6 +451,7 @@ Settings readSettings(const RichParameterList& par)
 	settings.flow.resolveOverlap = par.getBool("resolve_overlap");
 	settings.sphereLayer = par.getBool("sphere_layer");
 	settings.report = par.getString("report");
+	settings.timeLimit = checkedTimeLimit(par);
 	return settings;
 }
 
@@ -453,6 +479,7 @@ HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 			" rings.");
 	settings.axes = par.getBool("generator_axes");
 	settings.report = par.getString("report");
+	settings.timeLimit = checkedTimeLimit(par);
 	return settings;
 }
 

@@ -16,7 +16,8 @@ struct Settings
 	bool colorize = false;
 	bool flatLayer = false;
 	bool sphereLayer = false;
-	QString report; ///< file, empty: none
+	double timeLimit = 0.0; ///< seconds, 0: none
+	QString report;         ///< file, empty: none
 };
 
 struct HyperbolicSettings
@@ -26,7 +27,8 @@ struct HyperbolicSettings
 	bool flatLayer = false;
 	int coverRings = 0;
 	bool axes = false;
-	QString report; ///< file, empty: none
+	double timeLimit = 0.0; ///< seconds, 0: none
+	QString report;         ///< file, empty: none
 };
 
 /// Reads and checks the parameters. Scripts can hold any number for a choice, and no host checks

@@ -14,7 +14,7 @@ skipped() { printf 'SKIPPED: %s\n' "$*"; }
 packages_build=(ca-certificates cmake dpkg-dev g++ ninja-build xz-utils
 	libeigen3-dev libsuitesparse-dev libmetis-dev
 	qtbase5-dev libqt5opengl5-dev libglew-dev libgl1-mesa-dev libglu1-mesa-dev)
-packages_test=(libgtest-dev clang-format valgrind)
+packages_test=(libgtest-dev clang-format clang-tidy locales valgrind)
 packages_meshlab=(meshlab xvfb xauth openbox xdotool imagemagick libgl1-mesa-dri x11-utils)
 packages_python=(python3 python3-venv)
 

@@ -43,7 +43,7 @@ PARAMETERS = [
     ("seam_hiding", "Float", 0.0), ("normalize_uv", "Bool", True), ("chart_margin", "Float", 0.0),
     ("colorize", "Bool", False), ("flat_layer", "Bool", False), ("sphere_layer", "Bool", False),
     ("report", "String", ""), ("circle_packing", "Enum", 0), ("surgery", "Enum", 2),
-    ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200)]
+    ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200), ("time_limit", "Float", 0.0)]
 
 HYPERBOLIC = types.SimpleNamespace(
     NAME="Generalized Ricci Flow (Hyperbolic)",
@@ -59,7 +59,7 @@ HYPERBOLIC = types.SimpleNamespace(
         ("colorize", "Bool", False), ("flat_layer", "Bool", False),
         ("universal_cover", "Int", 0), ("generator_axes", "Bool", False),
         ("report", "String", ""), ("surgery", "Enum", 1), ("epsilon", "Float", 1e-8),
-        ("max_iterations", "Int", 200)])
+        ("max_iterations", "Int", 200), ("time_limit", "Float", 0.0)])
 
 
 def skip(reason):

@@ -241,6 +241,8 @@ class BadInput(unittest.TestCase):
                 (r"epsilon.*greater than 0", {"epsilon": 0.0}),
                 (r"epsilon.*greater than 0", {"epsilon": -1e-8}),
                 (r"max_iterations.*1 or more", {"max_iterations": 0}),
+                (r"time_limit.*number of seconds", {"time_limit": -1.0}),
+                (r"time_limit.*mesh is unchanged", {"time_limit": 1e-6}),
                 (r"target_curvature.*6 \(Placed cones\)", {"target_curvature": 7}),
                 (r"cone_count.*0", {"cone_count": -1}),
                 (r"cone_distortion.*greater than 0", {"cone_distortion": 0.0}),

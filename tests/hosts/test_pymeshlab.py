@@ -497,7 +497,9 @@ class BadInput(unittest.TestCase):
                 ("epsilon.*greater than 0", {"epsilon": 0.0}),
                 ("epsilon.*greater than 0", {"epsilon": -1.0}),
                 ("epsilon.*greater than 0", {"epsilon": float("nan")}),
-                ("max_iterations.*1 or more", {"max_iterations": 0})):
+                ("max_iterations.*1 or more", {"max_iterations": 0}),
+                ("time_limit.*number of seconds", {"time_limit": -1.0}),
+                ("time_limit.*mesh is unchanged", {"time_limit": 1e-6})):
             with self.subTest(values):
                 self.check(words, meshes.torus(), **values)
 

@@ -44,11 +44,23 @@ class TooLarge : public Error
 	using Error::Error;
 };
 
+/// The listener asked the run to stop (progress.h). Nothing is tried again after it.
+class Stopped : public Error
+{
+	using Error::Error;
+};
+
 /// The caller's progress callback asked to stop.
-class Cancelled : public Error
+class Cancelled : public Stopped
 {
 public:
-	Cancelled() : Error("Cancelled: the mesh is unchanged.") {}
+	Cancelled() : Stopped("Cancelled: the mesh is unchanged.") {}
+};
+
+/// The run took longer than its caller allows (time_limit.h).
+class TimeOut : public Stopped
+{
+	using Stopped::Stopped;
 };
 
 } // namespace ricci

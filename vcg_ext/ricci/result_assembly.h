@@ -64,7 +64,7 @@ void runComponents(
 		try {
 			run(component, Interval(progress, from, static_cast<double>(facesDone) / share));
 		}
-		catch (const Cancelled&) {
+		catch (const Stopped&) {
 			throw;
 		}
 		catch (const Error& error) {

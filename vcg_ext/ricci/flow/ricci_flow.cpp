@@ -500,7 +500,7 @@ FlowResult runRicciFlow(
 	try {
 		solved = half.solve();
 	}
-	catch (const Cancelled&) {
+	catch (const Stopped&) {
 		throw;
 	}
 	catch (const Error&) { // the double may do better
@@ -514,7 +514,7 @@ FlowResult runRicciFlow(
 		if (twice.solve())
 			return twice.result();
 	}
-	catch (const Cancelled&) {
+	catch (const Stopped&) {
 		throw;
 	}
 	catch (const Error&) {
