@@ -267,7 +267,7 @@ RichParameterList euclideanParameters()
 		"Cut charts that overlap",
 		"A chart can cover a part of the plane twice although none of its triangles is turned "
 		"round. Such charts are cut further, along the shortest lines that part what overlaps, "
-		"into charts that do not. Off: they are counted only."));
+		"into charts that do not; all others stay as they are. Off: they are counted only."));
 	list.addParam(RichInt(
 		"cone_count",
 		defaults.coneCount,

@@ -38,7 +38,7 @@ CHOICES = {"target_curvature": TARGET, "cone_rounding": ["Free", "Multiples of p
            "holes": ["Boundaries", "Capped"]}
 PARAMETERS = [
     ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True),
-    ("output_triangulation", "Enum", 0), ("holes", "Enum", 0), ("resolve_overlap", "Bool", False),
+    ("output_triangulation", "Enum", 0), ("holes", "Enum", 0), ("resolve_overlap", "Bool", True),
     ("cone_count", "Int", 0), ("cone_distortion", "Float", 0.5), ("cone_rounding", "Enum", 0),
     ("seam_hiding", "Float", 0.0), ("normalize_uv", "Bool", True), ("chart_margin", "Float", 0.0),
     ("colorize", "Bool", False), ("flat_layer", "Bool", False), ("sphere_layer", "Bool", False),

@@ -159,11 +159,11 @@ class Results(unittest.TestCase):
         self.assertGreater(open_ring["seam_edges"], 0)
 
     def test_overlap(self):
-        counted = self.check(mesh_set(meshes.screw()))
+        counted = self.check(mesh_set(meshes.screw()), resolve_overlap=False)
         self.assertEqual(counted["overlapping_charts"], 1)
         self.assertGreater(counted["overlapping_faces"], 0)
         documents = mesh_set(meshes.screw())
-        resolved = self.check(documents, resolve_overlap=True)
+        resolved = self.check(documents)
         self.assertEqual((resolved["overlapping_charts"], resolved["charts"]), (0, 2))
         self.assertGreater(resolved["overlap_cuts"], 0)
         # No point of the square is covered twice.

@@ -226,12 +226,13 @@ TEST(ChartDivision, OfRingsTakesAsManyPartsAsTurns)
 	for (const double turns : {1.2, 1.7, 2.5, 3.3}) {
 		const SurfaceMesh mesh = sector(2 * kPi * turns, static_cast<int>(40 * turns), 3);
 		const DrawnChart chart = drawn(mesh);
-		int cuts = 0;
+		ChartCuts cuts;
 		const auto parts = divideChart(chart, overlappingPairs(chart), edgeLengths(mesh), cuts);
 		expectDivided(chart, parts);
 		EXPECT_GE(parts.size(), static_cast<std::size_t>(std::ceil(turns)));
 		EXPECT_LE(parts.size(), static_cast<std::size_t>(std::ceil(turns)) + 1);
-		EXPECT_EQ(cuts, 3 * (static_cast<int>(parts.size()) - 1)); // each straight across
+		EXPECT_EQ(cuts.edges, 3 * (static_cast<int>(parts.size()) - 1)); // each straight across
+		EXPECT_GE(cuts.length, static_cast<double>(parts.size() - 1) - 1e-12); // the ring is 1 wide
 	}
 }
 
@@ -247,11 +248,12 @@ TEST(ChartDivision, CutsWhereItIsShortest)
 			neck.triangles.push_back(mesh.triangles[f]);
 	}
 	const DrawnChart chart = drawn(neck);
-	int cuts = 0;
+	ChartCuts cuts;
 	const auto parts = divideChart(chart, overlappingPairs(chart), edgeLengths(neck), cuts);
 	expectDivided(chart, parts);
 	ASSERT_EQ(parts.size(), 2u);
-	EXPECT_EQ(cuts, 1);
+	EXPECT_EQ(cuts.edges, 1);
+	EXPECT_NEAR(cuts.length, 1.0 / across, 1e-12);
 	EXPECT_NEAR(
 		static_cast<double>(parts[0].size()) / static_cast<double>(parts[1].size()), 1.0, 0.05);
 }
@@ -260,9 +262,10 @@ TEST(ChartDivision, LeavesAChartWithoutOverlapWhole)
 {
 	const SurfaceMesh mesh = sector(kPi, 20, 3);
 	const DrawnChart chart = drawn(mesh);
-	int cuts = -1;
+	ChartCuts cuts{-1, -1.0};
 	const auto parts = divideChart(chart, overlappingPairs(chart), edgeLengths(mesh), cuts);
-	EXPECT_EQ(cuts, 0);
+	EXPECT_EQ(cuts.edges, 0);
+	EXPECT_EQ(cuts.length, 0.0);
 	ASSERT_EQ(parts.size(), 1u);
 	EXPECT_EQ(parts[0].size(), mesh.triangles.size());
 }
@@ -274,6 +277,7 @@ TEST(SeparateCharts, OfAScrewSurfaceCoverNothingTwice)
 		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
 		Options options;
 		options.output = output;
+		options.resolveOverlap = false;
 		const Parametrization whole = run(mesh, options);
 		EXPECT_EQ(whole.charts.size(), 1u);
 		EXPECT_EQ(whole.report.overlappingCharts, 1);

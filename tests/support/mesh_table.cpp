@@ -30,7 +30,7 @@ const char* const kUsage =
 	"  --packing P          inversive, thurston\n"
 	"  --refine             give the map on the common refinement (surgery flips)\n"
 	"  --capped             close all boundary loops but the longest for the flow\n"
-	"  --separate           cut charts that cover themselves\n"
+	"  --whole-charts       leave charts that cover themselves whole\n"
 	"  --prescribe-boundary free_boundary off\n"
 	"  --epsilon X          radians\n"
 	"  --max-iterations N\n"
@@ -110,8 +110,8 @@ Arguments parse(int argc, char** argv)
 			a.options.output = OutputTriangulation::CommonRefinement;
 		else if (word == "--capped")
 			a.options.holes = Holes::Capped;
-		else if (word == "--separate")
-			a.options.resolveOverlap = true;
+		else if (word == "--whole-charts")
+			a.options.resolveOverlap = false;
 		else if (word == "--prescribe-boundary")
 			a.options.freeBoundary = false;
 		else if (word == "--epsilon")

@@ -101,8 +101,9 @@ struct Options : FlowOptions
 
 	Holes holes = Holes::Boundaries;
 
-	/// Cut a chart that covers a part of the plane more than once into several that do not.
-	bool resolveOverlap = false;
+	/// Cut a chart that covers a part of the plane more than once into several that do not. A chart
+	/// that does not is the same with it and without.
+	bool resolveOverlap = true;
 };
 
 /// Options of the hyperbolic flow.

@@ -564,7 +564,6 @@ Parametrization parametrizeEuclidean(
 	for (const Triangle& t : mesh.triangles)
 		area += triangleArea(
 			{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]});
-	result.report.seamLengthRelative = result.report.seamLength / std::sqrt(area);
 	result.report.converged = true;
 	Report keptReport = result.report;
 	DistortionField distortion = measureDistortion(mesh, result.uv, result.reversed, keptReport);
@@ -575,6 +574,7 @@ Parametrization parametrizeEuclidean(
 	else
 		result.report = keptReport;
 	separateCharts(mesh, options.resolveOverlap, result);
+	result.report.seamLengthRelative = result.report.seamLength / std::sqrt(area);
 	progress.step(1.0, "Layout done");
 	return result;
 }

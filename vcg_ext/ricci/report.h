@@ -57,7 +57,7 @@ struct Report
 	int components = 0;
 	int cones = 0;                   ///< vertices inside that are not flat
 	int seamEdges = 0;               ///< edges of the input along which the layout is cut
-	double seamLength = 0.0;         ///< of these edges on the mesh, each counted once
+	double seamLength = 0.0;         ///< of these edges and of overlapCuts on the mesh, each once
 	double seamLengthRelative = 0.0; ///< seamLength over the square root of the mesh's area
 
 	int charts = 0;

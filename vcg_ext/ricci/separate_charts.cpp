@@ -112,9 +112,10 @@ void separateCharts(const SurfaceMesh& mesh, bool resolve, Parametrization& map)
 			charts.push_back(std::move(chart));
 			continue;
 		}
-		int cuts = 0;
+		ChartCuts cuts;
 		const auto parts = divideChart(output.drawn, pairs, output.edgeLength, cuts);
-		map.report.overlapCuts += cuts;
+		map.report.overlapCuts += cuts.edges;
+		map.report.seamLength += cuts.length;
 		for (Chart& part : chartsOf(map, chart, parts, faceDone)) {
 			turnUpright(map, part);
 			charts.push_back(std::move(part));

@@ -395,7 +395,7 @@ public:
 				m_rivals[at(cursor[at(pair[k])]++)] = pair[1 - k];
 	}
 
-	std::vector<std::vector<int>> run(int& cutEdges)
+	std::vector<std::vector<int>> run(ChartCuts& cuts)
 	{
 		std::vector<int> whole(m_chart.triangles.size());
 		std::iota(whole.begin(), whole.end(), 0);
@@ -418,10 +418,12 @@ public:
 		for (auto& part : byNumber)
 			parts.push_back(std::move(part.second));
 		std::sort(parts.begin(), parts.end());
-		cutEdges = 0;
+		cuts = ChartCuts();
 		for (std::size_t s = 0; s < m_joined.size(); ++s)
-			if (m_joined[s] > static_cast<int>(s))
-				cutEdges += m_part[s / 3] != m_part[at(m_joined[s] / 3)];
+			if (m_joined[s] > static_cast<int>(s) && m_part[s / 3] != m_part[at(m_joined[s] / 3)]) {
+				++cuts.edges;
+				cuts.length += m_edgeLength[s / 3][s % 3];
+			}
 		return parts;
 	}
 
@@ -612,9 +614,9 @@ std::vector<std::vector<int>> divideChart(
 	const DrawnChart& chart,
 	const std::vector<std::array<int, 2>>& pairs,
 	const std::vector<std::array<double, 3>>& edgeLength,
-	int& cutEdges)
+	ChartCuts& cuts)
 {
-	return Division(chart, pairs, edgeLength).run(cutEdges);
+	return Division(chart, pairs, edgeLength).run(cuts);
 }
 
 } // namespace ricci

@@ -38,6 +38,13 @@ constexpr double kTouching = 1e-9;
 /// about that point.
 std::vector<std::array<int, 2>> overlappingPairs(const DrawnChart& chart);
 
+/// What a division cuts: edges of the chart's triangles, each counted once.
+struct ChartCuts
+{
+	int edges = 0;
+	double length = 0.0; ///< in space
+};
+
 /// Divides a chart along edges of its triangles so that no part has one of \p pairs in it. Two
 /// triangles are joined where they share an edge's vertices and both of its ends in the plane.
 ///
@@ -47,13 +54,13 @@ std::vector<std::array<int, 2>> overlappingPairs(const DrawnChart& chart);
 /// so each cut removes pairs and makes none. Neighbouring parts that do not cover each other in the
 /// end are joined again. Deterministic.
 /// \param edgeLength [triangle][side] in space; side k runs from corner k to corner k + 1
-/// \param cutEdges receives the number of edges that were cut
+/// \param cuts receives what was cut
 /// \return the triangles of each connected part, in increasing order, the parts by their first
 std::vector<std::vector<int>> divideChart(
 	const DrawnChart& chart,
 	const std::vector<std::array<int, 2>>& pairs,
 	const std::vector<std::array<double, 3>>& edgeLength,
-	int& cutEdges);
+	ChartCuts& cuts);
 
 } // namespace ricci
 
