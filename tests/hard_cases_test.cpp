@@ -37,6 +37,7 @@ Options refined(TargetCurvature target, bool freeBoundary = true)
 	options.freeBoundary = freeBoundary;
 	options.epsilon = 1e-10;
 	options.output = OutputTriangulation::CommonRefinement;
+	options.resolveOverlap = false; // such cuts may cross faces, the flow's own seams may not
 	return options;
 }
 
