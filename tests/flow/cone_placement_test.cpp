@@ -249,6 +249,63 @@ TEST(ConePlacement, LowersTheDistortionInsideABoundary)
 	}
 }
 
+/// Length of the least tree of edge paths between \p vertices, by all shortest paths.
+double treeLength(const Packed& p, const std::vector<int>& vertices)
+{
+	const int n = p.triangulation.vertexCount();
+	Eigen::MatrixXd d = Eigen::MatrixXd::Constant(n, n, 1e300);
+	for (int e = 0; e < p.triangulation.edgeCount(); ++e) {
+		const int a = p.triangulation.origin(2 * e), b = p.triangulation.target(2 * e);
+		d(a, b) = d(b, a) = std::min(d(a, b), p.lengths[at(e)]);
+	}
+	for (int k = 0; k < n; ++k)
+		for (int i = 0; i < n; ++i)
+			d.row(i) = d.row(i).cwiseMin((d.row(k).array() + d(i, k)).matrix());
+	double length = 0.0;
+	std::vector<int> inside{vertices.front()}, outside(vertices.begin() + 1, vertices.end());
+	while (!outside.empty()) {
+		double least = 1e300;
+		std::size_t next = 0;
+		for (std::size_t i = 0; i < outside.size(); ++i)
+			for (int v : inside)
+				if (d(v, outside[i]) < least) {
+					least = d(v, outside[i]);
+					next = i;
+				}
+		length += least;
+		inside.push_back(outside[next]);
+		outside.erase(outside.begin() + static_cast<std::ptrdiff_t>(next));
+	}
+	return length;
+}
+
+TEST(ConePlacement, MovesConesForShorterSeamsWithinTheDistortion)
+{
+	Random random(708);
+	double gained = 0.0;
+	for (int trial = 0; trial < 4; ++trial) {
+		const Packed p(shaken(perforatedSlab(0, 3), 0.12, random));
+		for (int count : {0, 5, 8}) {
+			ConeRequest request;
+			request.count = count;
+			request.distortion = 0.6;
+			request.shortSeams = false;
+			const PlacedCones apart = placeCones(p.triangulation, p.lengths, request);
+			request.shortSeams = true;
+			const PlacedCones near = placeCones(p.triangulation, p.lengths, request);
+			expectAdmissible(p, near);
+			EXPECT_NEAR(sum(near.curvatures), 4 * kPi, 1e-11);
+			const double most = count > 0 ? kSeamAllowance * apart.distortion : request.distortion;
+			EXPECT_LE(near.distortion, most * (1 + 1e-9));
+			const double before = treeLength(p, apart.vertices),
+						 after = treeLength(p, near.vertices);
+			EXPECT_LE(after, before * (1 + 1e-12));
+			gained += before - after;
+		}
+	}
+	EXPECT_GT(gained, 0.0);
+}
+
 TEST(ConePlacement, ScaleChangesNothing)
 {
 	Random random(706);

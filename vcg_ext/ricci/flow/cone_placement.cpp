@@ -14,9 +14,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
+#include <queue>
 #include <string>
+#include <utility>
 
 namespace ricci {
 
@@ -42,6 +46,22 @@ constexpr double kLeastCurvature = 0.02;
 
 /// Cones move once the distortion is within this of the wanted one.
 constexpr double kNearlyEnough = 1.1;
+
+/// Trials of one cone's move for shorter seams.
+constexpr int kMostAttempts = 3;
+
+/// Exponent of the mean square in the product with the length that such moves lower: distortion
+/// counts half as much as length.
+constexpr double kDistortionWeight = 0.25;
+
+/// A move for shorter seams must lower the product by this share.
+constexpr double kLeastSeamGain = 0.005;
+
+/// Branches of the tree at one cone for which its moves are weighed: all that short trees have.
+constexpr int kMostBranches = 5;
+
+/// Rounds in which every cone may move towards the others.
+constexpr int kMostSeamRounds = 6;
 
 /// Steps of the search for rounded curvatures, for each cone.
 constexpr int kRoundingSteps = 50;
@@ -77,7 +97,7 @@ public:
 		if (count > 0)
 			factorize(map, count);
 		spreadSink(t, lengths);
-		listNeighbours(t);
+		listNeighbours(t, lengths);
 	}
 
 	/// Whether the curvatures of the cones have a fixed sum.
@@ -88,6 +108,31 @@ public:
 	{
 		return m_neighbours.data() + m_firstNeighbour[at(v) + 1];
 	}
+	/// Shortest distances along edges from \p v.
+	std::vector<double> distancesFrom(int v) const
+	{
+		std::vector<double> distance(m_boundary.size(), std::numeric_limits<double>::infinity());
+		using Entry = std::pair<double, int>;
+		std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+		distance[at(v)] = 0.0;
+		queue.push({0.0, v});
+		while (!queue.empty()) {
+			const auto [d, from] = queue.top();
+			queue.pop();
+			if (d > distance[at(from)])
+				continue;
+			for (int k = m_firstNeighbour[at(from)]; k < m_firstNeighbour[at(from) + 1]; ++k) {
+				const int to = m_neighbours[at(k)];
+				const double there = d + m_edgeLength[at(k)];
+				if (there < distance[at(to)]) {
+					distance[at(to)] = there;
+					queue.push({there, to});
+				}
+			}
+		}
+		return distance;
+	}
+
 	Index vertexCount() const { return m_area.size(); }
 	const VectorXd& curvature() const { return m_curvature; }
 	const VectorXd& area() const { return m_area; } ///< shares that add up to 1
@@ -110,6 +155,8 @@ public:
 		u.array() -= m_area.dot(u);
 		return u;
 	}
+
+	double meanSquare(const VectorXd& u) const { return m_area.dot(u.cwiseProduct(u)); }
 
 	/// Derivative of half the mean square of \p u by the curvature of a cone at each vertex, up to
 	/// a constant where the sum of the curvatures is fixed.
@@ -171,7 +218,7 @@ private:
 		}
 	}
 
-	void listNeighbours(const Triangulation& t)
+	void listNeighbours(const Triangulation& t, const std::vector<double>& lengths)
 	{
 		m_firstNeighbour.assign(at(t.vertexCount()) + 1, 0);
 		for (int h = 0; h < t.halfedgeCount(); ++h)
@@ -179,9 +226,13 @@ private:
 		std::partial_sum(
 			m_firstNeighbour.begin(), m_firstNeighbour.end(), m_firstNeighbour.begin());
 		m_neighbours.resize(at(t.halfedgeCount()));
+		m_edgeLength.resize(m_neighbours.size());
 		std::vector<int> cursor(m_firstNeighbour.begin(), m_firstNeighbour.end() - 1);
-		for (int h = 0; h < t.halfedgeCount(); ++h)
-			m_neighbours[at(cursor[at(t.origin(h))]++)] = t.target(h);
+		for (int h = 0; h < t.halfedgeCount(); ++h) {
+			const auto place = at(cursor[at(t.origin(h))]++);
+			m_neighbours[place] = t.target(h);
+			m_edgeLength[place] = lengths[at(Triangulation::edge(h))];
+		}
 	}
 
 	/// Shares of the boundary vertices in the curvature of a prescribed boundary.
@@ -200,6 +251,7 @@ private:
 	std::vector<char> m_boundary;
 	int m_candidates;
 	std::vector<int> m_firstNeighbour, m_neighbours; // by vertex
+	std::vector<double> m_edgeLength;                // to each of m_neighbours
 	bool m_fixed = false;
 	std::vector<int> m_unknown;
 	VectorXd m_curvature, m_area, m_sink;
@@ -208,20 +260,27 @@ private:
 };
 
 /// The cones of the moment, with the quadratic function that their curvatures k minimise:
-/// E(k) = k G k / 2 + b k + E(0).
+/// E(k) = k G k + 2 b k + E(0), the mean square of u.
+///
+/// The products of two fields u are values of the fields phi: with u_v the factor of a unit of
+/// curvature at v and phi_j the gradient field of u_j, the mean of u_v u_j is phi_j(v). So a trial of
+/// a vertex costs one solution, that of its own u for the diagonal of G, and only if it was never
+/// tried before.
 class Cones
 {
 public:
 	Cones(LinearFlow& flow, double total) :
 			m_flow(flow), m_total(total), m_isCone(at(flow.vertexCount()), 0)
 	{
-		m_start = fieldOf(-flow.curvature());
-		m_uniform = fieldOf(flow.area());
+		const VectorXd start = m_flow.solve(-flow.curvature());
+		m_startEnergy = m_flow.meanSquare(start);
+		m_start = m_flow.gradient(start);
+		m_uniform = m_flow.gradient(m_flow.solve(flow.area()));
 	}
 
-	int size() const { return static_cast<int>(m_vertices.size()); }
-	const std::vector<int>& vertices() const { return m_vertices; }
-	const VectorXd& values() const { return m_values; }
+	int size() const { return static_cast<int>(m_now.vertices.size()); }
+	const std::vector<int>& vertices() const { return m_now.vertices; }
+	const VectorXd& values() const { return m_now.values; }
 
 	/// Fits the curvatures anew.
 	void setRounding(ConeRounding rounding)
@@ -230,8 +289,21 @@ public:
 		fit();
 	}
 
-	double energy() const { return meanSquare(factor()); }
+	double energy() const
+	{
+		const VectorXd& k = m_now.values;
+		return std::max(0.0, k.dot(m_now.gram * k) + 2.0 * m_now.linear.dot(k) + m_startEnergy);
+	}
 	double distortion() const { return 2.0 * std::sqrt(energy()); }
+
+	/// The same from the factor itself, which has all digits where the sum above cancels.
+	double exactDistortion()
+	{
+		VectorXd rhs = -m_flow.curvature();
+		for (int i = 0; i < size(); ++i)
+			rhs[m_now.vertices[at(i)]] += m_now.values[i];
+		return 2.0 * std::sqrt(m_flow.meanSquare(m_flow.solve(std::move(rhs))));
+	}
 
 	/// The least number of cones that can carry the total curvature.
 	int leastCount() const
@@ -251,9 +323,9 @@ public:
 		const double sign = m_total < 0.0 ? -1.0 : 1.0;
 		for (int i = 0; i < count; ++i) {
 			const double share = m_total / count;
-			VectorXd phi = m_start.phi + (m_total - share * i) * m_uniform.phi;
-			for (const Field& cone : m_unit)
-				phi += share * cone.phi;
+			VectorXd phi = m_start + (m_total - share * i) * m_uniform;
+			for (const VectorXd& cone : m_phi)
+				phi += share * cone;
 			const int v = best(sign * phi, false);
 			if (v < 0)
 				return false;
@@ -266,9 +338,7 @@ public:
 	/// One more, where it gains most. \return false if no vertex is left
 	bool add()
 	{
-		VectorXd phi = gradient();
-		phi.array() -= level(phi);
-		const int v = best(phi, true);
+		const int v = mostGain();
 		if (v < 0)
 			return false;
 		append(v);
@@ -283,8 +353,25 @@ public:
 		for (int round = 0; round < kMostRounds; ++round) {
 			bool moved = false;
 			for (int i = 0; i < size(); ++i)
-				moved |= std::abs(m_values[i]) > kNegligible ? relocate(i, present)
-															 : replant(i, present);
+				moved |= std::abs(m_now.values[i]) > kNegligible ? relocate(i, present)
+																 : replant(i, present);
+			if (!moved)
+				return;
+		}
+	}
+
+	/// Moves the cones towards each other where that shortens the least tree that joins them by a
+	/// larger share than it raises the distortion, up to \p distortion.
+	void shortenTree(double distortion)
+	{
+		const double most = 0.25 * distortion * distortion;
+		std::vector<std::vector<double>> distance;
+		for (int v : m_now.vertices)
+			distance.push_back(m_flow.distancesFrom(v));
+		for (int round = 0; round < kMostSeamRounds; ++round) {
+			bool moved = false;
+			for (int i = 0; i < size(); ++i)
+				moved |= shortenTree(i, most, distance);
 			if (!moved)
 				return;
 		}
@@ -292,7 +379,7 @@ public:
 
 	void removeWeak()
 	{
-		const VectorXd values = m_values;
+		const VectorXd values = m_now.values;
 		for (int i = size() - 1; i >= 0; --i)
 			if (std::abs(values[i]) <= kLeastCurvature && size() > leastCount())
 				remove(i);
@@ -300,57 +387,55 @@ public:
 	}
 
 private:
-	/// What a curvature does: the conformal factor, and its share in the energy's gradient.
-	struct Field
+	/// The quadratic function, and where it is least.
+	struct Quadratic
 	{
-		VectorXd u, phi;
+		std::vector<int> vertices;
+		VectorXd values; // [cone] radians
+		MatrixXd gram;
+		VectorXd linear;
 	};
 
-	Field fieldOf(const VectorXd& curvature)
+	/// Mean square of the factor of a unit of curvature at \p v.
+	double ownProduct(int v)
 	{
-		Field field;
-		field.u = m_flow.solve(curvature);
-		field.phi = m_flow.gradient(field.u);
-		return field;
+		const auto known = m_ownProduct.find(v);
+		if (known != m_ownProduct.end())
+			return known->second;
+		return m_ownProduct[v] = m_flow.meanSquare(unitFactor(v));
 	}
 
-	Field unitCone(int v)
+	const VectorXd& unitFactor(int v)
 	{
-		VectorXd curvature = VectorXd::Zero(m_flow.vertexCount());
-		curvature[v] = 1.0;
-		return fieldOf(curvature);
-	}
-
-	VectorXd factor() const
-	{
-		VectorXd u = m_start.u;
-		for (int i = 0; i < size(); ++i)
-			u += m_values[i] * m_unit[at(i)].u;
-		return u;
+		if (m_lastVertex != v) {
+			VectorXd curvature = VectorXd::Zero(m_flow.vertexCount());
+			curvature[v] = 1.0;
+			m_lastFactor = m_flow.solve(std::move(curvature));
+			m_lastVertex = v;
+		}
+		return m_lastFactor;
 	}
 
 	VectorXd gradient() const
 	{
-		VectorXd phi = m_start.phi;
+		VectorXd phi = m_start;
 		for (int i = 0; i < size(); ++i)
-			phi += m_values[i] * m_unit[at(i)].phi;
+			phi += m_now.values[i] * m_phi[at(i)];
 		return phi;
 	}
-
-	double meanSquare(const VectorXd& u) const { return m_flow.area().dot(u.cwiseProduct(u)); }
 
 	/// The value of the gradient that gains nothing: that at the cones where the sum is fixed.
 	double level(const VectorXd& phi) const
 	{
 		if (!m_flow.hasFixedSum())
 			return 0.0;
-		if (m_vertices.empty())
+		if (m_now.vertices.empty())
 			return m_flow.area().dot(phi);
 		double sum = 0.0;
 		int count = 0;
 		for (int i = 0; i < size(); ++i)
-			if (m_values[i] < kMostConeCurvature - 1e-9) {
-				sum += phi[m_vertices[at(i)]];
+			if (m_now.values[i] < kMostConeCurvature - 1e-9) {
+				sum += phi[m_now.vertices[at(i)]];
 				++count;
 			}
 		return count > 0 ? sum / count : m_flow.area().dot(phi);
@@ -371,45 +456,66 @@ private:
 		return found;
 	}
 
-	void append(int v)
+	/// Where one more cone gains most, or -1.
+	int mostGain() const
 	{
-		m_vertices.push_back(v);
-		m_isCone[at(v)] = 1;
-		m_unit.push_back(unitCone(v));
-		refreshProducts(size() - 1);
+		VectorXd phi = gradient();
+		phi.array() -= level(phi);
+		return best(phi, true);
 	}
 
-	void replace(int i, int v, Field unit)
+	void append(int v)
 	{
-		m_isCone[at(m_vertices[at(i)])] = 0;
 		m_isCone[at(v)] = 1;
-		m_vertices[at(i)] = v;
-		m_unit[at(i)] = std::move(unit);
-		refreshProducts(i);
+		insertRow(size(), v);
+		m_phi.push_back(m_flow.gradient(unitFactor(v)));
 	}
 
 	void remove(int i)
 	{
-		m_isCone[at(m_vertices[at(i)])] = 0;
-		m_vertices.erase(m_vertices.begin() + i);
-		m_unit.erase(m_unit.begin() + i);
-		for (int k = i; k < size(); ++k)
-			refreshProducts(k);
-		m_gram.conservativeResize(size(), size());
-		m_linear.conservativeResize(size());
-		m_values = VectorXd::Zero(size());
+		m_isCone[at(m_now.vertices[at(i)])] = 0;
+		removeRow(i);
+		m_phi.erase(m_phi.begin() + i);
 	}
 
-	/// Row and column \p i of G, entry i of b.
-	void refreshProducts(int i)
+	/// Vertex, row and column \p i of G, entry i of b; the curvatures stay to be fitted.
+	void setRow(int i, int v)
 	{
-		const Index n = size();
-		m_gram.conservativeResize(n, n);
-		m_linear.conservativeResize(n);
-		const VectorXd weighted = m_flow.area().cwiseProduct(m_unit[at(i)].u);
-		for (Index k = 0; k < n; ++k)
-			m_gram(i, k) = m_gram(k, i) = weighted.dot(m_unit[at(k)].u);
-		m_linear[i] = weighted.dot(m_start.u);
+		m_now.vertices[at(i)] = v;
+		for (int k = 0; k < size(); ++k)
+			if (k != i)
+				m_now.gram(i, k) = m_now.gram(k, i) = m_phi[at(k)][v];
+		m_now.gram(i, i) = ownProduct(v);
+		m_now.linear[i] = m_start[v];
+	}
+
+	/// \p i = size() only.
+	void insertRow(int i, int v)
+	{
+		m_now.vertices.push_back(v);
+		m_now.gram.conservativeResize(size(), size());
+		m_now.linear.conservativeResize(size());
+		setRow(i, v);
+	}
+
+	void removeRow(int i)
+	{
+		std::vector<int> kept;
+		for (int k = 0; k < size(); ++k)
+			if (k != i)
+				kept.push_back(k);
+		Quadratic smaller;
+		const auto n = static_cast<Index>(kept.size());
+		smaller.values = VectorXd::Zero(n);
+		smaller.gram.resize(n, n);
+		smaller.linear.resize(n);
+		for (Index a = 0; a < n; ++a) {
+			smaller.vertices.push_back(m_now.vertices[at(kept[at(a)])]);
+			smaller.linear[a] = m_now.linear[kept[at(a)]];
+			for (Index b = 0; b < n; ++b)
+				smaller.gram(a, b) = m_now.gram(kept[at(a)], kept[at(b)]);
+		}
+		m_now = std::move(smaller);
 	}
 
 	/// Puts the curvatures to their best values.
@@ -424,7 +530,7 @@ private:
 	/// Least squares with the sum fixed where it is, and no curvature above the largest.
 	void fitFree(std::vector<char>& atMost)
 	{
-		m_values = VectorXd::Zero(size());
+		m_now.values = VectorXd::Zero(size());
 		for (int attempt = 0; attempt <= size(); ++attempt) {
 			std::vector<int> free;
 			double total = m_total;
@@ -432,7 +538,7 @@ private:
 				if (!atMost[at(i)])
 					free.push_back(i);
 				else
-					total -= m_values[i] = kMostConeCurvature;
+					total -= m_now.values[i] = kMostConeCurvature;
 			}
 			const auto n = static_cast<Index>(free.size());
 			if (n == 0)
@@ -443,11 +549,11 @@ private:
 			for (Index a = 0; a < n; ++a) {
 				const int i = free[at(a)];
 				for (Index b = 0; b < n; ++b)
-					system(a, b) = m_gram(i, free[at(b)]);
-				rhs[a] = -m_linear[i];
+					system(a, b) = m_now.gram(i, free[at(b)]);
+				rhs[a] = -m_now.linear[i];
 				for (int k = 0; k < size(); ++k)
 					if (atMost[at(k)])
-						rhs[a] -= m_gram(i, k) * kMostConeCurvature;
+						rhs[a] -= m_now.gram(i, k) * kMostConeCurvature;
 			}
 			if (rows > n) {
 				system.row(n).head(n).setOnes();
@@ -457,7 +563,7 @@ private:
 			const VectorXd solution = system.fullPivLu().solve(rhs);
 			bool excess = false;
 			for (Index a = 0; a < n; ++a) {
-				m_values[free[at(a)]] = solution[a];
+				m_now.values[free[at(a)]] = solution[a];
 				if (solution[a] > kMostConeCurvature) {
 					atMost[at(free[at(a)])] = 1;
 					excess = true;
@@ -475,9 +581,9 @@ private:
 		const double most = std::floor(kMostConeCurvature / kQuarterTurn + 1e-9);
 		VectorXd turns(size());
 		for (int i = 0; i < size(); ++i)
-			turns[i] = std::min(most, std::round(m_values[i] / kQuarterTurn));
-		const MatrixXd gram = kQuarterTurn * kQuarterTurn * m_gram;
-		const VectorXd linear = kQuarterTurn * m_linear;
+			turns[i] = std::min(most, std::round(m_now.values[i] / kQuarterTurn));
+		const MatrixXd gram = kQuarterTurn * kQuarterTurn * m_now.gram;
+		const VectorXd linear = kQuarterTurn * m_now.linear;
 		VectorXd slope = gram * turns + linear;
 		const auto step = [&](int i, double by) {
 			turns[i] += by;
@@ -525,21 +631,21 @@ private:
 			if (down >= 0)
 				step(down, -1.0);
 		}
-		m_values = kQuarterTurn * turns;
+		m_now.values = kQuarterTurn * turns;
 	}
 
 	/// Moves cone \p i to where it gains most, or else to the best vertex beside it.
 	bool relocate(int i, double& present)
 	{
-		const double own = m_values[i];
-		const int old = m_vertices[at(i)];
+		const double own = m_now.values[i];
+		const int old = m_now.vertices[at(i)];
 		// Half the mean square changes by about own (phi[new] - phi[old]): far away with the field
 		// of the others, as the cone's own is alike everywhere, or next to it with the whole field.
 		const double enough = 0.5 * kLeastGain * present;
 		const VectorXd whole = gradient();
-		VectorXd phi = whole - own * m_unit[at(i)].phi;
+		VectorXd phi = whole - own * m_phi[at(i)];
 		if (m_flow.hasFixedSum()) // the cone's curvature lies on the whole surface by area
-			phi += own * m_uniform.phi;
+			phi += own * m_uniform;
 		m_isCone[at(old)] = 0;
 		const int far = best(own > 0.0 ? phi : VectorXd(-phi), false);
 		m_isCone[at(old)] = 1;
@@ -555,38 +661,120 @@ private:
 	/// Moves cone \p i to \p v if that lowers the energy enough.
 	bool move(int i, int v, double& present)
 	{
-		const int old = m_vertices[at(i)];
-		const VectorXd oldValues = m_values;
-		Field before = m_unit[at(i)];
-		replace(i, v, unitCone(v));
-		fit();
-		const double now = energy();
-		if (now < (1.0 - kLeastGain) * present) {
-			present = now;
+		return tryMove(i, v, [&](double energy) {
+			if (!(energy < (1.0 - kLeastGain) * present))
+				return false;
+			present = energy;
 			return true;
-		}
-		replace(i, old, std::move(before));
-		m_values = oldValues;
-		return false;
+		});
 	}
 
-	/// Takes a weak cone out and adds one where that gains most.
+	/// Moves cone \p i to \p v if \p accept takes the energy there.
+	template<class Accept>
+	bool tryMove(int i, int v, Accept accept)
+	{
+		Quadratic before = m_now;
+		setRow(i, v);
+		fit();
+		if (!accept(energy())) {
+			m_now = std::move(before);
+			return false;
+		}
+		m_isCone[at(before.vertices[at(i)])] = 0;
+		m_isCone[at(v)] = 1;
+		m_phi[at(i)] = m_flow.gradient(unitFactor(v));
+		return true;
+	}
+
+	/// Takes a weak cone out and puts it where one more gains most.
 	bool replant(int i, double& present)
 	{
 		if (size() <= leastCount())
 			return false;
-		const int old = m_vertices[at(i)];
-		Field before = m_unit[at(i)];
+		const int old = m_now.vertices[at(i)];
+		const Quadratic before = m_now;
+		VectorXd phi = std::move(m_phi[at(i)]);
 		remove(i);
 		fit();
-		add(); // there is at least the old vertex
-		const double now = energy();
-		if (now < (1.0 - kLeastGain) * present) {
-			present = now;
-			return true;
+		const int v = mostGain(); // there is at least the old vertex
+		m_now = before;
+		m_phi.insert(m_phi.begin() + i, std::move(phi));
+		m_isCone[at(old)] = 1;
+		return v != old && move(i, v, present);
+	}
+
+	/// Length of the least tree that joins the cones by paths, cone \p skipped left out, or put to
+	/// vertex \p instead.
+	double
+	treeLength(const std::vector<std::vector<double>>& distance, int skipped, int instead) const
+	{
+		const auto vertexOf = [&](int k) { return k == skipped ? instead : m_now.vertices[at(k)]; };
+		std::vector<double> nearest(at(size()), std::numeric_limits<double>::infinity());
+		std::vector<char> joined(at(size()), 0);
+		int last = skipped == 0 && instead < 0 ? 1 : 0;
+		double length = 0.0;
+		for (;;) {
+			joined[at(last)] = 1;
+			int next = -1;
+			for (int k = 0; k < size(); ++k) {
+				if (joined[at(k)] || (k == skipped && instead < 0))
+					continue;
+				const double d = last == skipped ? distance[at(k)][at(instead)]
+												 : distance[at(last)][at(vertexOf(k))];
+				nearest[at(k)] = std::min(nearest[at(k)], d);
+				if (next < 0 || nearest[at(k)] < nearest[at(next)])
+					next = k;
+			}
+			if (next < 0)
+				return length;
+			length += nearest[at(next)];
+			last = next;
 		}
-		replace(size() - 1, old, std::move(before));
-		fit();
+	}
+
+	bool shortenTree(int i, double most, std::vector<std::vector<double>>& distance)
+	{
+		const double own = m_now.values[i], present = energy();
+		const int old = m_now.vertices[at(i)];
+		const double length = treeLength(distance, -1, -1);
+		const auto cost = [](double energy, double l) {
+			return std::pow(energy, kDistortionWeight) * l;
+		};
+		const double before = cost(present, length);
+		// As in relocate(): the field of the others, as the cone's own is alike everywhere.
+		VectorXd phi = gradient() - own * m_phi[at(i)];
+		if (m_flow.hasFixedSum())
+			phi += own * m_uniform;
+		// A prediction that is too good is followed by one with half the room.
+		double room = most - present;
+		for (int attempt = 0; attempt < kMostAttempts && room > 0.0; ++attempt, room *= 0.5) {
+			double least = (1.0 - kLeastSeamGain) * before, expected = 0.0;
+			int to = -1;
+			for (int v = 0; v < static_cast<int>(phi.size()); ++v) {
+				const double energy = present + 2.0 * own * (phi[v] - phi[old]);
+				if (m_isCone[at(v)] || !m_flow.isCandidate(v) || energy > present + room)
+					continue;
+				// Each branch at the cone becomes shorter by no more than the way that it goes.
+				const double e = std::max(energy, present);
+				if (cost(e, length - kMostBranches * distance[at(i)][at(v)]) >= least)
+					continue;
+				const double l = treeLength(distance, i, v);
+				if (cost(e, l) < least) {
+					least = cost(e, l);
+					expected = l;
+					to = v;
+				}
+			}
+			if (to < 0)
+				return false;
+			if (tryMove(i, to, [&](double energy) {
+					return energy <= most &&
+						   cost(energy, expected) < (1.0 - kLeastSeamGain) * before;
+				})) {
+				distance[at(i)] = m_flow.distancesFrom(to);
+				return true;
+			}
+		}
 		return false;
 	}
 
@@ -594,13 +782,14 @@ private:
 	double m_total; ///< 2 pi chi
 	ConeRounding m_rounding = ConeRounding::Free;
 	std::vector<char> m_isCone; // [vertex]
-	std::vector<int> m_vertices;
-	VectorXd m_values;         // [cone] radians
-	Field m_start;             // without cones
-	Field m_uniform;           // of a unit of curvature spread by area
-	std::vector<Field> m_unit; // of each cone's unit of curvature
-	MatrixXd m_gram;
-	VectorXd m_linear;
+	Quadratic m_now;
+	double m_startEnergy = 0.0;         // without cones
+	VectorXd m_start;                   // gradient field without cones
+	VectorXd m_uniform;                 // of a unit of curvature spread by area
+	std::vector<VectorXd> m_phi;        // of each cone's unit of curvature
+	std::map<int, double> m_ownProduct; // of vertices that were tried
+	int m_lastVertex = -1;
+	VectorXd m_lastFactor;
 };
 
 } // namespace
@@ -646,8 +835,14 @@ placeCones(const Triangulation& t, const std::vector<double>& lengths, const Con
 		cones.relocate();
 	}
 	cones.removeWeak();
+	// The cut of a sphere is the tree of its cones and nothing else.
+	if (request.shortSeams && t.eulerCharacteristic() == 2) {
+		cones.shortenTree(
+			request.count > 0 ? kSeamAllowance * cones.distortion() : request.distortion);
+		cones.removeWeak();
+	}
 	PlacedCones placed;
-	placed.distortion = cones.distortion();
+	placed.distortion = cones.exactDistortion();
 	std::vector<int> order(at(cones.size()));
 	std::iota(order.begin(), order.end(), 0);
 	std::sort(order.begin(), order.end(), [&](int a, int b) {

@@ -12,6 +12,9 @@ namespace ricci {
 /// The largest curvature of a placed cone, radians: its angle is at least a right one.
 constexpr double kMostConeCurvature = 4.71238898038468985769;
 
+/// How much larger the distortion of a given number of cones may become for shorter seams.
+constexpr double kSeamAllowance = 1.05;
+
 /// The most cones that are placed where the distortion decides.
 constexpr int kMostPlacedCones = 64;
 
@@ -28,6 +31,9 @@ struct ConeRequest
 	ConeRounding rounding = ConeRounding::Free;
 	ConeBoundary boundary = ConeBoundary::Fixed;
 	int vertices = -1; ///< cones lie at the first so many vertices; -1: at any
+	/// On a sphere, move cones towards each other where that shortens the tree that joins them more
+	/// than it raises the distortion: up to the wanted one, or by kSeamAllowance for a given count.
+	bool shortSeams = true;
 };
 
 struct PlacedCones
@@ -50,6 +56,9 @@ struct PlacedCones
 /// cone in turn is taken out and put where it gains most, while that helps. With
 /// ConeRounding::QuarterTurns the curvatures are the best multiples of pi/2 that a search by single
 /// steps and exchanges finds.
+///
+/// The seams of a sphere are a tree through its cones. Distortion is flat about its least value: the
+/// last moves lower the product of the tree's length and the root of the distortion.
 ///
 /// On a closed surface the curvatures add up to 2 pi chi. No cone lies on the boundary.
 /// Deterministic.
