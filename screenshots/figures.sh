@@ -58,12 +58,13 @@ has() {
 	[[ " ${RICCI_PICTURES-kitten bunny mask bust} " == *" $1 "* ]]
 }
 
-# row OUT NAME=TEXT...: pictures side by side on white, of one height, with a line of text under each.
+# row OUT HEIGHT NAME=TEXT...: pictures side by side on white, at most HEIGHT pixels high, a line of
+# text under each.
 row() {
-	local out=$1 pair parts=()
-	shift
+	local out=$1 height=$2 pair parts=()
+	shift 2
 	for pair in "$@"; do
-		parts+=('(' "$work/${pair%%=*}.png" -resize x460 -gravity center -background white
+		parts+=('(' "$work/${pair%%=*}.png" -resize "x$height>" -gravity center -background white
 			-bordercolor white -border 8 -pointsize 17 "label:${pair#*=}" -append ')')
 	done
 	convert -background white -font DejaVu-Sans "${parts[@]}" -gravity south +append -strip +dither -colors 255 \
@@ -108,8 +109,8 @@ compare() {
 	shoot "$1_qc_conventional" "$1_qc_conventional.ply"
 	histogram "$1" generalized
 	histogram "$1" conventional
-	row "$2" "$1_qc_conventional=conventional flow" "$1_histogram_conventional= " \
-		"$1_qc_generalized=generalized flow" "$1_histogram_generalized= "
+	row "$2" 460 "$1_qc_conventional=conventional flow" "$1_histogram_conventional=its vertices" \
+		"$1_qc_generalized=generalized flow" "$1_histogram_generalized=its vertices"
 }
 
 make_pictures() {
@@ -117,14 +118,14 @@ make_pictures() {
 	if has kitten; then
 		shoot kitten_conventional kitten_conventional.ply
 		shoot kitten_generalized kitten_generalized.ply
-		row kitten "kitten_conventional=conventional flow (Fig. 5)" \
+		row kitten 540 "kitten_conventional=conventional flow (Fig. 5)" \
 			"kitten_generalized=generalized flow (Fig. 7)"
 		compare kitten kitten_distortion
 	fi
 	if has bunny; then
 		shoot bunny_circles bunny_circles.ply
 		shoot bunny_seams bunny_checkerboard.ply bunny_seams.ply
-		row bunny "bunny_circles=circles of the plane on the surface (Fig. 1)" \
+		row bunny 480 "bunny_circles=circles of the plane on the surface (Fig. 1)" \
 			"bunny_seams=seams and cones"
 	fi
 	if has mask; then
@@ -133,14 +134,14 @@ make_pictures() {
 			shoot mask_$outline mask_$outline.ply
 			shoot mask_${outline}_chart mask_${outline}_chart.ply
 		done
-		row outlines "mask_disk=Disk" "mask_disk_chart=its chart" \
+		row outlines 460 "mask_disk=Disk" "mask_disk_chart=its chart" \
 			"mask_rectangle=Rectangle" "mask_rectangle_chart=its chart (Fig. 11)"
-		row free_boundary "mask_free=free boundary (Fig. 12)" "mask_free_chart=its chart"
+		row free_boundary 500 "mask_free=free boundary (Fig. 12)" "mask_free_chart=its chart"
 	fi
 	if has bust; then
 		shoot bust bust.ply
 		shoot bust_chart bust_chart.ply
-		row annulus "bust=$(cat bust.txt)" "bust_chart=its chart"
+		row annulus 500 "bust=$(cat bust.txt)" "bust_chart=its chart"
 	fi
 	[ $# -eq 0 ] || compare rocker_arm rocker_arm_distortion
 }

@@ -73,8 +73,8 @@ HOME=$work/home XDG_RUNTIME_DIR=$work/home xvfb-run -a "$stage/bin/meshlabserver
 trap close_display EXIT
 open_display "$work/display" || fail "no display could be opened"
 shoot surface 60 0 surface.ply
-shoot disk 0 0 disk.ply
-shoot universal_cover 0 0 cover.ply axes.ply
+shoot disk 0 1 disk.ply
+shoot universal_cover 0 0 cover.ply
 convert surface.png disk.png -gravity center +append hyperbolic.png
 publish hyperbolic
 publish universal_cover

@@ -287,7 +287,7 @@ def kitten(meshes, out, _):
 def rocker_arm(_, out, path):
     mesh = load(path).current_mesh()
     compare("rocker_arm", Surface(mesh, target_curvature="Flat everywhere"),
-            Surface(mesh, target_curvature="Flat everywhere", circle_packing="Thurston"), out, (0, 0))
+            Surface(mesh, target_curvature="Flat everywhere", circle_packing="Thurston"), out, (65, 20))
 
 
 def compare(name, generalized, conventional, out, view):

@@ -119,6 +119,7 @@ std::vector<double> toNumbers(const ricci::FuchsianGroup& group)
 std::string toSentence(const Results& results)
 {
 	const int charts = valueOf<int>(results, "charts");
+	const int flipped = valueOf<int>(results, "flipped_faces");
 	std::ostringstream line;
 	line.imbue(std::locale::classic());
 	line.precision(2);
@@ -126,7 +127,7 @@ std::string toSentence(const Results& results)
 		 << " rad of the target after " << valueOf<int>(results, "iterations")
 		 << " Newton steps. Distortion " << std::fixed << std::setprecision(3)
 		 << valueOf<double>(results, "qc_area_mean") << " on average (1 keeps all angles), "
-		 << valueOf<int>(results, "flipped_faces") << " flipped faces, " << charts
+		 << flipped << (flipped == 1 ? " flipped face, " : " flipped faces, ") << charts
 		 << (charts == 1 ? " chart." : " charts.");
 	return line.str();
 }
