@@ -97,6 +97,12 @@ class Readme(unittest.TestCase):
                      if not os.path.exists(os.path.join(common.REPOSITORY, name))}
         self.assertEqual(sorted(elsewhere), [])
 
+    def test_version(self):
+        """One version everywhere."""
+        version = re.search(r"project\(\w+ VERSION ([\d.]+)", read("CMakeLists.txt")).group(1)
+        self.assertEqual(re.search(r"^## \[(.*?)\]", read("CHANGELOG.md"), re.M).group(1), version)
+        self.assertEqual(re.search(r"version = {(.*?)}", self.text).group(1), version)
+
     def test_script(self):
         script = re.search(r"```xml\n(.*?)```", self.text, re.DOTALL).group(1)
         sample = read("filter_ricci", "samples", "automatic.mlx")

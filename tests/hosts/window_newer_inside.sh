@@ -83,5 +83,6 @@ xdotool key Return
 sleep 2
 kill -0 "$meshlab_pid" || fail "MeshLab has ended"
 montage "plugin_$year.png" "result_$year.png" "hyperbolic_$year.png" "refused_$year.png" -tile 2x2 \
-	-geometry 1000x+4+4 -strip +dither -colors 255 -define png:compression-level=9 "window_$year.png"
+	-geometry 1000x+4+4 miff:- |
+	convert - -strip +dither -colors 128 -define png:compression-level=9 "PNG8:window_$year.png"
 echo "Both filters ran in the window of MeshLab $version, loaded through its menu."
