@@ -8,6 +8,7 @@
 
 #include <ricci/error.h>
 #include <ricci/progress.h>
+#include <ricci/text.h>
 #include <ricci/time_limit.h>
 
 #include <vcg/complex/algorithms/update/bounding.h>
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <string>
 #include <vector>
 
 namespace filter_ricci {
@@ -143,6 +145,19 @@ void addAxesLayer(NewLayers& layers, MeshModel& model, const Flow::Result& resul
 	MeshModel& axes = layers.add("Axes " + model.label());
 	Flow::BuildAxes(result, kAxisPieces, axes.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(axes.cm);
+}
+
+void addPolygonLayer(
+	NewLayers& layers, MeshModel& model, const Flow::Result& result, ricci::Progress& progress)
+{
+	MeshModel& layer = layers.add("Canonical polygon " + model.label());
+	for (const auto& polygon : Flow::BuildCanonicalPolygons(result, kAxisPieces, layer.cm))
+		progress.log(
+			"Canonical polygon: " + std::to_string(polygon.corners.size()) + " sides, " +
+			(polygon.isSimple ? "none crosses another" : "some cross each other") +
+			", and the last one ends " + ricci::numberText(polygon.gap, 2) +
+			" beside the first corner.");
+	vcg::tri::UpdateBounding<CMeshO>::Box(layer.cm);
 }
 
 /// The mesh on the sphere.
@@ -272,6 +287,8 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 		addCoverLayer(layers, model, settings.coverRings, result);
 	if (settings.axes)
 		addAxesLayer(layers, model, result);
+	if (settings.canonicalPolygon)
+		addPolygonLayer(layers, model, result, progress);
 	writeMesh(model, settings.colorize, settings.flow.output, result);
 	layers.keep();
 	return {results, changedElements(settings.colorize, settings.flow.output)};

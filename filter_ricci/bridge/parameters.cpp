@@ -401,6 +401,14 @@ RichParameterList hyperbolicParameters()
 		"Axes of the generators",
 		"Add a layer with the axes of the generators of the Fuchsian group in the Poincaré "
 		"disk, as edges. On the surface they are closed geodesics."));
+	list.addParam(RichBool(
+		"canonical_polygon",
+		false,
+		"Canonical polygon",
+		"Add a layer with a fundamental polygon of 4 sides for each handle in the Poincaré disk, "
+		"as "
+		"edges. Its sides are geodesics that the canonical generators a1, b1, a1⁻¹, b1⁻¹, ... "
+		"pair, and all its corners are one point of the surface."));
 	list.addParam(reportParameter());
 	list.addParam(RichEnum(
 		"surgery",
@@ -478,6 +486,7 @@ HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 			" of universal_cover cannot be used. Use 0 to " + std::to_string(kMostRings) +
 			" rings.");
 	settings.axes = par.getBool("generator_axes");
+	settings.canonicalPolygon = par.getBool("canonical_polygon");
 	settings.report = par.getString("report");
 	settings.timeLimit = checkedTimeLimit(par);
 	return settings;

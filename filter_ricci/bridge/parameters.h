@@ -27,6 +27,7 @@ struct HyperbolicSettings
 	bool flatLayer = false;
 	int coverRings = 0;
 	bool axes = false;
+	bool canonicalPolygon = false;
 	double timeLimit = 0.0; ///< seconds, 0: none
 	QString report;         ///< file, empty: none
 };

@@ -57,7 +57,7 @@ HYPERBOLIC = types.SimpleNamespace(
         ("target_curvature", "Enum", 0), ("cone_angle", "Float", 180.0),
         ("free_boundary", "Bool", False), ("output_triangulation", "Enum", 0),
         ("colorize", "Bool", False), ("flat_layer", "Bool", False),
-        ("universal_cover", "Int", 0), ("generator_axes", "Bool", False),
+        ("universal_cover", "Int", 0), ("generator_axes", "Bool", False), ("canonical_polygon", "Bool", False),
         ("report", "String", ""), ("surgery", "Enum", 1), ("epsilon", "Float", 1e-8),
         ("max_iterations", "Int", 200), ("time_limit", "Float", 0.0)])
 

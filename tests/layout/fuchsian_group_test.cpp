@@ -5,6 +5,7 @@
 #include "support/shapes.h"
 #include "support/transform.h"
 
+#include <ricci/layout/canonical_polygon.h>
 #include <ricci/layout/fuchsian_group.h>
 
 #include <gtest/gtest.h>
@@ -180,6 +181,57 @@ TEST(FuchsianGroup, ClosedSurfacesSatisfyTheCanonicalRelation)
 			EXPECT_LT(trace, -2.0); // Fricke: of a torus with a hole
 		}
 	}
+}
+
+/// Sum of cosh d(p, g p) over the canonical generators.
+double sumOfCosh(const FuchsianGroup& group, Complex p)
+{
+	const DiskIsometry toPoint = DiskIsometry::translationTo(p);
+	double sum = 0.0;
+	for (const DiskIsometry& g : group.handles)
+		sum += std::cosh((toPoint.inverse() * g * toPoint).displacement());
+	return sum;
+}
+
+TEST(CanonicalPolygon, IsAFundamentalPolygonWithPairedSides)
+{
+	Random random(652);
+	for (int genus : {2, 3})
+		for (int trial = 0; trial < 3; ++trial) {
+			SCOPED_TRACE(genus);
+			const SurfaceMesh mesh =
+				renumbered(shaken(perforatedSlab(genus, 2), 0.06, random), random).mesh;
+			const FuchsianGroup group = Uniformized(mesh, hyperbolicMetric()).group;
+			const CanonicalPolygon polygon = canonicalPolygon(group);
+			const auto& corners = polygon.corners;
+			ASSERT_EQ(corners.size(), at(4 * genus));
+			EXPECT_TRUE(polygon.isSimple);
+			// The rounding of the generators, as it is seen from the base point, in products that
+			// reach the corners.
+			const Complex base = corners[corners.size() / 2];
+			const DiskIsometry toBase = DiskIsometry::translationTo(base);
+			double largest = 1.0, farthest = 1.0;
+			for (const DiskIsometry& g : group.handles)
+				largest = std::max(largest, std::abs(g.a));
+			for (const Complex& z : corners)
+				farthest = std::max(farthest, 0.5 * chordLength(base, z));
+			const double tolerance =
+				16.0 * genus * kEpsilon * largest * std::norm(toBase.a) * farthest * farthest;
+			EXPECT_LT(tolerance, 1e-3);
+			EXPECT_LT(polygon.gap, tolerance);
+			EXPECT_NEAR(polygon.angleSum, 2.0 * kPi, tolerance);
+			const auto side = [&](std::size_t k) {
+				return chordLength(corners[k], corners[(k + 1) % corners.size()]);
+			};
+			for (std::size_t k = 0; k < corners.size(); k += 4)
+				for (std::size_t letter : {k, k + 1})
+					EXPECT_NEAR(side(letter), side(letter + 2), tolerance * side(letter));
+			// The base point cannot be improved.
+			for (int k = 0; k < 8; ++k)
+				EXPECT_LT(
+					sumOfCosh(group, base),
+					sumOfCosh(group, toBase(std::polar(1e-3, 0.25 * kPi * k))));
+		}
 }
 
 TEST(FuchsianGroup, LengthsOfGeodesicsDoNotDependOnTheCutOrTheNumbers)

@@ -8,6 +8,7 @@
 
 #include <ricci/error.h>
 #include <ricci/floating_point.h>
+#include <ricci/layout/canonical_polygon.h>
 #include <ricci/layout/distortion.h>
 #include <ricci/options.h>
 #include <ricci/parametrize.h>
@@ -418,32 +419,63 @@ public:
 				std::complex<double> from, to;
 				if (!g.axis(from, to))
 					continue;
-				// The straight line in the Klein model, from one fixed point to the other.
-				VertexIterator vi = Allocator<MeshType>::AddVertices(curves, size_t(pieces) + 1);
-				std::vector<VertexType*> points;
-				for (int k = 0; k <= pieces; ++k, ++vi) {
-					// Denser towards the ends, where the disk is smaller.
-					const double t = 0.5 - 0.5 * std::cos(M_PI * k / pieces);
-					const std::complex<double> klein = (1.0 - t) * from + t * to;
-					const std::complex<double> z =
-						klein / (1.0 + std::sqrt(std::max(0.0, 1.0 - std::norm(klein))));
-					const Point2d p = r.disks[i].Center() +
-									  Point2d(z.real(), z.imag()) * (0.5 * r.disks[i].DimX());
-					vi->P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(0));
-					vi->N() = CoordType(0, 0, 1);
-					points.push_back(&*vi);
-				}
-				typename MeshType::EdgeIterator ei =
-					Allocator<MeshType>::AddEdges(curves, size_t(pieces));
-				for (size_t k = 0; k < size_t(pieces); ++k, ++ei) {
-					ei->V(0) = points[k];
-					ei->V(1) = points[k + 1];
-				}
+				AddGeodesic(r.disks[i], from, to, pieces, curves);
 			}
 		}
 	}
 
+	/// Fills the empty mesh \p curves with edges: for each component a fundamental polygon whose
+	/// sides are the letters of the canonical relation (see ricci::canonicalPolygon), 4 g for a
+	/// closed surface of genus g, each as a polyline of \p pieces edges in the Poincaré disk.
+	static std::vector<ricci::CanonicalPolygon>
+	BuildCanonicalPolygons(const Result& r, int pieces, MeshType& curves)
+	{
+		const auto klein = [](std::complex<double> z) { return 2.0 * z / (1.0 + std::norm(z)); };
+		std::vector<ricci::CanonicalPolygon> polygons;
+		for (size_t i = 0; i < r.groups.size(); ++i) {
+			polygons.push_back(ricci::canonicalPolygon(r.groups[i]));
+			const std::vector<std::complex<double>>& corners = polygons.back().corners;
+			for (size_t k = 0; k < corners.size(); ++k)
+				AddGeodesic(
+					r.disks[i],
+					klein(corners[k]),
+					klein(corners[(k + 1) % corners.size()]),
+					pieces,
+					curves);
+		}
+		return polygons;
+	}
+
 private:
+	/// Adds a polyline along the geodesic between two points of the Klein model, where it is
+	/// straight, as it is seen in the Poincaré disk inscribed in the box \p disk.
+	static void AddGeodesic(
+		const Box2d& disk,
+		std::complex<double> from,
+		std::complex<double> to,
+		int pieces,
+		MeshType& curves)
+	{
+		VertexIterator vi = Allocator<MeshType>::AddVertices(curves, size_t(pieces) + 1);
+		std::vector<VertexType*> points;
+		for (int k = 0; k <= pieces; ++k, ++vi) {
+			// Denser towards the ends, where the disk is smaller.
+			const double t = 0.5 - 0.5 * std::cos(M_PI * k / pieces);
+			const std::complex<double> klein = (1.0 - t) * from + t * to;
+			const std::complex<double> z =
+				klein / (1.0 + std::sqrt(std::max(0.0, 1.0 - std::norm(klein))));
+			const Point2d p = disk.Center() + Point2d(z.real(), z.imag()) * (0.5 * disk.DimX());
+			vi->P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(0));
+			vi->N() = CoordType(0, 0, 1);
+			points.push_back(&*vi);
+		}
+		typename MeshType::EdgeIterator ei = Allocator<MeshType>::AddEdges(curves, size_t(pieces));
+		for (size_t k = 0; k < size_t(pieces); ++k, ++ei) {
+			ei->V(0) = points[k];
+			ei->V(1) = points[k + 1];
+		}
+	}
+
 	/// Different for copies that are near to each other in their order; the first one is grey.
 	static Color4b TileColor(size_t copy)
 	{
