@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints a table of what the algorithm makes of meshes: one row for each mesh and target, with
 // tabulators between the columns; the last column is the refusal, if there is one.
+#include "covered_twice.h"
 #include "flat_map.h"
 #include "mesh_file.h"
 #include "obj_writer.h"
+#include "vcg_mesh.h"
 
 #include <ricci/layout/common_refinement.h>
 #include <ricci/parametrize.h>
 
+#include <vcg/complex/algorithms/parametrization/ricci_flow.h>
+
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -31,6 +36,7 @@ const char* const kUsage =
 	"  --refine             give the map on the common refinement (surgery flips)\n"
 	"  --capped             close all boundary loops but the longest for the flow\n"
 	"  --whole-charts       leave charts that cover themselves whole\n"
+	"  --packed             the whole way to the unit square; count there what lies on each other\n"
 	"  --prescribe-boundary free_boundary off\n"
 	"  --epsilon X          radians\n"
 	"  --max-iterations N\n"
@@ -56,6 +62,7 @@ struct Arguments
 	std::vector<NamedTarget> targets;
 	std::vector<std::string> meshes;
 	std::string objFolder;
+	bool packed = false;
 	bool verbose = false;
 };
 
@@ -112,6 +119,8 @@ Arguments parse(int argc, char** argv)
 			a.options.holes = Holes::Capped;
 		else if (word == "--whole-charts")
 			a.options.resolveOverlap = false;
+		else if (word == "--packed")
+			a.packed = true;
 		else if (word == "--prescribe-boundary")
 			a.options.freeBoundary = false;
 		else if (word == "--epsilon")
@@ -163,7 +172,7 @@ void printHeader()
 		"float\tflips\tadded_"
 		"points\tswaps\tsplits\tbroken\tcones\tseam_edges\tseam_length\tseam_relative\t"
 		"seam_mismatch\tcharts\toverlapping\toverlap_faces\toverlap_cuts\ttau_re\ttau_"
-		"im\tmodulus\taspect\trefused");
+		"im\tmodulus\taspect\tcpu_s\tuv_charts\tbetween_charts\twithin_charts\trefused");
 }
 
 /// A number, or a dash where there is none.
@@ -176,10 +185,79 @@ std::string number(const std::optional<double>& x)
 	return text;
 }
 
-/// \p drawn, \p uv: the input or its refinement, with its map.
-void printResult(const Parametrization& flat, const SurfaceMesh& drawn, const testing::UV& uv)
+/// What a run gives back: the input or its refinement, with its map.
+struct Outcome
 {
-	const Report& r = flat.report;
+	Report report;
+	std::vector<std::string> notes;
+	SurfaceMesh drawn;
+	testing::UV uv;
+	std::vector<char> reversed; ///< [face drawn]
+	double seconds = 0.0;       ///< of the processor
+};
+
+void draw(const SurfaceMesh& mesh, const RefinedMesh& refined, Outcome& out)
+{
+	for (const SurfacePoint& p : refined.points)
+		out.drawn.positions.push_back(placeOnSurface(p, mesh.positions));
+	out.drawn.triangles = refined.triangles;
+	out.uv = refined.uv;
+}
+
+Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progress)
+{
+	Outcome out;
+	const std::clock_t start = std::clock();
+	const Parametrization flat = parametrizeEuclidean(mesh, {}, options, progress);
+	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+	out.report = flat.report;
+	out.notes = flat.notes;
+	if (options.output == OutputTriangulation::CommonRefinement) {
+		draw(mesh, flat.refined, out);
+		for (int f : flat.refined.inputFace)
+			out.reversed.push_back(flat.reversed[static_cast<std::size_t>(f)]);
+	}
+	else {
+		out.drawn = mesh;
+		out.uv = flat.uv;
+		out.reversed = flat.reversed;
+	}
+	return out;
+}
+
+/// The same by the facade for vcglib, which packs the charts.
+Outcome runPacked(const SurfaceMesh& mesh, const Options& options, Progress& progress)
+{
+	using Flow = vcg::tri::RicciFlow<testing::DoubleMesh>;
+	testing::DoubleMesh m;
+	testing::toVcg(mesh, m);
+	Flow::Params params;
+	static_cast<Options&>(params) = options;
+	Outcome out;
+	const std::clock_t start = std::clock();
+	const Flow::Result flat = Flow::Compute(m, params, progress);
+	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+	out.report = flat.report;
+	out.notes = flat.notes;
+	if (options.output == OutputTriangulation::CommonRefinement)
+		draw(mesh, flat.refined, out);
+	else {
+		out.drawn = mesh;
+		out.uv = flat.wedgeUV;
+	}
+	// Where the map turns no face round, the orientation says which ones the input has reversed.
+	for (std::size_t f = 0; f < out.uv.size(); ++f) {
+		const auto& p = out.uv[f];
+		out.reversed.push_back(
+			flat.report.flippedFaces + flat.report.flippedByRounding == 0 &&
+			(p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) < (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]));
+	}
+	return out;
+}
+
+void printResult(const Outcome& out, bool packed)
+{
+	const Report& r = out.report;
 	std::printf(
 		"\t%d\t%d\t%d\t%d\t%d\t%.2e\t%.2e\t%.4f\t%.4f\t%.4f\t%.3f\t%.4g\t%.4g\t%.4f\t%d\t%d\t%d\t"
 		"%d\t%d\t%d\t%d\t%d\t%d\t%.5g\t%.4f\t",
@@ -210,22 +288,29 @@ void printResult(const Parametrization& flat, const SurfaceMesh& drawn, const te
 		r.seamLengthRelative);
 	// The measure takes coherent faces; turned ones would look like a tear.
 	bool coherent = true;
-	for (char reversed : flat.reversed)
+	for (char reversed : out.reversed)
 		coherent &= reversed == 0;
 	if (coherent)
-		std::printf("%.1e", testing::FlatMap(drawn, uv).seamMismatch);
+		std::printf("%.1e", testing::FlatMap(out.drawn, out.uv).seamMismatch);
 	else
 		std::printf("-");
 	std::printf(
-		"\t%zu\t%d\t%d\t%d\t%s\t%s\t%s\t%s\t-\n",
-		flat.charts.size(),
+		"\t%d\t%d\t%d\t%d\t%s\t%s\t%s\t%s\t%.2f",
+		r.charts,
 		r.overlappingCharts,
 		r.overlappingFaces,
 		r.overlapCuts,
 		number(r.torusTauRe).c_str(),
 		number(r.torusTauIm).c_str(),
 		number(r.annulusModulus).c_str(),
-		number(r.rectangleAspect).c_str());
+		number(r.rectangleAspect).c_str(),
+		out.seconds);
+	if (packed) {
+		const testing::CoveredTwice found(out.drawn, out.uv, out.reversed);
+		std::printf("\t%d\t%ld\t%ld\t-\n", found.charts, found.betweenCharts, found.withinCharts);
+	}
+	else
+		std::printf("\t-\t-\t-\t-\n");
 }
 
 /// \return whether a map was found
@@ -240,31 +325,20 @@ bool addRow(const Arguments& a, const std::string& path, const NamedTarget& targ
 		Options options = a.options;
 		options.target = target.value;
 		Listener listener(a.verbose);
-		SurfaceMesh drawn;
-		testing::UV uv;
-		const Parametrization flat = parametrizeEuclidean(mesh, {}, options, listener);
-		if (options.output == OutputTriangulation::CommonRefinement) {
-			for (const SurfacePoint& p : flat.refined.points)
-				drawn.positions.push_back(placeOnSurface(p, mesh.positions));
-			drawn.triangles = flat.refined.triangles;
-			uv = flat.refined.uv;
-		}
-		else {
-			drawn = mesh;
-			uv = flat.uv;
-		}
-		printResult(flat, drawn, uv);
-		for (const std::string& note : flat.notes)
+		const Outcome out =
+			a.packed ? runPacked(mesh, options, listener) : runCore(mesh, options, listener);
+		printResult(out, a.packed);
+		for (const std::string& note : out.notes)
 			listener.log(note);
 		if (!a.objFolder.empty())
 			testing::writeObj(
 				(std::filesystem::path(a.objFolder) / (name + "." + target.name + ".obj")).string(),
-				drawn,
-				uv);
+				out.drawn,
+				out.uv);
 		return true;
 	}
 	catch (const std::exception& error) {
-		for (int column = 0; column < 34; ++column)
+		for (int column = 0; column < 38; ++column)
 			std::printf("\t-");
 		std::printf("\t%s\n", error.what());
 		return false;

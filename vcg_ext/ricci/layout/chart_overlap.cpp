@@ -329,13 +329,13 @@ private:
 		m_rank.assign(m_first.size(), -1);
 		m_rank[at(source)] = 0;
 		std::vector<int> queue{source};
-		for (std::size_t head = 0; head < queue.size(); ++head)
+		for (std::size_t head = 0; head < queue.size() && m_rank[at(sink)] < 0; ++head)
 			for (int a = m_first[at(queue[head])]; a >= 0; a = m_arcs[at(a)].next)
 				if (m_arcs[at(a)].capacity > 0 && m_rank[at(m_arcs[at(a)].to)] < 0) {
 					m_rank[at(m_arcs[at(a)].to)] = m_rank[at(queue[head])] + 1;
 					queue.push_back(m_arcs[at(a)].to);
 				}
-		return m_rank[at(sink)] >= 0;
+		return m_rank[at(sink)] >= 0; // paths of least length end here
 	}
 
 	/// Fills one path of rising rank, found without recursion.

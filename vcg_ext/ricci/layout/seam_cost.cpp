@@ -80,6 +80,15 @@ std::vector<double> exposure(
 	SparseCholesky::Matrix matrix(n, n);
 	matrix.setFromTriplets(entries.begin(), entries.end());
 	SparseCholesky cholesky;
+	const std::vector<int> vertexOf = cholesky.order(matrix); // [row]
+	std::vector<int> rowOf(at(n));
+	for (int row = 0; row < n; ++row)
+		rowOf[at(vertexOf[at(row)])] = row;
+	for (Eigen::Triplet<double>& entry : entries) {
+		const int a = rowOf[at(entry.row())], b = rowOf[at(entry.col())];
+		entry = {std::max(a, b), std::min(a, b), entry.value()};
+	}
+	matrix.setFromTriplets(entries.begin(), entries.end());
 	cholesky.analyze(matrix);
 	if (!cholesky.factorize(matrix))
 		throw Error("The linear solver failed: its matrix is not positive definite. Set "
@@ -87,9 +96,12 @@ std::vector<double> exposure(
 					"remesh the worst triangles.");
 	Eigen::MatrixX3d smooth(n, 3);
 	for (int k = 0; k < 3; ++k) {
-		Eigen::VectorXd column(n);
-		cholesky.solve(mass.cwiseProduct(place.col(k)), column);
-		smooth.col(k) = column;
+		Eigen::VectorXd rhs(n), solution(n);
+		for (int row = 0; row < n; ++row)
+			rhs[row] = mass[vertexOf[at(row)]] * place(vertexOf[at(row)], k);
+		cholesky.solve(rhs, solution);
+		for (int row = 0; row < n; ++row)
+			smooth(vertexOf[at(row)], k) = solution[row];
 	}
 	Eigen::VectorXd height = Eigen::VectorXd::Zero(n);
 	double square = 0.0;
