@@ -18,6 +18,7 @@
 #include <ricci/layout/planar_layout.h>
 #include <ricci/metric/delaunay_start.h>
 #include <ricci/metric/euclidean.h>
+#include <ricci/parallel.h>
 #include <ricci/parametrize.h>
 #include <ricci/surface/component.h>
 
@@ -52,11 +53,14 @@ int repetitions(std::size_t faces)
 	return faces < 500000 ? 3 : 1;
 }
 
+constexpr int kEvaluations = 10;
+
 /// Columns of the table; bench.sh prints them once for all meshes.
 const char* const kHeader =
 	"mesh\tfaces\tgeometry\tsolve_cpu_s\tone_factor_cpu_s\tratio\titerations\tflips\tresidual"
 	"\tpeak_mb\tread_cpu_s\tpacking_cpu_s\tcut_cpu_s\tlayout_cpu_s\tdistortion_cpu_s"
-	"\twhole_cpu_s\twhole_wall_s\tfactorizations\tsolutions\tgflop\ttarget\tsurgery\tsolver"
+	"\twhole_cpu_s\twhole_wall_s\tevaluation_wall_s\tthreads\tthread_"
+	"speedup\tfactorizations\tsolutions\tgflop\ttarget\tsurgery\tsolver"
 	"\tremark";
 
 double cpuSeconds()
@@ -93,7 +97,7 @@ struct Row
 	std::string name, geometry, target, surgery, remark = "-";
 	std::size_t faces = 0;
 	double read = 0, packing = 0, flow = 0, oneFactor = 0, cut = 0, layout = 0, distortion = 0;
-	double whole = 0, wholeWall = 0, peak = 0;
+	double whole = 0, wholeWall = 0, peak = 0, evaluation = 0, speedup = 0;
 	double residual = 0;
 	int iterations = 0;
 	std::size_t flips = 0;
@@ -105,7 +109,7 @@ struct Row
 		if (remark == "-")
 			std::printf(
 				"\t%.4f\t%.4f\t%.2f\t%d\t%zu\t%.1e\t%.0f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f"
-				"\t%d\t%d\t%.3f",
+				"\t%.4f\t%d\t%.2f\t%d\t%d\t%.3f",
 				flow,
 				oneFactor,
 				flow / oneFactor,
@@ -120,11 +124,14 @@ struct Row
 				distortion,
 				whole,
 				wholeWall,
+				evaluation,
+				defaultThreads(),
+				speedup,
 				work.factorizations,
 				work.solutions,
 				1e-9 * work.flops);
 		else
-			for (int column = 0; column < 17; ++column)
+			for (int column = 0; column < 20; ++column)
 				std::printf("\t-");
 		std::printf(
 			"\t%s\t%s\t%s\t%s\n",
@@ -298,6 +305,20 @@ void measure(
 		inversiveDistancePacking(t, lengths, initialRadii(t, lengths)));
 	start.evaluate(Eigen::Map<const Eigen::VectorXd>(
 		start.packing().u.data(), static_cast<Eigen::Index>(start.packing().u.size())));
+	// K(u) and its derivative, what the flow does in several threads, in one and in all of them.
+	const auto evaluation = [&](int threads) {
+		start.useThreads(threads);
+		double least = INFINITY;
+		for (int i = 0; i < kEvaluations; ++i) {
+			const double before = wallSeconds();
+			start.evaluate(Eigen::Map<const Eigen::VectorXd>(
+				start.packing().u.data(), static_cast<Eigen::Index>(start.packing().u.size())));
+			least = std::min(least, wallSeconds() - before);
+		}
+		return least;
+	};
+	row.evaluation = evaluation(1);
+	row.speedup = row.evaluation / evaluation(defaultThreads());
 	row.oneFactor = oneFactorisation(flow.doubled ? start : *flow.metric, flow.target, repeat);
 
 	// Cut, layout and distortion on the input's triangles with the input's metric: the work is that

@@ -117,15 +117,20 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 			m_weights[at(e)] = m_halfWeights[at(2 * e)] + m_halfWeights[at(2 * e + 1)];
 	});
 
-	for (int v = 0; v < t.vertexCount(); ++v)
-		m_curvature[v] = m_boundary[at(v)] ? kPi : 2.0 * kPi;
-	for (int f = 0; f < t.faceCount(); ++f)
-		for (int h : t.halfedges(f))
-			m_curvature[t.origin(h)] -= m_angles[at(h)];
-	// Left out, the rest of pi would add up over the vertices and break
-	// Gauss-Bonnet by as much.
-	for (int v = 0; v < t.vertexCount(); ++v)
-		m_curvature[v] += m_boundary[at(v)] ? kPiRest : 2.0 * kPiRest;
+	// Every part goes through all faces and adds up at its own vertices, so that the order of the
+	// summands is that of the faces.
+	inParallel(t.vertexCount(), m_threads, [&](int first, int last) {
+		for (int v = first; v < last; ++v)
+			m_curvature[v] = m_boundary[at(v)] ? kPi : 2.0 * kPi;
+		for (int f = 0; f < t.faceCount(); ++f)
+			for (int h : t.halfedges(f))
+				if (const int v = t.origin(h); v >= first && v < last)
+					m_curvature[v] -= m_angles[at(h)];
+		// Left out, the rest of pi would add up over the vertices and break Gauss-Bonnet by as
+		// much.
+		for (int v = first; v < last; ++v)
+			m_curvature[v] += m_boundary[at(v)] ? kPiRest : 2.0 * kPiRest;
+	});
 }
 
 /// Angles and weights of face \p f; raises \p needleRatio to that of the face.
