@@ -17,13 +17,13 @@ FilterText euclideanText()
 		"flow finds the metric, conformal to the mesh's own, with the curvature asked for, and "
 		"unrolls it into the plane. Thin triangles need no remeshing.<br>"
 		"<b>Input:</b> a manifold triangle mesh of any topology, with or without boundary.<br>"
-		"<b>Output:</b> texture coordinates, to be seen with <i>Set Texture</i>; the "
-		"quasi-conformal distortion (1 = angles kept) as vertex quality; the log-radii as vertex "
-		"attribute <i>ricci_u</i>. Vertices and faces stay as they are unless the common "
-		"refinement is asked for. A mesh that cannot be mapped is refused and left unchanged.<br>"
-		"See: <br /><i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng "
-		"Gu</i><br/><b>\"Generalized Discrete Ricci Flow\"</b><br/>Computer Graphics Forum, "
-		"volume 28, Issue 7, Pages 2005-2014, 2009.<br/>";
+		"<b>Output:</b> texture coordinates (to be seen with <i>Set Texture</i>), the distortion "
+		"(1 = angles kept) as vertex quality. Vertices and faces stay unless the common refinement "
+		"is asked for; a refused mesh is unchanged.<br>"
+		"See: <br />"
+		"<i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng Gu</i><br/>"
+		"<b>\"Generalized Discrete Ricci Flow\"</b><br/>"
+		"Computer Graphics Forum, volume 28, Issue 7, Pages 2005-2014, 2009.<br/>";
 	return text;
 }
 
@@ -39,13 +39,14 @@ FilterText hyperbolicText()
 		"boundaries.<br>"
 		"<b>Input:</b> a manifold triangle mesh of negative Euler characteristic, or any with "
 		"cones that make up for it.<br>"
-		"<b>Output:</b> per-wedge texture coordinates (the disk fills the unit square), to be "
-		"seen with <i>Set Texture</i>; the quasi-conformal distortion as vertex quality; the "
-		"generators of the Fuchsian group; on request layers with the disk and its tiling. "
-		"Vertices and faces stay as they are unless the common refinement is asked for.<br>"
-		"See: <br /><i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng "
-		"Gu</i><br/><b>\"Generalized Discrete Ricci Flow\"</b><br/>Computer Graphics Forum, "
-		"volume 28, Issue 7, Pages 2005-2014, 2009.<br/>";
+		"<b>Output:</b> texture coordinates (to be seen with <i>Set Texture</i>; the disk fills "
+		"the unit square), the distortion as vertex quality, the generators of the Fuchsian group, "
+		"on request layers with the disk and its tiling. Vertices and faces stay unless the common "
+		"refinement is asked for.<br>"
+		"See: <br />"
+		"<i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng Gu</i><br/>"
+		"<b>\"Generalized Discrete Ricci Flow\"</b><br/>"
+		"Computer Graphics Forum, volume 28, Issue 7, Pages 2005-2014, 2009.<br/>";
 	return text;
 }
 
