@@ -157,7 +157,7 @@ dialog() {
 	open_filter "$name" || fail "the filter's dialog did not open"
 	local window
 	window=$(find_window "$name")
-	xdotool windowsize "$window" 538 740 # all parameters in view
+	xdotool windowmove "$window" 700 0 windowsize "$window" 640 860 # all parameters in view
 	sleep 1
 	press_apply "$name"
 	wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "the filter did not run"
