@@ -83,6 +83,7 @@ void toVcg(const SurfaceMesh& from, MeshType& to)
 	for (const Point3& p : from.positions) {
 		vertex->P() = typename MeshType::CoordType(
 			static_cast<Scalar>(p[0]), static_cast<Scalar>(p[1]), static_cast<Scalar>(p[2]));
+		vertex->N() = typename MeshType::CoordType(0, 0, 0); // vcglib leaves it unset
 		++vertex;
 	}
 	auto face = vcg::tri::Allocator<MeshType>::AddFaces(to, from.triangles.size());
