@@ -179,6 +179,28 @@ TEST(ParametrizeHyperbolic, ConesAtSelectedVertices)
 		EXPECT_NEAR(same.u[v], map.u[v], 1e-10);
 }
 
+TEST(ParametrizeHyperbolic, ASurfaceOfHardlyAnyArea)
+{
+	// The area is what the curvatures add up to on a torus: far below the rounding of the angles of
+	// one triangle. The disk then is a picture of the flat metric with the same cones.
+	Random random(706);
+	const SurfaceMesh mesh = bumpyTorus(8, 6, random);
+	HyperbolicOptions options = refined();
+	options.target = HyperbolicTarget::Prescribed;
+	VertexInput input;
+	input.targetCurvature.assign(mesh.positions.size(), 0.0);
+	input.targetCurvature[5] = 1.0 + 0x1p-51;
+	input.targetCurvature[30] = -1.0;
+	const Parametrization map = run(mesh, options, input);
+	EXPECT_EQ(map.report.flippedFaces, 0);
+	double largest = 0.0;
+	for (const auto& triangle : map.refined.uv)
+		for (const Point2& p : triangle)
+			largest = std::max(largest, std::hypot(p[0], p[1]));
+	EXPECT_GT(largest, 0.0);
+	EXPECT_LT(largest, 1e-6);
+}
+
 TEST(ParametrizeHyperbolic, ResultDoesNotDependOnTheScale)
 {
 	const SurfaceMesh mesh = genusTwo();

@@ -2,10 +2,12 @@
 // Runs the fuzz target without libFuzzer: on files, and on inputs from a generator of its own,
 // which are the same on every run. Does not watch coverage.
 //
-//     fuzz_driver [--runs N] [--seconds S] [--seed K] [--sentences] [--go-on] [FILE|FOLDER...]
+//     fuzz_driver [--runs N] [--seconds S] [--seed K] [--sentences] [--go-on] [--find TEXT]
+//                 [FILE|FOLDER...]
 //
 // Ends at the first defect, with 1 and the input in the file "defect-input" (with --go-on, at the
 // end, and the n-th input in "defect-input-n"); a crash or a hang leaves its input there as well.
+// --find leaves the inputs whose refusal contains TEXT in "found-input-n".
 #include "facade_check.h"
 #include "support/random.h"
 
@@ -79,6 +81,7 @@ class Session
 {
 public:
 	void goOn() { m_goOn = true; }
+	void find(const std::string& text) { m_find = text; }
 	int defects() const { return m_defects; }
 
 	/// False at a defect.
@@ -91,6 +94,8 @@ public:
 		++m_count[e.verdict];
 		if (e.verdict == ricci::testing::Verdict::Refused)
 			++m_sentences[withoutNumbers(e.sentence).substr(0, 70)];
+		if (!m_find.empty() && e.sentence.find(m_find) != std::string::npos)
+			saveInput(("found-input-" + std::to_string(++m_found)).c_str());
 		if (e.defect.empty())
 			return true;
 		const std::string name =
@@ -125,7 +130,8 @@ public:
 
 private:
 	bool m_goOn = false;
-	int m_defects = 0;
+	std::string m_find;
+	int m_defects = 0, m_found = 0;
 	std::map<ricci::testing::Verdict, long> m_count;
 	std::map<std::string, long> m_sentences; // by their beginnings
 };
@@ -178,6 +184,8 @@ int main(int argc, char** argv)
 			sentences = true;
 		else if (argument == "--go-on")
 			session.goOn();
+		else if (argument == "--find" && i + 1 < argc)
+			session.find(argv[++i]);
 		else if (std::filesystem::is_directory(argument))
 			for (const auto& entry : std::filesystem::directory_iterator(argument))
 				files.push_back(entry.path());

@@ -8,6 +8,7 @@
 #include "layout/hole_seams.h"
 #include "layout/invariants.h"
 #include "layout/least_rectangle.h"
+#include "layout/orientation.h"
 #include "layout/seam_cost.h"
 #include "memory.h"
 #include "numbers.h"
@@ -17,6 +18,7 @@
 #include "surface/component.h"
 #include "surface/hole_caps.h"
 #include "text.h"
+#include "verify/chart_check.h"
 #include "verify/flow_check.h"
 #include "verify/map_check.h"
 
@@ -408,31 +410,14 @@ private:
 	{
 		requireMetric(
 			Background::EuclideanPlane, m_flow, m_solved.triangulation.boundaryVertices());
-		const bool refined = !m_refinement.triangles.empty() &&
-							 m_options.output == OutputTriangulation::CommonRefinement;
-		std::vector<Triangle> triangles;
-		std::vector<std::array<Point2, 3>> plane;
-		std::vector<char> reversed;
 		const Chart& chart = result.charts.back();
-		for (std::size_t i = 0; i < (refined ? chart.refined : chart.faces).size(); ++i) {
-			const std::size_t f = at((refined ? chart.refined : chart.faces)[i]);
-			if (refined)
-				triangles.push_back(result.refined.triangles[f]);
-			else { // in the input's order of corners
-				Triangle t;
-				for (std::size_t k = 0; k < 3; ++k)
-					t[m_component.inputCorner(i, k)] = m_component.triangles[i][k];
-				triangles.push_back(t);
-			}
-			plane.push_back(refined ? result.refined.uv[f] : result.uv[f]);
-			reversed.push_back(result.reversed[refined ? at(result.refined.inputFace[f]) : f]);
-		}
+		const OutputTriangles output = outputOf(m_component, chart, result);
 		const double tolerance = kCheckedGap + openCurvature(m_flow);
-		const MapCheck map = checkMap(triangles, plane, reversed, tolerance);
+		const MapCheck map = checkMap(output.triangles, output.plane, output.reversed, tolerance);
 		// Where flips or splits bend the edges of the input, its straight faces may turn.
-		const bool bent =
-			!refined && (!m_flow.history.startFlips.empty() || !m_flow.history.flowFlips.empty() ||
-						 m_flow.doubled || m_swaps > 0 || m_splits > 0);
+		const bool bent = chart.refined.empty() && (!m_flow.history.startFlips.empty() ||
+													!m_flow.history.flowFlips.empty() ||
+													m_flow.doubled || m_swaps > 0 || m_splits > 0);
 		if (!map.finite || !(map.seamGap <= tolerance) || (map.turned > 0 && !bent))
 			failCheck(
 				"seams " + numberText(map.seamGap, 3) + " of the chart apart, " +
@@ -525,6 +510,35 @@ void checkOptions(const Options& options)
 			".");
 }
 
+/// \throw NotConverged if a chart of which no triangle is turned round still overlaps itself
+void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& result)
+{
+	const bool refined = !result.refined.triangles.empty();
+	const auto& all = refined ? result.refined.triangles : mesh.triangles;
+	std::vector<const std::vector<int>*> parts;
+	int crossings = 0;
+	for (const Chart& chart : result.charts) {
+		parts.push_back(refined ? &chart.refined : &chart.faces);
+		std::vector<Triangle> triangles;
+		std::vector<std::array<Point2, 3>> plane;
+		bool turned = false;
+		for (int f : *parts.back()) {
+			const int input = refined ? result.refined.inputFace[at(f)] : f;
+			const auto& p = refined ? result.refined.uv[at(f)] : result.uv[at(f)];
+			const int wanted = result.reversed[at(input)] ? -1 : 1;
+			turned = turned || orientation(p[0], p[1], p[2]) != wanted;
+			triangles.push_back(all[at(f)]);
+			plane.push_back(p);
+		}
+		if (!turned)
+			crossings += borderCrossings(triangles, plane, kCheckedGap);
+	}
+	if (crossings > 0 || !isPartition(parts, all.size()))
+		failCheck(
+			std::to_string(crossings) +
+			" crossings of the borders of charts that should not overlap");
+}
+
 } // namespace
 
 Parametrization parametrizeEuclidean(
@@ -575,6 +589,8 @@ Parametrization parametrizeEuclidean(
 		result.report = keptReport;
 	separateCharts(mesh, options.resolveOverlap, result);
 	result.report.seamLengthRelative = result.report.seamLength / std::sqrt(area);
+	if (options.resolveOverlap)
+		requireSeparateCharts(mesh, result);
 	progress.step(1.0, "Layout done");
 	return result;
 }

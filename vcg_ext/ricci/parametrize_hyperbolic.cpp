@@ -13,6 +13,7 @@
 #include "result_assembly.h"
 #include "surface/component.h"
 #include "text.h"
+#include "verify/disk_check.h"
 #include "verify/flow_check.h"
 
 #include <algorithm>
@@ -25,6 +26,9 @@ namespace {
 
 /// A curvature above this makes an interior vertex a cone, which the cut must reach.
 constexpr double kConeCurvature = 1e-9;
+
+/// The check of the result allows this hyperbolic length.
+constexpr double kCheckedGap = 1e-6;
 
 using Triangle2 = std::array<Point2, 3>;
 
@@ -95,8 +99,8 @@ public:
 		m_group = layOut();
 		m_interval.step(1.0, "Checking the result");
 		requireMetric(Background::HyperbolicPlane, m_flow, m_base.boundaryVertices());
-		requireInsideDisk();
 		store(result);
+		verify(result);
 	}
 
 private:
@@ -140,18 +144,29 @@ private:
 				numberText(m_flow.history.lengthened, 3) + ".");
 	}
 
-	/// Far from the root of the layout the doubles of the disk end.
-	void requireInsideDisk() const
+	/// Checks what was found by other formulas than those that found it.
+	/// \throw NotConverged
+	void verify(const Parametrization& result) const
 	{
-		std::size_t outside = 0;
-		const auto check = [&](const Point2& p) { outside += !(p[0] * p[0] + p[1] * p[1] <= 1.0); };
+		const Chart& chart = result.charts.back();
+		const OutputTriangles output = outputOf(m_component, chart, result);
+		// What an angle leaves open grows like sinh of the distance across the layout.
+		double radius = 0.0;
 		for (const Point2& p : m_layout.position)
-			check(p);
-		for (const Triangle2& triangle : m_refinement.uv)
-			for (const Point2& p : triangle)
-				check(p);
-		if (outside > 0)
-			failCheck(std::to_string(outside) + " points lie outside the disk");
+			radius = std::max(radius, 2.0 * std::atanh(std::min(1.0, std::hypot(p[0], p[1]))));
+		const double tolerance = kCheckedGap + openCurvature(m_flow) * std::sinh(2.0 * radius);
+		const DiskCheck check =
+			checkDisk(output.triangles, output.plane, output.reversed, tolerance);
+		// Far from the root of the layout the doubles of the disk end.
+		if (check.outside > 0)
+			failCheck(std::to_string(check.outside) + " points lie outside the disk");
+		// Where flips bend the edges of the input, its geodesic faces may turn.
+		const bool bent = chart.refined.empty() &&
+						  (!m_flow.history.startFlips.empty() || !m_flow.history.flowFlips.empty());
+		if (!(check.seamGap <= tolerance) || (check.turned > 0 && !bent))
+			failCheck(
+				"seams " + numberText(check.seamGap, 3) + " apart in the disk, " +
+				std::to_string(check.turned) + " faces turned round");
 	}
 
 	bool flips() const { return m_options.surgery == Surgery::IntrinsicFlips; }

@@ -96,6 +96,29 @@ void appendRefinement(
 	}
 }
 
+OutputTriangles
+outputOf(const Component& component, const Chart& chart, const Parametrization& result)
+{
+	OutputTriangles output;
+	for (int f : chart.refined) {
+		output.triangles.push_back(result.refined.triangles[at(f)]);
+		output.plane.push_back(result.refined.uv[at(f)]);
+		output.reversed.push_back(result.reversed[at(result.refined.inputFace[at(f)])]);
+	}
+	if (!chart.refined.empty())
+		return output;
+	for (std::size_t i = 0; i < component.face.size(); ++i) {
+		Triangle t;
+		for (std::size_t k = 0; k < 3; ++k)
+			t[component.inputCorner(i, k)] = component.triangles[i][k];
+		const auto f = at(component.face[i]);
+		output.triangles.push_back(t);
+		output.plane.push_back(result.uv[f]);
+		output.reversed.push_back(result.reversed[f]);
+	}
+	return output;
+}
+
 SurfaceMesh
 refinedSurface(const SurfaceMesh& mesh, const Parametrization& result, std::vector<char>& reversed)
 {

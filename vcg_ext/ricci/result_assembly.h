@@ -43,6 +43,17 @@ void appendRefinement(
 	RefinedMesh& refined,
 	Chart& chart);
 
+/// The triangles of one component's chart as they are given back, in the input's order of corners.
+struct OutputTriangles
+{
+	std::vector<Triangle> triangles; ///< corners by vertex or point
+	std::vector<std::array<Point2, 3>> plane;
+	std::vector<char> reversed; ///< 1 where clockwise is wanted
+};
+
+OutputTriangles
+outputOf(const Component& component, const Chart& chart, const Parametrization& result);
+
 /// The refinement as a mesh in space, and which of its faces are reversed.
 SurfaceMesh
 refinedSurface(const SurfaceMesh& mesh, const Parametrization& result, std::vector<char>& reversed);

@@ -8,6 +8,9 @@
 #include "numbers.h"
 #include "parametrize.h"
 #include "surface/component.h"
+#include "text.h"
+#include "verify/flow_check.h"
+#include "verify/sphere_check.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -29,6 +32,9 @@ using Vector = Eigen::Vector3d;
 /// Another vertex this much nearer to the puncture than its neighbours would dominate the inverted
 /// surface.
 constexpr double kNearest = 0.5;
+
+/// What the check of the result allows.
+constexpr double kCheckedRadius = 1e-12, kCheckedDegree = 1e-9;
 
 /// Vertices that are tried for the puncture.
 constexpr int kMostPoles = 100;
@@ -274,6 +280,13 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress&
 	map.offset = centreByMoebius(sphere, weights);
 	alignWith(c.positions, weights, sphere);
 	measure(c, sphere, map);
+	const SphereCheck check = checkSphere(c.triangles, sphere);
+	if (!(check.radiusError <= kCheckedRadius) ||
+		!(std::abs(check.degree - 1.0) <= kCheckedDegree) || check.turned > map.flippedFaces)
+		failCheck(
+			"the sphere is covered " + numberText(check.degree, 9) + " times, radii " +
+			numberText(check.radiusError, 3) + " off, " + std::to_string(check.turned) +
+			" faces turned round");
 	map.positions.assign(mesh.positions.size(), {0.0, 0.0, 0.0});
 	for (std::size_t v = 0; v < c.vertex.size(); ++v)
 		map.positions[at(c.vertex[v])] = sphere[v];

@@ -415,6 +415,7 @@ public:
 		for (std::size_t i = 0; i < m_part.size(); ++i)
 			byNumber[m_part[i]].push_back(static_cast<int>(i));
 		std::vector<std::vector<int>> parts;
+		parts.reserve(byNumber.size());
 		for (auto& part : byNumber)
 			parts.push_back(std::move(part.second));
 		std::sort(parts.begin(), parts.end());

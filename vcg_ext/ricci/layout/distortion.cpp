@@ -162,7 +162,7 @@ DistortionField measureDistortion(
 	report.qcMean = sum / static_cast<double>(measured.size());
 	report.qcAreaMean = weightedSum / areaSum;
 	report.qcVertexMean = vertexSum / static_cast<double>(measuredVertices.size());
-	report.qcHistogram = distortionHistogram(std::move(measuredVertices));
+	report.qcHistogram = distortionHistogram(measuredVertices);
 	report.qcMax = *std::max_element(measured.begin(), measured.end());
 	report.qcP99 = percentile(std::move(measured), 0.99);
 	return field;

@@ -47,7 +47,7 @@ Histogram countInBins(const std::vector<double>& values, double low, double high
 	return histogram;
 }
 
-Histogram distortionHistogram(std::vector<double> values)
+Histogram distortionHistogram(const std::vector<double>& values)
 {
 	const double top = percentile(values, 0.99);
 	// An infinite distortion has no scale of its own.
@@ -58,6 +58,7 @@ Histogram distortionHistogram(std::vector<double> values)
 Histogram factorHistogram(const std::vector<double>& binaryLogarithms)
 {
 	std::vector<double> sizes;
+	sizes.reserve(binaryLogarithms.size());
 	for (double x : binaryLogarithms)
 		sizes.push_back(std::abs(x));
 	const double top = percentile(std::move(sizes), 0.99);

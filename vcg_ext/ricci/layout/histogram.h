@@ -24,7 +24,7 @@ Histogram countInBins(const std::vector<double>& values, double low, double high
 
 /// Counts quasi-conformal distortions from 1 up to the least 1 + (1, 2 or 5) 10^k that is above the
 /// 99th percentile, in 50 bins.
-Histogram distortionHistogram(std::vector<double> values);
+Histogram distortionHistogram(const std::vector<double>& values);
 
 /// Counts binary logarithms of factors, in 50 bins between -x and x, x the least (1, 2 or 5) 10^k that
 /// is above the 99th percentile of their absolute values.

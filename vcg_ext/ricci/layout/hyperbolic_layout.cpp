@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperbolic_layout.h"
 
+#include "../metric/area.h"
 #include "../numbers.h"
 #include "layout_tree.h"
 
@@ -64,9 +65,9 @@ public:
 		long double x0 = 0;
 		std::complex<long double> x = 0;
 		for (int f = 0; f < m_t.faceCount(); ++f) {
-			double area = kPi;
-			for (int h : m_t.halfedges(f))
-				area -= m_angles[at(h)];
+			const auto side = m_t.halfedges(f);
+			// By the sides: what the angles are short of pi is rounding where triangles are tiny.
+			const double area = hyperbolicArea({length(side[0]), length(side[1]), length(side[2])});
 			for (int h : m_t.halfedges(f)) {
 				const ExtendedIsometry& g = layout.frame[at(h)];
 				x0 += area * (std::norm(g.a) + std::norm(g.b));
@@ -74,6 +75,8 @@ public:
 			}
 		}
 		const long double r = std::abs(x);
+		if (!(x0 > r)) // no area at all, or beyond what the frames hold
+			return 0;
 		// Towards the mean's direction on the hyperboloid: z = x / (x0 + sqrt(x0^2 - |x|^2)).
 		const std::complex<long double> middle = x / (x0 + std::sqrt((x0 - r) * (x0 + r)));
 		const ExtendedIsometry back = ExtendedIsometry::translationTo(middle).inverse();

@@ -11,7 +11,21 @@ namespace ricci {
 
 namespace {
 
-/// Sum over the triangles of \p area(s, s - a, s - b, s - c), s half the perimeter.
+/// \p area(s, s - a, s - b, s - c) of a triangle, s half the perimeter.
+template<class Area>
+double ofSides(std::array<double, 3> l, Area area)
+{
+	std::sort(l.begin(), l.end());
+	// Kahan's order of operations: nothing cancels but the sides themselves.
+	const double twiceLeast = std::max(0.0, l[0] - (l[2] - l[1]));
+	return area(
+		0.5 * (l[2] + (l[1] + l[0])),
+		0.5 * twiceLeast,
+		0.5 * (l[0] + (l[2] - l[1])),
+		0.5 * (l[2] + (l[1] - l[0])));
+}
+
+/// Sum of \p area(sides) over the triangles.
 template<class Area>
 double sumOverTriangles(const Triangulation& t, const std::vector<double>& lengths, Area area)
 {
@@ -20,14 +34,7 @@ double sumOverTriangles(const Triangulation& t, const std::vector<double>& lengt
 		std::array<double, 3> l;
 		for (std::size_t k = 0; k < 3; ++k)
 			l[k] = lengths[at(Triangulation::edge(t.halfedges(f)[k]))];
-		std::sort(l.begin(), l.end());
-		// Kahan's order of operations: nothing cancels but the sides themselves.
-		const double twiceLeast = std::max(0.0, l[0] - (l[2] - l[1]));
-		sum += area(
-			0.5 * (l[2] + (l[1] + l[0])),
-			0.5 * twiceLeast,
-			0.5 * (l[0] + (l[2] - l[1])),
-			0.5 * (l[2] + (l[1] - l[0])));
+		sum += area(l);
 	}
 	return sum;
 }
@@ -36,14 +43,21 @@ double sumOverTriangles(const Triangulation& t, const std::vector<double>& lengt
 
 double euclideanArea(const Triangulation& t, const std::vector<double>& lengths)
 {
-	return sumOverTriangles(t, lengths, [](double s, double a, double b, double c) {
-		return std::sqrt(s * a * b * c);
+	return sumOverTriangles(t, lengths, [](const std::array<double, 3>& sides) {
+		return ofSides(
+			sides, [](double s, double a, double b, double c) { return std::sqrt(s * a * b * c); });
 	});
 }
 
 double hyperbolicArea(const Triangulation& t, const std::vector<double>& lengths)
 {
-	return sumOverTriangles(t, lengths, [](double s, double a, double b, double c) {
+	return sumOverTriangles(
+		t, lengths, [](const std::array<double, 3>& sides) { return hyperbolicArea(sides); });
+}
+
+double hyperbolicArea(std::array<double, 3> sides)
+{
+	return ofSides(sides, [](double s, double a, double b, double c) {
 		return 4.0 * std::atan(std::sqrt(
 						 std::tanh(0.5 * s) * std::tanh(0.5 * a) * std::tanh(0.5 * b) *
 						 std::tanh(0.5 * c)));

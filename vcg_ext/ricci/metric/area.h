@@ -4,6 +4,7 @@
 
 #include "../surface/triangulation.h"
 
+#include <array>
 #include <vector>
 
 namespace ricci {
@@ -16,6 +17,9 @@ double euclideanArea(const Triangulation& t, const std::vector<double>& lengths)
 /// tanh((s - a) / 2) tanh((s - b) / 2) tanh((s - c) / 2), so that it is independent of the angles
 /// that the flow has summed.
 double hyperbolicArea(const Triangulation& t, const std::vector<double>& lengths);
+
+/// The same for one triangle with these sides (L'Huilier's formula): 0 where it breaks.
+double hyperbolicArea(std::array<double, 3> sides);
 
 } // namespace ricci
 

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/shapes.h"
+
+#include <ricci/verify/chart_check.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// Crossings of a strip of a ring that turns by \p angle and moves outwards by \p rise in a turn.
+int crossingsOfAStrip(double angle, double rise, double tolerance)
+{
+	const int n = 40;
+	const SurfaceMesh strip = grid(n, 2, Ends::Open, Ends::Open, [&](int i, int j) {
+		const double a = angle * i / n, r = 2.0 - 0.5 * j + rise * a / (2 * kPi);
+		return Point3{r * std::cos(a), r * std::sin(a), 0.0};
+	});
+	std::vector<std::array<Point2, 3>> plane;
+	for (const Triangle& t : strip.triangles) {
+		std::array<Point2, 3> p;
+		for (std::size_t k = 0; k < 3; ++k)
+			p[k] = {strip.positions[at(t[k])][0], strip.positions[at(t[k])][1]};
+		plane.push_back(p);
+	}
+	return borderCrossings(strip.triangles, plane, tolerance);
+}
+
+TEST(ChartCheck, ABorderThatDoesNotCrossItself)
+{
+	EXPECT_EQ(crossingsOfAStrip(1.5 * kPi, 0.0, 1e-9), 0);
+	EXPECT_EQ(crossingsOfAStrip(2.0 * kPi, 0.0, 1e-9), 0); // the ends touch
+	EXPECT_EQ(crossingsOfAStrip(3.0 * kPi, 1.5, 1e-9), 0); // a spiral with room between its turns
+}
+
+TEST(ChartCheck, ABorderThatCrossesItself)
+{
+	// The last end lies across the outer border of the first turn, the first end across the inner
+	// border of the last one.
+	EXPECT_EQ(crossingsOfAStrip(2.3 * kPi, 0.5, 1e-9), 2);
+	EXPECT_EQ(crossingsOfAStrip(3.9 * kPi, 0.6, 1e-9), 2);
+	// The sides that cross are half a unit long.
+	EXPECT_EQ(crossingsOfAStrip(2.3 * kPi, 0.5, 0.5), 0);
+}
+
+TEST(ChartCheck, APartitionHasEveryNumberOnce)
+{
+	const std::vector<int> a = {0, 3}, b = {2, 1}, c = {1}, d = {4};
+	EXPECT_TRUE(isPartition({&a, &b}, 4));
+	EXPECT_FALSE(isPartition({&a, &b}, 5));
+	EXPECT_FALSE(isPartition({&a, &b, &c}, 4));
+	EXPECT_FALSE(isPartition({&a, &b, &d}, 4));
+	EXPECT_TRUE(isPartition({&a, &b, &d}, 5));
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <ricci/layout/disk_isometry.h>
+#include <ricci/verify/disk_check.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace ricci::testing {
+namespace {
+
+/// Straight triangles of the Klein model, which are the geodesic ones of the Poincaré disk at
+/// k / (1 + sqrt(1 - |k|^2)); every second one is clockwise, like its vertices.
+struct Sheet
+{
+	std::vector<Triangle> triangles;
+	std::vector<std::array<Point2, 3>> plane;
+	std::vector<char> reversed;
+
+	Sheet()
+	{
+		Random random(620);
+		SurfaceMesh mesh = randomPlanarDisk(5, random);
+		double largest = 0.0;
+		Point2 middle{0.0, 0.0};
+		for (const Point3& p : mesh.positions)
+			for (std::size_t k = 0; k < 2; ++k)
+				middle[k] += p[k] / static_cast<double>(mesh.positions.size());
+		for (const Point3& p : mesh.positions)
+			largest = std::max(largest, std::hypot(p[0] - middle[0], p[1] - middle[1]));
+		for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+			Triangle t = mesh.triangles[f];
+			reversed.push_back(f % 2 == 1);
+			if (f % 2 == 1)
+				std::swap(t[1], t[2]);
+			std::array<Point2, 3> corners;
+			for (std::size_t k = 0; k < 3; ++k) {
+				const Point3& p = mesh.positions[at(t[k])];
+				const double x = 0.99 * (p[0] - middle[0]) / largest;
+				const double y = 0.99 * (p[1] - middle[1]) / largest;
+				const double scale = 1.0 / (1.0 + std::sqrt(1.0 - x * x - y * y));
+				corners[k] = {scale * x, scale * y};
+			}
+			triangles.push_back(t);
+			plane.push_back(corners);
+		}
+	}
+
+	/// Moves the first half of the triangles.
+	template<class Motion>
+	void moveHalf(Motion motion)
+	{
+		for (std::size_t f = 0; f < plane.size() / 2; ++f)
+			for (Point2& p : plane[f]) {
+				const std::complex<double> z = motion(std::complex<double>(p[0], p[1]));
+				p = {z.real(), z.imag()};
+			}
+	}
+
+	DiskCheck check(double tolerance = 1e-9) const
+	{
+		return checkDisk(triangles, plane, reversed, tolerance);
+	}
+};
+
+TEST(DiskCheck, AcceptsAMapWithAndWithoutSeams)
+{
+	Sheet s;
+	DiskCheck check = s.check();
+	EXPECT_EQ(check.outside, 0u);
+	EXPECT_LE(check.seamGap, 0.0);
+	EXPECT_EQ(check.turned, 0);
+	// Cut apart by a motion, all of the border between the halves becomes a seam.
+	s.moveHalf(DiskIsometry::translationTo({0.3, -0.4}) * DiskIsometry::rotation(2.0));
+	check = s.check();
+	EXPECT_LT(check.seamGap, 1e-13);
+	EXPECT_EQ(check.turned, 0);
+}
+
+TEST(DiskCheck, SeesASeamThatDoesNotFit)
+{
+	// Two triangles on one diameter: their common sides have the lengths 1 and 1.01.
+	const auto on = [](double distance) { return std::tanh(0.5 * distance); };
+	const std::vector<Triangle> triangles = {{0, 1, 2}, {1, 0, 3}};
+	const Point2 origin{0.0, 0.0};
+	const DiskCheck check = checkDisk(
+		triangles,
+		{{{origin, {on(1.0), 0.0}, {0.0, 0.5}}}, {{{on(1.01), 0.0}, origin, {0.0, -0.5}}}},
+		{0, 0},
+		1e-9);
+	EXPECT_NEAR(check.seamGap, 0.01, 1e-13);
+	EXPECT_NEAR(check.radius, 2.0 * std::atanh(0.5), 1e-14);
+	EXPECT_EQ(check.turned, 0);
+	// A similarity of the plane is no motion of the disk.
+	Sheet s;
+	s.moveHalf([](std::complex<double> z) { return 0.9 * z; });
+	EXPECT_GT(s.check().seamGap, 0.01);
+}
+
+TEST(DiskCheck, CountsTurnedTrianglesByTheirHeight)
+{
+	// The third corner lies at the distance 0.25 from a diameter, on the wrong side, anywhere in
+	// the disk.
+	const double height = 0.25, y = -std::tanh(0.5 * height);
+	for (double place : {0.0, 0.9, 0.999})
+		for (bool reversed : {false, true}) {
+			const DiskIsometry move =
+				DiskIsometry::translationTo({place, 0.0}) * DiskIsometry::rotation(0.7);
+			std::array<Point2, 3> p = {Point2{-0.5, 0.0}, Point2{0.5, 0.0}, Point2{0.0, y}};
+			for (Point2& q : p) {
+				const std::complex<double> z = move(std::complex<double>(q[0], q[1]));
+				q = {z.real(), z.imag()};
+			}
+			if (reversed)
+				std::swap(p[0], p[1]);
+			const std::vector<char> wanted = {reversed};
+			EXPECT_EQ(checkDisk({{0, 1, 2}}, {p}, wanted, 0.9 * height).turned, 1) << place;
+			EXPECT_EQ(checkDisk({{0, 1, 2}}, {p}, wanted, 1.1 * height).turned, 0) << place;
+			EXPECT_EQ(checkDisk({{0, 1, 2}}, {p}, {!reversed}, 0.0).turned, 0) << place;
+		}
+}
+
+TEST(DiskCheck, CountsPointsThatAreNotInTheDisk)
+{
+	const double nan = std::numeric_limits<double>::quiet_NaN();
+	for (const Point2& bad : {Point2{1.0, 0.0}, Point2{0.8, 0.8}, Point2{nan, 0.0}}) {
+		Sheet s;
+		s.plane[3][1] = bad;
+		EXPECT_EQ(s.check().outside, 1u);
+	}
+}
+
+} // namespace
+} // namespace ricci::testing
