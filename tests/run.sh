@@ -41,6 +41,5 @@ configure_and_build -DBUILD_TESTING=ON "$@"
 say "Tests"
 status=0
 run_tests || status=$?
-bash "$root/tests/sanitize.sh" || status=1
 print_summary
 exit $status
