@@ -13,8 +13,10 @@ namespace ricci {
 namespace {
 
 /// Bytes for each face of the mesh; for each face of the component at work; and the same for each
-/// doubling of their number (the factor). Fitted from above to measured peaks of 5e4 to 2e5 faces (1.6 to 1.8 kB for each).
-constexpr double kEveryFace = 400.0, kFaceAtWork = 700.0, kFaceInFactor = 60.0;
+/// doubling of their number (the factor). Fitted from above to measured peaks of 5e4 to 1e6 faces
+/// (1.2 to 1.4 kB for each, 1.8 with the common refinement). A flow on the double of a surface with
+/// boundary, which nobody can foresee, takes up to twice as much.
+constexpr double kEveryFace = 350.0, kFaceAtWork = 450.0, kFaceInFactor = 35.0;
 
 /// Of the arrays for the output of the common refinement, for each face at work.
 constexpr double kFaceRefined = 400.0;
