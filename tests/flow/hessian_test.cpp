@@ -5,6 +5,7 @@
 #include "support/shapes.h"
 
 #include <ricci/flow/hessian.h>
+#include <ricci/metric/hyperbolic.h>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -85,6 +86,26 @@ TEST(Hessian, EveryEntryIsTheDerivativeOfTheCurvature)
 					<< "entry " << i << ", " << j;
 			}
 		}
+	}
+}
+
+TEST(Hessian, LoopEdgesCountTwiceInTheHyperbolicPlane)
+{
+	const Packed torus = twoVertexTorus();
+	CirclePacking packing = torus.packing;
+	GeometricCurvatureMap<Hyperbolic> map(packing);
+	Eigen::VectorXd u(2);
+	for (Eigen::Index v = 0; v < 2; ++v)
+		u[v] = std::log(std::tanh(0.5 * torus.radii[at(static_cast<int>(v))]));
+	map.evaluate(u);
+	ASSERT_EQ(map.brokenTriangles(), 0);
+	const Eigen::MatrixXd H = denseHessian(map);
+	for (Eigen::Index j = 0; j < 2; ++j) {
+		const Eigen::VectorXd coarse = curvatureSlope(map, u, j, 1e-3);
+		const Eigen::VectorXd fine = curvatureSlope(map, u, j, 5e-4);
+		const Eigen::VectorXd extrapolated = (4.0 * fine - coarse) / 3.0;
+		for (Eigen::Index i = 0; i < 2; ++i)
+			EXPECT_NEAR(extrapolated[i], H(i, j), 1e-7 * H.cwiseAbs().maxCoeff());
 	}
 }
 

@@ -129,6 +129,24 @@ TEST(Newton, KeepsTheMeanWhereNothingIsFixed)
 	}
 }
 
+TEST(Newton, KeepsTheMeanBeyondTheLastPlaceOfU)
+{
+	// Small steps from u = 40, whose last place is 7e-15: u and its rest together hold them.
+	Random random(80);
+	const Packed mesh(bumpyTorus(12, 8, random));
+	const Eigen::VectorXd zero = Eigen::VectorXd::Zero(mesh.u().size());
+	Eigen::VectorXd start = solve(mesh, zero, mesh.u(), nothingFixed(mesh)).u;
+	for (double& x : start)
+		x += 40.0 + random.real(-1e-4, 1e-4);
+	const Solved solved = solve(mesh, zero, start, nothingFixed(mesh));
+	ASSERT_TRUE(solved.result.converged);
+	ASSERT_GT(solved.result.iterations, 0);
+	long double moved = 0.0L;
+	for (Eigen::Index v = 0; v < start.size(); ++v)
+		moved += static_cast<long double>(solved.u[v]) - start[v] + solved.rest[v];
+	EXPECT_LT(std::abs(static_cast<double>(moved)), 1e-15);
+}
+
 TEST(Newton, KeepsFixedVerticesToTheBit)
 {
 	Random random(73);

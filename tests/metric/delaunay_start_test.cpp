@@ -134,6 +134,26 @@ TEST(Mollify, LeavesASoundMeshAlone)
 	}
 }
 
+TEST(Mollify, GivesJustTheExcessThatIsMissing)
+{
+	// A needle whose two sides are longer than the third by 2e-7, one without excess, and one that
+	// misses the triangle inequality by 1e-3.
+	const Triangulation t(3, {{0, 1, 2}});
+	for (double third : {1.0 - 3e-7, 1.0 - 5e-7, 0.999 - 5e-7}) {
+		std::vector<double> lengths(3);
+		for (int k = 0; k < 3; ++k)
+			lengths[at(Triangulation::edge(t.halfedges(0)[at(k)]))] = k == 0   ? 1.0
+																	  : k == 1 ? third
+																			   : 5e-7;
+		const double excess = third + 5e-7 - 1.0;
+		EXPECT_NEAR(mollify(t, lengths), 1e-5 - excess, 1e-15);
+		double sum = 0.0;
+		for (double l : lengths)
+			sum += l;
+		EXPECT_NEAR(sum - 2 * *std::max_element(lengths.begin(), lengths.end()), 1e-5, 1e-15);
+	}
+}
+
 TEST(Mollify, GivesDegenerateTrianglesAnArea)
 {
 	Random random(163);

@@ -69,7 +69,7 @@ TEST(Hyperbolic, CurvatureAndCircumferenceOfACircleBelongToItsRadius)
 TEST(Hyperbolic, CircleKnowsWhatTheLastPlaceOfUCannotHold)
 {
 	Random random(62);
-	int seen = 0;
+	int seen = 0, widened = 0;
 	for (double u : valuesOfU(random)) {
 		const double unit = std::nextafter(u, -100.0) - u;
 		for (double share : {-0.49, -0.25, 0.25, 0.49}) {
@@ -79,15 +79,21 @@ TEST(Hyperbolic, CircleKnowsWhatTheLastPlaceOfUCannotHold)
 			EXPECT_LT(relative(circle.radius, 2 * std::atanh(std::exp(x))), 6 * kEpsilon) << u;
 			EXPECT_LT(relative(circle.s, -1 / std::sinh(x)), 6 * kEpsilon) << u;
 			EXPECT_LT(relative(circle.kappa, std::cosh(x)), 6 * kEpsilon) << u;
+			const long double t = std::exp(x), root = std::sqrt(-std::expm1(2 * x));
+			EXPECT_LT(relative(circle.sinhHalf, t / root), 6 * kEpsilon) << u;
+			EXPECT_LT(relative(circle.coshHalf, 1 / root), 6 * kEpsilon) << u;
 			// Without it s would be off by this:
 			seen += relative(-1 / std::sinh(static_cast<long double>(u)), -1 / std::sinh(x)) >
 					8 * kEpsilon;
 			// u + rest rounds in the reference as well.
 			const auto wide = Extended::circle(u, rest);
 			EXPECT_LT(relative(wide.s, -1 / std::sinh(x)), 1e-19 * (4.0 - u)) << u;
+			const auto rounded = Extended::circle(u);
+			widened += relative(rounded.s, -1 / std::sinh(x)) > 1e-18 * (4.0 - u);
 		}
 	}
 	EXPECT_GT(seen, 100);
+	EXPECT_GT(widened, 1000);
 }
 
 /// The derivatives that move a circle by what its u cannot hold: of the radius s, of s s^2 kappa,
