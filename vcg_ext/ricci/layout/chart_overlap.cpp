@@ -285,7 +285,9 @@ std::vector<int> joinedSides(const DrawnChart& chart)
 	return joined;
 }
 
-/// Minimal cut between two sets of nodes of an undirected graph (Dinic 1970), in integers.
+/// Minimal cut between two sets of nodes of an undirected graph, in integers: shortest augmenting
+/// paths with distance labels that are corrected where a search fails (Ahuja and Orlin, Distance-
+/// directed augmenting path algorithms, Naval Research Logistics 38, 1991).
 class MinimalCut
 {
 public:
@@ -297,18 +299,38 @@ public:
 		add(b, a, back);
 	}
 
-	/// [node] 1 on the side of \p source.
+	/// [node] 1 on the side of \p source: what it can still reach, the least of the least cuts.
 	std::vector<char> run(int source, int sink)
 	{
-		while (rank(source, sink)) {
-			m_next = m_first;
-			while (push(source, sink)) {
+		labelDistances(sink);
+		m_next = m_first;
+		std::vector<int> path; // arcs from the source to node
+		int node = source;
+		while (m_distance[at(source)] < nodes()) {
+			if (node == sink) {
+				augment(path);
+				path.clear();
+				node = source;
+				continue;
+			}
+			int& a = m_next[at(node)];
+			while (a >= 0 && !leadsOn(node, a))
+				a = m_arcs[at(a)].next;
+			if (a >= 0) {
+				path.push_back(a);
+				node = m_arcs[at(a)].to;
+				continue;
+			}
+			const int before = m_distance[at(node)];
+			relabel(node);
+			if (--m_count[at(before)] == 0)
+				break; // no path can cross the gap
+			if (node != source) {
+				node = m_arcs[at(path.back() ^ 1)].to;
+				path.pop_back();
 			}
 		}
-		std::vector<char> side(m_first.size());
-		for (std::size_t n = 0; n < side.size(); ++n)
-			side[n] = m_rank[n] >= 0;
-		return side;
+		return reachable(source);
 	}
 
 private:
@@ -318,47 +340,52 @@ private:
 		std::int64_t capacity;
 	};
 
+	int nodes() const { return static_cast<int>(m_first.size()); }
+
 	void add(int from, int to, std::int64_t capacity)
 	{
 		m_arcs.push_back({to, m_first[at(from)], capacity});
 		m_first[at(from)] = static_cast<int>(m_arcs.size()) - 1;
 	}
 
-	bool rank(int source, int sink)
+	bool leadsOn(int node, int a) const
 	{
-		m_rank.assign(m_first.size(), -1);
-		m_rank[at(source)] = 0;
-		std::vector<int> queue{source};
-		for (std::size_t head = 0; head < queue.size() && m_rank[at(sink)] < 0; ++head)
-			for (int a = m_first[at(queue[head])]; a >= 0; a = m_arcs[at(a)].next)
-				if (m_arcs[at(a)].capacity > 0 && m_rank[at(m_arcs[at(a)].to)] < 0) {
-					m_rank[at(m_arcs[at(a)].to)] = m_rank[at(queue[head])] + 1;
-					queue.push_back(m_arcs[at(a)].to);
-				}
-		return m_rank[at(sink)] >= 0; // paths of least length end here
+		const Arc& arc = m_arcs[at(a)];
+		return arc.capacity > 0 && m_distance[at(arc.to)] + 1 == m_distance[at(node)];
 	}
 
-	/// Fills one path of rising rank, found without recursion.
-	bool push(int source, int sink)
+	/// Numbers of arcs to the sink; nodes() where there is no way.
+	void labelDistances(int sink)
 	{
-		std::vector<int> path;
-		int node = source;
-		while (node != sink) {
-			int& a = m_next[at(node)];
-			while (a >= 0 && (m_arcs[at(a)].capacity <= 0 ||
-							  m_rank[at(m_arcs[at(a)].to)] != m_rank[at(node)] + 1))
-				a = m_arcs[at(a)].next;
-			if (a >= 0) {
-				path.push_back(a);
-				node = m_arcs[at(a)].to;
-				continue;
+		m_distance.assign(m_first.size(), nodes());
+		m_distance[at(sink)] = 0;
+		std::vector<int> queue{sink};
+		for (std::size_t head = 0; head < queue.size(); ++head)
+			for (int a = m_first[at(queue[head])]; a >= 0; a = m_arcs[at(a)].next) {
+				int& distance = m_distance[at(m_arcs[at(a)].to)];
+				if (m_arcs[at(a ^ 1)].capacity > 0 && distance == nodes()) {
+					distance = m_distance[at(queue[head])] + 1;
+					queue.push_back(m_arcs[at(a)].to);
+				}
 			}
-			if (path.empty())
-				return false;
-			node = m_arcs[at(path.back() ^ 1)].to;
-			m_next[at(node)] = m_arcs[at(path.back())].next;
-			path.pop_back();
-		}
+		m_count.assign(m_first.size() + 1, 0);
+		for (int d : m_distance)
+			++m_count[at(d)];
+	}
+
+	void relabel(int node)
+	{
+		int least = nodes();
+		for (int a = m_first[at(node)]; a >= 0; a = m_arcs[at(a)].next)
+			if (m_arcs[at(a)].capacity > 0)
+				least = std::min(least, m_distance[at(m_arcs[at(a)].to)] + 1);
+		m_distance[at(node)] = least;
+		++m_count[at(least)];
+		m_next[at(node)] = m_first[at(node)];
+	}
+
+	void augment(const std::vector<int>& path)
+	{
 		std::int64_t least = std::numeric_limits<std::int64_t>::max();
 		for (int a : path)
 			least = std::min(least, m_arcs[at(a)].capacity);
@@ -366,11 +393,25 @@ private:
 			m_arcs[at(a)].capacity -= least;
 			m_arcs[at(a ^ 1)].capacity += least;
 		}
-		return true;
+	}
+
+	std::vector<char> reachable(int source) const
+	{
+		std::vector<char> side(m_first.size(), 0);
+		side[at(source)] = 1;
+		std::vector<int> queue{source};
+		for (std::size_t head = 0; head < queue.size(); ++head)
+			for (int a = m_first[at(queue[head])]; a >= 0; a = m_arcs[at(a)].next)
+				if (m_arcs[at(a)].capacity > 0 && !side[at(m_arcs[at(a)].to)]) {
+					side[at(m_arcs[at(a)].to)] = 1;
+					queue.push_back(m_arcs[at(a)].to);
+				}
+		return side;
 	}
 
 	std::vector<Arc> m_arcs; // arc a ^ 1 runs the other way
-	std::vector<int> m_first, m_next, m_rank;
+	std::vector<int> m_first, m_next;
+	std::vector<int> m_distance, m_count; // [node]; [distance] nodes
 };
 
 class Division
