@@ -81,19 +81,51 @@ make_meshes() {
 	make_statue
 }
 
+# fill FILE RED GREEN BLUE: colours the selected vertices.
+fill() {
+	then_filter "$1" "Vertex Color Filling" "type=\"RichColor\" name=\"color1\" r=\"$2\" g=\"$3\" b=\"$4\" a=\"255\"" \
+		'type="RichBool" name="onSelected" value="true"'
+}
+
+# enlarge FILE: selects the neighbours of the selected vertices, too.
+enlarge() {
+	then_filter "$1" "Select Faces from Vertices" 'type="RichBool" name="Inclusive" value="false"'
+	then_filter "$1" "Select Vertices from Faces" 'type="RichBool" name="Inclusive" value="false"'
+}
+
+# The condition that holds at the cones which the log's last run has placed: MeshLab 2020.09 cannot read
+# attributes there, so it is a product over the vertices' numbers.
+at_cones() {
+	local product=1 vertex
+	for vertex in $(grep 'cones placed' "$work/meshlabserver.log" | tail -n 1 |
+		grep -oE '[0-9]+ \(-?[0-9]' | cut -d ' ' -f 1); do
+		product="$product*(vi-$vertex)"
+	done
+	echo "$product==0"
+}
+
 # A closed statue with the cones that the filter places. Where the texture is cut, vertices are split,
-# and the border that appears is coloured.
+# and the border that appears is coloured. The cones are coloured before that, because vertices get
+# other numbers, and made larger at last.
 make_statue() {
 	bash "$root/tests/unpack_cgal_meshes.sh" "$build/cgal_meshes" || fail "no statue without libcgal-demo"
 	cp "$build/cgal_meshes/data/meshes/armadillo.off" "$work/statue.off"
+	script cones.mlx colorize=false output_triangulation=1
+	run_script cones.mlx -i statue.off -o cones.ply
 	script statue.mlx colorize=false output_triangulation=1
 	white statue.mlx
 	textured statue.mlx
+	then_filter statue.mlx "Conditional Vertex Selection" \
+		"type=\"RichString\" name=\"condSelect\" value=\"$(at_cones)\""
+	enlarge statue.mlx
+	fill statue.mlx 0 70 255
 	then_filter statue.mlx "Convert PerWedge UV into PerVertex UV"
 	then_filter statue.mlx "Select Border"
-	then_filter statue.mlx "Vertex Color Filling" \
-		'type="RichColor" name="color1" r="190" g="30" b="20" a="255"' \
-		'type="RichBool" name="onSelected" value="true"'
+	fill statue.mlx 190 30 20
+	then_filter statue.mlx "Conditional Vertex Selection" \
+		'type="RichString" name="condSelect" value="(b-r)==255"'
+	enlarge statue.mlx
+	fill statue.mlx 0 70 255
 	run_script statue.mlx -i statue.off -o statue.ply -m wt vc vn
 }
 

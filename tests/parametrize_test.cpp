@@ -22,7 +22,9 @@
 #include <functional>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <string>
+#include <utility>
 
 namespace ricci::testing {
 namespace {
@@ -287,6 +289,36 @@ TEST(Parametrize, ARegularPolygonIsADiskAlready)
 		EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
 		EXPECT_LT(roundness(fan, flat.uv), 1e-12);
 	}
+}
+
+TEST(Parametrize, TheLogNamesConesByTheirNumbersInTheMesh)
+{
+	class Listener : public Progress
+	{
+	public:
+		void log(const std::string& line) override
+		{
+			const std::size_t list = line.find("vertex (curvature / pi):");
+			if (list == std::string::npos)
+				return;
+			std::istringstream in(line.substr(list + 24));
+			int vertex;
+			double curvature;
+			char open, close, comma;
+			while (in >> vertex >> open >> curvature >> close >> comma)
+				cones.emplace_back(vertex, curvature);
+		}
+		std::vector<std::pair<int, double>> cones;
+	};
+	Random random(205);
+	const SurfaceMesh one = shaken(perforatedSlab(0, 3), 0.05, random);
+	SurfaceMesh mesh = sideBySide(one, shaken(perforatedSlab(2, 3), 0.05, random), 9.0);
+	std::reverse(mesh.triangles.begin(), mesh.triangles.end()); // components number by first use
+	Listener listener;
+	const Parametrization flat = parametrizeEuclidean(mesh, {}, Options(), listener);
+	EXPECT_EQ(static_cast<int>(listener.cones.size()), flat.report.cones);
+	for (const auto& [vertex, curvature] : listener.cones)
+		EXPECT_NEAR(flat.targetCurvature[at(vertex)], curvature * kPi, 1e-6) << vertex;
 }
 
 TEST(Parametrize, ClosedSurfacesWithCones)

@@ -137,6 +137,7 @@ private:
 			request.coneDistortion = m_options.coneDistortion;
 			request.coneRounding = m_options.coneRounding;
 			request.coneVertices = static_cast<int>(m_mesh.positions.size());
+			request.vertexNumbers = m_component.vertex;
 			request.selected.resize(m_solved.positions.size(), 0);
 			request.prescribed.resize(m_solved.positions.size(), 0.0);
 			const Topology topology = topologyOf(m_solved.triangulation);

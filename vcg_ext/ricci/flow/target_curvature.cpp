@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ricci {
 
@@ -216,13 +217,19 @@ void setPlacedCones(
 	wanted.boundary = prescribed ? ConeBoundary::Prescribed : ConeBoundary::Fixed;
 	const PlacedCones cones = placeCones(t, lengths, wanted);
 	double total = 0.0;
-	std::string list;
+	std::vector<std::pair<int, double>> named;
 	for (std::size_t i = 0; i < cones.vertices.size(); ++i) {
-		target.curvature[cones.vertices[i]] = cones.curvatures[i];
+		const int v = cones.vertices[i];
+		target.curvature[v] = cones.curvatures[i];
 		total += cones.curvatures[i];
-		list += (i == 0 ? " " : ", ") + std::to_string(cones.vertices[i]) + " (" +
-				number(cones.curvatures[i] / kPi) + ")";
+		const bool hasNumber = at(v) < request.vertexNumbers.size();
+		named.emplace_back(hasNumber ? request.vertexNumbers[at(v)] : v, cones.curvatures[i]);
 	}
+	std::sort(named.begin(), named.end());
+	std::string list;
+	for (const auto& [vertex, curvature] : named)
+		list += (list.empty() ? " " : ", ") + std::to_string(vertex) + " (" +
+				number(curvature / kPi) + ")";
 	target.notes.push_back(
 		std::to_string(cones.vertices.size()) + " cones placed, expected area distortion " +
 		number(cones.distortion) + " (spread); vertex (curvature / pi):" + list + ".");

@@ -44,6 +44,7 @@ struct TargetRequest
 	double coneDistortion = 0.5;
 	ConeRounding coneRounding = ConeRounding::Free;
 	int coneVertices = -1; ///< cones may be placed at the first so many vertices; -1: at all
+	std::vector<int> vertexNumbers; ///< [vertex] under which notes name it; empty: its own
 };
 
 /// A target curvature that Gauss-Bonnet allows.
