@@ -132,8 +132,6 @@ CoveredTwice::CoveredTwice(const SurfaceMesh& mesh, const UV& uv, const std::vec
 				chart[static_cast<std::size_t>(find(chart, static_cast<int>(g)))] =
 					find(chart, static_cast<int>(f));
 		}
-		if (reversed[f])
-			std::swap(place[f][1], place[f][2]);
 		boxes[f] = {place[f][0], place[f][0]};
 		for (const Place& p : place[f])
 			for (std::size_t x = 0; x < 2; ++x) {
@@ -143,6 +141,8 @@ CoveredTwice::CoveredTwice(const SurfaceMesh& mesh, const UV& uv, const std::vec
 	}
 	for (std::size_t f = 0; f < count; ++f) {
 		charts += find(chart, static_cast<int>(f)) == static_cast<int>(f);
+		if (reversed[f])
+			std::swap(place[f][1], place[f][2]);
 		if (area(place[f][0], place[f][1], place[f][2]) > 0)
 			proper.push_back(static_cast<int>(f));
 	}

@@ -9,6 +9,7 @@
 
 #include <ricci/layout/common_refinement.h>
 #include <ricci/parametrize.h>
+#include <ricci/surface/component.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>
 
@@ -245,13 +246,16 @@ Outcome runPacked(const SurfaceMesh& mesh, const Options& options, Progress& pro
 		out.drawn = mesh;
 		out.uv = flat.wedgeUV;
 	}
-	// Where the map turns no face round, the orientation says which ones the input has reversed.
-	for (std::size_t f = 0; f < out.uv.size(); ++f) {
-		const auto& p = out.uv[f];
-		out.reversed.push_back(
-			flat.report.flippedFaces + flat.report.flippedByRounding == 0 &&
-			(p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) < (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]));
-	}
+	std::vector<char> reversed(mesh.triangles.size(), 0);
+	std::vector<std::string> notes;
+	for (const Component& component : splitIntoComponents(mesh, notes))
+		for (std::size_t f = 0; f < component.face.size(); ++f)
+			reversed[static_cast<std::size_t>(component.face[f])] = component.reversed[f];
+	for (std::size_t f = 0; f < out.uv.size(); ++f)
+		out.reversed.push_back(reversed
+								   [flat.refined.triangles.empty()
+										? f
+										: static_cast<std::size_t>(flat.refined.inputFace[f])]);
 	return out;
 }
 
