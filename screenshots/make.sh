@@ -183,13 +183,13 @@ around() {
 }
 
 dialog() {
-	show generalized.ply
+	QT_FONT_DPI=84 show generalized.ply # or Apply would lie below the screen
 	tilt
-	shift_by 260 -30
+	shift_by 290 -30
 	open_filter "$name" || fail "the filter's dialog did not open"
 	local window
 	window=$(find_window "$name")
-	xdotool windowmove "$window" 700 0 windowsize "$window" 640 860 # all parameters in view
+	xdotool windowmove "$window" 0 0 windowsize "$window" 560 860 # all parameters in view
 	sleep 1
 	press_apply "$name"
 	wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "the filter did not run"
