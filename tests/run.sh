@@ -28,6 +28,17 @@ junit_count() {
 	grep -o "[[:space:]]$1=\"[0-9]*\"" "$build/tests.xml" | head -n 1 | tr -dc '0-9'
 }
 
+# Sanitizers, valgrind and clang-tidy, for as long as there is time.
+check_with_tools() {
+	local code=0
+	timeout 1200 bash "$root/tests/sanitize.sh" || code=$?
+	if [ $code -eq 124 ]; then
+		skipped "the rest of tests/sanitize.sh: twenty minutes were over"
+		return 0
+	fi
+	return $code
+}
+
 mkdir -p "$build/sources"
 say "Packages"
 install_packages "${packages_build[@]}" "${packages_test[@]}" "${packages_meshlab[@]}" "${packages_python[@]}"
@@ -41,5 +52,6 @@ configure_and_build -DBUILD_TESTING=ON "$@"
 say "Tests"
 status=0
 run_tests || status=$?
+check_with_tools || status=1
 print_summary
 exit $status

@@ -69,7 +69,7 @@ TEST(Hyperbolic, CurvatureAndCircumferenceOfACircleBelongToItsRadius)
 TEST(Hyperbolic, CircleKnowsWhatTheLastPlaceOfUCannotHold)
 {
 	Random random(62);
-	int seen = 0, widened = 0;
+	int seen = 0;
 	for (double u : valuesOfU(random)) {
 		const double unit = std::nextafter(u, -100.0) - u;
 		for (double share : {-0.49, -0.25, 0.25, 0.49}) {
@@ -88,12 +88,9 @@ TEST(Hyperbolic, CircleKnowsWhatTheLastPlaceOfUCannotHold)
 			// u + rest rounds in the reference as well.
 			const auto wide = Extended::circle(u, rest);
 			EXPECT_LT(relative(wide.s, -1 / std::sinh(x)), 1e-19 * (4.0 - u)) << u;
-			const auto rounded = Extended::circle(u);
-			widened += relative(rounded.s, -1 / std::sinh(x)) > 1e-18 * (4.0 - u);
 		}
 	}
 	EXPECT_GT(seen, 100);
-	EXPECT_GT(widened, 1000);
 }
 
 /// The derivatives that move a circle by what its u cannot hold: of the radius s, of s s^2 kappa,

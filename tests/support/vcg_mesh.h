@@ -83,13 +83,18 @@ void toVcg(const SurfaceMesh& from, MeshType& to)
 	for (const Point3& p : from.positions) {
 		vertex->P() = typename MeshType::CoordType(
 			static_cast<Scalar>(p[0]), static_cast<Scalar>(p[1]), static_cast<Scalar>(p[2]));
-		vertex->N() = typename MeshType::CoordType(0, 0, 0); // vcglib leaves it unset
+		vertex->N() = typename MeshType::CoordType(0, 0, 0); // vcglib leaves these unset
+		vertex->Q() = 0;
 		++vertex;
 	}
 	auto face = vcg::tri::Allocator<MeshType>::AddFaces(to, from.triangles.size());
 	for (const Triangle& t : from.triangles) {
-		for (int k = 0; k < 3; ++k)
+		for (int k = 0; k < 3; ++k) {
 			face->V(k) = &to.vert[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+			face->WT(k) = typename MeshType::FaceType::TexCoordType(0, 0);
+			face->WT(k).N() = 0;
+		}
+		face->N() = typename MeshType::CoordType(0, 0, 0);
 		++face;
 	}
 }

@@ -65,6 +65,7 @@ bool cross(Complex a, Complex b, Complex c, Complex d)
 bool isSimple(const std::vector<Complex>& corners)
 {
 	std::vector<Complex> klein;
+	klein.reserve(corners.size());
 	for (const Complex& z : corners)
 		klein.push_back(2.0 * z / (1.0 + std::norm(z)));
 	const std::size_t n = klein.size();
