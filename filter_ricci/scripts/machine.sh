@@ -11,7 +11,7 @@ export LC_ALL=C.UTF-8
 say() { printf '\n== %s\n' "$*"; }
 skipped() { printf 'SKIPPED: %s\n' "$*"; }
 
-packages_build=(ca-certificates cmake dpkg-dev g++ ninja-build xz-utils
+packages_build=(ca-certificates cmake dpkg-dev file g++ ninja-build xz-utils
 	libeigen3-dev libsuitesparse-dev libmetis-dev
 	qtbase5-dev libqt5opengl5-dev libglew-dev libgl1-mesa-dev libglu1-mesa-dev)
 packages_test=(libgtest-dev clang-format clang-tidy locales valgrind)
