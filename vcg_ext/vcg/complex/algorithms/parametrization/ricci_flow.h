@@ -860,7 +860,7 @@ private:
 
 	/// vcglib's rectangle packer on a grid fine enough for the number of boxes. It refuses what
 	/// does not fit, so the wanted occupancy is lowered until it agrees.
-	static std::vector<Similarity2<double>> PackBoxes(const std::vector<Box>& boxes)
+	static std::vector<Similarity2<double>> PackBoxes(std::vector<Box> boxes)
 	{
 		const int grid = std::max(256, 16 * int(std::ceil(std::sqrt(double(boxes.size())))));
 		double area = 0.0, longest = 0.0;
@@ -868,16 +868,36 @@ private:
 			area += box.DimX() * box.DimY();
 			longest = std::max(longest, std::max(box.DimX(), box.DimY()));
 		}
-		// A box must stay below the grid's own size.
+		// A box without extent would take the packer to places before its grid, and one must stay
+		// below the grid's own size.
+		for (Box& box : boxes)
+			for (int k = 0; k < 2; ++k)
+				if (!(box.max[k] > box.min[k]))
+					box.max[k] = box.min[k] + 1e-9 * longest;
 		const double most = (grid - 2) / longest / grid * std::sqrt(area);
 		double occupancy = std::min(0.9, most * most);
 		std::vector<Similarity2<double>> place;
 		Point2d covered;
-		while (!RectPacker<double>::PackOccupancy(
-			boxes, Point2i(grid, grid), occupancy, place, covered)) {
+		while (occupancy > kLeastOccupancy) {
+			if (RectPacker<double>::PackOccupancy(
+					boxes, Point2i(grid, grid), occupancy, place, covered))
+				return place;
 			occupancy *= 0.85;
-			if (!(occupancy > 1e-12))
-				throw ricci::Error("The charts could not be packed side by side.");
+		}
+		return StackBoxes(boxes);
+	}
+
+	static constexpr double kLeastOccupancy = 1e-9;
+
+	/// One above the other: charts are upright, their long sides horizontal.
+	static std::vector<Similarity2<double>> StackBoxes(const std::vector<Box>& boxes)
+	{
+		std::vector<Similarity2<double>> place(boxes.size());
+		double height = 0.0;
+		for (size_t i = 0; i < boxes.size(); ++i) {
+			place[i].sca = 1.0;
+			place[i].tra = Point2d(-boxes[i].min[0], height - boxes[i].min[1]);
+			height += boxes[i].DimY();
 		}
 		return place;
 	}
