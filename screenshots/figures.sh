@@ -157,5 +157,6 @@ bash "$root/tests/unpack_cgal_meshes.sh" "$build/cgal_meshes" || fail "libcgal-d
 "$python" "$here/layers.py" "$build/pymeshlab-2025.7/libfilter_ricci.so" "$build/cgal_meshes/data" \
 	"$work" "${rocker_arm[@]}"
 trap close_display EXIT
+window_screen=1400x900
 open_display "$work/display" || fail "no display could be opened"
 make_pictures "${rocker_arm[@]}"

@@ -71,6 +71,7 @@ HOME=$work/home XDG_RUNTIME_DIR=$work/home xvfb-run -a "$stage/bin/meshlabserver
 "$build/venv/bin/python" "$here/hyperbolic_layers.py" "$build/pymeshlab-2025.7/libfilter_ricci.so" \
 	double_torus.ply . "$rings"
 trap close_display EXIT
+window_screen=1400x900
 open_display "$work/display" || fail "no display could be opened"
 shoot surface 60 0 surface.ply
 shoot disk 0 1 disk.ply

@@ -232,6 +232,7 @@ stage=$(bash "$root/filter_ricci/scripts/stage_meshlab_2020.sh" "$build") || exi
 needed=$(window_needs) || fail "$needed"
 make_meshes
 trap close_display EXIT
+window_screen=1400x900
 open_display "$work/display" || fail "no display could be opened"
 make_pictures
 mesh_only checkerboard

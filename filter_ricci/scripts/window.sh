@@ -12,12 +12,13 @@ window_needs() {
 }
 
 # A display of its own, a window manager, and settings that keep MeshLab quiet and its canvas white.
+# High enough for the dialog with all parameters; window_screen=WxH asks for another.
 open_display() {
 	window_folder=$1
 	mkdir -p "$window_folder/home/.config/VCG" "$window_folder/home/runtime"
 	chmod 700 "$window_folder/home/runtime"
 	rm -f "$window_folder/display" # that of an earlier run
-	Xvfb -displayfd 3 -screen 0 "${window_screen:-1400x900}x24" -nolisten tcp 3>"$window_folder/display" \
+	Xvfb -displayfd 3 -screen 0 "${window_screen:-1400x1100}x24" -nolisten tcp 3>"$window_folder/display" \
 		>"$window_folder/xvfb.log" 2>&1 &
 	xvfb_pid=$!
 	wait_until 20 test -s "$window_folder/display" || return 1
