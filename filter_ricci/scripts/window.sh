@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash
 # Drives the real MeshLab 2020.09 window on a private display without a screen. Source it, then call
-# open_display FOLDER, open_meshlab PROGRAM FILE..., run_filter, picture FILE, close_display.
+# open_display FOLDER, open_meshlab PROGRAM FILE..., run_filter NAME, picture FILE, close_display.
 
 window_needs() {
 	local tool missing=()
@@ -111,6 +111,33 @@ press_apply() {
 	dialog=$(find_window "$1")
 	eval "$(xdotool getwindowgeometry --shell "$dialog")"
 	xdotool mousemove $((X + WIDTH * 3 / 4)) $((Y + HEIGHT - 21)) click 1
+}
+
+# run_filter NAME SECONDS: the filter with its defaults on the open mesh. Sets verdict to solved,
+# refused (the box with the reason is open then), ended (MeshLab is no more), or to what did not come.
+run_filter() {
+	verdict="no dialog"
+	if open_filter "$1"; then
+		press_apply "$1"
+		wait_until "$2" has_verdict || verdict="no answer"
+	fi
+	meshlab_lives || verdict=ended
+}
+
+has_verdict() {
+	if ! meshlab_lives; then
+		verdict=ended
+	elif grep -q 'Result: converged=true' "$meshlab_log"; then
+		verdict=solved
+	elif xdotool search --onlyvisible --name 'Filter Failure'; then
+		verdict=refused
+	else
+		return 1
+	fi
+}
+
+meshlab_lives() {
+	kill -0 "$meshlab_pid" 2>/dev/null
 }
 
 # Turns the mesh away from the straight view from above, moves it out from under the place where
