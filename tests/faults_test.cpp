@@ -618,6 +618,63 @@ TEST(Faults, ASecondRunGivesTheSame)
 	}
 }
 
+/// What is written on a mesh, and the numbers of the report behind it.
+template<class AnyMesh>
+std::string written(AnyMesh& m, const typename vcg::tri::RicciFlow<AnyMesh>::Result& result)
+{
+	vcg::tri::RicciFlow<AnyMesh>::WriteVertexQuality(m, result);
+	vcg::tri::RicciFlow<AnyMesh>::WriteWedgeTexCoord(m, result);
+	const auto& r = result.report;
+	std::string all = contents(m);
+	for (double value :
+		 {r.maxCurvatureError, r.residualFloor, r.qcMean, r.qcVertexMean, r.seamLength})
+		all.append(reinterpret_cast<const char*>(&value), sizeof value);
+	return all;
+}
+
+TEST(Faults, TwoMeshesInTurnGetWhatEachGetsAlone)
+{
+	using DoubleFlow = vcg::tri::RicciFlow<DoubleMesh>;
+	Random random(504);
+	const SurfaceMesh torus = shaken(bumpyTorus(8, 6, random), 0.3, random);
+	const SurfaceMesh slab = perforatedSlab(2, 1);
+	DoubleFlow::Params placed;
+	placed.coneCount = 4;
+	DoubleFlow::Params refused;
+	refused.target = TargetCurvature::Disk;
+	Progress silent;
+
+	std::string torusAlone, slabAlone, conesAlone;
+	{
+		Mesh m;
+		build(torus, m);
+		torusAlone = written(m, Flow::Compute(m, {}, silent));
+	}
+	{
+		DoubleMesh m;
+		toVcg(slab, m);
+		slabAlone = written(m, DoubleFlow::ComputeHyperbolic(m, {}, silent));
+		conesAlone = written(m, DoubleFlow::Compute(m, placed, silent));
+	}
+
+	Mesh a;
+	DoubleMesh b;
+	build(torus, a);
+	toVcg(slab, b);
+	const std::string before = contents(b);
+	EXPECT_THROW(DoubleFlow::Compute(b, refused, silent), Error);
+	const auto first = Flow::Compute(a, {}, silent);
+	const auto disk = DoubleFlow::ComputeHyperbolic(b, {}, silent);
+	EXPECT_EQ(contents(b) == before, true);
+	EXPECT_EQ(written(a, first) == torusAlone, true);
+	EXPECT_EQ(contents(b) == before, true);
+	const auto again = Flow::Compute(a, {}, silent);
+	EXPECT_EQ(written(b, disk) == slabAlone, true);
+	EXPECT_THROW(DoubleFlow::Compute(b, refused, silent), Error);
+	EXPECT_EQ(written(a, again) == torusAlone, true);
+	EXPECT_EQ(written(b, DoubleFlow::Compute(b, placed, silent)) == conesAlone, true);
+}
+
 TEST(Faults, AnAttributeOfAnotherTypeIsReplaced)
 {
 	Mesh m;

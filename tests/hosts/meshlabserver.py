@@ -59,15 +59,30 @@ def parameter_xml(name, kind, value, choices_of):
     return f'  <Param type="Rich{kind}" name="{name}" value="{value}"{extra}/>\n'
 
 
-def script(before="", our_filter=common, **values):
-    """A filter script with our filter, with the defaults where no value is given."""
+def step(our_filter=common, **values):
+    """Our filter as a part of a script, with the defaults where no value is given."""
     unknown = set(values) - {name for name, _, _ in our_filter.PARAMETERS}
     if unknown:
         raise ValueError(f"unknown parameters {unknown}")
     lines = "".join(parameter_xml(name, kind, values.get(name, default), our_filter.CHOICES)
                     for name, kind, default in our_filter.PARAMETERS)
-    return (f'<!DOCTYPE FilterScript>\n<FilterScript>\n{before} <filter name="{our_filter.NAME}">\n'
-            f"{lines} </filter>\n</FilterScript>\n")
+    return f' <filter name="{our_filter.NAME}">\n{lines} </filter>\n'
+
+
+def script_of(*steps):
+    return f'<!DOCTYPE FilterScript>\n<FilterScript>\n{"".join(steps)}</FilterScript>\n'
+
+
+def script(before="", our_filter=common, **values):
+    """A filter script with our filter."""
+    return script_of(before, step(our_filter, **values))
+
+
+def layer(number):
+    """A stock filter that makes another layer the current one."""
+    return (' <filter name="Change the current layer">\n'
+            f'  <Param type="RichMesh" name="layer" value="{number}"/>\n'
+            " </filter>\n")
 
 
 def selection(condition):

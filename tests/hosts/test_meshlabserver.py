@@ -303,6 +303,82 @@ class Hyperbolic(unittest.TestCase):
                 self.assertIn("Problem with filter: " + common.HYPERBOLIC.NAME, run.text)
 
 
+class OneProcess(unittest.TestCase):
+    """Two meshes in one process, as layers of its one document (there is no second): -i takes both,
+    a stock filter changes the current one, scripts run in turn, and -l names what is saved."""
+
+    EUCLIDEAN = server.step()
+    REFINED = server.step(output_triangulation=1)
+    HYPERBOLIC = server.step(common.HYPERBOLIC)
+    MASK = ["-m", "wt", "vq", "vc", "vn"]
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        meshes.write_ply(self.path("torus.ply"), meshes.torus())
+        meshes.write_ply(self.path("slab.ply"), meshes.double_torus())
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run_scripts(self, inputs, *scripts):
+        """The exit code, the output, and what is saved of each layer."""
+        arguments = ["-i", *inputs]
+        for number, text in enumerate(scripts):
+            with open(self.path(f"{number}.mlx"), "w", encoding="utf-8") as out:
+                out.write(text)
+            arguments += ["-s", f"{number}.mlx"]
+        for number in range(len(inputs)):
+            arguments += ["-o", f"out{number}.ply", "-l", str(number), *self.MASK]
+        finished = server.run(arguments, self.folder)
+        saved = []
+        for number in range(len(inputs)):
+            if os.path.exists(self.path(f"out{number}.ply")):
+                with open(self.path(f"out{number}.ply"), "rb") as source:
+                    saved.append(source.read())
+                os.remove(self.path(f"out{number}.ply"))
+        return finished.returncode, finished.stdout.decode("utf-8", "replace"), saved
+
+    def alone(self, mesh, step):
+        code, text, saved = self.run_scripts([mesh], server.script_of(step))
+        self.assertEqual(code, 0, text)
+        return server.results(text), saved[0]
+
+    def test_two_meshes(self):
+        code, text, saved = self.run_scripts(
+            ["torus.ply", "slab.ply"],
+            server.script_of(server.layer(0), self.EUCLIDEAN, server.layer(1), self.HYPERBOLIC))
+        self.assertEqual(code, 0, text)
+        torus, torus_file = self.alone("torus.ply", self.EUCLIDEAN)
+        slab, slab_file = self.alone("slab.ply", self.HYPERBOLIC)
+        # After every filter the host prints all of the script's log again, so the last two count.
+        runs = re.findall(r"^(Result: .*)$\s*^(Surface: .*)$", text, re.MULTILINE)[-2:]
+        self.assertEqual([server.results("\n".join(lines)) for lines in runs], [torus, slab])
+        self.assertEqual(saved, [torus_file, slab_file])
+        self.assertNotEqual(torus_file, slab_file)
+
+    def test_in_turn_by_several_scripts(self):
+        code, text, saved = self.run_scripts(
+            ["torus.ply", "slab.ply"],
+            server.script_of(server.layer(1), self.HYPERBOLIC),
+            server.script_of(server.layer(0), self.EUCLIDEAN),
+            server.script_of(server.layer(1), self.EUCLIDEAN, server.layer(0), self.REFINED,
+                             server.layer(1), self.HYPERBOLIC))
+        self.assertEqual(code, 0, text)
+        self.assertEqual(saved, [self.alone("torus.ply", self.REFINED)[1],
+                                 self.alone("slab.ply", self.HYPERBOLIC)[1]])
+
+    def test_a_refusal_ends_the_process(self):
+        code, text, saved = self.run_scripts(
+            ["torus.ply", "slab.ply"],
+            server.script_of(server.layer(1), self.HYPERBOLIC, server.layer(0), self.HYPERBOLIC),
+            server.script_of(self.EUCLIDEAN))
+        self.assertEqual((code, saved), (255, []), text)
+        self.assertEqual(text.count("Apply FilterScript"), 1)
+        self.assertRegex(text, "converged=true(?s:.*)Euler characteristic.*Euclidean")
+
+
 class Samples(unittest.TestCase):
     """The scripts that users start from list every parameter, and run."""
 

@@ -2,6 +2,7 @@
 """The plugin in PyMeshLab. Usage: test_pymeshlab.py BUILD_DIR [TEST...], with PyMeshLab's Python."""
 
 import csv
+import hashlib
 import math
 import os
 import re
@@ -558,31 +559,80 @@ class Treatment(unittest.TestCase):
         self.assertTrue(run(documents)["converged"])
 
 
+def outcome(documents, our_filter=common, **values):
+    """All that a run returns and leaves behind, bit for bit."""
+    returned = {key: numpy.asarray(value).tobytes().hex()
+                for key, value in run(documents, our_filter, **values).items()}
+    flags, arrays = state(documents.current_mesh())
+    mesh = documents.current_mesh()
+    arrays += [mesh.vertex_custom_scalar_attribute_array(name)
+               for name in ("ricci_u", "ricci_target_curvature")]
+    digest = hashlib.sha256(b"".join(numpy.ascontiguousarray(a).tobytes() for a in arrays))
+    return repr((sorted(returned.items()), flags, digest.hexdigest()))
+
+
 class OneProcess(unittest.TestCase):
-    """Runs that share a process know nothing of each other."""
+    """Runs that share a process know nothing of each other: each gives what it gives alone."""
 
-    def result(self, mesh, **values):
-        documents = mesh_set(mesh)
-        returned = run(documents, **values)
-        return returned, documents.current_mesh().wedge_tex_coord_matrix()
+    RUNS = {"flat torus": (meshes.torus, common, {}),
+            "hyperbolic slab": (meshes.double_torus, common.HYPERBOLIC, {}),
+            "slab with cones": (meshes.double_torus, common, {"cone_count": 4}),
+            "round disk": (meshes.hill, common, {"target_curvature": 2, "colorize": True}),
+            "refined torus": (meshes.torus, common, {"output_triangulation": 1})}
 
-    def same(self, one, two):
-        self.assertEqual(one[0], two[0])
-        self.assertTrue(numpy.array_equal(one[1], two[1]))
+    @staticmethod
+    def alone(name):
+        mesh, our_filter, values = OneProcess.RUNS[name]
+        return outcome(mesh_set(mesh()), our_filter, **values)
+
+    def expected(self, name):
+        program = ("import sys; sys.argv = ['x', sys.argv[1]]\nimport test_pymeshlab\n"
+                   f"print(test_pymeshlab.OneProcess.alone({name!r}))\n")
+        return subprocess.run(
+            [sys.executable, "-c", program, common.BUILD], check=True, capture_output=True,
+            text=True, cwd=os.path.dirname(os.path.abspath(__file__))).stdout.splitlines()[-1]
+
+    def same_as_alone(self, documents, name):
+        _, our_filter, values = self.RUNS[name]
+        self.assertEqual(outcome(documents, our_filter, **values), self.expected(name), name)
+
+    def refused(self, documents, our_filter=common, **values):
+        before = state(documents.current_mesh())
+        with self.assertRaises(pymeshlab.PyMeshLabException):
+            run(documents, our_filter, **values)
+        self.assertTrue(same(before, state(documents.current_mesh())))
 
     def test_two_documents(self):
-        torus, hill = self.result(meshes.torus()), self.result(meshes.hill(), target_curvature=2)
-        first, second = mesh_set(meshes.torus()), mesh_set(meshes.hill())
-        untouched = state(second.current_mesh())
-        found = run(first)
-        self.assertTrue(same(untouched, state(second.current_mesh())))
-        with self.assertRaises(pymeshlab.PyMeshLabException):
-            run(first, target_curvature=2)
-        done = state(first.current_mesh())
-        other = run(second, target_curvature=2)
-        self.assertTrue(same(done, state(first.current_mesh())))
-        self.same(torus, (found, first.current_mesh().wedge_tex_coord_matrix()))
-        self.same(hill, (other, second.current_mesh().wedge_tex_coord_matrix()))
+        torus, slab = mesh_set(meshes.torus()), mesh_set(meshes.double_torus())
+        untouched = state(slab.current_mesh())
+        self.same_as_alone(torus, "flat torus")
+        self.assertTrue(same(untouched, state(slab.current_mesh())))
+        done = state(torus.current_mesh())
+        self.same_as_alone(slab, "hyperbolic slab")
+        self.assertTrue(same(done, state(torus.current_mesh())))
+        self.same_as_alone(torus, "flat torus")
+        self.refused(slab, common.HYPERBOLIC, universal_cover=20)
+        self.refused(slab, target_curvature="Disk")
+        self.same_as_alone(torus, "flat torus")
+        self.same_as_alone(slab, "slab with cones")
+        self.refused(torus, common.HYPERBOLIC)
+        self.same_as_alone(torus, "refined torus")
+        self.same_as_alone(slab, "hyperbolic slab")
+
+    def test_layers_of_one_document(self):
+        documents = mesh_set(meshes.torus())
+        for mesh in (meshes.double_torus(), meshes.hill()):
+            documents.add_mesh(pymeshlab.Mesh(
+                vertex_matrix=numpy.array(mesh.vertices),
+                face_matrix=numpy.array(mesh.faces, dtype=numpy.int32)))
+        for layer, name in ((0, "flat torus"), (1, "hyperbolic slab"), (2, "round disk"),
+                            (0, "flat torus"), (1, "slab with cones"), (0, "refined torus")):
+            documents.set_current_mesh(layer)
+            others = [state(documents.mesh(i)) for i in range(3) if i != layer]
+            self.same_as_alone(documents, name)
+            self.assertEqual(documents.current_mesh_id(), layer)
+            for before, i in zip(others, [i for i in range(3) if i != layer]):
+                self.assertTrue(same(before, state(documents.mesh(i))))
 
     def test_one_after_the_other(self):
         documents = mesh_set(meshes.torus())
