@@ -18,8 +18,8 @@
 
 #include <vcg/complex/allocate.h>
 #include <vcg/complex/complex.h>
+#include <vcg/space/boxes_side_by_side.h>
 #include <vcg/space/color4.h>
-#include <vcg/space/rect_packer.h>
 
 #include <algorithm>
 #include <array>
@@ -790,12 +790,12 @@ private:
 		double size = 0.0, room = 0.0;
 		Box whole;
 		for (int attempt = 0; attempt == 0 || room < margin * size; ++attempt) {
-			if (attempt == 60)
+			if (attempt == 60 || !BoxesSideBySide::MayFit(boxes.size(), margin))
 				throw ricci::InvalidOption(
 					"A chart_margin of " + std::to_string(margin) + " leaves no room for " +
 					std::to_string(boxes.size()) + " charts: choose a smaller one.");
 			room = (1.0 + 1e-6) * margin * size;
-			shift = ShiftsSideBySide(boxes, room);
+			shift = BoxesSideBySide::Shifts(boxes, room);
 			whole = Box();
 			for (size_t i = 0; i < boxes.size(); ++i) {
 				whole.Add(boxes[i].min + shift[i]);
@@ -843,63 +843,6 @@ private:
 		r.refined = std::move(flat.refined);
 		for (int& f : r.refined.inputFace)
 			f = faceIndex[size_t(f)];
-	}
-
-	/// Translations that leave at least \p room between any two of \p boxes.
-	static std::vector<Point2d> ShiftsSideBySide(std::vector<Box> boxes, double room)
-	{
-		if (boxes.size() == 1)
-			return {Point2d(0, 0)};
-		for (Box& box : boxes)
-			box.Offset(0.5 * room);
-		std::vector<Point2d> shift;
-		for (const Similarity2<double>& place : PackBoxes(boxes))
-			shift.push_back(place.tra / place.sca); // undo the common scale
-		return shift;
-	}
-
-	/// vcglib's rectangle packer on a grid fine enough for the number of boxes. It refuses what
-	/// does not fit, so the wanted occupancy is lowered until it agrees.
-	static std::vector<Similarity2<double>> PackBoxes(std::vector<Box> boxes)
-	{
-		const int grid = std::max(256, 16 * int(std::ceil(std::sqrt(double(boxes.size())))));
-		double area = 0.0, longest = 0.0;
-		for (const Box& box : boxes) {
-			area += box.DimX() * box.DimY();
-			longest = std::max(longest, std::max(box.DimX(), box.DimY()));
-		}
-		// A box without extent would take the packer to places before its grid, and one must stay
-		// below the grid's own size.
-		for (Box& box : boxes)
-			for (int k = 0; k < 2; ++k)
-				if (!(box.max[k] > box.min[k]))
-					box.max[k] = box.min[k] + 1e-9 * longest;
-		const double most = (grid - 2) / longest / grid * std::sqrt(area);
-		double occupancy = std::min(0.9, most * most);
-		std::vector<Similarity2<double>> place;
-		Point2d covered;
-		while (occupancy > kLeastOccupancy) {
-			if (RectPacker<double>::PackOccupancy(
-					boxes, Point2i(grid, grid), occupancy, place, covered))
-				return place;
-			occupancy *= 0.85;
-		}
-		return StackBoxes(boxes);
-	}
-
-	static constexpr double kLeastOccupancy = 1e-9;
-
-	/// One above the other: charts are upright, their long sides horizontal.
-	static std::vector<Similarity2<double>> StackBoxes(const std::vector<Box>& boxes)
-	{
-		std::vector<Similarity2<double>> place(boxes.size());
-		double height = 0.0;
-		for (size_t i = 0; i < boxes.size(); ++i) {
-			place[i].sca = 1.0;
-			place[i].tra = Point2d(-boxes[i].min[0], height - boxes[i].min[1]);
-			height += boxes[i].DimY();
-		}
-		return place;
 	}
 };
 

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <vcg/space/boxes_side_by_side.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <vector>
+
+using ricci::testing::Random;
+using vcg::BoxesSideBySide;
+using vcg::Point2d;
+
+namespace {
+
+using Box = BoxesSideBySide::Box;
+
+/// Extents over \p orders powers of ten, at random places.
+std::vector<Box> randomBoxes(int n, double orders, std::uint64_t seed)
+{
+	Random random(seed);
+	std::vector<Box> boxes;
+	for (int i = 0; i < n; ++i) {
+		const Point2d corner(random.real(-9, 9), random.real(-9, 9));
+		const double width = std::pow(10.0, random.real(-orders, 0));
+		const double height = std::pow(10.0, random.real(-orders, 0));
+		boxes.emplace_back(corner, corner + Point2d(width, height));
+	}
+	return boxes;
+}
+
+std::vector<Box> moved(std::vector<Box> boxes, double room)
+{
+	const auto shifts = BoxesSideBySide::Shifts(boxes, room);
+	EXPECT_EQ(shifts.size(), boxes.size());
+	for (std::size_t i = 0; i < boxes.size(); ++i) {
+		boxes[i].min += shifts[i];
+		boxes[i].max += shifts[i];
+	}
+	return boxes;
+}
+
+/// Pairs nearer than \p room in both directions.
+int pairsTooNear(std::vector<Box> boxes, double room)
+{
+	std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) {
+		return std::make_tuple(a.min[0], a.min[1], a.max[0]) <
+			   std::make_tuple(b.min[0], b.min[1], b.max[0]);
+	});
+	int pairs = 0;
+	for (std::size_t i = 0; i < boxes.size(); ++i)
+		for (std::size_t j = i + 1; j < boxes.size() && boxes[j].min[0] < boxes[i].max[0] + room;
+			 ++j)
+			pairs += boxes[j].min[1] < boxes[i].max[1] + room &&
+					 boxes[i].min[1] < boxes[j].max[1] + room;
+	return pairs;
+}
+
+double squareOf(const std::vector<Box>& boxes)
+{
+	Box whole;
+	for (const Box& box : boxes)
+		whole.Add(box);
+	const double side = std::max(whole.DimX(), whole.DimY());
+	return side * side;
+}
+
+} // namespace
+
+TEST(BoxesSideBySide, NoTwoOverlapAndTheRoomIsKept)
+{
+	const double rounding = 1e-9;
+	for (int n : {2, 9, 200, 513, 10000})
+		for (double orders : {0.0, 0.5, 3.0, 12.0})
+			for (double room : {0.0, 0.001, 0.3}) {
+				const auto boxes = moved(randomBoxes(n, orders, 7), room);
+				EXPECT_EQ(pairsTooNear(boxes, std::max(0.0, room - rounding)), 0)
+					<< n << " boxes over " << orders << " orders, room " << room;
+			}
+}
+
+TEST(BoxesSideBySide, BoxesWithoutExtentAreApartToo)
+{
+	for (int n : {3, 600}) {
+		std::vector<Box> boxes = randomBoxes(n, 1.0, 8);
+		for (int i = 0; i < n; i += 2)
+			boxes[static_cast<std::size_t>(i)].max[i % 4 / 2] =
+				boxes[static_cast<std::size_t>(i)].min[i % 4 / 2];
+		EXPECT_EQ(pairsTooNear(moved(boxes, 0.0), 0.0), 0);
+		for (Box& box : boxes)
+			box.max = box.min;
+		for (const Box& box : moved(boxes, 0.1)) // points
+			EXPECT_TRUE(std::isfinite(box.min[0]) && std::isfinite(box.min[1]));
+		EXPECT_EQ(pairsTooNear(moved(boxes, 0.1), 0.1 - 1e-9), 0);
+	}
+}
+
+TEST(BoxesSideBySide, EqualSquaresFillAtLeastTwoThirdsOfTheSquare)
+{
+	for (int n : {16, 100, 512, 513, 2500, 10000}) {
+		const std::vector<Box> boxes(
+			static_cast<std::size_t>(n), Box(Point2d(5, 5), Point2d(6, 6)));
+		EXPECT_LT(squareOf(moved(boxes, 0.0)), 1.5 * n) << n;
+	}
+}
+
+TEST(BoxesSideBySide, ManySmallBoxesFillTwoThirdsOfTheSquare)
+{
+	const auto boxes = randomBoxes(4000, 0.5, 9);
+	double area = 0.0;
+	for (const Box& box : boxes)
+		area += box.DimX() * box.DimY();
+	EXPECT_LT(squareOf(moved(boxes, 0.0)), 1.5 * area);
+}
+
+TEST(BoxesSideBySide, OneBoxStays)
+{
+	const auto boxes = randomBoxes(1, 0.0, 10);
+	EXPECT_EQ(moved(boxes, 0.5).front().min, boxes.front().min);
+	EXPECT_TRUE(BoxesSideBySide::Shifts({}, 0.5).empty());
+}
+
+/// n squares of no extent with the margin m round each, side by side in a square of side 1: the
+/// margins between them are shared, so sqrt(n) + 1 of them fit.
+TEST(BoxesSideBySide, MayFitAgreesWithPointsOnAGrid)
+{
+	for (int k = 1; k < 60; ++k) {
+		const double most = 1.0 / (k + 1);
+		EXPECT_TRUE(BoxesSideBySide::MayFit(static_cast<std::size_t>(k * k), 0.999999 * most));
+		EXPECT_FALSE(BoxesSideBySide::MayFit(static_cast<std::size_t>(k * k), 1.000001 * most));
+	}
+}
