@@ -429,6 +429,77 @@ TEST(Faults, AnEstimateAboveTheMemoryIsRefused)
 	EXPECT_THROW(requireMemory(400000000, 400000000, false, 0.0), TooLarge);
 }
 
+/// A cylinder closed by two fans of \p n triangles, which the flow's edges cross about n^2 / 2 times.
+SurfaceMesh drum(int n)
+{
+	SurfaceMesh mesh;
+	mesh.positions = {{0, 0, 0}, {0, 0, 3}};
+	for (int i = 0; i < 2 * n; ++i) {
+		const double angle = 6.283185307179586 * i / n;
+		mesh.positions.push_back({std::cos(angle), std::sin(angle), i < n ? 0.0 : 3.0});
+	}
+	for (int i = 0; i < n; ++i) {
+		const int a = 2 + i, b = 2 + (i + 1) % n, c = a + n, d = b + n;
+		for (const Triangle& t :
+			 {Triangle{0, b, a}, Triangle{1, c, d}, Triangle{a, b, d}, Triangle{a, d, c}})
+			mesh.triangles.push_back(t);
+	}
+	return mesh;
+}
+
+TEST(Faults, AnOverlayAboveTheMemoryIsRefused)
+{
+	Mesh m;
+	const SurfaceMesh shape = drum(200);
+	build(shape, m);
+	const std::string before = contents(m);
+	Flow::Params p = params(TargetCurvature::PlacedCones, OutputTriangulation::CommonRefinement);
+	p.memoryLimit = 1.2 * estimatedMemory(shape.triangles.size(), shape.triangles.size(), true);
+	Progress silent;
+	try {
+		Flow::Compute(m, p, silent);
+		FAIL() << "accepted";
+	}
+	catch (const TooLarge& error) {
+		const std::string sentence = error.what();
+		EXPECT_EQ(sentence.rfind("The edges after the flow cross", 0), 0u) << sentence;
+		EXPECT_NE(sentence.find("'Remeshing: Isotropic Explicit Remeshing'"), sentence.npos);
+		EXPECT_EQ(sentence.back(), '.');
+	}
+	EXPECT_EQ(contents(m) == before, true);
+	p.memoryLimit = 1e9;
+	EXPECT_NO_THROW(Flow::Compute(m, p, silent));
+}
+
+/// The overlay is heard while it grows, not only before and after.
+TEST(Faults, CancellingWithinTheOverlayLeavesTheMesh)
+{
+	class InTheOverlay : public Progress
+	{
+	public:
+		bool update(double, const std::string& what) override
+		{
+			calls += what.rfind("Overlay", 0) == 0;
+			return calls < cancelAt;
+		}
+		int calls = 0, cancelAt = 1000000;
+	};
+	Mesh m;
+	build(drum(300), m);
+	const std::string before = contents(m);
+	const Flow::Params p = params(TargetCurvature::PlacedCones, OutputTriangulation::KeepMesh);
+	InTheOverlay all;
+	EXPECT_NO_THROW(Flow::Compute(m, p, all));
+	EXPECT_GE(all.calls, 5);
+	for (int n = 1; n <= all.calls; ++n) {
+		InTheOverlay progress;
+		progress.cancelAt = n;
+		EXPECT_THROW(Flow::Compute(m, p, progress), Cancelled);
+		EXPECT_EQ(progress.calls, n);
+		EXPECT_EQ(contents(m) == before, true);
+	}
+}
+
 TEST(Faults, TheMemoryEstimateGrowsWithTheMeshAndTheRefinement)
 {
 	const bool kept = false, refined = true;

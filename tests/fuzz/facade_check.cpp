@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <map>
 #include <utility>
 #include <vector>
@@ -246,6 +247,18 @@ defectOfCover(const Mesh& m, const typename vcg::tri::RicciFlow<Mesh>::Result& r
 	}
 	if (!finitePositions(cover))
 		return "the universal cover is not finite";
+	constexpr int kPieces = 8;
+	Mesh axes, polygons;
+	vcg::tri::RicciFlow<Mesh>::BuildAxes(result, kPieces, axes);
+	if (!finitePositions(axes) || axes.EN() % kPieces != 0)
+		return "an axis is broken";
+	for (const auto& polygon :
+		 vcg::tri::RicciFlow<Mesh>::BuildCanonicalPolygons(result, kPieces, polygons))
+		for (const std::complex<double>& z : polygon.corners)
+			if (!(std::abs(z) < 1.0))
+				return "a corner of a canonical polygon is not in the disk";
+	if (!finitePositions(polygons) || polygons.EN() % kPieces != 0)
+		return "a canonical polygon is broken";
 	if (cover.FN() < m.FN() || static_cast<std::size_t>(cover.FN()) > kMostFaces)
 		return "the universal cover has " + std::to_string(cover.FN()) + " faces";
 	return {};

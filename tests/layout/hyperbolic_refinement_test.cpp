@@ -295,8 +295,8 @@ TEST(HyperbolicRefinement, CrossingsAreWhereGeodesicsMeet)
 		surface.endU = &u;
 		surface.background = Background::HyperbolicPlane;
 		surface.keptFaces = 2;
-		const CommonRefinement r =
-			commonRefinement(surface, mesh.positions, std::vector<char>(5, 0));
+		const CommonRefinement r = commonRefinement(
+			surface, mesh.positions, std::vector<char>(5, 0), [](double, std::size_t) {});
 		ASSERT_EQ(r.points.size(), 5u);
 		ASSERT_EQ(r.triangles.size(), 4u);
 		std::vector<Complex> place(5);

@@ -107,7 +107,14 @@ CutGraph FlippedFlow::cut() const
 CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
 {
 	return overlayOfFlow(
-		result, background, base, mesh.positions, cutGraph.isCut, result.doubled, false);
+		result,
+		background,
+		base,
+		mesh.positions,
+		cutGraph.isCut,
+		result.doubled,
+		false,
+		[](double, std::size_t) {});
 }
 
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary)

@@ -11,10 +11,14 @@ namespace ricci::testing {
 // VCG meshes like those of the hosts: single precision in MeshLab, double in PyMeshLab; wedge
 // texture coordinates are float in both.
 
+class FloatEdge;
 class FloatFace;
 class FloatVertex;
 struct FloatTypes :
-		public vcg::UsedTypes<vcg::Use<FloatVertex>::AsVertexType, vcg::Use<FloatFace>::AsFaceType>
+		public vcg::UsedTypes<
+			vcg::Use<FloatVertex>::AsVertexType,
+			vcg::Use<FloatEdge>::AsEdgeType,
+			vcg::Use<FloatFace>::AsFaceType>
 {
 };
 class FloatVertex :
@@ -35,18 +39,26 @@ class FloatFace :
 			vcg::face::BitFlags>
 {
 };
-class FloatMesh : public vcg::tri::TriMesh<std::vector<FloatVertex>, std::vector<FloatFace>>
+class FloatEdge : public vcg::Edge<FloatTypes, vcg::edge::VertexRef, vcg::edge::BitFlags>
+{
+};
+class FloatMesh :
+		public vcg::tri::
+			TriMesh<std::vector<FloatVertex>, std::vector<FloatFace>, std::vector<FloatEdge>>
 {
 public:
 	// vcglib leaves its attributes behind.
 	~FloatMesh() override { ClearAttributes(); }
 };
 
+class DoubleEdge;
 class DoubleFace;
 class DoubleVertex;
 struct DoubleTypes :
-		public vcg::
-			UsedTypes<vcg::Use<DoubleVertex>::AsVertexType, vcg::Use<DoubleFace>::AsFaceType>
+		public vcg::UsedTypes<
+			vcg::Use<DoubleVertex>::AsVertexType,
+			vcg::Use<DoubleEdge>::AsEdgeType,
+			vcg::Use<DoubleFace>::AsFaceType>
 {
 };
 class DoubleVertex :
@@ -67,7 +79,12 @@ class DoubleFace :
 			vcg::face::BitFlags>
 {
 };
-class DoubleMesh : public vcg::tri::TriMesh<std::vector<DoubleVertex>, std::vector<DoubleFace>>
+class DoubleEdge : public vcg::Edge<DoubleTypes, vcg::edge::VertexRef, vcg::edge::BitFlags>
+{
+};
+class DoubleMesh :
+		public vcg::tri::
+			TriMesh<std::vector<DoubleVertex>, std::vector<DoubleFace>, std::vector<DoubleEdge>>
 {
 public:
 	// vcglib leaves its attributes behind.

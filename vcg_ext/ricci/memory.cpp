@@ -21,6 +21,9 @@ constexpr double kEveryFace = 350.0, kFaceAtWork = 450.0, kFaceInFactor = 35.0;
 /// Of the arrays for the output of the common refinement, for each face at work.
 constexpr double kFaceRefined = 400.0;
 
+/// For each crossing of the overlay, measured on cylinders whose caps are fans.
+constexpr double kCrossing = 390.0, kCrossingRefined = 760.0;
+
 /// More faces than this have more halfedges than int has numbers, or could have after refinement.
 constexpr std::size_t kMostFaces = 300000000;
 
@@ -51,6 +54,19 @@ void requireMemory(std::size_t faces, std::size_t allFaces, bool refines, double
 			"The mesh has " + std::to_string(allFaces) + " faces and needs about " +
 			numberText(needed / kGigabyte, 3) + " GB of memory, but only " +
 			numberText(limit / kGigabyte, 3) + " GB are free" + remedy);
+}
+
+void requireOverlayMemory(std::size_t crossings, bool refines, double limit)
+{
+	const double needed = (refines ? kCrossingRefined : kCrossing) * static_cast<double>(crossings);
+	if (limit > 0.0 && needed > limit)
+		throw TooLarge(
+			"The edges after the flow cross those of the mesh at more than " +
+			std::to_string(crossings) + " points, whose overlay needs over " +
+			numberText(needed / kGigabyte, 3) + " GB of memory, but only " +
+			numberText(limit / kGigabyte, 3) +
+			" GB were free: divide long triangles and large fans first ('Remeshing: Isotropic "
+			"Explicit Remeshing').");
 }
 
 std::size_t largestComponent(const std::vector<Component>& components)

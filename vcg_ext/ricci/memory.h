@@ -10,13 +10,19 @@
 namespace ricci {
 
 /// Bytes that a run needs at its peak for a surface of \p faces triangles in its largest component
-/// and \p allFaces in all, with the common refinement as output if it \p refines, estimated on the safe side from measured runs: arrays in proportion to
-/// the faces, and the factor of the Hessian, which grows like n log n on surfaces.
+/// and \p allFaces in all, with the common refinement as output if it \p refines, estimated on the
+/// safe side from measured runs: arrays in proportion to the faces, and the factor of the Hessian,
+/// which grows like n log n on surfaces.
 double estimatedMemory(std::size_t faces, std::size_t allFaces, bool refines);
 
 /// \throw TooLarge with both numbers if the estimate is above \p limit (0: none), or if indices
 /// would not fit into int
 void requireMemory(std::size_t faces, std::size_t allFaces, bool refines, double limit);
+
+/// For the overlay of two triangulations, whose size the faces do not tell: a fan of n triangles at
+/// one vertex can make n^2 crossings.
+/// \throw TooLarge if \p crossings need more than \p limit bytes (0: none)
+void requireOverlayMemory(std::size_t crossings, bool refines, double limit);
 
 /// Faces of the component that has most.
 std::size_t largestComponent(const std::vector<Component>& components);

@@ -300,7 +300,11 @@ private:
 			m_mesh.positions,
 			m_cut.isCut,
 			m_flow.doubled || m_solved.holes > 0,
-			m_options.output == OutputTriangulation::KeepMesh && m_solved.holes == 0);
+			m_options.output == OutputTriangulation::KeepMesh && m_solved.holes == 0,
+			overlayWatch(
+				m_interval,
+				m_options.output == OutputTriangulation::CommonRefinement,
+				m_options.memoryLimit));
 
 		int sectorCount = 0;
 		m_layout.sector = cornerSectors(m_base, m_cut.isCut, sectorCount);
@@ -575,6 +579,7 @@ Parametrization parametrizeEuclidean(
 		result.report.annulusModulus.reset();
 		result.report.rectangleAspect.reset();
 	}
+	progress.step(kComponentsDone, "Measuring the distortion");
 	double area = 0.0;
 	for (const Triangle& t : mesh.triangles)
 		area += triangleArea(
@@ -588,6 +593,7 @@ Parametrization parametrizeEuclidean(
 		measureRefinement(mesh, result);
 	else
 		result.report = keptReport;
+	progress.step(kMeasured, "Looking for charts that overlap");
 	separateCharts(mesh, options.resolveOverlap, result);
 	result.report.seamLengthRelative = result.report.seamLength / std::sqrt(area);
 	if (options.resolveOverlap)

@@ -215,7 +215,11 @@ private:
 				m_component.positions,
 				m_cut.isCut,
 				m_flow.doubled,
-				m_options.output == OutputTriangulation::KeepMesh);
+				m_options.output == OutputTriangulation::KeepMesh,
+				overlayWatch(
+					m_interval,
+					m_options.output == OutputTriangulation::CommonRefinement,
+					m_options.memoryLimit));
 			for (std::size_t e = 0; e < transition.size(); ++e)
 				transition[e] = m_refinement.transition[e];
 			for (int h = 0; h < m_base.halfedgeCount(); ++h)
@@ -383,6 +387,7 @@ Parametrization parametrizeHyperbolic(
 	runComponents(mesh, components, progress, [&](const Component& component, Interval interval) {
 		HyperbolicRun(component, input, options, interval).run(result);
 	});
+	progress.step(kComponentsDone, "Measuring the distortion");
 	double area = 0.0;
 	for (const Triangle& t : mesh.triangles)
 		area += triangleArea(

@@ -35,7 +35,8 @@ CommonRefinement overlayOfFlow(
 	const std::vector<Point3>& positions,
 	std::vector<char> isCut,
 	bool endsAtBoundary,
-	bool cornersOnly)
+	bool cornersOnly,
+	const OverlayListener& listener)
 {
 	const FlipHistory& history = flow.history;
 	FlippedSurface surface;
@@ -57,7 +58,7 @@ CommonRefinement overlayOfFlow(
 		if (endsAtBoundary && base.isBoundaryEdge(e))
 			isCut[at(e)] = 1;
 	isCut.resize(at(history.input.edgeCount()), 0);
-	return commonRefinement(surface, positions, isCut);
+	return commonRefinement(surface, positions, isCut, listener);
 }
 
 void appendRefinement(

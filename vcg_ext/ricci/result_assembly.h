@@ -27,6 +27,7 @@ void startResult(
 /// \param endsAtBoundary whether the flow's surface goes on beyond that of base (its double, caps on
 /// holes), which then ends there
 /// \param cornersOnly see FlippedSurface
+/// \param listener see commonRefinement()
 CommonRefinement overlayOfFlow(
 	const FlowResult& flow,
 	Background background,
@@ -34,7 +35,8 @@ CommonRefinement overlayOfFlow(
 	const std::vector<Point3>& positions,
 	std::vector<char> isCut,
 	bool endsAtBoundary,
-	bool cornersOnly);
+	bool cornersOnly,
+	const OverlayListener& listener);
 
 /// Appends the refinement of one component, in the indices and the orientation of the whole input.
 void appendRefinement(
@@ -61,6 +63,9 @@ refinedSurface(const SurfaceMesh& mesh, const Parametrization& result, std::vect
 /// Distortion of the refinement, into \p result and its report.
 void measureRefinement(const SurfaceMesh& mesh, Parametrization& result);
 
+/// Shares of the progress after which all components are mapped, and their distortion is measured.
+constexpr double kComponentsDone = 0.9, kMeasured = 0.95;
+
 /// Runs \p run(component, interval) on every component with its share of the progress. An error
 /// names its component where there are several.
 template<class Run>
@@ -69,11 +74,14 @@ void runComponents(
 {
 	std::size_t facesDone = 0;
 	for (const Component& component : components) {
-		const auto share = static_cast<double>(mesh.triangles.size());
-		const double from = static_cast<double>(facesDone) / share;
+		const auto done = [&] {
+			return kComponentsDone *
+				   (static_cast<double>(facesDone) / static_cast<double>(mesh.triangles.size()));
+		};
+		const double from = done();
 		facesDone += component.triangles.size();
 		try {
-			run(component, Interval(progress, from, static_cast<double>(facesDone) / share));
+			run(component, Interval(progress, from, done()));
 		}
 		catch (const Stopped&) {
 			throw;

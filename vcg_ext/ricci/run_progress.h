@@ -2,6 +2,8 @@
 #ifndef RICCI_RUN_PROGRESS_H
 #define RICCI_RUN_PROGRESS_H
 
+#include "layout/common_refinement.h"
+#include "memory.h"
 #include "progress.h"
 #include "report.h"
 #include "text.h"
@@ -15,6 +17,9 @@ namespace ricci {
 
 /// Share of a component's progress that is spent before the flow, and after it.
 constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1;
+
+/// Share of the part after the flow that the overlay takes.
+constexpr double kOverlay = 0.7;
 
 /// Progress of one component among several: an interval of the whole.
 class Interval
@@ -76,6 +81,17 @@ private:
 	std::vector<FlowState>& m_states;
 	int m_step = -1;
 };
+
+/// For commonRefinement(): moves the bar within the part after the flow, and sees to it that the
+/// overlay fits into the memory, see requireOverlayMemory(). \p interval must outlive it.
+inline OverlayListener overlayWatch(Interval& interval, bool refines, double memoryLimit)
+{
+	return [&interval, refines, memoryLimit](double share, std::size_t crossings) {
+		interval.step(
+			1.0 - kAfterFlow * (1.0 - kOverlay * share), "Overlay of the two triangulations");
+		requireOverlayMemory(crossings, refines, memoryLimit);
+	};
+}
 
 } // namespace ricci
 

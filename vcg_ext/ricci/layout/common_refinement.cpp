@@ -23,24 +23,35 @@ public:
 	Overlay(
 		const FlippedSurface& s,
 		const std::vector<Point3>& positions,
-		const std::vector<char>& isCut) :
+		const std::vector<char>& isCut,
+		const OverlayListener& listener) :
 			m_s(s),
-			m_positions(positions), m_isCut(isCut), m_input(*s.input), m_end(*s.end),
-			m_pieces(divideStartTriangles(s))
+			m_positions(positions), m_isCut(isCut), m_listener(listener), m_input(*s.input),
+			m_end(*s.end),
+			m_pieces(divideStartTriangles(s, [&](double share, std::size_t crossings) {
+				listener(kDivision * share, crossings);
+			}))
 	{
 	}
 
 	CommonRefinement run()
 	{
+		const std::size_t crossings = m_pieces.nodes.size() - at(m_end.vertexCount());
+		m_listener(kDivision, crossings);
 		linkPieces();
 		findFaces();
 		dropPieces();
+		m_listener(kLinked, crossings);
 		layOut();
+		m_listener(kLaidOut, crossings);
 		m_links = std::vector<std::array<Link, 2>>();
 		return result();
 	}
 
 private:
+	/// Shares of the work that are done after the division, the faces of the pieces, the layout.
+	static constexpr double kDivision = 0.5, kLinked = 0.65, kLaidOut = 0.85;
+
 	/// The two pieces at every side.
 	struct Link
 	{
@@ -424,6 +435,7 @@ private:
 	const FlippedSurface& m_s;
 	const std::vector<Point3>& m_positions;
 	const std::vector<char>& m_isCut;
+	const OverlayListener& m_listener;
 	const Triangulation& m_input;
 	const Triangulation& m_end;
 
@@ -450,9 +462,10 @@ Point3 placeOnSurface(const SurfacePoint& p, const std::vector<Point3>& position
 CommonRefinement commonRefinement(
 	const FlippedSurface& surface,
 	const std::vector<Point3>& positions,
-	const std::vector<char>& isCut)
+	const std::vector<char>& isCut,
+	const OverlayListener& listener)
 {
-	return Overlay(surface, positions, isCut).run();
+	return Overlay(surface, positions, isCut, listener).run();
 }
 
 } // namespace ricci

@@ -10,6 +10,8 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace ricci {
@@ -61,6 +63,10 @@ struct CommonRefinement
 	std::size_t crossings = 0;             ///< points that are not vertices of the input
 };
 
+/// Hears from time to time how the overlay grows: the share of the work that is done, in [0,1], and
+/// the number of its crossings so far. What it throws ends the computation.
+using OverlayListener = std::function<void(double, std::size_t)>;
+
 /// Computes the overlay and lays it out, cut along the input's edges with \p isCut.
 ///
 /// Which edge crosses which, and in what order, is decided by integers (NormalCoordinates) wherever
@@ -79,7 +85,8 @@ struct CommonRefinement
 CommonRefinement commonRefinement(
 	const FlippedSurface& surface,
 	const std::vector<Point3>& positions,
-	const std::vector<char>& isCut);
+	const std::vector<char>& isCut,
+	const OverlayListener& listener);
 
 } // namespace ricci
 

@@ -5,13 +5,13 @@
 #include "../metric/euclidean.h"
 #include "../metric/hyperbolic.h"
 #include "../numbers.h"
+#include "chord_arrangement.h"
 #include "edge_crossings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <unordered_map>
 
 namespace ricci {
 
@@ -20,6 +20,9 @@ namespace {
 /// A crossing with an input edge and one with an end edge that are this near to each other on a
 /// start edge, relative to its length, are one point.
 constexpr double kMergeGap = 1e-12;
+
+/// Triangles and sides of pieces in them between two calls of the listener.
+constexpr std::size_t kWorkBetweenCalls = 1 << 14;
 
 /// Affine combination of two points, merging equal vertices.
 SurfacePoint between(const SurfacePoint& a, const SurfacePoint& b, double t)
@@ -45,25 +48,17 @@ SurfacePoint between(const SurfacePoint& a, const SurfacePoint& b, double t)
 	gather(b, t);
 	return p;
 }
-/// A corner of a part of one start triangle, while that is being divided.
-struct PartCorner : PieceCorner
-{
-	int place = -1;   ///< on the start triangle's border, counted counter-clockwise; -1 inside
-	int chord = -1;   ///< of the end edge that made an inner node
-	int onChord = -1; ///< chord that this side is part of, or -1
-};
 
 /// A part of an input or end edge inside one start triangle.
 struct Chord
 {
-	int face;
 	int from, to; ///< corner: halfedge with that origin; side: halfedge
 	int fromIndex,
 		toIndex; ///< on a side: index among its nodes from the halfedge's origin; else -1
 	int curve;   ///< input or end edge; runs in the direction of its even halfedge
 	double fromAlong, toAlong; ///< position on the curve
-	bool ofInput;
 };
+
 /// Divides start triangles by the chords of input and end edges.
 class Division
 {
@@ -78,17 +73,30 @@ public:
 									 : Hyperbolic::circle((*s.endU)[v]).s;
 	}
 
-	OverlayPieces run()
+	OverlayPieces run(const OverlayListener& listener)
 	{
+		listener(0.0, m_crossings.inputPoints.size() + m_crossings.endPoints.size());
 		makeNodes();
 		collectChords();
-		for (int f = 0; f < m_start.faceCount(); ++f)
+		std::size_t unheard = 0; // work since the listener was called
+		for (int f = 0; f < m_start.faceCount(); ++f) {
+			const int before = m_result.sideCount;
 			divide(f);
+			unheard += 1 + at(m_result.sideCount - before);
+			if (unheard < kWorkBetweenCalls)
+				continue;
+			unheard = 0;
+			listener(
+				static_cast<double>(f) / m_start.faceCount(),
+				m_result.nodes.size() - at(m_start.vertexCount()));
+		}
 		return std::move(m_result);
 	}
 
 private:
 	using Curve = NormalCoordinates::Curve;
+
+	static constexpr std::size_t kInput = 0, kEnd = 1; // kinds of chords
 
 	double startRadius(int v) const { return (*m_s.startRadii)[at(v)]; }
 
@@ -210,7 +218,7 @@ private:
 		return x;
 	}
 
-	/// Fills EndPlace and scale of the nodes of start edge e: on end edges, or between two of them.
+	/// Fills EndPlace of the nodes of start edge e: on end edges, also scale, or between two of them.
 	void locateOnEnd(int e, int base, double gi, double gj)
 	{
 		const int count = static_cast<int>(m_edgePoints.size());
@@ -242,7 +250,6 @@ private:
 				node.end.kind = EndPlace::Edge;
 				node.end.element = c;
 				node.end.along = keepInside(way.first % 2 == 0 ? eb / (ea + eb) : ea / (ea + eb));
-				node.scale = ea + eb;
 				continue;
 			}
 			int next = k + 1;
@@ -263,7 +270,6 @@ private:
 			const double r =
 				std::max(0.0, (before[0] * here[1] - before[1] * here[0]) / det) * afterSum;
 			const double share = keepInside(r / (s + r));
-			node.scale = s + r;
 			node.end.kind = EndPlace::Face;
 			const auto from = startOfInterval(way, passed, e);
 			const auto to = endOfInterval(way, passed, e);
@@ -318,55 +324,64 @@ private:
 		return h % 2 == 0 ? t : 1.0 - t;
 	}
 
+	/// The chords of both kinds, by start triangle.
 	void collectChords()
 	{
-		const auto collect = [&](const std::vector<Curve>& curves, bool ofInput) {
-			for (std::size_t c = 0; c < curves.size(); ++c) {
-				const Curve& curve = curves[c];
-				if (curve.crossings.empty())
-					continue;
-				Chord chord;
-				chord.curve = static_cast<int>(c);
-				chord.ofInput = ofInput;
-				chord.from = curve.first;
-				chord.fromIndex = -1;
-				chord.fromAlong = 0.0;
-				for (const auto& x : curve.crossings) {
-					const int slot = ofInput ? m_crossings.inputSlot(x) : m_crossings.endSlot(x);
-					const int index = ofInput ? m_indexOfInput[at(slot)] : m_indexOfEnd[at(slot)];
-					const int node =
-						m_onEdge[at(m_firstOnEdge[at(Triangulation::edge(x.halfedge))] + index)];
-					chord.face = m_start.face(x.halfedge);
-					chord.to = x.halfedge;
-					chord.toIndex = indexFrom(x.halfedge, index);
-					chord.toAlong = ofInput ? m_crossings.inputPoints[at(slot)].along
-											: m_result.nodes[at(node)].end.along;
-					m_chords.push_back(chord);
-					chord.from = Triangulation::twin(x.halfedge);
-					chord.fromIndex = indexFrom(chord.from, index);
-					chord.fromAlong = chord.toAlong;
-				}
-				chord.face = m_start.face(chord.from);
-				chord.to = curve.last;
-				chord.toIndex = -1;
-				chord.toAlong = 1.0;
-				m_chords.push_back(chord);
-			}
-		};
-		collect(m_crossings.inputCurves, true);
-		collect(m_crossings.endCurves, false);
-		std::stable_sort(m_chords.begin(), m_chords.end(), [](const Chord& a, const Chord& b) {
-			return a.face < b.face;
-		});
-		m_firstChord.assign(at(m_start.faceCount()) + 1, 0);
-		for (const Chord& c : m_chords)
-			++m_firstChord[at(c.face) + 1];
-		std::partial_sum(m_firstChord.begin(), m_firstChord.end(), m_firstChord.begin());
+		collectChords(m_crossings.inputCurves, kInput);
+		collectChords(m_crossings.endCurves, kEnd);
 		// Sides on start edges come first among the names of sides.
 		m_firstSide.assign(at(m_start.edgeCount()) + 1, 0);
 		for (int e = 0; e < m_start.edgeCount(); ++e)
 			m_firstSide[at(e) + 1] = m_firstSide[at(e)] + countOn(e) + 1;
 		m_result.sideCount = m_firstSide.back();
+	}
+
+	void collectChords(const std::vector<Curve>& curves, std::size_t kind)
+	{
+		std::vector<int>& first = m_firstChord[kind];
+		first.assign(at(m_start.faceCount()) + 1, 0);
+		for (const Curve& curve : curves) {
+			if (curve.crossings.empty())
+				continue;
+			for (const auto& x : curve.crossings)
+				++first[at(m_start.face(x.halfedge)) + 1];
+			++first[at(m_start.face(curve.last)) + 1];
+		}
+		std::partial_sum(first.begin(), first.end(), first.begin());
+		m_chords[kind].resize(at(first.back()));
+		std::vector<int> fill(first.begin(), first.end() - 1);
+		const auto add = [&](const Chord& chord, int face) {
+			m_chords[kind][at(fill[at(face)]++)] = chord;
+		};
+		for (std::size_t c = 0; c < curves.size(); ++c) {
+			const Curve& curve = curves[c];
+			if (curve.crossings.empty())
+				continue;
+			Chord chord;
+			chord.curve = static_cast<int>(c);
+			chord.from = curve.first;
+			chord.fromIndex = -1;
+			chord.fromAlong = 0.0;
+			for (const auto& x : curve.crossings) {
+				const int slot = kind == kInput ? m_crossings.inputSlot(x) : m_crossings.endSlot(x);
+				const int index =
+					kind == kInput ? m_indexOfInput[at(slot)] : m_indexOfEnd[at(slot)];
+				chord.to = x.halfedge;
+				chord.toIndex = indexFrom(x.halfedge, index);
+				chord.toAlong =
+					kind == kInput
+						? m_crossings.inputPoints[at(slot)].along
+						: m_result.nodes[at(nodeOn(x.halfedge, chord.toIndex))].end.along;
+				add(chord, m_start.face(x.halfedge));
+				chord.from = Triangulation::twin(x.halfedge);
+				chord.fromIndex = indexFrom(chord.from, index);
+				chord.fromAlong = chord.toAlong;
+			}
+			chord.to = curve.last;
+			chord.toIndex = -1;
+			chord.toAlong = 1.0;
+			add(chord, m_start.face(chord.from));
+		}
 	}
 
 	/// Input halfedge that start halfedge h coincides with, or -1; likewise for the end.
@@ -391,181 +406,86 @@ private:
 		m_cornerPlace[0] = 0;
 		for (std::size_t k = 0; k < 3; ++k)
 			m_cornerPlace[k + 1] = m_cornerPlace[k] + 1 + countOn(Triangulation::edge(h[k]));
-		std::vector<PartCorner> whole;
+		m_border.clear();
 		for (std::size_t k = 0; k < 3; ++k) {
 			const int e = Triangulation::edge(h[k]), count = countOn(e);
-			const int input = inputAlong(h[k]), end = endAlong(h[k]);
+			PieceCorner c;
+			c.input = inputAlong(h[k]);
+			c.end = endAlong(h[k]);
 			for (int i = -1; i < count; ++i) {
-				PartCorner c;
 				c.node = i < 0 ? m_start.origin(h[k]) : nodeOn(h[k], i);
-				c.place = static_cast<int>(whole.size());
-				c.chord = -1;
 				c.side = m_firstSide[at(e)] + (h[k] % 2 == 0 ? i + 1 : count - 1 - i);
-				c.onChord = -1;
-				c.input = input;
-				c.end = end;
-				whole.push_back(c);
+				m_border.push_back(c);
 			}
 		}
-		m_parts.clear();
-		m_parts.push_back(std::move(whole));
-		for (int c = m_firstChord[at(f)]; c < m_firstChord[at(f) + 1]; ++c)
-			if (m_chords[at(c)].ofInput)
-				splitBy(c, f);
-		for (int c = m_firstChord[at(f)]; c < m_firstChord[at(f) + 1]; ++c)
-			if (!m_chords[at(c)].ofInput)
-				splitBy(c, f);
+		for (std::size_t kind : {kInput, kEnd}) {
+			m_places[kind].clear();
+			for (int c = m_firstChord[kind][at(f)]; c < m_firstChord[kind][at(f) + 1]; ++c) {
+				const Chord& chord = m_chords[kind][at(c)];
+				m_places[kind].push_back(
+					{placeOf(h, chord.from, chord.fromIndex), placeOf(h, chord.to, chord.toIndex)});
+			}
+		}
+		m_arrangement.divide(m_cornerPlace[3], m_places[kInput], m_places[kEnd]);
+		const int firstNode = static_cast<int>(m_result.nodes.size());
+		for (const ChordArrangement::Crossing& x : m_arrangement.crossings())
+			makeNodeAt(x, f);
 		nameCorners(f);
-		for (const auto& part : m_parts) {
+		const int firstSide = m_result.sideCount;
+		m_result.sideCount += m_arrangement.segmentCount();
+		for (int face = 0; face < m_arrangement.faceCount(); ++face) {
 			m_result.startPiece();
-			for (const PartCorner& c : part)
-				m_result.append(c);
+			for (int i = m_arrangement.firstSide(face); i < m_arrangement.firstSide(face + 1); ++i)
+				m_result.append(cornerAt(m_arrangement.side(i), f, firstNode, firstSide));
 		}
 	}
 
-	int placeOf(int f, int halfedge, int index) const
+	int placeOf(const std::array<int, 3>& sides, int halfedge, int index) const
 	{
-		const auto h = m_start.halfedges(f);
 		for (std::size_t k = 0; k < 3; ++k)
-			if (h[k] == halfedge)
+			if (sides[k] == halfedge)
 				return m_cornerPlace[k] + 1 + index; // a corner has index -1
 		throw Error(kInconsistentOverlay);
 	}
 
-	/// +1 for places strictly between the chord's ends counter-clockwise, -1 on the other side, 0
-	/// at the ends.
-	static int sideOf(int place, int from, int to)
+	const Chord& chordOf(const ChordArrangement::Line& line, std::size_t kind, int f) const
 	{
-		if (place == from || place == to)
-			return 0;
-		return from < to ? (place > from && place < to ? 1 : -1)
-						 : (place > from || place < to ? 1 : -1);
+		return m_chords[kind][at(m_firstChord[kind][at(f)] + line.chord[kind])];
 	}
 
-	int sideOf(const PartCorner& c, int f, int from, int to) const
+	PieceCorner
+	cornerAt(const ChordArrangement::Side& side, int f, int firstNode, int firstSide) const
 	{
-		if (c.place >= 0)
-			return sideOf(c.place, from, to);
-		// An inner node lies on an end edge's chord, which does not cross this one.
-		const Chord& other = m_chords[at(c.chord)];
-		const int side = sideOf(placeOf(f, other.from, other.fromIndex), from, to);
-		return side != 0 ? side : sideOf(placeOf(f, other.to, other.toIndex), from, to);
-	}
-
-	struct SplitSide
-	{
-		int node, firstHalf, secondHalf; // halves in the direction of the input's even halfedge
-	};
-
-	void splitBy(int chordIndex, int f)
-	{
-		const Chord& chord = m_chords[at(chordIndex)];
-		const int from = placeOf(f, chord.from, chord.fromIndex);
-		const int to = placeOf(f, chord.to, chord.toIndex);
-		m_splitSides.clear();
-		const std::size_t partCount = m_parts.size();
-		for (std::size_t p = 0; p < partCount; ++p) {
-			const auto& piece = m_parts[p];
-			m_sides.resize(piece.size());
-			bool left = false, right = false;
-			for (std::size_t i = 0; i < piece.size(); ++i) {
-				m_sides[i] = sideOf(piece[i], f, from, to);
-				left |= m_sides[i] > 0;
-				right |= m_sides[i] < 0;
-			}
-			if (!left || !right) {
-				labelSide(p, chordIndex, from, to);
-				continue;
-			}
-			splitPiece(p, chordIndex, f);
-		}
-	}
-
-	/// A chord that joins the same two places as one of an input edge runs along it.
-	void labelSide(std::size_t p, int chordIndex, int from, int to)
-	{
-		const Chord& chord = m_chords[at(chordIndex)];
-		if (chord.ofInput)
-			return;
-		auto& piece = m_parts[p];
-		for (std::size_t i = 0; i < piece.size(); ++i) {
-			const PartCorner& next = piece[(i + 1) % piece.size()];
-			if (piece[i].onChord < 0)
-				continue;
-			if (piece[i].place == from && next.place == to)
-				piece[i].end = 2 * chord.curve;
-			else if (piece[i].place == to && next.place == from)
-				piece[i].end = 2 * chord.curve + 1;
-		}
-	}
-
-	void splitPiece(std::size_t p, int chordIndex, int f)
-	{
-		const Chord chord = m_chords[at(chordIndex)];
-		const std::vector<PartCorner> piece = m_parts[p];
-		const std::size_t n = piece.size();
-		std::vector<PartCorner> left, right; // left: places between from and to
-		const int newSide = m_result.sideCount++;
-		const auto leaves = [&](PartCorner c, bool ofLeft) {
-			// The left part runs back from the chord's end to its beginning.
-			const int direction = 2 * chord.curve + (ofLeft ? 1 : 0);
-			c.side = newSide;
-			c.onChord = chordIndex;
-			c.input = chord.ofInput ? direction : -1;
-			c.end = chord.ofInput ? -1 : direction;
-			(ofLeft ? left : right).push_back(c);
-		};
-		for (std::size_t i = 0; i < n; ++i) {
-			const PartCorner& c = piece[i];
-			const int here = m_sides[i], after = m_sides[(i + 1) % n];
-			const int before = m_sides[(i + n - 1) % n];
-			if (here > 0)
-				left.push_back(c);
-			else if (here < 0)
-				right.push_back(c);
-			else {
-				// An end of the chord: the left part enters at the beginning and leaves at the end.
-				const bool endsLeft = before > 0 || after < 0;
-				if (endsLeft) {
-					leaves(c, true);
-					right.push_back(c);
-				}
-				else {
-					leaves(c, false);
-					left.push_back(c);
-				}
-			}
-			if (here * after < 0) {
-				const SplitSide split = crossSide(c, chordIndex, f);
-				const bool forward = c.input % 2 == 0;
-				PartCorner x = c;
-				x.node = split.node;
-				x.place = -1;
-				x.chord = chordIndex;
-				x.side = forward ? split.secondHalf : split.firstHalf;
-				(here > 0 ? left : right).back().side =
-					forward ? split.firstHalf : split.secondHalf;
-				if (here > 0) { // from left to right
-					leaves(x, true);
-					right.push_back(x);
-				}
-				else {
-					leaves(x, false);
-					left.push_back(x);
-				}
+		const int places = m_cornerPlace[3];
+		PieceCorner c;
+		if (side.line < 0)
+			c = m_border[at(side.node)];
+		else {
+			const ChordArrangement::Line& line = m_arrangement.line(side.line);
+			c.node =
+				side.node < places ? m_border[at(side.node)].node : firstNode + side.node - places;
+			c.side = firstSide + side.name - places;
+			if (line.chord[kInput] >= 0)
+				c.input = 2 * chordOf(line, kInput, f).curve + (side.forward ? 0 : 1);
+			if (line.chord[kEnd] >= 0) {
+				const bool reversed = line.chord[kInput] >= 0 && line.secondReversed;
+				c.end = 2 * chordOf(line, kEnd, f).curve + (side.forward != reversed ? 0 : 1);
 			}
 		}
-		m_parts[p] = std::move(left);
-		m_parts.push_back(std::move(right));
+		for (std::size_t k = 0; k < 3; ++k)
+			if (side.node == m_cornerPlace[k]) {
+				const auto& names = m_cornerNames[k][at(m_arrangement.rank(side) + 1)];
+				c.inputCorner = names[kInput];
+				c.endCorner = names[kEnd];
+			}
+		return c;
 	}
 
-	/// The node where an end edge's chord crosses a part of an input edge's chord.
-	SplitSide crossSide(const PartCorner& from, int endChord, int f)
+	/// The node where an end edge's chord crosses an input edge's chord.
+	void makeNodeAt(const ChordArrangement::Crossing& crossing, int f)
 	{
-		const auto known = m_splitSides.find(from.side);
-		if (known != m_splitSides.end())
-			return known->second;
-		const Chord &a = m_chords[at(from.onChord)], &b = m_chords[at(endChord)];
+		const Chord& a = chordOf(m_arrangement.line(crossing.first), kInput, f);
+		const Chord& b = chordOf(m_arrangement.line(crossing.second), kEnd, f);
 		const Point2 p = pointOf(f, a.from, a.fromIndex), q = pointOf(f, a.to, a.toIndex);
 		const Point2 r = pointOf(f, b.from, b.fromIndex), s = pointOf(f, b.to, b.toIndex);
 		const auto cross = [](const Point2& o, const Point2& x, const Point2& y) {
@@ -584,12 +504,7 @@ private:
 		node.end.kind = EndPlace::Edge;
 		node.end.element = b.curve;
 		node.end.along = keepInside(mix(b.fromAlong, b.toAlong, w1 / (w0 + w1)));
-		SplitSide split{
-			static_cast<int>(m_result.nodes.size()), m_result.sideCount, m_result.sideCount + 1};
-		m_result.sideCount += 2;
 		m_result.nodes.push_back(node);
-		m_splitSides.emplace(from.side, split);
-		return split;
 	}
 
 	int nodeAt(int h, int index) const { return index < 0 ? m_start.origin(h) : nodeOn(h, index); }
@@ -608,56 +523,26 @@ private:
 		return {mix(a[0], b[0], t), mix(a[1], b[1], t)};
 	}
 
-	/// At the vertices of start triangle f: which corner of the input's and of the end's triangles
-	/// each piece has, by counting the chords that leave the vertex clockwise before the piece.
+	/// At the vertices of start triangle f, for the piece after so many lines counter-clockwise:
+	/// which corner of the input's and of the end's triangles it has.
 	void nameCorners(int f)
 	{
 		const auto h = m_start.halfedges(f);
-		const int places = m_cornerPlace[3];
-		for (std::size_t p = 0; p < m_parts.size(); ++p) {
-			auto& piece = m_parts[p];
-			for (PartCorner& c : piece) {
-				if (c.place < 0)
-					continue;
-				const auto corner =
-					std::find(m_cornerPlace.begin(), m_cornerPlace.begin() + 3, c.place) -
-					m_cornerPlace.begin();
-				if (corner == 3)
-					continue;
-				const int halfedge = h[static_cast<std::size_t>(corner)];
-				c.inputCorner = cornerAfter(c, f, halfedge, places, true);
-				c.endCorner = cornerAfter(c, f, halfedge, places, false);
+		for (std::size_t k = 0; k < 3; ++k) {
+			std::array<int, 2> corner{
+				m_crossings.inputOnStart.originalAtOrBefore(h[k]),
+				m_crossings.endOnStart.originalAtOrBefore(h[k])};
+			m_cornerNames[k].assign(1, corner);
+			for (int index : m_arrangement.linesAt(m_cornerPlace[k])) {
+				const ChordArrangement::Line& line = m_arrangement.line(index);
+				for (std::size_t kind : {kInput, kEnd})
+					if (line.chord[kind] >= 0) {
+						const Triangulation& t = kind == kInput ? m_input : m_end;
+						corner[kind] = Triangulation::twin(t.previous(corner[kind]));
+					}
+				m_cornerNames[k].push_back(corner);
 			}
 		}
-	}
-
-	int cornerAfter(const PartCorner& c, int f, int halfedge, int places, bool ofInput) const
-	{
-		const int along = ofInput ? c.input : c.end;
-		if (along >= 0)
-			return along;
-		const NormalCoordinates& coordinates =
-			ofInput ? m_crossings.inputOnStart : m_crossings.endOnStart;
-		const Triangulation& t = ofInput ? m_input : m_end;
-		int corner = coordinates.originalAtOrBefore(halfedge);
-		if (c.onChord < 0)
-			return corner;
-		const auto distanceTo = [&](const Chord& chord) {
-			const int from = placeOf(f, chord.from, chord.fromIndex);
-			const int to = placeOf(f, chord.to, chord.toIndex);
-			const int far = from == c.place ? to : to == c.place ? from : -1;
-			return far < 0 ? -1 : (far - c.place + places) % places;
-		};
-		const int mine = distanceTo(m_chords[at(c.onChord)]);
-		for (int k = m_firstChord[at(f)]; k < m_firstChord[at(f) + 1]; ++k) {
-			const Chord& other = m_chords[at(k)];
-			if (other.ofInput != ofInput)
-				continue;
-			const int distance = distanceTo(other);
-			if (distance >= 0 && distance < mine)
-				corner = Triangulation::twin(t.previous(corner));
-		}
-		return corner;
 	}
 
 	const FlippedSurface& m_s;
@@ -673,14 +558,17 @@ private:
 	std::vector<int> m_indexOfInput, m_indexOfEnd; // [slot] index on its start edge
 	std::vector<EdgePoint> m_edgePoints;
 
-	std::vector<Chord> m_chords; // by start face
-	std::vector<int> m_firstChord, m_firstSide;
+	std::array<std::vector<Chord>, 2> m_chords; // [kind] by start triangle
+	std::array<std::vector<int>, 2> m_firstChord;
+	std::vector<int> m_firstSide; // [start edge] names of its sides
 
 	// Of the start triangle that is being divided:
 	std::array<int, 4> m_cornerPlace{0, 0, 0, 0};
-	std::vector<std::vector<PartCorner>> m_parts;
-	std::vector<int> m_sides;
-	std::unordered_map<int, SplitSide> m_splitSides;
+	std::vector<PieceCorner> m_border; // [place]
+	std::array<std::vector<ChordArrangement::Chord>, 2> m_places;
+	ChordArrangement m_arrangement;
+	std::array<std::vector<std::array<int, 2>>, 3>
+		m_cornerNames; // [corner][lines before the piece]
 };
 
 } // namespace
@@ -698,9 +586,9 @@ InFace pointOnSide(const Triangulation& t, int h, double x)
 	return p;
 }
 
-OverlayPieces divideStartTriangles(const FlippedSurface& surface)
+OverlayPieces divideStartTriangles(const FlippedSurface& surface, const OverlayListener& listener)
 {
-	return Division(surface).run();
+	return Division(surface).run(listener);
 }
 
 } // namespace ricci

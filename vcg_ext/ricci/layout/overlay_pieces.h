@@ -25,7 +25,9 @@ struct OverlayNode
 {
 	SurfacePoint point;
 	EndPlace end;
-	double scale = 1.0; ///< weight sum in the end metric over that in the start metric
+	/// Of a vertex, or a crossing with an end edge: weight sum in the end metric over that in the
+	/// start metric.
+	double scale = 1.0;
 };
 
 /// A corner of a piece, and the side from there to the next corner, counter-clockwise.
@@ -103,7 +105,7 @@ private:
 };
 
 /// Computes the pieces. Integers decide which edges cross where, see commonRefinement().
-OverlayPieces divideStartTriangles(const FlippedSurface& surface);
+OverlayPieces divideStartTriangles(const FlippedSurface& surface, const OverlayListener& listener);
 
 /// Integers decide how the triangulations lie on each other, so this is a fault of the program.
 inline constexpr const char* kInconsistentOverlay =
