@@ -164,6 +164,44 @@ std::vector<int> inputEdgeAt(const SurfacePoint& x)
 	return support.size() == 2 ? support : std::vector<int>();
 }
 
+/// Crossings of the input's edges with the end's that curves pulled tight would not have. Edges of
+/// the two are straight in different metrics and can cross twice with no vertex between.
+long crossingsTooMany(const FlippedFlow& flow, const CommonRefinement& refinement)
+{
+	long crossings = 0;
+	for (const StraightLine& line : straightLines(flow.mesh, mapOf(refinement), 1e-6))
+		for (int point : line.points)
+			crossings += !inputEdgeAt(refinement.points[at(point)]).empty();
+	crossings /= 2; // a line is found from both its ends
+	NormalCoordinates tight(flow.result.history.input);
+	for (const auto* flips : {&flow.result.history.startFlips, &flow.result.history.flowFlips})
+		for (int e : *flips)
+			tight.flip(e);
+	for (int e = 0; e < flow.base.edgeCount(); ++e)
+		crossings -= tight.crossings(e);
+	return crossings;
+}
+
+/// Where the cut enters an end triangle and leaves it through the same side, the parts that it
+/// makes of the triangle behind that side have one place in the layout.
+TEST(CommonRefinement, TheCutMayCrossAnEndEdgeTwice)
+{
+	long tooMany = 0;
+	for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+		SCOPED_TRACE(seed);
+		Random random(seed);
+		const SurfaceMesh mesh = foldedTorus(3, 3, 0.1, random);
+		const FlippedFlow flow(
+			mesh,
+			prescribed(randomCurvature(
+				static_cast<int>(mesh.positions.size()), 0, -12.0, 6.0, 0.4, random)));
+		const CommonRefinement refinement = flow.refinement(flow.cutAnywhere(random));
+		expectSound(flow, refinement);
+		tooMany += crossingsTooMany(flow, refinement);
+	}
+	EXPECT_GT(tooMany, 20); // or the test says little
+}
+
 /// Ends of the edges of the input that are not edges of the start.
 std::set<std::pair<int, int>> flippedInputEdges(const FlippedFlow& flow)
 {

@@ -104,6 +104,14 @@ CutGraph FlippedFlow::cut() const
 	return cutToDisk(base, lengths, cones(), {});
 }
 
+CutGraph FlippedFlow::cutAnywhere(Random& random) const
+{
+	std::vector<double> costs(lengths.size());
+	for (double& cost : costs)
+		cost = random.real(0.0, 1.0);
+	return cutToDisk(base, costs, cones(), {});
+}
+
 CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
 {
 	return overlayOfFlow(

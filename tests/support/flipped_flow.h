@@ -43,6 +43,8 @@ struct FlippedFlow
 
 	/// Input's metric flattened cut open along a cut graph through all cones, and laid out.
 	CutGraph cut() const;
+	/// The same along random ways.
+	CutGraph cutAnywhere(Random& random) const;
 	CommonRefinement refinement(const CutGraph& cut) const;
 
 private:

@@ -67,6 +67,14 @@ SurfaceMesh bumpyTorus(int nu, int nv, Random& random)
 	return mesh;
 }
 
+SurfaceMesh foldedTorus(int nu, int nv, double height, Random& random)
+{
+	return grid(nu, nv, Ends::Joined, Ends::Joined, [&](int, int) {
+		const double x = random.real(0.0, 1.0), y = random.real(0.0, height);
+		return Point3{x, y, 0.0};
+	});
+}
+
 SurfaceMesh shaken(SurfaceMesh mesh, double amount, Random& random)
 {
 	for (Point3& p : mesh.positions)

@@ -21,6 +21,10 @@ SurfaceMesh sliverDisk(int n, double decades, Random& random);
 /// Torus of revolution whose angles and radii are jittered, with a random diagonal in each cell.
 SurfaceMesh bumpyTorus(int nu, int nv, Random& random);
 
+/// Torus whose triangles lie over each other in the plane, with corners at random in the rectangle of
+/// width 1 and this \p height: cones of large negative curvature at most vertices.
+SurfaceMesh foldedTorus(int nu, int nv, double height, Random& random);
+
 /// Every vertex moved by up to \p amount in each coordinate.
 SurfaceMesh shaken(SurfaceMesh mesh, double amount, Random& random);
 

@@ -174,10 +174,17 @@ private:
 		return c.input >= 0 && m_isCut[at(Triangulation::edge(c.input))];
 	}
 
-	/// Lays the end triangles out and places the pieces in them. The cut runs on input edges,
-	/// through end triangles: a triangle that it divides is drawn once for each of its parts
-	/// ("sheets").
-	void layOut()
+	/// The end triangles as they are laid out. The cut runs on input edges, through end triangles: a
+	/// triangle that it divides is drawn once for each of its parts.
+	struct Sheets
+	{
+		std::vector<int> of; ///< [piece]
+		std::vector<Triangle> triangles;
+		std::vector<int> endFace; ///< [sheet]
+		std::vector<int> glued;   ///< [3 sheet + side] side across it, or -1
+	};
+
+	Sheets makeSheets() const
 	{
 		std::vector<int> parent(m_endFace.size());
 		std::iota(parent.begin(), parent.end(), 0);
@@ -188,37 +195,75 @@ private:
 			if (!isClosed(side) && side.end < 0)
 				mergeSets(parent, link[0].piece, link[1].piece);
 		}
-		std::vector<int> sheet(m_endFace.size(), -1);
-		std::vector<Triangle> triangles;
-		std::vector<int> faceOfSheet;
-		for (std::size_t p = 0; p < sheet.size(); ++p) {
+		Sheets sheets;
+		do
+			sheets = sheetsOf(parent);
+		while (!glue(sheets, parent));
+		return sheets;
+	}
+
+	/// One sheet for each set of pieces.
+	Sheets sheetsOf(std::vector<int>& parent) const
+	{
+		Sheets sheets;
+		sheets.of.assign(parent.size(), -1);
+		for (std::size_t p = 0; p < parent.size(); ++p) {
 			if (findSet(parent, static_cast<int>(p)) != static_cast<int>(p))
 				continue;
-			sheet[p] = static_cast<int>(triangles.size());
+			sheets.of[p] = static_cast<int>(sheets.triangles.size());
 			const auto h = m_end.halfedges(m_endFace[p]);
-			triangles.push_back({m_end.origin(h[0]), m_end.origin(h[1]), m_end.origin(h[2])});
-			faceOfSheet.push_back(m_endFace[p]);
+			sheets.triangles.push_back(
+				{m_end.origin(h[0]), m_end.origin(h[1]), m_end.origin(h[2])});
+			sheets.endFace.push_back(m_endFace[p]);
 		}
-		for (std::size_t p = 0; p < sheet.size(); ++p)
-			sheet[p] = sheet[at(findSet(parent, static_cast<int>(p)))];
+		for (std::size_t p = 0; p < parent.size(); ++p)
+			sheets.of[p] = sheets.of[at(findSet(parent, static_cast<int>(p)))];
+		return sheets;
+	}
 
-		const auto sideOfSheet = [&](int s, int halfedge) {
-			const auto h = m_end.halfedges(faceOfSheet[at(s)]);
+	/// Glues the sheets. The cut is straight in another metric than the end edges and may cross one
+	/// of them twice with no vertex between: it then cuts parts off that lie across one side of one
+	/// sheet. They have one place in the layout and become one set of \p parent.
+	/// \return false if there are such
+	bool glue(Sheets& sheets, std::vector<int>& parent) const
+	{
+		const auto sideOf = [&](int piece, int halfedge) {
+			const int s = sheets.of[at(piece)];
+			const auto h = m_end.halfedges(sheets.endFace[at(s)]);
 			return 3 * s + static_cast<int>(std::find(h.begin(), h.end(), halfedge) - h.begin());
 		};
-		std::vector<int> glued(3 * triangles.size(), -1);
+		std::vector<int> pieceAt(3 * sheets.triangles.size(), -1); // [side] one across it
+		sheets.glued.assign(3 * sheets.triangles.size(), -1);
+		bool fits = true;
 		for (const auto& link : m_links) {
 			if (link[1].piece < 0)
 				continue;
 			const PieceCorner& side = m_pieces(link[0].piece, link[0].corner);
 			if (isClosed(side) || side.end < 0)
 				continue;
-			const int a = sideOfSheet(sheet[at(link[0].piece)], side.end);
-			const int b = sideOfSheet(sheet[at(link[1].piece)], Triangulation::twin(side.end));
-			glued[at(a)] = b;
-			glued[at(b)] = a;
+			const int a = sideOf(link[0].piece, side.end);
+			const int b = sideOf(link[1].piece, Triangulation::twin(side.end));
+			for (const auto& [from, to, piece] :
+				 {std::array<int, 3>{a, b, link[1].piece}, {b, a, link[0].piece}}) {
+				int& known = sheets.glued[at(from)];
+				if (known >= 0 && known != to) {
+					mergeSets(parent, pieceAt[at(from)], piece);
+					fits = false;
+				}
+				known = to;
+				pieceAt[at(from)] = piece;
+			}
 		}
-		const Triangulation sheets(m_end.vertexCount(), triangles, glued);
+		return fits;
+	}
+
+	/// Lays the end triangles out and places the pieces in them.
+	void layOut()
+	{
+		const Sheets drawn = makeSheets();
+		const std::vector<int>& sheet = drawn.of;
+		const std::vector<int>& faceOfSheet = drawn.endFace;
+		const Triangulation sheets(m_end.vertexCount(), drawn.triangles, drawn.glued);
 		std::vector<double> lengths(at(sheets.edgeCount())),
 			angles(at(sheets.halfedgeCount()), 0.0);
 		for (int s = 0; s < sheets.faceCount(); ++s) {
