@@ -267,17 +267,24 @@ QString whyNotWritable(const QString& path)
 	return file.open(QIODevice::WriteOnly) ? QString() : file.errorString();
 }
 
-void save(const QString& path, const std::string& content)
+void require(bool written, const QSaveFile& file)
 {
-	QSaveFile file(path);
+	if (!written)
+		throw ricci::Error(
+			"The report " + file.fileName().toStdString() + " could not be written (" +
+			file.errorString().toStdString() +
+			"): choose another place for it. The mesh is unchanged.");
+}
+
+/// Without Qt's buffer, which drops what a full disk does not take any more and reports no error.
+void fill(QSaveFile& file, const std::string& content)
+{
+	require(file.open(QIODevice::WriteOnly | QIODevice::Unbuffered), file);
 	const auto size = static_cast<qint64>(content.size());
-	if (file.open(QIODevice::WriteOnly) && file.write(content.data(), size) == size &&
-		file.commit())
-		return;
-	throw ricci::Error(
-		"The report " + path.toStdString() + " could not be written (" +
-		file.errorString().toStdString() +
-		"): choose another place for it. The mesh is unchanged.");
+	for (qint64 done = 0, written = 0; done < size; done += written) {
+		written = file.write(content.data() + done, size - done);
+		require(written > 0, file);
+	}
 }
 
 } // namespace
@@ -389,15 +396,17 @@ ReportFiles::ReportFiles(const QString& wanted, const QString& folder)
 
 std::vector<std::string> ReportFiles::write(const RunReport& report) const
 {
+	QSaveFile page(m_html), data(m_csv);
+	if (!m_html.isEmpty())
+		fill(page, toHtml(report));
+	if (!m_csv.isEmpty())
+		fill(data, toCsv(report));
 	std::vector<std::string> written;
-	if (!m_html.isEmpty()) {
-		save(m_html, toHtml(report));
-		written.push_back(m_html.toStdString());
-	}
-	if (!m_csv.isEmpty()) {
-		save(m_csv, toCsv(report));
-		written.push_back(m_csv.toStdString());
-	}
+	for (QSaveFile* file : {&page, &data})
+		if (file->isOpen()) {
+			require(file->commit(), *file);
+			written.push_back(file->fileName().toStdString());
+		}
 	return written;
 }
 

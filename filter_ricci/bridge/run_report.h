@@ -44,7 +44,7 @@ public:
 	/// \throw ricci::InvalidOption if no file can be written there; nothing has been written then
 	ReportFiles(const QString& wanted, const QString& folder);
 
-	/// Each file appears complete, or not at all.
+	/// Each file appears complete, or not at all, and none where there is no room for all.
 	/// \return the names of the files
 	/// \throw ricci::Error if one cannot be written after all (a full disk)
 	std::vector<std::string> write(const RunReport& report) const;

@@ -132,6 +132,20 @@ class Results(unittest.TestCase):
         self.assertRegex(run.saved_text, r"(?m)^vt \d")
         self.assertRegex(run.saved_text, r"(?m)^f \d+/\d+")
 
+    def test_report(self):
+        run = run_on(meshes.torus(), report="page.html")
+        self.assertEqual(run.code, 0, run.text)
+        self.assertEqual(re.findall(r"Report: .*/(.*)$", run.text, re.MULTILINE)[-2:],
+                         ["page.html", "page.csv"])
+
+    def test_output_that_cannot_be_written(self):
+        """The host's own doing: it says so, and ends with 0."""
+        run = server.Run(server.script(), lambda path: meshes.write_ply(path, meshes.torus()),
+                         output="nowhere/out.ply")
+        self.assertEqual((run.code, run.saved), (0, False), run.text)
+        self.assertIn("converged=true", run.text)
+        self.assertIn("has NOT been saved", run.text)
+
     def test_progress_and_layers(self):
         run = run_on(meshes.torus(), colorize=True, flat_layer=True)
         self.assertEqual(run.code, 0, run.text)
@@ -170,6 +184,19 @@ class BadInput(unittest.TestCase):
 
     def test_point_cloud(self):
         self.check("point cloud|no faces", meshes.point_cloud())
+
+    def test_empty_mesh(self):
+        everything = (' <filter name="Select All">\n'
+                      '  <Param type="RichBool" name="allFaces" value="true"/>\n'
+                      '  <Param type="RichBool" name="allVerts" value="true"/>\n </filter>\n'
+                      ' <filter name="Delete Selected Faces and Vertices"/>\n')
+        self.check("mesh is empty", meshes.torus(), everything)
+
+    def test_report_that_cannot_be_written(self):
+        for words, name in (("cannot be written .*choose another place", "nowhere/page.html"),
+                            ("must end in .html", "page.pdf")):
+            with self.subTest(name):
+                self.check(words, meshes.torus(), report=name)
 
     def test_non_manifold_edge(self):
         self.check("manifold", meshes.with_fin(meshes.torus()))
@@ -294,6 +321,8 @@ class Hyperbolic(unittest.TestCase):
                 ("needs selected vertices", meshes.double_torus(), {"target_curvature": 1}),
                 ("no vertex quality", meshes.double_torus(), {"target_curvature": 2}),
                 ("universal_cover", meshes.double_torus(), {"universal_cover": -1}),
+                ("universal_cover: 20 rings", meshes.double_torus(),
+                 {"universal_cover": 20, "flat_layer": True}),
                 ("Intrinsic flips", meshes.double_torus(),
                  {"surgery": 0, "output_triangulation": 1})):
             with self.subTest(words):

@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The plugin in PyMeshLab. Usage: test_pymeshlab.py BUILD_DIR [TEST...], with PyMeshLab's Python."""
 
+import ast
 import csv
+import ctypes
 import hashlib
+import locale
 import math
 import os
+import platform
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -23,6 +28,18 @@ def loaded(mesh):
         path = os.path.join(folder, "mesh.ply")
         meshes.write_ply(path, mesh)
         return load(path)
+
+
+def in_a_process(call, environment=None):
+    """Prints a call of this module in a process of its own, whose crash would be seen here."""
+    program = ("import sys; sys.argv = ['x', sys.argv[1]]\nimport test_pymeshlab\n"
+               f"print(ascii(test_pymeshlab.{call}))\n")
+    finished = subprocess.run(
+        [sys.executable, "-c", program, common.BUILD], capture_output=True, text=True,
+        cwd=os.path.dirname(os.path.abspath(__file__)), env={**os.environ, **(environment or {})})
+    if finished.returncode != 0:
+        raise AssertionError(f"{call} ended with {finished.returncode}:\n{finished.stderr}")
+    return ast.literal_eval(finished.stdout.splitlines()[-1])
 
 
 def state(mesh):
@@ -175,6 +192,18 @@ class Results(unittest.TestCase):
                       for k in range(3)] for w in wedges]
             self.assertLessEqual(sum(all(s) for s in sides), 1)
 
+    def test_flat_layer_has_the_textures(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "torus.ply")
+            meshes.write_ply(path, meshes.torus())
+            meshes.name_texture(path, "checks.png")
+            script = os.path.join(common.REPOSITORY, "filter_ricci", "demo", "checkerboard.py")
+            subprocess.run([sys.executable, script, os.path.join(folder, "checks.png")], check=True)
+            documents = load(path)
+        self.assertEqual(list(documents.mesh(0).textures()), ["checks.png"])
+        self.check(documents, flat_layer=True)
+        self.assertEqual(list(documents.mesh(1).textures()), ["checks.png"])
+
     def test_sphere_layer(self):
         documents = mesh_set(meshes.sphere())
         select(documents, "abs(z) > 0.99 || abs(x) > 0.99")
@@ -319,6 +348,85 @@ class Report(unittest.TestCase):
                 self.assertTrue(same(before, state(self.documents.current_mesh())))
                 self.assertEqual(sorted(os.listdir(self.folder.name)), present)
 
+    def test_names_are_quoted(self):
+        name = 'a, "b" & <c>.ply'
+        os.rename(self.path("torus <1>.ply"), self.path(name))
+        run(load(self.path(name)), report="page.html")
+        settings = {row["key"]: row["value"] for row in self.rows("page.csv")}
+        self.assertEqual(settings["mesh"], name)
+        with open(self.path("page.html"), encoding="utf-8") as source:
+            self.assertIn("<p>a, &quot;b&quot; &amp; &lt;c&gt;.ply</p>", source.read())
+
+    def test_what_was_repaired_is_told(self):
+        mesh = meshes.with_unreferenced_vertex(meshes.with_flipped_faces(meshes.torus()))
+        meshes.write_ply(self.path("mended.ply"), mesh)
+        run(load(self.path("mended.ply")), report="page.html")
+        with open(self.path("page.html"), encoding="utf-8") as source:
+            notes = re.findall(r"^<p>(.*)</p>$", source.read(), re.MULTILINE)
+        self.assertTrue([n for n in notes if "orient" in n and n.endswith(".")], notes)
+        self.assertTrue([n for n in notes if "belongs to no face" in n], notes)
+
+    def test_hyperbolic(self):
+        meshes.write_ply(self.path("slab.ply"), meshes.double_torus(1))
+        returned = run(load(self.path("slab.ply")), common.HYPERBOLIC, report="page.html")
+        rows = {row["key"]: row["value"] for row in self.rows("page.csv")}
+        generators = [float(number) for number in rows["generators"].split()]
+        self.assertTrue(numpy.allclose(generators, returned["generators"], rtol=1e-9))
+        with open(self.path("page.html"), encoding="utf-8") as source:
+            self.assertIn(f"<td>{rows['generators']}</td>", source.read())
+
+    def test_many_components(self):
+        one = meshes.hill(3)
+        many = meshes.Mesh([], [])
+        for i in range(25):
+            many.faces += [tuple(v + len(many.vertices) for v in face) for face in one.faces]
+            many.vertices += [(x + 2 * i, y, z) for x, y, z in one.vertices]
+        meshes.write_ply(self.path("many.ply"), many)
+        run(load(self.path("many.ply")), report="page.html")
+        groups = {row["group"] for row in self.rows("page.csv") if row["table"] == "newton"}
+        self.assertEqual(groups, {str(i) for i in range(25)})
+        with open(self.path("page.html"), encoding="utf-8") as source:
+            text = source.read()
+        self.assertIn("one line for each component, the first 20.", text)
+        self.assertEqual(text.count("<polyline"), 20)
+
+    def test_every_face_is_in_the_histogram(self):
+        """The few on a spike, too, which come out much smaller than the others."""
+        meshes.write_ply(self.path("spike.ply"), meshes.grid(
+            40, 40, lambda s, t: (s, t, math.exp(-2e3 * ((s - 0.5) ** 2 + (t - 0.5) ** 2)))))
+        run(load(self.path("spike.ply")), report="data.csv")
+        areas = [row for row in self.rows("data.csv") if row["table"] == "area_histogram"]
+        self.assertEqual(sum(int(row["value"]) for row in areas), 40 * 40 * 2)
+        self.assertEqual(areas[0]["key"], "-inf")
+        self.assertGreater(int(areas[0]["value"]), 0)
+
+    @staticmethod
+    def on_a_full_disk(folder, room):
+        """No file can be longer than `room`, as where the disk is full."""
+        documents = load(os.path.join(folder, "torus <1>.ply"))
+        before = state(documents.current_mesh())
+        resource.setrlimit(resource.RLIMIT_FSIZE, (room, resource.RLIM_INFINITY))
+        try:
+            run(documents, report="page.html")
+        except pymeshlab.PyMeshLabException as refusal:
+            return str(refusal), same(before, state(documents.current_mesh()))
+        return "written", False
+
+    def test_full_disk(self):
+        run(self.documents, report="page.html")
+        sizes = {ending: os.path.getsize(self.path("page." + ending)) for ending in ("html", "csv")}
+        self.assertLess(sizes["csv"], sizes["html"])
+        os.remove(self.path("page.html"))
+        os.remove(self.path("page.csv"))
+        for room in (0, 1024, sizes["csv"], sizes["html"] - 1):
+            call = f"Report.on_a_full_disk({self.folder.name!r}, {room})"
+            sentence, untouched = in_a_process(call)
+            self.assertRegex(sentence, "page.html could not be written .File too large.: choose")
+            self.assertTrue(untouched)
+            self.assertEqual(os.listdir(self.folder.name), ["torus <1>.ply"])
+        self.assertEqual(in_a_process(
+            f"Report.on_a_full_disk({self.folder.name!r}, {sizes['html']})"), ("written", False))
+
     def test_refused_mesh_leaves_no_report(self):
         with self.assertRaises(pymeshlab.PyMeshLabException):
             run(self.documents, report="page.html", target_curvature="Disk")
@@ -383,6 +491,20 @@ class Hyperbolic(unittest.TestCase):
         points = 2 * cover.vertex_matrix()[:, :2] - 1
         self.assertLess(numpy.hypot(points[:, 0], points[:, 1]).max(), 1.0)
         self.assertEqual(axes.edge_number(), 4 * 200)
+
+    def test_canonical_polygon(self):
+        documents = mesh_set(meshes.double_torus())
+        self.check(documents, canonical_polygon=True)
+        self.assertEqual(documents.mesh_number(), 2)
+        self.assertEqual(documents.current_mesh_id(), 0)
+        polygon = documents.mesh(1)
+        self.assertEqual(polygon.edge_number(), 8 * 200)  # 4 sides for each handle
+        points = 2 * polygon.vertex_matrix()[:, :2] - 1
+        self.assertLess(numpy.hypot(points[:, 0], points[:, 1]).max(), 1.0)
+        # Its sides are chained: but for the ends of sides, every point is the end of two edges.
+        ends = numpy.bincount(polygon.edge_matrix().ravel(), minlength=len(points))
+        self.assertEqual(set(ends) - {1, 2}, set())
+        self.assertLessEqual(numpy.count_nonzero(ends == 1), 2 * 8)
 
     def test_too_many_rings_leave_the_mesh_alone(self):
         documents = mesh_set(meshes.double_torus())
@@ -533,6 +655,114 @@ class BadInput(unittest.TestCase):
         self.assertIn("Details: ", finished.stdout)
 
 
+class Faults(unittest.TestCase):
+    """Whatever the host's process is like: a result as always, or a sentence and the old mesh."""
+
+    @staticmethod
+    def short_of_memory():
+        """[sentence or result, whether the mesh is untouched] for less and less scarce memory."""
+        expected = outcome(mesh_set(meshes.torus(90, 60)))
+        answers = []
+        for megabytes in [0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 128, 256]:
+            documents = mesh_set(meshes.torus(90, 60))
+            before = state(documents.current_mesh())
+            with open("/proc/self/statm", encoding="ascii") as source:
+                used = int(source.read().split()[0]) * resource.getpagesize()
+            limits = resource.getrlimit(resource.RLIMIT_AS)
+            resource.setrlimit(resource.RLIMIT_AS, (used + (megabytes << 20), limits[1]))
+            try:
+                run(documents)
+                answer = "solved"
+            except pymeshlab.PyMeshLabException as refusal:
+                answer = str(refusal)
+            finally:
+                resource.setrlimit(resource.RLIMIT_AS, limits)
+            answers.append([answer, same(before, state(documents.current_mesh())),
+                            outcome(documents) == expected])
+        return answers
+
+    def test_short_of_memory(self):
+        answers = in_a_process("Faults.short_of_memory()")
+        self.assertEqual((answers[0][0] == "solved", answers[-1][0]), (False, "solved"))
+        for answer, untouched, goes_on in answers:
+            self.assertTrue(goes_on)
+            if answer != "solved":
+                self.assertIn("There is not enough memory for this mesh.", answer)
+                self.assertTrue(untouched)
+
+    @staticmethod
+    def with_traps(name):
+        libm = ctypes.CDLL("libm.so.6")
+        mesh, our_filter, values = OneProcess.RUNS[name]
+        documents = mesh_set(mesh())
+        traps = 1 | 4 | 8  # invalid, division by zero, overflow on x86
+        libm.feclearexcept(61)
+        libm.feenableexcept(traps)
+        returned = run(documents, our_filter, **values)
+        left = libm.fegetexcept()
+        libm.fedisableexcept(traps)
+        return [left == traps, described(documents, returned)]
+
+    def test_host_that_traps_floating_point_exceptions(self):
+        if platform.machine() != "x86_64":
+            self.skipTest("the numbers of the traps are those of x86-64")
+        for name in OneProcess.RUNS:
+            with self.subTest(name):
+                kept, found = in_a_process(f"Faults.with_traps({name!r})")
+                self.assertTrue(kept)
+                self.assertEqual(found, in_a_process(f"OneProcess.alone({name!r})"))
+
+    @staticmethod
+    def with_commas(folder):
+        locale.setlocale(locale.LC_ALL, "de_DE.UTF-8")
+        documents = load(os.path.join(folder, "torus.ply"))
+        found = outcome(documents, report="data.csv")
+        with open(os.path.join(folder, "data.csv"), encoding="utf-8") as source:
+            report = source.read()
+        try:
+            run(documents, epsilon=-0.5)
+        except pymeshlab.PyMeshLabException as refusal:
+            return [locale.str(0.5), found, report, str(refusal)]
+
+    def test_host_with_decimal_commas(self):
+        places = os.path.join(common.BUILD, "locales")
+        environment = {"LOCPATH": places} if os.path.isdir(places) else {}
+        with tempfile.TemporaryDirectory() as folder:
+            meshes.write_ply(os.path.join(folder, "torus.ply"), meshes.torus())
+            expected = outcome(load(os.path.join(folder, "torus.ply")), report="data.csv")
+            with open(os.path.join(folder, "data.csv"), encoding="utf-8") as source:
+                report = source.read()
+            try:
+                found = in_a_process(f"Faults.with_commas({folder!r})", environment)
+            except AssertionError as problem:
+                if "unsupported locale" not in str(problem):
+                    raise
+                self.skipTest("this machine has no locale with decimal commas")
+        self.assertEqual(found[:3], ["0,5", expected, report])
+        self.assertIn("The value -0.5 of epsilon", found[3])
+
+    def test_attributes_of_the_same_name(self):
+        straight = mesh_set(meshes.torus())
+        run(straight)
+        u = straight.current_mesh().vertex_custom_scalar_attribute_array("ricci_u")
+        documents = mesh_set(meshes.torus())
+        mesh = documents.current_mesh()
+        mesh.add_vertex_custom_point_attribute(mesh.vertex_matrix(), "ricci_u")
+        mesh.add_vertex_custom_scalar_attribute(numpy.full(mesh.vertex_number(), 7.0),
+                                                "ricci_target_curvature")
+        mesh.add_face_custom_scalar_attribute(numpy.full(mesh.face_number(), 3.0), "ricci_u")
+        with self.assertRaises(pymeshlab.PyMeshLabException):
+            run(documents, target_curvature="Disk")
+        self.assertTrue(numpy.array_equal(
+            mesh.vertex_custom_point_attribute_matrix("ricci_u"), mesh.vertex_matrix()))
+        run(documents)
+        self.assertTrue(numpy.array_equal(
+            mesh.vertex_custom_scalar_attribute_array("ricci_u"), u))
+        self.assertEqual(
+            numpy.ptp(mesh.vertex_custom_scalar_attribute_array("ricci_target_curvature")), 0.0)
+        self.assertTrue((mesh.face_custom_scalar_attribute_array("ricci_u") == 3.0).all())
+
+
 class Treatment(unittest.TestCase):
     """What the filter repairs for the run by itself."""
 
@@ -561,8 +791,11 @@ class Treatment(unittest.TestCase):
 
 def outcome(documents, our_filter=common, **values):
     """All that a run returns and leaves behind, bit for bit."""
-    returned = {key: numpy.asarray(value).tobytes().hex()
-                for key, value in run(documents, our_filter, **values).items()}
+    return described(documents, run(documents, our_filter, **values))
+
+
+def described(documents, returned):
+    returned = {key: numpy.asarray(value).tobytes().hex() for key, value in returned.items()}
     flags, arrays = state(documents.current_mesh())
     mesh = documents.current_mesh()
     arrays += [mesh.vertex_custom_scalar_attribute_array(name)
@@ -585,16 +818,10 @@ class OneProcess(unittest.TestCase):
         mesh, our_filter, values = OneProcess.RUNS[name]
         return outcome(mesh_set(mesh()), our_filter, **values)
 
-    def expected(self, name):
-        program = ("import sys; sys.argv = ['x', sys.argv[1]]\nimport test_pymeshlab\n"
-                   f"print(test_pymeshlab.OneProcess.alone({name!r}))\n")
-        return subprocess.run(
-            [sys.executable, "-c", program, common.BUILD], check=True, capture_output=True,
-            text=True, cwd=os.path.dirname(os.path.abspath(__file__))).stdout.splitlines()[-1]
-
     def same_as_alone(self, documents, name):
         _, our_filter, values = self.RUNS[name]
-        self.assertEqual(outcome(documents, our_filter, **values), self.expected(name), name)
+        self.assertEqual(outcome(documents, our_filter, **values),
+                         in_a_process(f"OneProcess.alone({name!r})"), name)
 
     def refused(self, documents, our_filter=common, **values):
         before = state(documents.current_mesh())
