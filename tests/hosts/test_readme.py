@@ -108,6 +108,22 @@ class Readme(unittest.TestCase):
         sample = read("filter_ricci", "samples", "automatic.mlx")
         self.assertEqual(script.split(), sample.split())
 
+    def test_every_group_of_host_tests_is_run(self):
+        listed = read("tests", "hosts", "CMakeLists.txt")
+        for name in os.listdir(os.path.join(common.REPOSITORY, "tests", "hosts")):
+            if not re.match(r"test_.*\.py$", name):
+                continue
+            # Either a loop over groups, or one line for one group, or all of the file.
+            before, after = re.search(rf"(?s)^(.*){name}(.*?)\)", listed).groups()
+            looped = re.findall(r"foreach\(group (.*?)\)", before)
+            for group in re.findall(r"^class (\w+)\(unittest.TestCase\)",
+                                    read("tests", "hosts", name), re.MULTILINE):
+                if "${group}" in after:
+                    self.assertIn(group, looped[-1].split(), name)
+                elif "${CMAKE_BINARY_DIR}" not in after:
+                    self.assertIn(group, after.split(), name)
+
+
 
 if __name__ == "__main__":
     common.main()
