@@ -16,7 +16,7 @@ int fromEven(const NormalCoordinates::Crossing& x, int count)
 
 } // namespace
 
-EdgeCrossings::EdgeCrossings(const FlippedSurface& surface) :
+EdgeCrossings::EdgeCrossings(const FlippedSurface& surface, const OverlayListener& listener) :
 		inputOnStart(*surface.input), endOnStart(*surface.end), m_surface(surface),
 		m_start(*surface.start)
 {
@@ -24,6 +24,12 @@ EdgeCrossings::EdgeCrossings(const FlippedSurface& surface) :
 		inputOnStart.flip(e);
 	for (auto e = surface.flowFlips->rbegin(); e != surface.flowFlips->rend(); ++e)
 		endOnStart.unflip(*e);
+	const int n = m_start.edgeCount();
+	std::size_t count = 0;
+	for (int e = 0; e < n; ++e)
+		count += at(inputOnStart.crossings(e)) + at(endOnStart.crossings(e));
+	listener(0.0, count);
+
 	NormalCoordinates startOnEnd(m_start);
 	for (int e : *surface.flowFlips)
 		startOnEnd.flip(e);
@@ -31,7 +37,6 @@ EdgeCrossings::EdgeCrossings(const FlippedSurface& surface) :
 	endCurves = endOnStart.trace();
 	startCurves = startOnEnd.trace();
 
-	const int n = m_start.edgeCount();
 	firstInput.assign(at(n) + 1, 0);
 	firstEnd.assign(at(n) + 1, 0);
 	for (int e = 0; e < n; ++e) {

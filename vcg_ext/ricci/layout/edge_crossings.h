@@ -50,7 +50,8 @@ class EdgeCrossings
 public:
 	using Curve = NormalCoordinates::Curve;
 
-	explicit EdgeCrossings(const FlippedSurface& surface);
+	/// \param listener is told the number of crossings before there is an array of them
+	EdgeCrossings(const FlippedSurface& surface, const OverlayListener& listener);
 
 	/// Index of a crossing in inputPoints, endPoints.
 	int inputSlot(const NormalCoordinates::Crossing& x) const;

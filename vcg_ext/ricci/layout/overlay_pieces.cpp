@@ -63,8 +63,9 @@ struct Chord
 class Division
 {
 public:
-	explicit Division(const FlippedSurface& s) :
-			m_s(s), m_input(*s.input), m_start(*s.start), m_end(*s.end), m_crossings(s)
+	Division(const FlippedSurface& s, const OverlayListener& listener) :
+			m_s(s), m_input(*s.input), m_start(*s.start), m_end(*s.end), m_crossings(s, listener),
+			m_listener(listener)
 	{
 		m_endRadius.resize(at(m_end.vertexCount()));
 		for (int v = 0; v < m_end.vertexCount(); ++v)
@@ -73,9 +74,8 @@ public:
 									 : Hyperbolic::circle((*s.endU)[v]).s;
 	}
 
-	OverlayPieces run(const OverlayListener& listener)
+	OverlayPieces run()
 	{
-		listener(0.0, m_crossings.inputPoints.size() + m_crossings.endPoints.size());
 		makeNodes();
 		collectChords();
 		std::size_t unheard = 0; // work since the listener was called
@@ -86,7 +86,7 @@ public:
 			if (unheard < kWorkBetweenCalls)
 				continue;
 			unheard = 0;
-			listener(
+			m_listener(
 				static_cast<double>(f) / m_start.faceCount(),
 				m_result.nodes.size() - at(m_start.vertexCount()));
 		}
@@ -550,6 +550,7 @@ private:
 	const Triangulation& m_start;
 	const Triangulation& m_end;
 	const EdgeCrossings m_crossings;
+	const OverlayListener& m_listener;
 	std::vector<double> m_endRadius; // [vertex]
 	OverlayPieces m_result;
 
@@ -588,7 +589,7 @@ InFace pointOnSide(const Triangulation& t, int h, double x)
 
 OverlayPieces divideStartTriangles(const FlippedSurface& surface, const OverlayListener& listener)
 {
-	return Division(surface).run(listener);
+	return Division(surface, listener).run();
 }
 
 } // namespace ricci
