@@ -469,6 +469,7 @@ TEST(Faults, AnOverlayAboveTheMemoryIsRefused)
 	EXPECT_EQ(contents(m) == before, true);
 	p.memoryLimit = 1e9;
 	EXPECT_NO_THROW(Flow::Compute(m, p, silent));
+	EXPECT_THROW(requireOverlayMemory(1000000000, false, 0.0), TooLarge);
 }
 
 /// The overlay is heard while it grows, not only before and after.

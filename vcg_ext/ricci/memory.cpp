@@ -27,6 +27,9 @@ constexpr double kCrossing = 390.0, kCrossingRefined = 760.0;
 /// More faces than this have more halfedges than int has numbers, or could have after refinement.
 constexpr std::size_t kMostFaces = 300000000;
 
+/// A crossing makes up to eight corners of pieces, which int has to number.
+constexpr std::size_t kMostCrossings = 250000000;
+
 constexpr double kGigabyte = 1e9;
 
 } // namespace
@@ -58,15 +61,20 @@ void requireMemory(std::size_t faces, std::size_t allFaces, bool refines, double
 
 void requireOverlayMemory(std::size_t crossings, bool refines, double limit)
 {
+	const std::string remedy =
+		": divide long triangles and large fans first ('Remeshing: Isotropic "
+		"Explicit Remeshing').";
+	const std::string points = "The edges after the flow cross those of the mesh at more than " +
+							   std::to_string(crossings) + " points, ";
+	if (crossings > kMostCrossings)
+		throw TooLarge(
+			points + "but at most " + std::to_string(kMostCrossings) + " can be numbered" + remedy);
 	const double needed = (refines ? kCrossingRefined : kCrossing) * static_cast<double>(crossings);
 	if (limit > 0.0 && needed > limit)
 		throw TooLarge(
-			"The edges after the flow cross those of the mesh at more than " +
-			std::to_string(crossings) + " points, whose overlay needs over " +
-			numberText(needed / kGigabyte, 3) + " GB of memory, but only " +
-			numberText(limit / kGigabyte, 3) +
-			" GB were free: divide long triangles and large fans first ('Remeshing: Isotropic "
-			"Explicit Remeshing').");
+			points + "whose overlay needs over " + numberText(needed / kGigabyte, 3) +
+			" GB of memory, but only " + numberText(limit / kGigabyte, 3) + " GB were free" +
+			remedy);
 }
 
 std::size_t largestComponent(const std::vector<Component>& components)

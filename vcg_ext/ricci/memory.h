@@ -21,7 +21,7 @@ void requireMemory(std::size_t faces, std::size_t allFaces, bool refines, double
 
 /// For the overlay of two triangulations, whose size the faces do not tell: a fan of n triangles at
 /// one vertex can make n^2 crossings.
-/// \throw TooLarge if \p crossings need more than \p limit bytes (0: none)
+/// \throw TooLarge if \p crossings need more than \p limit bytes (0: none), or are too many for int
 void requireOverlayMemory(std::size_t crossings, bool refines, double limit);
 
 /// Faces of the component that has most.
