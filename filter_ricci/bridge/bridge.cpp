@@ -153,10 +153,13 @@ void addPolygonLayer(
 	MeshModel& layer = layers.add("Canonical polygon " + model.label());
 	for (const auto& polygon : Flow::BuildCanonicalPolygons(result, kAxisPieces, layer.cm))
 		progress.log(
-			"Canonical polygon: " + std::to_string(polygon.corners.size()) + " sides, " +
-			(polygon.isSimple ? "none crosses another" : "some cross each other") +
-			", and the last one ends " + ricci::numberText(polygon.gap, 2) +
-			" beside the first corner.");
+			polygon.corners.empty()
+				? "Canonical polygon: not drawn, because its sides are too long to close up in "
+				  "floating point numbers."
+				: "Canonical polygon: " + std::to_string(polygon.corners.size()) + " sides, " +
+					  (polygon.isSimple ? "none crosses another" : "some cross each other") +
+					  ", and the last one ends " + ricci::numberText(polygon.gap, 2) +
+					  " beside the first corner.");
 	vcg::tri::UpdateBounding<CMeshO>::Box(layer.cm);
 }
 

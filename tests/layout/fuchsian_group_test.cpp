@@ -234,6 +234,33 @@ TEST(CanonicalPolygon, IsAFundamentalPolygonWithPairedSides)
 		}
 }
 
+/// Two handles of a group whose relation does not hold, and far motions, which no double can hold.
+TEST(CanonicalPolygon, HasNoCornersWhereTheSidesDoNotCloseUp)
+{
+	FuchsianGroup group;
+	EXPECT_TRUE(canonicalPolygon(group).corners.empty());
+	const auto along = [](double direction, double length) {
+		return DiskIsometry::rotation(direction) * DiskIsometry::translation(length) *
+			   DiskIsometry::rotation(-direction);
+	};
+	for (double length : {0.5, 3.0, 40.0, 80.0, 700.0}) {
+		SCOPED_TRACE(length);
+		group.handles = {
+			along(0.1, length), along(1.3, length), along(2.1, length), along(2.9, length)};
+		group.relation.clear();
+		for (std::size_t i = 0; i < 4; i += 2) {
+			const DiskIsometry &a = group.handles[i], &b = group.handles[i + 1];
+			for (const DiskIsometry& g : {a, b, a.inverse(), b.inverse()})
+				group.relation.push_back(
+					{ExtendedIsometry::Complex(g.a), ExtendedIsometry::Complex(g.b)});
+		}
+		const CanonicalPolygon polygon = canonicalPolygon(group);
+		EXPECT_FALSE(polygon.gap <= kMostGap);
+		EXPECT_TRUE(polygon.corners.empty());
+		EXPECT_FALSE(polygon.isSimple);
+	}
+}
+
 TEST(FuchsianGroup, LengthsOfGeodesicsDoNotDependOnTheCutOrTheNumbers)
 {
 	Random random(660);

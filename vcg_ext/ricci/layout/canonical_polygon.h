@@ -22,10 +22,16 @@ struct CanonicalPolygon
 	double gap = 0.0;      ///< hyperbolic distance by which the last side misses the first corner
 };
 
+/// Above this distance the sides do not close up to a polygon.
+inline constexpr double kMostGap = 1e-2;
+
 /// Computes the polygon whose base point makes the sum of cosh d(p, g p) over the canonical
 /// generators g least: that is a quadratic form on the hyperboloid, and the point its timelike
 /// eigenvector. The polygon is the copy that has the base point, of those in the disk, for its middle
 /// corner, so that no corner is a product of more than half of the letters.
+///
+/// Where generators move points so far that rounding leaves a gap above kMostGap, or takes corners
+/// out of the disk, the polygon has no corners.
 CanonicalPolygon canonicalPolygon(const FuchsianGroup& group);
 
 } // namespace ricci

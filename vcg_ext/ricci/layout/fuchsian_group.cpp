@@ -413,12 +413,16 @@ FuchsianGroup fuchsianGroup(
 	group.endVertex.assign(walk.endVertex.rbegin(), walk.endVertex.rend());
 	group.closingError = walk.closingError;
 
-	ExtendedIsometry relation;
 	for (std::size_t i = 0; i + 1 < handles.size(); i += 2) {
 		const ExtendedIsometry &a = handles[i], &b = handles[i + 1];
-		relation = relation * a * b * a.inverse() * b.inverse();
+		for (const ExtendedIsometry& letter : {a, b, a.inverse(), b.inverse()})
+			group.relation.push_back(letter);
 	}
-	group.relationError = static_cast<double>((relation * rest).distanceFromIdentity());
+	ExtendedIsometry word;
+	for (const ExtendedIsometry& letter : group.relation)
+		word = word * letter;
+	group.relationError = static_cast<double>((word * rest).distanceFromIdentity());
+	group.relation.insert(group.relation.end(), ends.begin(), ends.end());
 	std::transform(handles.begin(), handles.end(), std::back_inserter(group.handles), rounded);
 	std::transform(ends.begin(), ends.end(), std::back_inserter(group.ends), rounded);
 	return group;

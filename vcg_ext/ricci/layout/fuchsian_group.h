@@ -23,6 +23,10 @@ struct FuchsianGroup
 	std::vector<DiskIsometry> ends;
 	std::vector<int> endVertex; ///< [end] a vertex of the loop, or the cone
 
+	/// The canonical relation letter by letter, a1, b1, a1^-1, b1^-1, ..., e1, ..., en, before they
+	/// are rounded.
+	std::vector<ExtendedIsometry> relation;
+
 	/// [side of the cut] Motions to the neighbouring copies of the fundamental domain: they pair the
 	/// sides of the polygon that the cut surface is, one for each arc of the cut and direction.
 	std::vector<DiskIsometry> sides;
