@@ -429,6 +429,32 @@ TEST(Faults, AnEstimateAboveTheMemoryIsRefused)
 	EXPECT_THROW(requireMemory(400000000, 400000000, false, 0.0), TooLarge);
 }
 
+TEST(Faults, ADoubleAboveTheMemoryIsRefused)
+{
+	// A strip that becomes a round disk: its boundary edges have to flip.
+	Random random(481);
+	const SurfaceMesh strip = shaken(rectangle(20, 1, 20, 1), 0.3, random);
+	const std::size_t faces = strip.triangles.size();
+	Mesh m;
+	build(strip, m);
+	const std::string before = contents(m);
+	Flow::Params p = params(TargetCurvature::Disk, OutputTriangulation::KeepMesh);
+	p.memoryLimit = 1.1 * estimatedMemory(faces, faces, false);
+	Progress silent;
+	try {
+		Flow::Compute(m, p, silent);
+		FAIL() << "accepted";
+	}
+	catch (const TooLarge& error) {
+		const std::string sentence = error.what();
+		EXPECT_EQ(sentence.rfind("Boundary edges have to flip", 0), 0u) << sentence;
+		EXPECT_EQ(sentence.back(), '.');
+	}
+	EXPECT_EQ(contents(m) == before, true);
+	p.memoryLimit = 1e9;
+	EXPECT_NO_THROW(Flow::Compute(m, p, silent));
+}
+
 /// A cylinder closed by two fans of \p n triangles, which the flow's edges cross about n^2 / 2 times.
 SurfaceMesh drum(int n)
 {

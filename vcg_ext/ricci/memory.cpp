@@ -15,7 +15,7 @@ namespace {
 /// Bytes for each face of the mesh; for each face of the component at work; and the same for each
 /// doubling of their number (the factor). Fitted from above to measured peaks of 5e4 to 1e6 faces
 /// (1.2 to 1.4 kB for each, 1.8 with the common refinement). A flow on the double of a surface with
-/// boundary, which nobody can foresee, takes up to twice as much.
+/// boundary cannot be foreseen, see requireMemoryForDouble().
 constexpr double kEveryFace = 350.0, kFaceAtWork = 450.0, kFaceInFactor = 35.0;
 
 /// Of the arrays for the output of the common refinement, for each face at work.
@@ -57,6 +57,18 @@ void requireMemory(std::size_t faces, std::size_t allFaces, bool refines, double
 			"The mesh has " + std::to_string(allFaces) + " faces and needs about " +
 			numberText(needed / kGigabyte, 3) + " GB of memory, but only " +
 			numberText(limit / kGigabyte, 3) + " GB are free" + remedy);
+}
+
+void requireMemoryForDouble(std::size_t faces, double limit)
+{
+	const double needed = estimatedMemory(2 * faces, faces, false);
+	if (limit > 0.0 && needed > limit)
+		throw TooLarge(
+			"Boundary edges have to flip, and the double of the surface with " +
+			std::to_string(2 * faces) + " faces needs about " + numberText(needed / kGigabyte, 3) +
+			" GB of memory, but only " + numberText(limit / kGigabyte, 3) +
+			" GB were free: simplify the mesh first ('Simplification: Quadric Edge Collapse "
+			"Decimation'), or cut it into pieces.");
 }
 
 void requireOverlayMemory(std::size_t crossings, bool refines, double limit)

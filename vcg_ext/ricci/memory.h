@@ -19,6 +19,10 @@ double estimatedMemory(std::size_t faces, std::size_t allFaces, bool refines);
 /// would not fit into int
 void requireMemory(std::size_t faces, std::size_t allFaces, bool refines, double limit);
 
+/// For the flow on the double of a surface with boundary, which \p faces are one half of.
+/// \throw TooLarge if that needs more than \p limit bytes (0: none)
+void requireMemoryForDouble(std::size_t faces, double limit);
+
 /// For the overlay of two triangulations, whose size the faces do not tell: a fan of n triangles at
 /// one vertex can make n^2 crossings.
 /// \throw TooLarge if \p crossings need more than \p limit bytes (0: none), or are too many for int

@@ -3,6 +3,7 @@
 
 #include "../error.h"
 #include "../layout/unfold.h"
+#include "../memory.h"
 #include "../metric/area.h"
 #include "../metric/euclidean.h"
 #include "../metric/hyperbolic.h"
@@ -14,6 +15,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
 
 namespace ricci {
 
@@ -248,6 +251,14 @@ public:
 
 	const std::vector<double>& arcs() const { return m_arcs; }
 
+	/// Gives up what only further steps need.
+	void releaseSolver()
+	{
+		if (m_newton)
+			m_result.work = m_newton->work();
+		m_newton.reset();
+	}
+
 	/// Logarithmic conformal factor at the input's vertices, end less start.
 	Eigen::VectorXd factor() const { return (m_result.u - m_startU).head(m_surface.vertexCount); }
 
@@ -270,7 +281,7 @@ public:
 		m_result.doubled = doubled();
 		m_result.residual = m_solved.residual;
 		m_result.floor = m_solved.floor;
-		m_result.work = m_newton->work();
+		releaseSolver();
 		m_result.edgeSwaps = m_swapper->swaps();
 		m_result.swapped = m_swapper->swapped();
 		m_result.edgesToSplit = m_swapper->boundaryEdgesToSplit();
@@ -495,24 +506,31 @@ FlowResult runRicciFlow(
 
 	FlowOptions halfOptions = options;
 	halfOptions.maxIterations = std::min(options.maxIterations, kStepsBeforeDoubling);
-	Run half(background, whole, positions, halfOptions, 0, report);
+	auto half = std::make_unique<Run>(background, whole, positions, halfOptions, 0, report);
 	bool solved = false;
 	try {
-		solved = half.solve();
+		solved = half->solve();
 	}
 	catch (const Stopped&) {
 		throw;
 	}
 	catch (const Error&) { // the double may do better
 	}
-	if (solved && !(prescribed && half.bendsAtBoundary()))
-		return half.result();
-	Run twice(background, doubledSurface(whole), positions, options, half.iterations(), report);
-	if (solved)
-		twice.startFrom(half.factor(), half.arcs());
+	if (solved && !(prescribed && half->bendsAtBoundary()))
+		return half->result();
+	const int iterations = half->iterations();
+	half->releaseSolver();
+	if (!solved)
+		half.reset();
+	std::string failure;
 	try {
+		requireMemoryForDouble(at(t.faceCount()), options.memoryLimit);
+		Run twice(background, doubledSurface(whole), positions, options, iterations, report);
+		if (solved)
+			twice.startFrom(half->factor(), half->arcs());
 		if (twice.solve())
 			return twice.result();
+		failure = twice.failure();
 	}
 	catch (const Stopped&) {
 		throw;
@@ -522,8 +540,8 @@ FlowResult runRicciFlow(
 			throw;
 	}
 	if (solved) // less conformal at the boundary, but the metric asked for
-		return half.result();
-	throw NotConverged(twice.failure());
+		return half->result();
+	throw NotConverged(failure);
 }
 
 } // namespace ricci
