@@ -47,6 +47,9 @@ constexpr double kTieWeight = 1e-9;
 /// Bound of u at a hyperbolic start, below the 0 that stands for an infinite radius.
 constexpr double kLargestStartU = -1e-3;
 
+/// Orders of magnitude between scale factors, of which the double's digits hold the square.
+constexpr double kMostScales = 7.0;
+
 /// Newton steps given to the surface itself where its double is there to fall back on.
 constexpr int kStepsBeforeDoubling = 40;
 
@@ -274,6 +277,13 @@ public:
 
 	int iterations() const { return m_result.iterations; }
 
+	/// Orders of magnitude between the largest and the least of the flow's scale factors.
+	double spreadOfScales() const
+	{
+		const Eigen::VectorXd change = m_result.u - m_startU;
+		return (change.maxCoeff() - change.minCoeff()) / std::log(10.0);
+	}
+
 	FlowResult result()
 	{
 		m_map->releaseWorkSpace();
@@ -307,6 +317,13 @@ public:
 	std::string failure() const
 	{
 		const int broken = m_map->brokenTriangles();
+		const double scales = spreadOfScales();
+		if (broken > 0 && m_options.surgery == Surgery::IntrinsicFlips && scales > kMostScales)
+			return std::to_string(broken) + (broken == 1 ? " triangle is" : " triangles are") +
+				   " lost in rounding: the flow makes parts of the surface 1e" +
+				   std::to_string(static_cast<int>(std::lround(scales))) +
+				   " times as large as others. Choose a target_curvature nearer to the curvature "
+				   "of the mesh.";
 		if (broken > 0)
 			return std::to_string(broken) +
 				   (broken == 1 ? " triangle breaks" : " triangles break") +
