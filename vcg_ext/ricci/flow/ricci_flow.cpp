@@ -515,10 +515,11 @@ FlowResult runRicciFlow(
 	if (!canDouble) {
 		Run run(background, std::move(whole), positions, options, 0, report);
 		const bool solved = run.solve();
+		const std::string failure = solved ? std::string() : run.failure();
 		FlowResult result = run.result();
 		if (solved || !result.edgesToSplit.empty())
 			return result;
-		throw NotConverged(run.failure());
+		throw NotConverged(failure);
 	}
 
 	FlowOptions halfOptions = options;
