@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cfenv>
 #include <chrono>
@@ -23,10 +24,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <new>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #ifdef __linux__
@@ -94,6 +97,88 @@ bool mustFail(const void* caller)
 	return true;
 }
 
+/// The blocks handed out since begin(), and which of them have been given back: glibc itself sees a
+/// block freed twice only where nothing has taken it in between. Never allocates.
+class Ledger
+{
+public:
+	void begin()
+	{
+		++m_run;
+		m_count = 0;
+		twice = 0;
+	}
+
+	void end() { m_count = kMost; }
+
+	void handOut(void* block)
+	{
+		const Lock lock(m_busy);
+		if (block != nullptr && m_count < kMost)
+			slot(block).live = true;
+	}
+
+	/// \return whether it may be freed
+	bool takeBack(void* block)
+	{
+		const Lock lock(m_busy);
+		if (block == nullptr || m_count >= kMost)
+			return true;
+		Slot& s = slot(block);
+		if (!s.live)
+			++twice;
+		return std::exchange(s.live, false);
+	}
+
+	long twice = 0;
+
+private:
+	static constexpr std::size_t kSlots = std::size_t(1) << 16, kMost = kSlots / 2;
+
+	struct Slot
+	{
+		const void* block;
+		long run;
+		bool live;
+	};
+
+	struct Lock
+	{
+		explicit Lock(std::atomic_flag& flag) : busy(flag)
+		{
+			while (busy.test_and_set(std::memory_order_acquire)) {
+			}
+		}
+		~Lock() { busy.clear(std::memory_order_release); }
+		std::atomic_flag& busy;
+	};
+
+	/// A block that is not in the book is older than it, and alive.
+	Slot& slot(const void* block)
+	{
+		std::size_t i = (reinterpret_cast<std::uintptr_t>(block) >> 4) * 0x9E3779B97F4A7C15u;
+		for (i %= kSlots; m_slots[i].run == m_run && m_slots[i].block != block;
+			 i = (i + 1) % kSlots) {
+		}
+		if (m_slots[i].run != m_run) {
+			m_slots[i] = {block, m_run, true};
+			++m_count;
+		}
+		return m_slots[i];
+	}
+
+	Slot m_slots[kSlots] = {};
+	long m_run = 0;
+	std::size_t m_count = kMost;
+	std::atomic_flag m_busy = ATOMIC_FLAG_INIT;
+} ledger;
+
+void* handedOut(void* block)
+{
+	ledger.handOut(block);
+	return block;
+}
+
 #endif
 
 } // namespace
@@ -106,32 +191,42 @@ void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* block, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
+void __libc_free(void* block);
 
 void* malloc(std::size_t size)
 {
-	return mustFail(__builtin_return_address(0)) ? nullptr : __libc_malloc(size);
+	return mustFail(__builtin_return_address(0)) ? nullptr : handedOut(__libc_malloc(size));
 }
 void* calloc(std::size_t count, std::size_t size)
 {
-	return mustFail(__builtin_return_address(0)) ? nullptr : __libc_calloc(count, size);
+	return mustFail(__builtin_return_address(0)) ? nullptr : handedOut(__libc_calloc(count, size));
 }
 void* realloc(void* block, std::size_t size)
 {
-	return mustFail(__builtin_return_address(0)) ? nullptr : __libc_realloc(block, size);
+	if (mustFail(__builtin_return_address(0)) || !ledger.takeBack(block))
+		return nullptr;
+	return handedOut(__libc_realloc(block, size));
 }
 void* memalign(std::size_t alignment, std::size_t size)
 {
-	return mustFail(__builtin_return_address(0)) ? nullptr : __libc_memalign(alignment, size);
+	return mustFail(__builtin_return_address(0)) ? nullptr
+												 : handedOut(__libc_memalign(alignment, size));
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size)
 {
-	return mustFail(__builtin_return_address(0)) ? nullptr : __libc_memalign(alignment, size);
+	return mustFail(__builtin_return_address(0)) ? nullptr
+												 : handedOut(__libc_memalign(alignment, size));
+}
+void free(void* block)
+{
+	if (ledger.takeBack(block))
+		__libc_free(block);
 }
 int posix_memalign(void** block, std::size_t alignment, std::size_t size)
 {
 	if (mustFail(__builtin_return_address(0)))
 		return ENOMEM;
-	*block = __libc_memalign(alignment, size);
+	*block = handedOut(__libc_memalign(alignment, size));
 	return *block == nullptr ? ENOMEM : 0;
 }
 }
@@ -218,6 +313,9 @@ long failEveryAllocation(bool allThatFollow, Prepare prepare, Action action, Che
 		failures = 0;
 		lasting = allThatFollow;
 		bool completed = false, expected = true;
+#ifdef RICCI_CAN_FAIL_MALLOC
+		ledger.begin();
+#endif
 		allocationsLeft = n;
 		try {
 			action();
@@ -229,6 +327,10 @@ long failEveryAllocation(bool allThatFollow, Prepare prepare, Action action, Che
 			expected = false;
 		}
 		allocationsLeft = -1;
+#ifdef RICCI_CAN_FAIL_MALLOC
+		ledger.end();
+		EXPECT_EQ(ledger.twice, 0) << "freed twice after the failure of allocation " << n;
+#endif
 		EXPECT_TRUE(expected) << "another exception than bad_alloc at allocation " << n;
 		check(completed, n);
 		if (failures == 0 || ::testing::Test::HasFailure())
@@ -242,6 +344,65 @@ long failEveryAllocation(bool allThatFollow, Prepare prepare, Action action, Che
 #define NEEDS_FAILING_MALLOC                                                                       \
 	GTEST_SKIP() << "SKIPPED: allocations can be made to fail with glibc and without sanitizers"
 #endif
+
+class CancelAt : public Progress
+{
+public:
+	explicit CancelAt(int call) : m_call(call) {}
+	bool update(double fraction, const std::string& what) override
+	{
+		EXPECT_GE(fraction, m_fraction) << what;
+		EXPECT_LE(fraction, 1.0) << what;
+		EXPECT_FALSE(what.empty());
+		newtonSteps += what.rfind("Newton step", 0) == 0;
+		m_fraction = fraction;
+		return calls++ != m_call;
+	}
+	int calls = 0, newtonSteps = 0;
+
+private:
+	int m_call;
+	double m_fraction = 0.0;
+};
+
+/// The ways that Compute does not take by itself, as calls that read \p m and write nothing.
+struct Way
+{
+	const char* name;
+	SurfaceMesh mesh;
+	std::function<void(const Mesh& m, Progress& progress)> run;
+};
+
+std::vector<Way> otherWays()
+{
+	const auto hyperbolic = [](const Mesh& m, Progress& progress) {
+		Flow::HyperbolicParams p;
+		p.output = OutputTriangulation::CommonRefinement;
+		const Flow::Result result = Flow::ComputeHyperbolic(m, p, progress);
+		Mesh flat, cover, axes, polygon;
+		Flow::BuildFlatMesh(m, result, flat);
+		Flow::BuildUniversalCover(m, result, 1, 100000, cover);
+		Flow::BuildAxes(result, 10, axes);
+		Flow::BuildCanonicalPolygons(result, 10, polygon);
+	};
+	const auto euclidean = [](Flow::Params p) {
+		return [p](const Mesh& m, Progress& progress) {
+			Mesh flat;
+			Flow::BuildFlatMesh(m, Flow::Compute(m, p, progress), flat);
+		};
+	};
+	Flow::Params cones, capped;
+	cones.coneCount = 5;
+	capped.holes = Holes::Capped;
+	return {
+		{"hyperbolic", perforatedSlab(2, 1), hyperbolic},
+		{"placed cones", perforatedSlab(0, 1), euclidean(cones)},
+		{"capped ring", ring(1, 2, 5, 2), euclidean(capped)},
+		{"sphere", perforatedSlab(0, 1), [](const Mesh& m, Progress& progress) {
+			 Mesh sphere;
+			 Flow::BuildSphereMesh(m, Flow::ComputeSphere(m, {}, progress), sphere);
+		 }}};
+}
 
 TEST(Faults, OutOfMemoryWhileComputingLeavesTheMesh)
 {
@@ -266,6 +427,31 @@ TEST(Faults, OutOfMemoryWhileComputingLeavesTheMesh)
 					}
 				});
 			EXPECT_GT(tried, 100) << c.name;
+		}
+}
+
+TEST(Faults, OutOfMemoryOnAnyOtherWayLeavesTheMesh)
+{
+	NEEDS_FAILING_MALLOC;
+	for (const Way& way : otherWays())
+		for (bool allThatFollow : {false, true}) {
+			Mesh m;
+			build(way.mesh, m);
+			const std::string before = contents(m);
+			const long tried = failEveryAllocation(
+				allThatFollow,
+				[] {},
+				[&] {
+					Progress silent;
+					way.run(m, silent);
+				},
+				[&](bool completed, long n) {
+					EXPECT_EQ(contents(m) == before, true) << way.name << ", allocation " << n;
+					if (allThatFollow && failures > 0) {
+						EXPECT_FALSE(completed) << way.name << ", allocation " << n;
+					}
+				});
+			EXPECT_GT(tried, 100) << way.name;
 		}
 }
 
@@ -318,26 +504,6 @@ TEST(Faults, WithoutMemoryForThreadsTheWorkIsDoneAllTheSame)
 	EXPECT_GT(tried, 1);
 }
 
-class CancelAt : public Progress
-{
-public:
-	explicit CancelAt(int call) : m_call(call) {}
-	bool update(double fraction, const std::string& what) override
-	{
-		EXPECT_GE(fraction, m_fraction) << what;
-		EXPECT_LE(fraction, 1.0) << what;
-		EXPECT_FALSE(what.empty());
-		newtonSteps += what.rfind("Newton step", 0) == 0;
-		m_fraction = fraction;
-		return calls++ != m_call;
-	}
-	int calls = 0, newtonSteps = 0;
-
-private:
-	int m_call;
-	double m_fraction = 0.0;
-};
-
 TEST(Faults, CancellingAtAnyCallLeavesTheMesh)
 {
 	for (const Case& c : cases()) {
@@ -354,6 +520,57 @@ TEST(Faults, CancellingAtAnyCallLeavesTheMesh)
 			EXPECT_EQ(contents(m) == before, true) << c.name << ", call " << call;
 		}
 	}
+}
+
+TEST(Faults, CancellingAnyOtherWayAtAnyCallLeavesTheMesh)
+{
+	for (const Way& way : otherWays()) {
+		Mesh m;
+		build(way.mesh, m);
+		const std::string before = contents(m);
+		CancelAt never(-1);
+		way.run(m, never);
+		EXPECT_GT(never.calls, 3) << way.name;
+		for (int call = 0; call < never.calls; ++call) {
+			CancelAt cancel(call);
+			EXPECT_THROW(way.run(m, cancel), Cancelled) << way.name;
+			EXPECT_EQ(cancel.calls, call + 1) << "called again after a refusal to go on";
+			EXPECT_EQ(contents(m) == before, true) << way.name << ", call " << call;
+		}
+	}
+}
+
+TEST(Faults, ASolverThatDoesNotConvergeLeavesTheMesh)
+{
+	int refused = 0;
+	for (const Case& c : cases()) {
+		Mesh m;
+		build(c.mesh, m);
+		const std::string before = contents(m);
+		Progress silent;
+		const int needed = Flow::Compute(m, c.params, silent).report.iterations;
+		for (int steps = 1; steps < needed; ++steps) {
+			Flow::Params p = c.params;
+			p.maxIterations = steps;
+			try {
+				Flow::Compute(m, p, silent);
+			}
+			catch (const Error& error) {
+				EXPECT_NE(std::string(error.what()).find("Newton step"), std::string::npos);
+				++refused;
+			}
+			EXPECT_EQ(contents(m) == before, true) << c.name << ", " << steps << " steps";
+		}
+	}
+	EXPECT_GT(refused, 4);
+	Mesh m;
+	build(perforatedSlab(2, 1), m);
+	const std::string before = contents(m);
+	Flow::HyperbolicParams p;
+	p.maxIterations = 1;
+	Progress silent;
+	EXPECT_THROW(Flow::ComputeHyperbolic(m, p, silent), NotConverged);
+	EXPECT_EQ(contents(m) == before, true);
 }
 
 TEST(Faults, ATimeLimitLeavesTheMesh)

@@ -405,11 +405,14 @@ class Report(unittest.TestCase):
         """No file can be longer than `room`, as where the disk is full."""
         documents = load(os.path.join(folder, "torus <1>.ply"))
         before = state(documents.current_mesh())
-        resource.setrlimit(resource.RLIMIT_FSIZE, (room, resource.RLIM_INFINITY))
+        limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (room, limits[1]))
         try:
             run(documents, report="page.html")
         except pymeshlab.PyMeshLabException as refusal:
             return str(refusal), same(before, state(documents.current_mesh()))
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, limits)
         return "written", False
 
     def test_full_disk(self):

@@ -538,7 +538,8 @@ private:
 	/// Least squares with the sum fixed where it is, and no curvature above the largest.
 	void fitFree(std::vector<char>& atMost)
 	{
-		m_now.values = VectorXd::Zero(size());
+		// Moved, not copied: where memory ends, Eigen's resize() leaves what is freed twice.
+		m_now.values = VectorXd(VectorXd::Zero(size()));
 		for (int attempt = 0; attempt <= size(); ++attempt) {
 			std::vector<int> free;
 			double total = m_total;
@@ -700,12 +701,12 @@ private:
 		if (size() <= leastCount())
 			return false;
 		const int old = m_now.vertices[at(i)];
-		const Quadratic before = m_now;
+		Quadratic before = m_now;
 		VectorXd phi = std::move(m_phi[at(i)]);
 		remove(i);
 		fit();
 		const int v = mostGain(); // there is at least the old vertex
-		m_now = before;
+		m_now = std::move(before);
 		m_phi.insert(m_phi.begin() + i, std::move(phi));
 		m_isCone[at(old)] = 1;
 		return v != old && move(i, v, present);

@@ -87,7 +87,8 @@ struct SparseCholesky::Implementation
 	cholmod_factor* factor = nullptr;
 	bool analyzed = false; ///< by order()
 	double flops = 0.0, entries = 0.0;
-	Eigen::VectorXd rowsBelow; ///< work space of solve()
+	/// Work space of solve(). Not one of Eigen's, which is freed twice where its resize() fails.
+	std::vector<double> rowsBelow;
 
 	Implementation()
 	{
@@ -175,7 +176,7 @@ struct SparseCholesky::Implementation
 				for (int r = c + 1; r < node.width; ++r)
 					own[r] -= column[r] * own[c];
 			}
-			auto below = rowsBelow.head(node.height);
+			Eigen::Map<Eigen::VectorXd> below(rowsBelow.data(), node.height);
 			below.setZero();
 			int c = 0;
 			for (; c + 4 <= node.width; c += 4) // a fourth of the passes over the sums
@@ -195,7 +196,7 @@ struct SparseCholesky::Implementation
 		for (std::size_t k = factor->nsuper; k-- > 0;) {
 			const Supernode node = supernode(k);
 			double* own = x + node.first;
-			auto below = rowsBelow.head(node.height);
+			Eigen::Map<Eigen::VectorXd> below(rowsBelow.data(), node.height);
 			for (int r = 0; r < node.height; ++r)
 				below[r] = x[node.below[r]];
 			for (int c = node.width - 1; c >= 0; --c) {
@@ -258,7 +259,7 @@ bool SparseCholesky::factorize(const Matrix& matrix)
 void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
 {
 	Implementation& own = *m_implementation;
-	own.rowsBelow.resize(static_cast<Eigen::Index>(own.factor->maxesize));
+	own.rowsBelow.resize(own.factor->maxesize);
 	x = rhs;
 	own.solveForward(x.data());
 	own.solveBackward(x.data());
