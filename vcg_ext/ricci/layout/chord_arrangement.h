@@ -44,8 +44,9 @@ public:
 	struct Side
 	{
 		int node; ///< where it begins: a place, or the number of places plus that of a crossing
-		int name; ///< the place where a side of the border begins; else the number of places plus
-				  ///< that of the line's segment, common to the two faces there
+		/// The place where a side of the border begins; else the number of places plus that of the
+		/// line's segment, common to the two faces there.
+		int name;
 		int line; ///< -1: on the border
 		bool forward;
 	};
