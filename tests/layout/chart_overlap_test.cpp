@@ -3,6 +3,7 @@
 #include "support/random.h"
 #include "support/shapes.h"
 
+#include <ricci/error.h>
 #include <ricci/layout/chart_overlap.h>
 #include <ricci/layout/orientation.h>
 
@@ -91,6 +92,32 @@ TEST(ChartOverlap, OfARingBeginsPastAFullTurn)
 		EXPECT_TRUE(overlappingPairs(drawn(sector(2 * kPi * turns, 60, 4))).empty()) << turns;
 	for (const double turns : {1.001, 1.1, 1.5, 1.9})
 		EXPECT_FALSE(overlappingPairs(drawn(sector(2 * kPi * turns, 60, 4))).empty()) << turns;
+}
+
+/// All triangles of a fan have its apex in common, so that each pair of boxes in a quarter meets.
+TEST(ChartOverlap, ALongSearchIsHeardAndCanBeEnded)
+{
+	const int n = 6000;
+	SurfaceMesh fan;
+	fan.positions.push_back({0, 0, 0});
+	for (int i = 0; i < n; ++i) {
+		const double angle = 2 * kPi * i / n;
+		fan.positions.push_back({std::cos(angle), std::sin(angle), 0});
+		fan.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
+	}
+	int ticks = 0;
+	EXPECT_TRUE(overlappingPairs(drawn(fan), [&] { ++ticks; }).empty());
+	EXPECT_GE(ticks, 3);
+	int ticksLeft = 2;
+	EXPECT_THROW(
+		overlappingPairs(
+			drawn(fan),
+			[&] {
+				if (--ticksLeft == 0)
+					throw Cancelled();
+			}),
+		Cancelled);
+	EXPECT_EQ(ticksLeft, 0);
 }
 
 /// Area that two counter-clockwise triangles have in common.

@@ -593,8 +593,9 @@ Parametrization parametrizeEuclidean(
 		measureRefinement(mesh, result);
 	else
 		result.report = keptReport;
-	progress.step(kMeasured, "Looking for charts that overlap");
-	separateCharts(mesh, options.resolveOverlap, result);
+	const auto tick = [&] { progress.step(kMeasured, "Looking for charts that overlap"); };
+	tick();
+	separateCharts(mesh, options.resolveOverlap, tick, result);
 	result.report.seamLengthRelative = result.report.seamLength / std::sqrt(area);
 	if (options.resolveOverlap)
 		requireSeparateCharts(mesh, result);

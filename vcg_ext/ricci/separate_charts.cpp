@@ -92,13 +92,14 @@ std::vector<Chart> chartsOf(
 
 } // namespace
 
-void separateCharts(const SurfaceMesh& mesh, bool resolve, Parametrization& map)
+void separateCharts(
+	const SurfaceMesh& mesh, bool resolve, const std::function<void()>& tick, Parametrization& map)
 {
 	std::vector<Chart> charts;
 	std::vector<char> faceDone(mesh.triangles.size(), 0);
 	for (Chart& chart : map.charts) {
 		const OutputChart output(mesh, map, chart);
-		const auto pairs = overlappingPairs(output.drawn);
+		const auto pairs = overlappingPairs(output.drawn, tick);
 		if (!pairs.empty() && !resolve) {
 			std::vector<char> meets(output.drawn.triangles.size(), 0);
 			for (const auto& pair : pairs)

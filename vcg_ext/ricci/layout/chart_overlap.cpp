@@ -22,6 +22,9 @@ using Pairs = std::vector<std::array<int, 2>>;
 /// Triangles in a leaf of the tree of boxes.
 constexpr int kLeaf = 4;
 
+/// Pairs of boxes that are looked at between two ticks.
+constexpr int kPairsBetweenTicks = 1 << 20;
+
 /// Units of capacity for the longest edge of a cut.
 constexpr double kCapacity = 1e6;
 
@@ -628,7 +631,8 @@ private:
 
 } // namespace
 
-std::vector<std::array<int, 2>> overlappingPairs(const DrawnChart& chart)
+std::vector<std::array<int, 2>>
+overlappingPairs(const DrawnChart& chart, const std::function<void()>& tick)
 {
 	const std::vector<Corners>& plane = chart.plane;
 	const BoxTree tree(plane);
@@ -638,7 +642,12 @@ std::vector<std::array<int, 2>> overlappingPairs(const DrawnChart& chart)
 	const bool hasFolds = std::find(proper.begin(), proper.end(), 0) != proper.end();
 	const double touching = kTouching * tree.size();
 	Pairs pairs;
+	int untilTick = kPairsBetweenTicks;
 	tree.pairs([&](int i, int j) {
+		if (--untilTick == 0) {
+			untilTick = kPairsBetweenTicks;
+			tick();
+		}
 		const Corners &a = plane[at(i)], &b = plane[at(j)];
 		if (!proper[at(i)] || !proper[at(j)] || separates(a, b, touching) ||
 			separates(b, a, touching))

@@ -6,6 +6,7 @@
 #include "planar_layout.h"
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace ricci {
@@ -36,7 +37,11 @@ constexpr double kTouching = 1e-9;
 /// counter-clockwise count as negative cover, and a pair is an overlap only if a point of its common
 /// part is covered more than once in the sum, which is the winding number of the chart's boundary
 /// about that point.
-std::vector<std::array<int, 2>> overlappingPairs(const DrawnChart& chart);
+///
+/// \param tick is called now and then, many times a second: triangles round one vertex meet each
+/// other's boxes in as many pairs as the square of their number. What it throws ends the search.
+std::vector<std::array<int, 2>> overlappingPairs(
+	const DrawnChart& chart, const std::function<void()>& tick = [] {});
 
 /// What a division cuts: edges of the chart's triangles, each counted once.
 struct ChartCuts
