@@ -517,6 +517,36 @@ class Hyperbolic(unittest.TestCase):
         self.assertEqual(documents.mesh_number(), 1)
         self.assertTrue(same(before, state(documents.current_mesh())))
 
+    def test_two_surfaces(self):
+        """Each has a group of its own, and a map of numbers has room for one."""
+        one, both = meshes.double_torus(1), meshes.double_torus(1)
+        both.faces += [tuple(v + len(one.vertices) for v in face) for face in one.faces]
+        both.vertices += [(x + 9, y, z) for x, y, z in one.vertices]
+        documents = mesh_set(both)
+        returned = run(documents, common.HYPERBOLIC, canonical_polygon=True, generator_axes=True)
+        self.assertTrue(returned["converged"])
+        self.assertNotIn("generators", returned)
+        self.assertAlmostEqual(returned["hyperbolic_area"], 8 * math.pi, delta=1e-9)
+        self.assertEqual([documents.mesh(i).edge_number() for i in (1, 2)],
+                         [2 * 4 * 200, 2 * 8 * 200])
+
+    def test_numbers_out_of_range(self):
+        for words, values in (
+                ("epsilon.*greater than 0", {"epsilon": math.nan}),
+                ("max_iterations.*1 or more", {"max_iterations": -1}),
+                ("universal_cover.*0 to 20 rings", {"universal_cover": 21}),
+                ("universal_cover.*0 to 20 rings", {"universal_cover": -1}),
+                ("cone_angle", {"target_curvature": 1, "cone_angle": math.nan}),
+                ("cone_angle", {"target_curvature": 1, "cone_angle": -math.inf}),
+                ("time_limit.*number of seconds", {"time_limit": math.nan})):
+            with self.subTest(values):
+                documents = mesh_set(meshes.double_torus(1))
+                select(documents, "vi == 0")
+                before = state(documents.current_mesh())
+                with self.assertRaisesRegex(pymeshlab.PyMeshLabException, words):
+                    run(documents, common.HYPERBOLIC, **values)
+                self.assertTrue(same(before, state(documents.current_mesh())))
+
     def test_refusals(self):
         for words, mesh, values in (
                 ("Euler characteristic.*Euclidean", meshes.torus(), {}),
@@ -623,7 +653,18 @@ class BadInput(unittest.TestCase):
                 ("epsilon.*greater than 0", {"epsilon": 0.0}),
                 ("epsilon.*greater than 0", {"epsilon": -1.0}),
                 ("epsilon.*greater than 0", {"epsilon": float("nan")}),
+                ("epsilon.*greater than 0", {"epsilon": math.inf}),
                 ("max_iterations.*1 or more", {"max_iterations": 0}),
+                ("cone_count.*0", {"cone_count": -1}),
+                ("cone_distortion.*greater than 0", {"cone_distortion": 0.0}),
+                ("cone_distortion.*greater than 0", {"cone_distortion": math.nan}),
+                ("cone_distortion.*greater than 0", {"cone_distortion": math.inf}),
+                ("seam_hiding.*from 0 to 1", {"seam_hiding": -0.1}),
+                ("seam_hiding.*from 0 to 1", {"seam_hiding": math.nan}),
+                ("chart_margin.*from 0 to 0.25", {"chart_margin": 0.3}),
+                ("chart_margin.*from 0 to 0.25", {"chart_margin": math.inf}),
+                ("time_limit.*number of seconds", {"time_limit": math.inf}),
+                ("time_limit.*number of seconds", {"time_limit": math.nan}),
                 ("time_limit.*number of seconds", {"time_limit": -1.0}),
                 ("time_limit.*mesh is unchanged", {"time_limit": 1e-6})):
             with self.subTest(values):
