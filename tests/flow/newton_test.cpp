@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace ricci::testing {
@@ -145,6 +146,65 @@ TEST(Newton, KeepsTheMeanBeyondTheLastPlaceOfU)
 	for (Eigen::Index v = 0; v < start.size(); ++v)
 		moved += static_cast<long double>(solved.u[v]) - start[v] + solved.rest[v];
 	EXPECT_LT(std::abs(static_cast<double>(moved)), 1e-15);
+}
+
+/// Is not finite at the first trial points, and keeps all that it is asked for.
+class ReluctantMap : public Map
+{
+public:
+	using Map::Map;
+
+	void evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest) override
+	{
+		asked.emplace_back(u, rest);
+		Map::evaluate(u, rest);
+		if (asked.size() == 2 || asked.size() == 3)
+			m_curvature.setConstant(std::numeric_limits<double>::quiet_NaN());
+	}
+
+	std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>> asked;
+};
+
+TEST(Newton, AStepIsAddedWithoutRounding)
+{
+	// The trial points of one search are u + d, u + d/2, u + d/4, and doubles are halved exactly. Equal
+	// circles have u near 0, so that most steps are larger than u. Multiples of 2^-62 up to 2 fit a
+	// long double.
+	Random random(81);
+	const Packed mesh(bumpyTorus(12, 8, random));
+	const double radius = 0.5 * *std::min_element(mesh.lengths.begin(), mesh.lengths.end());
+	std::vector<double> lengths = mesh.lengths;
+	for (double& l : lengths)
+		l /= radius;
+	ReluctantMap map(inversiveDistancePacking(
+		mesh.triangulation, lengths, std::vector<double>(mesh.radii.size(), 1.0)));
+	Eigen::VectorXd start(mesh.u().size());
+	for (double& x : start)
+		x = 0x1p-60 * std::round(0x1p60 * random.real(-0.01, 0.01));
+	std::vector<char> fixed = nothingFixed(mesh);
+	fixed[0] = 1;
+	NewtonSolver solver(map, fixed);
+	NewtonOptions options;
+	options.maxIterations = 1;
+	Eigen::VectorXd u = start;
+	solver.solve(u, Eigen::VectorXd::Zero(u.size()), options, silent);
+	ASSERT_GE(map.asked.size(), 4u);
+	int larger = 0, inexact = 0;
+	for (Eigen::Index v = 0; v < start.size(); ++v) {
+		const auto step = [&](std::size_t trial) {
+			const auto& [sum, rest] = map.asked[trial];
+			return static_cast<long double>(sum[v]) - start[v] + rest[v];
+		};
+		const long double whole = step(1);
+		if (std::abs(whole) < 0x1p-8L || std::abs(whole) > 1.0L)
+			continue;
+		EXPECT_EQ(step(2), whole / 2);
+		EXPECT_EQ(step(3), whole / 4);
+		larger += std::abs(whole) > std::abs(start[v]);
+		inexact += map.asked[1].second[v] != 0.0;
+	}
+	EXPECT_GT(larger, 20);
+	EXPECT_GT(inexact, 20);
 }
 
 TEST(Newton, KeepsFixedVerticesToTheBit)

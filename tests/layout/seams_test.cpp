@@ -19,6 +19,8 @@
 namespace ricci::testing {
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
+
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 double costOf(const std::vector<char>& isCut, const std::vector<double>& cost)
@@ -237,6 +239,51 @@ TEST(SeamCost, IsLowInHollowsAndHighOnRidges)
 	const std::vector<double> opposite = exposure(q.triangulation, q.lengths, other.positions);
 	for (std::size_t v = 0; v < exposed.size(); ++v)
 		EXPECT_NEAR(exposed[v] + opposite[v], 1.0, 1e-9);
+}
+
+/// A prism over a star whose corners are at the distances R + d and R - d from its axis in turn: the
+/// sum of two eigenvectors of its Laplacian, which smoothing shrinks to 1 / (1 + t e) for the
+/// eigenvalue e. Its faces are vertical, so that the heights depend on nothing else.
+TEST(SeamCost, ExposureOfAStarIsThatOfItsTwoModes)
+{
+	constexpr int n = 16, rows = 8;
+	constexpr double R = 2.0, d = 0.3, sector = 2 * kPi / n;
+	const double outer = R + d, inner = R - d;
+	const double side =
+		std::sqrt(outer * outer + inner * inner - 2 * outer * inner * std::cos(sector));
+	const double storey = 0.9 * side;
+	const SurfaceMesh mesh = grid(n, rows, Ends::Joined, Ends::Open, [&](int i, int j) {
+		const double r = i % 2 == 0 ? outer : inner;
+		return Point3{r * std::cos(i * sector), r * std::sin(i * sector), j * storey};
+	});
+	const Packed p(mesh);
+	const double time = n * rows * side * storey / 400.0; // of the area
+	const auto lost = [&](double cosine) {
+		const double e = 2 * (1 - cosine) / (side * side);
+		return time * e / (1 + time * e);
+	};
+	const double ofCircle = lost(std::cos(sector)) * R, ofTeeth = lost(-std::cos(sector)) * d;
+	// Two of three triangles at a vertex of the first and last row are on one side of it.
+	const auto tilt = [&](double r, double neighbour) {
+		const double along = (r - neighbour * std::cos(sector)) / side; // sine of half the exterior
+		const double cosine = neighbour * std::sin(sector) / side;      // angle, and cosine
+		return 3 * cosine / std::hypot(3 * cosine, along);
+	};
+	const double heights[] = {ofCircle + ofTeeth, ofCircle - ofTeeth};
+	const double tilted[] = {heights[0] * tilt(outer, inner), heights[1] * tilt(inner, outer)};
+	double square = 0.0;
+	for (int k : {0, 1})
+		square += ((rows - 1) * heights[k] * heights[k] + tilted[k] * tilted[k]) / (2.0 * rows);
+	const std::vector<double> exposed = exposure(p.triangulation, p.lengths, mesh.positions);
+	for (std::size_t v = 0; v < exposed.size(); ++v) {
+		const Point3& q = mesh.positions[v];
+		const int k = std::hypot(q[0], q[1]) > R ? 0 : 1;
+		const bool atEnd = q[2] < 0.5 * storey || q[2] > (rows - 0.5) * storey;
+		const double height = atEnd ? tilted[k] : heights[k];
+		// The diagonals of the cells, which are rectangles, have a weight of 1e-6.
+		EXPECT_NEAR(exposed[v], 0.5 * (1 + std::tanh(height / std::sqrt(square))), 1e-5);
+	}
+	EXPECT_LT(heights[1], 0.0); // or one mode alone decides
 }
 
 TEST(SeamCost, IsTheLengthWhereNothingIsToBeHidden)
