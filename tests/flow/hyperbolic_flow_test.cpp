@@ -57,6 +57,27 @@ TEST(HyperbolicFlow, FindsTheMetricOfCurvatureMinusOne)
 	}
 }
 
+TEST(HyperbolicFlow, LengthsOfTheInputAreExactWhereNothingFlips)
+{
+	Random random(505);
+	const FlippedFlow flow(shaken(perforatedSlab(2, 3), 0.08, random), hyperbolicMetric());
+	const FlipHistory& history = flow.result.history;
+	std::vector<char> flipped(at(flow.base.edgeCount()), 0);
+	for (const std::vector<int>* flips : {&history.startFlips, &history.flowFlips})
+		for (int e : *flips)
+			flipped[at(e)] = 1;
+	const std::vector<double> found = hyperbolicLengths(flow.result, flow.base, flow.lengths);
+	ASSERT_EQ(found.size(), flipped.size());
+	for (std::size_t e = 0; e < found.size(); ++e) {
+		EXPECT_GT(found[e], 0.0);
+		if (!flipped[e]) {
+			EXPECT_NEAR(found[e] / flow.result.metric->lengths()[e], 1.0, 1e-12);
+		}
+	}
+	EXPECT_GT(std::count(flipped.begin(), flipped.end(), 0), 100);
+	EXPECT_GT(std::count(flipped.begin(), flipped.end(), 1), 10);
+}
+
 TEST(HyperbolicFlow, ReachesRandomCones)
 {
 	for (int genus : {0, 1, 2})

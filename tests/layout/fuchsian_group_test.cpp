@@ -261,6 +261,68 @@ TEST(CanonicalPolygon, HasNoCornersWhereTheSidesDoNotCloseUp)
 	}
 }
 
+/// Signed area of the geodesic triangle: with p at 0, tan(area / 2) = Im(conj(x) y) / (1 - Re(conj(x)
+/// y)).
+double signedArea(Complex p, Complex q, Complex r)
+{
+	const DiskIsometry toOrigin = DiskIsometry::translationTo(p).inverse();
+	const Complex product = std::conj(toOrigin(q)) * toOrigin(r);
+	return 2.0 * std::atan2(product.imag(), 1.0 - product.real());
+}
+
+/// Any motions whose product is the identity spell a closed polygon. Its crossings are known from the
+/// orientations of triangles of corners, its angles from its area.
+TEST(CanonicalPolygon, CrossingsAndAnglesAreThoseOfAnyClosedPolygon)
+{
+	Random random(653);
+	int simple = 0, clockwise = 0;
+	for (int trial = 0; trial < 400; ++trial) {
+		SCOPED_TRACE(trial);
+		FuchsianGroup group;
+		ExtendedIsometry product;
+		const auto append = [&](const ExtendedIsometry& g) {
+			group.relation.push_back(g);
+			group.ends.push_back(rounded(g));
+			product = product * g;
+		};
+		const int letters = 3 + random.index(4);
+		for (int i = 0; i < letters; ++i)
+			append(
+				ExtendedIsometry::rotation(random.real(-kPi, kPi)) *
+				ExtendedIsometry::translation(random.real(0.2, 3.0)) *
+				ExtendedIsometry::rotation(random.real(-kPi, kPi)));
+		append(product.inverse());
+		const CanonicalPolygon polygon = canonicalPolygon(group);
+		const auto& z = polygon.corners;
+		const std::size_t n = group.relation.size();
+		ASSERT_EQ(z.size(), n);
+		EXPECT_LT(polygon.gap, 1e-12);
+		bool crosses = false;
+		for (std::size_t i = 0; i < n; ++i)
+			for (std::size_t j = i + 2; j < n; ++j) {
+				const Complex a = z[i], b = z[i + 1], c = z[j], d = z[(j + 1) % n];
+				if (j + 1 < n || i > 0)
+					crosses |=
+						hyperbolicOrientation(a, b, c) * hyperbolicOrientation(a, b, d) < 0 &&
+						hyperbolicOrientation(c, d, a) * hyperbolicOrientation(c, d, b) < 0;
+			}
+		EXPECT_EQ(polygon.isSimple, !crosses);
+		double area = 0.0;
+		for (std::size_t k = 1; k + 1 < n; ++k)
+			area += signedArea(z[0], z[k], z[k + 1]);
+		if (crosses)
+			continue;
+		++simple;
+		// Clockwise ones are seen from outside.
+		const double sides = static_cast<double>(n) + (area > 0.0 ? -2.0 : 2.0);
+		EXPECT_NEAR(polygon.angleSum, sides * kPi - area, 1e-9);
+		clockwise += area < 0.0;
+	}
+	EXPECT_GT(simple, 50);
+	EXPECT_LT(simple, 350);
+	EXPECT_GT(clockwise, 10);
+}
+
 TEST(FuchsianGroup, LengthsOfGeodesicsDoNotDependOnTheCutOrTheNumbers)
 {
 	Random random(660);

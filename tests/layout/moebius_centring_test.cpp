@@ -80,6 +80,23 @@ TEST(MoebiusCentring, CentresByAMoebiusTransformation)
 	}
 }
 
+TEST(MoebiusCentring, CentresTwoClustersAcrossEachOther)
+{
+	// The Hessian is nearly singular along the line between the clusters.
+	Random random(413);
+	for (double width : {0.1, 0.01, 0.001}) {
+		std::vector<Point3> points;
+		std::vector<double> weights;
+		for (int i = 0; i < 40; ++i) {
+			const Complex z = width * Complex(random.real(-1, 1), random.real(-1, 1));
+			points.push_back(onSphere(i % 2 == 0 ? z : 1.0 / z));
+			weights.push_back(random.real(0.9, 1.1));
+		}
+		EXPECT_LT(centreByMoebius(points, weights), 1e-12);
+		EXPECT_LT(mean(points, weights).norm(), 1e-12);
+	}
+}
+
 TEST(MoebiusCentring, IsTheSameFromEveryStartUpToARotation)
 {
 	Random random(412);

@@ -37,6 +37,20 @@ TEST(ChartCheck, ABorderThatDoesNotCrossItself)
 	EXPECT_EQ(crossingsOfAStrip(3.0 * kPi, 1.5, 1e-9), 0); // a spiral with room between its turns
 }
 
+TEST(ChartCheck, ASideMayEndOnAnother)
+{
+	// A second triangle's corner lies on a side of the first, or past it by less than is allowed.
+	for (double past : {0.0, 1e-9, 1e-3})
+		for (double up : {1.0, -1.0})
+			for (const Triangle& second : {Triangle{3, 4, 5}, Triangle{5, 4, 3}}) {
+				const std::vector<std::array<Point2, 3>> plane = {
+					{{{-2.0, 0.0}, {2.0, 0.0}, {0.0, -3.0 * up}}},
+					{{{0.1, -past * up}, {0.6, up}, {-0.4, up}}}};
+				const int crossings = borderCrossings({{0, 1, 2}, second}, plane, 1e-6);
+				EXPECT_EQ(crossings, past > 1e-6 ? 2 : 0);
+			}
+}
+
 TEST(ChartCheck, ABorderThatCrossesItself)
 {
 	// The last end lies across the outer border of the first turn, the first end across the inner

@@ -103,6 +103,35 @@ TEST(DiskCheck, SeesASeamThatDoesNotFit)
 	EXPECT_GT(s.check().seamGap, 0.01);
 }
 
+TEST(DiskCheck, AllowsForTheRoundingOfBothSidesOfASeam)
+{
+	// The same side twice, at 0 and where one unit in the last place is a distance of 1e-11: what the
+	// sides differ by there is rounding, whichever triangle comes first.
+	Random random(621);
+	double largest = 0.0;
+	for (int trial = 0; trial < 200; ++trial) {
+		const DiskIsometry away =
+			DiskIsometry::rotation(random.real(-3.0, 3.0)) * DiskIsometry::translation(12.0);
+		const std::complex<double> p(random.real(-0.4, 0.4), random.real(-0.4, 0.4)),
+			q(random.real(-0.4, 0.4), random.real(-0.4, 0.4));
+		const std::complex<double> x = away(p), y = away(q);
+		const Point2 near[] = {{p.real(), p.imag()}, {q.real(), q.imag()}};
+		const Point2 far[] = {{x.real(), x.imag()}, {y.real(), y.imag()}};
+		const Point2 apex{0.0, 0.0};
+		const bool swapped = trial % 2 == 1;
+		const auto& first = swapped ? far : near;
+		const auto& second = swapped ? near : far;
+		const DiskCheck check = checkDisk(
+			{{0, 1, 2}, {1, 0, 3}},
+			{{{first[0], first[1], apex}}, {{second[1], second[0], apex}}},
+			{0, 0},
+			1.0);
+		EXPECT_LE(check.seamGap, 0.0);
+		largest = std::max(largest, std::abs(chordLength(x, y) - chordLength(p, q)));
+	}
+	EXPECT_GT(largest, 1e-12); // or there is nothing to allow for
+}
+
 TEST(DiskCheck, CountsTurnedTrianglesByTheirHeight)
 {
 	// The third corner lies at the distance 0.25 from a diameter, on the wrong side, anywhere in

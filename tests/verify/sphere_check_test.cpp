@@ -54,6 +54,16 @@ TEST(SphereCheck, CountsHowOftenAndWhichWayTheSphereIsCovered)
 	EXPECT_EQ(check.turned, 1);
 }
 
+TEST(SphereCheck, ATriangleOnAGreatCircleIsNotTurned)
+{
+	for (double angle : {0.1, 0.7, 1.3}) {
+		const double c = std::cos(angle), s = std::sin(angle);
+		const std::vector<Point3> points = {{1, 0, 0}, {c, s, 0}, {c * c - s * s, 2 * s * c, 0}};
+		EXPECT_EQ(checkSphere({{0, 1, 2}}, points).turned, 0);
+		EXPECT_EQ(checkSphere({{0, 2, 1}}, points).turned, 0);
+	}
+}
+
 TEST(SphereCheck, MeasuresTheRadii)
 {
 	SurfaceMesh mesh = octahedron();

@@ -8,7 +8,6 @@
 #include "layout/distortion.h"
 #include "layout/hyperbolic_layout.h"
 #include "memory.h"
-#include "metric/hyperbolic.h"
 #include "numbers.h"
 #include "result_assembly.h"
 #include "surface/component.h"
@@ -95,7 +94,7 @@ public:
 		flow(static_cast<int>(result.charts.size()), result.report.flowStates);
 		m_interval.step(1.0 - kAfterFlow, "Cutting and layout");
 		markCones();
-		m_cut = cutToDisk(m_base, hyperbolicLengths(), m_cones, {});
+		m_cut = cutToDisk(m_base, lengthsFound(), m_cones, {});
 		m_group = layOut();
 		m_interval.step(1.0, "Checking the result");
 		requireMetric(Background::HyperbolicPlane, m_flow, m_base.boundaryVertices());
@@ -180,25 +179,12 @@ private:
 				std::abs(m_flow.target.curvature[static_cast<Eigen::Index>(v)]) > kConeCurvature;
 	}
 
-	/// About how long the input's edges are in the metric found: by the circles at their ends, which
-	/// is exact for edges that no flip has touched.
-	std::vector<double> hyperbolicLengths() const
+	/// [edge] About how long the input's edges are in the metric found.
+	std::vector<double> lengthsFound() const
 	{
-		if (!flips())
-			return m_flow.metric->lengths();
-		std::vector<double> lengths = edgeLengths(m_base, m_component.positions);
-		const std::vector<double>& radii = m_flow.history.startRadii;
-		for (int e = 0; e < m_base.edgeCount(); ++e) {
-			const int i = m_base.origin(2 * e), j = m_base.target(2 * e);
-			const double l = lengths[at(e)] + m_flow.history.lengthened;
-			const double gi = radii[at(i)], gj = radii[at(j)];
-			const double delta = std::max(0.0, (l - gi - gj) * (l + gi + gj) / (2.0 * gi * gj));
-			lengths[at(e)] =
-				Hyperbolic::edge(
-					Hyperbolic::circle(m_flow.u[i]), Hyperbolic::circle(m_flow.u[j]), delta)
-					.length;
-		}
-		return lengths;
+		return flips()
+				   ? hyperbolicLengths(m_flow, m_base, edgeLengths(m_base, m_component.positions))
+				   : m_flow.metric->lengths();
 	}
 
 	FuchsianGroup layOut()

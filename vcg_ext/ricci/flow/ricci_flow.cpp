@@ -562,4 +562,20 @@ FlowResult runRicciFlow(
 	throw NotConverged(failure);
 }
 
+std::vector<double> hyperbolicLengths(
+	const FlowResult& flow, const Triangulation& t, const std::vector<double>& lengths)
+{
+	std::vector<double> found(lengths.size());
+	const std::vector<double>& radii = flow.history.startRadii;
+	for (int e = 0; e < t.edgeCount(); ++e) {
+		const int i = t.origin(2 * e), j = t.target(2 * e);
+		const double l = lengths[at(e)] + flow.history.lengthened;
+		const double delta = std::max(0.0, Euclidean::delta(l, radii[at(i)], radii[at(j)]));
+		found[at(e)] =
+			Hyperbolic::edge(Hyperbolic::circle(flow.u[i]), Hyperbolic::circle(flow.u[j]), delta)
+				.length;
+	}
+	return found;
+}
+
 } // namespace ricci

@@ -73,6 +73,12 @@ FlowResult runRicciFlow(
 	const FlowOptions& options,
 	const std::function<void(int, double)>& report);
 
+/// [edge] About how long the edges of \p t are in the metric that a hyperbolic flow with intrinsic
+/// flips has found on it: Eq. 4 for the circles at their ends, which is exact for edges that no flip
+/// has touched. \p lengths as in runRicciFlow().
+std::vector<double> hyperbolicLengths(
+	const FlowResult& flow, const Triangulation& t, const std::vector<double>& lengths);
+
 } // namespace ricci
 
 #endif
