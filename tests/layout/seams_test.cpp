@@ -5,6 +5,7 @@
 #include "support/shapes.h"
 #include "support/transform.h"
 
+#include <ricci/error.h>
 #include <ricci/flow/target_curvature.h>
 #include <ricci/layout/planar_layout.h>
 #include <ricci/layout/seam_cost.h>
@@ -127,6 +128,44 @@ TEST(Seams, StayADiskThroughTheMarksAndGetShorter)
 			EXPECT_NEAR(costOf(isCut, p.lengths), after, 1e-9 * after);
 		}
 	}
+}
+
+/// Between two moves the cut is a disk's, so that a search may end there.
+TEST(Seams, ASearchThatIsEndedLeavesADisk)
+{
+	Random random(723);
+	const Packed p(shaken(perforatedSlab(6, 3), 0.05, random));
+	const Triangulation& t = p.triangulation;
+	std::vector<char> marked(at(t.vertexCount()), 0);
+	for (int i = 0; i < 120; ++i)
+		marked[at(random.index(t.vertexCount()))] = 1;
+	const std::vector<char> clumsy = clumsyCut(t, marked);
+	int ticks = 0;
+	std::vector<char> whole = clumsy;
+	shortenCut(t, p.lengths, marked, {}, whole, [&] { ++ticks; });
+	EXPECT_GE(ticks, 3);
+	double before = costOf(clumsy, p.lengths);
+	for (int n = 1; n <= ticks; ++n) {
+		std::vector<char> isCut = clumsy;
+		int left = n;
+		EXPECT_THROW(
+			shortenCut(
+				t,
+				p.lengths,
+				marked,
+				{},
+				isCut,
+				[&] {
+					if (--left == 0)
+						throw Cancelled();
+				}),
+			Cancelled);
+		expectDiskThroughMarks(t, isCut, marked);
+		const double now = costOf(isCut, p.lengths);
+		EXPECT_LE(now, before * (1 + 1e-12));
+		before = now;
+	}
+	EXPECT_LE(costOf(whole, p.lengths), before * (1 + 1e-12));
 }
 
 TEST(Seams, JoinTwoMarksByAShortestPath)

@@ -239,7 +239,8 @@ private:
 			layoutTriangulation(),
 			seamCost(m_base, m_lengths, m_mesh.positions, m_options.seamHiding),
 			marked,
-			forbidden);
+			forbidden,
+			[&] { m_interval.step(1.0 - kAfterFlow, "Shortening the seams"); });
 		if (m_solved.holes > 0)
 			dropSeamsToHoles(m_base, m_lengths, m_solved.onHole, marked, m_cut);
 		m_marked = std::move(marked);

@@ -94,7 +94,9 @@ public:
 		flow(static_cast<int>(result.charts.size()), result.report.flowStates);
 		m_interval.step(1.0 - kAfterFlow, "Cutting and layout");
 		markCones();
-		m_cut = cutToDisk(m_base, lengthsFound(), m_cones, {});
+		m_cut = cutToDisk(m_base, lengthsFound(), m_cones, {}, [&] {
+			m_interval.step(1.0 - kAfterFlow, "Shortening the seams");
+		});
 		m_group = layOut();
 		m_interval.step(1.0, "Checking the result");
 		requireMetric(Background::HyperbolicPlane, m_flow, m_base.boundaryVertices());

@@ -288,7 +288,8 @@ CutGraph cutToDisk(
 	const Triangulation& t,
 	const std::vector<double>& lengths,
 	const std::vector<char>& marked,
-	const std::vector<char>& forbidden)
+	const std::vector<char>& forbidden,
+	const std::function<void()>& tick)
 {
 	const ContractedGraph graph(t, forbidden);
 	const std::vector<char> terminal = graph.terminals(marked);
@@ -333,7 +334,7 @@ CutGraph cutToDisk(
 			}
 		}
 	}
-	shortenCut(t, lengths, marked, forbidden, best.isCut);
+	shortenCut(t, lengths, marked, forbidden, best.isCut, tick);
 	measure(t, lengths, best);
 	best.generators = generators(t, graph, best);
 	return best;

@@ -4,6 +4,7 @@
 
 #include "../surface/triangulation.h"
 
+#include <functional>
 #include <vector>
 
 namespace ricci {
@@ -26,12 +27,14 @@ struct CutGraph
 /// graphs from a few well-spread roots is shortened further (shortenCut()). Deterministic.
 /// \param lengths [edge] positive; or whatever else is to be short in sum
 /// \param forbidden [edge] 1 where the cut must not run; may be empty
+/// \param tick see shortenCut()
 /// \throw Error if the forbidden edges leave no cut
 CutGraph cutToDisk(
 	const Triangulation& t,
 	const std::vector<double>& lengths,
 	const std::vector<char>& marked,
-	const std::vector<char>& forbidden);
+	const std::vector<char>& forbidden,
+	const std::function<void()>& tick = [] {});
 
 } // namespace ricci
 

@@ -23,6 +23,13 @@ constexpr double kLeastGain = 1e-9;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
+/// Halfedges that are labelled, or take as long, between two ticks; and in all, after which the cut
+/// stays as it is: every move labels the whole cut, so that thousands of loops would take hours.
+constexpr std::size_t kWorkBetweenTicks = 1 << 21, kMostWork = 2000000000;
+
+/// What a vertex reached by a search takes, in halfedges labelled.
+constexpr std::size_t kWorkOfVertex = 16;
+
 /// Distances on the open surface from one of its boundaries.
 class Distances
 {
@@ -120,8 +127,10 @@ public:
 			noteEdge(e);
 	}
 
-	void run()
+	void run(const std::function<void()>& tick)
 	{
+		tick();
+		std::size_t work = 0, heard = 0;
 		std::map<int, int> failedExchange, failedRebuild; // by edge and vertex: changes until then
 		int changes = 0;
 		for (int round = 0; round < kMostRounds; ++round) {
@@ -129,12 +138,19 @@ public:
 			const auto attempt =
 				[&](std::map<int, int>& failed, int element, bool (Shortener::*move)(int)) {
 					const auto [at, first] = failed.try_emplace(element, -1);
-					if (at->second == changes)
+					if (at->second == changes || work > kMostWork)
 						return; // nothing has changed since it failed
 					if ((this->*move)(element))
 						++changes;
 					else
 						at->second = changes;
+					work += m_labelled.size();
+					for (const Distances& distances : m_distances)
+						work += kWorkOfVertex * distances.reached().size();
+					if (work < heard + kWorkBetweenTicks)
+						return;
+					heard = work;
+					tick();
 				};
 			for (int e : representatives())
 				if (m_isCut[at(e)])
@@ -574,10 +590,11 @@ void shortenCut(
 	const std::vector<double>& cost,
 	const std::vector<char>& marked,
 	const std::vector<char>& forbidden,
-	std::vector<char>& isCut)
+	std::vector<char>& isCut,
+	const std::function<void()>& tick)
 {
 	if (std::find(isCut.begin(), isCut.end(), 1) != isCut.end())
-		Shortener(t, cost, marked, forbidden, isCut).run();
+		Shortener(t, cost, marked, forbidden, isCut).run(tick);
 }
 
 } // namespace ricci

@@ -4,6 +4,7 @@
 
 #include "../surface/triangulation.h"
 
+#include <functional>
 #include <vector>
 
 namespace ricci {
@@ -21,12 +22,14 @@ namespace ricci {
 /// \param cost [edge] positive
 /// \param forbidden [edge] 1 where the cut must not run; may be empty
 /// \param isCut [edge] changed in place; never a boundary edge
+/// \param tick is called now and then, many times a second. What it throws ends the search.
 void shortenCut(
 	const Triangulation& t,
 	const std::vector<double>& cost,
 	const std::vector<char>& marked,
 	const std::vector<char>& forbidden,
-	std::vector<char>& isCut);
+	std::vector<char>& isCut,
+	const std::function<void()>& tick = [] {});
 
 } // namespace ricci
 
