@@ -2,13 +2,17 @@
 #include "support/random.h"
 
 #include <ricci/flow/sparse_cholesky.h>
+#include <ricci/numbers.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ricci::testing {
@@ -34,28 +38,73 @@ SparseCholesky::Matrix laplacian(int n, double shift, Random& random)
 	return lower.sparseView();
 }
 
+/// A matrix with the rows that the solver chooses for it.
+struct System
+{
+	explicit System(SparseCholesky::Matrix lower) :
+			given(std::move(lower)), row(at(int(given.rows())))
+	{
+		std::iota(row.begin(), row.end(), 0);
+		layOut();
+	}
+
+	void layOut()
+	{
+		std::vector<Eigen::Triplet<double>> entries;
+		for (int column = 0; column < given.cols(); ++column)
+			for (SparseCholesky::Matrix::InnerIterator it(given, column); it; ++it) {
+				const int a = row[at(int(it.row()))], b = row[at(column)];
+				entries.emplace_back(std::max(a, b), std::min(a, b), it.value());
+			}
+		matrix.resize(given.rows(), given.cols());
+		matrix.setFromTriplets(entries.begin(), entries.end());
+	}
+
+	bool analyze(SparseCholesky& solver)
+	{
+		return solver.analyze(matrix, row, [this] { layOut(); });
+	}
+
+	/// In the order given.
+	Eigen::VectorXd solve(SparseCholesky& solver, const Eigen::VectorXd& rhs) const
+	{
+		Eigen::VectorXd b(rhs.size()), x(rhs.size()), solution(rhs.size());
+		for (int i = 0; i < rhs.size(); ++i)
+			b[row[at(i)]] = rhs[i];
+		solver.solve(b, x);
+		for (int i = 0; i < rhs.size(); ++i)
+			solution[i] = x[row[at(i)]];
+		return solution;
+	}
+
+	SparseCholesky::Matrix given, matrix;
+	std::vector<int> row;
+};
+
 TEST(SparseCholesky, SolvesLikeADenseSolver)
 {
 	Random random(60);
 	SparseCholesky solver;
 	const int n = 120;
 	// The pattern is analysed once; other values are only factorised.
+	System system(laplacian(n, 0.5, random));
+	EXPECT_TRUE(system.analyze(solver));
 	for (int trial = 0; trial < 3; ++trial) {
-		const SparseCholesky::Matrix A = laplacian(n, 0.5, random);
-		if (trial == 0)
-			solver.analyze(A);
-		ASSERT_TRUE(solver.factorize(A));
-		const Eigen::MatrixXd lower = A;
+		ASSERT_TRUE(solver.factorize(system.matrix));
+		const Eigen::MatrixXd lower = system.given;
 		const Eigen::MatrixXd dense = lower.selfadjointView<Eigen::Lower>();
 		for (int side = 0; side < 2; ++side) { // one factor serves several right sides
-			Eigen::VectorXd b(n), x(n);
+			Eigen::VectorXd b(n);
 			for (double& y : b)
 				y = random.real(-1, 1);
-			solver.solve(b, x);
+			const Eigen::VectorXd x = system.solve(solver, b);
 			EXPECT_LT((dense * x - b).lpNorm<Eigen::Infinity>(), 1e-13);
 			EXPECT_LT((x - dense.llt().solve(b)).lpNorm<Eigen::Infinity>(), 1e-12);
 		}
+		system.given = laplacian(n, 0.5, random);
+		system.layOut();
 	}
+	EXPECT_EQ(solver.work().analyses, 1);
 }
 
 TEST(SparseCholesky, AnotherPatternCanFollow)
@@ -63,70 +112,80 @@ TEST(SparseCholesky, AnotherPatternCanFollow)
 	Random random(61);
 	SparseCholesky solver;
 	for (int n : {40, 25, 60}) {
-		const SparseCholesky::Matrix A = laplacian(n, 1.0, random);
-		solver.analyze(A);
-		ASSERT_TRUE(solver.factorize(A));
-		Eigen::VectorXd b = Eigen::VectorXd::Ones(n), x(n);
-		solver.solve(b, x);
+		System system(laplacian(n, 1.0, random));
+		EXPECT_TRUE(system.analyze(solver));
+		ASSERT_TRUE(solver.factorize(system.matrix));
+		const Eigen::VectorXd b = Eigen::VectorXd::Ones(n);
 		// Rows of a Laplacian sum to zero, so that the ones are solved by themselves.
-		EXPECT_LT((x - b).lpNorm<Eigen::Infinity>(), 1e-12);
+		EXPECT_LT((system.solve(solver, b) - b).lpNorm<Eigen::Infinity>(), 1e-12);
 	}
 }
 
-TEST(SparseCholesky, OrderingReducesFillAndSolvesTheRenumberedSystem)
+/// An arrow: eliminating its tip first fills the whole matrix, last nothing.
+SparseCholesky::Matrix arrow(int n, int tip)
 {
-	// An arrow that points the wrong way: eliminating its tip first fills the whole matrix, last
-	// nothing.
-	const int n = 50;
 	SparseCholesky::Matrix A(n, n);
 	for (int i = 0; i < n; ++i) {
-		A.insert(i, 0) = i == 0 ? n + 1.0 : -1.0;
-		if (i > 0)
-			A.insert(i, i) = 2.0;
+		A.insert(i, i) = i == tip ? n + 1.0 : 2.0;
+		if (i != tip)
+			A.insert(std::max(i, tip), std::min(i, tip)) = -1.0;
 	}
 	A.makeCompressed();
-	SparseCholesky natural;
-	natural.analyze(A);
-	EXPECT_EQ(natural.factorEntries(), n * (n + 1) / 2);
+	return A;
+}
 
-	SparseCholesky ordered;
-	const std::vector<int> order = ordered.order(A);
-	std::vector<int> sorted = order;
+TEST(SparseCholesky, ChoosesRowsWithoutFill)
+{
+	const int n = 50;
+	SparseCholesky solver;
+	System system(arrow(n, 0));
+	EXPECT_TRUE(system.analyze(solver));
+	std::vector<int> sorted = system.row;
 	std::sort(sorted.begin(), sorted.end());
 	for (int i = 0; i < n; ++i)
-		ASSERT_EQ(sorted[static_cast<std::size_t>(i)], i);
-	SparseCholesky::Matrix B(n, n);
-	for (int i = 0; i < n; ++i)
-		for (int j = 0; j <= i; ++j) {
-			const int a = order[static_cast<std::size_t>(i)],
-					  b = order[static_cast<std::size_t>(j)];
-			const double x = A.coeff(std::max(a, b), std::min(a, b));
-			if (x != 0.0)
-				B.insert(i, j) = x;
-		}
-	B.makeCompressed();
-	ordered.analyze(B);
-	EXPECT_EQ(ordered.factorEntries(), 2 * n - 1);
-	ASSERT_TRUE(ordered.factorize(B));
+		ASSERT_EQ(sorted[at(i)], i);
+	EXPECT_EQ(solver.factorEntries(), 2 * n - 1);
+	ASSERT_TRUE(solver.factorize(system.matrix));
 	const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0);
-	Eigen::VectorXd solution(n);
-	ordered.solve(B.selfadjointView<Eigen::Lower>() * x, solution);
+	const Eigen::VectorXd solution =
+		system.solve(solver, system.given.selfadjointView<Eigen::Lower>() * x);
 	EXPECT_LT((solution - x).lpNorm<Eigen::Infinity>(), 1e-13);
-	EXPECT_EQ(ordered.work().orderings, 1);
-	EXPECT_EQ(ordered.work().factorizations, 1);
-	EXPECT_EQ(ordered.work().solutions, 1);
-	EXPECT_GT(ordered.work().flops, 0.0);
+	EXPECT_EQ(solver.work().orderings, 1);
+	EXPECT_EQ(solver.work().factorizations, 1);
+	EXPECT_EQ(solver.work().solutions, 1);
+	EXPECT_GT(solver.work().flops, 0.0);
+	EXPECT_FALSE(system.analyze(solver)); // nothing better is to be had
+	EXPECT_EQ(solver.work().orderings, 1);
+	// The arrow turned round: its tip now has the row of what was eliminated first.
+	const auto first = std::find(system.row.begin(), system.row.end(), 0) - system.row.begin();
+	system.given = arrow(n, static_cast<int>(first));
+	system.layOut();
+	EXPECT_TRUE(system.analyze(solver));
+	EXPECT_EQ(solver.work().orderings, 2);
+	EXPECT_EQ(solver.factorEntries(), 2 * n - 1);
+}
+
+TEST(SparseCholesky, ElementsWithoutAnUnknownKeepNoRow)
+{
+	SparseCholesky solver;
+	std::vector<int> row = {-1, 0, 1, -1, 2};
+	SparseCholesky::Matrix A = arrow(3, 0);
+	solver.analyze(A, row, [] {});
+	EXPECT_EQ(row[0], -1);
+	EXPECT_EQ(row[3], -1);
+	EXPECT_EQ(std::set<int>(row.begin(), row.end()), (std::set<int>{-1, 0, 1, 2}));
 }
 
 TEST(SparseCholesky, TellsWhenAMatrixIsNotPositiveDefinite)
 {
 	Random random(62);
 	SparseCholesky solver;
-	SparseCholesky::Matrix A = laplacian(30, -50.0, random);
-	solver.analyze(A);
-	EXPECT_FALSE(solver.factorize(A));
-	A = laplacian(30, 1.0, random);
-	EXPECT_TRUE(solver.factorize(A)); // and recovers
+	System system(laplacian(30, -50.0, random));
+	system.analyze(solver);
+	EXPECT_FALSE(solver.factorize(system.matrix));
+	system.given = laplacian(30, 1.0, random);
+	system.layOut();
+	EXPECT_TRUE(solver.factorize(system.matrix)); // and recovers
 	EXPECT_NE(std::string(SparseCholesky::name()), "");
 }
 

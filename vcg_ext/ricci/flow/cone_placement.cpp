@@ -203,17 +203,10 @@ private:
 	void factorize(const CurvatureMap& map, int count)
 	{
 		Hessian hessian;
-		hessian.layOut(map, m_unknown, count);
-		const std::vector<int> order = m_cholesky.order(hessian.matrix());
-		std::vector<int> number(order.size());
-		for (std::size_t i = 0; i < order.size(); ++i)
-			number[at(order[i])] = static_cast<int>(i);
-		for (int& row : m_unknown)
-			if (row >= 0)
-				row = number[at(row)];
-		hessian.layOut(map, m_unknown, count);
+		const auto layOut = [&] { hessian.layOut(map, m_unknown, count); };
+		layOut();
+		m_cholesky.analyze(hessian.matrix(), m_unknown, layOut);
 		hessian.fill(map, 0.0);
-		m_cholesky.analyze(hessian.matrix());
 		const double scale = std::max(hessian.largestDiagonal(), 1.0);
 		double shift = 0.0;
 		while (!m_cholesky.factorize(hessian.matrix())) {

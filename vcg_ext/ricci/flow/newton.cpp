@@ -48,10 +48,6 @@ constexpr double kLeastAccuracy = 0.1;
 /// reads the factor from memory.
 constexpr double kFactorizationRate = 5.0;
 
-/// Where flips have made a factorisation more expensive than this times the first, the unknowns are
-/// ordered anew.
-constexpr double kMostGrowth = 1.5;
-
 /// Bounds of the number of conjugate gradient iterations that are worth a factorisation.
 constexpr int kLeastIterations = 8, kMostIterations = 50;
 
@@ -156,34 +152,16 @@ void NewtonSolver::updateMatrix(double shift)
 		m_analyzed = false;
 		m_revision = m_map->revision();
 	}
-	if (!m_ordered) {
-		const std::vector<int> order = m_cholesky.order(m_hessian.matrix());
-		std::vector<int> number(order.size());
-		for (std::size_t i = 0; i < order.size(); ++i)
-			number[at(order[i])] = static_cast<int>(i);
-		for (int& row : m_unknown)
-			if (row >= 0)
-				row = number[at(row)];
-		m_hessian.layOut(*m_map, m_unknown, m_unknownCount);
-		m_ordered = true;
-		m_analyzed = false;
-		m_factored = false;
-	}
 	m_hessian.fill(*m_map, shift);
 }
 
 void NewtonSolver::factorize()
 {
 	if (!m_analyzed) {
-		m_cholesky.analyze(m_hessian.matrix());
-		if (m_orderedFlops == 0.0)
-			m_orderedFlops = m_cholesky.factorFlops();
-		if (m_cholesky.factorFlops() > kMostGrowth * m_orderedFlops) {
-			m_ordered = false;
-			updateMatrix(0.0);
-			m_cholesky.analyze(m_hessian.matrix());
-			m_orderedFlops = m_cholesky.factorFlops();
-		}
+		const auto layOut = [this] { m_hessian.layOut(*m_map, m_unknown, m_unknownCount); };
+		m_factored = false;
+		if (m_cholesky.analyze(m_hessian.matrix(), m_unknown, layOut))
+			m_hessian.fill(*m_map, 0.0);
 		m_analyzed = true;
 	}
 	double shift = m_map->brokenTriangles() > 0 ? kRegularisation : 0.0;

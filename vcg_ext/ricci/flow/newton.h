@@ -90,12 +90,10 @@ private:
 	int m_unknownCount = 0;
 	bool m_gaugeFree = false; // the mean of u is free
 	int m_revision = -1;      // of the map, when the pattern was laid out
-	bool m_ordered = false;   // the unknowns are numbered in elimination order
 	bool m_analyzed = false;  // the symbolic factorisation is that of the pattern
 	bool m_factored = false;
-	bool m_shifted = false;      // the factor is that of a matrix with a shift
-	bool m_worn = false;         // the factor has become a bad preconditioner
-	double m_orderedFlops = 0.0; // of a factorisation, when the order was new
+	bool m_shifted = false; // the factor is that of a matrix with a shift
+	bool m_worn = false;    // the factor has become a bad preconditioner
 	Hessian m_hessian;
 	SparseCholesky m_cholesky;
 	Eigen::VectorXd m_gradient;                       // [vertex] K - target, 0 where fixed

@@ -214,6 +214,7 @@ SparseCholesky::SparseCholesky() : m_implementation(std::make_unique<Implementat
 {
 }
 
+/// [row wanted] row of the pattern.
 std::vector<int> SparseCholesky::order(const Matrix& pattern)
 {
 	const OneThread oneThread;
@@ -230,7 +231,8 @@ std::vector<int> SparseCholesky::order(const Matrix& pattern)
 	return order;
 }
 
-void SparseCholesky::analyze(const Matrix& pattern)
+/// Costs nothing for the pattern that order() has just been given, renumbered.
+void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
 {
 	Implementation& own = *m_implementation;
 	if (!own.analyzed || own.factor->n != at(pattern.rows())) {
@@ -299,6 +301,7 @@ SparseCholesky::SparseCholesky() : m_implementation(std::make_unique<Implementat
 {
 }
 
+/// [row wanted] row of the pattern.
 std::vector<int> SparseCholesky::order(const Matrix& pattern)
 {
 	Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
@@ -309,7 +312,7 @@ std::vector<int> SparseCholesky::order(const Matrix& pattern)
 	return {indices.data(), indices.data() + indices.size()};
 }
 
-void SparseCholesky::analyze(const Matrix& pattern)
+void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
 {
 	Implementation& own = *m_implementation;
 	own.solver.analyzePattern(pattern);
@@ -358,5 +361,16 @@ const char* SparseCholesky::name()
 #endif
 
 SparseCholesky::~SparseCholesky() = default;
+
+void SparseCholesky::chooseRows(const Matrix& pattern, std::vector<int>& row)
+{
+	const std::vector<int> order = this->order(pattern);
+	std::vector<int> wanted(order.size());
+	for (std::size_t i = 0; i < order.size(); ++i)
+		wanted[at(order[i])] = static_cast<int>(i);
+	for (int& r : row)
+		if (r >= 0)
+			r = wanted[at(r)];
+}
 
 } // namespace ricci

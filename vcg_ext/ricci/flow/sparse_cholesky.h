@@ -19,8 +19,8 @@ struct CholeskyWork
 /// Solver of symmetric positive definite sparse systems given by their lower triangle: supernodal
 /// CHOLMOD where it was found at build time (RICCI_USE_CHOLMOD), Eigen's SimplicialLDLT otherwise.
 ///
-/// Unknowns are eliminated in the order of their numbers. order() tells how to number them; the
-/// caller lays its matrix out accordingly, so that nothing has to be permuted afterwards.
+/// Unknowns are eliminated in the order of their rows, which analyze() chooses: matrices are laid out
+/// in that order, so that nothing has to be permuted afterwards.
 class SparseCholesky
 {
 public:
@@ -31,16 +31,31 @@ public:
 	SparseCholesky(const SparseCholesky&) = delete;
 	SparseCholesky& operator=(const SparseCholesky&) = delete;
 
-	/// Fill-reducing ordering of the unknowns of \p pattern: [number wanted] unknown. Approximate
-	/// minimum degree, and nested dissection (METIS, with CHOLMOD only) where the factor would be
-	/// large.
+	/// Symbolic factorisation of \p pattern, in which the unknown of element i has row \p row[i] (-1:
+	/// it has none). Stays valid while the pattern does.
+	///
+	/// Where that reduces the fill, chooses other rows and has the pattern laid out for them by \p
+	/// layOut(): the first time, where the number of unknowns is another, and where changes of the
+	/// pattern have made a factorisation half as expensive again as when the rows were chosen. Their
+	/// order is that of approximate minimum degree, or nested dissection (METIS, with CHOLMOD only)
+	/// where the factor is large.
+	/// \return whether the rows have changed
 	/// \throw std::bad_alloc
-	std::vector<int> order(const Matrix& pattern);
-
-	/// Symbolic factorisation. Stays valid while the pattern does. Costs nothing for the pattern
-	/// that order() has just been given, renumbered.
-	/// \throw std::bad_alloc
-	void analyze(const Matrix& pattern);
+	template<class LayOut>
+	bool analyze(const Matrix& pattern, std::vector<int>& row, LayOut layOut)
+	{
+		if (pattern.rows() == m_orderedRows) {
+			analyzeAsNumbered(pattern);
+			if (factorFlops() <= kMostGrowth * m_orderedFlops)
+				return false;
+		}
+		chooseRows(pattern, row);
+		layOut();
+		analyzeAsNumbered(pattern);
+		m_orderedRows = pattern.rows();
+		m_orderedFlops = factorFlops();
+		return true;
+	}
 
 	/// Numeric factorisation. \return false if \p matrix is not positive definite.
 	/// \throw std::bad_alloc
@@ -62,8 +77,18 @@ public:
 
 private:
 	struct Implementation;
+
+	/// A factorisation may become more expensive by this factor before other rows are chosen.
+	static constexpr double kMostGrowth = 1.5;
+
+	void chooseRows(const Matrix& pattern, std::vector<int>& row);
+	std::vector<int> order(const Matrix& pattern);
+	void analyzeAsNumbered(const Matrix& pattern);
+
 	std::unique_ptr<Implementation> m_implementation;
 	CholeskyWork m_work;
+	Eigen::Index m_orderedRows = -1;
+	double m_orderedFlops = 0.0; ///< of a factorisation, when the rows were chosen
 };
 
 } // namespace ricci

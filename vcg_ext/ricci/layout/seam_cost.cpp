@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace ricci {
 
@@ -78,18 +79,19 @@ std::vector<double> exposure(
 	for (Eigen::Index v = 0; v < n; ++v)
 		entries.emplace_back(static_cast<int>(v), static_cast<int>(v), diagonal[v]);
 	SparseCholesky::Matrix matrix(n, n);
-	matrix.setFromTriplets(entries.begin(), entries.end());
-	SparseCholesky cholesky;
-	const std::vector<int> vertexOf = cholesky.order(matrix); // [row]
 	std::vector<int> rowOf(at(n));
-	for (int row = 0; row < n; ++row)
-		rowOf[at(vertexOf[at(row)])] = row;
-	for (Eigen::Triplet<double>& entry : entries) {
-		const int a = rowOf[at(entry.row())], b = rowOf[at(entry.col())];
-		entry = {std::max(a, b), std::min(a, b), entry.value()};
-	}
-	matrix.setFromTriplets(entries.begin(), entries.end());
-	cholesky.analyze(matrix);
+	std::iota(rowOf.begin(), rowOf.end(), 0);
+	const auto layOut = [&] {
+		std::vector<Eigen::Triplet<double>> placed = entries;
+		for (Eigen::Triplet<double>& entry : placed) {
+			const int a = rowOf[at(entry.row())], b = rowOf[at(entry.col())];
+			entry = {std::max(a, b), std::min(a, b), entry.value()};
+		}
+		matrix.setFromTriplets(placed.begin(), placed.end());
+	};
+	layOut();
+	SparseCholesky cholesky;
+	cholesky.analyze(matrix, rowOf, layOut);
 	if (!cholesky.factorize(matrix))
 		throw Error("The linear solver failed: its matrix is not positive definite. Set "
 					"seam_hiding to 0, or "
@@ -97,11 +99,11 @@ std::vector<double> exposure(
 	Eigen::MatrixX3d smooth(n, 3);
 	for (int k = 0; k < 3; ++k) {
 		Eigen::VectorXd rhs(n), solution(n);
-		for (int row = 0; row < n; ++row)
-			rhs[row] = mass[vertexOf[at(row)]] * place(vertexOf[at(row)], k);
+		for (int v = 0; v < n; ++v)
+			rhs[rowOf[at(v)]] = mass[v] * place(v, k);
 		cholesky.solve(rhs, solution);
-		for (int row = 0; row < n; ++row)
-			smooth(vertexOf[at(row)], k) = solution[row];
+		for (int v = 0; v < n; ++v)
+			smooth(v, k) = solution[rowOf[at(v)]];
 	}
 	Eigen::VectorXd height = Eigen::VectorXd::Zero(n);
 	double square = 0.0;
