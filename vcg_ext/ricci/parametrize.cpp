@@ -10,7 +10,6 @@
 #include "layout/least_rectangle.h"
 #include "layout/orientation.h"
 #include "layout/seam_cost.h"
-#include "memory.h"
 #include "numbers.h"
 #include "result_assembly.h"
 #include "run_progress.h"
@@ -164,12 +163,7 @@ private:
 				[&](int step, double residual) { progress(m_iterations + step, residual); });
 			m_iterations += m_flow.iterations;
 			m_swaps += m_flow.edgeSwaps;
-			if (m_flow.history.lengthened > 0.0)
-				m_interval.log(
-					"Some faces have no area, or one side a million times shorter than another: "
-					"the "
-					"flow sees every edge longer by " +
-					numberText(m_flow.history.lengthened, 3) + ".");
+			logLengthened(m_flow, m_interval);
 			if (m_flow.edgesToSplit.empty()) {
 				if (m_flow.residual >= m_options.epsilon)
 					m_interval.log(
@@ -383,30 +377,14 @@ private:
 				result.uv[inputFace][m_component.inputCorner(f, k)] =
 					pointOf(cornerHalfedge[at(m_mesh.corner[f][k])], anyHalfedge);
 		}
-		for (std::size_t v = 0; v < m_component.vertex.size(); ++v) {
-			const std::size_t inputVertex = at(m_component.vertex[v]);
-			const auto i = static_cast<Eigen::Index>(v);
-			result.u[inputVertex] = m_flow.u[i] + std::log(m_scale);
-			result.targetCurvature[inputVertex] =
-				m_flow.target.fixed[v] ? m_flow.curvature[i] : m_flow.target.curvature[i];
-		}
+		storeFlow(m_flow, m_component, m_topology, std::log(m_scale), result);
 		Report& report = result.report;
 		report.iterations += m_iterations;
-		report.maxCurvatureError = std::max(report.maxCurvatureError, m_flow.residual);
-		report.residualFloor = std::max(report.residualFloor, m_flow.floor);
 		report.edgeSwaps += m_swaps;
-		report.brokenTriangles += m_flow.metric->brokenTriangles();
-		report.flips +=
-			static_cast<int>(m_flow.history.startFlips.size() + m_flow.history.flowFlips.size());
 		report.refinementPoints += static_cast<int>(m_refinement.crossings);
 		report.boundarySplits += m_splits;
-		report.eulerCharacteristic += m_topology.eulerCharacteristic;
-		report.genus += m_topology.genus;
-		report.boundaryLoops += static_cast<int>(m_topology.loops.size());
-		report.seamEdges += m_cut.edgeCount;
 		report.cappedHoles += m_solved.holes;
-		for (std::size_t e = 0; e < m_cut.isCut.size(); ++e)
-			report.seamLength += m_cut.isCut[e] ? m_lengths[e] : 0.0;
+		storeCut(m_cut, m_lengths, report);
 		report.cones += m_cones;
 	}
 
@@ -496,10 +474,7 @@ void checkOptions(const Options& options)
 		throw InvalidOption(
 			"The holes 'Capped' belong to the surgery 'Intrinsic flips' with the circle packing "
 			"'Inversive distance': choose these, or the holes 'Boundaries'.");
-	if (!(options.epsilon > 0.0))
-		throw InvalidOption(
-			"epsilon must be greater than 0 (radians), not " + numberText(options.epsilon, 6) +
-			".");
+	checkFlowOptions(options);
 	if (options.coneCount < 0)
 		throw InvalidOption(
 			"cone_count must be 0 or more, not " + std::to_string(options.coneCount) + ".");
@@ -510,10 +485,6 @@ void checkOptions(const Options& options)
 	if (!(options.seamHiding >= 0.0 && options.seamHiding <= 1.0))
 		throw InvalidOption(
 			"seam_hiding must be between 0 and 1, not " + numberText(options.seamHiding, 6) + ".");
-	if (options.maxIterations < 1)
-		throw InvalidOption(
-			"max_iterations must be at least 1, not " + std::to_string(options.maxIterations) +
-			".");
 }
 
 /// \throw NotConverged if a chart of which no triangle is turned round still overlaps itself
@@ -560,17 +531,8 @@ Parametrization parametrizeEuclidean(
 		result.notes.push_back(
 			"The Thurston packing runs on the mesh's own triangles, without flips.");
 	}
-	const std::vector<Component> components = splitIntoComponents(mesh, result.notes);
-	if (options.surgery != Surgery::IntrinsicFlips)
-		requireAreaEverywhere(components);
-	requireMemory(
-		largestComponent(components),
-		mesh.triangles.size(),
-		options.output == OutputTriangulation::CommonRefinement,
-		options.memoryLimit);
-	for (const std::string& note : result.notes)
-		progress.log(note);
-	startResult(mesh, options.output, components, result);
+	const std::vector<Component> components =
+		startResult(mesh, options, options.output, progress, result);
 	runComponents(mesh, components, progress, [&](const Component& component, Interval interval) {
 		ComponentRun(component, input, options, interval).run(result);
 	});
@@ -581,23 +543,12 @@ Parametrization parametrizeEuclidean(
 		result.report.rectangleAspect.reset();
 	}
 	progress.step(kComponentsDone, "Measuring the distortion");
-	double area = 0.0;
-	for (const Triangle& t : mesh.triangles)
-		area += triangleArea(
-			{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]});
 	result.report.converged = true;
-	Report keptReport = result.report;
-	DistortionField distortion = measureDistortion(mesh, result.uv, result.reversed, keptReport);
-	result.faceQC = std::move(distortion.face);
-	result.vertexQC = std::move(distortion.vertex);
-	if (options.output == OutputTriangulation::CommonRefinement)
-		measureRefinement(mesh, result);
-	else
-		result.report = keptReport;
+	measureResult(mesh, options.output, measureDistortion, result);
 	const auto tick = [&] { progress.step(kMeasured, "Looking for charts that overlap"); };
 	tick();
 	separateCharts(mesh, options.resolveOverlap, tick, result);
-	result.report.seamLengthRelative = result.report.seamLength / std::sqrt(area);
+	result.report.seamLengthRelative = result.report.seamLength / std::sqrt(areaOf(mesh));
 	if (options.resolveOverlap)
 		requireSeparateCharts(mesh, result);
 	progress.step(1.0, "Layout done");

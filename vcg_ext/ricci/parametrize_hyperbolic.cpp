@@ -7,7 +7,6 @@
 #include "layout/cut_graph.h"
 #include "layout/distortion.h"
 #include "layout/hyperbolic_layout.h"
-#include "memory.h"
 #include "numbers.h"
 #include "result_assembly.h"
 #include "surface/component.h"
@@ -138,11 +137,7 @@ private:
 			{},
 			m_options,
 			[&](int step, double residual) { progress(step, residual); });
-		if (m_flow.history.lengthened > 0.0)
-			m_interval.log(
-				"Some faces have no area, or one side a million times shorter than another: the "
-				"flow sees every edge longer by " +
-				numberText(m_flow.history.lengthened, 3) + ".");
+		logLengthened(m_flow, m_interval);
 	}
 
 	/// Checks what was found by other formulas than those that found it.
@@ -283,29 +278,12 @@ private:
 			for (std::size_t k = 0; k < 3; ++k)
 				result.uv[inputFace][m_component.inputCorner(at(f), k)] = m_layout.at(h[k]);
 		}
-		for (std::size_t v = 0; v < m_component.vertex.size(); ++v) {
-			const std::size_t inputVertex = at(m_component.vertex[v]);
-			const auto i = static_cast<Eigen::Index>(v);
-			result.u[inputVertex] = m_flow.u[i];
-			result.targetCurvature[inputVertex] =
-				m_flow.target.fixed[v] ? m_flow.curvature[i] : m_flow.target.curvature[i];
-		}
+		storeFlow(m_flow, m_component, m_topology, 0.0, result);
 		Report& report = result.report;
 		report.iterations += m_flow.iterations;
-		report.maxCurvatureError = std::max(report.maxCurvatureError, m_flow.residual);
-		report.residualFloor = std::max(report.residualFloor, m_flow.floor);
-		report.brokenTriangles += m_flow.metric->brokenTriangles();
-		report.flips +=
-			static_cast<int>(m_flow.history.startFlips.size() + m_flow.history.flowFlips.size());
 		report.refinementPoints += static_cast<int>(m_refinement.crossings);
-		report.eulerCharacteristic += m_topology.eulerCharacteristic;
-		report.genus += m_topology.genus;
-		report.boundaryLoops += static_cast<int>(m_topology.loops.size());
-		report.seamEdges += m_cut.edgeCount;
 		report.cones += static_cast<int>(std::count(m_cones.begin(), m_cones.end(), 1));
-		const std::vector<double> lengths = edgeLengths(m_base, m_component.positions);
-		for (std::size_t e = 0; e < m_cut.isCut.size(); ++e)
-			report.seamLength += m_cut.isCut[e] ? lengths[e] : 0.0;
+		storeCut(m_cut, edgeLengths(m_base, m_component.positions), report);
 		report.hyperbolicArea = report.hyperbolicArea.value_or(0.0) + m_flow.area;
 		report.relationError = std::max(
 			{report.relationError.value_or(0.0),
@@ -340,14 +318,7 @@ void checkOptions(const HyperbolicOptions& options)
 		throw InvalidOption(
 			"The output 'Common refinement' belongs to the surgery 'Intrinsic flips': choose this, "
 			"or the output 'Keep the mesh'.");
-	if (!(options.epsilon > 0.0))
-		throw InvalidOption(
-			"epsilon must be greater than 0 (radians), not " + numberText(options.epsilon, 6) +
-			".");
-	if (options.maxIterations < 1)
-		throw InvalidOption(
-			"max_iterations must be at least 1, not " + std::to_string(options.maxIterations) +
-			".");
+	checkFlowOptions(options);
 }
 
 } // namespace
@@ -361,40 +332,15 @@ Parametrization parametrizeHyperbolic(
 	checkOptions(options);
 	progress.step(0.0, "Checking the mesh");
 	Parametrization result;
-	const std::vector<Component> components = splitIntoComponents(mesh, result.notes);
-	if (!(options.surgery == Surgery::IntrinsicFlips))
-		requireAreaEverywhere(components);
-	requireMemory(
-		largestComponent(components),
-		mesh.triangles.size(),
-		options.output == OutputTriangulation::CommonRefinement,
-		options.memoryLimit);
-	for (const std::string& note : result.notes)
-		progress.log(note);
-	startResult(mesh, options.output, components, result);
+	const std::vector<Component> components =
+		startResult(mesh, options, options.output, progress, result);
 	runComponents(mesh, components, progress, [&](const Component& component, Interval interval) {
 		HyperbolicRun(component, input, options, interval).run(result);
 	});
 	progress.step(kComponentsDone, "Measuring the distortion");
-	double area = 0.0;
-	for (const Triangle& t : mesh.triangles)
-		area += triangleArea(
-			{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]});
-	result.report.seamLengthRelative = result.report.seamLength / std::sqrt(area);
+	result.report.seamLengthRelative = result.report.seamLength / std::sqrt(areaOf(mesh));
 	result.report.converged = true;
-	Report keptReport = result.report;
-	DistortionField distortion = measure(mesh, result.uv, result.reversed, keptReport);
-	result.faceQC = std::move(distortion.face);
-	result.vertexQC = std::move(distortion.vertex);
-	if (options.output == OutputTriangulation::CommonRefinement) {
-		std::vector<char> reversed;
-		const SurfaceMesh surface = refinedSurface(mesh, result, reversed);
-		distortion = measure(surface, result.refined.uv, reversed, result.report);
-		result.refined.faceQC = std::move(distortion.face);
-		result.refined.vertexQC = std::move(distortion.vertex);
-	}
-	else
-		result.report = keptReport;
+	measureResult(mesh, options.output, measure, result);
 	progress.step(1.0, "Layout done");
 	return result;
 }

@@ -1,31 +1,111 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "result_assembly.h"
 
-#include "layout/distortion.h"
+#include "memory.h"
 #include "numbers.h"
+#include "text.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace ricci {
 
-void startResult(
+namespace {
+
+/// The refinement as a mesh in space, and which of its faces are reversed.
+SurfaceMesh
+refinedSurface(const SurfaceMesh& mesh, const Parametrization& result, std::vector<char>& reversed)
+{
+	SurfaceMesh surface;
+	for (const SurfacePoint& p : result.refined.points)
+		surface.positions.push_back(placeOnSurface(p, mesh.positions));
+	surface.triangles = result.refined.triangles;
+	for (int f : result.refined.inputFace)
+		reversed.push_back(result.reversed[at(f)]);
+	return surface;
+}
+
+} // namespace
+
+void checkFlowOptions(const FlowOptions& options)
+{
+	if (!(options.epsilon > 0.0))
+		throw InvalidOption(
+			"epsilon must be greater than 0 (radians), not " + numberText(options.epsilon, 6) +
+			".");
+	if (options.maxIterations < 1)
+		throw InvalidOption(
+			"max_iterations must be at least 1, not " + std::to_string(options.maxIterations) +
+			".");
+}
+
+std::vector<Component> startResult(
 	const SurfaceMesh& mesh,
+	const FlowOptions& options,
 	OutputTriangulation output,
-	const std::vector<Component>& components,
+	Progress& progress,
 	Parametrization& result)
 {
+	std::vector<Component> components = splitIntoComponents(mesh, result.notes);
+	if (options.surgery != Surgery::IntrinsicFlips)
+		requireAreaEverywhere(components);
+	const bool refined = output == OutputTriangulation::CommonRefinement;
+	requireMemory(
+		largestComponent(components), mesh.triangles.size(), refined, options.memoryLimit);
+	for (const std::string& note : result.notes)
+		progress.log(note);
 	result.uv.resize(mesh.triangles.size());
 	result.reversed.assign(mesh.triangles.size(), 0);
 	result.u.assign(mesh.positions.size(), 0.0);
 	result.targetCurvature.assign(mesh.positions.size(), 0.0);
 	result.report.components = static_cast<int>(components.size());
-	if (output != OutputTriangulation::CommonRefinement)
-		return;
-	for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+	for (std::size_t v = 0; refined && v < mesh.positions.size(); ++v) {
 		SurfacePoint p;
 		p.vertex[0] = static_cast<int>(v);
 		result.refined.points.push_back(p);
 	}
+	return components;
+}
+
+void logLengthened(const FlowResult& flow, Interval& interval)
+{
+	if (flow.history.lengthened > 0.0)
+		interval.log(
+			"Some faces have no area, or one side a million times shorter than another: the flow "
+			"sees every edge longer by " +
+			numberText(flow.history.lengthened, 3) + ".");
+}
+
+void storeFlow(
+	const FlowResult& flow,
+	const Component& component,
+	const Topology& topology,
+	double shift,
+	Parametrization& result)
+{
+	for (std::size_t v = 0; v < component.vertex.size(); ++v) {
+		const std::size_t inputVertex = at(component.vertex[v]);
+		const auto i = static_cast<Eigen::Index>(v);
+		result.u[inputVertex] = flow.u[i] + shift;
+		result.targetCurvature[inputVertex] =
+			flow.target.fixed[v] ? flow.curvature[i] : flow.target.curvature[i];
+	}
+	Report& report = result.report;
+	report.maxCurvatureError = std::max(report.maxCurvatureError, flow.residual);
+	report.residualFloor = std::max(report.residualFloor, flow.floor);
+	report.brokenTriangles += flow.metric->brokenTriangles();
+	report.flips +=
+		static_cast<int>(flow.history.startFlips.size() + flow.history.flowFlips.size());
+	report.eulerCharacteristic += topology.eulerCharacteristic;
+	report.genus += topology.genus;
+	report.boundaryLoops += static_cast<int>(topology.loops.size());
+}
+
+void storeCut(const CutGraph& cut, const std::vector<double>& lengths, Report& report)
+{
+	report.seamEdges += cut.edgeCount;
+	for (std::size_t e = 0; e < cut.isCut.size(); ++e)
+		report.seamLength += cut.isCut[e] ? lengths[e] : 0.0;
 }
 
 CommonRefinement overlayOfFlow(
@@ -120,26 +200,34 @@ outputOf(const Component& component, const Chart& chart, const Parametrization& 
 	return output;
 }
 
-SurfaceMesh
-refinedSurface(const SurfaceMesh& mesh, const Parametrization& result, std::vector<char>& reversed)
+void measureResult(
+	const SurfaceMesh& mesh,
+	OutputTriangulation output,
+	const Measure& measure,
+	Parametrization& result)
 {
-	SurfaceMesh surface;
-	for (const SurfacePoint& p : result.refined.points)
-		surface.positions.push_back(placeOnSurface(p, mesh.positions));
-	surface.triangles = result.refined.triangles;
-	for (int f : result.refined.inputFace)
-		reversed.push_back(result.reversed[at(f)]);
-	return surface;
-}
-
-void measureRefinement(const SurfaceMesh& mesh, Parametrization& result)
-{
+	Report keptReport = result.report;
+	DistortionField distortion = measure(mesh, result.uv, result.reversed, keptReport);
+	result.faceQC = std::move(distortion.face);
+	result.vertexQC = std::move(distortion.vertex);
+	if (output != OutputTriangulation::CommonRefinement) {
+		result.report = keptReport;
+		return;
+	}
 	std::vector<char> reversed;
 	const SurfaceMesh surface = refinedSurface(mesh, result, reversed);
-	DistortionField distortion =
-		measureDistortion(surface, result.refined.uv, reversed, result.report);
+	distortion = measure(surface, result.refined.uv, reversed, result.report);
 	result.refined.faceQC = std::move(distortion.face);
 	result.refined.vertexQC = std::move(distortion.vertex);
+}
+
+double areaOf(const SurfaceMesh& mesh)
+{
+	double area = 0.0;
+	for (const Triangle& t : mesh.triangles)
+		area += triangleArea(
+			{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]});
+	return area;
 }
 
 } // namespace ricci

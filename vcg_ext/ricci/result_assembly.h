@@ -5,22 +5,63 @@
 
 #include "error.h"
 #include "flow/ricci_flow.h"
+#include "layout/cut_graph.h"
+#include "layout/distortion.h"
 #include "parametrize.h"
 #include "run_progress.h"
 #include "surface/component.h"
 
+#include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace ricci {
 
-/// Sizes the arrays of \p result and puts the input's vertices into its refinement if one is asked
-/// for.
-void startResult(
+/// \throw InvalidOption for a number out of range
+void checkFlowOptions(const FlowOptions& options);
+
+/// Checks \p mesh and whether memory will do, logs what there is to note, and makes \p result ready
+/// for its components: its arrays have their sizes, and its refinement, if one is asked for, begins
+/// with the input's vertices.
+/// \throw InvalidMesh, InvalidOption and what requireMemory() throws
+std::vector<Component> startResult(
+	const SurfaceMesh& mesh,
+	const FlowOptions& options,
+	OutputTriangulation output,
+	Progress& progress,
+	Parametrization& result);
+
+/// The note that the flow sees longer edges than the input's, if it does.
+void logLengthened(const FlowResult& flow, Interval& interval);
+
+/// Puts the flow on one component into \p result: u, moved by \p shift, the target, and its part of
+/// the report.
+void storeFlow(
+	const FlowResult& flow,
+	const Component& component,
+	const Topology& topology,
+	double shift,
+	Parametrization& result);
+
+/// Adds the cut of one component to the report. \p lengths [edge] of the input.
+void storeCut(const CutGraph& cut, const std::vector<double>& lengths, Report& report);
+
+/// Distortion of the map and of its refinement if it has one, whose figures then are those of the
+/// report. \p measure takes what measureDistortion() does.
+using Measure = std::function<DistortionField(
+	const SurfaceMesh&,
+	const std::vector<std::array<Point2, 3>>&,
+	const std::vector<char>&,
+	Report&)>;
+void measureResult(
 	const SurfaceMesh& mesh,
 	OutputTriangulation output,
-	const std::vector<Component>& components,
+	const Measure& measure,
 	Parametrization& result);
+
+/// In space.
+double areaOf(const SurfaceMesh& mesh);
 
 /// The overlay of the triangles that the flow with flips went through, for the faces of \p base, the
 /// triangulation of the component. \p isCut [edge of base]: where the layout is cut.
@@ -55,13 +96,6 @@ struct OutputTriangles
 
 OutputTriangles
 outputOf(const Component& component, const Chart& chart, const Parametrization& result);
-
-/// The refinement as a mesh in space, and which of its faces are reversed.
-SurfaceMesh
-refinedSurface(const SurfaceMesh& mesh, const Parametrization& result, std::vector<char>& reversed);
-
-/// Distortion of the refinement, into \p result and its report.
-void measureRefinement(const SurfaceMesh& mesh, Parametrization& result);
 
 /// Shares of the progress after which all components are mapped, and their distortion is measured.
 constexpr double kComponentsDone = 0.9, kMeasured = 0.95;

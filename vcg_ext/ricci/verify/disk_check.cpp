@@ -2,6 +2,7 @@
 #include "disk_check.h"
 
 #include "../numbers.h"
+#include "shared_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,20 +93,10 @@ DiskCheck checkDisk(
 		const bool right = reversed[f] ? det < 0 : det > 0;
 		check.turned += !right && std::abs(det) > std::sinh(allowed) * std::sinh(longest);
 	}
-	std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-		return a.low != b.low ? a.low < b.low : a.high < b.high;
-	});
-	for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-		end = i;
-		while (end < sides.size() && sides[end].low == sides[i].low &&
-			   sides[end].high == sides[i].high)
-			++end;
-		if (end - i != 2)
-			continue;
-		const Real error = std::abs(sides[i].length - sides[i + 1].length) - sides[i].rounding -
-						   sides[i + 1].rounding;
+	forSharedEdges(sides, [&](const Side& a, const Side& b) {
+		const Real error = std::abs(a.length - b.length) - a.rounding - b.rounding;
 		check.seamGap = std::max(check.seamGap, static_cast<double>(error));
-	}
+	});
 	return check;
 }
 

@@ -3,6 +3,7 @@
 
 #include "../layout/orientation.h"
 #include "../numbers.h"
+#include "shared_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,18 +72,10 @@ MapCheck checkMap(
 		check.turned += orientation(plane[f][0], plane[f][1], plane[f][2]) != wanted &&
 						heightOf(plane[f]) > tolerance * extent;
 	}
-	std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-		return a.low != b.low ? a.low < b.low : a.high < b.high;
+	forSharedEdges(sides, [&](const Side& a, const Side& b) {
+		if (extent > 0.0)
+			check.seamGap = std::max(check.seamGap, std::abs(length(a) - length(b)) / extent);
 	});
-	for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-		end = i;
-		while (end < sides.size() && sides[end].low == sides[i].low &&
-			   sides[end].high == sides[i].high)
-			++end;
-		if (end - i == 2 && extent > 0.0)
-			check.seamGap =
-				std::max(check.seamGap, std::abs(length(sides[i]) - length(sides[i + 1])) / extent);
-	}
 	return check;
 }
 
