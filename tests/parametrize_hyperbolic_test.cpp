@@ -336,6 +336,22 @@ TEST(ParametrizeHyperbolic, RefusesASurfaceWithoutHyperbolicMetric)
 	expectWords(reason<InvalidOption>(mesh, options, selecting(mesh, {})), {"none is selected"});
 }
 
+/// The smaller its angle, the farther away a cone lies, and the doubles of the disk reach to 37.
+TEST(ParametrizeHyperbolic, TellsWhenTheDiskIsTooSmallForTheLayout)
+{
+	Random random(9);
+	const SurfaceMesh mesh = bumpyTorus(12, 9, random);
+	const VertexInput input = selecting(mesh, {5, 20, 33, 40});
+	HyperbolicOptions options;
+	options.target = HyperbolicTarget::SelectedCones;
+	options.coneAngle = 1e-5;
+	EXPECT_LT(*run(mesh, options, input).report.relationError, 1e-8);
+	options.coneAngle = 1e-12;
+	expectWords(
+		reason<NotConverged>(mesh, options, input),
+		{"so far from the middle of the layout", "Poincaré disk", "larger cone angles"});
+}
+
 TEST(ParametrizeHyperbolic, RefusesOptionsOutOfRange)
 {
 	const SurfaceMesh mesh = genusTwo(709, 1);

@@ -148,12 +148,20 @@ private:
 		const OutputTriangles output = outputOf(m_component, chart, result);
 		// What an angle leaves open grows like sinh of the distance across the layout.
 		double radius = 0.0;
-		for (const Point2& p : m_layout.position)
-			radius = std::max(radius, 2.0 * std::atanh(std::min(1.0, std::hypot(p[0], p[1]))));
+		bool finite = true;
+		for (const Point2& p : m_layout.position) {
+			const double r = std::hypot(p[0], p[1]);
+			finite = finite && std::isfinite(r);
+			radius = std::max(radius, 2.0 * std::atanh(std::min(1.0, r)));
+		}
 		const double tolerance = kCheckedGap + openCurvature(m_flow) * std::sinh(2.0 * radius);
 		const DiskCheck check =
 			checkDisk(output.triangles, output.plane, output.reversed, tolerance);
-		// Far from the root of the layout the doubles of the disk end.
+		if (check.outside > 0 && finite) // past a distance of about 37 the doubles of the disk end
+			throw NotConverged(
+				std::to_string(check.outside) +
+				" corners of faces lie so far from the middle of the layout that rounding "
+				"puts them on the border of the Poincaré disk: choose larger cone angles.");
 		if (check.outside > 0)
 			failCheck(std::to_string(check.outside) + " points lie outside the disk");
 		// Where flips bend the edges of the input, its geodesic faces may turn.
