@@ -57,6 +57,24 @@ TEST(HyperbolicFlow, FindsTheMetricOfCurvatureMinusOne)
 	}
 }
 
+TEST(HyperbolicFlow, ReachesConesThatAreNearlyCusps)
+{
+	// Their circles grow beyond all bounds, u to 0, while the others have far to go.
+	Random random(506);
+	for (int trial = 0; trial < 8; ++trial) {
+		const SurfaceMesh mesh = shaken(perforatedSlab(2, 3), 0.06, random);
+		for (double angle : {1e-2, 1e-4, 1e-6}) {
+			SCOPED_TRACE(angle);
+			std::vector<double> cones(mesh.positions.size(), 0.0);
+			for (int k = 0; k < 4; ++k)
+				cones[at(random.index(static_cast<int>(cones.size())))] = 2 * kPi - angle;
+			const FlippedFlow flow(mesh, hyperbolicPrescribed(cones));
+			expectReached(flow);
+			EXPECT_LE(flow.result.iterations, 20);
+		}
+	}
+}
+
 TEST(HyperbolicFlow, LengthsOfTheInputAreExactWhereNothingFlips)
 {
 	Random random(505);

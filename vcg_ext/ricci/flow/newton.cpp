@@ -21,6 +21,10 @@ constexpr double kStepCap = 4.0;
 /// In the hyperbolic plane u is negative; a step covers at most this share of the way to 0.
 constexpr double kShareOfRange = 0.9;
 
+/// Where that would shorten the whole step to less than this, only the entries that are too long are
+/// shortened: a circle that is nearly a cusp's must not hold up all others.
+constexpr double kLeastShare = 0.01;
+
 /// Sufficient decrease of |K - target| asked of a step of length t: by the factor 1 - kDecrease t.
 constexpr double kDecrease = 1e-4;
 
@@ -231,15 +235,22 @@ void NewtonSolver::direction(double accuracy, bool reached)
 		m_direction.array() -= m_direction.mean();
 }
 
-/// Share of m_direction, whose largest entry is \p largest, that keeps u in range.
-double NewtonSolver::longestStep(const Eigen::VectorXd& u, double largest) const
+/// Share of m_direction, whose largest entry is \p largest, that keeps u in range. May shorten entries
+/// of m_direction.
+double NewtonSolver::longestStep(const Eigen::VectorXd& u, double largest)
 {
-	double t = largest > kStepCap ? kStepCap / largest : 1.0;
-	if (!m_map->scaleInvariant())
-		for (Eigen::Index v = 0; v < u.size(); ++v)
-			if (m_direction[v] > 0.0)
-				t = std::min(t, kShareOfRange * -u[v] / m_direction[v]);
-	return t;
+	const double cap = largest > kStepCap ? kStepCap / largest : 1.0;
+	if (m_map->scaleInvariant())
+		return cap;
+	double share = 1.0;
+	for (Eigen::Index v = 0; v < u.size(); ++v)
+		if (m_direction[v] > 0.0)
+			share = std::min(share, kShareOfRange * -u[v] / m_direction[v]);
+	if (share >= kLeastShare)
+		return std::min(cap, share);
+	for (Eigen::Index v = 0; v < u.size(); ++v)
+		m_direction[v] = std::min(m_direction[v], kShareOfRange * -u[v] / cap);
+	return cap;
 }
 
 /// m_trial + m_trialRest = u + m_rest + t m_direction, with the rounding error of the sum kept.

@@ -80,7 +80,7 @@ private:
 	void factorize();
 	void gatherRightSide();
 	void direction(double accuracy, bool reached);
-	double longestStep(const Eigen::VectorXd& u, double largest) const;
+	double longestStep(const Eigen::VectorXd& u, double largest);
 	void applyStep(const Eigen::VectorXd& u, double t);
 	double roundingFloor();
 
