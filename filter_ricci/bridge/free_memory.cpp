@@ -11,7 +11,7 @@ namespace filter_ricci {
 namespace {
 
 /// The number in a file that holds nothing else; -1 if there is none ("max").
-double numberIn(const char* path)
+double numberIn(const std::string& path)
 {
 	std::ifstream file(path);
 	file.imbue(std::locale::classic());
@@ -20,25 +20,49 @@ double numberIn(const char* path)
 	return file ? number : -1.0;
 }
 
+/// The number behind \p key in a file of such pairs; 0 if there is none.
+double numberBehind(const std::string& path, const std::string& key)
+{
+	std::ifstream file(path);
+	file.imbue(std::locale::classic());
+	std::string name, rest;
+	double number = 0.0;
+	while (file >> name >> number) {
+		if (name == key)
+			return number;
+		std::getline(file, rest);
+	}
+	return 0.0;
+}
+
+/// Files of a control group that say how much memory it may have and has. What it has includes
+/// pages of files, which the kernel gives back when it needs them.
+struct ControlGroup
+{
+	const char *folder, *limit, *used, *files;
+};
+constexpr ControlGroup kControlGroups[] = {
+	{"sys/fs/cgroup/", "memory.max", "memory.current", "inactive_file"},
+	{"sys/fs/cgroup/memory/",
+	 "memory.limit_in_bytes",
+	 "memory.usage_in_bytes",
+	 "total_inactive_file"}};
+
 } // namespace
 
-double freeMemory()
+double freeMemory(const std::string& root)
 {
 	constexpr double kKilobyte = 1024.0;
-	double free = 0.0;
-	std::ifstream file("/proc/meminfo");
-	file.imbue(std::locale::classic());
-	std::string key, unit;
-	double value = 0.0;
-	while (file >> key >> value) {
-		std::getline(file, unit);
-		if (key == "MemAvailable:" || key == "SwapFree:")
-			free += value * kKilobyte;
+	const std::string machine = root + "proc/meminfo";
+	double free =
+		kKilobyte * (numberBehind(machine, "MemAvailable:") + numberBehind(machine, "SwapFree:"));
+	for (const ControlGroup& group : kControlGroups) {
+		const std::string folder = root + group.folder;
+		const double limit = numberIn(folder + group.limit), used = numberIn(folder + group.used);
+		const double files = numberBehind(folder + "memory.stat", group.files);
+		if (free > 0.0 && limit >= 0.0 && used >= 0.0)
+			free = std::min(free, std::max(limit - std::max(used - files, 0.0), 1.0));
 	}
-	const double limit = numberIn("/sys/fs/cgroup/memory.max");
-	const double used = numberIn("/sys/fs/cgroup/memory.current");
-	if (free > 0.0 && limit >= 0.0 && used >= 0.0)
-		free = std::min(free, std::max(limit - used, 1.0));
 	return free;
 }
 

@@ -2,11 +2,15 @@
 #ifndef FILTER_RICCI_FREE_MEMORY_H
 #define FILTER_RICCI_FREE_MEMORY_H
 
+#include <string>
+
 namespace filter_ricci {
 
-/// Bytes that this process can still use before the system runs out of memory (swap included) or a
-/// limit of its control group is reached; 0 if that is not known (other systems than Linux).
-double freeMemory();
+/// Bytes that the machine, and the control group of the process (version 1 or 2, as a container sees
+/// it), can still give, the pages of files that were read counted as free; 0 where they cannot be
+/// asked.
+/// \param root of the file system, with a slash at its end
+double freeMemory(const std::string& root = "/");
 
 } // namespace filter_ricci
 
