@@ -626,6 +626,31 @@ TEST(Parametrize, SplitsABoundaryEdgeThatWouldBreakItsTriangle)
 		reason(fan, options, input).find("the triangle inequality at the end"), std::string::npos);
 }
 
+/// A corner of one triangle is to become straight: no triangle has an angle of pi, but flat ones come
+/// as near as one likes.
+TEST(Parametrize, ACurvatureAtTheLimitOfATriangleIsRefused)
+{
+	const SurfaceMesh mesh = rectangle(3, 3, 3, 3);
+	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
+	std::vector<int> faces(mesh.positions.size(), 0);
+	for (const Triangle& face : mesh.triangles)
+		for (int v : face)
+			++faces[at(v)];
+	const std::vector<char> boundary = t.boundaryVertices();
+	const auto others =
+		std::count(boundary.begin(), boundary.end(), 1) - std::count(faces.begin(), faces.end(), 1);
+	VertexInput input;
+	for (std::size_t v = 0; v < faces.size(); ++v)
+		input.targetCurvature.push_back(
+			boundary[v] && faces[v] > 1 ? 2 * kPi / static_cast<double>(others) : 0.0);
+	Options options = fixedTriangulation(TargetCurvature::Prescribed);
+	options.freeBoundary = false;
+	const std::string sentence = reason(mesh, options, input);
+	EXPECT_NE(sentence.find("the surgery 'Intrinsic flips'"), std::string::npos) << sentence;
+	options.surgery = Surgery::IntrinsicFlips;
+	EXPECT_LT(run(mesh, options, input).report.maxCurvatureError, 1e-8);
+}
+
 TEST(Parametrize, ReportedRadiiBelongToTheLayout)
 {
 	// Scaling the layout to the area of the surface shifts u; edges of the layout must follow it.

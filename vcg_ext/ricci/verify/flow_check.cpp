@@ -29,8 +29,14 @@ void requireMetric(Background background, const FlowResult& flow, const std::vec
 	const MetricCheck check = checkMetric(
 		background, metric.triangulation(), metric.delta(), flow.u, metric.lengths(), target);
 	// On the boundary of a double the residual counts twice.
-	if (check.broken > 0 || !(check.lengthError <= kLength) ||
-		!(check.curvatureError <= 2.0 * flow.residual + kCurvature))
+	const bool exact =
+		check.lengthError <= kLength && check.curvatureError <= 2.0 * flow.residual + kCurvature;
+	if (exact && check.broken > 0)
+		throw NotConverged(
+			std::to_string(check.broken) + (check.broken == 1 ? " triangle is" : " triangles are") +
+			" flat at the end of the flow: the curvature asked for is the limit of what these "
+			"triangles reach. Choose the surgery 'Intrinsic flips', or another target_curvature.");
+	if (!exact)
 		failCheck(
 			"curvature " + numberText(check.curvatureError, 3) + " off at one vertex, lengths " +
 			numberText(check.lengthError, 3) + ", " + std::to_string(check.broken) +
