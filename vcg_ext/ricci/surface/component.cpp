@@ -170,8 +170,7 @@ void checkManifoldVertices(const SurfaceMesh& mesh, const std::vector<Side>& sid
 				static_cast<std::size_t>(nonManifold),
 				"non-manifold vertex",
 				"non-manifold vertices") +
-			" (their faces form more than one fan): run 'Repair non Manifold Vertices by "
-			"splitting' "
+			" (with more than one fan of faces): run 'Repair non Manifold Vertices by splitting' "
 			"first.");
 }
 
