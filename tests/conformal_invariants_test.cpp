@@ -4,6 +4,7 @@
 #include "support/shapes.h"
 #include "support/transform.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
@@ -15,8 +16,6 @@
 
 namespace ricci::testing {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 double imTau(const SurfaceMesh& mesh)
 {

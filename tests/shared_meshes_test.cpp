@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Real meshes, where they lie beside the repository. They may not be redistributed, so the tests
 // are skipped on a machine without them.
+#include "support/expect.h"
 #include "support/flat_map.h"
 #include "support/mesh_file.h"
 #include "support/obj_writer.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/error.h>
 #include <ricci/parametrize.h>
 
@@ -14,6 +16,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace ricci::testing {
@@ -70,12 +73,10 @@ protected:
 		EXPECT_EQ(status, 0) << "verify_uv.py found a fault";
 	}
 
-	/// Run, check in the plane and by the checker; or a reason, which is returned.
-	std::string judge(const std::string& name, TargetCurvature target)
+	/// Run, check in the plane and by the checker; or an error, which is returned.
+	std::optional<NotConverged> judge(const std::string& name, TargetCurvature target)
 	{
-		if (!load(name))
-			return "missing";
-		try {
+		return errorOf<NotConverged>([&] {
 			const Parametrization flat = run(m_mesh, fixedTriangulation(target));
 			const FlatMap map(m_mesh, flat.uv);
 			EXPECT_LT(map.seamMismatch, 1e-9) << name;
@@ -83,11 +84,7 @@ protected:
 			EXPECT_LT(flat.report.maxCurvatureError, 1e-8) << name;
 			EXPECT_LT(map.insideError(flat.targetCurvature), 1e-7) << name;
 			expectVerified(flat, fs::path(name).stem().string());
-			return {};
-		}
-		catch (const Error& error) {
-			return error.what();
-		}
+		});
 	}
 
 	SurfaceMesh m_mesh;
@@ -150,10 +147,11 @@ TEST_F(SharedMeshes, DisksAnnuliAndToriAreFlatOrRefusedWithAReason)
 		if (m.isDisk)
 			targets.insert(targets.end(), {TargetCurvature::Disk, TargetCurvature::Rectangle});
 		for (TargetCurvature target : targets) {
-			const std::string sentence = judge(m.name, target);
-			if (!sentence.empty()) {
-				EXPECT_NE(sentence.find("the triangle inequality at the end"), std::string::npos)
-					<< m.name << ": " << sentence;
+			if (const auto error = judge(m.name, target)) {
+				SCOPED_TRACE(m.name);
+				EXPECT_EQ(error->problem, NotConverged::BrokenTriangles);
+				EXPECT_GT(error->count, 0u);
+				expectWords(error->what(), {"the triangle inequality at the end"});
 			}
 		}
 	}
@@ -166,20 +164,42 @@ TEST_F(SharedMeshes, FaultyMeshesAreRefusedWithTheirCounts)
 	// Counts of INDEX.tsv, which another program made.
 	const struct
 	{
-		const char *name, *part;
-		TargetCurvature target;
+		const char* name;
+		InvalidMesh::Problem problem;
+		const char* part;
 	} meshes[] = {
-		{"dirty_moebius.ply", "1 component is not orientable", TargetCurvature::Automatic},
-		{"dirty_cow.ply", "1 non-manifold vertex", TargetCurvature::Automatic},
-		{"g0_fandisk.ply", "genus 0", TargetCurvature::Flat},
-		{"g2_eight.ply", "genus 2", TargetCurvature::Flat}};
+		{"dirty_moebius.ply", InvalidMesh::NotOrientable, "1 component is not orientable"},
+		{"dirty_cow.ply", InvalidMesh::NonManifoldVertices, "1 non-manifold vertex"}};
 	int present = 0;
 	for (const auto& m : meshes) {
 		if (!load(m.name))
 			continue;
 		++present;
-		const std::string sentence = reason(m_mesh, fixedTriangulation(m.target));
-		EXPECT_NE(sentence.find(m.part), std::string::npos) << m.name << ": " << sentence;
+		SCOPED_TRACE(m.name);
+		const auto error = errorOf<InvalidMesh>([&] { run(m_mesh, fixedTriangulation()); });
+		ASSERT_TRUE(error);
+		EXPECT_EQ(error->problem, m.problem);
+		EXPECT_EQ(error->count, 1u);
+		expectWords(error->what(), {m.part});
+	}
+	const struct
+	{
+		const char* name;
+		int genus;
+	} closed[] = {{"g0_fandisk.ply", 0}, {"g2_eight.ply", 2}};
+	for (const auto& m : closed) {
+		if (!load(m.name))
+			continue;
+		++present;
+		SCOPED_TRACE(m.name);
+		const auto error = errorOf<InadmissibleCurvature>(
+			[&] { run(m_mesh, fixedTriangulation(TargetCurvature::Flat)); });
+		ASSERT_TRUE(error);
+		EXPECT_EQ(error->problem, InadmissibleCurvature::Flat);
+		EXPECT_EQ(error->surface.genus, m.genus);
+		EXPECT_TRUE(error->surface.isClosed());
+		EXPECT_NEAR(error->bound, 4 * kPi * (1 - m.genus), 1e-12);
+		expectWords(error->what(), {"genus " + std::to_string(m.genus)});
 	}
 	if (present == 0)
 		GTEST_SKIP() << "SKIPPED: " << (kShared / "meshes").string() << " is missing";

@@ -5,19 +5,18 @@
 #include "parameters.h"
 #include "results.h"
 #include "run_report.h"
+#include "sentences.h"
 
-#include <ricci/error.h>
+#include <ricci/base/text.h>
+#include <ricci/base/time_limit.h>
 #include <ricci/progress.h>
-#include <ricci/text.h>
-#include <ricci/time_limit.h>
 
+#include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
 #include <vcg/complex/algorithms/update/bounding.h>
 #include <vcg/complex/algorithms/update/color.h>
 #include <vcg/complex/algorithms/update/normal.h>
 
 #include <algorithm>
-#include <exception>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -25,14 +24,16 @@ namespace filter_ricci {
 
 namespace {
 
-/// Share of the work that the map to the sphere takes beside the map to the plane.
+using Layers = vcg::tri::RicciFlowLayers<CMeshO>;
+
+/// Share of the map to the sphere in the work of both maps.
 constexpr double kSphereShare = 0.4;
 
-/// Faces that the layer of the universal cover may have.
-constexpr std::size_t kMostCoverFaces = 5000000;
+/// Faces that the layer of the universal cover may have at most.
+constexpr std::size_t kMaxCoverFaces = 5000000;
 
-/// Edges that an axis is drawn with.
-constexpr int kAxisPieces = 200;
+/// Edges of one drawn geodesic.
+constexpr int kGeodesicPieces = 200;
 
 class HostProgress : public ricci::Progress
 {
@@ -54,7 +55,7 @@ private:
 	const Log& log_;
 };
 
-/// A part of the work of a run, on the whole's scale.
+/// A part of a run: passes its share on as one of the whole.
 class PartOfProgress : public ricci::Progress
 {
 public:
@@ -79,21 +80,21 @@ MeshModel& checkedMesh(MeshDocument& md, bool readsQuality)
 {
 	MeshModel* model = md.mm();
 	if (model == nullptr)
-		throw ricci::InvalidMesh("There is no mesh. Open one first.");
+		throw Refusal("There is no mesh. Open one first.");
 	if (model->cm.fn == 0)
-		throw ricci::InvalidMesh(
+		throw Refusal(
 			model->cm.vn == 0
 				? "The mesh is empty. Choose a mesh with triangles."
 				: "The mesh is a point cloud: it has vertices but no faces. Reconstruct a surface "
 				  "first.");
 	if (readsQuality && !model->hasDataMask(MeshModel::MM_VERTQUALITY))
-		throw ricci::InvalidOption(
+		throw Refusal(
 			"target_curvature is From vertex quality, but the mesh has no vertex quality. Store "
 			"the curvature of each vertex, in radians, as its quality first.");
 	return *model;
 }
 
-/// Layers added by one run; they disappear again unless it comes to its end.
+/// Layers that one run adds. They are removed again unless the run reaches its end.
 class NewLayers
 {
 public:
@@ -125,7 +126,7 @@ void addFlatLayer(
 {
 	MeshModel& flat = layers.add(name + " " + model.label());
 	flat.updateDataMask(MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY);
-	Flow::BuildFlatMesh(model.cm, result, flat.cm);
+	Layers::BuildFlatMesh(model.cm, result, flat.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(flat.cm);
 	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(flat.cm);
 	host::copyTextures(model, flat);
@@ -135,7 +136,7 @@ void addCoverLayer(NewLayers& layers, MeshModel& model, int rings, const Flow::R
 {
 	MeshModel& cover = layers.add("Universal cover " + model.label());
 	cover.updateDataMask(MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY);
-	Flow::BuildUniversalCover(model.cm, result, rings, kMostCoverFaces, cover.cm);
+	Layers::BuildUniversalCover(model.cm, result, rings, kMaxCoverFaces, cover.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(cover.cm);
 	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(cover.cm);
 }
@@ -143,7 +144,7 @@ void addCoverLayer(NewLayers& layers, MeshModel& model, int rings, const Flow::R
 void addAxesLayer(NewLayers& layers, MeshModel& model, const Flow::Result& result)
 {
 	MeshModel& axes = layers.add("Axes " + model.label());
-	Flow::BuildAxes(result, kAxisPieces, axes.cm);
+	Layers::BuildAxes(result, kGeodesicPieces, axes.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(axes.cm);
 }
 
@@ -151,7 +152,7 @@ void addPolygonLayer(
 	NewLayers& layers, MeshModel& model, const Flow::Result& result, ricci::Progress& progress)
 {
 	MeshModel& layer = layers.add("Canonical polygon " + model.label());
-	for (const auto& polygon : Flow::BuildCanonicalPolygons(result, kAxisPieces, layer.cm))
+	for (const auto& polygon : Layers::BuildCanonicalPolygons(result, kGeodesicPieces, layer.cm))
 		progress.log(
 			polygon.corners.empty()
 				? "Canonical polygon: not drawn, because its sides are too long to close up in "
@@ -167,20 +168,20 @@ void addPolygonLayer(
 void addSphereLayer(NewLayers& layers, MeshModel& model, const ricci::SphereMap& map)
 {
 	MeshModel& sphere = layers.add("Sphere of " + model.label());
-	Flow::BuildSphereMesh(model.cm, map, sphere.cm);
+	Layers::BuildSphereMesh(model.cm, map, sphere.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(sphere.cm);
 	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(sphere.cm);
 }
 
 void colorizeByDistortion(MeshModel& model, const ricci::Report& report)
 {
-	// A ramp needs two different ends, and a plane has no distortion at all.
+	// A ramp needs two different ends, but a plane has no distortion at all.
 	const double top = std::max(report.qcP99, 1.0 + 1e-6);
 	vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(
 		model.cm, static_cast<Scalarm>(1.0), static_cast<Scalarm>(top));
 }
 
-/// Nothing of what the filter writes is drawn by itself.
+/// The host draws nothing of what the filter writes until it is told to.
 std::string whereToLook(bool colorize)
 {
 	const std::string colours =
@@ -220,9 +221,9 @@ void writeMesh(
 		colorizeByDistortion(model, result.report);
 }
 
-// The new layers, which need the most memory, come before the mesh: a failure there leaves it alone.
+// The order of writing: first the report, because the disk may be full; then the new layers, which
+// need the most memory; last the mesh. So a failure leaves the mesh as it was.
 
-/// Before the mesh is touched, so that a full disk leaves it as it was.
 void writeReport(
 	const ReportFiles& files,
 	int filter,
@@ -325,28 +326,6 @@ Outcome applyFilter(
 	log(toSentence(outcome.results));
 	log(whereToLook(par.getBool("colorize")));
 	return outcome;
-}
-
-std::string currentErrorSentence()
-{
-	try {
-		throw;
-	}
-	catch (const ricci::Error& error) {
-		return error.what();
-	}
-	catch (const std::bad_alloc&) {
-		return "There is not enough memory for this mesh. The mesh is unchanged.";
-	}
-	catch (const std::exception& error) {
-		return std::string("The filter failed unexpectedly (") + error.what() +
-			   "). Please report this, with the mesh if you can.";
-	}
-	catch (...) {
-		return "The filter failed unexpectedly, for an unknown reason. Please report this, with "
-			   "the "
-			   "mesh if you can.";
-	}
 }
 
 } // namespace filter_ricci

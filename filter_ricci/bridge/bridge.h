@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What every host shares: the filter's texts and parameters, one run of the filter on the current
-// mesh of a document, and the way a failure is put into words. The hosts' plugin classes only pass
-// calls on.
+// What every host shares: the filters' texts and parameters, and one run of a filter on the current
+// mesh of a document. The hosts' plugin classes only pass calls on. sentences.h puts failures into
+// words.
 #ifndef FILTER_RICCI_BRIDGE_H
 #define FILTER_RICCI_BRIDGE_H
 
@@ -50,16 +50,13 @@ struct Outcome
 };
 
 /// Runs the filter on the current mesh of \p md. Nothing is written before everything is computed.
-/// \throw ricci::Error, std::bad_alloc and what vcglib throws; see currentErrorSentence().
+/// \throw Refusal, ricci::Error, std::bad_alloc and what vcglib throws; see currentErrorSentence().
 Outcome applyFilter(
 	int filter,
 	const RichParameterList& par,
 	MeshDocument& md,
 	vcg::CallBackPos* callback,
 	const Log& log);
-
-/// The exception being handled as a sentence for the user. Call it inside a catch block only.
-std::string currentErrorSentence();
 
 } // namespace filter_ricci
 

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parameters.h"
 
-#include <ricci/error.h>
+#include "sentences.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/base/text.h>
+#include <ricci/charts/pack.h>
+#include <ricci/parametrize.h>
 
 #include <cmath>
-#include <sstream>
+#include <string>
 
 namespace filter_ricci {
 
@@ -64,73 +69,15 @@ int checkedChoice(const RichParameterList& par, const char* id, const QStringLis
 	const int chosen = par.getEnum(id);
 	if (chosen >= 0 && chosen < choices.size())
 		return chosen;
-	std::ostringstream sentence;
-	sentence << "The value " << chosen << " of " << id << " is not one of its choices. Use ";
+	std::string uses;
 	for (int i = 0; i < choices.size(); ++i) {
 		if (i > 0)
-			sentence << (i + 1 == choices.size() ? " or " : ", ");
-		sentence << i << " (" << choices[i].toStdString() << ")";
+			uses += i + 1 == choices.size() ? " or " : ", ";
+		uses += std::to_string(i) + " (" + choices[i].toStdString() + ")";
 	}
-	sentence << ".";
-	throw ricci::InvalidOption(sentence.str());
-}
-
-double checkedEpsilon(const RichParameterList& par)
-{
-	const double epsilon = static_cast<double>(par.getFloat("epsilon"));
-	if (std::isfinite(epsilon) && epsilon > 0.0)
-		return epsilon;
-	std::ostringstream sentence;
-	sentence << "The value " << epsilon
-			 << " of epsilon cannot be used. Use a number of radians greater than 0, for example "
-				"1e-8.";
-	throw ricci::InvalidOption(sentence.str());
-}
-
-int checkedConeCount(const RichParameterList& par)
-{
-	const int count = par.getInt("cone_count");
-	if (count >= 0)
-		return count;
-	std::ostringstream sentence;
-	sentence << "The value " << count
-			 << " of cone_count cannot be used. Use the number of cones, or 0 to have it chosen by "
-				"cone_distortion.";
-	throw ricci::InvalidOption(sentence.str());
-}
-
-/// A number from 0 up to \p most.
-double checkedShare(const RichParameterList& par, const char* id, double most)
-{
-	const double share = static_cast<double>(par.getFloat(id));
-	if (share >= 0.0 && share <= most)
-		return share;
-	std::ostringstream sentence;
-	sentence << "The value " << share << " of " << id << " cannot be used. Use a number from 0 to "
-			 << most << ".";
-	throw ricci::InvalidOption(sentence.str());
-}
-
-double checkedConeDistortion(const RichParameterList& par)
-{
-	const double distortion = static_cast<double>(par.getFloat("cone_distortion"));
-	if (std::isfinite(distortion) && distortion > 0.0)
-		return distortion;
-	std::ostringstream sentence;
-	sentence << "The value " << distortion
-			 << " of cone_distortion cannot be used. Use a number greater than 0, for example 0.5.";
-	throw ricci::InvalidOption(sentence.str());
-}
-
-int checkedIterations(const RichParameterList& par)
-{
-	const int iterations = par.getInt("max_iterations");
-	if (iterations >= 1)
-		return iterations;
-	std::ostringstream sentence;
-	sentence << "The value " << iterations
-			 << " of max_iterations cannot be used. Use 1 or more Newton steps.";
-	throw ricci::InvalidOption(sentence.str());
+	throw Refusal(
+		"The value " + std::to_string(chosen) + " of " + id + " is not one of its choices. Use " +
+		uses + ".");
 }
 
 double checkedTimeLimit(const RichParameterList& par)
@@ -138,16 +85,15 @@ double checkedTimeLimit(const RichParameterList& par)
 	const double seconds = static_cast<double>(par.getFloat("time_limit"));
 	if (std::isfinite(seconds) && seconds >= 0.0)
 		return seconds;
-	std::ostringstream sentence;
-	sentence << "The value " << seconds
-			 << " of time_limit cannot be used. Use a number of seconds, or 0 for no limit.";
-	throw ricci::InvalidOption(sentence.str());
+	throw Refusal(
+		"The value " + ricci::numberText(seconds, 6) +
+		" of time_limit cannot be used. Use a number of seconds, or 0 for no limit.");
 }
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegree = ricci::kPi / 180.0;
 
-/// More rings than this are beyond what the disk can show.
-constexpr int kMostRings = 20;
+/// The disk cannot show more rings than this.
+constexpr int kMaxRings = 20;
 
 RichEnum outputTriangulationParameter(ricci::OutputTriangulation chosen)
 {
@@ -437,22 +383,22 @@ Settings readSettings(const RichParameterList& par)
 	Settings settings;
 	settings.flow.target = static_cast<ricci::TargetCurvature>(
 		checkedChoice(par, "target_curvature", targetCurvatureChoices()));
-	settings.flow.coneCount = checkedConeCount(par);
-	settings.flow.coneDistortion = checkedConeDistortion(par);
+	settings.flow.coneCount = par.getInt("cone_count");
+	settings.flow.coneDistortion = static_cast<double>(par.getFloat("cone_distortion"));
 	settings.flow.coneRounding = static_cast<ricci::ConeRounding>(
 		checkedChoice(par, "cone_rounding", coneRoundingChoices()));
 	settings.flow.freeBoundary = par.getBool("free_boundary");
-	settings.flow.epsilon = checkedEpsilon(par);
+	settings.flow.epsilon = static_cast<double>(par.getFloat("epsilon"));
 	settings.flow.packing = static_cast<ricci::PackingScheme>(
 		checkedChoice(par, "circle_packing", circlePackingChoices()));
 	settings.flow.surgery =
 		static_cast<ricci::Surgery>(checkedChoice(par, "surgery", surgeryChoices()));
 	settings.flow.output = static_cast<ricci::OutputTriangulation>(
 		checkedChoice(par, "output_triangulation", outputTriangulationChoices()));
-	settings.flow.seamHiding = checkedShare(par, "seam_hiding", 1.0);
-	settings.flow.maxIterations = checkedIterations(par);
+	settings.flow.seamHiding = static_cast<double>(par.getFloat("seam_hiding"));
+	settings.flow.maxIterations = par.getInt("max_iterations");
 	settings.flow.normalizeUV = par.getBool("normalize_uv");
-	settings.flow.chartMargin = checkedShare(par, "chart_margin", Flow::kMostMargin);
+	settings.flow.chartMargin = static_cast<double>(par.getFloat("chart_margin"));
 	settings.colorize = par.getBool("colorize");
 	settings.flatLayer = par.getBool("flat_layer");
 	settings.flow.holes = static_cast<ricci::Holes>(checkedChoice(par, "holes", holesChoices()));
@@ -460,6 +406,8 @@ Settings readSettings(const RichParameterList& par)
 	settings.sphereLayer = par.getBool("sphere_layer");
 	settings.report = par.getString("report");
 	settings.timeLimit = checkedTimeLimit(par);
+	ricci::checkOptions(settings.flow);
+	ricci::checkChartMargin(settings.flow.chartMargin);
 	return settings;
 }
 
@@ -470,25 +418,26 @@ HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 		checkedChoice(par, "target_curvature", hyperbolicTargetChoices()));
 	settings.flow.coneAngle = static_cast<double>(par.getFloat("cone_angle")) * kDegree;
 	settings.flow.freeBoundary = par.getBool("free_boundary");
-	settings.flow.epsilon = checkedEpsilon(par);
+	settings.flow.epsilon = static_cast<double>(par.getFloat("epsilon"));
 	settings.flow.surgery = checkedChoice(par, "surgery", hyperbolicSurgeryChoices()) == 1
 								? ricci::Surgery::IntrinsicFlips
 								: ricci::Surgery::None;
 	settings.flow.output = static_cast<ricci::OutputTriangulation>(
 		checkedChoice(par, "output_triangulation", outputTriangulationChoices()));
-	settings.flow.maxIterations = checkedIterations(par);
+	settings.flow.maxIterations = par.getInt("max_iterations");
 	settings.colorize = par.getBool("colorize");
 	settings.flatLayer = par.getBool("flat_layer");
 	settings.coverRings = par.getInt("universal_cover");
-	if (settings.coverRings < 0 || settings.coverRings > kMostRings)
-		throw ricci::InvalidOption(
+	if (settings.coverRings < 0 || settings.coverRings > kMaxRings)
+		throw Refusal(
 			"The value " + std::to_string(settings.coverRings) +
-			" of universal_cover cannot be used. Use 0 to " + std::to_string(kMostRings) +
+			" of universal_cover cannot be used. Use 0 to " + std::to_string(kMaxRings) +
 			" rings.");
 	settings.axes = par.getBool("generator_axes");
 	settings.canonicalPolygon = par.getBool("canonical_polygon");
 	settings.report = par.getString("report");
 	settings.timeLimit = checkedTimeLimit(par);
+	ricci::checkOptions(settings.flow);
 	return settings;
 }
 

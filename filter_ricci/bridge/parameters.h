@@ -32,9 +32,10 @@ struct HyperbolicSettings
 	QString report;         ///< file, empty: none
 };
 
-/// Reads and checks the parameters. Scripts can hold any number for a choice, and no host checks
-/// the range of a number.
-/// \throw ricci::InvalidOption
+/// Reads the parameters and checks them all. Scripts can hold any number for a choice, and no host
+/// checks the range of a number.
+/// \throw Refusal for what the algorithm does not know (choices, time limit, rings), and
+/// ricci::InvalidOption
 Settings readSettings(const RichParameterList& par);
 HyperbolicSettings readHyperbolicSettings(const RichParameterList& par);
 

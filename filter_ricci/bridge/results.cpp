@@ -110,8 +110,8 @@ void addSphereResults(const ricci::SphereMap& sphere, Results& results)
 std::vector<double> toNumbers(const ricci::FuchsianGroup& group)
 {
 	std::vector<double> numbers;
-	for (const auto* motions : {&group.handles, &group.ends})
-		for (const ricci::DiskIsometry& g : *motions)
+	for (const auto* generators : {&group.handles, &group.peripheral})
+		for (const ricci::DiskIsometry& g : *generators)
 			numbers.insert(numbers.end(), {g.a.real(), g.a.imag(), g.b.real(), g.b.imag()});
 	return numbers;
 }

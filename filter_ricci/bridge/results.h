@@ -4,7 +4,7 @@
 
 #include "bridge.h"
 
-#include <ricci/layout/fuchsian_group.h>
+#include <ricci/measure/fuchsian_group.h>
 #include <ricci/report.h>
 #include <ricci/sphere_map.h>
 
@@ -19,8 +19,8 @@ Results toResults(const ricci::Report& report);
 /// Adds what the map to the sphere measured.
 void addSphereResults(const ricci::SphereMap& sphere, Results& results);
 
-/// Re a, Im a, Re b, Im b of each motion: a canonical basis a1, b1, ..., then one motion for each
-/// boundary loop and cone.
+/// Re a, Im a, Re b, Im b of each generator: a canonical basis a1, b1, ..., then one generator for
+/// each boundary loop and cone.
 std::vector<double> toNumbers(const ricci::FuchsianGroup& group);
 
 /// What a person wants to know of a run.

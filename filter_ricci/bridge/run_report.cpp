@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_report.h"
 
-#include <ricci/error.h>
+#include "sentences.h"
 
 #include <QDir>
 #include <QFileInfo>
@@ -17,7 +17,7 @@ namespace filter_ricci {
 
 namespace {
 
-/// Never the host's locale: a comma for a point would break page and table.
+/// Never in the host's locale: a decimal comma would break page and table.
 std::ostringstream plainStream(int precision)
 {
 	std::ostringstream out;
@@ -164,11 +164,11 @@ private:
 
 std::string histogramPicture(const ricci::Histogram& h, const std::string& label)
 {
-	const std::size_t most = std::max<std::size_t>(
+	const std::size_t highest = std::max<std::size_t>(
 		1, h.counts.empty() ? 1 : *std::max_element(h.counts.begin(), h.counts.end()));
-	Diagram diagram(h.low, h.high, 0.0, static_cast<double>(most));
+	Diagram diagram(h.low, h.high, 0.0, static_cast<double>(highest));
 	for (int i = 0; i <= 4; ++i) {
-		const double count = std::round(static_cast<double>(most) * i / 4.0);
+		const double count = std::round(static_cast<double>(highest) * i / 4.0);
 		diagram.tickY(count, number(count, 9));
 	}
 	for (std::size_t i = 0; i < h.counts.size(); ++i)
@@ -193,13 +193,13 @@ std::vector<std::vector<double>> residualsByComponent(const ricci::Report& data)
 }
 
 /// More components than this make the diagram unreadable; the data has them all.
-constexpr std::size_t kMostLines = 20;
+constexpr std::size_t kMaxLines = 20;
 
 std::string residualPicture(const ricci::Report& data)
 {
 	std::vector<std::vector<double>> residuals = residualsByComponent(data);
-	if (residuals.size() > kMostLines)
-		residuals.resize(kMostLines);
+	if (residuals.size() > kMaxLines)
+		residuals.resize(kMaxLines);
 	double low = 0.0, high = -99.0;
 	std::size_t length = 2;
 	for (std::vector<double>& component : residuals) {
@@ -257,8 +257,8 @@ QString absolutePath(const QString& wanted, const QString& folder)
 	return QDir::cleanPath(QDir(folder).absoluteFilePath(wanted));
 }
 
-/// A QSaveFile writes beside its target and renames: opening it shows that both are allowed, and
-/// giving it up leaves nothing behind.
+/// A QSaveFile writes beside its target and renames: if it opens, both are allowed, and a file that is
+/// not committed leaves nothing behind.
 QString whyNotWritable(const QString& path)
 {
 	if (QFileInfo(path).isDir())
@@ -270,13 +270,13 @@ QString whyNotWritable(const QString& path)
 void require(bool written, const QSaveFile& file)
 {
 	if (!written)
-		throw ricci::Error(
+		throw Refusal(
 			"The report " + file.fileName().toStdString() + " could not be written (" +
 			file.errorString().toStdString() +
 			"): choose another place for it. The mesh is unchanged.");
 }
 
-/// Without Qt's buffer, which drops what a full disk does not take any more and reports no error.
+/// Without Qt's buffer: it drops what no longer fits on a full disk and reports no error.
 void fill(QSaveFile& file, const std::string& content)
 {
 	require(file.open(QIODevice::WriteOnly | QIODevice::Unbuffered), file);
@@ -339,7 +339,7 @@ std::string toHtml(const RunReport& report)
 		 << "</section>\n<section>\n<h2>Largest curvature error before each Newton step</h2>\n"
 		 << residualPicture(report.data)
 		 << "<p>max |K&#772; &minus; K| in radians; one line for each component"
-		 << (residualsByComponent(report.data).size() > kMostLines ? ", the first 20" : "")
+		 << (residualsByComponent(report.data).size() > kMaxLines ? ", the first 20" : "")
 		 << ".</p>\n</section>\n</div>\n";
 	page << "<div class=\"pair\">\n<section>\n<h2>Results</h2>\n<table>\n";
 	for (const auto& [key, value] : report.results)
@@ -378,7 +378,7 @@ ReportFiles::ReportFiles(const QString& wanted, const QString& folder)
 	const QString path = absolutePath(trimmed, folder);
 	const QString ending = QFileInfo(path).suffix().toLower();
 	if (ending != "html" && ending != "csv")
-		throw ricci::InvalidOption(
+		throw Refusal(
 			"The report " + trimmed.toStdString() +
 			" cannot be written: its name must end in .html (page, and its data beside it) or .csv "
 			"(data alone).");
@@ -388,7 +388,7 @@ ReportFiles::ReportFiles(const QString& wanted, const QString& folder)
 	for (const QString& file : {m_html, m_csv}) {
 		const QString reason = file.isEmpty() ? QString() : whyNotWritable(file);
 		if (!reason.isEmpty())
-			throw ricci::InvalidOption(
+			throw Refusal(
 				"The report " + file.toStdString() + " cannot be written (" + reason.toStdString() +
 				"): choose another place for it.");
 	}

@@ -41,12 +41,12 @@ class ReportFiles
 public:
 	/// \param wanted a path that ends in .html (page, and data beside it) or in .csv (data alone);
 	/// a relative one starts from \p folder; empty: no report
-	/// \throw ricci::InvalidOption if no file can be written there; nothing has been written then
+	/// \throw Refusal if no file can be written there; nothing has been written then
 	ReportFiles(const QString& wanted, const QString& folder);
 
 	/// Each file appears complete, or not at all, and none where there is no room for all.
 	/// \return the names of the files
-	/// \throw ricci::Error if one cannot be written after all (a full disk)
+	/// \throw Refusal if one cannot be written after all (a full disk)
 	std::vector<std::string> write(const RunReport& report) const;
 
 private:

@@ -2,6 +2,7 @@
 #include "filter_ricci.h"
 
 #include "bridge.h"
+#include "sentences.h"
 
 namespace {
 

@@ -9,18 +9,20 @@
 #include "support/mesh_file.h"
 #endif
 
-#include <ricci/flow/hessian.h>
+#include <ricci/flow/factored_hessian.h>
 #include <ricci/flow/ricci_flow.h>
-#include <ricci/flow/sparse_cholesky.h>
-#include <ricci/flow/target_curvature.h>
-#include <ricci/layout/cut_graph.h>
-#include <ricci/layout/distortion.h>
+#include <ricci/math/sparse_cholesky.h>
+#include <ricci/target/target_curvature.h>
+#include <ricci/cut/cut_graph.h>
+#include <ricci/measure/distortion.h>
 #include <ricci/layout/planar_layout.h>
-#include <ricci/metric/delaunay_start.h>
+#include <ricci/metric/initial_packing.h>
 #include <ricci/metric/euclidean.h>
-#include <ricci/parallel.h>
+#include <ricci/base/numbers.h>
+#include <ricci/base/parallel.h>
 #include <ricci/parametrize.h>
 #include <ricci/surface/component.h>
+#include <ricci/surface/flow_domain.h>
 
 #ifdef RICCI_USE_CHOLMOD
 #include <cholmod.h>
@@ -43,8 +45,6 @@
 namespace {
 
 using namespace ricci;
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// The cheapest of these runs is taken, of the flow as of the factorisation: the first one also pays
 /// for cold caches, and other work on the machine makes the processor's time longer.
@@ -143,21 +143,21 @@ struct Row
 };
 
 /// The automatic target, and uniform curvature where a closed surface has none.
-TargetRequest chooseRequest(const Topology& topology, std::size_t vertexCount, std::string& name)
+TargetRequest chooseRequest(const EmbeddedSurface& surface, std::string& name)
 {
+	const SurfaceType& type = surface.topology.type;
+	const int vertexCount = surface.triangulation.vertexCount();
 	TargetRequest request;
 	request.selected.assign(vertexCount, 0);
 	request.prescribed.assign(vertexCount, 0.0);
 	name = "automatic";
-	if (!topology.isClosed() || topology.isTorus())
+	if (!type.isClosed() || type.isTorus())
 		return request;
 	name = "uniform";
 	request.mode = TargetCurvature::Prescribed;
 	request.prescribedPrecision = 1e-12;
-	std::fill(
-		request.prescribed.begin(),
-		request.prescribed.end(),
-		2 * kPi * topology.eulerCharacteristic / static_cast<double>(vertexCount));
+	request.prescribed.assign(
+		vertexCount, 2 * kPi * type.eulerCharacteristic() / static_cast<double>(vertexCount));
 	return request;
 }
 
@@ -207,136 +207,115 @@ void solveOnce(const Hessian::Matrix& matrix)
 
 double oneFactorisation(const CurvatureMap& map, const Target& target, int repeat)
 {
-	std::vector<int> unknown(target.fixed.size(), -1);
-	const bool anyFixed =
-		std::find(target.fixed.begin(), target.fixed.end(), 1) != target.fixed.end();
-	int count = 0;
-	for (std::size_t v = anyFixed || !map.scaleInvariant() ? 0 : 1; v < unknown.size(); ++v)
-		if (!target.fixed[v])
-			unknown[v] = count++;
-	Hessian hessian;
-	hessian.layOut(map, unknown, count);
+	FactoredHessian hessian(target.fixed, map.scaleInvariant());
 	hessian.fill(map, 0.0);
-	double least = INFINITY;
+	double fastest = INFINITY;
 	for (int i = 0; i < repeat; ++i)
-		least = std::min(least, timeOf([&] { solveOnce(hessian.matrix()); }));
-	return least;
+		fastest = std::min(fastest, timeOf([&] { solveOnce(hessian.hessian().matrix()); }));
+	return fastest;
 }
 
-/// The first component of the mesh; the others would only add up.
+/// The stages on the first component of the mesh; the others would only add up.
 void measure(
 	const SurfaceMesh& mesh, Background background, bool flowOnly, const Options& options, Row& row)
 {
-	Component component;
-	Triangulation t;
-	std::vector<double> lengths;
+	FlowDomain domain;
 	const auto setUp = [&] {
 		std::vector<std::string> notes;
-		component = std::move(splitIntoComponents(mesh, notes).front());
-		t = Triangulation(static_cast<int>(component.positions.size()), component.triangles);
-		lengths = edgeLengths(t, component.positions);
+		const std::vector<Component> components = splitIntoComponents(mesh, notes);
+		domain = flowDomain(components.front(), Holes::Boundaries);
 	};
 	row.read += timeOf(setUp);
-	row.faces = component.triangles.size();
-	const Topology topology = topologyOf(t);
+	const EmbeddedSurface& surface = domain.surface;
+	row.faces = static_cast<std::size_t>(surface.triangulation.faceCount());
+	FlowStart start;
 	Target target;
 	if (background == Background::EuclideanPlane)
-		target = chooseTarget(
-			t,
-			topology,
-			lengths,
-			component.positions,
-			chooseRequest(topology, component.positions.size(), row.target));
+		target = chooseTarget(surface, start, chooseRequest(surface, row.target));
 	else {
 		row.target = "zero";
-		target.curvature.setZero(t.vertexCount());
-		target.fixed.assign(component.positions.size(), 0);
+		target.curvature = VertexVector(Eigen::VectorXd::Zero(surface.triangulation.vertexCount()));
+		target.fixed.assign(surface.triangulation.vertexCount(), 0);
 	}
 	// A uniform curvature makes every vertex a cone, which no one wants to see cut open.
 	if (row.target == "automatic" && !flowOnly) {
-		component = Component(); // or the peak would be that of this program
-		t = Triangulation();
-		lengths = std::vector<double>();
+		domain = FlowDomain(); // or the peak would be that of this program
 		Progress silent;
-		const double start = wallSeconds();
+		const double begin = wallSeconds();
 		row.whole = timeOf([&] { parametrizeEuclidean(mesh, {}, options, silent); });
-		row.wholeWall = wallSeconds() - start;
+		row.wholeWall = wallSeconds() - begin;
 		row.peak = peakMegabytes();
 		setUp();
 	}
 
 	// By itself once more; the flow includes it.
-	row.packing = timeOf([&] {
-		if (options.surgery == Surgery::IntrinsicFlips) {
-			const DelaunayStart start = delaunayStart({t, lengths}, {});
-			inversiveDistancePacking(start.mesh.triangulation, start.mesh.lengths, start.radii);
-		}
-		else
-			inversiveDistancePacking(t, lengths, initialRadii(t, lengths));
-	});
+	row.packing = timeOf([&] { flowStart(surface, options); });
 	FlowResult flow;
 	const int repeat = repetitions(row.faces);
 	row.flow = INFINITY;
 	for (int i = 0; i < repeat; ++i) {
 		flow = FlowResult();
-		row.flow =
-			std::min(row.flow, timeOf([&] {
-						 flow = runRicciFlow(
-							 background,
-							 t,
-							 lengths,
-							 component.positions,
-							 target,
-							 topology.loops.empty() ? std::vector<int>() : topology.loops.front(),
-							 options,
-							 [](int, double) {});
-					 }));
+		row.flow = std::min(row.flow, timeOf([&] {
+								flow = runRicciFlow(
+									background,
+									surface,
+									flowStart(surface, options),
+									target,
+									options,
+									[](int, double) {});
+							}));
 	}
 	if (row.peak == 0.0)
 		row.peak = peakMegabytes();
 	row.work = flow.work;
 	row.iterations = flow.iterations;
 	row.residual = flow.residual;
-	row.flips = flow.history.startFlips.size() + flow.history.flowFlips.size() +
-				static_cast<std::size_t>(flow.edgeSwaps);
+	row.flips = static_cast<std::size_t>(flow.history.flips());
 	// The matrix of the flow's last step; where the flow ran on the double of the surface, that of
 	// the surface itself at the start.
-	GeometricCurvatureMap<Euclidean> start(
-		inversiveDistancePacking(t, lengths, initialRadii(t, lengths)));
-	start.evaluate(Eigen::Map<const Eigen::VectorXd>(
-		start.packing().u.data(), static_cast<Eigen::Index>(start.packing().u.size())));
+	const IntrinsicMesh metric{surface.triangulation, surface.lengths};
+	const InitialPacking packing = inputPacking(metric, PackingScheme::InversiveDistance);
+	VertexVector u(surface.triangulation.vertexCount());
+	for (const Vertex v : u.indices())
+		u[v] = std::log(packing.radii[v]);
+	GeometricCurvatureMap<Euclidean> map(
+		inversiveDistancePacking(surface.triangulation, surface.lengths, packing.radii));
+	map.evaluate(u);
 	// K(u) and its derivative, what the flow does in several threads, in one and in all of them.
 	const auto evaluation = [&](int threads) {
-		start.useThreads(threads);
-		double least = INFINITY;
+		map.useThreads(threads);
+		double fastest = INFINITY;
 		for (int i = 0; i < kEvaluations; ++i) {
 			const double before = wallSeconds();
-			start.evaluate(Eigen::Map<const Eigen::VectorXd>(
-				start.packing().u.data(), static_cast<Eigen::Index>(start.packing().u.size())));
-			least = std::min(least, wallSeconds() - before);
+			map.evaluate(u);
+			fastest = std::min(fastest, wallSeconds() - before);
 		}
-		return least;
+		return fastest;
 	};
 	row.evaluation = evaluation(1);
 	row.speedup = row.evaluation / evaluation(defaultThreads());
-	row.oneFactor = oneFactorisation(flow.doubled ? start : *flow.metric, flow.target, repeat);
+	row.oneFactor = oneFactorisation(flow.doubled ? map : *flow.metric, flow.target, repeat);
 
 	// Cut, layout and distortion on the input's triangles with the input's metric: the work is that
 	// on the flat one.
+	const Triangulation& t = surface.triangulation;
 	CutGraph cut;
 	PlanarLayout layout;
-	const std::vector<char> marked(component.positions.size(), 0);
-	row.cut = timeOf([&] { cut = cutToDisk(t, lengths, marked, {}); });
-	row.layout = timeOf([&] { layout = layOutInPlane(t, lengths, start.angles(), cut.isCut); });
-	std::vector<std::array<Point2, 3>> uv;
-	for (int f = 0; f < t.faceCount(); ++f) {
+	const VertexArray<char> marked(t.vertexCount(), 0);
+	row.cut = timeOf([&] { cut = cutToDisk(t, surface.lengths, marked, {}); });
+	row.layout =
+		timeOf([&] { layout = layOutInPlane(t, surface.lengths, map.angles(), cut.isCut); });
+	std::vector<Triangle2> uv;
+	SurfaceMesh component{surface.positions.values(), {}, 0};
+	for (const Face f : t.faces()) {
 		const auto h = t.halfedges(f);
-		uv.push_back({layout.at(h[0]), layout.at(h[1]), layout.at(h[2])});
+		uv.push_back({layout[h[0]], layout[h[1]], layout[h[2]]});
+		const auto v = t.vertices(f);
+		component.triangles.push_back({v[0].number(), v[1].number(), v[2].number()});
 	}
-	const SurfaceMesh surface{component.positions, component.triangles};
 	Report report;
 	const std::vector<char> reversed(uv.size(), 0);
-	row.distortion = timeOf([&] { measureDistortion(surface, uv, reversed, report); });
+	row.distortion = timeOf([&] { measureDistortion(component, uv, reversed, report); });
 }
 
 /// A smooth torus with about so many triangles, its vertices jittered on the surface and the

@@ -34,12 +34,12 @@ Packed twoVertexTorus()
 	const std::vector<int> glued{10, 5, 7, 11, 8, 1, 9, 2, 4, 6, 0, 3};
 	const Triangulation t(2, triangles, glued);
 	const Point3 corner[]{{0, 0, 0}, {1, 0, 0}, {1.2, 1, 0}}, inside{0.7, 0.3, 0};
-	std::vector<double> lengths(at(t.edgeCount()), 0.0);
+	EdgeArray<double> lengths(t.edgeCount(), 0.0);
 	for (int f = 0; f < 3; ++f) {
-		const auto h = t.halfedges(f);
-		lengths[at(Triangulation::edge(h[0]))] = distance(corner[f], corner[(f + 1) % 3]);
-		lengths[at(Triangulation::edge(h[1]))] = distance(corner[(f + 1) % 3], inside);
-		lengths[at(Triangulation::edge(h[2]))] = distance(corner[f], inside);
+		const auto h = t.halfedges(Face(f));
+		lengths[h[0].edge()] = distance(corner[f], corner[(f + 1) % 3]);
+		lengths[h[1].edge()] = distance(corner[(f + 1) % 3], inside);
+		lengths[h[2].edge()] = distance(corner[f], inside);
 	}
 	return Packed(t, lengths);
 }
@@ -64,7 +64,7 @@ TEST(Hessian, EveryEntryIsTheDerivativeOfTheCurvature)
 	Random random(51);
 	for (const Packed& mesh : smallSurfaces()) {
 		Map map = mesh.map();
-		Eigen::VectorXd u = mesh.u();
+		VertexVector u = mesh.u();
 		for (double& x : u)
 			x += random.real(-1e-3, 1e-3);
 		map.evaluate(u);
@@ -75,15 +75,15 @@ TEST(Hessian, EveryEntryIsTheDerivativeOfTheCurvature)
 		const double h = 1e-4 / std::max(1.0, largest);
 		const double noise = 16 * kEpsilon * std::max(map.needleRatio(), largest * 4.0) / h;
 		EXPECT_LT(noise, 1e-4 * largest);
-		for (Eigen::Index j = 0; j < u.size(); ++j) {
-			const Eigen::VectorXd coarse = curvatureSlope(map, u, j, h);
-			const Eigen::VectorXd fine = curvatureSlope(map, u, j, 0.5 * h);
-			const Eigen::VectorXd extrapolated = (4.0 * fine - coarse) / 3.0;
-			for (Eigen::Index i = 0; i < u.size(); ++i) {
+		for (const Vertex j : u.indices()) {
+			const VertexVector coarse = curvatureSlope(map, u, j, h);
+			const VertexVector fine = curvatureSlope(map, u, j, 0.5 * h);
+			const VertexVector extrapolated = (4.0 * fine - coarse) / 3.0;
+			for (const Vertex i : u.indices()) {
 				const double truncation = std::abs(coarse[i] - fine[i]);
 				EXPECT_LT(truncation, 1e-5 * largest + noise);
-				EXPECT_NEAR(extrapolated[i], H(i, j), noise + 0.1 * truncation)
-					<< "entry " << i << ", " << j;
+				EXPECT_NEAR(extrapolated[i], H(i.number(), j.number()), noise + 0.1 * truncation)
+					<< "entry " << i.number() << ", " << j.number();
 			}
 		}
 	}
@@ -94,18 +94,18 @@ TEST(Hessian, LoopEdgesCountTwiceInTheHyperbolicPlane)
 	const Packed torus = twoVertexTorus();
 	CirclePacking packing = torus.packing;
 	GeometricCurvatureMap<Hyperbolic> map(packing);
-	Eigen::VectorXd u(2);
-	for (Eigen::Index v = 0; v < 2; ++v)
-		u[v] = std::log(std::tanh(0.5 * torus.radii[at(static_cast<int>(v))]));
+	VertexVector u(2);
+	for (const Vertex v : u.indices())
+		u[v] = std::log(std::tanh(0.5 * torus.radii[v]));
 	map.evaluate(u);
 	ASSERT_EQ(map.brokenTriangles(), 0);
 	const Eigen::MatrixXd H = denseHessian(map);
-	for (Eigen::Index j = 0; j < 2; ++j) {
-		const Eigen::VectorXd coarse = curvatureSlope(map, u, j, 1e-3);
-		const Eigen::VectorXd fine = curvatureSlope(map, u, j, 5e-4);
-		const Eigen::VectorXd extrapolated = (4.0 * fine - coarse) / 3.0;
-		for (Eigen::Index i = 0; i < 2; ++i)
-			EXPECT_NEAR(extrapolated[i], H(i, j), 1e-7 * H.cwiseAbs().maxCoeff());
+	for (const Vertex j : u.indices()) {
+		const VertexVector coarse = curvatureSlope(map, u, j, 1e-3);
+		const VertexVector fine = curvatureSlope(map, u, j, 5e-4);
+		const VertexVector extrapolated = (4.0 * fine - coarse) / 3.0;
+		for (const Vertex i : u.indices())
+			EXPECT_NEAR(extrapolated[i], H(i.number(), j.number()), 1e-7 * H.cwiseAbs().maxCoeff());
 	}
 }
 
@@ -124,21 +124,24 @@ TEST(Hessian, RowsSumToZero)
 TEST(Hessian, PositiveSemiDefiniteWithTheConstantsAsKernel)
 {
 	Random random(52);
+	int checked = 0;
 	for (const Packed& mesh : smallSurfaces())
 		for (double spread : {0.0, 1e-2, 0.1}) {
 			Map map = mesh.map();
-			Eigen::VectorXd u = mesh.u();
+			VertexVector u = mesh.u();
 			for (double& x : u)
 				x += random.real(-spread, spread);
 			map.evaluate(u);
 			if (map.brokenTriangles() > 0)
 				continue;
+			++checked;
 			const Eigen::MatrixXd H = denseHessian(map);
 			const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(H);
 			const double rounding = 1e-14 * eigen.eigenvalues().tail<1>()[0];
 			EXPECT_NEAR(eigen.eigenvalues()[0], 0.0, rounding);
 			EXPECT_GT(eigen.eigenvalues()[1], 10 * rounding);
 		}
+	EXPECT_GT(checked, 14);
 }
 
 TEST(Hessian, ManyEdgesBetweenTwoVerticesShareAnEntry)
@@ -150,9 +153,9 @@ TEST(Hessian, ManyEdgesBetweenTwoVerticesShareAnEntry)
 	map.evaluate(mesh.u());
 	EXPECT_LT(map.curvature().lpNorm<Eigen::Infinity>(), 1e-14); // the torus is flat
 	double sum = 0.0;
-	for (int e = 0; e < 6; ++e)
-		if (mesh.triangulation.origin(2 * e) != mesh.triangulation.target(2 * e))
-			sum += map.weights()[at(e)];
+	for (const Edge e : mesh.triangulation.edges())
+		if (mesh.triangulation.origin(e.halfedge()) != mesh.triangulation.target(e.halfedge()))
+			sum += map.weights()[e];
 	const Eigen::MatrixXd H = denseHessian(map);
 	EXPECT_NEAR(H(0, 1), -sum, 1e-13);
 	EXPECT_NEAR(H(0, 0), sum, 1e-13);
@@ -167,10 +170,11 @@ TEST(Hessian, RestrictsToTheUnknownVertices)
 	map.evaluate(mesh.u());
 	const Eigen::MatrixXd all = denseHessian(map);
 	const int n = mesh.triangulation.vertexCount();
-	std::vector<int> unknown(at(n), -1), kept;
+	VertexArray<int> unknown(n, -1);
+	std::vector<int> kept;
 	for (int v = n - 1; v >= 0; --v) // rows in another order than the vertices
 		if (v % 3 != 0) {
-			unknown[at(v)] = static_cast<int>(kept.size());
+			unknown[Vertex(v)] = static_cast<int>(kept.size());
 			kept.push_back(v);
 		}
 	Hessian hessian;

@@ -9,6 +9,7 @@
 #include "support/shapes.h"
 #include "support/transform.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/error.h>
 #include <ricci/metric/hyperbolic.h>
 
@@ -22,8 +23,6 @@
 namespace ricci::testing {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// The target is reached, by the flow's word and by the lengths it gives; the area is what
 /// Gauss-Bonnet says.
 void expectReached(const FlippedFlow& flow)
@@ -31,11 +30,12 @@ void expectReached(const FlippedFlow& flow)
 	expectTarget<HyperbolicMeasure>(flow, 1e-9);
 	const FlowResult& r = flow.result;
 	EXPECT_LT(r.u.maxCoeff(), 0.0);
-	if (std::find(r.target.fixed.begin(), r.target.fixed.end(), 1) != r.target.fixed.end())
+	if (r.target.hasFixed())
 		return;
-	const double area = r.target.curvature.sum() - 2 * kPi * flow.topology.eulerCharacteristic;
+	const double area =
+		r.target.curvature.sum() - 2 * kPi * flow.surface().topology.type.eulerCharacteristic();
 	// Every curvature is rounded to the last place of 2 pi.
-	EXPECT_NEAR(r.area, area, 1e-10 * area + 1e-15 * flow.base.vertexCount());
+	EXPECT_NEAR(r.area, area, 1e-10 * area + 1e-15 * flow.base().vertexCount());
 }
 
 TEST(HyperbolicFlow, FindsTheMetricOfCurvatureMinusOne)
@@ -80,13 +80,13 @@ TEST(HyperbolicFlow, LengthsOfTheInputAreExactWhereNothingFlips)
 	Random random(505);
 	const FlippedFlow flow(shaken(perforatedSlab(2, 3), 0.08, random), hyperbolicMetric());
 	const FlipHistory& history = flow.result.history;
-	std::vector<char> flipped(at(flow.base.edgeCount()), 0);
-	for (const std::vector<int>* flips : {&history.startFlips, &history.flowFlips})
-		for (int e : *flips)
-			flipped[at(e)] = 1;
-	const std::vector<double> found = hyperbolicLengths(flow.result, flow.base, flow.lengths);
+	EdgeArray<char> flipped(flow.base().edgeCount(), 0);
+	for (const std::vector<Edge>* flips : {&history.startFlips, &history.flowFlips})
+		for (const Edge e : *flips)
+			flipped[e] = 1;
+	const EdgeArray<double> found = hyperbolicLengths(flow.result, flow.surface());
 	ASSERT_EQ(found.size(), flipped.size());
-	for (std::size_t e = 0; e < found.size(); ++e) {
+	for (const Edge e : found.indices()) {
 		EXPECT_GT(found[e], 0.0);
 		if (!flipped[e]) {
 			EXPECT_NEAR(found[e] / flow.result.metric->lengths()[e], 1.0, 1e-12);
@@ -147,10 +147,10 @@ TEST(HyperbolicFlow, BoundaryBecomesGeodesic)
 		withoutStars(shaken(perforatedSlab(2, 3), 0.03, random), {5, 70})};
 	for (const SurfaceMesh& mesh : meshes) {
 		const FlippedFlow flow(mesh, hyperbolicMetric());
-		ASSERT_LT(flow.topology.eulerCharacteristic, 0);
-		SCOPED_TRACE(flow.topology.name());
+		ASSERT_LT(flow.surface().topology.type.eulerCharacteristic(), 0);
+		SCOPED_TRACE(flow.surface().topology.type.name());
 		expectReached(flow);
-		for (int v = 0; v < flow.base.vertexCount(); ++v)
+		for (const Vertex v : flow.base().vertices())
 			EXPECT_NEAR(flow.result.curvature[v], 0.0, 1e-10);
 	}
 }
@@ -164,12 +164,12 @@ TEST(HyperbolicFlow, FreeBoundaryKeepsItsCircles)
 	ASSERT_FALSE(flow.result.doubled);
 	// All radii are scaled alike at the start.
 	double factor = 0.0;
-	for (int v = 0; v < flow.base.vertexCount(); ++v) {
-		if (!flow.topology.boundary[at(v)]) {
+	for (const Vertex v : flow.base().vertices()) {
+		if (!flow.surface().topology.boundary[v]) {
 			EXPECT_NEAR(flow.result.curvature[v], 0.0, 1e-10);
 			continue;
 		}
-		const double own = std::exp(flow.result.u[v]) / flow.result.history.startRadii[at(v)];
+		const double own = std::exp(flow.result.u[v]) / flow.result.history.startRadii[v];
 		factor = factor == 0.0 ? own : factor;
 		EXPECT_NEAR(own / factor, 1.0, 1e-14);
 	}
@@ -182,25 +182,24 @@ TEST(HyperbolicFlow, DistortedStartsLeadToTheSameMetric)
 	for (int genus : {2, 3}) {
 		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 2), 0.05, random);
 		const FlippedFlow flow(mesh, hyperbolicMetric(), 1e-13);
-		const Eigen::VectorXd& u = flow.result.u;
+		const VertexVector& u = flow.result.u;
 		for (double spread : {0.1, 1.0, 3.0}) {
 			SCOPED_TRACE(spread);
 			FlippingCurvatureMap<Hyperbolic> map(flow.result.metric->packing());
-			Eigen::VectorXd found = u;
+			VertexVector found = u;
 			for (double& x : found)
 				x = std::min(x + random.real(-spread, spread), -0.05);
-			NewtonSolver solver(map, std::vector<char>(at(flow.base.vertexCount()), 0));
+			NewtonSolver solver(map, VertexArray<char>(flow.base().vertexCount(), 0));
 			NewtonOptions options;
 			options.epsilon = 1e-12;
 			const NewtonResult solved =
-				solver.solve(found, Eigen::VectorXd::Zero(u.size()), options, [](int, double) {});
+				solver.solve(found, VertexVector::Zero(u.size()), options, [](int, double) {});
 			EXPECT_TRUE(solved.converged);
 			EXPECT_LT((found - u).lpNorm<Eigen::Infinity>(), 1e-9);
 			// Lengths of the edges that both triangulations have.
-			for (int e = 0; e < flow.base.edgeCount(); ++e)
-				if (map.delta()[at(e)] == flow.result.metric->delta()[at(e)]) {
-					EXPECT_NEAR(
-						map.lengths()[at(e)] / flow.result.metric->lengths()[at(e)], 1.0, 1e-9);
+			for (const Edge e : flow.base().edges())
+				if (map.delta()[e] == flow.result.metric->delta()[e]) {
+					EXPECT_NEAR(map.lengths()[e] / flow.result.metric->lengths()[e], 1.0, 1e-9);
 				}
 		}
 	}
@@ -217,9 +216,8 @@ TEST(HyperbolicFlow, DoesNotDependOnScaleNumbersOrTheTriangulationOfTheInput)
 	}
 	const Renumbered other = renumbered(mesh, random);
 	const FlippedFlow same(other.mesh, hyperbolicMetric());
-	for (std::size_t v = 0; v < other.vertex.size(); ++v)
-		EXPECT_NEAR(
-			same.result.u[static_cast<Eigen::Index>(v)], flow.result.u[other.vertex[v]], 1e-9);
+	for (const Vertex v : same.result.u.indices())
+		EXPECT_NEAR(same.result.u[v], flow.result.u[Vertex(other.vertex[at(v)])], 1e-9);
 	IntrinsicMesh metric = intrinsicMesh(mesh);
 	EXPECT_GT(flipIsometrically(metric, 400, random).size(), 60u);
 	const FlippedFlow flipped(metric, hyperbolicMetric());
@@ -246,26 +244,24 @@ TEST(HyperbolicFlow, BothBackgroundsAgreeWhereTheAreaVanishes)
 		EXPECT_NEAR(curved.result.area / s, 1.0, 1e-8);
 		const double scale = 0.5 * std::log(curved.result.area);
 		double error = 0.0;
-		for (std::size_t v = 0; v < n; ++v) {
-			const auto i = static_cast<Eigen::Index>(v);
-			const double radius = Hyperbolic::circle(curved.result.u[i]).radius;
+		for (const Vertex v : flat.base().vertices()) {
+			const double radius = Hyperbolic::circle(curved.result.u[v]).radius;
 			error = std::max(
-				error, std::abs(std::log(radius) - scale - (flat.result.u[i] - flatScale)));
+				error, std::abs(std::log(radius) - scale - (flat.result.u[v] - flatScale)));
 		}
 		radii.push_back(error);
 		error = 0.0;
 		std::size_t common = 0;
-		for (int e = 0; e < flat.base.edgeCount(); ++e) {
+		for (const Edge e : flat.base().edges()) {
 			const auto& a = *flat.result.metric;
 			const auto& b = *curved.result.metric;
-			if (a.delta()[at(e)] != b.delta()[at(e)])
+			if (a.delta()[e] != b.delta()[e])
 				continue;
 			++common;
 			error = std::max(
-				error,
-				std::abs(std::log(b.lengths()[at(e)] / a.lengths()[at(e)]) - scale + flatScale));
+				error, std::abs(std::log(b.lengths()[e] / a.lengths()[e]) - scale + flatScale));
 		}
-		EXPECT_GT(common, 0.9 * flat.base.edgeCount());
+		EXPECT_GT(common, 0.9 * flat.base().edgeCount());
 		lengths.push_back(error);
 	}
 	for (const std::vector<double>& errors : {radii, lengths})

@@ -9,6 +9,7 @@
 #include "support/shapes.h"
 #include "support/transform.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/error.h>
 #include <ricci/surface/double_surface.h>
 
@@ -24,8 +25,6 @@
 namespace ricci::testing {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// The target is reached, by the flow's word and by the lengths it gives.
 void expectReached(const FlippedFlow& flow)
 {
@@ -38,18 +37,18 @@ double leastRelativeWeight(const FlowResult& r)
 {
 	const Triangulation& t = r.metric->triangulation();
 	const auto& lengths = r.metric->lengths();
-	const auto radius = [&](int v) { return std::exp(static_cast<long double>(r.u[v])); };
+	const auto radius = [&](Vertex v) { return std::exp(static_cast<long double>(r.u[v])); };
 	long double least = 0.0L;
-	for (int e = 0; e < t.edgeCount(); ++e) {
-		if (t.isBoundaryEdge(e))
+	for (const Edge e : t.edges()) {
+		if (t.isBoundary(e))
 			continue;
 		long double sum = 0.0L, magnitude = 0.0L;
-		for (int h : {2 * e, 2 * e + 1}) {
-			const long double l = lengths[at(e)];
-			const long double b = lengths[at(Triangulation::edge(t.next(h)))];
-			const long double a = lengths[at(Triangulation::edge(t.previous(h)))];
+		for (const Halfedge h : {e.halfedge(), e.halfedge().twin()}) {
+			const long double l = lengths[e];
+			const long double b = lengths[t.next(h).edge()];
+			const long double a = lengths[t.previous(h).edge()];
 			const long double gi = radius(t.origin(h)), gj = radius(t.target(h));
-			const long double gk = radius(t.origin(t.previous(h)));
+			const long double gk = radius(t.apex(h));
 			const long double x = ((a - b) * (a + b) / l + l) / 2;
 			const long double y =
 				std::sqrt((l + a + b) * (l + a - b) * (l + b - a) * (a + b - l)) / (2 * l);
@@ -83,11 +82,9 @@ TEST(RicciFlow, SolvesWhatBreaksOnAFixedTriangulation)
 			try {
 				runRicciFlow(
 					Background::EuclideanPlane,
-					flow.base,
-					flow.lengths,
-					mesh.positions,
+					flow.surface(),
+					flowStart(flow.surface(), options),
 					flow.result.target,
-					{},
 					options,
 					[](int, double) {});
 			}
@@ -134,9 +131,10 @@ std::vector<NamedEdge> namedEdges(const FlowResult& r, const std::vector<int>& n
 {
 	const Triangulation& t = r.metric->triangulation();
 	std::vector<NamedEdge> edges;
-	for (int e = 0; e < t.edgeCount(); ++e) {
-		const auto [low, high] = std::minmax(name[at(t.origin(2 * e))], name[at(t.target(2 * e))]);
-		edges.push_back({low, high, r.metric->lengths()[at(e)]});
+	for (const Edge e : t.edges()) {
+		const auto [low, high] =
+			std::minmax(name[at(t.origin(e.halfedge()))], name[at(t.target(e.halfedge()))]);
+		edges.push_back({low, high, r.metric->lengths()[e]});
 	}
 	std::sort(edges.begin(), edges.end());
 	return edges;
@@ -147,11 +145,10 @@ void expectSameMetric(const FlowResult& a, const FlowResult& b, const std::vecto
 {
 	std::vector<int> own(name.size());
 	std::iota(own.begin(), own.end(), 0);
-	const double shift = b.u[0] - a.u[name[0]];
+	const double shift = b.u[Vertex(0)] - a.u[Vertex(name[0])];
 	double difference = 0.0;
-	for (std::size_t v = 0; v < name.size(); ++v)
-		difference = std::max(
-			difference, std::abs(b.u[static_cast<Eigen::Index>(v)] - a.u[name[v]] - shift));
+	for (const Vertex v : b.u.indices())
+		difference = std::max(difference, std::abs(b.u[v] - a.u[Vertex(name[at(v)])] - shift));
 	EXPECT_LT(difference, 1e-8);
 	const auto edges = namedEdges(a, own), others = namedEdges(b, name);
 	ASSERT_EQ(edges.size(), others.size());
@@ -253,11 +250,14 @@ TEST(RicciFlow, TakesEqualSharesOfTheTotalCurvature)
 {
 	for (int subdivision : {3, 7, 12, 17, 25}) {
 		const SurfaceMesh mesh = perforatedSlab(5, subdivision);
-		const Triangulation t = glued(mesh);
-		const double share = -16 * kPi / t.vertexCount();
-		TargetRequest request = prescribed(std::vector<double>(at(t.vertexCount()), share));
+		const EmbeddedSurface surface =
+			embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles);
+		const auto n = mesh.positions.size();
+		const double share = -16 * kPi / static_cast<double>(n);
+		TargetRequest request = prescribed(std::vector<double>(n, share));
 		request.prescribedPrecision = std::numeric_limits<double>::epsilon();
-		EXPECT_NO_THROW(chooseTarget(t, topologyOf(t), {}, mesh.positions, request));
+		FlowStart start; // a prescribed target does not ask for it
+		EXPECT_NO_THROW(chooseTarget(surface, start, request));
 	}
 }
 
@@ -297,15 +297,15 @@ TEST(RicciFlow, FreeBoundaryKeepsItsLengths)
 		const FlippedFlow flow(mesh, requestOf(TargetCurvature::Prescribed));
 		expectReached(flow);
 		ASSERT_FALSE(flow.result.doubled);
-		for (int v = 0; v < flow.base.vertexCount(); ++v)
-			if (flow.topology.boundary[at(v)]) {
-				EXPECT_EQ(flow.result.u[v], std::log(flow.result.history.startRadii[at(v)]));
+		for (const Vertex v : flow.base().vertices())
+			if (flow.surface().topology.boundary[v]) {
+				EXPECT_EQ(flow.result.u[v], std::log(flow.result.history.startRadii[v]));
 			}
-		for (int e = 0; e < flow.base.edgeCount(); ++e)
-			if (flow.base.isBoundaryEdge(e)) {
+		for (const Edge e : flow.base().edges())
+			if (flow.base().isBoundary(e)) {
 				EXPECT_DOUBLE_EQ(
-					flow.result.metric->lengths()[at(e)], flow.result.history.start.lengths[at(e)]);
-				EXPECT_EQ(flow.result.history.start.lengths[at(e)], flow.lengths[at(e)]);
+					flow.result.metric->lengths()[e], flow.result.history.start.lengths[e]);
+				EXPECT_EQ(flow.result.history.start.lengths[e], flow.surface().lengths[e]);
 			}
 	}
 }
@@ -337,22 +337,18 @@ TEST(RicciFlow, DoubledSolutionIsSymmetric)
 			if (!flow.result.doubled)
 				continue;
 			++doubled;
-			const DoubleSurface twice = doubleOf(flow.base);
+			const DoubleSurface twice = doubleOf(flow.base());
 			double asymmetry = 0.0;
-			for (std::size_t v = 0; v < twice.mirror.size(); ++v)
+			for (const Vertex v : twice.mirror.indices())
 				asymmetry = std::max(
-					asymmetry,
-					std::abs(
-						flow.result.u[static_cast<Eigen::Index>(v)] -
-						flow.result.u[twice.mirror[v]]));
+					asymmetry, std::abs(flow.result.u[v] - flow.result.u[twice.mirror[v]]));
 			EXPECT_LT(asymmetry, 1e-9);
 			// The copies have the curvature of the surface.
 			const MetricMeasure measure(
 				flow.result.metric->triangulation(), flow.result.metric->lengths());
-			for (std::size_t v = 0; v < twice.mirror.size(); ++v)
+			for (const Vertex v : twice.mirror.indices())
 				EXPECT_NEAR(
-					static_cast<double>(
-						measure.curvature[v] - measure.curvature[at(twice.mirror[v])]),
+					static_cast<double>(measure.curvature[v] - measure.curvature[twice.mirror[v]]),
 					0.0,
 					1e-8);
 			EXPECT_NEAR(static_cast<double>(measure.area / 2) / flow.result.area, 1.0, 1e-9);
@@ -369,24 +365,24 @@ TEST(RicciFlow, StartFlippedBackIsTheInput)
 		const FlippedFlow flow(p.mesh, prescribed(p.curvature));
 		const FlipHistory& history = flow.result.history;
 		EXPECT_GT(history.startFlips.size(), 0u);
-		const MetricMeasure before(flow.base, flow.lengths);
+		const MetricMeasure before(flow.base(), flow.surface().lengths);
 		const MetricMeasure start(history.start.triangulation, history.start.lengths);
 		EXPECT_NEAR(static_cast<double>(start.area / before.area), 1.0, 1e-13);
-		for (std::size_t v = 0; v < before.curvature.size(); ++v)
+		for (const Vertex v : before.curvature.indices())
 			EXPECT_NEAR(static_cast<double>(start.curvature[v] - before.curvature[v]), 0.0, 1e-12);
 		IntrinsicMesh metric = history.start;
 		for (auto e = history.startFlips.rbegin(); e != history.startFlips.rend(); ++e) {
-			metric.lengths[at(*e)] = flippedLength(metric, *e);
+			metric.lengths[*e] = flippedLength(metric, *e);
 			metric.triangulation.unflip(*e);
 		}
-		for (int h = 0; h < flow.base.halfedgeCount(); ++h)
-			ASSERT_EQ(metric.triangulation.next(h), flow.base.next(h));
-		for (std::size_t e = 0; e < flow.lengths.size(); ++e)
-			EXPECT_NEAR(metric.lengths[e] / flow.lengths[e], 1.0, 1e-10);
+		for (const Halfedge h : flow.base().halfedges())
+			ASSERT_EQ(metric.triangulation.next(h), flow.base().next(h));
+		for (const Edge e : flow.surface().lengths.indices())
+			EXPECT_NEAR(metric.lengths[e] / flow.surface().lengths[e], 1.0, 1e-10);
 		Triangulation end = history.start.triangulation;
-		for (int e : history.flowFlips)
+		for (const Edge e : history.flowFlips)
 			end.flip(e);
-		for (int h = 0; h < end.halfedgeCount(); ++h)
+		for (const Halfedge h : end.halfedges())
 			ASSERT_EQ(end.next(h), flow.result.metric->triangulation().next(h));
 	}
 }

@@ -2,8 +2,8 @@
 // Runs the fuzz target without libFuzzer: on files, and on inputs from a generator of its own,
 // which are the same on every run. Does not watch coverage.
 //
-//     fuzz_driver [--runs N] [--seconds S] [--seed K] [--sentences] [--go-on] [--find TEXT]
-//                 [FILE|FOLDER...]
+//     ricci_fuzz [--runs N] [--seconds S] [--seed K] [--sentences] [--go-on] [--find TEXT]
+//                [FILE|FOLDER...]
 //
 // Ends at the first defect, with 1 and the input in the file "defect-input" (with --go-on, at the
 // end, and the n-th input in "defect-input-n"); a crash or a hang leaves its input there as well.
@@ -38,7 +38,7 @@ constexpr const char* kDefectFile = "defect-input";
 /// Seconds of CPU time after which an execution counts as hanging.
 constexpr int kPatience = 60;
 
-constexpr int kLongestInput = 96;
+constexpr int kMaxInputSize = 96;
 
 const Input* running = nullptr;
 
@@ -147,7 +147,7 @@ Input generate(const std::vector<Input>& corpus, ricci::testing::Random& random)
 {
 	Input input;
 	if (corpus.empty() || random.coin()) {
-		input.resize(static_cast<std::size_t>(random.index(kLongestInput)));
+		input.resize(static_cast<std::size_t>(random.index(kMaxInputSize)));
 		for (std::uint8_t& x : input)
 			x = static_cast<std::uint8_t>(random.index(256));
 		return input;

@@ -5,10 +5,12 @@
 #include "support/mesh_contents.h"
 #include "support/vcg_mesh.h"
 
-#include <ricci/error.h>
-#include <ricci/layout/orientation.h>
+#include <bridge/sentences.h>
 
-#include <vcg/complex/algorithms/parametrization/ricci_flow.h>
+#include <ricci/error.h>
+#include <ricci/math/orientation.h>
+
+#include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +23,10 @@ namespace ricci::testing {
 
 namespace {
 
+using filter_ricci::sentence;
+
 /// Calls of the progress that no mesh needs, and more for each face: an endless loop.
-constexpr int kMostSteps = 100000, kMostStepsPerFace = 1000;
+constexpr int kMaxSteps = 100000, kMaxStepsPerFace = 1000;
 
 /// Once in so many executions the same input is run twice and the results are compared.
 constexpr int kRepeat = 16;
@@ -31,8 +35,7 @@ class Watch : public Progress
 {
 public:
 	Watch(int cancelAt, std::size_t faces) :
-			m_cancelAt(cancelAt),
-			m_mostSteps(kMostSteps + kMostStepsPerFace * static_cast<int>(faces))
+			m_cancelAt(cancelAt), m_maxSteps(kMaxSteps + kMaxStepsPerFace * static_cast<int>(faces))
 	{
 	}
 
@@ -44,9 +47,9 @@ public:
 		m_last = fraction;
 		if (what.empty())
 			defect = "a stage has no name";
-		if (++m_steps > m_mostSteps)
+		if (++m_steps > m_maxSteps)
 			defect = "there is no end";
-		return m_steps - 1 != m_cancelAt && m_steps <= m_mostSteps;
+		return m_steps - 1 != m_cancelAt && m_steps <= m_maxSteps;
 	}
 	void log(const std::string& line) override
 	{
@@ -57,7 +60,7 @@ public:
 	std::string defect;
 
 private:
-	int m_cancelAt, m_mostSteps, m_steps = 0;
+	int m_cancelAt, m_maxSteps, m_steps = 0;
 	double m_last = 0.0;
 };
 
@@ -228,8 +231,13 @@ std::string defectOfSphere(const Mesh& m, const SphereMap& map)
 			return "a point at the distance " + std::to_string(radius) + " is not on the sphere";
 	}
 	Mesh sphere;
-	vcg::tri::RicciFlow<Mesh>::BuildSphereMesh(m, map, sphere);
+	vcg::tri::RicciFlowLayers<Mesh>::BuildSphereMesh(m, map, sphere);
 	return finitePositions(sphere) && sphere.FN() == m.FN() ? "" : "the sphere's mesh is broken";
+}
+
+bool isSentence(const std::string& text)
+{
+	return text.size() > 2 && text.back() == '.' && text.find('\n') == std::string::npos;
 }
 
 /// The layers of the hyperbolic filter.
@@ -237,36 +245,33 @@ template<class Mesh>
 std::string
 defectOfCover(const Mesh& m, const typename vcg::tri::RicciFlow<Mesh>::Result& result, int rings)
 {
-	constexpr std::size_t kMostFaces = 2000;
+	constexpr std::size_t kMaxFaces = 2000;
 	Mesh cover;
 	try {
-		vcg::tri::RicciFlow<Mesh>::BuildUniversalCover(m, result, rings, kMostFaces, cover);
+		vcg::tri::RicciFlowLayers<Mesh>::BuildUniversalCover(m, result, rings, kMaxFaces, cover);
 	}
-	catch (const InvalidOption&) {
+	catch (const InvalidOption& error) {
+		if (error.problem != InvalidOption::CoverTooLarge || !isSentence(sentence(error)))
+			return "the universal cover is refused by: " + sentence(error);
 		return {};
 	}
 	if (!finitePositions(cover))
 		return "the universal cover is not finite";
 	constexpr int kPieces = 8;
 	Mesh axes, polygons;
-	vcg::tri::RicciFlow<Mesh>::BuildAxes(result, kPieces, axes);
+	vcg::tri::RicciFlowLayers<Mesh>::BuildAxes(result, kPieces, axes);
 	if (!finitePositions(axes) || axes.EN() % kPieces != 0)
 		return "an axis is broken";
 	for (const auto& polygon :
-		 vcg::tri::RicciFlow<Mesh>::BuildCanonicalPolygons(result, kPieces, polygons))
+		 vcg::tri::RicciFlowLayers<Mesh>::BuildCanonicalPolygons(result, kPieces, polygons))
 		for (const std::complex<double>& z : polygon.corners)
 			if (!(std::abs(z) < 1.0))
 				return "a corner of a canonical polygon is not in the disk";
 	if (!finitePositions(polygons) || polygons.EN() % kPieces != 0)
 		return "a canonical polygon is broken";
-	if (cover.FN() < m.FN() || static_cast<std::size_t>(cover.FN()) > kMostFaces)
+	if (cover.FN() < m.FN() || static_cast<std::size_t>(cover.FN()) > kMaxFaces)
 		return "the universal cover has " + std::to_string(cover.FN()) + " faces";
 	return {};
-}
-
-bool isSentence(const std::string& text)
-{
-	return text.size() > 2 && text.back() == '.' && text.find('\n') == std::string::npos;
 }
 
 template<class Mesh>
@@ -296,11 +301,11 @@ Execution run(const HostileMesh& hostile)
 	}
 	catch (const Cancelled& cancelled) {
 		execution.verdict = Verdict::Cancelled;
-		execution.sentence = cancelled.what();
+		execution.sentence = sentence(cancelled);
 	}
 	catch (const Error& error) {
 		execution.verdict = Verdict::Refused;
-		execution.sentence = error.what();
+		execution.sentence = sentence(error);
 	}
 	catch (const std::exception& error) {
 		execution.defect = std::string("not a sentence: ") + error.what();
@@ -338,7 +343,7 @@ Execution run(const HostileMesh& hostile)
 		Flow::WriteVertexQuality(m, result);
 	}
 	execution.defect = defectOfWritten(m, hostile.normalizeUV || hostile.hyperbolic);
-	Flow::BuildFlatMesh(m, result, flat);
+	vcg::tri::RicciFlowLayers<Mesh>::BuildFlatMesh(m, result, flat);
 	if (execution.defect.empty() && flat.FN() != m.FN())
 		execution.defect = "the flat mesh has another number of faces";
 	return execution;

@@ -3,6 +3,8 @@
 
 #include "support/shapes.h"
 
+#include <ricci/base/numbers.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,8 +15,6 @@
 namespace ricci::testing {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 using Limits = std::numeric_limits<double>;
 

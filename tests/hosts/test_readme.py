@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What README.md and CONTRIBUTING.md say of the plugin and of the code is so.
+"""What the documents say of the plugin and of the code is so, and their links lead somewhere.
 Usage: test_readme.py BUILD_DIR [TEST...]. common.py holds what the plugins are tested against."""
 
 import os
@@ -14,6 +14,23 @@ KINDS = {"enum": "Enum", "int": "Int", "float": "Float", "bool": "Bool", "string
 def read(*path):
     with open(os.path.join(common.REPOSITORY, *path), encoding="utf-8") as source:
         return source.read()
+
+
+def documents():
+    """All Markdown files of the repository, relative to it."""
+    found = []
+    for place, folders, names in os.walk(common.REPOSITORY):
+        folders[:] = [name for name in folders if name not in (".git", "build")]
+        found += [os.path.relpath(os.path.join(place, name), common.REPOSITORY)
+                  for name in names if name.endswith(".md")]
+    return sorted(found)
+
+
+def anchors(text):
+    """Those that a Markdown page gives its headings."""
+    text = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
+    titles = re.findall(r"^#+ +(.*?) *$", text, re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
 
 
 def files(*path):
@@ -39,7 +56,7 @@ def tables(text, header):
 class Readme(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.text = read("README.md")
+        cls.text = read("filter_ricci", "README.md")
 
     def check_parameters(self, rows, expected, choices):
         source = read("filter_ricci", "bridge", "parameters.cpp")
@@ -72,9 +89,12 @@ class Readme(unittest.TestCase):
             hyperbolic, {"hyperbolic_area": "float", "relation_error": "float", "generators": "vector"})
 
     def test_messages(self):
-        """Every part of a message between two values ends in words that a source has in that order."""
-        sources = "".join(re.sub(r'"\s*"', "", read(folder, name))
-                          for folder in ("vcg_ext", "filter_ricci") for name in sorted(files(folder)))
+        """Every part of a message between two values ends in words of the bridge, or of the core's
+        typed errors."""
+        makers = [os.path.join("filter_ricci", "bridge", name)
+                  for name in sorted(files("filter_ricci", "bridge"))]
+        makers.append(os.path.join("vcg_ext", "ricci", "base", "error.cpp"))
+        sources = "".join(re.sub(r'"\s*"', "", read(name)) for name in makers)
         rows, = tables(self.text, "| input | message |")
         self.assertGreater(len(rows), 30)
         for row in rows:
@@ -83,11 +103,11 @@ class Readme(unittest.TestCase):
                 self.assertTrue(any(len(part.split()) >= 4 for part in parts))
                 for words in (part.split() for part in parts):
                     if len(words) >= 6:
-                        self.assertIn(" ".join(words[-4:]), sources)
+                        self.assertIn(" ".join(words[-3:]), sources)
 
     def test_code_map(self):
         """The map names every source of the core and every test, and nothing else."""
-        named = set(re.findall(r"`([\w/]+\.(?:cpp|h))`", read("CONTRIBUTING.md")))
+        named = set(re.findall(r"`([\w/]+\.(?:cpp|h))`", read("vcg_ext", "ricci", "README.md")))
         core = set(files("vcg_ext", "ricci"))
         tests = {name for name in files("tests") if name.endswith("_test.cpp")}
         pairs = {name.rsplit(".", 1)[0] for name in named}
@@ -97,11 +117,35 @@ class Readme(unittest.TestCase):
                      if not os.path.exists(os.path.join(common.REPOSITORY, name))}
         self.assertEqual(sorted(elsewhere), [])
 
+    def test_order_of_folders(self):
+        """CONTRIBUTING.md gives the order that core.structure checks."""
+        checked = re.search(r"set\(order (.*?)\)", read("tests", "check_structure.cmake")).group(1)
+        written = re.search(r"^ +(base, .* pipeline)$", read("CONTRIBUTING.md"), re.M).group(1)
+        self.assertEqual(re.split(r", | < ", written), checked.split())
+
+    def test_links(self):
+        """Relative links lead to a file, and to a heading of it where they name one."""
+        for name in documents():
+            links = re.findall(r"\]\(([^)\s]+)\)", read(name))
+            for link in links:
+                if re.match(r"\w+:", link):
+                    continue
+                with self.subTest(document=name, link=link):
+                    path, _, anchor = link.partition("#")
+                    target = name
+                    if path:
+                        target = os.path.normpath(os.path.join(os.path.dirname(name), path))
+                    self.assertTrue(os.path.exists(os.path.join(common.REPOSITORY, target)))
+                    if anchor:
+                        self.assertIn(anchor, anchors(read(target)))
+
     def test_version(self):
         """One version everywhere."""
         version = re.search(r"project\(\w+ VERSION ([\d.]+)", read("CMakeLists.txt")).group(1)
-        self.assertEqual(re.search(r"^## \[(.*?)\]", read("CHANGELOG.md"), re.M).group(1), version)
-        self.assertEqual(re.search(r"version = {(.*?)}", self.text).group(1), version)
+        for name, pattern in (
+                ("CHANGELOG.md", r"^## \[(\d.*?)\]"), ("README.md", r"version = {(.*?)}"),
+                ("CITATION.cff", r"^version: (.*)")):
+            self.assertEqual(re.search(pattern, read(name), re.M).group(1), version, name)
 
     def test_script(self):
         script = re.search(r"```xml\n(.*?)```", self.text, re.DOTALL).group(1)
@@ -122,7 +166,6 @@ class Readme(unittest.TestCase):
                     self.assertIn(group, looped[-1].split(), name)
                 elif "${CMAKE_BINARY_DIR}" not in after:
                     self.assertIn(group, after.split(), name)
-
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The overlay of the input's, the start's and the end's triangles after the flow.
+#include "support/complex.h"
 #include "support/flat_map.h"
 #include "support/flipped_flow.h"
 #include "support/implicit_surface.h"
@@ -27,10 +28,12 @@
 namespace ricci::testing {
 namespace {
 
-Eigen::VectorXd logOf(const std::vector<double>& radii)
+VertexVector logOf(const VertexArray<double>& radii)
 {
-	return Eigen::Map<const Eigen::ArrayXd>(radii.data(), static_cast<Eigen::Index>(radii.size()))
-		.log();
+	VertexVector logarithm(radii.size());
+	for (const Vertex v : radii.indices())
+		logarithm[v] = std::log(radii[v]);
+	return logarithm;
 }
 
 struct Problem
@@ -83,20 +86,40 @@ std::vector<Problem> problems(std::uint64_t seed)
 	return all;
 }
 
-RefinedMap mapOf(const CommonRefinement& r)
+/// A refinement as the checks take it.
+class MapOf
 {
-	return {r.points, r.triangles, r.inputFace, r.uv};
-}
+public:
+	explicit MapOf(const CommonRefinement& r) : m_inputFace(numbersOf(r.inputFace)), m_refinement(r)
+	{
+	}
+	operator RefinedMap() const
+	{
+		return {m_refinement.points, m_refinement.triangles, m_inputFace, m_refinement.uv};
+	}
+
+private:
+	static std::vector<int> numbersOf(const std::vector<Face>& faces)
+	{
+		std::vector<int> numbers;
+		for (const Face f : faces)
+			numbers.push_back(f.number());
+		return numbers;
+	}
+
+	std::vector<int> m_inputFace;
+	const CommonRefinement& m_refinement;
+};
 
 std::vector<double> targetOf(const FlippedFlow& flow)
 {
-	const Eigen::VectorXd& k = flow.result.target.curvature;
+	const VertexVector& k = flow.result.target.curvature;
 	return {k.data(), k.data() + k.size()};
 }
 
 void expectSound(const FlippedFlow& flow, const CommonRefinement& refinement)
 {
-	const RefinementCheck check(flow.mesh, mapOf(refinement), targetOf(flow));
+	const RefinementCheck check(flow.mesh, MapOf(refinement), targetOf(flow));
 	EXPECT_LT(check.areaError, 1e-9);
 	EXPECT_GE(check.leastWeight, -1e-12);
 	EXPECT_LT(check.weightError, 1e-14);
@@ -104,8 +127,8 @@ void expectSound(const FlippedFlow& flow, const CommonRefinement& refinement)
 	EXPECT_LT(check.seamMismatch, 1e-9);
 	EXPECT_EQ(check.seamsInside, 0);
 	EXPECT_LT(check.angleError, 1e-8);
-	EXPECT_EQ(check.eulerCharacteristic, flow.topology.eulerCharacteristic);
-	EXPECT_EQ(check.boundaryLoops, static_cast<int>(flow.topology.loops.size()));
+	EXPECT_EQ(check.eulerCharacteristic, flow.surface().topology.type.eulerCharacteristic());
+	EXPECT_EQ(check.boundaryLoops, static_cast<int>(flow.surface().topology.loops.size()));
 	EXPECT_NEAR(check.area / flow.result.area, 1.0, 1e-9);
 	EXPECT_EQ(refinement.points.size(), flow.mesh.positions.size() + refinement.crossings);
 	for (std::size_t v = 0; v < flow.mesh.positions.size(); ++v) {
@@ -132,6 +155,7 @@ TEST(CommonRefinement, IsTheSurfaceWithAMapWithoutFlips)
 /// across all of them, and as long as the flow says.
 TEST(CommonRefinement, EdgesOfTheEndAreStraight)
 {
+	int seen = 0;
 	for (std::uint64_t seed : {1, 2})
 		for (const Problem& p : problems(seed)) {
 			SCOPED_TRACE(p.name + ", seed " + std::to_string(seed));
@@ -139,18 +163,24 @@ TEST(CommonRefinement, EdgesOfTheEndAreStraight)
 			if (flow.result.doubled)
 				continue; // edges across the seam are cut in two
 			const CommonRefinement refinement = flow.refinement(flow.cut());
-			const auto lines = straightLines(flow.mesh, mapOf(refinement), 1e-3);
+			const auto lines = straightLines(flow.mesh, MapOf(refinement), 1e-3);
 			const Triangulation& end = flow.result.metric->triangulation();
 			int missing = 0;
-			for (int e = 0; e < end.edgeCount(); ++e) {
-				const double length = flow.result.metric->lengths()[at(e)];
-				missing += std::none_of(lines.begin(), lines.end(), [&](const StraightLine& line) {
-					return line.from == end.origin(2 * e) && line.to == end.target(2 * e) &&
-						   std::abs(line.length / length - 1.0) < 1e-9;
-				});
+			for (const Edge e : end.edges()) {
+				const double length = flow.result.metric->lengths()[e];
+				const auto [from, to] = end.ends(e);
+				missing += std::none_of(
+					lines.begin(),
+					lines.end(),
+					[&, from = from.number(), to = to.number()](const StraightLine& line) {
+						return line.from == from && line.to == to &&
+							   std::abs(line.length / length - 1.0) < 1e-9;
+					});
 			}
 			EXPECT_EQ(missing, 0);
+			++seen;
 		}
+	EXPECT_GT(seen, 12); // at least the six closed ones of each seed
 }
 
 /// The support of a point on an edge of the input; empty elsewhere.
@@ -169,15 +199,15 @@ std::vector<int> inputEdgeAt(const SurfacePoint& x)
 long crossingsTooMany(const FlippedFlow& flow, const CommonRefinement& refinement)
 {
 	long crossings = 0;
-	for (const StraightLine& line : straightLines(flow.mesh, mapOf(refinement), 1e-6))
+	for (const StraightLine& line : straightLines(flow.mesh, MapOf(refinement), 1e-6))
 		for (int point : line.points)
 			crossings += !inputEdgeAt(refinement.points[at(point)]).empty();
 	crossings /= 2; // a line is found from both its ends
 	NormalCoordinates tight(flow.result.history.input);
 	for (const auto* flips : {&flow.result.history.startFlips, &flow.result.history.flowFlips})
-		for (int e : *flips)
+		for (const Edge e : *flips)
 			tight.flip(e);
-	for (int e = 0; e < flow.base.edgeCount(); ++e)
+	for (const Edge e : flow.base().edges())
 		crossings -= tight.crossings(e);
 	return crossings;
 }
@@ -206,13 +236,15 @@ TEST(CommonRefinement, TheCutMayCrossAnEndEdgeTwice)
 std::set<std::pair<int, int>> flippedInputEdges(const FlippedFlow& flow)
 {
 	NormalCoordinates coordinates(flow.result.history.input);
-	for (int e : flow.result.history.startFlips)
+	for (const Edge e : flow.result.history.startFlips)
 		coordinates.flip(e);
 	const auto curves = coordinates.trace();
 	std::set<std::pair<int, int>> flipped;
-	for (int e = 0; e < flow.base.edgeCount(); ++e)
-		if (!curves[at(e)].crossings.empty())
-			flipped.insert(std::minmax(flow.base.origin(2 * e), flow.base.target(2 * e)));
+	for (const Edge e : flow.base().edges())
+		if (!curves[e].crossings.empty()) {
+			const auto [from, to] = flow.base().ends(e);
+			flipped.insert(std::minmax({from.number(), to.number()}));
+		}
 	return flipped;
 }
 
@@ -308,14 +340,13 @@ TEST(CommonRefinement, TheMapIsTheProjectiveOneOfTheRadii)
 			const FlowResult& result = flow.result;
 			const CommonRefinement r = flow.refinement(flow.cut());
 			const auto flipped = flippedInputEdges(flow);
-			const Eigen::VectorXd change = result.u - logOf(result.history.startRadii);
+			const VertexVector change = result.u - logOf(result.history.startRadii);
 			const Triangulation& end = result.metric->triangulation();
 			std::map<std::pair<int, int>, std::vector<double>> lengths;
-			for (int e = 0; e < end.edgeCount(); ++e)
-				for (int h : {2 * e, 2 * e + 1})
-					lengths[{end.origin(h), end.target(h)}].push_back(
-						result.metric->lengths()[at(e)]);
-			for (const StraightLine& line : straightLines(p.mesh, mapOf(r), 1e-3)) {
+			for (const Halfedge h : end.halfedges())
+				lengths[{end.origin(h).number(), end.target(h).number()}].push_back(
+					result.metric->lengths()[h.edge()]);
+			for (const StraightLine& line : straightLines(p.mesh, MapOf(r), 1e-3)) {
 				const auto& known = lengths[{line.from, line.to}];
 				if (std::none_of(known.begin(), known.end(), [&](double length) {
 						return std::abs(line.length / length - 1.0) < 1e-9;
@@ -337,7 +368,8 @@ TEST(CommonRefinement, TheMapIsTheProjectiveOneOfTheRadii)
 				const double factor = along.factor(parts);
 				if (factor == 0.0)
 					continue;
-				const double expected = std::exp(change[line.from] - change[line.to]);
+				const double expected =
+					std::exp(change[Vertex(line.from)] - change[Vertex(line.to)]);
 				EXPECT_NEAR(factor / expected, 1.0, 1e-7) << parts << " parts";
 				factors += parts > 1;
 				if (parts > 1)
@@ -358,15 +390,15 @@ TEST(CommonRefinement, LayoutOfTheInputIsThatOfItsPieces)
 		const CommonRefinement r = flow.refinement(flow.cut());
 		int seen = 0;
 		for (std::size_t piece = 0; piece < r.triangles.size(); ++piece) {
-			const auto h = flow.base.halfedges(r.inputFace[piece]);
+			const auto h = flow.base().halfedges(r.inputFace[piece]);
 			for (std::size_t k = 0; k < 3; ++k)
-				for (int side : h)
-					if (flow.base.origin(side) == r.triangles[piece][k]) {
-						EXPECT_EQ(r.inputLayout.at(side), r.uv[piece][k]);
+				for (const Halfedge side : h)
+					if (flow.base().origin(side) == Vertex(r.triangles[piece][k])) {
+						EXPECT_EQ(r.inputLayout[side], r.uv[piece][k]);
 						++seen;
 					}
 		}
-		EXPECT_GE(seen, 3 * flow.base.faceCount());
+		EXPECT_GE(seen, 3 * flow.base().faceCount());
 	}
 }
 
@@ -387,11 +419,12 @@ TEST(CommonRefinement, IsTheInputWhereNothingFlips)
 	std::vector<char> met(mesh.triangles.size(), 0);
 	for (std::size_t piece = 0; piece < r.triangles.size(); ++piece) {
 		Triangle t = r.triangles[piece];
-		const Triangle& face = mesh.triangles[at(r.inputFace[piece])];
+		const Face f = r.inputFace[piece];
+		const Triangle& face = mesh.triangles[at(f)];
 		for (int turn = 0; turn < 3 && t != face; ++turn)
 			std::rotate(t.begin(), t.begin() + 1, t.end());
 		EXPECT_EQ(t, face);
-		met[at(r.inputFace[piece])] = 1;
+		met[at(f)] = 1;
 	}
 	EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<long>(met.size()));
 }
@@ -399,7 +432,6 @@ TEST(CommonRefinement, IsTheInputWhereNothingFlips)
 /// A plane surface with a free boundary is mapped to itself, at every crossing too.
 TEST(CommonRefinement, APlaneIsMappedToItself)
 {
-	using Complex = std::complex<double>;
 	Random random(510);
 	for (int i = 0; i < 4; ++i) {
 		SurfaceMesh mesh = randomPlanarDisk(9, random);
@@ -416,7 +448,7 @@ TEST(CommonRefinement, APlaneIsMappedToItself)
 			return Complex(p[0], p[1]);
 		};
 		const auto image = [&](std::size_t piece, std::size_t k) {
-			return Complex(r.uv[piece][k][0], r.uv[piece][k][1]);
+			return asComplex(r.uv[piece][k]);
 		};
 		// The similarity that fits best: through the two corners farthest apart.
 		Complex a, b, fa, fb;
@@ -466,25 +498,26 @@ TEST(CommonRefinement, IsTheDevelopmentWhereTheMetricStays)
 				(result.u - logOf(result.history.startRadii)).lpNorm<Eigen::Infinity>(), 1e-9);
 			expectSound(flow, r);
 			for (std::size_t piece = 0; piece < r.triangles.size(); ++piece) {
-				const auto h = flow.base.halfedges(r.inputFace[piece]);
+				const auto h = flow.base().halfedges(r.inputFace[piece]);
 				std::array<Point3, 3> p;
 				for (std::size_t k = 0; k < 3; ++k) {
 					const SurfacePoint& point = r.points[at(r.triangles[piece][k])];
 					p[k] = placeOnSurface(point, mesh.positions);
 					Point2 developed{0.0, 0.0};
-					for (int side : h)
+					for (const Halfedge side : h)
 						for (std::size_t i = 0; i < 4; ++i)
-							if (point.weight[i] != 0.0 && point.vertex[i] == flow.base.origin(side))
+							if (point.weight[i] != 0.0 &&
+								Vertex(point.vertex[i]) == flow.base().origin(side))
 								for (std::size_t x = 0; x < 2; ++x)
-									developed[x] += point.weight[i] * r.inputLayout.at(side)[x];
+									developed[x] += point.weight[i] * r.inputLayout[side][x];
 					EXPECT_NEAR(developed[0], r.uv[piece][k][0], 1e-8);
 					EXPECT_NEAR(developed[1], r.uv[piece][k][1], 1e-8);
 				}
-				for (std::size_t k = 0; k < 3; ++k) {
-					const Point2 &a = r.uv[piece][k], &b = r.uv[piece][(k + 1) % 3];
+				for (std::size_t k = 0; k < 3; ++k)
 					EXPECT_NEAR(
-						std::hypot(a[0] - b[0], a[1] - b[1]), distance(p[k], p[(k + 1) % 3]), 1e-8);
-				}
+						distance(r.uv[piece][k], r.uv[piece][(k + 1) % 3]),
+						distance(p[k], p[(k + 1) % 3]),
+						1e-8);
 			}
 		}
 	EXPECT_GT(flips, 100);
@@ -493,6 +526,7 @@ TEST(CommonRefinement, IsTheDevelopmentWhereTheMetricStays)
 /// The same surface through the whole algorithm: what it hands over is the same refinement, scaled.
 TEST(CommonRefinement, AreaIsThatOfTheSurfaceInTheResult)
 {
+	int seen = 0;
 	for (const Problem& p : problems(5)) {
 		if (p.request.mode == TargetCurvature::Prescribed)
 			continue;
@@ -503,7 +537,7 @@ TEST(CommonRefinement, AreaIsThatOfTheSurfaceInTheResult)
 		options.epsilon = p.epsilon;
 		options.output = OutputTriangulation::CommonRefinement;
 		VertexInput input;
-		input.selected = p.request.selected;
+		input.selected = p.request.selected.values();
 		const Parametrization flat = run(p.mesh, options, input);
 		const RefinedMesh& r = flat.refined;
 		const RefinementCheck check(
@@ -514,19 +548,20 @@ TEST(CommonRefinement, AreaIsThatOfTheSurfaceInTheResult)
 		EXPECT_LT(check.angleError, 1e-8);
 		EXPECT_LT(check.areaError, 1e-9);
 		const FlippedFlow flow(p.mesh, p.request, p.epsilon);
-		const bool free =
-			std::count(flow.result.target.fixed.begin(), flow.result.target.fixed.end(), 1) > 0;
+		const bool free = flow.result.target.hasFixed();
 		double area = flow.result.area;
 		if (!free) {
 			area = 0.0;
-			const MetricMeasure measure(flow.base, flow.lengths);
+			const MetricMeasure measure(flow.base(), flow.surface().lengths);
 			area = static_cast<double>(measure.area);
 		}
 		EXPECT_NEAR(check.area / area, 1.0, 1e-9);
 		EXPECT_EQ(
 			flat.report.refinementPoints,
 			static_cast<int>(r.points.size() - p.mesh.positions.size()));
+		++seen;
 	}
+	EXPECT_EQ(seen, 10); // all but the three with prescribed curvature
 }
 
 } // namespace

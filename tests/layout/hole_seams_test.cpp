@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/expect.h"
 #include "support/flat_map.h"
-#include "support/random.h"
+#include "support/intrinsic.h"
 #include "support/shapes.h"
 
-#include <ricci/layout/chart_overlap.h>
+#include <ricci/base/numbers.h>
 #include <ricci/layout/hole_seams.h>
-#include <ricci/metric/circle_packing.h>
 #include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
@@ -27,9 +27,6 @@ SurfaceMesh perforated(int n, double height)
 	return withoutStars(whole, {vertex(3, 3), vertex(n - 3, 4), vertex(n / 2, n - 3)});
 }
 
-/// Half of the curvature of a disk.
-constexpr double kPiForCones = 3.14159265358979323846;
-
 Options capped()
 {
 	Options options;
@@ -40,9 +37,9 @@ Options capped()
 TEST(HoleSeams, AreDroppedBackToWhatTheCutMustReach)
 {
 	const SurfaceMesh mesh = perforated(14, 0.0);
-	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
-	const std::vector<double> lengths = edgeLengths(t, mesh.positions);
-	std::vector<char> marked(mesh.positions.size(), 0), closes = marked;
+	const Triangulation t = glued(mesh);
+	const EdgeArray<double> lengths = edgeLengths(t, mesh);
+	VertexArray<char> marked(t.vertexCount(), 0), closes = marked;
 	const CutGraph whole = cutToDisk(t, lengths, marked, {});
 	ASSERT_GT(whole.edgeCount, 0);
 
@@ -52,39 +49,36 @@ TEST(HoleSeams, AreDroppedBackToWhatTheCutMustReach)
 	EXPECT_EQ(cut.edgeCount, whole.edgeCount);
 
 	std::size_t longest = 0, loops = 0;
-	std::vector<int> longestLoop, hole;
-	for (int first : t.boundaryLoops()) {
-		std::vector<int> loop;
-		int h = first;
-		do {
+	std::vector<Vertex> longestLoop, hole;
+	for (const Halfedge first : t.boundaryLoops()) {
+		std::vector<Vertex> loop;
+		for (const Halfedge h : t.loop(first))
 			loop.push_back(t.origin(h));
-			h = t.next(h);
-		} while (h != first);
 		if (loop.size() > longest)
 			longest = loop.size(), longestLoop = loop;
 		else
 			hole = loop;
 		++loops;
-		for (int v : loop)
-			closes[at(v)] = 1;
+		for (const Vertex v : loop)
+			closes[v] = 1;
 	}
 	ASSERT_EQ(loops, 4u);
-	for (int v : longestLoop)
-		closes[at(v)] = 0;
+	for (const Vertex v : longestLoop)
+		closes[v] = 0;
 	cut = whole; // all close: nothing is left
 	dropSeamsToHoles(t, lengths, closes, marked, cut);
 	EXPECT_EQ(cut.edgeCount, 0);
 	EXPECT_EQ(std::count(cut.isCut.begin(), cut.isCut.end(), 1), 0);
 
-	marked[at(hole.front())] = 1; // a cone on the rim of one
+	marked[hole.front()] = 1; // a cone on the rim of one
 	cut = whole;
 	dropSeamsToHoles(t, lengths, closes, marked, cut);
 	EXPECT_GT(cut.edgeCount, 0);
 	EXPECT_EQ(std::count(cut.isCut.begin(), cut.isCut.end(), 1), cut.edgeCount);
 	double length = 0.0;
-	for (int e = 0; e < t.edgeCount(); ++e)
-		if (cut.isCut[at(e)])
-			length += lengths[at(e)];
+	for (const Edge e : t.edges())
+		if (cut.isCut[e])
+			length += lengths[e];
 	EXPECT_NEAR(cut.length, length, 1e-12);
 	EXPECT_LE(cut.edgeCount, whole.edgeCount);
 }
@@ -136,8 +130,7 @@ TEST(CappedHoles, OfAPlaneDoNotMoveIt)
 			for (std::size_t k = 0; k < 3; ++k) {
 				const std::size_t j = (k + 1) % 3;
 				EXPECT_NEAR(
-					std::hypot(
-						flat.uv[f][k][0] - flat.uv[f][j][0], flat.uv[f][k][1] - flat.uv[f][j][1]),
+					distance(flat.uv[f][k], flat.uv[f][j]),
 					distance(
 						mesh.positions[at(mesh.triangles[f][k])],
 						mesh.positions[at(mesh.triangles[f][j])]),
@@ -195,35 +188,50 @@ TEST(CappedHoles, TurnAnAnnulusIntoADisk)
 TEST(CappedHoles, CarryConesOnTheirRim)
 {
 	const SurfaceMesh mesh = perforated(16, 0.2);
-	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
+	const Triangulation t = glued(mesh);
 	VertexInput input;
 	input.selected.assign(mesh.positions.size(), 0);
 	const auto vertex = [](int i, int j) { return i * 17 + j; };
 	const int rim = vertex(3, 3); // the number of the removed vertex's next one, on the rim
-	ASSERT_TRUE(t.boundaryVertices()[at(rim)]);
+	ASSERT_TRUE(t.boundaryVertices()[Vertex(rim)]);
 	input.selected[at(rim)] = 1;
 	Options options = capped();
 	options.target = TargetCurvature::SelectedCones;
 	options.freeBoundary = false;
-	// The whole curvature of the disk in one cone would be 2 pi: too much, by the sentence of inner
-	// vertices.
-	EXPECT_NE(reason(mesh, options, input).find("interior vertex"), std::string::npos);
+	// The whole curvature of the disk in one cone would be 2 pi: too much, and for an inner vertex,
+	// which the rim becomes.
+	try {
+		run(mesh, options, input);
+		ADD_FAILURE() << "a cone of 2 pi";
+	}
+	catch (const InadmissibleCurvature& error) {
+		EXPECT_EQ(error.problem, InadmissibleCurvature::TooLargeInside);
+		EXPECT_NEAR(error.value, 2 * kPi, 1e-12);
+		EXPECT_EQ(error.bound, 2 * kPi);
+		EXPECT_EQ(error.count, 1u);
+		expectWords(error.what(), {"6.28318531", "at an interior vertex (1 "});
+	}
 	input.selected[at(vertex(8, 8))] = 1;
 	const Parametrization flat = run(mesh, options, input);
 	EXPECT_GT(flat.report.seamEdges, 0);
-	EXPECT_NEAR(flat.targetCurvature[at(rim)], kPiForCones, 1e-12);
+	EXPECT_NEAR(flat.targetCurvature[at(rim)], kPi, 1e-12);
 }
 
 TEST(CappedHoles, BelongToIntrinsicFlips)
 {
-	Options options = capped();
-	for (const Surgery surgery : {Surgery::None, Surgery::EdgeSwap}) {
-		options.surgery = surgery;
-		EXPECT_NE(reason(perforated(9, 0.1), options).find("'Capped'"), std::string::npos);
-	}
-	options = capped();
-	options.packing = PackingScheme::Thurston;
-	EXPECT_NE(reason(perforated(9, 0.1), options).find("'Capped'"), std::string::npos);
+	std::vector<Options> refused(3, capped());
+	refused[0].surgery = Surgery::None;
+	refused[1].surgery = Surgery::EdgeSwap;
+	refused[2].packing = PackingScheme::Thurston;
+	for (const Options& options : refused)
+		try {
+			run(perforated(9, 0.1), options);
+			ADD_FAILURE() << "capped holes without flips";
+		}
+		catch (const InvalidOption& error) {
+			EXPECT_EQ(error.problem, InvalidOption::CapsWithoutFlips);
+			expectWords(error.what(), {"apped holes", "intrinsic flips with inversive distances"});
+		}
 }
 
 } // namespace

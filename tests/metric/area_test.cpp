@@ -4,7 +4,7 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/layout/distortion.h>
+#include <ricci/measure/distortion.h>
 #include <ricci/metric/area.h>
 #include <ricci/metric/circle_packing.h>
 
@@ -25,13 +25,13 @@ const Triangulation& oneTriangle()
 	return t;
 }
 
-/// Lengths of one triangle by the number of its edges, from sides between corners k and k + 1.
-std::vector<double> ofSides(const std::array<double, 3>& side)
+/// Lengths of the edges of one triangle, from sides between corners k and k + 1.
+EdgeArray<double> ofSides(const std::array<double, 3>& side)
 {
 	const Triangulation& t = oneTriangle();
-	std::vector<double> lengths(3, 0.0);
-	for (int h : t.halfedges(0))
-		lengths[at(Triangulation::edge(h))] = side[at(t.origin(h))];
+	EdgeArray<double> lengths(3, 0.0);
+	for (const Halfedge h : t.halfedges(Face(0)))
+		lengths[h.edge()] = side[at(t.origin(h))];
 	return lengths;
 }
 
@@ -91,7 +91,7 @@ TEST(Area, OfATriangleOfCurvatureMinusOneIsPiLessItsAngles)
 TEST(Area, OfASmallTriangleOfCurvatureMinusOneIsTheFlatOne)
 {
 	for (double scale : {1e-2, 1e-3, 1e-6, 1e-9}) {
-		const std::vector<double> lengths = ofSides({3 * scale, 4 * scale, 5 * scale});
+		const EdgeArray<double> lengths = ofSides({3 * scale, 4 * scale, 5 * scale});
 		EXPECT_NEAR(
 			hyperbolicArea(oneTriangle(), lengths) / euclideanArea(oneTriangle(), lengths),
 			1.0,

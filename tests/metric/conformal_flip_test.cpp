@@ -14,53 +14,59 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <vector>
 
 namespace ricci::testing {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-/// Two triangles ijk and jil with i = 0, j = 1, k = 2, l = 3.
+constexpr Vertex kI(0), kJ(1), kK(2), kL(3);
+
+/// Two triangles ijk and jil.
 Triangulation quad()
 {
 	return Triangulation(4, {{0, 1, 2}, {1, 0, 3}});
 }
 
-int edgeBetween(const Triangulation& t, int a, int b)
+Edge edgeBetween(const Triangulation& t, Vertex a, Vertex b)
 {
-	for (int e = 0; e < t.edgeCount(); ++e)
-		if ((t.origin(2 * e) == a && t.target(2 * e) == b) ||
-			(t.origin(2 * e) == b && t.target(2 * e) == a))
+	for (const Edge e : t.edges()) {
+		const auto [i, j] = t.ends(e);
+		if ((i == a && j == b) || (i == b && j == a))
 			return e;
-	ADD_FAILURE() << "no edge " << a << "-" << b;
-	return -1;
+	}
+	ADD_FAILURE() << "no edge " << a.number() << "-" << b.number();
+	return Edge();
 }
 
-std::vector<double> curvatures(const std::vector<double>& u)
+/// Of circles with these u, as a VertexArray or a VertexVector.
+template<class Values>
+VertexArray<double> curvatures(const Values& u)
 {
-	std::vector<double> kappa;
+	VertexArray<double> kappa;
 	for (double x : u)
 		kappa.push_back(Euclidean::circle(x).kappa);
 	return kappa;
 }
 
-/// T_k + T_l of blueprint section 4 in extended precision, relative to the sum of its terms.
+/// T_k + T_l of conformal_flip.h in extended precision, relative to the sum of its terms.
 double relativeTilt(
 	const Triangulation& t,
-	const std::vector<double>& delta,
-	const std::vector<double>& kappa,
-	int e)
+	const EdgeArray<double>& delta,
+	const VertexArray<double>& kappa,
+	Edge e)
 {
-	const long double c = 1.0L + delta[at(e)];
+	const long double c = 1.0L + delta[e];
 	long double sum = 0, size = 0;
-	for (int h : {2 * e, 2 * e + 1}) {
-		const int next = t.next(h), last = t.previous(h);
-		const long double jk = 1.0L + delta[at(Triangulation::edge(next))];
-		const long double ik = 1.0L + delta[at(Triangulation::edge(last))];
+	for (const Halfedge h : {e.halfedge(), e.halfedge().twin()}) {
+		const Halfedge next = t.next(h), last = t.previous(h);
+		const long double jk = 1.0L + delta[next.edge()];
+		const long double ik = 1.0L + delta[last.edge()];
 		const long double D = c * c + ik * ik + jk * jk + 2 * c * ik * jk - 1;
 		const long double plus =
-			kappa[at(t.origin(h))] * (ik + c * jk) + kappa[at(t.target(h))] * (jk + c * ik);
-		const long double minus = kappa[at(t.origin(last))] * (c * c - 1);
+			kappa[t.origin(h)] * (ik + c * jk) + kappa[t.target(h)] * (jk + c * ik);
+		const long double minus = kappa[t.origin(last)] * (c * c - 1);
 		sum += (plus - minus) / std::sqrt(D);
 		size += (plus + minus) / std::sqrt(D);
 	}
@@ -72,13 +78,13 @@ TEST(ConformalFlip, FlippingTwiceIsTheIdentity)
 	Random random(30);
 	for (int i = 0; i < 2000; ++i) {
 		Triangulation t = quad();
-		std::vector<double> delta(at(t.edgeCount()));
+		EdgeArray<double> delta(t.edgeCount());
 		for (double& d : delta)
 			d = std::pow(10.0, random.real(-8, 8));
-		const int e = edgeBetween(t, 0, 1);
-		const double before = delta[at(e)];
-		delta[at(e)] = flippedDelta(t, delta, e);
-		const double across = delta[at(e)];
+		const Edge e = edgeBetween(t, kI, kJ);
+		const double before = delta[e];
+		delta[e] = flippedDelta(t, delta, e);
+		const double across = delta[e];
 		t.flip(e);
 		// The inversive distance of a flipped edge has a relative error of some eps. Flipping back
 		// divides by delta (delta + 2) of that edge, which magnifies the error by 1 / delta.
@@ -103,20 +109,20 @@ TEST(ConformalFlip, OrthogonalCirclesInThePlaneGiveTheOtherDiagonal)
 			p[at(n)] = {d * std::cos(angle), d * std::sin(angle), 0.0};
 			radius[at(n)] = std::sqrt(d * d - power);
 		}
-		const std::array<int, 4> place{0, 2, 3, 1}; // vertex i, j, k, l
+		const VertexArray<std::size_t> place{0, 2, 3, 1}; // of i, j, k, l
 		Triangulation t = quad();
-		const auto deltaOf = [&](int a, int b) {
-			const std::size_t x = at(place[at(a)]), y = at(place[at(b)]);
+		const auto deltaOf = [&](Vertex a, Vertex b) {
+			const std::size_t x = place[a], y = place[b];
 			return Euclidean::delta(distance(p[x], p[y]), radius[x], radius[y]);
 		};
-		std::vector<double> delta(at(t.edgeCount()));
-		for (int e = 0; e < t.edgeCount(); ++e)
-			delta[at(e)] = deltaOf(t.origin(2 * e), t.target(2 * e));
-		const double diagonal = deltaOf(2, 3);
+		EdgeArray<double> delta(t.edgeCount());
+		for (const Edge e : t.edges())
+			delta[e] = deltaOf(t.ends(e)[0], t.ends(e)[1]);
+		const double diagonal = deltaOf(kK, kL);
 		if (*std::min_element(delta.begin(), delta.end()) < 1e-3 || diagonal < 1e-3)
 			continue; // the formula is for circles that do not intersect
 		++cases;
-		EXPECT_NEAR(flippedDelta(t, delta, edgeBetween(t, 0, 1)) / diagonal, 1.0, 1e-10);
+		EXPECT_NEAR(flippedDelta(t, delta, edgeBetween(t, kI, kJ)) / diagonal, 1.0, 1e-10);
 	}
 }
 
@@ -127,21 +133,22 @@ TEST(ConformalFlip, OrthogonalCirclesInThePlaneAreATie)
 	for (int i = 0; i < 200; ++i) {
 		const Triangulation t = quad();
 		const double power = random.real(0.1, 0.9);
-		std::array<double, 4> x, y;
-		std::vector<double> u, delta(at(t.edgeCount()));
+		VertexArray<Point2> place;
+		VertexArray<double> u;
+		EdgeArray<double> delta(t.edgeCount());
 		const std::array<int, 4> quarter{0, 2, 1, 3};
 		for (std::size_t n = 0; n < 4; ++n) {
 			const double a = 1.5707963267948966 * (quarter[n] + random.real(-0.3, 0.3));
 			const double d = random.real(1.0, 3.0);
-			x[n] = d * std::cos(a), y[n] = d * std::sin(a);
+			place.push_back({d * std::cos(a), d * std::sin(a)});
 			u.push_back(0.5 * std::log(d * d - power));
 		}
-		for (int e = 0; e < t.edgeCount(); ++e) {
-			const std::size_t a = at(t.origin(2 * e)), b = at(t.target(2 * e));
-			delta[at(e)] = Euclidean::delta(
-				std::hypot(x[a] - x[b], y[a] - y[b]), std::exp(u[a]), std::exp(u[b]));
+		for (const Edge e : t.edges()) {
+			const auto [a, b] = t.ends(e);
+			delta[e] =
+				Euclidean::delta(distance(place[a], place[b]), std::exp(u[a]), std::exp(u[b]));
 		}
-		EXPECT_NEAR(relativeTilt(t, delta, curvatures(u), edgeBetween(t, 0, 1)), 0.0, 1e-13);
+		EXPECT_NEAR(relativeTilt(t, delta, curvatures(u), edgeBetween(t, kI, kJ)), 0.0, 1e-13);
 	}
 }
 
@@ -150,21 +157,21 @@ TEST(ConformalFlip, CirclesStayDisjoint)
 	Random random(33);
 	for (int i = 0; i < 2000; ++i) {
 		Triangulation t = quad();
-		std::vector<double> delta(at(t.edgeCount()));
+		EdgeArray<double> delta(t.edgeCount());
 		for (double& d : delta)
 			d = random.coin() ? 0.0 : std::pow(10.0, random.real(-10, 10));
-		const int e = edgeBetween(t, 0, 1);
-		delta[at(e)] = std::pow(10.0, random.real(-10, 10));
+		const Edge e = edgeBetween(t, kI, kJ);
+		delta[e] = std::pow(10.0, random.real(-10, 10));
 		// By the formula in extended precision; the header's clamp must only ever remove rounding.
-		const auto I = [&](int a, int b) { return 1.0L + delta[at(edgeBetween(t, a, b))]; };
-		const auto root = [&](int apex) {
-			const long double c = I(0, 1), a = I(0, apex), b = I(1, apex);
+		const auto I = [&](Vertex a, Vertex b) { return 1.0L + delta[edgeBetween(t, a, b)]; };
+		const auto root = [&](Vertex apex) {
+			const long double c = I(kI, kJ), a = I(kI, apex), b = I(kJ, apex);
 			return std::sqrt(c * c + a * a + b * b + 2 * a * b * c - 1);
 		};
-		const long double c = I(0, 1), c2 = delta[at(e)] * (delta[at(e)] + 2.0L);
+		const long double c = I(kI, kJ), c2 = delta[e] * (delta[e] + 2.0L);
 		const long double exact =
-			(I(0, 2) * I(0, 3) + I(1, 2) * I(1, 3) + c * (I(0, 2) * I(1, 3) + I(1, 2) * I(0, 3)) +
-			 root(2) * root(3)) /
+			(I(kI, kK) * I(kI, kL) + I(kJ, kK) * I(kJ, kL) +
+			 c * (I(kI, kK) * I(kJ, kL) + I(kJ, kK) * I(kI, kL)) + root(kK) * root(kL)) /
 			c2;
 		EXPECT_GT(exact, 1.0L - 1e-15L);
 		EXPECT_GE(flippedDelta(t, delta, e), 0.0);
@@ -178,21 +185,21 @@ TEST(ConformalFlip, DelaunayEdgesAreThoseWithoutNegativeWeight)
 	int negative = 0, positive = 0;
 	for (int trial = 0; trial < 20; ++trial) {
 		const Packed packed(trial % 2 ? bumpyTorus(10, 8, random) : randomPlanarDisk(9, random));
-		Eigen::VectorXd u = packed.u();
+		VertexVector u = packed.u();
 		auto map = packed.map();
 		for (double& x : u)
 			x += random.real(-0.15, 0.15);
 		map.evaluate(u);
 		if (map.brokenTriangles() > 0)
 			continue; // the statement is about true triangles
-		const auto kappa = curvatures({u.data(), u.data() + u.size()});
-		for (int e = 0; e < map.triangulation().edgeCount(); ++e) {
+		const auto kappa = curvatures(u);
+		for (const Edge e : map.triangulation().edges()) {
 			const double tilt = relativeTilt(map.triangulation(), map.delta(), kappa, e);
 			if (!map.triangulation().isFlippable(e) || std::abs(tilt) < 1e-12)
 				continue;
 			const bool good = isWeightedDelaunay(map.triangulation(), map.delta(), kappa, e);
 			EXPECT_EQ(good, tilt > 0);
-			EXPECT_EQ(good, map.weights()[at(e)] > 0) << map.weights()[at(e)];
+			EXPECT_EQ(good, map.weights()[e] > 0) << map.weights()[e];
 			++(good ? positive : negative);
 		}
 	}
@@ -203,48 +210,55 @@ TEST(ConformalFlip, DelaunayEdgesAreThoseWithoutNegativeWeight)
 TEST(ConformalFlip, TheFlippedEdgeIsDelaunayWhereTheOldOneWasNot)
 {
 	Random random(35);
+	int negative = 0, positive = 0;
 	for (int i = 0; i < 1000; ++i) {
 		Triangulation t = quad();
-		std::vector<double> delta(at(t.edgeCount())), kappa(4);
+		EdgeArray<double> delta(t.edgeCount());
+		VertexArray<double> kappa(4);
 		for (double& d : delta)
 			d = std::pow(10.0, random.real(-3, 3));
 		for (double& k : kappa)
 			k = std::pow(10.0, random.real(-3, 3));
-		const int e = edgeBetween(t, 0, 1);
+		const Edge e = edgeBetween(t, kI, kJ);
 		const double tilt = relativeTilt(t, delta, kappa, e);
 		if (std::abs(tilt) < 1e-9)
 			continue;
+		++(tilt > 0 ? positive : negative);
 		EXPECT_EQ(isWeightedDelaunay(t, delta, kappa, e), tilt > 0);
-		delta[at(e)] = flippedDelta(t, delta, e);
+		delta[e] = flippedDelta(t, delta, e);
 		t.flip(e);
 		EXPECT_EQ(isWeightedDelaunay(t, delta, kappa, e), tilt < 0);
 	}
+	EXPECT_GT(negative, 100);
+	EXPECT_GT(positive, 100);
 }
 
 TEST(ConformalFlip, BoundaryAndSelfGluedEdgesAreDelaunay)
 {
 	const Triangulation t = quad();
-	const std::vector<double> delta(5, 1.0), kappa{1, 1, 1e9, 1e9};
-	for (int e = 0; e < t.edgeCount(); ++e)
-		EXPECT_EQ(isWeightedDelaunay(t, delta, kappa, e), t.isBoundaryEdge(e));
+	const EdgeArray<double> delta(5, 1.0);
+	const VertexArray<double> kappa{1, 1, 1e9, 1e9};
+	for (const Edge e : t.edges())
+		EXPECT_EQ(isWeightedDelaunay(t, delta, kappa, e), t.isBoundary(e));
 	const Triangulation cone(2, {{0, 1, 0}}, {1, 0, -1});
-	EXPECT_TRUE(isWeightedDelaunay(cone, {1.0, 1.0}, {1e9, 1.0}, 0));
+	EXPECT_TRUE(isWeightedDelaunay(cone, {1.0, 1.0}, {1e9, 1.0}, Edge(0)));
 }
 
 /// Ends and inversive distance of all edges that are not ties, in a canonical order: the Delaunay
 /// tessellation, whose polygons with more than three corners have no preferred triangulation.
 std::vector<std::tuple<int, int, double>> tessellation(
 	const Triangulation& t,
-	const std::vector<double>& delta,
-	const std::vector<double>& kappa,
-	const std::vector<int>& name)
+	const EdgeArray<double>& delta,
+	const VertexArray<double>& kappa,
+	const VertexArray<int>& name)
 {
 	std::vector<std::tuple<int, int, double>> edges;
-	for (int e = 0; e < t.edgeCount(); ++e) {
+	for (const Edge e : t.edges()) {
 		if (t.isFlippable(e) && std::abs(relativeTilt(t, delta, kappa, e)) < 1e-10)
 			continue;
-		const int a = name[at(t.origin(2 * e))], b = name[at(t.target(2 * e))];
-		edges.emplace_back(std::min(a, b), std::max(a, b), delta[at(e)]);
+		const auto [i, j] = t.ends(e);
+		const int a = name[i], b = name[j];
+		edges.emplace_back(std::min(a, b), std::max(a, b), delta[e]);
 	}
 	std::sort(edges.begin(), edges.end());
 	return edges;
@@ -264,29 +278,33 @@ TEST(ConformalFlip, DelaunayTessellationDoesNotDependOnTheOrderOfFlips)
 			// Other numbers, and random flips beforehand, change the order of everything.
 			const Renumbered other = renumbered(mesh, random);
 			Packed packed(trial == 0 ? mesh : other.mesh);
-			std::vector<int> name = other.vertex;
+			VertexArray<int> name(other.vertex);
 			if (trial == 0)
-				for (std::size_t v = 0; v < name.size(); ++v)
-					name[v] = static_cast<int>(v);
+				for (const Vertex v : name.indices())
+					name[v] = v.number();
 			Triangulation& t = packed.packing.triangulation;
-			std::vector<double>& delta = packed.packing.delta;
+			EdgeArray<double>& delta = packed.packing.delta;
 			FlipJournal journal;
 			DelaunayQueue queue;
+			int scrambled = 0;
 			for (int scramble = 0; scramble < 60 * trial; ++scramble) {
-				const int e = random.index(t.edgeCount());
-				if (!t.isFlippable(e) || delta[at(e)] < 1e-2)
+				const Edge e(random.index(t.edgeCount()));
+				if (!t.isFlippable(e) || delta[e] < 1e-2)
 					continue;
-				delta[at(e)] = flippedDelta(t, delta, e);
+				++scrambled;
+				delta[e] = flippedDelta(t, delta, e);
 				t.flip(e);
 			}
-			std::vector<double> u(name.size());
-			for (std::size_t v = 0; v < u.size(); ++v) // a smooth function of the place
+			VertexArray<double> u(name.size());
+			for (const Vertex v : u.indices()) // a smooth function of the place
 				u[v] = packed.packing.u[v] + 0.3 * std::sin(2 * mesh.positions[at(name[v])][0]);
 			const auto kappa = curvatures(u);
 			makeWeightedDelaunay(t, delta, kappa, journal, queue);
-			for (int e = 0; e < t.edgeCount(); ++e)
+			for (const Edge e : t.edges())
 				EXPECT_TRUE(isWeightedDelaunay(t, delta, kappa, e));
+			EXPECT_GE(scrambled, 20 * trial);
 			const auto edges = tessellation(t, delta, kappa, name);
+			EXPECT_GT(edges.size(), 50u);
 			if (trial == 0)
 				first = edges;
 			ASSERT_EQ(edges.size(), first.size());
@@ -311,7 +329,7 @@ TEST(ConformalFlip, NoTriangleBreaksOnADelaunayTriangulation)
 			CirclePacking packing = packed.packing;
 			for (double& x : packing.u)
 				x += random.real(-spread, spread);
-			const Eigen::VectorXd u = Eigen::Map<const Eigen::VectorXd>(
+			const VertexVector u = Eigen::Map<const Eigen::VectorXd>(
 				packing.u.data(), static_cast<Eigen::Index>(packing.u.size()));
 			GeometricCurvatureMap<Euclidean> fixed(packing);
 			fixed.evaluate(u);
@@ -342,20 +360,19 @@ TEST(ConformalFlip, CurvatureIsTheSameOnBothSidesOfAFlip)
 	int crossings = 0;
 	for (int trial = 0; trial < 40; ++trial) {
 		const Packed packed(bumpyTorus(8, 6, random));
-		Eigen::VectorXd from = packed.u(), to = from;
+		VertexVector from = packed.u(), to = from;
 		for (double& x : to)
 			x += random.real(-0.3, 0.3);
 		const Triangulation& t = packed.packing.triangulation;
-		const auto tilt = [&](const Eigen::VectorXd& u, int e) {
-			return relativeTilt(
-				t, packed.packing.delta, curvatures({u.data(), u.data() + u.size()}), e);
+		const auto tilt = [&](const VertexVector& u, Edge e) {
+			return relativeTilt(t, packed.packing.delta, curvatures(u), e);
 		};
-		for (int e = 0; e < t.edgeCount(); ++e) {
+		for (const Edge e : t.edges()) {
 			if ((tilt(from, e) > 0) == (tilt(to, e) > 0))
 				continue;
-			Eigen::VectorXd a = from, b = to;
+			VertexVector a = from, b = to;
 			for (int i = 0; i < 60; ++i) {
-				const Eigen::VectorXd middle = 0.5 * (a + b);
+				const VertexVector middle = 0.5 * (a + b);
 				((tilt(middle, e) > 0) == (tilt(a, e) > 0) ? a : b) = middle;
 			}
 			GeometricCurvatureMap<Euclidean> before(packed.packing), after(packed.packing);
@@ -378,10 +395,10 @@ TEST(ConformalFlip, RewindRestoresEveryBit)
 	for (const SurfaceMesh& mesh : {bumpyTorus(10, 8, random), sliverDisk(8, 2.0, random)}) {
 		Packed packed(mesh);
 		Triangulation& t = packed.packing.triangulation;
-		std::vector<double>& delta = packed.packing.delta;
+		EdgeArray<double>& delta = packed.packing.delta;
 		const Triangulation before = t;
-		const std::vector<double> deltaBefore = delta;
-		std::vector<double> u = packed.packing.u;
+		const EdgeArray<double> deltaBefore = delta;
+		VertexArray<double> u = packed.packing.u;
 		FlipJournal journal;
 		DelaunayQueue queue;
 		int flips = 0;
@@ -395,7 +412,7 @@ TEST(ConformalFlip, RewindRestoresEveryBit)
 		journal.rewind(t, delta);
 		EXPECT_EQ(journal.size(), 0);
 		EXPECT_EQ(delta, deltaBefore);
-		for (int h = 0; h < t.halfedgeCount(); ++h) {
+		for (const Halfedge h : t.halfedges()) {
 			ASSERT_EQ(t.next(h), before.next(h));
 			ASSERT_EQ(t.origin(h), before.origin(h));
 			ASSERT_EQ(t.face(h), before.face(h));

@@ -122,19 +122,19 @@ BolzaSurface::BolzaSurface(int levels)
 		p = divided(p);
 	triangulation = Triangulation(p.vertexCount, p.triangles, p.glued);
 	const Triangulation& t = triangulation;
-	lengths.resize(at(t.edgeCount()));
-	angles.resize(at(t.halfedgeCount()));
-	place.resize(at(t.halfedgeCount()));
-	cut.isCut.assign(at(t.edgeCount()), 0);
+	lengths.resize(t.edgeCount());
+	angles.resize(t.halfedgeCount());
+	place.resize(t.halfedgeCount());
+	cut.isCut.assign(t.edgeCount(), 0);
 	std::vector<char> sideHasGenerator(4, 0);
-	for (int f = 0; f < t.faceCount(); ++f) {
+	for (const Face f : t.faces()) {
 		const auto h = t.halfedges(f);
 		for (std::size_t k = 0; k < 3; ++k) {
 			const auto& q = p.place[at(f)];
-			const std::size_t e = at(Triangulation::edge(h[k]));
-			place[at(h[k])] = q[k];
+			const Edge e = h[k].edge();
+			place[h[k]] = q[k];
 			lengths[e] = static_cast<double>(distanceInDisk(q[k], q[(k + 1) % 3]));
-			angles[at(h[k])] =
+			angles[h[k]] =
 				static_cast<double>(angleInDisk(q[k], q[(k + 1) % 3], q[(k + 2) % 3]));
 			if (!p.onOctagon[3 * at(f) + k] || cut.isCut[e])
 				continue;
@@ -147,7 +147,7 @@ BolzaSurface::BolzaSurface(int levels)
 			const auto side = at((static_cast<int>(std::floor(turn)) + 8) % 4);
 			if (!sideHasGenerator[side]) {
 				sideHasGenerator[side] = 1;
-				cut.generators.push_back(static_cast<int>(e));
+				cut.generators.push_back(e);
 			}
 		}
 	}
@@ -156,10 +156,9 @@ BolzaSurface::BolzaSurface(int levels)
 IntrinsicMesh BolzaSurface::distorted(const std::function<double(Complex)>& f) const
 {
 	IntrinsicMesh mesh{triangulation, lengths};
-	for (int e = 0; e < triangulation.edgeCount(); ++e) {
-		const int h = 2 * e;
-		mesh.lengths[at(e)] *=
-			std::exp(0.5 * (f(place[at(h)]) + f(place[at(triangulation.next(h))])));
+	for (const Edge e : triangulation.edges()) {
+		const Halfedge h = e.halfedge();
+		mesh.lengths[e] *= std::exp(0.5 * (f(place[h]) + f(place[triangulation.next(h)])));
 	}
 	return mesh;
 }

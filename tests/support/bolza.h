@@ -2,8 +2,8 @@
 #ifndef RICCI_TESTS_BOLZA_H
 #define RICCI_TESTS_BOLZA_H
 
-#include <ricci/layout/cut_graph.h>
-#include <ricci/metric/delaunay_start.h>
+#include <ricci/cut/cut_graph.h>
+#include <ricci/metric/initial_packing.h>
 #include <ricci/surface/triangulation.h>
 
 #include <complex>
@@ -22,9 +22,9 @@ struct BolzaSurface
 	using Complex = std::complex<long double>;
 
 	Triangulation triangulation;
-	std::vector<double> lengths; ///< [edge] hyperbolic
-	std::vector<double> angles;  ///< [halfedge] radians, at its origin
-	std::vector<Complex> place;  ///< [halfedge] of its origin, in the octagon round 0 in the disk
+	EdgeArray<double> lengths;    ///< hyperbolic
+	HalfedgeArray<double> angles; ///< radians, at its origin
+	HalfedgeArray<Complex> place; ///< of its origin, in the octagon round 0 in the disk
 	CutGraph cut;                ///< the sides of the octagon
 
 	explicit BolzaSurface(int levels);

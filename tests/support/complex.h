@@ -2,7 +2,7 @@
 #ifndef RICCI_TESTS_COMPLEX_H
 #define RICCI_TESTS_COMPLEX_H
 
-#include <ricci/layout/planar_layout.h>
+#include <ricci/math/points.h>
 
 #include <complex>
 
@@ -10,10 +10,7 @@ namespace ricci::testing {
 
 using Complex = std::complex<double>;
 
-inline Complex asComplex(const Point2& p)
-{
-	return {p[0], p[1]};
-}
+using ricci::asComplex;
 
 } // namespace ricci::testing
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "derivative.h"
 
-#include "shapes.h"
-
 #include <numeric>
-#include <vector>
 
 namespace ricci::testing {
 
@@ -17,7 +14,7 @@ Eigen::MatrixXd bothTriangles(const Hessian::Matrix& matrix)
 Eigen::MatrixXd denseHessian(const CurvatureMap& map, double shift)
 {
 	const int n = map.triangulation().vertexCount();
-	std::vector<int> unknown(at(n));
+	VertexArray<int> unknown(n);
 	std::iota(unknown.begin(), unknown.end(), 0);
 	Hessian hessian;
 	hessian.layOut(map, unknown, n);
@@ -25,14 +22,13 @@ Eigen::MatrixXd denseHessian(const CurvatureMap& map, double shift)
 	return bothTriangles(hessian.matrix());
 }
 
-Eigen::VectorXd
-curvatureSlope(CurvatureMap& map, const Eigen::VectorXd& u, Eigen::Index j, double step)
+VertexVector curvatureSlope(CurvatureMap& map, const VertexVector& u, Vertex j, double step)
 {
-	Eigen::VectorXd moved = u;
+	VertexVector moved = u;
 	moved[j] = u[j] + step;
 	const double above = moved[j];
 	map.evaluate(moved);
-	Eigen::VectorXd K = map.curvature();
+	VertexVector K = map.curvature();
 	moved[j] = u[j] - step;
 	const double below = moved[j];
 	map.evaluate(moved);

@@ -16,8 +16,7 @@ Eigen::MatrixXd bothTriangles(const Hessian::Matrix& matrix);
 Eigen::MatrixXd denseHessian(const CurvatureMap& map, double shift = 0.0);
 
 /// Central difference of the curvature by u_j at \p u. Leaves the map at another u.
-Eigen::VectorXd
-curvatureSlope(CurvatureMap& map, const Eigen::VectorXd& u, Eigen::Index j, double step);
+VertexVector curvatureSlope(CurvatureMap& map, const VertexVector& u, Vertex j, double step);
 
 } // namespace ricci::testing
 

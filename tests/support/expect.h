@@ -12,25 +12,34 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace ricci::testing {
 
-/// The sentence of the error \p E with which a call ends; empty if it ends without one.
+/// The error \p E with which a call ends; none if it ends without one.
 template<class E, class Call>
-std::string sentenceOf(const Call& call)
+std::optional<E> errorOf(const Call& call)
 {
 	try {
 		call();
 	}
 	catch (const E& error) {
-		return error.what();
+		return error;
 	}
 	catch (const Error& error) {
 		ADD_FAILURE() << "another kind of error: " << error.what();
 	}
-	return "";
+	return std::nullopt;
+}
+
+/// Its sentence; empty if the call ends without an error.
+template<class E, class Call>
+std::string sentenceOf(const Call& call)
+{
+	const std::optional<E> error = errorOf<E>(call);
+	return error ? error->what() : "";
 }
 
 inline void expectWords(const std::string& sentence, const std::vector<std::string>& words)
@@ -57,29 +66,28 @@ void expectTarget(const FlippedFlow& flow, double mostFloor)
 
 /// The surface cut open is connected and has Euler characteristic 1: a disk. Boundary edges are no
 /// cuts.
-inline void expectOpensToADisk(const Triangulation& t, const std::vector<char>& isCut)
+inline void expectOpensToADisk(const Triangulation& t, const EdgeArray<char>& isCut)
 {
-	ASSERT_EQ(static_cast<int>(isCut.size()), t.edgeCount());
-	std::vector<char> seen(at(t.faceCount()), 0);
-	std::vector<int> queue{0};
-	seen[0] = 1;
+	ASSERT_EQ(isCut.size(), t.edgeCount());
+	FaceArray<char> seen(t.faceCount(), 0);
+	std::vector<Face> queue{Face(0)};
+	seen[Face(0)] = 1;
 	for (std::size_t head = 0; head < queue.size(); ++head)
-		for (int h : t.halfedges(queue[head])) {
-			const int g = Triangulation::twin(h);
-			if (isCut[at(Triangulation::edge(h))] || t.isOuter(g) || seen[at(t.face(g))])
+		for (const Halfedge h : t.halfedges(queue[head])) {
+			const Halfedge g = h.twin();
+			if (isCut[h.edge()] || t.isExterior(g) || seen[t.face(g)])
 				continue;
-			seen[at(t.face(g))] = 1;
+			seen[t.face(g)] = 1;
 			queue.push_back(t.face(g));
 		}
 	EXPECT_EQ(static_cast<int>(queue.size()), t.faceCount());
-	int sectors = 0, cutEdges = 0;
-	cornerSectors(t, isCut, sectors);
-	for (int e = 0; e < t.edgeCount(); ++e)
-		if (isCut[at(e)]) {
+	int cutEdges = 0;
+	for (const Edge e : t.edges())
+		if (isCut[e]) {
 			++cutEdges;
-			EXPECT_FALSE(t.isBoundaryEdge(e));
+			EXPECT_FALSE(t.isBoundary(e));
 		}
-	EXPECT_EQ(sectors - (t.edgeCount() + cutEdges) + t.faceCount(), 1);
+	EXPECT_EQ(cornerWedges(t, isCut).count - (t.edgeCount() + cutEdges) + t.faceCount(), 1);
 }
 
 } // namespace ricci::testing

@@ -22,15 +22,15 @@ constexpr double kPi = 3.14159265358979323846;
 FlatMap::FlatMap(const SurfaceMesh& mesh, const UV& uv)
 {
 	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
-	boundary = t.boundaryVertices();
+	boundary = t.boundaryVertices().values();
 	for (char b : boundary)
 		curvature.push_back(b ? kPi : 2 * kPi);
-	std::vector<Complex> place(at(t.halfedgeCount()));
-	for (int f = 0; f < t.faceCount(); ++f) {
+	HalfedgeArray<Complex> place(t.halfedgeCount());
+	for (const Face f : t.faces()) {
 		const auto h = t.halfedges(f);
 		std::array<Complex, 3> p;
 		for (std::size_t k = 0; k < 3; ++k)
-			place[at(h[k])] = p[k] = asComplex(uv[at(f)][k]);
+			place[h[k]] = p[k] = asComplex(uv[at(f)][k]);
 		area += 0.5 * (std::conj(p[1] - p[0]) * (p[2] - p[0])).imag();
 		for (std::size_t k = 0; k < 3; ++k)
 			curvature[at(t.origin(h[k]))] -=
@@ -40,12 +40,12 @@ FlatMap::FlatMap(const SurfaceMesh& mesh, const UV& uv)
 	double rounding = 0.0;
 	for (const Complex& p : place)
 		rounding = std::max(rounding, 8 * std::numeric_limits<double>::epsilon() * std::abs(p));
-	for (int e = 0; e < t.edgeCount(); ++e) {
-		if (t.isBoundaryEdge(e))
+	for (const Edge e : t.edges()) {
+		if (t.isBoundary(e))
 			continue;
-		const int h = 2 * e, g = 2 * e + 1;
-		const Complex a = place[at(h)], b = place[at(t.next(h))];
-		const Complex c = place[at(t.next(g))], d = place[at(g)];
+		const Halfedge h = e.halfedge(), g = h.twin();
+		const Complex a = place[h], b = place[t.next(h)];
+		const Complex c = place[t.next(g)], d = place[g];
 		if (a == c && b == d)
 			continue;
 		++seamEdges;

@@ -9,7 +9,7 @@
 
 namespace ricci::testing {
 
-using UV = std::vector<std::array<Point2, 3>>;
+using UV = std::vector<Triangle2>;
 
 /// What can be seen of a map to the plane without knowing how it was made. Faces must be coherently
 /// oriented.

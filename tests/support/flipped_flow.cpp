@@ -4,21 +4,19 @@
 #include "intrinsic.h"
 #include "shapes.h"
 
-#include <ricci/metric/circle_packing.h>
-#include <ricci/result_assembly.h>
-#include <ricci/surface/double_surface.h>
+#include <ricci/base/numbers.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace ricci::testing {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr long double kExtendedPi = 3.14159265358979323846264338327950288L;
 
 /// Curvature above which a vertex counts as a cone.
@@ -26,103 +24,120 @@ constexpr double kCone = 1e-9;
 
 } // namespace
 
+namespace {
+
+EmbeddedSurface surfaceOf(const SurfaceMesh& mesh)
+{
+	return embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles);
+}
+
+EmbeddedSurface surfaceOf(const IntrinsicMesh& metric)
+{
+	return {metric.triangulation, {}, metric.lengths, topologyOf(metric.triangulation)};
+}
+
+FlowDomain domainOf(EmbeddedSurface surface)
+{
+	FlowDomain domain;
+	domain.onHole.assign(surface.triangulation.vertexCount(), 0);
+	domain.surface = std::move(surface);
+	return domain;
+}
+
+FlowOptions optionsOf(double epsilon)
+{
+	FlowOptions options;
+	options.surgery = Surgery::IntrinsicFlips;
+	options.epsilon = epsilon;
+	return options;
+}
+
+} // namespace
+
 FlippedFlow::FlippedFlow(const SurfaceMesh& m, const TargetRequest& request, double epsilon) :
-		mesh(m), base(glued(m)), lengths(edgeLengths(base, m.positions))
+		mesh(m), domain(domainOf(surfaceOf(m)))
 {
 	run(request, epsilon);
 }
 
 FlippedFlow::FlippedFlow(
 	const IntrinsicMesh& metric, const TargetRequest& request, double epsilon) :
-		base(metric.triangulation),
-		lengths(metric.lengths)
+		domain(domainOf(surfaceOf(metric)))
 {
 	run(request, epsilon);
 }
 
 FlippedFlow::FlippedFlow(const SurfaceMesh& m, const HyperbolicRequest& request, double epsilon) :
-		mesh(m), background(Background::HyperbolicPlane), base(glued(m)),
-		lengths(edgeLengths(base, m.positions))
+		mesh(m), domain(domainOf(surfaceOf(m)))
 {
 	run(request, epsilon);
 }
 
 FlippedFlow::FlippedFlow(
 	const IntrinsicMesh& metric, const HyperbolicRequest& request, double epsilon) :
-		background(Background::HyperbolicPlane),
-		base(metric.triangulation), lengths(metric.lengths)
+		domain(domainOf(surfaceOf(metric)))
 {
 	run(request, epsilon);
 }
 
 void FlippedFlow::run(HyperbolicRequest request, double epsilon)
 {
-	topology = topologyOf(base);
-	request.selected.resize(at(base.vertexCount()), 0);
-	request.prescribed.resize(at(base.vertexCount()), 0.0);
-	run(chooseHyperbolicTarget(topology, base.vertexCount(), request), epsilon);
-}
-
-void FlippedFlow::run(TargetRequest request, double epsilon)
-{
-	topology = topologyOf(base);
-	const auto vertexCount = at(base.vertexCount());
-	request.selected.resize(vertexCount, 0);
-	request.prescribed.resize(vertexCount, 0.0);
-	if (request.prescribedPrecision == 0.0)
-		request.prescribedPrecision = std::numeric_limits<double>::epsilon();
-	run(chooseTarget(base, topology, lengths, mesh.positions, request), epsilon);
-}
-
-void FlippedFlow::run(const Target& target, double epsilon)
-{
-	FlowOptions options;
-	options.surgery = Surgery::IntrinsicFlips;
-	options.epsilon = epsilon;
+	request.selected.resize(base().vertexCount(), 0);
+	request.prescribed.resize(base().vertexCount(), 0.0);
+	const FlowOptions options = optionsOf(epsilon);
 	result = runRicciFlow(
-		background,
-		base,
-		lengths,
-		mesh.positions,
-		target,
-		topology.loops.empty() ? std::vector<int>() : topology.loops.front(),
+		Background::HyperbolicPlane,
+		surface(),
+		flowStart(surface(), options),
+		chooseHyperbolicTarget(surface().topology, request),
 		options,
 		[](int, double) {});
 }
 
-std::vector<char> FlippedFlow::cones() const
+void FlippedFlow::run(TargetRequest request, double epsilon)
 {
-	std::vector<char> cone(at(base.vertexCount()), 0);
-	for (std::size_t v = 0; v < cone.size(); ++v)
-		cone[v] = !topology.boundary[v] &&
-				  std::abs(result.target.curvature[static_cast<Eigen::Index>(v)]) > kCone;
+	request.selected.resize(base().vertexCount(), 0);
+	request.prescribed.resize(base().vertexCount(), 0.0);
+	if (request.prescribedPrecision == 0.0)
+		request.prescribedPrecision = std::numeric_limits<double>::epsilon();
+	const FlowOptions options = optionsOf(epsilon);
+	FlowStart start = flowStart(surface(), options);
+	const Target target = chooseTarget(surface(), start, request);
+	result = runRicciFlow(
+		Background::EuclideanPlane,
+		surface(),
+		std::move(start),
+		target,
+		options,
+		[](int, double) {});
+}
+
+VertexArray<char> FlippedFlow::cones() const
+{
+	VertexArray<char> cone(base().vertexCount(), 0);
+	for (const Vertex v : base().vertices())
+		cone[v] =
+			!surface().topology.boundary[v] && std::abs(result.target.curvature[v]) > kCone;
 	return cone;
 }
 
 CutGraph FlippedFlow::cut() const
 {
-	return cutToDisk(base, lengths, cones(), {});
+	return cutToDisk(base(), surface().lengths, cones(), {});
 }
 
 CutGraph FlippedFlow::cutAnywhere(Random& random) const
 {
-	std::vector<double> costs(lengths.size());
+	EdgeArray<double> costs(base().edgeCount());
 	for (double& cost : costs)
 		cost = random.real(0.0, 1.0);
-	return cutToDisk(base, costs, cones(), {});
+	return cutToDisk(base(), costs, cones(), {});
 }
 
 CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
 {
-	return overlayOfFlow(
-		result,
-		background,
-		base,
-		mesh.positions,
-		cutGraph.isCut,
-		result.doubled,
-		false,
-		[](double, std::size_t) {});
+	return commonRefinement(
+		domain, result, cutGraph.isCut, false, [](double, std::size_t) {});
 }
 
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary)
@@ -138,14 +153,14 @@ TargetRequest conesAt(const SurfaceMesh& mesh, const std::vector<int>& vertices)
 	TargetRequest request = requestOf(TargetCurvature::SelectedCones, false);
 	request.selected.assign(mesh.positions.size(), 0);
 	for (int v : vertices)
-		request.selected[at(v)] = 1;
+		request.selected[Vertex(v)] = 1;
 	return request;
 }
 
 TargetRequest prescribed(std::vector<double> curvature, bool freeBoundary)
 {
 	TargetRequest request = requestOf(TargetCurvature::Prescribed, freeBoundary);
-	request.prescribed = std::move(curvature);
+	request.prescribed = VertexArray<double>(std::move(curvature));
 	return request;
 }
 
@@ -160,7 +175,7 @@ HyperbolicRequest hyperbolicPrescribed(std::vector<double> curvature)
 {
 	HyperbolicRequest request;
 	request.mode = HyperbolicTarget::Prescribed;
-	request.prescribed = std::move(curvature);
+	request.prescribed = VertexArray<double>(std::move(curvature));
 	return request;
 }
 
@@ -183,18 +198,18 @@ randomCurvature(int vertexCount, int chi, double low, double high, double share,
 	return curvature;
 }
 
-HyperbolicMeasure::HyperbolicMeasure(const Triangulation& t, const std::vector<double>& lengths) :
-		curvature(at(t.vertexCount()), 2 * kExtendedPi), sensitivity(at(t.vertexCount()), 0.0L)
+HyperbolicMeasure::HyperbolicMeasure(const Triangulation& t, const EdgeArray<double>& lengths) :
+		curvature(t.vertexCount(), 2 * kExtendedPi), sensitivity(t.vertexCount(), 0.0L)
 {
-	const std::vector<char> boundary = t.boundaryVertices();
-	for (std::size_t v = 0; v < boundary.size(); ++v)
+	const VertexArray<char> boundary = t.boundaryVertices();
+	for (const Vertex v : t.vertices())
 		if (boundary[v])
 			curvature[v] = kExtendedPi;
-	for (int f = 0; f < t.faceCount(); ++f) {
+	for (const Face f : t.faces()) {
 		const auto h = t.halfedges(f);
 		std::array<long double, 3> l;
 		for (std::size_t k = 0; k < 3; ++k)
-			l[k] = lengths[at(Triangulation::edge(h[k]))];
+			l[k] = lengths[h[k].edge()];
 		const long double s = (l[0] + l[1] + l[2]) / 2;
 		if (!(std::max({l[0], l[1], l[2]}) < s)) {
 			++broken;
@@ -207,20 +222,20 @@ HyperbolicMeasure::HyperbolicMeasure(const Triangulation& t, const std::vector<d
 			const long double tangent = std::sqrt(
 				std::sinh(s - l[k]) * std::sinh(s - l[(k + 2) % 3]) /
 				(std::sinh(s) * std::sinh(s - opposite)));
-			curvature[at(t.origin(h[k]))] -= 2 * std::atan(tangent);
+			curvature[t.origin(h[k])] -= 2 * std::atan(tangent);
 			sum += 2 * std::atan(tangent);
 			cotangents += 1 / tangent + tangent;
 		}
 		area += kExtendedPi - sum;
 		// The flat triangle's bound, times what a length adds in the hyperbolic plane.
-		for (int side : h)
-			sensitivity[at(t.origin(side))] += 2 * cotangents * (1 + s) * std::cosh(s);
+		for (const Vertex v : t.vertices(f))
+			sensitivity[v] += 2 * cotangents * (1 + s) * std::cosh(s);
 	}
 }
 
 IndependentError::IndependentError(const FlippedFlow& flow)
 {
-	if (flow.background == Background::HyperbolicPlane)
+	if (flow.result.background == Background::HyperbolicPlane)
 		compare<HyperbolicMeasure>(flow);
 	else
 		compare<MetricMeasure>(flow);
@@ -231,15 +246,15 @@ void IndependentError::compare(const FlippedFlow& flow)
 {
 	const Triangulation& t = flow.result.metric->triangulation();
 	const Measure measure(t, flow.result.metric->lengths());
-	for (int v = 0; v < flow.base.vertexCount(); ++v) {
-		if (flow.result.target.fixed[at(v)])
+	for (const Vertex v : flow.base().vertices()) {
+		if (flow.result.target.fixed[v])
 			continue;
-		long double k = measure.curvature[at(v)];
-		if (flow.result.doubled && flow.topology.boundary[at(v)])
+		long double k = measure.curvature[v];
+		if (flow.result.doubled && flow.surface().topology.boundary[v])
 			k /= 2;
 		const long double target = flow.result.target.curvature[v];
 		error = std::max(error, static_cast<double>(std::abs(k - target)));
-		rounding = std::max(rounding, static_cast<double>(measure.sensitivity[at(v)]));
+		rounding = std::max(rounding, static_cast<double>(measure.sensitivity[v]));
 	}
 	rounding *= std::numeric_limits<double>::epsilon();
 }

@@ -4,26 +4,25 @@
 
 #include "random.h"
 
-#include <ricci/flow/hyperbolic_target.h>
+#include <ricci/target/hyperbolic_target.h>
 #include <ricci/flow/ricci_flow.h>
-#include <ricci/flow/target_curvature.h>
+#include <ricci/target/target_curvature.h>
 #include <ricci/layout/common_refinement.h>
-#include <ricci/layout/cut_graph.h>
-#include <ricci/metric/delaunay_start.h>
+#include <ricci/cut/cut_graph.h>
+#include <ricci/metric/initial_packing.h>
+#include <ricci/surface/flow_domain.h>
 #include <ricci/options.h>
 
 #include <vector>
 
 namespace ricci::testing {
 
-/// The flow with intrinsic flips on one connected surface, and what it was asked for.
+/// The stages of the flow with intrinsic flips on one connected surface, up to the common
+/// refinement.
 struct FlippedFlow
 {
 	SurfaceMesh mesh;
-	Background background = Background::EuclideanPlane;
-	Triangulation base;
-	std::vector<double> lengths;
-	Topology topology;
+	FlowDomain domain;
 	FlowResult result;
 
 	/// \throw what chooseTarget() and runRicciFlow() throw
@@ -38,8 +37,11 @@ struct FlippedFlow
 	FlippedFlow(
 		const IntrinsicMesh& metric, const HyperbolicRequest& request, double epsilon = 1e-11);
 
-	/// [vertex] 1 where the metric found has a cone inside.
-	std::vector<char> cones() const;
+	const EmbeddedSurface& surface() const { return domain.surface; }
+	const Triangulation& base() const { return domain.surface.triangulation; }
+
+	/// 1 where the metric found has a cone inside.
+	VertexArray<char> cones() const;
 
 	/// Input's metric flattened cut open along a cut graph through all cones, and laid out.
 	CutGraph cut() const;
@@ -50,7 +52,6 @@ struct FlippedFlow
 private:
 	void run(TargetRequest request, double epsilon);
 	void run(HyperbolicRequest request, double epsilon);
-	void run(const Target& target, double epsilon);
 };
 
 /// Requests by name.
@@ -69,13 +70,13 @@ randomCurvature(int vertexCount, int chi, double low, double high, double share,
 /// own, so that nothing of the core is trusted.
 struct HyperbolicMeasure
 {
-	std::vector<long double> curvature; ///< [vertex] 2 pi (boundary: pi) less the angles
-	/// [vertex] Bound of the change of curvature for a relative change of 1 of every length.
-	std::vector<long double> sensitivity;
+	VertexArray<long double> curvature; ///< 2 pi (boundary: pi) less the angles
+	/// Bound of the change of curvature for a relative change of 1 of every length.
+	VertexArray<long double> sensitivity;
 	long double area = 0.0L; ///< sum of pi less the angles
 	int broken = 0;          ///< triangles without the strict triangle inequality
 
-	HyperbolicMeasure(const Triangulation& t, const std::vector<double>& lengths);
+	HyperbolicMeasure(const Triangulation& t, const EdgeArray<double>& lengths);
 };
 
 /// Curvature error of a result by its lengths alone, in extended precision, and the part of it that

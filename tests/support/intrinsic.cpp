@@ -3,7 +3,7 @@
 
 #include "shapes.h"
 
-#include <ricci/metric/circle_packing.h>
+#include <ricci/surface/flow_domain.h>
 
 #include <array>
 #include <cmath>
@@ -39,10 +39,10 @@ Corner cornerOf(long double a, long double b, long double c)
 	return {2 * std::atan(half), (1 / half - half) / 2, true};
 }
 
-long double cornerAt(const IntrinsicMesh& mesh, int h)
+long double cornerAt(const IntrinsicMesh& mesh, Halfedge h)
 {
 	const Triangulation& t = mesh.triangulation;
-	const auto length = [&](int g) { return mesh.lengths[at(Triangulation::edge(g))]; };
+	const auto length = [&](Halfedge g) { return mesh.lengths[g.edge()]; };
 	return cornerOf(length(h), length(t.previous(h)), length(t.next(h))).angle;
 }
 
@@ -59,10 +59,15 @@ Triangulation glued(const SurfaceMesh& mesh)
 	return Triangulation(static_cast<int>(mesh.positions.size()), mesh.triangles);
 }
 
+EdgeArray<double> edgeLengths(const Triangulation& t, const SurfaceMesh& mesh)
+{
+	return ricci::edgeLengths(t, VertexArray<Point3>(mesh.positions));
+}
+
 IntrinsicMesh intrinsicMesh(const SurfaceMesh& mesh)
 {
 	const Triangulation t = glued(mesh);
-	return {t, edgeLengths(t, mesh.positions)};
+	return {t, edgeLengths(t, mesh)};
 }
 
 Triangulation oneVertexTorus()
@@ -72,33 +77,33 @@ Triangulation oneVertexTorus()
 	return Triangulation(1, {{0, 0, 0}, {0, 0, 0}}, {3, 4, 5, 0, 1, 2});
 }
 
-MetricMeasure::MetricMeasure(const Triangulation& t, const std::vector<double>& lengths) :
-		curvature(at(t.vertexCount()), 2 * kPi), cotangent(at(t.edgeCount()), 0.0L),
-		sensitivity(at(t.vertexCount()), 0.0L)
+MetricMeasure::MetricMeasure(const Triangulation& t, const EdgeArray<double>& lengths) :
+		curvature(t.vertexCount(), 2 * kPi), cotangent(t.edgeCount(), 0.0L),
+		sensitivity(t.vertexCount(), 0.0L)
 {
-	const std::vector<char> boundary = t.boundaryVertices();
-	for (std::size_t v = 0; v < boundary.size(); ++v)
+	const VertexArray<char> boundary = t.boundaryVertices();
+	for (const Vertex v : t.vertices())
 		if (boundary[v])
 			curvature[v] = kPi;
-	for (int f = 0; f < t.faceCount(); ++f) {
+	for (const Face f : t.faces()) {
 		const auto h = t.halfedges(f);
 		std::array<long double, 3> l;
 		for (std::size_t k = 0; k < 3; ++k)
-			l[k] = lengths[at(Triangulation::edge(h[k]))];
+			l[k] = lengths[h[k].edge()];
 		bool valid = true;
 		long double cotangents = 0.0L;
 		for (std::size_t k = 0; k < 3; ++k) {
 			const Corner c = cornerOf(l[k], l[(k + 2) % 3], l[(k + 1) % 3]);
 			valid &= c.valid;
-			curvature[at(t.origin(h[k]))] -= c.angle;
-			cotangent[at(Triangulation::edge(h[(k + 1) % 3]))] += c.cotangent;
+			curvature[t.origin(h[k])] -= c.angle;
+			cotangent[h[(k + 1) % 3].edge()] += c.cotangent;
 			cotangents += std::abs(c.cotangent);
 			if (k == 0)
 				area += l[0] * l[2] * std::sin(c.angle) / 2;
 		}
 		broken += !valid;
-		for (int side : h)
-			sensitivity[at(t.origin(side))] += 2 * cotangents;
+		for (const Vertex v : t.vertices(f))
+			sensitivity[v] += 2 * cotangents;
 	}
 }
 
@@ -107,28 +112,28 @@ std::vector<double> curvatureInSpace(const SurfaceMesh& mesh)
 	const IntrinsicMesh m = intrinsicMesh(mesh);
 	const MetricMeasure measure(m.triangulation, m.lengths);
 	std::vector<double> curvature;
-	for (long double k : measure.curvature)
+	for (const long double k : measure.curvature)
 		curvature.push_back(static_cast<double>(k));
 	return curvature;
 }
 
-std::vector<int> flipIsometrically(IntrinsicMesh& mesh, int attempts, Random& random)
+std::vector<Edge> flipIsometrically(IntrinsicMesh& mesh, int attempts, Random& random)
 {
 	Triangulation& t = mesh.triangulation;
-	std::vector<int> flipped;
+	std::vector<Edge> flipped;
 	for (int i = 0; i < attempts; ++i) {
-		const int e = random.index(t.edgeCount());
+		const Edge e(random.index(t.edgeCount()));
 		if (!t.isFlippable(e))
 			continue;
-		const int h = 2 * e, g = 2 * e + 1;
+		const Halfedge h = e.halfedge(), g = h.twin();
 		const long double start = cornerAt(mesh, h) + cornerAt(mesh, t.next(g));
 		const long double end = cornerAt(mesh, g) + cornerAt(mesh, t.next(h));
 		if (start > kPi - kConvexityMargin || end > kPi - kConvexityMargin)
 			continue;
-		const long double a = mesh.lengths[at(Triangulation::edge(t.previous(h)))];
-		const long double b = mesh.lengths[at(Triangulation::edge(t.next(g)))];
+		const long double a = mesh.lengths[t.previous(h).edge()];
+		const long double b = mesh.lengths[t.next(g).edge()];
 		const long double sine = std::sin(start / 2);
-		mesh.lengths[at(e)] =
+		mesh.lengths[e] =
 			static_cast<double>(std::sqrt((a - b) * (a - b) + 4 * a * b * sine * sine));
 		t.flip(e);
 		flipped.push_back(e);

@@ -4,7 +4,7 @@
 
 #include "random.h"
 
-#include <ricci/metric/delaunay_start.h>
+#include <ricci/metric/initial_packing.h>
 #include <ricci/surface/surface_mesh.h>
 #include <ricci/surface/triangulation.h>
 
@@ -13,6 +13,9 @@
 namespace ricci::testing {
 
 Triangulation glued(const SurfaceMesh& mesh);
+
+/// Lengths of the edges of a triangulation of the mesh.
+EdgeArray<double> edgeLengths(const Triangulation& t, const SurfaceMesh& mesh);
 
 /// The metric that a mesh has in space.
 IntrinsicMesh intrinsicMesh(const SurfaceMesh& mesh);
@@ -24,14 +27,14 @@ Triangulation oneVertexTorus();
 /// its own, so that nothing of the core is trusted.
 struct MetricMeasure
 {
-	std::vector<long double> curvature; ///< [vertex] 2 pi (boundary: pi) less the angles
-	std::vector<long double> cotangent; ///< [edge] sum of the cotangents of the opposite angles
-	/// [vertex] Bound of the change of curvature for a relative change of 1 of every length.
-	std::vector<long double> sensitivity;
+	VertexArray<long double> curvature; ///< 2 pi (boundary: pi) less the angles
+	EdgeArray<long double> cotangent;   ///< sum of the cotangents of the opposite angles
+	/// Bound of the change of curvature for a relative change of 1 of every length.
+	VertexArray<long double> sensitivity;
 	long double area = 0.0L;
 	int broken = 0; ///< triangles without the strict triangle inequality
 
-	MetricMeasure(const Triangulation& t, const std::vector<double>& lengths);
+	MetricMeasure(const Triangulation& t, const EdgeArray<double>& lengths);
 };
 
 /// Curvature of the surface that a mesh is in space.
@@ -39,7 +42,7 @@ std::vector<double> curvatureInSpace(const SurfaceMesh& mesh);
 
 /// Flips random edges, \p attempts times where the two triangles form a quad that is convex by a
 /// margin; the metric stays the same. Returns the flipped edges in order.
-std::vector<int> flipIsometrically(IntrinsicMesh& mesh, int attempts, Random& random);
+std::vector<Edge> flipIsometrically(IntrinsicMesh& mesh, int attempts, Random& random);
 
 /// Cone over a polygon with \p sides sides; a second, lower apex closes it.
 SurfaceMesh fan(int sides, double height);

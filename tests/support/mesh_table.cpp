@@ -216,7 +216,7 @@ Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progr
 	if (options.output == OutputTriangulation::CommonRefinement) {
 		draw(mesh, flat.refined, out);
 		for (int f : flat.refined.inputFace)
-			out.reversed.push_back(flat.reversed[static_cast<std::size_t>(f)]);
+			out.reversed.push_back(flat.reversed[positionOf(f)]);
 	}
 	else {
 		out.drawn = mesh;
@@ -249,13 +249,11 @@ Outcome runPacked(const SurfaceMesh& mesh, const Options& options, Progress& pro
 	std::vector<char> reversed(mesh.triangles.size(), 0);
 	std::vector<std::string> notes;
 	for (const Component& component : splitIntoComponents(mesh, notes))
-		for (std::size_t f = 0; f < component.face.size(); ++f)
-			reversed[static_cast<std::size_t>(component.face[f])] = component.reversed[f];
+		for (const Face f : component.face.indices())
+			reversed[positionOf(component.face[f])] = component.reversed[f];
 	for (std::size_t f = 0; f < out.uv.size(); ++f)
-		out.reversed.push_back(reversed
-								   [flat.refined.triangles.empty()
-										? f
-										: static_cast<std::size_t>(flat.refined.inputFace[f])]);
+		out.reversed.push_back(
+			reversed[flat.refined.triangles.empty() ? f : positionOf(flat.refined.inputFace[f])]);
 	return out;
 }
 

@@ -2,6 +2,8 @@
 #ifndef RICCI_TESTS_PACKED_H
 #define RICCI_TESTS_PACKED_H
 
+#include "intrinsic.h"
+
 #include <ricci/flow/curvature_map.h>
 #include <ricci/metric/circle_packing.h>
 #include <ricci/metric/euclidean.h>
@@ -16,22 +18,18 @@ namespace ricci::testing {
 struct Packed
 {
 	Triangulation triangulation;
-	std::vector<double> lengths, radii;
+	EdgeArray<double> lengths;
+	VertexArray<double> radii;
 	CirclePacking packing;
 
-	explicit Packed(const SurfaceMesh& mesh) :
-			Packed(
-				Triangulation(static_cast<int>(mesh.positions.size()), mesh.triangles),
-				mesh.positions)
-	{
-	}
-	Packed(const Triangulation& t, const std::vector<double>& l) :
+	explicit Packed(const SurfaceMesh& mesh) : Packed(intrinsicMesh(mesh)) {}
+	Packed(const Triangulation& t, const EdgeArray<double>& l) :
 			triangulation(t), lengths(l), radii(initialRadii(t, l)),
 			packing(inversiveDistancePacking(t, l, radii))
 	{
 	}
 
-	Eigen::VectorXd u() const
+	VertexVector u() const
 	{
 		return Eigen::Map<const Eigen::VectorXd>(
 			packing.u.data(), static_cast<Eigen::Index>(packing.u.size()));
@@ -42,10 +40,7 @@ struct Packed
 	}
 
 private:
-	Packed(const Triangulation& t, const std::vector<Point3>& positions) :
-			Packed(t, edgeLengths(t, positions))
-	{
-	}
+	explicit Packed(const IntrinsicMesh& mesh) : Packed(mesh.triangulation, mesh.lengths) {}
 };
 
 } // namespace ricci::testing

@@ -31,16 +31,15 @@ std::vector<double> admissibleCurvature(const SurfaceMesh& mesh)
 	std::vector<double> curvature(mesh.positions.size(), 0.0);
 	std::vector<std::string> notes;
 	for (const Component& c : splitIntoComponents(mesh, notes)) {
-		const Triangulation t(static_cast<int>(c.positions.size()), c.triangles);
+		const Triangulation t(c.positions.size(), c.triangles);
 		if (!t.boundaryLoops().empty())
 			continue;
-		const int count = static_cast<int>(c.vertex.size());
+		const int count = c.vertex.size();
 		const int chi = t.eulerCharacteristic();
 		const int cones =
 			std::min(chi > 0 ? kLeastCones : kConesPerTurn * std::max(1, -chi), count);
 		for (int i = 0; i < cones; ++i)
-			curvature[at(c.vertex[static_cast<std::size_t>(i) * at(count) / at(cones)])] =
-				2 * kPi * chi / cones;
+			curvature[at(c.vertex[Vertex(at(i) * at(count) / at(cones))])] = 2 * kPi * chi / cones;
 	}
 	return curvature;
 }

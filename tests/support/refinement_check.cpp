@@ -4,8 +4,8 @@
 #include "complex.h"
 #include "shapes.h"
 
-#include <ricci/layout/distortion.h>
-#include <ricci/layout/orientation.h>
+#include <ricci/measure/distortion.h>
+#include <ricci/math/orientation.h>
 #include <ricci/surface/triangulation.h>
 
 #include <algorithm>
@@ -24,24 +24,24 @@ constexpr double kPlaceRounding = 1e-15;
 struct Glued
 {
 	Triangulation t;
-	std::vector<Complex> place; // [halfedge] of its origin, in its triangle
-	std::vector<double> angle;  // [halfedge] at its origin
+	HalfedgeArray<Complex> place; // of its origin, in its triangle
+	HalfedgeArray<double> angle;  // at its origin
 
 	Glued(std::size_t pointCount, const RefinedMap& map) :
-			t(static_cast<int>(pointCount), map.triangles), place(at(t.halfedgeCount())),
-			angle(place.size(), 0.0)
+			t(static_cast<int>(pointCount), map.triangles), place(t.halfedgeCount()),
+			angle(t.halfedgeCount(), 0.0)
 	{
-		for (int f = 0; f < t.faceCount(); ++f) {
+		for (const Face f : t.faces()) {
 			const auto h = t.halfedges(f);
 			std::array<Complex, 3> p;
 			for (std::size_t k = 0; k < 3; ++k)
-				place[at(h[k])] = p[k] = asComplex(map.uv[at(f)][k]);
+				place[h[k]] = p[k] = asComplex(map.uv[at(f)][k]);
 			for (std::size_t k = 0; k < 3; ++k)
-				angle[at(h[k])] =
+				angle[h[k]] =
 					std::abs(std::arg((p[(k + 2) % 3] - p[k]) / (p[(k + 1) % 3] - p[k])));
 		}
 	}
-	double length(int h) const { return std::abs(place[at(t.next(h))] - place[at(h)]); }
+	double length(Halfedge h) const { return std::abs(place[t.next(h)] - place[h]); }
 };
 
 /// Least height of a triangle that has hardly any area.
@@ -118,24 +118,22 @@ RefinementCheck::RefinementCheck(
 	const Triangulation& t = glued.t;
 	eulerCharacteristic = t.eulerCharacteristic();
 	boundaryLoops = static_cast<int>(t.boundaryLoops().size());
-	const std::vector<char> boundary = t.boundaryVertices();
-	std::vector<double> defect(map.points.size(), 2 * kPi);
-	for (int h = 0; h < t.halfedgeCount(); ++h) {
-		if (t.isOuter(h))
-			continue;
-		defect[at(t.origin(h))] -= glued.angle[at(h)];
-		area += 0.5 * (std::conj(glued.place[at(h)]) * glued.place[at(t.next(h))]).imag();
+	const VertexArray<char> boundary = t.boundaryVertices();
+	VertexArray<double> defect(map.points.size(), 2 * kPi);
+	for (const Halfedge h : t.interiorHalfedges()) {
+		defect[t.origin(h)] -= glued.angle[h];
+		area += 0.5 * (std::conj(glued.place[h]) * glued.place[t.next(h)]).imag();
 	}
-	for (std::size_t v = 0; v < defect.size(); ++v)
+	for (const Vertex v : t.vertices())
 		if (!boundary[v])
 			angleError = std::max(
-				angleError, std::abs(defect[v] - (v < curvature.size() ? curvature[v] : 0.0)));
-	for (int e = 0; e < t.edgeCount(); ++e) {
-		if (t.isBoundaryEdge(e))
+				angleError,
+				std::abs(defect[v] - (at(v) < curvature.size() ? curvature[at(v)] : 0.0)));
+	for (const Edge e : t.edges()) {
+		if (t.isBoundary(e))
 			continue;
-		const int h = 2 * e, g = h + 1;
-		if (glued.place[at(h)] == glued.place[at(t.next(g))] &&
-			glued.place[at(t.next(h))] == glued.place[at(g)])
+		const Halfedge h = e.halfedge(), g = h.twin();
+		if (glued.place[h] == glued.place[t.next(g)] && glued.place[t.next(h)] == glued.place[g])
 			continue;
 		++seamEdges;
 		const double gap = std::abs(glued.length(h) - glued.length(g));
@@ -154,21 +152,21 @@ straightLines(const SurfaceMesh& mesh, const RefinedMap& map, double angleTolera
 	const Glued glued(map.points.size(), map);
 	const Triangulation& t = glued.t;
 	const int vertexCount = static_cast<int>(mesh.positions.size());
-	const std::vector<char> boundary = t.boundaryVertices();
-	/// The halfedge that leaves the end of h most nearly straight on, -1 if there is none.
-	const auto straightOn = [&](int h) {
-		if (boundary[at(t.target(h))])
-			return -1;
-		int best = -1;
+	const VertexArray<char> boundary = t.boundaryVertices();
+	/// The halfedge that leaves the end of h most nearly straight on, none if there is none.
+	const auto straightOn = [&](Halfedge h) {
+		if (boundary[t.target(h)])
+			return Halfedge();
+		Halfedge best;
 		double least = angleTolerance, turned = 0.0;
-		int g = t.next(h);
+		Halfedge g = t.next(h);
 		do {
-			turned += glued.angle[at(g)];
+			turned += glued.angle[g];
 			if (std::abs(turned - kPi) < least) {
 				least = std::abs(turned - kPi);
 				best = g;
 			}
-			g = t.next(Triangulation::twin(g));
+			g = t.next(g.twin());
 		} while (g != t.next(h));
 		return best;
 	};
@@ -176,18 +174,21 @@ straightLines(const SurfaceMesh& mesh, const RefinedMap& map, double angleTolera
 	for (const SurfacePoint& p : map.points)
 		space.push_back(placeOnSurface(p, mesh.positions));
 	std::vector<StraightLine> lines;
-	for (int start = 0; start < t.halfedgeCount(); ++start) {
-		if (t.isOuter(start) || t.origin(start) >= vertexCount)
+	for (const Halfedge start : t.interiorHalfedges()) {
+		const int first = t.origin(start).number();
+		if (first >= vertexCount)
 			continue;
-		StraightLine line{t.origin(start), -1, 0.0, {t.origin(start)}, {0.0}, {0.0}};
-		for (int h = start; h >= 0 && at(t.edgeCount()) > line.points.size(); h = straightOn(h)) {
+		StraightLine line{first, -1, 0.0, {first}, {0.0}, {0.0}};
+		for (Halfedge h = start; h.isValid() && at(t.edgeCount()) > line.points.size();
+			 h = straightOn(h)) {
+			const int last = t.target(h).number();
 			line.length += glued.length(h);
-			line.points.push_back(t.target(h));
+			line.points.push_back(last);
 			line.inPlane.push_back(line.length);
 			line.inSpace.push_back(
 				line.inSpace.back() + distance(space[at(t.origin(h))], space[at(t.target(h))]));
-			if (t.target(h) < vertexCount) {
-				line.to = t.target(h);
+			if (last < vertexCount) {
+				line.to = last;
 				lines.push_back(line);
 				break;
 			}

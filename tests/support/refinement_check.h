@@ -2,7 +2,7 @@
 #ifndef RICCI_TESTS_REFINEMENT_CHECK_H
 #define RICCI_TESTS_REFINEMENT_CHECK_H
 
-#include <ricci/layout/common_refinement.h>
+#include <ricci/surface/surface_point.h>
 #include <ricci/surface/surface_mesh.h>
 
 #include <array>
@@ -17,7 +17,7 @@ struct RefinedMap
 	const std::vector<SurfacePoint>& points;
 	const std::vector<Triangle>& triangles;
 	const std::vector<int>& inputFace;
-	const std::vector<std::array<Point2, 3>>& uv;
+	const std::vector<Triangle2>& uv;
 };
 
 /// What can be seen of it without knowing how it was made.

@@ -2,15 +2,22 @@
 #ifndef RICCI_TESTS_SHAPES_H
 #define RICCI_TESTS_SHAPES_H
 
+#include <ricci/base/indexed.h>
 #include <ricci/surface/surface_mesh.h>
 
 #include <functional>
 
 namespace ricci::testing {
 
+/// Position of a number or an index in a std::vector.
 inline std::size_t at(int index)
 {
 	return static_cast<std::size_t>(index);
+}
+template<class Self>
+std::size_t at(const Index<Self>& index)
+{
+	return positionOf(index);
 }
 
 /// Number of places in a grid direction: open, or closed into a ring.

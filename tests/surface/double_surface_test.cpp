@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace ricci::testing {
@@ -50,8 +51,8 @@ TEST(DoubleSurface, IsClosedWithTwiceTheEulerCharacteristic)
 		EXPECT_EQ(closed.vertexCount(), 2 * t.vertexCount() - boundaryVertexCount(t));
 		// The boundary is made of circles, whose characteristic is 0.
 		EXPECT_EQ(closed.eulerCharacteristic(), 2 * t.eulerCharacteristic());
-		for (int h = 0; h < closed.halfedgeCount(); ++h) {
-			ASSERT_FALSE(closed.isOuter(h));
+		for (const Halfedge h : closed.halfedges()) {
+			ASSERT_FALSE(closed.isExterior(h));
 			ASSERT_EQ(closed.next(closed.next(closed.next(h))), h);
 			ASSERT_EQ(closed.origin(closed.next(h)), closed.target(h));
 		}
@@ -64,17 +65,17 @@ TEST(DoubleSurface, FirstCopyKeepsItsNumbers)
 		SCOPED_TRACE(s.name);
 		const Triangulation& t = s.triangulation;
 		const DoubleSurface d = doubleOf(t);
-		for (int h = 0; h < t.halfedgeCount(); ++h) {
+		for (const Halfedge h : t.halfedges()) {
 			EXPECT_EQ(d.triangulation.origin(h), t.origin(h));
-			EXPECT_EQ(d.edgeOf[at(Triangulation::edge(h))], Triangulation::edge(h));
-			if (t.isOuter(h)) {
-				EXPECT_GE(d.triangulation.face(h), t.faceCount());
+			EXPECT_EQ(d.edgeOf[h.edge()], h.edge());
+			if (t.isExterior(h)) {
+				EXPECT_GE(d.triangulation.face(h).number(), t.faceCount());
 				continue;
 			}
 			EXPECT_EQ(d.triangulation.face(h), t.face(h));
 			EXPECT_EQ(d.triangulation.next(h), t.next(h));
 		}
-		for (int f = 0; f < t.faceCount(); ++f)
+		for (const Face f : t.faces())
 			EXPECT_EQ(d.triangulation.halfedges(f), t.halfedges(f));
 	}
 }
@@ -85,11 +86,11 @@ TEST(DoubleSurface, MirrorIsAnInvolutionThatFixesTheBoundary)
 		SCOPED_TRACE(s.name);
 		const Triangulation& t = s.triangulation;
 		const DoubleSurface d = doubleOf(t);
-		const auto boundary = t.boundaryVertices();
-		ASSERT_EQ(static_cast<int>(d.mirror.size()), d.triangulation.vertexCount());
-		for (std::size_t v = 0; v < d.mirror.size(); ++v) {
-			EXPECT_EQ(d.mirror[at(d.mirror[v])], static_cast<int>(v));
-			EXPECT_EQ(d.mirror[v] == static_cast<int>(v), v < boundary.size() && boundary[v]);
+		const VertexArray<char> boundary = t.boundaryVertices();
+		ASSERT_EQ(d.mirror.size(), d.triangulation.vertexCount());
+		for (const Vertex v : d.mirror.indices()) {
+			EXPECT_EQ(d.mirror[d.mirror[v]], v);
+			EXPECT_EQ(d.mirror[v] == v, v.number() < boundary.size() && boundary[v]);
 		}
 	}
 }
@@ -100,22 +101,21 @@ TEST(DoubleSurface, EveryEdgeIsItsOwnOrMirrorsOne)
 		SCOPED_TRACE(s.name);
 		const Triangulation& t = s.triangulation;
 		const DoubleSurface d = doubleOf(t);
-		std::vector<int> copies(at(t.edgeCount()), 0);
-		ASSERT_EQ(static_cast<int>(d.edgeOf.size()), d.triangulation.edgeCount());
-		for (int e = 0; e < d.triangulation.edgeCount(); ++e) {
-			const int original = d.edgeOf[at(e)];
-			ASSERT_GE(original, 0);
-			ASSERT_LT(original, t.edgeCount());
-			++copies[at(original)];
+		EdgeArray<int> copies(t.edgeCount(), 0);
+		ASSERT_EQ(d.edgeOf.size(), d.triangulation.edgeCount());
+		for (const Edge e : d.triangulation.edges()) {
+			const Edge original = d.edgeOf[e];
+			ASSERT_TRUE(original.isValid());
+			ASSERT_LT(original.number(), t.edgeCount());
+			++copies[original];
 			if (e == original)
 				continue;
-			const int a = d.triangulation.origin(2 * e), b = d.triangulation.target(2 * e);
-			const std::vector<int> mirrored{d.mirror[at(a)], d.mirror[at(b)]};
-			std::vector<int> own{t.origin(2 * original), t.target(2 * original)};
+			const auto [a, b] = d.triangulation.ends(e);
+			const std::array<Vertex, 2> mirrored{d.mirror[a], d.mirror[b]}, own = t.ends(original);
 			EXPECT_TRUE(std::is_permutation(mirrored.begin(), mirrored.end(), own.begin()));
 		}
-		for (int e = 0; e < t.edgeCount(); ++e)
-			EXPECT_EQ(copies[at(e)], t.isBoundaryEdge(e) ? 1 : 2);
+		for (const Edge e : t.edges())
+			EXPECT_EQ(copies[e], t.isBoundary(e) ? 1 : 2);
 	}
 }
 
@@ -125,20 +125,20 @@ TEST(DoubleSurface, SecondCopyIsTurnedRound)
 	for (const Surface& s : surfaces()) {
 		SCOPED_TRACE(s.name);
 		const DoubleSurface d = doubleOf(s.triangulation);
-		const int faces = s.triangulation.faceCount();
-		for (int f = 0; f < faces; ++f) {
-			const auto h = d.triangulation.halfedges(f), g = d.triangulation.halfedges(faces + f);
-			std::vector<int> backward, image;
+		for (const Face f : s.triangulation.faces()) {
+			const Face copy(s.triangulation.faceCount() + f.number());
+			const auto h = d.triangulation.halfedges(f), g = d.triangulation.halfedges(copy);
+			std::vector<Vertex> backward, image;
 			for (std::size_t k = 0; k < 3; ++k) {
 				image.push_back(d.triangulation.origin(g[k]));
-				backward.push_back(d.mirror[at(d.triangulation.origin(h[(3 - k) % 3]))]);
+				backward.push_back(d.mirror[d.triangulation.origin(h[(3 - k) % 3])]);
 			}
 			bool found = false;
 			for (int turn = 0; turn < 3; ++turn) {
 				found |= image == backward;
 				std::rotate(image.begin(), image.begin() + 1, image.end());
 			}
-			EXPECT_TRUE(found) << "face " << f;
+			EXPECT_TRUE(found) << "face " << f.number();
 		}
 	}
 }
@@ -149,16 +149,16 @@ TEST(DoubleSurface, EdgeBetweenTwoBoundaryVerticesStaysTwoEdges)
 {
 	const Triangulation t(4, {{0, 1, 2}, {0, 2, 3}});
 	const DoubleSurface d = doubleOf(t);
-	std::vector<int> diagonals;
-	for (int e = 0; e < d.triangulation.edgeCount(); ++e) {
-		const int a = d.triangulation.origin(2 * e), b = d.triangulation.target(2 * e);
-		if (std::min(a, b) == 0 && std::max(a, b) == 2)
+	std::vector<Edge> diagonals;
+	for (const Edge e : d.triangulation.edges()) {
+		const auto [a, b] = d.triangulation.ends(e);
+		if (std::min(a, b) == Vertex(0) && std::max(a, b) == Vertex(2))
 			diagonals.push_back(e);
 	}
 	ASSERT_EQ(diagonals.size(), 2u);
-	for (int e : diagonals) {
-		const bool first = d.triangulation.face(2 * e) < 2;
-		EXPECT_EQ(d.triangulation.face(2 * e + 1) < 2, first);
+	for (const Edge e : diagonals) {
+		const bool first = d.triangulation.face(e.halfedge()) < Face(2);
+		EXPECT_EQ(d.triangulation.face(e.halfedge().twin()) < Face(2), first);
 		EXPECT_TRUE(d.triangulation.isFlippable(e));
 	}
 	EXPECT_EQ(d.triangulation.vertexCount(), 4);
@@ -171,8 +171,8 @@ TEST(DoubleSurface, SingleTriangleBecomesASphereOfTwo)
 	EXPECT_EQ(d.triangulation.edgeCount(), 3);
 	EXPECT_EQ(d.triangulation.faceCount(), 2);
 	EXPECT_EQ(d.triangulation.eulerCharacteristic(), 2);
-	EXPECT_EQ(d.mirror, (std::vector<int>{0, 1, 2}));
-	for (int e = 0; e < 3; ++e)
+	EXPECT_EQ(d.mirror, (VertexArray<Vertex>{Vertex(0), Vertex(1), Vertex(2)}));
+	for (const Edge e : d.triangulation.edges())
 		EXPECT_TRUE(d.triangulation.isFlippable(e));
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/intrinsic.h"
 #include "support/shapes.h"
 
 #include <ricci/surface/hole_caps.h>
@@ -18,54 +19,61 @@ SurfaceMesh squareWithHoles(int n)
 		rectangle(n, n, 1.0, 1.0), {vertex(2, 2), vertex(n - 2, 3), vertex(n / 2, n - 2)});
 }
 
+Triangulation triangulationOf(const CappedSurface& capped)
+{
+	return Triangulation(capped.positions.size(), capped.triangles);
+}
+
 TEST(HoleCaps, CloseAllLoopsButTheLongest)
 {
 	const SurfaceMesh mesh = squareWithHoles(9);
-	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
+	const Triangulation t = glued(mesh);
 	ASSERT_EQ(t.boundaryLoops().size(), 4u);
-	const CappedSurface capped = capInnerLoops(t, mesh.positions);
+	const CappedSurface capped = capInnerLoops(t, VertexArray<Point3>(mesh.positions));
+	const Triangulation closed = triangulationOf(capped);
 	EXPECT_EQ(capped.holes, 3);
-	EXPECT_EQ(capped.triangulation.boundaryLoops().size(), 1u);
-	EXPECT_EQ(capped.triangulation.eulerCharacteristic(), t.eulerCharacteristic() + 3);
-	EXPECT_EQ(capped.triangulation.vertexCount(), t.vertexCount() + 3);
+	EXPECT_EQ(closed.boundaryLoops().size(), 1u);
+	EXPECT_EQ(closed.eulerCharacteristic(), t.eulerCharacteristic() + 3);
+	EXPECT_EQ(closed.vertexCount(), t.vertexCount() + 3);
 	// The rims of the holes, and nothing else, are marked.
-	const std::vector<char> before = t.boundaryVertices();
-	const std::vector<char> after = capped.triangulation.boundaryVertices();
-	for (int v = 0; v < t.vertexCount(); ++v) {
-		EXPECT_EQ(before[at(v)] != 0, after[at(v)] != 0 || capped.onHole[at(v)] != 0);
-		EXPECT_FALSE(after[at(v)] && capped.onHole[at(v)]);
+	const VertexArray<char> before = t.boundaryVertices();
+	const VertexArray<char> after = closed.boundaryVertices();
+	ASSERT_EQ(capped.onHole.size(), t.vertexCount());
+	for (const Vertex v : t.vertices()) {
+		EXPECT_EQ(before[v] != 0, after[v] != 0 || capped.onHole[v] != 0);
+		EXPECT_FALSE(after[v] && capped.onHole[v]);
 	}
-	for (int v = t.vertexCount(); v < capped.triangulation.vertexCount(); ++v)
-		EXPECT_FALSE(after[at(v)]);
+	for (const Vertex v : IndexRange<Vertex>(t.vertexCount(), closed.vertexCount()))
+		EXPECT_FALSE(after[v]);
 }
 
 TEST(HoleCaps, KeepTheNumbersOfTheSurface)
 {
 	const SurfaceMesh mesh = squareWithHoles(8);
-	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
-	const CappedSurface capped = capInnerLoops(t, mesh.positions);
-	const Triangulation& c = capped.triangulation;
-	for (int h = 0; h < t.halfedgeCount(); ++h) {
+	const Triangulation t = glued(mesh);
+	const CappedSurface capped = capInnerLoops(t, VertexArray<Point3>(mesh.positions));
+	const Triangulation c = triangulationOf(capped);
+	for (const Halfedge h : t.halfedges()) {
 		EXPECT_EQ(c.origin(h), t.origin(h));
-		if (!t.isOuter(h)) {
+		if (!t.isExterior(h)) {
 			EXPECT_EQ(c.face(h), t.face(h));
 			EXPECT_EQ(c.next(h), t.next(h));
 		}
-		else if (capped.onHole[at(t.origin(h))]) {
-			EXPECT_GE(c.face(h), t.faceCount());
+		else if (capped.onHole[t.origin(h)]) {
+			EXPECT_GE(c.face(h).number(), t.faceCount());
 		}
 	}
-	for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-		EXPECT_EQ(capped.positions[v], mesh.positions[v]);
+	for (const Vertex v : t.vertices())
+		EXPECT_EQ(capped.positions[v], mesh.positions[at(v)]);
 }
 
 TEST(HoleCaps, LeaveASurfaceWithOneLoopOrNoneAlone)
 {
 	for (const SurfaceMesh& mesh : {rectangle(3, 3, 1.0, 1.0), tetrahedron()}) {
-		const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
-		const CappedSurface capped = capInnerLoops(t, mesh.positions);
+		const Triangulation t = glued(mesh);
+		const CappedSurface capped = capInnerLoops(t, VertexArray<Point3>(mesh.positions));
 		EXPECT_EQ(capped.holes, 0);
-		EXPECT_EQ(capped.triangulation.faceCount(), t.faceCount());
+		EXPECT_EQ(triangulationOf(capped).faceCount(), t.faceCount());
 		EXPECT_EQ(std::count(capped.onHole.begin(), capped.onHole.end(), 1), 0);
 	}
 }

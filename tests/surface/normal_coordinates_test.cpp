@@ -4,7 +4,7 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/layout/orientation.h>
+#include <ricci/math/orientation.h>
 #include <ricci/surface/normal_coordinates.h>
 
 #include <gtest/gtest.h>
@@ -41,11 +41,11 @@ std::vector<Surface> surfaces()
 		{"two triangles", Triangulation(3, {{0, 1, 2}, {1, 0, 2}}, {3, 5, 4, 0, 2, 1}), 14}};
 }
 
-std::vector<int> flipAtRandom(NormalCoordinates& coordinates, int count, Random& random)
+std::vector<Edge> flipAtRandom(NormalCoordinates& coordinates, int count, Random& random)
 {
-	std::vector<int> flipped;
+	std::vector<Edge> flipped;
 	while (static_cast<int>(flipped.size()) < count) {
-		const int e = random.index(coordinates.triangulation().edgeCount());
+		const Edge e(random.index(coordinates.triangulation().edgeCount()));
 		if (!coordinates.triangulation().isFlippable(e))
 			continue;
 		coordinates.flip(e);
@@ -54,51 +54,53 @@ std::vector<int> flipAtRandom(NormalCoordinates& coordinates, int count, Random&
 	return flipped;
 }
 
-int fromEven(const NormalCoordinates& c, const NormalCoordinates::Crossing& x)
+/// Its position counted from the origin of the edge.
+int fromOrigin(const NormalCoordinates& c, const NormalCoordinates::Crossing& x)
 {
-	return x.halfedge % 2 == 0 ? x.position
-							   : c.crossings(Triangulation::edge(x.halfedge)) - 1 - x.position;
+	return x.halfedge.isFirst() ? x.position : c.crossings(x.halfedge.edge()) - 1 - x.position;
 }
 
 /// The way from its beginning to its end, triangle by triangle.
 void expectConnected(
-	const NormalCoordinates& c, const Curve& curve, int origin, int target, int edge)
+	const NormalCoordinates& c, const Curve& curve, const Triangulation& original, Edge edge)
 {
-	SCOPED_TRACE("original edge " + std::to_string(edge));
+	SCOPED_TRACE("original edge " + std::to_string(edge.number()));
 	const Triangulation& t = c.triangulation();
-	ASSERT_GE(curve.first, 0);
-	ASSERT_GE(curve.last, 0);
+	ASSERT_TRUE(curve.first.isValid());
+	ASSERT_TRUE(curve.last.isValid());
+	const auto [origin, target] = original.ends(edge);
 	EXPECT_EQ(t.origin(curve.first), origin);
 	EXPECT_EQ(t.origin(curve.last), target);
 	if (curve.crossings.empty()) {
-		EXPECT_EQ(curve.last, Triangulation::twin(curve.first));
-		EXPECT_TRUE(c.isCurve(Triangulation::edge(curve.first)));
+		EXPECT_EQ(curve.last, curve.first.twin());
+		EXPECT_TRUE(c.isCurve(curve.first.edge()));
 		return;
 	}
 	EXPECT_EQ(curve.crossings.front().halfedge, t.next(curve.first));
 	for (std::size_t i = 0; i + 1 < curve.crossings.size(); ++i) {
-		const int entered = Triangulation::twin(curve.crossings[i].halfedge);
-		const int left = curve.crossings[i + 1].halfedge;
+		const Halfedge entered = curve.crossings[i].halfedge.twin();
+		const Halfedge left = curve.crossings[i + 1].halfedge;
 		ASSERT_EQ(t.face(entered), t.face(left));
 		ASSERT_NE(entered, left);
 	}
-	const int entered = Triangulation::twin(curve.crossings.back().halfedge);
+	const Halfedge entered = curve.crossings.back().halfedge.twin();
 	EXPECT_EQ(t.next(curve.last), entered);
 }
 
 /// Every place at which an edge counts a crossing belongs to exactly one crossing of one curve.
-void expectCrossingsCounted(const NormalCoordinates& c, const std::vector<Curve>& curves)
+void expectCrossingsCounted(const NormalCoordinates& c, const EdgeArray<Curve>& curves)
 {
 	const Triangulation& t = c.triangulation();
-	std::vector<std::vector<int>> visits;
-	for (int e = 0; e < t.edgeCount(); ++e)
-		visits.emplace_back(at(c.crossings(e)), 0);
+	EdgeArray<std::vector<int>> visits(t.edgeCount());
+	for (const Edge e : t.edges())
+		visits[e].assign(at(c.crossings(e)), 0);
 	for (const Curve& curve : curves)
 		for (const auto& x : curve.crossings) {
-			const int e = Triangulation::edge(x.halfedge), position = fromEven(c, x);
+			const Edge e = x.halfedge.edge();
+			const int position = fromOrigin(c, x);
 			ASSERT_GE(position, 0);
 			ASSERT_LT(position, c.crossings(e));
-			++visits[at(e)][at(position)];
+			++visits[e][at(position)];
 		}
 	for (const auto& edge : visits)
 		for (int n : edge)
@@ -111,11 +113,11 @@ using Place = std::pair<int, int>;
 using Chord = std::pair<Place, Place>;
 
 /// In no triangle do two curves cross.
-void expectDisjoint(const NormalCoordinates& c, const std::vector<Curve>& curves)
+void expectDisjoint(const NormalCoordinates& c, const EdgeArray<Curve>& curves)
 {
 	const Triangulation& t = c.triangulation();
-	std::vector<std::vector<Chord>> chords(at(t.faceCount()));
-	const auto place = [&](int h, int position) {
+	FaceArray<std::vector<Chord>> chords(t.faceCount());
+	const auto place = [&](Halfedge h, int position) {
 		const auto sides = t.halfedges(t.face(h));
 		return Place{
 			static_cast<int>(std::find(sides.begin(), sides.end(), h) - sides.begin()), position};
@@ -123,15 +125,16 @@ void expectDisjoint(const NormalCoordinates& c, const std::vector<Curve>& curves
 	for (const Curve& curve : curves) {
 		if (curve.crossings.empty())
 			continue;
-		int from = curve.first, position = -1;
+		Halfedge from = curve.first;
+		int position = -1;
 		for (const auto& x : curve.crossings) {
 			Chord chord{place(from, position), place(x.halfedge, x.position)};
-			chords[at(t.face(from))].push_back(std::minmax(chord.first, chord.second));
-			from = Triangulation::twin(x.halfedge);
-			position = c.crossings(Triangulation::edge(from)) - 1 - x.position;
+			chords[t.face(from)].push_back(std::minmax(chord.first, chord.second));
+			from = x.halfedge.twin();
+			position = c.crossings(from.edge()) - 1 - x.position;
 		}
 		const Chord chord{place(from, position), place(curve.last, -1)};
-		chords[at(t.face(from))].push_back(std::minmax(chord.first, chord.second));
+		chords[t.face(from)].push_back(std::minmax(chord.first, chord.second));
 	}
 	for (const auto& face : chords)
 		for (std::size_t i = 0; i < face.size() && i < 60; ++i)
@@ -141,23 +144,23 @@ void expectDisjoint(const NormalCoordinates& c, const std::vector<Curve>& curves
 					face[i].second < face[j].second);
 }
 
-/// Turns counter-clockwise about the origin of h; -1 behind the last triangle of a boundary vertex.
-int turned(const Triangulation& t, int h)
+/// Turns counter-clockwise about the origin of h; none behind the last triangle of a boundary vertex.
+Halfedge turned(const Triangulation& t, Halfedge h)
 {
-	return t.isOuter(h) ? -1 : Triangulation::twin(t.previous(h));
+	return t.isExterior(h) ? Halfedge() : t.previous(h).twin();
 }
 
 /// Halfedges that leave each vertex, counter-clockwise; open at the boundary.
-std::vector<int> star(const Triangulation& t, int first)
+std::vector<Halfedge> star(const Triangulation& t, Halfedge first)
 {
-	int start = first;
-	while (!t.isOuter(Triangulation::twin(start))) {
-		start = t.next(Triangulation::twin(start));
+	Halfedge start = first;
+	while (!t.isExterior(start.twin())) {
+		start = t.next(start.twin());
 		if (start == first)
 			break;
 	}
-	std::vector<int> halfedges;
-	for (int h = start; h >= 0; h = turned(t, h)) {
+	std::vector<Halfedge> halfedges;
+	for (Halfedge h = start; h.isValid(); h = turned(t, h)) {
 		if (!halfedges.empty() && h == start)
 			break;
 		halfedges.push_back(h);
@@ -167,41 +170,40 @@ std::vector<int> star(const Triangulation& t, int first)
 
 /// The curves leave every vertex in the order of the original edges.
 void expectRoundabouts(
-	const Triangulation& original, const NormalCoordinates& c, const std::vector<Curve>& curves)
+	const Triangulation& original, const NormalCoordinates& c, const EdgeArray<Curve>& curves)
 {
 	const Triangulation& t = c.triangulation();
 	struct Leaving
 	{
 		int position; // among the curves of the corner; -1 along its halfedge
-		int original; // halfedge
+		Halfedge original;
 	};
-	std::vector<std::vector<Leaving>> leaving(at(t.halfedgeCount()));
-	for (std::size_t e = 0; e < curves.size(); ++e) {
+	HalfedgeArray<std::vector<Leaving>> leaving(t.halfedgeCount());
+	for (const Edge e : curves.indices()) {
 		const Curve& curve = curves[e];
-		const int h = 2 * static_cast<int>(e);
+		const Halfedge h = e.halfedge();
 		if (curve.crossings.empty()) {
-			leaving[at(curve.first)].push_back({-1, h});
-			leaving[at(curve.last)].push_back({-1, h + 1});
+			leaving[curve.first].push_back({-1, h});
+			leaving[curve.last].push_back({-1, h.twin()});
 			continue;
 		}
 		const auto &x = curve.crossings.front(), &y = curve.crossings.back();
-		leaving[at(curve.first)].push_back({x.position, h});
-		leaving[at(curve.last)].push_back(
-			{c.crossings(Triangulation::edge(y.halfedge)) - 1 - y.position, h + 1});
+		leaving[curve.first].push_back({x.position, h});
+		leaving[curve.last].push_back({c.crossings(y.halfedge.edge()) - 1 - y.position, h.twin()});
 	}
-	std::vector<char> seen(at(t.vertexCount()), 0);
-	for (int h = 0; h < t.halfedgeCount(); ++h) {
-		const int v = t.origin(h);
-		if (seen[at(v)])
+	VertexArray<char> seen(t.vertexCount(), 0);
+	for (const Halfedge h : t.halfedges()) {
+		const Vertex v = t.origin(h);
+		if (seen[v])
 			continue;
-		seen[at(v)] = 1;
-		std::vector<int> order;
-		for (int spoke : star(t, h)) {
-			auto& curvesHere = leaving[at(spoke)];
+		seen[v] = 1;
+		std::vector<Halfedge> order;
+		for (const Halfedge spoke : star(t, h)) {
+			auto& curvesHere = leaving[spoke];
 			std::sort(curvesHere.begin(), curvesHere.end(), [](const Leaving& a, const Leaving& b) {
 				return a.position < b.position;
 			});
-			const int before = c.originalAtOrBefore(spoke);
+			const Halfedge before = c.originalAtOrBefore(spoke);
 			if (!curvesHere.empty() && curvesHere.front().position < 0) {
 				EXPECT_EQ(before, curvesHere.front().original);
 			}
@@ -212,19 +214,19 @@ void expectRoundabouts(
 				order.push_back(l.original);
 		}
 		ASSERT_FALSE(order.empty());
-		std::vector<int> expected = star(original, order.front());
+		std::vector<Halfedge> expected = star(original, order.front());
 		const auto first = std::find(expected.begin(), expected.end(), order.front());
 		std::rotate(expected.begin(), first, expected.end());
-		EXPECT_EQ(order, expected) << "vertex " << v;
+		EXPECT_EQ(order, expected) << "vertex " << v.number();
 	}
 }
 
 void expectConsistent(const Triangulation& original, const NormalCoordinates& c)
 {
 	const auto curves = c.trace();
-	ASSERT_EQ(static_cast<int>(curves.size()), original.edgeCount());
-	for (int e = 0; e < original.edgeCount(); ++e)
-		expectConnected(c, curves[at(e)], original.origin(2 * e), original.target(2 * e), e);
+	ASSERT_EQ(curves.size(), original.edgeCount());
+	for (const Edge e : original.edges())
+		expectConnected(c, curves[e], original, e);
 	expectCrossingsCounted(c, curves);
 	expectDisjoint(c, curves);
 	expectRoundabouts(original, c, curves);
@@ -236,13 +238,13 @@ TEST(NormalCoordinates, EveryEdgeIsACurveAtFirst)
 		SCOPED_TRACE(s.name);
 		const NormalCoordinates c(s.triangulation);
 		const auto curves = c.trace();
-		for (int e = 0; e < s.triangulation.edgeCount(); ++e) {
+		for (const Edge e : s.triangulation.edges()) {
 			EXPECT_TRUE(c.isCurve(e));
 			EXPECT_EQ(c.crossings(e), 0);
-			EXPECT_EQ(curves[at(e)].first, 2 * e);
-			EXPECT_EQ(curves[at(e)].last, 2 * e + 1);
-			EXPECT_TRUE(curves[at(e)].crossings.empty());
-			EXPECT_EQ(c.originalAtOrBefore(2 * e), 2 * e);
+			EXPECT_EQ(curves[e].first, e.halfedge());
+			EXPECT_EQ(curves[e].last, e.halfedge().twin());
+			EXPECT_TRUE(curves[e].crossings.empty());
+			EXPECT_EQ(c.originalAtOrBefore(e.halfedge()), e.halfedge());
 		}
 	}
 }
@@ -260,7 +262,7 @@ TEST(NormalCoordinates, TracesAreWholeAfterRandomFlips)
 				flipAtRandom(c, s.flips / 3, random);
 				expectConsistent(s.triangulation, c);
 			}
-			for (int e = 0; e < s.triangulation.edgeCount(); ++e)
+			for (const Edge e : s.triangulation.edges())
 				crossed[i] = std::max(crossed[i], c.crossings(e));
 		}
 	// Or the test says little. On a sphere with three vertices arcs hardly cross at all.
@@ -274,16 +276,16 @@ TEST(NormalCoordinates, FlipsUndoneLeaveTheEdges)
 		SCOPED_TRACE(s.name);
 		Random random(320);
 		NormalCoordinates c(s.triangulation);
-		const std::vector<int> flipped = flipAtRandom(c, s.flips, random);
+		const std::vector<Edge> flipped = flipAtRandom(c, s.flips, random);
 		for (auto e = flipped.rbegin(); e != flipped.rend(); ++e)
 			c.unflip(*e);
 		const auto curves = c.trace();
-		for (int e = 0; e < s.triangulation.edgeCount(); ++e) {
+		for (const Edge e : s.triangulation.edges()) {
 			EXPECT_TRUE(c.isCurve(e));
-			EXPECT_EQ(curves[at(e)].first, 2 * e);
-			EXPECT_EQ(curves[at(e)].last, 2 * e + 1);
+			EXPECT_EQ(curves[e].first, e.halfedge());
+			EXPECT_EQ(curves[e].last, e.halfedge().twin());
 		}
-		for (int h = 0; h < s.triangulation.halfedgeCount(); ++h)
+		for (const Halfedge h : s.triangulation.halfedges())
 			EXPECT_EQ(c.triangulation().next(h), s.triangulation.next(h));
 	}
 }
@@ -292,18 +294,22 @@ TEST(NormalCoordinates, TwoFlipsTurnAnEdgeRound)
 {
 	for (const Surface& s : surfaces()) {
 		SCOPED_TRACE(s.name);
-		for (int e = 0; e < s.triangulation.edgeCount(); ++e) {
+		int flipped = 0;
+		for (const Edge e : s.triangulation.edges()) {
 			NormalCoordinates c(s.triangulation);
 			if (!s.triangulation.isFlippable(e))
 				continue;
+			++flipped;
 			c.flip(e);
 			EXPECT_FALSE(c.isCurve(e));
 			EXPECT_EQ(c.crossings(e), 1);
 			expectConsistent(s.triangulation, c);
 			c.flip(e);
 			EXPECT_TRUE(c.isCurve(e));
-			EXPECT_EQ(c.trace()[at(e)].first, 2 * e + 1);
+			EXPECT_EQ(c.trace()[e].first, e.halfedge().twin());
 		}
+		// All edges inside: 3 F = 2 E - (boundary edges).
+		EXPECT_EQ(flipped, 3 * s.triangulation.faceCount() - s.triangulation.edgeCount());
 	}
 }
 
@@ -316,39 +322,37 @@ public:
 			m_points.push_back({p[0], p[1]});
 	}
 
-	bool isConvexQuad(const Triangulation& t, int e) const
+	bool isConvexQuad(const Triangulation& t, Edge e) const
 	{
 		if (!t.isFlippable(e))
 			return false;
-		const int i = t.origin(2 * e), j = t.target(2 * e);
-		const int k = t.origin(t.previous(2 * e)), l = t.origin(t.previous(2 * e + 1));
+		const auto [i, j] = t.ends(e);
+		const Vertex k = t.apex(e.halfedge()), l = t.apex(e.halfedge().twin());
 		return side(l, k, i) > 0 && side(l, k, j) < 0;
 	}
 
-	bool cross(int a, int b, int p, int q) const
+	bool cross(Vertex a, Vertex b, Vertex p, Vertex q) const
 	{
 		return side(a, b, p) * side(a, b, q) < 0 && side(p, q, a) * side(p, q, b) < 0;
 	}
 
 	/// Where pq crosses ab, from a (0) to b (1).
-	double along(int a, int b, int p, int q) const
+	double along(Vertex a, Vertex b, Vertex p, Vertex q) const
 	{
-		const auto area = [&](int x) {
-			return (m_points[at(q)][0] - m_points[at(p)][0]) *
-					   (m_points[at(x)][1] - m_points[at(p)][1]) -
-				   (m_points[at(q)][1] - m_points[at(p)][1]) *
-					   (m_points[at(x)][0] - m_points[at(p)][0]);
+		const auto area = [&](Vertex x) {
+			return (m_points[q][0] - m_points[p][0]) * (m_points[x][1] - m_points[p][1]) -
+				   (m_points[q][1] - m_points[p][1]) * (m_points[x][0] - m_points[p][0]);
 		};
 		return area(a) / (area(a) - area(b));
 	}
 
 private:
-	int side(int a, int b, int c) const
+	int side(Vertex a, Vertex b, Vertex c) const
 	{
-		return orientation(m_points[at(a)], m_points[at(b)], m_points[at(c)]);
+		return orientation(m_points[a], m_points[b], m_points[c]);
 	}
 
-	std::vector<Point2> m_points;
+	VertexArray<Point2> m_points;
 };
 
 TEST(NormalCoordinates, AreThoseOfStraightEdgesInThePlane)
@@ -361,7 +365,7 @@ TEST(NormalCoordinates, AreThoseOfStraightEdgesInThePlane)
 		NormalCoordinates c(original);
 		const Triangulation& t = c.triangulation();
 		for (int attempt = 0; attempt < 4000; ++attempt) {
-			const int e = random.index(t.edgeCount());
+			const Edge e(random.index(t.edgeCount()));
 			if (plane.isConvexQuad(t, e))
 				c.flip(e);
 		}
@@ -369,44 +373,43 @@ TEST(NormalCoordinates, AreThoseOfStraightEdgesInThePlane)
 		struct Hit
 		{
 			double along;
-			int edge;
+			Edge edge;
 		};
-		std::vector<std::vector<Hit>> onEdge(at(t.edgeCount())); // edge: of the original
+		EdgeArray<std::vector<Hit>> onEdge(t.edgeCount()); // edge: of the original
 		int total = 0;
-		for (int e = 0; e < original.edgeCount(); ++e) {
-			const int a = original.origin(2 * e), b = original.target(2 * e);
+		for (const Edge e : original.edges()) {
+			const auto [a, b] = original.ends(e);
 			std::vector<Hit> expected;
-			for (int x = 0; x < t.edgeCount(); ++x) {
-				const int p = t.origin(2 * x), q = t.target(2 * x);
+			for (const Edge x : t.edges()) {
+				const auto [p, q] = t.ends(x);
 				if (!plane.cross(a, b, p, q))
 					continue;
 				expected.push_back({plane.along(a, b, p, q), x});
-				onEdge[at(x)].push_back({plane.along(p, q, a, b), e});
+				onEdge[x].push_back({plane.along(p, q, a, b), e});
 			}
 			std::sort(expected.begin(), expected.end(), [](const Hit& m, const Hit& n) {
 				return m.along < n.along;
 			});
-			const Curve& curve = curves[at(e)];
-			ASSERT_EQ(curve.crossings.size(), expected.size()) << "edge " << e;
+			const Curve& curve = curves[e];
+			ASSERT_EQ(curve.crossings.size(), expected.size()) << "edge " << e.number();
 			for (std::size_t i = 0; i < expected.size(); ++i)
-				EXPECT_EQ(Triangulation::edge(curve.crossings[i].halfedge), expected[i].edge);
+				EXPECT_EQ(curve.crossings[i].halfedge.edge(), expected[i].edge);
 			total += static_cast<int>(expected.size());
 		}
 		EXPECT_GT(total, 200);
-		std::vector<std::vector<int>> curveAt(at(t.edgeCount()));
-		for (int x = 0; x < t.edgeCount(); ++x)
-			curveAt[at(x)].assign(at(c.crossings(x)), -1);
-		for (std::size_t e = 0; e < curves.size(); ++e)
+		EdgeArray<std::vector<Edge>> curveAt(t.edgeCount());
+		for (const Edge x : t.edges())
+			curveAt[x].assign(at(c.crossings(x)), Edge());
+		for (const Edge e : curves.indices())
 			for (const auto& x : curves[e].crossings)
-				curveAt[at(Triangulation::edge(x.halfedge))][at(fromEven(c, x))] =
-					static_cast<int>(e);
-		for (int x = 0; x < t.edgeCount(); ++x) {
-			std::sort(onEdge[at(x)].begin(), onEdge[at(x)].end(), [](const Hit& m, const Hit& n) {
+				curveAt[x.halfedge.edge()][at(fromOrigin(c, x))] = e;
+		for (const Edge x : t.edges()) {
+			std::sort(onEdge[x].begin(), onEdge[x].end(), [](const Hit& m, const Hit& n) {
 				return m.along < n.along;
 			});
-			ASSERT_EQ(static_cast<int>(onEdge[at(x)].size()), c.crossings(x));
-			for (std::size_t i = 0; i < onEdge[at(x)].size(); ++i)
-				EXPECT_EQ(curveAt[at(x)][i], onEdge[at(x)][i].edge);
+			ASSERT_EQ(static_cast<int>(onEdge[x].size()), c.crossings(x));
+			for (std::size_t i = 0; i < onEdge[x].size(); ++i)
+				EXPECT_EQ(curveAt[x][i], onEdge[x][i].edge);
 		}
 	}
 }

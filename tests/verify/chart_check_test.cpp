@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/shapes.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/verify/chart_check.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace ricci::testing {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Crossings of a strip of a ring that turns by \p angle and moves outwards by \p rise in a turn.
 int crossingsOfAStrip(double angle, double rise, double tolerance)
@@ -20,9 +20,9 @@ int crossingsOfAStrip(double angle, double rise, double tolerance)
 		const double a = angle * i / n, r = 2.0 - 0.5 * j + rise * a / (2 * kPi);
 		return Point3{r * std::cos(a), r * std::sin(a), 0.0};
 	});
-	std::vector<std::array<Point2, 3>> plane;
+	std::vector<Triangle2> plane;
 	for (const Triangle& t : strip.triangles) {
-		std::array<Point2, 3> p;
+		Triangle2 p;
 		for (std::size_t k = 0; k < 3; ++k)
 			p[k] = {strip.positions[at(t[k])][0], strip.positions[at(t[k])][1]};
 		plane.push_back(p);
@@ -43,7 +43,7 @@ TEST(ChartCheck, ASideMayEndOnAnother)
 	for (double past : {0.0, 1e-9, 1e-3})
 		for (double up : {1.0, -1.0})
 			for (const Triangle& second : {Triangle{3, 4, 5}, Triangle{5, 4, 3}}) {
-				const std::vector<std::array<Point2, 3>> plane = {
+				const std::vector<Triangle2> plane = {
 					{{{-2.0, 0.0}, {2.0, 0.0}, {0.0, -3.0 * up}}},
 					{{{0.1, -past * up}, {0.6, up}, {-0.4, up}}}};
 				const int crossings = borderCrossings({{0, 1, 2}, second}, plane, 1e-6);

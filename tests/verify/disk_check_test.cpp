@@ -2,15 +2,17 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/layout/disk_isometry.h>
+#include <ricci/math/disk_isometry.h>
 #include <ricci/verify/disk_check.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -20,7 +22,7 @@ namespace {
 struct Sheet
 {
 	std::vector<Triangle> triangles;
-	std::vector<std::array<Point2, 3>> plane;
+	std::vector<Triangle2> plane;
 	std::vector<char> reversed;
 
 	Sheet()
@@ -39,7 +41,7 @@ struct Sheet
 			reversed.push_back(f % 2 == 1);
 			if (f % 2 == 1)
 				std::swap(t[1], t[2]);
-			std::array<Point2, 3> corners;
+			Triangle2 corners;
 			for (std::size_t k = 0; k < 3; ++k) {
 				const Point3& p = mesh.positions[at(t[k])];
 				const double x = 0.99 * (p[0] - middle[0]) / largest;
@@ -53,14 +55,12 @@ struct Sheet
 	}
 
 	/// Moves the first half of the triangles.
-	template<class Motion>
-	void moveHalf(Motion motion)
+	template<class Map>
+	void moveHalf(Map map)
 	{
 		for (std::size_t f = 0; f < plane.size() / 2; ++f)
-			for (Point2& p : plane[f]) {
-				const std::complex<double> z = motion(std::complex<double>(p[0], p[1]));
-				p = {z.real(), z.imag()};
-			}
+			for (Point2& p : plane[f])
+				p = asPoint(map(asComplex(p)));
 	}
 
 	DiskCheck check(double tolerance = 1e-9) const
@@ -76,7 +76,7 @@ TEST(DiskCheck, AcceptsAMapWithAndWithoutSeams)
 	EXPECT_EQ(check.outside, 0u);
 	EXPECT_LE(check.seamGap, 0.0);
 	EXPECT_EQ(check.turned, 0);
-	// Cut apart by a motion, all of the border between the halves becomes a seam.
+	// Cut apart by an isometry, all of the border between the halves becomes a seam.
 	s.moveHalf(DiskIsometry::translationTo({0.3, -0.4}) * DiskIsometry::rotation(2.0));
 	check = s.check();
 	EXPECT_LT(check.seamGap, 1e-13);
@@ -97,7 +97,7 @@ TEST(DiskCheck, SeesASeamThatDoesNotFit)
 	EXPECT_NEAR(check.seamGap, 0.01, 1e-13);
 	EXPECT_NEAR(check.radius, 2.0 * std::atanh(0.5), 1e-14);
 	EXPECT_EQ(check.turned, 0);
-	// A similarity of the plane is no motion of the disk.
+	// A similarity of the plane is no isometry of the disk.
 	Sheet s;
 	s.moveHalf([](std::complex<double> z) { return 0.9 * z; });
 	EXPECT_GT(s.check().seamGap, 0.01);
@@ -115,8 +115,8 @@ TEST(DiskCheck, AllowsForTheRoundingOfBothSidesOfASeam)
 		const std::complex<double> p(random.real(-0.4, 0.4), random.real(-0.4, 0.4)),
 			q(random.real(-0.4, 0.4), random.real(-0.4, 0.4));
 		const std::complex<double> x = away(p), y = away(q);
-		const Point2 near[] = {{p.real(), p.imag()}, {q.real(), q.imag()}};
-		const Point2 far[] = {{x.real(), x.imag()}, {y.real(), y.imag()}};
+		const Point2 near[] = {asPoint(p), asPoint(q)};
+		const Point2 far[] = {asPoint(x), asPoint(y)};
 		const Point2 apex{0.0, 0.0};
 		const bool swapped = trial % 2 == 1;
 		const auto& first = swapped ? far : near;
@@ -141,11 +141,9 @@ TEST(DiskCheck, CountsTurnedTrianglesByTheirHeight)
 		for (bool reversed : {false, true}) {
 			const DiskIsometry move =
 				DiskIsometry::translationTo({place, 0.0}) * DiskIsometry::rotation(0.7);
-			std::array<Point2, 3> p = {Point2{-0.5, 0.0}, Point2{0.5, 0.0}, Point2{0.0, y}};
-			for (Point2& q : p) {
-				const std::complex<double> z = move(std::complex<double>(q[0], q[1]));
-				q = {z.real(), z.imag()};
-			}
+			Triangle2 p = {Point2{-0.5, 0.0}, Point2{0.5, 0.0}, Point2{0.0, y}};
+			for (Point2& q : p)
+				q = asPoint(move(asComplex(q)));
 			if (reversed)
 				std::swap(p[0], p[1]);
 			const std::vector<char> wanted = {reversed};

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 struct Sheet
 {
 	SurfaceMesh mesh;
-	std::vector<std::array<Point2, 3>> plane;
+	std::vector<Triangle2> plane;
 	std::vector<char> reversed;
 
 	Sheet()
@@ -30,7 +31,7 @@ struct Sheet
 			reversed.push_back(f % 2 == 1);
 			if (f % 2 == 1)
 				std::swap(t[1], t[2]);
-			std::array<Point2, 3> p;
+			Triangle2 p;
 			for (std::size_t k = 0; k < 3; ++k)
 				p[k] = {mesh.positions[at(t[k])][0], mesh.positions[at(t[k])][1]};
 			plane.push_back(p);

@@ -4,9 +4,13 @@
 
 #include "error.h"
 
+#include <functional>
 #include <string>
 
 namespace ricci {
+
+/// Called now and then by a long computation, many times a second. What it throws ends it.
+using Tick = std::function<void()>;
 
 /// The algorithm's only way to speak while it runs. The default listener is silent and never
 /// cancels.

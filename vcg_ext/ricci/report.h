@@ -2,7 +2,7 @@
 #ifndef RICCI_REPORT_H
 #define RICCI_REPORT_H
 
-#include "layout/histogram.h"
+#include "math/histogram.h"
 
 #include <optional>
 #include <vector>

@@ -31,10 +31,10 @@ struct SphereMap
 /// it to infinity and its neighbours to the boundary of a disk; the flow makes the disk flat with
 /// the boundary's metric kept (the Euclidean flow of the punctured surface), and the inverse
 /// stereographic projection takes the plane to the sphere, the puncture to the pole. So every
-/// polyhedron inscribed in a sphere is mapped to itself, up to a Moebius transformation (Springborn
-/// 2019 for the vertex at infinity). Of these transformations the one that brings the conformal
-/// barycentre of the area to the centre is chosen, and of the rotations the one that turns the
-/// vertices most nearly towards their places on the mesh.
+/// polyhedron inscribed in a sphere is mapped to itself, up to a Moebius transformation
+/// ([Springborn 2020] for the vertex at infinity). Of these transformations the one that brings the
+/// conformal barycentre of the area to the centre is chosen, and of the rotations the one that turns
+/// the vertices most nearly towards their places on the mesh.
 ///
 /// \param options epsilon and maxIterations are used; the flow has intrinsic flips
 /// \throw InvalidMesh, InvalidOption (another topology), NotConverged, Cancelled

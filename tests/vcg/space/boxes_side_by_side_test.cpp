@@ -123,14 +123,3 @@ TEST(BoxesSideBySide, OneBoxStays)
 	EXPECT_EQ(moved(boxes, 0.5).front().min, boxes.front().min);
 	EXPECT_TRUE(BoxesSideBySide::Shifts({}, 0.5).empty());
 }
-
-/// n squares of no extent with the margin m round each, side by side in a square of side 1: the
-/// margins between them are shared, so sqrt(n) + 1 of them fit.
-TEST(BoxesSideBySide, MayFitAgreesWithPointsOnAGrid)
-{
-	for (int k = 1; k < 60; ++k) {
-		const double most = 1.0 / (k + 1);
-		EXPECT_TRUE(BoxesSideBySide::MayFit(static_cast<std::size_t>(k * k), 0.999999 * most));
-		EXPECT_FALSE(BoxesSideBySide::MayFit(static_cast<std::size_t>(k * k), 1.000001 * most));
-	}
-}

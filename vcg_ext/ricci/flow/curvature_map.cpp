@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curvature_map.h"
 
+#include "../base/numbers.h"
+#include "../base/parallel.h"
 #include "../metric/euclidean.h"
 #include "../metric/hyperbolic.h"
-#include "../numbers.h"
-#include "../parallel.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <mutex>
 #include <utility>
 
@@ -28,32 +30,31 @@ CurvatureMap::CurvatureMap(CirclePacking packing) :
 {
 	const Triangulation& t = m_packing.triangulation;
 	m_curvature.resize(t.vertexCount());
-	m_lengths.resize(at(t.edgeCount()));
-	m_weights.resize(at(t.edgeCount()));
-	m_cosineLess1.resize(at(t.edgeCount()));
-	m_angles.assign(at(t.halfedgeCount()), 0.0);
+	m_lengths.resize(t.edgeCount());
+	m_weights.resize(t.edgeCount());
+	m_cosineLess1.resize(t.edgeCount());
+	m_angles.assign(t.halfedgeCount(), 0.0);
 }
 
-void CurvatureMap::swapEdge(int e, double delta)
+void CurvatureMap::swapEdge(Edge e, double delta)
 {
 	m_packing.triangulation.flip(e);
-	m_packing.delta[at(e)] = delta;
+	m_packing.delta[e] = delta;
 	++m_revision;
 }
 
 template<class Geometry>
 GeometricCurvatureMap<Geometry>::GeometricCurvatureMap(CirclePacking packing) :
-		CurvatureMap(std::move(packing)), m_circles(at(m_packing.triangulation.vertexCount())),
-		m_excess(at(m_packing.triangulation.edgeCount())), m_ratio(m_excess.size()),
-		m_halfWeights(at(m_packing.triangulation.halfedgeCount()), 0.0)
+		CurvatureMap(std::move(packing)), m_circles(m_packing.triangulation.vertexCount()),
+		m_excess(m_packing.triangulation.edgeCount()), m_ratio(m_packing.triangulation.edgeCount()),
+		m_halfWeights(m_packing.triangulation.halfedgeCount(), 0.0)
 {
 }
 
 template<class Geometry>
-void GeometricCurvatureMap<Geometry>::evaluate(
-	const Eigen::VectorXd& u, const Eigen::VectorXd& rest)
+void GeometricCurvatureMap<Geometry>::evaluate(const VertexVector& u, const VertexVector& low)
 {
-	evaluateCircles(u, rest);
+	evaluateCircles(u, low);
 	evaluateEdges();
 	evaluateTriangles();
 }
@@ -69,12 +70,12 @@ void GeometricCurvatureMap<Geometry>::releaseWorkSpace()
 
 template<class Geometry>
 void GeometricCurvatureMap<Geometry>::evaluateCircles(
-	const Eigen::VectorXd& u, const Eigen::VectorXd& rest)
+	const VertexVector& u, const VertexVector& low)
 {
-	const bool whole = rest.size() == 0;
-	inParallel(static_cast<int>(m_circles.size()), m_threads, [&](int first, int last) {
-		for (int v = first; v < last; ++v)
-			m_circles[at(v)] = Geometry::circle(u[v], whole ? 0.0 : rest[v]);
+	const bool noLow = low.size() == 0;
+	inParallel(m_circles.size(), m_threads, [&](int first, int last) {
+		for (const Vertex v : IndexRange<Vertex>(first, last))
+			m_circles[v] = Geometry::circle(u[v], noLow ? 0.0 : low[v]);
 	});
 }
 
@@ -83,14 +84,14 @@ void GeometricCurvatureMap<Geometry>::evaluateEdges()
 {
 	const Triangulation& t = m_packing.triangulation;
 	inParallel(t.edgeCount(), m_threads, [&](int first, int last) {
-		for (int e = first; e < last; ++e) {
-			const auto& i = m_circles[at(t.origin(2 * e))];
-			const auto& j = m_circles[at(t.target(2 * e))];
-			const auto edge = Geometry::edge(i, j, m_packing.delta[at(e)]);
-			m_lengths[at(e)] = static_cast<double>(edge.length);
-			m_cosineLess1[at(e)] = static_cast<double>(edge.cosineLess1);
-			m_excess[at(e)] = edge.excess;
-			m_ratio[at(e)] = static_cast<double>(i.s * j.s / edge.sine2);
+		for (const Edge e : IndexRange<Edge>(first, last)) {
+			const auto& i = m_circles[t.origin(e.halfedge())];
+			const auto& j = m_circles[t.target(e.halfedge())];
+			const auto edge = Geometry::edge(i, j, m_packing.delta[e]);
+			m_lengths[e] = static_cast<double>(edge.length);
+			m_cosineLess1[e] = static_cast<double>(edge.cosineLess1);
+			m_excess[e] = edge.excess;
+			m_ratio[e] = static_cast<double>(i.s * j.s / edge.sine2);
 		}
 	});
 }
@@ -105,7 +106,7 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 	inParallel(t.faceCount(), m_threads, [&](int first, int last) {
 		int broken = 0;
 		double needleRatio = 1.0;
-		for (int f = first; f < last; ++f)
+		for (const Face f : IndexRange<Face>(first, last))
 			if (!evaluateTriangle(f, needleRatio))
 				++broken;
 		const std::lock_guard<std::mutex> lock(summary);
@@ -113,66 +114,67 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 		m_needleRatio = std::max(m_needleRatio, needleRatio);
 	});
 	inParallel(t.edgeCount(), m_threads, [&](int first, int last) {
-		for (int e = first; e < last; ++e)
-			m_weights[at(e)] = m_halfWeights[at(2 * e)] + m_halfWeights[at(2 * e + 1)];
+		for (const Edge e : IndexRange<Edge>(first, last))
+			m_weights[e] = m_halfWeights[e.halfedge()] + m_halfWeights[e.halfedge().twin()];
 	});
 
 	// Every part goes through all faces and adds up at its own vertices, so that the order of the
 	// summands is that of the faces.
 	inParallel(t.vertexCount(), m_threads, [&](int first, int last) {
-		for (int v = first; v < last; ++v)
-			m_curvature[v] = m_boundary[at(v)] ? kPi : 2.0 * kPi;
-		for (int f = 0; f < t.faceCount(); ++f)
-			for (int h : t.halfedges(f))
-				if (const int v = t.origin(h); v >= first && v < last)
-					m_curvature[v] -= m_angles[at(h)];
-		// Left out, the rest of pi would add up over the vertices and break Gauss-Bonnet by as
-		// much.
-		for (int v = first; v < last; ++v)
-			m_curvature[v] += m_boundary[at(v)] ? kPiRest : 2.0 * kPiRest;
+		const IndexRange<Vertex> own(first, last);
+		for (const Vertex v : own)
+			m_curvature[v] = m_boundary[v] ? kPi : 2.0 * kPi;
+		for (const Face f : t.faces())
+			for (const Halfedge h : t.halfedges(f))
+				if (const Vertex v = t.origin(h); v.number() >= first && v.number() < last)
+					m_curvature[v] -= m_angles[h];
+		// Without the low part of pi the errors would add up over the vertices and break
+		// Gauss-Bonnet by their sum.
+		for (const Vertex v : own)
+			m_curvature[v] += m_boundary[v] ? kPiLow : 2.0 * kPiLow;
 	});
 }
 
 /// Angles and weights of face \p f; raises \p needleRatio to that of the face.
 /// \return false if the face breaks the triangle inequality
 template<class Geometry>
-bool GeometricCurvatureMap<Geometry>::evaluateTriangle(int f, double& needleRatio)
+bool GeometricCurvatureMap<Geometry>::evaluateTriangle(Face f, double& needleRatio)
 {
 	using Real = typename Geometry::Real;
 	const Triangulation& t = m_packing.triangulation;
 	// Vertex k is the origin of halfedge k; side k runs from vertex k to k + 1.
-	const std::array<int, 3> h = t.halfedges(f);
-	std::array<std::size_t, 3> vertex, edge;
+	const std::array<Halfedge, 3> h = t.halfedges(f);
+	std::array<Vertex, 3> vertex;
+	std::array<Edge, 3> edge;
 	for (std::size_t k = 0; k < 3; ++k) {
-		vertex[k] = at(t.origin(h[k]));
-		edge[k] = at(Triangulation::edge(h[k]));
+		vertex[k] = t.origin(h[k]);
+		edge[k] = h[k].edge();
 	}
-	// tau_k = (two adjacent sides - opposite side) / 2, free of cancellation in
-	// the radii.
+	// tau_k = (two adjacent sides - opposite side) / 2, free of cancellation in the radii.
 	std::array<Real, 3> tau;
 	for (std::size_t k = 0; k < 3; ++k)
 		tau[k] = m_circles[vertex[k]].radius +
 				 Real(0.5) * (m_excess[edge[k]] + m_excess[edge[(k + 2) % 3]] -
 							  m_excess[edge[(k + 1) % 3]]);
-	const auto shortest = std::min_element(tau.begin(), tau.end());
-	if (!(*shortest > 0.0)) {
+	const auto smallest = std::min_element(tau.begin(), tau.end());
+	if (!(*smallest > 0.0)) {
 		for (std::size_t k = 0; k < 3; ++k) {
-			m_angles[at(h[k])] = 0.0;
-			m_halfWeights[at(h[k])] = 0.0;
+			m_angles[h[k]] = 0.0;
+			m_halfWeights[h[k]] = 0.0;
 		}
-		m_angles[at(h[at(static_cast<int>(shortest - tau.begin()))])] = kPi;
+		m_angles[h[static_cast<std::size_t>(smallest - tau.begin())]] = kPi;
 		return false;
 	}
-	// The tau hold what cancellation could lose: from here on doubles do. With s
-	// their sum, the tangents of the half angles are r / tau_k, r = sqrt(tau_0
-	// tau_1 tau_2 / s), the radius of the inscribed circle.
+	// The tau hold what cancellation could lose: from here on doubles suffice. With s their sum,
+	// the tangents of the half angles are r / tau_k, r = sqrt(tau_0 tau_1 tau_2 / s), the radius of
+	// the inscribed circle.
 	const double s = static_cast<double>(Geometry::heron(tau[0] + tau[1] + tau[2]));
 	std::array<double, 3> x;
 	for (std::size_t k = 0; k < 3; ++k)
 		x[k] = static_cast<double>(Geometry::heron(tau[k]));
 	const double r = std::sqrt(x[0] * (x[1] / s) * x[2]);
 	for (std::size_t k = 0; k < 3; ++k)
-		m_angles[at(h[k])] = 2.0 * std::atan(r / x[k]);
+		m_angles[h[k]] = 2.0 * std::atan(r / x[k]);
 
 	std::array<double, 3> inversive, radius, kappa;
 	for (std::size_t k = 0; k < 3; ++k) {
@@ -182,7 +184,7 @@ bool GeometricCurvatureMap<Geometry>::evaluateTriangle(int f, double& needleRati
 	}
 	// 2 s r is the product of two sides and the sine between them.
 	const double factor = radius[0] * radius[1] * radius[2] / (2.0 * s * r);
-	double longest = 0.0, least = m_lengths[edge[0]];
+	double longest = 0.0, shortest = m_lengths[edge[0]];
 	for (std::size_t k = 0; k < 3; ++k) {
 		// Derivative of the angle at i by u_j, side ij = side k, apex m.
 		const std::size_t i = k, j = (k + 1) % 3, m = (k + 2) % 3;
@@ -190,21 +192,21 @@ bool GeometricCurvatureMap<Geometry>::evaluateTriangle(int f, double& needleRati
 		const double d = m_packing.delta[edge[k]];
 		const double height =
 			kappa[i] * (mi + jm * ij) + kappa[j] * (jm + mi * ij) - kappa[m] * d * (d + 2.0);
-		m_halfWeights[at(h[k])] = factor * m_ratio[edge[k]] * height;
+		m_halfWeights[h[k]] = factor * m_ratio[edge[k]] * height;
 		longest = std::max(longest, m_lengths[edge[k]]);
-		least = std::min(least, m_lengths[edge[k]]);
+		shortest = std::min(shortest, m_lengths[edge[k]]);
 	}
-	if (longest > needleRatio * least)
-		needleRatio = longest / least;
+	if (longest > needleRatio * shortest)
+		needleRatio = longest / shortest;
 	return true;
 }
 
 template<class Geometry>
-void FlippingCurvatureMap<Geometry>::evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest)
+void FlippingCurvatureMap<Geometry>::evaluate(const VertexVector& u, const VertexVector& low)
 {
-	this->evaluateCircles(u, rest);
+	this->evaluateCircles(u, low);
 	m_kappa.resize(this->m_circles.size());
-	for (std::size_t v = 0; v < m_kappa.size(); ++v)
+	for (const Vertex v : m_kappa.indices())
 		m_kappa[v] = static_cast<double>(this->m_circles[v].kappa);
 	CirclePacking& packing = this->m_packing;
 	const int flips = makeWeightedDelaunay(

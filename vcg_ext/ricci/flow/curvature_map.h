@@ -4,65 +4,61 @@
 
 #include "../metric/circle_packing.h"
 #include "../metric/conformal_flip.h"
+#include "../surface/elements.h"
 
-#include <Eigen/Core>
-
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
 
 namespace ricci {
 
-/// The map u -> K(u) of a circle packing (Eqs 1, 2, 4), the gradient of the
-/// convex Ricci energy (Eq. 10; as printed its sign is that of a concave one),
-/// together with its derivative, the Hessian of the energy (Eqs 7-9, 11, 12).
-/// The one seam between the flow and its background geometry: Newton's method
-/// sees only this class.
+/// The map u -> K(u) of a circle packing (Eqs 1, 2, 4), the gradient of the convex Ricci energy
+/// (Eq. 10; its sign as printed is that of a concave one), together with its derivative, the
+/// Hessian of the energy (Eqs 7-9, 11, 12). The one seam between the flow and its background
+/// geometry: Newton's method sees only this class.
 ///
-/// Where a triangle breaks the triangle inequality its angles are continued by
-/// the constants pi, 0, 0 and its derivatives by 0. The energy then is C^1 and
-/// convex for every u.
+/// Where a triangle breaks the triangle inequality its angles are continued by the constants pi, 0,
+/// 0 and its derivatives by 0. The energy then is C^1 and convex for every u, for inversive
+/// distances I >= 0 [Luo 2011] as for vertex scaling [Bobenko Pinkall Springborn 2015].
 class CurvatureMap
 {
 public:
 	virtual ~CurvatureMap() = default;
 
-	/// Computes everything below at u + \p rest, one entry for each vertex: \p
-	/// rest is what the doubles of \p u cannot hold (below their last place), or
-	/// empty. Radii then are exact to their own last place, not to that of u.
-	virtual void evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest) = 0;
+	/// Computes everything below at u + \p low: \p low is the part that the doubles of \p u cannot
+	/// hold (below their last place), or empty. Radii then are exact to their own last place, not
+	/// to that of u. A packing that does not exist at u (hyperbolic u >= 0, nested circles) gives
+	/// values that are not finite, or broken triangles; it is no error.
+	virtual void evaluate(const VertexVector& u, const VertexVector& low) = 0;
 
-	void evaluate(const Eigen::VectorXd& u) { evaluate(u, Eigen::VectorXd()); }
+	void evaluate(const VertexVector& u) { evaluate(u, VertexVector()); }
 
 	/// Whether adding a constant to u changes nothing (Euclidean background).
 	virtual bool scaleInvariant() const = 0;
 
 	const CirclePacking& packing() const { return m_packing; }
 
-	/// Gives the packing away, for a map of other precision; nothing else may be asked of this one
-	/// afterwards but revision() and flips().
+	/// Gives the packing away, for a map of other precision. Only revision() and flips() may be
+	/// called afterwards.
 	CirclePacking releasePacking() { return std::move(m_packing); }
 	const Triangulation& triangulation() const { return m_packing.triangulation; }
-	const std::vector<double>& delta() const { return m_packing.delta; }
+	const EdgeArray<double>& delta() const { return m_packing.delta; }
 
-	/// K in radians: 2 pi (pi on the boundary) less the angles at the vertex (Eq.
-	/// 2).
-	const Eigen::VectorXd& curvature() const { return m_curvature; }
+	/// K in radians: 2 pi (pi on the boundary) less the angles at the vertex (Eq. 2).
+	const VertexVector& curvature() const { return m_curvature; }
 
-	/// [edge] Length in the metric of the last u.
-	const std::vector<double>& lengths() const { return m_lengths; }
+	/// Lengths in the metric of the last u (Eq. 4).
+	const EdgeArray<double>& lengths() const { return m_lengths; }
 
-	/// [halfedge] Angle in radians at the halfedge's origin; 0 on outer
-	/// halfedges.
-	const std::vector<double>& angles() const { return m_angles; }
+	/// Angle in radians at the halfedge's origin (Eq. 1); 0 on exterior halfedges.
+	const HalfedgeArray<double>& angles() const { return m_angles; }
 
-	/// [edge] w_ij of Eq. 12: minus the derivative of K_i by u_j.
-	const std::vector<double>& weights() const { return m_weights; }
+	/// w_ij of Eq. 12: minus the derivative of K_i by u_j.
+	const EdgeArray<double>& weights() const { return m_weights; }
 
-	/// [edge] cosh(length) - 1, what the hyperbolic plane adds to the diagonal; 0
-	/// in the Euclidean.
-	const std::vector<double>& cosineLess1() const { return m_cosineLess1; }
+	/// cosh(length) - 1, which the hyperbolic plane adds to the diagonal of the Hessian; 0 in the
+	/// Euclidean.
+	const EdgeArray<double>& cosineLess1() const { return m_cosineLess1; }
 
 	/// Number of triangles that break the triangle inequality.
 	int brokenTriangles() const { return m_broken; }
@@ -70,50 +66,49 @@ public:
 	/// Unit of rounding of the arithmetic in which the map is evaluated.
 	virtual double precision() const = 0;
 
-	/// Largest quotient of two sides of one triangle: the amplification of
-	/// rounding in its angles.
+	/// Largest quotient of two sides of one triangle: the amplification of rounding in its angles.
 	double needleRatio() const { return m_needleRatio; }
 
-	/// Changes when the connectivity does, so that a sparsity pattern can be kept
-	/// as long as possible.
+	/// Changes when the connectivity does; 0 until then. A sparsity pattern stays valid while it is
+	/// the same.
 	int revision() const { return m_revision; }
 
-	/// Keeps the connectivity that the last evaluate() left; reject() returns to
-	/// the one last kept.
+	/// Keeps the connectivity that the last evaluate() left; reject() returns to the one that was
+	/// kept last.
 	virtual void accept() {}
 	virtual void reject() {}
 
-	/// Edges that evaluate() flipped since the start, in order, up to the last
-	/// accept().
-	const std::vector<int>& flips() const { return m_flips; }
+	/// Edges that evaluate() flipped since the start, in order, up to the last accept().
+	const std::vector<Edge>& flips() const { return m_flips; }
 
 	/// Frees what only evaluate() needs, which must not be called again.
 	virtual void releaseWorkSpace() = 0;
 
-	/// Threads that evaluate() may use (all of the machine's unless told
-	/// otherwise). Their number does not change a bit of the result.
+	/// Threads that evaluate() may use (by default all of the machine's). Their number does not
+	/// change a bit of the result.
 	void useThreads(int threads) { m_threads = threads; }
 
-	/// Replaces interior edge \p e by the other diagonal of its two triangles,
-	/// with \p delta.
-	void swapEdge(int e, double delta);
+	/// Replaces edge \p e by the other diagonal of its two triangles, with \p delta.
+	/// \pre \p e is flippable
+	void swapEdge(Edge e, double delta);
 
 protected:
 	explicit CurvatureMap(CirclePacking packing);
 
 	CirclePacking m_packing;
-	std::vector<char> m_boundary; // by vertex
-	Eigen::VectorXd m_curvature;
-	std::vector<double> m_lengths, m_weights, m_cosineLess1, m_angles;
+	VertexArray<char> m_boundary;
+	VertexVector m_curvature;
+	EdgeArray<double> m_lengths, m_weights, m_cosineLess1;
+	HalfedgeArray<double> m_angles;
 	int m_threads;
 	int m_broken = 0;
-	std::vector<int> m_flips;
+	std::vector<Edge> m_flips;
 	double m_needleRatio = 1.0;
 	int m_revision = 0;
 };
 
-/// CurvatureMap of the background geometry \p Geometry (see Euclidean,
-/// Hyperbolic).
+/// CurvatureMap on a triangulation that stays, in the background geometry \p Geometry
+/// (EuclideanGeometry, HyperbolicGeometry).
 template<class Geometry>
 class GeometricCurvatureMap : public CurvatureMap
 {
@@ -121,7 +116,7 @@ public:
 	explicit GeometricCurvatureMap(CirclePacking packing);
 
 	using CurvatureMap::evaluate;
-	void evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest) override;
+	void evaluate(const VertexVector& u, const VertexVector& low) override;
 	bool scaleInvariant() const override { return Geometry::scaleInvariant; }
 	void releaseWorkSpace() override;
 	double precision() const override
@@ -130,21 +125,21 @@ public:
 	}
 
 protected:
-	void evaluateCircles(const Eigen::VectorXd& u, const Eigen::VectorXd& rest);
+	void evaluateCircles(const VertexVector& u, const VertexVector& low);
 	void evaluateEdges();
 	void evaluateTriangles();
-	bool evaluateTriangle(int f, double& needleRatio);
+	bool evaluateTriangle(Face f, double& needleRatio);
 
-	std::vector<typename Geometry::Circle> m_circles; // by vertex
-	std::vector<typename Geometry::Real> m_excess;    // by edge: length less the radii
-	std::vector<double> m_ratio;                      // by edge: s_i s_j / S_ij^2
-	std::vector<double> m_halfWeights; // by halfedge: its triangle's share of the weight
+	VertexArray<typename Geometry::Circle> m_circles;
+	EdgeArray<typename Geometry::Real> m_excess; // length less the radii
+	EdgeArray<double> m_ratio;                   // s_i s_j / S_ij^2
+	HalfedgeArray<double> m_halfWeights;         // the triangle's share of the weight
 };
 
-/// The same map on the weighted Delaunay triangulation of every u, reached by
-/// flips that keep the conformal class (conformal_flip.h). K(u) then is
-/// continuously differentiable for all u, no triangle breaks, and all weights
-/// are non-negative (off the boundary, whose edges stay).
+/// The same map on the weighted Delaunay triangulation of every u, reached by flips that keep the
+/// conformal class (conformal_flip.h). K(u) then is continuously differentiable for all u, no
+/// triangle breaks, and all weights are non-negative (off the boundary, whose edges stay): in the
+/// Euclidean plane [Bobenko Lutz 2023], in the hyperbolic plane [Bobenko Lutz 2023b].
 template<class Geometry>
 class FlippingCurvatureMap : public GeometricCurvatureMap<Geometry>
 {
@@ -152,13 +147,13 @@ public:
 	using GeometricCurvatureMap<Geometry>::GeometricCurvatureMap;
 
 	using CurvatureMap::evaluate;
-	void evaluate(const Eigen::VectorXd& u, const Eigen::VectorXd& rest) override;
+	void evaluate(const VertexVector& u, const VertexVector& low) override;
 	void releaseWorkSpace() override;
 	void accept() override;
 	void reject() override;
 
 private:
-	std::vector<double> m_kappa; // by vertex
+	VertexArray<double> m_kappa;
 	FlipJournal m_journal;
 	DelaunayQueue m_queue;
 };

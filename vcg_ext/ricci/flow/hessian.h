@@ -6,22 +6,23 @@
 
 #include <Eigen/SparseCore>
 
-#include <vector>
-
 namespace ricci {
 
-/// The derivative of the curvature by u (Eq. 11), restricted to the unknown vertices: symmetric,
-/// positive semi-definite wherever all triangles exist; only the lower triangle is stored.
+/// The derivative of the curvature by u (Eq. 11), the Hessian of the Ricci energy, restricted to
+/// the unknown vertices: -w_ij off the diagonal, the sum of w_ij cosh l_ij on it (in the Euclidean
+/// plane of w_ij). Symmetric, positive semi-definite wherever all triangles exist; only the lower
+/// triangle is stored.
 class Hessian
 {
 public:
 	using Matrix = Eigen::SparseMatrix<double>;
 
-	/// Lays out the sparsity pattern for the connectivity of \p map. \p unknown gives each vertex
-	/// its row, or -1 for a vertex whose u is fixed.
-	void layOut(const CurvatureMap& map, const std::vector<int>& unknown, int unknownCount);
+	/// Lays out the sparsity pattern for the connectivity of \p map. \p row gives each vertex the
+	/// row of its unknown, 0 to \p unknowns - 1, or -1 where u is fixed.
+	void layOut(const CurvatureMap& map, const VertexArray<int>& row, int unknowns);
 
 	/// Fills the values at the state of \p map and adds \p shift to the diagonal.
+	/// \pre the connectivity is that of the last layOut()
 	void fill(const CurvatureMap& map, double shift);
 
 	const Matrix& matrix() const { return m_matrix; }
@@ -29,9 +30,9 @@ public:
 
 private:
 	Matrix m_matrix;
-	std::vector<int> m_diagonal;                   // [unknown] slot in the value array
-	std::vector<int> m_offDiagonal;                // [edge] slot, or -1
-	std::vector<int> m_rowOfOrigin, m_rowOfTarget; // [edge] unknown, or -1
+	Array<int> m_diagonal;                       // [row] slot in the value array
+	EdgeArray<int> m_offDiagonal;                // slot, or -1
+	EdgeArray<int> m_rowOfOrigin, m_rowOfTarget; // or -1
 };
 
 } // namespace ricci

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "newton.h"
 
-#include "../error.h"
-#include "../numbers.h"
+#include "../base/tolerances.h"
 
 #include <Eigen/IterativeLinearSolvers>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ricci {
 
@@ -21,52 +21,42 @@ constexpr double kStepCap = 4.0;
 /// In the hyperbolic plane u is negative; a step covers at most this share of the way to 0.
 constexpr double kShareOfRange = 0.9;
 
-/// Where that would shorten the whole step to less than this, only the entries that are too long are
-/// shortened: a circle that is nearly a cusp's must not hold up all others.
-constexpr double kLeastShare = 0.01;
+/// Where that would shorten the whole step to less than this, only the entries that are too long
+/// are shortened: one circle near u = 0, whose radius is nearly infinite, must not slow down all
+/// others.
+constexpr double kMinShare = 0.01;
 
 /// Sufficient decrease of |K - target| asked of a step of length t: by the factor 1 - kDecrease t.
 constexpr double kDecrease = 1e-4;
 
-/// Below this step length the search direction has failed.
-constexpr double kLeastStep = 1e-10;
-
-/// Added to the diagonal, whose typical entries are of order 1, while triangles are broken: their
-/// derivatives are 0.
-constexpr double kRegularisation = 1e-6;
-
-/// Steps with the last factor after epsilon is reached; each removes about as many digits as the
-/// last full step did, for the price of one evaluation.
+/// Steps with the last factor after epsilon is reached; each gains about as many digits as the last
+/// full step did, at the cost of one evaluation.
 constexpr int kPolishingSteps = 2;
 
-/// A minimum with broken triangles is no metric, and the energy is flat beside it: where |K - target|
-/// has not fallen by this factor in so many steps, the flow ends there.
+/// A minimum with broken triangles is no metric, and the energy is flat around it: where
+/// |K - target| has not fallen by this factor in so many steps, the solve ends.
 constexpr double kStagnation = 0.9;
 constexpr int kStagnationSteps = 20;
 
-/// Newton's direction is wanted to this accuracy at first, and to that of the residual afterwards:
-/// then every step still squares the residual.
-constexpr double kLeastAccuracy = 0.1;
+/// What a direction may leave of the right side, relative to it: this at first, and the residual
+/// itself afterwards, so that every step still squares the residual.
+constexpr double kMaxInaccuracy = 0.1;
 
 /// Rate of a factorisation's arithmetic, which stays in the cache, over that of a solution, which
 /// reads the factor from memory.
 constexpr double kFactorizationRate = 5.0;
 
-/// Bounds of the number of conjugate gradient iterations that are worth a factorisation.
-constexpr int kLeastIterations = 8, kMostIterations = 50;
+/// Bounds of the number of conjugate gradient iterations that cost as much as a factorisation.
+constexpr int kMinIterations = 8, kMaxIterations = 50;
 
 int solutionsPerFactorization(const SparseCholesky& cholesky)
 {
 	const double solution = 4.0 * cholesky.factorEntries();
 	const double quotient = cholesky.factorFlops() / (kFactorizationRate * solution);
-	return static_cast<int>(
-		std::clamp(quotient, double(kLeastIterations), double(kMostIterations)));
+	return static_cast<int>(std::clamp(quotient, double(kMinIterations), double(kMaxIterations)));
 }
 
-/// How far the estimate of the rounding floor may be from what is observed.
-constexpr double kFloorUncertainty = 20.0;
-
-/// A Cholesky factor of a nearby matrix, in the form in which Eigen wants a preconditioner.
+/// A Cholesky factor of a nearby matrix, in the form of a preconditioner of Eigen.
 class FactorPreconditioner
 {
 public:
@@ -101,41 +91,39 @@ private:
 
 } // namespace
 
-NewtonSolver::NewtonSolver(CurvatureMap& map, std::vector<char> fixed) :
-		m_map(&map), m_fixed(std::move(fixed)), m_unknown(m_fixed.size(), -1)
+NewtonSolver::NewtonSolver(
+	CurvatureMap& map, VertexArray<char> fixed, std::unique_ptr<FactoredHessian> start) :
+		m_map(&map),
+		m_fixed(std::move(fixed))
 {
 	const bool anyFixed = std::find(m_fixed.begin(), m_fixed.end(), 1) != m_fixed.end();
 	m_gaugeFree = !anyFixed && map.scaleInvariant();
-	// In a scale invariant background one row is redundant; leaving it out pins that vertex.
-	for (std::size_t v = m_gaugeFree ? 1 : 0; v < m_fixed.size(); ++v)
-		if (!m_fixed[v])
-			m_unknown[v] = m_unknownCount++;
-	const auto n = static_cast<Eigen::Index>(m_fixed.size());
+	m_hessian = std::make_unique<FactoredHessian>(m_fixed, map.scaleInvariant());
+	if (start && start->isFactored() && start->hasUnknownsOf(*m_hessian))
+		m_start = std::move(start);
+	const int n = m_fixed.size();
 	m_gradient.resize(n);
 	m_direction.resize(n);
 	m_trial.resize(n);
 	m_diagonal.resize(n);
-	m_trialRest.resize(n);
-	m_rest.setZero(n);
-	m_rhs.resize(m_unknownCount);
-	m_solution.resize(m_unknownCount);
+	m_trialLow.resize(n);
+	m_low.setZero(n);
+	m_rhs.resize(m_hessian->unknowns());
+	m_solution.resize(m_hessian->unknowns());
 }
 
 void NewtonSolver::continueOn(CurvatureMap& map)
 {
-	if (m_revision == m_map->revision())
-		m_revision = map.revision();
-	else
-		m_revision = -1;
+	m_hessian->continueOn(*m_map, map);
 	m_map = &map;
 }
 
 /// Computes the gradient; returns max |target - K|, infinity if it is not finite.
-double NewtonSolver::residual(const Eigen::VectorXd& target)
+double NewtonSolver::residual(const VertexVector& target)
 {
 	double largest = 0.0;
-	for (Eigen::Index v = 0; v < m_gradient.size(); ++v) {
-		m_gradient[v] = m_fixed[at(v)] ? 0.0 : m_map->curvature()[v] - target[v];
+	for (const Vertex v : m_gradient.indices()) {
+		m_gradient[v] = m_fixed[v] ? 0.0 : m_map->curvature()[v] - target[v];
 		if (!std::isfinite(m_gradient[v]))
 			return std::numeric_limits<double>::infinity();
 		largest = std::max(largest, std::abs(m_gradient[v]));
@@ -148,119 +136,96 @@ double NewtonSolver::residual(const Eigen::VectorXd& target)
 	return largest;
 }
 
-/// The Hessian at the map's state, with \p shift added to its diagonal.
-void NewtonSolver::updateMatrix(double shift)
-{
-	if (m_revision != m_map->revision()) {
-		m_hessian.layOut(*m_map, m_unknown, m_unknownCount);
-		m_analyzed = false;
-		m_revision = m_map->revision();
-	}
-	m_hessian.fill(*m_map, shift);
-}
-
-void NewtonSolver::factorize()
-{
-	if (!m_analyzed) {
-		const auto layOut = [this] { m_hessian.layOut(*m_map, m_unknown, m_unknownCount); };
-		m_factored = false;
-		if (m_cholesky.analyze(m_hessian.matrix(), m_unknown, layOut))
-			m_hessian.fill(*m_map, 0.0);
-		m_analyzed = true;
-	}
-	double shift = m_map->brokenTriangles() > 0 ? kRegularisation : 0.0;
-	if (shift > 0.0)
-		updateMatrix(shift);
-	const double scale = std::max(m_hessian.largestDiagonal(), 1.0);
-	while (!m_cholesky.factorize(m_hessian.matrix())) {
-		shift = std::max(100.0 * shift, 1e-14 * scale);
-		if (!(shift <= scale) || std::isinf(shift))
-			throw Error(
-				"The linear solver failed: its matrix is not positive definite. Remesh the worst "
-				"triangles.");
-		updateMatrix(shift);
-	}
-	m_factored = true;
-	m_worn = false;
-	m_shifted = shift > 0.0;
-}
-
 /// Conjugate gradients with the last factor for preconditioner, for the matrix as it is, until
-/// |H d + gradient| <= \p accuracy |gradient|. \return number of iterations, more than \p
-/// mostIterations if they do not suffice
-int NewtonSolver::iterate(double accuracy, int mostIterations)
+/// |H d + gradient| <= \p accuracy |gradient|.
+/// \return number of iterations, more than \p maxIterations if they do not suffice
+int NewtonSolver::iterate(double accuracy, int maxIterations)
 {
 	Eigen::ConjugateGradient<Hessian::Matrix, Eigen::Lower, FactorPreconditioner> gradients;
-	gradients.preconditioner().attach(m_cholesky);
+	gradients.preconditioner().attach(m_hessian->cholesky());
 	gradients.setTolerance(accuracy);
-	gradients.setMaxIterations(mostIterations);
-	gradients.compute(m_hessian.matrix());
+	gradients.setMaxIterations(maxIterations);
+	gradients.compute(m_hessian->hessian().matrix());
 	m_solution = gradients.solve(m_rhs);
 	const bool solved = gradients.info() == Eigen::Success && m_solution.allFinite();
-	return solved ? static_cast<int>(gradients.iterations()) : mostIterations + 1;
+	return solved ? static_cast<int>(gradients.iterations()) : maxIterations + 1;
 }
 
 /// Right side of Newton's equations in the order of the unknowns.
 void NewtonSolver::gatherRightSide()
 {
-	for (std::size_t v = 0; v < m_unknown.size(); ++v)
-		if (m_unknown[v] >= 0)
-			m_rhs[m_unknown[v]] = -m_gradient[static_cast<Eigen::Index>(v)];
+	m_hessian->gather(m_gradient, m_rhs);
+	m_rhs = -m_rhs;
+}
+
+/// Makes the factor that the solver was given its own.
+/// \return whether there is one
+bool NewtonSolver::takeOverStart()
+{
+	if (!m_start)
+		return false;
+	m_hessian = std::move(m_start);
+	return true;
 }
 
 /// Solves H d = -(K - target) so that what is left is at most \p accuracy of the right side, with
-/// the last factor as long as that takes less work than a new one. Once epsilon is reached, the last
-/// factor has to do.
+/// the last factor as long as that takes less work than a new one. Once epsilon is reached, the
+/// last factor has to do.
 void NewtonSolver::direction(double accuracy, bool reached)
 {
-	updateMatrix(0.0);
+	const bool isFirst = takeOverStart();
+	m_hessian->fill(*m_map, 0.0);
 	gatherRightSide();
-	const bool usable = m_factored && !m_shifted && m_map->brokenTriangles() == 0;
 	bool solved = false;
-	if (usable && (!m_worn || reached)) {
-		const int limit = solutionsPerFactorization(m_cholesky);
+	if (isFirst) {
+		m_hessian->cholesky().solve(m_rhs, m_solution);
+		solved = true;
+	}
+	const bool usable =
+		m_hessian->isFactored() && !m_hessian->isShifted() && m_map->brokenTriangles() == 0;
+	if (!solved && usable && (!m_worn || reached)) {
+		const int limit = solutionsPerFactorization(m_hessian->cholesky());
 		const int iterations = iterate(accuracy, limit);
 		solved = iterations <= limit;
 		m_worn = 2 * iterations > limit;
 	}
 	if (!solved && !reached) {
-		factorize();
+		m_hessian->factorize(*m_map);
+		m_worn = false;
 		gatherRightSide(); // the unknowns may have been renumbered
-		m_cholesky.solve(m_rhs, m_solution);
+		m_hessian->cholesky().solve(m_rhs, m_solution);
 	}
-	for (std::size_t v = 0; v < m_unknown.size(); ++v)
-		m_direction[static_cast<Eigen::Index>(v)] =
-			m_unknown[v] >= 0 ? m_solution[m_unknown[v]] : 0.0;
+	m_hessian->scatter(m_solution, m_direction);
 	if (m_gaugeFree)
 		m_direction.array() -= m_direction.mean();
 }
 
-/// Share of m_direction, whose largest entry is \p largest, that keeps u in range. May shorten entries
-/// of m_direction.
-double NewtonSolver::longestStep(const Eigen::VectorXd& u, double largest)
+/// Share of m_direction, whose largest entry is \p largest, that keeps u in range. May shorten
+/// entries of m_direction.
+double NewtonSolver::longestStep(const VertexVector& u, double largest)
 {
 	const double cap = largest > kStepCap ? kStepCap / largest : 1.0;
 	if (m_map->scaleInvariant())
 		return cap;
 	double share = 1.0;
-	for (Eigen::Index v = 0; v < u.size(); ++v)
+	for (const Vertex v : u.indices())
 		if (m_direction[v] > 0.0)
 			share = std::min(share, kShareOfRange * -u[v] / m_direction[v]);
-	if (share >= kLeastShare)
+	if (share >= kMinShare)
 		return std::min(cap, share);
-	for (Eigen::Index v = 0; v < u.size(); ++v)
+	for (const Vertex v : u.indices())
 		m_direction[v] = std::min(m_direction[v], kShareOfRange * -u[v] / cap);
 	return cap;
 }
 
-/// m_trial + m_trialRest = u + m_rest + t m_direction, with the rounding error of the sum kept.
-void NewtonSolver::applyStep(const Eigen::VectorXd& u, double t)
+/// m_trial + m_trialLow = u + m_low + t m_direction, with the rounding error of the sum kept.
+void NewtonSolver::applyStep(const VertexVector& u, double t)
 {
-	for (Eigen::Index v = 0; v < u.size(); ++v) {
-		const double step = m_rest[v] + t * m_direction[v];
+	for (const Vertex v : u.indices()) {
+		const double step = m_low[v] + t * m_direction[v];
 		const double sum = u[v] + step, virtualStep = sum - u[v];
 		m_trial[v] = sum;
-		m_trialRest[v] = (u[v] - (sum - virtualStep)) + (step - virtualStep);
+		m_trialLow[v] = (u[v] - (sum - virtualStep)) + (step - virtualStep);
 	}
 }
 
@@ -270,10 +235,10 @@ double NewtonSolver::roundingFloor()
 {
 	m_diagonal.setZero();
 	const Triangulation& t = m_map->triangulation();
-	for (int e = 0; e < t.edgeCount(); ++e) {
-		const double w = std::abs(m_map->weights()[at(e)]) * (1.0 + m_map->cosineLess1()[at(e)]);
-		m_diagonal[t.origin(2 * e)] += w;
-		m_diagonal[t.target(2 * e)] += w;
+	for (const Edge e : t.edges()) {
+		const double w = std::abs(m_map->weights()[e]) * (1.0 + m_map->cosineLess1()[e]);
+		m_diagonal[t.origin(e.halfedge())] += w;
+		m_diagonal[t.target(e.halfedge())] += w;
 	}
 	double amplification = m_map->needleRatio();
 	amplification = std::max(amplification, m_diagonal.maxCoeff());
@@ -282,17 +247,19 @@ double NewtonSolver::roundingFloor()
 }
 
 NewtonResult NewtonSolver::solve(
-	Eigen::VectorXd& u,
-	const Eigen::VectorXd& target,
+	VertexVector& u,
+	const VertexVector& target,
 	const NewtonOptions& options,
 	const std::function<void(int, double)>& report,
 	const Surgeon& surgeon)
 {
 	NewtonResult result;
-	m_map->evaluate(u, m_rest);
+	m_map->evaluate(u, m_low);
 	m_map->accept();
 	if (surgeon && surgeon(*m_map))
-		m_map->evaluate(u, m_rest);
+		m_map->evaluate(u, m_low);
+	if (m_map->revision() != 0)
+		m_start.reset();
 	result.residual = residual(target);
 	int polishing = 0;
 	double normThen = m_gradient.norm(); // kStagnationSteps ago
@@ -304,14 +271,14 @@ NewtonResult NewtonSolver::solve(
 		const bool valid = m_map->brokenTriangles() == 0;
 		const bool reached = valid && result.residual < options.epsilon;
 		const bool atFloor = valid && result.residual <= result.floor;
-		if (atFloor || searchFails || m_unknownCount == 0 ||
+		if (atFloor || searchFails || m_hessian->unknowns() == 0 ||
 			(reached && polishing >= kPolishingSteps) ||
 			(!reached && result.iterations >= options.maxIterations))
 			break;
 
 		// Nothing is gained by solving for less than rounding leaves.
 		const double accuracy = std::max(result.residual, 0.5 * result.floor / result.residual);
-		direction(std::min(accuracy, kLeastAccuracy), reached && m_factored);
+		direction(std::min(accuracy, kMaxInaccuracy), reached && m_hessian->isFactored());
 		const double largest = m_direction.lpNorm<Eigen::Infinity>();
 		if (!std::isfinite(largest))
 			break;
@@ -321,7 +288,7 @@ NewtonResult NewtonSolver::solve(
 		double trialResidual;
 		while (true) {
 			applyStep(u, t);
-			m_map->evaluate(m_trial, m_trialRest);
+			m_map->evaluate(m_trial, m_trialLow);
 			trialResidual = residual(target);
 			after = m_gradient.norm();
 			if (std::isfinite(trialResidual) && after <= (1.0 - kDecrease * t) * before)
@@ -329,18 +296,18 @@ NewtonResult NewtonSolver::solve(
 			m_map->reject();
 			t *= 0.5;
 			// A full step that only rounding keeps from descending is the end, not a failure.
-			if (t < kLeastStep || reached) {
+			if (t < kMinNewtonStep || reached) {
 				searchFails = true;
 				break;
 			}
 		}
 		if (searchFails) {
-			m_map->evaluate(u, m_rest);
+			m_map->evaluate(u, m_low);
 			result.residual = residual(target);
 			continue;
 		}
 		u.swap(m_trial);
-		m_rest.swap(m_trialRest);
+		m_low.swap(m_trialLow);
 		m_map->accept();
 		result.residual = trialResidual;
 		if (reached)
@@ -350,12 +317,13 @@ NewtonResult NewtonSolver::solve(
 			normThen = after;
 		}
 		if (surgeon && surgeon(*m_map)) {
-			m_map->evaluate(u, m_rest);
+			m_map->evaluate(u, m_low);
 			result.residual = residual(target);
 		}
 	}
+	m_start.reset();
 	const double observedFloor = searchFails ? kFloorUncertainty * result.floor : result.floor;
-	const bool atFloor = result.residual < kLargestFloor && result.residual <= observedFloor;
+	const bool atFloor = result.residual < kMaxFloor && result.residual <= observedFloor;
 	result.converged =
 		m_map->brokenTriangles() == 0 && (result.residual < options.epsilon || atFloor);
 	return result;

@@ -2,15 +2,14 @@
 #ifndef RICCI_NEWTON_H
 #define RICCI_NEWTON_H
 
-#include "../progress.h"
+#include "../base/tolerances.h"
 #include "curvature_map.h"
-#include "hessian.h"
-#include "sparse_cholesky.h"
+#include "factored_hessian.h"
 
 #include <Eigen/Core>
 
 #include <functional>
-#include <vector>
+#include <memory>
 
 namespace ricci {
 
@@ -29,17 +28,29 @@ struct NewtonResult
 	double floor = 0.0;    ///< estimate of what rounding lets the residual reach, radians
 };
 
-/// Residuals above this are never called converged because of the rounding floor.
-constexpr double kLargestFloor = 1e-8;
-
-/// Globalised Newton's method for K(u) = target (paper 4.2): the minimiser of the convex Ricci
-/// energy. The only place that decides when a solve stops. Keeps its work space, pattern and
-/// factor between calls, so that a warm start costs no set-up.
+/// Globalised Newton's method for K(u) = target (paper 4.2), whose solutions are the minimisers of
+/// the convex Ricci energy (Eq. 10). The only place that decides when a solve stops. Keeps its work
+/// space, pattern and factor between calls, so that a warm start costs no set-up.
+///
+/// The merit function of the line search is |K - target|, the Euclidean norm of the gradient of the
+/// energy, and not the energy itself, for three reasons. The energy is an integral along a path;
+/// its closed form (Euclidean) is a sum of Lobachevsky functions, which cost more than K. Near its
+/// minimum the energy decreases by the square of the residual, which is lost in rounding while half
+/// of the residual's digits are still to be gained. And the norm falls along Newton's direction
+/// d = -H^-1 (K - target) wherever the Hessian H is positive definite: the derivative of
+/// |K - target|^2 along d is -2 |K - target|^2.
+///
+/// On a closed surface with flips (FlippingCurvatureMap) H is continuous and positive definite for
+/// all u (in the Euclidean plane with one vertex pinned), so that the norm is stationary at the
+/// solution only. On a triangulation that stays (GeometricCurvatureMap, and the boundary of the
+/// other) H jumps where triangles break, and may be singular beyond: the norm may be stationary
+/// where the energy is not minimal. The solver then ends without convergence, as it does at a
+/// minimum with broken triangles, which is no metric.
 ///
 /// A factorisation costs as much as a dozen or more solutions with it, and the Hessian of one step
 /// is close to that of the next, flips included. So the factor of one step is the preconditioner of
-/// conjugate gradients in the later ones (an inexact Newton method, Dembo, Eisenstat and Steihaug
-/// 1982) until it takes more work than a new one.
+/// conjugate gradients in the later ones, an inexact Newton method [Dembo Eisenstat Steihaug 1982],
+/// until it takes more work than a new one.
 class NewtonSolver
 {
 public:
@@ -47,59 +58,67 @@ public:
 	/// which the map is evaluated anew.
 	using Surgeon = std::function<bool(CurvatureMap&)>;
 
-	/// \p fixed: [vertex] 1 where u keeps its value (du = 0); the target is ignored there. If
-	/// nothing is fixed and the background is scale invariant, the mean of u is kept.
-	NewtonSolver(CurvatureMap& map, std::vector<char> fixed);
+	/// \param map is evaluated by solve(); must live as long as the solver, or until continueOn()
+	/// \param fixed 1 where u keeps its value (du = 0 in paper 5.3); the target is ignored there.
+	/// If nothing is fixed and the background is scale invariant, the mean of u is kept.
+	/// \param start the factor of the Hessian at the first iterate, or none. It is taken over if
+	/// its unknowns are those of this solver, and if the first evaluation leaves the map's
+	/// revision() at 0: no flip has changed the connectivity for which the factor was made. The
+	/// first direction is then solved with it directly, which gives the numbers that a
+	/// factorisation of the solver's own would give. Otherwise, or if the first call of solve()
+	/// makes no step, it is dropped.
+	/// \pre \p start was factorised for a map of the same packing and background at the same u
+	NewtonSolver(
+		CurvatureMap& map,
+		VertexArray<char> fixed,
+		std::unique_ptr<FactoredHessian> start = nullptr);
 
 	/// Goes on with \p map, which has the triangulation of the present one, from the present u and
 	/// with the present factorisation: the same equations in other precision.
 	void continueOn(CurvatureMap& map);
 
-	/// What the linear solver has done since the construction.
-	const CholeskyWork& work() const { return m_cholesky.work(); }
+	/// What the linear solver has done since the construction. Where the first factor was taken
+	/// over, all that was done with it before is included, so that it need not be counted
+	/// elsewhere.
+	const CholeskyWork& work() const { return m_hessian->cholesky().work(); }
 
-	/// [vertex] Part of u below the last place of its doubles, as the last solve left it.
-	const Eigen::VectorXd& rest() const { return m_rest; }
+	/// Part of u below the last place of its doubles, as the last solve left it.
+	const VertexVector& low() const { return m_low; }
 
 	/// Solves from \p u, which holds the solution afterwards (to its last place; the map is left at
-	/// the solution's full precision, from which a further call with the same \p u goes on). \p
-	/// target: K at each vertex, radians. \p report is called with the iteration number and the
-	/// residual before each step; it may throw to cancel. Never throws for lack of convergence: see
-	/// NewtonResult.
+	/// the solution's full precision, from which a further call with the same \p u goes on).
+	/// \param target K at each vertex, radians
+	/// \param report is called with the iteration number and the residual before each step; it may
+	/// throw to cancel
+	/// \return also where the target is not reached: lack of convergence is no error here
+	/// \throw SolverFailed
 	NewtonResult solve(
-		Eigen::VectorXd& u,
-		const Eigen::VectorXd& target,
+		VertexVector& u,
+		const VertexVector& target,
 		const NewtonOptions& options,
 		const std::function<void(int, double)>& report,
 		const Surgeon& surgeon = nullptr);
 
 private:
-	double residual(const Eigen::VectorXd& target);
-	void updateMatrix(double shift);
-	int iterate(double accuracy, int mostIterations);
-	void factorize();
+	double residual(const VertexVector& target);
+	int iterate(double accuracy, int maxIterations);
 	void gatherRightSide();
+	bool takeOverStart();
 	void direction(double accuracy, bool reached);
-	double longestStep(const Eigen::VectorXd& u, double largest);
-	void applyStep(const Eigen::VectorXd& u, double t);
+	double longestStep(const VertexVector& u, double largest);
+	void applyStep(const VertexVector& u, double t);
 	double roundingFloor();
 
 	CurvatureMap* m_map;
-	std::vector<char> m_fixed;
-	std::vector<int> m_unknown; // [vertex] row, or -1
-	int m_unknownCount = 0;
+	VertexArray<char> m_fixed;
 	bool m_gaugeFree = false; // the mean of u is free
-	int m_revision = -1;      // of the map, when the pattern was laid out
-	bool m_analyzed = false;  // the symbolic factorisation is that of the pattern
-	bool m_factored = false;
-	bool m_shifted = false; // the factor is that of a matrix with a shift
-	bool m_worn = false;    // the factor has become a bad preconditioner
-	Hessian m_hessian;
-	SparseCholesky m_cholesky;
-	Eigen::VectorXd m_gradient;                       // [vertex] K - target, 0 where fixed
-	Eigen::VectorXd m_rhs, m_solution;                // [unknown]
-	Eigen::VectorXd m_direction, m_trial, m_diagonal; // [vertex]
-	Eigen::VectorXd m_rest, m_trialRest;              // [vertex] of u, below its last place
+	bool m_worn = false;      // the factor has become a bad preconditioner
+	std::unique_ptr<FactoredHessian> m_hessian;
+	std::unique_ptr<FactoredHessian> m_start; // for the first direction; none afterwards
+	VertexVector m_gradient;                  // K - target, 0 where fixed
+	Eigen::VectorXd m_rhs, m_solution;        // [unknown]
+	VertexVector m_direction, m_trial, m_diagonal;
+	VertexVector m_low, m_trialLow; // of u, below its last place
 };
 
 } // namespace ricci

@@ -2,11 +2,12 @@
 #ifndef RICCI_RICCI_FLOW_H
 #define RICCI_RICCI_FLOW_H
 
-#include "../metric/delaunay_start.h"
+#include "../metric/initial_packing.h"
 #include "../options.h"
-#include "../surface/triangulation.h"
+#include "../surface/flow_domain.h"
+#include "factored_hessian.h"
 #include "newton.h"
-#include "target_curvature.h"
+#include "target.h"
 
 #include <functional>
 #include <memory>
@@ -14,40 +15,58 @@
 
 namespace ricci {
 
+/// The start of the flow, shared by the placement of cones and the flow itself.
+struct FlowStart
+{
+	InitialPacking packing;
+
+	/// Factor of the Hessian at the start, once the placement of cones has made one: Newton's first
+	/// step takes it over where its unknowns are the same.
+	std::unique_ptr<FactoredHessian> hessian;
+};
+
+/// The initial packing (paper 4.1): with intrinsic flips on the weighted Delaunay triangulation,
+/// else on the surface's own triangles.
+FlowStart flowStart(const EmbeddedSurface& surface, const FlowOptions& options);
+
 /// The flow with intrinsic flips: what leads from the input's triangles to those of the result.
 struct FlipHistory
 {
 	Triangulation input;            ///< the surface, or its double
 	IntrinsicMesh start;            ///< the input's metric on the triangulation of the first step
-	std::vector<double> startDelta; ///< [edge of start] inversive distance less one
-	std::vector<double> startRadii; ///< [vertex] Euclidean, in the input's metric
-	std::vector<int> startFlips;    ///< from the input's triangulation to the start's, in order
-	std::vector<int> flowFlips;     ///< from the start's triangulation to the last, in order
+	EdgeArray<double> startDelta;   ///< [edge of start] inversive distance less one
+	VertexArray<double> startRadii; ///< Euclidean, in the input's metric
+	std::vector<Edge> startFlips;   ///< from the input's triangulation to the start's, in order
+	std::vector<Edge> flowFlips;    ///< from the start's triangulation to the last, in order
 	double lengthened = 0.0;        ///< added to every edge of a degenerate mesh, see mollify()
+
+	int flips() const { return static_cast<int>(startFlips.size() + flowFlips.size()); }
 };
 
 /// The metric of constant curvature (with cones) that the flow found on one connected surface.
 struct FlowResult
 {
+	Background background = Background::EuclideanPlane;
+
 	/// Triangulation, lengths and angles at the end; of the double of the surface if doubled.
 	std::shared_ptr<const CurvatureMap> metric;
 	bool doubled = false;
 
-	Eigen::VectorXd u;         ///< [vertex of metric] Eq. 6: ln radius, or ln tanh(radius / 2)
-	Eigen::VectorXd curvature; ///< [vertex of the surface] K at the end, radians
-	Target target;             ///< as reached (a disk adapts its boundary)
-	double area = 0.0;         ///< of the surface in the metric
-	double residual = 0.0;     ///< max |target - K|
-	double floor = 0.0;        ///< what rounding lets the residual reach
+	VertexVector u;         ///< [vertex of metric] Eq. 6: ln radius, or ln tanh(radius / 2)
+	VertexVector curvature; ///< [vertex of the surface] K at the end, radians
+	Target target;          ///< as reached (a disk adapts its boundary)
+	double area = 0.0;      ///< of the surface in the metric
+	double residual = 0.0;  ///< max |target - K|
+	double floor = 0.0;     ///< what rounding lets the residual reach
 	int iterations = 0;
-	CholeskyWork work; ///< of the linear solver, on the surface the result is from
-	int edgeSwaps = 0;
-	std::vector<char> swapped;     ///< [edge] 1 where it is not an edge of the input
-	std::vector<int> edgesToSplit; ///< boundary edges; the flow must start anew if any
-	FlipHistory history;           ///< Surgery::IntrinsicFlips only
+	CholeskyWork work;   ///< of the linear solver, on the surface the result is from
+	FlipHistory history; ///< Surgery::IntrinsicFlips only
 };
 
-/// Runs the flow from the metric \p lengths on \p t to \p target.
+/// Gets the number of Newton steps so far and the residual before each step; may throw to cancel.
+using FlowListener = std::function<void(int, double)>;
+
+/// Runs the flow from \p start, the initial packing of \p surface, to \p target.
 ///
 /// The start is the same in both backgrounds: the Euclidean inversive distances, which have no
 /// scale, on the weighted Delaunay triangulation of the flat triangles. So the Euclidean and the
@@ -59,25 +78,21 @@ struct FlowResult
 /// the flow runs on the double of the surface, which is closed, so that every admissible target is
 /// reached; the solution is symmetric, and the surface is one half of it.
 ///
-/// \param positions read by Surgery::EdgeSwap alone
-/// \param boundaryLoop the one boundary loop of a circular target
-/// \param report gets the number of Newton steps so far and the residual before each step
+/// \param surgeon see NewtonSolver; for Surgery::EdgeSwap
 /// \throw NotConverged if the target is not reached within the options' limits
 FlowResult runRicciFlow(
 	Background background,
-	const Triangulation& t,
-	const std::vector<double>& lengths,
-	const std::vector<Point3>& positions,
+	const EmbeddedSurface& surface,
+	FlowStart start,
 	const Target& target,
-	const std::vector<int>& boundaryLoop,
 	const FlowOptions& options,
-	const std::function<void(int, double)>& report);
+	const FlowListener& listener,
+	const NewtonSolver::Surgeon& surgeon = nullptr);
 
-/// [edge] About how long the edges of \p t are in the metric that a hyperbolic flow with intrinsic
-/// flips has found on it: Eq. 4 for the circles at their ends, which is exact for edges that no flip
-/// has touched. \p lengths as in runRicciFlow().
-std::vector<double> hyperbolicLengths(
-	const FlowResult& flow, const Triangulation& t, const std::vector<double>& lengths);
+/// [edge] About how long the edges of \p surface are in the metric that a hyperbolic flow with
+/// intrinsic flips has found on it: Eq. 4 for the circles at their ends, which is exact for edges
+/// that no flip has touched.
+EdgeArray<double> hyperbolicLengths(const FlowResult& flow, const EmbeddedSurface& surface);
 
 } // namespace ricci
 

@@ -1,377 +1,155 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common_refinement.h"
 
-#include "../error.h"
-#include "../numbers.h"
-#include "hyperbolic_layout.h"
-#include "overlay_pieces.h"
-#include "piece_triangulation.h"
+#include "../math/disjoint_sets.h"
+#include "../overlay/piece_faces.h"
+#include "../overlay/piece_triangulation.h"
+#include "sheets.h"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numeric>
+#include <utility>
 
 namespace ricci {
 
 namespace {
 
+/// Shares of the work that are done after the division, the linking of the pieces, the layout.
+constexpr double kDivided = 0.5, kLinked = 0.65, kLaidOut = 0.85;
+
+/// The edges of the input on which the overlay is open: the cut, and the border of the wanted part.
+EdgeArray<char>
+opened(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut)
+{
+	EdgeArray<char> open = isCut;
+	const Triangulation& t = domain.surface.triangulation;
+	if (flow.doubled || domain.holes > 0)
+		for (const Edge e : t.edges())
+			if (t.isBoundary(e))
+				open[e] = 1;
+	open.resize(flow.history.input.edgeCount(), 0); // the surface's edges come first
+	return open;
+}
+
+/// A vector of R^{2,1} that stands for the point of the hyperbolic plane on its line.
+struct HyperboloidVector
+{
+	double x0 = 0.0;
+	std::complex<double> x = 0.0;
+
+	void add(double weight, double distance, double direction)
+	{
+		x0 += weight * std::cosh(distance);
+		x += std::polar(weight * std::sinh(distance), direction);
+	}
+	std::complex<double> inDisk() const
+	{
+		const double r = std::abs(x);
+		return x / (x0 + std::sqrt((x0 - r) * (x0 + r)));
+	}
+	Point2 inKleinModel() const { return {x.real() / x0, x.imag() / x0}; }
+};
+
+/// The point with these weights of the corners of a triangle, whose first corner is at 0 and
+/// whose second is on the positive real axis. \p side, \p other: sides at the first corner.
+HyperboloidVector
+hyperbolicPoint(const std::array<double, 3>& weight, double side, double other, double angle)
+{
+	HyperboloidVector p;
+	p.add(weight[0], 0.0, 0.0);
+	p.add(weight[1], side, 0.0);
+	p.add(weight[2], other, angle);
+	return p;
+}
+
 /// Lays the pieces of an overlay out and puts them together.
-class Overlay
+class RefinementMaker
 {
 public:
-	Overlay(
-		const FlippedSurface& s,
-		const std::vector<Point3>& positions,
-		const std::vector<char>& isCut,
+	RefinementMaker(
+		const FlowDomain& domain,
+		const FlowResult& flow,
+		const EdgeArray<char>& isCut,
 		const OverlayListener& listener) :
-			m_s(s),
-			m_positions(positions), m_isCut(isCut), m_listener(listener), m_input(*s.input),
-			m_end(*s.end),
-			m_pieces(divideStartTriangles(s, [&](double share, std::size_t crossings) {
-				listener(kDivision * share, crossings);
-			}))
+			m_surface(domain.surface),
+			m_flow(flow), m_end(flow.metric->triangulation()), m_surfaceCut(isCut),
+			m_isCut(opened(domain, flow, isCut)), m_listener(listener)
 	{
 	}
 
-	CommonRefinement run()
+	CommonRefinement run(bool cornersOnly)
 	{
-		const std::size_t crossings = m_pieces.nodes.size() - at(m_end.vertexCount());
-		m_listener(kDivision, crossings);
-		linkPieces();
-		findFaces();
-		dropPieces();
+		OverlayPieces pieces =
+			divideStartTriangles(m_flow, [&](double share, std::size_t crossings) {
+				m_listener(kDivided * share, crossings);
+			});
+		const auto crossings = static_cast<std::size_t>(pieces.nodes.size() - m_end.vertexCount());
+		m_listener(kDivided, crossings);
+		m_linked = linkPieces(
+			std::move(pieces), m_flow.history.input, m_end, m_surface.triangulation.faceCount());
 		m_listener(kLinked, crossings);
 		layOut();
 		m_listener(kLaidOut, crossings);
-		m_links = std::vector<std::array<Link, 2>>();
-		return result();
+		m_linked.links = {};
+		numberPoints();
+		if (!cornersOnly)
+			emitPieces();
+		placeSurface();
+		return std::move(m_result);
 	}
 
 private:
-	/// Shares of the work that are done after the division, the faces of the pieces, the layout.
-	static constexpr double kDivision = 0.5, kLinked = 0.65, kLaidOut = 0.85;
-
-	/// The two pieces at every side.
-	struct Link
-	{
-		int piece = -1, corner = -1;
-	};
-
-	void linkPieces()
-	{
-		m_links.assign(at(m_pieces.sideCount), {Link(), Link()});
-		for (int p = 0; p < m_pieces.count(); ++p)
-			for (int i = 0; i < m_pieces.size(p); ++i) {
-				auto& link = m_links[at(m_pieces(p, i).side)];
-				(link[0].piece < 0 ? link[0] : link[1]) = {p, i};
-			}
-	}
-
-	Link across(int piece, int corner) const
-	{
-		const auto& link = m_links[at(m_pieces(piece, corner).side)];
-		return link[0].piece == piece && link[0].corner == corner ? link[1] : link[0];
-	}
-
-	/// Input and end face of every piece: from its sides, corners or nodes, else from a neighbour.
-	void findFaces()
-	{
-		m_inputFace.assign(at(m_pieces.count()), -1);
-		m_endFace.assign(at(m_pieces.count()), -1);
-		for (int p = 0; p < m_pieces.count(); ++p)
-			for (const PieceCorner& c : m_pieces.corners(p)) {
-				if (c.input >= 0)
-					m_inputFace[at(p)] = m_input.face(c.input);
-				else if (c.inputCorner >= 0)
-					m_inputFace[at(p)] = m_input.face(c.inputCorner);
-				if (c.end >= 0)
-					m_endFace[at(p)] = m_end.face(c.end);
-				else if (c.endCorner >= 0)
-					m_endFace[at(p)] = m_end.face(c.endCorner);
-				else if (m_pieces.nodes[at(c.node)].end.kind == EndPlace::Face)
-					m_endFace[at(p)] = m_pieces.nodes[at(c.node)].end.element;
-			}
-		spread(m_inputFace, [](const PieceCorner& c) { return c.input >= 0; });
-		spread(m_endFace, [](const PieceCorner& c) { return c.end >= 0; });
-		for (std::size_t p = 0; p < m_inputFace.size(); ++p)
-			if (m_inputFace[p] < 0 || m_endFace[p] < 0)
-				throw Error(kInconsistentOverlay);
-	}
-
-	/// Forgets the pieces of the input's faces that are not wanted.
-	void dropPieces()
-	{
-		if (m_s.keptFaces >= m_input.faceCount())
-			return;
-		m_pieces.keep([&](int p) { return m_inputFace[at(p)] < m_s.keptFaces; });
-		std::size_t kept = 0;
-		for (std::size_t p = 0; p < m_inputFace.size(); ++p)
-			if (m_inputFace[p] < m_s.keptFaces) {
-				m_inputFace[kept] = m_inputFace[p];
-				m_endFace[kept++] = m_endFace[p];
-			}
-		m_inputFace.resize(kept);
-		m_endFace.resize(kept);
-		linkPieces();
-	}
-
-	template<class IsBorder>
-	void spread(std::vector<int>& face, IsBorder isBorder) const
-	{
-		std::vector<int> queue;
-		for (std::size_t p = 0; p < face.size(); ++p)
-			if (face[p] >= 0)
-				queue.push_back(static_cast<int>(p));
-		for (std::size_t head = 0; head < queue.size(); ++head) {
-			for (int i = 0; i < m_pieces.size(queue[head]); ++i) {
-				if (isBorder(m_pieces(queue[head], i)))
-					continue;
-				const Link next = across(queue[head], i);
-				if (next.piece >= 0 && face[at(next.piece)] < 0) {
-					face[at(next.piece)] = face[at(queue[head])];
-					queue.push_back(next.piece);
-				}
-			}
-		}
-	}
-
-	/// Weights of the corners of a piece's end triangle, in the order of halfedges(), at a corner
-	/// of the piece.
-	std::array<double, 3> inEndTriangle(int p, int corner) const
-	{
-		const PieceCorner& c = m_pieces(p, corner);
-		const int f = m_endFace[at(p)];
-		const EndPlace& end = m_pieces.nodes[at(c.node)].end;
-		if (end.kind == EndPlace::Face)
-			return end.corner;
-		int g = -1;
-		if (end.kind == EndPlace::Vertex) {
-			g = c.endCorner;
-			if (g < 0 || m_end.face(g) != f)
-				for (int other : m_end.halfedges(f))
-					if (m_end.origin(other) == end.element)
-						g = other;
-			if (g < 0)
-				throw Error(kInconsistentOverlay);
-			return pointOnSide(m_end, g, 0.0).weight;
-		}
-		const auto offer = [&](int other) {
-			if (other >= 0 && Triangulation::edge(other) == end.element && m_end.face(other) == f)
-				g = other;
-		};
-		for (int other : m_end.halfedges(f))
-			offer(other);
-		offer(m_pieces(p, corner + m_pieces.size(p) - 1).end);
-		offer(c.end);
-		if (g < 0)
-			throw Error(kInconsistentOverlay);
-		return pointOnSide(m_end, g, g % 2 == 0 ? end.along : 1.0 - end.along).weight;
-	}
-
-	bool isClosed(const PieceCorner& c) const
-	{
-		return c.input >= 0 && m_isCut[at(Triangulation::edge(c.input))];
-	}
-
-	/// The end triangles as they are laid out. The cut runs on input edges, through end triangles: a
-	/// triangle that it divides is drawn once for each of its parts.
-	struct Sheets
-	{
-		std::vector<int> of; ///< [piece]
-		std::vector<Triangle> triangles;
-		std::vector<int> endFace; ///< [sheet]
-		std::vector<int> glued;   ///< [3 sheet + side] side across it, or -1
-	};
-
-	Sheets makeSheets() const
-	{
-		std::vector<int> parent(m_endFace.size());
-		std::iota(parent.begin(), parent.end(), 0);
-		for (const auto& link : m_links) {
-			if (link[1].piece < 0)
-				continue;
-			const PieceCorner& side = m_pieces(link[0].piece, link[0].corner);
-			if (!isClosed(side) && side.end < 0)
-				mergeSets(parent, link[0].piece, link[1].piece);
-		}
-		Sheets sheets;
-		do
-			sheets = sheetsOf(parent);
-		while (!glue(sheets, parent));
-		return sheets;
-	}
-
-	/// One sheet for each set of pieces.
-	Sheets sheetsOf(std::vector<int>& parent) const
-	{
-		Sheets sheets;
-		sheets.of.assign(parent.size(), -1);
-		for (std::size_t p = 0; p < parent.size(); ++p) {
-			if (findSet(parent, static_cast<int>(p)) != static_cast<int>(p))
-				continue;
-			sheets.of[p] = static_cast<int>(sheets.triangles.size());
-			const auto h = m_end.halfedges(m_endFace[p]);
-			sheets.triangles.push_back(
-				{m_end.origin(h[0]), m_end.origin(h[1]), m_end.origin(h[2])});
-			sheets.endFace.push_back(m_endFace[p]);
-		}
-		for (std::size_t p = 0; p < parent.size(); ++p)
-			sheets.of[p] = sheets.of[at(findSet(parent, static_cast<int>(p)))];
-		return sheets;
-	}
-
-	/// Glues the sheets. The cut is straight in another metric than the end edges and may cross one
-	/// of them twice with no vertex between: it then cuts parts off that lie across one side of one
-	/// sheet. They have one place in the layout and become one set of \p parent.
-	/// \return false if there are such
-	bool glue(Sheets& sheets, std::vector<int>& parent) const
-	{
-		const auto sideOf = [&](int piece, int halfedge) {
-			const int s = sheets.of[at(piece)];
-			const auto h = m_end.halfedges(sheets.endFace[at(s)]);
-			return 3 * s + static_cast<int>(std::find(h.begin(), h.end(), halfedge) - h.begin());
-		};
-		std::vector<int> pieceAt(3 * sheets.triangles.size(), -1); // [side] one across it
-		sheets.glued.assign(3 * sheets.triangles.size(), -1);
-		bool fits = true;
-		for (const auto& link : m_links) {
-			if (link[1].piece < 0)
-				continue;
-			const PieceCorner& side = m_pieces(link[0].piece, link[0].corner);
-			if (isClosed(side) || side.end < 0)
-				continue;
-			const int a = sideOf(link[0].piece, side.end);
-			const int b = sideOf(link[1].piece, Triangulation::twin(side.end));
-			for (const auto& [from, to, piece] :
-				 {std::array<int, 3>{a, b, link[1].piece}, {b, a, link[0].piece}}) {
-				int& known = sheets.glued[at(from)];
-				if (known >= 0 && known != to) {
-					mergeSets(parent, pieceAt[at(from)], piece);
-					fits = false;
-				}
-				known = to;
-				pieceAt[at(from)] = piece;
-			}
-		}
-		return fits;
-	}
-
-	/// Lays the end triangles out and places the pieces in them.
+	/// Lays the sheets out and places the pieces in them.
 	void layOut()
 	{
-		const Sheets drawn = makeSheets();
-		const std::vector<int>& sheet = drawn.of;
-		const std::vector<int>& faceOfSheet = drawn.endFace;
-		const Triangulation sheets(m_end.vertexCount(), drawn.triangles, drawn.glued);
-		std::vector<double> lengths(at(sheets.edgeCount())),
-			angles(at(sheets.halfedgeCount()), 0.0);
-		for (int s = 0; s < sheets.faceCount(); ++s) {
-			const auto h = sheets.halfedges(s), original = m_end.halfedges(faceOfSheet[at(s)]);
-			for (std::size_t k = 0; k < 3; ++k) {
-				lengths[at(Triangulation::edge(h[k]))] =
-					(*m_s.endLengths)[at(Triangulation::edge(original[k]))];
-				angles[at(h[k])] = (*m_s.endAngles)[at(original[k])];
-			}
+		const EndSheets sheets = makeSheets(m_linked, m_flow, m_isCut);
+		const EdgeArray<char> noCut(sheets.triangulation.edgeCount(), 0);
+		if (m_flow.background == Background::EuclideanPlane)
+			placeInPlane(
+				sheets, layOutInPlane(sheets.triangulation, sheets.lengths, sheets.angles, noCut));
+		else {
+			const HyperbolicLayout disk =
+				layOutInDisk(sheets.triangulation, sheets.lengths, sheets.angles, noCut);
+			placeInDisk(sheets, disk);
+			findPairings(sheets, disk);
 		}
-		const std::vector<char> noCut(lengths.size(), 0);
-		if (m_s.background == Background::EuclideanPlane) {
-			const PlanarLayout plane = layOutInPlane(sheets, lengths, angles, noCut);
-			placePieces([&](int p, int corner) {
-				const auto h = sheets.halfedges(sheet[at(p)]);
-				const auto weight = inEndTriangle(p, corner);
-				Point2 x{0.0, 0.0};
-				for (std::size_t k = 0; k < 3; ++k)
-					for (std::size_t j = 0; j < 2; ++j)
-						x[j] += weight[k] * plane.at(h[k])[j];
-				return x;
-			});
-			return;
-		}
-		const HyperbolicLayout disk = layOutInDisk(sheets, lengths, angles, noCut);
+	}
+
+	void placeInPlane(const EndSheets& sheets, const PlanarLayout& plane)
+	{
 		placePieces([&](int p, int corner) {
-			const int h = sheets.halfedge(sheet[at(p)]);
-			const double side = lengths[at(Triangulation::edge(h))];
-			const double other = lengths[at(Triangulation::edge(sheets.previous(h)))];
-			const std::complex<double> z = rounded(disk.frame[at(h)])(
-				hyperbolicPlace(inEndTriangle(p, corner), side, other, angles[at(h)]).inDisk());
-			return Point2{z.real(), z.imag()};
+			const auto h = sheets.triangulation.halfedges(sheets.of[p]);
+			const auto weight = inEndTriangle(m_linked, m_end, p, corner);
+			Point2 x{0.0, 0.0};
+			for (std::size_t k = 0; k < 3; ++k)
+				for (std::size_t j = 0; j < 2; ++j)
+					x[j] += weight[k] * plane[h[k]][j];
+			return x;
 		});
+	}
+
+	void placeInDisk(const EndSheets& sheets, const HyperbolicLayout& disk)
+	{
+		const Triangulation& t = sheets.triangulation;
+		// As seen from the frame of the sheet's halfedge.
+		const auto inSheet = [&](int p, int corner) {
+			const Halfedge h = t.halfedge(sheets.of[p]);
+			return hyperbolicPoint(
+				inEndTriangle(m_linked, m_end, p, corner),
+				sheets.lengths[h.edge()],
+				sheets.lengths[t.previous(h).edge()],
+				sheets.angles[h]);
+		};
+		placePieces([&](int p, int corner) {
+			const DiskIsometry frame = rounded(disk.frame[t.halfedge(sheets.of[p])]);
+			return asPoint(frame(inSheet(p, corner).inDisk()));
+		});
+		const OverlayPieces& pieces = m_linked.pieces;
 		m_kleinPoint.reserve(m_point.size());
-		for (int p = 0; p < m_pieces.count(); ++p) {
-			const int h = sheets.halfedge(sheet[at(p)]);
-			const double side = lengths[at(Triangulation::edge(h))];
-			const double other = lengths[at(Triangulation::edge(sheets.previous(h)))];
-			for (int i = 0; i < m_pieces.size(p); ++i)
-				m_kleinPoint.push_back(
-					hyperbolicPlace(inEndTriangle(p, i), side, other, angles[at(h)])
-						.inKleinModel());
-		}
-		findTransitions(sheet, sheets, lengths, disk);
-	}
-
-	/// A vector of R^{2,1} that stands for the point of the hyperbolic plane on its line.
-	struct HyperboloidVector
-	{
-		double x0 = 0.0;
-		std::complex<double> x = 0.0;
-
-		void add(double weight, double distance, double direction)
-		{
-			x0 += weight * std::cosh(distance);
-			x += std::polar(weight * std::sinh(distance), direction);
-		}
-		std::complex<double> inDisk() const
-		{
-			const double r = std::abs(x);
-			return x / (x0 + std::sqrt((x0 - r) * (x0 + r)));
-		}
-		Point2 inKleinModel() const { return {x.real() / x0, x.imag() / x0}; }
-	};
-
-	/// The point with these weights of the corners of a triangle, whose first corner is at 0 and
-	/// whose second is on the positive real axis. \p side, \p other: sides at the first corner.
-	static HyperboloidVector
-	hyperbolicPlace(const std::array<double, 3>& weight, double side, double other, double angle)
-	{
-		HyperboloidVector p;
-		p.add(weight[0], 0.0, 0.0);
-		p.add(weight[1], side, 0.0);
-		p.add(weight[2], other, angle);
-		return p;
-	}
-
-	/// How the layout goes on across the cut.
-	void findTransitions(
-		const std::vector<int>& sheet,
-		const Triangulation& sheets,
-		const std::vector<double>& lengths,
-		const HyperbolicLayout& disk)
-	{
-		m_transition.resize(at(m_input.edgeCount()));
-		for (const auto& link : m_links) {
-			if (link[1].piece < 0)
-				continue;
-			const bool firstIsLeft = m_pieces(link[0].piece, link[0].corner).input % 2 == 0;
-			const Link &left = link[firstIsLeft ? 0 : 1], &right = link[firstIsLeft ? 1 : 0];
-			const PieceCorner& side = m_pieces(left.piece, left.corner);
-			if (!isClosed(side))
-				continue;
-			Transition& transition = m_transition[at(Triangulation::edge(side.input))];
-			const auto a = sheets.halfedges(sheet[at(left.piece)]);
-			const auto b = sheets.halfedges(sheet[at(right.piece)]);
-			if (side.end < 0) { // through one end triangle
-				transition.offer(disk.frame[at(a[0])], disk.frame[at(b[0])]);
-				continue;
-			}
-			const auto position = [&](int piece, int halfedge) {
-				const auto h = m_end.halfedges(m_endFace[at(piece)]);
-				return std::find(h.begin(), h.end(), halfedge) - h.begin();
-			};
-			const int h = a[at(position(left.piece, side.end))];
-			const int twin = b[at(position(right.piece, Triangulation::twin(side.end)))];
-			offerTransition(disk, lengths[at(Triangulation::edge(h))], h, twin, transition);
-		}
+		for (int p = 0; p < pieces.count(); ++p)
+			for (int i = 0; i < pieces.size(p); ++i)
+				m_kleinPoint.push_back(inSheet(p, i).inKleinModel());
 	}
 
 	/// Corners of pieces that meet off the cut are one point of the layout.
@@ -379,138 +157,152 @@ private:
 	template<class Place>
 	void placePieces(Place place)
 	{
-		std::vector<int> parent(at(m_pieces.cornerCount()));
-		std::iota(parent.begin(), parent.end(), 0);
-		for (const auto& link : m_links) {
-			const Link &a = link[0], &b = link[1];
-			if (b.piece < 0 || isClosed(m_pieces(a.piece, a.corner)))
+		const OverlayPieces& pieces = m_linked.pieces;
+		DisjointSets sets(pieces.cornerCount());
+		for (const auto& link : m_linked.links) {
+			const PieceSide &a = link[0], &b = link[1];
+			if (!b.isValid() || isOnCut(m_linked.at(a), m_isCut))
 				continue;
-			mergeSets(
-				parent, m_pieces.corner(a.piece, a.corner), m_pieces.corner(b.piece, b.corner + 1));
-			mergeSets(
-				parent, m_pieces.corner(a.piece, a.corner + 1), m_pieces.corner(b.piece, b.corner));
+			sets.merge(pieces.corner(a.piece, a.corner), pieces.corner(b.piece, b.corner + 1));
+			sets.merge(pieces.corner(a.piece, a.corner + 1), pieces.corner(b.piece, b.corner));
 		}
-		m_point.resize(parent.size());
-		for (int p = 0; p < m_pieces.count(); ++p)
-			for (int i = 0; i < m_pieces.size(p); ++i) {
-				const int corner = m_pieces.corner(p, i), first = findSet(parent, corner);
-				m_point[at(corner)] = first == corner ? place(p, i) : m_point[at(first)];
+		m_point.resize(sets.size());
+		for (int p = 0; p < pieces.count(); ++p)
+			for (int i = 0; i < pieces.size(p); ++i) {
+				const int corner = pieces.corner(p, i), first = sets.find(corner);
+				m_point[corner] = first == corner ? place(p, i) : m_point[first];
 			}
 	}
 
-	static int findSet(std::vector<int>& parent, int i)
+	/// How the layout goes on across the cut.
+	void findPairings(const EndSheets& sheets, const HyperbolicLayout& disk)
 	{
-		while (parent[at(i)] != i)
-			i = parent[at(i)] = parent[at(parent[at(i)])];
-		return i;
+		EdgeArray<SidePairing>& pairing = m_result.pairing;
+		pairing.resize(m_surface.triangulation.edgeCount());
+		for (const auto& link : m_linked.links) {
+			if (!link[1].isValid())
+				continue;
+			const bool firstIsLeft = m_linked.at(link[0]).input.isFirst();
+			const PieceSide &left = link[firstIsLeft ? 0 : 1], &right = link[firstIsLeft ? 1 : 0];
+			const PieceCorner& side = m_linked.at(left);
+			if (!isOnCut(side, m_isCut))
+				continue;
+			SidePairing& own = pairing[side.input.edge()];
+			const auto a = sheets.triangulation.halfedges(sheets.of[left.piece]);
+			const auto b = sheets.triangulation.halfedges(sheets.of[right.piece]);
+			if (!side.end.isValid()) { // through one end triangle
+				own.offer(disk.frame[a[0]], disk.frame[b[0]]);
+				continue;
+			}
+			const Halfedge h = a[positionIn(left.piece, side.end)];
+			const Halfedge twin = b[positionIn(right.piece, side.end.twin())];
+			offerPairing(disk, sheets.lengths[h.edge()], h, twin, own);
+		}
 	}
 
-	/// The lowest member stands for its set.
-	static void mergeSets(std::vector<int>& parent, int a, int b)
+	/// Which side of a piece's end triangle \p h is.
+	std::size_t positionIn(int piece, Halfedge h) const
 	{
-		a = findSet(parent, a), b = findSet(parent, b);
-		parent[at(std::max(a, b))] = std::min(a, b);
+		const auto sides = m_end.halfedges(m_linked.endFace[piece]);
+		return static_cast<std::size_t>(std::find(sides.begin(), sides.end(), h) - sides.begin());
 	}
 
-	CommonRefinement result()
+	/// Numbers the surface's vertices, which are the first nodes, and the nodes in use.
+	void numberPoints()
 	{
-		CommonRefinement r;
-		// The input's vertices (of the kept faces, which come first) and the crossings in use.
-		const int vertices = static_cast<int>(m_positions.size());
-		std::vector<int> point(m_pieces.nodes.size(), -1), nodes; // node of each point
+		OverlayPieces& pieces = m_linked.pieces;
+		const int vertices = m_surface.triangulation.vertexCount();
+		Array<int> point(pieces.nodes.size(), -1); // [node]
 		for (int v = 0; v < vertices; ++v) {
-			point[at(v)] = v;
-			nodes.push_back(v);
+			point[v] = v;
+			m_node.push_back(v);
 		}
-		for (int p = 0; p < m_pieces.count(); ++p)
-			for (int i = 0; i < m_pieces.size(p); ++i) {
-				PieceCorner& c = m_pieces(p, i);
-				if (point[at(c.node)] < 0) {
-					point[at(c.node)] = static_cast<int>(nodes.size());
-					nodes.push_back(c.node);
+		for (int p = 0; p < pieces.count(); ++p)
+			for (int i = 0; i < pieces.size(p); ++i) {
+				PieceCorner& c = pieces(p, i);
+				if (point[c.node] < 0) {
+					point[c.node] = m_node.size();
+					m_node.push_back(c.node);
 				}
-				c.node = point[at(c.node)];
+				c.node = point[c.node];
 			}
-		r.crossings = nodes.size() - at(vertices);
-		if (!m_s.cornersOnly) {
-			std::vector<Point3> space;
-			for (int node : nodes) {
-				r.points.push_back(m_pieces.nodes[at(node)].point);
-				space.push_back(placeOnSurface(r.points.back(), m_positions));
-			}
-			for (int p = 0; p < m_pieces.count(); ++p)
-				emit(p, space, r);
-		}
-
-		r.transition = m_transition;
-		int sectorCount = 0;
-		r.inputLayout.sector = cornerSectors(m_input, m_isCut, sectorCount);
-		r.inputLayout.position.assign(at(sectorCount), {0.0, 0.0});
-		for (int p = 0; p < m_pieces.count(); ++p)
-			for (int i = 0; i < m_pieces.size(p); ++i) {
-				const int h = m_pieces(p, i).inputCorner;
-				if (h >= 0 && !m_input.isOuter(h))
-					r.inputLayout.position[at(r.inputLayout.sector[at(h)])] =
-						m_point[at(m_pieces.corner(p, i))];
-			}
-		return r;
+		m_result.crossings = static_cast<std::size_t>(m_node.size() - vertices);
 	}
 
-	/// Triangles of a piece, into the result.
-	void emit(int p, const std::vector<Point3>& space, CommonRefinement& r) const
+	/// Points, triangles and uv of all pieces.
+	void emitPieces()
 	{
-		const int first = m_pieces.corner(p, 0), size = m_pieces.size(p);
-		const Point2* plane = &m_point[at(first)];
+		Array<Point3> space; // [point]
+		for (const int node : m_node) {
+			m_result.points.push_back(m_linked.pieces.nodes[node].point);
+			space.push_back(placeOnSurface(m_result.points.back(), m_surface.positions.values()));
+		}
+		for (int p = 0; p < m_linked.pieces.count(); ++p)
+			emit(p, space);
+	}
+
+	void emit(int p, const Array<Point3>& space)
+	{
+		const OverlayPieces& pieces = m_linked.pieces;
+		const int first = pieces.corner(p, 0), size = pieces.size(p);
+		const Point2* plane = m_point.data() + first;
 		// Geodesics are straight in the Klein model.
-		const Point2* straight = m_kleinPoint.empty() ? plane : &m_kleinPoint[at(first)];
+		const Point2* straight = m_kleinPoint.empty() ? plane : m_kleinPoint.data() + first;
 		const std::vector<Point2> inPlane(straight, straight + size);
 		std::vector<Point3> inSpace;
-		for (const PieceCorner& c : m_pieces.corners(p))
-			inSpace.push_back(space[at(c.node)]);
+		for (const PieceCorner& c : pieces.corners(p))
+			inSpace.push_back(space[c.node]);
 		for (const auto& t : triangulatePiece(inPlane, inSpace)) {
-			const auto node = [&](std::size_t k) {
-				return m_pieces(p, static_cast<int>(t[k])).node;
+			const auto point = [&](std::size_t k) {
+				return pieces(p, static_cast<int>(t[k])).node;
 			};
-			r.triangles.push_back({node(0), node(1), node(2)});
-			r.inputFace.push_back(m_inputFace[at(p)]);
-			r.uv.push_back({plane[t[0]], plane[t[1]], plane[t[2]]});
+			m_result.triangles.push_back({point(0), point(1), point(2)});
+			m_result.inputFace.push_back(m_linked.inputFace[p]);
+			m_result.uv.push_back({plane[t[0]], plane[t[1]], plane[t[2]]});
 		}
 	}
 
-	const FlippedSurface& m_s;
-	const std::vector<Point3>& m_positions;
-	const std::vector<char>& m_isCut;
-	const OverlayListener& m_listener;
-	const Triangulation& m_input;
-	const Triangulation& m_end;
+	/// The layout of the corners of the surface's own triangles.
+	void placeSurface()
+	{
+		const Triangulation& t = m_surface.triangulation;
+		PlanarLayout& layout = m_result.inputLayout;
+		layout.wedges = cornerWedges(t, m_surfaceCut);
+		layout.points.assign(layout.wedges.count, {0.0, 0.0});
+		const OverlayPieces& pieces = m_linked.pieces;
+		for (int p = 0; p < pieces.count(); ++p)
+			for (int i = 0; i < pieces.size(p); ++i) {
+				const Halfedge h = pieces(p, i).inputCorner;
+				// In a piece of a face that is kept it is a halfedge of the surface, and the same one.
+				if (h.isValid() && !m_flow.history.input.isExterior(h))
+					layout.points[layout.wedges.of[h]] = m_point[pieces.corner(p, i)];
+			}
+	}
 
-	OverlayPieces m_pieces;
-	std::vector<std::array<Link, 2>> m_links;
-	std::vector<int> m_inputFace, m_endFace;
-	std::vector<Point2> m_point;          // [corner of a piece]
-	std::vector<Point2> m_kleinPoint;     // [corner of a piece] as its own end triangle sees it
-	std::vector<Transition> m_transition; // [input edge] in the hyperbolic plane
+	const EmbeddedSurface& m_surface;
+	const FlowResult& m_flow;
+	const Triangulation& m_end;
+	const EdgeArray<char>& m_surfaceCut; // [surface edge]
+	const EdgeArray<char> m_isCut;       // [input edge]
+	const OverlayListener& m_listener;
+
+	LinkedPieces m_linked;
+	Array<Point2> m_point;      // [corner of a piece] in the plane or the disk
+	Array<Point2> m_kleinPoint; // [corner of a piece] as its own sheet sees it; hyperbolic only
+	Array<int> m_node;          // [point of the result]
+	CommonRefinement m_result;
 };
 
 } // namespace
 
-Point3 placeOnSurface(const SurfacePoint& p, const std::vector<Point3>& positions)
-{
-	Point3 x{0, 0, 0};
-	for (std::size_t i = 0; i < 4; ++i)
-		if (p.weight[i] != 0.0)
-			for (std::size_t k = 0; k < 3; ++k)
-				x[k] += p.weight[i] * positions[at(p.vertex[i])][k];
-	return x;
-}
-
 CommonRefinement commonRefinement(
-	const FlippedSurface& surface,
-	const std::vector<Point3>& positions,
-	const std::vector<char>& isCut,
+	const FlowDomain& domain,
+	const FlowResult& flow,
+	const EdgeArray<char>& isCut,
+	bool cornersOnly,
 	const OverlayListener& listener)
 {
-	return Overlay(surface, positions, isCut, listener).run();
+	return RefinementMaker(domain, flow, isCut, listener).run(cornersOnly);
 }
 
 } // namespace ricci

@@ -1,107 +1,100 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hole_seams.h"
 
-#include "../numbers.h"
+#include "../base/tolerances.h"
+#include "../math/adjacency.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <vector>
 
 namespace ricci {
 
 namespace {
 
-/// Sides of a seam that are this near to each other, relative to the layout's size, differ by
-/// rounding.
-constexpr double kOnePlace = 1e-9;
-
 } // namespace
 
-std::vector<char>
-loopsThatClose(const Triangulation& t, const PlanarLayout& layout, const std::vector<char>& isCut)
+VertexArray<char>
+loopsThatClose(const Triangulation& t, const PlanarLayout& layout, const EdgeArray<char>& isCut)
 {
 	double size = 0.0;
-	for (const Point2& p : layout.position)
+	for (const Point2& p : layout.points)
 		size = std::max({size, std::abs(p[0]), std::abs(p[1])});
-	const auto apart = [&](const Point2& p, const Point2& q) {
-		return !(std::hypot(p[0] - q[0], p[1] - q[1]) <= kOnePlace * size);
+	// Points that are not numbers are apart.
+	const auto apart = [&](Halfedge a, Halfedge b) {
+		return !(distance(layout[a], layout[b]) <= kOnePlace * size);
 	};
-	std::vector<char> opens(at(t.vertexCount()), 0); // at an edge whose sides lie apart
-	for (int e = 0; e < t.edgeCount(); ++e) {
-		if (!isCut[at(e)] || t.isBoundaryEdge(e))
+	VertexArray<char> opens(t.vertexCount(), 0); // at an edge whose sides lie apart
+	for (const Edge e : t.edges()) {
+		if (!isCut[e] || t.isBoundary(e))
 			continue;
-		const int h = 2 * e, g = h + 1;
-		if (apart(layout.at(h), layout.at(t.next(g))) || apart(layout.at(t.next(h)), layout.at(g)))
-			opens[at(t.origin(h))] = opens[at(t.origin(g))] = 1;
+		const Halfedge h = e.halfedge(), g = h.twin();
+		if (apart(h, t.next(g)) || apart(t.next(h), g))
+			opens[t.origin(h)] = opens[t.origin(g)] = 1;
 	}
-	std::vector<char> closes(at(t.vertexCount()), 0);
-	for (int first : t.boundaryLoops()) {
+	VertexArray<char> closes(t.vertexCount(), 0);
+	for (const Halfedge first : t.boundaryLoops()) {
 		bool all = true;
-		int h = first;
-		do {
-			all &= !opens[at(t.origin(h))];
-			h = t.next(h);
-		} while (h != first);
-		do {
-			closes[at(t.origin(h))] = all;
-			h = t.next(h);
-		} while (h != first);
+		for (const Halfedge h : t.loop(first))
+			all &= !opens[t.origin(h)];
+		for (const Halfedge h : t.loop(first))
+			closes[t.origin(h)] = all;
 	}
 	return closes;
 }
 
 void dropSeamsToHoles(
 	const Triangulation& t,
-	const std::vector<double>& lengths,
-	const std::vector<char>& closes,
-	const std::vector<char>& marked,
+	const EdgeArray<double>& cost,
+	const VertexArray<char>& closes,
+	const VertexArray<char>& marked,
 	CutGraph& cut)
 {
 	// A boundary loop is one node of the cut, and so is every other vertex.
-	std::vector<int> node(at(t.vertexCount()));
-	std::iota(node.begin(), node.end(), 0);
-	std::vector<char> terminal = marked;
-	for (int first : t.boundaryLoops()) {
-		const int own = t.origin(first);
-		bool needed = !closes[at(own)];
-		int h = first;
-		do {
-			node[at(t.origin(h))] = own;
-			needed |= marked[at(t.origin(h))] != 0;
-			h = t.next(h);
-		} while (h != first);
-		terminal[at(own)] = needed;
-	}
-	std::vector<std::vector<int>> edgesAt(at(t.vertexCount()));
-	std::vector<int> degree(at(t.vertexCount()), 0);
-	for (int e = 0; e < t.edgeCount(); ++e)
-		if (cut.isCut[at(e)])
-			for (int h : {2 * e, 2 * e + 1}) {
-				edgesAt[at(node[at(t.origin(h))])].push_back(e);
-				++degree[at(node[at(t.origin(h))])];
-			}
-	std::vector<int> ends;
-	for (int n = 0; n < t.vertexCount(); ++n)
-		if (degree[at(n)] == 1 && !terminal[at(n)])
-			ends.push_back(n);
-	while (!ends.empty()) {
-		const int end = ends.back();
-		ends.pop_back();
-		for (int e : edgesAt[at(end)]) {
-			if (!cut.isCut[at(e)])
-				continue;
-			cut.isCut[at(e)] = 0;
-			--cut.edgeCount;
-			cut.length -= lengths[at(e)];
-			const int a = node[at(t.origin(2 * e))], b = node[at(t.target(2 * e))];
-			const int other = a == end ? b : a;
-			if (--degree[at(other)] == 1 && !terminal[at(other)])
-				ends.push_back(other);
+	VertexArray<Vertex> node(t.vertexCount());
+	for (const Vertex v : t.vertices())
+		node[v] = v;
+	VertexArray<char> terminal = marked; // [node]
+	for (const Halfedge first : t.boundaryLoops()) {
+		const Vertex own = t.origin(first);
+		bool needed = !closes[own];
+		for (const Halfedge h : t.loop(first)) {
+			node[t.origin(h)] = own;
+			needed |= marked[t.origin(h)] != 0;
 		}
-		degree[at(end)] = 0;
+		terminal[own] = needed;
+	}
+	const Adjacency<Vertex, Edge> edgesAt(t.vertexCount(), [&](const auto& add) {
+		for (const Edge e : t.edges())
+			if (cut.isCut[e])
+				for (const Vertex v : t.ends(e))
+					add(node[v], e);
+	});
+	VertexArray<int> degree(t.vertexCount()); // [node]
+	std::vector<Vertex> deadEnds;
+	for (const Vertex n : t.vertices()) {
+		degree[n] = edgesAt[n].size();
+		if (degree[n] == 1 && !terminal[n])
+			deadEnds.push_back(n);
+	}
+	while (!deadEnds.empty()) {
+		const Vertex end = deadEnds.back();
+		deadEnds.pop_back();
+		for (const Edge e : edgesAt[end]) {
+			if (!cut.isCut[e])
+				continue;
+			cut.isCut[e] = 0;
+			--cut.edgeCount;
+			cut.length -= cost[e];
+			const auto [a, b] = t.ends(e);
+			const Vertex other = node[a] == end ? node[b] : node[a];
+			if (--degree[other] == 1 && !terminal[other])
+				deadEnds.push_back(other);
+		}
+		degree[end] = 0;
 	}
 	if (cut.edgeCount == 0)
-		cut.length = 0.0; // without the rounding of a sum taken back
+		cut.length = 0.0; // without the rounding of a sum that is taken back
 }
 
 } // namespace ricci

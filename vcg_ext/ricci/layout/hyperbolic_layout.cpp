@@ -1,96 +1,105 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperbolic_layout.h"
 
+#include "../base/numbers.h"
 #include "../metric/area.h"
-#include "../numbers.h"
 #include "layout_tree.h"
 
-#include <array>
 #include <cmath>
+#include <vector>
 
 namespace ricci {
 
 namespace {
 
-constexpr long double kExtendedPi = static_cast<long double>(kPi) + kPiRest;
+constexpr long double kExtendedPi = static_cast<long double>(kPi) + kPiLow;
 
-/// The triangle with most triangles between it and the cut or the boundary.
-int deepestFace(const Triangulation& t, const std::vector<char>& isCut)
+/// The triangle with most triangles between it and the cut or the boundary. Of several the one that
+/// a breadth-first search from there meets last.
+Face deepestFace(const Triangulation& t, const EdgeArray<char>& isCut)
 {
-	std::vector<char> seen(at(t.faceCount()), 0);
-	std::vector<int> queue;
-	const auto enter = [&](int f) {
-		if (!seen[at(f)]) {
-			seen[at(f)] = 1;
+	FaceArray<char> seen(t.faceCount(), 0);
+	std::vector<Face> queue;
+	const auto enter = [&](Face f) {
+		if (!seen[f]) {
+			seen[f] = 1;
 			queue.push_back(f);
 		}
 	};
-	for (int h = 0; h < t.halfedgeCount(); ++h)
-		if (!t.isOuter(h) &&
-			(isCut[at(Triangulation::edge(h))] || t.isBoundaryEdge(Triangulation::edge(h))))
+	for (const Halfedge h : t.interiorHalfedges())
+		if (isCut[h.edge()] || t.isBoundary(h.edge()))
 			enter(t.face(h));
 	for (std::size_t next = 0; next < queue.size(); ++next)
-		for (int h : t.halfedges(queue[next]))
-			if (!t.isOuter(Triangulation::twin(h)))
-				enter(t.face(Triangulation::twin(h)));
-	return queue.empty() ? 0 : queue.back();
+		for (const Halfedge h : t.halfedges(queue[next]))
+			if (!t.isExterior(h.twin()))
+				enter(t.face(h.twin()));
+	return queue.empty() ? Face(0) : queue.back();
 }
 
-class Layout
+/// The frame at the other end of an edge that looks back along it.
+ExtendedIsometry turned(const ExtendedIsometry& frame, double length)
+{
+	return frame * ExtendedIsometry::translation(length) * ExtendedIsometry::rotation(kExtendedPi);
+}
+
+/// Lays out one surface.
+class DiskUnfolding
 {
 public:
-	Layout(
+	DiskUnfolding(
 		const Triangulation& t,
-		const std::vector<double>& lengths,
-		const std::vector<double>& angles,
-		const std::vector<char>& isCut) :
+		const EdgeArray<double>& lengths,
+		const HalfedgeArray<double>& angles,
+		const EdgeArray<char>& isCut) :
 			m_t(t),
 			m_lengths(lengths), m_angles(angles), m_isCut(isCut)
 	{
 	}
 
-	HyperbolicLayout from(int root)
+	/// The layout with \p root at 0.
+	HyperbolicLayout from(Face root) const
 	{
 		HyperbolicLayout layout;
-		layout.frame.resize(at(m_t.halfedgeCount()));
+		layout.frame.resize(m_t.halfedgeCount());
 		place(layout, m_t.halfedge(root), ExtendedIsometry());
-		for (int h : layoutTree(m_t, m_lengths, m_isCut, root))
-			place(layout, h, turned(layout, Triangulation::twin(h)));
+		for (const Halfedge h : layoutTree(m_t, m_lengths, m_isCut, root))
+			place(layout, h, turned(layout.frame[h.twin()], length(h)));
 		return layout;
 	}
 
 	/// Moves the middle to 0. \return the triangle next to it
-	int centre(HyperbolicLayout& layout) const
+	Face moveMiddleToZero(HyperbolicLayout& layout) const
 	{
+		// The area-weighted mean on the hyperboloid of x0^2 - |x|^2 = 1, without its common factor.
 		long double x0 = 0;
 		std::complex<long double> x = 0;
-		for (int f = 0; f < m_t.faceCount(); ++f) {
+		for (const Face f : m_t.faces()) {
 			const auto side = m_t.halfedges(f);
 			// By the sides: what the angles are short of pi is rounding where triangles are tiny.
 			const double area = hyperbolicArea({length(side[0]), length(side[1]), length(side[2])});
-			for (int h : m_t.halfedges(f)) {
-				const ExtendedIsometry& g = layout.frame[at(h)];
+			for (const Halfedge h : side) {
+				const ExtendedIsometry& g = layout.frame[h];
 				x0 += area * (std::norm(g.a) + std::norm(g.b));
 				x += 2 * static_cast<long double>(area) * g.a * g.b;
 			}
 		}
 		const long double r = std::abs(x);
 		if (!(x0 > r)) // no area at all, or beyond what the frames hold
-			return 0;
-		// Towards the mean's direction on the hyperboloid: z = x / (x0 + sqrt(x0^2 - |x|^2)).
+			return Face(0);
+		// The point of the disk in that direction: z = x / (x0 + sqrt(x0^2 - |x|^2)).
 		const std::complex<long double> middle = x / (x0 + std::sqrt((x0 - r) * (x0 + r)));
 		const ExtendedIsometry back = ExtendedIsometry::translationTo(middle).inverse();
-		int nearest = 0;
-		long double least = 0;
-		for (int f = 0; f < m_t.faceCount(); ++f) {
-			long double spread = 0;
-			for (int h : m_t.halfedges(f)) {
-				ExtendedIsometry& g = layout.frame[at(h)];
+		Face nearest(0);
+		long double minSpread = 0;
+		for (const Face f : m_t.faces()) {
+			long double spread = 0; // grows with the distances of the corners from 0
+			for (const Halfedge h : m_t.halfedges(f)) {
+				ExtendedIsometry& g = layout.frame[h];
 				g = (back * g).normalised();
 				spread += std::norm(g.b);
 			}
-			if (f == 0 || spread < least) {
-				least = spread;
+			if (f == Face(0) || spread < minSpread) {
+				minSpread = spread;
 				nearest = f;
 			}
 		}
@@ -98,61 +107,52 @@ public:
 	}
 
 private:
-	double length(int h) const { return m_lengths[at(Triangulation::edge(h))]; }
+	double length(Halfedge h) const { return m_lengths[h.edge()]; }
 
-	/// The frame at h, seen from the other end of the edge.
-	ExtendedIsometry turned(const HyperbolicLayout& layout, int h) const
+	/// Places the triangle of \p h, whose frame is known.
+	void place(HyperbolicLayout& layout, Halfedge h, const ExtendedIsometry& frame) const
 	{
-		return layout.frame[at(h)] * ExtendedIsometry::translation(length(h)) *
-			   ExtendedIsometry::rotation(kExtendedPi);
-	}
-
-	void place(HyperbolicLayout& layout, int h, const ExtendedIsometry& frame)
-	{
-		const int second = m_t.next(h), third = m_t.previous(h);
-		layout.frame[at(h)] = frame.normalised();
-		layout.frame[at(second)] = (frame * ExtendedIsometry::translation(length(h)) *
-									ExtendedIsometry::rotation(kExtendedPi - m_angles[at(second)]))
-									   .normalised();
+		using Isometry = ExtendedIsometry;
+		const Halfedge second = m_t.next(h), third = m_t.previous(h);
+		layout.frame[h] = frame.normalised();
+		layout.frame[second] = (frame * Isometry::translation(length(h)) *
+								Isometry::rotation(kExtendedPi - m_angles[second]))
+								   .normalised();
 		// The apex from the nearer end of the base.
-		layout.frame[at(third)] =
+		layout.frame[third] =
 			(length(second) < length(third)
-				 ? layout.frame[at(second)] * ExtendedIsometry::translation(length(second)) *
-					   ExtendedIsometry::rotation(kExtendedPi - m_angles[at(third)])
-				 : layout.frame[at(h)] * ExtendedIsometry::rotation(m_angles[at(h)]) *
-					   ExtendedIsometry::translation(length(third)) *
-					   ExtendedIsometry::rotation(kExtendedPi))
+				 ? layout.frame[second] * Isometry::translation(length(second)) *
+					   Isometry::rotation(kExtendedPi - m_angles[third])
+				 : turned(layout.frame[h] * Isometry::rotation(m_angles[h]), length(third)))
 				.normalised();
 	}
 
 	const Triangulation& m_t;
-	const std::vector<double>& m_lengths;
-	const std::vector<double>& m_angles;
-	const std::vector<char>& m_isCut;
+	const EdgeArray<double>& m_lengths;
+	const HalfedgeArray<double>& m_angles;
+	const EdgeArray<char>& m_isCut;
 };
 
 } // namespace
 
 HyperbolicLayout layOutInDisk(
 	const Triangulation& t,
-	const std::vector<double>& lengths,
-	const std::vector<double>& angles,
-	const std::vector<char>& isCut)
+	const EdgeArray<double>& lengths,
+	const HalfedgeArray<double>& angles,
+	const EdgeArray<char>& isCut)
 {
-	Layout maker(t, lengths, angles, isCut);
-	HyperbolicLayout layout = maker.from(deepestFace(t, isCut));
-	layout = maker.from(maker.centre(layout));
-	maker.centre(layout);
+	const DiskUnfolding unfolding(t, lengths, angles, isCut);
+	// The first layout shows where the middle is. Only the second is exact there.
+	HyperbolicLayout layout = unfolding.from(deepestFace(t, isCut));
+	layout = unfolding.from(unfolding.moveMiddleToZero(layout));
+	unfolding.moveMiddleToZero(layout);
 	return layout;
 }
 
-void offerTransition(
-	const HyperbolicLayout& layout, double length, int h, int twin, Transition& transition)
+void offerPairing(
+	const HyperbolicLayout& layout, double length, Halfedge h, Halfedge twin, SidePairing& pairing)
 {
-	transition.offer(
-		layout.frame[at(h)] * ExtendedIsometry::translation(length) *
-			ExtendedIsometry::rotation(kExtendedPi),
-		layout.frame[at(twin)]);
+	pairing.offer(turned(layout.frame[h], length), layout.frame[twin]);
 }
 
 int hyperbolicOrientation(std::complex<double> p, std::complex<double> q, std::complex<double> r)

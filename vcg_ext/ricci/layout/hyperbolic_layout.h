@@ -2,69 +2,76 @@
 #ifndef RICCI_HYPERBOLIC_LAYOUT_H
 #define RICCI_HYPERBOLIC_LAYOUT_H
 
+#include "../math/disk_isometry.h"
 #include "../surface/triangulation.h"
-#include "disk_isometry.h"
 
 #include <complex>
 #include <limits>
-#include <vector>
 
 namespace ricci {
 
 /// A metric of curvature -1 laid out in the Poincaré disk (paper 4.3).
 struct HyperbolicLayout
 {
-	/// [halfedge] Frame at its origin, looking along it, as seen from the triangle on its left. Two
-	/// frames of one triangle always fit together; the frames at one edge do so to rounding, off
-	/// the cut.
-	std::vector<ExtendedIsometry> frame;
+	/// The frame at the halfedge's origin that looks along it, as seen from the triangle on its
+	/// left; without meaning for exterior halfedges. Two frames of one triangle always fit together;
+	/// the frames on both sides of an edge off the cut fit to rounding.
+	HalfedgeArray<ExtendedIsometry> frame;
 
-	std::complex<double> at(int h) const
+	/// The corner of the triangle of \p h at its origin: a point of the unit disk.
+	std::complex<double> operator[](Halfedge h) const
 	{
-		return std::complex<double>(frame[static_cast<std::size_t>(h)].origin());
+		return std::complex<double>(frame[h].origin());
 	}
 };
 
 /// Lays the triangles out one after another across the edges with isCut 0, which must leave the
 /// surface connected and simply connected. Counter-clockwise triangles stay counter-clockwise.
 ///
-/// Motions are carried as frames in SU(1,1), which keep a direction as exactly as a position. All
-/// coordinates of the disk lose digits like the exponential of the distance from 0, so the layout
-/// starts from a triangle near the middle, and the middle is moved to 0: the point whose mean of
-/// cosh(distance) over the surface is least, which is the direction of the area-weighted mean of
-/// the hyperboloid's points.
-/// \param lengths [edge] hyperbolic
-/// \param angles [halfedge] radians, at the halfedge's origin
+/// Places are carried as frames in SU(1,1), which keep a direction as exactly as a position. All
+/// coordinates in the disk lose digits like the exponential of the distance from 0, so the layout
+/// starts from a triangle near the middle, and the middle is moved to 0. The middle is the point
+/// for which the mean of cosh(distance) over the surface is least: the direction of the
+/// area-weighted mean of the surface's points on the hyperboloid.
+/// \param lengths hyperbolic
+/// \param angles radians, at the halfedge's origin
 HyperbolicLayout layOutInDisk(
 	const Triangulation& t,
-	const std::vector<double>& lengths,
-	const std::vector<double>& angles,
-	const std::vector<char>& isCut);
+	const EdgeArray<double>& lengths,
+	const HalfedgeArray<double>& angles,
+	const EdgeArray<char>& isCut);
 
-/// The motion that continues a layout across an edge of its cut: it takes the layout of the
-/// triangle on the right of the edge's even halfedge to where the one on the left would have it.
-struct Transition
+/// The isometry that continues a layout across an edge of its cut: it takes the layout of the
+/// triangle on the right of the edge's halfedge to where the triangle on the left would have it.
+/// Several places along the edge may offer it: the one that loses least to rounding is kept.
+struct SidePairing
 {
-	ExtendedIsometry motion;
-	/// Units of rounding by which the motion may be wrong: products of frames lose digits like the
-	/// exponential of their distance from 0.
+	ExtendedIsometry isometry;
+
+	/// About how many units of rounding the isometry may be wrong by: the sum of |a|^2 =
+	/// cosh^2(d / 2) over the two frames, where d is the frame's distance from 0. Products of
+	/// frames lose digits like the exponential of these distances. Infinite while nothing has been
+	/// offered.
 	double loss = std::numeric_limits<double>::infinity();
 
-	/// Keeps \p left times the inverse of \p right, two frames of one place, if it is the better
-	/// one.
+	/// Takes \p left times the inverse of \p right, two frames of one place of the surface as seen
+	/// from both sides of the cut, if that is more exact than what is known.
 	void offer(const ExtendedIsometry& left, const ExtendedIsometry& right)
 	{
 		const auto lost = static_cast<double>(std::norm(left.a) + std::norm(right.a));
 		if (lost < loss) {
 			loss = lost;
-			motion = (left * right.inverse()).normalised();
+			isometry = (left * right.inverse()).normalised();
 		}
 	}
 };
 
-/// Offers the frames at halfedge \p h of the layout on its left, and of that on its right.
-void offerTransition(
-	const HyperbolicLayout& layout, double length, int h, int twin, Transition& transition);
+/// Offers \p pairing two frames of one place on an edge of the cut: that of the halfedge \p h, on
+/// the left of the cut, turned round at the other end of the edge; and that of \p twin, which is
+/// the same edge seen from the right.
+/// \param length of the edge, hyperbolic
+void offerPairing(
+	const HyperbolicLayout& layout, double length, Halfedge h, Halfedge twin, SidePairing& pairing);
 
 /// +1 if the geodesic triangle of the three points of the disk is counter-clockwise, -1 if it is
 /// clockwise, 0 if rounding cannot tell.

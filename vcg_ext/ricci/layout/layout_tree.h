@@ -8,18 +8,22 @@
 
 namespace ricci {
 
-/// The order in which triangles are laid out one after another across the edges with isCut 0: for
-/// every triangle but \p root the halfedge across which it is entered, its neighbour always coming
-/// before it. Across a side that is short in its triangle directions are lost by as many units of
-/// rounding as the longest side is longer: triangles are reached by the way that loses least
-/// (Dijkstra), which also is a way through few triangles.
-/// \param lengths [edge]
-/// \return halfedges of the entered triangles
-std::vector<int> layoutTree(
+/// The order in which triangles are laid out one after another across the edges with isCut 0: a
+/// spanning tree of the triangles with the root \p root, as the halfedges across which they are
+/// entered. A triangle's neighbour in the tree always comes before it.
+///
+/// Across a side that is short in its triangle, directions lose as many units of rounding as the
+/// longest side is times longer. The tree reaches every triangle by the way that loses least
+/// [Dijkstra 1959], which also keeps the number of triangles on the way low. The order is
+/// deterministic.
+/// \param lengths positive
+/// \return for each triangle that can be reached, but for the root, the halfedge of it that is
+/// entered first
+std::vector<Halfedge> layoutTree(
 	const Triangulation& t,
-	const std::vector<double>& lengths,
-	const std::vector<char>& isCut,
-	int root);
+	const EdgeArray<double>& lengths,
+	const EdgeArray<char>& isCut,
+	Face root);
 
 } // namespace ricci
 

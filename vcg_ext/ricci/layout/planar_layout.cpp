@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "planar_layout.h"
 
-#include "../numbers.h"
+#include "../base/numbers.h"
 #include "layout_tree.h"
 
 #include <algorithm>
@@ -9,76 +9,74 @@
 
 namespace ricci {
 
-std::vector<int> cornerSectors(const Triangulation& t, const std::vector<char>& isCut, int& count)
+Wedges cornerWedges(const Triangulation& t, const EdgeArray<char>& isCut)
 {
-	std::vector<int> sector(at(t.halfedgeCount()), -1);
-	count = 0;
-	for (int start = 0; start < t.halfedgeCount(); ++start) {
-		if (t.isOuter(start) || sector[at(start)] >= 0)
+	const auto divides = [&](Halfedge h) { return isCut[h.edge()] || t.isBoundary(h.edge()); };
+	Wedges wedges;
+	wedges.of.assign(t.halfedgeCount(), -1);
+	for (const Halfedge start : t.interiorHalfedges()) {
+		if (wedges.of[start] >= 0)
 			continue;
-		const auto closes = [&](int e) { return isCut[at(e)] || t.isBoundaryEdge(e); };
-		int h = start;
+		const int wedge = wedges.count++;
+		Halfedge h = start;
 		do { // counter-clockwise
-			sector[at(h)] = count;
-			const int in = t.previous(h);
-			if (closes(Triangulation::edge(in)))
+			wedges.of[h] = wedge;
+			const Halfedge in = t.previous(h);
+			if (divides(in))
 				break;
-			h = Triangulation::twin(in);
+			h = in.twin();
 		} while (h != start);
-		for (h = start; !closes(Triangulation::edge(h));) { // clockwise
-			h = t.next(Triangulation::twin(h));
-			if (sector[at(h)] >= 0)
+		for (h = start; !divides(h);) { // clockwise
+			h = t.next(h.twin());
+			if (wedges.of[h] >= 0)
 				break;
-			sector[at(h)] = count;
+			wedges.of[h] = wedge;
 		}
-		++count;
 	}
-	return sector;
+	return wedges;
 }
 
 PlanarLayout layOutInPlane(
 	const Triangulation& t,
-	const std::vector<double>& lengths,
-	const std::vector<double>& angles,
-	const std::vector<char>& isCut)
+	const EdgeArray<double>& lengths,
+	const HalfedgeArray<double>& angles,
+	const EdgeArray<char>& isCut)
 {
 	PlanarLayout layout;
-	int sectorCount = 0;
-	layout.sector = cornerSectors(t, isCut, sectorCount);
-	layout.position.assign(at(sectorCount), {0.0, 0.0});
-	std::vector<char> placed(at(sectorCount), 0);
+	layout.wedges = cornerWedges(t, isCut);
+	layout.points.assign(layout.wedges.count, {0.0, 0.0});
+	Array<char> placed(layout.wedges.count, 0); // [wedge]
 
-	const auto place = [&](int h, const Point2& p) {
-		const int s = layout.sector[at(h)];
-		if (!placed[at(s)]) {
-			placed[at(s)] = 1;
-			layout.position[at(s)] = p;
+	const auto place = [&](Halfedge h, const Point2& p) {
+		const int wedge = layout.wedges.of[h];
+		if (!placed[wedge]) {
+			placed[wedge] = 1;
+			layout.points[wedge] = p;
 		}
 	};
 	// Directions are carried from triangle to triangle as angles, never measured between points:
 	// across a short side of a needle that would magnify the error of the points without bound.
-	std::vector<double> direction(at(t.halfedgeCount()), 0.0);
-	const auto placeTriangle = [&](int h, double along) {
-		const int second = t.next(h), third = t.previous(h);
-		const double toApex = along + angles[at(h)]; // from the origin of h
-		const double fromBase = along + kPi - angles[at(second)];
-		direction[at(h)] = along;
-		direction[at(second)] = fromBase;
-		direction[at(third)] = toApex - kPi;
-		const double left = lengths[at(Triangulation::edge(third))];
-		const double right = lengths[at(Triangulation::edge(second))];
-		const bool nearer = right < left;
-		const Point2 from = layout.at(nearer ? second : h);
-		const double angle = nearer ? fromBase : toApex, length = std::min(left, right);
+	HalfedgeArray<double> direction(t.halfedgeCount(), 0.0);
+	const auto placeTriangle = [&](Halfedge h, double along) {
+		const Halfedge second = t.next(h), third = t.previous(h);
+		const double toApex = along + angles[h]; // from the origin of h
+		const double fromBase = along + kPi - angles[second];
+		direction[h] = along;
+		direction[second] = fromBase;
+		direction[third] = toApex - kPi;
+		const double left = lengths[third.edge()], right = lengths[second.edge()];
+		const bool fromSecond = right < left; // the nearer end of the base
+		const Point2 from = layout[fromSecond ? second : h];
+		const double angle = fromSecond ? fromBase : toApex, length = std::min(left, right);
 		place(third, {from[0] + length * std::cos(angle), from[1] + length * std::sin(angle)});
 	};
 
-	const int root = t.halfedge(0);
+	const Halfedge root = t.halfedge(Face(0));
 	place(root, {0.0, 0.0});
-	place(t.next(root), {lengths[at(Triangulation::edge(root))], 0.0});
+	place(t.next(root), {lengths[root.edge()], 0.0});
 	placeTriangle(root, 0.0);
-	for (int h : layoutTree(t, lengths, isCut, t.face(root)))
-		placeTriangle(h, std::remainder(direction[at(Triangulation::twin(h))] + kPi, 2 * kPi));
+	for (const Halfedge h : layoutTree(t, lengths, isCut, t.face(root)))
+		placeTriangle(h, std::remainder(direction[h.twin()] + kPi, 2 * kPi));
 	return layout;
 }
 

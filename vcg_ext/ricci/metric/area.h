@@ -5,20 +5,24 @@
 #include "../surface/triangulation.h"
 
 #include <array>
-#include <vector>
 
 namespace ricci {
 
-/// Area of a surface of flat triangles with these side lengths [edge] (Heron's formula).
-double euclideanArea(const Triangulation& t, const std::vector<double>& lengths);
+/// Area of a surface of flat triangles with these side lengths, by Heron's formula in the order of
+/// operations of [Kahan 2014]. A triangle that breaks the triangle inequality counts as 0.
+double euclideanArea(const Triangulation& t, const EdgeArray<double>& lengths);
 
-/// Area of a surface of triangles of curvature -1: pi less the angles, found from the lengths
-/// [edge] alone by the hyperbolic form of L'Huilier's formula, tan^2(area / 4) = tanh(s / 2)
-/// tanh((s - a) / 2) tanh((s - b) / 2) tanh((s - c) / 2), so that it is independent of the angles
-/// that the flow has summed.
-double hyperbolicArea(const Triangulation& t, const std::vector<double>& lengths);
+/// Area of a surface of triangles of curvature -1 with these side lengths: the sum of
+/// hyperbolicArea(sides). It does not use the angles that the flow has summed, so that it can check
+/// them by Gauss-Bonnet.
+double hyperbolicArea(const Triangulation& t, const EdgeArray<double>& lengths);
 
-/// The same for one triangle with these sides (L'Huilier's formula): 0 where it breaks.
+/// Area of one triangle of curvature -1 (pi less its angles) from its sides a, b, c and s, half
+/// their sum, by the hyperbolic form of L'Huilier's formula:
+///
+///   tan^2(area / 4) = tanh(s / 2) tanh((s - a) / 2) tanh((s - b) / 2) tanh((s - c) / 2).
+///
+/// 0 where the sides break the triangle inequality.
 double hyperbolicArea(std::array<double, 3> sides);
 
 } // namespace ricci

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "circle_packing.h"
 
-#include "../numbers.h"
 #include "euclidean.h"
 
 #include <algorithm>
@@ -13,20 +12,14 @@ namespace ricci {
 
 namespace {
 
-template<class Clamp>
 CirclePacking pack(
 	Triangulation triangulation,
-	const std::vector<double>& lengths,
-	const std::vector<double>& radii,
-	Clamp clamp)
+	const EdgeArray<double>& lengths,
+	const VertexArray<double>& radii,
+	PackingScheme scheme)
 {
 	CirclePacking packing;
-	packing.delta.resize(lengths.size());
-	for (int e = 0; e < triangulation.edgeCount(); ++e) {
-		const double gi = radii[at(triangulation.origin(2 * e))];
-		const double gj = radii[at(triangulation.target(2 * e))];
-		packing.delta[at(e)] = clamp(Euclidean::delta(lengths[at(e)], gi, gj));
-	}
+	packing.delta = inversiveDistancesLessOne(triangulation, lengths, radii, scheme);
 	packing.u.resize(radii.size());
 	std::transform(
 		radii.begin(), radii.end(), packing.u.begin(), [](double g) { return std::log(g); });
@@ -36,52 +29,46 @@ CirclePacking pack(
 
 } // namespace
 
-std::vector<double>
-edgeLengths(const Triangulation& triangulation, const std::vector<Point3>& positions)
+VertexArray<double> initialRadii(const Triangulation& t, const EdgeArray<double>& lengths)
 {
-	std::vector<double> lengths(at(triangulation.edgeCount()));
-	for (int e = 0; e < triangulation.edgeCount(); ++e)
-		lengths[at(e)] = distance(
-			positions[at(triangulation.origin(2 * e))], positions[at(triangulation.target(2 * e))]);
-	return lengths;
-}
-
-std::vector<double>
-initialRadii(const Triangulation& triangulation, const std::vector<double>& lengths)
-{
-	std::vector<double> radii(
-		at(triangulation.vertexCount()), std::numeric_limits<double>::infinity());
-	for (int f = 0; f < triangulation.faceCount(); ++f) {
-		const auto h = triangulation.halfedges(f);
-		for (std::size_t k = 0; k < 3; ++k) {
-			const double left = lengths[at(Triangulation::edge(h[k]))];
-			const double opposite = lengths[at(Triangulation::edge(h[(k + 1) % 3]))];
-			const double right = lengths[at(Triangulation::edge(h[(k + 2) % 3]))];
-			double& radius = radii[at(triangulation.origin(h[k]))];
+	VertexArray<double> radii(t.vertexCount(), std::numeric_limits<double>::infinity());
+	for (const Face f : t.faces())
+		for (const Halfedge h : t.halfedges(f)) {
+			const double left = lengths[h.edge()];
+			const double opposite = lengths[t.next(h).edge()];
+			const double right = lengths[t.previous(h).edge()];
+			double& radius = radii[t.origin(h)];
 			radius = std::min(radius, 0.5 * (left + right - opposite));
 		}
-	}
 	return radii;
 }
 
-CirclePacking inversiveDistancePacking(
-	Triangulation triangulation,
-	const std::vector<double>& lengths,
-	const std::vector<double>& radii)
+EdgeArray<double> inversiveDistancesLessOne(
+	const Triangulation& t,
+	const EdgeArray<double>& lengths,
+	const VertexArray<double>& radii,
+	PackingScheme scheme)
 {
-	return pack(std::move(triangulation), lengths, radii, [](double delta) {
-		return std::max(delta, 0.0);
-	});
+	EdgeArray<double> delta(t.edgeCount());
+	for (const Edge e : t.edges()) {
+		const auto [i, j] = t.ends(e);
+		const double exact = Euclidean::delta(lengths[e], radii[i], radii[j]);
+		delta[e] =
+			scheme == PackingScheme::Thurston ? std::clamp(exact, -1.0, 0.0) : std::max(exact, 0.0);
+	}
+	return delta;
+}
+
+CirclePacking inversiveDistancePacking(
+	Triangulation triangulation, const EdgeArray<double>& lengths, const VertexArray<double>& radii)
+{
+	return pack(std::move(triangulation), lengths, radii, PackingScheme::InversiveDistance);
 }
 
 CirclePacking thurstonPacking(
-	Triangulation triangulation,
-	const std::vector<double>& lengths,
-	const std::vector<double>& radii)
+	Triangulation triangulation, const EdgeArray<double>& lengths, const VertexArray<double>& radii)
 {
-	return pack(std::move(triangulation), lengths, radii, [](double delta) {
-		return std::clamp(delta, -1.0, 0.0);
-	});
+	return pack(std::move(triangulation), lengths, radii, PackingScheme::Thurston);
 }
 
 } // namespace ricci

@@ -2,9 +2,8 @@
 #ifndef RICCI_CIRCLE_PACKING_H
 #define RICCI_CIRCLE_PACKING_H
 
+#include "../options.h"
 #include "../surface/triangulation.h"
-
-#include <vector>
 
 namespace ricci {
 
@@ -13,33 +12,37 @@ namespace ricci {
 struct CirclePacking
 {
 	Triangulation triangulation;
-	std::vector<double> delta; ///< [edge] I - 1; at least 0 where circles are tangent or disjoint
-	std::vector<double> u;     ///< [vertex] ln radius (Eq. 6, Euclidean)
+	EdgeArray<double> delta; ///< I - 1; at least 0 where circles are tangent or disjoint
+	VertexArray<double> u;   ///< ln radius (Eq. 6, Euclidean)
 };
 
-/// Straight-line length of each edge of \p triangulation between \p positions.
-std::vector<double>
-edgeLengths(const Triangulation& triangulation, const std::vector<Point3>& positions);
+/// Initial radii of paper 4.1: the minimum of (l_ij + l_ki - l_jk) / 2 over the triangles at i,
+/// infinite where there is none. They give gamma_i + gamma_j <= l_ij, hence I >= 1 on every edge.
+/// Positive if every triangle satisfies the strict triangle inequality.
+VertexArray<double> initialRadii(const Triangulation& t, const EdgeArray<double>& lengths);
 
-/// Initial radii of paper 4.1: the least of (l_ij + l_ki - l_jk) / 2 over the triangles at i. They
-/// give gamma_i + gamma_j <= l_ij, hence I >= 1 on every edge. Positive if every triangle satisfies
-/// the strict triangle inequality.
-std::vector<double>
-initialRadii(const Triangulation& triangulation, const std::vector<double>& lengths);
+/// Inversive distances less one (Eq. 3, Euclidean) of circles of these \p radii at this distance.
+/// PackingScheme::InversiveDistance: the packing metric equals \p lengths; values below 0, which
+/// only rounding makes of radii as of initialRadii(), become 0. PackingScheme::Thurston, the
+/// conventional flow of paper 5.1: clamped to [-1, 0], so that the packing metric no longer is that
+/// of \p lengths.
+EdgeArray<double> inversiveDistancesLessOne(
+	const Triangulation& t,
+	const EdgeArray<double>& lengths,
+	const VertexArray<double>& radii,
+	PackingScheme scheme);
 
-/// Inversive distances (Eq. 3, Euclidean) that make the packing metric equal \p lengths exactly.
-/// \p radii as of initialRadii(): values of delta that rounding puts below 0 become 0.
+/// The packing of PackingScheme::InversiveDistance.
 CirclePacking inversiveDistancePacking(
 	Triangulation triangulation,
-	const std::vector<double>& lengths,
-	const std::vector<double>& radii);
+	const EdgeArray<double>& lengths,
+	const VertexArray<double>& radii);
 
-/// Conventional flow of paper 5.1: the same radii, each inversive distance forced into [0, 1], so
-/// that the packing metric no longer is the mesh's own.
+/// The packing of PackingScheme::Thurston.
 CirclePacking thurstonPacking(
 	Triangulation triangulation,
-	const std::vector<double>& lengths,
-	const std::vector<double>& radii);
+	const EdgeArray<double>& lengths,
+	const VertexArray<double>& radii);
 
 } // namespace ricci
 

@@ -3,79 +3,94 @@
 #define RICCI_CONFORMAL_FLIP_H
 
 #include "circle_packing.h"
+#include "delaunay_queue.h"
 
 #include <vector>
 
 namespace ricci {
 
-/// Flips of an edge ij of a packing that keep its discrete conformal class: a
-/// circle is a unit spacelike vector x of R^{2,1}, <x_i, x_j> = -I_ij, two
-/// triangles glued along ij lie on opposite sides of span(x_i, x_j), and the
-/// new inversive distance is -<x_k, x_l>. Nothing here depends on the radii,
-/// and the background geometry enters only through the curvatures kappa of the
-/// circles, so that everything stays defined where triangles break. Needs I >=
-/// 1 (delta >= 0).
+/// Flips of an edge ij of a packing that keep its discrete conformal class [Bobenko Lutz 2023]:
+///
+///             k                          k
+///           /   \                      / | \             .
+///     I_ki /     \ I_jk          I_ki /  |  \ I_jk
+///         /  I_ij \                  /   |   \           .
+///        i ------> j       ->       i  I_kl   j
+///         \       /                  \   |   /
+///     I_il \     / I_lj          I_il \  |  / I_lj
+///           \   /                      \ | /
+///             l                          l
+///
+/// A circle is a unit spacelike vector x of R^{2,1} with <x_i, x_j> = -I_ij. The two triangles
+/// glued along ij lie on opposite sides of span(x_i, x_j), and the new inversive distance is -<x_k,
+/// x_l>. The radii do not enter, and the background geometry enters only through the curvatures
+/// kappa of the circles, so that everything stays defined where triangles break. D below is minus
+/// the Gram determinant of a triangle's three vectors,
+///
+///   D_k = I_ij^2 + I_ki^2 + I_jk^2 + 2 I_ij I_ki I_jk - 1,    D_l likewise.
+///
+/// Needs I >= 1 (delta = I - 1 >= 0) on every edge.
 
-/// Inversive distance, less one, of the other diagonal kl of the two triangles
-/// at edge \p e = ij: I_kl = [I_ik I_il + I_jk I_jl + I_ij (I_ik I_jl + I_jk
-/// I_il) + sqrt(D_k D_l)] / (I_ij^2 - 1). All terms are positive. \p e must be
-/// flippable and delta[e] > 0.
-double flippedDelta(const Triangulation& t, const std::vector<double>& delta, int e);
+/// Inversive distance, less one, of the other diagonal kl of the two triangles at edge \p e = ij:
+///
+///   I_kl = [I_ki I_il + I_jk I_lj + I_ij (I_ki I_lj + I_jk I_il) + sqrt(D_k D_l)] / (I_ij^2 - 1).
+///
+/// All terms are positive: nothing cancels.
+/// \pre \p e is flippable and delta[e] > 0
+double flippedDelta(const Triangulation& t, const EdgeArray<double>& delta, Edge e);
 
-/// Whether edge \p e is locally weighted Delaunay for circles of curvature \p
-/// kappa: T_k + T_l >= 0, T_k = [kappa_i (I_ik + I_ij I_jk) + kappa_j (I_jk +
-/// I_ij I_ik) - kappa_k (I_ij^2 - 1)] / sqrt(D_k). Once all triangles exist
-/// this says that the weight of the edge in the Hessian is not negative.
-/// Equality within rounding counts as Delaunay; boundary edges and edges with
-/// the same triangle on both sides are Delaunay.
+/// Whether edge \p e is locally weighted Delaunay for circles of curvature \p kappa: T_k + T_l >=
+/// 0,
+///
+///   T_k = [kappa_i (I_ki + I_ij I_jk) + kappa_j (I_jk + I_ij I_ki) - kappa_k (I_ij^2 - 1)]
+///         / sqrt(D_k),    T_l likewise.
+///
+/// Where both triangles exist this says that the weight of the edge in the Hessian is not negative.
+/// Equality within rounding counts as Delaunay. Boundary edges and edges with the same triangle on
+/// both sides are Delaunay.
 bool isWeightedDelaunay(
 	const Triangulation& t,
-	const std::vector<double>& delta,
-	const std::vector<double>& kappa,
-	int e);
+	const EdgeArray<double>& delta,
+	const VertexArray<double>& kappa,
+	Edge e);
 
 /// Edges flipped, in order, with what is needed to go back.
 class FlipJournal
 {
 public:
 	void clear() { m_flips.clear(); }
-	void record(int e, double delta) { m_flips.push_back({e, delta}); }
+
+	/// \p delta: of the edge before the flip.
+	void record(Edge e, double delta) { m_flips.push_back({e, delta}); }
 	int size() const { return static_cast<int>(m_flips.size()); }
 
 	/// Appends the recorded edges to \p edges, in order.
-	void appendTo(std::vector<int>& edges) const
+	void appendTo(std::vector<Edge>& edges) const
 	{
 		for (const Flip& flip : m_flips)
 			edges.push_back(flip.edge);
 	}
 
-	/// Undoes every recorded flip, last first, bit for bit, and clears the
-	/// journal.
-	void rewind(Triangulation& t, std::vector<double>& delta);
+	/// Undoes every recorded flip, last first, bit for bit, and clears the journal.
+	void rewind(Triangulation& t, EdgeArray<double>& delta);
 
 private:
 	struct Flip
 	{
-		int edge;
+		Edge edge;
 		double delta;
 	};
 	std::vector<Flip> m_flips;
 };
 
-/// Reusable work space of makeWeightedDelaunay().
-struct DelaunayQueue
-{
-	std::vector<int> edges;
-	std::vector<char> queued;
-};
-
-/// Flips edges until every one is weighted Delaunay, in an order that depends
-/// on the input alone and not on the number of \p threads, which test the edges
-/// beforehand. \return number of flips
+/// Flips edges until every one is weighted Delaunay, in an order that depends on the input alone
+/// and not on the number of \p threads, which test the edges beforehand. The flips are recorded in
+/// \p journal; \p queue is work space.
+/// \return number of flips
 int makeWeightedDelaunay(
 	Triangulation& t,
-	std::vector<double>& delta,
-	const std::vector<double>& kappa,
+	EdgeArray<double>& delta,
+	const VertexArray<double>& kappa,
 	FlipJournal& journal,
 	DelaunayQueue& queue,
 	int threads = 1);

@@ -6,8 +6,8 @@
 
 namespace ricci {
 
-/// Euclidean background geometry (Definition 3.1): what the flow needs of a circle and of an edge.
-/// The hyperbolic plane offers the same members, so that the flow is written once.
+/// Euclidean background geometry (Definition 3.1): what the flow needs to know of a circle and of
+/// an edge. HyperbolicGeometry has the same members, so that the flow is written once.
 ///
 /// Everything is a function of u (log-radius) and delta = I - 1 (inversive distance less one; no
 /// cancellation for nearly tangent circles), evaluated in the precision of \p T.
@@ -16,7 +16,7 @@ struct EuclideanGeometry
 {
 	using Real = T;
 
-	/// A metric is determined up to one common scale: constants are in the kernel of the Hessian.
+	/// A metric is determined up to one common scale: the Hessian maps constants to 0.
 	static constexpr bool scaleInvariant = true;
 
 	struct Circle
@@ -26,10 +26,10 @@ struct EuclideanGeometry
 		Real kappa; ///< curvature of the circle: 1 / radius
 	};
 
-	/// u + \p rest = ln radius (Eq. 6); \p rest is at most a unit in the last place of \p u.
-	static Circle circle(double u, double rest = 0.0)
+	/// u + \p low = ln radius (Eq. 6); \p low is at most a unit in the last place of \p u.
+	static Circle circle(double u, double low = 0.0)
 	{
-		const Real whole = std::exp(Real(u)), radius = whole + whole * Real(rest);
+		const Real whole = std::exp(Real(u)), radius = whole + whole * Real(low);
 		return {radius, radius, 1 / radius};
 	}
 

@@ -12,13 +12,14 @@ namespace ricci {
 /// The derivative of the angle at i by u_j (Lemma 3.8) has one closed form in both backgrounds,
 ///   s_i^2 s_j^2 s_k [kappa_i (I_ik + I_ij I_jk) + kappa_j (I_jk + I_ij I_ik)
 ///                    - kappa_k (I_ij^2 - 1)] / (A S_ij^2),
-/// with s = sinh(radius), kappa = coth(radius), S = sinh(length), and A the product of two sides'
-/// S and the sine between them. It is Eq. 9 without its cancellations, and the geometric meaning
-/// that the paper leaves open is the Euclidean one (Eq. 7): with i, j, k and the circle orthogonal
-/// to all three circles seen as vectors of R^{3,1}, the bracket is proportional to the height of
-/// that circle's centre over the side ij, negative where the centre lies beyond the side. The
-/// diagonal is minus the sum of the other entries weighted by cosh(length) instead of 1, because a
-/// hyperbolic plane has area to gain: the Hessian is strictly positive definite.
+/// with s = sinh(radius), kappa = coth(radius), S = sinh(length), and A the product of two sides' S
+/// and the sine between them. It is Eq. 9 without its cancellations. Its geometric meaning, which
+/// the paper leaves open, is the Euclidean one (Eq. 7): if the circles i, j, k and the circle
+/// orthogonal to all three are seen as vectors of R^{3,1}, the bracket is proportional to the
+/// height of the centre of that circle over the side ij, negative where the centre lies beyond the
+/// side. The diagonal is minus the sum of the other entries, each weighted by cosh(length) instead
+/// of 1, because larger triangles have more area and smaller angles: the Hessian is strictly
+/// positive definite.
 template<class T>
 struct HyperbolicGeometry
 {
@@ -35,15 +36,15 @@ struct HyperbolicGeometry
 		Real sinhHalf, coshHalf; ///< of half the radius
 	};
 
-	/// u + \p rest = ln tanh(radius / 2) < 0 (Eq. 6); \p rest is at most a unit in the last place of
-	/// \p u. Written so that small circles keep their relative accuracy. For u >= 0 no circle exists,
-	/// and everything that follows is not finite.
-	static Circle circle(double u, double rest = 0.0)
+	/// u + \p low = ln tanh(radius / 2) < 0 (Eq. 6); \p low is at most a unit in the last place of
+	/// \p u. Written so that small circles keep their relative accuracy. For u >= 0 no circle
+	/// exists, and members of the result are infinite or NaN.
+	static Circle circle(double u, double low = 0.0)
 	{
 		using std::exp, std::expm1, std::log1p, std::sqrt;
-		const Real x = Real(u) + Real(rest);
-		// x holds rest in the wider type alone; in double its effect is added to first order.
-		const Real lost = Real(rest) - (x - Real(u));
+		const Real x = Real(u) + Real(low);
+		// Only a wider type holds low in x; in double its effect is added to first order.
+		const Real lost = Real(low) - (x - Real(u));
 		const Real t = exp(x), less = -expm1(x); // tanh(radius / 2), and 1 less that
 		const Real gap = less * (1 + t);         // 1 / cosh^2(radius / 2)
 		const Real s = 2 * t / gap, kappa = (1 + t * t) / (2 * t);

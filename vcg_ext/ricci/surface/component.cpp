@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "component.h"
 
+#include "../base/tolerances.h"
 #include "../error.h"
-#include "../numbers.h"
+#include "../math/disjoint_sets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,15 +15,22 @@ namespace ricci {
 namespace {
 
 /// "1 face", "12 faces".
-std::string count(std::size_t n, const std::string& one, const std::string& many)
+std::string counted(std::size_t n, const std::string& one, const std::string& many)
 {
 	return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+/// \throw InvalidMesh if \p count is not 0
+void requireNone(std::size_t count, InvalidMesh::Problem problem)
+{
+	if (count > 0)
+		throw InvalidMesh(problem, count);
 }
 
 /// One side of a triangle, sortable so that the sides of an edge become neighbours.
 struct Side
 {
-	int low, high, face, corner;
+	int low, high, face, corner; // low < high: the vertices
 	bool ascending;
 };
 
@@ -44,48 +52,34 @@ std::vector<Side> sortedSides(const std::vector<Triangle>& triangles)
 	return sides;
 }
 
-std::size_t edgeEnd(const std::vector<Side>& sides, std::size_t first)
+/// Calls \p visit(sides, count) with the sides of every edge: \p count of them from \p sides on.
+template<class Visit>
+void forEachEdge(const std::vector<Side>& sorted, Visit visit)
 {
-	std::size_t last = first;
-	while (last < sides.size() && sides[last].low == sides[first].low &&
-		   sides[last].high == sides[first].high)
-		++last;
-	return last;
+	for (std::size_t first = 0, last; first < sorted.size(); first = last) {
+		for (last = first; last < sorted.size() && sorted[last].low == sorted[first].low &&
+						   sorted[last].high == sorted[first].high;)
+			++last;
+		visit(&sorted[first], last - first);
+	}
 }
-
-/// Products of four lengths must be numbers. Every mesh in single precision is within these.
-constexpr double kMostSize = 1e50, kLeastSize = 1e-50;
 
 void checkElements(const SurfaceMesh& mesh)
 {
-	if (mesh.triangles.empty())
-		throw InvalidMesh(
-			mesh.positions.size() == mesh.absent
-				? "The mesh is empty: open or create a triangle mesh first."
-				: "The mesh has " +
-					  count(mesh.positions.size() - mesh.absent, "vertex", "vertices") +
-					  " but no faces: reconstruct a surface from the points first.");
-	std::size_t notFinite = 0;
+	if (mesh.triangles.empty()) {
+		const std::size_t vertices = mesh.positions.size() - mesh.absent;
+		throw InvalidMesh(vertices == 0 ? InvalidMesh::Empty : InvalidMesh::NoFaces, vertices);
+	}
+	std::size_t notFinite = 0, huge = 0, collapsed = 0;
 	for (const Point3& p : mesh.positions)
 		notFinite += !(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]));
-	if (notFinite > 0)
-		throw InvalidMesh(
-			count(notFinite, "vertex has", "vertices have") +
-			" coordinates that are not finite numbers (NaN or infinite): delete them first.");
-	std::size_t huge = 0;
+	requireNone(notFinite, InvalidMesh::NotFinite);
 	for (const Point3& p : mesh.positions)
-		huge += std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) > kMostSize;
-	if (huge > 0)
-		throw InvalidMesh(
-			count(huge, "vertex has", "vertices have") +
-			" coordinates beyond 1e50: run 'Transform: Scale, Normalize' first.");
-	std::size_t collapsed = 0;
+		huge += std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}) > kMaxCoordinate;
+	requireNone(huge, InvalidMesh::OutOfRange);
 	for (const Triangle& t : mesh.triangles)
 		collapsed += t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-	if (collapsed > 0)
-		throw InvalidMesh(
-			count(collapsed, "face uses", "faces use") +
-			" the same vertex twice: run 'Remove Zero Area Faces' first.");
+	requireNone(collapsed, InvalidMesh::CollapsedFaces);
 }
 
 void checkDuplicateFaces(const std::vector<Triangle>& triangles)
@@ -97,164 +91,113 @@ void checkDuplicateFaces(const std::vector<Triangle>& triangles)
 	std::size_t duplicates = 0;
 	for (std::size_t i = 1; i < sorted.size(); ++i)
 		duplicates += sorted[i] == sorted[i - 1];
-	if (duplicates > 0)
-		throw InvalidMesh(
-			count(duplicates, "face is", "faces are") +
-			" a duplicate of another: run 'Remove Duplicate Faces' first.");
+	requireNone(duplicates, InvalidMesh::DuplicateFaces);
 }
 
-void checkManifoldEdges(const std::vector<Side>& sides)
+void checkManifoldEdges(const std::vector<Side>& sorted)
 {
 	std::size_t nonManifold = 0;
-	for (std::size_t first = 0, last; first < sides.size(); first = last) {
-		last = edgeEnd(sides, first);
-		nonManifold += last - first > 2;
-	}
-	if (nonManifold > 0)
-		throw InvalidMesh(
-			count(nonManifold, "non-manifold edge", "non-manifold edges") +
-			" (shared by more than two faces): run 'Repair non Manifold Edges' first.");
+	forEachEdge(sorted, [&](const Side*, std::size_t count) { nonManifold += count > 2; });
+	requireNone(nonManifold, InvalidMesh::NonManifoldEdges);
 }
 
-/// Smallest-index representatives of merged items.
-class DisjointSets
-{
-public:
-	explicit DisjointSets(int n)
-	{
-		for (int i = 0; i < n; ++i)
-			m_parent.push_back(i);
-	}
-	int find(int i)
-	{
-		while (m_parent[at(i)] != i)
-			i = m_parent[at(i)] = m_parent[at(m_parent[at(i)])];
-		return i;
-	}
-	void merge(int a, int b)
-	{
-		a = find(a), b = find(b);
-		m_parent[at(std::max(a, b))] = std::min(a, b);
-	}
-
-private:
-	std::vector<int> m_parent;
-};
-
-/// A vertex is manifold if its corners form a single fan. Edges must be manifold already.
-void checkManifoldVertices(const SurfaceMesh& mesh, const std::vector<Side>& sides)
+/// A vertex is manifold if its corners form a single fan.
+/// \pre edges are manifold
+void checkManifoldVertices(const SurfaceMesh& mesh, const std::vector<Side>& sorted)
 {
 	const int faceCount = static_cast<int>(mesh.triangles.size());
-	DisjointSets fans(3 * faceCount);
+	DisjointSets fans(3 * faceCount); // of corners
 	const auto cornerAt = [&](const Side& s, int vertex) {
-		const bool atStart = mesh.triangles[at(s.face)][at(s.corner)] == vertex;
+		const bool atStart = mesh.triangles[positionOf(s.face)][positionOf(s.corner)] == vertex;
 		return 3 * s.face + (s.corner + (atStart ? 0 : 1)) % 3;
 	};
-	for (std::size_t first = 0, last; first < sides.size(); first = last) {
-		last = edgeEnd(sides, first);
-		if (last - first < 2)
-			continue;
-		for (int vertex : {sides[first].low, sides[first].high})
-			fans.merge(cornerAt(sides[first], vertex), cornerAt(sides[first + 1], vertex));
-	}
+	forEachEdge(sorted, [&](const Side* sides, std::size_t count) {
+		if (count == 2)
+			for (int vertex : {sides[0].low, sides[0].high})
+				fans.merge(cornerAt(sides[0], vertex), cornerAt(sides[1], vertex));
+	});
 	std::vector<int> fanCount(mesh.positions.size(), 0);
 	for (int f = 0; f < faceCount; ++f)
 		for (int k = 0; k < 3; ++k)
 			if (fans.find(3 * f + k) == 3 * f + k)
-				++fanCount[at(mesh.triangles[at(f)][at(k)])];
+				++fanCount[positionOf(mesh.triangles[positionOf(f)][positionOf(k)])];
 	const auto nonManifold =
 		std::count_if(fanCount.begin(), fanCount.end(), [](int n) { return n > 1; });
-	if (nonManifold > 0)
-		throw InvalidMesh(
-			count(
-				static_cast<std::size_t>(nonManifold),
-				"non-manifold vertex",
-				"non-manifold vertices") +
-			" (with more than one fan of faces): run 'Repair non Manifold Vertices by splitting' "
-			"first.");
+	requireNone(static_cast<std::size_t>(nonManifold), InvalidMesh::NonManifoldVertices);
 }
 
-/// Breadth-first walk over face adjacency: component and relative orientation of every face.
+/// Component and orientation of every face, by a breadth-first search through the sides.
 struct FacePartition
 {
-	std::vector<int> component;
-	std::vector<char> reversed;
+	FaceArray<int> component;
+	FaceArray<char> reversed;
 	int componentCount = 0;
 };
 
-FacePartition walkFaces(std::size_t faceCount, const std::vector<Side>& sides)
+/// \pre edges are manifold
+FacePartition partitionFaces(int faceCount, const std::vector<Side>& sorted)
 {
 	struct Neighbour
 	{
-		int face = -1;
-		bool agrees = true;
+		Face face;
+		bool agrees = true; // in orientation
 	};
-	std::vector<Neighbour> neighbours(3 * faceCount);
-	for (std::size_t first = 0, last; first < sides.size(); first = last) {
-		last = edgeEnd(sides, first);
-		if (last - first < 2)
-			continue;
-		const Side &a = sides[first], &b = sides[first + 1];
+	FaceArray<std::array<Neighbour, 3>> neighbours(faceCount);
+	forEachEdge(sorted, [&](const Side* sides, std::size_t count) {
+		if (count < 2)
+			return;
+		const Side &a = sides[0], &b = sides[1];
 		const bool agrees = a.ascending != b.ascending;
-		neighbours[at(3 * a.face + a.corner)] = {b.face, agrees};
-		neighbours[at(3 * b.face + b.corner)] = {a.face, agrees};
-	}
+		neighbours[Face(a.face)][positionOf(a.corner)] = {Face(b.face), agrees};
+		neighbours[Face(b.face)][positionOf(b.corner)] = {Face(a.face), agrees};
+	});
 	FacePartition part;
-	std::vector<int> queue;
+	std::vector<Face> queue;
 	std::size_t oneSided = 0;
 	part.component.assign(faceCount, -1);
 	part.reversed.assign(faceCount, 0);
-	for (std::size_t seed = 0; seed < faceCount; ++seed) {
+	for (const Face seed : neighbours.indices()) {
 		if (part.component[seed] >= 0)
 			continue;
 		bool orientable = true;
 		std::size_t turned = 0;
-		queue.assign(1, static_cast<int>(seed));
+		queue.assign(1, seed);
 		part.component[seed] = part.componentCount;
 		for (std::size_t head = 0; head < queue.size(); ++head) {
-			const int f = queue[head];
-			for (int k = 0; k < 3; ++k) {
-				const Neighbour& n = neighbours[at(3 * f + k)];
-				if (n.face < 0)
+			const Face f = queue[head];
+			for (const Neighbour& n : neighbours[f]) {
+				if (!n.face.isValid())
 					continue;
-				const char wanted = static_cast<char>(part.reversed[at(f)] ^ (n.agrees ? 0 : 1));
-				if (part.component[at(n.face)] < 0) {
-					part.component[at(n.face)] = part.componentCount;
-					part.reversed[at(n.face)] = wanted;
+				const char wanted = static_cast<char>(part.reversed[f] ^ (n.agrees ? 0 : 1));
+				if (part.component[n.face] < 0) {
+					part.component[n.face] = part.componentCount;
+					part.reversed[n.face] = wanted;
 					turned += wanted != 0;
 					queue.push_back(n.face);
 				}
-				else if (part.reversed[at(n.face)] != wanted)
+				else if (part.reversed[n.face] != wanted)
 					orientable = false;
 			}
 		}
 		if (2 * turned > queue.size())
-			for (int f : queue)
-				part.reversed[at(f)] ^= 1;
+			for (const Face f : queue)
+				part.reversed[f] ^= 1;
 		oneSided += !orientable;
 		++part.componentCount;
 	}
-	if (oneSided > 0)
-		throw InvalidMesh(
-			count(oneSided, "component is", "components are") +
-			" not orientable (one-sided, like a Moebius band): cut the mesh into an orientable "
-			"surface "
-			"first.");
+	requireNone(oneSided, InvalidMesh::NotOrientable);
 	return part;
 }
-
-/// A component none of whose triangles has this share of a square is a line.
-constexpr double kLeastArea = 1e-12;
 
 void requireSize(const std::vector<Component>& components)
 {
 	std::size_t flat = 0, tiny = 0;
 	for (const Component& c : components) {
-		// Twice the largest area of a triangle against the square of the longest side.
+		// Twice the largest area of a triangle against the square of the longest side of all.
 		double area = 0.0, longest = 0.0;
 		for (const Triangle& t : c.triangles) {
-			const Point3 &p = c.positions[at(t[0])], &q = c.positions[at(t[1])],
-						 &r = c.positions[at(t[2])];
+			const Point3 &p = c.positions[Vertex(t[0])], &q = c.positions[Vertex(t[1])],
+						 &r = c.positions[Vertex(t[2])];
 			double a[3], b[3];
 			for (std::size_t k = 0; k < 3; ++k)
 				a[k] = q[k] - p[k], b[k] = r[k] - p[k];
@@ -266,20 +209,13 @@ void requireSize(const std::vector<Component>& components)
 					a[0] * b[1] - a[1] * b[0]));
 			longest = std::max({longest, distance(p, q), distance(q, r), distance(r, p)});
 		}
-		if (longest > 0.0 && longest < kLeastSize)
+		if (longest > 0.0 && longest < kMinComponentSize)
 			++tiny;
 		else
-			flat += !(area > kLeastArea * longest * longest);
+			flat += !(area > kMinComponentArea * longest * longest);
 	}
-	if (tiny > 0)
-		throw InvalidMesh(
-			count(tiny, "component is", "components are") +
-			" smaller than 1e-50: run 'Transform: Scale, Normalize' first, or delete such pieces.");
-	if (flat > 0)
-		throw InvalidMesh(
-			count(flat, "component has", "components have") +
-			" no area at all (all vertices on one line, or in one point): delete such pieces "
-			"first.");
+	requireNone(tiny, InvalidMesh::TooSmall);
+	requireNone(flat, InvalidMesh::NoArea);
 }
 
 } // namespace
@@ -288,46 +224,44 @@ std::vector<Component> splitIntoComponents(const SurfaceMesh& mesh, std::vector<
 {
 	checkElements(mesh);
 	checkDuplicateFaces(mesh.triangles);
-	const std::vector<Side> sides = sortedSides(mesh.triangles);
-	checkManifoldEdges(sides);
-	checkManifoldVertices(mesh, sides);
-	const FacePartition part = walkFaces(mesh.triangles.size(), sides);
+	const std::vector<Side> sorted = sortedSides(mesh.triangles);
+	checkManifoldEdges(sorted);
+	checkManifoldVertices(mesh, sorted);
+	const FacePartition part = partitionFaces(static_cast<int>(mesh.triangles.size()), sorted);
 
-	std::vector<Component> components(at(part.componentCount));
-	std::vector<int> localVertex(mesh.positions.size(), -1);
+	std::vector<Component> components(positionOf(part.componentCount));
+	std::vector<Vertex> local(mesh.positions.size()); // of each vertex of the mesh
 	std::size_t turned = 0;
-	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-		Component& c = components[at(part.component[f])];
-		const Triangle t = mesh.triangles[f];
-		const char reversed = part.reversed[f];
-		turned += reversed != 0;
-		c.face.push_back(static_cast<int>(f));
-		c.reversed.push_back(reversed);
-		Triangle local;
+	for (const Face f : part.component.indices()) {
+		Component& c = components[positionOf(part.component[f])];
+		turned += part.reversed[f] != 0;
+		c.face.push_back(f.number());
+		c.reversed.push_back(part.reversed[f]);
+		Triangle triangle;
 		for (std::size_t k = 0; k < 3; ++k) {
-			const int v = t[reversed ? (3 - k) % 3 : k];
-			if (localVertex[at(v)] < 0) {
-				localVertex[at(v)] = static_cast<int>(c.vertex.size());
+			const int v = mesh.triangles[positionOf(f)][c.inputCorner(Face(c.face.size() - 1), k)];
+			Vertex& known = local[positionOf(v)];
+			if (!known.isValid()) {
+				known = Vertex(c.vertex.size());
 				c.vertex.push_back(v);
-				c.positions.push_back(mesh.positions[at(v)]);
+				c.positions.push_back(mesh.positions[positionOf(v)]);
 			}
-			local[k] = localVertex[at(v)];
+			triangle[k] = known.number();
 		}
-		c.triangles.push_back(local);
+		c.triangles.push_back(triangle);
 	}
 	requireSize(components);
 
-	const auto unreferenced = std::count(localVertex.begin(), localVertex.end(), -1) -
-							  static_cast<std::ptrdiff_t>(mesh.absent);
-	if (unreferenced > 0)
+	const auto withoutFace =
+		std::count(local.begin(), local.end(), Vertex()) - static_cast<std::ptrdiff_t>(mesh.absent);
+	if (withoutFace > 0)
 		notes.push_back(
-			count(static_cast<std::size_t>(unreferenced), "vertex belongs", "vertices belong") +
-			" to no face: left out.");
+			counted(static_cast<std::size_t>(withoutFace), "vertex belongs", "vertices belong") +
+			" to no face and " + (withoutFace == 1 ? "is" : "are") + " left out.");
 	if (turned > 0)
 		notes.push_back(
-			count(turned, "face was", "faces were") +
-			" oriented against the rest of the surface and counted as turned round; 'Re-Orient all "
-			"faces coherently' makes that permanent.");
+			counted(turned, "face was", "faces were") +
+			" oriented against the rest of the surface and counted as turned round.");
 	return components;
 }
 
@@ -340,7 +274,7 @@ void requireAreaEverywhere(const std::vector<Component>& components)
 			std::array<double, 3> l;
 			for (std::size_t k = 0; k < 3; ++k) {
 				const int a = t[k], b = t[(k + 1) % 3];
-				l[k] = distance(c.positions[at(a)], c.positions[at(b)]);
+				l[k] = distance(c.positions[Vertex(a)], c.positions[Vertex(b)]);
 				if (l[k] == 0.0)
 					edgesWithoutLength.insert({std::min(a, b), std::max(a, b)});
 			}
@@ -349,14 +283,8 @@ void requireAreaEverywhere(const std::vector<Component>& components)
 		}
 		noLength += edgesWithoutLength.size();
 	}
-	if (noLength > 0)
-		throw InvalidMesh(
-			count(noLength, "edge has", "edges have") +
-			" no length: run 'Merge Close Vertices' and 'Remove Zero Area Faces' first.");
-	if (noArea > 0)
-		throw InvalidMesh(
-			count(noArea, "face has", "faces have") +
-			" no area: run 'Remove Zero Area Faces' or 'Remove T-Vertices' first.");
+	requireNone(noLength, InvalidMesh::EdgesWithoutLength);
+	requireNone(noArea, InvalidMesh::FacesWithoutArea);
 }
 
 } // namespace ricci

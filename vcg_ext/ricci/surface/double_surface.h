@@ -4,18 +4,16 @@
 
 #include "triangulation.h"
 
-#include <vector>
-
 namespace ricci {
 
 /// Two copies of a surface with boundary, the second one turned round, glued along the boundary: a
 /// closed surface. Vertices, edges, halfedges and faces of the surface keep their numbers in the
-/// first copy (an outer halfedge becomes the second copy's inner one).
+/// first copy; an exterior halfedge of the surface is an interior one of the second copy.
 struct DoubleSurface
 {
 	Triangulation triangulation;
-	std::vector<int> mirror; ///< [vertex] its image in the other copy; itself on the boundary
-	std::vector<int> edgeOf; ///< [edge] the surface's edge that it is or mirrors
+	VertexArray<Vertex> mirror; ///< the image in the other copy; on the boundary the vertex itself
+	EdgeArray<Edge> edgeOf;     ///< the surface's edge that it is or mirrors
 };
 
 DoubleSurface doubleOf(const Triangulation& t);

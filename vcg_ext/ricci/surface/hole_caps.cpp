@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hole_caps.h"
 
-#include "../numbers.h"
+#include <utility>
 
 namespace ricci {
 
 namespace {
 
 /// Centre of mass of a closed line; the mean of its points where it has no length.
-Point3 centreOf(const std::vector<int>& loop, const std::vector<Point3>& positions)
+Point3 centreOf(const std::vector<Vertex>& loop, const VertexArray<Point3>& positions)
 {
 	Point3 centre{0, 0, 0}, mean{0, 0, 0};
 	double length = 0.0;
 	for (std::size_t i = 0; i < loop.size(); ++i) {
-		const Point3 &p = positions[at(loop[i])], &q = positions[at(loop[(i + 1) % loop.size()])];
+		const Point3 &p = positions[loop[i]], &q = positions[loop[(i + 1) % loop.size()]];
 		const double side = distance(p, q);
 		length += side;
 		for (std::size_t x = 0; x < 3; ++x) {
@@ -28,31 +28,28 @@ Point3 centreOf(const std::vector<int>& loop, const std::vector<Point3>& positio
 
 } // namespace
 
-CappedSurface capInnerLoops(const Triangulation& t, const std::vector<Point3>& positions)
+CappedSurface capInnerLoops(const Triangulation& t, const VertexArray<Point3>& positions)
 {
 	CappedSurface capped;
 	capped.positions = positions;
-	capped.onHole.assign(at(t.vertexCount()), 0);
-	std::vector<Triangle> triangles(at(t.faceCount()));
-	for (int f = 0; f < t.faceCount(); ++f) {
-		const auto h = t.halfedges(f);
-		triangles[at(f)] = {t.origin(h[0]), t.origin(h[1]), t.origin(h[2])};
+	capped.onHole.assign(t.vertexCount(), 0);
+	for (const Face f : t.faces()) {
+		const auto [a, b, c] = t.vertices(f);
+		capped.triangles.push_back({a.number(), b.number(), c.number()});
 	}
-	// An outer halfedge runs as the side of the cap there does.
-	std::vector<std::vector<int>> loops;
+	// An exterior halfedge has the direction of the side of the cap there.
+	std::vector<std::vector<Vertex>> loops;
 	std::size_t longest = 0;
-	double most = -1.0;
-	for (int first : t.boundaryLoops()) {
-		std::vector<int> loop;
+	double maxLength = -1.0;
+	for (const Halfedge first : t.boundaryLoops()) {
+		std::vector<Vertex> loop;
 		double length = 0.0;
-		int h = first;
-		do {
+		for (const Halfedge h : t.loop(first)) {
 			loop.push_back(t.origin(h));
-			length += distance(positions[at(t.origin(h))], positions[at(t.target(h))]);
-			h = t.next(h);
-		} while (h != first);
-		if (length > most) {
-			most = length;
+			length += distance(positions[t.origin(h)], positions[t.target(h)]);
+		}
+		if (length > maxLength) {
+			maxLength = length;
 			longest = loops.size();
 		}
 		loops.push_back(std::move(loop));
@@ -60,15 +57,16 @@ CappedSurface capInnerLoops(const Triangulation& t, const std::vector<Point3>& p
 	for (std::size_t l = 0; l < loops.size(); ++l) {
 		if (l == longest)
 			continue;
-		for (int v : loops[l])
-			capped.onHole[at(v)] = 1;
-		const int centre = static_cast<int>(capped.positions.size());
-		capped.positions.push_back(centreOf(loops[l], positions));
-		for (std::size_t i = 0; i < loops[l].size(); ++i)
-			triangles.push_back({loops[l][i], loops[l][(i + 1) % loops[l].size()], centre});
+		const std::vector<Vertex>& loop = loops[l];
+		const int centre = capped.positions.size();
+		capped.positions.push_back(centreOf(loop, positions));
+		for (std::size_t i = 0; i < loop.size(); ++i) {
+			capped.onHole[loop[i]] = 1;
+			capped.triangles.push_back(
+				{loop[i].number(), loop[(i + 1) % loop.size()].number(), centre});
+		}
 		++capped.holes;
 	}
-	capped.triangulation = Triangulation(static_cast<int>(capped.positions.size()), triangles);
 	return capped;
 }
 

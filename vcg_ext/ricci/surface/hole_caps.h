@@ -8,22 +8,24 @@
 
 namespace ricci {
 
-/// A surface whose boundary loops but the longest are closed by caps. Vertices, edges, halfedges
-/// and faces of the surface keep their numbers; those of the caps follow.
+/// The triangles of a surface whose boundary loops but the longest are closed by caps.
 struct CappedSurface
 {
-	Triangulation triangulation;
-	std::vector<Point3> positions;
-	std::vector<char> onHole; ///< [vertex of the surface] 1 on a loop that is closed
-	int holes = 0;
+	std::vector<Triangle> triangles; ///< those of the surface in order, then those of the caps
+	VertexArray<Point3> positions;   ///< of the surface's vertices, then the centres of the caps
+	VertexArray<char> onHole;        ///< [vertex of the surface] 1 on a loop that is closed
+	int holes = 0;                   ///< loops that are closed
 };
 
-/// Closes every boundary loop but the longest by a fan round its centre of mass. Positions serve to
-/// give the fan's edges a length alone, and its triangles may be thin: the flow starts from the
-/// intrinsic Delaunay triangulation and makes the fan flat, inside and together with the faces at
-/// its rim. A finer filling, by rings of ever fewer vertices, changes the distortion of the surface
-/// in the fourth digit only. A plane hole that is star-shaped from its centre is filled by the plane.
-CappedSurface capInnerLoops(const Triangulation& t, const std::vector<Point3>& positions);
+/// Closes every boundary loop but the longest by a fan round its centre of mass. A Triangulation of
+/// the result keeps the numbers of the surface's vertices, edges, halfedges and faces.
+///
+/// Positions serve only to give the edges of the fan a length, and its triangles may be thin: the
+/// flow starts from the intrinsic Delaunay triangulation and makes the fan flat, inside and
+/// together with the faces at its rim. A finer filling, by rings of ever fewer vertices, changes
+/// the distortion of the surface in the fourth digit only. A plane hole that is star-shaped from
+/// its centre is filled by the plane.
+CappedSurface capInnerLoops(const Triangulation& t, const VertexArray<Point3>& positions);
 
 } // namespace ricci
 

@@ -1,158 +1,149 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "normal_coordinates.h"
 
-#include "../numbers.h"
-
 #include <algorithm>
 
 namespace ricci {
 
 NormalCoordinates::NormalCoordinates(const Triangulation& original) :
-		m_triangulation(original), m_crossings(at(original.edgeCount()), -1),
-		m_roundabout(at(original.halfedgeCount()), -1), m_degree(at(original.vertexCount()), 0)
+		m_triangulation(original), m_normal(original.edgeCount(), -1),
+		m_roundabout(original.halfedgeCount(), -1), m_degree(original.vertexCount(), 0),
+		m_start(original.vertexCount(), 0), m_ranked(original.halfedgeCount())
 {
 	const Triangulation& t = m_triangulation;
-	for (int h = 0; h < t.halfedgeCount(); ++h)
-		++m_degree[at(t.origin(h))];
-	m_start.assign(at(t.vertexCount()) + 1, 0);
-	for (int v = 0; v < t.vertexCount(); ++v)
-		m_start[at(v) + 1] = m_start[at(v)] + m_degree[at(v)];
-	m_ranked.assign(at(t.halfedgeCount()), -1);
-	// Counter-clockwise from the halfedge that has the outside on its right, or from any.
-	std::vector<int> first(at(t.vertexCount()), -1);
-	for (int h = t.halfedgeCount() - 1; h >= 0; --h)
-		if (!t.isOuter(h) &&
-			(first[at(t.origin(h))] < 0 || !t.isOuter(Triangulation::twin(first[at(t.origin(h))]))))
-			first[at(t.origin(h))] = h;
-	for (int v = 0; v < t.vertexCount(); ++v) {
-		if (first[at(v)] < 0)
+	for (const Halfedge h : t.halfedges())
+		++m_degree[t.origin(h)];
+	int count = 0;
+	for (const Vertex v : t.vertices()) {
+		m_start[v] = count;
+		count += m_degree[v];
+	}
+	// Counter-clockwise from the halfedge that has the exterior on its right, or from any.
+	for (const Vertex v : t.vertices()) {
+		Halfedge h = t.halfedge(v);
+		if (!h.isValid())
 			continue;
-		int h = first[at(v)];
-		for (int rank = 0; rank < m_degree[at(v)]; ++rank) {
-			m_roundabout[at(h)] = rank;
-			m_ranked[at(m_start[at(v)] + rank)] = h;
-			if (!t.isOuter(h))
-				h = Triangulation::twin(t.previous(h));
+		for (int rank = 0; rank < m_degree[v]; ++rank) {
+			m_roundabout[h] = rank;
+			m_ranked[m_start[v] + rank] = h;
+			if (!t.isExterior(h))
+				h = t.previous(h).twin();
 		}
 	}
 }
 
-NormalCoordinates::Corners NormalCoordinates::cornersOf(int h) const
+NormalCoordinates::CornerCurves NormalCoordinates::cornerCurves(Halfedge h) const
 {
 	const Triangulation& t = m_triangulation;
-	const int ij = crossings(Triangulation::edge(h));
-	const int jk = crossings(Triangulation::edge(t.next(h)));
-	const int ki = crossings(Triangulation::edge(t.previous(h)));
-	Corners c{0, 0, 0, 0, 0, 0};
-	// At most one corner has curves leaving through the opposite side, and then no curve cuts it
-	// off.
+	const int ij = crossings(h.edge());
+	const int jk = crossings(t.next(h).edge());
+	const int ki = crossings(t.previous(h).edge());
+	CornerCurves c;
+	// Curves emanate from one corner at most, and then none cuts that corner off.
 	if (ij > jk + ki)
-		c.fromK = ij - jk - ki, c.cutI = ki, c.cutJ = jk;
+		c.emanateFromK = ij - jk - ki, c.cutOffI = ki, c.cutOffJ = jk;
 	else if (jk > ki + ij)
-		c.fromI = jk - ki - ij, c.cutJ = ij, c.cutK = ki;
+		c.emanateFromI = jk - ki - ij, c.cutOffJ = ij, c.cutOffK = ki;
 	else if (ki > ij + jk)
-		c.fromJ = ki - ij - jk, c.cutK = jk, c.cutI = ij;
-	else
-		c.cutI = (ij + ki - jk) / 2, c.cutJ = (jk + ij - ki) / 2, c.cutK = (ki + jk - ij) / 2;
+		c.emanateFromJ = ki - ij - jk, c.cutOffK = jk, c.cutOffI = ij;
+	else {
+		c.cutOffI = (ij + ki - jk) / 2;
+		c.cutOffJ = (jk + ij - ki) / 2;
+		c.cutOffK = (ki + jk - ij) / 2;
+	}
 	return c;
 }
 
-/// Crossings of the other diagonal kl of the quad of edge ij: the curve pieces with one end on the
-/// side of i and one on the side of j; -1 if a curve runs from k to l.
-int NormalCoordinates::flipped(int e) const
+/// Normal coordinate of the other diagonal kl of the quad of edge ij.
+int NormalCoordinates::flippedNormalCoordinate(Edge e) const
 {
-	const Corners top = cornersOf(2 * e),
-				  bottom = cornersOf(2 * e + 1);              // bottom: i and j exchanged
-	const int topI = top.cutI, topEnd = top.cutI + top.fromK; // along ij: cut i, from k, cut j
-	const int bottomI = bottom.cutJ, bottomEnd = bottom.cutJ + bottom.fromK;
-	if (std::max(topI, bottomI) < std::min(topEnd, bottomEnd))
+	const CornerCurves ijk = cornerCurves(e.halfedge());
+	const CornerCurves jil = cornerCurves(e.halfedge().twin()); // its I, J, K are j, i, l
+	// The curves across ij from i: on each side first those round i, then those to the apex.
+	const int roundIinIjk = ijk.cutOffI, toK = roundIinIjk + ijk.emanateFromK;
+	const int roundIinJil = jil.cutOffJ, toL = roundIinJil + jil.emanateFromK;
+	if (std::max(roundIinIjk, roundIinJil) < std::min(toK, toL))
 		return -1;
-	return top.cutK + bottom.cutK + top.fromI + top.fromJ + bottom.fromI + bottom.fromJ +
-		   (isCurve(e) ? 1 : 0) + std::max(0, topI - bottomEnd) + std::max(0, bottomI - topEnd);
+	return ijk.cutOffK + jil.cutOffK + ijk.emanateFromI + ijk.emanateFromJ + jil.emanateFromI +
+		   jil.emanateFromJ + (isCurve(e) ? 1 : 0) + std::max(0, roundIinIjk - toL) +
+		   std::max(0, roundIinJil - toK);
 }
 
-/// Rank of h from that of the halfedge next to it clockwise: past that one, if it is a curve, and
-/// past the curves that leave between the two.
-void NormalCoordinates::updateRoundabout(int h)
+void NormalCoordinates::updateRoundabout(Halfedge h)
 {
-	const int before = m_triangulation.next(Triangulation::twin(h));
-	const Corners c = cornersOf(before);
-	const int passed = c.fromI + (isCurve(Triangulation::edge(before)) ? 1 : 0);
-	m_roundabout[at(h)] =
-		(m_roundabout[at(before)] + passed) % m_degree[at(m_triangulation.origin(h))];
+	const Halfedge clockwise = m_triangulation.next(h.twin());
+	const int passed = cornerCurves(clockwise).emanateFromI + (isCurve(clockwise.edge()) ? 1 : 0);
+	m_roundabout[h] = (m_roundabout[clockwise] + passed) % m_degree[m_triangulation.origin(h)];
 }
 
-void NormalCoordinates::flip(int e)
+void NormalCoordinates::flip(Edge e)
 {
-	const int crossings = flipped(e);
+	const int normal = flippedNormalCoordinate(e);
 	m_triangulation.flip(e);
-	m_crossings[at(e)] = crossings;
-	updateRoundabout(2 * e);
-	updateRoundabout(2 * e + 1);
+	m_normal[e] = normal;
+	updateRoundabout(e.halfedge());
+	updateRoundabout(e.halfedge().twin());
 }
 
-void NormalCoordinates::unflip(int e)
+void NormalCoordinates::unflip(Edge e)
 {
-	const int crossings = flipped(e);
+	const int normal = flippedNormalCoordinate(e);
 	m_triangulation.unflip(e);
-	m_crossings[at(e)] = crossings;
-	updateRoundabout(2 * e);
-	updateRoundabout(2 * e + 1);
+	m_normal[e] = normal;
+	updateRoundabout(e.halfedge());
+	updateRoundabout(e.halfedge().twin());
 }
 
-int NormalCoordinates::originalAtOrBefore(int h) const
+Halfedge NormalCoordinates::originalAtOrBefore(Halfedge h) const
 {
-	const int v = m_triangulation.origin(h);
-	const int rank =
-		m_roundabout[at(h)] + (isCurve(Triangulation::edge(h)) ? 0 : m_degree[at(v)] - 1);
-	return m_ranked[at(m_start[at(v)] + rank % m_degree[at(v)])];
+	const Vertex v = m_triangulation.origin(h);
+	return original(v, m_roundabout[h] + (isCurve(h.edge()) ? 0 : m_degree[v] - 1));
 }
 
-std::vector<NormalCoordinates::Curve> NormalCoordinates::trace() const
+EdgeArray<NormalCoordinates::Curve> NormalCoordinates::trace() const
 {
 	const Triangulation& t = m_triangulation;
-	std::vector<Curve> curves(at(t.edgeCount()));
+	EdgeArray<Curve> curves(t.edgeCount());
 	struct Start
 	{
-		int corner = -1, position = -1; // position -1: the curve is the edge itself
+		Halfedge corner;
+		int position = -1; // across the opposite side; -1: the curve is the edge of corner
 	};
-	std::vector<Start> starts(at(t.halfedgeCount())); // by original halfedge
-	for (int h = 0; h < t.halfedgeCount(); ++h) {
-		const int v = t.origin(h);
-		const bool isCurve = this->isCurve(Triangulation::edge(h));
-		const auto ranked = [&](int rank) {
-			return m_ranked[at(m_start[at(v)] + rank % m_degree[at(v)])];
-		};
-		if (isCurve)
-			starts[at(ranked(m_roundabout[at(h)]))] = {h, -1};
-		if (t.isOuter(h))
+	HalfedgeArray<Start> starts(t.halfedgeCount()); // by original halfedge
+	for (const Halfedge h : t.halfedges()) {
+		const Vertex v = t.origin(h);
+		const bool isEdge = isCurve(h.edge());
+		if (isEdge)
+			starts[original(v, m_roundabout[h])] = {h, -1};
+		if (t.isExterior(h))
 			continue;
-		const Corners c = cornersOf(h);
-		for (int m = 0; m < c.fromI; ++m)
-			starts[at(ranked(m_roundabout[at(h)] + (isCurve ? 1 : 0) + m))] = {
-				h, crossings(Triangulation::edge(h)) + m};
+		const int count = cornerCurves(h).emanateFromI;
+		for (int m = 0; m < count; ++m)
+			starts[original(v, m_roundabout[h] + (isEdge ? 1 : 0) + m)] = {
+				h, crossings(h.edge()) + m};
 	}
-	for (int e = 0; e < t.edgeCount(); ++e) {
-		Curve& curve = curves[at(e)];
-		const Start start = starts[at(2 * e)];
+	for (const Edge e : t.edges()) {
+		Curve& curve = curves[e];
+		const Start start = starts[e.halfedge()];
 		curve.first = start.corner;
-		curve.last = starts[at(2 * e + 1)].corner;
+		curve.last = starts[e.halfedge().twin()].corner;
 		if (start.position < 0)
 			continue;
-		int x = t.next(start.corner), position = start.position;
+		Halfedge x = t.next(start.corner);
+		int position = start.position;
 		while (true) {
 			curve.crossings.push_back({x, position});
-			const int y = Triangulation::twin(x);
-			const int n = crossings(Triangulation::edge(x));
-			const Corners c = cornersOf(y);
-			const int in = n - 1 - position;
-			if (in < c.cutI) {
+			const Halfedge y = x.twin();
+			const int n = crossings(x.edge());
+			const CornerCurves c = cornerCurves(y);
+			const int fromOriginOfY = n - 1 - position;
+			if (fromOriginOfY < c.cutOffI) {
 				x = t.previous(y);
-				position = crossings(Triangulation::edge(x)) - 1 - in;
+				position = crossings(x.edge()) - 1 - fromOriginOfY;
 			}
-			else if (in >= n - c.cutJ) {
+			else if (fromOriginOfY >= n - c.cutOffJ) {
 				x = t.next(y);
-				position = n - 1 - in;
+				position = n - 1 - fromOriginOfY;
 			}
 			else
 				break;

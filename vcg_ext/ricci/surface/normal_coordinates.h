@@ -10,69 +10,109 @@
 namespace ricci {
 
 /// Where the edges of one triangulation run on another that flips have made of it, in integers
-/// alone: for each edge the number of crossings, and for each halfedge its place among the original
-/// halfedges round its origin (normal coordinates and roundabouts, Gillespie, Sharp and Crane
-/// 2021). "Curves" below are the edges of the original triangulation, pulled tight.
+/// alone [Gillespie Sharp Crane 2021]: for each edge its normal coordinate n, the number of
+/// crossings, and for each halfedge its roundabout r, its place among the original halfedges round
+/// its origin. "Curves" below are the edges of the original triangulation, pulled tight. An edge
+/// that is itself a curve has n = -1.
+///
+/// Curves in a triangle ijk either cut off a corner or emanate from one and leave through the
+/// opposite side. Their numbers, c and e, follow from the normal coordinates of the sides (negative
+/// ones taken as 0):
+///
+///             k                 e_k = max(0, n_ij - n_jk - n_ki),
+///           /   \               c_k = (n_jk + n_ki - n_ij) / 2  if all e are 0,
+///     n_ki / c_k \ n_jk         c_k = 0, c_i = n_ki, c_j = n_jk if e_k > 0;
+///         /       \             the others by turning the letters.
+///        i ------- j
+///           n_ij
+///
+/// Along ij, from i: c_i curves, then e_k, then c_j.
+///
+/// A flip of ij, with c, e of triangle ijk and c', e' of jil:
+///
+///             k                          k
+///           /   \                      / | \             .
+///     n_ki /     \ n_jk          n_ki /  |  \ n_jk
+///         /  n_ij \                  /   |   \           .
+///        i ------> j       ->       i  n_kl   j
+///         \       /                  \   ^   /
+///     n_il \     / n_lj          n_il \  |  / n_lj
+///           \   /                      \ | /
+///             l                          l
+///
+///   n_kl = c_k + c'_l + e_i + e_j + e'_i + e'_j + [1 if n_ij = -1]
+///          + max(0, c_i - c'_i - e'_l) + max(0, c'_i - c_i - e_k),
+///
+/// the curves that run from the side of i to the side of j; -1 if a curve runs from k to l. The
+/// roundabout of a halfedge is that of the next one clockwise, plus the curves that start at that
+/// one or between the two: r_lk = r_lj + [1 if n_lj = -1] + e''_l modulo the degree of l, with e''
+/// of the new triangle ljk; r_kl likewise.
 class NormalCoordinates
 {
 public:
 	explicit NormalCoordinates(const Triangulation& original);
 
 	/// Follow a flip of edge \p e, forwards or backwards (see Triangulation).
-	void flip(int e);
-	void unflip(int e);
+	/// \pre \p e is flippable
+	void flip(Edge e);
+	void unflip(Edge e);
 
 	const Triangulation& triangulation() const { return m_triangulation; }
 
 	/// Number of curves across edge \p e; 0 also where the edge is itself a curve.
-	int crossings(int e) const { return std::max(m_crossings[static_cast<std::size_t>(e)], 0); }
+	int crossings(Edge e) const { return std::max(m_normal[e], 0); }
 
 	/// Whether edge \p e is one of the original edges.
-	bool isCurve(int e) const { return m_crossings[static_cast<std::size_t>(e)] < 0; }
+	bool isCurve(Edge e) const { return m_normal[e] < 0; }
 
-	/// A point where a curve leaves a triangle: across halfedge h of that triangle, as number
-	/// \p position of the curves across it, counted from 0 at the origin of h.
+	/// A point where a curve leaves a triangle: across a halfedge of that triangle, as number
+	/// \p position of the curves across it, counted from 0 at the origin of the halfedge.
 	struct Crossing
 	{
-		int halfedge;
+		Halfedge halfedge;
 		int position;
 	};
 
-	/// The way of one original edge, from the origin of its even halfedge.
+	/// The way of one original edge e, from the origin of e.halfedge().
 	struct Curve
 	{
-		/// Halfedge from which the curve leaves counter-clockwise, at its origin; where the curve is
-		/// an edge, that edge's halfedge in its direction.
-		int first = -1;
-		int last = -1;                   ///< the same, seen from the curve's other end
+		/// The halfedge at the curve's beginning from which it leaves counter-clockwise, into the
+		/// triangle on the left; where the curve is an edge, that edge's halfedge in its direction.
+		Halfedge first;
+		Halfedge last;                   ///< the same, seen from the curve's other end
 		std::vector<Crossing> crossings; ///< empty where the curve is an edge
 	};
 
-	/// The ways of all original edges.
-	std::vector<Curve> trace() const;
+	/// The ways of all original edges, by original edge.
+	EdgeArray<Curve> trace() const;
 
 	/// The original halfedge that \p h is, or that lies next clockwise from it, at its origin.
-	int originalAtOrBefore(int h) const;
+	Halfedge originalAtOrBefore(Halfedge h) const;
 
 private:
-	/// Curves in the triangle on the left of halfedge h = ij, apex k.
-	struct Corners
+	/// Numbers of curves in the triangle on the left of a halfedge ij, apex k.
+	struct CornerCurves
 	{
-		int cutI, cutJ, cutK;    ///< curves that cut off a corner
-		int fromI, fromJ, fromK; ///< curves that leave through the side opposite a corner
+		int cutOffI = 0, cutOffJ = 0, cutOffK = 0; ///< c: curves that cut off the corner
+		int emanateFromI = 0, emanateFromJ = 0, emanateFromK = 0; ///< e: curves that start there
 	};
 
-	Corners cornersOf(int h) const;
-	int flipped(int e) const;
-	void updateRoundabout(int h);
+	CornerCurves cornerCurves(Halfedge h) const;
+	int flippedNormalCoordinate(Edge e) const;
+	void updateRoundabout(Halfedge h);
+
+	/// The original halfedge of this rank, modulo the degree, at \p v.
+	Halfedge original(Vertex v, int rank) const
+	{
+		return m_ranked[m_start[v] + rank % m_degree[v]];
+	}
 
 	Triangulation m_triangulation;
-	std::vector<int> m_crossings; // [edge]; -1 where the edge is a curve
-	std::vector<int>
-		m_roundabout;          // [halfedge] rank, at its origin, of the first curve at or after it
-	std::vector<int> m_degree; // [vertex] original halfedges that start there
-	std::vector<int> m_start;  // [vertex] into m_ranked
-	std::vector<int> m_ranked; // original halfedges, counter-clockwise round each vertex
+	EdgeArray<int> m_normal;         // -1 where the edge is a curve
+	HalfedgeArray<int> m_roundabout; // rank, at its origin, of the first curve at or after it
+	VertexArray<int> m_degree;       // original halfedges that start there
+	VertexArray<int> m_start;        // into m_ranked
+	Array<Halfedge> m_ranked;        // original halfedges, counter-clockwise round each vertex
 };
 
 } // namespace ricci

@@ -2,16 +2,18 @@
 #ifndef RICCI_SURFACE_MESH_H
 #define RICCI_SURFACE_MESH_H
 
+#include "../math/points.h"
+
 #include <array>
 #include <cstddef>
 #include <vector>
 
 namespace ricci {
 
-using Point3 = std::array<double, 3>;
+/// Numbers of the three corners of a triangle.
 using Triangle = std::array<int, 3>;
 
-/// A triangle soup with shared vertices, as the rim hands it over. The flow itself sees lengths
+/// A triangle soup with shared vertices, as a caller hands it over. The flow itself sees lengths
 /// only; positions are read for the corners of a rectangle, edge swaps, areas and distortion.
 struct SurfaceMesh
 {
@@ -19,9 +21,6 @@ struct SurfaceMesh
 	std::vector<Triangle> triangles; ///< indices into positions
 	std::size_t absent = 0;          ///< positions that stand for no vertex (deleted elements)
 };
-
-/// Euclidean distance of two points.
-double distance(const Point3& a, const Point3& b);
 
 } // namespace ricci
 

@@ -2,19 +2,11 @@
 #include "triangulation.h"
 
 #include "../error.h"
-#include "../numbers.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <string>
 
 namespace ricci {
-
-double distance(const Point3& a, const Point3& b)
-{
-	return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
 
 namespace {
 
@@ -48,129 +40,139 @@ std::vector<int> sidesByVertexPair(const std::vector<Triangle>& triangles)
 			continue;
 		if (last - first > 2 || sides[first].ascending == sides[first + 1].ascending)
 			throw InvalidMesh(
-				"The edge between vertices " + std::to_string(sides[first].low) + " and " +
-				std::to_string(sides[first].high) + " is not shared by two coherent triangles.");
-		glued[at(sides[first].index)] = sides[first + 1].index;
-		glued[at(sides[first + 1].index)] = sides[first].index;
+				InvalidMesh::IncoherentEdge,
+				last - first,
+				{static_cast<int>(sides[first].low), static_cast<int>(sides[first].high)});
+		glued[positionOf(sides[first].index)] = sides[first + 1].index;
+		glued[positionOf(sides[first + 1].index)] = sides[first].index;
 	}
 	return glued;
 }
 
 } // namespace
 
-Triangulation::Triangulation(int vertexCount, const std::vector<Triangle>& triangles) :
-		m_vertexCount(vertexCount)
+Triangulation::Triangulation(int vertexCount, const std::vector<Triangle>& triangles)
 {
-	glue(triangles, sidesByVertexPair(triangles));
+	glue(vertexCount, triangles, sidesByVertexPair(triangles));
 }
 
 Triangulation::Triangulation(
-	int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& glued) :
-		m_vertexCount(vertexCount)
+	int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& glued)
 {
-	glue(triangles, glued);
+	glue(vertexCount, triangles, glued);
 }
 
-void Triangulation::glue(const std::vector<Triangle>& triangles, const std::vector<int>& glued)
+void Triangulation::glue(
+	int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& glued)
 {
 	const std::size_t sideCount = 3 * triangles.size();
-	std::vector<int> halfedgeOf(sideCount, -1);
+	std::vector<Halfedge> halfedgeOf(sideCount);
 	int count = 0;
 	for (std::size_t side = 0; side < sideCount; ++side) {
-		if (halfedgeOf[side] >= 0)
+		if (halfedgeOf[side].isValid())
 			continue;
-		halfedgeOf[side] = count;
+		halfedgeOf[side] = Halfedge(count);
 		if (glued[side] >= 0)
-			halfedgeOf[at(glued[side])] = count + 1;
+			halfedgeOf[positionOf(glued[side])] = Halfedge(count + 1);
 		count += 2;
 	}
-	m_next.assign(at(count), -1);
-	m_origin.assign(at(count), -1);
-	m_face.assign(at(count), kOutside);
+	m_next.assign(count, Halfedge());
+	m_origin.assign(count, Vertex());
+	m_face.assign(count, Face());
 	m_faceHalfedge.resize(triangles.size());
-	for (std::size_t f = 0; f < triangles.size(); ++f) {
-		m_faceHalfedge[f] = halfedgeOf[3 * f];
+	for (const Face f : faces()) {
+		const std::size_t side = 3 * positionOf(f);
+		m_faceHalfedge[f] = halfedgeOf[side];
 		for (std::size_t k = 0; k < 3; ++k) {
-			const int h = halfedgeOf[3 * f + k];
-			m_next[at(h)] = halfedgeOf[3 * f + (k + 1) % 3];
-			m_origin[at(h)] = triangles[f][k];
-			m_face[at(h)] = static_cast<int>(f);
-			m_origin[at(twin(h))] = triangles[f][(k + 1) % 3];
+			const Halfedge h = halfedgeOf[side + k];
+			m_next[h] = halfedgeOf[side + (k + 1) % 3];
+			m_origin[h] = Vertex(triangles[positionOf(f)][k]);
+			m_face[h] = f;
+			m_origin[h.twin()] = Vertex(triangles[positionOf(f)][(k + 1) % 3]);
 		}
 	}
-	// Turning about the end of an outer halfedge, through the triangles there, leads to the next.
-	for (int h = 0; h < count; ++h) {
-		if (!isOuter(h))
-			continue;
-		int turn = twin(h);
+	// Turning about the end of an exterior halfedge, through the triangles there, leads to the next.
+	for (const Halfedge h : exteriorHalfedges()) {
+		Halfedge turn = h.twin();
 		do
-			turn = twin(previous(turn));
-		while (!isOuter(turn));
-		m_next[at(h)] = turn;
+			turn = previous(turn).twin();
+		while (!isExterior(turn));
+		m_next[h] = turn;
+	}
+	m_vertexHalfedge.resize(vertexCount);
+	for (int i = count; i-- > 0;) {
+		const Halfedge h(i);
+		if (isExterior(h))
+			continue;
+		Halfedge& known = m_vertexHalfedge[origin(h)];
+		if (!known.isValid() || !isExterior(known.twin()))
+			known = h;
 	}
 }
 
-std::vector<char> Triangulation::boundaryVertices() const
+VertexArray<char> Triangulation::boundaryVertices() const
 {
-	std::vector<char> boundary(at(m_vertexCount), 0);
-	for (int h = 0; h < halfedgeCount(); ++h)
-		if (isOuter(h))
-			boundary[at(origin(h))] = 1;
+	VertexArray<char> boundary(vertexCount(), 0);
+	for (const Halfedge h : exteriorHalfedges())
+		boundary[origin(h)] = 1;
 	return boundary;
 }
 
-std::vector<int> Triangulation::boundaryLoops() const
+std::vector<Halfedge> Triangulation::boundaryLoops() const
 {
-	std::vector<int> loops;
-	std::vector<char> seen(m_next.size(), 0);
-	for (int h = 0; h < halfedgeCount(); ++h) {
-		if (!isOuter(h) || seen[at(h)])
+	std::vector<Halfedge> loops;
+	HalfedgeArray<char> seen(halfedgeCount(), 0);
+	for (const Halfedge h : exteriorHalfedges()) {
+		if (seen[h])
 			continue;
 		loops.push_back(h);
-		for (int g = h; !seen[at(g)]; g = next(g))
-			seen[at(g)] = 1;
+		for (const Halfedge g : loop(h))
+			seen[g] = 1;
 	}
 	return loops;
 }
 
 int Triangulation::eulerCharacteristic() const
 {
-	std::vector<char> used(at(m_vertexCount), 0);
-	for (int v : m_origin)
-		used[at(v)] = 1;
-	return static_cast<int>(std::count(used.begin(), used.end(), 1)) - edgeCount() + faceCount();
+	const auto used = std::count_if(
+		m_vertexHalfedge.begin(), m_vertexHalfedge.end(), [](Halfedge h) { return h.isValid(); });
+	return static_cast<int>(used) - edgeCount() + faceCount();
 }
 
-/// Writes the two triangles (h, quad[0], quad[1]) and (twin(h), quad[2], quad[3]), with h running
-/// from \p from to \p to.
-void Triangulation::rewire(int h, std::array<int, 4> quad, int from, int to)
+/// Writes the two triangles (h, quad[0], quad[1]) and (twin, quad[2], quad[3]), with h running from
+/// \p from to \p to.
+void Triangulation::rewire(Halfedge h, std::array<Halfedge, 4> quad, Vertex from, Vertex to)
 {
-	const int t = twin(h), f = face(h), g = face(t);
-	const std::array<int, 3> left{h, quad[0], quad[1]}, right{t, quad[2], quad[3]};
+	const Halfedge t = h.twin();
+	const Face f = face(h), g = face(t);
+	// Vertices must not name h or its twin, which leave them.
+	if (m_vertexHalfedge[origin(h)] == h)
+		m_vertexHalfedge[origin(h)] = next(t);
+	if (m_vertexHalfedge[origin(t)] == t)
+		m_vertexHalfedge[origin(t)] = next(h);
+	const std::array<Halfedge, 3> left{h, quad[0], quad[1]}, right{t, quad[2], quad[3]};
 	for (std::size_t k = 0; k < 3; ++k) {
-		m_next[at(left[k])] = left[(k + 1) % 3];
-		m_face[at(left[k])] = f;
-		m_next[at(right[k])] = right[(k + 1) % 3];
-		m_face[at(right[k])] = g;
+		m_next[left[k]] = left[(k + 1) % 3];
+		m_face[left[k]] = f;
+		m_next[right[k]] = right[(k + 1) % 3];
+		m_face[right[k]] = g;
 	}
-	m_faceHalfedge[at(f)] = h;
-	m_faceHalfedge[at(g)] = t;
-	m_origin[at(h)] = from;
-	m_origin[at(t)] = to;
+	m_faceHalfedge[f] = h;
+	m_faceHalfedge[g] = t;
+	m_origin[h] = from;
+	m_origin[t] = to;
 }
 
-void Triangulation::flip(int e)
+void Triangulation::flip(Edge e)
 {
-	const int h = 2 * e, t = h + 1;
-	const int jk = next(h), ki = next(jk), il = next(t), lj = next(il);
-	rewire(h, {ki, il, lj, jk}, origin(lj), origin(ki));
+	const auto [jk, ki, il, lj] = quad(e);
+	rewire(e.halfedge(), {ki, il, lj, jk}, origin(lj), origin(ki));
 }
 
-void Triangulation::unflip(int e)
+void Triangulation::unflip(Edge e)
 {
-	const int h = 2 * e, t = h + 1;
-	const int ki = next(h), il = next(ki), lj = next(t), jk = next(lj);
-	rewire(h, {jk, ki, il, lj}, origin(il), origin(jk));
+	const auto [ki, il, lj, jk] = quad(e);
+	rewire(e.halfedge(), {jk, ki, il, lj}, origin(il), origin(jk));
 }
 
 } // namespace ricci

@@ -2,6 +2,7 @@
 #ifndef RICCI_TRIANGULATION_H
 #define RICCI_TRIANGULATION_H
 
+#include "elements.h"
 #include "surface_mesh.h"
 
 #include <array>
@@ -13,18 +14,17 @@ namespace ricci {
 /// without boundary. Loops, several edges between the same two vertices and triangles glued to
 /// themselves are legal, so an edge is always named by its index, never by its two vertices.
 ///
-/// Halfedges come in pairs: twin(h) = h ^ 1, edge(h) = h >> 1. A halfedge on the outer side of a
-/// boundary edge has face kOutside; the outer halfedges of one boundary loop are linked by next().
-/// Only flip() and unflip() change a triangulation; twins and the number of elements never change.
+/// A halfedge on the other side of a boundary edge is exterior: it has no face. The exterior
+/// halfedges of one boundary loop are linked by next(). Only flip() and unflip() change a
+/// triangulation; twins and the number of elements never change.
 class Triangulation
 {
 public:
-	static constexpr int kOutside = -1;
-
 	Triangulation() = default;
 
-	/// Glues triangles along equal vertex pairs. The triangles must be coherently oriented and
-	/// manifold (see splitIntoComponents()); halfedge(f, k) then starts at triangles[f][k].
+	/// Glues triangles along equal vertex pairs; halfedges(Face(f))[k] then starts at
+	/// triangles[f][k].
+	/// \pre the triangles are coherently oriented and manifold (see splitIntoComponents())
 	/// \throw InvalidMesh if an oriented vertex pair occurs twice.
 	Triangulation(int vertexCount, const std::vector<Triangle>& triangles);
 
@@ -34,65 +34,212 @@ public:
 	Triangulation(
 		int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& glued);
 
-	int vertexCount() const { return m_vertexCount; }
-	int faceCount() const { return static_cast<int>(m_faceHalfedge.size()); }
-	int edgeCount() const { return static_cast<int>(m_next.size() / 2); }
-	int halfedgeCount() const { return static_cast<int>(m_next.size()); }
+	int vertexCount() const { return m_vertexHalfedge.size(); }
+	int faceCount() const { return m_faceHalfedge.size(); }
+	int edgeCount() const { return m_next.size() / 2; }
+	int halfedgeCount() const { return m_next.size(); }
 
-	static int twin(int h) { return h ^ 1; }
-	static int edge(int h) { return h >> 1; }
+	IndexRange<Vertex> vertices() const { return IndexRange<Vertex>(vertexCount()); }
+	IndexRange<Face> faces() const { return IndexRange<Face>(faceCount()); }
+	IndexRange<Edge> edges() const { return IndexRange<Edge>(edgeCount()); }
+	IndexRange<Halfedge> halfedges() const { return IndexRange<Halfedge>(halfedgeCount()); }
 
-	int next(int h) const { return m_next[static_cast<std::size_t>(h)]; }
-	int origin(int h) const { return m_origin[static_cast<std::size_t>(h)]; }
-	int target(int h) const { return origin(twin(h)); }
-	int face(int h) const { return m_face[static_cast<std::size_t>(h)]; }
+	Halfedge next(Halfedge h) const { return m_next[h]; }
+	Vertex origin(Halfedge h) const { return m_origin[h]; }
+	Vertex target(Halfedge h) const { return origin(h.twin()); }
 
-	/// The halfedge before \p h in its triangle; \p h must not be outer.
-	int previous(int h) const { return next(next(h)); }
+	/// The triangle on the left of \p h; none if \p h is exterior.
+	Face face(Halfedge h) const { return m_face[h]; }
+
+	/// The halfedge before \p h in its triangle.
+	/// \pre \p h is not exterior
+	Halfedge previous(Halfedge h) const { return next(next(h)); }
+
+	/// The corner of the triangle of \p h that is opposite to it.
+	/// \pre \p h is not exterior
+	Vertex apex(Halfedge h) const { return origin(previous(h)); }
+
+	/// Both ends of an edge, in its direction.
+	std::array<Vertex, 2> ends(Edge e) const
+	{
+		return {origin(e.halfedge()), target(e.halfedge())};
+	}
 
 	/// One halfedge of face \p f.
-	int halfedge(int f) const { return m_faceHalfedge[static_cast<std::size_t>(f)]; }
+	Halfedge halfedge(Face f) const { return m_faceHalfedge[f]; }
 
 	/// The three halfedges of face \p f in cyclic order.
-	std::array<int, 3> halfedges(int f) const
+	std::array<Halfedge, 3> halfedges(Face f) const
 	{
-		const int h = halfedge(f);
+		const Halfedge h = halfedge(f);
 		return {h, next(h), previous(h)};
 	}
 
-	bool isOuter(int h) const { return face(h) == kOutside; }
-	bool isBoundaryEdge(int e) const { return isOuter(2 * e) || isOuter(2 * e + 1); }
+	/// The three corners of face \p f: the origins of halfedges(f).
+	std::array<Vertex, 3> vertices(Face f) const
+	{
+		const auto h = halfedges(f);
+		return {origin(h[0]), origin(h[1]), origin(h[2])};
+	}
+
+	/// A halfedge that leaves \p v inside the surface; on the boundary the one whose twin is
+	/// exterior. None if \p v has no face.
+	Halfedge halfedge(Vertex v) const { return m_vertexHalfedge[v]; }
+
+	bool isExterior(Halfedge h) const { return !face(h).isValid(); }
+	bool isBoundary(Edge e) const
+	{
+		return isExterior(e.halfedge()) || isExterior(e.halfedge().twin());
+	}
+
+	/// Halfedges for a range-based loop, from \p first until it comes round, by \p Step.
+	template<class Step>
+	class Circulator
+	{
+	public:
+		class Iterator
+		{
+		public:
+			Iterator(const Triangulation& t, Halfedge h, Halfedge first, bool done) :
+					m_t(t), m_h(h), m_first(first), m_done(done)
+			{
+			}
+			Halfedge operator*() const { return m_h; }
+			Iterator& operator++()
+			{
+				m_h = Step::from(m_t, m_h);
+				m_done = m_h == m_first;
+				return *this;
+			}
+			bool operator!=(const Iterator& other) const { return m_done != other.m_done; }
+
+		private:
+			const Triangulation& m_t;
+			Halfedge m_h, m_first;
+			bool m_done;
+		};
+
+		Circulator(const Triangulation& t, Halfedge first) : m_t(t), m_first(first) {}
+		Iterator begin() const { return {m_t, m_first, m_first, !m_first.isValid()}; }
+		Iterator end() const { return {m_t, m_first, m_first, true}; }
+
+	private:
+		const Triangulation& m_t;
+		Halfedge m_first;
+	};
+
+	struct Clockwise
+	{
+		static Halfedge from(const Triangulation& t, Halfedge h) { return t.next(h.twin()); }
+	};
+	struct Onward
+	{
+		static Halfedge from(const Triangulation& t, Halfedge h) { return t.next(h); }
+	};
+
+	/// The halfedges that leave \p v, clockwise from halfedge(v), exterior ones included. None if
+	/// \p v has no face.
+	Circulator<Clockwise> around(Vertex v) const { return {*this, halfedge(v)}; }
+
+	/// The halfedges of the triangle, or of the boundary loop, of \p h: from \p h on by next().
+	Circulator<Onward> loop(Halfedge h) const { return {*this, h}; }
+
+	/// The halfedges that are exterior, or all others, in increasing order.
+	class SideRange
+	{
+	public:
+		class Iterator
+		{
+		public:
+			Iterator(const Triangulation& t, int number, bool exterior) :
+					m_t(t), m_number(number), m_exterior(exterior)
+			{
+				skip();
+			}
+			Halfedge operator*() const { return Halfedge(m_number); }
+			Iterator& operator++()
+			{
+				++m_number;
+				skip();
+				return *this;
+			}
+			bool operator!=(const Iterator& other) const { return m_number != other.m_number; }
+
+		private:
+			void skip()
+			{
+				while (m_number < m_t.halfedgeCount() &&
+					   m_t.isExterior(Halfedge(m_number)) != m_exterior)
+					++m_number;
+			}
+			const Triangulation& m_t;
+			int m_number;
+			bool m_exterior;
+		};
+
+		SideRange(const Triangulation& t, bool exterior) : m_t(t), m_exterior(exterior) {}
+		Iterator begin() const { return {m_t, 0, m_exterior}; }
+		Iterator end() const { return {m_t, m_t.halfedgeCount(), m_exterior}; }
+
+	private:
+		const Triangulation& m_t;
+		bool m_exterior;
+	};
+
+	SideRange interiorHalfedges() const { return {*this, false}; }
+	SideRange exteriorHalfedges() const { return {*this, true}; }
 
 	/// For each vertex, whether it lies on the boundary.
-	std::vector<char> boundaryVertices() const;
+	VertexArray<char> boundaryVertices() const;
 
-	/// One outer halfedge of each boundary loop, in order of the lowest halfedge index.
-	std::vector<int> boundaryLoops() const;
+	/// One exterior halfedge of each boundary loop, in order of the lowest halfedge number.
+	std::vector<Halfedge> boundaryLoops() const;
 
 	/// V - E + F, vertices without a face not counted.
 	int eulerCharacteristic() const;
 
 	/// Whether edge \p e has two different triangles, so that flip() is defined.
-	bool isFlippable(int e) const
+	bool isFlippable(Edge e) const
 	{
-		const int f = face(2 * e), g = face(2 * e + 1);
-		return f != kOutside && g != kOutside && f != g;
+		const Face f = face(e.halfedge()), g = face(e.halfedge().twin());
+		return f.isValid() && g.isValid() && f != g;
 	}
 
-	/// Replaces edge \p e = ij, between triangles ijk and jil, by the other diagonal lk.
-	/// isFlippable(e) must hold. Halfedge 2 e then runs from l to k.
-	void flip(int e);
+	/// The other four sides of the two triangles at edge \p e, in the order next and previous of its
+	/// halfedge, next and previous of the twin.
+	/// \pre isFlippable(e)
+	std::array<Halfedge, 4> quad(Edge e) const
+	{
+		const Halfedge h = e.halfedge(), g = h.twin();
+		return {next(h), previous(h), next(g), previous(g)};
+	}
 
-	/// Undoes flip(e) exactly, halfedge for halfedge; only which halfedge halfedge(f) names may differ.
-	void unflip(int e);
+	/// Replaces edge \p e = ij, between triangles ijk and jil, by the other diagonal lk; its
+	/// halfedge then runs from l to k.
+	///
+	///          k                 k
+	///        /   \             / | \         .
+	///       i --> j    ->     i  ^  j
+	///        \   /             \ | /
+	///          l                 l
+	///
+	/// \pre isFlippable(e)
+	void flip(Edge e);
+
+	/// Undoes flip(e) exactly, halfedge for halfedge; only which halfedges halfedge(f) and
+	/// halfedge(v) name may differ.
+	void unflip(Edge e);
 
 private:
-	void glue(const std::vector<Triangle>& triangles, const std::vector<int>& glued);
-	void rewire(int h, std::array<int, 4> quad, int from, int to);
+	void
+	glue(int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& glued);
+	void rewire(Halfedge h, std::array<Halfedge, 4> quad, Vertex from, Vertex to);
 
-	int m_vertexCount = 0;
-	std::vector<int> m_next, m_origin, m_face; // by halfedge
-	std::vector<int> m_faceHalfedge;           // by face
+	HalfedgeArray<Halfedge> m_next;
+	HalfedgeArray<Vertex> m_origin;
+	HalfedgeArray<Face> m_face;
+	FaceArray<Halfedge> m_faceHalfedge;
+	VertexArray<Halfedge> m_vertexHalfedge;
 };
 
 } // namespace ricci

@@ -2,18 +2,20 @@
 #ifndef RICCI_DISK_CHECK_H
 #define RICCI_DISK_CHECK_H
 
-#include "map_check.h"
+#include "../math/points.h"
+#include "../surface/surface_mesh.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace ricci {
 
-/// What a chart in the Poincaré disk is worth, seen from its triangles alone, in extended precision.
-/// Lengths are hyperbolic. The rounding of the points to doubles is allowed for: near the circle it
-/// is a large distance.
+/// Errors of a chart in the Poincaré disk, found from its triangles alone, in extended precision.
+/// Lengths are hyperbolic. The check allows for the rounding of the points to doubles, which near
+/// the circle is a large distance.
 struct DiskCheck
 {
-	std::size_t outside = 0; ///< points that are not in the closed unit disk; NaN counts
+	std::size_t outside = 0; ///< points that are not in the open unit disk; NaN counts
 
 	/// Largest difference of the lengths of the two sides of a seam, or of any edge that two
 	/// triangles share.
@@ -26,10 +28,14 @@ struct DiskCheck
 	double radius = 0.0; ///< largest distance of a point from 0
 };
 
-/// The parameters are those of checkMap(), \p tolerance is a distance.
+/// \param triangles corners by vertex; a side that not exactly two triangles share is no seam
+/// \param plane [triangle][corner]
+/// \param reversed [triangle] 1 where clockwise is wanted
+/// \param tolerance hyperbolic distance
+/// \return outside alone, if that is not 0
 DiskCheck checkDisk(
 	const std::vector<Triangle>& triangles,
-	const std::vector<std::array<Point2, 3>>& plane,
+	const std::vector<Triangle2>& plane,
 	const std::vector<char>& reversed,
 	double tolerance);
 

@@ -1,41 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flow_check.h"
 
+#include "../base/text.h"
+#include "../base/tolerances.h"
 #include "../error.h"
-#include "../numbers.h"
-#include "../text.h"
 #include "metric_check.h"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace ricci {
 
-namespace {
-
-/// What the check allows beside the residual and what rounding explains: radians, and relative.
-constexpr double kCurvature = 1e-8, kLength = 1e-9;
-
-} // namespace
-
-void requireMetric(Background background, const FlowResult& flow, const std::vector<char>& boundary)
+void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary)
 {
 	const CurvatureMap& metric = *flow.metric;
-	Eigen::VectorXd target = Eigen::VectorXd::Constant(
+	VertexVector target = VertexVector::Constant(
 		metric.triangulation().vertexCount(), std::numeric_limits<double>::quiet_NaN());
-	for (Eigen::Index v = 0; v < flow.target.curvature.size(); ++v)
-		if (!flow.target.fixed[at(v)])
-			target[v] = flow.target.curvature[v] * (flow.doubled && boundary[at(v)] ? 2.0 : 1.0);
+	for (const Vertex v : flow.target.curvature.indices())
+		if (!flow.target.fixed[v])
+			target[v] = flow.target.curvature[v] * (flow.doubled && boundary[v] ? 2.0 : 1.0);
 	const MetricCheck check = checkMetric(
-		background, metric.triangulation(), metric.delta(), flow.u, metric.lengths(), target);
+		flow.background, metric.triangulation(), metric.delta(), flow.u, metric.lengths(), target);
 	// On the boundary of a double the residual counts twice.
-	const bool exact =
-		check.lengthError <= kLength && check.curvatureError <= 2.0 * flow.residual + kCurvature;
+	const bool exact = check.lengthError <= kCheckedLength &&
+					   check.curvatureError <= 2.0 * flow.residual + kCheckedCurvature;
 	if (exact && check.broken > 0)
-		throw NotConverged(
-			std::to_string(check.broken) + (check.broken == 1 ? " triangle is" : " triangles are") +
-			" flat at the end of the flow: the curvature asked for is the limit of what these "
-			"triangles reach. Choose the surgery 'Intrinsic flips', or another target_curvature.");
+		throw NotConverged(NotConverged::FlatTriangles, static_cast<std::size_t>(check.broken));
 	if (!exact)
 		failCheck(
 			"curvature " + numberText(check.curvatureError, 3) + " off at one vertex, lengths " +
@@ -46,17 +37,15 @@ void requireMetric(Background background, const FlowResult& flow, const std::vec
 double openCurvature(const FlowResult& flow)
 {
 	double sum = 0.0;
-	for (Eigen::Index v = 0; v < flow.target.curvature.size(); ++v)
-		if (!flow.target.fixed[at(v)])
+	for (const Vertex v : flow.target.curvature.indices())
+		if (!flow.target.fixed[v])
 			sum += std::abs(flow.curvature[v] - flow.target.curvature[v]);
 	return sum;
 }
 
-void failCheck(const std::string& what)
+void failCheck(const std::string& finding)
 {
-	throw NotConverged(
-		"The finished map failed its check (" + what +
-		"): remesh the worst triangles, and report the mesh.");
+	throw NotConverged(finding);
 }
 
 } // namespace ricci

@@ -5,21 +5,22 @@
 #include "../flow/ricci_flow.h"
 
 #include <string>
-#include <vector>
 
 namespace ricci {
 
-/// Checks the metric that the flow found (metric_check.h) against the target it says it has reached.
-/// \param boundary [vertex of the surface] 1 on its boundary
+/// Checks the metric that the flow found (metric_check.h) against the target that it says it has
+/// reached.
+/// \param boundary [vertex of the surface on which the flow ran] 1 on its boundary
 /// \throw NotConverged
-void requireMetric(
-	Background background, const FlowResult& flow, const std::vector<char>& boundary);
+void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary);
 
-/// Sum of |target - K| over the surface, in radians: what the residual leaves open altogether.
+/// Sum of |target - K| over the surface, in radians: all of the curvature by which the result
+/// misses its target.
 double openCurvature(const FlowResult& flow);
 
-/// \throw NotConverged "The finished map failed its check (\p what) ..."
-[[noreturn]] void failCheck(const std::string& what);
+/// \param finding what a check of the result found, as in "2 points lie outside the disk"
+/// \throw NotConverged always
+[[noreturn]] void failCheck(const std::string& finding);
 
 } // namespace ricci
 

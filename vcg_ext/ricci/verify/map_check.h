@@ -2,21 +2,20 @@
 #ifndef RICCI_MAP_CHECK_H
 #define RICCI_MAP_CHECK_H
 
-#include "../layout/planar_layout.h"
+#include "../math/points.h"
 #include "../surface/surface_mesh.h"
 
-#include <array>
 #include <vector>
 
 namespace ricci {
 
-/// What a chart in the plane is worth, seen from its triangles alone.
+/// Errors of a chart in the plane, found from its triangles alone.
 struct MapCheck
 {
 	bool finite = true;
 
 	/// Largest difference of the lengths of the two sides of a seam, relative to the extent of the
-	/// chart. Sides that lie at one place are no seam.
+	/// chart. Sides in the same place are no seam.
 	double seamGap = 0.0;
 
 	/// Triangles that the map turns round or flattens (exact predicate) although they are higher
@@ -30,7 +29,7 @@ struct MapCheck
 /// \param tolerance relative to the extent of the chart
 MapCheck checkMap(
 	const std::vector<Triangle>& triangles,
-	const std::vector<std::array<Point2, 3>>& plane,
+	const std::vector<Triangle2>& plane,
 	const std::vector<char>& reversed,
 	double tolerance);
 

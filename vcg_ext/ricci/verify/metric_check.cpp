@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "metric_check.h"
 
-#include "../numbers.h"
+#include "../base/numbers.h"
+#include "../base/tolerances.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace ricci {
@@ -13,13 +15,6 @@ namespace ricci {
 namespace {
 
 using Real = long double;
-
-constexpr double kUnit = std::numeric_limits<double>::epsilon();
-
-constexpr Real kExactPi = 3.14159265358979323846264338327950288L;
-
-/// Units of rounding that one operation of the flow may have left in a length.
-constexpr double kLengthRounding = 16.0;
 
 Real radiusOf(Background background, double u)
 {
@@ -42,13 +37,13 @@ Real lengthOf(Background background, Real gi, Real gj, double delta)
 	return 2 * (background == Background::EuclideanPlane ? root : std::asinh(root));
 }
 
-/// An angle, and what rounding of the three lengths may make of it.
+/// An angle, and the error that the rounding of the three lengths may cause in it.
 struct Angle
 {
 	Real value, rounding;
 };
 
-/// Opposite to \p a, between \p b and \p c.
+/// The angle opposite to \p a, between \p b and \p c.
 Angle angleOf(Background background, Real a, Real b, Real c)
 {
 	const Real overB = (a + c - b) / 2, overC = (a + b - c) / 2;
@@ -56,13 +51,25 @@ Angle angleOf(Background background, Real a, Real b, Real c)
 	const Real sine2 =
 		lengthFunction(background, overC) * lengthFunction(background, overB) / product;
 	if (!(overB > 0) || !(overC > 0) || !(sine2 < 1))
-		return {sine2 < 1 ? Real(0) : kExactPi, kExactPi};
+		return {sine2 < 1 ? Real(0) : kLongPi, kLongPi};
 	const Real sum = a + b + c;
 	// sinh magnifies relative errors by l coth(l).
 	const Real growth = background == Background::EuclideanPlane ? 1 : 1 + sum;
-	const Real relative = kLengthRounding * kUnit * (sum / overB + sum / overC + 2 * growth);
+	const Real relative =
+		kLengthRounding * kUnitRoundoff * (sum / overB + sum / overC + 2 * growth);
 	const Real tangent = std::sqrt(sine2 / (1 - sine2));
 	return {2 * std::asin(std::sqrt(sine2)), std::min(relative * tangent, 2 * std::sqrt(relative))};
+}
+
+/// Relative error of a length that the rounding of \p ui and \p uj explains. A unit in the last
+/// place of u is a relative one of a radius; in the hyperbolic plane a large circle (u near 0)
+/// magnifies it.
+double explainedError(Background background, double ui, double uj)
+{
+	const double slope = background == Background::EuclideanPlane
+							 ? 1.0
+							 : std::max({1.0, -1.0 / std::sinh(ui), -1.0 / std::sinh(uj)});
+	return kLengthRounding * kUnitRoundoff * (1.0 + std::max(std::abs(ui), std::abs(uj))) * slope;
 }
 
 } // namespace
@@ -70,56 +77,48 @@ Angle angleOf(Background background, Real a, Real b, Real c)
 MetricCheck checkMetric(
 	Background background,
 	const Triangulation& t,
-	const std::vector<double>& delta,
-	const Eigen::VectorXd& u,
-	const std::vector<double>& lengths,
-	const Eigen::VectorXd& target)
+	const EdgeArray<double>& delta,
+	const VertexVector& u,
+	const EdgeArray<double>& lengths,
+	const VertexVector& target)
 {
 	MetricCheck check;
-	for (int e = 0; e < t.edgeCount(); ++e) {
-		const double ui = u[t.origin(2 * e)], uj = u[t.target(2 * e)];
+	for (const Edge e : t.edges()) {
+		const double ui = u[t.origin(e.halfedge())], uj = u[t.target(e.halfedge())];
 		const Real wanted =
-			lengthOf(background, radiusOf(background, ui), radiusOf(background, uj), delta[at(e)]);
-		// A unit in the last place of u is that much, relative, of a radius. In the hyperbolic plane
-		// a large circle (u near 0) magnifies it.
-		const double slope = background == Background::EuclideanPlane
-								 ? 1.0
-								 : std::max({1.0, -1.0 / std::sinh(ui), -1.0 / std::sinh(uj)});
-		const double rounding =
-			kLengthRounding * kUnit * (1.0 + std::max(std::abs(ui), std::abs(uj))) * slope;
-		const auto difference =
-			static_cast<double>(std::abs(Real(lengths[at(e)]) - wanted) / wanted);
-		if (!(difference <= rounding)) // NaN counts
+			lengthOf(background, radiusOf(background, ui), radiusOf(background, uj), delta[e]);
+		const double explained = explainedError(background, ui, uj);
+		const auto difference = static_cast<double>(std::abs(Real(lengths[e]) - wanted) / wanted);
+		if (!(difference <= explained)) // NaN counts
 			check.lengthError = std::isfinite(difference)
-									? std::max(check.lengthError, difference - rounding)
+									? std::max(check.lengthError, difference - explained)
 									: std::numeric_limits<double>::infinity();
 	}
 
-	const std::vector<char> boundary = t.boundaryVertices();
-	std::vector<Real> curvature(at(t.vertexCount())), rounding(at(t.vertexCount()), 0);
-	for (std::size_t v = 0; v < curvature.size(); ++v)
-		curvature[v] = boundary[v] ? kExactPi : 2 * kExactPi;
-	for (int f = 0; f < t.faceCount(); ++f) {
-		const std::array<int, 3> h = t.halfedges(f);
+	const VertexArray<char> boundary = t.boundaryVertices();
+	VertexArray<Real> curvature(t.vertexCount()), rounding(t.vertexCount(), 0);
+	for (const Vertex v : t.vertices())
+		curvature[v] = boundary[v] ? kLongPi : 2 * kLongPi;
+	for (const Face f : t.faces()) {
+		const std::array<Halfedge, 3> h = t.halfedges(f);
 		std::array<Real, 3> l;
 		for (std::size_t k = 0; k < 3; ++k)
-			l[k] = lengths[at(Triangulation::edge(h[k]))];
+			l[k] = lengths[h[k].edge()];
 		check.broken += !(2 * std::max({l[0], l[1], l[2]}) < l[0] + l[1] + l[2]);
 		for (std::size_t k = 0; k < 3; ++k) {
 			const Angle angle = angleOf(background, l[(k + 1) % 3], l[k], l[(k + 2) % 3]);
-			curvature[at(t.origin(h[k]))] -= angle.value;
-			rounding[at(t.origin(h[k]))] += angle.rounding;
+			curvature[t.origin(h[k])] -= angle.value;
+			rounding[t.origin(h[k])] += angle.rounding;
 		}
 	}
-	for (std::size_t v = 0; v < curvature.size(); ++v) {
-		const double wanted = target[static_cast<Eigen::Index>(v)];
-		if (std::isnan(wanted))
+	for (const Vertex v : t.vertices()) {
+		if (std::isnan(target[v]))
 			continue;
-		const auto error = static_cast<double>(std::abs(curvature[v] - wanted) - rounding[v]);
+		const auto error = static_cast<double>(std::abs(curvature[v] - target[v]) - rounding[v]);
 		if (!(error <= check.curvatureError)) {
 			check.curvatureError =
 				std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
-			check.vertex = static_cast<int>(v);
+			check.vertex = v;
 		}
 	}
 	return check;

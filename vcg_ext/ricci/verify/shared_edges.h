@@ -1,30 +1,69 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Sides of triangles, matched without a triangulation.
 #ifndef RICCI_SHARED_EDGES_H
 #define RICCI_SHARED_EDGES_H
 
+#include "../math/points.h"
+#include "../surface/surface_mesh.h"
+
 #include <algorithm>
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 namespace ricci {
 
-/// Calls \p visit(a, b) for the two sides of every edge that exactly two triangles share. A side has
-/// the numbers \c low < \c high of its ends, and is one of \p sides for each triangle that it belongs
-/// to; \p sides is sorted.
+/// One side of a triangle in the plane, by the numbers \c low < \c high of its ends.
+struct PlaneSide
+{
+	int low, high;
+	Point2 atLow, atHigh;
+};
+
+/// The three sides of every triangle, in order. \p plane [triangle][corner].
+inline std::vector<PlaneSide>
+planeSides(const std::vector<Triangle>& triangles, const std::vector<Triangle2>& plane)
+{
+	std::vector<PlaneSide> sides;
+	sides.reserve(3 * triangles.size());
+	for (std::size_t f = 0; f < triangles.size(); ++f) {
+		const Triangle& t = triangles[f];
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::size_t next = (k + 1) % 3;
+			sides.push_back(
+				t[k] < t[next] ? PlaneSide{t[k], t[next], plane[f][k], plane[f][next]}
+							   : PlaneSide{t[next], t[k], plane[f][next], plane[f][k]});
+		}
+	}
+	return sides;
+}
+
+/// Sorts \p sides by \p key and calls \p visit(first, count) for every largest run of sides with
+/// equal keys: the position of the first, and their number.
+template<class Side, class Key, class Visit>
+void forEqualSides(std::vector<Side>& sides, Key key, Visit visit)
+{
+	std::sort(
+		sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return key(a) < key(b); });
+	for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+		end = i;
+		while (end < sides.size() && key(sides[end]) == key(sides[i]))
+			++end;
+		visit(i, end - i);
+	}
+}
+
+/// Calls \p visit(a, b) for the two sides of every edge that exactly two triangles share. A side
+/// has the numbers \c low < \c high of its ends, and \p sides has one for each triangle that it
+/// belongs to; \p sides is sorted.
 template<class Side, class Visit>
 void forSharedEdges(std::vector<Side>& sides, Visit visit)
 {
-	std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-		return a.low != b.low ? a.low < b.low : a.high < b.high;
+	const auto ends = [](const Side& s) { return std::tie(s.low, s.high); };
+	forEqualSides(sides, ends, [&](std::size_t first, std::size_t count) {
+		if (count == 2)
+			visit(sides[first], sides[first + 1]);
 	});
-	for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-		end = i;
-		while (end < sides.size() && sides[end].low == sides[i].low &&
-			   sides[end].high == sides[i].high)
-			++end;
-		if (end - i == 2)
-			visit(sides[i], sides[i + 1]);
-	}
 }
 
 } // namespace ricci

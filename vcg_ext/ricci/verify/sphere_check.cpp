@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sphere_check.h"
 
-#include "../numbers.h"
+#include "../base/indexed.h"
+#include "../base/numbers.h"
+#include "../base/tolerances.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace ricci {
@@ -14,11 +17,6 @@ namespace {
 
 using Real = long double;
 using Vector = std::array<Real, 3>;
-
-constexpr Real kExactPi = 3.14159265358979323846264338327950288L;
-
-/// Below this a determinant's sign is that of the rounding of the points.
-constexpr Real kRounding = 16 * std::numeric_limits<double>::epsilon();
 
 Real dot(const Vector& a, const Vector& b)
 {
@@ -39,7 +37,7 @@ SphereCheck checkSphere(const std::vector<Triangle>& triangles, const std::vecto
 	for (const Triangle& t : triangles) {
 		std::array<Vector, 3> p;
 		for (std::size_t k = 0; k < 3; ++k) {
-			const Point3& point = sphere[at(t[k])];
+			const Point3& point = sphere[positionOf(t[k])];
 			p[k] = {Real(point[0]), Real(point[1]), Real(point[2])};
 			const Real norm = std::sqrt(dot(p[k], p[k]));
 			const auto error = static_cast<double>(std::abs(norm - 1));
@@ -51,9 +49,9 @@ SphereCheck checkSphere(const std::vector<Triangle>& triangles, const std::vecto
 		}
 		const Real det = dot(p[0], cross(p[1], p[2]));
 		sum += 2 * std::atan2(det, 1 + dot(p[0], p[1]) + dot(p[1], p[2]) + dot(p[2], p[0]));
-		check.turned += det < -kRounding;
+		check.turned += det < -kSphereRounding;
 	}
-	check.degree = static_cast<double>(sum / (4 * kExactPi));
+	check.degree = static_cast<double>(sum / (4 * kLongPi));
 	return check;
 }
 

@@ -25,7 +25,7 @@ public:
 	typedef Box2<double> Box;
 
 	/// RectPacker searches its whole grid for each box: n boxes cost it more than n^2.
-	static constexpr size_t kMostForRectPacker = 512;
+	static constexpr size_t kMaxForRectPacker = 512;
 
 	/// [box] Translations that leave at least \p room >= 0 between any two of \p boxes. One box
 	/// stays where it is. The boxes are not empty; they may have no width or no height.
@@ -36,21 +36,13 @@ public:
 		for (Box& box : boxes)
 			box.Offset(0.5 * room);
 		std::vector<Point2d> shift;
-		if (boxes.size() > kMostForRectPacker || !OnAGrid(boxes, shift))
+		if (boxes.size() > kMaxForRectPacker || !OnAGrid(boxes, shift))
 			shift = OnShelves(boxes);
 		return shift;
 	}
 
-	/// True if \p n boxes of any extent can leave a share \p margin of the side of the square that
-	/// holds them free round each, as far as the margins' own area tells.
-	static bool MayFit(size_t n, double margin)
-	{
-		const double free = 1.0 - margin;
-		return double(n) * margin * margin <= free * free;
-	}
-
 private:
-	static constexpr double kLeastOccupancy = 1e-9;
+	static constexpr double kMinOccupancy = 1e-9;
 
 	/// vcglib's rectangle packer on a grid fine enough for the number of boxes. It refuses what
 	/// does not fit, so the wanted occupancy is lowered until it agrees. False if it never does.
@@ -64,11 +56,11 @@ private:
 			for (int k = 0; k < 2; ++k)
 				if (!(box.max[k] > box.min[k]))
 					box.max[k] = box.min[k] + 1e-9 * longest;
-		const double most = (grid - 2) / longest / grid * std::sqrt(area);
-		double occupancy = std::min(0.9, most * most);
+		const double maxScale = (grid - 2) / longest / grid * std::sqrt(area);
+		double occupancy = std::min(0.9, maxScale * maxScale);
 		std::vector<Similarity2<double>> place;
 		Point2d covered;
-		while (occupancy > kLeastOccupancy) {
+		while (occupancy > kMinOccupancy) {
 			if (RectPacker<double>::PackOccupancy(
 					boxes, Point2i(grid, grid), occupancy, place, covered)) {
 				for (const Similarity2<double>& p : place)

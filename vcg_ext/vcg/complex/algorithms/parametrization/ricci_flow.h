@@ -6,10 +6,9 @@
 #ifndef __VCGLIB_RICCI_FLOW
 #define __VCGLIB_RICCI_FLOW
 
+#include <ricci/base/floating_point.h>
+#include <ricci/charts/pack.h>
 #include <ricci/error.h>
-#include <ricci/floating_point.h>
-#include <ricci/layout/canonical_polygon.h>
-#include <ricci/layout/distortion.h>
 #include <ricci/options.h>
 #include <ricci/parametrize.h>
 #include <ricci/progress.h>
@@ -19,15 +18,12 @@
 #include <vcg/complex/allocate.h>
 #include <vcg/complex/complex.h>
 #include <vcg/space/boxes_side_by_side.h>
-#include <vcg/space/color4.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <functional>
 #include <limits>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,10 +36,11 @@ namespace tri {
  *
  * Reads a mesh, runs the algorithm of ricci/parametrize.h on arrays, packs the charts, and writes
  * wedge texture coordinates, quality and attributes. Computing and writing are separate, so that a
- * failed or cancelled run leaves the mesh as it was.
+ * failed or cancelled run leaves the mesh as it was. ricci_flow_layers.h builds further meshes from
+ * the result.
  *
- * [1] Y. Yang, R. Guo, F. Luo, S. Hu, X. Gu: Generalized Discrete Ricci Flow.
- *     Computer Graphics Forum 28(7), 2009.
+ * Y. Yang, R. Guo, F. Luo, S. Hu, X. Gu: Generalized Discrete Ricci Flow.
+ * Computer Graphics Forum 28(7), 2009.
  */
 template<class MeshType>
 class RicciFlow
@@ -52,12 +49,10 @@ public:
 	typedef typename MeshType::ScalarType ScalarType;
 	typedef typename MeshType::CoordType CoordType;
 	typedef typename MeshType::VertexType VertexType;
-	typedef typename MeshType::VertexIterator VertexIterator;
 	typedef typename MeshType::FaceType FaceType;
-	typedef typename MeshType::FaceIterator FaceIterator;
 
 	/// One point of the plane for each corner of a face.
-	typedef std::array<ricci::Point2, 3> WedgeUV;
+	typedef ricci::Triangle2 WedgeUV;
 
 	struct Params : public ricci::Options
 	{
@@ -66,12 +61,10 @@ public:
 		/// length).
 		bool normalizeUV = true;
 
-		/// Least distance between the bounding boxes of two charts, and from them to the border of
-		/// the square that holds all, as a share of its side; at most kMostMargin.
+		/// Least distance of the bounding boxes of two charts, and of a box from the border of the
+		/// square that holds all, as a share of its side; at most ricci::kMaxChartMargin.
 		double chartMargin = 0.0;
 	};
-
-	static constexpr double kMostMargin = 0.25;
 
 	/// The hyperbolic flow takes these as they are.
 	typedef ricci::HyperbolicOptions HyperbolicParams;
@@ -92,14 +85,16 @@ public:
 		/// Hyperbolic flow: one for each component, with the square that its disk fills in the
 		/// texture plane.
 		std::vector<ricci::FuchsianGroup> groups;
-		std::vector<Box2<double>> disks;
+		std::vector<ricci::Box2> disks;
 	};
 
 	/// Computes; \p m is only read: positions, faces, selected vertices (Rectangle, SelectedCones),
 	/// vertex quality as curvature in radians (Prescribed).
-	/// \throw ricci::Error and its derived classes, with a sentence for the user
+	/// \throw what ricci::parametrizeEuclidean() and ricci::packCharts() do, and ricci::InvalidMesh
+	/// DamagedFaces
 	static Result Compute(const MeshType& m, const Params& par, ricci::Progress& progress)
 	{
+		ricci::checkChartMargin(par.chartMargin);
 		const ricci::DefaultFloatingPoint defaultEnvironment;
 		std::vector<int> faceIndex; // [compact] -> index in m.face
 		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex);
@@ -113,15 +108,15 @@ public:
 		Result r;
 		r.report = flat.report;
 		r.notes = flat.notes;
-		PackCharts(flat, par.normalizeUV, par.chartMargin);
-		CountFlipped(flat, r.report);
+		ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide);
+		ricci::countFlippedAsWritten(flat, r.report);
 		TakeOver(flat, m.face.size(), faceIndex, r);
 		return r;
 	}
 
 	/// Computes the hyperbolic flow; \p m is only read, as by Compute(). The Poincaré disk fills
 	/// [0,1]^2; with several components each has a disk of its own, side by side.
-	/// \throw ricci::Error and its derived classes, with a sentence for the user
+	/// \throw what ricci::parametrizeHyperbolic() does, and ricci::InvalidMesh DamagedFaces
 	static Result
 	ComputeHyperbolic(const MeshType& m, const HyperbolicParams& par, ricci::Progress& progress)
 	{
@@ -137,17 +132,11 @@ public:
 		Result r;
 		r.report = disk.report;
 		r.notes = disk.notes;
-		const int perRow = int(std::ceil(std::sqrt(double(disk.charts.size()))));
-		const double side = 1.0 / perRow;
-		for (size_t i = 0; i < disk.charts.size(); ++i) {
-			const Point2d corner(side * double(int(i) % perRow), side * double(int(i) / perRow));
-			r.disks.push_back(Box(corner, corner + Point2d(side, side)));
-			r.groups.push_back(disk.charts[i].group);
-			Transform(disk, disk.charts[i], 0.5 * side, r.disks[i].Center());
-		}
-		ClampToUnitSquare(disk);
+		r.disks = ricci::placeDisks(disk);
+		for (const ricci::Chart& chart : disk.charts)
+			r.groups.push_back(chart.group);
 		const int flipped = r.report.flippedFaces; // of geodesic triangles
-		CountFlipped(disk, r.report);
+		ricci::countFlippedAsWritten(disk, r.report);
 		r.report.flippedFaces = flipped;
 		TakeOver(disk, m.face.size(), faceIndex, r);
 		return r;
@@ -248,60 +237,18 @@ public:
 		}
 	}
 
-	/// Fills the empty mesh \p flat with the layout: its vertices are the vertices of \p m, once
-	/// for each place they have in the plane, at z = 0, with their quality; wedge texture
-	/// coordinates are written where they are enabled on \p flat.
-	static void BuildFlatMesh(const MeshType& m, const Result& r, MeshType& flat)
+	/// Writes one wedge texture coordinate, texture index 0.
+	static void SetWedge(FaceType& face, int k, const ricci::Point2& p)
 	{
-		typedef std::pair<size_t, ricci::Point2> Place; // vertex, point
-		std::map<Place, size_t> index;
-		std::vector<Place> places;
-		std::vector<std::array<size_t, 3>> faces;
-		const auto addFace = [&](const std::array<size_t, 3>& vertex, const WedgeUV& uv) {
-			std::array<size_t, 3> corner;
-			for (size_t k = 0; k < 3; ++k) {
-				const Place place(vertex[k], uv[k]);
-				const auto found = index.insert(std::make_pair(place, places.size()));
-				if (found.second)
-					places.push_back(place);
-				corner[k] = found.first->second;
-			}
-			faces.push_back(corner);
-		};
-		const bool refined = !r.refined.triangles.empty();
-		const std::vector<double>& quality = refined ? r.refined.vertexQC : r.vertexQC;
-		for (size_t i = 0; i < r.refined.triangles.size(); ++i) {
-			const ricci::Triangle& t = r.refined.triangles[i];
-			addFace({size_t(t[0]), size_t(t[1]), size_t(t[2])}, r.refined.uv[i]);
-		}
-		for (size_t f = 0; f < m.face.size() && !refined; ++f)
-			if (!m.face[f].IsD())
-				addFace(
-					{Index(m, m.face[f].cV(0)),
-					 Index(m, m.face[f].cV(1)),
-					 Index(m, m.face[f].cV(2))},
-					r.wedgeUV[f]);
-		Allocator<MeshType>::AddVertices(flat, places.size());
-		for (size_t i = 0; i < places.size(); ++i) {
-			const ricci::Point2& p = places[i].second;
-			flat.vert[i].P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(0));
-			flat.vert[i].N() = CoordType(0, 0, 1);
-			flat.vert[i].Q() = typename VertexType::QualityType(quality[places[i].first]);
-		}
-		FaceIterator fi = Allocator<MeshType>::AddFaces(flat, faces.size());
-		for (size_t f = 0; f < faces.size(); ++f, ++fi) {
-			for (int k = 0; k < 3; ++k)
-				fi->V(k) = &flat.vert[faces[f][size_t(k)]];
-			fi->N() = CoordType(0, 0, 1);
-			if (HasPerWedgeTexCoord(flat))
-				for (int k = 0; k < 3; ++k)
-					SetWedge(*fi, k, places[faces[f][size_t(k)]].second);
-		}
+		typedef typename FaceType::TexCoordType::ScalarType TexScalar;
+		face.WT(k).U() = TexScalar(p[0]);
+		face.WT(k).V() = TexScalar(p[1]);
+		face.WT(k).N() = 0;
 	}
 
 	/// Maps a mesh of one closed component of genus 0 to the unit sphere (see ricci::mapToSphere());
 	/// \p m is only read. The result is indexed like the mesh's vertex vector.
-	/// \throw ricci::Error and its derived classes, with a sentence for the user
+	/// \throw what ricci::mapToSphere() does, and ricci::InvalidMesh DamagedFaces
 	static ricci::SphereMap
 	ComputeSphere(const MeshType& m, const Params& par, ricci::Progress& progress)
 	{
@@ -310,184 +257,7 @@ public:
 		return ricci::mapToSphere(ReadSurface(m, faceIndex), par, progress);
 	}
 
-	/// Fills the empty mesh \p sphere with the vertices and faces of \p m, without the deleted ones
-	/// but otherwise in their order, at their places on the unit sphere. Vertices without a face lie
-	/// at the origin.
-	static void BuildSphereMesh(const MeshType& m, const ricci::SphereMap& map, MeshType& sphere)
-	{
-		std::vector<size_t> index(m.vert.size(), 0);
-		VertexIterator vi = Allocator<MeshType>::AddVertices(sphere, size_t(m.vn));
-		size_t next = 0;
-		for (size_t v = 0; v < m.vert.size(); ++v) {
-			if (m.vert[v].IsD())
-				continue;
-			const ricci::Point3& p = map.positions[v];
-			vi->P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(p[2]));
-			if (HasPerVertexColor(m) && HasPerVertexColor(sphere))
-				vi->C() = m.vert[v].cC();
-			index[v] = next++;
-			++vi;
-		}
-		FaceIterator fi = Allocator<MeshType>::AddFaces(sphere, size_t(m.fn));
-		for (size_t f = 0; f < m.face.size(); ++f) {
-			if (m.face[f].IsD())
-				continue;
-			for (int k = 0; k < 3; ++k)
-				fi->V(k) = &sphere.vert[index[Index(m, m.face[f].cV(k))]];
-			++fi;
-		}
-	}
-
-	/// Fills the empty mesh \p cover with copies of the layout in the Poincaré disk: the component
-	/// itself and \p rings rings of neighbours in its universal cover, all within the disk's square
-	/// of the texture plane, at z = 0. Each copy has its own colour, where vertices or faces of
-	/// \p cover have any.
-	/// \throw ricci::InvalidOption if that is more than \p mostFaces faces
-	static void BuildUniversalCover(
-		const MeshType& m, const Result& r, int rings, size_t mostFaces, MeshType& cover)
-	{
-		MeshType one;
-		BuildFlatMesh(m, r, one);
-		std::vector<int> chart(size_t(one.vn), 0); // by its square
-		for (size_t v = 0; v < chart.size(); ++v)
-			for (size_t i = 0; i < r.disks.size(); ++i)
-				if (r.disks[i].IsIn(Point2d(one.vert[v].P()[0], one.vert[v].P()[1])))
-					chart[v] = int(i);
-		std::vector<ricci::Tiling> tilings;
-		size_t most = 0;
-		for (const ricci::FuchsianGroup& group : r.groups) {
-			const size_t limit = mostFaces / std::max<size_t>(1, size_t(one.fn)) + 2;
-			tilings.push_back(ricci::tiling(group.sides, rings, int(limit)));
-			most = std::max(most, tilings.back().motions.size());
-		}
-		if (most * size_t(one.fn) > mostFaces)
-			throw ricci::InvalidOption(
-				"universal_cover: " + std::to_string(rings) + " rings would need more than " +
-				std::to_string(mostFaces) + " faces. Ask for fewer rings, or simplify the mesh.");
-		for (size_t copy = 0; copy < most; ++copy) {
-			std::vector<VertexType*> place(size_t(one.vn), nullptr);
-			size_t vertices = 0, faces = 0;
-			const auto has = [&](int i) { return copy < tilings[size_t(i)].motions.size(); };
-			for (size_t v = 0; v < place.size(); ++v)
-				vertices += has(chart[v]);
-			for (const FaceType& f : one.face)
-				faces += has(chart[Index(one, f.cV(0))]);
-			VertexIterator vi = Allocator<MeshType>::AddVertices(cover, vertices);
-			for (size_t v = 0; v < place.size(); ++v) {
-				if (!has(chart[v]))
-					continue;
-				const Box& square = r.disks[size_t(chart[v])];
-				const double radius = 0.5 * square.DimX();
-				const Point2d middle = square.Center();
-				const std::complex<double> z =
-					tilings[size_t(chart[v])].motions[copy](std::complex<double>(
-						(double(one.vert[v].P()[0]) - middle[0]) / radius,
-						(double(one.vert[v].P()[1]) - middle[1]) / radius));
-				vi->P() = CoordType(
-					ScalarType(middle[0] + radius * z.real()),
-					ScalarType(middle[1] + radius * z.imag()),
-					ScalarType(0));
-				vi->N() = CoordType(0, 0, 1);
-				vi->Q() = one.vert[v].Q();
-				if (HasPerVertexColor(cover))
-					vi->C() = TileColor(copy);
-				place[v] = &*vi++;
-			}
-			FaceIterator fi = Allocator<MeshType>::AddFaces(cover, faces);
-			for (const FaceType& f : one.face) {
-				if (!has(chart[Index(one, f.cV(0))]))
-					continue;
-				for (int k = 0; k < 3; ++k)
-					fi->V(k) = place[Index(one, f.cV(k))];
-				fi->N() = CoordType(0, 0, 1);
-				if (HasPerFaceColor(cover))
-					fi->C() = TileColor(copy);
-				++fi;
-			}
-		}
-	}
-
-	/// Fills the empty mesh \p curves with edges: the axes of the generators in the Poincaré disk,
-	/// which are closed geodesics of the surface, each as a polyline of \p pieces edges. Rotations
-	/// have no axis.
-	static void BuildAxes(const Result& r, int pieces, MeshType& curves)
-	{
-		for (size_t i = 0; i < r.groups.size(); ++i) {
-			std::vector<ricci::DiskIsometry> motions = r.groups[i].handles;
-			motions.insert(motions.end(), r.groups[i].ends.begin(), r.groups[i].ends.end());
-			for (const ricci::DiskIsometry& g : motions) {
-				std::complex<double> from, to;
-				if (!g.axis(from, to))
-					continue;
-				AddGeodesic(r.disks[i], from, to, pieces, curves);
-			}
-		}
-	}
-
-	/// Fills the empty mesh \p curves with edges: for each component a fundamental polygon whose
-	/// sides are the letters of the canonical relation (see ricci::canonicalPolygon), 4 g for a
-	/// closed surface of genus g, each as a polyline of \p pieces edges in the Poincaré disk.
-	static std::vector<ricci::CanonicalPolygon>
-	BuildCanonicalPolygons(const Result& r, int pieces, MeshType& curves)
-	{
-		const auto klein = [](std::complex<double> z) { return 2.0 * z / (1.0 + std::norm(z)); };
-		std::vector<ricci::CanonicalPolygon> polygons;
-		for (size_t i = 0; i < r.groups.size(); ++i) {
-			polygons.push_back(ricci::canonicalPolygon(r.groups[i]));
-			const std::vector<std::complex<double>>& corners = polygons.back().corners;
-			for (size_t k = 0; k < corners.size(); ++k)
-				AddGeodesic(
-					r.disks[i],
-					klein(corners[k]),
-					klein(corners[(k + 1) % corners.size()]),
-					pieces,
-					curves);
-		}
-		return polygons;
-	}
-
 private:
-	/// Adds a polyline along the geodesic between two points of the Klein model, where it is
-	/// straight, as it is seen in the Poincaré disk inscribed in the box \p disk.
-	static void AddGeodesic(
-		const Box2d& disk,
-		std::complex<double> from,
-		std::complex<double> to,
-		int pieces,
-		MeshType& curves)
-	{
-		VertexIterator vi = Allocator<MeshType>::AddVertices(curves, size_t(pieces) + 1);
-		std::vector<VertexType*> points;
-		for (int k = 0; k <= pieces; ++k, ++vi) {
-			// Denser towards the ends, where the disk is smaller.
-			const double t = 0.5 - 0.5 * std::cos(M_PI * k / pieces);
-			const std::complex<double> klein = (1.0 - t) * from + t * to;
-			const std::complex<double> z =
-				klein / (1.0 + std::sqrt(std::max(0.0, 1.0 - std::norm(klein))));
-			const Point2d p = disk.Center() + Point2d(z.real(), z.imag()) * (0.5 * disk.DimX());
-			vi->P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(0));
-			vi->N() = CoordType(0, 0, 1);
-			points.push_back(&*vi);
-		}
-		typename MeshType::EdgeIterator ei = Allocator<MeshType>::AddEdges(curves, size_t(pieces));
-		for (size_t k = 0; k < size_t(pieces); ++k, ++ei) {
-			ei->V(0) = points[k];
-			ei->V(1) = points[k + 1];
-		}
-	}
-
-	/// Different for copies that are near to each other in their order; the first one is grey.
-	static Color4b TileColor(size_t copy)
-	{
-		if (copy == 0)
-			return Color4b(200, 200, 200, 255);
-		// Steps of the golden section round the circle of hues.
-		const double hue = std::fmod(0.618033988749895 * double(copy), 1.0);
-		Color4b color;
-		color.SetHSVColor(float(hue), copy % 2 == 0 ? 0.3f : 0.5f, copy % 3 == 0 ? 0.8f : 0.95f);
-		return color;
-	}
-
 	typedef typename MeshType::template PerVertexAttributeHandle<ScalarType> VertexAttribute;
 
 	/// The attribute of that name, made anew if there is one of another type.
@@ -632,14 +402,6 @@ private:
 		}
 	}
 
-	static void SetWedge(FaceType& face, int k, const ricci::Point2& p)
-	{
-		typedef typename FaceType::TexCoordType::ScalarType TexScalar;
-		face.WT(k).U() = TexScalar(p[0]);
-		face.WT(k).V() = TexScalar(p[1]);
-		face.WT(k).N() = 0;
-	}
-
 	/// Position, normal, and the colour where there is any, at an affine combination of vertices of
 	/// \p m.
 	static void Interpolate(const MeshType& m, const ricci::SurfacePoint& p, VertexType& to)
@@ -664,32 +426,6 @@ private:
 			for (int k = 0; k < 4; ++k)
 				to.C()[k] = static_cast<unsigned char>(
 					std::min(255.0, std::max(0.0, std::round(colour[k]))));
-	}
-
-	/// Texture coordinates are floats in every host.
-	static void RequireFloats(const std::vector<WedgeUV>& faces)
-	{
-		for (const WedgeUV& face : faces)
-			for (const ricci::Point2& p : face)
-				for (double x : p)
-					if (!(std::abs(x) <= double(std::numeric_limits<float>::max())))
-						throw ricci::InvalidMesh(
-							"The mesh is too large for texture coordinates in its own scale: "
-							"choose "
-							"normalize_uv, or run 'Transform: Scale, Normalize' first.");
-	}
-
-	/// Anew, because packing rounds.
-	static void CountFlipped(const ricci::Parametrization& flat, ricci::Report& report)
-	{
-		if (flat.refined.triangles.empty()) {
-			ricci::countFlipped(flat.uv, flat.reversed, report);
-			return;
-		}
-		std::vector<char> reversed;
-		for (int f : flat.refined.inputFace)
-			reversed.push_back(flat.reversed[size_t(f)]);
-		ricci::countFlipped(flat.refined.uv, reversed, report);
 	}
 
 	/// Whether the face's vertices are in the mesh's vector and not deleted.
@@ -729,9 +465,7 @@ private:
 			faceIndex.push_back(int(f));
 		}
 		if (damaged > 0)
-			throw ricci::InvalidMesh(
-				std::to_string(damaged) + (damaged == 1 ? " face uses" : " faces use") +
-				" vertices that are deleted or not in the mesh: open its file again.");
+			throw ricci::InvalidMesh(ricci::InvalidMesh::DamagedFaces, damaged);
 		return mesh;
 	}
 
@@ -748,86 +482,18 @@ private:
 		return input;
 	}
 
-	typedef Box2<double> Box;
-
-	static Box ChartBox(const ricci::Parametrization& flat, const ricci::Chart& chart)
+	/// See ricci::PlaceBoxes.
+	static std::vector<ricci::Point2>
+	PlaceSideBySide(const std::vector<ricci::Box2>& boxes, double room)
 	{
-		Box box;
-		for (int f : chart.faces)
-			for (const ricci::Point2& p : flat.uv[size_t(f)])
-				box.Add(Point2d(p[0], p[1]));
-		for (int f : chart.refined)
-			for (const ricci::Point2& p : flat.refined.uv[size_t(f)])
-				box.Add(Point2d(p[0], p[1]));
-		return box;
-	}
-
-	/// Moves and scales all points of \p chart: p -> scale p + shift.
-	static void
-	Transform(ricci::Parametrization& flat, const ricci::Chart& chart, double scale, Point2d shift)
-	{
-		const auto move = [&](WedgeUV& uv) {
-			for (ricci::Point2& p : uv)
-				p = {scale * p[0] + shift[0], scale * p[1] + shift[1]};
-		};
-		for (int f : chart.faces)
-			move(flat.uv[size_t(f)]);
-		for (int f : chart.refined)
-			move(flat.refined.uv[size_t(f)]);
-	}
-
-	/// Places the charts' bounding boxes side by side, then scales the whole into [0,1]^2 if asked.
-	static void PackCharts(ricci::Parametrization& flat, bool normalize, double margin)
-	{
-		if (!(margin >= 0.0 && margin <= kMostMargin))
-			throw ricci::InvalidOption(
-				"chart_margin must be between 0 and " + std::to_string(kMostMargin) + ".");
-		std::vector<Box> boxes;
-		for (const ricci::Chart& chart : flat.charts)
-			boxes.push_back(ChartBox(flat, chart));
-		// The margin is a share of a square that grows with the margin.
-		std::vector<Point2d> shift;
-		double size = 0.0, room = 0.0;
-		Box whole;
-		for (int attempt = 0; attempt == 0 || room < margin * size; ++attempt) {
-			if (attempt == 60 || !BoxesSideBySide::MayFit(boxes.size(), margin))
-				throw ricci::InvalidOption(
-					"A chart_margin of " + std::to_string(margin) + " leaves no room for " +
-					std::to_string(boxes.size()) + " charts: choose a smaller one.");
-			room = (1.0 + 1e-6) * margin * size;
-			shift = BoxesSideBySide::Shifts(boxes, room);
-			whole = Box();
-			for (size_t i = 0; i < boxes.size(); ++i) {
-				whole.Add(boxes[i].min + shift[i]);
-				whole.Add(boxes[i].max + shift[i]);
-			}
-			size = std::max(whole.DimX(), whole.DimY()) + 2.0 * room;
-		}
-		const Point2d corner = whole.min - Point2d(room, room);
-		const double scale = normalize ? 1.0 / size : 1.0;
-		for (size_t i = 0; i < boxes.size(); ++i)
-			if (normalize || boxes.size() > 1)
-				Transform(
-					flat,
-					flat.charts[i],
-					scale,
-					normalize ? (shift[i] - corner) * scale : shift[i]);
-		if (!normalize) {
-			RequireFloats(flat.uv);
-			RequireFloats(flat.refined.uv);
-			return;
-		}
-		ClampToUnitSquare(flat);
-	}
-
-	/// Rounding may leave the square by one unit.
-	static void ClampToUnitSquare(ricci::Parametrization& flat)
-	{
-		for (std::vector<WedgeUV>* faces : {&flat.uv, &flat.refined.uv})
-			for (WedgeUV& face : *faces)
-				for (ricci::Point2& p : face)
-					for (double& x : p)
-						x = std::min(std::max(x, 0.0), 1.0);
+		std::vector<Box2<double>> own;
+		for (const ricci::Box2& box : boxes)
+			own.push_back(
+				Box2<double>(Point2d(box.min[0], box.min[1]), Point2d(box.max[0], box.max[1])));
+		std::vector<ricci::Point2> shifts;
+		for (const Point2d& shift : BoxesSideBySide::Shifts(own, room))
+			shifts.push_back({shift[0], shift[1]});
+		return shifts;
 	}
 
 	/// The arrays of \p flat, in the indices of the mesh.

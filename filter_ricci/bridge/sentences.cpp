@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sentences.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/base/text.h>
+
+#include <exception>
+#include <new>
+
+namespace filter_ricci {
+
+namespace {
+
+using ricci::numberText;
+
+constexpr const char* kSimplify = ": simplify it first ('Simplification: Quadric Edge Collapse "
+								  "Decimation'), or cut it into pieces.";
+
+/// For what only the authors can mend. Programmers may have ended their words with a period.
+std::string reported(const ricci::Error& e)
+{
+	std::string what = e.what();
+	if (!what.empty() && what.back() == '.')
+		what.pop_back();
+	return what + ": please report the mesh.";
+}
+
+/// What follows the problem in the words of the error.
+const char* remedy(const ricci::InvalidMesh& e)
+{
+	using Error = ricci::InvalidMesh;
+	switch (e.problem) {
+	case Error::Empty:
+		return ": open or create a triangle mesh first.";
+	case Error::NoFaces:
+		return ": reconstruct a surface from the points first.";
+	case Error::DamagedFaces:
+		return ": open its file again.";
+	case Error::NotFinite:
+		return ": delete them first.";
+	case Error::OutOfRange:
+		return ": run 'Transform: Scale, Normalize' first.";
+	case Error::CollapsedFaces:
+		return ": run 'Remove Zero Area Faces' first.";
+	case Error::DuplicateFaces:
+		return ": run 'Remove Duplicate Faces' first.";
+	case Error::NonManifoldEdges:
+		return ": run 'Repair non Manifold Edges' first.";
+	case Error::NonManifoldVertices:
+		return ": run 'Repair non Manifold Vertices by splitting' first.";
+	case Error::NotOrientable:
+		return ": cut the mesh into an orientable surface first.";
+	case Error::TooSmall:
+		return ": run 'Transform: Scale, Normalize' first, or delete such pieces.";
+	case Error::NoArea:
+		return ": delete such pieces first.";
+	case Error::EdgesWithoutLength:
+		return ": run 'Merge Close Vertices' and 'Remove Zero Area Faces' first.";
+	case Error::FacesWithoutArea:
+		return ": run 'Remove Zero Area Faces' or 'Remove T-Vertices' first.";
+	case Error::IncoherentEdge:
+		return ": run 'Repair non Manifold Edges' first.";
+	case Error::BoundaryWithoutLength:
+		return ". Choose another target_curvature, or run 'Close Holes' first.";
+	case Error::NotPuncturable:
+		return ". Remesh it, or separate its sheets.";
+	case Error::TooLargeForFloats:
+		return ": choose normalize_uv, or run 'Transform: Scale, Normalize' first.";
+	}
+	return ".";
+}
+
+std::string inWords(const ricci::InvalidMesh& e)
+{
+	return std::string(e.what()) + remedy(e);
+}
+
+/// \p value as the user wrote it, and what to write instead.
+std::string unusable(double value, const char* parameter, const std::string& use)
+{
+	return "The value " + numberText(value, 6) + " of " + parameter + " cannot be used. " + use;
+}
+
+std::string unusable(int value, const char* parameter, const std::string& use)
+{
+	return "The value " + std::to_string(value) + " of " + parameter + " cannot be used. " + use;
+}
+
+std::string unusableShare(double value, const char* parameter, double max)
+{
+	return unusable(value, parameter, "Use a number from 0 to " + numberText(max, 6) + ".");
+}
+
+std::string inWords(const ricci::InvalidOption& e)
+{
+	using Error = ricci::InvalidOption;
+	const std::string count = std::to_string(e.count);
+	switch (e.problem) {
+	case Error::Epsilon:
+		return unusable(
+			e.value, "epsilon", "Use a number of radians greater than 0, for example 1e-8.");
+	case Error::MaxIterations:
+		return unusable(static_cast<int>(e.value), "max_iterations", "Use 1 or more Newton steps.");
+	case Error::ConeCount:
+		return unusable(
+			static_cast<int>(e.value),
+			"cone_count",
+			"Use the number of cones, or 0 to have it chosen by cone_distortion.");
+	case Error::ConeDistortion:
+		return unusable(
+			e.value, "cone_distortion", "Use a number greater than 0, for example 0.5.");
+	case Error::ConeAngle:
+		return "cone_angle must be greater than 0 degrees, not " +
+			   numberText(e.value * 180.0 / ricci::kPi, 9) + ".";
+	case Error::SeamHiding:
+		return unusableShare(e.value, "seam_hiding", 1.0);
+	case Error::ChartMargin:
+		return unusableShare(e.value, "chart_margin", e.bound);
+	case Error::ChartMarginTooWide:
+		return "A chart_margin of " + numberText(e.value, 6, std::chars_format::fixed) +
+			   " leaves no room for " + count + " charts: choose a smaller one.";
+	case Error::RefinementWithoutFlips:
+		return "The output 'Common refinement' belongs to the surgery 'Intrinsic flips': choose "
+			   "this, or the output 'Keep the mesh'.";
+	case Error::RefinementOfThurston:
+		return "The output 'Common refinement' belongs to the surgery 'Intrinsic flips' with the "
+			   "circle packing 'Inversive distance': choose these, or the output 'Keep the mesh'.";
+	case Error::CapsWithoutFlips:
+		return "The holes 'Capped' belong to the surgery 'Intrinsic flips' with the circle packing "
+			   "'Inversive distance': choose these, or the holes 'Boundaries'.";
+	case Error::HyperbolicSurgery:
+		return "The hyperbolic flow runs with inversive distances and the surgery 'None' or "
+			   "'Intrinsic flips' only.";
+	case Error::NotADisk:
+		return std::string(
+				   e.target == ricci::TargetCurvature::Rectangle ? "'Rectangle'" : "'Disk'") +
+			   " needs a topological disk (genus 0, one boundary loop), but the surface is " +
+			   e.surface.name() + ".";
+	case Error::TooFewBoundaryVertices:
+		return "'Rectangle' needs four boundary vertices, but the boundary has " + count + ".";
+	case Error::CornerCount:
+		return "'Rectangle' needs four selected boundary vertices, or none, but " + count +
+			   " are selected.";
+	case Error::CornersOffBoundary:
+		return "'Rectangle' needs four selected vertices on one boundary loop, but only " + count +
+			   " of the selected vertices lie on it.";
+	case Error::NothingSelected:
+		return "'Cones at selected vertices' needs selected vertices, but none is selected.";
+	case Error::TooFewCones:
+		return "The surface needs at least " + numberText(e.bound, 10) +
+			   " placed cones, but cone_count is " + numberText(e.value, 10) + ".";
+	case Error::TooFewVertices:
+		return "The surface has " + count +
+			   " interior vertices, too few for the wanted cones: cone_count is " +
+			   numberText(e.value, 10) + ".";
+	case Error::SphereOfComponents:
+		return std::string(e.what()) + ": separate them first.";
+	case Error::NotASphere:
+		return std::string(e.what()) + ".";
+	case Error::CoverTooLarge:
+		return "universal_cover: " + numberText(e.value, 10) + " rings would need more than " +
+			   count + " faces. Ask for fewer rings, or simplify the mesh.";
+	}
+	return std::string(e.what()) + ".";
+}
+
+std::string inWords(const ricci::InadmissibleCurvature& e)
+{
+	using Error = ricci::InadmissibleCurvature;
+	const std::string what = e.what();
+	switch (e.problem) {
+	case Error::NotFinite:
+		return std::to_string(e.count) + (e.count == 1 ? " vertex has" : " vertices have") +
+			   " a quality that is not a finite number: 'From vertex quality' needs the target "
+			   "curvature in radians at every vertex.";
+	case Error::Flat:
+		return "'Flat everywhere' needs total curvature 2 pi chi = 0, but the surface is " +
+			   e.surface.name() + " with 2 pi chi = " + numberText(e.bound, 9) +
+			   ": choose another target_curvature.";
+	case Error::GaussBonnet:
+		return "The vertex qualities add up to " + numberText(e.value, 9) +
+			   ", but a metric on this surface has total curvature 2 pi chi = " +
+			   numberText(e.bound, 9) + " (Gauss-Bonnet): correct the qualities.";
+	case Error::TooLargeInside:
+	case Error::TooLargeOnBoundary:
+		return what + ". Choose more or weaker cones.";
+	case Error::FreeBoundary:
+		return what + ".";
+	case Error::HyperbolicSurface:
+		return what + ": use 'Generalized Ricci Flow (Euclidean)', or choose 'Cones at selected "
+					  "vertices' with small angles.";
+	case Error::HyperbolicSum:
+		return what + ": choose more or sharper cones, or 'Generalized Ricci Flow (Euclidean)'.";
+	}
+	return what + ".";
+}
+
+std::string remedy(const ricci::NotConverged& e)
+{
+	using Error = ricci::NotConverged;
+	switch (e.problem) {
+	case Error::StepsUsedUp:
+		return ": raise max_iterations or epsilon.";
+	case Error::BrokenTriangles:
+		return (e.surgery == ricci::Surgery::EdgeSwap
+					? ", with " + std::to_string(e.swaps) + " edges swapped"
+					: std::string()) +
+			   (e.surgery == ricci::Surgery::IntrinsicFlips
+					? ": remesh the worst triangles."
+					: ": choose the surgery 'Intrinsic flips', or remesh the worst triangles.");
+	case Error::LostInRounding:
+		return ". Choose a target_curvature nearer to the curvature of the mesh.";
+	case Error::CircleUnsettled:
+		return ". Remesh the boundary, or choose another target_curvature.";
+	case Error::FlatTriangles:
+		return ". Choose the surgery 'Intrinsic flips', or another target_curvature.";
+	case Error::SplitsUsedUp:
+		return ": remesh the boundary.";
+	case Error::NoCut:
+		return ": choose the surgery 'Intrinsic flips'.";
+	case Error::OutsideDisk:
+		return ": choose larger cone angles.";
+	case Error::CheckFailed:
+		return ": remesh the worst triangles, and report the mesh.";
+	}
+	return ".";
+}
+
+std::string inWords(const ricci::NotConverged& e)
+{
+	return e.what() + remedy(e);
+}
+
+std::string inWords(const ricci::SolverFailed& e)
+{
+	const std::string what = e.what();
+	switch (e.stage) {
+	case ricci::SolverFailed::Flow:
+		return what + ". Remesh the worst triangles.";
+	case ricci::SolverFailed::SeamCost:
+		return what + ". Set seam_hiding to 0, or remesh the worst triangles.";
+	}
+	return what + ".";
+}
+
+std::string inWords(const ricci::TooLarge& e)
+{
+	using Error = ricci::TooLarge;
+	const std::string what = e.what();
+	switch (e.problem) {
+	case Error::Faces:
+	case Error::Memory:
+		return what + kSimplify;
+	case Error::DoubleMemory:
+		return what + ": simplify the mesh first ('Simplification: Quadric Edge Collapse "
+					  "Decimation'), or cut it into pieces.";
+	case Error::Crossings:
+	case Error::OverlayMemory:
+		return what + ": divide long triangles and large fans first ('Remeshing: Isotropic "
+					  "Explicit Remeshing').";
+	}
+	return what + ".";
+}
+
+std::string inWords(const ricci::InternalError& e)
+{
+	return reported(e);
+}
+
+std::string inWords(const ricci::Cancelled&)
+{
+	return "Cancelled: the mesh is unchanged.";
+}
+
+std::string inWords(const ricci::TimeOut& e)
+{
+	return "The run was stopped after " + numberText(e.elapsed, 3) + " seconds, with about " +
+		   numberText(100.0 * e.done, 2) + "% done (time_limit: " + numberText(e.limit, 6) +
+		   "): raise time_limit, or simplify the mesh. The mesh is unchanged.";
+}
+
+/// inWords() of the first of the classes that \p error belongs to.
+template<class First, class... Others>
+std::string inWordsOf(const ricci::Error& error)
+{
+	if (const auto* known = dynamic_cast<const First*>(&error))
+		return inWords(*known);
+	if constexpr (sizeof...(Others) > 0)
+		return inWordsOf<Others...>(error);
+	else
+		return reported(error);
+}
+
+} // namespace
+
+std::string sentence(const ricci::Error& error)
+{
+	const std::string component =
+		error.componentFaces == 0 ? std::string()
+								  : "Component with face " + std::to_string(error.componentFace) +
+										" (" + std::to_string(error.componentFaces) + " faces): ";
+	return component + inWordsOf<
+						   ricci::InvalidMesh,
+						   ricci::InvalidOption,
+						   ricci::InadmissibleCurvature,
+						   ricci::NotConverged,
+						   ricci::SolverFailed,
+						   ricci::TooLarge,
+						   ricci::InternalError,
+						   ricci::Cancelled,
+						   ricci::TimeOut>(error);
+}
+
+std::string currentErrorSentence()
+{
+	try {
+		throw;
+	}
+	catch (const ricci::Error& error) {
+		return sentence(error);
+	}
+	catch (const Refusal& refusal) {
+		return refusal.what();
+	}
+	catch (const std::bad_alloc&) {
+		return "There is not enough memory for this mesh. The mesh is unchanged.";
+	}
+	catch (const std::exception& error) {
+		return std::string("The filter failed unexpectedly (") + error.what() +
+			   "). Please report this, with the mesh if you can.";
+	}
+	catch (...) {
+		return "The filter failed unexpectedly, for an unknown reason. Please report this, with "
+			   "the mesh if you can.";
+	}
+}
+
+} // namespace filter_ricci

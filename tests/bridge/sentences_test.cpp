@@ -1,0 +1,557 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/decimal_commas.h"
+
+#include <bridge/sentences.h>
+
+#include <ricci/error.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using filter_ricci::Refusal;
+using filter_ricci::sentence;
+using ricci::InadmissibleCurvature;
+using ricci::InternalError;
+using ricci::InvalidMesh;
+using ricci::InvalidOption;
+using ricci::NotConverged;
+using ricci::SolverFailed;
+using ricci::SurfaceType;
+using ricci::Surgery;
+using ricci::TargetCurvature;
+using ricci::TooLarge;
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+bool contains(const std::string& text, const std::string& part)
+{
+	return text.find(part) != std::string::npos;
+}
+
+/// Words that say what to do, or what the run needs.
+bool namesARemedy(const std::string& text)
+{
+	for (const char* words :
+		 {" run '",    "hoose ",  "elete ",  "open ",    "reconstruct ", "cut ",       "emesh ",
+		  "Use ",      "use ",    " needs ", "must be",  " takes ",      "raise ",     "separate ",
+		  "simplify ", "report ", "divide ", "correct ", "Ask for ",     "runs with ", "too few "})
+		if (contains(text, words))
+			return true;
+	return false;
+}
+
+/// A sentence for the user that has all of \p numbers in it.
+void expectSentence(const ricci::Error& error, const std::vector<std::string>& numbers)
+{
+	const std::string text = sentence(error);
+	SCOPED_TRACE(text);
+	ASSERT_FALSE(text.empty());
+	EXPECT_EQ(text.back(), '.');
+	EXPECT_FALSE(contains(text, ".."));
+	EXPECT_FALSE(contains(text, ".:"));
+	EXPECT_FALSE(contains(text, "  "));
+	EXPECT_TRUE(namesARemedy(text));
+	for (const std::string& number : numbers)
+		EXPECT_TRUE(contains(text, number)) << number;
+}
+
+std::string currentSentenceOf(void (*call)())
+{
+	try {
+		call();
+	}
+	catch (...) {
+		return filter_ricci::currentErrorSentence();
+	}
+	return "";
+}
+
+SurfaceType surface(int genus, int boundaryLoops)
+{
+	SurfaceType type;
+	type.genus = genus;
+	type.boundaryLoops = boundaryLoops;
+	return type;
+}
+
+TEST(Sentences, EveryInvalidMeshHasOne)
+{
+	const std::vector<int> withoutCount = {
+		InvalidMesh::Empty,
+		InvalidMesh::IncoherentEdge,
+		InvalidMesh::BoundaryWithoutLength,
+		InvalidMesh::NotPuncturable,
+		InvalidMesh::TooLargeForFloats};
+	for (int i = InvalidMesh::Empty; i <= InvalidMesh::TooLargeForFloats; ++i) {
+		const auto problem = static_cast<InvalidMesh::Problem>(i);
+		const bool counts =
+			std::find(withoutCount.begin(), withoutCount.end(), i) == withoutCount.end();
+		for (std::size_t count : {std::size_t(1), std::size_t(7123)})
+			expectSentence(
+				InvalidMesh(problem, count),
+				counts ? std::vector<std::string>{std::to_string(count)}
+					   : std::vector<std::string>());
+	}
+	expectSentence(InvalidMesh(InvalidMesh::IncoherentEdge, 3, {41, 1052}), {"41", "1052"});
+}
+
+TEST(Sentences, EveryInvalidOptionHasOne)
+{
+	for (int i = InvalidOption::Epsilon; i <= InvalidOption::CoverTooLarge; ++i) {
+		const auto problem = static_cast<InvalidOption::Problem>(i);
+		std::vector<std::string> numbers;
+		switch (problem) {
+		case InvalidOption::Epsilon:
+		case InvalidOption::MaxIterations:
+		case InvalidOption::ConeCount:
+		case InvalidOption::ConeDistortion:
+		case InvalidOption::SeamHiding:
+			numbers = {"-17"};
+			break;
+		case InvalidOption::ChartMargin:
+			numbers = {"-17", "23"};
+			break;
+		case InvalidOption::ConeAngle:
+			numbers = {"-974.0"};
+			break; // degrees
+		case InvalidOption::ChartMarginTooWide:
+			numbers = {"-17", "61"};
+			break;
+		case InvalidOption::TooFewCones:
+			numbers = {"-17", "23"};
+			break;
+		case InvalidOption::TooFewVertices:
+		case InvalidOption::CoverTooLarge:
+			numbers = {"-17", "61"};
+			break;
+		case InvalidOption::TooFewBoundaryVertices:
+		case InvalidOption::CornerCount:
+		case InvalidOption::CornersOffBoundary:
+		case InvalidOption::SphereOfComponents:
+			numbers = {"61"};
+			break;
+		case InvalidOption::RefinementWithoutFlips:
+		case InvalidOption::RefinementOfThurston:
+		case InvalidOption::CapsWithoutFlips:
+		case InvalidOption::HyperbolicSurgery:
+		case InvalidOption::NotADisk:
+		case InvalidOption::NothingSelected:
+		case InvalidOption::NotASphere:
+			break;
+		}
+		expectSentence(InvalidOption(problem, -17.0, 23.0, 61), numbers);
+		for (TargetCurvature target : {TargetCurvature::Disk, TargetCurvature::Rectangle})
+			expectSentence(InvalidOption(problem, target, surface(2, 3)), {});
+	}
+}
+
+TEST(Sentences, EveryInadmissibleCurvatureHasOne)
+{
+	for (int i = InadmissibleCurvature::NotFinite; i <= InadmissibleCurvature::HyperbolicSum; ++i) {
+		const auto problem = static_cast<InadmissibleCurvature::Problem>(i);
+		std::vector<std::string> numbers;
+		switch (problem) {
+		case InadmissibleCurvature::NotFinite:
+			numbers = {"61"};
+			break;
+		case InadmissibleCurvature::Flat:
+			numbers = {"2.25", "genus 4"};
+			break;
+		case InadmissibleCurvature::GaussBonnet:
+		case InadmissibleCurvature::HyperbolicSum:
+			numbers = {"7.5", "2.25"};
+			break;
+		case InadmissibleCurvature::TooLargeInside:
+			numbers = {"7.5", "61", "6.28318531"};
+			break;
+		case InadmissibleCurvature::TooLargeOnBoundary:
+			numbers = {"7.5", "61", "3.14159265"};
+			break;
+		case InadmissibleCurvature::FreeBoundary:
+			numbers = {"7.5", "2.25", "61"};
+			break;
+		case InadmissibleCurvature::HyperbolicSurface:
+			numbers = {"genus 4", "5 boundary loops", "-11"};
+			break;
+		}
+		expectSentence(InadmissibleCurvature(problem, 7.5, 2.25, 61, surface(4, 5)), numbers);
+	}
+}
+
+TEST(Sentences, EveryNotConvergedHasOne)
+{
+	for (int i = NotConverged::BrokenTriangles; i < NotConverged::CheckFailed; ++i) {
+		const auto problem = static_cast<NotConverged::Problem>(i);
+		std::vector<std::string> numbers;
+		switch (problem) {
+		case NotConverged::BrokenTriangles:
+		case NotConverged::FlatTriangles:
+		case NotConverged::SplitsUsedUp:
+		case NotConverged::OutsideDisk:
+			numbers = {"61"};
+			break;
+		case NotConverged::LostInRounding:
+			numbers = {"61", "1e17 times"};
+			break;
+		case NotConverged::CircleUnsettled:
+			numbers = {"17"};
+			break;
+		case NotConverged::NoCut:
+		case NotConverged::StepsUsedUp:
+		case NotConverged::CheckFailed:
+			break;
+		}
+		for (Surgery surgery : {Surgery::None, Surgery::EdgeSwap, Surgery::IntrinsicFlips}) {
+			NotConverged error(problem, 61, 17.0);
+			error.surgery = surgery;
+			expectSentence(error, numbers);
+		}
+	}
+	expectSentence(NotConverged(200, 1e-3, 1e-8, 2e-13), {"200", "0.001", "1e-08", "2e-13"});
+	expectSentence(NotConverged("seams 0.5 of the chart apart"), {"seams 0.5 of the chart apart"});
+}
+
+TEST(Sentences, EveryOtherErrorHasOne)
+{
+	for (TooLarge::Problem problem : {TooLarge::Faces, TooLarge::Crossings})
+		expectSentence(TooLarge(problem, 61, 0.0, 300000000.0), {"61", "300000000"});
+	for (TooLarge::Problem problem :
+		 {TooLarge::Memory, TooLarge::DoubleMemory, TooLarge::OverlayMemory})
+		expectSentence(TooLarge(problem, 61, 12.5e9, 3e9), {"61", "12.5 GB", "3 GB"});
+	expectSentence(SolverFailed(SolverFailed::Flow), {});
+	expectSentence(SolverFailed(SolverFailed::SeamCost), {});
+	for (const char* end : {"", "."})
+		EXPECT_EQ(
+			sentence(InternalError(std::string("The fundamental polygon is inconsistent") + end)),
+			"The fundamental polygon is inconsistent: please report the mesh.");
+	expectSentence(ricci::TimeOut(12.25, 0.5, 10.0), {"12.2", "50%", "time_limit: 10"});
+	EXPECT_EQ(sentence(ricci::Cancelled()), "Cancelled: the mesh is unchanged.");
+}
+
+TEST(Sentences, OfMeshes)
+{
+	const auto of = [](InvalidMesh::Problem problem, std::size_t count) {
+		return sentence(InvalidMesh(problem, count));
+	};
+	EXPECT_EQ(
+		of(InvalidMesh::Empty, 1), "The mesh is empty: open or create a triangle mesh first.");
+	EXPECT_EQ(
+		of(InvalidMesh::NoFaces, 8),
+		"The mesh has 8 vertices but no faces: reconstruct a surface from the points first.");
+	EXPECT_EQ(
+		of(InvalidMesh::DamagedFaces, 1),
+		"1 face uses vertices that are deleted or not in the mesh: open its file again.");
+	EXPECT_EQ(
+		of(InvalidMesh::NotFinite, 2),
+		"2 vertices have coordinates that are not finite numbers (NaN or infinite): delete them "
+		"first.");
+	EXPECT_EQ(
+		of(InvalidMesh::OutOfRange, 2),
+		"2 vertices have coordinates beyond 1e50: run 'Transform: Scale, Normalize' first.");
+	EXPECT_EQ(
+		of(InvalidMesh::CollapsedFaces, 1),
+		"1 face uses the same vertex twice: run 'Remove Zero Area Faces' first.");
+	EXPECT_EQ(
+		of(InvalidMesh::DuplicateFaces, 3),
+		"3 faces are a duplicate of another: run 'Remove Duplicate Faces' first.");
+	EXPECT_EQ(
+		of(InvalidMesh::NonManifoldEdges, 1),
+		"1 non-manifold edge (shared by more than two faces): run 'Repair non Manifold Edges' "
+		"first.");
+	EXPECT_EQ(
+		of(InvalidMesh::NonManifoldVertices, 4),
+		"4 non-manifold vertices (with more than one fan of faces): run 'Repair non Manifold "
+		"Vertices by splitting' first.");
+	EXPECT_EQ(
+		of(InvalidMesh::NotOrientable, 1),
+		"1 component is not orientable (one-sided, like a Moebius band): cut the mesh into an "
+		"orientable surface first.");
+	EXPECT_EQ(
+		of(InvalidMesh::TooSmall, 2),
+		"2 components are smaller than 1e-50: run 'Transform: Scale, Normalize' first, or delete "
+		"such pieces.");
+	EXPECT_EQ(
+		of(InvalidMesh::NoArea, 1),
+		"1 component has no area at all (all vertices on one line, or in one point): delete such "
+		"pieces first.");
+	EXPECT_EQ(
+		of(InvalidMesh::EdgesWithoutLength, 6),
+		"6 edges have no length: run 'Merge Close Vertices' and 'Remove Zero Area Faces' first.");
+	EXPECT_EQ(
+		of(InvalidMesh::FacesWithoutArea, 1),
+		"1 face has no area: run 'Remove Zero Area Faces' or 'Remove T-Vertices' first.");
+	EXPECT_EQ(
+		of(InvalidMesh::TooLargeForFloats, 1),
+		"The mesh is too large for texture coordinates in its own scale: choose normalize_uv, or "
+		"run 'Transform: Scale, Normalize' first.");
+}
+
+TEST(Sentences, OfParameters)
+{
+	const auto of = [](InvalidOption::Problem problem, double value, double bound = 0.0) {
+		return sentence(InvalidOption(problem, value, bound));
+	};
+	const double infinity = std::numeric_limits<double>::infinity();
+	const std::string epsilon =
+		" of epsilon cannot be used. Use a number of radians greater than 0, for example 1e-8.";
+	EXPECT_EQ(of(InvalidOption::Epsilon, 0.0), "The value 0" + epsilon);
+	EXPECT_EQ(of(InvalidOption::Epsilon, -1.0), "The value -1" + epsilon);
+	EXPECT_EQ(of(InvalidOption::Epsilon, infinity), "The value inf" + epsilon);
+	EXPECT_EQ(of(InvalidOption::Epsilon, std::nan("")), "The value nan" + epsilon);
+	EXPECT_EQ(
+		of(InvalidOption::MaxIterations, 0.0),
+		"The value 0 of max_iterations cannot be used. Use 1 or more Newton steps.");
+	EXPECT_EQ(
+		of(InvalidOption::ConeCount, -2147483648.0),
+		"The value -2147483648 of cone_count cannot be used. Use the number of cones, or 0 to have "
+		"it chosen by cone_distortion.");
+	EXPECT_EQ(
+		of(InvalidOption::ConeDistortion, double(-0.1f)),
+		"The value -0.1 of cone_distortion cannot be used. Use a number greater than 0, for "
+		"example 0.5.");
+	EXPECT_EQ(
+		of(InvalidOption::SeamHiding, double(1.1f)),
+		"The value 1.1 of seam_hiding cannot be used. Use a number from 0 to 1.");
+	EXPECT_EQ(
+		of(InvalidOption::ChartMargin, double(0.3f), 0.25),
+		"The value 0.3 of chart_margin cannot be used. Use a number from 0 to 0.25.");
+	EXPECT_EQ(
+		of(InvalidOption::ConeAngle, -5.0 * (kPi / 180.0)),
+		"cone_angle must be greater than 0 degrees, not -5.");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::ChartMarginTooWide, 0.25, 0.0, 30)),
+		"A chart_margin of 0.250000 leaves no room for 30 charts: choose a smaller one.");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::CoverTooLarge, 9.0, 0.0, 5000000)),
+		"universal_cover: 9 rings would need more than 5000000 faces. Ask for fewer rings, or "
+		"simplify the mesh.");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::RefinementOfThurston)),
+		"The output 'Common refinement' belongs to the surgery 'Intrinsic flips' with the circle "
+		"packing 'Inversive distance': choose these, or the output 'Keep the mesh'.");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::RefinementWithoutFlips)),
+		"The output 'Common refinement' belongs to the surgery 'Intrinsic flips': choose this, or "
+		"the output 'Keep the mesh'.");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::HyperbolicSurgery)),
+		"The hyperbolic flow runs with inversive distances and the surgery 'None' or 'Intrinsic "
+		"flips' only.");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::CapsWithoutFlips)),
+		"The holes 'Capped' belong to the surgery 'Intrinsic flips' with the circle packing "
+		"'Inversive distance': choose these, or the holes 'Boundaries'.");
+}
+
+TEST(Sentences, OfTargetsThatTheSurfaceDoesNotHave)
+{
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::NotADisk, TargetCurvature::Disk, surface(1, 0))),
+		"'Disk' needs a topological disk (genus 0, one boundary loop), but the surface is a closed "
+		"surface of genus 1 (a torus).");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::NotADisk, TargetCurvature::Rectangle, surface(0, 2))),
+		"'Rectangle' needs a topological disk (genus 0, one boundary loop), but the surface is an "
+		"annulus.");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::CornerCount, 0.0, 0.0, 3)),
+		"'Rectangle' needs four selected boundary vertices, or none, but 3 are selected.");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::CornersOffBoundary, 0.0, 0.0, 2)),
+		"'Rectangle' needs four selected vertices on one boundary loop, but only 2 of the selected "
+		"vertices lie on it.");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::NothingSelected)),
+		"'Cones at selected vertices' needs selected vertices, but none is selected.");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::TooFewCones, 2.0, 3.0)),
+		"The surface needs at least 3 placed cones, but cone_count is 2.");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::TooFewVertices, 40.0, 0.0, 12)),
+		"The surface has 12 interior vertices, too few for the wanted cones: cone_count is 40.");
+	EXPECT_EQ(
+		sentence(InvalidOption(InvalidOption::SphereOfComponents, 0.0, 0.0, 2)),
+		"The map to the sphere takes one closed surface of genus 0, but the mesh has 2 components: "
+		"separate them first.");
+	EXPECT_EQ(
+		sentence(
+			InvalidOption(InvalidOption::NotASphere, TargetCurvature::Automatic, surface(0, 1))),
+		"The map to the sphere takes a closed surface of genus 0, but the surface is a disk.");
+}
+
+TEST(Sentences, OfCurvatures)
+{
+	EXPECT_EQ(
+		sentence(
+			InadmissibleCurvature(InadmissibleCurvature::Flat, 0.0, 4.0 * kPi, 0, surface(0, 0))),
+		"'Flat everywhere' needs total curvature 2 pi chi = 0, but the surface is a closed surface "
+		"of genus 0 (a sphere) with 2 pi chi = 12.5663706: choose another target_curvature.");
+	EXPECT_EQ(
+		sentence(InadmissibleCurvature(InadmissibleCurvature::GaussBonnet, 0.96, 0.0)),
+		"The vertex qualities add up to 0.96, but a metric on this surface has total curvature 2 "
+		"pi chi = 0 (Gauss-Bonnet): correct the qualities.");
+	EXPECT_EQ(
+		sentence(InadmissibleCurvature(InadmissibleCurvature::NotFinite, 0.0, 0.0, 1)),
+		"1 vertex has a quality that is not a finite number: 'From vertex quality' needs the "
+		"target curvature in radians at every vertex.");
+	EXPECT_EQ(
+		sentence(
+			InadmissibleCurvature(InadmissibleCurvature::TooLargeInside, 4.0 * kPi, 2.0 * kPi, 1)),
+		"No metric has curvature 12.5663706 at an interior vertex (1 such): it must be less than 2 "
+		"pi = 6.28318531 inside. Choose more or weaker cones.");
+	EXPECT_EQ(
+		sentence(
+			InadmissibleCurvature(InadmissibleCurvature::TooLargeOnBoundary, 1.5 * kPi, kPi, 2)),
+		"No metric has curvature 4.71238898 at a boundary vertex (2 such): it must be less than pi "
+		"= 3.14159265 on the boundary. Choose more or weaker cones.");
+	EXPECT_EQ(
+		sentence(InadmissibleCurvature(
+			InadmissibleCurvature::HyperbolicSurface, 0.0, 0.0, 0, surface(1, 0))),
+		"A hyperbolic metric without cones needs an Euler characteristic below 0, but the surface "
+		"is a closed surface of genus 1 (a torus) with Euler characteristic 0: use 'Generalized "
+		"Ricci Flow (Euclidean)', or choose 'Cones at selected vertices' with small angles.");
+	EXPECT_EQ(
+		sentence(InadmissibleCurvature(InadmissibleCurvature::HyperbolicSum, 1.5, 4.0 * kPi)),
+		"The target curvature adds up to 1.5, but a hyperbolic metric on this surface needs more "
+		"than 2 pi chi = 12.5663706 (Gauss-Bonnet: the difference is the area): choose more or "
+		"sharper cones, or 'Generalized Ricci Flow (Euclidean)'.");
+}
+
+TEST(Sentences, OfFlowsThatStopped)
+{
+	EXPECT_EQ(
+		sentence(NotConverged(2, 0.01234, 1e-8, 3e-14)),
+		"The flow stopped after 2 Newton steps with a curvature error of 0.0123 (wanted: 1e-08, "
+		"rounding floor: 3e-14): raise max_iterations or epsilon.");
+	NotConverged broken(NotConverged::BrokenTriangles, 1);
+	broken.surgery = Surgery::EdgeSwap;
+	broken.swaps = 25;
+	EXPECT_EQ(
+		sentence(broken),
+		"1 triangle breaks the triangle inequality at the end of the flow, with 25 edges swapped: "
+		"choose the surgery 'Intrinsic flips', or remesh the worst triangles.");
+	broken.surgery = Surgery::IntrinsicFlips;
+	EXPECT_EQ(
+		sentence(broken),
+		"1 triangle breaks the triangle inequality at the end of the flow: remesh the worst "
+		"triangles.");
+	broken.surgery = Surgery::None;
+	EXPECT_EQ(
+		sentence(broken),
+		"1 triangle breaks the triangle inequality at the end of the flow: choose the surgery "
+		"'Intrinsic flips', or remesh the worst triangles.");
+	EXPECT_EQ(
+		sentence(NotConverged(NotConverged::FlatTriangles, 2)),
+		"2 triangles are flat at the end of the flow: the curvature asked for is the limit of what "
+		"these triangles reach. Choose the surgery 'Intrinsic flips', or another "
+		"target_curvature.");
+	EXPECT_EQ(
+		sentence(NotConverged(NotConverged::SplitsUsedUp, 9)),
+		"Triangles on the boundary kept breaking after 9 boundary edges were split: remesh the "
+		"boundary.");
+	EXPECT_EQ(
+		sentence(NotConverged(NotConverged::OutsideDisk, 12)),
+		"12 corners of faces lie so far from the middle of the layout that rounding puts them on "
+		"the border of the Poincaré disk: choose larger cone angles.");
+	EXPECT_EQ(
+		sentence(NotConverged(NotConverged::LostInRounding, 3, 17.0)),
+		"3 triangles are lost in rounding: the flow makes parts of the surface 1e17 times as large "
+		"as others. Choose a target_curvature nearer to the curvature of the mesh.");
+	EXPECT_EQ(
+		sentence(NotConverged("2 points lie outside the disk")),
+		"The finished map failed its check (2 points lie outside the disk): remesh the worst "
+		"triangles, and report the mesh.");
+	EXPECT_EQ(
+		sentence(ricci::TimeOut(61.25, 0.254, 60.0)),
+		"The run was stopped after 61.2 seconds, with about 25% done (time_limit: 60): raise "
+		"time_limit, or simplify the mesh. The mesh is unchanged.");
+	EXPECT_EQ(
+		sentence(TooLarge(TooLarge::Memory, 5000000, 6.6e9, 2.5e9)),
+		"The mesh has 5000000 faces and needs about 6.6 GB of memory, but only 2.5 GB are free: "
+		"simplify it first ('Simplification: Quadric Edge Collapse Decimation'), or cut it into "
+		"pieces.");
+	EXPECT_EQ(
+		sentence(TooLarge(TooLarge::Faces, 400000000, 0.0, 300000000.0)),
+		"The mesh has 400000000 faces, but at most 300000000 can be numbered: simplify it first "
+		"('Simplification: Quadric Edge Collapse Decimation'), or cut it into pieces.");
+}
+
+TEST(Sentences, OfRunsThatAreTooLarge)
+{
+	EXPECT_EQ(
+		sentence(TooLarge(TooLarge::DoubleMemory, 2400, 2.5e9, 1.25e9)),
+		"Boundary edges have to flip, and the double of the surface with 2400 faces needs about "
+		"2.5 GB of memory, but only 1.25 GB were free: simplify the mesh first ('Simplification: "
+		"Quadric Edge Collapse Decimation'), or cut it into pieces.");
+	EXPECT_EQ(
+		sentence(TooLarge(TooLarge::OverlayMemory, 250000, 3e9, 1e9)),
+		"The edges after the flow cross those of the mesh at more than 250000 points, whose "
+		"overlay needs over 3 GB of memory, but only 1 GB were free: divide long triangles and "
+		"large fans first ('Remeshing: Isotropic Explicit Remeshing').");
+	EXPECT_EQ(
+		sentence(TooLarge(TooLarge::Crossings, 1000000000, 0.0, 250000000.0)),
+		"The edges after the flow cross those of the mesh at more than 1000000000 points, but at "
+		"most 250000000 can be numbered: divide long triangles and large fans first ('Remeshing: "
+		"Isotropic Explicit Remeshing').");
+}
+
+TEST(Sentences, AreTheSameInAHostWithDecimalCommas)
+{
+	const auto all = [] {
+		return sentence(InvalidOption(InvalidOption::Epsilon, -0.5)) +
+			   sentence(InvalidOption(InvalidOption::ConeAngle, -0.5)) +
+			   sentence(InvalidOption(InvalidOption::ChartMarginTooWide, 0.25, 0.0, 30)) +
+			   sentence(InadmissibleCurvature(InadmissibleCurvature::GaussBonnet, 0.96, -12.5)) +
+			   sentence(NotConverged(2, 0.01234, 1e-8, 3e-14)) +
+			   sentence(TooLarge(TooLarge::Memory, 5000000, 6.6e9, 2.5e9)) +
+			   sentence(ricci::TimeOut(6.125, 0.25, 5.5));
+	};
+	const std::string wanted = all();
+	EXPECT_TRUE(contains(wanted, "-0.5 of epsilon"));
+	const ricci::testing::DecimalCommas commas;
+	if (!commas.found())
+		GTEST_SKIP() << "SKIPPED: this machine has no locale with decimal commas, nor localedef "
+						"and Debian's package locales to make one";
+	EXPECT_EQ(all(), wanted);
+}
+
+TEST(Sentences, NameTheComponentThatFailed)
+{
+	InvalidOption error(InvalidOption::NothingSelected);
+	error.componentFace = 0;
+	error.componentFaces = 4;
+	EXPECT_EQ(
+		sentence(error),
+		"Component with face 0 (4 faces): 'Cones at selected vertices' needs selected vertices, "
+		"but none is selected.");
+}
+
+TEST(Sentences, OfTheExceptionBeingHandled)
+{
+	EXPECT_EQ(
+		currentSentenceOf([] { throw Refusal("There is no mesh. Open one first."); }),
+		"There is no mesh. Open one first.");
+	EXPECT_EQ(
+		currentSentenceOf([] { throw ricci::Cancelled(); }), "Cancelled: the mesh is unchanged.");
+	EXPECT_EQ(
+		currentSentenceOf([] { throw std::bad_alloc(); }),
+		"There is not enough memory for this mesh. The mesh is unchanged.");
+	EXPECT_EQ(
+		currentSentenceOf([] { throw std::logic_error("a reason"); }),
+		"The filter failed unexpectedly (a reason). Please report this, with the mesh if you can.");
+	EXPECT_EQ(
+		currentSentenceOf([] { throw 1; }),
+		"The filter failed unexpectedly, for an unknown reason. Please report this, with the mesh "
+		"if you can.");
+}
+
+} // namespace

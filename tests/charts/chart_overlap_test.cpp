@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/flat_map.h"
+#include "support/random.h"
+#include "support/shapes.h"
+
+#include <ricci/charts/chart_division.h>
+#include <ricci/charts/chart_overlap.h>
+#include <ricci/error.h>
+#include <ricci/math/orientation.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <set>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// A mesh over the plane: its own x and y are its place there.
+DrawnChart drawn(const SurfaceMesh& mesh)
+{
+	DrawnChart chart;
+	chart.triangles = Array<Triangle>(mesh.triangles);
+	for (const Triangle& t : mesh.triangles) {
+		Triangle2 p;
+		for (std::size_t k = 0; k < 3; ++k)
+			p[k] = {mesh.positions[at(t[k])][0], mesh.positions[at(t[k])][1]};
+		chart.plane.push_back(p);
+	}
+	return chart;
+}
+
+Array<std::array<double, 3>> edgeLengths(const SurfaceMesh& mesh)
+{
+	Array<std::array<double, 3>> lengths;
+	for (const Triangle& t : mesh.triangles) {
+		std::array<double, 3> l;
+		for (std::size_t k = 0; k < 3; ++k)
+			l[k] = distance(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 1) % 3])]);
+		lengths.push_back(l);
+	}
+	return lengths;
+}
+
+/// A ring between radii 1 and 2 that goes round by \p angle, along a screw in space.
+SurfaceMesh sector(double angle, int around, int across)
+{
+	return grid(across, around, Ends::Open, Ends::Open, [=](int i, int j) {
+		const double r = 1.0 + static_cast<double>(i) / across, a = angle * j / around;
+		return Point3{r * std::cos(a), r * std::sin(a), 0.3 * a};
+	});
+}
+
+/// How many triangles contain \p p in their inside.
+int covers(const DrawnChart& chart, const Point2& p, std::vector<int>* which = nullptr)
+{
+	int count = 0;
+	for (const int i : chart.plane.indices()) {
+		const auto& c = chart.plane[i];
+		if (orientation(c[0], c[1], p) > 0 && orientation(c[1], c[2], p) > 0 &&
+			orientation(c[2], c[0], p) > 0) {
+			++count;
+			if (which != nullptr)
+				which->push_back(i);
+		}
+	}
+	return count;
+}
+
+/// Parts of a divided chart must be free of overlaps and make up the whole.
+void expectDivided(const DrawnChart& chart, const std::vector<std::vector<int>>& parts)
+{
+	std::vector<char> seen(chart.triangles.size(), 0);
+	for (const std::vector<int>& part : parts) {
+		DrawnChart own;
+		for (int i : part) {
+			EXPECT_FALSE(seen[at(i)]);
+			seen[at(i)] = 1;
+			own.triangles.push_back(chart.triangles[i]);
+			own.plane.push_back(chart.plane[i]);
+		}
+		EXPECT_TRUE(overlappingPairs(own).empty());
+	}
+	EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<long>(seen.size()));
+}
+
+TEST(ChartOverlap, OfARingBeginsPastAFullTurn)
+{
+	for (const double turns : {0.3, 0.9, 0.999, 1.0})
+		EXPECT_TRUE(overlappingPairs(drawn(sector(2 * kPi * turns, 60, 4))).empty()) << turns;
+	for (const double turns : {1.001, 1.1, 1.5, 1.9})
+		EXPECT_FALSE(overlappingPairs(drawn(sector(2 * kPi * turns, 60, 4))).empty()) << turns;
+}
+
+/// All triangles of a fan have its apex in common, so that each pair of boxes in a quarter meets.
+TEST(ChartOverlap, ALongSearchIsHeardAndCanBeEnded)
+{
+	const int n = 6000;
+	SurfaceMesh fan;
+	fan.positions.push_back({0, 0, 0});
+	for (int i = 0; i < n; ++i) {
+		const double angle = 2 * kPi * i / n;
+		fan.positions.push_back({std::cos(angle), std::sin(angle), 0});
+		fan.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
+	}
+	int ticks = 0;
+	EXPECT_TRUE(overlappingPairs(drawn(fan), [&] { ++ticks; }).empty());
+	EXPECT_GE(ticks, 3);
+	int ticksLeft = 2;
+	EXPECT_THROW(
+		overlappingPairs(
+			drawn(fan),
+			[&] {
+				if (--ticksLeft == 0)
+					throw Cancelled();
+			}),
+		Cancelled);
+	EXPECT_EQ(ticksLeft, 0);
+}
+
+/// Area that two counter-clockwise triangles have in common.
+double commonArea(const Triangle2& a, const Triangle2& b)
+{
+	std::vector<Point2> part(a.begin(), a.end());
+	for (std::size_t k = 0; k < 3; ++k) {
+		const Point2 &p = b[k], &q = b[(k + 1) % 3];
+		std::vector<Point2> next;
+		for (std::size_t i = 0; i < part.size(); ++i) {
+			const Point2 &x = part[i], &y = part[(i + 1) % part.size()];
+			const double u = (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0]);
+			const double v = (q[0] - p[0]) * (y[1] - p[1]) - (q[1] - p[1]) * (y[0] - p[0]);
+			if (u >= 0)
+				next.push_back(x);
+			if (u * v < 0)
+				next.push_back(
+					{x[0] + u / (u - v) * (y[0] - x[0]), x[1] + u / (u - v) * (y[1] - x[1])});
+		}
+		part = next;
+	}
+	double area = 0.0;
+	for (std::size_t i = 0; i < part.size(); ++i) {
+		const Point2 &x = part[i], &y = part[(i + 1) % part.size()];
+		area += 0.5 * (x[0] * y[1] - x[1] * y[0]);
+	}
+	return area;
+}
+
+TEST(ChartOverlap, NamesExactlyThePairsWithCommonArea)
+{
+	for (const double turns : {0.8, 1.4, 2.7}) {
+		const DrawnChart chart = drawn(sector(2 * kPi * turns, 50, 5));
+		const auto pairs = overlappingPairs(chart);
+		const std::set<TrianglePair> known(pairs.begin(), pairs.end());
+		EXPECT_EQ(known.size(), pairs.size());
+		for (int i = 0; i < chart.plane.size(); ++i)
+			for (int j = i + 1; j < chart.plane.size(); ++j) {
+				const double area = commonArea(chart.plane[i], chart.plane[j]);
+				if (area > 1e-12 || area < 1e-15) { // between: the width of a touch
+					EXPECT_EQ(known.count({i, j}), area > 1e-12 ? 1u : 0u);
+				}
+			}
+	}
+}
+
+TEST(ChartOverlap, TouchingIsNone)
+{
+	// Two sides of a slit from the centre of a square, which are different vertices at one place.
+	SurfaceMesh slit = rectangle(4, 4, 1.0, 1.0);
+	const int middle = 2 * 5 + 2; // vertices of the slit: (2..4, 2), the first one stays whole
+	for (int f = 0; f < 32; ++f)
+		for (int& v : slit.triangles[at(f)]) {
+			const Point3& p = slit.positions[at(v)];
+			double low = 1.0;
+			for (int w : slit.triangles[at(f)])
+				low = std::min(low, slit.positions[at(w)][1]);
+			if (p[1] == 0.5 && p[0] > 0.6 && low < 0.5) {
+				slit.positions.push_back({p[0], p[1], 0.0});
+				v = static_cast<int>(slit.positions.size()) - 1;
+			}
+		}
+	ASSERT_GT(slit.positions.size(), 25u);
+	ASSERT_EQ(slit.positions[at(middle)][1], 0.5);
+	EXPECT_TRUE(overlappingPairs(drawn(slit)).empty());
+	// Rounding of the slit's sides is no overlap either, a visible one is.
+	for (const double gap : {1e-12, 1e-3}) {
+		SurfaceMesh closed = slit;
+		for (std::size_t v = 25; v < closed.positions.size(); ++v)
+			closed.positions[v][1] += gap;
+		EXPECT_EQ(overlappingPairs(drawn(closed)).empty(), gap < 1e-9);
+	}
+	// Squares that meet in a corner, and along half a side.
+	const SurfaceMesh square = rectangle(1, 1, 1.0, 1.0);
+	for (const Point2& shift : {Point2{1.0, 1.0}, Point2{1.0, 0.5}, Point2{1.0, -1.0}}) {
+		SurfaceMesh two = sideBySide(square, square, shift[0]);
+		for (std::size_t v = 4; v < 8; ++v)
+			two.positions[v][1] += shift[1];
+		EXPECT_TRUE(overlappingPairs(drawn(two)).empty());
+		for (std::size_t v = 4; v < 8; ++v)
+			two.positions[v][0] -= 0.25;
+		EXPECT_EQ(overlappingPairs(drawn(two)).empty(), std::abs(shift[1]) == 1.0);
+	}
+}
+
+TEST(ChartOverlap, AroundAVertexIsFound)
+{
+	// The map z -> z^2 winds twice round the centre, z -> z^(1/2) on a slit disk only half.
+	for (const double power : {0.5, 1.0, 2.0}) {
+		SurfaceMesh disk = grid(3, 24, Ends::Open, Ends::Open, [&](int i, int j) {
+			const double r = i / 3.0, a = power * 2 * kPi * j / 24.0;
+			return Point3{r * std::cos(a), r * std::sin(a), 0.0};
+		});
+		DrawnChart chart = drawn(disk), proper;
+		for (const int f : chart.plane.indices())
+			if (orientation(chart.plane[f][0], chart.plane[f][1], chart.plane[f][2]) > 0) {
+				proper.plane.push_back(chart.plane[f]);
+				proper.triangles.push_back(chart.triangles[f]);
+			}
+		EXPECT_EQ(overlappingPairs(proper).empty(), power <= 1.0);
+	}
+}
+
+TEST(ChartOverlap, AFoldInsideAChartIsNone)
+{
+	// An inner vertex is pulled across the opposite side of one of its triangles.
+	SurfaceMesh mesh = rectangle(6, 6, 6.0, 6.0);
+	mesh.positions[at(3 * 7 + 3)] = {4.4, 4.1, 0.0};
+	const DrawnChart folded = drawn(mesh);
+	int turned = 0, twice = 0;
+	for (const auto& c : folded.plane)
+		turned += orientation(c[0], c[1], c[2]) < 0;
+	ASSERT_GT(turned, 0);
+	Random random(402);
+	for (int trial = 0; trial < 2000; ++trial)
+		twice += covers(folded, {random.real(3, 5), random.real(3, 5)}) > 1;
+	ASSERT_GT(twice, 0);
+	EXPECT_TRUE(overlappingPairs(folded).empty());
+	// The same fold in a chart that does cover itself changes nothing there.
+	SurfaceMesh ring = sector(2 * kPi * 1.4, 60, 6);
+	const std::size_t plain = overlappingPairs(drawn(ring)).size();
+	const int inner = 30 * 7 + 3; // on the opposite side of the ring
+	ring.positions[at(inner)] = {
+		1.3 * ring.positions[at(inner)][0], 1.3 * ring.positions[at(inner)][1], 0.0};
+	EXPECT_NEAR(
+		static_cast<double>(overlappingPairs(drawn(ring)).size()),
+		static_cast<double>(plain),
+		12.0);
+}
+
+TEST(ChartDivision, OfRingsTakesAsManyPartsAsTurns)
+{
+	for (const double turns : {1.2, 1.7, 2.5, 3.3}) {
+		const SurfaceMesh mesh = sector(2 * kPi * turns, static_cast<int>(40 * turns), 3);
+		const DrawnChart chart = drawn(mesh);
+		ChartCuts cuts;
+		const auto parts = divideChart(chart, overlappingPairs(chart), edgeLengths(mesh), cuts);
+		expectDivided(chart, parts);
+		EXPECT_GE(parts.size(), static_cast<std::size_t>(std::ceil(turns)));
+		EXPECT_LE(parts.size(), static_cast<std::size_t>(std::ceil(turns)) + 1);
+		EXPECT_EQ(cuts.edges, 3 * (static_cast<int>(parts.size()) - 1)); // each straight across
+		EXPECT_GE(cuts.length, static_cast<double>(parts.size() - 1) - 1e-12); // the ring is 1 wide
+	}
+}
+
+TEST(ChartDivision, CutsWhereItIsShortest)
+{
+	// Two turns that are joined by a narrow neck opposite to the place where they meet.
+	const int around = 80, across = 6;
+	SurfaceMesh mesh = sector(2 * kPi * 1.25, around, across), neck;
+	neck.positions = mesh.positions;
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+		const int cell = static_cast<int>(f / 2), i = cell / around, j = cell % around;
+		if (j != around / 2 || i == 0)
+			neck.triangles.push_back(mesh.triangles[f]);
+	}
+	const DrawnChart chart = drawn(neck);
+	ChartCuts cuts;
+	const auto parts = divideChart(chart, overlappingPairs(chart), edgeLengths(neck), cuts);
+	expectDivided(chart, parts);
+	ASSERT_EQ(parts.size(), 2u);
+	EXPECT_EQ(cuts.edges, 1);
+	EXPECT_NEAR(cuts.length, 1.0 / across, 1e-12);
+	EXPECT_NEAR(
+		static_cast<double>(parts[0].size()) / static_cast<double>(parts[1].size()), 1.0, 0.05);
+}
+
+TEST(ChartDivision, LeavesAChartWithoutOverlapWhole)
+{
+	const SurfaceMesh mesh = sector(kPi, 20, 3);
+	const DrawnChart chart = drawn(mesh);
+	ChartCuts cuts{-1, -1.0};
+	const auto parts = divideChart(chart, overlappingPairs(chart), edgeLengths(mesh), cuts);
+	EXPECT_EQ(cuts.edges, 0);
+	EXPECT_EQ(cuts.length, 0.0);
+	ASSERT_EQ(parts.size(), 1u);
+	EXPECT_EQ(parts[0].size(), mesh.triangles.size());
+}
+
+TEST(SeparateCharts, OfAScrewSurfaceCoverNothingTwice)
+{
+	const SurfaceMesh mesh = sector(2 * kPi * 1.6, 70, 5);
+	for (const OutputTriangulation output :
+		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+		Options options;
+		options.output = output;
+		options.resolveOverlap = false;
+		const Parametrization whole = run(mesh, options);
+		EXPECT_EQ(whole.charts.size(), 1u);
+		EXPECT_EQ(whole.report.overlappingCharts, 1);
+		EXPECT_GT(whole.report.overlappingFaces, 0);
+		options.resolveOverlap = true;
+		const Parametrization flat = run(mesh, options);
+		EXPECT_EQ(flat.report.overlappingCharts, 0);
+		EXPECT_EQ(flat.report.overlappingFaces, 0);
+		EXPECT_GT(flat.report.overlapCuts, 0);
+		EXPECT_EQ(flat.charts.size(), 2u);
+		EXPECT_EQ(flat.report.qcAreaMean, whole.report.qcAreaMean);
+		std::vector<int> faces, refined;
+		for (const Chart& chart : flat.charts) {
+			faces.insert(faces.end(), chart.faces.begin(), chart.faces.end());
+			refined.insert(refined.end(), chart.refined.begin(), chart.refined.end());
+			const bool isRefined = output == OutputTriangulation::CommonRefinement;
+			DrawnChart own;
+			double low[2] = {1e9, 1e9};
+			for (int f : isRefined ? chart.refined : chart.faces) {
+				own.triangles.push_back(
+					isRefined ? flat.refined.triangles[at(f)] : mesh.triangles[at(f)]);
+				own.plane.push_back(isRefined ? flat.refined.uv[at(f)] : flat.uv[at(f)]);
+				for (const Point2& p : own.plane.back())
+					for (std::size_t k = 0; k < 2; ++k)
+						low[k] = std::min(low[k], p[k]);
+			}
+			EXPECT_TRUE(overlappingPairs(own).empty());
+			EXPECT_NEAR(low[0], 0.0, 1e-12);
+			EXPECT_NEAR(low[1], 0.0, 1e-12);
+		}
+		std::sort(faces.begin(), faces.end());
+		std::sort(refined.begin(), refined.end());
+		ASSERT_EQ(faces.size(), mesh.triangles.size());
+		ASSERT_EQ(refined.size(), flat.refined.triangles.size());
+		for (std::size_t f = 0; f < faces.size(); ++f)
+			EXPECT_EQ(faces[f], static_cast<int>(f));
+		for (std::size_t f = 0; f < refined.size(); ++f)
+			EXPECT_EQ(refined[f], static_cast<int>(f));
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+
+#include <ricci/base/indexed.h>
+#include <ricci/charts/pack.h>
+#include <ricci/error.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+/// Charts of two triangles each, which fill the boxes from the origin with these sizes.
+Parametrization boxes(const std::vector<Point2>& sizes)
+{
+	Parametrization map;
+	for (const Point2& size : sizes) {
+		Chart chart;
+		const Point2 a{0.0, 0.0}, b{size[0], 0.0}, c{size[0], size[1]}, d{0.0, size[1]};
+		for (const Triangle2& triangle : {Triangle2{a, b, c}, Triangle2{a, c, d}}) {
+			chart.faces.push_back(static_cast<int>(map.uv.size()));
+			map.uv.push_back(triangle);
+			map.reversed.push_back(0);
+		}
+		map.charts.push_back(chart);
+	}
+	return map;
+}
+
+/// In one row.
+std::vector<Point2> inARow(const std::vector<Box2>& boxes, double room)
+{
+	std::vector<Point2> shifts;
+	double x = boxes.empty() ? 0.0 : boxes[0].min[0];
+	for (const Box2& box : boxes) {
+		shifts.push_back({x - box.min[0], 0.0});
+		x += box.width() + room;
+	}
+	return shifts;
+}
+
+Box2 boxOf(const Parametrization& map, const Chart& chart)
+{
+	Box2 box;
+	for (int f : chart.faces)
+		for (const Point2& p : map.uv[positionOf(f)])
+			box.add(p);
+	return box;
+}
+
+std::vector<Point2> randomSizes(int n, Random& random)
+{
+	std::vector<Point2> sizes;
+	for (int i = 0; i < n; ++i)
+		sizes.push_back({random.real(0.1, 4.0), random.real(0.1, 4.0)});
+	return sizes;
+}
+
+TEST(PackCharts, LeavesTheMarginInTheUnitSquare)
+{
+	Random random(370);
+	for (int n : {1, 2, 3, 5}) {
+		for (double margin : {0.0, 0.01, 0.1}) {
+			const std::vector<Point2> sizes = randomSizes(n, random);
+			Parametrization map = boxes(sizes);
+			packCharts(map, true, margin, inARow);
+			Box2 whole;
+			double scale = 0.0;
+			for (std::size_t i = 0; i < sizes.size(); ++i) {
+				const Box2 box = boxOf(map, map.charts[i]);
+				whole.add(box);
+				if (i == 0)
+					scale = box.width() / sizes[i][0];
+				EXPECT_NEAR(box.width(), scale * sizes[i][0], 1e-12); // one scale for all
+				EXPECT_NEAR(box.height(), scale * sizes[i][1], 1e-12);
+				if (i > 0) {
+					EXPECT_GE(box.min[0] - boxOf(map, map.charts[i - 1]).max[0], margin - 1e-12);
+				}
+			}
+			for (std::size_t k = 0; k < 2; ++k) {
+				EXPECT_GE(whole.min[k], margin - 1e-12);
+				EXPECT_LE(whole.max[k], 1.0 - margin + 1e-12);
+			}
+			EXPECT_NEAR(whole.extent(), 1.0 - 2.0 * margin, 1e-5); // and no smaller than it must
+		}
+	}
+}
+
+TEST(PackCharts, WithoutTheUnitSquareKeepsTheScale)
+{
+	Random random(371);
+	const std::vector<Point2> sizes = randomSizes(3, random);
+	Parametrization map = boxes(sizes);
+	map.refined.uv.push_back({Point2{0, 0}, Point2{1, 0}, Point2{0, 1}});
+	map.charts[1].refined.push_back(0);
+	packCharts(map, false, 0.05, inARow);
+	for (std::size_t i = 0; i < sizes.size(); ++i) {
+		EXPECT_NEAR(boxOf(map, map.charts[i]).width(), sizes[i][0], 1e-14);
+		EXPECT_NEAR(boxOf(map, map.charts[i]).height(), sizes[i][1], 1e-14);
+	}
+	// The refinement moves with its chart.
+	EXPECT_EQ(map.refined.uv[0][0], map.uv[2][0]);
+	EXPECT_GT(map.uv[2][0][0], sizes[0][0]);
+	const std::vector<Triangle2> before = boxes({sizes[0]}).uv;
+	Parametrization alone = boxes({sizes[0]});
+	packCharts(alone, false, 0.05, inARow);
+	EXPECT_EQ(alone.uv, before);
+}
+
+TEST(PackCharts, RefusesMarginsThatLeaveNoRoom)
+{
+	Parametrization map = boxes(std::vector<Point2>(40, Point2{1.0, 1.0}));
+	for (double margin : {-0.01, 0.26, std::numeric_limits<double>::quiet_NaN()}) {
+		try {
+			packCharts(map, true, margin, inARow);
+			ADD_FAILURE() << margin;
+		}
+		catch (const InvalidOption& e) {
+			EXPECT_EQ(e.problem, InvalidOption::ChartMargin);
+			EXPECT_EQ(e.bound, kMaxChartMargin);
+		}
+	}
+	for (double margin : {0.25, 0.1}) { // by area alone, and in one row
+		try {
+			packCharts(map, true, margin, inARow);
+			ADD_FAILURE() << margin;
+		}
+		catch (const InvalidOption& e) {
+			EXPECT_EQ(e.problem, InvalidOption::ChartMarginTooWide);
+			EXPECT_EQ(e.value, margin);
+			EXPECT_EQ(e.count, 40u);
+		}
+	}
+}
+
+/// n squares of no extent with the margin m round each, side by side in a square of side 1: the
+/// margins between them are shared, so sqrt(n) + 1 of them fit.
+TEST(PackCharts, MarginsMayFitAgreesWithPointsOnAGrid)
+{
+	for (int k = 1; k < 60; ++k) {
+		const double most = 1.0 / (k + 1);
+		EXPECT_TRUE(marginsMayFit(positionOf(k * k), 0.999999 * most));
+		EXPECT_FALSE(marginsMayFit(positionOf(k * k), 1.000001 * most));
+	}
+}
+
+TEST(PackCharts, RefusesCoordinatesBeyondFloatInTheirOwnScaleOnly)
+{
+	Parametrization map = boxes({{1e39, 2.0}});
+	try {
+		packCharts(map, false, 0.0, inARow);
+		ADD_FAILURE();
+	}
+	catch (const InvalidMesh& e) {
+		EXPECT_EQ(e.problem, InvalidMesh::TooLargeForFloats);
+	}
+	packCharts(map, true, 0.0, inARow);
+	EXPECT_EQ(boxOf(map, map.charts[0]).max[0], 1.0);
+}
+
+TEST(PlaceDisks, GivesEachASquareOfItsOwn)
+{
+	for (int n : {1, 2, 4, 5, 10}) {
+		Parametrization map;
+		const Triangle2 inscribed{Point2{1, 0}, Point2{0, 1}, Point2{-0.6, -0.8}};
+		for (int i = 0; i < n; ++i) {
+			map.uv.push_back(inscribed);
+			map.charts.emplace_back();
+			map.charts.back().faces.push_back(i);
+		}
+		const std::vector<Box2> squares = placeDisks(map);
+		ASSERT_EQ(squares.size(), positionOf(n));
+		const double side = 1.0 / std::ceil(std::sqrt(n));
+		for (std::size_t i = 0; i < squares.size(); ++i) {
+			EXPECT_NEAR(squares[i].width(), side, 1e-15);
+			EXPECT_NEAR(squares[i].height(), side, 1e-15);
+			for (std::size_t k = 0; k < 2; ++k) {
+				EXPECT_GE(squares[i].min[k], 0.0);
+				EXPECT_LE(squares[i].max[k], 1.0 + 1e-15);
+			}
+			for (std::size_t j = 0; j < i; ++j)
+				EXPECT_GE(distance(squares[i].min, squares[j].min), side * (1 - 1e-14));
+			for (std::size_t k = 0; k < 3; ++k)
+				for (std::size_t l = 0; l < 2; ++l) {
+					const double middle = 0.5 * (squares[i].min[l] + squares[i].max[l]);
+					EXPECT_NEAR(map.uv[i][k][l], middle + 0.5 * side * inscribed[k][l], 1e-15);
+				}
+		}
+	}
+}
+
+TEST(CountFlippedAsWritten, CountsTheOutput)
+{
+	Parametrization map = boxes({{1.0, 1.0}, {2.0, 1.0}});
+	Report report;
+	countFlippedAsWritten(map, report);
+	EXPECT_EQ(report.flippedFaces, 0);
+	map.reversed[1] = 1;
+	std::swap(map.uv[2][0], map.uv[2][1]);
+	map.uv[3] = {Point2{1, 1}, Point2{2, 1}, Point2{1.5, 1 + 1e-12}}; // flat in float
+	countFlippedAsWritten(map, report);
+	EXPECT_EQ(report.flippedFaces, 2);
+	EXPECT_EQ(report.flippedByRounding, 1);
+	// Of a refinement only its own triangles count, turned round like their faces.
+	map.refined.triangles.assign(2, Triangle{0, 1, 2});
+	map.refined.inputFace = {0, 1};
+	map.refined.uv.assign(2, Triangle2{Point2{0, 0}, Point2{1, 0}, Point2{0, 1}});
+	countFlippedAsWritten(map, report);
+	EXPECT_EQ(report.flippedFaces, 1);
+	std::swap(map.refined.uv[1][0], map.refined.uv[1][1]);
+	countFlippedAsWritten(map, report);
+	EXPECT_EQ(report.flippedFaces, 0);
+	EXPECT_EQ(report.flippedByRounding, 0);
+}
+
+} // namespace
+} // namespace ricci::testing

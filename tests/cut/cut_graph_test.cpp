@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/expect.h"
+#include "support/packed.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/transform.h"
+
+#include <ricci/cut/cut_graph.h>
+#include <ricci/error.h>
+#include <ricci/surface/topology.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+/// The cut opens the surface to a disk and knows how many edges it has.
+void expectCutToADisk(const Triangulation& t, const CutGraph& cut)
+{
+	expectOpensToADisk(t, cut.isCut);
+	EXPECT_EQ(cut.edgeCount, std::count(cut.isCut.begin(), cut.isCut.end(), 1));
+}
+
+double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)
+{
+	double sum = 0.0;
+	for (const Edge e : lengths.indices())
+		sum += cut.isCut[e] ? lengths[e] : 0.0;
+	return sum;
+}
+
+TEST(CutGraph, OpensSurfacesOfEveryKindToADisk)
+{
+	Random random(130);
+	std::vector<SurfaceMesh> meshes = surfacesOfEveryKind(random);
+	meshes.push_back(randomPlanarDisk(6, random));
+	int opened = 0, needless = 0;
+	for (const SurfaceMesh& mesh : meshes) {
+		const Packed packed(mesh);
+		const Triangulation& t = packed.triangulation;
+		const Topology topology = topologyOf(t);
+		SCOPED_TRACE(topology.type.name());
+		for (int cones : {0, 1, 4}) {
+			VertexArray<char> marked(t.vertexCount(), 0);
+			for (int i = 0; i < cones; ++i)
+				marked[Vertex(random.index(t.vertexCount()))] = 1;
+			const CutGraph cut = cutToDisk(t, packed.lengths, marked, {});
+			if (topology.type.isSphere() && std::count(marked.begin(), marked.end(), 1) < 2) {
+				// A sphere without two cones has no flat metric.
+				EXPECT_EQ(cut.edgeCount, 0);
+				++needless;
+				continue;
+			}
+			++opened;
+			expectCutToADisk(t, cut);
+			EXPECT_EQ(static_cast<int>(cut.generators.size()), 2 * topology.type.genus);
+			for (const Edge e : cut.generators)
+				EXPECT_TRUE(cut.isCut[e]);
+			EXPECT_NEAR(cut.length, lengthOf(cut, packed.lengths), 1e-12 * (1 + cut.length));
+			// Every marked vertex is on the cut or on the boundary.
+			for (const Vertex v : t.vertices()) {
+				bool reached = !marked[v] || topology.boundary[v];
+				for (const Halfedge h : t.halfedges())
+					reached = reached || (t.origin(h) == v && cut.isCut[h.edge()]);
+				EXPECT_TRUE(reached) << "vertex " << v.number();
+			}
+		}
+	}
+	EXPECT_EQ(needless, 2);
+	EXPECT_EQ(opened + needless, 3 * static_cast<int>(meshes.size()));
+}
+
+TEST(CutGraph, LeavesADiskAlone)
+{
+	Random random(131);
+	const Packed packed(randomPlanarDisk(6, random));
+	const auto cut = cutToDisk(
+		packed.triangulation, packed.lengths, VertexArray<char>(packed.radii.size(), 0), {});
+	EXPECT_EQ(cut.edgeCount, 0);
+	EXPECT_EQ(cut.length, 0.0);
+}
+
+TEST(CutGraph, HasNoDeadEnds)
+{
+	Random random(132);
+	for (int genus : {1, 2, 3}) {
+		const Packed packed(shaken(perforatedSlab(genus, 3), 0.03, random));
+		const auto cut = cutToDisk(
+			packed.triangulation, packed.lengths, VertexArray<char>(packed.radii.size(), 0), {});
+		VertexArray<int> degree(packed.radii.size(), 0);
+		for (const Halfedge h : packed.triangulation.halfedges())
+			degree[packed.triangulation.origin(h)] += cut.isCut[h.edge()];
+		EXPECT_EQ(std::count(degree.begin(), degree.end(), 1), 0);
+	}
+}
+
+TEST(CutGraph, IsShortestAcrossAnAnnulus)
+{
+	// On a planar ring the shortest cut is one radial line of edges.
+	const Packed packed(ring(1, 4, 12, 5));
+	const auto cut = cutToDisk(
+		packed.triangulation, packed.lengths, VertexArray<char>(packed.radii.size(), 0), {});
+	EXPECT_EQ(cut.edgeCount, 5);
+	EXPECT_NEAR(cut.length, 3.0, 1e-12);
+}
+
+TEST(CutGraph, OnATorusIsNoLongerThanTheTwoObviousLoops)
+{
+	// A flat torus, 9 x 20 units: one loop of edges round each way, which are shortest.
+	const Packed torusGrid(torus(3, 1, 20, 9));
+	for (double width : {0.2, 1.0, 3.0}) {
+		EdgeArray<double> lengths;
+		const Triangulation& t = torusGrid.triangulation;
+		for (const Edge e : t.edges()) {
+			const int a = t.ends(e)[0].number(), b = t.ends(e)[1].number();
+			const bool sameColumn = a / 9 == b / 9, sameRow = a % 9 == b % 9;
+			lengths.push_back(sameColumn ? 1.0 : sameRow ? width : std::hypot(1.0, width));
+		}
+		const auto cut = cutToDisk(t, lengths, VertexArray<char>(torusGrid.radii.size(), 0), {});
+		expectCutToADisk(t, cut);
+		EXPECT_LE(cut.length, 9.0 + 20.0 * width + 1e-9);
+		// Two generating loops are at least as long as the two shortest of the lattice, less what
+		// they share: a cut graph contains a loop of each class that a generator crosses.
+		EXPECT_GE(cut.length, std::max(9.0, 20.0 * width) - 1e-9);
+	}
+}
+
+TEST(CutGraph, IsDeterministic)
+{
+	Random random(133);
+	const Packed packed(shaken(perforatedSlab(2, 3), 0.03, random));
+	const VertexArray<char> unmarked(packed.radii.size(), 0);
+	const auto first = cutToDisk(packed.triangulation, packed.lengths, unmarked, {});
+	for (int i = 0; i < 3; ++i) {
+		const auto again = cutToDisk(packed.triangulation, packed.lengths, unmarked, {});
+		EXPECT_EQ(again.isCut, first.isCut);
+		EXPECT_EQ(again.generators, first.generators);
+	}
+}
+
+TEST(CutGraph, KeepsOffForbiddenEdges)
+{
+	Random random(134);
+	const Packed packed(bumpyTorus(14, 9, random));
+	const VertexArray<char> unmarked(packed.radii.size(), 0);
+	EdgeArray<char> forbidden(packed.lengths.size(), 0);
+	const auto free = cutToDisk(packed.triangulation, packed.lengths, unmarked, forbidden);
+	for (const Edge e : forbidden.indices())
+		if (e.number() % 2 == 0)
+			forbidden[e] = free.isCut[e];
+	ASSERT_GT(std::count(forbidden.begin(), forbidden.end(), 1), 3);
+	const auto cut = cutToDisk(packed.triangulation, packed.lengths, unmarked, forbidden);
+	expectCutToADisk(packed.triangulation, cut);
+	for (const Edge e : forbidden.indices())
+		EXPECT_FALSE(forbidden[e] && cut.isCut[e]);
+	// Not where the forbidden edges leave no way.
+	std::fill(forbidden.begin(), forbidden.end(), 1);
+	const auto error = errorOf<NotConverged>(
+		[&] { cutToDisk(packed.triangulation, packed.lengths, unmarked, forbidden); });
+	ASSERT_TRUE(error);
+	EXPECT_EQ(error->problem, NotConverged::NoCut);
+	expectWords(error->what(), {"cannot be cut open"});
+}
+
+} // namespace
+} // namespace ricci::testing

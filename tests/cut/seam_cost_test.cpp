@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/packed.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/cut/seam_cost.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ricci::testing {
+namespace {
+
+/// A square patch with a groove along x = 0 and a ridge along x = 1.
+SurfaceMesh grooveAndRidge(int n)
+{
+	return grid(n, n, Ends::Open, Ends::Open, [n](int i, int j) {
+		const double x = 3.0 * i / n - 1.0, y = 3.0 * j / n;
+		const double z = 0.2 * std::exp(-30 * (x - 1) * (x - 1)) - 0.2 * std::exp(-30 * x * x);
+		return Point3{x, y, z};
+	});
+}
+
+TEST(SeamCost, IsLowInHollowsAndHighOnRidges)
+{
+	const SurfaceMesh mesh = grooveAndRidge(48);
+	const Packed p(mesh);
+	const VertexArray<double> exposed =
+		exposure(p.triangulation, p.lengths, VertexArray<Point3>(mesh.positions));
+	const auto column = [&](double x, double& low, double& high) {
+		low = 1.0;
+		high = 0.0;
+		for (const Vertex v : exposed.indices()) {
+			const Point3& q = mesh.positions[at(v)];
+			if (std::abs(q[0] - x) < 0.02 && q[1] > 0.5 && q[1] < 2.5) {
+				low = std::min(low, exposed[v]);
+				high = std::max(high, exposed[v]);
+			}
+		}
+	};
+	double grooveLow, grooveHigh, ridgeLow, ridgeHigh;
+	column(0.0, grooveLow, grooveHigh);
+	column(1.0, ridgeLow, ridgeHigh);
+	EXPECT_LT(grooveHigh, 0.25);
+	EXPECT_GT(ridgeLow, 0.75);
+	for (double x : exposed) {
+		EXPECT_GE(x, 0.0);
+		EXPECT_LE(x, 1.0);
+	}
+	// Turned over, hollows become ridges.
+	SurfaceMesh other = mesh;
+	for (Triangle& t : other.triangles)
+		std::swap(t[1], t[2]);
+	const Packed q(other);
+	const VertexArray<double> opposite =
+		exposure(q.triangulation, q.lengths, VertexArray<Point3>(other.positions));
+	for (const Vertex v : exposed.indices())
+		EXPECT_NEAR(exposed[v] + opposite[v], 1.0, 1e-9);
+}
+
+/// A prism over a star whose corners are at the distances R + d and R - d from its axis in turn: the
+/// sum of two eigenvectors of its Laplacian, which smoothing shrinks to 1 / (1 + t e) for the
+/// eigenvalue e. Its faces are vertical, so that the heights depend on nothing else.
+TEST(SeamCost, ExposureOfAStarIsThatOfItsTwoModes)
+{
+	constexpr int n = 16, rows = 8;
+	constexpr double R = 2.0, d = 0.3, turn = 2 * kPi / n;
+	const double outer = R + d, inner = R - d;
+	const double side =
+		std::sqrt(outer * outer + inner * inner - 2 * outer * inner * std::cos(turn));
+	const double storey = 0.9 * side;
+	const SurfaceMesh mesh = grid(n, rows, Ends::Joined, Ends::Open, [&](int i, int j) {
+		const double r = i % 2 == 0 ? outer : inner;
+		return Point3{r * std::cos(i * turn), r * std::sin(i * turn), j * storey};
+	});
+	const Packed p(mesh);
+	const double time = n * rows * side * storey / 400.0; // of the area
+	const auto lost = [&](double cosine) {
+		const double e = 2 * (1 - cosine) / (side * side);
+		return time * e / (1 + time * e);
+	};
+	const double ofCircle = lost(std::cos(turn)) * R, ofTeeth = lost(-std::cos(turn)) * d;
+	// Two of three triangles at a vertex of the first and last row are on one side of it.
+	const auto tilt = [&](double r, double neighbour) {
+		const double along = (r - neighbour * std::cos(turn)) / side; // sine of half the exterior
+		const double cosine = neighbour * std::sin(turn) / side;      // angle, and cosine
+		return 3 * cosine / std::hypot(3 * cosine, along);
+	};
+	const double heights[] = {ofCircle + ofTeeth, ofCircle - ofTeeth};
+	const double tilted[] = {heights[0] * tilt(outer, inner), heights[1] * tilt(inner, outer)};
+	double square = 0.0;
+	for (int k : {0, 1})
+		square += ((rows - 1) * heights[k] * heights[k] + tilted[k] * tilted[k]) / (2.0 * rows);
+	const VertexArray<double> exposed =
+		exposure(p.triangulation, p.lengths, VertexArray<Point3>(mesh.positions));
+	for (const Vertex v : exposed.indices()) {
+		const Point3& q = mesh.positions[at(v)];
+		const int k = std::hypot(q[0], q[1]) > R ? 0 : 1;
+		const bool atEnd = q[2] < 0.5 * storey || q[2] > (rows - 0.5) * storey;
+		const double height = atEnd ? tilted[k] : heights[k];
+		// The diagonals of the cells, which are rectangles, have a weight of 1e-6.
+		EXPECT_NEAR(exposed[v], 0.5 * (1 + std::tanh(height / std::sqrt(square))), 1e-5);
+	}
+	EXPECT_LT(heights[1], 0.0); // or one mode alone decides
+}
+
+TEST(SeamCost, IsTheLengthWhereNothingIsToBeHidden)
+{
+	Random random(724);
+	const SurfaceMesh mesh = bumpyTorus(14, 9, random);
+	const Packed p(mesh);
+	const VertexArray<Point3> positions(mesh.positions);
+	EXPECT_EQ(seamCost(p.triangulation, p.lengths, positions, 0.0), p.lengths);
+	const EdgeArray<double> hidden = seamCost(p.triangulation, p.lengths, positions, 1.0);
+	for (const Edge e : hidden.indices()) {
+		EXPECT_GE(hidden[e], p.lengths[e]);
+		EXPECT_LE(hidden[e], 10.0 * p.lengths[e]);
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

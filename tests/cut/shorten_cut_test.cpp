@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/expect.h"
+#include "support/packed.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/transform.h"
+
+#include <ricci/cut/shorten_cut.h>
+#include <ricci/error.h>
+#include <ricci/surface/topology.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+double costOf(const EdgeArray<char>& isCut, const EdgeArray<double>& cost)
+{
+	double sum = 0.0;
+	for (const Edge e : cost.indices())
+		sum += isCut[e] ? cost[e] : 0.0;
+	return sum;
+}
+
+/// The cut surface is one disk that has every marked vertex on its boundary.
+void expectDiskThroughMarks(
+	const Triangulation& t, const EdgeArray<char>& isCut, const VertexArray<char>& marked)
+{
+	expectOpensToADisk(t, isCut);
+	VertexArray<char> onCut = t.boundaryVertices();
+	for (const Edge e : t.edges())
+		if (isCut[e])
+			for (const Vertex v : t.ends(e))
+				onCut[v] = 1;
+	for (const Vertex v : t.vertices())
+		EXPECT_TRUE(!marked[v] || onCut[v]) << "vertex " << v.number();
+}
+
+/// A cut that nobody would want: all edges but those that a breadth-first search of the faces
+/// crosses, less the dead ends without a mark.
+EdgeArray<char> clumsyCut(const Triangulation& t, const VertexArray<char>& marked)
+{
+	EdgeArray<char> isCut(t.edgeCount(), 1);
+	FaceArray<char> seen(t.faceCount(), 0);
+	std::vector<Face> queue{Face(0)};
+	seen[Face(0)] = 1;
+	for (std::size_t head = 0; head < queue.size(); ++head)
+		for (const Halfedge h : t.halfedges(queue[head])) {
+			const Halfedge g = h.twin();
+			if (!t.isExterior(g) && !seen[t.face(g)]) {
+				seen[t.face(g)] = 1;
+				isCut[h.edge()] = 0;
+				queue.push_back(t.face(g));
+			}
+		}
+	const VertexArray<char> boundary = t.boundaryVertices();
+	for (const Edge e : t.edges())
+		if (t.isBoundary(e))
+			isCut[e] = 0;
+	for (bool changed = true; changed;) {
+		changed = false;
+		VertexArray<int> degree(t.vertexCount(), 0);
+		for (const Halfedge h : t.halfedges())
+			degree[t.origin(h)] += isCut[h.edge()];
+		for (const Halfedge h : t.halfedges()) {
+			const Vertex v = t.origin(h);
+			if (isCut[h.edge()] && degree[v] == 1 && !marked[v] && !boundary[v]) {
+				isCut[h.edge()] = 0;
+				changed = true;
+				break;
+			}
+		}
+	}
+	return isCut;
+}
+
+/// Distances along edges between all vertices (Floyd and Warshall).
+VertexArray<VertexArray<double>>
+allDistances(const Triangulation& t, const EdgeArray<double>& lengths)
+{
+	VertexArray<VertexArray<double>> d(t.vertexCount(), VertexArray<double>(t.vertexCount(), kFar));
+	for (const Vertex v : t.vertices())
+		d[v][v] = 0.0;
+	for (const Halfedge h : t.halfedges()) {
+		double& x = d[t.origin(h)][t.target(h)];
+		x = std::min(x, lengths[h.edge()]);
+	}
+	for (const Vertex k : t.vertices())
+		for (const Vertex i : t.vertices())
+			for (const Vertex j : t.vertices())
+				d[i][j] = std::min(d[i][j], d[i][k] + d[k][j]);
+	return d;
+}
+
+Vertex randomVertex(const Triangulation& t, Random& random)
+{
+	return Vertex(random.index(t.vertexCount()));
+}
+
+TEST(ShortenCut, StaysADiskThroughTheMarksAndGetsShorter)
+{
+	Random random(720);
+	int tried = 0;
+	const std::vector<SurfaceMesh> meshes = surfacesOfEveryKind(random);
+	for (const SurfaceMesh& mesh : meshes) {
+		const Packed p(mesh);
+		const Triangulation& t = p.triangulation;
+		const Topology topology = topologyOf(t);
+		SCOPED_TRACE(topology.type.name());
+		for (int count : {0, 3, 7}) {
+			VertexArray<char> marked(t.vertexCount(), 0);
+			for (int i = 0; i < count; ++i)
+				marked[randomVertex(t, random)] = 1;
+			if (topology.type.isSphere() && count == 0)
+				continue;
+			++tried;
+			EdgeArray<char> isCut = clumsyCut(t, marked);
+			expectDiskThroughMarks(t, isCut, marked);
+			const double before = costOf(isCut, p.lengths);
+			shortenCut(t, p.lengths, marked, {}, isCut);
+			expectDiskThroughMarks(t, isCut, marked);
+			const double after = costOf(isCut, p.lengths);
+			EXPECT_LE(after, before * (1 + 1e-12));
+			// Nothing is left to gain.
+			shortenCut(t, p.lengths, marked, {}, isCut);
+			EXPECT_NEAR(costOf(isCut, p.lengths), after, 1e-9 * after);
+		}
+	}
+	EXPECT_EQ(tried, 3 * static_cast<int>(meshes.size()) - 1); // less the sphere without marks
+}
+
+/// Between two moves the cut is a disk's, so that a search may end there.
+TEST(ShortenCut, ASearchThatIsEndedLeavesADisk)
+{
+	Random random(723);
+	const Packed p(shaken(perforatedSlab(6, 3), 0.05, random));
+	const Triangulation& t = p.triangulation;
+	VertexArray<char> marked(t.vertexCount(), 0);
+	for (int i = 0; i < 120; ++i)
+		marked[randomVertex(t, random)] = 1;
+	const EdgeArray<char> clumsy = clumsyCut(t, marked);
+	int ticks = 0;
+	EdgeArray<char> whole = clumsy;
+	shortenCut(t, p.lengths, marked, {}, whole, [&] { ++ticks; });
+	EXPECT_GE(ticks, 3);
+	double before = costOf(clumsy, p.lengths);
+	for (int n = 1; n <= ticks; ++n) {
+		EdgeArray<char> isCut = clumsy;
+		int left = n;
+		EXPECT_THROW(
+			shortenCut(
+				t,
+				p.lengths,
+				marked,
+				{},
+				isCut,
+				[&] {
+					if (--left == 0)
+						throw Cancelled();
+				}),
+			Cancelled);
+		expectDiskThroughMarks(t, isCut, marked);
+		const double now = costOf(isCut, p.lengths);
+		EXPECT_LE(now, before * (1 + 1e-12));
+		before = now;
+	}
+	EXPECT_LE(costOf(whole, p.lengths), before * (1 + 1e-12));
+}
+
+TEST(ShortenCut, JoinsTwoMarksByAShortestPath)
+{
+	Random random(721);
+	const Packed p(shaken(perforatedSlab(0, 2), 0.05, random));
+	const Triangulation& t = p.triangulation;
+	const auto distance = allDistances(t, p.lengths);
+	int tried = 0;
+	for (int i = 0; i < 20; ++i) {
+		const Vertex a = randomVertex(t, random), b = randomVertex(t, random);
+		if (a == b)
+			continue;
+		++tried;
+		VertexArray<char> marked(t.vertexCount(), 0);
+		marked[a] = marked[b] = 1;
+		EdgeArray<char> isCut = clumsyCut(t, marked);
+		shortenCut(t, p.lengths, marked, {}, isCut);
+		EXPECT_NEAR(costOf(isCut, p.lengths), distance[a][b], 1e-12);
+	}
+	EXPECT_GT(tried, 15);
+}
+
+TEST(ShortenCut, JoinsThreeMarksNearlyAsShortAsCanBe)
+{
+	Random random(722);
+	const Packed p(shaken(perforatedSlab(0, 2), 0.05, random));
+	const Triangulation& t = p.triangulation;
+	const auto distance = allDistances(t, p.lengths);
+	int shortest = 0, all = 0;
+	for (int i = 0; i < 30; ++i) {
+		Vertex mark[3];
+		for (Vertex& m : mark)
+			m = randomVertex(t, random);
+		if (mark[0] == mark[1] || mark[1] == mark[2] || mark[2] == mark[0])
+			continue;
+		VertexArray<char> marked(t.vertexCount(), 0);
+		for (const Vertex m : mark)
+			marked[m] = 1;
+		EdgeArray<char> isCut = clumsyCut(t, marked);
+		shortenCut(t, p.lengths, marked, {}, isCut);
+		const double found = costOf(isCut, p.lengths);
+		double min = kFar;
+		for (const Vertex v : t.vertices())
+			min = std::min(min, distance[v][mark[0]] + distance[v][mark[1]] + distance[v][mark[2]]);
+		const double ab = distance[mark[0]][mark[1]], bc = distance[mark[1]][mark[2]],
+					 ca = distance[mark[2]][mark[0]];
+		EXPECT_GE(found, min - 1e-12);
+		// No longer than the paths between the marks, without a branch elsewhere.
+		EXPECT_LE(found, ab + bc + ca - std::max({ab, bc, ca}) + 1e-12);
+		shortest += found < min + 1e-12;
+		++all;
+	}
+	EXPECT_GT(all, 20);
+	EXPECT_GT(shortest, all / 2);
+}
+
+TEST(ShortenCut, KeepsOffForbiddenEdges)
+{
+	Random random(723);
+	const Packed p(bumpyTorus(14, 9, random));
+	const VertexArray<char> unmarked(p.radii.size(), 0);
+	EdgeArray<char> isCut = clumsyCut(p.triangulation, unmarked);
+	EdgeArray<char> forbidden(p.lengths.size(), 0);
+	for (const Edge e : forbidden.indices())
+		if (e.number() % 3 == 0)
+			forbidden[e] = !isCut[e];
+	shortenCut(p.triangulation, p.lengths, unmarked, forbidden, isCut);
+	expectDiskThroughMarks(p.triangulation, isCut, unmarked);
+	for (const Edge e : forbidden.indices())
+		EXPECT_FALSE(forbidden[e] && isCut[e]);
+}
+
+} // namespace
+} // namespace ricci::testing

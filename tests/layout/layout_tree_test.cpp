@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/intrinsic.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <ricci/layout/layout_tree.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Units of rounding that the direction of an edge loses: the longest side of its triangles over it.
+double loss(const Triangulation& t, const EdgeArray<double>& lengths, Edge e)
+{
+	double longest = 0.0;
+	for (const Halfedge h : {e.halfedge(), e.halfedge().twin()})
+		for (const Halfedge side : t.halfedges(t.face(h)))
+			longest = std::max(longest, lengths[side.edge()]);
+	return longest / lengths[e];
+}
+
+/// Least loss on a way from the root to every triangle, infinite where there is none: relaxed edge by
+/// edge until nothing changes (Bellman and Ford).
+FaceArray<double> leastLoss(
+	const Triangulation& t,
+	const EdgeArray<double>& lengths,
+	const EdgeArray<char>& isCut,
+	Face root)
+{
+	FaceArray<double> least(t.faceCount(), kNever);
+	least[root] = 0.0;
+	for (bool changed = true; changed;) {
+		changed = false;
+		for (const Edge e : t.edges()) {
+			if (isCut[e] || t.isBoundary(e))
+				continue;
+			for (const Halfedge h : {e.halfedge(), e.halfedge().twin()}) {
+				const double way = least[t.face(h)] + loss(t, lengths, e);
+				double& known = least[t.face(h.twin())];
+				changed |= way < known * (1.0 - 1e-12);
+				known = std::min(known, way);
+			}
+		}
+	}
+	return least;
+}
+
+TEST(LayoutTree, ReachesEveryTriangleByTheWayThatLosesLeast)
+{
+	Random random(840);
+	int unreached = 0;
+	for (const SurfaceMesh& mesh : surfacesOfEveryKind(random))
+		for (double share : {0.0, 0.2, 0.6}) {
+			const IntrinsicMesh metric = intrinsicMesh(mesh);
+			const Triangulation& t = metric.triangulation;
+			EdgeArray<char> isCut(t.edgeCount(), 0);
+			for (char& cut : isCut)
+				cut = random.real(0.0, 1.0) < share;
+			const Face root(random.index(t.faceCount()));
+			const FaceArray<double> least = leastLoss(t, metric.lengths, isCut, root);
+			FaceArray<double> lost(t.faceCount(), kNever);
+			lost[root] = 0.0;
+			for (const Halfedge h : layoutTree(t, metric.lengths, isCut, root)) {
+				EXPECT_FALSE(isCut[h.edge()]);
+				ASSERT_FALSE(t.isBoundary(h.edge()));
+				EXPECT_EQ(lost[t.face(h)], kNever);        // each once
+				ASSERT_LT(lost[t.face(h.twin())], kNever); // from one that is reached
+				lost[t.face(h)] = lost[t.face(h.twin())] + loss(t, metric.lengths, h.edge());
+			}
+			for (const Face f : t.faces())
+				if (least[f] == kNever) {
+					EXPECT_EQ(lost[f], kNever);
+					++unreached;
+				}
+				else
+					EXPECT_NEAR(
+						lost[f] / std::max(least[f], 1.0),
+						least[f] / std::max(least[f], 1.0),
+						1e-12);
+		}
+	EXPECT_GT(unreached, 100); // random cuts isolate triangles
+}
+
+TEST(LayoutTree, GoesRoundANeedle)
+{
+	// Two squares beside a needle that both touch along its long sides; between them there is only the
+	// short side of another one.
+	//
+	//     3 ------- 2     Triangle 0 = (0 1 2), 1 = (0 2 3), and a fan round 4, near 3, that leads
+	//     | 1   /   |     from triangle 1 to triangle 0 round vertex 2. The short edge is 3-4.
+	//     |  /   0  |
+	//     0 ------- 1
+	const SurfaceMesh mesh{
+		{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 1.001, 0}},
+		{{0, 1, 2}, {0, 2, 3}, {3, 2, 4}, {0, 3, 4}}};
+	const IntrinsicMesh metric = intrinsicMesh(mesh);
+	const Triangulation& t = metric.triangulation;
+	const auto order = layoutTree(t, metric.lengths, EdgeArray<char>(t.edgeCount(), 0), Face(0));
+	ASSERT_EQ(order.size(), 3u);
+	for (const Halfedge h : order)
+		EXPECT_GT(metric.lengths[h.edge()], 0.01);
+}
+
+TEST(LayoutTree, DoesNotDependOnTheScale)
+{
+	Random random(841);
+	const IntrinsicMesh metric = intrinsicMesh(bumpyTorus(9, 7, random));
+	const Triangulation& t = metric.triangulation;
+	const EdgeArray<char> isCut(t.edgeCount(), 0);
+	EdgeArray<double> scaled = metric.lengths;
+	for (double& length : scaled)
+		length *= 0x1p40;
+	EXPECT_EQ(layoutTree(t, scaled, isCut, Face(5)), layoutTree(t, metric.lengths, isCut, Face(5)));
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+
+#include <ricci/base/indexed.h>
+#include <ricci/math/sparse_cholesky.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+/// Laplacian of a path with random weights plus random links and \p shift on the diagonal; lower
+/// triangle.
+SparseCholesky::Matrix laplacian(int n, double shift, Random& random)
+{
+	Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+	const auto link = [&](int i, int j, double w) {
+		dense(i, i) += w;
+		dense(j, j) += w;
+		dense(i, j) -= w;
+		dense(j, i) -= w;
+	};
+	for (int i = 0; i + 1 < n; ++i)
+		link(i, i + 1, random.real(0.1, 10.0));
+	for (int i = 0; i + 7 < n; i += 3)
+		link(i, i + 7, random.real(0.1, 10.0));
+	dense.diagonal().array() += shift;
+	const Eigen::MatrixXd lower = dense.triangularView<Eigen::Lower>();
+	return lower.sparseView();
+}
+
+/// A matrix with the rows that the solver chooses for it.
+struct System
+{
+	explicit System(SparseCholesky::Matrix lower) : given(std::move(lower)), row(given.rows())
+	{
+		std::iota(row.begin(), row.end(), 0);
+		layOut();
+	}
+
+	void layOut()
+	{
+		std::vector<Eigen::Triplet<double>> entries;
+		for (int column = 0; column < given.cols(); ++column)
+			for (SparseCholesky::Matrix::InnerIterator it(given, column); it; ++it) {
+				const int a = row[int(it.row())], b = row[column];
+				entries.emplace_back(std::max(a, b), std::min(a, b), it.value());
+			}
+		matrix.resize(given.rows(), given.cols());
+		matrix.setFromTriplets(entries.begin(), entries.end());
+	}
+
+	bool analyze(SparseCholesky& solver)
+	{
+		return solver.analyze(matrix, row, [this] { layOut(); });
+	}
+
+	/// In the order given.
+	Eigen::VectorXd solve(SparseCholesky& solver, const Eigen::VectorXd& rhs) const
+	{
+		Eigen::VectorXd b(rhs.size()), x(rhs.size()), solution(rhs.size());
+		for (int i = 0; i < rhs.size(); ++i)
+			b[row[i]] = rhs[i];
+		solver.solve(b, x);
+		for (int i = 0; i < rhs.size(); ++i)
+			solution[i] = x[row[i]];
+		return solution;
+	}
+
+	SparseCholesky::Matrix given, matrix;
+	Array<int> row;
+};
+
+TEST(SparseCholesky, SolvesLikeADenseSolver)
+{
+	Random random(60);
+	SparseCholesky solver;
+	const int n = 120;
+	// The pattern is analysed once; other values are only factorised.
+	System system(laplacian(n, 0.5, random));
+	EXPECT_TRUE(system.analyze(solver));
+	for (int trial = 0; trial < 3; ++trial) {
+		ASSERT_TRUE(solver.factorize(system.matrix));
+		const Eigen::MatrixXd lower = system.given;
+		const Eigen::MatrixXd dense = lower.selfadjointView<Eigen::Lower>();
+		for (int side = 0; side < 2; ++side) { // one factor serves several right sides
+			Eigen::VectorXd b(n);
+			for (double& y : b)
+				y = random.real(-1, 1);
+			const Eigen::VectorXd x = system.solve(solver, b);
+			EXPECT_LT((dense * x - b).lpNorm<Eigen::Infinity>(), 1e-13);
+			EXPECT_LT((x - dense.llt().solve(b)).lpNorm<Eigen::Infinity>(), 1e-12);
+		}
+		system.given = laplacian(n, 0.5, random);
+		system.layOut();
+	}
+	EXPECT_EQ(solver.work().analyses, 1);
+}
+
+TEST(SparseCholesky, AnotherPatternCanFollow)
+{
+	Random random(61);
+	SparseCholesky solver;
+	for (int n : {40, 25, 60}) {
+		System system(laplacian(n, 1.0, random));
+		EXPECT_TRUE(system.analyze(solver));
+		ASSERT_TRUE(solver.factorize(system.matrix));
+		const Eigen::VectorXd b = Eigen::VectorXd::Ones(n);
+		// Rows of a Laplacian sum to zero, so that the ones are solved by themselves.
+		EXPECT_LT((system.solve(solver, b) - b).lpNorm<Eigen::Infinity>(), 1e-12);
+	}
+}
+
+/// An arrow: eliminating its tip first fills the whole matrix, last nothing.
+SparseCholesky::Matrix arrow(int n, int tip)
+{
+	SparseCholesky::Matrix A(n, n);
+	for (int i = 0; i < n; ++i) {
+		A.insert(i, i) = i == tip ? n + 1.0 : 2.0;
+		if (i != tip)
+			A.insert(std::max(i, tip), std::min(i, tip)) = -1.0;
+	}
+	A.makeCompressed();
+	return A;
+}
+
+TEST(SparseCholesky, ChoosesRowsWithoutFill)
+{
+	const int n = 50;
+	SparseCholesky solver;
+	System system(arrow(n, 0));
+	EXPECT_TRUE(system.analyze(solver));
+	std::vector<int> sorted = system.row.values();
+	std::sort(sorted.begin(), sorted.end());
+	for (int i = 0; i < n; ++i)
+		ASSERT_EQ(sorted[positionOf(i)], i);
+	EXPECT_EQ(solver.factorEntries(), 2 * n - 1);
+	ASSERT_TRUE(solver.factorize(system.matrix));
+	const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(n, -1.0, 2.0);
+	const Eigen::VectorXd solution =
+		system.solve(solver, system.given.selfadjointView<Eigen::Lower>() * x);
+	EXPECT_LT((solution - x).lpNorm<Eigen::Infinity>(), 1e-13);
+	EXPECT_EQ(solver.work().orderings, 1);
+	EXPECT_EQ(solver.work().factorizations, 1);
+	EXPECT_EQ(solver.work().solutions, 1);
+	EXPECT_GT(solver.work().flops, 0.0);
+	EXPECT_FALSE(system.analyze(solver)); // nothing better is to be had
+	EXPECT_EQ(solver.work().orderings, 1);
+	// The arrow turned round: its tip now has the row of what was eliminated first.
+	const auto first = std::find(system.row.begin(), system.row.end(), 0) - system.row.begin();
+	system.given = arrow(n, static_cast<int>(first));
+	system.layOut();
+	EXPECT_TRUE(system.analyze(solver));
+	EXPECT_EQ(solver.work().orderings, 2);
+	EXPECT_EQ(solver.factorEntries(), 2 * n - 1);
+}
+
+TEST(SparseCholesky, ElementsWithoutAnUnknownKeepNoRow)
+{
+	SparseCholesky solver;
+	std::vector<int> row = {-1, 0, 1, -1, 2};
+	SparseCholesky::Matrix A = arrow(3, 0);
+	solver.analyze(A, row, [] {});
+	EXPECT_EQ(row[0], -1);
+	EXPECT_EQ(row[3], -1);
+	EXPECT_EQ(std::set<int>(row.begin(), row.end()), (std::set<int>{-1, 0, 1, 2}));
+}
+
+TEST(SparseCholesky, TellsWhenAMatrixIsNotPositiveDefinite)
+{
+	Random random(62);
+	SparseCholesky solver;
+	System system(laplacian(30, -50.0, random));
+	system.analyze(solver);
+	EXPECT_FALSE(solver.factorize(system.matrix));
+	system.given = laplacian(30, 1.0, random);
+	system.layOut();
+	EXPECT_TRUE(solver.factorize(system.matrix)); // and recovers
+	EXPECT_NE(std::string(SparseCholesky::name()), "");
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+#include "support/shapes.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/error.h>
+#include <ricci/math/disjoint_sets.h>
+#include <ricci/measure/canonical_generators.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+ExtendedIsometry randomIsometry(double maxLength, Random& random)
+{
+	return ExtendedIsometry::rotation(random.real(-kPi, kPi)) *
+		   ExtendedIsometry::translation(random.real(0.0, maxLength)) *
+		   ExtendedIsometry::rotation(random.real(-kPi, kPi));
+}
+
+Array<ExtendedIsometry> randomIsometries(int count, double maxLength, Random& random)
+{
+	Array<ExtendedIsometry> generators(count);
+	for (ExtendedIsometry& g : generators)
+		g = randomIsometry(maxLength, random);
+	return generators;
+}
+
+/// Every generator and its inverse, in random order.
+GroupWord randomWord(int generators, Random& random)
+{
+	GroupWord word;
+	for (int g = 0; g < generators; ++g) {
+		word.push_back({g, false});
+		word.push_back({g, true});
+	}
+	random.shuffle(word);
+	return word;
+}
+
+/// Points that the corners of the polygon with these sides become when its sides are glued.
+int cornerCount(const GroupWord& word)
+{
+	const int n = static_cast<int>(word.size());
+	DisjointSets points(n); // corner k is where side k begins
+	for (int i = 0; i < n; ++i)
+		for (int j = 0; j < n; ++j)
+			if (i != j && word[at(i)].generator == word[at(j)].generator) {
+				points.merge(i, (j + 1) % n);
+				points.merge((i + 1) % n, j);
+			}
+	std::set<int> different;
+	for (int k = 0; k < n; ++k)
+		different.insert(points.find(k));
+	return static_cast<int>(different.size());
+}
+
+ExtendedIsometry relationOf(const std::vector<ExtendedIsometry>& handles)
+{
+	ExtendedIsometry product;
+	for (std::size_t i = 0; i + 1 < handles.size(); i += 2) {
+		const ExtendedIsometry &a = handles[i], &b = handles[i + 1];
+		product = product * a * b * a.inverse() * b.inverse();
+	}
+	return product;
+}
+
+TEST(CanonicalGenerators, ProductsAreReadFromTheLeft)
+{
+	Random random(870);
+	const Array<ExtendedIsometry> g = randomIsometries(2, 1.0, random);
+	const ExtendedIsometry product = productOf({{0, false}, {1, true}, {0, true}}, g);
+	const ExtendedIsometry wanted = g[0] * g[1].inverse() * g[0].inverse();
+	EXPECT_LT(static_cast<double>((product.inverse() * wanted).distanceFromIdentity()), 1e-17);
+	EXPECT_EQ(productOf({}, g).distanceFromIdentity(), 0.0L);
+}
+
+/// The relation is one of the free group: it holds whatever isometries stand for the letters. A
+/// polygon whose corners are not all one point has no such basis.
+TEST(CanonicalGenerators, HaveTheProductOfTheWord)
+{
+	Random random(871);
+	int canonical = 0, refused = 0;
+	for (int trial = 0; trial < 600; ++trial) {
+		const int generators = 2 * (1 + random.index(3)), genus = generators / 2;
+		const GroupWord word = randomWord(generators, random);
+		const Array<ExtendedIsometry> g = randomIsometries(generators, 0.5, random);
+		if (cornerCount(word) != 1) {
+			EXPECT_THROW(canonicalGenerators(word, g), InternalError);
+			++refused;
+			continue;
+		}
+		const std::vector<ExtendedIsometry> handles = canonicalGenerators(word, g);
+		ASSERT_EQ(handles.size(), at(2 * genus));
+		long double size = 1.0L;
+		for (const ExtendedIsometry& h : handles)
+			size *= std::pow(std::abs(h.a) + std::abs(h.b), 2);
+		const ExtendedIsometry difference = relationOf(handles).inverse() * productOf(word, g);
+		EXPECT_LT(
+			difference.distanceFromIdentity(),
+			100 * std::numeric_limits<long double>::epsilon() * size);
+		++canonical;
+	}
+	EXPECT_GT(canonical, 50); // or the test says little
+	EXPECT_GT(refused, 50);
+}
+
+TEST(CanonicalGenerators, OfACanonicalWordOfOneHandleAreItsLetters)
+{
+	Random random(872);
+	const Array<ExtendedIsometry> g = randomIsometries(2, 0.3, random);
+	const auto handles = canonicalGenerators({{0, false}, {1, false}, {0, true}, {1, true}}, g);
+	ASSERT_EQ(handles.size(), 2u);
+	// Of all ways to read it one leaves it as it is; none moves 0 less than the least of them.
+	long double farthest = 0.0L;
+	for (const ExtendedIsometry& h : handles)
+		farthest = std::max(farthest, h.displacement());
+	EXPECT_LE(farthest, std::max(g[0].displacement(), g[1].displacement()) + 1e-17L);
+}
+
+/// What g became, in the Lie algebra, from the left.
+std::array<long double, 3> moveOf(const ExtendedIsometry& before, const ExtendedIsometry& after)
+{
+	const ExtendedIsometry m = after * before.inverse();
+	const long double sign = m.a.real() < 0 ? -1 : 1;
+	return {sign * m.a.imag(), sign * m.b.real(), sign * m.b.imag()};
+}
+
+/// Generators that fit are disturbed: taking the disturbance back would close the relation, so that
+/// the least move is not larger.
+TEST(CloseRelation, ClosesItByALeastMove)
+{
+	Random random(873);
+	int closed = 0;
+	for (int trial = 0; trial < 300; ++trial) {
+		const int generators = 2 * (1 + random.index(3));
+		const GroupWord word = randomWord(generators, random);
+		if (cornerCount(word) != 1)
+			continue;
+		++closed;
+		const Array<ExtendedIsometry> exact = randomIsometries(generators, 0.7, random);
+		const ExtendedIsometry tail = productOf(word, exact).inverse();
+		Array<ExtendedIsometry> disturbed = exact;
+		for (ExtendedIsometry& g : disturbed)
+			g = ExtendedIsometry::rotation(random.real(-1e-6, 1e-6)) *
+				ExtendedIsometry::translation(random.real(-1e-6, 1e-6)) * g;
+		Array<ExtendedIsometry> mended = disturbed;
+		closeRelation(word, tail, mended);
+		EXPECT_LT(
+			static_cast<double>((productOf(word, mended) * tail).distanceFromIdentity()), 1e-15);
+		long double moved = 0.0L, back = 0.0L;
+		for (const int g : mended.indices())
+			for (std::size_t k = 0; k < 3; ++k) {
+				moved += std::pow(moveOf(disturbed[g], mended[g])[k], 2);
+				back += std::pow(moveOf(disturbed[g], exact[g])[k], 2);
+			}
+		EXPECT_LE(moved, back * (1.0L + 1e-4L));
+		EXPECT_GT(moved, 0.0L);
+	}
+	EXPECT_GT(closed, 20); // or the test says little
+}
+
+} // namespace
+} // namespace ricci::testing

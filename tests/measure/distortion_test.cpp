@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/transform.h"
+
+#include <ricci/measure/distortion.h>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace ricci::testing {
+namespace {
+
+using Plane = Triangle2;
+using Space = std::array<Point3, 3>;
+
+/// The corners of each face under a linear map of x and y.
+std::vector<Plane> mapped(const SurfaceMesh& mesh, const Eigen::Matrix2d& A)
+{
+	std::vector<Plane> plane;
+	for (const Triangle& t : mesh.triangles) {
+		Plane p;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Eigen::Vector2d q =
+				A * Eigen::Vector2d(mesh.positions[at(t[k])][0], mesh.positions[at(t[k])][1]);
+			p[k] = {q[0], q[1]};
+		}
+		plane.push_back(p);
+	}
+	return plane;
+}
+
+TEST(Distortion, OfLinearMapsIsTheQuotientOfTheirSingularValues)
+{
+	Random random(110);
+	int seen = 0;
+	for (int trial = 0; trial < 200; ++trial) {
+		Eigen::Matrix2d A;
+		for (double& x : A.reshaped())
+			x = random.real(-1, 1);
+		const Eigen::JacobiSVD<Eigen::Matrix2d> svd(A);
+		const double expected = svd.singularValues()[0] / svd.singularValues()[1];
+		if (expected > 1e6)
+			continue;
+		Space surface;
+		for (Point3& p : surface)
+			p = {random.real(-1, 1), random.real(-1, 1), 0.0};
+		SurfaceMesh mesh{{surface[0], surface[1], surface[2]}, {{0, 1, 2}}};
+		if (triangleArea(surface) < 0.01)
+			continue;
+		const Plane plane = mapped(mesh, A)[0];
+		const double error = 1e-12 * expected * expected;
+		EXPECT_NEAR(quasiConformalDistortion(surface, plane), expected, error);
+		// Where the triangle lies in space, how large it is and how it is turned does not matter.
+		mesh = turned(scaled(mesh, 1e7), {1.0, -2.0, 0.5});
+		const Space other{mesh.positions[0], mesh.positions[1], mesh.positions[2]};
+		EXPECT_NEAR(quasiConformalDistortion(other, plane), expected, error);
+		// Nor which corner comes first.
+		EXPECT_NEAR(
+			quasiConformalDistortion(
+				{surface[1], surface[2], surface[0]}, {plane[1], plane[2], plane[0]}),
+			expected,
+			error);
+		++seen;
+	}
+	EXPECT_GT(seen, 150);
+}
+
+TEST(Distortion, SimilaritiesHaveNone)
+{
+	Random random(111);
+	for (double scale : {1e-8, 1.0, 1e8})
+		for (int mirror : {1, -1}) {
+			const double angle = random.real(-3, 3);
+			Eigen::Matrix2d A;
+			A << std::cos(angle), -std::sin(angle) * mirror, std::sin(angle),
+				std::cos(angle) * mirror;
+			const SurfaceMesh mesh = randomPlanarDisk(5, random);
+			const auto plane = mapped(mesh, scale * A);
+			for (std::size_t f = 0; f < plane.size(); ++f) {
+				const Triangle& t = mesh.triangles[f];
+				EXPECT_NEAR(
+					quasiConformalDistortion(
+						{mesh.positions[at(t[0])],
+						 mesh.positions[at(t[1])],
+						 mesh.positions[at(t[2])]},
+						plane[f]),
+					1.0,
+					1e-13);
+			}
+		}
+}
+
+TEST(Distortion, DegenerateTriangles)
+{
+	const Space good{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}};
+	const Plane unit{{{0, 0}, {1, 0}, {0, 1}}};
+	for (const Space& flat :
+		 {Space{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}},
+		  Space{{{1, 2, 3}, {1, 2, 3}, {0, 0, 0}}},
+		  Space{{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}}}}) {
+		EXPECT_TRUE(std::isnan(quasiConformalDistortion(flat, unit)));
+		EXPECT_EQ(triangleArea(flat), 0.0);
+	}
+	for (const Plane& flat :
+		 {Plane{{{0, 0}, {1, 0}, {3, 0}}},
+		  Plane{{{0, 0}, {0, 0}, {1, 1}}},
+		  Plane{{{0, 0}, {0, 0}, {0, 0}}}})
+		EXPECT_EQ(quasiConformalDistortion(good, flat), std::numeric_limits<double>::infinity());
+}
+
+TEST(Distortion, TriangleAreaIsHalfTheCrossProduct)
+{
+	EXPECT_NEAR(triangleArea({{{1, 1, 1}, {4, 1, 1}, {1, 5, 1}}}), 6.0, 1e-14);
+	EXPECT_NEAR(triangleArea({{{0, 0, 0}, {0, 2, 0}, {0, 0, 3}}}), 3.0, 1e-15);
+}
+
+TEST(Distortion, MeansByFaceAreaAndVertex)
+{
+	// A strip of a unit square and a 1 x 3 rectangle, stretched 1 : 1 and 2 : 1.
+	const SurfaceMesh mesh{
+		{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {4, 0, 0}, {4, 1, 0}},
+		{{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}};
+	std::vector<Plane> plane;
+	for (const Triangle& t : mesh.triangles) {
+		Plane p;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Point3& q = mesh.positions[at(t[k])];
+			p[k] = {q[0] <= 1 ? q[0] : 1 + 2 * (q[0] - 1), q[1]};
+		}
+		plane.push_back(p);
+	}
+	Report report;
+	const DistortionField field = measureDistortion(mesh, plane, {0, 0, 0, 0}, report);
+	const double face[] = {1, 1, 2, 2};
+	for (std::size_t f = 0; f < 4; ++f)
+		EXPECT_NEAR(field.face[f], face[f], 1e-14);
+	// Areas 1/2, 1/2, 3/2, 3/2.
+	const double vertex[] = {
+		1.0,
+		(0.5 * 1 + 1.5 * 2 + 1.5 * 2) / 3.5,
+		(0.5 * 1 + 0.5 * 1 + 1.5 * 2) / 2.5,
+		1.0,
+		2.0,
+		2.0};
+	double vertexMean = 0.0;
+	for (std::size_t v = 0; v < 6; ++v) {
+		EXPECT_NEAR(field.vertex[v], vertex[v], 1e-14);
+		vertexMean += vertex[v] / 6;
+	}
+	EXPECT_NEAR(report.qcMean, 1.5, 1e-14);
+	EXPECT_NEAR(report.qcAreaMean, (1 * 1 + 3 * 2) / 4.0, 1e-14);
+	EXPECT_NEAR(report.qcVertexMean, vertexMean, 1e-14);
+	EXPECT_NEAR(report.qcMax, 2.0, 1e-14);
+	EXPECT_NEAR(report.qcP99, 2.0, 1e-14);
+	EXPECT_EQ(report.flippedFaces, 0);
+}
+
+TEST(Distortion, TheHistogramRunsOverTheVerticesThatHaveFaces)
+{
+	SurfaceMesh mesh = rectangle(3, 3, 1, 1);
+	const std::size_t vertices = mesh.positions.size();
+	mesh.positions.push_back({9, 9, 9}); // in no face
+	const Eigen::Matrix2d stretch = Eigen::Vector2d(1.5, 1.0).asDiagonal();
+	const auto plane = mapped(mesh, stretch);
+	Report report;
+	measureDistortion(mesh, plane, std::vector<char>(plane.size(), 0), report);
+	const Histogram& h = report.qcHistogram;
+	std::size_t counted = h.below + h.above;
+	for (std::size_t i = 0; i < h.counts.size(); ++i) {
+		counted += h.counts[i];
+		if (h.counts[i] > 0) {
+			EXPECT_LE(h.lowEdge(i), 1.5 + 1e-12);
+			EXPECT_GE(h.lowEdge(i) + h.binWidth(), 1.5 - 1e-12);
+		}
+	}
+	EXPECT_EQ(counted, vertices);
+	EXPECT_EQ(h.below + h.above, 0u);
+}
+
+TEST(Distortion, PercentileIsTheValueThat99PercentDoNotExceed)
+{
+	// 200 faces with distortions 1, 2, ..., 200.
+	SurfaceMesh mesh;
+	std::vector<Plane> plane;
+	for (int i = 0; i < 200; ++i) {
+		for (const Point3& p : {Point3{0, 0, 0}, Point3{1, 0, 0}, Point3{0, 1, 0}})
+			mesh.positions.push_back(p);
+		mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+		plane.push_back({{{0, 0}, {1.0 + i, 0}, {0, 1}}});
+	}
+	Report report;
+	measureDistortion(mesh, plane, std::vector<char>(200, 0), report);
+	EXPECT_NEAR(report.qcP99, 198.0, 1e-11);
+	EXPECT_NEAR(report.qcMax, 200.0, 1e-11);
+	EXPECT_NEAR(report.qcMean, 100.5, 1e-11);
+}
+
+TEST(Distortion, CountsFacesWithTheWrongOrNoOrientation)
+{
+	const SurfaceMesh mesh = rectangle(2, 1, 2, 1);
+	auto plane = mapped(mesh, Eigen::Matrix2d::Identity());
+	Report report;
+	measureDistortion(mesh, plane, {0, 0, 0, 0}, report);
+	EXPECT_EQ(report.flippedFaces, 0);
+	measureDistortion(mesh, plane, {0, 1, 0, 1}, report);
+	EXPECT_EQ(report.flippedFaces, 2);
+	std::swap(plane[1][0], plane[1][1]);
+	measureDistortion(mesh, plane, {0, 1, 0, 0}, report);
+	EXPECT_EQ(report.flippedFaces, 0);
+	plane[2][1] = plane[2][0]; // no area
+	const DistortionField field = measureDistortion(mesh, plane, {0, 1, 0, 0}, report);
+	EXPECT_EQ(report.flippedFaces, 1);
+	EXPECT_TRUE(std::isinf(field.face[2]));
+	EXPECT_NEAR(report.qcMax, 1.0, 1e-14); // it is kept out of the means
+	EXPECT_NEAR(report.qcMean, 1.0, 1e-14);
+}
+
+TEST(AreaDistortion, OfASimilarityIsOneAndOfALinearMapToo)
+{
+	Random random(118);
+	const SurfaceMesh mesh = randomPlanarDisk(8, random);
+	int seen = 0;
+	for (int trial = 0; trial < 20; ++trial) {
+		Eigen::Matrix2d A;
+		for (double& x : A.reshaped())
+			x = random.real(-1, 1);
+		if (std::abs(A.determinant()) < 0.1)
+			continue;
+		Report report;
+		measureDistortion(
+			mesh, mapped(mesh, A), std::vector<char>(mesh.triangles.size(), 0), report);
+		EXPECT_NEAR(report.areaDistortionMean, 1.0, 1e-6);
+		EXPECT_NEAR(report.areaDistortionSpread, 0.0, 1e-6);
+		++seen;
+	}
+	EXPECT_GT(seen, 10);
+}
+
+TEST(AreaDistortion, OfTwoScalesHasAClosedForm)
+{
+	// Shares p and 1 - p of the area; the second part grows by q. The factors relative to the total
+	// are 1 / (p + q - p q) and q times that.
+	for (const double p : {0.2, 0.5, 0.9})
+		for (const double q : {0.1, 1.0, 3.0, 1e6}) {
+			const double first = 1.0 / (p + (1 - p) * q), second = q * first;
+			const AreaDistortion a = areaDistortion({3 * p, 3 * (1 - p)}, {p, (1 - p) * q});
+			EXPECT_NEAR(
+				a.mean / (p * std::max(first, 1 / first) + (1 - p) * std::max(second, 1 / second)),
+				1.0,
+				1e-13);
+			EXPECT_NEAR(a.spread, std::sqrt(p * (1 - p)) * std::abs(std::log(q)), 1e-12);
+			// A common scale changes nothing, parts without area are left out.
+			const AreaDistortion b =
+				areaDistortion({p, 0.0, 1 - p, 7.0}, {5 * p, 2.0, 5 * (1 - p) * q, 0.0});
+			EXPECT_NEAR(b.mean / a.mean, 1.0, 1e-13);
+			EXPECT_NEAR(b.spread, a.spread, 1e-12);
+		}
+}
+
+TEST(Distortion, FacesThatRoundingToFloatFlips)
+{
+	// Corners that differ by less than a unit in the last place of a float, and one that does not.
+	const double ulp = 0x1p-24;
+	const std::vector<Triangle2> plane{
+		{{{0.5, 0.25}, {0.5 + 0.3 * ulp, 0.25}, {0.25, 0.75}}},
+		{{{0.5, 0.25}, {0.5 + 4 * ulp, 0.25}, {0.25, 0.75}}},
+		{{{0.5, 0.25}, {0.25, 0.75}, {0.5 + 0.3 * ulp, 0.25}}}};
+	const auto count = [&](const std::vector<char>& reversed) {
+		Report report;
+		countFlipped(plane, reversed, report);
+		return std::make_pair(report.flippedFaces, report.flippedByRounding);
+	};
+	EXPECT_EQ(count({0, 0, 0}), std::make_pair(1, 1));
+	EXPECT_EQ(count({0, 0, 1}), std::make_pair(0, 2));
+	EXPECT_EQ(count({1, 1, 0}), std::make_pair(3, 0));
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/closed_flows.h"
+#include "support/intrinsic.h"
+
+#include <ricci/overlay/overlay_pieces.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+const OverlayListener kDeaf = [](double, std::size_t) {};
+
+/// Weight of a vertex of the input in a point; 0 where it has none.
+double weightOf(const SurfacePoint& p, Vertex v)
+{
+	double weight = 0.0;
+	for (std::size_t i = 0; i < 4; ++i)
+		if (Vertex(p.vertex[i]) == v)
+			weight += p.weight[i];
+	return weight;
+}
+
+TEST(OverlayPieces, AreTheFacesOfASurface)
+{
+	Random random(810);
+	int crossings = 0;
+	for (const FlippedFlow& flow : closedFlows(random)) {
+		const OverlayPieces pieces = divideStartTriangles(flow.result, kDeaf);
+		EXPECT_EQ(
+			pieces.nodes.size() - pieces.sideCount + pieces.count(),
+			flow.base().eulerCharacteristic());
+		crossings += pieces.nodes.size() - flow.base().vertexCount();
+		// Every side belongs to two pieces, which run along it in opposite directions.
+		Array<std::vector<std::array<int, 2>>> uses(pieces.sideCount); // nodes at its ends
+		for (int p = 0; p < pieces.count(); ++p) {
+			EXPECT_GE(pieces.size(p), 3);
+			for (int i = 0; i < pieces.size(p); ++i)
+				uses[pieces(p, i).side].push_back({pieces(p, i).node, pieces(p, i + 1).node});
+		}
+		for (const auto& ends : uses) {
+			ASSERT_EQ(ends.size(), 2u);
+			EXPECT_EQ(ends[0][0], ends[1][1]);
+			EXPECT_EQ(ends[0][1], ends[1][0]);
+		}
+	}
+	EXPECT_GT(crossings, 200); // or the test says little
+}
+
+TEST(OverlayPieces, KnowTheEdgesAndCornersTheyLieAt)
+{
+	Random random(811);
+	for (const FlippedFlow& flow : closedFlows(random)) {
+		const OverlayPieces pieces = divideStartTriangles(flow.result, kDeaf);
+		const Triangulation& input = flow.base();
+		const Triangulation& end = flow.result.metric->triangulation();
+		HalfedgeArray<int> inputCorners(input.halfedgeCount(), 0), endCorners = inputCorners;
+		HalfedgeArray<double> covered(input.halfedgeCount(), 0.0); // share of it along sides
+		for (int p = 0; p < pieces.count(); ++p)
+			for (int i = 0; i < pieces.size(p); ++i) {
+				const PieceCorner &c = pieces(p, i), &next = pieces(p, i + 1);
+				ASSERT_EQ(c.inputCorner.isValid(), c.node < input.vertexCount());
+				ASSERT_EQ(c.endCorner.isValid(), c.node < input.vertexCount());
+				if (c.inputCorner.isValid()) {
+					EXPECT_EQ(input.origin(c.inputCorner), Vertex(c.node));
+					EXPECT_EQ(end.origin(c.endCorner), Vertex(c.node));
+					++inputCorners[c.inputCorner];
+					++endCorners[c.endCorner];
+				}
+				if (c.input.isValid()) {
+					const Vertex from = input.origin(c.input), to = input.target(c.input);
+					const SurfacePoint &a = pieces.nodes[c.node].point,
+									   &b = pieces.nodes[next.node].point;
+					for (const SurfacePoint* x : {&a, &b})
+						EXPECT_NEAR(weightOf(*x, from) + weightOf(*x, to), 1.0, 1e-14);
+					EXPECT_GE(weightOf(b, to), weightOf(a, to));
+					covered[c.input] += weightOf(b, to) - weightOf(a, to);
+				}
+			}
+		for (const Halfedge h : input.halfedges()) {
+			EXPECT_GE(inputCorners[h], 1);
+			EXPECT_GE(endCorners[h], 1);
+			EXPECT_NEAR(covered[h], 1.0, 1e-12);
+		}
+	}
+}
+
+TEST(OverlayPieces, OfAnInputThatStaysAreItsTriangles)
+{
+	// Regular tetrahedra are Delaunay, and their own curvature asks for no step.
+	const SurfaceMesh mesh = tetrahedron();
+	const FlippedFlow flow(mesh, prescribed(curvatureInSpace(mesh)));
+	ASSERT_EQ(flow.result.history.flips(), 0);
+	const OverlayPieces pieces = divideStartTriangles(flow.result, kDeaf);
+	EXPECT_EQ(pieces.nodes.size(), 4);
+	EXPECT_EQ(pieces.sideCount, 6);
+	ASSERT_EQ(pieces.count(), 4);
+	for (int p = 0; p < 4; ++p)
+		for (const PieceCorner& c : pieces.corners(p)) {
+			EXPECT_EQ(c.input, c.inputCorner);
+			EXPECT_EQ(c.end, c.input);
+			EXPECT_EQ(pieces.nodes[c.node].scale, pieces.nodes[0].scale);
+		}
+}
+
+TEST(OverlayPieces, TellTheListenerAndEndByWhatItThrows)
+{
+	Random random(812);
+	const FlippedFlow flow = closedFlows(random).front();
+	double last = 0.0;
+	int calls = 0;
+	const OverlayPieces pieces =
+		divideStartTriangles(flow.result, [&](double share, std::size_t crossings) {
+			EXPECT_GE(share, last);
+			EXPECT_LE(share, 1.0);
+			EXPECT_GT(crossings, 0u);
+			last = share;
+			++calls;
+		});
+	EXPECT_GE(calls, 1);
+	EXPECT_THROW(divideStartTriangles(flow.result, [](double, std::size_t) { throw 17; }), int);
+}
+
+TEST(OverlayPieces, KeepThoseThatAreWanted)
+{
+	OverlayPieces pieces;
+	for (int p = 0; p < 5; ++p) {
+		pieces.startPiece();
+		for (int i = 0; i < 3 + p; ++i) {
+			PieceCorner c;
+			c.node = 10 * p + i;
+			pieces.append(c);
+		}
+	}
+	pieces.keep([](int p) { return p % 2 == 1; });
+	ASSERT_EQ(pieces.count(), 2);
+	EXPECT_EQ(pieces.cornerCount(), 4 + 6);
+	for (int p = 0; p < 2; ++p) {
+		const int before = 2 * p + 1;
+		ASSERT_EQ(pieces.size(p), 3 + before);
+		for (int i = 0; i <= pieces.size(p); ++i)
+			EXPECT_EQ(pieces(p, i).node, 10 * before + i % pieces.size(p));
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,459 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The stages of one component against the whole way of the mesh that consists of it: what lies
+// between them only renumbers, so that all results agree to the bit.
+#include "../support/expect.h"
+#include "../support/flat_map.h"
+#include "../support/flipped_flow.h"
+#include "../support/impatient.h"
+#include "../support/random_surface.h"
+#include "../support/shapes.h"
+#include "../support/transform.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/error.h>
+#include <ricci/parametrize.h>
+#include <ricci/pipeline/flatten_component.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+template<class AnyOptions>
+struct Case
+{
+	std::string name;
+	SurfaceMesh mesh;
+	AnyOptions options;
+	VertexInput input;
+};
+
+template<class AnyOptions>
+ComponentMap
+flattened(const Component& component, const AnyOptions& options, const VertexInput& input = {})
+{
+	Progress silent;
+	ProgressRange range(silent, 0.0, 1.0);
+	return flattenComponent(component, input, options, range);
+}
+
+Parametrization wholeWay(const SurfaceMesh& mesh, const VertexInput& input, const Options& options)
+{
+	return run(mesh, options, input);
+}
+
+Parametrization
+wholeWay(const SurfaceMesh& mesh, const VertexInput& input, const HyperbolicOptions& options)
+{
+	Progress silent;
+	return parametrizeHyperbolic(mesh, input, options, silent);
+}
+
+std::vector<Component> componentsOf(const SurfaceMesh& mesh)
+{
+	std::vector<std::string> notes;
+	return splitIntoComponents(mesh, notes);
+}
+
+/// The component as a mesh of its own.
+SurfaceMesh meshOf(const Component& component)
+{
+	SurfaceMesh mesh;
+	mesh.positions = component.positions.values();
+	mesh.triangles = component.triangles;
+	return mesh;
+}
+
+void expectSameMap(const Component& c, const ComponentMap& map, const Parametrization& flat)
+{
+	for (const Face f : c.face.indices()) {
+		const std::size_t face = at(c.face[f]);
+		EXPECT_EQ(flat.reversed[face], c.reversed[f]);
+		for (std::size_t k = 0; k < 3; ++k)
+			EXPECT_EQ(flat.uv[face][c.inputCorner(f, k)], map.uv[f][k]);
+	}
+	const double shift = std::log(map.scale);
+	for (const Vertex v : c.vertex.indices()) {
+		const std::size_t vertex = at(c.vertex[v]);
+		EXPECT_EQ(flat.u[vertex], map.flow.u[v] + shift);
+		EXPECT_EQ(
+			flat.targetCurvature[vertex],
+			map.flow.target.fixed[v] ? map.flow.curvature[v] : map.flow.target.curvature[v]);
+	}
+}
+
+void expectSameReport(const ComponentMap& map, const Report& report)
+{
+	EXPECT_EQ(report.iterations, map.flow.iterations);
+	EXPECT_EQ(report.maxCurvatureError, map.flow.residual);
+	EXPECT_EQ(report.residualFloor, map.flow.floor);
+	EXPECT_EQ(report.flips, map.flow.history.flips());
+	EXPECT_EQ(report.edgeSwaps, map.edgeSwaps);
+	EXPECT_EQ(report.boundarySplits, map.boundarySplits);
+	EXPECT_EQ(report.cappedHoles, map.cappedHoles);
+	EXPECT_EQ(report.genus, map.type.genus);
+	EXPECT_EQ(report.boundaryLoops, map.type.boundaryLoops);
+	EXPECT_EQ(report.cones, std::count(map.cones.begin(), map.cones.end(), 1));
+	EXPECT_EQ(report.seamEdges, map.cut.edgeCount);
+	EXPECT_EQ(report.seamLength, map.seamLength);
+	EXPECT_EQ(report.torusTauRe.has_value(), map.torusModulus.has_value());
+	if (map.torusModulus) {
+		EXPECT_EQ(report.torusTauRe, map.torusModulus->real());
+		EXPECT_EQ(report.torusTauIm, map.torusModulus->imag());
+	}
+	EXPECT_EQ(report.annulusModulus, map.annulusModulus);
+	EXPECT_EQ(report.rectangleAspect, map.rectangleAspect);
+	EXPECT_EQ(report.hyperbolicArea, map.hyperbolicArea);
+	EXPECT_EQ(report.relationError, map.relationError);
+	ASSERT_EQ(report.flowStates.size(), map.flowStates.size());
+	for (std::size_t i = 0; i < map.flowStates.size(); ++i) {
+		EXPECT_EQ(report.flowStates[i].step, map.flowStates[i].step);
+		EXPECT_EQ(report.flowStates[i].residual, map.flowStates[i].residual);
+	}
+}
+
+void expectSameGroup(const FuchsianGroup& a, const FuchsianGroup& b)
+{
+	const auto expectSame = [](const std::vector<DiskIsometry>& p,
+							   const std::vector<DiskIsometry>& q) {
+		ASSERT_EQ(p.size(), q.size());
+		for (std::size_t i = 0; i < p.size(); ++i) {
+			EXPECT_EQ(p[i].a, q[i].a);
+			EXPECT_EQ(p[i].b, q[i].b);
+		}
+	};
+	expectSame(a.handles, b.handles);
+	expectSame(a.peripheral, b.peripheral);
+	expectSame(a.sides, b.sides);
+}
+
+/// \param refines whether the refinement is given back
+void expectSameRefinement(
+	const Component& c, const ComponentMap& map, const Parametrization& flat, bool refines)
+{
+	EXPECT_EQ(flat.isRefined(), refines);
+	if (!refines)
+		return;
+	const CommonRefinement& own = map.refinement;
+	EXPECT_EQ(at(flat.report.refinementPoints), own.crossings);
+	ASSERT_EQ(flat.refined.triangles.size(), own.triangles.size());
+	for (std::size_t i = 0; i < own.triangles.size(); ++i) {
+		const bool reversed = c.reversed[own.inputFace[i]];
+		EXPECT_EQ(flat.refined.inputFace[i], c.face[own.inputFace[i]]);
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::size_t j = reversed ? (3 - k) % 3 : k;
+			EXPECT_EQ(flat.refined.uv[i][j], own.uv[i][k]);
+			// The same point of the surface by its own name.
+			const SurfacePoint& p = own.points[at(own.triangles[i][k])];
+			const SurfacePoint& q = flat.refined.points[at(flat.refined.triangles[i][j])];
+			EXPECT_EQ(q.weight, p.weight);
+			for (std::size_t x = 0; x < 4; ++x)
+				if (p.weight[x] != 0.0) {
+					EXPECT_EQ(q.vertex[x], c.vertex[Vertex(p.vertex[x])]);
+				}
+		}
+	}
+}
+
+template<class AnyOptions>
+void expectSame(const Case<AnyOptions>& c)
+{
+	SCOPED_TRACE(c.name);
+	const std::vector<Component> components = componentsOf(c.mesh);
+	ASSERT_EQ(components.size(), 1u);
+	const Component& component = components.front();
+	const ComponentMap map = flattened(component, c.options, c.input);
+	const Parametrization flat = wholeWay(c.mesh, c.input, c.options);
+	expectSameMap(component, map, flat);
+	expectSameReport(map, flat.report);
+	ASSERT_EQ(flat.charts.size(), 1u);
+	EXPECT_EQ(flat.charts[0].faces, component.face.values());
+	expectSameGroup(flat.charts[0].group, map.group);
+	expectSameRefinement(
+		component, map, flat, c.options.output == OutputTriangulation::CommonRefinement);
+}
+
+/// Other numbers than the component will have, with a vertex that no face uses in front of them.
+Renumbered shuffled(const SurfaceMesh& mesh, Random& random)
+{
+	Renumbered result = renumbered(mesh, random);
+	result.mesh.positions.insert(result.mesh.positions.begin(), Point3{7, 7, 7});
+	for (Triangle& t : result.mesh.triangles)
+		for (int& v : t)
+			++v;
+	return result;
+}
+
+/// The vertices \p old of a mesh by their numbers after shuffled().
+VertexInput selectingOld(const Renumbered& r, const std::vector<int>& old)
+{
+	VertexInput input;
+	input.selected.push_back(0);
+	for (const int v : r.vertex)
+		input.selected.push_back(std::find(old.begin(), old.end(), v) != old.end());
+	return input;
+}
+
+SurfaceMesh bumpyDisk(int n, Random& random)
+{
+	SurfaceMesh mesh = randomPlanarDisk(n, random);
+	for (Point3& p : mesh.positions)
+		p[2] = 0.3 * std::sin(4 * p[0]) * std::cos(3 * p[1]);
+	return mesh;
+}
+
+SurfaceMesh bumpyRing(Random& random)
+{
+	return shaken(ring(1.0, 2.5, 16, 4), 0.04, random);
+}
+
+SurfaceMesh everyThirdFaceReversed(SurfaceMesh mesh)
+{
+	for (std::size_t f = 0; f < mesh.triangles.size(); f += 3)
+		std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+	return mesh;
+}
+
+Options euclidean(TargetCurvature target, Surgery surgery = Surgery::IntrinsicFlips)
+{
+	Options options;
+	options.target = target;
+	options.surgery = surgery;
+	options.resolveOverlap = false; // which is not a matter of one component
+	return options;
+}
+
+template<class AnyOptions>
+AnyOptions refining(AnyOptions options)
+{
+	options.output = OutputTriangulation::CommonRefinement;
+	return options;
+}
+
+std::vector<Case<Options>> euclideanCases(Surgery surgery)
+{
+	Random random(4100);
+	std::vector<Case<Options>> cases;
+	const SurfaceMesh disk = shuffled(bumpyDisk(7, random), random).mesh;
+	for (const TargetCurvature target :
+		 {TargetCurvature::Automatic, TargetCurvature::Disk, TargetCurvature::Rectangle})
+		cases.push_back({"disk", disk, euclidean(target, surgery), {}});
+	cases.push_back(
+		{"disk of mixed order",
+		 everyThirdFaceReversed(disk),
+		 euclidean(TargetCurvature::Automatic, surgery),
+		 {}});
+	cases.push_back(
+		{"torus",
+		 shuffled(bumpyTorus(10, 7, random), random).mesh,
+		 euclidean(TargetCurvature::Flat, surgery),
+		 {}});
+	cases.push_back(
+		{"annulus",
+		 shuffled(bumpyRing(random), random).mesh,
+		 euclidean(TargetCurvature::Flat, surgery),
+		 {}});
+	const Renumbered closed = shuffled(shaken(perforatedSlab(2, 2), 0.02, random), random);
+	cases.push_back(
+		{"placed cones", closed.mesh, euclidean(TargetCurvature::PlacedCones, surgery), {}});
+	cases.push_back(
+		{"selected cones",
+		 closed.mesh,
+		 euclidean(TargetCurvature::SelectedCones, surgery),
+		 selectingOld(closed, {0, 5, 11, 17, 23, 29, 35, 41})});
+	cases.push_back(
+		{"three holes",
+		 shuffled(withoutStars(torus(3, 1, 16, 12), {0, 50, 100}), random).mesh,
+		 euclidean(TargetCurvature::Automatic, surgery),
+		 {}});
+	return cases;
+}
+
+TEST(FlattenComponent, IsTheEuclideanMapOfTheMeshItIs)
+{
+	for (const Surgery surgery : {Surgery::None, Surgery::EdgeSwap, Surgery::IntrinsicFlips})
+		for (const Case<Options>& c : euclideanCases(surgery)) {
+			SCOPED_TRACE(static_cast<int>(surgery));
+			expectSame(c);
+		}
+}
+
+TEST(FlattenComponent, IsTheEuclideanMapOnTheCommonRefinement)
+{
+	int crossings = 0;
+	for (Case<Options>& c : euclideanCases(Surgery::IntrinsicFlips)) {
+		c.options = refining(c.options);
+		expectSame(c);
+		crossings += run(c.mesh, c.options, c.input).report.refinementPoints;
+	}
+	EXPECT_GT(crossings, 100);
+}
+
+TEST(FlattenComponent, IsTheEuclideanMapWithCappedHoles)
+{
+	Random random(4101);
+	const SurfaceMesh mesh =
+		shuffled(withoutStars(shaken(perforatedSlab(0, 5), 0.02, random), {0, 60, 120}), random)
+			.mesh;
+	Options options = euclidean(TargetCurvature::Automatic);
+	options.holes = Holes::Capped;
+	expectSame(Case<Options>{"capped", mesh, options, {}});
+	expectSame(Case<Options>{"capped, refined", mesh, refining(options), {}});
+	EXPECT_EQ(flattened(componentsOf(mesh).front(), options).cappedHoles, 2);
+}
+
+TEST(FlattenComponent, IsTheEuclideanMapOfThurstonsPacking)
+{
+	Random random(4102);
+	Options options = euclidean(TargetCurvature::Flat, Surgery::None);
+	options.packing = PackingScheme::Thurston;
+	expectSame(
+		Case<Options>{"torus", shuffled(bumpyTorus(10, 7, random), random).mesh, options, {}});
+}
+
+TEST(FlattenComponent, IsTheEuclideanMapAfterEdgeSwaps)
+{
+	Random random(4107);
+	for (int round = 0; round < 3; ++round) {
+		const SurfaceMesh mesh = bumpyTorus(10, 7, random);
+		VertexInput input;
+		input.targetCurvature =
+			randomCurvature(static_cast<int>(mesh.positions.size()), 0, -2.5, 2.5, 0.5, random);
+		const Options options = euclidean(TargetCurvature::Prescribed, Surgery::EdgeSwap);
+		EXPECT_GT(flattened(componentsOf(mesh).front(), options, input).edgeSwaps, 0);
+		expectSame(Case<Options>{"round " + std::to_string(round), mesh, options, input});
+	}
+}
+
+/// Seven triangles round a vertex, whose strong curvature splits the boundary edge of the widest.
+TEST(FlattenComponent, IsTheEuclideanMapAfterABoundarySplit)
+{
+	SurfaceMesh fan;
+	fan.positions.push_back({0, 0, 0});
+	for (int i = 0; i < 7; ++i) {
+		const double angle = (100 + 260.0 * i / 6) * kPi / 180;
+		fan.positions.push_back({std::cos(angle), std::sin(angle), 0});
+		fan.triangles.push_back({0, i + 1, (i + 1) % 7 + 1});
+	}
+	VertexInput input;
+	input.targetCurvature.assign(8, 0.0);
+	input.targetCurvature[0] = -3.0;
+	const Options options = euclidean(TargetCurvature::Prescribed, Surgery::EdgeSwap);
+	EXPECT_EQ(flattened(componentsOf(fan).front(), options, input).boundarySplits, 1);
+	expectSame(Case<Options>{"fan", fan, options, input});
+}
+
+std::vector<Case<HyperbolicOptions>> hyperbolicCases()
+{
+	Random random(4103);
+	std::vector<Case<HyperbolicOptions>> cases;
+	const SurfaceMesh closed = shuffled(shaken(perforatedSlab(2, 2), 0.05, random), random).mesh;
+	cases.push_back({"genus 2", closed, {}, {}});
+	cases.push_back({"genus 2 of mixed order", everyThirdFaceReversed(closed), {}, {}});
+	cases.push_back(
+		{"three boundary loops",
+		 shuffled(withoutStars(shaken(perforatedSlab(0, 5), 0.03, random), {0, 60, 120}), random)
+			 .mesh,
+		 {},
+		 {}});
+	const Renumbered sphere = shuffled(shaken(perforatedSlab(0, 2), 0.05, random), random);
+	HyperbolicOptions cones;
+	cones.target = HyperbolicTarget::SelectedCones;
+	cones.coneAngle = kPi / 2;
+	cases.push_back({"cones", sphere.mesh, cones, selectingOld(sphere, {3, 9, 20})});
+	return cases;
+}
+
+TEST(FlattenComponent, IsTheHyperbolicMapOfTheMeshItIs)
+{
+	for (const Case<HyperbolicOptions>& c : hyperbolicCases())
+		expectSame(c);
+}
+
+TEST(FlattenComponent, IsTheHyperbolicMapOnTheCommonRefinement)
+{
+	for (Case<HyperbolicOptions>& c : hyperbolicCases()) {
+		c.options = refining(c.options);
+		expectSame(c);
+	}
+}
+
+TEST(FlattenComponent, IsTheHyperbolicMapOnTheGivenTriangulation)
+{
+	Random random(4104);
+	HyperbolicOptions options;
+	options.surgery = Surgery::None;
+	expectSame(Case<HyperbolicOptions>{
+		"genus 2", shuffled(perforatedSlab(2, 3), random).mesh, options, {}});
+}
+
+/// What else the mesh has does not matter: each component is mapped as a mesh of its own.
+template<class AnyOptions>
+void expectComponentsOnTheirOwn(const SurfaceMesh& mesh, const AnyOptions& options, int count)
+{
+	const std::vector<Component> components = componentsOf(mesh);
+	ASSERT_EQ(static_cast<int>(components.size()), count);
+	const Parametrization whole = wholeWay(mesh, {}, options);
+	for (const Component& component : components) {
+		const ComponentMap map = flattened(component, options);
+		expectSameMap(component, map, whole);
+		const SurfaceMesh own = meshOf(component);
+		const Parametrization flat = wholeWay(own, {}, options);
+		EXPECT_EQ(flat.uv, map.uv.values());
+		EXPECT_EQ(at(flat.report.refinementPoints), map.refinement.crossings);
+		if (options.output == OutputTriangulation::CommonRefinement) {
+			EXPECT_EQ(flat.refined.uv, map.refinement.uv);
+		}
+	}
+}
+
+TEST(FlattenComponent, DoesNotDependOnTheRestOfTheMesh)
+{
+	Random random(4105);
+	const SurfaceMesh flat = sideBySide(bumpyTorus(10, 7, random), bumpyDisk(6, random), 10.0);
+	const SurfaceMesh curved = sideBySide(
+		shaken(perforatedSlab(2, 2), 0.05, random), shaken(perforatedSlab(3, 1), 0.05, random), 20);
+	for (const bool refined : {false, true}) {
+		SCOPED_TRACE(refined);
+		const Options options = euclidean(TargetCurvature::Automatic);
+		const HyperbolicOptions hyperbolic;
+		expectComponentsOnTheirOwn(
+			shuffled(flat, random).mesh, refined ? refining(options) : options, 2);
+		expectComponentsOnTheirOwn(
+			shuffled(curved, random).mesh, refined ? refining(hyperbolic) : hyperbolic, 2);
+	}
+}
+
+TEST(FlattenComponent, KeepsToItsShareOfTheProgress)
+{
+	Random random(4106);
+	const SurfaceMesh mesh = bumpyTorus(10, 7, random);
+	Impatient patient(1000000);
+	ProgressRange range(patient, 0.25, 0.75);
+	flattenComponent(componentsOf(mesh).front(), {}, euclidean(TargetCurvature::Automatic), range);
+	ASSERT_GT(patient.fractions.size(), 5u);
+	EXPECT_EQ(patient.fractions.front(), 0.25);
+	EXPECT_EQ(patient.fractions.back(), 0.75);
+	EXPECT_TRUE(std::is_sorted(patient.fractions.begin(), patient.fractions.end()));
+	ASSERT_FALSE(patient.lines.empty());
+	expectWords(patient.lines.front(), {"70 vertices", "140 faces", "a torus"});
+}
+
+TEST(FlattenComponent, LeavesItToItsCallerToNameTheComponent)
+{
+	const SurfaceMesh pair = sideBySide(rectangle(2, 2, 1, 1), tetrahedron(), 10);
+	const auto error = errorOf<InvalidOption>(
+		[&] { flattened(componentsOf(pair)[1], euclidean(TargetCurvature::Disk)); });
+	ASSERT_TRUE(error);
+	EXPECT_EQ(error->problem, InvalidOption::NotADisk);
+	EXPECT_EQ(error->componentFace, -1);
+	EXPECT_EQ(error->componentFaces, 0u);
+}
+
+} // namespace
+} // namespace ricci::testing

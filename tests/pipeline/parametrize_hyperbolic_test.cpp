@@ -1,0 +1,474 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The whole way from a mesh to the Poincaré disk.
+#include "../support/complex.h"
+#include "../support/expect.h"
+#include "../support/flat_map.h"
+#include "../support/flipped_flow.h"
+#include "../support/impatient.h"
+#include "../support/random_surface.h"
+#include "../support/shapes.h"
+#include "../support/transform.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/error.h>
+#include <ricci/layout/hyperbolic_layout.h>
+#include <ricci/measure/tiling.h>
+#include <ricci/parametrize.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+Parametrization
+run(const SurfaceMesh& mesh, const HyperbolicOptions& options = {}, const VertexInput& input = {})
+{
+	Progress silent;
+	return parametrizeHyperbolic(mesh, input, options, silent);
+}
+
+HyperbolicOptions refined()
+{
+	HyperbolicOptions options;
+	options.output = OutputTriangulation::CommonRefinement;
+	return options;
+}
+
+/// The error with which run() ends.
+template<class E>
+std::optional<E>
+refusal(const SurfaceMesh& mesh, const HyperbolicOptions& options, const VertexInput& input = {})
+{
+	return errorOf<E>([&] { run(mesh, options, input); });
+}
+
+SurfaceMesh genusTwo(std::uint64_t seed = 700, int subdivision = 3)
+{
+	Random random(seed);
+	return shaken(perforatedSlab(2, subdivision), 0.06, random);
+}
+
+std::vector<double> sideTraces(const Parametrization& map, std::size_t chart = 0)
+{
+	std::vector<double> traces, spectrum;
+	for (const DiskIsometry& m : tiling(map.charts[chart].group.sides, 4, 20000).deck)
+		if (m.distanceFromIdentity() > 1e-3)
+			traces.push_back(std::abs(m.trace()));
+	std::sort(traces.begin(), traces.end());
+	for (double x : traces)
+		if (spectrum.size() < 6 && (spectrum.empty() || x > spectrum.back() * (1 + 1e-7)))
+			spectrum.push_back(x);
+	return spectrum;
+}
+
+TEST(ParametrizeHyperbolic, ClosedSurfacesLieInTheDisk)
+{
+	Random random(701);
+	for (int genus : {2, 3}) {
+		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 3), 0.06, random);
+		const Parametrization map = run(mesh, refined());
+		const Report& report = map.report;
+		EXPECT_TRUE(report.converged);
+		EXPECT_LE(report.maxCurvatureError, std::max(1e-8, report.residualFloor));
+		EXPECT_EQ(report.genus, genus);
+		EXPECT_EQ(report.flippedFaces, 0);
+		EXPECT_EQ(report.brokenTriangles, 0);
+		ASSERT_TRUE(report.hyperbolicArea && report.relationError);
+		EXPECT_NEAR(*report.hyperbolicArea / (4 * kPi * (genus - 1)), 1.0, 1e-8);
+		EXPECT_LT(*report.relationError, 1e-8);
+		EXPECT_GT(report.seamEdges, 0);
+		ASSERT_EQ(map.charts.size(), 1u);
+		EXPECT_EQ(map.charts[0].group.handles.size(), at(2 * genus));
+		for (const UV* uv : {&map.uv, &map.refined.uv})
+			for (const auto& corners : *uv)
+				for (const Point2& p : corners)
+					EXPECT_LT(std::abs(asComplex(p)), 1.0);
+		// Near the middle, where its own area is nearly that of the disk's picture.
+		double least = 1.0;
+		for (const auto& corners : map.uv)
+			least = std::min(least, std::abs(asComplex(corners[0])));
+		EXPECT_LT(least, 0.1);
+		for (double u : map.u)
+			EXPECT_LT(u, 0.0);
+	}
+}
+
+/// A seam's two sides are as long as each other, on the mesh and on the refinement; the latter's
+/// pieces fill every face.
+TEST(ParametrizeHyperbolic, KeptFacesAndTheRefinementAgreeAtTheVertices)
+{
+	const SurfaceMesh mesh = genusTwo();
+	const Parametrization kept = run(mesh), exact = run(mesh, refined());
+	EXPECT_TRUE(kept.refined.triangles.empty());
+	EXPECT_EQ(kept.uv, exact.uv);
+	EXPECT_EQ(kept.u, exact.u);
+	EXPECT_GT(exact.report.refinementPoints, 0);
+	EXPECT_EQ(kept.report.hyperbolicArea, exact.report.hyperbolicArea);
+	ASSERT_EQ(exact.charts[0].refined.size(), exact.refined.triangles.size());
+	EXPECT_EQ(
+		exact.refined.points.size(), mesh.positions.size() + at(exact.report.refinementPoints));
+	// Corners of pieces at input vertices are corners of their input face.
+	for (std::size_t f = 0; f < exact.refined.triangles.size(); ++f) {
+		const std::size_t face = at(exact.refined.inputFace[f]);
+		EXPECT_EQ(
+			hyperbolicOrientation(
+				asComplex(exact.refined.uv[f][0]),
+				asComplex(exact.refined.uv[f][1]),
+				asComplex(exact.refined.uv[f][2])),
+			1);
+		for (std::size_t k = 0; k < 3; ++k)
+			for (std::size_t j = 0; j < 3; ++j)
+				if (exact.refined.triangles[f][k] == mesh.triangles[face][j]) {
+					EXPECT_LT(
+						std::abs(asComplex(exact.refined.uv[f][k]) - asComplex(exact.uv[face][j])),
+						1e-12);
+				}
+	}
+	EXPECT_GE(kept.report.qcMean, 1.0);
+	EXPECT_EQ(exact.refined.faceQC.size(), exact.refined.triangles.size());
+}
+
+TEST(ParametrizeHyperbolic, SurfacesWithBoundary)
+{
+	Random random(702);
+	const SurfaceMesh meshes[] = {
+		withoutStars(shaken(perforatedSlab(1, 4), 0.03, random), {0}),
+		withoutStars(shaken(perforatedSlab(0, 5), 0.03, random), {0, 60, 120})};
+	for (const SurfaceMesh& mesh : meshes) {
+		const Parametrization map = run(mesh, refined());
+		EXPECT_EQ(map.report.eulerCharacteristic, -1);
+		EXPECT_NEAR(*map.report.hyperbolicArea / (2 * kPi), 1.0, 1e-8);
+		EXPECT_LT(*map.report.relationError, 1e-8); // lengths of the boundaries included
+		EXPECT_EQ(map.report.flippedFaces, 0);
+		EXPECT_EQ(map.charts[0].group.peripheral.size(), at(map.report.boundaryLoops));
+		HyperbolicOptions options = refined();
+		options.freeBoundary = true;
+		const Parametrization free = run(mesh, options);
+		EXPECT_EQ(free.report.flippedFaces, 0);
+		EXPECT_LE(free.report.maxCurvatureError, 1e-8);
+	}
+}
+
+TEST(ParametrizeHyperbolic, ConesAtSelectedVertices)
+{
+	Random random(703);
+	const SurfaceMesh sphere = shaken(perforatedSlab(0, 3), 0.05, random);
+	HyperbolicOptions options = refined();
+	options.target = HyperbolicTarget::SelectedCones;
+	options.coneAngle = kPi / 2;
+	const Parametrization map = run(sphere, options, selecting(sphere, {3, 20, 40}));
+	EXPECT_NEAR(*map.report.hyperbolicArea / (0.5 * kPi), 1.0, 1e-8);
+	EXPECT_LT(*map.report.relationError, 1e-8);
+	EXPECT_EQ(map.report.flippedFaces, 0);
+	EXPECT_EQ(map.charts[0].group.peripheral.size(), 3u);
+	// The same from vertex quality.
+	VertexInput input;
+	input.targetCurvature.assign(sphere.positions.size(), 0.0);
+	for (std::size_t v : {3u, 20u, 40u})
+		input.targetCurvature[v] = 1.5 * kPi;
+	options.target = HyperbolicTarget::Prescribed;
+	const Parametrization same = run(sphere, options, input);
+	for (std::size_t v = 0; v < map.u.size(); ++v)
+		EXPECT_NEAR(same.u[v], map.u[v], 1e-10);
+}
+
+TEST(ParametrizeHyperbolic, ASurfaceOfHardlyAnyArea)
+{
+	// The area is what the curvatures add up to on a torus: far below the rounding of the angles of
+	// one triangle. The disk then is a picture of the flat metric with the same cones.
+	Random random(706);
+	const SurfaceMesh mesh = bumpyTorus(8, 6, random);
+	HyperbolicOptions options = refined();
+	options.target = HyperbolicTarget::Prescribed;
+	VertexInput input;
+	input.targetCurvature.assign(mesh.positions.size(), 0.0);
+	input.targetCurvature[5] = 1.0 + 0x1p-51;
+	input.targetCurvature[30] = -1.0;
+	const Parametrization map = run(mesh, options, input);
+	EXPECT_EQ(map.report.flippedFaces, 0);
+	double largest = 0.0;
+	for (const auto& triangle : map.refined.uv)
+		for (const Point2& p : triangle)
+			largest = std::max(largest, std::hypot(p[0], p[1]));
+	EXPECT_GT(largest, 0.0);
+	EXPECT_LT(largest, 1e-6);
+}
+
+TEST(ParametrizeHyperbolic, ResultDoesNotDependOnTheScale)
+{
+	const SurfaceMesh mesh = genusTwo();
+	const Parametrization reference = run(mesh);
+	for (double factor : {0.25, 1024.0}) { // exact in binary: every step is the same
+		const Parametrization same = run(scaled(mesh, factor));
+		EXPECT_EQ(same.uv, reference.uv);
+		EXPECT_EQ(same.u, reference.u);
+	}
+	for (double factor : {1e-8, 3.0, 1e8}) {
+		const Parametrization same = run(scaled(mesh, factor));
+		double gap = 0.0;
+		for (std::size_t f = 0; f < same.uv.size(); ++f)
+			for (std::size_t k = 0; k < 3; ++k)
+				gap = std::max(
+					gap, std::abs(asComplex(same.uv[f][k]) - asComplex(reference.uv[f][k])));
+		EXPECT_LT(gap, 1e-7);
+		EXPECT_NEAR(same.report.qcMean, reference.report.qcMean, 1e-8);
+	}
+}
+
+TEST(ParametrizeHyperbolic, ResultDoesNotDependOnTheNumbersOfVerticesAndFaces)
+{
+	Random random(704);
+	const SurfaceMesh mesh = genusTwo(705, 2);
+	HyperbolicOptions options;
+	options.epsilon = 1e-12;
+	const Parametrization reference = run(mesh, options);
+	const std::vector<double> wanted = sideTraces(reference);
+	ASSERT_EQ(wanted.size(), 6u);
+	for (int trial = 0; trial < 2; ++trial) {
+		const Renumbered other = renumbered(mesh, random);
+		const Parametrization map = run(other.mesh, options);
+		EXPECT_NEAR(*map.report.hyperbolicArea, *reference.report.hyperbolicArea, 1e-9);
+		EXPECT_EQ(map.report.genus, 2);
+		for (std::size_t v = 0; v < other.vertex.size(); ++v)
+			EXPECT_NEAR(map.u[v], reference.u[at(other.vertex[v])], 1e-9);
+		const std::vector<double> traces = sideTraces(map);
+		ASSERT_EQ(traces.size(), wanted.size());
+		for (std::size_t i = 0; i < traces.size(); ++i)
+			EXPECT_NEAR(traces[i] / wanted[i], 1.0, 1e-8);
+		EXPECT_NEAR(map.report.qcMean, reference.report.qcMean, 1e-8);
+		for (std::size_t f = 0; f < other.face.size(); ++f)
+			EXPECT_NEAR(map.faceQC[f], reference.faceQC[at(other.face[f])], 1e-7);
+	}
+}
+
+TEST(ParametrizeHyperbolic, TheSameRunGivesTheSameBits)
+{
+	const SurfaceMesh mesh = genusTwo();
+	const Parametrization a = run(mesh, refined()), b = run(mesh, refined());
+	EXPECT_EQ(a.uv, b.uv);
+	EXPECT_EQ(a.u, b.u);
+	EXPECT_EQ(a.refined.uv, b.refined.uv);
+	EXPECT_EQ(a.faceQC, b.faceQC);
+}
+
+TEST(ParametrizeHyperbolic, SeveralComponentsAreSolvedOneByOne)
+{
+	Random random(706);
+	const SurfaceMesh a = genusTwo(707, 2), b = shaken(perforatedSlab(3, 1), 0.05, random);
+	const Parametrization pair = run(sideBySide(a, b, 20.0), refined());
+	const Parametrization first = run(a, refined()), second = run(b, refined());
+	EXPECT_EQ(pair.report.components, 2);
+	ASSERT_EQ(pair.charts.size(), 2u);
+	EXPECT_EQ(pair.report.eulerCharacteristic, -6);
+	EXPECT_EQ(pair.report.genus, 5);
+	EXPECT_NEAR(*pair.report.hyperbolicArea / (12 * kPi), 1.0, 1e-8);
+	EXPECT_EQ(pair.report.iterations, first.report.iterations + second.report.iterations);
+	EXPECT_LT(*pair.report.relationError, 1e-8);
+	EXPECT_EQ(pair.charts[0].group.handles.size(), 4u);
+	EXPECT_EQ(pair.charts[1].group.handles.size(), 6u);
+	for (std::size_t f = 0; f < a.triangles.size(); ++f)
+		EXPECT_EQ(pair.uv[f], first.uv[f]);
+	const SurfaceMesh donut = torus(2, 1, 8, 6); // has no hyperbolic metric
+	const auto error = refusal<InadmissibleCurvature>(sideBySide(a, donut, 20.0), {});
+	ASSERT_TRUE(error);
+	EXPECT_EQ(error->componentFace, static_cast<int>(a.triangles.size()));
+	EXPECT_EQ(error->componentFaces, donut.triangles.size());
+	EXPECT_EQ(error->problem, InadmissibleCurvature::HyperbolicSurface);
+	EXPECT_TRUE(error->surface.isTorus());
+}
+
+TEST(ParametrizeHyperbolic, FacesOfTheOtherOrientationAreMappedLikeTheRest)
+{
+	const SurfaceMesh mesh = genusTwo(708, 2);
+	SurfaceMesh mixed = mesh;
+	for (std::size_t f = 0; f < mixed.triangles.size(); f += 5)
+		std::swap(mixed.triangles[f][1], mixed.triangles[f][2]);
+	const Parametrization straight = run(mesh, refined()), map = run(mixed, refined());
+	EXPECT_EQ(map.report.flippedFaces, 0);
+	EXPECT_NEAR(map.report.qcMean, straight.report.qcMean, 1e-9);
+	for (std::size_t f = 0; f < mixed.triangles.size(); ++f) {
+		EXPECT_EQ(map.reversed[f], f % 5 == 0);
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::size_t j = f % 5 == 0 ? (3 - k) % 3 : k;
+			EXPECT_LT(std::abs(asComplex(map.uv[f][j]) - asComplex(straight.uv[f][k])), 1e-9);
+		}
+	}
+	ASSERT_FALSE(map.notes.empty());
+	expectWords(map.notes[0], {"oriented against"});
+	// Reversed throughout it is a surface of the other orientation: the mirror image.
+	SurfaceMesh reversed = mesh;
+	for (Triangle& t : reversed.triangles)
+		std::swap(t[1], t[2]);
+	const Parametrization image = run(reversed, refined());
+	EXPECT_EQ(image.report.flippedFaces, 0);
+	for (std::size_t v = 0; v < image.u.size(); ++v)
+		EXPECT_NEAR(image.u[v], straight.u[v], 1e-9);
+}
+
+TEST(ParametrizeHyperbolic, RefusesASurfaceWithoutHyperbolicMetric)
+{
+	const auto torusRefused = refusal<InadmissibleCurvature>(torus(2, 1, 12, 8), {});
+	ASSERT_TRUE(torusRefused);
+	EXPECT_EQ(torusRefused->problem, InadmissibleCurvature::HyperbolicSurface);
+	EXPECT_TRUE(torusRefused->surface.isTorus());
+	expectWords(torusRefused->what(), {"closed surface of genus 1", "Euler characteristic 0"});
+	const auto diskRefused = refusal<InadmissibleCurvature>(rectangle(4, 4, 1, 1), {});
+	ASSERT_TRUE(diskRefused);
+	EXPECT_EQ(diskRefused->problem, InadmissibleCurvature::HyperbolicSurface);
+	EXPECT_TRUE(diskRefused->surface.isDisk());
+	expectWords(diskRefused->what(), {"disk", "Euler characteristic 1"});
+	// With a cone the torus has one.
+	const SurfaceMesh mesh = torus(2, 1, 12, 8);
+	HyperbolicOptions options = refined();
+	options.target = HyperbolicTarget::SelectedCones;
+	options.coneAngle = kPi;
+	const Parametrization map = run(mesh, options, selecting(mesh, {5}));
+	EXPECT_NEAR(*map.report.hyperbolicArea / kPi, 1.0, 1e-8);
+	EXPECT_EQ(map.report.flippedFaces, 0);
+	const auto without = refusal<InvalidOption>(mesh, options, selecting(mesh, {}));
+	ASSERT_TRUE(without);
+	EXPECT_EQ(without->problem, InvalidOption::NothingSelected);
+	expectWords(without->what(), {"none is selected"});
+}
+
+/// The smaller its angle, the farther away a cone lies, and the doubles of the disk reach to 37.
+TEST(ParametrizeHyperbolic, TellsWhenTheDiskIsTooSmallForTheLayout)
+{
+	Random random(9);
+	const SurfaceMesh mesh = bumpyTorus(12, 9, random);
+	const VertexInput input = selecting(mesh, {5, 20, 33, 40});
+	HyperbolicOptions options;
+	options.target = HyperbolicTarget::SelectedCones;
+	options.coneAngle = 1e-5;
+	EXPECT_LT(*run(mesh, options, input).report.relationError, 1e-8);
+	options.coneAngle = 1e-12;
+	const auto error = refusal<NotConverged>(mesh, options, input);
+	ASSERT_TRUE(error);
+	EXPECT_EQ(error->problem, NotConverged::OutsideDisk);
+	EXPECT_GT(error->count, 0u);
+	expectWords(
+		error->what(),
+		{std::to_string(error->count), "so far from the middle of the layout", "Poincaré disk"});
+}
+
+TEST(ParametrizeHyperbolic, RefusesOptionsOutOfRange)
+{
+	const SurfaceMesh mesh = genusTwo(709, 1);
+	for (double epsilon : {0.0, -1e-9, std::numeric_limits<double>::quiet_NaN()}) {
+		HyperbolicOptions options;
+		options.epsilon = epsilon;
+		const auto error = refusal<InvalidOption>(mesh, options);
+		ASSERT_TRUE(error);
+		EXPECT_EQ(error->problem, InvalidOption::Epsilon);
+		EXPECT_TRUE(error->value == epsilon || (std::isnan(error->value) && std::isnan(epsilon)));
+		expectWords(error->what(), {"must be greater than 0 radians"});
+	}
+	for (int most : {0, -5}) {
+		HyperbolicOptions options;
+		options.maxIterations = most;
+		const auto error = refusal<InvalidOption>(mesh, options);
+		ASSERT_TRUE(error);
+		EXPECT_EQ(error->problem, InvalidOption::MaxIterations);
+		EXPECT_EQ(error->value, most);
+		expectWords(error->what(), {"Newton steps", "at least 1, not " + std::to_string(most)});
+	}
+	HyperbolicOptions options;
+	options.surgery = Surgery::EdgeSwap;
+	const auto swaps = refusal<InvalidOption>(mesh, options);
+	ASSERT_TRUE(swaps);
+	EXPECT_EQ(swaps->problem, InvalidOption::HyperbolicSurgery);
+	expectWords(swaps->what(), {"without edge swaps"});
+	options = HyperbolicOptions();
+	options.packing = PackingScheme::Thurston;
+	const auto thurston = refusal<InvalidOption>(mesh, options);
+	ASSERT_TRUE(thurston);
+	EXPECT_EQ(thurston->problem, InvalidOption::HyperbolicSurgery);
+	expectWords(thurston->what(), {"inversive distances"});
+	options = refined();
+	options.surgery = Surgery::None;
+	const auto withoutFlips = refusal<InvalidOption>(mesh, options);
+	ASSERT_TRUE(withoutFlips);
+	EXPECT_EQ(withoutFlips->problem, InvalidOption::RefinementWithoutFlips);
+	expectWords(withoutFlips->what(), {"common refinement", "intrinsic flips"});
+	options = HyperbolicOptions();
+	options.maxIterations = 1;
+	options.epsilon = 1e-14;
+	const auto stopped = refusal<NotConverged>(mesh, options);
+	ASSERT_TRUE(stopped);
+	EXPECT_EQ(stopped->problem, NotConverged::StepsUsedUp);
+	EXPECT_EQ(stopped->iterations, 1);
+	EXPECT_EQ(stopped->epsilon, 1e-14);
+	EXPECT_GT(stopped->residual, 1e-14);
+	expectWords(stopped->what(), {"1 Newton steps"});
+}
+
+TEST(ParametrizeHyperbolic, TheGivenTriangulationCanBeKept)
+{
+	const SurfaceMesh mesh = perforatedSlab(2, 3); // no triangle breaks
+	HyperbolicOptions options;
+	options.surgery = Surgery::None;
+	const Parametrization map = run(mesh, options);
+	EXPECT_EQ(map.report.flips, 0);
+	EXPECT_EQ(map.report.flippedFaces, 0);
+	EXPECT_NEAR(*map.report.hyperbolicArea / (4 * kPi), 1.0, 1e-8);
+	EXPECT_LT(*map.report.relationError, 1e-8);
+	// Geodesic triangles of the disk, glued without gaps: curvature and area of the picture.
+	std::vector<double> defect(mesh.positions.size(), 2 * kPi);
+	double area = 0.0;
+	for (std::size_t f = 0; f < map.uv.size(); ++f) {
+		area += kPi;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Complex p = asComplex(map.uv[f][k]);
+			const auto seen = [&](const Point2& q) {
+				return (asComplex(q) - p) / (1.0 - std::conj(p) * asComplex(q));
+			};
+			const double angle =
+				std::abs(std::arg(seen(map.uv[f][(k + 2) % 3]) / seen(map.uv[f][(k + 1) % 3])));
+			defect[at(mesh.triangles[f][k])] -= angle;
+			area -= angle;
+		}
+	}
+	for (double K : defect)
+		EXPECT_NEAR(K, 0.0, 1e-8);
+	EXPECT_NEAR(area / (4 * kPi), 1.0, 1e-8);
+}
+
+TEST(ParametrizeHyperbolic, CanBeCancelledAtEveryCall)
+{
+	const SurfaceMesh mesh = genusTwo(710, 1);
+	Impatient patient(1000000);
+	parametrizeHyperbolic(mesh, {}, refined(), patient);
+	const int calls = static_cast<int>(patient.fractions.size());
+	ASSERT_GT(calls, 5);
+	EXPECT_TRUE(std::is_sorted(patient.fractions.begin(), patient.fractions.end()));
+	EXPECT_EQ(patient.fractions.front(), 0.0);
+	EXPECT_EQ(patient.fractions.back(), 1.0);
+	for (int last = 1; last <= calls; ++last) {
+		Impatient impatient(last);
+		EXPECT_THROW(parametrizeHyperbolic(mesh, {}, refined(), impatient), Cancelled);
+		EXPECT_EQ(static_cast<int>(impatient.fractions.size()), last);
+	}
+}
+
+TEST(ParametrizeHyperbolic, DistortionIsThatOfTheChords)
+{
+	// A fine mesh of equilateral-like triangles is mapped nearly conformally; the disk's own picture
+	// would add the distortion of straight lines to curves, which does not vanish there.
+	Random random(711);
+	const SurfaceMesh coarse = perforatedSlab(2, 2), fine = perforatedSlab(2, 8);
+	const double first = run(coarse, refined()).report.qcAreaMean;
+	const double second = run(fine, refined()).report.qcAreaMean;
+	EXPECT_GT(first, 1.0);
+	EXPECT_LT(second - 1.0, 0.5 * (first - 1.0));
+}
+
+} // namespace
+} // namespace ricci::testing

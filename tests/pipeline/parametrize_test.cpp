@@ -1,0 +1,707 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The whole way from a mesh to the plane, on surfaces whose conformal map is known or whose flat
+// metric can be checked in the plane.
+#include "../support/expect.h"
+#include "../support/flat_map.h"
+#include "../support/impatient.h"
+#include "../support/random_surface.h"
+#include "../support/shapes.h"
+#include "../support/transform.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/error.h>
+#include <ricci/measure/distortion.h>
+#include <ricci/metric/circle_packing.h>
+#include <ricci/parametrize.h>
+#include <ricci/surface/flow_domain.h>
+#include <ricci/target/target_curvature.h>
+
+#include <Eigen/QR>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <string>
+#include <utility>
+
+namespace ricci::testing {
+namespace {
+
+using Complex = std::complex<double>;
+
+Complex tau(const Report& report)
+{
+	EXPECT_TRUE(report.torusTauRe && report.torusTauIm);
+	return {report.torusTauRe.value_or(0), report.torusTauIm.value_or(0)};
+}
+
+double surfaceArea(const SurfaceMesh& mesh)
+{
+	double area = 0.0;
+	for (const Triangle& t : mesh.triangles)
+		area += triangleArea(
+			{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]});
+	return area;
+}
+
+/// A bumpy patch with a round outline that is not centred on anything.
+SurfaceMesh bumpyPatch(int n)
+{
+	return grid(n, n, Ends::Open, Ends::Open, [&](int i, int j) {
+		const double x = 2.0 * i / n - 1, y = 2.0 * j / n - 1;
+		return Point3{
+			x * std::sqrt(1 - 0.5 * y * y) + 0.1 * y,
+			y * std::sqrt(1 - 0.5 * x * x),
+			0.4 * std::exp(-2 * (x - 0.3) * (x - 0.3) - 3 * y * y)};
+	});
+}
+
+/// Order of convergence seen in the errors on meshes of halved edges: log2 of their quotients.
+std::vector<double> observedOrders(const std::vector<double>& errors)
+{
+	std::vector<double> orders;
+	for (std::size_t i = 1; i < errors.size(); ++i)
+		orders.push_back(std::log2(errors[i - 1] / errors[i]));
+	return orders;
+}
+
+TEST(Parametrize, APlaneIsMappedToItself)
+{
+	Random random(200);
+	for (int n : {5, 15, 30}) {
+		const SurfaceMesh mesh = turned(randomPlanarDisk(n, random), {0.3, 0.7, -1.1});
+		const Parametrization flat = run(mesh, fixedTriangulation());
+		EXPECT_EQ(flat.report.iterations, 0);
+		EXPECT_TRUE(flat.report.converged);
+		EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-10);
+		EXPECT_EQ(flat.report.flippedFaces, 0);
+		// A free boundary keeps its metric: a motion, not only a similarity.
+		for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+			for (std::size_t k = 0; k < 3; ++k) {
+				const std::size_t j = (k + 1) % 3;
+				const double length = distance(
+					mesh.positions[at(mesh.triangles[f][k])],
+					mesh.positions[at(mesh.triangles[f][j])]);
+				const double image = std::hypot(
+					flat.uv[f][k][0] - flat.uv[f][j][0], flat.uv[f][k][1] - flat.uv[f][j][1]);
+				EXPECT_NEAR(image / length, 1.0, 1e-10);
+			}
+	}
+}
+
+TEST(Parametrize, AChartStandsUprightInItsLeastRectangle)
+{
+	Random random(201);
+	const SurfaceMesh mesh = turned(rectangle(9, 4, 9, 4), {0.3, 0.7, -1.1});
+	const Parametrization flat = run(mesh, fixedTriangulation());
+	Point2 low{1e9, 1e9}, high{-1e9, -1e9};
+	for (const auto& corners : flat.uv)
+		for (const Point2& p : corners)
+			for (std::size_t k = 0; k < 2; ++k) {
+				low[k] = std::min(low[k], p[k]);
+				high[k] = std::max(high[k], p[k]);
+			}
+	EXPECT_NEAR(low[0], 0.0, 1e-12);
+	EXPECT_NEAR(low[1], 0.0, 1e-12);
+	EXPECT_NEAR(high[0], 9.0, 1e-11);
+	EXPECT_NEAR(high[1], 4.0, 1e-11);
+}
+
+TEST(Parametrize, TheStatesOfTheFlowRunFromTheMeshToTheResult)
+{
+	const SurfaceMesh mesh = torus(2.0, 1.0, 24, 14);
+	const Parametrization flat = run(mesh, fixedTriangulation());
+	const std::vector<FlowState>& states = flat.report.flowStates;
+	ASSERT_GE(states.size(), 2u);
+	// The flow starts at the mesh's own metric, whose curvatures are the angle defects.
+	std::vector<double> defect(mesh.positions.size(), 2 * kPi);
+	for (const Triangle& t : mesh.triangles)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const double a =
+				distance(mesh.positions[at(t[(k + 1) % 3])], mesh.positions[at(t[(k + 2) % 3])]);
+			const double b = distance(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 1) % 3])]);
+			const double c = distance(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 2) % 3])]);
+			defect[at(t[k])] -= std::acos((b * b + c * c - a * a) / (2 * b * c));
+		}
+	double largest = 0.0;
+	for (double d : defect)
+		largest = std::max(largest, std::abs(d));
+	EXPECT_EQ(states.front().step, 0);
+	EXPECT_NEAR(states.front().residual, largest, 1e-12);
+	EXPECT_EQ(states.back().step, flat.report.iterations);
+	EXPECT_NEAR(states.back().residual, flat.report.maxCurvatureError, 1e-14);
+	for (std::size_t i = 1; i < states.size(); ++i) {
+		EXPECT_EQ(states[i].component, 0);
+		EXPECT_GE(states[i].step, states[i - 1].step);
+		EXPECT_LE(states[i].step, states[i - 1].step + 1);
+	}
+}
+
+TEST(Parametrize, ModulusOfToriOfRevolutionConvergesWithSecondOrder)
+{
+	// Conformal coordinates (u, integral of r dv / (R + r cos v)) make the torus a rectangle of
+	// sides 2 pi and 2 pi r / sqrt(R^2 - r^2).
+	for (const auto& [R, r] : {std::pair{2.0, 1.0}, {5.0, 1.0}, {1.5, 1.0}}) {
+		const double ratio = std::sqrt(R * R - r * r) / r;
+		const Complex exact(0.0, std::max(ratio, 1 / ratio));
+		std::vector<double> errors;
+		for (int n : {10, 20, 40}) {
+			const int around = static_cast<int>(std::lround(2 * n * std::max(1.0, R / r / 2)));
+			const Parametrization flat = run(torus(R, r, around, n), fixedTriangulation());
+			errors.push_back(std::abs(tau(flat.report) - exact));
+			EXPECT_EQ(flat.report.flippedFaces, 0);
+		}
+		for (double order : observedOrders(errors))
+			EXPECT_NEAR(order, 2.0, 0.2) << "R = " << R;
+		EXPECT_LT(errors.back(), 0.02 * exact.imag());
+	}
+}
+
+TEST(Parametrize, ModulusOfAnnuliConvergesWithSecondOrder)
+{
+	// A planar ring, and a cone of revolution, whose slant radii take the place of the radii and
+	// whose angle round the apex is 2 pi sin(half opening).
+	for (double sine : {1.0, 0.5})
+		for (double outer : {1.5, 4.0}) {
+			std::vector<double> errors;
+			for (int n : {8, 16, 32}) {
+				SurfaceMesh mesh = grid(n, 4 * n, Ends::Open, Ends::Joined, [&](int i, int j) {
+					const double slant = 1.0 + (outer - 1.0) * i / n, a = 2 * kPi * j / (4 * n);
+					return Point3{
+						slant * sine * std::cos(a),
+						slant * sine * std::sin(a),
+						-slant * std::sqrt(1 - sine * sine)};
+				});
+				const Parametrization flat = run(mesh, fixedTriangulation());
+				ASSERT_TRUE(flat.report.annulusModulus);
+				errors.push_back(
+					std::abs(*flat.report.annulusModulus - std::log(outer) / (2 * kPi * sine)));
+				EXPECT_EQ(flat.report.flippedFaces, 0);
+			}
+			for (double order : observedOrders(errors))
+				EXPECT_NEAR(order, 2.0, 0.2) << "sine " << sine << ", outer radius " << outer;
+		}
+}
+
+TEST(Parametrize, AFlatRectangleKeepsItsAspect)
+{
+	Random random(202);
+	for (double width : {1.0, 2.5, 7.0}) {
+		const int nx = 14, ny = 8;
+		SurfaceMesh mesh = rectangle(nx, ny, width, 1.0);
+		for (int i = 1; i < nx; ++i)
+			for (int j = 1; j < ny; ++j)
+				for (std::size_t k = 0; k < 2; ++k)
+					mesh.positions[at(i * (ny + 1) + j)][k] +=
+						random.real(-0.2, 0.2) * (k == 0 ? width / nx : 1.0 / ny);
+		swapDiagonalsAtRandom(mesh, random);
+		const Parametrization flat = run(mesh, fixedTriangulation(TargetCurvature::Rectangle));
+		ASSERT_TRUE(flat.report.rectangleAspect);
+		EXPECT_NEAR(*flat.report.rectangleAspect, width, 1e-9 * width);
+		EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
+	}
+}
+
+TEST(Parametrize, ARectangleHasFourStraightSides)
+{
+	const SurfaceMesh mesh = grid(24, 16, Ends::Open, Ends::Open, [](int i, int j) {
+		const double x = i / 16.0 + 0.02 * std::sin(j), y = j / 16.0;
+		return Point3{x, y, 0.3 * std::exp(-6 * (x - 0.6) * (x - 0.6) - 9 * (y - 0.4) * (y - 0.4))};
+	});
+	const Parametrization flat = run(mesh, fixedTriangulation(TargetCurvature::Rectangle));
+	ASSERT_TRUE(flat.report.rectangleAspect);
+	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
+	const double width = std::sqrt(surfaceArea(mesh) * *flat.report.rectangleAspect);
+	const double height = width / *flat.report.rectangleAspect;
+	int onSides = 0;
+	const VertexArray<char> boundary = t.boundaryVertices();
+	for (const Face f : t.faces())
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Point2& p = flat.uv[at(f)][k];
+			if (!boundary[t.vertices(f)[k]])
+				continue;
+			++onSides;
+			const double off = std::min(
+				{std::abs(p[0]), std::abs(p[0] - width), std::abs(p[1]), std::abs(p[1] - height)});
+			EXPECT_LT(off, 1e-8);
+		}
+	EXPECT_GT(onSides, 76);
+	EXPECT_EQ(flat.report.flippedFaces, 0);
+}
+
+/// Largest relative deviation of the boundary's points from a circle round their centre.
+double roundness(const SurfaceMesh& mesh, const UV& uv)
+{
+	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
+	const VertexArray<char> boundary = t.boundaryVertices();
+	std::vector<Point2> points;
+	for (std::size_t f = 0; f < uv.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			if (boundary[Vertex(mesh.triangles[f][k])])
+				points.push_back(uv[f][k]);
+	// Circle x^2 + y^2 + a x + b y + c = 0 by least squares.
+	Eigen::MatrixXd A(points.size(), 3);
+	Eigen::VectorXd b(points.size());
+	for (std::size_t i = 0; i < points.size(); ++i) {
+		const auto row = static_cast<Eigen::Index>(i);
+		A.row(row) << points[i][0], points[i][1], 1.0;
+		b[row] = -points[i][0] * points[i][0] - points[i][1] * points[i][1];
+	}
+	const Eigen::Vector3d c = A.colPivHouseholderQr().solve(b);
+	const double radius = std::sqrt(0.25 * (c[0] * c[0] + c[1] * c[1]) - c[2]);
+	double worst = 0.0;
+	for (const Point2& p : points)
+		worst = std::max(
+			worst, std::abs(std::hypot(p[0] + 0.5 * c[0], p[1] + 0.5 * c[1]) / radius - 1.0));
+	return worst;
+}
+
+TEST(Parametrize, ADiskIsRound)
+{
+	Random random(203);
+	for (const SurfaceMesh& mesh :
+		 {bumpyPatch(8),
+		  bumpyPatch(24),
+		  rectangle(30, 6, 5, 1),
+		  withoutStars(perforatedSlab(0, 6), {0})}) {
+		const Parametrization flat = run(mesh, fixedTriangulation(TargetCurvature::Disk));
+		EXPECT_LT(roundness(mesh, flat.uv), 1e-9);
+		EXPECT_EQ(flat.report.flippedFaces, 0);
+		EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+		const FlatMap map(mesh, flat.uv);
+		EXPECT_LT(map.error(flat.targetCurvature), 1e-8);
+	}
+}
+
+TEST(Parametrize, ARegularPolygonIsADiskAlready)
+{
+	for (int n : {5, 12}) {
+		SurfaceMesh fan;
+		fan.positions.push_back({0, 0, 0});
+		for (int i = 0; i < n; ++i) {
+			fan.positions.push_back({std::cos(2 * kPi * i / n), std::sin(2 * kPi * i / n), 0});
+			fan.triangles.push_back({0, i + 1, (i + 1) % n + 1});
+		}
+		const Parametrization flat = run(fan, fixedTriangulation(TargetCurvature::Disk));
+		EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
+		EXPECT_LT(roundness(fan, flat.uv), 1e-12);
+	}
+}
+
+TEST(Parametrize, TheLogNamesConesByTheirNumbersInTheMesh)
+{
+	class Listener : public Progress
+	{
+	public:
+		void log(const std::string& line) override
+		{
+			const std::size_t list = line.find("vertex (curvature / pi):");
+			if (list == std::string::npos)
+				return;
+			std::istringstream in(line.substr(list + 24));
+			int vertex;
+			double curvature;
+			char open, close, comma;
+			while (in >> vertex >> open >> curvature >> close >> comma)
+				cones.emplace_back(vertex, curvature);
+		}
+		std::vector<std::pair<int, double>> cones;
+	};
+	Random random(205);
+	const SurfaceMesh one = shaken(perforatedSlab(0, 3), 0.05, random);
+	SurfaceMesh mesh = sideBySide(one, shaken(perforatedSlab(2, 3), 0.05, random), 9.0);
+	std::reverse(mesh.triangles.begin(), mesh.triangles.end()); // components number by first use
+	Listener listener;
+	const Parametrization flat = parametrizeEuclidean(mesh, {}, Options(), listener);
+	EXPECT_EQ(static_cast<int>(listener.cones.size()), flat.report.cones);
+	for (const auto& [vertex, curvature] : listener.cones)
+		EXPECT_NEAR(flat.targetCurvature[at(vertex)], curvature * kPi, 1e-6) << vertex;
+}
+
+TEST(Parametrize, ClosedSurfacesWithCones)
+{
+	Random random(204);
+	for (int genus : {0, 2, 3}) {
+		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 4), 0.02, random);
+		std::vector<int> cones;
+		for (std::size_t v = 3; v < mesh.positions.size() && cones.size() < 20; v += 17)
+			cones.push_back(static_cast<int>(v));
+		const Parametrization flat =
+			run(mesh, fixedTriangulation(TargetCurvature::SelectedCones), selecting(mesh, cones));
+		const FlatMap map(mesh, flat.uv);
+		EXPECT_EQ(flat.report.genus, genus);
+		EXPECT_LT(map.error(flat.targetCurvature), 1e-9);
+		EXPECT_LT(map.seamMismatch, 1e-9);
+		EXPECT_EQ(map.seamEdges, flat.report.seamEdges + flat.report.overlapCuts);
+		EXPECT_EQ(flat.report.flippedFaces, 0);
+		double sum = 0.0;
+		for (double K : flat.targetCurvature)
+			sum += K;
+		EXPECT_NEAR(sum, 2 * kPi * (2 - 2 * genus), 1e-11);
+		EXPECT_NEAR(map.area / surfaceArea(mesh), 1.0, 1e-10);
+	}
+}
+
+TEST(Parametrize, PrescribedCurvatureIsReached)
+{
+	Random random(205);
+	const SurfaceMesh mesh = bumpyTorus(14, 9, random);
+	VertexInput input;
+	double sum = 0.0;
+	for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+		input.targetCurvature.push_back(random.real(-0.3, 0.3));
+		sum += input.targetCurvature.back();
+	}
+	for (double& K : input.targetCurvature)
+		K -= sum / static_cast<double>(mesh.positions.size());
+	const Parametrization flat = run(mesh, fixedTriangulation(TargetCurvature::Prescribed), input);
+	const FlatMap map(mesh, flat.uv);
+	for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+		EXPECT_NEAR(map.curvature[v], input.targetCurvature[v], 1e-9);
+	EXPECT_FALSE(flat.report.torusTauRe); // not flat: no period lattice
+}
+
+TEST(Parametrize, SurfacesWithManyBoundaries)
+{
+	const SurfaceMesh mesh = withoutStars(torus(3, 1, 16, 12), {0, 50, 100});
+	const Parametrization free = run(mesh, fixedTriangulation());
+	EXPECT_EQ(free.report.boundaryLoops, 3);
+	EXPECT_EQ(free.report.genus, 1);
+	EXPECT_EQ(free.report.eulerCharacteristic, -3);
+	const FlatMap freeMap(mesh, free.uv);
+	EXPECT_LT(freeMap.insideError(std::vector<double>(mesh.positions.size(), 0.0)), 1e-9);
+	EXPECT_LT(freeMap.seamMismatch, 1e-9);
+	// The free boundary keeps its lengths.
+	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
+	int boundaryEdges = 0;
+	for (const Face f : t.faces())
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Halfedge h = t.halfedges(f)[k];
+			if (!t.isBoundary(h.edge()))
+				continue;
+			++boundaryEdges;
+			const Point2 &p = free.uv[at(f)][k], &q = free.uv[at(f)][(k + 1) % 3];
+			const double length =
+				distance(mesh.positions[at(t.origin(h))], mesh.positions[at(t.target(h))]);
+			EXPECT_NEAR(std::hypot(p[0] - q[0], p[1] - q[1]) / length, 1.0, 1e-10);
+		}
+	EXPECT_EQ(boundaryEdges, 3 * 6);
+	Options options = fixedTriangulation();
+	options.freeBoundary = false;
+	const Parametrization prescribed = run(mesh, options);
+	const FlatMap map(mesh, prescribed.uv);
+	EXPECT_LT(map.error(prescribed.targetCurvature), 1e-9);
+}
+
+TEST(Parametrize, ResultDoesNotDependOnScaleOrPlace)
+{
+	Random random(206);
+	const SurfaceMesh mesh = bumpyTorus(16, 10, random);
+	const Parametrization reference = run(mesh, fixedTriangulation());
+	const SurfaceMesh others[] = {
+		scaled(mesh, 1e8), scaled(mesh, 1e-8), turned(mesh, {0.4, 2.0, -0.7})};
+	for (const SurfaceMesh& other : others) {
+		const Parametrization flat = run(other, fixedTriangulation());
+		EXPECT_EQ(flat.report.iterations, reference.report.iterations);
+		EXPECT_LT(flat.report.maxCurvatureError, 1e-10);
+		EXPECT_NEAR(flat.report.qcMean, reference.report.qcMean, 1e-10);
+		EXPECT_NEAR(flat.report.qcVertexMean, reference.report.qcVertexMean, 1e-10);
+		EXPECT_NEAR(flat.report.qcAreaMean, reference.report.qcAreaMean, 1e-10);
+		EXPECT_NEAR(flat.report.qcMax, reference.report.qcMax, 1e-9);
+		EXPECT_LT(std::abs(tau(flat.report) - tau(reference.report)), 1e-10);
+		for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+			EXPECT_NEAR(flat.vertexQC[v], reference.vertexQC[v], 1e-9);
+	}
+}
+
+TEST(Parametrize, ResultDoesNotDependOnTheNumbersOfVerticesAndFaces)
+{
+	Random random(207);
+	for (const SurfaceMesh& mesh : {bumpyTorus(16, 10, random), bumpyPatch(12)}) {
+		const Parametrization reference = run(mesh, fixedTriangulation());
+		for (int trial = 0; trial < 3; ++trial) {
+			const Renumbered other = renumbered(mesh, random);
+			const Parametrization flat = run(other.mesh, fixedTriangulation());
+			EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+			EXPECT_NEAR(flat.report.qcMean, reference.report.qcMean, 1e-9);
+			EXPECT_NEAR(flat.report.qcVertexMean, reference.report.qcVertexMean, 1e-9);
+			EXPECT_NEAR(flat.report.qcAreaMean, reference.report.qcAreaMean, 1e-9);
+			if (reference.report.torusTauRe) {
+				EXPECT_LT(std::abs(tau(flat.report) - tau(reference.report)), 1e-9);
+			}
+			double shift = 0.0; // the scale of a torus is open, but fixed by its area
+			for (std::size_t v = 0; v < other.vertex.size(); ++v)
+				shift = std::max(shift, std::abs(flat.u[v] - reference.u[at(other.vertex[v])]));
+			EXPECT_LT(shift, 1e-9);
+			for (std::size_t f = 0; f < other.face.size(); ++f)
+				EXPECT_NEAR(flat.faceQC[f], reference.faceQC[at(other.face[f])], 1e-8);
+		}
+	}
+}
+
+TEST(Parametrize, SeveralComponentsAreSolvedOneByOne)
+{
+	Random random(208);
+	const SurfaceMesh a = bumpyTorus(12, 8, random), b = bumpyPatch(8);
+	const SurfaceMesh both = sideBySide(a, b, 10);
+	const Parametrization pair = run(both, fixedTriangulation());
+	// The second one at the place where it lies in the pair: moving it rounds its lengths.
+	const Parametrization first = run(a, fixedTriangulation()),
+						  second = run(sideBySide({}, b, 10), fixedTriangulation());
+	EXPECT_EQ(pair.report.components, 2);
+	ASSERT_EQ(pair.charts.size(), 2u);
+	EXPECT_EQ(pair.charts[0].faces.size(), a.triangles.size());
+	EXPECT_EQ(pair.charts[1].faces.front(), static_cast<int>(a.triangles.size()));
+	EXPECT_EQ(pair.report.iterations, first.report.iterations + second.report.iterations);
+	EXPECT_EQ(pair.report.genus, 1);
+	EXPECT_EQ(pair.report.eulerCharacteristic, 1);
+	EXPECT_EQ(pair.report.boundaryLoops, 1);
+	EXPECT_EQ(pair.report.seamEdges, first.report.seamEdges + second.report.seamEdges);
+	EXPECT_EQ(
+		pair.report.maxCurvatureError,
+		std::max(first.report.maxCurvatureError, second.report.maxCurvatureError));
+	const double na = static_cast<double>(a.triangles.size());
+	const double nb = static_cast<double>(b.triangles.size());
+	EXPECT_NEAR(
+		pair.report.qcMean,
+		(na * first.report.qcMean + nb * second.report.qcMean) / (na + nb),
+		1e-12);
+	EXPECT_FALSE(pair.report.torusTauRe);
+	EXPECT_TRUE(first.report.torusTauRe);
+	for (std::size_t f = 0; f < a.triangles.size(); ++f)
+		EXPECT_EQ(pair.uv[f], first.uv[f]);
+}
+
+TEST(Parametrize, TheRefusalOfOneComponentNamesIt)
+{
+	const SurfaceMesh both = sideBySide(rectangle(2, 2, 1, 1), tetrahedron(), 10);
+	const auto error =
+		errorOf<InvalidOption>([&] { run(both, fixedTriangulation(TargetCurvature::Disk)); });
+	ASSERT_TRUE(error);
+	EXPECT_EQ(error->componentFace, 8);
+	EXPECT_EQ(error->componentFaces, 4u);
+	EXPECT_EQ(error->problem, InvalidOption::NotADisk);
+	EXPECT_EQ(error->target, TargetCurvature::Disk);
+	EXPECT_TRUE(error->surface.isSphere());
+	expectWords(error->what(), {"genus 0"});
+}
+
+TEST(Parametrize, FacesOfTheOtherOrientationAreMappedLikeTheRest)
+{
+	const SurfaceMesh mesh = bumpyPatch(10);
+	SurfaceMesh mixed = mesh;
+	for (std::size_t f = 0; f < mixed.triangles.size(); f += 5)
+		std::swap(mixed.triangles[f][1], mixed.triangles[f][2]);
+	const Parametrization straight = run(mesh, fixedTriangulation());
+	const Parametrization flat = run(mixed, fixedTriangulation());
+	EXPECT_EQ(flat.report.flippedFaces, 0);
+	EXPECT_NEAR(flat.report.qcMean, straight.report.qcMean, 1e-12);
+	for (std::size_t f = 0; f < mixed.triangles.size(); ++f) {
+		EXPECT_EQ(flat.reversed[f], f % 5 == 0);
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::size_t j = f % 5 == 0 ? (3 - k) % 3 : k;
+			for (std::size_t x = 0; x < 2; ++x)
+				EXPECT_NEAR(flat.uv[f][j][x], straight.uv[f][k][x], 1e-9);
+		}
+	}
+	ASSERT_FALSE(flat.notes.empty());
+	EXPECT_NE(flat.notes[0].find("oriented against"), std::string::npos);
+}
+
+TEST(Parametrize, ConventionalFlowIsLessConformal)
+{
+	Random random(209);
+	const SurfaceMesh mesh = bumpyTorus(20, 12, random);
+	Options options = fixedTriangulation();
+	const double inversive = run(mesh, options).report.qcVertexMean;
+	options.packing = PackingScheme::Thurston;
+	const Parametrization conventional = run(mesh, options);
+	EXPECT_LT(conventional.report.maxCurvatureError, 1e-8);
+	EXPECT_GT(conventional.report.qcVertexMean, inversive + 0.1);
+}
+
+TEST(Parametrize, RefusesOptionsOutOfRange)
+{
+	const SurfaceMesh mesh = rectangle(2, 2, 1, 1);
+	for (double epsilon : {0.0, -1e-9, std::numeric_limits<double>::quiet_NaN()}) {
+		Options options = fixedTriangulation();
+		options.epsilon = epsilon;
+		const auto error = errorOf<InvalidOption>([&] { run(mesh, options); });
+		ASSERT_TRUE(error);
+		EXPECT_EQ(error->problem, InvalidOption::Epsilon);
+		EXPECT_TRUE(error->value == epsilon || (std::isnan(error->value) && std::isnan(epsilon)));
+		expectWords(error->what(), {"must be greater than 0 radians"});
+	}
+	for (int most : {0, -5}) {
+		Options options = fixedTriangulation();
+		options.maxIterations = most;
+		const auto error = errorOf<InvalidOption>([&] { run(mesh, options); });
+		ASSERT_TRUE(error);
+		EXPECT_EQ(error->problem, InvalidOption::MaxIterations);
+		EXPECT_EQ(error->value, most);
+		expectWords(error->what(), {"at least 1, not " + std::to_string(most)});
+	}
+}
+
+TEST(Parametrize, TellsWhyItStoppedEarly)
+{
+	Random random(210);
+	Options options = fixedTriangulation();
+	options.maxIterations = 1;
+	const SurfaceMesh mesh = bumpyTorus(12, 8, random);
+	const auto error = errorOf<NotConverged>([&] { run(mesh, options); });
+	ASSERT_TRUE(error);
+	EXPECT_EQ(error->problem, NotConverged::StepsUsedUp);
+	EXPECT_EQ(error->iterations, 1);
+	EXPECT_EQ(error->epsilon, options.epsilon);
+	EXPECT_GT(error->residual, options.epsilon);
+	EXPECT_GT(error->floor, 0.0);
+	EXPECT_LT(error->floor, options.epsilon);
+	EXPECT_EQ(error->componentFaces, 0u); // there is one only
+	expectWords(error->what(), {"after 1 Newton steps"});
+}
+
+TEST(Parametrize, ProgressRisesFromZeroToOne)
+{
+	Random random(211);
+	const SurfaceMesh mesh = sideBySide(bumpyTorus(12, 8, random), bumpyPatch(8), 10);
+	Impatient patient(1000000);
+	parametrizeEuclidean(mesh, {}, fixedTriangulation(), patient);
+	EXPECT_EQ(patient.fractions.front(), 0.0);
+	EXPECT_EQ(patient.fractions.back(), 1.0);
+	EXPECT_TRUE(std::is_sorted(patient.fractions.begin(), patient.fractions.end()));
+	int steps = 0;
+	for (const std::string& line : patient.lines)
+		steps += line.rfind("Newton step", 0) == 0;
+	EXPECT_GE(steps, 4);
+}
+
+TEST(Parametrize, CanBeCancelledAtEveryCall)
+{
+	Random random(212);
+	const SurfaceMesh mesh = bumpyTorus(12, 8, random);
+	Impatient patient(1000000);
+	parametrizeEuclidean(mesh, {}, fixedTriangulation(), patient);
+	const int calls = static_cast<int>(patient.fractions.size());
+	ASSERT_GT(calls, 5);
+	for (int last = 1; last <= calls; ++last) {
+		Impatient impatient(last);
+		EXPECT_THROW(parametrizeEuclidean(mesh, {}, fixedTriangulation(), impatient), Cancelled);
+		EXPECT_EQ(static_cast<int>(impatient.fractions.size()), last);
+	}
+}
+
+TEST(Parametrize, ErrorsOfTheListenerPassThrough)
+{
+	struct Broken : Progress
+	{
+		bool update(double, const std::string&) override { throw std::runtime_error("full disk"); }
+	} broken;
+	EXPECT_THROW(
+		parametrizeEuclidean(rectangle(2, 2, 1, 1), {}, fixedTriangulation(), broken),
+		std::runtime_error);
+}
+
+/// Seven triangles round a vertex; the sides of the polygon span equal angles, except for one of
+/// \p gap degrees.
+SurfaceMesh fanWithGap(double gap)
+{
+	SurfaceMesh fan;
+	fan.positions.push_back({0, 0, 0});
+	for (int i = 0; i < 7; ++i) {
+		const double angle = (gap + (360 - gap) * i / 6) * kPi / 180;
+		fan.positions.push_back({std::cos(angle), std::sin(angle), 0});
+		fan.triangles.push_back({0, i + 1, (i + 1) % 7 + 1});
+	}
+	return fan;
+}
+
+TEST(Parametrize, SplitsABoundaryEdgeThatWouldBreakItsTriangle)
+{
+	// The more negative the curvature asked of the middle, the nearer its vertex comes to the long
+	// side, whose triangle breaks. A boundary edge cannot be swapped: it is split.
+	const SurfaceMesh fan = fanWithGap(100);
+	VertexInput input;
+	input.targetCurvature.assign(8, 0.0);
+	Options options = fixedTriangulation(TargetCurvature::Prescribed);
+	options.surgery = Surgery::EdgeSwap;
+	for (double K : {-1.0, -2.0, -3.0}) {
+		input.targetCurvature[0] = K;
+		const Parametrization flat = run(fan, options, input);
+		EXPECT_EQ(flat.report.boundarySplits, K < -2.5 ? 1 : 0);
+		EXPECT_EQ(flat.report.edgeSwaps, 0);
+		EXPECT_EQ(flat.report.brokenTriangles, 0);
+		EXPECT_EQ(flat.report.flippedFaces, 0);
+		EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+		const FlatMap map(fan, flat.uv);
+		EXPECT_NEAR(map.curvature[0], K, 1e-9);
+		ASSERT_EQ(flat.u.size(), fan.positions.size()); // the new vertex stays inside
+	}
+	options.surgery = Surgery::None;
+	const auto error = errorOf<NotConverged>([&] { run(fan, options, input); });
+	ASSERT_TRUE(error);
+	EXPECT_EQ(error->problem, NotConverged::BrokenTriangles);
+	EXPECT_EQ(error->count, 1u);
+	EXPECT_EQ(error->surgery, Surgery::None);
+	expectWords(error->what(), {"the triangle inequality at the end"});
+}
+
+/// A corner of one triangle is to become straight: no triangle has an angle of pi, but flat ones come
+/// as near as one likes.
+TEST(Parametrize, ACurvatureAtTheLimitOfATriangleIsRefused)
+{
+	const SurfaceMesh mesh = rectangle(3, 3, 3, 3);
+	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
+	std::vector<int> faces(mesh.positions.size(), 0);
+	for (const Triangle& face : mesh.triangles)
+		for (int v : face)
+			++faces[at(v)];
+	const std::vector<char> boundary = t.boundaryVertices().values();
+	const auto others =
+		std::count(boundary.begin(), boundary.end(), 1) - std::count(faces.begin(), faces.end(), 1);
+	VertexInput input;
+	for (std::size_t v = 0; v < faces.size(); ++v)
+		input.targetCurvature.push_back(
+			boundary[v] && faces[v] > 1 ? 2 * kPi / static_cast<double>(others) : 0.0);
+	Options options = fixedTriangulation(TargetCurvature::Prescribed);
+	options.freeBoundary = false;
+	const auto error = errorOf<NotConverged>([&] { run(mesh, options, input); });
+	ASSERT_TRUE(error);
+	EXPECT_EQ(error->problem, NotConverged::BrokenTriangles);
+	EXPECT_EQ(error->count, 2u);
+	EXPECT_EQ(error->surgery, Surgery::None); // for which the flips are the remedy
+	options.surgery = Surgery::IntrinsicFlips;
+	EXPECT_LT(run(mesh, options, input).report.maxCurvatureError, 1e-8);
+}
+
+TEST(Parametrize, ReportedRadiiBelongToTheLayout)
+{
+	// Scaling the layout to the area of the surface shifts u; edges of the layout must follow it.
+	Random random(213);
+	const SurfaceMesh mesh = bumpyTorus(12, 8, random);
+	const Parametrization flat = run(mesh, fixedTriangulation());
+	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
+	const EdgeArray<double> lengths = edgeLengths(t, VertexArray<Point3>(mesh.positions));
+	const auto packing = inversiveDistancePacking(t, lengths, initialRadii(t, lengths));
+	for (const Face f : t.faces())
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Halfedge h = t.halfedges(f)[k];
+			const double gi = std::exp(flat.u[at(t.origin(h))]);
+			const double gj = std::exp(flat.u[at(t.target(h))]);
+			const double I = 1 + packing.delta[h.edge()];
+			const Point2 &p = flat.uv[at(f)][k], &q = flat.uv[at(f)][(k + 1) % 3];
+			EXPECT_NEAR(
+				std::hypot(p[0] - q[0], p[1] - q[1]) /
+					std::sqrt(gi * gi + gj * gj + 2 * I * gi * gj),
+				1.0,
+				1e-9);
+		}
+}
+
+} // namespace
+} // namespace ricci::testing

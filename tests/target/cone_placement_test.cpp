@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dense_flow.h"
+
+#include "support/expect.h"
+#include "support/packed.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/transform.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/error.h>
+#include <ricci/parametrize.h>
+#include <ricci/target/cone_placement.h>
+#include <ricci/target/target_curvature.h>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kQuarter = 0.5 * kPi;
+
+/// As the pipeline places them: with the start of the flow.
+PlacedCones place(const Packed& p, const ConeRequest& request)
+{
+	const EmbeddedSurface surface = surfaceOf(p);
+	FlowStart start = flowStart(surface, FlowOptions());
+	return placeCones(surface, start, request);
+}
+
+PlacedCones place(const Packed& p, int count, ConeRounding rounding = ConeRounding::Free)
+{
+	ConeRequest request;
+	request.count = count;
+	request.rounding = rounding;
+	return place(p, request);
+}
+
+double sum(const std::vector<double>& x)
+{
+	double s = 0.0;
+	for (double a : x)
+		s += a;
+	return s;
+}
+
+void expectAdmissible(const Packed& p, const PlacedCones& cones)
+{
+	const auto boundary = p.triangulation.boundaryVertices();
+	ASSERT_EQ(cones.vertices.size(), cones.curvatures.size());
+	for (std::size_t i = 0; i < cones.vertices.size(); ++i) {
+		EXPECT_LE(cones.curvatures[i], 1.5 * kPi);
+		EXPECT_NE(cones.curvatures[i], 0.0);
+		EXPECT_FALSE(boundary[cones.vertices[i]]);
+		if (i > 0) {
+			EXPECT_LT(cones.vertices[i - 1], cones.vertices[i]);
+		}
+	}
+}
+
+TEST(ConePlacement, IsAdmissibleOnClosedSurfacesOfEveryGenus)
+{
+	Random random(700);
+	for (int genus = 0; genus <= 3; ++genus) {
+		const Packed p(shaken(perforatedSlab(genus, 3), 0.04, random));
+		const int chi = 2 - 2 * genus;
+		for (ConeRounding rounding : {ConeRounding::Free, ConeRounding::QuarterTurns})
+			for (int count : {0, 4, 9}) {
+				SCOPED_TRACE("genus " + std::to_string(genus) + ", " + std::to_string(count));
+				const PlacedCones cones = place(p, count, rounding);
+				expectAdmissible(p, cones);
+				EXPECT_NEAR(sum(cones.curvatures), 2 * kPi * chi, 1e-11);
+				if (count > 0) {
+					EXPECT_LE(static_cast<int>(cones.vertices.size()), count);
+				}
+				if (rounding == ConeRounding::Free)
+					continue;
+				for (double k : cones.curvatures)
+					EXPECT_NEAR(k / kQuarter, std::round(k / kQuarter), 1e-12);
+			}
+	}
+}
+
+TEST(ConePlacement, FindsTheCornersOfABox)
+{
+	// A box is flat but for its eight corners of pi/2: no area has to change.
+	for (int subdivision : {2, 3, 4, 6}) {
+		const Packed p(perforatedSlab(0, subdivision));
+		GeometricCurvatureMap<Euclidean> map = p.map();
+		map.evaluate(p.u());
+		for (ConeRounding rounding : {ConeRounding::Free, ConeRounding::QuarterTurns}) {
+			const PlacedCones cones = place(p, 8, rounding);
+			ASSERT_EQ(cones.vertices.size(), 8u);
+			for (std::size_t i = 0; i < 8; ++i) {
+				EXPECT_NEAR(cones.curvatures[i], kQuarter, 1e-9);
+				EXPECT_NEAR(map.curvature()[cones.vertices[i]], kQuarter, 1e-9);
+			}
+			EXPECT_LT(cones.distortion, 1e-9);
+		}
+	}
+}
+
+TEST(ConePlacement, PredictsTheDistortionOfTheLinearFlow)
+{
+	Random random(701);
+	for (int genus : {0, 2}) {
+		const Packed p(shaken(perforatedSlab(genus, 2), 0.05, random));
+		const DenseFlow flow(p);
+		const PlacedCones cones = place(p, 6);
+		const double own = flow.distortion(cones.vertices, cones.curvatures);
+		EXPECT_NEAR(cones.distortion, own, 1e-6 * (1.0 + own));
+		// The curvatures are the best for these vertices: moving some from one to another costs.
+		for (std::size_t i = 0; i < cones.vertices.size(); ++i)
+			for (std::size_t j = 0; j < cones.vertices.size(); ++j) {
+				std::vector<double> other = cones.curvatures;
+				other[i] += 0.05;
+				other[j] -= 0.05;
+				const bool allowed = other[i] <= 1.5 * kPi;
+				if (i != j && allowed) {
+					EXPECT_GT(flow.distortion(cones.vertices, other), own);
+				}
+			}
+	}
+}
+
+TEST(ConePlacement, DistortionFallsAsConesAreAdded)
+{
+	Random random(702);
+	for (int genus = 0; genus <= 2; ++genus) {
+		const Packed p(shaken(perforatedSlab(genus, 4), 0.05, random));
+		double before = 1e300;
+		for (int count : {3, 6, 12, 24}) {
+			const PlacedCones cones = place(p, count);
+			EXPECT_LT(cones.distortion, before) << "genus " << genus << ", " << count << " cones";
+			before = cones.distortion;
+		}
+	}
+}
+
+TEST(ConePlacement, CountsAsManyAsTheDistortionAsksFor)
+{
+	Random random(703);
+	const Packed p(shaken(perforatedSlab(1, 4), 0.05, random));
+	std::size_t before = 0;
+	for (double distortion : {0.8, 0.4, 0.2}) {
+		ConeRequest request;
+		request.distortion = distortion;
+		const PlacedCones cones = place(p, request);
+		EXPECT_LE(cones.distortion, distortion);
+		EXPECT_GE(cones.vertices.size(), before);
+		before = cones.vertices.size();
+	}
+}
+
+TEST(ConePlacement, TheFlowReachesThePredictedDistortion)
+{
+	// The linear problem is that of smooth surfaces; the flow's own distortion agrees with it where
+	// the mesh resolves the factor.
+	Random random(704);
+	const SurfaceMesh mesh = shaken(perforatedSlab(0, 8), 0.01, random);
+	const PlacedCones cones = place(Packed(mesh), 6);
+	Options options;
+	options.target = TargetCurvature::PlacedCones;
+	options.coneCount = 6;
+	options.output = OutputTriangulation::CommonRefinement;
+	Progress silent;
+	const Parametrization map = parametrizeEuclidean(mesh, {}, options, silent);
+	EXPECT_EQ(map.report.cones, static_cast<int>(cones.vertices.size()));
+	EXPECT_NEAR(map.report.areaDistortionSpread, cones.distortion, 0.1 * cones.distortion);
+}
+
+TEST(ConePlacement, LowersTheDistortionInsideABoundary)
+{
+	Random random(705);
+	for (const SurfaceMesh& mesh :
+		 {withoutStars(shaken(perforatedSlab(0, 4), 0.05, random), {0}),
+		  withoutStars(shaken(perforatedSlab(1, 4), 0.05, random), {0, 40})}) {
+		const Packed p(mesh);
+		for (ConeBoundary boundary : {ConeBoundary::Fixed, ConeBoundary::Prescribed}) {
+			ConeRequest request;
+			request.boundary = boundary;
+			double before = 1e300;
+			for (int count : {1, 4, 10}) {
+				request.count = count;
+				const PlacedCones cones = place(p, request);
+				expectAdmissible(p, cones);
+				EXPECT_LT(cones.distortion, before);
+				before = cones.distortion;
+			}
+		}
+		// With a prescribed boundary all curvatures together obey Gauss-Bonnet.
+		TargetRequest request;
+		request.mode = TargetCurvature::PlacedCones;
+		request.freeBoundary = false;
+		request.coneCount = 3;
+		const EmbeddedSurface surface = surfaceOf(p);
+		FlowStart start = flowStart(surface, FlowOptions());
+		const Target target = chooseTarget(surface, start, request);
+		EXPECT_NEAR(
+			target.curvature.sum(), 2 * kPi * surface.topology.type.eulerCharacteristic(), 1e-10);
+	}
+}
+
+/// Length of the shortest tree of edge paths between \p vertices, by all shortest paths.
+double treeLength(const Packed& p, const std::vector<Vertex>& vertices)
+{
+	const int n = p.triangulation.vertexCount();
+	Eigen::MatrixXd d = Eigen::MatrixXd::Constant(n, n, 1e300);
+	for (const Edge e : p.triangulation.edges()) {
+		const auto [v, w] = p.triangulation.ends(e);
+		const int a = v.number(), b = w.number();
+		d(a, b) = d(b, a) = std::min(d(a, b), p.lengths[e]);
+	}
+	for (int k = 0; k < n; ++k)
+		for (int i = 0; i < n; ++i)
+			d.row(i) = d.row(i).cwiseMin((d.row(k).array() + d(i, k)).matrix());
+	double length = 0.0;
+	std::vector<Vertex> inside{vertices.front()}, outside(vertices.begin() + 1, vertices.end());
+	while (!outside.empty()) {
+		double min = 1e300;
+		std::size_t next = 0;
+		for (std::size_t i = 0; i < outside.size(); ++i)
+			for (const Vertex v : inside)
+				if (d(v.number(), outside[i].number()) < min) {
+					min = d(v.number(), outside[i].number());
+					next = i;
+				}
+		length += min;
+		inside.push_back(outside[next]);
+		outside.erase(outside.begin() + static_cast<std::ptrdiff_t>(next));
+	}
+	return length;
+}
+
+TEST(ConePlacement, MovesConesForShorterSeamsWithinTheDistortion)
+{
+	Random random(708);
+	double gained = 0.0;
+	for (int trial = 0; trial < 4; ++trial) {
+		const Packed p(shaken(perforatedSlab(0, 3), 0.12, random));
+		for (int count : {0, 5, 8}) {
+			ConeRequest request;
+			request.count = count;
+			request.distortion = 0.6;
+			request.shortSeams = false;
+			const PlacedCones apart = place(p, request);
+			request.shortSeams = true;
+			const PlacedCones near = place(p, request);
+			expectAdmissible(p, near);
+			EXPECT_NEAR(sum(near.curvatures), 4 * kPi, 1e-11);
+			const double max = count > 0 ? kSeamAllowance * apart.distortion : request.distortion;
+			EXPECT_LE(near.distortion, max * (1 + 1e-9));
+			const double before = treeLength(p, apart.vertices),
+						 after = treeLength(p, near.vertices);
+			EXPECT_LE(after, before * (1 + 1e-12));
+			gained += before - after;
+		}
+	}
+	EXPECT_GT(gained, 0.0);
+}
+
+TEST(ConePlacement, ScaleChangesNothing)
+{
+	Random random(706);
+	const SurfaceMesh mesh = shaken(perforatedSlab(2, 3), 0.05, random);
+	const PlacedCones a = place(Packed(mesh), 7), b = place(Packed(scaled(mesh, 1024.0)), 7);
+	EXPECT_EQ(a.vertices, b.vertices);
+	for (std::size_t i = 0; i < a.vertices.size(); ++i)
+		EXPECT_NEAR(a.curvatures[i], b.curvatures[i], 1e-9);
+}
+
+TEST(ConePlacement, IsDeterministic)
+{
+	Random random(707);
+	const Packed p(shaken(perforatedSlab(2, 3), 0.05, random));
+	for (ConeRounding rounding : {ConeRounding::Free, ConeRounding::QuarterTurns}) {
+		const PlacedCones first = place(p, 0, rounding);
+		for (int i = 0; i < 3; ++i) {
+			const PlacedCones again = place(p, 0, rounding);
+			EXPECT_EQ(again.vertices, first.vertices);
+			EXPECT_EQ(again.curvatures, first.curvatures);
+		}
+	}
+}
+
+TEST(ConePlacement, TakesTheStartOfTheFlowForItsOwn)
+{
+	// Without a Delaunay start of the flow it makes one, the same.
+	Random random(709);
+	const Packed p(shaken(perforatedSlab(1, 3), 0.05, random));
+	const EmbeddedSurface surface = surfaceOf(p);
+	FlowOptions onInput;
+	onInput.surgery = Surgery::None;
+	ConeRequest request;
+	request.count = 6;
+	FlowStart shared = flowStart(surface, FlowOptions()), other = flowStart(surface, onInput);
+	const PlacedCones a = placeCones(surface, shared, request);
+	const PlacedCones b = placeCones(surface, other, request);
+	EXPECT_EQ(a.vertices, b.vertices);
+	EXPECT_EQ(a.curvatures, b.curvatures);
+	EXPECT_EQ(a.distortion, b.distortion);
+	EXPECT_TRUE(shared.hessian);
+	EXPECT_FALSE(other.hessian);
+}
+
+/// The refusal of \p count cones.
+InvalidOption refusal(const SurfaceMesh& mesh, int count)
+{
+	const auto error = errorOf<InvalidOption>([&] { place(Packed(mesh), count); });
+	EXPECT_TRUE(error) << "accepted";
+	return error.value_or(InvalidOption(InvalidOption::Epsilon));
+}
+
+TEST(ConePlacement, RefusesWhatNoMetricHas)
+{
+	// Two cones below 2 pi cannot carry the 4 pi of a sphere.
+	const InvalidOption tooFew = refusal(perforatedSlab(0, 2), 2);
+	EXPECT_EQ(tooFew.problem, InvalidOption::TooFewCones);
+	EXPECT_EQ(tooFew.value, 2.0);
+	EXPECT_EQ(tooFew.bound, 3.0);
+	EXPECT_NO_THROW(place(Packed(perforatedSlab(0, 2)), 3));
+	EXPECT_NO_THROW(place(Packed(tetrahedron()), 4));
+	const InvalidOption tooMany = refusal(tetrahedron(), 5);
+	EXPECT_EQ(tooMany.problem, InvalidOption::TooFewVertices);
+	EXPECT_EQ(tooMany.value, 5.0);
+	EXPECT_EQ(tooMany.count, 4u);
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dense_flow.h"
+
+#include "support/packed.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <ricci/target/linear_flow.h>
+#include <ricci/target/target_curvature.h>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+struct Case
+{
+	std::string name;
+	SurfaceMesh mesh;
+	ConeBoundary boundary;
+};
+
+std::vector<Case> cases()
+{
+	Random random(760);
+	const SurfaceMesh sphere = shaken(perforatedSlab(0, 3), 0.05, random);
+	const SurfaceMesh genus1 = shaken(perforatedSlab(1, 2), 0.05, random);
+	return {
+		{"sphere", sphere, ConeBoundary::Fixed},
+		{"genus 1", genus1, ConeBoundary::Prescribed},
+		{"disk, fixed boundary", withoutStars(sphere, {0}), ConeBoundary::Fixed},
+		{"two holes, fixed boundary", withoutStars(genus1, {0, 40}), ConeBoundary::Fixed},
+		{"disk, prescribed boundary", withoutStars(sphere, {0}), ConeBoundary::Prescribed},
+		{"two holes, prescribed", withoutStars(genus1, {0, 40}), ConeBoundary::Prescribed}};
+}
+
+VertexVector randomVector(int size, Random& random)
+{
+	VertexVector x(size);
+	for (const Vertex v : x.indices())
+		x[v] = random.real(-1.0, 1.0);
+	return x;
+}
+
+/// A linear flow with what it refers to.
+struct Linearised
+{
+	Packed packed;
+	EmbeddedSurface surface;
+	FlowStart start;
+	LinearFlow flow;
+
+	explicit Linearised(const Case& c) :
+			packed(c.mesh), surface(surfaceOf(packed)), start(flowStart(surface, FlowOptions())),
+			flow(surface, start, c.boundary)
+	{
+	}
+};
+
+/// Shares of the boundary vertices in its length.
+VertexVector boundaryShares(const EmbeddedSurface& surface)
+{
+	const Triangulation& t = surface.triangulation;
+	VertexVector share = VertexVector::Zero(t.vertexCount());
+	for (const Edge e : t.edges())
+		if (t.isBoundary(e))
+			for (const Vertex v : t.ends(e))
+				share[v] += surface.lengths[e];
+	return share / share.sum();
+}
+
+TEST(LinearFlow, SolvesTheDenseSystem)
+{
+	Random random(761);
+	for (const Case& c : cases()) {
+		SCOPED_TRACE(c.name);
+		Linearised linear(c);
+		const DenseFlow dense(linear.packed);
+		const Topology& topology = linear.surface.topology;
+		EXPECT_LT((linear.flow.curvature() - dense.curvature).lpNorm<Eigen::Infinity>(), 1e-12);
+		EXPECT_LT((linear.flow.area() - dense.area).lpNorm<Eigen::Infinity>(), 1e-14);
+		EXPECT_EQ(linear.flow.hasFixedSum(), topology.type.isClosed());
+
+		VertexVector rhs = randomVector(linear.flow.vertexCount(), random);
+		VertexVector expected;
+		if (topology.type.isClosed()) {
+			rhs.array() -= rhs.mean();
+			expected = dense.solve(rhs);
+		}
+		else if (c.boundary == ConeBoundary::Prescribed)
+			expected = dense.solve(rhs - rhs.sum() * boundaryShares(linear.surface));
+		else {
+			// u = 0 on the boundary.
+			Eigen::MatrixXd laplacian = dense.laplacian;
+			VertexVector inside = rhs;
+			for (const Vertex v : rhs.indices())
+				if (topology.boundary[v]) {
+					laplacian.row(v.number()).setZero();
+					laplacian(v.number(), v.number()) = 1.0;
+					inside[v] = 0.0;
+				}
+			expected = laplacian.partialPivLu().solve(inside);
+			expected.array() -= dense.area.dot(expected);
+		}
+		const VertexVector u = linear.flow.solve(rhs);
+		EXPECT_NEAR(linear.flow.area().dot(u), 0.0, 1e-13);
+		const double size = expected.lpNorm<Eigen::Infinity>();
+		EXPECT_GT(size, 0.1); // or there is nothing to compare
+		EXPECT_LT((u - expected).lpNorm<Eigen::Infinity>(), 1e-7 * size);
+		EXPECT_NEAR(
+			linear.flow.meanSquare(u), dense.area.dot(u.cwiseProduct(u)), 1e-12 * size * size);
+	}
+}
+
+TEST(LinearFlow, OnAClosedSurfaceOneVertexTakesWhatIsMissingFromTheSum)
+{
+	Random random(762);
+	Linearised linear(cases()[0]);
+	const DenseFlow dense(linear.packed);
+	const VertexVector rhs = randomVector(linear.flow.vertexCount(), random);
+	const VertexVector missed = dense.laplacian * linear.flow.solve(rhs) - rhs;
+	int missing = 0;
+	for (const Vertex v : missed.indices())
+		if (std::abs(missed[v]) > 1e-6) {
+			EXPECT_NEAR(missed[v], -rhs.sum(), 1e-6);
+			++missing;
+		}
+	EXPECT_EQ(missing, 1);
+}
+
+TEST(LinearFlow, TheGradientSolvesTheAdjointProblem)
+{
+	Random random(763);
+	for (const Case& c : cases()) {
+		SCOPED_TRACE(c.name);
+		Linearised linear(c);
+		const VertexVector& area = linear.flow.area();
+		for (int trial = 0; trial < 5; ++trial) {
+			VertexVector a = randomVector(linear.flow.vertexCount(), random);
+			VertexVector b = randomVector(linear.flow.vertexCount(), random);
+			b.array() -= area.dot(b); // like all u
+			if (linear.flow.hasFixedSum())
+				a.array() -= a.mean();
+			const double left = linear.flow.solve(a).dot(area.cwiseProduct(b));
+			const double right = a.dot(linear.flow.gradient(b));
+			EXPECT_NEAR(left, right, 1e-12 * (1.0 + std::abs(left)));
+		}
+	}
+}
+
+TEST(LinearFlow, TheGradientIsTheDerivativeOfHalfTheMeanSquare)
+{
+	Random random(764);
+	for (const Case& c : cases()) {
+		SCOPED_TRACE(c.name);
+		Linearised linear(c);
+		const VertexArray<char>& boundary = linear.surface.topology.boundary;
+		const VertexVector rhs = -linear.flow.curvature();
+		const auto half = [&](Vertex v, Vertex w, double k) {
+			VertexVector moved = rhs;
+			moved[v] += k;
+			if (linear.flow.hasFixedSum())
+				moved[w] -= k;
+			return 0.5 * linear.flow.meanSquare(linear.flow.solve(moved));
+		};
+		const VertexVector phi = linear.flow.gradient(linear.flow.solve(rhs));
+		int tried = 0;
+		for (int trial = 0; trial < 40; ++trial) {
+			const Vertex v(random.index(linear.flow.vertexCount()));
+			const Vertex w(random.index(linear.flow.vertexCount()));
+			if (v == w || boundary[v] || boundary[w])
+				continue;
+			++tried;
+			// A quadratic function: the central difference is exact for any step.
+			const double slope = 0.5 * (half(v, w, 1.0) - half(v, w, -1.0));
+			const double wanted = linear.flow.hasFixedSum() ? phi[v] - phi[w] : phi[v];
+			EXPECT_NEAR(slope, wanted, 1e-11 * (1.0 + half(v, w, 1.0)));
+		}
+		EXPECT_GT(tried, 10);
+	}
+}
+
+bool sameBits(const VertexVector& a, const VertexVector& b)
+{
+	return a.size() == b.size() && (a.array() == b.array()).all();
+}
+
+TEST(LinearFlow, LeavesItsFactorToTheFlowWhichFindsTheSameToTheBit)
+{
+	Random random(765);
+	const SurfaceMesh sphere = shaken(perforatedSlab(0, 4), 0.05, random);
+	const SurfaceMesh genus2 = shaken(perforatedSlab(2, 3), 0.05, random);
+	const struct
+	{
+		SurfaceMesh mesh;
+		bool freeBoundary;
+	} flows[] = {
+		{sphere, true},
+		{genus2, true},
+		{withoutStars(genus2, {0, 60}), true},
+		{withoutStars(sphere, {0}), false}};
+	int compared = 0;
+	for (const auto& c : flows) {
+		const EmbeddedSurface surface =
+			embeddedSurface(VertexArray<Point3>(c.mesh.positions), c.mesh.triangles);
+		SCOPED_TRACE(surface.topology.type.name());
+		FlowOptions options;
+		options.epsilon = 1e-10;
+		TargetRequest request;
+		request.mode = TargetCurvature::PlacedCones;
+		request.freeBoundary = c.freeBoundary;
+		request.coneCount = 6;
+		FlowStart start = flowStart(surface, options);
+		EXPECT_FALSE(start.hessian);
+		const Target target = chooseTarget(surface, start, request);
+		ASSERT_TRUE(start.hessian);
+		const auto run = [&](FlowStart from) {
+			return runRicciFlow(
+				Background::EuclideanPlane,
+				surface,
+				std::move(from),
+				target,
+				options,
+				[](int, double) {});
+		};
+		const FlowResult with = run(std::move(start)), without = run(flowStart(surface, options));
+		EXPECT_EQ(with.iterations, without.iterations);
+		EXPECT_GT(with.iterations, 1);
+		EXPECT_TRUE(sameBits(with.u, without.u));
+		EXPECT_TRUE(sameBits(with.curvature, without.curvature));
+		EXPECT_EQ(with.metric->lengths(), without.metric->lengths());
+		EXPECT_EQ(with.history.flowFlips, without.history.flowFlips);
+		EXPECT_EQ(with.residual, without.residual);
+		EXPECT_EQ(with.doubled, without.doubled);
+		if (with.doubled)
+			continue; // the double has a start of its own
+		// The factor of the placement, which the flow counts as its own, spares it one.
+		EXPECT_EQ(with.work.factorizations, without.work.factorizations);
+		EXPECT_GT(with.work.solutions, without.work.solutions);
+		++compared;
+	}
+	EXPECT_GE(compared, 3);
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_INDEXED_H
+#define RICCI_INDEXED_H
+
+#include <cstddef>
+#include <initializer_list>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+/// Number of an element of one kind. \p Self is the kind: kinds do not convert into each other, and
+/// to and from integers by name only, so that a halfedge cannot stand where an edge is meant.
+template<class Self>
+class Index
+{
+public:
+	constexpr Index() = default; ///< no element
+	template<class Integer, class = std::enable_if_t<std::is_integral_v<Integer>>>
+	constexpr explicit Index(Integer number) : m_number(static_cast<int>(number))
+	{
+	}
+
+	constexpr int number() const { return m_number; }
+	constexpr bool isValid() const { return m_number >= 0; }
+
+	friend constexpr bool operator==(Self a, Self b) { return a.number() == b.number(); }
+	friend constexpr bool operator!=(Self a, Self b) { return a.number() != b.number(); }
+	friend constexpr bool operator<(Self a, Self b) { return a.number() < b.number(); }
+	friend constexpr bool operator>(Self a, Self b) { return a.number() > b.number(); }
+	friend constexpr bool operator<=(Self a, Self b) { return a.number() <= b.number(); }
+	friend constexpr bool operator>=(Self a, Self b) { return a.number() >= b.number(); }
+
+private:
+	int m_number = -1;
+};
+
+/// Position of an index in an array.
+constexpr std::size_t positionOf(int index)
+{
+	return static_cast<std::size_t>(index);
+}
+template<class Self>
+constexpr std::size_t positionOf(const Index<Self>& index)
+{
+	return static_cast<std::size_t>(index.number());
+}
+
+/// The elements with numbers first .. last - 1, for range-based loops.
+template<class I>
+class IndexRange
+{
+public:
+	class Iterator
+	{
+	public:
+		constexpr explicit Iterator(int number) : m_number(number) {}
+		constexpr I operator*() const { return I(m_number); }
+		constexpr Iterator& operator++()
+		{
+			++m_number;
+			return *this;
+		}
+		constexpr bool operator!=(const Iterator& other) const
+		{
+			return m_number != other.m_number;
+		}
+
+	private:
+		int m_number;
+	};
+
+	constexpr IndexRange(int first, int last) : m_first(first), m_last(last) {}
+	constexpr explicit IndexRange(int count) : m_first(0), m_last(count) {}
+	constexpr Iterator begin() const { return Iterator(m_first); }
+	constexpr Iterator end() const { return Iterator(m_last); }
+	constexpr int size() const { return m_last - m_first; }
+
+private:
+	int m_first, m_last;
+};
+
+/// A std::vector whose elements are found by indices of the type \p I.
+template<class I, class T>
+class IndexedArray
+{
+public:
+	using value_type = T;
+	using iterator = typename std::vector<T>::iterator;
+	using const_iterator = typename std::vector<T>::const_iterator;
+
+	IndexedArray() = default;
+	template<class Integer, class = std::enable_if_t<std::is_integral_v<Integer>>>
+	explicit IndexedArray(Integer size, const T& value = T()) :
+			m_values(static_cast<std::size_t>(size), value)
+	{
+	}
+	explicit IndexedArray(std::vector<T> values) : m_values(std::move(values)) {}
+	IndexedArray(std::initializer_list<T> values) : m_values(values) {}
+
+	T& operator[](I i) { return m_values[positionOf(i)]; }
+	const T& operator[](I i) const { return m_values[positionOf(i)]; }
+
+	int size() const { return static_cast<int>(m_values.size()); }
+	bool empty() const { return m_values.empty(); }
+	IndexRange<I> indices() const { return IndexRange<I>(size()); }
+
+	template<class Integer>
+	void assign(Integer size, const T& value)
+	{
+		m_values.assign(static_cast<std::size_t>(size), value);
+	}
+	template<class Integer>
+	void resize(Integer size, const T& value = T())
+	{
+		m_values.resize(static_cast<std::size_t>(size), value);
+	}
+	template<class Integer>
+	void reserve(Integer size)
+	{
+		m_values.reserve(static_cast<std::size_t>(size));
+	}
+	void clear() { m_values.clear(); }
+	void push_back(const T& value) { m_values.push_back(value); }
+	void push_back(T&& value) { m_values.push_back(std::move(value)); }
+	void pop_back() { m_values.pop_back(); }
+	void swap(IndexedArray& other) { m_values.swap(other.m_values); }
+
+	T& front() { return m_values.front(); }
+	const T& front() const { return m_values.front(); }
+	T& back() { return m_values.back(); }
+	const T& back() const { return m_values.back(); }
+	iterator begin() { return m_values.begin(); }
+	iterator end() { return m_values.end(); }
+	const_iterator begin() const { return m_values.begin(); }
+	const_iterator end() const { return m_values.end(); }
+	T* data() { return m_values.data(); }
+	const T* data() const { return m_values.data(); }
+
+	/// The array as a plain vector, in the order of the indices.
+	std::vector<T>& values() { return m_values; }
+	const std::vector<T>& values() const { return m_values; }
+
+	friend bool operator==(const IndexedArray& a, const IndexedArray& b)
+	{
+		return a.m_values == b.m_values;
+	}
+	friend bool operator!=(const IndexedArray& a, const IndexedArray& b) { return !(a == b); }
+
+private:
+	std::vector<T> m_values;
+};
+
+/// A std::vector of elements numbered by int (-1: none).
+template<class T>
+using Array = IndexedArray<int, T>;
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_CHART_DIVISION_H
+#define RICCI_CHART_DIVISION_H
+
+#include "chart_overlap.h"
+
+#include <array>
+#include <vector>
+
+namespace ricci {
+
+/// What a division cuts: edges of the chart's triangles, each counted once.
+struct ChartCuts
+{
+	int edges = 0;
+	double length = 0.0; ///< in space
+};
+
+/// Divides a chart along edges of its triangles so that no part contains both triangles of one of
+/// \p pairs. Two triangles are joined where they share an edge's vertices, and both its ends in the
+/// plane.
+///
+/// As long as a part has an overlap, one sheet of it is grown from its largest overlapping triangle,
+/// and the minimum cut of the dual graph between this sheet and all that it covers divides the part
+/// (cutting an edge costs its length in space). Cutting moves nothing in the plane, so each cut
+/// removes pairs and makes none. In the end neighbouring parts that do not cover each other are
+/// joined again. The same input always gives the same parts.
+/// \param pairs from overlappingPairs()
+/// \param edgeLength [triangle][side] in space; side k runs from corner k to corner k + 1
+/// \param cuts receives what was cut
+/// \return the triangles of each connected part, in increasing order, the parts by their first
+std::vector<std::vector<int>> divideChart(
+	const DrawnChart& chart,
+	const std::vector<TrianglePair>& pairs,
+	const Array<std::array<double, 3>>& edgeLength,
+	ChartCuts& cuts);
+
+} // namespace ricci
+
+#endif

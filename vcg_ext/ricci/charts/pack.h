@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From a map whose charts have places of their own each to texture coordinates of all of them.
+#ifndef RICCI_PACK_H
+#define RICCI_PACK_H
+
+#include "parametrization.h"
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace ricci {
+
+/// Finds places for boxes along the axes, none of them empty: [box] translations that leave at least
+/// \p room >= 0 between any two. One box alone stays where it is. Neither turns nor scales.
+using PlaceBoxes = std::function<std::vector<Point2>(const std::vector<Box2>& boxes, double room)>;
+
+/// The widest margin that packCharts() takes.
+constexpr double kMaxChartMargin = 0.25;
+
+/// packCharts() calls it; a caller may do so before a long run.
+/// \throw InvalidOption ChartMargin unless \p margin is between 0 and kMaxChartMargin
+void checkChartMargin(double margin);
+
+/// False if so many charts of any extent cannot keep \p margin, by the area of the margins alone.
+bool marginsMayFit(std::size_t charts, double margin);
+
+/// Places the bounding boxes of the charts beside each other, and moves the charts there. With \p
+/// normalize the smallest square round all boxes with their margins is then scaled to [0, 1]^2.
+/// Without it the charts keep their scale, and a single chart keeps its place.
+/// \param margin least distance of two charts, and of a chart from the border of the unit square, as
+/// a share of the side of that square, between 0 and kMaxChartMargin
+/// \throw InvalidOption ChartMargin, or ChartMarginTooWide if so many charts do not fit with it;
+/// InvalidMesh TooLargeForFloats if coordinates that keep their scale are beyond the range of float,
+/// in which they will be stored
+void packCharts(Parametrization& map, bool normalize, double margin, const PlaceBoxes& placeBoxes);
+
+/// Places the unit disks of the charts, as parametrizeHyperbolic() leaves them, in equal squares, row
+/// by row from the origin, which together lie in [0, 1]^2, and moves the charts there.
+/// \return [chart] the square that its disk fills
+std::vector<Box2> placeDisks(Parametrization& map);
+
+/// Moves every point p of a chart to scale p + shift, in the input's faces and in the refinement.
+void transformChart(Parametrization& map, const Chart& chart, double scale, const Point2& shift);
+
+/// Counts the flipped triangles of the output (flippedFaces, flippedByRounding of \p report) at their
+/// present coordinates: rounding while the charts are packed can turn a thin triangle round. Exact.
+void countFlippedAsWritten(const Parametrization& map, Report& report);
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_PARAMETRIZATION_H
+#define RICCI_PARAMETRIZATION_H
+
+#include "../math/points.h"
+#include "../measure/fuchsian_group.h"
+#include "../report.h"
+#include "../surface/surface_mesh.h"
+#include "../surface/surface_point.h"
+
+#include <string>
+#include <vector>
+
+namespace ricci {
+
+/// One component laid out by its own metric, or a part of one; not yet packed beside the others.
+struct Chart
+{
+	std::vector<int> faces;   ///< indices into SurfaceMesh::triangles
+	std::vector<int> refined; ///< indices into RefinedMesh::triangles
+	FuchsianGroup group;      ///< hyperbolic flow
+};
+
+/// The common refinement of the input with the triangles on which the map was found.
+struct RefinedMesh
+{
+	std::vector<SurfacePoint> points; ///< the input's vertices first, in order
+	std::vector<Triangle> triangles;  ///< into points, in the input's orientation
+	std::vector<int> inputFace;       ///< [triangle] index into SurfaceMesh::triangles
+	std::vector<Triangle2> uv;        ///< [triangle][corner]
+	std::vector<double> faceQC;       ///< sigma1 / sigma2
+	std::vector<double> vertexQC;     ///< [point]
+};
+
+/// A map of the whole mesh to the plane.
+struct Parametrization
+{
+	Report report;
+	std::vector<std::string> notes; ///< what was done or chosen without being asked
+	std::vector<Chart> charts;
+	std::vector<Triangle2> uv;  ///< [face][corner]; each chart with its smallest bounding rectangle
+								///< along the axes, from the origin
+	std::vector<char> reversed; ///< [face] 1 if the face was turned round
+	std::vector<double> faceQC; ///< sigma1 / sigma2
+	std::vector<double> vertexQC;        ///< area-weighted mean over the faces at the vertex
+	std::vector<double> u;               ///< [vertex] Eq. 6; 0 at unused vertices
+	std::vector<double> targetCurvature; ///< [vertex] radians, as reached
+	RefinedMesh
+		refined; ///< filled for OutputTriangulation::CommonRefinement; the report's qc fields
+		///< and flippedFaces then are its own
+
+	bool isRefined() const { return !refined.triangles.empty(); }
+};
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "separate_charts.h"
+
+#include "../math/min_area_rectangle.h"
+#include "chart_division.h"
+#include "chart_overlap.h"
+
+#include <array>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// Numbers of the output's triangles in a chart.
+const std::vector<int>& trianglesOf(const Parametrization& map, const Chart& chart)
+{
+	return map.isRefined() ? chart.refined : chart.faces;
+}
+
+/// The output's triangles of one chart, in the order of their component.
+struct OutputChart
+{
+	DrawnChart drawn;
+	Array<std::array<double, 3>> edgeLength;
+
+	OutputChart(const SurfaceMesh& mesh, const Parametrization& map, const Chart& chart)
+	{
+		for (int f : trianglesOf(map, chart)) {
+			const std::size_t i = positionOf(f);
+			Triangle t = map.isRefined() ? map.refined.triangles[i] : mesh.triangles[i];
+			Triangle2 plane = map.isRefined() ? map.refined.uv[i] : map.uv[i];
+			if (map.reversed[map.isRefined() ? positionOf(map.refined.inputFace[i]) : i]) {
+				std::swap(t[1], t[2]);
+				std::swap(plane[1], plane[2]);
+			}
+			std::array<Point3, 3> place;
+			for (std::size_t k = 0; k < 3; ++k) {
+				const std::size_t v = positionOf(t[k]);
+				place[k] = map.isRefined() ? placeOnSurface(map.refined.points[v], mesh.positions)
+										   : mesh.positions[v];
+			}
+			drawn.triangles.push_back(t);
+			drawn.plane.push_back(plane);
+			edgeLength.push_back(
+				{distance(place[0], place[1]),
+				 distance(place[1], place[2]),
+				 distance(place[2], place[0])});
+		}
+	}
+};
+
+/// Turns and moves a part of a chart so that its smallest bounding rectangle lies along the axes,
+/// from the origin.
+void turnUpright(Parametrization& map, const Chart& chart)
+{
+	std::vector<Point2> points;
+	for (int f : trianglesOf(map, chart))
+		for (const Point2& p :
+			 map.isRefined() ? map.refined.uv[positionOf(f)] : map.uv[positionOf(f)])
+			points.push_back(p);
+	const OrientedRectangle r = minAreaRectangle(std::move(points));
+	const auto move = [&](Triangle2& corners) {
+		for (Point2& p : corners) {
+			const Point2 q = r.inFrame(p);
+			p = {q[0] - r.min[0], q[1] - r.min[1]};
+		}
+	};
+	for (int f : chart.faces)
+		move(map.uv[positionOf(f)]);
+	for (int f : chart.refined)
+		move(map.refined.uv[positionOf(f)]);
+}
+
+/// The chart of each part: its output triangles, and the input's faces whose first piece is there.
+/// \p faceDone: [face] 1 if it is in a chart already.
+std::vector<Chart> chartsOf(
+	const Parametrization& map,
+	const Chart& whole,
+	const std::vector<std::vector<int>>& parts,
+	std::vector<char>& faceDone)
+{
+	const std::vector<int>& triangles = trianglesOf(map, whole);
+	std::vector<std::size_t> partOf(triangles.size());
+	for (std::size_t p = 0; p < parts.size(); ++p)
+		for (int i : parts[p])
+			partOf[positionOf(i)] = p;
+	std::vector<Chart> charts(parts.size());
+	for (std::size_t i = 0; i < partOf.size(); ++i) {
+		Chart& chart = charts[partOf[i]];
+		int f = triangles[i];
+		if (map.isRefined()) {
+			chart.refined.push_back(f);
+			f = map.refined.inputFace[positionOf(f)];
+		}
+		if (!faceDone[positionOf(f)])
+			chart.faces.push_back(f);
+		faceDone[positionOf(f)] = 1;
+	}
+	return charts;
+}
+
+} // namespace
+
+void separateCharts(const SurfaceMesh& mesh, bool resolve, const Tick& tick, Parametrization& map)
+{
+	std::vector<Chart> charts;
+	std::vector<char> faceDone(mesh.triangles.size(), 0);
+	for (Chart& chart : map.charts) {
+		const OutputChart output(mesh, map, chart);
+		const std::vector<TrianglePair> pairs = overlappingPairs(output.drawn, tick);
+		if (!pairs.empty() && !resolve) {
+			Array<char> overlaps(output.drawn.triangles.size(), 0);
+			for (const TrianglePair& pair : pairs)
+				for (int i : pair)
+					overlaps[i] = 1;
+			++map.report.overlappingCharts;
+			for (char o : overlaps)
+				map.report.overlappingFaces += o;
+		}
+		if (pairs.empty() || !resolve) {
+			charts.push_back(std::move(chart));
+			continue;
+		}
+		ChartCuts cuts;
+		const auto parts = divideChart(output.drawn, pairs, output.edgeLength, cuts);
+		map.report.overlapCuts += cuts.edges;
+		map.report.seamLength += cuts.length;
+		for (Chart& part : chartsOf(map, chart, parts, faceDone)) {
+			turnUpright(map, part);
+			charts.push_back(std::move(part));
+		}
+	}
+	map.charts = std::move(charts);
+	map.report.charts = static_cast<int>(map.charts.size());
+}
+
+} // namespace ricci

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_SEPARATE_CHARTS_H
+#define RICCI_SEPARATE_CHARTS_H
+
+#include "../progress.h"
+#include "../surface/surface_mesh.h"
+#include "parametrization.h"
+
+namespace ricci {
+
+/// Finds the charts of \p map that cover a part of the plane more than once (see
+/// overlappingPairs()), on the triangles of the output: those of the refinement where there is one.
+///
+/// With \p resolve such charts are replaced by the parts of divideChart(), each with its smallest
+/// bounding rectangle along the axes, from the origin. The report then has no overlap but the edges
+/// that were cut, whose length is added to that of the seams. A face of the input goes with the
+/// first of its pieces. Without \p resolve the report counts the charts, and their faces that
+/// overlap. In both cases it counts the charts.
+/// \param tick see overlappingPairs()
+void separateCharts(const SurfaceMesh& mesh, bool resolve, const Tick& tick, Parametrization& map);
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cut_graph.h"
+
+#include "../error.h"
+#include "../math/adjacency.h"
+#include "../math/disjoint_sets.h"
+#include "../math/shortest_paths.h"
+#include "shorten_cut.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// Roots tried on a closed surface.
+constexpr int kRoots = 4;
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+using NodePaths = ShortestPaths<Vertex, Halfedge>;
+
+/// The edges of a surface that a cut may use, as a graph in which every boundary loop is drawn
+/// together into one node. A node has the number of a vertex: its own, or one of its loop.
+class ContractedGraph
+{
+public:
+	ContractedGraph(
+		const Triangulation& t, const EdgeArray<double>& cost, const EdgeArray<char>& forbidden) :
+			m_t(t),
+			m_cost(cost), m_forbidden(forbidden), m_node(t.vertexCount())
+	{
+		for (const Vertex v : t.vertices())
+			m_node[v] = v;
+		for (const Halfedge first : t.boundaryLoops()) {
+			for (const Halfedge h : t.loop(first))
+				m_node[t.origin(h)] = t.origin(first);
+			m_loopNodes.push_back(t.origin(first));
+		}
+		m_halfedges = Adjacency<Vertex, Halfedge>(t.vertexCount(), [&](const auto& add) {
+			for (const Halfedge h : t.halfedges())
+				if (isUsable(h.edge()))
+					add(node(t.origin(h)), h);
+		});
+	}
+
+	const Triangulation& surface() const { return m_t; }
+	double cost(Edge e) const { return m_cost[e]; }
+	bool isUsable(Edge e) const
+	{
+		return !m_t.isBoundary(e) && (m_forbidden.empty() || !m_forbidden[e]);
+	}
+
+	Vertex node(Vertex v) const { return m_node[v]; }
+	Vertex from(Edge e) const { return node(m_t.origin(e.halfedge())); }
+	Vertex to(Edge e) const { return node(m_t.target(e.halfedge())); }
+	ItemRange<const Halfedge> halfedges(Vertex node) const { return m_halfedges[node]; }
+	const std::vector<Vertex>& loopNodes() const { return m_loopNodes; }
+
+	/// [node] 1 where the cut must arrive: boundary loops and marked vertices.
+	VertexArray<char> terminals(const VertexArray<char>& marked) const
+	{
+		VertexArray<char> terminal(m_t.vertexCount(), 0);
+		for (const Vertex n : m_loopNodes)
+			terminal[n] = 1;
+		for (const Vertex v : marked.indices())
+			if (marked[v])
+				terminal[node(v)] = 1;
+		return terminal;
+	}
+
+	NodePaths pathsFrom(const std::vector<Vertex>& roots) const
+	{
+		return shortestPaths<Vertex, Halfedge>(
+			m_t.vertexCount(), roots, [&](Vertex n, const auto& visit) {
+				for (const Halfedge h : halfedges(n))
+					visit(node(m_t.target(h)), cost(h.edge()), h);
+			});
+	}
+
+private:
+	const Triangulation& m_t;
+	const EdgeArray<double>& m_cost;
+	const EdgeArray<char>& m_forbidden;
+	VertexArray<Vertex> m_node;
+	std::vector<Vertex> m_loopNodes;
+	Adjacency<Vertex, Halfedge> m_halfedges;
+};
+
+/// A spanning tree of the graph: shortest paths to the nearest of several roots, and edges that
+/// join the trees of the roots.
+struct SpanningTree
+{
+	NodePaths paths;
+	std::vector<Edge> bridges;
+};
+
+/// Shortest paths to the nearest terminal, joined by edges of which those that belong to the
+/// shortest connections of two terminals come first. What is left of the tree without its dead ends
+/// is at most twice as long as the shortest tree through the terminals [Mehlhorn 1988].
+SpanningTree treeOfTerminals(const ContractedGraph& graph, const std::vector<Vertex>& terminals)
+{
+	const Triangulation& t = graph.surface();
+	SpanningTree tree{graph.pathsFrom(terminals), {}};
+	DisjointSetsOf<Vertex> joined(t.vertexCount());
+	for (const Halfedge h : tree.paths.parent)
+		if (h.isValid())
+			joined.merge(graph.node(t.origin(h)), graph.node(t.target(h)));
+	std::vector<std::pair<double, Edge>> connections;
+	for (const Edge e : t.edges()) {
+		const Vertex a = graph.from(e), b = graph.to(e);
+		if (graph.isUsable(e) && joined.find(a) != joined.find(b))
+			connections.push_back(
+				{tree.paths.distance[a] + graph.cost(e) + tree.paths.distance[b], e});
+	}
+	std::sort(connections.begin(), connections.end());
+	for (const auto& [length, e] : connections)
+		if (joined.merge(graph.from(e), graph.to(e)))
+			tree.bridges.push_back(e);
+	return tree;
+}
+
+/// Interior edges that are neither in the tree nor crossed by the cotree.
+std::vector<Edge>
+leftOver(const ContractedGraph& graph, const NodePaths& paths, const EdgeArray<char>& inTree)
+{
+	const Triangulation& t = graph.surface();
+	std::vector<Edge> edges;
+	// Of the loop that an edge closes with the paths from its ends. An edge that the cut must not
+	// use is crossed first.
+	EdgeArray<double> loopLength(t.edgeCount(), 0.0);
+	for (const Edge e : t.edges()) {
+		if (t.isBoundary(e) || inTree[e])
+			continue;
+		loopLength[e] = graph.isUsable(e) ? paths.distance[graph.from(e)] +
+												paths.distance[graph.to(e)] + graph.cost(e)
+										  : kFar;
+		edges.push_back(e);
+	}
+	std::sort(edges.begin(), edges.end(), [&](Edge a, Edge b) {
+		return loopLength[a] != loopLength[b] ? loopLength[a] > loopLength[b] : a < b;
+	});
+	DisjointSetsOf<Face> cotree(t.faceCount());
+	std::vector<Edge> rest;
+	for (const Edge e : edges) {
+		if (cotree.merge(t.face(e.halfedge()), t.face(e.halfedge().twin())))
+			continue;
+		if (loopLength[e] == kFar)
+			throw NotConverged(NotConverged::NoCut);
+		rest.push_back(e);
+	}
+	return rest;
+}
+
+/// Removes dead ends that are not terminals.
+void prune(const ContractedGraph& graph, const VertexArray<char>& terminal, EdgeArray<char>& isCut)
+{
+	const Triangulation& t = graph.surface();
+	VertexArray<int> degree(t.vertexCount(), 0); // [node]
+	for (const Edge e : t.edges())
+		if (isCut[e]) {
+			++degree[graph.from(e)];
+			++degree[graph.to(e)];
+		}
+	std::vector<Vertex> leaves;
+	for (const Vertex n : t.vertices())
+		if (degree[n] == 1 && !terminal[n])
+			leaves.push_back(n);
+	while (!leaves.empty()) {
+		const Vertex leaf = leaves.back();
+		leaves.pop_back();
+		for (const Halfedge h : graph.halfedges(leaf)) {
+			if (!isCut[h.edge()])
+				continue;
+			isCut[h.edge()] = 0;
+			const Vertex other = graph.node(t.target(h));
+			--degree[leaf];
+			if (--degree[other] == 1 && !terminal[other])
+				leaves.push_back(other);
+		}
+	}
+}
+
+/// Counts the edges of \p cut and adds up their costs.
+void measure(const ContractedGraph& graph, CutGraph& cut)
+{
+	cut.edgeCount = 0;
+	cut.length = 0.0;
+	for (const Edge e : cut.isCut.indices())
+		if (cut.isCut[e]) {
+			++cut.edgeCount;
+			cut.length += graph.cost(e);
+		}
+}
+
+/// The cut that \p tree belongs to.
+CutGraph
+cutFrom(const ContractedGraph& graph, const VertexArray<char>& terminal, const SpanningTree& tree)
+{
+	CutGraph cut;
+	cut.isCut.assign(graph.surface().edgeCount(), 0);
+	for (const Halfedge h : tree.paths.parent)
+		if (h.isValid())
+			cut.isCut[h.edge()] = 1;
+	for (const Edge e : tree.bridges)
+		cut.isCut[e] = 1;
+	for (const Edge e : leftOver(graph, tree.paths, cut.isCut))
+		cut.isCut[e] = 1;
+	prune(graph, terminal, cut.isCut);
+	measure(graph, cut);
+	return cut;
+}
+
+/// The shortest cut from a tree through the terminals and from the paths to single roots.
+CutGraph shortestOfSeveral(const ContractedGraph& graph, const VertexArray<char>& terminal)
+{
+	const Triangulation& t = graph.surface();
+	const std::size_t loops = graph.loopNodes().size();
+	std::vector<Vertex> terminals;
+	for (const Vertex n : t.vertices())
+		if (terminal[n])
+			terminals.push_back(n);
+	CutGraph best;
+	const bool hasTree = terminals.size() > 1;
+	if (hasTree) {
+		best = cutFrom(graph, terminal, treeOfTerminals(graph, terminals));
+		// The tree is all that a sphere with holes needs.
+		if (t.eulerCharacteristic() + static_cast<int>(loops) == 2)
+			return best;
+	}
+	// On a surface with boundary the first loop is the root. On a closed one every next root is the
+	// node farthest from the roots before it.
+	const bool closed = loops == 0;
+	Vertex root = !closed             ? graph.loopNodes().front()
+				  : terminals.empty() ? t.origin(t.halfedge(Face(0)))
+									  : terminals.front();
+	VertexArray<double> fromRoots;
+	for (int attempt = 0; attempt < (closed ? kRoots : 1); ++attempt) {
+		const SpanningTree tree{graph.pathsFrom({root}), {}};
+		CutGraph cut = cutFrom(graph, terminal, tree);
+		if ((attempt == 0 && !hasTree) || cut.length < best.length)
+			best = std::move(cut);
+		if (attempt == 0)
+			fromRoots = tree.paths.distance;
+		double farthest = -1.0;
+		for (const Vertex n : fromRoots.indices()) {
+			fromRoots[n] = std::min(fromRoots[n], tree.paths.distance[n]);
+			if (fromRoots[n] < kFar && fromRoots[n] > farthest) {
+				farthest = fromRoots[n];
+				root = n;
+			}
+		}
+	}
+	return best;
+}
+
+/// Edges of the cut outside a spanning tree of it.
+std::vector<Edge> generators(const ContractedGraph& graph, const CutGraph& cut)
+{
+	DisjointSetsOf<Vertex> joined(graph.surface().vertexCount());
+	std::vector<Edge> edges;
+	for (const Edge e : cut.isCut.indices())
+		if (cut.isCut[e] && !joined.merge(graph.from(e), graph.to(e)))
+			edges.push_back(e);
+	return edges;
+}
+
+} // namespace
+
+CutGraph cutToDisk(
+	const Triangulation& t,
+	const EdgeArray<double>& cost,
+	const VertexArray<char>& marked,
+	const EdgeArray<char>& forbidden,
+	const Tick& tick)
+{
+	const ContractedGraph graph(t, cost, forbidden);
+	CutGraph cut = shortestOfSeveral(graph, graph.terminals(marked));
+	shortenCut(t, cost, marked, forbidden, cut.isCut, tick);
+	measure(graph, cut);
+	cut.generators = generators(graph, cut);
+	return cut;
+}
+
+} // namespace ricci

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_CUT_GRAPH_H
+#define RICCI_CUT_GRAPH_H
+
+#include "../progress.h"
+#include "../surface/triangulation.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// Edges along which a surface is cut open into one topological disk.
+struct CutGraph
+{
+	EdgeArray<char> isCut; ///< 1 on the cut; boundary edges are never on it
+
+	/// 2 genus edges of the cut. The loops of the surface that cross one of them once, and the cut
+	/// nowhere else, generate the homology of the surface with every boundary loop filled.
+	std::vector<Edge> generators;
+
+	int edgeCount = 0;   ///< edges with isCut 1
+	double length = 0.0; ///< sum of their costs
+};
+
+/// Finds a short cut graph by a tree and a cotree (greedy system of loops
+/// [Erickson Whittlesey 2005]): a shortest-path tree of the edges, a spanning tree of the dual
+/// that crosses the edges with the longest loops first, and the 2 genus edges in neither. Every
+/// boundary loop counts as one point. The cut reaches every boundary loop and every vertex with
+/// \p marked (cones); other dead ends are taken back. Where there are several such points, a short
+/// tree through them [Mehlhorn 1988] competes as the first tree. On a closed surface several
+/// well-spread roots compete. The shortest of these cuts is shortened further by shortenCut().
+///
+/// A closed sphere with less than two marked vertices gets an empty cut. Deterministic.
+/// \param cost of a seam along the edge, positive; the length, or whatever else is to be small in
+/// sum
+/// \param marked 1 where the cut must pass or end, inside
+/// \param forbidden 1 where the cut must not run; may be empty
+/// \param tick see shortenCut()
+/// \pre \p t is connected
+/// \throw NotConverged (NoCut) if the forbidden edges leave no cut
+CutGraph cutToDisk(
+	const Triangulation& t,
+	const EdgeArray<double>& cost,
+	const VertexArray<char>& marked,
+	const EdgeArray<char>& forbidden,
+	const Tick& tick = [] {});
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_CUT_SEGMENTS_H
+#define RICCI_CUT_SEGMENTS_H
+
+#include "../surface/triangulation.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// A cut of a surface as a graph of which parts are taken out and put in, for shortenCut().
+///
+/// Its nodes are the vertices at which it branches or ends, and those on the boundary or with a
+/// mark. A segment is a path of cut edges from node to node, or a closed one without any node.
+class CutSegments
+{
+public:
+	using Around = Triangulation::Circulator<Triangulation::Clockwise>;
+
+	/// \param marked 1 at vertices that the cut must reach
+	/// \param forbidden 1 on edges where no path may run; may be empty
+	/// \param isCut kept up to date
+	CutSegments(
+		const Triangulation& t,
+		const VertexArray<char>& marked,
+		const EdgeArray<char>& forbidden,
+		EdgeArray<char>& isCut);
+
+	bool isCut(Edge e) const { return m_isCut[e]; }
+	bool isMarked(Vertex v) const { return m_marked[v]; }
+
+	/// Cut edges at \p v.
+	int degree(Vertex v) const { return m_degree[v]; }
+
+	/// Whether paths end at \p v: it lies on the cut or the boundary, or the cut must reach it.
+	bool isOnGraph(Vertex v) const { return m_onGraph[v]; }
+
+	/// Whether a path may run along \p e: not cut, not on the boundary, not forbidden.
+	bool isFree(Edge e) const { return m_free[e]; }
+
+	/// The halfedges that leave \p v, clockwise from the lowest one inside the surface. Of equally
+	/// short paths the first is taken; with this start that choice does not depend on the flips
+	/// that led to the triangulation, as it would with Triangulation::around().
+	Around around(Vertex v) const { return {m_t, m_first[v]}; }
+
+	/// One edge of every segment.
+	std::vector<Edge> segments();
+
+	/// The edges of the segment of \p e. Those of a closed segment without a node are named twice.
+	std::vector<Edge> segmentOf(Edge e) const;
+
+	/// Nodes inside the surface at which several segments meet.
+	std::vector<Vertex> branchNodes();
+
+	/// The segments at a node.
+	struct Star
+	{
+		std::vector<Edge> edges;
+		int segments = 0;
+		bool hasLoop = false; ///< a segment from the node to itself
+	};
+	Star starOf(Vertex node) const;
+
+	void add(const std::vector<Edge>& edges);
+
+	/// Takes \p edges out of the cut.
+	void remove(const std::vector<Edge>& edges);
+
+	/// Takes \p edges out of the cut, and then the dead ends that are left.
+	/// \return all that was removed
+	std::vector<Edge> removeWithDeadEnds(const std::vector<Edge>& edges);
+
+	/// Numbers the circles: the boundaries of the surface opened along the cut. A marked vertex
+	/// that the cut does not reach counts as a circle of its own. The halfedges that leave a circle
+	/// are those between two border edges, the second of these included: from a border halfedge h
+	/// with the open surface on its left they are found clockwise.
+	///
+	///                \  |  /
+	///        ===h===> o ===n===>       border edges: cut or boundary .
+	///
+	/// \return the number of circles
+	int labelCircles();
+
+	/// The circle that \p h leaves, as numbered by the last labelCircles(); -1 if none.
+	int circle(Halfedge h) const { return m_circle[h]; }
+
+	/// The halfedges with a circle.
+	const std::vector<Halfedge>& labelled() const { return m_labelled; }
+
+private:
+	bool isNode(Vertex v) const { return m_marked[v] || m_boundary[v] || m_degree[v] != 2; }
+	bool isBorder(Edge e) const { return m_isCut[e] || m_t.isBoundary(e); }
+	void set(Edge e, bool cut);
+	void noteVertex(Vertex v);
+	void noteEdge(Edge e);
+	void tidy();
+	Vertex walk(Halfedge h, std::vector<Edge>& edges) const;
+	void labelCircleOf(Halfedge side, int number);
+
+	const Triangulation& m_t;
+	const VertexArray<char>& m_marked;
+	const EdgeArray<char>& m_forbidden;
+	EdgeArray<char>& m_isCut;
+	VertexArray<char> m_boundary;
+	VertexArray<Halfedge> m_first; // lowest halfedge inside that leaves the vertex
+	VertexArray<int> m_degree;
+	VertexArray<char> m_onGraph;      // see isOnGraph()
+	EdgeArray<char> m_free;           // see isFree()
+	HalfedgeArray<int> m_circle;      // see circle()
+	std::vector<Halfedge> m_labelled; // see labelled()
+	std::vector<Edge> m_cutEdges;     // all of them, and some that are no longer; see tidy()
+	std::vector<Edge> m_boundaryEdges;
+	std::vector<Vertex> m_marks; // marked vertices inside
+};
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_SHORTEN_CUT_H
+#define RICCI_SHORTEN_CUT_H
+
+#include "../progress.h"
+#include "../surface/triangulation.h"
+
+namespace ricci {
+
+/// Shortens a cut graph, whose complement is a disk, by local search. The complement stays a disk,
+/// and the cut still reaches every marked vertex and every boundary loop.
+///
+/// Two moves are repeated while they gain.
+///
+/// Exchange: without one of its segments (a path between two nodes) the cut leaves an annulus. Any
+/// path between the two boundaries A and B of the annulus makes it a disk again, and the shortest
+/// is taken. It may start and end anywhere, so the move straightens seams, moves branches, and
+/// changes the homotopy class of loops.
+///
+///        +---------------+        +---------------+
+///        | A +---+       |        | A +---+       |
+///        |   | B |       |   ->   |---| B |       |
+///        |   +---+--. .--|        |   +---+       |
+///        |           '   |        |               |
+///        +---------------+        +---------------+
+///
+/// Rebuild: without all segments at a node several boundaries remain. They are joined anew one
+/// after another by shortest paths or, where they are three, by paths to the vertex with the least
+/// sum of distances (key-vertex elimination in the Steiner tree problem [Uchoa Werneck 2012]).
+///
+///        A       B        A       B        A ----- B
+///        |       |         '.   .'                 |
+///        +---o---+   ->      'o'       or          |
+///            |                |                    |
+///            C                C                C --+
+///
+/// Deterministic: of equally short paths always the same is taken. Between two moves the complement
+/// of \p isCut is a disk.
+/// \param cost positive
+/// \param marked 1 at vertices that the cut must reach
+/// \param forbidden 1 where the cut must not run; may be empty
+/// \param isCut changed in place; never a boundary edge
+/// \param tick is called between moves, many times a second. What it throws ends the search.
+/// \pre the surface opened along \p isCut is a disk, or nothing is cut
+void shortenCut(
+	const Triangulation& t,
+	const EdgeArray<double>& cost,
+	const VertexArray<char>& marked,
+	const EdgeArray<char>& forbidden,
+	EdgeArray<char>& isCut,
+	const Tick& tick = [] {});
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "factored_hessian.h"
+
+#include "../base/tolerances.h"
+#include "../error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ricci {
+
+namespace {
+
+/// From one shift to the next, up to that entry.
+constexpr double kShiftGrowth = 100.0;
+
+} // namespace
+
+FactoredHessian::FactoredHessian(const VertexArray<char>& fixed, bool scaleInvariant) :
+		m_row(fixed.size(), -1)
+{
+	const bool anyFixed = std::find(fixed.begin(), fixed.end(), 1) != fixed.end();
+	const Vertex pinned = !anyFixed && scaleInvariant ? Vertex(0) : Vertex();
+	for (const Vertex v : fixed.indices())
+		if (!fixed[v] && v != pinned)
+			m_row[v] = m_unknowns++;
+}
+
+bool FactoredHessian::hasUnknownsOf(const FactoredHessian& other) const
+{
+	return std::equal(
+		m_row.begin(), m_row.end(), other.m_row.begin(), other.m_row.end(), [](int a, int b) {
+			return (a >= 0) == (b >= 0);
+		});
+}
+
+void FactoredHessian::fill(const CurvatureMap& map, double shift)
+{
+	if (m_revision != map.revision()) {
+		m_hessian.layOut(map, m_row, m_unknowns);
+		m_isAnalyzed = false;
+		m_revision = map.revision();
+	}
+	m_hessian.fill(map, shift);
+}
+
+bool FactoredHessian::factorize(const CurvatureMap& map)
+{
+	double shift = map.brokenTriangles() > 0 ? kRegularisation : 0.0;
+	fill(map, shift);
+	if (!m_isAnalyzed) {
+		const auto layOut = [&] { m_hessian.layOut(map, m_row, m_unknowns); };
+		m_isFactored = false;
+		if (m_cholesky.analyze(m_hessian.matrix(), m_row.values(), layOut))
+			m_hessian.fill(map, shift);
+		m_isAnalyzed = true;
+	}
+	const double scale = std::max(m_hessian.largestDiagonal(), 1.0);
+	while (!m_cholesky.factorize(m_hessian.matrix())) {
+		shift = std::max(kShiftGrowth * shift, kFirstShift * scale);
+		if (!(shift <= scale) || std::isinf(shift))
+			throw SolverFailed(SolverFailed::Flow);
+		m_hessian.fill(map, shift);
+	}
+	m_isFactored = true;
+	m_isShifted = shift > 0.0;
+	return !m_isShifted;
+}
+
+void FactoredHessian::continueOn(const CurvatureMap& from, const CurvatureMap& to)
+{
+	m_revision = m_revision == from.revision() ? to.revision() : -1;
+}
+
+void FactoredHessian::gather(const VertexVector& values, Eigen::VectorXd& rows) const
+{
+	rows.resize(m_unknowns);
+	for (const Vertex v : m_row.indices())
+		if (m_row[v] >= 0)
+			rows[m_row[v]] = values[v];
+}
+
+void FactoredHessian::scatter(const Eigen::VectorXd& rows, VertexVector& values) const
+{
+	values.resize(m_row.size());
+	for (const Vertex v : m_row.indices())
+		values[v] = m_row[v] >= 0 ? rows[m_row[v]] : 0.0;
+}
+
+} // namespace ricci

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_TARGET_H
+#define RICCI_TARGET_H
+
+#include "../surface/elements.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ricci {
+
+/// A target curvature that Gauss-Bonnet allows.
+struct Target
+{
+	VertexVector curvature;  ///< radians; meaningless where fixed
+	VertexArray<char> fixed; ///< 1 where u keeps its value (free boundary, du = 0 in paper 5.3)
+	bool circular = false;   ///< boundary curvature to be adapted to a round disk
+	std::optional<std::array<Vertex, 4>> corners; ///< of a rectangle, in boundary order
+	std::vector<std::string> notes;               ///< what was chosen, in sentences
+
+	bool hasFixed() const { return std::find(fixed.begin(), fixed.end(), 1) != fixed.end(); }
+};
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sheets.h"
+
+#include "../math/disjoint_sets.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+class SheetMaker
+{
+public:
+	SheetMaker(const LinkedPieces& linked, const Triangulation& end, const EdgeArray<char>& isCut) :
+			m_linked(linked), m_end(end), m_isCut(isCut), m_sets(linked.pieces.count())
+	{
+	}
+
+	EndSheets run()
+	{
+		for (const auto& link : m_linked.links) {
+			if (!link[1].isValid())
+				continue;
+			const PieceCorner& side = m_linked.at(link[0]);
+			if (!isOnCut(side, m_isCut) && !side.end.isValid())
+				m_sets.merge(link[0].piece, link[1].piece);
+		}
+		do
+			listSheets();
+		while (!glue());
+		m_sheets.triangulation = Triangulation(m_end.vertexCount(), m_triangles, m_glued.values());
+		return std::move(m_sheets);
+	}
+
+private:
+	/// One sheet for each set of pieces.
+	void listSheets()
+	{
+		m_triangles.clear();
+		m_sheets.endFace.clear();
+		m_sheets.of.assign(m_linked.pieces.count(), Face());
+		for (const int p : m_sheets.of.indices()) {
+			if (m_sets.find(p) != p)
+				continue;
+			const Face f = m_linked.endFace[p];
+			const auto corner = m_end.vertices(f);
+			m_sheets.of[p] = Face(m_sheets.endFace.size());
+			m_sheets.endFace.push_back(f);
+			m_triangles.push_back({corner[0].number(), corner[1].number(), corner[2].number()});
+		}
+		for (const int p : m_sheets.of.indices())
+			m_sheets.of[p] = m_sheets.of[m_sets.find(p)];
+	}
+
+	/// Number of the side of a piece's sheet that is end halfedge h.
+	int sideOf(int piece, Halfedge h) const
+	{
+		const Face sheet = m_sheets.of[piece];
+		const auto sides = m_end.halfedges(m_sheets.endFace[sheet]);
+		return 3 * sheet.number() +
+			   static_cast<int>(std::find(sides.begin(), sides.end(), h) - sides.begin());
+	}
+
+	/// Glues the sheets. The cut is straight in another metric than the end edges and may cross one
+	/// of them twice with no vertex between: it then cuts parts off that lie across one side of one
+	/// sheet. They have one place in the layout and become one set.
+	/// \return false if there are such parts
+	bool glue()
+	{
+		Array<int> pieceAcross(3 * m_sheets.endFace.size(), -1); // [side] one of the other sheet
+		m_glued.assign(3 * m_sheets.endFace.size(), -1);
+		bool fits = true;
+		for (const auto& link : m_linked.links) {
+			if (!link[1].isValid())
+				continue;
+			const PieceCorner& side = m_linked.at(link[0]);
+			if (isOnCut(side, m_isCut) || !side.end.isValid())
+				continue;
+			const int a = sideOf(link[0].piece, side.end);
+			const int b = sideOf(link[1].piece, side.end.twin());
+			for (const auto& [from, to, piece] :
+				 {std::array<int, 3>{a, b, link[1].piece}, {b, a, link[0].piece}}) {
+				int& known = m_glued[from];
+				if (known >= 0 && known != to) {
+					m_sets.merge(pieceAcross[from], piece);
+					fits = false;
+				}
+				known = to;
+				pieceAcross[from] = piece;
+			}
+		}
+		return fits;
+	}
+
+	const LinkedPieces& m_linked;
+	const Triangulation& m_end;
+	const EdgeArray<char>& m_isCut;
+	DisjointSets m_sets; // of pieces: those of one sheet
+	EndSheets m_sheets;
+	std::vector<Triangle> m_triangles; // [sheet]
+	Array<int> m_glued;                // [3 sheet + side] side across it, or -1
+};
+
+} // namespace
+
+EndSheets
+makeSheets(const LinkedPieces& linked, const FlowResult& flow, const EdgeArray<char>& isCut)
+{
+	const Triangulation& end = flow.metric->triangulation();
+	EndSheets sheets = SheetMaker(linked, end, isCut).run();
+	const Triangulation& t = sheets.triangulation;
+	sheets.lengths.resize(t.edgeCount());
+	sheets.angles.resize(t.halfedgeCount(), 0.0);
+	for (const Face s : t.faces()) {
+		const auto h = t.halfedges(s), original = end.halfedges(sheets.endFace[s]);
+		for (std::size_t k = 0; k < 3; ++k) {
+			sheets.lengths[h[k].edge()] = flow.metric->lengths()[original[k].edge()];
+			sheets.angles[h[k]] = flow.metric->angles()[original[k]];
+		}
+	}
+	return sheets;
+}
+
+} // namespace ricci

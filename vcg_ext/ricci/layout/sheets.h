@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_SHEETS_H
+#define RICCI_SHEETS_H
+
+#include "../overlay/piece_faces.h"
+
+namespace ricci {
+
+/// Whether the side of a piece that begins at this corner is on the cut.
+inline bool isOnCut(const PieceCorner& c, const EdgeArray<char>& isCut)
+{
+	return c.input.isValid() && isCut[c.input.edge()];
+}
+
+/// The end triangles as they are laid out. The cut runs on input edges, through end triangles: a
+/// triangle that it divides is drawn once for each of its parts. A sheet is one such drawing, a whole
+/// triangle of which only the pieces of one part are used.
+struct EndSheets
+{
+	Triangulation triangulation; ///< its faces are the sheets, its vertices those of the end
+	FaceArray<Face> endFace;   ///< [sheet] its end triangle, whose halfedges() have the same order
+	Array<Face> of;            ///< [piece] its sheet
+	EdgeArray<double> lengths; ///< of the sheets in the metric of the end
+	HalfedgeArray<double> angles; ///< at the halfedge's origin
+};
+
+/// Makes the sheets that belong to the pieces of an overlay, glued along end edges where the pieces
+/// meet off the cut. They form a surface without a cut.
+/// \param isCut [input edge]
+EndSheets
+makeSheets(const LinkedPieces& linked, const FlowResult& flow, const EdgeArray<char>& isCut);
+
+} // namespace ricci
+
+#endif

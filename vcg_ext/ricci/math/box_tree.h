@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_BOX_TREE_H
+#define RICCI_BOX_TREE_H
+
+#include "../base/indexed.h"
+#include "points.h"
+
+#include <array>
+#include <vector>
+
+namespace ricci {
+
+/// Binary tree of boxes, divided at the median centre along the wider direction of the centres. The
+/// same boxes always give the same tree.
+class BoxTree
+{
+public:
+	explicit BoxTree(std::vector<Box2> boxes);
+
+	/// Calls visit(i, j), i != j, once for each pair of boxes that have inner points in common.
+	template<class Visit>
+	void meetingPairs(const Visit& visit) const
+	{
+		if (m_nodes.empty())
+			return;
+		std::vector<std::array<int, 2>> stack{{0, 0}};
+		while (!stack.empty()) {
+			const auto [a, b] = stack.back();
+			stack.pop_back();
+			const Node &x = m_nodes[a], &y = m_nodes[b];
+			if (a != b && !x.box.meets(y.box))
+				continue;
+			if (x.isLeaf() && y.isLeaf()) {
+				for (int i = x.first; i < x.last; ++i)
+					for (int j = a == b ? i + 1 : y.first; j < y.last; ++j)
+						if (m_boxes[m_order[i]].meets(m_boxes[m_order[j]]))
+							visit(m_order[i], m_order[j]);
+			}
+			else if (a == b) {
+				stack.push_back({x.left, x.left});
+				stack.push_back({x.right, x.right});
+				stack.push_back({x.left, x.right});
+			}
+			else if (y.isLeaf() || (!x.isLeaf() && x.last - x.first >= y.last - y.first)) {
+				stack.push_back({x.left, b});
+				stack.push_back({x.right, b});
+			}
+			else {
+				stack.push_back({a, y.left});
+				stack.push_back({a, y.right});
+			}
+		}
+	}
+
+	/// Calls visit(i) for each box that contains \p p, its border included.
+	template<class Visit>
+	void boxesAround(const Point2& p, const Visit& visit) const
+	{
+		if (m_nodes.empty())
+			return;
+		std::vector<int> stack{0};
+		while (!stack.empty()) {
+			const Node& x = m_nodes[stack.back()];
+			stack.pop_back();
+			if (!x.box.contains(p))
+				continue;
+			if (!x.isLeaf()) {
+				stack.push_back(x.left);
+				stack.push_back(x.right);
+				continue;
+			}
+			for (int i = x.first; i < x.last; ++i)
+				if (m_boxes[m_order[i]].contains(p))
+					visit(m_order[i]);
+		}
+	}
+
+	/// Longer side of the box round all boxes; 0 where there are none.
+	double extent() const { return m_nodes.empty() ? 0.0 : m_nodes[0].box.extent(); }
+
+private:
+	struct Node
+	{
+		Box2 box;
+		int first, last; ///< in m_order
+		int left = -1, right = -1;
+
+		bool isLeaf() const { return left < 0; }
+	};
+
+	int build(int first, int last);
+	Point2 centre(int i) const;
+
+	Array<Box2> m_boxes;
+	Array<int> m_order; ///< the boxes, so that those of a node are consecutive
+	Array<Node> m_nodes;
+};
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_DISJOINT_SETS_H
+#define RICCI_DISJOINT_SETS_H
+
+#include "../base/indexed.h"
+
+#include <algorithm>
+
+namespace ricci {
+
+/// Partition of the elements 0 .. n - 1, which starts with a set for each of them. \p I is the type
+/// of their indices. The lowest member stands for its set, so that the representatives depend on
+/// the partition alone, not on the order of the merges (union-find with path halving,
+/// [Tarjan van Leeuwen 1984]).
+template<class I>
+class DisjointSetsOf
+{
+public:
+	explicit DisjointSetsOf(int n) : m_parent(n)
+	{
+		for (const I i : m_parent.indices())
+			m_parent[i] = i;
+	}
+
+	int size() const { return m_parent.size(); }
+
+	/// The lowest member of the set of \p i.
+	I find(I i)
+	{
+		while (m_parent[i] != i)
+			i = m_parent[i] = m_parent[m_parent[i]];
+		return i;
+	}
+
+	/// Unites the sets of \p a and \p b.
+	/// \return whether they were two
+	bool merge(I a, I b)
+	{
+		a = find(a), b = find(b);
+		m_parent[std::max(a, b)] = std::min(a, b);
+		return a != b;
+	}
+
+private:
+	IndexedArray<I, I> m_parent; // never above its element
+};
+
+/// The same on plain numbers.
+using DisjointSets = DisjointSetsOf<int>;
+
+} // namespace ricci
+
+#endif

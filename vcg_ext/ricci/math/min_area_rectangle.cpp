@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "min_area_rectangle.h"
+
+#include "orientation.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// Corners of the convex hull, counter-clockwise (monotone chain
+/// [Andrew 1979]).
+std::vector<Point2> convexHull(std::vector<Point2> points)
+{
+	std::sort(points.begin(), points.end());
+	points.erase(std::unique(points.begin(), points.end()), points.end());
+	if (points.size() < 3)
+		return points;
+	std::vector<Point2> hull;
+	for (int pass = 0; pass < 2; ++pass) {
+		const std::size_t start = hull.size();
+		for (const Point2& p : points) {
+			while (hull.size() >= start + 2 &&
+				   orientation(hull[hull.size() - 2], hull.back(), p) <= 0)
+				hull.pop_back();
+			hull.push_back(p);
+		}
+		hull.pop_back();
+		std::reverse(points.begin(), points.end());
+	}
+	return hull;
+}
+
+} // namespace
+
+OrientedRectangle minAreaRectangle(std::vector<Point2> points)
+{
+	const std::vector<Point2> hull = convexHull(std::move(points));
+	OrientedRectangle best;
+	double minArea = std::numeric_limits<double>::infinity();
+	for (std::size_t i = 0; i < hull.size(); ++i) {
+		const Point2& p = hull[i];
+		const Point2& q = hull[(i + 1) % hull.size()];
+		const double length = distance(p, q);
+		OrientedRectangle r;
+		if (length > 0.0) {
+			r.cosine = (q[0] - p[0]) / length;
+			r.sine = (q[1] - p[1]) / length;
+		}
+		r.min = r.max = r.inFrame(p);
+		for (const Point2& other : hull) {
+			const Point2 x = r.inFrame(other);
+			for (std::size_t k = 0; k < 2; ++k) {
+				r.min[k] = std::min(r.min[k], x[k]);
+				r.max[k] = std::max(r.max[k], x[k]);
+			}
+		}
+		const double area = r.width() * r.height();
+		if (area < minArea) {
+			minArea = area;
+			best = r;
+		}
+	}
+	if (best.height() > best.width()) { // a quarter turn
+		const OrientedRectangle r = best;
+		best.cosine = -r.sine;
+		best.sine = r.cosine;
+		best.min = {r.min[1], -r.max[0]};
+		best.max = {r.max[1], -r.min[0]};
+	}
+	return best;
+}
+
+} // namespace ricci

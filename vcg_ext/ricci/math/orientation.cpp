@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "orientation.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace ricci {
+
+namespace {
+
+/// A number as an exact sum of doubles: each term is added with all its rounding errors kept
+/// (Grow-Expansion of [Shewchuk 1997]).
+class Expansion
+{
+public:
+	void addProduct(double x, double y)
+	{
+		const double product = x * y;
+		add(product);
+		add(std::fma(x, y, -product));
+	}
+
+	/// Sign of the sum: that of its largest non-zero term, since the terms do not overlap.
+	int sign() const
+	{
+		for (std::size_t i = m_size; i-- > 0;)
+			if (m_terms[i] != 0.0)
+				return m_terms[i] > 0.0 ? 1 : -1;
+		return 0;
+	}
+
+private:
+	/// Terms stay non-overlapping and of increasing magnitude.
+	void add(double term)
+	{
+		for (std::size_t i = 0; i < m_size; ++i) {
+			const double sum = m_terms[i] + term, virtualTerm = sum - m_terms[i];
+			m_terms[i] = (m_terms[i] - (sum - virtualTerm)) + (term - virtualTerm);
+			term = sum;
+		}
+		m_terms[m_size++] = term;
+	}
+
+	std::array<double, 12> m_terms;
+	std::size_t m_size = 0;
+};
+
+} // namespace
+
+int orientation(const Point2& a, const Point2& b, const Point2& c)
+{
+	const double left = (b[0] - a[0]) * (c[1] - a[1]);
+	const double right = (b[1] - a[1]) * (c[0] - a[0]);
+	const double area = left - right;
+	// More than the rounding error of the area, where nothing underflows.
+	const double bound =
+		4.0 * std::numeric_limits<double>::epsilon() * (std::abs(left) + std::abs(right));
+	if (std::abs(area) > bound && bound > std::numeric_limits<double>::min())
+		return area > 0.0 ? 1 : -1;
+	Expansion exact;
+	exact.addProduct(a[0], b[1]);
+	exact.addProduct(-a[1], b[0]);
+	exact.addProduct(b[0], c[1]);
+	exact.addProduct(-b[1], c[0]);
+	exact.addProduct(c[0], a[1]);
+	exact.addProduct(-c[1], a[0]);
+	return exact.sign();
+}
+
+} // namespace ricci

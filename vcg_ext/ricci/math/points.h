@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_POINTS_H
+#define RICCI_POINTS_H
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+namespace ricci {
+
+using Point2 = std::array<double, 2>;
+using Point3 = std::array<double, 3>;
+
+/// Corners of a triangle in the plane.
+using Triangle2 = std::array<Point2, 3>;
+
+inline double distance(const Point2& a, const Point2& b)
+{
+	return std::hypot(a[0] - b[0], a[1] - b[1]);
+}
+
+inline double distance(const Point3& a, const Point3& b)
+{
+	return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// Twice the area of the triangle abc as rounding finds it, positive if counter-clockwise. Its sign
+/// is certain only from orientation().
+inline double doubledArea(const Point2& a, const Point2& b, const Point2& c)
+{
+	return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+inline std::complex<double> asComplex(const Point2& p)
+{
+	return {p[0], p[1]};
+}
+
+inline Point2 asPoint(std::complex<double> z)
+{
+	return {z.real(), z.imag()};
+}
+
+/// Smallest box along the axes round the points that were added.
+struct Box2
+{
+	Point2 min{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+	Point2 max{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+	void add(const Point2& p)
+	{
+		for (std::size_t k = 0; k < 2; ++k) {
+			min[k] = std::min(min[k], p[k]);
+			max[k] = std::max(max[k], p[k]);
+		}
+	}
+	void add(const Box2& box)
+	{
+		add(box.min);
+		add(box.max);
+	}
+	/// Whether the boxes have inner points in common.
+	bool meets(const Box2& box) const
+	{
+		return min[0] < box.max[0] && box.min[0] < max[0] && min[1] < box.max[1] &&
+			   box.min[1] < max[1];
+	}
+	bool contains(const Point2& p) const
+	{
+		return min[0] <= p[0] && p[0] <= max[0] && min[1] <= p[1] && p[1] <= max[1];
+	}
+	double width() const { return max[0] - min[0]; }
+	double height() const { return max[1] - min[1]; }
+	/// The longer side.
+	double extent() const { return std::max(width(), height()); }
+};
+
+} // namespace ricci
+
+#endif

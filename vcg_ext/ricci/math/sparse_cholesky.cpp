@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "sparse_cholesky.h"
+
+#include <new>
+#include <numeric>
+
+#ifdef RICCI_USE_CHOLMOD
+#include <cholmod.h>
+#else
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCholesky>
+#endif
+
+#if defined(RICCI_USE_CHOLMOD) && defined(__GNUC__) && defined(__ELF__)
+// Defined where the BLAS behind CHOLMOD is OpenBLAS, and where CHOLMOD was built with OpenMP.
+extern "C" {
+__attribute__((weak)) void openblas_set_num_threads(int);
+__attribute__((weak)) int openblas_get_num_threads(void);
+__attribute__((weak)) void omp_set_max_active_levels(int);
+__attribute__((weak)) int omp_get_max_active_levels(void);
+}
+#define RICCI_THREAD_CONTROL
+#endif
+
+namespace ricci {
+
+namespace {
+
+[[noreturn]] void tooLittleMemory()
+{
+	throw std::bad_alloc();
+}
+
+} // namespace
+
+#ifdef RICCI_USE_CHOLMOD
+
+namespace {
+
+/// One thread for the libraries below: how many there are must not change a bit of the result, and
+/// CHOLMOD's own loops are so short that threads cost more than they save.
+class OneThread
+{
+public:
+	OneThread()
+	{
+#ifdef RICCI_THREAD_CONTROL
+		if (openblas_set_num_threads && openblas_get_num_threads) {
+			m_blasThreads = openblas_get_num_threads();
+			if (m_blasThreads > 1)
+				openblas_set_num_threads(1);
+		}
+		if (omp_set_max_active_levels && omp_get_max_active_levels) {
+			m_levels = omp_get_max_active_levels();
+			omp_set_max_active_levels(0);
+		}
+#endif
+	}
+	~OneThread()
+	{
+#ifdef RICCI_THREAD_CONTROL
+		if (m_blasThreads > 1)
+			openblas_set_num_threads(m_blasThreads);
+		if (m_levels >= 0)
+			omp_set_max_active_levels(m_levels);
+#endif
+	}
+	OneThread(const OneThread&) = delete;
+	OneThread& operator=(const OneThread&) = delete;
+
+private:
+	int m_blasThreads = 0, m_levels = -1;
+};
+
+/// From this number of unknowns on the ordering is METIS's nested dissection: it takes longer than
+/// the factorisation it saves, but the factor is smaller by a third, and beyond this size memory is
+/// what runs out.
+constexpr int kNestedDissectionFrom = 2000000;
+
+} // namespace
+
+struct SparseCholesky::Implementation
+{
+	cholmod_common common;
+	cholmod_factor* factor = nullptr;
+	bool analyzed = false; ///< by order()
+	double flops = 0.0, entries = 0.0;
+	/// Work space of solve(). Not an Eigen vector: memory is freed twice if its resize() fails.
+	std::vector<double> rowsBelow;
+
+	Implementation()
+	{
+		cholmod_start(&common);
+		common.nmethods = 1; // no search through several orderings
+		common.supernodal = CHOLMOD_SUPERNODAL;
+		common.print = 0;
+	}
+	~Implementation()
+	{
+		cholmod_free_factor(&factor, &common);
+		cholmod_finish(&common);
+	}
+	Implementation(const Implementation&) = delete;
+	Implementation& operator=(const Implementation&) = delete;
+
+	/// \p matrix as CHOLMOD sees it: it is only read.
+	static cholmod_sparse view(const Matrix& matrix)
+	{
+		cholmod_sparse a{};
+		a.nrow = static_cast<std::size_t>(matrix.rows());
+		a.ncol = static_cast<std::size_t>(matrix.cols());
+		a.nzmax = static_cast<std::size_t>(matrix.nonZeros());
+		a.p = const_cast<int*>(matrix.outerIndexPtr());
+		a.i = const_cast<int*>(matrix.innerIndexPtr());
+		a.x = const_cast<double*>(matrix.valuePtr());
+		a.stype = -1;
+		a.itype = CHOLMOD_INT;
+		a.xtype = CHOLMOD_REAL;
+		a.dtype = CHOLMOD_DOUBLE;
+		a.sorted = 1;
+		a.packed = 1;
+		return a;
+	}
+
+	void analyze(const Matrix& pattern, int ordering, int postorder)
+	{
+		cholmod_sparse a = view(pattern);
+		cholmod_free_factor(&factor, &common);
+		common.method[0].ordering = ordering;
+		common.postorder = postorder;
+		factor = cholmod_analyze(&a, &common);
+		if (!factor)
+			tooLittleMemory();
+		flops = common.fl;
+		entries = common.lnz;
+	}
+
+	/// Columns first .. first + width - 1 of the factor, which have the same rows: their own, and
+	/// \p height others below. Stored by columns, each from the diagonal block's first row.
+	struct Supernode
+	{
+		int first, width, height;
+		const int* below; ///< [height] rows below the diagonal block
+		const double* values;
+
+		const double* column(int c) const
+		{
+			return values + positionOf(c) * (positionOf(width) + positionOf(height));
+		}
+		using Vector = Eigen::Map<const Eigen::VectorXd>;
+		Vector columnBelow(int c) const { return {column(c) + width, height}; }
+	};
+
+	Supernode supernode(std::size_t k) const
+	{
+		const auto* first = static_cast<const int*>(factor->super);
+		const auto* rows = static_cast<const int*>(factor->pi);
+		const auto* start = static_cast<const int*>(factor->px);
+		const int width = first[k + 1] - first[k];
+		return {
+			first[k],
+			width,
+			rows[k + 1] - rows[k] - width,
+			static_cast<const int*>(factor->s) + rows[k] + width,
+			static_cast<const double*>(factor->x) + start[k]};
+	}
+
+	/// x = L^-1 x, supernode by supernode.
+	void solveForward(double* x)
+	{
+		for (std::size_t k = 0; k < factor->nsuper; ++k) {
+			const Supernode node = supernode(k);
+			double* own = x + node.first;
+			for (int c = 0; c < node.width; ++c) {
+				const double* column = node.column(c);
+				own[c] /= column[c];
+				for (int r = c + 1; r < node.width; ++r)
+					own[r] -= column[r] * own[c];
+			}
+			Eigen::Map<Eigen::VectorXd> below(rowsBelow.data(), node.height);
+			below.setZero();
+			int c = 0;
+			for (; c + 4 <= node.width; c += 4) // a quarter of the passes over the sums
+				below += node.columnBelow(c) * own[c] + node.columnBelow(c + 1) * own[c + 1] +
+						 node.columnBelow(c + 2) * own[c + 2] +
+						 node.columnBelow(c + 3) * own[c + 3];
+			for (; c < node.width; ++c)
+				below += node.columnBelow(c) * own[c];
+			for (int r = 0; r < node.height; ++r)
+				x[node.below[r]] -= below[r];
+		}
+	}
+
+	/// x = L^-T x.
+	void solveBackward(double* x)
+	{
+		for (std::size_t k = factor->nsuper; k-- > 0;) {
+			const Supernode node = supernode(k);
+			double* own = x + node.first;
+			Eigen::Map<Eigen::VectorXd> below(rowsBelow.data(), node.height);
+			for (int r = 0; r < node.height; ++r)
+				below[r] = x[node.below[r]];
+			for (int c = node.width - 1; c >= 0; --c) {
+				const double* column = node.column(c);
+				double sum = own[c] - node.columnBelow(c).dot(below);
+				for (int r = c + 1; r < node.width; ++r)
+					sum -= column[r] * own[r];
+				own[c] = sum / column[c];
+			}
+		}
+	}
+};
+
+SparseCholesky::SparseCholesky() : m_implementation(std::make_unique<Implementation>())
+{
+}
+
+/// [row chosen] row of the pattern.
+std::vector<int> SparseCholesky::order(const Matrix& pattern)
+{
+	const OneThread oneThread;
+	Implementation& own = *m_implementation;
+	own.analyze(pattern, pattern.rows() < kNestedDissectionFrom ? CHOLMOD_AMD : CHOLMOD_METIS, 1);
+	++m_work.orderings;
+	++m_work.analyses;
+	// The factor is that of the renumbered matrix in its natural order.
+	int* permutation = static_cast<int*>(own.factor->Perm);
+	std::vector<int> order(permutation, permutation + own.factor->n);
+	std::iota(permutation, permutation + own.factor->n, 0);
+	own.factor->ordering = CHOLMOD_NATURAL;
+	own.analyzed = true;
+	return order;
+}
+
+/// Costs nothing for the pattern that order() has just analyzed, renumbered.
+void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
+{
+	Implementation& own = *m_implementation;
+	if (!own.analyzed || own.factor->n != static_cast<std::size_t>(pattern.rows())) {
+		const OneThread oneThread;
+		own.analyze(pattern, CHOLMOD_NATURAL, 0);
+		++m_work.analyses;
+	}
+	own.analyzed = false;
+}
+
+bool SparseCholesky::factorize(const Matrix& matrix)
+{
+	const OneThread oneThread;
+	Implementation& own = *m_implementation;
+	cholmod_sparse a = Implementation::view(matrix);
+	cholmod_factorize(&a, own.factor, &own.common);
+	++m_work.factorizations;
+	m_work.flops += own.flops;
+	if (own.common.status < CHOLMOD_OK)
+		tooLittleMemory();
+	return own.common.status == CHOLMOD_OK;
+}
+
+// CHOLMOD's own solution calls BLAS for each supernode, most of which are so small that the calls
+// take as long as the arithmetic: this is about twice as fast.
+void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
+{
+	Implementation& own = *m_implementation;
+	own.rowsBelow.resize(own.factor->maxesize);
+	x = rhs;
+	own.solveForward(x.data());
+	own.solveBackward(x.data());
+	++m_work.solutions;
+	m_work.flops += 4.0 * own.entries;
+}
+
+double SparseCholesky::factorEntries() const
+{
+	return m_implementation->entries;
+}
+
+double SparseCholesky::factorFlops() const
+{
+	return m_implementation->flops;
+}
+
+const char* SparseCholesky::name()
+{
+	return "CHOLMOD supernodal";
+}
+
+#else
+
+struct SparseCholesky::Implementation
+{
+	/// Eigen keeps the column counts that its symbolic factorisation finds to itself.
+	struct Solver : Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>
+	{
+		const auto& columnEntries() const { return m_nonZerosPerCol; }
+	};
+	Solver solver;
+	double flops = 0.0, entries = 0.0;
+};
+
+SparseCholesky::SparseCholesky() : m_implementation(std::make_unique<Implementation>())
+{
+}
+
+/// [row chosen] row of the pattern.
+std::vector<int> SparseCholesky::order(const Matrix& pattern)
+{
+	Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
+	Eigen::AMDOrdering<int> ordering;
+	ordering(pattern.selfadjointView<Eigen::Lower>(), permutation);
+	++m_work.orderings;
+	const auto& indices = permutation.indices();
+	return {indices.data(), indices.data() + indices.size()};
+}
+
+void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
+{
+	Implementation& own = *m_implementation;
+	own.solver.analyzePattern(pattern);
+	if (own.solver.info() != Eigen::Success)
+		tooLittleMemory();
+	++m_work.analyses;
+	own.flops = own.entries = 0.0;
+	for (const int below : own.solver.columnEntries()) {
+		own.entries += 1.0 + below;
+		own.flops += (1.0 + below) * (1.0 + below);
+	}
+}
+
+bool SparseCholesky::factorize(const Matrix& matrix)
+{
+	Implementation& own = *m_implementation;
+	own.solver.factorize(matrix);
+	++m_work.factorizations;
+	m_work.flops += own.flops;
+	// LDLT goes through negative pivots without complaint.
+	return own.solver.info() == Eigen::Success && (own.solver.vectorD().array() > 0.0).all();
+}
+
+void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
+{
+	x.noalias() = m_implementation->solver.solve(rhs);
+	++m_work.solutions;
+	m_work.flops += 4.0 * m_implementation->entries;
+}
+
+double SparseCholesky::factorEntries() const
+{
+	return m_implementation->entries;
+}
+
+double SparseCholesky::factorFlops() const
+{
+	return m_implementation->flops;
+}
+
+const char* SparseCholesky::name()
+{
+	return "Eigen SimplicialLDLT";
+}
+
+#endif
+
+SparseCholesky::~SparseCholesky() = default;
+
+/// [row of the pattern] the row that it should have.
+Array<int> SparseCholesky::chooseRows(const Matrix& pattern)
+{
+	const std::vector<int> order = this->order(pattern);
+	Array<int> chosen(order.size());
+	for (std::size_t i = 0; i < order.size(); ++i)
+		chosen[order[i]] = static_cast<int>(i);
+	return chosen;
+}
+
+} // namespace ricci

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_SPARSE_CHOLESKY_H
+#define RICCI_SPARSE_CHOLESKY_H
+
+#include "../base/indexed.h"
+
+#include <Eigen/SparseCore>
+
+#include <memory>
+#include <vector>
+
+namespace ricci {
+
+/// Work done by a SparseCholesky since its construction: what a machine's speed does not change.
+struct CholeskyWork
+{
+	int orderings = 0, analyses = 0, factorizations = 0, solutions = 0;
+	double flops = 0.0; ///< floating-point operations of all of them
+};
+
+/// Solver of symmetric positive definite sparse systems given by their lower triangle: supernodal
+/// CHOLMOD [Chen et al. 2008] where it was found at build time (RICCI_USE_CHOLMOD), Eigen's
+/// SimplicialLDLT otherwise.
+///
+/// Unknowns are eliminated in the order of their rows, which analyze() chooses: matrices are laid out
+/// in that order, so that nothing has to be permuted afterwards.
+class SparseCholesky
+{
+public:
+	using Matrix = Eigen::SparseMatrix<double>;
+
+	SparseCholesky();
+	~SparseCholesky();
+	SparseCholesky(const SparseCholesky&) = delete;
+	SparseCholesky& operator=(const SparseCholesky&) = delete;
+
+	/// Symbolic factorisation of \p pattern. Stays valid while the pattern does.
+	///
+	/// Where that reduces the fill, chooses other rows and has the pattern laid out for them by \p
+	/// layOut(): the first time, where the number of unknowns is another, and where changes of the
+	/// pattern have made a factorisation half as expensive again as when the rows were chosen. Their
+	/// order is that of approximate minimum degree, or nested dissection (METIS, with CHOLMOD only)
+	/// where the factor is large.
+	/// \param row an array of int, by element: the row of its unknown in the pattern, -1 if it has
+	/// none
+	/// \return whether the rows have changed
+	/// \throw std::bad_alloc
+	template<class Rows, class LayOut>
+	bool analyze(const Matrix& pattern, Rows& row, const LayOut& layOut)
+	{
+		if (pattern.rows() == m_orderedRows) {
+			analyzeAsNumbered(pattern);
+			if (factorFlops() <= kMaxGrowth * m_orderedFlops)
+				return false;
+		}
+		const Array<int> chosen = chooseRows(pattern);
+		for (int& r : row)
+			if (r >= 0)
+				r = chosen[r];
+		layOut();
+		analyzeAsNumbered(pattern);
+		m_orderedRows = pattern.rows();
+		m_orderedFlops = factorFlops();
+		return true;
+	}
+
+	/// Numeric factorisation of a matrix with the pattern last analyzed.
+	/// \return false if \p matrix is not positive definite
+	/// \throw std::bad_alloc
+	bool factorize(const Matrix& matrix);
+
+	/// Solves with the last factor: \p x = matrix^-1 \p rhs.
+	/// \pre factorize() has returned true
+	void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
+
+	/// Entries of the factor, by the last symbolic factorisation.
+	double factorEntries() const;
+
+	/// Floating-point operations of a numeric factorisation, by the last symbolic one.
+	double factorFlops() const;
+
+	const CholeskyWork& work() const { return m_work; }
+
+	/// The library behind this class, for logs and benchmarks.
+	static const char* name();
+
+private:
+	struct Implementation;
+
+	/// A factorisation may become more expensive by this factor before other rows are chosen.
+	static constexpr double kMaxGrowth = 1.5;
+
+	Array<int> chooseRows(const Matrix& pattern);
+	std::vector<int> order(const Matrix& pattern);
+	void analyzeAsNumbered(const Matrix& pattern);
+
+	std::unique_ptr<Implementation> m_implementation;
+	CholeskyWork m_work;
+	Eigen::Index m_orderedRows = -1;
+	double m_orderedFlops = 0.0; ///< of a factorisation, when the rows were chosen
+};
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "distortion.h"
+
+#include "../base/indexed.h"
+#include "../base/tolerances.h"
+#include "../math/orientation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// A triangle in space drawn in the plane, its first corner at 0, the second on the positive real
+/// axis.
+struct DrawnTriangle
+{
+	double base, height;
+	std::complex<double> apex;
+
+	explicit DrawnTriangle(const std::array<Point3, 3>& p)
+	{
+		double a[3], b[3], dot = 0.0;
+		for (std::size_t i = 0; i < 3; ++i) {
+			a[i] = p[1][i] - p[0][i];
+			b[i] = p[2][i] - p[0][i];
+			dot += a[i] * b[i];
+		}
+		base = std::hypot(a[0], a[1], a[2]);
+		height =
+			std::hypot(
+				a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]) /
+			base;
+		apex = {dot / base, height};
+	}
+
+	bool hasArea() const
+	{
+		const double longest = std::max({base, std::abs(apex), std::abs(apex - base)});
+		return base > 0.0 && base * height > kMinTriangleHeight * longest * longest;
+	}
+};
+
+double planeArea(const Triangle2& p)
+{
+	return 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
+}
+
+std::array<Point3, 3> cornersOf(const SurfaceMesh& mesh, const Triangle& t)
+{
+	return {
+		mesh.positions[positionOf(t[0])],
+		mesh.positions[positionOf(t[1])],
+		mesh.positions[positionOf(t[2])]};
+}
+
+bool isOriented(const Triangle2& p, bool reversed)
+{
+	return orientation(p[0], p[1], p[2]) == (reversed ? -1 : 1);
+}
+
+/// Through memory, because GCC 12 takes double(float(x)) for x where it vectorizes.
+double roundedToFloat(double x)
+{
+	const volatile float rounded = static_cast<float>(x);
+	return double(rounded);
+}
+
+} // namespace
+
+double triangleArea(const std::array<Point3, 3>& p)
+{
+	const DrawnTriangle drawn(p);
+	return drawn.base > 0.0 ? 0.5 * drawn.base * drawn.height : 0.0;
+}
+
+double surfaceArea(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles)
+{
+	double area = 0.0;
+	for (const Triangle& t : triangles)
+		area += triangleArea(
+			{positions[positionOf(t[0])],
+			 positions[positionOf(t[1])],
+			 positions[positionOf(t[2])]});
+	return area;
+}
+
+double quasiConformalDistortion(const std::array<Point3, 3>& surface, const Triangle2& plane)
+{
+	const DrawnTriangle drawn(surface);
+	if (!drawn.hasArea())
+		return std::numeric_limits<double>::quiet_NaN();
+	// The map z -> alpha z + beta conj(z) sends base to b and the apex to c.
+	const std::complex<double> b(plane[1][0] - plane[0][0], plane[1][1] - plane[0][1]);
+	const std::complex<double> c(plane[2][0] - plane[0][0], plane[2][1] - plane[0][1]);
+	const std::complex<double> alongBase = b / drawn.base;
+	const std::complex<double> across = (c - alongBase * drawn.apex.real()) / drawn.height;
+	const std::complex<double> i(0.0, 1.0);
+	const double alpha = std::abs(alongBase - i * across);
+	const double beta = std::abs(alongBase + i * across);
+	const double smaller = std::abs(alpha - beta);
+	return smaller > 0.0 ? (alpha + beta) / smaller : std::numeric_limits<double>::infinity();
+}
+
+AreaDistortion areaDistortion(const std::vector<double>& before, const std::vector<double>& after)
+{
+	double totalBefore = 0.0, totalAfter = 0.0;
+	const auto counts = [&](std::size_t f) { return before[f] > 0.0 && after[f] > 0.0; };
+	for (std::size_t f = 0; f < before.size(); ++f)
+		if (counts(f)) {
+			totalBefore += before[f];
+			totalAfter += after[f];
+		}
+	AreaDistortion distortion;
+	if (!(totalBefore > 0.0))
+		return distortion;
+	double mean = 0.0, logMean = 0.0, logSquare = 0.0;
+	std::vector<double> binaryLogs;
+	for (std::size_t f = 0; f < before.size(); ++f) {
+		if (!counts(f))
+			continue;
+		const double weight = before[f] / totalBefore;
+		const double logFactor = std::log(after[f] / totalAfter) - std::log(weight);
+		binaryLogs.push_back(logFactor / std::log(2.0));
+		mean += weight * std::exp(std::abs(logFactor));
+		logMean += weight * logFactor;
+		logSquare += weight * logFactor * logFactor;
+	}
+	distortion.histogram = factorHistogram(binaryLogs);
+	distortion.mean = mean;
+	distortion.spread = std::sqrt(std::max(0.0, logSquare - logMean * logMean));
+	return distortion;
+}
+
+DistortionField measureDistortion(
+	const SurfaceMesh& mesh,
+	const std::vector<Triangle2>& plane,
+	const std::vector<char>& reversed,
+	Report& report)
+{
+	DistortionField field;
+	field.face.resize(mesh.triangles.size());
+	field.vertex.assign(mesh.positions.size(), 0.0);
+	std::vector<double> ringArea(mesh.positions.size(), 0.0), measured;
+	double sum = 0.0, areaSum = 0.0, weightedSum = 0.0;
+	std::vector<double> areaBefore(mesh.triangles.size(), 0.0), areaAfter = areaBefore;
+	report.flippedFaces = 0;
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+		const std::array<Point3, 3> corners = cornersOf(mesh, mesh.triangles[f]);
+		const double qc = field.face[f] = quasiConformalDistortion(corners, plane[f]);
+		report.flippedFaces += !isOriented(plane[f], reversed[f]);
+		if (!std::isfinite(qc))
+			continue;
+		const double area = triangleArea(corners);
+		areaBefore[f] = area;
+		areaAfter[f] = planeArea(plane[f]);
+		measured.push_back(qc);
+		sum += qc;
+		areaSum += area;
+		weightedSum += area * qc;
+		for (const int v : mesh.triangles[f]) {
+			field.vertex[positionOf(v)] += area * qc;
+			ringArea[positionOf(v)] += area;
+		}
+	}
+	const AreaDistortion areas = areaDistortion(areaBefore, areaAfter);
+	report.areaDistortionMean = areas.mean;
+	report.areaDistortionSpread = areas.spread;
+	report.areaHistogram = areas.histogram;
+	double vertexSum = 0.0;
+	std::vector<double> measuredVertices;
+	for (std::size_t v = 0; v < field.vertex.size(); ++v) {
+		if (ringArea[v] > 0.0) {
+			field.vertex[v] /= ringArea[v];
+			vertexSum += field.vertex[v];
+			measuredVertices.push_back(field.vertex[v]);
+		}
+		else
+			field.vertex[v] = 1.0;
+	}
+	if (measured.empty())
+		return field;
+	report.qcMean = sum / static_cast<double>(measured.size());
+	report.qcAreaMean = weightedSum / areaSum;
+	report.qcVertexMean = vertexSum / static_cast<double>(measuredVertices.size());
+	report.qcHistogram = distortionHistogram(measuredVertices);
+	report.qcMax = *std::max_element(measured.begin(), measured.end());
+	report.qcP99 = percentile(std::move(measured), 0.99);
+	return field;
+}
+
+void countFlipped(
+	const std::vector<Triangle2>& plane, const std::vector<char>& reversed, Report& report)
+{
+	report.flippedFaces = report.flippedByRounding = 0;
+	const auto rounded = [](const Point2& p) {
+		return Point2{roundedToFloat(p[0]), roundedToFloat(p[1])};
+	};
+	for (std::size_t f = 0; f < plane.size(); ++f) {
+		const Triangle2& p = plane[f];
+		if (!isOriented(p, reversed[f]))
+			++report.flippedFaces;
+		else
+			report.flippedByRounding +=
+				!isOriented({rounded(p[0]), rounded(p[1]), rounded(p[2])}, reversed[f]);
+	}
+}
+
+} // namespace ricci

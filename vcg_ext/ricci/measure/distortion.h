@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_DISTORTION_H
+#define RICCI_DISTORTION_H
+
+#include "../math/histogram.h"
+#include "../math/points.h"
+#include "../report.h"
+#include "../surface/surface_mesh.h"
+
+#include <array>
+#include <vector>
+
+namespace ricci {
+
+/// Quasi-conformal distortion (dilatation) of the linear map from a triangle in space to one in the
+/// plane: the quotient sigma1 / sigma2 of its singular values, at least 1 (paper 5.1).
+/// \return NaN where the triangle in space has no area (its smallest height is below 1e-9 of its
+/// longest side); infinity where the one in the plane has none
+double quasiConformalDistortion(const std::array<Point3, 3>& surface, const Triangle2& plane);
+
+/// Area of a triangle in space.
+double triangleArea(const std::array<Point3, 3>& p);
+
+/// Area of all triangles of \p mesh in space.
+double surfaceArea(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles);
+
+/// Distortion of a whole map.
+struct DistortionField
+{
+	std::vector<double> face;   ///< sigma1 / sigma2; NaN where the face has no area in space
+	std::vector<double> vertex; ///< mean over the faces at the vertex, weighted by their areas in
+								///< space (paper 5.1); 1 where none has any
+};
+
+/// Change of area by a map of triangles: their areas before and after, each relative to its total.
+struct AreaDistortion
+{
+	double mean = 1.0;   ///< of max(s, 1/s) for the area factors s, weighted by the area before
+	double spread = 0.0; ///< standard deviation of ln s, weighted by the area before
+	Histogram histogram; ///< of log2 s over the triangles
+};
+
+/// \param before, after [triangle] areas, not negative. Triangles where either is 0 are left out,
+/// of the totals too.
+AreaDistortion areaDistortion(const std::vector<double>& before, const std::vector<double>& after);
+
+/// Measures the map of corner k of face f to plane[f][k], and fills the fields of \p report that
+/// state qc and area distortion, and flippedFaces. Faces without area in space are kept out of the
+/// means, and so are those of infinite distortion. Orientation is exact.
+/// \param plane [face][corner] counter-clockwise unless reversed
+/// \param reversed [face] 1 where clockwise is wanted
+DistortionField measureDistortion(
+	const SurfaceMesh& mesh,
+	const std::vector<Triangle2>& plane,
+	const std::vector<char>& reversed,
+	Report& report);
+
+/// Sets flippedFaces, the number of triangles whose orientation in the plane is not the wanted one,
+/// and flippedByRounding, how many more these are with coordinates rounded to float. Exact. The
+/// parameters are those of measureDistortion().
+void countFlipped(
+	const std::vector<Triangle2>& plane, const std::vector<char>& reversed, Report& report);
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "initial_packing.h"
+
+#include "../base/tolerances.h"
+#include "circle_packing.h"
+#include "delaunay_queue.h"
+#include "triangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// Share of the paper's radii that is used. The full radii always make circles touch (I = 1), which
+/// bounds the curvature that the flow can reach: the angle at a vertex in a link of n tangent edges
+/// stays below n pi however small its circle is, and tangent edges cannot be flipped.
+constexpr double kRadiusShare = 0.5;
+
+/// Radii of the ends of an edge with I < 1 are multiplied by this, and the flips start anew.
+constexpr double kShrink = 0.5;
+
+constexpr int kMaxShrinks = 60;
+
+/// Apex of the triangle on the left of h, with h along the x axis from 0.
+TriangleApex apexOver(const IntrinsicMesh& mesh, Halfedge h)
+{
+	const Triangulation& t = mesh.triangulation;
+	return triangleApex(
+		mesh.lengths[h.edge()], mesh.lengths[t.previous(h).edge()], mesh.lengths[t.next(h).edge()]);
+}
+
+/// Whether e passes the weighted Delaunay test for circles of these radii (none: the plain test).
+/// The radical axes of the two triangles cross the perpendicular of the edge at heights that add up
+/// to the length of the dual edge: Delaunay where that is not negative.
+bool isDelaunay(const IntrinsicMesh& mesh, const VertexArray<double>& radii, Edge e)
+{
+	const Triangulation& t = mesh.triangulation;
+	if (!t.isFlippable(e))
+		return true;
+	const double l = mesh.lengths[e];
+	double gi = 0.0, gj = 0.0;
+	if (!radii.empty()) {
+		gi = radii[t.origin(e.halfedge())];
+		gj = radii[t.target(e.halfedge())];
+	}
+	// Foot of the perpendicular bisector (radical axis) on the edge, from its first end.
+	const double foot = 0.5 * (l + (gi - gj) * (gi + gj) / l);
+	double sum = 0.0, magnitude = 0.0;
+	for (const Halfedge h : {e.halfedge(), e.halfedge().twin()}) {
+		const TriangleApex apex = apexOver(mesh, h);
+		const double g = radii.empty() ? 0.0 : radii[t.apex(h)];
+		const double own = h.isFirst() ? foot : l - foot; // foot and radius at the origin of h
+		const double go = h.isFirst() ? gi : gj;
+		// Height of the power centre over the edge: equal powers of apex and origin.
+		const double plus = apex.height * apex.height + apex.along * apex.along + go * go;
+		const double minus = 2 * apex.along * own + g * g;
+		if (!(apex.height > 0.0)) // all or nothing: the apex lies on the edge, or beyond its ends
+			return !(plus < minus);
+		sum += (plus - minus) / (2 * apex.height);
+		magnitude += (plus + std::abs(minus)) / (2 * apex.height);
+	}
+	return sum >= -kMetricTie * magnitude;
+}
+
+/// Flips edges until all are Delaunay for circles of these radii, and appends them to \p log.
+void makeDelaunay(IntrinsicMesh& mesh, const VertexArray<double>& radii, std::vector<Edge>& log)
+{
+	Triangulation& t = mesh.triangulation;
+	const auto isGood = [&](Edge e) { return isDelaunay(mesh, radii, e); };
+	const auto flip = [&](Edge e) {
+		mesh.lengths[e] = flippedLength(mesh, e);
+		t.flip(e);
+		log.push_back(e);
+	};
+	DelaunayQueue queue;
+	queue.queued.assign(t.edgeCount(), 0);
+	std::int64_t flips = 0;
+	for (const Edge e : t.edges())
+		queue.flipFrom(e, t, flips, kMaxFlipsPerEdge * t.edgeCount(), isGood, flip);
+}
+
+/// Radii for the weighted Delaunay triangulation: a share of the initial ones, alike at mirror
+/// images.
+VertexArray<double> startRadii(const IntrinsicMesh& mesh, const VertexArray<Vertex>& mirror)
+{
+	VertexArray<double> radii = initialRadii(mesh.triangulation, mesh.lengths);
+	for (double& radius : radii)
+		radius *= kRadiusShare;
+	for (const Vertex v : mirror.indices())
+		radii[v] = std::min(radii[v], radii[mirror[v]]);
+	for (const Vertex v : mirror.indices())
+		radii[v] = radii[mirror[v]] = std::min(radii[v], radii[mirror[v]]);
+	return radii;
+}
+
+/// Lowers the radii at the ends of edges whose circles touch or overlap.
+/// \return whether there were any
+bool shrinkOverlapping(
+	const IntrinsicMesh& mesh, const VertexArray<Vertex>& mirror, VertexArray<double>& radii)
+{
+	const Triangulation& t = mesh.triangulation;
+	bool overlap = false;
+	for (const Edge e : t.edges()) {
+		const auto ends = t.ends(e);
+		if (radii[ends[0]] + radii[ends[1]] < mesh.lengths[e])
+			continue;
+		overlap = true;
+		for (const Vertex v : ends) {
+			radii[v] *= kShrink;
+			if (!mirror.empty())
+				radii[mirror[v]] = radii[v];
+		}
+	}
+	return overlap;
+}
+
+} // namespace
+
+double mollify(const Triangulation& t, EdgeArray<double>& lengths)
+{
+	double added = 0.0;
+	for (const Face f : t.faces()) {
+		std::array<double, 3> l;
+		for (std::size_t k = 0; k < 3; ++k)
+			l[k] = lengths[t.halfedges(f)[k].edge()];
+		std::sort(l.begin(), l.end());
+		const double excess = (l[0] - l[2]) + l[1];
+		if (excess <= kDegenerateTriangle * l[2] || l[0] * kNeedleRatio <= l[2])
+			added = std::max(added, kMollification * l[2] - excess);
+	}
+	for (double& l : lengths)
+		l += added;
+	return added;
+}
+
+double flippedLength(const IntrinsicMesh& mesh, Edge e)
+{
+	const TriangleApex k = apexOver(mesh, e.halfedge()), l = apexOver(mesh, e.halfedge().twin());
+	return std::hypot(k.along - (mesh.lengths[e] - l.along), k.height + l.height);
+}
+
+InitialPacking delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror)
+{
+	InitialPacking packing;
+	packing.isDelaunay = true;
+	packing.lengthened = mollify(mesh.triangulation, mesh.lengths);
+	makeDelaunay(mesh, {}, packing.flips);
+	packing.radii = startRadii(mesh, mirror);
+	for (int attempt = 0; attempt < kMaxShrinks; ++attempt) {
+		makeDelaunay(mesh, packing.radii, packing.flips);
+		if (!shrinkOverlapping(mesh, mirror, packing.radii))
+			break;
+	}
+	packing.delta = inversiveDistancesLessOne(
+		mesh.triangulation, mesh.lengths, packing.radii, PackingScheme::InversiveDistance);
+	packing.mesh = std::move(mesh);
+	return packing;
+}
+
+InitialPacking inputPacking(IntrinsicMesh mesh, PackingScheme scheme)
+{
+	InitialPacking packing;
+	packing.radii = initialRadii(mesh.triangulation, mesh.lengths);
+	packing.delta =
+		inversiveDistancesLessOne(mesh.triangulation, mesh.lengths, packing.radii, scheme);
+	packing.mesh = std::move(mesh);
+	return packing;
+}
+
+} // namespace ricci

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_EDGE_CROSSINGS_H
+#define RICCI_EDGE_CROSSINGS_H
+
+#include "../surface/normal_coordinates.h"
+#include "groups.h"
+#include "overlay_pieces.h"
+#include "weights.h"
+
+#include <array>
+#include <vector>
+
+namespace ricci {
+
+/// Crossing of an input edge with a start edge.
+struct InputCrossing
+{
+	Edge edge;            ///< of the input
+	double onInput = 0.0; ///< share on the input edge
+	double onStart = 0.0; ///< share on the start edge
+};
+
+/// Crossing of an end edge with a start edge: one vector of R^{2,1}, in the basis of the two vertices
+/// of either edge.
+struct EndCrossing
+{
+	Edge edge; ///< of the end
+	EdgeWeights onStart, onEnd;
+};
+
+/// Where the edges of the input and of the end cross those of the start. Which and in what order:
+/// by integers. Where: straight lines in the input's metric, and planes through the origin of
+/// R^{2,1} for the conformal flips.
+class EdgeCrossings
+{
+public:
+	using Curve = NormalCoordinates::Curve;
+
+	/// \param listener is told the number of crossings before there is an array of them
+	EdgeCrossings(const FlowResult& flow, const OverlayListener& listener);
+
+	/// Number of a crossing of an input edge in inputCrossings, of an end edge in endCrossings.
+	int inputNumber(const NormalCoordinates::Crossing& x) const;
+	int endNumber(const NormalCoordinates::Crossing& x) const;
+
+	NormalCoordinates inputOnStart, endOnStart;
+	EdgeArray<Curve> inputCurves; ///< [input edge] on the start triangulation
+	EdgeArray<Curve> endCurves;   ///< [end edge] on the start triangulation
+	EdgeArray<Curve> startCurves; ///< [start edge] on the end triangulation
+
+	/// The crossings on each start edge, in order from the origin of its halfedge().
+	Groups<Edge> inputOn, endOn;
+	Array<InputCrossing> inputCrossings;
+	Array<EndCrossing> endCrossings;
+
+private:
+	/// Values of a linear function on R^{2,1} at the ends of a start halfedge.
+	struct Values
+	{
+		double from, to;
+	};
+
+	/// Linear functions carried along an end edge ab, through the start triangles on its way.
+	struct CarriedFunctions
+	{
+		/// [function][crossing] at the ends of the crossed start halfedge
+		std::array<std::vector<Values>, 3> values;
+		std::array<double, 3> atB{0, 0, 0}; ///< [function]
+	};
+
+	/// A start triangle ijk.
+	struct StartTriangle
+	{
+		double ij, jk, ki; ///< inversive distances
+		double rootD;      ///< root of minus the Gram determinant of x_i, x_j, x_k
+	};
+
+	void placeInputCrossings();
+	void placeEndCrossings();
+	void carry(const Curve& curve, CarriedFunctions& functions) const;
+	StartTriangle startTriangle(Halfedge h) const;
+	double across(Halfedge h, double fi, double fj, double fk) const;
+
+	const FlowResult& m_flow;
+	const Triangulation& m_start;
+};
+
+} // namespace ricci
+
+#endif

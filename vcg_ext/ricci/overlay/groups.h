@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_GROUPS_H
+#define RICCI_GROUPS_H
+
+#include "../base/indexed.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// The numbers 0, 1, 2, ... divided into consecutive groups, one for each index of the type \p I.
+template<class I>
+class Groups
+{
+public:
+	Groups() : m_first(1, 0) {}
+
+	/// Group i gets the next \p size(i) numbers.
+	template<class Size>
+	Groups(IndexRange<I> indices, Size size) : Groups()
+	{
+		m_first.reserve(positionOf(indices.size()) + 1);
+		for (const I i : indices)
+			append(size(i));
+	}
+
+	/// Adds one more group.
+	void append(int size) { m_first.push_back(m_first.back() + size); }
+
+	int first(I i) const { return m_first[positionOf(i)]; }
+	int last(I i) const { return m_first[positionOf(i) + 1]; } ///< one past the group
+	int size(I i) const { return last(i) - first(i); }
+	int total() const { return m_first.back(); }
+
+	/// The numbers of a group, for range-based loops.
+	IndexRange<int> of(I i) const { return IndexRange<int>(first(i), last(i)); }
+
+private:
+	std::vector<int> m_first;
+};
+
+} // namespace ricci
+
+#endif

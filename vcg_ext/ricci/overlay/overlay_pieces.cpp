@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "overlay_pieces.h"
+
+#include "../error.h"
+#include "chord_arrangement.h"
+#include "edge_crossings.h"
+#include "overlay_nodes.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+/// Triangles and sides of pieces in them between two calls of the listener.
+constexpr int kWorkBetweenCalls = 1 << 14;
+
+/// The families of chords.
+constexpr std::size_t kInput = 0, kEnd = 1;
+
+/// Where a chord meets the border of its start triangle.
+struct ChordEnd
+{
+	Halfedge halfedge;  ///< start halfedge whose origin, or inside which, it is
+	int index = -1;     ///< among the nodes of that halfedge, from its origin; -1: at the origin
+	double share = 0.0; ///< on the input or end edge
+};
+
+/// The part of an input or end edge inside one start triangle, in the direction of the edge.
+struct Chord
+{
+	Edge edge;
+	ChordEnd from, to;
+};
+
+/// Divides the start triangles by the chords of input and end edges.
+class PieceMaker
+{
+public:
+	PieceMaker(const FlowResult& flow, const OverlayListener& listener) :
+			m_input(flow.history.input), m_start(flow.history.start.triangulation),
+			m_end(flow.metric->triangulation()), m_listener(listener), m_crossings(flow, listener),
+			m_edgeNodes(flow, m_crossings, m_result.nodes)
+	{
+	}
+
+	OverlayPieces run()
+	{
+		collectChords(m_crossings.inputCurves, kInput);
+		collectChords(m_crossings.endCurves, kEnd);
+		m_sidesOn = {m_start.edges(), [&](Edge e) { return m_edgeNodes.count(e) + 1; }};
+		m_result.sideCount = m_sidesOn.total();
+		int unheard = 0; // work since the listener was called
+		for (const Face f : m_start.faces()) {
+			const int before = m_result.sideCount;
+			divide(f);
+			unheard += 1 + (m_result.sideCount - before);
+			if (unheard < kWorkBetweenCalls)
+				continue;
+			unheard = 0;
+			m_listener(
+				static_cast<double>(f.number()) / m_start.faceCount(),
+				static_cast<std::size_t>(m_result.nodes.size() - m_start.vertexCount()));
+		}
+		return std::move(m_result);
+	}
+
+private:
+	using Curve = NormalCoordinates::Curve;
+
+	/// The chords of one family, by start triangle.
+	void collectChords(const EdgeArray<Curve>& curves, std::size_t family)
+	{
+		FaceArray<int> count(m_start.faceCount(), 0);
+		for (const Curve& curve : curves) {
+			if (curve.crossings.empty())
+				continue;
+			for (const auto& x : curve.crossings)
+				++count[m_start.face(x.halfedge)];
+			++count[m_start.face(curve.last)];
+		}
+		Groups<Face>& in = m_chordsIn[family];
+		in = {m_start.faces(), [&](Face f) { return count[f]; }};
+		m_chords[family].resize(in.total());
+		count.assign(m_start.faceCount(), 0); // chords that are entered
+		const auto add = [&](const Chord& chord, Face f) {
+			m_chords[family][in.first(f) + count[f]++] = chord;
+		};
+		for (const Edge e : curves.indices()) {
+			const Curve& curve = curves[e];
+			if (curve.crossings.empty())
+				continue;
+			Chord chord;
+			chord.edge = e;
+			chord.from = {curve.first, -1, 0.0};
+			for (const auto& x : curve.crossings) {
+				const auto [index, share] = nodeAt(x, family);
+				chord.to = {x.halfedge, m_edgeNodes.index(x.halfedge, index), share};
+				add(chord, m_start.face(x.halfedge));
+				const Halfedge beyond = x.halfedge.twin();
+				chord.from = {beyond, m_edgeNodes.index(beyond, index), share};
+			}
+			chord.to = {curve.last, -1, 1.0};
+			add(chord, m_start.face(chord.from.halfedge));
+		}
+	}
+
+	/// The node of a crossing: index on its start edge, and share on the input or end edge.
+	std::pair<int, double> nodeAt(const NormalCoordinates::Crossing& x, std::size_t family) const
+	{
+		if (family == kInput) {
+			const int number = m_crossings.inputNumber(x);
+			return {m_edgeNodes.indexOfInput(number), m_crossings.inputCrossings[number].onInput};
+		}
+		const int index = m_edgeNodes.indexOfEnd(m_crossings.endNumber(x));
+		const int node = m_edgeNodes.node(x.halfedge.edge().halfedge(), index);
+		return {index, m_result.nodes[node].end.share()};
+	}
+
+	/// Halfedge of the original triangulation that start halfedge h is, if it is one.
+	static Halfedge originalAlong(const NormalCoordinates& onStart, Halfedge h)
+	{
+		return onStart.isCurve(h.edge()) ? onStart.originalAtOrBefore(h) : Halfedge();
+	}
+
+	/// Divides start triangle f by its chords.
+	void divide(Face f)
+	{
+		m_sides = m_start.halfedges(f);
+		listBorder();
+		for (const std::size_t family : {kInput, kEnd}) {
+			m_places[family].clear();
+			for (const int c : m_chordsIn[family].of(f)) {
+				const Chord& chord = m_chords[family][c];
+				m_places[family].push_back({placeOf(chord.from), placeOf(chord.to)});
+			}
+		}
+		m_arrangement.divide(m_cornerPlace[3], m_places[kInput], m_places[kEnd]);
+		const int firstNode = m_result.nodes.size();
+		for (const ChordArrangement::Crossing& x : m_arrangement.crossings())
+			makeNodeAt(x, f);
+		nameCorners();
+		const int firstSide = m_result.sideCount;
+		m_result.sideCount += m_arrangement.segmentCount();
+		for (int face = 0; face < m_arrangement.faceCount(); ++face) {
+			m_result.startPiece();
+			for (int i = m_arrangement.firstSide(face); i < m_arrangement.firstSide(face + 1); ++i)
+				m_result.append(cornerAt(m_arrangement.side(i), f, firstNode, firstSide));
+		}
+	}
+
+	/// The places of the start triangle's border, as the arrangement numbers them: the first corner,
+	/// the nodes on the first side, the second corner, and so on.
+	void listBorder()
+	{
+		m_border.clear();
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Halfedge h = m_sides[k];
+			const int count = m_edgeNodes.count(h.edge());
+			m_cornerPlace[k] = m_border.size();
+			PieceCorner c;
+			c.input = originalAlong(m_crossings.inputOnStart, h);
+			c.end = originalAlong(m_crossings.endOnStart, h);
+			for (int i = -1; i < count; ++i) {
+				c.node = nodeOf(h, i);
+				c.side = m_sidesOn.first(h.edge()) + (h.isFirst() ? i + 1 : count - 1 - i);
+				m_border.push_back(c);
+			}
+		}
+		m_cornerPlace[3] = m_border.size();
+	}
+
+	/// Node of a place on the border; \p index as in ChordEnd.
+	int nodeOf(Halfedge h, int index) const
+	{
+		return index < 0 ? m_start.origin(h).number() : m_edgeNodes.node(h, index);
+	}
+
+	/// Which side of the start triangle a halfedge is.
+	std::size_t sideOf(Halfedge h) const
+	{
+		const auto found = std::find(m_sides.begin(), m_sides.end(), h);
+		if (found == m_sides.end())
+			throw InternalError("A chord of the overlay ends outside its start triangle.");
+		return static_cast<std::size_t>(found - m_sides.begin());
+	}
+
+	int placeOf(const ChordEnd& end) const
+	{
+		return m_cornerPlace[sideOf(end.halfedge)] + 1 + end.index; // a corner has index -1
+	}
+
+	const Chord& chordOf(const ChordArrangement::Line& line, std::size_t family, Face f) const
+	{
+		return m_chords[family][m_chordsIn[family].first(f) + line.chord[family]];
+	}
+
+	PieceCorner
+	cornerAt(const ChordArrangement::Side& side, Face f, int firstNode, int firstSide) const
+	{
+		const int places = m_cornerPlace[3];
+		PieceCorner c;
+		if (side.line < 0)
+			c = m_border[side.node];
+		else {
+			const ChordArrangement::Line& line = m_arrangement.line(side.line);
+			c.node = side.node < places ? m_border[side.node].node : firstNode + side.node - places;
+			c.side = firstSide + side.name - places;
+			const auto along = [](const Chord& chord, bool forward) {
+				return forward ? chord.edge.halfedge() : chord.edge.halfedge().twin();
+			};
+			if (line.chord[kInput] >= 0)
+				c.input = along(chordOf(line, kInput, f), side.forward);
+			if (line.chord[kEnd] >= 0) {
+				const bool reversed = line.chord[kInput] >= 0 && line.secondReversed;
+				c.end = along(chordOf(line, kEnd, f), side.forward != reversed);
+			}
+		}
+		for (std::size_t k = 0; k < 3; ++k)
+			if (side.node == m_cornerPlace[k]) {
+				const auto& names = m_cornerNames[k][m_arrangement.rank(side) + 1];
+				c.inputCorner = names[kInput];
+				c.endCorner = names[kEnd];
+			}
+		return c;
+	}
+
+	/// The node where an end edge's chord crosses an input edge's chord.
+	void makeNodeAt(const ChordArrangement::Crossing& crossing, Face f)
+	{
+		const Chord& a = chordOf(m_arrangement.line(crossing.first), kInput, f);
+		const Chord& b = chordOf(m_arrangement.line(crossing.second), kEnd, f);
+		const Point2 p = pointOf(a.from), q = pointOf(a.to), r = pointOf(b.from), s = pointOf(b.to);
+		const double ofP = doubledArea(r, s, p), ofQ = doubledArea(r, s, q);
+		const double ofR = doubledArea(p, q, r), ofS = doubledArea(p, q, s);
+		const double onA = keepInside(ofP / (ofP - ofQ)), onB = keepInside(ofR / (ofR - ofS));
+
+		OverlayNode node;
+		node.point = pointOfEdge(m_input, a.edge, mix(a.from.share, a.to.share, onA));
+		// On the end edge by weights: both ends of the chord are crossings with it, or vertices.
+		const EdgeWeights onChord{
+			(1.0 - onB) * m_result.nodes[nodeOf(b.from.halfedge, b.from.index)].scale,
+			onB * m_result.nodes[nodeOf(b.to.halfedge, b.to.index)].scale};
+		node.end = PointOnEnd(b.edge, keepInside(mix(b.from.share, b.to.share, onChord.affine())));
+		m_result.nodes.push_back(node);
+	}
+
+	/// The end of a chord, in affine coordinates of the start triangle.
+	Point2 pointOf(const ChordEnd& end) const
+	{
+		static constexpr Point2 corner[3] = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}};
+		const std::size_t k = sideOf(end.halfedge);
+		if (end.index < 0)
+			return corner[k];
+		const double t = m_edgeNodes.share(end.halfedge, end.index);
+		const Point2 &a = corner[k], &b = corner[(k + 1) % 3];
+		return {mix(a[0], b[0], t), mix(a[1], b[1], t)};
+	}
+
+	/// At the corners of the start triangle, for the piece after so many lines counter-clockwise:
+	/// which corner of the input's and of the end's triangles it has.
+	void nameCorners()
+	{
+		for (std::size_t k = 0; k < 3; ++k) {
+			std::array<Halfedge, 2> corner{
+				m_crossings.inputOnStart.originalAtOrBefore(m_sides[k]),
+				m_crossings.endOnStart.originalAtOrBefore(m_sides[k])};
+			m_cornerNames[k].assign(1, corner);
+			for (const int index : m_arrangement.linesAt(m_cornerPlace[k])) {
+				const ChordArrangement::Line& line = m_arrangement.line(index);
+				for (const std::size_t family : {kInput, kEnd})
+					if (line.chord[family] >= 0) {
+						const Triangulation& t = family == kInput ? m_input : m_end;
+						corner[family] = t.previous(corner[family]).twin();
+					}
+				m_cornerNames[k].push_back(corner);
+			}
+		}
+	}
+
+	const Triangulation& m_input;
+	const Triangulation& m_start;
+	const Triangulation& m_end;
+	const OverlayListener& m_listener;
+	OverlayPieces m_result;
+	const EdgeCrossings m_crossings;
+	const StartEdgeNodes m_edgeNodes;
+
+	std::array<Array<Chord>, 2> m_chords;   // [family]
+	std::array<Groups<Face>, 2> m_chordsIn; // [family] numbers in m_chords by start triangle
+	Groups<Edge> m_sidesOn; // numbers of the sides on each start edge; they come before all others
+
+	// Of the start triangle that is being divided:
+	std::array<Halfedge, 3> m_sides;
+	std::array<int, 4> m_cornerPlace{0, 0, 0, 0}; // of its corners; the number of places
+	Array<PieceCorner> m_border;                  // [place]
+	std::array<std::vector<ChordArrangement::Chord>, 2> m_places; // [family] ends of the chords
+	ChordArrangement m_arrangement;
+	std::array<Array<std::array<Halfedge, 2>>, 3> m_cornerNames; // [corner][lines before the piece]
+};
+
+} // namespace
+
+OverlayPieces divideStartTriangles(const FlowResult& flow, const OverlayListener& listener)
+{
+	return PieceMaker(flow, listener).run();
+}
+
+} // namespace ricci

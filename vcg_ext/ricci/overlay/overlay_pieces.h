@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The overlay of the triangulations that a flow with flips goes through.
+//
+// They are three, of one surface, with the same vertices: the input; the start, reached from it by
+// flips in the input's metric, whose edges are straight there; and the end, reached from the start by
+// flips that keep the conformal class. The overlay is made triangle by triangle of the start:
+//
+//            k            i, j, k: vertices, corners of a start triangle
+//           /:\           o--x--o: chord of an input edge
+//          / : \          k: :x: :o: chord of an end edge
+//         o--x--o         o: crossing of an input or end edge with a start edge
+//        /   :   \        x: crossing of an input edge with an end edge
+//       /    :    \       Here the chords divide the start triangle into four pieces.
+//      i-----o-----j
+//
+//   chord     the part of an input edge or of an end edge inside one start triangle: two families
+//   crossing  a point where edges of two of the triangulations cross
+//   node      a vertex of the overlay: a vertex, a crossing, or crossings of both families that are
+//             one point of a start edge
+//   piece     a part of a start triangle between the chords; it lies in one triangle of each
+//             triangulation
+//   side      a part of a piece's border between two of its nodes
+#ifndef RICCI_OVERLAY_PIECES_H
+#define RICCI_OVERLAY_PIECES_H
+
+#include "../flow/ricci_flow.h"
+#include "../surface/surface_point.h"
+#include "weights.h"
+
+#include <array>
+#include <cstddef>
+#include <functional>
+
+namespace ricci {
+
+/// Hears from time to time how the overlay grows: the share of the work that is done, in [0,1], and
+/// the number of its crossings so far. What it throws ends the computation.
+using OverlayListener = std::function<void(double, std::size_t)>;
+
+/// A point of the end triangulation, by the element inside which it lies.
+class PointOnEnd
+{
+public:
+	enum Kind { AtVertex, OnEdge, InFace };
+
+	PointOnEnd() = default;
+	explicit PointOnEnd(Vertex v) : m_element(v.number()) {}
+	PointOnEnd(Edge e, double share) : m_kind(OnEdge), m_element(e.number()), m_share(share) {}
+	explicit PointOnEnd(const FaceWeights& p) :
+			m_kind(InFace), m_element(p.face.number()), m_weight(p.weight)
+	{
+	}
+
+	Kind kind() const { return m_kind; }
+	Vertex vertex() const { return Vertex(m_element); } ///< \pre AtVertex
+	Edge edge() const { return Edge(m_element); }       ///< \pre OnEdge
+	Face face() const { return Face(m_element); }       ///< \pre InFace
+
+	/// \pre OnEdge
+	double share() const { return m_share; }
+	/// Of the origins of halfedges(face()). \pre InFace
+	const std::array<double, 3>& weight() const { return m_weight; }
+
+private:
+	Kind m_kind = AtVertex;
+	int m_element = -1;
+	double m_share = 0.0;
+	std::array<double, 3> m_weight{0, 0, 0};
+};
+
+/// A vertex of the overlay.
+struct OverlayNode
+{
+	SurfacePoint point; ///< on the input
+	PointOnEnd end;
+	/// Of a vertex, or a crossing with an end edge: weight sum in the end metric over that in the
+	/// start metric.
+	double scale = 1.0;
+};
+
+/// A corner of a piece, and the side from there to the next corner, counter-clockwise.
+struct PieceCorner
+{
+	int node = -1;
+	int side = -1;        ///< number of the side, shared with the piece on its other side
+	Halfedge input;       ///< input halfedge along this side, if any
+	Halfedge end;         ///< end halfedge along this side, if any
+	Halfedge inputCorner; ///< at a vertex: input halfedge whose corner this is
+	Halfedge endCorner;   ///< at a vertex: end halfedge whose corner this is
+};
+
+/// All pieces and their nodes.
+class OverlayPieces
+{
+public:
+	Array<OverlayNode> nodes; ///< the vertices first, in order
+	int sideCount = 0;
+
+	int count() const { return m_first.size() - 1; }
+	int size(int piece) const { return m_first[piece + 1] - m_first[piece]; }
+
+	/// Number of a corner among those of all pieces. \p i may run past the last corner.
+	int corner(int piece, int i) const { return m_first[piece] + i % size(piece); }
+	int cornerCount() const { return m_first.back(); }
+
+	PieceCorner& operator()(int piece, int i) { return m_corners[corner(piece, i)]; }
+	const PieceCorner& operator()(int piece, int i) const { return m_corners[corner(piece, i)]; }
+
+	/// The corners of a piece, in order.
+	struct Corners
+	{
+		const PieceCorner *first, *last;
+		const PieceCorner* begin() const { return first; }
+		const PieceCorner* end() const { return last; }
+	};
+	Corners corners(int piece) const
+	{
+		return {m_corners.data() + m_first[piece], m_corners.data() + m_first[piece + 1]};
+	}
+
+	/// Adds a piece without corners; append() adds corners to the last piece.
+	void startPiece() { m_first.push_back(m_first.back()); }
+	void append(const PieceCorner& c)
+	{
+		m_corners.push_back(c);
+		++m_first.back();
+	}
+
+	/// Forgets the pieces for which \p kept(piece) does not hold.
+	template<class Kept>
+	void keep(Kept kept)
+	{
+		int pieces = 0, corners = 0;
+		for (int p = 0; p < count(); ++p) {
+			const int first = m_first[p], last = m_first[p + 1];
+			if (!kept(p))
+				continue;
+			m_first[pieces++] = corners;
+			for (int c = first; c < last; ++c)
+				m_corners[corners++] = m_corners[c];
+		}
+		m_first[pieces] = corners;
+		m_first.resize(pieces + 1);
+		m_corners.resize(corners);
+	}
+
+private:
+	Array<PieceCorner> m_corners;
+	Array<int> m_first = Array<int>(1, 0);
+};
+
+/// Computes the pieces of all start triangles.
+///
+/// Which edge crosses which, and in what order, is decided by integers (normal coordinates,
+/// [Gillespie Sharp Crane 2021]) wherever two of the triangulations are concerned, so that the
+/// pieces always fit together. Inside a start triangle an input edge is a straight chord in
+/// barycentric coordinates, because its flips are isometric. So is an end edge: it is straight in
+/// the Klein picture of the decorated triangle, and that chart differs from the barycentric one by a
+/// projective map, the diagonal scaling with the radii [Springborn Schroeder Pinkall 2008],
+/// [Bobenko Lutz 2023]. The order of the two families of crossings along a start edge is that of
+/// their numeric positions there, used by both start triangles; whether two chords cross then
+/// follows from the order of their ends.
+///
+/// \param listener is told the number of crossings on start edges before there is an array of them
+/// \pre the flow ran with intrinsic flips
+/// \throw InternalError if the chords do not fit together: a fault of the program
+OverlayPieces divideStartTriangles(const FlowResult& flow, const OverlayListener& listener);
+
+} // namespace ricci
+
+#endif

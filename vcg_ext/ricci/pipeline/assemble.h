@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From the maps of components to the map of the whole mesh.
+#ifndef RICCI_ASSEMBLE_H
+#define RICCI_ASSEMBLE_H
+
+#include "../charts/output_triangles.h"
+#include "../charts/parametrization.h"
+#include "../measure/distortion.h"
+#include "../options.h"
+#include "../progress.h"
+#include "../surface/component.h"
+#include "flatten_component.h"
+
+#include <functional>
+#include <vector>
+
+namespace ricci {
+
+/// Checks \p mesh and whether memory will do, logs what there is to note, and makes \p result ready
+/// for its components: its arrays have their sizes, and its refinement, if one is asked for, begins
+/// with the input's vertices.
+/// \throw InvalidMesh, TooLarge
+std::vector<Component> startResult(
+	const SurfaceMesh& mesh,
+	const FlowOptions& options,
+	OutputTriangulation output,
+	Progress& progress,
+	Parametrization& result);
+
+/// The triangles of a component's map as they are given back, in the component's numbers and the
+/// input's order of corners.
+OutputTriangles
+outputTriangles(const Component& component, const ComponentMap& map, OutputTriangulation output);
+
+/// Appends a component's map as one more chart, in the numbers and the orientation of the input.
+void append(
+	const Component& component,
+	const ComponentMap& map,
+	OutputTriangulation output,
+	Parametrization& result);
+
+/// Distortion of the map and of its refinement if it has one, whose figures then are those of the
+/// report. \p measure takes what measureDistortion() does.
+using Measure = std::function<DistortionField(
+	const SurfaceMesh&, const std::vector<Triangle2>&, const std::vector<char>&, Report&)>;
+void measureResult(
+	const SurfaceMesh& mesh,
+	OutputTriangulation output,
+	const Measure& measure,
+	Parametrization& result);
+
+/// Shares of the progress after which all components are mapped, and their distortion is measured.
+constexpr double kComponentsDone = 0.9, kMeasured = 0.95;
+
+/// Runs \p run(component, range) on every component with its share of the progress. Where there are
+/// several, an error other than Stopped keeps its type and gets the component's data.
+template<class Run>
+void runComponents(
+	const SurfaceMesh& mesh, const std::vector<Component>& components, Progress& progress, Run run)
+{
+	std::size_t facesDone = 0;
+	const auto done = [&] {
+		return kComponentsDone *
+			   (static_cast<double>(facesDone) / static_cast<double>(mesh.triangles.size()));
+	};
+	for (const Component& component : components) {
+		const double from = done();
+		facesDone += component.triangles.size();
+		try {
+			run(component, ProgressRange(progress, from, done()));
+		}
+		catch (const Stopped&) {
+			throw; // not the component's fault
+		}
+		catch (Error& error) {
+			if (components.size() > 1) {
+				error.componentFace = component.face.front();
+				error.componentFaces = component.triangles.size();
+			}
+			throw;
+		}
+	}
+}
+
+} // namespace ricci
+
+#endif

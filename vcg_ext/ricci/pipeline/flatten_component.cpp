@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flatten_component.h"
+
+#include "../layout/hole_seams.h"
+#include "../layout/hyperbolic_layout.h"
+#include "../measure/distortion.h"
+#include "../measure/invariants.h"
+#include "../surface/flow_domain.h"
+#include "../target/hyperbolic_target.h"
+#include "../target/target_curvature.h"
+#include "../verify/flow_check.h"
+#include "../verify/holonomy_check.h"
+#include "../verify/result_check.h"
+#include "assemble.h"
+#include "stages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+// What differs by geometry.
+
+constexpr Background backgroundOf(const Options&)
+{
+	return Background::EuclideanPlane;
+}
+
+constexpr Background backgroundOf(const HyperbolicOptions&)
+{
+	return Background::HyperbolicPlane;
+}
+
+Holes holesOf(const Options& options)
+{
+	return options.holes;
+}
+
+Holes holesOf(const HyperbolicOptions&)
+{
+	return Holes::Boundaries;
+}
+
+Target chooseTarget(
+	const FlowDomain& domain,
+	FlowStart& start,
+	const Component& component,
+	const VertexInput& input,
+	const Options& options)
+{
+	return chooseTarget(
+		domain.solved(),
+		start,
+		targetRequest(component, input, options, domain.solved().positions.size()));
+}
+
+Target chooseTarget(
+	const FlowDomain& domain,
+	FlowStart&,
+	const Component& component,
+	const VertexInput& input,
+	const HyperbolicOptions& options)
+{
+	HyperbolicRequest request;
+	request.mode = options.target;
+	request.freeBoundary = options.freeBoundary;
+	request.coneAngle = options.coneAngle;
+	request.selected = atVertices(component, input.selected);
+	request.prescribed = atVertices(component, input.targetCurvature);
+	request.prescribedPrecision = input.precision;
+	return chooseHyperbolicTarget(domain.surface.topology, request);
+}
+
+/// What a seam along each edge costs.
+EdgeArray<double> cutCost(const FlowDomain& domain, const FlowResult&, const Options& options)
+{
+	return seamCost(
+		domain.surface.triangulation,
+		domain.surface.lengths,
+		domain.surface.positions,
+		options.seamHiding);
+}
+
+EdgeArray<double>
+cutCost(const FlowDomain& domain, const FlowResult& flow, const HyperbolicOptions& options)
+{
+	return options.surgery == Surgery::IntrinsicFlips ? hyperbolicLengths(flow, domain.surface)
+													  : flow.metric->lengths();
+}
+
+/// The layout of the corners of the component, open along the cut; with flips on the common
+/// refinement.
+void placeCorners(
+	const FlowDomain& domain, const Options& options, ProgressRange& progress, ComponentMap& map)
+{
+	const CurvatureMap& metric = *map.flow.metric;
+	if (options.surgery == Surgery::IntrinsicFlips) {
+		map.refinement = refine(domain, map, options, progress);
+		map.layout = std::move(map.refinement.inputLayout);
+	}
+	else
+		map.layout =
+			layOutInPlane(metric.triangulation(), metric.lengths(), metric.angles(), map.cut.isCut);
+}
+
+/// Area of the component in the flow's metric, without caps.
+double areaInPlane(const FlowDomain& domain, const ComponentMap& map)
+{
+	if (domain.holes == 0)
+		return map.flow.area;
+	double area = 0.0;
+	for (const Triangle2& p : map.refinement.uv)
+		area += 0.5 * doubledArea(p[0], p[1], p[2]);
+	return area;
+}
+
+void layOut(
+	const Component& component,
+	const FlowDomain& domain,
+	const Options& options,
+	ProgressRange& progress,
+	ComponentMap& map)
+{
+	const Triangulation& t = domain.surface.triangulation;
+	placeCorners(domain, options, progress, map);
+	if (map.type.boundaryLoops > 1 && domain.holes == 0) {
+		// A hole round which the metric closes needs no seam.
+		const int edges = map.cut.edgeCount;
+		dropSeamsToHoles(
+			t,
+			domain.surface.lengths,
+			loopsThatClose(t, map.layout, map.cut.isCut),
+			map.cones,
+			map.cut);
+		if (map.cut.edgeCount < edges)
+			placeCorners(domain, options, progress, map);
+	}
+	if (!map.flow.target.hasFixed()) // else the boundary keeps its metric, which fixes the scale
+		map.scale = std::sqrt(
+			surfaceArea(component.positions.values(), component.triangles) /
+			areaInPlane(domain, map));
+	turnUpright(map);
+	map.uv = cornersOf(t, map.layout);
+}
+
+void layOut(
+	const Component&,
+	const FlowDomain& domain,
+	const HyperbolicOptions& options,
+	ProgressRange& progress,
+	ComponentMap& map)
+{
+	const Triangulation& t = domain.surface.triangulation;
+	EdgeArray<SidePairing> pairing(t.edgeCount());
+	if (options.surgery == Surgery::IntrinsicFlips) {
+		map.refinement = refine(domain, map, options, progress);
+		map.layout = std::move(map.refinement.inputLayout);
+		pairing = std::move(map.refinement.pairing);
+	}
+	else {
+		const CurvatureMap& metric = *map.flow.metric;
+		const HyperbolicLayout disk =
+			layOutInDisk(t, metric.lengths(), metric.angles(), map.cut.isCut);
+		for (const Edge e : t.edges())
+			if (map.cut.isCut[e])
+				offerPairing(
+					disk, metric.lengths()[e], e.halfedge(), e.halfedge().twin(), pairing[e]);
+		map.layout.wedges = cornerWedges(t, map.cut.isCut);
+		map.layout.points.resize(map.layout.wedges.count);
+		for (int i = t.halfedgeCount(); i-- > 0;) // the lowest halfedge gives a wedge its point
+			if (const Halfedge h(i); !t.isExterior(h))
+				map.layout.points[map.layout.wedges.of[h]] = asPoint(disk[h]);
+	}
+	map.uv = cornersOf(t, map.layout);
+	map.group = fuchsianGroup(t, map.cut, pairing, map.cones);
+}
+
+void measureInvariants(const FlowDomain& domain, const Options&, ComponentMap& map)
+{
+	conformalInvariants(domain.surface.triangulation, map);
+}
+
+void measureInvariants(const FlowDomain& domain, const HyperbolicOptions&, ComponentMap& map)
+{
+	map.hyperbolicArea = map.flow.area;
+	map.relationError = std::max(
+		{map.group.polygonError,
+		 map.group.closingError,
+		 boundaryHolonomyError(
+			 map.group,
+			 domain.surface.triangulation,
+			 domain.surface.topology,
+			 map.layout,
+			 map.flow.target)});
+}
+
+void requireLayout(const Component& component, const Options& options, const ComponentMap& map)
+{
+	requireMap(
+		outputTriangles(component, map, options.output), map.flow, isBent(map, options.output));
+}
+
+void requireLayout(
+	const Component& component, const HyperbolicOptions& options, const ComponentMap& map)
+{
+	requireDisk(
+		outputTriangles(component, map, options.output),
+		map.layout,
+		map.flow,
+		isBent(map, options.output));
+}
+
+template<class AnyOptions>
+ComponentMap flatten(
+	const Component& component,
+	const VertexInput& input,
+	const AnyOptions& options,
+	ProgressRange& progress)
+{
+	ComponentMap map;
+	progress.step(0.0, "Circle packing");
+	const FlowDomain domain = flowDomain(component, holesOf(options));
+	map.type = domain.surface.topology.type;
+	map.cappedHoles = domain.holes;
+	progress.log(description(component, map.type));
+	FlowStart start = flowStart(domain.solved(), options);
+	const Target target = chooseTarget(domain, start, component, input, options);
+	for (const std::string& note : target.notes)
+		progress.log(note);
+	FlowProgress flowProgress(progress, options.epsilon, map.flowStates);
+	map.flow = runRicciFlow(
+		backgroundOf(options), domain.solved(), std::move(start), target, options, flowProgress);
+	logFlow(map.flow, options, progress);
+
+	progress.step(1.0 - kAfterFlow, "Cutting and layout");
+	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
+	map.cut = cutThroughCones(domain, cutCost(domain, map.flow, options), map.cones, progress);
+	layOut(component, domain, options, progress, map);
+	map.seamLength = lengthOf(map.cut, domain.surface.lengths);
+	measureInvariants(domain, options, map);
+
+	progress.step(1.0, "Checking the result");
+	requireMetric(map.flow, domain.solved().topology.boundary);
+	requireLayout(component, options, map);
+	return map;
+}
+
+} // namespace
+
+ComponentMap flattenComponent(
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	ProgressRange& progress)
+{
+	return options.surgery == Surgery::EdgeSwap
+			   ? flattenWithEdgeSwaps(component, input, options, progress)
+			   : flatten(component, input, options, progress);
+}
+
+ComponentMap flattenComponent(
+	const Component& component,
+	const VertexInput& input,
+	const HyperbolicOptions& options,
+	ProgressRange& progress)
+{
+	return flatten(component, input, options, progress);
+}
+
+} // namespace ricci

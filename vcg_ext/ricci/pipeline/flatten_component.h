@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_FLATTEN_COMPONENT_H
+#define RICCI_FLATTEN_COMPONENT_H
+
+#include "../cut/cut_graph.h"
+#include "../flow/ricci_flow.h"
+#include "../layout/common_refinement.h"
+#include "../layout/planar_layout.h"
+#include "../measure/fuchsian_group.h"
+#include "../parametrize.h"
+#include "../surface/component.h"
+#include "progress_share.h"
+
+#include <optional>
+#include <vector>
+
+namespace ricci {
+
+/// One component mapped to the plane or to the Poincaré disk: what its stages have found.
+struct ComponentMap
+{
+	SurfaceType type;
+	FlowResult flow;
+	std::vector<FlowState> flowStates;
+	VertexArray<char> cones; ///< 1 at vertices inside that are not flat
+	CutGraph cut;
+	double seamLength = 0.0; ///< of the cut on the mesh
+
+	PlanarLayout layout;         ///< on the triangulation of the cut
+	CommonRefinement refinement; ///< with flips
+	FaceArray<Triangle2> uv;     ///< [face of the component][corner]
+	double scale = 1.0;          ///< lengths in the layout over those of the flow's metric
+
+	FuchsianGroup group; ///< hyperbolic
+	std::optional<std::complex<double>> torusModulus;
+	std::optional<double> annulusModulus, rectangleAspect, hyperbolicArea, relationError;
+
+	int cappedHoles = 0;
+	int edgeSwaps = 0, boundarySplits = 0; ///< Surgery::EdgeSwap
+};
+
+/// The stages of the paper on one component, in order: flow domain, initial packing (4.1), target
+/// (5.2, 5.3), flow (4.2), cut and layout (4.3), invariants, and the checks of the result by other
+/// formulas. Only target, layout and invariants differ by geometry.
+/// \throw what the stages throw
+ComponentMap flattenComponent(
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	ProgressRange& progress);
+ComponentMap flattenComponent(
+	const Component& component,
+	const VertexInput& input,
+	const HyperbolicOptions& options,
+	ProgressRange& progress);
+
+} // namespace ricci
+
+#endif

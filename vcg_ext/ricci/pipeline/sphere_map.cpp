@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "../sphere_map.h"
+
+#include "../base/numbers.h"
+#include "../base/text.h"
+#include "../base/tolerances.h"
+#include "../error.h"
+#include "../math/moebius_balancing.h"
+#include "../measure/distortion.h"
+#include "../parametrize.h"
+#include "../surface/component.h"
+#include "../surface/topology.h"
+#include "../verify/flow_check.h"
+#include "../verify/sphere_check.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+/// Another vertex this much nearer to the puncture than its neighbours would dominate the inverted
+/// surface.
+constexpr double kNearest = 0.5;
+
+/// Vertices that are tried for the puncture.
+constexpr int kMaxPoles = 100;
+
+Vector vec(const Point3& p)
+{
+	return {p[0], p[1], p[2]};
+}
+
+/// Passes fractions on, within an interval, but no lines for the log: they would speak of the
+/// punctured surface.
+class Quiet : public Progress
+{
+public:
+	explicit Quiet(Progress& listener) : m_listener(listener) {}
+	bool update(double fraction, const std::string&) override
+	{
+		return m_listener.update(fraction, "Mapping to the sphere");
+	}
+
+private:
+	Progress& m_listener;
+};
+
+/// The vertex whose star has the largest smallest angle, among those that no other vertex comes near
+/// in space.
+Vertex choosePole(const Component& c)
+{
+	const int n = c.positions.size();
+	VertexArray<double> minAngle(n, std::numeric_limits<double>::infinity());
+	VertexArray<double> nearest(n, std::numeric_limits<double>::infinity());
+	for (const Triangle& t : c.triangles) {
+		double angle = std::numeric_limits<double>::infinity();
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Vertex v(t[k]), next(t[(k + 1) % 3]);
+			const Vector o = vec(c.positions[v]);
+			const Vector a = vec(c.positions[next]) - o;
+			const Vector b = vec(c.positions[Vertex(t[(k + 2) % 3])]) - o;
+			angle = std::min(angle, std::atan2(a.cross(b).norm(), a.dot(b)));
+			const double side = a.norm();
+			nearest[v] = std::min(nearest[v], side);
+			nearest[next] = std::min(nearest[next], side);
+		}
+		for (const int v : t)
+			minAngle[Vertex(v)] = std::min(minAngle[Vertex(v)], angle);
+	}
+	std::vector<Vertex> order;
+	for (const Vertex v : c.positions.indices())
+		order.push_back(v);
+	const int tried = std::min(kMaxPoles, n);
+	std::partial_sort(order.begin(), order.begin() + tried, order.end(), [&](Vertex a, Vertex b) {
+		return minAngle[a] != minAngle[b] ? minAngle[a] > minAngle[b] : a < b;
+	});
+	order.resize(positionOf(tried));
+	for (const Vertex pole : order) {
+		bool alone = nearest[pole] > 0.0;
+		for (const Vertex v : c.positions.indices()) {
+			if (!alone)
+				break;
+			alone = v == pole ||
+					distance(c.positions[v], c.positions[pole]) >= kNearest * nearest[pole];
+		}
+		if (alone)
+			return pole;
+	}
+	throw InvalidMesh(InvalidMesh::NotPuncturable);
+}
+
+/// The component inverted about its pole, whose star is taken out.
+SurfaceMesh punctured(const Component& c, Vertex pole)
+{
+	const Vector centre = vec(c.positions[pole]);
+	SurfaceMesh disk;
+	disk.absent = 1;
+	double radius = 0.0, count = 0.0;
+	for (const Triangle& t : c.triangles) {
+		if (std::find(t.begin(), t.end(), pole.number()) == t.end()) {
+			disk.triangles.push_back(t);
+			continue;
+		}
+		for (const int v : t)
+			if (v != pole.number()) {
+				radius += (vec(c.positions[Vertex(v)]) - centre).norm();
+				count += 1.0;
+			}
+	}
+	radius /= count;
+	for (const Point3& p : c.positions) {
+		const Vector x = vec(p) - centre;
+		const double square = x.squaredNorm();
+		const Vector y = square > 0.0 ? Vector(x * (radius * radius / square)) : Vector::Zero();
+		disk.positions.push_back({y[0], y[1], y[2]});
+	}
+	return disk;
+}
+
+/// The value below which half of the weight lies.
+double weightedMedian(const std::vector<double>& values, const std::vector<double>& weights)
+{
+	std::vector<std::size_t> order(values.size());
+	std::iota(order.begin(), order.end(), std::size_t(0));
+	std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+		return values[a] != values[b] ? values[a] < values[b] : a < b;
+	});
+	const double half = 0.5 * std::accumulate(weights.begin(), weights.end(), 0.0);
+	double sum = 0.0;
+	for (std::size_t i : order)
+		if ((sum += weights[i]) >= half)
+			return values[i];
+	return values[order.back()];
+}
+
+/// Inverse stereographic projection with the middle of the area at the equator. The plane is seen
+/// from inside the sphere, so it is reflected.
+VertexArray<Point3>
+toSphere(const VertexArray<Point2>& plane, const VertexArray<double>& weights, Vertex pole)
+{
+	std::vector<double> x, y, r, w;
+	for (const Vertex v : plane.indices())
+		if (v != pole) {
+			x.push_back(plane[v][0]);
+			y.push_back(plane[v][1]);
+			w.push_back(weights[v]);
+		}
+	const double cx = weightedMedian(x, w), cy = weightedMedian(y, w);
+	for (std::size_t i = 0; i < x.size(); ++i)
+		r.push_back(std::hypot(x[i] - cx, y[i] - cy));
+	double unit = weightedMedian(r, w);
+	if (!(unit > 0.0))
+		unit = *std::max_element(r.begin(), r.end());
+	VertexArray<Point3> sphere(plane.size(), {0.0, 0.0, 1.0});
+	for (const Vertex v : plane.indices()) {
+		if (v == pole)
+			continue;
+		const double a = (plane[v][0] - cx) / unit, b = (cy - plane[v][1]) / unit;
+		const double square = a * a + b * b;
+		sphere[v] = {2 * a / (1 + square), 2 * b / (1 + square), (square - 1) / (1 + square)};
+	}
+	return sphere;
+}
+
+/// Turns the points most nearly towards \p places, seen from their weighted mean [Kabsch 1976].
+void alignWith(
+	const VertexArray<Point3>& places,
+	const VertexArray<double>& weights,
+	VertexArray<Point3>& points)
+{
+	Vector mean = Vector::Zero();
+	double total = 0.0;
+	for (const Vertex v : places.indices()) {
+		mean += weights[v] * vec(places[v]);
+		total += weights[v];
+	}
+	mean /= total;
+	Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+	for (const Vertex v : places.indices())
+		covariance += weights[v] * (vec(places[v]) - mean) * vec(points[v]).transpose();
+	const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
+		covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+	Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
+	sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0.0 ? 1.0 : -1.0;
+	const Eigen::Matrix3d rotation = svd.matrixU() * sign * svd.matrixV().transpose();
+	for (Point3& p : points) {
+		const Vector q = (rotation * vec(p)).normalized();
+		p = {q[0], q[1], q[2]};
+	}
+}
+
+/// Distortion and orientation of the straight triangles.
+void measure(const Component& c, const VertexArray<Point3>& sphere, SphereMap& map)
+{
+	std::vector<double> before, after;
+	double sum = 0.0, areaSum = 0.0;
+	for (const Triangle& t : c.triangles) {
+		std::array<Point3, 3> own, image;
+		for (std::size_t k = 0; k < 3; ++k) {
+			own[k] = c.positions[Vertex(t[k])];
+			image[k] = sphere[Vertex(t[k])];
+		}
+		const Vector a = vec(image[1]) - vec(image[0]), b = vec(image[2]) - vec(image[0]);
+		const Vector normal = a.cross(b);
+		map.flippedFaces += !(vec(image[0]).dot(normal) > 0.0);
+		before.push_back(triangleArea(own));
+		after.push_back(0.5 * normal.norm());
+		const double base = a.norm();
+		const double qc =
+			base > 0.0
+				? quasiConformalDistortion(
+					  own, {{{0.0, 0.0}, {base, 0.0}, {a.dot(b) / base, normal.norm() / base}}})
+				: std::numeric_limits<double>::infinity();
+		if (!std::isfinite(qc))
+			continue;
+		sum += before.back() * qc;
+		areaSum += before.back();
+		map.qcMax = std::max(map.qcMax, qc);
+	}
+	if (areaSum > 0.0)
+		map.qcAreaMean = sum / areaSum;
+	const AreaDistortion area = areaDistortion(before, after);
+	map.areaDistortionMean = area.mean;
+	map.areaDistortionSpread = area.spread;
+}
+
+} // namespace
+
+SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress& progress)
+{
+	std::vector<std::string> notes;
+	const std::vector<Component> components = splitIntoComponents(mesh, notes);
+	const Component& c = components.front();
+	if (components.size() > 1)
+		throw InvalidOption(InvalidOption::SphereOfComponents, 0.0, 0.0, components.size());
+	const SurfaceType type = topologyOf(Triangulation(c.positions.size(), c.triangles)).type;
+	if (!type.isSphere())
+		throw InvalidOption(InvalidOption::NotASphere, TargetCurvature::Automatic, type);
+
+	const Vertex pole = choosePole(c);
+	const SurfaceMesh disk = punctured(c, pole);
+	Options flow;
+	flow.epsilon = options.epsilon;
+	flow.maxIterations = options.maxIterations;
+	Quiet quiet(progress);
+	const Parametrization flat = parametrizeEuclidean(disk, {}, flow, quiet);
+	VertexArray<Point2> plane(c.positions.size(), {0.0, 0.0});
+	for (std::size_t f = 0; f < disk.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			plane[Vertex(disk.triangles[f][k])] = flat.uv[f][k];
+
+	VertexArray<double> weights(c.positions.size(), 0.0);
+	for (const Triangle& t : c.triangles) {
+		const double area = triangleArea(
+			{c.positions[Vertex(t[0])], c.positions[Vertex(t[1])], c.positions[Vertex(t[2])]});
+		for (const int v : t)
+			weights[Vertex(v)] += area / 3.0;
+	}
+	VertexArray<Point3> sphere = toSphere(plane, weights, pole);
+	SphereMap map;
+	map.pole = c.vertex[pole];
+	map.iterations = flat.report.iterations;
+	map.maxCurvatureError = flat.report.maxCurvatureError;
+	map.offset = balanceByMoebius(sphere.values(), weights.values());
+	alignWith(c.positions, weights, sphere);
+	measure(c, sphere, map);
+	const SphereCheck check = checkSphere(c.triangles, sphere.values());
+	if (!(check.radiusError <= kCheckedRadius) ||
+		!(std::abs(check.degree - 1.0) <= kCheckedDegree) || check.turned > map.flippedFaces)
+		failCheck(
+			"the sphere is covered " + numberText(check.degree, 9) + " times, radii " +
+			numberText(check.radiusError, 3) + " off, " + std::to_string(check.turned) +
+			" faces turned round");
+	map.positions.assign(mesh.positions.size(), {0.0, 0.0, 0.0});
+	for (const Vertex v : c.vertex.indices())
+		map.positions[positionOf(c.vertex[v])] = sphere[v];
+	return map;
+}
+
+} // namespace ricci

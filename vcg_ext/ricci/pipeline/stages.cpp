@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stages.h"
+
+#include "../base/text.h"
+#include "../base/tolerances.h"
+#include "../layout/hole_seams.h"
+#include "../math/min_area_rectangle.h"
+#include "../measure/invariants.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ricci {
+
+std::string description(const Component& component, const SurfaceType& type)
+{
+	return "Component of " + std::to_string(component.positions.size()) + " vertices, " +
+		   std::to_string(component.triangles.size()) + " faces: " + type.name() + ".";
+}
+
+TargetRequest targetRequest(
+	const Component& component, const VertexInput& input, const Options& options, int vertexCount)
+{
+	TargetRequest request;
+	request.mode = options.target;
+	request.freeBoundary = options.freeBoundary;
+	request.selected = atVertices(component, input.selected);
+	request.prescribed = atVertices(component, input.targetCurvature);
+	request.prescribedPrecision = input.precision;
+	request.coneCount = options.coneCount;
+	request.coneDistortion = options.coneDistortion;
+	request.coneRounding = options.coneRounding;
+	request.coneVertices = component.positions.size();
+	request.vertexNumbers = component.vertex;
+	request.selected.resize(vertexCount, 0);
+	request.prescribed.resize(vertexCount, 0.0);
+	return request;
+}
+
+void logFlow(const FlowResult& flow, const FlowOptions& options, ProgressRange& progress)
+{
+	if (flow.history.lengthened > 0.0)
+		progress.log(
+			"Some faces have no area, or one side a million times shorter than another: the flow "
+			"sees every edge longer by " +
+			numberText(flow.history.lengthened, 3) + ".");
+	if (flow.residual >= options.epsilon)
+		progress.log(
+			"The residual asked for is below what rounding allows: the curvature is reached to " +
+			numberText(flow.residual, 3) + " (rounding floor " + numberText(flow.floor, 3) + ").");
+}
+
+VertexArray<char>
+conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& onHole)
+{
+	VertexArray<char> cones(surface.triangulation.vertexCount(), 0);
+	for (const Vertex v : cones.indices()) {
+		const bool inside = !surface.topology.boundary[v] || (!onHole.empty() && onHole[v]);
+		cones[v] = inside && std::abs(target.curvature[v]) > kConeCurvature;
+	}
+	return cones;
+}
+
+CutGraph cutThroughCones(
+	const FlowDomain& domain,
+	const EdgeArray<double>& cost,
+	const VertexArray<char>& cones,
+	ProgressRange& progress)
+{
+	CutGraph cut = cutToDisk(domain.surface.triangulation, cost, cones, {}, [&] {
+		progress.step(1.0 - kAfterFlow, "Shortening the seams");
+	});
+	if (domain.holes > 0)
+		dropSeamsToHoles(
+			domain.surface.triangulation, domain.surface.lengths, domain.onHole, cones, cut);
+	return cut;
+}
+
+double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)
+{
+	double length = 0.0;
+	for (const Edge e : cut.isCut.indices())
+		length += cut.isCut[e] ? lengths[e] : 0.0;
+	return length;
+}
+
+void turnUpright(ComponentMap& map)
+{
+	const OrientedRectangle r = minAreaRectangle(map.layout.points.values());
+	const auto move = [&](Point2& p) {
+		const Point2 q = r.inFrame(p);
+		p = {map.scale * (q[0] - r.min[0]), map.scale * (q[1] - r.min[1])};
+	};
+	for (Point2& p : map.layout.points)
+		move(p);
+	for (Triangle2& triangle : map.refinement.uv)
+		for (Point2& p : triangle)
+			move(p);
+}
+
+FaceArray<Triangle2> cornersOf(const Triangulation& t, const PlanarLayout& layout)
+{
+	FaceArray<Triangle2> corners(t.faceCount());
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		corners[f] = {layout[h[0]], layout[h[1]], layout[h[2]]};
+	}
+	return corners;
+}
+
+void conformalInvariants(const Triangulation& t, ComponentMap& map)
+{
+	const Target& target = map.flow.target;
+	const bool flat = target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
+	if (map.type.isTorus() && flat)
+		map.torusModulus = torusModulus(t, map.layout, map.cut);
+	// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
+	if (map.type.isAnnulus() && flat && !target.hasFixed() && map.cut.edgeCount > 0)
+		map.annulusModulus =
+			annulusModulus(t, map.layout, map.cut, map.scale * map.scale * map.flow.area);
+	if (target.corners)
+		map.rectangleAspect = rectangleAspect(t, map.layout, *target.corners);
+}
+
+bool isBent(const ComponentMap& map, OutputTriangulation output)
+{
+	return output == OutputTriangulation::KeepMesh &&
+		   (map.flow.history.flips() > 0 || map.flow.doubled || map.edgeSwaps > 0 ||
+			map.boundarySplits > 0);
+}
+
+} // namespace ricci

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Steps that the drivers of one component share.
+#ifndef RICCI_STAGES_H
+#define RICCI_STAGES_H
+
+#include "../cut/cut_graph.h"
+#include "../cut/seam_cost.h"
+#include "../surface/flow_domain.h"
+#include "../target/target_curvature.h"
+#include "flatten_component.h"
+
+#include <string>
+#include <vector>
+
+namespace ricci {
+
+/// The flow with the paper's remedy for broken triangles (5.4), which changes the triangulation and
+/// may start again; then the same stages as flattenComponent().
+ComponentMap flattenWithEdgeSwaps(
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	ProgressRange& progress);
+
+/// "Component of 8 vertices, 12 faces: a closed surface of genus 0 (a sphere)."
+std::string description(const Component& component, const SurfaceType& type);
+
+/// The values of the component's vertices; 0 at all of them where the input has none.
+template<class T>
+VertexArray<T> atVertices(const Component& component, const std::vector<T>& input)
+{
+	VertexArray<T> values(component.vertex.size(), T(0));
+	for (const Vertex v : values.indices())
+		if (!input.empty())
+			values[v] = input[positionOf(component.vertex[v])];
+	return values;
+}
+
+/// What the Euclidean target is chosen from, for a surface of \p vertexCount vertices whose first
+/// ones are the component's.
+TargetRequest targetRequest(
+	const Component& component, const VertexInput& input, const Options& options, int vertexCount);
+
+/// Logs what the user should know of a flow that reached its target.
+void logFlow(const FlowResult& flow, const FlowOptions& options, ProgressRange& progress);
+
+/// 1 at the vertices inside that are not flat in the target: the cut must reach them.
+/// \p onHole 1 at vertices of holes that the flow closes with caps; may be empty.
+VertexArray<char>
+conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& onHole = {});
+
+/// The cut graph through all cones on edges of the surface (paper 4.3), without seams to holes that
+/// the flow closes with caps.
+CutGraph cutThroughCones(
+	const FlowDomain& domain,
+	const EdgeArray<double>& cost,
+	const VertexArray<char>& cones,
+	ProgressRange& progress);
+
+/// Sum of the lengths of the cut's edges.
+double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths);
+
+/// commonRefinement() with what the options ask of it. \p AnyOptions: Options, HyperbolicOptions
+template<class AnyOptions>
+CommonRefinement refine(
+	const FlowDomain& domain,
+	const ComponentMap& map,
+	const AnyOptions& options,
+	ProgressRange& progress)
+{
+	const bool refines = options.output == OutputTriangulation::CommonRefinement;
+	return commonRefinement(
+		domain,
+		map.flow,
+		map.cut.isCut,
+		!refines && domain.holes == 0,
+		overlayListener(progress, refines, options.memoryLimit));
+}
+
+/// Scales the layout and turns it so that its smallest bounding rectangle lies along the axes, from
+/// the origin.
+void turnUpright(ComponentMap& map);
+
+/// The points of the corners of all faces.
+FaceArray<Triangle2> cornersOf(const Triangulation& t, const PlanarLayout& layout);
+
+/// The modulus of a flat torus or annulus and the aspect of a rectangle, where the map is one.
+/// \param t the triangulation of the layout
+void conformalInvariants(const Triangulation& t, ComponentMap& map);
+
+/// Whether straight faces of the component may turn round in the map although it is right: flips,
+/// swaps and splits bend their edges.
+bool isBent(const ComponentMap& map, OutputTriangulation output);
+
+} // namespace ricci
+
+#endif

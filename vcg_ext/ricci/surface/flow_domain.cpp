@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flow_domain.h"
+
+#include "hole_caps.h"
+
+#include <utility>
+
+namespace ricci {
+
+EdgeArray<double> edgeLengths(const Triangulation& t, const VertexArray<Point3>& positions)
+{
+	EdgeArray<double> lengths(t.edgeCount());
+	for (const Edge e : t.edges()) {
+		const auto [i, j] = t.ends(e);
+		lengths[e] = distance(positions[i], positions[j]);
+	}
+	return lengths;
+}
+
+EmbeddedSurface
+embeddedSurface(VertexArray<Point3> positions, const std::vector<Triangle>& triangles)
+{
+	EmbeddedSurface surface;
+	surface.triangulation = Triangulation(positions.size(), triangles);
+	surface.lengths = edgeLengths(surface.triangulation, positions);
+	surface.topology = topologyOf(surface.triangulation);
+	surface.positions = std::move(positions);
+	return surface;
+}
+
+FlowDomain flowDomain(const Component& component, Holes holes)
+{
+	FlowDomain domain;
+	domain.surface = embeddedSurface(component.positions, component.triangles);
+	domain.onHole.assign(domain.surface.triangulation.vertexCount(), 0);
+	if (holes == Holes::Capped && domain.surface.topology.loops.size() > 1) {
+		CappedSurface capped =
+			capInnerLoops(domain.surface.triangulation, domain.surface.positions);
+		domain.capped = embeddedSurface(std::move(capped.positions), capped.triangles);
+		domain.onHole = std::move(capped.onHole);
+		domain.holes = capped.holes;
+	}
+	return domain;
+}
+
+} // namespace ricci

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_FLOW_DOMAIN_H
+#define RICCI_FLOW_DOMAIN_H
+
+#include "../options.h"
+#include "component.h"
+#include "topology.h"
+
+#include <optional>
+
+namespace ricci {
+
+/// A connected surface with the metric of its straight triangles in space.
+struct EmbeddedSurface
+{
+	Triangulation triangulation;
+	VertexArray<Point3> positions; ///< may be empty for surfaces given by lengths alone
+	EdgeArray<double> lengths;
+	Topology topology;
+};
+
+/// Straight-line length of each edge of \p t between \p positions.
+EdgeArray<double> edgeLengths(const Triangulation& t, const VertexArray<Point3>& positions);
+
+/// Surface of coherent, manifold triangles; halfedges(Face(f))[k] starts at triangles[f][k].
+/// \pre the triangles are connected
+EmbeddedSurface
+embeddedSurface(VertexArray<Point3> positions, const std::vector<Triangle>& triangles);
+
+/// What one component gives the flow to run on.
+struct FlowDomain
+{
+	EmbeddedSurface surface; ///< the component's own triangles
+
+	/// The surface with caps on all boundary loops but the longest, where holes are to be closed
+	/// (hole_caps.h). Elements of the surface keep their numbers.
+	std::optional<EmbeddedSurface> capped;
+	VertexArray<char> onHole; ///< [vertex of surface] 1 on a loop that is closed
+	int holes = 0;            ///< loops that are closed
+
+	/// The surface on which the flow runs.
+	const EmbeddedSurface& solved() const { return capped ? *capped : surface; }
+};
+
+/// The domain of \p component. Holes are closed only with Holes::Capped, and only where there is
+/// more than one boundary loop.
+FlowDomain flowDomain(const Component& component, Holes holes);
+
+} // namespace ricci
+
+#endif

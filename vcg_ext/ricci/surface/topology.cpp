@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "topology.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ricci {
+
+Topology topologyOf(const Triangulation& t)
+{
+	Topology topology;
+	topology.boundary = t.boundaryVertices();
+	for (const Halfedge first : t.boundaryLoops()) {
+		// Exterior halfedges run with the surface on their right.
+		std::vector<Vertex> loop;
+		for (const Halfedge h : t.loop(first))
+			loop.push_back(t.origin(h));
+		std::reverse(loop.begin(), loop.end());
+		topology.loops.push_back(std::move(loop));
+	}
+	topology.type.boundaryLoops = static_cast<int>(topology.loops.size());
+	topology.type.genus = (2 - t.eulerCharacteristic() - topology.type.boundaryLoops) / 2;
+	return topology;
+}
+
+} // namespace ricci

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "admissible.h"
+
+#include "../base/numbers.h"
+#include "../error.h"
+
+#include <cmath>
+
+namespace ricci {
+
+Target zeroTarget(const Topology& topology)
+{
+	Target target;
+	target.curvature = VertexVector::Zero(topology.boundary.size());
+	target.fixed.assign(topology.boundary.size(), 0);
+	return target;
+}
+
+std::vector<Vertex> selectedVertices(const VertexArray<char>& selected)
+{
+	std::vector<Vertex> vertices;
+	for (const Vertex v : selected.indices())
+		if (selected[v])
+			vertices.push_back(v);
+	return vertices;
+}
+
+std::vector<Vertex> selectedCones(const VertexArray<char>& selected)
+{
+	std::vector<Vertex> cones = selectedVertices(selected);
+	if (cones.empty())
+		throw InvalidOption(InvalidOption::NothingSelected);
+	return cones;
+}
+
+void setPrescribed(const VertexArray<double>& prescribed, double precision, Target& target)
+{
+	std::size_t notFinite = 0;
+	for (const Vertex v : prescribed.indices()) {
+		const double K = prescribed[v];
+		notFinite += !std::isfinite(K);
+		target.curvature[v] = std::abs(K) <= kPrescribedRounding * precision ? 0.0 : K;
+	}
+	if (notFinite > 0)
+		throw InadmissibleCurvature(InadmissibleCurvature::NotFinite, 0.0, 0.0, notFinite);
+}
+
+void checkVertexBounds(const Topology& topology, const Target& target)
+{
+	if (target.circular)
+		return;
+	const auto bound = [&](Vertex v) { return topology.boundary[v] ? kPi : 2 * kPi; };
+	std::size_t tooLarge = 0;
+	Vertex worst;
+	for (const Vertex v : target.fixed.indices()) {
+		if (target.fixed[v] || !(target.curvature[v] >= bound(v)))
+			continue;
+		++tooLarge;
+		if (!worst.isValid() || target.curvature[v] > target.curvature[worst])
+			worst = v;
+	}
+	if (tooLarge > 0)
+		throw InadmissibleCurvature(
+			topology.boundary[worst] ? InadmissibleCurvature::TooLargeOnBoundary
+									 : InadmissibleCurvature::TooLargeInside,
+			target.curvature[worst],
+			bound(worst),
+			tooLarge);
+}
+
+} // namespace ricci

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_ADMISSIBLE_H
+#define RICCI_ADMISSIBLE_H
+
+#include "../base/tolerances.h"
+#include "../flow/target.h"
+#include "../surface/topology.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// The target with K = 0 at every vertex of a surface, and no u fixed.
+Target zeroTarget(const Topology& topology);
+
+/// The vertices that are selected, in order.
+std::vector<Vertex> selectedVertices(const VertexArray<char>& selected);
+
+/// The same for cones, which have to be somewhere.
+/// \throw InvalidOption (NothingSelected) if there is none
+std::vector<Vertex> selectedCones(const VertexArray<char>& selected);
+
+/// Copies prescribed curvatures to the target. Values of the size of rounding are no cones and
+/// become 0.
+/// \param prescribed radians
+/// \param precision relative rounding error of the values
+/// \throw InadmissibleCurvature (NotFinite) if a value is NaN or infinite
+void setPrescribed(const VertexArray<double>& prescribed, double precision, Target& target);
+
+/// Checks what holds for the curvature at each vertex of any metric, flat or hyperbolic, because its
+/// angles are positive: K < 2 pi inside and K < pi on the boundary. Vertices where u is fixed are
+/// left out, and so is a circular target, whose boundary is yet to be adapted.
+/// \throw InadmissibleCurvature (TooLargeInside, TooLargeOnBoundary) with the largest violation
+void checkVertexBounds(const Topology& topology, const Target& target);
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cone_model.h"
+
+#include "cone_rounding.h"
+
+#include <Eigen/LU>
+
+#include <optional>
+
+namespace ricci {
+
+ConeModel::ConeModel(LinearFlow& flow, double total) :
+		m_flow(flow), m_total(total), m_isCone(flow.vertexCount(), 0)
+{
+	const VertexVector start = m_flow.solve(-flow.curvature());
+	m_startEnergy = m_flow.meanSquare(start);
+	m_start = m_flow.gradient(start);
+	m_uniform = m_flow.gradient(m_flow.solve(flow.area()));
+}
+
+int ConeModel::minSize() const
+{
+	if (!hasFixedSum() || m_total == 0.0)
+		return 0;
+	if (m_total < 0.0)
+		return 1;
+	return static_cast<int>(std::ceil(m_total / kMaxConeCurvature));
+}
+
+double ConeModel::exactDistortion()
+{
+	VertexVector rhs = -m_flow.curvature();
+	for (int i = 0; i < size(); ++i)
+		rhs[vertex(i)] += curvature(i);
+	return 2.0 * std::sqrt(m_flow.meanSquare(m_flow.solve(std::move(rhs))));
+}
+
+VertexVector ConeModel::gradient() const
+{
+	VertexVector phi = m_start;
+	for (int i = 0; i < size(); ++i)
+		phi += curvature(i) * m_fields[i];
+	return phi;
+}
+
+VertexVector ConeModel::gradientWithShares(double share) const
+{
+	VertexVector phi = m_start + (m_total - share * size()) * m_uniform;
+	for (const VertexVector& field : m_fields)
+		phi += share * field;
+	return phi;
+}
+
+VertexVector ConeModel::gradientOfOthers(int i, const VertexVector& whole) const
+{
+	VertexVector phi = whole - curvature(i) * m_fields[i];
+	if (hasFixedSum())
+		phi += curvature(i) * m_uniform;
+	return phi;
+}
+
+void ConeModel::append(Vertex v)
+{
+	m_isCone[v] = 1;
+	m_now.vertices.push_back(v);
+	m_now.gram.conservativeResize(size(), size());
+	m_now.linear.conservativeResize(size());
+	setRow(size() - 1, v);
+	m_fields.push_back(m_flow.gradient(unitFactor(v)));
+}
+
+void ConeModel::remove(int i)
+{
+	m_isCone[vertex(i)] = 0;
+	removeRow(i);
+	m_fields.values().erase(m_fields.begin() + i);
+}
+
+void ConeModel::setRounding(ConeRounding rounding)
+{
+	m_rounding = rounding;
+	fit();
+}
+
+void ConeModel::fit()
+{
+	fitFree();
+	if (m_rounding == ConeRounding::QuarterTurns && size() > 0)
+		m_now.values = roundToQuarterTurns(
+			m_now.gram,
+			m_now.linear,
+			m_now.values,
+			hasFixedSum() ? std::optional<double>(m_total) : std::nullopt);
+}
+
+/// Mean square of the factor of a unit of curvature at \p v.
+double ConeModel::ownProduct(Vertex v)
+{
+	const auto known = m_ownProduct.find(v);
+	if (known != m_ownProduct.end())
+		return known->second;
+	return m_ownProduct[v] = m_flow.meanSquare(unitFactor(v));
+}
+
+/// Factor of a unit of curvature at \p v.
+const VertexVector& ConeModel::unitFactor(Vertex v)
+{
+	if (m_lastVertex != v) {
+		VertexVector unit = VertexVector::Zero(m_flow.vertexCount());
+		unit[v] = 1.0;
+		m_lastFactor = m_flow.solve(std::move(unit));
+		m_lastVertex = v;
+	}
+	return m_lastFactor;
+}
+
+/// Puts cone \p i to \p v: row and column i of G, and entry i of b.
+/// \pre all other cones have their fields in m_fields
+void ConeModel::setRow(int i, Vertex v)
+{
+	m_now.vertices[i] = v;
+	for (int k = 0; k < size(); ++k)
+		if (k != i)
+			m_now.gram(i, k) = m_now.gram(k, i) = m_fields[k][v];
+	m_now.gram(i, i) = ownProduct(v);
+	m_now.linear[i] = m_start[v];
+}
+
+void ConeModel::removeRow(int i)
+{
+	std::vector<int> kept;
+	for (int k = 0; k < size(); ++k)
+		if (k != i)
+			kept.push_back(k);
+	const auto n = static_cast<int>(kept.size());
+	State smaller;
+	smaller.values = Eigen::VectorXd::Zero(n);
+	smaller.gram.resize(n, n);
+	smaller.linear.resize(n);
+	for (int a = 0; a < n; ++a) {
+		const int from = kept[positionOf(a)];
+		smaller.vertices.push_back(m_now.vertices[from]);
+		smaller.linear[a] = m_now.linear[from];
+		for (int b = 0; b < n; ++b)
+			smaller.gram(a, b) = m_now.gram(from, kept[positionOf(b)]);
+	}
+	m_now = std::move(smaller);
+}
+
+/// Minimises E with the sum of the curvatures fixed where it is, and none above kMaxConeCurvature.
+///
+/// This is a heuristic with an active set: curvatures that the minimum without their bounds puts
+/// above the bound are set to it, all at once, and the rest is solved again. A bound is never
+/// released, so that the result keeps all constraints but need not be the minimum, as that of a full
+/// active-set method is [Nocedal Wright 2006, 16.5]. It is the minimum if no curvature is bound.
+void ConeModel::fitFree()
+{
+	// Assigned by moving: setZero(n) would free the old block first and, where the allocation of the
+	// new one throws, leave the pointer to be freed again.
+	m_now.values = Eigen::VectorXd(Eigen::VectorXd::Zero(size()));
+	Array<char> isBound(size(), 0);
+	for (int attempt = 0; attempt <= size(); ++attempt) {
+		std::vector<int> free;
+		double total = m_total;
+		for (int i = 0; i < size(); ++i) {
+			if (!isBound[i]) {
+				free.push_back(i);
+				continue;
+			}
+			m_now.values[i] = kMaxConeCurvature;
+			total -= kMaxConeCurvature;
+		}
+		if (free.empty())
+			return;
+		solveFree(free, isBound, total);
+		bool excess = false;
+		for (const int i : free)
+			if (m_now.values[i] > kMaxConeCurvature) {
+				isBound[i] = 1;
+				excess = true;
+			}
+		if (!excess)
+			return;
+	}
+}
+
+/// Puts the \p free curvatures to the minimum of E, with the sum \p total where the sum is fixed,
+/// while the others are kMaxConeCurvature.
+void ConeModel::solveFree(const std::vector<int>& free, const Array<char>& isBound, double total)
+{
+	const auto n = static_cast<int>(free.size());
+	const int rows = n + (hasFixedSum() ? 1 : 0); // the last one for the sum
+	Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows, rows);
+	Eigen::VectorXd rhs = Eigen::VectorXd::Zero(rows);
+	for (int a = 0; a < n; ++a) {
+		const int i = free[positionOf(a)];
+		for (int b = 0; b < n; ++b)
+			system(a, b) = m_now.gram(i, free[positionOf(b)]);
+		rhs[a] = -m_now.linear[i];
+		for (int k = 0; k < size(); ++k)
+			if (isBound[k])
+				rhs[a] -= m_now.gram(i, k) * kMaxConeCurvature;
+	}
+	if (rows > n) {
+		system.row(n).head(n).setOnes();
+		system.col(n).head(n).setOnes();
+		rhs[n] = total;
+	}
+	const Eigen::VectorXd solution = system.fullPivLu().solve(rhs);
+	for (int a = 0; a < n; ++a)
+		m_now.values[free[positionOf(a)]] = solution[a];
+}
+
+} // namespace ricci

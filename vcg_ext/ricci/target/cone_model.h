@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_CONE_MODEL_H
+#define RICCI_CONE_MODEL_H
+
+#include "linear_flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+/// The cones chosen so far, with the quadratic function that their curvatures k minimise: the mean
+/// square of u (the L2 distortion of [Soliman Slepcev Crane 2018]),
+///
+///     E(k) = k.G k + 2 b.k + E(0).
+///
+/// With u_v the factor of a unit of curvature at v, and phi_j the gradient field of u_j (see
+/// LinearFlow), the mean of u_v u_j is phi_j(v). A trial of a vertex therefore costs one linear
+/// solution, that of its own u for the diagonal of G, and none if the vertex was tried before.
+class ConeModel
+{
+public:
+	/// No cones yet.
+	/// \param total 2 pi chi, what the curvatures add up to where their sum is fixed
+	ConeModel(LinearFlow& flow, double total);
+
+	int size() const { return m_now.vertices.size(); }
+	Vertex vertex(int i) const { return m_now.vertices[i]; }
+	bool isCone(Vertex v) const { return m_isCone[v] != 0; }
+
+	/// Curvature of cone \p i in radians, by the last fit.
+	double curvature(int i) const { return m_now.values[i]; }
+
+	bool hasFixedSum() const { return m_flow.hasFixedSum(); }
+	double total() const { return m_total; }
+
+	/// The smallest number of cones that can carry the total curvature.
+	int minSize() const;
+
+	/// Share of each vertex in the surface's area.
+	const VertexVector& area() const { return m_flow.area(); }
+
+	/// E at the curvatures, rounding kept from making it negative.
+	double energy() const
+	{
+		const Eigen::VectorXd& k = m_now.values;
+		return std::max(0.0, k.dot(m_now.gram * k) + 2.0 * m_now.linear.dot(k) + m_startEnergy);
+	}
+
+	/// Standard deviation of 2 u by area.
+	double distortion() const { return 2.0 * std::sqrt(energy()); }
+
+	/// The same from the factor u itself, which has all digits where the sum of energy() cancels.
+	double exactDistortion();
+
+	/// Derivative of half the energy by the curvature of a cone at each vertex, up to a constant
+	/// where the sum is fixed.
+	VertexVector gradient() const;
+
+	/// gradient() as it would be if every cone had curvature \p share, and the rest of the total
+	/// lay on the whole surface in proportion to area.
+	VertexVector gradientWithShares(double share) const;
+
+	/// From \p whole = gradient(), the field of all cones but \p i. Where the sum is fixed, the
+	/// curvature of cone \p i lies on the whole surface in proportion to area instead.
+	VertexVector gradientOfOthers(int i, const VertexVector& whole) const;
+
+	/// Takes one more cone in; its curvature has to be fitted.
+	void append(Vertex v);
+
+	/// Takes cone \p i out; the curvatures of the others have to be fitted.
+	void remove(int i);
+
+	/// Sets how curvatures are rounded, and fits them anew.
+	void setRounding(ConeRounding rounding);
+
+	/// Puts the curvatures to their best values, rounded as set.
+	void fit();
+
+	/// Moves cone \p i to \p v, fits the curvatures, and undoes both unless \p accept, called with
+	/// the energy there, returns true.
+	/// \return whether the cone has moved
+	template<class Accept>
+	bool tryMove(int i, Vertex v, const Accept& accept)
+	{
+		State before = m_now;
+		setRow(i, v);
+		fit();
+		if (!accept(energy())) {
+			m_now = std::move(before);
+			return false;
+		}
+		m_isCone[before.vertices[i]] = 0;
+		m_isCone[v] = 1;
+		m_fields[i] = m_flow.gradient(unitFactor(v));
+		return true;
+	}
+
+	/// Calls \p look() while cone \p i is out and the others are fitted without it.
+	template<class Look>
+	void without(int i, const Look& look)
+	{
+		State before = m_now;
+		VertexVector field = std::move(m_fields[i]);
+		remove(i);
+		fit();
+		look();
+		m_now = std::move(before);
+		m_fields.values().insert(m_fields.begin() + i, std::move(field));
+		m_isCone[m_now.vertices[i]] = 1;
+	}
+
+private:
+	/// The quadratic function, and where it is lowest. Arrays by cone.
+	struct State
+	{
+		Array<Vertex> vertices;
+		Eigen::VectorXd values; // k, radians
+		Eigen::MatrixXd gram;   // G
+		Eigen::VectorXd linear; // b
+	};
+
+	double ownProduct(Vertex v);
+	const VertexVector& unitFactor(Vertex v);
+	void setRow(int i, Vertex v);
+	void removeRow(int i);
+	void fitFree();
+	void solveFree(const std::vector<int>& free, const Array<char>& isBound, double total);
+
+	LinearFlow& m_flow;
+	double m_total;
+	ConeRounding m_rounding = ConeRounding::Free;
+	VertexArray<char> m_isCone;
+	State m_now;
+	Array<VertexVector> m_fields;          // gradient field of each cone's unit of curvature
+	double m_startEnergy = 0.0;            // without cones
+	VertexVector m_start;                  // gradient without cones
+	VertexVector m_uniform;                // gradient field of a unit of curvature spread by area
+	std::map<Vertex, double> m_ownProduct; // of vertices that were tried
+	Vertex m_lastVertex;                   // of the last unitFactor()
+	VertexVector m_lastFactor;
+};
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_CONE_PLACEMENT_H
+#define RICCI_CONE_PLACEMENT_H
+
+#include "../flow/ricci_flow.h"
+#include "cone_request.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// Cones that placeCones() has found.
+struct PlacedCones
+{
+	std::vector<Vertex> vertices;   ///< increasing
+	std::vector<double> curvatures; ///< radians, at most kMaxConeCurvature, never 0
+	/// Standard deviation by area of 2 u, the logarithm of the change of areas
+	/// (AreaDistortion::spread), as the linear problem predicts it.
+	double distortion = 0.0;
+};
+
+/// Chooses cones so that the flow to them changes areas little.
+///
+/// The conformal factor u of a flat metric with cones of curvature k solves L u = k - K, where the
+/// Laplacian L is the Hessian of the flow at its start (LinearFlow). The mean square of u is a
+/// quadratic function of k, the L2 distortion of [Soliman Slepcev Crane 2018] (ConeModel). Its
+/// gradient at every vertex, the field phi with L phi = A u for the areas A, says what a cone gains
+/// there. Their method finds the minimum among all cones up to a total angle, by convex
+/// optimisation, and the number of cones follows; here the number is given, or what the distortion
+/// takes.
+///
+/// 1. Cones are added one by one where phi is farthest from its value at the cones that are there,
+///    and all curvatures fitted anew each time: orthogonal matching pursuit
+///    [Pati Rezaiifar Krishnaprasad 1993].
+/// 2. Every cone in turn is taken out and put where it gains most, while that helps.
+/// 3. With ConeRounding::QuarterTurns the curvatures are multiples of pi / 2 from a search by single
+///    steps and exchanges (roundToQuarterTurns()).
+/// 4. On a sphere, whose seams are a tree through its cones, cones move towards each other
+///    (shortenConeTree()).
+///
+/// All of it is greedy: the cones are good ones, not provably the best. On a closed surface the
+/// curvatures add up to 2 pi chi. No cone lies on the boundary. The result depends on nothing but
+/// the arguments.
+/// \param start of the flow on \p surface, to which L belongs if it is a Delaunay start; its hessian
+/// then is left there for Newton's first step
+/// \throw InvalidOption (TooFewCones, TooFewVertices) if the count is too small for the surface, or
+/// larger than its number of interior vertices
+/// \throw SolverFailed
+PlacedCones
+placeCones(const EmbeddedSurface& surface, FlowStart& start, const ConeRequest& request);
+
+} // namespace ricci
+
+#endif

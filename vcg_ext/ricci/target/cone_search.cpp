@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cone_search.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+/// A cone this weak, in radians, is better placed anew than moved.
+constexpr double kNegligible = 0.3;
+
+/// Rounds in which every cone may move.
+constexpr int kMaxRounds = 5;
+
+/// A move must lower the energy by this share.
+constexpr double kMinGain = 0.02;
+
+/// A cone weaker than this, in radians, is not worth its seam.
+constexpr double kMinCurvature = 0.02;
+
+/// The free vertex with the lowest \p phi, the first of equals; invalid if there is none. \p freed
+/// counts as free though it is a cone.
+Vertex
+lowest(const ConeModel& model, const ConeSites& sites, const VertexVector& phi, Vertex freed = {})
+{
+	Vertex found;
+	double min = std::numeric_limits<double>::infinity();
+	for (const Vertex v : phi.indices())
+		if ((!model.isCone(v) || v == freed) && sites.isAllowed(v) && phi[v] < min) {
+			min = phi[v];
+			found = v;
+		}
+	return found;
+}
+
+/// The value of the gradient \p phi at which a cone gains nothing. Where the sum of the curvatures is
+/// fixed, only differences of the gradient count: it is the value at the cones that are there.
+double level(const ConeModel& model, const VertexVector& phi)
+{
+	if (!model.hasFixedSum())
+		return 0.0;
+	double sum = 0.0;
+	int count = 0;
+	for (int i = 0; i < model.size(); ++i)
+		if (model.curvature(i) < kMaxConeCurvature - 1e-9) {
+			sum += phi[model.vertex(i)];
+			++count;
+		}
+	return count > 0 ? sum / count : model.area().dot(phi);
+}
+
+/// The vertex where one more cone gains most: where the gradient is farthest from its level.
+Vertex mostGain(const ConeModel& model, const ConeSites& sites)
+{
+	VertexVector phi = model.gradient();
+	phi.array() -= level(model, phi);
+	return lowest(model, sites, -phi.cwiseAbs());
+}
+
+/// Moves cone \p i to \p v if that lowers the energy \p present enough.
+bool move(ConeModel& model, int i, Vertex v, double& present)
+{
+	return model.tryMove(i, v, [&](double energy) {
+		if (!(energy < (1.0 - kMinGain) * present))
+			return false;
+		present = energy;
+		return true;
+	});
+}
+
+/// Moves cone \p i to where it gains most, or else to the best vertex beside it.
+bool relocate(ConeModel& model, const ConeSites& sites, int i, double& present)
+{
+	const double own = model.curvature(i);
+	const Vertex old = model.vertex(i);
+	// Half the energy changes by about own (phi[new] - phi[old]). For a place far away, phi is the
+	// field of the others, because the cone's own field is about the same around every place; for a
+	// place beside the old one, it is the whole field.
+	const double enough = 0.5 * kMinGain * present;
+	const VertexVector whole = model.gradient();
+	const VertexVector others = model.gradientOfOthers(i, whole);
+	const Vertex far = lowest(model, sites, own > 0.0 ? others : VertexVector(-others), old);
+	if (far.isValid() && own * (others[old] - others[far]) > enough && move(model, i, far, present))
+		return true;
+	Vertex near = old;
+	for (const Halfedge h : sites.leaving(old)) {
+		const Vertex v = sites.target(h);
+		if (!model.isCone(v) && sites.isAllowed(v) && own * whole[v] < own * whole[near])
+			near = v;
+	}
+	return near != far && own * (whole[old] - whole[near]) > enough &&
+		   move(model, i, near, present);
+}
+
+/// Takes the weak cone \p i out and puts it where one more cone gains most.
+bool replant(ConeModel& model, const ConeSites& sites, int i, double& present)
+{
+	if (model.size() <= model.minSize())
+		return false;
+	const Vertex old = model.vertex(i);
+	Vertex best = old;
+	model.without(i, [&] { best = mostGain(model, sites); });
+	return best.isValid() && best != old && move(model, i, best, present);
+}
+
+} // namespace
+
+void startCones(ConeModel& model, const ConeSites& sites)
+{
+	const int count = model.minSize();
+	const double sign = model.total() < 0.0 ? -1.0 : 1.0;
+	while (model.size() < count) {
+		const Vertex v =
+			lowest(model, sites, sign * model.gradientWithShares(model.total() / count));
+		if (!v.isValid())
+			break;
+		model.append(v);
+	}
+	model.fit();
+}
+
+bool addCone(ConeModel& model, const ConeSites& sites)
+{
+	const Vertex v = mostGain(model, sites);
+	if (!v.isValid())
+		return false;
+	model.append(v);
+	model.fit();
+	return true;
+}
+
+void relocateCones(ConeModel& model, const ConeSites& sites)
+{
+	double present = model.energy();
+	for (int round = 0; round < kMaxRounds; ++round) {
+		bool hasMoved = false;
+		for (int i = 0; i < model.size(); ++i)
+			hasMoved |= std::abs(model.curvature(i)) > kNegligible
+							? relocate(model, sites, i, present)
+							: replant(model, sites, i, present);
+		if (!hasMoved)
+			return;
+	}
+}
+
+void removeWeakCones(ConeModel& model)
+{
+	std::vector<int> weak;
+	for (int i = model.size() - 1; i >= 0; --i)
+		if (std::abs(model.curvature(i)) <= kMinCurvature)
+			weak.push_back(i);
+	for (const int i : weak) // from the last, so that the others keep their numbers
+		if (model.size() > model.minSize())
+			model.remove(i);
+	model.fit();
+}
+
+} // namespace ricci

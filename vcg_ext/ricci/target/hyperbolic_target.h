@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_HYPERBOLIC_TARGET_H
+#define RICCI_HYPERBOLIC_TARGET_H
+
+#include "../flow/target.h"
+#include "../options.h"
+#include "../surface/topology.h"
+
+namespace ricci {
+
+/// What chooseHyperbolicTarget() is asked for.
+struct HyperbolicRequest
+{
+	HyperbolicTarget mode = HyperbolicTarget::HyperbolicMetric;
+	bool freeBoundary = false;
+	double coneAngle = 0.0;           ///< total angle at each selected vertex, radians
+	VertexArray<char> selected;       ///< 1 at the cones of SelectedCones
+	VertexArray<double> prescribed;   ///< radians, for Prescribed
+	double prescribedPrecision = 0.0; ///< relative rounding error of prescribed values
+};
+
+/// Chooses the target of the hyperbolic flow and checks that a metric with that curvature can exist:
+/// K < 2 pi inside, K < pi on the boundary, and sum K > 2 pi chi, because the difference is the area
+/// (Gauss-Bonnet). Smooth metrics with these cones then do exist on closed surfaces
+/// [Troyanov 1991]. Where the boundary is free its vertices count as 0 in the sum, which then gives
+/// the metric its scale.
+/// \throw InvalidOption if a cone's angle is not positive, or nothing is selected for cones
+/// \throw InadmissibleCurvature otherwise, with the numbers that contradict each other
+Target chooseHyperbolicTarget(const Topology& topology, const HyperbolicRequest& request);
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_LINEAR_FLOW_H
+#define RICCI_LINEAR_FLOW_H
+
+#include "../flow/ricci_flow.h"
+#include "cone_request.h"
+
+#include <memory>
+
+namespace ricci {
+
+/// The flow to a target curvature k, linearised at its start: L u = k - K, where K is the curvature
+/// of the surface and L the derivative of K by u, the Hessian of the Ricci energy (a Laplacian). It
+/// is the equation of Newton's first step, and that by which [Ben-Chen Gotsman Bunin 2008] estimate
+/// the conformal factor of a metric with cones.
+///
+/// L belongs to the weighted Delaunay triangulation of the surface, where no weight inside is
+/// negative.
+class LinearFlow
+{
+public:
+	/// Factorises L. If \p start is a Delaunay start, L is the Hessian there, and its factor is left
+	/// in start.hessian, where Newton's first step finds it; else L is that of a Delaunay start made
+	/// here.
+	/// \param start the start of the flow on \p surface; has to outlive this object, with its
+	/// hessian
+	/// \throw SolverFailed
+	LinearFlow(const EmbeddedSurface& surface, FlowStart& start, ConeBoundary boundary);
+	LinearFlow(const LinearFlow&) = delete;
+	LinearFlow& operator=(const LinearFlow&) = delete;
+
+	/// Whether the curvatures of the cones have a fixed sum: on closed surfaces, by Gauss-Bonnet.
+	bool hasFixedSum() const { return m_sink.size() == 0 && !m_fixesBoundary; }
+
+	int vertexCount() const { return static_cast<int>(m_area.size()); }
+
+	/// K of the surface, radians.
+	const VertexVector& curvature() const { return m_curvature; }
+
+	/// Share of each vertex in the surface's area: a third of its triangles. They add up to 1.
+	const VertexVector& area() const { return m_area; }
+
+	/// The u, with mean 0 by area, that L maps to \p rhs. What is missing from the sum of \p rhs is
+	/// taken from the boundary or, on a closed surface, from one vertex that is always the same.
+	VertexVector solve(VertexVector rhs);
+
+	/// Mean of u^2 by area.
+	double meanSquare(const VertexVector& u) const { return m_area.dot(u.cwiseProduct(u)); }
+
+	/// The adjoint problem: the field phi with L phi = A u, where A holds the areas. phi(v) is the
+	/// derivative of half the mean square of \p u = solve(k - K) by the curvature k of a cone at v,
+	/// up to a constant where the sum of the curvatures is fixed.
+	VertexVector gradient(const VertexVector& u);
+
+private:
+	void computeAreas(const CurvatureMap& map);
+	void spreadSink(const EmbeddedSurface& surface);
+	VertexVector solveRows(const VertexVector& rhs);
+
+	std::unique_ptr<FactoredHessian> m_ownHessian; // null where that of the start is used
+	FactoredHessian* m_hessian = nullptr;
+	bool m_fixesBoundary;
+	VertexVector m_curvature, m_area;
+	VertexVector m_sink; // shares of the boundary vertices in a prescribed boundary; else empty
+	Eigen::VectorXd m_rhs, m_solution;
+};
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "target_curvature.h"
+
+#include "../base/numbers.h"
+#include "../base/text.h"
+#include "../error.h"
+#include "admissible.h"
+#include "cone_placement.h"
+#include "rectangle_corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+std::string number(double x)
+{
+	return numberText(x, 9);
+}
+
+/// 2 pi chi, what the curvature of the surface adds up to by Gauss-Bonnet.
+double totalCurvature(const EmbeddedSurface& surface)
+{
+	return 2 * kPi * surface.topology.type.eulerCharacteristic();
+}
+
+/// Fixes u on the boundary (paper 5.3).
+void freeTheBoundary(const EmbeddedSurface& surface, Target& target)
+{
+	target.fixed = surface.topology.boundary;
+	target.notes.push_back("Free boundary: the boundary keeps its metric.");
+}
+
+void noteImpliedBoundary(
+	const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
+{
+	if (request.freeBoundary && !surface.topology.type.isClosed())
+		target.notes.push_back(
+			"The target prescribes the boundary: the choice of a free boundary has no effect on "
+			"it.");
+}
+
+/// Total curvature \p total on the loops, in proportion to the length of the two boundary edges at
+/// each vertex.
+void spreadOverBoundary(const EmbeddedSurface& surface, double total, Target& target)
+{
+	const Triangulation& t = surface.triangulation;
+	double perimeter = 0.0;
+	for (const Halfedge h : t.exteriorHalfedges())
+		perimeter += surface.lengths[h.edge()];
+	if (!(perimeter > 0.0))
+		throw InvalidMesh(InvalidMesh::BoundaryWithoutLength);
+	for (const Halfedge h : t.exteriorHalfedges()) {
+		const double share = 0.5 * total * surface.lengths[h.edge()] / perimeter;
+		target.curvature[t.origin(h)] += share;
+		target.curvature[t.target(h)] += share;
+	}
+}
+
+/// Prescribes the boundary: it takes \p total in proportion to its length.
+void prescribeByLength(const EmbeddedSurface& surface, double total, Target& target)
+{
+	spreadOverBoundary(surface, total, target);
+	target.notes.push_back(
+		"The boundary is prescribed: its curvature is proportional to its length.");
+}
+
+void requireDisk(const EmbeddedSurface& surface, TargetCurvature mode)
+{
+	if (!surface.topology.type.isDisk())
+		throw InvalidOption(InvalidOption::NotADisk, mode, surface.topology.type);
+}
+
+void setFlat(const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
+{
+	const SurfaceType& type = surface.topology.type;
+	if (type.eulerCharacteristic() != 0)
+		throw InadmissibleCurvature(
+			InadmissibleCurvature::Flat, 0.0, totalCurvature(surface), 0, type);
+	noteImpliedBoundary(surface, request, target);
+}
+
+void setDisk(const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
+{
+	requireDisk(surface, TargetCurvature::Disk);
+	target.circular = true;
+	spreadOverBoundary(surface, 2 * kPi, target);
+	noteImpliedBoundary(surface, request, target);
+}
+
+/// The four selected vertices in the order of the loop.
+std::array<Vertex, 4>
+selectedCorners(const std::vector<Vertex>& loop, const VertexArray<char>& selected)
+{
+	const std::size_t count = selectedVertices(selected).size();
+	if (count != 4)
+		throw InvalidOption(InvalidOption::CornerCount, 0.0, 0.0, count);
+	std::array<Vertex, 4> corners;
+	std::size_t found = 0;
+	for (const Vertex v : loop)
+		if (selected[v])
+			corners[found++] = v;
+	if (found != 4)
+		throw InvalidOption(InvalidOption::CornersOffBoundary, 0.0, 0.0, found);
+	return corners;
+}
+
+void setRectangle(const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
+{
+	requireDisk(surface, TargetCurvature::Rectangle);
+	const std::vector<Vertex>& loop = surface.topology.loops.front();
+	if (loop.size() < 4)
+		throw InvalidOption(InvalidOption::TooFewBoundaryVertices, 0.0, 0.0, loop.size());
+	if (selectedVertices(request.selected).empty()) {
+		target.corners = rectangleCorners(loop, surface.positions);
+		target.notes.push_back(
+			"No vertices are selected: the corners are the boundary vertices nearest to the "
+			"corners of the smallest rectangle around the boundary.");
+	}
+	else
+		target.corners = selectedCorners(loop, request.selected);
+	for (const Vertex v : *target.corners)
+		target.curvature[v] = 0.5 * kPi;
+	noteImpliedBoundary(surface, request, target);
+}
+
+/// Equal shares of the total curvature at the selected vertices. The boundary is free only if no
+/// cone lies on it.
+void setCones(const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
+{
+	const Topology& topology = surface.topology;
+	const std::vector<Vertex> cones = selectedCones(request.selected);
+	const double share = totalCurvature(surface) / static_cast<double>(cones.size());
+	bool onBoundary = false;
+	for (const Vertex v : cones) {
+		target.curvature[v] = share;
+		onBoundary |= topology.boundary[v] != 0;
+	}
+	target.notes.push_back(
+		std::to_string(cones.size()) + " cones of curvature " + number(share) + " each.");
+	if (topology.type.isClosed() || !request.freeBoundary)
+		return;
+	if (!onBoundary)
+		freeTheBoundary(surface, target);
+	else
+		target.notes.push_back(
+			"Cones lie on the boundary, which is therefore prescribed: the choice of a free "
+			"boundary has no effect.");
+}
+
+/// Copies the prescribed values; a defect of rounding size is spread in proportion to |K|.
+void setPrescribedValues(
+	const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
+{
+	setPrescribed(request.prescribed, request.prescribedPrecision, target);
+	if (!surface.topology.type.isClosed() && request.freeBoundary) {
+		freeTheBoundary(surface, target);
+		return;
+	}
+	// A sum of many equal values in double drifts by more than their own rounding.
+	long double exactSum = 0.0L;
+	double magnitude = 0.0;
+	for (const Vertex v : target.curvature.indices()) {
+		exactSum += target.curvature[v];
+		magnitude += std::abs(target.curvature[v]);
+	}
+	const auto sum = static_cast<double>(exactSum);
+	const double wanted = totalCurvature(surface);
+	const double defect = wanted - sum;
+	if (std::abs(defect) >
+		kPrescribedRounding * request.prescribedPrecision * (magnitude + 2 * kPi))
+		throw InadmissibleCurvature(InadmissibleCurvature::GaussBonnet, sum, wanted);
+	if (magnitude > 0.0)
+		target.curvature += (defect / magnitude) * target.curvature.cwiseAbs();
+}
+
+/// "12 cones placed, ...", with the vertices and their curvatures.
+std::string describe(const PlacedCones& cones, const VertexArray<int>& vertexNumbers)
+{
+	std::vector<std::pair<int, double>> named;
+	for (std::size_t i = 0; i < cones.vertices.size(); ++i) {
+		const Vertex v = cones.vertices[i];
+		const bool hasNumber = v.number() < vertexNumbers.size();
+		named.emplace_back(hasNumber ? vertexNumbers[v] : v.number(), cones.curvatures[i]);
+	}
+	std::sort(named.begin(), named.end());
+	std::string list;
+	for (const auto& [vertex, curvature] : named)
+		list += (list.empty() ? " " : ", ") + std::to_string(vertex) + " (" +
+				number(curvature / kPi) + ")";
+	return std::to_string(cones.vertices.size()) + " cones placed, expected area distortion " +
+		   number(cones.distortion) + " (spread); vertex (curvature / pi):" + list + ".";
+}
+
+/// Cones where they lower the distortion of area. A boundary is free or, if it is not to be, takes
+/// the rest of the curvature in proportion to its length.
+void setPlacedCones(
+	const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request, Target& target)
+{
+	const bool isClosed = surface.topology.type.isClosed();
+	const bool isPrescribed = !isClosed && !request.freeBoundary;
+	ConeRequest wanted;
+	wanted.count = request.coneCount;
+	wanted.distortion = request.coneDistortion;
+	wanted.rounding = request.coneRounding;
+	wanted.vertices = request.coneVertices;
+	wanted.boundary = isPrescribed ? ConeBoundary::Prescribed : ConeBoundary::Fixed;
+	const PlacedCones cones = placeCones(surface, start, wanted);
+	double total = 0.0;
+	for (std::size_t i = 0; i < cones.vertices.size(); ++i) {
+		target.curvature[cones.vertices[i]] = cones.curvatures[i];
+		total += cones.curvatures[i];
+	}
+	target.notes.push_back(describe(cones, request.vertexNumbers));
+	if (isPrescribed)
+		prescribeByLength(surface, totalCurvature(surface) - total, target);
+	else if (!isClosed)
+		freeTheBoundary(surface, target);
+}
+
+void setAutomatic(
+	const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request, Target& target)
+{
+	const SurfaceType& type = surface.topology.type;
+	if (type.isTorus() || type.isAnnulus())
+		setFlat(surface, request, target);
+	else if (type.isClosed())
+		setPlacedCones(surface, start, request, target);
+	else if (request.freeBoundary)
+		freeTheBoundary(surface, target);
+	else if (type.isDisk())
+		setDisk(surface, request, target);
+	else
+		prescribeByLength(surface, totalCurvature(surface), target);
+}
+
+/// Where the boundary is free, its vertices have to be able to take what Gauss-Bonnet leaves, each
+/// less than pi.
+void checkFreeBoundary(const Topology& topology, const Target& target)
+{
+	if (!target.hasFixed())
+		return;
+	double insideSum = 0.0;
+	std::size_t boundaryCount = 0;
+	for (const Vertex v : topology.boundary.indices()) {
+		if (topology.boundary[v])
+			++boundaryCount;
+		else if (!target.fixed[v])
+			insideSum += target.curvature[v];
+	}
+	const double bound =
+		2 * kPi * topology.type.eulerCharacteristic() - kPi * static_cast<double>(boundaryCount);
+	if (insideSum <= bound)
+		throw InadmissibleCurvature(
+			InadmissibleCurvature::FreeBoundary, insideSum, bound, boundaryCount);
+}
+
+} // namespace
+
+Target chooseTarget(const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request)
+{
+	Target target = zeroTarget(surface.topology);
+	switch (request.mode) {
+	case TargetCurvature::Automatic:
+		setAutomatic(surface, start, request, target);
+		break;
+	case TargetCurvature::Flat:
+		setFlat(surface, request, target);
+		break;
+	case TargetCurvature::Disk:
+		setDisk(surface, request, target);
+		break;
+	case TargetCurvature::Rectangle:
+		setRectangle(surface, request, target);
+		break;
+	case TargetCurvature::SelectedCones:
+		setCones(surface, request, target);
+		break;
+	case TargetCurvature::Prescribed:
+		setPrescribedValues(surface, request, target);
+		break;
+	case TargetCurvature::PlacedCones:
+		setPlacedCones(surface, start, request, target);
+		break;
+	}
+	checkVertexBounds(surface.topology, target);
+	checkFreeBoundary(surface.topology, target);
+	return target;
+}
+
+} // namespace ricci

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_TARGET_CURVATURE_H
+#define RICCI_TARGET_CURVATURE_H
+
+#include "../flow/ricci_flow.h"
+
+namespace ricci {
+
+/// What chooseTarget() is asked for.
+struct TargetRequest
+{
+	TargetCurvature mode = TargetCurvature::Automatic;
+	bool freeBoundary = true;
+	VertexArray<char> selected;       ///< 1 at the corners of Rectangle, the cones of SelectedCones
+	VertexArray<double> prescribed;   ///< radians, for Prescribed
+	double prescribedPrecision = 0.0; ///< relative rounding error of prescribed values
+	int coneCount = 0;                ///< of placed cones, see ConeRequest
+	double coneDistortion = 0.5;
+	ConeRounding coneRounding = ConeRounding::Free;
+	int coneVertices = -1; ///< placed cones lie at vertices with a number below this; -1: at any
+	VertexArray<int> vertexNumbers; ///< under which notes name vertices; empty: their own
+};
+
+/// Chooses the target of the Euclidean flow (paper 5.2, 5.3) and checks that a metric with that
+/// curvature can exist: K < 2 pi inside and K < pi on the boundary; and sum K = 2 pi chi
+/// (Gauss-Bonnet) where all is prescribed, or sum K inside > 2 pi chi - pi (number of boundary
+/// vertices) where the boundary is free. For closed surfaces and flips these conditions suffice
+/// [Bobenko Lutz 2023].
+/// \param surface whose positions choose the corners of a rectangle if none are selected
+/// \param start of the flow on \p surface; placed cones belong to it, and leave a hessian there (see
+/// placeCones())
+/// \throw InvalidOption if the mode does not fit the topology or the selection
+/// \throw InadmissibleCurvature otherwise, with the numbers that contradict each other
+/// \throw InvalidMesh (BoundaryWithoutLength)
+/// \throw SolverFailed where cones are placed
+Target chooseTarget(const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request);
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,313 @@
+/****************************************************************************
+ * Meshes made from the result of the discrete Ricci flow                    *
+ * An extension of the VCG Library                                           *
+ * SPDX-License-Identifier: GPL-3.0-or-later                                 *
+ ****************************************************************************/
+#ifndef __VCGLIB_RICCI_FLOW_LAYERS
+#define __VCGLIB_RICCI_FLOW_LAYERS
+
+#include "ricci_flow.h"
+
+#include <ricci/error.h>
+#include <ricci/math/disk_isometry.h>
+#include <ricci/measure/canonical_polygon.h>
+#include <ricci/measure/fuchsian_group.h>
+#include <ricci/measure/tiling.h>
+#include <ricci/sphere_map.h>
+
+#include <vcg/complex/allocate.h>
+#include <vcg/complex/complex.h>
+#include <vcg/space/color4.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace vcg {
+namespace tri {
+
+/**
+ * @brief Meshes that show the result of RicciFlow: the layout in the plane, the map to the sphere, and
+ * in the Poincaré disk the universal cover, the axes of the Fuchsian group and its canonical polygon.
+ */
+template<class MeshType>
+class RicciFlowLayers
+{
+public:
+	typedef typename MeshType::ScalarType ScalarType;
+	typedef typename MeshType::CoordType CoordType;
+	typedef typename MeshType::VertexType VertexType;
+	typedef typename MeshType::VertexIterator VertexIterator;
+	typedef typename MeshType::FaceType FaceType;
+	typedef typename MeshType::FaceIterator FaceIterator;
+	typedef typename RicciFlow<MeshType>::WedgeUV WedgeUV;
+	typedef typename RicciFlow<MeshType>::Result Result;
+
+	/// Fills the empty mesh \p flat with the layout: the vertices of \p m, once for each place that
+	/// they have in the plane, at z = 0, with the distortion as their quality. Wedge texture
+	/// coordinates are written if they are enabled on \p flat.
+	static void BuildFlatMesh(const MeshType& m, const Result& r, MeshType& flat)
+	{
+		typedef std::pair<size_t, ricci::Point2> Place; // vertex, point
+		std::map<Place, size_t> index;
+		std::vector<Place> places;
+		std::vector<std::array<size_t, 3>> faces;
+		const auto addFace = [&](const std::array<size_t, 3>& vertex, const WedgeUV& uv) {
+			std::array<size_t, 3> corner;
+			for (size_t k = 0; k < 3; ++k) {
+				const Place place(vertex[k], uv[k]);
+				const auto found = index.insert(std::make_pair(place, places.size()));
+				if (found.second)
+					places.push_back(place);
+				corner[k] = found.first->second;
+			}
+			faces.push_back(corner);
+		};
+		const bool refined = !r.refined.triangles.empty();
+		const std::vector<double>& quality = refined ? r.refined.vertexQC : r.vertexQC;
+		for (size_t i = 0; i < r.refined.triangles.size(); ++i) {
+			const ricci::Triangle& t = r.refined.triangles[i];
+			addFace({size_t(t[0]), size_t(t[1]), size_t(t[2])}, r.refined.uv[i]);
+		}
+		for (size_t f = 0; f < m.face.size() && !refined; ++f)
+			if (!m.face[f].IsD())
+				addFace(
+					{Index(m, m.face[f].cV(0)),
+					 Index(m, m.face[f].cV(1)),
+					 Index(m, m.face[f].cV(2))},
+					r.wedgeUV[f]);
+		Allocator<MeshType>::AddVertices(flat, places.size());
+		for (size_t i = 0; i < places.size(); ++i) {
+			const ricci::Point2& p = places[i].second;
+			flat.vert[i].P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(0));
+			flat.vert[i].N() = CoordType(0, 0, 1);
+			flat.vert[i].Q() = typename VertexType::QualityType(quality[places[i].first]);
+		}
+		FaceIterator fi = Allocator<MeshType>::AddFaces(flat, faces.size());
+		for (size_t f = 0; f < faces.size(); ++f, ++fi) {
+			for (int k = 0; k < 3; ++k)
+				fi->V(k) = &flat.vert[faces[f][size_t(k)]];
+			fi->N() = CoordType(0, 0, 1);
+			if (HasPerWedgeTexCoord(flat))
+				for (int k = 0; k < 3; ++k)
+					RicciFlow<MeshType>::SetWedge(*fi, k, places[faces[f][size_t(k)]].second);
+		}
+	}
+
+	/// Fills the empty mesh \p sphere with the vertices and faces of \p m, without the deleted ones
+	/// but otherwise in their order, at their places on the unit sphere. Vertices without a face lie
+	/// at the origin.
+	static void BuildSphereMesh(const MeshType& m, const ricci::SphereMap& map, MeshType& sphere)
+	{
+		std::vector<size_t> index(m.vert.size(), 0);
+		VertexIterator vi = Allocator<MeshType>::AddVertices(sphere, size_t(m.vn));
+		size_t next = 0;
+		for (size_t v = 0; v < m.vert.size(); ++v) {
+			if (m.vert[v].IsD())
+				continue;
+			const ricci::Point3& p = map.positions[v];
+			vi->P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(p[2]));
+			if (HasPerVertexColor(m) && HasPerVertexColor(sphere))
+				vi->C() = m.vert[v].cC();
+			index[v] = next++;
+			++vi;
+		}
+		FaceIterator fi = Allocator<MeshType>::AddFaces(sphere, size_t(m.fn));
+		for (size_t f = 0; f < m.face.size(); ++f) {
+			if (m.face[f].IsD())
+				continue;
+			for (int k = 0; k < 3; ++k)
+				fi->V(k) = &sphere.vert[index[Index(m, m.face[f].cV(k))]];
+			++fi;
+		}
+	}
+
+	/// Fills the empty mesh \p cover with copies of the layout in the Poincaré disk: the component
+	/// itself and \p rings rings of neighbours in its universal cover, all within the disk's square
+	/// of the texture plane, at z = 0. Each copy has its own colour, where vertices or faces of
+	/// \p cover have any.
+	/// \throw ricci::InvalidOption CoverTooLarge if that is more than \p maxFaces faces
+	static void BuildUniversalCover(
+		const MeshType& m, const Result& r, int rings, size_t maxFaces, MeshType& cover)
+	{
+		const LaidOut layout(m, r);
+		std::vector<ricci::Tiling> tilings;
+		size_t copies = 0;
+		for (const ricci::FuchsianGroup& group : r.groups) {
+			const size_t limit = maxFaces / std::max<size_t>(1, size_t(layout.mesh.fn)) + 2;
+			tilings.push_back(ricci::tiling(group.sides, rings, int(limit)));
+			copies = std::max(copies, tilings.back().deck.size());
+		}
+		if (copies * size_t(layout.mesh.fn) > maxFaces)
+			throw ricci::InvalidOption(
+				ricci::InvalidOption::CoverTooLarge, double(rings), 0.0, maxFaces);
+		for (size_t copy = 0; copy < copies; ++copy)
+			AddCopy(layout, r, tilings, copy, cover);
+	}
+
+	/// Fills the empty mesh \p curves with edges: the axes of the generators in the Poincaré disk,
+	/// which are closed geodesics of the surface, each as a polyline of \p pieces edges. Rotations
+	/// have no axis.
+	static void BuildAxes(const Result& r, int pieces, MeshType& curves)
+	{
+		for (size_t i = 0; i < r.groups.size(); ++i) {
+			const ricci::FuchsianGroup& group = r.groups[i];
+			for (const auto* generators : {&group.handles, &group.peripheral})
+				for (const ricci::DiskIsometry& g : *generators) {
+					std::complex<double> from, to;
+					if (g.axis(from, to))
+						AddGeodesic(r.disks[i], from, to, pieces, curves);
+				}
+		}
+	}
+
+	/// Fills the empty mesh \p curves with edges: for each component a fundamental polygon whose
+	/// sides are the letters of the canonical relation (see ricci::canonicalPolygon), 4 g for a
+	/// closed surface of genus g, each as a polyline of \p pieces edges in the Poincaré disk.
+	static std::vector<ricci::CanonicalPolygon>
+	BuildCanonicalPolygons(const Result& r, int pieces, MeshType& curves)
+	{
+		const auto klein = [](std::complex<double> z) { return 2.0 * z / (1.0 + std::norm(z)); };
+		std::vector<ricci::CanonicalPolygon> polygons;
+		for (size_t i = 0; i < r.groups.size(); ++i) {
+			polygons.push_back(ricci::canonicalPolygon(r.groups[i]));
+			const std::vector<std::complex<double>>& corners = polygons.back().corners;
+			for (size_t k = 0; k < corners.size(); ++k)
+				AddGeodesic(
+					r.disks[i],
+					klein(corners[k]),
+					klein(corners[(k + 1) % corners.size()]),
+					pieces,
+					curves);
+		}
+		return polygons;
+	}
+
+private:
+	/// The layout as a mesh, and for each of its vertices the component.
+	struct LaidOut
+	{
+		LaidOut(const MeshType& m, const Result& r)
+		{
+			BuildFlatMesh(m, r, mesh);
+			component.assign(size_t(mesh.vn), 0);
+			for (size_t v = 0; v < component.size(); ++v) {
+				const CoordType& p = mesh.vert[v].cP();
+				for (size_t i = 0; i < r.disks.size(); ++i)
+					if (r.disks[i].contains({double(p[0]), double(p[1])}))
+						component[v] = i;
+			}
+		}
+
+		MeshType mesh;
+		std::vector<size_t> component; // by its square
+	};
+
+	/// Adds the copies with the number \p copy of those components whose tilings have so many.
+	static void AddCopy(
+		const LaidOut& layout,
+		const Result& r,
+		const std::vector<ricci::Tiling>& tilings,
+		size_t copy,
+		MeshType& cover)
+	{
+		const MeshType& one = layout.mesh;
+		std::vector<char> isCopied; // [vertex]
+		for (size_t component : layout.component)
+			isCopied.push_back(copy < tilings[component].deck.size());
+		std::vector<const FaceType*> faces;
+		for (const FaceType& f : one.face)
+			if (isCopied[Index(one, f.cV(0))])
+				faces.push_back(&f);
+		const size_t vertices = size_t(std::count(isCopied.begin(), isCopied.end(), 1));
+		std::vector<VertexType*> place(isCopied.size(), nullptr);
+		VertexIterator vi = Allocator<MeshType>::AddVertices(cover, vertices);
+		for (size_t v = 0; v < place.size(); ++v) {
+			if (!isCopied[v])
+				continue;
+			const size_t component = layout.component[v];
+			const ricci::Point2 middle = Middle(r.disks[component]);
+			const double radius = 0.5 * r.disks[component].width();
+			const CoordType& p = one.vert[v].cP();
+			const std::complex<double> z = tilings[component].deck[copy](std::complex<double>(
+				(double(p[0]) - middle[0]) / radius, (double(p[1]) - middle[1]) / radius));
+			vi->P() = CoordType(
+				ScalarType(middle[0] + radius * z.real()),
+				ScalarType(middle[1] + radius * z.imag()),
+				ScalarType(0));
+			vi->N() = CoordType(0, 0, 1);
+			vi->Q() = one.vert[v].cQ();
+			if (HasPerVertexColor(cover))
+				vi->C() = TileColor(copy);
+			place[v] = &*vi++;
+		}
+		FaceIterator fi = Allocator<MeshType>::AddFaces(cover, faces.size());
+		for (const FaceType* f : faces) {
+			for (int k = 0; k < 3; ++k)
+				fi->V(k) = place[Index(one, f->cV(k))];
+			fi->N() = CoordType(0, 0, 1);
+			if (HasPerFaceColor(cover))
+				fi->C() = TileColor(copy);
+			++fi;
+		}
+	}
+
+	static ricci::Point2 Middle(const ricci::Box2& box)
+	{
+		return {(box.min[0] + box.max[0]) / 2, (box.min[1] + box.max[1]) / 2};
+	}
+
+	/// Adds a polyline along the geodesic between two points of the Klein model, where it is
+	/// straight, drawn in the Poincaré disk inscribed in the box \p disk.
+	static void AddGeodesic(
+		const ricci::Box2& disk,
+		std::complex<double> from,
+		std::complex<double> to,
+		int pieces,
+		MeshType& curves)
+	{
+		VertexIterator vi = Allocator<MeshType>::AddVertices(curves, size_t(pieces) + 1);
+		std::vector<VertexType*> points;
+		const ricci::Point2 middle = Middle(disk);
+		const double radius = 0.5 * disk.width();
+		for (int k = 0; k <= pieces; ++k, ++vi) {
+			// Denser towards the ends, where the disk is smaller.
+			const double t = 0.5 - 0.5 * std::cos(M_PI * k / pieces);
+			const std::complex<double> klein = (1.0 - t) * from + t * to;
+			const std::complex<double> z =
+				klein / (1.0 + std::sqrt(std::max(0.0, 1.0 - std::norm(klein))));
+			vi->P() = CoordType(
+				ScalarType(middle[0] + z.real() * radius),
+				ScalarType(middle[1] + z.imag() * radius),
+				ScalarType(0));
+			vi->N() = CoordType(0, 0, 1);
+			points.push_back(&*vi);
+		}
+		typename MeshType::EdgeIterator ei = Allocator<MeshType>::AddEdges(curves, size_t(pieces));
+		for (size_t k = 0; k < size_t(pieces); ++k, ++ei) {
+			ei->V(0) = points[k];
+			ei->V(1) = points[k + 1];
+		}
+	}
+
+	/// Colours that differ for copies near each other in their order; the first one is grey.
+	static Color4b TileColor(size_t copy)
+	{
+		if (copy == 0)
+			return Color4b(200, 200, 200, 255);
+		// Steps of the golden section round the circle of hues.
+		const double hue = std::fmod(0.618033988749895 * double(copy), 1.0);
+		Color4b color;
+		color.SetHSVColor(float(hue), copy % 2 == 0 ? 0.3f : 0.5f, copy % 3 == 0 ? 0.8f : 0.95f);
+		return color;
+	}
+};
+
+} // namespace tri
+} // namespace vcg
+
+#endif
