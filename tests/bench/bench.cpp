@@ -9,20 +9,20 @@
 #include "support/mesh_file.h"
 #endif
 
-#include <ricci/flow/factored_hessian.h>
-#include <ricci/flow/ricci_flow.h>
-#include <ricci/math/sparse_cholesky.h>
-#include <ricci/target/target_curvature.h>
-#include <ricci/cut/cut_graph.h>
-#include <ricci/measure/distortion.h>
-#include <ricci/layout/planar_layout.h>
-#include <ricci/metric/initial_packing.h>
-#include <ricci/metric/euclidean.h>
 #include <ricci/base/numbers.h>
 #include <ricci/base/parallel.h>
+#include <ricci/cut/cut_graph.h>
+#include <ricci/flow/factored_hessian.h>
+#include <ricci/flow/ricci_flow.h>
+#include <ricci/layout/planar_layout.h>
+#include <ricci/math/sparse_cholesky.h>
+#include <ricci/measure/distortion.h>
+#include <ricci/metric/euclidean.h>
+#include <ricci/metric/initial_packing.h>
 #include <ricci/parametrize.h>
 #include <ricci/surface/component.h>
 #include <ricci/surface/flow_domain.h>
+#include <ricci/target/target_curvature.h>
 
 #ifdef RICCI_USE_CHOLMOD
 #include <cholmod.h>

@@ -216,8 +216,8 @@ TEST(SwappedFlow, GivesUpAfterTwentyStarts)
 }
 
 /// Ends the first start at step \p last with \p error.
-template<class Error>
-SwapRun stoppedAt(int last, const Error& error)
+template<class E>
+SwapRun stoppedAt(int last, const E& error)
 {
 	SwapRun run(fanWithAWideTriangle(), -3.0);
 	run.atStep = [last, error, calls = 0](int) mutable {

@@ -118,7 +118,7 @@ TEST(CanonicalGenerators, OfACanonicalWordOfOneHandleAreItsLetters)
 	const Array<ExtendedIsometry> g = randomIsometries(2, 0.3, random);
 	const auto handles = canonicalGenerators({{0, false}, {1, false}, {0, true}, {1, true}}, g);
 	ASSERT_EQ(handles.size(), 2u);
-	// Of all ways to read it one leaves it as it is; none moves 0 less than the least of them.
+	// The letters as they stand are one way to read the word; the one that moves 0 least is taken.
 	long double farthest = 0.0L;
 	for (const ExtendedIsometry& h : handles)
 		farthest = std::max(farthest, h.displacement());

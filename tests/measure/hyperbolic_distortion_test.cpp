@@ -122,7 +122,8 @@ TEST(HyperbolicDistortion, CountsGeodesicTrianglesOfTheWrongOrientation)
 	const double angle = 0.6;
 	const Complex p = std::polar(0.99, -angle), q = std::polar(0.99, angle);
 	const Complex r(0.5 * (p.real() + 1.0 / std::cos(angle) - std::tan(angle)), 0.0);
-	// The geodesic through the ends of these radii meets the real axis at 1/cos - tan.
+	// The geodesic of p and q crosses the real axis before that of the ends of their radii, which
+	// does at 1/cos - tan.
 	ASSERT_LT(r.real(), p.real());
 	ASSERT_GT(r.real(), 1.0 / std::cos(angle) - std::tan(angle));
 	const std::vector<Triangle2> uv{{asPoint(p), asPoint(q), asPoint(r)}};

@@ -14,7 +14,7 @@
 namespace ricci::testing {
 namespace {
 
-/// Along the straight line through 0 of this direction.
+/// Translation along the straight line through 0 of this direction.
 DiskIsometry along(double direction, double length)
 {
 	return DiskIsometry::rotation(direction) * DiskIsometry::translation(length) *

@@ -134,8 +134,7 @@ BolzaSurface::BolzaSurface(int levels)
 			const Edge e = h[k].edge();
 			place[h[k]] = q[k];
 			lengths[e] = static_cast<double>(distanceInDisk(q[k], q[(k + 1) % 3]));
-			angles[h[k]] =
-				static_cast<double>(angleInDisk(q[k], q[(k + 1) % 3], q[(k + 2) % 3]));
+			angles[h[k]] = static_cast<double>(angleInDisk(q[k], q[(k + 1) % 3], q[(k + 2) % 3]));
 			if (!p.onOctagon[3 * at(f) + k] || cut.isCut[e])
 				continue;
 			cut.isCut[e] = 1;

@@ -25,7 +25,7 @@ struct BolzaSurface
 	EdgeArray<double> lengths;    ///< hyperbolic
 	HalfedgeArray<double> angles; ///< radians, at its origin
 	HalfedgeArray<Complex> place; ///< of its origin, in the octagon round 0 in the disk
-	CutGraph cut;                ///< the sides of the octagon
+	CutGraph cut;                 ///< the sides of the octagon
 
 	explicit BolzaSurface(int levels);
 

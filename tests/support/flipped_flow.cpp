@@ -104,20 +104,15 @@ void FlippedFlow::run(TargetRequest request, double epsilon)
 	FlowStart start = flowStart(surface(), options);
 	const Target target = chooseTarget(surface(), start, request);
 	result = runRicciFlow(
-		Background::EuclideanPlane,
-		surface(),
-		std::move(start),
-		target,
-		options,
-		[](int, double) {});
+		Background::EuclideanPlane, surface(), std::move(start), target, options, [](int, double) {
+		});
 }
 
 VertexArray<char> FlippedFlow::cones() const
 {
 	VertexArray<char> cone(base().vertexCount(), 0);
 	for (const Vertex v : base().vertices())
-		cone[v] =
-			!surface().topology.boundary[v] && std::abs(result.target.curvature[v]) > kCone;
+		cone[v] = !surface().topology.boundary[v] && std::abs(result.target.curvature[v]) > kCone;
 	return cone;
 }
 
@@ -136,8 +131,7 @@ CutGraph FlippedFlow::cutAnywhere(Random& random) const
 
 CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
 {
-	return commonRefinement(
-		domain, result, cutGraph.isCut, false, [](double, std::size_t) {});
+	return commonRefinement(domain, result, cutGraph.isCut, false, [](double, std::size_t) {});
 }
 
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary)

@@ -4,14 +4,14 @@
 
 #include "random.h"
 
-#include <ricci/target/hyperbolic_target.h>
-#include <ricci/flow/ricci_flow.h>
-#include <ricci/target/target_curvature.h>
-#include <ricci/layout/common_refinement.h>
 #include <ricci/cut/cut_graph.h>
+#include <ricci/flow/ricci_flow.h>
+#include <ricci/layout/common_refinement.h>
 #include <ricci/metric/initial_packing.h>
-#include <ricci/surface/flow_domain.h>
 #include <ricci/options.h>
+#include <ricci/surface/flow_domain.h>
+#include <ricci/target/hyperbolic_target.h>
+#include <ricci/target/target_curvature.h>
 
 #include <vector>
 

@@ -4,8 +4,8 @@
 #include "complex.h"
 #include "shapes.h"
 
-#include <ricci/measure/distortion.h>
 #include <ricci/math/orientation.h>
+#include <ricci/measure/distortion.h>
 #include <ricci/surface/triangulation.h>
 
 #include <algorithm>
@@ -37,8 +37,7 @@ struct Glued
 			for (std::size_t k = 0; k < 3; ++k)
 				place[h[k]] = p[k] = asComplex(map.uv[at(f)][k]);
 			for (std::size_t k = 0; k < 3; ++k)
-				angle[h[k]] =
-					std::abs(std::arg((p[(k + 2) % 3] - p[k]) / (p[(k + 1) % 3] - p[k])));
+				angle[h[k]] = std::abs(std::arg((p[(k + 2) % 3] - p[k]) / (p[(k + 1) % 3] - p[k])));
 		}
 	}
 	double length(Halfedge h) const { return std::abs(place[t.next(h)] - place[h]); }

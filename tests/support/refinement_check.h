@@ -2,8 +2,8 @@
 #ifndef RICCI_TESTS_REFINEMENT_CHECK_H
 #define RICCI_TESTS_REFINEMENT_CHECK_H
 
-#include <ricci/surface/surface_point.h>
 #include <ricci/surface/surface_mesh.h>
+#include <ricci/surface/surface_point.h>
 
 #include <array>
 #include <vector>

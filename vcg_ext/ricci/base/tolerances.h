@@ -61,6 +61,9 @@ constexpr double kNeedleRatio = 1e6;
 /// distortions.
 constexpr double kMinTriangleHeight = 1e-9;
 
+/// The same for a triangle that is known by the lengths of its sides alone, which say less.
+constexpr double kMinIntrinsicHeight = 1e-6;
+
 /// An edge of the plane metric counts as Delaunay while its weight is above minus this share of the
 /// size of its terms. The terms pass through a square root of products of four sums, which rounds
 /// about ten times as much as a conformal flip.

@@ -47,7 +47,7 @@ struct Parametrization
 	std::vector<double> targetCurvature; ///< [vertex] radians, as reached
 	RefinedMesh
 		refined; ///< filled for OutputTriangulation::CommonRefinement; the report's qc fields
-		///< and flippedFaces then are its own
+				 ///< and flippedFaces then are its own
 
 	bool isRefined() const { return !refined.triangles.empty(); }
 };
