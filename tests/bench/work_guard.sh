@@ -50,7 +50,7 @@ if ! command -v valgrind >/dev/null || ! command -v taskset >/dev/null; then
 	echo "SKIPPED: instructions are not counted, valgrind or taskset is not installed"
 	exit 77
 fi
-flow=$(instructions 'ricci::runRicciFlow*')
+flow=$(instructions '*startAndFlow*')
 factor=$(instructions '*solveOnce*')
 no_more "instructions, flow over one factorisation" \
 	"$(awk -v a="$flow" -v b="$factor" 'BEGIN { printf "%.2f", a / b }')" 2.6

@@ -15,7 +15,12 @@ namespace {
 class Root
 {
 public:
-	Root() : m_path(std::filesystem::path(::testing::TempDir()) / "ricci_free_memory")
+	/// Named after the test: others may run at the same time.
+	Root() :
+			m_path(
+				std::filesystem::path(::testing::TempDir()) /
+				("ricci_free_memory_" +
+				 std::string(::testing::UnitTest::GetInstance()->current_test_info()->name())))
 	{
 		std::filesystem::remove_all(m_path);
 		std::filesystem::create_directories(m_path);
