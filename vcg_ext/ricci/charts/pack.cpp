@@ -114,9 +114,9 @@ std::vector<Box2> placeDisks(Parametrization& map)
 	const double side = 1.0 / perRow;
 	std::vector<Box2> squares;
 	for (const Chart& chart : map.charts) {
-		const int i = static_cast<int>(squares.size());
+		const int i = static_cast<int>(squares.size()), row = i / perRow;
 		Box2 square;
-		square.min = {side * (i % perRow), side * (i / perRow)};
+		square.min = {side * (i % perRow), side * row};
 		square.max = {square.min[0] + side, square.min[1] + side};
 		squares.push_back(square);
 		transformChart(

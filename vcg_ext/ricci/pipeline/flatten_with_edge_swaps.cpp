@@ -48,7 +48,7 @@ ComponentMap flattenWithEdgeSwaps(
 	std::optional<FlowProgress> flowProgress;
 	SwapListener listener;
 	listener.chooseTarget = [&](const EmbeddedSurface& surface, FlowStart& start) {
-		const Target target = chooseTarget(
+		Target target = chooseTarget(
 			surface, start, targetRequest(component, input, options, surface.positions.size()));
 		if (first) {
 			progress.log(description(component, surface.topology.type));
