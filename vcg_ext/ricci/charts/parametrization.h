@@ -38,16 +38,16 @@ struct Parametrization
 	Report report;
 	std::vector<std::string> notes; ///< what was done or chosen without being asked
 	std::vector<Chart> charts;
-	std::vector<Triangle2> uv;  ///< [face][corner]; each chart with its smallest bounding rectangle
-								///< along the axes, from the origin
-	std::vector<char> reversed; ///< [face] 1 if the face was turned round
-	std::vector<double> faceQC; ///< sigma1 / sigma2
+	/// [face][corner] each chart with its smallest bounding rectangle along the axes, from the origin
+	std::vector<Triangle2> uv;
+	std::vector<char> reversed;          ///< [face] 1 if the face was turned round
+	std::vector<double> faceQC;          ///< sigma1 / sigma2
 	std::vector<double> vertexQC;        ///< area-weighted mean over the faces at the vertex
 	std::vector<double> u;               ///< [vertex] Eq. 6; 0 at unused vertices
 	std::vector<double> targetCurvature; ///< [vertex] radians, as reached
-	RefinedMesh
-		refined; ///< filled for OutputTriangulation::CommonRefinement; the report's qc fields
-				 ///< and flippedFaces then are its own
+	/// Filled for OutputTriangulation::CommonRefinement; the report's qc fields and flippedFaces then
+	/// are its own.
+	RefinedMesh refined;
 
 	bool isRefined() const { return !refined.triangles.empty(); }
 };
