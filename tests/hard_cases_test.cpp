@@ -392,6 +392,25 @@ TEST(HardCases, TangentCircles)
 	EXPECT_LT(run(tetrahedron(), options, cones).report.maxCurvatureError, 1e-12);
 }
 
+/// All the negative curvature of many handles moved to one small hole: scale factors grow from handle
+/// to handle, beyond every floating-point number's digits. Cones keep them apart.
+TEST(HardCases, FlatHandlesRoundASmallHole)
+{
+	const SurfaceMesh mesh = withoutStars(perforatedSlab(40, 3), {0});
+	const VertexInput flat = curvatureInput(std::vector<double>(mesh.positions.size(), 0.0));
+	Options options;
+	options.target = TargetCurvature::Prescribed; // inside; the boundary is free
+	const auto error = errorOf<NotConverged>([&] { run(mesh, options, flat); });
+	ASSERT_TRUE(error);
+	EXPECT_EQ(error->problem, NotConverged::LostInRounding);
+	EXPECT_GT(error->value, 15.0); // orders of magnitude
+	EXPECT_LT(error->iterations, 2 * options.maxIterations);
+	expectWords(error->what(), {"lost in rounding", "times as large as others"});
+	options.target = TargetCurvature::PlacedCones;
+	options.coneCount = 80;
+	EXPECT_LT(run(mesh, options).report.maxCurvatureError, 1e-8);
+}
+
 /// Long chains of near-degenerate faces whose circles differ by many orders of magnitude.
 TEST(HardCases, SlenderSurfaces)
 {

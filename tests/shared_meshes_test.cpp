@@ -159,6 +159,27 @@ TEST_F(SharedMeshes, DisksAnnuliAndToriAreFlatOrRefusedWithAReason)
 		GTEST_SKIP() << "SKIPPED: " << (kShared / "meshes").string() << " is missing";
 }
 
+/// Version 1.0.0 refused its own charts: a fold hid an overlap in them.
+TEST_F(SharedMeshes, CrankOfGenusTwelve)
+{
+	SKIP_IF_MISSING("hard/g12_crank.ply");
+	const Parametrization flat = run(m_mesh, Options());
+	EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+	EXPECT_GT(flat.report.overlapCuts, 0);
+	EXPECT_LT(FlatMap(m_mesh, flat.uv).seamMismatch, 1e-9);
+}
+
+/// Flat inside, its 73 handles would need scale factors that differ by 1e34.
+TEST_F(SharedMeshes, PizzaOfGenusSeventyThree)
+{
+	SKIP_IF_MISSING("hard/g73b1_pizza.ply");
+	Options options;
+	options.target = TargetCurvature::PlacedCones;
+	const Parametrization flat = run(m_mesh, options);
+	EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+	EXPECT_LT(FlatMap(m_mesh, flat.uv).seamMismatch, 1e-9);
+}
+
 TEST_F(SharedMeshes, FaultyMeshesAreRefusedWithTheirCounts)
 {
 	// Counts of INDEX.tsv, which another program made.

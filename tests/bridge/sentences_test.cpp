@@ -467,6 +467,10 @@ TEST(Sentences, OfFlowsThatStopped)
 		"3 triangles are lost in rounding: the flow makes parts of the surface 1e17 times as large "
 		"as others. Choose a target_curvature nearer to the curvature of the mesh.");
 	EXPECT_EQ(
+		sentence(NotConverged(NotConverged::LostInRounding, 0, 35.0)),
+		"The flow is lost in rounding: it makes parts of the surface 1e35 times as large as others. "
+		"Choose a target_curvature nearer to the curvature of the mesh.");
+	EXPECT_EQ(
 		sentence(NotConverged("2 points lie outside the disk")),
 		"The finished map failed its check (2 points lie outside the disk): remesh the worst "
 		"triangles, and report the mesh.");

@@ -5,13 +5,16 @@
 
 #include <ricci/charts/chart_division.h>
 #include <ricci/charts/chart_overlap.h>
+#include <ricci/charts/separate_charts.h>
 #include <ricci/error.h>
 #include <ricci/math/orientation.h>
+#include <ricci/verify/result_check.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <set>
 
 namespace ricci::testing {
@@ -296,6 +299,42 @@ TEST(ChartDivision, LeavesAChartWithoutOverlapWhole)
 	EXPECT_EQ(cuts.length, 0.0);
 	ASSERT_EQ(parts.size(), 1u);
 	EXPECT_EQ(parts[0].size(), mesh.triangles.size());
+}
+
+/// Two corners of a square of 2 x 2 cells are drawn elsewhere, so that a face is turned round. It hides
+/// an overlap of other faces until a cut takes it away from them.
+TEST(SeparateCharts, FindsInAPartWhatAFoldHidInTheWhole)
+{
+	const SurfaceMesh square = rectangle(2, 2, 2.0, 2.0);
+	SurfaceMesh picture = square;
+	picture.positions[0] = {0, 3, 0};
+	picture.positions[1] = {3, 0, 0};
+	const DrawnChart whole = drawn(picture);
+	Parametrization map;
+	map.uv = whole.plane.values();
+	map.reversed.assign(map.uv.size(), 0);
+	map.charts.resize(1);
+	map.charts[0].faces.resize(map.uv.size());
+	std::iota(map.charts[0].faces.begin(), map.charts[0].faces.end(), 0);
+	ASSERT_EQ(map.uv.size(), 8u);
+	separateCharts(
+		square, true, [] {}, map);
+	ASSERT_NO_THROW(requireSeparateCharts(square, map));
+	std::size_t faces = 0;
+	for (const Chart& chart : map.charts) {
+		faces += chart.faces.size();
+		for (const int f : chart.faces)
+			for (const int g : chart.faces)
+				if (f < g) { // none of them is turned round
+					const Triangle2 &a = map.uv[at(f)], &b = map.uv[at(g)];
+					EXPECT_LT(commonArea(a, b), 1e-12) << f << " and " << g;
+				}
+	}
+	EXPECT_EQ(faces, 8u);
+	// The cuts are those between the charts: each is one unit long, or a diagonal.
+	EXPECT_EQ(map.report.overlapCuts, 3);
+	EXPECT_EQ(map.charts.size(), 3u);
+	EXPECT_EQ(map.report.charts, 3);
 }
 
 TEST(SeparateCharts, OfAScrewSurfaceCoverNothingTwice)

@@ -339,7 +339,37 @@ TEST(ParametrizeHyperbolic, RefusesASurfaceWithoutHyperbolicMetric)
 	expectWords(without->what(), {"none is selected"});
 }
 
-/// The smaller its angle, the farther away a cone lies, and the doubles of the disk reach to 37.
+/// The largest hyperbolic distance of a corner from 0.
+double radius(const Parametrization& map)
+{
+	double largest = 0.0;
+	for (const Triangle2& face : map.uv)
+		for (const Point2& p : face)
+			largest = std::max(largest, 2.0 * std::atanh(std::hypot(p[0], p[1])));
+	return largest;
+}
+
+/// A cone of nearly no angle is nearly a cusp: sides of its triangles are about 20 long, and all digits
+/// of cosh and sinh are the same there.
+TEST(ParametrizeHyperbolic, ConesThatAreNearlyCusps)
+{
+	HyperbolicOptions options;
+	options.target = HyperbolicTarget::SelectedCones;
+	options.coneAngle = 1e-8;
+	for (const SurfaceMesh& mesh : {perforatedSlab(2, 1), torus(2, 1, 8, 8)})
+		EXPECT_EQ(run(mesh, options, selecting(mesh, {0})).report.flippedFaces, 0);
+	// The circumference at the distance r from a tip is the angle times sinh r: of a thousandth of
+	// the angle the tip lies ln 1000 farther away.
+	Random random(9);
+	const SurfaceMesh mesh = bumpyTorus(12, 9, random);
+	const VertexInput input = selecting(mesh, {5, 20, 33, 40});
+	const double far = radius(run(mesh, options, input));
+	options.coneAngle = 1e-5;
+	EXPECT_NEAR(far - radius(run(mesh, options, input)), std::log(1e3), 1e-3);
+}
+
+/// The smaller its angle, the farther away a cone lies, and the more there are, the more of them lie
+/// behind others; the doubles of the disk reach to 37.
 TEST(ParametrizeHyperbolic, TellsWhenTheDiskIsTooSmallForTheLayout)
 {
 	Random random(9);
@@ -350,7 +380,11 @@ TEST(ParametrizeHyperbolic, TellsWhenTheDiskIsTooSmallForTheLayout)
 	options.coneAngle = 1e-5;
 	EXPECT_LT(*run(mesh, options, input).report.relationError, 1e-8);
 	options.coneAngle = 1e-12;
-	const auto error = refusal<NotConverged>(mesh, options, input);
+	EXPECT_EQ(run(mesh, options, input).report.flippedFaces, 0);
+	std::vector<int> many;
+	for (int v = 5; v < static_cast<int>(mesh.positions.size()); v += 3)
+		many.push_back(v);
+	const auto error = refusal<NotConverged>(mesh, options, selecting(mesh, many));
 	ASSERT_TRUE(error);
 	EXPECT_EQ(error->problem, NotConverged::OutsideDisk);
 	EXPECT_GT(error->count, 0u);

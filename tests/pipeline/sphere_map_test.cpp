@@ -5,12 +5,15 @@
 #include "../support/shapes.h"
 #include "../support/transform.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/error.h>
 #include <ricci/sphere_map.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <complex>
 #include <map>
@@ -203,6 +206,36 @@ TEST(SphereMap, IsOrientedAndCentredForCoarseAndAwkwardSurfaces)
 		for (const Point3& p : map.positions)
 			EXPECT_NEAR(std::hypot(p[0], p[1], p[2]), 1.0, 1e-12);
 	}
+}
+
+/// On the sphere a face of this solid spans more than a hemisphere. Drawn straight it lies on the other
+/// side, turned round, so that the faces cover the sphere no times in sum.
+TEST(SphereMap, CountsFacesThatSpanMoreThanAHemisphere)
+{
+	SurfaceMesh mesh;
+	mesh.positions = {{1, -3, -2}, {1, -2, -2}, {-2, 1, 2}, {-2, -3, 0}, {-1, -1, -2}};
+	mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {1, 3, 2}, {3, 1, 4}, {1, 0, 4}};
+	const SphereMap map = toSphere(mesh);
+	EXPECT_LT(map.offset, 1e-9);
+	int turned = 0;
+	double area = 0.0;
+	for (const Triangle& t : mesh.triangles) {
+		// Girard: angles between the planes of the sides, less pi; negative where turned round.
+		std::array<Eigen::Vector3d, 3> p;
+		for (std::size_t k = 0; k < 3; ++k)
+			p[k] = Eigen::Map<const Eigen::Vector3d>(map.positions[at(t[k])].data());
+		double excess = -kPi;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Eigen::Vector3d a = p[k].cross(p[(k + 1) % 3]), b = p[k].cross(p[(k + 2) % 3]);
+			excess += std::atan2(a.cross(b).norm(), a.dot(b));
+		}
+		const bool isTurned = p[0].dot(p[1].cross(p[2])) < 0.0;
+		turned += isTurned;
+		area += isTurned ? -excess : excess;
+	}
+	EXPECT_NEAR(area, 0.0, 1e-9);
+	EXPECT_GT(turned, 0);
+	EXPECT_EQ(map.flippedFaces, turned);
 }
 
 TEST(SphereMap, RefusesOtherSurfaces)

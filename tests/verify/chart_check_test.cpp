@@ -13,7 +13,7 @@ namespace ricci::testing {
 namespace {
 
 /// Crossings of a strip of a ring that turns by \p angle and moves outwards by \p rise in a turn.
-int crossingsOfAStrip(double angle, double rise, double tolerance)
+int crossingsOfAStrip(double angle, double rise, double depth)
 {
 	const int n = 40;
 	const SurfaceMesh strip = grid(n, 2, Ends::Open, Ends::Open, [&](int i, int j) {
@@ -27,7 +27,7 @@ int crossingsOfAStrip(double angle, double rise, double tolerance)
 			p[k] = {strip.positions[at(t[k])][0], strip.positions[at(t[k])][1]};
 		plane.push_back(p);
 	}
-	return borderCrossings(strip.triangles, plane, tolerance);
+	return borderCrossings(strip.triangles, plane, depth);
 }
 
 TEST(ChartCheck, ABorderThatDoesNotCrossItself)

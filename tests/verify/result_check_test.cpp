@@ -235,6 +235,31 @@ TEST(ResultCheck, AChartDoesNotOverlapItself)
 	}
 }
 
+/// Parts of one layout may differ in scale by more than rounding lets them resolve.
+TEST(ResultCheck, AChartSmallerThanATexelMayOverlapItself)
+{
+	for (const double scale : {1e-2, 1e-8}) {
+		Strip strip(1.5 * kPi, 1), tiny(2.3 * kPi, 1);
+		const int n = static_cast<int>(strip.mesh.positions.size());
+		const int faces = static_cast<int>(strip.mesh.triangles.size());
+		for (const Triangle& t : tiny.mesh.triangles)
+			strip.mesh.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+		for (Triangle2 corners : tiny.map.uv) {
+			for (Point2& p : corners)
+				p = {scale * p[0], scale * p[1]};
+			strip.map.uv.push_back(corners);
+		}
+		strip.map.reversed.resize(strip.map.uv.size(), 0);
+		strip.map.charts.push_back(tiny.map.charts[0]);
+		for (int& f : strip.map.charts[1].faces)
+			f += faces;
+		if (scale > 1e-6)
+			expectFailure([&] { strip.require(); }, {"2 crossings", "should not overlap"});
+		else
+			EXPECT_NO_THROW(strip.require());
+	}
+}
+
 TEST(ResultCheck, ChartsContainEveryTriangleOnce)
 {
 	for (bool refined : {false, true}) {

@@ -191,6 +191,9 @@ std::string words(const NotConverged& e)
 		return some(e.count, "triangle breaks", "triangles break") +
 			   " the triangle inequality at the end of the flow";
 	case NotConverged::LostInRounding:
+		if (e.count == 0)
+			return "The flow is lost in rounding: it makes parts of the surface 1e" +
+				   number(e.value) + " times as large as others";
 		return some(e.count, "triangle is", "triangles are") +
 			   " lost in rounding: the flow makes parts of the surface 1e" + number(e.value) +
 			   " times as large as others";

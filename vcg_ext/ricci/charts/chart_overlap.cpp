@@ -93,7 +93,7 @@ int cover(const BoxTree& tree, const Array<Triangle2>& plane, const Point2& p)
 
 } // namespace
 
-std::vector<TrianglePair> overlappingPairs(const DrawnChart& chart, const Tick& tick)
+std::vector<TrianglePair> overlappingPairs(const DrawnChart& chart, const Tick& tick, double extent)
 {
 	const Array<Triangle2>& plane = chart.plane;
 	const BoxTree tree = boxTreeOf(plane);
@@ -101,7 +101,7 @@ std::vector<TrianglePair> overlappingPairs(const DrawnChart& chart, const Tick& 
 	for (int i = 0; i < plane.size(); ++i)
 		proper[i] = orientation(plane[i][0], plane[i][1], plane[i][2]) > 0;
 	const bool hasFolds = std::find(proper.begin(), proper.end(), 0) != proper.end();
-	const double touching = kTouching * tree.extent();
+	const double touching = kTouching * std::max(extent, tree.extent());
 	std::vector<TrianglePair> pairs;
 	int untilTick = kPairsBetweenTicks;
 	tree.meetingPairs([&](int i, int j) {

@@ -36,12 +36,15 @@ using TrianglePair = std::array<int, 2>;
 /// behind it. Folds are counted elsewhere (Report::flippedFaces). Here triangles that are not
 /// counter-clockwise count as negative cover, and a pair is an overlap only if a point of its common
 /// part is covered more than once in the sum, which is the winding number of the chart's boundary
-/// about that point.
+/// about that point. A part of the chart may have lost the fold that hides an overlap: it has to be
+/// searched anew.
 ///
+/// \param extent of the layout that the chart is a part of: how closely its sides can be expected to
+/// meet. The chart's own where that is larger.
 /// \param tick heard many times a second: the boxes of the n triangles round one vertex meet in as
 /// many as n^2 / 2 pairs
 std::vector<TrianglePair> overlappingPairs(
-	const DrawnChart& chart, const Tick& tick = [] {});
+	const DrawnChart& chart, const Tick& tick = [] {}, double extent = 0.0);
 
 } // namespace ricci
 

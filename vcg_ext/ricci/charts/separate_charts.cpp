@@ -2,9 +2,11 @@
 #include "separate_charts.h"
 
 #include "../math/min_area_rectangle.h"
+#include "../math/orientation.h"
 #include "chart_division.h"
 #include "chart_overlap.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -48,7 +50,59 @@ struct OutputChart
 				 distance(place[2], place[0])});
 		}
 	}
+
+	bool hasFolds() const
+	{
+		return std::any_of(drawn.plane.begin(), drawn.plane.end(), [](const Triangle2& p) {
+			return orientation(p[0], p[1], p[2]) <= 0;
+		});
+	}
+
+	double extent() const
+	{
+		Box2 box;
+		for (const Triangle2& triangle : drawn.plane)
+			for (const Point2& p : triangle)
+				box.add(p);
+		return box.extent();
+	}
 };
+
+/// Pairs of triangles of one part that overlap, in the chart's numbers.
+std::vector<TrianglePair>
+pairsWithin(const DrawnChart& chart, const std::vector<int>& part, double extent, const Tick& tick)
+{
+	DrawnChart own;
+	for (const int i : part) {
+		own.triangles.push_back(chart.triangles[i]);
+		own.plane.push_back(chart.plane[i]);
+	}
+	std::vector<TrianglePair> pairs = overlappingPairs(own, tick, extent);
+	for (TrianglePair& pair : pairs)
+		pair = {part[positionOf(pair[0])], part[positionOf(pair[1])]};
+	return pairs;
+}
+
+/// Divides the chart so that no part covers itself. A fold may hide an overlap from \p pairs and then
+/// go to another part than the triangles that it hides: what appears in the parts is added to the
+/// pairs, and the chart is divided anew.
+std::vector<std::vector<int>> separateParts(
+	const OutputChart& chart, std::vector<TrianglePair> pairs, const Tick& tick, ChartCuts& cuts)
+{
+	const bool hasFolds = chart.hasFolds();
+	const double extent = chart.extent();
+	for (;;) {
+		std::vector<std::vector<int>> parts =
+			divideChart(chart.drawn, pairs, chart.edgeLength, cuts);
+		const std::size_t known = pairs.size();
+		for (std::size_t i = 0; i < parts.size() && hasFolds; ++i) {
+			const auto more = pairsWithin(chart.drawn, parts[i], extent, tick);
+			pairs.insert(pairs.end(), more.begin(), more.end());
+		}
+		if (pairs.size() == known)
+			return parts;
+	}
+}
 
 /// Turns and moves a part of a chart so that its smallest bounding rectangle lies along the axes,
 /// from the origin.
@@ -123,7 +177,7 @@ void separateCharts(const SurfaceMesh& mesh, bool resolve, const Tick& tick, Par
 			continue;
 		}
 		ChartCuts cuts;
-		const auto parts = divideChart(output.drawn, pairs, output.edgeLength, cuts);
+		const auto parts = separateParts(output, pairs, tick, cuts);
 		map.report.overlapCuts += cuts.edges;
 		map.report.seamLength += cuts.length;
 		for (Chart& part : chartsOf(map, chart, parts, faceDone)) {

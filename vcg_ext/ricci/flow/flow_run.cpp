@@ -326,7 +326,10 @@ NotConverged FlowRun::failure() const
 {
 	const auto broken = static_cast<std::size_t>(m_map->brokenTriangles());
 	const double scales = spreadOfScales();
-	if (broken > 0 && m_options.surgery == Surgery::IntrinsicFlips && scales > kMaxScales)
+	const bool stalls =
+		m_solved.iterations < m_options.maxIterations && m_solved.residual > kWorthExtending;
+	if (m_options.surgery == Surgery::IntrinsicFlips && scales > kMaxScales &&
+		(broken > 0 || stalls))
 		return withState(NotConverged(NotConverged::LostInRounding, broken, std::round(scales)));
 	if (broken > 0)
 		return withState(NotConverged(NotConverged::BrokenTriangles, broken));

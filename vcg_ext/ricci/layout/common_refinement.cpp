@@ -37,29 +37,35 @@ struct HyperboloidVector
 {
 	double x0 = 0.0;
 	std::complex<double> x = 0.0;
+	double length = 0.0; // the root of x0^2 - |x|^2
 
 	void add(double weight, double distance, double direction)
 	{
 		x0 += weight * std::cosh(distance);
 		x += std::polar(weight * std::sinh(distance), direction);
 	}
-	std::complex<double> inDisk() const
-	{
-		const double r = std::abs(x);
-		return x / (x0 + std::sqrt((x0 - r) * (x0 + r)));
-	}
+	std::complex<double> inDisk() const { return x / (x0 + length); }
 	Point2 inKleinModel() const { return {x.real() / x0, x.imag() / x0}; }
 };
 
 /// The point with these weights of the corners of a triangle, whose first corner is at 0 and
-/// whose second is on the positive real axis. \p side, \p other: sides at the first corner.
-HyperboloidVector
-hyperbolicPoint(const std::array<double, 3>& weight, double side, double other, double angle)
+/// whose second is on the positive real axis. \p side, \p other: sides at the first corner;
+/// \p opposite: the third side.
+HyperboloidVector hyperbolicPoint(
+	const std::array<double, 3>& weight, double side, double other, double opposite, double angle)
 {
 	HyperboloidVector p;
 	p.add(weight[0], 0.0, 0.0);
 	p.add(weight[1], side, 0.0);
 	p.add(weight[2], other, angle);
+	// By the products of the corners, all positive: far from the first corner x0 and |x| have the same
+	// digits.
+	const auto product = [&](std::size_t i, std::size_t j, double distance) {
+		return 2.0 * weight[i] * weight[j] * std::cosh(distance);
+	};
+	p.length = std::sqrt(
+		weight[0] * weight[0] + weight[1] * weight[1] + weight[2] * weight[2] +
+		product(0, 1, side) + product(0, 2, other) + product(1, 2, opposite));
 	return p;
 }
 
@@ -139,6 +145,7 @@ private:
 				inEndTriangle(m_linked, m_end, p, corner),
 				sheets.lengths[h.edge()],
 				sheets.lengths[t.previous(h).edge()],
+				sheets.lengths[t.next(h).edge()],
 				sheets.angles[h]);
 		};
 		placePieces([&](int p, int corner) {

@@ -277,8 +277,12 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress&
 	alignWith(c.positions, weights, sphere);
 	measure(c, sphere, map);
 	const SphereCheck check = checkSphere(c.triangles, sphere.values());
+	// A face that spans more than a hemisphere is a straight triangle on the other side, turned round:
+	// one covering less.
+	const double coverings = std::round(check.degree);
 	if (!(check.radiusError <= kCheckedRadius) ||
-		!(std::abs(check.degree - 1.0) <= kCheckedDegree) || check.turned > map.flippedFaces)
+		!(std::abs(check.degree - coverings) <= kCheckedDegree) ||
+		std::abs(coverings - 1.0) > map.flippedFaces || check.turned > map.flippedFaces)
 		failCheck(
 			"the sphere is covered " + numberText(check.degree, 9) + " times, radii " +
 			numberText(check.radiusError, 3) + " off, " + std::to_string(check.turned) +

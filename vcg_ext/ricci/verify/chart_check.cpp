@@ -41,14 +41,9 @@ borderOf(const std::vector<Triangle>& triangles, const std::vector<Triangle2>& p
 } // namespace
 
 int borderCrossings(
-	const std::vector<Triangle>& triangles, const std::vector<Triangle2>& plane, double tolerance)
+	const std::vector<Triangle>& triangles, const std::vector<Triangle2>& plane, double depth)
 {
 	std::vector<PlaneSide> sides = borderOf(triangles, plane);
-	Box2 box;
-	for (const PlaneSide& s : sides)
-		for (const Point2& p : {s.atLow, s.atHigh})
-			box.add(p);
-	const double depth = tolerance * box.extent();
 	// A line sweeps from left to right.
 	const auto left = [](const PlaneSide& s) { return std::min(s.atLow[0], s.atHigh[0]); };
 	const auto right = [](const PlaneSide& s) { return std::max(s.atLow[0], s.atHigh[0]); };

@@ -51,6 +51,19 @@ void requireDisk(
 			std::to_string(check.turned) + " faces turned round");
 }
 
+namespace {
+
+double extentOf(const std::vector<int>& triangles, const std::vector<Triangle2>& uv)
+{
+	Box2 box;
+	for (const int i : triangles)
+		for (const Point2& p : uv[positionOf(i)])
+			box.add(p);
+	return box.extent();
+}
+
+} // namespace
+
 void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map)
 {
 	const bool refined = map.isRefined();
@@ -58,6 +71,10 @@ void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map)
 	const std::vector<Triangle2>& uv = refined ? map.refined.uv : map.uv;
 	std::vector<const std::vector<int>*> parts;
 	int crossings = 0;
+	// Charts are drawn beside each other on one scale.
+	double extent = 0.0;
+	for (const Chart& chart : map.charts)
+		extent = std::max(extent, extentOf(refined ? chart.refined : chart.faces, uv));
 	for (const Chart& chart : map.charts) {
 		parts.push_back(refined ? &chart.refined : &chart.faces);
 		std::vector<Triangle> triangles;
@@ -73,7 +90,7 @@ void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map)
 			plane.push_back(p);
 		}
 		if (!turned)
-			crossings += borderCrossings(triangles, plane, kCheckedGap);
+			crossings += borderCrossings(triangles, plane, kCheckedGap * extent);
 	}
 	if (crossings > 0 || !isPartition(parts, all.size()))
 		failCheck(

@@ -26,7 +26,8 @@ void requireDisk(
 	const OutputTriangles& output, const PlanarLayout& layout, const FlowResult& flow, bool bent);
 
 /// Checks that the charts contain every triangle of the output once, and that no chart overlaps
-/// itself (chart_check.h), those with turned triangles excepted.
+/// itself (chart_check.h) by more than kCheckedGap of the largest, those with turned triangles
+/// excepted.
 /// \throw NotConverged
 void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map);
 

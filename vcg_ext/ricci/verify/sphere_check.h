@@ -16,7 +16,8 @@ struct SphereCheck
 
 	/// How many times the triangles cover the sphere: the sum of their solid angles, with sign,
 	/// over 4 pi, with tan(angle / 2) = det(a, b, c) / (1 + ab + bc + ca)
-	/// [van Oosterom Strackee 1983]. A whole number for a closed surface.
+	/// [van Oosterom Strackee 1983]. A whole number for a closed surface, 1 where its map is one to
+	/// one.
 	double degree = 0.0;
 
 	int turned = 0; ///< triangles of negative solid angle
