@@ -468,7 +468,8 @@ TEST(Sentences, OfFlowsThatStopped)
 		"as others. Choose a target_curvature nearer to the curvature of the mesh.");
 	EXPECT_EQ(
 		sentence(NotConverged(NotConverged::LostInRounding, 0, 35.0)),
-		"The flow is lost in rounding: it makes parts of the surface 1e35 times as large as others. "
+		"The flow is lost in rounding: it makes parts of the surface 1e35 times as large as "
+		"others. "
 		"Choose a target_curvature nearer to the curvature of the mesh.");
 	EXPECT_EQ(
 		sentence(NotConverged("2 points lie outside the disk")),

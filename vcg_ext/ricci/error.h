@@ -143,7 +143,7 @@ public:
 	enum Problem {
 		StepsUsedUp,     ///< residual, epsilon, floor
 		BrokenTriangles, ///< count; swaps: edges swapped before
-		LostInRounding,  ///< count: broken triangles; value: orders of magnitude between scale factors
+		LostInRounding, ///< count: broken triangles; value: orders of magnitude between scale factors
 		CircleUnsettled, ///< value: last change of the points on the circle, radians
 		FlatTriangles,   ///< count: triangles that end flat
 		SplitsUsedUp,    ///< count: boundary edges that were split
