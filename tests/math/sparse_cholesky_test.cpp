@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <complex>
 #include <numeric>
 #include <set>
 #include <string>
@@ -104,6 +105,28 @@ TEST(SparseCholesky, SolvesLikeADenseSolver)
 		system.layOut();
 	}
 	EXPECT_EQ(solver.work().analyses, 1);
+}
+
+TEST(SparseCholesky, SolvesForComplexRightSides)
+{
+	Random random(65);
+	SparseCholesky solver;
+	for (int n : {1, 30, 400}) { // from one column of the factor to many of its blocks
+		System system(laplacian(n, 0.5, random));
+		system.analyze(solver);
+		ASSERT_TRUE(solver.factorize(system.matrix));
+		Eigen::VectorXcd b(n), x;
+		for (std::complex<double>& y : b)
+			y = {random.real(-1, 1), random.real(-1, 1)};
+		const int solutions = solver.work().solutions;
+		solver.solve(b, x);
+		EXPECT_EQ(solver.work().solutions, solutions + 2);
+		Eigen::VectorXd re, im;
+		solver.solve(b.real(), re);
+		solver.solve(b.imag(), im);
+		EXPECT_LT((x.real() - re).lpNorm<Eigen::Infinity>(), 1e-12);
+		EXPECT_LT((x.imag() - im).lpNorm<Eigen::Infinity>(), 1e-12);
+	}
 }
 
 TEST(SparseCholesky, AnotherPatternCanFollow)

@@ -49,6 +49,16 @@ enum class OutputTriangulation {
 					 ///< exact
 };
 
+/// What is done to a map that the flow has found, which is exact on its own triangles, for the
+/// straight triangles that are given back. Only maps found with flips and with circles that do not
+/// overlap are finished, see isFinished().
+enum class Finish {
+	None,           ///< the map is drawn as it is
+	Repair,         ///< no triangle is turned round or has no area
+	LeastDistortion ///< and on the mesh's own triangles, the conformal distortion is the least that
+					///< seams and cones allow
+};
+
 /// Geometry of the plane that triangles are cut from (Definition 3.1).
 enum class Background {
 	EuclideanPlane, ///< flat triangles
@@ -67,9 +77,20 @@ struct FlowOptions
 	/// Newton steps of one solve, at least 1.
 	int maxIterations = 200;
 
+	/// The hyperbolic flow takes LeastDistortion for Repair: its deck transformations, which the map
+	/// of least distortion would have to keep, are no rigid motions of the plane.
+	Finish finish = Finish::None;
+
 	/// Bytes of memory that may be used; a run whose estimate is higher is refused. 0: no limit.
 	double memoryLimit = 0.0;
 };
+
+/// Whether maps are finished: those that are there to compare with are not.
+inline bool isFinished(const FlowOptions& options)
+{
+	return options.finish != Finish::None && options.surgery == Surgery::IntrinsicFlips &&
+		   options.packing == PackingScheme::InversiveDistance;
+}
 
 /// Which curvature the hyperbolic flow is asked to reach. The order is that of the filter's menu.
 enum class HyperbolicTarget {

@@ -44,6 +44,7 @@ struct Report
 
 	int flippedFaces = 0;      ///< faces whose image in the plane is reversed or has no area
 	int flippedByRounding = 0; ///< more of them once the coordinates are rounded to float
+	int finishMoved = 0;       ///< points of the map that the repair moved, see Finish
 	int edgeSwaps = 0;         ///< paper 5.4
 	int flips = 0;             ///< intrinsic flips, those to the start's triangulation included
 	int refinementPoints =

@@ -26,6 +26,13 @@ private:
 	std::fenv_t m_caller;
 };
 
+/// Through memory, because GCC 12 takes double(float(x)) for x where it vectorizes.
+inline double roundedToFloat(double x)
+{
+	const volatile float rounded = static_cast<float>(x);
+	return static_cast<double>(rounded);
+}
+
 } // namespace ricci
 
 #endif

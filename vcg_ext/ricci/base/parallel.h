@@ -3,7 +3,10 @@
 #define RICCI_PARALLEL_H
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <new>
 #include <system_error>
 #include <thread>
@@ -47,6 +50,60 @@ void inParallel(int count, int threads, const Work& work)
 		work(bound(own), count);
 	for (std::thread& other : others)
 		other.join();
+}
+
+/// Calls work(i, tick) for every i of [0, count), each in one of \p threads threads, in any order. The
+/// tasks must be independent of each other. In the calling thread tick is \p tick, which is called
+/// before the first task, too; in the others it does nothing but end them once another thread has
+/// thrown. What \p work or \p tick throws is thrown on.
+template<class Work>
+void tasksInParallel(int count, int threads, const std::function<void()>& tick, const Work& work)
+{
+	tick();
+	struct Ended
+	{
+	};
+	std::atomic<int> next{0};
+	std::atomic<bool> ended{false};
+	std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(std::max(threads, 1)));
+	const auto run = [&](std::size_t thread, const std::function<void()>& own) {
+		try {
+			for (int i = next++; i < count; i = next++) {
+				own();
+				work(i, own);
+			}
+		}
+		catch (const Ended&) {
+		}
+		catch (...) {
+			thrown[thread] = std::current_exception();
+			ended = true;
+		}
+	};
+	const std::function<void()> endIfAsked = [&] {
+		if (ended)
+			throw Ended();
+	};
+	const std::function<void()> first = [&] {
+		endIfAsked();
+		tick();
+	};
+	std::vector<std::thread> others;
+	try {
+		others.reserve(thrown.size());
+		for (int i = 1; i < std::min(threads, count); ++i)
+			others.emplace_back([&, i] { run(static_cast<std::size_t>(i), endIfAsked); });
+	}
+	catch (const std::system_error&) { // no more threads to be had
+	}
+	catch (const std::bad_alloc&) { // nor memory for one
+	}
+	run(0, first);
+	for (std::thread& other : others)
+		other.join();
+	for (const std::exception_ptr& exception : thrown)
+		if (exception)
+			std::rethrow_exception(exception);
 }
 
 } // namespace ricci

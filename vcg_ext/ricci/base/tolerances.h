@@ -25,11 +25,12 @@ constexpr double kConeCurvature = 1e-9;
 /// curvature in radians, lengths relative.
 constexpr double kCheckedCurvature = 1e-8, kCheckedLength = 1e-9;
 
-/// The check of a finished map allows this gap of seams: a share of a chart's extent, a thousandth of
-/// a texel; or a hyperbolic length.
+/// The check of a finished map allows this gap of seams: a share of the layout's extent, a thousandth
+/// of a texel; or a hyperbolic length. Charts may cover themselves as deep, as a share of the largest.
 constexpr double kCheckedGap = 1e-6;
 
-/// The check of a map to the sphere: distance from the unit sphere, and from covering it once.
+/// The check of a map to the sphere: distance from the unit sphere, and from covering it a whole
+/// number of times.
 constexpr double kCheckedRadius = 1e-12, kCheckedDegree = 1e-9;
 
 /// A canonical polygon whose last side misses the first corner by more than this hyperbolic distance
@@ -127,6 +128,19 @@ constexpr double kMergeGap = 1e-12;
 /// one place; and two triangles that cover each other no deeper than this only touch. A layout is
 /// closed up to the sum of what its angles round.
 constexpr double kOnePlace = 1e-9, kTouching = 1e-9;
+
+/// Least height that triangles are given, relative to the extent of the map: eight steps of a float
+/// below 1. And in floats, in steps at the largest coordinate: rounding takes less than two. Triangles
+/// that are mended get so many times this height where they can.
+constexpr double kLeastHeight = 0x1p-21, kLeastFloatSteps = 4.0, kWantedHeights = 2.0;
+
+/// The pieces of a refinement may be as thin as a double shows.
+constexpr double kLeastRefinedHeight = 0x1p-46;
+
+/// The sides of a seam have one length up to this, relatively, and one transition up to this in
+/// radians: what the curvature that the flow leaves makes of them. A seam vertex that is moved by a
+/// side's length opens the seam by this share of it at most.
+constexpr double kSeamMatch = 1e-7;
 
 /// The room between charts is wider than the margin by this share, which rounding must not undercut.
 constexpr double kMarginSpare = 1e-6;

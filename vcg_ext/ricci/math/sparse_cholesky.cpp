@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sparse_cholesky.h"
 
+#include <algorithm>
 #include <new>
 #include <numeric>
 
@@ -87,6 +88,7 @@ struct SparseCholesky::Implementation
 	double flops = 0.0, entries = 0.0;
 	/// Work space of solve(). Not an Eigen vector: memory is freed twice if its resize() fails.
 	std::vector<double> rowsBelow;
+	std::vector<double> pairsBelow; ///< the same for complex right sides
 
 	Implementation()
 	{
@@ -209,6 +211,81 @@ struct SparseCholesky::Implementation
 			}
 		}
 	}
+
+	/// A complex number among the real and imaginary parts of many, for the machine's vectors.
+	using Pair = Eigen::Array2d;
+	static Eigen::Map<Pair> at(double* parts, int i) { return Eigen::Map<Pair>(parts + 2 * i); }
+
+	/// x = L^-1 x for complex numbers.
+	void solvePairsForward(double* x)
+	{
+		double* below = pairsBelow.data();
+		for (std::size_t k = 0; k < factor->nsuper; ++k) {
+			const Supernode node = supernode(k);
+			double* own = x + 2 * node.first;
+			for (int c = 0; c < node.width; ++c) {
+				const double* column = node.column(c);
+				const Pair solved = at(own, c) / column[c];
+				at(own, c) = solved;
+				for (int r = c + 1; r < node.width; ++r)
+					at(own, r) -= column[r] * solved;
+			}
+			std::fill(below, below + 2 * node.height, 0.0);
+			int c = 0;
+			for (; c + 4 <= node.width; c += 4)
+				addColumns<4>(node, c, own, below);
+			for (; c < node.width; ++c)
+				addColumns<1>(node, c, own, below);
+			for (int r = 0; r < node.height; ++r)
+				at(x, node.below[r]) -= at(below, r);
+		}
+	}
+
+	/// Adds what columns first .. first + Count - 1 contribute to the rows below.
+	template<int Count>
+	static void addColumns(const Supernode& node, int first, double* own, double* below)
+	{
+		const double* values[Count];
+		Pair solved[Count];
+		for (int i = 0; i < Count; ++i) {
+			values[i] = node.column(first + i) + node.width;
+			solved[i] = at(own, first + i);
+		}
+		for (int r = 0; r < node.height; ++r) {
+			Pair sum = at(below, r);
+			for (int i = 0; i < Count; ++i)
+				sum += values[i][r] * solved[i];
+			at(below, r) = sum;
+		}
+	}
+
+	/// x = L^-T x for complex numbers.
+	void solvePairsBackward(double* x)
+	{
+		double* below = pairsBelow.data();
+		for (std::size_t k = factor->nsuper; k-- > 0;) {
+			const Supernode node = supernode(k);
+			double* own = x + 2 * node.first;
+			for (int r = 0; r < node.height; ++r)
+				at(below, r) = at(x, node.below[r]);
+			for (int c = node.width - 1; c >= 0; --c) {
+				const double *column = node.column(c), *values = column + node.width;
+				Pair sum = at(own, c),
+					 others = Pair::Zero(); // two, which do not wait for each other
+				int r = 0;
+				for (; r + 2 <= node.height; r += 2) {
+					sum -= values[r] * at(below, r);
+					others -= values[r + 1] * at(below, r + 1);
+				}
+				if (r < node.height)
+					sum -= values[r] * at(below, r);
+				sum += others;
+				for (r = c + 1; r < node.width; ++r)
+					sum -= column[r] * at(own, r);
+				at(own, c) = sum / column[c];
+			}
+		}
+	}
 };
 
 SparseCholesky::SparseCholesky() : m_implementation(std::make_unique<Implementation>())
@@ -268,6 +345,18 @@ void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
 	own.solveBackward(x.data());
 	++m_work.solutions;
 	m_work.flops += 4.0 * own.entries;
+}
+
+void SparseCholesky::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x)
+{
+	Implementation& own = *m_implementation;
+	own.pairsBelow.resize(2 * own.factor->maxesize);
+	x = rhs;
+	auto* parts = reinterpret_cast<double*>(x.data()); // std::complex is two doubles
+	own.solvePairsForward(parts);
+	own.solvePairsBackward(parts);
+	m_work.solutions += 2;
+	m_work.flops += 8.0 * own.entries;
 }
 
 double SparseCholesky::factorEntries() const
@@ -342,6 +431,17 @@ void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
 	x.noalias() = m_implementation->solver.solve(rhs);
 	++m_work.solutions;
 	m_work.flops += 4.0 * m_implementation->entries;
+}
+
+void SparseCholesky::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x)
+{
+	using Pairs = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+	x.resize(rhs.size());
+	const Eigen::Map<const Pairs> right(reinterpret_cast<const double*>(rhs.data()), rhs.size(), 2);
+	Eigen::Map<Pairs>(reinterpret_cast<double*>(x.data()), x.size(), 2) =
+		m_implementation->solver.solve(right);
+	m_work.solutions += 2;
+	m_work.flops += 8.0 * m_implementation->entries;
 }
 
 double SparseCholesky::factorEntries() const

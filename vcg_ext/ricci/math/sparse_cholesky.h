@@ -73,6 +73,10 @@ public:
 	/// \pre factorize() has returned true
 	void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
 
+	/// The same for real and imaginary parts in one pass over the factor, which takes little more
+	/// than half as long as two.
+	void solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x);
+
 	/// Entries of the factor, by the last symbolic factorisation.
 	double factorEntries() const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distortion.h"
 
+#include "../base/floating_point.h"
 #include "../base/indexed.h"
 #include "../base/tolerances.h"
 #include "../math/orientation.h"
@@ -62,13 +63,6 @@ std::array<Point3, 3> cornersOf(const SurfaceMesh& mesh, const Triangle& t)
 bool isOriented(const Triangle2& p, bool reversed)
 {
 	return orientation(p[0], p[1], p[2]) == (reversed ? -1 : 1);
-}
-
-/// Through memory, because GCC 12 takes double(float(x)) for x where it vectorizes.
-double roundedToFloat(double x)
-{
-	const volatile float rounded = static_cast<float>(x);
-	return double(rounded);
 }
 
 } // namespace

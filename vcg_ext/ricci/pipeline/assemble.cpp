@@ -160,6 +160,7 @@ void append(
 	report.residualFloor = std::max(report.residualFloor, map.flow.floor);
 	report.brokenTriangles += map.flow.metric->brokenTriangles();
 	report.flips += map.flow.history.flips();
+	report.finishMoved += map.finishMoved;
 	report.edgeSwaps += map.edgeSwaps;
 	report.boundarySplits += map.boundarySplits;
 	report.refinementPoints += static_cast<int>(map.refinement.crossings);

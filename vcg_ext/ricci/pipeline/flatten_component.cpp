@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten_component.h"
 
+#include "../finish/finish.h"
 #include "../layout/hole_seams.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../measure/distortion.h"
@@ -197,10 +198,48 @@ void measureInvariants(const FlowDomain& domain, const HyperbolicOptions&, Compo
 			 map.flow.target)});
 }
 
+/// The finish of what is given back. The invariants are those of the flow's own layout.
+void finish(const FlowDomain& domain, const Options& options, const Tick& tick, ComponentMap& map)
+{
+	if (!isFinished(options) || options.output == OutputTriangulation::CommonRefinement)
+		return; // the refinement is exact
+	map.finishMoved = finishMap(
+						  domain,
+						  map.cut.isCut,
+						  map.cones,
+						  map.flow.target.hasFixed(),
+						  options.finish,
+						  map.layout,
+						  tick)
+						  .moved;
+	map.uv = cornersOf(domain.surface.triangulation, map.layout);
+}
+
+void finish(
+	const FlowDomain& domain, const HyperbolicOptions& options, const Tick& tick, ComponentMap& map)
+{
+	if (!isFinished(options))
+		return;
+	const bool freeBoundary = map.flow.target.hasFixed();
+	if (options.output == OutputTriangulation::CommonRefinement) {
+		map.finishMoved = finishDisk(domain, freeBoundary, map.refinement, tick).moved;
+		return;
+	}
+	map.finishMoved = finishDisk(domain, freeBoundary, map.layout, tick).moved;
+	map.uv = cornersOf(domain.surface.triangulation, map.layout);
+}
+
+/// Whether straight triangles may be turned round in the flow's metric.
+template<class AnyOptions>
+bool mayBeTurned(const AnyOptions& options, const ComponentMap& map)
+{
+	return isBent(map, options.output) || map.finishMoved > 0;
+}
+
 void requireLayout(const Component& component, const Options& options, const ComponentMap& map)
 {
 	requireMap(
-		outputTriangles(component, map, options.output), map.flow, isBent(map, options.output));
+		outputTriangles(component, map, options.output), map.flow, mayBeTurned(options, map));
 }
 
 void requireLayout(
@@ -210,7 +249,7 @@ void requireLayout(
 		outputTriangles(component, map, options.output),
 		map.layout,
 		map.flow,
-		isBent(map, options.output));
+		mayBeTurned(options, map));
 }
 
 template<class AnyOptions>
@@ -241,6 +280,8 @@ ComponentMap flatten(
 	layOut(component, domain, options, progress, map);
 	map.seamLength = lengthOf(map.cut, domain.surface.lengths);
 	measureInvariants(domain, options, map);
+	finish(
+		domain, options, [&] { progress.step(1.0 - kAfterFlow, "Repairing the map"); }, map);
 
 	progress.step(1.0, "Checking the result");
 	requireMetric(map.flow, domain.solved().topology.boundary);

@@ -35,13 +35,14 @@ struct ComponentMap
 	std::optional<std::complex<double>> torusModulus;
 	std::optional<double> annulusModulus, rectangleAspect, hyperbolicArea, relationError;
 
+	int finishMoved = 0; ///< points that the repair moved
 	int cappedHoles = 0;
 	int edgeSwaps = 0, boundarySplits = 0; ///< Surgery::EdgeSwap
 };
 
 /// The stages of the paper on one component, in order: flow domain, initial packing (4.1), target
-/// (5.2, 5.3), flow (4.2), cut and layout (4.3), invariants, and the checks of the result by other
-/// formulas. Only target, layout and invariants differ by geometry.
+/// (5.2, 5.3), flow (4.2), cut and layout (4.3), invariants, the finish, and the checks of the result
+/// by other formulas. Only target, layout, invariants and finish differ by geometry.
 /// \throw what the stages throw
 ComponentMap flattenComponent(
 	const Component& component,

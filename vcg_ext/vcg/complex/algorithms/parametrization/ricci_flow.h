@@ -7,6 +7,7 @@
 #define __VCGLIB_RICCI_FLOW
 
 #include <ricci/base/floating_point.h>
+#include <ricci/charts/finish_in_floats.h>
 #include <ricci/charts/pack.h>
 #include <ricci/error.h>
 #include <ricci/options.h>
@@ -106,9 +107,11 @@ public:
 		ricci::Parametrization flat = ricci::parametrizeEuclidean(mesh, input, par, progress);
 
 		Result r;
+		ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide);
+		if (ricci::isFinished(par))
+			ricci::finishInFloats(mesh, LastTick(progress), flat);
 		r.report = flat.report;
 		r.notes = flat.notes;
-		ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide);
 		ricci::countFlippedAsWritten(flat, r.report);
 		TakeOver(flat, m.face.size(), faceIndex, r);
 		return r;
@@ -130,14 +133,17 @@ public:
 		ricci::Parametrization disk = ricci::parametrizeHyperbolic(mesh, input, par, progress);
 
 		Result r;
+		r.disks = ricci::placeDisks(disk);
+		if (ricci::isFinished(par))
+			ricci::finishInFloats(mesh, r.disks, LastTick(progress), disk);
 		r.report = disk.report;
 		r.notes = disk.notes;
-		r.disks = ricci::placeDisks(disk);
 		for (const ricci::Chart& chart : disk.charts)
 			r.groups.push_back(chart.group);
 		const int flipped = r.report.flippedFaces; // of geodesic triangles
 		ricci::countFlippedAsWritten(disk, r.report);
-		r.report.flippedFaces = flipped;
+		if (!ricci::isFinished(par)) // straight triangles may be turned where geodesic ones are not
+			r.report.flippedFaces = flipped;
 		TakeOver(disk, m.face.size(), faceIndex, r);
 		return r;
 	}
@@ -494,6 +500,12 @@ private:
 		for (const Point2d& shift : BoxesSideBySide::Shifts(own, room))
 			shifts.push_back({shift[0], shift[1]});
 		return shifts;
+	}
+
+	/// For what is done once the map is found.
+	static ricci::Tick LastTick(ricci::Progress& progress)
+	{
+		return [&progress] { progress.step(1.0, "Finishing the coordinates"); };
 	}
 
 	/// The arrays of \p flat, in the indices of the mesh.

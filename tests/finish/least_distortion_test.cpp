@@ -1,0 +1,762 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/complex.h"
+#include "support/flipped_flow.h"
+#include "support/intrinsic.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/finish/distortion_laplacian.h>
+#include <ricci/finish/least_distortion.h>
+#include <ricci/finish/limited_memory_bfgs.h>
+#include <ricci/finish/mean_distortion.h>
+#include <ricci/finish/movable_points.h>
+#include <ricci/math/orientation.h>
+#include <ricci/measure/distortion.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A map of a mesh's own triangles to the plane, cut open.
+struct Drawing
+{
+	SurfaceMesh mesh;
+	Triangulation t;
+	EdgeArray<double> lengths;
+	EdgeArray<char> isCut;
+	VertexArray<char> cones;
+	bool boundaryMoves = true;
+	PlanarLayout layout;
+
+	/// The flow's map, cut along random ways.
+	Drawing(const SurfaceMesh& m, const TargetRequest& request, Random& random) : mesh(m)
+	{
+		const FlippedFlow flow(m, request);
+		const CutGraph cut = flow.cutAnywhere(random);
+		t = flow.base();
+		lengths = flow.surface().lengths;
+		isCut = cut.isCut;
+		cones = flow.cones();
+		layout = flow.refinement(cut).inputLayout;
+	}
+
+	/// A disk whose vertices are drawn at \p places.
+	Drawing(const SurfaceMesh& m, const std::vector<Point2>& places) :
+			mesh(m), t(glued(m)), lengths(edgeLengths(t, m)), isCut(t.edgeCount(), 0),
+			cones(t.vertexCount(), 0)
+	{
+		layout.wedges = cornerWedges(t, isCut);
+		layout.points.resize(layout.wedges.count);
+		for (const Halfedge h : t.interiorHalfedges())
+			layout.points[layout.wedges.of[h]] = places[at(t.origin(h))];
+	}
+
+	LeastDistortion improve(const Tick& tick = [] {})
+	{
+		return leastDistortion(t, lengths, isCut, cones, boundaryMoves, layout, tick);
+	}
+
+	MovablePoints points() const { return movablePoints(t, isCut, cones, boundaryMoves, layout); }
+
+	int turned() const
+	{
+		int count = 0;
+		for (const Face f : t.faces()) {
+			const auto h = t.halfedges(f);
+			count += orientation(layout[h[0]], layout[h[1]], layout[h[2]]) != 1;
+		}
+		return count;
+	}
+
+	double extent() const
+	{
+		Box2 box;
+		for (const Point2& p : layout.points)
+			box.add(p);
+		return box.extent();
+	}
+
+	Report measured() const
+	{
+		std::vector<Triangle2> plane;
+		SurfaceMesh faces{mesh.positions, {}, 0};
+		for (const Face f : t.faces()) {
+			const auto h = t.halfedges(f);
+			const auto v = t.vertices(f);
+			plane.push_back({layout[h[0]], layout[h[1]], layout[h[2]]});
+			faces.triangles.push_back({v[0].number(), v[1].number(), v[2].number()});
+		}
+		Report report;
+		measureDistortion(faces, plane, std::vector<char>(plane.size(), 0), report);
+		return report;
+	}
+};
+
+SurfaceMesh wavyDisk(int n, Random& random)
+{
+	SurfaceMesh mesh = randomPlanarDisk(n, random);
+	for (Point3& p : mesh.positions)
+		p[2] = 0.2 * std::sin(7 * p[0]) * std::cos(5 * p[1]);
+	return mesh;
+}
+
+/// The disk's vertices as they are seen from above.
+std::vector<Point2> fromAbove(const SurfaceMesh& mesh)
+{
+	std::vector<Point2> places;
+	for (const Point3& p : mesh.positions)
+		places.push_back({p[0], p[1]});
+	return places;
+}
+
+/// A sphere with cones of pi, whose seams turn; a torus, whose seams are translations; a disk with
+/// a free boundary and a cone inside, whose seam ends there.
+std::vector<Drawing> drawingsWithSeams(Random& random)
+{
+	const SurfaceMesh slab = shaken(perforatedSlab(0, 6), 0.02, random);
+	const SurfaceMesh open = withoutStars(slab, {7});
+	std::vector<double> curvature(open.positions.size(), 0.0);
+	curvature[50] = 0.7;
+	std::vector<Drawing> drawings;
+	drawings.emplace_back(slab, conesAt(slab, {0, 57, 110, 163}), random);
+	drawings.emplace_back(bumpyTorus(20, 12, random), requestOf(TargetCurvature::Flat), random);
+	drawings.emplace_back(open, prescribed(curvature, true), random);
+	return drawings;
+}
+
+/// Maps of surfaces of every kind to which the automatic target leads, where no straight triangle
+/// is turned.
+std::vector<Drawing> drawingsOfEveryKind(Random& random)
+{
+	std::vector<Drawing> drawings;
+	for (const SurfaceMesh& mesh : surfacesOfEveryKind(random)) {
+		Drawing drawing(mesh, requestOf(TargetCurvature::Automatic), random);
+		if (drawing.turned() == 0)
+			drawings.push_back(std::move(drawing));
+	}
+	return drawings;
+}
+
+/// An energy at the points of a drawing.
+struct Measured
+{
+	MeanDistortion energy;
+	MovablePoints points;
+	Eigen::VectorXcd start; ///< [point]
+
+	explicit Measured(const Drawing& d) :
+			energy(d.t, d.lengths, d.layout), points(d.points()), start(points.number.size())
+	{
+		energy.usePoints(points);
+		place(d);
+	}
+
+	void place(const Drawing& d)
+	{
+		for (const int wedge : points.number.indices())
+			start[points.number[wedge]] = asComplex(d.layout.points[wedge]);
+	}
+
+	/// The points after the unknowns have moved by \p d.
+	Eigen::VectorXcd moved(const Eigen::VectorXcd& d) const
+	{
+		Eigen::VectorXcd position = start;
+		for (int p = 0; p < points.moving(); ++p)
+			position[p] += points.turnOf(p) * d[points.unknownOf(p)];
+		return position;
+	}
+};
+
+/// Displacements of the unknowns of about this size, and so small that nothing is about to turn.
+Eigen::VectorXcd shake(Measured& measured, double size, Random& random)
+{
+	Eigen::VectorXcd d(measured.points.unknowns);
+	for (Complex& z : d)
+		z = {random.real(-size, size), random.real(-size, size)};
+	while (!std::isfinite(measured.energy.evaluate(measured.moved(d))))
+		d *= 0.5;
+	return 0.5 * d;
+}
+
+/// dE along \p d at \p from, extrapolated from central differences.
+double difference(Measured& m, const Eigen::VectorXcd& from, const Eigen::VectorXcd& d, double step)
+{
+	const auto central = [&](double h) {
+		const Eigen::VectorXcd ahead = from + h * d, behind = from - h * d;
+		return (m.energy.evaluate(m.moved(ahead)) - m.energy.evaluate(m.moved(behind))) / (2 * h);
+	};
+	return (4 * central(step / 2) - central(step)) / 3;
+}
+
+// ---- The points that move -----------------------------------------------------------------------
+
+TEST(MovablePoints, MoveAsTheirSeamsAllow)
+{
+	Random random(601);
+	for (const Drawing& d : drawingsWithSeams(random)) {
+		const MovablePoints points = d.points();
+		const VertexArray<char> boundary = d.t.boundaryVertices();
+		std::vector<int> seen;
+		int images = 0, free = 0, stay = 0;
+		for (const Vertex v : d.t.vertices()) {
+			std::vector<int> copies;
+			int cuts = 0;
+			for (const Halfedge h : d.t.around(v)) {
+				cuts += d.isCut[h.edge()];
+				if (!d.t.isExterior(h))
+					copies.push_back(points.number[d.layout.wedges.of[h]]);
+			}
+			std::sort(copies.begin(), copies.end());
+			copies.erase(std::unique(copies.begin(), copies.end()), copies.end());
+			seen.insert(seen.end(), copies.begin(), copies.end());
+			if (cuts == 2 && !d.cones[v] && !boundary[v]) {
+				ASSERT_EQ(copies.size(), 2u);
+				EXPECT_LT(copies[0], points.unknowns);
+				EXPECT_EQ(points.unknownOf(copies[1]), copies[0]);
+				EXPECT_GE(copies[1], points.unknowns);
+				++images;
+			}
+			else if (cuts == 0 && !d.cones[v]) {
+				ASSERT_EQ(copies.size(), 1u);
+				EXPECT_EQ(points.unknownOf(copies[0]), copies[0]);
+				++free;
+			}
+			else
+				for (const int copy : copies) {
+					EXPECT_EQ(points.unknownOf(copy), -1);
+					++stay;
+				}
+		}
+		EXPECT_EQ(points.unknowns, free + images);
+		EXPECT_EQ(points.moving(), free + 2 * images);
+		EXPECT_GT(images, 2);
+		EXPECT_GT(stay, 0);
+		std::sort(seen.begin(), seen.end());
+		for (int p = 0; p < static_cast<int>(seen.size()); ++p)
+			EXPECT_EQ(seen[at(p)], p);
+		EXPECT_EQ(static_cast<int>(seen.size()), d.layout.wedges.count);
+	}
+}
+
+TEST(MovablePoints, CopiesTurnAsTheEdgesOfTheirSeam)
+{
+	Random random(602);
+	for (const Drawing& d : drawingsWithSeams(random)) {
+		const MovablePoints points = d.points();
+		int compared = 0;
+		for (const Halfedge h : d.t.halfedges()) {
+			if (!d.isCut[h.edge()])
+				continue;
+			const Halfedge g = h.twin();
+			const int p = points.number[d.layout.wedges.of[h]];
+			const int q = points.number[d.layout.wedges.of[d.t.next(g)]];
+			if (p >= points.unknowns || points.unknownOf(q) != p)
+				continue;
+			const Complex left = asComplex(d.layout[d.t.next(h)]) - asComplex(d.layout[h]);
+			const Complex right = asComplex(d.layout[g]) - asComplex(d.layout[d.t.next(g)]);
+			EXPECT_LT(std::abs(right / left - points.turnOf(q)), 1e-9);
+			EXPECT_NEAR(std::abs(points.turnOf(q)), 1.0, 1e-15);
+			++compared;
+		}
+		EXPECT_GT(compared, 2);
+	}
+}
+
+TEST(MovablePoints, BoundaryStaysOrTwoFarPointsDo)
+{
+	Random random(603);
+	const SurfaceMesh mesh = wavyDisk(8, random);
+	Drawing d(mesh, fromAbove(mesh));
+	const MovablePoints free = d.points();
+	ASSERT_EQ(free.unknowns, d.t.vertexCount() - 2);
+	std::vector<Point2> pinned;
+	for (const int wedge : free.number.indices())
+		if (free.unknownOf(free.number[wedge]) < 0)
+			pinned.push_back(d.layout.points[wedge]);
+	EXPECT_GT(distance(pinned[0], pinned[1]), 1.2); // in a unit square
+	d.boundaryMoves = false;
+	const MovablePoints held = d.points();
+	const VertexArray<char> boundary = d.t.boundaryVertices();
+	for (const Halfedge h : d.t.interiorHalfedges()) {
+		const int point = held.number[d.layout.wedges.of[h]];
+		EXPECT_EQ(held.unknownOf(point) < 0, boundary[d.t.origin(h)] != 0);
+	}
+}
+
+// ---- The energy ---------------------------------------------------------------------------------
+
+TEST(MeanDistortion, IsTheWeightedMeanOfTheDilatations)
+{
+	Random random(611);
+	for (Drawing& d : drawingsWithSeams(random)) {
+		Measured m(d);
+		if (d.turned() > 0)
+			continue;
+		FaceArray<double> area(d.t.faceCount());
+		VertexArray<double> ring(d.t.vertexCount(), 0.0);
+		double total = 0.0;
+		const auto corners = [&](Face f) {
+			const auto v = d.t.vertices(f);
+			return std::array<Point3, 3>{
+				d.mesh.positions[at(v[0])], d.mesh.positions[at(v[1])], d.mesh.positions[at(v[2])]};
+		};
+		for (const Face f : d.t.faces()) {
+			total += area[f] = triangleArea(corners(f));
+			for (const Vertex v : d.t.vertices(f))
+				ring[v] += area[f];
+		}
+		double sum = 0.0, weights = 0.0;
+		for (const Face f : d.t.faces()) {
+			const auto h = d.t.halfedges(f);
+			const double K = quasiConformalDistortion(
+				corners(f), {d.layout[h[0]], d.layout[h[1]], d.layout[h[2]]});
+			double weight = 0.05 / d.t.faceCount() + 0.15 * area[f] / total;
+			for (const Vertex v : d.t.vertices(f))
+				weight += 0.8 * area[f] / ring[v] / d.t.vertexCount();
+			const double mu = (K - 1) / (K + 1), m2 = (mu * mu + 1e-6) / (1 + 1e-6);
+			sum += weight * std::pow(2 * std::sqrt(m2) / (1 - std::sqrt(m2)), 1.25);
+			weights += weight;
+		}
+		EXPECT_NEAR(weights, 1.0, 1e-12);
+		EXPECT_NEAR(m.energy.evaluate(m.start) / sum, 1.0, 1e-10);
+	}
+}
+
+TEST(MeanDistortion, GradientIsThatOfDifferences)
+{
+	Random random(612);
+	int compared = 0;
+	for (Drawing& d : drawingsWithSeams(random)) {
+		if (d.turned() > 0)
+			continue;
+		Measured m(d);
+		for (int round = 0; round < 3; ++round) {
+			const Eigen::VectorXcd from = shake(m, 0.02 * d.extent(), random);
+			const Eigen::VectorXcd position = m.moved(from);
+			const double value = m.energy.evaluate(position);
+			Eigen::VectorXcd gradient;
+			m.energy.gradient(gradient);
+			double height = kInfinity; // the least of a triangle
+			for (const Face f : d.t.faces()) {
+				const std::array<int, 3>& c = m.energy.corners(f);
+				const Complex a = position[c[0]], b = position[c[1]] - a, e = position[c[2]] - a;
+				const double longest = std::max({std::abs(b), std::abs(e), std::abs(e - b)});
+				height = std::min(height, (std::conj(b) * e).imag() / longest);
+			}
+			for (int k = 0; k < 5; ++k) {
+				Eigen::VectorXcd along(m.points.unknowns);
+				for (Complex& z : along)
+					z = {random.real(-1, 1), random.real(-1, 1)};
+				if (k > 0) // a seam vertex alone, or any other one
+					along = along.cwiseProduct(Eigen::VectorXcd::Unit(
+						m.points.unknowns,
+						k % 2 ? m.points
+									.images[at(
+										random.index(static_cast<int>(m.points.images.size())))]
+									.source
+							  : random.index(m.points.unknowns)));
+				const double slope = 2 * LimitedMemoryBfgs::dot(gradient, along);
+				const double step = 1e-4 * height / along.cwiseAbs().maxCoeff();
+				const double rounding = 1e-15 * value / (step * std::abs(slope));
+				EXPECT_LT(rounding, 1e-3);
+				EXPECT_NEAR(difference(m, from, along, step) / slope, 1.0, 1e-7 + 10.0 * rounding);
+				++compared;
+			}
+		}
+	}
+	EXPECT_EQ(compared, 45); // no drawing is left out
+}
+
+TEST(MeanDistortion, IsInfiniteWhereATriangleIsNotCounterClockwise)
+{
+	Random random(613);
+	const SurfaceMesh mesh = wavyDisk(5, random);
+	const std::vector<Point2> places = fromAbove(mesh);
+	// A corner of a triangle exactly on the opposite side, then beyond it.
+	const Triangle& t = mesh.triangles[20];
+	const Point2 a = places[at(t[0])], b = places[at(t[1])], c = places[at(t[2])];
+	const Drawing d(mesh, places);
+	Measured m(d);
+	EXPECT_TRUE(std::isfinite(m.energy.evaluate(m.start)));
+	for (const double share : {1.0, 1.5}) {
+		Drawing other = d;
+		const Point2 foot{
+			c[0] + share * ((a[0] + b[0]) / 2 - c[0]), c[1] + share * ((a[1] + b[1]) / 2 - c[1])};
+		for (const Halfedge h : d.t.interiorHalfedges())
+			if (d.t.origin(h) == Vertex(t[2]))
+				other.layout.points[d.layout.wedges.of[h]] = foot;
+		ASSERT_GT(other.turned(), 0);
+		m.place(other);
+		EXPECT_EQ(m.energy.evaluate(m.start), kInfinity);
+	}
+}
+
+TEST(MeanDistortion, HasTheSameBitsWithAnyNumberOfThreads)
+{
+	Random random(614);
+	const SurfaceMesh mesh = wavyDisk(160, random);
+	const Drawing d(mesh, fromAbove(mesh));
+	ASSERT_GT(d.t.faceCount(), 3 * 16384); // enough for several
+	Measured m(d);
+	m.energy.useThreads(1);
+	const double one = m.energy.evaluate(m.start);
+	Eigen::VectorXcd gradient, other;
+	m.energy.gradient(gradient);
+	for (int threads : {2, 3}) {
+		m.energy.useThreads(threads);
+		EXPECT_EQ(m.energy.evaluate(m.start), one);
+		m.energy.gradient(other);
+		EXPECT_EQ((gradient - other).norm(), 0.0);
+	}
+}
+
+TEST(DistortionLaplacian, IsTheRealPartOfTheReweightedSquares)
+{
+	Random random(615);
+	int compared = 0;
+	for (Drawing& d : drawingsWithSeams(random)) {
+		if (d.turned() > 0)
+			continue;
+		Measured m(d);
+		DistortionLaplacian laplacian(m.energy, m.points);
+		m.place(d); // the unknowns have new numbers
+		ASSERT_TRUE(std::isfinite(m.energy.evaluate(m.start)));
+		ASSERT_TRUE(laplacian.factorize(m.energy));
+		Eigen::VectorXcd rhs(m.points.unknowns), x;
+		for (Complex& z : rhs)
+			z = {random.real(-1, 1), random.real(-1, 1)};
+		laplacian.solve(rhs, x);
+		// y = Re(B^H diag(s) B) x for real vectors x, with f_zbar = B x, by faces.
+		const auto product = [&](const Eigen::VectorXd& real) {
+			Eigen::VectorXcd y = Eigen::VectorXcd::Zero(real.size());
+			for (const Face f : d.t.faces()) {
+				Complex fzbar = 0.0;
+				const auto each = [&](const auto& use) {
+					for (std::size_t k = 0; k < 3; ++k)
+						if (const int p = m.energy.corners(f)[k]; m.points.unknownOf(p) >= 0)
+							use(m.points.unknownOf(p), m.energy.slopes(f)[k] * m.points.turnOf(p));
+				};
+				each([&](int u, Complex slope) { fzbar += slope * real[u]; });
+				each([&](int u, Complex slope) {
+					y[u] += m.energy.stiffness(f) * std::conj(slope) * fzbar;
+				});
+			}
+			return Eigen::VectorXd(y.real());
+		};
+		EXPECT_LT((product(x.real()) - rhs.real()).norm(), 1e-9 * rhs.norm());
+		EXPECT_LT((product(x.imag()) - rhs.imag()).norm(), 1e-9 * rhs.norm());
+		++compared;
+	}
+	EXPECT_GE(compared, 2);
+}
+
+TEST(LimitedMemoryBfgs, TakesTheLastStepBackFromItsChange)
+{
+	Random random(616);
+	const auto vector = [&](Eigen::Index n) {
+		Eigen::VectorXcd v(n);
+		for (Complex& z : v)
+			z = {random.real(-1, 1), random.real(-1, 1)};
+		return v;
+	};
+	const auto scale = [](const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x) { x = 0.3 * rhs; };
+	LimitedMemoryBfgs bfgs(7, 3);
+	Eigen::VectorXcd direction;
+	const Eigen::VectorXcd gradient = vector(7);
+	bfgs.direction(gradient, scale, direction);
+	EXPECT_LT((direction + 0.3 * gradient).norm(), 1e-15);
+	for (int round = 0; round < 8; ++round) {
+		const Eigen::VectorXcd step = vector(7), change = vector(7) + step;
+		const double product = LimitedMemoryBfgs::dot(step, change);
+		EXPECT_NEAR(product, (step.adjoint() * change)(0).real(), 1e-13);
+		bfgs.remember(step, change);
+		if (!(product > 0.0))
+			continue;
+		bfgs.direction(change, scale, direction); // the secant equation
+		EXPECT_LT((direction + step).norm(), 1e-12);
+		bfgs.direction(gradient, scale, direction);
+		EXPECT_LT(LimitedMemoryBfgs::dot(gradient, direction), 0.0);
+	}
+	// A step along which the function bends down is not remembered.
+	const Eigen::VectorXcd before = direction, step = vector(7);
+	bfgs.remember(step, -step);
+	bfgs.direction(gradient, scale, direction);
+	EXPECT_EQ((direction - before).norm(), 0.0);
+}
+
+// ---- The whole ----------------------------------------------------------------------------------
+
+TEST(LeastDistortion, FallsWithoutTurningATriangle)
+{
+	Random random(621);
+	std::vector<Drawing> drawings = drawingsOfEveryKind(random);
+	EXPECT_GE(drawings.size(), 8u);
+	int better = 0;
+	for (Drawing& d : drawings) {
+		const Report before = d.measured();
+		Measured m(d);
+		const double start = m.energy.evaluate(m.start);
+		const LeastDistortion result = d.improve();
+		EXPECT_EQ(d.turned(), 0);
+		EXPECT_LE(result.after, result.before);
+		EXPECT_NEAR(result.before / start, 1.0, 1e-12); // the points have other numbers there
+		m.place(d);
+		EXPECT_NEAR(m.energy.evaluate(m.start) / result.after, 1.0, 1e-12);
+		EXPECT_GT(result.steps, 0);
+		better += d.measured().qcVertexMean < before.qcVertexMean;
+	}
+	EXPECT_EQ(better, static_cast<int>(drawings.size()));
+}
+
+TEST(LeastDistortion, TicksBetweenStepsAndChangesNothingWhereItIsStopped)
+{
+	Random random(622);
+	const SurfaceMesh mesh = wavyDisk(12, random);
+	const Drawing start(mesh, fromAbove(mesh));
+	Drawing whole = start;
+	int ticks = 0;
+	const LeastDistortion result = whole.improve([&] { ++ticks; });
+	EXPECT_GE(ticks, result.steps);
+	EXPECT_LE(ticks, result.steps + 1);
+	EXPECT_GT(result.steps, 3);
+	EXPECT_LT(result.after, 0.9 * result.before);
+	const LeastDistortion again = whole.improve();
+	EXPECT_NEAR(again.before / result.after, 1.0, 1e-12);
+	EXPECT_LE(again.after, again.before);
+	EXPECT_GT(again.after, 0.95 * again.before);
+	Drawing stopped = start;
+	ticks = 0;
+	EXPECT_THROW(
+		stopped.improve([&] {
+			if (++ticks == 3)
+				throw std::runtime_error("stopped");
+		}),
+		std::runtime_error);
+	EXPECT_EQ(stopped.layout.points, start.layout.points);
+}
+
+TEST(LeastDistortion, ComesAsLowAsALongDescentByGradients)
+{
+	Random random(623);
+	for (int n : {5, 8}) {
+		const SurfaceMesh mesh = wavyDisk(n, random);
+		Drawing d(mesh, fromAbove(mesh));
+		Measured m(d);
+		Eigen::VectorXcd x = Eigen::VectorXcd::Zero(m.points.unknowns), gradient, trial;
+		double value = m.energy.evaluate(m.start), step = 1e-3;
+		const double before = value;
+		for (int i = 0; i < 20000 && step > 1e-14; ++i) {
+			m.energy.gradient(gradient);
+			const double fall = gradient.squaredNorm();
+			while (step > 1e-14) {
+				trial = x - step * gradient;
+				const double next = m.energy.evaluate(m.moved(trial));
+				if (next <= value - 0.5 * step * fall) {
+					value = next;
+					x = trial;
+					step *= 1.5;
+					break;
+				}
+				step *= 0.5;
+			}
+		}
+		const LeastDistortion result = d.improve();
+		EXPECT_LT(value, 0.9 * before);
+		EXPECT_LT(result.after, 1.01 * value);
+	}
+}
+
+TEST(LeastDistortion, KeepsAConformalMap)
+{
+	Random random(624);
+	const SurfaceMesh mesh = randomPlanarDisk(14, random);
+	std::vector<Point2> places = fromAbove(mesh);
+	const Complex turn = std::polar(3.0, 0.7), shift(5.0, -2.0);
+	for (Point2& p : places)
+		p = asPoint(turn * asComplex(p) + shift);
+	for (const bool boundaryMoves : {true, false}) {
+		Drawing d(mesh, places);
+		d.boundaryMoves = boundaryMoves;
+		const PlanarLayout start = d.layout;
+		const LeastDistortion result = d.improve();
+		EXPECT_NEAR(result.after / result.before, 1.0, 1e-9);
+		for (const int wedge : start.points.indices())
+			EXPECT_LT(distance(d.layout.points[wedge], start.points[wedge]), 1e-9 * d.extent());
+	}
+}
+
+TEST(LeastDistortion, KeepsSeamsIsometricAndConesInPlace)
+{
+	Random random(625);
+	int seams = 0, moved = 0;
+	for (Drawing& d : drawingsWithSeams(random)) {
+		if (d.turned() > 0)
+			continue;
+		const PlanarLayout start = d.layout;
+		EXPECT_GT(d.improve().steps, 0);
+		const auto transition = [&](const PlanarLayout& layout, Halfedge h) {
+			const Halfedge g = h.twin();
+			return (asComplex(layout[g]) - asComplex(layout[d.t.next(g)])) /
+				   (asComplex(layout[d.t.next(h)]) - asComplex(layout[h]));
+		};
+		for (const Edge e : d.t.edges()) {
+			if (!d.isCut[e])
+				continue;
+			const Halfedge h = e.halfedge();
+			const double gapThen = std::abs(std::abs(transition(start, h)) - 1.0);
+			EXPECT_LT(std::abs(std::abs(transition(d.layout, h)) - 1.0), 1e-12 + 2 * gapThen);
+			EXPECT_LT(std::abs(transition(d.layout, h) - transition(start, h)), 1e-10);
+			moved += d.layout[h] != start[h];
+			++seams;
+		}
+		const MovablePoints points = d.points();
+		for (const Halfedge h : d.t.interiorHalfedges())
+			if (d.cones[d.t.origin(h)] ||
+				points.unknownOf(points.number[d.layout.wedges.of[h]]) < 0) {
+				EXPECT_EQ(d.layout[h], start[h]);
+			}
+	}
+	EXPECT_GT(seams, 30);
+	EXPECT_GT(moved, 15);
+}
+
+TEST(LeastDistortion, HoldsABoundaryThatDoesNotMove)
+{
+	Random random(626);
+	const SurfaceMesh mesh = wavyDisk(12, random);
+	Drawing d(mesh, fromAbove(mesh));
+	d.boundaryMoves = false;
+	const PlanarLayout start = d.layout;
+	const VertexArray<char> boundary = d.t.boundaryVertices();
+	EXPECT_GT(d.improve().steps, 0);
+	EXPECT_EQ(d.turned(), 0);
+	int inside = 0;
+	for (const Halfedge h : d.t.interiorHalfedges())
+		if (boundary[d.t.origin(h)]) {
+			EXPECT_EQ(d.layout[h], start[h]);
+		}
+		else
+			inside += d.layout[h] != start[h];
+	EXPECT_GT(inside, 100);
+}
+
+TEST(LeastDistortion, TurnsAndGrowsWithTheDrawing)
+{
+	Random random(627);
+	const SurfaceMesh mesh = wavyDisk(12, random);
+	Drawing d(mesh, fromAbove(mesh));
+	// Sizes that only just leave products of four lengths in the range of doubles.
+	for (const auto& [inSpace, turn] :
+		 {std::pair<double, Complex>{3.0, std::polar(0.2, 2.0)},
+		  {1e-40, std::polar(1e40, 0.3)},
+		  {1e45, std::polar(1e-45, -1.0)}}) {
+		Drawing other = d;
+		for (double& length : other.lengths)
+			length *= inSpace;
+		for (Point2& p : other.layout.points)
+			p = asPoint(turn * asComplex(p));
+		Drawing first = d;
+		const LeastDistortion a = first.improve(), b = other.improve();
+		EXPECT_EQ(a.steps, b.steps);
+		EXPECT_NEAR(b.before / a.before, 1.0, 1e-12);
+		EXPECT_NEAR(b.after / a.after, 1.0, 1e-9);
+		for (const int wedge : first.layout.points.indices())
+			EXPECT_LT(
+				std::abs(
+					asComplex(other.layout.points[wedge]) / turn -
+					asComplex(first.layout.points[wedge])),
+				1e-8);
+	}
+}
+
+TEST(LeastDistortion, DoesNotDependOnNumbers)
+{
+	Random random(628);
+	const SurfaceMesh mesh = wavyDisk(12, random);
+	std::vector<int> number(mesh.positions.size());
+	std::iota(number.begin(), number.end(), 0);
+	random.shuffle(number);
+	SurfaceMesh renumbered = mesh;
+	for (std::size_t v = 0; v < number.size(); ++v)
+		renumbered.positions[at(number[v])] = mesh.positions[v];
+	random.shuffle(renumbered.triangles);
+	for (Triangle& t : renumbered.triangles) {
+		t = {number[at(t[0])], number[at(t[1])], number[at(t[2])]};
+		std::rotate(t.begin(), t.begin() + random.index(3), t.end());
+	}
+	Drawing a(mesh, fromAbove(mesh)), b(renumbered, fromAbove(renumbered));
+	EXPECT_NEAR(a.improve().after / b.improve().after, 1.0, 1e-9);
+	std::vector<Point2> places(number.size());
+	for (const Halfedge h : a.t.interiorHalfedges())
+		places[at(number[at(a.t.origin(h))])] = a.layout[h];
+	for (const Halfedge h : b.t.interiorHalfedges())
+		EXPECT_LT(distance(b.layout[h], places[at(b.t.origin(h))]), 1e-8);
+}
+
+TEST(LeastDistortion, LeavesALayoutWithATurnedTriangle)
+{
+	Random random(629);
+	const SurfaceMesh mesh = wavyDisk(8, random);
+	std::vector<Point2> places = fromAbove(mesh);
+	const Triangle& t = mesh.triangles[40];
+	places[at(t[0])] = {
+		(places[at(t[1])][0] + places[at(t[2])][0]) / 2 * 2 - places[at(t[0])][0],
+		(places[at(t[1])][1] + places[at(t[2])][1]) / 2 * 2 - places[at(t[0])][1]};
+	Drawing d(mesh, places);
+	ASSERT_GT(d.turned(), 0);
+	const PlanarLayout start = d.layout;
+	const LeastDistortion result = d.improve();
+	EXPECT_EQ(result.steps, 0);
+	EXPECT_EQ(result.before, kInfinity);
+	EXPECT_EQ(d.layout.points, start.points);
+}
+
+TEST(LeastDistortion, LeavesALayoutWithNothingToMove)
+{
+	const SurfaceMesh mesh = rectangle(1, 1, 2.0, 1.0);
+	Drawing d(mesh, {{0, 0}, {0, 1}, {1, 0}, {1, 2}});
+	ASSERT_EQ(d.turned(), 0);
+	d.boundaryMoves = false;
+	const PlanarLayout start = d.layout;
+	const LeastDistortion result = d.improve();
+	EXPECT_EQ(result.steps, 0);
+	EXPECT_EQ(result.before, result.after);
+	EXPECT_TRUE(std::isfinite(result.after));
+	EXPECT_EQ(d.layout.points, start.points);
+}
+
+TEST(LeastDistortion, DoesNotTurnTrianglesWithoutAreaInSpace)
+{
+	// Corners of some triangles are moved onto the opposite side, in space only.
+	Random random(630);
+	SurfaceMesh mesh = wavyDisk(12, random);
+	const std::vector<Point2> places = fromAbove(mesh);
+	for (std::size_t f = 30; f < mesh.triangles.size(); f += 60) {
+		const Triangle& t = mesh.triangles[f];
+		for (std::size_t k = 0; k < 3; ++k)
+			mesh.positions[at(t[0])][k] =
+				(mesh.positions[at(t[1])][k] + mesh.positions[at(t[2])][k]) / 2;
+	}
+	Drawing d(mesh, places);
+	const LeastDistortion result = d.improve();
+	EXPECT_GT(result.steps, 2);
+	EXPECT_LT(result.after, 0.95 * result.before);
+	EXPECT_EQ(d.turned(), 0);
+	for (const Point2& p : d.layout.points)
+		EXPECT_TRUE(std::isfinite(p[0]) && std::isfinite(p[1]));
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+#include "support/shapes.h"
+
+#include <ricci/finish/repair.h>
+#include <ricci/math/orientation.h>
+#include <ricci/parametrize.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+
+namespace ricci::testing {
+namespace {
+
+constexpr int kSide = 12; // cells of a square
+
+int vertexAt(int i, int j)
+{
+	return j * (kSide + 1) + i;
+}
+
+bool isInside(int vertex)
+{
+	const int i = vertex % (kSide + 1), j = vertex / (kSide + 1);
+	return i > 0 && i < kSide && j > 0 && j < kSide;
+}
+
+/// A square of kSide by kSide cells, two triangles each, drawn as it is.
+DrawnTriangles square()
+{
+	DrawnTriangles drawn;
+	for (int v = 0; v < (kSide + 1) * (kSide + 1); ++v)
+		drawn.points.push_back({double(v % (kSide + 1)), double(v / (kSide + 1))});
+	for (int j = 0; j < kSide; ++j) {
+		for (int i = 0; i < kSide; ++i) {
+			const int a = vertexAt(i, j), b = vertexAt(i + 1, j);
+			const int c = vertexAt(i + 1, j + 1), d = vertexAt(i, j + 1);
+			for (const Triangle& t : {Triangle{a, b, c}, Triangle{a, c, d}}) {
+				const Triangle2 p{drawn.points[t[0]], drawn.points[t[1]], drawn.points[t[2]]};
+				drawn.vertices.push_back(t);
+				drawn.corners.push_back(t);
+				drawn.sides.push_back(
+					{distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+			}
+		}
+	}
+	return drawn;
+}
+
+/// The square with \p count points inside moved up to two cells away.
+DrawnTriangles tangled(int count, std::uint64_t seed)
+{
+	DrawnTriangles drawn = square();
+	Random random(seed);
+	for (int moved = 0; moved < count;) {
+		const int v = random.index((kSide + 1) * (kSide + 1));
+		if (!isInside(v))
+			continue;
+		drawn.points[v][0] += random.real(-2, 2);
+		drawn.points[v][1] += random.real(-2, 2);
+		++moved;
+	}
+	return drawn;
+}
+
+Soundness soundness()
+{
+	return {1e-4, 1e-2, false};
+}
+
+BorderMoves nothingBeyond()
+{
+	return {SeamGeometry::Plane, [](int) { return false; }, nullptr};
+}
+
+TEST(Repair, LeavesASoundDrawingAlone)
+{
+	DrawnTriangles drawn = square();
+	const Array<Point2> before = drawn.points;
+	const Repair result =
+		repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), [] {});
+	EXPECT_EQ(result.bad, 0);
+	EXPECT_EQ(result.movedCount(), 0);
+	EXPECT_EQ(drawn.points.values(), before.values());
+}
+
+TEST(Repair, MendsEveryTriangleAndMovesNoBoundaryWithoutNeed)
+{
+	for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+		SCOPED_TRACE(seed);
+		DrawnTriangles drawn = tangled(6, seed);
+		const DrawnTriangles before = drawn;
+		ASSERT_FALSE(badTriangles(drawn, soundness()).empty());
+		const Repair result =
+			repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), [] {});
+		EXPECT_EQ(result.left, 0);
+		for (const int f : drawn.corners.indices()) {
+			const Triangle2 p = drawn.at(f);
+			EXPECT_EQ(orientation(p[0], p[1], p[2]), 1) << f;
+		}
+		EXPECT_TRUE(badTriangles(drawn, soundness()).empty());
+		for (const int p : drawn.points.indices()) {
+			const bool isSame = drawn.points[p] == before.points[p];
+			EXPECT_TRUE(isSame || isInside(p)) << p;
+			EXPECT_EQ(isSame, result.moved[p] == 0) << p;
+		}
+	}
+}
+
+TEST(Repair, MovesOnlyWhatIsNearABadTriangle)
+{
+	DrawnTriangles drawn = square();
+	const int v = vertexAt(3, 3);
+	drawn.points[v] = {4.5, 3.2};
+	const Array<Point2> before = drawn.points;
+	repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), [] {});
+	EXPECT_TRUE(badTriangles(drawn, soundness()).empty());
+	for (const int p : drawn.points.indices()) {
+		const bool isFar = std::abs(p % (kSide + 1) - 3) > 3 || std::abs(p / (kSide + 1) - 3) > 3;
+		EXPECT_TRUE(!isFar || drawn.points[p] == before[p]) << p;
+	}
+}
+
+TEST(Repair, TheScaleOfTheDrawingPlaysNoPart)
+{
+	constexpr double kScale = 0x1p-30;
+	DrawnTriangles drawn = tangled(6, 5), small = drawn;
+	for (const int p : small.points.indices())
+		small.points[p] = {kScale * small.points[p][0], kScale * small.points[p][1]};
+	const Soundness same = soundness();
+	const Soundness scaled{kScale * same.height, kScale * same.wanted, same.asFloats};
+	repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, same, [] {});
+	repairInStages(small, nothingBeyond(), RestShapes::OfSurface, scaled, [] {});
+	for (const int p : drawn.points.indices())
+		for (std::size_t k = 0; k < 2; ++k)
+			EXPECT_NEAR(small.points[p][k] / kScale, drawn.points[p][k], 1e-6) << p;
+}
+
+TEST(Repair, SoundMeansSoundInFloatsWhereFloatsAreStored)
+{
+	DrawnTriangles drawn = square();
+	constexpr double kFar = 0x1p20; // where a float's step is an eighth
+	for (const int p : drawn.points.indices())
+		drawn.points[p] = {drawn.points[p][0] + kFar, drawn.points[p][1] + kFar};
+	const int v = vertexAt(6, 6);
+	drawn.points[v][0] = kFar + 6.97; // rounds to its neighbour's
+	const Soundness floats{0.2, 0.3, true};
+	const Soundness doubles{0.001, 0.3, false};
+	EXPECT_TRUE(badTriangles(drawn, doubles).empty());
+	ASSERT_FALSE(badTriangles(drawn, floats).empty());
+	const Repair result =
+		repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, floats, [] {});
+	EXPECT_EQ(result.left, 0);
+	EXPECT_TRUE(badTriangles(drawn, floats).empty());
+}
+
+TEST(Repair, TheBoundaryMovesWhereNothingElseMends)
+{
+	DrawnTriangles drawn = square();
+	// A corner triangle whose three points are on the boundary, turned round.
+	const int corner = vertexAt(kSide, 0);
+	drawn.points[corner] = {kSide - 2.0, 2.0};
+	const Repair result =
+		repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), [] {});
+	EXPECT_GT(result.bad, 0);
+	EXPECT_EQ(result.left, 0);
+	EXPECT_TRUE(badTriangles(drawn, soundness()).empty());
+	EXPECT_EQ(result.moved[corner], 1);
+}
+
+TEST(Repair, CanBeCancelled)
+{
+	struct Cancelled
+	{
+	};
+	DrawnTriangles drawn = tangled(6, 3);
+	EXPECT_THROW(
+		repairInStages(
+			drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), [] { throw Cancelled(); }),
+		Cancelled);
+}
+
+} // namespace
+} // namespace ricci::testing

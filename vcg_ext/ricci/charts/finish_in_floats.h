@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_FINISH_IN_FLOATS_H
+#define RICCI_FINISH_IN_FLOATS_H
+
+#include "../progress.h"
+#include "../surface/surface_mesh.h"
+#include "parametrization.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// The last look at a packed map, at the coordinates as they will be stored: mends the triangles of
+/// the output that are turned round or flat once the coordinates are rounded to float, or lower than a
+/// few steps of a float. Points move by a few steps near these triangles, to floats, and no others;
+/// only the report's finishMoved changes otherwise. No chart leaves its box, seams stay isometric up
+/// to the rounding, and no border is made to cross another.
+/// \param mesh that \p map is the map of
+/// \param map after packCharts()
+void finishInFloats(const SurfaceMesh& mesh, const Tick& tick, Parametrization& map);
+
+/// The same for charts in disks, whose seams move by steps of floats like points inside.
+/// \param disks [chart] the square that its disk fills, from placeDisks()
+void finishInFloats(
+	const SurfaceMesh& mesh,
+	const std::vector<Box2>& disks,
+	const Tick& tick,
+	Parametrization& map);
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "drawn_triangles.h"
+
+#include "../math/disjoint_sets.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// \param at [triangle] the number that each corner has
+std::vector<DrawnSide> sidesOf(const Array<Triangle>& vertices, const Array<Triangle>& at)
+{
+	std::vector<DrawnSide> sides;
+	sides.reserve(3 * vertices.values().size());
+	for (const int f : vertices.indices())
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::size_t next = (k + 1) % 3;
+			const int a = vertices[f][k], b = vertices[f][next];
+			sides.push_back(
+				a < b ? DrawnSide{a, b, at[f][k], at[f][next], f}
+					  : DrawnSide{b, a, at[f][next], at[f][k], f});
+		}
+	std::sort(sides.begin(), sides.end(), [](const DrawnSide& a, const DrawnSide& b) {
+		return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
+	});
+	return sides;
+}
+
+} // namespace
+
+std::vector<DrawnSide> sidesByEdge(const DrawnTriangles& drawn)
+{
+	return sidesOf(drawn.vertices, drawn.corners);
+}
+
+bool isInside(const DrawnSide* sides, int count)
+{
+	return count == 2 && sides[0].atLow == sides[1].atLow && sides[0].atHigh == sides[1].atHigh;
+}
+
+DrawnTriangles drawingOf(
+	Array<Triangle> vertices,
+	const Array<Triangle2>& plane,
+	const Array<int>& chart,
+	Array<std::array<double, 3>> sides)
+{
+	const auto place = [&](int corner) -> const Point2& {
+		return plane[corner / 3][positionOf(corner % 3)];
+	};
+	DrawnTriangles drawn;
+	for (const int f : vertices.indices())
+		drawn.corners.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+	DisjointSets sets(3 * vertices.size());
+	forEdges(sidesOf(vertices, drawn.corners), [&](const DrawnSide* side, int count) {
+		if (count == 2 && chart[side[0].triangle] == chart[side[1].triangle] &&
+			place(side[0].atLow) == place(side[1].atLow) &&
+			place(side[0].atHigh) == place(side[1].atHigh)) {
+			sets.merge(side[0].atLow, side[1].atLow);
+			sets.merge(side[0].atHigh, side[1].atHigh);
+		}
+	});
+	Array<int> number(sets.size(), -1);
+	for (int corner = 0; corner < sets.size(); ++corner) {
+		const int first = sets.find(corner); // never above the corner
+		if (first == corner) {
+			number[corner] = drawn.points.size();
+			drawn.points.push_back(place(corner));
+		}
+		drawn.corners[corner / 3][positionOf(corner % 3)] = number[first];
+	}
+	drawn.vertices = std::move(vertices);
+	drawn.sides = std::move(sides);
+	return drawn;
+}
+
+} // namespace ricci

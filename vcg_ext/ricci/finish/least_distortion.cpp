@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "least_distortion.h"
+
+#include "../math/orientation.h"
+#include "distortion_laplacian.h"
+#include "limited_memory_bfgs.h"
+#include "mean_distortion.h"
+#include "movable_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Steps at most, and the share of the distortion that two in a row must gain: what is gained later
+/// is not seen in the fourth decimal of a mean.
+constexpr int kMaxSteps = 30;
+constexpr double kWorthwhile = 5e-4;
+
+/// Steps that the direction remembers.
+constexpr int kDepth = 5;
+
+/// Where the first step gains less than the slope has promised by this factor, needles have made
+/// the Laplacian far too stiff. They are gone after a few steps. A second factor is worth it then
+/// if it is not so large that it costs more than the steps it saves.
+constexpr double kNeedlePromise = 10.0, kMaxCostOfFactor = 200.0;
+constexpr int kStepsToFactorAgain = 2;
+
+/// The share of the slope's promise that a step must keep; bounds of the factor from a trial step
+/// to the next; the shortest step.
+constexpr double kDecrease = 1e-4, kMinShortening = 0.1, kMaxShortening = 0.5, kMinStep = 1e-6;
+
+bool isPositive(const Triangulation& t, const PlanarLayout& layout)
+{
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		if (orientation(layout[h[0]], layout[h[1]], layout[h[2]]) != 1)
+			return false;
+	}
+	return true;
+}
+
+/// [point]
+Eigen::VectorXcd positionsOf(const MovablePoints& points, const PlanarLayout& layout)
+{
+	Eigen::VectorXcd positions(points.number.size());
+	for (const int wedge : points.number.indices())
+		positions[points.number[wedge]] = asComplex(layout.points[wedge]);
+	return positions;
+}
+
+/// A layout on its way to less distortion. Nothing is allocated between steps.
+class DistortionDescent
+{
+public:
+	/// \p energy must outlive it.
+	DistortionDescent(MeanDistortion& energy, MovablePoints points, const PlanarLayout& layout) :
+			m_points(std::move(points)), m_energy(energy), m_laplacian(energy, m_points),
+			m_bfgs(m_points.unknowns, kDepth), m_start(positionsOf(m_points, layout)),
+			m_position(m_start), m_trial(m_start), m_direction(m_points.unknowns)
+	{
+		m_value = m_energy.evaluate(m_position);
+		m_energy.gradient(m_gradient);
+		m_nextGradient = m_gradient;
+	}
+
+	LeastDistortion descend(const Tick& tick)
+	{
+		LeastDistortion result{0, m_value, m_value};
+		if (!std::isfinite(m_value) || !m_laplacian.factorize(m_energy))
+			return result;
+		bool needles = false;
+		double lastGain = kInfinity;
+		while (result.steps < kMaxSteps) {
+			tick();
+			if (needles && result.steps == kStepsToFactorAgain && !m_laplacian.factorize(m_energy))
+				break;
+			m_bfgs.direction(
+				m_gradient,
+				[&](const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x) {
+					m_laplacian.solve(rhs, x);
+				},
+				m_direction);
+			const double slope = 2.0 * LimitedMemoryBfgs::dot(m_gradient, m_direction);
+			const double gain = step(slope);
+			if (!(gain > 0.0))
+				break;
+			if (++result.steps == 1)
+				needles =
+					-slope > kNeedlePromise * gain && m_laplacian.costOfFactor() < kMaxCostOfFactor;
+			result.after = m_value;
+			if (gain + lastGain < kWorthwhile * m_value)
+				break;
+			lastGain = gain;
+		}
+		return result;
+	}
+
+	void write(PlanarLayout& layout) const
+	{
+		for (const int wedge : m_points.number.indices())
+			layout.points[wedge] = asPoint(m_position[m_points.number[wedge]]);
+	}
+
+private:
+	/// Goes along the direction, down which E falls by -\p slope at first, as far as it falls.
+	/// \return by how much it falls; not positive where the direction does not lead down
+	double step(double slope)
+	{
+		if (!(slope < 0.0 && std::isfinite(slope)))
+			return 0.0;
+		double length = 1.0, value;
+		while (true) {
+			setTrial(length);
+			value = m_energy.evaluate(m_trial);
+			if (value <= m_value + kDecrease * length * slope)
+				break;
+			// The parabola through both values with the slope has its vertex at this share.
+			const double vertex = -slope * length / (2.0 * (value - m_value - slope * length));
+			length *= std::isfinite(value) ? std::clamp(vertex, kMinShortening, kMaxShortening)
+										   : kMaxShortening;
+			if (length < kMinStep)
+				return 0.0;
+		}
+		const double gain = m_value - value;
+		m_value = value;
+		m_position.swap(m_trial);
+		m_energy.gradient(m_nextGradient);
+		m_gradient = m_nextGradient - m_gradient;
+		m_direction *= length;
+		m_bfgs.remember(m_direction, m_gradient);
+		m_gradient.swap(m_nextGradient);
+		return gain;
+	}
+
+	void setTrial(double length)
+	{
+		const int unknowns = m_points.unknowns;
+		m_trial.head(unknowns) = m_position.head(unknowns) + length * m_direction;
+		// From the start on, so that the sides of a seam differ as they did there.
+		for (int p = unknowns; p < m_points.moving(); ++p) {
+			const int source = m_points.unknownOf(p);
+			m_trial[p] = m_start[p] + m_points.turnOf(p) * (m_trial[source] - m_start[source]);
+		}
+	}
+
+	MovablePoints m_points;
+	MeanDistortion& m_energy;
+	DistortionLaplacian m_laplacian;
+	LimitedMemoryBfgs m_bfgs;
+	Eigen::VectorXcd m_start, m_position, m_trial;            // [point]
+	Eigen::VectorXcd m_direction, m_gradient, m_nextGradient; // [unknown]
+	double m_value;
+};
+
+} // namespace
+
+LeastDistortion leastDistortion(
+	const Triangulation& t,
+	const EdgeArray<double>& lengths,
+	const EdgeArray<char>& isCut,
+	const VertexArray<char>& cones,
+	bool boundaryMoves,
+	PlanarLayout& layout,
+	const Tick& tick)
+{
+	if (!isPositive(t, layout))
+		return {0, kInfinity, kInfinity};
+	MeanDistortion energy(t, lengths, layout);
+	MovablePoints points = movablePoints(t, isCut, cones, boundaryMoves, layout);
+	if (points.unknowns == 0) {
+		energy.usePoints(points);
+		const double value = energy.evaluate(positionsOf(points, layout));
+		return {0, value, value};
+	}
+	DistortionDescent descent(energy, std::move(points), layout);
+	const LeastDistortion result = descent.descend(tick);
+	if (result.steps > 0)
+		descent.write(layout);
+	return result;
+}
+
+} // namespace ricci

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_LEAST_DISTORTION_H
+#define RICCI_LEAST_DISTORTION_H
+
+#include "../layout/planar_layout.h"
+#include "../progress.h"
+
+namespace ricci {
+
+/// What leastDistortion() has done.
+struct LeastDistortion
+{
+	int steps = 0;                    ///< 0: the layout is what it was
+	double before = 0.0, after = 0.0; ///< MeanDistortion of the layout; infinite where not positive
+};
+
+/// Moves the points of a layout so that the mean conformal distortion of the map on the mesh's own
+/// straight triangles becomes small. A flow that flips edges finds the conformal map of the
+/// surface; drawn straight between its vertices, it is near to the best map of these triangles, not
+/// the best one. No triangle turns, the distortion never rises, and the two sides of every seam
+/// stay isometric: the angles of the cones and the holonomy of the flat metric stay exactly what
+/// they are (movable_points.h says what moves, mean_distortion.h what is minimised).
+///
+/// Every step solves with a Laplacian (distortion_laplacian.h) for its direction, which
+/// limited-memory BFGS improves by what the steps before have shown, as [Liu Bouaziz Kavan 2017] do
+/// for elastic bodies, and is shortened until no triangle turns, by an exact test, and the
+/// distortion falls enough [Nocedal Wright 2006, 3.1, 3.5]. Solving for the direction more exactly,
+/// by reweighted least squares or Newton's equations, takes as many steps, each at several times
+/// the cost: the weights change as fast as the points. The steps end when two in a row gain little.
+///
+/// The same result to the bit with any number of threads.
+/// \param lengths of the edges in space
+/// \param isCut 1 on the seams of the layout
+/// \param cones 1 at cones inside
+/// \param boundaryMoves whether the boundary is free; else its points stay
+/// \param layout stays what it was where a triangle of it is not counter-clockwise. Where nothing
+/// stays, its size may change.
+/// \param tick called between steps; where it throws, \p layout is what it was
+/// \throw std::bad_alloc
+LeastDistortion leastDistortion(
+	const Triangulation& t,
+	const EdgeArray<double>& lengths,
+	const EdgeArray<char>& isCut,
+	const VertexArray<char>& cones,
+	bool boundaryMoves,
+	PlanarLayout& layout,
+	const Tick& tick);
+
+} // namespace ricci
+
+#endif

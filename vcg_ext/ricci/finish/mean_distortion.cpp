@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mean_distortion.h"
+
+#include "../base/parallel.h"
+#include "../base/tolerances.h"
+#include "../math/orientation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ricci {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Parts of the three means in the weights.
+constexpr double kVertexPart = 0.8, kAreaPart = 0.15, kFacePart = 0.05;
+
+/// The root of |mu|^2 has no derivative at 0; that of |mu|^2 + kSmoothing, which is the same up to
+/// a dilatation of 1.002, has.
+constexpr double kSmoothing = 1e-6;
+
+/// As in orientation(): a determinant above this share of its terms has the right sign, but for
+/// underflow.
+constexpr double kOrientationRounding = 4.0 * kUnitRoundoff;
+constexpr double kTiny = std::numeric_limits<double>::min();
+
+/// Products by parts: those of std::complex look for infinities behind every result.
+Complex product(Complex a, Complex b)
+{
+	return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+Complex conjugateProduct(Complex a, Complex b) // conj(a) b
+{
+	return {a.real() * b.real() + a.imag() * b.imag(), a.real() * b.imag() - a.imag() * b.real()};
+}
+
+/// A triangle with its first corner at 0, its longest side scaled to about 1.
+struct PlacedTriangle
+{
+	Complex second, third;
+	double scale;
+	double area; ///< positive if counter-clockwise
+
+	/// By its sides, from the first corner on.
+	explicit PlacedTriangle(const std::array<double, 3>& sides) :
+			scale(*std::max_element(sides.begin(), sides.end()))
+	{
+		const double a = sides[0] / scale, b = sides[1] / scale, c = sides[2] / scale;
+		// Heron's formula as [Kahan 2014] rounds it well.
+		std::array<double, 3> s{a, b, c};
+		std::sort(s.begin(), s.end());
+		const double square = (s[2] + (s[1] + s[0])) * (s[0] - (s[2] - s[1])) *
+							  (s[0] + (s[2] - s[1])) * (s[2] + (s[1] - s[0]));
+		area = 0.25 * std::sqrt(std::max(square, 0.0));
+		second = a;
+		third = {0.5 * (a + (c - b) * (c + b) / a), 2.0 * area / a};
+	}
+
+	/// As it lies in the plane.
+	explicit PlacedTriangle(const std::array<Complex, 3>& corners) :
+			second(corners[1] - corners[0]), third(corners[2] - corners[0]),
+			scale(std::max({std::abs(second), std::abs(third), std::abs(third - second)}))
+	{
+		second /= scale;
+		third /= scale;
+		area = 0.5 * conjugateProduct(second, third).imag();
+	}
+
+	bool hasShape() const
+	{
+		return area > 0.5 * kMinIntrinsicHeight && second != 0.0 && std::isfinite(scale);
+	}
+};
+
+} // namespace
+
+MeanDistortion::MeanDistortion(
+	const Triangulation& t, const EdgeArray<double>& lengths, const PlanarLayout& layout) :
+		m_t(t),
+		m_layout(layout), m_threads(defaultThreads()), m_shape(t.faceCount()),
+		m_corners(t.faceCount()), m_energy(t.faceCount(), 0.0), m_stiffness(t.faceCount(), 0.0),
+		m_pull(t.faceCount())
+{
+	FaceArray<double> area(t.faceCount(), 0.0);
+	VertexArray<double> ring(t.vertexCount(), 0.0);
+	double total = 0.0;
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		PlacedTriangle placed(std::array<double, 3>{
+			lengths[h[0].edge()], lengths[h[1].edge()], lengths[h[2].edge()]});
+		if (placed.hasShape()) {
+			area[f] = placed.area * placed.scale * placed.scale;
+			total += area[f];
+			for (const Vertex v : t.vertices(f))
+				ring[v] += area[f];
+		}
+		else
+			placed = PlacedTriangle(std::array<Complex, 3>{
+				asComplex(layout[h[0]]), asComplex(layout[h[1]]), asComplex(layout[h[2]])});
+		const Complex over(0.0, 0.25 / placed.area);
+		m_shape[f] = {-over * placed.third, over * placed.second, 0.0};
+	}
+	const auto vertices = static_cast<double>(
+		std::count_if(ring.begin(), ring.end(), [](double a) { return a > 0.0; }));
+	for (const Face f : t.faces()) {
+		double& weight = m_shape[f].weight = kFacePart / t.faceCount();
+		if (!(area[f] > 0.0))
+			continue;
+		weight += kAreaPart * area[f] / total;
+		for (const Vertex v : t.vertices(f))
+			weight += kVertexPart * area[f] / (ring[v] * vertices);
+	}
+}
+
+void MeanDistortion::usePoints(const MovablePoints& points)
+{
+	m_points = &points;
+	m_firstCorner.assign(points.moving() + 1, 0);
+	for (const Face f : m_t.faces()) {
+		const auto h = m_t.halfedges(f);
+		for (std::size_t k = 0; k < 3; ++k) {
+			const int point = m_corners[f][k] = points.number[m_layout.wedges.of[h[k]]];
+			if (point < points.moving())
+				++m_firstCorner[point + 1];
+		}
+	}
+	for (int p = 0; p < points.moving(); ++p)
+		m_firstCorner[p + 1] += m_firstCorner[p];
+	m_cornerOf.resize(positionOf(m_firstCorner.back()));
+	Array<int> cursor = m_firstCorner;
+	for (const Face f : m_t.faces())
+		for (int k = 0; k < 3; ++k)
+			if (const int point = m_corners[f][positionOf(k)]; point < points.moving())
+				m_cornerOf[positionOf(cursor[point]++)] = {f, k};
+}
+
+/// With s = kSmoothing, m^2 = (|f_zbar|^2 / |f_z|^2 + s) / (1 + s) < 1 and k = K - 1 = 2 m / (1 -
+/// m), dE / d|f_zbar|^2 = weight 5/4 k^(1/4) / ((1 - m)^2 m (1 + s) |f_z|^2), and dE / d|f_z|^2 is
+/// -|f_zbar|^2 / |f_z|^2 times that.
+void MeanDistortion::evaluate(Face f, const Eigen::VectorXcd& position)
+{
+	const std::array<int, 3>& corners = m_corners[f];
+	const Complex origin = position[corners[0]];
+	const Complex e1 = position[corners[1]] - origin, e2 = position[corners[2]] - origin;
+	const double left = e1.real() * e2.imag(), right = e1.imag() * e2.real();
+	m_energy[f] = std::numeric_limits<double>::infinity();
+	// What is far from 0 has the right sign, see orientation().
+	if (!(left - right > kOrientationRounding * (std::abs(left) + std::abs(right)) + kTiny) &&
+		orientation(
+			asPoint(origin), asPoint(position[corners[1]]), asPoint(position[corners[2]])) != 1)
+		return;
+	// The four sums that f_zbar, f_z and the quotient of the areas are made of.
+	const Shape& s = m_shape[f];
+	const double rr = s.first.real() * e1.real() + s.second.real() * e2.real();
+	const double ii = s.first.imag() * e1.imag() + s.second.imag() * e2.imag();
+	const double ri = s.first.real() * e1.imag() + s.second.real() * e2.imag();
+	const double ir = s.first.imag() * e1.real() + s.second.imag() * e2.real();
+	const Complex fzbar(rr - ii, ri + ir), fz(rr + ii, ri - ir);
+	const double square = std::norm(fz), muSquare = std::norm(fzbar) / square;
+	const double m = std::sqrt((muSquare + kSmoothing) / (1.0 + kSmoothing));
+	const double gap =
+		4.0 * (rr * ii - ri * ir) / square / ((1.0 + kSmoothing) * (1.0 + m)); // 1 - m
+	if (!(gap > 0.0))
+		return;
+	const double k = 2.0 * m / gap, fourthRoot = std::sqrt(std::sqrt(k));
+	m_energy[f] = s.weight * k * fourthRoot;
+	const double stiffness =
+		1.25 * s.weight * fourthRoot / (gap * gap * m * (1.0 + kSmoothing) * square);
+	m_stiffness[f] = stiffness;
+	const Complex byFzbar = stiffness * fzbar, byFz = (stiffness * muSquare) * fz;
+	m_pull[f] = {
+		conjugateProduct(s.first, byFzbar) - product(s.first, byFz),
+		conjugateProduct(s.second, byFzbar) - product(s.second, byFz)};
+}
+
+double MeanDistortion::evaluate(const Eigen::VectorXcd& position)
+{
+	inParallel(faceCount(), m_threads, [&](int first, int last) {
+		for (const Face f : IndexRange<Face>(first, last))
+			evaluate(f, position);
+	});
+	double sum = 0.0; // in the same order with any number of threads
+	for (const double energy : m_energy)
+		sum += energy;
+	return sum;
+}
+
+/// dE / d conj(point).
+MeanDistortion::Complex MeanDistortion::pull(int point) const
+{
+	Complex sum = 0.0;
+	for (int i = m_firstCorner[point]; i < m_firstCorner[point + 1]; ++i) {
+		const Corner& corner = m_cornerOf[positionOf(i)];
+		const std::array<Complex, 2>& pull = m_pull[corner.face];
+		sum += corner.place == 0 ? -(pull[0] + pull[1]) : pull[positionOf(corner.place - 1)];
+	}
+	return sum;
+}
+
+void MeanDistortion::gradient(Eigen::VectorXcd& gradient) const
+{
+	gradient.resize(m_points->unknowns);
+	inParallel(m_points->unknowns, m_threads, [&](int first, int last) {
+		for (int i = first; i < last; ++i)
+			gradient[i] = pull(i);
+	});
+	for (int i = m_points->unknowns; i < m_points->moving(); ++i)
+		gradient[m_points->unknownOf(i)] += conjugateProduct(m_points->turnOf(i), pull(i));
+}
+
+} // namespace ricci

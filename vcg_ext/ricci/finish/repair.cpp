@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "repair.h"
+
+#include "../base/parallel.h"
+#include "untangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// Rings of the patches, one size after another.
+constexpr int kRings[] = {1, 2, 3, 5, 8, 13, 21, 34};
+
+/// Those of the largest patches that move points inside alone, seams, and a boundary that is not
+/// free.
+constexpr int kMaxInsideRings = 13, kMaxSeamRings = 34, kMaxBoundaryRings = 34;
+
+/// A patch that failed is tried again once it has so many times the triangles.
+constexpr double kPatchGrowth = 1.4;
+
+/// Strain (untangle.h) above which a mended patch is evened out, and the rings of the larger patches.
+constexpr double kMaxStrain = 3.0;
+constexpr int kEasedRings[] = {2, 5, 13};
+
+/// Triangles times Newton steps that may be spent for each triangle of the drawing, and at least.
+constexpr std::int64_t kMaxWorkShare = 40, kLeastMaxWork = 1000000;
+
+/// Steps that a patch is expected to take.
+constexpr std::int64_t kExpectedSteps = 30;
+
+/// Whether no places of its variables make a patch sound: a triangle has a side that stays and is too
+/// short; or the triangles need more than the area that the patch keeps where its border stays.
+bool isHopeless(
+	const DrawnTriangles& drawn,
+	const PointGroups& groups,
+	const Patch& patch,
+	const Soundness& soundness)
+{
+	double area = 0.0;
+	bool borderStays = true;
+	for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
+		const Triangle2 p = drawn.at(patch.triangles[i]);
+		const Triangle& local = patch.corners[static_cast<int>(i)];
+		area += 0.5 * doubledArea(p[0], p[1], p[2]);
+		int staying = 0;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::size_t next = (k + 1) % 3;
+			const bool stays = patch.variable[local[k]] < 0;
+			staying += stays;
+			if (stays && patch.variable[local[next]] < 0 &&
+				distance(soundness.stored(p[k]), soundness.stored(p[next])) <= soundness.height)
+				return true;
+			borderStays =
+				borderStays && (stays || groups.inside[patch.points[positionOf(local[k])]]);
+		}
+		if (staying == 3 && !soundness.isSound(p))
+			return true;
+	}
+	// An equilateral triangle has the least area of all with its height.
+	const double least = soundness.height * soundness.height / std::sqrt(3.0);
+	return borderStays && area <= least * static_cast<double>(patch.triangles.size());
+}
+
+/// Whether a patch has failed that was nearly as large.
+bool isHardlyLarger(const Patch& patch, const Array<std::size_t>& failed)
+{
+	std::size_t largest = 0;
+	for (const int f : patch.triangles)
+		largest = std::max(largest, failed[f]);
+	return static_cast<double>(patch.triangles.size()) <
+		   kPatchGrowth * static_cast<double>(largest);
+}
+
+/// Puts the points of a patch in their places, unless the test refuses the patch there.
+bool apply(
+	DrawnTriangles& drawn,
+	const Patch& patch,
+	const std::vector<Point2>& places,
+	const PatchTest& accepts)
+{
+	std::vector<Point2> before;
+	for (std::size_t k = 0; k < places.size(); ++k) {
+		before.push_back(drawn.points[patch.points[k]]);
+		drawn.points[patch.points[k]] = places[k];
+	}
+	if (!accepts || accepts(drawn, patch))
+		return true;
+	for (std::size_t k = 0; k < places.size(); ++k)
+		drawn.points[patch.points[k]] = before[k];
+	return false;
+}
+
+/// Solves patches side by side.
+/// \return [patch] what solve(patch, tick) gives
+template<class Solve>
+std::vector<Untangled>
+solveAll(const std::vector<Patch>& patches, const Tick& tick, const Solve& solve)
+{
+	std::vector<Untangled> found(patches.size());
+	tasksInParallel(
+		static_cast<int>(patches.size()), defaultThreads(), tick, [&](int i, const Tick& own) {
+			found[positionOf(i)] = solve(patches[positionOf(i)], own);
+		});
+	return found;
+}
+
+/// Takes over the patches that are sound, or better than before.
+void takeOver(
+	const std::vector<Patch>& patches,
+	const std::vector<Untangled>& found,
+	const PatchTest& accepts,
+	DrawnTriangles& drawn,
+	Repair& result)
+{
+	for (std::size_t i = 0; i < patches.size(); ++i) {
+		result.work += found[i].steps * static_cast<std::int64_t>(patches[i].triangles.size());
+		if (found[i].points.empty() || !apply(drawn, patches[i], found[i].points, accepts))
+			continue;
+		for (std::size_t k = 0; k < patches[i].points.size(); ++k)
+			if (patches[i].variable[static_cast<int>(k)] >= 0)
+				result.moved[patches[i].points[k]] = 1;
+	}
+}
+
+/// Triangles at points that were moved whose shape on the surface is far from that in the drawing.
+std::vector<int>
+strainedTriangles(const DrawnTriangles& drawn, const Array<char>& moved, const Soundness& soundness)
+{
+	std::vector<int> strained;
+	for (const int f : drawn.corners.indices()) {
+		const Triangle& c = drawn.corners[f];
+		if (!moved[c[0]] && !moved[c[1]] && !moved[c[2]])
+			continue;
+		Patch alone;
+		alone.triangles = {f};
+		alone.points = {c[0], c[1], c[2]};
+		alone.corners.push_back({0, 1, 2});
+		const RestShape shape = restShapes(drawn, alone, RestShapes::OfSurface, soundness).front();
+		if (strain(shape, drawn.at(f)) > kMaxStrain)
+			strained.push_back(f);
+	}
+	return strained;
+}
+
+/// Makes the patches that were mended at a price larger and evens them out.
+void easeStrained(
+	DrawnTriangles& drawn,
+	const PointGroups& groups,
+	const Soundness& soundness,
+	const PatchTest& accepts,
+	const Tick& tick,
+	Repair& result)
+{
+	PatchFinder finder(drawn, groups);
+	for (const int rings : kEasedRings) {
+		const std::vector<int> strained = strainedTriangles(drawn, result.moved, soundness);
+		if (strained.empty())
+			return;
+		const std::vector<Patch> patches = finder.patches(strained, rings);
+		takeOver(
+			patches,
+			solveAll(
+				patches,
+				tick,
+				[&](const Patch& patch, const Tick& own) {
+					return ease(
+						drawn,
+						groups,
+						patch,
+						restShapes(drawn, patch, RestShapes::OfSurface, soundness),
+						soundness,
+						own);
+				}),
+			accepts,
+			drawn,
+			result);
+	}
+}
+
+} // namespace
+
+int Repair::movedCount() const
+{
+	return static_cast<int>(std::count(moved.begin(), moved.end(), 1));
+}
+
+void Repair::add(const Repair& next)
+{
+	if (moved.empty())
+		moved = next.moved;
+	for (const int p : next.moved.indices())
+		moved[p] = moved[p] || next.moved[p];
+	left = next.left;
+	work += next.work;
+}
+
+std::vector<int> badTriangles(const DrawnTriangles& drawn, const Soundness& soundness)
+{
+	std::vector<int> bad;
+	for (const int f : drawn.corners.indices())
+		if (!soundness.isSound(drawn.at(f)))
+			bad.push_back(f);
+	return bad;
+}
+
+Repair repair(
+	DrawnTriangles& drawn,
+	const PointGroups& groups,
+	RestShapes shapes,
+	const Soundness& soundness,
+	int maxRings,
+	const PatchTest& accepts,
+	const Tick& tick)
+{
+	Repair result;
+	std::vector<int> bad = badTriangles(drawn, soundness);
+	result.bad = result.left = static_cast<int>(bad.size());
+	if (bad.empty())
+		return result;
+	result.moved.assign(drawn.points.size(), 0);
+	PatchFinder finder(drawn, groups);
+	Array<std::size_t> failed(drawn.corners.size(), 0); // [triangle] size of its last patch
+	const std::int64_t maxWork = std::max(kMaxWorkShare * drawn.corners.size(), kLeastMaxWork);
+	for (const int rings : kRings) {
+		if (rings > maxRings)
+			break;
+		std::vector<Patch> patches = finder.patches(bad, rings);
+		patches.erase(
+			std::remove_if(
+				patches.begin(),
+				patches.end(),
+				[&](const Patch& patch) {
+					return isHardlyLarger(patch, failed) ||
+						   isHopeless(drawn, groups, patch, soundness);
+				}),
+			patches.end());
+		std::stable_sort(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
+			return a.triangles.size() < b.triangles.size();
+		});
+		std::int64_t expected = 0;
+		const auto fits = [&](const Patch& patch) {
+			expected += kExpectedSteps * static_cast<std::int64_t>(patch.triangles.size());
+			return expected <= maxWork - result.work;
+		};
+		patches.erase(std::find_if_not(patches.begin(), patches.end(), fits), patches.end());
+		const std::vector<Untangled> found =
+			solveAll(patches, tick, [&](const Patch& patch, const Tick& own) {
+				return untangle(
+					drawn,
+					groups,
+					patch,
+					restShapes(drawn, patch, shapes, soundness),
+					soundness,
+					own);
+			});
+		takeOver(patches, found, accepts, drawn, result);
+		for (std::size_t i = 0; i < patches.size(); ++i)
+			if (!found[i].sound)
+				for (const int f : patches[i].triangles)
+					failed[f] = patches[i].triangles.size();
+		const auto isMended = [&](int f) { return soundness.isSound(drawn.at(f)); };
+		bad.erase(std::remove_if(bad.begin(), bad.end(), isMended), bad.end());
+		if (bad.empty() || result.work >= maxWork)
+			break;
+	}
+	result.left = static_cast<int>(bad.size());
+	return result;
+}
+
+Repair repairInStages(
+	DrawnTriangles& drawn,
+	const BorderMoves& moves,
+	RestShapes shapes,
+	const Soundness& soundness,
+	const Tick& tick)
+{
+	if (badTriangles(drawn, soundness).empty())
+		return {};
+	PointGroups groups = insidePoints(drawn);
+	Repair result = repair(drawn, groups, shapes, soundness, kMaxInsideRings, nullptr, tick);
+	PatchTest accepts;
+	const auto goOn = [&](const std::function<bool(int)>& boundary, int maxRings) {
+		if (result.left == 0)
+			return;
+		groups = joinedPoints(drawn, moves.seams, boundary);
+		accepts = moves.accepts;
+		result.add(repair(drawn, groups, shapes, soundness, maxRings, accepts, tick));
+	};
+	goOn(moves.boundary, kMaxSeamRings);
+	goOn([](int) { return true; }, kMaxBoundaryRings);
+	if (shapes == RestShapes::OfSurface)
+		easeStrained(drawn, groups, soundness, accepts, tick, result);
+	return result;
+}
+
+Repair repairFreely(
+	DrawnTriangles& drawn,
+	const PatchTest& accepts,
+	RestShapes shapes,
+	const Soundness& soundness,
+	const Tick& tick)
+{
+	if (badTriangles(drawn, soundness).empty())
+		return {};
+	Repair result =
+		repair(drawn, insidePoints(drawn), shapes, soundness, kMaxInsideRings, nullptr, tick);
+	if (result.left > 0)
+		result.add(
+			repair(drawn, allPoints(drawn), shapes, soundness, kMaxBoundaryRings, accepts, tick));
+	return result;
+}
+
+} // namespace ricci

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_REPAIR_H
+#define RICCI_REPAIR_H
+
+#include "../progress.h"
+#include "drawn_triangles.h"
+#include "patches.h"
+#include "point_groups.h"
+#include "rest_shape.h"
+#include "soundness.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace ricci {
+
+/// What repair() has done.
+struct Repair
+{
+	Array<char> moved; ///< [point] 1 where the repair moved it; empty where nothing was to be done
+	int bad = 0;       ///< triangles that were not sound before
+	int left = 0;      ///< and after
+	std::int64_t work = 0; ///< triangles times Newton steps
+
+	int movedCount() const;
+	/// Takes over what a second repair of the same drawing has done.
+	void add(const Repair& next);
+};
+
+/// Triangles of \p drawn that are not sound.
+std::vector<int> badTriangles(const DrawnTriangles& drawn, const Soundness& soundness);
+
+/// Whether a patch may be as it is in the drawing; called one after another.
+using PatchTest = std::function<bool(const DrawnTriangles& drawn, const Patch& patch)>;
+
+/// Mends the triangles that are not sound: moves points near them, and no others.
+///
+/// Patches of 1, 2, 3, 5, 8, ... rings round clusters of bad triangles are untangled
+/// (untangle.h) until one holds; triangles that no patch mends stay as they are, unless others round
+/// them can be mended. Patches of one size
+/// move no triangle of each other, so they are solved side by side, and the result does not depend on
+/// the number of threads.
+/// \param maxRings of the largest patches
+/// \param accepts may be empty; a patch that it refuses stays as it was
+/// \param tick is called by the calling thread only
+Repair repair(
+	DrawnTriangles& drawn,
+	const PointGroups& groups,
+	RestShapes shapes,
+	const Soundness& soundness,
+	int maxRings,
+	const PatchTest& accepts,
+	const Tick& tick);
+
+/// What may move beyond the points inside the charts.
+struct BorderMoves
+{
+	SeamGeometry seams = SeamGeometry::Plane;
+	std::function<bool(int vertex)> boundary; ///< whether the boundary moves freely there
+	PatchTest accepts;                        ///< patches that move more than points inside
+};
+
+/// repair() in stages, each for what the one before has left: the points inside the charts; the copies
+/// of seam vertices together, and the boundary where it is free; the boundary everywhere.
+Repair repairInStages(
+	DrawnTriangles& drawn,
+	const BorderMoves& moves,
+	RestShapes shapes,
+	const Soundness& soundness,
+	const Tick& tick);
+
+/// The same where seams need not stay isometric: the points inside the charts; then all points, each
+/// by itself.
+Repair repairFreely(
+	DrawnTriangles& drawn,
+	const PatchTest& accepts,
+	RestShapes shapes,
+	const Soundness& soundness,
+	const Tick& tick);
+
+} // namespace ricci
+
+#endif

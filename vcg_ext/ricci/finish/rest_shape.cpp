@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "rest_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace ricci {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// The least height, and the least side, over the longest side of a shape of the surface.
+constexpr double kLeastRatio = 1e-6;
+
+/// From the lengths of the sides 0-1, 1-2 and 2-0.
+RestShape shapeOf(const std::array<double, 3>& sides)
+{
+	const double longest = std::max({sides[0], sides[1], sides[2]});
+	if (!(longest > 0.0))
+		return {1.0, {0.5, std::sqrt(0.75)}};
+	double a = std::max(sides[0], kLeastRatio * longest);
+	double b = std::max(sides[1], kLeastRatio * longest);
+	double c = std::max(sides[2], kLeastRatio * longest);
+	const double x = (a * a + c * c - b * b) / (2.0 * a);
+	const double height = kLeastRatio * longest * longest / a; // over side a
+	return {a, {x, std::max(std::sqrt(std::max(c * c - x * x, 0.0)), height)}};
+}
+
+double areaOf(const RestShape& s)
+{
+	return 0.5 * s.base * s.apex.imag();
+}
+
+RestShape scaled(const RestShape& s, double factor)
+{
+	return {factor * s.base, factor * s.apex};
+}
+
+/// A shape with a right height over its longest side, both at least \p height.
+RestShape heightened(const RestShape& s, double height)
+{
+	Complex corner[3] = {0.0, s.base, s.apex};
+	std::size_t first = 0; // of the longest side
+	for (std::size_t k = 1; k < 3; ++k)
+		if (std::abs(corner[(k + 1) % 3] - corner[k]) >
+			std::abs(corner[(first + 1) % 3] - corner[first]))
+			first = k;
+	const Complex side = corner[(first + 1) % 3] - corner[first];
+	const double length = std::abs(side), old = 2.0 * areaOf(s) / length;
+	if (old >= height)
+		return s;
+	const double along = std::max(length, 1.2 * height) / length, across = height / old;
+	for (Complex& z : corner) {
+		const Complex w = z / side; // in the frame of the longest side
+		z = side * Complex(along * w.real(), across * w.imag());
+	}
+	const Complex base = corner[1] - corner[0];
+	return {std::abs(base), (corner[2] - corner[0]) / base * std::abs(base)};
+}
+
+RestShape shapeOf(const Triangle2& p)
+{
+	const Complex base = asComplex(p[1]) - asComplex(p[0]);
+	return {std::abs(base), (asComplex(p[2]) - asComplex(p[0])) * std::conj(base) / std::abs(base)};
+}
+
+/// How much the drawing scales the surface round each triangle of a patch: the root of the quotient
+/// of areas over the triangles at its corners.
+std::vector<double>
+scales(const DrawnTriangles& drawn, const Patch& patch, const std::vector<RestShape>& shapes)
+{
+	Array<double> plane(static_cast<int>(patch.points.size()), 0.0), surface = plane;
+	double planeSum = 0.0, surfaceSum = 0.0;
+	for (std::size_t i = 0; i < shapes.size(); ++i) {
+		const Triangle2 p = drawn.at(patch.triangles[i]);
+		const double a = 0.5 * std::abs(doubledArea(p[0], p[1], p[2])), b = areaOf(shapes[i]);
+		planeSum += a, surfaceSum += b;
+		for (const int q : patch.corners[static_cast<int>(i)])
+			plane[q] += a, surface[q] += b;
+	}
+	const double mean = planeSum > 0.0 ? std::sqrt(planeSum / surfaceSum) : 1.0;
+	std::vector<double> result;
+	for (std::size_t i = 0; i < shapes.size(); ++i) {
+		double a = 0.0, b = 0.0;
+		for (const int q : patch.corners[static_cast<int>(i)])
+			a += plane[q], b += surface[q];
+		result.push_back(a > 0.0 ? std::sqrt(a / b) : mean);
+	}
+	return result;
+}
+
+} // namespace
+
+std::vector<RestShape> restShapes(
+	const DrawnTriangles& drawn, const Patch& patch, RestShapes from, const Soundness& soundness)
+{
+	std::vector<RestShape> shapes;
+	for (const int f : patch.triangles)
+		shapes.push_back(shapeOf(drawn.sides[f]));
+	const std::vector<double> scale = scales(drawn, patch, shapes);
+	for (std::size_t i = 0; i < shapes.size(); ++i) {
+		const Triangle2 p = drawn.at(patch.triangles[i]);
+		shapes[i] = from == RestShapes::OfDrawing && doubledArea(p[0], p[1], p[2]) > 0.0
+						? shapeOf(p)
+						: scaled(shapes[i], scale[i]);
+		shapes[i] = heightened(shapes[i], soundness.wanted);
+	}
+	return shapes;
+}
+
+} // namespace ricci

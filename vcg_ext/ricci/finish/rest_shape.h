@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_REST_SHAPE_H
+#define RICCI_REST_SHAPE_H
+
+#include "drawn_triangles.h"
+#include "patches.h"
+#include "soundness.h"
+
+#include <complex>
+#include <vector>
+
+namespace ricci {
+
+/// The shape that a triangle of the plane should have: corners 0, base > 0 and apex, whose
+/// imaginary part is positive.
+struct RestShape
+{
+	double base = 1.0;
+	std::complex<double> apex;
+};
+
+/// Where the triangles of a patch have their shapes from.
+enum class RestShapes {
+	OfSurface, ///< from their sides on the surface
+	OfDrawing  ///< from the drawing, where they are counter-clockwise there
+};
+
+/// The shapes of the triangles of \p patch. Sides on the surface are scaled as the drawing scales
+/// them round the triangle. Those of triangles that have no shape, or a thin one, are made less thin
+/// elsewhere, and all are as high as \p soundness wants.
+std::vector<RestShape> restShapes(
+	const DrawnTriangles& drawn, const Patch& patch, RestShapes from, const Soundness& soundness);
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_UNTANGLE_H
+#define RICCI_UNTANGLE_H
+
+#include "../progress.h"
+#include "drawn_triangles.h"
+#include "patches.h"
+#include "rest_shape.h"
+#include "soundness.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// What untangle() found.
+struct Untangled
+{
+	bool sound = false; ///< every triangle of the patch is
+	/// [local point] Places, as they are stored, where all triangles are sound, or where fewer are
+	/// turned round or flat than before, or as many are and fewer are too low. Empty if none were
+	/// found.
+	std::vector<Point2> points;
+	int steps = 0; ///< of Newton
+};
+
+/// Moves the inner points of a patch until all its triangles are sound, as near to their rest shapes
+/// as the border of the patch lets them be.
+///
+/// It minimises the sum over the triangles of w (|J|^2 + lambda (1 + det^2 J)) / chi(det J), where
+/// J is the linear map from the rest shape, w its area, and chi(d) = (d + sqrt(eps^2 + d^2)) / 2 is
+/// positive for triangles that are turned round, too. eps falls with them, and in the end only
+/// positive determinants remain [Garanzha et al. 2021, Eq. 3]. The steps are Newton's, with each
+/// triangle's Hessian made positive semidefinite: in terms of f_z and f_zbar its eigenvalues have
+/// closed forms.
+Untangled untangle(
+	const DrawnTriangles& drawn,
+	const PointGroups& groups,
+	const Patch& patch,
+	const std::vector<RestShape>& shapes,
+	const Soundness& soundness,
+	const Tick& tick);
+
+/// Lowers the same energy, with eps = 0, on a patch that is sound, which it stays.
+Untangled ease(
+	const DrawnTriangles& drawn,
+	const PointGroups& groups,
+	const Patch& patch,
+	const std::vector<RestShape>& shapes,
+	const Soundness& soundness,
+	const Tick& tick);
+
+/// The energy of a triangle with eps = 0 over its weight and least value: 1 for the rest shape, large
+/// for one that is drawn out or flat; infinite where it is not counter-clockwise.
+double strain(const RestShape& shape, const Triangle2& plane);
+
+} // namespace ricci
+
+#endif
