@@ -4,12 +4,14 @@
 #include "support/mesh_contents.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
+#include "support/transform.h"
 #include "support/vcg_mesh.h"
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
 
 #include <ricci/base/numbers.h>
 #include <ricci/error.h>
+#include <ricci/measure/hyperbolic_distortion.h>
 #include <ricci/surface/triangulation.h>
 
 #include <gtest/gtest.h>
@@ -168,6 +170,7 @@ TYPED_TEST(Facade, AFinishedMapHasNoTriangleTurnedRoundAsItIsStored)
 		TypeParam m;
 		toVcg(foldedTorus(20, 12, 3.0, random), m);
 		typename Flow<TypeParam>::Params par;
+		par.finish = Finish::None;
 		turned += compute(m, par).report.flippedFaces;
 		par.finish = Finish::Repair;
 		const Report repaired = compute(m, par).report;
@@ -180,6 +183,100 @@ TYPED_TEST(Facade, AFinishedMapHasNoTriangleTurnedRoundAsItIsStored)
 		EXPECT_LT(least.qcMean, repaired.qcMean);
 	}
 	EXPECT_GT(turned, 0) << "these meshes test nothing";
+}
+
+/// The distortion in a report is that of the coordinates of \p result, which \p measure finds there.
+template<class Result, class Measure>
+void expectMeasuredAsStored(SurfaceMesh mesh, const Result& result, Measure measure)
+{
+	const bool refined = !result.refined.triangles.empty();
+	if (refined) {
+		std::vector<Point3> places;
+		for (const SurfacePoint& p : result.refined.points)
+			places.push_back(placeOnSurface(p, mesh.positions));
+		mesh = {std::move(places), result.refined.triangles, 0};
+	}
+	Report own;
+	const std::vector<char> reversed(mesh.triangles.size(), 0);
+	const DistortionField field =
+		measure(mesh, refined ? result.refined.uv : result.wedgeUV, reversed, own);
+	const Report& report = result.report;
+	const auto expectSame = [](double found, double expected) {
+		EXPECT_NEAR(found / expected, 1.0, 1e-6);
+	};
+	expectSame(report.qcMean, own.qcMean);
+	expectSame(report.qcVertexMean, own.qcVertexMean);
+	expectSame(report.qcAreaMean, own.qcAreaMean);
+	expectSame(report.qcP99, own.qcP99);
+	expectSame(report.qcMax, own.qcMax);
+	expectSame(report.areaDistortionMean, own.areaDistortionMean);
+	expectSame(report.areaDistortionSpread, own.areaDistortionSpread);
+	const std::vector<double>& vertexQC = refined ? result.refined.vertexQC : result.vertexQC;
+	ASSERT_EQ(vertexQC.size(), field.vertex.size());
+	for (std::size_t v = 0; v < vertexQC.size(); ++v)
+		expectSame(vertexQC[v], field.vertex[v]);
+}
+
+/// A second component so small that its faces have the size of a few steps of floats, which turn some
+/// round; what mends them changes the distortion.
+TYPED_TEST(Facade, DistortionIsMeasuredWhereTheCoordinatesAreStored)
+{
+	Random random(310);
+	TypeParam m;
+	const SurfaceMesh large = bumpyTorus(12, 8, random);
+	toVcg(sideBySide(large, scaled(large, 1e-5), 9.0), m);
+	typename Flow<TypeParam>::Params par;
+	const SurfaceMesh mesh = fromVcg(m);
+	const Report before = run(mesh, par).report;
+	const auto result = compute(m, par);
+	EXPECT_GT(result.report.finishMoved, before.finishMoved);
+	EXPECT_NE(result.report.qcMean, before.qcMean);
+	expectMeasuredAsStored(mesh, result, measureDistortion);
+}
+
+/// Turned round the middle of its box, fast there and less and less outwards: faces grow long, and
+/// many edges flip.
+SurfaceMesh swirled(SurfaceMesh mesh)
+{
+	Box2 box;
+	for (const Point3& p : mesh.positions)
+		box.add(Point2{p[0], p[1]});
+	for (Point3& p : mesh.positions) {
+		const double x = p[0] - (box.min[0] + box.max[0]) / 2;
+		const double y = p[1] - (box.min[1] + box.max[1]) / 2;
+		const double radius = 0.3 * box.extent();
+		const double angle = 4.0 * std::exp(-(x * x + y * y) / (radius * radius));
+		p[0] = x * std::cos(angle) - y * std::sin(angle);
+		p[1] = x * std::sin(angle) + y * std::cos(angle);
+	}
+	return mesh;
+}
+
+/// The same in the disk, for the small pieces of a refinement.
+TYPED_TEST(Facade, HyperbolicDistortionIsMeasuredWhereTheCoordinatesAreStored)
+{
+	TypeParam m;
+	toVcg(swirled(perforatedSlab(2, 3)), m);
+	typename Flow<TypeParam>::HyperbolicParams par;
+	par.output = OutputTriangulation::CommonRefinement;
+	Progress silent;
+	const SurfaceMesh mesh = fromVcg(m);
+	const Report before = parametrizeHyperbolic(mesh, {}, par, silent).report;
+	const auto result = Flow<TypeParam>::ComputeHyperbolic(m, par, silent);
+	EXPECT_GT(result.report.finishMoved, before.finishMoved);
+	EXPECT_NE(result.report.qcMean, before.qcMean);
+	expectMeasuredAsStored(
+		mesh,
+		result,
+		[](const SurfaceMesh& surface,
+		   std::vector<Triangle2> uv,
+		   const std::vector<char>& reversed,
+		   Report& report) {
+			for (Triangle2& triangle : uv) // the disk fills the unit square
+				for (Point2& p : triangle)
+					p = {2 * p[0] - 1, 2 * p[1] - 1};
+			return measureHyperbolicDistortion(surface, uv, reversed, report);
+		});
 }
 
 TYPED_TEST(Facade, WritesWedgesQualityAndAttributes)

@@ -44,9 +44,10 @@ struct Report
 
 	int flippedFaces = 0;      ///< faces whose image in the plane is reversed or has no area
 	int flippedByRounding = 0; ///< more of them once the coordinates are rounded to float
-	int finishMoved = 0;       ///< points of the map that the repair moved, see Finish
-	int edgeSwaps = 0;         ///< paper 5.4
-	int flips = 0;             ///< intrinsic flips, those to the start's triangulation included
+	int finishMoved = 0; ///< points of the map that the repair moved, see Finish; one that was
+						 ///< moved again in the coordinates stored counts twice
+	int edgeSwaps = 0;   ///< paper 5.4
+	int flips = 0;       ///< intrinsic flips, those to the start's triangulation included
 	int refinementPoints =
 		0;                   ///< points of the common refinement that are not vertices of the input
 	int boundarySplits = 0;  ///< paper 5.4: boundary edges split before a new start

@@ -4,6 +4,9 @@
 #include "../base/tolerances.h"
 #include "../finish/repair.h"
 #include "../math/orientation.h"
+#include "../measure/hyperbolic_distortion.h"
+#include "measure_result.h"
+#include "pack.h"
 
 #include <algorithm>
 #include <array>
@@ -85,10 +88,11 @@ public:
 	int chartCount() const { return static_cast<int>(m_map.charts.size()); }
 
 	/// Writes the points that were moved back.
-	void takeOver(const Repair& repair)
+	/// \return whether there are any
+	bool takeOver(const Repair& repair)
 	{
-		if (repair.moved.empty())
-			return;
+		if (repair.movedCount() == 0)
+			return false;
 		for (const int f : drawn.corners.indices()) {
 			Triangle2 uv = inOrder(positionOf(f), m_uv[positionOf(f)]);
 			for (std::size_t k = 0; k < 3; ++k)
@@ -97,6 +101,7 @@ public:
 			m_uv[positionOf(f)] = inOrder(positionOf(f), uv);
 		}
 		m_map.report.finishMoved += repair.movedCount();
+		return true;
 	}
 
 	DrawnTriangles drawn;
@@ -182,6 +187,25 @@ private:
 	Array<char> m_moves;                     // [point] scratch, 0 between calls
 };
 
+Point2 centreOf(const Box2& square)
+{
+	return {(square.min[0] + square.max[0]) / 2, (square.min[1] + square.max[1]) / 2};
+}
+
+/// measureResult() of charts that fill \p disks, in the unit disk.
+void measureInDisk(const SurfaceMesh& mesh, const std::vector<Box2>& disks, Parametrization& map)
+{
+	std::vector<Triangle2> uv = map.uv, refined = map.refined.uv;
+	for (std::size_t i = 0; i < map.charts.size(); ++i) {
+		const double scale = 2.0 / disks[i].width();
+		const Point2 centre = centreOf(disks[i]);
+		transformChart(map, map.charts[i], scale, {-scale * centre[0], -scale * centre[1]});
+	}
+	measureResult(mesh, measureHyperbolicDistortion, map);
+	map.uv = std::move(uv);
+	map.refined.uv = std::move(refined);
+}
+
 } // namespace
 
 void finishInFloats(const SurfaceMesh& mesh, const Tick& tick, Parametrization& map)
@@ -191,7 +215,7 @@ void finishInFloats(const SurfaceMesh& mesh, const Tick& tick, Parametrization& 
 		return;
 	output.draw(mesh);
 	BorderTest test(output);
-	output.takeOver(repairInStages(
+	const bool moved = output.takeOver(repairInStages(
 		output.drawn,
 		{SeamGeometry::Plane,
 		 [](int) { return false; },
@@ -199,6 +223,8 @@ void finishInFloats(const SurfaceMesh& mesh, const Tick& tick, Parametrization& 
 		RestShapes::OfDrawing,
 		output.soundness,
 		tick));
+	if (moved)
+		measureResult(mesh, measureDistortion, map);
 }
 
 void finishInFloats(
@@ -211,15 +237,15 @@ void finishInFloats(
 	const auto isInDisk = [&](const DrawnTriangles& drawn, const Patch& patch) {
 		for (const int p : patch.points) {
 			const Box2& square = disks[positionOf(output.chartOf(p))];
-			const Point2 centre{
-				(square.min[0] + square.max[0]) / 2, (square.min[1] + square.max[1]) / 2};
-			if (!(distance(drawn.points[p], centre) < 0.5 * square.width()))
+			if (!(distance(drawn.points[p], centreOf(square)) < 0.5 * square.width()))
 				return false;
 		}
 		return true;
 	};
-	output.takeOver(
+	const bool moved = output.takeOver(
 		repairFreely(output.drawn, isInDisk, RestShapes::OfDrawing, output.soundness, tick));
+	if (moved)
+		measureInDisk(mesh, disks, map);
 }
 
 } // namespace ricci

@@ -13,8 +13,9 @@ namespace ricci {
 /// The last look at a packed map, at the coordinates as they will be stored: mends the triangles of
 /// the output that are turned round or flat once the coordinates are rounded to float, or lower than a
 /// few steps of a float. Points move by a few steps near these triangles, to floats, and no others;
-/// only the report's finishMoved changes otherwise. No chart leaves its box, seams stay isometric up
-/// to the rounding, and no border is made to cross another.
+/// the report's finishMoved counts them, and where there are any the distortion is measured again. No
+/// chart leaves its box, seams stay isometric up to the rounding, and no border is made to cross
+/// another.
 /// \param mesh that \p map is the map of
 /// \param map after packCharts()
 void finishInFloats(const SurfaceMesh& mesh, const Tick& tick, Parametrization& map);

@@ -19,19 +19,6 @@ std::size_t largestComponent(const std::vector<Component>& components)
 	return largest;
 }
 
-/// The refinement as a mesh in space, and which of its faces are reversed.
-SurfaceMesh
-refinedSurface(const SurfaceMesh& mesh, const Parametrization& result, std::vector<char>& reversed)
-{
-	SurfaceMesh surface;
-	for (const SurfacePoint& p : result.refined.points)
-		surface.positions.push_back(placeOnSurface(p, mesh.positions));
-	surface.triangles = result.refined.triangles;
-	for (const int f : result.refined.inputFace)
-		reversed.push_back(result.reversed[positionOf(f)]);
-	return surface;
-}
-
 /// Appends the refinement of one component, in the numbers and the orientation of the whole input.
 void appendRefinement(
 	const CommonRefinement& refinement,
@@ -183,27 +170,6 @@ void append(
 		report.hyperbolicArea = report.hyperbolicArea.value_or(0.0) + *map.hyperbolicArea;
 	if (map.relationError)
 		report.relationError = std::max(report.relationError.value_or(0.0), *map.relationError);
-}
-
-void measureResult(
-	const SurfaceMesh& mesh,
-	OutputTriangulation output,
-	const Measure& measure,
-	Parametrization& result)
-{
-	Report keptReport = result.report;
-	DistortionField distortion = measure(mesh, result.uv, result.reversed, keptReport);
-	result.faceQC = std::move(distortion.face);
-	result.vertexQC = std::move(distortion.vertex);
-	if (output != OutputTriangulation::CommonRefinement) {
-		result.report = keptReport;
-		return;
-	}
-	std::vector<char> reversed;
-	const SurfaceMesh surface = refinedSurface(mesh, result, reversed);
-	distortion = measure(surface, result.refined.uv, reversed, result.report);
-	result.refined.faceQC = std::move(distortion.face);
-	result.refined.vertexQC = std::move(distortion.vertex);
 }
 
 } // namespace ricci

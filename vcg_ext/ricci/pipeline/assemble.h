@@ -5,13 +5,11 @@
 
 #include "../charts/output_triangles.h"
 #include "../charts/parametrization.h"
-#include "../measure/distortion.h"
 #include "../options.h"
 #include "../progress.h"
 #include "../surface/component.h"
 #include "flatten_component.h"
 
-#include <functional>
 #include <vector>
 
 namespace ricci {
@@ -37,16 +35,6 @@ void append(
 	const Component& component,
 	const ComponentMap& map,
 	OutputTriangulation output,
-	Parametrization& result);
-
-/// Distortion of the map and of its refinement if it has one, whose figures then are those of the
-/// report. \p measure takes what measureDistortion() does.
-using Measure = std::function<DistortionField(
-	const SurfaceMesh&, const std::vector<Triangle2>&, const std::vector<char>&, Report&)>;
-void measureResult(
-	const SurfaceMesh& mesh,
-	OutputTriangulation output,
-	const Measure& measure,
 	Parametrization& result);
 
 /// Shares of the progress after which all components are mapped, and their distortion is measured.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../parametrize.h"
 
+#include "../charts/measure_result.h"
 #include "../charts/separate_charts.h"
 #include "../measure/distortion.h"
 #include "../measure/hyperbolic_distortion.h"
@@ -86,7 +87,7 @@ Parametrization parametrizeEuclidean(
 		notes.push_back("The Thurston packing runs on the mesh's own triangles, without flips.");
 	}
 	Parametrization result = mapComponents(mesh, input, options, std::move(notes), progress);
-	measureResult(mesh, options.output, measureDistortion, result);
+	measureResult(mesh, measureDistortion, result);
 	const Tick tick = [&] { progress.step(kMeasured, "Looking for charts that overlap"); };
 	tick();
 	separateCharts(mesh, options.resolveOverlap, tick, result);
@@ -108,7 +109,7 @@ Parametrization parametrizeHyperbolic(
 	Parametrization result = mapComponents(mesh, input, options, {}, progress);
 	result.report.seamLengthRelative =
 		result.report.seamLength / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
-	measureResult(mesh, options.output, measureHyperbolicDistortion, result);
+	measureResult(mesh, measureHyperbolicDistortion, result);
 	progress.step(1.0, "Layout done");
 	return result;
 }
