@@ -283,19 +283,17 @@ Repair repairInStages(
 	if (badTriangles(drawn, soundness).empty())
 		return {};
 	PointGroups groups = insidePoints(drawn);
-	Repair result = repair(drawn, groups, shapes, soundness, kMaxInsideRings, nullptr, tick);
-	PatchTest accepts;
+	Repair result = repair(drawn, groups, shapes, soundness, kMaxInsideRings, moves.accepts, tick);
 	const auto goOn = [&](const std::function<bool(int)>& boundary, int maxRings) {
 		if (result.left == 0)
 			return;
 		groups = joinedPoints(drawn, moves.seams, boundary);
-		accepts = moves.accepts;
-		result.add(repair(drawn, groups, shapes, soundness, maxRings, accepts, tick));
+		result.add(repair(drawn, groups, shapes, soundness, maxRings, moves.accepts, tick));
 	};
 	goOn(moves.boundary, kMaxSeamRings);
 	goOn([](int) { return true; }, kMaxBoundaryRings);
 	if (shapes == RestShapes::OfSurface)
-		easeStrained(drawn, groups, soundness, accepts, tick, result);
+		easeStrained(drawn, groups, soundness, moves.accepts, tick, result);
 	return result;
 }
 
@@ -309,7 +307,7 @@ Repair repairFreely(
 	if (badTriangles(drawn, soundness).empty())
 		return {};
 	Repair result =
-		repair(drawn, insidePoints(drawn), shapes, soundness, kMaxInsideRings, nullptr, tick);
+		repair(drawn, insidePoints(drawn), shapes, soundness, kMaxInsideRings, accepts, tick);
 	if (result.left > 0)
 		result.add(
 			repair(drawn, allPoints(drawn), shapes, soundness, kMaxBoundaryRings, accepts, tick));

@@ -58,7 +58,7 @@ struct BorderMoves
 {
 	SeamGeometry seams = SeamGeometry::Plane;
 	std::function<bool(int vertex)> boundary; ///< whether the boundary moves freely there
-	PatchTest accepts;                        ///< patches that move more than points inside
+	PatchTest accepts; ///< a patch that is not sound, only better, may reach beyond its chart
 };
 
 /// repair() in stages, each for what the one before has left: the points inside the charts; the copies

@@ -143,7 +143,7 @@ void layOut(
 		map.scale = std::sqrt(
 			surfaceArea(component.positions.values(), component.triangles) /
 			areaInPlane(domain, map));
-	turnUpright(map);
+	turnUpright(map.scale, map);
 	map.uv = cornersOf(t, map.layout);
 }
 
@@ -203,6 +203,7 @@ void finish(const FlowDomain& domain, const Options& options, const Tick& tick, 
 {
 	if (!isFinished(options) || options.output == OutputTriangulation::CommonRefinement)
 		return; // the refinement is exact
+	const Array<Point2> before = map.layout.points;
 	map.finishMoved = finishMap(
 						  domain,
 						  map.cut.isCut,
@@ -212,6 +213,8 @@ void finish(const FlowDomain& domain, const Options& options, const Tick& tick, 
 						  map.layout,
 						  tick)
 						  .moved;
+	if (map.layout.points != before) // its border may have moved
+		turnUpright(1.0, map);
 	map.uv = cornersOf(domain.surface.triangulation, map.layout);
 }
 

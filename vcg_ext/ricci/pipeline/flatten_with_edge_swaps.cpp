@@ -97,7 +97,7 @@ ComponentMap flattenWithEdgeSwaps(
 		map.scale = std::sqrt(
 			surfaceArea(swapped.mesh.positions().values(), swapped.mesh.triangles()) /
 			map.flow.area);
-	turnUpright(map);
+	turnUpright(map.scale, map);
 	map.seamLength = lengthOf(map.cut, surface.lengths);
 	conformalInvariants(t, map);
 	map.uv.resize(component.triangles.size());

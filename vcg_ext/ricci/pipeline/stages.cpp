@@ -84,12 +84,12 @@ double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)
 	return length;
 }
 
-void turnUpright(ComponentMap& map)
+void turnUpright(double scale, ComponentMap& map)
 {
 	const OrientedRectangle r = minAreaRectangle(map.layout.points.values());
 	const auto move = [&](Point2& p) {
 		const Point2 q = r.inFrame(p);
-		p = {map.scale * (q[0] - r.min[0]), map.scale * (q[1] - r.min[1])};
+		p = {scale * (q[0] - r.min[0]), scale * (q[1] - r.min[1])};
 	};
 	for (Point2& p : map.layout.points)
 		move(p);

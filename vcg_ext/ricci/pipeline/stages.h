@@ -77,9 +77,9 @@ CommonRefinement refine(
 		overlayListener(progress, refines, options.memoryLimit));
 }
 
-/// Scales the layout and turns it so that its smallest bounding rectangle lies along the axes, from
-/// the origin.
-void turnUpright(ComponentMap& map);
+/// Scales the layout by \p scale and turns it so that its smallest bounding rectangle lies along the
+/// axes, from the origin.
+void turnUpright(double scale, ComponentMap& map);
 
 /// The points of the corners of all faces.
 FaceArray<Triangle2> cornersOf(const Triangulation& t, const PlanarLayout& layout);
