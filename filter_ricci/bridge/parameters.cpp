@@ -48,6 +48,17 @@ QStringList outputTriangulationChoices()
 	return {"Keep the mesh", "Common refinement"};
 }
 
+QStringList finishChoices()
+{
+	return {"None", "Repair", "Least distortion"};
+}
+
+// The hyperbolic flow has no map of least distortion.
+QStringList hyperbolicFinishChoices()
+{
+	return {"None", "Repair"};
+}
+
 QStringList holesChoices()
 {
 	return {"Boundaries", "Capped"};
@@ -104,11 +115,44 @@ RichEnum outputTriangulationParameter(ricci::OutputTriangulation chosen)
 		"Output triangulation",
 		"Where the intrinsic flips differ from the mesh, its own faces only approximate the "
 		"map.<br>"
-		"<b>Keep the mesh</b>: vertices and faces stay as they are; faces that come out flipped "
-		"are counted.<br>"
+		"<b>Keep the mesh</b>: vertices and faces stay as they are; 'Finish' says what is done "
+		"about faces that come out flipped.<br>"
 		"<b>Common refinement</b>: faces are divided where the intrinsic edges cross them, so "
 		"that the map is exact on every piece and none is flipped. Vertices keep their numbers, "
 		"new ones are appended.");
+}
+
+const char* const kNoFinish =
+	"<b>None</b>: the flow's map is drawn as it is; faces that come out flipped are counted.<br>";
+const char* const kRepair =
+	"<b>Repair</b>: no face is flipped or without area in the texture coordinates that are "
+	"stored; points near such faces move.";
+
+RichEnum finishParameter(ricci::Finish chosen)
+{
+	return RichEnum(
+		"finish",
+		static_cast<int>(chosen),
+		finishChoices(),
+		"Finish",
+		QString("What is done to the flow's map before it is stored.<br>") + kNoFinish + kRepair +
+			"<br>"
+			"<b>Least distortion</b>: repair, and on 'Keep the mesh' the map of least mean "
+			"conformal distortion of the mesh's own faces; seams, cones and invariants are "
+			"kept.<br>"
+			"No effect with 'Thurston', and with another surgery than 'Intrinsic flips'.");
+}
+
+RichEnum hyperbolicFinishParameter(ricci::Finish chosen)
+{
+	return RichEnum(
+		"finish",
+		chosen == ricci::Finish::None ? 0 : 1,
+		hyperbolicFinishChoices(),
+		"Finish",
+		QString("What is done to the flow's map before it is stored.<br>") + kNoFinish + kRepair +
+			"<br>"
+			"No effect with another surgery than 'Intrinsic flips'.");
 }
 
 RichFloat epsilonParameter(double chosen)
@@ -196,6 +240,7 @@ RichParameterList euclideanParameters()
 		"inside only: the least distortion for a surface with boundary. Disk, Rectangle and the "
 		"flat annulus prescribe the boundary and ignore this. No effect on closed surfaces."));
 	list.addParam(outputTriangulationParameter(defaults.output));
+	list.addParam(finishParameter(defaults.finish));
 	list.addParam(RichEnum(
 		"holes",
 		static_cast<int>(defaults.holes),
@@ -329,6 +374,7 @@ RichParameterList hyperbolicParameters()
 		"The circles of the boundary's vertices keep their radii, and the target holds inside "
 		"only. Off: the target holds on the boundary too. No effect on closed surfaces."));
 	list.addParam(outputTriangulationParameter(defaults.output));
+	list.addParam(hyperbolicFinishParameter(defaults.finish));
 	list.addParam(colorizeParameter());
 	list.addParam(RichBool(
 		"flat_layer",
@@ -395,6 +441,8 @@ Settings readSettings(const RichParameterList& par)
 		static_cast<ricci::Surgery>(checkedChoice(par, "surgery", surgeryChoices()));
 	settings.flow.output = static_cast<ricci::OutputTriangulation>(
 		checkedChoice(par, "output_triangulation", outputTriangulationChoices()));
+	settings.flow.finish =
+		static_cast<ricci::Finish>(checkedChoice(par, "finish", finishChoices()));
 	settings.flow.seamHiding = static_cast<double>(par.getFloat("seam_hiding"));
 	settings.flow.maxIterations = par.getInt("max_iterations");
 	settings.flow.normalizeUV = par.getBool("normalize_uv");
@@ -424,6 +472,9 @@ HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 								: ricci::Surgery::None;
 	settings.flow.output = static_cast<ricci::OutputTriangulation>(
 		checkedChoice(par, "output_triangulation", outputTriangulationChoices()));
+	settings.flow.finish = checkedChoice(par, "finish", hyperbolicFinishChoices()) == 1
+							   ? ricci::Finish::Repair
+							   : ricci::Finish::None;
 	settings.flow.maxIterations = par.getInt("max_iterations");
 	settings.colorize = par.getBool("colorize");
 	settings.flatLayer = par.getBool("flat_layer");

@@ -74,6 +74,7 @@ Results toResults(const ricci::Report& report)
 		{"area_distortion_spread", report.areaDistortionSpread},
 		{"flipped_faces", report.flippedFaces},
 		{"flipped_by_rounding", report.flippedByRounding},
+		{"finish_moved", report.finishMoved},
 		{"flips", report.flips},
 		{"refinement_points", report.refinementPoints},
 		{"edge_swaps", report.edgeSwaps},

@@ -488,6 +488,8 @@ HostileMesh::HostileMesh(ByteSource& bytes)
 			options.target = TargetCurvature::Automatic; // fits every surface
 		hyperbolic = hyperbolic && bytes.oneIn(2);
 	}
+	if (bytes.oneIn(4))
+		options.finish = hyperbolicOptions.finish = static_cast<Finish>(bytes.below(3));
 }
 
 /// Drawn behind everything else: an input keeps its mesh whatever is added here.

@@ -16,7 +16,7 @@ ALWAYS = {
     "converged": bool, "iterations": int, "max_curvature_error": float, "residual_floor": float,
     "qc_mean": float, "qc_vertex_mean": float, "qc_area_mean": float, "qc_p99": float,
     "qc_max": float, "area_distortion_mean": float, "area_distortion_spread": float,
-    "flipped_faces": int, "flipped_by_rounding": int, "flips": int,
+    "flipped_faces": int, "flipped_by_rounding": int, "finish_moved": int, "flips": int,
     "refinement_points": int, "edge_swaps": int, "boundary_splits": int, "euler_characteristic": int,
     "genus": int, "boundary_loops": int, "components": int, "cones": int, "seam_edges": int,
     "seam_length": float, "seam_length_relative": float, "charts": int, "capped_holes": int,
@@ -35,11 +35,12 @@ CHOICES = {"target_curvature": TARGET, "cone_rounding": ["Free", "Multiples of p
            "circle_packing": ["Inversive distance", "Thurston"],
            "surgery": ["None", "Edge swap", "Intrinsic flips"],
            "output_triangulation": ["Keep the mesh", "Common refinement"],
+           "finish": ["None", "Repair", "Least distortion"],
            "holes": ["Boundaries", "Capped"]}
 PARAMETERS = [
     ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True),
-    ("output_triangulation", "Enum", 0), ("holes", "Enum", 0), ("resolve_overlap", "Bool", True),
-    ("cone_count", "Int", 0), ("cone_distortion", "Float", 0.5), ("cone_rounding", "Enum", 0),
+    ("output_triangulation", "Enum", 0), ("finish", "Enum", 2), ("holes", "Enum", 0),
+    ("resolve_overlap", "Bool", True), ("cone_count", "Int", 0), ("cone_distortion", "Float", 0.5), ("cone_rounding", "Enum", 0),
     ("seam_hiding", "Float", 0.0), ("normalize_uv", "Bool", True), ("chart_margin", "Float", 0.0),
     ("colorize", "Bool", False), ("flat_layer", "Bool", False), ("sphere_layer", "Bool", False),
     ("report", "String", ""), ("circle_packing", "Enum", 0), ("surgery", "Enum", 2),
@@ -52,11 +53,12 @@ HYPERBOLIC = types.SimpleNamespace(
         "target_curvature": ["Hyperbolic metric", "Cones at selected vertices",
                              "From vertex quality"],
         "surgery": ["None", "Intrinsic flips"],
-        "output_triangulation": ["Keep the mesh", "Common refinement"]},
+        "output_triangulation": ["Keep the mesh", "Common refinement"],
+        "finish": ["None", "Repair"]},
     PARAMETERS=[
         ("target_curvature", "Enum", 0), ("cone_angle", "Float", 180.0),
         ("free_boundary", "Bool", False), ("output_triangulation", "Enum", 0),
-        ("colorize", "Bool", False), ("flat_layer", "Bool", False),
+        ("finish", "Enum", 1), ("colorize", "Bool", False), ("flat_layer", "Bool", False),
         ("universal_cover", "Int", 0), ("generator_axes", "Bool", False), ("canonical_polygon", "Bool", False),
         ("report", "String", ""), ("surgery", "Enum", 1), ("epsilon", "Float", 1e-8),
         ("max_iterations", "Int", 200), ("time_limit", "Float", 0.0)])

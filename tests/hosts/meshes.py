@@ -115,6 +115,19 @@ def double_torus(parts=2):
     return Mesh(vertices, faces)
 
 
+def swirled(mesh, angle=2 * math.pi, radius=0.4):
+    """Turned round its middle in the x y plane, by `angle` there and less and less outwards: faces grow
+    long and edges flip, so that straight ones in their place turn faces round."""
+    count = len(mesh.vertices)
+    middle = [sum(p[k] for p in mesh.vertices) / count for k in range(2)]
+    vertices = []
+    for x, y, z in mesh.vertices:
+        x, y = x - middle[0], y - middle[1]
+        a = angle * math.exp(-(x * x + y * y) / radius ** 2)
+        vertices.append((x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a), z))
+    return Mesh(vertices, mesh.faces)
+
+
 def moebius(columns=24, rows=3):
     def point(i, j):
         a = 2 * math.pi * i / columns

@@ -114,6 +114,16 @@ class Results(unittest.TestCase):
         self.assertEqual(pairs["components"], "2")
         self.assertFalse(set(common.INVARIANTS) & set(pairs))
 
+    def test_finish(self):
+        mesh = meshes.swirled(meshes.hill())
+        drawn, _ = self.check(mesh, finish=0)
+        self.assertGreater(int(drawn["flipped_faces"]), 0)
+        self.assertEqual(drawn["finish_moved"], "0")
+        for values in ({"finish": 1}, {}):
+            finished, run = self.check(mesh, **values)
+            self.assertGreater(int(finished["finish_moved"]), 0)
+            self.assertEqual(sum(meshes.uv_area(w) <= 0 for w in run.mesh.wedges), 0)
+
     def test_own_scale(self):
         self.check(meshes.torus(), normalize_uv=False)
 
@@ -277,6 +287,7 @@ class BadInput(unittest.TestCase):
                 (r"seam_hiding.*from 0 to 1", {"seam_hiding": 1.5}),
                 (r"chart_margin.*from 0 to 0.25", {"chart_margin": -0.1}),
                 (r"target_curvature.*0 \(Automatic\)", {"target_curvature": -1}),
+                (r"finish.*2 \(Least distortion\)", {"finish": 3}),
                 (r"circle_packing.*1 \(Thurston\)", {"circle_packing": 2}),
                 (r"surgery.*Edge swap", {"surgery": 7})):
             with self.subTest(values):
@@ -321,6 +332,7 @@ class Hyperbolic(unittest.TestCase):
                 ("needs selected vertices", meshes.double_torus(), {"target_curvature": 1}),
                 ("no vertex quality", meshes.double_torus(), {"target_curvature": 2}),
                 ("universal_cover", meshes.double_torus(), {"universal_cover": -1}),
+                (r"finish.*1 \(Repair\)", meshes.double_torus(), {"finish": 2}),
                 ("universal_cover: 20 rings", meshes.double_torus(),
                  {"universal_cover": 20, "flat_layer": True}),
                 ("Intrinsic flips", meshes.double_torus(),

@@ -59,6 +59,11 @@ def same(one, two):
         numpy.array_equal(a, b, equal_nan=True) for a, b in zip(one[1], two[1]))
 
 
+def flipped_faces(mesh):
+    """Faces that the stored texture coordinates turn over, or draw without area."""
+    return sum(meshes.uv_area(w) <= 0 for w in mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2))
+
+
 class Results(unittest.TestCase):
     def check(self, documents, **values):
         returned = run(documents, **values)
@@ -77,8 +82,7 @@ class Results(unittest.TestCase):
     def check_geometry(self, mesh, returned):
         wedges = mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
         self.assertTrue(numpy.isfinite(wedges).all())
-        flipped = sum(meshes.uv_area(wedge) <= 0 for wedge in wedges)
-        self.assertEqual(flipped, returned["flipped_faces"])
+        self.assertEqual(flipped_faces(mesh), returned["flipped_faces"])
         corners = mesh.vertex_matrix()[mesh.face_matrix()]
         own = [meshes.distortion(c, w) for c, w in zip(corners, wedges)]
         self.assertAlmostEqual(float(numpy.mean(own)), returned["qc_mean"], delta=1e-3)
@@ -191,6 +195,46 @@ class Results(unittest.TestCase):
             sides = [[numpy.linalg.det([w[(k + 1) % 3] - w[k], point - w[k]]) > 0
                       for k in range(3)] for w in wedges]
             self.assertLessEqual(sum(all(s) for s in sides), 1)
+
+    def test_finish(self):
+        hill, slab = meshes.swirled(meshes.hill()), meshes.swirled(meshes.double_torus(), 4.0, 1.5)
+        for mesh, values in ((hill, {}), (hill, {"target_curvature": "Rectangle"}),
+                             (slab, {"cone_count": 4})):
+            with self.subTest(vertices=len(mesh.vertices), **values):
+                self.check_finish(mesh, values)
+
+    def test_least_distortion(self):
+        for mesh in (meshes.hill(), meshes.torus(), meshes.sphere(), meshes.swirled(meshes.hill())):
+            repaired, least = (self.check(mesh_set(mesh), finish=finish)
+                               for finish in ("Repair", "Least distortion"))
+            for key in ("qc_mean", "qc_vertex_mean", "qc_area_mean"):
+                self.assertLess(least[key], repaired[key])
+            self.assertEqual(least["max_curvature_error"], repaired["max_curvature_error"])
+            self.assertEqual(least["cones"], repaired["cones"])
+
+    def check_finish(self, mesh, values):
+        returned, flipped = {}, {}
+        for finish in common.CHOICES["finish"]:
+            documents = mesh_set(mesh)
+            returned[finish] = self.check(documents, finish=finish, **values)
+            flipped[finish] = flipped_faces(documents.current_mesh())
+        drawn, repaired, least = (returned[finish] for finish in common.CHOICES["finish"])
+        self.assertGreater(flipped["None"], 0)
+        self.assertEqual((flipped["Repair"], flipped["Least distortion"]), (0, 0))
+        self.assertEqual((repaired["flipped_by_rounding"], least["flipped_by_rounding"]), (0, 0))
+        self.assertEqual(drawn["finish_moved"], 0)
+        self.assertGreater(repaired["finish_moved"], 0)
+        self.assertGreater(least["finish_moved"], 0)
+        for key in common.INVARIANTS:
+            self.assertEqual(drawn.get(key), least.get(key))
+        self.assertEqual(run(mesh_set(mesh), **values), least)  # the default
+
+    def test_finish_is_for_flips(self):
+        for values in ({"surgery": "None"}, {"surgery": "Edge swap"}, {"circle_packing": "Thurston"}):
+            documents = [mesh_set(meshes.torus()) for _ in range(2)]
+            self.assertEqual(run(documents[0], **values), run(documents[1], finish="None", **values))
+            self.assertTrue(numpy.array_equal(*(d.current_mesh().wedge_tex_coord_matrix()
+                                                for d in documents)))
 
     def test_flat_layer_has_the_textures(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -482,6 +526,20 @@ class Hyperbolic(unittest.TestCase):
                 sides.setdefault(frozenset((face[k], face[(k + 1) % 3])), []).append(length)
         for one, two in sides.values():
             self.assertAlmostEqual(one / two, 1.0, delta=1e-3)  # wedges are floats
+
+    def test_finish(self):
+        mesh = meshes.swirled(meshes.double_torus(3), 4.0, 1.5)
+        drawn = mesh_set(mesh)
+        self.assertEqual(self.check(drawn, finish="None")["finish_moved"], 0)
+        self.assertGreater(flipped_faces(drawn.current_mesh()), 0)
+        for values in ({}, {"output_triangulation": "Common refinement"}):
+            documents = mesh_set(mesh)
+            returned = self.check(documents, **values)
+            self.assertEqual(flipped_faces(documents.current_mesh()), 0)
+            self.assertEqual((returned["flipped_faces"], returned["flipped_by_rounding"]), (0, 0))
+            self.assertGreater(returned["finish_moved"], 0)
+            self.assertAlmostEqual(numpy.mean(documents.current_mesh().vertex_scalar_array()),
+                                   returned["qc_vertex_mean"], delta=1e-9)
 
     def test_layers(self):
         documents = mesh_set(meshes.double_torus(1))

@@ -11,6 +11,7 @@ import time
 import unittest
 
 import common
+import meshes
 
 SHARED = os.path.join(os.path.dirname(common.REPOSITORY), "shared")
 MESHES = os.path.join(SHARED, "meshes")
@@ -73,7 +74,13 @@ class RockerArm(unittest.TestCase):
 class EveryMesh(unittest.TestCase):
     """Each is solved without a flipped face, or ends in a sentence."""
 
-    def test_every_mesh(self):
+    def test_common_refinement(self):
+        self.check_all(output_triangulation="Common refinement")
+
+    def test_defaults(self):
+        self.check_all()
+
+    def check_all(self, **values):
         files = sorted(glob.glob(os.path.join(MESHES, "*.ply"))) + sorted(
             glob.glob(os.path.join(MESHES, "peers", "*.ply")))
         self.assertGreater(len(files), 0)
@@ -83,14 +90,14 @@ class EveryMesh(unittest.TestCase):
                 print(f"SKIPPED: {name} is too large for a test")
                 continue
             with self.subTest(name):
-                self.check(name, path)
+                self.check(name, path, **values)
 
-    def check(self, name, path):
+    def check(self, name, path, **values):
         documents = load(path)
         vertices = documents.current_mesh().vertex_number()
         start = time.monotonic()
         try:
-            returned = run(documents, output_triangulation="Common refinement")
+            returned = run(documents, **values)
         except pymeshlab.PyMeshLabException as refusal:
             sentence = str(refusal).split("Details: ", 1)[1]
             print(f"{name:28} {sentence}", flush=True)
@@ -105,9 +112,11 @@ class EveryMesh(unittest.TestCase):
               f"qc {returned['qc_vertex_mean']:.4f} flipped {returned['flipped_faces']} "
               f"by rounding {returned['flipped_by_rounding']}", flush=True)
         self.assertTrue(returned["converged"])
-        self.assertEqual(returned["flipped_faces"], 0)
+        wedges = documents.current_mesh().wedge_tex_coord_matrix().reshape(-1, 3, 2)
+        self.assertTrue(all(meshes.uv_area(wedge) > 0 for wedge in wedges))
+        self.assertEqual((returned["flipped_faces"], returned["flipped_by_rounding"]), (0, 0))
         self.assertEqual(documents.current_mesh().vertex_number(),
-                         vertices + returned["refinement_points"])
+                         vertices + (returned["refinement_points"] if values else 0))
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/error.h>
+#include <ricci/math/min_area_rectangle.h>
 #include <ricci/measure/distortion.h>
 #include <ricci/metric/circle_packing.h>
 #include <ricci/parametrize.h>
@@ -110,6 +111,29 @@ TEST(Parametrize, AChartStandsUprightInItsLeastRectangle)
 	EXPECT_NEAR(low[1], 0.0, 1e-12);
 	EXPECT_NEAR(high[0], 9.0, 1e-11);
 	EXPECT_NEAR(high[1], 4.0, 1e-11);
+}
+
+/// Least distortion moves the border of the chart.
+TEST(Parametrize, AFinishedChartStandsUprightInItsLeastRectangle)
+{
+	Random random(215);
+	const SurfaceMesh mesh = withoutStars(bumpyTorus(14, 9, random), {30, 70});
+	Options asFound;
+	asFound.finish = Finish::None;
+	const UV uv = run(mesh, {}).uv;
+	EXPECT_NE(uv, run(mesh, asFound).uv);
+	Box2 box;
+	std::vector<Point2> points;
+	for (const auto& corners : uv)
+		for (const Point2& p : corners) {
+			box.add(p);
+			points.push_back(p);
+		}
+	const OrientedRectangle least = minAreaRectangle(points);
+	EXPECT_NEAR(box.min[0], 0.0, 1e-12);
+	EXPECT_NEAR(box.min[1], 0.0, 1e-12);
+	EXPECT_NEAR(box.max[0], least.width(), 1e-10);
+	EXPECT_NEAR(box.max[1], least.height(), 1e-10);
 }
 
 TEST(Parametrize, TheStatesOfTheFlowRunFromTheMeshToTheResult)

@@ -34,6 +34,7 @@ const char* const kUsage =
 	"  --cone-rounding R    free, quarter\n"
 	"  --surgery S          none, swap, flips\n"
 	"  --packing P          inversive, thurston\n"
+	"  --finish F           none, repair, least\n"
 	"  --refine             give the map on the common refinement (surgery flips)\n"
 	"  --capped             close all boundary loops but the longest for the flow\n"
 	"  --whole-charts       leave charts that cover themselves whole\n"
@@ -114,6 +115,12 @@ Arguments parse(int argc, char** argv)
 				value(),
 				{{"inversive", PackingScheme::InversiveDistance},
 				 {"thurston", PackingScheme::Thurston}});
+		else if (word == "--finish")
+			a.options.finish = choose<Finish>(
+				value(),
+				{{"none", Finish::None},
+				 {"repair", Finish::Repair},
+				 {"least", Finish::LeastDistortion}});
 		else if (word == "--refine")
 			a.options.output = OutputTriangulation::CommonRefinement;
 		else if (word == "--capped")
