@@ -160,6 +160,20 @@ constexpr double kLengthRounding = 16.0;
 /// side. Less leaves needles whose rounding floor is above what counts as converged.
 constexpr double kMollification = 1e-5;
 
+/// Expected spread of the logarithm of the area factor above which Automatic places cones. At 1 most
+/// areas keep within a factor of e, and no map of those measured that stays below has a mean factor
+/// above 3, while nearly all above have.
+constexpr double kMaxPlainSpread = 1.0;
+
+/// The spread that comes out may be larger by this factor than what placed cones were asked for,
+/// because the linear problem that places them misses about as much on fine meshes. More is what a
+/// coarse mesh, or a limb that has few triangles around it, makes of it.
+constexpr double kSpreadSlack = 1.1;
+
+/// Largest mean area factor of a metric that is to keep areas: straight triangles of a coarse mesh have
+/// up to a sixth more, and 3 is to hold for them.
+constexpr double kMaxAreaMean = 2.6;
+
 /// Added to the diagonal of the Hessian, whose typical entries are of order 1, while triangles are
 /// broken: their derivatives are 0.
 constexpr double kRegularisation = 1e-6;

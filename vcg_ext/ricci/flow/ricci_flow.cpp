@@ -8,6 +8,7 @@
 #include "flow_run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -135,6 +136,14 @@ FlowResult runRicciFlow(
 		// The half is less conformal at the boundary, but it has the metric asked for.
 		return std::move(*half.result);
 	}
+}
+
+VertexVector flowFactor(const FlowResult& flow)
+{
+	VertexVector factor = flow.u.head(flow.curvature.size());
+	for (const Vertex v : factor.indices())
+		factor[v] -= std::log(flow.history.startRadii[v]);
+	return factor;
 }
 
 EdgeArray<double> hyperbolicLengths(const FlowResult& flow, const EmbeddedSurface& surface)

@@ -89,6 +89,10 @@ FlowResult runRicciFlow(
 	const FlowListener& listener,
 	const NewtonSolver::Surgeon& surgeon = nullptr);
 
+/// [vertex of the surface] Logarithm of the factor by which a flow with intrinsic flips has scaled
+/// lengths: u at its end less u at its start.
+VertexVector flowFactor(const FlowResult& flow);
+
 /// [edge] About how long the edges of \p surface are in the metric that a hyperbolic flow with
 /// intrinsic flips has found on it: Eq. 4 for the circles at their ends, which is exact for edges
 /// that no flip has touched.

@@ -19,7 +19,9 @@ struct Target
 	VertexArray<char> fixed; ///< 1 where u keeps its value (free boundary, du = 0 in paper 5.3)
 	bool circular = false;   ///< boundary curvature to be adapted to a round disk
 	std::optional<std::array<Vertex, 4>> corners; ///< of a rectangle, in boundary order
-	std::vector<std::string> notes;               ///< what was chosen, in sentences
+	std::optional<double> maxSpread; ///< of the logarithm of the area factor, where the target was
+									 ///< chosen to keep areas
+	std::vector<std::string> notes;  ///< what was chosen, in sentences
 
 	bool hasFixed() const { return std::find(fixed.begin(), fixed.end(), 1) != fixed.end(); }
 };

@@ -34,13 +34,13 @@ double sumOverTriangles(const Triangulation& t, const EdgeArray<double>& lengths
 	return sum;
 }
 
+} // namespace
+
 double euclideanArea(const std::array<double, 3>& sides)
 {
 	return ofSides(
 		sides, [](double s, double a, double b, double c) { return std::sqrt(s * a * b * c); });
 }
-
-} // namespace
 
 double euclideanArea(const Triangulation& t, const EdgeArray<double>& lengths)
 {

@@ -8,8 +8,11 @@
 
 namespace ricci {
 
-/// Area of a surface of flat triangles with these side lengths, by Heron's formula in the order of
-/// operations of [Kahan 2014]. A triangle that breaks the triangle inequality counts as 0.
+/// Area of a flat triangle with these sides, by Heron's formula in the order of operations of [Kahan
+/// 2014]; 0 where they break the triangle inequality.
+double euclideanArea(const std::array<double, 3>& sides);
+
+/// Area of a surface of flat triangles with these side lengths.
 double euclideanArea(const Triangulation& t, const EdgeArray<double>& lengths);
 
 /// Area of a surface of triangles of curvature -1 with these side lengths: the sum of

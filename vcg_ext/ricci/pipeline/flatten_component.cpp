@@ -13,6 +13,7 @@
 #include "../verify/holonomy_check.h"
 #include "../verify/result_check.h"
 #include "assemble.h"
+#include "keep_areas.h"
 #include "stages.h"
 
 #include <algorithm>
@@ -45,25 +46,25 @@ Holes holesOf(const HyperbolicOptions&)
 	return Holes::Boundaries;
 }
 
-Target chooseTarget(
+TargetRequest targetRequest(
 	const FlowDomain& domain,
-	FlowStart& start,
 	const Component& component,
 	const VertexInput& input,
-	const Options& options)
+	const Options& options,
+	ProgressRange& progress)
 {
-	return chooseTarget(
-		domain.solved(),
-		start,
-		targetRequest(component, input, options, domain.solved().positions.size()));
+	TargetRequest request =
+		targetRequest(component, input, options, domain.solved().positions.size());
+	request.tick = [&] { progress.step(0.0, "Placing cones"); };
+	return request;
 }
 
-Target chooseTarget(
-	const FlowDomain& domain,
-	FlowStart&,
+HyperbolicRequest targetRequest(
+	const FlowDomain&,
 	const Component& component,
 	const VertexInput& input,
-	const HyperbolicOptions& options)
+	const HyperbolicOptions& options,
+	ProgressRange&)
 {
 	HyperbolicRequest request;
 	request.mode = options.target;
@@ -72,7 +73,27 @@ Target chooseTarget(
 	request.selected = atVertices(component, input.selected);
 	request.prescribed = atVertices(component, input.targetCurvature);
 	request.prescribedPrecision = input.precision;
+	return request;
+}
+
+Target chooseTarget(const FlowDomain& domain, FlowStart& start, const TargetRequest& request)
+{
+	return chooseTarget(domain.solved(), start, request);
+}
+
+Target chooseTarget(const FlowDomain& domain, FlowStart&, const HyperbolicRequest& request)
+{
 	return chooseHyperbolicTarget(domain.surface.topology, request);
+}
+
+/// Areas play no part in the hyperbolic plane.
+void keepAreas(
+	const EmbeddedSurface&,
+	const HyperbolicRequest&,
+	const HyperbolicOptions&,
+	ProgressRange&,
+	ComponentMap&)
+{
 }
 
 /// What a seam along each edge costs.
@@ -269,12 +290,14 @@ ComponentMap flatten(
 	map.cappedHoles = domain.holes;
 	progress.log(description(component, map.type));
 	FlowStart start = flowStart(domain.solved(), options);
-	const Target target = chooseTarget(domain, start, component, input, options);
+	const auto request = targetRequest(domain, component, input, options, progress);
+	const Target target = chooseTarget(domain, start, request);
 	for (const std::string& note : target.notes)
 		progress.log(note);
 	FlowProgress flowProgress(progress, options.epsilon, map.flowStates);
 	map.flow = runRicciFlow(
 		backgroundOf(options), domain.solved(), std::move(start), target, options, flowProgress);
+	keepAreas(domain.solved(), request, options, progress, map);
 	logFlow(map.flow, options, progress);
 
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");

@@ -12,7 +12,7 @@ namespace ricci {
 ConeModel::ConeModel(LinearFlow& flow, double total) :
 		m_flow(flow), m_total(total), m_isCone(flow.vertexCount(), 0)
 {
-	const VertexVector start = m_flow.solve(-flow.curvature());
+	const VertexVector start = m_flow.factor(VertexVector::Zero(m_flow.vertexCount()));
 	m_startEnergy = m_flow.meanSquare(start);
 	m_start = m_flow.gradient(start);
 	m_uniform = m_flow.gradient(m_flow.solve(flow.area()));
@@ -27,12 +27,12 @@ int ConeModel::minSize() const
 	return static_cast<int>(std::ceil(m_total / kMaxConeCurvature));
 }
 
-double ConeModel::exactDistortion()
+VertexVector ConeModel::factor()
 {
-	VertexVector rhs = -m_flow.curvature();
+	VertexVector k = VertexVector::Zero(m_flow.vertexCount());
 	for (int i = 0; i < size(); ++i)
-		rhs[vertex(i)] += curvature(i);
-	return 2.0 * std::sqrt(m_flow.meanSquare(m_flow.solve(std::move(rhs))));
+		k[vertex(i)] += curvature(i);
+	return m_flow.factor(std::move(k));
 }
 
 VertexVector ConeModel::gradient() const
@@ -78,6 +78,8 @@ void ConeModel::remove(int i)
 
 void ConeModel::setRounding(ConeRounding rounding)
 {
+	if (rounding == m_rounding)
+		return;
 	m_rounding = rounding;
 	fit();
 }

@@ -53,8 +53,11 @@ public:
 	/// Standard deviation of 2 u by area.
 	double distortion() const { return 2.0 * std::sqrt(energy()); }
 
-	/// The same from the factor u itself, which has all digits where the sum of energy() cancels.
-	double exactDistortion();
+	/// The factor u of the metric with these cones, with mean 0 by area.
+	VertexVector factor();
+
+	/// distortion() from the factor itself, which has all digits where the sum of energy() cancels.
+	double exactDistortion() { return 2.0 * std::sqrt(m_flow.meanSquare(factor())); }
 
 	/// Derivative of half the energy by the curvature of a cone at each vertex, up to a constant
 	/// where the sum is fixed.
@@ -74,7 +77,7 @@ public:
 	/// Takes cone \p i out; the curvatures of the others have to be fitted.
 	void remove(int i);
 
-	/// Sets how curvatures are rounded, and fits them anew.
+	/// Sets how curvatures are rounded, and fits them anew if that is not how they were.
 	void setRounding(ConeRounding rounding);
 
 	/// Puts the curvatures to their best values, rounded as set.

@@ -2,7 +2,9 @@
 #include "cone_placement.h"
 
 #include "../base/numbers.h"
+#include "../base/tolerances.h"
 #include "../error.h"
+#include "area_change.h"
 #include "cone_search.h"
 #include "cone_tree.h"
 
@@ -29,13 +31,35 @@ void checkCount(const ConeRequest& request, const ConeModel& model, const ConeSi
 			static_cast<std::size_t>(sites.count()));
 }
 
+/// One more cone. \return false if no vertex is left
+bool addCone(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
+{
+	if (request.tick)
+		request.tick();
+	return addCone(model, sites);
+}
+
 /// Adds cones up to the number that is asked for.
 void placeCount(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
-	while (model.size() < request.count && addCone(model, sites)) {
+	while (model.size() < request.count && addCone(request, model, sites)) {
 	}
 	relocateCones(model, sites);
 	model.setRounding(request.rounding);
+}
+
+/// How many cones \p model can work with.
+int maxCones(const ConeModel& model)
+{
+	const auto vertices = static_cast<int>(model.area().size());
+	return std::clamp(kMaxConeNumbers / vertices, kMaxPlacedCones, kMaxNeededCones);
+}
+
+/// Whether there may be more cones to bring the distortion down to \p wanted.
+bool mayGrow(const ConeModel& model, double wanted)
+{
+	const bool isNeeded = model.distortion() > std::max(kMaxPlainSpread, wanted);
+	return model.size() < (isNeeded ? maxCones(model) : kMaxPlacedCones);
 }
 
 /// Adds cones until they reach the distortion. Free curvatures show where to put them; the rounded
@@ -43,12 +67,30 @@ void placeCount(const ConeRequest& request, ConeModel& model, const ConeSites& s
 void placeForDistortion(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	model.setRounding(request.rounding);
-	while (model.distortion() > request.distortion && model.size() < kMaxPlacedCones) {
+	while (model.distortion() > request.distortion && mayGrow(model, request.distortion)) {
 		model.setRounding(ConeRounding::Free);
-		if (!addCone(model, sites))
+		if (!addCone(request, model, sites))
 			break;
 		if (model.distortion() <= kNearlyEnough * request.distortion)
 			relocateCones(model, sites);
+		model.setRounding(request.rounding);
+	}
+}
+
+/// Adds cones until areas are expected to be kept as is asked for.
+void addForAreas(
+	const EmbeddedSurface& surface,
+	const ConeRequest& request,
+	ConeModel& model,
+	const ConeSites& sites)
+{
+	const int limit = std::min(model.size() + kMaxMoreCones, maxCones(model));
+	model.setRounding(request.rounding);
+	while (model.size() < limit &&
+		   areaExcess(areaChange(surface, model.factor()), request.distortion) > 1.0) {
+		model.setRounding(ConeRounding::Free);
+		if (!addCone(request, model, sites))
+			break;
 		model.setRounding(request.rounding);
 	}
 }
@@ -73,9 +115,14 @@ PlacedCones result(ConeModel& model)
 
 PlacedCones placeCones(const EmbeddedSurface& surface, FlowStart& start, const ConeRequest& request)
 {
+	LinearFlow flow(surface, start, request.boundary);
+	return placeCones(surface, flow, request);
+}
+
+PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request)
+{
 	const SurfaceType& type = surface.topology.type;
 	const ConeSites sites(surface, request.vertices);
-	LinearFlow flow(surface, start, request.boundary);
 	ConeModel model(flow, 2 * kPi * type.eulerCharacteristic());
 	checkCount(request, model, sites);
 
@@ -99,6 +146,23 @@ PlacedCones placeCones(const EmbeddedSurface& surface, FlowStart& start, const C
 		removeWeakCones(model);
 	}
 	return result(model);
+}
+
+PlacedCones
+moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequest& request)
+{
+	const ConeSites sites(surface, request.vertices);
+	LinearFlow linear(surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)));
+	ConeModel model(linear, 2 * kPi * surface.topology.type.eulerCharacteristic());
+	for (const Vertex v : surface.triangulation.vertices())
+		if (sites.isAllowed(v) && flow.target.curvature[v] != 0.0)
+			model.append(v);
+	model.fit();
+	addForAreas(surface, request, model, sites);
+	removeWeakCones(model);
+	PlacedCones placed = result(model);
+	placed.distortion = areaChange(surface, model.factor()).spread;
+	return placed;
 }
 
 } // namespace ricci

@@ -4,6 +4,7 @@
 
 #include "../flow/ricci_flow.h"
 #include "cone_request.h"
+#include "linear_flow.h"
 
 #include <vector>
 
@@ -48,6 +49,23 @@ struct PlacedCones
 /// \throw SolverFailed
 PlacedCones
 placeCones(const EmbeddedSurface& surface, FlowStart& start, const ConeRequest& request);
+
+/// The same with the linear problem at hand.
+/// \param flow at the start on \p surface, with the boundary of \p request
+PlacedCones
+placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request);
+
+/// Fits the curvatures of the cones that \p flow has reached anew, and adds cones, until areas are
+/// expected to change as \p request allows (areaExcess() at its distortion), or kMaxMoreCones were
+/// added. The linear problem is that of the metric of \p flow, where it knows how far the first
+/// one was from the truth. Mean squares weigh the parts of the surface that have become very small or
+/// very large, see tailWeights().
+/// \param flow on \p surface, with intrinsic flips and the boundary of \p request
+/// \param request without a count
+/// \return cones with the spread of all areas that is to be expected
+/// \throw SolverFailed
+PlacedCones
+moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequest& request);
 
 } // namespace ricci
 

@@ -3,6 +3,7 @@
 #define RICCI_CONE_REQUEST_H
 
 #include "../options.h"
+#include "../progress.h"
 
 namespace ricci {
 
@@ -12,8 +13,13 @@ constexpr double kMaxConeCurvature = 4.71238898038468985769;
 /// By this factor the distortion of a given number of cones may grow for shorter seams.
 constexpr double kSeamAllowance = 1.05;
 
-/// Where the distortion decides how many cones are placed, there are at most this many.
-constexpr int kMaxPlacedCones = 64;
+/// Where the distortion decides how many cones are placed, there are at most this many, or as many as
+/// it takes to bring the distortion below kMaxPlainSpread, if those are more, up to the second number
+/// and while there are no more than so many numbers to keep, one for each cone and vertex.
+constexpr int kMaxPlacedCones = 64, kMaxNeededCones = 512, kMaxConeNumbers = 64000000;
+
+/// Cones that moreCones() adds at a time.
+constexpr int kMaxMoreCones = 64;
 
 /// What the boundary does while cones are placed. A closed surface has none.
 enum class ConeBoundary {
@@ -29,6 +35,7 @@ struct ConeRequest
 	ConeRounding rounding = ConeRounding::Free;
 	ConeBoundary boundary = ConeBoundary::Fixed;
 	int vertices = -1; ///< cones lie at vertices with a number below this; -1: at any
+	Tick tick;         ///< called for each cone that is added, if it is not empty
 	/// On a sphere, move cones towards each other where that shortens the tree that joins them more
 	/// than it raises the distortion: up to the wanted distortion, or by kSeamAllowance for a given
 	/// count.

@@ -10,24 +10,56 @@
 
 namespace ricci {
 
+namespace {
+
+/// The curvature map of \p packing at its radii.
+std::unique_ptr<CurvatureMap> mapOf(const InitialPacking& packing)
+{
+	CirclePacking circles =
+		inversiveDistancePacking(packing.mesh.triangulation, packing.mesh.lengths, packing.radii);
+	const VertexVector u = Eigen::Map<const Eigen::VectorXd>(circles.u.data(), circles.u.size());
+	auto map = std::make_unique<GeometricCurvatureMap<Euclidean>>(std::move(circles));
+	map->evaluate(u);
+	return map;
+}
+
+} // namespace
+
 LinearFlow::LinearFlow(const EmbeddedSurface& surface, FlowStart& start, ConeBoundary boundary) :
 		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed())
 {
 	const bool isShared = start.packing.isDelaunay;
-	InitialPacking own;
-	if (!isShared)
-		own = delaunayPacking({surface.triangulation, surface.lengths}, {});
-	const InitialPacking& packing = isShared ? start.packing : own;
+	const auto map = mapOf(
+		isShared ? start.packing : delaunayPacking({surface.triangulation, surface.lengths}, {}));
+	m_curvature = map->curvature();
+	computeAreas(*map);
+	factorize(surface, *map, boundary, isShared ? start.hessian : m_ownHessian);
+}
 
-	CirclePacking circles =
-		inversiveDistancePacking(packing.mesh.triangulation, packing.mesh.lengths, packing.radii);
-	const VertexVector u = Eigen::Map<const Eigen::VectorXd>(circles.u.data(), circles.u.size());
-	GeometricCurvatureMap<Euclidean> map(std::move(circles));
-	map.evaluate(u);
-	m_curvature = map.curvature();
-	computeAreas(map);
+LinearFlow::LinearFlow(
+	const EmbeddedSurface& surface,
+	const FlowResult& flow,
+	ConeBoundary boundary,
+	VertexVector weights) :
+		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed()),
+		m_curvature(flow.curvature), m_area(std::move(weights)), m_factor(flowFactor(flow))
+{
+	if (flow.doubled)
+		factorize(
+			surface,
+			*mapOf(delaunayPacking({surface.triangulation, surface.lengths}, {})),
+			boundary,
+			m_ownHessian);
+	else
+		factorize(surface, *flow.metric, boundary, m_ownHessian);
+}
 
-	std::unique_ptr<FactoredHessian>& hessian = isShared ? start.hessian : m_ownHessian;
+void LinearFlow::factorize(
+	const EmbeddedSurface& surface,
+	const CurvatureMap& map,
+	ConeBoundary boundary,
+	std::unique_ptr<FactoredHessian>& hessian)
+{
 	hessian = std::make_unique<FactoredHessian>(
 		m_fixesBoundary ? surface.topology.boundary : VertexArray<char>(vertexCount(), 0),
 		map.scaleInvariant());
@@ -36,6 +68,16 @@ LinearFlow::LinearFlow(const EmbeddedSurface& surface, FlowStart& start, ConeBou
 		m_hessian->factorize(map);
 	if (boundary == ConeBoundary::Prescribed && !surface.topology.type.isClosed())
 		spreadSink(surface);
+}
+
+VertexVector LinearFlow::factor(VertexVector k)
+{
+	k -= m_curvature;
+	if (m_factor.size() == 0)
+		return solve(std::move(k));
+	VertexVector u = m_factor + solve(std::move(k));
+	u.array() -= m_area.dot(u);
+	return u;
 }
 
 VertexVector LinearFlow::solve(VertexVector rhs)

@@ -12,9 +12,10 @@ namespace ricci {
 /// The flow to a target curvature k, linearised at its start: L u = k - K, where K is the curvature
 /// of the surface and L the derivative of K by u, the Hessian of the Ricci energy (a Laplacian). It
 /// is the equation of Newton's first step, and that by which [Ben-Chen Gotsman Bunin 2008] estimate
-/// the conformal factor of a metric with cones.
+/// the conformal factor of a metric with cones. Or linearised where another flow has led, from which
+/// u goes on: L (u - u') = k - K' for the factor u' and the curvature K' there.
 ///
-/// L belongs to the weighted Delaunay triangulation of the surface, where no weight inside is
+/// L belongs to the weighted Delaunay triangulation of the metric, where no weight inside is
 /// negative.
 class LinearFlow
 {
@@ -26,6 +27,17 @@ public:
 	/// hessian
 	/// \throw SolverFailed
 	LinearFlow(const EmbeddedSurface& surface, FlowStart& start, ConeBoundary boundary);
+
+	/// Factorises L where \p flow has led. Where that ran on the double of the surface, L is that of
+	/// a Delaunay start.
+	/// \param flow on \p surface, with intrinsic flips
+	/// \param weights of the vertices, which take the place of area() everywhere; they add up to 1
+	/// \throw SolverFailed
+	LinearFlow(
+		const EmbeddedSurface& surface,
+		const FlowResult& flow,
+		ConeBoundary boundary,
+		VertexVector weights);
 	LinearFlow(const LinearFlow&) = delete;
 	LinearFlow& operator=(const LinearFlow&) = delete;
 
@@ -34,11 +46,15 @@ public:
 
 	int vertexCount() const { return static_cast<int>(m_area.size()); }
 
-	/// K of the surface, radians.
+	/// K where the flow is linearised, radians.
 	const VertexVector& curvature() const { return m_curvature; }
 
 	/// Share of each vertex in the surface's area: a third of its triangles. They add up to 1.
 	const VertexVector& area() const { return m_area; }
+
+	/// The factor u of the metric with the curvatures \p k, with mean 0 by area. As solve(k - K) on
+	/// what \p k misses.
+	VertexVector factor(VertexVector k);
 
 	/// The u, with mean 0 by area, that L maps to \p rhs. What is missing from the sum of \p rhs is
 	/// taken from the boundary or, on a closed surface, from one vertex that is always the same.
@@ -54,6 +70,11 @@ public:
 
 private:
 	void computeAreas(const CurvatureMap& map);
+	void factorize(
+		const EmbeddedSurface& surface,
+		const CurvatureMap& map,
+		ConeBoundary boundary,
+		std::unique_ptr<FactoredHessian>& hessian);
 	void spreadSink(const EmbeddedSurface& surface);
 	VertexVector solveRows(const VertexVector& rhs);
 
@@ -61,7 +82,8 @@ private:
 	FactoredHessian* m_hessian = nullptr;
 	bool m_fixesBoundary;
 	VertexVector m_curvature, m_area;
-	VertexVector m_sink; // shares of the boundary vertices in a prescribed boundary; else empty
+	VertexVector m_factor; // u where the flow is linearised; empty: 0
+	VertexVector m_sink;   // shares of the boundary vertices in a prescribed boundary; else empty
 	Eigen::VectorXd m_rhs, m_solution;
 };
 

@@ -3,8 +3,10 @@
 
 #include "../base/numbers.h"
 #include "../base/text.h"
+#include "../base/tolerances.h"
 #include "../error.h"
 #include "admissible.h"
+#include "area_change.h"
 #include "cone_placement.h"
 #include "rectangle_corners.h"
 
@@ -196,46 +198,111 @@ std::string describe(const PlacedCones& cones, const VertexArray<int>& vertexNum
 		   number(cones.distortion) + " (spread); vertex (curvature / pi):" + list + ".";
 }
 
-/// Cones where they lower the distortion of area. A boundary is free or, if it is not to be, takes
-/// the rest of the curvature in proportion to its length.
-void setPlacedCones(
-	const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request, Target& target)
+ConeRequest coneRequest(const TargetRequest& request)
 {
-	const bool isClosed = surface.topology.type.isClosed();
-	const bool isPrescribed = !isClosed && !request.freeBoundary;
 	ConeRequest wanted;
 	wanted.count = request.coneCount;
 	wanted.distortion = request.coneDistortion;
 	wanted.rounding = request.coneRounding;
 	wanted.vertices = request.coneVertices;
-	wanted.boundary = isPrescribed ? ConeBoundary::Prescribed : ConeBoundary::Fixed;
-	const PlacedCones cones = placeCones(surface, start, wanted);
+	wanted.tick = request.tick;
+	wanted.boundary = request.freeBoundary ? ConeBoundary::Fixed : ConeBoundary::Prescribed;
+	return wanted;
+}
+
+/// The target with these cones. A boundary is free or, if it is not to be, takes the rest of the
+/// curvature in proportion to its length.
+void setPlacedCones(
+	const EmbeddedSurface& surface,
+	const PlacedCones& cones,
+	const TargetRequest& request,
+	Target& target)
+{
 	double total = 0.0;
 	for (std::size_t i = 0; i < cones.vertices.size(); ++i) {
 		target.curvature[cones.vertices[i]] = cones.curvatures[i];
 		total += cones.curvatures[i];
 	}
 	target.notes.push_back(describe(cones, request.vertexNumbers));
-	if (isPrescribed)
-		prescribeByLength(surface, totalCurvature(surface) - total, target);
-	else if (!isClosed)
+	if (request.keepsAreas && request.coneCount == 0)
+		target.maxSpread = request.coneDistortion;
+	if (surface.topology.type.isClosed())
+		return;
+	if (request.freeBoundary)
 		freeTheBoundary(surface, target);
+	else
+		prescribeByLength(surface, totalCurvature(surface) - total, target);
 }
 
-void setAutomatic(
+/// Cones where they lower the distortion of area.
+void choosePlacedCones(
 	const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request, Target& target)
+{
+	setPlacedCones(surface, placeCones(surface, start, coneRequest(request)), request, target);
+}
+
+/// The spread of the logarithm of the area factor up to which Automatic does without cones: where it
+/// is asked for more cones, those are not needed either.
+double maxPlainSpread(const TargetRequest& request)
+{
+	return std::max(kMaxPlainSpread, request.coneDistortion);
+}
+
+/// The target without cones that a surface has by its topology: flat, or a boundary that is free or
+/// takes all curvature.
+/// \pre not closed, or a torus
+void setPlain(const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
 {
 	const SurfaceType& type = surface.topology.type;
 	if (type.isTorus() || type.isAnnulus())
 		setFlat(surface, request, target);
-	else if (type.isClosed())
-		setPlacedCones(surface, start, request, target);
 	else if (request.freeBoundary)
 		freeTheBoundary(surface, target);
 	else if (type.isDisk())
 		setDisk(surface, request, target);
 	else
 		prescribeByLength(surface, totalCurvature(surface), target);
+}
+
+/// The plain target where areas are expected to keep well enough with it, else placed cones.
+void choosePlainOrCones(
+	const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request, Target& target)
+{
+	// In an annulus, cones come with a free boundary.
+	const bool isFlat = surface.topology.type.isAnnulus();
+	const ConeBoundary boundary = isFlat ? ConeBoundary::Prescribed : ConeBoundary::Fixed;
+	LinearFlow flow(surface, start, boundary);
+	const double spread = 2.0 * std::sqrt(flow.meanSquare(flow.solve(-flow.curvature())));
+	if (spread <= maxPlainSpread(request)) {
+		setPlain(surface, request, target);
+		target.notes.push_back(
+			"No cones: the expected spread of the logarithm of the area factor is " +
+			numberText(spread, 3) + ".");
+		if (request.coneCount == 0)
+			target.maxSpread = maxPlainSpread(request);
+		return;
+	}
+	target.notes.push_back(
+		"Cones: without them the spread of the logarithm of the area factor would be " +
+		numberText(spread, 3) + ".");
+	if (isFlat)
+		choosePlacedCones(surface, start, request, target);
+	else
+		setPlacedCones(surface, placeCones(surface, flow, coneRequest(request)), request, target);
+}
+
+void setAutomatic(
+	const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request, Target& target)
+{
+	const SurfaceType& type = surface.topology.type;
+	if (type.isClosed() && !type.isTorus()) {
+		target.notes.push_back("Cones: " + type.name() + " has no flat metric without them.");
+		choosePlacedCones(surface, start, request, target);
+	}
+	else if (request.keepsAreas && (type.isClosed() || request.freeBoundary))
+		choosePlainOrCones(surface, start, request, target);
+	else
+		setPlain(surface, request, target);
 }
 
 /// Where the boundary is free, its vertices have to be able to take what Gauss-Bonnet leaves, each
@@ -257,6 +324,13 @@ void checkFreeBoundary(const Topology& topology, const Target& target)
 	if (insideSum <= bound)
 		throw InadmissibleCurvature(
 			InadmissibleCurvature::FreeBoundary, insideSum, bound, boundaryCount);
+}
+
+/// What any target has to fulfil.
+void check(const EmbeddedSurface& surface, const Target& target)
+{
+	checkVertexBounds(surface.topology, target);
+	checkFreeBoundary(surface.topology, target);
 }
 
 } // namespace
@@ -284,11 +358,35 @@ Target chooseTarget(const EmbeddedSurface& surface, FlowStart& start, const Targ
 		setPrescribedValues(surface, request, target);
 		break;
 	case TargetCurvature::PlacedCones:
-		setPlacedCones(surface, start, request, target);
+		choosePlacedCones(surface, start, request, target);
 		break;
 	}
-	checkVertexBounds(surface.topology, target);
-	checkFreeBoundary(surface.topology, target);
+	check(surface, target);
+	return target;
+}
+
+std::optional<Target> targetToKeepAreas(
+	const EmbeddedSurface& surface,
+	FlowStart& start,
+	const FlowResult& flow,
+	const TargetRequest& request)
+{
+	if (!flow.target.maxSpread)
+		return std::nullopt;
+	const AreaChange change = areaChange(surface, flowFactor(flow));
+	if (areaExcess(change, *flow.target.maxSpread, kSpreadSlack) <= 1.0)
+		return std::nullopt;
+	Target target = zeroTarget(surface.topology);
+	target.notes.push_back(
+		"The spread of the logarithm of the area factor comes out as " +
+		numberText(change.spread, 3) + ", the mean of the factor or its inverse as " +
+		numberText(change.mean, 3) + ": more or other cones are needed.");
+	const bool isFlatAnnulus = surface.topology.type.isAnnulus() && !flow.target.hasFixed();
+	if (isFlatAnnulus && request.freeBoundary)
+		choosePlacedCones(surface, start, request, target);
+	else
+		setPlacedCones(surface, moreCones(surface, flow, coneRequest(request)), request, target);
+	check(surface, target);
 	return target;
 }
 

@@ -3,6 +3,9 @@
 #define RICCI_TARGET_CURVATURE_H
 
 #include "../flow/ricci_flow.h"
+#include "../progress.h"
+
+#include <optional>
 
 namespace ricci {
 
@@ -17,7 +20,9 @@ struct TargetRequest
 	int coneCount = 0;                ///< of placed cones, see ConeRequest
 	double coneDistortion = 0.5;
 	ConeRounding coneRounding = ConeRounding::Free;
-	int coneVertices = -1; ///< placed cones lie at vertices with a number below this; -1: at any
+	bool keepsAreas = true; ///< measure areas; false: Automatic decides by topology alone
+	int coneVertices = -1;  ///< placed cones lie at vertices with a number below this; -1: at any
+	Tick tick; ///< called while cones are placed, if it is not empty; may throw to cancel
 	VertexArray<int> vertexNumbers; ///< under which notes name vertices; empty: their own
 };
 
@@ -34,6 +39,17 @@ struct TargetRequest
 /// \throw InvalidMesh (BoundaryWithoutLength)
 /// \throw SolverFailed where cones are placed
 Target chooseTarget(const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request);
+
+/// The next target after \p flow where that changes areas more than its target was chosen for:
+/// cones as moreCones() finds them. None where it keeps them, or where its target was not chosen to.
+/// \param start of another flow on \p surface, as for chooseTarget()
+/// \param flow with intrinsic flips
+/// \throw as chooseTarget()
+std::optional<Target> targetToKeepAreas(
+	const EmbeddedSurface& surface,
+	FlowStart& start,
+	const FlowResult& flow,
+	const TargetRequest& request);
 
 } // namespace ricci
 

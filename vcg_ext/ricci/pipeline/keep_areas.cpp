@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "keep_areas.h"
+
+#include "../base/text.h"
+#include "../error.h"
+#include "../target/area_change.h"
+#include "progress_share.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+/// Flows after the first one, and those in a row that may bring nothing.
+constexpr int kMaxRounds = 6, kMaxVainRounds = 2;
+
+AreaChange areaChange(const EmbeddedSurface& surface, const FlowResult& flow)
+{
+	return areaChange(surface, flowFactor(flow));
+}
+
+/// One more flow. \return none where it fails
+std::optional<FlowResult> nextFlow(
+	const EmbeddedSurface& surface,
+	const FlowResult& last,
+	const TargetRequest& request,
+	const Options& options,
+	int steps,
+	ProgressRange& progress,
+	std::vector<FlowState>& states)
+{
+	try {
+		FlowStart start = flowStart(surface, options);
+		const std::optional<Target> target = targetToKeepAreas(surface, start, last, request);
+		if (!target)
+			return std::nullopt;
+		for (const std::string& note : target->notes)
+			progress.log(note);
+		FlowProgress flowProgress(progress, options.epsilon, states);
+		return runRicciFlow(
+			Background::EuclideanPlane,
+			surface,
+			std::move(start),
+			*target,
+			options,
+			[&](int step, double residual) { flowProgress(steps + step, residual); });
+	}
+	catch (const Stopped&) {
+		throw;
+	}
+	catch (const Error&) {
+		return std::nullopt; // the metrics that are there are valid
+	}
+}
+
+} // namespace
+
+void keepAreas(
+	const EmbeddedSurface& surface,
+	const TargetRequest& request,
+	const Options& options,
+	ProgressRange& progress,
+	ComponentMap& map)
+{
+	FlowResult& best = map.flow;
+	std::optional<FlowResult> last; // where it is not the best
+	int steps = best.iterations;
+	int round = 0;
+	for (int vain = 0; round < kMaxRounds && vain < kMaxVainRounds; ++round) {
+		std::optional<FlowResult> next = nextFlow(
+			surface, last ? *last : best, request, options, steps, progress, map.flowStates);
+		if (!next)
+			break;
+		steps += next->iterations;
+		const double spread = *next->target.maxSpread;
+		const bool isBest = areaExcess(areaChange(surface, *next), spread) <=
+							areaExcess(areaChange(surface, best), spread);
+		if (isBest)
+			best = std::move(*next);
+		last = isBest ? std::nullopt : std::move(next);
+		vain = isBest ? 0 : vain + 1;
+	}
+	best.iterations = steps;
+	if (round > 0) {
+		const AreaChange change = areaChange(surface, best);
+		progress.log(
+			"The spread of the logarithm of the area factor is " + numberText(change.spread, 3) +
+			" now, the mean of the factor or its inverse " + numberText(change.mean, 3) + ".");
+	}
+}
+
+} // namespace ricci

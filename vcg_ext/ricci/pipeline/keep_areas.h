@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_KEEP_AREAS_H
+#define RICCI_KEEP_AREAS_H
+
+#include "../target/target_curvature.h"
+#include "flatten_component.h"
+
+namespace ricci {
+
+/// The promise of Target::maxSpread: while the metric of map.flow changes areas more than its target
+/// was chosen for, runs the flow again, to targetToKeepAreas(), in a bounded number of rounds. The
+/// metric that keeps areas best stays in map.flow. Steps are counted over all rounds.
+/// \param surface on which map.flow has run
+/// \throw Cancelled
+void keepAreas(
+	const EmbeddedSurface& surface,
+	const TargetRequest& request,
+	const Options& options,
+	ProgressRange& progress,
+	ComponentMap& map);
+
+} // namespace ricci
+
+#endif
