@@ -17,9 +17,8 @@ namespace {
 /// Rings of the patches, one size after another.
 constexpr int kRings[] = {1, 2, 3, 5, 8, 13, 21, 34};
 
-/// Those of the largest patches that move points inside alone, seams, and a boundary that is not
-/// free.
-constexpr int kMaxInsideRings = 13, kMaxSeamRings = 34, kMaxBoundaryRings = 34;
+/// Those of the largest patches that move points inside alone, and of all.
+constexpr int kMaxInsideRings = 13, kMaxRings = 34;
 
 /// A patch that failed is tried again once it has so many times the triangles.
 constexpr double kPatchGrowth = 1.4;
@@ -110,17 +109,18 @@ solveAll(const std::vector<Patch>& patches, const Tick& tick, const Solve& solve
 	return found;
 }
 
-/// Takes over the patches that are sound, or better than before.
+/// Takes over the patches that are sound, or better than before if that will do.
 void takeOver(
 	const std::vector<Patch>& patches,
 	const std::vector<Untangled>& found,
-	const PatchTest& accepts,
+	const PatchRules& rules,
 	DrawnTriangles& drawn,
 	Repair& result)
 {
 	for (std::size_t i = 0; i < patches.size(); ++i) {
 		result.work += found[i].steps * static_cast<std::int64_t>(patches[i].triangles.size());
-		if (found[i].points.empty() || !apply(drawn, patches[i], found[i].points, accepts))
+		if (found[i].points.empty() || !(found[i].sound || rules.partly) ||
+			!apply(drawn, patches[i], found[i].points, rules.accepts))
 			continue;
 		for (std::size_t k = 0; k < patches[i].points.size(); ++k)
 			if (patches[i].variable[static_cast<int>(k)] >= 0)
@@ -177,7 +177,7 @@ void easeStrained(
 						soundness,
 						own);
 				}),
-			accepts,
+			{0, accepts},
 			drawn,
 			result);
 	}
@@ -214,8 +214,7 @@ Repair repair(
 	const PointGroups& groups,
 	RestShapes shapes,
 	const Soundness& soundness,
-	int maxRings,
-	const PatchTest& accepts,
+	const PatchRules& rules,
 	const Tick& tick)
 {
 	Repair result;
@@ -228,7 +227,7 @@ Repair repair(
 	Array<std::size_t> failed(drawn.corners.size(), 0); // [triangle] size of its last patch
 	const std::int64_t maxWork = std::max(kMaxWorkShare * drawn.corners.size(), kLeastMaxWork);
 	for (const int rings : kRings) {
-		if (rings > maxRings)
+		if (rings > rules.maxRings)
 			break;
 		std::vector<Patch> patches = finder.patches(bad, rings);
 		patches.erase(
@@ -259,7 +258,7 @@ Repair repair(
 					soundness,
 					own);
 			});
-		takeOver(patches, found, accepts, drawn, result);
+		takeOver(patches, found, rules, drawn, result);
 		for (std::size_t i = 0; i < patches.size(); ++i)
 			if (!found[i].sound)
 				for (const int f : patches[i].triangles)
@@ -283,15 +282,19 @@ Repair repairInStages(
 	if (badTriangles(drawn, soundness).empty())
 		return {};
 	PointGroups groups = insidePoints(drawn);
-	Repair result = repair(drawn, groups, shapes, soundness, kMaxInsideRings, moves.accepts, tick);
-	const auto goOn = [&](const std::function<bool(int)>& boundary, int maxRings) {
+	Repair result =
+		repair(drawn, groups, shapes, soundness, {kMaxInsideRings, moves.accepts}, tick);
+	const auto goOn = [&](const std::function<bool(int)>& boundary, bool partly) {
 		if (result.left == 0)
 			return;
 		groups = joinedPoints(drawn, moves.seams, boundary);
-		result.add(repair(drawn, groups, shapes, soundness, maxRings, moves.accepts, tick));
+		result.add(
+			repair(drawn, groups, shapes, soundness, {kMaxRings, moves.accepts, partly}, tick));
 	};
-	goOn(moves.boundary, kMaxSeamRings);
-	goOn([](int) { return true; }, kMaxBoundaryRings);
+	const auto everywhere = [](int) { return true; };
+	goOn(moves.boundary, false);
+	goOn(everywhere, false);
+	goOn(everywhere, true);
 	if (shapes == RestShapes::OfSurface)
 		easeStrained(drawn, groups, soundness, moves.accepts, tick, result);
 	return result;
@@ -307,10 +310,11 @@ Repair repairFreely(
 	if (badTriangles(drawn, soundness).empty())
 		return {};
 	Repair result =
-		repair(drawn, insidePoints(drawn), shapes, soundness, kMaxInsideRings, accepts, tick);
-	if (result.left > 0)
-		result.add(
-			repair(drawn, allPoints(drawn), shapes, soundness, kMaxBoundaryRings, accepts, tick));
+		repair(drawn, insidePoints(drawn), shapes, soundness, {kMaxInsideRings, accepts}, tick);
+	for (const bool partly : {false, true})
+		if (result.left > 0)
+			result.add(repair(
+				drawn, allPoints(drawn), shapes, soundness, {kMaxRings, accepts, partly}, tick));
 	return result;
 }
 

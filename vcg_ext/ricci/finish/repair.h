@@ -34,23 +34,27 @@ std::vector<int> badTriangles(const DrawnTriangles& drawn, const Soundness& soun
 /// Whether a patch may be as it is in the drawing; called one after another.
 using PatchTest = std::function<bool(const DrawnTriangles& drawn, const Patch& patch)>;
 
+/// Which patches are tried, and which are taken over.
+struct PatchRules
+{
+	int maxRings;                ///< of the largest patches
+	PatchTest accepts = nullptr; ///< a patch that it refuses stays as it was
+	bool partly = false;         ///< patches, too, of which a part was mended
+};
+
 /// Mends the triangles that are not sound: moves points near them, and no others.
 ///
 /// Patches of 1, 2, 3, 5, 8, ... rings round clusters of bad triangles are untangled
-/// (untangle.h) until one holds; triangles that no patch mends stay as they are, unless others round
-/// them can be mended. Patches of one size
+/// (untangle.h) until one holds; triangles that no patch mends stay as they are. Patches of one size
 /// move no triangle of each other, so they are solved side by side, and the result does not depend on
 /// the number of threads.
-/// \param maxRings of the largest patches
-/// \param accepts may be empty; a patch that it refuses stays as it was
 /// \param tick is called by the calling thread only
 Repair repair(
 	DrawnTriangles& drawn,
 	const PointGroups& groups,
 	RestShapes shapes,
 	const Soundness& soundness,
-	int maxRings,
-	const PatchTest& accepts,
+	const PatchRules& rules,
 	const Tick& tick);
 
 /// What may move beyond the points inside the charts.
@@ -62,7 +66,8 @@ struct BorderMoves
 };
 
 /// repair() in stages, each for what the one before has left: the points inside the charts; the copies
-/// of seam vertices together, and the boundary where it is free; the boundary everywhere.
+/// of seam vertices together, and the boundary where it is free; the boundary everywhere; this again,
+/// with patches of which only a part is mended.
 Repair repairInStages(
 	DrawnTriangles& drawn,
 	const BorderMoves& moves,
@@ -71,7 +76,7 @@ Repair repairInStages(
 	const Tick& tick);
 
 /// The same where seams need not stay isometric: the points inside the charts; then all points, each
-/// by itself.
+/// by itself; this again, with patches of which only a part is mended.
 Repair repairFreely(
 	DrawnTriangles& drawn,
 	const PatchTest& accepts,
