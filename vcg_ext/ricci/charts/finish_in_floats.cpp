@@ -215,15 +215,19 @@ void finishInFloats(const SurfaceMesh& mesh, const Tick& tick, Parametrization& 
 		return;
 	output.draw(mesh);
 	BorderTest test(output);
-	const bool moved = output.takeOver(repairInStages(
+	const PatchTest accepts = [&](const DrawnTriangles& drawn, const Patch& patch) {
+		return test(drawn, patch);
+	};
+	Repair result = repairInStages(
 		output.drawn,
-		{SeamGeometry::Plane,
-		 [](int) { return false; },
-		 [&](const DrawnTriangles& drawn, const Patch& patch) { return test(drawn, patch); }},
+		{SeamGeometry::Plane, [](int) { return false; }, accepts},
 		RestShapes::OfDrawing,
 		output.soundness,
-		tick));
-	if (moved)
+		tick);
+	if (result.left > 0)
+		result.add(repairFreely(
+			output.drawn, accepts, RestShapes::OfDrawing, output.soundness, tick));
+	if (output.takeOver(result))
 		measureResult(mesh, measureDistortion, map);
 }
 

@@ -14,8 +14,8 @@ namespace ricci {
 /// the output that are turned round or flat once the coordinates are rounded to float, or lower than a
 /// few steps of a float. Points move by a few steps near these triangles, to floats, and no others;
 /// the report's finishMoved counts them, and where there are any the distortion is measured again. No
-/// chart leaves its box, seams stay isometric up to the rounding, and no border is made to cross
-/// another.
+/// chart leaves its box, and no border is made to cross another. Seams stay isometric up to the
+/// rounding, but where a triangle can be mended in no other way.
 /// \param mesh that \p map is the map of
 /// \param map after packCharts()
 void finishInFloats(const SurfaceMesh& mesh, const Tick& tick, Parametrization& map);

@@ -5,6 +5,7 @@
 #include "../math/orientation.h"
 #include "chart_division.h"
 #include "chart_overlap.h"
+#include "join_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -104,6 +105,39 @@ std::vector<std::vector<int>> separateParts(
 	}
 }
 
+/// Joins the parts of a chart across seams where they have room there, and moves them in \p map.
+std::vector<std::vector<int>> join(
+	const OutputChart& chart,
+	const Chart& whole,
+	const std::vector<std::vector<int>>& parts,
+	const Tick& tick,
+	Parametrization& map)
+{
+	Array<int> partOf(chart.drawn.triangles.size());
+	for (std::size_t p = 0; p < parts.size(); ++p)
+		for (const int i : parts[p])
+			partOf[i] = static_cast<int>(p);
+	DrawnTriangles drawn =
+		drawingOf(chart.drawn.triangles, chart.drawn.plane, partOf, chart.edgeLength);
+	JoinedParts joined = joinParts(drawn, parts, tick);
+	map.report.seamLength += joined.lengthened;
+	const std::vector<int>& triangles = trianglesOf(map, whole);
+	std::vector<char> faceDone(map.uv.size(), 0);
+	for (const int i : joined.motion.indices()) {
+		const std::size_t f = positionOf(triangles[positionOf(i)]);
+		const std::size_t face = map.isRefined() ? positionOf(map.refined.inputFace[f]) : f;
+		Triangle2 uv = drawn.at(i);
+		if (map.reversed[face])
+			std::swap(uv[1], uv[2]);
+		(map.isRefined() ? map.refined.uv[f] : map.uv[f]) = uv;
+		if (map.isRefined() && !faceDone[face])
+			for (Point2& p : map.uv[face])
+				p = joined.motion[i](p);
+		faceDone[face] = 1;
+	}
+	return std::move(joined.parts);
+}
+
 /// Turns and moves a part of a chart so that its smallest bounding rectangle lies along the axes,
 /// from the origin.
 void turnUpright(Parametrization& map, const Chart& chart)
@@ -177,7 +211,8 @@ void separateCharts(const SurfaceMesh& mesh, bool resolve, const Tick& tick, Par
 			continue;
 		}
 		ChartCuts cuts;
-		const auto parts = separateParts(output, pairs, tick, cuts);
+		const auto parts =
+			join(output, chart, separateParts(output, pairs, tick, cuts), tick, map);
 		map.report.overlapCuts += cuts.edges;
 		map.report.seamLength += cuts.length;
 		for (Chart& part : chartsOf(map, chart, parts, faceDone)) {

@@ -274,11 +274,12 @@ CutGraph cutToDisk(
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& marked,
 	const EdgeArray<char>& forbidden,
-	const Tick& tick)
+	const Tick& tick,
+	const HalfedgeArray<double>& corners)
 {
 	const ContractedGraph graph(t, cost, forbidden);
 	CutGraph cut = shortestOfSeveral(graph, graph.terminals(marked));
-	shortenCut(t, cost, marked, forbidden, cut.isCut, tick);
+	shortenCut(t, cost, marked, forbidden, cut.isCut, tick, corners);
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);
 	return cut;

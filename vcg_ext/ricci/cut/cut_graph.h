@@ -35,7 +35,7 @@ struct CutGraph
 /// sum
 /// \param marked 1 where the cut must pass or end, inside
 /// \param forbidden 1 where the cut must not run; may be empty
-/// \param tick see shortenCut()
+/// \param tick, corners see shortenCut()
 /// \pre \p t is connected
 /// \throw NotConverged (NoCut) if the forbidden edges leave no cut
 CutGraph cutToDisk(
@@ -43,7 +43,8 @@ CutGraph cutToDisk(
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& marked,
 	const EdgeArray<char>& forbidden,
-	const Tick& tick = [] {});
+	const Tick& tick = [] {},
+	const HalfedgeArray<double>& corners = {});
 
 } // namespace ricci
 

@@ -3,11 +3,14 @@
 
 #include "../base/tolerances.h"
 #include "../math/shortest_paths.h"
+#include "cone_wedges.h"
 #include "cut_segments.h"
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -39,9 +42,10 @@ public:
 		const VertexArray<char>& marked,
 		const EdgeArray<char>& forbidden,
 		EdgeArray<char>& isCut,
-		const Tick& tick) :
+		const Tick& tick,
+		const HalfedgeArray<double>& corners) :
 			m_t(t),
-			m_cost(cost), m_cut(t, marked, forbidden, isCut), m_tick(tick),
+			m_cost(cost), m_cut(t, marked, forbidden, isCut), m_wedges(t, m_cut, corners), m_tick(tick),
 			m_fronts(3, Front(t.vertexCount()))
 	{
 	}
@@ -49,6 +53,15 @@ public:
 	void run()
 	{
 		m_tick();
+		shorten();
+		m_keepsWedges = true;
+		if (divideWedges())
+			shorten();
+	}
+
+private:
+	void shorten()
+	{
 		Failures<Edge> exchanges;
 		Failures<Vertex> rebuilds;
 		for (int round = 0; round < kMaxRounds; ++round) {
@@ -64,7 +77,6 @@ public:
 		}
 	}
 
-private:
 	/// How many changes the cut had seen when the last move at an element failed.
 	template<class Element>
 	using Failures = std::map<Element, int>;
@@ -79,6 +91,11 @@ private:
 			++m_changes;
 		else
 			failedAt = m_changes;
+		countWork();
+	}
+
+	void countWork()
+	{
 		m_work += m_cut.labelled().size();
 		for (const Front& front : m_fronts)
 			m_work += kWorkOfVertex * front.reached().size();
@@ -88,16 +105,35 @@ private:
 		m_tick();
 	}
 
+	/// Puts \p added in place of \p removed, which has been taken out, unless a wedge becomes too wide
+	/// by it.
+	/// \param excess of the wedges before
+	/// \return whether it did
+	bool replace(const std::vector<Edge>& removed, const std::vector<Edge>& added, double excess)
+	{
+		m_cut.add(added);
+		if (!m_keepsWedges || m_wedges.excess() <= excess)
+			return true;
+		m_cut.remove(added);
+		m_cut.add(removed);
+		return false;
+	}
+
+	double wedgeExcess() const { return m_keepsWedges ? m_wedges.excess() : 0.0; }
+
 	/// Replaces the segment of \p representative by the shortest path that opens the annulus.
 	/// \return whether the cut is shorter now; else it is what it was
 	bool exchange(Edge representative)
 	{
+		const double excess = wedgeExcess();
 		const std::vector<Edge> removed = m_cut.removeWithDeadEnds(m_cut.segmentOf(representative));
 		std::vector<Edge> path;
 		if (m_cut.labelCircles() == 2)
 			path = shortestBridge((1.0 - kMinCutGain) * costOf(removed));
-		m_cut.add(path.empty() ? removed : path);
-		return !path.empty();
+		if (!path.empty())
+			return replace(removed, path, excess);
+		m_cut.add(removed);
+		return false;
 	}
 
 	/// Takes out all segments at \p node and joins what they joined anew.
@@ -109,6 +145,7 @@ private:
 			return false;
 		// The open surface then has as many boundaries as it can have: it lies in a sphere, and
 		// any paths that join the boundaries make it a disk.
+		const double excess = wedgeExcess();
 		const std::vector<Edge> removed = m_cut.removeWithDeadEnds(star.edges);
 		const int circles = star.segments + (m_cut.isMarked(node) ? 1 : 0);
 		std::vector<Edge> joins;
@@ -123,8 +160,140 @@ private:
 			if (!bridges.empty())
 				joins = std::move(bridges);
 		}
-		m_cut.add(joins.empty() ? removed : joins);
-		return !joins.empty();
+		if (!joins.empty())
+			return replace(removed, joins, excess);
+		m_cut.add(removed);
+		return false;
+	}
+
+	/// Divides the wedges that are too wide. \return whether the cut has changed
+	bool divideWedges()
+	{
+		const int before = m_changes;
+		m_place.assign(m_t.halfedgeCount(), -1);
+		m_segment.assign(m_t.edgeCount(), -1);
+		for (const Vertex v : m_wedges.cones())
+			while (m_work <= kMaxWork && m_wedges.excess(v) > 0.0 && divideWedge(v))
+				++m_changes;
+		return m_changes > before;
+	}
+
+	/// A segment that may be taken out when a wedge is divided.
+	struct Candidate
+	{
+		Edge edge; ///< one of its edges
+		double length = 0.0;
+		int edges = 0, passed = 0; ///< in all; and sides that the walk round the disk has seen
+		bool mayGo = true;
+
+		/// Whether one of its sides has been passed, and the other one not begun.
+		bool isOpen() const { return mayGo && passed == edges; }
+	};
+
+	/// The segments of the cut, and m_segment.
+	std::vector<Candidate> candidates(Vertex cone)
+	{
+		std::vector<Candidate> found;
+		for (const Edge e : m_cut.segments()) {
+			const std::vector<Edge> edges = m_cut.segmentOf(e);
+			Candidate s{e, costOf(edges), static_cast<int>(edges.size()), 0, true};
+			for (const Edge k : edges) {
+				m_segment[k] = static_cast<int>(found.size());
+				for (const Halfedge h : {k.halfedge(), k.halfedge().twin()})
+					s.mayGo = s.mayGo && m_t.origin(h) != cone && m_wedges.canLose(m_t.origin(h), h);
+			}
+			found.push_back(s);
+		}
+		return found;
+	}
+
+	/// Divides the widest wedge at \p cone. \return whether it did; else the cut is what it was
+	bool divideWedge(Vertex cone)
+	{
+		const std::vector<Halfedge> starts = m_wedges.dividing(cone);
+		if (starts.empty() || m_cut.labelCircles() != 1)
+			return false;
+		// Once round the disk: which segment is the longest between its wedge and each place.
+		std::vector<Candidate> segments = candidates(cone);
+		const std::vector<Halfedge>& circle = m_cut.labelled();
+		for (std::size_t i = 0; i < circle.size(); ++i)
+			m_place[circle[i]] = static_cast<int>(i);
+		std::vector<int> longest(circle.size(), -1);
+		double maxLength = 0.0;
+		std::set<std::pair<double, int>> open;
+		for (std::size_t i = 1; i < circle.size(); ++i) {
+			const std::size_t at = (positionOf(m_place[starts.front()]) + i) % circle.size();
+			if (!open.empty()) {
+				longest[at] = open.rbegin()->second;
+				maxLength = std::max(maxLength, open.rbegin()->first);
+			}
+			if (const Edge e = circle[at].edge(); m_cut.isCut(e)) {
+				Candidate& s = segments[positionOf(m_segment[e])];
+				const std::pair<double, int> entry{s.length, m_segment[e]};
+				if (s.isOpen())
+					open.erase(entry);
+				++s.passed;
+				if (s.isOpen())
+					open.insert(entry);
+			}
+		}
+		const double excess = m_wedges.excess();
+		const auto [last, segment] = bestDivision(cone, starts, segments, longest, maxLength);
+		for (const Halfedge h : circle)
+			m_place[h] = -1;
+		if (!last.isValid())
+			return false;
+		std::vector<Edge> path{last.edge()};
+		if (m_t.origin(last) != cone)
+			appendPath(m_fronts[0], m_t.origin(last), path);
+		const std::vector<Edge> removed =
+			m_cut.removeWithDeadEnds(m_cut.segmentOf(segments[positionOf(segment)].edge));
+		m_cut.add(path);
+		const bool isDivided = m_cut.labelCircles() == 1 && m_wedges.excess() < excess;
+		if (!isDivided) {
+			m_cut.remove(path);
+			m_cut.add(removed);
+		}
+		countWork();
+		return isDivided;
+	}
+
+	/// The last halfedge of the path from \p cone, and the number of the segment to take out.
+	std::pair<Halfedge, int> bestDivision(
+		Vertex cone,
+		const std::vector<Halfedge>& starts,
+		const std::vector<Candidate>& segments,
+		const std::vector<int>& longest,
+		double maxLength)
+	{
+		std::pair<Halfedge, int> best{Halfedge(), -1};
+		double minGrowth = std::numeric_limits<double>::infinity();
+		Front& front = m_fronts[0];
+		front.clear();
+		const auto goOn = [&](Halfedge h, double distance) {
+			const Vertex v = m_t.target(h);
+			if (!m_cut.isFree(h.edge()) || v == cone)
+				return;
+			if (!m_cut.isOnGraph(v)) {
+				front.offer(v, distance, h);
+				return;
+			}
+			const int place = m_place[h.twin()];
+			const int segment = place < 0 ? -1 : longest[positionOf(place)];
+			if (segment < 0)
+				return;
+			const double growth = distance - segments[positionOf(segment)].length;
+			if (growth < minGrowth) {
+				minGrowth = growth;
+				best = {h, segment};
+			}
+		};
+		for (const Halfedge h : starts)
+			goOn(h, m_cost[h.edge()]);
+		for (Vertex v; (v = front.next(minGrowth + maxLength)).isValid();)
+			for (const Halfedge h : m_cut.around(v))
+				goOn(h, front[v] + m_cost[h.edge()]);
+		return best;
 	}
 
 	double costOf(const std::vector<Edge>& edges) const
@@ -302,10 +471,14 @@ private:
 	const Triangulation& m_t;
 	const EdgeArray<double>& m_cost;
 	CutSegments m_cut;
+	ConeWedges m_wedges;
+	bool m_keepsWedges = false;
 	const Tick& m_tick;
 	std::vector<Front> m_fronts; // of the searches from up to three circles
 	int m_changes = 0;           // moves that gained
 	std::size_t m_work = 0, m_workAtTick = 0;
+	HalfedgeArray<int> m_place; // on the circle of the disk, while a wedge is divided
+	EdgeArray<int> m_segment;   // number of its segment, at cut edges, while a wedge is divided
 };
 
 } // namespace
@@ -316,10 +489,11 @@ void shortenCut(
 	const VertexArray<char>& marked,
 	const EdgeArray<char>& forbidden,
 	EdgeArray<char>& isCut,
-	const Tick& tick)
+	const Tick& tick,
+	const HalfedgeArray<double>& corners)
 {
 	if (std::find(isCut.begin(), isCut.end(), 1) != isCut.end())
-		CutShortener(t, cost, marked, forbidden, isCut, tick).run();
+		CutShortener(t, cost, marked, forbidden, isCut, tick, corners).run();
 }
 
 } // namespace ricci

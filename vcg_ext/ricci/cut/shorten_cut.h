@@ -34,6 +34,19 @@ namespace ricci {
 ///            |                |                    |
 ///            C                C                C --+
 ///
+/// Then wedges of cones that are too wide (cone_wedges.h) are divided, and the moves are repeated that
+/// make none too wide.
+///
+/// Division: the shortest path from within the wedge to the rest of the cut leaves two disks; without
+/// the longest segment between them they are one again. Path and segment are those that lengthen the
+/// cut least.
+///
+///        +-------+-------+        +-------+-------+
+///        |       |       |        |       |       |
+///        |   o---+       |   ->   |   o   |       |
+///        |       |       |        |   |   |       |
+///        +-------+-------+        +---+---+    ---+
+///
 /// Deterministic: of equally short paths always the same is taken. Between two moves the complement
 /// of \p isCut is a disk.
 /// \param cost positive
@@ -41,6 +54,7 @@ namespace ricci {
 /// \param forbidden 1 where the cut must not run; may be empty
 /// \param isCut changed in place; never a boundary edge
 /// \param tick is called between moves, many times a second. What it throws ends the search.
+/// \param corners angles at cones, from coneCorners(); empty: wedges may be as wide as they like
 /// \pre the surface opened along \p isCut is a disk, or nothing is cut
 void shortenCut(
 	const Triangulation& t,
@@ -48,7 +62,8 @@ void shortenCut(
 	const VertexArray<char>& marked,
 	const EdgeArray<char>& forbidden,
 	EdgeArray<char>& isCut,
-	const Tick& tick = [] {});
+	const Tick& tick = [] {},
+	const HalfedgeArray<double>& corners = {});
 
 } // namespace ricci
 

@@ -113,6 +113,19 @@ cutCost(const FlowDomain& domain, const FlowResult& flow, const HyperbolicOption
 													  : flow.metric->lengths();
 }
 
+/// What wedges of cones may be how wide. In the disk all may be.
+HalfedgeArray<double>
+cutCorners(const FlowDomain& domain, const ComponentMap& map, const Options&)
+{
+	return cornersOfCones(domain.surface, map.flow.target, map.cones);
+}
+
+HalfedgeArray<double>
+cutCorners(const FlowDomain&, const ComponentMap&, const HyperbolicOptions&)
+{
+	return {};
+}
+
 /// The layout of the corners of the component, open along the cut; with flips on the common
 /// refinement.
 void placeCorners(
@@ -302,7 +315,12 @@ ComponentMap flatten(
 
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
 	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
-	map.cut = cutThroughCones(domain, cutCost(domain, map.flow, options), map.cones, progress);
+	map.cut = cutThroughCones(
+		domain,
+		cutCost(domain, map.flow, options),
+		map.cones,
+		cutCorners(domain, map, options),
+		progress);
 	layOut(component, domain, options, progress, map);
 	map.seamLength = lengthOf(map.cut, domain.surface.lengths);
 	measureInvariants(domain, options, map);

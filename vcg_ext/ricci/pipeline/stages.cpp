@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages.h"
 
+#include "../base/numbers.h"
 #include "../base/text.h"
 #include "../base/tolerances.h"
+#include "../cut/cone_wedges.h"
 #include "../layout/hole_seams.h"
 #include "../math/min_area_rectangle.h"
 #include "../measure/invariants.h"
@@ -62,15 +64,25 @@ conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<
 	return cones;
 }
 
+HalfedgeArray<double> cornersOfCones(
+	const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& cones)
+{
+	VertexArray<double> coneAngle(surface.triangulation.vertexCount(), 0.0);
+	for (const Vertex v : cones.indices())
+		if (cones[v])
+			coneAngle[v] = 2.0 * kPi - target.curvature[v];
+	return coneCorners(surface.triangulation, surface.lengths, coneAngle);
+}
+
 CutGraph cutThroughCones(
 	const FlowDomain& domain,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& cones,
+	const HalfedgeArray<double>& corners,
 	ProgressRange& progress)
 {
-	CutGraph cut = cutToDisk(domain.surface.triangulation, cost, cones, {}, [&] {
-		progress.step(1.0 - kAfterFlow, "Shortening the seams");
-	});
+	const Tick tick = [&] { progress.step(1.0 - kAfterFlow, "Shortening the seams"); };
+	CutGraph cut = cutToDisk(domain.surface.triangulation, cost, cones, {}, tick, corners);
 	if (domain.holes > 0)
 		dropSeamsToHoles(
 			domain.surface.triangulation, domain.surface.lengths, domain.onHole, cones, cut);

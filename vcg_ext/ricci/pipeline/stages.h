@@ -49,12 +49,18 @@ void logFlow(const FlowResult& flow, const FlowOptions& options, ProgressRange& 
 VertexArray<char>
 conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& onHole = {});
 
+/// Angles at the corners of cones, see coneCorners().
+HalfedgeArray<double> cornersOfCones(
+	const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& cones);
+
 /// The cut graph through all cones on edges of the surface (paper 4.3), without seams to holes that
 /// the flow closes with caps.
+/// \param corners see shortenCut()
 CutGraph cutThroughCones(
 	const FlowDomain& domain,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& cones,
+	const HalfedgeArray<double>& corners,
 	ProgressRange& progress);
 
 /// Sum of the lengths of the cut's edges.
