@@ -40,10 +40,8 @@ public:
 		m_extent = box.extent();
 		for (std::size_t i = 0; i < parts.size(); ++i)
 			for (const int f : parts[i]) {
-				const Triangle2 p = drawn.at(f);
 				m_part[f] = static_cast<int>(i);
 				m_area[m_part[f]] += areaOf(f);
-				m_hasFolds = m_hasFolds || orientation(p[0], p[1], p[2]) <= 0;
 			}
 		forEdges(sidesByEdge(drawn), [&](const DrawnSide* side, int count) {
 			for (int i = 0; i < 2 && count == 2; ++i)
@@ -54,7 +52,7 @@ public:
 	JoinedParts run()
 	{
 		JoinedParts result;
-		const double before = seamLength();
+		measureSeams(-1, result.seams);
 		joinWhole();
 		const double total = std::accumulate(m_area.begin(), m_area.end(), 0.0);
 		const auto isCrumb = [&](int part) {
@@ -72,7 +70,7 @@ public:
 				result.parts.push_back(part);
 			}
 		std::sort(result.parts.begin(), result.parts.end());
-		result.lengthened = seamLength() - before;
+		measureSeams(1, result.seams);
 		unite();
 		result.motion = std::move(m_motion);
 		return result;
@@ -154,16 +152,16 @@ private:
 		return m_part[seam.own] == m_part[seam.other] && fits({}, endsOf(seam));
 	}
 
-	/// In space.
-	double seamLength() const
+	/// Adds the seams as they are, \p sign times.
+	void measureSeams(int sign, ChartCuts& cuts) const
 	{
-		double sum = 0.0;
 		for (const int f : m_part.indices())
 			forSides(f, [&](const Seam& seam) {
-				if (!isJoined(seam))
-					sum += 0.5 * lengthOf(seam);
+				if (f > seam.other || isJoined(seam))
+					return;
+				cuts.edges += sign;
+				cuts.length += sign * lengthOf(seam);
 			});
-		return sum;
 	}
 
 	/// The motion of its own side of a seam to the other one.
@@ -214,18 +212,20 @@ private:
 		return places;
 	}
 
-	/// The triangles of the part that cover something of the other one at its new place, and perhaps
-	/// triangles of that.
+	/// The triangles of the part and of the other one that cover each other at the part's new place,
+	/// those that are turned round left out.
 	std::vector<int> covering(int part, const Place& place) const
 	{
 		DrawnChart both;
 		std::vector<int> triangles;
-		Box2 box;
 		const auto add = [&](int f, const Triangle2& p) {
+			if (orientation(p[0], p[1], p[2]) <= 0)
+				return;
 			both.triangles.push_back(m_drawn.vertices[f]);
 			both.plane.push_back(p);
 			triangles.push_back(f);
 		};
+		Box2 box;
 		for (const int f : m_parts[positionOf(part)]) {
 			Triangle2 p = m_drawn.at(f);
 			for (Point2& corner : p) {
@@ -239,13 +239,15 @@ private:
 			Box2 own;
 			for (const Point2& corner : p)
 				own.add(corner);
-			if (own.meets(box) || m_hasFolds) // a fold counts wherever it is
+			if (own.meets(box))
 				add(f, p);
 		}
 		std::vector<int> found;
-		for (const TrianglePair& pair : overlappingPairs(both, m_tick, m_extent))
-			for (const int i : pair)
-				found.push_back(triangles[positionOf(i)]);
+		for (const TrianglePair& pair : overlappingPairs(both, m_tick, m_extent)) {
+			const int f = triangles[positionOf(pair[0])], g = triangles[positionOf(pair[1])];
+			if (m_part[f] != m_part[g])
+				found.insert(found.end(), {f, g});
+		}
 		return found;
 	}
 
@@ -330,7 +332,7 @@ private:
 		covered.erase(std::unique(covered.begin(), covered.end()), covered.end());
 		for (const int f : covered)
 			area += areaOf(f);
-		if (area > maxArea)
+		if (covered.empty() || area > maxArea)
 			return false;
 		const int displaced = m_area.size();
 		m_parts.emplace_back();
@@ -533,7 +535,6 @@ private:
 	Array<double> m_area; // [part]
 	Array<RigidMotion> m_motion;
 	double m_extent = 0.0;
-	bool m_hasFolds = false;
 };
 
 } // namespace

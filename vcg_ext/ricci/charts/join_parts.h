@@ -4,6 +4,7 @@
 
 #include "../finish/drawn_triangles.h"
 #include "../progress.h"
+#include "chart_division.h"
 
 #include <complex>
 #include <vector>
@@ -23,7 +24,7 @@ struct JoinedParts
 {
 	std::vector<std::vector<int>> parts; ///< triangles, in increasing order, the parts by their first
 	Array<RigidMotion> motion;           ///< [triangle] how it was moved
-	double lengthened = 0.0;             ///< by how much the seams are longer, in space
+	ChartCuts seams;                     ///< what they have more than before, or less
 };
 
 /// Joins parts of a drawing across seams: the sides of a seam are isometric, so that a part can be

@@ -120,7 +120,8 @@ std::vector<std::vector<int>> join(
 	DrawnTriangles drawn =
 		drawingOf(chart.drawn.triangles, chart.drawn.plane, partOf, chart.edgeLength);
 	JoinedParts joined = joinParts(drawn, parts, tick);
-	map.report.seamLength += joined.lengthened;
+	map.report.overlapCuts += joined.seams.edges;
+	map.report.seamLength += joined.seams.length;
 	const std::vector<int>& triangles = trianglesOf(map, whole);
 	std::vector<char> faceDone(map.uv.size(), 0);
 	for (const int i : joined.motion.indices()) {

@@ -3,6 +3,7 @@
 
 #include "../charts/measure_result.h"
 #include "../charts/separate_charts.h"
+#include "../charts/turn_over.h"
 #include "../measure/distortion.h"
 #include "../measure/hyperbolic_distortion.h"
 #include "../verify/result_check.h"
@@ -87,6 +88,8 @@ Parametrization parametrizeEuclidean(
 		notes.push_back("The Thurston packing runs on the mesh's own triangles, without flips.");
 	}
 	Parametrization result = mapComponents(mesh, input, options, std::move(notes), progress);
+	if (isFinished(options) && options.resolveOverlap && !result.isRefined())
+		turnOver(mesh, result);
 	measureResult(mesh, measureDistortion, result);
 	const Tick tick = [&] { progress.step(kMeasured, "Looking for charts that overlap"); };
 	tick();
