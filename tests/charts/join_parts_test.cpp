@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/charts/chart_overlap.h>
+#include <ricci/charts/join_parts.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+/// A mesh over the plane, of which each part lies elsewhere.
+struct Scattered
+{
+	DrawnTriangles drawn;
+	std::vector<std::vector<int>> parts;
+
+	/// \param partOf [triangle]
+	Scattered(const SurfaceMesh& mesh, const Array<int>& partOf, Random& random)
+	{
+		const int count = *std::max_element(partOf.begin(), partOf.end()) + 1;
+		parts.resize(at(count));
+		std::vector<RigidMotion> motions;
+		for (int i = 0; i < count; ++i)
+			motions.push_back(
+				{std::polar(1.0, random.real(0, 2 * kPi)),
+				 {random.real(-20, 20), random.real(-20, 20)}});
+		Array<Triangle2> plane;
+		Array<std::array<double, 3>> sides;
+		for (const int f : partOf.indices()) {
+			const Triangle& t = mesh.triangles[at(f)];
+			Triangle2 p;
+			std::array<double, 3> lengths;
+			for (std::size_t k = 0; k < 3; ++k) {
+				const Point3 &a = mesh.positions[at(t[k])], &b = mesh.positions[at(t[(k + 1) % 3])];
+				p[k] = motions[at(partOf[f])]({a[0], a[1]});
+				lengths[k] = distance(a, b);
+			}
+			plane.push_back(p);
+			sides.push_back(lengths);
+			parts[at(partOf[f])].push_back(f);
+		}
+		drawn = drawingOf(Array<Triangle>(mesh.triangles), plane, partOf, std::move(sides));
+	}
+};
+
+Point2 centreOf(const SurfaceMesh& mesh, const Triangle& t)
+{
+	Point2 centre{0, 0};
+	for (const int v : t)
+		for (std::size_t k = 0; k < 2; ++k)
+			centre[k] += mesh.positions[at(v)][k] / 3;
+	return centre;
+}
+
+/// Triangles of one part must not cover each other.
+void expectNothingCoveredTwice(
+	const DrawnTriangles& drawn, const std::vector<std::vector<int>>& parts)
+{
+	for (const std::vector<int>& part : parts) {
+		DrawnChart chart;
+		for (const int f : part) {
+			chart.triangles.push_back(drawn.vertices[f]);
+			chart.plane.push_back(drawn.at(f));
+		}
+		EXPECT_TRUE(overlappingPairs(chart).empty());
+	}
+}
+
+TEST(JoinParts, PutsAPictureTogether)
+{
+	Random random(920);
+	const SurfaceMesh mesh = rectangle(6, 4, 6.0, 4.0);
+	Array<int> block; // two by two
+	for (const Triangle& t : mesh.triangles) {
+		const Point2 p = centreOf(mesh, t);
+		block.push_back(3 * static_cast<int>(p[1] / 2) + static_cast<int>(p[0] / 2));
+	}
+	Scattered s(mesh, block, random);
+	ASSERT_EQ(s.parts.size(), 6u);
+	const DrawnTriangles before = s.drawn;
+	const JoinedParts joined = joinParts(s.drawn, s.parts, [] {});
+	ASSERT_EQ(joined.parts.size(), 1u);
+	EXPECT_EQ(joined.parts[0].size(), mesh.triangles.size());
+	// Three lines between the blocks: two of 4 and one of 6, in edges of length 1.
+	EXPECT_EQ(joined.seams.edges, -14);
+	EXPECT_NEAR(joined.seams.length, -14.0, 1e-12);
+	// The picture is the rectangle again, up to one motion.
+	std::vector<std::complex<double>> place(mesh.positions.size());
+	for (const int f : s.drawn.corners.indices())
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Point2 p = s.drawn.at(f)[k];
+			std::complex<double>& known = place[at(s.drawn.vertices[f][k])];
+			EXPECT_TRUE(known == 0.0 || known == asComplex(p)) << "to the last bit";
+			known = asComplex(p);
+			EXPECT_LT(distance(p, joined.motion[f](before.at(f)[k])), 1e-12);
+		}
+	for (std::size_t a = 0; a < place.size(); ++a)
+		for (std::size_t b = 0; b < a; ++b)
+			EXPECT_NEAR(
+				std::abs(place[a] - place[b]),
+				distance(mesh.positions[a], mesh.positions[b]),
+				1e-11);
+}
+
+/// A ring that goes round by \p turns, over the plane.
+SurfaceMesh manyTurns(int around, double turns)
+{
+	return grid(1, around, Ends::Open, Ends::Open, [=](int i, int j) {
+		const double r = 1.0 + i, a = 2 * kPi * turns * j / around;
+		return Point3{r * std::cos(a), r * std::sin(a), 0.0};
+	});
+}
+
+/// Parts of a ring, which begin at these cells.
+Array<int> arcs(int around, const std::vector<int>& begins)
+{
+	Array<int> part;
+	for (int j = 0; j < around; ++j)
+		for (int k = 0; k < 2; ++k)
+			part.push_back(static_cast<int>(
+				std::upper_bound(begins.begin(), begins.end(), j) - begins.begin() - 1));
+	return part;
+}
+
+/// Together the two parts would cover a part of the plane twice.
+TEST(JoinParts, LeavesWhatHasNoRoom)
+{
+	Random random(921);
+	Scattered s(manyTurns(24, 1.5), arcs(24, {0, 12}), random);
+	const DrawnTriangles before = s.drawn;
+	const JoinedParts joined = joinParts(s.drawn, s.parts, [] {});
+	EXPECT_EQ(joined.parts.size(), 2u);
+	EXPECT_EQ(joined.seams.edges, 0);
+	EXPECT_TRUE(s.drawn.points == before.points);
+}
+
+/// Two full turns in arcs of 398, 6 and 396 cells. The short one fits to neither of its neighbours as
+/// a whole: the first has room for two of its cells, the last for four.
+TEST(JoinParts, ACrumbIsDividedAmongItsNeighbours)
+{
+	Random random(922);
+	Scattered s(manyTurns(800, 2.0), arcs(800, {0, 398, 404}), random);
+	const JoinedParts joined = joinParts(s.drawn, s.parts, [] {});
+	expectNothingCoveredTwice(s.drawn, joined.parts);
+	ASSERT_EQ(joined.parts.size(), 2u);
+	EXPECT_EQ(joined.parts[0].size(), 800u);
+	EXPECT_EQ(joined.parts[1].size(), 800u);
+	EXPECT_EQ(joined.seams.edges, -1);
+	EXPECT_NEAR(joined.seams.length, -1.0, 1e-12);
+}
+
+/// With three cells more neither has room for all of it, and the crumb stays, but grows.
+TEST(JoinParts, ACrumbWithoutRoomGrows)
+{
+	Random random(924);
+	Scattered s(manyTurns(803, 803.0 / 400.0), arcs(803, {0, 400, 403}), random);
+	const JoinedParts joined = joinParts(s.drawn, s.parts, [] {});
+	expectNothingCoveredTwice(s.drawn, joined.parts);
+	ASSERT_EQ(joined.parts.size(), 3u);
+	for (const std::vector<int>& part : joined.parts)
+		EXPECT_GE(part.size(), 17u); // a hundredth of 1606
+}
+
+/// Every cut of a picture into parts is undone, whatever their shapes.
+TEST(JoinParts, RandomParts)
+{
+	Random random(923);
+	for (int round = 0; round < 20; ++round) {
+		const SurfaceMesh mesh = rectangle(8, 8, 8.0, 8.0);
+		// Voronoi cells of a few triangles, as connected parts of the mesh.
+		Array<int> part(mesh.triangles.size(), -1);
+		const int count = random.index(6) + 2;
+		std::vector<Point2> seeds;
+		for (int i = 0; i < count; ++i)
+			seeds.push_back({random.real(0, 8), random.real(0, 8)});
+		for (const int f : part.indices()) {
+			const Point2 centre = centreOf(mesh, mesh.triangles[at(f)]);
+			part[f] = 0;
+			for (int i = 1; i < count; ++i)
+				if (distance(centre, seeds[at(i)]) < distance(centre, seeds[at(part[f])]))
+					part[f] = i;
+		}
+		Scattered s(mesh, part, random);
+		s.parts.erase(
+			std::remove_if(s.parts.begin(), s.parts.end(), [](const auto& p) { return p.empty(); }),
+			s.parts.end());
+		const JoinedParts joined = joinParts(s.drawn, s.parts, [] {});
+		EXPECT_EQ(joined.parts.size(), 1u) << "round " << round;
+		expectNothingCoveredTwice(s.drawn, joined.parts);
+	}
+}
+
+} // namespace
+} // namespace ricci::testing
