@@ -166,5 +166,61 @@ TEST(CutGraph, KeepsOffForbiddenEdges)
 	expectWords(error->what(), {"cannot be cut open"});
 }
 
+/// Least number of edges to be crossed on the way from some triangle to every other one, off the cut.
+int radiusInTriangles(const Triangulation& t, const EdgeArray<char>& isCut)
+{
+	int least = t.faceCount();
+	for (const Face first : t.faces()) {
+		FaceArray<int> steps(t.faceCount(), -1);
+		std::vector<Face> queue{first};
+		steps[first] = 0;
+		for (std::size_t head = 0; head < queue.size(); ++head)
+			for (const Halfedge h : t.halfedges(queue[head]))
+				if (!t.isBoundary(h.edge()) && !isCut[h.edge()] && steps[t.face(h.twin())] < 0) {
+					steps[t.face(h.twin())] = steps[queue[head]] + 1;
+					queue.push_back(t.face(h.twin()));
+				}
+		least = std::min(least, steps[queue.back()]);
+	}
+	return least;
+}
+
+TEST(CutAroundCentre, OpensSurfacesOfEveryKindToADiskThroughTheMarks)
+{
+	Random random(135);
+	for (const SurfaceMesh& mesh : surfacesOfEveryKind(random)) {
+		const Packed packed(mesh);
+		const Triangulation& t = packed.triangulation;
+		VertexArray<char> marked(t.vertexCount(), 0);
+		for (int i = 0; i < 4; ++i)
+			marked[Vertex(random.index(t.vertexCount()))] = 1;
+		const CutGraph cut = cutAroundCentre(t, packed.lengths, marked);
+		expectCutToADisk(t, cut);
+		EXPECT_EQ(static_cast<int>(cut.generators.size()), 2 * topologyOf(t).type.genus);
+		VertexArray<char> reached = t.boundaryVertices();
+		for (const Edge e : t.edges())
+			for (const Vertex v : t.ends(e))
+				reached[v] = reached[v] || cut.isCut[e];
+		for (const Vertex v : t.vertices())
+			EXPECT_TRUE(!marked[v] || reached[v]);
+	}
+}
+
+/// No way in the disk is much longer than on the surface, as it is round a long handle that a short cut
+/// opens at one place.
+TEST(CutAroundCentre, LeavesADiskHardlyWiderThanTheSurface)
+{
+	for (const int genus : {3, 6}) {
+		const Packed packed(perforatedSlab(genus, 3));
+		const Triangulation& t = packed.triangulation;
+		const VertexArray<char> unmarked(t.vertexCount(), 0);
+		const int surface = radiusInTriangles(t, EdgeArray<char>(t.edgeCount(), 0));
+		const int around = radiusInTriangles(t, cutAroundCentre(t, packed.lengths, unmarked).isCut);
+		const int shortCut = radiusInTriangles(t, cutToDisk(t, packed.lengths, unmarked, {}).isCut);
+		EXPECT_LE(around, 1.2 * surface) << "genus " << genus;
+		EXPECT_LT(around, shortCut) << "genus " << genus;
+	}
+}
+
 } // namespace
 } // namespace ricci::testing

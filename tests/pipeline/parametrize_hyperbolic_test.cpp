@@ -504,5 +504,32 @@ TEST(ParametrizeHyperbolic, DistortionIsThatOfTheChords)
 	EXPECT_LT(second - 1.0, 0.5 * (first - 1.0));
 }
 
+/// With seams as short as can be these slabs reach 12 and 19 out in the disk, where floats end.
+TEST(ParametrizeHyperbolic, AMapThatIsTooWideIsCutAroundItsMiddle)
+{
+	struct Log : Progress
+	{
+		void log(const std::string& line) override
+		{
+			recut = recut || line.find("around the middle") != std::string::npos;
+		}
+		bool recut = false;
+	};
+	for (const int genus : {10, 16}) {
+		Log log;
+		const Parametrization map =
+			parametrizeHyperbolic(perforatedSlab(genus, 2), {}, HyperbolicOptions(), log);
+		EXPECT_TRUE(log.recut);
+		double radius = 0.0;
+		for (const Triangle2& t : map.uv)
+			for (const Point2& p : t)
+				radius = std::max(radius, 2 * std::atanh(std::hypot(p[0], p[1])));
+		EXPECT_LT(radius, 12.5);
+		EXPECT_EQ(map.report.flippedFaces, 0);
+		EXPECT_EQ(map.report.flippedByRounding, 0);
+		EXPECT_NEAR(map.report.hyperbolicArea.value_or(0), 4 * kPi * (genus - 1), 1e-9);
+	}
+}
+
 } // namespace
 } // namespace ricci::testing

@@ -67,8 +67,8 @@ std::vector<ConeWedges::Wedge> ConeWedges::wedges(Vertex v) const
 	std::vector<Halfedge> star;
 	for (const Halfedge h : m_cut.around(v))
 		star.push_back(h);
-	const auto first = std::find_if(
-		star.begin(), star.end(), [&](Halfedge h) { return m_cut.isCut(h.edge()); });
+	const auto first =
+		std::find_if(star.begin(), star.end(), [&](Halfedge h) { return m_cut.isCut(h.edge()); });
 	if (first != star.end())
 		std::rotate(star.begin(), first, star.end());
 	std::vector<Wedge> wedges(1);

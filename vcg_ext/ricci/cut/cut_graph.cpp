@@ -267,7 +267,89 @@ std::vector<Edge> generators(const ContractedGraph& graph, const CutGraph& cut)
 	return edges;
 }
 
+/// Shortest paths along edges.
+NodePaths pathsAlongEdges(const Triangulation& t, const EdgeArray<double>& lengths, Vertex root)
+{
+	const Adjacency<Vertex, Halfedge> halfedges(t.vertexCount(), [&](const auto& add) {
+		for (const Halfedge h : t.halfedges())
+			add(t.origin(h), h);
+	});
+	return shortestPaths<Vertex, Halfedge>(
+		t.vertexCount(), {root}, [&](Vertex v, const auto& visit) {
+			for (const Halfedge h : halfedges[v])
+				visit(t.target(h), lengths[h.edge()], h);
+		});
+}
+
+Vertex farthest(const NodePaths& paths)
+{
+	Vertex far(0);
+	for (const Vertex v : paths.distance.indices())
+		if (paths.distance[v] > paths.distance[far])
+			far = v;
+	return far;
+}
+
+/// The middle of a way that is about as long as any.
+Vertex centreOf(const Triangulation& t, const EdgeArray<double>& lengths)
+{
+	Vertex end = farthest(pathsAlongEdges(t, lengths, Vertex(0)));
+	const NodePaths paths = pathsAlongEdges(t, lengths, end);
+	end = farthest(paths);
+	const double half = 0.5 * paths.distance[end];
+	while (paths.distance[end] > half)
+		end = t.origin(paths.parent[end]);
+	return end;
+}
+
+/// A spanning tree of the triangles that takes them in, from one at the centre on, by their distances
+/// from it, as the edges that it crosses.
+EdgeArray<char> treeAround(const Triangulation& t, const VertexArray<double>& distance)
+{
+	FaceArray<double> key(t.faceCount(), 0.0);
+	Face first(0);
+	for (const Face f : t.faces()) {
+		for (const Vertex v : t.vertices(f))
+			key[f] += distance[v];
+		if (key[f] < key[first])
+			first = f;
+	}
+	EdgeArray<char> isCrossed(t.edgeCount(), 0);
+	FaceArray<char> isIn(t.faceCount(), 0);
+	DistanceQueue<Halfedge> next; // halfedges of triangles to be taken in, entered across them
+	const auto take = [&](Face f) {
+		isIn[f] = 1;
+		for (const Halfedge h : t.halfedges(f))
+			if (!t.isBoundary(h.edge()) && !isIn[t.face(h.twin())])
+				next.push(key[t.face(h.twin())], h.twin());
+	};
+	take(first);
+	while (!next.empty()) {
+		const Halfedge h = next.pop().second;
+		if (isIn[t.face(h)])
+			continue;
+		isCrossed[h.edge()] = 1;
+		take(t.face(h));
+	}
+	return isCrossed;
+}
+
 } // namespace
+
+CutGraph cutAroundCentre(
+	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<char>& marked)
+{
+	const NodePaths paths = pathsAlongEdges(t, lengths, centreOf(t, lengths));
+	CutGraph cut;
+	cut.isCut = treeAround(t, paths.distance);
+	for (const Edge e : t.edges())
+		cut.isCut[e] = !t.isBoundary(e) && !cut.isCut[e];
+	const ContractedGraph graph(t, lengths, {});
+	prune(graph, graph.terminals(marked), cut.isCut);
+	measure(graph, cut);
+	cut.generators = generators(graph, cut);
+	return cut;
+}
 
 CutGraph cutToDisk(
 	const Triangulation& t,

@@ -46,6 +46,15 @@ CutGraph cutToDisk(
 	const Tick& tick = [] {},
 	const HalfedgeArray<double>& corners = {});
 
+/// The cut graph that leaves the disk with the least radius that a search finds: a shortest-path tree of
+/// the triangles from one in the middle, of which every other is reached inside the disk, and all edges
+/// that it does not cross, without dead ends. Longer than that of cutToDisk().
+/// \param lengths of the edges
+/// \param marked 1 where the cut must pass or end, inside
+/// \pre \p t is connected
+CutGraph cutAroundCentre(
+	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<char>& marked);
+
 } // namespace ricci
 
 #endif

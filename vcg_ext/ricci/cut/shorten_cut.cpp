@@ -45,8 +45,8 @@ public:
 		const Tick& tick,
 		const HalfedgeArray<double>& corners) :
 			m_t(t),
-			m_cost(cost), m_cut(t, marked, forbidden, isCut), m_wedges(t, m_cut, corners), m_tick(tick),
-			m_fronts(3, Front(t.vertexCount()))
+			m_cost(cost), m_cut(t, marked, forbidden, isCut), m_wedges(t, m_cut, corners),
+			m_tick(tick), m_fronts(3, Front(t.vertexCount()))
 	{
 	}
 
@@ -200,7 +200,8 @@ private:
 			for (const Edge k : edges) {
 				m_segment[k] = static_cast<int>(found.size());
 				for (const Halfedge h : {k.halfedge(), k.halfedge().twin()})
-					s.mayGo = s.mayGo && m_t.origin(h) != cone && m_wedges.canLose(m_t.origin(h), h);
+					s.mayGo =
+						s.mayGo && m_t.origin(h) != cone && m_wedges.canLose(m_t.origin(h), h);
 			}
 			found.push_back(s);
 		}

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten_component.h"
 
+#include "../base/text.h"
+#include "../cut/cut_graph.h"
 #include "../finish/finish.h"
 #include "../layout/hole_seams.h"
 #include "../layout/hyperbolic_layout.h"
@@ -23,6 +25,10 @@
 namespace ricci {
 
 namespace {
+
+/// Hyperbolic distance from the centre of the disk beyond which a map is cut anew: a triangle of a
+/// fiftieth there is as small as a step of floats.
+constexpr double kWideRadius = 12.0;
 
 // What differs by geometry.
 
@@ -114,14 +120,12 @@ cutCost(const FlowDomain& domain, const FlowResult& flow, const HyperbolicOption
 }
 
 /// What wedges of cones may be how wide. In the disk all may be.
-HalfedgeArray<double>
-cutCorners(const FlowDomain& domain, const ComponentMap& map, const Options&)
+HalfedgeArray<double> cutCorners(const FlowDomain& domain, const ComponentMap& map, const Options&)
 {
 	return cornersOfCones(domain.surface, map.flow.target, map.cones);
 }
 
-HalfedgeArray<double>
-cutCorners(const FlowDomain&, const ComponentMap&, const HyperbolicOptions&)
+HalfedgeArray<double> cutCorners(const FlowDomain&, const ComponentMap&, const HyperbolicOptions&)
 {
 	return {};
 }
@@ -181,8 +185,9 @@ void layOut(
 	map.uv = cornersOf(t, map.layout);
 }
 
-void layOut(
-	const Component&,
+/// The layout of the corners in the disk, open along the cut.
+/// \return what continues it across the edges of the cut
+EdgeArray<SidePairing> placeInDisk(
 	const FlowDomain& domain,
 	const HyperbolicOptions& options,
 	ProgressRange& progress,
@@ -208,6 +213,35 @@ void layOut(
 		for (int i = t.halfedgeCount(); i-- > 0;) // the lowest halfedge gives a wedge its point
 			if (const Halfedge h(i); !t.isExterior(h))
 				map.layout.points[map.layout.wedges.of[h]] = asPoint(disk[h]);
+	}
+	return pairing;
+}
+
+/// Farthest point of a layout from the centre of the disk, in the hyperbolic metric.
+double radiusOf(const PlanarLayout& layout)
+{
+	double r = 0.0;
+	for (const Point2& p : layout.points)
+		r = std::max(r, std::hypot(p[0], p[1]));
+	return 2.0 * std::atanh(std::min(1.0, r));
+}
+
+void layOut(
+	const Component&,
+	const FlowDomain& domain,
+	const HyperbolicOptions& options,
+	ProgressRange& progress,
+	ComponentMap& map)
+{
+	const Triangulation& t = domain.surface.triangulation;
+	EdgeArray<SidePairing> pairing = placeInDisk(domain, options, progress, map);
+	if (const double radius = radiusOf(map.layout); radius > kWideRadius) {
+		map.cut = cutAroundCentre(t, cutCost(domain, map.flow, options), map.cones);
+		pairing = placeInDisk(domain, options, progress, map);
+		progress.log(
+			"The short seams lead " + numberText(radius, 3) +
+			" out in the disk, too far for floats. Longer ones around the middle lead " +
+			numberText(radiusOf(map.layout), 3) + " out.");
 	}
 	map.uv = cornersOf(t, map.layout);
 	map.group = fuchsianGroup(t, map.cut, pairing, map.cones);

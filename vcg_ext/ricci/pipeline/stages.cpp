@@ -64,8 +64,8 @@ conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<
 	return cones;
 }
 
-HalfedgeArray<double> cornersOfCones(
-	const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& cones)
+HalfedgeArray<double>
+cornersOfCones(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& cones)
 {
 	VertexArray<double> coneAngle(surface.triangulation.vertexCount(), 0.0);
 	for (const Vertex v : cones.indices())
