@@ -76,6 +76,28 @@ void ConeModel::remove(int i)
 	m_fields.values().erase(m_fields.begin() + i);
 }
 
+int ConeModel::leastNeeded() const
+{
+	const int n = size(), rows = n + (hasFixedSum() ? 1 : 0);
+	Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows, rows);
+	system.topLeftCorner(n, n) = m_now.gram;
+	if (rows > n) {
+		system.row(n).head(n).setOnes();
+		system.col(n).head(n).setOnes();
+	}
+	const Eigen::MatrixXd inverse = system.fullPivLu().inverse();
+	int best = 0;
+	double min = std::numeric_limits<double>::infinity();
+	for (int i = 0; i < n; ++i) {
+		const double rise = curvature(i) * curvature(i) / inverse(i, i);
+		if (rise < min) {
+			min = rise;
+			best = i;
+		}
+	}
+	return best;
+}
+
 void ConeModel::setRounding(ConeRounding rounding)
 {
 	if (rounding == m_rounding)

@@ -116,6 +116,30 @@ public:
 		m_isCone[m_now.vertices[i]] = 1;
 	}
 
+	/// The cone without which the lowest energy rises least: by k_i^2 over entry i of the diagonal of
+	/// the inverse of G, bordered by the sum where it is fixed.
+	/// \pre size() > 0
+	int leastNeeded() const;
+
+	/// Takes cone \p i out, fits the others, and undoes that and whatever \p accept has done to the
+	/// model unless it returns true.
+	/// \return whether the cone is out
+	template<class Accept>
+	bool tryWithout(int i, const Accept& accept)
+	{
+		State before = m_now;
+		VertexArray<char> cones = m_isCone;
+		Array<VertexVector> fields = m_fields;
+		remove(i);
+		fit();
+		if (accept())
+			return true;
+		m_now = std::move(before);
+		m_isCone = std::move(cones);
+		m_fields = std::move(fields);
+		return false;
+	}
+
 private:
 	/// The quadratic function, and where it is lowest. Arrays by cone.
 	struct State

@@ -75,6 +75,8 @@ void placeForDistortion(const ConeRequest& request, ConeModel& model, const Cone
 			relocateCones(model, sites);
 		model.setRounding(request.rounding);
 	}
+	if (model.distortion() <= request.distortion && model.size() <= kMaxPlacedCones)
+		dropCones(model, sites, request.distortion);
 }
 
 /// Adds cones until areas are expected to be kept as is asked for.

@@ -15,8 +15,11 @@ constexpr double kNegligible = 0.3;
 /// Rounds in which every cone may move.
 constexpr int kMaxRounds = 5;
 
+/// Places down the gradient that are tried.
+constexpr int kMaxTrials = 4;
+
 /// A move must lower the energy by this share.
-constexpr double kMinGain = 0.02;
+constexpr double kMinGain = 0.005;
 
 /// A cone weaker than this, in radians, is not worth its seam.
 constexpr double kMinCurvature = 0.02;
@@ -71,7 +74,7 @@ bool move(ConeModel& model, int i, Vertex v, double& present)
 	});
 }
 
-/// Moves cone \p i to where it gains most, or else to the best vertex beside it.
+/// Moves cone \p i to where it gains most, or else down the gradient.
 bool relocate(ConeModel& model, const ConeSites& sites, int i, double& present)
 {
 	const double own = model.curvature(i);
@@ -85,14 +88,25 @@ bool relocate(ConeModel& model, const ConeSites& sites, int i, double& present)
 	const Vertex far = lowest(model, sites, own > 0.0 ? others : VertexVector(-others), old);
 	if (far.isValid() && own * (others[old] - others[far]) > enough && move(model, i, far, present))
 		return true;
-	Vertex near = old;
-	for (const Halfedge h : sites.leaving(old)) {
-		const Vertex v = sites.target(h);
-		if (!model.isCone(v) && sites.isAllowed(v) && own * whole[v] < own * whole[near])
-			near = v;
+	// Down the whole field, as far as it falls and then less far: it changes with the cone.
+	std::vector<Vertex> path{old};
+	for (;;) {
+		Vertex near = path.back();
+		for (const Halfedge h : sites.leaving(path.back())) {
+			const Vertex v = sites.target(h);
+			if (!model.isCone(v) && sites.isAllowed(v) && own * whole[v] < own * whole[near])
+				near = v;
+		}
+		if (near == path.back())
+			break;
+		path.push_back(near);
 	}
-	return near != far && own * (whole[old] - whole[near]) > enough &&
-		   move(model, i, near, present);
+	std::size_t n = path.size() - 1;
+	for (int trial = 0; trial < kMaxTrials && n > 0; ++trial, n /= 2)
+		if (path[n] != far && own * (whole[old] - whole[path[n]]) > enough &&
+			move(model, i, path[n], present))
+			return true;
+	return false;
 }
 
 /// Takes the weak cone \p i out and puts it where one more cone gains most.
@@ -143,6 +157,16 @@ void relocateCones(ConeModel& model, const ConeSites& sites)
 							: replant(model, sites, i, present);
 		if (!hasMoved)
 			return;
+	}
+}
+
+void dropCones(ConeModel& model, const ConeSites& sites, double distortion)
+{
+	const auto isEnough = [&] {
+		relocateCones(model, sites);
+		return model.distortion() <= distortion;
+	};
+	while (model.size() > model.minSize() && model.tryWithout(model.leastNeeded(), isEnough)) {
 	}
 }
 

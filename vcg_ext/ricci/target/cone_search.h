@@ -16,9 +16,13 @@ void startCones(ConeModel& model, const ConeSites& sites);
 /// \return false if no vertex is left
 bool addCone(ConeModel& model, const ConeSites& sites);
 
-/// Takes every cone in turn out and puts it where it gains most, in several rounds, while that
-/// lowers the energy.
+/// Takes every cone in turn out and puts it where it gains most, or moves it down the gradient, in
+/// several rounds, while that lowers the energy.
 void relocateCones(ConeModel& model, const ConeSites& sites);
+
+/// Takes the cones that are needed least out, one after another, while the others can move so that
+/// the distortion stays below \p distortion.
+void dropCones(ConeModel& model, const ConeSites& sites, double distortion);
 
 /// Takes out cones that are too weak to be worth a seam, down to ConeModel::minSize().
 void removeWeakCones(ConeModel& model);
