@@ -111,7 +111,7 @@ FinishCounts finishMap(
 		box.extent(),
 		layout,
 		tick);
-	if (finish == Finish::LeastDistortion && counts.left == 0)
+	if (finish == Finish::LeastDistortion)
 		leastDistortion(
 			surface.triangulation, surface.lengths, isCut, cones, freeBoundary, layout, tick);
 	return counts;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "least_distortion.h"
 
-#include "../math/orientation.h"
 #include "distortion_laplacian.h"
 #include "limited_memory_bfgs.h"
 #include "mean_distortion.h"
@@ -35,16 +34,6 @@ constexpr int kStepsToFactorAgain = 2;
 /// The share of the slope's promise that a step must keep; bounds of the factor from a trial step
 /// to the next; the shortest step.
 constexpr double kDecrease = 1e-4, kMinShortening = 0.1, kMaxShortening = 0.5, kMinStep = 1e-6;
-
-bool isPositive(const Triangulation& t, const PlanarLayout& layout)
-{
-	for (const Face f : t.faces()) {
-		const auto h = t.halfedges(f);
-		if (orientation(layout[h[0]], layout[h[1]], layout[h[2]]) != 1)
-			return false;
-	}
-	return true;
-}
 
 /// [point]
 Eigen::VectorXcd positionsOf(const MovablePoints& points, const PlanarLayout& layout)
@@ -170,8 +159,6 @@ LeastDistortion leastDistortion(
 	PlanarLayout& layout,
 	const Tick& tick)
 {
-	if (!isPositive(t, layout))
-		return {0, kInfinity, kInfinity};
 	MeanDistortion energy(t, lengths, layout);
 	MovablePoints points = movablePoints(t, isCut, cones, boundaryMoves, layout);
 	if (points.unknowns == 0) {

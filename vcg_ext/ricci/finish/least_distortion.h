@@ -11,13 +11,13 @@ namespace ricci {
 struct LeastDistortion
 {
 	int steps = 0;                    ///< 0: the layout is what it was
-	double before = 0.0, after = 0.0; ///< MeanDistortion of the layout; infinite where not positive
+	double before = 0.0, after = 0.0; ///< MeanDistortion of the layout
 };
 
 /// Moves the points of a layout so that the mean conformal distortion of the map on the mesh's own
 /// straight triangles becomes small. A flow that flips edges finds the conformal map of the
 /// surface; drawn straight between its vertices, it is near to the best map of these triangles, not
-/// the best one. No triangle turns, the distortion never rises, and the two sides of every seam
+/// the best one. No triangle that counts turns, the distortion never rises, and the two sides of every seam
 /// stay isometric: the angles of the cones and the holonomy of the flat metric stay exactly what
 /// they are (movable_points.h says what moves, mean_distortion.h what is minimised).
 ///
@@ -33,7 +33,7 @@ struct LeastDistortion
 /// \param isCut 1 on the seams of the layout
 /// \param cones 1 at cones inside
 /// \param boundaryMoves whether the boundary is free; else its points stay
-/// \param layout stays what it was where a triangle of it is not counter-clockwise. Where nothing
+/// \param layout its triangles that are not counter-clockwise do not count, and may turn. Where nothing
 /// stays, its size may change.
 /// \param tick called between steps; where it throws, \p layout is what it was
 /// \throw std::bad_alloc

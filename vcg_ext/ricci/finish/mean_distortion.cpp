@@ -22,6 +22,9 @@ constexpr double kVertexPart = 0.8, kAreaPart = 0.15, kFacePart = 0.05;
 /// a dilatation of 1.002, has.
 constexpr double kSmoothing = 1e-6;
 
+/// The stiffness of a triangle that does not count, in place of its weight: the Laplacian needs some.
+constexpr double kUncountedStiffness = 1e-4;
+
 /// As in orientation(): a determinant above this share of its terms has the right sign, but for
 /// underflow.
 constexpr double kOrientationRounding = 4.0 * kUnitRoundoff;
@@ -107,6 +110,9 @@ MeanDistortion::MeanDistortion(
 	const auto vertices = static_cast<double>(
 		std::count_if(ring.begin(), ring.end(), [](double a) { return a > 0.0; }));
 	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		if (orientation(layout[h[0]], layout[h[1]], layout[h[2]]) != 1)
+			continue;
 		double& weight = m_shape[f].weight = kFacePart / t.faceCount();
 		if (!(area[f] > 0.0))
 			continue;
@@ -146,6 +152,15 @@ void MeanDistortion::evaluate(Face f, const Eigen::VectorXcd& position)
 	const std::array<int, 3>& corners = m_corners[f];
 	const Complex origin = position[corners[0]];
 	const Complex e1 = position[corners[1]] - origin, e2 = position[corners[2]] - origin;
+	const Shape& s = m_shape[f];
+	if (s.weight == 0.0) {
+		const double square = std::norm(s.first * e1 + s.second * e2) +
+							  std::norm(std::conj(s.first) * e1 + std::conj(s.second) * e2);
+		m_energy[f] = 0.0;
+		m_stiffness[f] = kUncountedStiffness / (faceCount() * (square + kTiny));
+		m_pull[f] = {};
+		return;
+	}
 	const double left = e1.real() * e2.imag(), right = e1.imag() * e2.real();
 	m_energy[f] = std::numeric_limits<double>::infinity();
 	// What is far from 0 has the right sign, see orientation().
@@ -154,7 +169,6 @@ void MeanDistortion::evaluate(Face f, const Eigen::VectorXcd& position)
 			asPoint(origin), asPoint(position[corners[1]]), asPoint(position[corners[2]])) != 1)
 		return;
 	// The four sums that f_zbar, f_z and the quotient of the areas are made of.
-	const Shape& s = m_shape[f];
 	const double rr = s.first.real() * e1.real() + s.second.real() * e2.real();
 	const double ii = s.first.imag() * e1.imag() + s.second.imag() * e2.imag();
 	const double ri = s.first.real() * e1.imag() + s.second.real() * e2.imag();

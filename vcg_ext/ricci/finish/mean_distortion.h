@@ -31,7 +31,8 @@ public:
 	using Complex = std::complex<double>;
 
 	/// \param lengths of the edges in space. A triangle that has no area there by its lengths has
-	/// no shape to keep: the shape that it has in \p layout takes the place.
+	/// no shape to keep: the shape that it has in \p layout takes the place. Triangles that are not
+	/// counter-clockwise in \p layout do not count.
 	/// \pre \p t and \p layout outlive it
 	MeanDistortion(
 		const Triangulation& t, const EdgeArray<double>& lengths, const PlanarLayout& layout);
