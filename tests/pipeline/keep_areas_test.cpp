@@ -61,6 +61,17 @@ private:
 
 const char* const kRound = "more or other cones are needed";
 
+/// The number after \p words, which have to be there.
+double numberAfter(const std::string& text, const std::string& words)
+{
+	const std::size_t place = text.find(words);
+	if (place == std::string::npos) {
+		ADD_FAILURE() << words << " is not in: " << text;
+		return 0.0;
+	}
+	return std::stod(text.substr(place + words.size()));
+}
+
 /// The stages of the pipeline up to the first flow.
 struct FirstFlow
 {
@@ -197,32 +208,63 @@ TEST(KeepAreas, LeavesGentleSurfacesWithoutCones)
 		1e-3);
 }
 
-TEST(KeepAreas, NeverEndsWorseThanTheFirstFlow)
+TEST(KeepAreas, EndsWithTheBestOfItsFlows)
 {
-	int better = 0;
-	for (const auto& [name, mesh] : hardSurfaces())
-		for (const double distortion : {0.2, 0.1, 0.01}) {
-			SCOPED_TRACE(name);
-			FirstFlow flow(mesh, distortion);
-			flow.runToFewCones();
-			const double before = flow.excess();
-			const int cones = flow.cones();
-			ASSERT_GT(before, 1.0);
-			Listener listener;
-			flow.keepAreas(listener);
-			EXPECT_LE(flow.excess(), before);
-			EXPECT_EQ(flow.map.flow.target.maxSpread, distortion);
-			EXPECT_GE(listener.count(kRound), 1);
-			EXPECT_LE(listener.count(kRound), kMostRounds);
-			if (flow.excess() < before) {
-				++better;
-				EXPECT_GE(flow.cones(), cones);
+	// Quarter turns do not always find better cones: there are rounds in vain.
+	int better = 0, inVain = 0;
+	for (const ConeRounding rounding : {ConeRounding::Free, ConeRounding::QuarterTurns})
+		for (const auto& [name, mesh] : hardSurfaces())
+			for (const double distortion : {0.2, 0.05}) {
+				SCOPED_TRACE(name + ", " + std::to_string(distortion));
+				FirstFlow flow(mesh, distortion);
+				flow.request.coneRounding = rounding;
+				flow.runToFewCones();
+				const double before = flow.excess();
+				ASSERT_GT(before, 1.0);
+				Listener listener;
+				flow.keepAreas(listener);
+				EXPECT_LE(flow.excess(), before);
+				EXPECT_EQ(flow.map.flow.target.maxSpread, distortion);
+				better += flow.excess() < before;
+				// What was said of the flows on the way, to three digits.
+				double last = 0.0;
+				for (const std::string& line : listener.lines) {
+					if (line.find(kRound) == std::string::npos)
+						continue;
+					const AreaChange passed{
+						numberAfter(line, "or its inverse as "),
+						numberAfter(line, "comes out as ")};
+					const double excess = areaExcess(passed, distortion, kSpreadSlack);
+					EXPECT_GT(excess, 0.99); // or there was no need for the next
+					EXPECT_LE(flow.excess(), 1.01 * excess);
+					last = excess;
+				}
+				// One round in vain is not the end.
+				if (flow.excess() > 1.0 && listener.count(kRound) < kMostRounds) {
+					EXPECT_GT(last, flow.excess());
+				}
+				inVain += flow.excess() > 1.0;
+				// A metric like any other: the target is reached.
+				const FlowResult& result = flow.map.flow;
+				EXPECT_LE(result.residual, std::max(flow.options.epsilon, result.floor));
+				EXPECT_EQ(result.metric->brokenTriangles(), 0);
 			}
-			// A metric like any other: the target is reached.
-			EXPECT_LE(flow.map.flow.residual, std::max(flow.options.epsilon, flow.map.flow.floor));
-			EXPECT_EQ(flow.map.flow.metric->brokenTriangles(), 0);
-		}
-	EXPECT_GE(better, 12);
+	EXPECT_GE(better, 20);
+	EXPECT_GE(inVain, 4);
+}
+
+TEST(KeepAreas, EndsAfterABoundedNumberOfRounds)
+{
+	// A distortion that no number of cones in these rounds reaches.
+	Random random(902);
+	FirstFlow flow(shaken(sphereWithTube(0.2, 4.0, 0.4, 16, 16), 0.004, random), 1e-3);
+	flow.runToFewCones();
+	const double before = flow.excess();
+	Listener listener;
+	flow.keepAreas(listener);
+	EXPECT_EQ(listener.count(kRound), kMostRounds);
+	EXPECT_GT(flow.excess(), 1.0);
+	EXPECT_LT(flow.excess(), 0.1 * before);
 }
 
 TEST(KeepAreas, KeepsThemWhereTheFirstFlowDoesNot)
@@ -284,16 +326,17 @@ TEST(KeepAreas, SaysWhatAreasHaveBecome)
 		flow.runToFewCones();
 		Listener listener;
 		flow.keepAreas(listener);
-		const std::string words = "The spread of the logarithm of the area factor is ";
-		const std::string more = " now, the mean of the factor or its inverse ";
-		ASSERT_EQ(listener.count(words), 1);
+		ASSERT_FALSE(listener.lines.empty());
 		const std::string& line = listener.lines.back();
 		const AreaChange change = areaChange(flow.surface, flowFactor(flow.map.flow));
-		ASSERT_EQ(line.rfind(words, 0), 0u);
-		EXPECT_NEAR(std::stod(line.substr(words.size())), change.spread, 0.01 * change.spread);
-		const std::size_t place = line.find(more);
-		ASSERT_NE(place, std::string::npos);
-		EXPECT_NEAR(std::stod(line.substr(place + more.size())), change.mean, 0.01 * change.mean);
+		EXPECT_NEAR(
+			numberAfter(line, "The spread of the logarithm of the area factor is "),
+			change.spread,
+			0.005 * change.spread);
+		EXPECT_NEAR(
+			numberAfter(line, " now, the mean of the factor or its inverse "),
+			change.mean,
+			0.005 * change.mean);
 	}
 }
 

@@ -390,7 +390,7 @@ TEST(MoreCones, FitsTheCurvaturesOfTheConesAnew)
 	// the same vertices would change areas more by the linear problem where the flow has led.
 	for (const FlowToFewCones& few : flowsToFewCones()) {
 		const PlacedCones cones = few.more(1e6);
-		EXPECT_LE(static_cast<int>(cones.vertices.size()), few.cones());
+		EXPECT_EQ(static_cast<int>(cones.vertices.size()), few.cones());
 		LinearFlow linear(
 			few.surface, few.flow, few.boundary, tailWeights(few.surface, flowFactor(few.flow)));
 		VertexVector best = VertexVector::Zero(linear.vertexCount());
