@@ -264,6 +264,26 @@ TEST(ConePlacement, MovesConesForShorterSeamsWithinTheDistortion)
 	EXPECT_GT(gained, 0.0);
 }
 
+TEST(ConePlacement, TakesManyConesOnlyWhereAreasNeedThem)
+{
+	Random random(711);
+	ConeRequest request;
+	request.distortion = 1e-6;
+	// No number of cones reaches this; 64 are enough to come below a spread of 1.
+	const PlacedCones enough = place(Packed(shaken(perforatedSlab(1, 6), 0.05, random)), request);
+	EXPECT_LE(static_cast<int>(enough.vertices.size()), kMaxPlacedCones);
+	EXPECT_GT(static_cast<int>(enough.vertices.size()), kMaxPlacedCones / 2);
+	EXPECT_LT(enough.distortion, 1.0);
+	// Here they are not, and more are taken until they do.
+	Random other(3);
+	const Packed folded(foldedTorus(20, 12, 3.0, other));
+	const PlacedCones many = place(folded, request);
+	EXPECT_GT(static_cast<int>(many.vertices.size()), kMaxPlacedCones);
+	EXPECT_LE(many.distortion, 1.0);
+	EXPECT_GT(many.distortion, 0.8); // and no more than that
+	EXPECT_GT(place(folded, kMaxPlacedCones).distortion, 1.0);
+}
+
 TEST(ConePlacement, ScaleChangesNothing)
 {
 	Random random(706);
@@ -427,6 +447,15 @@ TEST(MoreCones, KeepsAreasBetterThanTheFlowItStartsFrom)
 		EXPECT_GT(static_cast<int>(cones.vertices.size()), few.cones());
 		EXPECT_LE(static_cast<int>(cones.vertices.size()), few.cones() + kMaxMoreCones);
 		EXPECT_LT(few.excess(few.to(cones), 0.5), before);
+	}
+}
+
+TEST(MoreCones, AreABoundedNumberAtATime)
+{
+	for (const FlowToFewCones& few : flowsToFewCones()) {
+		const int more = static_cast<int>(few.more(1e-9).vertices.size()) - few.cones();
+		EXPECT_LE(more, kMaxMoreCones);
+		EXPECT_GT(more, kMaxMoreCones / 2);
 	}
 }
 
