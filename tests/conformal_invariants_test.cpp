@@ -19,7 +19,9 @@ namespace {
 
 double imTau(const SurfaceMesh& mesh)
 {
-	const Parametrization flat = run(mesh, Options());
+	Options options;
+	options.target = TargetCurvature::Flat; // with cones there would be no modulus
+	const Parametrization flat = run(mesh, options);
 	EXPECT_TRUE(flat.report.torusTauIm);
 	EXPECT_NEAR(flat.report.torusTauRe.value_or(1), 0.0, 1e-9);
 	return flat.report.torusTauIm.value_or(0);

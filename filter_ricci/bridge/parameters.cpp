@@ -219,9 +219,9 @@ RichParameterList euclideanParameters()
 		targetCurvatureChoices(),
 		"Target curvature",
 		"The Gaussian curvature that the flow is asked to reach.<br>"
-		"<b>Automatic</b>: a disk and any other surface with boundary keeps the metric of its "
-		"boundary; an annulus and a torus become flat; other closed surfaces get placed "
-		"cones.<br>"
+		"<b>Automatic</b>: an annulus and a torus become flat, any other surface with boundary "
+		"keeps the metric of its boundary, unless areas change much without cones: then they get "
+		"placed cones. Other closed surfaces always get them.<br>"
 		"<b>Flat everywhere</b>: zero at every vertex, boundary included; for an annulus or a "
 		"torus.<br>"
 		"<b>Disk</b>: the image of a disk-like surface is a round disk.<br>"
@@ -264,15 +264,17 @@ RichParameterList euclideanParameters()
 		defaults.coneCount,
 		"Cones: number",
 		"The number of placed cones. 0: as many as it takes to reach 'Cones: area distortion'. "
-		"Read by <b>Placed cones</b>, and by <b>Automatic</b> on closed surfaces other than a "
-		"torus."));
+		"Read by <b>Placed cones</b>, and by <b>Automatic</b> where it places cones."));
 	list.addParam(RichFloat(
 		"cone_distortion",
 		static_cast<Scalarm>(defaults.coneDistortion),
 		"Cones: area distortion",
 		"Cones are added until the expected area_distortion_spread is below this: the standard "
 		"deviation of the logarithm of the change of areas. 0.5 means that areas typically are "
-		"50% larger or smaller than on average. Read where the number of cones is 0."));
+		"50% larger or smaller than on average. With 'Intrinsic flips' areas are measured after "
+		"the flow, which runs again with other cones where they change more. Above 1 it also is "
+		"the spread up to which <b>Automatic</b> does without cones. Read where the number of "
+		"cones is 0."));
 	list.addParam(RichEnum(
 		"cone_rounding",
 		static_cast<int>(defaults.coneRounding),

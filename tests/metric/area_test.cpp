@@ -62,6 +62,34 @@ TEST(Area, OfFlatTrianglesIsThatOfTheirPlacesInSpace)
 	}
 }
 
+TEST(Area, OfOneFlatTriangleIsKnown)
+{
+	EXPECT_EQ(euclideanArea({3.0, 4.0, 5.0}), 6.0);
+	EXPECT_EQ(euclideanArea({13.0, 14.0, 15.0}), 84.0);
+	EXPECT_NEAR(euclideanArea({1.0, 1.0, 1.0}), std::sqrt(3.0) / 4, 1e-16);
+	// A needle: half its perimeter is no double, and Heron's formula as it stands gives 0.
+	EXPECT_NEAR(
+		euclideanArea({0x1p17, 0x1p17 - 0x1p-33, 0x1p-33 + 0x1p-35}) / (3.0 * 0x1p-19), 1.0, 1e-14);
+}
+
+TEST(Area, OfOneFlatTriangleGrowsWithTheSquareOfItsSidesInAnyOrder)
+{
+	Random random(72);
+	for (int i = 0; i < 200; ++i) {
+		std::array<double, 3> side{random.real(0.5, 1.0), random.real(0.5, 1.0), 0.0};
+		side[2] = random.real(std::abs(side[0] - side[1]), side[0] + side[1]);
+		const double area = euclideanArea(side);
+		EXPECT_GT(area, 0.0);
+		for (const double scale : {0x1p-30, 0x1p30})
+			EXPECT_EQ(
+				euclideanArea({scale * side[0], scale * side[1], scale * side[2]}),
+				scale * scale * area);
+		EXPECT_EQ(euclideanArea({side[1], side[2], side[0]}), area);
+		EXPECT_EQ(euclideanArea({side[2], side[1], side[0]}), area);
+		EXPECT_EQ(euclideanArea(oneTriangle(), ofSides(side)), area);
+	}
+}
+
 TEST(Area, OfATriangleOfCurvatureMinusOneIsPiLessItsAngles)
 {
 	Random random(71);
@@ -103,6 +131,7 @@ TEST(Area, OfADegenerateTriangleIsZero)
 {
 	for (const std::array<double, 3>& side :
 		 {std::array<double, 3>{1, 2, 3}, {0.25, 0.5, 0.75}, {1, 1, 0}, {0, 0, 0}, {1, 1, 3}}) {
+		EXPECT_EQ(euclideanArea(side), 0.0);
 		EXPECT_EQ(euclideanArea(oneTriangle(), ofSides(side)), 0.0);
 		EXPECT_EQ(hyperbolicArea(oneTriangle(), ofSides(side)), 0.0);
 	}

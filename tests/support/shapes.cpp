@@ -57,6 +57,58 @@ SurfaceMesh ring(double r1, double r2, int around, int across)
 	});
 }
 
+SurfaceMesh revolved(const std::vector<std::array<double, 2>>& profile, int around)
+{
+	SurfaceMesh mesh;
+	std::vector<int> first; // vertex of each ring or pole
+	for (const auto& [radius, z] : profile) {
+		first.push_back(static_cast<int>(mesh.positions.size()));
+		for (int j = 0; j < (radius > 0.0 ? around : 1); ++j) {
+			const double a = 2 * kPi * j / around;
+			mesh.positions.push_back({radius * std::cos(a), radius * std::sin(a), z});
+		}
+	}
+	for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+		const bool fromPole = !(profile[i][0] > 0.0), toPole = !(profile[i + 1][0] > 0.0);
+		for (int j = 0; j < around; ++j) {
+			const int k = (j + 1) % around, above = first[i + 1];
+			const int a = first[i] + j, b = first[i] + k, c = above + k, d = above + j;
+			if (fromPole)
+				mesh.triangles.push_back({first[i], c, d});
+			else if (toPole)
+				mesh.triangles.push_back({a, b, above});
+			else {
+				mesh.triangles.push_back({a, b, c});
+				mesh.triangles.push_back({a, c, d});
+			}
+		}
+	}
+	return mesh;
+}
+
+SurfaceMesh sphereWithTube(double radius, double length, double hole, int rings, int around)
+{
+	std::vector<std::array<double, 2>> profile;
+	if (!(hole > 0.0))
+		profile.push_back({0.0, -1.0});
+	const double top = kPi - std::asin(radius), step = (top - hole) / rings;
+	for (int i = hole > 0.0 ? 0 : 1; i <= rings; ++i) {
+		const double a = hole + i * step; // from the south pole
+		profile.push_back({std::sin(a), -std::cos(a)});
+	}
+	const double base = -std::cos(top);
+	const int along = static_cast<int>(std::ceil(length / step));
+	for (int i = 1; i <= along; ++i)
+		profile.push_back({radius, base + length * i / along});
+	const int over = 4; // rings of the half sphere at the end
+	for (int i = 1; i < over; ++i) {
+		const double a = 0.5 * kPi * i / over;
+		profile.push_back({radius * std::cos(a), base + length + radius * std::sin(a)});
+	}
+	profile.push_back({0.0, base + length + radius});
+	return revolved(profile, around);
+}
+
 SurfaceMesh tetrahedron()
 {
 	const double s = 1.0 / std::sqrt(3.0);

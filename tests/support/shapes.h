@@ -5,7 +5,9 @@
 #include <ricci/base/indexed.h>
 #include <ricci/surface/surface_mesh.h>
 
+#include <array>
 #include <functional>
+#include <vector>
 
 namespace ricci::testing {
 
@@ -37,6 +39,17 @@ SurfaceMesh torus(double R, double r, int nu, int nv);
 
 /// Flat ring between radii r1 < r2 at z = 0, counter-clockwise, radii in geometric progression.
 SurfaceMesh ring(double r1, double r2, int around, int across);
+
+/// Surface of revolution about the z axis, outward orientation, \p around vertices in each ring.
+/// \param profile places (radius, z) from below to above; with radius 0 at an end a pole closes the
+/// surface there, else it has a hole
+SurfaceMesh revolved(const std::vector<std::array<double, 2>>& profile, int around);
+
+/// Unit sphere with \p rings vertices from pole to pole and \p around in each ring, whose north is a
+/// tube of this \p radius and \p length with a round end. Its south has a hole at polar angle
+/// \p hole, none if that is 0. Triangles are about as large everywhere as on the sphere, but the tube
+/// has \p around of them in each ring.
+SurfaceMesh sphereWithTube(double radius, double length, double hole, int rings, int around);
 
 /// Regular tetrahedron with corners on the unit sphere, outward.
 SurfaceMesh tetrahedron();

@@ -10,6 +10,7 @@
 #include <ricci/base/numbers.h>
 #include <ricci/error.h>
 #include <ricci/parametrize.h>
+#include <ricci/target/area_change.h>
 #include <ricci/target/cone_placement.h>
 #include <ricci/target/target_curvature.h>
 
@@ -263,6 +264,26 @@ TEST(ConePlacement, MovesConesForShorterSeamsWithinTheDistortion)
 	EXPECT_GT(gained, 0.0);
 }
 
+TEST(ConePlacement, TakesManyConesOnlyWhereAreasNeedThem)
+{
+	Random random(711);
+	ConeRequest request;
+	request.distortion = 1e-6;
+	// No number of cones reaches this; 64 are enough to come below a spread of 1.
+	const PlacedCones enough = place(Packed(shaken(perforatedSlab(1, 6), 0.05, random)), request);
+	EXPECT_LE(static_cast<int>(enough.vertices.size()), kMaxPlacedCones);
+	EXPECT_GT(static_cast<int>(enough.vertices.size()), kMaxPlacedCones / 2);
+	EXPECT_LT(enough.distortion, 1.0);
+	// Here they are not, and more are taken until they do.
+	Random other(3);
+	const Packed folded(foldedTorus(20, 12, 3.0, other));
+	const PlacedCones many = place(folded, request);
+	EXPECT_GT(static_cast<int>(many.vertices.size()), kMaxPlacedCones);
+	EXPECT_LE(many.distortion, 1.0);
+	EXPECT_GT(many.distortion, 0.8); // and no more than that
+	EXPECT_GT(place(folded, kMaxPlacedCones).distortion, 1.0);
+}
+
 TEST(ConePlacement, ScaleChangesNothing)
 {
 	Random random(706);
@@ -305,6 +326,171 @@ TEST(ConePlacement, TakesTheStartOfTheFlowForItsOwn)
 	EXPECT_EQ(a.distortion, b.distortion);
 	EXPECT_TRUE(shared.hessian);
 	EXPECT_FALSE(other.hessian);
+}
+
+/// A flow to a few cones on a surface whose areas it changes much.
+struct FlowToFewCones
+{
+	EmbeddedSurface surface;
+	ConeBoundary boundary;
+	FlowResult flow;
+
+	FlowToFewCones(const SurfaceMesh& mesh, ConeBoundary b, int cones) :
+			surface(embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles)),
+			boundary(b)
+	{
+		TargetRequest request;
+		request.mode = TargetCurvature::PlacedCones;
+		request.freeBoundary = boundary == ConeBoundary::Fixed;
+		request.coneCount = cones;
+		FlowStart start = flowStart(surface, FlowOptions());
+		const Target target = chooseTarget(surface, start, request);
+		flow = to(target);
+	}
+
+	FlowResult to(const Target& target) const
+	{
+		return runRicciFlow(
+			Background::EuclideanPlane,
+			surface,
+			flowStart(surface, FlowOptions()),
+			target,
+			FlowOptions(),
+			[](int, double) {});
+	}
+
+	FlowResult to(const PlacedCones& cones) const
+	{
+		Target target = flow.target;
+		for (const Vertex v : target.curvature.indices())
+			if (!surface.topology.boundary[v])
+				target.curvature[v] = 0.0;
+		for (std::size_t i = 0; i < cones.vertices.size(); ++i)
+			target.curvature[cones.vertices[i]] = cones.curvatures[i];
+		return to(target);
+	}
+
+	PlacedCones more(double distortion, ConeRounding rounding = ConeRounding::Free) const
+	{
+		ConeRequest request;
+		request.boundary = boundary;
+		request.distortion = distortion;
+		request.rounding = rounding;
+		return moreCones(surface, flow, request);
+	}
+
+	int cones() const
+	{
+		int count = 0;
+		for (const Vertex v : surface.triangulation.vertices())
+			count += !surface.topology.boundary[v] && flow.target.curvature[v] != 0.0;
+		return count;
+	}
+
+	double excess(const FlowResult& result, double spread) const
+	{
+		return areaExcess(areaChange(surface, flowFactor(result)), spread);
+	}
+};
+
+std::vector<FlowToFewCones> flowsToFewCones()
+{
+	std::vector<FlowToFewCones> flows;
+	flows.emplace_back(sphereWithTube(0.25, 3.0, 0.0, 16, 16), ConeBoundary::Fixed, 3);
+	flows.emplace_back(sphereWithTube(0.25, 2.0, 0.5, 16, 16), ConeBoundary::Fixed, 1);
+	Random random(710);
+	flows.emplace_back(
+		withoutStars(shaken(perforatedSlab(1, 4), 0.05, random), {0, 40}), ConeBoundary::Fixed, 2);
+	return flows;
+}
+
+TEST(MoreCones, FitsTheCurvaturesOfTheConesAnew)
+{
+	// So large a distortion that no cone is added: the curvatures alone are new, and any others at
+	// the same vertices would change areas more by the linear problem where the flow has led.
+	for (const FlowToFewCones& few : flowsToFewCones()) {
+		const PlacedCones cones = few.more(1e6);
+		EXPECT_EQ(static_cast<int>(cones.vertices.size()), few.cones());
+		LinearFlow linear(
+			few.surface, few.flow, few.boundary, tailWeights(few.surface, flowFactor(few.flow)));
+		VertexVector best = VertexVector::Zero(linear.vertexCount());
+		for (std::size_t i = 0; i < cones.vertices.size(); ++i) {
+			EXPECT_NE(few.flow.target.curvature[cones.vertices[i]], 0.0);
+			best[cones.vertices[i]] = cones.curvatures[i];
+		}
+		const VertexVector factor = linear.factor(best);
+		EXPECT_NEAR(cones.distortion, areaChange(few.surface, factor).spread, 1e-6);
+		const double least = linear.meanSquare(factor);
+		for (std::size_t i = 0; i < cones.vertices.size(); ++i)
+			for (const double step : {-0.01, 0.01}) {
+				if (cones.curvatures[i] + step > kMaxConeCurvature)
+					continue;
+				VertexVector other = best;
+				other[cones.vertices[i]] += step;
+				if (linear.hasFixedSum()) {
+					const std::size_t j = (i + 1) % cones.vertices.size();
+					other[cones.vertices[j]] -= step;
+					if (other[cones.vertices[j]] > kMaxConeCurvature)
+						continue;
+				}
+				EXPECT_GT(linear.meanSquare(linear.factor(other)), least);
+			}
+	}
+}
+
+TEST(MoreCones, KeepsAreasBetterThanTheFlowItStartsFrom)
+{
+	for (const FlowToFewCones& few : flowsToFewCones()) {
+		const double before = few.excess(few.flow, 0.5);
+		ASSERT_GT(before, 1.0);
+		const PlacedCones cones = few.more(0.5);
+		EXPECT_GT(static_cast<int>(cones.vertices.size()), few.cones());
+		EXPECT_LE(static_cast<int>(cones.vertices.size()), few.cones() + kMaxMoreCones);
+		EXPECT_LT(few.excess(few.to(cones), 0.5), before);
+	}
+}
+
+TEST(MoreCones, AreABoundedNumberAtATime)
+{
+	for (const FlowToFewCones& few : flowsToFewCones()) {
+		const int more = static_cast<int>(few.more(1e-9).vertices.size()) - few.cones();
+		EXPECT_LE(more, kMaxMoreCones);
+		EXPECT_GT(more, kMaxMoreCones / 2);
+	}
+}
+
+TEST(MoreCones, IsAdmissible)
+{
+	for (const FlowToFewCones& few : flowsToFewCones())
+		for (const ConeRounding rounding : {ConeRounding::Free, ConeRounding::QuarterTurns}) {
+			const PlacedCones cones = few.more(0.5, rounding);
+			for (std::size_t i = 0; i < cones.vertices.size(); ++i) {
+				EXPECT_LE(cones.curvatures[i], kMaxConeCurvature + 1e-12);
+				EXPECT_NE(cones.curvatures[i], 0.0);
+				EXPECT_FALSE(few.surface.topology.boundary[cones.vertices[i]]);
+				if (rounding == ConeRounding::QuarterTurns) {
+					const double turns = cones.curvatures[i] / kQuarter;
+					EXPECT_NEAR(turns, std::round(turns), 1e-12);
+				}
+			}
+			EXPECT_TRUE(std::is_sorted(cones.vertices.begin(), cones.vertices.end()));
+			if (few.surface.topology.type.isClosed()) {
+				EXPECT_NEAR(sum(cones.curvatures), 4 * kPi, 1e-11);
+			}
+		}
+}
+
+TEST(MoreCones, AreMoreForLessDistortion)
+{
+	const FlowToFewCones few(sphereWithTube(0.25, 2.0, 0.5, 16, 16), ConeBoundary::Fixed, 1);
+	std::size_t before = 0;
+	for (const double distortion : {1.0, 0.5, 0.25}) {
+		const PlacedCones cones = few.more(distortion);
+		EXPECT_GE(cones.vertices.size(), before);
+		EXPECT_LE(cones.distortion, 1.001 * distortion); // weak cones were taken out again
+		before = cones.vertices.size();
+	}
+	EXPECT_GT(before, 1u);
 }
 
 /// The refusal of \p count cones.

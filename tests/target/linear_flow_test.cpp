@@ -248,5 +248,122 @@ TEST(LinearFlow, LeavesItsFactorToTheFlowWhichFindsTheSameToTheBit)
 	EXPECT_GE(compared, 3);
 }
 
+/// A flow, and the linear flow where it ends.
+struct AtTheEnd
+{
+	EmbeddedSurface surface;
+	ConeBoundary boundary;
+	Target target;
+	FlowResult flow;
+
+	AtTheEnd(const SurfaceMesh& mesh, ConeBoundary b, int cones) :
+			surface(embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles)),
+			boundary(b)
+	{
+		TargetRequest request;
+		request.mode = TargetCurvature::PlacedCones;
+		request.freeBoundary = boundary == ConeBoundary::Fixed;
+		request.coneCount = cones;
+		FlowStart start = flowStart(surface, FlowOptions());
+		target = chooseTarget(surface, start, request);
+		flow = to(target);
+	}
+
+	FlowResult to(const Target& wanted) const
+	{
+		FlowOptions options;
+		options.epsilon = 1e-11;
+		return runRicciFlow(
+			Background::EuclideanPlane,
+			surface,
+			flowStart(surface, options),
+			wanted,
+			options,
+			[](int, double) {});
+	}
+
+	/// The target with \p k more curvature at one cone. On a closed surface another gives it; a
+	/// prescribed boundary gives it in proportion to its length.
+	Target changed(double k) const
+	{
+		Target other = target;
+		std::vector<Vertex> cones;
+		for (const Vertex v : surface.triangulation.vertices())
+			if (!surface.topology.boundary[v] && target.curvature[v] != 0.0)
+				cones.push_back(v);
+		other.curvature[cones[0]] += k;
+		if (surface.topology.type.isClosed())
+			other.curvature[cones[1]] -= k;
+		else if (boundary == ConeBoundary::Prescribed)
+			other.curvature -= k * boundaryShares(surface);
+		return other;
+	}
+
+	/// The factor of \p result with mean 0.
+	static VertexVector factor(const FlowResult& result, const VertexVector& weights)
+	{
+		VertexVector u = flowFactor(result);
+		u.array() -= weights.dot(u);
+		return u;
+	}
+};
+
+TEST(LinearFlow, AtAFlowsEndGivesBackItsFactor)
+{
+	Random random(766);
+	int doubled = 0;
+	for (const Case& c : cases()) {
+		SCOPED_TRACE(c.name);
+		const AtTheEnd end(c.mesh, c.boundary, 5);
+		VertexVector weights = randomVector(end.surface.triangulation.vertexCount(), random);
+		weights = weights.cwiseAbs() / weights.cwiseAbs().sum();
+		LinearFlow linear(end.surface, end.flow, c.boundary, weights);
+		EXPECT_TRUE(sameBits(linear.area(), weights));
+		EXPECT_TRUE(sameBits(linear.curvature(), end.flow.curvature));
+		EXPECT_EQ(linear.hasFixedSum(), end.surface.topology.type.isClosed());
+		const VertexVector u = linear.factor(end.flow.curvature);
+		const VertexVector wanted = AtTheEnd::factor(end.flow, weights);
+		EXPECT_GT(wanted.lpNorm<Eigen::Infinity>(), 0.05);
+		EXPECT_LT((u - wanted).lpNorm<Eigen::Infinity>(), 1e-9);
+		EXPECT_NEAR(weights.dot(u), 0.0, 1e-13);
+		doubled += end.flow.doubled;
+	}
+	EXPECT_GT(doubled, 0); // that way round, too
+}
+
+TEST(LinearFlow, AtAFlowsEndKnowsOtherTargetsToSecondOrder)
+{
+	int tried = 0;
+	for (const Case& c : cases()) {
+		SCOPED_TRACE(c.name);
+		const AtTheEnd end(c.mesh, c.boundary, 5);
+		if (end.flow.doubled)
+			continue; // linearised at a start
+		++tried;
+		FlowStart start = flowStart(end.surface, FlowOptions());
+		LinearFlow atStart(end.surface, start, c.boundary);
+		LinearFlow atEnd(end.surface, end.flow, c.boundary, atStart.area());
+		const auto errors = [&](double k) {
+			const Target target = end.changed(k);
+			const VertexVector u = AtTheEnd::factor(end.to(target), atStart.area());
+			const auto error = [&](LinearFlow& linear) {
+				VertexVector wanted = target.curvature;
+				for (const Vertex v : wanted.indices())
+					if (target.fixed[v])
+						wanted[v] = linear.curvature()[v];
+				return (linear.factor(wanted) - u).lpNorm<Eigen::Infinity>();
+			};
+			return std::make_pair(error(atStart), error(atEnd));
+		};
+		const auto whole = errors(0.08), half = errors(0.04), quarter = errors(0.02);
+		EXPECT_NEAR(std::log2(whole.second / half.second), 2.0, 0.2);
+		EXPECT_NEAR(std::log2(half.second / quarter.second), 2.0, 0.1);
+		// That at the start is as far off as before.
+		EXPECT_NEAR(quarter.first / whole.first, 1.0, 0.2);
+		EXPECT_LT(quarter.second, 0.02 * quarter.first);
+	}
+	EXPECT_GE(tried, 3);
+}
+
 } // namespace
 } // namespace ricci::testing

@@ -2,20 +2,28 @@
 #include "support/expect.h"
 #include "support/intrinsic.h"
 #include "support/random.h"
+#include "support/random_surface.h"
 #include "support/shapes.h"
+#include "support/transform.h"
 
 #include <ricci/base/numbers.h>
+#include <ricci/base/tolerances.h>
 #include <ricci/error.h>
+#include <ricci/target/area_change.h>
 #include <ricci/target/rectangle_corners.h>
 #include <ricci/target/target_curvature.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -152,6 +160,273 @@ TEST(TargetCurvature, AutomaticByTopology)
 		EXPECT_NEAR(target.curvature.sum(), s->totalCurvature(), 1e-11);
 		EXPECT_LT(target.curvature.maxCoeff(), 2 * kPi);
 	}
+}
+
+/// Standard deviation of 2 ln \p x, which has the density \p weight over (0, 1).
+double spreadOf(const std::function<double(double)>& x, const std::function<double(double)>& weight)
+{
+	const int n = 200000;
+	double total = 0.0, sum = 0.0, squares = 0.0;
+	for (int i = 0; i < n; ++i) {
+		const double t = (i + 0.5) / n, w = weight(t), y = 2 * std::log(x(t));
+		total += w;
+		sum += w * y;
+		squares += w * y * y;
+	}
+	return std::sqrt(squares / total - sum * sum / (total * total));
+}
+
+/// Surface of revolution between two loops, whose radius goes from 1 to \p end and back.
+SurfaceMesh hourglass(double end, int along, int around)
+{
+	std::vector<std::array<double, 2>> profile;
+	for (int i = 0; i <= along; ++i) {
+		const double t = static_cast<double>(i) / along;
+		profile.push_back({1.0 + (end - 1.0) * std::sin(kPi * t), 4.0 * t});
+	}
+	return revolved(profile, around);
+}
+
+/// Expected spread of the area factor without cones, by the formula of the smooth surface: the flat
+/// metric of a surface of revolution without poles divides lengths by the radius, that of a sphere
+/// with a hole is the stereographic projection from the middle of the hole.
+struct Plain
+{
+	std::string name;
+	SurfaceMesh mesh;
+	double spread;
+};
+
+std::vector<Plain> plainSurfaces()
+{
+	std::vector<Plain> surfaces;
+	for (const double R : {3.0, 1.7, 1.1}) {
+		const auto radius = [R](double t) { return R + std::cos(2 * kPi * t); };
+		surfaces.push_back({"torus", torus(R, 1.0, 60, 60), spreadOf(radius, radius)});
+	}
+	for (const double end : {0.7, 0.1, 4.0}) {
+		const auto radius = [end](double t) { return 1.0 + (end - 1.0) * std::sin(kPi * t); };
+		const auto area = [end, &radius](double t) {
+			return radius(t) * std::hypot((end - 1.0) * kPi * std::cos(kPi * t), 4.0);
+		};
+		surfaces.push_back({"annulus", hourglass(end, 80, 60), spreadOf(radius, area)});
+	}
+	const auto radius = [](double t) { return 1.0 + 3.0 * t; };
+	surfaces.push_back({"plane ring", ring(1.0, 4.0, 60, 40), spreadOf(radius, radius)});
+	for (const double hole : {1.2, 0.6, 0.3}) {
+		const double cap = 0.5 * (1.0 - std::cos(hole)); // its share of the sphere
+		std::vector<std::array<double, 2>> profile;
+		for (int i = 0; i <= 60; ++i) {
+			const double a = hole + (kPi - hole) * i / 60;
+			profile.push_back({i < 60 ? std::sin(a) : 0.0, -std::cos(a)});
+		}
+		surfaces.push_back(
+			{"disk",
+			 revolved(profile, 60),
+			 spreadOf(
+				 [cap](double t) { return cap + (1.0 - cap) * t; }, [](double) { return 1.0; })});
+	}
+	return surfaces;
+}
+
+std::string joined(const Target& target)
+{
+	std::string notes;
+	for (const std::string& note : target.notes)
+		notes += note + "\n";
+	return notes;
+}
+
+/// The number after \p words; NaN if they are not there.
+double numberAfter(const std::string& text, const std::string& words)
+{
+	const std::size_t place = text.find(words);
+	return place == std::string::npos ? std::numeric_limits<double>::quiet_NaN()
+									  : std::stod(text.substr(place + words.size()));
+}
+
+/// Vertices inside with curvature.
+int coneCount(const TestSurface& surface, const Target& target)
+{
+	int count = 0;
+	for (const Vertex v : target.curvature.indices())
+		count += !surface.topology.boundary[v] && target.curvature[v] != 0.0;
+	return count;
+}
+
+TEST(TargetCurvature, AutomaticPlacesConesWhereAreasWouldSpreadMoreWithoutThem)
+{
+	int plain = 0, withCones = 0;
+	for (const Plain& p : plainSurfaces()) {
+		SCOPED_TRACE(p.name + ", " + std::to_string(p.spread));
+		const TestSurface surface(p.mesh);
+		const Target target = surface.choose(TargetCurvature::Automatic);
+		const std::string notes = joined(target);
+		const std::string no =
+			"No cones: the expected spread of the logarithm of the area factor is ";
+		const std::string yes =
+			"Cones: without them the spread of the logarithm of the area factor would be ";
+		ASSERT_TRUE(target.maxSpread);
+		if (p.spread < 1.0) {
+			++plain;
+			EXPECT_NEAR(numberAfter(notes, no) / p.spread, 1.0, 0.03) << notes;
+			EXPECT_EQ(notes.find(yes), std::string::npos);
+			EXPECT_EQ(coneCount(surface, target), 0);
+			EXPECT_EQ(*target.maxSpread, 1.0);
+			if (p.name == "disk")
+				EXPECT_EQ(target.fixed, surface.topology.boundary);
+			else
+				EXPECT_TRUE(isPrescribed(target));
+			continue;
+		}
+		++withCones;
+		EXPECT_NEAR(numberAfter(notes, yes) / p.spread, 1.0, 0.03) << notes;
+		EXPECT_EQ(notes.find(no), std::string::npos);
+		EXPECT_GT(coneCount(surface, target), 0);
+		EXPECT_EQ(*target.maxSpread, 0.5);
+		EXPECT_LE(numberAfter(notes, "expected area distortion "), 0.5);
+		// The boundary of an annulus comes free with cones, like any other.
+		EXPECT_EQ(target.fixed, surface.topology.boundary);
+		if (surface.topology.type.isClosed()) {
+			EXPECT_NEAR(target.curvature.sum(), 0.0, 1e-11);
+		}
+	}
+	EXPECT_GE(plain, 4);
+	EXPECT_GE(withCones, 4);
+}
+
+TEST(TargetCurvature, AutomaticDoesWithoutConesWhereMoreDistortionIsAskedFor)
+{
+	for (const Plain& p : plainSurfaces()) {
+		SCOPED_TRACE(p.name + ", " + std::to_string(p.spread));
+		const TestSurface surface(p.mesh);
+		TargetRequest request = surface.request(TargetCurvature::Automatic);
+		for (const double distortion : {1.1 * p.spread, 1e9}) {
+			request.coneDistortion = distortion;
+			const Target target = surface.choose(request);
+			EXPECT_EQ(coneCount(surface, target), 0);
+			EXPECT_EQ(target.maxSpread, std::max(1.0, distortion));
+		}
+		if (p.spread < 1.0)
+			continue;
+		request.coneDistortion = 0.9 * p.spread;
+		EXPECT_GT(coneCount(surface, surface.choose(request)), 0);
+	}
+}
+
+TEST(TargetCurvature, AutomaticGoesByTopologyWhereNoAreasAreMeasured)
+{
+	for (const Plain& p : plainSurfaces()) {
+		SCOPED_TRACE(p.name + ", " + std::to_string(p.spread));
+		const TestSurface surface(p.mesh);
+		const SurfaceType& type = surface.topology.type;
+		for (const bool freeBoundary : {true, false})
+			for (const bool keepsAreas : {true, false}) {
+				if (keepsAreas && (freeBoundary || type.isClosed()))
+					continue;
+				TargetRequest request = surface.request(TargetCurvature::Automatic);
+				request.freeBoundary = freeBoundary;
+				request.keepsAreas = keepsAreas;
+				const Target target = surface.choose(request);
+				EXPECT_EQ(coneCount(surface, target), 0);
+				EXPECT_FALSE(target.maxSpread);
+				EXPECT_EQ(joined(target).find("ones"), std::string::npos); // Cones, No cones
+				EXPECT_EQ(target.circular, type.isDisk() && !freeBoundary);
+				EXPECT_EQ(isPrescribed(target), !type.isDisk() || !freeBoundary);
+				if (!type.isDisk()) {
+					EXPECT_EQ(target.curvature.lpNorm<Eigen::Infinity>(), 0.0);
+				}
+			}
+	}
+}
+
+TEST(TargetCurvature, OtherChoicesThanAutomaticPromiseNothingOfAreasUnlessConesArePlaced)
+{
+	const TestSurface surface(torus(1.1, 1.0, 40, 40));
+	const Target flat = surface.choose(TargetCurvature::Flat);
+	EXPECT_FALSE(flat.maxSpread);
+	EXPECT_EQ(flat.curvature.lpNorm<Eigen::Infinity>(), 0.0);
+	TargetRequest request = surface.request(TargetCurvature::PlacedCones);
+	request.coneDistortion = 0.7;
+	EXPECT_EQ(surface.choose(request).maxSpread, 0.7);
+	request.coneCount = 5; // the number is the user's
+	EXPECT_FALSE(surface.choose(request).maxSpread);
+	request.mode = TargetCurvature::Automatic;
+	const Target five = surface.choose(request);
+	EXPECT_FALSE(five.maxSpread);
+	EXPECT_EQ(coneCount(surface, five), 5);
+}
+
+TEST(TargetCurvature, AutomaticDependsOnNoScaleAndNoNumbers)
+{
+	// Shaken, so that no two vertices are equally good for a cone.
+	Random random(92);
+	for (const SurfaceMesh& regular :
+		 {torus(1.1, 1.0, 30, 30), hourglass(0.1, 40, 24), sphereWithTube(0.3, 2.0, 0.3, 16, 16)}) {
+		const SurfaceMesh mesh = shaken(regular, 0.004, random);
+		const Target target = TestSurface(mesh).choose(TargetCurvature::Automatic);
+		const Target larger = TestSurface(scaled(mesh, 1024.0)).choose(TargetCurvature::Automatic);
+		EXPECT_LT((larger.curvature - target.curvature).lpNorm<Eigen::Infinity>(), 1e-8);
+		const Renumbered other = renumbered(mesh, random);
+		const Target renamed = TestSurface(other.mesh).choose(TargetCurvature::Automatic);
+		EXPECT_GT(target.curvature.lpNorm<Eigen::Infinity>(), 0.1);
+		for (const Vertex v : renamed.curvature.indices())
+			EXPECT_NEAR(renamed.curvature[v], target.curvature[Vertex(other.vertex[at(v)])], 1e-6);
+	}
+}
+
+/// The flow to \p target.
+FlowResult flowTo(const TestSurface& surface, const Target& target)
+{
+	return runRicciFlow(
+		Background::EuclideanPlane,
+		surface,
+		flowStart(surface, FlowOptions()),
+		target,
+		FlowOptions(),
+		[](int, double) {});
+}
+
+TEST(TargetToKeepAreas, IsAskedForWhereAreasSpreadMoreThanTheTargetAllows)
+{
+	int withinSlack = 0;
+	for (const Plain& p : plainSurfaces()) {
+		SCOPED_TRACE(p.name + ", " + std::to_string(p.spread));
+		const TestSurface surface(p.mesh);
+		TargetRequest request = surface.request(TargetCurvature::Automatic);
+		request.keepsAreas = false;
+		FlowResult flow = flowTo(surface, surface.choose(request)); // without cones
+		request.keepsAreas = true;
+		const auto next = [&] {
+			FlowStart start = flowStart(surface, FlowOptions());
+			return targetToKeepAreas(surface, start, flow, request);
+		};
+		EXPECT_FALSE(next()); // the target promises nothing
+		const AreaChange change = areaChange(surface, flowFactor(flow));
+		EXPECT_NEAR(change.spread / p.spread, 1.0, 0.03); // the smooth surface's
+		// The spread alone may be larger by the slack than what was asked for.
+		for (const double allowed : {0.5, 1.0, 1.5, change.spread / 1.05, change.spread / 1.15}) {
+			flow.target.maxSpread = allowed;
+			request.coneDistortion = allowed;
+			const bool isKept = areaExcess(change, allowed, kSpreadSlack) <= 1.0;
+			const std::optional<Target> target = next();
+			ASSERT_EQ(target.has_value(), !isKept) << allowed;
+			withinSlack += isKept && change.spread > allowed;
+			if (isKept)
+				continue;
+			// A plane ring keeps all areas as soon as its boundary is free.
+			EXPECT_EQ(coneCount(surface, *target) > 0, p.name != "plane ring");
+			EXPECT_EQ(target->maxSpread, allowed);
+			const std::string notes = joined(*target);
+			EXPECT_NEAR(numberAfter(notes, "comes out as "), change.spread, 0.005 * change.spread);
+			EXPECT_NEAR(numberAfter(notes, "inverse as "), change.mean, 0.005 * change.mean);
+			EXPECT_EQ(target->fixed, surface.topology.boundary);
+			if (surface.topology.type.isClosed()) {
+				EXPECT_NEAR(target->curvature.sum(), 0.0, 1e-11);
+			}
+		}
+	}
+	EXPECT_GE(withinSlack, 3);
 }
 
 TEST(TargetCurvature, FreeBoundaryFixesTheBoundaryAndAsksForAFlatInside)

@@ -6,8 +6,9 @@ namespace ricci {
 
 /// Which curvature the flow is asked to reach (paper 5.2). The order is that of the filter's menu.
 enum class TargetCurvature {
-	Automatic,     ///< disk: free boundary; annulus, torus: flat; other boundaries: free boundary;
-				   ///< other closed surfaces: placed cones
+	Automatic,     ///< annulus, torus: flat; other boundaries: free; but placed cones where areas
+				   ///< would change much without them (with flips, and on surfaces with boundary a
+				   ///< free one), and on other closed surfaces
 	Flat,          ///< K = 0 at every vertex, boundary included; needs Euler characteristic 0
 	Disk,          ///< the image of a topological disk is a round disk
 	Rectangle,     ///< four corners of pi/2 on the boundary of a topological disk
@@ -105,7 +106,9 @@ struct Options : FlowOptions
 	TargetCurvature target = TargetCurvature::Automatic;
 
 	/// Placed cones: their number, or 0 for as many as it takes to bring the expected
-	/// Report::areaDistortionSpread below coneDistortion.
+	/// Report::areaDistortionSpread below coneDistortion; with flips the areas that come out count as
+	/// well, see keepAreas(). Above 1, coneDistortion also is the spread up to which Automatic does
+	/// without cones.
 	int coneCount = 0;
 	double coneDistortion = 0.5;
 	ConeRounding coneRounding = ConeRounding::Free;

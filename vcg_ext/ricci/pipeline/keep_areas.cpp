@@ -2,6 +2,7 @@
 #include "keep_areas.h"
 
 #include "../base/text.h"
+#include "../base/tolerances.h"
 #include "../error.h"
 #include "../target/area_change.h"
 #include "progress_share.h"
@@ -20,6 +21,12 @@ constexpr int kMaxRounds = 6, kMaxVainRounds = 2;
 AreaChange areaChange(const EmbeddedSurface& surface, const FlowResult& flow)
 {
 	return areaChange(surface, flowFactor(flow));
+}
+
+/// As targetToKeepAreas() measures it.
+double areaExcess(const EmbeddedSurface& surface, const FlowResult& flow, double spread)
+{
+	return areaExcess(areaChange(surface, flow), spread, kSpreadSlack);
 }
 
 /// One more flow. \return none where it fails
@@ -76,8 +83,7 @@ void keepAreas(
 			break;
 		steps += next->iterations;
 		const double spread = *next->target.maxSpread;
-		const bool isBest = areaExcess(areaChange(surface, *next), spread) <=
-							areaExcess(areaChange(surface, best), spread);
+		const bool isBest = areaExcess(surface, *next, spread) <= areaExcess(surface, best, spread);
 		if (isBest)
 			best = std::move(*next);
 		last = isBest ? std::nullopt : std::move(next);
