@@ -705,7 +705,8 @@ TEST(LeastDistortion, DoesNotDependOnNumbers)
 		EXPECT_LT(distance(b.layout[h], places[at(b.t.origin(h))]), 1e-8);
 }
 
-TEST(LeastDistortion, LeavesALayoutWithATurnedTriangle)
+/// All others get better, and none of them turns.
+TEST(LeastDistortion, ATurnedTriangleDoesNotCount)
 {
 	Random random(629);
 	const SurfaceMesh mesh = wavyDisk(8, random);
@@ -715,12 +716,12 @@ TEST(LeastDistortion, LeavesALayoutWithATurnedTriangle)
 		(places[at(t[1])][0] + places[at(t[2])][0]) / 2 * 2 - places[at(t[0])][0],
 		(places[at(t[1])][1] + places[at(t[2])][1]) / 2 * 2 - places[at(t[0])][1]};
 	Drawing d(mesh, places);
-	ASSERT_GT(d.turned(), 0);
-	const PlanarLayout start = d.layout;
+	const int turned = d.turned();
+	ASSERT_GT(turned, 0);
 	const LeastDistortion result = d.improve();
-	EXPECT_EQ(result.steps, 0);
-	EXPECT_EQ(result.before, kInfinity);
-	EXPECT_EQ(d.layout.points, start.points);
+	EXPECT_GT(result.steps, 0);
+	EXPECT_LT(result.after, result.before);
+	EXPECT_LE(d.turned(), turned);
 }
 
 TEST(LeastDistortion, LeavesALayoutWithNothingToMove)

@@ -173,17 +173,16 @@ void ConeModel::removeRow(int i)
 
 /// Minimises E with the sum of the curvatures fixed where it is, and none above kMaxConeCurvature.
 ///
-/// This is a heuristic with an active set: curvatures that the minimum without their bounds puts
-/// above the bound are set to it, all at once, and the rest is solved again. A bound is never
-/// released, so that the result keeps all constraints but need not be the minimum, as that of a full
-/// active-set method is [Nocedal Wright 2006, 16.5]. It is the minimum if no curvature is bound.
+/// Active set [Nocedal Wright 2006, 16.5]: curvatures that the minimum without their bounds puts above
+/// the bound are set to it, all at once, and the rest is solved again. A bound that E would rather
+/// leave is released, each once, so that this ends.
 void ConeModel::fitFree()
 {
 	// Assigned by moving: setZero(n) would free the old block first and, where the allocation of the
 	// new one throws, leave the pointer to be freed again.
 	m_now.values = Eigen::VectorXd(Eigen::VectorXd::Zero(size()));
-	Array<char> isBound(size(), 0);
-	for (int attempt = 0; attempt <= size(); ++attempt) {
+	Array<char> isBound(size(), 0), wasReleased(size(), 0);
+	for (;;) {
 		std::vector<int> free;
 		double total = m_total;
 		for (int i = 0; i < size(); ++i) {
@@ -196,21 +195,33 @@ void ConeModel::fitFree()
 		}
 		if (free.empty())
 			return;
-		solveFree(free, isBound, total);
+		const double level = solveFree(free, isBound, total);
 		bool excess = false;
 		for (const int i : free)
 			if (m_now.values[i] > kMaxConeCurvature) {
 				isBound[i] = 1;
 				excess = true;
 			}
-		if (!excess)
+		if (excess)
+			continue;
+		// Half the derivative of E where the others make up for the sum.
+		const Eigen::VectorXd slope = m_now.gram * m_now.values + m_now.linear;
+		int steepest = -1;
+		for (int i = 0; i < size(); ++i)
+			if (isBound[i] && !wasReleased[i] && slope[i] + level > 0.0 &&
+				(steepest < 0 || slope[i] > slope[steepest]))
+				steepest = i;
+		if (steepest < 0)
 			return;
+		isBound[steepest] = 0;
+		wasReleased[steepest] = 1;
 	}
 }
 
 /// Puts the \p free curvatures to the minimum of E, with the sum \p total where the sum is fixed,
 /// while the others are kMaxConeCurvature.
-void ConeModel::solveFree(const std::vector<int>& free, const Array<char>& isBound, double total)
+/// \return the multiplier of the sum, 0 where it is not fixed
+double ConeModel::solveFree(const std::vector<int>& free, const Array<char>& isBound, double total)
 {
 	const auto n = static_cast<int>(free.size());
 	const int rows = n + (hasFixedSum() ? 1 : 0); // the last one for the sum
@@ -233,6 +244,7 @@ void ConeModel::solveFree(const std::vector<int>& free, const Array<char>& isBou
 	const Eigen::VectorXd solution = system.fullPivLu().solve(rhs);
 	for (int a = 0; a < n; ++a)
 		m_now.values[free[positionOf(a)]] = solution[a];
+	return rows > n ? solution[n] : 0.0;
 }
 
 } // namespace ricci

@@ -155,7 +155,7 @@ private:
 	void setRow(int i, Vertex v);
 	void removeRow(int i);
 	void fitFree();
-	void solveFree(const std::vector<int>& free, const Array<char>& isBound, double total);
+	double solveFree(const std::vector<int>& free, const Array<char>& isBound, double total);
 
 	LinearFlow& m_flow;
 	double m_total;
