@@ -225,8 +225,8 @@ void finishInFloats(const SurfaceMesh& mesh, const Tick& tick, Parametrization& 
 		output.soundness,
 		tick);
 	if (result.left > 0)
-		result.add(repairFreely(
-			output.drawn, accepts, RestShapes::OfDrawing, output.soundness, tick));
+		result.add(
+			repairFreely(output.drawn, accepts, RestShapes::OfDrawing, output.soundness, tick));
 	if (output.takeOver(result))
 		measureResult(mesh, measureDistortion, map);
 }

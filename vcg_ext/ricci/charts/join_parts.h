@@ -22,9 +22,10 @@ struct RigidMotion
 /// Parts of a drawing after joinParts().
 struct JoinedParts
 {
-	std::vector<std::vector<int>> parts; ///< triangles, in increasing order, the parts by their first
-	Array<RigidMotion> motion;           ///< [triangle] how it was moved
-	ChartCuts seams;                     ///< what they have more than before, or less
+	std::vector<std::vector<int>>
+		parts;                 ///< triangles, in increasing order, the parts by their first
+	Array<RigidMotion> motion; ///< [triangle] how it was moved
+	ChartCuts seams;           ///< what they have more than before, or less
 };
 
 /// Joins parts of a drawing across seams: the sides of a seam are isometric, so that a part can be
@@ -35,8 +36,8 @@ struct JoinedParts
 /// \param drawn its points are moved
 /// \param parts no part covers itself
 /// \param tick see overlappingPairs()
-JoinedParts joinParts(
-	DrawnTriangles& drawn, const std::vector<std::vector<int>>& parts, const Tick& tick);
+JoinedParts
+joinParts(DrawnTriangles& drawn, const std::vector<std::vector<int>>& parts, const Tick& tick);
 
 } // namespace ricci
 

@@ -212,8 +212,7 @@ void separateCharts(const SurfaceMesh& mesh, bool resolve, const Tick& tick, Par
 			continue;
 		}
 		ChartCuts cuts;
-		const auto parts =
-			join(output, chart, separateParts(output, pairs, tick, cuts), tick, map);
+		const auto parts = join(output, chart, separateParts(output, pairs, tick, cuts), tick, map);
 		map.report.overlapCuts += cuts.edges;
 		map.report.seamLength += cuts.length;
 		for (Chart& part : chartsOf(map, chart, parts, faceDone)) {

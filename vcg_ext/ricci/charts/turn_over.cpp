@@ -43,8 +43,8 @@ std::pair<int, double> seams(const SurfaceMesh& mesh, const Parametrization& map
 		if (sides != 2 || isInside(side, sides))
 			return;
 		++count;
-		length += distance(
-			mesh.positions[positionOf(side->low)], mesh.positions[positionOf(side->high)]);
+		length +=
+			distance(mesh.positions[positionOf(side->low)], mesh.positions[positionOf(side->high)]);
 	});
 	return {count, length};
 }
