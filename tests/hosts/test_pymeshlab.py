@@ -173,7 +173,7 @@ class Results(unittest.TestCase):
 
     def test_capped_holes(self):
         documents = mesh_set(meshes.annulus())
-        returned = self.check(documents, holes="Capped")
+        returned = self.check(documents, holes="Capped", cone_distortion=10)
         self.assertEqual((returned["boundary_loops"], returned["capped_holes"]), (2, 1))
         self.assertEqual((returned["seam_edges"], returned["charts"]), (0, 1))
         open_ring = self.check(mesh_set(meshes.annulus()))

@@ -72,7 +72,7 @@ class RockerArm(unittest.TestCase):
 
 
 class EveryMesh(unittest.TestCase):
-    """Each is solved without a flipped face, or ends in a sentence."""
+    """Each is solved without a flipped face and with areas for a texture, or ends in a sentence."""
 
     def test_common_refinement(self):
         self.check_all(output_triangulation="Common refinement")
@@ -82,7 +82,8 @@ class EveryMesh(unittest.TestCase):
 
     def check_all(self, **values):
         files = sorted(glob.glob(os.path.join(MESHES, "*.ply"))) + sorted(
-            glob.glob(os.path.join(MESHES, "peers", "*.ply")))
+            glob.glob(os.path.join(MESHES, "peers", "*.ply"))) + [
+                os.path.join(MESHES, "hard", "g12_crank.ply")]
         self.assertGreater(len(files), 0)
         for path in files:
             name = os.path.splitext(os.path.basename(path))[0]
@@ -115,6 +116,7 @@ class EveryMesh(unittest.TestCase):
         wedges = documents.current_mesh().wedge_tex_coord_matrix().reshape(-1, 3, 2)
         self.assertTrue(all(meshes.uv_area(wedge) > 0 for wedge in wedges))
         self.assertEqual((returned["flipped_faces"], returned["flipped_by_rounding"]), (0, 0))
+        self.assertLessEqual(returned["area_distortion_mean"], 3)
         self.assertEqual(documents.current_mesh().vertex_number(),
                          vertices + (returned["refinement_points"] if values else 0))
 
