@@ -208,6 +208,18 @@ TEST(SphereMap, IsOrientedAndCentredForCoarseAndAwkwardSurfaces)
 	}
 }
 
+/// Areas change by far more than Automatic would leave without cones, which a map to the sphere must
+/// not have.
+TEST(SphereMap, IsConformalWhateverAreasDo)
+{
+	const SurfaceMesh mesh = sphereWithTube(0.2, 2.0, 0.0, 40, 24);
+	const SphereMap map = toSphere(mesh);
+	EXPECT_EQ(map.flippedFaces, 0);
+	EXPECT_LT(map.qcAreaMean, 1.08);
+	EXPECT_LT(map.qcMax, 1.6);
+	EXPECT_GT(map.areaDistortionMean, 5.0);
+}
+
 /// On the sphere a face of this solid spans more than a hemisphere. Drawn straight it lies on the other
 /// side, turned round, so that the faces cover the sphere no times in sum.
 TEST(SphereMap, CountsFacesThatSpanMoreThanAHemisphere)
