@@ -3,7 +3,7 @@
 # figures.sh [ROCKER_ARM.ply]: the pictures after the paper's figures. PyMeshLab runs the filter on
 # MeshLab's own surfaces and on Debian's libcgal-demo meshes, and the window of stock MeshLab 2020.09
 # shows the layers on a display without a screen. Needs what tests/run.sh installs and builds.
-# RICCI_PICTURES="bunny bust" makes some of them only.
+# RICCI_PICTURES="bunny annulus" makes some of them only.
 set -euo pipefail
 # shellcheck source=../filter_ricci/scripts/machine.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../filter_ricci/scripts/machine.sh"
@@ -55,7 +55,7 @@ shoot() {
 }
 
 has() {
-	[[ " ${RICCI_PICTURES-kitten bunny mask bust} " == *" $1 "* ]]
+	[[ " ${RICCI_PICTURES-kitten bunny mask annulus bust} " == *" $1 "* ]]
 }
 
 # row OUT HEIGHT NAME=TEXT...: pictures side by side on white, at most HEIGHT pixels high, a line of
@@ -138,10 +138,19 @@ make_pictures() {
 			"mask_rectangle=Rectangle" "mask_rectangle_chart=its chart (Fig. 11)"
 		row free_boundary 500 "mask_free=free boundary (Fig. 12)" "mask_free_chart=its chart"
 	fi
+	if has annulus; then
+		shoot annulus annulus.ply
+		shoot annulus_chart annulus_chart.ply
+		row annulus 500 "annulus=$(cat annulus.txt)" "annulus_chart=its chart"
+	fi
 	if has bust; then
-		shoot bust bust.ply
-		shoot bust_chart bust_chart.ply
-		row annulus 500 "bust=$(cat bust.txt)" "bust_chart=its chart"
+		local map
+		for map in plain default; do
+			shoot bust_$map bust_$map.ply
+			shoot bust_${map}_chart bust_${map}_chart.ply
+		done
+		row bust 420 "bust_plain=$(cat bust_plain.txt)" "bust_plain_chart=its chart" \
+			"bust_default=$(cat bust_default.txt)" "bust_default_chart=its chart"
 	fi
 	[ $# -eq 0 ] || compare rocker_arm rocker_arm_distortion
 }
