@@ -134,6 +134,9 @@ constexpr double kOnePlace = 1e-9, kTouching = 1e-9;
 /// that are mended get so many times this height where they can.
 constexpr double kLeastHeight = 0x1p-21, kLeastFloatSteps = 4.0, kWantedHeights = 2.0;
 
+/// Formats of text give coordinates in the unit square with six decimals.
+constexpr double kTextStep = 1e-6;
+
 /// The pieces of a refinement may be as thin as a double shows.
 constexpr double kLeastRefinedHeight = 0x1p-46;
 

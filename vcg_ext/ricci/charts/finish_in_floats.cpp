@@ -39,12 +39,15 @@ public:
 					largest = std::max(largest, std::abs(x));
 		const double height = kLeastFloatSteps * floatStep(largest);
 		soundness = {height, kWantedHeights * height, true};
+		inText = soundness;
+		if (!map.isRefined() && largest > 0.5 && largest <= 1.0)
+			inText = {height, kWantedHeights * kTextStep, true, kTextStep};
 	}
 
-	bool isSound() const
+	bool isSound(const Soundness& wanted) const
 	{
 		for (std::size_t f = 0; f < m_uv.size(); ++f)
-			if (!soundness.isSound(inOrder(f, m_uv[f])))
+			if (!wanted.isSound(inOrder(f, m_uv[f])))
 				return false;
 		return true;
 	}
@@ -106,6 +109,7 @@ public:
 
 	DrawnTriangles drawn;
 	Soundness soundness;
+	Soundness inText; ///< for coordinates with six decimals, in the unit square
 
 private:
 	/// The corners of a triangle with two of them swapped if it is reversed.
@@ -211,19 +215,17 @@ void measureInDisk(const SurfaceMesh& mesh, const std::vector<Box2>& disks, Para
 void finishInFloats(const SurfaceMesh& mesh, const Tick& tick, Parametrization& map)
 {
 	Output output(map);
-	if (output.isSound())
+	if (output.isSound(output.inText))
 		return;
 	output.draw(mesh);
 	BorderTest test(output);
 	const PatchTest accepts = [&](const DrawnTriangles& drawn, const Patch& patch) {
 		return test(drawn, patch);
 	};
-	Repair result = repairInStages(
-		output.drawn,
-		{SeamGeometry::Plane, [](int) { return false; }, accepts},
-		RestShapes::OfDrawing,
-		output.soundness,
-		tick);
+	const BorderMoves moves{SeamGeometry::Plane, [](int) { return false; }, accepts};
+	Repair result = repairInStages(output.drawn, moves, RestShapes::OfDrawing, output.inText, tick);
+	// Where there is no room for that, floats have to do.
+	result.add(repairInStages(output.drawn, moves, RestShapes::OfDrawing, output.soundness, tick));
 	if (result.left > 0)
 		result.add(
 			repairFreely(output.drawn, accepts, RestShapes::OfDrawing, output.soundness, tick));
@@ -235,7 +237,7 @@ void finishInFloats(
 	const SurfaceMesh& mesh, const std::vector<Box2>& disks, const Tick& tick, Parametrization& map)
 {
 	Output output(map);
-	if (output.isSound())
+	if (output.isSound(output.soundness))
 		return;
 	output.draw(mesh);
 	const auto isInDisk = [&](const DrawnTriangles& drawn, const Patch& patch) {

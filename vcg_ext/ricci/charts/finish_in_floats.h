@@ -12,7 +12,8 @@ namespace ricci {
 
 /// The last look at a packed map, at the coordinates as they will be stored: mends the triangles of
 /// the output that are turned round or flat once the coordinates are rounded to float, or lower than a
-/// few steps of a float. Points move by a few steps near these triangles, to floats, and no others;
+/// few steps of a float; and in a map of the mesh's own triangles that fills the unit square, those that
+/// six decimals would turn. Points move by a few steps near these triangles, to floats, and no others;
 /// the report's finishMoved counts them, and where there are any the distortion is measured again. No
 /// chart leaves its box, and no border is made to cross another. Seams stay isometric up to the
 /// rounding, but where a triangle can be mended in no other way.

@@ -7,6 +7,7 @@
 #include "../math/points.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ricci {
 
@@ -16,11 +17,16 @@ struct Soundness
 	double height = 0.0;   ///< its least height is above this
 	double wanted = 0.0;   ///< and should be this at least where it is mended
 	bool asFloats = false; ///< with its coordinates rounded to float
+	double step = 0.0;     ///< and these to multiples of it, if it is not 0
 
 	/// The point as it is stored.
 	Point2 stored(const Point2& p) const
 	{
-		return asFloats ? Point2{roundedToFloat(p[0]), roundedToFloat(p[1])} : p;
+		Point2 rounded = inMemory(p);
+		if (step > 0.0)
+			for (double& x : rounded)
+				x = std::nearbyint(x / step) * step;
+		return rounded;
 	}
 
 	/// Whether it is counter-clockwise, exactly.
@@ -32,9 +38,16 @@ struct Soundness
 	/// Whether it is counter-clockwise, exactly, and high enough.
 	bool isSound(const Triangle2& p) const
 	{
-		const Point2 a = stored(p[0]), b = stored(p[1]), c = stored(p[2]);
+		const Point2 a = inMemory(p[0]), b = inMemory(p[1]), c = inMemory(p[2]);
 		const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
-		return orientation(a, b, c) > 0 && doubledArea(a, b, c) > height * longest;
+		return orientation(a, b, c) > 0 && doubledArea(a, b, c) > height * longest &&
+			   (step == 0.0 || isUpright(p));
+	}
+
+private:
+	Point2 inMemory(const Point2& p) const
+	{
+		return asFloats ? Point2{roundedToFloat(p[0]), roundedToFloat(p[1])} : p;
 	}
 };
 
