@@ -338,7 +338,7 @@ private:
 		m_parts.emplace_back();
 		m_area.push_back(0.0);
 		move(covered, {displaced, RigidMotion(), 0.0});
-		if (pieces(place.other).size() > 1)
+		if (pieces(place.other, [](int) { return true; }).size() > 1)
 			return false;
 		move(std::vector<int>(m_parts[positionOf(part)]), place);
 		return divide(displaced);
@@ -358,19 +358,20 @@ private:
 		}
 	}
 
-	/// The connected pieces of a part.
-	std::vector<std::vector<int>> pieces(int part) const
+	/// The connected pieces of what \p isIn(triangle) leaves of a part.
+	template<class IsIn>
+	std::vector<std::vector<int>> pieces(int part, const IsIn& isIn) const
 	{
 		std::vector<std::vector<int>> found;
 		Array<char> seen(m_part.size(), 0);
 		for (const int first : m_parts[positionOf(part)]) {
-			if (seen[first])
+			if (seen[first] || !isIn(first))
 				continue;
 			std::vector<int> piece{first};
 			seen[first] = 1;
 			for (std::size_t i = 0; i < piece.size(); ++i)
 				forSides(piece[i], [&](const Seam& seam) {
-					if (isJoined(seam) && !seen[seam.other]) {
+					if (isJoined(seam) && !seen[seam.other] && isIn(seam.other)) {
 						seen[seam.other] = 1;
 						piece.push_back(seam.other);
 					}
@@ -455,28 +456,14 @@ private:
 					take(seam.other);
 			});
 		// What is cut off by it goes with it.
-		std::vector<int> largest;
-		std::vector<std::vector<int>> pieces;
-		Array<char> seen(m_part.size(), 0);
-		for (const int first : m_parts[positionOf(place.other)]) {
-			if (state[first] == kTaken || seen[first])
-				continue;
-			std::vector<int> piece{first};
-			seen[first] = 1;
-			for (std::size_t i = 0; i < piece.size(); ++i)
-				forSides(piece[i], [&](const Seam& seam) {
-					if (isJoined(seam) && state[seam.other] != kTaken && !seen[seam.other]) {
-						seen[seam.other] = 1;
-						piece.push_back(seam.other);
-					}
-				});
-			if (piece.size() > largest.size())
-				piece.swap(largest);
-			if (!piece.empty())
-				pieces.push_back(std::move(piece));
-		}
+		auto rest = pieces(place.other, [&](int f) { return state[f] != kTaken; });
+		std::sort(rest.begin(), rest.end(), [](const auto& x, const auto& y) {
+			return x.size() < y.size();
+		});
+		if (!rest.empty())
+			rest.pop_back(); // the largest stays
 		bool isWhole = sum >= area;
-		for (const std::vector<int>& piece : pieces)
+		for (const std::vector<int>& piece : rest)
 			for (const int f : piece) {
 				isWhole = isWhole && state[f] == kFree;
 				take(f);

@@ -11,11 +11,11 @@ namespace ricci {
 /// Finds the charts of \p map that cover a part of the plane more than once (see
 /// overlappingPairs()), on the triangles of the output: those of the refinement where there is one.
 ///
-/// With \p resolve such charts are replaced by the parts of divideChart(), each with its smallest
-/// bounding rectangle along the axes, from the origin. The report then has no overlap but the edges
-/// that were cut, whose length is added to that of the seams. A face of the input goes with the
-/// first of its pieces. Without \p resolve the report counts the charts, and their faces that
-/// overlap. In both cases it counts the charts.
+/// With \p resolve such charts are replaced by the parts of divideChart(), joined again by joinParts()
+/// across seams where they have room, each with its smallest bounding rectangle along the axes, from
+/// the origin. The report then has no overlap, but what the seams have grown or shrunk by, in edges
+/// and in length. A face of the input goes with the first of its pieces. Without \p resolve the
+/// report counts the charts, and their faces that overlap. In both cases it counts the charts.
 /// \param tick see overlappingPairs()
 void separateCharts(const SurfaceMesh& mesh, bool resolve, const Tick& tick, Parametrization& map);
 

@@ -119,7 +119,8 @@ cutCost(const FlowDomain& domain, const FlowResult& flow, const HyperbolicOption
 													  : flow.metric->lengths();
 }
 
-/// What wedges of cones may be how wide. In the disk all may be.
+/// Angles at cones, which bound the width of wedges in the plane (see shortenCut()). In the disk wedges
+/// may be as wide as they like.
 HalfedgeArray<double> cutCorners(const FlowDomain& domain, const ComponentMap& map, const Options&)
 {
 	return cornersOfCones(domain.surface, map.flow.target, map.cones);
