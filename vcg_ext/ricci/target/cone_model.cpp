@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include <numeric>
 #include <optional>
 
 namespace ricci {
@@ -76,7 +77,7 @@ void ConeModel::remove(int i)
 	m_fields.values().erase(m_fields.begin() + i);
 }
 
-int ConeModel::leastNeeded() const
+std::vector<int> ConeModel::byNeed() const
 {
 	const int n = size(), rows = n + (hasFixedSum() ? 1 : 0);
 	Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows, rows);
@@ -86,16 +87,13 @@ int ConeModel::leastNeeded() const
 		system.col(n).head(n).setOnes();
 	}
 	const Eigen::MatrixXd inverse = system.fullPivLu().inverse();
-	int best = 0;
-	double min = std::numeric_limits<double>::infinity();
-	for (int i = 0; i < n; ++i) {
-		const double rise = curvature(i) * curvature(i) / inverse(i, i);
-		if (rise < min) {
-			min = rise;
-			best = i;
-		}
-	}
-	return best;
+	std::vector<int> cones(positionOf(n));
+	std::iota(cones.begin(), cones.end(), 0);
+	std::stable_sort(cones.begin(), cones.end(), [&](int a, int b) {
+		return curvature(a) * curvature(a) / inverse(a, a) <
+			   curvature(b) * curvature(b) / inverse(b, b);
+	});
+	return cones;
 }
 
 void ConeModel::setRounding(ConeRounding rounding)

@@ -116,10 +116,9 @@ public:
 		m_isCone[m_now.vertices[i]] = 1;
 	}
 
-	/// The cone without which the lowest energy rises least: by k_i^2 over entry i of the diagonal of
-	/// the inverse of G, bordered by the sum where it is fixed.
-	/// \pre size() > 0
-	int leastNeeded() const;
+	/// The cones by how much the lowest energy rises without each, the one needed least first: by k_i^2
+	/// over entry i of the diagonal of the inverse of G, bordered by the sum where it is fixed.
+	std::vector<int> byNeed() const;
 
 	/// Takes cone \p i out, fits the others, and undoes that and whatever \p accept has done to the
 	/// model unless it returns true.

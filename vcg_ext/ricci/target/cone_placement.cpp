@@ -5,6 +5,7 @@
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "area_change.h"
+#include "coarse_flow.h"
 #include "cone_search.h"
 #include "cone_tree.h"
 
@@ -17,6 +18,12 @@ namespace {
 
 /// Cones move once the distortion is within this factor of the wanted one.
 constexpr double kNearlyEnough = 1.1;
+
+/// On more vertices than this, cones are searched for on aggregates of them.
+constexpr int kMaxSearched = 10000;
+
+/// Aggregates that are few enough to search on first.
+constexpr int kMinSearched = 2000;
 
 void checkCount(const ConeRequest& request, const ConeModel& model, const ConeSites& sites)
 {
@@ -64,7 +71,7 @@ bool mayGrow(const ConeModel& model, double wanted)
 
 /// Adds cones until they reach the distortion. Free curvatures show where to put them; the rounded
 /// ones have to reach it.
-void placeForDistortion(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
+void addForDistortion(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	model.setRounding(request.rounding);
 	while (model.distortion() > request.distortion && mayGrow(model, request.distortion)) {
@@ -75,6 +82,12 @@ void placeForDistortion(const ConeRequest& request, ConeModel& model, const Cone
 			relocateCones(model, sites);
 		model.setRounding(request.rounding);
 	}
+}
+
+/// The same, with no more cones than it takes.
+void placeForDistortion(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
+{
+	addForDistortion(request, model, sites);
 	if (model.distortion() <= request.distortion && model.size() <= kMaxPlacedCones)
 		dropCones(model, sites, request.distortion);
 }
@@ -95,6 +108,64 @@ void addForAreas(
 			break;
 		model.setRounding(request.rounding);
 	}
+}
+
+/// All of the search, from the cones that \p model has.
+void search(
+	const SurfaceType& type, const ConeRequest& request, ConeModel& model, const ConeSites& sites)
+{
+	startCones(model, sites);
+	if (request.count > 0)
+		placeCount(request, model, sites);
+	else
+		placeForDistortion(request, model, sites);
+	if (request.rounding != ConeRounding::Free) {
+		model.setRounding(request.rounding); // also where no vertex was left for one more cone
+		relocateCones(model, sites);
+	}
+	removeWeakCones(model);
+
+	// The cut of a sphere is the tree of its cones and nothing else.
+	if (request.shortSeams && type.isSphere()) {
+		shortenConeTree(
+			model,
+			sites,
+			request.count > 0 ? kSeamAllowance * model.distortion() : request.distortion);
+		removeWeakCones(model);
+	}
+}
+
+/// The same on aggregates of vertices, from coarse ones to finer ones, then on the surface itself as
+/// far as its own distortion asks for it.
+void searchFromCoarse(
+	const SurfaceType& type,
+	const ConeRequest& request,
+	LinearFlow& flow,
+	ConeModel& model,
+	const ConeSites& sites)
+{
+	Array<Vertex> cones; // vertices of the surface
+	for (CoarseFlow& level : coarseFlows(flow, kMaxSearched, kMinSearched)) {
+		const ConeSites levelSites(sites, level.roots);
+		ConeModel levelModel(level.flow, model.total());
+		for (const Vertex v : level.roots.indices())
+			if (std::find(cones.begin(), cones.end(), level.roots[v]) != cones.end())
+				levelModel.append(v);
+		levelModel.fit();
+		search(type, request, levelModel, levelSites);
+		cones.clear();
+		for (int i = 0; i < levelModel.size(); ++i)
+			cones.push_back(level.roots[levelModel.vertex(i)]);
+	}
+	for (const Vertex v : cones)
+		model.append(v);
+	model.setRounding(request.rounding);
+	model.fit();
+	if (request.count > 0 || model.distortion() > request.distortion)
+		relocateCones(model, sites);
+	if (request.count == 0)
+		addForDistortion(request, model, sites);
+	removeWeakCones(model);
 }
 
 PlacedCones result(ConeModel& model)
@@ -127,26 +198,10 @@ PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const C
 	const ConeSites sites(surface, request.vertices);
 	ConeModel model(flow, 2 * kPi * type.eulerCharacteristic());
 	checkCount(request, model, sites);
-
-	startCones(model, sites);
-	if (request.count > 0)
-		placeCount(request, model, sites);
+	if (surface.triangulation.vertexCount() <= kMaxSearched)
+		search(type, request, model, sites);
 	else
-		placeForDistortion(request, model, sites);
-	if (request.rounding != ConeRounding::Free) {
-		model.setRounding(request.rounding); // also where no vertex was left for one more cone
-		relocateCones(model, sites);
-	}
-	removeWeakCones(model);
-
-	// The cut of a sphere is the tree of its cones and nothing else.
-	if (request.shortSeams && type.isSphere()) {
-		shortenConeTree(
-			model,
-			sites,
-			request.count > 0 ? kSeamAllowance * model.distortion() : request.distortion);
-		removeWeakCones(model);
-	}
+		searchFromCoarse(type, request, flow, model, sites);
 	return result(model);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_search.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -17,6 +18,9 @@ constexpr int kMaxRounds = 5;
 
 /// Places down the gradient that are tried.
 constexpr int kMaxTrials = 4;
+
+/// Cones of which one may be dropped.
+constexpr std::size_t kMaxDropTrials = 5;
 
 /// A move must lower the energy by this share.
 constexpr double kMinGain = 0.005;
@@ -92,11 +96,10 @@ bool relocate(ConeModel& model, const ConeSites& sites, int i, double& present)
 	std::vector<Vertex> path{old};
 	for (;;) {
 		Vertex near = path.back();
-		for (const Halfedge h : sites.leaving(path.back())) {
-			const Vertex v = sites.target(h);
-			if (!model.isCone(v) && sites.isAllowed(v) && own * whole[v] < own * whole[near])
-				near = v;
-		}
+		for (const ConeSites::Way& way : sites.ways(path.back()))
+			if (!model.isCone(way.to) && sites.isAllowed(way.to) &&
+				own * whole[way.to] < own * whole[near])
+				near = way.to;
 		if (near == path.back())
 			break;
 		path.push_back(near);
@@ -166,7 +169,13 @@ void dropCones(ConeModel& model, const ConeSites& sites, double distortion)
 		relocateCones(model, sites);
 		return model.distortion() <= distortion;
 	};
-	while (model.size() > model.minSize() && model.tryWithout(model.leastNeeded(), isEnough)) {
+	const auto dropOne = [&] {
+		std::vector<int> cones = model.byNeed();
+		cones.resize(std::min(cones.size(), kMaxDropTrials));
+		return std::any_of(
+			cones.begin(), cones.end(), [&](int i) { return model.tryWithout(i, isEnough); });
+	};
+	while (model.size() > model.minSize() && dropOne()) {
 	}
 }
 

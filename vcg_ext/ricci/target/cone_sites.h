@@ -7,33 +7,41 @@
 
 namespace ricci {
 
-/// Where cones may lie on a surface, and the ways along its edges. Refers to the surface.
+/// Where cones may lie on a surface, and the ways from one site to the next.
 class ConeSites
 {
 public:
+	/// A way to a site next to another.
+	struct Way
+	{
+		Vertex to;
+		double length;
+	};
+
+	/// The vertices of \p surface and its edges.
 	/// \param vertices cones may lie at vertices with a number below this; -1: at any
 	ConeSites(const EmbeddedSurface& surface, int vertices);
 
-	/// Whether a cone may lie at \p v: in the interior, with a number that is low enough.
-	bool isAllowed(Vertex v) const
-	{
-		return v.number() < m_vertices && !m_surface.topology.boundary[v];
-	}
+	/// Some of the sites of \p fine, numbered anew. Two of them are joined where regions nearest to
+	/// them meet, by the shortest way through the two; the minimum spanning trees of shortest paths
+	/// stay the same [Mehlhorn 1988].
+	ConeSites(const ConeSites& fine, const VertexArray<Vertex>& chosen);
 
-	/// Number of vertices where a cone may lie.
+	/// Whether a cone may lie at \p v: in the interior, with a number that is low enough.
+	bool isAllowed(Vertex v) const { return m_isAllowed[v] != 0; }
+
+	/// Number of sites where a cone may lie.
 	int count() const;
 
-	/// The halfedges that leave \p v, in increasing order.
-	ItemRange<const Halfedge> leaving(Vertex v) const { return m_leaving[v]; }
-	Vertex target(Halfedge h) const { return m_surface.triangulation.target(h); }
+	/// The ways from \p v.
+	ItemRange<const Way> ways(Vertex v) const { return m_ways[v]; }
 
-	/// Lengths of the shortest paths along edges from \p v to every vertex.
+	/// Lengths of the shortest paths from \p v to every site.
 	VertexArray<double> distancesFrom(Vertex v) const;
 
 private:
-	const EmbeddedSurface& m_surface;
-	int m_vertices;
-	Adjacency<Vertex, Halfedge> m_leaving;
+	VertexArray<char> m_isAllowed;
+	Adjacency<Vertex, Way> m_ways;
 };
 
 } // namespace ricci

@@ -1,16 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "linear_flow.h"
 
+#include "../error.h"
 #include "../flow/curvature_map.h"
 #include "../metric/circle_packing.h"
 #include "../metric/euclidean.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace ricci {
 
 namespace {
+
+/// An edge with less than this share of a vertex's diagonal is one of rounding.
+constexpr double kNoEdge = 1e-9;
+
+/// The lower triangle of \p matrix with the rows \p row, those below 0 left out.
+Eigen::SparseMatrix<double>
+lowerTriangle(const Eigen::SparseMatrix<double>& matrix, const VertexArray<int>& row)
+{
+	std::vector<Eigen::Triplet<double>> entries;
+	int rows = 0;
+	for (const Vertex v : row.indices()) {
+		rows += row[v] >= 0;
+		for (Eigen::SparseMatrix<double>::InnerIterator e(matrix, v.number()); e; ++e)
+			if (row[v] >= 0 && row[Vertex(e.row())] >= row[v])
+				entries.emplace_back(row[Vertex(e.row())], row[v], e.value());
+	}
+	Eigen::SparseMatrix<double> lower(rows, rows);
+	lower.setFromTriplets(entries.begin(), entries.end());
+	return lower;
+}
+
+/// Both triangles of the matrix with the lower triangle \p lower, with other row numbers.
+Eigen::SparseMatrix<double>
+symmetric(const Eigen::SparseMatrix<double>& lower, const Array<int>& number)
+{
+	Eigen::VectorXi numbers(number.size());
+	for (const int row : number.indices())
+		numbers[row] = number[row];
+	const Eigen::PermutationMatrix<Eigen::Dynamic> permutation(numbers);
+	Eigen::SparseMatrix<double> full;
+	full = lower.selfadjointView<Eigen::Lower>().twistedBy(permutation);
+	return full;
+}
 
 /// The curvature map of \p packing at its radii.
 std::unique_ptr<CurvatureMap> mapOf(const InitialPacking& packing)
@@ -54,6 +90,86 @@ LinearFlow::LinearFlow(
 		factorize(surface, *flow.metric, boundary, m_ownHessian);
 }
 
+LinearFlow::LinearFlow(LinearSystem system) :
+		m_system(std::make_unique<FactoredSystem>()), m_fixesBoundary(system.fixesBoundary),
+		m_curvature(std::move(system.curvature)), m_area(std::move(system.area)),
+		m_factor(std::move(system.factor)), m_sink(std::move(system.sink))
+{
+	VertexArray<int>& row = m_system->row;
+	m_system->values = std::move(system.values);
+	row.resize(vertexCount());
+	const int pinned = m_fixesBoundary ? 0 : 1;
+	for (const Vertex v : row.indices())
+		row[v] = v.number() - pinned;
+	m_unknowns = std::max(0, vertexCount() - pinned);
+	Eigen::SparseMatrix<double> lower;
+	const auto layOut = [&] { lower = lowerTriangle(system.laplacian, row); };
+	layOut();
+	if (m_unknowns == 0)
+		return;
+	m_system->cholesky.analyze(lower, row.values(), layOut);
+	if (!m_system->cholesky.factorize(lower))
+		throw SolverFailed(SolverFailed::Flow);
+}
+
+void LinearFlow::soften(double factor)
+{
+	m_system->values *= std::sqrt(factor);
+}
+
+LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
+{
+	const VertexArray<int>& row = m_hessian->row();
+	vertices.clear();
+	VertexArray<int> number(row.size(), -1);
+	Array<int> vertexOfRow(m_unknowns);
+	Vertex pinned;
+	for (const Vertex v : row.indices()) {
+		if (row[v] >= 0) {
+			number[v] = vertices.size();
+			vertexOfRow[row[v]] = vertices.size();
+			vertices.push_back(v);
+		}
+		else if (!m_fixesBoundary)
+			pinned = v;
+	}
+	const Eigen::SparseMatrix<double>& lower = m_hessian->hessian().matrix();
+	const auto ofVertices = [&](const VertexVector& values) {
+		VertexVector result(values.size() == 0 ? 0 : vertices.size());
+		if (values.size() > 0)
+			for (const Vertex v : vertices.indices())
+				result[v] = values[vertices[v]];
+		return result;
+	};
+
+	LinearSystem result;
+	result.fixesBoundary = m_fixesBoundary;
+	result.laplacian = symmetric(lower, vertexOfRow);
+	result.curvature = ofVertices(m_curvature);
+	result.area = ofVertices(m_area);
+	result.factor = ofVertices(m_factor);
+	result.sink = ofVertices(m_sink);
+	if (!pinned.isValid()) {
+		result.area /= result.area.sum();
+		return result;
+	}
+	// What a row lacks to 0 is the weight of the edge to the vertex that is left out.
+	VertexVector share = result.laplacian * Eigen::VectorXd::Ones(vertices.size());
+	for (const Vertex v : share.indices()) {
+		double& diagonal = result.laplacian.coeffRef(v.number(), v.number());
+		if (share[v] < kNoEdge * diagonal)
+			share[v] = 0.0;
+		diagonal -= share[v];
+	}
+	if (share.sum() > 0.0)
+		share /= share.sum();
+	result.curvature += m_curvature[pinned] * share;
+	result.area += m_area[pinned] * share;
+	if (m_sink.size() > 0)
+		result.sink += m_sink[pinned] * share;
+	return result;
+}
+
 void LinearFlow::factorize(
 	const EmbeddedSurface& surface,
 	const CurvatureMap& map,
@@ -64,7 +180,8 @@ void LinearFlow::factorize(
 		m_fixesBoundary ? surface.topology.boundary : VertexArray<char>(vertexCount(), 0),
 		map.scaleInvariant());
 	m_hessian = hessian.get();
-	if (m_hessian->unknowns() > 0)
+	m_unknowns = m_hessian->unknowns();
+	if (m_unknowns > 0)
 		m_hessian->factorize(map);
 	if (boundary == ConeBoundary::Prescribed && !surface.topology.type.isClosed())
 		spreadSink(surface);
@@ -100,11 +217,24 @@ VertexVector LinearFlow::gradient(const VertexVector& u)
 /// L^-1 rhs on the unknown vertices, 0 on the others.
 VertexVector LinearFlow::solveRows(const VertexVector& rhs)
 {
-	m_hessian->gather(rhs, m_rhs);
-	if (m_hessian->unknowns() > 0)
-		m_hessian->cholesky().solve(m_rhs, m_solution);
-	VertexVector x(vertexCount());
-	m_hessian->scatter(m_solution, x);
+	const VertexArray<int>& row = m_hessian ? m_hessian->row() : m_system->row;
+	SparseCholesky& cholesky = m_hessian ? m_hessian->cholesky() : m_system->cholesky;
+	const bool isRestricted = m_system && m_system->values.size() > 0;
+	VertexVector x;
+	if (isRestricted)
+		x = m_system->values.transpose() * rhs;
+	const VertexVector& load = isRestricted ? x : rhs;
+	m_rhs.resize(m_unknowns);
+	for (const Vertex v : row.indices())
+		if (row[v] >= 0)
+			m_rhs[row[v]] = load[v];
+	if (m_unknowns > 0)
+		cholesky.solve(m_rhs, m_solution);
+	x.resize(vertexCount());
+	for (const Vertex v : row.indices())
+		x[v] = row[v] >= 0 ? m_solution[row[v]] : 0.0;
+	if (isRestricted)
+		return m_system->values * x;
 	return x;
 }
 

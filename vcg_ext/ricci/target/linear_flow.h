@@ -9,6 +9,20 @@
 
 namespace ricci {
 
+/// The equation L u = k - K of a LinearFlow on the vertices where u is unknown.
+struct LinearSystem
+{
+	Eigen::SparseMatrix<double> laplacian; ///< L, both triangles
+	/// Empty, or B where u = B x at the vertices for the unknowns x of a smaller space: the equation
+	/// then is L x = B^T (k - K).
+	Eigen::SparseMatrix<double, Eigen::RowMajor> values;
+	VertexVector curvature;     ///< K, radians
+	VertexVector area;          ///< shares in the whole area, which add up to 1
+	VertexVector factor;        ///< u where the flow is linearised; empty: 0
+	VertexVector sink;          ///< shares of what the sum of k - K lacks; empty: no such
+	bool fixesBoundary = false; ///< u is 0 on a boundary, which is not among the vertices
+};
+
 /// The flow to a target curvature k, linearised at its start: L u = k - K, where K is the curvature
 /// of the surface and L the derivative of K by u, the Hessian of the Ricci energy (a Laplacian). It
 /// is the equation of Newton's first step, and that by which [Ben-Chen Gotsman Bunin 2008] estimate
@@ -38,6 +52,9 @@ public:
 		const FlowResult& flow,
 		ConeBoundary boundary,
 		VertexVector weights);
+	/// The flow with the equation \p system.
+	/// \throw SolverFailed
+	explicit LinearFlow(LinearSystem system);
 	LinearFlow(const LinearFlow&) = delete;
 	LinearFlow& operator=(const LinearFlow&) = delete;
 
@@ -68,6 +85,15 @@ public:
 	/// up to a constant where the sum of the curvatures is fixed.
 	VertexVector gradient(const VertexVector& u);
 
+	/// Makes all solutions larger by \p factor. \pre made from a LinearSystem with values
+	void soften(double factor);
+
+	/// The equation, without the shift that a Hessian may have. The vertices where u is unknown are
+	/// put into \p vertices, increasing. Where no u is fixed, the vertex that solve() holds is left out
+	/// like a hole, and its curvature and area go to its neighbours.
+	/// \pre not made from a LinearSystem
+	LinearSystem system(VertexArray<Vertex>& vertices) const;
+
 private:
 	void computeAreas(const CurvatureMap& map);
 	void factorize(
@@ -78,8 +104,18 @@ private:
 	void spreadSink(const EmbeddedSurface& surface);
 	VertexVector solveRows(const VertexVector& rhs);
 
+	/// Of a LinearSystem.
+	struct FactoredSystem
+	{
+		VertexArray<int> row; // or -1
+		Eigen::SparseMatrix<double, Eigen::RowMajor> values;
+		SparseCholesky cholesky;
+	};
+
+	std::unique_ptr<FactoredSystem> m_system;      // null where there is a Hessian
 	std::unique_ptr<FactoredHessian> m_ownHessian; // null where that of the start is used
 	FactoredHessian* m_hessian = nullptr;
+	int m_unknowns = 0;
 	bool m_fixesBoundary;
 	VertexVector m_curvature, m_area;
 	VertexVector m_factor; // u where the flow is linearised; empty: 0
