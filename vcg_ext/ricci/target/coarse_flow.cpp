@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "coarse_flow.h"
 
-#include "../math/smoothed_aggregation.h"
+#include "../math/aggregation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 
@@ -21,31 +21,12 @@ sums(const Aggregation& aggregation, const VertexVector& values, const VertexVec
 	return result;
 }
 
-/// The rows of the \p chosen vertices in the matrix 1.
-Eigen::SparseMatrix<double, Eigen::RowMajor> selection(const Array<int>& chosen, int vertexCount)
-{
-	Eigen::SparseMatrix<double, Eigen::RowMajor> rows(chosen.size(), vertexCount);
-	rows.reserve(chosen.size());
-	for (const int i : chosen.indices()) {
-		rows.startVec(i);
-		rows.insertBack(i, chosen[i]) = 1.0;
-	}
-	rows.finalize();
-	return rows;
-}
-
 LinearSystem coarser(const LinearSystem& fine, const Aggregation& aggregation)
 {
-	const Eigen::SparseMatrix<double>& prolongation = aggregation.prolongation;
 	const VertexVector one = VertexVector::Ones(fine.area.size());
 	LinearSystem coarse;
 	coarse.fixesBoundary = fine.fixesBoundary;
-	const Eigen::SparseMatrix<double> image = fine.laplacian * prolongation;
-	coarse.laplacian = prolongation.transpose() * image;
-	coarse.values = selection(aggregation.root, one.size());
-	if (fine.values.size() > 0)
-		coarse.values = coarse.values * fine.values;
-	coarse.values = coarse.values * prolongation;
+	coarse.laplacian = restricted(fine.laplacian, aggregation);
 	coarse.curvature = sums(aggregation, fine.curvature, one);
 	coarse.area = sums(aggregation, fine.area, one);
 	if (fine.sink.size() > 0)
@@ -64,32 +45,32 @@ double flatteningSize(LinearFlow& flow)
 	return std::sqrt(flow.meanSquare(flow.solve(rhs)));
 }
 
-} // namespace
-
-std::list<CoarseFlow> coarseFlows(LinearFlow& fine, int maxVertices, int enough)
+/// The equation of \p fine on aggregates of vertices, and in \p roots the vertices they grew from.
+LinearSystem coarsened(const LinearFlow& fine, int vertices, VertexArray<Vertex>& roots)
 {
-	std::list<CoarseFlow> levels;
-	VertexArray<Vertex> vertices;
-	LinearSystem system = fine.system(vertices);
-	const double size = flatteningSize(fine);
-	while (vertices.size() > enough) {
-		const Aggregation aggregation = aggregated(system.laplacian);
-		if (aggregation.root.size() == vertices.size())
+	LinearSystem system = fine.system(roots);
+	while (roots.size() > vertices) {
+		const Aggregation aggregation =
+			aggregated(system.laplacian, std::max(2, roots.size() / vertices));
+		if (aggregation.root.size() == roots.size())
 			break;
 		system = coarser(system, aggregation);
-		VertexArray<Vertex> roots;
+		VertexArray<Vertex> kept;
 		for (const int root : aggregation.root)
-			roots.push_back(vertices[Vertex(root)]);
-		vertices = std::move(roots);
-		if (vertices.size() > maxVertices)
-			continue;
-		LinearFlow& flow = levels.emplace_front(vertices, system).flow;
-		// A space of fewer functions is stiffer, on the whole evenly.
-		const double tooSmall = flatteningSize(flow);
-		if (tooSmall > 0.0)
-			flow.soften(size / tooSmall);
+			kept.push_back(roots[Vertex(root)]);
+		roots = std::move(kept);
 	}
-	return levels;
+	return system;
+}
+
+} // namespace
+
+CoarseFlow::CoarseFlow(LinearFlow& fine, int vertices) : flow(coarsened(fine, vertices, roots))
+{
+	// Functions that are constant on aggregates are stiffer, on the whole evenly.
+	const double tooSmall = flatteningSize(flow);
+	if (tooSmall > 0.0)
+		flow.soften(flatteningSize(fine) / tooSmall);
 }
 
 } // namespace ricci

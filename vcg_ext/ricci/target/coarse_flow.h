@@ -4,31 +4,21 @@
 
 #include "linear_flow.h"
 
-#include <list>
-#include <utility>
-
 namespace ricci {
 
 /// The linear problem of a surface on aggregates of its vertices, where the search for cones costs
-/// little: the Galerkin restriction of the Laplacian to smoothed aggregates
-/// [Vanek Mandel Brezina 1996]. Its vertices are the roots of the aggregates, between which areas and
-/// curvatures are divided; its factors u are those of the surface to a few percent, more only at a
-/// cone, where the surface's own is sharper.
+/// little. Its Laplacian is that of functions which are constant on every aggregate, weakened evenly
+/// until the curvature of the surface gives factors u of the right size (overcorrection
+/// [Braess 1995]). They are those of the surface to some percent, but for a cone's own aggregate.
 struct CoarseFlow
 {
-	VertexArray<Vertex> roots; ///< by aggregate: a vertex of the surface
+	VertexArray<Vertex> roots; ///< by aggregate: the vertex of the surface from which it grew
 	LinearFlow flow;           ///< with arrays by aggregate in place of arrays by vertex
 
-	CoarseFlow(VertexArray<Vertex> aggregateRoots, LinearSystem system) :
-			roots(std::move(aggregateRoots)), flow(std::move(system))
-	{
-	}
+	/// \param vertices to take together until there are at most so many
+	/// \throw SolverFailed
+	CoarseFlow(LinearFlow& fine, int vertices);
 };
-
-/// Levels of aggregates, the coarsest first, each of aggregates of the next one's: those with at most
-/// \p maxVertices, down to the first with at most \p enough.
-/// \throw SolverFailed
-std::list<CoarseFlow> coarseFlows(LinearFlow& fine, int maxVertices, int enough);
 
 } // namespace ricci
 

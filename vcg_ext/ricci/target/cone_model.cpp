@@ -36,27 +36,21 @@ VertexVector ConeModel::factor()
 	return m_flow.factor(std::move(k));
 }
 
-VertexVector ConeModel::gradient() const
+const VertexVector& ConeModel::gradient()
 {
-	VertexVector phi = m_start;
-	for (int i = 0; i < size(); ++i)
-		phi += curvature(i) * m_fields[i];
-	return phi;
+	if (m_gradient.size() == 0) {
+		m_gradient = m_start;
+		for (int i = 0; i < size(); ++i)
+			m_gradient += curvature(i) * *m_fields[i];
+	}
+	return m_gradient;
 }
 
 VertexVector ConeModel::gradientWithShares(double share) const
 {
 	VertexVector phi = m_start + (m_total - share * size()) * m_uniform;
-	for (const VertexVector& field : m_fields)
-		phi += share * field;
-	return phi;
-}
-
-VertexVector ConeModel::gradientOfOthers(int i, const VertexVector& whole) const
-{
-	VertexVector phi = whole - curvature(i) * m_fields[i];
-	if (hasFixedSum())
-		phi += curvature(i) * m_uniform;
+	for (const Field& field : m_fields)
+		phi += share * *field;
 	return phi;
 }
 
@@ -67,7 +61,8 @@ void ConeModel::append(Vertex v)
 	m_now.gram.conservativeResize(size(), size());
 	m_now.linear.conservativeResize(size());
 	setRow(size() - 1, v);
-	m_fields.push_back(m_flow.gradient(unitFactor(v)));
+	m_fields.push_back(fieldOf(v));
+	m_gradient.resize(0);
 }
 
 void ConeModel::remove(int i)
@@ -75,6 +70,7 @@ void ConeModel::remove(int i)
 	m_isCone[vertex(i)] = 0;
 	removeRow(i);
 	m_fields.values().erase(m_fields.begin() + i);
+	m_gradient.resize(0);
 }
 
 std::vector<int> ConeModel::byNeed() const
@@ -106,6 +102,7 @@ void ConeModel::setRounding(ConeRounding rounding)
 
 void ConeModel::fit()
 {
+	m_gradient.resize(0);
 	fitFree();
 	if (m_rounding == ConeRounding::QuarterTurns && size() > 0)
 		m_now.values = roundToQuarterTurns(
@@ -136,6 +133,23 @@ const VertexVector& ConeModel::unitFactor(Vertex v)
 	return m_lastFactor;
 }
 
+ConeModel::Field ConeModel::fieldOf(Vertex v)
+{
+	return std::make_shared<const VertexVector>(m_flow.gradient(unitFactor(v)));
+}
+
+/// Back to what the cones were.
+void ConeModel::restore(const State& state, const Array<Field>& fields)
+{
+	for (const Vertex v : m_now.vertices)
+		m_isCone[v] = 0;
+	m_now = state;
+	m_fields = fields;
+	for (const Vertex v : m_now.vertices)
+		m_isCone[v] = 1;
+	m_gradient.resize(0);
+}
+
 /// Puts cone \p i to \p v: row and column i of G, and entry i of b.
 /// \pre all other cones have their fields in m_fields
 void ConeModel::setRow(int i, Vertex v)
@@ -143,7 +157,7 @@ void ConeModel::setRow(int i, Vertex v)
 	m_now.vertices[i] = v;
 	for (int k = 0; k < size(); ++k)
 		if (k != i)
-			m_now.gram(i, k) = m_now.gram(k, i) = m_fields[k][v];
+			m_now.gram(i, k) = m_now.gram(k, i) = (*m_fields[k])[v];
 	m_now.gram(i, i) = ownProduct(v);
 	m_now.linear[i] = m_start[v];
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -61,15 +62,19 @@ public:
 
 	/// Derivative of half the energy by the curvature of a cone at each vertex, up to a constant
 	/// where the sum is fixed.
-	VertexVector gradient() const;
+	const VertexVector& gradient();
 
 	/// gradient() as it would be if every cone had curvature \p share, and the rest of the total
 	/// lay on the whole surface in proportion to area.
 	VertexVector gradientWithShares(double share) const;
 
-	/// From \p whole = gradient(), the field of all cones but \p i. Where the sum is fixed, the
-	/// curvature of cone \p i lies on the whole surface in proportion to area instead.
-	VertexVector gradientOfOthers(int i, const VertexVector& whole) const;
+	/// gradient() at \p v as it is without the field of cone \p i. Where the sum is fixed, the curvature
+	/// of cone \p i lies on the whole surface in proportion to area instead.
+	double gradientOfOthers(int i, Vertex v)
+	{
+		const double own = (*m_fields[i])[v] - (hasFixedSum() ? m_uniform[v] : 0.0);
+		return gradient()[v] - curvature(i) * own;
+	}
 
 	/// Takes one more cone in; its curvature has to be fitted.
 	void append(Vertex v);
@@ -90,15 +95,18 @@ public:
 	bool tryMove(int i, Vertex v, const Accept& accept)
 	{
 		State before = m_now;
+		VertexVector gradient = std::move(m_gradient);
 		setRow(i, v);
 		fit();
 		if (!accept(energy())) {
 			m_now = std::move(before);
+			m_gradient = std::move(gradient);
 			return false;
 		}
 		m_isCone[before.vertices[i]] = 0;
 		m_isCone[v] = 1;
-		m_fields[i] = m_flow.gradient(unitFactor(v));
+		m_fields[i] = fieldOf(v);
+		m_gradient.resize(0);
 		return true;
 	}
 
@@ -106,14 +114,12 @@ public:
 	template<class Look>
 	void without(int i, const Look& look)
 	{
-		State before = m_now;
-		VertexVector field = std::move(m_fields[i]);
+		const State before = m_now;
+		const Array<Field> fields = m_fields;
 		remove(i);
 		fit();
 		look();
-		m_now = std::move(before);
-		m_fields.values().insert(m_fields.begin() + i, std::move(field));
-		m_isCone[m_now.vertices[i]] = 1;
+		restore(before, fields);
 	}
 
 	/// The cones by how much the lowest energy rises without each, the one needed least first: by k_i^2
@@ -126,16 +132,13 @@ public:
 	template<class Accept>
 	bool tryWithout(int i, const Accept& accept)
 	{
-		State before = m_now;
-		VertexArray<char> cones = m_isCone;
-		Array<VertexVector> fields = m_fields;
+		const State before = m_now;
+		const Array<Field> fields = m_fields;
 		remove(i);
 		fit();
 		if (accept())
 			return true;
-		m_now = std::move(before);
-		m_isCone = std::move(cones);
-		m_fields = std::move(fields);
+		restore(before, fields);
 		return false;
 	}
 
@@ -149,7 +152,12 @@ private:
 		Eigen::VectorXd linear; // b
 	};
 
+	/// Gradient field of a unit of curvature at one vertex.
+	using Field = std::shared_ptr<const VertexVector>;
+
 	double ownProduct(Vertex v);
+	Field fieldOf(Vertex v);
+	void restore(const State& state, const Array<Field>& fields);
 	const VertexVector& unitFactor(Vertex v);
 	void setRow(int i, Vertex v);
 	void removeRow(int i);
@@ -161,7 +169,8 @@ private:
 	ConeRounding m_rounding = ConeRounding::Free;
 	VertexArray<char> m_isCone;
 	State m_now;
-	Array<VertexVector> m_fields;          // gradient field of each cone's unit of curvature
+	Array<Field> m_fields;                 // by cone
+	VertexVector m_gradient;               // empty: not known
 	double m_startEnergy = 0.0;            // without cones
 	VertexVector m_start;                  // gradient without cones
 	VertexVector m_uniform;                // gradient field of a unit of curvature spread by area

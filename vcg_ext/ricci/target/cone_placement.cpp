@@ -19,11 +19,11 @@ namespace {
 /// Cones move once the distortion is within this factor of the wanted one.
 constexpr double kNearlyEnough = 1.1;
 
-/// On more vertices than this, cones are searched for on aggregates of them.
-constexpr int kMaxSearched = 10000;
+/// On more vertices than this, cones are searched for on at most so many aggregates of them.
+constexpr int kMaxSearched = 10000, kAggregates = 6000;
 
-/// Aggregates that are few enough to search on first.
-constexpr int kMinSearched = 2000;
+/// Searches on aggregates, each for the distortion that the surface itself missed.
+constexpr int kMaxCoarseRounds = 3;
 
 void checkCount(const ConeRequest& request, const ConeModel& model, const ConeSites& sites)
 {
@@ -110,6 +110,21 @@ void addForAreas(
 	}
 }
 
+/// Puts the cones of \p coarse, on aggregates with these \p roots, into \p model in place of its own.
+void copyCones(const ConeModel& coarse, const VertexArray<Vertex>& roots, ConeModel& model)
+{
+	VertexArray<char> isWanted(model.area().size(), 0);
+	for (int i = 0; i < coarse.size(); ++i)
+		isWanted[roots[coarse.vertex(i)]] = 1;
+	for (int i = model.size() - 1; i >= 0; --i)
+		if (!isWanted[model.vertex(i)])
+			model.remove(i);
+	for (const Vertex v : isWanted.indices())
+		if (isWanted[v] && !model.isCone(v))
+			model.append(v);
+	model.fit();
+}
+
 /// All of the search, from the cones that \p model has.
 void search(
 	const SurfaceType& type, const ConeRequest& request, ConeModel& model, const ConeSites& sites)
@@ -135,8 +150,8 @@ void search(
 	}
 }
 
-/// The same on aggregates of vertices, from coarse ones to finer ones, then on the surface itself as
-/// far as its own distortion asks for it.
+/// The same on aggregates of vertices, then on the surface itself as far as its own distortion asks
+/// for it.
 void searchFromCoarse(
 	const SurfaceType& type,
 	const ConeRequest& request,
@@ -144,24 +159,21 @@ void searchFromCoarse(
 	ConeModel& model,
 	const ConeSites& sites)
 {
-	Array<Vertex> cones; // vertices of the surface
-	for (CoarseFlow& level : coarseFlows(flow, kMaxSearched, kMinSearched)) {
-		const ConeSites levelSites(sites, level.roots);
-		ConeModel levelModel(level.flow, model.total());
-		for (const Vertex v : level.roots.indices())
-			if (std::find(cones.begin(), cones.end(), level.roots[v]) != cones.end())
-				levelModel.append(v);
-		levelModel.fit();
-		search(type, request, levelModel, levelSites);
-		cones.clear();
-		for (int i = 0; i < levelModel.size(); ++i)
-			cones.push_back(level.roots[levelModel.vertex(i)]);
-	}
-	for (const Vertex v : cones)
-		model.append(v);
+	CoarseFlow coarse(flow, kAggregates);
+	const ConeSites coarseSites(sites, coarse.roots);
+	ConeModel coarseModel(coarse.flow, model.total());
+	ConeRequest coarseRequest = request;
 	model.setRounding(request.rounding);
-	model.fit();
-	if (request.count > 0 || model.distortion() > request.distortion)
+	double excess = 0.0; // of the distortion on the surface itself
+	for (int round = 0; round < kMaxCoarseRounds; ++round) {
+		search(type, coarseRequest, coarseModel, coarseSites);
+		copyCones(coarseModel, coarse.roots, model);
+		excess = model.distortion() / request.distortion;
+		if (request.count > 0 || excess <= 1.0)
+			break;
+		coarseRequest.distortion /= excess;
+	}
+	if (request.count > 0 || excess > 1.0)
 		relocateCones(model, sites);
 	if (request.count == 0)
 		addForDistortion(request, model, sites);

@@ -28,18 +28,22 @@ constexpr double kMinGain = 0.005;
 /// A cone weaker than this, in radians, is not worth its seam.
 constexpr double kMinCurvature = 0.02;
 
-/// The free vertex with the lowest \p phi, the first of equals; invalid if there is none. \p freed
-/// counts as free though it is a cone.
-Vertex
-lowest(const ConeModel& model, const ConeSites& sites, const VertexVector& phi, Vertex freed = {})
+/// The free vertex with the lowest \p value(v), the first of equals; invalid if there is none. \p
+/// freed counts as free though it is a cone.
+template<class Value>
+Vertex lowest(const ConeModel& model, const ConeSites& sites, const Value& value, Vertex freed = {})
 {
 	Vertex found;
 	double min = std::numeric_limits<double>::infinity();
-	for (const Vertex v : phi.indices())
-		if ((!model.isCone(v) || v == freed) && sites.isAllowed(v) && phi[v] < min) {
-			min = phi[v];
+	for (const Vertex v : model.area().indices()) {
+		if (!sites.isAllowed(v) || (model.isCone(v) && v != freed))
+			continue;
+		const double there = value(v);
+		if (there < min) {
+			min = there;
 			found = v;
 		}
+	}
 	return found;
 }
 
@@ -60,11 +64,11 @@ double level(const ConeModel& model, const VertexVector& phi)
 }
 
 /// The vertex where one more cone gains most: where the gradient is farthest from its level.
-Vertex mostGain(const ConeModel& model, const ConeSites& sites)
+Vertex mostGain(ConeModel& model, const ConeSites& sites)
 {
-	VertexVector phi = model.gradient();
-	phi.array() -= level(model, phi);
-	return lowest(model, sites, -phi.cwiseAbs());
+	const VertexVector& phi = model.gradient();
+	const double base = level(model, phi);
+	return lowest(model, sites, [&](Vertex v) { return -std::abs(phi[v] - base); });
 }
 
 /// Moves cone \p i to \p v if that lowers the energy \p present enough.
@@ -88,9 +92,9 @@ bool relocate(ConeModel& model, const ConeSites& sites, int i, double& present)
 	// place beside the old one, it is the whole field.
 	const double enough = 0.5 * kMinGain * present;
 	const VertexVector whole = model.gradient();
-	const VertexVector others = model.gradientOfOthers(i, whole);
-	const Vertex far = lowest(model, sites, own > 0.0 ? others : VertexVector(-others), old);
-	if (far.isValid() && own * (others[old] - others[far]) > enough && move(model, i, far, present))
+	const auto others = [&](Vertex v) { return own * model.gradientOfOthers(i, v); };
+	const Vertex far = lowest(model, sites, others, old);
+	if (far.isValid() && others(old) - others(far) > enough && move(model, i, far, present))
 		return true;
 	// Down the whole field, as far as it falls and then less far: it changes with the cone.
 	std::vector<Vertex> path{old};
@@ -130,8 +134,8 @@ void startCones(ConeModel& model, const ConeSites& sites)
 	const int count = model.minSize();
 	const double sign = model.total() < 0.0 ? -1.0 : 1.0;
 	while (model.size() < count) {
-		const Vertex v =
-			lowest(model, sites, sign * model.gradientWithShares(model.total() / count));
+		const VertexVector phi = model.gradientWithShares(model.total() / count);
+		const Vertex v = lowest(model, sites, [&](Vertex w) { return sign * phi[w]; });
 		if (!v.isValid())
 			break;
 		model.append(v);

@@ -48,7 +48,9 @@ public:
 		const double present = m_model.energy();
 		const double length = treeLength(-1, Vertex());
 		const double aim = (1.0 - kMinGain) * cost(present, length);
-		const VertexVector phi = m_model.gradientOfOthers(i, m_model.gradient());
+		VertexVector phi = m_model.gradient();
+		for (const Vertex v : phi.indices())
+			phi[v] = m_model.gradientOfOthers(i, v);
 		// Where the prediction of the energy was too good, the next one gets half the room.
 		double room = m_maxEnergy - present;
 		for (int attempt = 0; attempt < kMaxAttempts && room > 0.0; ++attempt, room *= 0.5) {

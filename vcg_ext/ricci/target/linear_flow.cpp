@@ -96,7 +96,6 @@ LinearFlow::LinearFlow(LinearSystem system) :
 		m_factor(std::move(system.factor)), m_sink(std::move(system.sink))
 {
 	VertexArray<int>& row = m_system->row;
-	m_system->values = std::move(system.values);
 	row.resize(vertexCount());
 	const int pinned = m_fixesBoundary ? 0 : 1;
 	for (const Vertex v : row.indices())
@@ -114,7 +113,7 @@ LinearFlow::LinearFlow(LinearSystem system) :
 
 void LinearFlow::soften(double factor)
 {
-	m_system->values *= std::sqrt(factor);
+	m_system->softness *= factor;
 }
 
 LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
@@ -219,22 +218,17 @@ VertexVector LinearFlow::solveRows(const VertexVector& rhs)
 {
 	const VertexArray<int>& row = m_hessian ? m_hessian->row() : m_system->row;
 	SparseCholesky& cholesky = m_hessian ? m_hessian->cholesky() : m_system->cholesky;
-	const bool isRestricted = m_system && m_system->values.size() > 0;
-	VertexVector x;
-	if (isRestricted)
-		x = m_system->values.transpose() * rhs;
-	const VertexVector& load = isRestricted ? x : rhs;
 	m_rhs.resize(m_unknowns);
 	for (const Vertex v : row.indices())
 		if (row[v] >= 0)
-			m_rhs[row[v]] = load[v];
+			m_rhs[row[v]] = rhs[v];
 	if (m_unknowns > 0)
 		cholesky.solve(m_rhs, m_solution);
-	x.resize(vertexCount());
+	VertexVector x(vertexCount());
 	for (const Vertex v : row.indices())
 		x[v] = row[v] >= 0 ? m_solution[row[v]] : 0.0;
-	if (isRestricted)
-		return m_system->values * x;
+	if (m_system)
+		x *= m_system->softness;
 	return x;
 }
 

@@ -13,9 +13,6 @@ namespace ricci {
 struct LinearSystem
 {
 	Eigen::SparseMatrix<double> laplacian; ///< L, both triangles
-	/// Empty, or B where u = B x at the vertices for the unknowns x of a smaller space: the equation
-	/// then is L x = B^T (k - K).
-	Eigen::SparseMatrix<double, Eigen::RowMajor> values;
 	VertexVector curvature;     ///< K, radians
 	VertexVector area;          ///< shares in the whole area, which add up to 1
 	VertexVector factor;        ///< u where the flow is linearised; empty: 0
@@ -85,7 +82,7 @@ public:
 	/// up to a constant where the sum of the curvatures is fixed.
 	VertexVector gradient(const VertexVector& u);
 
-	/// Makes all solutions larger by \p factor. \pre made from a LinearSystem with values
+	/// Divides L by \p factor. \pre made from a LinearSystem
 	void soften(double factor);
 
 	/// The equation, without the shift that a Hessian may have. The vertices where u is unknown are
@@ -108,8 +105,8 @@ private:
 	struct FactoredSystem
 	{
 		VertexArray<int> row; // or -1
-		Eigen::SparseMatrix<double, Eigen::RowMajor> values;
 		SparseCholesky cholesky;
+		double softness = 1.0; // L is divided by
 	};
 
 	std::unique_ptr<FactoredSystem> m_system;      // null where there is a Hessian

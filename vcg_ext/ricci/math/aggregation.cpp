@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "aggregation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+using Entry = Matrix::InnerIterator;
+
+/// An entry below this share of the geometric mean of its rows' diagonals does not make neighbours.
+constexpr double kStrong = 0.08;
+
+/// Calls visit(neighbour, entry) for the strong neighbours of row \p i.
+template<class Visit>
+void forNeighbours(
+	const Matrix& matrix, const Eigen::VectorXd& diagonal, int i, const Visit& visit)
+{
+	for (Entry entry(matrix, i); entry; ++entry) {
+		const auto j = static_cast<int>(entry.row());
+		if (j != i && -entry.value() > kStrong * std::sqrt(diagonal[i] * diagonal[j]))
+			visit(j, -entry.value());
+	}
+}
+
+void formAggregates(
+	const Matrix& matrix, const Eigen::VectorXd& diagonal, int maxSize, Aggregation& result)
+{
+	const auto n = static_cast<int>(matrix.rows());
+	Array<int>& aggregate = result.aggregate;
+	aggregate.assign(n, -1);
+	std::vector<std::pair<double, int>> free; // neighbours, the largest entry first
+	const auto grow = [&](int i) {
+		aggregate[i] = result.root.size();
+		result.root.push_back(i);
+		for (const auto& neighbour : free)
+			aggregate[neighbour.second] = aggregate[i];
+	};
+	for (int i = 0; i < n; ++i) {
+		if (aggregate[i] >= 0)
+			continue;
+		free.clear();
+		int count = 0;
+		forNeighbours(matrix, diagonal, i, [&](int j, double entry) {
+			++count;
+			if (aggregate[j] < 0)
+				free.emplace_back(-entry, j);
+		});
+		const std::size_t wanted = positionOf(std::min(maxSize - 1, count));
+		if (free.size() < wanted)
+			continue;
+		std::sort(free.begin(), free.end());
+		free.resize(wanted);
+		grow(i);
+	}
+	const Array<int> before = aggregate;
+	for (int i = 0; i < n; ++i) {
+		double largest = 0.0;
+		if (before[i] < 0)
+			forNeighbours(matrix, diagonal, i, [&](int j, double entry) {
+				if (before[j] >= 0 && entry > largest) {
+					largest = entry;
+					aggregate[i] = before[j];
+				}
+			});
+	}
+	free.clear();
+	for (int i = 0; i < n; ++i)
+		if (aggregate[i] < 0)
+			grow(i);
+}
+
+} // namespace
+
+Aggregation aggregated(const Eigen::SparseMatrix<double>& matrix, int maxSize)
+{
+	Aggregation result;
+	formAggregates(matrix, matrix.diagonal(), maxSize, result);
+	return result;
+}
+
+Eigen::SparseMatrix<double>
+restricted(const Eigen::SparseMatrix<double>& matrix, const Aggregation& aggregation)
+{
+	std::vector<Eigen::Triplet<double>> entries;
+	entries.reserve(positionOf(matrix.nonZeros()));
+	for (int i = 0; i < matrix.cols(); ++i)
+		for (Entry entry(matrix, i); entry; ++entry)
+			entries.emplace_back(
+				aggregation.aggregate[static_cast<int>(entry.row())],
+				aggregation.aggregate[i],
+				entry.value());
+	const int count = aggregation.root.size();
+	Eigen::SparseMatrix<double> result(count, count);
+	result.setFromTriplets(entries.begin(), entries.end());
+	return result;
+}
+
+} // namespace ricci
