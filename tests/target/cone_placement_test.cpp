@@ -157,6 +157,30 @@ TEST(ConePlacement, CountsAsManyAsTheDistortionAsksFor)
 	}
 }
 
+TEST(ConePlacement, KeepsItsPromisesOnLargeSurfaces)
+{
+	// Above 10000 vertices, cones are searched for on aggregates of them.
+	Random random(705);
+	for (int genus = 0; genus <= 1; ++genus) {
+		const SurfaceMesh mesh = shaken(perforatedSlab(genus, genus == 0 ? 28 : 20), 0.002, random);
+		ASSERT_GT(mesh.positions.size(), 10000u);
+		const Packed p(mesh);
+		ConeRequest request;
+		request.distortion = 0.4;
+		const PlacedCones cones = place(p, request);
+		expectAdmissible(p, cones);
+		EXPECT_NEAR(sum(cones.curvatures), 4 * kPi * (1 - genus), 1e-9);
+		EXPECT_LE(cones.distortion, 0.4);
+		// One cone less does not reach it.
+		const PlacedCones fewer = place(p, static_cast<int>(cones.vertices.size()) - 1);
+		EXPECT_GT(fewer.distortion, 0.4) << "genus " << genus;
+		const PlacedCones rounded = place(p, 10, ConeRounding::QuarterTurns);
+		EXPECT_NEAR(sum(rounded.curvatures), 4 * kPi * (1 - genus), 1e-9);
+		for (const double k : rounded.curvatures)
+			EXPECT_NEAR(k / kQuarter, std::round(k / kQuarter), 1e-12);
+	}
+}
+
 TEST(ConePlacement, TheFlowReachesThePredictedDistortion)
 {
 	// The linear problem is that of smooth surfaces; the flow's own distortion agrees with it where

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "aggregation.h"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -28,35 +26,24 @@ void forNeighbours(
 	}
 }
 
-void formAggregates(
-	const Matrix& matrix, const Eigen::VectorXd& diagonal, int maxSize, Aggregation& result)
+void formAggregates(const Matrix& matrix, const Eigen::VectorXd& diagonal, Aggregation& result)
 {
 	const auto n = static_cast<int>(matrix.rows());
 	Array<int>& aggregate = result.aggregate;
 	aggregate.assign(n, -1);
-	std::vector<std::pair<double, int>> free; // neighbours, the largest entry first
 	const auto grow = [&](int i) {
 		aggregate[i] = result.root.size();
 		result.root.push_back(i);
-		for (const auto& neighbour : free)
-			aggregate[neighbour.second] = aggregate[i];
+		forNeighbours(matrix, diagonal, i, [&](int j, double) {
+			if (aggregate[j] < 0)
+				aggregate[j] = aggregate[i];
+		});
 	};
 	for (int i = 0; i < n; ++i) {
-		if (aggregate[i] >= 0)
-			continue;
-		free.clear();
-		int count = 0;
-		forNeighbours(matrix, diagonal, i, [&](int j, double entry) {
-			++count;
-			if (aggregate[j] < 0)
-				free.emplace_back(-entry, j);
-		});
-		const std::size_t wanted = positionOf(std::min(maxSize - 1, count));
-		if (free.size() < wanted)
-			continue;
-		std::sort(free.begin(), free.end());
-		free.resize(wanted);
-		grow(i);
+		bool isFree = aggregate[i] < 0;
+		forNeighbours(matrix, diagonal, i, [&](int j, double) { isFree &= aggregate[j] < 0; });
+		if (isFree)
+			grow(i);
 	}
 	const Array<int> before = aggregate;
 	for (int i = 0; i < n; ++i) {
@@ -69,7 +56,6 @@ void formAggregates(
 				}
 			});
 	}
-	free.clear();
 	for (int i = 0; i < n; ++i)
 		if (aggregate[i] < 0)
 			grow(i);
@@ -77,10 +63,10 @@ void formAggregates(
 
 } // namespace
 
-Aggregation aggregated(const Eigen::SparseMatrix<double>& matrix, int maxSize)
+Aggregation aggregated(const Eigen::SparseMatrix<double>& matrix)
 {
 	Aggregation result;
-	formAggregates(matrix, matrix.diagonal(), maxSize, result);
+	formAggregates(matrix, matrix.diagonal(), result);
 	return result;
 }
 
@@ -88,7 +74,7 @@ Eigen::SparseMatrix<double>
 restricted(const Eigen::SparseMatrix<double>& matrix, const Aggregation& aggregation)
 {
 	std::vector<Eigen::Triplet<double>> entries;
-	entries.reserve(positionOf(matrix.nonZeros()));
+	entries.reserve(static_cast<std::size_t>(matrix.nonZeros()));
 	for (int i = 0; i < matrix.cols(); ++i)
 		for (Entry entry(matrix, i); entry; ++entry)
 			entries.emplace_back(

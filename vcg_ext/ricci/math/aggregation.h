@@ -15,13 +15,12 @@ struct Aggregation
 	Array<int> root;      ///< [aggregate] the row that it grew from
 };
 
-/// Takes a row and its neighbours together, up to \p maxSize of them, those with the largest entries,
-/// where none of them is in an aggregate yet; then adds every row that is left to the neighbouring
-/// aggregate with the largest entry [Vanek Mandel Brezina 1996, Algorithm 2]. On a triangulation,
-/// aggregates without a bound have about seven rows.
+/// Takes a row and its neighbours together wherever none of them is in an aggregate yet; then adds
+/// every row that is left to the neighbouring aggregate with the largest entry
+/// [Vanek Mandel Brezina 1996, Algorithm 2]. On a triangulation, aggregates have about seven rows.
 /// \param matrix symmetric with positive diagonal, both triangles stored; off-diagonal entries that
 /// are not negative make no neighbours
-Aggregation aggregated(const Eigen::SparseMatrix<double>& matrix, int maxSize);
+Aggregation aggregated(const Eigen::SparseMatrix<double>& matrix);
 
 /// The matrix on functions that are constant on every aggregate: sums of the entries of \p matrix.
 Eigen::SparseMatrix<double>

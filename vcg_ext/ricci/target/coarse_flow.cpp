@@ -50,8 +50,7 @@ LinearSystem coarsened(const LinearFlow& fine, int vertices, VertexArray<Vertex>
 {
 	LinearSystem system = fine.system(roots);
 	while (roots.size() > vertices) {
-		const Aggregation aggregation =
-			aggregated(system.laplacian, std::max(2, roots.size() / vertices));
+		const Aggregation aggregation = aggregated(system.laplacian);
 		if (aggregation.root.size() == roots.size())
 			break;
 		system = coarser(system, aggregation);

@@ -19,8 +19,8 @@ namespace {
 /// Cones move once the distortion is within this factor of the wanted one.
 constexpr double kNearlyEnough = 1.1;
 
-/// On more vertices than this, cones are searched for on at most so many aggregates of them.
-constexpr int kMaxSearched = 10000, kAggregates = 6000;
+/// On more vertices than this, cones are searched for on aggregates of them.
+constexpr int kMaxSearched = 10000;
 
 /// Searches on aggregates, each for the distortion that the surface itself missed.
 constexpr int kMaxCoarseRounds = 3;
@@ -159,7 +159,7 @@ void searchFromCoarse(
 	ConeModel& model,
 	const ConeSites& sites)
 {
-	CoarseFlow coarse(flow, kAggregates);
+	CoarseFlow coarse(flow, kMaxSearched);
 	const ConeSites coarseSites(sites, coarse.roots);
 	ConeModel coarseModel(coarse.flow, model.total());
 	ConeRequest coarseRequest = request;

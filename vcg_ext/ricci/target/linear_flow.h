@@ -85,9 +85,9 @@ public:
 	/// Divides L by \p factor. \pre made from a LinearSystem
 	void soften(double factor);
 
-	/// The equation, without the shift that a Hessian may have. The vertices where u is unknown are
-	/// put into \p vertices, increasing. Where no u is fixed, the vertex that solve() holds is left out
-	/// like a hole, and its curvature and area go to its neighbours.
+	/// The equation on the vertices where u is unknown, which are put into \p vertices, increasing.
+	/// Where no u is fixed, the vertex that solve() holds is left out like a hole, and its curvature
+	/// and area go to its neighbours.
 	/// \pre not made from a LinearSystem
 	LinearSystem system(VertexArray<Vertex>& vertices) const;
 
