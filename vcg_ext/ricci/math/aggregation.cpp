@@ -16,8 +16,7 @@ constexpr double kStrong = 0.08;
 
 /// Calls visit(neighbour, entry) for the strong neighbours of row \p i.
 template<class Visit>
-void forNeighbours(
-	const Matrix& matrix, const Eigen::VectorXd& diagonal, int i, const Visit& visit)
+void forNeighbours(const Matrix& matrix, const Eigen::VectorXd& diagonal, int i, const Visit& visit)
 {
 	for (Entry entry(matrix, i); entry; ++entry) {
 		const auto j = static_cast<int>(entry.row());

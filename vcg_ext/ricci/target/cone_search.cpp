@@ -20,7 +20,7 @@ constexpr int kMaxRounds = 5;
 constexpr int kMaxTrials = 4;
 
 /// Cones of which one may be dropped.
-constexpr std::size_t kMaxDropTrials = 5;
+constexpr std::size_t kMaxDropTrials = 3;
 
 /// A move must lower the energy by this share.
 constexpr double kMinGain = 0.005;

@@ -61,8 +61,8 @@ int ConeSites::count() const
 
 VertexArray<double> ConeSites::distancesFrom(Vertex v) const
 {
-	auto paths = shortestPaths<Vertex, Vertex>(
-		m_isAllowed.size(), {v}, [&](Vertex from, const auto& visit) {
+	auto paths =
+		shortestPaths<Vertex, Vertex>(m_isAllowed.size(), {v}, [&](Vertex from, const auto& visit) {
 			for (const Way& way : ways(from))
 				visit(way.to, way.length, from);
 		});

@@ -13,9 +13,9 @@ namespace ricci {
 struct LinearSystem
 {
 	Eigen::SparseMatrix<double> laplacian; ///< L, both triangles
-	VertexVector curvature;     ///< K, radians
-	VertexVector area;          ///< shares in the whole area, which add up to 1
-	VertexVector factor;        ///< u where the flow is linearised; empty: 0
+	VertexVector curvature;                ///< K, radians
+	VertexVector area;                     ///< shares in the whole area, which add up to 1
+	VertexVector factor;                   ///< u where the flow is linearised; empty: 0
 	VertexVector sink;          ///< shares of what the sum of k - K lacks; empty: no such
 	bool fixesBoundary = false; ///< u is 0 on a boundary, which is not among the vertices
 };
