@@ -11,12 +11,11 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/parallel.h>
-#include <ricci/cut/cut_graph.h>
+#include <ricci/charts/finish_in_floats.h>
+#include <ricci/charts/pack.h>
 #include <ricci/flow/factored_hessian.h>
 #include <ricci/flow/ricci_flow.h>
-#include <ricci/layout/planar_layout.h>
 #include <ricci/math/sparse_cholesky.h>
-#include <ricci/measure/distortion.h>
 #include <ricci/metric/euclidean.h>
 #include <ricci/metric/initial_packing.h>
 #include <ricci/parametrize.h>
@@ -39,7 +38,9 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -58,10 +59,11 @@ constexpr int kEvaluations = 10;
 /// Columns of the table; bench.sh prints them once for all meshes.
 const char* const kHeader =
 	"mesh\tfaces\tgeometry\tsolve_cpu_s\tone_factor_cpu_s\tratio\titerations\tflips\tresidual"
-	"\tpeak_mb\tread_cpu_s\tpacking_cpu_s\tcut_cpu_s\tlayout_cpu_s\tdistortion_cpu_s"
-	"\twhole_cpu_s\twhole_wall_s\tevaluation_wall_s\tthreads\tthread_"
-	"speedup\tfactorizations\tsolutions\tgflop\ttarget\tsurgery\tsolver"
-	"\tremark";
+	"\tpeak_mb\tread_cpu_s\tpacking_cpu_s\twhole_cpu_s\twhole_wall_s\twhole_ratio"
+	"\tcones_cpu_s\tflows_cpu_s\tcut_cpu_s\toverlay_cpu_s\tfinish_cpu_s\tcharts_cpu_s"
+	"\tpack_cpu_s\twrite_cpu_s\trest_cpu_s\tlongest_silence_s\tsilent_stage"
+	"\tevaluation_wall_s\tthreads\tthread_speedup\tfactorizations\tsolutions\tgflop\ttarget"
+	"\tsurgery\tsolver\tremark";
 
 double cpuSeconds()
 {
@@ -92,12 +94,76 @@ double wallSeconds()
 	return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// Columns of the whole way, in its order.
+const std::vector<std::string> kStages = {
+	"cones", "flows", "cut", "overlay", "finish", "charts", "pack", "write", "rest"};
+
+/// Times the stages of a run by what it tells its listener.
+class StageClock : public Progress
+{
+public:
+	bool update(double, const std::string& what) override
+	{
+		enter(stageOf(what));
+		return true;
+	}
+
+	/// Starts \p stage.
+	void enter(const std::string& stage)
+	{
+		const double cpu = cpuSeconds(), wall = wallSeconds();
+		if (!m_stage.empty()) {
+			m_cpu[m_stage] += cpu - m_sinceCpu;
+			if (wall - m_sinceWall > m_silence) {
+				m_silence = wall - m_sinceWall;
+				m_silentStage = m_stage;
+			}
+		}
+		m_stage = stage;
+		m_sinceCpu = cpu;
+		m_sinceWall = wall;
+	}
+
+	double cpuOf(const std::string& stage) const
+	{
+		const auto found = m_cpu.find(stage);
+		return found == m_cpu.end() ? 0.0 : found->second;
+	}
+
+	/// The longest time on the clock between two calls, and the stage.
+	double longestSilence() const { return m_silence; }
+	const std::string& silentStage() const { return m_silentStage; }
+
+private:
+	static std::string stageOf(const std::string& what)
+	{
+		const std::vector<std::pair<std::string, std::string>> words = {
+			{"Circle packing", "rest"},
+			{"Placing cones", "cones"},
+			{"Newton step", "flows"},
+			{"Cutting and layout", "cut"},
+			{"Shortening the seams", "cut"},
+			{"Overlay of the two triangulations", "overlay"},
+			{"Repairing the map", "finish"},
+			{"Looking for charts that overlap", "charts"}};
+		for (const auto& [word, stage] : words)
+			if (what.rfind(word, 0) == 0)
+				return stage;
+		return "rest";
+	}
+
+	std::map<std::string, double> m_cpu;
+	std::string m_stage, m_silentStage = "-";
+	double m_sinceCpu = 0.0, m_sinceWall = 0.0, m_silence = 0.0;
+};
+
 struct Row
 {
 	std::string name, geometry, target, surgery, remark = "-";
 	std::size_t faces = 0;
-	double read = 0, packing = 0, flow = 0, oneFactor = 0, cut = 0, layout = 0, distortion = 0;
+	double read = 0, packing = 0, flow = 0, oneFactor = 0;
 	double whole = 0, wholeWall = 0, peak = 0, evaluation = 0, speedup = 0;
+	StageClock stages;
 	double residual = 0;
 	int iterations = 0;
 	std::size_t flips = 0;
@@ -108,8 +174,7 @@ struct Row
 		std::printf("%s\t%zu\t%s", name.c_str(), faces, geometry.c_str());
 		if (remark == "-")
 			std::printf(
-				"\t%.4f\t%.4f\t%.2f\t%d\t%zu\t%.1e\t%.0f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f\t%.4f"
-				"\t%.4f\t%d\t%.2f\t%d\t%d\t%.3f",
+				"\t%.4f\t%.4f\t%.2f\t%d\t%zu\t%.1e\t%.0f\t%.4f\t%.4f\t%.4f\t%.4f\t%.2f",
 				flow,
 				oneFactor,
 				flow / oneFactor,
@@ -119,11 +184,17 @@ struct Row
 				peak,
 				read,
 				packing,
-				cut,
-				layout,
-				distortion,
 				whole,
 				wholeWall,
+				whole / oneFactor);
+		if (remark == "-")
+			for (const std::string& stage : kStages)
+				std::printf("\t%.4f", stages.cpuOf(stage));
+		if (remark == "-")
+			std::printf(
+				"\t%.3f\t%s\t%.4f\t%d\t%.2f\t%d\t%d\t%.3f",
+				stages.longestSilence(),
+				stages.silentStage().c_str(),
 				evaluation,
 				defaultThreads(),
 				speedup,
@@ -131,7 +202,7 @@ struct Row
 				work.solutions,
 				1e-9 * work.flops);
 		else
-			for (int column = 0; column < 20; ++column)
+			for (int column = 0; column < 29; ++column)
 				std::printf("\t-");
 		std::printf(
 			"\t%s\t%s\t%s\t%s\n",
@@ -226,6 +297,48 @@ double oneFactorisation(const CurvatureMap& map, const Target& target, int repea
 		background, surface, flowStart(surface, options), target, options, [](int, double) {});
 }
 
+/// One box beside the other: a host's packing is its own.
+std::vector<Point2> inARow(const std::vector<Box2>& boxes, double room)
+{
+	std::vector<Point2> places;
+	double x = 0.0;
+	for (const Box2& box : boxes) {
+		places.push_back({x, 0.0});
+		x += box.max[0] - box.min[0] + room;
+	}
+	return places;
+}
+
+/// From the mesh to the coordinates that a host stores, with default parameters; core.work_guard
+/// counts it.
+[[gnu::noinline]] void
+measureWholeWay(const SurfaceMesh& mesh, Background background, const Options& options, Row& row)
+{
+	const double begin = wallSeconds();
+	StageClock& clock = row.stages;
+	row.whole = timeOf([&] {
+		Parametrization map;
+		const Tick tick = [&] { clock.enter("write"); };
+		if (background == Background::EuclideanPlane) {
+			map = parametrizeEuclidean(mesh, {}, options, clock);
+			clock.enter("pack");
+			packCharts(map, true, 0.0, inARow);
+			tick();
+			finishInFloats(mesh, tick, map);
+		}
+		else {
+			map = parametrizeHyperbolic(mesh, {}, HyperbolicOptions(), clock);
+			clock.enter("pack");
+			const std::vector<Box2> disks = placeDisks(map);
+			tick();
+			finishInFloats(mesh, disks, tick, map);
+		}
+		clock.enter("rest");
+	});
+	row.wholeWall = wallSeconds() - begin;
+	row.peak = peakMegabytes();
+}
+
 /// The stages on the first component of the mesh; the others would only add up.
 void measure(
 	const SurfaceMesh& mesh, Background background, bool flowOnly, const Options& options, Row& row)
@@ -248,14 +361,9 @@ void measure(
 		target.curvature = VertexVector(Eigen::VectorXd::Zero(surface.triangulation.vertexCount()));
 		target.fixed.assign(surface.triangulation.vertexCount(), 0);
 	}
-	// A uniform curvature makes every vertex a cone, which no one wants to see cut open.
-	if (row.target == "automatic" && !flowOnly) {
+	if (!flowOnly) {
 		domain = FlowDomain(); // or the peak would be that of this program
-		Progress silent;
-		const double begin = wallSeconds();
-		row.whole = timeOf([&] { parametrizeEuclidean(mesh, {}, options, silent); });
-		row.wholeWall = wallSeconds() - begin;
-		row.peak = peakMegabytes();
+		measureWholeWay(mesh, background, options, row);
 		setUp();
 	}
 
@@ -299,27 +407,6 @@ void measure(
 	row.evaluation = evaluation(1);
 	row.speedup = row.evaluation / evaluation(defaultThreads());
 	row.oneFactor = oneFactorisation(flow.doubled ? map : *flow.metric, flow.target, repeat);
-
-	// Cut, layout and distortion on the input's triangles with the input's metric: the work is that
-	// on the flat one.
-	const Triangulation& t = surface.triangulation;
-	CutGraph cut;
-	PlanarLayout layout;
-	const VertexArray<char> marked(t.vertexCount(), 0);
-	row.cut = timeOf([&] { cut = cutToDisk(t, surface.lengths, marked, {}); });
-	row.layout =
-		timeOf([&] { layout = layOutInPlane(t, surface.lengths, map.angles(), cut.isCut); });
-	std::vector<Triangle2> uv;
-	SurfaceMesh component{surface.positions.values(), {}, 0};
-	for (const Face f : t.faces()) {
-		const auto h = t.halfedges(f);
-		uv.push_back({layout[h[0]], layout[h[1]], layout[h[2]]});
-		const auto v = t.vertices(f);
-		component.triangles.push_back({v[0].number(), v[1].number(), v[2].number()});
-	}
-	Report report;
-	const std::vector<char> reversed(uv.size(), 0);
-	row.distortion = timeOf([&] { measureDistortion(component, uv, reversed, report); });
 }
 
 /// A smooth torus with about so many triangles, its vertices jittered on the surface and the
@@ -340,16 +427,31 @@ SurfaceMesh wavyTorus(double faces)
 	return mesh;
 }
 
+/// A closed surface of genus 2 with about so many triangles, which takes cones and long seams: a slab
+/// of cubes with its vertices jittered.
+SurfaceMesh slab(double faces)
+{
+	constexpr int kGenus = 2;
+	const double squares = static_cast<double>(testing::perforatedSlab(kGenus, 1).triangles.size());
+	const int subdivision = std::max(1, static_cast<int>(std::sqrt(faces / squares)));
+	testing::Random random(2);
+	return testing::shaken(testing::perforatedSlab(kGenus, subdivision), 0.2 / subdivision, random);
+}
+
 SurfaceMesh read(const std::string& path)
 {
-	const std::string generated = "generated";
-	if (path.rfind(generated, 0) == 0)
-		return wavyTorus(
-			path == generated ? 50000.0 : std::stod(path.substr(generated.size() + 1)));
+	const std::size_t colon = path.find(':');
+	const std::string name = path.substr(0, colon);
+	if (name == "generated" || name == "slab") {
+		const double faces =
+			colon == std::string::npos ? 50000.0 : std::stod(path.substr(colon + 1));
+		return name == "slab" ? slab(faces) : wavyTorus(faces);
+	}
 #ifdef RICCI_HAVE_VCGLIB
 	return testing::readMesh(path);
 #else
-	throw std::runtime_error("Without vcglib only the meshes generated:FACES can be measured.");
+	throw std::runtime_error(
+		"Without vcglib only the meshes generated:FACES and slab:FACES can be measured.");
 #endif
 }
 
@@ -391,7 +493,8 @@ int main(int argc, char** argv)
 	}
 	if (path.empty()) {
 		std::cerr << "usage: ricci_bench --header | [--surgery=none|edge_swap|intrinsic_flips] "
-					 "[--geometry=euclidean|hyperbolic] [--flow-only] MESH|generated[:FACES]\n";
+					 "[--geometry=euclidean|hyperbolic] [--flow-only] "
+					 "MESH|generated[:FACES]|slab[:FACES]\n";
 		return 2;
 	}
 	Row row;

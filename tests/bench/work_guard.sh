@@ -27,11 +27,19 @@ column() {
 		NR == 2 { print $c }' "$work/table"
 }
 
-# instructions FUNCTION: executed in it and in what it calls, once in each of equally many rounds
+# instructions FUNCTION ARGUMENT...: executed in it and in what it calls, by the benchmark with these
+# arguments
 instructions() {
+	local function=$1
+	shift
 	# On one core, so that all is done in one thread.
-	taskset -c 0 valgrind --tool=callgrind "--callgrind-out-file=$work/out" "--toggle-collect=$1" \
-		"$bench" --flow-only generated:6000 2>&1 >/dev/null | sed -n 's/.*Collected : //p'
+	taskset -c 0 valgrind --tool=callgrind "--callgrind-out-file=$work/out" \
+		"--toggle-collect=$function" "$bench" "$@" 2>&1 >/dev/null | sed -n 's/.*Collected : //p'
+}
+
+# quotient A B
+quotient() {
+	awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", a / b }'
 }
 
 mesh=generated:50000
@@ -50,8 +58,12 @@ if ! command -v valgrind >/dev/null || ! command -v taskset >/dev/null; then
 	echo "SKIPPED: instructions are not counted, valgrind or taskset is not installed"
 	exit 77
 fi
-flow=$(instructions '*startAndFlow*')
-factor=$(instructions '*solveOnce*')
-no_more "instructions, flow over one factorisation" \
-	"$(awk -v a="$flow" -v b="$factor" 'BEGIN { printf "%.2f", a / b }')" 2.6
+# Flow and factorisation run equally often.
+flow=$(instructions '*startAndFlow*' --flow-only generated:6000)
+factor=$(instructions '*solveOnce*' --flow-only generated:6000)
+no_more "instructions, flow over one factorisation" "$(quotient "$flow" "$factor")" 2.6
+# The whole way with cones, seams, charts and finish grows hardly faster than the mesh.
+small=$(instructions '*measureWholeWay*Row&)' slab:6000)
+large=$(instructions '*measureWholeWay*Row&)' slab:24000)
+no_more "instructions, whole way with four times as many faces" "$(quotient "$large" "$small")" 5
 exit $status
