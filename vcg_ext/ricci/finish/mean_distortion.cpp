@@ -25,6 +25,10 @@ constexpr double kSmoothing = 1e-6;
 /// The stiffness of a triangle that does not count, in place of its weight: the Laplacian needs some.
 constexpr double kUncountedStiffness = 1e-4;
 
+/// The share of the promise that a step of relax() must keep, and the shortest of them; bounds of the
+/// factor from a trial to the next.
+constexpr double kDecrease = 1e-4, kMinStep = 1e-3, kMinShortening = 0.1, kMaxShortening = 0.5;
+
 /// As in orientation(): a determinant above this share of its terms has the right sign, but for
 /// underflow.
 constexpr double kOrientationRounding = 4.0 * kUnitRoundoff;
@@ -142,6 +146,9 @@ void MeanDistortion::usePoints(const MovablePoints& points)
 		for (int k = 0; k < 3; ++k)
 			if (const int point = m_corners[f][positionOf(k)]; point < points.moving())
 				m_cornerOf[positionOf(cursor[point]++)] = {f, k};
+	m_image.assign(points.unknowns, -1);
+	for (int p = points.unknowns; p < points.moving(); ++p)
+		m_image[points.unknownOf(p)] = p;
 }
 
 /// With s = kSmoothing, m^2 = (|f_zbar|^2 / |f_z|^2 + s) / (1 + s) < 1 and k = K - 1 = 2 m / (1 -
@@ -197,22 +204,43 @@ double MeanDistortion::evaluate(const Eigen::VectorXcd& position)
 		for (const Face f : IndexRange<Face>(first, last))
 			evaluate(f, position);
 	});
-	double sum = 0.0; // in the same order with any number of threads
+	return sum();
+}
+
+/// In the same order with any number of threads.
+double MeanDistortion::sum() const
+{
+	double sum = 0.0;
 	for (const double energy : m_energy)
 		sum += energy;
 	return sum;
+}
+
+/// By k = K - 1 = (E / weight)^(4/5), 2 / (2 + k) = 1 - m. The second derivative of k^(5/4) by m is
+/// that of the square times (2 m + 1/4) / (1 - m), and f_z, which falls, adds to it: (1 - m)^(-3/2)
+/// is of that size from m = 0 up to m = 0.9.
+double MeanDistortion::stiffness(Face f) const
+{
+	const double weight = m_shape[f].weight;
+	if (weight == 0.0)
+		return m_stiffness[f];
+	const double over = 1.0 + 0.5 * std::pow(m_energy[f] / weight, 0.8);
+	return m_stiffness[f] * over * std::sqrt(over);
 }
 
 /// dE / d conj(point).
 MeanDistortion::Complex MeanDistortion::pull(int point) const
 {
 	Complex sum = 0.0;
-	for (int i = m_firstCorner[point]; i < m_firstCorner[point + 1]; ++i) {
-		const Corner& corner = m_cornerOf[positionOf(i)];
-		const std::array<Complex, 2>& pull = m_pull[corner.face];
-		sum += corner.place == 0 ? -(pull[0] + pull[1]) : pull[positionOf(corner.place - 1)];
-	}
+	for (int i = m_firstCorner[point]; i < m_firstCorner[point + 1]; ++i)
+		sum += pull(m_cornerOf[positionOf(i)]);
 	return sum;
+}
+
+MeanDistortion::Complex MeanDistortion::pull(const Corner& corner) const
+{
+	const std::array<Complex, 2>& pull = m_pull[corner.face];
+	return corner.place == 0 ? -(pull[0] + pull[1]) : pull[positionOf(corner.place - 1)];
 }
 
 void MeanDistortion::gradient(Eigen::VectorXcd& gradient) const
@@ -224,6 +252,73 @@ void MeanDistortion::gradient(Eigen::VectorXcd& gradient) const
 	});
 	for (int i = m_points->unknowns; i < m_points->moving(); ++i)
 		gradient[m_points->unknownOf(i)] += conjugateProduct(m_points->turnOf(i), pull(i));
+}
+
+double MeanDistortion::relax(
+	double relaxation, double worth, const Eigen::VectorXcd& start, Eigen::VectorXcd& position)
+{
+	for (int unknown = 0; unknown < m_points->unknowns; ++unknown)
+		relax(unknown, relaxation, worth, start, position);
+	return sum();
+}
+
+void MeanDistortion::relax(
+	int unknown,
+	double relaxation,
+	double worth,
+	const Eigen::VectorXcd& start,
+	Eigen::VectorXcd& position)
+{
+	const int image = m_image[unknown];
+	const Complex turn = image < 0 ? 1.0 : m_points->turnOf(image);
+	const auto eachCorner = [&](int point, const auto& use) {
+		for (int i = m_firstCorner[point]; i < m_firstCorner[point + 1]; ++i)
+			use(m_cornerOf[positionOf(i)]);
+	};
+	double before = 0.0, stiffness = 0.0;
+	const auto gather = [&](int point) {
+		Complex sum = 0.0;
+		eachCorner(point, [&](const Corner& corner) {
+			sum += pull(corner);
+			before += m_energy[corner.face];
+			stiffness +=
+				m_stiffness[corner.face] * std::norm(slopes(corner.face)[positionOf(corner.place)]);
+		});
+		return sum;
+	};
+	Complex gradient = gather(unknown);
+	if (image >= 0)
+		gradient += conjugateProduct(turn, gather(image));
+	const double promise = std::norm(gradient) / stiffness;
+	if (!(promise > worth))
+		return;
+	const Complex from = position[unknown], step = -gradient / stiffness;
+	const auto move = [&](double length) {
+		position[unknown] = from + length * step;
+		double after = 0.0;
+		const auto place = [&](int point) {
+			eachCorner(point, [&](const Corner& corner) {
+				evaluate(corner.face, position);
+				after += m_energy[corner.face];
+			});
+		};
+		if (image >= 0)
+			position[image] = start[image] + product(turn, position[unknown] - start[unknown]);
+		place(unknown);
+		if (image >= 0)
+			place(image);
+		return after;
+	};
+	for (double length = relaxation; length > kMinStep;) {
+		const double after = move(length), slope = -2.0 * length * promise;
+		if (after <= before + kDecrease * slope)
+			return;
+		// The parabola through both values with the slope has its vertex at this share.
+		const double vertex = -slope / (2.0 * (after - before - slope));
+		length *= std::isfinite(after) ? std::clamp(vertex, kMinShortening, kMaxShortening)
+									   : kMaxShortening;
+	}
+	move(0.0);
 }
 
 } // namespace ricci
