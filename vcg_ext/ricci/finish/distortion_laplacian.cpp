@@ -12,9 +12,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// The share of the squared residual that is rounding.
-constexpr double kSolved = 1e-28;
-
 /// Re(conj(a) b).
 double realProduct(Complex a, Complex b)
 {
@@ -128,7 +125,7 @@ void DistortionLaplacian::solveBackward(Eigen::VectorXcd& x) const
 
 /// With A = 1 + L + L^T, conjugate gradients run on (1 + L)^-1 A (1 + L)^-T y = (1 + L)^-1 rhs, where
 /// the product with p is t + (1 + L)^-1 (p - t) for t = (1 + L)^-T p; x is the sum of the same t.
-void DistortionLaplacian::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x, int iterations)
+void DistortionLaplacian::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x, double residual)
 {
 	const auto dot = LimitedMemoryBfgs::dot;
 	m_residual = m_scale.cwiseProduct(rhs);
@@ -136,8 +133,8 @@ void DistortionLaplacian::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x
 	m_direction = m_residual;
 	x.setZero(m_points.unknowns);
 	double square = dot(m_residual, m_residual);
-	const double solved = kSolved * square;
-	for (int i = 0; i < iterations && square > solved; ++i) {
+	const double wanted = residual * residual * square;
+	while (square > wanted) {
 		m_solved = m_direction;
 		solveBackward(m_solved);
 		m_product = m_direction - m_solved;

@@ -4,7 +4,6 @@
 
 #include "mean_distortion.h"
 
-#include <limits>
 #include <vector>
 
 namespace ricci {
@@ -22,8 +21,6 @@ namespace ricci {
 class DistortionLaplacian
 {
 public:
-	static constexpr int kUntilSolved = std::numeric_limits<int>::max();
-
 	/// Lays the matrix out for \p points, which \p energy must use, and which must outlive it.
 	DistortionLaplacian(const MeanDistortion& energy, const MovablePoints& points);
 
@@ -31,11 +28,14 @@ public:
 	/// \return false where a row has no positive diagonal
 	bool factorize(const MeanDistortion& energy);
 
-	/// x = matrix^-1 rhs after so many iterations at most; fewer where the residual vanishes.
+	/// x = matrix^-1 rhs, up to an error that leaves \p residual of what rhs is without x, both after
+	/// one Gauss-Seidel step.
 	/// \pre factorize() has returned true
-	void solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x, int iterations = kUntilSolved);
+	void solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x, double residual = kRounding);
 
 private:
+	static constexpr double kRounding = 1e-14;
+
 	void layOut(const MeanDistortion& energy);
 	void solveForward(Eigen::VectorXcd& x) const;
 	void solveBackward(Eigen::VectorXcd& x) const;

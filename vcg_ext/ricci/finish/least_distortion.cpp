@@ -24,11 +24,12 @@ constexpr double kSeen = 2e-5;
 /// Steps of one point after another come first, as long as each gains this share of the distortion.
 /// Points whose step promises less than this share of the mean distortion at a point stay. The length
 /// of the steps, but for those of the first time.
-constexpr int kMaxSweeps = 10;
+constexpr int kMaxSweeps = 20;
 constexpr double kSweepGain = 0.01, kPointGain = 1e-3, kOverrelaxation = 1.5;
 
-/// Steps that the direction remembers; iterations that solve for it; and steps with the same stiffness.
-constexpr int kDepth = 5, kIterations = 4, kSameStiffness = 8;
+/// Steps that the direction remembers; steps with the same stiffness; and the residual of a direction.
+constexpr int kDepth = 5, kSameStiffness = 8;
+constexpr double kResidual = 0.1;
 
 /// The share of the slope's promise that a step must keep; bounds of the factor from a trial step
 /// to the next; the shortest step.
@@ -79,7 +80,7 @@ public:
 			m_bfgs.direction(
 				m_gradient,
 				[&](const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x) {
-					m_laplacian.solve(rhs, x, kIterations);
+					m_laplacian.solve(rhs, x, kResidual);
 				},
 				m_direction);
 			gain = step(2.0 * LimitedMemoryBfgs::dot(m_gradient, m_direction));

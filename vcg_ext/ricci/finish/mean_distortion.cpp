@@ -25,6 +25,13 @@ constexpr double kSmoothing = 1e-6;
 /// The stiffness of a triangle that does not count, in place of its weight: the Laplacian needs some.
 constexpr double kUncountedStiffness = 1e-4;
 
+/// See MeanDistortion::stiffness().
+constexpr double kMostBend = 4.0;
+
+/// Steps of relax() are at most so many times the shortest side at the point long: where triangles are
+/// small, a point that leaves them for the others' sake does not come back.
+constexpr double kMaxStep = 2.0;
+
 /// The share of the promise that a step of relax() must keep, and the shortest of them; bounds of the
 /// factor from a trial to the next.
 constexpr double kDecrease = 1e-4, kMinStep = 1e-3, kMinShortening = 0.1, kMaxShortening = 0.5;
@@ -32,6 +39,7 @@ constexpr double kDecrease = 1e-4, kMinStep = 1e-3, kMinShortening = 0.1, kMaxSh
 /// As in orientation(): a determinant above this share of its terms has the right sign, but for
 /// underflow.
 constexpr double kOrientationRounding = 4.0 * kUnitRoundoff;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTiny = std::numeric_limits<double>::min();
 
 /// Products by parts: those of std::complex look for infinities behind every result.
@@ -169,7 +177,7 @@ void MeanDistortion::evaluate(Face f, const Eigen::VectorXcd& position)
 		return;
 	}
 	const double left = e1.real() * e2.imag(), right = e1.imag() * e2.real();
-	m_energy[f] = std::numeric_limits<double>::infinity();
+	m_energy[f] = kInfinity;
 	// What is far from 0 has the right sign, see orientation().
 	if (!(left - right > kOrientationRounding * (std::abs(left) + std::abs(right)) + kTiny) &&
 		orientation(
@@ -216,16 +224,16 @@ double MeanDistortion::sum() const
 	return sum;
 }
 
-/// By k = K - 1 = (E / weight)^(4/5), 2 / (2 + k) = 1 - m. The second derivative of k^(5/4) by m is
-/// that of the square times (2 m + 1/4) / (1 - m), and f_z, which falls, adds to it: (1 - m)^(-3/2)
-/// is of that size from m = 0 up to m = 0.9.
+/// By k = K - 1 = (E / weight)^(4/5), 1 / (1 - m) = 1 + k / 2. The second derivative of k^(5/4) by m is
+/// that of the square times (2 m + 1/4) / (1 - m), and f_z, which falls, may double it: from m = 0 to 1,
+/// (1 - m)^(-3/2), and in the end 4 / (1 - m), is of that size.
 double MeanDistortion::stiffness(Face f) const
 {
 	const double weight = m_shape[f].weight;
 	if (weight == 0.0)
 		return m_stiffness[f];
 	const double over = 1.0 + 0.5 * std::pow(m_energy[f] / weight, 0.8);
-	return m_stiffness[f] * over * std::sqrt(over);
+	return m_stiffness[f] * over * std::min(std::sqrt(over), kMostBend);
 }
 
 /// dE / d conj(point).
@@ -293,6 +301,18 @@ void MeanDistortion::relax(
 	if (!(promise > worth))
 		return;
 	const Complex from = position[unknown], step = -gradient / stiffness;
+	double shortest = kInfinity; // squared
+	const auto measure = [&](int point) {
+		eachCorner(point, [&](const Corner& corner) {
+			for (const int other : m_corners[corner.face])
+				if (other != point)
+					shortest = std::min(shortest, std::norm(position[other] - position[point]));
+		});
+	};
+	measure(unknown);
+	if (image >= 0)
+		measure(image);
+	const double longest = kMaxStep * std::sqrt(shortest / std::norm(step));
 	const auto move = [&](double length) {
 		position[unknown] = from + length * step;
 		double after = 0.0;
@@ -309,7 +329,7 @@ void MeanDistortion::relax(
 			place(image);
 		return after;
 	};
-	for (double length = relaxation; length > kMinStep;) {
+	for (double length = std::min(relaxation, longest); length > kMinStep;) {
 		const double after = move(length), slope = -2.0 * length * promise;
 		if (after <= before + kDecrease * slope)
 			return;
