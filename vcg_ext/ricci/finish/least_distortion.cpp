@@ -64,10 +64,11 @@ public:
 		LeastDistortion result{0, m_value, m_value};
 		if (!std::isfinite(m_value))
 			return result;
+		const double worth = kPointGain * m_value / m_points.unknowns;
 		double gain = kInfinity;
 		while (result.steps < kMaxSweeps && gain > kSweepGain * m_value) {
 			tick();
-			gain = sweep(result.steps == 0 ? 1.0 : kOverrelaxation);
+			gain = sweep(result.steps == 0 ? 1.0 : kOverrelaxation, worth);
 			result.steps += gain > 0.0;
 			result.after = m_value;
 		}
@@ -105,11 +106,10 @@ private:
 	double worthOf(double change) const { return 1.25 * std::pow(m_value, 0.2) * change; }
 
 	/// \return by how much E falls
-	double sweep(double relaxation)
+	double sweep(double relaxation, double worth)
 	{
 		const double before = m_value;
-		m_value = m_energy.relax(
-			relaxation, kPointGain * m_value / m_points.unknowns, m_start, m_position);
+		m_value = m_energy.relax(relaxation, worth, m_start, m_position);
 		return before - m_value;
 	}
 

@@ -157,6 +157,7 @@ void MeanDistortion::usePoints(const MovablePoints& points)
 	m_image.assign(points.unknowns, -1);
 	for (int p = points.unknowns; p < points.moving(); ++p)
 		m_image[points.unknownOf(p)] = p;
+	m_settled.assign(points.unknowns, 0);
 }
 
 /// With s = kSmoothing, m^2 = (|f_zbar|^2 / |f_z|^2 + s) / (1 + s) < 1 and k = K - 1 = 2 m / (1 -
@@ -208,6 +209,7 @@ void MeanDistortion::evaluate(Face f, const Eigen::VectorXcd& position)
 
 double MeanDistortion::evaluate(const Eigen::VectorXcd& position)
 {
+	std::fill(m_settled.begin(), m_settled.end(), 0);
 	inParallel(faceCount(), m_threads, [&](int first, int last) {
 		for (const Face f : IndexRange<Face>(first, last))
 			evaluate(f, position);
@@ -266,7 +268,8 @@ double MeanDistortion::relax(
 	double relaxation, double worth, const Eigen::VectorXcd& start, Eigen::VectorXcd& position)
 {
 	for (int unknown = 0; unknown < m_points->unknowns; ++unknown)
-		relax(unknown, relaxation, worth, start, position);
+		if (!m_settled[unknown])
+			relax(unknown, relaxation, worth, start, position);
 	return sum();
 }
 
@@ -298,20 +301,25 @@ void MeanDistortion::relax(
 	if (image >= 0)
 		gradient += conjugateProduct(turn, gather(image));
 	const double promise = std::norm(gradient) / stiffness;
-	if (!(promise > worth))
+	if (!(promise > worth)) {
+		m_settled[unknown] = 1;
 		return;
+	}
 	const Complex from = position[unknown], step = -gradient / stiffness;
 	double shortest = kInfinity; // squared
-	const auto measure = [&](int point) {
+	const auto lookRound = [&](int point) {
 		eachCorner(point, [&](const Corner& corner) {
-			for (const int other : m_corners[corner.face])
+			for (const int other : m_corners[corner.face]) {
+				if (const int next = m_points->unknownOf(other); next >= 0)
+					m_settled[next] = 0;
 				if (other != point)
 					shortest = std::min(shortest, std::norm(position[other] - position[point]));
+			}
 		});
 	};
-	measure(unknown);
+	lookRound(unknown);
 	if (image >= 0)
-		measure(image);
+		lookRound(image);
 	const double longest = kMaxStep * std::sqrt(shortest / std::norm(step));
 	const auto move = [&](double length) {
 		position[unknown] = from + length * step;
@@ -339,6 +347,7 @@ void MeanDistortion::relax(
 									   : kMaxShortening;
 	}
 	move(0.0);
+	m_settled[unknown] = 1;
 }
 
 } // namespace ricci

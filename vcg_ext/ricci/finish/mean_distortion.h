@@ -53,7 +53,8 @@ public:
 	/// Moves the unknowns one after another to where E is less with all others in place, or a
 	/// little beyond: Gauss-Seidel steps with overrelaxation, each along the gradient as far as the
 	/// stiffness asks for times \p relaxation, or less. No triangle turns.
-	/// \param worth unknowns whose step promises to lower E by less stay
+	/// \param worth unknowns whose step promises to lower E by less stay, and are looked at again only
+	/// when something moves beside them
 	/// \param start [point] from where images follow
 	/// \param position [point] where E was last evaluated
 	/// \pre E is finite there
@@ -113,7 +114,8 @@ private:
 	const MovablePoints* m_points = nullptr;
 	Array<int> m_firstCorner; // [moving point, and one after the last] in m_cornerOf
 	std::vector<Corner> m_cornerOf;
-	Array<int> m_image; // [unknown] the point that is its image, or -1
+	Array<int> m_image;    // [unknown] the point that is its image, or -1
+	Array<char> m_settled; // [unknown] 1 where relax() need not look
 
 	FaceArray<double> m_energy, m_stiffness;
 	FaceArray<std::array<Complex, 2>> m_pull; // of the face at its corners 1 and 2
