@@ -2,48 +2,30 @@
 #include "drawn_triangles.h"
 
 #include "../math/disjoint_sets.h"
+#include "../math/edge_order.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 
 namespace ricci {
 
 namespace {
 
-/// In order of their edges, then of their triangles: by their lower vertices first, which takes linear
-/// time.
+/// In order of their edges, then of their triangles.
 /// \param at [triangle] the number that each corner has
 std::vector<DrawnSide> sidesOf(const Array<Triangle>& vertices, const Array<Triangle>& at)
 {
-	const auto eachSide = [&](const auto& use) {
-		for (const int f : vertices.indices())
-			for (std::size_t k = 0; k < 3; ++k) {
-				const std::size_t next = (k + 1) % 3;
-				const int a = vertices[f][k], b = vertices[f][next];
-				use(a < b ? DrawnSide{a, b, at[f][k], at[f][next], f}
-						  : DrawnSide{b, a, at[f][next], at[f][k], f});
-			}
-	};
-	int highest = 0;
-	eachSide([&](const DrawnSide& side) { highest = std::max(highest, side.high); });
-	Array<std::size_t> first(highest + 2, 0); // [vertex] its first side
-	eachSide([&](const DrawnSide& side) { ++first[side.low + 1]; });
-	for (int v = 0; v <= highest; ++v)
-		first[v + 1] += first[v];
-	std::vector<DrawnSide> sides(first[highest + 1]);
-	eachSide([&](const DrawnSide& side) { sides[first[side.low]++] = side; });
-	// first[v] is now where the sides of v end.
-	for (int v = 0; v <= highest; ++v) {
-		const auto begin = static_cast<std::ptrdiff_t>(v == 0 ? 0 : first[v - 1]);
-		std::sort(
-			sides.begin() + begin,
-			sides.begin() + static_cast<std::ptrdiff_t>(first[v]),
-			[](const DrawnSide& a, const DrawnSide& b) {
-				return std::tie(a.high, a.triangle) < std::tie(b.high, b.triangle);
-			});
-	}
+	std::vector<DrawnSide> sides;
+	sides.reserve(3 * vertices.values().size());
+	for (const int f : vertices.indices())
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::size_t next = (k + 1) % 3;
+			const int a = vertices[f][k], b = vertices[f][next];
+			sides.push_back(
+				a < b ? DrawnSide{a, b, at[f][k], at[f][next], f}
+					  : DrawnSide{b, a, at[f][next], at[f][k], f});
+		}
+	sortByEdge(sides);
 	return sides;
 }
 
