@@ -39,8 +39,8 @@ struct Soundness
 	bool isSound(const Triangle2& p) const
 	{
 		const Point2 a = inMemory(p[0]), b = inMemory(p[1]), c = inMemory(p[2]);
-		const auto square = [](const Point2& p, const Point2& q) {
-			return std::norm(asComplex(q) - asComplex(p));
+		const auto square = [](const Point2& from, const Point2& to) {
+			return std::norm(asComplex(to) - asComplex(from));
 		};
 		const double longest = std::sqrt(std::max({square(a, b), square(b, c), square(c, a)}));
 		return orientation(a, b, c) > 0 && doubledArea(a, b, c) > height * longest &&
