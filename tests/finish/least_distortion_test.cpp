@@ -274,6 +274,48 @@ TEST(MovablePoints, CopiesTurnAsTheEdgesOfTheirSeam)
 	}
 }
 
+TEST(MovablePoints, AreWalkedAlikeWhateverTheNumbers)
+{
+	Random random(604);
+	const SurfaceMesh mesh = wavyDisk(9, random);
+	std::vector<int> number(mesh.positions.size());
+	std::iota(number.begin(), number.end(), 0);
+	random.shuffle(number);
+	SurfaceMesh renumbered = mesh;
+	for (std::size_t v = 0; v < number.size(); ++v)
+		renumbered.positions[at(number[v])] = mesh.positions[v];
+	random.shuffle(renumbered.triangles);
+	for (Triangle& t : renumbered.triangles)
+		t = {number[at(t[0])], number[at(t[1])], number[at(t[2])]};
+	for (const bool boundaryMoves : {true, false}) {
+		Drawing a(mesh, fromAbove(mesh)), b(renumbered, fromAbove(renumbered));
+		a.boundaryMoves = b.boundaryMoves = boundaryMoves;
+		const auto vertexOf = [](const Drawing& d) {
+			const MovablePoints points = d.points();
+			std::vector<int> vertices(at(points.unknowns), -1);
+			for (const Halfedge h : d.t.interiorHalfedges())
+				if (const int p = points.number[d.layout.wedges.of[h]]; p < points.unknowns)
+					vertices[at(p)] = d.t.origin(h).number();
+			return vertices;
+		};
+		const std::vector<int> first = vertexOf(a), second = vertexOf(b);
+		ASSERT_EQ(first.size(), second.size());
+		int apart = 0; // unknowns that are no neighbours of an earlier one
+		for (std::size_t i = 0; i < first.size(); ++i) {
+			EXPECT_EQ(number[at(first[i])], second[i]);
+			bool isNext = false;
+			for (const Halfedge h : a.t.around(Vertex(first[i])))
+				isNext = isNext || std::find(
+									   first.begin(),
+									   first.begin() + static_cast<std::ptrdiff_t>(i),
+									   a.t.target(h).number()) !=
+									   first.begin() + static_cast<std::ptrdiff_t>(i);
+			apart += !isNext;
+		}
+		EXPECT_EQ(apart, 1);
+	}
+}
+
 TEST(MovablePoints, BoundaryStaysOrTwoFarPointsDo)
 {
 	Random random(603);
@@ -422,6 +464,61 @@ TEST(MeanDistortion, HasTheSameBitsWithAnyNumberOfThreads)
 	}
 }
 
+TEST(MeanDistortion, FallsWhereSinglePointsMove)
+{
+	Random random(631);
+	int compared = 0, moved = 0;
+	for (Drawing& d : drawingsWithSeams(random)) {
+		if (d.turned() > 0)
+			continue;
+		Measured m(d);
+		Eigen::VectorXcd position = m.moved(shake(m, 0.02 * d.extent(), random));
+		const Eigen::VectorXcd start = position;
+		double value = m.energy.evaluate(position);
+		EXPECT_EQ(m.energy.relax(1.0, value, start, position), value); // no step is worth so much
+		EXPECT_EQ((position - start).norm(), 0.0);
+		m.energy.evaluate(position); // all are looked at again
+		for (const double relaxation : {1.0, 1.5, 1.5}) {
+			const double next = m.energy.relax(relaxation, 0.0, start, position);
+			EXPECT_LT(next, value);
+			value = next;
+			Eigen::VectorXcd kept, gradient;
+			m.energy.gradient(kept);
+			EXPECT_NEAR(m.energy.evaluate(position) / next, 1.0, 1e-13); // so none has turned
+			m.energy.gradient(gradient);
+			EXPECT_LT((kept - gradient).norm(), 1e-12 * gradient.norm());
+		}
+		for (int p = 0; p < static_cast<int>(position.size()); ++p) {
+			const int unknown = m.points.unknownOf(p);
+			const Complex step = position[p] - start[p];
+			moved += step != 0.0;
+			const Complex wanted = unknown < 0
+									   ? Complex(0.0)
+									   : m.points.turnOf(p) * (position[unknown] - start[unknown]);
+			EXPECT_LT(std::abs(step - wanted), 1e-14 * d.extent());
+		}
+		++compared;
+	}
+	EXPECT_GE(compared, 2);
+	EXPECT_GT(moved, 100);
+}
+
+TEST(MeanDistortion, ComesNearlyAsLowWhereSinglePointsMoveForLong)
+{
+	Random random(632);
+	for (const int n : {5, 8}) {
+		const SurfaceMesh mesh = wavyDisk(n, random);
+		Drawing d(mesh, fromAbove(mesh));
+		Measured m(d);
+		Eigen::VectorXcd position = m.start;
+		double value = m.energy.evaluate(position);
+		for (int sweep = 0; sweep < 2000; ++sweep)
+			value = m.energy.relax(1.5, 0.0, m.start, position);
+		EXPECT_LT(
+			value, 1.05 * d.improve().after); // (K - 1)^(5/4) nearly has kinks, where they rest
+	}
+}
+
 TEST(DistortionLaplacian, IsTheRealPartOfTheReweightedSquares)
 {
 	Random random(615);
@@ -457,6 +554,38 @@ TEST(DistortionLaplacian, IsTheRealPartOfTheReweightedSquares)
 		};
 		EXPECT_LT((product(x.real()) - rhs.real()).norm(), 1e-9 * rhs.norm());
 		EXPECT_LT((product(x.imag()) - rhs.imag()).norm(), 1e-9 * rhs.norm());
+		++compared;
+	}
+	EXPECT_GE(compared, 2);
+}
+
+TEST(DistortionLaplacian, ComesNearerAsTheResidualFalls)
+{
+	Random random(633);
+	int compared = 0;
+	for (Drawing& d : drawingsWithSeams(random)) {
+		if (d.turned() > 0)
+			continue;
+		Measured m(d);
+		DistortionLaplacian laplacian(m.energy, m.points);
+		ASSERT_TRUE(std::isfinite(m.energy.evaluate(m.start)));
+		ASSERT_TRUE(laplacian.factorize(m.energy));
+		Eigen::VectorXcd rhs(m.points.unknowns), x, exact;
+		for (Complex& z : rhs)
+			z = {random.real(-1, 1), random.real(-1, 1)};
+		laplacian.solve(rhs, exact);
+		// x^T A x for the matrix A is x^T rhs where x solves; conjugate gradients lower the error in
+		// that norm, so that x^T rhs grows to it.
+		const double whole = LimitedMemoryBfgs::dot(rhs, exact);
+		double before = 0.0;
+		for (const double residual : {0.5, 0.1, 1e-2, 1e-4, 1e-8}) {
+			laplacian.solve(rhs, x, residual);
+			const double reached = LimitedMemoryBfgs::dot(rhs, x);
+			EXPECT_GE(reached, before);
+			EXPECT_LE(reached, whole * (1.0 + 1e-9));
+			before = reached;
+		}
+		EXPECT_NEAR(before / whole, 1.0, 1e-9);
 		++compared;
 	}
 	EXPECT_GE(compared, 2);

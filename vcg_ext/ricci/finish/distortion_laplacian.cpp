@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "distortion_laplacian.h"
 
-#include "../base/tolerances.h"
+#include "limited_memory_bfgs.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace ricci {
 
 namespace {
 
 using Complex = std::complex<double>;
-
-/// From one shift of the diagonal to the next.
-constexpr double kShiftGrowth = 100.0;
 
 /// Re(conj(a) b).
 double realProduct(Complex a, Complex b)
@@ -24,18 +20,14 @@ double realProduct(Complex a, Complex b)
 
 } // namespace
 
-DistortionLaplacian::DistortionLaplacian(MeanDistortion& energy, MovablePoints& points) :
-		m_points(points), m_unknown(energy.faceCount()), m_slot(energy.faceCount())
+DistortionLaplacian::DistortionLaplacian(
+	const MeanDistortion& energy, const MovablePoints& points) :
+		m_points(points),
+		m_unknown(energy.faceCount()), m_slot(energy.faceCount()), m_scale(points.unknowns),
+		m_residual(points.unknowns), m_direction(points.unknowns), m_solved(points.unknowns),
+		m_product(points.unknowns)
 {
-	energy.usePoints(points);
 	layOut(energy);
-	Array<int> row(points.unknowns);
-	std::iota(row.begin(), row.end(), 0);
-	m_cholesky.analyze(m_matrix, row, [&] {
-		points.renumber(row);
-		energy.usePoints(points);
-		layOut(energy);
-	});
 }
 
 void DistortionLaplacian::layOut(const MeanDistortion& energy)
@@ -52,58 +44,35 @@ void DistortionLaplacian::layOut(const MeanDistortion& energy)
 					use(f, k, std::min(a, b), std::max(a, b));
 			}
 	};
-	// The columns of each row; then the rows of each column, in increasing order, most of them
-	// twice.
-	const auto starts = [&](const auto& count) {
-		Array<int> start(n + 1, 0);
-		count(start);
-		for (int i = 0; i < n; ++i)
-			start[i + 1] += start[i];
-		return start;
-	};
-	const Array<int> rowStart = starts([&](Array<int>& start) {
-		eachSide([&](Face, std::size_t, int, int row) { ++start[row + 1]; });
+	std::vector<int> start(positionOf(n) + 1, 0);
+	eachSide([&](Face, std::size_t, int column, int) { ++start[positionOf(column) + 1]; });
+	for (std::size_t c = 0; c < positionOf(n); ++c)
+		start[c + 1] += start[c];
+	std::vector<int> rows(positionOf(start.back())), cursor = start;
+	eachSide([&](Face, std::size_t, int column, int row) {
+		rows[positionOf(cursor[positionOf(column)]++)] = row;
 	});
-	const Array<int> columnStart = starts([&](Array<int>& start) {
-		eachSide([&](Face, std::size_t, int column, int) { ++start[column + 1]; });
-	});
-	Array<int> columns(rowStart.back()), rows(rowStart.back());
-	Array<int> cursor = rowStart;
-	eachSide([&](Face, std::size_t, int column, int row) { columns[cursor[row]++] = column; });
-	cursor = columnStart;
-	for (int row = 0; row < n; ++row)
-		for (int i = rowStart[row]; i < rowStart[row + 1]; ++i)
-			rows[cursor[columns[i]]++] = row;
-
-	m_matrix.resize(n, n);
-	m_matrix.resizeNonZeros(n + rows.size());
-	int* outer = m_matrix.outerIndexPtr();
-	int* inner = m_matrix.innerIndexPtr();
-	int slot = 0;
-	for (int c = 0; c < n; ++c) {
-		outer[c] = slot;
-		inner[slot++] = c;
-		slot = static_cast<int>(
-			std::unique_copy(
-				rows.begin() + columnStart[c], rows.begin() + columnStart[c + 1], inner + slot) -
-			inner);
+	m_start.assign(1, 0);
+	for (std::size_t c = 0; c < positionOf(n); ++c) { // most rows are there twice
+		const auto first = rows.begin() + start[c], last = rows.begin() + start[c + 1];
+		std::sort(first, last);
+		m_row.insert(m_row.end(), first, std::unique(first, last));
+		m_start.push_back(static_cast<int>(m_row.size()));
 	}
-	outer[n] = slot;
-	m_matrix.resizeNonZeros(slot);
-
+	m_entry.resize(m_row.size());
 	m_slot.assign(m_unknown.size(), {-1, -1, -1});
-	inner = m_matrix.innerIndexPtr();
 	eachSide([&](Face f, std::size_t k, int column, int row) {
-		const int* entry = std::lower_bound(inner + outer[column], inner + outer[column + 1], row);
-		m_slot[f][k] = static_cast<int>(entry - inner);
+		const auto first = m_row.begin() + m_start[positionOf(column)];
+		const auto last = m_row.begin() + m_start[positionOf(column) + 1];
+		m_slot[f][k] = static_cast<int>(std::lower_bound(first, last, row) - m_row.begin());
 	});
 }
 
-void DistortionLaplacian::fill(const MeanDistortion& energy)
+bool DistortionLaplacian::factorize(const MeanDistortion& energy)
 {
-	const int* outer = m_matrix.outerIndexPtr();
-	double* value = m_matrix.valuePtr();
-	std::fill(value, value + m_matrix.nonZeros(), 0.0);
+	Eigen::VectorXd& diagonal = m_scale;
+	diagonal.setZero();
+	std::fill(m_entry.begin(), m_entry.end(), 0.0);
 	for (const Face f : m_unknown.indices()) {
 		const std::array<int, 3>& unknown = m_unknown[f];
 		const double s = energy.stiffness(f);
@@ -114,27 +83,73 @@ void DistortionLaplacian::fill(const MeanDistortion& energy)
 		for (std::size_t k = 0; k < 3; ++k) {
 			if (unknown[k] < 0)
 				continue;
-			double& diagonal = value[outer[unknown[k]]];
-			diagonal += s * std::norm(slopes[k]);
+			diagonal[unknown[k]] += s * std::norm(slopes[k]);
 			const std::size_t next = (k + 1) % 3;
 			if (m_slot[f][k] >= 0)
-				value[m_slot[f][k]] += s * realProduct(slopes[k], slopes[next]);
+				m_entry[positionOf(m_slot[f][k])] += s * realProduct(slopes[k], slopes[next]);
 			else if (unknown[k] == unknown[next]) // the two copies of a seam vertex
-				diagonal += 2.0 * s * realProduct(slopes[k], slopes[next]);
+				diagonal[unknown[k]] += 2.0 * s * realProduct(slopes[k], slopes[next]);
 		}
+	}
+	for (double& d : diagonal) {
+		if (!(d > 0.0 && std::isfinite(d)))
+			return false;
+		d = 1.0 / std::sqrt(d);
+	}
+	for (int c = 0; c < m_points.unknowns; ++c)
+		for (int i = m_start[positionOf(c)]; i < m_start[positionOf(c) + 1]; ++i)
+			m_entry[positionOf(i)] *= m_scale[c] * m_scale[m_row[positionOf(i)]];
+	return true;
+}
+
+/// x = (1 + L)^-1 x for the entries L below the diagonal.
+void DistortionLaplacian::solveForward(Eigen::VectorXcd& x) const
+{
+	for (int c = 0; c < m_points.unknowns; ++c) {
+		const Complex solved = x[c];
+		for (int i = m_start[positionOf(c)]; i < m_start[positionOf(c) + 1]; ++i)
+			x[m_row[positionOf(i)]] -= m_entry[positionOf(i)] * solved;
 	}
 }
 
-bool DistortionLaplacian::factorize(const MeanDistortion& energy)
+/// x = (1 + L)^-T x.
+void DistortionLaplacian::solveBackward(Eigen::VectorXcd& x) const
 {
-	fill(energy);
-	for (double shift = kFirstShift; !m_cholesky.factorize(m_matrix); shift *= kShiftGrowth) {
-		if (!(shift < 1.0))
-			return false;
-		for (int c = 0; c < m_points.unknowns; ++c)
-			m_matrix.valuePtr()[m_matrix.outerIndexPtr()[c]] *= 1.0 + shift;
+	for (int c = m_points.unknowns; c-- > 0;) {
+		Complex sum = x[c];
+		for (int i = m_start[positionOf(c)]; i < m_start[positionOf(c) + 1]; ++i)
+			sum -= m_entry[positionOf(i)] * x[m_row[positionOf(i)]];
+		x[c] = sum;
 	}
-	return true;
+}
+
+/// With A = 1 + L + L^T, conjugate gradients run on (1 + L)^-1 A (1 + L)^-T y = (1 + L)^-1 rhs, where
+/// the product with p is t + (1 + L)^-1 (p - t) for t = (1 + L)^-T p; x is the sum of the same t.
+void DistortionLaplacian::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x, double residual)
+{
+	const auto dot = LimitedMemoryBfgs::dot;
+	m_residual = m_scale.cwiseProduct(rhs);
+	solveForward(m_residual);
+	m_direction = m_residual;
+	x.setZero(m_points.unknowns);
+	double square = dot(m_residual, m_residual);
+	const double wanted = residual * residual * square;
+	while (square > wanted) {
+		m_solved = m_direction;
+		solveBackward(m_solved);
+		m_product = m_direction - m_solved;
+		solveForward(m_product);
+		m_product += m_solved;
+		const double length = square / dot(m_direction, m_product);
+		if (!(length > 0.0 && std::isfinite(length)))
+			break;
+		x += length * m_solved;
+		m_residual -= length * m_product;
+		const double last = square;
+		square = dot(m_residual, m_residual);
+		m_direction = m_residual + (square / last) * m_direction;
+	}
+	x = m_scale.cwiseProduct(x);
 }
 
 } // namespace ricci

@@ -2,46 +2,56 @@
 #ifndef RICCI_DISTORTION_LAPLACIAN_H
 #define RICCI_DISTORTION_LAPLACIAN_H
 
-#include "../math/sparse_cholesky.h"
 #include "mean_distortion.h"
+
+#include <vector>
 
 namespace ricci {
 
 /// What is near to the second derivative of a mean distortion E and easily inverted: with the
-/// derivatives s = dE / d|f_zbar|^2 held fixed, E changes with the unknowns d like
+/// stiffness s of the triangles held fixed, E changes with the unknowns d like
 /// sum s |f_zbar(d)|^2 = d^H N d. The real part of N is a cotangent Laplacian with the weights s of
-/// the triangles: real, symmetric and positive definite, so that one real factor serves real and
-/// imaginary parts alike. (The imaginary part vanishes inside where all s are equal.) Where a seam
-/// turns, entries across it have the real part of that turn.
+/// the triangles: real, symmetric and positive definite, so that real and imaginary parts are solved
+/// for alike. (The imaginary part vanishes inside where all s are equal.) Where a seam turns,
+/// entries across it have the real part of that turn.
+///
+/// Systems are solved by conjugate gradients, preconditioned by symmetric Gauss-Seidel steps in
+/// Eisenstat's form, which takes one pass over the matrix for both [Saad 2003, 9.2.2]. A few
+/// iterations spread a step over as many rings of triangles, in time proportional to their number.
 class DistortionLaplacian
 {
 public:
-	/// Numbers the unknowns of \p points for the factorisation. Both must outlive it.
-	DistortionLaplacian(MeanDistortion& energy, MovablePoints& points);
+	/// Lays the matrix out for \p points, which \p energy must use, and which must outlive it.
+	DistortionLaplacian(const MeanDistortion& energy, const MovablePoints& points);
 
-	/// Takes the derivatives where \p energy was last evaluated.
-	/// \return false where rounding keeps the matrix from being positive definite
-	/// \throw std::bad_alloc
+	/// Takes the stiffness where \p energy was last evaluated.
+	/// \return false where a row has no positive diagonal
 	bool factorize(const MeanDistortion& energy);
 
-	/// Operations of a factorisation for each entry of the factor; a solution takes four.
-	double costOfFactor() const { return m_cholesky.factorFlops() / m_cholesky.factorEntries(); }
-
-	/// x = matrix^-1 rhs.
+	/// x = matrix^-1 rhs, up to an error that leaves \p residual of what rhs is without x, both after
+	/// one Gauss-Seidel step.
 	/// \pre factorize() has returned true
-	void solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x) { m_cholesky.solve(rhs, x); }
+	void solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x, double residual = kRounding);
 
 private:
-	using Matrix = SparseCholesky::Matrix;
+	static constexpr double kRounding = 1e-14;
 
 	void layOut(const MeanDistortion& energy);
-	void fill(const MeanDistortion& energy);
+	void solveForward(Eigen::VectorXcd& x) const;
+	void solveBackward(Eigen::VectorXcd& x) const;
 
 	const MovablePoints& m_points;
-	Matrix m_matrix;                         // lower triangle, each column from its diagonal on
 	FaceArray<std::array<int, 3>> m_unknown; // of the corners, or -1
 	FaceArray<std::array<int, 3>> m_slot;    // of the entry between corners k and k + 1, or -1
-	SparseCholesky m_cholesky;
+
+	// The matrix with rows and columns scaled so that its diagonal is 1: the entries below that, by
+	// columns.
+	std::vector<int> m_start; // [column, and one after the last]
+	std::vector<int> m_row;
+	std::vector<double> m_entry;
+	Eigen::VectorXd m_scale; // of the rows
+
+	Eigen::VectorXcd m_residual, m_direction, m_solved, m_product; // of solve()
 };
 
 } // namespace ricci

@@ -2,16 +2,16 @@
 #include "drawn_triangles.h"
 
 #include "../math/disjoint_sets.h"
+#include "../math/edge_order.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 
 namespace ricci {
 
 namespace {
 
+/// In order of their edges, then of their triangles.
 /// \param at [triangle] the number that each corner has
 std::vector<DrawnSide> sidesOf(const Array<Triangle>& vertices, const Array<Triangle>& at)
 {
@@ -25,9 +25,7 @@ std::vector<DrawnSide> sidesOf(const Array<Triangle>& vertices, const Array<Tria
 				a < b ? DrawnSide{a, b, at[f][k], at[f][next], f}
 					  : DrawnSide{b, a, at[f][next], at[f][k], f});
 		}
-	std::sort(sides.begin(), sides.end(), [](const DrawnSide& a, const DrawnSide& b) {
-		return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-	});
+	sortByEdge(sides);
 	return sides;
 }
 

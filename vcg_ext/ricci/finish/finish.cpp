@@ -101,6 +101,7 @@ FinishCounts finishMap(
 	PlanarLayout& layout,
 	const Tick& tick)
 {
+	tick();
 	Box2 box;
 	for (const Point2& p : layout.points)
 		box.add(p);

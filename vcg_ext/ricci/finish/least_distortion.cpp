@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace ricci {
 
@@ -17,19 +16,20 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Steps at most, and the share of the distortion that two in a row must gain: what is gained later
-/// is not seen in the fourth decimal of a mean.
+/// Steps at most. They end when two in a row gain what this change of K in all triangles is worth: it is
+/// not seen in the fourth decimal of a mean.
 constexpr int kMaxSteps = 30;
-constexpr double kWorthwhile = 5e-4;
+constexpr double kSeen = 2e-5;
 
-/// Steps that the direction remembers.
-constexpr int kDepth = 5;
+/// Steps of one point after another come first, as long as each gains this share of the distortion.
+/// Points whose step promises less than this share of the mean distortion at a point stay. The length
+/// of the steps, but for those of the first time.
+constexpr int kMaxSweeps = 20;
+constexpr double kSweepGain = 0.01, kPointGain = 1e-3, kOverrelaxation = 1.5;
 
-/// Where the first step gains less than the slope has promised by this factor, needles have made
-/// the Laplacian far too stiff. They are gone after a few steps. A second factor is worth it then
-/// if it is not so large that it costs more than the steps it saves.
-constexpr double kNeedlePromise = 10.0, kMaxCostOfFactor = 200.0;
-constexpr int kStepsToFactorAgain = 2;
+/// Steps that the direction remembers; steps with the same stiffness; and the residual of a direction.
+constexpr int kDepth = 5, kSameStiffness = 8;
+constexpr double kResidual = 0.1;
 
 /// The share of the slope's promise that a step must keep; bounds of the factor from a trial step
 /// to the next; the shortest step.
@@ -48,45 +48,49 @@ Eigen::VectorXcd positionsOf(const MovablePoints& points, const PlanarLayout& la
 class DistortionDescent
 {
 public:
-	/// \p energy must outlive it.
-	DistortionDescent(MeanDistortion& energy, MovablePoints points, const PlanarLayout& layout) :
-			m_points(std::move(points)), m_energy(energy), m_laplacian(energy, m_points),
-			m_bfgs(m_points.unknowns, kDepth), m_start(positionsOf(m_points, layout)),
-			m_position(m_start), m_trial(m_start), m_direction(m_points.unknowns)
+	/// \p energy, which uses \p points, and they must outlive it.
+	DistortionDescent(
+		MeanDistortion& energy, const MovablePoints& points, const PlanarLayout& layout) :
+			m_points(points),
+			m_energy(energy), m_laplacian(energy, m_points), m_bfgs(m_points.unknowns, kDepth),
+			m_start(positionsOf(m_points, layout)), m_position(m_start), m_trial(m_start),
+			m_direction(m_points.unknowns)
 	{
 		m_value = m_energy.evaluate(m_position);
-		m_energy.gradient(m_gradient);
-		m_nextGradient = m_gradient;
 	}
 
 	LeastDistortion descend(const Tick& tick)
 	{
 		LeastDistortion result{0, m_value, m_value};
-		if (!std::isfinite(m_value) || !m_laplacian.factorize(m_energy))
+		if (!std::isfinite(m_value))
 			return result;
-		bool needles = false;
-		double lastGain = kInfinity;
-		while (result.steps < kMaxSteps) {
+		const double worth = kPointGain * m_value / m_points.unknowns;
+		double gain = kInfinity;
+		while (result.steps < kMaxSweeps && gain > kSweepGain * m_value) {
 			tick();
-			if (needles && result.steps == kStepsToFactorAgain && !m_laplacian.factorize(m_energy))
+			gain = sweep(result.steps == 0 ? 1.0 : kOverrelaxation, worth);
+			result.steps += gain > 0.0;
+			result.after = m_value;
+		}
+		m_energy.gradient(m_gradient);
+		double lastGain = kInfinity;
+		for (int i = 0; i < kMaxSteps; ++i, lastGain = gain) {
+			tick();
+			if (i % kSameStiffness == 0 && !m_laplacian.factorize(m_energy))
 				break;
 			m_bfgs.direction(
 				m_gradient,
 				[&](const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x) {
-					m_laplacian.solve(rhs, x);
+					m_laplacian.solve(rhs, x, kResidual);
 				},
 				m_direction);
-			const double slope = 2.0 * LimitedMemoryBfgs::dot(m_gradient, m_direction);
-			const double gain = step(slope);
+			gain = step(2.0 * LimitedMemoryBfgs::dot(m_gradient, m_direction));
 			if (!(gain > 0.0))
 				break;
-			if (++result.steps == 1)
-				needles =
-					-slope > kNeedlePromise * gain && m_laplacian.costOfFactor() < kMaxCostOfFactor;
+			++result.steps;
 			result.after = m_value;
-			if (gain + lastGain < kWorthwhile * m_value)
+			if (gain + lastGain < worthOf(kSeen))
 				break;
-			lastGain = gain;
 		}
 		return result;
 	}
@@ -98,6 +102,17 @@ public:
 	}
 
 private:
+	/// How much E = mean of (K - 1)^(5/4) changes where K changes by \p change everywhere.
+	double worthOf(double change) const { return 1.25 * std::pow(m_value, 0.2) * change; }
+
+	/// \return by how much E falls
+	double sweep(double relaxation, double worth)
+	{
+		const double before = m_value;
+		m_value = m_energy.relax(relaxation, worth, m_start, m_position);
+		return before - m_value;
+	}
+
 	/// Goes along the direction, down which E falls by -\p slope at first, as far as it falls.
 	/// \return by how much it falls; not positive where the direction does not lead down
 	double step(double slope)
@@ -139,7 +154,7 @@ private:
 		}
 	}
 
-	MovablePoints m_points;
+	const MovablePoints& m_points;
 	MeanDistortion& m_energy;
 	DistortionLaplacian m_laplacian;
 	LimitedMemoryBfgs m_bfgs;
@@ -160,13 +175,13 @@ LeastDistortion leastDistortion(
 	const Tick& tick)
 {
 	MeanDistortion energy(t, lengths, layout);
-	MovablePoints points = movablePoints(t, isCut, cones, boundaryMoves, layout);
+	const MovablePoints points = movablePoints(t, isCut, cones, boundaryMoves, layout);
+	energy.usePoints(points);
 	if (points.unknowns == 0) {
-		energy.usePoints(points);
 		const double value = energy.evaluate(positionsOf(points, layout));
 		return {0, value, value};
 	}
-	DistortionDescent descent(energy, std::move(points), layout);
+	DistortionDescent descent(energy, points, layout);
 	const LeastDistortion result = descent.descend(tick);
 	if (result.steps > 0)
 		descent.write(layout);

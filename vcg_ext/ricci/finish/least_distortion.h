@@ -10,7 +10,7 @@ namespace ricci {
 /// What leastDistortion() has done.
 struct LeastDistortion
 {
-	int steps = 0;                    ///< 0: the layout is what it was
+	int steps = 0; ///< of single points, each of all of them, and of all at once; 0: nothing moved
 	double before = 0.0, after = 0.0; ///< MeanDistortion of the layout
 };
 
@@ -21,12 +21,15 @@ struct LeastDistortion
 /// stay isometric: the angles of the cones and the holonomy of the flat metric stay exactly what
 /// they are (movable_points.h says what moves, mean_distortion.h what is minimised).
 ///
-/// Every step solves with a Laplacian (distortion_laplacian.h) for its direction, which
-/// limited-memory BFGS improves by what the steps before have shown, as [Liu Bouaziz Kavan 2017] do
-/// for elastic bodies, and is shortened until no triangle turns, by an exact test, and the
-/// distortion falls enough [Nocedal Wright 2006, 3.1, 3.5]. Solving for the direction more exactly,
-/// by reweighted least squares or Newton's equations, takes as many steps, each at several times
-/// the cost: the weights change as fast as the points. The steps end when two in a row gain little.
+/// Single points move first, one after another, each as far as it lowers the distortion: needles go,
+/// which would keep all others from moving far. Then all points move at once. Every such step solves
+/// with a Laplacian (distortion_laplacian.h) for its direction, which limited-memory BFGS improves by
+/// what the steps before have shown, as [Liu Bouaziz Kavan 2017] do for elastic bodies, and is
+/// shortened until no triangle turns, by an exact test, and the distortion falls enough
+/// [Nocedal Wright 2006, 3.1, 3.5]. A few iterations for the direction are enough: the flow's map is
+/// wrong in the small, where triangles are bent, and solving Newton's equations takes as many steps,
+/// each at several times the cost, for the weights change as fast as the points. The steps end when
+/// what two in a row gain is not seen in a mean. All of it takes time in proportion to the triangles.
 ///
 /// The same result to the bit with any number of threads.
 /// \param lengths of the edges in space

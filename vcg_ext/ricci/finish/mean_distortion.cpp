@@ -25,9 +25,21 @@ constexpr double kSmoothing = 1e-6;
 /// The stiffness of a triangle that does not count, in place of its weight: the Laplacian needs some.
 constexpr double kUncountedStiffness = 1e-4;
 
+/// See MeanDistortion::stiffness().
+constexpr double kMostBend = 4.0;
+
+/// Steps of relax() are at most so many times the shortest side at the point long: where triangles are
+/// small, a point that leaves them for the others' sake does not come back.
+constexpr double kMaxStep = 2.0;
+
+/// The share of the promise that a step of relax() must keep, and the shortest of them; bounds of the
+/// factor from a trial to the next.
+constexpr double kDecrease = 1e-4, kMinStep = 1e-3, kMinShortening = 0.1, kMaxShortening = 0.5;
+
 /// As in orientation(): a determinant above this share of its terms has the right sign, but for
 /// underflow.
 constexpr double kOrientationRounding = 4.0 * kUnitRoundoff;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTiny = std::numeric_limits<double>::min();
 
 /// Products by parts: those of std::complex look for infinities behind every result.
@@ -142,6 +154,10 @@ void MeanDistortion::usePoints(const MovablePoints& points)
 		for (int k = 0; k < 3; ++k)
 			if (const int point = m_corners[f][positionOf(k)]; point < points.moving())
 				m_cornerOf[positionOf(cursor[point]++)] = {f, k};
+	m_image.assign(points.unknowns, -1);
+	for (int p = points.unknowns; p < points.moving(); ++p)
+		m_image[points.unknownOf(p)] = p;
+	m_settled.assign(points.unknowns, 0);
 }
 
 /// With s = kSmoothing, m^2 = (|f_zbar|^2 / |f_z|^2 + s) / (1 + s) < 1 and k = K - 1 = 2 m / (1 -
@@ -162,7 +178,7 @@ void MeanDistortion::evaluate(Face f, const Eigen::VectorXcd& position)
 		return;
 	}
 	const double left = e1.real() * e2.imag(), right = e1.imag() * e2.real();
-	m_energy[f] = std::numeric_limits<double>::infinity();
+	m_energy[f] = kInfinity;
 	// What is far from 0 has the right sign, see orientation().
 	if (!(left - right > kOrientationRounding * (std::abs(left) + std::abs(right)) + kTiny) &&
 		orientation(
@@ -193,26 +209,48 @@ void MeanDistortion::evaluate(Face f, const Eigen::VectorXcd& position)
 
 double MeanDistortion::evaluate(const Eigen::VectorXcd& position)
 {
+	std::fill(m_settled.begin(), m_settled.end(), 0);
 	inParallel(faceCount(), m_threads, [&](int first, int last) {
 		for (const Face f : IndexRange<Face>(first, last))
 			evaluate(f, position);
 	});
-	double sum = 0.0; // in the same order with any number of threads
+	return sum();
+}
+
+/// In the same order with any number of threads.
+double MeanDistortion::sum() const
+{
+	double sum = 0.0;
 	for (const double energy : m_energy)
 		sum += energy;
 	return sum;
+}
+
+/// By k = K - 1 = (E / weight)^(4/5), 1 / (1 - m) = 1 + k / 2. The second derivative of k^(5/4) by m is
+/// that of the square times (2 m + 1/4) / (1 - m), and f_z, which falls, may double it: from m = 0 to 1,
+/// (1 - m)^(-3/2), and in the end 4 / (1 - m), is of that size.
+double MeanDistortion::stiffness(Face f) const
+{
+	const double weight = m_shape[f].weight;
+	if (weight == 0.0)
+		return m_stiffness[f];
+	const double over = 1.0 + 0.5 * std::pow(m_energy[f] / weight, 0.8);
+	return m_stiffness[f] * over * std::min(std::sqrt(over), kMostBend);
 }
 
 /// dE / d conj(point).
 MeanDistortion::Complex MeanDistortion::pull(int point) const
 {
 	Complex sum = 0.0;
-	for (int i = m_firstCorner[point]; i < m_firstCorner[point + 1]; ++i) {
-		const Corner& corner = m_cornerOf[positionOf(i)];
-		const std::array<Complex, 2>& pull = m_pull[corner.face];
-		sum += corner.place == 0 ? -(pull[0] + pull[1]) : pull[positionOf(corner.place - 1)];
-	}
+	for (int i = m_firstCorner[point]; i < m_firstCorner[point + 1]; ++i)
+		sum += pull(m_cornerOf[positionOf(i)]);
 	return sum;
+}
+
+MeanDistortion::Complex MeanDistortion::pull(const Corner& corner) const
+{
+	const std::array<Complex, 2>& pull = m_pull[corner.face];
+	return corner.place == 0 ? -(pull[0] + pull[1]) : pull[positionOf(corner.place - 1)];
 }
 
 void MeanDistortion::gradient(Eigen::VectorXcd& gradient) const
@@ -224,6 +262,92 @@ void MeanDistortion::gradient(Eigen::VectorXcd& gradient) const
 	});
 	for (int i = m_points->unknowns; i < m_points->moving(); ++i)
 		gradient[m_points->unknownOf(i)] += conjugateProduct(m_points->turnOf(i), pull(i));
+}
+
+double MeanDistortion::relax(
+	double relaxation, double worth, const Eigen::VectorXcd& start, Eigen::VectorXcd& position)
+{
+	for (int unknown = 0; unknown < m_points->unknowns; ++unknown)
+		if (!m_settled[unknown])
+			relax(unknown, relaxation, worth, start, position);
+	return sum();
+}
+
+void MeanDistortion::relax(
+	int unknown,
+	double relaxation,
+	double worth,
+	const Eigen::VectorXcd& start,
+	Eigen::VectorXcd& position)
+{
+	const int image = m_image[unknown];
+	const Complex turn = image < 0 ? 1.0 : m_points->turnOf(image);
+	const auto eachCorner = [&](int point, const auto& use) {
+		for (int i = m_firstCorner[point]; i < m_firstCorner[point + 1]; ++i)
+			use(m_cornerOf[positionOf(i)]);
+	};
+	double before = 0.0, stiffness = 0.0;
+	const auto gather = [&](int point) {
+		Complex sum = 0.0;
+		eachCorner(point, [&](const Corner& corner) {
+			sum += pull(corner);
+			before += m_energy[corner.face];
+			stiffness +=
+				m_stiffness[corner.face] * std::norm(slopes(corner.face)[positionOf(corner.place)]);
+		});
+		return sum;
+	};
+	Complex gradient = gather(unknown);
+	if (image >= 0)
+		gradient += conjugateProduct(turn, gather(image));
+	const double promise = std::norm(gradient) / stiffness;
+	if (!(promise > worth)) {
+		m_settled[unknown] = 1;
+		return;
+	}
+	const Complex from = position[unknown], step = -gradient / stiffness;
+	double shortest = kInfinity; // squared
+	const auto lookRound = [&](int point) {
+		eachCorner(point, [&](const Corner& corner) {
+			for (const int other : m_corners[corner.face]) {
+				if (const int next = m_points->unknownOf(other); next >= 0)
+					m_settled[next] = 0;
+				if (other != point)
+					shortest = std::min(shortest, std::norm(position[other] - position[point]));
+			}
+		});
+	};
+	lookRound(unknown);
+	if (image >= 0)
+		lookRound(image);
+	const double longest = kMaxStep * std::sqrt(shortest / std::norm(step));
+	const auto move = [&](double length) {
+		position[unknown] = from + length * step;
+		double after = 0.0;
+		const auto place = [&](int point) {
+			eachCorner(point, [&](const Corner& corner) {
+				evaluate(corner.face, position);
+				after += m_energy[corner.face];
+			});
+		};
+		if (image >= 0)
+			position[image] = start[image] + product(turn, position[unknown] - start[unknown]);
+		place(unknown);
+		if (image >= 0)
+			place(image);
+		return after;
+	};
+	for (double length = std::min(relaxation, longest); length > kMinStep;) {
+		const double after = move(length), slope = -2.0 * length * promise;
+		if (after <= before + kDecrease * slope)
+			return;
+		// The parabola through both values with the slope has its vertex at this share.
+		const double vertex = -slope / (2.0 * (after - before - slope));
+		length *= std::isfinite(after) ? std::clamp(vertex, kMinShortening, kMaxShortening)
+									   : kMaxShortening;
+	}
+	move(0.0);
+	m_settled[unknown] = 1;
 }
 
 } // namespace ricci

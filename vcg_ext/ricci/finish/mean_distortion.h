@@ -50,8 +50,22 @@ public:
 	/// evaluated.
 	void gradient(Eigen::VectorXcd& gradient) const;
 
-	/// dE / d |f_zbar|^2 of a face.
-	double stiffness(Face f) const { return m_stiffness[f]; }
+	/// Moves the unknowns one after another to where E is less with all others in place, or a
+	/// little beyond: Gauss-Seidel steps with overrelaxation, each along the gradient as far as the
+	/// stiffness asks for times \p relaxation, or less. No triangle turns.
+	/// \param worth unknowns whose step promises to lower E by less stay, and are looked at again only
+	/// when something moves beside them
+	/// \param start [point] from where images follow
+	/// \param position [point] where E was last evaluated
+	/// \pre E is finite there
+	/// \return E, as evaluate() gives it
+	double relax(
+		double relaxation, double worth, const Eigen::VectorXcd& start, Eigen::VectorXcd& position);
+
+	/// By which E changes with |f_zbar|^2 of a face: dE / d |f_zbar|^2 where its shape is nearly
+	/// kept. Elsewhere more, as E bends upwards, so that the square is no lower than E for steps that
+	/// do not turn it.
+	double stiffness(Face f) const;
 
 	/// The points at the corners of a face, and how f_zbar depends on them.
 	const std::array<int, 3>& corners(Face f) const { return m_corners[f]; }
@@ -81,7 +95,15 @@ private:
 	};
 
 	void evaluate(Face f, const Eigen::VectorXcd& position);
+	double sum() const;
 	Complex pull(int point) const;
+	Complex pull(const Corner& corner) const;
+	void relax(
+		int unknown,
+		double relaxation,
+		double worth,
+		const Eigen::VectorXcd& start,
+		Eigen::VectorXcd& position);
 
 	const Triangulation& m_t;
 	const PlanarLayout& m_layout;
@@ -92,6 +114,8 @@ private:
 	const MovablePoints* m_points = nullptr;
 	Array<int> m_firstCorner; // [moving point, and one after the last] in m_cornerOf
 	std::vector<Corner> m_cornerOf;
+	Array<int> m_image;    // [unknown] the point that is its image, or -1
+	Array<char> m_settled; // [unknown] 1 where relax() need not look
 
 	FaceArray<double> m_energy, m_stiffness;
 	FaceArray<std::array<Complex, 2>> m_pull; // of the face at its corners 1 and 2

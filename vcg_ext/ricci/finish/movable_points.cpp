@@ -60,11 +60,7 @@ public:
 	{
 		if (std::any_of(m_role.begin(), m_role.end(), [](Role r) { return r != Role::Free; }))
 			return;
-		Point2 centre{0.0, 0.0};
-		for (const Point2& p : m_layout.points)
-			for (std::size_t k = 0; k < 2; ++k)
-				centre[k] += p[k] / static_cast<double>(m_layout.points.size());
-		const int first = farthestFrom(centre), second = farthestFrom(m_layout.points[first]);
+		const int first = farthestFrom(centre()), second = farthestFrom(m_layout.points[first]);
 		m_role[first] = m_role[second] = Role::Stays;
 	}
 
@@ -72,14 +68,13 @@ public:
 	{
 		MovablePoints points;
 		points.number.assign(m_role.size(), -1);
-		int count = 0;
-		for (const Role role : {Role::Free, Role::Image, Role::Stays}) {
+		for (const int wedge : freeWedges())
+			points.number[wedge] = points.unknowns++;
+		int count = points.unknowns;
+		for (const Role role : {Role::Image, Role::Stays})
 			for (const int wedge : m_role.indices())
 				if (m_role[wedge] == role)
 					points.number[wedge] = count++;
-			if (role == Role::Free)
-				points.unknowns = count;
-		}
 		for (const int wedge : m_role.indices())
 			if (m_role[wedge] == Role::Image)
 				points.images.push_back({points.number[m_source[wedge]], m_turn[wedge]});
@@ -150,6 +145,59 @@ private:
 			}
 	}
 
+	/// The wedges that move freely, in the order of a walk (see MovablePoints).
+	std::vector<int> freeWedges() const
+	{
+		const Point2 middle = centre();
+		VertexArray<double> reach(m_t.vertexCount(), -1.0); // from the middle
+		VertexArray<int> freeAt(m_t.vertexCount(), -1);
+		for (const Halfedge h : m_t.interiorHalfedges()) {
+			const Vertex v = m_t.origin(h);
+			const int wedge = m_layout.wedges.of[h];
+			reach[v] = std::max(reach[v], distance(middle, m_layout.points[wedge]));
+			if (m_role[wedge] == Role::Free)
+				freeAt[v] = wedge;
+		}
+		const auto isBefore = [&](Vertex a, Vertex b) {
+			return reach[a] != reach[b] ? reach[a] > reach[b] : a < b;
+		};
+		std::vector<int> wedges;
+		std::vector<Vertex> walk;
+		VertexArray<char> seen(m_t.vertexCount(), 0);
+		const auto visit = [&](Vertex v) {
+			if (seen[v])
+				return;
+			seen[v] = 1;
+			walk.push_back(v);
+		};
+		Vertex farthest(0);
+		for (const Vertex v : m_t.vertices())
+			if (isBefore(v, farthest))
+				farthest = v;
+		visit(farthest);
+		for (std::size_t i = 0; i < walk.size(); ++i) {
+			const Vertex v = walk[i];
+			if (freeAt[v] >= 0)
+				wedges.push_back(freeAt[v]);
+			if (!m_t.halfedge(v).isValid())
+				continue;
+			const std::size_t first = walk.size();
+			for (const Halfedge h : m_t.around(v))
+				visit(m_t.target(h));
+			std::sort(walk.begin() + static_cast<std::ptrdiff_t>(first), walk.end(), isBefore);
+		}
+		return wedges;
+	}
+
+	Point2 centre() const
+	{
+		Point2 sum{0.0, 0.0};
+		for (const Point2& p : m_layout.points)
+			for (std::size_t k = 0; k < 2; ++k)
+				sum[k] += p[k] / static_cast<double>(m_layout.points.size());
+		return sum;
+	}
+
 	int farthestFrom(const Point2& from) const
 	{
 		int farthest = 0;
@@ -170,15 +218,6 @@ private:
 };
 
 } // namespace
-
-void MovablePoints::renumber(const Array<int>& row)
-{
-	for (int& point : number)
-		if (point < unknowns)
-			point = row[point];
-	for (Image& image : images)
-		image.source = row[image.source];
-}
 
 MovablePoints movablePoints(
 	const Triangulation& t,

@@ -15,7 +15,10 @@ namespace ricci {
 /// |turn| = 1, so that the two sides of the seam stay isometric. Cones, the vertices where several
 /// seams meet or where one ends, and boundary points that a seam touches stay.
 ///
-/// Points are numbered: the unknowns, which move freely, then the images, then those that stay.
+/// Points are numbered: the unknowns, which move freely, then the images, then those that stay. The
+/// unknowns follow a walk over the surface, breadth first from its point farthest from the middle of
+/// the layout, and at every vertex to the farthest neighbours first: what takes them one after another
+/// does not depend on the numbers of the mesh, and finds neighbours near in memory.
 struct MovablePoints
 {
 	Array<int> number; ///< [wedge of the layout] of its point
@@ -41,9 +44,6 @@ struct MovablePoints
 	{
 		return point < unknowns ? 1.0 : imageOf(point).turn;
 	}
-
-	/// Gives the unknowns other numbers. \param row [unknown] the new one
-	void renumber(const Array<int>& row);
 
 private:
 	const Image& imageOf(int point) const { return images[positionOf(point - unknowns)]; }

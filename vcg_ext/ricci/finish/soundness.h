@@ -39,7 +39,10 @@ struct Soundness
 	bool isSound(const Triangle2& p) const
 	{
 		const Point2 a = inMemory(p[0]), b = inMemory(p[1]), c = inMemory(p[2]);
-		const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
+		const auto square = [](const Point2& from, const Point2& to) {
+			return std::norm(asComplex(to) - asComplex(from));
+		};
+		const double longest = std::sqrt(std::max({square(a, b), square(b, c), square(c, a)}));
 		return orientation(a, b, c) > 0 && doubledArea(a, b, c) > height * longest &&
 			   (step == 0.0 || isUpright(p));
 	}

@@ -4,6 +4,7 @@
 #include "orientation.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -11,10 +12,41 @@ namespace ricci {
 
 namespace {
 
+/// Drops points inside the polygon of those that are farthest in eight directions: they are no corners
+/// of the convex hull, exactly.
+void dropInside(std::vector<Point2>& points)
+{
+	static constexpr std::array<Point2, 8> directions{
+		{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+	std::vector<Point2> polygon; // counter-clockwise
+	for (const Point2& d : directions) {
+		const auto along = [&](const Point2& p) { return d[0] * p[0] + d[1] * p[1]; };
+		polygon.push_back(
+			*std::max_element(points.begin(), points.end(), [&](const Point2& p, const Point2& q) {
+				return along(p) < along(q);
+			}));
+	}
+	polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+	if (polygon.size() > 1 && polygon.back() == polygon.front())
+		polygon.pop_back();
+	if (polygon.size() < 3)
+		return;
+	// A polygon that is seen counter-clockwise on all sides goes round.
+	const auto isInside = [&](const Point2& p) {
+		for (std::size_t i = 0; i < polygon.size(); ++i)
+			if (orientation(polygon[i], polygon[(i + 1) % polygon.size()], p) <= 0)
+				return false;
+		return true;
+	};
+	points.erase(std::remove_if(points.begin(), points.end(), isInside), points.end());
+}
+
 /// Corners of the convex hull, counter-clockwise (monotone chain
 /// [Andrew 1979]).
 std::vector<Point2> convexHull(std::vector<Point2> points)
 {
+	if (!points.empty())
+		dropInside(points);
 	std::sort(points.begin(), points.end());
 	points.erase(std::unique(points.begin(), points.end()), points.end());
 	if (points.size() < 3)

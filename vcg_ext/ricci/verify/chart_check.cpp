@@ -30,10 +30,17 @@ std::vector<PlaneSide>
 borderOf(const std::vector<Triangle>& triangles, const std::vector<Triangle2>& plane)
 {
 	std::vector<PlaneSide> sides = planeSides(triangles, plane), border;
-	const auto ends = [](const PlaneSide& s) { return std::tie(s.low, s.high, s.atLow, s.atHigh); };
-	forEqualSides(sides, ends, [&](std::size_t first, std::size_t count) {
-		if (count % 2 == 1)
-			border.push_back(sides[first]);
+	const auto places = [](const PlaneSide& s) { return std::tie(s.atLow, s.atHigh); };
+	forEdgesOf(sides, [&](std::size_t first, std::size_t count) {
+		std::sort(&sides[first], &sides[first] + count, [&](const auto& a, const auto& b) {
+			return places(a) < places(b);
+		});
+		for (std::size_t i = first, end = first; i < first + count; i = end) {
+			while (end < first + count && places(sides[end]) == places(sides[i]))
+				++end;
+			if ((end - i) % 2 == 1)
+				border.push_back(sides[i]);
+		}
 	});
 	return border;
 }

@@ -3,12 +3,11 @@
 #ifndef RICCI_SHARED_EDGES_H
 #define RICCI_SHARED_EDGES_H
 
+#include "../math/edge_order.h"
 #include "../math/points.h"
 #include "../surface/surface_mesh.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <tuple>
 #include <vector>
 
 namespace ricci {
@@ -38,29 +37,26 @@ planeSides(const std::vector<Triangle>& triangles, const std::vector<Triangle2>&
 	return sides;
 }
 
-/// Sorts \p sides by \p key and calls \p visit(first, count) for every largest run of sides with
-/// equal keys: the position of the first, and their number.
-template<class Side, class Key, class Visit>
-void forEqualSides(std::vector<Side>& sides, Key key, Visit visit)
+/// Calls \p visit(first, count) for every edge: the position of its first side in \p sides, and the
+/// number of its sides. A side has the numbers \c low < \c high of its ends; \p sides is sorted.
+template<class Side, class Visit>
+void forEdgesOf(std::vector<Side>& sides, Visit visit)
 {
-	std::sort(
-		sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return key(a) < key(b); });
+	sortByEdge(sides);
 	for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-		end = i;
-		while (end < sides.size() && key(sides[end]) == key(sides[i]))
+		while (end < sides.size() && sides[end].low == sides[i].low &&
+			   sides[end].high == sides[i].high)
 			++end;
 		visit(i, end - i);
 	}
 }
 
-/// Calls \p visit(a, b) for the two sides of every edge that exactly two triangles share. A side
-/// has the numbers \c low < \c high of its ends, and \p sides has one for each triangle that it
-/// belongs to; \p sides is sorted.
+/// Calls \p visit(a, b) for the two sides of every edge that exactly two triangles share. \p sides
+/// has one for each triangle that an edge belongs to, and is sorted.
 template<class Side, class Visit>
 void forSharedEdges(std::vector<Side>& sides, Visit visit)
 {
-	const auto ends = [](const Side& s) { return std::tie(s.low, s.high); };
-	forEqualSides(sides, ends, [&](std::size_t first, std::size_t count) {
+	forEdgesOf(sides, [&](std::size_t first, std::size_t count) {
 		if (count == 2)
 			visit(sides[first], sides[first + 1]);
 	});
