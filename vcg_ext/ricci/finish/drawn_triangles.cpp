@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "drawn_triangles.h"
 
+#include "../math/bucket_sort.h"
 #include "../math/disjoint_sets.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 
 namespace ricci {
@@ -25,9 +24,12 @@ std::vector<DrawnSide> sidesOf(const Array<Triangle>& vertices, const Array<Tria
 				a < b ? DrawnSide{a, b, at[f][k], at[f][next], f}
 					  : DrawnSide{b, a, at[f][next], at[f][k], f});
 		}
-	std::sort(sides.begin(), sides.end(), [](const DrawnSide& a, const DrawnSide& b) {
-		return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-	});
+	bucketSort(
+		sides,
+		[](const DrawnSide& s) { return s.low; },
+		[](const DrawnSide& a, const DrawnSide& b) {
+			return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
+		});
 	return sides;
 }
 

@@ -3,10 +3,10 @@
 #ifndef RICCI_SHARED_EDGES_H
 #define RICCI_SHARED_EDGES_H
 
+#include "../math/bucket_sort.h"
 #include "../math/points.h"
 #include "../surface/surface_mesh.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <tuple>
 #include <vector>
@@ -38,13 +38,15 @@ planeSides(const std::vector<Triangle>& triangles, const std::vector<Triangle2>&
 	return sides;
 }
 
-/// Sorts \p sides by \p key and calls \p visit(first, count) for every largest run of sides with
+/// Sorts \p sides by \p key, which begins with \c low, and calls \p visit(first, count) for every largest run of sides with
 /// equal keys: the position of the first, and their number.
 template<class Side, class Key, class Visit>
 void forEqualSides(std::vector<Side>& sides, Key key, Visit visit)
 {
-	std::sort(
-		sides.begin(), sides.end(), [&](const Side& a, const Side& b) { return key(a) < key(b); });
+	bucketSort(
+		sides,
+		[](const Side& s) { return s.low; },
+		[&](const Side& a, const Side& b) { return key(a) < key(b); });
 	for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
 		end = i;
 		while (end < sides.size() && key(sides[end]) == key(sides[i]))
