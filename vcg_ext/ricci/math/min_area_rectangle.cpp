@@ -4,6 +4,8 @@
 #include "orientation.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -11,10 +13,45 @@ namespace ricci {
 
 namespace {
 
+/// Takes away points inside the polygon of those that lie farthest in eight directions: most.
+void removeInner(std::vector<Point2>& points)
+{
+	std::array<std::size_t, 8> farthest{};
+	const auto along = [&](std::size_t i, std::size_t direction) {
+		constexpr double kX[] = {1, 1, 0, -1, -1, -1, 0, 1}, kY[] = {0, 1, 1, 1, 0, -1, -1, -1};
+		return kX[direction] * points[i][0] + kY[direction] * points[i][1];
+	};
+	for (std::size_t i = 0; i < points.size(); ++i)
+		for (std::size_t k = 0; k < farthest.size(); ++k)
+			if (along(i, k) > along(farthest[k], k))
+				farthest[k] = i;
+	std::vector<Point2> polygon;
+	for (const std::size_t i : farthest)
+		if (polygon.empty() || (points[i] != polygon.back() && points[i] != polygon.front()))
+			polygon.push_back(points[i]);
+	// A box that lies between those in the diagonal directions; and a closed polygon that has a point
+	// on the left of all its sides goes round it.
+	const Point2 &ne = points[farthest[1]], &nw = points[farthest[3]], &sw = points[farthest[5]],
+				 &se = points[farthest[7]];
+	const Point2 low{std::max(nw[0], sw[0]), std::max(sw[1], se[1])};
+	const Point2 high{std::min(ne[0], se[0]), std::min(ne[1], nw[1])};
+	const auto isInside = [&](const Point2& p) {
+		if (low[0] < p[0] && p[0] < high[0] && low[1] < p[1] && p[1] < high[1])
+			return true;
+		for (std::size_t k = 0; k < polygon.size(); ++k)
+			if (orientation(polygon[k], polygon[(k + 1) % polygon.size()], p) <= 0)
+				return false;
+		return true;
+	};
+	points.erase(std::remove_if(points.begin(), points.end(), isInside), points.end());
+}
+
 /// Corners of the convex hull, counter-clockwise (monotone chain
 /// [Andrew 1979]).
 std::vector<Point2> convexHull(std::vector<Point2> points)
 {
+	if (!points.empty())
+		removeInner(points);
 	std::sort(points.begin(), points.end());
 	points.erase(std::unique(points.begin(), points.end()), points.end());
 	if (points.size() < 3)
