@@ -16,6 +16,7 @@
 #include <functional>
 #include <numeric>
 #include <set>
+#include <utility>
 
 namespace ricci::testing {
 namespace {
@@ -36,7 +37,8 @@ DrawnChart drawn(const SurfaceMesh& mesh)
 	return chart;
 }
 
-Array<std::array<double, 3>> edgeLengths(const SurfaceMesh& mesh)
+/// With the lengths in space.
+ChartSides sidesOf(const SurfaceMesh& mesh)
 {
 	Array<std::array<double, 3>> lengths;
 	for (const Triangle& t : mesh.triangles) {
@@ -45,7 +47,7 @@ Array<std::array<double, 3>> edgeLengths(const SurfaceMesh& mesh)
 			l[k] = distance(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 1) % 3])]);
 		lengths.push_back(l);
 	}
-	return lengths;
+	return {sidesAcross(drawn(mesh)), std::move(lengths)};
 }
 
 /// A ring between radii 1 and 2 that goes round by \p angle, along a screw in space.
@@ -258,7 +260,7 @@ TEST(ChartDivision, OfRingsTakesAsManyPartsAsTurns)
 		const SurfaceMesh mesh = sector(2 * kPi * turns, static_cast<int>(40 * turns), 3);
 		const DrawnChart chart = drawn(mesh);
 		ChartCuts cuts;
-		const auto parts = divideChart(chart, overlappingPairs(chart), edgeLengths(mesh), cuts);
+		const auto parts = divideChart(chart, overlappingPairs(chart), sidesOf(mesh), cuts);
 		expectDivided(chart, parts);
 		EXPECT_GE(parts.size(), static_cast<std::size_t>(std::ceil(turns)));
 		EXPECT_LE(parts.size(), static_cast<std::size_t>(std::ceil(turns)) + 1);
@@ -280,7 +282,7 @@ TEST(ChartDivision, CutsWhereItIsShortest)
 	}
 	const DrawnChart chart = drawn(neck);
 	ChartCuts cuts;
-	const auto parts = divideChart(chart, overlappingPairs(chart), edgeLengths(neck), cuts);
+	const auto parts = divideChart(chart, overlappingPairs(chart), sidesOf(neck), cuts);
 	expectDivided(chart, parts);
 	ASSERT_EQ(parts.size(), 2u);
 	EXPECT_EQ(cuts.edges, 1);
@@ -294,7 +296,7 @@ TEST(ChartDivision, LeavesAChartWithoutOverlapWhole)
 	const SurfaceMesh mesh = sector(kPi, 20, 3);
 	const DrawnChart chart = drawn(mesh);
 	ChartCuts cuts{-1, -1.0};
-	const auto parts = divideChart(chart, overlappingPairs(chart), edgeLengths(mesh), cuts);
+	const auto parts = divideChart(chart, overlappingPairs(chart), sidesOf(mesh), cuts);
 	EXPECT_EQ(cuts.edges, 0);
 	EXPECT_EQ(cuts.length, 0.0);
 	ASSERT_EQ(parts.size(), 1u);

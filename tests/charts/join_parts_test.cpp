@@ -20,35 +20,39 @@ namespace {
 /// A mesh over the plane, of which each part lies elsewhere.
 struct Scattered
 {
-	DrawnTriangles drawn;
+	DrawnChart drawn;
+	Array<std::array<double, 3>> lengths;
 	std::vector<std::vector<int>> parts;
 
 	/// \param partOf [triangle]
-	Scattered(const SurfaceMesh& mesh, const Array<int>& partOf, Random& random)
+	Scattered(const SurfaceMesh& mesh, const Array<int>& partOf, Random& random) :
+			parts(at(*std::max_element(partOf.begin(), partOf.end()) + 1))
 	{
-		const int count = *std::max_element(partOf.begin(), partOf.end()) + 1;
-		parts.resize(at(count));
 		std::vector<RigidMotion> motions;
-		for (int i = 0; i < count; ++i)
+		for (std::size_t i = 0; i < parts.size(); ++i)
 			motions.push_back(
 				{std::polar(1.0, random.real(0, 2 * kPi)),
 				 {random.real(-20, 20), random.real(-20, 20)}});
-		Array<Triangle2> plane;
-		Array<std::array<double, 3>> sides;
+		drawn.triangles = Array<Triangle>(mesh.triangles);
 		for (const int f : partOf.indices()) {
 			const Triangle& t = mesh.triangles[at(f)];
 			Triangle2 p;
-			std::array<double, 3> lengths;
+			std::array<double, 3> l;
 			for (std::size_t k = 0; k < 3; ++k) {
 				const Point3 &a = mesh.positions[at(t[k])], &b = mesh.positions[at(t[(k + 1) % 3])];
-				p[k] = motions[at(partOf[f])]({a[0], a[1]});
-				lengths[k] = distance(a, b);
+				p[k] = motions[at(partOf[f])](Point2{a[0], a[1]});
+				l[k] = distance(a, b);
 			}
-			plane.push_back(p);
-			sides.push_back(lengths);
+			drawn.plane.push_back(p);
+			lengths.push_back(l);
 			parts[at(partOf[f])].push_back(f);
 		}
-		drawn = drawingOf(Array<Triangle>(mesh.triangles), plane, partOf, std::move(sides));
+	}
+
+	JoinedParts join()
+	{
+		const BoxTree tree = boxTreeOf(drawn.plane);
+		return joinParts(drawn, {sidesAcross(drawn), lengths}, tree, parts, [] {});
 	}
 };
 
@@ -62,14 +66,13 @@ Point2 centreOf(const SurfaceMesh& mesh, const Triangle& t)
 }
 
 /// Triangles of one part must not cover each other.
-void expectNothingCoveredTwice(
-	const DrawnTriangles& drawn, const std::vector<std::vector<int>>& parts)
+void expectNothingCoveredTwice(const DrawnChart& drawn, const std::vector<std::vector<int>>& parts)
 {
 	for (const std::vector<int>& part : parts) {
 		DrawnChart chart;
 		for (const int f : part) {
-			chart.triangles.push_back(drawn.vertices[f]);
-			chart.plane.push_back(drawn.at(f));
+			chart.triangles.push_back(drawn.triangles[f]);
+			chart.plane.push_back(drawn.plane[f]);
 		}
 		EXPECT_TRUE(overlappingPairs(chart).empty());
 	}
@@ -86,8 +89,8 @@ TEST(JoinParts, PutsAPictureTogether)
 	}
 	Scattered s(mesh, block, random);
 	ASSERT_EQ(s.parts.size(), 6u);
-	const DrawnTriangles before = s.drawn;
-	const JoinedParts joined = joinParts(s.drawn, s.parts, [] {});
+	const DrawnChart before = s.drawn;
+	const JoinedParts joined = s.join();
 	ASSERT_EQ(joined.parts.size(), 1u);
 	EXPECT_EQ(joined.parts[0].size(), mesh.triangles.size());
 	// Three lines between the blocks: two of 4 and one of 6, in edges of length 1.
@@ -95,13 +98,13 @@ TEST(JoinParts, PutsAPictureTogether)
 	EXPECT_NEAR(joined.seams.length, -14.0, 1e-12);
 	// The picture is the rectangle again, up to one motion.
 	std::vector<std::complex<double>> place(mesh.positions.size());
-	for (const int f : s.drawn.corners.indices())
+	for (const int f : s.drawn.plane.indices())
 		for (std::size_t k = 0; k < 3; ++k) {
-			const Point2 p = s.drawn.at(f)[k];
-			std::complex<double>& known = place[at(s.drawn.vertices[f][k])];
+			const Point2 p = s.drawn.plane[f][k];
+			std::complex<double>& known = place[at(s.drawn.triangles[f][k])];
 			EXPECT_TRUE(known == 0.0 || known == asComplex(p)) << "to the last bit";
 			known = asComplex(p);
-			EXPECT_LT(distance(p, joined.motion[f](before.at(f)[k])), 1e-12);
+			EXPECT_LT(distance(p, joined.motion[f](before.plane[f][k])), 1e-12);
 		}
 	for (std::size_t a = 0; a < place.size(); ++a)
 		for (std::size_t b = 0; b < a; ++b)
@@ -136,11 +139,11 @@ TEST(JoinParts, LeavesWhatHasNoRoom)
 {
 	Random random(921);
 	Scattered s(manyTurns(24, 1.5), arcs(24, {0, 12}), random);
-	const DrawnTriangles before = s.drawn;
-	const JoinedParts joined = joinParts(s.drawn, s.parts, [] {});
+	const DrawnChart before = s.drawn;
+	const JoinedParts joined = s.join();
 	EXPECT_EQ(joined.parts.size(), 2u);
 	EXPECT_EQ(joined.seams.edges, 0);
-	EXPECT_TRUE(s.drawn.points == before.points);
+	EXPECT_TRUE(s.drawn.plane == before.plane);
 }
 
 /// Two full turns in arcs of 398, 6 and 396 cells. The short one fits to neither of its neighbours as
@@ -149,7 +152,7 @@ TEST(JoinParts, ACrumbIsDividedAmongItsNeighbours)
 {
 	Random random(922);
 	Scattered s(manyTurns(800, 2.0), arcs(800, {0, 398, 404}), random);
-	const JoinedParts joined = joinParts(s.drawn, s.parts, [] {});
+	const JoinedParts joined = s.join();
 	expectNothingCoveredTwice(s.drawn, joined.parts);
 	ASSERT_EQ(joined.parts.size(), 2u);
 	EXPECT_EQ(joined.parts[0].size(), 800u);
@@ -163,7 +166,7 @@ TEST(JoinParts, ACrumbWithoutRoomGrows)
 {
 	Random random(924);
 	Scattered s(manyTurns(803, 803.0 / 400.0), arcs(803, {0, 400, 403}), random);
-	const JoinedParts joined = joinParts(s.drawn, s.parts, [] {});
+	const JoinedParts joined = s.join();
 	expectNothingCoveredTwice(s.drawn, joined.parts);
 	ASSERT_EQ(joined.parts.size(), 3u);
 	for (const std::vector<int>& part : joined.parts)
@@ -193,7 +196,7 @@ TEST(JoinParts, RandomParts)
 		s.parts.erase(
 			std::remove_if(s.parts.begin(), s.parts.end(), [](const auto& p) { return p.empty(); }),
 			s.parts.end());
-		const JoinedParts joined = joinParts(s.drawn, s.parts, [] {});
+		const JoinedParts joined = s.join();
 		EXPECT_EQ(joined.parts.size(), 1u) << "round " << round;
 		expectNothingCoveredTwice(s.drawn, joined.parts);
 	}

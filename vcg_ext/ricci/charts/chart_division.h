@@ -3,8 +3,8 @@
 #define RICCI_CHART_DIVISION_H
 
 #include "chart_overlap.h"
+#include "chart_sides.h"
 
-#include <array>
 #include <vector>
 
 namespace ricci {
@@ -23,17 +23,20 @@ struct ChartCuts
 /// As long as a part has an overlap, one sheet of it is grown from its largest overlapping triangle,
 /// and the minimum cut of the dual graph between this sheet and all that it covers divides the part
 /// (cutting an edge costs its length in space). Cutting moves nothing in the plane, so each cut
-/// removes pairs and makes none. In the end neighbouring parts that do not cover each other are
-/// joined again. The same input always gives the same parts.
+/// removes pairs and makes none. The cut is exact, but only the smaller side of it is searched, and
+/// what is nearer to the border of the part than the cut is long (border_flow.h, min_cut.h). In the
+/// end neighbouring parts that do not cover each other are joined again. The same input always gives
+/// the same parts.
 /// \param pairs from overlappingPairs()
-/// \param edgeLength [triangle][side] in space; side k runs from corner k to corner k + 1
 /// \param cuts receives what was cut
+/// \param tick called many times a second
 /// \return the triangles of each connected part, in increasing order, the parts by their first
 std::vector<std::vector<int>> divideChart(
 	const DrawnChart& chart,
 	const std::vector<TrianglePair>& pairs,
-	const Array<std::array<double, 3>>& edgeLength,
-	ChartCuts& cuts);
+	const ChartSides& sides,
+	ChartCuts& cuts,
+	const Tick& tick = [] {});
 
 } // namespace ricci
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chart_overlap.h"
 
-#include "../math/box_tree.h"
+#include "../base/tolerances.h"
 #include "../math/orientation.h"
 
 #include <algorithm>
@@ -13,22 +13,23 @@ namespace {
 /// Pairs of boxes that are looked at between two ticks.
 constexpr int kPairsBetweenTicks = 1 << 20;
 
-/// How far \p r lies to the left of the line from \p p to \p q; at most 0 exactly if it does not.
-double depth(const Point2& p, const Point2& q, const Point2& r)
+/// Whether \p r lies deeper than \p touching to the left of the line from \p p to \p q.
+bool isDeeper(const Point2& p, const Point2& q, const Point2& r, double touching)
 {
-	if (orientation(p, q, r) <= 0)
-		return 0.0;
-	return doubledArea(p, q, r) / distance(p, q);
+	const double area = doubledArea(p, q, r);
+	const double x = std::abs(q[0] - p[0]), y = std::abs(q[1] - p[1]);
+	// distance(p, q) lies between max(x, y) and x + y.
+	return area > touching * std::max(x, y) &&
+		   (area > touching * (x + y) || area > touching * distance(p, q));
 }
 
 /// Whether a side of \p a has \p b on its outer side, or no deeper inside than \p touching.
 bool separates(const Triangle2& a, const Triangle2& b, double touching)
 {
 	for (std::size_t k = 0; k < 3; ++k) {
-		bool outside = true;
-		for (std::size_t i = 0; i < 3 && outside; ++i)
-			outside = depth(a[k], a[(k + 1) % 3], b[i]) <= touching;
-		if (outside)
+		const Point2 &p = a[k], &q = a[(k + 1) % 3];
+		if (!isDeeper(p, q, b[0], touching) && !isDeeper(p, q, b[1], touching) &&
+			!isDeeper(p, q, b[2], touching))
 			return true;
 	}
 	return false;
@@ -63,6 +64,8 @@ bool commonPoint(const Triangle2& a, const Triangle2& b, Point2& point)
 	return true;
 }
 
+} // namespace
+
 BoxTree boxTreeOf(const Array<Triangle2>& triangles)
 {
 	std::vector<Box2> boxes;
@@ -73,17 +76,53 @@ BoxTree boxTreeOf(const Array<Triangle2>& triangles)
 			box.add(p);
 		boxes.push_back(box);
 	}
-	return BoxTree(std::move(boxes));
+	return BoxTree(boxes);
 }
 
-/// Triangles round \p p less those turned round: the winding number of the chart's boundary, where
-/// p lies on no edge.
-int cover(const BoxTree& tree, const Array<Triangle2>& plane, const Point2& p)
+bool overlap(const Triangle2& a, const Triangle2& b, double touching)
+{
+	return !separates(a, b, touching) && !separates(b, a, touching);
+}
+
+OverlapSearch::OverlapSearch(const DrawnChart& chart, const Tick& tick, double extent) :
+		m_plane(chart.plane), m_tree(boxTreeOf(chart.plane))
+{
+	Array<char> proper(m_plane.size());
+	for (const int i : m_plane.indices())
+		proper[i] = orientation(m_plane[i][0], m_plane[i][1], m_plane[i][2]) > 0;
+	const bool hasFolds = std::find(proper.begin(), proper.end(), 0) != proper.end();
+	const double touching = kTouching * std::max(extent, m_tree.extent());
+	int untilTick = kPairsBetweenTicks;
+	m_tree.meetingPairs([&](int i, int j) {
+		if (--untilTick == 0) {
+			untilTick = kPairsBetweenTicks;
+			tick();
+		}
+		if (!proper[i] || !proper[j] || !overlap(m_plane[i], m_plane[j], touching))
+			return;
+		const TrianglePair pair{std::min(i, j), std::max(i, j)};
+		Point2 p;
+		if (!hasFolds)
+			m_pairs.push_back(pair);
+		else if (commonPoint(m_plane[i], m_plane[j], p)) {
+			if (cover(p, [](int) { return true; }) > 1)
+				m_pairs.push_back(pair);
+			else
+				m_hidden.push_back({pair, p});
+		}
+	});
+	std::sort(m_pairs.begin(), m_pairs.end());
+}
+
+/// Triangles round \p p less those turned round, of those that are counted: the winding number of
+/// their boundary, where p lies on no edge.
+template<class IsCounted>
+int OverlapSearch::cover(const Point2& p, const IsCounted& isCounted) const
 {
 	int sum = 0;
-	tree.boxesAround(p, [&](int i) {
-		const Triangle2& c = plane[i];
-		const int first = orientation(c[0], c[1], p);
+	m_tree.boxesAround(p, [&](int i) {
+		const Triangle2& c = m_plane[i];
+		const int first = isCounted(i) ? orientation(c[0], c[1], p) : 0;
 		if (first != 0 && orientation(c[1], c[2], p) == first &&
 			orientation(c[2], c[0], p) == first)
 			sum += first;
@@ -91,34 +130,22 @@ int cover(const BoxTree& tree, const Array<Triangle2>& plane, const Point2& p)
 	return sum;
 }
 
-} // namespace
+std::vector<TrianglePair> OverlapSearch::uncovered(const Array<int>& part) const
+{
+	std::vector<TrianglePair> pairs;
+	for (const HiddenPair& hidden : m_hidden) {
+		const int own = part[hidden.triangles[0]];
+		if (part[hidden.triangles[1]] == own &&
+			cover(hidden.common, [&](int i) { return part[i] == own; }) > 1)
+			pairs.push_back(hidden.triangles);
+	}
+	std::sort(pairs.begin(), pairs.end());
+	return pairs;
+}
 
 std::vector<TrianglePair> overlappingPairs(const DrawnChart& chart, const Tick& tick, double extent)
 {
-	const Array<Triangle2>& plane = chart.plane;
-	const BoxTree tree = boxTreeOf(plane);
-	Array<char> proper(plane.size());
-	for (int i = 0; i < plane.size(); ++i)
-		proper[i] = orientation(plane[i][0], plane[i][1], plane[i][2]) > 0;
-	const bool hasFolds = std::find(proper.begin(), proper.end(), 0) != proper.end();
-	const double touching = kTouching * std::max(extent, tree.extent());
-	std::vector<TrianglePair> pairs;
-	int untilTick = kPairsBetweenTicks;
-	tree.meetingPairs([&](int i, int j) {
-		if (--untilTick == 0) {
-			untilTick = kPairsBetweenTicks;
-			tick();
-		}
-		const Triangle2 &a = plane[i], &b = plane[j];
-		if (!proper[i] || !proper[j] || separates(a, b, touching) || separates(b, a, touching))
-			return;
-		Point2 p;
-		if (hasFolds && (!commonPoint(a, b, p) || cover(tree, plane, p) < 2))
-			return;
-		pairs.push_back({std::min(i, j), std::max(i, j)});
-	});
-	std::sort(pairs.begin(), pairs.end());
-	return pairs;
+	return OverlapSearch(chart, tick, extent).pairs();
 }
 
 } // namespace ricci

@@ -3,7 +3,7 @@
 #define RICCI_CHART_OVERLAP_H
 
 #include "../base/indexed.h"
-#include "../base/tolerances.h"
+#include "../math/box_tree.h"
 #include "../math/points.h"
 #include "../progress.h"
 #include "../surface/surface_mesh.h"
@@ -24,11 +24,18 @@ struct DrawnChart
 /// Two triangles of a chart, the lower number first.
 using TrianglePair = std::array<int, 2>;
 
-/// Pairs of triangles that cover a part of the plane twice, in increasing order.
+/// Boxes of triangles, in their order.
+BoxTree boxTreeOf(const Array<Triangle2>& triangles);
+
+/// Whether two counter-clockwise triangles cover a part of the plane twice, deeper than \p touching:
+/// no side of either then has the other triangle on its outer side (separating axes of convex
+/// polygons).
+/// \param touching above what rounding adds to the distances of points from lines
+bool overlap(const Triangle2& a, const Triangle2& b, double touching);
+
+/// Finds pairs of triangles that cover a part of the plane twice.
 ///
-/// Two triangles have a common inner point exactly if no side of either has the other triangle on
-/// its outer side (separating axes of convex polygons; sides are compared by orientation(), and
-/// contact up to kTouching is ignored). Candidates come from a tree of bounding boxes. So neither
+/// These overlap() by more than kTouching. Candidates come from a tree of bounding boxes. So neither
 /// the chart's topology nor its boundary matters: holes, slits whose sides coincide, and parts that
 /// touch in points or along lines are no overlap; a cone of more than 2 pi at a boundary vertex is.
 ///
@@ -36,13 +43,43 @@ using TrianglePair = std::array<int, 2>;
 /// behind it. Folds are counted elsewhere (Report::flippedFaces). Here triangles that are not
 /// counter-clockwise count as negative cover, and a pair is an overlap only if a point of its common
 /// part is covered more than once in the sum, which is the winding number of the chart's boundary
-/// about that point. A part of the chart may have lost the fold that hides an overlap: it has to be
-/// searched anew.
-///
-/// \param extent of the layout that the chart is a part of: how closely its sides can be expected to
-/// meet. The chart's own where that is larger.
-/// \param tick heard many times a second: the boxes of the n triangles round one vertex meet in as
-/// many as n^2 / 2 pairs
+/// about that point. A part of the chart may have lost the fold that hides an overlap.
+class OverlapSearch
+{
+public:
+	/// \param extent of the layout that the chart is a part of: how closely its sides can be expected
+	/// to meet. The chart's own where that is larger.
+	/// \param tick heard many times a second: the boxes of the n triangles round one vertex meet in as
+	/// many as n^2 / 2 pairs
+	explicit OverlapSearch(
+		const DrawnChart& chart, const Tick& tick = [] {}, double extent = 0.0);
+
+	/// In increasing order.
+	const std::vector<TrianglePair>& pairs() const { return m_pairs; }
+
+	/// Pairs of triangles of one part that only the folds of other parts hide, in increasing order.
+	/// \param part [triangle]
+	std::vector<TrianglePair> uncovered(const Array<int>& part) const;
+
+	const BoxTree& tree() const { return m_tree; }
+
+private:
+	template<class IsCounted>
+	int cover(const Point2& p, const IsCounted& isCounted) const;
+
+	struct HiddenPair
+	{
+		TrianglePair triangles;
+		Point2 common; ///< a point of both
+	};
+
+	const Array<Triangle2>& m_plane;
+	BoxTree m_tree;
+	std::vector<TrianglePair> m_pairs;
+	std::vector<HiddenPair> m_hidden;
+};
+
+/// OverlapSearch::pairs().
 std::vector<TrianglePair> overlappingPairs(
 	const DrawnChart& chart, const Tick& tick = [] {}, double extent = 0.0);
 

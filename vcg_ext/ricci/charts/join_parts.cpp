@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "join_parts.h"
 
-#include "../base/tolerances.h"
-#include "../math/disjoint_sets.h"
-#include "../math/orientation.h"
-#include "../metric/area.h"
-#include "chart_overlap.h"
+#include "connected_pieces.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
-#include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -28,25 +20,15 @@ class PartJoiner
 {
 public:
 	PartJoiner(
-		DrawnTriangles& drawn, const std::vector<std::vector<int>>& parts, const Tick& tick) :
-			m_drawn(drawn),
-			m_tick(tick), m_neighbour(drawn.corners.size(), {-1, -1, -1}), m_parts(parts),
-			m_part(drawn.corners.size(), 0), m_area(parts.size(), 0.0),
-			m_motion(drawn.corners.size(), RigidMotion())
+		DrawnChart& chart,
+		const ChartSides& sides,
+		const BoxTree& tree,
+		const std::vector<std::vector<int>>& parts,
+		const Tick& tick) :
+			m_chart(chart),
+			m_sides(sides), m_tick(tick), m_parts(chart, sides, tree, parts),
+			m_mark(chart.plane.size(), kNone), m_scratch(chart.plane.size(), -1)
 	{
-		Box2 box;
-		for (const Point2& p : drawn.points)
-			box.add(p);
-		m_extent = box.extent();
-		for (std::size_t i = 0; i < parts.size(); ++i)
-			for (const int f : parts[i]) {
-				m_part[f] = static_cast<int>(i);
-				m_area[m_part[f]] += areaOf(f);
-			}
-		forEdges(sidesByEdge(drawn), [&](const DrawnSide* side, int count) {
-			for (int i = 0; i < 2 && count == 2; ++i)
-				m_neighbour[side[i].triangle][sideAt(side[i])] = side[1 - i].triangle;
-		});
 	}
 
 	JoinedParts run()
@@ -54,157 +36,58 @@ public:
 		JoinedParts result;
 		measureSeams(-1, result.seams);
 		joinWhole();
-		const double total = std::accumulate(m_area.begin(), m_area.end(), 0.0);
+		double total = 0.0;
+		for (int part = 0; part < m_parts.count(); ++part)
+			total += m_parts.area(part);
 		const auto isCrumb = [&](int part) {
-			return !m_parts[positionOf(part)].empty() && m_area[part] < kCrumb * total;
+			return !m_parts.isEmpty(part) && m_parts.area(part) < kCrumb * total;
 		};
-		for (int part = 0; part < m_area.size(); ++part)
+		for (int part = 0; part < m_parts.count(); ++part)
 			if (isCrumb(part))
 				dissolve(part, kCrumb * total);
-		for (int part = 0; part < m_area.size(); ++part)
+		for (int part = 0; part < m_parts.count(); ++part)
 			if (isCrumb(part))
 				grow(part, kGrown * total);
-		for (std::vector<int>& part : m_parts)
-			if (!part.empty()) {
-				std::sort(part.begin(), part.end());
-				result.parts.push_back(part);
+		for (int part = 0; part < m_parts.count(); ++part)
+			if (!m_parts.isEmpty(part)) {
+				result.parts.push_back(m_parts.trianglesOf(part));
+				std::sort(result.parts.back().begin(), result.parts.back().end());
 			}
 		std::sort(result.parts.begin(), result.parts.end());
 		measureSeams(1, result.seams);
 		unite();
-		result.motion = std::move(m_motion);
+		for (const int f : m_chart.plane.indices())
+			result.motion.push_back(m_parts.motionOf(f));
 		return result;
 	}
 
 private:
-	/// A side of a triangle in a part whose neighbour is in another one.
-	struct Seam
-	{
-		int own, other;   ///< triangles
-		std::size_t side; ///< of own
-	};
-
-	/// A place for a part beside another one.
-	struct Place
-	{
-		int other; ///< part
-		RigidMotion motion;
-		double length; ///< of the common border, in space
-	};
-
-	std::size_t sideAt(const DrawnSide& side) const
-	{
-		const Triangle& t = m_drawn.vertices[side.triangle];
-		std::size_t k = 0;
-		while (std::min(t[k], t[(k + 1) % 3]) != side.low ||
-			   std::max(t[k], t[(k + 1) % 3]) != side.high)
-			++k;
-		return k;
-	}
-
-	int pointAt(int triangle, int vertex) const
-	{
-		std::size_t k = 0;
-		while (m_drawn.vertices[triangle][k] != vertex)
-			++k;
-		return m_drawn.corners[triangle][k];
-	}
-
-	const Point2& at(int triangle, int vertex) const
-	{
-		return m_drawn.points[pointAt(triangle, vertex)];
-	}
-
-	/// The ends of a seam on its own side and on the other one.
-	struct Ends
-	{
-		std::array<Point2, 2> own, other;
-		double gap() const
-		{
-			return std::max(distance(own[0], other[0]), distance(own[1], other[1]));
-		}
-	};
-
-	Ends endsOf(const Seam& seam) const
-	{
-		const Triangle& t = m_drawn.vertices[seam.own];
-		const int a = t[seam.side], b = t[(seam.side + 1) % 3];
-		return {{at(seam.own, a), at(seam.own, b)}, {at(seam.other, a), at(seam.other, b)}};
-	}
-
-	/// Calls visit(seam) for the sides of \p triangle with a neighbour.
-	template<class Visit>
-	void forSides(int triangle, const Visit& visit) const
-	{
-		for (std::size_t k = 0; k < 3; ++k)
-			if (const int other = m_neighbour[triangle][k]; other >= 0)
-				visit(Seam{triangle, other, k});
-	}
-
-	/// In space.
-	double areaOf(int triangle) const { return euclideanArea(m_drawn.sides[triangle]); }
-
-	double lengthOf(const Seam& seam) const { return m_drawn.sides[seam.own][seam.side]; }
-
-	/// Whether its two sides are at one place in one part.
-	bool isJoined(const Seam& seam) const
-	{
-		return m_part[seam.own] == m_part[seam.other] && fits({}, endsOf(seam));
-	}
-
 	/// Adds the seams as they are, \p sign times.
 	void measureSeams(int sign, ChartCuts& cuts) const
 	{
-		for (const int f : m_part.indices())
-			forSides(f, [&](const Seam& seam) {
-				if (f > seam.other || isJoined(seam))
-					return;
+		for (const int side : m_sides.across.indices())
+			if (m_sides.across[side] > side && !m_parts.isJoined(side)) {
 				cuts.edges += sign;
-				cuts.length += sign * lengthOf(seam);
-			});
-	}
-
-	/// The motion of its own side of a seam to the other one.
-	static RigidMotion across(const Ends& ends)
-	{
-		const auto vector = [](const std::array<Point2, 2>& p) {
-			return asComplex(p[1]) - asComplex(p[0]);
-		};
-		const auto middle = [](const std::array<Point2, 2>& p) {
-			return 0.5 * (asComplex(p[1]) + asComplex(p[0]));
-		};
-		const std::complex<double> turn = vector(ends.other) * std::conj(vector(ends.own));
-		RigidMotion motion;
-		if (const double size = std::abs(turn); size > 0.0)
-			motion.turn = turn / size;
-		motion.shift = middle(ends.other) - motion.turn * middle(ends.own);
-		return motion;
-	}
-
-	bool fits(const RigidMotion& motion, Ends ends) const
-	{
-		for (Point2& p : ends.own)
-			p = motion(p);
-		return ends.gap() <= kOnePlace * m_extent;
+				cuts.length += sign * m_sides.lengthOf(side);
+			}
 	}
 
 	/// Those with the longest borders first.
 	std::vector<Place> placesOf(int part) const
 	{
 		std::vector<Place> places;
-		for (const int f : m_parts[positionOf(part)])
-			forSides(f, [&](const Seam& seam) {
-				const int other = m_part[seam.other];
+		for (const int f : m_parts.trianglesOf(part))
+			m_parts.forSides(f, [&](int side, int across) {
+				const int other = m_parts.partOf(across / 3);
 				if (other == part)
 					return;
-				const Ends ends = endsOf(seam);
 				const auto known = std::find_if(places.begin(), places.end(), [&](const Place& p) {
-					return p.other == other && fits(p.motion, ends);
+					return p.other == other && m_parts.fits(p.motion, side);
 				});
 				if (known != places.end())
-					known->length += lengthOf(seam);
-				else if (const RigidMotion motion = across(ends); fits(motion, ends))
-					places.push_back({other, motion, lengthOf(seam)});
+					known->length += m_sides.lengthOf(side);
+				else if (const auto motion = m_parts.across(side); m_parts.fits(motion, side))
+					places.push_back({other, motion, m_sides.lengthOf(side)});
 			});
 		std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
 			return a.length > b.length;
@@ -212,111 +95,47 @@ private:
 		return places;
 	}
 
-	/// The triangles of the part and of the other one that cover each other at the part's new place,
-	/// those that are turned round left out.
-	std::vector<int> covering(int part, const Place& place) const
-	{
-		DrawnChart both;
-		std::vector<int> triangles;
-		const auto add = [&](int f, const Triangle2& p) {
-			if (orientation(p[0], p[1], p[2]) <= 0)
-				return;
-			both.triangles.push_back(m_drawn.vertices[f]);
-			both.plane.push_back(p);
-			triangles.push_back(f);
-		};
-		Box2 box;
-		for (const int f : m_parts[positionOf(part)]) {
-			Triangle2 p = m_drawn.at(f);
-			for (Point2& corner : p) {
-				corner = place.motion(corner);
-				box.add(corner);
-			}
-			add(f, p);
-		}
-		for (const int f : m_parts[positionOf(place.other)]) {
-			const Triangle2 p = m_drawn.at(f);
-			Box2 own;
-			for (const Point2& corner : p)
-				own.add(corner);
-			if (own.meets(box))
-				add(f, p);
-		}
-		std::vector<int> found;
-		for (const TrianglePair& pair : overlappingPairs(both, m_tick, m_extent)) {
-			const int f = triangles[positionOf(pair[0])], g = triangles[positionOf(pair[1])];
-			if (m_part[f] != m_part[g])
-				found.insert(found.end(), {f, g});
-		}
-		return found;
-	}
-
 	/// Moves all parts that have room elsewhere, the smallest first.
 	void joinWhole()
 	{
 		std::set<std::pair<double, int>> open; // by area
-		for (const int part : m_area.indices())
-			open.insert({m_area[part], part});
+		for (int part = 0; part < m_parts.count(); ++part)
+			open.insert({m_parts.area(part), part});
 		while (open.size() > 1) {
 			const int part = open.begin()->second;
 			open.erase(open.begin());
-			m_tick();
 			for (const Place& place : placesOf(part)) {
-				if (!covering(part, place).empty())
+				m_tick();
+				if (m_parts.covering(part, place, [](int, int) { return true; }))
 					continue;
 				// A part that has no room stays without.
-				const bool isOpen = open.erase({m_area[place.other], place.other}) > 0;
-				move(std::vector<int>(m_parts[positionOf(part)]), place);
+				const bool isOpen = open.erase({m_parts.area(place.other), place.other}) > 0;
+				m_parts.move(m_parts.trianglesOf(part), place);
+				m_parts.commit();
 				if (isOpen)
-					open.insert({m_area[place.other], place.other});
+					open.insert({m_parts.area(place.other), place.other});
 				break;
 			}
 		}
-	}
-
-	/// Everything that moves change.
-	struct State
-	{
-		Array<Point2> points;
-		Array<Triangle> corners;
-		std::vector<std::vector<int>> parts;
-		Array<int> part;
-		Array<double> area;
-		Array<RigidMotion> motion;
-	};
-
-	State state() const
-	{
-		return {m_drawn.points, m_drawn.corners, m_parts, m_part, m_area, m_motion};
-	}
-
-	void restore(State&& before)
-	{
-		m_drawn.points = std::move(before.points);
-		m_drawn.corners = std::move(before.corners);
-		m_parts = std::move(before.parts);
-		m_part = std::move(before.part);
-		m_area = std::move(before.area);
-		m_motion = std::move(before.motion);
 	}
 
 	/// Divides a part among others. \return whether nothing is left of it
 	bool divide(int part)
 	{
 		bool isMoved = true;
-		while (isMoved && !m_parts[positionOf(part)].empty()) {
-			m_tick();
+		while (isMoved && !m_parts.isEmpty(part)) {
 			isMoved = false;
 			for (const Place& place : placesOf(part)) {
+				m_tick();
 				const std::vector<int> free = freeAt(part, place);
 				if (free.empty())
 					continue;
-				move(free, place);
+				m_parts.move(free, place);
 				isMoved = true;
 				break;
 			}
 		}
-		return m_parts[positionOf(part)].empty();
+		return m_parts.isEmpty(part);
 	}
 
 	/// Moves a part where it covers something, and divides that among others.
@@ -324,87 +143,92 @@ private:
 	bool displace(int part, const Place& place, double maxArea)
 	{
 		std::vector<int> covered;
-		double area = 0.0;
-		for (const int f : covering(part, place))
-			if (m_part[f] == place.other)
-				covered.push_back(f);
+		m_parts.covering(part, place, [&](int, int g) {
+			covered.push_back(g);
+			return false;
+		});
 		std::sort(covered.begin(), covered.end());
 		covered.erase(std::unique(covered.begin(), covered.end()), covered.end());
-		for (const int f : covered)
-			area += areaOf(f);
+		double area = 0.0;
+		for (const int g : covered)
+			area += m_parts.areaOf(g);
 		if (covered.empty() || area > maxArea)
 			return false;
-		const int displaced = m_area.size();
-		m_parts.emplace_back();
-		m_area.push_back(0.0);
-		move(covered, {displaced, RigidMotion(), 0.0});
-		if (pieces(place.other, [](int) { return true; }).size() > 1)
+		const int displaced = m_parts.addPart();
+		m_parts.move(covered, {displaced, RigidMotion(), 0.0});
+		if (!smallerPiecesRound(covered, place.other).empty())
 			return false;
-		move(std::vector<int>(m_parts[positionOf(part)]), place);
+		m_parts.move(m_parts.trianglesOf(part), place);
 		return divide(displaced);
 	}
 
 	/// Does away with a part, or leaves all as it is.
 	void dissolve(int part, double maxArea)
 	{
-		State before = state();
-		if (divide(part))
-			return;
-		restore(State(before));
-		for (const Place& place : placesOf(part)) {
-			if (displace(part, place, maxArea))
-				return;
-			restore(State(before));
+		bool isDone = divide(part);
+		if (!isDone) {
+			m_parts.undo();
+			for (const Place& place : placesOf(part)) {
+				m_tick();
+				isDone = displace(part, place, maxArea);
+				if (isDone)
+					break;
+				m_parts.undo();
+			}
 		}
+		m_parts.commit();
 	}
 
-	/// The connected pieces of what \p isIn(triangle) leaves of a part.
-	template<class IsIn>
-	std::vector<std::vector<int>> pieces(int part, const IsIn& isIn) const
+	/// The pieces but the largest into which what is left of a part falls without \p triangles, which
+	/// are marked as taken or in another part.
+	std::vector<std::vector<int>> smallerPiecesRound(const std::vector<int>& triangles, int part)
 	{
-		std::vector<std::vector<int>> found;
-		Array<char> seen(m_part.size(), 0);
-		for (const int first : m_parts[positionOf(part)]) {
-			if (seen[first] || !isIn(first))
-				continue;
-			std::vector<int> piece{first};
-			seen[first] = 1;
-			for (std::size_t i = 0; i < piece.size(); ++i)
-				forSides(piece[i], [&](const Seam& seam) {
-					if (isJoined(seam) && !seen[seam.other] && isIn(seam.other)) {
-						seen[seam.other] = 1;
-						piece.push_back(seam.other);
-					}
+		const auto isIn = [&](int f) { return m_parts.partOf(f) == part && m_mark[f] != kTaken; };
+		std::vector<int> ends;
+		for (const int f : triangles)
+			m_parts.forSides(f, [&](int, int across) {
+				if (isIn(across / 3))
+					ends.push_back(across / 3);
+			});
+		return smallerPieces(
+			ends,
+			[&](int f, const auto& visit) {
+				m_parts.forSides(f, [&](int side, int across) {
+					if (isIn(across / 3) && m_parts.isJoined(side))
+						visit(across / 3);
 				});
-			found.push_back(std::move(piece));
-		}
-		return found;
+			},
+			m_scratch);
 	}
 
 	/// The triangles of the part that cover nothing at its new place, as far as they hang together
 	/// with the common border.
-	std::vector<int> freeAt(int part, const Place& place) const
+	std::vector<int> freeAt(int part, const Place& place)
 	{
-		Array<char> isTaken(m_part.size(), 0);
-		for (const int f : covering(part, place))
-			isTaken[f] = 1;
-		std::vector<int> free;
+		std::vector<int> marked, free;
+		m_parts.covering(part, place, [&](int f, int) {
+			marked.push_back(f);
+			m_mark[f] = kCovering;
+			return false;
+		});
 		const auto take = [&](int f) {
-			if (m_part[f] == part && !isTaken[f]) {
-				isTaken[f] = 1;
+			if (m_parts.partOf(f) == part && m_mark[f] == kNone) {
+				m_mark[f] = kTaken;
 				free.push_back(f);
 			}
 		};
-		for (const int f : m_parts[positionOf(part)])
-			forSides(f, [&](const Seam& seam) {
-				if (m_part[seam.other] == place.other && fits(place.motion, endsOf(seam)))
+		for (const int f : m_parts.trianglesOf(part))
+			m_parts.forSides(f, [&](int side, int across) {
+				if (m_parts.partOf(across / 3) == place.other && m_parts.fits(place.motion, side))
 					take(f);
 			});
 		for (std::size_t i = 0; i < free.size(); ++i)
-			forSides(free[i], [&](const Seam& seam) {
-				if (isJoined(seam))
-					take(seam.other);
+			m_parts.forSides(free[i], [&](int side, int across) {
+				if (m_parts.isJoined(side))
+					take(across / 3);
 			});
+		unmark(marked);
+		unmark(free);
 		return free;
 	}
 
@@ -412,124 +236,125 @@ private:
 	void grow(int part, double area)
 	{
 		for (const Place& place : placesOf(part)) {
-			if (m_area[place.other] < 2.0 * area)
+			m_tick();
+			if (m_parts.area(place.other) < 2.0 * area)
 				continue;
 			const std::vector<int> given = nextTo(part, place, area);
 			if (given.empty())
 				continue;
-			RigidMotion back;
-			back.turn = std::conj(place.motion.turn);
-			back.shift = -back.turn * place.motion.shift;
-			move(given, {part, back, 0.0});
+			m_parts.move(given, {part, place.motion.inverse(), 0.0});
+			m_parts.commit();
 			return;
 		}
 	}
 
 	/// Triangles of the other part, from the common border on, that cover nothing of the part at its
 	/// new place and leave the other one in one piece. None if they do not have the area with the part.
-	std::vector<int> nextTo(int part, const Place& place, double area) const
+	std::vector<int> nextTo(int part, const Place& place, double area)
 	{
-		enum : char { kOther, kFree, kCovering, kTaken };
-		Array<char> state(m_part.size(), kOther);
-		for (const int f : m_parts[positionOf(place.other)])
-			state[f] = kFree;
-		for (const int f : covering(part, place))
-			if (state[f] == kFree)
-				state[f] = kCovering;
-		std::vector<int> taken;
-		double sum = m_area[part];
+		std::vector<int> marked, taken;
+		m_parts.covering(part, place, [&](int, int g) {
+			marked.push_back(g);
+			m_mark[g] = kCovering;
+			return false;
+		});
+		double sum = m_parts.area(part);
 		const auto take = [&](int f) {
-			if (state[f] != kFree)
+			if (m_parts.partOf(f) != place.other || m_mark[f] != kNone)
 				return;
-			state[f] = kTaken;
+			m_mark[f] = kTaken;
 			taken.push_back(f);
-			sum += areaOf(f);
+			sum += m_parts.areaOf(f);
 		};
-		for (const int f : m_parts[positionOf(part)])
-			forSides(f, [&](const Seam& seam) {
-				if (m_part[seam.other] == place.other && fits(place.motion, endsOf(seam)))
-					take(seam.other);
+		for (const int f : m_parts.trianglesOf(part))
+			m_parts.forSides(f, [&](int side, int across) {
+				if (m_parts.fits(place.motion, side))
+					take(across / 3);
 			});
 		for (std::size_t i = 0; i < taken.size() && sum < area; ++i)
-			forSides(taken[i], [&](const Seam& seam) {
-				if (isJoined(seam))
-					take(seam.other);
+			m_parts.forSides(taken[i], [&](int side, int across) {
+				if (m_parts.isJoined(side))
+					take(across / 3);
 			});
 		// What is cut off by it goes with it.
-		auto rest = pieces(place.other, [&](int f) { return state[f] != kTaken; });
-		std::sort(rest.begin(), rest.end(), [](const auto& x, const auto& y) {
-			return x.size() < y.size();
-		});
-		if (!rest.empty())
-			rest.pop_back(); // the largest stays
 		bool isWhole = sum >= area;
-		for (const std::vector<int>& piece : rest)
+		for (const std::vector<int>& piece : smallerPiecesRound(taken, place.other))
 			for (const int f : piece) {
-				isWhole = isWhole && state[f] == kFree;
+				isWhole = isWhole && m_mark[f] == kNone;
 				take(f);
 			}
+		unmark(marked);
+		unmark(taken);
 		return isWhole ? taken : std::vector<int>();
 	}
 
-	/// Moves triangles of one part to another.
-	void move(const std::vector<int>& triangles, const Place& place)
+	void unmark(const std::vector<int>& triangles)
 	{
-		const int from = m_part[triangles.front()];
-		std::map<int, int> copies; // of points, as other triangles may stay there
-		for (const int f : triangles) {
-			m_area[from] -= areaOf(f);
-			m_area[place.other] += areaOf(f);
-			for (int& corner : m_drawn.corners[f]) {
-				const auto [copy, isNew] = copies.try_emplace(corner, m_drawn.points.size());
-				if (isNew)
-					m_drawn.points.push_back(place.motion(m_drawn.points[corner]));
-				corner = copy->second;
-			}
-			m_motion[f].turn *= place.motion.turn;
-			m_motion[f].shift = place.motion.turn * m_motion[f].shift + place.motion.shift;
-			m_part[f] = place.other;
-		}
-		std::vector<int>& left = m_parts[positionOf(from)];
-		left.erase(
-			std::remove_if(left.begin(), left.end(), [&](int f) { return m_part[f] != from; }),
-			left.end());
-		std::vector<int>& others = m_parts[positionOf(place.other)];
-		others.insert(others.end(), triangles.begin(), triangles.end());
+		for (const int f : triangles)
+			m_mark[f] = kNone;
 	}
 
-	/// Gives points at one place the same coordinates, to the last bit.
+	/// Gives the ends of joined sides the same coordinates, to the last bit: at each vertex those of
+	/// the triangle with the lowest number.
 	void unite()
 	{
-		DisjointSets sets(m_drawn.points.size());
-		for (const int f : m_part.indices())
-			forSides(f, [&](const Seam& seam) {
-				if (!isJoined(seam))
-					return;
-				const Triangle& t = m_drawn.vertices[f];
-				for (const int v : {t[seam.side], t[(seam.side + 1) % 3]})
-					sets.merge(pointAt(f, v), pointAt(seam.other, v));
-			});
-		const Array<Point2> points = m_drawn.points;
-		for (const int p : points.indices())
-			m_drawn.points[p] = points[sets.find(p)];
+		for (const int side : m_sides.across.indices()) {
+			const int across = m_sides.across[side];
+			if (across < side || !m_parts.isJoined(side))
+				continue;
+			const auto own = endsOf(m_chart, side), other = endsOf(m_chart, across);
+			if (own[0] != other[1])
+				uniteAt(side);
+			if (own[1] != other[0])
+				uniteAt(across);
+		}
 	}
 
-	DrawnTriangles& m_drawn;
+	/// Unites the corners that joined sides connect with the one where \p side begins.
+	void uniteAt(int side)
+	{
+		std::vector<int> corners{side};
+		bool isRing = false;
+		for (int s = side; !isRing && m_sides.across[s] >= 0 && m_parts.isJoined(s);) {
+			s = nextSide(m_sides.across[s]);
+			isRing = s == side;
+			corners.push_back(s);
+		}
+		for (int s = side; !isRing;) {
+			s = previousSide(s);
+			if (m_sides.across[s] < 0 || !m_parts.isJoined(s))
+				break;
+			s = m_sides.across[s];
+			corners.push_back(s);
+		}
+		const auto corner = [&](int s) -> Point2& {
+			return m_chart.plane[s / 3][positionOf(s % 3)];
+		};
+		const Point2 place = corner(*std::min_element(corners.begin(), corners.end()));
+		for (const int s : corners)
+			corner(s) = place;
+	}
+
+	enum Mark : char { kNone, kCovering, kTaken };
+
+	DrawnChart& m_chart;
+	const ChartSides& m_sides;
 	const Tick& m_tick;
-	Array<std::array<int, 3>> m_neighbour; // [triangle][side] triangle across it, or -1
-	std::vector<std::vector<int>> m_parts;
-	Array<int> m_part;    // [triangle]
-	Array<double> m_area; // [part]
-	Array<RigidMotion> m_motion;
-	double m_extent = 0.0;
+	MovableParts m_parts;
+	Array<char> m_mark;   // [triangle] Mark, kNone between uses
+	Array<int> m_scratch; // [triangle] -1 between uses
 };
 
 } // namespace
 
-JoinedParts
-joinParts(DrawnTriangles& drawn, const std::vector<std::vector<int>>& parts, const Tick& tick)
+JoinedParts joinParts(
+	DrawnChart& chart,
+	const ChartSides& sides,
+	const BoxTree& tree,
+	const std::vector<std::vector<int>>& parts,
+	const Tick& tick)
 {
-	return PartJoiner(drawn, parts, tick).run();
+	return PartJoiner(chart, sides, tree, parts, tick).run();
 }
 
 } // namespace ricci

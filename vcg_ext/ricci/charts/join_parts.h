@@ -2,22 +2,13 @@
 #ifndef RICCI_JOIN_PARTS_H
 #define RICCI_JOIN_PARTS_H
 
-#include "../finish/drawn_triangles.h"
 #include "../progress.h"
 #include "chart_division.h"
+#include "movable_parts.h"
 
-#include <complex>
 #include <vector>
 
 namespace ricci {
-
-/// A rotation and a translation of the plane.
-struct RigidMotion
-{
-	std::complex<double> turn = 1.0, shift = 0.0;
-
-	Point2 operator()(const Point2& p) const { return asPoint(turn * asComplex(p) + shift); }
-};
 
 /// Parts of a drawing after joinParts().
 struct JoinedParts
@@ -31,13 +22,18 @@ struct JoinedParts
 /// Joins parts of a drawing across seams: the sides of a seam are isometric, so that a part can be
 /// moved to the other side of it, where it often has room. Of all parts the smallest is moved first,
 /// along the longest border where it covers nothing, until none can be moved. What is smaller than a
-/// hundredth of all then is divided among the parts round it, if they have room for all of it. Ends of sides that come
-/// to lie on each other are the same points then, bit by bit.
-/// \param drawn its points are moved
-/// \param parts no part covers itself
-/// \param tick see overlappingPairs()
-JoinedParts
-joinParts(DrawnTriangles& drawn, const std::vector<std::vector<int>>& parts, const Tick& tick);
+/// hundredth of all then is divided among the parts round it, if they have room for all of it. Ends of
+/// sides that come to lie on each other are at the same place then, bit by bit.
+/// \param chart its corners are moved
+/// \param tree boxTreeOf(chart.plane)
+/// \param parts connected, and none covers itself
+/// \param tick called many times a second
+JoinedParts joinParts(
+	DrawnChart& chart,
+	const ChartSides& sides,
+	const BoxTree& tree,
+	const std::vector<std::vector<int>>& parts,
+	const Tick& tick);
 
 } // namespace ricci
 

@@ -2,12 +2,12 @@
 #include "separate_charts.h"
 
 #include "../math/min_area_rectangle.h"
-#include "../math/orientation.h"
 #include "chart_division.h"
 #include "chart_overlap.h"
+#include "chart_sides.h"
 #include "join_parts.h"
+#include "simple_border.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -21,119 +21,108 @@ const std::vector<int>& trianglesOf(const Parametrization& map, const Chart& cha
 	return map.isRefined() ? chart.refined : chart.faces;
 }
 
-/// The output's triangles of one chart, in the order of their component.
-struct OutputChart
+/// A face's or triangle's corners, with two of them swapped if it is reversed: then those that are
+/// counter-clockwise in the plane are properly oriented.
+template<class Corners>
+Corners inOrder(const Parametrization& map, int triangle, Corners corners)
 {
-	DrawnChart drawn;
-	Array<std::array<double, 3>> edgeLength;
-
-	OutputChart(const SurfaceMesh& mesh, const Parametrization& map, const Chart& chart)
-	{
-		for (int f : trianglesOf(map, chart)) {
-			const std::size_t i = positionOf(f);
-			Triangle t = map.isRefined() ? map.refined.triangles[i] : mesh.triangles[i];
-			Triangle2 plane = map.isRefined() ? map.refined.uv[i] : map.uv[i];
-			if (map.reversed[map.isRefined() ? positionOf(map.refined.inputFace[i]) : i]) {
-				std::swap(t[1], t[2]);
-				std::swap(plane[1], plane[2]);
-			}
-			std::array<Point3, 3> place;
-			for (std::size_t k = 0; k < 3; ++k) {
-				const std::size_t v = positionOf(t[k]);
-				place[k] = map.isRefined() ? placeOnSurface(map.refined.points[v], mesh.positions)
-										   : mesh.positions[v];
-			}
-			drawn.triangles.push_back(t);
-			drawn.plane.push_back(plane);
-			edgeLength.push_back(
-				{distance(place[0], place[1]),
-				 distance(place[1], place[2]),
-				 distance(place[2], place[0])});
-		}
-	}
-
-	bool hasFolds() const
-	{
-		return std::any_of(drawn.plane.begin(), drawn.plane.end(), [](const Triangle2& p) {
-			return orientation(p[0], p[1], p[2]) <= 0;
-		});
-	}
-
-	double extent() const
-	{
-		Box2 box;
-		for (const Triangle2& triangle : drawn.plane)
-			for (const Point2& p : triangle)
-				box.add(p);
-		return box.extent();
-	}
-};
-
-/// Pairs of triangles of one part that overlap, in the chart's numbers.
-std::vector<TrianglePair>
-pairsWithin(const DrawnChart& chart, const std::vector<int>& part, double extent, const Tick& tick)
-{
-	DrawnChart own;
-	for (const int i : part) {
-		own.triangles.push_back(chart.triangles[i]);
-		own.plane.push_back(chart.plane[i]);
-	}
-	std::vector<TrianglePair> pairs = overlappingPairs(own, tick, extent);
-	for (TrianglePair& pair : pairs)
-		pair = {part[positionOf(pair[0])], part[positionOf(pair[1])]};
-	return pairs;
+	const std::size_t i = positionOf(triangle);
+	if (map.reversed[map.isRefined() ? positionOf(map.refined.inputFace[i]) : i])
+		std::swap(corners[1], corners[2]);
+	return corners;
 }
 
-/// Divides the chart so that no part covers itself. A fold may hide an overlap from \p pairs and then
-/// go to another part than the triangles that it hides: what appears in the parts is added to the
-/// pairs, and the chart is divided anew.
-std::vector<std::vector<int>> separateParts(
-	const OutputChart& chart, std::vector<TrianglePair> pairs, const Tick& tick, ChartCuts& cuts)
+std::vector<Triangle2>& planeOf(Parametrization& map)
 {
-	const bool hasFolds = chart.hasFolds();
-	const double extent = chart.extent();
+	return map.isRefined() ? map.refined.uv : map.uv;
+}
+
+/// The output's triangles of one chart, in the order of their component.
+DrawnChart drawnChart(const SurfaceMesh& mesh, Parametrization& map, const Chart& chart)
+{
+	const std::vector<Triangle>& all = map.isRefined() ? map.refined.triangles : mesh.triangles;
+	DrawnChart drawn;
+	const std::vector<int>& triangles = trianglesOf(map, chart);
+	drawn.triangles.reserve(triangles.size());
+	drawn.plane.reserve(triangles.size());
+	for (const int f : triangles) {
+		drawn.triangles.push_back(inOrder(map, f, all[positionOf(f)]));
+		drawn.plane.push_back(inOrder(map, f, planeOf(map)[positionOf(f)]));
+	}
+	return drawn;
+}
+
+/// The lengths of its sides in space.
+Array<std::array<double, 3>>
+lengthsOf(const SurfaceMesh& mesh, const Parametrization& map, const DrawnChart& drawn)
+{
+	const auto place = [&](int point) {
+		const std::size_t v = positionOf(point);
+		return map.isRefined() ? placeOnSurface(map.refined.points[v], mesh.positions)
+							   : mesh.positions[v];
+	};
+	Array<std::array<double, 3>> lengths;
+	lengths.reserve(drawn.triangles.size());
+	for (const Triangle& t : drawn.triangles) {
+		const std::array<Point3, 3> p{place(t[0]), place(t[1]), place(t[2])};
+		lengths.push_back({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+	}
+	return lengths;
+}
+
+/// [triangle] the number of its part.
+Array<int> numbersOf(const std::vector<std::vector<int>>& parts, int triangleCount)
+{
+	Array<int> part(triangleCount);
+	for (std::size_t p = 0; p < parts.size(); ++p)
+		for (const int i : parts[p])
+			part[i] = static_cast<int>(p);
+	return part;
+}
+
+/// Divides the chart so that no part covers itself. A fold may hide an overlap and then go to another
+/// part than the triangles that it hides: what appears in the parts is added to the pairs, and the
+/// chart is divided anew.
+std::vector<std::vector<int>> separateParts(
+	const DrawnChart& chart,
+	const ChartSides& sides,
+	const OverlapSearch& overlaps,
+	const Tick& tick,
+	ChartCuts& cuts)
+{
+	std::vector<TrianglePair> pairs = overlaps.pairs();
 	for (;;) {
-		std::vector<std::vector<int>> parts =
-			divideChart(chart.drawn, pairs, chart.edgeLength, cuts);
-		const std::size_t known = pairs.size();
-		for (std::size_t i = 0; i < parts.size() && hasFolds; ++i) {
-			const auto more = pairsWithin(chart.drawn, parts[i], extent, tick);
-			pairs.insert(pairs.end(), more.begin(), more.end());
-		}
-		if (pairs.size() == known)
+		std::vector<std::vector<int>> parts = divideChart(chart, pairs, sides, cuts, tick);
+		const auto more = overlaps.uncovered(numbersOf(parts, chart.triangles.size()));
+		if (more.empty())
 			return parts;
+		pairs.insert(pairs.end(), more.begin(), more.end());
 	}
 }
 
 /// Joins the parts of a chart across seams where they have room there, and moves them in \p map.
 std::vector<std::vector<int>> join(
-	const OutputChart& chart,
+	DrawnChart& drawn,
+	const ChartSides& sides,
+	const BoxTree& tree,
 	const Chart& whole,
 	const std::vector<std::vector<int>>& parts,
 	const Tick& tick,
 	Parametrization& map)
 {
-	Array<int> partOf(chart.drawn.triangles.size());
-	for (std::size_t p = 0; p < parts.size(); ++p)
-		for (const int i : parts[p])
-			partOf[i] = static_cast<int>(p);
-	DrawnTriangles drawn =
-		drawingOf(chart.drawn.triangles, chart.drawn.plane, partOf, chart.edgeLength);
-	JoinedParts joined = joinParts(drawn, parts, tick);
+	JoinedParts joined = joinParts(drawn, sides, tree, parts, tick);
 	map.report.overlapCuts += joined.seams.edges;
 	map.report.seamLength += joined.seams.length;
 	const std::vector<int>& triangles = trianglesOf(map, whole);
-	std::vector<char> faceDone(map.uv.size(), 0);
+	std::vector<char> faceDone(map.isRefined() ? map.uv.size() : 0, 0);
 	for (const int i : joined.motion.indices()) {
-		const std::size_t f = positionOf(triangles[positionOf(i)]);
-		const std::size_t face = map.isRefined() ? positionOf(map.refined.inputFace[f]) : f;
-		Triangle2 uv = drawn.at(i);
-		if (map.reversed[face])
-			std::swap(uv[1], uv[2]);
-		(map.isRefined() ? map.refined.uv[f] : map.uv[f]) = uv;
-		if (map.isRefined() && !faceDone[face])
-			for (Point2& p : map.uv[face])
-				p = joined.motion[i](p);
+		const int f = triangles[positionOf(i)];
+		planeOf(map)[positionOf(f)] = inOrder(map, f, drawn.plane[i]);
+		if (!map.isRefined())
+			continue;
+		const std::size_t face = positionOf(map.refined.inputFace[positionOf(f)]);
+		if (!faceDone[face])
+			map.uv[face] = joined.motion[i](map.uv[face]);
 		faceDone[face] = 1;
 	}
 	return std::move(joined.parts);
@@ -170,14 +159,11 @@ std::vector<Chart> chartsOf(
 	std::vector<char>& faceDone)
 {
 	const std::vector<int>& triangles = trianglesOf(map, whole);
-	std::vector<std::size_t> partOf(triangles.size());
-	for (std::size_t p = 0; p < parts.size(); ++p)
-		for (int i : parts[p])
-			partOf[positionOf(i)] = p;
+	const Array<int> partOf = numbersOf(parts, static_cast<int>(triangles.size()));
 	std::vector<Chart> charts(parts.size());
-	for (std::size_t i = 0; i < partOf.size(); ++i) {
-		Chart& chart = charts[partOf[i]];
-		int f = triangles[i];
+	for (const int i : partOf.indices()) {
+		Chart& chart = charts[positionOf(partOf[i])];
+		int f = triangles[positionOf(i)];
 		if (map.isRefined()) {
 			chart.refined.push_back(f);
 			f = map.refined.inputFace[positionOf(f)];
@@ -196,23 +182,33 @@ void separateCharts(const SurfaceMesh& mesh, bool resolve, const Tick& tick, Par
 	std::vector<Chart> charts;
 	std::vector<char> faceDone(mesh.triangles.size(), 0);
 	for (Chart& chart : map.charts) {
-		const OutputChart output(mesh, map, chart);
-		const std::vector<TrianglePair> pairs = overlappingPairs(output.drawn, tick);
+		DrawnChart drawn = drawnChart(mesh, map, chart);
+		Array<int> across = sidesAcross(drawn);
+		if (hasSimpleBorder(drawn, across)) {
+			charts.push_back(std::move(chart));
+			continue;
+		}
+		tick();
+		const OverlapSearch overlaps(drawn, tick);
+		tick();
+		const std::vector<TrianglePair>& pairs = overlaps.pairs();
 		if (!pairs.empty() && !resolve) {
-			Array<char> overlaps(output.drawn.triangles.size(), 0);
+			Array<char> isCovered(drawn.triangles.size(), 0);
 			for (const TrianglePair& pair : pairs)
 				for (int i : pair)
-					overlaps[i] = 1;
+					isCovered[i] = 1;
 			++map.report.overlappingCharts;
-			for (char o : overlaps)
-				map.report.overlappingFaces += o;
+			for (char c : isCovered)
+				map.report.overlappingFaces += c;
 		}
 		if (pairs.empty() || !resolve) {
 			charts.push_back(std::move(chart));
 			continue;
 		}
+		const ChartSides sides{std::move(across), lengthsOf(mesh, map, drawn)};
 		ChartCuts cuts;
-		const auto parts = join(output, chart, separateParts(output, pairs, tick, cuts), tick, map);
+		auto parts = separateParts(drawn, sides, overlaps, tick, cuts);
+		parts = join(drawn, sides, overlaps.tree(), chart, parts, tick, map);
 		map.report.overlapCuts += cuts.edges;
 		map.report.seamLength += cuts.length;
 		for (Chart& part : chartsOf(map, chart, parts, faceDone)) {

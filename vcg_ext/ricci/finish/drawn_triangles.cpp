@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "drawn_triangles.h"
 
+#include "../math/bucket_sort.h"
 #include "../math/disjoint_sets.h"
-#include "../math/edge_order.h"
 
 #include <cstddef>
 #include <utility>
@@ -11,7 +11,6 @@ namespace ricci {
 
 namespace {
 
-/// In order of their edges, then of their triangles.
 /// \param at [triangle] the number that each corner has
 std::vector<DrawnSide> sidesOf(const Array<Triangle>& vertices, const Array<Triangle>& at)
 {
@@ -25,7 +24,12 @@ std::vector<DrawnSide> sidesOf(const Array<Triangle>& vertices, const Array<Tria
 				a < b ? DrawnSide{a, b, at[f][k], at[f][next], f}
 					  : DrawnSide{b, a, at[f][next], at[f][k], f});
 		}
-	sortByEdge(sides);
+	bucketSort(
+		sides,
+		[](const DrawnSide& s) { return s.low; },
+		[](const DrawnSide& a, const DrawnSide& b) {
+			return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
+		});
 	return sides;
 }
 

@@ -15,7 +15,7 @@ namespace ricci {
 class BoxTree
 {
 public:
-	explicit BoxTree(std::vector<Box2> boxes);
+	explicit BoxTree(const std::vector<Box2>& boxes);
 
 	/// Calls visit(i, j), i != j, once for each pair of boxes that have inner points in common.
 	template<class Visit>
@@ -33,7 +33,7 @@ public:
 			if (x.isLeaf() && y.isLeaf()) {
 				for (int i = x.first; i < x.last; ++i)
 					for (int j = a == b ? i + 1 : y.first; j < y.last; ++j)
-						if (m_boxes[m_order[i]].meets(m_boxes[m_order[j]]))
+						if (m_boxes[i].meets(m_boxes[j]))
 							visit(m_order[i], m_order[j]);
 			}
 			else if (a == b) {
@@ -56,23 +56,19 @@ public:
 	template<class Visit>
 	void boxesAround(const Point2& p, const Visit& visit) const
 	{
-		if (m_nodes.empty())
-			return;
-		std::vector<int> stack{0};
-		while (!stack.empty()) {
-			const Node& x = m_nodes[stack.back()];
-			stack.pop_back();
-			if (!x.box.contains(p))
-				continue;
-			if (!x.isLeaf()) {
-				stack.push_back(x.left);
-				stack.push_back(x.right);
-				continue;
-			}
-			for (int i = x.first; i < x.last; ++i)
-				if (m_boxes[m_order[i]].contains(p))
-					visit(m_order[i]);
-		}
+		search(
+			[&](const Box2& box) { return box.contains(p); },
+			[&](int i) {
+				visit(i);
+				return false;
+			});
+	}
+
+	/// Whether isFound(i) for a box that has inner points in common with \p box; no other is asked then.
+	template<class IsFound>
+	bool meetsAny(const Box2& box, const IsFound& isFound) const
+	{
+		return search([&](const Box2& own) { return own.meets(box); }, isFound);
 	}
 
 	/// Longer side of the box round all boxes; 0 where there are none.
@@ -88,11 +84,40 @@ private:
 		bool isLeaf() const { return left < 0; }
 	};
 
-	int build(int first, int last);
-	Point2 centre(int i) const;
+	struct Item
+	{
+		Point2 centre;
+		int number;
+	};
 
-	Array<Box2> m_boxes;
-	Array<int> m_order; ///< the boxes, so that those of a node are consecutive
+	int build(Array<Item>& items, const std::vector<Box2>& boxes, int first, int last);
+
+	/// Calls isFound(i) for the boxes for which \p concerns holds, as for all round them, until one is.
+	template<class Concerns, class IsFound>
+	bool search(const Concerns& concerns, const IsFound& isFound) const
+	{
+		if (m_nodes.empty())
+			return false;
+		std::vector<int> stack{0};
+		while (!stack.empty()) {
+			const Node& x = m_nodes[stack.back()];
+			stack.pop_back();
+			if (!concerns(x.box))
+				continue;
+			if (!x.isLeaf()) {
+				stack.push_back(x.left);
+				stack.push_back(x.right);
+				continue;
+			}
+			for (int i = x.first; i < x.last; ++i)
+				if (concerns(m_boxes[i]) && isFound(m_order[i]))
+					return true;
+		}
+		return false;
+	}
+
+	Array<int> m_order;  ///< the boxes, so that those of a node are consecutive
+	Array<Box2> m_boxes; ///< in this order
 	Array<Node> m_nodes;
 };
 

@@ -6,111 +6,222 @@
 
 namespace ricci {
 
-void MinCut::join(int a, int b, std::int64_t there, std::int64_t back)
-{
-	addArc(a, b, there);
-	addArc(b, a, back);
-}
+namespace {
 
-void MinCut::addArc(int from, int to, std::int64_t capacity)
-{
-	m_arcs.push_back({to, m_firstArc[from], capacity});
-	m_firstArc[from] = m_arcs.size() - 1;
-}
+/// Nodes that are looked at between two ticks.
+constexpr int kNodesBetweenTicks = 1 << 12;
 
-Array<char> MinCut::run(int source, int sink)
+} // namespace
+
+MinCut::Side MinCut::run(
+	const std::vector<int>& sources,
+	const std::vector<int>& sinks,
+	const ForEdges& forEdges,
+	const Tick& tick)
 {
-	labelDistances(sink);
-	m_currentArc = m_firstArc;
-	std::vector<int> path; // arcs from the source to node
-	int node = source;
-	while (m_distance[source] < nodeCount()) {
-		if (node == sink) {
-			augment(path);
-			path.clear();
-			node = source;
-			continue;
+	clear();
+	for (const Tree tree : {kSources, kSinks})
+		for (const int number : tree == kSources ? sources : sinks) {
+			const int node = localOf(number);
+			m_nodes[node].tree = tree;
+			m_nodes[node].isRoot = true;
+			activate(node);
 		}
-		int& a = m_currentArc[node];
-		while (a >= 0 && !leadsOn(node, a))
-			a = m_arcs[a].next;
-		if (a >= 0) {
-			path.push_back(a);
-			node = m_arcs[a].to;
-			continue;
-		}
-		const int before = m_distance[node];
-		relabel(node);
-		if (--m_countAt[before] == 0)
-			break; // no path can cross the gap
-		if (node != source) {
-			node = m_arcs[path.back() ^ 1].to;
-			path.pop_back();
+	std::int64_t work[2] = {0, 0};
+	for (int untilTick = kNodesBetweenTicks; !m_active[0].empty() && !m_active[1].empty();) {
+		const Tree tree = work[kSources] <= work[kSinks] ? kSources : kSinks;
+		++work[tree];
+		const int node = m_active[tree].front();
+		m_active[tree].pop_front();
+		m_nodes[node].isActive[tree] = false;
+		if (m_nodes[node].tree == tree)
+			growFrom(node, forEdges);
+		if (--untilTick == 0) {
+			untilTick = kNodesBetweenTicks;
+			tick();
 		}
 	}
-	return reachableFrom(source);
-}
-
-bool MinCut::leadsOn(int node, int a) const
-{
-	const Arc& arc = m_arcs[a];
-	return arc.capacity > 0 && m_distance[arc.to] + 1 == m_distance[node];
-}
-
-/// Numbers of arcs to the sink; nodeCount() where no path leads.
-void MinCut::labelDistances(int sink)
-{
-	m_distance.assign(nodeCount(), nodeCount());
-	m_distance[sink] = 0;
-	std::vector<int> queue{sink};
-	for (std::size_t head = 0; head < queue.size(); ++head)
-		for (int a = m_firstArc[queue[head]]; a >= 0; a = m_arcs[a].next) {
-			int& distance = m_distance[m_arcs[a].to];
-			if (m_arcs[a ^ 1].capacity > 0 && distance == nodeCount()) {
-				distance = m_distance[queue[head]] + 1;
-				queue.push_back(m_arcs[a].to);
-			}
-		}
-	m_countAt.assign(nodeCount() + 1, 0);
-	for (int distance : m_distance)
-		++m_countAt[distance];
-}
-
-void MinCut::relabel(int node)
-{
-	int distance = nodeCount();
-	for (int a = m_firstArc[node]; a >= 0; a = m_arcs[a].next)
-		if (m_arcs[a].capacity > 0)
-			distance = std::min(distance, m_distance[m_arcs[a].to] + 1);
-	m_distance[node] = distance;
-	++m_countAt[distance];
-	m_currentArc[node] = m_firstArc[node];
-}
-
-/// Sends as much along \p path as it takes.
-void MinCut::augment(const std::vector<int>& path)
-{
-	std::int64_t amount = std::numeric_limits<std::int64_t>::max();
-	for (int a : path)
-		amount = std::min(amount, m_arcs[a].capacity);
-	for (int a : path) {
-		m_arcs[a].capacity -= amount;
-		m_arcs[a ^ 1].capacity += amount;
-	}
-}
-
-Array<char> MinCut::reachableFrom(int source) const
-{
-	Array<char> side(nodeCount(), 0);
-	side[source] = 1;
-	std::vector<int> queue{source};
-	for (std::size_t head = 0; head < queue.size(); ++head)
-		for (int a = m_firstArc[queue[head]]; a >= 0; a = m_arcs[a].next)
-			if (m_arcs[a].capacity > 0 && !side[m_arcs[a].to]) {
-				side[m_arcs[a].to] = 1;
-				queue.push_back(m_arcs[a].to);
-			}
+	const Tree found = m_active[kSources].empty() ? kSources : kSinks;
+	Side side{found == kSources, {}};
+	for (const Node& node : m_nodes)
+		if (node.tree == found)
+			side.nodes.push_back(node.number);
 	return side;
+}
+
+void MinCut::clear()
+{
+	for (const Node& node : m_nodes)
+		m_local[node.number] = -1;
+	m_nodes.clear();
+	m_arcs.clear();
+	m_active[kSources].clear();
+	m_active[kSinks].clear();
+	m_orphans.clear();
+	m_mark = 0;
+}
+
+int MinCut::localOf(int number)
+{
+	int& local = m_local[number];
+	if (local < 0) {
+		local = m_nodes.size();
+		m_nodes.push_back({number});
+	}
+	return local;
+}
+
+void MinCut::open(int node, const ForEdges& forEdges)
+{
+	if (m_nodes[node].isOpen)
+		return;
+	m_nodes[node].isOpen = true;
+	forEdges(m_nodes[node].number, [&](int number, std::int64_t there, std::int64_t back) {
+		const int to = localOf(number);
+		if (m_nodes[to].isOpen) // and has made the arcs; or the edge is a loop
+			return;
+		m_arcs.push_back({to, m_nodes[node].firstArc, there});
+		m_nodes[node].firstArc = m_arcs.size() - 1;
+		m_arcs.push_back({node, m_nodes[to].firstArc, back});
+		m_nodes[to].firstArc = m_arcs.size() - 1;
+	});
+}
+
+/// What can be sent along \p arc away from the root of its node, in direction of the flow.
+std::int64_t MinCut::towards(int arc, Tree tree) const
+{
+	return m_arcs[tree == kSources ? arc : arc ^ 1].capacity;
+}
+
+void MinCut::activate(int node)
+{
+	const Tree tree = m_nodes[node].tree;
+	if (m_nodes[node].isActive[tree])
+		return;
+	m_nodes[node].isActive[tree] = true;
+	m_active[tree].push_back(node);
+}
+
+/// Adds the neighbours of \p node to its tree, and sends flow where it meets the other one.
+void MinCut::growFrom(int node, const ForEdges& forEdges)
+{
+	open(node, forEdges);
+	const Tree tree = m_nodes[node].tree;
+	for (int a = m_nodes[node].firstArc; a >= 0; a = m_arcs[a].next)
+		while (towards(a, tree) > 0) {
+			Node &own = m_nodes[node], &other = m_nodes[m_arcs[a].to];
+			if (own.tree != tree)
+				return;
+			if (other.tree == tree) {
+				if (!other.isRoot && other.mark <= own.mark && other.distance > own.distance) {
+					// A shorter way.
+					other.parentArc = a ^ 1;
+					other.mark = own.mark;
+					other.distance = own.distance + 1;
+				}
+				break;
+			}
+			if (other.tree == kNone) {
+				other.tree = tree;
+				other.parentArc = a ^ 1;
+				other.mark = own.mark;
+				other.distance = own.distance + 1;
+				activate(m_arcs[a].to);
+				break;
+			}
+			augment(tree == kSources ? a : a ^ 1);
+			adopt(forEdges);
+		}
+}
+
+/// Sends as much as it takes from the source to the sink, along \p arc between the trees.
+void MinCut::augment(int arc)
+{
+	std::int64_t amount = m_arcs[arc].capacity;
+	const int ends[2] = {m_arcs[arc ^ 1].to, m_arcs[arc].to};
+	for (const Tree tree : {kSources, kSinks})
+		for (int node = ends[tree]; m_nodes[node].parentArc >= 0;
+			 node = m_arcs[m_nodes[node].parentArc].to)
+			amount = std::min(amount, towards(m_nodes[node].parentArc ^ 1, tree));
+	m_arcs[arc].capacity -= amount;
+	m_arcs[arc ^ 1].capacity += amount;
+	pushBack(ends[kSources], kSources, amount);
+	pushBack(ends[kSinks], kSinks, amount);
+}
+
+/// Takes \p amount from the path between \p node and its root.
+void MinCut::pushBack(int node, Tree tree, std::int64_t amount)
+{
+	while (m_nodes[node].parentArc >= 0) {
+		const int up = m_nodes[node].parentArc;
+		const int along = tree == kSources ? up ^ 1 : up;
+		m_arcs[along].capacity -= amount;
+		m_arcs[along ^ 1].capacity += amount;
+		if (m_arcs[along].capacity == 0) {
+			m_nodes[node].parentArc = -1;
+			m_orphans.push_back(node);
+		}
+		node = m_arcs[up].to;
+	}
+}
+
+/// Finds new parents for the nodes that have lost theirs; those without are free.
+void MinCut::adopt(const ForEdges& forEdges)
+{
+	++m_mark;
+	while (!m_orphans.empty()) {
+		const int node = m_orphans.front();
+		m_orphans.pop_front();
+		const Tree tree = m_nodes[node].tree;
+		open(node, forEdges);
+		int parent = -1, nearest = std::numeric_limits<int>::max();
+		for (int a = m_nodes[node].firstArc; a >= 0; a = m_arcs[a].next)
+			if (m_nodes[m_arcs[a].to].tree == tree && towards(a ^ 1, tree) > 0)
+				if (const int d = distanceOf(m_arcs[a].to); d >= 0 && d < nearest) {
+					nearest = d;
+					parent = a;
+				}
+		m_nodes[node].parentArc = parent;
+		if (parent >= 0) {
+			m_nodes[node].mark = m_mark;
+			m_nodes[node].distance = nearest + 1;
+			continue;
+		}
+		for (int a = m_nodes[node].firstArc; a >= 0; a = m_arcs[a].next) {
+			const int to = m_arcs[a].to;
+			if (m_nodes[to].tree != tree)
+				continue;
+			if (towards(a ^ 1, tree) > 0)
+				activate(to);
+			if (m_nodes[to].parentArc == (a ^ 1)) {
+				m_nodes[to].parentArc = -1;
+				m_orphans.push_back(to);
+			}
+		}
+		m_nodes[node].tree = kNone;
+	}
+}
+
+/// Edges between \p node and its root; -1 where an orphan is on the way. What is found is marked.
+int MinCut::distanceOf(int node)
+{
+	int steps = 0, i = node;
+	for (; m_nodes[i].mark != m_mark; i = m_arcs[m_nodes[i].parentArc].to, ++steps) {
+		if (m_nodes[i].isRoot) {
+			m_nodes[i].mark = m_mark;
+			m_nodes[i].distance = 0;
+			break;
+		}
+		if (m_nodes[i].parentArc < 0)
+			return -1;
+	}
+	const int distance = m_nodes[i].distance + steps;
+	int d = distance;
+	for (i = node; m_nodes[i].mark != m_mark; i = m_arcs[m_nodes[i].parentArc].to) {
+		m_nodes[i].mark = m_mark;
+		m_nodes[i].distance = d--;
+	}
+	return distance;
 }
 
 } // namespace ricci

@@ -3,50 +3,86 @@
 #define RICCI_MIN_CUT_H
 
 #include "../base/indexed.h"
+#include "../progress.h"
 
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <vector>
 
 namespace ricci {
 
-/// Minimum cut between two nodes of a graph with integer capacities: shortest augmenting paths along
-/// distance labels, which are corrected where a search fails [Ahuja Orlin 1991]. Integers make
-/// the result exact.
+/// Minimum cuts between sets of nodes of a graph with integer capacities: two trees of paths with
+/// capacity left grow towards each other, one from each set, and are mended where a path is used up
+/// [Boykov Kolmogorov 2004]. The cut is found when one of them cannot grow any more, whatever lies
+/// behind the other: the work depends on the smaller side of the cut and on how far the trees have to
+/// go for the flow, not on the graph, which is asked for the edges of a node when a tree reaches it.
+/// Integers make the result exact.
 class MinCut
 {
 public:
-	/// A graph of the nodes 0 .. nodeCount - 1 without edges.
-	explicit MinCut(int nodeCount) : m_firstArc(nodeCount, -1) {}
+	/// Adds an edge to another node with the capacities \p there and, from that node, \p back.
+	using AddEdge = std::function<void(int to, std::int64_t there, std::int64_t back)>;
+	/// Adds all edges of a node. Those between two nodes are the same for both.
+	using ForEdges = std::function<void(int node, const AddEdge& add)>;
 
-	/// Adds an edge with the capacities \p there from a to b and \p back from b to a, at least 0.
-	void join(int a, int b, std::int64_t there, std::int64_t back);
+	/// For graphs with the nodes 0 .. nodeCount - 1.
+	explicit MinCut(int nodeCount) : m_local(nodeCount, -1) {}
 
-	/// A cut of minimum capacity between \p source and \p sink, two different nodes. Call it once:
-	/// the capacities are used up.
-	/// \return [node] 1 on the side of \p source; of all minimum cuts the one with the fewest nodes
-	/// on that side
-	Array<char> run(int source, int sink);
+	/// One side of a cut.
+	struct Side
+	{
+		bool isOfSources;
+		std::vector<int> nodes;
+	};
+
+	/// A cut of minimum capacity between \p sources and \p sinks, which have no node in common.
+	/// \param tick called many times a second
+	/// \return the side that was found: of all minimum cuts the one with the fewest nodes on it
+	Side run(
+		const std::vector<int>& sources,
+		const std::vector<int>& sinks,
+		const ForEdges& forEdges,
+		const Tick& tick = [] {});
 
 private:
+	enum Tree : char { kSources, kSinks, kNone };
+
+	struct Node
+	{
+		int number; ///< in the graph
+		int firstArc = -1;
+		int parentArc = -1; ///< none for roots, orphans and free nodes
+		int distance = 0;   ///< edges to the root, at the time of the mark
+		int mark = 0;
+		Tree tree = kNone;
+		bool isRoot = false;
+		bool isOpen = false; ///< all its arcs are there
+		bool isActive[2]{};  ///< in the queue of a tree, which may grow from here
+	};
 	struct Arc
 	{
 		int to, next; ///< next: of the arcs that leave the same node, or -1
 		std::int64_t capacity;
 	};
 
-	int nodeCount() const { return m_firstArc.size(); }
-	void addArc(int from, int to, std::int64_t capacity);
-	bool leadsOn(int node, int a) const;
-	void labelDistances(int sink);
-	void relabel(int node);
-	void augment(const std::vector<int>& path);
-	Array<char> reachableFrom(int source) const;
+	void clear();
+	int localOf(int number);
+	void open(int node, const ForEdges& forEdges);
+	void activate(int node);
+	void growFrom(int node, const ForEdges& forEdges);
+	std::int64_t towards(int arc, Tree tree) const;
+	void augment(int arc);
+	void pushBack(int node, Tree tree, std::int64_t amount);
+	void adopt(const ForEdges& forEdges);
+	int distanceOf(int node);
 
-	Array<Arc> m_arcs;       ///< arc a ^ 1 runs the other way
-	Array<int> m_firstArc;   ///< [node]
-	Array<int> m_currentArc; ///< [node] those before it do not lead on
-	Array<int> m_distance;   ///< [node] arcs to the sink, at least
-	Array<int> m_countAt;    ///< [distance] nodes
+	Array<int> m_local; // [number] node, or -1
+	Array<Node> m_nodes;
+	Array<Arc> m_arcs;           // arc a ^ 1 runs the other way
+	std::deque<int> m_active[2]; // of each tree
+	std::deque<int> m_orphans;   // nodes that have lost their parents
+	int m_mark = 0;              // paths that were used up
 };
 
 } // namespace ricci

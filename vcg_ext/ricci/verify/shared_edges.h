@@ -3,7 +3,7 @@
 #ifndef RICCI_SHARED_EDGES_H
 #define RICCI_SHARED_EDGES_H
 
-#include "../math/edge_order.h"
+#include "../math/bucket_sort.h"
 #include "../math/points.h"
 #include "../surface/surface_mesh.h"
 
@@ -42,7 +42,10 @@ planeSides(const std::vector<Triangle>& triangles, const std::vector<Triangle2>&
 template<class Side, class Visit>
 void forEdgesOf(std::vector<Side>& sides, Visit visit)
 {
-	sortByEdge(sides);
+	bucketSort(
+		sides,
+		[](const Side& s) { return s.low; },
+		[](const Side& a, const Side& b) { return a.high < b.high; });
 	for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
 		while (end < sides.size() && sides[end].low == sides[i].low &&
 			   sides[end].high == sides[i].high)

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+#include "support/shapes.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/charts/movable_parts.h>
+#include <ricci/math/orientation.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <complex>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+DrawnChart square(int size)
+{
+	const SurfaceMesh mesh = rectangle(size, size, 1.0, 1.0);
+	DrawnChart chart;
+	chart.triangles = Array<Triangle>(mesh.triangles);
+	for (const Triangle& t : mesh.triangles) {
+		Triangle2 p;
+		for (std::size_t k = 0; k < 3; ++k)
+			p[k] = {mesh.positions[at(t[k])][0], mesh.positions[at(t[k])][1]};
+		chart.plane.push_back(p);
+	}
+	return chart;
+}
+
+Array<std::array<double, 3>> unitLengths(const DrawnChart& chart)
+{
+	return Array<std::array<double, 3>>(chart.triangles.size(), {1.0, 1.0, 1.0});
+}
+
+/// Parts of consecutive triangles.
+std::vector<std::vector<int>> stripes(int triangleCount, int count)
+{
+	std::vector<std::vector<int>> parts(at(count));
+	for (int i = 0; i < triangleCount; ++i)
+		parts[at(i * count / triangleCount)].push_back(i);
+	return parts;
+}
+
+RigidMotion randomMotion(Random& random)
+{
+	return {
+		std::polar(1.0, random.real(0, 2 * kPi)), {random.real(-0.5, 0.5), random.real(-0.5, 0.5)}};
+}
+
+/// A part at random, and some of its triangles for another one.
+void moveSome(MovableParts& parts, Random& random)
+{
+	const int from = random.index(parts.count()), to = random.index(parts.count());
+	std::vector<int> some;
+	for (const int f : parts.trianglesOf(from))
+		if (random.coin())
+			some.push_back(f);
+	if (from != to && !some.empty())
+		parts.move(some, {to, randomMotion(random), 0.0});
+}
+
+TEST(MovableParts, UndoRestoresAll)
+{
+	Random random(1230);
+	for (int trial = 0; trial < 30; ++trial) {
+		DrawnChart chart = square(6);
+		const ChartSides sides{sidesAcross(chart), unitLengths(chart)};
+		const BoxTree tree = boxTreeOf(chart.plane);
+		const int n = chart.triangles.size();
+		MovableParts parts(chart, sides, tree, stripes(n, 4));
+		for (int i = 0; i < 5; ++i)
+			moveSome(parts, random);
+		parts.commit();
+		const DrawnChart before = chart;
+		std::vector<std::vector<int>> lists;
+		std::vector<double> areas;
+		for (int part = 0; part < 4; ++part) {
+			lists.push_back(parts.trianglesOf(part));
+			areas.push_back(parts.area(part));
+		}
+		std::vector<std::complex<double>> turns;
+		for (int f = 0; f < n; ++f)
+			turns.push_back(parts.motionOf(f).turn);
+
+		parts.addPart();
+		for (int i = random.index(8); i > 0; --i)
+			moveSome(parts, random);
+		parts.undo();
+		EXPECT_EQ(parts.count(), 4);
+		EXPECT_EQ(chart.plane, before.plane);
+		for (int part = 0; part < 4; ++part) {
+			EXPECT_EQ(parts.trianglesOf(part), lists[at(part)]);
+			EXPECT_EQ(parts.area(part), areas[at(part)]);
+			for (const int f : lists[at(part)])
+				EXPECT_EQ(parts.partOf(f), part);
+		}
+		for (int f = 0; f < n; ++f)
+			EXPECT_EQ(parts.motionOf(f).turn, turns[at(f)]);
+	}
+}
+
+/// All pairs of triangles are compared, after some moves.
+TEST(MovableParts, FindsWhatCoversAPart)
+{
+	Random random(1231);
+	const DrawnChart origin = square(5);
+	int found = 0;
+	for (int trial = 0; trial < 200; ++trial) {
+		DrawnChart chart = origin;
+		const ChartSides sides{sidesAcross(chart), unitLengths(chart)};
+		const BoxTree tree = boxTreeOf(chart.plane);
+		MovableParts parts(chart, sides, tree, stripes(chart.triangles.size(), 3));
+		for (int i = random.index(4); i > 0; --i)
+			moveSome(parts, random);
+		for (const int f : chart.plane.indices())
+			for (std::size_t k = 0; k < 3; ++k)
+				EXPECT_LT(
+					distance(parts.motionOf(f)(origin.plane[f])[k], chart.plane[f][k]), 1e-14);
+		const Place place{1, randomMotion(random), 0.0};
+		std::set<std::pair<int, int>> wanted, pairs;
+		for (const int f : parts.trianglesOf(0))
+			for (const int g : parts.trianglesOf(1))
+				if (overlap(place.motion(chart.plane[f]), chart.plane[g], 1e-9))
+					wanted.insert({f, g});
+		EXPECT_FALSE(parts.covering(0, place, [&](int f, int g) {
+			EXPECT_TRUE(pairs.insert({f, g}).second) << "twice";
+			return false;
+		}));
+		EXPECT_EQ(pairs, wanted);
+		EXPECT_EQ(parts.covering(0, place, [](int, int) { return true; }), !wanted.empty());
+		found += !wanted.empty();
+	}
+	EXPECT_GT(found, 20);
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "border_flow.h"
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// Vertices that are looked at between two ticks.
+constexpr int kNodesBetweenTicks = 1 << 14;
+
+} // namespace
+
+BorderFlow::BorderFlow(const PartGraph& graph) : m_graph(graph), m_nodeAt(3 * graph.part.size(), -1)
+{
+}
+
+void BorderFlow::find(
+	const std::vector<int>& sources,
+	const std::vector<int>& sinks,
+	const Array<Terminal>& terminal,
+	const Tick& tick)
+{
+	for (const int corner : m_known)
+		m_nodeAt[corner] = -1;
+	m_known.clear();
+	m_nodes.clear();
+	m_paths.clear();
+	if (findFrom(sources, 1, terminal, tick) == 0)
+		findFrom(sinks, -1, terminal, tick);
+}
+
+/// \return the number of paths between the ends of the triangles' rim
+int BorderFlow::findFrom(
+	const std::vector<int>& triangles,
+	std::int64_t sign,
+	const Array<Terminal>& terminal,
+	const Tick& tick)
+{
+	int count = 0;
+	for (const int i : triangles)
+		for (int side = 3 * i; side < 3 * i + 3; ++side) {
+			const int other = m_graph.neighbour(side);
+			if (other < 0 || terminal[other / 3] == terminal[i] ||
+				besideOnRim(side, false, terminal) >= 0)
+				continue;
+			int last = side;
+			for (int s = side; s >= 0; s = besideOnRim(s, true, terminal))
+				last = s;
+			m_paths.push_back({sign, 0});
+			measure(side, nextSide(last), terminal, tick);
+			++count;
+		}
+	return count;
+}
+
+/// The side of the rim behind \p side, or before it; -1 at the border of the part.
+int BorderFlow::besideOnRim(int side, bool isNext, const Array<Terminal>& terminal) const
+{
+	for (int s = m_graph.neighbour(side);;) {
+		s = m_graph.neighbour(isNext ? previousSide(s) : nextSide(s));
+		if (s < 0 || terminal[s / 3] == terminal[side / 3])
+			return s;
+	}
+}
+
+/// Finds the distances from a corner of those vertices that are nearer than corner \p to, for the last
+/// path. It has no length where it meets another one. A path that follows the border costs nothing.
+void BorderFlow::measure(int from, int to, const Array<Terminal>& terminal, const Tick& tick)
+{
+	const int path = m_paths.size() - 1, target = nodeAt(to);
+	using Entry = std::pair<std::int64_t, int>; // distance, node
+	std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
+	bool isFree = true;
+	const auto reach = [&](int corner, std::int64_t distance) {
+		const int number = nodeAt(corner);
+		Node& node = m_nodes[number];
+		if (node.path >= 0 && node.path != path)
+			isFree = false;
+		else if (node.path < 0 || distance < node.distance) {
+			node.path = path;
+			node.distance = distance;
+			queue.push({distance, number});
+		}
+	};
+	const auto follow = [&](int side, int corner, std::int64_t distance) {
+		const int other = m_graph.neighbour(side);
+		const Terminal own = terminal[side / 3];
+		if (other < 0 && own == kNoTerminal)
+			reach(corner, distance);
+		else if (other >= 0 && (own == kNoTerminal || own != terminal[other / 3]))
+			reach(corner, distance + m_graph.weight(side));
+	};
+	int untilTick = kNodesBetweenTicks;
+	for (reach(from, 0); isFree && !queue.empty();) {
+		const auto [distance, number] = queue.top();
+		queue.pop();
+		if (number == target)
+			break;
+		if (distance > m_nodes[number].distance)
+			continue;
+		if (--untilTick == 0) {
+			untilTick = kNodesBetweenTicks;
+			tick();
+		}
+		forCorners(m_nodes[number].corner, [&, distance = distance](int corner) {
+			follow(corner, nextSide(corner), distance);
+			follow(previousSide(corner), previousSide(corner), distance);
+		});
+	}
+	m_paths[path].length = m_nodes[target].distance;
+	if (!isFree)
+		for (Node& node : m_nodes)
+			if (node.path == path)
+				node.path = -1;
+}
+
+/// Calls visit(corner) for the corners of the part at one vertex.
+template<class Visit>
+void BorderFlow::forCorners(int corner, const Visit& visit) const
+{
+	visit(corner);
+	for (int s = m_graph.neighbour(corner); s >= 0; s = m_graph.neighbour(s)) {
+		s = nextSide(s);
+		if (s == corner)
+			return;
+		visit(s);
+	}
+	for (int s = corner; (s = m_graph.neighbour(previousSide(s))) >= 0;)
+		visit(s);
+}
+
+int BorderFlow::nodeAt(int corner)
+{
+	if (m_nodeAt[corner] < 0) {
+		forCorners(corner, [&](int c) {
+			m_nodeAt[c] = m_nodes.size();
+			m_known.push_back(c);
+		});
+		m_nodes.push_back({corner});
+	}
+	return m_nodeAt[corner];
+}
+
+/// What the function has at a corner above its values far from the paths.
+std::int64_t BorderFlow::excessAt(int corner) const
+{
+	const int number = m_nodeAt[corner];
+	if (number < 0 || m_nodes[number].path < 0)
+		return 0;
+	const Path& path = m_paths[m_nodes[number].path];
+	return path.sign * (std::min(m_nodes[number].distance, path.length) - path.length);
+}
+
+} // namespace ricci

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "movable_parts.h"
+
+#include "../base/tolerances.h"
+#include "../math/orientation.h"
+#include "../metric/area.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace ricci {
+
+MovableParts::MovableParts(
+	DrawnChart& chart,
+	const ChartSides& sides,
+	const BoxTree& tree,
+	const std::vector<std::vector<int>>& parts) :
+		m_chart(chart),
+		m_sides(sides), m_tree(tree), m_onePlace(kOnePlace * tree.extent()),
+		m_touching(kTouching * tree.extent()), m_isProper(chart.plane.size()),
+		m_part(chart.plane.size(), -1), m_group(chart.plane.size(), -1),
+		m_before(chart.plane.size(), -1), m_next(chart.plane.size(), -1)
+{
+	for (const int f : chart.plane.indices()) {
+		const Triangle2& p = chart.plane[f];
+		m_isProper[f] = orientation(p[0], p[1], p[2]) > 0;
+	}
+	for (const std::vector<int>& triangles : parts) {
+		const int part = addPart();
+		m_groupsOf[part].push_back(m_groups.size());
+		Group group;
+		for (const int f : triangles) {
+			append(f, part);
+			m_group[f] = m_groups.size();
+			m_area[part] += areaOf(f);
+			for (const Point2& p : chart.plane[f])
+				group.box.add(p);
+		}
+		m_groups.push_back(group);
+	}
+	commit();
+}
+
+std::vector<int> MovableParts::trianglesOf(int part) const
+{
+	std::vector<int> triangles;
+	for (int f = m_first[part]; f >= 0; f = m_next[f])
+		triangles.push_back(f);
+	return triangles;
+}
+
+RigidMotion MovableParts::across(int side) const
+{
+	const auto own = endsOf(m_chart, side), other = endsOf(m_chart, m_sides.across[side]);
+	const auto vector = [](const Point2& p, const Point2& q) {
+		return asComplex(q) - asComplex(p);
+	};
+	const auto middle = [](const std::array<Point2, 2>& p) {
+		return 0.5 * (asComplex(p[1]) + asComplex(p[0]));
+	};
+	const std::complex<double> turn =
+		vector(other[1], other[0]) * std::conj(vector(own[0], own[1]));
+	RigidMotion motion;
+	if (const double size = std::abs(turn); size > 0.0)
+		motion.turn = turn / size;
+	motion.shift = middle(other) - motion.turn * middle(own);
+	return motion;
+}
+
+bool MovableParts::fits(const RigidMotion& motion, int side) const
+{
+	const auto own = endsOf(m_chart, side), other = endsOf(m_chart, m_sides.across[side]);
+	return distance(motion(own[0]), other[1]) <= m_onePlace &&
+		   distance(motion(own[1]), other[0]) <= m_onePlace;
+}
+
+bool MovableParts::isJoined(int side) const
+{
+	const int across = m_sides.across[side];
+	if (m_part[side / 3] != m_part[across / 3])
+		return false;
+	const auto own = endsOf(m_chart, side), other = endsOf(m_chart, across);
+	return (own[0] == other[1] && own[1] == other[0]) || fits({}, side);
+}
+
+int MovableParts::addPart()
+{
+	m_first.push_back(-1);
+	m_last.push_back(-1);
+	m_groupsOf.push_back({});
+	m_area.push_back(0.0);
+	return count() - 1;
+}
+
+void MovableParts::move(const std::vector<int>& triangles, const Place& place)
+{
+	const int from = m_part[triangles.front()], to = place.other;
+	Move done{from, to, m_area[from], m_area[to], {}, m_groupsOf[to].size()};
+	std::map<int, int> groups; // from the old to the new
+	for (const int f : triangles) {
+		const auto [group, isNew] = groups.try_emplace(m_group[f], m_groups.size());
+		if (isNew) {
+			const RigidMotion& old = m_groups[m_group[f]].motion;
+			const RigidMotion motion{
+				place.motion.turn * old.turn, place.motion.turn * old.shift + place.motion.shift};
+			m_groups.push_back({motion, motion.inverse(), Box2()});
+			m_groupsOf[to].push_back(group->second);
+		}
+		m_area[from] -= areaOf(f);
+		m_area[to] += areaOf(f);
+		Triangle2& plane = m_chart.plane[f];
+		done.changes.push_back({f, m_group[f], remove(f), plane});
+		append(f, to);
+		m_group[f] = group->second;
+		plane = place.motion(plane);
+		for (const Point2& p : plane)
+			m_groups[m_group[f]].box.add(p);
+	}
+	m_moves.push_back(std::move(done));
+}
+
+void MovableParts::commit()
+{
+	m_moves.clear();
+	m_committedParts = count();
+	m_committedGroups = m_groups.size();
+}
+
+void MovableParts::undo()
+{
+	for (; !m_moves.empty(); m_moves.pop_back()) {
+		const Move& move = m_moves.back();
+		for (auto change = move.changes.rbegin(); change != move.changes.rend(); ++change) {
+			remove(change->triangle);
+			insertBehind(change->before, change->triangle, move.from);
+			m_group[change->triangle] = change->group;
+			m_chart.plane[change->triangle] = change->plane;
+		}
+		m_groupsOf[move.to].resize(move.groups);
+		m_area[move.from] = move.fromArea;
+		m_area[move.to] = move.toArea;
+	}
+	m_groups.resize(m_committedGroups);
+	m_groupsOf.resize(m_committedParts);
+	m_area.resize(m_committedParts);
+	m_first.resize(m_committedParts);
+	m_last.resize(m_committedParts);
+}
+
+double MovableParts::areaOf(int triangle) const
+{
+	return euclideanArea(m_sides.length[triangle]);
+}
+
+void MovableParts::append(int triangle, int part)
+{
+	insertBehind(m_last[part], triangle, part);
+}
+
+/// \return the triangle before it in its part, or -1
+int MovableParts::remove(int triangle)
+{
+	const int before = m_before[triangle], next = m_next[triangle], part = m_part[triangle];
+	(before >= 0 ? m_next[before] : m_first[part]) = next;
+	(next >= 0 ? m_before[next] : m_last[part]) = before;
+	return before;
+}
+
+void MovableParts::insertBehind(int before, int triangle, int part)
+{
+	const int next = before >= 0 ? m_next[before] : m_first[part];
+	m_part[triangle] = part;
+	m_before[triangle] = before;
+	m_next[triangle] = next;
+	(before >= 0 ? m_next[before] : m_first[part]) = triangle;
+	(next >= 0 ? m_before[next] : m_last[part]) = triangle;
+}
+
+} // namespace ricci

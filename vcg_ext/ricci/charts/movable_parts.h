@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_MOVABLE_PARTS_H
+#define RICCI_MOVABLE_PARTS_H
+
+#include "../math/box_tree.h"
+#include "chart_sides.h"
+
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+namespace ricci {
+
+/// A rotation and a translation of the plane.
+struct RigidMotion
+{
+	std::complex<double> turn = 1.0, shift = 0.0;
+
+	Point2 operator()(const Point2& p) const { return asPoint(turn * asComplex(p) + shift); }
+	Triangle2 operator()(const Triangle2& p) const
+	{
+		return {(*this)(p[0]), (*this)(p[1]), (*this)(p[2])};
+	}
+	RigidMotion inverse() const { return {std::conj(turn), -std::conj(turn) * shift}; }
+};
+
+/// A place for a part beside another one.
+struct Place
+{
+	int other; ///< part
+	RigidMotion motion;
+	double length; ///< of the common border, in space
+};
+
+/// Parts of a drawing whose triangles move from one to another. Moves can be undone; each costs what
+/// it moves.
+class MovableParts
+{
+public:
+	/// \param chart its corners are moved
+	/// \param tree boxTreeOf(chart.plane)
+	/// \param parts triangles
+	MovableParts(
+		DrawnChart& chart,
+		const ChartSides& sides,
+		const BoxTree& tree,
+		const std::vector<std::vector<int>>& parts);
+
+	int count() const { return m_area.size(); }
+	bool isEmpty(int part) const { return m_first[part] < 0; }
+	std::vector<int> trianglesOf(int part) const;
+	int partOf(int triangle) const { return m_part[triangle]; }
+	/// In space.
+	double area(int part) const { return m_area[part]; }
+	double areaOf(int triangle) const;
+	const RigidMotion& motionOf(int triangle) const { return m_groups[m_group[triangle]].motion; }
+
+	/// Calls visit(side, other) for the sides of \p triangle with a side of another one across.
+	template<class Visit>
+	void forSides(int triangle, const Visit& visit) const
+	{
+		for (int side = 3 * triangle; side < 3 * triangle + 3; ++side)
+			if (const int other = m_sides.across[side]; other >= 0)
+				visit(side, other);
+	}
+
+	/// The motion of a side to the one across.
+	RigidMotion across(int side) const;
+
+	/// Whether \p motion brings a side to the place of the one across.
+	bool fits(const RigidMotion& motion, int side) const;
+
+	/// Whether a side and the one across are at one place in one part.
+	bool isJoined(int side) const;
+
+	/// Calls isEnough(f, g) for the triangles f of the part and g of the other one that cover each
+	/// other at the part's new place, those that are turned round left out, until it is.
+	/// \return whether it was
+	template<class IsEnough>
+	bool covering(int part, const Place& place, const IsEnough& isEnough) const
+	{
+		for (int f = m_first[part]; f >= 0; f = m_next[f])
+			if (m_isProper[f] && coveredBy(place.motion(m_chart.plane[f]), place.other, [&](int g) {
+					return isEnough(f, g);
+				}))
+				return true;
+		return false;
+	}
+
+	/// Adds an empty part. \return its number
+	int addPart();
+
+	/// Moves triangles of one part to another.
+	void move(const std::vector<int>& triangles, const Place& place);
+
+	/// Forgets how to undo what was done.
+	void commit();
+
+	/// Undoes all since commit().
+	void undo();
+
+private:
+	/// Triangles of one part that were moved alike.
+	struct Group
+	{
+		RigidMotion motion, back; ///< since the beginning, and its inverse
+		Box2 box;                 ///< round the triangles where they are now, at least
+	};
+
+	struct Change
+	{
+		int triangle, group, before; ///< before: the triangle in front of it in its part
+		Triangle2 plane;
+	};
+	struct Move
+	{
+		int from, to;
+		double fromArea, toArea;
+		std::vector<Change> changes;
+		std::size_t groups; ///< of the part to
+	};
+
+	void append(int triangle, int part);
+	int remove(int triangle);
+	void insertBehind(int before, int triangle, int part);
+
+	template<class IsFound>
+	bool coveredBy(const Triangle2& p, int part, const IsFound& isFound) const
+	{
+		Box2 box;
+		for (const Point2& corner : p)
+			box.add(corner);
+		for (const int group : m_groupsOf[part]) {
+			if (!m_groups[group].box.meets(box))
+				continue;
+			// The tree knows where the triangles were in the beginning.
+			Box2 before;
+			for (const Point2& corner : m_groups[group].back(p))
+				before.add(corner);
+			if (m_tree.meetsAny(before, [&](int g) {
+					return m_group[g] == group && m_isProper[g] &&
+						   overlap(p, m_chart.plane[g], m_touching) && isFound(g);
+				}))
+				return true;
+		}
+		return false;
+	}
+
+	DrawnChart& m_chart;
+	const ChartSides& m_sides;
+	const BoxTree& m_tree;
+	double m_onePlace, m_touching;
+	Array<char> m_isProper; // [triangle] counter-clockwise
+	Array<int> m_part;      // [triangle]
+	Array<int> m_group;     // [triangle]
+	Array<Group> m_groups;
+	Array<std::vector<int>> m_groupsOf; // [part]
+	Array<double> m_area;               // [part]
+	// The triangles of a part are a list: those before and behind a triangle, and its ends.
+	Array<int> m_before, m_next, m_first, m_last;
+	// Since commit().
+	std::vector<Move> m_moves;
+	int m_committedParts = 0, m_committedGroups = 0;
+};
+
+} // namespace ricci
+
+#endif
