@@ -83,28 +83,27 @@ void CirclePaths::appendPath(const Front& front, Vertex v, std::vector<Edge>& ed
 	}
 }
 
-/// Shortest path from a circle with \p isStart to one with \p isEnd, shorter than \p bound, by
-/// searches from both ends. Of these the one that has seen less goes on, so that a path to a
-/// point does not cost a search from all of a long cut.
-template<class IsStart, class IsEnd>
-CirclePaths::Bridge
-CirclePaths::shortestPath(const IsStart& isStart, const IsEnd& isEnd, double bound)
+/// By searches from both ends. Of these the one that has seen less goes on, so that a path to a point
+/// does not cost a search from all of a long cut.
+std::vector<Edge> CirclePaths::shortestBridge(double bound)
 {
-	Bridge best{bound, Halfedge()};
+	const auto isStart = [](int circle) { return circle == 0; };
+	const auto isEnd = [](int circle) { return circle > 0; };
+	Halfedge middle; // where the searches met
 	const auto offer = [&](Halfedge h, double length) {
-		if (length < best.length)
-			best = {length, h};
+		if (length < bound) {
+			bound = length;
+			middle = h;
+		}
 	};
-	for (const Halfedge h : m_starts) {
-		const int there = m_cut.circle(h.twin());
-		if (isStart(m_cut.circle(h)) && there >= 0 && isEnd(there))
+	for (const Halfedge h : m_starts)
+		if (isStart(m_cut.circle(h)) && isEnd(m_cut.circle(h.twin())))
 			offer(h, m_cost[h.edge()]);
-	}
 	Front &from = m_fronts[0], &to = m_fronts[1];
-	startFrom(isStart, best.length, from);
-	startFrom(isEnd, best.length, to);
+	startFrom(isStart, bound, from);
+	startFrom(isEnd, bound, to);
 	const auto step = [&](Front& own, const Front& other, auto isOther, auto towards) {
-		const Vertex v = own.next(best.length);
+		const Vertex v = own.next(bound);
 		for (const Halfedge h : m_cut.around(v)) {
 			const Edge e = h.edge();
 			const Vertex w = m_t.target(h);
@@ -116,30 +115,23 @@ CirclePaths::shortestPath(const IsStart& isStart, const IsEnd& isEnd, double bou
 					offer(towards(h), d);
 				continue;
 			}
-			if (!(d < best.length) || !isOpen(w))
+			if (!(d < bound) || !isOpen(w))
 				continue;
 			own.offer(w, d, h);
 			offer(towards(h), d + other[w]);
 		}
 	};
-	while (from.nearest() + to.nearest() < best.length)
+	while (from.nearest() + to.nearest() < bound)
 		if (from.reached().size() <= to.reached().size())
 			step(from, to, isEnd, [](Halfedge h) { return h; });
 		else
 			step(to, from, isStart, [](Halfedge h) { return h.twin(); });
-	return best;
-}
-
-std::vector<Edge> CirclePaths::shortestBridge(double bound)
-{
-	const Bridge bridge = shortestPath(
-		[](int circle) { return circle == 0; }, [](int circle) { return circle > 0; }, bound);
 	std::vector<Edge> path;
-	if (!bridge.halfedge.isValid())
+	if (!middle.isValid())
 		return path;
-	path.push_back(bridge.halfedge.edge());
-	appendPath(m_fronts[0], m_t.origin(bridge.halfedge), path);
-	appendPath(m_fronts[1], m_t.target(bridge.halfedge), path);
+	path.push_back(middle.edge());
+	appendPath(from, m_t.origin(middle), path);
+	appendPath(to, m_t.target(middle), path);
 	return path;
 }
 

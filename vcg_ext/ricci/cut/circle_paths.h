@@ -58,17 +58,9 @@ public:
 	std::size_t reached() const;
 
 private:
-	struct Bridge
-	{
-		double length;
-		Halfedge halfedge; // where the searches from both ends met, if they did
-	};
-
 	bool isOpen(Vertex v) const;
 	template<class Chosen>
 	void startFrom(const Chosen& chosen, double bound, Front& front) const;
-	template<class IsStart, class IsEnd>
-	Bridge shortestPath(const IsStart& isStart, const IsEnd& isEnd, double bound);
 	void searchFromBoth(int first, int second, int last, double bound);
 	std::pair<double, Halfedge> goOn(Front& front, Vertex v, int circle, double limit) const;
 	bool touch(const std::vector<Edge>& paths, Vertex centre) const;

@@ -20,12 +20,11 @@ namespace {
 /// Roots tried on a closed surface.
 constexpr int kRoots = 4;
 
-/// Least vertices of a coarse surface. Cuts that are found on more are hardly shorter in the end.
-
+/// Vertices of a coarse surface, at least. Cuts that are found on more are hardly shorter in the end.
 constexpr int kMinCoarseVertices = 1500;
 
-/// Vertices of the surface for one of the coarse surface: at most, as paths are looked for among about a
-/// hundred times as many; and at least, as else nothing is gained.
+/// Vertices of the surface for one of the coarse surface: at most, as every move looks for paths in many
+/// such parts; and at least, as else nothing is gained.
 constexpr int kMaxCoarsening = 100;
 constexpr double kMinCoarsening = 2.0;
 
