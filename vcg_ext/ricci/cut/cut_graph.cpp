@@ -26,7 +26,7 @@ constexpr int kMinCoarseVertices = 1500;
 /// Vertices of the surface for one of the coarse surface: at most, as every move looks for paths in many
 /// such parts; and at least, as else nothing is gained.
 constexpr int kMaxCoarsening = 100;
-constexpr double kMinCoarsening = 2.0;
+constexpr double kMinCoarsening = 4.0;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
