@@ -74,6 +74,56 @@ TEST(CutGraph, OpensSurfacesOfEveryKindToADisk)
 	EXPECT_EQ(opened + needless, 3 * static_cast<int>(meshes.size()));
 }
 
+/// Surfaces with so many vertices that the cut is looked for on a coarse surface first.
+TEST(CutGraph, OpensLargeSurfacesToADisk)
+{
+	Random random(134);
+	for (int genus : {0, 1, 3}) {
+		SurfaceMesh mesh = shaken(perforatedSlab(genus, 22), 0.005, random);
+		for (const bool holes : {false, true}) {
+			if (holes)
+				mesh = withoutStars(mesh, {100, 2000});
+			const Packed packed(mesh);
+			const Triangulation& t = packed.triangulation;
+			ASSERT_GT(t.vertexCount(), 6000);
+			VertexArray<char> marked(t.vertexCount(), 0);
+			for (int i = 0; i < 12; ++i)
+				marked[Vertex(random.index(t.vertexCount()))] = 1;
+			int ticks = 0;
+			const CutGraph cut = cutToDisk(t, packed.lengths, marked, {}, [&] { ++ticks; });
+			EXPECT_GT(ticks, 5);
+			expectCutToADisk(t, cut);
+			EXPECT_EQ(static_cast<int>(cut.generators.size()), 2 * genus);
+			EXPECT_NEAR(cut.length, lengthOf(cut, packed.lengths), 1e-12 * cut.length);
+			VertexArray<int> degree(t.vertexCount(), 0);
+			for (const Halfedge h : t.halfedges())
+				degree[t.origin(h)] += cut.isCut[h.edge()];
+			const VertexArray<char> boundary = t.boundaryVertices();
+			for (const Vertex v : t.vertices())
+				EXPECT_TRUE(boundary[v] || (marked[v] ? degree[v] > 0 : degree[v] != 1));
+			const CutGraph again = cutToDisk(t, packed.lengths, marked, {});
+			EXPECT_EQ(again.isCut, cut.isCut);
+		}
+	}
+}
+
+/// A list of forbidden edges, though empty of them, keeps the search from a coarse surface.
+TEST(CutGraph, ALargeCutIsAboutAsShortAsOneSoughtEverywhere)
+{
+	Random random(135);
+	double found = 0.0, sought = 0.0;
+	for (int genus : {0, 1}) {
+		const Packed packed(shaken(perforatedSlab(genus, 22), 0.005, random));
+		const Triangulation& t = packed.triangulation;
+		VertexArray<char> marked(t.vertexCount(), 0);
+		for (int i = 0; i < 6; ++i)
+			marked[Vertex(random.index(t.vertexCount()))] = 1;
+		found += cutToDisk(t, packed.lengths, marked, {}).length;
+		sought += cutToDisk(t, packed.lengths, marked, EdgeArray<char>(t.edgeCount(), 0)).length;
+	}
+	EXPECT_LE(found, 1.05 * sought);
+}
+
 TEST(CutGraph, LeavesADiskAlone)
 {
 	Random random(131);

@@ -5,10 +5,12 @@
 #include "../math/adjacency.h"
 #include "../math/disjoint_sets.h"
 #include "../math/shortest_paths.h"
+#include "coarse_surface.h"
 #include "shorten_cut.h"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace ricci {
@@ -17,6 +19,14 @@ namespace {
 
 /// Roots tried on a closed surface.
 constexpr int kRoots = 4;
+
+/// Vertices of a coarse surface, at least. Cuts that are found on more are hardly shorter in the end.
+constexpr int kMinCoarseVertices = 1500;
+
+/// Vertices of the surface for one of the coarse surface: at most, as every move looks for paths in many
+/// such parts; and at least, as else nothing is gained.
+constexpr int kMaxCoarsening = 100;
+constexpr double kMinCoarsening = 4.0;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
@@ -27,6 +37,7 @@ using NodePaths = ShortestPaths<Vertex, Halfedge>;
 class ContractedGraph
 {
 public:
+	/// \param cost, forbidden must outlive the graph
 	ContractedGraph(
 		const Triangulation& t, const EdgeArray<double>& cost, const EdgeArray<char>& forbidden) :
 			m_t(t),
@@ -209,12 +220,14 @@ cutFrom(const ContractedGraph& graph, const VertexArray<char>& terminal, const S
 	for (const Edge e : leftOver(graph, tree.paths, cut.isCut))
 		cut.isCut[e] = 1;
 	prune(graph, terminal, cut.isCut);
-	measure(graph, cut);
 	return cut;
 }
 
 /// The shortest cut from a tree through the terminals and from the paths to single roots.
-CutGraph shortestOfSeveral(const ContractedGraph& graph, const VertexArray<char>& terminal)
+/// \param shorten shorten(isCut) is called for each of them before they are compared
+template<class Shorten>
+CutGraph shortestOfSeveral(
+	const ContractedGraph& graph, const VertexArray<char>& terminal, const Shorten& shorten)
 {
 	const Triangulation& t = graph.surface();
 	const std::size_t loops = graph.loopNodes().size();
@@ -224,8 +237,14 @@ CutGraph shortestOfSeveral(const ContractedGraph& graph, const VertexArray<char>
 			terminals.push_back(n);
 	CutGraph best;
 	const bool hasTree = terminals.size() > 1;
+	const auto shortCutFrom = [&](const SpanningTree& tree) {
+		CutGraph cut = cutFrom(graph, terminal, tree);
+		shorten(cut.isCut);
+		measure(graph, cut);
+		return cut;
+	};
 	if (hasTree) {
-		best = cutFrom(graph, terminal, treeOfTerminals(graph, terminals));
+		best = shortCutFrom(treeOfTerminals(graph, terminals));
 		// The tree is all that a sphere with holes needs.
 		if (t.eulerCharacteristic() + static_cast<int>(loops) == 2)
 			return best;
@@ -239,7 +258,7 @@ CutGraph shortestOfSeveral(const ContractedGraph& graph, const VertexArray<char>
 	VertexArray<double> fromRoots;
 	for (int attempt = 0; attempt < (closed ? kRoots : 1); ++attempt) {
 		const SpanningTree tree{graph.pathsFrom({root}), {}};
-		CutGraph cut = cutFrom(graph, terminal, tree);
+		CutGraph cut = shortCutFrom(tree);
 		if ((attempt == 0 && !hasTree) || cut.length < best.length)
 			best = std::move(cut);
 		if (attempt == 0)
@@ -265,6 +284,36 @@ std::vector<Edge> generators(const ContractedGraph& graph, const CutGraph& cut)
 		if (cut.isCut[e] && !joined.merge(graph.from(e), graph.to(e)))
 			edges.push_back(e);
 	return edges;
+}
+
+/// The coarse surface on which a cut is looked for, if there is one.
+std::optional<CoarseSurface> coarseSurface(
+	const Triangulation& t,
+	const EdgeArray<double>& cost,
+	const VertexArray<char>& marked,
+	const EdgeArray<char>& forbidden,
+	const Tick& tick)
+{
+	std::optional<CoarseSurface> coarse;
+	const int count = std::max(kMinCoarseVertices, t.vertexCount() / kMaxCoarsening);
+	if (forbidden.empty() && t.vertexCount() > kMinCoarsening * count) {
+		coarse.emplace(t, cost, marked, count, tick);
+		if (coarse->triangulation().faceCount() == 0)
+			coarse.reset();
+	}
+	return coarse;
+}
+
+/// A short cut graph of a coarse surface.
+EdgeArray<char> cutOf(const CoarseSurface& coarse, const Tick& tick)
+{
+	const Triangulation& t = coarse.triangulation();
+	const EdgeArray<char> nowhere;
+	const ContractedGraph graph(t, coarse.cost(), nowhere);
+	const auto shorten = [&](EdgeArray<char>& isCut) {
+		shortenCut(t, coarse.cost(), coarse.marked(), {}, isCut, tick);
+	};
+	return shortestOfSeveral(graph, graph.terminals(coarse.marked()), shorten).isCut;
 }
 
 /// Shortest paths along edges.
@@ -344,7 +393,8 @@ CutGraph cutAroundCentre(
 	cut.isCut = treeAround(t, paths.distance);
 	for (const Edge e : t.edges())
 		cut.isCut[e] = !t.isBoundary(e) && !cut.isCut[e];
-	const ContractedGraph graph(t, lengths, {});
+	const EdgeArray<char> nowhere;
+	const ContractedGraph graph(t, lengths, nowhere);
 	prune(graph, graph.terminals(marked), cut.isCut);
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);
@@ -360,8 +410,16 @@ CutGraph cutToDisk(
 	const HalfedgeArray<double>& corners)
 {
 	const ContractedGraph graph(t, cost, forbidden);
-	CutGraph cut = shortestOfSeveral(graph, graph.terminals(marked));
-	shortenCut(t, cost, marked, forbidden, cut.isCut, tick, corners);
+	CutGraph cut;
+	if (std::optional<CoarseSurface> coarse = coarseSurface(t, cost, marked, forbidden, tick)) {
+		cut.isCut = coarse->lifted(cutOf(*coarse, tick));
+		prune(graph, graph.terminals(marked), cut.isCut);
+		shortenCut(t, cost, marked, forbidden, cut.isCut, tick, corners, &*coarse);
+	}
+	else {
+		cut = shortestOfSeveral(graph, graph.terminals(marked), [](EdgeArray<char>&) {});
+		shortenCut(t, cost, marked, forbidden, cut.isCut, tick, corners);
+	}
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);
 	return cut;

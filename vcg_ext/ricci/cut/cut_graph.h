@@ -30,6 +30,9 @@ struct CutGraph
 /// tree through them [Mehlhorn 1988] competes as the first tree. On a closed surface several
 /// well-spread roots compete. The shortest of these cuts is shortened further by shortenCut().
 ///
+/// On a surface with thousands of vertices and no list of forbidden edges all this takes place on a
+/// CoarseSurface. Its cut is then shortened on the surface itself, near the place where it runs.
+///
 /// A closed sphere with less than two marked vertices gets an empty cut. Deterministic.
 /// \param cost of a seam along the edge, positive; the length, or whatever else is to be small in
 /// sum

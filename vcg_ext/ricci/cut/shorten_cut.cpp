@@ -2,12 +2,11 @@
 #include "shorten_cut.h"
 
 #include "../base/tolerances.h"
-#include "../math/shortest_paths.h"
+#include "circle_paths.h"
 #include "cone_wedges.h"
 #include "cut_segments.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <map>
 #include <set>
@@ -31,7 +30,9 @@ constexpr std::size_t kMaxWork = 2000000000;
 /// What a vertex reached by a search takes, in halfedges labelled.
 constexpr std::size_t kWorkOfVertex = 16;
 
-using Front = SearchFront<Vertex, Halfedge>;
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+using Front = CirclePaths::Front;
 
 class CutShortener
 {
@@ -43,10 +44,12 @@ public:
 		const EdgeArray<char>& forbidden,
 		EdgeArray<char>& isCut,
 		const Tick& tick,
-		const HalfedgeArray<double>& corners) :
+		const HalfedgeArray<double>& corners,
+		const CoarseSurface* parts) :
 			m_t(t),
 			m_cost(cost), m_cut(t, marked, forbidden, isCut), m_wedges(t, m_cut, corners),
-			m_tick(tick), m_fronts(3, Front(t.vertexCount()))
+			m_paths(t, cost, m_cut, parts), m_tick(tick), m_parts(parts),
+			m_changedAt(parts ? parts->triangulation().vertexCount() : 0, 0), m_front(0)
 	{
 	}
 
@@ -62,43 +65,65 @@ public:
 private:
 	void shorten()
 	{
-		Failures<Edge> exchanges;
-		Failures<Vertex> rebuilds;
 		for (int round = 0; round < kMaxRounds; ++round) {
 			const int before = m_changes;
 			for (const Edge e : m_cut.segments())
 				if (m_cut.isCut(e))
-					attempt(exchanges, e, &CutShortener::exchange);
+					attempt(m_exchanges, e, &CutShortener::exchange);
 			for (const Vertex v : m_cut.branchNodes())
 				if (m_cut.degree(v) > 1)
-					attempt(rebuilds, v, &CutShortener::rebuild);
+					attempt(m_rebuilds, v, &CutShortener::rebuild);
 			if (m_changes == before)
 				return;
 		}
 	}
 
-	/// How many changes the cut had seen when the last move at an element failed.
+	/// The last failure of a move at an element.
+	struct Failure
+	{
+		int at = -1;              ///< how many changes the cut had seen
+		std::vector<Vertex> near; ///< the parts that the move saw; empty if it saw everything
+	};
 	template<class Element>
-	using Failures = std::map<Element, int>;
+	using Failures = std::map<Element, Failure>;
+
+	/// Whether nothing has changed since, as far as the move could see.
+	bool isUpToDate(const Failure& failure) const
+	{
+		if (failure.at < 0 || failure.near.empty())
+			return failure.at == m_changes;
+		return std::none_of(failure.near.begin(), failure.near.end(), [&](Vertex part) {
+			return m_changedAt[part] > failure.at;
+		});
+	}
 
 	template<class Element>
 	void attempt(Failures<Element>& failures, Element element, bool (CutShortener::*move)(Element))
 	{
-		int& failedAt = failures.try_emplace(element, -1).first->second;
-		if (failedAt == m_changes || m_work > kMaxWork)
-			return; // nothing has changed since it failed
-		if ((this->*move)(element))
-			++m_changes;
-		else
-			failedAt = m_changes;
-		countWork();
+		Failure& failure = failures[element];
+		if (m_work > kMaxWork || isUpToDate(failure))
+			return;
+		if (!(this->*move)(element)) {
+			failure.at = m_changes;
+			failure.near = m_paths.near();
+		}
+		countWork(m_paths.reached());
 	}
 
-	void countWork()
+	/// Counts a change of the cut at these edges.
+	void noteChange(const std::vector<Edge>& removed, const std::vector<Edge>& added)
 	{
-		m_work += m_cut.labelled().size();
-		for (const Front& front : m_fronts)
-			m_work += kWorkOfVertex * front.reached().size();
+		++m_changes;
+		if (m_parts)
+			for (const std::vector<Edge>* edges : {&removed, &added})
+				for (const Edge e : *edges)
+					for (const Vertex v : m_t.ends(e))
+						m_changedAt[m_parts->centreOf(v)] = m_changes;
+	}
+
+	void countWork(std::size_t reached)
+	{
+		m_work += m_cut.labelled().size() + kWorkOfVertex * reached;
 		if (m_work < m_workAtTick + kWorkBetweenTicks)
 			return;
 		m_workAtTick = m_work;
@@ -112,8 +137,10 @@ private:
 	bool replace(const std::vector<Edge>& removed, const std::vector<Edge>& added, double excess)
 	{
 		m_cut.add(added);
-		if (!m_keepsWedges || m_wedges.excess() <= excess)
+		if (!m_keepsWedges || m_wedges.excess() <= excess) {
+			noteChange(removed, added);
 			return true;
+		}
 		m_cut.remove(added);
 		m_cut.add(removed);
 		return false;
@@ -127,9 +154,10 @@ private:
 	{
 		const double excess = wedgeExcess();
 		const std::vector<Edge> removed = m_cut.removeWithDeadEnds(m_cut.segmentOf(representative));
+		m_paths.findNear(removed);
 		std::vector<Edge> path;
-		if (m_cut.labelCircles() == 2)
-			path = shortestBridge((1.0 - kMinCutGain) * costOf(removed));
+		if (m_paths.labelCircles() == 2)
+			path = m_paths.shortestBridge((1.0 - kMinCutGain) * m_paths.costOf(removed));
 		if (!path.empty())
 			return replace(removed, path, excess);
 		m_cut.add(removed);
@@ -141,6 +169,7 @@ private:
 	bool rebuild(Vertex node)
 	{
 		const CutSegments::Star star = m_cut.starOf(node);
+		m_paths.findNear(star.edges);
 		if (star.hasLoop)
 			return false;
 		// The open surface then has as many boundaries as it can have: it lies in a sphere, and
@@ -149,14 +178,14 @@ private:
 		const std::vector<Edge> removed = m_cut.removeWithDeadEnds(star.edges);
 		const int circles = star.segments + (m_cut.isMarked(node) ? 1 : 0);
 		std::vector<Edge> joins;
-		if (m_cut.labelCircles() == circles) {
-			double bound = (1.0 - kMinCutGain) * costOf(removed);
+		if (m_paths.labelCircles() == circles) {
+			double bound = (1.0 - kMinCutGain) * m_paths.costOf(removed);
 			if (circles == 3) {
-				joins = bestTripod(bound);
+				joins = m_paths.bestTripod(bound);
 				if (!joins.empty())
-					bound = costOf(joins);
+					bound = m_paths.costOf(joins);
 			}
-			std::vector<Edge> bridges = joinCircles(circles, bound);
+			std::vector<Edge> bridges = m_paths.joinCircles(circles, bound);
 			if (!bridges.empty())
 				joins = std::move(bridges);
 		}
@@ -172,9 +201,11 @@ private:
 		const int before = m_changes;
 		m_place.assign(m_t.halfedgeCount(), -1);
 		m_segment.assign(m_t.edgeCount(), -1);
+		m_front = Front(m_t.vertexCount());
 		for (const Vertex v : m_wedges.cones())
-			while (m_work <= kMaxWork && m_wedges.excess(v) > 0.0 && divideWedge(v))
-				++m_changes;
+			while (m_work <= kMaxWork && m_wedges.excess(v) > 0.0)
+				if (!divideWedge(v))
+					break;
 		return m_changes > before;
 	}
 
@@ -196,7 +227,7 @@ private:
 		std::vector<Candidate> found;
 		for (const Edge e : m_cut.segments()) {
 			const std::vector<Edge> edges = m_cut.segmentOf(e);
-			Candidate s{e, costOf(edges), static_cast<int>(edges.size()), 0, true};
+			Candidate s{e, m_paths.costOf(edges), static_cast<int>(edges.size()), 0, true};
 			for (const Edge k : edges) {
 				m_segment[k] = static_cast<int>(found.size());
 				for (const Halfedge h : {k.halfedge(), k.halfedge().twin()})
@@ -246,16 +277,18 @@ private:
 			return false;
 		std::vector<Edge> path{last.edge()};
 		if (m_t.origin(last) != cone)
-			appendPath(m_fronts[0], m_t.origin(last), path);
+			m_paths.appendPath(m_front, m_t.origin(last), path);
 		const std::vector<Edge> removed =
 			m_cut.removeWithDeadEnds(m_cut.segmentOf(segments[positionOf(segment)].edge));
 		m_cut.add(path);
 		const bool isDivided = m_cut.labelCircles() == 1 && m_wedges.excess() < excess;
-		if (!isDivided) {
+		if (isDivided)
+			noteChange(removed, path);
+		else {
 			m_cut.remove(path);
 			m_cut.add(removed);
 		}
-		countWork();
+		countWork(m_front.reached().size());
 		return isDivided;
 	}
 
@@ -268,15 +301,14 @@ private:
 		double maxLength)
 	{
 		std::pair<Halfedge, int> best{Halfedge(), -1};
-		double minGrowth = std::numeric_limits<double>::infinity();
-		Front& front = m_fronts[0];
-		front.clear();
+		double minGrowth = kFar;
+		m_front.clear();
 		const auto goOn = [&](Halfedge h, double distance) {
 			const Vertex v = m_t.target(h);
 			if (!m_cut.isFree(h.edge()) || v == cone)
 				return;
 			if (!m_cut.isOnGraph(v)) {
-				front.offer(v, distance, h);
+				m_front.offer(v, distance, h);
 				return;
 			}
 			const int place = m_place[h.twin()];
@@ -291,193 +323,26 @@ private:
 		};
 		for (const Halfedge h : starts)
 			goOn(h, m_cost[h.edge()]);
-		for (Vertex v; (v = front.next(minGrowth + maxLength)).isValid();)
+		for (Vertex v; (v = m_front.next(minGrowth + maxLength)).isValid();)
 			for (const Halfedge h : m_cut.around(v))
-				goOn(h, front[v] + m_cost[h.edge()]);
+				goOn(h, m_front[v] + m_cost[h.edge()]);
 		return best;
-	}
-
-	double costOf(const std::vector<Edge>& edges) const
-	{
-		double sum = 0.0;
-		for (const Edge e : edges)
-			sum += m_cost[e];
-		return sum;
-	}
-
-	/// Lets \p front begin at the circles for which \p chosen(circle) holds.
-	template<class Chosen>
-	void startFrom(const Chosen& chosen, double bound, Front& front) const
-	{
-		front.clear();
-		for (const Halfedge h : m_cut.labelled())
-			if (chosen(m_cut.circle(h)) && m_cut.isFree(h.edge()) &&
-				!m_cut.isOnGraph(m_t.target(h)) && m_cost[h.edge()] < bound)
-				front.offer(m_t.target(h), m_cost[h.edge()], h);
-	}
-
-	/// Appends the edges of the path from the circles to \p v.
-	void appendPath(const Front& front, Vertex v, std::vector<Edge>& edges) const
-	{
-		while (!m_cut.isOnGraph(v)) {
-			const Halfedge h = front.parent(v);
-			edges.push_back(h.edge());
-			v = m_t.origin(h);
-		}
-	}
-
-	/// A shortest path between circles of two sets.
-	struct Bridge
-	{
-		double length;
-		Halfedge halfedge; // where the searches from both ends met, if they did
-	};
-
-	/// Shortest path from a circle with \p isStart to one with \p isEnd, shorter than \p bound, by
-	/// searches from both ends. Of these the one that has seen less goes on, so that a path to a
-	/// point does not cost a search from all of a long cut.
-	template<class IsStart, class IsEnd>
-	Bridge shortestPath(const IsStart& isStart, const IsEnd& isEnd, double bound)
-	{
-		Bridge best{bound, Halfedge()};
-		const auto offer = [&](Halfedge h, double length) {
-			if (length < best.length)
-				best = {length, h};
-		};
-		for (const Halfedge h : m_cut.labelled()) {
-			const int there = m_cut.circle(h.twin());
-			if (isStart(m_cut.circle(h)) && m_cut.isFree(h.edge()) && there >= 0 && isEnd(there))
-				offer(h, m_cost[h.edge()]);
-		}
-		Front &from = m_fronts[0], &to = m_fronts[1];
-		startFrom(isStart, best.length, from);
-		startFrom(isEnd, best.length, to);
-		const auto step = [&](Front& own, const Front& other, auto isOther, auto towards) {
-			const Vertex v = own.next(best.length);
-			for (const Halfedge h : m_cut.around(v)) {
-				const Edge e = h.edge();
-				const Vertex w = m_t.target(h);
-				if (!m_cut.isFree(e))
-					continue;
-				const double d = own[v] + m_cost[e];
-				if (m_cut.isOnGraph(w)) {
-					if (isOther(m_cut.circle(h.twin())))
-						offer(towards(h), d);
-					continue;
-				}
-				if (!(d < best.length))
-					continue;
-				own.offer(w, d, h);
-				offer(towards(h), d + other[w]);
-			}
-		};
-		while (from.nearest() + to.nearest() < best.length)
-			if (from.reached().size() <= to.reached().size())
-				step(from, to, isEnd, [](Halfedge h) { return h; });
-			else
-				step(to, from, isStart, [](Halfedge h) { return h.twin(); });
-		return best;
-	}
-
-	/// Shortest path from circle 0 to another, empty if none is shorter than \p bound.
-	std::vector<Edge> shortestBridge(double bound)
-	{
-		const Bridge bridge = shortestPath(
-			[](int circle) { return circle == 0; }, [](int circle) { return circle > 0; }, bound);
-		std::vector<Edge> path;
-		if (!bridge.halfedge.isValid())
-			return path;
-		path.push_back(bridge.halfedge.edge());
-		appendPath(m_fronts[0], m_t.origin(bridge.halfedge), path);
-		appendPath(m_fronts[1], m_t.target(bridge.halfedge), path);
-		return path;
-	}
-
-	/// Joins the circles one after another by shortest bridges. \return their edges, none if they
-	/// are not shorter than \p bound together; the cut is left as it is
-	std::vector<Edge> joinCircles(int circles, double bound)
-	{
-		std::vector<Edge> edges;
-		bool found = true;
-		while (found && circles > 1) {
-			const std::vector<Edge> bridge = shortestBridge(bound - costOf(edges));
-			m_cut.add(bridge);
-			edges.insert(edges.end(), bridge.begin(), bridge.end());
-			found = !bridge.empty() && m_cut.labelCircles() == --circles;
-		}
-		m_cut.remove(edges);
-		if (!found)
-			edges.clear();
-		return edges;
-	}
-
-	/// Three paths from the circles 0, 1, 2 that meet in one vertex, empty if they are not shorter
-	/// than \p bound together.
-	std::vector<Edge> bestTripod(double bound)
-	{
-		// Two of the paths join their circles, so the third has at most the rest of the bound.
-		std::array<double, 3> limit;
-		for (int circle = 0; circle < 3; ++circle) {
-			const int second = (circle + 1) % 3, third = (circle + 2) % 3;
-			const Bridge opposite = shortestPath(
-				[&](int c) { return c == second; }, [&](int c) { return c == third; }, bound);
-			limit[positionOf(circle)] = bound - opposite.length;
-		}
-		for (int circle = 0; circle < 3; ++circle)
-			searchFrom(circle, limit[positionOf(circle)], m_fronts[positionOf(circle)]);
-		double minSum = bound;
-		Vertex centre;
-		for (const Vertex v : m_fronts[0].reached()) {
-			const double sum = m_fronts[0][v] + m_fronts[1][v] + m_fronts[2][v];
-			if (sum < minSum || (sum == minSum && v < centre)) {
-				minSum = sum;
-				centre = v;
-			}
-		}
-		std::vector<Edge> edges;
-		if (!centre.isValid())
-			return edges;
-		for (const Front& front : m_fronts)
-			appendPath(front, centre, edges);
-		return touch(edges, centre) ? std::vector<Edge>() : edges;
-	}
-
-	/// Finds all vertices nearer than \p limit to a circle.
-	void searchFrom(int circle, double limit, Front& front) const
-	{
-		startFrom([&](int c) { return c == circle; }, limit, front);
-		for (Vertex v; (v = front.next(limit)).isValid();)
-			for (const Halfedge h : m_cut.around(v)) {
-				const double d = front[v] + m_cost[h.edge()];
-				if (m_cut.isFree(h.edge()) && !m_cut.isOnGraph(m_t.target(h)) && d < limit)
-					front.offer(m_t.target(h), d, h);
-			}
-	}
-
-	/// Whether paths to \p centre touch before it: they would enclose something.
-	bool touch(const std::vector<Edge>& paths, Vertex centre) const
-	{
-		std::vector<Vertex> ends;
-		for (const Edge e : paths)
-			for (const Vertex v : m_t.ends(e))
-				if (v != centre && !m_cut.isOnGraph(v))
-					ends.push_back(v);
-		std::sort(ends.begin(), ends.end());
-		for (std::size_t i = 2; i < ends.size(); ++i)
-			if (ends[i] == ends[i - 2])
-				return true;
-		return false;
 	}
 
 	const Triangulation& m_t;
 	const EdgeArray<double>& m_cost;
 	CutSegments m_cut;
 	ConeWedges m_wedges;
+	CirclePaths m_paths;
 	bool m_keepsWedges = false;
 	const Tick& m_tick;
-	std::vector<Front> m_fronts; // of the searches from up to three circles
-	int m_changes = 0;           // moves that gained
+	const CoarseSurface* m_parts; // null: moves look everywhere
+	Failures<Edge> m_exchanges;
+	Failures<Vertex> m_rebuilds;
+	int m_changes = 0;            // moves that gained
+	VertexArray<int> m_changedAt; // [part] which of them was the last in it
 	std::size_t m_work = 0, m_workAtTick = 0;
+	Front m_front;              // of the search from a wedge that is divided
 	HalfedgeArray<int> m_place; // on the circle of the disk, while a wedge is divided
 	EdgeArray<int> m_segment;   // number of its segment, at cut edges, while a wedge is divided
 };
@@ -491,10 +356,11 @@ void shortenCut(
 	const EdgeArray<char>& forbidden,
 	EdgeArray<char>& isCut,
 	const Tick& tick,
-	const HalfedgeArray<double>& corners)
+	const HalfedgeArray<double>& corners,
+	const CoarseSurface* parts)
 {
 	if (std::find(isCut.begin(), isCut.end(), 1) != isCut.end())
-		CutShortener(t, cost, marked, forbidden, isCut, tick, corners).run();
+		CutShortener(t, cost, marked, forbidden, isCut, tick, corners, parts).run();
 }
 
 } // namespace ricci

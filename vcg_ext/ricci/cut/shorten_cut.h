@@ -4,6 +4,7 @@
 
 #include "../progress.h"
 #include "../surface/triangulation.h"
+#include "coarse_surface.h"
 
 namespace ricci {
 
@@ -55,6 +56,8 @@ namespace ricci {
 /// \param isCut changed in place; never a boundary edge
 /// \param tick is called between moves, many times a second. What it throws ends the search.
 /// \param corners angles at cones, from coneCorners(); empty: wedges may be as wide as they like
+/// \param parts a coarse surface of \p t, with which every move looks for paths only in the parts
+/// (vertices of one centre) at which what it takes out lies, and in those beside them; null: everywhere
 /// \pre the surface opened along \p isCut is a disk, or nothing is cut
 void shortenCut(
 	const Triangulation& t,
@@ -63,7 +66,8 @@ void shortenCut(
 	const EdgeArray<char>& forbidden,
 	EdgeArray<char>& isCut,
 	const Tick& tick = [] {},
-	const HalfedgeArray<double>& corners = {});
+	const HalfedgeArray<double>& corners = {},
+	const CoarseSurface* parts = nullptr);
 
 } // namespace ricci
 
