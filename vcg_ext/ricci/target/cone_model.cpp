@@ -56,12 +56,32 @@ VertexVector ConeModel::gradientWithShares(double share) const
 
 void ConeModel::append(Vertex v)
 {
+	append(v, m_flow.gradient(unitFactor(v)));
+}
+
+void ConeModel::append(const std::vector<Vertex>& vertices)
+{
+	std::size_t i = 0;
+	for (; i + 1 < vertices.size(); i += 2) {
+		const LinearFlow::Pair u = m_flow.solve({unit(vertices[i]), unit(vertices[i + 1])});
+		LinearFlow::Pair fields = m_flow.gradient(u);
+		for (const std::size_t k : {0, 1}) {
+			m_ownProduct[vertices[i + k]] = m_flow.meanSquare(u[k]);
+			append(vertices[i + k], std::move(fields[k]));
+		}
+	}
+	if (i < vertices.size())
+		append(vertices[i]);
+}
+
+void ConeModel::append(Vertex v, VertexVector field)
+{
 	m_isCone[v] = 1;
 	m_now.vertices.push_back(v);
 	m_now.gram.conservativeResize(size(), size());
 	m_now.linear.conservativeResize(size());
 	setRow(size() - 1, v);
-	m_fields.push_back(fieldOf(v));
+	m_fields.push_back(std::make_shared<const VertexVector>(std::move(field)));
 	m_gradient.resize(0);
 }
 
@@ -121,13 +141,19 @@ double ConeModel::ownProduct(Vertex v)
 	return m_ownProduct[v] = m_flow.meanSquare(unitFactor(v));
 }
 
+/// A unit of curvature at \p v.
+VertexVector ConeModel::unit(Vertex v) const
+{
+	VertexVector k = VertexVector::Zero(m_flow.vertexCount());
+	k[v] = 1.0;
+	return k;
+}
+
 /// Factor of a unit of curvature at \p v.
 const VertexVector& ConeModel::unitFactor(Vertex v)
 {
 	if (m_lastVertex != v) {
-		VertexVector unit = VertexVector::Zero(m_flow.vertexCount());
-		unit[v] = 1.0;
-		m_lastFactor = m_flow.solve(std::move(unit));
+		m_lastFactor = m_flow.solve(unit(v));
 		m_lastVertex = v;
 	}
 	return m_lastFactor;

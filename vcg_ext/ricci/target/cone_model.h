@@ -79,6 +79,9 @@ public:
 	/// Takes one more cone in; its curvature has to be fitted.
 	void append(Vertex v);
 
+	/// The same for several, of which two at a time take little longer than one.
+	void append(const std::vector<Vertex>& vertices);
+
 	/// Takes cone \p i out; the curvatures of the others have to be fitted.
 	void remove(int i);
 
@@ -157,6 +160,8 @@ private:
 
 	double ownProduct(Vertex v);
 	Field fieldOf(Vertex v);
+	VertexVector unit(Vertex v) const;
+	void append(Vertex v, VertexVector field);
 	void restore(const State& state, const Array<Field>& fields);
 	const VertexVector& unitFactor(Vertex v);
 	void setRow(int i, Vertex v);

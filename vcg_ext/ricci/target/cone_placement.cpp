@@ -119,9 +119,11 @@ void copyCones(const ConeModel& coarse, const VertexArray<Vertex>& roots, ConeMo
 	for (int i = model.size() - 1; i >= 0; --i)
 		if (!isWanted[model.vertex(i)])
 			model.remove(i);
+	std::vector<Vertex> missing;
 	for (const Vertex v : isWanted.indices())
 		if (isWanted[v] && !model.isCone(v))
-			model.append(v);
+			missing.push_back(v);
+	model.append(missing);
 	model.fit();
 }
 
@@ -223,9 +225,11 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequ
 	const ConeSites sites(surface, request.vertices);
 	LinearFlow linear(surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)));
 	ConeModel model(linear, 2 * kPi * surface.topology.type.eulerCharacteristic());
+	std::vector<Vertex> cones;
 	for (const Vertex v : surface.triangulation.vertices())
 		if (sites.isAllowed(v) && flow.target.curvature[v] != 0.0)
-			model.append(v);
+			cones.push_back(v);
+	model.append(cones);
 	model.fit();
 	addForAreas(surface, request, model, sites);
 	removeWeakCones(model);

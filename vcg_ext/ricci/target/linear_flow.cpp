@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <utility>
 #include <vector>
 
@@ -113,7 +114,7 @@ LinearFlow::LinearFlow(LinearSystem system) :
 
 void LinearFlow::soften(double factor)
 {
-	m_system->softness *= factor;
+	m_softness *= factor;
 }
 
 LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
@@ -198,11 +199,20 @@ VertexVector LinearFlow::factor(VertexVector k)
 
 VertexVector LinearFlow::solve(VertexVector rhs)
 {
-	if (m_sink.size() > 0)
-		rhs -= rhs.sum() * m_sink;
+	balance(rhs);
 	VertexVector u = solveRows(rhs);
 	u.array() -= m_area.dot(u);
 	return u;
+}
+
+LinearFlow::Pair LinearFlow::solve(Pair rhs)
+{
+	for (VertexVector& r : rhs)
+		balance(r);
+	Pair pair = solveRows(rhs);
+	for (VertexVector& u : pair)
+		u.array() -= m_area.dot(u);
+	return pair;
 }
 
 VertexVector LinearFlow::gradient(const VertexVector& u)
@@ -213,22 +223,52 @@ VertexVector LinearFlow::gradient(const VertexVector& u)
 	return phi;
 }
 
+LinearFlow::Pair LinearFlow::gradient(const Pair& u)
+{
+	Pair pair = solveRows(Pair{m_area.cwiseProduct(u[0]), m_area.cwiseProduct(u[1])});
+	for (VertexVector& phi : pair)
+		if (m_sink.size() > 0)
+			phi.array() -= m_sink.dot(phi);
+	return pair;
+}
+
+/// The sink takes what the sum of \p rhs lacks.
+void LinearFlow::balance(VertexVector& rhs) const
+{
+	if (m_sink.size() > 0)
+		rhs -= rhs.sum() * m_sink;
+}
+
 /// L^-1 rhs on the unknown vertices, 0 on the others.
 VertexVector LinearFlow::solveRows(const VertexVector& rhs)
 {
-	const VertexArray<int>& row = m_hessian ? m_hessian->row() : m_system->row;
-	SparseCholesky& cholesky = m_hessian ? m_hessian->cholesky() : m_system->cholesky;
 	m_rhs.resize(m_unknowns);
-	for (const Vertex v : row.indices())
-		if (row[v] >= 0)
-			m_rhs[row[v]] = rhs[v];
+	for (const Vertex v : row().indices())
+		if (row()[v] >= 0)
+			m_rhs[row()[v]] = rhs[v];
 	if (m_unknowns > 0)
-		cholesky.solve(m_rhs, m_solution);
+		cholesky().solve(m_rhs, m_solution);
 	VertexVector x(vertexCount());
-	for (const Vertex v : row.indices())
-		x[v] = row[v] >= 0 ? m_solution[row[v]] : 0.0;
-	if (m_system)
-		x *= m_system->softness;
+	for (const Vertex v : row().indices())
+		x[v] = row()[v] >= 0 ? m_softness * m_solution[row()[v]] : 0.0;
+	return x;
+}
+
+LinearFlow::Pair LinearFlow::solveRows(const Pair& rhs)
+{
+	m_rhsPair.resize(m_unknowns);
+	for (const Vertex v : row().indices())
+		if (row()[v] >= 0)
+			m_rhsPair[row()[v]] = {rhs[0][v], rhs[1][v]};
+	if (m_unknowns > 0)
+		cholesky().solve(m_rhsPair, m_solutionPair);
+	Pair x{VertexVector(vertexCount()), VertexVector(vertexCount())};
+	for (const Vertex v : row().indices()) {
+		const std::complex<double> both =
+			row()[v] >= 0 ? m_softness * m_solutionPair[row()[v]] : 0.0;
+		x[0][v] = both.real();
+		x[1][v] = both.imag();
+	}
 	return x;
 }
 

@@ -5,6 +5,7 @@
 #include "../flow/ricci_flow.h"
 #include "cone_request.h"
 
+#include <array>
 #include <memory>
 
 namespace ricci {
@@ -74,6 +75,11 @@ public:
 	/// taken from the boundary or, on a closed surface, from one vertex that is always the same.
 	VertexVector solve(VertexVector rhs);
 
+	/// solve() and gradient() of two at once, which take little more than half as long.
+	using Pair = std::array<VertexVector, 2>;
+	Pair solve(Pair rhs);
+	Pair gradient(const Pair& u);
+
 	/// Mean of u^2 by area.
 	double meanSquare(const VertexVector& u) const { return m_area.dot(u.cwiseProduct(u)); }
 
@@ -99,25 +105,30 @@ private:
 		ConeBoundary boundary,
 		std::unique_ptr<FactoredHessian>& hessian);
 	void spreadSink(const EmbeddedSurface& surface);
+	void balance(VertexVector& rhs) const;
 	VertexVector solveRows(const VertexVector& rhs);
+	Pair solveRows(const Pair& rhs);
+	const VertexArray<int>& row() const { return m_hessian ? m_hessian->row() : m_system->row; }
+	SparseCholesky& cholesky() { return m_hessian ? m_hessian->cholesky() : m_system->cholesky; }
 
 	/// Of a LinearSystem.
 	struct FactoredSystem
 	{
 		VertexArray<int> row; // or -1
 		SparseCholesky cholesky;
-		double softness = 1.0; // L is divided by
 	};
 
 	std::unique_ptr<FactoredSystem> m_system;      // null where there is a Hessian
 	std::unique_ptr<FactoredHessian> m_ownHessian; // null where that of the start is used
 	FactoredHessian* m_hessian = nullptr;
 	int m_unknowns = 0;
+	double m_softness = 1.0; // L is divided by
 	bool m_fixesBoundary;
 	VertexVector m_curvature, m_area;
 	VertexVector m_factor; // u where the flow is linearised; empty: 0
 	VertexVector m_sink;   // shares of the boundary vertices in a prescribed boundary; else empty
 	Eigen::VectorXd m_rhs, m_solution;
+	Eigen::VectorXcd m_rhsPair, m_solutionPair;
 };
 
 } // namespace ricci
