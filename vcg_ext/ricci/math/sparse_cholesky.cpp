@@ -95,6 +95,9 @@ struct SparseCholesky::Implementation
 		cholmod_start(&common);
 		common.nmethods = 1; // no search through several orderings
 		common.supernodal = CHOLMOD_SUPERNODAL;
+		// Few zeros among the entries for the sake of wider supernodes: solutions are many, and each
+		// goes through all of them.
+		common.zrelax[0] = 0.2;
 		common.print = 0;
 	}
 	~Implementation()
@@ -167,12 +170,14 @@ struct SparseCholesky::Implementation
 			static_cast<const double*>(factor->x) + start[k]};
 	}
 
-	/// x = L^-1 x, supernode by supernode.
+	/// x = L^-1 x, supernode by supernode. A right side of few entries reaches few of them.
 	void solveForward(double* x)
 	{
 		for (std::size_t k = 0; k < factor->nsuper; ++k) {
 			const Supernode node = supernode(k);
 			double* own = x + node.first;
+			if (std::all_of(own, own + node.width, [](double value) { return value == 0.0; }))
+				continue;
 			for (int c = 0; c < node.width; ++c) {
 				const double* column = node.column(c);
 				own[c] /= column[c];
