@@ -2,6 +2,7 @@
 #include "sparse_cholesky.h"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <numeric>
 
@@ -12,7 +13,8 @@
 #include <Eigen/SparseCholesky>
 #endif
 
-#if defined(RICCI_USE_CHOLMOD) && defined(__GNUC__) && defined(__ELF__)
+#if defined(RICCI_USE_CHOLMOD) && !defined(RICCI_STATIC_CHOLMOD) && defined(__GNUC__) &&           \
+	defined(__ELF__)
 // Defined where the BLAS behind CHOLMOD is OpenBLAS, and where CHOLMOD was built with OpenMP.
 extern "C" {
 __attribute__((weak)) void openblas_set_num_threads(int);
@@ -76,7 +78,11 @@ private:
 /// From this number of unknowns on the ordering is METIS's nested dissection: it takes longer than
 /// the factorisation it saves, but the factor is smaller by a third, and beyond this size memory is
 /// what runs out.
+#ifdef RICCI_STATIC_CHOLMOD
+constexpr int kNestedDissectionFrom = std::numeric_limits<int>::max(); // METIS is not in it
+#else
 constexpr int kNestedDissectionFrom = 2000000;
+#endif
 
 } // namespace
 
