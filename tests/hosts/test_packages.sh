@@ -39,6 +39,7 @@ check_folder() {
 	done
 	compgen -G "$1/$2/samples/*.$kind" >/dev/null || fail "$1/$2 has no samples"
 	check_needs "$1/$2/libfilter_ricci.so" "$2"
+	check_symbols "$1/$2/libfilter_ricci.so" "$2"
 }
 
 # Only the MeshLab of Debian 12 has SuiteSparse beside it.
@@ -49,6 +50,21 @@ check_needs() {
 		fail "$1 needs a library that its host may not have"
 	readelf -d "$1" | grep -E 'RPATH|RUNPATH' && fail "$1 looks for libraries in a folder of this machine"
 	return 0
+}
+
+# A solver inside the plugin must not meet another one in the host's process: none of its names may be
+# defined for others or asked from them. Nor may its C library be newer than that of Ubuntu 22.04.
+check_symbols() {
+	[ "$2" != meshlab-2020.09 ] || return 0
+	nm -D "$1" >"$folder/symbols"
+	grep -E ' ((cholmod|amd|colamd|SuiteSparse|METIS|GOMP|omp|openblas)_|[dz][a-z]+_$)' \
+		"$folder/symbols" && fail "$1 shares the names of a solver with its host"
+	nm -D --defined-only "$1" |
+		grep -vE ' [WVu] | (qt_plugin_instance|qt_plugin_query_metadata|__bss_start|_edata|_end)$' &&
+		fail "$1 defines names for its host"
+	local newest
+	newest=$(sed -n 's/.*@GLIBC_\([0-9.]*\)$/\1/p' "$folder/symbols" | sort -uV | tail -n 1)
+	[ "$(printf '%s\n' "$newest" 2.35 | sort -V | tail -n 1)" = 2.35 ] || fail "$1 needs glibc $newest"
 }
 
 check_install() {

@@ -6,10 +6,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <complex>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <string>
@@ -126,6 +129,87 @@ TEST(SparseCholesky, SolvesForComplexRightSides)
 		solver.solve(b.imag(), im);
 		EXPECT_LT((x.real() - re).lpNorm<Eigen::Infinity>(), 1e-12);
 		EXPECT_LT((x.imag() - im).lpNorm<Eigen::Infinity>(), 1e-12);
+	}
+}
+
+TEST(SparseCholesky, SolvesForASingleEntry)
+{
+	Random random(66);
+	SparseCholesky solver;
+	const int n = 90;
+	System system(laplacian(n, 0.5, random));
+	system.analyze(solver);
+	ASSERT_TRUE(solver.factorize(system.matrix));
+	const Eigen::MatrixXd lower = system.given;
+	const Eigen::MatrixXd inverse =
+		Eigen::MatrixXd(lower.selfadjointView<Eigen::Lower>()).inverse();
+	for (int i = 0; i < n; ++i) {
+		const Eigen::VectorXd x = system.solve(solver, Eigen::VectorXd::Unit(n, i));
+		EXPECT_LT((x - inverse.col(i)).lpNorm<Eigen::Infinity>(), 1e-12);
+	}
+	EXPECT_EQ(system.solve(solver, Eigen::VectorXd::Zero(n)), Eigen::VectorXd::Zero(n));
+}
+
+/// A random positive definite matrix whose groups of unknowns are full blocks. The first and the
+/// second are eliminated without the other; the first has two others above it, so that its columns
+/// are multiplied with each other in rectangles, too. Lower triangle.
+Eigen::MatrixXd blocks(const std::array<int, 4>& sizes, Random& random)
+{
+	constexpr bool coupled[4][4] = {
+		{true, false, true, true},
+		{false, true, false, true},
+		{true, false, true, true},
+		{true, true, true, true}};
+	std::vector<int> group;
+	for (int g = 0; g < 4; ++g)
+		group.insert(group.end(), positionOf(sizes[positionOf(g)]), g);
+	const int n = static_cast<int>(group.size());
+	Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+	for (int j = 0; j < n; ++j)
+		for (int i = j; i < n; ++i)
+			if (coupled[group[positionOf(i)]][group[positionOf(j)]])
+				A(i, j) = random.real(-1, 1);
+	const Eigen::MatrixXd full = A.selfadjointView<Eigen::Lower>();
+	A.diagonal().array() += full.cwiseAbs().rowwise().sum().array();
+	return A;
+}
+
+TEST(SparseCholesky, FactorizesFullBlocksOfAnySize)
+{
+	Random random(67);
+	for (const std::array<int, 4>& sizes :
+		 {std::array<int, 4>{1, 1, 1, 1},
+		  {64, 64, 64, 64},
+		  {65, 3, 63, 129},
+		  {200, 100, 70, 150},
+		  {40, 200, 130, 1}}) {
+		Eigen::MatrixXd lower = blocks(sizes, random);
+		const Eigen::Index n = lower.rows(), last = n - 1;
+		const Eigen::MatrixXd full = lower.selfadjointView<Eigen::Lower>();
+		SparseCholesky solver;
+		System system(lower.sparseView());
+		system.analyze(solver);
+		ASSERT_TRUE(solver.factorize(system.matrix));
+		Eigen::VectorXd b(n);
+		for (double& y : b)
+			y = random.real(-1, 1);
+		const Eigen::VectorXd x = system.solve(solver, b), expected = full.llt().solve(b);
+		EXPECT_LT((full * x - b).lpNorm<Eigen::Infinity>(), 1e-12);
+		EXPECT_LT((x - expected).lpNorm<Eigen::Infinity>(), 1e-12);
+		for (const double wrong : {-1e3, std::numeric_limits<double>::quiet_NaN()}) {
+			for (const Eigen::Index i : {Eigen::Index(0), last / 2, last}) {
+				const double before = lower(i, i);
+				lower(i, i) = wrong;
+				system.given = lower.sparseView();
+				system.layOut();
+				EXPECT_FALSE(solver.factorize(system.matrix)) << wrong << " in row " << i;
+				lower(i, i) = before;
+			}
+		}
+		system.given = lower.sparseView();
+		system.layOut();
+		ASSERT_TRUE(solver.factorize(system.matrix));
+		EXPECT_EQ(system.solve(solver, b), x);
 	}
 }
 

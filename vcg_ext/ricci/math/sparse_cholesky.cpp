@@ -2,6 +2,7 @@
 #include "sparse_cholesky.h"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <numeric>
 
@@ -12,7 +13,8 @@
 #include <Eigen/SparseCholesky>
 #endif
 
-#if defined(RICCI_USE_CHOLMOD) && defined(__GNUC__) && defined(__ELF__)
+#if defined(RICCI_USE_CHOLMOD) && !defined(RICCI_STATIC_CHOLMOD) && defined(__GNUC__) &&           \
+	defined(__ELF__)
 // Defined where the BLAS behind CHOLMOD is OpenBLAS, and where CHOLMOD was built with OpenMP.
 extern "C" {
 __attribute__((weak)) void openblas_set_num_threads(int);
@@ -76,7 +78,11 @@ private:
 /// From this number of unknowns on the ordering is METIS's nested dissection: it takes longer than
 /// the factorisation it saves, but the factor is smaller by a third, and beyond this size memory is
 /// what runs out.
+#ifdef RICCI_STATIC_CHOLMOD
+constexpr int kNestedDissectionFrom = std::numeric_limits<int>::max(); // METIS is not in it
+#else
 constexpr int kNestedDissectionFrom = 2000000;
+#endif
 
 } // namespace
 
@@ -95,6 +101,9 @@ struct SparseCholesky::Implementation
 		cholmod_start(&common);
 		common.nmethods = 1; // no search through several orderings
 		common.supernodal = CHOLMOD_SUPERNODAL;
+		// Few zeros among the entries for the sake of wider supernodes: solutions are many, and each
+		// goes through all of them.
+		common.zrelax[0] = 0.2;
 		common.print = 0;
 	}
 	~Implementation()
@@ -167,12 +176,14 @@ struct SparseCholesky::Implementation
 			static_cast<const double*>(factor->x) + start[k]};
 	}
 
-	/// x = L^-1 x, supernode by supernode.
+	/// x = L^-1 x, supernode by supernode. A right side of few entries reaches few of them.
 	void solveForward(double* x)
 	{
 		for (std::size_t k = 0; k < factor->nsuper; ++k) {
 			const Supernode node = supernode(k);
 			double* own = x + node.first;
+			if (std::all_of(own, own + node.width, [](double value) { return value == 0.0; }))
+				continue;
 			for (int c = 0; c < node.width; ++c) {
 				const double* column = node.column(c);
 				own[c] /= column[c];

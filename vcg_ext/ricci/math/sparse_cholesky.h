@@ -19,7 +19,8 @@ struct CholeskyWork
 };
 
 /// Solver of symmetric positive definite sparse systems given by their lower triangle: supernodal
-/// CHOLMOD [Chen et al. 2008] where it was found at build time (RICCI_USE_CHOLMOD), Eigen's
+/// CHOLMOD [Chen et al. 2008] where it was found at build time (RICCI_USE_CHOLMOD; with
+/// RICCI_STATIC_CHOLMOD its static library, with cholmod_blas.cpp and without METIS), Eigen's
 /// SimplicialLDLT otherwise.
 ///
 /// Unknowns are eliminated in the order of their rows, which analyze() chooses: matrices are laid out
@@ -39,7 +40,7 @@ public:
 	/// Where that reduces the fill, chooses other rows and has the pattern laid out for them by \p
 	/// layOut(): the first time, where the number of unknowns is another, and where changes of the
 	/// pattern have made a factorisation half as expensive again as when the rows were chosen. Their
-	/// order is that of approximate minimum degree, or nested dissection (METIS, with CHOLMOD only)
+	/// order is that of approximate minimum degree, or nested dissection (METIS, with the system's CHOLMOD only)
 	/// where the factor is large.
 	/// \param row an array of int, by element: the row of its unknown in the pattern, -1 if it has
 	/// none
