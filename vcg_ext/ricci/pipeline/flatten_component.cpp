@@ -245,7 +245,13 @@ void layOut(
 			numberText(radiusOf(map.layout), 3) + " out.");
 	}
 	map.uv = cornersOf(t, map.layout);
-	map.group = fuchsianGroup(t, map.cut, pairing, map.cones);
+	map.group = fuchsianGroup(t, map.cut, pairing, map.cones, options.canonicalGenerators, [&] {
+		progress.step(1.0 - kAfterFlow, "Canonical generators");
+	});
+	if (options.canonicalGenerators && !map.group.isCanonical())
+		progress.log(
+			"There are no canonical generators: they would move points farther than floating point "
+			"numbers can tell.");
 }
 
 void measureInvariants(const FlowDomain& domain, const Options&, ComponentMap& map)
