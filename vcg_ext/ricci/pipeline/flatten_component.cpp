@@ -203,8 +203,9 @@ EdgeArray<SidePairing> placeInDisk(
 	}
 	else {
 		const CurvatureMap& metric = *map.flow.metric;
+		const Tick tick = [&] { progress.step(1.0 - kAfterFlow, "Layout"); };
 		const HyperbolicLayout disk =
-			layOutInDisk(t, metric.lengths(), metric.angles(), map.cut.isCut);
+			layOutInDisk(t, metric.lengths(), metric.angles(), map.cut.isCut, tick);
 		for (const Edge e : t.edges())
 			if (map.cut.isCut[e])
 				offerPairing(
@@ -314,20 +315,25 @@ bool mayBeTurned(const AnyOptions& options, const ComponentMap& map)
 	return isBent(map, options.output) || map.finishMoved > 0;
 }
 
-void requireLayout(const Component& component, const Options& options, const ComponentMap& map)
+void requireLayout(
+	const Component& component, const Options& options, const Tick&, const ComponentMap& map)
 {
 	requireMap(
 		outputTriangles(component, map, options.output), map.flow, mayBeTurned(options, map));
 }
 
 void requireLayout(
-	const Component& component, const HyperbolicOptions& options, const ComponentMap& map)
+	const Component& component,
+	const HyperbolicOptions& options,
+	const Tick& tick,
+	const ComponentMap& map)
 {
 	requireDisk(
 		outputTriangles(component, map, options.output),
 		map.layout,
 		map.flow,
-		mayBeTurned(options, map));
+		mayBeTurned(options, map),
+		tick);
 }
 
 template<class AnyOptions>
@@ -356,21 +362,20 @@ ComponentMap flatten(
 
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
 	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
-	map.cut = cutThroughCones(
-		domain,
-		cutCost(domain, map.flow, options),
-		map.cones,
-		cutCorners(domain, map, options),
-		progress);
+	const EdgeArray<double> cost = cutCost(domain, map.flow, options);
+	progress.step(1.0 - kAfterFlow, "Cutting and layout");
+	map.cut = cutThroughCones(domain, cost, map.cones, cutCorners(domain, map, options), progress);
 	layOut(component, domain, options, progress, map);
 	map.seamLength = lengthOf(map.cut, domain.surface.lengths);
 	measureInvariants(domain, options, map);
 	finish(
 		domain, options, [&] { progress.step(1.0 - kAfterFlow, "Repairing the map"); }, map);
 
-	progress.step(1.0, "Checking the result");
-	requireMetric(map.flow, domain.solved().topology.boundary);
-	requireLayout(component, options, map);
+	const Tick tick = [&] { progress.step(1.0, "Checking the result"); };
+	tick();
+	requireMetric(map.flow, domain.solved().topology.boundary, tick);
+	tick();
+	requireLayout(component, options, tick, map);
 	return map;
 }
 

@@ -29,7 +29,11 @@ void requireMap(const OutputTriangles& output, const FlowResult& flow, bool bent
 }
 
 void requireDisk(
-	const OutputTriangles& output, const PlanarLayout& layout, const FlowResult& flow, bool bent)
+	const OutputTriangles& output,
+	const PlanarLayout& layout,
+	const FlowResult& flow,
+	bool bent,
+	const Tick& tick)
 {
 	// The gap that an open angle leaves grows like sinh of the distance across the layout.
 	double radius = 0.0;
@@ -40,7 +44,8 @@ void requireDisk(
 		radius = std::max(radius, 2.0 * std::atanh(std::min(1.0, r)));
 	}
 	const double tolerance = kCheckedGap + openCurvature(flow) * std::sinh(2.0 * radius);
-	const DiskCheck check = checkDisk(output.triangles, output.plane, output.reversed, tolerance);
+	const DiskCheck check =
+		checkDisk(output.triangles, output.plane, output.reversed, tolerance, tick);
 	if (check.outside > 0 && finite) // the doubles of the disk end at a distance of about 37
 		throw NotConverged(NotConverged::OutsideDisk, check.outside);
 	if (check.outside > 0)
