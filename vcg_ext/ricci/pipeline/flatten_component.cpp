@@ -350,6 +350,7 @@ ComponentMap flatten(
 	map.cappedHoles = domain.holes;
 	progress.log(description(component, map.type));
 	FlowStart start = flowStart(domain.solved(), options);
+	progress.step(0.0, "Choosing the target");
 	const auto request = targetRequest(domain, component, input, options, progress);
 	const Target target = chooseTarget(domain, start, request);
 	for (const std::string& note : target.notes)

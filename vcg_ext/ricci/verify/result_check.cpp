@@ -69,7 +69,7 @@ double extentOf(const std::vector<int>& triangles, const std::vector<Triangle2>&
 
 } // namespace
 
-void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map)
+void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map, const Tick& tick)
 {
 	const bool refined = map.isRefined();
 	const std::vector<Triangle>& all = refined ? map.refined.triangles : mesh.triangles;
@@ -82,6 +82,8 @@ void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map)
 		extent = std::max(extent, extentOf(refined ? chart.refined : chart.faces, uv));
 	for (const Chart& chart : map.charts) {
 		parts.push_back(refined ? &chart.refined : &chart.faces);
+		if (tick)
+			tick();
 		std::vector<Triangle> triangles;
 		std::vector<Triangle2> plane;
 		bool turned = false;
@@ -95,7 +97,7 @@ void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map)
 			plane.push_back(p);
 		}
 		if (!turned)
-			crossings += borderCrossings(triangles, plane, kCheckedGap * extent);
+			crossings += borderCrossings(triangles, plane, kCheckedGap * extent, tick);
 	}
 	if (crossings > 0 || !isPartition(parts, all.size()))
 		failCheck(

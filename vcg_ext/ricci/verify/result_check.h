@@ -34,7 +34,8 @@ void requireDisk(
 /// itself (chart_check.h) by more than kCheckedGap of the largest, those with turned triangles
 /// excepted.
 /// \throw NotConverged
-void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map);
+void requireSeparateCharts(
+	const SurfaceMesh& mesh, const Parametrization& map, const Tick& tick = {});
 
 } // namespace ricci
 
