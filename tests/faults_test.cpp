@@ -164,6 +164,7 @@ std::vector<Way> otherWays()
 	const auto hyperbolic = [](const Mesh& m, Progress& progress) {
 		Flow::HyperbolicParams p;
 		p.output = OutputTriangulation::CommonRefinement;
+		p.canonicalGenerators = true;
 		const Flow::Result result = Flow::ComputeHyperbolic(m, p, progress);
 		Mesh flat, cover, axes, polygon;
 		Layers::BuildFlatMesh(m, result, flat);

@@ -393,8 +393,9 @@ RichParameterList hyperbolicParameters()
 		"generator_axes",
 		false,
 		"Axes of the generators",
-		"Add a layer with the axes of the generators of the Fuchsian group in the Poincaré "
-		"disk, as edges. On the surface they are closed geodesics."));
+		"Add a layer with the axes of the canonical generators of the Fuchsian group in the "
+		"Poincaré disk, as edges. On the surface they are closed geodesics. The generators are "
+		"among the results then."));
 	list.addParam(RichBool(
 		"canonical_polygon",
 		false,
@@ -402,7 +403,8 @@ RichParameterList hyperbolicParameters()
 		"Add a layer with a fundamental polygon of 4 sides for each handle in the Poincaré disk, "
 		"as "
 		"edges. Its sides are geodesics that the canonical generators a1, b1, a1⁻¹, b1⁻¹, ... "
-		"pair, and all its corners are one point of the surface."));
+		"pair, and all its corners are one point of the surface. The generators are among the "
+		"results then."));
 	list.addParam(reportParameter());
 	list.addParam(RichEnum(
 		"surgery",
@@ -488,6 +490,7 @@ HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 			" rings.");
 	settings.axes = par.getBool("generator_axes");
 	settings.canonicalPolygon = par.getBool("canonical_polygon");
+	settings.flow.canonicalGenerators = settings.axes || settings.canonicalPolygon;
 	settings.report = par.getString("report");
 	settings.timeLimit = checkedTimeLimit(par);
 	ricci::checkOptions(settings.flow);

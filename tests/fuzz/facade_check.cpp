@@ -287,6 +287,7 @@ Execution run(const HostileMesh& hostile)
 	params.normalizeUV = hostile.normalizeUV;
 	typename Flow::HyperbolicParams hyperbolicParams;
 	static_cast<HyperbolicOptions&>(hyperbolicParams) = hostile.hyperbolicOptions;
+	hyperbolicParams.canonicalGenerators = true;
 	params.chartMargin = hostile.chartMargin;
 	Watch watch(hostile.cancelAt, hostile.mesh.triangles.size());
 	typename Flow::Result result;

@@ -305,7 +305,7 @@ class Hyperbolic(unittest.TestCase):
                           lambda path: meshes.write_ply(path, mesh))
 
     def test_double_torus(self):
-        run = self.run_on(meshes.double_torus())
+        run = self.run_on(meshes.double_torus(), generator_axes=True)
         self.assertEqual(run.code, 0, run.text)
         pairs = server.results(run.text)
         self.assertEqual((pairs["converged"], pairs["genus"]), ("true", "2"))

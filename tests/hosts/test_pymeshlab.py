@@ -412,7 +412,8 @@ class Report(unittest.TestCase):
 
     def test_hyperbolic(self):
         meshes.write_ply(self.path("slab.ply"), meshes.double_torus(1))
-        returned = run(load(self.path("slab.ply")), common.HYPERBOLIC, report="page.html")
+        returned = run(load(self.path("slab.ply")), common.HYPERBOLIC, report="page.html",
+                       generator_axes=True)
         rows = {row["key"]: row["value"] for row in self.rows("page.csv")}
         generators = [float(number) for number in rows["generators"].split()]
         self.assertTrue(numpy.allclose(generators, returned["generators"], rtol=1e-9))
@@ -501,7 +502,8 @@ class Hyperbolic(unittest.TestCase):
 
     def test_double_torus(self):
         documents = mesh_set(meshes.double_torus())
-        returned = self.check(documents, output_triangulation="Common refinement")
+        returned = self.check(documents, output_triangulation="Common refinement",
+                              generator_axes=True)
         self.assertAlmostEqual(returned["hyperbolic_area"], 4 * numpy.pi, delta=1e-9)
         self.assertEqual(returned["flipped_faces"], 0)
         a, b, c, d = self.motions(returned)

@@ -3,6 +3,7 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
+#include <ricci/base/tolerances.h>
 #include <ricci/error.h>
 #include <ricci/math/disjoint_sets.h>
 #include <ricci/measure/canonical_generators.h>
@@ -10,7 +11,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <set>
 #include <vector>
@@ -123,6 +126,69 @@ TEST(CanonicalGenerators, OfACanonicalWordOfOneHandleAreItsLetters)
 	for (const ExtendedIsometry& h : handles)
 		farthest = std::max(farthest, h.displacement());
 	EXPECT_LE(farthest, std::max(g[0].displacement(), g[1].displacement()) + 1e-17L);
+}
+
+/// The word with x P y Q x^-1 R y^-1 S put for P S R Q, for every handle in turn: all corners of its
+/// polygon are one point, and the letters of a handle lie far apart.
+GroupWord tangledWord(int handles, Random& random)
+{
+	GroupWord word;
+	for (int g = 0; g < 2 * handles; g += 2) {
+		std::array<std::size_t, 3> place{};
+		for (std::size_t& i : place)
+			i = at(random.index(static_cast<int>(word.size()) + 1));
+		std::sort(place.begin(), place.end());
+		GroupWord next;
+		const auto append = [&](std::size_t begin, std::size_t end, GroupLetter letter) {
+			for (std::size_t i = begin; i < end; ++i)
+				next.push_back(word[i]);
+			next.push_back(letter);
+		};
+		next.push_back({g, false});
+		append(0, place[0], {g + 1, false});
+		append(place[2], word.size(), {g, true});
+		append(place[1], place[2], {g + 1, true});
+		next.insert(
+			next.end(),
+			word.begin() + static_cast<std::ptrdiff_t>(place[0]),
+			word.begin() + static_cast<std::ptrdiff_t>(place[1]));
+		word = next;
+	}
+	return word;
+}
+
+/// Beyond genus 25, where fewer words are followed.
+TEST(CanonicalGenerators, OfManyHandlesHaveTheProductOfTheWordAndTick)
+{
+	Random random(874);
+	const int handles = 40;
+	const GroupWord word = tangledWord(handles, random);
+	ASSERT_EQ(cornerCount(word), 1);
+	const Array<ExtendedIsometry> g = randomIsometries(2 * handles, 1e-3, random);
+	int ticks = 0;
+	const auto found = canonicalGenerators(word, g, [&] { ++ticks; });
+	ASSERT_EQ(found.size(), at(2 * handles));
+	EXPECT_LT((relationOf(found).inverse() * productOf(word, g)).distanceFromIdentity(), 1e-12L);
+	EXPECT_GE(ticks, handles);
+	struct Stop
+	{
+	};
+	EXPECT_THROW(canonicalGenerators(word, g, [] { throw Stop(); }), Stop);
+}
+
+TEST(CanonicalGenerators, AreNotGivenWhereTheyAreTooLarge)
+{
+	const GroupWord word = {{0, false}, {1, false}, {0, true}, {1, true}};
+	Array<ExtendedIsometry> g(2);
+	g[0] = ExtendedIsometry::translation(1.0L);
+	for (const double length : {kMaxGeneratorDistance - 3, kMaxGeneratorDistance + 3}) {
+		// Across the first axis, so that no way to read the word leads to shorter ones.
+		g[1] = ExtendedIsometry::rotation(kPi / 2) * ExtendedIsometry::translation(length) *
+			   ExtendedIsometry::rotation(-kPi / 2);
+		EXPECT_EQ(canonicalGenerators(word, g).empty(), length > kMaxGeneratorDistance);
+	}
+	g[1].b = std::numeric_limits<long double>::quiet_NaN();
+	EXPECT_TRUE(canonicalGenerators(word, g).empty());
 }
 
 /// What g became, in the Lie algebra, from the left.

@@ -47,7 +47,7 @@ struct Uniformized
 			marked[Vertex(v)] = 1;
 		cut = cutToDisk(flow.base(), flow.surface().lengths, marked, {});
 		refinement = flow.refinement(cut);
-		group = fuchsianGroup(flow.base(), cut, refinement.pairing, flow.cones());
+		group = fuchsianGroup(flow.base(), cut, refinement.pairing, flow.cones(), true);
 	}
 
 	/// In the metric found, of the boundary loop through \p vertex.

@@ -142,6 +142,9 @@ struct HyperbolicOptions : FlowOptions
 	bool freeBoundary = false;
 
 	OutputTriangulation output = OutputTriangulation::KeepMesh;
+
+	/// Find canonical generators of the Fuchsian group, too, see FuchsianGroup::handles.
+	bool canonicalGenerators = false;
 };
 
 } // namespace ricci

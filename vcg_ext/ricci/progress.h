@@ -4,6 +4,7 @@
 
 #include "error.h"
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -11,6 +12,13 @@ namespace ricci {
 
 /// Called now and then by a long computation, many times a second. What it throws ends it.
 using Tick = std::function<void()>;
+
+/// Calls \p tick, if there is one, at every 65536th of a loop's short steps.
+inline void tickNowAndThen(const Tick& tick, std::size_t step)
+{
+	if (tick && step % 65536 == 0)
+		tick();
+}
 
 /// The algorithm's only way to speak while it runs. The default listener is silent and never
 /// cancels.

@@ -187,6 +187,10 @@ constexpr double kMinNewtonStep = 1e-10;
 /// Below this residual, in radians, a solve that rounding stopped goes on in extended precision.
 constexpr double kWorthExtending = 1e-4;
 
+/// Canonical generators that move 0 farther than this (hyperbolic distance) are not given: their
+/// numbers of about 1e8 no longer hold |a|^2 - |b|^2 = 1 in double precision.
+constexpr double kMaxGeneratorDistance = 38.0;
+
 /// Copies of a fundamental domain further from 0 than this are smaller than a float can show; two
 /// whose images of 0 are nearer to each other are the same (hyperbolic distances).
 constexpr double kMaxTileDistance = 12.0, kSameTile = 1e-3;

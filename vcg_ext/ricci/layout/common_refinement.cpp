@@ -95,7 +95,7 @@ public:
 		m_linked = linkPieces(
 			std::move(pieces), m_flow.history.input, m_end, m_surface.triangulation.faceCount());
 		m_listener(kLinked, crossings);
-		layOut();
+		layOut([&] { m_listener(kLinked, crossings); });
 		m_listener(kLaidOut, crossings);
 		m_linked.links = {};
 		numberPoints();
@@ -107,24 +107,26 @@ public:
 
 private:
 	/// Lays the sheets out and places the pieces in them.
-	void layOut()
+	void layOut(const Tick& tick)
 	{
 		const EndSheets sheets = makeSheets(m_linked, m_flow, m_isCut);
 		const EdgeArray<char> noCut(sheets.triangulation.edgeCount(), 0);
 		if (m_flow.background == Background::EuclideanPlane)
 			placeInPlane(
-				sheets, layOutInPlane(sheets.triangulation, sheets.lengths, sheets.angles, noCut));
+				sheets,
+				layOutInPlane(sheets.triangulation, sheets.lengths, sheets.angles, noCut),
+				tick);
 		else {
 			const HyperbolicLayout disk =
-				layOutInDisk(sheets.triangulation, sheets.lengths, sheets.angles, noCut);
-			placeInDisk(sheets, disk);
+				layOutInDisk(sheets.triangulation, sheets.lengths, sheets.angles, noCut, tick);
+			placeInDisk(sheets, disk, tick);
 			findPairings(sheets, disk);
 		}
 	}
 
-	void placeInPlane(const EndSheets& sheets, const PlanarLayout& plane)
+	void placeInPlane(const EndSheets& sheets, const PlanarLayout& plane, const Tick& tick)
 	{
-		placePieces([&](int p, int corner) {
+		placePieces(tick, [&](int p, int corner) {
 			const auto h = sheets.triangulation.halfedges(sheets.of[p]);
 			const auto weight = inEndTriangle(m_linked, m_end, p, corner);
 			Point2 x{0.0, 0.0};
@@ -135,7 +137,7 @@ private:
 		});
 	}
 
-	void placeInDisk(const EndSheets& sheets, const HyperbolicLayout& disk)
+	void placeInDisk(const EndSheets& sheets, const HyperbolicLayout& disk, const Tick& tick)
 	{
 		const Triangulation& t = sheets.triangulation;
 		// As seen from the frame of the sheet's halfedge.
@@ -148,21 +150,23 @@ private:
 				sheets.lengths[t.next(h).edge()],
 				sheets.angles[h]);
 		};
-		placePieces([&](int p, int corner) {
+		placePieces(tick, [&](int p, int corner) {
 			const DiskIsometry frame = rounded(disk.frame[t.halfedge(sheets.of[p])]);
 			return asPoint(frame(inSheet(p, corner).inDisk()));
 		});
 		const OverlayPieces& pieces = m_linked.pieces;
 		m_kleinPoint.reserve(m_point.size());
-		for (int p = 0; p < pieces.count(); ++p)
+		for (int p = 0; p < pieces.count(); ++p) {
+			tickNowAndThen(tick, positionOf(p));
 			for (int i = 0; i < pieces.size(p); ++i)
 				m_kleinPoint.push_back(inSheet(p, i).inKleinModel());
+		}
 	}
 
 	/// Corners of pieces that meet off the cut are one point of the layout.
 	/// \p place(piece, corner) gives the point that the corner's own sheet has for it.
 	template<class Place>
-	void placePieces(Place place)
+	void placePieces(const Tick& tick, Place place)
 	{
 		const OverlayPieces& pieces = m_linked.pieces;
 		DisjointSets sets(pieces.cornerCount());
@@ -174,11 +178,13 @@ private:
 			sets.merge(pieces.corner(a.piece, a.corner + 1), pieces.corner(b.piece, b.corner));
 		}
 		m_point.resize(sets.size());
-		for (int p = 0; p < pieces.count(); ++p)
+		for (int p = 0; p < pieces.count(); ++p) {
+			tickNowAndThen(tick, positionOf(p));
 			for (int i = 0; i < pieces.size(p); ++i) {
 				const int corner = pieces.corner(p, i), first = sets.find(corner);
 				m_point[corner] = first == corner ? place(p, i) : m_point[first];
 			}
+		}
 	}
 
 	/// How the layout goes on across the cut.

@@ -50,10 +50,16 @@ public:
 		const Triangulation& t,
 		const EdgeArray<double>& lengths,
 		const HalfedgeArray<double>& angles,
-		const EdgeArray<char>& isCut) :
+		const EdgeArray<char>& isCut,
+		const Tick& tick) :
 			m_t(t),
-			m_lengths(lengths), m_angles(angles), m_isCut(isCut)
+			m_lengths(lengths), m_angles(angles), m_isCut(isCut), m_tick(tick),
+			m_alongEdge(t.edgeCount())
 	{
+		for (const Edge e : t.edges()) {
+			tickNowAndThen(tick, positionOf(e));
+			m_alongEdge[e] = ExtendedIsometry::translation(lengths[e]);
+		}
 	}
 
 	/// The layout with \p root at 0.
@@ -62,8 +68,11 @@ public:
 		HyperbolicLayout layout;
 		layout.frame.resize(m_t.halfedgeCount());
 		place(layout, m_t.halfedge(root), ExtendedIsometry());
-		for (const Halfedge h : layoutTree(m_t, m_lengths, m_isCut, root))
-			place(layout, h, turned(layout.frame[h.twin()], length(h)));
+		std::size_t placed = 0;
+		for (const Halfedge h : layoutTree(m_t, m_lengths, m_isCut, root)) {
+			tickNowAndThen(m_tick, placed++);
+			place(layout, h, layout.frame[h.twin()] * along(h) * m_turn);
+		}
 		return layout;
 	}
 
@@ -74,6 +83,7 @@ public:
 		long double x0 = 0;
 		std::complex<long double> x = 0;
 		for (const Face f : m_t.faces()) {
+			tickNowAndThen(m_tick, positionOf(f));
 			const auto side = m_t.halfedges(f);
 			// By the sides: what the angles are short of pi is rounding where triangles are tiny.
 			const double area = hyperbolicArea({length(side[0]), length(side[1]), length(side[2])});
@@ -92,6 +102,7 @@ public:
 		Face nearest(0);
 		long double minSpread = 0;
 		for (const Face f : m_t.faces()) {
+			tickNowAndThen(m_tick, positionOf(f));
 			long double spread = 0; // grows with the distances of the corners from 0
 			for (const Halfedge h : m_t.halfedges(f)) {
 				ExtendedIsometry& g = layout.frame[h];
@@ -109,21 +120,22 @@ public:
 private:
 	double length(Halfedge h) const { return m_lengths[h.edge()]; }
 
+	const ExtendedIsometry& along(Halfedge h) const { return m_alongEdge[h.edge()]; }
+
 	/// Places the triangle of \p h, whose frame is known.
 	void place(HyperbolicLayout& layout, Halfedge h, const ExtendedIsometry& frame) const
 	{
 		using Isometry = ExtendedIsometry;
 		const Halfedge second = m_t.next(h), third = m_t.previous(h);
 		layout.frame[h] = frame.normalised();
-		layout.frame[second] = (frame * Isometry::translation(length(h)) *
-								Isometry::rotation(kExtendedPi - m_angles[second]))
-								   .normalised();
+		layout.frame[second] =
+			(frame * along(h) * Isometry::rotation(kExtendedPi - m_angles[second])).normalised();
 		// The apex from the nearer end of the base.
 		layout.frame[third] =
 			(length(second) < length(third)
-				 ? layout.frame[second] * Isometry::translation(length(second)) *
+				 ? layout.frame[second] * along(second) *
 					   Isometry::rotation(kExtendedPi - m_angles[third])
-				 : turned(layout.frame[h] * Isometry::rotation(m_angles[h]), length(third)))
+				 : layout.frame[h] * Isometry::rotation(m_angles[h]) * along(third) * m_turn)
 				.normalised();
 	}
 
@@ -131,6 +143,9 @@ private:
 	const EdgeArray<double>& m_lengths;
 	const HalfedgeArray<double>& m_angles;
 	const EdgeArray<char>& m_isCut;
+	const Tick& m_tick;
+	EdgeArray<ExtendedIsometry> m_alongEdge; // translations by the lengths
+	const ExtendedIsometry m_turn = ExtendedIsometry::rotation(kExtendedPi);
 };
 
 } // namespace
@@ -139,9 +154,10 @@ HyperbolicLayout layOutInDisk(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
 	const HalfedgeArray<double>& angles,
-	const EdgeArray<char>& isCut)
+	const EdgeArray<char>& isCut,
+	const Tick& tick)
 {
-	const DiskUnfolding unfolding(t, lengths, angles, isCut);
+	const DiskUnfolding unfolding(t, lengths, angles, isCut, tick);
 	// The first layout shows where the middle is. Only the second is exact there.
 	HyperbolicLayout layout = unfolding.from(deepestFace(t, isCut));
 	layout = unfolding.from(unfolding.moveMiddleToZero(layout));

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "canonical_generators.h"
 
-#include "../error.h"
+#include "../base/tolerances.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace ricci {
@@ -17,8 +19,18 @@ namespace {
 /// Newton steps of closeRelation(): the first removes all that is not rounding.
 constexpr int kClosingSteps = 3;
 
-/// Ways to make a word canonical that are followed at the same time.
-constexpr std::size_t kFollowed = 64;
+/// Ways to make a word canonical that are followed at the same time: at most so many, and only so
+/// many that no more than kReadPairs pairs of letters are read in one step. From genus 25 on these
+/// are fewer.
+constexpr std::size_t kFollowed = 64, kReadPairs = kFollowed * 100 * 100;
+
+/// Letters from one tick to the next.
+constexpr std::size_t kTickEvery = 64;
+
+std::size_t followed(std::size_t letters)
+{
+	return std::clamp<std::size_t>(kReadPairs / (letters * letters), 1, kFollowed);
+}
 
 ExtendedIsometry isometryOf(const GroupLetter& letter, const Array<ExtendedIsometry>& generators)
 {
@@ -39,68 +51,145 @@ ExtendedIsometry productOf(
 	return product;
 }
 
+/// How far \p m moves 0: the square of sinh(displacement / 2), infinite where it cannot be told.
+long double sizeOf(const ExtendedIsometry& m)
+{
+	const long double size = std::norm(m.b);
+	return std::isfinite(size) ? size : std::numeric_limits<long double>::infinity();
+}
+
 /// A word that is partly made canonical: it is [a1,b1] ... [ak,bk] times the open part, conjugated.
 struct PartlyCanonical
 {
 	std::vector<ExtendedIsometry> handles;
 	ExtendedIsometry conjugation;
 	GroupWord open;
-	long double size = 0; ///< largest displacement of an isometry above
-
-	bool operator<(const PartlyCanonical& other) const { return size < other.size; }
+	long double size = 0; ///< largest of an isometry above
 };
 
-/// Position of the inverse of letter \p i.
-std::size_t partnerOf(const GroupWord& word, std::size_t i)
+/// The open part of a word, rotated so that it begins with letter \p x, as x P y Q x^-1 R y^-1 S.
+struct Reading
 {
-	std::size_t j = 0;
-	while (j == i || word[j].generator != word[i].generator)
-		++j;
-	return j;
+	std::size_t from; ///< number of the word
+	std::size_t x, y; ///< y is counted from x
+	long double size; ///< of the word with one more handle that this gives
+};
+
+/// One more handle, read as above.
+/// \param outer conjugation of the rotated word
+struct Handle
+{
+	ExtendedIsometry conjugation, a, b;
+
+	Handle(
+		const ExtendedIsometry& outer,
+		const ExtendedIsometry& x,
+		const ExtendedIsometry& p,
+		const ExtendedIsometry& y,
+		const ExtendedIsometry& q,
+		const ExtendedIsometry& r) :
+			conjugation(outer * r * q)
+	{
+		const ExtendedIsometry back = conjugation.inverse();
+		a = outer * x * back;
+		b = conjugation * p * y * q * back;
+	}
+
+	long double size() const { return std::max({sizeOf(conjugation), sizeOf(a), sizeOf(b)}); }
+};
+
+/// Position of the inverse of each letter.
+std::vector<std::size_t> partnersIn(const GroupWord& word, int generators)
+{
+	Array<std::size_t> first(generators, word.size());
+	std::vector<std::size_t> partner(word.size());
+	for (std::size_t i = 0; i < word.size(); ++i) {
+		std::size_t& j = first[word[i].generator];
+		if (j < word.size()) {
+			partner[i] = j;
+			partner[j] = i;
+		}
+		j = i;
+	}
+	return partner;
 }
 
-/// Reads the open part, rotated by every number of letters, as x P y Q x^-1 R y^-1 S in every way,
-/// and appends the word with one more handle that each of them gives.
-void appendSteps(
-	const PartlyCanonical& from,
+/// Appends all readings of the open part.
+void appendReadings(
+	const PartlyCanonical& word,
+	std::size_t number,
 	const Array<ExtendedIsometry>& generators,
-	std::vector<PartlyCanonical>& steps)
+	const Tick& tick,
+	std::vector<Reading>& readings)
+{
+	const std::size_t n = word.open.size();
+	const std::vector<std::size_t> partner = partnersIn(word.open, generators.size());
+	std::vector<ExtendedIsometry> letters; // twice, so that a rotated word is a range
+	for (std::size_t i = 0; i < 2 * n; ++i)
+		letters.push_back(isometryOf(word.open[i % n], generators));
+	ExtendedIsometry outer = word.conjugation; // open = (first letters) rotated (first letters)^-1
+	std::vector<ExtendedIsometry> qs(n), rs(n);
+	for (std::size_t x = 0; x < n; ++x) {
+		const auto turned = [&](std::size_t i) { return (partner[(x + i) % n] + n - x) % n; };
+		const ExtendedIsometry* letter = &letters[x];
+		const std::size_t x2 = turned(0);
+		ExtendedIsometry product;
+		for (std::size_t i = x2; i-- > 1;) { // qs[y]: the letters between y and x^-1
+			qs[i] = product;
+			product = letter[i] * product;
+		}
+		product = ExtendedIsometry();
+		for (std::size_t i = x2 + 1; i < n; ++i) { // rs[y2]: those between x^-1 and y^-1
+			rs[i] = product;
+			product = product * letter[i];
+		}
+		ExtendedIsometry p;
+		for (std::size_t y = 1; y < x2; ++y) {
+			if (const std::size_t y2 = turned(y); y2 > x2) {
+				const Handle handle(outer, letter[0], p, letter[y], qs[y], rs[y2]);
+				readings.push_back({number, x, y, std::max(word.size, handle.size())});
+			}
+			p = p * letter[y];
+		}
+		outer = outer * letter[0];
+		if (tick && x % kTickEvery == 0)
+			tick();
+	}
+}
+
+/// The word with the handle of a reading.
+PartlyCanonical withHandle(
+	const PartlyCanonical& from, const Reading& reading, const Array<ExtendedIsometry>& generators)
 {
 	GroupWord word = from.open;
-	for (std::size_t rotation = 0; rotation < from.open.size(); ++rotation) {
-		// open = (its first letters) word (its first letters)^-1
-		const ExtendedIsometry outer =
-			from.conjugation * productOf(from.open, 0, rotation, generators);
-		const std::size_t x2 = partnerOf(word, 0);
-		for (std::size_t y = 1; y < x2; ++y) {
-			const std::size_t y2 = partnerOf(word, y);
-			if (y2 < x2)
-				continue;
-			const ExtendedIsometry p = productOf(word, 1, y, generators);
-			const ExtendedIsometry q = productOf(word, y + 1, x2, generators);
-			const ExtendedIsometry r = productOf(word, x2 + 1, y2, generators);
-			PartlyCanonical step;
-			step.conjugation = outer * r * q;
-			const ExtendedIsometry back = step.conjugation.inverse();
-			step.handles = from.handles;
-			step.handles.push_back(outer * productOf(word, 0, 1, generators) * back);
-			step.handles.push_back(
-				step.conjugation * p * productOf(word, y, y + 1, generators) * q * back);
-			step.size = std::max(from.size, step.conjugation.displacement());
-			for (std::size_t i = step.handles.size() - 2; i < step.handles.size(); ++i)
-				step.size = std::max(step.size, step.handles[i].displacement());
-			const auto append = [&](std::size_t begin, std::size_t end) {
-				for (std::size_t i = begin; i < end; ++i)
-					step.open.push_back(word[i]);
-			};
-			append(1, y);
-			append(y2 + 1, word.size());
-			append(x2 + 1, y2);
-			append(y + 1, x2);
-			steps.push_back(std::move(step));
-		}
-		std::rotate(word.begin(), word.begin() + 1, word.end());
-	}
+	const auto x = word.begin() + static_cast<std::ptrdiff_t>(reading.x);
+	const ExtendedIsometry outer =
+		from.conjugation * productOf(from.open, 0, reading.x, generators);
+	std::rotate(word.begin(), x, word.end());
+	const std::vector<std::size_t> partner = partnersIn(word, generators.size());
+	const std::size_t y = reading.y, x2 = partner[0], y2 = partner[y];
+	const Handle handle(
+		outer,
+		isometryOf(word[0], generators),
+		productOf(word, 1, y, generators),
+		isometryOf(word[y], generators),
+		productOf(word, y + 1, x2, generators),
+		productOf(word, x2 + 1, y2, generators));
+	PartlyCanonical step;
+	step.handles = from.handles;
+	step.handles.push_back(handle.a);
+	step.handles.push_back(handle.b);
+	step.conjugation = handle.conjugation;
+	step.size = reading.size;
+	const auto append = [&](std::size_t begin, std::size_t end) {
+		for (std::size_t i = begin; i < end; ++i)
+			step.open.push_back(word[i]);
+	};
+	append(1, y);
+	append(y2 + 1, word.size());
+	append(x2 + 1, y2);
+	append(y + 1, x2);
+	return step;
 }
 
 using Vector3 = Eigen::Matrix<long double, 3, 1>;
@@ -136,19 +225,28 @@ ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>&
 	return productOf(word, 0, word.size(), generators);
 }
 
-std::vector<ExtendedIsometry>
-canonicalGenerators(const GroupWord& word, const Array<ExtendedIsometry>& generators)
+std::vector<ExtendedIsometry> canonicalGenerators(
+	const GroupWord& word, const Array<ExtendedIsometry>& generators, const Tick& tick)
 {
-	std::vector<PartlyCanonical> best(1), steps;
+	const long double farthest = std::pow(std::sinh(kMaxGeneratorDistance / 2), 2);
+	std::vector<PartlyCanonical> best(1);
 	best.front().open = word;
 	while (!best.front().open.empty()) {
-		steps.clear();
-		for (const PartlyCanonical& partly : best)
-			appendSteps(partly, generators, steps);
-		if (steps.empty())
+		std::vector<Reading> readings;
+		for (std::size_t i = 0; i < best.size(); ++i)
+			appendReadings(best[i], i, generators, tick, readings);
+		if (readings.empty())
 			throw InternalError("The fundamental polygon has more than one corner");
-		std::stable_sort(steps.begin(), steps.end());
-		steps.resize(std::min(steps.size(), kFollowed));
+		std::stable_sort(readings.begin(), readings.end(), [](const auto& r, const auto& s) {
+			return r.size < s.size;
+		});
+		readings.resize(std::min(readings.size(), followed(best.front().open.size())));
+		std::vector<PartlyCanonical> steps;
+		for (const Reading& reading : readings)
+			if (reading.size <= farthest)
+				steps.push_back(withHandle(best[reading.from], reading, generators));
+		if (steps.empty())
+			return {};
 		best = std::move(steps);
 	}
 	return best.front().handles;

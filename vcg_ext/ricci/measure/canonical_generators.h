@@ -5,6 +5,7 @@
 
 #include "../base/indexed.h"
 #include "../math/disk_isometry.h"
+#include "../progress.h"
 
 #include <vector>
 
@@ -31,11 +32,13 @@ ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>&
 ///     x P y Q x^-1 R y^-1 S = c [a,b] P S R Q c^-1,  c = R Q,  a = c^-1 x,  b = P y Q.
 ///
 /// Products of large isometries lose digits. Of the many ways to read the word, those whose
-/// isometries move 0 least are therefore followed, a fixed number of them at the same time.
+/// isometries move 0 least are therefore followed: 64 of them at the same time up to genus 25, and
+/// fewer beyond, which bounds the work of one handle.
 /// \pre \p word has every generator once and its inverse once
+/// \return nothing where all that are followed move 0 by more than kMaxGeneratorDistance
 /// \throw InternalError if \p word is not that of a polygon whose corners are all one point
-std::vector<ExtendedIsometry>
-canonicalGenerators(const GroupWord& word, const Array<ExtendedIsometry>& generators);
+std::vector<ExtendedIsometry> canonicalGenerators(
+	const GroupWord& word, const Array<ExtendedIsometry>& generators, const Tick& tick = {});
 
 /// Moves \p generators by as little as possible (in the sum of squares, on the Lie algebra) so that
 /// the product of \p word times \p tail is +-1. The metric holds more rounding than this

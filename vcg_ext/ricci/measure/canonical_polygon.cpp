@@ -98,6 +98,9 @@ double sumOfAngles(const std::vector<Complex>& corners)
 
 CanonicalPolygon canonicalPolygon(const FuchsianGroup& group)
 {
+	CanonicalPolygon polygon;
+	if (!group.isCanonical())
+		return polygon;
 	std::vector<DiskIsometry> generators = group.handles;
 	generators.insert(generators.end(), group.peripheral.begin(), group.peripheral.end());
 	const auto toBase = ExtendedIsometry::translationTo(Complex(basePoint(generators)));
@@ -107,7 +110,6 @@ CanonicalPolygon canonicalPolygon(const FuchsianGroup& group)
 	for (const ExtendedIsometry& g : group.relation)
 		letters.push_back((toBase.inverse() * g * toBase).normalised());
 
-	CanonicalPolygon polygon;
 	const std::size_t count = letters.size(), middle = count / 2;
 	std::vector<Complex> corners(count);
 	ExtendedIsometry word;
@@ -121,8 +123,6 @@ CanonicalPolygon canonicalPolygon(const FuchsianGroup& group)
 		corners[k] = word.origin();
 		word = (word * letters[k]).normalised();
 	}
-	if (count == 0)
-		return polygon;
 	// From the isometries: points near the border of the disk have lost their distances.
 	polygon.gap = static_cast<double>((toFirst.inverse() * word).displacement());
 	bool inDisk = true;

@@ -28,8 +28,8 @@ struct CanonicalPolygon
 /// its timelike eigenvector. The middle corner of the polygon is p itself, so that no corner is a
 /// product of more than half of the letters.
 ///
-/// Where generators move points so far that rounding leaves a gap above kMaxPolygonGap, or takes corners
-/// out of the disk, the polygon has no corners.
+/// Where the group has no canonical basis, or generators move points so far that rounding leaves a gap
+/// above kMaxPolygonGap or takes corners out of the disk, the polygon has no corners.
 CanonicalPolygon canonicalPolygon(const FuchsianGroup& group);
 
 } // namespace ricci

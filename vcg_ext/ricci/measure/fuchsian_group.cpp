@@ -223,13 +223,44 @@ std::vector<DiskIsometry> allRounded(const std::vector<ExtendedIsometry>& isomet
 	return result;
 }
 
+/// Fills in what rests on the canonical basis.
+/// \param generators letters of the polygon's \p word
+/// \param tail product of the \p peripheral elements
+void addCanonicalBasis(
+	const GroupWord& word,
+	Array<ExtendedIsometry> generators,
+	const std::vector<ExtendedIsometry>& peripheral,
+	const ExtendedIsometry& tail,
+	const Tick& tick,
+	FuchsianGroup& group)
+{
+	if (!generators.empty())
+		closeRelation(word, tail, generators);
+	const std::vector<ExtendedIsometry> handles = canonicalGenerators(word, generators, tick);
+	if (handles.size() != positionOf(generators.size()))
+		return;
+	for (std::size_t i = 0; i + 1 < handles.size(); i += 2) {
+		const ExtendedIsometry &a = handles[i], &b = handles[i + 1];
+		for (const ExtendedIsometry& letter : {a, b, a.inverse(), b.inverse()})
+			group.relation.push_back(letter);
+	}
+	ExtendedIsometry product;
+	for (const ExtendedIsometry& letter : group.relation)
+		product = product * letter;
+	group.relationError = static_cast<double>((product * tail).distanceFromIdentity());
+	group.relation.insert(group.relation.end(), peripheral.begin(), peripheral.end());
+	group.handles = allRounded(handles);
+}
+
 } // namespace
 
 FuchsianGroup fuchsianGroup(
 	const Triangulation& t,
 	const CutGraph& cut,
 	const EdgeArray<SidePairing>& pairing,
-	const VertexArray<char>& cones)
+	const VertexArray<char>& cones,
+	bool canonical,
+	const Tick& tick)
 {
 	FuchsianGroup group;
 	const EdgeArray<SidePairing> exact =
@@ -249,23 +280,10 @@ FuchsianGroup fuchsianGroup(
 	group.polygonError =
 		static_cast<double>((productOf(walk.word, generators) * tail).distanceFromIdentity());
 	group.closingError = walk.closingError;
-	if (!generators.empty())
-		closeRelation(walk.word, tail, generators);
-	const std::vector<ExtendedIsometry> handles = canonicalGenerators(walk.word, generators);
-
-	for (std::size_t i = 0; i + 1 < handles.size(); i += 2) {
-		const ExtendedIsometry &a = handles[i], &b = handles[i + 1];
-		for (const ExtendedIsometry& letter : {a, b, a.inverse(), b.inverse()})
-			group.relation.push_back(letter);
-	}
-	ExtendedIsometry product;
-	for (const ExtendedIsometry& letter : group.relation)
-		product = product * letter;
-	group.relationError = static_cast<double>((product * tail).distanceFromIdentity());
-	group.relation.insert(group.relation.end(), peripheral.begin(), peripheral.end());
-	group.handles = allRounded(handles);
 	group.peripheral = allRounded(peripheral);
 	group.peripheralVertex.assign(walk.peripheralVertex.rbegin(), walk.peripheralVertex.rend());
+	if (canonical)
+		addCanonicalBasis(walk.word, std::move(generators), peripheral, tail, tick, group);
 	return group;
 }
 

@@ -5,6 +5,7 @@
 #include "../cut/cut_graph.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../math/disk_isometry.h"
+#include "../progress.h"
 #include "../surface/triangulation.h"
 
 #include <vector>
@@ -15,7 +16,7 @@ namespace ricci {
 /// of the disk by them, with the conjugation in which the layout of the surface cut open sees them.
 struct FuchsianGroup
 {
-	/// a1, b1, ..., ag, bg: a canonical basis. With [a,b] = a b a^-1 b^-1,
+	/// a1, b1, ..., ag, bg: a canonical basis, if asked for. With [a,b] = a b a^-1 b^-1,
 	/// [a1,b1] ... [ag,bg] e1 ... en = +-1.
 	std::vector<DiskIsometry> handles;
 
@@ -26,8 +27,11 @@ struct FuchsianGroup
 	std::vector<Vertex> peripheralVertex; ///< for each of them a vertex of the loop, or the cone
 
 	/// The canonical relation letter by letter, a1, b1, a1^-1, b1^-1, ..., e1, ..., en, before
-	/// rounding to double.
+	/// rounding to double. Empty where it was not asked for, or moves points too far (see
+	/// canonicalGenerators()).
 	std::vector<ExtendedIsometry> relation;
+
+	bool isCanonical() const { return !relation.empty(); }
 
 	/// Side pairings of the polygon into which the cut opens the surface, each followed by its
 	/// inverse: they take the fundamental domain to its neighbours. One pair for each arc of the
@@ -54,12 +58,15 @@ struct FuchsianGroup
 ///
 /// \param pairing [edge] of the layout, for the edges of the cut
 /// \param cones [vertex] 1 at interior vertices that are not regular points of the metric
+/// \param canonical find handles, relation and relationError, too
 /// \throw InternalError if the word of the polygon is none
 FuchsianGroup fuchsianGroup(
 	const Triangulation& t,
 	const CutGraph& cut,
 	const EdgeArray<SidePairing>& pairing,
-	const VertexArray<char>& cones);
+	const VertexArray<char>& cones,
+	bool canonical = false,
+	const Tick& tick = {});
 
 } // namespace ricci
 

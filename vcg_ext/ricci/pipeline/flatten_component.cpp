@@ -203,8 +203,9 @@ EdgeArray<SidePairing> placeInDisk(
 	}
 	else {
 		const CurvatureMap& metric = *map.flow.metric;
+		const Tick tick = [&] { progress.step(1.0 - kAfterFlow, "Layout"); };
 		const HyperbolicLayout disk =
-			layOutInDisk(t, metric.lengths(), metric.angles(), map.cut.isCut);
+			layOutInDisk(t, metric.lengths(), metric.angles(), map.cut.isCut, tick);
 		for (const Edge e : t.edges())
 			if (map.cut.isCut[e])
 				offerPairing(
@@ -245,7 +246,13 @@ void layOut(
 			numberText(radiusOf(map.layout), 3) + " out.");
 	}
 	map.uv = cornersOf(t, map.layout);
-	map.group = fuchsianGroup(t, map.cut, pairing, map.cones);
+	map.group = fuchsianGroup(t, map.cut, pairing, map.cones, options.canonicalGenerators, [&] {
+		progress.step(1.0 - kAfterFlow, "Canonical generators");
+	});
+	if (options.canonicalGenerators && !map.group.isCanonical())
+		progress.log(
+			"There are no canonical generators: they would move points farther than floating point "
+			"numbers can tell.");
 }
 
 void measureInvariants(const FlowDomain& domain, const Options&, ComponentMap& map)
@@ -308,20 +315,25 @@ bool mayBeTurned(const AnyOptions& options, const ComponentMap& map)
 	return isBent(map, options.output) || map.finishMoved > 0;
 }
 
-void requireLayout(const Component& component, const Options& options, const ComponentMap& map)
+void requireLayout(
+	const Component& component, const Options& options, const Tick&, const ComponentMap& map)
 {
 	requireMap(
 		outputTriangles(component, map, options.output), map.flow, mayBeTurned(options, map));
 }
 
 void requireLayout(
-	const Component& component, const HyperbolicOptions& options, const ComponentMap& map)
+	const Component& component,
+	const HyperbolicOptions& options,
+	const Tick& tick,
+	const ComponentMap& map)
 {
 	requireDisk(
 		outputTriangles(component, map, options.output),
 		map.layout,
 		map.flow,
-		mayBeTurned(options, map));
+		mayBeTurned(options, map),
+		tick);
 }
 
 template<class AnyOptions>
@@ -338,6 +350,7 @@ ComponentMap flatten(
 	map.cappedHoles = domain.holes;
 	progress.log(description(component, map.type));
 	FlowStart start = flowStart(domain.solved(), options);
+	progress.step(0.0, "Choosing the target");
 	const auto request = targetRequest(domain, component, input, options, progress);
 	const Target target = chooseTarget(domain, start, request);
 	for (const std::string& note : target.notes)
@@ -350,21 +363,20 @@ ComponentMap flatten(
 
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
 	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
-	map.cut = cutThroughCones(
-		domain,
-		cutCost(domain, map.flow, options),
-		map.cones,
-		cutCorners(domain, map, options),
-		progress);
+	const EdgeArray<double> cost = cutCost(domain, map.flow, options);
+	progress.step(1.0 - kAfterFlow, "Cutting and layout");
+	map.cut = cutThroughCones(domain, cost, map.cones, cutCorners(domain, map, options), progress);
 	layOut(component, domain, options, progress, map);
 	map.seamLength = lengthOf(map.cut, domain.surface.lengths);
 	measureInvariants(domain, options, map);
 	finish(
 		domain, options, [&] { progress.step(1.0 - kAfterFlow, "Repairing the map"); }, map);
 
-	progress.step(1.0, "Checking the result");
-	requireMetric(map.flow, domain.solved().topology.boundary);
-	requireLayout(component, options, map);
+	const Tick tick = [&] { progress.step(1.0, "Checking the result"); };
+	tick();
+	requireMetric(map.flow, domain.solved().topology.boundary, tick);
+	tick();
+	requireLayout(component, options, tick, map);
 	return map;
 }
 

@@ -97,7 +97,7 @@ Parametrization parametrizeEuclidean(
 	result.report.seamLengthRelative =
 		result.report.seamLength / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
 	if (options.resolveOverlap)
-		requireSeparateCharts(mesh, result);
+		requireSeparateCharts(mesh, result, tick);
 	progress.step(1.0, "Layout done");
 	return result;
 }

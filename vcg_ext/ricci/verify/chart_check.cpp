@@ -11,6 +11,9 @@ namespace ricci {
 
 namespace {
 
+/// Pairs of sides that are looked at between two ticks.
+constexpr std::size_t kPairsPerTick = 1000000;
+
 /// Distance of \p p from the line of \p s, positive on the left; 0 where it has no length.
 double offset(const PlaneSide& s, const Point2& p)
 {
@@ -48,7 +51,10 @@ borderOf(const std::vector<Triangle>& triangles, const std::vector<Triangle2>& p
 } // namespace
 
 int borderCrossings(
-	const std::vector<Triangle>& triangles, const std::vector<Triangle2>& plane, double depth)
+	const std::vector<Triangle>& triangles,
+	const std::vector<Triangle2>& plane,
+	double depth,
+	const Tick& tick)
 {
 	std::vector<PlaneSide> sides = borderOf(triangles, plane);
 	// A line sweeps from left to right.
@@ -59,7 +65,13 @@ int borderCrossings(
 	});
 	int crossings = 0;
 	std::vector<const PlaneSide*> swept;
+	std::size_t pairs = 0;
 	for (const PlaneSide& s : sides) {
+		pairs += 1 + swept.size();
+		if (tick && pairs > kPairsPerTick) {
+			pairs = 0;
+			tick();
+		}
 		const auto isPassed = [&](const PlaneSide* other) { return right(*other) < left(s); };
 		swept.erase(std::remove_if(swept.begin(), swept.end(), isPassed), swept.end());
 		const auto [bottom, top] = std::minmax({s.atLow[1], s.atHigh[1]});

@@ -3,6 +3,7 @@
 #define RICCI_CHART_CHECK_H
 
 #include "../math/points.h"
+#include "../progress.h"
 #include "../surface/surface_mesh.h"
 
 #include <cstddef>
@@ -17,7 +18,10 @@ namespace ricci {
 /// \param plane [triangle][corner]; two triangles meet at a side where they have both of its
 /// vertices and both of their places in common
 int borderCrossings(
-	const std::vector<Triangle>& triangles, const std::vector<Triangle2>& plane, double depth);
+	const std::vector<Triangle>& triangles,
+	const std::vector<Triangle2>& plane,
+	double depth,
+	const Tick& tick = {});
 
 /// Whether each of 0 .. \p count - 1 is in exactly one of \p parts.
 bool isPartition(const std::vector<const std::vector<int>*>& parts, std::size_t count);

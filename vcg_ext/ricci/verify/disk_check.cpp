@@ -62,17 +62,28 @@ DiskCheck checkDisk(
 	const std::vector<Triangle>& triangles,
 	const std::vector<Triangle2>& plane,
 	const std::vector<char>& reversed,
-	double tolerance)
+	double tolerance,
+	const Tick& tick)
 {
 	DiskCheck check;
+	Point2 farthest{0.0, 0.0};
+	Real leastGap = 1;
 	for (const Triangle2& triangle : plane)
-		for (const Point2& p : triangle)
-			check.outside += !(gap(p) > 0);
+		for (const Point2& p : triangle) {
+			const Real own = gap(p);
+			check.outside += !(own > 0);
+			if (own < leastGap) {
+				leastGap = own;
+				farthest = p;
+			}
+		}
 	if (check.outside > 0)
 		return check;
+	check.radius = static_cast<double>(distanceOf(farthest, Point2{0.0, 0.0}));
 	std::vector<DiskSide> sides;
 	sides.reserve(3 * triangles.size());
 	for (std::size_t f = 0; f < triangles.size(); ++f) {
+		tickNowAndThen(tick, f);
 		const Triangle& t = triangles[f];
 		const Triangle2& p = plane[f];
 		Real longest = 0, allowed = tolerance;
@@ -86,8 +97,6 @@ DiskCheck checkDisk(
 				 rounding(p[k]) + rounding(p[next])});
 			longest = std::max(longest, length);
 			allowed += rounding(p[k]);
-			check.radius =
-				std::max(check.radius, static_cast<double>(distanceOf(p[k], Point2{0.0, 0.0})));
 		}
 		const Real det = determinant(p[0], p[1], p[2]);
 		const bool right = reversed[f] ? det < 0 : det > 0;

@@ -3,6 +3,7 @@
 #define RICCI_DISK_CHECK_H
 
 #include "../math/points.h"
+#include "../progress.h"
 #include "../surface/surface_mesh.h"
 
 #include <cstddef>
@@ -37,7 +38,8 @@ DiskCheck checkDisk(
 	const std::vector<Triangle>& triangles,
 	const std::vector<Triangle2>& plane,
 	const std::vector<char>& reversed,
-	double tolerance);
+	double tolerance,
+	const Tick& tick = {});
 
 } // namespace ricci
 

@@ -12,7 +12,7 @@
 
 namespace ricci {
 
-void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary)
+void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary, const Tick& tick)
 {
 	const CurvatureMap& metric = *flow.metric;
 	VertexVector target = VertexVector::Constant(
@@ -21,7 +21,13 @@ void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary)
 		if (!flow.target.fixed[v])
 			target[v] = flow.target.curvature[v] * (flow.doubled && boundary[v] ? 2.0 : 1.0);
 	const MetricCheck check = checkMetric(
-		flow.background, metric.triangulation(), metric.delta(), flow.u, metric.lengths(), target);
+		flow.background,
+		metric.triangulation(),
+		metric.delta(),
+		flow.u,
+		metric.lengths(),
+		target,
+		tick);
 	// On the boundary of a double the residual counts twice.
 	const bool exact = check.lengthError <= kCheckedLength &&
 					   check.curvatureError <= 2.0 * flow.residual + kCheckedCurvature;

@@ -43,11 +43,10 @@ struct Angle
 	Real value, rounding;
 };
 
-/// The angle opposite to \p a, between \p b and \p c.
-Angle angleOf(Background background, Real a, Real b, Real c)
+/// The angle opposite to \p a, between \p b and \p c. \p product: S(b) S(c)
+Angle angleOf(Background background, Real a, Real b, Real c, Real product)
 {
 	const Real overB = (a + c - b) / 2, overC = (a + b - c) / 2;
-	const Real product = lengthFunction(background, b) * lengthFunction(background, c);
 	const Real sine2 =
 		lengthFunction(background, overC) * lengthFunction(background, overB) / product;
 	if (!(overB > 0) || !(overC > 0) || !(sine2 < 1))
@@ -80,13 +79,20 @@ MetricCheck checkMetric(
 	const EdgeArray<double>& delta,
 	const VertexVector& u,
 	const EdgeArray<double>& lengths,
-	const VertexVector& target)
+	const VertexVector& target,
+	const Tick& tick)
 {
 	MetricCheck check;
+	VertexArray<Real> radius(t.vertexCount());
+	for (const Vertex v : t.vertices())
+		radius[v] = radiusOf(background, u[v]);
+	EdgeArray<Real> ofLength(t.edgeCount());
 	for (const Edge e : t.edges()) {
-		const double ui = u[t.origin(e.halfedge())], uj = u[t.target(e.halfedge())];
-		const Real wanted =
-			lengthOf(background, radiusOf(background, ui), radiusOf(background, uj), delta[e]);
+		tickNowAndThen(tick, positionOf(e));
+		ofLength[e] = lengthFunction(background, lengths[e]);
+		const Vertex i = t.origin(e.halfedge()), j = t.target(e.halfedge());
+		const double ui = u[i], uj = u[j];
+		const Real wanted = lengthOf(background, radius[i], radius[j], delta[e]);
 		const double explained = explainedError(background, ui, uj);
 		const auto difference = static_cast<double>(std::abs(Real(lengths[e]) - wanted) / wanted);
 		if (!(difference <= explained)) // NaN counts
@@ -100,13 +106,16 @@ MetricCheck checkMetric(
 	for (const Vertex v : t.vertices())
 		curvature[v] = boundary[v] ? kLongPi : 2 * kLongPi;
 	for (const Face f : t.faces()) {
+		tickNowAndThen(tick, positionOf(f));
 		const std::array<Halfedge, 3> h = t.halfedges(f);
 		std::array<Real, 3> l;
 		for (std::size_t k = 0; k < 3; ++k)
 			l[k] = lengths[h[k].edge()];
 		check.broken += !(2 * std::max({l[0], l[1], l[2]}) < l[0] + l[1] + l[2]);
 		for (std::size_t k = 0; k < 3; ++k) {
-			const Angle angle = angleOf(background, l[(k + 1) % 3], l[k], l[(k + 2) % 3]);
+			const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
+			const Real product = ofLength[h[k].edge()] * ofLength[h[last].edge()];
+			const Angle angle = angleOf(background, l[next], l[k], l[last], product);
 			curvature[t.origin(h[k])] -= angle.value;
 			rounding[t.origin(h[k])] += angle.rounding;
 		}

@@ -3,6 +3,7 @@
 #define RICCI_METRIC_CHECK_H
 
 #include "../options.h"
+#include "../progress.h"
 #include "../surface/triangulation.h"
 
 namespace ricci {
@@ -35,7 +36,8 @@ MetricCheck checkMetric(
 	const EdgeArray<double>& delta,
 	const VertexVector& u,
 	const EdgeArray<double>& lengths,
-	const VertexVector& target);
+	const VertexVector& target,
+	const Tick& tick = {});
 
 } // namespace ricci
 

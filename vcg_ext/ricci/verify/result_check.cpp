@@ -29,7 +29,11 @@ void requireMap(const OutputTriangles& output, const FlowResult& flow, bool bent
 }
 
 void requireDisk(
-	const OutputTriangles& output, const PlanarLayout& layout, const FlowResult& flow, bool bent)
+	const OutputTriangles& output,
+	const PlanarLayout& layout,
+	const FlowResult& flow,
+	bool bent,
+	const Tick& tick)
 {
 	// The gap that an open angle leaves grows like sinh of the distance across the layout.
 	double radius = 0.0;
@@ -40,7 +44,8 @@ void requireDisk(
 		radius = std::max(radius, 2.0 * std::atanh(std::min(1.0, r)));
 	}
 	const double tolerance = kCheckedGap + openCurvature(flow) * std::sinh(2.0 * radius);
-	const DiskCheck check = checkDisk(output.triangles, output.plane, output.reversed, tolerance);
+	const DiskCheck check =
+		checkDisk(output.triangles, output.plane, output.reversed, tolerance, tick);
 	if (check.outside > 0 && finite) // the doubles of the disk end at a distance of about 37
 		throw NotConverged(NotConverged::OutsideDisk, check.outside);
 	if (check.outside > 0)
@@ -64,7 +69,7 @@ double extentOf(const std::vector<int>& triangles, const std::vector<Triangle2>&
 
 } // namespace
 
-void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map)
+void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map, const Tick& tick)
 {
 	const bool refined = map.isRefined();
 	const std::vector<Triangle>& all = refined ? map.refined.triangles : mesh.triangles;
@@ -77,6 +82,8 @@ void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map)
 		extent = std::max(extent, extentOf(refined ? chart.refined : chart.faces, uv));
 	for (const Chart& chart : map.charts) {
 		parts.push_back(refined ? &chart.refined : &chart.faces);
+		if (tick)
+			tick();
 		std::vector<Triangle> triangles;
 		std::vector<Triangle2> plane;
 		bool turned = false;
@@ -90,7 +97,7 @@ void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map)
 			plane.push_back(p);
 		}
 		if (!turned)
-			crossings += borderCrossings(triangles, plane, kCheckedGap * extent);
+			crossings += borderCrossings(triangles, plane, kCheckedGap * extent, tick);
 	}
 	if (crossings > 0 || !isPartition(parts, all.size()))
 		failCheck(

@@ -8,6 +8,7 @@
 #include "../charts/parametrization.h"
 #include "../flow/ricci_flow.h"
 #include "../layout/planar_layout.h"
+#include "../progress.h"
 
 namespace ricci {
 
@@ -23,13 +24,18 @@ void requireMap(const OutputTriangles& output, const FlowResult& flow, bool bent
 /// \param layout of the same component, with points of the disk
 /// \throw NotConverged
 void requireDisk(
-	const OutputTriangles& output, const PlanarLayout& layout, const FlowResult& flow, bool bent);
+	const OutputTriangles& output,
+	const PlanarLayout& layout,
+	const FlowResult& flow,
+	bool bent,
+	const Tick& tick = {});
 
 /// Checks that the charts contain every triangle of the output once, and that no chart overlaps
 /// itself (chart_check.h) by more than kCheckedGap of the largest, those with turned triangles
 /// excepted.
 /// \throw NotConverged
-void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map);
+void requireSeparateCharts(
+	const SurfaceMesh& mesh, const Parametrization& map, const Tick& tick = {});
 
 } // namespace ricci
 

@@ -151,7 +151,7 @@ public:
 
 	/// Fills the empty mesh \p curves with edges: the axes of the generators in the Poincaré disk,
 	/// which are closed geodesics of the surface, each as a polyline of \p pieces edges. Rotations
-	/// have no axis.
+	/// have no axis. Those of handles need HyperbolicParams::canonicalGenerators.
 	static void BuildAxes(const Result& r, int pieces, MeshType& curves)
 	{
 		for (size_t i = 0; i < r.groups.size(); ++i) {
@@ -167,7 +167,8 @@ public:
 
 	/// Fills the empty mesh \p curves with edges: for each component a fundamental polygon whose
 	/// sides are the letters of the canonical relation (see ricci::canonicalPolygon), 4 g for a
-	/// closed surface of genus g, each as a polyline of \p pieces edges in the Poincaré disk.
+	/// closed surface of genus g, each as a polyline of \p pieces edges in the Poincaré disk. Needs
+	/// HyperbolicParams::canonicalGenerators.
 	static std::vector<ricci::CanonicalPolygon>
 	BuildCanonicalPolygons(const Result& r, int pieces, MeshType& curves)
 	{
