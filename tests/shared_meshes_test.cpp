@@ -163,10 +163,16 @@ TEST_F(SharedMeshes, DisksAnnuliAndToriAreFlatOrRefusedWithAReason)
 TEST_F(SharedMeshes, CrankOfGenusTwelve)
 {
 	SKIP_IF_MISSING("hard/g12_crank.ply");
-	const Parametrization flat = run(m_mesh, Options());
-	EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
-	EXPECT_GT(flat.report.overlapCuts, 0);
-	EXPECT_LT(FlatMap(m_mesh, flat.uv).seamMismatch, 1e-9);
+	Options options;
+	for (const Finish finish : {Finish::None, Finish::LeastDistortion}) {
+		options.finish = finish;
+		const Parametrization flat = run(m_mesh, options);
+		EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+		EXPECT_GT(flat.report.overlapCuts, 0);
+		// Some seams have sides of 5e-7 in a map of 0.2. Where the finish moves their ends, their
+		// turn is known to 1e-9, for each copy of a vertex from the one before.
+		EXPECT_LT(FlatMap(m_mesh, flat.uv).seamMismatch, finish == Finish::None ? 1e-9 : 1e-8);
+	}
 }
 
 /// Flat inside, its 73 handles would need scale factors that differ by 1e34.
