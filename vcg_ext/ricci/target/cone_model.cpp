@@ -10,9 +10,10 @@
 
 namespace ricci {
 
-ConeModel::ConeModel(LinearFlow& flow, double total) :
-		m_flow(flow), m_total(total), m_isCone(flow.vertexCount(), 0)
+ConeModel::ConeModel(LinearFlow& flow, double total, Tick tick) :
+		m_flow(flow), m_total(total), m_tick(std::move(tick)), m_isCone(flow.vertexCount(), 0)
 {
+	ConeModel::tick();
 	const VertexVector start = m_flow.factor(VertexVector::Zero(m_flow.vertexCount()));
 	m_startEnergy = m_flow.meanSquare(start);
 	m_start = m_flow.gradient(start);
@@ -63,6 +64,7 @@ void ConeModel::append(const std::vector<Vertex>& vertices)
 {
 	std::size_t i = 0;
 	for (; i + 1 < vertices.size(); i += 2) {
+		tick();
 		const LinearFlow::Pair u = m_flow.solve({unit(vertices[i]), unit(vertices[i + 1])});
 		LinearFlow::Pair fields = m_flow.gradient(u);
 		for (const std::size_t k : {0, 1}) {
@@ -141,6 +143,12 @@ double ConeModel::ownProduct(Vertex v)
 	return m_ownProduct[v] = m_flow.meanSquare(unitFactor(v));
 }
 
+void ConeModel::tick() const
+{
+	if (m_tick)
+		m_tick();
+}
+
 /// A unit of curvature at \p v.
 VertexVector ConeModel::unit(Vertex v) const
 {
@@ -153,6 +161,7 @@ VertexVector ConeModel::unit(Vertex v) const
 const VertexVector& ConeModel::unitFactor(Vertex v)
 {
 	if (m_lastVertex != v) {
+		tick();
 		m_lastFactor = m_flow.solve(unit(v));
 		m_lastVertex = v;
 	}

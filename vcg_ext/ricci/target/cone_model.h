@@ -26,7 +26,8 @@ class ConeModel
 public:
 	/// No cones yet.
 	/// \param total 2 pi chi, what the curvatures add up to where their sum is fixed
-	ConeModel(LinearFlow& flow, double total);
+	/// \param tick called before linear solutions, if it is not empty; may throw
+	ConeModel(LinearFlow& flow, double total, Tick tick = {});
 
 	int size() const { return m_now.vertices.size(); }
 	Vertex vertex(int i) const { return m_now.vertices[i]; }
@@ -161,6 +162,7 @@ private:
 	double ownProduct(Vertex v);
 	Field fieldOf(Vertex v);
 	VertexVector unit(Vertex v) const;
+	void tick() const;
 	void append(Vertex v, VertexVector field);
 	void restore(const State& state, const Array<Field>& fields);
 	const VertexVector& unitFactor(Vertex v);
@@ -171,6 +173,7 @@ private:
 
 	LinearFlow& m_flow;
 	double m_total;
+	Tick m_tick;
 	ConeRounding m_rounding = ConeRounding::Free;
 	VertexArray<char> m_isCone;
 	State m_now;

@@ -210,7 +210,7 @@ PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const C
 {
 	const SurfaceType& type = surface.topology.type;
 	const ConeSites sites(surface, request.vertices);
-	ConeModel model(flow, 2 * kPi * type.eulerCharacteristic());
+	ConeModel model(flow, 2 * kPi * type.eulerCharacteristic(), request.tick);
 	checkCount(request, model, sites);
 	if (surface.triangulation.vertexCount() <= kMaxSearched)
 		search(type, request, model, sites);
@@ -224,7 +224,7 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequ
 {
 	const ConeSites sites(surface, request.vertices);
 	LinearFlow linear(surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)));
-	ConeModel model(linear, 2 * kPi * surface.topology.type.eulerCharacteristic());
+	ConeModel model(linear, 2 * kPi * surface.topology.type.eulerCharacteristic(), request.tick);
 	std::vector<Vertex> cones;
 	for (const Vertex v : surface.triangulation.vertices())
 		if (sites.isAllowed(v) && flow.target.curvature[v] != 0.0)

@@ -39,6 +39,9 @@ struct PlacedCones
 /// 4. On a sphere, whose seams are a tree through its cones, cones move towards each other
 ///    (shortenConeTree()).
 ///
+/// On a large surface, all of this happens on aggregates of its vertices (CoarseFlow); on the surface
+/// itself the curvatures are fitted, and cones moved or added where its own distortion asks for it.
+///
 /// All of it is greedy: the cones are good ones, not provably the best. On a closed surface the
 /// curvatures add up to 2 pi chi. No cone lies on the boundary. The result depends on nothing but
 /// the arguments.
