@@ -19,8 +19,9 @@ namespace {
 /// Cones move once the distortion is within this factor of the wanted one.
 constexpr double kNearlyEnough = 1.1;
 
-/// On more vertices than this, cones are searched for on aggregates of them.
-constexpr int kMaxSearched = 10000;
+/// On more vertices than the first number, cones are searched for on at most so many aggregates of
+/// them as the second.
+constexpr int kMaxSearched = 10000, kMaxAggregates = 7000;
 
 /// Searches on aggregates, each for the distortion that the surface itself missed.
 constexpr int kMaxCoarseRounds = 3;
@@ -161,7 +162,7 @@ void searchFromCoarse(
 	ConeModel& model,
 	const ConeSites& sites)
 {
-	CoarseFlow coarse(flow, kMaxSearched);
+	CoarseFlow coarse(flow, kMaxAggregates);
 	const ConeSites coarseSites(sites, coarse.roots);
 	ConeModel coarseModel(coarse.flow, model.total());
 	ConeRequest coarseRequest = request;
