@@ -3,10 +3,12 @@
 
 #include "../base/tolerances.h"
 #include "../error.h"
+#include "../math/bucket_sort.h"
 #include "../math/disjoint_sets.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -44,11 +46,12 @@ std::vector<Side> sortedSides(const std::vector<Triangle>& triangles)
 			sides.push_back(
 				{std::min(a, b), std::max(a, b), static_cast<int>(f), static_cast<int>(k), a < b});
 		}
-	std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-		return a.low != b.low     ? a.low < b.low
-			   : a.high != b.high ? a.high < b.high
-								  : a.face < b.face;
-	});
+	bucketSort(
+		sides,
+		[](const Side& s) { return s.low; },
+		[](const Side& a, const Side& b) {
+			return a.high != b.high ? a.high < b.high : a.face < b.face;
+		});
 	return sides;
 }
 
@@ -87,7 +90,8 @@ void checkDuplicateFaces(const std::vector<Triangle>& triangles)
 	std::vector<Triangle> sorted = triangles;
 	for (Triangle& t : sorted)
 		std::sort(t.begin(), t.end());
-	std::sort(sorted.begin(), sorted.end());
+	bucketSort(
+		sorted, [](const Triangle& t) { return t[0]; }, std::less<Triangle>());
 	std::size_t duplicates = 0;
 	for (std::size_t i = 1; i < sorted.size(); ++i)
 		duplicates += sorted[i] == sorted[i - 1];

@@ -2,9 +2,9 @@
 #include "triangulation.h"
 
 #include "../error.h"
+#include "../math/bucket_sort.h"
 
 #include <algorithm>
-#include <cstdint>
 
 namespace ricci {
 
@@ -15,8 +15,7 @@ std::vector<int> sidesByVertexPair(const std::vector<Triangle>& triangles)
 {
 	struct Side
 	{
-		std::int64_t low, high;
-		int index;
+		int low, high, index;
 		bool ascending;
 	};
 	std::vector<Side> sides;
@@ -26,11 +25,12 @@ std::vector<int> sidesByVertexPair(const std::vector<Triangle>& triangles)
 			const int a = triangles[f][k], b = triangles[f][(k + 1) % 3];
 			sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(3 * f + k), a < b});
 		}
-	std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-		return a.low != b.low     ? a.low < b.low
-			   : a.high != b.high ? a.high < b.high
-								  : a.index < b.index;
-	});
+	bucketSort(
+		sides,
+		[](const Side& s) { return s.low; },
+		[](const Side& a, const Side& b) {
+			return a.high != b.high ? a.high < b.high : a.index < b.index;
+		});
 	std::vector<int> glued(sides.size(), -1);
 	for (std::size_t first = 0, last; first < sides.size(); first = last) {
 		for (last = first; last < sides.size() && sides[last].low == sides[first].low &&
@@ -40,9 +40,7 @@ std::vector<int> sidesByVertexPair(const std::vector<Triangle>& triangles)
 			continue;
 		if (last - first > 2 || sides[first].ascending == sides[first + 1].ascending)
 			throw InvalidMesh(
-				InvalidMesh::IncoherentEdge,
-				last - first,
-				{static_cast<int>(sides[first].low), static_cast<int>(sides[first].high)});
+				InvalidMesh::IncoherentEdge, last - first, {sides[first].low, sides[first].high});
 		glued[positionOf(sides[first].index)] = sides[first + 1].index;
 		glued[positionOf(sides[first + 1].index)] = sides[first].index;
 	}
