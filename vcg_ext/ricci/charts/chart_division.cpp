@@ -90,6 +90,7 @@ private:
 			}
 		std::sort(byArea.begin(), byArea.end());
 		std::vector<int> triangles;
+		triangles.reserve(byArea.size());
 		for (const auto& [area, i] : byArea)
 			triangles.push_back(i);
 		return triangles;

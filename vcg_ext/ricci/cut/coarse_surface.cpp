@@ -210,6 +210,7 @@ void CoarseSurface::drawTogether()
 			triangles.push_back(corners);
 		}
 	std::vector<int> glued;
+	glued.reserve(sides.size());
 	for (const Halfedge h : sides)
 		glued.push_back(side[collapse.partner(h)]);
 	m_coarse = Triangulation(m_marked.size(), triangles, glued);

@@ -71,8 +71,10 @@ public:
 	OneThread(const OneThread&) = delete;
 	OneThread& operator=(const OneThread&) = delete;
 
+#ifdef RICCI_THREAD_CONTROL
 private:
 	int m_blasThreads = 0, m_levels = -1;
+#endif
 };
 
 /// From this number of unknowns on the ordering is METIS's nested dissection: it takes longer than

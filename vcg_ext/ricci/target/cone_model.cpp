@@ -67,7 +67,7 @@ void ConeModel::append(const std::vector<Vertex>& vertices)
 		tick();
 		const LinearFlow::Pair u = m_flow.solve({unit(vertices[i]), unit(vertices[i + 1])});
 		LinearFlow::Pair fields = m_flow.gradient(u);
-		for (const std::size_t k : {0, 1}) {
+		for (std::size_t k = 0; k < 2; ++k) {
 			m_ownProduct[vertices[i + k]] = m_flow.meanSquare(u[k]);
 			append(vertices[i + k], std::move(fields[k]));
 		}
