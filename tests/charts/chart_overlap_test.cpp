@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "drawn_mesh.h"
+
 #include "support/flat_map.h"
 #include "support/random.h"
 #include "support/shapes.h"
@@ -22,20 +24,6 @@ namespace ricci::testing {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-/// A mesh over the plane: its own x and y are its place there.
-DrawnChart drawn(const SurfaceMesh& mesh)
-{
-	DrawnChart chart;
-	chart.triangles = Array<Triangle>(mesh.triangles);
-	for (const Triangle& t : mesh.triangles) {
-		Triangle2 p;
-		for (std::size_t k = 0; k < 3; ++k)
-			p[k] = {mesh.positions[at(t[k])][0], mesh.positions[at(t[k])][1]};
-		chart.plane.push_back(p);
-	}
-	return chart;
-}
 
 /// With the lengths in space.
 ChartSides sidesOf(const SurfaceMesh& mesh)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "drawn_mesh.h"
+
 #include "support/random.h"
 #include "support/shapes.h"
 
@@ -19,16 +21,7 @@ namespace {
 
 DrawnChart square(int size)
 {
-	const SurfaceMesh mesh = rectangle(size, size, 1.0, 1.0);
-	DrawnChart chart;
-	chart.triangles = Array<Triangle>(mesh.triangles);
-	for (const Triangle& t : mesh.triangles) {
-		Triangle2 p;
-		for (std::size_t k = 0; k < 3; ++k)
-			p[k] = {mesh.positions[at(t[k])][0], mesh.positions[at(t[k])][1]};
-		chart.plane.push_back(p);
-	}
-	return chart;
+	return drawn(rectangle(size, size, 1.0, 1.0));
 }
 
 Array<std::array<double, 3>> unitLengths(const DrawnChart& chart)

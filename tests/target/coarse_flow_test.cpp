@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "dense_flow.h"
+#include "linearised.h"
 
-#include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
@@ -18,14 +17,7 @@
 namespace ricci::testing {
 namespace {
 
-struct Case
-{
-	std::string name;
-	SurfaceMesh mesh;
-	ConeBoundary boundary;
-};
-
-std::vector<Case> cases()
+std::vector<LinearCase> cases()
 {
 	Random random(810);
 	const SurfaceMesh sphere = shaken(perforatedSlab(0, 12), 0.01, random);
@@ -36,20 +28,6 @@ std::vector<Case> cases()
 		{"disk, fixed boundary", withoutStars(sphere, {0}), ConeBoundary::Fixed},
 		{"two holes, prescribed", withoutStars(genus1, {0, 40}), ConeBoundary::Prescribed}};
 }
-
-struct Linearised
-{
-	Packed packed;
-	EmbeddedSurface surface;
-	FlowStart start;
-	LinearFlow flow;
-
-	explicit Linearised(const Case& c) :
-			packed(c.mesh), surface(surfaceOf(packed)), start(flowStart(surface, FlowOptions())),
-			flow(surface, start, c.boundary)
-	{
-	}
-};
 
 /// u for a unit of curvature at \p v; where the sum is fixed, less one by area.
 VertexVector factorOfCone(LinearFlow& flow, Vertex v)
@@ -63,7 +41,7 @@ VertexVector factorOfCone(LinearFlow& flow, Vertex v)
 
 TEST(LinearSystem, HasTheSolutionsOfItsFlow)
 {
-	for (const Case& c : cases()) {
+	for (const LinearCase& c : cases()) {
 		SCOPED_TRACE(c.name);
 		Linearised fine(c);
 		VertexArray<Vertex> vertices;
@@ -84,7 +62,7 @@ TEST(LinearSystem, HasTheSolutionsOfItsFlow)
 
 TEST(CoarseFlow, KeepsAreaAndCurvature)
 {
-	for (const Case& c : cases()) {
+	for (const LinearCase& c : cases()) {
 		SCOPED_TRACE(c.name);
 		Linearised fine(c);
 		const CoarseFlow coarse(fine.flow, 300);
@@ -105,7 +83,7 @@ TEST(CoarseFlow, KeepsAreaAndCurvature)
 
 TEST(CoarseFlow, HasTheFactorsOfTheSurface)
 {
-	for (const Case& c : cases()) {
+	for (const LinearCase& c : cases()) {
 		SCOPED_TRACE(c.name);
 		Linearised fine(c);
 		CoarseFlow coarse(fine.flow, 1500);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dense_flow.h"
+#include "linearised.h"
 
-#include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
@@ -19,14 +19,7 @@
 namespace ricci::testing {
 namespace {
 
-struct Case
-{
-	std::string name;
-	SurfaceMesh mesh;
-	ConeBoundary boundary;
-};
-
-std::vector<Case> cases()
+std::vector<LinearCase> cases()
 {
 	Random random(760);
 	const SurfaceMesh sphere = shaken(perforatedSlab(0, 3), 0.05, random);
@@ -48,21 +41,6 @@ VertexVector randomVector(int size, Random& random)
 	return x;
 }
 
-/// A linear flow with what it refers to.
-struct Linearised
-{
-	Packed packed;
-	EmbeddedSurface surface;
-	FlowStart start;
-	LinearFlow flow;
-
-	explicit Linearised(const Case& c) :
-			packed(c.mesh), surface(surfaceOf(packed)), start(flowStart(surface, FlowOptions())),
-			flow(surface, start, c.boundary)
-	{
-	}
-};
-
 /// Shares of the boundary vertices in its length.
 VertexVector boundaryShares(const EmbeddedSurface& surface)
 {
@@ -78,7 +56,7 @@ VertexVector boundaryShares(const EmbeddedSurface& surface)
 TEST(LinearFlow, SolvesTheDenseSystem)
 {
 	Random random(761);
-	for (const Case& c : cases()) {
+	for (const LinearCase& c : cases()) {
 		SCOPED_TRACE(c.name);
 		Linearised linear(c);
 		const DenseFlow dense(linear.packed);
@@ -137,7 +115,7 @@ TEST(LinearFlow, OnAClosedSurfaceOneVertexTakesWhatIsMissingFromTheSum)
 TEST(LinearFlow, TheGradientSolvesTheAdjointProblem)
 {
 	Random random(763);
-	for (const Case& c : cases()) {
+	for (const LinearCase& c : cases()) {
 		SCOPED_TRACE(c.name);
 		Linearised linear(c);
 		const VertexVector& area = linear.flow.area();
@@ -157,7 +135,7 @@ TEST(LinearFlow, TheGradientSolvesTheAdjointProblem)
 TEST(LinearFlow, TheGradientIsTheDerivativeOfHalfTheMeanSquare)
 {
 	Random random(764);
-	for (const Case& c : cases()) {
+	for (const LinearCase& c : cases()) {
 		SCOPED_TRACE(c.name);
 		Linearised linear(c);
 		const VertexArray<char>& boundary = linear.surface.topology.boundary;
@@ -312,7 +290,7 @@ TEST(LinearFlow, AtAFlowsEndGivesBackItsFactor)
 {
 	Random random(766);
 	int doubled = 0;
-	for (const Case& c : cases()) {
+	for (const LinearCase& c : cases()) {
 		SCOPED_TRACE(c.name);
 		const AtTheEnd end(c.mesh, c.boundary, 5);
 		VertexVector weights = randomVector(end.surface.triangulation.vertexCount(), random);
@@ -334,7 +312,7 @@ TEST(LinearFlow, AtAFlowsEndGivesBackItsFactor)
 TEST(LinearFlow, AtAFlowsEndKnowsOtherTargetsToSecondOrder)
 {
 	int tried = 0;
-	for (const Case& c : cases()) {
+	for (const LinearCase& c : cases()) {
 		SCOPED_TRACE(c.name);
 		const AtTheEnd end(c.mesh, c.boundary, 5);
 		if (end.flow.doubled)
