@@ -4,6 +4,7 @@
 #include "support/intrinsic.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
+#include "support/transform.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/finish/distortion_laplacian.h>
@@ -19,7 +20,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -278,17 +278,9 @@ TEST(MovablePoints, AreWalkedAlikeWhateverTheNumbers)
 {
 	Random random(604);
 	const SurfaceMesh mesh = wavyDisk(9, random);
-	std::vector<int> number(mesh.positions.size());
-	std::iota(number.begin(), number.end(), 0);
-	random.shuffle(number);
-	SurfaceMesh renumbered = mesh;
-	for (std::size_t v = 0; v < number.size(); ++v)
-		renumbered.positions[at(number[v])] = mesh.positions[v];
-	random.shuffle(renumbered.triangles);
-	for (Triangle& t : renumbered.triangles)
-		t = {number[at(t[0])], number[at(t[1])], number[at(t[2])]};
+	const Renumbered other = renumbered(mesh, random);
 	for (const bool boundaryMoves : {true, false}) {
-		Drawing a(mesh, fromAbove(mesh)), b(renumbered, fromAbove(renumbered));
+		Drawing a(mesh, fromAbove(mesh)), b(other.mesh, fromAbove(other.mesh));
 		a.boundaryMoves = b.boundaryMoves = boundaryMoves;
 		const auto vertexOf = [](const Drawing& d) {
 			const MovablePoints points = d.points();
@@ -302,7 +294,7 @@ TEST(MovablePoints, AreWalkedAlikeWhateverTheNumbers)
 		ASSERT_EQ(first.size(), second.size());
 		int apart = 0; // unknowns that are no neighbours of an earlier one
 		for (std::size_t i = 0; i < first.size(); ++i) {
-			EXPECT_EQ(number[at(first[i])], second[i]);
+			EXPECT_EQ(first[i], other.vertex[at(second[i])]);
 			bool isNext = false;
 			for (const Halfedge h : a.t.around(Vertex(first[i])))
 				isNext = isNext || std::find(
@@ -814,24 +806,14 @@ TEST(LeastDistortion, DoesNotDependOnNumbers)
 {
 	Random random(628);
 	const SurfaceMesh mesh = wavyDisk(12, random);
-	std::vector<int> number(mesh.positions.size());
-	std::iota(number.begin(), number.end(), 0);
-	random.shuffle(number);
-	SurfaceMesh renumbered = mesh;
-	for (std::size_t v = 0; v < number.size(); ++v)
-		renumbered.positions[at(number[v])] = mesh.positions[v];
-	random.shuffle(renumbered.triangles);
-	for (Triangle& t : renumbered.triangles) {
-		t = {number[at(t[0])], number[at(t[1])], number[at(t[2])]};
-		std::rotate(t.begin(), t.begin() + random.index(3), t.end());
-	}
-	Drawing a(mesh, fromAbove(mesh)), b(renumbered, fromAbove(renumbered));
+	const Renumbered other = renumbered(mesh, random);
+	Drawing a(mesh, fromAbove(mesh)), b(other.mesh, fromAbove(other.mesh));
 	EXPECT_NEAR(a.improve().after / b.improve().after, 1.0, 1e-9);
-	std::vector<Point2> places(number.size());
+	std::vector<Point2> places(mesh.positions.size());
 	for (const Halfedge h : a.t.interiorHalfedges())
-		places[at(number[at(a.t.origin(h))])] = a.layout[h];
+		places[at(a.t.origin(h))] = a.layout[h];
 	for (const Halfedge h : b.t.interiorHalfedges())
-		EXPECT_LT(distance(b.layout[h], places[at(b.t.origin(h))]), 1e-8);
+		EXPECT_LT(distance(b.layout[h], places[at(other.vertex[at(b.t.origin(h))])]), 1e-8);
 }
 
 /// All others get better, and none of them turns.
