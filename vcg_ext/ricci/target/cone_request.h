@@ -35,7 +35,7 @@ struct ConeRequest
 	ConeRounding rounding = ConeRounding::Free;
 	ConeBoundary boundary = ConeBoundary::Fixed;
 	int vertices = -1; ///< cones lie at vertices with a number below this; -1: at any
-	Tick tick;         ///< called at each cone and each linear solution, if it is not empty
+	Tick tick;         ///< called at each cone and each solution on the surface, if not empty
 	/// On a sphere, move cones towards each other where that shortens the tree that joins them more
 	/// than it raises the distortion: up to the wanted distortion, or by kSeamAllowance for a given
 	/// count.
