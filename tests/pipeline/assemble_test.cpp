@@ -51,7 +51,7 @@ ComponentMap flattened(const Component& component, const AnyOptions& options)
 std::vector<Component> componentsOf(const SurfaceMesh& mesh)
 {
 	std::vector<std::string> notes;
-	return splitIntoComponents(mesh, notes);
+	return splitIntoComponents(openMesh(mesh, notes));
 }
 
 SurfaceMesh everyThirdFaceReversed(SurfaceMesh mesh)

@@ -57,7 +57,7 @@ wholeWay(const SurfaceMesh& mesh, const VertexInput& input, const HyperbolicOpti
 std::vector<Component> componentsOf(const SurfaceMesh& mesh)
 {
 	std::vector<std::string> notes;
-	return splitIntoComponents(mesh, notes);
+	return splitIntoComponents(openMesh(mesh, notes));
 }
 
 /// The component as a mesh of its own.

@@ -405,7 +405,7 @@ TEST(KeepAreas, IsForFlipsAlone)
 {
 	const SurfaceMesh mesh = sphereWithTube(0.5, 1.0, 0.4, 16, 16);
 	std::vector<std::string> notes;
-	const Component component = splitIntoComponents(mesh, notes).front();
+	const Component component = splitIntoComponents(openMesh(mesh, notes)).front();
 	const int vertices = static_cast<int>(mesh.positions.size());
 	for (const Surgery surgery : {Surgery::None, Surgery::EdgeSwap, Surgery::IntrinsicFlips}) {
 		Options options;

@@ -20,7 +20,7 @@ namespace {
 void requireUsable(const SurfaceMesh& mesh)
 {
 	std::vector<std::string> notes;
-	requireAreaEverywhere(splitIntoComponents(mesh, notes));
+	requireAreaEverywhere(splitIntoComponents(openMesh(mesh, notes)));
 }
 
 /// \p words: how the error states it.
@@ -50,7 +50,7 @@ TEST(Component, AcceptsWhatTheFlowCanUse)
 {
 	for (const SurfaceMesh& mesh : {tetrahedron(), rectangle(2, 3, 1, 1), perforatedSlab(2, 1)}) {
 		std::vector<std::string> notes;
-		const auto components = splitIntoComponents(mesh, notes);
+		const auto components = splitIntoComponents(openMesh(mesh, notes));
 		ASSERT_EQ(components.size(), 1u);
 		EXPECT_TRUE(notes.empty());
 		EXPECT_EQ(components[0].triangles.size(), mesh.triangles.size());
@@ -185,7 +185,7 @@ TEST(Component, SplittingLeavesDegenerateFacesToTheCaller)
 	const SurfaceMesh mesh{
 		{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}};
 	std::vector<std::string> notes;
-	EXPECT_EQ(splitIntoComponents(mesh, notes).size(), 1u);
+	EXPECT_EQ(splitIntoComponents(openMesh(mesh, notes)).size(), 1u);
 }
 
 TEST(Component, RefusesComponentsWithoutExtent)
@@ -210,7 +210,7 @@ TEST(Component, OrientsTheMinorityLikeTheMajorityAndTellsIt)
 			++turned;
 		}
 	std::vector<std::string> notes;
-	const auto components = splitIntoComponents(mixed, notes);
+	const auto components = splitIntoComponents(openMesh(mixed, notes));
 	ASSERT_EQ(components.size(), 1u);
 	const Component& c = components[0];
 	EXPECT_EQ(c.reversed, isTurned);
@@ -235,7 +235,7 @@ TEST(Component, LeavesOutUnreferencedVerticesAndTellsIt)
 			++v;
 	mesh.positions.push_back({8, 8, 8});
 	std::vector<std::string> notes;
-	const auto components = splitIntoComponents(mesh, notes);
+	const auto components = splitIntoComponents(openMesh(mesh, notes));
 	ASSERT_EQ(components.size(), 1u);
 	EXPECT_EQ(components[0].positions.size(), 4);
 	for (int v : components[0].vertex)
@@ -256,7 +256,7 @@ TEST(Component, SeparatesComponentsInTheOrderOfTheirLowestFace)
 	for (std::size_t f = 0; f < order.size(); ++f)
 		mesh.triangles[f] = both.triangles[at(order[f])];
 	std::vector<std::string> notes;
-	const auto components = splitIntoComponents(mesh, notes);
+	const auto components = splitIntoComponents(openMesh(mesh, notes));
 	ASSERT_EQ(components.size(), 2u);
 	EXPECT_TRUE(notes.empty());
 	EXPECT_EQ(components[0].face.front(), 0);

@@ -63,6 +63,13 @@ struct Report
 	double seamLengthRelative = 0.0; ///< seamLength over the square root of the mesh's area
 
 	int charts = 0;
+
+	int cutNonmanifoldEdges = 0; ///< edges with more than two faces, cut so that each sheet has two
+	int splitVertices = 0;       ///< vertices with more than one fan of faces, or on such an edge
+	int duplicateFaces = 0;      ///< faces with the vertices of another: sheets of their own
+	int oneSidedComponents = 0;  ///< components cut along short one-sided loops
+	int degenerateFaces = 0;     ///< faces without area that are drawn as lines or points
+
 	int cappedHoles = 0; ///< boundary loops closed for the flow
 
 	int overlappingCharts = 0; ///< charts that cover a part of the plane more than once

@@ -47,17 +47,19 @@ void noteImpliedBoundary(
 }
 
 /// Total curvature \p total on the loops, in proportion to the length of the two boundary edges at
-/// each vertex.
+/// each vertex; to all alike where the boundary has no length.
 void spreadOverBoundary(const EmbeddedSurface& surface, double total, Target& target)
 {
 	const Triangulation& t = surface.triangulation;
 	double perimeter = 0.0;
-	for (const Halfedge h : t.exteriorHalfedges())
-		perimeter += surface.lengths[h.edge()];
-	if (!(perimeter > 0.0))
-		throw InvalidMesh(InvalidMesh::BoundaryWithoutLength);
+	int edges = 0;
 	for (const Halfedge h : t.exteriorHalfedges()) {
-		const double share = 0.5 * total * surface.lengths[h.edge()] / perimeter;
+		perimeter += surface.lengths[h.edge()];
+		++edges;
+	}
+	for (const Halfedge h : t.exteriorHalfedges()) {
+		const double share =
+			0.5 * total * (perimeter > 0.0 ? surface.lengths[h.edge()] / perimeter : 1.0 / edges);
 		target.curvature[t.origin(h)] += share;
 		target.curvature[t.target(h)] += share;
 	}

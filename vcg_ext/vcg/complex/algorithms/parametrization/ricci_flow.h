@@ -8,6 +8,7 @@
 
 #include <ricci/base/floating_point.h>
 #include <ricci/charts/finish_in_floats.h>
+#include <ricci/charts/input_numbers.h>
 #include <ricci/charts/pack.h>
 #include <ricci/error.h>
 #include <ricci/options.h>
@@ -109,11 +110,11 @@ public:
 		Result r;
 		ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide);
 		if (ricci::isFinished(par))
-			ricci::finishInFloats(mesh, LastTick(progress), flat);
+			ricci::finishInFloats(flat.opened.mesh, LastTick(progress), flat);
 		r.report = flat.report;
 		r.notes = flat.notes;
 		ricci::countFlippedAsWritten(flat, r.report);
-		TakeOver(flat, m.face.size(), faceIndex, r);
+		TakeOver(mesh, m.face.size(), faceIndex, flat, r);
 		return r;
 	}
 
@@ -135,7 +136,7 @@ public:
 		Result r;
 		r.disks = ricci::placeDisks(disk);
 		if (ricci::isFinished(par))
-			ricci::finishInFloats(mesh, r.disks, LastTick(progress), disk);
+			ricci::finishInFloats(disk.opened.mesh, r.disks, LastTick(progress), disk);
 		r.report = disk.report;
 		r.notes = disk.notes;
 		for (const ricci::Chart& chart : disk.charts)
@@ -144,7 +145,7 @@ public:
 		ricci::countFlippedAsWritten(disk, r.report);
 		if (!ricci::isFinished(par)) // straight triangles may be turned where geodesic ones are not
 			r.report.flippedFaces = flipped;
-		TakeOver(disk, m.face.size(), faceIndex, r);
+		TakeOver(mesh, m.face.size(), faceIndex, disk, r);
 		return r;
 	}
 
@@ -510,8 +511,13 @@ private:
 
 	/// The arrays of \p flat, in the indices of the mesh.
 	static void TakeOver(
-		ricci::Parametrization& flat, size_t faces, const std::vector<int>& faceIndex, Result& r)
+		const ricci::SurfaceMesh& mesh,
+		size_t faces,
+		const std::vector<int>& faceIndex,
+		ricci::Parametrization& flat,
+		Result& r)
 	{
+		ricci::toInputNumbers(mesh, flat);
 		r.wedgeUV.resize(faces);
 		for (size_t f = 0; f < faceIndex.size(); ++f)
 			r.wedgeUV[size_t(faceIndex[f])] = flat.uv[f];
