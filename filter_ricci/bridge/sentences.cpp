@@ -49,7 +49,7 @@ const char* remedy(const ricci::InvalidMesh& e)
 	case Error::FacesWithoutArea:
 		return ": run 'Remove Zero Area Faces' or 'Remove T-Vertices' first.";
 	case Error::IncoherentEdge:
-		return ": run 'Repair non Manifold Edges' first.";
+		return ": report the mesh.";
 	case Error::NotPuncturable:
 		return ". Remesh it, or separate its sheets.";
 	case Error::TooLargeForFloats:

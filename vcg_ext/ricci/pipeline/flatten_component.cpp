@@ -363,7 +363,8 @@ ComponentMap flatten(
 
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
 	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
-	const EdgeArray<double> cost = cutCost(domain, map.flow, options);
+	EdgeArray<double> cost = cutCost(domain, map.flow, options);
+	avoidDiagonals(domain.isDiagonal, cost);
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
 	map.cut = cutThroughCones(domain, cost, map.cones, cutCorners(domain, map, options), progress);
 	layOut(component, domain, options, progress, map);

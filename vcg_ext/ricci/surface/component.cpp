@@ -30,6 +30,12 @@ std::vector<Component> splitIntoComponents(const OpenedMesh& opened)
 			triangle[k] = known.number();
 		}
 		c.triangles.push_back(triangle);
+		if (!mesh.diagonal.empty()) {
+			std::array<char, 3> diagonal = mesh.diagonal[positionOf(f)];
+			if (opened.reversed[f])
+				std::swap(diagonal[0], diagonal[2]);
+			c.diagonal.push_back(diagonal);
+		}
 	}
 	return components;
 }

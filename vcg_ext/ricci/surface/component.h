@@ -5,6 +5,7 @@
 #include "elements.h"
 #include "opened_mesh.h"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct Component
 	FaceArray<char> reversed; ///< 1 if the order of the input was reversed
 	VertexArray<Point3> positions;
 	std::vector<Triangle> triangles; ///< [face] numbers of the component's vertices, coherent order
+	std::vector<std::array<char, 3>>
+		diagonal; ///< of these triangles, see SurfaceMesh; may be empty
 
 	/// Corner of the input face that became corner \p k of face \p f.
 	std::size_t inputCorner(Face f, std::size_t k) const { return reversed[f] ? (3 - k) % 3 : k; }

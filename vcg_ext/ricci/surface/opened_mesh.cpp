@@ -132,6 +132,9 @@ public:
 		m_opened.reversed = std::move(m_partition.reversed);
 		m_opened.componentCount = m_partition.componentCount;
 		m_opened.mesh.absent = m_input.absent;
+		if (!m_input.diagonal.empty())
+			for (const int f : m_opened.face)
+				m_opened.mesh.diagonal.push_back(m_input.diagonal[positionOf(f)]);
 		return std::move(m_opened);
 	}
 

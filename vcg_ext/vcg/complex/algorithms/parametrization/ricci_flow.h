@@ -458,6 +458,7 @@ private:
 					mesh.positions[v][size_t(k)] = double(m.vert[v].cP()[k]);
 		mesh.absent = m.vert.size() - size_t(m.vn);
 		size_t damaged = 0;
+		bool hasPolygons = false;
 		for (size_t f = 0; f < m.face.size(); ++f) {
 			if (m.face[f].IsD())
 				continue;
@@ -469,10 +470,19 @@ private:
 			for (int k = 0; k < 3; ++k)
 				t[size_t(k)] = int(Index(m, m.face[f].cV(k)));
 			mesh.triangles.push_back(t);
+			std::array<char, 3> diagonal{0, 0, 0};
+			for (int k = 0; k < 3; ++k)
+				if (m.face[f].IsF(k)) {
+					diagonal[size_t(k)] = 1;
+					hasPolygons = true;
+				}
+			mesh.diagonal.push_back(diagonal);
 			faceIndex.push_back(int(f));
 		}
 		if (damaged > 0)
 			throw ricci::InvalidMesh(ricci::InvalidMesh::DamagedFaces, damaged);
+		if (!hasPolygons)
+			mesh.diagonal.clear();
 		return mesh;
 	}
 
