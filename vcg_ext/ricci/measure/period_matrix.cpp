@@ -192,115 +192,173 @@ EdgeArray<double> cotangentWeights(const Triangulation& t, const EdgeArray<doubl
 	return weights;
 }
 
-/// The cotangent Laplacian, with the value at one vertex pinned to 0, and its factor.
+/// Two values at each vertex.
+using Pair = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+/// The cotangent Laplacian, with conjugate gradients for two right sides at a time. They are
+/// preconditioned with the factor of a nearby matrix, or with the Laplacian's own, which leaves them
+/// one step.
 class Laplacian
 {
 public:
-	Laplacian(const Triangulation& t, const EdgeArray<double>& weights) :
-			m_row(t.vertexCount()), m_rhs(Eigen::VectorXcd::Zero(t.vertexCount() - 1))
+	Laplacian(const Triangulation& t, const EdgeArray<double>& weights, FactoredHessian* near) :
+			m_t(t), m_weights(weights), m_row(t.vertexCount()),
+			m_cholesky(near != nullptr ? near->cholesky() : m_own)
 	{
-		for (const Vertex v : t.vertices())
-			m_row[v] = v.number() - 1;
-		if (m_rhs.size() == 0)
-			return;
-		SparseCholesky::Matrix matrix(m_rhs.size(), m_rhs.size());
-		const auto layOut = [&] { fill(t, weights, matrix); };
-		layOut();
-		m_cholesky.analyze(matrix, m_row.values(), layOut);
-		m_isFactored = m_cholesky.factorize(matrix);
+		if (near != nullptr) {
+			m_row = near->row();
+			m_rows.resize(near->unknowns());
+		}
+		else
+			factorize();
 	}
 
 	bool isFactored() const { return m_isFactored; }
 
-	void addToRhs(Vertex v, std::complex<double> value)
+	/// Solves for \p x to an energy of the error of about kEnergyError.
+	/// \param residual the right side, adding up to 0; what is left of it on return
+	void solve(Pair& residual, Pair& x, const Tick& tick)
 	{
-		if (m_row[v] >= 0)
-			m_rhs[m_row[v]] += value;
-	}
-
-	/// The right hand side is 0 afterwards.
-	void solve()
-	{
-		if (m_rhs.size() > 0)
-			m_cholesky.solve(m_rhs, m_solution);
-		m_rhs.setZero();
-	}
-
-	std::complex<double> operator[](Vertex v) const
-	{
-		return m_row[v] >= 0 ? m_solution[m_row[v]] : 0.0;
+		x.setZero(residual.rows(), 2);
+		Pair direction, image, corrected;
+		Eigen::RowVector2d last, slope;
+		for (int step = 0; step < kMaxSteps; ++step) {
+			tick();
+			precondition(residual, corrected);
+			const Eigen::RowVector2d energy = residual.cwiseProduct(corrected).colwise().sum();
+			if (!(energy.maxCoeff() > kEnergyError))
+				break;
+			direction = step == 0
+							? corrected
+							: Pair(corrected + direction * energy.cwiseQuotient(last).asDiagonal());
+			last = energy;
+			multiply(direction, image);
+			slope = direction.cwiseProduct(image).colwise().sum();
+			Eigen::RowVector2d length = energy.cwiseQuotient(slope);
+			for (double& l : length)
+				l = std::isfinite(l) ? l : 0.0; // one side is solved already
+			x += direction * length.asDiagonal();
+			residual -= image * length.asDiagonal();
+		}
 	}
 
 private:
-	void
-	fill(const Triangulation& t, const EdgeArray<double>& weights, SparseCholesky::Matrix& matrix)
+	static constexpr double kEnergyError = 1e-7;
+	static constexpr int kMaxSteps = 100;
+
+	void factorize()
+	{
+		for (const Vertex v : m_t.vertices())
+			m_row[v] = v.number() - 1; // the value at one vertex is held
+		const int unknowns = m_t.vertexCount() - 1;
+		m_rows.resize(unknowns);
+		if (unknowns == 0)
+			return;
+		SparseCholesky::Matrix matrix(unknowns, unknowns);
+		const auto layOut = [&] { fill(matrix); };
+		layOut();
+		m_own.analyze(matrix, m_row.values(), layOut);
+		m_isFactored = m_own.factorize(matrix);
+	}
+
+	void fill(SparseCholesky::Matrix& matrix) const
 	{
 		Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(matrix.rows());
 		std::vector<Eigen::Triplet<double>> entries;
-		entries.reserve(positionOf(t.edgeCount() + t.vertexCount()));
-		for (const Edge e : t.edges()) {
-			const auto ends = t.ends(e);
+		entries.reserve(positionOf(m_t.edgeCount() + m_t.vertexCount()));
+		for (const Edge e : m_t.edges()) {
+			const auto ends = m_t.ends(e);
 			const int a = m_row[ends[0]], b = m_row[ends[1]];
 			if (a == b)
 				continue; // a loop
 			for (const int row : {a, b})
 				if (row >= 0)
-					diagonal[row] += weights[e];
+					diagonal[row] += m_weights[e];
 			if (a >= 0 && b >= 0)
-				entries.emplace_back(std::max(a, b), std::min(a, b), -weights[e]);
+				entries.emplace_back(std::max(a, b), std::min(a, b), -m_weights[e]);
 		}
 		for (int row = 0; row < diagonal.size(); ++row)
 			entries.emplace_back(row, row, diagonal[row]);
 		matrix.setFromTriplets(entries.begin(), entries.end());
 	}
 
-	VertexArray<int> m_row;
-	SparseCholesky m_cholesky;
+	void precondition(const Pair& residual, Pair& corrected)
+	{
+		corrected.setZero(residual.rows(), 2);
+		if (m_rows.size() == 0)
+			return;
+		for (const Vertex v : m_row.indices())
+			if (m_row[v] >= 0)
+				m_rows[m_row[v]] = {residual(v.number(), 0), residual(v.number(), 1)};
+		m_cholesky.solve(m_rows, m_solution);
+		for (const Vertex v : m_row.indices())
+			if (m_row[v] >= 0)
+				corrected.row(v.number()) << m_solution[m_row[v]].real(),
+					m_solution[m_row[v]].imag();
+	}
+
+	void multiply(const Pair& x, Pair& image) const
+	{
+		image.setZero(x.rows(), 2);
+		for (const Edge e : m_t.edges()) {
+			const auto ends = m_t.ends(e);
+			const Eigen::RowVector2d flux =
+				m_weights[e] * (x.row(ends[0].number()) - x.row(ends[1].number()));
+			image.row(ends[0].number()) += flux;
+			image.row(ends[1].number()) -= flux;
+		}
+	}
+
+	const Triangulation& m_t;
+	const EdgeArray<double>& m_weights;
+	VertexArray<int> m_row; // of the factor's matrix, or -1
+	SparseCholesky m_own;
+	SparseCholesky& m_cholesky;
 	bool m_isFactored = true;
-	Eigen::VectorXcd m_rhs, m_solution; // two at a time, by rows of the matrix
+	Eigen::VectorXcd m_rows, m_solution;
 };
 
-/// Inner products of the harmonic forms that are cohomologous to those of the loops; empty where the
-/// Laplacian has no factor.
+/// Inner products of closed forms, nearly harmonic, that are cohomologous to those of the loops; empty
+/// where the Laplacian has no factor. With the forms t, the functions f that are added to them, the right
+/// sides b = -d*t and what the solver leaves of them, r, they are <t_j, t_k> - b_j f_k - f_j r_k. They
+/// are too large by the energy of the solver's errors, which the bound of the period matrix contains.
 Eigen::MatrixXd energies(
 	const Triangulation& t,
 	const EdgeArray<double>& weights,
 	const std::vector<DualLoop>& loops,
+	FactoredHessian* near,
 	const Tick& tick)
 {
 	tick();
-	Laplacian laplacian(t, weights);
+	Laplacian laplacian(t, weights, near);
 	if (!laplacian.isFactored())
 		return {};
 	const auto n = static_cast<Eigen::Index>(loops.size());
-	Eigen::MatrixXd energy(n, n);
-	LoopForm real(t.edgeCount()), imaginary(t.edgeCount());
-	for (std::size_t k = 0; k < loops.size(); k += 2) {
-		tick();
-		const std::array<std::complex<double>, 2> unit = {{{1.0, 0.0}, {0.0, 1.0}}};
-		for (std::size_t part = 0; part < 2; ++part)
-			for (const Halfedge h : loops[k + part]) {
-				laplacian.addToRhs(t.origin(h), weights[h.edge()] * unit[part]);
-				laplacian.addToRhs(t.target(h), -weights[h.edge()] * unit[part]);
+	Eigen::MatrixXd energy(n, n), functions(t.vertexCount(), n);
+	LoopForm form(t.edgeCount());
+	Pair residual, solution;
+	for (Eigen::Index k = 0; k < n; k += 2) {
+		residual.setZero(t.vertexCount(), 2);
+		for (const Eigen::Index part : {0, 1})
+			for (const Halfedge h : loops[static_cast<std::size_t>(k + part)]) {
+				residual(t.origin(h).number(), part) += weights[h.edge()];
+				residual(t.target(h).number(), part) -= weights[h.edge()];
 			}
-		laplacian.solve();
-		real.add(loops[k], 1);
-		imaginary.add(loops[k + 1], 1);
-		// Harmonic forms are orthogonal to exact ones, so that the loop's own form will do on one side.
-		for (std::size_t j = 0; j < loops.size(); ++j) {
-			std::complex<double> sum = 0.0;
-			for (const Halfedge h : loops[j]) {
-				const std::complex<double> form(real[h], imaginary[h]);
-				const std::complex<double> exact = laplacian[t.target(h)] - laplacian[t.origin(h)];
-				sum += weights[h.edge()] * (form + exact);
+		laplacian.solve(residual, solution, tick);
+		functions.middleCols<2>(k) = solution;
+		for (const Eigen::Index i : {k, k + 1}) {
+			form.add(loops[static_cast<std::size_t>(i)], 1);
+			for (Eigen::Index j = 0; j <= i; ++j) {
+				double sum = -functions.col(j).dot(residual.col(i - k));
+				for (const Halfedge h : loops[static_cast<std::size_t>(j)])
+					sum += weights[h.edge()] * (form[h] + functions(t.target(h).number(), i) -
+												functions(t.origin(h).number(), i));
+				energy(i, j) = energy(j, i) = sum;
 			}
-			energy(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k)) = sum.real();
-			energy(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(k + 1)) = sum.imag();
+			form.add(loops[static_cast<std::size_t>(i)], -1);
 		}
-		real.add(loops[k], -1);
-		imaginary.add(loops[k + 1], -1);
 	}
-	return 0.5 * (energy + energy.transpose());
+	return energy;
 }
 
 /// The period matrix from the energies in a canonical basis.
@@ -396,11 +454,14 @@ void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 
 } // namespace
 
-PeriodMatrix
-periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths, const Tick& tick)
+PeriodMatrix periodMatrix(
+	const Triangulation& t,
+	const EdgeArray<double>& lengths,
+	FactoredHessian* near,
+	const Tick& tick)
 {
 	const std::vector<DualLoop> loops = dualLoops(t, tick);
-	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops, tick);
+	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops, near, tick);
 	if (energy.size() == 0)
 		return {};
 	const Eigen::MatrixXd basis = canonicalBasis(wedgeProducts(t, loops));

@@ -360,6 +360,7 @@ ComponentMap flatten(
 		backgroundOf(options), domain.solved(), std::move(start), target, options, flowProgress);
 	keepAreas(domain.solved(), request, options, progress, map);
 	logFlow(map.flow, options, progress);
+	measurePeriods(domain.surface, progress, map);
 
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
 	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
