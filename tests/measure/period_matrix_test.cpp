@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Surfaces whose period matrix is known: flat tori, and regular polygons with sides glued.
+#include "support/bolza.h"
 #include "support/complex.h"
+#include "support/flat_map.h"
 #include "support/intrinsic.h"
 #include "support/random.h"
 #include "support/shapes.h"
 #include "support/siegel.h"
+#include "support/transform.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/math/disjoint_sets.h>
 #include <ricci/measure/invariants.h>
 #include <ricci/measure/period_matrix.h>
+#include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -70,7 +75,8 @@ IntrinsicMesh flatTorus(Complex tau, int n)
 	const auto cell = [&](int i, int j) { return 6 * (i % n + n * (j % n)); };
 	for (int j = 0; j < n; ++j)
 		for (int i = 0; i < n; ++i) {
-			const double along = 1.0 / n, across = std::abs(tau) / n, slant = std::abs(1.0 + tau) / n;
+			const double along = 1.0 / n, across = std::abs(tau) / n,
+						 slant = std::abs(1.0 + tau) / n;
 			p.length.insert(p.length.end(), {along, across, slant, slant, along, across});
 			p.glue(cell(i, j) + 2, cell(i, j) + 3);
 			p.glue(cell(i, j) + 1, cell(i + 1, j) + 5);
@@ -95,9 +101,7 @@ IntrinsicMesh squares(const std::vector<int>& right, const std::vector<int>& abo
 				p.glue(
 					cell(s, i, j) + 1,
 					(i + 1 < n ? cell(s, i + 1, j) : cell(right[at(s)], 0, j)) + 5);
-				p.glue(
-					cell(s, i, j) + 4,
-					j + 1 < n ? cell(s, i, j + 1) : cell(above[at(s)], i, 0));
+				p.glue(cell(s, i, j) + 4, j + 1 < n ? cell(s, i, j + 1) : cell(above[at(s)], i, 0));
 			}
 	return p.mesh();
 }
@@ -124,10 +128,11 @@ polygons(int count, int sides, double angle, int n, const std::function<Side(Sid
 		{{0.0, 0.0, 1.0},
 		 {sinh, 0.0, flat ? 1.0 : cosh},
 		 {sinh * std::cos(turn), sinh * std::sin(turn), flat ? 1.0 : cosh}}};
-	const auto square = [](const Eigen::Vector3d& v) { return v[0] * v[0] + v[1] * v[1] - v[2] * v[2]; };
+	const auto square = [](const Eigen::Vector3d& v) {
+		return v[0] * v[0] + v[1] * v[1] - v[2] * v[2];
+	};
 	const auto point = [&](int i, int j) -> Eigen::Vector3d {
-		const Eigen::Vector3d v =
-			(n - i - j) * corner[0] + i * corner[1] + j * corner[2];
+		const Eigen::Vector3d v = (n - i - j) * corner[0] + i * corner[1] + j * corner[2];
 		return flat ? v / n : v / std::sqrt(-square(v));
 	};
 	const auto length = [&](int i, int j, int k, int l) {
@@ -139,7 +144,8 @@ polygons(int count, int sides, double angle, int n, const std::function<Side(Sid
 		return 6 * (i + n * (j + n * ((sector + sides) % sides + sides * polygon)));
 	};
 	Pieces p;
-	std::vector<int> used(at(2 * n * n * sides * count), -1); // the numbers of the triangles that exist
+	std::vector<int> used(
+		at(2 * n * n * sides * count), -1); // the numbers of the triangles that exist
 	p.length.resize(3 * used.size());
 	p.glued.resize(3 * used.size(), -1);
 	for (int q = 0; q < count; ++q)
@@ -235,42 +241,192 @@ void expectPeriodMatrix(const Eigen::MatrixXcd& omega, int genus)
 	EXPECT_EQ(imaginary.llt().info(), Eigen::Success);
 }
 
-TEST(PeriodMatrix, DBG)
+TEST(PeriodMatrix, OfAFlatTorusIsItsModulus)
 {
-	for (int sides : {8, 10, 12, 14})
-		for (int n : {1, 2, 4, 8, 16, 32}) {
-			const PeriodMatrix s = periodMatrixOf(smoothPolygon(sides, n)),
-							   f = periodMatrixOf(flatPolygon(sides, n));
-			const Eigen::MatrixXcd o = omegaOfPolygon(sides);
-			std::printf("%d %d smooth err %.3g d %.3g   flat err %.3g d %.3g\n", sides, n, s.error,
-				classDistance(o, s.omega, sides<11?0.4:0.2), f.error, classDistance(o, f.omega, sides<11?0.4:0.2));
-			fflush(stdout); if (n == 32 && sides < 11)
-				std::cout << s.omega << "\n" << siegelReduced(o) << "\n";
-		}
-	for (int n : {1, 2, 4, 8, 16, 32, 64}) {
-		const PeriodMatrix s = periodMatrixOf(squares({1, 0, 2}, {2, 1, 0}, n));
-		std::cout << n << " L " << s.error << "\n" << s.omega << "\n";
-	}
-	for (int n : {1, 2, 4, 8, 16, 32, 64}) {
-		const PeriodMatrix s = periodMatrixOf(polygons(4, 6, 2*kPi/3, n, [](Side s) {
-			static const int even[] = {2, 3, 0, 1}, odd[] = {3, 2, 1, 0};
-			return Side{(s.side % 2 ? odd : even)[s.polygon], (6 - s.side) % 6};
-		}));
-		std::cout << n << " x6-1 " << s.error << "\n" << s.omega << "\n";
-	}
-	Random random(1);
-	for (int i = 0; i < 5; ++i) {
-		Complex tau(random.real(-2, 2), random.real(0.2, 3));
-		for (int n : {1, 2, 7}) {
-			IntrinsicMesh m = flatTorus(tau, n);
-			std::cout << reduceToFundamentalDomain(tau);
-			PeriodMatrix o = periodMatrixOf(m);
-			std::cout << o.omega << o.error;
-			flipIsometrically(m, 500, random);
-			o = periodMatrixOf(m);
-			std::cout << o.omega << o.error << "\n";
+	Random random(501);
+	for (int trial = 0; trial < 20; ++trial) {
+		const Complex tau(random.real(-2.0, 2.0), random.real(0.2, 3.0));
+		for (const int n : {1, 2, 7}) { // from one vertex on
+			IntrinsicMesh mesh = flatTorus(tau, n);
+			for (const int flips : {0, n * n}) {
+				flipIsometrically(mesh, flips, random);
+				const PeriodMatrix periods = periodMatrixOf(mesh);
+				expectPeriodMatrix(periods.omega, 1);
+				EXPECT_LT(std::abs(periods.omega(0, 0) - reduceToFundamentalDomain(tau)), 1e-9);
+				EXPECT_LT(periods.error, 1e-8); // no cones, no error but rounding
+			}
 		}
 	}
+}
+
+TEST(PeriodMatrix, OfRegularPolygonsWithOppositeSidesGlued)
+{
+	for (const int sides : {8, 10, 12, 14}) {
+		const Eigen::MatrixXcd exact = omegaOfPolygon(sides);
+		expectPeriodMatrix(exact, sides / 4);
+		double last = 0.0;
+		for (const int n : {2, 4, 8, 16}) {
+			// The rotations, which leave no choice, are those of the triangles too.
+			const PeriodMatrix smooth = periodMatrixOf(smoothPolygon(sides, n)),
+							   flat = periodMatrixOf(flatPolygon(sides, n));
+			expectPeriodMatrix(smooth.omega, sides / 4);
+			EXPECT_LT(classDistance(exact, smooth.omega, 0.05), 1e-11);
+			EXPECT_LT(classDistance(exact, flat.omega, 0.05), 1e-11);
+			if (n == 16) {
+				EXPECT_NEAR(last / smooth.error, 4.0, 0.5);
+			}
+			last = smooth.error;
+		}
+	}
+}
+
+TEST(PeriodMatrix, OfCurvesOfGenusTwoInClosedForm)
+{
+	// y^2 = x^5 - x, x^6 - 1 [Bobenko Mercat Schmies 2011].
+	const Complex i(0.0, 1.0);
+	Eigen::Matrix2cd bolza, hexagons;
+	bolza << -2.0 + std::sqrt(8.0) * i, 1.0 - std::sqrt(2.0) * i, 1.0 - std::sqrt(2.0) * i,
+		-2.0 + std::sqrt(8.0) * i;
+	hexagons << 2.0 * i, -i, -i, 2.0 * i;
+	EXPECT_LT(classDistance(bolza / 3.0, omegaOfPolygon(8), 0.05), 1e-12);
+	// The sphere of two regular hexagons has the sixth roots of unity for corners. Two of it cross over
+	// at every second side.
+	const IntrinsicMesh curve = polygons(4, 6, 2.0 * kPi / 3.0, 4, [](Side s) {
+		constexpr std::array<int, 4> even = {2, 3, 0, 1}, odd = {3, 2, 1, 0};
+		return Side{(s.side % 2 ? odd : even)[at(s.polygon)], (6 - s.side) % 6};
+	});
+	EXPECT_EQ(curve.triangulation.eulerCharacteristic(), -2);
+	EXPECT_LT(classDistance(hexagons / std::sqrt(3.0), periodMatrixOf(curve).omega, 0.05), 1e-11);
+}
+
+TEST(PeriodMatrix, OfThreeSquares)
+{
+	// The L of three squares with opposite sides glued. Its turn by pi / 2 has the eigenform dz for i, whose
+	// periods are known, and one for -i, which is then given by that its product with dz is 0.
+	Eigen::Matrix2cd exact;
+	exact << Complex(0.0, 5.0), Complex(0.0, -4.0), Complex(0.0, -4.0), Complex(0.0, 5.0);
+	for (const int n : {1, 3, 10})
+		EXPECT_LT(
+			classDistance(
+				exact / 3.0, periodMatrixOf(squares({1, 0, 2}, {2, 1, 0}, n)).omega, 0.05),
+			1e-11);
+}
+
+TEST(PeriodMatrix, ErrorIsABoundOnFlatTriangles)
+{
+	Random random(502);
+	for (const int sides : {8, 10, 12}) {
+		const Eigen::MatrixXcd exact = omegaOfPolygon(sides);
+		for (const int n : {2, 4, 8}) {
+			IntrinsicMesh mesh = flatPolygon(sides, n);
+			flipIsometrically(mesh, 20 * n * n, random); // breaks the symmetry
+			const PeriodMatrix periods = periodMatrixOf(mesh);
+			const double distance =
+				classDistance(exact, periods.omega, std::min(0.3, periods.error));
+			EXPECT_LE(distance, periods.error);
+			EXPECT_GT(distance, 1e-6);
+		}
+	}
+}
+
+TEST(PeriodMatrix, IsConformallyInvariantToSecondOrder)
+{
+	// Another metric in the class of the Bolza surface, without its symmetry.
+	const auto bump = [](BolzaSurface::Complex z) {
+		const auto q =
+			static_cast<double>(std::norm(z - BolzaSurface::Complex(0.1L, 0.05L))) / 0.09;
+		return q < 1.0 ? std::pow(1.0 - q, 4) : 0.0;
+	};
+	const Eigen::MatrixXcd exact = omegaOfPolygon(8);
+	double last = 0.0;
+	for (int level = 3; level < 6; ++level) {
+		const PeriodMatrix periods = periodMatrixOf(BolzaSurface(level).distorted(bump));
+		const double distance = classDistance(exact, periods.omega, 0.05);
+		if (level > 3) {
+			EXPECT_GT(last / distance, 3.0);
+		}
+		EXPECT_LT(distance, periods.error);
+		last = distance;
+	}
+	EXPECT_LT(last, 1e-3);
+}
+
+TEST(PeriodMatrix, DoesNotDependOnScaleAndNumbers)
+{
+	Random random(503);
+	for (const int genus : {1, 2, 3}) {
+		const SurfaceMesh mesh = perforatedSlab(genus, 2);
+		const IntrinsicMesh first = intrinsicMesh(mesh);
+		const PeriodMatrix periods = periodMatrixOf(first);
+		expectPeriodMatrix(periods.omega, genus);
+		for (int trial = 0; trial < 3; ++trial) {
+			IntrinsicMesh other = intrinsicMesh(renumbered(mesh, random).mesh);
+			for (double& l : other.lengths)
+				l *= 37.0;
+			const PeriodMatrix again = periodMatrixOf(other);
+			EXPECT_LT(classDistance(periods.omega, again.omega, 1e-3), 1e-9);
+			EXPECT_NEAR(again.error, periods.error, 1e-9);
+		}
+	}
+}
+
+TEST(PeriodMatrix, OfAMirrorImageIsMinusTheConjugate)
+{
+	// A torus on which a twist leaves no symmetry.
+	const double twist = 0.2;
+	const PeriodMatrix one = periodMatrixOf(flatTorus({twist, 1.3}, 3)),
+					   other = periodMatrixOf(flatTorus({-twist, 1.3}, 3));
+	EXPECT_LT(std::abs(one.omega(0, 0) + std::conj(other.omega(0, 0))), 1e-12);
+	EXPECT_GT(classDistance(one.omega, other.omega, 1.0), 0.1);
+}
+
+TEST(PeriodMatrix, BelongsToTheSameClassWithTheFactorOfANearbyMatrix)
+{
+	const SurfaceMesh mesh = torus(3.0, 1.0, 24, 12);
+	for (const TargetCurvature target : {TargetCurvature::Flat, TargetCurvature::PlacedCones}) {
+		Options options;
+		options.target = target;
+		const Report report = run(mesh, options).report;
+		ASSERT_EQ(report.periodMatrix.size(), 1u);
+		// Both have an error of second order: that of the harmonic forms has a bound.
+		const Complex exact(0.0, std::sqrt(8.0)), own = report.periodMatrix[0];
+		EXPECT_LT(std::abs(own - exact), 0.05 * std::sqrt(8.0));
+		const PeriodMatrix direct = periodMatrixOf(intrinsicMesh(mesh));
+		EXPECT_LT(
+			std::abs(std::log(direct.omega(0, 0).imag() / own.imag())),
+			report.periodError.value_or(0.0));
+		if (report.torusTauIm) {
+			EXPECT_NEAR(*report.torusTauIm, own.imag(), 0.05 * own.imag());
+		}
+	}
+}
+
+TEST(SiegelReduced, StaysInTheClass)
+{
+	Random random(504);
+	for (const int genus : {1, 2, 3, 5, 8})
+		for (int trial = 0; trial < 20; ++trial) {
+			Eigen::MatrixXd root(genus, genus), real(genus, genus);
+			for (double& x : root.reshaped())
+				x = random.real(-1.0, 1.0);
+			for (double& x : real.reshaped())
+				x = random.real(-5.0, 5.0);
+			Eigen::MatrixXcd omega(genus, genus);
+			omega.real() = real + real.transpose();
+			omega.imag() = root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(genus, genus);
+			const Eigen::MatrixXcd reduced = siegelReduced(omega);
+			expectPeriodMatrix(reduced, genus);
+			EXPECT_GE(std::abs(reduced(0, 0)), 1.0 - 1e-9);
+			EXPECT_LE(reduced.real().cwiseAbs().maxCoeff(), 0.5 + 1e-9);
+			for (int i = 0; i < genus; ++i)
+				for (int j = i + 1; j < genus; ++j) { // Lagrange
+					EXPECT_LE(2.0 * std::abs(reduced(i, j).imag()), reduced(i, i).imag() + 1e-9);
+					EXPECT_LE(reduced(i, i).imag(), reduced(j, j).imag() + 1e-9);
+				}
+			if (genus < 4) {
+				EXPECT_LT(classDistance(omega, reduced, 1e-4), 1e-6);
+			}
+		}
 }
 
 } // namespace

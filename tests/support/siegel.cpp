@@ -90,7 +90,8 @@ double classDistance(const Eigen::MatrixXcd& one, const Eigen::MatrixXcd& two, d
 			bool fits = true;
 			for (Eigen::Index j = i; fits && j >= 0; --j) {
 				const double slack = (stretch - 1.0) * std::sqrt(b(i, i) * b(j, j)) + 1e-12;
-				const Eigen::Ref<const Eigen::VectorXd> other = j == i ? Eigen::Ref<const Eigen::VectorXd>(c.vector) : basis.col(j);
+				const Eigen::Ref<const Eigen::VectorXd> other =
+					j == i ? Eigen::Ref<const Eigen::VectorXd>(c.vector) : basis.col(j);
 				fits = std::abs(other.dot(c.dual) - b(j, i)) <= slack &&
 					   other.dot(c.product) == wanted[j];
 			}

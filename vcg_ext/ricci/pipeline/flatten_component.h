@@ -32,7 +32,7 @@ struct ComponentMap
 	FaceArray<Triangle2> uv;     ///< [face of the component][corner]
 	double scale = 1.0;          ///< lengths in the layout over those of the flow's metric
 
-	FuchsianGroup group; ///< hyperbolic
+	FuchsianGroup group;  ///< hyperbolic
 	PeriodMatrix periods; ///< of a closed surface, see measurePeriods()
 	std::optional<std::complex<double>> torusModulus;
 	std::optional<double> annulusModulus, rectangleAspect, hyperbolicArea, relationError;
