@@ -18,7 +18,7 @@ import pymeshlab
 
 from one_mesh import FILTER
 
-# All bases that bring two period matrices nearer than this are searched: for genus 1, for genus 2 and 3.
+# Within this distance all bases of two surfaces of the same genus are searched.
 FARTHEST_SEARCH = {1: 4.0, 2: 1.0, 3: 1.0}
 
 

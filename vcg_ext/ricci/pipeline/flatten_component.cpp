@@ -358,9 +358,9 @@ ComponentMap flatten(
 	FlowProgress flowProgress(progress, options.epsilon, map.flowStates);
 	map.flow = runRicciFlow(
 		backgroundOf(options), domain.solved(), std::move(start), target, options, flowProgress);
+	measurePeriods(domain.surface, progress, map);
 	keepAreas(domain.solved(), request, options, progress, map);
 	logFlow(map.flow, options, progress);
-	measurePeriods(domain.surface, progress, map);
 
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
 	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);

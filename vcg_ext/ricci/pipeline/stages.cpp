@@ -149,7 +149,7 @@ void measurePeriods(const EmbeddedSurface& surface, ProgressRange& progress, Com
 		return;
 	const IntrinsicMesh& start = map.flow.history.start; // without flips there is none
 	const bool flips = start.triangulation.edgeCount() > 0;
-	const Tick tick = [&] { progress.step(1.0 - kAfterFlow, "Period matrix"); };
+	const Tick tick = [&] { progress.step(0.0, "Period matrix"); };
 	map.periods = periodMatrix(
 		flips ? start.triangulation : surface.triangulation,
 		flips ? start.lengths : surface.lengths,
