@@ -19,7 +19,7 @@ import pymeshlab
 from one_mesh import FILTER
 
 # Within this distance all bases of two surfaces of the same genus are searched.
-FARTHEST_SEARCH = {1: 4.0, 2: 1.0, 3: 1.0}
+FARTHEST_SEARCH = {1: 4.0, 2: 1.0, 3: 0.4}
 
 
 def invariants(path):
@@ -116,7 +116,13 @@ def period_distance(one, two):
         distance = distance_within(one, two, share * limit)
         if math.isfinite(distance):
             return f"{distance:.6f}"
-    return f"between {limit:g} and {farthest:.6f}"
+    return f"{farthest:.6f} at most"
+
+
+def as_text(value):
+    if isinstance(value, numpy.ndarray):
+        return "; ".join(" ".join(f"{number:.6g}" for number in row) for row in value)
+    return f"{value:.6g}"
 
 
 def main():
@@ -125,7 +131,7 @@ def main():
     pymeshlab.load_plugin(sys.argv[1])
     shapes = [invariants(path) for path in sys.argv[2:]]
     for path, shape in zip(sys.argv[2:], shapes):
-        print(path, " ".join(f"{key}={value}" for key, value in shape.items()))
+        print(path, " ".join(f"{key}={as_text(value)}" for key, value in shape.items()))
     one, two = shapes
     if one.keys() != two.keys() or any(one[k] != two[k] for k in ("genus", "boundary_loops")):
         print("different topology")
