@@ -2,6 +2,7 @@
 #include "results.h"
 
 #include <algorithm>
+#include <complex>
 #include <iomanip>
 #include <ios>
 #include <locale>
@@ -9,6 +10,7 @@
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace filter_ricci {
 
@@ -101,6 +103,13 @@ Results toResults(const ricci::Report& report)
 	addIfPresent(results, "torus_tau_im", report.torusTauIm);
 	addIfPresent(results, "annulus_modulus", report.annulusModulus);
 	addIfPresent(results, "rectangle_aspect", report.rectangleAspect);
+	if (!report.periodMatrix.empty()) {
+		std::vector<double> numbers;
+		for (const std::complex<double>& entry : report.periodMatrix)
+			numbers.insert(numbers.end(), {entry.real(), entry.imag()});
+		results.emplace_back("period_matrix", std::move(numbers));
+	}
+	addIfPresent(results, "period_error", report.periodError);
 	addIfPresent(results, "hyperbolic_area", report.hyperbolicArea);
 	addIfPresent(results, "relation_error", report.relationError);
 	return results;

@@ -21,9 +21,15 @@ ALWAYS = {
     "genus": int, "boundary_loops": int, "components": int, "cones": int, "seam_edges": int,
     "seam_length": float, "seam_length_relative": float, "charts": int, "capped_holes": int,
     "overlapping_charts": int, "overlapping_faces": int, "overlap_cuts": int}
+
+
+class vector(list):
+    """Numbers that are one result."""
+
+
 INVARIANTS = {
     "torus_tau_re": float, "torus_tau_im": float, "annulus_modulus": float,
-    "rectangle_aspect": float}
+    "rectangle_aspect": float, "period_matrix": vector, "period_error": float}
 SPHERE = {
     "sphere_qc_area_mean": float, "sphere_area_distortion_mean": float,
     "sphere_flipped_faces": int}

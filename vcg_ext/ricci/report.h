@@ -4,6 +4,7 @@
 
 #include "math/histogram.h"
 
+#include <complex>
 #include <optional>
 #include <vector>
 
@@ -80,6 +81,11 @@ struct Report
 	std::optional<double> torusTauRe, torusTauIm; ///< reduced to the fundamental domain
 	std::optional<double> annulusModulus;         ///< ln(r2/r1) / 2 pi
 	std::optional<double> rectangleAspect;        ///< longer over shorter side
+
+	/// Closed surface of genus 1 to 10: its period matrix, row by row (PeriodMatrix::omega), else empty;
+	/// and the bound of its error.
+	std::vector<std::complex<double>> periodMatrix;
+	std::optional<double> periodError;
 
 	/// Hyperbolic flow: area of the metric by its side lengths, which Gauss-Bonnet puts at sum K - 2
 	/// pi chi.

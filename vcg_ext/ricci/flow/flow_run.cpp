@@ -302,6 +302,7 @@ FlowResult FlowRun::result()
 	m_result.residual = m_solved.residual;
 	m_result.floor = m_solved.floor;
 	m_result.work = m_newton->work();
+	m_result.hessian = m_newton->takeHessian();
 	m_newton.reset();
 	m_result.history.flowFlips = flowFlips();
 	m_result.area = m_background == Background::EuclideanPlane

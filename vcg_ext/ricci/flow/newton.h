@@ -82,6 +82,12 @@ public:
 	/// elsewhere.
 	const CholeskyWork& work() const { return m_hessian->cholesky().work(); }
 
+	/// The last factor, null if there was none. Ends the use of this object.
+	std::unique_ptr<FactoredHessian> takeHessian()
+	{
+		return m_hessian->isFactored() ? std::move(m_hessian) : nullptr;
+	}
+
 	/// Part of u below the last place of its doubles, as the last solve left it.
 	const VertexVector& low() const { return m_low; }
 

@@ -61,6 +61,9 @@ struct FlowResult
 	int iterations = 0;
 	CholeskyWork work;   ///< of the linear solver, on the surface the result is from
 	FlipHistory history; ///< Surgery::IntrinsicFlips only
+
+	/// Newton's last factor; null where no step was needed. Of the double if doubled.
+	std::shared_ptr<FactoredHessian> hessian;
 };
 
 /// Gets the number of Newton steps so far and the residual before each step; may throw to cancel.

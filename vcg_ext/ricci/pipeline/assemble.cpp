@@ -193,6 +193,12 @@ void append(
 		}
 		report.annulusModulus = map.annulusModulus;
 		report.rectangleAspect = map.rectangleAspect;
+		const Eigen::MatrixXcd& omega = map.periods.omega;
+		for (Eigen::Index i = 0; i < omega.rows(); ++i)
+			for (Eigen::Index j = 0; j < omega.cols(); ++j)
+				report.periodMatrix.push_back(omega(i, j));
+		if (omega.size() > 0)
+			report.periodError = map.periods.error;
 	}
 	if (map.hyperbolicArea)
 		report.hyperbolicArea = report.hyperbolicArea.value_or(0.0) + *map.hyperbolicArea;

@@ -358,6 +358,7 @@ ComponentMap flatten(
 	FlowProgress flowProgress(progress, options.epsilon, map.flowStates);
 	map.flow = runRicciFlow(
 		backgroundOf(options), domain.solved(), std::move(start), target, options, flowProgress);
+	measurePeriods(domain.surface, progress, map);
 	keepAreas(domain.solved(), request, options, progress, map);
 	logFlow(map.flow, options, progress);
 

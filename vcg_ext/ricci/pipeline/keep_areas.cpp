@@ -47,13 +47,15 @@ std::optional<FlowResult> nextFlow(
 		for (const std::string& note : target->notes)
 			progress.log(note);
 		FlowProgress flowProgress(progress, options.epsilon, states);
-		return runRicciFlow(
+		FlowResult flow = runRicciFlow(
 			Background::EuclideanPlane,
 			surface,
 			std::move(start),
 			*target,
 			options,
 			[&](int step, double residual) { flowProgress(steps + step, residual); });
+		flow.hessian.reset(); // only the first flow's is used, and it is large
+		return flow;
 	}
 	catch (const Stopped&) {
 		throw;
