@@ -60,17 +60,14 @@ class Flattening(Parametrization):
     residual_floor: float
     """the smallest residual that rounding allows"""
     qc_mean: float
-    """distortion over faces: mean, mean by area, 99th percentile, largest; faces whose height is below 1e-9
-    of their side, and faces without area in the plane, are left out"""
+    """conformal distortion σ₁/σ₂ (1: angles are kept), mean over faces; this and the three below leave out
+    faces whose height is below 1e-9 of their side, and faces without area in the plane"""
     qc_area_mean: float
-    """distortion over faces: mean, mean by area, 99th percentile, largest; faces whose height is below 1e-9
-    of their side, and faces without area in the plane, are left out"""
+    """the same, faces weighted by their area on the mesh"""
     qc_p99: float
-    """distortion over faces: mean, mean by area, 99th percentile, largest; faces whose height is below 1e-9
-    of their side, and faces without area in the plane, are left out"""
+    """the same: 99th percentile over faces, largest"""
     qc_max: float
-    """distortion over faces: mean, mean by area, 99th percentile, largest; faces whose height is below 1e-9
-    of their side, and faces without area in the plane, are left out"""
+    """the same: 99th percentile over faces, largest"""
     qc_vertex_mean: float
     """mean over vertices of the vertex value: the paper's number"""
     area_distortion_mean: float
@@ -116,9 +113,9 @@ class Flattening(Parametrization):
     """edges of the output that are cut to separate them, less those along which parts were joined
     elsewhere"""
     seam_length: float
-    """length of both kinds of cuts on the mesh; divided by the root of its area"""
+    """length of both kinds of cuts on the mesh, in its units"""
     seam_length_relative: float
-    """length of both kinds of cuts on the mesh; divided by the root of its area"""
+    """the same, divided by the root of the area of the mesh"""
     torus_tau_re: float
     """flat torus: its modulus in the fundamental domain"""
     torus_tau_im: float
@@ -146,17 +143,14 @@ class Uniformization(Parametrization):
     residual_floor: float
     """the smallest residual that rounding allows"""
     qc_mean: float
-    """distortion over faces: mean, mean by area, 99th percentile, largest; faces whose height is below 1e-9
-    of their side, and faces without area in the plane, are left out"""
+    """conformal distortion σ₁/σ₂ (1: angles are kept), mean over faces; this and the three below leave out
+    faces whose height is below 1e-9 of their side, and faces without area in the plane"""
     qc_area_mean: float
-    """distortion over faces: mean, mean by area, 99th percentile, largest; faces whose height is below 1e-9
-    of their side, and faces without area in the plane, are left out"""
+    """the same, faces weighted by their area on the mesh"""
     qc_p99: float
-    """distortion over faces: mean, mean by area, 99th percentile, largest; faces whose height is below 1e-9
-    of their side, and faces without area in the plane, are left out"""
+    """the same: 99th percentile over faces, largest"""
     qc_max: float
-    """distortion over faces: mean, mean by area, 99th percentile, largest; faces whose height is below 1e-9
-    of their side, and faces without area in the plane, are left out"""
+    """the same: 99th percentile over faces, largest"""
     qc_vertex_mean: float
     """mean over vertices of the vertex value: the paper's number"""
     area_distortion_mean: float
@@ -202,9 +196,9 @@ class Uniformization(Parametrization):
     """edges of the output that are cut to separate them, less those along which parts were joined
     elsewhere"""
     seam_length: float
-    """length of both kinds of cuts on the mesh; divided by the root of its area"""
+    """length of both kinds of cuts on the mesh, in its units"""
     seam_length_relative: float
-    """length of both kinds of cuts on the mesh; divided by the root of its area"""
+    """the same, divided by the root of the area of the mesh"""
     torus_tau_re: float
     """flat torus: its modulus in the fundamental domain"""
     torus_tau_im: float

@@ -11,6 +11,7 @@ import csv
 import hashlib
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -73,6 +74,11 @@ def is_done(record, mark, retry):
     return record.get("state") in (FINAL if retry else FINAL + FAILED)
 
 
+def partial_folder(target, pid):
+    """Where a process writes what it then moves to its place."""
+    return os.path.join(os.path.dirname(os.path.abspath(target)), f".part{pid}")
+
+
 class Processes:
     """Those that run, for who wants to end them all."""
 
@@ -120,6 +126,7 @@ def run_one(job, processes=None):
         record.update(state="timeout", reason=f"no result after {job['timeout']:g} s")
     finally:
         processes.end(process)
+        shutil.rmtree(partial_folder(job["target"], process.pid), ignore_errors=True)
     record["seconds"] = round(time.monotonic() - started, 3)
     if job["record"] and not processes.stopped:
         write_record(job["record"], record)

@@ -5,11 +5,11 @@ import json
 import os
 import signal
 import sys
-import tempfile
 
 import pymeshlab
 
 from . import flatten, uniformize
+from ._batch import partial_folder
 
 
 def die_with_parent():
@@ -24,11 +24,12 @@ def die_with_parent():
 def save(result, target):
     """Complete or not at all: with what belongs to the file, such as the materials of an OBJ file."""
     folder, name = os.path.split(os.path.abspath(target))
-    os.makedirs(folder, exist_ok=True)
-    with tempfile.TemporaryDirectory(prefix=".part", dir=folder) as partial:
-        result.save(os.path.join(partial, name))
-        for written in sorted(os.listdir(partial), key=lambda file: file == name):
-            os.replace(os.path.join(partial, written), os.path.join(folder, written))
+    partial = partial_folder(target, os.getpid())
+    os.makedirs(partial)
+    result.save(os.path.join(partial, name))
+    for written in sorted(os.listdir(partial), key=lambda file: file == name):
+        os.replace(os.path.join(partial, written), os.path.join(folder, written))
+    os.rmdir(partial)
 
 
 def main():
