@@ -1,38 +1,36 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compares two shapes by their conformal invariants. one_mesh.py has to lie beside this file.
-
-    python compare_shapes.py PLUGIN MESH MESH
+"""Compares two shapes by their conformal invariants: compare_shapes.py MESH MESH.
 
 Two surfaces are conformally equivalent only if their invariants agree: the modulus tau of tori (in
 the fundamental domain of the modular group; a mirror image has -conj(tau)), the modulus of annuli,
 the aspect of disks with four corners, which are the selected vertices of the file or those that the
 filter chooses. Size, place and pose do not matter, and a bend without stretch changes nothing. Closed
 surfaces of genus 0 are all equivalent.
+With pip install pymeshlab_ricci-*.whl.
 """
 
 import math
 import sys
 
-import pymeshlab
-
-from one_mesh import FILTER
+from pymeshlab import MeshSet
+from pymeshlab_ricci import flatten
 
 
 def invariants(path):
     """Topology and invariants of the mesh in a file."""
-    documents = pymeshlab.MeshSet(verbose=False)
+    documents = MeshSet()
     documents.load_new_mesh(path)
     shape = documents.get_topological_measures()
     if shape["connected_components_number"] != 1:
         sys.exit(f"{path} has several components: separate them first.")
-    genus, loops = shape["genus"], shape["number_holes"]
-    if (genus, loops) == (0, 0):
-        return {"genus": genus, "boundary_loops": loops}
-    target = "Rectangle" if (genus, loops) == (0, 1) else "Automatic"
-    result = documents.apply_filter(FILTER, target_curvature=target)
-    keys = ("torus_tau_re", "torus_tau_im", "annulus_modulus", "rectangle_aspect")
-    return {"genus": genus, "boundary_loops": loops,
-            **{key: result[key] for key in keys if key in result}}
+    found = {"genus": shape["genus"], "boundary_loops": shape["number_holes"]}
+    target = {(0, 1): "Rectangle", (0, 2): "Flat everywhere", (1, 0): "Flat everywhere"}.get(
+        tuple(found.values()))
+    if target:
+        results = flatten(documents, target_curvature=target).results
+        found.update({key: results[key] for key in (
+            "torus_tau_re", "torus_tau_im", "annulus_modulus", "rectangle_aspect") if key in results})
+    return found
 
 
 def hyperbolic_distance(one, two):
@@ -42,11 +40,10 @@ def hyperbolic_distance(one, two):
 
 
 def main():
-    if len(sys.argv) != 4:
+    if len(sys.argv) != 3:
         sys.exit(__doc__)
-    pymeshlab.load_plugin(sys.argv[1])
-    shapes = [invariants(path) for path in sys.argv[2:]]
-    for path, shape in zip(sys.argv[2:], shapes):
+    shapes = [invariants(path) for path in sys.argv[1:]]
+    for path, shape in zip(sys.argv[1:], shapes):
         print(path, " ".join(f"{key}={value:.6g}" for key, value in shape.items()))
     one, two = shapes
     if one.keys() != two.keys() or any(one[k] != two[k] for k in ("genus", "boundary_loops")):

@@ -264,7 +264,7 @@ class Results(unittest.TestCase):
 
     def test_compare_shapes(self):
         script = os.path.join(common.REPOSITORY, "filter_ricci", "samples", "compare_shapes.py")
-        plugin = os.path.join(common.BUILD, "pymeshlab-2025.7", "libfilter_ricci.so")
+        environment = {**os.environ, "PYTHONPATH": os.path.join(common.BUILD, "python")}
         with tempfile.TemporaryDirectory() as folder:
             paths = [os.path.join(folder, name) for name in ("one.ply", "two.ply", "three.ply")]
             meshes.write_ply(paths[0], meshes.torus(40, 40, 2, 1))
@@ -272,8 +272,8 @@ class Results(unittest.TestCase):
             meshes.write_ply(paths[2], meshes.torus(40, 40, 3, 1))
             distances = []
             for other in paths[1:]:
-                done = subprocess.run([sys.executable, script, plugin, paths[0], other],
-                                      capture_output=True, text=True, check=True)
+                done = subprocess.run([sys.executable, script, paths[0], other],
+                                      capture_output=True, text=True, check=True, env=environment)
                 distances.append(float(done.stdout.split("distance ")[1].split(",")[0]))
         self.assertLess(distances[0], 1e-5)
         # Rectangles i sqrt(3) and i sqrt(8): their distance is the logarithm of the quotient.

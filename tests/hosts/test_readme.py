@@ -155,6 +155,8 @@ class Readme(unittest.TestCase):
                 ("CHANGELOG.md", r"^## \[(\d.*?)\]"), ("README.md", r"version = {(.*?)}"),
                 ("CITATION.cff", r"^version: (.*)")):
             self.assertEqual(re.search(pattern, read(name), re.M).group(1), version, name)
+        for name in ("README.md", os.path.join("filter_ricci", "README.md")):
+            self.assertEqual(set(re.findall(r"pymeshlab_ricci-(.*?)-", read(name))), {version}, name)
 
     def test_script(self):
         script = re.search(r"```xml\n(.*?)```", self.text, re.DOTALL).group(1)

@@ -89,7 +89,8 @@ class Wheel(unittest.TestCase):
                                       env=environment)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 return done.stdout
-            run("-m", "pip", "install", "-q", "--no-index", "--no-deps", wheel_file())
+            run("-m", "pip", "install", "-q", "--no-index", "--no-deps", "--force-reinstall",
+                wheel_file())
             self.assertIn("pymeshlab>=2025.7,<2025.8", run(
                 "-c", "import importlib.metadata as m; print(*m.requires('pymeshlab-ricci'))"))
             problems = subprocess.run([python, "-m", "pip", "check"], capture_output=True, text=True,
