@@ -17,7 +17,7 @@ METADATA = """\
 Metadata-Version: 2.4
 Name: pymeshlab-ricci
 Version: {version}
-Summary: Conformal parametrization (UV unwrapping) of triangle meshes by the generalized discrete Ricci flow, for PyMeshLab
+Summary: Conformal UV unwrapping of triangle meshes by discrete Ricci flow, for PyMeshLab
 License-Expression: GPL-3.0-or-later
 {licences}Keywords: mesh,uv,parametrization,conformal,ricci-flow,uniformization,meshlab
 Classifier: Operating System :: POSIX :: Linux
@@ -33,8 +33,8 @@ Provides-Extra: progress
 Requires-Dist: tqdm; extra == "progress"
 Description-Content-Type: text/markdown
 
-Flattens oriented manifold triangle meshes conformally, thin triangles included, into texture coordinates
-in few charts without overlaps or flipped faces, or into the Poincaré disk.
+Flattens oriented manifold triangle meshes conformally, thin triangles included, into texture
+coordinates in few charts without overlaps or flipped faces, or into the Poincaré disk.
 
     from pymeshlab_ricci import flatten
     result = flatten("scan.ply")
@@ -72,8 +72,8 @@ def platform_tag(plugin, machine):
 def content(options, plugin):
     """Name in the wheel -> bytes, without RECORD."""
     sources = os.path.join(os.path.dirname(os.path.abspath(__file__)), NAME)
-    files = {f"{NAME}/{name}": read(os.path.join(sources, name)) for name in sorted(os.listdir(sources))
-             if name.endswith((".py", ".pyi", ".typed"))}
+    files = {f"{NAME}/{name}": read(os.path.join(sources, name))
+             for name in sorted(os.listdir(sources)) if name.endswith((".py", ".pyi", ".typed"))}
     files[f"{NAME}/libfilter_ricci.so"] = read(plugin)
     information = f"{NAME}-{options.version}.dist-info"
     licences = ""

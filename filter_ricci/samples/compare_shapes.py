@@ -3,9 +3,9 @@
 
 Two surfaces are conformally equivalent only if their invariants agree: the modulus tau of tori (in
 the fundamental domain of the modular group; a mirror image has -conj(tau)), the modulus of annuli,
-the aspect of disks with four corners, which are the selected vertices of the file or those that the
-filter chooses. Size, place and pose do not matter, and a bend without stretch changes nothing. Closed
-surfaces of genus 0 are all equivalent.
+the aspect of disks with four corners, which are the selected vertices of the file or those that
+the filter chooses. Size, place and pose do not matter, and a bend without stretch changes nothing.
+Closed surfaces of genus 0 are all equivalent.
 With pip install pymeshlab_ricci-*.whl.
 """
 
@@ -24,12 +24,12 @@ def invariants(path):
     if shape["connected_components_number"] != 1:
         sys.exit(f"{path} has several components: separate them first.")
     found = {"genus": shape["genus"], "boundary_loops": shape["number_holes"]}
-    target = {(0, 1): "Rectangle", (0, 2): "Flat everywhere", (1, 0): "Flat everywhere"}.get(
-        tuple(found.values()))
+    targets = {(0, 1): "Rectangle", (0, 2): "Flat everywhere", (1, 0): "Flat everywhere"}
+    target = targets.get(tuple(found.values()))
     if target:
         results = flatten(documents, target_curvature=target).results
-        found.update({key: results[key] for key in (
-            "torus_tau_re", "torus_tau_im", "annulus_modulus", "rectangle_aspect") if key in results})
+        keys = ("torus_tau_re", "torus_tau_im", "annulus_modulus", "rectangle_aspect")
+        found.update({key: results[key] for key in keys if key in results})
     return found
 
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Flattens one mesh and saves it with its texture coordinates: one_mesh.py IN OUT [Disk, ...].
 
-With pip install pymeshlab_ricci-*.whl. The command "python -m pymeshlab_ricci IN OUT" does the same, with
-every parameter, and whole folders."""
+With pip install pymeshlab_ricci-*.whl. The command "python -m pymeshlab_ricci IN OUT" does the
+same, with every parameter, and whole folders."""
 
 import sys
 
@@ -14,5 +14,5 @@ try:
     result = flatten(mesh, target_curvature=target)
 except Refused as refusal:
     sys.exit(f"{mesh}: {refusal}")
-print(f"{result.charts} charts, {result.cones} cones, distortion {result.qc_area_mean:.3f} on average")
+print(f"{result.charts} charts, {result.cones} cones, mean distortion {result.qc_area_mean:.3f}")
 result.save(out)

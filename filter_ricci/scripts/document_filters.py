@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes what the plugin says of itself into the repository: the pages of the filters in the user
-manual, in the form of PyMeshLab's own, and the types of the Python package. What the results mean is
-taken the other way, from the manual's tables into the package.
+manual, in the form of PyMeshLab's own, and the types of the Python package. What the results mean
+is taken the other way, from the manual's tables into the package.
 
     PYTHONPATH=build/python build/venv/bin/python filter_ricci/scripts/document_filters.py [--check]
 
@@ -9,6 +9,7 @@ With --check nothing is written; exit 1 where a file is not current."""
 
 import html
 import os
+import pprint
 import re
 import sys
 
@@ -19,15 +20,16 @@ MANUAL = os.path.join(os.path.dirname(HERE), "README.md")
 PACKAGE = os.path.join(os.path.dirname(HERE), "python", "pymeshlab_ricci")
 LICENCE = "# SPDX-License-Identifier: GPL-3.0-or-later\n"
 MADE = "# Made by document_filters.py.\n"
-WIDTH = 108
+MANUAL_WIDTH = 108
+PYTHON_WIDTH = 96
 
 
-def wrapped(text, indent="", first=None):
-    """The words of a text in lines of at most WIDTH characters."""
+def wrapped(text, indent="", first=None, width=MANUAL_WIDTH):
+    """The words of a text in lines of at most so many characters."""
     lines, line = [], indent if first is None else first
     start = True
     for word in text.split():
-        if not start and len(line) + 1 + len(word) > WIDTH:
+        if not start and len(line) + 1 + len(word) > width:
             lines.append(line)
             line, start = indent, True
         line += word if start else " " + word
@@ -73,7 +75,8 @@ def page(description):
 
 def manual(text):
     for key, description in zip(("Euclidean", "hyperbolic"), DESCRIPTIONS):
-        marks = [f"<!-- {word}: the {key} filter, by scripts/document_filters.py -->\n" for word in ("begin", "end")]
+        marks = [f"<!-- {word}: the {key} filter, by scripts/document_filters.py -->\n"
+                 for word in ("begin", "end")]
         before, rest = text.split(marks[0])
         _, after = rest.split(marks[1])
         text = before + marks[0] + "\n" + page(description) + "\n\n" + marks[1] + after
@@ -102,23 +105,15 @@ def results(text):
 def results_module(both):
     lines = [LICENCE, '"""What the filters return: key -> (type, meaning)."""\n', MADE]
     for name, keys in zip(("EUCLIDEAN_RESULTS", "HYPERBOLIC_RESULTS"), both):
-        lines.append(f"\n{name} = {{\n")
-        lines += [f"    {key!r}: ({kind!r},\n{quoted(meaning)}),\n"
-                  for key, (kind, meaning) in keys.items()]
-        lines.append("}\n")
+        text = pprint.pformat(keys, width=PYTHON_WIDTH, sort_dicts=False)
+        lines.append(f"\n{name} = \\\n{text}\n")
     return "".join(lines)
-
-
-def quoted(text):
-    """A text as Python strings below each other."""
-    lines = wrapped(text, "").splitlines() if len(text) > WIDTH - 20 else [text]
-    return "\n".join(f"        {line + (' ' if i + 1 < len(lines) else '')!r}"
-                     for i, line in enumerate(lines))
 
 
 TYPES = {"bool": "bool", "int": "int", "float": "float", "vector": "Array"}
 
-STUB = LICENCE + '''"""Conformal parametrization of triangle meshes by the generalized discrete Ricci flow, in PyMeshLab."""
+STUB = LICENCE + '''\
+"""Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab."""
 ''' + MADE + '''
 import os
 from typing import Any, Literal, Protocol, Union
@@ -156,7 +151,7 @@ PARAMETRIZATION = '''class Parametrization:
     uv: Array
     """(F, 3, 2) float64, texture coordinates of each corner of each face, as floats have them"""
     quality: Array
-    """(V,) float64, quasi-conformal distortion sigma1/sigma2 at the vertices; 1: angles are kept"""
+    """(V,) float64, quasi-conformal distortion sigma1/sigma2 at the vertices; 1: angles kept"""
     log_radius: Array
     """(V,) float64, logarithms of the radii of the flow's circles, up to a constant"""
     target_curvature: Array
@@ -177,7 +172,7 @@ def attributes(keys):
     lines = []
     for key, (kind, meaning) in keys.items():
         lines.append(f"    {key}: {TYPES[kind]}")
-        lines.append(wrapped(f"{meaning}\"\"\"", "    ", '    """') if meaning else '    """"""')
+        lines.append(wrapped(f'{meaning}"""', "    ", '    """', PYTHON_WIDTH))
     return "\n".join(lines) + "\n"
 
 
@@ -185,7 +180,8 @@ def stub_parameters(description, indent):
     lines = []
     for p in description["parameters"]:
         if p["type"] == "enum":
-            kind = f"Union[Literal[{', '.join(map(repr, p['choices']))}], int]"
+            choices = "".join(f"{indent}    {choice!r},\n" for choice in p["choices"])
+            kind = f"Union[int, Literal[\n{choices}{indent}]]"
         else:
             kind = {"file": "str"}.get(p["type"], p["type"])
         lines.append(f"{indent}{p['name']}: {kind} = {p['default']!r},\n")
@@ -194,7 +190,8 @@ def stub_parameters(description, indent):
 
 def stub(both):
     euclidean, hyperbolic = DESCRIPTIONS
-    own = ("    mesh: MeshLike,\n    *,\n    selected: Union[numpy.typing.ArrayLike, None] = None,\n"
+    own = ("    mesh: MeshLike,\n    *,\n"
+           "    selected: Union[numpy.typing.ArrayLike, None] = None,\n"
            "    curvature: Union[numpy.typing.ArrayLike, None] = None,\n")
     parts = [STUB, PARAMETRIZATION,
              "class Flattening(Parametrization):\n", attributes(both[0]),
@@ -207,13 +204,15 @@ def stub(both):
                      f"{stub_parameters(d, ' ' * 8)}    ) -> dict[str, Any]:\n"
                      f'        """MeshLab\'s filter \'{d["name"]}\' on the current mesh."""\n')
     for name, d, kind, text in (
-            ("flatten", euclidean, "Flattening", "Conformal map of a mesh into the Euclidean plane."),
+            ("flatten", euclidean, "Flattening",
+             "Conformal map of a mesh into the Euclidean plane."),
             ("uniformize", hyperbolic, "Uniformization",
              "Hyperbolic metric of a mesh, in the Poincaré disk.")):
         parts.append(f"\ndef {name}(\n{own}{stub_parameters(d, '    ')}) -> {kind}:\n"
                      f'    """{text}\n\n')
         for p in d["parameters"]:
-            parts.append(wrapped(f"{p['name']}: {plain(p['tooltip'])}", "        ", "    ") + "\n")
+            text = f"{p['name']}: {plain(p['tooltip'])}"
+            parts.append(wrapped(text, "        ", "    ", PYTHON_WIDTH) + "\n")
         parts.append('    """\n')
     return "".join(parts)
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The command line of the Python package: nothing is lost and nothing is done twice.
-Usage: test_batch.py BUILD_DIR [TEST...], with a Python that has PyMeshLab; Dask for one of the tests."""
+Usage: test_batch.py BUILD_DIR [TEST...], with a Python that has PyMeshLab; one test needs Dask."""
 
 import csv
 import json

@@ -60,10 +60,10 @@ class Wheel(unittest.TestCase):
         self.assertEqual(set(stated), set(files))
         for name, data in files.items():
             if name != record:
-                digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
-                self.assertEqual(stated[name], f"sha256={digest},{len(data)}")
-        licences = [name for name in files if "/licenses/" in name]
-        self.assertIn("LICENSE", [os.path.basename(name) for name in licences])
+                digest = base64.urlsafe_b64encode(hashlib.sha256(data).digest()).decode()
+                self.assertEqual(stated[name], f"sha256={digest.rstrip('=')},{len(data)}")
+        licences = [os.path.basename(name) for name in files if "/licenses/" in name]
+        self.assertIn("LICENSE", licences)
         newest = int(re.search(r"-py3-none-manylinux_2_(\d+)_", wheel_file()).group(1))
         plugin = files["pymeshlab_ricci/libfilter_ricci.so"]
         needed = [int(minor) for minor in re.findall(rb"GLIBC_2\.(\d+)", plugin)]
@@ -77,25 +77,24 @@ class Wheel(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([sys.executable, "-m", "venv", folder], check=True)
             python = os.path.join(folder, "bin", "python")
-            place = subprocess.run([python, "-c", "import sysconfig; print(sysconfig.get_path('purelib'))"],
-                                   capture_output=True, text=True, check=True).stdout.strip()
+            place, = glob.glob(os.path.join(folder, "lib", "python3*", "site-packages"))
             # PyMeshLab is that of this Python, so that no package index is needed.
             with open(os.path.join(place, "pymeshlab.pth"), "w", encoding="utf-8") as link:
                 link.write(sysconfig.get_path("purelib") + "\n")
             environment = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
 
             def run(*command):
-                done = subprocess.run([python, *command], cwd=folder, capture_output=True, text=True,
-                                      env=environment)
+                done = subprocess.run([python, *command], capture_output=True, text=True,
+                                      cwd=folder, env=environment)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 return done.stdout
             run("-m", "pip", "install", "-q", "--no-index", "--no-deps", "--force-reinstall",
                 wheel_file())
             self.assertIn("pymeshlab>=2025.7,<2025.8", run(
                 "-c", "import importlib.metadata as m; print(*m.requires('pymeshlab-ricci'))"))
-            problems = subprocess.run([python, "-m", "pip", "check"], capture_output=True, text=True,
-                                      env=environment).stdout
-            self.assertNotIn("pymeshlab-ricci", problems)
+            problems = subprocess.run([python, "-m", "pip", "check"], env=environment,
+                                      capture_output=True, text=True)
+            self.assertNotIn("pymeshlab-ricci", problems.stdout)
             run("-c", code)
             self.assertTrue(os.path.exists(os.path.join(folder, "torus.obj")))
             run("-m", "pymeshlab_ricci", "torus.obj", "again.ply", "--output-triangulation", "1")
@@ -105,8 +104,9 @@ class Wheel(unittest.TestCase):
 
     def test_documents_are_current(self):
         script = os.path.join(common.REPOSITORY, "filter_ricci", "scripts", "document_filters.py")
+        environment = {**os.environ, "PYTHONPATH": os.path.join(common.BUILD, "python")}
         done = subprocess.run([sys.executable, script, "--check"], capture_output=True, text=True,
-                              env={**os.environ, "PYTHONPATH": os.path.join(common.BUILD, "python")})
+                              env=environment)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 

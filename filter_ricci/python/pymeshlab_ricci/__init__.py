@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Conformal parametrization of triangle meshes by the generalized discrete Ricci flow, in PyMeshLab.
+"""Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab.
 
     from pymeshlab_ricci import flatten, uniformize
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs jobs, each in a process of its own, on this machine or on a cluster, and keeps their records.
+"""Runs jobs, each in a process of its own, here or on a cluster, and keeps their records.
 
 For meshes/a/b.off the folder OUT then holds a/b.off.json (state, results or reason, seconds) and
 a/b.off.ply. The record is written last. A mesh whose record is there is not run again unless mesh,
@@ -111,7 +111,7 @@ class Processes:
 
 
 def run_one(job, processes=None):
-    """One job in a process of its own. Its record, which is on disk too where the job names a file."""
+    """One job in a process of its own. Its record, on disk too where the job names a file."""
     started = time.monotonic()
     record = {"mesh": job["name"], "fingerprint": job["fingerprint"]}
     processes = processes or Processes()
@@ -141,7 +141,7 @@ def how_it_ended(code, errors):
 
 @contextlib.contextmanager
 def here(workers):
-    """A way to run jobs on this machine: an iterator of their records, in the order in which they end."""
+    """A way to run jobs on this machine: an iterator of their records, as they end."""
     pool = concurrent.futures.ThreadPoolExecutor(workers)
     processes = Processes()
 
@@ -158,8 +158,8 @@ def here(workers):
 
 @contextlib.contextmanager
 def by_dask(scheduler, workers):
-    """The same by Dask, on a cluster or on this machine ('local'): what a lost worker held is given to
-    another."""
+    """The same by Dask, on a cluster or on this machine ('local'): what a lost worker held is given
+    to another."""
     from dask import distributed
     cluster = None
     if scheduler == "local":

@@ -27,7 +27,8 @@ def _described():
 
 def plain(text):
     """A text of the dialogs without its HTML, in one line."""
-    return html.unescape(re.sub(r"<[^>]+>", " ", text)).replace("  ", " ").replace(" :", ":").strip()
+    text = html.unescape(re.sub(r"<[^>]+>", " ", text))
+    return re.sub(r"\s+([:,;.])", r"\1", re.sub(r"\s+", " ", text)).strip()
 
 
 def signature(description, *before):
@@ -41,7 +42,9 @@ def documentation(description):
     """The parameters of the filter, each with its choices and its tooltip."""
     lines = []
     for p in description["parameters"]:
-        kind = " | ".join(map(repr, p["choices"])) if p["type"] == "enum" else TYPES[p["type"]].__name__
+        kind = TYPES[p["type"]].__name__
+        if p["type"] == "enum":
+            kind = " | ".join(map(repr, p["choices"]))
         lines += [f"{p['name']} : {kind}, default {p['default']!r}",
                   f"    {p['label']}. {plain(p['tooltip'])}"]
     return "\n".join(lines)

@@ -24,7 +24,7 @@ class Parametrization:
     vertices : (V, 3) float64
     faces : (F, 3) int32, indices of vertices
     uv : (F, 3, 2) float64, texture coordinates of each corner of each face, as floats have them
-    quality : (V,) float64, quasi-conformal distortion sigma1/sigma2 at the vertices; 1: angles are kept
+    quality : (V,) float64, quasi-conformal distortion sigma1/sigma2 at the vertices; 1: angles kept
     log_radius : (V,) float64, logarithms of the radii of the flow's circles, up to a constant
     target_curvature : (V,) float64, the Gaussian curvature that the flow reached, in radians
     mesh_set : the MeshSet that holds the mesh, and the new layers if some were asked for
@@ -48,8 +48,8 @@ class Parametrization:
         return f"<{type(self).__name__} faces={len(self.faces)}{shown}>"
 
     def indexed(self):
-        """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3), as OBJ files
-        and many programs want them: corners of one vertex share a texture vertex where they agree."""
+        """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3), as OBJ
+        files have them: corners of one vertex share a texture vertex where they agree."""
         corners = numpy.column_stack([self.faces.reshape(-1), self.uv.reshape(-1, 2)])
         unique, index = numpy.unique(corners, axis=0, return_inverse=True)
         return unique[:, 1:], index.reshape(-1, 3)
@@ -169,8 +169,8 @@ def uniformize(mesh, *, selected=None, curvature=None, **parameters):
 
 _INPUT = """
 
-mesh : a path; (vertices, faces), or an object that has them, such as one of trimesh; a pymeshlab.Mesh;
-    or a MeshSet, whose current mesh gets the texture coordinates, as with every filter of PyMeshLab
+mesh : a path; (vertices, faces), or an object that has them, such as one of trimesh; a
+    pymeshlab.Mesh; or a MeshSet, whose current mesh gets the texture coordinates
 selected : indices of vertices, or a truth value for each: the cones, or the corners of a rectangle
 curvature : target curvature of each vertex, in radians
 """

@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 
+import numpy
 import pymeshlab
 
 from . import flatten, uniformize
@@ -22,7 +23,7 @@ def die_with_parent():
 
 
 def save(result, target):
-    """Complete or not at all: with what belongs to the file, such as the materials of an OBJ file."""
+    """Complete or not at all, with what belongs to the file, such as the materials of OBJ."""
     folder, name = os.path.split(os.path.abspath(target))
     partial = partial_folder(target, os.getpid())
     os.makedirs(partial)
@@ -39,7 +40,7 @@ def main():
     try:
         result = solve(job["mesh"], **job["parameters"])
         answer = {"state": "solved",
-                  "results": {key: value if isinstance(value, (bool, int, float)) else list(value)
+                  "results": {key: numpy.asarray(value).tolist()
                               for key, value in result.results.items()}}
         save(result, job["target"])
     except pymeshlab.PyMeshLabException as refusal:
