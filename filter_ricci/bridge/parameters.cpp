@@ -114,8 +114,8 @@ RichEnum outputTriangulationParameter(ricci::OutputTriangulation chosen)
 		outputTriangulationChoices(),
 		"Output triangulation",
 		"<b>Keep the mesh</b>: vertices and faces stay as they are. <b>Common refinement</b>: "
-		"faces "
-		"are divided where the flow's edges cross them, so that the map is exact on every piece.");
+		"faces are divided where the flow's edges cross them, so that the map is exact on every "
+		"piece.");
 }
 
 const char* const kFinishTip =
@@ -149,8 +149,8 @@ RichBool colorizeParameter()
 		"colorize",
 		false,
 		"Colour by distortion",
-		"Colour the vertices by their quasi-conformal distortion: from 1 (angles kept) to the 99th "
-		"percentile over the faces.");
+		"Colour the vertices by their quasi-conformal distortion: from 1 (angles kept) to the "
+		"99th percentile over the faces.");
 }
 
 host::FileToSave reportParameter()
@@ -161,8 +161,7 @@ host::FileToSave reportParameter()
 		"Page and its data (*.html);;Data alone (*.csv)",
 		"Report file",
 		"A report of the run: a page with diagrams and its data beside it (.html), or the data "
-		"alone "
-		"(.csv). Empty: no report.");
+		"alone (.csv). Empty: no report.");
 }
 
 /// What one solve may do and how long it may take.
@@ -173,15 +172,13 @@ void addSolverParameters(RichParameterList& list, double epsilon, int maxIterati
 		static_cast<Scalarm>(epsilon),
 		"Epsilon (rad)",
 		"The flow stops when the curvature of every vertex is this close to its target, in "
-		"radians, "
-		"or at the floor that rounding sets."));
+		"radians, or at the floor that rounding sets."));
 	list.addParam(host::advanced<RichInt>(
 		"max_iterations",
 		maxIterations,
 		"Max Newton steps",
-		"One solve gives up with an error after this many Newton steps. A run takes fewer than 30 "
-		"as "
-		"a rule."));
+		"One solve gives up with an error after this many Newton steps. A run takes fewer than "
+		"30 as a rule."));
 	list.addParam(host::advanced<RichFloat>(
 		"time_limit",
 		static_cast<Scalarm>(0),
@@ -199,16 +196,16 @@ RichParameterList euclideanParameters()
 		static_cast<int>(defaults.target),
 		targetCurvatureChoices(),
 		"Target curvature",
-		"The curvature that the flow is asked to reach. <b>Automatic</b> suits most meshes: flat, "
-		"or "
-		"with the metric of the boundary kept, and with cones where areas would change much."));
+		"The curvature that the flow is asked to reach. <b>Automatic</b> suits most meshes: "
+		"flat, or with the metric of the boundary kept, and with cones where areas would change "
+		"much."));
 	list.addParam(RichBool(
 		"free_boundary",
 		defaults.freeBoundary,
 		"Free boundary",
-		"The boundary keeps the metric that it has on the mesh: the least distortion for a surface "
-		"with boundary. Disk, Rectangle and the flat annulus prescribe the boundary and ignore "
-		"this."));
+		"The boundary keeps the metric that it has on the mesh: the least distortion for a "
+		"surface with boundary. Disk, Rectangle and the flat annulus prescribe the boundary and "
+		"ignore this."));
 	list.addParam(RichFloat(
 		"cone_distortion",
 		static_cast<Scalarm>(defaults.coneDistortion),
@@ -220,15 +217,14 @@ RichParameterList euclideanParameters()
 		"seam_hiding",
 		static_cast<Scalarm>(defaults.seamHiding),
 		"Seams: hide in hollows",
-		"0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to ten times "
-		"its "
-		"length, so that seams run through hollows."));
+		"0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to ten "
+		"times its length, so that seams run through hollows."));
 	list.addParam(RichFloat(
 		"chart_margin",
 		static_cast<Scalarm>(Flow::Params().chartMargin),
 		"Margin of the charts",
-		"Room between two charts, and between the charts and the border, as a share of the side of "
-		"the square, for baking textures. 0.004 is 4 pixels of an image 1024 wide."));
+		"Room between two charts, and between the charts and the border, as a share of the side "
+		"of the square, for baking textures. 0.004 is 4 pixels of an image 1024 wide."));
 	list.addParam(colorizeParameter());
 	list.addParam(RichBool(
 		"flat_layer",
@@ -240,9 +236,8 @@ RichParameterList euclideanParameters()
 		static_cast<int>(defaults.holes),
 		holesChoices(),
 		"Holes",
-		"What the boundary loops other than the longest are. <b>Capped</b>: closed for the flow, "
-		"so "
-		"that the chart goes round them without seams."));
+		"What the boundary loops other than the longest are. <b>Capped</b>: closed for the "
+		"flow, so that the chart goes round them without seams."));
 	list.addParam(host::advanced<RichInt>(
 		"cone_count",
 		defaults.coneCount,
@@ -253,8 +248,8 @@ RichParameterList euclideanParameters()
 		static_cast<int>(defaults.coneRounding),
 		coneRoundingChoices(),
 		"Cones: curvatures",
-		"<b>Free</b>: those that change areas least. <b>Multiples of pi/2</b>: as quadrangulations "
-		"need them."));
+		"<b>Free</b>: those that change areas least. <b>Multiples of pi/2</b>: as "
+		"quadrangulations need them."));
 	list.addParam(host::advanced<RichEnum>(
 		"surgery",
 		static_cast<int>(defaults.surgery),
@@ -266,31 +261,29 @@ RichParameterList euclideanParameters()
 		"resolve_overlap",
 		defaults.resolveOverlap,
 		"Cut charts that overlap",
-		"A chart that covers a part of the plane twice is cut along the shortest lines that part "
-		"what "
-		"overlaps. Off: such charts are counted only."));
+		"A chart that covers a part of the plane twice is cut along the shortest lines that "
+		"part what overlaps. Off: such charts are counted only."));
 	list.addParam(host::advanced<RichBool>(
 		"normalize_uv",
 		Flow::Params().normalizeUV,
 		"Fit into the unit square",
-		"Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale of "
-		"the "
-		"metric."));
+		"Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale "
+		"of the metric."));
 	list.addParam(host::advanced<RichBool>(
 		"sphere_layer",
 		false,
 		"Sphere as new layer",
 		"Add a layer with the mesh mapped conformally to the unit sphere. Only for one closed "
-		"surface "
-		"of genus 0."));
+		"surface of genus 0."));
 	list.addParam(reportParameter());
 	list.addParam(host::advanced<RichEnum>(
 		"circle_packing",
 		static_cast<int>(defaults.packing),
 		circlePackingChoices(),
 		"Circle packing",
-		"<b>Inversive distance</b>: the generalized flow, exact on any triangles. <b>Thurston</b>: "
-		"the conventional flow, which changes the metric of thin triangles, for comparison."));
+		"<b>Inversive distance</b>: the generalized flow, exact on any triangles. "
+		"<b>Thurston</b>: the conventional flow, which changes the metric of thin triangles, "
+		"for comparison."));
 	addSolverParameters(list, defaults.epsilon, defaults.maxIterations);
 	return list;
 }
@@ -310,9 +303,8 @@ RichParameterList hyperbolicParameters()
 		"cone_angle",
 		static_cast<Scalarm>(defaults.coneAngle / kDegree),
 		"Cone angle (degrees)",
-		"The sum of the angles at each selected vertex, for 'Cones at selected vertices'. 360 is "
-		"no "
-		"cone."));
+		"The sum of the angles at each selected vertex, for 'Cones at selected vertices'. 360 "
+		"is no cone."));
 	list.addParam(outputTriangulationParameter(defaults.output));
 	list.addParam(colorizeParameter());
 	list.addParam(RichBool(
@@ -325,28 +317,25 @@ RichParameterList hyperbolicParameters()
 		0,
 		"Universal cover (rings)",
 		"Add a layer with the mesh in the Poincaré disk and this many rings of copies round it, "
-		"which "
-		"tile the disk. 0: no layer."));
+		"which tile the disk. 0: no layer."));
 	list.addParam(RichBool(
 		"generator_axes",
 		false,
 		"Axes of the generators",
-		"Add a layer with the axes of the canonical generators of the Fuchsian group, as edges. On "
-		"the surface they are closed geodesics."));
+		"Add a layer with the axes of the canonical generators of the Fuchsian group, as edges. "
+		"On the surface they are closed geodesics."));
 	list.addParam(RichBool(
 		"canonical_polygon",
 		false,
 		"Canonical polygon",
 		"Add a layer with a fundamental polygon of 4 sides for each handle, as edges. Its sides "
-		"are "
-		"geodesics that the canonical generators pair."));
+		"are geodesics that the canonical generators pair."));
 	list.addParam(host::advanced<RichBool>(
 		"free_boundary",
 		defaults.freeBoundary,
 		"Free boundary",
 		"The circles of the boundary's vertices keep their radii, and the target holds inside "
-		"only. "
-		"Off: the target holds on the boundary too."));
+		"only. Off: the target holds on the boundary too."));
 	list.addParam(host::advanced<RichEnum>(
 		"surgery",
 		defaults.surgery == ricci::Surgery::IntrinsicFlips ? 1 : 0,

@@ -18,13 +18,11 @@ FilterText euclideanText()
 	text.pythonName = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge";
 	text.info =
 		"<b>Conformal parametrization</b> into per-wedge texture coordinates, unrolled from the "
-		"metric "
-		"with the curvature asked for, which the discrete Ricci flow finds. Thin triangles need no "
-		"remeshing.<br>"
-		"<b>Input:</b> a manifold triangle mesh of any topology.<br>"
+		"metric with the curvature asked for, which the discrete Ricci flow finds. Thin triangles "
+		"need no remeshing.<br>"
+		"<b>Input:</b> a triangle mesh of any topology.<br>"
 		"<b>Output:</b> texture coordinates (to be seen with <i>Set Texture</i>), the distortion "
-		"(1 = "
-		"angles kept) as vertex quality.<br>";
+		"(1 = angles kept) as vertex quality.<br>";
 	text.info += kReference;
 	return text;
 }
@@ -36,14 +34,11 @@ FilterText hyperbolicText()
 	text.pythonName = "compute_texcoord_parametrization_ricci_flow_hyperbolic_per_wedge";
 	text.info =
 		"<b>Hyperbolic uniformization</b>: the metric of curvature -1 that is conformal to the "
-		"mesh's "
-		"own, unrolled into the Poincaré disk.<br>"
-		"<b>Input:</b> a manifold triangle mesh of negative Euler characteristic (two handles, a "
-		"handle "
+		"mesh's own, unrolled into the Poincaré disk.<br>"
+		"<b>Input:</b> a triangle mesh of negative Euler characteristic (two handles, a handle "
 		"and a boundary, or three boundaries), or any with cones that make up for it.<br>"
 		"<b>Output:</b> texture coordinates (to be seen with <i>Set Texture</i>), the distortion "
-		"(1 = "
-		"angles kept) as vertex quality, on request the generators of the Fuchsian group.<br>";
+		"(1 = angles kept) as vertex quality, on request the generators of the Fuchsian group.<br>";
 	text.info += kReference;
 	return text;
 }

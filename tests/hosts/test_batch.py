@@ -149,14 +149,14 @@ class Batch(unittest.TestCase):
 
     def test_refusals_and_failures_are_listed(self):
         self.write("good.ply", meshes.torus())
-        self.write("moebius.ply", meshes.moebius())
+        self.write("nan.ply", meshes.with_nan(meshes.torus()))
         code, text = self.batch("--workers", "1")
         self.assertEqual(code, 0, text)
-        record = self.records()["moebius.ply"]
+        record = self.records()["nan.ply"]
         self.assertEqual(record["state"], "refused")
-        self.assertIn("not orientable", record["reason"])
+        self.assertIn("not finite", record["reason"])
         with open(os.path.join(self.out, "failures.txt"), encoding="utf-8") as source:
-            self.assertRegex(source.read(), r"^moebius.ply\trefused\t.*not orientable")
+            self.assertRegex(source.read(), r"^nan.ply\trefused\t.*not finite")
 
         # A process that dies or lasts too long is a failure of its mesh alone.
         code, text = self.batch("--workers", "1", "--timeout", "0.001", "--max-iterations", "99")
@@ -170,7 +170,7 @@ class Batch(unittest.TestCase):
         code, text = self.batch("--workers", "1")
         self.assertEqual(code, 1, text)
         self.assertEqual({name: r["state"] for name, r in self.records().items()},
-                         {"good.ply": "crashed", "moebius.ply": "refused"})
+                         {"good.ply": "crashed", "nan.ply": "refused"})
         self.assertIn("SIGABRT", self.records()["good.ply"]["reason"])
         self.assertIn("0 to run", self.batch("--workers", "1")[1])
         os.remove(os.path.join(self.hooks, "sitecustomize.py"))
