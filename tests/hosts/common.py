@@ -18,7 +18,9 @@ ALWAYS = {
     "qc_max": float, "area_distortion_mean": float, "area_distortion_spread": float,
     "flipped_faces": int, "flipped_by_rounding": int, "finish_moved": int, "flips": int,
     "refinement_points": int, "edge_swaps": int, "boundary_splits": int, "euler_characteristic": int,
-    "genus": int, "boundary_loops": int, "components": int, "cones": int, "seam_edges": int,
+    "genus": int, "boundary_loops": int, "components": int, "cut_nonmanifold_edges": int,
+    "split_vertices": int, "duplicate_faces": int, "one_sided_components": int,
+    "degenerate_faces": int, "cones": int, "seam_edges": int,
     "seam_length": float, "seam_length_relative": float, "charts": int, "capped_holes": int,
     "overlapping_charts": int, "overlapping_faces": int, "overlap_cuts": int}
 INVARIANTS = {

@@ -100,6 +100,16 @@ class Flattening(Parametrization):
     """of the input"""
     components: int
     """of the input"""
+    cut_nonmanifold_edges: int
+    """edges of more than two faces, cut so that each sheet has two"""
+    split_vertices: int
+    """vertices with more than one fan of faces, or on such an edge"""
+    duplicate_faces: int
+    """faces with the vertices of another: sheets of their own"""
+    one_sided_components: int
+    """components cut along short one-sided loops"""
+    degenerate_faces: int
+    """faces without area, which are drawn as lines or points"""
     cones: int
     """interior vertices that are not flat"""
     seam_edges: int
@@ -186,6 +196,16 @@ class Uniformization(Parametrization):
     """of the input"""
     components: int
     """of the input"""
+    cut_nonmanifold_edges: int
+    """edges of more than two faces, cut so that each sheet has two"""
+    split_vertices: int
+    """vertices with more than one fan of faces, or on such an edge"""
+    duplicate_faces: int
+    """faces with the vertices of another: sheets of their own"""
+    one_sided_components: int
+    """components cut along short one-sided loops"""
+    degenerate_faces: int
+    """faces without area, which are drawn as lines or points"""
     cones: int
     """interior vertices that are not flat"""
     seam_edges: int
