@@ -148,18 +148,19 @@ class Batch(unittest.TestCase):
         self.assertIn("1 to run", text)
 
     def test_refusals_and_failures_are_listed(self):
-        self.write("good.ply", meshes.torus())
-        self.write("nan.ply", meshes.with_nan(meshes.torus()))
-        code, text = self.batch("--workers", "1")
+        disk = ("--target-curvature", "Disk")
+        self.write("good.ply", meshes.hill())
+        self.write("torus.ply", meshes.torus())
+        code, text = self.batch("--workers", "1", *disk)
         self.assertEqual(code, 0, text)
-        record = self.records()["nan.ply"]
+        record = self.records()["torus.ply"]
         self.assertEqual(record["state"], "refused")
-        self.assertIn("not finite", record["reason"])
+        self.assertIn("topological disk", record["reason"])
         with open(os.path.join(self.out, "failures.txt"), encoding="utf-8") as source:
-            self.assertRegex(source.read(), r"^nan.ply\trefused\t.*not finite")
+            self.assertRegex(source.read(), r"^torus.ply\trefused\t.*topological disk")
 
         # A process that dies or lasts too long is a failure of its mesh alone.
-        code, text = self.batch("--workers", "1", "--timeout", "0.001", "--max-iterations", "99")
+        code, text = self.batch("--workers", "1", *disk, "--timeout", "0.001", "--max-iterations", "99")
         self.assertEqual(code, 1, text)
         self.assertEqual({r["state"] for r in self.records().values()}, {"timeout"})
         os.makedirs(self.hooks)
@@ -167,14 +168,14 @@ class Batch(unittest.TestCase):
             hook.write("import os, sys\n"
                        "if 'good.ply' in sys.orig_argv[-1]:\n"
                        "    os.abort()\n")
-        code, text = self.batch("--workers", "1")
+        code, text = self.batch("--workers", "1", *disk)
         self.assertEqual(code, 1, text)
         self.assertEqual({name: r["state"] for name, r in self.records().items()},
-                         {"good.ply": "crashed", "nan.ply": "refused"})
+                         {"good.ply": "crashed", "torus.ply": "refused"})
         self.assertIn("SIGABRT", self.records()["good.ply"]["reason"])
-        self.assertIn("0 to run", self.batch("--workers", "1")[1])
+        self.assertIn("0 to run", self.batch("--workers", "1", *disk)[1])
         os.remove(os.path.join(self.hooks, "sitecustomize.py"))
-        code, text = self.batch("--workers", "1", "--retry")
+        code, text = self.batch("--workers", "1", *disk, "--retry")
         self.assertEqual(code, 0, text)
         self.assertIn("1 to run", text)
 
