@@ -160,7 +160,8 @@ class Batch(unittest.TestCase):
             self.assertRegex(source.read(), r"^torus.ply\trefused\t.*topological disk")
 
         # A process that dies or lasts too long is a failure of its mesh alone.
-        code, text = self.batch("--workers", "1", *disk, "--timeout", "0.001", "--max-iterations", "99")
+        code, text = self.batch(
+            "--workers", "1", *disk, "--timeout", "0.001", "--max-iterations", "99")
         self.assertEqual(code, 1, text)
         self.assertEqual({r["state"] for r in self.records().values()}, {"timeout"})
         os.makedirs(self.hooks)
