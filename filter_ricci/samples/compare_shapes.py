@@ -1,22 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compares two shapes by their conformal invariants. one_mesh.py has to lie beside this file.
-
-    python compare_shapes.py PLUGIN MESH MESH
+"""Compares two shapes by their conformal invariants: compare_shapes.py MESH MESH.
 
 Two surfaces are conformally equivalent only if their invariants agree: the period matrix of closed
 surfaces of genus 1 to 3, up to the choice of a homology basis (for genus 1 it is the modulus tau; a
 mirror image has minus the conjugate), the modulus of annuli, the aspect of disks with four corners,
 which are the selected vertices of the file or those that the filter chooses. Size, place and pose do
 not matter, and a bend without stretch changes nothing. Closed surfaces of genus 0 are all equivalent.
+With pip install pymeshlab_ricci-*.whl.
 """
 
 import math
 import sys
 
 import numpy
-import pymeshlab
-
-from one_mesh import FILTER
+from pymeshlab import MeshSet
+from pymeshlab_ricci import flatten
 
 # Within this distance all bases of two surfaces of the same genus are searched.
 FARTHEST_SEARCH = {1: 4.0, 2: 1.0, 3: 0.4}
@@ -24,7 +22,7 @@ FARTHEST_SEARCH = {1: 4.0, 2: 1.0, 3: 0.4}
 
 def invariants(path):
     """Topology and invariants of the mesh in a file."""
-    documents = pymeshlab.MeshSet(verbose=False)
+    documents = MeshSet()
     documents.load_new_mesh(path)
     shape = documents.get_topological_measures()
     if shape["connected_components_number"] != 1:
@@ -32,8 +30,8 @@ def invariants(path):
     genus, loops = shape["genus"], shape["number_holes"]
     if (genus, loops) == (0, 0):
         return {"genus": genus, "boundary_loops": loops}
-    target = "Rectangle" if (genus, loops) == (0, 1) else "Automatic"
-    result = documents.apply_filter(FILTER, target_curvature=target)
+    target = {(0, 1): "Rectangle", (0, 2): "Flat everywhere"}.get((genus, loops), "Automatic")
+    result = flatten(documents, target_curvature=target).results
     found = {"genus": genus, "boundary_loops": loops}
     if "period_matrix" in result:
         numbers = numpy.reshape(result["period_matrix"], (genus, genus, 2))
@@ -126,11 +124,10 @@ def as_text(value):
 
 
 def main():
-    if len(sys.argv) != 4:
+    if len(sys.argv) != 3:
         sys.exit(__doc__)
-    pymeshlab.load_plugin(sys.argv[1])
-    shapes = [invariants(path) for path in sys.argv[2:]]
-    for path, shape in zip(sys.argv[2:], shapes):
+    shapes = [invariants(path) for path in sys.argv[1:]]
+    for path, shape in zip(sys.argv[1:], shapes):
         print(path, " ".join(f"{key}={as_text(value)}" for key, value in shape.items()))
     one, two = shapes
     if one.keys() != two.keys() or any(one[k] != two[k] for k in ("genus", "boundary_loops")):

@@ -265,7 +265,7 @@ class Results(unittest.TestCase):
 
     def test_compare_shapes(self):
         script = os.path.join(common.REPOSITORY, "filter_ricci", "samples", "compare_shapes.py")
-        plugin = os.path.join(common.BUILD, "pymeshlab-2025.7", "libfilter_ricci.so")
+        environment = {**os.environ, "PYTHONPATH": os.path.join(common.BUILD, "python")}
         with tempfile.TemporaryDirectory() as folder:
             paths = [os.path.join(folder, name) for name in ("one.ply", "two.ply", "three.ply")]
             meshes.write_ply(paths[0], meshes.torus(40, 40, 2, 1))
@@ -280,8 +280,8 @@ class Results(unittest.TestCase):
             meshes.write_ply(pairs[2][1], moved)
             distances = []
             for pair in pairs:
-                done = subprocess.run([sys.executable, script, plugin, *pair],
-                                      capture_output=True, text=True, check=True)
+                done = subprocess.run([sys.executable, script, *pair],
+                                      capture_output=True, text=True, check=True, env=environment)
                 distances.append(float(done.stdout.split("distance ")[1].split(",")[0]))
         self.assertLess(distances[0], 1e-5)
         self.assertLess(distances[2], 1e-4)
