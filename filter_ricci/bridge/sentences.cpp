@@ -198,6 +198,8 @@ std::string remedy(const ricci::NotConverged& e)
 					: ": choose the surgery 'Intrinsic flips', or remesh the worst triangles.");
 	case Error::LostInRounding:
 		return ". Choose a target_curvature nearer to the curvature of the mesh.";
+	case Error::FlipsUsedUp:
+		return ": remesh the worst triangles.";
 	case Error::CircleUnsettled:
 		return ". Remesh the boundary, or choose another target_curvature.";
 	case Error::FlatTriangles:

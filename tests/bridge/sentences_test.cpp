@@ -196,6 +196,7 @@ TEST(Sentences, EveryNotConvergedHasOne)
 		case NotConverged::FlatTriangles:
 		case NotConverged::SplitsUsedUp:
 		case NotConverged::OutsideDisk:
+		case NotConverged::FlipsUsedUp:
 			numbers = {"61"};
 			break;
 		case NotConverged::LostInRounding:

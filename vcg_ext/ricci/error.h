@@ -138,6 +138,7 @@ public:
 		StepsUsedUp,     ///< residual, epsilon, floor
 		BrokenTriangles, ///< count; swaps: edges swapped before
 		LostInRounding, ///< count: broken triangles; value: orders of magnitude between scale factors
+		FlipsUsedUp,    ///< count: flips; edges are still not Delaunay
 		CircleUnsettled, ///< value: last change of the points on the circle, radians
 		FlatTriangles,   ///< count: triangles that end flat
 		SplitsUsedUp,    ///< count: boundary edges that were split

@@ -182,6 +182,8 @@ std::string words(const NotConverged& e)
 		return some(e.count, "triangle is", "triangles are") +
 			   " lost in rounding: the flow makes parts of the surface 1e" + number(e.value) +
 			   " times as large as others";
+	case NotConverged::FlipsUsedUp:
+		return "After " + n + " flips there are still edges that are not Delaunay";
 	case NotConverged::CircleUnsettled:
 		return "The boundary did not settle on a circle: its points still move by " +
 			   numberText(e.value, 3) + " radians";
