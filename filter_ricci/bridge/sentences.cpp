@@ -240,6 +240,7 @@ std::string inWords(const ricci::TooLarge& e)
 	switch (e.problem) {
 	case Error::Faces:
 	case Error::Memory:
+	case Error::Unknowns:
 		return what + kSimplify;
 	case Error::DoubleMemory:
 		return what + ": simplify the mesh first ('Simplification: Quadric Edge Collapse "

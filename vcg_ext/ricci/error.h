@@ -181,6 +181,7 @@ public:
 		Faces,         ///< count; limit: how many can be numbered
 		Memory,        ///< count: faces; bytes needed, limit
 		DoubleMemory,  ///< count: faces of the double; bytes needed, limit
+		Unknowns,      ///< count of a linear system whose factor the solver cannot number
 		Crossings,     ///< count of the overlay; limit: how many can be numbered
 		OverlayMemory, ///< count: crossings of the overlay; bytes needed, limit
 	};

@@ -217,6 +217,8 @@ std::string words(TooLarge::Problem problem, std::size_t count, double needed, d
 		return "Boundary edges have to flip, and the double of the surface with " + n +
 			   " faces needs about " + gigabytes(needed) + " of memory, but only " +
 			   gigabytes(limit) + " were free";
+	case TooLarge::Unknowns:
+		return "The linear system of " + n + " unknowns is too large for the solver";
 	case TooLarge::Crossings:
 		return "The edges after the flow cross those of the mesh at more than " + n +
 			   " points, but at most " + number(limit) + " can be numbered";
