@@ -48,7 +48,8 @@ struct NewtonResult
 /// searched by the energy's slope instead: a step is as long as the energy still falls at its end,
 /// (K - target) . d < 0 there. That lowers the convex energy E without its value, because
 /// E(u + d) <= E(u) + (K(u + d) - target) . d, and so leads to its minimum wherever that is a metric.
-/// At a minimum with broken triangles, which is none, the solver ends without convergence.
+/// At a minimum with broken triangles, which is none, the solver ends without convergence. An edge
+/// swap changes the energy, so that nothing is promised across one.
 ///
 /// A factorisation costs as much as a dozen or more solutions with it, and the Hessian of one step
 /// is close to that of the next, flips included. So the factor of one step is the preconditioner of
