@@ -198,6 +198,8 @@ std::string remedy(const ricci::NotConverged& e)
 					: ": choose the surgery 'Intrinsic flips', or remesh the worst triangles.");
 	case Error::LostInRounding:
 		return ". Choose a target_curvature nearer to the curvature of the mesh.";
+	case Error::FlipsUsedUp:
+		return ": remesh the worst triangles.";
 	case Error::CircleUnsettled:
 		return ". Remesh the boundary, or choose another target_curvature.";
 	case Error::FlatTriangles:
@@ -238,6 +240,7 @@ std::string inWords(const ricci::TooLarge& e)
 	switch (e.problem) {
 	case Error::Faces:
 	case Error::Memory:
+	case Error::Unknowns:
 		return what + kSimplify;
 	case Error::DoubleMemory:
 		return what + ": simplify the mesh first ('Simplification: Quadric Edge Collapse "

@@ -196,6 +196,7 @@ TEST(Sentences, EveryNotConvergedHasOne)
 		case NotConverged::FlatTriangles:
 		case NotConverged::SplitsUsedUp:
 		case NotConverged::OutsideDisk:
+		case NotConverged::FlipsUsedUp:
 			numbers = {"61"};
 			break;
 		case NotConverged::LostInRounding:
@@ -226,6 +227,7 @@ TEST(Sentences, EveryOtherErrorHasOne)
 	for (TooLarge::Problem problem :
 		 {TooLarge::Memory, TooLarge::DoubleMemory, TooLarge::OverlayMemory})
 		expectSentence(TooLarge(problem, 61, 12.5e9, 3e9), {"61", "12.5 GB", "3 GB"});
+	expectSentence(TooLarge(TooLarge::Unknowns, 61, 0.0, 0.0), {"61"});
 	expectSentence(SolverFailed(SolverFailed::Flow), {});
 	expectSentence(SolverFailed(SolverFailed::SeamCost), {});
 	for (const char* end : {"", "."})

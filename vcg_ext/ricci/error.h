@@ -138,6 +138,7 @@ public:
 		StepsUsedUp,     ///< residual, epsilon, floor
 		BrokenTriangles, ///< count; swaps: edges swapped before
 		LostInRounding, ///< count: broken triangles; value: orders of magnitude between scale factors
+		FlipsUsedUp,    ///< count: flips; edges are still not Delaunay
 		CircleUnsettled, ///< value: last change of the points on the circle, radians
 		FlatTriangles,   ///< count: triangles that end flat
 		SplitsUsedUp,    ///< count: boundary edges that were split
@@ -180,6 +181,7 @@ public:
 		Faces,         ///< count; limit: how many can be numbered
 		Memory,        ///< count: faces; bytes needed, limit
 		DoubleMemory,  ///< count: faces of the double; bytes needed, limit
+		Unknowns,      ///< count of a linear system whose factor the solver cannot number
 		Crossings,     ///< count of the overlay; limit: how many can be numbered
 		OverlayMemory, ///< count: crossings of the overlay; bytes needed, limit
 	};

@@ -182,6 +182,8 @@ std::string words(const NotConverged& e)
 		return some(e.count, "triangle is", "triangles are") +
 			   " lost in rounding: the flow makes parts of the surface 1e" + number(e.value) +
 			   " times as large as others";
+	case NotConverged::FlipsUsedUp:
+		return "After " + n + " flips there are still edges that are not Delaunay";
 	case NotConverged::CircleUnsettled:
 		return "The boundary did not settle on a circle: its points still move by " +
 			   numberText(e.value, 3) + " radians";
@@ -215,6 +217,8 @@ std::string words(TooLarge::Problem problem, std::size_t count, double needed, d
 		return "Boundary edges have to flip, and the double of the surface with " + n +
 			   " faces needs about " + gigabytes(needed) + " of memory, but only " +
 			   gigabytes(limit) + " were free";
+	case TooLarge::Unknowns:
+		return "The linear system of " + n + " unknowns is too large for the solver";
 	case TooLarge::Crossings:
 		return "The edges after the flow cross those of the mesh at more than " + n +
 			   " points, but at most " + number(limit) + " can be numbered";

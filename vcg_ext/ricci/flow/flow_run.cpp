@@ -24,12 +24,15 @@ constexpr double kMaxStartU = -1e-3;
 
 } // namespace
 
-InitialPacking
-initialPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const FlowOptions& options)
+InitialPacking initialPacking(
+	IntrinsicMesh mesh,
+	const VertexArray<Vertex>& mirror,
+	const FlowOptions& options,
+	const Tick& tick)
 {
 	if (options.surgery != Surgery::IntrinsicFlips)
 		return inputPacking(std::move(mesh), options.packing);
-	InitialPacking packing = delaunayPacking(std::move(mesh), mirror);
+	InitialPacking packing = delaunayPacking(std::move(mesh), mirror, tick);
 	if (options.packing == PackingScheme::Thurston)
 		packing.delta = inversiveDistancesLessOne(
 			packing.mesh.triangulation, packing.mesh.lengths, packing.radii, options.packing);
@@ -55,7 +58,10 @@ FlowProblem flowProblem(const EmbeddedSurface& surface, FlowStart start, const T
 }
 
 FlowProblem flowProblemOnDouble(
-	const EmbeddedSurface& surface, const Target& target, const FlowOptions& options)
+	const EmbeddedSurface& surface,
+	const Target& target,
+	const FlowOptions& options,
+	const Tick& tick)
 {
 	DoubleSurface d = doubleOf(surface.triangulation);
 	IntrinsicMesh mesh;
@@ -64,7 +70,7 @@ FlowProblem flowProblemOnDouble(
 	for (const Edge e : d.edgeOf.indices())
 		mesh.lengths[e] = surface.lengths[d.edgeOf[e]];
 	FlowStart start;
-	start.packing = initialPacking(std::move(mesh), d.mirror, options);
+	start.packing = initialPacking(std::move(mesh), d.mirror, options, tick);
 	FlowProblem problem = flowProblem(surface, std::move(start), target);
 	problem.input = std::move(d.triangulation);
 	Target& doubled = problem.target;
@@ -87,9 +93,10 @@ FlowRun::FlowRun(
 	const FlowOptions& options,
 	int stepsBefore,
 	const FlowListener& listener,
+	const Tick& tick,
 	NewtonSolver::Surgeon surgeon) :
 		m_background(background),
-		m_problem(std::move(problem)), m_options(options), m_listener(listener),
+		m_problem(std::move(problem)), m_options(options), m_listener(listener), m_tick(tick),
 		m_surgeon(std::move(surgeon))
 {
 	m_result.background = background;
@@ -137,9 +144,11 @@ CirclePacking FlowRun::takeStart()
 template<class Geometry>
 std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing) const
 {
-	if (m_options.surgery == Surgery::IntrinsicFlips)
-		return std::make_shared<FlippingCurvatureMap<Geometry>>(std::move(packing));
-	return std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
+	if (m_options.surgery != Surgery::IntrinsicFlips)
+		return std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
+	auto map = std::make_shared<FlippingCurvatureMap<Geometry>>(std::move(packing));
+	map->useTick(m_tick);
+	return map;
 }
 
 /// ln radius, in the hyperbolic plane with the radii scaled so that the area is that of the metric

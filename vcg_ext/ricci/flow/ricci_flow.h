@@ -27,7 +27,9 @@ struct FlowStart
 
 /// The initial packing (paper 4.1): with intrinsic flips on the weighted Delaunay triangulation,
 /// else on the surface's own triangles.
-FlowStart flowStart(const EmbeddedSurface& surface, const FlowOptions& options);
+/// \param tick called now and then if it is not empty; may throw
+FlowStart
+flowStart(const EmbeddedSurface& surface, const FlowOptions& options, const Tick& tick = {});
 
 /// The flow with intrinsic flips: what leads from the input's triangles to those of the result.
 struct FlipHistory
@@ -82,6 +84,7 @@ using FlowListener = std::function<void(int, double)>;
 /// reached; the solution is symmetric, and the surface is one half of it.
 ///
 /// \param surgeon see NewtonSolver; for Surgery::EdgeSwap
+/// \param tick called now and then between the listener's calls if it is not empty; may throw
 /// \throw NotConverged if the target is not reached within the options' limits
 FlowResult runRicciFlow(
 	Background background,
@@ -90,7 +93,8 @@ FlowResult runRicciFlow(
 	const Target& target,
 	const FlowOptions& options,
 	const FlowListener& listener,
-	const NewtonSolver::Surgeon& surgeon = nullptr);
+	const NewtonSolver::Surgeon& surgeon = nullptr,
+	const Tick& tick = {});
 
 /// [vertex of the surface] Logarithm of the factor by which a flow with intrinsic flips has scaled
 /// lengths: u at its end less u at its start.

@@ -349,7 +349,8 @@ ComponentMap flatten(
 	map.type = domain.surface.topology.type;
 	map.cappedHoles = domain.holes;
 	progress.log(description(component, map.type));
-	FlowStart start = flowStart(domain.solved(), options);
+	const Tick whileFlipping = [&] { progress.step(0.0, "Flipping edges"); };
+	FlowStart start = flowStart(domain.solved(), options, whileFlipping);
 	progress.step(0.0, "Choosing the target");
 	const auto request = targetRequest(domain, component, input, options, progress);
 	const Target target = chooseTarget(domain, start, request);
@@ -357,7 +358,14 @@ ComponentMap flatten(
 		progress.log(note);
 	FlowProgress flowProgress(progress, options.epsilon, map.flowStates);
 	map.flow = runRicciFlow(
-		backgroundOf(options), domain.solved(), std::move(start), target, options, flowProgress);
+		backgroundOf(options),
+		domain.solved(),
+		std::move(start),
+		target,
+		options,
+		flowProgress,
+		nullptr,
+		whileFlipping);
 	measurePeriods(domain.surface, progress, map);
 	keepAreas(domain.solved(), request, options, progress, map);
 	logFlow(map.flow, options, progress);
