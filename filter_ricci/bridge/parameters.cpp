@@ -373,8 +373,9 @@ RichParameterList hyperbolicParameters()
 		"free_boundary",
 		defaults.freeBoundary,
 		"Free boundary",
-		"The circles of the boundary's vertices keep their radii, and the target holds inside "
-		"only. Off: the target holds on the boundary too. No effect on closed surfaces."));
+		"The circles of the boundary's vertices keep the radii that they have where the mesh is "
+		"scaled to the area 2 pi max(1, |Euler characteristic|), and the target holds inside only. "
+		"Off: the target holds on the boundary too. No effect on closed surfaces."));
 	list.addParam(outputTriangulationParameter(defaults.output));
 	list.addParam(hyperbolicFinishParameter(defaults.finish));
 	list.addParam(colorizeParameter());

@@ -142,25 +142,25 @@ std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing) const
 	return std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
 }
 
-/// ln radius, in the hyperbolic plane with the radii scaled so that the area is that of the metric
-/// to be found: there tanh(radius / 2) is nearly radius / 2, and the inversive distances are the
-/// Euclidean ones, which have no scale.
+/// ln radius, in the hyperbolic plane ln tanh(radius / 2) at the scale at which the flat surface has
+/// the area of the metric to be found: the inversive distances are the Euclidean ones, which have no
+/// scale. The area that a free boundary leaves is not known before, but its own scale is.
 VertexVector FlowRun::startU(const IntrinsicMesh& mesh, const VertexArray<double>& radii) const
 {
 	const Target& target = m_problem.target;
 	VertexVector u(radii.size());
-	double scale = 1.0;
-	if (m_background == Background::HyperbolicPlane) {
-		double area = -2 * kPi * mesh.triangulation.eulerCharacteristic();
-		for (const Vertex v : target.fixed.indices())
-			if (!target.fixed[v])
-				area += target.curvature[v];
-		scale = 0.5 * std::sqrt(area / euclideanArea(mesh.triangulation, mesh.lengths));
+	if (m_background == Background::EuclideanPlane) {
+		for (const Vertex v : radii.indices())
+			u[v] = std::log(radii[v]);
+		return u;
 	}
+	const int copies = m_problem.isDoubled() ? 2 : 1;
+	const int chi = mesh.triangulation.eulerCharacteristic();
+	const double area = target.hasFixed() ? copies * freeBoundaryArea(chi / copies)
+										  : target.curvature.sum() - 2 * kPi * chi;
+	const double scale = std::sqrt(area / euclideanArea(mesh.triangulation, mesh.lengths));
 	for (const Vertex v : radii.indices())
-		u[v] = std::log(scale * radii[v]);
-	if (m_background == Background::HyperbolicPlane)
-		u = u.cwiseMin(kMaxStartU);
+		u[v] = std::min(std::log(std::tanh(0.5 * scale * radii[v])), kMaxStartU);
 	return u;
 }
 
