@@ -142,9 +142,10 @@ std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing) const
 	return std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
 }
 
-/// ln radius, in the hyperbolic plane ln tanh(radius / 2) at the scale at which the flat surface has
-/// the area of the metric to be found: the inversive distances are the Euclidean ones, which have no
-/// scale. The area that a free boundary leaves is not known before, but its own scale is.
+/// ln radius. In the hyperbolic plane at the scale at which the flat surface has the area of the metric
+/// to be found, because the inversive distances are the Euclidean ones, which have no scale; there
+/// tanh(radius / 2) is nearly radius / 2. The area that a free boundary leaves is not known before: it
+/// has a scale of its own, at which radii that are kept are exact.
 VertexVector FlowRun::startU(const IntrinsicMesh& mesh, const VertexArray<double>& radii) const
 {
 	const Target& target = m_problem.target;
@@ -156,11 +157,14 @@ VertexVector FlowRun::startU(const IntrinsicMesh& mesh, const VertexArray<double
 	}
 	const int copies = m_problem.isDoubled() ? 2 : 1;
 	const int chi = mesh.triangulation.eulerCharacteristic();
-	const double area = target.hasFixed() ? copies * freeBoundaryArea(chi / copies)
-										  : target.curvature.sum() - 2 * kPi * chi;
-	const double scale = std::sqrt(area / euclideanArea(mesh.triangulation, mesh.lengths));
-	for (const Vertex v : radii.indices())
-		u[v] = std::min(std::log(std::tanh(0.5 * scale * radii[v])), kMaxStartU);
+	const bool keeps = target.hasFixed();
+	const double area =
+		keeps ? copies * freeBoundaryArea(chi / copies) : target.curvature.sum() - 2 * kPi * chi;
+	const double scale = 0.5 * std::sqrt(area / euclideanArea(mesh.triangulation, mesh.lengths));
+	for (const Vertex v : radii.indices()) {
+		const double half = scale * radii[v];
+		u[v] = std::min(std::log(keeps ? std::tanh(half) : half), kMaxStartU);
+	}
 	return u;
 }
 
