@@ -88,7 +88,8 @@ struct Report
 	/// the angle or hyperbolic length by which the side pairings miss a vertex of the cut on the way
 	/// round it, of the same for the |trace| at cones, and for the length of geodesic boundaries. Each
 	/// is seen from its own place, so that it means the same at any genus: the rounding of a layout
-	/// that reaches the distance d from 0 is about 1e-18 e^d in it.
+	/// that reaches the distance d from 0 is about 1e-18 e^d in it. Cones of up to 1e-9, which the seam
+	/// need not reach, are left in it.
 	std::optional<double> relationError;
 };
 
