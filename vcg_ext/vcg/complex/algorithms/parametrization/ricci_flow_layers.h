@@ -206,21 +206,23 @@ private:
 			const Result& r,
 			size_t inputFace)
 		{
+			const size_t ofFace = r.component.empty() ? 0 : r.component[inputFace];
 			std::array<size_t, 3> corner;
 			for (size_t k = 0; k < 3; ++k) {
 				const Place place(vertex[k], uv[k]);
-				const auto found = m_index.insert(std::make_pair(place, places.size()));
+				const auto found =
+					m_index.insert(std::make_pair(std::make_pair(ofFace, place), places.size()));
 				if (found.second) {
 					places.push_back(place);
-					component.push_back(r.component.empty() ? 0 : r.component[inputFace]);
+					component.push_back(ofFace);
 				}
 				corner[k] = found.first->second;
 			}
 			faces.push_back(corner);
 		}
 
-		std::map<Place, size_t> m_index;
-		const std::vector<double>& m_quality; // [vertex]
+		std::map<std::pair<size_t, Place>, size_t> m_index; // component, place
+		const std::vector<double>& m_quality;               // [vertex]
 	};
 
 	/// Adds the copies with the number \p copy of those components whose tilings have so many.
