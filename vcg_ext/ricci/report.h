@@ -90,9 +90,12 @@ struct Report
 	/// Hyperbolic flow: area of the metric by its side lengths, which Gauss-Bonnet puts at sum K - 2
 	/// pi chi.
 	std::optional<double> hyperbolicArea;
-	/// Hyperbolic flow: what the layout misses at most, in three ways: the relation of the Fuchsian
-	/// group as the fundamental polygon spells it, the ways round the polygon's other corners, and
-	/// the lengths of geodesic boundaries against the traces of their motions.
+	/// Hyperbolic flow: how far the layout is from closing up, see holonomyError(). The largest of
+	/// the angle or hyperbolic length by which the side pairings miss a vertex of the cut on the way
+	/// round it, of the same for the |trace| at cones, and for the length of geodesic boundaries. Each
+	/// is seen from its own place, so that it means the same at any genus: the rounding of a layout
+	/// that reaches the distance d from 0 is about 1e-18 e^d in it. Cones of up to 1e-9, which the seam
+	/// need not reach, are left in it.
 	std::optional<double> relationError;
 };
 

@@ -151,25 +151,29 @@ std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing) const
 	return map;
 }
 
-/// ln radius, in the hyperbolic plane with the radii scaled so that the area is that of the metric
-/// to be found: there tanh(radius / 2) is nearly radius / 2, and the inversive distances are the
-/// Euclidean ones, which have no scale.
+/// ln radius. In the hyperbolic plane at the scale at which the flat surface has the area of the metric
+/// to be found, because the inversive distances are the Euclidean ones, which have no scale; there
+/// tanh(radius / 2) is nearly radius / 2. The area that a free boundary leaves is not known before: it
+/// has a scale of its own, at which radii that are kept are exact.
 VertexVector FlowRun::startU(const IntrinsicMesh& mesh, const VertexArray<double>& radii) const
 {
 	const Target& target = m_problem.target;
 	VertexVector u(radii.size());
-	double scale = 1.0;
-	if (m_background == Background::HyperbolicPlane) {
-		double area = -2 * kPi * mesh.triangulation.eulerCharacteristic();
-		for (const Vertex v : target.fixed.indices())
-			if (!target.fixed[v])
-				area += target.curvature[v];
-		scale = 0.5 * std::sqrt(area / euclideanArea(mesh.triangulation, mesh.lengths));
+	if (m_background == Background::EuclideanPlane) {
+		for (const Vertex v : radii.indices())
+			u[v] = std::log(radii[v]);
+		return u;
 	}
-	for (const Vertex v : radii.indices())
-		u[v] = std::log(scale * radii[v]);
-	if (m_background == Background::HyperbolicPlane)
-		u = u.cwiseMin(kMaxStartU);
+	const int copies = m_problem.isDoubled() ? 2 : 1;
+	const int chi = mesh.triangulation.eulerCharacteristic();
+	const bool keeps = target.hasFixed();
+	const double area =
+		keeps ? copies * freeBoundaryArea(chi / copies) : target.curvature.sum() - 2 * kPi * chi;
+	const double scale = 0.5 * std::sqrt(area / euclideanArea(mesh.triangulation, mesh.lengths));
+	for (const Vertex v : radii.indices()) {
+		const double half = scale * radii[v];
+		u[v] = std::min(std::log(keeps ? std::tanh(half) : half), kMaxStartU);
+	}
 	return u;
 }
 

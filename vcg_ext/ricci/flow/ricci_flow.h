@@ -76,7 +76,8 @@ using FlowListener = std::function<void(int, double)>;
 /// The start is the same in both backgrounds: the Euclidean inversive distances, which have no
 /// scale, on the weighted Delaunay triangulation of the flat triangles. So the Euclidean and the
 /// hyperbolic flow find metrics of one discrete conformal class. The hyperbolic start has about
-/// the area that Gauss-Bonnet gives to the target, sum K - 2 pi chi, which must be positive.
+/// the area that Gauss-Bonnet gives to the target, sum K - 2 pi chi, which must be positive; where u
+/// is fixed on the boundary, that of freeBoundaryArea().
 ///
 /// With intrinsic flips the boundary's edges stay at first. If that breaks a triangle or fails, or
 /// leaves edges of a prescribed boundary that are not Delaunay (which costs conformality there),

@@ -246,6 +246,9 @@ void layOut(
 			numberText(radiusOf(map.layout), 3) + " out.");
 	}
 	map.uv = cornersOf(t, map.layout);
+	pairing = pairingOfArcs(t, map.cut, pairing, map.cones);
+	map.relationError = holonomyError(
+		t, map.cut, pairing, map.layout, domain.surface.topology, map.cones, map.flow.target);
 	map.group = fuchsianGroup(t, map.cut, pairing, map.cones, options.canonicalGenerators, [&] {
 		progress.step(1.0 - kAfterFlow, "Canonical generators");
 	});
@@ -260,18 +263,9 @@ void measureInvariants(const FlowDomain& domain, const Options&, ComponentMap& m
 	conformalInvariants(domain.surface.triangulation, map);
 }
 
-void measureInvariants(const FlowDomain& domain, const HyperbolicOptions&, ComponentMap& map)
+void measureInvariants(const FlowDomain&, const HyperbolicOptions&, ComponentMap& map)
 {
 	map.hyperbolicArea = map.flow.area;
-	map.relationError = std::max(
-		{map.group.polygonError,
-		 map.group.closingError,
-		 boundaryHolonomyError(
-			 map.group,
-			 domain.surface.triangulation,
-			 domain.surface.topology,
-			 map.layout,
-			 map.flow.target)});
 }
 
 /// The finish of what is given back. The invariants are those of the flow's own layout.

@@ -88,6 +88,7 @@ public:
 		/// texture plane.
 		std::vector<ricci::FuchsianGroup> groups;
 		std::vector<ricci::Box2> disks;
+		std::vector<size_t> component; ///< [face] of them, for faces that are not deleted
 	};
 
 	/// Computes; \p m is only read: positions, faces, selected vertices (Rectangle, SelectedCones),
@@ -139,8 +140,12 @@ public:
 			ricci::finishInFloats(disk.opened.mesh, r.disks, LastTick(progress), disk);
 		r.report = disk.report;
 		r.notes = disk.notes;
-		for (const ricci::Chart& chart : disk.charts)
+		r.component.resize(m.face.size());
+		for (const ricci::Chart& chart : disk.charts) {
+			for (int f : chart.faces)
+				r.component[size_t(faceIndex[size_t(f)])] = r.groups.size();
 			r.groups.push_back(chart.group);
+		}
 		const int flipped = r.report.flippedFaces; // of geodesic triangles
 		ricci::countFlippedAsWritten(disk, r.report);
 		if (!ricci::isFinished(par)) // straight triangles may be turned where geodesic ones are not
