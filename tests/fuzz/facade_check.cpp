@@ -3,18 +3,21 @@
 
 #include "hostile_mesh.h"
 #include "support/mesh_contents.h"
+#include "support/shapes.h"
 #include "support/vcg_mesh.h"
 
 #include <bridge/sentences.h>
 
 #include <ricci/error.h>
 #include <ricci/math/orientation.h>
+#include <ricci/surface/opened_mesh.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstring>
 #include <map>
 #include <utility>
 #include <vector>
@@ -81,75 +84,202 @@ void build(const HostileMesh& hostile, Mesh& m)
 			vcg::tri::Allocator<Mesh>::DeleteVertex(m, m.vert[v]);
 }
 
-/// Orientation that each face should have in the plane, by what its component's majority has.
-template<class Mesh>
-std::vector<int> wantedOrientation(const Mesh& m)
+/// What the façade reads, cut open as the core does it.
+struct Reading
 {
-	std::map<std::pair<std::size_t, std::size_t>, std::vector<std::pair<std::size_t, int>>> sides;
-	const auto side = [&](std::size_t f, int k) {
-		return std::make_pair(
-			vcg::tri::Index(m, m.face[f].cV(k)), vcg::tri::Index(m, m.face[f].cV((k + 1) % 3)));
-	};
-	for (std::size_t f = 0; f < m.face.size(); ++f)
-		for (int k = 0; k < 3 && !m.face[f].IsD(); ++k) {
-			const auto s = side(f, k);
-			sides[std::minmax(s.first, s.second)].push_back({f, s.first < s.second ? 1 : -1});
-		}
-	std::vector<int> wanted(m.face.size(), 0);
-	for (std::size_t seed = 0; seed < m.face.size(); ++seed) {
-		if (m.face[seed].IsD() || wanted[seed] != 0)
-			continue;
-		std::vector<std::size_t> component{seed};
-		wanted[seed] = 1;
-		int sum = 0;
-		for (std::size_t head = 0; head < component.size(); ++head) {
-			const std::size_t f = component[head];
-			sum += wanted[f];
-			for (int k = 0; k < 3; ++k) {
-				const auto s = side(f, k);
-				const int own = s.first < s.second ? 1 : -1;
-				for (const auto& [g, its] : sides[std::minmax(s.first, s.second)])
-					if (wanted[g] == 0) {
-						wanted[g] = own == its ? -wanted[f] : wanted[f];
-						component.push_back(g);
-					}
-			}
-		}
-		for (std::size_t f : component)
-			if (sum < 0)
-				wanted[f] = -wanted[f];
+	SurfaceMesh mesh;
+	std::vector<int> face; // [face of mesh] its number in the VCG mesh
+	OpenedMesh opened;
+	std::vector<int> wanted;        // [VCG face] orientation in the plane; 0 of one without area
+	std::vector<char> isDegenerate; // [VCG face]
+
+	template<class Mesh>
+	explicit Reading(const Mesh& m) : wanted(m.face.size(), 0), isDegenerate(m.face.size(), 0)
+	{
+		mesh = fromVcg(m);
+		mesh.absent = m.vert.size() - static_cast<std::size_t>(m.vn);
+		for (std::size_t v = 0; v < m.vert.size(); ++v)
+			if (m.vert[v].IsD())
+				mesh.positions[v] = {0, 0, 0};
+		for (std::size_t f = 0; f < m.face.size(); ++f)
+			if (!m.face[f].IsD())
+				face.push_back(static_cast<int>(f));
+		std::vector<std::string> notes;
+		opened = openMesh(mesh, notes);
+		for (std::size_t f = 0; f < opened.face.size(); ++f)
+			wanted[inVcg(opened.face[f])] = opened.reversed[Face(f)] ? -1 : 1;
+		for (const int f : opened.degenerate)
+			isDegenerate[inVcg(f)] = 1;
 	}
-	return wanted;
+
+	std::size_t inVcg(int f) const { return at(face[at(f)]); }
+};
+
+std::array<Point2, 3> asWritten(const std::array<Point2, 3>& p)
+{
+	std::array<Point2, 3> rounded;
+	for (std::size_t k = 0; k < 3; ++k)
+		for (std::size_t i = 0; i < 2; ++i) {
+			volatile float x = static_cast<float>(p[k][i]);
+			rounded[k][i] = x;
+		}
+	return rounded;
+}
+
+std::string contradictionOf(const Report& r, const OpenedMesh& opened)
+{
+	if (r.cutNonmanifoldEdges != opened.cutEdges || r.splitVertices != opened.splitVertices ||
+		r.duplicateFaces != opened.duplicateFaces ||
+		r.oneSidedComponents != opened.oneSidedComponents ||
+		r.degenerateFaces != static_cast<int>(opened.degenerate.size()))
+		return "the report counts other cuts";
+	if (r.components != opened.componentCount)
+		return std::to_string(r.components) + " components in the report";
+	return {};
+}
+
+/// Barycentric coordinates of \p p in the triangle \p t; false if it is not there.
+bool coordinatesIn(const Triangle& t, const SurfacePoint& p, Point3& weight)
+{
+	weight = {0, 0, 0};
+	for (std::size_t i = 0; i < 4; ++i) {
+		const auto k = std::find(t.begin(), t.end(), p.vertex[i]) - t.begin();
+		if (k < 3)
+			weight[static_cast<std::size_t>(k)] += p.weight[i];
+		else if (p.weight[i] != 0.0)
+			return false;
+	}
+	return true;
+}
+
+/// Whether the pieces of every face cover it once.
+std::string defectOfPieces(const Reading& reading, const RefinedMesh& refined, std::size_t vertices)
+{
+	constexpr double kTolerance = 1e-6;
+	std::map<int, std::pair<int, double>> covered; // [VCG face] pieces, their part of the area
+	std::map<int, std::size_t> number;
+	for (std::size_t f = 0; f < reading.face.size(); ++f)
+		number[reading.face[f]] = f;
+	for (std::size_t v = 0; v < vertices; ++v)
+		if (refined.points[v].vertex[0] != static_cast<int>(v) ||
+			refined.points[v].weight[0] != 1.0)
+			return "a point of the refinement is not the vertex of its number";
+	for (std::size_t i = 0; i < refined.triangles.size(); ++i) {
+		const int f = refined.inputFace[i];
+		if (number.count(f) == 0)
+			return "a piece belongs to no face";
+		const Triangle& t = reading.mesh.triangles[number[f]];
+		auto& [pieces, area] = covered[f];
+		++pieces;
+		if (reading.isDegenerate[at(f)]) {
+			if (refined.triangles[i] != t || pieces > 1)
+				return "a face without area is not drawn as it is";
+			continue;
+		}
+		Point3 w[3];
+		for (std::size_t k = 0; k < 3; ++k)
+			if (!coordinatesIn(t, refined.points[at(refined.triangles[i][k])], w[k]) ||
+				std::min({w[k][0], w[k][1], w[k][2]}) < -kTolerance)
+				return "a piece lies outside its face";
+		const double part = w[0][0] * (w[1][1] * w[2][2] - w[1][2] * w[2][1]) -
+							w[0][1] * (w[1][0] * w[2][2] - w[1][2] * w[2][0]) +
+							w[0][2] * (w[1][0] * w[2][1] - w[1][1] * w[2][0]);
+		if (part < -kTolerance)
+			return "a piece is turned round in its face";
+		area += part;
+	}
+	for (const int f : reading.face) {
+		if (covered.count(f) == 0)
+			return "a face has no piece";
+		if (!reading.isDegenerate[at(f)] && std::abs(covered[f].second - 1.0) > kTolerance)
+			return "the pieces of a face cover " + std::to_string(covered[f].second) + " of it";
+	}
+	return {};
+}
+
+/// What no filter may change: vertices and faces with their flags, but for texture coordinates.
+template<class Mesh>
+std::string shapeOf(const Mesh& m, std::size_t vertices, bool faces)
+{
+	std::string all;
+	const auto put = [&](const auto& value) {
+		char bytes[sizeof value];
+		std::memcpy(bytes, &value, sizeof value);
+		all.append(bytes, sizeof value);
+	};
+	for (std::size_t v = 0; v < vertices; ++v) {
+		for (int k = 0; k < 3; ++k) {
+			put(m.vert[v].cP()[k]);
+			put(m.vert[v].cN()[k]);
+		}
+		put(m.vert[v].cFlags());
+	}
+	if (!faces)
+		return all;
+	put(m.vert.size());
+	put(m.face.size());
+	for (const auto& f : m.face) {
+		for (int k = 0; k < 3; ++k) {
+			put(f.cV(k) - m.vert.data());
+			put(f.cN()[k]);
+		}
+		put(f.cFlags());
+	}
+	return all;
+}
+
+/// Sentences that speak of numbers and options, not of how faces are connected.
+bool mayRefuse(const HostileMesh& hostile, InvalidMesh::Problem problem)
+{
+	switch (problem) {
+	case InvalidMesh::IncoherentEdge:
+		return false;
+	case InvalidMesh::EdgesWithoutLength:
+	case InvalidMesh::FacesWithoutArea:
+		return hostile.options.surgery != Surgery::IntrinsicFlips ||
+			   hostile.options.packing == PackingScheme::Thurston;
+	case InvalidMesh::NotPuncturable:
+		return hostile.sphere;
+	default:
+		return true;
+	}
 }
 
 /// Counts as the report does: faces that the doubles of the map turn round, and more of them that
-/// the written floats do.
+/// the written floats do. Of a finished map there are none.
 template<class Mesh>
 std::string miscounted(
 	const Mesh& m,
 	const typename vcg::tri::RicciFlow<Mesh>::Result& result,
-	const std::vector<int>& wanted)
+	const Reading& reading,
+	bool finished,
+	bool isHyperbolic)
 {
-	int flipped = 0, byRounding = 0;
-	const auto count = [&](const std::array<Point2, 3>& p, int orientationWanted) {
-		Point2 rounded[3];
-		for (std::size_t k = 0; k < 3; ++k)
-			for (std::size_t i = 0; i < 2; ++i) {
-				volatile float x = static_cast<float>(p[k][i]);
-				rounded[k][i] = x;
-			}
-		if (orientation(p[0], p[1], p[2]) != orientationWanted)
+	int flipped = 0, byRounding = 0, drawn = 0;
+	const auto count = [&](const std::array<Point2, 3>& p, std::size_t f) {
+		const std::array<Point2, 3> rounded = asWritten(p);
+		const int inFloats = orientation(rounded[0], rounded[1], rounded[2]);
+		if (reading.isDegenerate[f])
+			drawn += inFloats != 0;
+		else if (orientation(p[0], p[1], p[2]) != reading.wanted[f])
 			++flipped;
 		else
-			byRounding += orientation(rounded[0], rounded[1], rounded[2]) != orientationWanted;
+			byRounding += inFloats != reading.wanted[f];
 	};
 	if (result.refined.triangles.empty())
 		for (std::size_t f = 0; f < m.face.size(); ++f) {
 			if (!m.face[f].IsD())
-				count(result.wedgeUV[f], wanted[f]);
+				count(result.wedgeUV[f], f);
 		}
 	for (std::size_t i = 0; i < result.refined.triangles.size(); ++i)
-		count(result.refined.uv[i], wanted[static_cast<std::size_t>(result.refined.inputFace[i])]);
+		count(result.refined.uv[i], at(result.refined.inputFace[i]));
+	if (drawn > 0)
+		return "a face without area has one in the map";
+	if (isHyperbolic) // whose faces are geodesic triangles
+		return {};
+	if (finished && flipped + byRounding > 0)
+		return "a finished map has faces turned round: " + std::to_string(flipped) + " and " +
+			   std::to_string(byRounding);
 	if (flipped == result.report.flippedFaces && byRounding == result.report.flippedByRounding)
 		return {};
 	return "flipped faces: " + std::to_string(flipped) + " and " + std::to_string(byRounding) +
@@ -220,16 +350,14 @@ std::string defectOfSphere(const Mesh& m, const SphereMap& map)
 		 {map.maxCurvatureError, map.offset, map.qcAreaMean, map.qcMax, map.areaDistortionMean})
 		if (!std::isfinite(x) || x < 0.0)
 			return "a value of the sphere's report is " + std::to_string(x);
-	std::vector<char> used(m.vert.size(), 0);
-	for (const auto& face : m.face)
-		for (int k = 0; k < 3 && !face.IsD(); ++k)
-			used[vcg::tri::Index(m, face.cV(k))] = 1;
-	for (std::size_t v = 0; v < used.size(); ++v) {
-		const Point3& p = map.positions[v];
-		const double radius = std::hypot(p[0], p[1], p[2]);
-		if (used[v] && !(std::abs(radius - 1.0) < 1e-9))
-			return "a point at the distance " + std::to_string(radius) + " is not on the sphere";
-	}
+	for (const Triangle& t : map.triangles)
+		for (const int v : t) {
+			const Point3& p = map.positions[at(v)];
+			const double radius = std::hypot(p[0], p[1], p[2]);
+			if (!(std::abs(radius - 1.0) < 1e-9))
+				return "a point at the distance " + std::to_string(radius) +
+					   " is not on the sphere";
+		}
 	Mesh sphere;
 	vcg::tri::RicciFlowLayers<Mesh>::BuildSphereMesh(m, map, sphere);
 	return finitePositions(sphere) && sphere.FN() == m.FN() ? "" : "the sphere's mesh is broken";
@@ -307,6 +435,11 @@ Execution run(const HostileMesh& hostile)
 	catch (const Error& error) {
 		execution.verdict = Verdict::Refused;
 		execution.sentence = sentence(error);
+		const auto* invalid = dynamic_cast<const InvalidMesh*>(&error);
+		if (invalid != nullptr && !mayRefuse(hostile, invalid->problem))
+			execution.defect = "refused: " + execution.sentence;
+		if (dynamic_cast<const InternalError*>(&error) != nullptr)
+			execution.defect = "internal error: " + execution.sentence;
 	}
 	catch (const std::exception& error) {
 		execution.defect = std::string("not a sentence: ") + error.what();
@@ -326,10 +459,17 @@ Execution run(const HostileMesh& hostile)
 		return execution;
 	}
 	execution.defect = defectOf(result.report, hostile.options);
+	const Reading reading(m);
+	if (execution.defect.empty())
+		execution.defect = contradictionOf(result.report, reading.opened);
+	const bool refined = !result.refined.triangles.empty();
+	if (execution.defect.empty() && refined)
+		execution.defect = defectOfPieces(reading, result.refined, m.vert.size());
 	if (!execution.defect.empty())
 		return execution;
-	if (!hostile.hyperbolic) // whose faces are geodesic triangles
-		execution.defect = miscounted(m, result, wantedOrientation(m));
+	const bool finished =
+		hostile.hyperbolic ? isFinished(hostile.hyperbolicOptions) : isFinished(hostile.options);
+	execution.defect = miscounted(m, result, reading, finished, hostile.hyperbolic);
 	if (!execution.defect.empty())
 		return execution;
 	if (hostile.hyperbolic)
@@ -337,13 +477,17 @@ Execution run(const HostileMesh& hostile)
 	if (!execution.defect.empty())
 		return execution;
 	Mesh flat;
-	if (hostile.options.output == OutputTriangulation::CommonRefinement)
+	const std::size_t vertices = m.vert.size();
+	const std::string shape = shapeOf(m, vertices, !refined);
+	if (refined)
 		Flow::WriteRefinement(m, result);
 	else {
 		Flow::WriteWedgeTexCoord(m, result);
 		Flow::WriteVertexQuality(m, result);
 	}
 	execution.defect = defectOfWritten(m, hostile.normalizeUV || hostile.hyperbolic);
+	if (execution.defect.empty() && shapeOf(m, vertices, !refined) != shape)
+		execution.defect = "the mesh is not what it was";
 	vcg::tri::RicciFlowLayers<Mesh>::BuildFlatMesh(m, result, flat);
 	if (execution.defect.empty() && flat.FN() != m.FN())
 		execution.defect = "the flat mesh has another number of faces";

@@ -18,9 +18,9 @@ struct Execution
 };
 
 /// Runs the façade on the hostile mesh that the bytes describe. Whatever it is, either an error
-/// with a sentence comes back and the mesh is bit for bit as before, or a finite map with a
-/// converged residual, in the unit square if asked, whose reported number of flipped faces is that
-/// of an exact count of what was written.
+/// with a sentence comes back, not for how faces are connected, and the mesh is bit for bit as before,
+/// or a finite map of every face with a converged residual, in the unit square if asked, whose reported
+/// number of flipped faces is that of an exact count of what was written.
 Execution runFacade(const std::uint8_t* data, std::size_t size);
 
 } // namespace ricci::testing

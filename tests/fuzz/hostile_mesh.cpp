@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hostile_mesh.h"
 
+#include "any_triangles.h"
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
@@ -490,6 +491,40 @@ HostileMesh::HostileMesh(ByteSource& bytes)
 	}
 	if (bytes.oneIn(4))
 		options.finish = hyperbolicOptions.finish = static_cast<Finish>(bytes.below(3));
+	if (bytes.oneIn(2))
+		drawAnyTriangles(bytes);
+}
+
+/// Another mesh, or a change of this one, behind everything else like the rarer options. Most of them
+/// with options that every surface takes.
+void HostileMesh::drawAnyTriangles(ByteSource& bytes)
+{
+	SurfaceMesh base;
+	if (bytes.oneIn(4)) {
+		for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+			if (!deletedFace[f])
+				base.triangles.push_back(mesh.triangles[f]);
+		base.positions = mesh.positions;
+	}
+	else
+		base = oneShape(bytes);
+	mesh = anyTriangles(base, bytes);
+	deletedFace.assign(mesh.triangles.size(), 0);
+	deletedVertex.assign(mesh.positions.size(), 0);
+	quality.assign(mesh.positions.size(), 0.0);
+	selected.resize(mesh.positions.size(), 0);
+	if (bytes.oneIn(4) && !mesh.triangles.empty())
+		deletedFace[at(bytes.below(faceCount(mesh)))] = 1;
+	if (bytes.below(3) != 0) {
+		const Finish finish = options.finish;
+		options = Options();
+		options.finish = finish;
+		if (bytes.oneIn(2))
+			options.output = OutputTriangulation::CommonRefinement;
+		hyperbolic = hyperbolic && bytes.oneIn(4);
+	}
+	if (!hyperbolic && options.target == TargetCurvature::Prescribed)
+		quality = anyQuality(mesh, bytes);
 }
 
 /// Drawn behind everything else: an input keeps its mesh whatever is added here.

@@ -34,6 +34,7 @@ struct HostileMesh
 
 private:
 	void drawRarerOptions(ByteSource& bytes);
+	void drawAnyTriangles(ByteSource& bytes);
 	void mend();
 };
 

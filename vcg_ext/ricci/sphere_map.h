@@ -13,10 +13,14 @@ namespace ricci {
 /// A closed surface of genus 0 on the unit sphere.
 struct SphereMap
 {
-	std::vector<Point3> positions;  ///< [vertex] on the unit sphere; the origin at unused vertices
-	int pole = -1;                  ///< the vertex at which the surface was punctured
-	int iterations = 0;             ///< Newton steps
-	double maxCurvatureError = 0.0; ///< of the flow, radians
+	/// [vertex] on the unit sphere, copies behind the mesh's own vertices where the mesh had to be cut
+	/// open; the origin at unused vertices.
+	std::vector<Point3> positions;
+	std::vector<int> vertex;         ///< [position] number of the vertex in the mesh
+	std::vector<Triangle> triangles; ///< [face] into positions; those without area have them, too
+	int pole = -1;                   ///< the vertex at which the surface was punctured
+	int iterations = 0;              ///< Newton steps
+	double maxCurvatureError = 0.0;  ///< of the flow, radians
 	double offset = 0.0; ///< length of the mean of the positions, weighted by area: 0 if centred
 
 	/// Of the map from the mesh's triangles to the straight ones between the positions.
@@ -37,6 +41,8 @@ struct SphereMap
 /// conformal barycentre of the area to the centre is chosen, and of the rotations the one that turns
 /// the vertices most nearly towards their places on the mesh.
 ///
+/// Vertices that only faces without area use (see OpenedMesh) lie where another corner of such a face
+/// does, or else at the pole.
 /// \param options epsilon and maxIterations are used; the flow has intrinsic flips
 /// \throw InvalidMesh, InvalidOption (another topology), NotConverged, Cancelled
 SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress& progress);

@@ -236,6 +236,38 @@ void measure(const Component& c, const VertexArray<Point3>& sphere, SphereMap& m
 	map.areaDistortionSpread = area.spread;
 }
 
+/// Takes over the numbers of the opened mesh, and draws the faces that it leaves out.
+void placeVertices(
+	const SurfaceMesh& mesh,
+	const OpenedMesh& opened,
+	const Component& c,
+	const VertexArray<Point3>& sphere,
+	SphereMap& map)
+{
+	map.positions.assign(opened.vertex.size(), {0.0, 0.0, 0.0});
+	map.vertex = opened.vertex;
+	map.triangles = mesh.triangles;
+	std::vector<char> isPlaced(opened.vertex.size(), 0);
+	for (const Vertex v : c.vertex.indices()) {
+		map.positions[positionOf(c.vertex[v])] = sphere[v];
+		isPlaced[positionOf(c.vertex[v])] = 1;
+	}
+	for (std::size_t f = 0; f < opened.face.size(); ++f)
+		map.triangles[positionOf(opened.face[f])] = opened.mesh.triangles[f];
+	for (const int f : opened.degenerate) {
+		const Triangle& t = mesh.triangles[positionOf(f)];
+		int known = map.pole;
+		for (const int v : t)
+			if (isPlaced[positionOf(v)])
+				known = v;
+		for (const int v : t)
+			if (!isPlaced[positionOf(v)]) {
+				map.positions[positionOf(v)] = map.positions[positionOf(known)];
+				isPlaced[positionOf(v)] = 1;
+			}
+	}
+}
+
 } // namespace
 
 SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress& progress)
@@ -274,7 +306,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress&
 	}
 	VertexArray<Point3> sphere = toSphere(plane, weights, pole);
 	SphereMap map;
-	map.pole = c.vertex[pole];
+	map.pole = opened.vertex[positionOf(c.vertex[pole])];
 	map.iterations = flat.report.iterations;
 	map.maxCurvatureError = flat.report.maxCurvatureError;
 	map.offset = balanceByMoebius(sphere.values(), weights.values());
@@ -291,9 +323,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress&
 			"the sphere is covered " + numberText(check.degree, 9) + " times, radii " +
 			numberText(check.radiusError, 3) + " off, " + std::to_string(check.turned) +
 			" faces turned round");
-	map.positions.assign(mesh.positions.size(), {0.0, 0.0, 0.0});
-	for (const Vertex v : c.vertex.indices())
-		map.positions[positionOf(c.vertex[v])] = sphere[v];
+	placeVertices(mesh, opened, c, sphere, map);
 	return map;
 }
 

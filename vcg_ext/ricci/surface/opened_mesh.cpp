@@ -95,7 +95,7 @@ public:
 	void leaveOutFlatComponents()
 	{
 		const std::vector<char> isFlat = flatComponents();
-		if (std::count(isFlat.begin(), isFlat.end(), 1) == 0)
+		if (!isFlat.empty() && std::count(isFlat.begin(), isFlat.end(), 1) == 0)
 			return;
 		std::vector<int> number(m_triangles.size(), -1), kept;
 		for (const Face f : m_partition.component.indices()) {

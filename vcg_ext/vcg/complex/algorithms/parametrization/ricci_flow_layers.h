@@ -75,28 +75,28 @@ public:
 
 	/// Fills the empty mesh \p sphere with the vertices and faces of \p m, without the deleted ones
 	/// but otherwise in their order, at their places on the unit sphere. Vertices without a face lie
-	/// at the origin.
+	/// at the origin; vertices with several places have copies behind all others.
 	static void BuildSphereMesh(const MeshType& m, const ricci::SphereMap& map, MeshType& sphere)
 	{
-		std::vector<size_t> index(m.vert.size(), 0);
-		VertexIterator vi = Allocator<MeshType>::AddVertices(sphere, size_t(m.vn));
+		const size_t copies = map.vertex.size() - m.vert.size();
+		std::vector<size_t> index(map.vertex.size(), 0);
+		VertexIterator vi = Allocator<MeshType>::AddVertices(sphere, size_t(m.vn) + copies);
 		size_t next = 0;
-		for (size_t v = 0; v < m.vert.size(); ++v) {
-			if (m.vert[v].IsD())
+		for (size_t i = 0; i < map.vertex.size(); ++i) {
+			const VertexType& v = m.vert[size_t(map.vertex[i])];
+			if (v.IsD())
 				continue;
-			const ricci::Point3& p = map.positions[v];
+			const ricci::Point3& p = map.positions[i];
 			vi->P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(p[2]));
 			if (HasPerVertexColor(m) && HasPerVertexColor(sphere))
-				vi->C() = m.vert[v].cC();
-			index[v] = next++;
+				vi->C() = v.cC();
+			index[i] = next++;
 			++vi;
 		}
-		FaceIterator fi = Allocator<MeshType>::AddFaces(sphere, size_t(m.fn));
-		for (size_t f = 0; f < m.face.size(); ++f) {
-			if (m.face[f].IsD())
-				continue;
-			for (int k = 0; k < 3; ++k)
-				fi->V(k) = &sphere.vert[index[Index(m, m.face[f].cV(k))]];
+		FaceIterator fi = Allocator<MeshType>::AddFaces(sphere, map.triangles.size());
+		for (const ricci::Triangle& t : map.triangles) {
+			for (size_t k = 0; k < 3; ++k)
+				fi->V(int(k)) = &sphere.vert[index[size_t(t[k])]];
 			++fi;
 		}
 	}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_TESTS_ANY_TRIANGLES_H
+#define RICCI_TESTS_ANY_TRIANGLES_H
+
+#include "byte_source.h"
+
+#include <ricci/surface/surface_mesh.h>
+
+namespace ricci::testing {
+
+/// A mesh that is no oriented manifold: pinched, with sheets that meet at an edge, one-sided, with
+/// faces twice, with faces or components without area, or several of these.
+/// \param base an ordinary mesh to begin with; some kinds do without
+SurfaceMesh anyTriangles(const SurfaceMesh& base, ByteSource& bytes);
+
+} // namespace ricci::testing
+
+#endif
