@@ -18,6 +18,7 @@
 #include <cmath>
 #include <complex>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -152,10 +153,25 @@ bool coordinatesIn(const Triangle& t, const SurfacePoint& p, Point3& weight)
 	return true;
 }
 
+/// Whether the longest side of a face is not more than \p ratio times the shortest one.
+bool isEven(const SurfaceMesh& mesh, double ratio)
+{
+	double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
+	for (const Triangle& t : mesh.triangles)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const double side =
+				distance(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 1) % 3])]);
+			longest = std::max(longest, side);
+			if (t[k] != t[(k + 1) % 3])
+				shortest = std::min(shortest, side);
+		}
+	return longest <= ratio * shortest;
+}
+
 /// Whether the pieces of every face cover it once.
 std::string defectOfPieces(const Reading& reading, const RefinedMesh& refined, std::size_t vertices)
 {
-	constexpr double kTolerance = 1e-6;
+	constexpr double kTolerance = 1e-6, kEven = 1e6;
 	std::map<int, std::pair<int, double>> covered; // [VCG face] pieces, their part of the area
 	std::map<int, std::size_t> number;
 	for (std::size_t f = 0; f < reading.face.size(); ++f)
@@ -184,7 +200,7 @@ std::string defectOfPieces(const Reading& reading, const RefinedMesh& refined, s
 		const double part = w[0][0] * (w[1][1] * w[2][2] - w[1][2] * w[2][1]) -
 							w[0][1] * (w[1][0] * w[2][2] - w[1][2] * w[2][0]) +
 							w[0][2] * (w[1][0] * w[2][1] - w[1][1] * w[2][0]);
-		if (part < -kTolerance)
+		if (part < -kTolerance && isEven(reading.mesh, kEven))
 			return "a piece is turned round in its face";
 		area += part;
 	}
@@ -195,6 +211,15 @@ std::string defectOfPieces(const Reading& reading, const RefinedMesh& refined, s
 			return "the pieces of a face cover " + std::to_string(covered[f].second) + " of it";
 	}
 	return {};
+}
+
+/// Whether floats have room for the map, its cones are those that the filter chose, and charts may be
+/// cut: of such a map no face may be turned round once it is finished.
+bool isOrdinary(const HostileMesh& hostile, const Reading& reading, const Report& report)
+{
+	return !hostile.hyperbolic && isFinished(hostile.options) && hostile.options.resolveOverlap &&
+		   hostile.options.target == TargetCurvature::Automatic && isEven(reading.mesh, 1e3) &&
+		   report.areaDistortionSpread < 2.0 && report.qcMax < 100.0;
 }
 
 /// What no filter may change: vertices and faces with their flags, but for texture coordinates.
@@ -231,13 +256,15 @@ std::string shapeOf(const Mesh& m, std::size_t vertices, bool faces)
 /// Sentences that speak of numbers and options, not of how faces are connected.
 bool mayRefuse(const HostileMesh& hostile, InvalidMesh::Problem problem)
 {
+	const FlowOptions& flow = hostile.hyperbolic && !hostile.sphere
+								  ? static_cast<const FlowOptions&>(hostile.hyperbolicOptions)
+								  : hostile.options;
 	switch (problem) {
 	case InvalidMesh::IncoherentEdge:
 		return false;
 	case InvalidMesh::EdgesWithoutLength:
 	case InvalidMesh::FacesWithoutArea:
-		return hostile.options.surgery != Surgery::IntrinsicFlips ||
-			   hostile.options.packing == PackingScheme::Thurston;
+		return flow.surgery != Surgery::IntrinsicFlips || flow.packing == PackingScheme::Thurston;
 	case InvalidMesh::NotPuncturable:
 		return hostile.sphere;
 	default:
@@ -246,13 +273,13 @@ bool mayRefuse(const HostileMesh& hostile, InvalidMesh::Problem problem)
 }
 
 /// Counts as the report does: faces that the doubles of the map turn round, and more of them that
-/// the written floats do. Of a finished map there are none.
+/// the written floats do.
 template<class Mesh>
 std::string miscounted(
 	const Mesh& m,
 	const typename vcg::tri::RicciFlow<Mesh>::Result& result,
 	const Reading& reading,
-	bool finished,
+	bool mustBeRight,
 	bool isHyperbolic)
 {
 	int flipped = 0, byRounding = 0, drawn = 0;
@@ -277,7 +304,7 @@ std::string miscounted(
 		return "a face without area has one in the map";
 	if (isHyperbolic) // whose faces are geodesic triangles
 		return {};
-	if (finished && flipped + byRounding > 0)
+	if (mustBeRight && flipped + byRounding > 0)
 		return "a finished map has faces turned round: " + std::to_string(flipped) + " and " +
 			   std::to_string(byRounding);
 	if (flipped == result.report.flippedFaces && byRounding == result.report.flippedByRounding)
@@ -467,8 +494,7 @@ Execution run(const HostileMesh& hostile)
 		execution.defect = defectOfPieces(reading, result.refined, m.vert.size());
 	if (!execution.defect.empty())
 		return execution;
-	const bool finished =
-		hostile.hyperbolic ? isFinished(hostile.hyperbolicOptions) : isFinished(hostile.options);
+	const bool finished = isOrdinary(hostile, reading, result.report);
 	execution.defect = miscounted(m, result, reading, finished, hostile.hyperbolic);
 	if (!execution.defect.empty())
 		return execution;

@@ -1,0 +1,546 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Meshes that are no oriented manifolds, at the façade. Where a mesh is developable between its cuts,
+// its map is known: an isometry.
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/vcg_mesh.h"
+
+#include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
+
+#include <ricci/base/numbers.h>
+#include <ricci/error.h>
+#include <ricci/math/orientation.h>
+#include <ricci/measure/distortion.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+using Flow = vcg::tri::RicciFlow<DoubleMesh>;
+using Layers = vcg::tri::RicciFlowLayers<DoubleMesh>;
+
+constexpr OutputTriangulation kOutputs[] = {
+	OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement};
+
+/// In the mesh's own size.
+Flow::Params unscaled(OutputTriangulation output = OutputTriangulation::KeepMesh)
+{
+	Flow::Params params;
+	params.output = output;
+	params.normalizeUV = false;
+	return params;
+}
+
+Flow::Result compute(const SurfaceMesh& mesh, const Flow::Params& params)
+{
+	DoubleMesh m;
+	toVcg(mesh, m);
+	Progress silent;
+	return Flow::Compute(m, params, silent);
+}
+
+double side(const Triangle2& t, std::size_t k)
+{
+	const Point2 &p = t[k], &q = t[(k + 1) % 3];
+	return std::hypot(p[0] - q[0], p[1] - q[1]);
+}
+
+double side(const SurfaceMesh& mesh, const Triangle& t, std::size_t k)
+{
+	return distance(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 1) % 3])]);
+}
+
+/// The map draws every triangle congruent to itself, to what floats of the coordinates' size can.
+void expectIsometric(const SurfaceMesh& mesh, const Flow::Result& r)
+{
+	ASSERT_EQ(r.wedgeUV.size(), mesh.triangles.size());
+	double extent = 0.0;
+	for (const Triangle2& t : r.wedgeUV)
+		for (const Point2& p : t)
+			extent = std::max({extent, std::abs(p[0]), std::abs(p[1])});
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			EXPECT_NEAR(side(r.wedgeUV[f], k), side(mesh, mesh.triangles[f], k), 1e-6 * extent);
+	EXPECT_NEAR(r.report.qcMax, 1.0, 1e-4);
+	EXPECT_EQ(r.report.flippedFaces + r.report.flippedByRounding, 0);
+}
+
+void expectFinite(const Flow::Result& r)
+{
+	for (const auto* values : {&r.u, &r.vertexQC, &r.targetCurvature, &r.refined.vertexQC})
+		for (const double x : *values)
+			EXPECT_TRUE(std::isfinite(x));
+	for (const auto* values : {&r.vertexQC, &r.refined.vertexQC})
+		for (const double x : *values)
+			EXPECT_GE(x, 1.0);
+}
+
+/// The bounding boxes of \p charts, lists of faces, have no inner point in common.
+void expectApart(const Flow::Result& r, const std::vector<std::vector<std::size_t>>& charts)
+{
+	std::vector<Box2> boxes(charts.size());
+	for (std::size_t c = 0; c < charts.size(); ++c)
+		for (const std::size_t f : charts[c])
+			for (const Point2& p : r.wedgeUV[f])
+				boxes[c].add(p);
+	for (std::size_t a = 0; a < boxes.size(); ++a)
+		for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+			bool apart = false;
+			for (std::size_t k = 0; k < 2; ++k)
+				apart = apart || boxes[a].max[k] <= boxes[b].min[k] ||
+						boxes[b].max[k] <= boxes[a].min[k];
+			EXPECT_TRUE(apart) << a << ", " << b;
+		}
+}
+
+/// After writing, the mesh has its vertices at their places, every face in its own place, and of a
+/// refinement no vertex besides the crossings: pieces meet at the mesh's own vertices.
+void expectWritten(const SurfaceMesh& mesh, OutputTriangulation output, const Flow::Result& r)
+{
+	DoubleMesh m;
+	toVcg(mesh, m);
+	if (output == OutputTriangulation::KeepMesh) {
+		Flow::WriteWedgeTexCoord(m, r);
+		Flow::WriteVertexQuality(m, r);
+		EXPECT_EQ(fromVcg(m).positions, mesh.positions);
+		EXPECT_EQ(fromVcg(m).triangles, mesh.triangles);
+		return;
+	}
+	Flow::WriteRefinement(m, r);
+	EXPECT_EQ(at(m.VN()), mesh.positions.size() + at(r.report.refinementPoints));
+	const SurfaceMesh after = fromVcg(m);
+	for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+		EXPECT_EQ(after.positions[v], mesh.positions[v]);
+	std::vector<double> area(mesh.triangles.size(), 0.0);
+	const auto areaOf = [](const SurfaceMesh& surface, const Triangle& t) {
+		return triangleArea(
+			{surface.positions[at(t[0])],
+			 surface.positions[at(t[1])],
+			 surface.positions[at(t[2])]});
+	};
+	for (std::size_t i = 0; i < r.refined.triangles.size(); ++i)
+		area[at(r.refined.inputFace[i])] += areaOf(after, r.refined.triangles[i]);
+	std::set<int> used, usedBefore;
+	for (const Triangle& t : after.triangles)
+		used.insert(t.begin(), t.end());
+	for (std::size_t f = 0; f < area.size(); ++f) {
+		EXPECT_NEAR(area[f], areaOf(mesh, mesh.triangles[f]), 1e-9);
+		usedBefore.insert(mesh.triangles[f].begin(), mesh.triangles[f].end());
+	}
+	EXPECT_TRUE(std::includes(used.begin(), used.end(), usedBefore.begin(), usedBefore.end()));
+}
+
+SurfaceMesh bumpySheet(int n)
+{
+	return grid(n, n, Ends::Open, Ends::Open, [](int i, int j) {
+		return Point3{double(i), double(j), std::sin(0.9 * i) * std::cos(0.7 * j)};
+	});
+}
+
+TEST(AnyTriangles, UnconnectedTrianglesAreDrawnAsTheyAre)
+{
+	Random random(1);
+	for (const bool atOnePoint : {false, true}) {
+		SurfaceMesh mesh;
+		const auto point = [&] {
+			return Point3{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)};
+		};
+		mesh.positions.push_back(point());
+		std::vector<std::vector<std::size_t>> charts;
+		for (int f = 0; f < 60; ++f) {
+			Triangle t{0, 0, 0};
+			for (std::size_t k = atOnePoint ? 1 : 0; k < 3; ++k) {
+				t[k] = static_cast<int>(mesh.positions.size());
+				mesh.positions.push_back(point());
+			}
+			charts.push_back({mesh.triangles.size()});
+			mesh.triangles.push_back(t);
+		}
+		for (const OutputTriangulation output : kOutputs) {
+			const auto r = compute(mesh, unscaled(output));
+			EXPECT_EQ(r.report.charts, 60);
+			EXPECT_EQ(r.report.components, 60);
+			EXPECT_EQ(r.report.splitVertices, atOnePoint ? 1 : 0);
+			expectFinite(r);
+			expectWritten(mesh, output, r);
+			if (output == OutputTriangulation::KeepMesh) {
+				expectIsometric(mesh, r);
+				expectApart(r, charts);
+			}
+		}
+	}
+}
+
+TEST(AnyTriangles, APillowIsTwoTriangles)
+{
+	const SurfaceMesh mesh{{{0, 0, 1}, {3, 0, 1}, {1, 2, 0}}, {{0, 1, 2}, {0, 2, 1}}};
+	for (const OutputTriangulation output : kOutputs) {
+		const auto r = compute(mesh, unscaled(output));
+		EXPECT_EQ(r.report.charts, 2);
+		EXPECT_EQ(r.report.duplicateFaces, 1);
+		EXPECT_EQ(r.report.splitVertices, 3);
+		EXPECT_EQ(r.report.cones, 0);
+		expectFinite(r);
+		expectWritten(mesh, output, r);
+		if (output == OutputTriangulation::KeepMesh) {
+			expectIsometric(mesh, r);
+			expectApart(r, {{0}, {1}});
+		}
+	}
+}
+
+/// Two sheets that are glued, however bent along the spine, can be laid flat.
+TEST(AnyTriangles, TheSheetsOfABookAreLaidFlat)
+{
+	for (int sheets = 3; sheets <= 6; ++sheets) {
+		SCOPED_TRACE(sheets);
+		const int n = 3;
+		SurfaceMesh mesh;
+		for (int j = 0; j <= n; ++j)
+			mesh.positions.push_back({0.0, 0.0, double(j)});
+		for (int s = 0; s < sheets; ++s) {
+			const double angle = 2 * kPi * s / sheets;
+			const int first = static_cast<int>(mesh.positions.size());
+			for (int i = 1; i <= n; ++i)
+				for (int j = 0; j <= n; ++j)
+					mesh.positions.push_back({i * std::cos(angle), i * std::sin(angle), double(j)});
+			const auto vertex = [&](int i, int j) {
+				return i == 0 ? j : first + (i - 1) * (n + 1) + j;
+			};
+			for (int i = 0; i < n; ++i)
+				for (int j = 0; j < n; ++j) {
+					const int a = vertex(i, j), c = vertex(i + 1, j + 1);
+					mesh.triangles.push_back({a, vertex(i + 1, j), c});
+					mesh.triangles.push_back({a, c, vertex(i, j + 1)});
+				}
+		}
+		for (const OutputTriangulation output : kOutputs) {
+			const auto r = compute(mesh, unscaled(output));
+			EXPECT_EQ(r.report.charts, (sheets + 1) / 2);
+			EXPECT_EQ(r.report.cutNonmanifoldEdges, n);
+			EXPECT_EQ(r.report.splitVertices, n + 1);
+			expectFinite(r);
+			expectWritten(mesh, output, r);
+			if (output == OutputTriangulation::KeepMesh)
+				expectIsometric(mesh, r);
+		}
+	}
+}
+
+/// A strip of congruent triangles, each next one across a leg, closed with a half turn. Its shortest
+/// one-sided loop runs along the border but for a leg, which is cut: the strip is laid flat.
+TEST(AnyTriangles, AFlatMoebiusBandIsAStrip)
+{
+	const int n = 15;
+	SurfaceMesh mesh;
+	for (int i = 0; i < n; ++i)
+		mesh.positions.push_back({std::cos(2 * kPi * i / n), std::sin(2 * kPi * i / n), 0.0});
+	for (int i = 0; i < n; ++i)
+		mesh.triangles.push_back({i, (i + 1) % n, (i + 2) % n});
+	for (const OutputTriangulation output : kOutputs) {
+		const auto r = compute(mesh, unscaled(output));
+		EXPECT_EQ(r.report.oneSidedComponents, 1);
+		EXPECT_EQ(r.report.charts, 1);
+		EXPECT_EQ(r.report.splitVertices, 2);
+		EXPECT_EQ(r.report.eulerCharacteristic, 1);
+		EXPECT_EQ(r.report.cones, 0);
+		expectFinite(r);
+		expectWritten(mesh, output, r);
+		if (output == OutputTriangulation::KeepMesh)
+			expectIsometric(mesh, r);
+	}
+}
+
+/// A flat Klein bottle of length L and girth H, its tube pressed flat: its shortest one-sided loops are
+/// the two folds, of length L. Between them lies an annulus of girth 2 L and height H / 2.
+TEST(AnyTriangles, AFlatKleinBottleIsAnAnnulusOfKnownModulus)
+{
+	const int nu = 20, nv = 8;
+	SurfaceMesh mesh;
+	for (int i = 0; i < nu; ++i)
+		for (int j = 0; j < nv; ++j)
+			mesh.positions.push_back(
+				{std::cos(2 * kPi * i / nu),
+				 std::sin(2 * kPi * i / nu),
+				 0.4 * std::min(j, nv - j)});
+	const auto vertex = [&](int i, int j) { return i < nu ? i * nv + j % nv : (nv - j % nv) % nv; };
+	for (int i = 0; i < nu; ++i)
+		for (int j = 0; j < nv; ++j) {
+			const int a = vertex(i, j), c = vertex(i + 1, j + 1);
+			mesh.triangles.push_back({a, vertex(i + 1, j), c});
+			mesh.triangles.push_back({a, c, vertex(i, j + 1)});
+		}
+	const double length = nu * 2 * std::sin(kPi / nu), girth = 0.4 * nv;
+	for (const OutputTriangulation output : kOutputs) {
+		const auto r = compute(mesh, unscaled(output));
+		EXPECT_EQ(r.report.oneSidedComponents, 1);
+		EXPECT_EQ(r.report.components, 1);
+		EXPECT_EQ(r.report.eulerCharacteristic, 0);
+		EXPECT_EQ(r.report.boundaryLoops, 2);
+		EXPECT_EQ(r.report.splitVertices, 2 * nu);
+		ASSERT_TRUE(r.report.annulusModulus);
+		EXPECT_NEAR(*r.report.annulusModulus, (girth / 2) / (2 * length), 1e-6);
+		EXPECT_NEAR(r.report.qcMax, 1.0, 1e-4);
+		expectFinite(r);
+		expectWritten(mesh, output, r);
+	}
+}
+
+/// Faces of equal vertices are sheets of their own: each is drawn like the mesh alone, one with the
+/// opposite order as its mirror image.
+TEST(AnyTriangles, ADoubledMeshIsDrawnTwice)
+{
+	const SurfaceMesh single = bumpySheet(6);
+	const std::size_t n = single.triangles.size();
+	Flow::Params params = unscaled();
+	params.finish = Finish::Repair;
+	const auto alone = compute(single, params);
+	double extent = 0.0;
+	for (const Triangle2& t : alone.wedgeUV)
+		for (const Point2& p : t)
+			extent = std::max({extent, p[0], p[1]});
+	for (const bool turned : {false, true}) {
+		SurfaceMesh twice = single;
+		for (Triangle t : single.triangles) {
+			if (turned)
+				std::swap(t[1], t[2]);
+			twice.triangles.push_back(t);
+		}
+		for (const OutputTriangulation output : kOutputs) {
+			params.output = output;
+			const auto r = compute(twice, params);
+			EXPECT_EQ(r.report.charts, 2);
+			EXPECT_EQ(r.report.duplicateFaces, static_cast<int>(n));
+			EXPECT_EQ(r.report.splitVertices, static_cast<int>(single.positions.size()));
+			expectFinite(r);
+			expectWritten(twice, output, r);
+			if (output != OutputTriangulation::KeepMesh)
+				continue;
+			std::vector<std::vector<std::size_t>> charts(2);
+			for (std::size_t f = 0; f < 2 * n; ++f)
+				charts[f / n].push_back(f);
+			expectApart(r, charts);
+			// Congruent: equal distances from two corners of the first face, and to each other.
+			for (std::size_t sheet = 0; sheet < 2; ++sheet) {
+				const bool mirrored = turned && sheet == 1;
+				const auto corner = [&](std::size_t f, std::size_t k) {
+					return r.wedgeUV[sheet * n + f][mirrored ? (3 - k) % 3 : k];
+				};
+				const auto gap = [](const Point2& p, const Point2& q) {
+					return std::hypot(p[0] - q[0], p[1] - q[1]);
+				};
+				for (std::size_t f = 0; f < n; ++f)
+					for (std::size_t k = 0; k < 3; ++k)
+						for (std::size_t from = 0; from < 3; ++from)
+							EXPECT_NEAR(
+								gap(corner(f, k), corner(0, from)),
+								gap(alone.wedgeUV[f][k], alone.wedgeUV[0][from]),
+								1e-6 * extent);
+			}
+		}
+	}
+}
+
+/// A horn: its two poles lie in one place. The last vertex is one of them.
+SurfaceMesh horn(int rings, int around)
+{
+	std::vector<std::array<double, 2>> profile;
+	for (int i = 0; i <= rings; ++i) {
+		const double t = kPi * i / rings;
+		const bool isPole = i == 0 || i == rings;
+		profile.push_back({isPole ? 0.0 : std::sin(t), isPole ? 0.0 : std::sin(t) * std::cos(t)});
+	}
+	return revolved(profile, around);
+}
+
+SurfaceMesh pinched(SurfaceMesh mesh)
+{
+	const int last = static_cast<int>(mesh.positions.size()) - 1;
+	for (Triangle& t : mesh.triangles)
+		for (int& v : t)
+			v = v == last ? 0 : v;
+	mesh.positions.pop_back();
+	return mesh;
+}
+
+/// Cut open at the pinch, the horn is the sphere with its vertices in the same order.
+TEST(AnyTriangles, APinchedSphereIsMappedAsTheSphere)
+{
+	const SurfaceMesh sphere = horn(10, 12), mesh = pinched(sphere);
+	for (const OutputTriangulation output : kOutputs) {
+		const auto whole = compute(sphere, unscaled(output)), r = compute(mesh, unscaled(output));
+		EXPECT_EQ(r.report.splitVertices, 1);
+		EXPECT_EQ(r.report.cutNonmanifoldEdges, 0);
+		EXPECT_EQ(r.report.components, 1);
+		EXPECT_EQ(r.report.genus, 0);
+		EXPECT_EQ(r.report.eulerCharacteristic, 2);
+		EXPECT_EQ(r.report.cones, whole.report.cones);
+		EXPECT_EQ(r.wedgeUV, whole.wedgeUV);
+		EXPECT_EQ(r.refined.uv, whole.refined.uv);
+		const std::size_t n = mesh.positions.size();
+		for (std::size_t v = 1; v < n; ++v) {
+			EXPECT_EQ(r.u[v], whole.u[v]);
+			EXPECT_EQ(r.vertexQC[v], whole.vertexQC[v]);
+		}
+		// The two poles have stars of the same area.
+		EXPECT_NEAR(r.vertexQC[0], 0.5 * (whole.vertexQC[0] + whole.vertexQC[n]), 1e-9);
+		expectFinite(r);
+		expectWritten(mesh, output, r);
+	}
+}
+
+TEST(AnyTriangles, TheSphereLayerHasBothPlacesOfAPinch)
+{
+	const SurfaceMesh sphere = horn(10, 12);
+	SurfaceMesh mesh = pinched(sphere);
+	mesh.triangles.push_back({3, 4, 4}); // without area
+	Progress silent;
+	DoubleMesh whole, m, layer;
+	toVcg(sphere, whole);
+	toVcg(mesh, m);
+	const SphereMap expected = Flow::ComputeSphere(whole, {}, silent);
+	const SphereMap map = Flow::ComputeSphere(m, {}, silent);
+	EXPECT_EQ(map.positions, expected.positions);
+	EXPECT_EQ(map.vertex.back(), 0);
+	Layers::BuildSphereMesh(m, map, layer);
+	EXPECT_EQ(at(layer.VN()), sphere.positions.size());
+	SurfaceMesh built = fromVcg(layer);
+	EXPECT_EQ(built.triangles.back(), mesh.triangles.back());
+	built.triangles.pop_back();
+	EXPECT_EQ(built.triangles, sphere.triangles);
+}
+
+TEST(AnyTriangles, OnlyFacesWithoutAreaAreRefused)
+{
+	DoubleMesh m;
+	toVcg(SurfaceMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 1}, {2, 2, 2}}}, m);
+	Progress silent;
+	for (const bool sphere : {false, true})
+		try {
+			if (sphere)
+				Flow::ComputeSphere(m, {}, silent);
+			else
+				Flow::Compute(m, {}, silent);
+			FAIL();
+		}
+		catch (const InvalidMesh& refusal) {
+			EXPECT_EQ(refusal.problem, InvalidMesh::NoArea);
+			EXPECT_EQ(refusal.count, 2u);
+		}
+}
+
+/// A selected vertex is selected at every place.
+TEST(AnyTriangles, ASelectedPinchIsAConeTwice)
+{
+	const SurfaceMesh sphere = horn(10, 12), mesh = pinched(sphere);
+	Flow::Params params = unscaled();
+	params.target = TargetCurvature::SelectedCones;
+	const auto with = [&](const SurfaceMesh& surface, const std::vector<std::size_t>& selected) {
+		DoubleMesh m;
+		toVcg(surface, m);
+		for (const std::size_t v : selected)
+			m.vert[v].SetS();
+		Progress silent;
+		return Flow::Compute(m, params, silent);
+	};
+	const auto r = with(mesh, {0, 50});
+	const auto whole = with(sphere, {0, 50, sphere.positions.size() - 1});
+	EXPECT_EQ(r.report.cones, 3);
+	EXPECT_EQ(r.wedgeUV, whole.wedgeUV);
+	expectFinite(r);
+}
+
+/// Prescribed curvature is taken at the vertices of the surface; faces without area are drawn along.
+TEST(AnyTriangles, PrescribedCurvatureBesideFacesWithoutArea)
+{
+	SurfaceMesh mesh = torus(2, 1, 14, 9);
+	const std::size_t faces = mesh.triangles.size(), vertices = mesh.positions.size();
+	const Triangle edge = mesh.triangles[10];
+	mesh.triangles.insert(mesh.triangles.begin(), {edge[0], edge[1], edge[1]});
+	mesh.triangles.push_back({5, 5, 5});
+	for (int i = 0; i < 3; ++i)
+		mesh.positions.push_back({9.0 + i, 0, 0});
+	const int line = static_cast<int>(vertices);
+	mesh.triangles.push_back({line, line + 1, line + 2});
+	std::vector<double> wanted(vertices, 0.0);
+	wanted[20] = 0.5;
+	wanted[70] = -0.5;
+	for (const OutputTriangulation output : kOutputs) {
+		DoubleMesh m;
+		toVcg(mesh, m);
+		for (std::size_t v = 0; v < vertices; ++v)
+			m.vert[v].Q() = wanted[v];
+		Flow::Params params = unscaled(output);
+		params.target = TargetCurvature::Prescribed;
+		Progress silent;
+		const auto r = Flow::Compute(m, params, silent);
+		EXPECT_EQ(r.report.degenerateFaces, 3);
+		EXPECT_EQ(r.report.components, 1);
+		EXPECT_EQ(r.report.flippedFaces + r.report.flippedByRounding, 0);
+		for (std::size_t v = 0; v < vertices; ++v)
+			EXPECT_NEAR(r.targetCurvature[v], wanted[v], 1e-4);
+		for (const std::size_t f : {std::size_t(0), faces + 1, faces + 2}) {
+			const Triangle2& t = r.wedgeUV[f];
+			EXPECT_EQ(orientation(t[0], t[1], t[2]), 0);
+		}
+		// The first is drawn at a side of a face next to it.
+		const Triangle2& drawn = r.wedgeUV[0];
+		EXPECT_EQ(drawn[1], drawn[2]);
+		EXPECT_NE(drawn[0], drawn[1]);
+		expectFinite(r);
+		expectWritten(mesh, output, r);
+	}
+}
+
+/// A fin is a disk of its own, which the hyperbolic filter refuses by its number.
+TEST(AnyTriangles, RefusalsNameTheComponentInTheInputsNumbers)
+{
+	SurfaceMesh mesh = perforatedSlab(2, 1);
+	const std::size_t faces = mesh.triangles.size();
+	const Triangle first = mesh.triangles[0];
+	mesh.positions.push_back({9, 9, 9});
+	mesh.triangles.insert(mesh.triangles.begin(), {first[0], first[0], first[1]});
+	mesh.triangles.push_back({first[0], first[1], static_cast<int>(mesh.positions.size()) - 1});
+	DoubleMesh m;
+	toVcg(mesh, m);
+	Progress silent;
+	try {
+		Flow::ComputeHyperbolic(m, {}, silent);
+		FAIL();
+	}
+	catch (const InadmissibleCurvature& refusal) {
+		EXPECT_EQ(refusal.problem, InadmissibleCurvature::HyperbolicSurface);
+		EXPECT_EQ(refusal.componentFace, static_cast<int>(faces) + 1);
+		EXPECT_EQ(refusal.componentFaces, 1u);
+	}
+	Flow::Params disk;
+	disk.target = TargetCurvature::Disk;
+	try {
+		Flow::Compute(m, disk, silent);
+		FAIL();
+	}
+	catch (const InvalidOption& refusal) {
+		EXPECT_EQ(refusal.problem, InvalidOption::NotADisk);
+		EXPECT_EQ(refusal.componentFace, 1);
+		EXPECT_EQ(refusal.componentFaces, faces);
+	}
+	// Of sheets that are disks each becomes a round one.
+	SurfaceMesh twice = bumpySheet(5);
+	for (std::size_t f = 0; f < 50; ++f)
+		twice.triangles.push_back(Triangle(twice.triangles[f]));
+	const auto r = compute(twice, disk);
+	EXPECT_EQ(r.report.charts, 2);
+	EXPECT_EQ(r.report.flippedFaces + r.report.flippedByRounding, 0);
+	expectFinite(r);
+}
+
+} // namespace
+} // namespace ricci::testing
