@@ -343,11 +343,11 @@ std::string defectOfWritten(Mesh& m, bool normalized)
 	return {};
 }
 
-std::string defectOf(const Report& r, const Options& options)
+std::string defectOf(const Report& r, double epsilon)
 {
 	if (!r.converged)
 		return "not converged";
-	if (!(r.maxCurvatureError <= std::max(options.epsilon, 1e-8)))
+	if (!(r.maxCurvatureError <= std::max(epsilon, 1e-8)))
 		return "residual " + std::to_string(r.maxCurvatureError);
 	for (double x : {r.residualFloor, r.qcMean, r.qcAreaMean, r.qcVertexMean, r.qcP99, r.qcMax})
 		if (!std::isfinite(x) || x < 0.0)
@@ -485,7 +485,9 @@ Execution run(const HostileMesh& hostile)
 		execution.defect = defectOfSphere(m, sphere);
 		return execution;
 	}
-	execution.defect = defectOf(result.report, hostile.options);
+	execution.defect = defectOf(
+		result.report,
+		hostile.hyperbolic ? hostile.hyperbolicOptions.epsilon : hostile.options.epsilon);
 	const Reading reading(m);
 	if (execution.defect.empty())
 		execution.defect = contradictionOf(result.report, reading.opened);

@@ -159,6 +159,11 @@ def with_fin(mesh):
     return Mesh(vertices, mesh.faces + [(a, b, len(vertices) - 1)])
 
 
+def doubled(mesh):
+    """Every face twice, the second time turned round."""
+    return Mesh(mesh.vertices, mesh.faces + [(a, c, b) for a, b, c in mesh.faces])
+
+
 def bow_tie():
     """Two disks that share one vertex only."""
     a, b = hill(4), hill(4)
@@ -204,6 +209,20 @@ def with_nan(mesh):
 
 def with_quality(mesh, values):
     return Mesh(mesh.vertices, mesh.faces, values)
+
+
+CUTS = ("cut_nonmanifold_edges", "split_vertices", "duplicate_faces", "one_sided_components",
+        "degenerate_faces")
+
+
+def any_triangles():
+    """Meshes that are no oriented manifolds: name, mesh, results that are not 0 of CUTS, components."""
+    band, sheet = moebius(), plane(4)
+    return (("fin", with_fin(torus()), {"cut_nonmanifold_edges": 1, "split_vertices": 2}, 2),
+            ("bow tie", bow_tie(), {"split_vertices": 1}, 2),
+            ("Moebius band", band, {"one_sided_components": 1}, 1),
+            ("doubled", doubled(sheet), {"duplicate_faces": len(sheet.faces),
+                                         "split_vertices": len(sheet.vertices)}, 2))
 
 
 def write_ply(path, mesh):

@@ -637,6 +637,54 @@ class Hyperbolic(unittest.TestCase):
         self.assertEqual(list(values), [name for name, _, _ in common.HYPERBOLIC.PARAMETERS])
 
 
+class AnyTriangles(unittest.TestCase):
+    """Meshes that are no oriented manifolds are cut open for the map, and stay as they are."""
+
+    def check(self, mesh, counts, components, **values):
+        documents = mesh_set(mesh)
+        before = state(documents.current_mesh())[1][:2]
+        returned = run(documents, **values)
+        self.assertTrue(returned["converged"])
+        self.assertEqual((returned["flipped_faces"], returned["flipped_by_rounding"]), (0, 0))
+        self.assertEqual(returned["components"], components)
+        for key in meshes.CUTS:
+            if key in counts or key != "split_vertices":  # the vertices of a one-sided loop, too
+                self.assertEqual(returned[key], counts.get(key, 0), key)
+        after = documents.current_mesh()
+        self.assertTrue(numpy.isfinite(after.wedge_tex_coord_matrix()).all())
+        self.assertTrue(numpy.isfinite(after.vertex_scalar_array()).all())
+        self.assertTrue(numpy.isfinite(after.vertex_custom_scalar_attribute_array("ricci_u")).all())
+        return before, after, returned
+
+    def test_keep_the_mesh(self):
+        for name, mesh, counts, components in meshes.any_triangles():
+            with self.subTest(name):
+                before, after, _ = self.check(mesh, counts, components)
+                self.assertTrue(numpy.array_equal(before[0], after.vertex_matrix()))
+                self.assertTrue(numpy.array_equal(before[1], after.face_matrix()))
+                self.assertEqual(flipped_faces(after), 0)
+
+    def test_common_refinement(self):
+        for name, mesh, counts, components in meshes.any_triangles():
+            with self.subTest(name):
+                before, after, returned = self.check(
+                    mesh, counts, components, output_triangulation="Common refinement")
+                count = len(before[0])
+                self.assertEqual(after.vertex_number(), count + returned["refinement_points"])
+                self.assertTrue(numpy.array_equal(before[0], after.vertex_matrix()[:count]))
+                self.assertEqual(flipped_faces(after), 0)
+
+    def test_faces_without_area_are_lines(self):
+        mesh = meshes.plane(4)
+        a, b, _ = mesh.faces[5]
+        mesh = meshes.Mesh(mesh.vertices, [(a, a, b)] + mesh.faces + [(b, b, b)])
+        before, after, _ = self.check(mesh, {"degenerate_faces": 2}, 1)
+        self.assertTrue(numpy.array_equal(before[1], after.face_matrix()))
+        areas = [meshes.uv_area(w) for w in after.wedge_tex_coord_matrix().reshape(-1, 3, 2)]
+        self.assertEqual((areas[0], areas[-1]), (0, 0))
+        self.assertTrue(all(area > 0 for area in areas[1:-1]))
+
+
 class BadInput(unittest.TestCase):
     """A clear sentence as PyMeshLabException, and the mesh untouched."""
 
@@ -662,13 +710,6 @@ class BadInput(unittest.TestCase):
         for documents in (mesh_set(meshes.point_cloud()), empty):
             with self.assertRaisesRegex(pymeshlab.PyMeshLabException, "Any Faces"):
                 run(documents)
-
-    def test_non_manifold(self):
-        self.check("manifold", meshes.with_fin(meshes.torus()))
-        self.check("manifold", meshes.bow_tie())
-
-    def test_not_orientable(self):
-        self.check("orient", meshes.moebius())
 
     def test_degenerate(self):
         self.check("area", meshes.with_zero_area_face(meshes.plane()), surgery="None")
