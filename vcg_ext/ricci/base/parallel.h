@@ -27,11 +27,11 @@ inline int defaultThreads()
 /// a time. The parts must be independent and \p work must not throw. The parts'
 /// bounds vary with the number of threads: a result that does not must not
 /// depend on them, so sums over elements are not for here.
+/// \param leastPart elements that are worth a thread
 template<class Work>
-void inParallel(int count, int threads, const Work& work)
+void inParallel(int count, int threads, const Work& work, int leastPart = 16384)
 {
-	constexpr int kLeastPart = 16384; // elements that are worth a thread
-	const int parts = std::clamp(count / kLeastPart, 1, std::max(threads, 1));
+	const int parts = std::clamp(count / leastPart, 1, std::max(threads, 1));
 	const auto bound = [&](int part) {
 		return static_cast<int>(std::int64_t(count) * part / parts);
 	};
@@ -118,7 +118,7 @@ void besides(int threads, const std::function<void()>& tick, const Main& main, c
 	struct Ended
 	{
 	};
-	constexpr std::chrono::milliseconds kBetweenTicks(50);
+	constexpr std::chrono::milliseconds kBetweenTicks(400);
 	std::atomic<bool> ended{false};
 	std::exception_ptr thrown;
 	const std::function<void()> own = [&] {

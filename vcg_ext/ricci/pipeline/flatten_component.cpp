@@ -390,12 +390,16 @@ ComponentMap flatten(
 	layOut(component, domain, std::move(overlay), options, progress, map);
 	map.seamLength = lengthOf(map.cut, domain.surface.lengths);
 	measureInvariants(domain, options, map);
-	finish(
-		domain, options, [&] { progress.step(1.0 - kAfterFlow, "Repairing the map"); }, map);
+	const Tick repairing = [&] { progress.step(1.0 - kAfterFlow, "Repairing the map"); };
+	besides(
+		defaultThreads(),
+		repairing,
+		[&] { finish(domain, options, repairing, map); },
+		[&](const Tick& tick) {
+			requireMetric(map.flow, domain.solved().topology.boundary, tick);
+		});
 
 	const Tick tick = [&] { progress.step(1.0, "Checking the result"); };
-	tick();
-	requireMetric(map.flow, domain.solved().topology.boundary, tick);
 	tick();
 	requireLayout(component, options, tick, map);
 	return map;
