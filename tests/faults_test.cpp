@@ -19,6 +19,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cfenv>
 #include <chrono>
 #include <cmath>
@@ -316,6 +317,78 @@ TEST(Faults, WithoutMemoryForThreadsTheWorkIsDoneAllTheSame)
 			EXPECT_EQ(std::count(done.begin(), done.end(), 1), kCount) << "allocation " << n;
 		});
 	EXPECT_GT(tried, 1);
+}
+
+TEST(Faults, WithoutMemoryForAThreadBothAreDoneAllTheSame)
+{
+	RICCI_NEEDS_FAILING_MALLOC();
+	int main = 0, aside = 0;
+	const std::function<void()> deaf = [] {};
+	const long tried = failEveryAllocation(
+		Failing::AllThatFollow,
+		[&] { main = aside = 0; },
+		[&] {
+			besides(
+				2, deaf, [&] { ++main; }, [&](const auto&) { ++aside; });
+		},
+		[&](bool completed, long, long n) {
+			EXPECT_TRUE(completed) << "allocation " << n;
+			EXPECT_EQ(main, 1) << "allocation " << n;
+			EXPECT_EQ(aside, 1) << "allocation " << n;
+		});
+	EXPECT_GT(tried, 1);
+}
+
+TEST(Faults, WhatIsThrownBesidesIsThrownOn)
+{
+	struct Main
+	{
+	};
+	struct Aside
+	{
+	};
+	const std::function<void()> deaf = [] {};
+	for (const int threads : {1, 2}) {
+		bool done = false;
+		EXPECT_THROW(
+			besides(
+				threads, deaf, [] { throw Main(); }, [&](const auto&) { done = true; }),
+			Main);
+		EXPECT_THROW(
+			besides(
+				threads, deaf, [] {}, [](const auto&) { throw Aside(); }),
+			Aside);
+		// The tick of the other thread ends it once the main one has thrown.
+		if (threads == 1)
+			continue;
+		std::atomic<bool> isRunning{false};
+		EXPECT_THROW(
+			besides(
+				threads,
+				deaf,
+				[&] {
+					while (!isRunning)
+						std::this_thread::yield();
+					throw Main();
+				},
+				[&](const auto& own) {
+					isRunning = true;
+					for (;;)
+						own();
+				}),
+			Main);
+		// While it waits, the calling thread hears Cancel.
+		EXPECT_THROW(
+			besides(
+				threads,
+				[] { throw Main(); },
+				[] {},
+				[&](const auto& own) {
+					for (;;)
+						own();
+				}),
+			Main);
+	}
 }
 
 TEST(Faults, CancellingAtAnyCallLeavesTheMesh)

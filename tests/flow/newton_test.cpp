@@ -6,6 +6,7 @@
 #include <ricci/base/tolerances.h>
 #include <ricci/error.h>
 #include <ricci/flow/newton.h>
+#include <ricci/surface/double_surface.h>
 
 #include <gtest/gtest.h>
 
@@ -93,6 +94,60 @@ TEST(Newton, ReachesTheTargetAndReportsTheTrueResidual)
 			residualAt(mesh, solved, target, nothingFixed(mesh)),
 			kLastPlace);
 	}
+}
+
+TEST(Newton, SolvesADoubleOnHalfTheUnknowns)
+{
+	Random random(77);
+	for (const SurfaceMesh& surface :
+		 {shaken(rectangle(9, 7, 3.0, 2.0), 0.05, random), ring(1.0, 2.0, 24, 6)}) {
+		const IntrinsicMesh half = intrinsicMesh(surface);
+		const DoubleSurface d = doubleOf(half.triangulation);
+		EdgeArray<double> lengths;
+		for (const Edge e : d.edgeOf)
+			lengths.push_back(half.lengths[e]);
+		const Packed mesh(d.triangulation, lengths);
+		const VertexVector smoothed = smoothedCurvature(mesh);
+		VertexVector target = smoothed;
+		for (const Vertex v : d.mirror.indices())
+			target[v] = 0.5 * (smoothed[v] + smoothed[d.mirror[v]]);
+		NewtonOptions options;
+		options.epsilon = 1e-12;
+		const Solved whole = solve(mesh, target, mesh.u(), nothingFixed(mesh), options);
+		ASSERT_TRUE(whole.result.converged);
+
+		Map map = mesh.map();
+		NewtonSolver solver(map, nothingFixed(mesh), nullptr, d.mirror);
+		VertexVector u = mesh.u();
+		const NewtonResult symmetric = solver.solve(u, target, options, silent);
+		ASSERT_TRUE(symmetric.converged);
+		EXPECT_LT((u - whole.u).lpNorm<Eigen::Infinity>(), 1e-11);
+		for (const Vertex v : d.mirror.indices())
+			EXPECT_EQ(u[v], u[d.mirror[v]]);
+		const double flops = solver.work().flops;
+		solver.dropSymmetry();
+		EXPECT_EQ(solver.work().flops, flops);
+		u = mesh.u();
+		EXPECT_TRUE(solver.solve(u, target, options, silent).converged);
+		EXPECT_LT((u - whole.u).lpNorm<Eigen::Infinity>(), 1e-11);
+		EXPECT_GT(solver.work().flops, flops);
+	}
+}
+
+TEST(Newton, WithoutPolishingStopsAtEpsilon)
+{
+	Random random(78);
+	const Packed mesh(bumpyTorus(16, 10, random));
+	const VertexVector target = smoothedCurvature(mesh);
+	NewtonOptions options;
+	options.epsilon = 1e-2;
+	const NewtonResult polished = solve(mesh, target, mesh.u(), nothingFixed(mesh), options).result;
+	options.polishes = false;
+	const NewtonResult rough = solve(mesh, target, mesh.u(), nothingFixed(mesh), options).result;
+	EXPECT_TRUE(rough.converged);
+	EXPECT_LT(rough.residual, options.epsilon);
+	EXPECT_LT(polished.residual, rough.residual);
+	EXPECT_EQ(polished.iterations, rough.iterations);
 }
 
 TEST(Newton, SolutionIsUniqueUpToScale)

@@ -131,7 +131,9 @@ CutGraph FlippedFlow::cutAnywhere(Random& random) const
 
 CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
 {
-	return commonRefinement(domain, result, cutGraph.isCut, false, [](double, std::size_t) {});
+	const OverlayListener deaf = [](double, std::size_t) {};
+	return commonRefinement(
+		domain, result, overlayOf(domain, result, deaf), cutGraph.isCut, false, deaf);
 }
 
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary)

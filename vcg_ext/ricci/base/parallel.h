@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <future>
 #include <new>
 #include <system_error>
 #include <thread>
@@ -25,11 +27,11 @@ inline int defaultThreads()
 /// a time. The parts must be independent and \p work must not throw. The parts'
 /// bounds vary with the number of threads: a result that does not must not
 /// depend on them, so sums over elements are not for here.
+/// \param leastPart elements that are worth a thread
 template<class Work>
-void inParallel(int count, int threads, const Work& work)
+void inParallel(int count, int threads, const Work& work, int leastPart = 16384)
 {
-	constexpr int kLeastPart = 16384; // elements that are worth a thread
-	const int parts = std::clamp(count / kLeastPart, 1, std::max(threads, 1));
+	const int parts = std::clamp(count / leastPart, 1, std::max(threads, 1));
 	const auto bound = [&](int part) {
 		return static_cast<int>(std::int64_t(count) * part / parts);
 	};
@@ -104,6 +106,59 @@ void tasksInParallel(int count, int threads, const std::function<void()>& tick, 
 	for (const std::exception_ptr& exception : thrown)
 		if (exception)
 			std::rethrow_exception(exception);
+}
+
+/// Calls main() in the calling thread and meanwhile aside(own) in another one, if \p threads are more
+/// than one; else first aside(tick), then main(). They must be independent of each other. In the other
+/// thread own() does nothing but end \p aside once main() or \p tick has thrown; \p tick is called
+/// while the calling thread waits. What any of them throws is thrown on.
+template<class Main, class Aside>
+void besides(int threads, const std::function<void()>& tick, const Main& main, const Aside& aside)
+{
+	struct Ended
+	{
+	};
+	constexpr std::chrono::milliseconds kBetweenTicks(400);
+	std::atomic<bool> ended{false};
+	std::exception_ptr thrown;
+	const std::function<void()> own = [&] {
+		if (ended)
+			throw Ended();
+	};
+	std::future<void> other;
+	if (threads > 1)
+		try {
+			other = std::async(std::launch::async, [&] { aside(own); });
+		}
+		catch (const std::system_error&) { // no more threads to be had
+		}
+		catch (const std::bad_alloc&) { // nor memory for one
+		}
+	if (!other.valid()) {
+		aside(tick);
+		main();
+		return;
+	}
+	try {
+		main();
+		while (other.wait_for(kBetweenTicks) != std::future_status::ready)
+			tick();
+	}
+	catch (...) {
+		thrown = std::current_exception();
+		ended = true;
+	}
+	try {
+		other.get();
+	}
+	catch (const Ended&) {
+	}
+	catch (...) {
+		if (!thrown)
+			thrown = std::current_exception();
+	}
+	if (thrown)
+		std::rethrow_exception(thrown);
 }
 
 } // namespace ricci

@@ -12,6 +12,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
+#include <optional>
 #include <utility>
 
 namespace ricci {
@@ -24,6 +26,9 @@ double floatStep(double x)
 	const auto above = static_cast<float>(x);
 	return static_cast<double>(above) - static_cast<double>(std::nextafter(above, 0.0F));
 }
+
+/// Rings round bad triangles that are drawn at first, of which one is the border of the largest patches.
+constexpr int kNearRings = 4;
 
 /// The output's triangles, with what the repair wants to know of them.
 class Output
@@ -52,19 +57,53 @@ public:
 		return true;
 	}
 
-	/// Draws the triangles, counter-clockwise.
-	void draw(const SurfaceMesh& mesh)
+	/// The triangles that are not sound, and so many rings round them.
+	std::vector<int> near(const SurfaceMesh& mesh, const Soundness& wanted, int rings) const
 	{
+		const std::vector<Triangle>& triangles = trianglesOf(mesh);
+		std::vector<char> isTaken(triangles.size(), 0),
+			isNear(m_map.isRefined() ? m_map.refined.points.size() : mesh.positions.size(), 0);
+		for (std::size_t f = 0; f < m_uv.size(); ++f)
+			if (!wanted.isSound(inOrder(f, m_uv[f])))
+				isTaken[f] = 1;
+		for (; rings > 0; --rings) {
+			for (std::size_t f = 0; f < triangles.size(); ++f)
+				if (isTaken[f])
+					for (const int v : triangles[f])
+						isNear[positionOf(v)] = 1;
+			for (std::size_t f = 0; f < triangles.size(); ++f)
+				for (const int v : triangles[f])
+					if (isNear[positionOf(v)])
+						isTaken[f] = 1;
+		}
+		std::vector<int> taken;
+		for (std::size_t f = 0; f < isTaken.size(); ++f)
+			if (isTaken[f])
+				taken.push_back(static_cast<int>(f));
+		return taken;
+	}
+
+	std::vector<int> all() const
+	{
+		std::vector<int> faces(m_uv.size());
+		std::iota(faces.begin(), faces.end(), 0);
+		return faces;
+	}
+
+	/// Draws some of the triangles, in increasing order, counter-clockwise.
+	void draw(const SurfaceMesh& mesh, std::vector<int> faces)
+	{
+		m_faces = std::move(faces);
 		std::vector<Point3> places;
 		for (const SurfacePoint& p : m_map.refined.points)
 			places.push_back(placeOnSurface(p, mesh.positions));
 		const std::vector<Point3>& positions = m_map.isRefined() ? places : mesh.positions;
-		const std::vector<Triangle>& triangles =
-			m_map.isRefined() ? m_map.refined.triangles : mesh.triangles;
+		const std::vector<Triangle>& triangles = trianglesOf(mesh);
 		Array<Triangle> vertices;
 		Array<Triangle2> plane;
 		Array<std::array<double, 3>> sides;
-		for (std::size_t f = 0; f < triangles.size(); ++f) {
+		for (const int face : m_faces) {
+			const std::size_t f = positionOf(face);
 			const Triangle t = inOrder(f, triangles[f]);
 			const auto length = [&](std::size_t i, std::size_t j) {
 				return distance(positions[positionOf(t[i])], positions[positionOf(t[j])]);
@@ -73,19 +112,29 @@ public:
 			plane.push_back(inOrder(f, m_uv[f]));
 			sides.push_back({length(0, 1), length(1, 2), length(2, 0)});
 		}
-		m_chartOf.assign(triangles.size(), 0);
+		Array<int> chartOfFace(static_cast<int>(triangles.size()), 0);
 		int number = 0;
 		for (const Chart& chart : m_map.charts) {
 			for (const int f : m_map.isRefined() ? chart.refined : chart.faces)
-				m_chartOf[f] = number;
+				chartOfFace[f] = number;
 			++number;
 		}
-		drawn = drawingOf(std::move(vertices), plane, m_chartOf, std::move(sides));
+		m_boxes.assign(chartCount(), {});
+		for (const int f : chartOfFace.indices())
+			for (const Point2& p : m_uv[positionOf(f)])
+				m_boxes[chartOfFace[f]].add(p);
+		Array<int> chart;
+		for (const int f : m_faces)
+			chart.push_back(chartOfFace[f]);
+		drawn = drawingOf(std::move(vertices), plane, chart, std::move(sides));
 		m_chartOfPoint.assign(drawn.points.size(), 0);
-		for (const int f : drawn.corners.indices())
-			for (const int p : drawn.corners[f])
-				m_chartOfPoint[p] = m_chartOf[f];
+		for (const int i : drawn.corners.indices())
+			for (const int p : drawn.corners[i])
+				m_chartOfPoint[p] = chart[i];
 	}
+
+	/// Of all triangles of the charts.
+	const Array<Box2>& boxes() const { return m_boxes; }
 
 	int chartOf(int point) const { return m_chartOfPoint[point]; }
 	int chartCount() const { return static_cast<int>(m_map.charts.size()); }
@@ -96,12 +145,13 @@ public:
 	{
 		if (repair.movedCount() == 0)
 			return false;
-		for (const int f : drawn.corners.indices()) {
-			Triangle2 uv = inOrder(positionOf(f), m_uv[positionOf(f)]);
+		for (const int i : drawn.corners.indices()) {
+			const std::size_t f = positionOf(m_faces[positionOf(i)]);
+			Triangle2 uv = inOrder(f, m_uv[f]);
 			for (std::size_t k = 0; k < 3; ++k)
-				if (const int p = drawn.corners[f][k]; repair.moved[p])
+				if (const int p = drawn.corners[i][k]; repair.moved[p])
 					uv[k] = drawn.points[p];
-			m_uv[positionOf(f)] = inOrder(positionOf(f), uv);
+			m_uv[f] = inOrder(f, uv);
 		}
 		m_map.report.finishMoved += repair.movedCount();
 		return true;
@@ -112,6 +162,11 @@ public:
 	Soundness inText; ///< for coordinates with six decimals, in the unit square
 
 private:
+	const std::vector<Triangle>& trianglesOf(const SurfaceMesh& mesh) const
+	{
+		return m_map.isRefined() ? m_map.refined.triangles : mesh.triangles;
+	}
+
 	/// The corners of a triangle with two of them swapped if it is reversed.
 	template<class Corners>
 	Corners inOrder(std::size_t f, Corners corners) const
@@ -124,7 +179,9 @@ private:
 
 	Parametrization& m_map;
 	std::vector<Triangle2>& m_uv;
-	Array<int> m_chartOf, m_chartOfPoint;
+	std::vector<int> m_faces;  // those that are drawn
+	Array<int> m_chartOfPoint; // of the drawing
+	Array<Box2> m_boxes;       // [chart]
 };
 
 /// Tests patches that move borders of charts in the plane.
@@ -132,11 +189,8 @@ class BorderTest
 {
 public:
 	explicit BorderTest(const Output& output) :
-			m_output(output), m_box(output.chartCount()), m_border(output.chartCount()),
-			m_moves(output.drawn.points.size(), 0)
+			m_output(output), m_border(output.chartCount()), m_moves(output.drawn.points.size(), 0)
 	{
-		for (const int p : output.drawn.points.indices())
-			m_box[output.chartOf(p)].add(output.drawn.points[p]);
 		forEdges(sidesByEdge(output.drawn), [&](const DrawnSide* side, int count) {
 			if (!isInside(side, count))
 				for (int i = 0; i < count; ++i)
@@ -149,7 +203,7 @@ public:
 	bool operator()(const DrawnTriangles& drawn, const Patch& patch)
 	{
 		for (const int p : patch.points)
-			if (!m_box[m_output.chartOf(p)].contains(drawn.points[p]))
+			if (!m_output.boxes()[m_output.chartOf(p)].contains(drawn.points[p]))
 				return false;
 		std::vector<int> charts;
 		for (std::size_t i = 0; i < patch.points.size(); ++i) {
@@ -186,7 +240,6 @@ private:
 	}
 
 	const Output& m_output;
-	Array<Box2> m_box;                       // [chart] before
 	Array<std::vector<BorderSide>> m_border; // [chart]
 	Array<char> m_moves;                     // [point] scratch, 0 between calls
 };
@@ -194,6 +247,42 @@ private:
 Point2 centreOf(const Box2& square)
 {
 	return {(square.min[0] + square.max[0]) / 2, (square.min[1] + square.max[1]) / 2};
+}
+
+/// What finishEverywhere() does where small patches inside the charts mend all: then all but what is near
+/// bad triangles plays no part.
+/// \return whether points were moved; none where that does not do, and nothing is changed
+std::optional<bool> finishNear(const SurfaceMesh& mesh, const Tick& tick, Output& output)
+{
+	output.draw(mesh, output.near(mesh, output.inText, kNearRings));
+	BorderTest test(output);
+	const PatchRules rules{kNearRings - 1, [&](const DrawnTriangles& drawn, const Patch& patch) {
+							   return test(drawn, patch);
+						   }};
+	const PointGroups groups = insidePoints(output.drawn);
+	const Repair result =
+		repair(output.drawn, groups, RestShapes::OfDrawing, output.inText, rules, tick);
+	if (result.left > 0)
+		return std::nullopt;
+	return output.takeOver(result);
+}
+
+/// \return whether points were moved
+bool finishEverywhere(const SurfaceMesh& mesh, const Tick& tick, Output& output)
+{
+	output.draw(mesh, output.all());
+	BorderTest test(output);
+	const PatchTest accepts = [&](const DrawnTriangles& drawn, const Patch& patch) {
+		return test(drawn, patch);
+	};
+	const BorderMoves moves{SeamGeometry::Plane, [](int) { return false; }, accepts};
+	Repair result = repairInStages(output.drawn, moves, RestShapes::OfDrawing, output.inText, tick);
+	// Where there is no room for that, floats have to do.
+	result.add(repairInStages(output.drawn, moves, RestShapes::OfDrawing, output.soundness, tick));
+	if (result.left > 0)
+		result.add(
+			repairFreely(output.drawn, accepts, RestShapes::OfDrawing, output.soundness, tick));
+	return output.takeOver(result);
 }
 
 /// measureResult() of charts that fill \p disks, in the unit disk.
@@ -217,19 +306,8 @@ void finishInFloats(const SurfaceMesh& mesh, const Tick& tick, Parametrization& 
 	Output output(map);
 	if (output.isSound(output.inText))
 		return;
-	output.draw(mesh);
-	BorderTest test(output);
-	const PatchTest accepts = [&](const DrawnTriangles& drawn, const Patch& patch) {
-		return test(drawn, patch);
-	};
-	const BorderMoves moves{SeamGeometry::Plane, [](int) { return false; }, accepts};
-	Repair result = repairInStages(output.drawn, moves, RestShapes::OfDrawing, output.inText, tick);
-	// Where there is no room for that, floats have to do.
-	result.add(repairInStages(output.drawn, moves, RestShapes::OfDrawing, output.soundness, tick));
-	if (result.left > 0)
-		result.add(
-			repairFreely(output.drawn, accepts, RestShapes::OfDrawing, output.soundness, tick));
-	if (output.takeOver(result))
+	const std::optional<bool> moved = finishNear(mesh, tick, output);
+	if (moved ? *moved : finishEverywhere(mesh, tick, output))
 		measureResult(mesh, measureDistortion, map);
 }
 
@@ -239,7 +317,7 @@ void finishInFloats(
 	Output output(map);
 	if (output.isSound(output.soundness))
 		return;
-	output.draw(mesh);
+	output.draw(mesh, output.all());
 	const auto isInDisk = [&](const DrawnTriangles& drawn, const Patch& patch) {
 		for (const int p : patch.points) {
 			const Box2& square = disks[positionOf(output.chartOf(p))];

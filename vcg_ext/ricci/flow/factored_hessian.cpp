@@ -16,14 +16,19 @@ constexpr double kShiftGrowth = 100.0;
 
 } // namespace
 
-FactoredHessian::FactoredHessian(const VertexArray<char>& fixed, bool scaleInvariant) :
+FactoredHessian::FactoredHessian(
+	const VertexArray<char>& fixed, bool scaleInvariant, const VertexArray<Vertex>& mirror) :
 		m_row(fixed.size(), -1)
 {
 	const bool anyFixed = std::find(fixed.begin(), fixed.end(), 1) != fixed.end();
 	const Vertex pinned = !anyFixed && scaleInvariant ? Vertex(0) : Vertex();
-	for (const Vertex v : fixed.indices())
-		if (!fixed[v] && v != pinned)
+	for (const Vertex v : fixed.indices()) {
+		const Vertex first = mirror.empty() ? v : std::min(v, mirror[v]);
+		if (first != v)
+			m_row[v] = m_row[first];
+		else if (!fixed[v] && v != pinned)
 			m_row[v] = m_unknowns++;
+	}
 }
 
 bool FactoredHessian::hasUnknownsOf(const FactoredHessian& other) const
@@ -74,10 +79,10 @@ void FactoredHessian::continueOn(const CurvatureMap& from, const CurvatureMap& t
 
 void FactoredHessian::gather(const VertexVector& values, Eigen::VectorXd& rows) const
 {
-	rows.resize(m_unknowns);
+	rows.setZero(m_unknowns);
 	for (const Vertex v : m_row.indices())
 		if (m_row[v] >= 0)
-			rows[m_row[v]] = values[v];
+			rows[m_row[v]] += values[v];
 }
 
 void FactoredHessian::scatter(const Eigen::VectorXd& rows, VertexVector& values) const

@@ -13,7 +13,12 @@ class FactoredHessian
 public:
 	/// \p fixed: 1 where u is no unknown. Where nothing is fixed and \p scaleInvariant, one row is
 	/// redundant: the first vertex is no unknown either.
-	FactoredHessian(const VertexArray<char>& fixed, bool scaleInvariant);
+	/// \param mirror images of the vertices of a symmetric surface, or empty. A vertex and its image
+	/// share an unknown: where u is symmetric, so is Newton's step, and half the equations give it.
+	FactoredHessian(
+		const VertexArray<char>& fixed,
+		bool scaleInvariant,
+		const VertexArray<Vertex>& mirror = {});
 
 	int unknowns() const { return m_unknowns; }
 
@@ -46,7 +51,8 @@ public:
 	/// present: the same equations in other precision.
 	void continueOn(const CurvatureMap& from, const CurvatureMap& to);
 
-	/// Entries of \p values in the order of the unknowns, and back (0 elsewhere).
+	/// Entries of \p values in the order of the unknowns, those of images added up, and back (0
+	/// elsewhere).
 	void gather(const VertexVector& values, Eigen::VectorXd& rows) const;
 	void scatter(const Eigen::VectorXd& rows, VertexVector& values) const;
 

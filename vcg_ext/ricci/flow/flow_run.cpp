@@ -19,6 +19,10 @@ namespace ricci {
 
 namespace {
 
+/// Residual of a double, in radians, beyond which symmetric steps do not do: rounding has made its
+/// copies different.
+constexpr double kMaxAsymmetry = 1e-10;
+
 /// Bound of u at a hyperbolic start, below the 0 that stands for an infinite radius.
 constexpr double kMaxStartU = -1e-3;
 
@@ -105,7 +109,8 @@ FlowRun::FlowRun(
 	CirclePacking packing = takeStart();
 	m_map = m_background == Background::EuclideanPlane ? makeMap<Euclidean>(std::move(packing))
 													   : makeMap<Hyperbolic>(std::move(packing));
-	m_newton = std::make_unique<NewtonSolver>(*m_map, m_problem.target.fixed, std::move(hessian));
+	m_newton = std::make_unique<NewtonSolver>(
+		*m_map, m_problem.target.fixed, std::move(hessian), m_problem.mirror);
 }
 
 /// The factor of the start, if it is that of this run's packing and background.
@@ -196,6 +201,17 @@ bool FlowRun::solve()
 	const bool gaps = m_solved.converged && m_solved.floor > kMaxDoubleFloor && !isFlatDisk();
 	if (stopped || gaps)
 		m_solved = solveExtended();
+	if (m_problem.isDoubled() && m_solved.residual > kMaxAsymmetry &&
+		m_map->brokenTriangles() == 0) {
+		m_newton->dropSymmetry();
+		m_solved = solveFor(m_options.epsilon);
+	}
+	return m_solved.converged;
+}
+
+bool FlowRun::solveRoughly(double epsilon)
+{
+	m_solved = solveFor(std::max(epsilon, m_options.epsilon), false);
 	return m_solved.converged;
 }
 
@@ -220,11 +236,12 @@ NewtonResult FlowRun::solveOnCircle()
 	}
 }
 
-NewtonResult FlowRun::solveFor(double epsilon)
+NewtonResult FlowRun::solveFor(double epsilon, bool polishes)
 {
 	NewtonOptions newtonOptions;
 	newtonOptions.epsilon = epsilon;
 	newtonOptions.maxIterations = m_options.maxIterations;
+	newtonOptions.polishes = polishes;
 	const NewtonResult solved = m_newton->solve(
 		m_result.u,
 		m_problem.target.curvature,

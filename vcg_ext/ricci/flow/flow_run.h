@@ -79,6 +79,11 @@ public:
 	/// \throw NotConverged if a circular boundary does not settle; SolverFailed
 	bool solve();
 
+	/// Runs the flow up to \p epsilon, from where solve() goes on.
+	/// \return whether that is reached
+	/// \pre the target is not circular
+	bool solveRoughly(double epsilon);
+
 	/// Newton steps so far, those before this run included.
 	int iterations() const { return m_result.iterations; }
 
@@ -105,7 +110,7 @@ private:
 	std::unique_ptr<FactoredHessian> takeHessian();
 	VertexVector startU(const IntrinsicMesh& mesh, const VertexArray<double>& radii) const;
 	NewtonResult solveOnCircle();
-	NewtonResult solveFor(double epsilon);
+	NewtonResult solveFor(double epsilon, bool polishes = true);
 	NewtonResult solveExtended();
 	bool isFlatDisk() const;
 	double spreadOfScales() const;

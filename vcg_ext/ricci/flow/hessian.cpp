@@ -75,8 +75,8 @@ void Hessian::fill(const CurvatureMap& map, double shift)
 		const double C = map.cosineLess1()[e];
 		const int a = m_rowOfOrigin[e], b = m_rowOfTarget[e];
 		if (a >= 0 && a == b) {
-			// A loop has its own circle at both ends: 2 w cosh(l) - 2 w. Two ends that are
-			// different vertices never share a row.
+			// A loop, or an edge between mirror images, has circles of one size at both ends: 2 w
+			// cosh(l) - 2 w.
 			value[m_diagonal[a]] += 2.0 * w * C;
 			continue;
 		}

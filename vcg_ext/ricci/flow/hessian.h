@@ -18,7 +18,8 @@ public:
 	using Matrix = Eigen::SparseMatrix<double>;
 
 	/// Lays out the sparsity pattern for the connectivity of \p map. \p row gives each vertex the
-	/// row of its unknown, 0 to \p unknowns - 1, or -1 where u is fixed.
+	/// row of its unknown, 0 to \p unknowns - 1, or -1 where u is fixed. Vertices with one row have
+	/// the same u: their rows of the whole matrix are added up, and their columns.
 	void layOut(const CurvatureMap& map, const VertexArray<int>& row, int unknowns);
 
 	/// Fills the values at the state of \p map and adds \p shift to the diagonal.

@@ -58,6 +58,10 @@ int solutionsPerFactorization(const SparseCholesky& cholesky)
 	return static_cast<int>(std::clamp(quotient, double(kMinIterations), double(kMaxIterations)));
 }
 
+/// Angles and their sums are kept as doubles in any case: a dozen angles, the sums of which are up to 2
+/// pi and round by up to two epsilons each.
+constexpr double kSumRounding = 24.0 * std::numeric_limits<double>::epsilon();
+
 /// A Cholesky factor of a nearby matrix, in the form of a preconditioner of Eigen.
 class FactorPreconditioner
 {
@@ -94,13 +98,16 @@ private:
 } // namespace
 
 NewtonSolver::NewtonSolver(
-	CurvatureMap& map, VertexArray<char> fixed, std::unique_ptr<FactoredHessian> start) :
+	CurvatureMap& map,
+	VertexArray<char> fixed,
+	std::unique_ptr<FactoredHessian> start,
+	const VertexArray<Vertex>& mirror) :
 		m_map(&map),
 		m_fixed(std::move(fixed))
 {
 	const bool anyFixed = std::find(m_fixed.begin(), m_fixed.end(), 1) != m_fixed.end();
 	m_gaugeFree = !anyFixed && map.scaleInvariant();
-	m_hessian = std::make_unique<FactoredHessian>(m_fixed, map.scaleInvariant());
+	m_hessian = std::make_unique<FactoredHessian>(m_fixed, map.scaleInvariant(), mirror);
 	if (start && start->isFactored() && start->hasUnknownsOf(*m_hessian))
 		m_start = std::move(start);
 	const int n = m_fixed.size();
@@ -118,6 +125,17 @@ void NewtonSolver::continueOn(CurvatureMap& map)
 {
 	m_hessian->continueOn(*m_map, map);
 	m_map = &map;
+}
+
+void NewtonSolver::dropSymmetry()
+{
+	m_symmetricWork = work();
+	m_hessian = std::make_unique<FactoredHessian>(m_fixed, m_map->scaleInvariant());
+}
+
+CholeskyWork NewtonSolver::work() const
+{
+	return m_symmetricWork + m_hessian->cholesky().work();
 }
 
 /// Computes the gradient; returns max |target - K|, infinity if it is not finite.
@@ -244,8 +262,7 @@ double NewtonSolver::roundingFloor()
 	}
 	double amplification = m_map->needleRatio();
 	amplification = std::max(amplification, m_diagonal.maxCoeff());
-	// Angles and their sums are kept as doubles in any case.
-	return 4.0 * (m_map->precision() * amplification + std::numeric_limits<double>::epsilon());
+	return 4.0 * m_map->precision() * amplification + kSumRounding;
 }
 
 NewtonResult NewtonSolver::solve(
@@ -276,7 +293,7 @@ NewtonResult NewtonSolver::solve(
 		const bool atFloor = valid && result.residual <= result.floor;
 		const bool brokenMinimum = !valid && result.residual < options.epsilon;
 		if (atFloor || searchFails || brokenMinimum || m_hessian->unknowns() == 0 ||
-			(reached && polishing >= kPolishingSteps) ||
+			(reached && polishing >= (options.polishes ? kPolishingSteps : 0)) ||
 			(!reached && result.iterations >= options.maxIterations))
 			break;
 

@@ -18,6 +18,7 @@ struct NewtonOptions
 {
 	double epsilon = 1e-8; ///< radians: wanted bound of max |target - K|
 	int maxIterations = 200;
+	bool polishes = true; ///< goes on beyond epsilon with the factor that is there
 };
 
 struct NewtonResult
@@ -71,20 +72,26 @@ public:
 	/// first direction is then solved with it directly, which gives the numbers that a
 	/// factorisation of the solver's own would give. Otherwise, or if the first call of solve()
 	/// makes no step, it is dropped.
+	/// \param mirror the images of the vertices where map, target and u are symmetric, or empty. Then u
+	/// stays symmetric, and there are half as many equations.
 	/// \pre \p start was factorised for a map of the same packing and background at the same u
 	NewtonSolver(
 		CurvatureMap& map,
 		VertexArray<char> fixed,
-		std::unique_ptr<FactoredHessian> start = nullptr);
+		std::unique_ptr<FactoredHessian> start = nullptr,
+		const VertexArray<Vertex>& mirror = {});
 
 	/// Goes on with \p map, which has the triangulation of the present one, from the present u and
 	/// with the present factorisation: the same equations in other precision.
 	void continueOn(CurvatureMap& map);
 
+	/// Goes on with an unknown for every vertex.
+	void dropSymmetry();
+
 	/// What the linear solver has done since the construction. Where the first factor was taken
 	/// over, all that was done with it before is included, so that it need not be counted
 	/// elsewhere.
-	const CholeskyWork& work() const { return m_hessian->cholesky().work(); }
+	CholeskyWork work() const;
 
 	/// The last factor, null if there was none. Ends the use of this object.
 	std::unique_ptr<FactoredHessian> takeHessian()
@@ -121,8 +128,9 @@ private:
 
 	CurvatureMap* m_map;
 	VertexArray<char> m_fixed;
-	bool m_gaugeFree = false; // the mean of u is free
-	bool m_worn = false;      // the factor has become a bad preconditioner
+	CholeskyWork m_symmetricWork; // before dropSymmetry()
+	bool m_gaugeFree = false;     // the mean of u is free
+	bool m_worn = false;          // the factor has become a bad preconditioner
 	std::unique_ptr<FactoredHessian> m_hessian;
 	std::unique_ptr<FactoredHessian> m_start; // for the first direction; none afterwards
 	VertexVector m_gradient;                  // K - target, 0 where fixed

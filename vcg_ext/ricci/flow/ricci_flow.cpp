@@ -19,24 +19,29 @@ namespace {
 /// Newton steps given to the surface itself where its double can be solved instead.
 constexpr int kStepsBeforeDoubling = 40;
 
+/// Radians. Where the boundary bends when the surface itself is solved so far, its double is solved.
+constexpr double kRoughEpsilon = 0.3;
+
 /// The flow on a surface with boundary, whose boundary edges stay.
 struct HalfFlow
 {
 	int iterations = 0;
 	std::optional<FlowResult> result; ///< none if the target was not reached
 
-	// What the double can start from, where there is a result:
+	// What the double can start from, where the surface was solved, be it roughly:
 	VertexVector factor;      ///< logarithmic conformal factor, end less start
 	std::vector<double> arcs; ///< of a circular boundary
 	bool bends = false;       ///< a boundary edge would have to flip in the double
 };
 
+/// \param mayBeRough whether there need not be a result where the boundary bends: a rough solution tells
 /// \throw only Stopped once the run has begun: after other errors the double may do better
 HalfFlow flowOnSurface(
 	Background background,
 	const EmbeddedSurface& surface,
 	FlowStart start,
 	const Target& target,
+	bool mayBeRough,
 	FlowOptions options,
 	const FlowListener& listener,
 	const Tick& tick)
@@ -44,9 +49,12 @@ HalfFlow flowOnSurface(
 	options.maxIterations = std::min(options.maxIterations, kStepsBeforeDoubling);
 	FlowRun run(
 		background, flowProblem(surface, std::move(start), target), options, 0, listener, tick);
-	bool solved = false;
+	HalfFlow half;
+	bool solved = false, isRough = false;
 	try {
-		solved = run.solve();
+		isRough = mayBeRough && !target.circular && run.solveRoughly(kRoughEpsilon) &&
+				  run.bendsAtBoundary();
+		solved = isRough || run.solve();
 	}
 	catch (const Stopped&) {
 		throw;
@@ -54,13 +62,13 @@ HalfFlow flowOnSurface(
 	catch (const Error&) {
 		// not solved
 	}
-	HalfFlow half;
 	half.iterations = run.iterations();
 	if (solved) {
 		half.factor = run.factor();
 		half.arcs = run.arcs();
-		half.bends = run.bendsAtBoundary();
-		half.result = run.result();
+		half.bends = isRough || run.bendsAtBoundary();
+		if (!isRough)
+			half.result = run.result();
 	}
 	return half;
 }
@@ -85,7 +93,7 @@ FlowResult flowOnDouble(
 		half.iterations,
 		listener,
 		tick);
-	if (half.result)
+	if (half.factor.size() > 0)
 		run.startFrom(half.factor, half.arcs);
 	if (!run.solve())
 		throw run.failure();
@@ -126,13 +134,11 @@ FlowResult runRicciFlow(
 		return run.result();
 	}
 
-	HalfFlow half =
-		flowOnSurface(background, surface, std::move(start), target, options, listener, tick);
-	const bool prescribed = !target.hasFixed();
-	if (half.result && !(prescribed && half.bends))
+	const bool isPrescribed = !target.hasFixed();
+	HalfFlow half = flowOnSurface(
+		background, surface, std::move(start), target, isPrescribed, options, listener, tick);
+	if (half.result && !(isPrescribed && half.bends))
 		return std::move(*half.result);
-	if (!half.result)
-		return flowOnDouble(background, surface, target, options, listener, tick, half);
 	try {
 		return flowOnDouble(background, surface, target, options, listener, tick, half);
 	}
@@ -141,6 +147,18 @@ FlowResult runRicciFlow(
 	}
 	catch (const Error&) {
 		// The half is less conformal at the boundary, but it has the metric asked for.
+		if (half.bends && !half.result)
+			half = flowOnSurface(
+				background,
+				surface,
+				flowStart(surface, options, tick),
+				target,
+				false,
+				options,
+				listener,
+				tick);
+		if (!half.result)
+			throw;
 		return std::move(*half.result);
 	}
 }

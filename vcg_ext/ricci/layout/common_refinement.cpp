@@ -15,8 +15,8 @@ namespace ricci {
 
 namespace {
 
-/// Shares of the work that are done after the division, the linking of the pieces, the layout.
-constexpr double kDivided = 0.5, kLinked = 0.65, kLaidOut = 0.85;
+/// Shares of the work that are done after the division of the start triangles, after the layout.
+constexpr double kDivided = 0.5, kLaidOut = 0.85;
 
 /// The edges of the input on which the overlay is open: the cut, and the border of the wanted part.
 EdgeArray<char>
@@ -76,26 +76,21 @@ public:
 	RefinementMaker(
 		const FlowDomain& domain,
 		const FlowResult& flow,
+		LinkedPieces linked,
 		const EdgeArray<char>& isCut,
 		const OverlayListener& listener) :
 			m_surface(domain.surface),
 			m_flow(flow), m_end(flow.metric->triangulation()), m_surfaceCut(isCut),
-			m_isCut(opened(domain, flow, isCut)), m_listener(listener)
+			m_isCut(opened(domain, flow, isCut)), m_listener(listener), m_linked(std::move(linked))
 	{
 	}
 
 	CommonRefinement run(bool cornersOnly)
 	{
-		OverlayPieces pieces =
-			divideStartTriangles(m_flow, [&](double share, std::size_t crossings) {
-				m_listener(kDivided * share, crossings);
-			});
-		const auto crossings = static_cast<std::size_t>(pieces.nodes.size() - m_end.vertexCount());
-		m_listener(kDivided, crossings);
-		m_linked = linkPieces(
-			std::move(pieces), m_flow.history.input, m_end, m_surface.triangulation.faceCount());
-		m_listener(kLinked, crossings);
-		layOut([&] { m_listener(kLinked, crossings); });
+		const auto crossings =
+			static_cast<std::size_t>(m_linked.pieces.nodes.size() - m_end.vertexCount());
+		m_listener(kOverlayShare, crossings);
+		layOut([&] { m_listener(kOverlayShare, crossings); });
 		m_listener(kLaidOut, crossings);
 		m_linked.links = {};
 		numberPoints();
@@ -308,14 +303,29 @@ private:
 
 } // namespace
 
+LinkedPieces
+overlayOf(const FlowDomain& domain, const FlowResult& flow, const OverlayListener& listener)
+{
+	OverlayPieces pieces = divideStartTriangles(
+		flow, [&](double share, std::size_t crossings) { listener(kDivided * share, crossings); });
+	const Triangulation& end = flow.metric->triangulation();
+	const auto crossings = static_cast<std::size_t>(pieces.nodes.size() - end.vertexCount());
+	listener(kDivided, crossings);
+	LinkedPieces linked = linkPieces(
+		std::move(pieces), flow.history.input, end, domain.surface.triangulation.faceCount());
+	listener(kOverlayShare, crossings);
+	return linked;
+}
+
 CommonRefinement commonRefinement(
 	const FlowDomain& domain,
 	const FlowResult& flow,
+	LinkedPieces linked,
 	const EdgeArray<char>& isCut,
 	bool cornersOnly,
 	const OverlayListener& listener)
 {
-	return RefinementMaker(domain, flow, isCut, listener).run(cornersOnly);
+	return RefinementMaker(domain, flow, std::move(linked), isCut, listener).run(cornersOnly);
 }
 
 } // namespace ricci

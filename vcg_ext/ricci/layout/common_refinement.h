@@ -3,7 +3,7 @@
 #define RICCI_COMMON_REFINEMENT_H
 
 #include "../flow/ricci_flow.h"
-#include "../overlay/overlay_pieces.h"
+#include "../overlay/piece_faces.h"
 #include "../surface/flow_domain.h"
 #include "../surface/surface_point.h"
 #include "hyperbolic_layout.h"
@@ -28,9 +28,17 @@ struct CommonRefinement
 	std::size_t crossings = 0;        ///< points that are not vertices of the surface
 };
 
-/// Computes the overlay (overlay_pieces.h) for the faces of the domain's surface and lays it out, cut
-/// along the surface's edges with \p isCut. Where the flow's surface goes on beyond it (its double,
-/// caps on holes), the overlay ends at its boundary.
+/// The overlay (overlay_pieces.h) for the faces of the domain's surface. Where the flow's surface goes on
+/// beyond it (its double, caps on holes), the overlay ends at its boundary.
+/// \param listener hears of its progress, from 0 to kOverlayShare
+/// \pre the flow ran with intrinsic flips
+LinkedPieces
+overlayOf(const FlowDomain& domain, const FlowResult& flow, const OverlayListener& listener);
+
+/// Share of overlayOf() in the work of the common refinement.
+constexpr double kOverlayShare = 0.65;
+
+/// Lays the overlay \p linked of \p flow out, cut along the surface's edges with \p isCut.
 ///
 /// Positions: affine on the input's faces; in the plane by the projective map of the decorated
 /// discrete conformal equivalence, b'_i ~ b_i exp(-(u_i - u0_i)) between a start triangle and an
@@ -39,11 +47,11 @@ struct CommonRefinement
 ///
 /// \param cornersOnly the layout of the surface's corners is all that is wanted: no points,
 /// triangles and uv
-/// \param listener hears of the overlay's progress
-/// \pre the flow ran with intrinsic flips
+/// \param listener hears of the progress, from kOverlayShare to 1
 CommonRefinement commonRefinement(
 	const FlowDomain& domain,
 	const FlowResult& flow,
+	LinkedPieces linked,
 	const EdgeArray<char>& isCut,
 	bool cornersOnly,
 	const OverlayListener& listener);

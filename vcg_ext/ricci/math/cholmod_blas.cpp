@@ -9,6 +9,8 @@
 //
 // No function allocates memory, because no exception may pass through CHOLMOD: matrices are taken in
 // blocks of a size that Eigen finds room for on the stack. What depends on it is the speed alone.
+#include "../base/parallel.h"
+
 #include <Eigen/Cholesky>
 
 #include <cholmod.h>
@@ -53,15 +55,41 @@ struct Matrix
 	}
 };
 
+/// Products of two numbers that are worth a thread: they take a millisecond.
+constexpr double kLeastProducts = 4e6;
+
+/// Calls work(i) for the first number i of every block of \p size rows or columns, which are independent
+/// of each other, in threads if there are many \p products of numbers in all.
+template<class Work>
+void forBlocks(Index size, double products, const Work& work)
+{
+	const int threads = products < 2.0 * kLeastProducts ? 1 : ricci::defaultThreads();
+	const int parts =
+		static_cast<int>(std::min<double>(threads, std::max(1.0, products / kLeastProducts)));
+	ricci::inParallel(
+		parts,
+		parts,
+		[&](int first, int last) {
+			for (int part = first; part < last; ++part)
+				for (Index i = part * kBlock; i < size; i += parts * kBlock)
+					work(i);
+		},
+		1);
+}
+
 enum class Blocks { All, Lower };
 
 /// c += sign a b^T, in the \p blocks of c.
 void addProduct(double sign, const Matrix& a, const Matrix& b, const Matrix& c, Blocks blocks)
 {
-	for (Index j = 0; j < c.columns; j += kBlock)
-		for (Index i = blocks == Blocks::Lower ? j : 0; i < c.rows; i += kBlock)
+	const double share = blocks == Blocks::Lower ? 0.5 : 1.0;
+	const double products = share * double(c.rows) * double(c.columns) * double(a.columns);
+	forBlocks(c.rows, products, [&](Index i) {
+		const Index columns = blocks == Blocks::Lower ? std::min(i + 1, c.columns) : c.columns;
+		for (Index j = 0; j < columns; j += kBlock)
 			for (Index k = 0; k < a.columns; k += kBlock)
 				c.block(i, j).noalias() += sign * a.block(i, k) * b.block(j, k).transpose();
+	});
 }
 
 /// b = b a^-T for the lower triangle a.
@@ -71,11 +99,12 @@ void divide(const Matrix& a, const Matrix& b)
 		const Index width = std::min(kBlock, b.columns - j);
 		const Matrix done = b.part(0, 0, b.rows, j), now = b.part(0, j, b.rows, width);
 		addProduct(-1.0, done, a.part(j, 0, width, j), now, Blocks::All);
-		for (Index i = 0; i < b.rows; i += kBlock)
+		forBlocks(b.rows, 0.5 * double(b.rows) * double(width * width), [&](Index i) {
 			a.block(j, j)
 				.transpose()
 				.triangularView<Eigen::Upper>()
 				.solveInPlace<Eigen::OnTheRight>(now.block(i, 0));
+		});
 	}
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -12,33 +13,41 @@ namespace ricci {
 
 namespace {
 
-/// Drops points inside the polygon of those that are farthest in eight directions: they are no corners
-/// of the convex hull, exactly.
+/// More than the rounding error of a doubled area, in units of the square of the largest coordinate.
+constexpr double kAreaRounding = 64.0 * std::numeric_limits<double>::epsilon();
+
+/// Drops points inside the polygon of those that are farthest in eight directions, as far as doubles
+/// tell: they are no corners of the convex hull.
 void dropInside(std::vector<Point2>& points)
 {
 	static constexpr std::array<Point2, 8> directions{
 		{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
-	std::vector<Point2> polygon; // counter-clockwise
-	for (const Point2& d : directions) {
-		const auto along = [&](const Point2& p) { return d[0] * p[0] + d[1] * p[1]; };
-		polygon.push_back(
-			*std::max_element(points.begin(), points.end(), [&](const Point2& p, const Point2& q) {
-				return along(p) < along(q);
-			}));
+	std::array<double, 8> farthest;
+	farthest.fill(-std::numeric_limits<double>::infinity());
+	std::array<Point2, 8> polygon{}; // counter-clockwise
+	double largest = 0.0;
+	for (const Point2& p : points) {
+		largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
+		for (std::size_t k = 0; k < 8; ++k)
+			if (const double along = directions[k][0] * p[0] + directions[k][1] * p[1];
+				along > farthest[k]) {
+				farthest[k] = along;
+				polygon[k] = p;
+			}
 	}
-	polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
-	if (polygon.size() > 1 && polygon.back() == polygon.front())
-		polygon.pop_back();
-	if (polygon.size() < 3)
-		return;
 	// A polygon that is seen counter-clockwise on all sides goes round.
+	const double least =
+		std::max(kAreaRounding * largest * largest, std::numeric_limits<double>::min());
 	const auto isInside = [&](const Point2& p) {
-		for (std::size_t i = 0; i < polygon.size(); ++i)
-			if (orientation(polygon[i], polygon[(i + 1) % polygon.size()], p) <= 0)
+		for (std::size_t k = 0; k < 8; ++k) {
+			const Point2 &a = polygon[k], &b = polygon[(k + 1) % 8];
+			if (a != b && !(doubledArea(a, b, p) > least))
 				return false;
+		}
 		return true;
 	};
-	points.erase(std::remove_if(points.begin(), points.end(), isInside), points.end());
+	if (polygon.front() != polygon[4] || polygon[2] != polygon[6])
+		points.erase(std::remove_if(points.begin(), points.end(), isInside), points.end());
 }
 
 /// Corners of the convex hull, counter-clockwise (monotone chain

@@ -3,6 +3,7 @@
 
 #include "../base/floating_point.h"
 #include "../base/indexed.h"
+#include "../base/parallel.h"
 #include "../base/tolerances.h"
 #include "../math/orientation.h"
 
@@ -40,12 +41,30 @@ struct DrawnTriangle
 		apex = {dot / base, height};
 	}
 
-	bool hasArea() const
+	double area() const { return base > 0.0 ? 0.5 * base * height : 0.0; }
+
+	bool hasShape() const
 	{
 		const double longest = std::max({base, std::abs(apex), std::abs(apex - base)});
 		return base > 0.0 && base * height > kMinTriangleHeight * longest * longest;
 	}
 };
+
+double distortionOf(const DrawnTriangle& drawn, const Triangle2& plane)
+{
+	if (!drawn.hasShape())
+		return std::numeric_limits<double>::quiet_NaN();
+	// The map z -> alpha z + beta conj(z) sends base to b and the apex to c.
+	const std::complex<double> b(plane[1][0] - plane[0][0], plane[1][1] - plane[0][1]);
+	const std::complex<double> c(plane[2][0] - plane[0][0], plane[2][1] - plane[0][1]);
+	const std::complex<double> alongBase = b / drawn.base;
+	const std::complex<double> across = (c - alongBase * drawn.apex.real()) / drawn.height;
+	const std::complex<double> i(0.0, 1.0);
+	const double alpha = std::abs(alongBase - i * across);
+	const double beta = std::abs(alongBase + i * across);
+	const double smaller = std::abs(alpha - beta);
+	return smaller > 0.0 ? (alpha + beta) / smaller : std::numeric_limits<double>::infinity();
+}
 
 double planeArea(const Triangle2& p)
 {
@@ -69,8 +88,7 @@ bool isOriented(const Triangle2& p, bool reversed)
 
 double triangleArea(const std::array<Point3, 3>& p)
 {
-	const DrawnTriangle drawn(p);
-	return drawn.base > 0.0 ? 0.5 * drawn.base * drawn.height : 0.0;
+	return DrawnTriangle(p).area();
 }
 
 double surfaceArea(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles)
@@ -86,19 +104,7 @@ double surfaceArea(const std::vector<Point3>& positions, const std::vector<Trian
 
 double quasiConformalDistortion(const std::array<Point3, 3>& surface, const Triangle2& plane)
 {
-	const DrawnTriangle drawn(surface);
-	if (!drawn.hasArea())
-		return std::numeric_limits<double>::quiet_NaN();
-	// The map z -> alpha z + beta conj(z) sends base to b and the apex to c.
-	const std::complex<double> b(plane[1][0] - plane[0][0], plane[1][1] - plane[0][1]);
-	const std::complex<double> c(plane[2][0] - plane[0][0], plane[2][1] - plane[0][1]);
-	const std::complex<double> alongBase = b / drawn.base;
-	const std::complex<double> across = (c - alongBase * drawn.apex.real()) / drawn.height;
-	const std::complex<double> i(0.0, 1.0);
-	const double alpha = std::abs(alongBase - i * across);
-	const double beta = std::abs(alongBase + i * across);
-	const double smaller = std::abs(alpha - beta);
-	return smaller > 0.0 ? (alpha + beta) / smaller : std::numeric_limits<double>::infinity();
+	return distortionOf(DrawnTriangle(surface), plane);
 }
 
 AreaDistortion areaDistortion(const std::vector<double>& before, const std::vector<double>& after)
@@ -143,16 +149,22 @@ DistortionField measureDistortion(
 	std::vector<double> ringArea(mesh.positions.size(), 0.0), measured;
 	double sum = 0.0, areaSum = 0.0, weightedSum = 0.0;
 	std::vector<double> areaBefore(mesh.triangles.size(), 0.0), areaAfter = areaBefore;
+	inParallel(static_cast<int>(mesh.triangles.size()), defaultThreads(), [&](int first, int last) {
+		for (std::size_t f = positionOf(first); f < positionOf(last); ++f) {
+			const DrawnTriangle drawn(cornersOf(mesh, mesh.triangles[f]));
+			field.face[f] = distortionOf(drawn, plane[f]);
+			if (!std::isfinite(field.face[f]))
+				continue;
+			areaBefore[f] = drawn.area();
+			areaAfter[f] = planeArea(plane[f]);
+		}
+	});
 	report.flippedFaces = 0;
 	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-		const std::array<Point3, 3> corners = cornersOf(mesh, mesh.triangles[f]);
-		const double qc = field.face[f] = quasiConformalDistortion(corners, plane[f]);
+		const double qc = field.face[f], area = areaBefore[f];
 		report.flippedFaces += !isOriented(plane[f], reversed[f]);
 		if (!std::isfinite(qc))
 			continue;
-		const double area = triangleArea(corners);
-		areaBefore[f] = area;
-		areaAfter[f] = planeArea(plane[f]);
 		measured.push_back(qc);
 		sum += qc;
 		areaSum += area;

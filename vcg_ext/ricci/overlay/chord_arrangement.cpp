@@ -10,9 +10,27 @@ void ChordArrangement::divide(
 	int places, const std::vector<Chord>& first, const std::vector<Chord>& second)
 {
 	m_places = places;
+	if (first.empty() && second.empty()) {
+		becomeOneFace();
+		return;
+	}
 	makeLines(first, second);
 	findCrossings();
 	traceFaces();
+}
+
+/// As makeLines(), findCrossings() and traceFaces() where there are no chords, as in most polygons.
+void ChordArrangement::becomeOneFace()
+{
+	m_lines.clear();
+	m_firstLineAt.assign(m_places + 1, 0);
+	m_crossings.clear();
+	m_segments = 0;
+	m_sides.clear();
+	for (int place = 0; place < m_places; ++place)
+		m_sides.push_back({place, place, -1, true});
+	m_firstSide.assign(1, 0);
+	m_firstSide.push_back(m_places);
 }
 
 void ChordArrangement::makeLines(const std::vector<Chord>& first, const std::vector<Chord>& second)

@@ -107,6 +107,7 @@ private:
 		return m_lines[line].from == place ? m_lines[line].to : m_lines[line].from;
 	}
 
+	void becomeOneFace();
 	void makeLines(const std::vector<Chord>& first, const std::vector<Chord>& second);
 	void gatherLinesAtPlaces();
 	void findCrossings();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten_component.h"
 
+#include "../base/parallel.h"
 #include "../base/text.h"
 #include "../cut/cut_graph.h"
 #include "../finish/finish.h"
@@ -134,11 +135,15 @@ HalfedgeArray<double> cutCorners(const FlowDomain&, const ComponentMap&, const H
 /// The layout of the corners of the component, open along the cut; with flips on the common
 /// refinement.
 void placeCorners(
-	const FlowDomain& domain, const Options& options, ProgressRange& progress, ComponentMap& map)
+	const FlowDomain& domain,
+	LinkedPieces overlay,
+	const Options& options,
+	ProgressRange& progress,
+	ComponentMap& map)
 {
 	const CurvatureMap& metric = *map.flow.metric;
 	if (options.surgery == Surgery::IntrinsicFlips) {
-		map.refinement = refine(domain, map, options, progress);
+		map.refinement = refine(domain, map, std::move(overlay), options, progress);
 		map.layout = std::move(map.refinement.inputLayout);
 	}
 	else
@@ -160,13 +165,15 @@ double areaInPlane(const FlowDomain& domain, const ComponentMap& map)
 void layOut(
 	const Component& component,
 	const FlowDomain& domain,
+	LinkedPieces overlay,
 	const Options& options,
 	ProgressRange& progress,
 	ComponentMap& map)
 {
 	const Triangulation& t = domain.surface.triangulation;
-	placeCorners(domain, options, progress, map);
-	if (map.type.boundaryLoops > 1 && domain.holes == 0) {
+	const bool mayChangeCut = map.type.boundaryLoops > 1 && domain.holes == 0;
+	placeCorners(domain, mayChangeCut ? overlay : std::move(overlay), options, progress, map);
+	if (mayChangeCut) {
 		// A hole round which the metric closes needs no seam.
 		const int edges = map.cut.edgeCount;
 		dropSeamsToHoles(
@@ -176,7 +183,7 @@ void layOut(
 			map.cones,
 			map.cut);
 		if (map.cut.edgeCount < edges)
-			placeCorners(domain, options, progress, map);
+			placeCorners(domain, std::move(overlay), options, progress, map);
 	}
 	if (!map.flow.target.hasFixed()) // else the boundary keeps its metric, which fixes the scale
 		map.scale = std::sqrt(
@@ -190,6 +197,7 @@ void layOut(
 /// \return what continues it across the edges of the cut
 EdgeArray<SidePairing> placeInDisk(
 	const FlowDomain& domain,
+	LinkedPieces overlay,
 	const HyperbolicOptions& options,
 	ProgressRange& progress,
 	ComponentMap& map)
@@ -197,7 +205,7 @@ EdgeArray<SidePairing> placeInDisk(
 	const Triangulation& t = domain.surface.triangulation;
 	EdgeArray<SidePairing> pairing(t.edgeCount());
 	if (options.surgery == Surgery::IntrinsicFlips) {
-		map.refinement = refine(domain, map, options, progress);
+		map.refinement = refine(domain, map, std::move(overlay), options, progress);
 		map.layout = std::move(map.refinement.inputLayout);
 		pairing = std::move(map.refinement.pairing);
 	}
@@ -231,15 +239,18 @@ double radiusOf(const PlanarLayout& layout)
 void layOut(
 	const Component&,
 	const FlowDomain& domain,
+	LinkedPieces overlay,
 	const HyperbolicOptions& options,
 	ProgressRange& progress,
 	ComponentMap& map)
 {
 	const Triangulation& t = domain.surface.triangulation;
-	EdgeArray<SidePairing> pairing = placeInDisk(domain, options, progress, map);
+	EdgeArray<SidePairing> pairing =
+		placeInDisk(domain, std::move(overlay), options, progress, map);
 	if (const double radius = radiusOf(map.layout); radius > kWideRadius) {
 		map.cut = cutAroundCentre(t, cutCost(domain, map.flow, options), map.cones);
-		pairing = placeInDisk(domain, options, progress, map);
+		pairing = placeInDisk(
+			domain, flowOverlay(domain, options, progress, map), options, progress, map);
 		progress.log(
 			"The short seams lead " + numberText(radius, 3) +
 			" out in the disk, too far for floats. Longer ones around the middle lead " +
@@ -368,17 +379,29 @@ ComponentMap flatten(
 	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
 	EdgeArray<double> cost = cutCost(domain, map.flow, options);
 	avoidDiagonals(domain.isDiagonal, cost);
+	const HalfedgeArray<double> corners = cutCorners(domain, map, options);
+	LinkedPieces overlay;
+	besides(
+		defaultThreads(),
+		[&] { progress.step(1.0 - kAfterFlow, "Shortening the seams"); },
+		[&] { overlay = flowOverlay(domain, options, progress, map); },
+		[&](const Tick& tick) {
+			map.cut = cutThroughCones(domain, cost, map.cones, corners, tick);
+		});
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
-	map.cut = cutThroughCones(domain, cost, map.cones, cutCorners(domain, map, options), progress);
-	layOut(component, domain, options, progress, map);
+	layOut(component, domain, std::move(overlay), options, progress, map);
 	map.seamLength = lengthOf(map.cut, domain.surface.lengths);
 	measureInvariants(domain, options, map);
-	finish(
-		domain, options, [&] { progress.step(1.0 - kAfterFlow, "Repairing the map"); }, map);
+	const Tick repairing = [&] { progress.step(1.0 - kAfterFlow, "Repairing the map"); };
+	besides(
+		defaultThreads(),
+		repairing,
+		[&] { finish(domain, options, repairing, map); },
+		[&](const Tick& tick) {
+			requireMetric(map.flow, domain.solved().topology.boundary, tick);
+		});
 
 	const Tick tick = [&] { progress.step(1.0, "Checking the result"); };
-	tick();
-	requireMetric(map.flow, domain.solved().topology.boundary, tick);
 	tick();
 	requireLayout(component, options, tick, map);
 	return map;

@@ -29,7 +29,7 @@ double areaExcess(const EmbeddedSurface& surface, const FlowResult& flow, double
 	return areaExcess(areaChange(surface, flow), spread, kSpreadSlack);
 }
 
-/// One more flow. \return none where it fails
+/// One more flow. \return none where areas are kept, or where it fails
 std::optional<FlowResult> nextFlow(
 	const EmbeddedSurface& surface,
 	const FlowResult& last,
@@ -39,6 +39,8 @@ std::optional<FlowResult> nextFlow(
 	ProgressRange& progress,
 	std::vector<FlowState>& states)
 {
+	if (keepsAreas(surface, last))
+		return std::nullopt; // without the cost of another start
 	try {
 		const Tick tick = [&] { progress.step(0.0, "Flipping edges"); };
 		FlowStart start = flowStart(surface, options, tick);

@@ -86,9 +86,8 @@ CutGraph cutThroughCones(
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& cones,
 	const HalfedgeArray<double>& corners,
-	ProgressRange& progress)
+	const Tick& tick)
 {
-	const Tick tick = [&] { progress.step(1.0 - kAfterFlow, "Shortening the seams"); };
 	CutGraph cut = cutToDisk(domain.surface.triangulation, cost, cones, {}, tick, corners);
 	if (domain.holes > 0)
 		dropSeamsToHoles(

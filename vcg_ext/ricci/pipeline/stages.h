@@ -10,6 +10,7 @@
 #include "flatten_component.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -61,16 +62,32 @@ CutGraph cutThroughCones(
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& cones,
 	const HalfedgeArray<double>& corners,
-	ProgressRange& progress);
+	const Tick& tick);
 
 /// Sum of the lengths of the cut's edges.
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths);
 
-/// commonRefinement() with what the options ask of it. \p AnyOptions: Options, HyperbolicOptions
+/// overlayOf() the flow, with what the options ask of it; nothing without flips. \p AnyOptions: Options,
+/// HyperbolicOptions
+template<class AnyOptions>
+LinkedPieces flowOverlay(
+	const FlowDomain& domain,
+	const AnyOptions& options,
+	ProgressRange& progress,
+	const ComponentMap& map)
+{
+	if (options.surgery != Surgery::IntrinsicFlips)
+		return {};
+	const bool refines = options.output == OutputTriangulation::CommonRefinement;
+	return overlayOf(domain, map.flow, overlayListener(progress, refines, options.memoryLimit));
+}
+
+/// commonRefinement() with what the options ask of it.
 template<class AnyOptions>
 CommonRefinement refine(
 	const FlowDomain& domain,
 	const ComponentMap& map,
+	LinkedPieces overlay,
 	const AnyOptions& options,
 	ProgressRange& progress)
 {
@@ -78,6 +95,7 @@ CommonRefinement refine(
 	return commonRefinement(
 		domain,
 		map.flow,
+		std::move(overlay),
 		map.cut.isCut,
 		!refines && domain.holes == 0,
 		overlayListener(progress, refines, options.memoryLimit));

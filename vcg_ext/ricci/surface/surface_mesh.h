@@ -21,7 +21,7 @@ struct SurfaceMesh
 	std::vector<Triangle> triangles; ///< indices into positions
 	/// [face][k] 1 where the side from corner k is a diagonal of a polygon that was cut into triangles;
 	/// may be empty.
-	std::vector<std::array<char, 3>> diagonal;
+	std::vector<std::array<char, 3>> diagonal = {};
 	std::size_t absent = 0; ///< positions that stand for no vertex (deleted elements)
 };
 

@@ -346,17 +346,22 @@ Target chooseTarget(const EmbeddedSurface& surface, FlowStart& start, const Targ
 	return target;
 }
 
+bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow)
+{
+	return !flow.target.maxSpread ||
+		   areaExcess(
+			   areaChange(surface, flowFactor(flow)), *flow.target.maxSpread, kSpreadSlack) <= 1.0;
+}
+
 std::optional<Target> targetToKeepAreas(
 	const EmbeddedSurface& surface,
 	FlowStart& start,
 	const FlowResult& flow,
 	const TargetRequest& request)
 {
-	if (!flow.target.maxSpread)
+	if (keepsAreas(surface, flow))
 		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
-	if (areaExcess(change, *flow.target.maxSpread, kSpreadSlack) <= 1.0)
-		return std::nullopt;
 	Target target = zeroTarget(surface.topology);
 	target.notes.push_back(
 		"The spread of the logarithm of the area factor comes out as " +

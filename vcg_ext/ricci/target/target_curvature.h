@@ -40,8 +40,13 @@ struct TargetRequest
 /// \throw SolverFailed where cones are placed
 Target chooseTarget(const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request);
 
-/// The next target after \p flow where that changes areas more than its target was chosen for:
-/// cones as moreCones() finds them. None where it keeps them, or where its target was not chosen to.
+/// Whether \p flow changes areas no more than its target was chosen for, or its target was not chosen
+/// to keep them.
+/// \param flow with intrinsic flips
+bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow);
+
+/// The next target after \p flow where keepsAreas() does not hold: cones as moreCones() finds them. None
+/// where it does.
 /// \param start of another flow on \p surface, as for chooseTarget()
 /// \param flow with intrinsic flips
 /// \throw as chooseTarget()

@@ -52,7 +52,7 @@ MapCheck checkMap(
 	}
 	std::vector<PlaneSide> sides = planeSides(triangles, plane);
 	forSharedEdges(sides, [&](const PlaneSide& a, const PlaneSide& b) {
-		if (extent > 0.0)
+		if (extent > 0.0 && (a.atLow != b.atLow || a.atHigh != b.atHigh))
 			check.seamGap = std::max(check.seamGap, std::abs(lengthOf(a) - lengthOf(b)) / extent);
 	});
 	return check;

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+#include "support/shapes.h"
+
+#include <ricci/charts/finish_in_floats.h>
+#include <ricci/math/orientation.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+constexpr int kSide = 24; // squares along a side
+
+/// Squares in the unit square as their own map, one chart, with some vertices elsewhere.
+Parametrization
+mapWith(const SurfaceMesh& mesh, const std::vector<std::pair<int, Point2>>& displaced)
+{
+	std::vector<Point2> places;
+	for (const Point3& p : mesh.positions)
+		places.push_back({p[0], p[1]});
+	for (const auto& [vertex, place] : displaced)
+		places[at(vertex)] = place;
+	Parametrization map;
+	for (const Triangle& t : mesh.triangles)
+		map.uv.push_back({places[at(t[0])], places[at(t[1])], places[at(t[2])]});
+	map.reversed.assign(map.uv.size(), 0);
+	Chart chart;
+	chart.faces.resize(map.uv.size());
+	std::iota(chart.faces.begin(), chart.faces.end(), 0);
+	map.charts.push_back(chart);
+	return map;
+}
+
+bool isUpright(const Triangle2& p)
+{
+	Triangle2 stored = p;
+	for (Point2& q : stored)
+		for (double& x : q)
+			x = static_cast<double>(static_cast<float>(x));
+	return orientation(stored[0], stored[1], stored[2]) > 0;
+}
+
+int turnedIn(const Parametrization& map)
+{
+	return static_cast<int>(std::count_if(
+		map.uv.begin(), map.uv.end(), [](const Triangle2& p) { return !isUpright(p); }));
+}
+
+TEST(FinishInFloats, MovesPointsNearTurnedTrianglesOnly)
+{
+	const SurfaceMesh mesh = rectangle(kSide, kSide, 1.0, 1.0);
+	Random random(1);
+	for (int trial = 0; trial < 20; ++trial) {
+		// One vertex inside leaves the ring of its neighbours.
+		const int i = 4 + random.index(kSide - 7), j = 4 + random.index(kSide - 7);
+		const int vertex = j * (kSide + 1) + i;
+		const Point3& own = mesh.positions[at(vertex)];
+		const Point2 place{own[0] + 1.3 / kSide, own[1] + random.real(-0.3, 0.3) / kSide};
+		const Parametrization before = mapWith(mesh, {{vertex, place}});
+		ASSERT_GT(turnedIn(before), 0);
+		Parametrization map = before;
+		finishInFloats(
+			mesh, [] {}, map);
+		EXPECT_EQ(turnedIn(map), 0);
+		EXPECT_GT(map.report.finishMoved, 0);
+		for (std::size_t f = 0; f < map.uv.size(); ++f)
+			for (std::size_t k = 0; k < 3; ++k) {
+				const Point3& p = mesh.positions[at(mesh.triangles[f][k])];
+				if (std::max(std::abs(p[0] - own[0]), std::abs(p[1] - own[1])) > 5.5 / kSide) {
+					EXPECT_EQ(map.uv[f][k], before.uv[f][k]);
+				}
+			}
+	}
+}
+
+TEST(FinishInFloats, MendsWhatSmallPatchesInsideDoNot)
+{
+	// A corner of the border lies inside: what is inside the chart cannot make room alone.
+	const SurfaceMesh mesh = rectangle(kSide, kSide, 1.0, 1.0);
+	Parametrization map = mapWith(mesh, {{0, {1.5 / kSide, 1.4 / kSide}}});
+	ASSERT_GT(turnedIn(map), 0);
+	finishInFloats(
+		mesh, [] {}, map);
+	EXPECT_EQ(turnedIn(map), 0);
+}
+
+} // namespace
+} // namespace ricci::testing
