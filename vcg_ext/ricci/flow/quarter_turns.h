@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_QUARTER_TURNS_H
+#define RICCI_QUARTER_TURNS_H
+
+#include "../progress.h"
+#include "ricci_flow.h"
+
+namespace ricci {
+
+/// What roundTurns() did.
+struct TurnRounding
+{
+	double before = 0.0; ///< largest distance of a turn from a multiple of pi / 2, radians
+	double after = 0.0;  ///< the same in the new metric
+	double change = 0.0; ///< largest change of the logarithm of a length, but for that by u
+};
+
+/// Changes the metric of \p flow, with the least distortion of angles, so that the turns of all loops
+/// (homologyLoops()) are multiples of pi / 2, as the curvatures of the cones are taken to be: all
+/// seams of a layout then are rotations by quarter turns. Curvatures stay those of the target, and
+/// where u is fixed on the boundary, its lengths stay.
+///
+/// A metric with these cones and with other turns is never conformal to this one, so that the lengths
+/// of the last triangulation have to change [Capouellez Zorin 2024]. With the derivative g of a turn
+/// by the logarithms x of the lengths, where u follows them to the target, x = W^-1 g c is the
+/// change with the least x W x that reaches the turns, to first order; W holds the energies of the
+/// distortion that each length alone makes, for areas in space. Newton's method in c, one solve of
+/// the flow for each step.
+///
+/// The metric stays as it is where that fails, and on the double of a surface.
+/// \pre Euclidean, with intrinsic flips
+TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options, const Tick& tick);
+
+} // namespace ricci
+
+#endif
