@@ -27,13 +27,13 @@ constexpr double kQuarterTurn = 0.5 * kPi;
 /// lose.
 constexpr double kTurnRounding = 1e-12;
 
-constexpr int kMaxSteps = 20;
+constexpr int kMaxSteps = 12;
 
 /// The logarithm of a length changes by no more in a step.
 constexpr double kMaxChange = 0.25;
 
 /// Halvings of a step that breaks triangles or raises the error.
-constexpr int kMaxHalvings = 6;
+constexpr int kMaxHalvings = 4;
 
 /// A metric of the flow: what of it changes.
 struct Metric
@@ -66,6 +66,59 @@ public:
 		return result;
 	}
 
+	/// The derivatives of the turns.
+	struct Derivatives
+	{
+		std::vector<VertexVector> curvatures; // [loop] by those of the target
+		std::vector<EdgeArray<double>> lengths; // [loop] by their logarithms, where u follows them
+		EdgeArray<double> inverseWeights;
+		Eigen::MatrixXd gram; // lengths W^-1 lengths
+	};
+
+	Derivatives derivatives(const CurvatureMap& map, const VertexVector& u) const
+	{
+		FactoredHessian hessian(m_flow.target.fixed, true);
+		hessian.factorize(map);
+		Derivatives by;
+		by.inverseWeights = inverseWeights(map, u);
+		for (const HalfedgeArray<double>& corners : m_corners) {
+			m_tick();
+			by.curvatures.push_back(turnByCurvature(map, u, hessian, corners));
+			// A length also changes curvatures, which u takes back, and with it the turn.
+			HalfedgeArray<double> all = corners;
+			for (const Halfedge h : m_t.interiorHalfedges())
+				all[h] += by.curvatures.back()[m_t.origin(h)];
+			by.lengths.push_back(derivativeByLengths(m_t, all, map.angles()));
+		}
+		const std::size_t n = by.lengths.size();
+		by.gram.resize(Eigen::Index(n), Eigen::Index(n));
+		for (std::size_t i = 0; i < n; ++i)
+			for (std::size_t j = 0; j <= i; ++j) {
+				double sum = 0.0;
+				for (const Edge e : m_t.edges())
+					sum += by.inverseWeights[e] * by.lengths[i][e] * by.lengths[j][e];
+				by.gram(Eigen::Index(i), Eigen::Index(j)) = sum;
+				by.gram(Eigen::Index(j), Eigen::Index(i)) = sum;
+			}
+		return by;
+	}
+
+	/// Area of the surface in space.
+	double area() const
+	{
+		const CurvatureMap& map = *m_flow.metric;
+		double area = 0.0;
+		for (const Face f : m_t.faces()) {
+			const auto h = m_t.halfedges(f);
+			double factor = 0.0;
+			for (const Vertex v : m_t.vertices(f))
+				factor += m_factor[v] / 3.0;
+			area += 0.5 * map.lengths()[h[0].edge()] * map.lengths()[h[2].edge()] *
+					std::sin(map.angles()[h[0]]) * std::exp(-2.0 * factor);
+		}
+		return area;
+	}
+
 	/// The metric of which the turns are multiples of pi / 2, as far as Newton's method gets there.
 	/// \return none where the first step fails
 	std::optional<Metric> solve()
@@ -91,33 +144,12 @@ private:
 	EdgeArray<double>
 	direction(const CurvatureMap& map, const VertexVector& u, const Eigen::VectorXd& errors) const
 	{
-		FactoredHessian hessian(m_flow.target.fixed, true);
-		hessian.factorize(map);
-		const EdgeArray<double> weights = inverseWeights(map, u);
-		std::vector<EdgeArray<double>> gradients;
-		for (const HalfedgeArray<double>& corners : m_corners) {
-			m_tick();
-			// A length also changes curvatures, which u takes back, and with it the turn.
-			const VertexVector byCurvature = turnByCurvature(map, u, hessian, corners);
-			HalfedgeArray<double> all = corners;
-			for (const Halfedge h : m_t.interiorHalfedges())
-				all[h] += byCurvature[m_t.origin(h)];
-			gradients.push_back(derivativeByLengths(m_t, all, map.angles()));
-		}
-		const auto n = static_cast<Eigen::Index>(gradients.size());
-		Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n, n);
-		for (Eigen::Index i = 0; i < n; ++i)
-			for (Eigen::Index j = 0; j <= i; ++j) {
-				double sum = 0.0;
-				for (const Edge e : m_t.edges())
-					sum += weights[e] * gradients[std::size_t(i)][e] * gradients[std::size_t(j)][e];
-				gram(i, j) = gram(j, i) = sum;
-			}
-		const Eigen::VectorXd c = gram.ldlt().solve(-errors);
+		const Derivatives by = derivatives(map, u);
+		const Eigen::VectorXd c = by.gram.ldlt().solve(-errors);
 		EdgeArray<double> change(m_t.edgeCount(), 0.0);
-		for (Eigen::Index i = 0; i < n; ++i)
+		for (Eigen::Index i = 0; i < c.size(); ++i)
 			for (const Edge e : m_t.edges())
-				change[e] += c[i] * weights[e] * gradients[std::size_t(i)][e];
+				change[e] += c[i] * by.inverseWeights[e] * by.lengths[std::size_t(i)][e];
 		return change;
 	}
 
@@ -220,6 +252,23 @@ private:
 };
 
 } // namespace
+
+LoopTurns loopTurns(const FlowResult& flow, const Tick& tick)
+{
+	static const FlowOptions options;
+	const TurnRounder rounder(flow, options, tick);
+	LoopTurns result;
+	result.errors = rounder.errors(*flow.metric);
+	if (result.errors.size() == 0)
+		return result;
+	TurnRounder::Derivatives by = rounder.derivatives(*flow.metric, flow.u);
+	result.byCurvature = std::move(by.curvatures);
+	// A metric that changes by h has the Beltrami coefficient mu with |h|^2 = 8 |mu|^2.
+	const Eigen::Index n = result.errors.size();
+	result.cost =
+		by.gram.ldlt().solve(Eigen::MatrixXd::Identity(n, n)) / (8.0 * rounder.area());
+	return result;
+}
 
 TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options, const Tick& tick)
 {

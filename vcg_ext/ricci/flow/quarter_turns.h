@@ -5,7 +5,24 @@
 #include "../progress.h"
 #include "ricci_flow.h"
 
+#include <Eigen/Core>
+
+#include <vector>
+
 namespace ricci {
+
+/// The turns of the loops (homologyLoops()) in the metric of a flow, and what changes them.
+struct LoopTurns
+{
+	Eigen::VectorXd errors; ///< [loop] turn less the nearest multiple of pi / 2, radians
+	std::vector<VertexVector> byCurvature; ///< [loop] turnByCurvature()
+	/// C: a change of the turns by r costs a change of the metric with the mean square r C r of the
+	/// Beltrami coefficient by area in space, where it is the least.
+	Eigen::MatrixXd cost;
+};
+
+/// \pre \p flow is Euclidean, not on a double
+LoopTurns loopTurns(const FlowResult& flow, const Tick& tick);
 
 /// What roundTurns() did.
 struct TurnRounding

@@ -4,7 +4,6 @@
 #include "../base/text.h"
 #include "../cut/cut_graph.h"
 #include "../finish/finish.h"
-#include "../flow/quarter_turns.h"
 #include "../layout/hole_seams.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../measure/distortion.h"
@@ -17,6 +16,7 @@
 #include "../verify/result_check.h"
 #include "assemble.h"
 #include "keep_areas.h"
+#include "round_turns.h"
 #include "stages.h"
 
 #include <algorithm>
@@ -93,7 +93,7 @@ Target chooseTarget(const FlowDomain& domain, FlowStart&, const HyperbolicReques
 	return chooseHyperbolicTarget(domain.surface.topology, request);
 }
 
-/// Areas play no part in the hyperbolic plane.
+/// Neither areas nor quarter turns play a part in the hyperbolic plane.
 void keepAreas(
 	const EmbeddedSurface&,
 	const HyperbolicRequest&,
@@ -103,21 +103,13 @@ void keepAreas(
 {
 }
 
-/// Turns round handles are not rounded in the hyperbolic plane.
-void roundTurns(const HyperbolicOptions&, ProgressRange&, ComponentMap&) {}
-
-void roundTurns(const Options& options, ProgressRange& progress, ComponentMap& map)
+void roundLoopTurns(
+	const EmbeddedSurface&,
+	const HyperbolicRequest&,
+	const HyperbolicOptions&,
+	ProgressRange&,
+	ComponentMap&)
 {
-	if (options.coneRounding != ConeRounding::QuarterTurns ||
-		options.surgery != Surgery::IntrinsicFlips || getenv("NOTURN"))
-		return;
-	const TurnRounding done = roundTurns(
-		map.flow, options, [&] { progress.step(1.0 - kAfterFlow, "Rounding the turns"); });
-	if (done.before > 0.0)
-		progress.log(
-			"Turns of loops are up to " + numberText(done.before, 3) +
-			" from a multiple of a quarter turn, and " + numberText(done.after, 3) +
-			" once lengths have changed by " + numberText(done.change, 3) + ".");
 }
 
 /// What a seam along each edge costs.
@@ -377,7 +369,7 @@ ComponentMap flatten(
 	map.flow = runRicciFlow(
 		backgroundOf(options), domain.solved(), std::move(start), target, options, flowProgress);
 	keepAreas(domain.solved(), request, options, progress, map);
-	roundTurns(options, progress, map);
+	roundLoopTurns(domain.solved(), request, options, progress, map);
 	logFlow(map.flow, options, progress);
 
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
