@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace ricci {
 
@@ -59,6 +61,22 @@ edgesOffTrees(const Triangulation& t, const FaceArray<Halfedge>& entry, bool joi
 	return off;
 }
 
+/// Leaves out what \p loop does and takes back at once.
+void straighten(FaceLoop& loop)
+{
+	FaceLoop kept;
+	for (const Halfedge h : loop)
+		if (!kept.empty() && kept.back() == h.twin())
+			kept.pop_back();
+		else
+			kept.push_back(h);
+	std::size_t ends = 0;
+	while (2 * ends + 1 < kept.size() && kept[ends] == kept[kept.size() - 1 - ends].twin())
+		++ends;
+	const auto n = static_cast<std::ptrdiff_t>(ends);
+	loop.assign(kept.begin() + n, kept.end() - n);
+}
+
 } // namespace
 
 std::vector<FaceLoop> homologyLoops(const Triangulation& t, bool roundHoles)
@@ -85,6 +103,34 @@ std::vector<FaceLoop> homologyLoops(const Triangulation& t, bool roundHoles)
 		loops.push_back(std::move(loop));
 	}
 	return loops;
+}
+
+void flip(Triangulation& t, std::vector<FaceLoop>& loops, Edge e)
+{
+	const auto crosses = [e](Halfedge h) { return h.edge() == e; };
+	std::vector<FaceLoop*> touched;
+	for (FaceLoop& loop : loops) {
+		const Face f = t.face(e.halfedge()), g = t.face(e.halfedge().twin());
+		if (std::any_of(loop.begin(), loop.end(), [&](Halfedge h) {
+				return t.face(h) == f || t.face(h) == g;
+			}))
+			touched.push_back(&loop);
+	}
+	t.flip(e);
+	for (FaceLoop* loop : touched) {
+		loop->erase(std::remove_if(loop->begin(), loop->end(), crosses), loop->end());
+		FaceLoop through;
+		for (std::size_t i = 0; i < loop->size(); ++i) {
+			const Halfedge in = (*loop)[i], out = (*loop)[(i + 1) % loop->size()];
+			through.push_back(in);
+			if (t.face(in.twin()) != t.face(out)) {
+				const Halfedge h = e.halfedge();
+				through.push_back(t.face(h) == t.face(in.twin()) ? h : h.twin());
+			}
+		}
+		straighten(through);
+		*loop = std::move(through);
+	}
 }
 
 HalfedgeArray<double> turnedCorners(const Triangulation& t, const FaceLoop& loop)

@@ -20,6 +20,9 @@ using FaceLoop = std::vector<Halfedge>;
 /// \param roundHoles also one round each boundary loop but one
 std::vector<FaceLoop> homologyLoops(const Triangulation& t, bool roundHoles);
 
+/// Flips \p e in \p t, and in \p loops, which stay what they are up to homotopy.
+void flip(Triangulation& t, std::vector<FaceLoop>& loops, Edge e);
+
 /// The corners round which \p loop turns: 1 where they are on its left, -1 on its right; 0 elsewhere.
 /// The sum of their angles is the turn of the loop, in radians: the angle by which a direction that
 /// goes along with the walk has turned against the walk's own. Across a vertex with curvature K it

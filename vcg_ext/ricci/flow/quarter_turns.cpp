@@ -35,67 +35,117 @@ constexpr double kMaxChange = 0.25;
 /// Halvings of a step that breaks triangles or raises the error.
 constexpr int kMaxHalvings = 4;
 
-/// A metric of the flow: what of it changes.
+/// A metric with the curvatures of the target.
 struct Metric
 {
-	std::shared_ptr<CurvatureMap> map;
+	std::shared_ptr<const CurvatureMap> map;
 	VertexVector u;
 	NewtonResult solved;
+	std::vector<Edge> flips; ///< since the flow
+	std::vector<FaceLoop> loops;
 	Eigen::VectorXd errors; ///< [loop] turn less the nearest multiple of pi / 2
 
 	double error() const { return errors.size() == 0 ? 0.0 : errors.cwiseAbs().maxCoeff(); }
 };
 
+Eigen::VectorXd errorsOf(const CurvatureMap& map, const std::vector<FaceLoop>& loops)
+{
+	Eigen::VectorXd errors(loops.size());
+	for (std::size_t i = 0; i < loops.size(); ++i)
+		errors[Eigen::Index(i)] = std::remainder(
+			sumOfAngles(turnedCorners(map.triangulation(), loops[i]), map.angles()), kQuarterTurn);
+	return errors;
+}
+
+Metric metricOf(const FlowResult& flow)
+{
+	Metric metric;
+	metric.map = flow.metric;
+	metric.u = flow.u;
+	metric.loops = homologyLoops(flow.metric->triangulation(), flow.target.hasFixed());
+	metric.errors = errorsOf(*flow.metric, metric.loops);
+	return metric;
+}
+
+/// [face] Its area, and that over the area in space.
+struct Areas
+{
+	FaceArray<double> plane, scale;
+	double inSpace = 0.0;
+};
+
+Areas areasOf(const Metric& metric, const VertexVector& startU)
+{
+	const Triangulation& t = metric.map->triangulation();
+	Areas areas;
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		areas.plane.push_back(
+			0.5 * metric.map->lengths()[h[0].edge()] * metric.map->lengths()[h[2].edge()] *
+			std::sin(metric.map->angles()[h[0]]));
+		double factor = 0.0;
+		for (const Vertex v : t.vertices(f))
+			factor += (metric.u[v] - startU[v]) / 3.0;
+		areas.scale.push_back(std::exp(2.0 * factor));
+		areas.inSpace += areas.plane[f] / areas.scale[f];
+	}
+	return areas;
+}
+
+/// The derivatives of the turns.
+struct Derivatives
+{
+	std::vector<VertexVector> curvatures;   // [loop] by those of the target
+	std::vector<EdgeArray<double>> lengths; // [loop] by their logarithms, where u follows them
+	EdgeArray<double> inverseWeights;       // 1 / W; 0 where the length stays
+	Eigen::MatrixXd gram;                   // lengths W^-1 lengths
+	double area = 0.0;                      // in space
+};
+
 class TurnRounder
 {
 public:
-	TurnRounder(const FlowResult& flow, const FlowOptions& options, const Tick& tick) :
-			m_flow(flow), m_options(options), m_tick(tick), m_t(flow.metric->triangulation()),
-			m_factor(flowFactor(flow))
+	TurnRounder(const FlowResult& flow, double epsilon, int maxIterations, const Tick& tick) :
+			m_flow(flow), m_epsilon(epsilon), m_maxIterations(maxIterations), m_tick(tick),
+			m_startU(flow.u - flowFactor(flow))
 	{
-		for (const FaceLoop& loop : homologyLoops(m_t, flow.target.hasFixed()))
-			m_corners.push_back(turnedCorners(m_t, loop));
 	}
 
-	Eigen::VectorXd errors(const CurvatureMap& map) const
+	/// Goes from \p metric to the one of which the turns are multiples of pi / 2, as far as Newton's
+	/// method gets there.
+	void solve(Metric& metric) const
 	{
-		Eigen::VectorXd result(m_corners.size());
-		for (std::size_t i = 0; i < m_corners.size(); ++i)
-			result[Eigen::Index(i)] =
-				std::remainder(sumOfAngles(m_corners[i], map.angles()), kQuarterTurn);
-		return result;
+		for (int step = 0; step < kMaxSteps && metric.error() > kTurnRounding; ++step) {
+			std::optional<Metric> next = searchAlong(metric, direction(metric));
+			if (!next)
+				return;
+			metric = std::move(*next);
+		}
 	}
 
-	/// The derivatives of the turns.
-	struct Derivatives
+	Derivatives derivatives(const Metric& metric) const
 	{
-		std::vector<VertexVector> curvatures; // [loop] by those of the target
-		std::vector<EdgeArray<double>> lengths; // [loop] by their logarithms, where u follows them
-		EdgeArray<double> inverseWeights;
-		Eigen::MatrixXd gram; // lengths W^-1 lengths
-	};
-
-	Derivatives derivatives(const CurvatureMap& map, const VertexVector& u) const
-	{
+		const CurvatureMap& map = *metric.map;
+		const Triangulation& t = map.triangulation();
 		FactoredHessian hessian(m_flow.target.fixed, true);
 		hessian.factorize(map);
 		Derivatives by;
-		by.inverseWeights = inverseWeights(map, u);
-		for (const HalfedgeArray<double>& corners : m_corners) {
+		setWeights(metric, by);
+		for (const FaceLoop& loop : metric.loops) {
 			m_tick();
-			by.curvatures.push_back(turnByCurvature(map, u, hessian, corners));
+			HalfedgeArray<double> corners = turnedCorners(t, loop);
+			by.curvatures.push_back(turnByCurvature(map, metric.u, hessian, corners));
 			// A length also changes curvatures, which u takes back, and with it the turn.
-			HalfedgeArray<double> all = corners;
-			for (const Halfedge h : m_t.interiorHalfedges())
-				all[h] += by.curvatures.back()[m_t.origin(h)];
-			by.lengths.push_back(derivativeByLengths(m_t, all, map.angles()));
+			for (const Halfedge h : t.interiorHalfedges())
+				corners[h] += by.curvatures.back()[t.origin(h)];
+			by.lengths.push_back(derivativeByLengths(t, corners, map.angles()));
 		}
 		const std::size_t n = by.lengths.size();
 		by.gram.resize(Eigen::Index(n), Eigen::Index(n));
 		for (std::size_t i = 0; i < n; ++i)
 			for (std::size_t j = 0; j <= i; ++j) {
 				double sum = 0.0;
-				for (const Edge e : m_t.edges())
+				for (const Edge e : t.edges())
 					sum += by.inverseWeights[e] * by.lengths[i][e] * by.lengths[j][e];
 				by.gram(Eigen::Index(i), Eigen::Index(j)) = sum;
 				by.gram(Eigen::Index(j), Eigen::Index(i)) = sum;
@@ -103,133 +153,94 @@ public:
 		return by;
 	}
 
-	/// Area of the surface in space.
-	double area() const
-	{
-		const CurvatureMap& map = *m_flow.metric;
-		double area = 0.0;
-		for (const Face f : m_t.faces()) {
-			const auto h = m_t.halfedges(f);
-			double factor = 0.0;
-			for (const Vertex v : m_t.vertices(f))
-				factor += m_factor[v] / 3.0;
-			area += 0.5 * map.lengths()[h[0].edge()] * map.lengths()[h[2].edge()] *
-					std::sin(map.angles()[h[0]]) * std::exp(-2.0 * factor);
-		}
-		return area;
-	}
-
-	/// The metric of which the turns are multiples of pi / 2, as far as Newton's method gets there.
-	/// \return none where the first step fails
-	std::optional<Metric> solve()
-	{
-		std::optional<Metric> best;
-		for (int step = 0; step < kMaxSteps; ++step) {
-			const CurvatureMap& map = best ? *best->map : *m_flow.metric;
-			const VertexVector& u = best ? best->u : m_flow.u;
-			const Eigen::VectorXd present = best ? best->errors : errors(map);
-			const double error = present.cwiseAbs().maxCoeff();
-			if (error <= kTurnRounding)
-				break;
-			std::optional<Metric> next = searchAlong(map, u, direction(map, u, present), error);
-			if (!next)
-				break;
-			best = std::move(next);
-		}
-		return best;
-	}
-
 private:
-	/// The change of the logarithms of the lengths that removes \p errors to first order.
-	EdgeArray<double>
-	direction(const CurvatureMap& map, const VertexVector& u, const Eigen::VectorXd& errors) const
+	/// For the sides a, b, c of a triangle with area A and circumradius R, the change of a by exp(x)
+	/// alone is a distortion with the energy 2 a^2 R^2 / A x^2.
+	void setWeights(const Metric& metric, Derivatives& by) const
 	{
-		const Derivatives by = derivatives(map, u);
-		const Eigen::VectorXd c = by.gram.ldlt().solve(-errors);
-		EdgeArray<double> change(m_t.edgeCount(), 0.0);
-		for (Eigen::Index i = 0; i < c.size(); ++i)
-			for (const Edge e : m_t.edges())
-				change[e] += c[i] * by.inverseWeights[e] * by.lengths[std::size_t(i)][e];
-		return change;
-	}
-
-	/// [edge] 1 / W; 0 where the length stays. For the sides a, b, c of a triangle with area A and
-	/// circumradius R, the change of a by exp(x) alone is a distortion with the energy
-	/// 2 a^2 R^2 / A x^2; an area in space is one in the metric times exp(-2 ln factor).
-	EdgeArray<double> inverseWeights(const CurvatureMap& map, const VertexVector& u) const
-	{
-		EdgeArray<double> weights(m_t.edgeCount(), 0.0);
-		for (const Face f : m_t.faces()) {
-			const auto h = m_t.halfedges(f);
-			const double sine = std::sin(map.angles()[h[0]]);
-			const double radius = 0.5 * map.lengths()[h[1].edge()] / sine;
-			const double area =
-				0.5 * map.lengths()[h[0].edge()] * map.lengths()[h[2].edge()] * sine;
-			double factor = 0.0;
-			for (const Vertex v : m_t.vertices(f))
-				factor += (m_factor[v] + u[v] - m_flow.u[v]) / 3.0;
+		const CurvatureMap& map = *metric.map;
+		const Triangulation& t = map.triangulation();
+		const Areas areas = areasOf(metric, m_startU);
+		by.area = areas.inSpace;
+		by.inverseWeights.assign(t.edgeCount(), 0.0);
+		for (const Face f : t.faces()) {
+			const auto h = t.halfedges(f);
+			const double radius =
+				0.5 * map.lengths()[h[1].edge()] / std::sin(map.angles()[h[0]]);
 			for (const Halfedge side : h) {
-				const double ratio = map.lengths()[side.edge()] * radius;
-				weights[side.edge()] += 2.0 * ratio * ratio / area * std::exp(-2.0 * factor);
+				const double product = map.lengths()[side.edge()] * radius;
+				by.inverseWeights[side.edge()] +=
+					2.0 * product * product / (areas.plane[f] * areas.scale[f]);
 			}
 		}
 		const bool keepsBoundary = m_flow.target.hasFixed();
-		for (const Edge e : m_t.edges())
-			weights[e] = keepsBoundary && m_t.isBoundary(e) ? 0.0 : 1.0 / weights[e];
-		return weights;
+		for (const Edge e : t.edges())
+			by.inverseWeights[e] =
+				keepsBoundary && t.isBoundary(e) ? 0.0 : 1.0 / by.inverseWeights[e];
 	}
 
-	/// The metric that is better than \p error by the longest share of \p change.
-	std::optional<Metric> searchAlong(
-		const CurvatureMap& map,
-		const VertexVector& u,
-		const EdgeArray<double>& change,
-		double error) const
+	/// The change of the logarithms of the lengths that removes the errors to first order.
+	EdgeArray<double> direction(const Metric& metric) const
+	{
+		const Derivatives by = derivatives(metric);
+		const Eigen::VectorXd c = by.gram.ldlt().solve(-metric.errors);
+		EdgeArray<double> change(by.inverseWeights.size(), 0.0);
+		for (std::size_t i = 0; i < by.lengths.size(); ++i)
+			for (const Edge e : change.indices())
+				change[e] += c[Eigen::Index(i)] * by.inverseWeights[e] * by.lengths[i][e];
+		return change;
+	}
+
+	/// The metric that is better than \p metric by the longest share of \p change.
+	std::optional<Metric> searchAlong(const Metric& metric, const EdgeArray<double>& change) const
 	{
 		double largest = 0.0;
 		for (const double x : change)
 			largest = std::max(largest, std::abs(x));
 		double share = std::min(1.0, kMaxChange / largest);
 		for (int i = 0; i < kMaxHalvings; ++i, share *= 0.5) {
-			std::optional<Metric> next = changed(map, u, change, share);
-			if (next && next->error() < error)
+			std::optional<Metric> next = changed(metric, change, share);
+			if (getenv("DBG")) fprintf(stderr,"error %g largest %g share %g -> %s %g flips %zu\n",metric.error(),largest,share,next?"ok":"none",next?next->error():0.0,next?next->flips.size():0);
+			if (next && next->error() < metric.error())
 				return next;
 		}
 		return std::nullopt;
 	}
 
 	/// The metric with lengths changed by \p share of \p change, and with the curvatures of the
-	/// target. \return none where it does not exist
+	/// target. \return none where it is not found
 	std::optional<Metric> changed(
-		const CurvatureMap& map,
-		const VertexVector& u,
-		const EdgeArray<double>& change,
-		double share) const
+		const Metric& metric, const EdgeArray<double>& change, double share) const
 	{
+		const CurvatureMap& map = *metric.map;
 		CirclePacking packing;
-		packing.triangulation = m_t;
-		packing.delta.resize(m_t.edgeCount());
-		for (const Edge e : m_t.edges()) {
-			const auto [i, j] = m_t.ends(e);
+		packing.triangulation = map.triangulation();
+		packing.delta = map.delta();
+		for (const Edge e : change.indices()) {
+			if (change[e] == 0.0)
+				continue;
+			const auto [i, j] = map.triangulation().ends(e);
 			const double length = map.lengths()[e] * std::exp(share * change[e]);
-			packing.delta[e] = change[e] == 0.0
-								   ? map.delta()[e]
-								   : Euclidean::delta(length, std::exp(u[i]), std::exp(u[j]));
+			packing.delta[e] =
+				Euclidean::delta(length, std::exp(metric.u[i]), std::exp(metric.u[j]));
+			if (!(packing.delta[e] >= 0.0))
+				return std::nullopt;
 		}
-		Metric next;
+		std::shared_ptr<CurvatureMap> next;
 		if (map.precision() < std::numeric_limits<double>::epsilon())
-			next.map = std::make_shared<GeometricCurvatureMap<EuclideanGeometry<long double>>>(
+			next = std::make_shared<FlippingCurvatureMap<EuclideanGeometry<long double>>>(
 				std::move(packing));
 		else
-			next.map = std::make_shared<GeometricCurvatureMap<Euclidean>>(std::move(packing));
-		next.u = u;
-		NewtonSolver newton(*next.map, m_flow.target.fixed);
-		NewtonOptions options;
-		options.epsilon = m_options.epsilon;
-		options.maxIterations = m_options.maxIterations;
+			next = std::make_shared<FlippingCurvatureMap<Euclidean>>(std::move(packing));
+		Metric result;
+		result.u = metric.u;
 		try {
-			next.solved = newton.solve(
-				next.u, m_flow.target.curvature, options, [&](int, double) { m_tick(); });
+			NewtonSolver newton(*next, m_flow.target.fixed);
+			result.solved = newton.solve(
+				result.u,
+				m_flow.target.curvature,
+				{m_epsilon, m_maxIterations},
+				[&](int, double) { m_tick(); });
 		}
 		catch (const Stopped&) {
 			throw;
@@ -237,36 +248,42 @@ private:
 		catch (const Error&) {
 			return std::nullopt;
 		}
-		if (!next.solved.converged || next.map->brokenTriangles() > 0)
+		if (!result.solved.converged || next->brokenTriangles() > 0)
 			return std::nullopt;
-		next.errors = errors(*next.map);
-		return next;
+		result.flips = metric.flips;
+		result.loops = metric.loops;
+		Triangulation t = map.triangulation();
+		for (const Edge e : next->flips()) {
+			result.flips.push_back(e);
+			flip(t, result.loops, e);
+		}
+		result.errors = errorsOf(*next, result.loops);
+		next->releaseWorkSpace();
+		result.map = std::move(next);
+		return result;
 	}
 
 	const FlowResult& m_flow;
-	const FlowOptions& m_options;
+	double m_epsilon;
+	int m_maxIterations;
 	const Tick& m_tick;
-	const Triangulation& m_t;
-	VertexVector m_factor;
-	std::vector<HalfedgeArray<double>> m_corners; // [loop]
+	VertexVector m_startU;
 };
 
 } // namespace
 
 LoopTurns loopTurns(const FlowResult& flow, const Tick& tick)
 {
-	static const FlowOptions options;
-	const TurnRounder rounder(flow, options, tick);
+	const Metric metric = metricOf(flow);
 	LoopTurns result;
-	result.errors = rounder.errors(*flow.metric);
+	result.errors = metric.errors;
 	if (result.errors.size() == 0)
 		return result;
-	TurnRounder::Derivatives by = rounder.derivatives(*flow.metric, flow.u);
+	Derivatives by = TurnRounder(flow, 0.0, 0, tick).derivatives(metric);
 	result.byCurvature = std::move(by.curvatures);
 	// A metric that changes by h has the Beltrami coefficient mu with |h|^2 = 8 |mu|^2.
 	const Eigen::Index n = result.errors.size();
-	result.cost =
-		by.gram.ldlt().solve(Eigen::MatrixXd::Identity(n, n)) / (8.0 * rounder.area());
+	result.cost = by.gram.ldlt().solve(Eigen::MatrixXd::Identity(n, n)) / (8.0 * by.area);
 	return result;
 }
 
@@ -275,27 +292,20 @@ TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options, const Tick
 	TurnRounding result;
 	if (flow.doubled)
 		return result;
-	TurnRounder rounder(flow, options, tick);
-	const Eigen::VectorXd errors = rounder.errors(*flow.metric);
-	if (errors.size() == 0)
+	Metric metric = metricOf(flow);
+	result.before = metric.error();
+	TurnRounder(flow, options.epsilon, options.maxIterations, tick).solve(metric);
+	result.after = metric.error();
+	if (metric.map == flow.metric)
 		return result;
-	result.before = result.after = errors.cwiseAbs().maxCoeff();
-	std::optional<Metric> found = rounder.solve();
-	if (!found)
-		return result;
-	result.after = found->error();
-	for (const Edge e : flow.metric->triangulation().edges())
-		result.change = std::max(
-			result.change,
-			std::abs(std::log1p(found->map->delta()[e]) - std::log1p(flow.metric->delta()[e])));
-	found->map->releaseWorkSpace();
-	flow.u = std::move(found->u);
-	flow.metric = std::move(found->map);
-	flow.residual = found->solved.residual;
-	flow.floor = found->solved.floor;
-	flow.iterations += found->solved.iterations;
+	flow.metric = std::move(metric.map);
+	flow.u = std::move(metric.u);
+	flow.residual = metric.solved.residual;
+	flow.floor = metric.solved.floor;
 	flow.curvature = flow.metric->curvature();
 	flow.area = euclideanArea(flow.metric->triangulation(), flow.metric->lengths());
+	flow.history.flowFlips.insert(
+		flow.history.flowFlips.end(), metric.flips.begin(), metric.flips.end());
 	return result;
 }
 

@@ -29,7 +29,6 @@ struct TurnRounding
 {
 	double before = 0.0; ///< largest distance of a turn from a multiple of pi / 2, radians
 	double after = 0.0;  ///< the same in the new metric
-	double change = 0.0; ///< largest change of the logarithm of a length, but for that by u
 };
 
 /// Changes the metric of \p flow, with the least distortion of angles, so that the turns of all loops

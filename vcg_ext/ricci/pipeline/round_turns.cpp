@@ -14,16 +14,18 @@ namespace ricci {
 
 namespace {
 
-/// Flows after the first one.
-constexpr int kMaxRounds = 8;
+/// Flows after the first one, and those in a row that may bring less than a share of what the turns
+/// cost.
+constexpr int kMaxRounds = 6, kMaxVainRounds = 2;
+constexpr double kMinGain = 0.1;
 
 /// How far a cone may move at once, as a share of the square root of the area, and the factor by which
 /// that is less after a flow that has brought nothing.
 constexpr double kFirstRadius = 0.3, kShorter = 0.3;
 
 /// Turns that cost less, by the mean square of the Beltrami coefficient, need no other cones: angles
-/// change by about a thousandth.
-constexpr double kCheapTurns = 1e-6;
+/// change by less than a hundredth.
+constexpr double kCheapTurns = 1e-5;
 
 /// One more flow. \return none where it fails
 std::optional<FlowResult> nextFlow(
@@ -75,7 +77,9 @@ void chooseCones(
 	TurnCost lowest = turnCost(surface, best, turns);
 	int steps = best.iterations;
 	double radius = kFirstRadius;
-	for (int round = 0; round < kMaxRounds && lowest.angles > kCheapTurns; ++round) {
+	for (int round = 0, vain = 0;
+		 round < kMaxRounds && vain < kMaxVainRounds && lowest.angles > kCheapTurns;
+		 ++round) {
 		std::optional<FlowResult> next = nextFlow(
 			surface, best, turns, request, options, radius, steps, progress, map.flowStates);
 		if (!next)
@@ -86,7 +90,9 @@ void chooseCones(
 		if (getenv("LOG"))
 			progress.log("Turns: cost " + numberText(lowest.total(), 3) + " -> angles " + numberText(cost.angles, 3) + " areas " +
 						 numberText(cost.areas, 3) + " cones " + numberText(cost.cones, 3) + " total " + numberText(cost.total(), 4)+" error "+numberText(nextTurns.errors.cwiseAbs().maxCoeff(),3));
-		if (cost.total() < lowest.total()) {
+		const double gain = lowest.total() - cost.total();
+		vain = gain < kMinGain * lowest.angles ? vain + 1 : 0;
+		if (gain > 0.0) {
 			best = std::move(*next);
 			turns = std::move(nextTurns);
 			lowest = cost;
@@ -116,7 +122,7 @@ void roundLoopTurns(
 		progress.log(
 			"Turns of loops are up to " + numberText(done.before, 3) +
 			" from a multiple of a quarter turn, and " + numberText(done.after, 3) +
-			" once lengths have changed by " + numberText(done.change, 3) + ".");
+			" once the metric has changed.");
 }
 
 } // namespace ricci
