@@ -281,8 +281,8 @@ RichParameterList euclideanParameters()
 		coneRoundingChoices(),
 		"Cones: curvatures",
 		"<b>Free</b>: the curvatures that change areas least.<br>"
-		"<b>Multiples of pi/2</b>: as quadrangulations need them. On a surface of genus 0 the "
-		"seams then differ by quarter turns; handles are not asked to."));
+		"<b>Multiples of pi/2</b>: as quadrangulations need them. The two sides of every "
+		"seam then differ by quarter turns, round handles and free boundaries, too."));
 	list.addParam(RichFloat(
 		"seam_hiding",
 		static_cast<Scalarm>(defaults.seamHiding),

@@ -96,6 +96,7 @@ Results toResults(const ricci::Report& report)
 	addIfPresent(results, "torus_tau_im", report.torusTauIm);
 	addIfPresent(results, "annulus_modulus", report.annulusModulus);
 	addIfPresent(results, "rectangle_aspect", report.rectangleAspect);
+	addIfPresent(results, "holonomy_error", report.holonomyError);
 	addIfPresent(results, "hyperbolic_area", report.hyperbolicArea);
 	addIfPresent(results, "relation_error", report.relationError);
 	return results;

@@ -23,7 +23,7 @@ ALWAYS = {
     "overlapping_charts": int, "overlapping_faces": int, "overlap_cuts": int}
 INVARIANTS = {
     "torus_tau_re": float, "torus_tau_im": float, "annulus_modulus": float,
-    "rectangle_aspect": float}
+    "rectangle_aspect": float, "holonomy_error": float}
 SPHERE = {
     "sphere_qc_area_mean": float, "sphere_area_distortion_mean": float,
     "sphere_flipped_faces": int}

@@ -74,6 +74,10 @@ struct Report
 	std::optional<double> annulusModulus;         ///< ln(r2/r1) / 2 pi
 	std::optional<double> rectangleAspect;        ///< longer over shorter side
 
+	/// ConeRounding::QuarterTurns: largest distance of the rotation across a seam of the flow's cut from
+	/// a multiple of pi / 2, radians, in the map as finished.
+	std::optional<double> holonomyError;
+
 	/// Hyperbolic flow: area of the metric by its side lengths, which Gauss-Bonnet puts at sum K - 2
 	/// pi chi.
 	std::optional<double> hyperbolicArea;

@@ -165,8 +165,7 @@ private:
 		by.inverseWeights.assign(t.edgeCount(), 0.0);
 		for (const Face f : t.faces()) {
 			const auto h = t.halfedges(f);
-			const double radius =
-				0.5 * map.lengths()[h[1].edge()] / std::sin(map.angles()[h[0]]);
+			const double radius = 0.5 * map.lengths()[h[1].edge()] / std::sin(map.angles()[h[0]]);
 			for (const Halfedge side : h) {
 				const double product = map.lengths()[side.edge()] * radius;
 				by.inverseWeights[side.edge()] +=
@@ -200,7 +199,6 @@ private:
 		double share = std::min(1.0, kMaxChange / largest);
 		for (int i = 0; i < kMaxHalvings; ++i, share *= 0.5) {
 			std::optional<Metric> next = changed(metric, change, share);
-			if (getenv("DBG")) fprintf(stderr,"error %g largest %g share %g -> %s %g flips %zu\n",metric.error(),largest,share,next?"ok":"none",next?next->error():0.0,next?next->flips.size():0);
 			if (next && next->error() < metric.error())
 				return next;
 		}
@@ -209,8 +207,8 @@ private:
 
 	/// The metric with lengths changed by \p share of \p change, and with the curvatures of the
 	/// target. \return none where it is not found
-	std::optional<Metric> changed(
-		const Metric& metric, const EdgeArray<double>& change, double share) const
+	std::optional<Metric>
+	changed(const Metric& metric, const EdgeArray<double>& change, double share) const
 	{
 		const CurvatureMap& map = *metric.map;
 		CirclePacking packing;
@@ -237,10 +235,9 @@ private:
 		try {
 			NewtonSolver newton(*next, m_flow.target.fixed);
 			result.solved = newton.solve(
-				result.u,
-				m_flow.target.curvature,
-				{m_epsilon, m_maxIterations},
-				[&](int, double) { m_tick(); });
+				result.u, m_flow.target.curvature, {m_epsilon, m_maxIterations}, [&](int, double) {
+					m_tick();
+				});
 		}
 		catch (const Stopped&) {
 			throw;

@@ -318,6 +318,18 @@ void finish(
 	map.uv = cornersOf(domain.surface.triangulation, map.layout);
 }
 
+/// How far the seams of what is given back are from rotations by quarter turns.
+void measureHolonomy(const FlowDomain& domain, const Options& options, ComponentMap& map)
+{
+	if (options.coneRounding == ConeRounding::QuarterTurns)
+		map.holonomyError =
+			holonomyError(domain.surface.triangulation, map.layout, map.cut.isCut, map.cones);
+}
+
+void measureHolonomy(const FlowDomain&, const HyperbolicOptions&, ComponentMap&)
+{
+}
+
 /// Whether straight triangles may be turned round in the flow's metric.
 template<class AnyOptions>
 bool mayBeTurned(const AnyOptions& options, const ComponentMap& map)
@@ -382,6 +394,8 @@ ComponentMap flatten(
 	measureInvariants(domain, options, map);
 	finish(
 		domain, options, [&] { progress.step(1.0 - kAfterFlow, "Repairing the map"); }, map);
+
+	measureHolonomy(domain, options, map);
 
 	const Tick tick = [&] { progress.step(1.0, "Checking the result"); };
 	tick();

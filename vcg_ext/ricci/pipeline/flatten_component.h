@@ -34,6 +34,7 @@ struct ComponentMap
 	FuchsianGroup group; ///< hyperbolic
 	std::optional<std::complex<double>> torusModulus;
 	std::optional<double> annulusModulus, rectangleAspect, hyperbolicArea, relationError;
+	std::optional<double> holonomyError;
 
 	int finishMoved = 0; ///< points that the repair moved
 	int cappedHoles = 0;

@@ -16,7 +16,7 @@ namespace {
 
 /// Flows after the first one, and those in a row that may bring less than a share of what the turns
 /// cost.
-constexpr int kMaxRounds = 6, kMaxVainRounds = 2;
+constexpr int kMaxRounds = 4, kMaxVainRounds = 2;
 constexpr double kMinGain = 0.1;
 
 /// How far a cone may move at once, as a share of the square root of the area, and the factor by which
@@ -24,8 +24,8 @@ constexpr double kMinGain = 0.1;
 constexpr double kFirstRadius = 0.3, kShorter = 0.3;
 
 /// Turns that cost less, by the mean square of the Beltrami coefficient, need no other cones: angles
-/// change by less than a hundredth.
-constexpr double kCheapTurns = 1e-5;
+/// change by about a hundredth.
+constexpr double kCheapTurns = 2.5e-5;
 
 /// One more flow. \return none where it fails
 std::optional<FlowResult> nextFlow(
@@ -40,7 +40,8 @@ std::optional<FlowResult> nextFlow(
 	std::vector<FlowState>& states)
 {
 	try {
-		const std::optional<Target> target = targetToRoundTurns(surface, last, turns, request, radius);
+		const std::optional<Target> target =
+			targetToRoundTurns(surface, last, turns, request, radius);
 		if (!target)
 			return std::nullopt;
 		FlowProgress flowProgress(progress, options.epsilon, states);
@@ -87,9 +88,6 @@ void chooseCones(
 		steps += next->iterations;
 		LoopTurns nextTurns = loopTurns(*next, tick);
 		const TurnCost cost = turnCost(surface, *next, nextTurns);
-		if (getenv("LOG"))
-			progress.log("Turns: cost " + numberText(lowest.total(), 3) + " -> angles " + numberText(cost.angles, 3) + " areas " +
-						 numberText(cost.areas, 3) + " cones " + numberText(cost.cones, 3) + " total " + numberText(cost.total(), 4)+" error "+numberText(nextTurns.errors.cwiseAbs().maxCoeff(),3));
 		const double gain = lowest.total() - cost.total();
 		vain = gain < kMinGain * lowest.angles ? vain + 1 : 0;
 		if (gain > 0.0) {

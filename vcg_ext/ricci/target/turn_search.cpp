@@ -24,11 +24,11 @@ constexpr double kQuarterTurn = 0.5 * kPi;
 /// What areas and one more cone cost, where the mean square of the Beltrami coefficient costs 1.
 constexpr double kAreaCost = 0.05, kConeCost = 3e-4;
 
-/// Moves of which all pairs are tried.
-constexpr std::size_t kMaxPaired = 1500;
+/// Moves that are tried, and those of which all pairs are.
+constexpr std::size_t kMaxTried = 30000, kMaxPaired = 1500;
 
 /// Moves or pairs of them, one after the other, and the share by which each has to lower the cost.
-constexpr int kMaxMoves = 20;
+constexpr int kMaxMoves = 8;
 constexpr double kMinGain = 0.02;
 
 /// Where moves are not worth what the linear problem for the nearest ones promises, they become
@@ -65,8 +65,7 @@ public:
 		m_radius = radius * std::sqrt(m_area);
 		for (const Vertex v : m_units.indices())
 			if (m_sites.isAllowed(v) && !flow.target.fixed[v])
-				m_units[v] =
-					static_cast<int>(std::lround(flow.target.curvature[v] / kQuarterTurn));
+				m_units[v] = static_cast<int>(std::lround(flow.target.curvature[v] / kQuarterTurn));
 		measure();
 	}
 
@@ -132,10 +131,7 @@ private:
 			std::count_if(m_units.begin(), m_units.end(), [](int n) { return n != 0; }));
 	}
 
-	double total() const
-	{
-		return turnCost(m_errors) + kAreaCost * m_areas + kConeCost * m_cones;
-	}
+	double total() const { return turnCost(m_errors) + kAreaCost * m_areas + kConeCost * m_cones; }
 
 	/// Makes \p moves. \return false, with nothing changed, where the linear problem sees no gain
 	bool apply(const std::vector<Move>& moves)
@@ -231,6 +227,19 @@ private:
 		return found;
 	}
 
+	/// At most \p count of \p moves, more of them among the cheap ones.
+	static std::vector<Move> denserAtStart(const std::vector<Move>& moves, std::size_t count)
+	{
+		if (moves.size() <= count)
+			return moves;
+		std::vector<Move> some;
+		for (std::size_t i = 0; i < count; ++i) {
+			const double share = double(i) / double(count);
+			some.push_back(moves[std::max(i, std::size_t(share * share * double(moves.size())))]);
+		}
+		return some;
+	}
+
 	/// The move, or the two, with the most gain by the derivatives; empty if there is none.
 	std::vector<Move> best()
 	{
@@ -238,7 +247,7 @@ private:
 		const std::vector<Move> all = moves(present);
 		double lowest = (1.0 - kMinGain) * present;
 		std::vector<Move> chosen;
-		for (const Move& move : all) {
+		for (const Move& move : denserAtStart(all, kMaxTried)) {
 			if (move.cost >= lowest)
 				break;
 			const double cost = move.cost + turnCost(m_errors + turnChange(move));
@@ -247,17 +256,10 @@ private:
 				chosen = {move};
 			}
 		}
-		// Denser among the cheap ones.
-		std::vector<Move> some;
+		const std::vector<Move> some = denserAtStart(all, kMaxPaired);
 		std::vector<Eigen::VectorXd> changes;
-		for (std::size_t i = 0; i < std::min(kMaxPaired, all.size()); ++i) {
-			const double share = double(i) / double(kMaxPaired);
-			const std::size_t k = all.size() <= kMaxPaired
-									  ? i
-									  : std::max(i, std::size_t(share * share * double(all.size())));
-			some.push_back(all[k]);
-			changes.push_back(turnChange(all[k]));
-		}
+		for (const Move& move : some)
+			changes.push_back(turnChange(move));
 		for (std::size_t i = 0; i < some.size(); ++i) {
 			tick();
 			const Eigen::VectorXd first = m_errors + changes[i];
@@ -267,8 +269,7 @@ private:
 				if (some[i].from == some[k].from || some[i].to == some[k].to ||
 					some[i].from == some[k].to || some[i].to == some[k].from)
 					continue;
-				const double cost =
-					some[i].cost + some[k].cost + turnCost(first + changes[k]);
+				const double cost = some[i].cost + some[k].cost + turnCost(first + changes[k]);
 				if (cost < lowest) {
 					lowest = cost;
 					chosen = {some[i], some[k]};
@@ -283,11 +284,11 @@ private:
 	Tick m_tick;
 	ConeSites m_sites;
 	LinearFlow m_linear;
-	VertexArray<int> m_units;  // quarter turns of the cones
-	VertexVector m_curvature;  // with the present cones
-	VertexVector m_field;      // derivative of half the mean square of the factor by curvature
-	Eigen::VectorXd m_errors;  // of the turns, at the present cones
-	Eigen::MatrixXd m_root;    // of the cost of turns
+	VertexArray<int> m_units; // quarter turns of the cones
+	VertexVector m_curvature; // with the present cones
+	VertexVector m_field;     // derivative of half the mean square of the factor by curvature
+	Eigen::VectorXd m_errors; // of the turns, at the present cones
+	Eigen::MatrixXd m_root;   // of the cost of turns
 	double m_area, m_radius, m_areas = 0.0;
 	int m_cones = 0;
 };
