@@ -172,10 +172,8 @@ private:
 					2.0 * product * product / (areas.plane[f] * areas.scale[f]);
 			}
 		}
-		const bool keepsBoundary = m_flow.target.hasFixed();
 		for (const Edge e : t.edges())
-			by.inverseWeights[e] =
-				keepsBoundary && t.isBoundary(e) ? 0.0 : 1.0 / by.inverseWeights[e];
+			by.inverseWeights[e] = t.isBoundary(e) ? 0.0 : 1.0 / by.inverseWeights[e];
 	}
 
 	/// The change of the logarithms of the lengths that removes the errors to first order.
