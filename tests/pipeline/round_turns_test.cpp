@@ -130,6 +130,18 @@ TEST(RoundLoopTurns, LeavesPrescribedBoundaries)
 	EXPECT_NEAR(sum, 2 * kPi * map.report.eulerCharacteristic, 1e-9);
 }
 
+TEST(RoundLoopTurns, AddsNoConesToANumberThatIsAskedFor)
+{
+	for (const int count : {4, 7}) {
+		Options options = quarterTurns(Finish::LeastDistortion);
+		options.coneCount = count;
+		const SurfaceMesh mesh = bentSlab(2, 4);
+		const Parametrization map = run(mesh, options);
+		EXPECT_LE(map.report.cones, count);
+		EXPECT_LT(seamError(mesh, map), 1e-9);
+	}
+}
+
 TEST(RoundLoopTurns, ChangesNothingOnASphere)
 {
 	const SurfaceMesh mesh = bentSlab(0, 4);

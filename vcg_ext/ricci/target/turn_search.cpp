@@ -58,6 +58,7 @@ public:
 		double radius) :
 			m_surface(surface),
 			m_turns(turns), m_tick(request.tick), m_sites(surface, request.vertices),
+			m_keepsCount(request.count > 0),
 			m_linear(surface, flow, request.boundary, areaShares(surface)),
 			m_units(flow.curvature.size(), 0), m_curvature(flow.curvature), m_errors(turns.errors),
 			m_root(turns.cost.llt().matrixU()), m_area(surfaceArea(surface))
@@ -203,6 +204,8 @@ private:
 			double cost = kAreaCost * (2.0 * curvature * (m_field[to] - m_field[from]) +
 									   0.25 * curvature * curvature * way * way / m_area);
 			const int more = (left != 0) - 1 + (there != 0) - (m_units[to] != 0);
+			if (more > 0 && m_keepsCount)
+				return;
 			cost += kConeCost * more;
 			if (cost < limit)
 				found.push_back({from, to, units, cost});
@@ -283,6 +286,7 @@ private:
 	const LoopTurns& m_turns;
 	Tick m_tick;
 	ConeSites m_sites;
+	bool m_keepsCount; // the number of cones was asked for
 	LinearFlow m_linear;
 	VertexArray<int> m_units; // quarter turns of the cones
 	VertexVector m_curvature; // with the present cones
