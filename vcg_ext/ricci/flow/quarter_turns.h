@@ -43,6 +43,9 @@ struct TurnRounding
 /// distortion that each length alone makes, for areas in space. Newton's method in c, one solve of
 /// the flow for each step.
 ///
+/// Flips on the way go into the history with those of the flow: the overlay with the new triangles is
+/// that of the conformal class of the flow, and so stays continuous.
+///
 /// The metric stays as it is where that fails, and on the double of a surface.
 /// \pre Euclidean, with intrinsic flips
 TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options, const Tick& tick);

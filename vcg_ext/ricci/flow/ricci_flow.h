@@ -37,9 +37,8 @@ struct FlipHistory
 	EdgeArray<double> startDelta;   ///< [edge of start] inversive distance less one
 	VertexArray<double> startRadii; ///< Euclidean, in the input's metric
 	std::vector<Edge> startFlips;   ///< from the input's triangulation to the start's, in order
-	std::vector<Edge> flowFlips; ///< from the start's triangulation to the last, in order, those of
-								 ///< roundTurns() included
-	double lengthened = 0.0;     ///< added to every edge of a degenerate mesh, see mollify()
+	std::vector<Edge> flowFlips;    ///< from the start's triangulation to the last, in order
+	double lengthened = 0.0;        ///< added to every edge of a degenerate mesh, see mollify()
 
 	int flips() const { return static_cast<int>(startFlips.size() + flowFlips.size()); }
 };
