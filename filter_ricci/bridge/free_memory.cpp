@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <locale>
+#include <sstream>
 #include <string>
 
 namespace filter_ricci {
@@ -35,6 +36,25 @@ double numberBehind(const std::string& path, const std::string& key)
 	return 0.0;
 }
 
+/// Bytes that a limit of the address space (ulimit -v) leaves the process; -1 if there is none.
+double freeAddresses(const std::string& root)
+{
+	constexpr double kPage = 4096.0; // the size is counted in pages; larger ones leave less
+	const std::string key = "Max address space";
+	std::ifstream limits(root + "proc/self/limits");
+	const double pages = numberIn(root + "proc/self/statm");
+	for (std::string line; std::getline(limits, line);) {
+		if (line.compare(0, key.size(), key) != 0)
+			continue;
+		std::istringstream values(line.substr(key.size()));
+		values.imbue(std::locale::classic());
+		double limit = -1.0; // "unlimited" is no number
+		if (values >> limit && pages >= 0.0)
+			return std::max(limit - kPage * pages, 1.0);
+	}
+	return -1.0;
+}
+
 /// Files of a control group that say how much memory it may have and has. What it has includes
 /// pages of files, which the kernel gives back when it needs them.
 struct ControlGroup
@@ -63,6 +83,9 @@ double freeMemory(const std::string& root)
 		if (free > 0.0 && limit >= 0.0 && used >= 0.0)
 			free = std::min(free, std::max(limit - std::max(used - files, 0.0), 1.0));
 	}
+	const double addresses = freeAddresses(root);
+	if (free > 0.0 && addresses > 0.0)
+		free = std::min(free, addresses);
 	return free;
 }
 

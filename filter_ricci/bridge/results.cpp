@@ -2,6 +2,7 @@
 #include "results.h"
 
 #include <algorithm>
+#include <complex>
 #include <iomanip>
 #include <ios>
 #include <locale>
@@ -9,6 +10,7 @@
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace filter_ricci {
 
@@ -83,6 +85,11 @@ Results toResults(const ricci::Report& report)
 		{"genus", report.genus},
 		{"boundary_loops", report.boundaryLoops},
 		{"components", report.components},
+		{"cut_nonmanifold_edges", report.cutNonmanifoldEdges},
+		{"split_vertices", report.splitVertices},
+		{"duplicate_faces", report.duplicateFaces},
+		{"one_sided_components", report.oneSidedComponents},
+		{"degenerate_faces", report.degenerateFaces},
 		{"cones", report.cones},
 		{"seam_edges", report.seamEdges},
 		{"seam_length", report.seamLength},
@@ -97,6 +104,13 @@ Results toResults(const ricci::Report& report)
 	addIfPresent(results, "annulus_modulus", report.annulusModulus);
 	addIfPresent(results, "rectangle_aspect", report.rectangleAspect);
 	addIfPresent(results, "holonomy_error", report.holonomyError);
+	if (!report.periodMatrix.empty()) {
+		std::vector<double> numbers;
+		for (const std::complex<double>& entry : report.periodMatrix)
+			numbers.insert(numbers.end(), {entry.real(), entry.imag()});
+		results.emplace_back("period_matrix", std::move(numbers));
+	}
+	addIfPresent(results, "period_error", report.periodError);
 	addIfPresent(results, "hyperbolic_area", report.hyperbolicArea);
 	addIfPresent(results, "relation_error", report.relationError);
 	return results;

@@ -308,8 +308,10 @@ std::vector<std::pair<std::string, std::string>> settingsAsText(const RichParame
 			value << par.getInt(p.name());
 		else if (dynamic_cast<const RichFloat*>(&p) != nullptr)
 			value << par.getFloat(p.name());
-		else if (dynamic_cast<const RichString*>(&p) != nullptr)
-			value << par.getString(p.name()).toStdString();
+		else if (
+			dynamic_cast<const host::FileToSave*>(&p) != nullptr ||
+			dynamic_cast<const RichString*>(&p) != nullptr)
+			value << host::text(par, p.name()).toStdString();
 		else
 			continue;
 		settings.emplace_back(p.name().toStdString(), value.str());

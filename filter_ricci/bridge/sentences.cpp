@@ -40,28 +40,16 @@ const char* remedy(const ricci::InvalidMesh& e)
 		return ": delete them first.";
 	case Error::OutOfRange:
 		return ": run 'Transform: Scale, Normalize' first.";
-	case Error::CollapsedFaces:
-		return ": run 'Remove Zero Area Faces' first.";
-	case Error::DuplicateFaces:
-		return ": run 'Remove Duplicate Faces' first.";
-	case Error::NonManifoldEdges:
-		return ": run 'Repair non Manifold Edges' first.";
-	case Error::NonManifoldVertices:
-		return ": run 'Repair non Manifold Vertices by splitting' first.";
-	case Error::NotOrientable:
-		return ": cut the mesh into an orientable surface first.";
 	case Error::TooSmall:
 		return ": run 'Transform: Scale, Normalize' first, or delete such pieces.";
 	case Error::NoArea:
-		return ": delete such pieces first.";
+		return ": choose a mesh with a surface.";
 	case Error::EdgesWithoutLength:
 		return ": run 'Merge Close Vertices' and 'Remove Zero Area Faces' first.";
 	case Error::FacesWithoutArea:
 		return ": run 'Remove Zero Area Faces' or 'Remove T-Vertices' first.";
 	case Error::IncoherentEdge:
-		return ": run 'Repair non Manifold Edges' first.";
-	case Error::BoundaryWithoutLength:
-		return ". Choose another target_curvature, or run 'Close Holes' first.";
+		return ": report the mesh.";
 	case Error::NotPuncturable:
 		return ". Remesh it, or separate its sheets.";
 	case Error::TooLargeForFloats:
@@ -210,6 +198,8 @@ std::string remedy(const ricci::NotConverged& e)
 					: ": choose the surgery 'Intrinsic flips', or remesh the worst triangles.");
 	case Error::LostInRounding:
 		return ". Choose a target_curvature nearer to the curvature of the mesh.";
+	case Error::FlipsUsedUp:
+		return ": remesh the worst triangles.";
 	case Error::CircleUnsettled:
 		return ". Remesh the boundary, or choose another target_curvature.";
 	case Error::FlatTriangles:
@@ -250,6 +240,7 @@ std::string inWords(const ricci::TooLarge& e)
 	switch (e.problem) {
 	case Error::Faces:
 	case Error::Memory:
+	case Error::Unknowns:
 		return what + kSimplify;
 	case Error::DoubleMemory:
 		return what + ": simplify the mesh first ('Simplification: Quadric Edge Collapse "

@@ -7,23 +7,23 @@ namespace filter_ricci {
 
 namespace {
 
+const char* const kReference =
+	"See: <i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng Gu</i><br>"
+	"<b>\"Generalized Discrete Ricci Flow\"</b>, Computer Graphics Forum 28(7), 2005-2014, 2009.";
+
 FilterText euclideanText()
 {
 	FilterText text;
 	text.name = "Generalized Ricci Flow (Euclidean)";
 	text.pythonName = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge";
 	text.info =
-		"<b>Conformal parametrization</b> into per-wedge texture coordinates: the discrete Ricci "
-		"flow finds the metric, conformal to the mesh's own, with the curvature asked for, and "
-		"unrolls it into the plane. Thin triangles need no remeshing.<br>"
-		"<b>Input:</b> a manifold triangle mesh of any topology, with or without boundary.<br>"
+		"<b>Conformal parametrization</b> into per-wedge texture coordinates, unrolled from the "
+		"metric with the curvature asked for, which the discrete Ricci flow finds. Thin triangles "
+		"need no remeshing.<br>"
+		"<b>Input:</b> a triangle mesh of any topology.<br>"
 		"<b>Output:</b> texture coordinates (to be seen with <i>Set Texture</i>), the distortion "
-		"(1 = angles kept) as vertex quality. Vertices and faces stay unless the common refinement "
-		"is asked for; a refused mesh is unchanged.<br>"
-		"See: <br />"
-		"<i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng Gu</i><br/>"
-		"<b>\"Generalized Discrete Ricci Flow\"</b><br/>"
-		"Computer Graphics Forum, volume 28, Issue 7, Pages 2005-2014, 2009.<br/>";
+		"(1 = angles kept) as vertex quality.<br>";
+	text.info += kReference;
 	return text;
 }
 
@@ -33,20 +33,13 @@ FilterText hyperbolicText()
 	text.name = "Generalized Ricci Flow (Hyperbolic)";
 	text.pythonName = "compute_texcoord_parametrization_ricci_flow_hyperbolic_per_wedge";
 	text.info =
-		"<b>Hyperbolic uniformization</b>: the discrete Ricci flow finds the metric of curvature "
-		"-1 that is conformal to the mesh's own, and unrolls it into the Poincaré disk. For "
-		"surfaces with two handles or more, with a handle and a boundary, or with three "
-		"boundaries.<br>"
-		"<b>Input:</b> a manifold triangle mesh of negative Euler characteristic, or any with "
-		"cones that make up for it.<br>"
-		"<b>Output:</b> texture coordinates (to be seen with <i>Set Texture</i>; the disk fills "
-		"the unit square), the distortion as vertex quality, on request the generators of the "
-		"Fuchsian group and layers with the disk and its tiling. Vertices and faces stay unless "
-		"the common refinement is asked for.<br>"
-		"See: <br />"
-		"<i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng Gu</i><br/>"
-		"<b>\"Generalized Discrete Ricci Flow\"</b><br/>"
-		"Computer Graphics Forum, volume 28, Issue 7, Pages 2005-2014, 2009.<br/>";
+		"<b>Hyperbolic uniformization</b>: the metric of curvature -1 that is conformal to the "
+		"mesh's own, unrolled into the Poincaré disk.<br>"
+		"<b>Input:</b> a triangle mesh of negative Euler characteristic (two handles, a handle "
+		"and a boundary, or three boundaries), or any with cones that make up for it.<br>"
+		"<b>Output:</b> texture coordinates (to be seen with <i>Set Texture</i>), the distortion "
+		"(1 = angles kept) as vertex quality, on request the generators of the Fuchsian group.<br>";
+	text.info += kReference;
 	return text;
 }
 

@@ -7,6 +7,7 @@
 
 #include <string>
 #include <type_traits>
+#include <utility>
 
 // This MeshLab loads any plugin unchecked: one with another layout of the mesh crashes it.
 static_assert(std::is_same_v<Scalarm, float>, "MeshLab 2020.09 needs MESHLAB_SCALAR=float");
@@ -28,6 +29,22 @@ inline void removeMesh(MeshDocument& md, MeshModel* mesh)
 inline void copyTextures(const MeshModel& from, MeshModel& to)
 {
 	to.cm.textures = from.cm.textures;
+}
+
+/// A parameter that few runs need. This dialog shows all of them, in their order.
+template<class Parameter, class... Arguments>
+Parameter advanced(Arguments&&... arguments)
+{
+	return Parameter(std::forward<Arguments>(arguments)...);
+}
+
+using FileToSave = RichSaveFile;
+
+/// Of a file's name, which scripts may also hold as a text.
+inline QString text(const RichParameterList& par, const QString& id)
+{
+	const Value& value = par.getParameterByName(id).value();
+	return value.isFileName() ? value.getFileName() : value.getString();
 }
 
 /// meshlabserver prints the texts one after the other, without line ends.

@@ -6,6 +6,7 @@
 #include <common/plugins/interfaces/filter_plugin.h>
 
 #include <string>
+#include <utility>
 
 namespace filter_ricci::host {
 
@@ -21,6 +22,24 @@ inline void copyTextures(const MeshModel& from, MeshModel& to)
 {
 	for (const std::string& name : from.cm.textures)
 		to.addTexture(name, from.getTexture(name));
+}
+
+/// A parameter that few runs need: the dialog shows it on request only.
+template<class Parameter, class... Arguments>
+Parameter advanced(Arguments&&... arguments)
+{
+	return Parameter(std::forward<Arguments>(arguments)..., true);
+}
+
+#if __has_include(<common/parameters/rich_parameter/rich_file_save.h>)
+using FileToSave = RichFileSave;
+#else
+using FileToSave = RichSaveFile;
+#endif
+
+inline QString text(const RichParameterList& par, const QString& id)
+{
+	return par.getString(id);
 }
 
 inline const std::string& progressText(const std::string& what)

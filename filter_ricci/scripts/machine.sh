@@ -137,7 +137,7 @@ make_venv() {
 		skipped "PyMeshLab: installed in build/venv, but it cannot be imported; see build/venv.log"
 }
 
-# Dask runs filter_ricci/samples/batch.py; nothing else needs it.
+# Dask runs the Python package on a cluster; nothing else needs it.
 add_dask() {
 	[ -x "$build/venv/bin/pip" ] || return 0
 	"$build/venv/bin/python" -c 'import dask.distributed' 2>/dev/null ||

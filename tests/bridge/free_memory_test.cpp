@@ -93,3 +93,23 @@ TEST(FreeMemory, IsWhatTheControlGroupLeaves)
 		EXPECT_EQ(root.freeMemory(), 1.0);
 	}
 }
+
+TEST(FreeMemory, IsWhatTheLimitOfTheAddressSpaceLeaves)
+{
+	const Root root;
+	root.write("proc/meminfo", kMachine);
+	const std::string head =
+		"Limit                     Soft Limit           Hard Limit           Units\n"
+		"Max cpu time              7                    unlimited            seconds\n";
+	root.write("proc/self/statm", "100 50 20 10 0 5 0\n");
+	root.write(
+		"proc/self/limits",
+		head + "Max address space         unlimited            unlimited            bytes\n");
+	EXPECT_EQ(root.freeMemory(), kOfMachine);
+	root.write(
+		"proc/self/limits",
+		head + "Max address space         1000000              unlimited            bytes\n");
+	EXPECT_EQ(root.freeMemory(), 1000000.0 - 100 * 4096.0);
+	root.write("proc/self/statm", "300 50 20 10 0 5 0\n");
+	EXPECT_EQ(root.freeMemory(), 1.0);
+}

@@ -88,7 +88,6 @@ TEST(Sentences, EveryInvalidMeshHasOne)
 	const std::vector<int> withoutCount = {
 		InvalidMesh::Empty,
 		InvalidMesh::IncoherentEdge,
-		InvalidMesh::BoundaryWithoutLength,
 		InvalidMesh::NotPuncturable,
 		InvalidMesh::TooLargeForFloats};
 	for (int i = InvalidMesh::Empty; i <= InvalidMesh::TooLargeForFloats; ++i) {
@@ -197,6 +196,7 @@ TEST(Sentences, EveryNotConvergedHasOne)
 		case NotConverged::FlatTriangles:
 		case NotConverged::SplitsUsedUp:
 		case NotConverged::OutsideDisk:
+		case NotConverged::FlipsUsedUp:
 			numbers = {"61"};
 			break;
 		case NotConverged::LostInRounding:
@@ -227,6 +227,7 @@ TEST(Sentences, EveryOtherErrorHasOne)
 	for (TooLarge::Problem problem :
 		 {TooLarge::Memory, TooLarge::DoubleMemory, TooLarge::OverlayMemory})
 		expectSentence(TooLarge(problem, 61, 12.5e9, 3e9), {"61", "12.5 GB", "3 GB"});
+	expectSentence(TooLarge(TooLarge::Unknowns, 61, 0.0, 0.0), {"61"});
 	expectSentence(SolverFailed(SolverFailed::Flow), {});
 	expectSentence(SolverFailed(SolverFailed::SeamCost), {});
 	for (const char* end : {"", "."})
@@ -258,31 +259,14 @@ TEST(Sentences, OfMeshes)
 		of(InvalidMesh::OutOfRange, 2),
 		"2 vertices have coordinates beyond 1e50: run 'Transform: Scale, Normalize' first.");
 	EXPECT_EQ(
-		of(InvalidMesh::CollapsedFaces, 1),
-		"1 face uses the same vertex twice: run 'Remove Zero Area Faces' first.");
-	EXPECT_EQ(
-		of(InvalidMesh::DuplicateFaces, 3),
-		"3 faces are a duplicate of another: run 'Remove Duplicate Faces' first.");
-	EXPECT_EQ(
-		of(InvalidMesh::NonManifoldEdges, 1),
-		"1 non-manifold edge (shared by more than two faces): run 'Repair non Manifold Edges' "
-		"first.");
-	EXPECT_EQ(
-		of(InvalidMesh::NonManifoldVertices, 4),
-		"4 non-manifold vertices (with more than one fan of faces): run 'Repair non Manifold "
-		"Vertices by splitting' first.");
-	EXPECT_EQ(
-		of(InvalidMesh::NotOrientable, 1),
-		"1 component is not orientable (one-sided, like a Moebius band): cut the mesh into an "
-		"orientable surface first.");
-	EXPECT_EQ(
 		of(InvalidMesh::TooSmall, 2),
 		"2 components are smaller than 1e-50: run 'Transform: Scale, Normalize' first, or delete "
 		"such pieces.");
 	EXPECT_EQ(
 		of(InvalidMesh::NoArea, 1),
-		"1 component has no area at all (all vertices on one line, or in one point): delete such "
-		"pieces first.");
+		"The mesh has 1 face but no area (each component lies on one line, or in one point): "
+		"choose "
+		"a mesh with a surface.");
 	EXPECT_EQ(
 		of(InvalidMesh::EdgesWithoutLength, 6),
 		"6 edges have no length: run 'Merge Close Vertices' and 'Remove Zero Area Faces' first.");

@@ -4,6 +4,7 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
+#include <ricci/cut/cut_graph.h>
 #include <ricci/cut/seam_cost.h>
 
 #include <gtest/gtest.h>
@@ -120,6 +121,36 @@ TEST(SeamCost, IsTheLengthWhereNothingIsToBeHidden)
 		EXPECT_GE(hidden[e], p.lengths[e]);
 		EXPECT_LE(hidden[e], 10.0 * p.lengths[e]);
 	}
+}
+
+/// Where a cut along diagonals is as short as one along sides, the cut takes the sides.
+TEST(SeamCost, KeepsSeamsOffDiagonalsWhereThatCostsNothing)
+{
+	const SurfaceMesh mesh = torus(2, 1, 12, 9);
+	const Packed p(mesh);
+	const Triangulation& t = p.triangulation;
+	EdgeArray<char> isDiagonal(t.edgeCount(), 0);
+	for (const Edge e : t.edges()) { // vertices are numbered (i nv + j): a diagonal steps both ways
+		const auto [a, b] = t.ends(e);
+		isDiagonal[e] = a.number() / 9 != b.number() / 9 && a.number() % 9 != b.number() % 9;
+	}
+	EXPECT_EQ(std::count(isDiagonal.begin(), isDiagonal.end(), 1), 12 * 9);
+	EdgeArray<double> cost(t.edgeCount(), 1.0);
+	VertexArray<char> marked(t.vertexCount(), 0);
+	for (int v : {0, 40, 67, 100})
+		marked[Vertex(v)] = 1;
+	const CutGraph any = cutToDisk(t, cost, marked, {});
+	avoidDiagonals(isDiagonal, cost);
+	const CutGraph cut = cutToDisk(t, cost, marked, {});
+	int before = 0, after = 0;
+	for (const Edge e : t.edges()) {
+		before += isDiagonal[e] && any.isCut[e];
+		after += isDiagonal[e] && cut.isCut[e];
+	}
+	EXPECT_LE(cut.edgeCount, any.edgeCount);
+	EXPECT_LT(after, before);
+	// Diagonals are what they were without any polygon.
+	avoidDiagonals({}, cost);
 }
 
 } // namespace

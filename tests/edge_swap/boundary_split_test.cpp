@@ -22,7 +22,7 @@ namespace {
 Component componentOf(const SurfaceMesh& mesh)
 {
 	std::vector<std::string> notes;
-	std::vector<Component> components = splitIntoComponents(mesh, notes);
+	std::vector<Component> components = splitIntoComponents(openMesh(mesh, notes));
 	EXPECT_EQ(components.size(), 1u);
 	return components.front();
 }

@@ -334,10 +334,12 @@ TEST(MovablePoints, BoundaryStaysOrTwoFarPointsDo)
 TEST(MeanDistortion, IsTheWeightedMeanOfTheDilatations)
 {
 	Random random(611);
+	int compared = 0;
 	for (Drawing& d : drawingsWithSeams(random)) {
 		Measured m(d);
 		if (d.turned() > 0)
 			continue;
+		++compared;
 		FaceArray<double> area(d.t.faceCount());
 		VertexArray<double> ring(d.t.vertexCount(), 0.0);
 		double total = 0.0;
@@ -366,6 +368,7 @@ TEST(MeanDistortion, IsTheWeightedMeanOfTheDilatations)
 		EXPECT_NEAR(weights, 1.0, 1e-12);
 		EXPECT_NEAR(m.energy.evaluate(m.start) / sum, 1.0, 1e-10);
 	}
+	EXPECT_GT(compared, 0);
 }
 
 TEST(MeanDistortion, GradientIsThatOfDifferences)
@@ -598,6 +601,7 @@ TEST(LimitedMemoryBfgs, TakesTheLastStepBackFromItsChange)
 	const Eigen::VectorXcd gradient = vector(7);
 	bfgs.direction(gradient, scale, direction);
 	EXPECT_LT((direction + 0.3 * gradient).norm(), 1e-15);
+	int remembered = 0;
 	for (int round = 0; round < 8; ++round) {
 		const Eigen::VectorXcd step = vector(7), change = vector(7) + step;
 		const double product = LimitedMemoryBfgs::dot(step, change);
@@ -605,11 +609,13 @@ TEST(LimitedMemoryBfgs, TakesTheLastStepBackFromItsChange)
 		bfgs.remember(step, change);
 		if (!(product > 0.0))
 			continue;
+		++remembered;
 		bfgs.direction(change, scale, direction); // the secant equation
 		EXPECT_LT((direction + step).norm(), 1e-12);
 		bfgs.direction(gradient, scale, direction);
 		EXPECT_LT(LimitedMemoryBfgs::dot(gradient, direction), 0.0);
 	}
+	EXPECT_GT(remembered, 2);
 	// A step along which the function bends down is not remembered.
 	const Eigen::VectorXcd before = direction, step = vector(7);
 	bfgs.remember(step, -step);

@@ -11,11 +11,13 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/error.h>
+#include <ricci/metric/area.h>
 #include <ricci/metric/hyperbolic.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -155,24 +157,119 @@ TEST(HyperbolicFlow, BoundaryBecomesGeodesic)
 	}
 }
 
+/// The circles keep their radii, at the scale at which the flat surface has the area
+/// 2 pi max(1, |chi|), whatever the curvature inside is to be.
 TEST(HyperbolicFlow, FreeBoundaryKeepsItsCircles)
 {
 	Random random(540);
-	const SurfaceMesh mesh = withoutStars(shaken(perforatedSlab(1, 4), 0.03, random), {0});
-	const FlippedFlow flow(mesh, hyperbolicMetric(true));
-	expectReached(flow);
-	ASSERT_FALSE(flow.result.doubled);
-	// All radii are scaled alike at the start.
-	double factor = 0.0;
-	for (const Vertex v : flow.base().vertices()) {
-		if (!flow.surface().topology.boundary[v]) {
-			EXPECT_NEAR(flow.result.curvature[v], 0.0, 1e-10);
-			continue;
+	for (const SurfaceMesh& mesh :
+		 {withoutStars(shaken(perforatedSlab(1, 4), 0.03, random), {0}),
+		  withoutStars(shaken(perforatedSlab(0, 5), 0.03, random), {0, 60, 120}),
+		  withoutStars(shaken(perforatedSlab(2, 3), 0.03, random), {5, 70}),
+		  withoutStars(shaken(perforatedSlab(0, 5), 0.03, random), {0}),
+		  ring(1, 3, 24, 8)}) {
+		const VertexArray<char> boundary =
+			Triangulation(static_cast<int>(mesh.positions.size()), mesh.triangles)
+				.boundaryVertices();
+		std::vector<int> inside;
+		for (const Vertex v : boundary.indices())
+			if (!boundary[v])
+				inside.push_back(v.number());
+		for (const double K : {0.0, 2.0, -2.0}) {
+			SCOPED_TRACE(K);
+			HyperbolicRequest request =
+				hyperbolicPrescribed(std::vector<double>(mesh.positions.size(), 0.0));
+			request.freeBoundary = true;
+			request.prescribed[Vertex(inside[inside.size() / 2])] = K;
+			const FlippedFlow flow(mesh, request);
+			SCOPED_TRACE(flow.surface().topology.type.name());
+			expectReached(flow);
+			ASSERT_FALSE(flow.result.doubled);
+			const int chi = flow.surface().topology.type.eulerCharacteristic();
+			const IntrinsicMesh& start = flow.result.history.start;
+			const double scale = std::sqrt(
+				2 * kPi * std::max(1, std::abs(chi)) /
+				euclideanArea(start.triangulation, start.lengths));
+			int kept = 0;
+			for (const Vertex v : flow.base().vertices())
+				if (boundary[v]) {
+					const double radius = Hyperbolic::circle(flow.result.u[v]).radius;
+					EXPECT_NEAR(radius / flow.result.history.startRadii[v] / scale, 1.0, 1e-13);
+					++kept;
+				}
+			EXPECT_GT(kept, 0);
 		}
-		const double own = std::exp(flow.result.u[v]) / flow.result.history.startRadii[v];
-		factor = factor == 0.0 ? own : factor;
-		EXPECT_NEAR(own / factor, 1.0, 1e-14);
 	}
+}
+
+/// Total length of the boundary in the metric found.
+double boundaryLength(const FlowResult& flow)
+{
+	const Triangulation& t = flow.metric->triangulation();
+	double length = 0.0;
+	for (const Edge e : t.edges())
+		if (t.isBoundary(e))
+			length += flow.metric->lengths()[e];
+	return length;
+}
+
+/// The limits of values whose error is of second order in the width of the triangles: the error falls
+/// to a quarter with half of the width, and two of them tell the limit to fourth order.
+void expectSecondOrder(const std::vector<double>& values, double limit)
+{
+	ASSERT_EQ(values.size(), 3u);
+	const auto error = [&](std::size_t i) { return values[i] - limit; };
+	EXPECT_NEAR(error(0) / error(1), 4.0, 0.4);
+	EXPECT_NEAR(error(1) / error(2), 4.0, 0.1);
+	EXPECT_NEAR((4.0 * values[2] - values[1]) / 3.0, limit, std::abs(error(2)) / 20.0);
+}
+
+/// A flat round disk of area 2 pi has a circumference of 2 pi sqrt(2). In the hyperbolic plane a
+/// circle of that length, 2 pi sinh R, holds the area 2 pi (cosh R - 1) = 2 pi (sqrt(3) - 1).
+TEST(HyperbolicFlow, ADiskWithFreeBoundaryIsThatOfTheHyperbolicPlane)
+{
+	std::vector<double> areas, lengths;
+	for (const int n : {24, 48, 96}) {
+		std::vector<std::array<double, 2>> profile;
+		for (int i = 0; i <= n / 4; ++i)
+			profile.push_back({4.0 * i / n, 0.0});
+		const FlippedFlow flow(revolved(profile, n), hyperbolicMetric(true));
+		ASSERT_TRUE(flow.surface().topology.type.isDisk());
+		expectReached(flow);
+		ASSERT_FALSE(flow.result.doubled);
+		EXPECT_NEAR(flow.result.curvature.sum(), 2 * kPi + flow.result.area, 1e-9);
+		areas.push_back(flow.result.area);
+		lengths.push_back(boundaryLength(flow.result));
+	}
+	expectSecondOrder(areas, 2 * kPi * (std::sqrt(3.0) - 1.0));
+	expectSecondOrder(lengths, 2 * kPi * std::sqrt(2.0));
+}
+
+/// On a flat cylinder of period 2 pi and height w the metrics of curvature -1 that are symmetric in
+/// both directions are k^2 / cos^2(k x) (dx^2 + dy^2), |x| <= w / 2. Scaled to the area 2 pi both
+/// boundaries are 2 pi / sqrt(w) long, which is 2 pi k / cos(k w / 2). The core is a closed geodesic
+/// of length 2 pi k, and the area 4 pi k tan(k w / 2).
+TEST(HyperbolicFlow, ACylinderWithFreeBoundaryIsAHyperbolicCollar)
+{
+	const double height = 1.7; // radius 1
+	std::vector<double> areas, lengths;
+	for (const int n : {24, 48, 96}) {
+		std::vector<std::array<double, 2>> profile;
+		for (int i = 0; i <= n / 3; ++i)
+			profile.push_back({1.0, 3.0 * i / n * height});
+		const FlippedFlow flow(revolved(profile, n), hyperbolicMetric(true));
+		ASSERT_TRUE(flow.surface().topology.type.isAnnulus());
+		expectReached(flow);
+		ASSERT_FALSE(flow.result.doubled);
+		EXPECT_NEAR(flow.result.curvature.sum(), flow.result.area, 1e-9);
+		areas.push_back(flow.result.area);
+		lengths.push_back(boundaryLength(flow.result));
+	}
+	double k = 1.0;
+	for (int i = 0; i < 200; ++i)
+		k = std::cos(0.5 * k * height) / std::sqrt(height);
+	expectSecondOrder(areas, 4 * kPi * k * std::tan(0.5 * k * height));
+	expectSecondOrder(lengths, 4 * kPi / std::sqrt(height));
 }
 
 /// One metric in each class: the solver finds it from everywhere.

@@ -18,12 +18,21 @@ ALWAYS = {
     "qc_max": float, "area_distortion_mean": float, "area_distortion_spread": float,
     "flipped_faces": int, "flipped_by_rounding": int, "finish_moved": int, "flips": int,
     "refinement_points": int, "edge_swaps": int, "boundary_splits": int, "euler_characteristic": int,
-    "genus": int, "boundary_loops": int, "components": int, "cones": int, "seam_edges": int,
+    "genus": int, "boundary_loops": int, "components": int, "cut_nonmanifold_edges": int,
+    "split_vertices": int, "duplicate_faces": int, "one_sided_components": int,
+    "degenerate_faces": int, "cones": int, "seam_edges": int,
     "seam_length": float, "seam_length_relative": float, "charts": int, "capped_holes": int,
     "overlapping_charts": int, "overlapping_faces": int, "overlap_cuts": int}
+
+
+class vector(list):
+    """Numbers that are one result."""
+
+
 INVARIANTS = {
     "torus_tau_re": float, "torus_tau_im": float, "annulus_modulus": float,
-    "rectangle_aspect": float, "holonomy_error": float}
+    "rectangle_aspect": float, "holonomy_error": float, "period_matrix": vector,
+    "period_error": float}
 SPHERE = {
     "sphere_qc_area_mean": float, "sphere_area_distortion_mean": float,
     "sphere_flipped_faces": int}
@@ -38,13 +47,14 @@ CHOICES = {"target_curvature": TARGET, "cone_rounding": ["Free", "Multiples of p
            "finish": ["None", "Repair", "Least distortion"],
            "holes": ["Boundaries", "Capped"]}
 PARAMETERS = [
-    ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True),
-    ("output_triangulation", "Enum", 0), ("finish", "Enum", 2), ("holes", "Enum", 0),
-    ("resolve_overlap", "Bool", True), ("cone_count", "Int", 0), ("cone_distortion", "Float", 0.5), ("cone_rounding", "Enum", 0),
-    ("seam_hiding", "Float", 0.0), ("normalize_uv", "Bool", True), ("chart_margin", "Float", 0.0),
-    ("colorize", "Bool", False), ("flat_layer", "Bool", False), ("sphere_layer", "Bool", False),
-    ("report", "String", ""), ("circle_packing", "Enum", 0), ("surgery", "Enum", 2),
-    ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200), ("time_limit", "Float", 0.0)]
+    ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("cone_distortion", "Float", 0.5),
+    ("output_triangulation", "Enum", 0), ("seam_hiding", "Float", 0.0), ("chart_margin", "Float", 0.0),
+    ("colorize", "Bool", False), ("flat_layer", "Bool", False),
+    ("holes", "Enum", 0), ("cone_count", "Int", 0), ("cone_rounding", "Enum", 0),
+    ("surgery", "Enum", 2), ("finish", "Enum", 2), ("resolve_overlap", "Bool", True),
+    ("normalize_uv", "Bool", True), ("sphere_layer", "Bool", False), ("report", "String", ""),
+    ("circle_packing", "Enum", 0), ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200),
+    ("time_limit", "Float", 0.0)]
 
 HYPERBOLIC = types.SimpleNamespace(
     NAME="Generalized Ricci Flow (Hyperbolic)",
@@ -57,11 +67,15 @@ HYPERBOLIC = types.SimpleNamespace(
         "finish": ["None", "Repair"]},
     PARAMETERS=[
         ("target_curvature", "Enum", 0), ("cone_angle", "Float", 180.0),
-        ("free_boundary", "Bool", False), ("output_triangulation", "Enum", 0),
-        ("finish", "Enum", 1), ("colorize", "Bool", False), ("flat_layer", "Bool", False),
-        ("universal_cover", "Int", 0), ("generator_axes", "Bool", False), ("canonical_polygon", "Bool", False),
-        ("report", "String", ""), ("surgery", "Enum", 1), ("epsilon", "Float", 1e-8),
-        ("max_iterations", "Int", 200), ("time_limit", "Float", 0.0)])
+        ("output_triangulation", "Enum", 0), ("colorize", "Bool", False),
+        ("flat_layer", "Bool", False), ("universal_cover", "Int", 0),
+        ("generator_axes", "Bool", False), ("canonical_polygon", "Bool", False),
+        ("free_boundary", "Bool", False), ("surgery", "Enum", 1), ("finish", "Enum", 1),
+        ("report", "String", ""), ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200),
+        ("time_limit", "Float", 0.0)])
+
+# What the dialogs show at once; the rest is behind "Show advanced parameters".
+SHOWN = 8
 
 
 def skip(reason):

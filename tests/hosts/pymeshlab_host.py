@@ -49,4 +49,6 @@ def select(documents, condition):
 
 
 def run(documents, our_filter=common, **values):
-    return documents.apply_filter(our_filter.PYTHON_NAME, **values)
+    returned = documents.apply_filter(our_filter.PYTHON_NAME, **values)
+    return {key: common.vector(value.tolist()) if isinstance(value, numpy.ndarray) else value
+            for key, value in returned.items()}

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The sample batch.py: nothing is lost and nothing is done twice.
-Usage: test_batch.py BUILD_DIR [TEST...], with a Python that has PyMeshLab and Dask."""
+"""The command line of the Python package: nothing is lost and nothing is done twice.
+Usage: test_batch.py BUILD_DIR [TEST...], with a Python that has PyMeshLab; one test needs Dask."""
 
 import csv
 import json
@@ -16,18 +16,17 @@ import common
 import meshes
 
 try:
-    from dask import distributed
-except ImportError as problem:
-    common.skip(f"Dask cannot be imported here: {problem}")
-try:
     import pymeshlab  # noqa: F401
 except ImportError as problem:
     common.skip(f"PyMeshLab cannot be imported here: {problem}")
+try:
+    from dask import distributed
+except ImportError:
+    distributed = None
 
-PLUGIN = os.path.join(common.BUILD, "pymeshlab-2025.7", "libfilter_ricci.so")
-if not os.path.exists(PLUGIN):
-    common.skip("the plugin for PyMeshLab is not built")
-SCRIPT = os.path.join(common.REPOSITORY, "filter_ricci", "samples", "batch.py")
+PACKAGE = os.path.join(common.BUILD, "python")
+if not os.path.isdir(PACKAGE):
+    common.skip("the Python package is not built")
 COUNT = 12
 
 
@@ -37,6 +36,7 @@ class Batch(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.meshes = os.path.join(folder.name, "meshes")
         self.out = os.path.join(folder.name, "out")
+        self.hooks = os.path.join(folder.name, "hooks")
         os.makedirs(os.path.join(self.meshes, "more"))
 
     def write(self, name, mesh):
@@ -48,9 +48,11 @@ class Batch(unittest.TestCase):
             self.write(name, meshes.torus(columns=10 + i))
         return names
 
-    def start(self, *options, plugin=PLUGIN):
-        return subprocess.Popen([sys.executable, SCRIPT, plugin, self.meshes, self.out, *options],
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    def start(self, *options):
+        environment = {**os.environ, "PYTHONPATH": PACKAGE + os.pathsep + self.hooks}
+        return subprocess.Popen(
+            [sys.executable, "-m", "pymeshlab_ricci", self.meshes, self.out, *options],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
 
     def start_cluster(self):
         """Two workers in a process of their own; the scheduler's address."""
@@ -60,14 +62,15 @@ class Batch(unittest.TestCase):
              "with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as c:\n"
              "    print(c.scheduler_address, flush=True)\n"
              "    input()\n"],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+            env={**os.environ, "PYTHONPATH": PACKAGE})
         self.addCleanup(cluster.wait)
         self.addCleanup(cluster.stdout.close)
         self.addCleanup(cluster.stdin.close)
         return cluster.stdout.readline().strip()
 
-    def batch(self, *options, **others):
-        process = self.start(*options, **others)
+    def batch(self, *options):
+        process = self.start(*options)
         printed, errors = process.communicate(timeout=800)
         return process.returncode, printed + errors
 
@@ -97,9 +100,11 @@ class Batch(unittest.TestCase):
             rows = list(csv.DictReader(source))
         self.assertEqual(sorted(row["mesh"] for row in rows), sorted(names))
         self.assertEqual(os.path.getsize(os.path.join(self.out, "failures.txt")), 0)
-        left = [name for _, _, files in os.walk(self.out) for name in files if ".part" in name]
+        left = [name for _, folders, files in os.walk(self.out) for name in folders + files
+                if ".part" in name]
         self.assertEqual(left, [])
 
+    @unittest.skipIf(distributed is None, "Dask is not installed")
     def test_killed_worker_loses_nothing(self):
         names = self.write_tori()
         address = self.start_cluster()
@@ -135,37 +140,64 @@ class Batch(unittest.TestCase):
         self.write("one.ply", meshes.hill(6))
         self.write("two.ply", meshes.hill(7))
         self.assertEqual(self.batch("--workers", "1")[0], 0)
-        code, text = self.batch("--workers", "1", "--set", "target_curvature=Disk")
+        code, text = self.batch("--workers", "1", "--target-curvature", "Disk")
         self.assertIn("2 to run", text)
         self.write("two.ply", meshes.hill(8))
-        code, text = self.batch("--workers", "1", "--set", "target_curvature=Disk")
+        code, text = self.batch("--workers", "1", "--target-curvature", "Disk")
         self.assertEqual(code, 0, text)
         self.assertIn("1 to run", text)
 
     def test_refusals_and_failures_are_listed(self):
-        self.write("good.ply", meshes.torus())
-        self.write("moebius.ply", meshes.moebius())
-        code, text = self.batch("--workers", "1")
+        disk = ("--target-curvature", "Disk")
+        self.write("good.ply", meshes.hill())
+        self.write("torus.ply", meshes.torus())
+        code, text = self.batch("--workers", "1", *disk)
         self.assertEqual(code, 0, text)
-        record = self.records()["moebius.ply"]
+        record = self.records()["torus.ply"]
         self.assertEqual(record["state"], "refused")
-        self.assertIn("not orientable", record["reason"])
+        self.assertIn("topological disk", record["reason"])
         with open(os.path.join(self.out, "failures.txt"), encoding="utf-8") as source:
-            self.assertRegex(source.read(), r"^moebius.ply\trefused\t.*not orientable")
+            self.assertRegex(source.read(), r"^torus.ply\trefused\t.*topological disk")
 
         # A process that dies or lasts too long is a failure of its mesh alone.
-        code, text = self.batch("--workers", "1", "--timeout", "0.001", "--set", "max_iterations=99")
+        code, text = self.batch(
+            "--workers", "1", *disk, "--timeout", "0.001", "--max-iterations", "99")
         self.assertEqual(code, 1, text)
         self.assertEqual({r["state"] for r in self.records().values()}, {"timeout"})
-        with open(os.path.join(self.out, "broken.so"), "wb") as broken:
-            broken.write(b"no plugin")
-        code, text = self.batch("--workers", "1", plugin=os.path.join(self.out, "broken.so"))
+        os.makedirs(self.hooks)
+        with open(os.path.join(self.hooks, "sitecustomize.py"), "w", encoding="utf-8") as hook:
+            hook.write("import os, sys\n"
+                       "if 'good.ply' in sys.orig_argv[-1]:\n"
+                       "    os.abort()\n")
+        code, text = self.batch("--workers", "1", *disk)
         self.assertEqual(code, 1, text)
-        self.assertEqual({r["state"] for r in self.records().values()}, {"crashed"})
-        self.assertIn("0 to run", self.batch("--workers", "1", plugin=os.path.join(
-            self.out, "broken.so"))[1])
-        self.assertIn("2 to run", self.batch("--workers", "1", "--retry", plugin=os.path.join(
-            self.out, "broken.so"))[1])
+        self.assertEqual({name: r["state"] for name, r in self.records().items()},
+                         {"good.ply": "crashed", "torus.ply": "refused"})
+        self.assertIn("SIGABRT", self.records()["good.ply"]["reason"])
+        self.assertIn("0 to run", self.batch("--workers", "1", *disk)[1])
+        os.remove(os.path.join(self.hooks, "sitecustomize.py"))
+        code, text = self.batch("--workers", "1", *disk, "--retry")
+        self.assertEqual(code, 0, text)
+        self.assertIn("1 to run", text)
+
+    def test_interrupted(self):
+        names = self.write_tori()
+        process = self.start("--workers", "2")
+        while len(self.records()) < 2 and process.poll() is None:
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        printed, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, printed + errors)
+        self.assertIn("goes on", errors)
+        done = self.times()
+        self.assertLess(len(done), COUNT, "the batch was over already")
+        with open(os.path.join(self.out, "failures.txt"), encoding="utf-8") as source:
+            self.assertEqual(source.read().count("missing"), COUNT - len(done))
+        code, text = self.batch("--workers", "2")
+        self.assertEqual(code, 0, text)
+        self.assertIn(f"{len(done)} done before", text)
+        self.assertEqual({name: self.times()[name] for name in done}, done)
+        self.check_solved(names)
 
 
 if __name__ == "__main__":

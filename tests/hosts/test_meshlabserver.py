@@ -458,7 +458,19 @@ class Samples(unittest.TestCase):
         for our_filter in (common, common.HYPERBOLIC):
             section = dump.split(our_filter.NAME, 1)[1].split("</TABLE>", 1)[0]
             kinds = re.findall(r"<TR><TD> \\c (\w+)", section)
-            self.assertEqual(kinds, [kind for _, kind, _ in our_filter.PARAMETERS])
+            self.assertEqual(kinds, ["FileName" if name == "report" else kind
+                                     for name, kind, _ in our_filter.PARAMETERS])
+
+    def test_scripts_of_any_order(self):
+        """Stored scripts have another order, and those that the window saves another type of file."""
+        head, *lines, tail = re.split(r"(?m)^(?=  <Param)|^(?= </filter>)", server.script_of(
+            server.step(report="page.html")))
+        text = head + "".join(reversed(lines)) + tail
+        for kind in ("String", "SaveFile"):
+            run = server.Run(re.sub('RichString" name="report"', f'Rich{kind}" name="report" ext=""', text),
+                             lambda target: meshes.write_ply(target, meshes.torus()))
+            self.assertEqual(run.code, 0, run.text)
+            self.assertIn("page.csv", run.text)
 
 
 if __name__ == "__main__":

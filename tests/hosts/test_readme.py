@@ -2,13 +2,14 @@
 """What the documents say of the plugin and of the code is so, and their links lead somewhere.
 Usage: test_readme.py BUILD_DIR [TEST...]. common.py holds what the plugins are tested against."""
 
+import ast
 import os
 import re
 import unittest
 
 import common
 
-KINDS = {"enum": "Enum", "int": "Int", "float": "Float", "bool": "Bool", "string": "String"}
+KINDS = {"int": "Int", "float": "Float", "bool": "Bool", "str": "String"}
 
 
 def read(*path):
@@ -58,24 +59,32 @@ class Readme(unittest.TestCase):
     def setUpClass(cls):
         cls.text = read("filter_ricci", "README.md")
 
-    def check_parameters(self, rows, expected, choices):
-        source = read("filter_ricci", "bridge", "parameters.cpp")
-        self.assertEqual([row[1].strip("`") for row in rows], [name for name, _, _ in expected])
-        for (label, name, kind, default, note), (_, wanted, value) in zip(rows, expected):
-            name = name.strip("`")
+    def check_parameters(self, page, expected, choices):
+        """The page of a filter names its parameters, those that the dialog shows first."""
+        items = [" ".join(item.split()) for item in re.findall(r"(?ms)^- (.*?)(?=^\S|\Z)", page)]
+        self.assertEqual(len(items), len(expected))
+        shown, hidden = page.split("**Advanced parameters:**")
+        self.assertEqual(len(re.findall(r"(?m)^- ", shown)), common.SHOWN)
+        for item, (name, kind, value) in zip(items, expected):
             with self.subTest(parameter=name):
-                self.assertIn(f'"{label}"', source)
-                self.assertEqual(KINDS[kind], wanted)
-                written = {"true": True, "false": False, "empty": ""}.get(default)
-                self.assertEqual(float(default) if written is None else written, value)
-                listed = ", ".join(f"{i} {c}" for i, c in enumerate(choices.get(name, [])))
-                self.assertEqual(note if name in choices else "", listed)
+                written, python, default, number, listed = re.match(
+                    r"\*\*`(\w+) : (\w+) = (.*?)(?: \(or int = (\d+)\))?`\*\*<br>"
+                    r"(?: Possible enum values: (.*?)<br>)?", item).groups()
+                self.assertEqual(written, name)
+                self.assertEqual("Enum" if number else KINDS[python], kind)
+                self.assertEqual(int(number) if number else ast.literal_eval(default), value)
+                names = [f"{i}. `'{c}'`" for i, c in enumerate(choices.get(name, []))]
+                self.assertEqual(listed, ", ".join(names) or None)
+                tooltip = re.sub(r"\(.*?\)|\d\.\d", "", item.split("*: ", 1)[1])
+                self.assertLessEqual(len(re.findall(r"[a-z0-9\])]\.(?: |$)", tooltip)), 2, "sentences")
 
     def test_parameters(self):
-        euclidean, hyperbolic = tables(self.text, "| label | id | type | default | choices, unit |")
-        self.check_parameters(euclidean, common.PARAMETERS, common.CHOICES)
-        self.check_parameters(
-            hyperbolic, common.HYPERBOLIC.PARAMETERS, common.HYPERBOLIC.CHOICES)
+        for key, our_filter in (("Euclidean", common), ("hyperbolic", common.HYPERBOLIC)):
+            page, = re.findall(rf"(?s)<!-- begin: the {key} filter.*?-->(.*?)<!-- end: the {key}",
+                               self.text)
+            self.assertIn(f"### {our_filter.PYTHON_NAME}\n", page)
+            self.assertIn(f"'{our_filter.NAME}'", page)
+            self.check_parameters(page, our_filter.PARAMETERS, our_filter.CHOICES)
 
     def test_results(self):
         euclidean, hyperbolic = (
@@ -146,6 +155,8 @@ class Readme(unittest.TestCase):
                 ("CHANGELOG.md", r"^## \[(\d.*?)\]"), ("README.md", r"version = {(.*?)}"),
                 ("CITATION.cff", r"^version: (.*)")):
             self.assertEqual(re.search(pattern, read(name), re.M).group(1), version, name)
+        for name in ("README.md", os.path.join("filter_ricci", "README.md")):
+            self.assertEqual(set(re.findall(r"pymeshlab_ricci-(.*?)-", read(name))), {version}, name)
 
     def test_script(self):
         script = re.search(r"```xml\n(.*?)```", self.text, re.DOTALL).group(1)

@@ -4,7 +4,6 @@
 set -euo pipefail
 version=$1
 year=${version%.*}
-window_screen=1400x1100 # the dialog of 2025.07 is higher than 900
 cd /ricci
 source ./window.sh
 name="Generalized Ricci Flow (Euclidean)"

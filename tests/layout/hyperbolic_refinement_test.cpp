@@ -117,13 +117,13 @@ TEST(HyperbolicLayout, TrianglesHaveTheLengthsAndAnglesOfTheMetric)
 			SidePairing pairing;
 			offerPairing(layout, metric.lengths()[e], h, g, pairing);
 			EXPECT_LT(
-				std::abs(Complex(pairing.isometry(layout.frame[t.next(g)].origin())) - layout[h]),
+				std::abs(Complex(pairing.isometry()(layout.frame[t.next(g)].origin())) - layout[h]),
 				1e-10);
 			EXPECT_LT(
-				std::abs(Complex(pairing.isometry(layout.frame[g].origin())) - layout[t.next(h)]),
+				std::abs(Complex(pairing.isometry()(layout.frame[g].origin())) - layout[t.next(h)]),
 				1e-10);
 			if (!cut.isCut[e]) {
-				EXPECT_LT(static_cast<double>(pairing.isometry.distanceFromIdentity()), 1e-9);
+				EXPECT_LT(static_cast<double>(pairing.isometry().distanceFromIdentity()), 1e-9);
 			}
 		}
 	}
@@ -221,7 +221,7 @@ TEST(HyperbolicRefinement, IsAMetricOfCurvatureMinusOneOnTheInput)
 			if (!cut.isCut[e])
 				continue;
 			const Halfedge h = e.halfedge(), g = h.twin();
-			const DiskIsometry isometry = rounded(r.pairing[e].isometry);
+			const DiskIsometry isometry = rounded(r.pairing[e].isometry());
 			EXPECT_LT(
 				std::abs(
 					isometry(asComplex(r.inputLayout[input.next(g)])) -

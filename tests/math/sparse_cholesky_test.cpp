@@ -282,6 +282,50 @@ TEST(SparseCholesky, ElementsWithoutAnUnknownKeepNoRow)
 	EXPECT_EQ(std::set<int>(row.begin(), row.end()), (std::set<int>{-1, 0, 1, 2}));
 }
 
+TEST(SparseCholesky, SolvesWithAndWithoutNestedDissection)
+{
+	// From one unknown on: METIS, or what takes its place where there is none.
+	Random random(68);
+	SparseCholesky dissected(1), usual;
+	const int n = 300;
+	const SparseCholesky::Matrix matrix = laplacian(n, 0.5, random);
+	Eigen::VectorXd b(n);
+	for (double& y : b)
+		y = random.real(-1, 1);
+	Eigen::VectorXd solution[2];
+	for (SparseCholesky* solver : {&dissected, &usual}) {
+		System system(matrix);
+		EXPECT_TRUE(system.analyze(*solver));
+		ASSERT_TRUE(solver->factorize(system.matrix));
+		solution[solver == &usual] = system.solve(*solver, b);
+		EXPECT_EQ(solver->work().orderings, 1);
+	}
+	EXPECT_LT((solution[0] - solution[1]).lpNorm<Eigen::Infinity>(), 1e-12);
+}
+
+TEST(SparseCholesky, FactorsMayHaveMoreEntriesThanIntCanTell)
+{
+	// Half of the unknowns of a random graph end as neighbours of each other.
+	if (std::string(SparseCholesky::name()).find("CHOLMOD") == std::string::npos)
+		GTEST_SKIP() << "Eigen's solver numbers entries by int";
+	Random random(69);
+	const int n = 120000;
+	std::vector<Eigen::Triplet<double>> entries;
+	for (int i = 0; i < n; ++i) {
+		entries.emplace_back(i, i, 100.0);
+		for (int k = 0; k < 4; ++k) {
+			const int j = random.index(n);
+			entries.emplace_back(std::max(i, j), std::min(i, j), -1.0);
+		}
+	}
+	SparseCholesky::Matrix graph(n, n);
+	graph.setFromTriplets(entries.begin(), entries.end());
+	System system(std::move(graph));
+	SparseCholesky solver;
+	EXPECT_TRUE(system.analyze(solver));
+	EXPECT_GT(solver.factorEntries(), std::numeric_limits<int>::max() / 2);
+}
+
 TEST(SparseCholesky, TellsWhenAMatrixIsNotPositiveDefinite)
 {
 	Random random(62);

@@ -4,6 +4,7 @@
 #include "support/shapes.h"
 #include "support/transform.h"
 
+#include <ricci/error.h>
 #include <ricci/metric/conformal_flip.h>
 #include <ricci/metric/euclidean.h>
 
@@ -176,6 +177,49 @@ TEST(ConformalFlip, CirclesStayDisjoint)
 		EXPECT_GT(exact, 1.0L - 1e-15L);
 		EXPECT_GE(flippedDelta(t, delta, e), 0.0);
 		EXPECT_NEAR((1.0 + flippedDelta(t, delta, e)) / static_cast<double>(exact), 1.0, 2e-15);
+	}
+}
+
+TEST(ConformalFlip, ValuesOutOfRangeAreNotTangentCircles)
+{
+	const Triangulation t = quad();
+	for (const double huge : {1e160, 1e300, HUGE_VAL, std::nan("")}) {
+		const double flipped = flippedDelta(t, EdgeArray<double>(5, huge), edgeBetween(t, kI, kJ));
+		EXPECT_FALSE(std::isfinite(flipped)) << flipped;
+	}
+}
+
+TEST(ConformalFlip, UnwindsANeedleOfManyTurns)
+{
+	// However few edges there are, the flips end, with all edges Delaunay; and they can be cancelled.
+	for (const double turns : {100.0, 20000.0, 200000.0}) {
+		const double radius = 0.25, height = 0.005 * turns;
+		Triangulation t = oneVertexTorus();
+		EdgeArray<double> delta(3);
+		const std::array<double, 3> sides{
+			1.0, std::hypot(turns, height), std::hypot(turns + 1.0, height)};
+		for (std::size_t k = 0; k < 3; ++k)
+			delta[t.halfedges(Face(0))[k].edge()] = Euclidean::delta(sides[k], radius, radius);
+		const VertexArray<double> kappa(1, 1.0 / radius);
+		const Triangulation wound = t;
+		const EdgeArray<double> woundDelta = delta;
+		FlipJournal journal;
+		DelaunayQueue queue;
+		int ticks = 0;
+		const int flips =
+			makeWeightedDelaunay(t, delta, kappa, journal, queue, 1, [&] { ++ticks; });
+		EXPECT_GE(flips, static_cast<int>(0.5 * turns));
+		EXPECT_GE(ticks, flips / 65536);
+		for (const Edge e : t.edges())
+			EXPECT_TRUE(isWeightedDelaunay(t, delta, kappa, e));
+		t = wound;
+		delta = woundDelta;
+		journal.clear();
+		EXPECT_THROW(
+			makeWeightedDelaunay(t, delta, kappa, journal, queue, 1, [] { throw Cancelled(); }),
+			Cancelled);
+		journal.rewind(t, delta);
+		EXPECT_EQ(delta, woundDelta);
 	}
 }
 

@@ -4,13 +4,17 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
+#include <ricci/error.h>
 #include <ricci/metric/conformal_flip.h>
+#include <ricci/metric/delaunay_queue.h>
 #include <ricci/metric/initial_packing.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -30,6 +34,17 @@ std::vector<SurfaceMesh> surfaces()
 InitialPacking startOf(const Packed& mesh)
 {
 	return delaunayPacking({mesh.triangulation, mesh.lengths}, {});
+}
+
+/// Sides of length 1, and as wound round a torus of this \p height so many \p turns.
+EdgeArray<double> woundLengths(double turns, double height)
+{
+	EdgeArray<double> lengths(3);
+	const auto h = oneVertexTorus().halfedges(Face(0));
+	lengths[h[0].edge()] = 1.0;
+	lengths[h[1].edge()] = std::hypot(turns, height);
+	lengths[h[2].edge()] = std::hypot(turns + 1.0, height);
+	return lengths;
 }
 
 VertexVector curvatureOf(const Triangulation& t, const EdgeArray<double>& lengths)
@@ -129,6 +144,68 @@ TEST(DelaunayPacking, RadiiAgreeAcrossTheMirror)
 	const auto start = delaunayPacking({packed.triangulation, packed.lengths}, mirror);
 	for (const Vertex v : mirror.indices())
 		EXPECT_EQ(start.radii[v], start.radii[mirror[v]]);
+}
+
+TEST(DelaunayPacking, UnwindsANeedleOfManyTurns)
+{
+	// A torus of one vertex, 1 by 30, whose triangles are wound round it: every flip takes one turn off,
+	// however few edges there are.
+	for (const double turns : {10.0, 1000.0, 20000.0}) {
+		const Packed wound(oneVertexTorus(), woundLengths(turns, 30.0));
+		const auto start = startOf(wound);
+		EXPECT_EQ(start.lengthened, 0.0);
+		EXPECT_GE(start.flips.size(), static_cast<std::size_t>(turns) - 1);
+		std::vector<double> lengths = start.mesh.lengths.values();
+		std::sort(lengths.begin(), lengths.end());
+		EXPECT_NEAR(lengths[0], 1.0, 1e-4);
+		EXPECT_NEAR(lengths[1], 30.0, 1e-2);
+		EXPECT_NEAR(lengths[2], std::hypot(1.0, 30.0), 1e-2);
+	}
+}
+
+TEST(DelaunayPacking, RefusesLengthsThatAreNoNumbers)
+{
+	for (const double length : {std::nan(""), HUGE_VAL}) {
+		EdgeArray<double> lengths(3, 1.0);
+		lengths[Edge(1)] = length;
+		EXPECT_THROW(delaunayPacking({oneVertexTorus(), lengths}, {}), InternalError);
+	}
+}
+
+TEST(DelaunayPacking, TicksWhileItFlips)
+{
+	const IntrinsicMesh wound{oneVertexTorus(), woundLengths(200000.0, 3000.0)};
+	int ticks = 0;
+	const auto start = delaunayPacking(wound, {}, [&] { ++ticks; });
+	EXPECT_GE(static_cast<std::size_t>(ticks), start.flips.size() / 65536);
+	EXPECT_GE(ticks, 3);
+	for (int last = 0; last < ticks; ++last) {
+		int left = last;
+		const Tick stop = [&] {
+			if (left-- == 0)
+				throw Cancelled();
+		};
+		EXPECT_THROW(delaunayPacking(wound, {}, stop), Cancelled);
+	}
+}
+
+TEST(DelaunayQueue, FlipsThatDoNotEndAreAnError)
+{
+	Triangulation t = oneVertexTorus();
+	DelaunayQueue queue;
+	queue.queued.assign(t.edgeCount(), 0);
+	std::int64_t flips = 0;
+	try {
+		queue.flipFrom(
+			Edge(0), t, flips, [](Edge) { return false; }, [&](Edge e) { t.flip(e); }, {});
+		ADD_FAILURE() << "ended after " << flips;
+	}
+	catch (const NotConverged& error) {
+		EXPECT_EQ(error.problem, NotConverged::FlipsUsedUp);
+		EXPECT_EQ(error.count, static_cast<std::size_t>(flips));
+		EXPECT_EQ(flips, maxFlips(3));
+	}
+	EXPECT_EQ(maxFlips(1500000), 1500000000);
 }
 
 TEST(Mollify, LeavesASoundMeshAlone)

@@ -48,10 +48,15 @@ ComponentMap flattened(const Component& component, const AnyOptions& options)
 	return flattenComponent(component, {}, options, range);
 }
 
-std::vector<Component> componentsOf(const SurfaceMesh& mesh)
+OpenedMesh opened(const SurfaceMesh& mesh)
 {
 	std::vector<std::string> notes;
-	return splitIntoComponents(mesh, notes);
+	return openMesh(mesh, notes);
+}
+
+std::vector<Component> componentsOf(const SurfaceMesh& mesh)
+{
+	return splitIntoComponents(opened(mesh));
 }
 
 SurfaceMesh everyThirdFaceReversed(SurfaceMesh mesh)
@@ -492,10 +497,11 @@ std::optional<E> thrownInTheSecond(const SurfaceMesh& mesh, const E& thrown)
 {
 	return errorOf<E>([&] {
 		Progress silent;
-		runComponents(mesh, componentsOf(mesh), silent, [&](const Component& c, ProgressRange) {
-			if (c.face.front() == 8)
-				throw thrown;
-		});
+		runComponents(
+			opened(mesh), componentsOf(mesh), silent, [&](const Component& c, ProgressRange) {
+				if (c.face.front() == 8)
+					throw thrown;
+			});
 	});
 }
 
@@ -512,7 +518,7 @@ void expectNamed(const E& thrown)
 
 TEST(Assemble, AnErrorKeepsItsTypeAndGetsItsComponent)
 {
-	expectNamed(InvalidMesh(InvalidMesh::BoundaryWithoutLength));
+	expectNamed(InvalidMesh(InvalidMesh::NotPuncturable));
 	expectNamed(InvalidOption(InvalidOption::NothingSelected));
 	expectNamed(InadmissibleCurvature(InadmissibleCurvature::GaussBonnet, 1.0, 2.0));
 	expectNamed(NotConverged(7, 1e-3, 1e-8, 1e-13));
@@ -532,9 +538,10 @@ TEST(Assemble, AnErrorOfTheOnlyComponentHasNoComponent)
 	Progress silent;
 	const SurfaceMesh mesh = tetrahedron();
 	const auto error = errorOf<InvalidOption>([&] {
-		runComponents(mesh, componentsOf(mesh), silent, [](const Component&, ProgressRange) {
-			throw InvalidOption(InvalidOption::NothingSelected);
-		});
+		runComponents(
+			opened(mesh), componentsOf(mesh), silent, [](const Component&, ProgressRange) {
+				throw InvalidOption(InvalidOption::NothingSelected);
+			});
 	});
 	ASSERT_TRUE(error);
 	EXPECT_EQ(error->componentFace, -1);
@@ -561,7 +568,7 @@ TEST(Assemble, OtherExceptionsPassThrough)
 	Progress silent;
 	EXPECT_THROW(
 		runComponents(
-			mesh,
+			opened(mesh),
 			componentsOf(mesh),
 			silent,
 			[](const Component&, ProgressRange) { throw std::runtime_error("full disk"); }),
@@ -572,12 +579,13 @@ TEST(Assemble, ComponentsShareTheProgressByTheirFaces)
 {
 	const SurfaceMesh mesh = twoComponents(); // 8 and 4 faces
 	Impatient listener(1000);
-	runComponents(mesh, componentsOf(mesh), listener, [](const Component&, ProgressRange range) {
-		range.step(0.0, "begin");
-		range.step(0.5, "middle");
-		range.step(0.25, "again");
-		range.step(1.0, "end");
-	});
+	runComponents(
+		opened(mesh), componentsOf(mesh), listener, [](const Component&, ProgressRange range) {
+			range.step(0.0, "begin");
+			range.step(0.5, "middle");
+			range.step(0.25, "again");
+			range.step(1.0, "end");
+		});
 	const double first = kComponentsDone * 8 / 12, all = kComponentsDone;
 	const std::vector<double> expected{
 		0.0, 0.5 * first, 0.5 * first, first, first, 0.5 * (first + all), 0.5 * (first + all), all};

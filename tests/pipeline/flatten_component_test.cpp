@@ -57,7 +57,7 @@ wholeWay(const SurfaceMesh& mesh, const VertexInput& input, const HyperbolicOpti
 std::vector<Component> componentsOf(const SurfaceMesh& mesh)
 {
 	std::vector<std::string> notes;
-	return splitIntoComponents(mesh, notes);
+	return splitIntoComponents(openMesh(mesh, notes));
 }
 
 /// The component as a mesh of its own.
@@ -108,6 +108,11 @@ void expectSameReport(const ComponentMap& map, const Report& report)
 	}
 	EXPECT_EQ(report.annulusModulus, map.annulusModulus);
 	EXPECT_EQ(report.rectangleAspect, map.rectangleAspect);
+	ASSERT_EQ(static_cast<Eigen::Index>(report.periodMatrix.size()), map.periods.omega.size());
+	if (!report.periodMatrix.empty()) {
+		EXPECT_EQ(report.periodMatrix.front(), map.periods.omega(0, 0));
+		EXPECT_EQ(report.periodError, map.periods.error);
+	}
 	EXPECT_EQ(report.hyperbolicArea, map.hyperbolicArea);
 	EXPECT_EQ(report.relationError, map.relationError);
 	ASSERT_EQ(report.flowStates.size(), map.flowStates.size());

@@ -18,6 +18,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -54,6 +55,16 @@ SurfaceMesh genusTwo(std::uint64_t seed = 700, int subdivision = 3)
 {
 	Random random(seed);
 	return shaken(perforatedSlab(2, subdivision), 0.06, random);
+}
+
+/// The largest hyperbolic distance of a corner from 0.
+double radius(const Parametrization& map)
+{
+	double largest = 0.0;
+	for (const Triangle2& face : map.uv)
+		for (const Point2& p : face)
+			largest = std::max(largest, 2.0 * std::atanh(std::hypot(p[0], p[1])));
+	return largest;
 }
 
 std::vector<double> sideTraces(const Parametrization& map, std::size_t chart = 0)
@@ -153,6 +164,41 @@ TEST(ParametrizeHyperbolic, SurfacesWithBoundary)
 		const Parametrization free = run(mesh, options);
 		EXPECT_EQ(free.report.flippedFaces, 0);
 		EXPECT_LE(free.report.maxCurvatureError, 1e-8);
+	}
+}
+
+/// The disk and the annulus have hyperbolic metrics as soon as their boundary is free. That of a
+/// round disk of area 2 pi is the disk of radius asinh(sqrt(2)); a cylinder of period 2 pi and height
+/// w has a closed geodesic of length 2 pi k, sqrt(w) k = cos(k w / 2): see hyperbolic_flow_test.cpp.
+TEST(ParametrizeHyperbolic, DiskAndAnnulusWithFreeBoundary)
+{
+	HyperbolicOptions options = refined();
+	options.freeBoundary = true;
+	std::vector<std::array<double, 2>> round, straight;
+	const int n = 48;
+	const double height = 1.7, error = 2 * std::pow(2 * kPi / n, 2); // second order
+	for (int i = 0; i <= n / 4; ++i)
+		round.push_back({4.0 * i / n, 0.0});
+	for (int i = 0; i <= n / 3; ++i)
+		straight.push_back({1.0, 3.0 * i / n * height});
+	for (const OutputTriangulation output :
+		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+		options.output = output;
+		const Parametrization disk = run(revolved(round, n), options);
+		EXPECT_EQ(disk.report.flippedFaces, 0);
+		EXPECT_EQ(disk.report.relationError, 0.0);
+		EXPECT_TRUE(disk.charts[0].group.sides.empty());
+		EXPECT_NEAR(*disk.report.hyperbolicArea, 2 * kPi * (std::sqrt(3.0) - 1.0), error);
+		EXPECT_NEAR(radius(disk), std::asinh(std::sqrt(2.0)), error);
+		const Parametrization annulus = run(revolved(straight, n), options);
+		EXPECT_EQ(annulus.report.flippedFaces, 0);
+		EXPECT_LT(*annulus.report.relationError, 1e-9);
+		double k = 1.0;
+		for (int i = 0; i < 200; ++i)
+			k = std::cos(0.5 * k * height) / std::sqrt(height);
+		ASSERT_EQ(annulus.charts[0].group.peripheral.size(), 2u);
+		for (const DiskIsometry& m : annulus.charts[0].group.peripheral)
+			EXPECT_NEAR(2.0 * std::acosh(0.5 * std::abs(m.trace())), 2 * kPi * k, error);
 	}
 }
 
@@ -334,16 +380,6 @@ TEST(ParametrizeHyperbolic, RefusesASurfaceWithoutHyperbolicMetric)
 	ASSERT_TRUE(without);
 	EXPECT_EQ(without->problem, InvalidOption::NothingSelected);
 	expectWords(without->what(), {"none is selected"});
-}
-
-/// The largest hyperbolic distance of a corner from 0.
-double radius(const Parametrization& map)
-{
-	double largest = 0.0;
-	for (const Triangle2& face : map.uv)
-		for (const Point2& p : face)
-			largest = std::max(largest, 2.0 * std::atanh(std::hypot(p[0], p[1])));
-	return largest;
 }
 
 /// A cone of nearly no angle is nearly a cusp: sides of its triangles are about 20 long, and all digits

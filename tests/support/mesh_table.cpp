@@ -255,7 +255,7 @@ Outcome runPacked(const SurfaceMesh& mesh, const Options& options, Progress& pro
 	}
 	std::vector<char> reversed(mesh.triangles.size(), 0);
 	std::vector<std::string> notes;
-	for (const Component& component : splitIntoComponents(mesh, notes))
+	for (const Component& component : splitIntoComponents(openMesh(mesh, notes)))
 		for (const Face f : component.face.indices())
 			reversed[positionOf(component.face[f])] = component.reversed[f];
 	for (std::size_t f = 0; f < out.uv.size(); ++f)

@@ -30,7 +30,7 @@ std::vector<double> admissibleCurvature(const SurfaceMesh& mesh)
 {
 	std::vector<double> curvature(mesh.positions.size(), 0.0);
 	std::vector<std::string> notes;
-	for (const Component& c : splitIntoComponents(mesh, notes)) {
+	for (const Component& c : splitIntoComponents(openMesh(mesh, notes))) {
 		const Triangulation t(c.positions.size(), c.triangles);
 		if (!t.boundaryLoops().empty())
 			continue;

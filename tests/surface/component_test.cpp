@@ -20,7 +20,7 @@ namespace {
 void requireUsable(const SurfaceMesh& mesh)
 {
 	std::vector<std::string> notes;
-	requireAreaEverywhere(splitIntoComponents(mesh, notes));
+	requireAreaEverywhere(splitIntoComponents(openMesh(mesh, notes)));
 }
 
 /// \p words: how the error states it.
@@ -50,7 +50,7 @@ TEST(Component, AcceptsWhatTheFlowCanUse)
 {
 	for (const SurfaceMesh& mesh : {tetrahedron(), rectangle(2, 3, 1, 1), perforatedSlab(2, 1)}) {
 		std::vector<std::string> notes;
-		const auto components = splitIntoComponents(mesh, notes);
+		const auto components = splitIntoComponents(openMesh(mesh, notes));
 		ASSERT_EQ(components.size(), 1u);
 		EXPECT_TRUE(notes.empty());
 		EXPECT_EQ(components[0].triangles.size(), mesh.triangles.size());
@@ -83,73 +83,6 @@ TEST(Component, RefusesCoordinatesThatAreNotFinite)
 		mesh, InvalidMesh::NotFinite, 2, "2 vertices have coordinates that are not finite");
 }
 
-TEST(Component, RefusesFacesThatUseAVertexTwice)
-{
-	SurfaceMesh mesh = rectangle(1, 1, 1, 1);
-	mesh.triangles.push_back({0, 1, 1});
-	expectRefusal(mesh, InvalidMesh::CollapsedFaces, 1, "1 face uses the same vertex twice");
-	mesh.triangles.push_back({2, 2, 2});
-	expectRefusal(mesh, InvalidMesh::CollapsedFaces, 2, "2 faces use the same vertex twice");
-}
-
-TEST(Component, RefusesDuplicateFaces)
-{
-	const SurfaceMesh original = rectangle(2, 2, 1, 1);
-	SurfaceMesh mesh = original;
-	const Triangle t = mesh.triangles[3];
-	mesh.triangles.push_back({t[1], t[2], t[0]});
-	expectRefusal(mesh, InvalidMesh::DuplicateFaces, 1, "1 face is a duplicate");
-	mesh.triangles.push_back(reversed(mesh.triangles[0]));
-	expectRefusal(mesh, InvalidMesh::DuplicateFaces, 2, "2 faces are a duplicate");
-}
-
-TEST(Component, RefusesNonManifoldEdges)
-{
-	// Fins on inner edges of a rectangle.
-	SurfaceMesh mesh = rectangle(2, 2, 1, 1);
-	mesh.positions.push_back({0.3, 0.3, 1.0});
-	mesh.triangles.push_back({mesh.triangles[0][0], mesh.triangles[0][2], 9});
-	expectRefusal(mesh, InvalidMesh::NonManifoldEdges, 1, "1 non-manifold edge ");
-	mesh.positions.push_back({0.7, 0.7, 1.0});
-	mesh.triangles.push_back({mesh.triangles[6][0], mesh.triangles[6][2], 10});
-	expectRefusal(mesh, InvalidMesh::NonManifoldEdges, 2, "2 non-manifold edges ");
-}
-
-TEST(Component, RefusesNonManifoldVertices)
-{
-	SurfaceMesh bowTie;
-	for (int i = 0; i < 5; ++i)
-		bowTie.positions.push_back({double(i % 3), double(i / 3), double(i * i)});
-	bowTie.triangles = {{0, 1, 2}, {0, 3, 4}};
-	expectRefusal(bowTie, InvalidMesh::NonManifoldVertices, 1, "1 non-manifold vertex ");
-	bowTie.positions.push_back({7, 8, 9});
-	bowTie.positions.push_back({9, 8, 9});
-	bowTie.triangles.push_back({4, 5, 6});
-	expectRefusal(bowTie, InvalidMesh::NonManifoldVertices, 2, "2 non-manifold vertices ");
-	// Two closed surfaces that touch in one vertex.
-	SurfaceMesh kiss = sideBySide(tetrahedron(), tetrahedron(), 4.0);
-	for (Triangle& t : kiss.triangles)
-		for (int& v : t)
-			v = v == 7 ? 0 : v;
-	expectRefusal(kiss, InvalidMesh::NonManifoldVertices, 1, "1 non-manifold vertex ");
-}
-
-TEST(Component, RefusesOneSidedSurfaces)
-{
-	const SurfaceMesh band = moebiusBand(9);
-	expectRefusal(band, InvalidMesh::NotOrientable, 1, "1 component is not orientable");
-	expectRefusal(
-		sideBySide(band, band, 10),
-		InvalidMesh::NotOrientable,
-		2,
-		"2 components are not orientable");
-	expectRefusal(
-		sideBySide(tetrahedron(), band, 10),
-		InvalidMesh::NotOrientable,
-		1,
-		"1 component is not orientable");
-}
-
 TEST(Component, RefusesEdgesWithoutLength)
 {
 	SurfaceMesh inside = rectangle(3, 3, 1, 1);
@@ -177,7 +110,7 @@ TEST(Component, RefusesFacesWithoutArea)
 	for (Point3& p : mesh.positions)
 		p[1] = 0.0;
 	mesh.positions[3][0] = 0.5;
-	expectRefusal(mesh, InvalidMesh::NoArea, 1, "1 component has no area at all");
+	expectRefusal(mesh, InvalidMesh::NoArea, 3, "The mesh has 3 faces but no area");
 }
 
 TEST(Component, SplittingLeavesDegenerateFacesToTheCaller)
@@ -185,15 +118,7 @@ TEST(Component, SplittingLeavesDegenerateFacesToTheCaller)
 	const SurfaceMesh mesh{
 		{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}}, {{0, 1, 3}, {1, 2, 3}, {0, 2, 1}}};
 	std::vector<std::string> notes;
-	EXPECT_EQ(splitIntoComponents(mesh, notes).size(), 1u);
-}
-
-TEST(Component, RefusesComponentsWithoutExtent)
-{
-	SurfaceMesh mesh = sideBySide(tetrahedron(), tetrahedron(), 5);
-	for (std::size_t v = 4; v < 8; ++v)
-		mesh.positions[v] = {1, 2, 3};
-	expectRefusal(mesh, InvalidMesh::NoArea, 1, "1 component has no area at all");
+	EXPECT_EQ(splitIntoComponents(openMesh(mesh, notes)).size(), 1u);
 }
 
 TEST(Component, OrientsTheMinorityLikeTheMajorityAndTellsIt)
@@ -210,7 +135,7 @@ TEST(Component, OrientsTheMinorityLikeTheMajorityAndTellsIt)
 			++turned;
 		}
 	std::vector<std::string> notes;
-	const auto components = splitIntoComponents(mixed, notes);
+	const auto components = splitIntoComponents(openMesh(mixed, notes));
 	ASSERT_EQ(components.size(), 1u);
 	const Component& c = components[0];
 	EXPECT_EQ(c.reversed, isTurned);
@@ -235,7 +160,7 @@ TEST(Component, LeavesOutUnreferencedVerticesAndTellsIt)
 			++v;
 	mesh.positions.push_back({8, 8, 8});
 	std::vector<std::string> notes;
-	const auto components = splitIntoComponents(mesh, notes);
+	const auto components = splitIntoComponents(openMesh(mesh, notes));
 	ASSERT_EQ(components.size(), 1u);
 	EXPECT_EQ(components[0].positions.size(), 4);
 	for (int v : components[0].vertex)
@@ -256,7 +181,7 @@ TEST(Component, SeparatesComponentsInTheOrderOfTheirLowestFace)
 	for (std::size_t f = 0; f < order.size(); ++f)
 		mesh.triangles[f] = both.triangles[at(order[f])];
 	std::vector<std::string> notes;
-	const auto components = splitIntoComponents(mesh, notes);
+	const auto components = splitIntoComponents(openMesh(mesh, notes));
 	ASSERT_EQ(components.size(), 2u);
 	EXPECT_TRUE(notes.empty());
 	EXPECT_EQ(components[0].face.front(), 0);

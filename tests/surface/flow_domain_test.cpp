@@ -93,7 +93,7 @@ double signedArea(const std::vector<Vertex>& loop, const VertexArray<Point3>& po
 Component componentOf(const SurfaceMesh& mesh)
 {
 	std::vector<std::string> notes;
-	std::vector<Component> components = splitIntoComponents(mesh, notes);
+	std::vector<Component> components = splitIntoComponents(openMesh(mesh, notes));
 	EXPECT_EQ(components.size(), 1u);
 	return components.front();
 }

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -166,6 +167,36 @@ TEST(HyperbolicTarget, RefusesATotalCurvatureThatLeavesNoAreaWithBothNumbers)
 	expectSum(donut, hyperbolicPrescribed(curvature), -0.5, 0.0, {"-0.5", "2 pi chi = 0"});
 	curvature[7] = -0.25 + 1e-6;
 	EXPECT_NO_THROW(choose(donut, hyperbolicPrescribed(curvature)));
+}
+
+/// A free boundary can take whatever Gauss-Bonnet leaves, as long as that is less than pi for each
+/// of its vertices: the smooth Dirichlet problem has a solution on every surface with boundary.
+TEST(HyperbolicTarget, AFreeBoundaryTakesWhatGaussBonnetLeaves)
+{
+	for (const SurfaceMesh& mesh : {rectangle(3, 3, 1, 1), ring(1, 2, 8, 3)}) {
+		const Topology topology = topologyOf(glued(mesh));
+		SCOPED_TRACE(topology.type.name());
+		EXPECT_EQ(choose(mesh, hyperbolicMetric(true)).fixed, topology.boundary);
+		const auto n =
+			static_cast<double>(std::count(topology.boundary.begin(), topology.boundary.end(), 1));
+		const double bound = 2 * kPi * topology.type.eulerCharacteristic() - kPi * n;
+		HyperbolicRequest request =
+			hyperbolicPrescribed(std::vector<double>(mesh.positions.size(), 0.0));
+		request.freeBoundary = true;
+		Vertex inside;
+		for (const Vertex v : topology.boundary.indices())
+			if (!topology.boundary[v])
+				inside = v;
+		ASSERT_TRUE(inside.isValid());
+		request.prescribed[inside] = bound + 1e-6;
+		EXPECT_NO_THROW(choose(mesh, request));
+		request.prescribed[inside] = bound - 1e-6;
+		const InadmissibleCurvature error = refusal<InadmissibleCurvature>(
+			mesh, request, InadmissibleCurvature::FreeBoundary, {"free boundary"});
+		EXPECT_EQ(error.value, bound - 1e-6);
+		EXPECT_NEAR(error.bound, bound, 1e-13 * n);
+		EXPECT_EQ(static_cast<double>(error.count), n);
+	}
 }
 
 TEST(HyperbolicTarget, RefusesCurvatureBeyondTheBoundWithBothNumbers)

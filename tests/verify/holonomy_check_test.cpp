@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/complex.h"
 #include "support/flipped_flow.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/math/disk_isometry.h>
 #include <ricci/measure/fuchsian_group.h>
 #include <ricci/verify/holonomy_check.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -16,25 +19,56 @@
 namespace ricci::testing {
 namespace {
 
-/// A hyperbolic surface laid out in the disk, with its group.
+ExtendedIsometry placeOf(const Point2& p)
+{
+	return ExtendedIsometry::translationTo(std::complex<long double>(asComplex(p)));
+}
+
+/// A hyperbolic surface laid out in the disk, with its side pairings.
 struct LaidOut
 {
 	FlippedFlow flow;
+	CutGraph cut;
 	PlanarLayout layout;
-	FuchsianGroup group;
+	EdgeArray<SidePairing> pairing;
 
-	LaidOut(const SurfaceMesh& mesh, const HyperbolicRequest& request) : flow(mesh, request)
+	LaidOut(const SurfaceMesh& mesh, const HyperbolicRequest& request) :
+			flow(mesh, request, 1e-12), cut(flow.cut())
 	{
-		const CutGraph cut = flow.cut();
 		CommonRefinement refinement = flow.refinement(cut);
-		group = fuchsianGroup(flow.base(), cut, refinement.pairing, flow.cones());
 		layout = std::move(refinement.inputLayout);
+		pairing = pairingOfArcs(flow.base(), cut, refinement.pairing, flow.cones());
 	}
 
-	double error() const
+	double error() const { return error(flow.result.target); }
+	double error(const Target& target) const
 	{
-		return boundaryHolonomyError(
-			group, flow.base(), flow.surface().topology, layout, flow.result.target);
+		return holonomyError(
+			flow.base(), cut, pairing, layout, flow.surface().topology, flow.cones(), target);
+	}
+
+	FuchsianGroup group() const { return fuchsianGroup(flow.base(), cut, pairing, flow.cones()); }
+
+	/// Moves all of it in the disk.
+	void move(const ExtendedIsometry& m)
+	{
+		for (Point2& p : layout.points) {
+			const std::complex<long double> z = m(std::complex<long double>(asComplex(p)));
+			p = {static_cast<double>(z.real()), static_cast<double>(z.imag())};
+		}
+		for (const Edge e : flow.base().edges())
+			if (cut.isCut[e]) {
+				pairing[e].left = m * pairing[e].left;
+				pairing[e].right = m * pairing[e].right;
+			}
+	}
+
+	int degree(Vertex v) const
+	{
+		int edges = 0;
+		for (const Halfedge h : flow.base().halfedges())
+			edges += flow.base().origin(h) == v && cut.isCut[h.edge()];
+		return edges;
 	}
 };
 
@@ -44,47 +78,129 @@ SurfaceMesh pierced(Random& random)
 	return withoutStars(shaken(perforatedSlab(1, 3), 0.03, random), {0, 70});
 }
 
-TEST(HolonomyCheck, AGeodesicBoundaryIsAsLongAsItsGeneratorMovesItsAxis)
+TEST(HolonomyCheck, LayoutsCloseUp)
 {
 	Random random(790);
-	LaidOut surface(pierced(random), hyperbolicMetric());
-	ASSERT_EQ(surface.group.peripheral.size(), 2u);
-	EXPECT_LT(surface.error(), 1e-9);
-	for (std::size_t i = 0; i < 2; ++i) {
-		// Another isometry, which moves its axis by a known amount more.
-		const DiskIsometry right = surface.group.peripheral[i];
-		const double length = 2 * std::acosh(0.5 * std::abs(right.trace()));
-		EXPECT_GT(length, 0.1);
-		surface.group.peripheral[i] = DiskIsometry::translation(length + 0.01);
-		EXPECT_NEAR(surface.error(), 0.01, 1e-9);
-		// A rotation moves no point along an axis.
-		surface.group.peripheral[i] = DiskIsometry::rotation(1.0);
-		EXPECT_NEAR(surface.error(), length, 1e-9);
-		surface.group.peripheral[i] = right;
+	for (const int genus : {2, 3, 4})
+		EXPECT_LT(
+			LaidOut(shaken(perforatedSlab(genus, 2), 0.06, random), hyperbolicMetric()).error(),
+			1e-11);
+	EXPECT_LT(LaidOut(pierced(random), hyperbolicMetric()).error(), 1e-11);
+}
+
+/// What remains round a vertex is the same wherever the layout lies, but for the rounding of its
+/// places. As seen from 0 it is not: rounding grows with the way there.
+TEST(HolonomyCheck, DoesNotDependOnThePlaceOfTheLayout)
+{
+	Random random(792);
+	LaidOut surface(shaken(perforatedSlab(3, 2), 0.06, random), hyperbolicMetric());
+	EXPECT_LT(surface.group().polygonError, 1e-8);
+	surface.move(ExtendedIsometry::translation(12.0L));
+	EXPECT_LT(surface.error(), 1e-6);
+	EXPECT_GT(surface.group().polygonError, 1e-3);
+}
+
+/// A side pairing that turns about a vertex by an angle too much, or moves it.
+TEST(HolonomyCheck, SeesATurnAndAMoveAtTheirTrueSize)
+{
+	Random random(793);
+	const LaidOut right(shaken(perforatedSlab(2, 2), 0.06, random), hyperbolicMetric());
+	const Triangulation& t = right.flow.base();
+	int tried = 0;
+	for (const Halfedge h : t.interiorHalfedges()) {
+		const Vertex v = t.origin(h);
+		if (!right.cut.isCut[h.edge()] || right.degree(v) == 2 || tried >= 6)
+			continue;
+		++tried;
+		const ExtendedIsometry place = placeOf(right.layout[h]);
+		for (const double size : {1e-3, 1e-5, 1e-7})
+			for (const ExtendedIsometry& extra :
+				 {ExtendedIsometry::rotation(size), ExtendedIsometry::translation(size)}) {
+				LaidOut wrong = right;
+				// Only on this edge, so that nothing is wrong but at its ends.
+				SidePairing& side = wrong.pairing[h.edge()];
+				ExtendedIsometry& frame = h.isFirst() ? side.left : side.right;
+				frame = place * extra * place.inverse() * frame;
+				const Halfedge end = t.next(h);
+				const double length =
+					2.0 * std::asinh(
+							  0.5 * chordLength(
+										asComplex(right.layout[h]), asComplex(right.layout[end])));
+				EXPECT_GE(wrong.error(), size * (1.0 - 1e-3));
+				EXPECT_LE(wrong.error(), size * std::cosh(length) * (1.0 + 1e-3));
+			}
 	}
+	EXPECT_EQ(tried, 6);
+}
+
+TEST(HolonomyCheck, ConesAreRotationsByTheirAngle)
+{
+	Random random(794);
+	const SurfaceMesh sphere = shaken(perforatedSlab(0, 3), 0.05, random);
+	std::vector<double> curvature(sphere.positions.size(), 0.0);
+	for (const std::size_t v : {3u, 20u, 40u})
+		curvature[v] = 1.5 * kPi;
+	const LaidOut surface(sphere, hyperbolicPrescribed(curvature));
+	EXPECT_LT(surface.error(), 1e-11);
+	for (const int v : {3, 20, 40}) {
+		Target other = surface.flow.result.target;
+		other.curvature[Vertex(v)] += 0.01;
+		EXPECT_NEAR(
+			surface.error(other),
+			2 * std::abs(std::cos(0.75 * kPi) - std::cos(0.75 * kPi + 0.005)),
+			1e-10);
+	}
+}
+
+TEST(HolonomyCheck, AGeodesicBoundaryIsAsLongAsItsIsometryMovesItsAxis)
+{
+	Random random(790);
+	const LaidOut right(pierced(random), hyperbolicMetric());
+	EXPECT_LT(right.error(), 1e-11);
+	const Triangulation& t = right.flow.base();
+	int moved = 0;
+	for (const Halfedge first : t.boundaryLoops())
+		for (const Halfedge outside : t.loop(first)) {
+			// The axis is the boundary. Where the cut is crossed first on the way round its vertex, the
+			// axis is moved along itself by a known amount more or less.
+			const Halfedge h = outside.twin();
+			Halfedge in = t.previous(h);
+			while (!t.isExterior(in.twin()) && !right.cut.isCut[in.edge()])
+				in = t.previous(in.twin());
+			if (t.isExterior(in.twin()))
+				continue;
+			const ExtendedIsometry place = placeOf(right.layout[h]);
+			const auto next =
+				place.inverse()(std::complex<long double>(asComplex(right.layout[t.next(h)])));
+			const ExtendedIsometry along = place * ExtendedIsometry::rotation(std::arg(next));
+			LaidOut wrong = right;
+			SidePairing& side = wrong.pairing[in.edge()];
+			ExtendedIsometry& frame = in.isFirst() ? side.left : side.right;
+			frame = along * ExtendedIsometry::translation(0.01L) * along.inverse() * frame;
+			EXPECT_GE(wrong.error(), 0.01 - 1e-9);
+			++moved;
+		}
+	EXPECT_GE(moved, 2);
 }
 
 TEST(HolonomyCheck, BoundariesThatAreNotGeodesicAreLeftOut)
 {
 	Random random(791);
-	// Free, with curvature at one vertex of each loop, or of cones that are no boundary.
+	// Free, or with curvature at one vertex of each loop.
 	const SurfaceMesh mesh = pierced(random);
 	const Topology topology =
 		topologyOf(Triangulation(static_cast<int>(mesh.positions.size()), mesh.triangles));
 	std::vector<double> curvature(mesh.positions.size(), 0.0);
 	for (const std::vector<Vertex>& loop : topology.loops)
 		curvature[at(loop.front())] = 0.3;
-	const SurfaceMesh closed = shaken(perforatedSlab(1, 3), 0.03, random);
-	std::vector<double> cone(closed.positions.size(), 0.0);
-	cone[20] = 1.0;
-	for (LaidOut surface :
-		 {LaidOut(mesh, hyperbolicMetric(true)),
-		  LaidOut(mesh, hyperbolicPrescribed(curvature)),
-		  LaidOut(closed, hyperbolicPrescribed(cone))}) {
-		EXPECT_GE(surface.group.peripheral.size(), 1u);
-		for (DiskIsometry& generator : surface.group.peripheral)
-			generator = DiskIsometry::translation(50.0);
-		EXPECT_EQ(surface.error(), 0.0);
+	for (const LaidOut& surface :
+		 {LaidOut(mesh, hyperbolicMetric(true)), LaidOut(mesh, hyperbolicPrescribed(curvature))}) {
+		EXPECT_EQ(surface.group().peripheral.size(), 2u);
+		EXPECT_LT(surface.error(), 1e-11);
+		Target geodesic = surface.flow.result.target;
+		geodesic.curvature.setZero();
+		geodesic.fixed.assign(geodesic.fixed.size(), 0);
+		EXPECT_GT(surface.error(geodesic), 1e-3);
 	}
 }
 

@@ -40,22 +40,16 @@ class InvalidMesh : public Error
 {
 public:
 	enum Problem {
-		Empty,               ///< neither vertices nor faces
-		NoFaces,             ///< count: vertices
-		DamagedFaces,        ///< count: faces that use vertices which are not in the mesh
-		NotFinite,           ///< count: vertices with coordinates that are NaN or infinite
-		OutOfRange,          ///< count: vertices with coordinates beyond 1e50
-		CollapsedFaces,      ///< count: faces that use one vertex twice
-		DuplicateFaces,      ///< count
-		NonManifoldEdges,    ///< count: edges with more than two faces
-		NonManifoldVertices, ///< count: vertices with more than one fan of faces
-		NotOrientable,       ///< count: one-sided components
-		TooSmall,            ///< count: components smaller than 1e-50
-		NoArea,              ///< count: components whose vertices lie on one line
-		EdgesWithoutLength,  ///< count; where no flips are allowed
-		FacesWithoutArea,    ///< count; where no flips are allowed
-		IncoherentEdge, ///< vertices: its ends; its triangles are not two of opposite direction
-		BoundaryWithoutLength,
+		Empty,              ///< neither vertices nor faces
+		NoFaces,            ///< count: vertices
+		DamagedFaces,       ///< count: faces that use vertices which are not in the mesh
+		NotFinite,          ///< count: vertices with coordinates that are NaN or infinite
+		OutOfRange,         ///< count: vertices with coordinates beyond 1e50
+		TooSmall,           ///< count: components smaller than 1e-50
+		NoArea,             ///< count: faces; the vertices of each component lie on one line
+		EdgesWithoutLength, ///< count; where no flips are allowed
+		FacesWithoutArea,   ///< count; where no flips are allowed
+		IncoherentEdge,     ///< vertices: its ends; its triangles are not two of opposite direction
 		NotPuncturable,   ///< map to the sphere: the surface touches itself at its best vertices
 		TooLargeForFloats ///< texture coordinates beyond the range of float
 	};
@@ -144,6 +138,7 @@ public:
 		StepsUsedUp,     ///< residual, epsilon, floor
 		BrokenTriangles, ///< count; swaps: edges swapped before
 		LostInRounding, ///< count: broken triangles; value: orders of magnitude between scale factors
+		FlipsUsedUp,    ///< count: flips; edges are still not Delaunay
 		CircleUnsettled, ///< value: last change of the points on the circle, radians
 		FlatTriangles,   ///< count: triangles that end flat
 		SplitsUsedUp,    ///< count: boundary edges that were split
@@ -186,6 +181,7 @@ public:
 		Faces,         ///< count; limit: how many can be numbered
 		Memory,        ///< count: faces; bytes needed, limit
 		DoubleMemory,  ///< count: faces of the double; bytes needed, limit
+		Unknowns,      ///< count of a linear system whose factor the solver cannot number
 		Crossings,     ///< count of the overlay; limit: how many can be numbered
 		OverlayMemory, ///< count: crossings of the overlay; bytes needed, limit
 	};

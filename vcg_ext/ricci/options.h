@@ -139,7 +139,9 @@ struct HyperbolicOptions : FlowOptions
 	/// Total angle at each cone of SelectedCones, in radians.
 	double coneAngle = 3.14159265358979323846;
 
-	/// Fix u on the boundary at its start; the curvature then is prescribed inside only.
+	/// Fix u on the boundary; the curvature then is prescribed inside only. The boundary's circles
+	/// keep the radii that they have where the surface is scaled to the area 2 pi max(1, |chi|), so
+	/// that finely triangulated boundaries keep their lengths at that scale.
 	bool freeBoundary = false;
 
 	OutputTriangulation output = OutputTriangulation::KeepMesh;

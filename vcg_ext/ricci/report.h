@@ -4,6 +4,7 @@
 
 #include "math/histogram.h"
 
+#include <complex>
 #include <optional>
 #include <vector>
 
@@ -63,6 +64,13 @@ struct Report
 	double seamLengthRelative = 0.0; ///< seamLength over the square root of the mesh's area
 
 	int charts = 0;
+
+	int cutNonmanifoldEdges = 0; ///< edges with more than two faces, cut so that each sheet has two
+	int splitVertices = 0;       ///< vertices with more than one fan of faces, or on such an edge
+	int duplicateFaces = 0;      ///< faces with the vertices of another: sheets of their own
+	int oneSidedComponents = 0;  ///< components cut along short one-sided loops
+	int degenerateFaces = 0;     ///< faces without area that are drawn as lines or points
+
 	int cappedHoles = 0; ///< boundary loops closed for the flow
 
 	int overlappingCharts = 0; ///< charts that cover a part of the plane more than once
@@ -77,13 +85,20 @@ struct Report
 	/// ConeRounding::QuarterTurns: largest distance of the rotation across a seam of the flow's cut from
 	/// a multiple of pi / 2, radians, in the map as finished.
 	std::optional<double> holonomyError;
+	/// Closed surface of genus 1 to 10: its period matrix, row by row (PeriodMatrix::omega), else empty;
+	/// and the bound of its error.
+	std::vector<std::complex<double>> periodMatrix;
+	std::optional<double> periodError;
 
 	/// Hyperbolic flow: area of the metric by its side lengths, which Gauss-Bonnet puts at sum K - 2
 	/// pi chi.
 	std::optional<double> hyperbolicArea;
-	/// Hyperbolic flow: what the layout misses at most, in three ways: the relation of the Fuchsian
-	/// group as the fundamental polygon spells it, the ways round the polygon's other corners, and
-	/// the lengths of geodesic boundaries against the traces of their motions.
+	/// Hyperbolic flow: how far the layout is from closing up, see holonomyError(). The largest of
+	/// the angle or hyperbolic length by which the side pairings miss a vertex of the cut on the way
+	/// round it, of the same for the |trace| at cones, and for the length of geodesic boundaries. Each
+	/// is seen from its own place, so that it means the same at any genus: the rounding of a layout
+	/// that reaches the distance d from 0 is about 1e-18 e^d in it. Cones of up to 1e-9, which the seam
+	/// need not reach, are left in it.
 	std::optional<double> relationError;
 };
 

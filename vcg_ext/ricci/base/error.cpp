@@ -37,24 +37,11 @@ std::string words(InvalidMesh::Problem problem, std::size_t n, const std::array<
 			   " coordinates that are not finite numbers (NaN or infinite)";
 	case InvalidMesh::OutOfRange:
 		return some(n, "vertex has", "vertices have") + " coordinates beyond 1e50";
-	case InvalidMesh::CollapsedFaces:
-		return some(n, "face uses", "faces use") + " the same vertex twice";
-	case InvalidMesh::DuplicateFaces:
-		return some(n, "face is", "faces are") + " a duplicate of another";
-	case InvalidMesh::NonManifoldEdges:
-		return some(n, "non-manifold edge", "non-manifold edges") +
-			   " (shared by more than two faces)";
-	case InvalidMesh::NonManifoldVertices:
-		return some(n, "non-manifold vertex", "non-manifold vertices") +
-			   " (with more than one fan of faces)";
-	case InvalidMesh::NotOrientable:
-		return some(n, "component is", "components are") +
-			   " not orientable (one-sided, like a Moebius band)";
 	case InvalidMesh::TooSmall:
 		return some(n, "component is", "components are") + " smaller than 1e-50";
 	case InvalidMesh::NoArea:
-		return some(n, "component has", "components have") +
-			   " no area at all (all vertices on one line, or in one point)";
+		return "The mesh has " + some(n, "face", "faces") +
+			   " but no area (each component lies on one line, or in one point)";
 	case InvalidMesh::EdgesWithoutLength:
 		return some(n, "edge has", "edges have") + " no length";
 	case InvalidMesh::FacesWithoutArea:
@@ -62,8 +49,6 @@ std::string words(InvalidMesh::Problem problem, std::size_t n, const std::array<
 	case InvalidMesh::IncoherentEdge:
 		return "The edge between vertices " + std::to_string(vertices[0]) + " and " +
 			   std::to_string(vertices[1]) + " is not shared by two coherent triangles";
-	case InvalidMesh::BoundaryWithoutLength:
-		return "The boundary has no length: all its vertices lie in one point";
 	case InvalidMesh::NotPuncturable:
 		return "The surface cannot be punctured for the map to the sphere: near its best vertices "
 			   "it touches itself";
@@ -197,6 +182,8 @@ std::string words(const NotConverged& e)
 		return some(e.count, "triangle is", "triangles are") +
 			   " lost in rounding: the flow makes parts of the surface 1e" + number(e.value) +
 			   " times as large as others";
+	case NotConverged::FlipsUsedUp:
+		return "After " + n + " flips there are still edges that are not Delaunay";
 	case NotConverged::CircleUnsettled:
 		return "The boundary did not settle on a circle: its points still move by " +
 			   numberText(e.value, 3) + " radians";
@@ -230,6 +217,8 @@ std::string words(TooLarge::Problem problem, std::size_t count, double needed, d
 		return "Boundary edges have to flip, and the double of the surface with " + n +
 			   " faces needs about " + gigabytes(needed) + " of memory, but only " +
 			   gigabytes(limit) + " were free";
+	case TooLarge::Unknowns:
+		return "The linear system of " + n + " unknowns is too large for the solver";
 	case TooLarge::Crossings:
 		return "The edges after the flow cross those of the mesh at more than " + n +
 			   " points, but at most " + number(limit) + " can be numbered";

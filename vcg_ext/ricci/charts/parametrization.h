@@ -5,7 +5,7 @@
 #include "../math/points.h"
 #include "../measure/fuchsian_group.h"
 #include "../report.h"
-#include "../surface/surface_mesh.h"
+#include "../surface/opened_mesh.h"
 #include "../surface/surface_point.h"
 
 #include <string>
@@ -16,7 +16,7 @@ namespace ricci {
 /// One component laid out by its own metric, or a part of one; not yet packed beside the others.
 struct Chart
 {
-	std::vector<int> faces;   ///< indices into SurfaceMesh::triangles
+	std::vector<int> faces;   ///< of the opened mesh
 	std::vector<int> refined; ///< indices into RefinedMesh::triangles
 	FuchsianGroup group;      ///< hyperbolic flow
 };
@@ -24,17 +24,19 @@ struct Chart
 /// The common refinement of the input with the triangles on which the map was found.
 struct RefinedMesh
 {
-	std::vector<SurfacePoint> points; ///< the input's vertices first, in order
+	std::vector<SurfacePoint> points; ///< the vertices of the opened mesh first, in order
 	std::vector<Triangle> triangles;  ///< into points, in the input's orientation
-	std::vector<int> inputFace;       ///< [triangle] index into SurfaceMesh::triangles
+	std::vector<int> inputFace;       ///< [triangle] face of the opened mesh
 	std::vector<Triangle2> uv;        ///< [triangle][corner]
 	std::vector<double> faceQC;       ///< sigma1 / sigma2
 	std::vector<double> vertexQC;     ///< [point]
 };
 
-/// A map of the whole mesh to the plane.
+/// A map of the whole mesh to the plane. Numbers are those of the opened mesh, which are those of the
+/// input unless it had to be cut; toInputNumbers() (input_numbers.h) makes them the input's.
 struct Parametrization
 {
+	OpenedMesh opened;
 	Report report;
 	std::vector<std::string> notes; ///< what was done or chosen without being asked
 	std::vector<Chart> charts;

@@ -18,6 +18,9 @@ namespace {
 /// Cost factor at exposure 1, less 1.
 constexpr double kMaxFactor = 9.0;
 
+/// Cost factor of diagonals.
+constexpr double kDiagonalFactor = 1.01;
+
 /// Time of the smoothing step as a share of the area: features up to sqrt(this) of the size go.
 constexpr double kSmoothing = 1.0 / 400.0;
 
@@ -153,6 +156,13 @@ EdgeArray<double> seamCost(
 		cost[e] *= 1.0 + 0.5 * kMaxFactor * hiding * (exposed[a] + exposed[b]);
 	}
 	return cost;
+}
+
+void avoidDiagonals(const EdgeArray<char>& isDiagonal, EdgeArray<double>& cost)
+{
+	for (const Edge e : isDiagonal.indices())
+		if (isDiagonal[e])
+			cost[e] *= kDiagonalFactor;
 }
 
 } // namespace ricci

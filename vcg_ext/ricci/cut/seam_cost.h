@@ -30,6 +30,11 @@ EdgeArray<double> seamCost(
 	const VertexArray<Point3>& positions,
 	double hiding);
 
+/// Raises the cost of seams along diagonals of polygons by a hundredth, so that of paths of about the
+/// same cost the one along sides is taken.
+/// \param isDiagonal see FlowDomain; may be empty
+void avoidDiagonals(const EdgeArray<char>& isDiagonal, EdgeArray<double>& cost);
+
 } // namespace ricci
 
 #endif

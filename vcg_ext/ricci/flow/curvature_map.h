@@ -29,6 +29,8 @@ public:
 	/// hold (below their last place), or empty. Radii then are exact to their own last place, not
 	/// to that of u. A packing that does not exist at u (hyperbolic u >= 0, nested circles) gives
 	/// values that are not finite, or broken triangles; it is no error.
+	/// \throw NotConverged (FlipsUsedUp) where rounding keeps flips from ending
+	/// \throw NotConverged (FlipsUsedUp) where rounding keeps flips from ending
 	virtual void evaluate(const VertexVector& u, const VertexVector& low) = 0;
 
 	void evaluate(const VertexVector& u) { evaluate(u, VertexVector()); }
@@ -88,6 +90,9 @@ public:
 	/// change a bit of the result.
 	void useThreads(int threads) { m_threads = threads; }
 
+	/// \p tick is called by evaluate() now and then where many edges flip; may throw.
+	void useTick(Tick tick) { m_tick = std::move(tick); }
+
 	/// Replaces edge \p e by the other diagonal of its two triangles, with \p delta.
 	/// \pre \p e is flippable
 	void swapEdge(Edge e, double delta);
@@ -101,6 +106,7 @@ protected:
 	EdgeArray<double> m_lengths, m_weights, m_cosineLess1;
 	HalfedgeArray<double> m_angles;
 	int m_threads;
+	Tick m_tick;
 	int m_broken = 0;
 	std::vector<Edge> m_flips;
 	double m_needleRatio = 1.0;

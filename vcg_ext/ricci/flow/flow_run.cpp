@@ -24,12 +24,15 @@ constexpr double kMaxStartU = -1e-3;
 
 } // namespace
 
-InitialPacking
-initialPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const FlowOptions& options)
+InitialPacking initialPacking(
+	IntrinsicMesh mesh,
+	const VertexArray<Vertex>& mirror,
+	const FlowOptions& options,
+	const Tick& tick)
 {
 	if (options.surgery != Surgery::IntrinsicFlips)
 		return inputPacking(std::move(mesh), options.packing);
-	InitialPacking packing = delaunayPacking(std::move(mesh), mirror);
+	InitialPacking packing = delaunayPacking(std::move(mesh), mirror, tick);
 	if (options.packing == PackingScheme::Thurston)
 		packing.delta = inversiveDistancesLessOne(
 			packing.mesh.triangulation, packing.mesh.lengths, packing.radii, options.packing);
@@ -55,7 +58,10 @@ FlowProblem flowProblem(const EmbeddedSurface& surface, FlowStart start, const T
 }
 
 FlowProblem flowProblemOnDouble(
-	const EmbeddedSurface& surface, const Target& target, const FlowOptions& options)
+	const EmbeddedSurface& surface,
+	const Target& target,
+	const FlowOptions& options,
+	const Tick& tick)
 {
 	DoubleSurface d = doubleOf(surface.triangulation);
 	IntrinsicMesh mesh;
@@ -64,7 +70,7 @@ FlowProblem flowProblemOnDouble(
 	for (const Edge e : d.edgeOf.indices())
 		mesh.lengths[e] = surface.lengths[d.edgeOf[e]];
 	FlowStart start;
-	start.packing = initialPacking(std::move(mesh), d.mirror, options);
+	start.packing = initialPacking(std::move(mesh), d.mirror, options, tick);
 	FlowProblem problem = flowProblem(surface, std::move(start), target);
 	problem.input = std::move(d.triangulation);
 	Target& doubled = problem.target;
@@ -87,9 +93,10 @@ FlowRun::FlowRun(
 	const FlowOptions& options,
 	int stepsBefore,
 	const FlowListener& listener,
+	const Tick& tick,
 	NewtonSolver::Surgeon surgeon) :
 		m_background(background),
-		m_problem(std::move(problem)), m_options(options), m_listener(listener),
+		m_problem(std::move(problem)), m_options(options), m_listener(listener), m_tick(tick),
 		m_surgeon(std::move(surgeon))
 {
 	m_result.background = background;
@@ -137,30 +144,36 @@ CirclePacking FlowRun::takeStart()
 template<class Geometry>
 std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing) const
 {
-	if (m_options.surgery == Surgery::IntrinsicFlips)
-		return std::make_shared<FlippingCurvatureMap<Geometry>>(std::move(packing));
-	return std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
+	if (m_options.surgery != Surgery::IntrinsicFlips)
+		return std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
+	auto map = std::make_shared<FlippingCurvatureMap<Geometry>>(std::move(packing));
+	map->useTick(m_tick);
+	return map;
 }
 
-/// ln radius, in the hyperbolic plane with the radii scaled so that the area is that of the metric
-/// to be found: there tanh(radius / 2) is nearly radius / 2, and the inversive distances are the
-/// Euclidean ones, which have no scale.
+/// ln radius. In the hyperbolic plane at the scale at which the flat surface has the area of the metric
+/// to be found, because the inversive distances are the Euclidean ones, which have no scale; there
+/// tanh(radius / 2) is nearly radius / 2. The area that a free boundary leaves is not known before: it
+/// has a scale of its own, at which radii that are kept are exact.
 VertexVector FlowRun::startU(const IntrinsicMesh& mesh, const VertexArray<double>& radii) const
 {
 	const Target& target = m_problem.target;
 	VertexVector u(radii.size());
-	double scale = 1.0;
-	if (m_background == Background::HyperbolicPlane) {
-		double area = -2 * kPi * mesh.triangulation.eulerCharacteristic();
-		for (const Vertex v : target.fixed.indices())
-			if (!target.fixed[v])
-				area += target.curvature[v];
-		scale = 0.5 * std::sqrt(area / euclideanArea(mesh.triangulation, mesh.lengths));
+	if (m_background == Background::EuclideanPlane) {
+		for (const Vertex v : radii.indices())
+			u[v] = std::log(radii[v]);
+		return u;
 	}
-	for (const Vertex v : radii.indices())
-		u[v] = std::log(scale * radii[v]);
-	if (m_background == Background::HyperbolicPlane)
-		u = u.cwiseMin(kMaxStartU);
+	const int copies = m_problem.isDoubled() ? 2 : 1;
+	const int chi = mesh.triangulation.eulerCharacteristic();
+	const bool keeps = target.hasFixed();
+	const double area =
+		keeps ? copies * freeBoundaryArea(chi / copies) : target.curvature.sum() - 2 * kPi * chi;
+	const double scale = 0.5 * std::sqrt(area / euclideanArea(mesh.triangulation, mesh.lengths));
+	for (const Vertex v : radii.indices()) {
+		const double half = scale * radii[v];
+		u[v] = std::min(std::log(keeps ? std::tanh(half) : half), kMaxStartU);
+	}
 	return u;
 }
 
@@ -302,6 +315,7 @@ FlowResult FlowRun::result()
 	m_result.residual = m_solved.residual;
 	m_result.floor = m_solved.floor;
 	m_result.work = m_newton->work();
+	m_result.hessian = m_newton->takeHessian();
 	m_newton.reset();
 	m_result.history.flowFlips = flowFlips();
 	m_result.area = m_background == Background::EuclideanPlane

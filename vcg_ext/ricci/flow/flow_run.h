@@ -37,9 +37,12 @@ struct FlowProblem
 
 /// The packing in which a flow with these options starts: with intrinsic flips on the weighted
 /// Delaunay triangulation of \p mesh, else on its own.
-/// \param mirror see delaunayPacking()
-InitialPacking
-initialPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const FlowOptions& options);
+/// \param mirror, tick see delaunayPacking()
+InitialPacking initialPacking(
+	IntrinsicMesh mesh,
+	const VertexArray<Vertex>& mirror,
+	const FlowOptions& options,
+	const Tick& tick);
 
 /// \param start the initial packing of \p surface
 FlowProblem flowProblem(const EmbeddedSurface& surface, FlowStart start, const Target& target);
@@ -47,20 +50,25 @@ FlowProblem flowProblem(const EmbeddedSurface& surface, FlowStart start, const T
 /// On the double of the surface, with its own, symmetric initial packing. Curvature is twice as
 /// large on the boundary.
 FlowProblem flowProblemOnDouble(
-	const EmbeddedSurface& surface, const Target& target, const FlowOptions& options);
+	const EmbeddedSurface& surface,
+	const Target& target,
+	const FlowOptions& options,
+	const Tick& tick);
 
 /// One run of the flow on one surface.
 class FlowRun
 {
 public:
 	/// \p options and \p listener must live as long as the run. \p stepsBefore is added to the
-	/// number of steps that the listener gets and the result has.
+	/// number of steps that the listener gets and the result has. \p tick: see
+	/// CurvatureMap::useTick().
 	FlowRun(
 		Background background,
 		FlowProblem problem,
 		const FlowOptions& options,
 		int stepsBefore,
 		const FlowListener& listener,
+		const Tick& tick,
 		NewtonSolver::Surgeon surgeon = nullptr);
 
 	/// Starts from what another run found on the half of this double: its factor() and its arcs().
@@ -109,6 +117,7 @@ private:
 	FlowProblem m_problem; // the history takes over its input and start where edges flip
 	const FlowOptions& m_options;
 	const FlowListener& m_listener;
+	const Tick& m_tick;
 	NewtonSolver::Surgeon m_surgeon;
 	FlowResult m_result;
 	VertexVector m_startU;

@@ -26,7 +26,8 @@ constexpr double kShareOfRange = 0.9;
 /// others.
 constexpr double kMinShare = 0.01;
 
-/// Sufficient decrease of |K - target| asked of a step of length t: by the factor 1 - kDecrease t.
+/// Sufficient decrease of |K - target| asked of a step of length t: by the factor 1 - kDecrease t. And
+/// the share of its first slope with which the energy has to fall still at the end of a step.
 constexpr double kDecrease = 1e-4;
 
 /// Steps with the last factor after epsilon is reached; each gains about as many digits as the last
@@ -34,9 +35,10 @@ constexpr double kDecrease = 1e-4;
 constexpr int kPolishingSteps = 2;
 
 /// A minimum with broken triangles is no metric, and the energy is flat around it: where
-/// |K - target| has not fallen by this factor in so many steps, the solve ends.
+/// |K - target| has not fallen by this factor in so many steps, steps are searched by slope, and where
+/// it has not after so many of those, the solve ends.
 constexpr double kStagnation = 0.9;
-constexpr int kStagnationSteps = 20;
+constexpr int kStagnationSteps = 20, kSlopeSteps = 80;
 
 /// What a direction may leave of the right side, relative to it: this at first, and the residual
 /// itself afterwards, so that every step still squares the residual.
@@ -263,7 +265,8 @@ NewtonResult NewtonSolver::solve(
 	result.residual = residual(target);
 	int polishing = 0;
 	double normThen = m_gradient.norm(); // kStagnationSteps ago
-	bool searchFails = false;
+	bool searchFails = false, bySlope = false;
+	int slopeSteps = 0;
 
 	while (true) {
 		report(result.iterations, result.residual);
@@ -271,7 +274,8 @@ NewtonResult NewtonSolver::solve(
 		const bool valid = m_map->brokenTriangles() == 0;
 		const bool reached = valid && result.residual < options.epsilon;
 		const bool atFloor = valid && result.residual <= result.floor;
-		if (atFloor || searchFails || m_hessian->unknowns() == 0 ||
+		const bool brokenMinimum = !valid && result.residual < options.epsilon;
+		if (atFloor || searchFails || brokenMinimum || m_hessian->unknowns() == 0 ||
 			(reached && polishing >= kPolishingSteps) ||
 			(!reached && result.iterations >= options.maxIterations))
 			break;
@@ -283,7 +287,7 @@ NewtonResult NewtonSolver::solve(
 		if (!std::isfinite(largest))
 			break;
 		double t = longestStep(u, largest);
-		const double before = m_gradient.norm();
+		const double before = m_gradient.norm(), slope = m_gradient.dot(m_direction);
 		double after = 0.0;
 		double trialResidual;
 		while (true) {
@@ -291,7 +295,9 @@ NewtonResult NewtonSolver::solve(
 			m_map->evaluate(m_trial, m_trialLow);
 			trialResidual = residual(target);
 			after = m_gradient.norm();
-			if (std::isfinite(trialResidual) && after <= (1.0 - kDecrease * t) * before)
+			const bool falls = bySlope ? m_gradient.dot(m_direction) <= kDecrease * slope
+									   : after <= (1.0 - kDecrease * t) * before;
+			if (std::isfinite(trialResidual) && falls)
 				break;
 			m_map->reject();
 			t *= 0.5;
@@ -304,16 +310,21 @@ NewtonResult NewtonSolver::solve(
 		if (searchFails) {
 			m_map->evaluate(u, m_low);
 			result.residual = residual(target);
+			searchFails = valid || bySlope;
+			bySlope = !valid;
 			continue;
 		}
 		u.swap(m_trial);
 		m_low.swap(m_trialLow);
 		m_map->accept();
 		result.residual = trialResidual;
+		slopeSteps += bySlope;
 		if (reached)
 			++polishing;
 		else if (++result.iterations % kStagnationSteps == 0) {
-			searchFails = m_map->brokenTriangles() > 0 && after > kStagnation * normThen;
+			const bool stagnates = m_map->brokenTriangles() > 0 && after > kStagnation * normThen;
+			searchFails = stagnates && slopeSteps >= kSlopeSteps;
+			bySlope = bySlope || stagnates;
 			normThen = after;
 		}
 		if (surgeon && surgeon(*m_map)) {

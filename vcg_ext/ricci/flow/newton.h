@@ -44,8 +44,12 @@ struct NewtonResult
 /// all u (in the Euclidean plane with one vertex pinned), so that the norm is stationary at the
 /// solution only. On a triangulation that stays (GeometricCurvatureMap, and the boundary of the
 /// other) H jumps where triangles break, and may be singular beyond: the norm may be stationary
-/// where the energy is not minimal. The solver then ends without convergence, as it does at a
-/// minimum with broken triangles, which is no metric.
+/// where the energy is not minimal. Where it no longer falls and triangles are broken, steps are
+/// searched by the energy's slope instead: a step is as long as the energy still falls at its end,
+/// (K - target) . d < 0 there. That lowers the convex energy E without its value, because
+/// E(u + d) <= E(u) + (K(u + d) - target) . d, and so leads to its minimum wherever that is a metric.
+/// At a minimum with broken triangles, which is none, the solver ends without convergence. An edge
+/// swap changes the energy, so that nothing is promised across one.
 ///
 /// A factorisation costs as much as a dozen or more solutions with it, and the Hessian of one step
 /// is close to that of the next, flips included. So the factor of one step is the preconditioner of
@@ -81,6 +85,12 @@ public:
 	/// over, all that was done with it before is included, so that it need not be counted
 	/// elsewhere.
 	const CholeskyWork& work() const { return m_hessian->cholesky().work(); }
+
+	/// The last factor, null if there was none. Ends the use of this object.
+	std::unique_ptr<FactoredHessian> takeHessian()
+	{
+		return m_hessian->isFactored() ? std::move(m_hessian) : nullptr;
+	}
 
 	/// Part of u below the last place of its doubles, as the last solve left it.
 	const VertexVector& low() const { return m_low; }

@@ -38,10 +38,12 @@ HalfFlow flowOnSurface(
 	FlowStart start,
 	const Target& target,
 	FlowOptions options,
-	const FlowListener& listener)
+	const FlowListener& listener,
+	const Tick& tick)
 {
 	options.maxIterations = std::min(options.maxIterations, kStepsBeforeDoubling);
-	FlowRun run(background, flowProblem(surface, std::move(start), target), options, 0, listener);
+	FlowRun run(
+		background, flowProblem(surface, std::move(start), target), options, 0, listener, tick);
 	bool solved = false;
 	try {
 		solved = run.solve();
@@ -71,16 +73,18 @@ FlowResult flowOnDouble(
 	const Target& target,
 	const FlowOptions& options,
 	const FlowListener& listener,
+	const Tick& tick,
 	const HalfFlow& half)
 {
 	requireMemoryForDouble(
 		static_cast<std::size_t>(surface.triangulation.faceCount()), options.memoryLimit);
 	FlowRun run(
 		background,
-		flowProblemOnDouble(surface, target, options),
+		flowProblemOnDouble(surface, target, options, tick),
 		options,
 		half.iterations,
-		listener);
+		listener,
+		tick);
 	if (half.result)
 		run.startFrom(half.factor, half.arcs);
 	if (!run.solve())
@@ -90,10 +94,10 @@ FlowResult flowOnDouble(
 
 } // namespace
 
-FlowStart flowStart(const EmbeddedSurface& surface, const FlowOptions& options)
+FlowStart flowStart(const EmbeddedSurface& surface, const FlowOptions& options, const Tick& tick)
 {
 	FlowStart start;
-	start.packing = initialPacking({surface.triangulation, surface.lengths}, {}, options);
+	start.packing = initialPacking({surface.triangulation, surface.lengths}, {}, options, tick);
 	return start;
 }
 
@@ -104,7 +108,8 @@ FlowResult runRicciFlow(
 	const Target& target,
 	const FlowOptions& options,
 	const FlowListener& listener,
-	const NewtonSolver::Surgeon& surgeon)
+	const NewtonSolver::Surgeon& surgeon,
+	const Tick& tick)
 {
 	const bool flips = options.surgery == Surgery::IntrinsicFlips;
 	if (!flips || surface.topology.loops.empty()) {
@@ -114,20 +119,22 @@ FlowResult runRicciFlow(
 			options,
 			0,
 			listener,
+			tick,
 			surgeon);
 		if (!run.solve())
 			throw run.failure();
 		return run.result();
 	}
 
-	HalfFlow half = flowOnSurface(background, surface, std::move(start), target, options, listener);
+	HalfFlow half =
+		flowOnSurface(background, surface, std::move(start), target, options, listener, tick);
 	const bool prescribed = !target.hasFixed();
 	if (half.result && !(prescribed && half.bends))
 		return std::move(*half.result);
 	if (!half.result)
-		return flowOnDouble(background, surface, target, options, listener, half);
+		return flowOnDouble(background, surface, target, options, listener, tick, half);
 	try {
-		return flowOnDouble(background, surface, target, options, listener, half);
+		return flowOnDouble(background, surface, target, options, listener, tick, half);
 	}
 	catch (const Stopped&) {
 		throw;

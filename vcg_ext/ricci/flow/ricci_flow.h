@@ -27,7 +27,9 @@ struct FlowStart
 
 /// The initial packing (paper 4.1): with intrinsic flips on the weighted Delaunay triangulation,
 /// else on the surface's own triangles.
-FlowStart flowStart(const EmbeddedSurface& surface, const FlowOptions& options);
+/// \param tick called now and then if it is not empty; may throw
+FlowStart
+flowStart(const EmbeddedSurface& surface, const FlowOptions& options, const Tick& tick = {});
 
 /// The flow with intrinsic flips: what leads from the input's triangles to those of the result.
 struct FlipHistory
@@ -61,6 +63,9 @@ struct FlowResult
 	int iterations = 0;
 	CholeskyWork work;   ///< of the linear solver, on the surface the result is from
 	FlipHistory history; ///< Surgery::IntrinsicFlips only
+
+	/// Newton's last factor; null where no step was needed. Of the double if doubled.
+	std::shared_ptr<FactoredHessian> hessian;
 };
 
 /// Gets the number of Newton steps so far and the residual before each step; may throw to cancel.
@@ -71,7 +76,8 @@ using FlowListener = std::function<void(int, double)>;
 /// The start is the same in both backgrounds: the Euclidean inversive distances, which have no
 /// scale, on the weighted Delaunay triangulation of the flat triangles. So the Euclidean and the
 /// hyperbolic flow find metrics of one discrete conformal class. The hyperbolic start has about
-/// the area that Gauss-Bonnet gives to the target, sum K - 2 pi chi, which must be positive.
+/// the area that Gauss-Bonnet gives to the target, sum K - 2 pi chi, which must be positive; where u
+/// is fixed on the boundary, that of freeBoundaryArea().
 ///
 /// With intrinsic flips the boundary's edges stay at first. If that breaks a triangle or fails, or
 /// leaves edges of a prescribed boundary that are not Delaunay (which costs conformality there),
@@ -79,6 +85,7 @@ using FlowListener = std::function<void(int, double)>;
 /// reached; the solution is symmetric, and the surface is one half of it.
 ///
 /// \param surgeon see NewtonSolver; for Surgery::EdgeSwap
+/// \param tick called now and then between the listener's calls if it is not empty; may throw
 /// \throw NotConverged if the target is not reached within the options' limits
 FlowResult runRicciFlow(
 	Background background,
@@ -87,7 +94,8 @@ FlowResult runRicciFlow(
 	const Target& target,
 	const FlowOptions& options,
 	const FlowListener& listener,
-	const NewtonSolver::Surgeon& surgeon = nullptr);
+	const NewtonSolver::Surgeon& surgeon = nullptr,
+	const Tick& tick = {});
 
 /// [vertex of the surface] Logarithm of the factor by which a flow with intrinsic flips has scaled
 /// lengths: u at its end less u at its start.

@@ -2,10 +2,12 @@
 #ifndef RICCI_TARGET_H
 #define RICCI_TARGET_H
 
+#include "../base/numbers.h"
 #include "../surface/elements.h"
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +28,14 @@ struct Target
 
 	bool hasFixed() const { return std::find(fixed.begin(), fixed.end(), 1) != fixed.end(); }
 };
+
+/// The area to which a surface of Euler characteristic \p chi is scaled before the circles of a free
+/// boundary are taken over into the hyperbolic plane, whose metrics have no scale of their own:
+/// 2 pi max(1, |chi|). Where chi < 0 that is the area of the surface with geodesic boundary.
+inline double freeBoundaryArea(int chi)
+{
+	return 2 * kPi * std::max(1, std::abs(chi));
+}
 
 } // namespace ricci
 

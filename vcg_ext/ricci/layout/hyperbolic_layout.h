@@ -48,7 +48,8 @@ HyperbolicLayout layOutInDisk(
 /// Several places along the edge may offer it: the one that loses least to rounding is kept.
 struct SidePairing
 {
-	ExtendedIsometry isometry;
+	/// Frames of one place of the surface as seen from both sides of the cut.
+	ExtendedIsometry left, right;
 
 	/// About how many units of rounding the isometry may be wrong by: the sum of |a|^2 =
 	/// cosh^2(d / 2) over the two frames, where d is the frame's distance from 0. Products of
@@ -56,17 +57,29 @@ struct SidePairing
 	/// offered.
 	double loss = std::numeric_limits<double>::infinity();
 
-	/// Takes \p left times the inverse of \p right, two frames of one place of the surface as seen
-	/// from both sides of the cut, if that is more exact than what is known.
-	void offer(const ExtendedIsometry& left, const ExtendedIsometry& right)
+	ExtendedIsometry isometry() const { return (left * right.inverse()).normalised(); }
+
+	/// The same, from the right to the left.
+	SidePairing reversed() const { return {right, left, loss}; }
+
+	/// Takes two frames if they are more exact than what is known.
+	void offer(const ExtendedIsometry& onLeft, const ExtendedIsometry& onRight)
 	{
-		const auto lost = static_cast<double>(std::norm(left.a) + std::norm(right.a));
+		const auto lost = static_cast<double>(std::norm(onLeft.a) + std::norm(onRight.a));
 		if (lost < loss) {
 			loss = lost;
-			isometry = (left * right.inverse()).normalised();
+			left = onLeft;
+			right = onRight;
 		}
 	}
 };
+
+/// The side pairing where \p h is crossed from its left.
+/// \param pairing [edge] known on the cut
+inline SidePairing across(Halfedge h, const EdgeArray<SidePairing>& pairing)
+{
+	return h.isFirst() ? pairing[h.edge()] : pairing[h.edge()].reversed();
+}
 
 /// Offers \p pairing two frames of one place on an edge of the cut: that of the halfedge \p h, on
 /// the left of the cut, turned round at the other end of the edge; and that of \p twin, which is

@@ -202,20 +202,27 @@ void ztrsm_()
 }
 
 /// Prints nothing, unlike CHOLMOD's own.
-int cholmod_error(int status, const char*, int, const char*, cholmod_common* common)
+int cholmod_l_error(int status, const char*, int, const char*, cholmod_common* common)
 {
 	common->status = status;
 	return 1;
 }
 
-int cholmod_metis(cholmod_sparse*, int*, std::size_t, int, int*, cholmod_common* common)
+int cholmod_l_metis(
+	cholmod_sparse*, SuiteSparse_long*, std::size_t, int, SuiteSparse_long*, cholmod_common* common)
 {
 	common->status = CHOLMOD_NOT_INSTALLED;
 	return 0;
 }
 
-SuiteSparse_long cholmod_nested_dissection(
-	cholmod_sparse*, int*, std::size_t, int*, int*, int*, cholmod_common* common)
+SuiteSparse_long cholmod_l_nested_dissection(
+	cholmod_sparse*,
+	SuiteSparse_long*,
+	std::size_t,
+	SuiteSparse_long*,
+	SuiteSparse_long*,
+	SuiteSparse_long*,
+	cholmod_common* common)
 {
 	common->status = CHOLMOD_NOT_INSTALLED;
 	return -1;

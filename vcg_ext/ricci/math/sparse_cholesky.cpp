@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sparse_cholesky.h"
 
+#include "../error.h"
+
 #include <algorithm>
 #include <limits>
 #include <new>
 #include <numeric>
+#include <string>
 
 #ifdef RICCI_USE_CHOLMOD
 #include <cholmod.h>
@@ -26,15 +29,6 @@ __attribute__((weak)) int omp_get_max_active_levels(void);
 #endif
 
 namespace ricci {
-
-namespace {
-
-[[noreturn]] void tooLittleMemory()
-{
-	throw std::bad_alloc();
-}
-
-} // namespace
 
 #ifdef RICCI_USE_CHOLMOD
 
@@ -77,14 +71,38 @@ private:
 #endif
 };
 
-/// From this number of unknowns on the ordering is METIS's nested dissection: it takes longer than
-/// the factorisation it saves, but the factor is smaller by a third, and beyond this size memory is
-/// what runs out.
-#ifdef RICCI_STATIC_CHOLMOD
-constexpr int kNestedDissectionFrom = std::numeric_limits<int>::max(); // METIS is not in it
-#else
-constexpr int kNestedDissectionFrom = 2000000;
-#endif
+/// CHOLMOD's numbers of entries. The factor of ten million unknowns has more of them than int can
+/// tell; below that nothing but the analysis takes longer, by half.
+using Long = SuiteSparse_long;
+
+/// A matrix as CHOLMOD sees it: it is only read.
+class View
+{
+public:
+	explicit View(const SparseCholesky::Matrix& matrix) :
+			m_starts(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.cols() + 1),
+			m_rows(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros())
+	{
+		m_view.nrow = static_cast<std::size_t>(matrix.rows());
+		m_view.ncol = static_cast<std::size_t>(matrix.cols());
+		m_view.nzmax = static_cast<std::size_t>(matrix.nonZeros());
+		m_view.p = m_starts.data();
+		m_view.i = m_rows.data();
+		m_view.x = const_cast<double*>(matrix.valuePtr());
+		m_view.stype = -1;
+		m_view.itype = CHOLMOD_LONG;
+		m_view.xtype = CHOLMOD_REAL;
+		m_view.dtype = CHOLMOD_DOUBLE;
+		m_view.sorted = 1;
+		m_view.packed = 1;
+	}
+
+	cholmod_sparse* get() { return &m_view; }
+
+private:
+	std::vector<Long> m_starts, m_rows;
+	cholmod_sparse m_view{};
+};
 
 } // namespace
 
@@ -100,7 +118,7 @@ struct SparseCholesky::Implementation
 
 	Implementation()
 	{
-		cholmod_start(&common);
+		cholmod_l_start(&common);
 		common.nmethods = 1; // no search through several orderings
 		common.supernodal = CHOLMOD_SUPERNODAL;
 		// Few zeros among the entries for the sake of wider supernodes: solutions are many, and each
@@ -110,42 +128,44 @@ struct SparseCholesky::Implementation
 	}
 	~Implementation()
 	{
-		cholmod_free_factor(&factor, &common);
-		cholmod_finish(&common);
+		cholmod_l_free_factor(&factor, &common);
+		cholmod_l_finish(&common);
 	}
 	Implementation(const Implementation&) = delete;
 	Implementation& operator=(const Implementation&) = delete;
 
-	/// \p matrix as CHOLMOD sees it: it is only read.
-	static cholmod_sparse view(const Matrix& matrix)
+	/// Throws what a failure is called here.
+	[[noreturn]] void fail(const Matrix& matrix) const
 	{
-		cholmod_sparse a{};
-		a.nrow = static_cast<std::size_t>(matrix.rows());
-		a.ncol = static_cast<std::size_t>(matrix.cols());
-		a.nzmax = static_cast<std::size_t>(matrix.nonZeros());
-		a.p = const_cast<int*>(matrix.outerIndexPtr());
-		a.i = const_cast<int*>(matrix.innerIndexPtr());
-		a.x = const_cast<double*>(matrix.valuePtr());
-		a.stype = -1;
-		a.itype = CHOLMOD_INT;
-		a.xtype = CHOLMOD_REAL;
-		a.dtype = CHOLMOD_DOUBLE;
-		a.sorted = 1;
-		a.packed = 1;
-		return a;
+		switch (common.status) {
+		case CHOLMOD_OUT_OF_MEMORY:
+			throw std::bad_alloc();
+		case CHOLMOD_TOO_LARGE:
+			throw TooLarge(TooLarge::Unknowns, static_cast<std::size_t>(matrix.rows()), 0.0, 0.0);
+		default:
+			throw InternalError(
+				"CHOLMOD failed with status " + std::to_string(common.status) + " on " +
+				std::to_string(matrix.rows()) + " unknowns");
+		}
+	}
+
+	/// \return whether there is a factor; if not, common.status says why
+	bool tryToAnalyze(const Matrix& pattern, int ordering, int postorder)
+	{
+		View a(pattern);
+		cholmod_l_free_factor(&factor, &common);
+		common.method[0].ordering = ordering;
+		common.postorder = postorder;
+		factor = cholmod_l_analyze(a.get(), &common);
+		flops = common.fl;
+		entries = common.lnz;
+		return factor != nullptr;
 	}
 
 	void analyze(const Matrix& pattern, int ordering, int postorder)
 	{
-		cholmod_sparse a = view(pattern);
-		cholmod_free_factor(&factor, &common);
-		common.method[0].ordering = ordering;
-		common.postorder = postorder;
-		factor = cholmod_analyze(&a, &common);
-		if (!factor)
-			tooLittleMemory();
-		flops = common.fl;
-		entries = common.lnz;
+		if (!tryToAnalyze(pattern, ordering, postorder))
+			fail(pattern);
 	}
 
 	/// Columns first .. first + width - 1 of the factor, which have the same rows: their own, and
@@ -153,7 +173,7 @@ struct SparseCholesky::Implementation
 	struct Supernode
 	{
 		int first, width, height;
-		const int* below; ///< [height] rows below the diagonal block
+		const Long* below; ///< [height] rows below the diagonal block
 		const double* values;
 
 		const double* column(int c) const
@@ -166,15 +186,15 @@ struct SparseCholesky::Implementation
 
 	Supernode supernode(std::size_t k) const
 	{
-		const auto* first = static_cast<const int*>(factor->super);
-		const auto* rows = static_cast<const int*>(factor->pi);
-		const auto* start = static_cast<const int*>(factor->px);
-		const int width = first[k + 1] - first[k];
+		const auto* first = static_cast<const Long*>(factor->super);
+		const auto* rows = static_cast<const Long*>(factor->pi);
+		const auto* start = static_cast<const Long*>(factor->px);
+		const auto width = static_cast<int>(first[k + 1] - first[k]);
 		return {
-			first[k],
+			static_cast<int>(first[k]),
 			width,
-			rows[k + 1] - rows[k] - width,
-			static_cast<const int*>(factor->s) + rows[k] + width,
+			static_cast<int>(rows[k + 1] - rows[k]) - width,
+			static_cast<const Long*>(factor->s) + rows[k] + width,
 			static_cast<const double*>(factor->x) + start[k]};
 	}
 
@@ -227,7 +247,7 @@ struct SparseCholesky::Implementation
 
 	/// A complex number among the real and imaginary parts of many, for the machine's vectors.
 	using Pair = Eigen::Array2d;
-	static Eigen::Map<Pair> at(double* parts, int i) { return Eigen::Map<Pair>(parts + 2 * i); }
+	static Eigen::Map<Pair> at(double* parts, Long i) { return Eigen::Map<Pair>(parts + 2 * i); }
 
 	/// x = L^-1 x for complex numbers.
 	void solvePairsForward(double* x)
@@ -301,22 +321,25 @@ struct SparseCholesky::Implementation
 	}
 };
 
-SparseCholesky::SparseCholesky() : m_implementation(std::make_unique<Implementation>())
-{
-}
-
 /// [row chosen] row of the pattern.
 std::vector<int> SparseCholesky::order(const Matrix& pattern)
 {
 	const OneThread oneThread;
 	Implementation& own = *m_implementation;
-	own.analyze(pattern, pattern.rows() < kNestedDissectionFrom ? CHOLMOD_AMD : CHOLMOD_METIS, 1);
+	// METIS may not be there, or not number so many edges.
+	const bool isDissected =
+		pattern.rows() >= m_nestedDissectionFrom && own.tryToAnalyze(pattern, CHOLMOD_METIS, 1);
+	if (!isDissected)
+		own.analyze(pattern, CHOLMOD_AMD, 1);
 	++m_work.orderings;
 	++m_work.analyses;
 	// The factor is that of the renumbered matrix in its natural order.
-	int* permutation = static_cast<int*>(own.factor->Perm);
-	std::vector<int> order(permutation, permutation + own.factor->n);
-	std::iota(permutation, permutation + own.factor->n, 0);
+	Long* permutation = static_cast<Long*>(own.factor->Perm);
+	std::vector<int> order(own.factor->n);
+	std::transform(permutation, permutation + own.factor->n, order.begin(), [](Long row) {
+		return static_cast<int>(row);
+	});
+	std::iota(permutation, permutation + own.factor->n, Long(0));
 	own.factor->ordering = CHOLMOD_NATURAL;
 	own.analyzed = true;
 	return order;
@@ -338,12 +361,12 @@ bool SparseCholesky::factorize(const Matrix& matrix)
 {
 	const OneThread oneThread;
 	Implementation& own = *m_implementation;
-	cholmod_sparse a = Implementation::view(matrix);
-	cholmod_factorize(&a, own.factor, &own.common);
+	View a(matrix);
+	cholmod_l_factorize(a.get(), own.factor, &own.common);
 	++m_work.factorizations;
 	m_work.flops += own.flops;
 	if (own.common.status < CHOLMOD_OK)
-		tooLittleMemory();
+		own.fail(matrix);
 	return own.common.status == CHOLMOD_OK;
 }
 
@@ -400,10 +423,6 @@ struct SparseCholesky::Implementation
 	double flops = 0.0, entries = 0.0;
 };
 
-SparseCholesky::SparseCholesky() : m_implementation(std::make_unique<Implementation>())
-{
-}
-
 /// [row chosen] row of the pattern.
 std::vector<int> SparseCholesky::order(const Matrix& pattern)
 {
@@ -420,13 +439,15 @@ void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
 	Implementation& own = *m_implementation;
 	own.solver.analyzePattern(pattern);
 	if (own.solver.info() != Eigen::Success)
-		tooLittleMemory();
+		throw std::bad_alloc();
 	++m_work.analyses;
 	own.flops = own.entries = 0.0;
 	for (const int below : own.solver.columnEntries()) {
 		own.entries += 1.0 + below;
 		own.flops += (1.0 + below) * (1.0 + below);
 	}
+	if (own.entries > std::numeric_limits<int>::max())
+		throw TooLarge(TooLarge::Unknowns, static_cast<std::size_t>(pattern.rows()), 0.0, 0.0);
 }
 
 bool SparseCholesky::factorize(const Matrix& matrix)
@@ -473,6 +494,12 @@ const char* SparseCholesky::name()
 }
 
 #endif
+
+SparseCholesky::SparseCholesky(int nestedDissectionFrom) :
+		m_nestedDissectionFrom(nestedDissectionFrom),
+		m_implementation(std::make_unique<Implementation>())
+{
+}
 
 SparseCholesky::~SparseCholesky() = default;
 

@@ -30,7 +30,13 @@ class SparseCholesky
 public:
 	using Matrix = Eigen::SparseMatrix<double>;
 
-	SparseCholesky();
+	/// From this number of unknowns on the order is that of nested dissection: it takes longer than the
+	/// factorisation that it saves, but the factor is smaller by a third, and beyond this size memory is
+	/// what runs out.
+	static constexpr int kNestedDissectionFrom = 2000000;
+
+	/// \param nestedDissectionFrom another number, for tests
+	explicit SparseCholesky(int nestedDissectionFrom = kNestedDissectionFrom);
 	~SparseCholesky();
 	SparseCholesky(const SparseCholesky&) = delete;
 	SparseCholesky& operator=(const SparseCholesky&) = delete;
@@ -40,12 +46,13 @@ public:
 	/// Where that reduces the fill, chooses other rows and has the pattern laid out for them by \p
 	/// layOut(): the first time, where the number of unknowns is another, and where changes of the
 	/// pattern have made a factorisation half as expensive again as when the rows were chosen. Their
-	/// order is that of approximate minimum degree, or nested dissection (METIS, with the system's CHOLMOD only)
-	/// where the factor is large.
+	/// order is that of approximate minimum degree, or of nested dissection where the factor is large and
+	/// CHOLMOD has METIS.
 	/// \param row an array of int, by element: the row of its unknown in the pattern, -1 if it has
 	/// none
 	/// \return whether the rows have changed
-	/// \throw std::bad_alloc
+	/// \throw std::bad_alloc; TooLarge where the solver cannot number the factor's entries;
+	/// InternalError where CHOLMOD fails otherwise
 	template<class Rows, class LayOut>
 	bool analyze(const Matrix& pattern, Rows& row, const LayOut& layOut)
 	{
@@ -67,7 +74,7 @@ public:
 
 	/// Numeric factorisation of a matrix with the pattern last analyzed.
 	/// \return false if \p matrix is not positive definite
-	/// \throw std::bad_alloc
+	/// \throw as analyze()
 	bool factorize(const Matrix& matrix);
 
 	/// Solves with the last factor: \p x = matrix^-1 \p rhs.
@@ -99,6 +106,7 @@ private:
 	std::vector<int> order(const Matrix& pattern);
 	void analyzeAsNumbered(const Matrix& pattern);
 
+	int m_nestedDissectionFrom;
 	std::unique_ptr<Implementation> m_implementation;
 	CholeskyWork m_work;
 	Eigen::Index m_orderedRows = -1;

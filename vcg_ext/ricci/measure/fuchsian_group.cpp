@@ -76,13 +76,6 @@ private:
 		return m_loop[v].isValid() ? m_loop[v] : v;
 	}
 
-	/// The isometry of crossing \p h from its left.
-	ExtendedIsometry across(Halfedge h) const
-	{
-		const ExtendedIsometry& m = m_pairing[h.edge()].isometry;
-		return h.isFirst() ? m : m.inverse();
-	}
-
 	Halfedge startOfWalk() const
 	{
 		Halfedge loop; // all that is cut where the tree is one vertex
@@ -109,15 +102,15 @@ private:
 		Visit& top = m_stack.back();
 		if (m_generatorOf[e] >= 0) {
 			m_record.word.push_back({m_generatorOf[e], !in.isFirst()});
-			top.here = top.here * across(in);
+			top.here = top.here * across(in, m_pairing).isometry();
 			return out;
 		}
 		// Along the edge to its other end.
 		if (e == top.parentEdge) {
-			leave(top.here * across(in));
+			leave(top.here * across(in, m_pairing).isometry());
 			const Halfedge down = top.down;
 			m_stack.pop_back();
-			m_stack.back().here = m_stack.back().here * across(down);
+			m_stack.back().here = m_stack.back().here * across(down, m_pairing).isometry();
 		}
 		else {
 			const ExtendedIsometry place = top.place * top.here;
@@ -194,26 +187,13 @@ arcsOfCut(const Triangulation& t, const CutGraph& cut, const VertexArray<char>& 
 	return arcs;
 }
 
-/// Gives all edges of an arc the most exact side pairing among them, and lists it in \p sides.
-EdgeArray<SidePairing> exactPairing(
-	const EdgeArray<SidePairing>& pairing,
-	const std::vector<std::vector<Halfedge>>& arcs,
-	std::vector<DiskIsometry>& sides)
+/// The most exact side pairing of an arc, for each of its halfedges.
+SidePairing bestOf(const std::vector<Halfedge>& arc, const EdgeArray<SidePairing>& pairing)
 {
-	EdgeArray<SidePairing> exact = pairing;
-	for (const std::vector<Halfedge>& arc : arcs) {
-		const Halfedge best =
-			*std::min_element(arc.begin(), arc.end(), [&](Halfedge g, Halfedge h) {
-				return pairing[g.edge()].loss < pairing[h.edge()].loss;
-			});
-		const SidePairing& found = pairing[best.edge()];
-		const ExtendedIsometry m = best.isFirst() ? found.isometry : found.isometry.inverse();
-		for (const Halfedge h : arc)
-			exact[h.edge()].isometry = h.isFirst() ? m : m.inverse();
-		sides.push_back(rounded(m));
-		sides.push_back(rounded(m.inverse()));
-	}
-	return exact;
+	const Halfedge best = *std::min_element(arc.begin(), arc.end(), [&](Halfedge g, Halfedge h) {
+		return pairing[g.edge()].loss < pairing[h.edge()].loss;
+	});
+	return across(best, pairing);
 }
 
 std::vector<DiskIsometry> allRounded(const std::vector<ExtendedIsometry>& isometries)
@@ -254,6 +234,21 @@ void addCanonicalBasis(
 
 } // namespace
 
+EdgeArray<SidePairing> pairingOfArcs(
+	const Triangulation& t,
+	const CutGraph& cut,
+	const EdgeArray<SidePairing>& pairing,
+	const VertexArray<char>& cones)
+{
+	EdgeArray<SidePairing> exact(t.edgeCount());
+	for (const std::vector<Halfedge>& arc : arcsOfCut(t, cut, cones)) {
+		const SidePairing best = bestOf(arc, pairing);
+		for (const Halfedge h : arc)
+			exact[h.edge()] = h.isFirst() ? best : best.reversed();
+	}
+	return exact;
+}
+
 FuchsianGroup fuchsianGroup(
 	const Triangulation& t,
 	const CutGraph& cut,
@@ -263,13 +258,17 @@ FuchsianGroup fuchsianGroup(
 	const Tick& tick)
 {
 	FuchsianGroup group;
-	const EdgeArray<SidePairing> exact =
-		exactPairing(pairing, arcsOfCut(t, cut, cones), group.sides);
+	const EdgeArray<SidePairing> exact = pairingOfArcs(t, cut, pairing, cones);
+	for (const std::vector<Halfedge>& arc : arcsOfCut(t, cut, cones)) {
+		const ExtendedIsometry side = across(arc.front(), exact).isometry();
+		group.sides.push_back(rounded(side));
+		group.sides.push_back(rounded(side.inverse()));
+	}
 	const CutTreeWalk::Record walk = CutTreeWalk(t, cut, exact, cones).run();
 
 	Array<ExtendedIsometry> generators;
 	for (const Edge e : cut.generators)
-		generators.push_back(exact[e].isometry);
+		generators.push_back(exact[e].isometry());
 	// The relation is the word times the inverses of the peripheral elements, last first.
 	std::vector<ExtendedIsometry> peripheral(walk.peripheral.rbegin(), walk.peripheral.rend());
 	ExtendedIsometry tail;

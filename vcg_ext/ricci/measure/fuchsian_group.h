@@ -38,8 +38,9 @@ struct FuchsianGroup
 	/// cut.
 	std::vector<DiskIsometry> sides;
 
-	/// Holonomy that the layout leaves round the corner of the polygon, as measured: largest entry
-	/// of the difference of the relation of the polygon from +-1.
+	/// Holonomy that the layout leaves round the corner of the polygon, as seen from 0: largest
+	/// entry of the difference of the relation of the polygon from +-1. From there rounding looks
+	/// larger by the exponential of the distances on the way; holonomyError() does without them.
 	double polygonError = 0.0;
 	/// The same for the loops round each single regular vertex at which the cut branches or ends.
 	double closingError = 0.0;
@@ -50,6 +51,16 @@ struct FuchsianGroup
 	/// isometries, so that rounding leaves more of it where the genus is higher.
 	double relationError = 0.0;
 };
+
+/// Gives all edges of an arc of the cut the most exact side pairing among them: but for rounding an
+/// arc has one. Arcs end where the cut branches, at cones and at the boundary.
+/// \param pairing [edge] of the layout, for the edges of the cut
+/// \param cones [vertex] 1 at interior vertices that are not regular points of the metric
+EdgeArray<SidePairing> pairingOfArcs(
+	const Triangulation& t,
+	const CutGraph& cut,
+	const EdgeArray<SidePairing>& pairing,
+	const VertexArray<char>& cones);
 
 /// Computes the group from the side pairings of a layout. With each boundary loop drawn together to
 /// a point the cut is a graph, and all its edges but CutGraph::generators form a spanning tree. On

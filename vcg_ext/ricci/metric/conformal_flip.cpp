@@ -4,7 +4,6 @@
 #include "../base/parallel.h"
 #include "../base/tolerances.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -47,7 +46,8 @@ double flippedDelta(const Triangulation& t, const EdgeArray<double>& delta, Edge
 	const QuadDistances q(t, delta, e);
 	const double numerator =
 		q.ki * q.il + q.jk * q.lj + q.ij * (q.ki * q.lj + q.jk * q.il) + q.rootDk() * q.rootDl();
-	return std::max(0.0, (numerator - q.ij2Less1) / q.ij2Less1);
+	const double flipped = (numerator - q.ij2Less1) / q.ij2Less1;
+	return flipped < 0.0 ? 0.0 : flipped; // a NaN stays one: 0 is that of tangent circles
 }
 
 bool isWeightedDelaunay(
@@ -85,7 +85,8 @@ int makeWeightedDelaunay(
 	const VertexArray<double>& kappa,
 	FlipJournal& journal,
 	DelaunayQueue& queue,
-	int threads)
+	int threads,
+	const Tick& tick)
 {
 	const auto isGood = [&](Edge e) { return isWeightedDelaunay(t, delta, kappa, e); };
 	const auto flip = [&](Edge e) {
@@ -102,12 +103,11 @@ int makeWeightedDelaunay(
 			queue.queued[e] = !isGood(e);
 	});
 	std::int64_t flips = 0;
-	const std::int64_t maxFlips = kMaxFlipsPerEdge * t.edgeCount();
 	for (const Edge e : t.edges()) {
 		if (!queue.queued[e])
 			continue;
 		queue.queued[e] = 0;
-		queue.flipFrom(e, t, flips, maxFlips, isGood, flip);
+		queue.flipFrom(e, t, flips, isGood, flip, tick);
 	}
 	return static_cast<int>(flips);
 }

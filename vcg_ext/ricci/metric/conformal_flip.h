@@ -35,7 +35,7 @@ namespace ricci {
 ///
 ///   I_kl = [I_ki I_il + I_jk I_lj + I_ij (I_ki I_lj + I_jk I_il) + sqrt(D_k D_l)] / (I_ij^2 - 1).
 ///
-/// All terms are positive: nothing cancels.
+/// All terms are positive: nothing cancels. Where they are out of range the result is infinite or NaN.
 /// \pre \p e is flippable and delta[e] > 0
 double flippedDelta(const Triangulation& t, const EdgeArray<double>& delta, Edge e);
 
@@ -86,14 +86,17 @@ private:
 /// Flips edges until every one is weighted Delaunay, in an order that depends on the input alone
 /// and not on the number of \p threads, which test the edges beforehand. The flips are recorded in
 /// \p journal; \p queue is work space.
+/// \param tick called at every 65536th flip if it is not empty; may throw
 /// \return number of flips
+/// \throw NotConverged (FlipsUsedUp) where rounding keeps the flips from ending
 int makeWeightedDelaunay(
 	Triangulation& t,
 	EdgeArray<double>& delta,
 	const VertexArray<double>& kappa,
 	FlipJournal& journal,
 	DelaunayQueue& queue,
-	int threads = 1);
+	int threads = 1,
+	const Tick& tick = {});
 
 } // namespace ricci
 

@@ -23,8 +23,6 @@ constexpr double kRadiusShare = 0.5;
 /// Radii of the ends of an edge with I < 1 are multiplied by this, and the flips start anew.
 constexpr double kShrink = 0.5;
 
-constexpr int kMaxShrinks = 60;
-
 /// Apex of the triangle on the left of h, with h along the x axis from 0.
 TriangleApex apexOver(const IntrinsicMesh& mesh, Halfedge h)
 {
@@ -67,7 +65,8 @@ bool isDelaunay(const IntrinsicMesh& mesh, const VertexArray<double>& radii, Edg
 }
 
 /// Flips edges until all are Delaunay for circles of these radii, and appends them to \p log.
-void makeDelaunay(IntrinsicMesh& mesh, const VertexArray<double>& radii, std::vector<Edge>& log)
+void makeDelaunay(
+	IntrinsicMesh& mesh, const VertexArray<double>& radii, std::vector<Edge>& log, const Tick& tick)
 {
 	Triangulation& t = mesh.triangulation;
 	const auto isGood = [&](Edge e) { return isDelaunay(mesh, radii, e); };
@@ -80,7 +79,7 @@ void makeDelaunay(IntrinsicMesh& mesh, const VertexArray<double>& radii, std::ve
 	queue.queued.assign(t.edgeCount(), 0);
 	std::int64_t flips = 0;
 	for (const Edge e : t.edges())
-		queue.flipFrom(e, t, flips, kMaxFlipsPerEdge * t.edgeCount(), isGood, flip);
+		queue.flipFrom(e, t, flips, isGood, flip, tick);
 }
 
 /// Radii for the weighted Delaunay triangulation: a share of the initial ones, alike at mirror
@@ -106,6 +105,8 @@ bool shrinkOverlapping(
 	bool overlap = false;
 	for (const Edge e : t.edges()) {
 		const auto ends = t.ends(e);
+		if (!(mesh.lengths[e] > 0.0 && std::isfinite(mesh.lengths[e])))
+			throw InternalError("An edge of the Delaunay triangulation has no length");
 		if (radii[ends[0]] + radii[ends[1]] < mesh.lengths[e])
 			continue;
 		overlap = true;
@@ -143,18 +144,19 @@ double flippedLength(const IntrinsicMesh& mesh, Edge e)
 	return std::hypot(k.along - (mesh.lengths[e] - l.along), k.height + l.height);
 }
 
-InitialPacking delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror)
+InitialPacking
+delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const Tick& tick)
 {
 	InitialPacking packing;
 	packing.isDelaunay = true;
 	packing.lengthened = mollify(mesh.triangulation, mesh.lengths);
-	makeDelaunay(mesh, {}, packing.flips);
+	makeDelaunay(mesh, {}, packing.flips, tick);
 	packing.radii = startRadii(mesh, mirror);
-	for (int attempt = 0; attempt < kMaxShrinks; ++attempt) {
-		makeDelaunay(mesh, packing.radii, packing.flips);
-		if (!shrinkOverlapping(mesh, mirror, packing.radii))
-			break;
-	}
+	do {
+		if (tick)
+			tick();
+		makeDelaunay(mesh, packing.radii, packing.flips, tick);
+	} while (shrinkOverlapping(mesh, mirror, packing.radii));
 	packing.delta = inversiveDistancesLessOne(
 		mesh.triangulation, mesh.lengths, packing.radii, PackingScheme::InversiveDistance);
 	packing.mesh = std::move(mesh);

@@ -3,6 +3,7 @@
 #define RICCI_INITIAL_PACKING_H
 
 #include "../options.h"
+#include "../progress.h"
 #include "../surface/triangulation.h"
 
 #include <vector>
@@ -45,10 +46,15 @@ double flippedLength(const IntrinsicMesh& mesh, Edge e);
 /// keep a conformal class that is not the surface's: a conformal flip is isometric only where the
 /// edge is both in and out of the weighted Delaunay triangulation. Degenerate triangles are given a
 /// little area first (mollify()). Radii are lowered further where circles would touch: I > 1 on
-/// every edge.
+/// every edge. That ends: it halves a radius each time that is at least half of an edge, and no edge
+/// is shorter than the shortest geodesic between vertices.
 /// \param mirror [vertex] the vertex whose radius must be the same (its image in a double, or
 /// itself); may be empty
-InitialPacking delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror);
+/// \param tick called now and then if it is not empty; may throw
+/// \throw InternalError where an edge is left without a length; NotConverged (FlipsUsedUp) where
+/// rounding keeps the flips from ending
+InitialPacking
+delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const Tick& tick = {});
 
 /// The start on the mesh's own triangles, with the radii of paper 4.1 (initialRadii()).
 /// \pre every triangle satisfies the strict triangle inequality

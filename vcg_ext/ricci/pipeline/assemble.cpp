@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace ricci {
@@ -19,7 +20,7 @@ std::size_t largestComponent(const std::vector<Component>& components)
 	return largest;
 }
 
-/// Appends the refinement of one component, in the numbers and the orientation of the whole input.
+/// Appends the refinement of one component, in the numbers and the orientation of the opened mesh.
 void appendRefinement(
 	const CommonRefinement& refinement,
 	const Component& component,
@@ -65,25 +66,52 @@ std::vector<Component> startResult(
 	Progress& progress,
 	Parametrization& result)
 {
-	std::vector<Component> components = splitIntoComponents(mesh, result.notes);
+	result.opened = openMesh(mesh, result.notes);
+	const SurfaceMesh& opened = result.opened.mesh;
+	std::vector<Component> components = splitIntoComponents(result.opened);
 	if (options.surgery != Surgery::IntrinsicFlips)
 		requireAreaEverywhere(components);
 	const bool refined = output == OutputTriangulation::CommonRefinement;
 	requireMemory(
-		largestComponent(components), mesh.triangles.size(), refined, options.memoryLimit);
+		largestComponent(components), opened.triangles.size(), refined, options.memoryLimit);
 	for (const std::string& note : result.notes)
 		progress.log(note);
-	result.uv.resize(mesh.triangles.size());
-	result.reversed.assign(mesh.triangles.size(), 0);
-	result.u.assign(mesh.positions.size(), 0.0);
-	result.targetCurvature.assign(mesh.positions.size(), 0.0);
+	result.uv.resize(opened.triangles.size());
+	result.reversed.assign(opened.triangles.size(), 0);
+	result.u.assign(opened.positions.size(), 0.0);
+	result.targetCurvature.assign(opened.positions.size(), 0.0);
+	result.report.cutNonmanifoldEdges = result.opened.cutEdges;
+	result.report.splitVertices = result.opened.splitVertices;
+	result.report.duplicateFaces = result.opened.duplicateFaces;
+	result.report.oneSidedComponents = result.opened.oneSidedComponents;
+	result.report.degenerateFaces = static_cast<int>(result.opened.degenerate.size());
 	result.report.components = static_cast<int>(components.size());
-	for (std::size_t v = 0; refined && v < mesh.positions.size(); ++v) {
+	for (std::size_t v = 0; refined && v < opened.positions.size(); ++v) {
 		SurfacePoint p;
 		p.vertex[0] = static_cast<int>(v);
 		result.refined.points.push_back(p);
 	}
 	return components;
+}
+
+std::vector<char> silentComponents(const std::vector<Component>& components)
+{
+	std::vector<std::size_t> order(components.size());
+	std::iota(order.begin(), order.end(), std::size_t(0));
+	const std::size_t described = std::min(kDescribedComponents, order.size());
+	std::partial_sort(
+		order.begin(),
+		order.begin() + static_cast<std::ptrdiff_t>(described),
+		order.end(),
+		[&](std::size_t a, std::size_t b) {
+			const std::size_t m = components[a].triangles.size(),
+							  n = components[b].triangles.size();
+			return m != n ? m > n : a < b;
+		});
+	std::vector<char> isSilent(components.size(), 1);
+	for (std::size_t i = 0; i < described; ++i)
+		isSilent[order[i]] = 0;
+	return isSilent;
 }
 
 OutputTriangles
@@ -165,6 +193,12 @@ void append(
 		}
 		report.annulusModulus = map.annulusModulus;
 		report.rectangleAspect = map.rectangleAspect;
+		const Eigen::MatrixXcd& omega = map.periods.omega;
+		for (Eigen::Index i = 0; i < omega.rows(); ++i)
+			for (Eigen::Index j = 0; j < omega.cols(); ++j)
+				report.periodMatrix.push_back(omega(i, j));
+		if (omega.size() > 0)
+			report.periodError = map.periods.error;
 	}
 	if (map.hyperbolicArea)
 		report.hyperbolicArea = report.hyperbolicArea.value_or(0.0) + *map.hyperbolicArea;

@@ -10,11 +10,12 @@
 #include "../surface/component.h"
 #include "flatten_component.h"
 
+#include <string>
 #include <vector>
 
 namespace ricci {
 
-/// Checks \p mesh and whether memory will do, logs what there is to note, and makes \p result ready
+/// Opens and checks \p mesh, sees whether memory will do, logs what there is to note, and makes \p result ready
 /// for its components: its arrays have their sizes, and its refinement, if one is asked for, begins
 /// with the input's vertices.
 /// \throw InvalidMesh, TooLarge
@@ -30,7 +31,7 @@ std::vector<Component> startResult(
 OutputTriangles
 outputTriangles(const Component& component, const ComponentMap& map, OutputTriangulation output);
 
-/// Appends a component's map as one more chart, in the numbers and the orientation of the input.
+/// Appends a component's map as one more chart, in the numbers of the opened mesh and the orientation of the input.
 void append(
 	const Component& component,
 	const ComponentMap& map,
@@ -40,34 +41,46 @@ void append(
 /// Shares of the progress after which all components are mapped, and their distortion is measured.
 constexpr double kComponentsDone = 0.9, kMeasured = 0.95;
 
+/// Of more components than this, the log describes so many only, the largest.
+constexpr std::size_t kDescribedComponents = 20;
+
+/// [component] 1 where the log says nothing of it.
+std::vector<char> silentComponents(const std::vector<Component>& components);
+
 /// Runs \p run(component, range) on every component with its share of the progress. Where there are
 /// several, an error other than Stopped keeps its type and gets the component's data.
 template<class Run>
 void runComponents(
-	const SurfaceMesh& mesh, const std::vector<Component>& components, Progress& progress, Run run)
+	const OpenedMesh& opened, const std::vector<Component>& components, Progress& progress, Run run)
 {
+	const std::vector<char> isSilent = silentComponents(components);
 	std::size_t facesDone = 0;
 	const auto done = [&] {
 		return kComponentsDone *
-			   (static_cast<double>(facesDone) / static_cast<double>(mesh.triangles.size()));
+			   (static_cast<double>(facesDone) / static_cast<double>(opened.mesh.triangles.size()));
 	};
-	for (const Component& component : components) {
+	for (std::size_t i = 0; i < components.size(); ++i) {
+		const Component& component = components[i];
 		const double from = done();
 		facesDone += component.triangles.size();
 		try {
-			run(component, ProgressRange(progress, from, done()));
+			run(component, ProgressRange(progress, from, done(), isSilent[i]));
 		}
 		catch (const Stopped&) {
 			throw; // not the component's fault
 		}
 		catch (Error& error) {
 			if (components.size() > 1) {
-				error.componentFace = component.face.front();
+				error.componentFace = opened.face[positionOf(component.face.front())];
 				error.componentFaces = component.triangles.size();
 			}
 			throw;
 		}
 	}
+	if (components.size() > kDescribedComponents)
+		progress.log(
+			"The log leaves out the smaller ones of " + std::to_string(components.size()) +
+			" components.");
 }
 
 } // namespace ricci

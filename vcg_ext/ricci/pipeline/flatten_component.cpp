@@ -256,6 +256,9 @@ void layOut(
 			numberText(radiusOf(map.layout), 3) + " out.");
 	}
 	map.uv = cornersOf(t, map.layout);
+	pairing = pairingOfArcs(t, map.cut, pairing, map.cones);
+	map.relationError = holonomyError(
+		t, map.cut, pairing, map.layout, domain.surface.topology, map.cones, map.flow.target);
 	map.group = fuchsianGroup(t, map.cut, pairing, map.cones, options.canonicalGenerators, [&] {
 		progress.step(1.0 - kAfterFlow, "Canonical generators");
 	});
@@ -270,18 +273,9 @@ void measureInvariants(const FlowDomain& domain, const Options&, ComponentMap& m
 	conformalInvariants(domain.surface.triangulation, map);
 }
 
-void measureInvariants(const FlowDomain& domain, const HyperbolicOptions&, ComponentMap& map)
+void measureInvariants(const FlowDomain&, const HyperbolicOptions&, ComponentMap& map)
 {
 	map.hyperbolicArea = map.flow.area;
-	map.relationError = std::max(
-		{map.group.polygonError,
-		 map.group.closingError,
-		 boundaryHolonomyError(
-			 map.group,
-			 domain.surface.triangulation,
-			 domain.surface.topology,
-			 map.layout,
-			 map.flow.target)});
 }
 
 /// The finish of what is given back. The invariants are those of the flow's own layout.
@@ -371,7 +365,8 @@ ComponentMap flatten(
 	map.type = domain.surface.topology.type;
 	map.cappedHoles = domain.holes;
 	progress.log(description(component, map.type));
-	FlowStart start = flowStart(domain.solved(), options);
+	const Tick whileFlipping = [&] { progress.step(0.0, "Flipping edges"); };
+	FlowStart start = flowStart(domain.solved(), options, whileFlipping);
 	progress.step(0.0, "Choosing the target");
 	const auto request = targetRequest(domain, component, input, options, progress);
 	const Target target = chooseTarget(domain, start, request);
@@ -379,14 +374,23 @@ ComponentMap flatten(
 		progress.log(note);
 	FlowProgress flowProgress(progress, options.epsilon, map.flowStates);
 	map.flow = runRicciFlow(
-		backgroundOf(options), domain.solved(), std::move(start), target, options, flowProgress);
+		backgroundOf(options),
+		domain.solved(),
+		std::move(start),
+		target,
+		options,
+		flowProgress,
+		nullptr,
+		whileFlipping);
+	measurePeriods(domain.surface, progress, map);
 	keepAreas(domain.solved(), request, options, progress, map);
 	roundLoopTurns(domain.solved(), request, options, progress, map);
 	logFlow(map.flow, options, progress);
 
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
 	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
-	const EdgeArray<double> cost = cutCost(domain, map.flow, options);
+	EdgeArray<double> cost = cutCost(domain, map.flow, options);
+	avoidDiagonals(domain.isDiagonal, cost);
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
 	map.cut = cutThroughCones(domain, cost, map.cones, cutCorners(domain, map, options), progress);
 	layOut(component, domain, options, progress, map);

@@ -7,6 +7,7 @@
 #include "../layout/common_refinement.h"
 #include "../layout/planar_layout.h"
 #include "../measure/fuchsian_group.h"
+#include "../measure/period_matrix.h"
 #include "../parametrize.h"
 #include "../surface/component.h"
 #include "progress_share.h"
@@ -31,7 +32,8 @@ struct ComponentMap
 	FaceArray<Triangle2> uv;     ///< [face of the component][corner]
 	double scale = 1.0;          ///< lengths in the layout over those of the flow's metric
 
-	FuchsianGroup group; ///< hyperbolic
+	FuchsianGroup group;  ///< hyperbolic
+	PeriodMatrix periods; ///< of a closed surface, see measurePeriods()
 	std::optional<std::complex<double>> torusModulus;
 	std::optional<double> annulusModulus, rectangleAspect, hyperbolicArea, relationError;
 	std::optional<double> holonomyError;

@@ -70,6 +70,7 @@ ComponentMap flattenWithEdgeSwaps(
 	map.flow = std::move(swapped.flow);
 	map.edgeSwaps = swapped.swaps;
 	map.boundarySplits = swapped.mesh.splits();
+	measurePeriods(surface, progress, map);
 
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
 	const CurvatureMap& metric = *map.flow.metric;

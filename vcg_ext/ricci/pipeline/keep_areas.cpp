@@ -40,20 +40,25 @@ std::optional<FlowResult> nextFlow(
 	std::vector<FlowState>& states)
 {
 	try {
-		FlowStart start = flowStart(surface, options);
+		const Tick tick = [&] { progress.step(0.0, "Flipping edges"); };
+		FlowStart start = flowStart(surface, options, tick);
 		const std::optional<Target> target = targetToKeepAreas(surface, start, last, request);
 		if (!target)
 			return std::nullopt;
 		for (const std::string& note : target->notes)
 			progress.log(note);
 		FlowProgress flowProgress(progress, options.epsilon, states);
-		return runRicciFlow(
+		FlowResult flow = runRicciFlow(
 			Background::EuclideanPlane,
 			surface,
 			std::move(start),
 			*target,
 			options,
-			[&](int step, double residual) { flowProgress(steps + step, residual); });
+			[&](int step, double residual) { flowProgress(steps + step, residual); },
+			nullptr,
+			tick);
+		flow.hessian.reset(); // only the first flow's is used, and it is large
+		return flow;
 	}
 	catch (const Stopped&) {
 		throw;

@@ -24,6 +24,20 @@ void checkFlowOptions(const FlowOptions& options)
 		throw InvalidOption(InvalidOption::MaxIterations, options.maxIterations);
 }
 
+/// The values at the vertices of the opened mesh.
+VertexInput atCopies(const VertexInput& input, const OpenedMesh& opened)
+{
+	VertexInput result = input;
+	for (std::size_t v = input.selected.size(); !input.selected.empty() && v < opened.vertex.size();
+		 ++v)
+		result.selected.push_back(input.selected[positionOf(opened.vertex[v])]);
+	for (std::size_t v = input.targetCurvature.size();
+		 !input.targetCurvature.empty() && v < opened.vertex.size();
+		 ++v)
+		result.targetCurvature.push_back(input.targetCurvature[positionOf(opened.vertex[v])]);
+	return result;
+}
+
 /// Maps every component.
 template<class AnyOptions>
 Parametrization mapComponents(
@@ -38,10 +52,15 @@ Parametrization mapComponents(
 	result.notes = std::move(notes);
 	const std::vector<Component> components =
 		startResult(mesh, options, options.output, progress, result);
-	runComponents(mesh, components, progress, [&](const Component& component, ProgressRange range) {
-		append(
-			component, flattenComponent(component, input, options, range), options.output, result);
-	});
+	const VertexInput ofCopies = atCopies(input, result.opened);
+	runComponents(
+		result.opened, components, progress, [&](const Component& component, ProgressRange range) {
+			append(
+				component,
+				flattenComponent(component, ofCopies, options, range),
+				options.output,
+				result);
+		});
 	result.report.converged = true;
 	progress.step(kComponentsDone, "Measuring the distortion");
 	return result;
@@ -77,7 +96,7 @@ void checkOptions(const HyperbolicOptions& options)
 }
 
 Parametrization parametrizeEuclidean(
-	const SurfaceMesh& mesh, const VertexInput& input, const Options& asked, Progress& progress)
+	const SurfaceMesh& given, const VertexInput& input, const Options& asked, Progress& progress)
 {
 	checkOptions(asked);
 	Options options = asked;
@@ -87,7 +106,8 @@ Parametrization parametrizeEuclidean(
 		options.surgery = Surgery::None;
 		notes.push_back("The Thurston packing runs on the mesh's own triangles, without flips.");
 	}
-	Parametrization result = mapComponents(mesh, input, options, std::move(notes), progress);
+	Parametrization result = mapComponents(given, input, options, std::move(notes), progress);
+	const SurfaceMesh& mesh = result.opened.mesh;
 	if (isFinished(options) && options.resolveOverlap && !result.isRefined())
 		turnOver(mesh, result);
 	measureResult(mesh, measureDistortion, result);
@@ -104,13 +124,14 @@ Parametrization parametrizeEuclidean(
 }
 
 Parametrization parametrizeHyperbolic(
-	const SurfaceMesh& mesh,
+	const SurfaceMesh& given,
 	const VertexInput& input,
 	const HyperbolicOptions& options,
 	Progress& progress)
 {
 	checkOptions(options);
-	Parametrization result = mapComponents(mesh, input, options, {}, progress);
+	Parametrization result = mapComponents(given, input, options, {}, progress);
+	const SurfaceMesh& mesh = result.opened.mesh;
 	result.report.seamLengthRelative =
 		result.report.seamLength / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
 	measureResult(mesh, measureHyperbolicDistortion, result);

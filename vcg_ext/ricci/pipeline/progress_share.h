@@ -25,8 +25,9 @@ constexpr double kOverlay = 0.7;
 class ProgressRange
 {
 public:
-	ProgressRange(Progress& progress, double from, double to) :
-			m_progress(progress), m_from(from), m_to(to)
+	/// \param isSilent whether lines are not logged
+	ProgressRange(Progress& progress, double from, double to, bool isSilent = false) :
+			m_progress(progress), m_from(from), m_to(to), m_isSilent(isSilent)
 	{
 	}
 	/// The bar never goes back: a stage that starts again leaves it where it is.
@@ -35,11 +36,16 @@ public:
 		m_done = std::max(m_done, fraction);
 		m_progress.step(std::min(m_to, m_from + m_done * (m_to - m_from)), what);
 	}
-	void log(const std::string& line) { m_progress.log(line); }
+	void log(const std::string& line)
+	{
+		if (!m_isSilent)
+			m_progress.log(line);
+	}
 
 private:
 	Progress& m_progress;
 	double m_from, m_to, m_done = 0.0;
+	bool m_isSilent;
 };
 
 /// The flow's part of the bar: the residual falls by orders of magnitude, so each step closes a part

@@ -241,7 +241,8 @@ void measure(const Component& c, const VertexArray<Point3>& sphere, SphereMap& m
 SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress& progress)
 {
 	std::vector<std::string> notes;
-	const std::vector<Component> components = splitIntoComponents(mesh, notes);
+	const OpenedMesh opened = openMesh(mesh, notes);
+	const std::vector<Component> components = splitIntoComponents(opened);
 	const Component& c = components.front();
 	if (components.size() > 1)
 		throw InvalidOption(InvalidOption::SphereOfComponents, 0.0, 0.0, components.size());

@@ -14,6 +14,13 @@
 
 namespace ricci {
 
+namespace {
+
+/// Beyond this genus the period matrix is left out: the log would drown in its numbers.
+constexpr int kMaxPeriodGenus = 10;
+
+} // namespace
+
 std::string description(const Component& component, const SurfaceType& type)
 {
 	return "Component of " + std::to_string(component.positions.size()) + " vertices, " +
@@ -133,6 +140,21 @@ void conformalInvariants(const Triangulation& t, ComponentMap& map)
 			annulusModulus(t, map.layout, map.cut, map.scale * map.scale * map.flow.area);
 	if (target.corners)
 		map.rectangleAspect = rectangleAspect(t, map.layout, *target.corners);
+}
+
+void measurePeriods(const EmbeddedSurface& surface, ProgressRange& progress, ComponentMap& map)
+{
+	const std::shared_ptr<FactoredHessian> factor = std::move(map.flow.hessian);
+	if (map.type.boundaryLoops > 0 || map.type.genus < 1 || map.type.genus > kMaxPeriodGenus)
+		return;
+	const IntrinsicMesh& start = map.flow.history.start; // without flips there is none
+	const bool flips = start.triangulation.edgeCount() > 0;
+	const Tick tick = [&] { progress.step(0.0, "Period matrix"); };
+	map.periods = periodMatrix(
+		flips ? start.triangulation : surface.triangulation,
+		flips ? start.lengths : surface.lengths,
+		factor.get(),
+		tick);
 }
 
 bool isBent(const ComponentMap& map, OutputTriangulation output)

@@ -94,6 +94,10 @@ FaceArray<Triangle2> cornersOf(const Triangulation& t, const PlanarLayout& layou
 /// \param t the triangulation of the layout
 void conformalInvariants(const Triangulation& t, ComponentMap& map);
 
+/// The period matrix of a closed surface of genus 1 to kMaxPeriodGenus, in the metric of the mesh, on the
+/// triangulation at the start of the flow. Takes the factor that the flow has left.
+void measurePeriods(const EmbeddedSurface& surface, ProgressRange& progress, ComponentMap& map);
+
 /// Whether straight faces of the component may turn round in the map although it is right: flips,
 /// swaps and splits bend their edges.
 bool isBent(const ComponentMap& map, OutputTriangulation output);

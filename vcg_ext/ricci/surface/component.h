@@ -3,36 +3,32 @@
 #define RICCI_COMPONENT_H
 
 #include "elements.h"
-#include "surface_mesh.h"
+#include "opened_mesh.h"
 
+#include <array>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 namespace ricci {
 
-/// One connected, coherently oriented manifold piece of a SurfaceMesh, with numbers of its own.
+/// One connected, coherently oriented manifold piece of an OpenedMesh, with numbers of its own.
 struct Component
 {
-	VertexArray<int> vertex;  ///< into SurfaceMesh::positions
-	FaceArray<int> face;      ///< into SurfaceMesh::triangles
+	VertexArray<int> vertex;  ///< into the positions of OpenedMesh::mesh
+	FaceArray<int> face;      ///< into its triangles
 	FaceArray<char> reversed; ///< 1 if the order of the input was reversed
 	VertexArray<Point3> positions;
 	std::vector<Triangle> triangles; ///< [face] numbers of the component's vertices, coherent order
+	std::vector<std::array<char, 3>>
+		diagonal; ///< of these triangles, see SurfaceMesh; may be empty
 
 	/// Corner of the input face that became corner \p k of face \p f.
 	std::size_t inputCorner(Face f, std::size_t k) const { return reversed[f] ? (3 - k) % 3 : k; }
 };
 
-/// Checks a triangle soup and splits it into its connected components, in the order of their lowest
-/// faces. Two repairs are made, and told in \p notes: faces of incoherent order are turned (the
-/// majority of each component keeps its order), and vertices without a face are left out.
-/// \throw InvalidMesh for the first of these that is found, with its number: no faces; coordinates
-/// that are not finite or beyond 1e50; faces that use a vertex twice; duplicate faces; non-manifold
-/// edges or vertices; components that are not orientable, are smaller than 1e-50, or have no area
-/// at all.
-std::vector<Component>
-splitIntoComponents(const SurfaceMesh& mesh, std::vector<std::string>& notes);
+/// The connected components of a mesh, in the order of their lowest faces, with the faces of a
+/// minority of incoherent order turned.
+std::vector<Component> splitIntoComponents(const OpenedMesh& opened);
 
 /// \throw InvalidMesh if edges have no length or faces no area, as rounding finds them
 void requireAreaEverywhere(const std::vector<Component>& components);

@@ -32,6 +32,14 @@ FlowDomain flowDomain(const Component& component, Holes holes)
 {
 	FlowDomain domain;
 	domain.surface = embeddedSurface(component.positions, component.triangles);
+	const Triangulation& t = domain.surface.triangulation;
+	if (!component.diagonal.empty()) {
+		domain.isDiagonal.assign(t.edgeCount(), 0);
+		for (const Face f : t.faces())
+			for (std::size_t k = 0; k < 3; ++k)
+				if (component.diagonal[positionOf(f)][k])
+					domain.isDiagonal[t.halfedges(f)[k].edge()] = 1;
+	}
 	domain.onHole.assign(domain.surface.triangulation.vertexCount(), 0);
 	if (holes == Holes::Capped && domain.surface.topology.loops.size() > 1) {
 		CappedSurface capped =

@@ -30,7 +30,8 @@ embeddedSurface(VertexArray<Point3> positions, const std::vector<Triangle>& tria
 /// What one component gives the flow to run on.
 struct FlowDomain
 {
-	EmbeddedSurface surface; ///< the component's own triangles
+	EmbeddedSurface surface;    ///< the component's own triangles
+	EdgeArray<char> isDiagonal; ///< [edge of surface] see SurfaceMesh; may be empty
 
 	/// The surface with caps on all boundary loops but the longest, where holes are to be closed
 	/// (hole_caps.h). Elements of the surface keep their numbers.

@@ -19,7 +19,10 @@ struct SurfaceMesh
 {
 	std::vector<Point3> positions;
 	std::vector<Triangle> triangles; ///< indices into positions
-	std::size_t absent = 0;          ///< positions that stand for no vertex (deleted elements)
+	/// [face][k] 1 where the side from corner k is a diagonal of a polygon that was cut into triangles;
+	/// may be empty.
+	std::vector<std::array<char, 3>> diagonal;
+	std::size_t absent = 0; ///< positions that stand for no vertex (deleted elements)
 };
 
 } // namespace ricci

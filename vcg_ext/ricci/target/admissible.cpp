@@ -68,4 +68,23 @@ void checkVertexBounds(const Topology& topology, const Target& target)
 			tooLarge);
 }
 
+void checkFreeBoundary(const Topology& topology, const Target& target)
+{
+	if (!target.hasFixed())
+		return;
+	double insideSum = 0.0;
+	std::size_t boundaryCount = 0;
+	for (const Vertex v : topology.boundary.indices()) {
+		if (topology.boundary[v])
+			++boundaryCount;
+		else if (!target.fixed[v])
+			insideSum += target.curvature[v];
+	}
+	const double bound =
+		2 * kPi * topology.type.eulerCharacteristic() - kPi * static_cast<double>(boundaryCount);
+	if (insideSum <= bound)
+		throw InadmissibleCurvature(
+			InadmissibleCurvature::FreeBoundary, insideSum, bound, boundaryCount);
+}
+
 } // namespace ricci

@@ -33,6 +33,12 @@ void setPrescribed(const VertexArray<double>& prescribed, double precision, Targ
 /// \throw InadmissibleCurvature (TooLargeInside, TooLargeOnBoundary) with the largest violation
 void checkVertexBounds(const Topology& topology, const Target& target);
 
+/// Checks what Gauss-Bonnet asks of the curvature inside where the boundary is free: its n vertices
+/// take what is left, each less than pi, and a hyperbolic area is positive, so that in both geometries
+/// sum K > 2 pi chi - pi n over the vertices inside. Nothing is asked where no u is fixed.
+/// \throw InadmissibleCurvature (FreeBoundary) with both numbers
+void checkFreeBoundary(const Topology& topology, const Target& target);
+
 } // namespace ricci
 
 #endif

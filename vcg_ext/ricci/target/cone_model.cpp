@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_model.h"
 
+#include "bounded_minimum.h"
 #include "cone_rounding.h"
 
 #include <Eigen/LU>
@@ -125,13 +126,10 @@ void ConeModel::setRounding(ConeRounding rounding)
 void ConeModel::fit()
 {
 	m_gradient.resize(0);
-	fitFree();
+	const auto total = hasFixedSum() ? std::optional<double>(m_total) : std::nullopt;
+	m_now.values = boundedMinimum(m_now.gram, m_now.linear, kMaxConeCurvature, total);
 	if (m_rounding == ConeRounding::QuarterTurns && size() > 0)
-		m_now.values = roundToQuarterTurns(
-			m_now.gram,
-			m_now.linear,
-			m_now.values,
-			hasFixedSum() ? std::optional<double>(m_total) : std::nullopt);
+		m_now.values = roundToQuarterTurns(m_now.gram, m_now.linear, m_now.values, total);
 }
 
 /// Mean square of the factor of a unit of curvature at \p v.
@@ -216,82 +214,6 @@ void ConeModel::removeRow(int i)
 			smaller.gram(a, b) = m_now.gram(from, kept[positionOf(b)]);
 	}
 	m_now = std::move(smaller);
-}
-
-/// Minimises E with the sum of the curvatures fixed where it is, and none above kMaxConeCurvature.
-///
-/// Active set [Nocedal Wright 2006, 16.5]: curvatures that the minimum without their bounds puts above
-/// the bound are set to it, all at once, and the rest is solved again. A bound that E would rather
-/// leave is released, each once, so that this ends.
-void ConeModel::fitFree()
-{
-	// Assigned by moving: setZero(n) would free the old block first and, where the allocation of the
-	// new one throws, leave the pointer to be freed again.
-	m_now.values = Eigen::VectorXd(Eigen::VectorXd::Zero(size()));
-	Array<char> isBound(size(), 0), wasReleased(size(), 0);
-	for (;;) {
-		std::vector<int> free;
-		double total = m_total;
-		for (int i = 0; i < size(); ++i) {
-			if (!isBound[i]) {
-				free.push_back(i);
-				continue;
-			}
-			m_now.values[i] = kMaxConeCurvature;
-			total -= kMaxConeCurvature;
-		}
-		if (free.empty())
-			return;
-		const double level = solveFree(free, isBound, total);
-		bool excess = false;
-		for (const int i : free)
-			if (m_now.values[i] > kMaxConeCurvature) {
-				isBound[i] = 1;
-				excess = true;
-			}
-		if (excess)
-			continue;
-		// Half the derivative of E where the others make up for the sum.
-		const Eigen::VectorXd slope = m_now.gram * m_now.values + m_now.linear;
-		int steepest = -1;
-		for (int i = 0; i < size(); ++i)
-			if (isBound[i] && !wasReleased[i] && slope[i] + level > 0.0 &&
-				(steepest < 0 || slope[i] > slope[steepest]))
-				steepest = i;
-		if (steepest < 0)
-			return;
-		isBound[steepest] = 0;
-		wasReleased[steepest] = 1;
-	}
-}
-
-/// Puts the \p free curvatures to the minimum of E, with the sum \p total where the sum is fixed,
-/// while the others are kMaxConeCurvature.
-/// \return the multiplier of the sum, 0 where it is not fixed
-double ConeModel::solveFree(const std::vector<int>& free, const Array<char>& isBound, double total)
-{
-	const auto n = static_cast<int>(free.size());
-	const int rows = n + (hasFixedSum() ? 1 : 0); // the last one for the sum
-	Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows, rows);
-	Eigen::VectorXd rhs = Eigen::VectorXd::Zero(rows);
-	for (int a = 0; a < n; ++a) {
-		const int i = free[positionOf(a)];
-		for (int b = 0; b < n; ++b)
-			system(a, b) = m_now.gram(i, free[positionOf(b)]);
-		rhs[a] = -m_now.linear[i];
-		for (int k = 0; k < size(); ++k)
-			if (isBound[k])
-				rhs[a] -= m_now.gram(i, k) * kMaxConeCurvature;
-	}
-	if (rows > n) {
-		system.row(n).head(n).setOnes();
-		system.col(n).head(n).setOnes();
-		rhs[n] = total;
-	}
-	const Eigen::VectorXd solution = system.fullPivLu().solve(rhs);
-	for (int a = 0; a < n; ++a)
-		m_now.values[free[positionOf(a)]] = solution[a];
-	return rows > n ? solution[n] : 0.0;
 }
 
 } // namespace ricci

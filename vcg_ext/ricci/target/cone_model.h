@@ -89,7 +89,8 @@ public:
 	/// Sets how curvatures are rounded, and fits them anew if that is not how they were.
 	void setRounding(ConeRounding rounding);
 
-	/// Puts the curvatures to their best values, rounded as set.
+	/// Puts the curvatures to their best values, with the sum fixed where it is and none above
+	/// kMaxConeCurvature, rounded as set.
 	void fit();
 
 	/// Moves cone \p i to \p v, fits the curvatures, and undoes both unless \p accept, called with
@@ -168,8 +169,6 @@ private:
 	const VertexVector& unitFactor(Vertex v);
 	void setRow(int i, Vertex v);
 	void removeRow(int i);
-	void fitFree();
-	double solveFree(const std::vector<int>& free, const Array<char>& isBound, double total);
 
 	LinearFlow& m_flow;
 	double m_total;

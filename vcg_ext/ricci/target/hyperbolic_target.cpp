@@ -31,16 +31,17 @@ void freeTheBoundary(const Topology& topology, Target& target)
 	for (const Vertex v : target.fixed.indices())
 		if (target.fixed[v])
 			target.curvature[v] = 0.0;
-	target.notes.push_back("Free boundary: the boundary's circles keep their radii.");
+	target.notes.push_back(
+		"Free boundary: the boundary's circles keep their radii, at the scale at which the mesh "
+		"has "
+		"the area " +
+		numberText(freeBoundaryArea(topology.type.eulerCharacteristic()), 9) + ".");
 }
 
 /// Gauss-Bonnet: the area is positive.
 void checkSum(const Topology& topology, HyperbolicTarget mode, const Target& target)
 {
-	double sum = 0.0;
-	for (const Vertex v : target.fixed.indices())
-		if (!target.fixed[v])
-			sum += target.curvature[v];
+	const double sum = target.curvature.sum();
 	const double bound = 2 * kPi * topology.type.eulerCharacteristic();
 	if (sum > bound)
 		return;
@@ -71,7 +72,10 @@ Target chooseHyperbolicTarget(const Topology& topology, const HyperbolicRequest&
 	if (request.freeBoundary && !topology.type.isClosed())
 		freeTheBoundary(topology, target);
 	checkVertexBounds(topology, target);
-	checkSum(topology, request.mode, target);
+	if (target.hasFixed())
+		checkFreeBoundary(topology, target);
+	else
+		checkSum(topology, request.mode, target);
 	return target;
 }
 

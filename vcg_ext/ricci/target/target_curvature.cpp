@@ -48,17 +48,19 @@ void noteImpliedBoundary(
 }
 
 /// Total curvature \p total on the loops, in proportion to the length of the two boundary edges at
-/// each vertex.
+/// each vertex; to all alike where the boundary has no length.
 void spreadOverBoundary(const EmbeddedSurface& surface, double total, Target& target)
 {
 	const Triangulation& t = surface.triangulation;
 	double perimeter = 0.0;
-	for (const Halfedge h : t.exteriorHalfedges())
-		perimeter += surface.lengths[h.edge()];
-	if (!(perimeter > 0.0))
-		throw InvalidMesh(InvalidMesh::BoundaryWithoutLength);
+	int edges = 0;
 	for (const Halfedge h : t.exteriorHalfedges()) {
-		const double share = 0.5 * total * surface.lengths[h.edge()] / perimeter;
+		perimeter += surface.lengths[h.edge()];
+		++edges;
+	}
+	for (const Halfedge h : t.exteriorHalfedges()) {
+		const double share =
+			0.5 * total * (perimeter > 0.0 ? surface.lengths[h.edge()] / perimeter : 1.0 / edges);
 		target.curvature[t.origin(h)] += share;
 		target.curvature[t.target(h)] += share;
 	}
@@ -305,27 +307,6 @@ void setAutomatic(
 		choosePlainOrCones(surface, start, request, target);
 	else
 		setPlain(surface, request, target);
-}
-
-/// Where the boundary is free, its vertices have to be able to take what Gauss-Bonnet leaves, each
-/// less than pi.
-void checkFreeBoundary(const Topology& topology, const Target& target)
-{
-	if (!target.hasFixed())
-		return;
-	double insideSum = 0.0;
-	std::size_t boundaryCount = 0;
-	for (const Vertex v : topology.boundary.indices()) {
-		if (topology.boundary[v])
-			++boundaryCount;
-		else if (!target.fixed[v])
-			insideSum += target.curvature[v];
-	}
-	const double bound =
-		2 * kPi * topology.type.eulerCharacteristic() - kPi * static_cast<double>(boundaryCount);
-	if (insideSum <= bound)
-		throw InadmissibleCurvature(
-			InadmissibleCurvature::FreeBoundary, insideSum, bound, boundaryCount);
 }
 
 /// What any target has to fulfil.

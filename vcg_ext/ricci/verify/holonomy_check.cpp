@@ -6,17 +6,77 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <vector>
 
 namespace ricci {
 
 namespace {
 
-bool contains(const std::vector<Vertex>& loop, Vertex v)
+/// The ways round the vertices and the boundary loops.
+class WaysRound
 {
-	return std::find(loop.begin(), loop.end(), v) != loop.end();
-}
+public:
+	WaysRound(
+		const Triangulation& t,
+		const CutGraph& cut,
+		const EdgeArray<SidePairing>& pairing,
+		const PlanarLayout& layout) :
+			m_t(t),
+			m_cut(cut), m_pairing(pairing), m_layout(layout)
+	{
+	}
+
+	/// What remains of the way round the origin of \p first, or round the boundary loop through it, in
+	/// the frame at the corner of \p first. No exterior halfedge.
+	ExtendedIsometry from(Halfedge first) const
+	{
+		ExtendedIsometry round;
+		Halfedge h = first;
+		do
+			h = step(h, round);
+		while (h != first);
+		return round;
+	}
+
+	/// Hyperbolic length of the edges of the boundary loop of the exterior halfedge \p first.
+	double lengthFrom(Halfedge first) const
+	{
+		double length = 0.0;
+		for (const Halfedge h : m_t.loop(first)) {
+			const Halfedge inside = h.twin();
+			const double chord =
+				chordLength(asComplex(m_layout[inside]), asComplex(m_layout[m_t.next(inside)]));
+			length += 2.0 * std::asinh(0.5 * chord);
+		}
+		return length;
+	}
+
+private:
+	ExtendedIsometry place(Halfedge h) const
+	{
+		return ExtendedIsometry::translationTo(std::complex<long double>(asComplex(m_layout[h])));
+	}
+
+	/// To the next corner, counter-clockwise; along the boundary to that of its next vertex.
+	Halfedge step(Halfedge h, ExtendedIsometry& round) const
+	{
+		const Halfedge in = m_t.previous(h), out = in.twin();
+		if (m_t.isExterior(out)) {
+			round = round * (place(h).inverse() * place(in));
+			return in;
+		}
+		if (m_cut.isCut[in.edge()]) {
+			const SidePairing side = across(in, m_pairing);
+			round =
+				round * ((place(h).inverse() * side.left) * (side.right.inverse() * place(out)));
+		}
+		return out;
+	}
+
+	const Triangulation& m_t;
+	const CutGraph& m_cut;
+	const EdgeArray<SidePairing>& m_pairing;
+	const PlanarLayout& m_layout;
+};
 
 bool isGeodesic(const std::vector<Vertex>& loop, const Target& target)
 {
@@ -25,36 +85,43 @@ bool isGeodesic(const std::vector<Vertex>& loop, const Target& target)
 	});
 }
 
-/// Hyperbolic length of a boundary loop.
-double lengthOf(const std::vector<Vertex>& loop, const Triangulation& t, const PlanarLayout& layout)
-{
-	double length = 0.0;
-	for (const Halfedge h : t.interiorHalfedges()) {
-		if (!t.isBoundary(h.edge()) || !contains(loop, t.origin(h)))
-			continue;
-		const double chord = chordLength(asComplex(layout[h]), asComplex(layout[t.next(h)]));
-		length += 2.0 * std::asinh(0.5 * chord);
-	}
-	return length;
-}
-
 } // namespace
 
-double boundaryHolonomyError(
-	const FuchsianGroup& group,
+double holonomyError(
 	const Triangulation& t,
-	const Topology& topology,
+	const CutGraph& cut,
+	const EdgeArray<SidePairing>& pairing,
 	const PlanarLayout& layout,
+	const Topology& topology,
+	const VertexArray<char>& cones,
 	const Target& target)
 {
+	const WaysRound ways(t, cut, pairing, layout);
 	double error = 0.0;
-	for (std::size_t i = 0; i < group.peripheral.size(); ++i)
-		for (const std::vector<Vertex>& loop : topology.loops)
-			if (contains(loop, group.peripheralVertex[i]) && isGeodesic(loop, target)) {
-				const double half = 0.5 * std::abs(group.peripheral[i].trace());
-				const double translation = 2.0 * std::acosh(std::max(half, 1.0));
-				error = std::max(error, std::abs(translation - lengthOf(loop, t, layout)));
-			}
+	VertexArray<char> seen = topology.boundary;
+	for (const Halfedge h : t.interiorHalfedges()) {
+		const Vertex v = t.origin(h);
+		if (!cut.isCut[h.edge()] || seen[v])
+			continue;
+		seen[v] = 1;
+		const ExtendedIsometry round = ways.from(h);
+		const long double missed =
+			cones[v]
+				? std::abs(
+					  std::abs(round.trace()) - 2 * std::abs(std::cos(0.5L * target.curvature[v])))
+				: 2 * round.distanceFromIdentity();
+		error = std::max(error, static_cast<double>(missed));
+	}
+	for (const Halfedge first : t.boundaryLoops()) {
+		std::vector<Vertex> loop;
+		for (const Halfedge h : t.loop(first))
+			loop.push_back(t.origin(h));
+		if (!isGeodesic(loop, target))
+			continue;
+		const long double half = 0.5L * std::abs(ways.from(first.twin()).trace());
+		const auto translation = static_cast<double>(2 * std::acosh(std::max(half, 1.0L)));
+		error = std::max(error, std::abs(translation - ways.lengthFrom(first)));
+	}
 	return error;
 }
 

@@ -2,25 +2,40 @@
 #ifndef RICCI_HOLONOMY_CHECK_H
 #define RICCI_HOLONOMY_CHECK_H
 
+#include "../cut/cut_graph.h"
 #include "../flow/target.h"
+#include "../layout/hyperbolic_layout.h"
 #include "../layout/planar_layout.h"
-#include "../measure/fuchsian_group.h"
 #include "../surface/topology.h"
 
 namespace ricci {
 
-/// Largest difference between the hyperbolic length of a geodesic boundary loop, summed over its
-/// edges in the layout, and the length 2 acosh(|trace| / 2) of the closed geodesic that its
-/// generator of the group moves along itself [Beardon 1983]: they are one curve. 0 where no
-/// boundary is geodesic.
+/// How far a layout in the Poincaré disk is from closing up: the largest error of the isometries that
+/// remain round the vertices and the boundary loops of its cut. Their conjugates generate all relations
+/// of the group of the side pairings.
+///
+/// - Round a regular vertex nothing remains: the angle in radians by which the isometry turns, or the
+///   hyperbolic length by which it moves the vertex.
+/// - Round a cone of angle t a rotation remains: the difference of |trace| from 2 |cos(t / 2)|.
+/// - Round a geodesic boundary a translation of its length remains: the difference of
+///   2 acosh(|trace| / 2) from the hyperbolic length of the loop's edges in the layout
+///   [Beardon 1983]. Other boundaries are left out.
+///
+/// Each isometry is the product of the side pairings that are crossed on the way round, every one as
+/// seen from the places of the vertex on its two sides. So all factors are about as large as what
+/// remains, and rounding is not multiplied by the way from 0 to the vertex and back.
+/// \param pairing [edge] on the cut, see pairingOfArcs()
+/// \param layout of \p t in the Poincaré disk, open along the cut
 /// \param topology of \p t
-/// \param layout of \p t in the Poincaré disk
+/// \param cones [vertex] 1 at interior vertices that are not regular points of the metric
 /// \param target curvature that the metric has reached
-double boundaryHolonomyError(
-	const FuchsianGroup& group,
+double holonomyError(
 	const Triangulation& t,
-	const Topology& topology,
+	const CutGraph& cut,
+	const EdgeArray<SidePairing>& pairing,
 	const PlanarLayout& layout,
+	const Topology& topology,
+	const VertexArray<char>& cones,
 	const Target& target);
 
 } // namespace ricci

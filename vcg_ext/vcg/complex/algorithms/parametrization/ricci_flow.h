@@ -8,6 +8,7 @@
 
 #include <ricci/base/floating_point.h>
 #include <ricci/charts/finish_in_floats.h>
+#include <ricci/charts/input_numbers.h>
 #include <ricci/charts/pack.h>
 #include <ricci/error.h>
 #include <ricci/options.h>
@@ -87,6 +88,7 @@ public:
 		/// texture plane.
 		std::vector<ricci::FuchsianGroup> groups;
 		std::vector<ricci::Box2> disks;
+		std::vector<size_t> component; ///< [face] of them, for faces that are not deleted
 	};
 
 	/// Computes; \p m is only read: positions, faces, selected vertices (Rectangle, SelectedCones),
@@ -109,11 +111,11 @@ public:
 		Result r;
 		ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide);
 		if (ricci::isFinished(par))
-			ricci::finishInFloats(mesh, LastTick(progress), flat);
+			ricci::finishInFloats(flat.opened.mesh, LastTick(progress), flat);
 		r.report = flat.report;
 		r.notes = flat.notes;
 		ricci::countFlippedAsWritten(flat, r.report);
-		TakeOver(flat, m.face.size(), faceIndex, r);
+		TakeOver(mesh, m.face.size(), faceIndex, flat, r);
 		return r;
 	}
 
@@ -135,16 +137,20 @@ public:
 		Result r;
 		r.disks = ricci::placeDisks(disk);
 		if (ricci::isFinished(par))
-			ricci::finishInFloats(mesh, r.disks, LastTick(progress), disk);
+			ricci::finishInFloats(disk.opened.mesh, r.disks, LastTick(progress), disk);
 		r.report = disk.report;
 		r.notes = disk.notes;
-		for (const ricci::Chart& chart : disk.charts)
+		r.component.resize(m.face.size());
+		for (const ricci::Chart& chart : disk.charts) {
+			for (int f : chart.faces)
+				r.component[size_t(faceIndex[size_t(f)])] = r.groups.size();
 			r.groups.push_back(chart.group);
+		}
 		const int flipped = r.report.flippedFaces; // of geodesic triangles
 		ricci::countFlippedAsWritten(disk, r.report);
 		if (!ricci::isFinished(par)) // straight triangles may be turned where geodesic ones are not
 			r.report.flippedFaces = flipped;
-		TakeOver(disk, m.face.size(), faceIndex, r);
+		TakeOver(mesh, m.face.size(), faceIndex, disk, r);
 		return r;
 	}
 
@@ -457,6 +463,7 @@ private:
 					mesh.positions[v][size_t(k)] = double(m.vert[v].cP()[k]);
 		mesh.absent = m.vert.size() - size_t(m.vn);
 		size_t damaged = 0;
+		bool hasPolygons = false;
 		for (size_t f = 0; f < m.face.size(); ++f) {
 			if (m.face[f].IsD())
 				continue;
@@ -468,10 +475,19 @@ private:
 			for (int k = 0; k < 3; ++k)
 				t[size_t(k)] = int(Index(m, m.face[f].cV(k)));
 			mesh.triangles.push_back(t);
+			std::array<char, 3> diagonal{0, 0, 0};
+			for (int k = 0; k < 3; ++k)
+				if (m.face[f].IsF(k)) {
+					diagonal[size_t(k)] = 1;
+					hasPolygons = true;
+				}
+			mesh.diagonal.push_back(diagonal);
 			faceIndex.push_back(int(f));
 		}
 		if (damaged > 0)
 			throw ricci::InvalidMesh(ricci::InvalidMesh::DamagedFaces, damaged);
+		if (!hasPolygons)
+			mesh.diagonal.clear();
 		return mesh;
 	}
 
@@ -510,8 +526,13 @@ private:
 
 	/// The arrays of \p flat, in the indices of the mesh.
 	static void TakeOver(
-		ricci::Parametrization& flat, size_t faces, const std::vector<int>& faceIndex, Result& r)
+		const ricci::SurfaceMesh& mesh,
+		size_t faces,
+		const std::vector<int>& faceIndex,
+		ricci::Parametrization& flat,
+		Result& r)
 	{
+		ricci::toInputNumbers(mesh, flat);
 		r.wedgeUV.resize(faces);
 		for (size_t f = 0; f < faceIndex.size(); ++f)
 			r.wedgeUV[size_t(faceIndex[f])] = flat.uv[f];

@@ -52,40 +52,15 @@ public:
 	/// coordinates are written if they are enabled on \p flat.
 	static void BuildFlatMesh(const MeshType& m, const Result& r, MeshType& flat)
 	{
-		typedef std::pair<size_t, ricci::Point2> Place; // vertex, point
-		std::map<Place, size_t> index;
-		std::vector<Place> places;
-		std::vector<std::array<size_t, 3>> faces;
-		const auto addFace = [&](const std::array<size_t, 3>& vertex, const WedgeUV& uv) {
-			std::array<size_t, 3> corner;
-			for (size_t k = 0; k < 3; ++k) {
-				const Place place(vertex[k], uv[k]);
-				const auto found = index.insert(std::make_pair(place, places.size()));
-				if (found.second)
-					places.push_back(place);
-				corner[k] = found.first->second;
-			}
-			faces.push_back(corner);
-		};
-		const bool refined = !r.refined.triangles.empty();
-		const std::vector<double>& quality = refined ? r.refined.vertexQC : r.vertexQC;
-		for (size_t i = 0; i < r.refined.triangles.size(); ++i) {
-			const ricci::Triangle& t = r.refined.triangles[i];
-			addFace({size_t(t[0]), size_t(t[1]), size_t(t[2])}, r.refined.uv[i]);
-		}
-		for (size_t f = 0; f < m.face.size() && !refined; ++f)
-			if (!m.face[f].IsD())
-				addFace(
-					{Index(m, m.face[f].cV(0)),
-					 Index(m, m.face[f].cV(1)),
-					 Index(m, m.face[f].cV(2))},
-					r.wedgeUV[f]);
+		const LaidOut layout(m, r);
+		const std::vector<Place>& places = layout.places;
+		const std::vector<std::array<size_t, 3>>& faces = layout.faces;
 		Allocator<MeshType>::AddVertices(flat, places.size());
 		for (size_t i = 0; i < places.size(); ++i) {
 			const ricci::Point2& p = places[i].second;
 			flat.vert[i].P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(0));
 			flat.vert[i].N() = CoordType(0, 0, 1);
-			flat.vert[i].Q() = typename VertexType::QualityType(quality[places[i].first]);
+			flat.vert[i].Q() = layout.QualityAt(i);
 		}
 		FaceIterator fi = Allocator<MeshType>::AddFaces(flat, faces.size());
 		for (size_t f = 0; f < faces.size(); ++f, ++fi) {
@@ -135,14 +110,15 @@ public:
 		const MeshType& m, const Result& r, int rings, size_t maxFaces, MeshType& cover)
 	{
 		const LaidOut layout(m, r);
+		const size_t faces = layout.faces.size();
 		std::vector<ricci::Tiling> tilings;
 		size_t copies = 0;
 		for (const ricci::FuchsianGroup& group : r.groups) {
-			const size_t limit = maxFaces / std::max<size_t>(1, size_t(layout.mesh.fn)) + 2;
+			const size_t limit = maxFaces / std::max<size_t>(1, faces) + 2;
 			tilings.push_back(ricci::tiling(group.sides, rings, int(limit)));
 			copies = std::max(copies, tilings.back().deck.size());
 		}
-		if (copies * size_t(layout.mesh.fn) > maxFaces)
+		if (copies * faces > maxFaces)
 			throw ricci::InvalidOption(
 				ricci::InvalidOption::CoverTooLarge, double(rings), 0.0, maxFaces);
 		for (size_t copy = 0; copy < copies; ++copy)
@@ -189,23 +165,64 @@ public:
 	}
 
 private:
-	/// The layout as a mesh, and for each of its vertices the component.
+	typedef std::pair<size_t, ricci::Point2> Place; // vertex, point
+
+	/// The layout on its own vertices: those of the mesh, once for each place that they have.
 	struct LaidOut
 	{
-		LaidOut(const MeshType& m, const Result& r)
+		LaidOut(const MeshType& m, const Result& r) :
+				m_quality(r.refined.triangles.empty() ? r.vertexQC : r.refined.vertexQC)
 		{
-			BuildFlatMesh(m, r, mesh);
-			component.assign(size_t(mesh.vn), 0);
-			for (size_t v = 0; v < component.size(); ++v) {
-				const CoordType& p = mesh.vert[v].cP();
-				for (size_t i = 0; i < r.disks.size(); ++i)
-					if (r.disks[i].contains({double(p[0]), double(p[1])}))
-						component[v] = i;
+			for (size_t i = 0; i < r.refined.triangles.size(); ++i) {
+				const ricci::Triangle& t = r.refined.triangles[i];
+				Add({size_t(t[0]), size_t(t[1]), size_t(t[2])},
+					r.refined.uv[i],
+					r,
+					size_t(r.refined.inputFace[i]));
 			}
+			for (size_t f = 0; f < m.face.size() && r.refined.triangles.empty(); ++f)
+				if (!m.face[f].IsD())
+					Add({Index(m, m.face[f].cV(0)),
+						 Index(m, m.face[f].cV(1)),
+						 Index(m, m.face[f].cV(2))},
+						r.wedgeUV[f],
+						r,
+						f);
 		}
 
-		MeshType mesh;
-		std::vector<size_t> component; // by its square
+		typename VertexType::QualityType QualityAt(size_t place) const
+		{
+			return typename VertexType::QualityType(m_quality[places[place].first]);
+		}
+
+		std::vector<Place> places;
+		std::vector<std::array<size_t, 3>> faces; // indices of places
+		std::vector<size_t> component;            // [place] hyperbolic flow
+
+	private:
+		void
+		Add(const std::array<size_t, 3>& vertex,
+			const WedgeUV& uv,
+			const Result& r,
+			size_t inputFace)
+		{
+			const size_t ofFace = r.component.empty() ? 0 : r.component[inputFace];
+			std::array<size_t, 3> corner;
+			for (size_t k = 0; k < 3; ++k) {
+				const Place place(vertex[k], uv[k]);
+				const auto found =
+					m_index.insert(std::make_pair(std::make_pair(ofFace, place), places.size()));
+				if (found.second) {
+					places.push_back(place);
+					component.push_back(ofFace);
+				}
+				corner[k] = found.first->second;
+			}
+			faces.push_back(corner);
+		}
+
+		std::map<std::pair<size_t, Place>, size_t> m_index; // component, place
+		const std::vector<double>& m_quality;               // [vertex]
 	};
 
 	/// Adds the copies with the number \p copy of those components whose tilings have so many.
@@ -216,40 +233,40 @@ private:
 		size_t copy,
 		MeshType& cover)
 	{
-		const MeshType& one = layout.mesh;
-		std::vector<char> isCopied; // [vertex]
-		for (size_t component : layout.component)
-			isCopied.push_back(copy < tilings[component].deck.size());
-		std::vector<const FaceType*> faces;
-		for (const FaceType& f : one.face)
-			if (isCopied[Index(one, f.cV(0))])
-				faces.push_back(&f);
-		const size_t vertices = size_t(std::count(isCopied.begin(), isCopied.end(), 1));
-		std::vector<VertexType*> place(isCopied.size(), nullptr);
-		VertexIterator vi = Allocator<MeshType>::AddVertices(cover, vertices);
-		for (size_t v = 0; v < place.size(); ++v) {
-			if (!isCopied[v])
-				continue;
-			const size_t component = layout.component[v];
+		const auto isCopied = [&](size_t place) {
+			return copy < tilings[layout.component[place]].deck.size();
+		};
+		std::vector<size_t> copied; // places
+		for (size_t i = 0; i < layout.places.size(); ++i)
+			if (isCopied(i))
+				copied.push_back(i);
+		std::vector<VertexType*> vertexAt(layout.places.size(), nullptr);
+		VertexIterator vi = Allocator<MeshType>::AddVertices(cover, copied.size());
+		for (size_t i : copied) {
+			const size_t component = layout.component[i];
 			const ricci::Point2 middle = Middle(r.disks[component]);
 			const double radius = 0.5 * r.disks[component].width();
-			const CoordType& p = one.vert[v].cP();
-			const std::complex<double> z = tilings[component].deck[copy](std::complex<double>(
-				(double(p[0]) - middle[0]) / radius, (double(p[1]) - middle[1]) / radius));
+			const ricci::Point2& p = layout.places[i].second;
+			const std::complex<double> z = tilings[component].deck[copy](
+				std::complex<double>((p[0] - middle[0]) / radius, (p[1] - middle[1]) / radius));
 			vi->P() = CoordType(
 				ScalarType(middle[0] + radius * z.real()),
 				ScalarType(middle[1] + radius * z.imag()),
 				ScalarType(0));
 			vi->N() = CoordType(0, 0, 1);
-			vi->Q() = one.vert[v].cQ();
+			vi->Q() = layout.QualityAt(i);
 			if (HasPerVertexColor(cover))
 				vi->C() = TileColor(copy);
-			place[v] = &*vi++;
+			vertexAt[i] = &*vi++;
 		}
+		std::vector<const std::array<size_t, 3>*> faces;
+		for (const std::array<size_t, 3>& face : layout.faces)
+			if (isCopied(face[0])) // and so are its other corners, of the same component
+				faces.push_back(&face);
 		FaceIterator fi = Allocator<MeshType>::AddFaces(cover, faces.size());
-		for (const FaceType* f : faces) {
+		for (const std::array<size_t, 3>* face : faces) {
 			for (int k = 0; k < 3; ++k)
-				fi->V(k) = place[Index(one, f->cV(k))];
+				fi->V(k) = vertexAt[(*face)[size_t(k)]];
 			fi->N() = CoordType(0, 0, 1);
 			if (HasPerFaceColor(cover))
 				fi->C() = TileColor(copy);

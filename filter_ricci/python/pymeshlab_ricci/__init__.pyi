@@ -1,0 +1,511 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab."""
+# Made by document_filters.py.
+
+import os
+from typing import Any, Literal, Protocol, Union
+
+import numpy
+import numpy.typing
+import pymeshlab
+from pymeshlab import Mesh as Mesh
+
+Array = numpy.ndarray[Any, Any]
+
+class HasVerticesAndFaces(Protocol):
+    vertices: Any
+    faces: Any
+
+MeshLike = Union[str, os.PathLike[str], pymeshlab.MeshSet, Mesh, HasVerticesAndFaces,
+                 tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike]]
+
+__version__: str
+EUCLIDEAN: str
+HYPERBOLIC: str
+
+class Refused(pymeshlab.PyMeshLabException):
+    """The mesh or a parameter is refused; the text says why. The mesh is unchanged."""
+
+class Parametrization:
+    """A mesh and its texture coordinates."""
+
+    vertices: Array
+    """(V, 3) float64"""
+    faces: Array
+    """(F, 3) int32, indices of vertices"""
+    uv: Array
+    """(F, 3, 2) float64, texture coordinates of each corner of each face, as floats have them"""
+    quality: Array
+    """(V,) float64, quasi-conformal distortion sigma1/sigma2 at the vertices; 1: angles kept"""
+    log_radius: Array
+    """(V,) float64, logarithms of the radii of the flow's circles, up to a constant"""
+    target_curvature: Array
+    """(V,) float64, the Gaussian curvature that the flow reached, in radians"""
+    mesh_set: pymeshlab.MeshSet
+    """holds the mesh, and the new layers if some were asked for"""
+    results: dict[str, Any]
+    """what the filter returned; each result is an attribute too"""
+    def indexed(self) -> tuple[Array, Array]:
+        """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
+    def save(self, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes the mesh with its texture coordinates, to a PLY file with the quality too."""
+
+class Flattening(Parametrization):
+    converged: bool
+    """always true; anything else is an error"""
+    iterations: int
+    """Newton steps, over all solves"""
+    max_curvature_error: float
+    """max|K̄ − K| in radians where K is prescribed"""
+    residual_floor: float
+    """the smallest residual that rounding allows"""
+    qc_mean: float
+    """conformal distortion σ₁/σ₂ (1: angles are kept), mean over faces; this and the three
+    below leave out faces whose height is below 1e-9 of their side, and faces without area in
+    the plane"""
+    qc_area_mean: float
+    """the same, faces weighted by their area on the mesh"""
+    qc_p99: float
+    """the same: 99th percentile over faces, largest"""
+    qc_max: float
+    """the same: 99th percentile over faces, largest"""
+    qc_vertex_mean: float
+    """mean over vertices of the vertex value: the paper's number"""
+    area_distortion_mean: float
+    """with s = a face's share of the area in the plane over its share in space: mean of max(s,
+    1/s), weighted by area in space; 1 if all areas keep their ratios"""
+    area_distortion_spread: float
+    """standard deviation of ln s, weighted likewise"""
+    flipped_faces: int
+    """faces that are turned over or have no area in the plane"""
+    flipped_by_rounding: int
+    """additional ones once the coordinates are floats"""
+    finish_moved: int
+    """texture vertices that the repair moved; one moved again in the stored coordinates counts
+    twice"""
+    flips: int
+    """intrinsic flips, including those before the flow"""
+    refinement_points: int
+    """points of the common refinement that are not vertices of the mesh; counted with Keep the
+    mesh too"""
+    edge_swaps: int
+    """made by Edge swap"""
+    boundary_splits: int
+    """made by Edge swap"""
+    euler_characteristic: int
+    """of the input"""
+    genus: int
+    """of the input"""
+    boundary_loops: int
+    """of the input"""
+    components: int
+    """of the input"""
+    cut_nonmanifold_edges: int
+    """edges of more than two faces, cut so that each sheet has two"""
+    split_vertices: int
+    """vertices with more than one fan of faces, or on such an edge"""
+    duplicate_faces: int
+    """faces with the vertices of another: sheets of their own"""
+    one_sided_components: int
+    """components cut along short one-sided loops"""
+    degenerate_faces: int
+    """faces without area, which are drawn as lines or points"""
+    cones: int
+    """interior vertices that are not flat"""
+    seam_edges: int
+    """edges of the input along which the mesh is cut"""
+    charts: int
+    """pieces in the plane"""
+    capped_holes: int
+    """loops closed for the flow"""
+    overlapping_charts: int
+    """charts that cover a part of the plane more than once; the faces that do so"""
+    overlapping_faces: int
+    """charts that cover a part of the plane more than once; the faces that do so"""
+    overlap_cuts: int
+    """edges of the output that are cut to separate them, less those along which parts were
+    joined elsewhere"""
+    seam_length: float
+    """length of both kinds of cuts on the mesh, in its units"""
+    seam_length_relative: float
+    """the same, divided by the root of the area of the mesh"""
+    torus_tau_re: float
+    """flat torus: its modulus in the fundamental domain"""
+    torus_tau_im: float
+    """flat torus: its modulus in the fundamental domain"""
+    annulus_modulus: float
+    """flat annulus: ln(r₂/r₁) / 2π"""
+    rectangle_aspect: float
+    """rectangle: longer side over shorter side"""
+    sphere_qc_area_mean: float
+    """of the sphere layer, if it was asked for"""
+    sphere_area_distortion_mean: float
+    """of the sphere layer, if it was asked for"""
+    sphere_flipped_faces: int
+    """of the sphere layer, if it was asked for"""
+
+class Uniformization(Parametrization):
+    disk: Array
+    """(F, 3) complex128: the corners of the faces in the Poincaré disk, |z| < 1"""
+    converged: bool
+    """always true; anything else is an error"""
+    iterations: int
+    """Newton steps, over all solves"""
+    max_curvature_error: float
+    """max|K̄ − K| in radians where K is prescribed"""
+    residual_floor: float
+    """the smallest residual that rounding allows"""
+    qc_mean: float
+    """conformal distortion σ₁/σ₂ (1: angles are kept), mean over faces; this and the three
+    below leave out faces whose height is below 1e-9 of their side, and faces without area in
+    the plane"""
+    qc_area_mean: float
+    """the same, faces weighted by their area on the mesh"""
+    qc_p99: float
+    """the same: 99th percentile over faces, largest"""
+    qc_max: float
+    """the same: 99th percentile over faces, largest"""
+    qc_vertex_mean: float
+    """mean over vertices of the vertex value: the paper's number"""
+    area_distortion_mean: float
+    """with s = a face's share of the area in the plane over its share in space: mean of max(s,
+    1/s), weighted by area in space; 1 if all areas keep their ratios"""
+    area_distortion_spread: float
+    """standard deviation of ln s, weighted likewise"""
+    flipped_faces: int
+    """faces that are turned over or have no area in the plane"""
+    flipped_by_rounding: int
+    """additional ones once the coordinates are floats"""
+    finish_moved: int
+    """texture vertices that the repair moved; one moved again in the stored coordinates counts
+    twice"""
+    flips: int
+    """intrinsic flips, including those before the flow"""
+    refinement_points: int
+    """points of the common refinement that are not vertices of the mesh; counted with Keep the
+    mesh too"""
+    edge_swaps: int
+    """made by Edge swap"""
+    boundary_splits: int
+    """made by Edge swap"""
+    euler_characteristic: int
+    """of the input"""
+    genus: int
+    """of the input"""
+    boundary_loops: int
+    """of the input"""
+    components: int
+    """of the input"""
+    cut_nonmanifold_edges: int
+    """edges of more than two faces, cut so that each sheet has two"""
+    split_vertices: int
+    """vertices with more than one fan of faces, or on such an edge"""
+    duplicate_faces: int
+    """faces with the vertices of another: sheets of their own"""
+    one_sided_components: int
+    """components cut along short one-sided loops"""
+    degenerate_faces: int
+    """faces without area, which are drawn as lines or points"""
+    cones: int
+    """interior vertices that are not flat"""
+    seam_edges: int
+    """edges of the input along which the mesh is cut"""
+    charts: int
+    """pieces in the plane"""
+    capped_holes: int
+    """loops closed for the flow"""
+    overlapping_charts: int
+    """charts that cover a part of the plane more than once; the faces that do so"""
+    overlapping_faces: int
+    """charts that cover a part of the plane more than once; the faces that do so"""
+    overlap_cuts: int
+    """edges of the output that are cut to separate them, less those along which parts were
+    joined elsewhere"""
+    seam_length: float
+    """length of both kinds of cuts on the mesh, in its units"""
+    seam_length_relative: float
+    """the same, divided by the root of the area of the mesh"""
+    torus_tau_re: float
+    """flat torus: its modulus in the fundamental domain"""
+    torus_tau_im: float
+    """flat torus: its modulus in the fundamental domain"""
+    annulus_modulus: float
+    """flat annulus: ln(r₂/r₁) / 2π"""
+    rectangle_aspect: float
+    """rectangle: longer side over shorter side"""
+    sphere_qc_area_mean: float
+    """of the sphere layer, if it was asked for"""
+    sphere_area_distortion_mean: float
+    """of the sphere layer, if it was asked for"""
+    sphere_flipped_faces: int
+    """of the sphere layer, if it was asked for"""
+    hyperbolic_area: float
+    """computed from the side lengths alone, so it is an independent check of Gauss-Bonnet"""
+    relation_error: float
+    """how far the layout is from closing up: the error of the group's relation as read off the
+    fundamental polygon, and the error of the length L of each geodesic boundary against its
+    isometry, |trace| = 2 cosh(L/2)"""
+    generators: Array
+    """with Axes of the generators or Canonical polygon, one component only: Re a, Im a, Re b,
+    Im b of the isometries z → (az + b)/(b̄z + ā), |a|² − |b|² = 1: a canonical basis a₁, b₁, …,
+    then one isometry for each boundary loop and cone; Π[aᵢ, bᵢ] Π eₖ = ±1"""
+
+class MeshSet(pymeshlab.MeshSet):
+    def compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge(
+        self,
+        *,
+        target_curvature: Union[int, Literal[
+            'Automatic',
+            'Flat everywhere',
+            'Disk',
+            'Rectangle',
+            'Cones at selected vertices',
+            'From vertex quality',
+            'Placed cones',
+        ]] = 'Automatic',
+        free_boundary: bool = True,
+        cone_distortion: float = 0.5,
+        output_triangulation: Union[int, Literal[
+            'Keep the mesh',
+            'Common refinement',
+        ]] = 'Keep the mesh',
+        seam_hiding: float = 0.0,
+        chart_margin: float = 0.0,
+        colorize: bool = False,
+        flat_layer: bool = False,
+        holes: Union[int, Literal[
+            'Boundaries',
+            'Capped',
+        ]] = 'Boundaries',
+        cone_count: int = 0,
+        cone_rounding: Union[int, Literal[
+            'Free',
+            'Multiples of pi/2',
+        ]] = 'Free',
+        surgery: Union[int, Literal[
+            'None',
+            'Edge swap',
+            'Intrinsic flips',
+        ]] = 'Intrinsic flips',
+        finish: Union[int, Literal[
+            'None',
+            'Repair',
+            'Least distortion',
+        ]] = 'Least distortion',
+        resolve_overlap: bool = True,
+        normalize_uv: bool = True,
+        sphere_layer: bool = False,
+        report: str = '',
+        circle_packing: Union[int, Literal[
+            'Inversive distance',
+            'Thurston',
+        ]] = 'Inversive distance',
+        epsilon: float = 1e-08,
+        max_iterations: int = 200,
+        time_limit: float = 0.0,
+    ) -> dict[str, Any]:
+        """MeshLab's filter 'Generalized Ricci Flow (Euclidean)' on the current mesh."""
+    def compute_texcoord_parametrization_ricci_flow_hyperbolic_per_wedge(
+        self,
+        *,
+        target_curvature: Union[int, Literal[
+            'Hyperbolic metric',
+            'Cones at selected vertices',
+            'From vertex quality',
+        ]] = 'Hyperbolic metric',
+        cone_angle: float = 180.0,
+        output_triangulation: Union[int, Literal[
+            'Keep the mesh',
+            'Common refinement',
+        ]] = 'Keep the mesh',
+        colorize: bool = False,
+        flat_layer: bool = False,
+        universal_cover: int = 0,
+        generator_axes: bool = False,
+        canonical_polygon: bool = False,
+        free_boundary: bool = False,
+        surgery: Union[int, Literal[
+            'None',
+            'Intrinsic flips',
+        ]] = 'Intrinsic flips',
+        finish: Union[int, Literal[
+            'None',
+            'Repair',
+        ]] = 'Repair',
+        report: str = '',
+        epsilon: float = 1e-08,
+        max_iterations: int = 200,
+        time_limit: float = 0.0,
+    ) -> dict[str, Any]:
+        """MeshLab's filter 'Generalized Ricci Flow (Hyperbolic)' on the current mesh."""
+
+def flatten(
+    mesh: MeshLike,
+    *,
+    selected: Union[numpy.typing.ArrayLike, None] = None,
+    curvature: Union[numpy.typing.ArrayLike, None] = None,
+    target_curvature: Union[int, Literal[
+        'Automatic',
+        'Flat everywhere',
+        'Disk',
+        'Rectangle',
+        'Cones at selected vertices',
+        'From vertex quality',
+        'Placed cones',
+    ]] = 'Automatic',
+    free_boundary: bool = True,
+    cone_distortion: float = 0.5,
+    output_triangulation: Union[int, Literal[
+        'Keep the mesh',
+        'Common refinement',
+    ]] = 'Keep the mesh',
+    seam_hiding: float = 0.0,
+    chart_margin: float = 0.0,
+    colorize: bool = False,
+    flat_layer: bool = False,
+    holes: Union[int, Literal[
+        'Boundaries',
+        'Capped',
+    ]] = 'Boundaries',
+    cone_count: int = 0,
+    cone_rounding: Union[int, Literal[
+        'Free',
+        'Multiples of pi/2',
+    ]] = 'Free',
+    surgery: Union[int, Literal[
+        'None',
+        'Edge swap',
+        'Intrinsic flips',
+    ]] = 'Intrinsic flips',
+    finish: Union[int, Literal[
+        'None',
+        'Repair',
+        'Least distortion',
+    ]] = 'Least distortion',
+    resolve_overlap: bool = True,
+    normalize_uv: bool = True,
+    sphere_layer: bool = False,
+    report: str = '',
+    circle_packing: Union[int, Literal[
+        'Inversive distance',
+        'Thurston',
+    ]] = 'Inversive distance',
+    epsilon: float = 1e-08,
+    max_iterations: int = 200,
+    time_limit: float = 0.0,
+) -> Flattening:
+    """Conformal map of a mesh into the Euclidean plane.
+
+    target_curvature: The curvature that the flow is asked to reach. Automatic suits most
+        meshes: flat, or with the metric of the boundary kept, and with cones where areas would
+        change much.
+    free_boundary: The boundary keeps the metric that it has on the mesh: the least distortion
+        for a surface with boundary. Disk, Rectangle and the flat annulus prescribe the boundary
+        and ignore this.
+    cone_distortion: Cones are added until areas typically change by less than this, relative to
+        each other (0.5: by half). Read where cones are placed and their number is 0.
+    output_triangulation: Keep the mesh: vertices and faces stay as they are. Common refinement:
+        faces are divided where the flow's edges cross them, so that the map is exact on every
+        piece.
+    seam_hiding: 0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to
+        ten times its length, so that seams run through hollows.
+    chart_margin: Room between two charts, and between the charts and the border, as a share of
+        the side of the square, for baking textures. 0.004 is 4 pixels of an image 1024 wide.
+    colorize: Colour the vertices by their quasi-conformal distortion: from 1 (angles kept) to
+        the 99th percentile over the faces.
+    flat_layer: Add a layer with the mesh laid out in the plane, cut along its seams.
+    holes: What the boundary loops other than the longest are. Capped: closed for the flow, so
+        that the chart goes round them without seams.
+    cone_count: The number of placed cones. 0: as many as it takes to reach 'Cones: area
+        distortion'.
+    cone_rounding: Free: those that change areas least. Multiples of pi/2: as quadrangulations
+        need them.
+    surgery: What to do where the flow breaks a triangle. The mesh itself is never changed.
+    finish: What is done to the flow's map before it is stored: faces that would come out
+        flipped are repaired, and on 'Keep the mesh' the faces get the least mean conformal
+        distortion. No effect with 'Thurston', and with another surgery than 'Intrinsic flips'.
+    resolve_overlap: A chart that covers a part of the plane twice is cut along the shortest
+        lines that part what overlaps. Off: such charts are counted only.
+    normalize_uv: Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the
+        scale of the metric.
+    sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Only for one
+        closed surface of genus 0.
+    report: A report of the run: a page with diagrams and its data beside it (.html), or the
+        data alone (.csv). Empty: no report.
+    circle_packing: Inversive distance: the generalized flow, exact on any triangles. Thurston:
+        the conventional flow, which changes the metric of thin triangles, for comparison.
+    epsilon: The flow stops when the curvature of every vertex is this close to its target, in
+        radians, or at the floor that rounding sets.
+    max_iterations: One solve gives up with an error after this many Newton steps. A run takes
+        fewer than 30 as a rule.
+    time_limit: A run that takes longer ends with an error and leaves the mesh as it was. 0: no
+        limit.
+    """
+
+def uniformize(
+    mesh: MeshLike,
+    *,
+    selected: Union[numpy.typing.ArrayLike, None] = None,
+    curvature: Union[numpy.typing.ArrayLike, None] = None,
+    target_curvature: Union[int, Literal[
+        'Hyperbolic metric',
+        'Cones at selected vertices',
+        'From vertex quality',
+    ]] = 'Hyperbolic metric',
+    cone_angle: float = 180.0,
+    output_triangulation: Union[int, Literal[
+        'Keep the mesh',
+        'Common refinement',
+    ]] = 'Keep the mesh',
+    colorize: bool = False,
+    flat_layer: bool = False,
+    universal_cover: int = 0,
+    generator_axes: bool = False,
+    canonical_polygon: bool = False,
+    free_boundary: bool = False,
+    surgery: Union[int, Literal[
+        'None',
+        'Intrinsic flips',
+    ]] = 'Intrinsic flips',
+    finish: Union[int, Literal[
+        'None',
+        'Repair',
+    ]] = 'Repair',
+    report: str = '',
+    epsilon: float = 1e-08,
+    max_iterations: int = 200,
+    time_limit: float = 0.0,
+) -> Uniformization:
+    """Hyperbolic metric of a mesh, in the Poincaré disk.
+
+    target_curvature: The curvature at the vertices, beyond the constant -1 of the triangles.
+        Hyperbolic metric: none, for surfaces of negative Euler characteristic.
+    cone_angle: The sum of the angles at each selected vertex, for 'Cones at selected vertices'.
+        360 is no cone.
+    output_triangulation: Keep the mesh: vertices and faces stay as they are. Common refinement:
+        faces are divided where the flow's edges cross them, so that the map is exact on every
+        piece.
+    colorize: Colour the vertices by their quasi-conformal distortion: from 1 (angles kept) to
+        the 99th percentile over the faces.
+    flat_layer: Add a layer with the mesh laid out in the Poincaré disk, cut along its seams.
+    universal_cover: Add a layer with the mesh in the Poincaré disk and this many rings of
+        copies round it, which tile the disk. 0: no layer.
+    generator_axes: Add a layer with the axes of the canonical generators of the Fuchsian group,
+        as edges. On the surface they are closed geodesics.
+    canonical_polygon: Add a layer with a fundamental polygon of 4 sides for each handle, as
+        edges. Its sides are geodesics that the canonical generators pair.
+    free_boundary: The circles of the boundary's vertices keep their radii, and the target holds
+        inside only. Off: the target holds on the boundary too.
+    surgery: What to do where the flow breaks a triangle. The mesh itself is never changed.
+    finish: What is done to the flow's map before it is stored: faces that would come out
+        flipped are repaired. No effect with 'Thurston', and with another surgery than
+        'Intrinsic flips'.
+    report: A report of the run: a page with diagrams and its data beside it (.html), or the
+        data alone (.csv). Empty: no report.
+    epsilon: The flow stops when the curvature of every vertex is this close to its target, in
+        radians, or at the floor that rounding sets.
+    max_iterations: One solve gives up with an error after this many Newton steps. A run takes
+        fewer than 30 as a rule.
+    time_limit: A run that takes longer ends with an error and leaves the mesh as it was. 0: no
+        limit.
+    """

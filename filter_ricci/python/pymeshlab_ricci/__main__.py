@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Flattens one mesh, or every mesh of a folder.
+
+    python -m pymeshlab_ricci scan.ply scan.obj
+    python -m pymeshlab_ricci scan.ply scan.obj --target-curvature Disk --report scan.html
+    python -m pymeshlab_ricci meshes out --workers 8
+    python -m pymeshlab_ricci meshes out --scheduler tcp://host:8786
+
+Each mesh is a process of its own: a crash ends that mesh and nothing else. The folder OUT gets for
+meshes/a/b.off the files a/b.off.ply and a/b.off.json, and at the end results.csv with a row for
+each mesh and failures.txt with the meshes without a result. A run that was interrupted goes on
+where it stopped; a mesh runs again where mesh, parameters or plugin have changed. With a cluster,
+this package and both folders have to be on every machine, the folders at the same path.
+
+Exit: 0 the mesh is solved (in a folder: or refused, each of them), 1 it is not, 130 interrupted.
+"""
+
+import argparse
+import importlib.util
+import os
+import re
+import sys
+
+from . import _batch
+from ._filters import DESCRIPTIONS, plain
+
+
+def choice(names):
+    """Reads one of the names, in any case, or its number."""
+    def read(text):
+        if text.isdigit() and int(text) < len(names):
+            return names[int(text)]
+        for name in names:
+            if name.lower() == text.lower():
+                return name
+        raise argparse.ArgumentTypeError(f"{text!r} is none of {', '.join(names)}")
+    return read
+
+
+def add_parameter(group, parameter):
+    kind = parameter["type"]
+    text = f"{parameter['label']}. {plain(parameter['tooltip'])}"
+    if kind == "enum":
+        text += " One of: " + ", ".join(parameter["choices"]) + "."
+    default = "none" if kind == "file" else parameter["default"]
+    options = {"dest": parameter["name"], "default": argparse.SUPPRESS,
+               "help": f"{text} Default: {default}".replace("%", "%%")}
+    if kind == "bool":
+        options["action"] = argparse.BooleanOptionalAction
+    else:
+        options["type"] = {"enum": choice(parameter.get("choices", ())), "int": int, "float": float,
+                           "file": str}[kind]
+        options["metavar"] = {"enum": "CHOICE", "int": "N", "float": "X", "file": "FILE"}[kind]
+    group.add_argument("--" + parameter["name"].replace("_", "-"), **options)
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(prog="python -m pymeshlab_ricci", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("mesh", metavar="IN", help="a mesh, or a folder, with everything below it")
+    parser.add_argument("out", metavar="OUT", help="a file (.ply, .obj), or a folder")
+    parser.add_argument("--hyperbolic", action="store_true",
+                        help="the hyperbolic filter, whose parameters --hyperbolic --help shows")
+    parser.add_argument("--timeout", type=float, default=3600, help="seconds for one mesh")
+    parser.add_argument("--workers", type=int, default=os.cpu_count(), help="meshes at a time")
+    parser.add_argument("--scheduler", help="address of a Dask scheduler, or 'local' for Dask here")
+    parser.add_argument("--retry", action="store_true", help="run crashes and timeouts again")
+    parser.add_argument("--quiet", action="store_true", help="failures only")
+    group = parser.add_argument_group("parameters of the filter")
+    for parameter in DESCRIPTIONS["--hyperbolic" in arguments]["parameters"]:
+        add_parameter(group, parameter)
+    options = parser.parse_args(arguments)
+    names = {parameter["name"] for parameter in DESCRIPTIONS[options.hyperbolic]["parameters"]}
+    options.parameters = {name: value for name, value in vars(options).items() if name in names}
+    return parser, options
+
+
+def make_job(options, mesh, name, target, record="", mark=""):
+    parameters = dict(options.parameters)
+    if parameters.get("report"):
+        if record:  # the ending alone counts
+            parameters["report"] = os.path.splitext(target)[0] + os.path.splitext(
+                "x" + parameters["report"])[1]
+        parameters["report"] = os.path.abspath(parameters["report"])
+    return {"mesh": os.path.abspath(mesh), "name": name, "target": os.path.abspath(target),
+            "record": record, "fingerprint": mark, "hyperbolic": options.hyperbolic,
+            "parameters": parameters, "timeout": options.timeout}
+
+
+class Lines:
+    """Progress as lines, one for each mesh."""
+
+    def __init__(self, count, quiet):
+        self.count, self.quiet, self.ended = count, quiet, 0
+
+    def show(self, record):
+        self.ended += 1
+        if not self.quiet or record["state"] != "solved":
+            print(f"[{self.ended}/{self.count}] {record['state']:8} {record['mesh']}  "
+                  f"{record.get('reason', '')}".rstrip(), flush=True)
+
+    def close(self):
+        pass
+
+
+class Bar:
+    """Progress as tqdm's bar, with lines for what is not solved."""
+
+    def __init__(self, count):
+        from tqdm import tqdm
+        self.bar = tqdm(total=count, unit="mesh")
+
+    def show(self, record):
+        if record["state"] != "solved":
+            self.bar.write(f"{record['state']:8} {record['mesh']}  {record.get('reason', '')}")
+        self.bar.update()
+
+    def close(self):
+        self.bar.close()
+
+
+def progress(count, quiet):
+    if not quiet and sys.stderr.isatty():
+        try:
+            return Bar(count)
+        except ImportError:
+            pass
+    return Lines(count, quiet)
+
+
+def one_mesh(options):
+    job = make_job(options, options.mesh, os.path.basename(options.mesh), options.out)
+    with _batch.here(1) as run:
+        record, = run([job])
+    if record["state"] != "solved":
+        print(f"{record['state']}: {record['reason']}", file=sys.stderr)
+        return 1
+    if not options.quiet:
+        for key, value in record["results"].items():
+            print(f"{key} = {value}")
+    return 0
+
+
+def folder(options):
+    source, out = os.path.abspath(options.mesh), os.path.abspath(options.out)
+    names = _batch.find_meshes(source)
+    if not names:
+        sys.exit(f"There are no meshes ({', '.join(_batch.ENDINGS)}) below {options.mesh}.")
+    os.makedirs(out, exist_ok=True)
+    common = _batch.fingerprint(options.hyperbolic, options.parameters)
+    marks = {name: _batch.mark_of(os.path.join(source, name), common) for name in names}
+    jobs = [make_job(options, os.path.join(source, name), name, os.path.join(out, name + ".ply"),
+                     _batch.record_path(out, name), marks[name])
+            for name in names if not _batch.is_done(
+                _batch.read_record(_batch.record_path(out, name)), marks[name], options.retry)]
+    if not options.quiet:
+        print(f"{len(names)} meshes, {len(names) - len(jobs)} done before, {len(jobs)} to run",
+              flush=True)
+    shown = progress(len(jobs), options.quiet)
+    interrupted = False
+    try:
+        with runner(options) as run:
+            for record in run(jobs) if jobs else ():
+                shown.show(record)
+    except KeyboardInterrupt:
+        interrupted = True
+    shown.close()
+    failures = _batch.summarize(out, names)
+    if interrupted:
+        print("Interrupted: the same command goes on from here.", file=sys.stderr)
+        return 130
+    if not options.quiet:
+        print(f"Results: {os.path.join(options.out, 'results.csv')}; without a result: "
+              f"{os.path.join(options.out, 'failures.txt')}")
+    return 1 if failures else 0
+
+
+def runner(options):
+    if not options.scheduler:
+        return _batch.here(options.workers)
+    if importlib.util.find_spec("distributed") is None:
+        sys.exit('Dask is missing: pip install "dask[distributed]"')
+    return _batch.by_dask(options.scheduler, options.workers)
+
+
+def main(arguments):
+    parser, options = parse(arguments)
+    if os.path.isdir(options.mesh):
+        return folder(options)
+    if not os.path.isfile(options.mesh):
+        parser.error(f"there is no {options.mesh}")
+    if not re.search(r"\.(ply|obj)$", options.out, re.IGNORECASE):
+        parser.error("OUT must end in .ply or .obj")
+    try:
+        return one_mesh(options)
+    except KeyboardInterrupt:
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs jobs, each in a process of its own, here or on a cluster, and keeps their records.
+
+For meshes/a/b.off the folder OUT then holds a/b.off.json (state, results or reason, seconds) and
+a/b.off.ply. The record is written last. A mesh whose record is there is not run again unless mesh,
+parameters or plugin differ: a run that was interrupted goes on where it stopped."""
+
+import concurrent.futures
+import contextlib
+import csv
+import hashlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+from ._filters import PLUGIN
+
+ENDINGS = (".ply", ".off", ".obj", ".stl")
+FINAL = ("solved", "refused")  # states that a second run would only repeat
+FAILED = ("crashed", "timeout")
+
+
+def find_meshes(folder):
+    """Paths below the folder, relative to it, in order."""
+    found = []
+    for place, _, names in os.walk(folder):
+        found += [os.path.relpath(os.path.join(place, name), folder)
+                  for name in names if name.lower().endswith(ENDINGS)]
+    return sorted(found)
+
+
+def fingerprint(hyperbolic, parameters):
+    """What the results depend on besides their meshes."""
+    with open(PLUGIN, "rb") as plugin:
+        digest = hashlib.sha256(plugin.read())
+    digest.update(json.dumps([hyperbolic, parameters], sort_keys=True).encode())
+    return digest.hexdigest()[:16]
+
+
+def mark_of(mesh, common):
+    """What one result depends on: the fingerprint, and the file as it is."""
+    state = os.stat(mesh)
+    return f"{common}-{state.st_size}-{state.st_mtime_ns}"
+
+
+def record_path(out, name):
+    return os.path.join(out, name + ".json")
+
+
+def read_record(path):
+    try:
+        with open(path, encoding="utf-8") as source:
+            return json.load(source)
+    except (OSError, ValueError):
+        return {}
+
+
+def write_record(path, record):
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    partial = f"{path}.{os.getpid()}.{threading.get_ident()}.part"
+    with open(partial, "w", encoding="utf-8") as target:
+        json.dump(record, target, indent=1, sort_keys=True)
+    os.replace(partial, path)
+
+
+def is_done(record, mark, retry):
+    if record.get("fingerprint") != mark:
+        return False
+    return record.get("state") in (FINAL if retry else FINAL + FAILED)
+
+
+def partial_folder(target, pid):
+    """Where a process writes what it then moves to its place."""
+    return os.path.join(os.path.dirname(os.path.abspath(target)), f".part{pid}")
+
+
+class Processes:
+    """Those that run, for who wants to end them all."""
+
+    def __init__(self):
+        self.running = set()
+        self.stopped = False
+        self._lock = threading.Lock()
+
+    def start(self, command):
+        with self._lock:
+            if self.stopped:
+                raise concurrent.futures.CancelledError
+            # A session of its own: Ctrl-C is for the parent.
+            process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                       start_new_session=True)
+            self.running.add(process)
+            return process
+
+    def end(self, process):
+        process.kill()
+        process.communicate()
+        with self._lock:
+            self.running.discard(process)
+
+    def stop(self):
+        with self._lock:
+            self.stopped = True
+            for process in self.running:
+                process.kill()
+
+
+def run_one(job, processes=None):
+    """One job in a process of its own. Its record, on disk too where the job names a file."""
+    started = time.monotonic()
+    record = {"mesh": job["name"], "fingerprint": job["fingerprint"]}
+    processes = processes or Processes()
+    process = processes.start([sys.executable, "-m", "pymeshlab_ricci._worker", json.dumps(job)])
+    try:
+        printed, errors = process.communicate(timeout=job["timeout"])
+        try:
+            record.update(json.loads(printed.decode().splitlines()[-1]))
+        except (ValueError, IndexError):
+            record.update(state="crashed", reason=how_it_ended(process.returncode, errors))
+    except subprocess.TimeoutExpired:
+        record.update(state="timeout", reason=f"no result after {job['timeout']:g} s")
+    finally:
+        processes.end(process)
+        shutil.rmtree(partial_folder(job["target"], process.pid), ignore_errors=True)
+    record["seconds"] = round(time.monotonic() - started, 3)
+    if job["record"] and not processes.stopped:
+        write_record(job["record"], record)
+    return record
+
+
+def how_it_ended(code, errors):
+    how = signal.Signals(-code).name if code < 0 else f"exit {code}"
+    last = errors.decode(errors="replace").strip().splitlines()[-1:]
+    return ": ".join([how] + last)
+
+
+@contextlib.contextmanager
+def here(workers):
+    """A way to run jobs on this machine: an iterator of their records, as they end."""
+    pool = concurrent.futures.ThreadPoolExecutor(workers)
+    processes = Processes()
+
+    def run(jobs):
+        for future in concurrent.futures.as_completed(
+                [pool.submit(run_one, job, processes) for job in jobs]):
+            yield future.result()
+    try:
+        yield run
+    finally:
+        processes.stop()
+        pool.shutdown(cancel_futures=True)
+
+
+@contextlib.contextmanager
+def by_dask(scheduler, workers):
+    """The same by Dask, on a cluster or on this machine ('local'): what a lost worker held is given
+    to another."""
+    from dask import distributed
+    cluster = None
+    if scheduler == "local":
+        cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1,
+                                           dashboard_address=None)
+    client = distributed.Client(cluster or scheduler)
+
+    def run(jobs):
+        # Each task is pure: a second run of a lost one writes the same files.
+        futures = client.map(run_one, jobs, pure=False, retries=2,
+                             key=[f"{job['name']}-{job['fingerprint']}" for job in jobs])
+        by_key = {future.key: job for future, job in zip(futures, jobs)}
+        for future in distributed.as_completed(futures):
+            if future.status == "finished":
+                yield future.result()
+            else:
+                job = by_key[future.key]
+                lost = {"mesh": job["name"], "state": "lost", "reason": repr(future.exception())}
+                write_record(job["record"], lost)
+                yield lost
+            future.release()
+    try:
+        yield run
+    finally:
+        client.close()
+        if cluster is not None:
+            cluster.close()
+
+
+def summarize(out, names):
+    """Rewrites results.csv and failures.txt from the records. The number of failures."""
+    records = [{"mesh": name, "state": "missing", **read_record(record_path(out, name))}
+               for name in names]
+    keys = sorted({key for record in records for key in record.get("results", {})})
+    with open(os.path.join(out, "results.csv"), "w", encoding="utf-8", newline="") as target:
+        table = csv.writer(target)
+        table.writerow(["mesh", "state", "seconds", *keys])
+        for record in records:
+            results = record.get("results", {})
+            table.writerow([record["mesh"], record["state"], record.get("seconds", ""),
+                            *(results.get(key, "") for key in keys)])
+    with open(os.path.join(out, "failures.txt"), "w", encoding="utf-8") as target:
+        for record in records:
+            if record["state"] != "solved":
+                target.write(f"{record['mesh']}\t{record['state']}\t{record.get('reason', '')}\n")
+    return sum(record["state"] not in FINAL for record in records)

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The filters as functions from meshes to results."""
+
+import inspect
+import os
+
+import numpy
+import pymeshlab
+
+from ._filters import DESCRIPTIONS, EUCLIDEAN, HYPERBOLIC, documentation, signature
+from ._results import EUCLIDEAN_RESULTS, HYPERBOLIC_RESULTS
+
+# PyMeshLab 2025.7 may crash at a later load once a MeshSet in which a filter failed is destroyed.
+_failed = []
+
+
+class Refused(pymeshlab.PyMeshLabException):
+    """The mesh or a parameter is refused; the text says why. The mesh is unchanged."""
+
+
+class Parametrization:
+    """A mesh and its texture coordinates.
+
+    vertices : (V, 3) float64
+    faces : (F, 3) int32, indices of vertices
+    uv : (F, 3, 2) float64, texture coordinates of each corner of each face, as floats have them
+    quality : (V,) float64, quasi-conformal distortion sigma1/sigma2 at the vertices; 1: angles kept
+    log_radius : (V,) float64, logarithms of the radii of the flow's circles, up to a constant
+    target_curvature : (V,) float64, the Gaussian curvature that the flow reached, in radians
+    mesh_set : the MeshSet that holds the mesh, and the new layers if some were asked for
+    results : what the filter returned, a dictionary; each result is an attribute too
+    """
+
+    def __init__(self, mesh_set, results):
+        mesh = mesh_set.current_mesh()
+        self.mesh_set = mesh_set
+        self.results = results
+        self.vertices = mesh.vertex_matrix()
+        self.faces = mesh.face_matrix()
+        self.uv = mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+        self.quality = mesh.vertex_scalar_array()
+        self.log_radius = mesh.vertex_custom_scalar_attribute_array("ricci_u")
+        self.target_curvature = mesh.vertex_custom_scalar_attribute_array("ricci_target_curvature")
+
+    def __repr__(self):
+        keys = ("genus", "boundary_loops", "charts", "cones", "qc_area_mean", "flipped_faces")
+        shown = "".join(f", {key}={self.results[key]:.6g}" for key in keys if key in self.results)
+        return f"<{type(self).__name__} faces={len(self.faces)}{shown}>"
+
+    def indexed(self):
+        """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3), as OBJ
+        files have them: corners of one vertex share a texture vertex where they agree."""
+        corners = numpy.column_stack([self.faces.reshape(-1), self.uv.reshape(-1, 2)])
+        unique, index = numpy.unique(corners, axis=0, return_inverse=True)
+        return unique[:, 1:], index.reshape(-1, 3)
+
+    def save(self, path):
+        """Writes the mesh with its texture coordinates, to a PLY file with the quality too."""
+        path = os.fspath(path)
+        keep = {"save_vertex_quality": True} if path.lower().endswith(".ply") else {}
+        self.mesh_set.save_current_mesh(path, save_wedge_texcoord=True, **keep)
+
+
+def _result(key, text):
+    def get(self):
+        if key in self.results:
+            return self.results[key]
+        raise AttributeError(f"This run has no {key}: {text}")
+    return property(get, doc=text)
+
+
+class Flattening(Parametrization):
+    __doc__ = Parametrization.__doc__
+
+
+class Uniformization(Parametrization):
+    __doc__ = Parametrization.__doc__
+
+    @property
+    def disk(self):
+        """(F, 3) complex128: the corners of the faces in the Poincaré disk, |z| < 1."""
+        corners = 2.0 * self.uv - 1.0
+        return corners[..., 0] + 1j * corners[..., 1]
+
+
+for _class, _keys in ((Flattening, EUCLIDEAN_RESULTS),
+                      (Uniformization, {**EUCLIDEAN_RESULTS, **HYPERBOLIC_RESULTS})):
+    for _key, (_kind, _text) in _keys.items():
+        setattr(_class, _key, _result(_key, _text))
+
+
+def _arrays(mesh):
+    """Checked vertices and faces: PyMeshLab does not check them."""
+    vertices, faces = (mesh.vertices, mesh.faces) if hasattr(mesh, "vertices") else mesh
+    vertices = numpy.ascontiguousarray(vertices, dtype=numpy.float64)
+    given = numpy.asarray(faces)
+    faces = numpy.ascontiguousarray(given, dtype=numpy.int32)
+    for name, array in (("vertices", vertices), ("faces", faces)):
+        if array.ndim != 2 or array.shape[1] != 3:
+            raise ValueError(f"{name} must have the shape (N, 3), not {array.shape}")
+    if (given != faces).any():
+        raise ValueError("faces must hold whole numbers, the indices of vertices")
+    if faces.size and not (faces.min() >= 0 and faces.max() < len(vertices)):
+        raise ValueError(f"faces must hold indices from 0 to {len(vertices) - 1}")
+    return vertices, faces
+
+
+def _mesh_set(mesh):
+    """The MeshSet that is given, or a new one with the mesh."""
+    if isinstance(mesh, pymeshlab.MeshSet):
+        return mesh
+    new = pymeshlab.MeshSet()
+    if isinstance(mesh, pymeshlab.Mesh):
+        new.add_mesh(mesh)
+    elif isinstance(mesh, (str, os.PathLike)):
+        try:
+            new.load_new_mesh(os.fspath(mesh))
+        except pymeshlab.PyMeshLabException:
+            _failed.append(new)
+            raise
+    else:
+        vertices, faces = _arrays(mesh)
+        new.add_mesh(pymeshlab.Mesh(vertex_matrix=vertices, face_matrix=faces))
+    return new
+
+
+def _per_vertex(mesh_set, name, values):
+    mesh = mesh_set.current_mesh()
+    if values.shape != (mesh.vertex_number(),):
+        raise ValueError(f"{name} must have a value for each of {mesh.vertex_number()} vertices, "
+                         f"not the shape {values.shape}")
+    mesh.add_vertex_custom_scalar_attribute(values, f"ricci_{name}")
+
+
+def _mask(mesh_set, selected):
+    """Indices of vertices, or a truth value for each, as numbers 0 and 1."""
+    selected = numpy.asarray(selected)
+    if selected.dtype == bool:
+        return selected.astype(numpy.float64)
+    mask = numpy.zeros(mesh_set.current_mesh().vertex_number())
+    mask[selected.astype(numpy.int64)] = 1.0
+    return mask
+
+
+def _solve(kind, name, mesh, selected, curvature, parameters):
+    mesh_set = _mesh_set(mesh)
+    if selected is not None:
+        _per_vertex(mesh_set, "selected", _mask(mesh_set, selected))
+        mesh_set.compute_selection_by_condition_per_vertex(condselect="(ricci_selected > 0.5)")
+        parameters.setdefault("target_curvature", "Cones at selected vertices")
+    if curvature is not None:
+        _per_vertex(mesh_set, "curvature", numpy.asarray(curvature, dtype=numpy.float64))
+        mesh_set.compute_scalar_by_function_per_vertex(q="ricci_curvature")
+        parameters.setdefault("target_curvature", "From vertex quality")
+    try:
+        return kind(mesh_set, mesh_set.apply_filter(name, **parameters))
+    except pymeshlab.PyMeshLabException as refusal:
+        _failed.append(mesh_set)
+        raise Refused(str(refusal).split("Details: ")[-1].strip()) from None
+
+
+def flatten(mesh, *, selected=None, curvature=None, **parameters):
+    return _solve(Flattening, EUCLIDEAN, mesh, selected, curvature, parameters)
+
+
+def uniformize(mesh, *, selected=None, curvature=None, **parameters):
+    return _solve(Uniformization, HYPERBOLIC, mesh, selected, curvature, parameters)
+
+
+_INPUT = """
+
+mesh : a path; (vertices, faces), or an object that has them, such as one of trimesh; a
+    pymeshlab.Mesh; or a MeshSet, whose current mesh gets the texture coordinates
+selected : indices of vertices, or a truth value for each: the cones, or the corners of a rectangle
+curvature : target curvature of each vertex, in radians
+"""
+_own = [inspect.Parameter("mesh", inspect.Parameter.POSITIONAL_OR_KEYWORD),
+        inspect.Parameter("selected", inspect.Parameter.KEYWORD_ONLY, default=None),
+        inspect.Parameter("curvature", inspect.Parameter.KEYWORD_ONLY, default=None)]
+for _function, _description, _what in zip(
+        (flatten, uniformize), DESCRIPTIONS,
+        ("Conformal map of a mesh into the Euclidean plane. A Flattening; throws Refused.",
+         "Hyperbolic metric of a mesh, in the Poincaré disk. A Uniformization; throws Refused.")):
+    _function.__doc__ = f"{_what}{_INPUT}{documentation(_description)}\n"
+    _function.__signature__ = signature(_description, *_own)

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The process of one mesh. Its argument is a job in JSON, its last line of output the answer."""
+
+import json
+import os
+import signal
+import sys
+
+import numpy
+import pymeshlab
+
+from . import flatten, uniformize
+from ._batch import partial_folder
+
+
+def die_with_parent():
+    """Where the system offers it (Linux): a lost parent leaves no process behind."""
+    try:
+        import ctypes
+        ctypes.CDLL(None).prctl(1, signal.SIGKILL)
+    except (AttributeError, OSError):
+        pass
+
+
+def save(result, target):
+    """Complete or not at all, with what belongs to the file, such as the materials of OBJ."""
+    folder, name = os.path.split(os.path.abspath(target))
+    partial = partial_folder(target, os.getpid())
+    os.makedirs(partial)
+    result.save(os.path.join(partial, name))
+    for written in sorted(os.listdir(partial), key=lambda file: file == name):
+        os.replace(os.path.join(partial, written), os.path.join(folder, written))
+    os.rmdir(partial)
+
+
+def main():
+    die_with_parent()
+    job = json.loads(sys.argv[1])
+    solve = uniformize if job["hyperbolic"] else flatten
+    try:
+        result = solve(job["mesh"], **job["parameters"])
+        answer = {"state": "solved",
+                  "results": {key: numpy.asarray(value).tolist()
+                              for key, value in result.results.items()}}
+        save(result, job["target"])
+    except pymeshlab.PyMeshLabException as refusal:
+        answer = {"state": "refused", "reason": " ".join(str(refusal).split())}
+    print("\n" + json.dumps(answer), flush=True)
+    # PyMeshLab 2025.7 may crash while it takes down a MeshSet in which a filter has failed.
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    main()

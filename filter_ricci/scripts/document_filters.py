@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes what the plugin says of itself into the repository: the pages of the filters in the user
+manual, in the form of PyMeshLab's own, and the types of the Python package. What the results mean
+is taken the other way, from the manual's tables into the package.
+
+    PYTHONPATH=build/python build/venv/bin/python filter_ricci/scripts/document_filters.py [--check]
+
+With --check nothing is written; exit 1 where a file is not current."""
+
+import html
+import os
+import pprint
+import re
+import sys
+
+from pymeshlab_ricci._filters import DESCRIPTIONS, plain
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+MANUAL = os.path.join(os.path.dirname(HERE), "README.md")
+PACKAGE = os.path.join(os.path.dirname(HERE), "python", "pymeshlab_ricci")
+LICENCE = "# SPDX-License-Identifier: GPL-3.0-or-later\n"
+MADE = "# Made by document_filters.py.\n"
+MANUAL_WIDTH = 108
+PYTHON_WIDTH = 96
+
+
+def wrapped(text, indent="", first=None, width=MANUAL_WIDTH):
+    """The words of a text in lines of at most so many characters."""
+    lines, line = [], indent if first is None else first
+    start = True
+    for word in text.split():
+        if not start and len(line) + 1 + len(word) > width:
+            lines.append(line)
+            line, start = indent, True
+        line += word if start else " " + word
+        start = False
+    return "\n".join(lines + [line])
+
+
+def markdown(text):
+    """Of a text of the dialogs, which has bold, italic and line ends."""
+    for tag, mark in (("b", "**"), ("i", "*")):
+        text = re.sub(rf"</?{tag}>", mark, text)
+    return html.unescape(re.sub(r"<br ?/?>", " ", text)).replace("****", "** **").strip()
+
+
+def paragraphs(info):
+    return [markdown(part) for part in re.split(r"<br ?/?>(?=<b>[A-Z]\w+:</b>)|<br>(?=See:)", info)]
+
+
+def item(parameter):
+    name, default = parameter["name"], parameter["default"]
+    if parameter["type"] == "enum":
+        number = parameter["choices"].index(default)
+        kind = f"str = '{default}' (or int = {number})"
+        values = ", ".join(f"{i}. `'{c}'`" for i, c in enumerate(parameter["choices"]))
+        values = "\n" + wrapped(f"Possible enum values: {values}<br>", "  ")
+    else:
+        kind = {"bool": "bool", "int": "int", "float": "float", "file": "str"}[parameter["type"]]
+        kind += f" = {default!r}" if not isinstance(default, float) else f" = {default:g}"
+        values = ""
+    text = wrapped(f"*{parameter['label']}*: {markdown(parameter['tooltip'])}", "  ")
+    return f"- **`{name} : {kind}`**<br>{values}\n{text}"
+
+
+def page(description):
+    """The filter as PyMeshLab's documentation would show it."""
+    parts = [f"### {description['python_name']}", f"*MeshLab filter name*: '{description['name']}'"]
+    parts += [wrapped(text) for text in paragraphs(description["info"])]
+    shown, hidden = ([item(p) for p in description["parameters"] if p["advanced"] is advanced]
+                     for advanced in (False, True))
+    parts += ["**Parameters:**", *shown, "**Advanced parameters:**", *hidden]
+    return "\n\n".join(parts)
+
+
+def manual(text):
+    for key, description in zip(("Euclidean", "hyperbolic"), DESCRIPTIONS):
+        marks = [f"<!-- {word}: the {key} filter, by scripts/document_filters.py -->\n"
+                 for word in ("begin", "end")]
+        before, rest = text.split(marks[0])
+        _, after = rest.split(marks[1])
+        text = before + marks[0] + "\n" + page(description) + "\n\n" + marks[1] + after
+    return text
+
+
+def results(text):
+    """Of each filter: key -> (type, meaning), from the manual's tables."""
+    found = []
+    for part in text.split("| key | type | |\n")[1:]:
+        keys = {}
+        for row in part.splitlines()[1:]:
+            if not row.startswith("|"):
+                break
+            cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", row)[1:-1]]
+            names = re.findall(r"`(\w+)`", cells[0])
+            kinds = cells[1].split(", ")
+            meaning = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", cells[2].replace("\\|", "|"))
+            meaning = re.sub(r"[`*]", "", meaning)
+            for i, name in enumerate(names):
+                keys[name] = (kinds[i % len(kinds)], meaning)
+        found.append(keys)
+    return found
+
+
+def results_module(both):
+    lines = [LICENCE, '"""What the filters return: key -> (type, meaning)."""\n', MADE]
+    for name, keys in zip(("EUCLIDEAN_RESULTS", "HYPERBOLIC_RESULTS"), both):
+        text = pprint.pformat(keys, width=PYTHON_WIDTH, sort_dicts=False)
+        lines.append(f"\n{name} = \\\n{text}\n")
+    return "".join(lines)
+
+
+TYPES = {"bool": "bool", "int": "int", "float": "float", "vector": "Array"}
+
+STUB = LICENCE + '''\
+"""Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab."""
+''' + MADE + '''
+import os
+from typing import Any, Literal, Protocol, Union
+
+import numpy
+import numpy.typing
+import pymeshlab
+from pymeshlab import Mesh as Mesh
+
+Array = numpy.ndarray[Any, Any]
+
+class HasVerticesAndFaces(Protocol):
+    vertices: Any
+    faces: Any
+
+MeshLike = Union[str, os.PathLike[str], pymeshlab.MeshSet, Mesh, HasVerticesAndFaces,
+                 tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike]]
+
+__version__: str
+EUCLIDEAN: str
+HYPERBOLIC: str
+
+class Refused(pymeshlab.PyMeshLabException):
+    """The mesh or a parameter is refused; the text says why. The mesh is unchanged."""
+
+'''
+
+PARAMETRIZATION = '''class Parametrization:
+    """A mesh and its texture coordinates."""
+
+    vertices: Array
+    """(V, 3) float64"""
+    faces: Array
+    """(F, 3) int32, indices of vertices"""
+    uv: Array
+    """(F, 3, 2) float64, texture coordinates of each corner of each face, as floats have them"""
+    quality: Array
+    """(V,) float64, quasi-conformal distortion sigma1/sigma2 at the vertices; 1: angles kept"""
+    log_radius: Array
+    """(V,) float64, logarithms of the radii of the flow's circles, up to a constant"""
+    target_curvature: Array
+    """(V,) float64, the Gaussian curvature that the flow reached, in radians"""
+    mesh_set: pymeshlab.MeshSet
+    """holds the mesh, and the new layers if some were asked for"""
+    results: dict[str, Any]
+    """what the filter returned; each result is an attribute too"""
+    def indexed(self) -> tuple[Array, Array]:
+        """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
+    def save(self, path: Union[str, os.PathLike[str]]) -> None:
+        """Writes the mesh with its texture coordinates, to a PLY file with the quality too."""
+
+'''
+
+
+def attributes(keys):
+    lines = []
+    for key, (kind, meaning) in keys.items():
+        lines.append(f"    {key}: {TYPES[kind]}")
+        lines.append(wrapped(f'{meaning}"""', "    ", '    """', PYTHON_WIDTH))
+    return "\n".join(lines) + "\n"
+
+
+def stub_parameters(description, indent):
+    lines = []
+    for p in description["parameters"]:
+        if p["type"] == "enum":
+            choices = "".join(f"{indent}    {choice!r},\n" for choice in p["choices"])
+            kind = f"Union[int, Literal[\n{choices}{indent}]]"
+        else:
+            kind = {"file": "str"}.get(p["type"], p["type"])
+        lines.append(f"{indent}{p['name']}: {kind} = {p['default']!r},\n")
+    return "".join(lines)
+
+
+def stub(both):
+    euclidean, hyperbolic = DESCRIPTIONS
+    own = ("    mesh: MeshLike,\n    *,\n"
+           "    selected: Union[numpy.typing.ArrayLike, None] = None,\n"
+           "    curvature: Union[numpy.typing.ArrayLike, None] = None,\n")
+    parts = [STUB, PARAMETRIZATION,
+             "class Flattening(Parametrization):\n", attributes(both[0]),
+             "\nclass Uniformization(Parametrization):\n    disk: Array\n"
+             '    """(F, 3) complex128: the corners of the faces in the Poincaré disk, |z| < 1"""\n',
+             attributes({**both[0], **both[1]}),
+             "\nclass MeshSet(pymeshlab.MeshSet):\n"]
+    for d in DESCRIPTIONS:
+        parts.append(f"    def {d['python_name']}(\n        self,\n        *,\n"
+                     f"{stub_parameters(d, ' ' * 8)}    ) -> dict[str, Any]:\n"
+                     f'        """MeshLab\'s filter \'{d["name"]}\' on the current mesh."""\n')
+    for name, d, kind, text in (
+            ("flatten", euclidean, "Flattening",
+             "Conformal map of a mesh into the Euclidean plane."),
+            ("uniformize", hyperbolic, "Uniformization",
+             "Hyperbolic metric of a mesh, in the Poincaré disk.")):
+        parts.append(f"\ndef {name}(\n{own}{stub_parameters(d, '    ')}) -> {kind}:\n"
+                     f'    """{text}\n\n')
+        for p in d["parameters"]:
+            text = f"{p['name']}: {plain(p['tooltip'])}"
+            parts.append(wrapped(text, "        ", "    ", PYTHON_WIDTH) + "\n")
+        parts.append('    """\n')
+    return "".join(parts)
+
+
+def read(path):
+    if not os.path.exists(path):
+        return ""
+    with open(path, encoding="utf-8") as source:
+        return source.read()
+
+
+def main():
+    text = manual(read(MANUAL))
+    both = results(text)
+    made = {MANUAL: text, os.path.join(PACKAGE, "_results.py"): results_module(both),
+            os.path.join(PACKAGE, "__init__.pyi"): stub(both)}
+    old = [path for path, content in made.items() if read(path) != content]
+    if "--check" in sys.argv[1:]:
+        for path in old:
+            print(f"{path} is not current: run document_filters.py")
+        return 1 if old else 0
+    for path in old:
+        with open(path, "w", encoding="utf-8") as target:
+            target.write(made[path])
+        print(f"written: {path}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

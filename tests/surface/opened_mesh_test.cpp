@@ -1,0 +1,429 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+#include "support/shapes.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/error.h>
+#include <ricci/surface/component.h>
+#include <ricci/surface/opened_mesh.h>
+#include <ricci/surface/topology.h>
+#include <ricci/surface/triangulation.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+OpenedMesh opened(const SurfaceMesh& mesh)
+{
+	std::vector<std::string> notes;
+	return openMesh(mesh, notes);
+}
+
+std::vector<SurfaceType> typesOf(const OpenedMesh& mesh)
+{
+	std::vector<SurfaceType> types;
+	for (const Component& c : splitIntoComponents(mesh))
+		types.push_back(topologyOf(Triangulation(c.positions.size(), c.triangles)).type);
+	return types;
+}
+
+/// What openMesh() promises of any input.
+void expectOpened(const SurfaceMesh& mesh)
+{
+	const OpenedMesh o = opened(mesh);
+	const SurfaceMesh& cut = o.mesh;
+	// Every face is there once, in order, with its own corners.
+	ASSERT_EQ(cut.triangles.size(), o.face.size());
+	EXPECT_EQ(o.face.size() + o.degenerate.size(), mesh.triangles.size());
+	EXPECT_TRUE(std::is_sorted(o.face.begin(), o.face.end()));
+	std::set<int> all(o.face.begin(), o.face.end());
+	all.insert(o.degenerate.begin(), o.degenerate.end());
+	EXPECT_EQ(all.size(), mesh.triangles.size());
+	for (std::size_t f = 0; f < o.face.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			EXPECT_EQ(o.vertex[at(cut.triangles[f][k])], mesh.triangles[at(o.face[f])][k]);
+	// Vertices keep their numbers, copies lie where they do.
+	ASSERT_EQ(cut.positions.size(), o.vertex.size());
+	for (std::size_t v = 0; v < o.vertex.size(); ++v) {
+		if (v < mesh.positions.size()) {
+			EXPECT_EQ(o.vertex[v], static_cast<int>(v));
+		}
+		EXPECT_EQ(cut.positions[v], mesh.positions[at(o.vertex[v])]);
+	}
+	// An edge is determined by its vertices and has two faces at most, which differ in a vertex of the
+	// input.
+	std::map<std::pair<int, int>, std::vector<std::size_t>> edges;
+	for (std::size_t f = 0; f < cut.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			edges[std::minmax(cut.triangles[f][k], cut.triangles[f][(k + 1) % 3])].push_back(f);
+	for (const auto& [ends, faces] : edges) {
+		ASSERT_LE(faces.size(), 2u);
+		if (faces.size() == 2) {
+			std::set<int> corners;
+			for (const std::size_t f : faces)
+				for (const int v : cut.triangles[f])
+					corners.insert(o.vertex[at(v)]);
+			EXPECT_EQ(corners.size(), 4u);
+		}
+	}
+	// Coherent manifolds: Triangulation would refuse an incoherent edge, and every vertex is reached
+	// round its fan.
+	int vertices = 0;
+	for (const Component& c : splitIntoComponents(o)) {
+		const Triangulation t(c.positions.size(), c.triangles);
+		std::vector<int> corners(at(t.vertexCount()), 0);
+		for (const Triangle& f : c.triangles)
+			for (const int v : f)
+				++corners[at(v)];
+		for (const Vertex v : t.vertices()) {
+			int seen = 0;
+			for (const Halfedge h : t.around(v))
+				seen += !t.isExterior(h);
+			EXPECT_EQ(seen, corners[at(v.number())]);
+		}
+		vertices += c.positions.size();
+	}
+	const std::set<int> used = [&] {
+		std::set<int> result;
+		for (const Triangle& t : cut.triangles)
+			result.insert(t.begin(), t.end());
+		return result;
+	}();
+	EXPECT_EQ(vertices, static_cast<int>(used.size()));
+	std::map<int, int> copies;
+	for (const int v : used)
+		++copies[o.vertex[at(v)]];
+	EXPECT_EQ(
+		std::count_if(copies.begin(), copies.end(), [](const auto& c) { return c.second > 1; }),
+		o.splitVertices);
+}
+
+/// \p sheets rectangles of n x n cells with one side in common, at equal angles.
+SurfaceMesh book(int sheets, int n)
+{
+	SurfaceMesh mesh;
+	for (int j = 0; j <= n; ++j)
+		mesh.positions.push_back({0.0, 0.0, double(j)});
+	for (int s = 0; s < sheets; ++s) {
+		const double angle = 2 * kPi * s / sheets;
+		const int first = static_cast<int>(mesh.positions.size());
+		for (int i = 1; i <= n; ++i)
+			for (int j = 0; j <= n; ++j)
+				mesh.positions.push_back({i * std::cos(angle), i * std::sin(angle), double(j)});
+		const auto vertex = [&](int i, int j) {
+			return i == 0 ? j : first + (i - 1) * (n + 1) + j;
+		};
+		for (int i = 0; i < n; ++i)
+			for (int j = 0; j < n; ++j) {
+				mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+				mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+			}
+	}
+	return mesh;
+}
+
+Triangle reversed(const Triangle& t)
+{
+	return {t[0], t[2], t[1]};
+}
+
+SurfaceMesh doubled(const SurfaceMesh& mesh, bool turn)
+{
+	SurfaceMesh result = mesh;
+	for (const Triangle& t : mesh.triangles)
+		result.triangles.push_back(turn ? reversed(t) : t);
+	return result;
+}
+
+/// The figure-eight immersion.
+SurfaceMesh kleinBottle(int nu, int nv)
+{
+	SurfaceMesh mesh;
+	for (int i = 0; i < nu; ++i)
+		for (int j = 0; j < nv; ++j) {
+			const double u = 2 * kPi * i / nu, v = 2 * kPi * j / nv;
+			const double c = std::cos(u / 2), s = std::sin(u / 2);
+			const double r = 3 + c * std::sin(v) - s * std::sin(2 * v);
+			mesh.positions.push_back(
+				{r * std::cos(u), r * std::sin(u), s * std::sin(v) + c * std::sin(2 * v)});
+		}
+	const auto vertex = [&](int i, int j) { // once round, v comes back as -v
+		return i < nu ? i * nv + (j + nv) % nv : (2 * nv - j) % nv;
+	};
+	for (int i = 0; i < nu; ++i)
+		for (int j = 0; j < nv; ++j) {
+			const int a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
+					  d = vertex(i, j + 1);
+			mesh.triangles.push_back({a, b, c});
+			mesh.triangles.push_back({a, c, d});
+		}
+	return mesh;
+}
+
+/// The projective plane: half of a cube of n^2 cells on each side, opposite points identified.
+SurfaceMesh projectivePlane(int n)
+{
+	std::map<std::array<int, 3>, int> number;
+	SurfaceMesh mesh;
+	const auto vertex = [&](std::array<int, 3> p) { // coordinates from -n to n, step 2
+		const std::array<int, 3> opposite{-p[0], -p[1], -p[2]};
+		p = std::max(p, opposite);
+		const auto [place, isNew] = number.insert({p, static_cast<int>(number.size())});
+		if (isNew) {
+			const double x = double(p[0]) / n, y = double(p[1]) / n, z = double(p[2]) / n;
+			mesh.positions.push_back({x * x + 0.3 * y * z, x * y - 0.1 * z * z, y * z + z * x});
+		}
+		return place->second;
+	};
+	for (std::size_t axis = 0; axis < 3; ++axis)
+		for (int i = -n; i < n; i += 2)
+			for (int j = -n; j < n; j += 2) {
+				const auto point = [&](int a, int b) {
+					std::array<int, 3> p{};
+					p[axis] = n;
+					p[(axis + 1) % 3] = a;
+					p[(axis + 2) % 3] = b;
+					return vertex(p);
+				};
+				const int a = point(i, j), b = point(i + 2, j), c = point(i + 2, j + 2),
+						  d = point(i, j + 2);
+				mesh.triangles.push_back({a, b, c});
+				mesh.triangles.push_back({a, c, d});
+			}
+	return mesh;
+}
+
+TEST(OpenedMesh, LeavesManifoldsAsTheyAre)
+{
+	for (const SurfaceMesh& mesh :
+		 {tetrahedron(), rectangle(2, 3, 1, 1), perforatedSlab(2, 1), torus(2, 1, 8, 6)}) {
+		expectOpened(mesh);
+		const OpenedMesh o = opened(mesh);
+		EXPECT_TRUE(o.isAsGiven());
+		EXPECT_EQ(o.mesh.triangles, mesh.triangles);
+		EXPECT_EQ(o.mesh.positions, mesh.positions);
+		EXPECT_EQ(o.cutEdges + o.duplicateFaces + o.oneSidedComponents, 0);
+	}
+}
+
+TEST(OpenedMesh, AFinLeavesItsSheetWhole)
+{
+	SurfaceMesh mesh = rectangle(4, 4, 1, 1);
+	const int a = mesh.triangles[14][0], b = mesh.triangles[14][1];
+	mesh.positions.push_back({0.5, 0.5, 1.0});
+	mesh.triangles.insert(
+		mesh.triangles.begin(), {b, a, static_cast<int>(mesh.positions.size()) - 1});
+	expectOpened(mesh);
+	const OpenedMesh o = opened(mesh);
+	EXPECT_EQ(o.cutEdges, 1);
+	EXPECT_EQ(o.splitVertices, 2);
+	const std::vector<Component> pieces = splitIntoComponents(o);
+	ASSERT_EQ(pieces.size(), 2u);
+	EXPECT_EQ(pieces[0].triangles.size(), 1u);
+	EXPECT_EQ(pieces[1].triangles.size(), 32u);
+	for (const SurfaceType& type : typesOf(o))
+		EXPECT_TRUE(type.isDisk());
+}
+
+/// Straight on where that is possible: pairs of opposite sheets, and an odd one left over.
+TEST(OpenedMesh, PairsTheSheetsOfABookStraightOn)
+{
+	for (int sheets = 3; sheets <= 90; sheets = sheets < 8 ? sheets + 1 : 3 * sheets) {
+		SCOPED_TRACE(sheets);
+		const int n = 3;
+		const SurfaceMesh mesh = book(sheets, n);
+		expectOpened(mesh);
+		const OpenedMesh o = opened(mesh);
+		EXPECT_EQ(o.cutEdges, n);
+		const std::vector<Component> pieces = splitIntoComponents(o);
+		EXPECT_EQ(pieces.size(), at((sheets + 1) / 2));
+		int straight = 0;
+		for (const Component& c : pieces) {
+			EXPECT_EQ(c.triangles.size() % (2 * n * n), 0u);
+			if (c.triangles.size() != 4 * n * n)
+				continue;
+			// The directions of the two sheets: their vertices farthest from the spine.
+			std::vector<Point3> far;
+			for (const Point3& p : c.positions)
+				if (p[2] == 0.0 && std::hypot(p[0], p[1]) > n - 0.5)
+					far.push_back(p);
+			ASSERT_EQ(far.size(), 2u);
+			straight += std::hypot(far[0][0] + far[1][0], far[0][1] + far[1][1]) < 1e-9;
+		}
+		EXPECT_EQ(straight, sheets % 2 == 0 ? sheets / 2 : 0);
+	}
+}
+
+TEST(OpenedMesh, EqualFacesAreSeparateSheets)
+{
+	for (const SurfaceMesh& mesh : {torus(2, 1, 9, 7), rectangle(3, 2, 1, 1), tetrahedron()})
+		for (const bool turn : {false, true}) {
+			const SurfaceMesh twice = doubled(mesh, turn);
+			expectOpened(twice);
+			const OpenedMesh o = opened(twice);
+			EXPECT_EQ(o.duplicateFaces, static_cast<int>(mesh.triangles.size()));
+			const auto types = typesOf(o);
+			ASSERT_EQ(types.size(), 2u);
+			const SurfaceType own = typesOf(opened(mesh))[0];
+			for (const SurfaceType& type : types) {
+				EXPECT_EQ(type.genus, own.genus);
+				EXPECT_EQ(type.boundaryLoops, own.boundaryLoops);
+			}
+		}
+	// A pillow of two faces has no third triangle to tell what its inside is: two sheets.
+	const SurfaceMesh pillow{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 1}}};
+	expectOpened(pillow);
+	EXPECT_EQ(typesOf(opened(pillow)).size(), 2u);
+}
+
+TEST(OpenedMesh, SplitsVerticesOfSeveralFans)
+{
+	SurfaceMesh bowTie;
+	for (int i = 0; i < 5; ++i)
+		bowTie.positions.push_back({double(i % 3), double(i / 3), double(i * i)});
+	bowTie.triangles = {{0, 1, 2}, {0, 3, 4}};
+	expectOpened(bowTie);
+	EXPECT_EQ(opened(bowTie).splitVertices, 1);
+	EXPECT_EQ(opened(bowTie).componentCount, 2);
+	// A sphere whose poles touch stays a sphere.
+	SurfaceMesh pinched = torus(1, 1, 12, 8);
+	const int pole = 4; // at v = pi, where the rings have the radius 0
+	for (Triangle& t : pinched.triangles)
+		for (int& v : t)
+			if (std::hypot(pinched.positions[at(v)][0], pinched.positions[at(v)][1]) < 1e-9)
+				v = pole;
+	expectOpened(pinched);
+	const OpenedMesh o = opened(pinched);
+	EXPECT_EQ(o.splitVertices, 1);
+	ASSERT_EQ(o.componentCount, 1);
+	EXPECT_TRUE(typesOf(o)[0].isSphere());
+	EXPECT_EQ(o.degenerate.size(), 24u); // the ring of sides of length 0 at the pole
+}
+
+/// The shortest one-sided loop of the band is its border but for one side across, which opens it to a
+/// disk. The projective plane becomes a disk, with Euler characteristic 1 as before, and the Klein
+/// bottle, with 0, an annulus.
+TEST(OpenedMesh, CutsOneSidedSurfacesAlongShortLoops)
+{
+	const SurfaceMesh band = moebiusBand(9);
+	expectOpened(band);
+	EXPECT_EQ(opened(band).oneSidedComponents, 1);
+	ASSERT_EQ(typesOf(opened(band)).size(), 1u);
+	EXPECT_EQ(typesOf(opened(band))[0].boundaryLoops, 1); // across, from border to border: a disk
+
+	const SurfaceMesh plane = projectivePlane(8);
+	expectOpened(plane);
+	EXPECT_EQ(opened(plane).oneSidedComponents, 1);
+	ASSERT_EQ(typesOf(opened(plane)).size(), 1u);
+	EXPECT_TRUE(typesOf(opened(plane))[0].isDisk());
+
+	const SurfaceMesh bottle = kleinBottle(24, 16);
+	expectOpened(bottle);
+	EXPECT_EQ(opened(bottle).oneSidedComponents, 1);
+	ASSERT_EQ(typesOf(opened(bottle)).size(), 1u);
+	EXPECT_EQ(typesOf(opened(bottle))[0].eulerCharacteristic(), 0);
+	EXPECT_EQ(typesOf(opened(bottle))[0].boundaryLoops, 2);
+
+	EXPECT_EQ(opened(sideBySide(band, band, 10)).oneSidedComponents, 2);
+	EXPECT_EQ(opened(sideBySide(tetrahedron(), bottle, 10)).oneSidedComponents, 1);
+}
+
+TEST(OpenedMesh, LeavesOutFacesWithoutArea)
+{
+	SurfaceMesh mesh = rectangle(1, 1, 1, 1);
+	mesh.triangles.insert(mesh.triangles.begin(), {0, 1, 1});
+	mesh.triangles.push_back({2, 2, 2});
+	for (double x : {5.0, 6.0, 7.0}) // a component on a line
+		mesh.positions.push_back({x, 0.0, 0.0});
+	mesh.triangles.push_back({4, 5, 6});
+	expectOpened(mesh);
+	const OpenedMesh o = opened(mesh);
+	EXPECT_EQ(o.degenerate, (std::vector<int>{0, 3, 4}));
+	EXPECT_EQ(o.face, (std::vector<int>{1, 2}));
+	EXPECT_EQ(o.componentCount, 1);
+}
+
+/// A triangle of a chain that is pinched along an edge: two edges with the same ends.
+TEST(OpenedMesh, AnEdgeIsDeterminedByItsVertices)
+{
+	// A tube of four strips round a square whose opposite edges 0-1 are one.
+	SurfaceMesh mesh = torus(3, 1, 6, 4);
+	std::map<int, int> joined; // rings of four: the first edge of one ring becomes that of another
+	for (const auto& [from, to] : {std::pair(12, 0), std::pair(13, 1)})
+		joined[from] = to;
+	for (Triangle& t : mesh.triangles)
+		for (int& v : t)
+			if (joined.count(v) > 0)
+				v = joined[v];
+	expectOpened(mesh);
+	EXPECT_GT(opened(mesh).splitVertices, 0);
+}
+
+TEST(OpenedMesh, HoldsForAnyTriangles)
+{
+	Random random(7);
+	for (int run = 0; run < 400; ++run) {
+		SCOPED_TRACE(run);
+		SurfaceMesh mesh;
+		const int vertices = 4 + run % 23, faces = 4 + 3 * (run % 40);
+		for (int v = 0; v < vertices; ++v)
+			mesh.positions.push_back({random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)});
+		for (int f = 0; f < faces; ++f)
+			mesh.triangles.push_back(
+				{random.index(vertices), random.index(vertices), random.index(vertices)});
+		mesh.triangles.push_back({0, 1, 2});
+		expectOpened(mesh);
+		if (HasFailure())
+			return;
+	}
+}
+
+/// The same triangles in another order, with other vertex numbers and first corners, are cut as often.
+TEST(OpenedMesh, NumbersDoNotMatterWherePairsAreClear)
+{
+	const SurfaceMesh original = book(6, 4);
+	Random random(9);
+	std::vector<int> vertex(original.positions.size()), order(original.triangles.size());
+	for (std::size_t v = 0; v < vertex.size(); ++v)
+		vertex[v] = static_cast<int>(v);
+	for (std::size_t f = 0; f < order.size(); ++f)
+		order[f] = static_cast<int>(f);
+	random.shuffle(vertex);
+	random.shuffle(order);
+	SurfaceMesh mesh = original;
+	for (std::size_t v = 0; v < vertex.size(); ++v)
+		mesh.positions[at(vertex[v])] = original.positions[v];
+	for (std::size_t f = 0; f < order.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			mesh.triangles[f][k] = vertex[at(original.triangles[at(order[f])][(k + f) % 3])];
+	expectOpened(mesh);
+	EXPECT_EQ(opened(mesh).componentCount, opened(original).componentCount);
+	EXPECT_EQ(opened(mesh).splitVertices, opened(original).splitVertices);
+}
+
+TEST(OpenedMesh, TellsWhatWasDone)
+{
+	SurfaceMesh mesh = book(3, 2);
+	mesh.positions.push_back({9, 9, 9});
+	mesh.triangles.push_back({0, 0, 1});
+	std::vector<std::string> notes;
+	openMesh(mesh, notes);
+	ASSERT_EQ(notes.size(), 5u);
+	EXPECT_EQ(notes[0].rfind("1 vertex belongs to no face", 0), 0u);
+	EXPECT_EQ(notes[1].rfind("8 faces were oriented against", 0), 0u); // all sheets leave the spine
+	EXPECT_EQ(notes[2].rfind("2 edges of more than two faces were cut", 0), 0u);
+	EXPECT_EQ(notes[3].rfind("3 vertices have more than one fan", 0), 0u);
+	EXPECT_EQ(notes[4].rfind("1 face has no area", 0), 0u);
+}
+
+} // namespace
+} // namespace ricci::testing

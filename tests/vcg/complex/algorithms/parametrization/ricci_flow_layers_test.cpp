@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/complex.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/vcg_mesh.h"
+
+#include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
+
+#include <ricci/measure/tiling.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+template<class Mesh>
+using Flow = vcg::tri::RicciFlow<Mesh>;
+
+template<class Mesh>
+class UniversalCover : public ::testing::Test
+{
+};
+
+using Meshes = ::testing::Types<FloatMesh, DoubleMesh>;
+TYPED_TEST_SUITE(UniversalCover, Meshes);
+
+/// The place of a copy in the texture plane.
+Point2 moved(const DiskIsometry& m, const Point2& p, const Box2& disk)
+{
+	const Point2 middle{(disk.min[0] + disk.max[0]) / 2, (disk.min[1] + disk.max[1]) / 2};
+	const double radius = 0.5 * disk.width();
+	const std::complex<double> z =
+		m(std::complex<double>((p[0] - middle[0]) / radius, (p[1] - middle[1]) / radius));
+	return {middle[0] + radius * z.real(), middle[1] + radius * z.imag()};
+}
+
+/// The corners of each face of the cover, in the order that it is to have: copy by copy, in each the
+/// layout's triangles.
+template<class Mesh>
+std::vector<Triangle2>
+expectedCover(const Mesh& m, const typename Flow<Mesh>::Result& r, int rings, int maxCount)
+{
+	std::vector<Tiling> tilings;
+	std::size_t copies = 0;
+	for (const FuchsianGroup& group : r.groups) {
+		tilings.push_back(tiling(group.sides, rings, maxCount));
+		copies = std::max(copies, tilings.back().deck.size());
+	}
+	const bool refined = !r.refined.triangles.empty();
+	std::vector<Triangle2> expected;
+	for (std::size_t copy = 0; copy < copies; ++copy)
+		for (std::size_t i = 0; i < (refined ? r.refined.uv.size() : m.face.size()); ++i) {
+			const std::size_t face = refined ? at(r.refined.inputFace[i]) : i;
+			const std::size_t component = r.component[face];
+			if (copy >= tilings[component].deck.size())
+				continue;
+			Triangle2 corners = refined ? r.refined.uv[i] : r.wedgeUV[i];
+			for (Point2& p : corners)
+				p = moved(tilings[component].deck[copy], p, r.disks[component]);
+			expected.push_back(corners);
+		}
+	return expected;
+}
+
+/// Every corner is a vertex, where the copy puts it, rounded once.
+template<class Mesh>
+void expectCover(const Mesh& cover, const std::vector<Triangle2>& expected)
+{
+	using Coordinate = typename Mesh::CoordType::ScalarType;
+	ASSERT_EQ(cover.face.size(), expected.size());
+	for (std::size_t f = 0; f < expected.size(); ++f)
+		for (int k = 0; k < 3; ++k) {
+			ASSERT_NE(cover.face[f].cV(k), nullptr);
+			const auto& p = cover.face[f].cV(k)->cP();
+			const Point2& wanted = expected[f][at(k)];
+			EXPECT_EQ(p[0], static_cast<Coordinate>(wanted[0]));
+			EXPECT_EQ(p[1], static_cast<Coordinate>(wanted[1]));
+			EXPECT_EQ(p[2], 0);
+		}
+	std::set<const typename Mesh::VertexType*> used;
+	for (const auto& f : cover.face)
+		for (int k = 0; k < 3; ++k)
+			used.insert(f.cV(k));
+	EXPECT_EQ(used.size(), cover.vert.size());
+}
+
+/// Two components with disks side by side. One reaches the side that the squares share, as it does in
+/// floats far out in its disk, and belongs to its own disk all the same.
+TYPED_TEST(UniversalCover, APointOnTheSideOfTwoSquaresStaysInItsComponent)
+{
+	SurfaceMesh shape;
+	shape.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
+	shape.triangles = {{0, 1, 2}, {3, 4, 5}};
+	TypeParam m;
+	toVcg(shape, m);
+	typename Flow<TypeParam>::Result r;
+	r.vertexQC.assign(6, 1.0);
+	r.disks = {{{0.0, 0.0}, {0.5, 0.5}}, {{0.5, 0.0}, {1.0, 0.5}}};
+	const double side = std::nextafter(0.5, 0.0); // a float of 0.5
+	r.wedgeUV = {
+		Triangle2{Point2{0.25, 0.25}, Point2{side, 0.25}, Point2{0.25, 0.3}},
+		Triangle2{Point2{0.75, 0.25}, Point2{0.5 + 1e-12, 0.25}, Point2{0.75, 0.2}}};
+	r.component = {0, 1};
+	const DiskIsometry step = DiskIsometry::translation(1.0);
+	for (const bool first : {true, false}) {
+		r.groups.assign(2, {});
+		r.groups[first ? 0 : 1].sides = {step, step.inverse()};
+		TypeParam cover;
+		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(m, r, 1, 100, cover);
+		EXPECT_EQ(cover.fn, 4);
+		expectCover(cover, expectedCover(m, r, 1, 100));
+	}
+}
+
+/// Of each face the copies that its component has, moved in doubles and rounded once.
+TYPED_TEST(UniversalCover, CopiesAreMovedBeforeTheyAreRounded)
+{
+	Random random(920);
+	const SurfaceMesh shape = sideBySide(
+		shaken(perforatedSlab(2, 2), 0.06, random),
+		shaken(perforatedSlab(3, 1), 0.05, random),
+		20.0);
+	TypeParam m;
+	toVcg(shape, m);
+	for (const OutputTriangulation output :
+		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+		typename Flow<TypeParam>::HyperbolicParams par;
+		par.output = output;
+		Progress silent;
+		const auto r = Flow<TypeParam>::ComputeHyperbolic(m, par, silent);
+		TypeParam cover;
+		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(m, r, 1, 1000000, cover);
+		expectCover(cover, expectedCover(m, r, 1, 1000));
+	}
+}
+
+/// Where two copies meet, their vertices are at one place up to the last place of a float of the
+/// texture plane.
+TYPED_TEST(UniversalCover, CopiesMeetAtTheirSeams)
+{
+	Random random(921);
+	const SurfaceMesh shape = shaken(perforatedSlab(2, 3), 0.06, random);
+	TypeParam m;
+	toVcg(shape, m);
+	for (const OutputTriangulation output :
+		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+		typename Flow<TypeParam>::HyperbolicParams par;
+		par.output = output;
+		par.finish = Finish::None;
+		Progress silent;
+		const auto r = Flow<TypeParam>::ComputeHyperbolic(m, par, silent);
+		TypeParam cover;
+		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(m, r, 1, 1000000, cover);
+		const std::size_t copies = tiling(r.groups[0].sides, 1, 1000).deck.size();
+		ASSERT_EQ(cover.vert.size() % copies, 0u);
+		const std::size_t perCopy = cover.vert.size() / copies;
+		ASSERT_GT(copies, 8u);
+		// Sides of the first copy that only one of its faces has: the seam.
+		std::map<std::pair<std::size_t, std::size_t>, int> faces;
+		for (const auto& f : cover.face)
+			for (int k = 0; k < 3; ++k) {
+				const std::size_t i = vcg::tri::Index(cover, f.cV(k));
+				const std::size_t j = vcg::tri::Index(cover, f.cV((k + 1) % 3));
+				if (i < perCopy)
+					++faces[std::minmax(i, j)];
+			}
+		std::set<std::size_t> seam;
+		for (const auto& [side, count] : faces)
+			if (count == 1) {
+				seam.insert(side.first);
+				seam.insert(side.second);
+			}
+		EXPECT_GT(seam.size(), 40u);
+		for (const std::size_t v : seam) {
+			const auto& p = cover.vert[v].cP();
+			double least = 1.0;
+			for (std::size_t w = perCopy; w < cover.vert.size(); ++w)
+				least = std::min(
+					least,
+					std::max(
+						std::abs(double(p[0]) - double(cover.vert[w].cP()[0])),
+						std::abs(double(p[1]) - double(cover.vert[w].cP()[1]))));
+			const double step = std::is_same_v<typename TypeParam::CoordType::ScalarType, float>
+									? 0.5 * std::numeric_limits<float>::epsilon()
+									: 1e-13;
+			EXPECT_LE(least, step);
+		}
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,494 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "period_matrix.h"
+
+#include "../base/tolerances.h"
+#include "../error.h"
+#include "../math/disjoint_sets.h"
+#include "../math/sparse_cholesky.h"
+#include "../metric/area.h"
+#include "invariants.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+/// A closed path from triangle to triangle, which leaves the triangle of each halfedge across it and
+/// passes no triangle twice. The closed form that belongs to it is 1 on these halfedges, -1 on their
+/// twins and else 0.
+using DualLoop = std::vector<Halfedge>;
+
+/// A tree that spans the triangles, from one in breadth first.
+struct DualTree
+{
+	FaceArray<Halfedge> toParent; ///< none at the root
+	FaceArray<int> depth;
+	EdgeArray<char> isCrossed;
+
+	DualTree(const Triangulation& t, const Tick& tick) :
+			toParent(t.faceCount()), depth(t.faceCount(), -1), isCrossed(t.edgeCount(), 0)
+	{
+		std::vector<Face> reached = {Face(0)};
+		reached.reserve(positionOf(t.faceCount()));
+		depth[Face(0)] = 0;
+		for (std::size_t i = 0; i < reached.size(); ++i) {
+			tickNowAndThen(tick, i);
+			const Face f = reached[i];
+			for (const Halfedge h : t.halfedges(f)) {
+				const Face g = t.face(h.twin());
+				if (depth[g] >= 0)
+					continue;
+				depth[g] = depth[f] + 1;
+				toParent[g] = h.twin();
+				isCrossed[h.edge()] = 1;
+				reached.push_back(g);
+			}
+		}
+	}
+
+	/// Across \p h and back in the tree.
+	DualLoop loopAcross(const Triangulation& t, Halfedge h) const
+	{
+		DualLoop loop = {h}, back;
+		Face to = t.face(h.twin()), from = t.face(h);
+		while (to != from)
+			if (depth[to] >= depth[from]) {
+				loop.push_back(toParent[to]);
+				to = t.face(toParent[to].twin());
+			}
+			else {
+				back.push_back(toParent[from].twin());
+				from = t.face(toParent[from].twin());
+			}
+		loop.insert(loop.end(), back.rbegin(), back.rend());
+		return loop;
+	}
+};
+
+/// 2 genus loops that generate the homology: those across the edges in neither of a tree of the
+/// triangles and a tree of the remaining edges.
+std::vector<DualLoop> dualLoops(const Triangulation& t, const Tick& tick)
+{
+	const DualTree tree(t, tick);
+	DisjointSetsOf<Vertex> joined(t.vertexCount());
+	std::vector<DualLoop> loops;
+	for (const Edge e : t.edges()) {
+		tickNowAndThen(tick, positionOf(e));
+		if (!tree.isCrossed[e] && !joined.merge(t.ends(e)[0], t.ends(e)[1]))
+			loops.push_back(tree.loopAcross(t, e.halfedge()));
+	}
+	return loops;
+}
+
+/// Values of a closed form, in the edges' direction.
+class LoopForm
+{
+public:
+	explicit LoopForm(int edges) : m_value(edges, 0) {}
+
+	/// Adds \p factor times the form of \p loop.
+	void add(const DualLoop& loop, int factor)
+	{
+		for (const Halfedge h : loop)
+			m_value[h.edge()] += h.isFirst() ? factor : -factor;
+	}
+
+	int operator[](Halfedge h) const
+	{
+		return h.isFirst() ? m_value[h.edge()] : -m_value[h.edge()];
+	}
+
+private:
+	EdgeArray<int> m_value;
+};
+
+/// Integrals of the wedge products of the forms. On a triangle with the values a, b on one side and a',
+/// b' on the next, the integral is (a b' - a' b) / 2.
+Eigen::MatrixXi wedgeProducts(const Triangulation& t, const std::vector<DualLoop>& loops)
+{
+	const auto n = static_cast<Eigen::Index>(loops.size());
+	Eigen::MatrixXi twice = Eigen::MatrixXi::Zero(n, n);
+	LoopForm form(t.edgeCount());
+	for (Eigen::Index j = 0; j < n; ++j) {
+		const DualLoop& first = loops[static_cast<std::size_t>(j)];
+		form.add(first, 1);
+		for (Eigen::Index k = 0; k < n; ++k) {
+			const DualLoop& second = loops[static_cast<std::size_t>(k)];
+			Halfedge entry = second.back().twin();
+			for (const Halfedge h : second) {
+				const Halfedge next = t.next(h);
+				twice(j, k) -= form[next] + (entry == next ? form[h] : 0);
+				entry = h.twin();
+			}
+		}
+		form.add(first, -1);
+	}
+	return twice / 2;
+}
+
+/// Integer combinations of forms, in columns, whose wedge products are [[0, 1], [-1, 0]]. Two that are
+/// +-1 are taken out, and the others made orthogonal to them, again and again. Such two are always
+/// found: the loops cross like chords of a circle, and a skew-symmetric matrix of such crossings has no
+/// principal minors but 0 and 1, so that the products stay 0 and +-1.
+/// \throw InternalError if \p wedge is no such matrix
+Eigen::MatrixXd canonicalBasis(Eigen::MatrixXi wedge)
+{
+	const Eigen::Index n = wedge.rows(), genus = n / 2;
+	Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(n, n);
+	const auto swap = [&](Eigen::Index i, Eigen::Index j) {
+		basis.col(i).swap(basis.col(j));
+		wedge.row(i).swap(wedge.row(j));
+		wedge.col(i).swap(wedge.col(j));
+	};
+	for (Eigen::Index i = 0; i < n; i += 2) {
+		Eigen::Index j = i + 1;
+		while (j < n && std::abs(wedge(i, j)) != 1)
+			++j;
+		if (j >= n)
+			throw InternalError("The intersection form is not unimodular.");
+		swap(i + 1, j);
+		if (wedge(i, i + 1) < 0)
+			swap(i, i + 1);
+		for (Eigen::Index k = i + 2; k < n; ++k) {
+			const int a = wedge(k, i + 1), b = wedge(i, k);
+			basis.col(k) -= a * basis.col(i) + b * basis.col(i + 1);
+			wedge.col(k) -= a * wedge.col(i) + b * wedge.col(i + 1);
+			wedge.row(k) -= a * wedge.row(i) + b * wedge.row(i + 1);
+		}
+	}
+	Eigen::MatrixXd ordered(n, n);
+	for (Eigen::Index i = 0; i < genus; ++i) {
+		ordered.col(i) = basis.col(2 * i);
+		ordered.col(genus + i) = basis.col(2 * i + 1);
+	}
+	return ordered;
+}
+
+/// Half the sum of the cotangents of the opposite angles.
+EdgeArray<double> cotangentWeights(const Triangulation& t, const EdgeArray<double>& lengths)
+{
+	EdgeArray<double> weights(t.edgeCount(), 0.0);
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		const std::array<double, 3> l = {
+			lengths[h[0].edge()], lengths[h[1].edge()], lengths[h[2].edge()]};
+		const double area = euclideanArea(l);
+		for (std::size_t k = 0; k < 3; ++k) {
+			const double a = l[k], b = l[(k + 1) % 3], c = l[(k + 2) % 3];
+			weights[h[k].edge()] += ((b - a) * (b + a) + c * c) / (8.0 * area);
+		}
+	}
+	return weights;
+}
+
+/// Two values at each vertex.
+using Pair = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+/// The cotangent Laplacian, with conjugate gradients for two right sides at a time. They are
+/// preconditioned with the factor of a nearby matrix, or with the Laplacian's own, which leaves them
+/// one step.
+class Laplacian
+{
+public:
+	Laplacian(const Triangulation& t, const EdgeArray<double>& weights, FactoredHessian* near) :
+			m_t(t), m_weights(weights), m_row(t.vertexCount()),
+			m_cholesky(near != nullptr ? near->cholesky() : m_own)
+	{
+		if (near != nullptr) {
+			m_row = near->row();
+			m_rows.resize(near->unknowns());
+		}
+		else
+			factorize();
+	}
+
+	bool isFactored() const { return m_isFactored; }
+
+	/// Solves for \p x to an energy of the error of about kEnergyError.
+	/// \param residual the right side, adding up to 0; what is left of it on return
+	void solve(Pair& residual, Pair& x, const Tick& tick)
+	{
+		x.setZero(residual.rows(), 2);
+		Pair direction, image, corrected;
+		Eigen::RowVector2d last, slope;
+		for (int step = 0; step < kMaxSteps; ++step) {
+			tick();
+			precondition(residual, corrected);
+			const Eigen::RowVector2d energy = residual.cwiseProduct(corrected).colwise().sum();
+			if (!(energy.maxCoeff() > kEnergyError))
+				break;
+			direction = step == 0
+							? corrected
+							: Pair(corrected + direction * energy.cwiseQuotient(last).asDiagonal());
+			last = energy;
+			multiply(direction, image);
+			slope = direction.cwiseProduct(image).colwise().sum();
+			Eigen::RowVector2d length = energy.cwiseQuotient(slope);
+			for (double& l : length)
+				l = std::isfinite(l) ? l : 0.0; // one side is solved already
+			x += direction * length.asDiagonal();
+			residual -= image * length.asDiagonal();
+		}
+	}
+
+private:
+	static constexpr double kEnergyError = 1e-7;
+	static constexpr int kMaxSteps = 100;
+
+	void factorize()
+	{
+		for (const Vertex v : m_t.vertices())
+			m_row[v] = v.number() - 1; // the value at one vertex is held
+		const int unknowns = m_t.vertexCount() - 1;
+		m_rows.resize(unknowns);
+		if (unknowns == 0)
+			return;
+		SparseCholesky::Matrix matrix(unknowns, unknowns);
+		const auto layOut = [&] { fill(matrix); };
+		layOut();
+		m_own.analyze(matrix, m_row.values(), layOut);
+		m_isFactored = m_own.factorize(matrix);
+	}
+
+	void fill(SparseCholesky::Matrix& matrix) const
+	{
+		Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(matrix.rows());
+		std::vector<Eigen::Triplet<double>> entries;
+		entries.reserve(positionOf(m_t.edgeCount() + m_t.vertexCount()));
+		for (const Edge e : m_t.edges()) {
+			const auto ends = m_t.ends(e);
+			const int a = m_row[ends[0]], b = m_row[ends[1]];
+			if (a == b)
+				continue; // a loop
+			for (const int row : {a, b})
+				if (row >= 0)
+					diagonal[row] += m_weights[e];
+			if (a >= 0 && b >= 0)
+				entries.emplace_back(std::max(a, b), std::min(a, b), -m_weights[e]);
+		}
+		for (int row = 0; row < diagonal.size(); ++row)
+			entries.emplace_back(row, row, diagonal[row]);
+		matrix.setFromTriplets(entries.begin(), entries.end());
+	}
+
+	void precondition(const Pair& residual, Pair& corrected)
+	{
+		corrected.setZero(residual.rows(), 2);
+		if (m_rows.size() == 0)
+			return;
+		for (const Vertex v : m_row.indices())
+			if (m_row[v] >= 0)
+				m_rows[m_row[v]] = {residual(v.number(), 0), residual(v.number(), 1)};
+		m_cholesky.solve(m_rows, m_solution);
+		for (const Vertex v : m_row.indices())
+			if (m_row[v] >= 0)
+				corrected.row(v.number()) << m_solution[m_row[v]].real(),
+					m_solution[m_row[v]].imag();
+	}
+
+	void multiply(const Pair& x, Pair& image) const
+	{
+		image.setZero(x.rows(), 2);
+		for (const Edge e : m_t.edges()) {
+			const auto ends = m_t.ends(e);
+			const Eigen::RowVector2d flux =
+				m_weights[e] * (x.row(ends[0].number()) - x.row(ends[1].number()));
+			image.row(ends[0].number()) += flux;
+			image.row(ends[1].number()) -= flux;
+		}
+	}
+
+	const Triangulation& m_t;
+	const EdgeArray<double>& m_weights;
+	VertexArray<int> m_row; // of the factor's matrix, or -1
+	SparseCholesky m_own;
+	SparseCholesky& m_cholesky;
+	bool m_isFactored = true;
+	Eigen::VectorXcd m_rows, m_solution;
+};
+
+/// Inner products of closed forms, nearly harmonic, that are cohomologous to those of the loops; empty
+/// where the Laplacian has no factor. With the forms t, the functions f that are added to them, the right
+/// sides b = -d*t and what the solver leaves of them, r, they are <t_j, t_k> - b_j f_k - f_j r_k. They
+/// are too large by the energy of the solver's errors, which the bound of the period matrix contains.
+Eigen::MatrixXd energies(
+	const Triangulation& t,
+	const EdgeArray<double>& weights,
+	const std::vector<DualLoop>& loops,
+	FactoredHessian* near,
+	const Tick& tick)
+{
+	tick();
+	Laplacian laplacian(t, weights, near);
+	if (!laplacian.isFactored())
+		return {};
+	const auto n = static_cast<Eigen::Index>(loops.size());
+	Eigen::MatrixXd energy(n, n), functions(t.vertexCount(), n);
+	LoopForm form(t.edgeCount());
+	Pair residual, solution;
+	for (Eigen::Index k = 0; k < n; k += 2) {
+		residual.setZero(t.vertexCount(), 2);
+		for (const Eigen::Index part : {0, 1})
+			for (const Halfedge h : loops[static_cast<std::size_t>(k + part)]) {
+				residual(t.origin(h).number(), part) += weights[h.edge()];
+				residual(t.target(h).number(), part) -= weights[h.edge()];
+			}
+		laplacian.solve(residual, solution, tick);
+		functions.middleCols<2>(k) = solution;
+		for (const Eigen::Index i : {k, k + 1}) {
+			form.add(loops[static_cast<std::size_t>(i)], 1);
+			for (Eigen::Index j = 0; j <= i; ++j) {
+				double sum = -functions.col(j).dot(residual.col(i - k));
+				for (const Halfedge h : loops[static_cast<std::size_t>(j)])
+					sum += weights[h.edge()] * (form[h] + functions(t.target(h).number(), i) -
+												functions(t.origin(h).number(), i));
+				energy(i, j) = energy(j, i) = sum;
+			}
+			form.add(loops[static_cast<std::size_t>(i)], -1);
+		}
+	}
+	return energy;
+}
+
+/// The period matrix from the energies in a canonical basis.
+PeriodMatrix fromEnergies(const Eigen::MatrixXd& energy)
+{
+	const Eigen::Index n = energy.rows(), genus = n / 2;
+	const Eigen::LLT<Eigen::MatrixXd> cholesky(energy);
+	if (cholesky.info() != Eigen::Success)
+		return {};
+	// The discrete star is J^-1 E = J^-1 L L^T, and holomorphic forms v have the eigenvalues -i k: w =
+	// L^T v is an eigenvector of the Hermitian matrix i L^T J^-1 L for the eigenvalue k.
+	const Eigen::MatrixXd lower = cholesky.matrixL();
+	Eigen::MatrixXd inverseOnLower(n, n);
+	inverseOnLower << -lower.bottomRows(genus), lower.topRows(genus);
+	const Eigen::MatrixXcd hermitian =
+		std::complex<double>(0.0, 1.0) * (lower.transpose() * inverseOnLower);
+	const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(hermitian);
+	const Eigen::MatrixXcd forms =
+		lower.transpose().cast<std::complex<double>>().triangularView<Eigen::Upper>().solve(
+			solver.eigenvectors().rightCols(genus));
+	const Eigen::MatrixXcd omega = forms.bottomRows(genus) * forms.topRows(genus).inverse();
+	PeriodMatrix result;
+	result.omega = siegelReduced(0.5 * (omega + omega.transpose()));
+	result.error = std::max(0.0, std::log(solver.eigenvalues().maxCoeff()));
+	return result;
+}
+
+/// Another basis of the lattice: row i of the imaginary part's Gram matrix plus \p factor times row j.
+void addRow(Eigen::MatrixXcd& omega, Eigen::Index i, Eigen::Index j, double factor)
+{
+	omega.row(i) += factor * omega.row(j);
+	omega.col(i) += factor * omega.col(j);
+}
+
+/// Makes vector \p i of the lattice with the Gram matrix Im \p omega shorter by up to \p terms others from
+/// \p first on, each with the factor +-1.
+/// \param change what has been added to the square of its length
+/// \return whether that was possible
+bool shorten(
+	Eigen::MatrixXcd& omega,
+	Eigen::Index i,
+	Eigen::Index first,
+	int terms,
+	double change,
+	std::vector<std::pair<Eigen::Index, double>>& added)
+{
+	if (change < -kDomainBorder * omega(i, i).imag()) {
+		for (const auto& [j, factor] : added)
+			addRow(omega, i, j, factor);
+		return true;
+	}
+	if (terms == 0)
+		return false;
+	for (Eigen::Index j = first; j < omega.rows(); ++j)
+		for (const double factor : {-1.0, 1.0}) {
+			if (j == i)
+				continue;
+			double product = omega(i, j).imag();
+			for (const auto& [k, other] : added)
+				product += other * omega(k, j).imag();
+			added.emplace_back(j, factor);
+			const double next = change + 2.0 * factor * product + omega(j, j).imag();
+			if (shorten(omega, i, j + 1, terms - 1, next, added))
+				return true;
+			added.pop_back();
+		}
+	return false;
+}
+
+/// Minkowski reduction of the imaginary part, by single steps. Up to g = 4 vectors none of which the
+/// others make shorter with factors 0 and +-1 are reduced.
+void reduceImaginaryPart(Eigen::MatrixXcd& omega)
+{
+	const Eigen::Index genus = omega.rows();
+	for (Eigen::Index i = 0; i < genus;) {
+		std::vector<std::pair<Eigen::Index, double>> added;
+		i = shorten(omega, i, 0, 3, 0.0, added) ? 0 : i + 1;
+	}
+	for (Eigen::Index i = 0; i < genus; ++i) { // the shortest first
+		Eigen::Index least = i;
+		for (Eigen::Index j = i + 1; j < genus; ++j)
+			if (omega(j, j).imag() < (1.0 - kDomainBorder) * omega(least, least).imag())
+				least = j;
+		omega.row(i).swap(omega.row(least));
+		omega.col(i).swap(omega.col(least));
+	}
+	for (Eigen::Index i = 1; i < genus; ++i)
+		if (omega(i - 1, i).imag() < 0.0) {
+			omega.row(i) *= -1.0;
+			omega.col(i) *= -1.0;
+		}
+}
+
+} // namespace
+
+PeriodMatrix periodMatrix(
+	const Triangulation& t,
+	const EdgeArray<double>& lengths,
+	FactoredHessian* near,
+	const Tick& tick)
+{
+	const std::vector<DualLoop> loops = dualLoops(t, tick);
+	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops, near, tick);
+	if (energy.size() == 0)
+		return {};
+	const Eigen::MatrixXd basis = canonicalBasis(wedgeProducts(t, loops));
+	return fromEnergies(basis.transpose() * energy * basis);
+}
+
+Eigen::MatrixXcd siegelReduced(Eigen::MatrixXcd omega)
+{
+	if (omega.rows() == 1) {
+		omega(0, 0) = reduceToFundamentalDomain(omega(0, 0));
+		return omega;
+	}
+	for (int step = 0; step < 1000; ++step) {
+		reduceImaginaryPart(omega);
+		omega.real() =
+			omega.real().unaryExpr([](double x) { return x - std::ceil(x - 0.5 - kDomainBorder); });
+		const std::complex<double> corner = omega(0, 0);
+		if (std::norm(corner) >= 1.0 - kDomainBorder)
+			break;
+		// a1 and b1 change places, which multiplies the imaginary part's determinant by 1 / |corner|^2.
+		const Eigen::VectorXcd row = omega.row(0);
+		omega -= row * row.transpose() / corner;
+		omega.row(0) = row.transpose() / corner;
+		omega.col(0) = row / corner;
+		omega(0, 0) = -1.0 / corner;
+	}
+	return omega;
+}
+
+} // namespace ricci

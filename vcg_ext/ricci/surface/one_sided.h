@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_ONE_SIDED_H
+#define RICCI_ONE_SIDED_H
+
+#include "elements.h"
+#include "surface_mesh.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// Connected pieces of glued triangles, and an orientation of each.
+struct FacePartition
+{
+	FaceArray<int> component;      ///< in the order of their lowest faces
+	FaceArray<char> reversed;      ///< 1 for the minority in each component that is to be turned
+	std::vector<char> isOneSided;  ///< [component] no orientation fits all its faces
+	std::vector<int> contradicted; ///< glued sides, the lower of each two, where it does not fit
+	int componentCount = 0;
+};
+
+/// \param glued see FaceGluing
+FacePartition partitionFaces(const std::vector<Triangle>& triangles, const std::vector<int>& glued);
+
+/// Cuts every one-sided component of \p partition along a short one-sided loop of edges, or, with
+/// \p everywhere, along all contradicted edges, which leaves no one-sided component. The cut may
+/// still leave one: a Klein bottle becomes a Möbius band or an annulus.
+///
+/// The loop is the shortest through any of a few vertices: two shortest paths and an edge, because of
+/// two loops that a third path makes of a one-sided loop one is one-sided ([Thomassen 1990]).
+/// \pre an edge of glued triangles is determined by its vertices (see OpenedMesh)
+void cutOneSided(
+	const std::vector<Point3>& positions,
+	const std::vector<Triangle>& triangles,
+	const FacePartition& partition,
+	bool everywhere,
+	std::vector<int>& glued);
+
+} // namespace ricci
+
+#endif

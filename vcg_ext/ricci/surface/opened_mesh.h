@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_OPENED_MESH_H
+#define RICCI_OPENED_MESH_H
+
+#include "elements.h"
+#include "surface_mesh.h"
+
+#include <string>
+#include <vector>
+
+namespace ricci {
+
+/// A mesh cut open where it is no oriented manifold. Its faces have the order of the input, those
+/// without area left out; a vertex keeps its number, and copies of it follow after all vertices. Of a
+/// mesh that needs no cut it is a copy with the same numbers.
+struct OpenedMesh
+{
+	/// At most two triangles at an edge, one fan at a vertex, two-sided components. An edge is
+	/// determined by its vertices.
+	SurfaceMesh mesh;
+	std::vector<int> vertex;     ///< [vertex of mesh] number in the input
+	std::vector<int> face;       ///< [face of mesh] number in the input
+	std::vector<int> degenerate; ///< faces of the input that are left out
+
+	FaceArray<int> component; ///< [face of mesh] in the order of their lowest faces
+	FaceArray<char>
+		reversed; ///< [face of mesh] 1 if it is turned: the majority of a component is not
+	int componentCount = 0;
+
+	int cutEdges = 0;       ///< edges with more than two faces, or with two of the same vertices
+	int splitVertices = 0;  ///< vertices of the input that have copies
+	int duplicateFaces = 0; ///< faces with the vertices of one before them
+	int oneSidedComponents = 0; ///< cut along one-sided loops
+
+	bool isAsGiven() const { return splitVertices == 0 && degenerate.empty(); }
+};
+
+/// Cuts a triangle soup open, so that every triangle with an area can be mapped (after the cutting of
+/// [Gueziec et al. 2001]): edges with more than two faces by glueFaces(), vertices with more than one
+/// fan into one copy for each, one-sided components along short one-sided loops. Left out are faces
+/// that use a vertex twice, and components that have no area. What was done is told in \p notes.
+/// \throw InvalidMesh for the first of these that is found, with its number: no faces; coordinates
+/// that are not finite or beyond 1e50; components smaller than 1e-50; no face with an area
+OpenedMesh openMesh(const SurfaceMesh& mesh, std::vector<std::string>& notes);
+
+} // namespace ricci
+
+#endif

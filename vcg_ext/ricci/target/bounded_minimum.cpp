@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bounded_minimum.h"
+
+#include "../base/indexed.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+class ActiveSet
+{
+public:
+	ActiveSet(
+		const Eigen::MatrixXd& gram,
+		const Eigen::VectorXd& linear,
+		double max,
+		std::optional<double> total) :
+			m_gram(gram),
+			m_linear(linear), m_max(max), m_total(total), m_size(static_cast<int>(linear.size())),
+			m_isBound(m_size, 0)
+	{
+	}
+
+	Eigen::VectorXd minimum()
+	{
+		Eigen::VectorXd k =
+			Eigen::VectorXd::Constant(m_size, m_total ? *m_total / m_size : std::min(m_max, 0.0));
+		if (m_size == 0 || (m_total && k[0] >= m_max))
+			return Eigen::VectorXd::Constant(m_size, m_max);
+		double last = std::numeric_limits<double>::infinity();
+		for (;;) {
+			const Eigen::VectorXd wanted = unbounded();
+			if (const int reached = stepTo(wanted, k); reached >= 0) {
+				m_isBound[reached] = 1;
+				continue;
+			}
+			// The minima of the sets become lower each time, so that no set comes twice.
+			const Eigen::VectorXd slope = m_gram * k + m_linear;
+			const double energy = k.dot(slope + m_linear);
+			const int released = energy < last ? steepest(slope) : -1;
+			if (released < 0)
+				return k;
+			last = energy;
+			m_isBound[released] = 0;
+		}
+	}
+
+private:
+	/// Moves \p k towards \p wanted, up to the first bound of a free entry.
+	/// \return the entry, the first of several; -1 if \p k has become \p wanted
+	int stepTo(const Eigen::VectorXd& wanted, Eigen::VectorXd& k) const
+	{
+		int first = -1;
+		double step = 1.0;
+		for (int i = 0; i < m_size; ++i) {
+			if (m_isBound[i] || wanted[i] <= m_max)
+				continue;
+			const double room = (m_max - k[i]) / (wanted[i] - k[i]);
+			if (first < 0 || room < step) {
+				first = i;
+				step = room;
+			}
+		}
+		if (first < 0) {
+			k = wanted;
+			return -1;
+		}
+		k += step * (wanted - k);
+		k = k.cwiseMin(m_max);
+		k[first] = m_max;
+		return first;
+	}
+
+	/// The bound entry whose release lowers the energy at the highest rate, -1 if none does.
+	/// \param slope half the gradient of the energy
+	int steepest(const Eigen::VectorXd& slope) const
+	{
+		int found = -1;
+		for (int i = 0; i < m_size; ++i)
+			if (m_isBound[i] && slope[i] + m_level > 0.0 && (found < 0 || slope[i] > slope[found]))
+				found = i;
+		return found;
+	}
+
+	/// The minimum among all k whose bound entries are at the bound; sets the multiplier of the sum,
+	/// which makes up for the slope of free entries.
+	Eigen::VectorXd unbounded()
+	{
+		Eigen::VectorXd k(m_size);
+		std::vector<int> free;
+		double total = m_total.value_or(0.0);
+		for (int i = 0; i < m_size; ++i) {
+			if (!m_isBound[i]) {
+				free.push_back(i);
+				continue;
+			}
+			k[i] = m_max;
+			total -= m_max;
+		}
+		m_level = 0.0;
+		const auto n = static_cast<int>(free.size());
+		if (n == 0)
+			return k;
+		const int rows = n + (m_total ? 1 : 0); // the last one for the sum
+		Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows, rows);
+		Eigen::VectorXd rhs = Eigen::VectorXd::Zero(rows);
+		for (int a = 0; a < n; ++a) {
+			const int i = free[positionOf(a)];
+			for (int b = 0; b < n; ++b)
+				system(a, b) = m_gram(i, free[positionOf(b)]);
+			rhs[a] = -m_linear[i];
+			for (int j = 0; j < m_size; ++j)
+				if (m_isBound[j])
+					rhs[a] -= m_gram(i, j) * m_max;
+		}
+		if (rows > n) {
+			system.row(n).head(n).setOnes();
+			system.col(n).head(n).setOnes();
+			rhs[n] = total;
+		}
+		const Eigen::VectorXd solution = system.fullPivLu().solve(rhs);
+		for (int a = 0; a < n; ++a)
+			k[free[positionOf(a)]] = solution[a];
+		if (rows > n)
+			m_level = solution[n];
+		return k;
+	}
+
+	const Eigen::MatrixXd& m_gram;
+	const Eigen::VectorXd& m_linear;
+	double m_max;
+	std::optional<double> m_total;
+	int m_size;
+	Array<char> m_isBound;
+	double m_level = 0.0;
+};
+
+} // namespace
+
+Eigen::VectorXd boundedMinimum(
+	const Eigen::MatrixXd& gram,
+	const Eigen::VectorXd& linear,
+	double max,
+	std::optional<double> total)
+{
+	return ActiveSet(gram, linear, max, total).minimum();
+}
+
+} // namespace ricci
