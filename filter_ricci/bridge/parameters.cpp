@@ -249,7 +249,7 @@ RichParameterList euclideanParameters()
 		coneRoundingChoices(),
 		"Cones: curvatures",
 		"<b>Free</b>: those that change areas least. <b>Multiples of pi/2</b>: as "
-		"quadrangulations need them."));
+		"quadrangulations need them; all seams then differ by quarter turns."));
 	list.addParam(host::advanced<RichEnum>(
 		"surgery",
 		static_cast<int>(defaults.surgery),

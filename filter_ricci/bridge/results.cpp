@@ -103,6 +103,7 @@ Results toResults(const ricci::Report& report)
 	addIfPresent(results, "torus_tau_im", report.torusTauIm);
 	addIfPresent(results, "annulus_modulus", report.annulusModulus);
 	addIfPresent(results, "rectangle_aspect", report.rectangleAspect);
+	addIfPresent(results, "holonomy_error", report.holonomyError);
 	if (!report.periodMatrix.empty()) {
 		std::vector<double> numbers;
 		for (const std::complex<double>& entry : report.periodMatrix)

@@ -308,7 +308,7 @@ TEST(SeparateCharts, FindsInAPartWhatAFoldHidInTheWhole)
 	std::iota(map.charts[0].faces.begin(), map.charts[0].faces.end(), 0);
 	ASSERT_EQ(map.uv.size(), 8u);
 	separateCharts(
-		square, true, [] {}, map);
+		square, true, true, [] {}, map);
 	ASSERT_NO_THROW(requireSeparateCharts(square, map));
 	std::size_t faces = 0;
 	for (const Chart& chart : map.charts) {

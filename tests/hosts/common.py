@@ -31,7 +31,8 @@ class vector(list):
 
 INVARIANTS = {
     "torus_tau_re": float, "torus_tau_im": float, "annulus_modulus": float,
-    "rectangle_aspect": float, "period_matrix": vector, "period_error": float}
+    "rectangle_aspect": float, "holonomy_error": float, "period_matrix": vector,
+    "period_error": float}
 SPHERE = {
     "sphere_qc_area_mean": float, "sphere_area_distortion_mean": float,
     "sphere_flipped_faces": int}

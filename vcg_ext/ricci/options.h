@@ -20,7 +20,8 @@ enum class TargetCurvature {
 /// Which curvatures placed cones may have.
 enum class ConeRounding {
 	Free,        ///< any below 2 pi
-	QuarterTurns ///< multiples of pi / 2
+	QuarterTurns ///< multiples of pi / 2, and so are the rotations across all seams, see
+				 ///< roundLoopTurns()
 };
 
 /// How the circles of the two ends of an edge may lie.

@@ -82,6 +82,9 @@ struct Report
 	std::optional<double> annulusModulus;         ///< ln(r2/r1) / 2 pi
 	std::optional<double> rectangleAspect;        ///< longer over shorter side
 
+	/// ConeRounding::QuarterTurns: largest distance of the rotation across a seam of the flow's cut from
+	/// a multiple of pi / 2, radians, in the map as finished.
+	std::optional<double> holonomyError;
 	/// Closed surface of genus 1 to 10: its period matrix, row by row (PeriodMatrix::omega), else empty;
 	/// and the bound of its error.
 	std::vector<std::complex<double>> periodMatrix;

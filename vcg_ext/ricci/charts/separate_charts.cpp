@@ -128,16 +128,24 @@ std::vector<std::vector<int>> join(
 	return std::move(joined.parts);
 }
 
-/// Turns and moves a part of a chart so that its smallest bounding rectangle lies along the axes,
-/// from the origin.
-void turnUpright(Parametrization& map, const Chart& chart)
+/// Moves a part of a chart to the origin, and where \p turns turns it so that its smallest bounding
+/// rectangle lies along the axes.
+void place(Parametrization& map, const Chart& chart, bool turns)
 {
 	std::vector<Point2> points;
 	for (int f : trianglesOf(map, chart))
 		for (const Point2& p :
 			 map.isRefined() ? map.refined.uv[positionOf(f)] : map.uv[positionOf(f)])
 			points.push_back(p);
-	const OrientedRectangle r = minAreaRectangle(std::move(points));
+	OrientedRectangle r;
+	if (turns)
+		r = minAreaRectangle(std::move(points));
+	else {
+		Box2 box;
+		for (const Point2& p : points)
+			box.add(p);
+		r.min = box.min;
+	}
 	const auto move = [&](Triangle2& corners) {
 		for (Point2& p : corners) {
 			const Point2 q = r.inFrame(p);
@@ -177,7 +185,8 @@ std::vector<Chart> chartsOf(
 
 } // namespace
 
-void separateCharts(const SurfaceMesh& mesh, bool resolve, const Tick& tick, Parametrization& map)
+void separateCharts(
+	const SurfaceMesh& mesh, bool resolve, bool turns, const Tick& tick, Parametrization& map)
 {
 	std::vector<Chart> charts;
 	std::vector<char> faceDone(mesh.triangles.size(), 0);
@@ -212,7 +221,7 @@ void separateCharts(const SurfaceMesh& mesh, bool resolve, const Tick& tick, Par
 		map.report.overlapCuts += cuts.edges;
 		map.report.seamLength += cuts.length;
 		for (Chart& part : chartsOf(map, chart, parts, faceDone)) {
-			turnUpright(map, part);
+			place(map, part, turns);
 			charts.push_back(std::move(part));
 		}
 	}

@@ -12,12 +12,13 @@ namespace ricci {
 /// overlappingPairs()), on the triangles of the output: those of the refinement where there is one.
 ///
 /// With \p resolve such charts are replaced by the parts of divideChart(), joined again by joinParts()
-/// across seams where they have room, each with its smallest bounding rectangle along the axes, from
-/// the origin. The report then has no overlap, but what the seams have grown or shrunk by, in edges
+/// across seams where they have room, each from the origin and, where \p turns, with its smallest
+/// bounding rectangle along the axes; else in the directions that it has. The report then has no overlap, but what the seams have grown or shrunk by, in edges
 /// and in length. A face of the input goes with the first of its pieces. Without \p resolve the
 /// report counts the charts, and their faces that overlap. In both cases it counts the charts.
 /// \param tick see overlappingPairs()
-void separateCharts(const SurfaceMesh& mesh, bool resolve, const Tick& tick, Parametrization& map);
+void separateCharts(
+	const SurfaceMesh& mesh, bool resolve, bool turns, const Tick& tick, Parametrization& map);
 
 } // namespace ricci
 

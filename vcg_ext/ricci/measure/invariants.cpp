@@ -1,16 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "invariants.h"
 
+#include "../base/numbers.h"
 #include "../base/tolerances.h"
 #include "../math/points.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 namespace ricci {
 
 namespace {
+
+/// The cut edges inside, as seams: each a chain of halfedges between vertices at which the cut branches
+/// or ends, that are cones, or that lie on the boundary; or a loop.
+std::vector<std::vector<Halfedge>>
+seams(const Triangulation& t, const EdgeArray<char>& isCut, const VertexArray<char>& cones)
+{
+	const auto isSeam = [&](Halfedge h) { return isCut[h.edge()] && !t.isBoundary(h.edge()); };
+	VertexArray<int> degree(t.vertexCount(), 0);
+	for (const Halfedge h : t.halfedges())
+		degree[t.origin(h)] += isSeam(h);
+	const VertexArray<char> boundary = t.boundaryVertices();
+	const auto endsAt = [&](Vertex v) { return degree[v] != 2 || cones[v] || boundary[v]; };
+	EdgeArray<char> isDone(t.edgeCount(), 0);
+	std::vector<std::vector<Halfedge>> found;
+	const auto walk = [&](Halfedge h) {
+		found.emplace_back();
+		for (;;) {
+			found.back().push_back(h);
+			isDone[h.edge()] = 1;
+			if (endsAt(t.target(h)))
+				return;
+			Halfedge next;
+			for (const Halfedge g : t.around(t.target(h)))
+				if (g != h.twin() && isSeam(g))
+					next = g;
+			if (!next.isValid() || isDone[next.edge()])
+				return;
+			h = next;
+		}
+	};
+	for (const bool fromEnds : {true, false})
+		for (const Halfedge h : t.halfedges())
+			if (isSeam(h) && !isDone[h.edge()] && (!fromEnds || endsAt(t.origin(h))))
+				walk(h);
+	return found;
+}
 
 } // namespace
 
@@ -55,6 +93,26 @@ annulusModulus(const Triangulation& t, const PlanarLayout& layout, const CutGrap
 {
 	const Edge e(std::find(cut.isCut.begin(), cut.isCut.end(), 1) - cut.isCut.begin());
 	return area / std::norm(period(t, layout, e));
+}
+
+double holonomyError(
+	const Triangulation& t,
+	const PlanarLayout& layout,
+	const EdgeArray<char>& isCut,
+	const VertexArray<char>& cones)
+{
+	double error = 0.0;
+	for (const std::vector<Halfedge>& seam : seams(t, isCut, cones)) {
+		std::complex<double> sum = 0.0;
+		for (const Halfedge h : seam) {
+			const Halfedge g = h.twin();
+			const std::complex<double> left = asComplex(layout[t.next(h)]) - asComplex(layout[h]);
+			const std::complex<double> right = asComplex(layout[g]) - asComplex(layout[t.next(g)]);
+			sum += std::conj(left) * right;
+		}
+		error = std::max(error, std::abs(std::remainder(std::arg(sum), 0.5 * kPi)));
+	}
+	return error;
 }
 
 double rectangleAspect(

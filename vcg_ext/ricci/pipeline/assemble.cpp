@@ -202,6 +202,8 @@ void append(
 	}
 	if (map.hyperbolicArea)
 		report.hyperbolicArea = report.hyperbolicArea.value_or(0.0) + *map.hyperbolicArea;
+	if (map.holonomyError)
+		report.holonomyError = std::max(report.holonomyError.value_or(0.0), *map.holonomyError);
 	if (map.relationError)
 		report.relationError = std::max(report.relationError.value_or(0.0), *map.relationError);
 }

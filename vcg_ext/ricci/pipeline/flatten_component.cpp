@@ -17,6 +17,7 @@
 #include "../verify/result_check.h"
 #include "assemble.h"
 #include "keep_areas.h"
+#include "round_turns.h"
 #include "stages.h"
 
 #include <algorithm>
@@ -93,8 +94,17 @@ Target chooseTarget(const FlowDomain& domain, FlowStart&, const HyperbolicReques
 	return chooseHyperbolicTarget(domain.surface.topology, request);
 }
 
-/// Areas play no part in the hyperbolic plane.
+/// Neither areas nor quarter turns play a part in the hyperbolic plane.
 void keepAreas(
+	const EmbeddedSurface&,
+	const HyperbolicRequest&,
+	const HyperbolicOptions&,
+	ProgressRange&,
+	ComponentMap&)
+{
+}
+
+void roundLoopTurns(
 	const EmbeddedSurface&,
 	const HyperbolicRequest&,
 	const HyperbolicOptions&,
@@ -313,6 +323,18 @@ void finish(
 	map.uv = cornersOf(domain.surface.triangulation, map.layout);
 }
 
+/// How far the seams of what is given back are from rotations by quarter turns.
+void measureHolonomy(const FlowDomain& domain, const Options& options, ComponentMap& map)
+{
+	if (options.coneRounding == ConeRounding::QuarterTurns)
+		map.holonomyError =
+			holonomyError(domain.surface.triangulation, map.layout, map.cut.isCut, map.cones);
+}
+
+void measureHolonomy(const FlowDomain&, const HyperbolicOptions&, ComponentMap&)
+{
+}
+
 /// Whether straight triangles may be turned round in the flow's metric.
 template<class AnyOptions>
 bool mayBeTurned(const AnyOptions& options, const ComponentMap& map)
@@ -373,6 +395,7 @@ ComponentMap flatten(
 		whileFlipping);
 	measurePeriods(domain.surface, progress, map);
 	keepAreas(domain.solved(), request, options, progress, map);
+	roundLoopTurns(domain.solved(), request, options, progress, map);
 	logFlow(map.flow, options, progress);
 
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
@@ -400,6 +423,8 @@ ComponentMap flatten(
 		[&](const Tick& tick) {
 			requireMetric(map.flow, domain.solved().topology.boundary, tick);
 		});
+
+	measureHolonomy(domain, options, map);
 
 	const Tick tick = [&] { progress.step(1.0, "Checking the result"); };
 	tick();

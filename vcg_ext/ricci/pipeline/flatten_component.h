@@ -36,6 +36,7 @@ struct ComponentMap
 	PeriodMatrix periods; ///< of a closed surface, see measurePeriods()
 	std::optional<std::complex<double>> torusModulus;
 	std::optional<double> annulusModulus, rectangleAspect, hyperbolicArea, relationError;
+	std::optional<double> holonomyError;
 
 	int finishMoved = 0; ///< points that the repair moved
 	int cappedHoles = 0;

@@ -113,7 +113,8 @@ Parametrization parametrizeEuclidean(
 	measureResult(mesh, measureDistortion, result);
 	const Tick tick = [&] { progress.step(kMeasured, "Looking for charts that overlap"); };
 	tick();
-	separateCharts(mesh, options.resolveOverlap, tick, result);
+	const bool turns = options.coneRounding != ConeRounding::QuarterTurns;
+	separateCharts(mesh, options.resolveOverlap, turns, tick, result);
 	result.report.seamLengthRelative =
 		result.report.seamLength / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
 	if (options.resolveOverlap)

@@ -9,6 +9,7 @@
 #include "area_change.h"
 #include "cone_placement.h"
 #include "rectangle_corners.h"
+#include "turn_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -225,6 +226,7 @@ void setPlacedCones(
 		target.curvature[cones.vertices[i]] = cones.curvatures[i];
 		total += cones.curvatures[i];
 	}
+	target.quarterTurns = request.coneRounding == ConeRounding::QuarterTurns;
 	target.notes.push_back(describe(cones, request.vertexNumbers));
 	if (request.keepsAreas && request.coneCount == 0)
 		target.maxSpread = request.coneDistortion;
@@ -372,6 +374,23 @@ std::optional<Target> targetToKeepAreas(
 		choosePlacedCones(surface, start, request, target);
 	else
 		setPlacedCones(surface, moreCones(surface, flow, coneRequest(request)), request, target);
+	check(surface, target);
+	return target;
+}
+
+std::optional<Target> targetToRoundTurns(
+	const EmbeddedSurface& surface,
+	const FlowResult& flow,
+	const LoopTurns& turns,
+	const TargetRequest& request,
+	double radius)
+{
+	const std::optional<PlacedCones> cones =
+		conesToRoundTurns(surface, flow, turns, coneRequest(request), radius);
+	if (!cones)
+		return std::nullopt;
+	Target target = zeroTarget(surface.topology);
+	setPlacedCones(surface, *cones, request, target);
 	check(surface, target);
 	return target;
 }

@@ -2,6 +2,7 @@
 #ifndef RICCI_TARGET_CURVATURE_H
 #define RICCI_TARGET_CURVATURE_H
 
+#include "../flow/quarter_turns.h"
 #include "../flow/ricci_flow.h"
 #include "../progress.h"
 
@@ -55,6 +56,16 @@ std::optional<Target> targetToKeepAreas(
 	FlowStart& start,
 	const FlowResult& flow,
 	const TargetRequest& request);
+
+/// The next target after \p flow where other cones bring the turns of loops nearer to multiples of
+/// pi / 2, see conesToRoundTurns(). None where there are none.
+/// \throw as chooseTarget()
+std::optional<Target> targetToRoundTurns(
+	const EmbeddedSurface& surface,
+	const FlowResult& flow,
+	const LoopTurns& turns,
+	const TargetRequest& request,
+	double radius);
 
 } // namespace ricci
 

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far directions turn on a walk round a loop of a flat metric with cones.
+#ifndef RICCI_LOOP_TURNS_H
+#define RICCI_LOOP_TURNS_H
+
+#include "../surface/elements.h"
+#include "../surface/triangulation.h"
+#include "curvature_map.h"
+#include "factored_hessian.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// A closed walk from triangle to triangle: the halfedges by which they are left, in order.
+using FaceLoop = std::vector<Halfedge>;
+
+/// Loops on which the homology of the surface is based: two for each handle, from a spanning tree of
+/// the triangles and one of the vertices [Erickson Whittlesey 2005].
+/// \param roundHoles also one round each boundary loop but one
+std::vector<FaceLoop> homologyLoops(const Triangulation& t, bool roundHoles);
+
+/// Flips \p e in \p t, and in \p loops, which stay what they are up to homotopy.
+void flip(Triangulation& t, std::vector<FaceLoop>& loops, Edge e);
+
+/// The corners round which \p loop turns: 1 where they are on its left, -1 on its right; 0 elsewhere.
+/// The sum of their angles is the turn of the loop, in radians: the angle by which a direction that
+/// goes along with the walk has turned against the walk's own. Across a vertex with curvature K it
+/// changes by K, so that loops with one homology have one turn up to sums of curvatures.
+HalfedgeArray<double> turnedCorners(const Triangulation& t, const FaceLoop& loop);
+
+/// Sum of \p weights times \p angles, both at the halfedges' origins.
+double sumOfAngles(const HalfedgeArray<double>& weights, const HalfedgeArray<double>& angles);
+
+/// The derivative of sumOfAngles() by the logarithms of the lengths, in flat triangles.
+EdgeArray<double> derivativeByLengths(
+	const Triangulation& t,
+	const HalfedgeArray<double>& weights,
+	const HalfedgeArray<double>& angles);
+
+/// [vertex] The derivative of the turn of a loop by the curvature that the flow is to reach there: u
+/// follows the curvature, and the turn follows u. 0 where u is fixed.
+/// \param corners turnedCorners()
+/// \param u where \p map was evaluated
+/// \param hessian factorised there
+VertexVector turnByCurvature(
+	const CurvatureMap& map,
+	const VertexVector& u,
+	FactoredHessian& hessian,
+	const HalfedgeArray<double>& corners);
+
+} // namespace ricci
+
+#endif

@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "quarter_turns.h"
+
+#include "../base/numbers.h"
+#include "../error.h"
+#include "../metric/area.h"
+#include "../metric/euclidean.h"
+#include "loop_turns.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+constexpr double kQuarterTurn = 0.5 * kPi;
+
+/// Turns this near to a multiple of pi / 2 are one, radians: what the sums of some thousand angles
+/// lose.
+constexpr double kTurnRounding = 1e-12;
+
+constexpr int kMaxSteps = 12;
+
+/// The logarithm of a length changes by no more in a step.
+constexpr double kMaxChange = 0.25;
+
+/// Halvings of a step that breaks triangles or raises the error.
+constexpr int kMaxHalvings = 4;
+
+/// A metric with the curvatures of the target.
+struct Metric
+{
+	std::shared_ptr<const CurvatureMap> map;
+	VertexVector u;
+	NewtonResult solved;
+	std::vector<Edge> flips; ///< since the flow
+	std::vector<FaceLoop> loops;
+	Eigen::VectorXd errors; ///< [loop] turn less the nearest multiple of pi / 2
+
+	double error() const { return errors.size() == 0 ? 0.0 : errors.cwiseAbs().maxCoeff(); }
+};
+
+Eigen::VectorXd errorsOf(const CurvatureMap& map, const std::vector<FaceLoop>& loops)
+{
+	Eigen::VectorXd errors(loops.size());
+	for (std::size_t i = 0; i < loops.size(); ++i)
+		errors[Eigen::Index(i)] = std::remainder(
+			sumOfAngles(turnedCorners(map.triangulation(), loops[i]), map.angles()), kQuarterTurn);
+	return errors;
+}
+
+Metric metricOf(const FlowResult& flow)
+{
+	Metric metric;
+	metric.map = flow.metric;
+	metric.u = flow.u;
+	metric.loops = homologyLoops(flow.metric->triangulation(), flow.target.hasFixed());
+	metric.errors = errorsOf(*flow.metric, metric.loops);
+	return metric;
+}
+
+/// [face] Its area, and that over the area in space.
+struct Areas
+{
+	FaceArray<double> plane, scale;
+	double inSpace = 0.0;
+};
+
+Areas areasOf(const Metric& metric, const VertexVector& startU)
+{
+	const Triangulation& t = metric.map->triangulation();
+	Areas areas;
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		areas.plane.push_back(
+			0.5 * metric.map->lengths()[h[0].edge()] * metric.map->lengths()[h[2].edge()] *
+			std::sin(metric.map->angles()[h[0]]));
+		double factor = 0.0;
+		for (const Vertex v : t.vertices(f))
+			factor += (metric.u[v] - startU[v]) / 3.0;
+		areas.scale.push_back(std::exp(2.0 * factor));
+		areas.inSpace += areas.plane[f] / areas.scale[f];
+	}
+	return areas;
+}
+
+/// The derivatives of the turns.
+struct Derivatives
+{
+	std::vector<VertexVector> curvatures;   // [loop] by those of the target
+	std::vector<EdgeArray<double>> lengths; // [loop] by their logarithms, where u follows them
+	EdgeArray<double> inverseWeights;       // 1 / W; 0 where the length stays
+	Eigen::MatrixXd gram;                   // lengths W^-1 lengths
+	double area = 0.0;                      // in space
+};
+
+class TurnRounder
+{
+public:
+	TurnRounder(const FlowResult& flow, double epsilon, int maxIterations, const Tick& tick) :
+			m_flow(flow), m_epsilon(epsilon), m_maxIterations(maxIterations), m_tick(tick),
+			m_startU(flow.u - flowFactor(flow))
+	{
+	}
+
+	/// Goes from \p metric to the one of which the turns are multiples of pi / 2, as far as Newton's
+	/// method gets there.
+	void solve(Metric& metric) const
+	{
+		for (int step = 0; step < kMaxSteps && metric.error() > kTurnRounding; ++step) {
+			std::optional<Metric> next = searchAlong(metric, direction(metric));
+			if (!next)
+				return;
+			metric = std::move(*next);
+		}
+	}
+
+	Derivatives derivatives(const Metric& metric) const
+	{
+		const CurvatureMap& map = *metric.map;
+		const Triangulation& t = map.triangulation();
+		FactoredHessian hessian(m_flow.target.fixed, true);
+		hessian.factorize(map);
+		Derivatives by;
+		setWeights(metric, by);
+		for (const FaceLoop& loop : metric.loops) {
+			m_tick();
+			HalfedgeArray<double> corners = turnedCorners(t, loop);
+			by.curvatures.push_back(turnByCurvature(map, metric.u, hessian, corners));
+			// A length also changes curvatures, which u takes back, and with it the turn.
+			for (const Halfedge h : t.interiorHalfedges())
+				corners[h] += by.curvatures.back()[t.origin(h)];
+			by.lengths.push_back(derivativeByLengths(t, corners, map.angles()));
+		}
+		const std::size_t n = by.lengths.size();
+		by.gram.resize(Eigen::Index(n), Eigen::Index(n));
+		for (std::size_t i = 0; i < n; ++i)
+			for (std::size_t j = 0; j <= i; ++j) {
+				double sum = 0.0;
+				for (const Edge e : t.edges())
+					sum += by.inverseWeights[e] * by.lengths[i][e] * by.lengths[j][e];
+				by.gram(Eigen::Index(i), Eigen::Index(j)) = sum;
+				by.gram(Eigen::Index(j), Eigen::Index(i)) = sum;
+			}
+		return by;
+	}
+
+private:
+	/// For the sides a, b, c of a triangle with area A and circumradius R, the change of a by exp(x)
+	/// alone is a distortion with the energy 2 a^2 R^2 / A x^2.
+	void setWeights(const Metric& metric, Derivatives& by) const
+	{
+		const CurvatureMap& map = *metric.map;
+		const Triangulation& t = map.triangulation();
+		const Areas areas = areasOf(metric, m_startU);
+		by.area = areas.inSpace;
+		by.inverseWeights.assign(t.edgeCount(), 0.0);
+		for (const Face f : t.faces()) {
+			const auto h = t.halfedges(f);
+			const double radius = 0.5 * map.lengths()[h[1].edge()] / std::sin(map.angles()[h[0]]);
+			for (const Halfedge side : h) {
+				const double product = map.lengths()[side.edge()] * radius;
+				by.inverseWeights[side.edge()] +=
+					2.0 * product * product / (areas.plane[f] * areas.scale[f]);
+			}
+		}
+		for (const Edge e : t.edges())
+			by.inverseWeights[e] = t.isBoundary(e) ? 0.0 : 1.0 / by.inverseWeights[e];
+	}
+
+	/// The change of the logarithms of the lengths that removes the errors to first order.
+	EdgeArray<double> direction(const Metric& metric) const
+	{
+		const Derivatives by = derivatives(metric);
+		const Eigen::VectorXd c = by.gram.ldlt().solve(-metric.errors);
+		EdgeArray<double> change(by.inverseWeights.size(), 0.0);
+		for (std::size_t i = 0; i < by.lengths.size(); ++i)
+			for (const Edge e : change.indices())
+				change[e] += c[Eigen::Index(i)] * by.inverseWeights[e] * by.lengths[i][e];
+		return change;
+	}
+
+	/// The metric that is better than \p metric by the longest share of \p change.
+	std::optional<Metric> searchAlong(const Metric& metric, const EdgeArray<double>& change) const
+	{
+		double largest = 0.0;
+		for (const double x : change)
+			largest = std::max(largest, std::abs(x));
+		double share = std::min(1.0, kMaxChange / largest);
+		for (int i = 0; i < kMaxHalvings; ++i, share *= 0.5) {
+			std::optional<Metric> next = changed(metric, change, share);
+			if (next && next->error() < metric.error())
+				return next;
+		}
+		return std::nullopt;
+	}
+
+	/// The metric with lengths changed by \p share of \p change, and with the curvatures of the
+	/// target. \return none where it is not found
+	std::optional<Metric>
+	changed(const Metric& metric, const EdgeArray<double>& change, double share) const
+	{
+		const CurvatureMap& map = *metric.map;
+		CirclePacking packing;
+		packing.triangulation = map.triangulation();
+		packing.delta = map.delta();
+		for (const Edge e : change.indices()) {
+			if (change[e] == 0.0)
+				continue;
+			const auto [i, j] = map.triangulation().ends(e);
+			const double length = map.lengths()[e] * std::exp(share * change[e]);
+			packing.delta[e] =
+				Euclidean::delta(length, std::exp(metric.u[i]), std::exp(metric.u[j]));
+			if (!(packing.delta[e] >= 0.0))
+				return std::nullopt;
+		}
+		std::shared_ptr<CurvatureMap> next;
+		if (map.precision() < std::numeric_limits<double>::epsilon())
+			next = std::make_shared<FlippingCurvatureMap<EuclideanGeometry<long double>>>(
+				std::move(packing));
+		else
+			next = std::make_shared<FlippingCurvatureMap<Euclidean>>(std::move(packing));
+		Metric result;
+		result.u = metric.u;
+		try {
+			NewtonSolver newton(*next, m_flow.target.fixed);
+			result.solved = newton.solve(
+				result.u, m_flow.target.curvature, {m_epsilon, m_maxIterations}, [&](int, double) {
+					m_tick();
+				});
+		}
+		catch (const Stopped&) {
+			throw;
+		}
+		catch (const Error&) {
+			return std::nullopt;
+		}
+		if (!result.solved.converged || next->brokenTriangles() > 0)
+			return std::nullopt;
+		result.flips = metric.flips;
+		result.loops = metric.loops;
+		Triangulation t = map.triangulation();
+		for (const Edge e : next->flips()) {
+			result.flips.push_back(e);
+			flip(t, result.loops, e);
+		}
+		result.errors = errorsOf(*next, result.loops);
+		next->releaseWorkSpace();
+		result.map = std::move(next);
+		return result;
+	}
+
+	const FlowResult& m_flow;
+	double m_epsilon;
+	int m_maxIterations;
+	const Tick& m_tick;
+	VertexVector m_startU;
+};
+
+} // namespace
+
+LoopTurns loopTurns(const FlowResult& flow, const Tick& tick)
+{
+	const Metric metric = metricOf(flow);
+	LoopTurns result;
+	result.errors = metric.errors;
+	if (result.errors.size() == 0)
+		return result;
+	Derivatives by = TurnRounder(flow, 0.0, 0, tick).derivatives(metric);
+	result.byCurvature = std::move(by.curvatures);
+	// A metric that changes by h has the Beltrami coefficient mu with |h|^2 = 8 |mu|^2.
+	const Eigen::Index n = result.errors.size();
+	result.cost = by.gram.ldlt().solve(Eigen::MatrixXd::Identity(n, n)) / (8.0 * by.area);
+	return result;
+}
+
+TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options, const Tick& tick)
+{
+	TurnRounding result;
+	if (flow.doubled)
+		return result;
+	Metric metric = metricOf(flow);
+	result.before = metric.error();
+	TurnRounder(flow, options.epsilon, options.maxIterations, tick).solve(metric);
+	result.after = metric.error();
+	if (metric.map == flow.metric)
+		return result;
+	flow.metric = std::move(metric.map);
+	flow.hessian.reset(); // it is that of the metric before
+	flow.u = std::move(metric.u);
+	flow.residual = metric.solved.residual;
+	flow.floor = metric.solved.floor;
+	flow.curvature = flow.metric->curvature();
+	flow.area = euclideanArea(flow.metric->triangulation(), flow.metric->lengths());
+	flow.history.flowFlips.insert(
+		flow.history.flowFlips.end(), metric.flips.begin(), metric.flips.end());
+	return result;
+}
+
+} // namespace ricci

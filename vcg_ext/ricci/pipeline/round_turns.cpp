@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "round_turns.h"
+
+#include "../base/text.h"
+#include "../error.h"
+#include "../flow/quarter_turns.h"
+#include "../target/turn_search.h"
+#include "progress_share.h"
+
+#include <optional>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// Flows after the first one, and those in a row that may bring less than a share of what the turns
+/// cost.
+constexpr int kMaxRounds = 4, kMaxVainRounds = 2;
+constexpr double kMinGain = 0.1;
+
+/// How far a cone may move at once, as a share of the square root of the area, and the factor by which
+/// that is less after a flow that has brought nothing.
+constexpr double kFirstRadius = 0.3, kShorter = 0.3;
+
+/// Turns that cost less, by the mean square of the Beltrami coefficient, need no other cones: angles
+/// change by about a hundredth.
+constexpr double kCheapTurns = 2.5e-5;
+
+/// One more flow. \return none where it fails
+std::optional<FlowResult> nextFlow(
+	const EmbeddedSurface& surface,
+	const FlowResult& last,
+	const LoopTurns& turns,
+	const TargetRequest& request,
+	const Options& options,
+	double radius,
+	int steps,
+	ProgressRange& progress,
+	std::vector<FlowState>& states)
+{
+	try {
+		const std::optional<Target> target =
+			targetToRoundTurns(surface, last, turns, request, radius);
+		if (!target)
+			return std::nullopt;
+		FlowProgress flowProgress(progress, options.epsilon, states);
+		FlowResult next = runRicciFlow(
+			Background::EuclideanPlane,
+			surface,
+			flowStart(surface, options),
+			*target,
+			options,
+			[&](int step, double residual) { flowProgress(steps + step, residual); });
+		if (next.doubled)
+			return std::nullopt;
+		return next;
+	}
+	catch (const Stopped&) {
+		throw;
+	}
+	catch (const Error&) {
+		return std::nullopt; // the metrics that are there are valid
+	}
+}
+
+/// Brings the turns near to multiples of pi / 2.
+void chooseCones(
+	const EmbeddedSurface& surface,
+	const TargetRequest& request,
+	const Options& options,
+	const Tick& tick,
+	ProgressRange& progress,
+	ComponentMap& map)
+{
+	FlowResult& best = map.flow;
+	LoopTurns turns = loopTurns(best, tick);
+	TurnCost lowest = turnCost(surface, best, turns);
+	int steps = best.iterations;
+	double radius = kFirstRadius;
+	for (int round = 0, vain = 0;
+		 round < kMaxRounds && vain < kMaxVainRounds && lowest.angles > kCheapTurns;
+		 ++round) {
+		std::optional<FlowResult> next = nextFlow(
+			surface, best, turns, request, options, radius, steps, progress, map.flowStates);
+		if (!next)
+			break;
+		steps += next->iterations;
+		LoopTurns nextTurns = loopTurns(*next, tick);
+		const TurnCost cost = turnCost(surface, *next, nextTurns);
+		const double gain = lowest.total() - cost.total();
+		vain = gain < kMinGain * lowest.angles ? vain + 1 : 0;
+		if (gain > 0.0) {
+			best = std::move(*next);
+			turns = std::move(nextTurns);
+			lowest = cost;
+		}
+		else
+			radius *= kShorter; // the linear problem reaches no farther
+	}
+	best.iterations = steps;
+}
+
+} // namespace
+
+void roundLoopTurns(
+	const EmbeddedSurface& surface,
+	const TargetRequest& request,
+	const Options& options,
+	ProgressRange& progress,
+	ComponentMap& map)
+{
+	if (!map.flow.target.quarterTurns || options.surgery != Surgery::IntrinsicFlips ||
+		options.packing != PackingScheme::InversiveDistance || map.flow.doubled)
+		return;
+	const Tick tick = [&] { progress.step(1.0 - kAfterFlow, "Rounding the turns"); };
+	chooseCones(surface, request, options, tick, progress, map);
+	const TurnRounding done = roundTurns(map.flow, options, tick);
+	if (done.before > 0.0)
+		progress.log(
+			"Turns of loops are up to " + numberText(done.before, 3) +
+			" from a multiple of a quarter turn, and " + numberText(done.after, 3) +
+			" once the metric has changed.");
+}
+
+} // namespace ricci

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "turn_search.h"
+
+#include "../base/numbers.h"
+#include "../math/points.h"
+#include "../metric/area.h"
+#include "area_change.h"
+#include "cone_sites.h"
+#include "linear_flow.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+constexpr double kQuarterTurn = 0.5 * kPi;
+
+/// What areas and one more cone cost, where the mean square of the Beltrami coefficient costs 1.
+constexpr double kAreaCost = 0.05, kConeCost = 3e-4;
+
+/// Moves that are tried, and those of which all pairs are.
+constexpr std::size_t kMaxTried = 30000, kMaxPaired = 1500;
+
+/// Moves or pairs of them, one after the other, and the share by which each has to lower the cost.
+constexpr int kMaxMoves = 8;
+constexpr double kMinGain = 0.02;
+
+/// Where moves are not worth what the linear problem for the nearest ones promises, they become
+/// shorter by this factor, so many times.
+constexpr double kShorter = 0.4;
+constexpr int kMaxShortenings = 4;
+
+/// The largest curvature of a cone in quarter turns.
+const int kMaxUnits = static_cast<int>(std::floor(kMaxConeCurvature / kQuarterTurn + 1e-9));
+
+/// Some quarter turns of the cone at one vertex move to another.
+struct Move
+{
+	Vertex from, to;
+	int units = 0;
+	double cost = 0.0; // of areas and cones
+};
+
+class TurnSearch
+{
+public:
+	TurnSearch(
+		const EmbeddedSurface& surface,
+		const FlowResult& flow,
+		const LoopTurns& turns,
+		const ConeRequest& request,
+		double radius) :
+			m_surface(surface),
+			m_turns(turns), m_tick(request.tick), m_sites(surface, request.vertices),
+			m_keepsCount(request.count > 0),
+			m_linear(surface, flow, request.boundary, areaShares(surface)),
+			m_units(flow.curvature.size(), 0), m_curvature(flow.curvature), m_errors(turns.errors),
+			m_root(turns.cost.llt().matrixU()), m_area(surfaceArea(surface))
+	{
+		m_radius = radius * std::sqrt(m_area);
+		for (const Vertex v : m_units.indices())
+			if (m_sites.isAllowed(v) && !flow.target.fixed[v])
+				m_units[v] = static_cast<int>(std::lround(flow.target.curvature[v] / kQuarterTurn));
+		measure();
+	}
+
+	/// \return whether anything moved
+	bool run()
+	{
+		bool hasMoved = false;
+		int shortenings = 0;
+		for (int i = 0; i < kMaxMoves && shortenings <= kMaxShortenings; ++i) {
+			const std::vector<Move> moves = best();
+			if (moves.empty())
+				return hasMoved;
+			if (apply(moves))
+				hasMoved = true;
+			else {
+				m_radius *= kShorter;
+				++shortenings;
+			}
+		}
+		return hasMoved;
+	}
+
+	PlacedCones cones() const
+	{
+		PlacedCones placed;
+		for (const Vertex v : m_units.indices())
+			if (m_units[v] != 0) {
+				placed.vertices.push_back(v);
+				placed.curvatures.push_back(kQuarterTurn * m_units[v]);
+			}
+		return placed;
+	}
+
+private:
+	static VertexVector areaShares(const EmbeddedSurface& surface)
+	{
+		const Triangulation& t = surface.triangulation;
+		VertexVector areas = VertexVector::Zero(t.vertexCount());
+		for (const Face f : t.faces()) {
+			const auto h = t.halfedges(f);
+			const double area = euclideanArea(
+				{surface.lengths[h[0].edge()],
+				 surface.lengths[h[1].edge()],
+				 surface.lengths[h[2].edge()]});
+			for (const Vertex v : t.vertices(f))
+				areas[v] += area;
+		}
+		return areas / areas.sum();
+	}
+
+	static double surfaceArea(const EmbeddedSurface& surface)
+	{
+		return euclideanArea(surface.triangulation, surface.lengths);
+	}
+
+	/// The scale factor that the linear problem has for the present cones.
+	void measure()
+	{
+		const VertexVector factor = m_linear.factor(m_curvature);
+		m_areas = m_linear.meanSquare(factor);
+		m_field = m_linear.gradient(factor);
+		m_cones = static_cast<int>(
+			std::count_if(m_units.begin(), m_units.end(), [](int n) { return n != 0; }));
+	}
+
+	double total() const { return turnCost(m_errors) + kAreaCost * m_areas + kConeCost * m_cones; }
+
+	/// Makes \p moves. \return false, with nothing changed, where the linear problem sees no gain
+	bool apply(const std::vector<Move>& moves)
+	{
+		const double before = total();
+		const double enough = 0.25 * kMinGain * turnCost(m_errors);
+		const Eigen::VectorXd errors = m_errors;
+		const auto move = [&](int sign) {
+			for (const Move& m : moves) {
+				m_units[m.from] -= sign * m.units;
+				m_units[m.to] += sign * m.units;
+				m_curvature[m.from] -= kQuarterTurn * sign * m.units;
+				m_curvature[m.to] += kQuarterTurn * sign * m.units;
+			}
+			measure();
+		};
+		for (const Move& m : moves)
+			m_errors = wrapped(m_errors + turnChange(m));
+		move(1);
+		if (total() < before - enough)
+			return true;
+		move(-1);
+		m_errors = errors;
+		return false;
+	}
+
+	void tick() const
+	{
+		if (m_tick)
+			m_tick();
+	}
+
+	/// The turns' errors after a change, in coordinates in which their cost is the square of the norm.
+	double turnCost(const Eigen::VectorXd& errors) const
+	{
+		return (m_root * wrapped(errors)).squaredNorm();
+	}
+
+	static Eigen::VectorXd wrapped(Eigen::VectorXd errors)
+	{
+		for (double& r : errors)
+			r -= kQuarterTurn * std::round(r / kQuarterTurn);
+		return errors;
+	}
+
+	Eigen::VectorXd turnChange(const Move& move) const
+	{
+		Eigen::VectorXd change(m_errors.size());
+		for (Eigen::Index j = 0; j < change.size(); ++j) {
+			const VertexVector& by = m_turns.byCurvature[std::size_t(j)];
+			change[j] = kQuarterTurn * move.units * (by[move.to] - by[move.from]);
+		}
+		return change;
+	}
+
+	/// Every move that may be worth it: of a cone as a whole, or of one quarter turn of it.
+	std::vector<Move> moves(double limit) const
+	{
+		std::vector<Move> found;
+		const auto add = [&](Vertex from, Vertex to, int units) {
+			const int left = m_units[from] - units, there = m_units[to] + units;
+			if (left > kMaxUnits || there > kMaxUnits)
+				return;
+			const double way = distance(m_surface.positions[from], m_surface.positions[to]);
+			if (way > m_radius)
+				return;
+			const double curvature = kQuarterTurn * units;
+			// The derivative, and the second one about as in the plane.
+			double cost = kAreaCost * (2.0 * curvature * (m_field[to] - m_field[from]) +
+									   0.25 * curvature * curvature * way * way / m_area);
+			const int more = (left != 0) - 1 + (there != 0) - (m_units[to] != 0);
+			if (more > 0 && m_keepsCount)
+				return;
+			cost += kConeCost * more;
+			if (cost < limit)
+				found.push_back({from, to, units, cost});
+		};
+		for (const Vertex from : m_units.indices()) {
+			if (m_units[from] == 0)
+				continue;
+			tick();
+			for (const Vertex to : m_units.indices()) {
+				if (to == from || !m_sites.isAllowed(to))
+					continue;
+				add(from, to, m_units[from]);
+				if (m_units[from] != 1)
+					add(from, to, 1);
+				if (m_units[from] != -1)
+					add(from, to, -1);
+			}
+		}
+		std::stable_sort(found.begin(), found.end(), [](const Move& a, const Move& b) {
+			return a.cost < b.cost;
+		});
+		return found;
+	}
+
+	/// At most \p count of \p moves, more of them among the cheap ones.
+	static std::vector<Move> denserAtStart(const std::vector<Move>& moves, std::size_t count)
+	{
+		if (moves.size() <= count)
+			return moves;
+		std::vector<Move> some;
+		for (std::size_t i = 0; i < count; ++i) {
+			const double share = double(i) / double(count);
+			some.push_back(moves[std::max(i, std::size_t(share * share * double(moves.size())))]);
+		}
+		return some;
+	}
+
+	/// The move, or the two, with the most gain by the derivatives; empty if there is none.
+	std::vector<Move> best()
+	{
+		const double present = turnCost(m_errors);
+		const std::vector<Move> all = moves(present);
+		double lowest = (1.0 - kMinGain) * present;
+		std::vector<Move> chosen;
+		for (const Move& move : denserAtStart(all, kMaxTried)) {
+			if (move.cost >= lowest)
+				break;
+			const double cost = move.cost + turnCost(m_errors + turnChange(move));
+			if (cost < lowest) {
+				lowest = cost;
+				chosen = {move};
+			}
+		}
+		const std::vector<Move> some = denserAtStart(all, kMaxPaired);
+		std::vector<Eigen::VectorXd> changes;
+		for (const Move& move : some)
+			changes.push_back(turnChange(move));
+		for (std::size_t i = 0; i < some.size(); ++i) {
+			tick();
+			const Eigen::VectorXd first = m_errors + changes[i];
+			for (std::size_t k = i + 1; k < some.size(); ++k) {
+				if (some[i].cost + some[k].cost >= lowest)
+					break;
+				if (some[i].from == some[k].from || some[i].to == some[k].to ||
+					some[i].from == some[k].to || some[i].to == some[k].from)
+					continue;
+				const double cost = some[i].cost + some[k].cost + turnCost(first + changes[k]);
+				if (cost < lowest) {
+					lowest = cost;
+					chosen = {some[i], some[k]};
+				}
+			}
+		}
+		return chosen;
+	}
+
+	const EmbeddedSurface& m_surface;
+	const LoopTurns& m_turns;
+	Tick m_tick;
+	ConeSites m_sites;
+	bool m_keepsCount; // the number of cones was asked for
+	LinearFlow m_linear;
+	VertexArray<int> m_units; // quarter turns of the cones
+	VertexVector m_curvature; // with the present cones
+	VertexVector m_field;     // derivative of half the mean square of the factor by curvature
+	Eigen::VectorXd m_errors; // of the turns, at the present cones
+	Eigen::MatrixXd m_root;   // of the cost of turns
+	double m_area, m_radius, m_areas = 0.0;
+	int m_cones = 0;
+};
+
+} // namespace
+
+double TurnCost::total() const
+{
+	return angles + kAreaCost * areas + kConeCost * cones;
+}
+
+TurnCost turnCost(const EmbeddedSurface& surface, const FlowResult& flow, const LoopTurns& turns)
+{
+	TurnCost cost;
+	cost.angles = turns.errors.size() == 0 ? 0.0 : turns.errors.dot(turns.cost * turns.errors);
+	const double spread = areaChange(surface, flowFactor(flow)).spread; // of 2 u
+	cost.areas = 0.25 * spread * spread;
+	for (const Vertex v : flow.target.curvature.indices())
+		cost.cones += flow.target.fixed[v] || surface.topology.boundary[v]
+						  ? 0
+						  : flow.target.curvature[v] != 0.0;
+	return cost;
+}
+
+std::optional<PlacedCones> conesToRoundTurns(
+	const EmbeddedSurface& surface,
+	const FlowResult& flow,
+	const LoopTurns& turns,
+	const ConeRequest& request,
+	double radius)
+{
+	if (turns.errors.size() == 0)
+		return std::nullopt;
+	TurnSearch search(surface, flow, turns, request, radius);
+	if (!search.run())
+		return std::nullopt;
+	PlacedCones placed = search.cones();
+	placed.distortion = areaChange(surface, flowFactor(flow)).spread;
+	return placed;
+}
+
+} // namespace ricci
