@@ -83,7 +83,7 @@ double areaOf(const SurfaceMesh& mesh, std::size_t f)
 /// Two triangles of areas 1 and 3 that share the vertex 0 only.
 SurfaceMesh bowTie()
 {
-	return {{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {-3, 0, 0}, {0, -2, 0}}, {{0, 1, 2}, {3, 4, 0}}, 0};
+	return {{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {-3, 0, 0}, {0, -2, 0}}, {{0, 1, 2}, {3, 4, 0}}};
 }
 
 TEST(InputNumbers, LeavesAMapOfAnUncutMeshAlone)

@@ -91,7 +91,7 @@ struct Drawing
 	Report measured() const
 	{
 		std::vector<Triangle2> plane;
-		SurfaceMesh faces{mesh.positions, {}, 0};
+		SurfaceMesh faces{mesh.positions, {}};
 		for (const Face f : t.faces()) {
 			const auto h = t.halfedges(f);
 			const auto v = t.vertices(f);

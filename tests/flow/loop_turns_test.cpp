@@ -21,7 +21,8 @@ namespace {
 EmbeddedSurface surfaceOf(const SurfaceMesh& mesh)
 {
 	std::vector<std::string> notes;
-	return flowDomain(splitIntoComponents(mesh, notes).front(), Holes::Boundaries).surface;
+	return flowDomain(splitIntoComponents(openMesh(mesh, notes)).front(), Holes::Boundaries)
+		.surface;
 }
 
 /// Angles by the law of cosines.
