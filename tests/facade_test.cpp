@@ -236,7 +236,7 @@ void expectMeasuredAsStored(SurfaceMesh mesh, const Result& result, Measure meas
 		std::vector<Point3> places;
 		for (const SurfacePoint& p : result.refined.points)
 			places.push_back(placeOnSurface(p, mesh.positions));
-		mesh = {std::move(places), result.refined.triangles, 0};
+		mesh = {std::move(places), result.refined.triangles, {}, 0};
 	}
 	Report own;
 	const std::vector<char> reversed(mesh.triangles.size(), 0);
