@@ -352,7 +352,8 @@ std::string defectOf(const Report& r, double epsilon)
 	for (double x : {r.residualFloor, r.qcMean, r.qcAreaMean, r.qcVertexMean, r.qcP99, r.qcMax})
 		if (!std::isfinite(x) || x < 0.0)
 			return "a value of the report is " + std::to_string(x);
-	for (const auto& x : {r.torusTauRe, r.torusTauIm, r.annulusModulus, r.rectangleAspect, r.holonomyError})
+	for (const auto& x :
+		 {r.torusTauRe, r.torusTauIm, r.annulusModulus, r.rectangleAspect, r.holonomyError})
 		if (x && !std::isfinite(*x))
 			return "an invariant is " + std::to_string(*x);
 	if (r.brokenTriangles != 0)

@@ -128,6 +128,11 @@ def swirled(mesh, angle=2 * math.pi, radius=0.4):
     return Mesh(vertices, mesh.faces)
 
 
+def line():
+    """Faces without an area: the only triangles that the filters refuse."""
+    return Mesh([(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)], [(0, 1, 2), (1, 2, 3)])
+
+
 def moebius(columns=24, rows=3):
     def point(i, j):
         a = 2 * math.pi * i / columns

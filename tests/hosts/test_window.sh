@@ -30,7 +30,7 @@ write_meshes() {
 	cd "$here"
 	python3 -c "import meshes
 meshes.write_ply('$folder/torus.ply', meshes.torus())
-meshes.write_ply('$folder/moebius.ply', meshes.moebius())"
+meshes.write_ply('$folder/line.ply', meshes.line())"
 	cd "$folder"
 }
 
@@ -47,7 +47,7 @@ solved() {
 }
 
 refused() {
-	open_meshlab "$program" moebius.ply || fail "MeshLab did not open the Moebius band"
+	open_meshlab "$program" line.ply || fail "MeshLab did not open the line"
 	open_filter "$name" || fail "the filter's dialog did not open"
 	press_apply "$name"
 	wait_until 60 xdotool search --onlyvisible --name 'Filter Failure' || fail "no message box"

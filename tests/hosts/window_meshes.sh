@@ -117,10 +117,12 @@ own_meshes() {
 	(cd "$here" && python3 -c "import meshes
 meshes.write_ply('$folder/fin.ply', meshes.with_fin(meshes.torus()))
 meshes.write_ply('$folder/bow_tie.ply', meshes.bow_tie())
+meshes.write_ply('$folder/line.ply', meshes.line())
 meshes.write_ply('$folder/crumbs.ply',
     meshes.with_unreferenced_vertex(meshes.with_flipped_faces(meshes.torus())))")
-	try_mesh "$folder/fin.ply" refused "Repair non Manifold Edges"
-	try_mesh "$folder/bow_tie.ply" refused "Repair non Manifold Vertices by splitting"
+	try_mesh "$folder/line.ply" refused "but no area"
+	try_mesh "$folder/fin.ply" solved "Curvature within"
+	try_mesh "$folder/bow_tie.ply" solved "Curvature within"
 	try_mesh "$folder/crumbs.ply" solved "Curvature within"
 }
 

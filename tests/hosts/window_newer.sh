@@ -67,7 +67,7 @@ stage() {
 	(cd "$here" && python3 -c "import meshes
 meshes.write_ply('$work/torus.ply', meshes.torus())
 meshes.name_texture('$work/torus.ply', 'checkerboard.png')
-meshes.write_ply('$work/moebius.ply', meshes.moebius())
+meshes.write_ply('$work/line.ply', meshes.line())
 meshes.write_ply('$work/double_torus.ply', meshes.double_torus())
 meshes.name_texture('$work/double_torus.ply', 'checkerboard.png')")
 }

@@ -73,7 +73,7 @@ load_plugin || fail "the plugin was not loaded through the menu"
 apply "$name" result
 open_mesh double_torus.ply
 apply "$hyperbolic" hyperbolic
-open_mesh moebius.ply
+open_mesh line.ply
 open_filter "$name" || fail "the filter's dialog did not open"
 press_apply "$name"
 wait_until 60 xdotool search --onlyvisible --name 'Filter Failure' || fail "no message box"

@@ -50,8 +50,8 @@ public:
 		EdgesWithoutLength, ///< count; where no flips are allowed
 		FacesWithoutArea,   ///< count; where no flips are allowed
 		IncoherentEdge,     ///< vertices: its ends; its triangles are not two of opposite direction
-		NotPuncturable,   ///< map to the sphere: the surface touches itself at its best vertices
-		TooLargeForFloats ///< texture coordinates beyond the range of float
+		NotPuncturable,     ///< map to the sphere: the surface touches itself at its best vertices
+		TooLargeForFloats   ///< texture coordinates beyond the range of float
 	};
 
 	explicit InvalidMesh(

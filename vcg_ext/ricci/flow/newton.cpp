@@ -291,7 +291,8 @@ NewtonResult NewtonSolver::solve(
 		const bool valid = m_map->brokenTriangles() == 0;
 		const bool reached = valid && result.residual < options.epsilon;
 		const bool atFloor = valid && result.residual <= result.floor;
-		const bool brokenMinimum = !valid && result.residual < options.epsilon;
+		const bool brokenMinimum =
+			!valid && result.residual <= std::min(options.epsilon, result.floor);
 		if (atFloor || searchFails || brokenMinimum || m_hessian->unknowns() == 0 ||
 			(reached && polishing >= (options.polishes ? kPolishingSteps : 0)) ||
 			(!reached && result.iterations >= options.maxIterations))

@@ -23,7 +23,7 @@ struct Target
 	std::optional<std::array<Vertex, 4>> corners; ///< of a rectangle, in boundary order
 	std::optional<double> maxSpread; ///< of the logarithm of the area factor, where the target was
 									 ///< chosen to keep areas
-	bool quarterTurns = false; ///< cones were placed with multiples of pi / 2
+	bool quarterTurns = false;       ///< cones were placed with multiples of pi / 2
 	std::vector<std::string> notes;  ///< what was chosen, in sentences
 
 	bool hasFixed() const { return std::find(fixed.begin(), fixed.end(), 1) != fixed.end(); }

@@ -17,6 +17,9 @@ namespace {
 /// Vertices of each component from which one-sided loops are looked for.
 constexpr std::size_t kRoots = 16;
 
+/// How much longer than a one-sided loop the edges between faces of opposite orders may be in all.
+constexpr double kOrderFactor = 2.0;
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 int startOf(const std::vector<Triangle>& triangles, int side)
@@ -161,6 +164,13 @@ private:
 	std::vector<Place> m_places;
 };
 
+/// Glued edges of a component whose faces have opposite orders.
+struct IncoherentEdges
+{
+	std::vector<int> sides;
+	double length = 0.0;
+};
+
 void unglue(int side, std::vector<int>& glued)
 {
 	int& other = glued[positionOf(side)];
@@ -227,6 +237,17 @@ void cutOneSided(
 			unglue(s, glued);
 		return;
 	}
+	std::vector<IncoherentEdges> incoherent(positionOf(partition.componentCount));
+	for (int s = 0; s < static_cast<int>(glued.size()); ++s) {
+		const int c = partition.component[Face(s / 3)], t = glued[positionOf(s)];
+		if (t > s && partition.isOneSided[positionOf(c)] &&
+			startOf(triangles, s) == startOf(triangles, t)) {
+			incoherent[positionOf(c)].sides.push_back(s);
+			incoherent[positionOf(c)].length += distance(
+				positions[positionOf(startOf(triangles, s))],
+				positions[positionOf(endOf(triangles, s))]);
+		}
+	}
 	LoopSearch search(orientationGraph(positions, triangles, glued), positions.size());
 	// The contradicted edges of a component follow each other, and every one-sided loop crosses them.
 	const std::vector<int>& sides = partition.contradicted;
@@ -238,7 +259,8 @@ void cutOneSided(
 		const std::size_t count = std::min(kRoots, last - first);
 		for (std::size_t i = 0; i < count; ++i)
 			search.improve(startOf(triangles, sides[first + i * (last - first) / count]), loop);
-		for (const int s : loop.sides)
+		const IncoherentEdges& given = incoherent[positionOf(componentOf(first))];
+		for (const int s : given.length <= kOrderFactor * loop.length ? given.sides : loop.sides)
 			unglue(s, glued);
 	}
 }
