@@ -213,13 +213,13 @@ std::string defectOfPieces(const Reading& reading, const RefinedMesh& refined, s
 	return {};
 }
 
-/// Whether floats have room for the map, its cones are those that the filter chose, and charts may be
+/// Whether the flow was asked for its target, floats have room for the map, its cones are those that the filter chose, and charts may be
 /// cut: of such a map no face may be turned round once it is finished.
 bool isOrdinary(const HostileMesh& hostile, const Reading& reading, const Report& report)
 {
 	return !hostile.hyperbolic && isFinished(hostile.options) && hostile.options.resolveOverlap &&
-		   hostile.options.target == TargetCurvature::Automatic && isEven(reading.mesh, 1e3) &&
-		   report.areaDistortionSpread < 2.0 && report.qcMax < 100.0;
+		   hostile.options.target == TargetCurvature::Automatic && hostile.options.epsilon < 1e-6 &&
+		   isEven(reading.mesh, 1e3) && report.areaDistortionSpread < 2.0 && report.qcMax < 100.0;
 }
 
 /// What no filter may change: vertices and faces with their flags, but for texture coordinates.

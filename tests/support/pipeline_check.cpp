@@ -129,7 +129,7 @@ PipelineCheck::PipelineCheck(const SurfaceMesh& mesh)
 		input.targetCurvature = admissibleCurvature(mesh);
 		const Parametrization flat = run(mesh, options, input);
 		report = flat.report;
-		defect = defectOf(mesh, flat, belowResolution);
+		defect = defectOf(flat.opened.mesh, flat, belowResolution);
 	}
 	catch (const Error& error) {
 		refusal = error.what();

@@ -17,7 +17,8 @@ namespace {
 /// Vertices of each component from which one-sided loops are looked for.
 constexpr std::size_t kRoots = 16;
 
-/// How much longer than a one-sided loop the edges between faces of opposite orders may be in all.
+/// How much longer than the cut along a one-sided loop that along the edges between faces of opposite
+/// orders may be.
 constexpr double kOrderFactor = 2.0;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -164,8 +165,8 @@ private:
 	std::vector<Place> m_places;
 };
 
-/// Glued edges of a component whose faces have opposite orders.
-struct IncoherentEdges
+/// Glued edges, by one of their sides.
+struct EdgeSet
 {
 	std::vector<int> sides;
 	double length = 0.0;
@@ -237,16 +238,25 @@ void cutOneSided(
 			unglue(s, glued);
 		return;
 	}
-	std::vector<IncoherentEdges> incoherent(positionOf(partition.componentCount));
+	const auto add = [&](int s, EdgeSet& set) {
+		set.sides.push_back(s);
+		set.length += distance(
+			positions[positionOf(startOf(triangles, s))],
+			positions[positionOf(endOf(triangles, s))]);
+	};
+	const auto edgeSet = [&](const std::vector<int>& loop) { // a loop may run along the border
+		EdgeSet set;
+		for (const int s : loop)
+			if (glued[positionOf(s)] >= 0)
+				add(s, set);
+		return set;
+	};
+	std::vector<EdgeSet> incoherent(positionOf(partition.componentCount));
 	for (int s = 0; s < static_cast<int>(glued.size()); ++s) {
 		const int c = partition.component[Face(s / 3)], t = glued[positionOf(s)];
 		if (t > s && partition.isOneSided[positionOf(c)] &&
-			startOf(triangles, s) == startOf(triangles, t)) {
-			incoherent[positionOf(c)].sides.push_back(s);
-			incoherent[positionOf(c)].length += distance(
-				positions[positionOf(startOf(triangles, s))],
-				positions[positionOf(endOf(triangles, s))]);
-		}
+			startOf(triangles, s) == startOf(triangles, t))
+			add(s, incoherent[positionOf(c)]);
 	}
 	LoopSearch search(orientationGraph(positions, triangles, glued), positions.size());
 	// The contradicted edges of a component follow each other, and every one-sided loop crosses them.
@@ -259,8 +269,10 @@ void cutOneSided(
 		const std::size_t count = std::min(kRoots, last - first);
 		for (std::size_t i = 0; i < count; ++i)
 			search.improve(startOf(triangles, sides[first + i * (last - first) / count]), loop);
-		const IncoherentEdges& given = incoherent[positionOf(componentOf(first))];
-		for (const int s : given.length <= kOrderFactor * loop.length ? given.sides : loop.sides)
+		const EdgeSet shortest = edgeSet(loop.sides);
+		const EdgeSet& given = incoherent[positionOf(componentOf(first))];
+		for (const int s :
+			 given.length <= kOrderFactor * shortest.length ? given.sides : shortest.sides)
 			unglue(s, glued);
 	}
 }

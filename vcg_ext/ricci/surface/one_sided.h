@@ -25,7 +25,7 @@ FacePartition partitionFaces(const std::vector<Triangle>& triangles, const std::
 /// Cuts every one-sided component of \p partition along a short one-sided loop of edges, or, with
 /// \p everywhere, along all contradicted edges, which leaves no one-sided component. The cut may
 /// still leave one: a Klein bottle becomes a Möbius band or an annulus. Where the edges between faces
-/// of opposite orders are about as short as the loop, the cut is there, and no face has to be turned.
+/// of opposite orders are about as short, the cut is there, and no face has to be turned.
 ///
 /// The loop is the shortest through any of a few vertices: two shortest paths and an edge, because of
 /// two loops that a third path makes of a one-sided loop one is one-sided ([Thomassen 1990]).
