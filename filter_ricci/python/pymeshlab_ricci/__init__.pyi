@@ -93,23 +93,24 @@ class Flattening(Parametrization):
     boundary_splits: int
     """made by Edge swap"""
     euler_characteristic: int
-    """of the input"""
+    """of the input, cut open where it is no oriented manifold"""
     genus: int
-    """of the input"""
+    """of the input, cut open where it is no oriented manifold"""
     boundary_loops: int
-    """of the input"""
+    """of the input, cut open where it is no oriented manifold"""
     components: int
-    """of the input"""
+    """of the input, cut open where it is no oriented manifold"""
     cut_nonmanifold_edges: int
-    """edges of more than two faces, cut so that each sheet has two"""
+    """edges with more than two faces, or with two that have the same vertices"""
     split_vertices: int
-    """vertices with more than one fan of faces, or on such an edge"""
+    """vertices with several places in the map because of their fans of faces"""
     duplicate_faces: int
-    """faces with the vertices of another: sheets of their own"""
+    """faces with the vertices of another, each a sheet of its own"""
     one_sided_components: int
-    """components cut along short one-sided loops"""
+    """cut along short one-sided loops"""
     degenerate_faces: int
-    """faces without area, which are drawn as lines or points"""
+    """drawn as a segment or a point: faces that use a vertex twice, and those of components
+    without area"""
     cones: int
     """interior vertices that are not flat"""
     seam_edges: int
@@ -137,6 +138,16 @@ class Flattening(Parametrization):
     """flat annulus: ln(r₂/r₁) / 2π"""
     rectangle_aspect: float
     """rectangle: longer side over shorter side"""
+    holonomy_error: float
+    """with cone_rounding 1, but for Edge swap: the largest distance of the rotation across a
+    seam from a multiple of π/2, in radians"""
+    period_matrix: Array
+    """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
+    matrix, g × g, row by row; it is that of the mesh's own flat faces, and no target changes
+    it"""
+    period_error: float
+    """bound of its error: the largest distance, as logarithm, of the energies of harmonic forms
+    (genus 1: the distance in the hyperbolic plane)"""
     sphere_qc_area_mean: float
     """of the sphere layer, if it was asked for"""
     sphere_area_distortion_mean: float
@@ -189,23 +200,24 @@ class Uniformization(Parametrization):
     boundary_splits: int
     """made by Edge swap"""
     euler_characteristic: int
-    """of the input"""
+    """of the input, cut open where it is no oriented manifold"""
     genus: int
-    """of the input"""
+    """of the input, cut open where it is no oriented manifold"""
     boundary_loops: int
-    """of the input"""
+    """of the input, cut open where it is no oriented manifold"""
     components: int
-    """of the input"""
+    """of the input, cut open where it is no oriented manifold"""
     cut_nonmanifold_edges: int
-    """edges of more than two faces, cut so that each sheet has two"""
+    """edges with more than two faces, or with two that have the same vertices"""
     split_vertices: int
-    """vertices with more than one fan of faces, or on such an edge"""
+    """vertices with several places in the map because of their fans of faces"""
     duplicate_faces: int
-    """faces with the vertices of another: sheets of their own"""
+    """faces with the vertices of another, each a sheet of its own"""
     one_sided_components: int
-    """components cut along short one-sided loops"""
+    """cut along short one-sided loops"""
     degenerate_faces: int
-    """faces without area, which are drawn as lines or points"""
+    """drawn as a segment or a point: faces that use a vertex twice, and those of components
+    without area"""
     cones: int
     """interior vertices that are not flat"""
     seam_edges: int
@@ -233,6 +245,16 @@ class Uniformization(Parametrization):
     """flat annulus: ln(r₂/r₁) / 2π"""
     rectangle_aspect: float
     """rectangle: longer side over shorter side"""
+    holonomy_error: float
+    """with cone_rounding 1, but for Edge swap: the largest distance of the rotation across a
+    seam from a multiple of π/2, in radians"""
+    period_matrix: Array
+    """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
+    matrix, g × g, row by row; it is that of the mesh's own flat faces, and no target changes
+    it"""
+    period_error: float
+    """bound of its error: the largest distance, as logarithm, of the energies of harmonic forms
+    (genus 1: the distance in the hyperbolic plane)"""
     sphere_qc_area_mean: float
     """of the sphere layer, if it was asked for"""
     sphere_area_distortion_mean: float
@@ -242,9 +264,10 @@ class Uniformization(Parametrization):
     hyperbolic_area: float
     """computed from the side lengths alone, so it is an independent check of Gauss-Bonnet"""
     relation_error: float
-    """how far the layout is from closing up: the error of the group's relation as read off the
-    fundamental polygon, and the error of the length L of each geodesic boundary against its
-    isometry, |trace| = 2 cosh(L/2)"""
+    """how far the layout is from closing up: the largest angle (radians) or hyperbolic length
+    by which the isometries between neighbouring copies miss a vertex of the seam on the way
+    round it, seen from that vertex; at cones of angle θ the error of |trace| = 2 |cos(θ/2)|, at
+    geodesic boundaries that of their length L in |trace| = 2 cosh(L/2)"""
     generators: Array
     """with Axes of the generators or Canonical polygon, one component only: Re a, Im a, Re b,
     Im b of the isometries z → (az + b)/(b̄z + ā), |a|² − |b|² = 1: a canonical basis a₁, b₁, …,
@@ -419,7 +442,7 @@ def flatten(
     cone_count: The number of placed cones. 0: as many as it takes to reach 'Cones: area
         distortion'.
     cone_rounding: Free: those that change areas least. Multiples of pi/2: as quadrangulations
-        need them.
+        need them; all seams then differ by quarter turns.
     surgery: What to do where the flow breaks a triangle. The mesh itself is never changed.
     finish: What is done to the flow's map before it is stored: faces that would come out
         flipped are repaired, and on 'Keep the mesh' the faces get the least mean conformal

@@ -31,16 +31,20 @@ EUCLIDEAN_RESULTS = \
                        'counted with Keep the mesh too'),
  'edge_swaps': ('int', 'made by Edge swap'),
  'boundary_splits': ('int', 'made by Edge swap'),
- 'euler_characteristic': ('int', 'of the input'),
- 'genus': ('int', 'of the input'),
- 'boundary_loops': ('int', 'of the input'),
- 'components': ('int', 'of the input'),
+ 'euler_characteristic': ('int', 'of the input, cut open where it is no oriented manifold'),
+ 'genus': ('int', 'of the input, cut open where it is no oriented manifold'),
+ 'boundary_loops': ('int', 'of the input, cut open where it is no oriented manifold'),
+ 'components': ('int', 'of the input, cut open where it is no oriented manifold'),
  'cut_nonmanifold_edges': ('int',
-                           'edges of more than two faces, cut so that each sheet has two'),
- 'split_vertices': ('int', 'vertices with more than one fan of faces, or on such an edge'),
- 'duplicate_faces': ('int', 'faces with the vertices of another: sheets of their own'),
- 'one_sided_components': ('int', 'components cut along short one-sided loops'),
- 'degenerate_faces': ('int', 'faces without area, which are drawn as lines or points'),
+                           'edges with more than two faces, or with two that have the same '
+                           'vertices'),
+ 'split_vertices': ('int',
+                    'vertices with several places in the map because of their fans of faces'),
+ 'duplicate_faces': ('int', 'faces with the vertices of another, each a sheet of its own'),
+ 'one_sided_components': ('int', 'cut along short one-sided loops'),
+ 'degenerate_faces': ('int',
+                      'drawn as a segment or a point: faces that use a vertex twice, and those '
+                      'of components without area'),
  'cones': ('int', 'interior vertices that are not flat'),
  'seam_edges': ('int', 'edges of the input along which the mesh is cut'),
  'charts': ('int', 'pieces in the plane'),
@@ -60,6 +64,16 @@ EUCLIDEAN_RESULTS = \
  'torus_tau_im': ('float', 'flat torus: its modulus in the fundamental domain'),
  'annulus_modulus': ('float', 'flat annulus: ln(r₂/r₁) / 2π'),
  'rectangle_aspect': ('float', 'rectangle: longer side over shorter side'),
+ 'holonomy_error': ('float',
+                    'with cone_rounding 1, but for Edge swap: the largest distance of the '
+                    'rotation across a seam from a multiple of π/2, in radians'),
+ 'period_matrix': ('vector',
+                   'one closed component of genus g from 1 to 10: Re, Im of the entries of its '
+                   "Riemann period matrix, g × g, row by row; it is that of the mesh's own "
+                   'flat faces, and no target changes it'),
+ 'period_error': ('float',
+                  'bound of its error: the largest distance, as logarithm, of the energies of '
+                  'harmonic forms (genus 1: the distance in the hyperbolic plane)'),
  'sphere_qc_area_mean': ('float', 'of the sphere layer, if it was asked for'),
  'sphere_area_distortion_mean': ('float', 'of the sphere layer, if it was asked for'),
  'sphere_flipped_faces': ('int', 'of the sphere layer, if it was asked for')}
@@ -69,9 +83,11 @@ HYPERBOLIC_RESULTS = \
                      'computed from the side lengths alone, so it is an independent check of '
                      'Gauss-Bonnet'),
  'relation_error': ('float',
-                    "how far the layout is from closing up: the error of the group's relation "
-                    'as read off the fundamental polygon, and the error of the length L of '
-                    'each geodesic boundary against its isometry, |trace| = 2 cosh(L/2)'),
+                    'how far the layout is from closing up: the largest angle (radians) or '
+                    'hyperbolic length by which the isometries between neighbouring copies '
+                    'miss a vertex of the seam on the way round it, seen from that vertex; at '
+                    'cones of angle θ the error of |trace| = 2 |cos(θ/2)|, at geodesic '
+                    'boundaries that of their length L in |trace| = 2 cosh(L/2)'),
  'generators': ('vector',
                 'with Axes of the generators or Canonical polygon, one component only: Re a, '
                 'Im a, Re b, Im b of the isometries z → (az + b)/(b̄z + ā), |a|² − |b|² = 1: a '
