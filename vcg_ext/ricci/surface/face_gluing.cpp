@@ -13,10 +13,9 @@ namespace ricci {
 
 namespace {
 
-/// What a pair of incoherent orientation costs beside its fold, in radians: a fold of a right angle
-/// between coherent faces, as at an edge that two boxes share, is better than going on straight into a
-/// face of the opposite orientation, and a sharper one is not.
-constexpr double kIncoherence = 2.0;
+/// What a pair of incoherent orientation costs beside its fold, in radians: more than any fold, so that
+/// coherent pairs come first and as few faces as can be are turned.
+constexpr double kIncoherence = 4.0;
 
 /// Edges with more sides than this pair each only with the kNearest nearest to its continuation.
 constexpr std::size_t kAllPairs = 64, kNearest = 8;
