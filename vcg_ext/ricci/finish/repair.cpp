@@ -284,17 +284,23 @@ Repair repairInStages(
 	PointGroups groups = insidePoints(drawn);
 	Repair result =
 		repair(drawn, groups, shapes, soundness, {kMaxInsideRings, moves.accepts}, tick);
-	const auto goOn = [&](const std::function<bool(int)>& boundary, bool partly) {
+	const auto goOn = [&](const std::function<bool(int)>& boundary, RestShapes from, bool partly) {
 		if (result.left == 0)
 			return;
 		groups = joinedPoints(drawn, moves.seams, boundary);
 		result.add(
-			repair(drawn, groups, shapes, soundness, {kMaxRings, moves.accepts, partly}, tick));
+			repair(drawn, groups, from, soundness, {kMaxRings, moves.accepts, partly}, tick));
 	};
 	const auto everywhere = [](int) { return true; };
-	goOn(moves.boundary, false);
-	goOn(everywhere, false);
-	goOn(everywhere, true);
+	goOn(moves.boundary, shapes, false);
+	goOn(everywhere, shapes, false);
+	goOn(everywhere, shapes, true);
+	// A limb that the drawing has shrunk below any height needs room from all round it. Text does not
+	// get that: floats hold more.
+	if (soundness.step == 0.0) {
+		goOn(everywhere, RestShapes::OfSurfaceEvenly, true);
+		goOn(everywhere, shapes, true);
+	}
 	if (shapes == RestShapes::OfSurface)
 		easeStrained(drawn, groups, soundness, moves.accepts, tick, result);
 	return result;
