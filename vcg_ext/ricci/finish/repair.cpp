@@ -320,9 +320,9 @@ Repair repairInStages(
 	goOn(moves.boundary, shapes, false);
 	goOn(everywhere, shapes, false);
 	goOn(everywhere, shapes, true);
-	// A limb that the drawing has shrunk below any height needs room from all round it. Text does not
-	// get that: floats hold more.
-	if (soundness.step == 0.0) {
+	// A limb that the drawing has shrunk below any height needs room from all round it. That bends the
+	// map, so only what is stored as it is gets it: floats, not text.
+	if (soundness.asFloats && soundness.step == 0.0) {
 		goOn(everywhere, RestShapes::OfSurfaceEvenly, true);
 		goOn(everywhere, shapes, true);
 	}
