@@ -206,5 +206,25 @@ TEST(InputNumbers, DegenerateFacesAreDrawnAsLines)
 	}
 }
 
+/// Whichever corners have the same vertex, they are drawn at one point, the third at the other end.
+TEST(InputNumbers, CornersAtOneVertexAreDrawnAtOnePoint)
+{
+	const SurfaceMesh plain = rectangle(1, 1, 1, 1);
+	const int a = plain.triangles[0][0], b = plain.triangles[0][1];
+	for (const Triangle& line : {Triangle{a, a, b}, Triangle{a, b, a}, Triangle{b, a, a}}) {
+		SurfaceMesh mesh = plain;
+		mesh.triangles.push_back(line);
+		Parametrization map = refined(mesh);
+		toInputNumbers(mesh, map);
+		const Triangle2& drawn = map.uv.back();
+		for (std::size_t k = 0; k < 3; ++k)
+			for (std::size_t j = 0; j < 3; ++j)
+				EXPECT_EQ(drawn[k] == drawn[j], line[k] == line[j]) << k << j;
+		EXPECT_EQ(map.refined.uv.back(), drawn);
+		EXPECT_EQ(map.refined.faceQC.back(), 1.0);
+		EXPECT_EQ(map.refined.inputFace.back(), 2);
+	}
+}
+
 } // namespace
 } // namespace ricci::testing

@@ -2,12 +2,15 @@
 #include "support/random.h"
 #include "support/shapes.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/finish/repair.h>
 #include <ricci/math/orientation.h>
 #include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <complex>
 #include <cstdint>
 #include <cstdlib>
 
@@ -62,6 +65,33 @@ DrawnTriangles tangled(int count, std::uint64_t seed)
 		drawn.points[v][1] += random.real(-2, 2);
 		++moved;
 	}
+	return drawn;
+}
+
+/// A tube of \p rings rings of \p n vertices with a tip, all sides 1, drawn in rings about 0 that each
+/// are \p ratio times the one outside.
+DrawnTriangles limb(int n, int rings, double ratio)
+{
+	DrawnTriangles drawn;
+	const auto at = [&](int k, int i) { return k * n + i % n; };
+	for (int k = 0; k <= rings; ++k)
+		for (int i = 0; i < n; ++i)
+			drawn.points.push_back(
+				asPoint(std::polar(std::pow(ratio, k), 2 * kPi * (i + 0.5 * k) / n)));
+	const int tip = drawn.points.size();
+	drawn.points.push_back({0.0, 0.0});
+	const auto add = [&](const Triangle& t) {
+		drawn.vertices.push_back(t);
+		drawn.corners.push_back(t);
+		drawn.sides.push_back({1.0, 1.0, 1.0});
+	};
+	for (int k = 0; k < rings; ++k)
+		for (int i = 0; i < n; ++i) {
+			add({at(k, i), at(k, i + 1), at(k + 1, i)});
+			add({at(k, i + 1), at(k + 1, i + 1), at(k + 1, i)});
+		}
+	for (int i = 0; i < n; ++i)
+		add({at(rings, i), at(rings, i + 1), tip});
 	return drawn;
 }
 
@@ -168,6 +198,20 @@ TEST(Repair, TheBoundaryMovesWhereNothingElseMends)
 	EXPECT_EQ(result.left, 0);
 	EXPECT_TRUE(badTriangles(drawn, soundness()).empty());
 	EXPECT_EQ(result.moved[corner], 1);
+}
+
+TEST(Repair, ALimbThatHasShrunkBelowFloatsGetsRoom)
+{
+	const Soundness wanted{0x1p-20, 0x1p-19, true};
+	for (const double ratio : {0.6, 0.4, 0.25}) {
+		SCOPED_TRACE(ratio);
+		DrawnTriangles drawn = limb(5, 80, ratio);
+		const Repair result =
+			repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, wanted, [] {});
+		EXPECT_GT(result.bad, 500);
+		EXPECT_EQ(result.left, 0);
+		EXPECT_TRUE(badTriangles(drawn, wanted).empty());
+	}
 }
 
 TEST(Repair, CanBeCancelled)

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/math/min_area_rectangle.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -74,6 +78,59 @@ TEST(MinAreaRectangle, OfPointsWithoutAnArea)
 	const OrientedRectangle r = minAreaRectangle({{0, 0}, {3, 4}, {1.5, 2}});
 	EXPECT_NEAR(r.width(), 5.0, 1e-14);
 	EXPECT_NEAR(r.height(), 0.0, 1e-14);
+}
+
+/// The least area of the rectangles along the sides of a convex polygon, side by side.
+double leastArea(const std::vector<Point2>& hull)
+{
+	double least = std::numeric_limits<double>::infinity();
+	for (std::size_t i = 0; i < hull.size(); ++i) {
+		const Point2 &p = hull[i], &q = hull[(i + 1) % hull.size()];
+		OrientedRectangle r;
+		r.cosine = (q[0] - p[0]) / distance(p, q);
+		r.sine = (q[1] - p[1]) / distance(p, q);
+		r.min = r.max = r.inFrame(p);
+		for (const Point2& other : hull)
+			for (std::size_t k = 0; k < 2; ++k) {
+				r.min[k] = std::min(r.min[k], r.inFrame(other)[k]);
+				r.max[k] = std::max(r.max[k], r.inFrame(other)[k]);
+			}
+		least = std::min(least, area(r));
+	}
+	return least;
+}
+
+TEST(MinAreaRectangle, IsTheLeastOfAllAlongSidesOfTheHull)
+{
+	Random random(122);
+	for (int trial = 0; trial < 200; ++trial) {
+		// Corners of an ellipse at random angles, turned: a convex polygon.
+		std::vector<double> angles;
+		for (int i = 0; i < 3 + trial % 40; ++i)
+			angles.push_back(random.real(0.0, trial % 3 == 0 ? 2.0 : 6.28));
+		std::sort(angles.begin(), angles.end());
+		const double height = random.real(0.05, 1.0), turn = random.real(0.0, 6.28);
+		std::vector<Point2> hull;
+		for (const double a : angles) {
+			const double x = std::cos(a), y = height * std::sin(a);
+			hull.push_back(
+				{std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y});
+		}
+		const double least = leastArea(hull);
+		EXPECT_NEAR(area(minAreaRectangle(hull)), least, 1e-12) << trial;
+	}
+}
+
+TEST(MinAreaRectangle, TakesTimeInProportionToTheCorners)
+{
+	// With the square of their number this would take minutes.
+	constexpr int kCorners = 400000;
+	std::vector<Point2> circle;
+	for (int i = 0; i < kCorners; ++i)
+		circle.push_back({std::cos(2 * kPi * i / kCorners), std::sin(2 * kPi * i / kCorners)});
+	const OrientedRectangle r = minAreaRectangle(circle);
+	EXPECT_NEAR(r.width(), 2.0, 1e-9);
+	EXPECT_NEAR(r.height(), 2.0, 1e-9);
 }
 
 } // namespace

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -423,6 +424,94 @@ TEST(OpenedMesh, TellsWhatWasDone)
 	EXPECT_EQ(notes[2].rfind("2 edges of more than two faces were cut", 0), 0u);
 	EXPECT_EQ(notes[3].rfind("3 vertices have more than one fan", 0), 0u);
 	EXPECT_EQ(notes[4].rfind("1 face has no area", 0), 0u);
+}
+
+TEST(OpenedMesh, WhatIsLeftOutTakesNothingAlong)
+{
+	// A flat component, a face with a vertex twice and one at a single point, round a square whose two
+	// triangles are glued.
+	SurfaceMesh mesh;
+	mesh.positions = {
+		{0, 0, 0},
+		{1, 0, 0},
+		{2, 0, 0},
+		{3, 0, 0}, // on a line
+		{0, 5, 0},
+		{1, 5, 0},
+		{1, 6, 0},
+		{0, 6, 0}, // the square
+		{9, 9, 9},
+		{9, 9, 9},
+		{9, 9, 9},  // one point
+		{7, 7, 7}}; // stands for nothing
+	mesh.absent = 1;
+	mesh.triangles = {{0, 1, 2}, {4, 5, 6}, {1, 2, 3}, {4, 4, 5}, {8, 9, 10}, {4, 6, 7}};
+	mesh.diagonal.assign(mesh.triangles.size(), {0, 0, 0});
+	mesh.diagonal[1] = {0, 0, 1};
+	mesh.diagonal[5] = {1, 0, 0};
+	expectOpened(mesh);
+	const OpenedMesh o = opened(mesh);
+	EXPECT_EQ(o.face, (std::vector<int>{1, 5}));
+	EXPECT_EQ(o.degenerate, (std::vector<int>{0, 2, 3, 4}));
+	ASSERT_EQ(typesOf(o).size(), 1u);
+	EXPECT_EQ(typesOf(o)[0].boundaryLoops, 1);
+	EXPECT_EQ(o.mesh.absent, 1u);
+	EXPECT_EQ(
+		o.mesh.diagonal, (std::vector<std::array<char, 3>>{mesh.diagonal[1], mesh.diagonal[5]}));
+}
+
+/// Whether two faces share two vertices.
+bool shareAnEdge(const OpenedMesh& o, std::size_t f, std::size_t g)
+{
+	int shared = 0;
+	for (const int v : o.mesh.triangles[f])
+		shared += std::count(o.mesh.triangles[g].begin(), o.mesh.triangles[g].end(), v) > 0;
+	return shared == 2;
+}
+
+TEST(OpenedMesh, PairsCoherentSheetsThatAreNearlyAsSmooth)
+{
+	// Three strips of three triangles at an edge from 0 to 1. The first and the second go straight on
+	// but have the edge in the same direction; the third is coherent with the first, at 120 degrees.
+	for (std::size_t turned = 0; turned < 4; ++turned) {
+		SCOPED_TRACE(turned);
+		SurfaceMesh mesh;
+		mesh.positions = {{0, 0, 0}, {0, 0, 1}};
+		for (const double degrees : {0.0, 180.0, 120.0}) {
+			const double angle = degrees * kPi / 180.0;
+			const int first = static_cast<int>(mesh.positions.size());
+			for (const auto& [r, z] :
+				 {std::pair(1.0, 0.5), std::pair(1.0, 1.5), std::pair(2.0, 1.0)})
+				mesh.positions.push_back({r * std::cos(angle), r * std::sin(angle), z});
+			std::vector<Triangle> strip = {
+				{0, 1, first}, {1, first + 1, first}, {first, first + 1, first + 2}};
+			if (degrees == 120.0)
+				for (Triangle& t : strip)
+					t = reversed(t);
+			mesh.triangles.insert(mesh.triangles.end(), strip.begin(), strip.end());
+		}
+		// Most triangles of a strip decide its orientation.
+		if (turned < 3)
+			mesh.triangles[turned] = reversed(mesh.triangles[turned]);
+		const OpenedMesh o = opened(mesh);
+		EXPECT_EQ(o.cutEdges, 1);
+		EXPECT_TRUE(shareAnEdge(o, 0, 6));
+		EXPECT_FALSE(shareAnEdge(o, 0, 3));
+		EXPECT_FALSE(shareAnEdge(o, 3, 6));
+		for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+			EXPECT_EQ(o.reversed[Face(static_cast<int>(f))] == 1, turned < 3 && f == turned) << f;
+	}
+}
+
+TEST(OpenedMesh, TurnsTheMinorityOfAComponent)
+{
+	SurfaceMesh mesh = tetrahedron();
+	mesh.triangles[0] = reversed(mesh.triangles[0]); // where the search starts
+	EXPECT_EQ(opened(mesh).reversed.values(), (std::vector<char>{1, 0, 0, 0}));
+	mesh.triangles[2] = reversed(mesh.triangles[2]); // half of them: the first stays
+	const std::vector<char> half = opened(mesh).reversed.values();
+	EXPECT_EQ(std::count(half.begin(), half.end(), 1), 2);
+	EXPECT_EQ(half[0], 0);
 }
 
 } // namespace

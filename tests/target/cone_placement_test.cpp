@@ -18,7 +18,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -306,6 +308,25 @@ TEST(ConePlacement, TakesManyConesOnlyWhereAreasNeedThem)
 	EXPECT_LE(many.distortion, 1.0);
 	EXPECT_GT(many.distortion, 0.8); // and no more than that
 	EXPECT_GT(place(folded, kMaxPlacedCones).distortion, 1.0);
+}
+
+TEST(ConePlacement, TakesNoMoreWhereTheyBringNothing)
+{
+	// A sphere with one pole drawn through it to a point beside the other. Its long triangles have no
+	// vertices inside where cones could lie.
+	constexpr int kRings = 24;
+	std::vector<std::array<double, 2>> profile;
+	for (int i = 0; i <= kRings; ++i)
+		profile.push_back({std::sin(kPi * i / kRings), -std::cos(kPi * i / kRings)});
+	profile.front()[0] = profile.back()[0] = 0.0;
+	profile.front()[1] = 0.98;
+	const Packed spike(revolved(profile, 8));
+	ConeRequest request;
+	const PlacedCones enough = place(spike, request);
+	EXPECT_LE(static_cast<int>(enough.vertices.size()), kMaxPlacedCones);
+	const double withMore = place(spike, 90).distortion;
+	EXPECT_GT(withMore, 1.0);
+	EXPECT_LT(enough.distortion, 1.01 * withMore);
 }
 
 TEST(ConePlacement, ScaleChangesNothing)

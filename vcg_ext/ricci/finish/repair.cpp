@@ -20,8 +20,10 @@ constexpr int kRings[] = {1, 2, 3, 5, 8, 13, 21, 34};
 /// Those of the largest patches that move points inside alone, and of all.
 constexpr int kMaxInsideRings = 13, kMaxRings = 34;
 
-/// A patch that failed is tried again once it has so many times the triangles.
+/// A patch that failed is tried again once it has so many times the triangles, or for
+/// RestShapes::OfSurfaceEvenly, the area: triangles round a limb that has shrunk are few and large.
 constexpr double kPatchGrowth = 1.4;
+constexpr double kAreaGrowth = 4.0;
 
 /// Strain (untangle.h) above which a mended patch is evened out, and the rings of the larger patches.
 constexpr double kMaxStrain = 3.0;
@@ -66,14 +68,34 @@ bool isHopeless(
 	return borderStays && area <= least * static_cast<double>(patch.triangles.size());
 }
 
-/// Whether a patch has failed that was nearly as large.
-bool isHardlyLarger(const Patch& patch, const Array<std::size_t>& failed)
+/// What a patch has to work with.
+struct PatchSize
 {
-	std::size_t largest = 0;
-	for (const int f : patch.triangles)
-		largest = std::max(largest, failed[f]);
-	return static_cast<double>(patch.triangles.size()) <
-		   kPatchGrowth * static_cast<double>(largest);
+	double triangles = 0.0, area = 0.0;
+};
+
+PatchSize sizeOf(const DrawnTriangles& drawn, const Patch& patch)
+{
+	PatchSize size{static_cast<double>(patch.triangles.size()), 0.0};
+	for (const int f : patch.triangles) {
+		const Triangle2 p = drawn.at(f);
+		size.area += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
+	}
+	return size;
+}
+
+/// Whether a patch has failed that was nearly as large, in area too if that counts.
+bool isHardlyLarger(
+	const DrawnTriangles& drawn, const Patch& patch, const Array<PatchSize>& failed, bool byArea)
+{
+	PatchSize largest;
+	for (const int f : patch.triangles) {
+		largest.triangles = std::max(largest.triangles, failed[f].triangles);
+		largest.area = std::max(largest.area, failed[f].area);
+	}
+	const PatchSize size = sizeOf(drawn, patch);
+	return size.triangles < kPatchGrowth * largest.triangles &&
+		   (!byArea || size.area < kAreaGrowth * largest.area);
 }
 
 /// Puts the points of a patch in their places, unless the test refuses the patch there.
@@ -224,7 +246,7 @@ Repair repair(
 		return result;
 	result.moved.assign(drawn.points.size(), 0);
 	PatchFinder finder(drawn, groups);
-	Array<std::size_t> failed(drawn.corners.size(), 0); // [triangle] size of its last patch
+	Array<PatchSize> failed(drawn.corners.size(), PatchSize{}); // [triangle] of its last patch
 	const std::int64_t maxWork = std::max(kMaxWorkShare * drawn.corners.size(), kLeastMaxWork);
 	for (const int rings : kRings) {
 		if (rings > rules.maxRings)
@@ -235,7 +257,8 @@ Repair repair(
 				patches.begin(),
 				patches.end(),
 				[&](const Patch& patch) {
-					return isHardlyLarger(patch, failed) ||
+					return isHardlyLarger(
+							   drawn, patch, failed, shapes == RestShapes::OfSurfaceEvenly) ||
 						   isHopeless(drawn, groups, patch, soundness);
 				}),
 			patches.end());
@@ -258,11 +281,13 @@ Repair repair(
 					soundness,
 					own);
 			});
-		takeOver(patches, found, rules, drawn, result);
 		for (std::size_t i = 0; i < patches.size(); ++i)
-			if (!found[i].sound)
+			if (!found[i].sound) {
+				const PatchSize size = sizeOf(drawn, patches[i]);
 				for (const int f : patches[i].triangles)
-					failed[f] = patches[i].triangles.size();
+					failed[f] = size;
+			}
+		takeOver(patches, found, rules, drawn, result);
 		const auto isMended = [&](int f) { return soundness.isSound(drawn.at(f)); };
 		bad.erase(std::remove_if(bad.begin(), bad.end(), isMended), bad.end());
 		if (bad.empty() || result.work >= maxWork)
@@ -284,17 +309,23 @@ Repair repairInStages(
 	PointGroups groups = insidePoints(drawn);
 	Repair result =
 		repair(drawn, groups, shapes, soundness, {kMaxInsideRings, moves.accepts}, tick);
-	const auto goOn = [&](const std::function<bool(int)>& boundary, bool partly) {
+	const auto goOn = [&](const std::function<bool(int)>& boundary, RestShapes from, bool partly) {
 		if (result.left == 0)
 			return;
 		groups = joinedPoints(drawn, moves.seams, boundary);
 		result.add(
-			repair(drawn, groups, shapes, soundness, {kMaxRings, moves.accepts, partly}, tick));
+			repair(drawn, groups, from, soundness, {kMaxRings, moves.accepts, partly}, tick));
 	};
 	const auto everywhere = [](int) { return true; };
-	goOn(moves.boundary, false);
-	goOn(everywhere, false);
-	goOn(everywhere, true);
+	goOn(moves.boundary, shapes, false);
+	goOn(everywhere, shapes, false);
+	goOn(everywhere, shapes, true);
+	// A limb that the drawing has shrunk below any height needs room from all round it. That bends the
+	// map, so only what is stored as it is gets it: floats, not text.
+	if (soundness.asFloats && soundness.step == 0.0) {
+		goOn(everywhere, RestShapes::OfSurfaceEvenly, true);
+		goOn(everywhere, shapes, true);
+	}
 	if (shapes == RestShapes::OfSurface)
 		easeStrained(drawn, groups, soundness, moves.accepts, tick, result);
 	return result;

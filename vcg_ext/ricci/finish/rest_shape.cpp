@@ -67,9 +67,12 @@ RestShape shapeOf(const Triangle2& p)
 }
 
 /// How much the drawing scales the surface round each triangle of a patch: the root of the quotient
-/// of areas over the triangles at its corners.
-std::vector<double>
-scales(const DrawnTriangles& drawn, const Patch& patch, const std::vector<RestShape>& shapes)
+/// of areas over the triangles at its corners, or \p evenly over all.
+std::vector<double> scales(
+	const DrawnTriangles& drawn,
+	const Patch& patch,
+	const std::vector<RestShape>& shapes,
+	bool evenly)
 {
 	Array<double> plane(static_cast<int>(patch.points.size()), 0.0), surface = plane;
 	double planeSum = 0.0, surfaceSum = 0.0;
@@ -81,6 +84,8 @@ scales(const DrawnTriangles& drawn, const Patch& patch, const std::vector<RestSh
 			plane[q] += a, surface[q] += b;
 	}
 	const double mean = planeSum > 0.0 ? std::sqrt(planeSum / surfaceSum) : 1.0;
+	if (evenly)
+		return std::vector<double>(shapes.size(), mean);
 	std::vector<double> result;
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
 		double a = 0.0, b = 0.0;
@@ -99,7 +104,8 @@ std::vector<RestShape> restShapes(
 	std::vector<RestShape> shapes;
 	for (const int f : patch.triangles)
 		shapes.push_back(shapeOf(drawn.sides[f]));
-	const std::vector<double> scale = scales(drawn, patch, shapes);
+	const std::vector<double> scale =
+		scales(drawn, patch, shapes, from == RestShapes::OfSurfaceEvenly);
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
 		const Triangle2 p = drawn.at(patch.triangles[i]);
 		shapes[i] = from == RestShapes::OfDrawing && doubledArea(p[0], p[1], p[2]) > 0.0

@@ -21,12 +21,12 @@ struct RestShape
 
 /// Where the triangles of a patch have their shapes from.
 enum class RestShapes {
-	OfSurface, ///< from their sides on the surface
-	OfDrawing  ///< from the drawing, where they are counter-clockwise there
+	OfSurface,       ///< from their sides on the surface, scaled as the drawing scales them nearby
+	OfSurfaceEvenly, ///< from their sides on the surface, all of the patch scaled alike
+	OfDrawing        ///< from the drawing, where they are counter-clockwise there, else OfSurface
 };
 
-/// The shapes of the triangles of \p patch. Sides on the surface are scaled as the drawing scales
-/// them round the triangle. Those of triangles that have no shape, or a thin one, are made less thin
+/// The shapes of the triangles of \p patch. Those of triangles that have no shape, or a thin one, are made less thin
 /// elsewhere, and all are as high as \p soundness wants.
 std::vector<RestShape> restShapes(
 	const DrawnTriangles& drawn, const Patch& patch, RestShapes from, const Soundness& soundness);

@@ -75,34 +75,74 @@ std::vector<Point2> convexHull(std::vector<Point2> points)
 	return hull;
 }
 
+/// The rectangle whose lower side is that of a convex polygon from corner \p i, without min and max.
+OrientedRectangle frameAlong(const std::vector<Point2>& hull, std::size_t i)
+{
+	const Point2& p = hull[i];
+	const Point2& q = hull[(i + 1) % hull.size()];
+	const double length = distance(p, q);
+	OrientedRectangle r;
+	if (length > 0.0) {
+		r.cosine = (q[0] - p[0]) / length;
+		r.sine = (q[1] - p[1]) / length;
+	}
+	return r;
+}
+
+/// The corner of a convex polygon where \p height is largest, searched uphill from \p from.
+template<class Height>
+std::size_t
+uphill(const std::vector<Point2>& hull, std::size_t from, double& highest, const Height& height)
+{
+	highest = height(hull[from]);
+	for (std::size_t steps = 0; steps < hull.size(); ++steps) {
+		const std::size_t next = (from + 1) % hull.size();
+		const double there = height(hull[next]);
+		if (there < highest)
+			break;
+		from = next;
+		highest = there;
+	}
+	return from;
+}
+
+/// The corner from which the side of a convex polygon starts along which the rectangle round it has
+/// the least area. Its right, upper and left corners go round once with the side [Toussaint 1983].
+std::size_t bestSide(const std::vector<Point2>& hull)
+{
+	std::size_t best = 0, right = 0, upper = 0, left = 0;
+	double minArea = std::numeric_limits<double>::infinity();
+	for (std::size_t i = 0; i < hull.size(); ++i) {
+		const OrientedRectangle r = frameAlong(hull, i);
+		const auto x = [&](const Point2& p) { return r.inFrame(p)[0]; };
+		const auto y = [&](const Point2& p) { return r.inFrame(p)[1]; };
+		double maxX = 0.0, maxY = 0.0, maxMinusX = 0.0;
+		right = uphill(hull, i == 0 ? 0 : right, maxX, x);
+		upper = uphill(hull, i == 0 ? right : upper, maxY, y);
+		left =
+			uphill(hull, i == 0 ? upper : left, maxMinusX, [&](const Point2& p) { return -x(p); });
+		const double minY = std::min(y(hull[i]), y(hull[(i + 1) % hull.size()]));
+		const double area = (maxX + maxMinusX) * (maxY - minY);
+		if (area < minArea) {
+			minArea = area;
+			best = i;
+		}
+	}
+	return best;
+}
+
 } // namespace
 
 OrientedRectangle minAreaRectangle(std::vector<Point2> points)
 {
 	const std::vector<Point2> hull = convexHull(std::move(points));
-	OrientedRectangle best;
-	double minArea = std::numeric_limits<double>::infinity();
-	for (std::size_t i = 0; i < hull.size(); ++i) {
-		const Point2& p = hull[i];
-		const Point2& q = hull[(i + 1) % hull.size()];
-		const double length = distance(p, q);
-		OrientedRectangle r;
-		if (length > 0.0) {
-			r.cosine = (q[0] - p[0]) / length;
-			r.sine = (q[1] - p[1]) / length;
-		}
-		r.min = r.max = r.inFrame(p);
-		for (const Point2& other : hull) {
-			const Point2 x = r.inFrame(other);
-			for (std::size_t k = 0; k < 2; ++k) {
-				r.min[k] = std::min(r.min[k], x[k]);
-				r.max[k] = std::max(r.max[k], x[k]);
-			}
-		}
-		const double area = r.width() * r.height();
-		if (area < minArea) {
-			minArea = area;
-			best = r;
+	OrientedRectangle best = frameAlong(hull, bestSide(hull));
+	best.min = best.max = best.inFrame(hull.front());
+	for (const Point2& p : hull) {
+		const Point2 x = best.inFrame(p);
+		for (std::size_t k = 0; k < 2; ++k) {
+			best.min[k] = std::min(best.min[k], x[k]);
+			best.max[k] = std::max(best.max[k], x[k]);
 		}
 	}
 	if (best.height() > best.width()) { // a quarter turn

@@ -27,7 +27,8 @@ struct OrientedRectangle
 };
 
 /// Rectangle of minimum area round \p points, at least one. One of its sides lies along an edge of
-/// their convex hull [Freeman Shapira 1975], and its width is not less than its height.
+/// their convex hull [Freeman Shapira 1975], and its width is not less than its height. Takes n log n
+/// steps for n points.
 OrientedRectangle minAreaRectangle(std::vector<Point2> points);
 
 } // namespace ricci

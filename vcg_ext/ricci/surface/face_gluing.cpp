@@ -96,8 +96,7 @@ std::vector<Page> pagesOf(
 /// 0 where one page goes straight on in the other, pi where both lie on each other.
 double foldBetween(const Page& p, const Page& q)
 {
-	const double gap = std::abs(p.angle - q.angle);
-	return std::abs(kPi - std::min(gap, 2.0 * kPi - gap));
+	return std::abs(kPi - std::abs(p.angle - q.angle)); // the same for the gap round the other way
 }
 
 /// [triangle] how many before it have the same vertices.

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace ricci {
 
@@ -63,19 +64,48 @@ int maxCones(const ConeModel& model)
 	return std::clamp(kMaxConeNumbers / vertices, kMaxPlacedCones, kMaxNeededCones);
 }
 
-/// Whether there may be more cones to bring the distortion down to \p wanted.
-bool mayGrow(const ConeModel& model, double wanted)
+/// Decides whether there may be more cones to bring the distortion down to what is wanted.
+class Growth
 {
-	const bool isNeeded = model.distortion() > std::max(kMaxPlainSpread, wanted);
-	return model.size() < (isNeeded ? maxCones(model) : kMaxPlacedCones);
-}
+public:
+	Growth(const ConeModel& model, double wanted) :
+			m_model(model), m_needed(std::max(kMaxPlainSpread, wanted))
+	{
+	}
+
+	/// To be called once for each cone. Where cones are needed beyond kMaxPlacedCones, the distortion,
+	/// which falls ever more slowly, must reach the limit with as many as there may be if it goes on
+	/// as with the last ones.
+	bool mayGoOn()
+	{
+		const double present = m_model.distortion();
+		m_distortions.push_back(present);
+		if (m_model.size() < kMaxPlacedCones)
+			return true;
+		const int left = maxCones(m_model) - m_model.size();
+		if (present <= m_needed || left <= 0)
+			return false;
+		if (m_distortions.size() <= kPace)
+			return true;
+		const double fall = m_distortions[m_distortions.size() - 1 - kPace] - present;
+		return fall * left >= (present - m_needed) * kPace;
+	}
+
+private:
+	static constexpr int kPace = 32; // cones that show how fast the distortion falls
+
+	const ConeModel& m_model;
+	double m_needed;
+	std::vector<double> m_distortions; // with each number of cones so far
+};
 
 /// Adds cones until they reach the distortion. Free curvatures show where to put them; the rounded
 /// ones have to reach it.
 void addForDistortion(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	model.setRounding(request.rounding);
-	while (model.distortion() > request.distortion && mayGrow(model, request.distortion)) {
+	Growth growth(model, request.distortion);
+	while (model.distortion() > request.distortion && growth.mayGoOn()) {
 		model.setRounding(ConeRounding::Free);
 		if (!addCone(request, model, sites))
 			break;
