@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
+#include "support/wide.h"
 
 #include <ricci/metric/euclidean.h>
 #include <ricci/metric/hyperbolic.h>
@@ -16,7 +17,7 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-using Extended = HyperbolicGeometry<long double>;
+using Extended = HyperbolicGeometry<DoubleDouble>;
 
 /// u from -50 to -1e-3, on a logarithmic scale of the two ends.
 std::vector<double> valuesOfU(Random& random)
@@ -86,8 +87,8 @@ TEST(Hyperbolic, CircleKnowsWhatTheLastPlaceOfUCannotHold)
 			seen += relative(-1 / std::sinh(static_cast<long double>(u)), -1 / std::sinh(x)) >
 					8 * kEpsilon;
 			// u + low rounds in the reference as well.
-			const auto wide = Extended::circle(u, low);
-			EXPECT_LT(relative(wide.s, -1 / std::sinh(x)), 1e-19 * (4.0 - u)) << u;
+			const auto extended = Extended::circle(u, low);
+			EXPECT_LT(relative(wide(extended.s), -1 / std::sinh(x)), 1e-19 * (4.0 - u)) << u;
 		}
 	}
 	EXPECT_GT(seen, 100);
@@ -101,10 +102,12 @@ TEST(Hyperbolic, DerivativesOfACircleByU)
 		const double h = 1e-4 * std::min(1.0, -u);
 		const auto here = Extended::circle(u);
 		const auto above = Extended::circle(u + h), below = Extended::circle(u - h);
-		const long double step = static_cast<long double>(u + h) - (u - h);
-		EXPECT_LT(relative((above.radius - below.radius) / step, here.s), 1e-7) << u;
-		EXPECT_LT(relative((above.s - below.s) / step, here.s * here.s * here.kappa), 1e-7) << u;
-		EXPECT_LT(relative((above.kappa - below.kappa) / step, -1 / here.s), 1e-7) << u;
+		const DoubleDouble step = DoubleDouble::sum(u + h, -(u - h));
+		EXPECT_LT(relative(wide((above.radius - below.radius) / step), wide(here.s)), 1e-7) << u;
+		EXPECT_LT(
+			relative(wide((above.s - below.s) / step), wide(here.s * here.s * here.kappa)), 1e-7)
+			<< u;
+		EXPECT_LT(relative(wide((above.kappa - below.kappa) / step), wide(-1 / here.s)), 1e-7) << u;
 	}
 }
 
@@ -141,7 +144,7 @@ TEST(Hyperbolic, LengthIsTheLawOfCosinesWithTheInversiveDistance)
 		EXPECT_LT(relative(2 * half * half, lessOne), rounding);
 		// The difference of length and radii cancels; the wider type leaves it this exact.
 		const long double length =
-			Extended::edge(Extended::circle(e.ui), Extended::circle(e.uj), e.delta).length;
+			wide(Extended::edge(Extended::circle(e.ui), Extended::circle(e.uj), e.delta).length);
 		const long double excess = length - gi - gj;
 		EXPECT_LT(
 			relative(edge.excess, excess),
