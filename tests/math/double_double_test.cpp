@@ -131,6 +131,7 @@ TEST(DoubleDouble, FunctionsHaveTheirKnownValues)
 	} known[] = {
 		{exp(DoubleDouble(1)), "2.71828182845904523536028747135266249776"},
 		{exp(DoubleDouble(-20)), "0.00000000206115362243855782796594038015582098"},
+		{exp(DoubleDouble(-40)) * 1e10 * 1e10, "424.83542552915889953292347828586580179"},
 		{expm1(small), "0.00097703949241653524284529261160650646585"},
 		{log1p(small), "0.00097608597305545889596082490801718667261"},
 		{log1p(DoubleDouble(2)), "1.09861228866810969139524523692252570465"},
@@ -154,6 +155,9 @@ TEST(DoubleDouble, FunctionsAndTheirInversesFitTogether)
 		const DoubleDouble x = randomNumber(-20.0, 20.0, random);
 		const DoubleDouble small = randomScale(30, random) * 0x1p-30;
 		EXPECT_LE(relative(exp(x) * exp(-x), 1), kRounding);
+		const DoubleDouble large = x * 10; // its unit in the last place, too
+		EXPECT_LE(relative(exp(large) * exp(-large), 1), kRounding);
+		EXPECT_LE(relative(exp(-large - x) * exp(large), exp(-x)), kRounding);
 		EXPECT_LE(relative(log1p(expm1(abs(x))), abs(x)), 2 * kRounding);
 		EXPECT_LE(relative(log1p(expm1(small)), small), 2 * kRounding);
 		EXPECT_LE(relative(asinh(sinh(x)), x), 2 * kRounding);

@@ -21,7 +21,7 @@ namespace {
 
 ExtendedIsometry placeOf(const Point2& p)
 {
-	return ExtendedIsometry::translationTo(std::complex<long double>(asComplex(p)));
+	return ExtendedIsometry::translationTo(asComplex(p));
 }
 
 /// A hyperbolic surface laid out in the disk, with its side pairings.

@@ -66,6 +66,20 @@ DoubleDouble smallExpm1(DoubleDouble x)
 	return x + (x * x * 0.5 + rest);
 }
 
+/// exp(x) as a power of 2 times 1 plus a rest, for |x| below 700.
+struct Reduced
+{
+	DoubleDouble power, rest;
+
+	explicit Reduced(DoubleDouble x)
+	{
+		const double step = std::round(x.high * (kSteps / kExtendedLog2.high));
+		const int n = static_cast<int>(step), index = ((n % kSteps) + kSteps) % kSteps;
+		power = scaled(tables().power[static_cast<std::size_t>(index)], (n - index) / kSteps);
+		rest = smallExpm1(x - kExtendedLog2 * (step / kSteps));
+	}
+};
+
 /// Sine, and cosine less 1, for |x| below 1 / 64.
 SineAndCosine smallTurn(DoubleDouble x)
 {
@@ -81,21 +95,16 @@ DoubleDouble exp(DoubleDouble x)
 {
 	if (!(std::abs(x.high) < 700.0)) // the range ends, or x is NaN
 		return std::exp(x.high);
-	return 1 + expm1(x);
+	const Reduced r(x);
+	return r.power + r.power * r.rest;
 }
 
 DoubleDouble expm1(DoubleDouble x)
 {
 	if (!(std::abs(x.high) < 700.0))
 		return std::expm1(x.high);
-	const double step = std::round(x.high * (kSteps / kExtendedLog2.high));
-	if (step == 0.0)
-		return smallExpm1(x);
-	const DoubleDouble rest = smallExpm1(x - kExtendedLog2 * (step / kSteps));
-	const int n = static_cast<int>(step), index = ((n % kSteps) + kSteps) % kSteps;
-	const DoubleDouble power =
-		scaled(tables().power[static_cast<std::size_t>(index)], (n - index) / kSteps);
-	return (power - 1) + power * rest;
+	const Reduced r(x);
+	return (r.power - 1) + r.power * r.rest;
 }
 
 DoubleDouble log1p(DoubleDouble x)
