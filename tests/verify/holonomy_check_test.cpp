@@ -53,8 +53,8 @@ struct LaidOut
 	void move(const ExtendedIsometry& m)
 	{
 		for (Point2& p : layout.points) {
-			const std::complex<long double> z = m(std::complex<long double>(asComplex(p)));
-			p = {static_cast<double>(z.real()), static_cast<double>(z.imag())};
+			const auto z = std::complex<double>(m(asComplex(p)));
+			p = {z.real(), z.imag()};
 		}
 		for (const Edge e : flow.base().edges())
 			if (cut.isCut[e]) {
@@ -170,13 +170,12 @@ TEST(HolonomyCheck, AGeodesicBoundaryIsAsLongAsItsIsometryMovesItsAxis)
 			if (t.isExterior(in.twin()))
 				continue;
 			const ExtendedIsometry place = placeOf(right.layout[h]);
-			const auto next =
-				place.inverse()(std::complex<long double>(asComplex(right.layout[t.next(h)])));
-			const ExtendedIsometry along = place * ExtendedIsometry::rotation(std::arg(next));
+			const auto next = place.inverse()(asComplex(right.layout[t.next(h)]));
+			const ExtendedIsometry along = place * ExtendedIsometry::rotation(arg(next));
 			LaidOut wrong = right;
 			SidePairing& side = wrong.pairing[in.edge()];
 			ExtendedIsometry& frame = in.isFirst() ? side.left : side.right;
-			frame = along * ExtendedIsometry::translation(0.01L) * along.inverse() * frame;
+			frame = along * ExtendedIsometry::translation(0.01) * along.inverse() * frame;
 			EXPECT_GE(wrong.error(), 0.01 - 1e-9);
 			++moved;
 		}
