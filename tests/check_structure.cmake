@@ -2,7 +2,7 @@
 # cmake -DCORE=vcg_ext/ricci -P tests/check_structure.cmake
 # Checks what CONTRIBUTING.md says of the core's structure: no include points up the order of the
 # folders; headers at the top are the public ones; no file is longer than 550 lines, no folder holds
-# more than a fifth of the code; the core names no host.
+# more than a fifth of the code; the core names no host and uses no long double.
 cmake_minimum_required(VERSION 3.25)
 
 # A folder may include itself and the folders before it.
@@ -41,6 +41,9 @@ foreach(file IN LISTS files)
 	string(REGEX MATCH "${host_words}" word "${text}")
 	if(word)
 		fail("${file} speaks of a host: ${word}")
+	endif()
+	if(text MATCHES "\n[^/\n]*long double")
+		fail("${file}: long double is not the same everywhere; DoubleDouble is")
 	endif()
 	get_filename_component(folder "${file}" DIRECTORY)
 	if(folder STREQUAL "")

@@ -43,9 +43,8 @@ run_sanitized() {
 	return $status
 }
 
-# Also sees what was never set, and what the solver's library does. Valgrind keeps a long double in
-# 64 bits, so that what rests on extended precision (fine residuals, words in the generators) can come
-# out otherwise: only memory faults, crashes and hangs count here.
+# Also sees what was never set, and what the solver's library does: only memory faults, crashes and
+# hangs count here.
 run_valgrind() {
 	local status=0
 	if ! command -v valgrind >/dev/null; then

@@ -26,7 +26,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 using Fixed = GeometricCurvatureMap<Hyperbolic>;
 using Flipping = FlippingCurvatureMap<Hyperbolic>;
-using ExtendedFixed = GeometricCurvatureMap<HyperbolicGeometry<long double>>;
+using ExtendedFixed = GeometricCurvatureMap<HyperbolicGeometry<DoubleDouble>>;
 
 std::vector<Packed> smallSurfaces()
 {

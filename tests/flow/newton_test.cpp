@@ -2,6 +2,7 @@
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
+#include "support/wide.h"
 
 #include <ricci/base/tolerances.h>
 #include <ricci/error.h>
@@ -225,6 +226,7 @@ public:
 
 TEST(Newton, AStepIsAddedWithoutRounding)
 {
+	RICCI_NEEDS_WIDE_LONG_DOUBLE();
 	// The trial points of one search are u + d, u + d/2, u + d/4, and doubles are halved exactly. Equal
 	// circles have u near 0, so that most steps are larger than u. Multiples of 2^-62 up to 2 fit a
 	// long double.

@@ -8,6 +8,7 @@
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
+#include "support/wide.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/layout/common_refinement.h>
@@ -86,9 +87,9 @@ TEST(HyperbolicLayout, TrianglesHaveTheLengthsAndAnglesOfTheMetric)
 			layOutInDisk(t, metric.lengths(), metric.angles(), cut.isCut);
 		std::complex<long double> moment = 0.0L;
 		for (const Halfedge h : t.interiorHalfedges()) {
-			const auto z = layout.frame[h].origin();
-			const auto w = layout.frame[t.next(h)].origin();
-			const auto x = layout.frame[t.previous(h)].origin();
+			const auto z = wide(layout.frame[h].origin());
+			const auto w = wide(layout.frame[t.next(h)].origin());
+			const auto x = wide(layout.frame[t.previous(h)].origin());
 			ASSERT_LT(std::abs(z), 1.0L);
 			const double length = metric.lengths()[h.edge()];
 			EXPECT_NEAR(static_cast<double>(distanceInDisk(z, w)) / length, 1.0, 1e-11);
@@ -98,7 +99,7 @@ TEST(HyperbolicLayout, TrianglesHaveTheLengthsAndAnglesOfTheMetric)
 			EXPECT_EQ(
 				hyperbolicOrientation(layout[h], layout[t.next(h)], layout[t.previous(h)]), 1);
 			// The frame looks along the halfedge.
-			const auto ahead = layout.frame[h].inverse()(w);
+			const auto ahead = wide(layout.frame[h].inverse()(layout.frame[t.next(h)].origin()));
 			EXPECT_LT(static_cast<double>(std::abs(ahead.imag())), 1e-12);
 			EXPECT_GT(ahead.real(), 0.0L);
 			// Its vector on the hyperboloid, by the area round it.

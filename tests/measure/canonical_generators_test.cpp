@@ -82,7 +82,7 @@ TEST(CanonicalGenerators, ProductsAreReadFromTheLeft)
 	const ExtendedIsometry product = productOf({{0, false}, {1, true}, {0, true}}, g);
 	const ExtendedIsometry wanted = g[0] * g[1].inverse() * g[0].inverse();
 	EXPECT_LT(static_cast<double>((product.inverse() * wanted).distanceFromIdentity()), 1e-17);
-	EXPECT_EQ(productOf({}, g).distanceFromIdentity(), 0.0L);
+	EXPECT_EQ(productOf({}, g).distanceFromIdentity(), 0.0);
 }
 
 /// The relation is one of the free group: it holds whatever isometries stand for the letters. A
@@ -102,13 +102,13 @@ TEST(CanonicalGenerators, HaveTheProductOfTheWord)
 		}
 		const std::vector<ExtendedIsometry> handles = canonicalGenerators(word, g);
 		ASSERT_EQ(handles.size(), at(2 * genus));
-		long double size = 1.0L;
+		double size = 1.0;
 		for (const ExtendedIsometry& h : handles)
-			size *= std::pow(std::abs(h.a) + std::abs(h.b), 2);
+			size *= std::pow(static_cast<double>(abs(h.a) + abs(h.b)), 2);
 		const ExtendedIsometry difference = relationOf(handles).inverse() * productOf(word, g);
 		EXPECT_LT(
 			difference.distanceFromIdentity(),
-			100 * std::numeric_limits<long double>::epsilon() * size);
+			100 * std::numeric_limits<DoubleDouble>::epsilon() * size);
 		++canonical;
 	}
 	EXPECT_GT(canonical, 50); // or the test says little
@@ -122,10 +122,10 @@ TEST(CanonicalGenerators, OfACanonicalWordOfOneHandleAreItsLetters)
 	const auto handles = canonicalGenerators({{0, false}, {1, false}, {0, true}, {1, true}}, g);
 	ASSERT_EQ(handles.size(), 2u);
 	// The letters as they stand are one way to read the word; the one that moves 0 least is taken.
-	long double farthest = 0.0L;
+	DoubleDouble farthest;
 	for (const ExtendedIsometry& h : handles)
 		farthest = std::max(farthest, h.displacement());
-	EXPECT_LE(farthest, std::max(g[0].displacement(), g[1].displacement()) + 1e-17L);
+	EXPECT_LE(farthest, std::max(g[0].displacement(), g[1].displacement()) + 1e-17);
 }
 
 /// The word with x P y Q x^-1 R y^-1 S put for P S R Q, for every handle in turn: all corners of its
@@ -168,7 +168,7 @@ TEST(CanonicalGenerators, OfManyHandlesHaveTheProductOfTheWordAndTick)
 	int ticks = 0;
 	const auto found = canonicalGenerators(word, g, [&] { ++ticks; });
 	ASSERT_EQ(found.size(), at(2 * handles));
-	EXPECT_LT((relationOf(found).inverse() * productOf(word, g)).distanceFromIdentity(), 1e-12L);
+	EXPECT_LT((relationOf(found).inverse() * productOf(word, g)).distanceFromIdentity(), 1e-12);
 	EXPECT_GE(ticks, handles);
 	struct Stop
 	{
@@ -180,23 +180,24 @@ TEST(CanonicalGenerators, AreNotGivenWhereTheyAreTooLarge)
 {
 	const GroupWord word = {{0, false}, {1, false}, {0, true}, {1, true}};
 	Array<ExtendedIsometry> g(2);
-	g[0] = ExtendedIsometry::translation(1.0L);
+	g[0] = ExtendedIsometry::translation(1.0);
 	for (const double length : {kMaxGeneratorDistance - 3, kMaxGeneratorDistance + 3}) {
 		// Across the first axis, so that no way to read the word leads to shorter ones.
 		g[1] = ExtendedIsometry::rotation(kPi / 2) * ExtendedIsometry::translation(length) *
 			   ExtendedIsometry::rotation(-kPi / 2);
 		EXPECT_EQ(canonicalGenerators(word, g).empty(), length > kMaxGeneratorDistance);
 	}
-	g[1].b = std::numeric_limits<long double>::quiet_NaN();
+	g[1].b = std::numeric_limits<double>::quiet_NaN();
 	EXPECT_TRUE(canonicalGenerators(word, g).empty());
 }
 
 /// What g became, in the Lie algebra, from the left.
-std::array<long double, 3> moveOf(const ExtendedIsometry& before, const ExtendedIsometry& after)
+std::array<double, 3> moveOf(const ExtendedIsometry& before, const ExtendedIsometry& after)
 {
 	const ExtendedIsometry m = after * before.inverse();
-	const long double sign = m.a.real() < 0 ? -1 : 1;
-	return {sign * m.a.imag(), sign * m.b.real(), sign * m.b.imag()};
+	const double sign = m.a.real() < 0 ? -1.0 : 1.0;
+	const auto entry = [&](DoubleDouble x) { return sign * static_cast<double>(x); };
+	return {entry(m.a.imag()), entry(m.b.real()), entry(m.b.imag())};
 }
 
 /// Generators that fit are disturbed: taking the disturbance back would close the relation, so that
@@ -221,14 +222,14 @@ TEST(CloseRelation, ClosesItByALeastMove)
 		closeRelation(word, tail, mended);
 		EXPECT_LT(
 			static_cast<double>((productOf(word, mended) * tail).distanceFromIdentity()), 1e-15);
-		long double moved = 0.0L, back = 0.0L;
+		double moved = 0.0, back = 0.0;
 		for (const int g : mended.indices())
 			for (std::size_t k = 0; k < 3; ++k) {
 				moved += std::pow(moveOf(disturbed[g], mended[g])[k], 2);
 				back += std::pow(moveOf(disturbed[g], exact[g])[k], 2);
 			}
-		EXPECT_LE(moved, back * (1.0L + 1e-4L));
-		EXPECT_GT(moved, 0.0L);
+		EXPECT_LE(moved, back * (1.0 + 1e-4));
+		EXPECT_GT(moved, 0.0);
 	}
 	EXPECT_GT(closed, 20); // or the test says little
 }

@@ -25,7 +25,7 @@ namespace ricci::testing {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr auto kExtendedEpsilon = static_cast<double>(std::numeric_limits<long double>::epsilon());
+constexpr auto kExtendedEpsilon = static_cast<double>(std::numeric_limits<DoubleDouble>::epsilon());
 
 /// From a mesh to its group.
 struct Uniformized
@@ -100,13 +100,10 @@ struct Relation
 	}
 
 private:
-	static ExtendedIsometry extended(const DiskIsometry& m)
-	{
-		return {std::complex<long double>(m.a), std::complex<long double>(m.b)};
-	}
+	static ExtendedIsometry extended(const DiskIsometry& m) { return {m.a, m.b}; }
 	static double size(const ExtendedIsometry& m)
 	{
-		return static_cast<double>(std::abs(m.a) + std::abs(m.b));
+		return static_cast<double>(abs(m.a) + abs(m.b));
 	}
 };
 

@@ -16,13 +16,13 @@ class DecimalCommas
 public:
 	DecimalCommas() : m_own(std::setlocale(LC_NUMERIC, nullptr))
 	{
-#ifdef RICCI_LOCALES
+#if defined(RICCI_LOCALES) && !defined(_WIN32) // Windows has its own
 		setenv("LOCPATH", RICCI_LOCALES, 1);
 #endif
-		for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "it_IT.UTF-8"})
+		for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "it_IT.UTF-8", "German_Germany"})
 			if (std::setlocale(LC_NUMERIC, name) != nullptr)
 				break;
-#ifdef RICCI_LOCALES
+#if defined(RICCI_LOCALES) && !defined(_WIN32)
 		unsetenv("LOCPATH");
 #endif
 		char text[8];

@@ -252,7 +252,7 @@ TEST(NormalCoordinates, EveryEdgeIsACurveAtFirst)
 TEST(NormalCoordinates, TracesAreWholeAfterRandomFlips)
 {
 	std::vector<int> crossed(surfaces().size(), 0);
-	for (std::uint64_t seed : {1, 2, 3})
+	for (std::uint64_t seed : {1u, 2u, 3u})
 		for (std::size_t i = 0; i < crossed.size(); ++i) {
 			const Surface s = surfaces()[i];
 			SCOPED_TRACE(std::string(s.name) + ", seed " + std::to_string(seed));
@@ -357,7 +357,7 @@ private:
 
 TEST(NormalCoordinates, AreThoseOfStraightEdgesInThePlane)
 {
-	for (std::uint64_t seed : {1, 2, 3, 4}) {
+	for (std::uint64_t seed : {1u, 2u, 3u, 4u}) {
 		Random random(330 + seed);
 		const SurfaceMesh mesh = randomPlanarDisk(8, random);
 		const PlanarEdges plane(mesh);

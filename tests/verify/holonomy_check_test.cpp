@@ -21,7 +21,7 @@ namespace {
 
 ExtendedIsometry placeOf(const Point2& p)
 {
-	return ExtendedIsometry::translationTo(std::complex<long double>(asComplex(p)));
+	return ExtendedIsometry::translationTo(asComplex(p));
 }
 
 /// A hyperbolic surface laid out in the disk, with its side pairings.
@@ -53,8 +53,8 @@ struct LaidOut
 	void move(const ExtendedIsometry& m)
 	{
 		for (Point2& p : layout.points) {
-			const std::complex<long double> z = m(std::complex<long double>(asComplex(p)));
-			p = {static_cast<double>(z.real()), static_cast<double>(z.imag())};
+			const auto z = std::complex<double>(m(asComplex(p)));
+			p = {z.real(), z.imag()};
 		}
 		for (const Edge e : flow.base().edges())
 			if (cut.isCut[e]) {
@@ -89,15 +89,17 @@ TEST(HolonomyCheck, LayoutsCloseUp)
 }
 
 /// What remains round a vertex is the same wherever the layout lies, but for the rounding of its
-/// places. As seen from 0 it is not: rounding grows with the way there.
+/// places. As seen from 0 it is not: it grows with the way there.
 TEST(HolonomyCheck, DoesNotDependOnThePlaceOfTheLayout)
 {
 	Random random(792);
 	LaidOut surface(shaken(perforatedSlab(3, 2), 0.06, random), hyperbolicMetric());
-	EXPECT_LT(surface.group().polygonError, 1e-8);
-	surface.move(ExtendedIsometry::translation(12.0L));
+	const double atMiddle = surface.group().polygonError;
+	EXPECT_LT(atMiddle, 1e-8);
+	const double way = 12.0;
+	surface.move(ExtendedIsometry::translation(way));
 	EXPECT_LT(surface.error(), 1e-6);
-	EXPECT_GT(surface.group().polygonError, 1e-3);
+	EXPECT_GT(surface.group().polygonError, 1e-2 * std::exp(way) * atMiddle);
 }
 
 /// A side pairing that turns about a vertex by an angle too much, or moves it.
@@ -170,13 +172,12 @@ TEST(HolonomyCheck, AGeodesicBoundaryIsAsLongAsItsIsometryMovesItsAxis)
 			if (t.isExterior(in.twin()))
 				continue;
 			const ExtendedIsometry place = placeOf(right.layout[h]);
-			const auto next =
-				place.inverse()(std::complex<long double>(asComplex(right.layout[t.next(h)])));
-			const ExtendedIsometry along = place * ExtendedIsometry::rotation(std::arg(next));
+			const auto next = place.inverse()(asComplex(right.layout[t.next(h)]));
+			const ExtendedIsometry along = place * ExtendedIsometry::rotation(arg(next));
 			LaidOut wrong = right;
 			SidePairing& side = wrong.pairing[in.edge()];
 			ExtendedIsometry& frame = in.isFirst() ? side.left : side.right;
-			frame = along * ExtendedIsometry::translation(0.01L) * along.inverse() * frame;
+			frame = along * ExtendedIsometry::translation(0.01) * along.inverse() * frame;
 			EXPECT_GE(wrong.error(), 0.01 - 1e-9);
 			++moved;
 		}

@@ -9,9 +9,6 @@ constexpr double kPi = 3.14159265358979323846;
 /// pi less the double next to it.
 constexpr double kPiLow = 1.2246467991473531772e-16;
 
-/// pi in extended precision.
-constexpr long double kLongPi = 3.14159265358979323846264338327950288L;
-
 } // namespace ricci
 
 #endif

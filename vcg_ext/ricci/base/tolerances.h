@@ -154,7 +154,7 @@ constexpr double kDomainBorder = 1e-12;
 
 /// Rounding that the checks of a result allow for: in a coordinate of the disk; in a determinant of
 /// three points of the sphere; in a length, in units of roundoff.
-constexpr long double kDiskRounding = 8 * kUnitRoundoff, kSphereRounding = 16 * kUnitRoundoff;
+constexpr double kDiskRounding = 8 * kUnitRoundoff, kSphereRounding = 16 * kUnitRoundoff;
 constexpr double kLengthRounding = 16.0;
 
 // ---- Heuristic: other values would work as well, these were measured to do ----------------------

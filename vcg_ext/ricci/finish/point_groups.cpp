@@ -57,7 +57,7 @@ struct DiskMotion
 	Complex derivative(Complex z) const
 	{
 		using Extended = ExtendedIsometry::Complex;
-		const Extended root = std::conj(isometry.b) * Extended(z) + std::conj(isometry.a);
+		const Extended root = conj(isometry.b) * Extended(z) + conj(isometry.a);
 		return Complex(Extended(1) / (root * root));
 	}
 	void keep(PointGroups& groups) const { groups.isometry.push_back(rounded(isometry)); }
@@ -72,8 +72,7 @@ struct DiskMotion
 		const auto from = ExtendedIsometry::translationTo(Extended(a));
 		const auto to = ExtendedIsometry::translationTo(Extended(c));
 		const Extended x = from.inverse()(Extended(b)), y = to.inverse()(Extended(d));
-		isometry = (to * ExtendedIsometry::rotation(std::arg(y) - std::arg(x)) * from.inverse())
-					   .normalised();
+		isometry = (to * ExtendedIsometry::rotation(arg(y) - arg(x)) * from.inverse()).normalised();
 	}
 };
 

@@ -3,6 +3,7 @@
 
 #include "../base/numbers.h"
 #include "../base/parallel.h"
+#include "../math/double_double.h"
 #include "../metric/euclidean.h"
 #include "../metric/hyperbolic.h"
 
@@ -91,7 +92,8 @@ void GeometricCurvatureMap<Geometry>::evaluateEdges()
 			m_lengths[e] = static_cast<double>(edge.length);
 			m_cosineLess1[e] = static_cast<double>(edge.cosineLess1);
 			m_excess[e] = edge.excess;
-			m_ratio[e] = static_cast<double>(i.s * j.s / edge.sine2);
+			m_ratio[e] = static_cast<double>(i.s) * static_cast<double>(j.s) /
+						 static_cast<double>(edge.sine2);
 		}
 	});
 }
@@ -168,10 +170,10 @@ bool GeometricCurvatureMap<Geometry>::evaluateTriangle(Face f, double& needleRat
 	// The tau hold what cancellation could lose: from here on doubles suffice. With s their sum,
 	// the tangents of the half angles are r / tau_k, r = sqrt(tau_0 tau_1 tau_2 / s), the radius of
 	// the inscribed circle.
-	const double s = static_cast<double>(Geometry::heron(tau[0] + tau[1] + tau[2]));
+	const double s = Geometry::heron(tau[0] + tau[1] + tau[2]);
 	std::array<double, 3> x;
 	for (std::size_t k = 0; k < 3; ++k)
-		x[k] = static_cast<double>(Geometry::heron(tau[k]));
+		x[k] = Geometry::heron(tau[k]);
 	const double r = std::sqrt(x[0] * (x[1] / s) * x[2]);
 	for (std::size_t k = 0; k < 3; ++k)
 		m_angles[h[k]] = 2.0 * std::atan(r / x[k]);
@@ -249,11 +251,11 @@ void FlippingCurvatureMap<Geometry>::reject()
 
 template class GeometricCurvatureMap<Euclidean>;
 template class FlippingCurvatureMap<Euclidean>;
-template class GeometricCurvatureMap<EuclideanGeometry<long double>>;
-template class FlippingCurvatureMap<EuclideanGeometry<long double>>;
+template class GeometricCurvatureMap<EuclideanGeometry<DoubleDouble>>;
+template class FlippingCurvatureMap<EuclideanGeometry<DoubleDouble>>;
 template class GeometricCurvatureMap<Hyperbolic>;
 template class FlippingCurvatureMap<Hyperbolic>;
-template class GeometricCurvatureMap<HyperbolicGeometry<long double>>;
-template class FlippingCurvatureMap<HyperbolicGeometry<long double>>;
+template class GeometricCurvatureMap<HyperbolicGeometry<DoubleDouble>>;
+template class FlippingCurvatureMap<HyperbolicGeometry<DoubleDouble>>;
 
 } // namespace ricci

@@ -3,6 +3,7 @@
 
 #include "../base/numbers.h"
 #include "../base/tolerances.h"
+#include "../math/double_double.h"
 #include "../metric/area.h"
 #include "../metric/euclidean.h"
 #include "../metric/hyperbolic.h"
@@ -252,15 +253,15 @@ NewtonResult FlowRun::solveFor(double epsilon, bool polishes)
 	return solved;
 }
 
-/// Goes on from the present state in long double.
+/// Goes on from the present state in extended precision.
 NewtonResult FlowRun::solveExtended()
 {
 	m_flipsBefore = flowFlips();
 	CirclePacking packing = m_map->releasePacking();
 	std::shared_ptr<CurvatureMap> map =
 		m_background == Background::EuclideanPlane
-			? makeMap<EuclideanGeometry<long double>>(std::move(packing))
-			: makeMap<HyperbolicGeometry<long double>>(std::move(packing));
+			? makeMap<EuclideanGeometry<DoubleDouble>>(std::move(packing))
+			: makeMap<HyperbolicGeometry<DoubleDouble>>(std::move(packing));
 	m_newton->continueOn(*map);
 	m_map = std::move(map);
 	return solveFor(m_options.epsilon);

@@ -2,6 +2,7 @@
 #include "loop_turns.h"
 
 #include "../math/disjoint_sets.h"
+#include "../math/double_double.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,10 +149,10 @@ HalfedgeArray<double> turnedCorners(const Triangulation& t, const FaceLoop& loop
 
 double sumOfAngles(const HalfedgeArray<double>& weights, const HalfedgeArray<double>& angles)
 {
-	long double sum = 0.0L;
+	DoubleDouble sum;
 	for (const Halfedge h : weights.indices())
 		if (weights[h] != 0.0)
-			sum += static_cast<long double>(weights[h]) * angles[h];
+			sum += DoubleDouble::product(weights[h], angles[h]);
 	return static_cast<double>(sum);
 }
 

@@ -3,6 +3,7 @@
 
 #include "../base/numbers.h"
 #include "../error.h"
+#include "../math/double_double.h"
 #include "../metric/area.h"
 #include "../metric/euclidean.h"
 #include "loop_turns.h"
@@ -224,7 +225,7 @@ private:
 		}
 		std::shared_ptr<CurvatureMap> next;
 		if (map.precision() < std::numeric_limits<double>::epsilon())
-			next = std::make_shared<FlippingCurvatureMap<EuclideanGeometry<long double>>>(
+			next = std::make_shared<FlippingCurvatureMap<EuclideanGeometry<DoubleDouble>>>(
 				std::move(packing));
 		else
 			next = std::make_shared<FlippingCurvatureMap<Euclidean>>(std::move(packing));

@@ -12,8 +12,6 @@ namespace ricci {
 
 namespace {
 
-constexpr long double kExtendedPi = static_cast<long double>(kPi) + kPiLow;
-
 /// The triangle with most triangles between it and the cut or the boundary. Of several the one that
 /// a breadth-first search from there meets last.
 Face deepestFace(const Triangulation& t, const EdgeArray<char>& isCut)
@@ -80,8 +78,8 @@ public:
 	Face moveMiddleToZero(HyperbolicLayout& layout) const
 	{
 		// The area-weighted mean on the hyperboloid of x0^2 - |x|^2 = 1, without its common factor.
-		long double x0 = 0;
-		std::complex<long double> x = 0;
+		DoubleDouble x0;
+		ExtendedComplex x;
 		for (const Face f : m_t.faces()) {
 			tickNowAndThen(m_tick, positionOf(f));
 			const auto side = m_t.halfedges(f);
@@ -89,25 +87,25 @@ public:
 			const double area = hyperbolicArea({length(side[0]), length(side[1]), length(side[2])});
 			for (const Halfedge h : side) {
 				const ExtendedIsometry& g = layout.frame[h];
-				x0 += area * (std::norm(g.a) + std::norm(g.b));
-				x += 2 * static_cast<long double>(area) * g.a * g.b;
+				x0 += area * (norm(g.a) + norm(g.b));
+				x += 2 * area * (g.a * g.b);
 			}
 		}
-		const long double r = std::abs(x);
+		const DoubleDouble r = abs(x);
 		if (!(x0 > r)) // no area at all, or beyond what the frames hold
 			return Face(0);
 		// The point of the disk in that direction: z = x / (x0 + sqrt(x0^2 - |x|^2)).
-		const std::complex<long double> middle = x / (x0 + std::sqrt((x0 - r) * (x0 + r)));
+		const ExtendedComplex middle = x / (x0 + sqrt((x0 - r) * (x0 + r)));
 		const ExtendedIsometry back = ExtendedIsometry::translationTo(middle).inverse();
 		Face nearest(0);
-		long double minSpread = 0;
+		DoubleDouble minSpread;
 		for (const Face f : m_t.faces()) {
 			tickNowAndThen(m_tick, positionOf(f));
-			long double spread = 0; // grows with the distances of the corners from 0
+			DoubleDouble spread; // grows with the distances of the corners from 0
 			for (const Halfedge h : m_t.halfedges(f)) {
 				ExtendedIsometry& g = layout.frame[h];
 				g = (back * g).normalised();
-				spread += std::norm(g.b);
+				spread += norm(g.b);
 			}
 			if (f == Face(0) || spread < minSpread) {
 				minSpread = spread;

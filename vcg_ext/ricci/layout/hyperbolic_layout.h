@@ -65,7 +65,7 @@ struct SidePairing
 	/// Takes two frames if they are more exact than what is known.
 	void offer(const ExtendedIsometry& onLeft, const ExtendedIsometry& onRight)
 	{
-		const auto lost = static_cast<double>(std::norm(onLeft.a) + std::norm(onRight.a));
+		const auto lost = static_cast<double>(norm(onLeft.a) + norm(onRight.a));
 		if (lost < loss) {
 			loss = lost;
 			left = onLeft;

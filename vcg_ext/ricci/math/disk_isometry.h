@@ -2,6 +2,8 @@
 #ifndef RICCI_DISK_ISOMETRY_H
 #define RICCI_DISK_ISOMETRY_H
 
+#include "extended_complex.h"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -15,40 +17,63 @@ namespace ricci {
 template<class T>
 struct BasicDiskIsometry
 {
-	using Complex = std::complex<T>;
+	using Complex = typename ComplexOf<T>::Type;
 
 	Complex a{1, 0}, b{0, 0};
 
 	/// Turns the disk round 0 by \p angle radians, counter-clockwise.
-	static BasicDiskIsometry rotation(T angle) { return {std::polar(T(1), angle / 2), Complex()}; }
+	static BasicDiskIsometry rotation(T angle)
+	{
+		using std::polar;
+		return {polar(T(1), angle / 2), Complex()};
+	}
 
 	/// Moves 0 by the hyperbolic \p length along the positive real axis, and the axis along itself.
 	static BasicDiskIsometry translation(T length)
 	{
-		return {std::cosh(length / 2), std::sinh(length / 2)};
+		using std::cosh, std::sinh;
+		return {cosh(length / 2), sinh(length / 2)};
 	}
 
 	/// Moves 0 to \p z, |z| < 1, along the straight line between them.
 	static BasicDiskIsometry translationTo(Complex z)
 	{
-		const T r = std::abs(z), scale = 1 / std::sqrt((1 - r) * (1 + r));
+		using std::abs, std::sqrt;
+		const T r = abs(z), scale = 1 / sqrt((1 - r) * (1 + r));
 		return {scale, scale * z};
 	}
 
-	BasicDiskIsometry inverse() const { return {std::conj(a), -b}; }
+	BasicDiskIsometry inverse() const
+	{
+		using std::conj;
+		return {conj(a), -b};
+	}
 
 	friend BasicDiskIsometry operator*(const BasicDiskIsometry& p, const BasicDiskIsometry& q)
 	{
-		return {p.a * q.a + p.b * std::conj(q.b), p.a * q.b + p.b * std::conj(q.a)};
+		using std::conj;
+		return {p.a * q.a + p.b * conj(q.b), p.a * q.b + p.b * conj(q.a)};
 	}
 
-	Complex operator()(Complex z) const { return (a * z + b) / (std::conj(b) * z + std::conj(a)); }
+	Complex operator()(Complex z) const
+	{
+		using std::conj;
+		return (a * z + b) / (conj(b) * z + conj(a));
+	}
 
 	/// Image of 0.
-	Complex origin() const { return b / std::conj(a); }
+	Complex origin() const
+	{
+		using std::conj;
+		return b / conj(a);
+	}
 
 	/// Hyperbolic distance from 0 to its image.
-	T displacement() const { return 2 * std::asinh(std::abs(b)); }
+	T displacement() const
+	{
+		using std::abs, std::asinh;
+		return 2 * asinh(abs(b));
+	}
 
 	/// Sum of the eigenvalues, real: |trace| = 2 cosh(L / 2) where points of an axis move by L, and
 	/// 2 |cos(angle / 2)| for a rotation.
@@ -59,13 +84,14 @@ struct BasicDiskIsometry
 	/// \return false if there is none (rotations, and isometries with one fixed point on the circle)
 	bool axis(Complex& from, Complex& to) const
 	{
+		using std::abs, std::conj, std::sqrt;
 		// Fixed points: conj(b) z^2 - 2 i Im(a) z - b = 0.
-		const T sine = a.imag(), root = std::abs(b) * std::abs(b) - sine * sine;
-		if (!(root > 0) || !(std::abs(a.real()) > 1))
+		const T sine = a.imag(), root = abs(b) * abs(b) - sine * sine;
+		if (!(root > 0) || !(abs(a.real()) > 1))
 			return false;
-		const T sign = a.real() < 0 ? -1 : 1;
-		to = (Complex(0, sine) + sign * std::sqrt(root)) / std::conj(b);
-		from = (Complex(0, sine) - sign * std::sqrt(root)) / std::conj(b);
+		const T along = a.real() < 0 ? -sqrt(root) : sqrt(root);
+		to = Complex(along, sine) / conj(b);
+		from = Complex(-along, sine) / conj(b);
 		return true;
 	}
 
@@ -73,17 +99,19 @@ struct BasicDiskIsometry
 	/// only nearly; unchanged where rounding has made it 0 or negative (|a| above 1e8 in double).
 	BasicDiskIsometry normalised() const
 	{
-		const T x = std::abs(a), y = std::abs(b), determinant = (x - y) * (x + y);
+		using std::abs, std::sqrt;
+		const T x = abs(a), y = abs(b), determinant = (x - y) * (x + y);
 		if (!(determinant > 0))
 			return *this;
-		const T scale = 1 / std::sqrt(determinant);
+		const T scale = 1 / sqrt(determinant);
 		return {scale * a, scale * b};
 	}
 
 	/// Largest entry of the difference from the identity or its negative, whichever is nearer.
 	T distanceFromIdentity() const
 	{
-		return std::max(std::min(std::abs(a - T(1)), std::abs(a + T(1))), std::abs(b));
+		using std::abs;
+		return std::max(std::min(abs(a - T(1)), abs(a + T(1))), abs(b));
 	}
 };
 
@@ -91,7 +119,7 @@ using DiskIsometry = BasicDiskIsometry<double>;
 
 /// Frames and deck transformations are products of thousands of isometries, whose relative errors
 /// grow with the exponential of the distance: they are computed in extended precision.
-using ExtendedIsometry = BasicDiskIsometry<long double>;
+using ExtendedIsometry = BasicDiskIsometry<DoubleDouble>;
 
 inline DiskIsometry rounded(const ExtendedIsometry& p)
 {

@@ -21,9 +21,19 @@ inline double distance(const Point2& a, const Point2& b)
 	return std::hypot(a[0] - b[0], a[1] - b[1]);
 }
 
+/// The root of x^2 + y^2 + z^2. std::hypot of three underflows in some libraries.
+inline double hypotOfThree(double x, double y, double z)
+{
+	const double size = std::max({std::abs(x), std::abs(y), std::abs(z)});
+	if (size == 0.0)
+		return 0.0;
+	return size *
+		   std::sqrt((x / size) * (x / size) + (y / size) * (y / size) + (z / size) * (z / size));
+}
+
 inline double distance(const Point3& a, const Point3& b)
 {
-	return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+	return hypotOfThree(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 /// Twice the area of the triangle abc as rounding finds it, positive if counter-clockwise. Its sign

@@ -12,6 +12,12 @@
 #include <limits>
 #include <utility>
 
+/// What Eigen has to know of a type of numbers.
+template<>
+struct Eigen::NumTraits<ricci::DoubleDouble> : Eigen::GenericNumTraits<ricci::DoubleDouble>
+{
+};
+
 namespace ricci {
 
 namespace {
@@ -52,10 +58,10 @@ ExtendedIsometry productOf(
 }
 
 /// How far \p m moves 0: the square of sinh(displacement / 2), infinite where it cannot be told.
-long double sizeOf(const ExtendedIsometry& m)
+double sizeOf(const ExtendedIsometry& m)
 {
-	const long double size = std::norm(m.b);
-	return std::isfinite(size) ? size : std::numeric_limits<long double>::infinity();
+	const auto size = static_cast<double>(norm(m.b));
+	return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
 }
 
 /// A word that is partly made canonical: it is [a1,b1] ... [ak,bk] times the open part, conjugated.
@@ -64,7 +70,7 @@ struct PartlyCanonical
 	std::vector<ExtendedIsometry> handles;
 	ExtendedIsometry conjugation;
 	GroupWord open;
-	long double size = 0; ///< largest of an isometry above
+	double size = 0.0; ///< largest of an isometry above
 };
 
 /// The open part of a word, rotated so that it begins with letter \p x, as x P y Q x^-1 R y^-1 S.
@@ -72,7 +78,7 @@ struct Reading
 {
 	std::size_t from; ///< number of the word
 	std::size_t x, y; ///< y is counted from x
-	long double size; ///< of the word with one more handle that this gives
+	double size;      ///< of the word with one more handle that this gives
 };
 
 /// One more handle, read as above.
@@ -95,7 +101,7 @@ struct Handle
 		b = conjugation * p * y * q * back;
 	}
 
-	long double size() const { return std::max({sizeOf(conjugation), sizeOf(a), sizeOf(b)}); }
+	double size() const { return std::max({sizeOf(conjugation), sizeOf(a), sizeOf(b)}); }
 };
 
 /// Position of the inverse of each letter.
@@ -192,14 +198,14 @@ PartlyCanonical withHandle(
 	return step;
 }
 
-using Vector3 = Eigen::Matrix<long double, 3, 1>;
-using Matrix3 = Eigen::Matrix<long double, 3, 3>;
+using Vector3 = Eigen::Matrix<DoubleDouble, 3, 1>;
+using Matrix3 = Eigen::Matrix<DoubleDouble, 3, 3>;
 
 /// How far \p m is from +-1, in the Lie algebra of SU(1,1): the matrices
 /// (i x0, x1 + i x2; x1 - i x2, -i x0).
 Vector3 nearIdentity(const ExtendedIsometry& m)
 {
-	const long double sign = m.a.real() < 0 ? -1 : 1;
+	const double sign = m.a.real() < 0 ? -1 : 1;
 	return sign * Vector3(m.a.imag(), m.b.real(), m.b.imag());
 }
 
@@ -211,7 +217,7 @@ Matrix3 adjoint(const ExtendedIsometry& m)
 	for (int k = 0; k < 3; ++k) {
 		// x is no isometry, but the product of these pairs is that of the matrices they stand for.
 		const ExtendedIsometry x{
-			{0, k == 0 ? 1.0L : 0.0L}, {k == 1 ? 1.0L : 0.0L, k == 2 ? 1.0L : 0.0L}};
+			{0.0, k == 0 ? 1.0 : 0.0}, {k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0}};
 		const ExtendedIsometry image = m * x * back;
 		columns.col(k) = Vector3(image.a.imag(), image.b.real(), image.b.imag());
 	}
@@ -228,7 +234,7 @@ ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>&
 std::vector<ExtendedIsometry> canonicalGenerators(
 	const GroupWord& word, const Array<ExtendedIsometry>& generators, const Tick& tick)
 {
-	const long double farthest = std::pow(std::sinh(kMaxGeneratorDistance / 2), 2);
+	const double farthest = std::pow(std::sinh(kMaxGeneratorDistance / 2), 2);
 	std::vector<PartlyCanonical> best(1);
 	best.front().open = word;
 	while (!best.front().open.empty()) {

@@ -52,9 +52,9 @@ std::complex<double> basePoint(const std::vector<DiskIsometry>& generators)
 }
 
 /// Twice the area of a triangle in the plane, positive if counter-clockwise.
-long double doubledArea(Complex o, Complex x, Complex y)
+DoubleDouble doubledArea(Complex o, Complex x, Complex y)
 {
-	return std::imag(std::conj(x - o) * (y - o));
+	return (conj(x - o) * (y - o)).imag();
 }
 
 /// Whether the straight segments ab and cd cross.
@@ -70,7 +70,7 @@ bool isSimple(const std::vector<Complex>& corners)
 	std::vector<Complex> klein; // in the Klein model geodesics are straight
 	klein.reserve(corners.size());
 	for (const Complex& z : corners)
-		klein.push_back(2.0L * z / (1.0L + std::norm(z)));
+		klein.push_back(2.0 * z / (1.0 + norm(z)));
 	const std::size_t n = klein.size();
 	for (std::size_t i = 0; i < n; ++i)
 		for (std::size_t j = i + 2; j < n; ++j)
@@ -88,7 +88,7 @@ double sumOfAngles(const std::vector<Complex>& corners)
 		const ExtendedIsometry toCorner = ExtendedIsometry::translationTo(corners[i]).inverse();
 		const Complex next = toCorner(corners[(i + 1) % n]);
 		const Complex before = toCorner(corners[(i + n - 1) % n]);
-		const auto angle = static_cast<double>(std::arg(before / next));
+		const auto angle = static_cast<double>(arg(before / next));
 		sum += angle < 0.0 ? angle + 2.0 * kPi : angle;
 	}
 	return sum;

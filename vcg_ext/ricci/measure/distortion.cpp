@@ -33,7 +33,7 @@ struct DrawnTriangle
 			b[i] = p[2][i] - p[0][i];
 			dot += a[i] * b[i];
 		}
-		base = std::hypot(a[0], a[1], a[2]);
+		base = hypotOfThree(a[0], a[1], a[2]);
 		height =
 			std::hypot(
 				a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]) /

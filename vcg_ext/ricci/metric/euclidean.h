@@ -29,7 +29,8 @@ struct EuclideanGeometry
 	/// u + \p low = ln radius (Eq. 6); \p low is at most a unit in the last place of \p u.
 	static Circle circle(double u, double low = 0.0)
 	{
-		const Real whole = std::exp(Real(u)), radius = whole + whole * Real(low);
+		using std::exp;
+		const Real whole = exp(Real(u)), radius = whole + whole * Real(low);
 		return {radius, radius, 1 / radius};
 	}
 
@@ -44,8 +45,9 @@ struct EuclideanGeometry
 	/// Eq. 4 written with delta: l^2 = (gi + gj)^2 + 2 delta gi gj.
 	static Edge edge(const Circle& i, const Circle& j, double delta)
 	{
+		using std::sqrt;
 		const Real sum = i.radius + j.radius, p = 2 * Real(delta) * i.radius * j.radius;
-		const Real length2 = sum * sum + p, length = std::sqrt(length2);
+		const Real length2 = sum * sum + p, length = sqrt(length2);
 		return {length, p / (length + sum), length2, 0};
 	}
 
@@ -56,7 +58,7 @@ struct EuclideanGeometry
 	}
 
 	/// Length function of Heron's formula: the identity; sinh in the hyperbolic plane.
-	static Real heron(Real x) { return x; }
+	static double heron(Real x) { return static_cast<double>(x); }
 };
 
 using Euclidean = EuclideanGeometry<double>;

@@ -3,7 +3,6 @@
 #define RICCI_HYPERBOLIC_H
 
 #include <cmath>
-#include <type_traits>
 
 namespace ricci {
 
@@ -91,16 +90,14 @@ struct HyperbolicGeometry
 
 	/// Length function of Heron's formula: sinh. The triangles of a mesh are small, where the
 	/// series is exact to a double and several times faster than the library.
-	static Real heron(Real x)
+	static double heron(Real length)
 	{
-		if constexpr (std::is_same_v<Real, double>) {
-			constexpr double kSmall = 0.25; // x^12 / 13! < 1e-17
-			if (std::abs(x) < kSmall) {
-				const double y = x * x;
-				return x + x * y / 6 * (1 + y / 20 * (1 + y / 42 * (1 + y / 72 * (1 + y / 110))));
-			}
-		}
-		return std::sinh(x);
+		const auto x = static_cast<double>(length);
+		constexpr double kSmall = 0.25; // x^12 / 13! < 1e-17
+		if (!(std::abs(x) < kSmall))
+			return std::sinh(x);
+		const double y = x * x;
+		return x + x * y / 6 * (1 + y / 20 * (1 + y / 42 * (1 + y / 72 * (1 + y / 110))));
 	}
 };
 

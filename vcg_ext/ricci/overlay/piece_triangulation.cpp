@@ -28,8 +28,8 @@ double quality(const std::array<const Point2*, 3>& plane, const std::array<const
 		e[k] = (*space[1])[k] - (*space[0])[k];
 		g[k] = (*space[2])[k] - (*space[0])[k];
 	}
-	const double inSpace =
-		std::hypot(e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2], e[0] * g[1] - e[1] * g[0]);
+	const double inSpace = hypotOfThree(
+		e[1] * g[2] - e[2] * g[1], e[2] * g[0] - e[0] * g[2], e[0] * g[1] - e[1] * g[0]);
 	return std::min(inPlane, inSpace / (longestInSpace * longestInSpace));
 }
 

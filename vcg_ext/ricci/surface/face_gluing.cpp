@@ -58,7 +58,7 @@ Point3 cross(const Point3& p, const Point3& q)
 /// Of length 1; as it is where it has no length.
 Point3 normalized(const Point3& p)
 {
-	const double length = std::hypot(p[0], p[1], p[2]);
+	const double length = hypotOfThree(p[0], p[1], p[2]);
 	return length > 0.0 ? Point3{p[0] / length, p[1] / length, p[2] / length} : p;
 }
 

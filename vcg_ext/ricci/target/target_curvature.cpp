@@ -5,6 +5,7 @@
 #include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../error.h"
+#include "../math/double_double.h"
 #include "admissible.h"
 #include "area_change.h"
 #include "cone_placement.h"
@@ -167,7 +168,7 @@ void setPrescribedValues(
 		return;
 	}
 	// A sum of many equal values in double drifts by more than their own rounding.
-	long double exactSum = 0.0L;
+	DoubleDouble exactSum;
 	double magnitude = 0.0;
 	for (const Vertex v : target.curvature.indices()) {
 		exactSum += target.curvature[v];

@@ -2,6 +2,7 @@
 #include "disk_check.h"
 
 #include "../base/tolerances.h"
+#include "../math/double_double.h"
 #include "shared_edges.h"
 
 #include <algorithm>
@@ -13,24 +14,29 @@ namespace ricci {
 
 namespace {
 
-using Real = long double;
+// What cancels is computed exactly, the rest in double.
+
+/// |p|^2.
+DoubleDouble square(const Point2& p)
+{
+	return DoubleDouble::product(p[0], p[0]) + DoubleDouble::product(p[1], p[1]);
+}
 
 /// 1 - |p|^2.
-Real gap(const Point2& p)
+double gap(const Point2& p)
 {
-	const Real r = std::hypot(Real(p[0]), Real(p[1]));
-	return (1 - r) * (1 + r);
+	return static_cast<double>(1 - square(p));
 }
 
 /// Distance by which rounding may have moved \p p.
-Real rounding(const Point2& p)
+double rounding(const Point2& p)
 {
 	return 2 * kDiskRounding / std::max(gap(p), kDiskRounding);
 }
 
-Real distanceOf(const Point2& p, const Point2& q)
+double distanceOf(const Point2& p, const Point2& q)
 {
-	const Real chord = std::hypot(Real(p[0]) - q[0], Real(p[1]) - q[1]);
+	const double chord = std::hypot(p[0] - q[0], p[1] - q[1]);
 	return 2 *
 		   std::asinh(chord / std::sqrt(std::max(gap(p) * gap(q), kDiskRounding * kDiskRounding)));
 }
@@ -38,22 +44,24 @@ Real distanceOf(const Point2& p, const Point2& q)
 /// det(X, Y, Z) of the points on the hyperboloid, X = (1 + |p|^2, 2 p) / (1 - |p|^2). X is
 /// subtracted from Y and Z first, in terms of the differences of the points, which are exact where
 /// these are near each other.
-Real determinant(const Point2& p, const Point2& q, const Point2& r)
+double determinant(const Point2& p, const Point2& q, const Point2& r)
 {
-	const auto square = [](const Point2& x) { return Real(x[0]) * x[0] + Real(x[1]) * x[1]; };
-	const Real ax = Real(q[0]) - p[0], ay = Real(q[1]) - p[1];
-	const Real bx = Real(r[0]) - p[0], by = Real(r[1]) - p[1];
-	const Real a0 = ax * (Real(q[0]) + p[0]) + ay * (Real(q[1]) + p[1]);
-	const Real b0 = bx * (Real(r[0]) + p[0]) + by * (Real(r[1]) + p[1]);
-	const Real minor = (1 + square(p)) * (ax * by - ay * bx) - Real(p[0]) * (a0 * by - ay * b0) +
-					   Real(p[1]) * (a0 * bx - ax * b0);
-	return 4 * minor / (gap(p) * gap(q) * gap(r));
+	const auto difference = [&](const Point2& x, std::size_t k) {
+		return DoubleDouble::sum(x[k], -p[k]);
+	};
+	const DoubleDouble ax = difference(q, 0), ay = difference(q, 1);
+	const DoubleDouble bx = difference(r, 0), by = difference(r, 1);
+	const DoubleDouble a0 = ax * DoubleDouble::sum(q[0], p[0]) + ay * DoubleDouble::sum(q[1], p[1]);
+	const DoubleDouble b0 = bx * DoubleDouble::sum(r[0], p[0]) + by * DoubleDouble::sum(r[1], p[1]);
+	const DoubleDouble minor = (1 + square(p)) * (ax * by - ay * bx) - p[0] * (a0 * by - ay * b0) +
+							   p[1] * (a0 * bx - ax * b0);
+	return 4.0 * static_cast<double>(minor) / (gap(p) * gap(q) * gap(r));
 }
 
 struct DiskSide
 {
 	int low, high;
-	Real length, rounding;
+	double length, rounding;
 };
 
 } // namespace
@@ -67,10 +75,10 @@ DiskCheck checkDisk(
 {
 	DiskCheck check;
 	Point2 farthest{0.0, 0.0};
-	Real leastGap = 1;
+	double leastGap = 1.0;
 	for (const Triangle2& triangle : plane)
 		for (const Point2& p : triangle) {
-			const Real own = gap(p);
+			const double own = gap(p);
 			check.outside += !(own > 0);
 			if (own < leastGap) {
 				leastGap = own;
@@ -79,17 +87,17 @@ DiskCheck checkDisk(
 		}
 	if (check.outside > 0)
 		return check;
-	check.radius = static_cast<double>(distanceOf(farthest, Point2{0.0, 0.0}));
+	check.radius = distanceOf(farthest, Point2{0.0, 0.0});
 	std::vector<DiskSide> sides;
 	sides.reserve(3 * triangles.size());
 	for (std::size_t f = 0; f < triangles.size(); ++f) {
 		tickNowAndThen(tick, f);
 		const Triangle& t = triangles[f];
 		const Triangle2& p = plane[f];
-		Real longest = 0, allowed = tolerance;
+		double longest = 0.0, allowed = tolerance;
 		for (std::size_t k = 0; k < 3; ++k) {
 			const std::size_t next = (k + 1) % 3;
-			const Real length = distanceOf(p[k], p[next]);
+			const double length = distanceOf(p[k], p[next]);
 			sides.push_back(
 				{std::min(t[k], t[next]),
 				 std::max(t[k], t[next]),
@@ -98,13 +106,13 @@ DiskCheck checkDisk(
 			longest = std::max(longest, length);
 			allowed += rounding(p[k]);
 		}
-		const Real det = determinant(p[0], p[1], p[2]);
+		const double det = determinant(p[0], p[1], p[2]);
 		const bool right = reversed[f] ? det < 0 : det > 0;
 		check.turned += !right && std::abs(det) > std::sinh(allowed) * std::sinh(longest);
 	}
 	forSharedEdges(sides, [&](const DiskSide& a, const DiskSide& b) {
-		const Real error = std::abs(a.length - b.length) - a.rounding - b.rounding;
-		check.seamGap = std::max(check.seamGap, static_cast<double>(error));
+		const double error = std::abs(a.length - b.length) - a.rounding - b.rounding;
+		check.seamGap = std::max(check.seamGap, error);
 	});
 	return check;
 }

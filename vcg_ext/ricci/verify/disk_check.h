@@ -11,7 +11,7 @@
 
 namespace ricci {
 
-/// Errors of a chart in the Poincaré disk, found from its triangles alone, in extended precision.
+/// Errors of a chart in the Poincaré disk, found from its triangles alone.
 /// Lengths are hyperbolic. The check allows for the rounding of the points to doubles, which near
 /// the circle is a large distance.
 struct DiskCheck

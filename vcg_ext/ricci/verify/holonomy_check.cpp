@@ -53,7 +53,7 @@ public:
 private:
 	ExtendedIsometry place(Halfedge h) const
 	{
-		return ExtendedIsometry::translationTo(std::complex<long double>(asComplex(m_layout[h])));
+		return ExtendedIsometry::translationTo(asComplex(m_layout[h]));
 	}
 
 	/// To the next corner, counter-clockwise; along the boundary to that of its next vertex.
@@ -105,10 +105,9 @@ double holonomyError(
 			continue;
 		seen[v] = 1;
 		const ExtendedIsometry round = ways.from(h);
-		const long double missed =
+		const DoubleDouble missed =
 			cones[v]
-				? std::abs(
-					  std::abs(round.trace()) - 2 * std::abs(std::cos(0.5L * target.curvature[v])))
+				? abs(abs(round.trace()) - 2 * abs(sineAndCosine(0.5 * target.curvature[v]).cosine))
 				: 2 * round.distanceFromIdentity();
 		error = std::max(error, static_cast<double>(missed));
 	}
@@ -118,8 +117,10 @@ double holonomyError(
 			loop.push_back(t.origin(h));
 		if (!isGeodesic(loop, target))
 			continue;
-		const long double half = 0.5L * std::abs(ways.from(first.twin()).trace());
-		const auto translation = static_cast<double>(2 * std::acosh(std::max(half, 1.0L)));
+		// The trace is 2 cosh(L / 2).
+		const DoubleDouble half = 0.5 * abs(ways.from(first.twin()).trace());
+		const auto sine2 = static_cast<double>((half - 1) * (half + 1));
+		const double translation = 2.0 * std::asinh(std::sqrt(std::max(sine2, 0.0)));
 		error = std::max(error, std::abs(translation - ways.lengthFrom(first)));
 	}
 	return error;

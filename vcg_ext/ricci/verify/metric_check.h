@@ -8,7 +8,7 @@
 
 namespace ricci {
 
-/// Errors of a finished metric, found in extended precision and by other formulas than the flow's.
+/// Errors of a finished metric, found by other formulas than the flow's.
 struct MetricCheck
 {
 	/// Largest relative difference of an edge's length from Eq. 4, beyond what the rounding of u

@@ -4,6 +4,7 @@
 #include "../base/indexed.h"
 #include "../base/numbers.h"
 #include "../base/tolerances.h"
+#include "../math/double_double.h"
 
 #include <algorithm>
 #include <array>
@@ -15,17 +16,24 @@ namespace ricci {
 
 namespace {
 
-using Real = long double;
-using Vector = std::array<Real, 3>;
+// What cancels is computed exactly, the rest in double.
 
-Real dot(const Vector& a, const Vector& b)
+DoubleDouble dot(const Point3& a, const Point3& b)
 {
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+	DoubleDouble sum;
+	for (std::size_t k = 0; k < 3; ++k)
+		sum += DoubleDouble::product(a[k], b[k]);
+	return sum;
 }
 
-Vector cross(const Vector& a, const Vector& b)
+double determinant(const Point3& a, const Point3& b, const Point3& c)
 {
-	return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+	DoubleDouble sum;
+	for (std::size_t k = 0; k < 3; ++k) {
+		const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+		sum += (DoubleDouble::product(b[i], c[j]) - DoubleDouble::product(b[j], c[i])) * a[k];
+	}
+	return static_cast<double>(sum);
 }
 
 } // namespace
@@ -33,25 +41,27 @@ Vector cross(const Vector& a, const Vector& b)
 SphereCheck checkSphere(const std::vector<Triangle>& triangles, const std::vector<Point3>& sphere)
 {
 	SphereCheck check;
-	Real sum = 0;
+	DoubleDouble sum;
 	for (const Triangle& t : triangles) {
-		std::array<Vector, 3> p;
+		std::array<Point3, 3> p;
+		std::array<double, 3> norm;
 		for (std::size_t k = 0; k < 3; ++k) {
-			const Point3& point = sphere[positionOf(t[k])];
-			p[k] = {Real(point[0]), Real(point[1]), Real(point[2])};
-			const Real norm = std::sqrt(dot(p[k], p[k]));
-			const auto error = static_cast<double>(std::abs(norm - 1));
+			p[k] = sphere[positionOf(t[k])];
+			const DoubleDouble square = dot(p[k], p[k]);
+			norm[k] = std::sqrt(static_cast<double>(square));
+			const double error = std::abs(static_cast<double>(square - 1)) / (norm[k] + 1.0);
 			if (!(error <= check.radiusError))
 				check.radiusError =
 					std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
-			for (Real& x : p[k])
-				x /= norm;
 		}
-		const Real det = dot(p[0], cross(p[1], p[2]));
-		sum += 2 * std::atan2(det, 1 + dot(p[0], p[1]) + dot(p[1], p[2]) + dot(p[2], p[0]));
-		check.turned += det < -kSphereRounding;
+		const double size = norm[0] * norm[1] * norm[2], det = determinant(p[0], p[1], p[2]);
+		double cosines = size;
+		for (std::size_t k = 0; k < 3; ++k)
+			cosines += norm[k] * static_cast<double>(dot(p[(k + 1) % 3], p[(k + 2) % 3]));
+		sum += 2.0 * std::atan2(det, cosines);
+		check.turned += det < -kSphereRounding * size;
 	}
-	check.degree = static_cast<double>(sum / (4 * kLongPi));
+	check.degree = static_cast<double>(sum) / (4.0 * kPi);
 	return check;
 }
 

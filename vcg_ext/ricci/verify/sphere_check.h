@@ -9,7 +9,7 @@
 
 namespace ricci {
 
-/// Errors of a map to the unit sphere, found from its triangles alone, in extended precision.
+/// Errors of a map to the unit sphere, found from its triangles alone.
 struct SphereCheck
 {
 	double radiusError = 0.0; ///< largest | |p| - 1 |; infinite where a point is not finite
