@@ -218,8 +218,12 @@ TEST(AnyTriangles, TheSheetsOfABookAreLaidFlat)
 			for (int i = 0; i < n; ++i)
 				for (int j = 0; j < n; ++j) {
 					const int a = vertex(i, j), c = vertex(i + 1, j + 1);
-					mesh.triangles.push_back({a, vertex(i + 1, j), c});
-					mesh.triangles.push_back({a, c, vertex(i, j + 1)});
+					for (Triangle t :
+						 {Triangle{a, vertex(i + 1, j), c}, Triangle{a, c, vertex(i, j + 1)}}) {
+						if (2 * s >= sheets) // as the first half is when it passes the spine
+							std::swap(t[1], t[2]);
+						mesh.triangles.push_back(t);
+					}
 				}
 		}
 		for (const OutputTriangulation output : kOutputs) {

@@ -108,7 +108,8 @@ void expectOpened(const SurfaceMesh& mesh)
 		o.splitVertices);
 }
 
-/// \p sheets rectangles of n x n cells with one side in common, at equal angles.
+/// \p sheets rectangles of n x n cells with one side in common, at equal angles. The second half of them
+/// has the orientation of a plane that the first half leads to the spine.
 SurfaceMesh book(int sheets, int n)
 {
 	SurfaceMesh mesh;
@@ -124,10 +125,14 @@ SurfaceMesh book(int sheets, int n)
 			return i == 0 ? j : first + (i - 1) * (n + 1) + j;
 		};
 		for (int i = 0; i < n; ++i)
-			for (int j = 0; j < n; ++j) {
-				mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
-				mesh.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
-			}
+			for (int j = 0; j < n; ++j)
+				for (Triangle t :
+					 {Triangle{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)},
+					  Triangle{vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)}}) {
+					if (2 * s >= sheets)
+						std::swap(t[1], t[2]);
+					mesh.triangles.push_back(t);
+				}
 	}
 	return mesh;
 }
@@ -418,12 +423,11 @@ TEST(OpenedMesh, TellsWhatWasDone)
 	mesh.triangles.push_back({0, 0, 1});
 	std::vector<std::string> notes;
 	openMesh(mesh, notes);
-	ASSERT_EQ(notes.size(), 5u);
+	ASSERT_EQ(notes.size(), 4u);
 	EXPECT_EQ(notes[0].rfind("1 vertex belongs to no face", 0), 0u);
-	EXPECT_EQ(notes[1].rfind("8 faces were oriented against", 0), 0u); // all sheets leave the spine
-	EXPECT_EQ(notes[2].rfind("2 edges of more than two faces were cut", 0), 0u);
-	EXPECT_EQ(notes[3].rfind("3 vertices have more than one fan", 0), 0u);
-	EXPECT_EQ(notes[4].rfind("1 face has no area", 0), 0u);
+	EXPECT_EQ(notes[1].rfind("2 edges of more than two faces were cut", 0), 0u);
+	EXPECT_EQ(notes[2].rfind("3 vertices have more than one fan", 0), 0u);
+	EXPECT_EQ(notes[3].rfind("1 face has no area", 0), 0u);
 }
 
 TEST(OpenedMesh, WhatIsLeftOutTakesNothingAlong)

@@ -13,10 +13,6 @@ namespace ricci {
 
 namespace {
 
-/// What a pair of incoherent orientation costs beside its fold, in radians: more than any fold, so that
-/// coherent pairs come first and as few faces as can be are turned.
-constexpr double kIncoherence = 4.0;
-
 /// Edges with more sides than this pair each only with the kNearest nearest to its continuation.
 constexpr std::size_t kAllPairs = 64, kNearest = 8;
 
@@ -30,13 +26,13 @@ struct Page
 /// Two sides that could be glued.
 struct Candidate
 {
-	double cost; // radians
+	double fold; // radians
 	int layers;  // how many sheets of equal triangles they are apart
 	int a, b;    // the sides
 
 	bool operator<(const Candidate& other) const
 	{
-		return std::tie(cost, layers, a, b) < std::tie(other.cost, other.layers, other.a, other.b);
+		return std::tie(fold, layers, a, b) < std::tie(other.fold, other.layers, other.a, other.b);
 	}
 };
 
@@ -212,10 +208,10 @@ private:
 		if (s.face == t.face || oppositeVertex(m_triangles, s) == oppositeVertex(m_triangles, t))
 			return;
 		const int a = std::min(s.index(), t.index()), b = std::max(s.index(), t.index());
-		const bool coherent =
-			(parityOf(a, b) ^ m_reversed[positionOf(s.face)] ^ m_reversed[positionOf(t.face)]) == 0;
+		if ((parityOf(a, b) ^ m_reversed[positionOf(s.face)] ^ m_reversed[positionOf(t.face)]) != 0)
+			return; // of a sheet that went on there a part would have to be turned
 		m_candidates.push_back(
-			{foldBetween(p, q) + (coherent ? 0.0 : kIncoherence),
+			{foldBetween(p, q),
 			 std::abs(m_layer[positionOf(s.face)] - m_layer[positionOf(t.face)]),
 			 a,
 			 b});

@@ -48,8 +48,8 @@ struct FaceGluing
 /// Glues triangles to surfaces in which no edge has more than two sides.
 ///
 /// The two sides of an ordinary edge are glued, whatever their directions. Where more meet, they are
-/// paired along the smoothest continuation, those of coherent orientation before others, as long as
-/// no surface becomes one-sided by it; what is left over becomes boundary. Triangles with the same
+/// paired along the smoothest continuation, where their orientation is coherent and no surface becomes
+/// one-sided by it; what is left over becomes boundary. Triangles with the same
 /// three vertices are never glued to each other: they belong to different sheets, in the order of
 /// their numbers.
 /// \pre no triangle uses a vertex twice
