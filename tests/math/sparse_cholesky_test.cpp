@@ -110,6 +110,22 @@ TEST(SparseCholesky, SolvesLikeADenseSolver)
 	EXPECT_EQ(solver.work().analyses, 1);
 }
 
+/// A surface whose radii are all fixed has no unknowns.
+TEST(SparseCholesky, SolvesWithoutUnknowns)
+{
+	SparseCholesky cholesky;
+	const SparseCholesky::Matrix matrix(0, 0);
+	std::vector<int> rowOf(3, -1);
+	cholesky.analyze(matrix, rowOf, [] {});
+	ASSERT_TRUE(cholesky.factorize(matrix));
+	Eigen::VectorXd x = Eigen::VectorXd::Ones(1);
+	cholesky.solve(Eigen::VectorXd(), x);
+	EXPECT_EQ(x.size(), 0);
+	Eigen::VectorXcd z = Eigen::VectorXcd::Ones(1);
+	cholesky.solve(Eigen::VectorXcd(), z);
+	EXPECT_EQ(z.size(), 0);
+}
+
 TEST(SparseCholesky, SolvesForComplexRightSides)
 {
 	Random random(65);

@@ -324,6 +324,8 @@ struct SparseCholesky::Implementation
 /// [row chosen] row of the pattern.
 std::vector<int> SparseCholesky::order(const Matrix& pattern)
 {
+	if (pattern.rows() == 0)
+		return {};
 	const OneThread oneThread;
 	Implementation& own = *m_implementation;
 	// METIS may not be there, or not number so many edges.
@@ -348,6 +350,8 @@ std::vector<int> SparseCholesky::order(const Matrix& pattern)
 /// Costs nothing for the pattern that order() has just analyzed, renumbered.
 void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
 {
+	if (pattern.rows() == 0)
+		return;
 	Implementation& own = *m_implementation;
 	if (!own.analyzed || own.factor->n != static_cast<std::size_t>(pattern.rows())) {
 		const OneThread oneThread;
@@ -359,6 +363,8 @@ void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
 
 bool SparseCholesky::factorize(const Matrix& matrix)
 {
+	if (matrix.rows() == 0)
+		return true;
 	const OneThread oneThread;
 	Implementation& own = *m_implementation;
 	View a(matrix);
@@ -374,6 +380,10 @@ bool SparseCholesky::factorize(const Matrix& matrix)
 // take as long as the arithmetic: this is about twice as fast.
 void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
 {
+	if (rhs.size() == 0) {
+		x = rhs;
+		return;
+	}
 	Implementation& own = *m_implementation;
 	own.rowsBelow.resize(own.factor->maxesize);
 	x = rhs;
@@ -385,6 +395,10 @@ void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
 
 void SparseCholesky::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x)
 {
+	if (rhs.size() == 0) {
+		x = rhs;
+		return;
+	}
 	Implementation& own = *m_implementation;
 	own.pairsBelow.resize(2 * own.factor->maxesize);
 	x = rhs;
@@ -426,6 +440,8 @@ struct SparseCholesky::Implementation
 /// [row chosen] row of the pattern.
 std::vector<int> SparseCholesky::order(const Matrix& pattern)
 {
+	if (pattern.rows() == 0)
+		return {};
 	Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
 	Eigen::AMDOrdering<int> ordering;
 	ordering(pattern.selfadjointView<Eigen::Lower>(), permutation);
@@ -436,6 +452,8 @@ std::vector<int> SparseCholesky::order(const Matrix& pattern)
 
 void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
 {
+	if (pattern.rows() == 0)
+		return;
 	Implementation& own = *m_implementation;
 	own.solver.analyzePattern(pattern);
 	if (own.solver.info() != Eigen::Success)
@@ -452,6 +470,8 @@ void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
 
 bool SparseCholesky::factorize(const Matrix& matrix)
 {
+	if (matrix.rows() == 0)
+		return true;
 	Implementation& own = *m_implementation;
 	own.solver.factorize(matrix);
 	++m_work.factorizations;
@@ -462,6 +482,10 @@ bool SparseCholesky::factorize(const Matrix& matrix)
 
 void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
 {
+	if (rhs.size() == 0) {
+		x = rhs;
+		return;
+	}
 	x.noalias() = m_implementation->solver.solve(rhs);
 	++m_work.solutions;
 	m_work.flops += 4.0 * m_implementation->entries;
@@ -469,6 +493,10 @@ void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
 
 void SparseCholesky::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x)
 {
+	if (rhs.size() == 0) {
+		x = rhs;
+		return;
+	}
 	using Pairs = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 	x.resize(rhs.size());
 	const Eigen::Map<const Pairs> right(reinterpret_cast<const double*>(rhs.data()), rhs.size(), 2);
