@@ -221,12 +221,12 @@ Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progr
 	out.report = flat.report;
 	out.notes = flat.notes;
 	if (options.output == OutputTriangulation::CommonRefinement) {
-		draw(mesh, flat.refined, out);
+		draw(flat.opened.mesh, flat.refined, out);
 		for (int f : flat.refined.inputFace)
 			out.reversed.push_back(flat.reversed[positionOf(f)]);
 	}
 	else {
-		out.drawn = mesh;
+		out.drawn = flat.opened.mesh;
 		out.uv = flat.uv;
 		out.reversed = flat.reversed;
 	}
@@ -247,20 +247,21 @@ Outcome runPacked(const SurfaceMesh& mesh, const Options& options, Progress& pro
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
 	out.notes = flat.notes;
-	if (options.output == OutputTriangulation::CommonRefinement)
-		draw(mesh, flat.refined, out);
-	else {
-		out.drawn = mesh;
-		out.uv = flat.wedgeUV;
-	}
-	std::vector<char> reversed(mesh.triangles.size(), 0);
 	std::vector<std::string> notes;
-	for (const Component& component : splitIntoComponents(openMesh(mesh, notes)))
-		for (const Face f : component.face.indices())
-			reversed[positionOf(component.face[f])] = component.reversed[f];
-	for (std::size_t f = 0; f < out.uv.size(); ++f)
-		out.reversed.push_back(
-			reversed[flat.refined.triangles.empty() ? f : positionOf(flat.refined.inputFace[f])]);
+	const OpenedMesh opened = openMesh(mesh, notes);
+	if (options.output == OutputTriangulation::CommonRefinement) {
+		draw(mesh, flat.refined, out);
+		std::vector<char> reversed(mesh.triangles.size(), 0);
+		for (const Face f : opened.reversed.indices())
+			reversed[positionOf(opened.face[positionOf(f)])] = opened.reversed[f];
+		for (const int f : flat.refined.inputFace)
+			out.reversed.push_back(reversed[positionOf(f)]);
+		return out;
+	}
+	out.drawn = opened.mesh;
+	for (const int f : opened.face)
+		out.uv.push_back(flat.wedgeUV[positionOf(f)]);
+	out.reversed = opened.reversed.values();
 	return out;
 }
 
