@@ -182,7 +182,10 @@ void layOut(
 {
 	const Triangulation& t = domain.surface.triangulation;
 	const bool mayChangeCut = map.type.boundaryLoops > 1 && domain.holes == 0;
-	placeCorners(domain, mayChangeCut ? overlay : std::move(overlay), options, progress, map);
+	LinkedPieces kept;
+	if (mayChangeCut)
+		kept = overlay;
+	placeCorners(domain, std::move(overlay), options, progress, map);
 	if (mayChangeCut) {
 		// A hole round which the metric closes needs no seam.
 		const int edges = map.cut.edgeCount;
@@ -193,7 +196,7 @@ void layOut(
 			map.cones,
 			map.cut);
 		if (map.cut.edgeCount < edges)
-			placeCorners(domain, std::move(overlay), options, progress, map);
+			placeCorners(domain, std::move(kept), options, progress, map);
 	}
 	if (!map.flow.target.hasFixed()) // else the boundary keeps its metric, which fixes the scale
 		map.scale = std::sqrt(

@@ -261,6 +261,7 @@ private:
 		}
 		const std::vector<Move> some = denserAtStart(all, kMaxPaired);
 		std::vector<Eigen::VectorXd> changes;
+		changes.reserve(some.size());
 		for (const Move& move : some)
 			changes.push_back(turnChange(move));
 		for (std::size_t i = 0; i < some.size(); ++i) {
