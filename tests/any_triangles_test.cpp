@@ -203,29 +203,7 @@ TEST(AnyTriangles, TheSheetsOfABookAreLaidFlat)
 	for (int sheets = 3; sheets <= 6; ++sheets) {
 		SCOPED_TRACE(sheets);
 		const int n = 3;
-		SurfaceMesh mesh;
-		for (int j = 0; j <= n; ++j)
-			mesh.positions.push_back({0.0, 0.0, double(j)});
-		for (int s = 0; s < sheets; ++s) {
-			const double angle = 2 * kPi * s / sheets;
-			const int first = static_cast<int>(mesh.positions.size());
-			for (int i = 1; i <= n; ++i)
-				for (int j = 0; j <= n; ++j)
-					mesh.positions.push_back({i * std::cos(angle), i * std::sin(angle), double(j)});
-			const auto vertex = [&](int i, int j) {
-				return i == 0 ? j : first + (i - 1) * (n + 1) + j;
-			};
-			for (int i = 0; i < n; ++i)
-				for (int j = 0; j < n; ++j) {
-					const int a = vertex(i, j), c = vertex(i + 1, j + 1);
-					for (Triangle t :
-						 {Triangle{a, vertex(i + 1, j), c}, Triangle{a, c, vertex(i, j + 1)}}) {
-						if (2 * s >= sheets) // as the first half is when it passes the spine
-							std::swap(t[1], t[2]);
-						mesh.triangles.push_back(t);
-					}
-				}
-		}
+		const SurfaceMesh mesh = book(sheets, n);
 		for (const OutputTriangulation output : kOutputs) {
 			const auto r = compute(mesh, unscaled(output));
 			EXPECT_EQ(r.report.charts, (sheets + 1) / 2);
@@ -269,20 +247,10 @@ TEST(AnyTriangles, AFlatMoebiusBandIsAStrip)
 TEST(AnyTriangles, AFlatKleinBottleIsAnAnnulusOfKnownModulus)
 {
 	const int nu = 20, nv = 8;
-	SurfaceMesh mesh;
-	for (int i = 0; i < nu; ++i)
-		for (int j = 0; j < nv; ++j)
-			mesh.positions.push_back(
-				{std::cos(2 * kPi * i / nu),
-				 std::sin(2 * kPi * i / nu),
-				 0.4 * std::min(j, nv - j)});
-	const auto vertex = [&](int i, int j) { return i < nu ? i * nv + j % nv : (nv - j % nv) % nv; };
-	for (int i = 0; i < nu; ++i)
-		for (int j = 0; j < nv; ++j) {
-			const int a = vertex(i, j), c = vertex(i + 1, j + 1);
-			mesh.triangles.push_back({a, vertex(i + 1, j), c});
-			mesh.triangles.push_back({a, c, vertex(i, j + 1)});
-		}
+	const SurfaceMesh mesh = kleinBottle(nu, nv, [&](int i, int j) {
+		const double u = 2 * kPi * i / nu;
+		return Point3{std::cos(u), std::sin(u), 0.4 * std::min(j, nv - j)};
+	});
 	const double length = nu * 2 * std::sin(kPi / nu), girth = 0.4 * nv;
 	for (const OutputTriangulation output : kOutputs) {
 		const auto r = compute(mesh, unscaled(output));

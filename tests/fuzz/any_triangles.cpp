@@ -93,13 +93,7 @@ SurfaceMesh gluedSquare(ByteSource& bytes)
 		}
 		return i * (nv + 1) + j;
 	};
-	for (int i = 0; i < nu; ++i)
-		for (int j = 0; j < nv; ++j) {
-			const int a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
-					  d = vertex(i, j + 1);
-			mesh.triangles.push_back({a, b, c});
-			mesh.triangles.push_back({a, c, d});
-		}
+	mesh.triangles = cells(nu, nv, vertex);
 	return mesh;
 }
 

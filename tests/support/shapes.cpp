@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace ricci::testing {
 
@@ -14,6 +15,19 @@ constexpr double kPi = 3.14159265358979323846;
 
 } // namespace
 
+std::vector<Triangle> cells(int nu, int nv, const std::function<int(int, int)>& vertex)
+{
+	std::vector<Triangle> triangles;
+	for (int i = 0; i < nu; ++i)
+		for (int j = 0; j < nv; ++j) {
+			const int a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
+					  d = vertex(i, j + 1);
+			triangles.push_back({a, b, c});
+			triangles.push_back({a, c, d});
+		}
+	return triangles;
+}
+
 SurfaceMesh
 grid(int nu, int nv, Ends alongU, Ends alongV, const std::function<Point3(int, int)>& point)
 {
@@ -22,14 +36,7 @@ grid(int nu, int nv, Ends alongU, Ends alongV, const std::function<Point3(int, i
 	for (int i = 0; i < columns; ++i)
 		for (int j = 0; j < rows; ++j)
 			mesh.positions.push_back(point(i, j));
-	const auto vertex = [&](int i, int j) { return (i % columns) * rows + j % rows; };
-	for (int i = 0; i < nu; ++i)
-		for (int j = 0; j < nv; ++j) {
-			const int a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
-					  d = vertex(i, j + 1);
-			mesh.triangles.push_back({a, b, c});
-			mesh.triangles.push_back({a, c, d});
-		}
+	mesh.triangles = cells(nu, nv, [&](int i, int j) { return (i % columns) * rows + j % rows; });
 	return mesh;
 }
 
@@ -168,6 +175,40 @@ SurfaceMesh perforatedSlab(int genus, int subdivision)
 						addSquare(cube, axis, side);
 				}
 		}
+	return mesh;
+}
+
+SurfaceMesh book(int sheets, int n)
+{
+	SurfaceMesh mesh;
+	for (int j = 0; j <= n; ++j)
+		mesh.positions.push_back({0.0, 0.0, double(j)});
+	for (int s = 0; s < sheets; ++s) {
+		const double angle = 2 * kPi * s / sheets;
+		const int first = static_cast<int>(mesh.positions.size());
+		for (int i = 1; i <= n; ++i)
+			for (int j = 0; j <= n; ++j)
+				mesh.positions.push_back({i * std::cos(angle), i * std::sin(angle), double(j)});
+		const auto vertex = [&](int i, int j) {
+			return i == 0 ? j : first + (i - 1) * (n + 1) + j;
+		};
+		for (Triangle t : cells(n, n, vertex)) {
+			if (2 * s >= sheets)
+				std::swap(t[1], t[2]);
+			mesh.triangles.push_back(t);
+		}
+	}
+	return mesh;
+}
+
+SurfaceMesh kleinBottle(int nu, int nv, const std::function<Point3(int, int)>& point)
+{
+	SurfaceMesh mesh;
+	for (int i = 0; i < nu; ++i)
+		for (int j = 0; j < nv; ++j)
+			mesh.positions.push_back(point(i, j));
+	mesh.triangles =
+		cells(nu, nv, [&](int i, int j) { return i < nu ? i * nv + j % nv : (nv - j % nv) % nv; });
 	return mesh;
 }
 

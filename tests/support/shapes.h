@@ -25,6 +25,10 @@ std::size_t at(const Index<Self>& index)
 /// Number of places in a grid direction: open, or closed into a ring.
 enum class Ends { Open, Joined };
 
+/// The triangles of nu by nv cells, each cut along the diagonal from (i, j) to (i + 1, j + 1),
+/// counter-clockwise in (i, j). \p vertex(i, j) is the vertex there, for 0 <= i <= nu, 0 <= j <= nv.
+std::vector<Triangle> cells(int nu, int nv, const std::function<int(int, int)>& vertex);
+
 /// Grid of (nu by nv) cells, each cut into two triangles along the diagonal from (i,j) to
 /// (i+1,j+1), counter-clockwise in (u,v). \p point maps grid coordinates to space; along a joined
 /// direction the last row of cells ends at the first row of vertices.
@@ -57,6 +61,14 @@ SurfaceMesh tetrahedron();
 /// Closed surface of any genus: the skin of a slab of unit cubes, (2 genus + 1) x 3 x 1, with
 /// \p genus separate cubes taken out; each square is cut into 2 (subdivision)^2 triangles.
 SurfaceMesh perforatedSlab(int genus, int subdivision);
+
+/// \p sheets rectangles of n by n unit cells with one side in common, on the z axis, at equal angles. The
+/// second half of them has the orientation that the first half has once it is past that side.
+SurfaceMesh book(int sheets, int n);
+
+/// Klein bottle of nu by nv cells: \p point(i, j) for 0 <= i < nu, 0 <= j < nv; once round, j comes back
+/// as -j.
+SurfaceMesh kleinBottle(int nu, int nv, const std::function<Point3(int, int)>& point);
 
 /// Moebius band of \p n squares.
 SurfaceMesh moebiusBand(int n);

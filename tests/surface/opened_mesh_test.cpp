@@ -108,35 +108,6 @@ void expectOpened(const SurfaceMesh& mesh)
 		o.splitVertices);
 }
 
-/// \p sheets rectangles of n x n cells with one side in common, at equal angles. The second half of them
-/// has the orientation of a plane that the first half leads to the spine.
-SurfaceMesh book(int sheets, int n)
-{
-	SurfaceMesh mesh;
-	for (int j = 0; j <= n; ++j)
-		mesh.positions.push_back({0.0, 0.0, double(j)});
-	for (int s = 0; s < sheets; ++s) {
-		const double angle = 2 * kPi * s / sheets;
-		const int first = static_cast<int>(mesh.positions.size());
-		for (int i = 1; i <= n; ++i)
-			for (int j = 0; j <= n; ++j)
-				mesh.positions.push_back({i * std::cos(angle), i * std::sin(angle), double(j)});
-		const auto vertex = [&](int i, int j) {
-			return i == 0 ? j : first + (i - 1) * (n + 1) + j;
-		};
-		for (int i = 0; i < n; ++i)
-			for (int j = 0; j < n; ++j)
-				for (Triangle t :
-					 {Triangle{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)},
-					  Triangle{vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)}}) {
-					if (2 * s >= sheets)
-						std::swap(t[1], t[2]);
-					mesh.triangles.push_back(t);
-				}
-	}
-	return mesh;
-}
-
 Triangle reversed(const Triangle& t)
 {
 	return {t[0], t[2], t[1]};
@@ -151,28 +122,14 @@ SurfaceMesh doubled(const SurfaceMesh& mesh, bool turn)
 }
 
 /// The figure-eight immersion.
-SurfaceMesh kleinBottle(int nu, int nv)
+SurfaceMesh figureEightBottle(int nu, int nv)
 {
-	SurfaceMesh mesh;
-	for (int i = 0; i < nu; ++i)
-		for (int j = 0; j < nv; ++j) {
-			const double u = 2 * kPi * i / nu, v = 2 * kPi * j / nv;
-			const double c = std::cos(u / 2), s = std::sin(u / 2);
-			const double r = 3 + c * std::sin(v) - s * std::sin(2 * v);
-			mesh.positions.push_back(
-				{r * std::cos(u), r * std::sin(u), s * std::sin(v) + c * std::sin(2 * v)});
-		}
-	const auto vertex = [&](int i, int j) { // once round, v comes back as -v
-		return i < nu ? i * nv + (j + nv) % nv : (2 * nv - j) % nv;
-	};
-	for (int i = 0; i < nu; ++i)
-		for (int j = 0; j < nv; ++j) {
-			const int a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
-					  d = vertex(i, j + 1);
-			mesh.triangles.push_back({a, b, c});
-			mesh.triangles.push_back({a, c, d});
-		}
-	return mesh;
+	return kleinBottle(nu, nv, [&](int i, int j) {
+		const double u = 2 * kPi * i / nu, v = 2 * kPi * j / nv;
+		const double c = std::cos(u / 2), s = std::sin(u / 2);
+		const double r = 3 + c * std::sin(v) - s * std::sin(2 * v);
+		return Point3{r * std::cos(u), r * std::sin(u), s * std::sin(v) + c * std::sin(2 * v)};
+	});
 }
 
 /// The projective plane: half of a cube of n^2 cells on each side, opposite points identified.
@@ -332,7 +289,7 @@ TEST(OpenedMesh, CutsOneSidedSurfacesAlongShortLoops)
 	ASSERT_EQ(typesOf(opened(plane)).size(), 1u);
 	EXPECT_TRUE(typesOf(opened(plane))[0].isDisk());
 
-	const SurfaceMesh bottle = kleinBottle(24, 16);
+	const SurfaceMesh bottle = figureEightBottle(24, 16);
 	expectOpened(bottle);
 	EXPECT_EQ(opened(bottle).oneSidedComponents, 1);
 	ASSERT_EQ(typesOf(opened(bottle)).size(), 1u);

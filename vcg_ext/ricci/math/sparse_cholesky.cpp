@@ -115,8 +115,9 @@ struct SparseCholesky::Implementation
 	/// Work space of solve(). Not an Eigen vector: memory is freed twice if its resize() fails.
 	std::vector<double> rowsBelow;
 	std::vector<double> pairsBelow; ///< the same for complex right sides
+	const int nestedDissectionFrom;
 
-	Implementation()
+	explicit Implementation(int dissectionFrom) : nestedDissectionFrom(dissectionFrom)
 	{
 		cholmod_l_start(&common);
 		common.nmethods = 1; // no search through several orderings
@@ -330,7 +331,7 @@ std::vector<int> SparseCholesky::order(const Matrix& pattern)
 	Implementation& own = *m_implementation;
 	// METIS may not be there, or not number so many edges.
 	const bool isDissected =
-		pattern.rows() >= m_nestedDissectionFrom && own.tryToAnalyze(pattern, CHOLMOD_METIS, 1);
+		pattern.rows() >= own.nestedDissectionFrom && own.tryToAnalyze(pattern, CHOLMOD_METIS, 1);
 	if (!isDissected)
 		own.analyze(pattern, CHOLMOD_AMD, 1);
 	++m_work.orderings;
@@ -435,6 +436,8 @@ struct SparseCholesky::Implementation
 	};
 	Solver solver;
 	double flops = 0.0, entries = 0.0;
+
+	explicit Implementation(int /*nestedDissectionFrom*/) {} // AMD is the only order here
 };
 
 /// [row chosen] row of the pattern.
@@ -524,8 +527,7 @@ const char* SparseCholesky::name()
 #endif
 
 SparseCholesky::SparseCholesky(int nestedDissectionFrom) :
-		m_nestedDissectionFrom(nestedDissectionFrom),
-		m_implementation(std::make_unique<Implementation>())
+		m_implementation(std::make_unique<Implementation>(nestedDissectionFrom))
 {
 }
 

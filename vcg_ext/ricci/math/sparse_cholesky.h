@@ -116,7 +116,6 @@ private:
 	std::vector<int> order(const Matrix& pattern);
 	void analyzeAsNumbered(const Matrix& pattern);
 
-	int m_nestedDissectionFrom;
 	std::unique_ptr<Implementation> m_implementation;
 	CholeskyWork m_work;
 	Eigen::Index m_orderedRows = -1;

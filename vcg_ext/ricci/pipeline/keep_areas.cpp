@@ -3,9 +3,8 @@
 
 #include "../base/text.h"
 #include "../base/tolerances.h"
-#include "../error.h"
 #include "../target/area_change.h"
-#include "progress_share.h"
+#include "stages.h"
 
 #include <optional>
 #include <utility>
@@ -29,47 +28,6 @@ double areaExcess(const EmbeddedSurface& surface, const FlowResult& flow, double
 	return areaExcess(areaChange(surface, flow), spread, kSpreadSlack);
 }
 
-/// One more flow. \return none where areas are kept, or where it fails
-std::optional<FlowResult> nextFlow(
-	const EmbeddedSurface& surface,
-	const FlowResult& last,
-	const TargetRequest& request,
-	const Options& options,
-	int steps,
-	ProgressRange& progress,
-	std::vector<FlowState>& states)
-{
-	if (keepsAreas(surface, last))
-		return std::nullopt; // without the cost of another start
-	try {
-		const Tick tick = [&] { progress.step(0.0, "Flipping edges"); };
-		FlowStart start = flowStart(surface, options, tick);
-		const std::optional<Target> target = targetToKeepAreas(surface, start, last, request);
-		if (!target)
-			return std::nullopt;
-		for (const std::string& note : target->notes)
-			progress.log(note);
-		FlowProgress flowProgress(progress, options.epsilon, states);
-		FlowResult flow = runRicciFlow(
-			Background::EuclideanPlane,
-			surface,
-			std::move(start),
-			*target,
-			options,
-			[&](int step, double residual) { flowProgress(steps + step, residual); },
-			nullptr,
-			tick);
-		flow.hessian.reset(); // only the first flow's is used, and it is large
-		return flow;
-	}
-	catch (const Stopped&) {
-		throw;
-	}
-	catch (const Error&) {
-		return std::nullopt; // the metrics that are there are valid
-	}
-}
-
 } // namespace
 
 void keepAreas(
@@ -84,8 +42,16 @@ void keepAreas(
 	int steps = best.iterations;
 	int round = 0;
 	for (int vain = 0; round < kMaxRounds && vain < kMaxVainRounds; ++round) {
-		std::optional<FlowResult> next = nextFlow(
-			surface, last ? *last : best, request, options, steps, progress, map.flowStates);
+		const FlowResult& before = last ? *last : best;
+		if (keepsAreas(surface, before))
+			break; // without the cost of another start
+		std::optional<FlowResult> next = flowAgain(
+			surface,
+			options,
+			[&](FlowStart& start) { return targetToKeepAreas(surface, start, before, request); },
+			steps,
+			progress,
+			map.flowStates);
 		if (!next)
 			break;
 		steps += next->iterations;

@@ -24,18 +24,12 @@ void checkFlowOptions(const FlowOptions& options)
 		throw InvalidOption(InvalidOption::MaxIterations, options.maxIterations);
 }
 
-/// The values at the vertices of the opened mesh.
-VertexInput atCopies(const VertexInput& input, const OpenedMesh& opened)
+/// Gives copies of vertices the values of their vertices, where there are any.
+template<class T>
+void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
 {
-	VertexInput result = input;
-	for (std::size_t v = input.selected.size(); !input.selected.empty() && v < opened.vertex.size();
-		 ++v)
-		result.selected.push_back(input.selected[positionOf(opened.vertex[v])]);
-	for (std::size_t v = input.targetCurvature.size();
-		 !input.targetCurvature.empty() && v < opened.vertex.size();
-		 ++v)
-		result.targetCurvature.push_back(input.targetCurvature[positionOf(opened.vertex[v])]);
-	return result;
+	for (std::size_t v = values.size(); !values.empty() && v < opened.vertex.size(); ++v)
+		values.push_back(values[positionOf(opened.vertex[v])]);
 }
 
 /// Maps every component.
@@ -52,7 +46,9 @@ Parametrization mapComponents(
 	result.notes = std::move(notes);
 	const std::vector<Component> components =
 		startResult(mesh, options, options.output, progress, result);
-	const VertexInput ofCopies = atCopies(input, result.opened);
+	VertexInput ofCopies = input;
+	extendToCopies(result.opened, ofCopies.selected);
+	extendToCopies(result.opened, ofCopies.targetCurvature);
 	runComponents(
 		result.opened, components, progress, [&](const Component& component, ProgressRange range) {
 			append(

@@ -2,10 +2,9 @@
 #include "round_turns.h"
 
 #include "../base/text.h"
-#include "../error.h"
 #include "../flow/quarter_turns.h"
 #include "../target/turn_search.h"
-#include "progress_share.h"
+#include "stages.h"
 
 #include <optional>
 #include <utility>
@@ -27,43 +26,6 @@ constexpr double kFirstRadius = 0.3, kShorter = 0.3;
 /// change by about a hundredth.
 constexpr double kCheapTurns = 2.5e-5;
 
-/// One more flow. \return none where it fails
-std::optional<FlowResult> nextFlow(
-	const EmbeddedSurface& surface,
-	const FlowResult& last,
-	const LoopTurns& turns,
-	const TargetRequest& request,
-	const Options& options,
-	double radius,
-	int steps,
-	ProgressRange& progress,
-	std::vector<FlowState>& states)
-{
-	try {
-		const std::optional<Target> target =
-			targetToRoundTurns(surface, last, turns, request, radius);
-		if (!target)
-			return std::nullopt;
-		FlowProgress flowProgress(progress, options.epsilon, states);
-		FlowResult next = runRicciFlow(
-			Background::EuclideanPlane,
-			surface,
-			flowStart(surface, options),
-			*target,
-			options,
-			[&](int step, double residual) { flowProgress(steps + step, residual); });
-		if (next.doubled)
-			return std::nullopt;
-		return next;
-	}
-	catch (const Stopped&) {
-		throw;
-	}
-	catch (const Error&) {
-		return std::nullopt; // the metrics that are there are valid
-	}
-}
-
 /// Brings the turns near to multiples of pi / 2.
 void chooseCones(
 	const EmbeddedSurface& surface,
@@ -81,9 +43,14 @@ void chooseCones(
 	for (int round = 0, vain = 0;
 		 round < kMaxRounds && vain < kMaxVainRounds && lowest.angles > kCheapTurns;
 		 ++round) {
-		std::optional<FlowResult> next = nextFlow(
-			surface, best, turns, request, options, radius, steps, progress, map.flowStates);
-		if (!next)
+		std::optional<FlowResult> next = flowAgain(
+			surface,
+			options,
+			[&](FlowStart&) { return targetToRoundTurns(surface, best, turns, request, radius); },
+			steps,
+			progress,
+			map.flowStates);
+		if (!next || next->doubled)
 			break;
 		steps += next->iterations;
 		LoopTurns nextTurns = loopTurns(*next, tick);

@@ -5,9 +5,11 @@
 #include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../cut/cone_wedges.h"
+#include "../error.h"
 #include "../layout/hole_seams.h"
 #include "../math/min_area_rectangle.h"
 #include "../measure/invariants.h"
+#include "progress_share.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,6 +103,43 @@ double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)
 	for (const Edge e : cut.isCut.indices())
 		length += cut.isCut[e] ? lengths[e] : 0.0;
 	return length;
+}
+
+std::optional<FlowResult> flowAgain(
+	const EmbeddedSurface& surface,
+	const Options& options,
+	const std::function<std::optional<Target>(FlowStart&)>& chooseTarget,
+	int steps,
+	ProgressRange& progress,
+	std::vector<FlowState>& states)
+{
+	const Tick tick = [&] { progress.step(0.0, "Flipping edges"); };
+	try {
+		FlowStart start = flowStart(surface, options, tick);
+		const std::optional<Target> target = chooseTarget(start);
+		if (!target)
+			return std::nullopt;
+		for (const std::string& note : target->notes)
+			progress.log(note);
+		FlowProgress flowProgress(progress, options.epsilon, states);
+		FlowResult flow = runRicciFlow(
+			Background::EuclideanPlane,
+			surface,
+			std::move(start),
+			*target,
+			options,
+			[&](int step, double residual) { flowProgress(steps + step, residual); },
+			nullptr,
+			tick);
+		flow.hessian.reset(); // only the first flow's is used, and it is large
+		return flow;
+	}
+	catch (const Stopped&) {
+		throw;
+	}
+	catch (const Error&) {
+		return std::nullopt;
+	}
 }
 
 void turnUpright(double scale, ComponentMap& map)

@@ -9,6 +9,8 @@
 #include "../target/target_curvature.h"
 #include "flatten_component.h"
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -100,6 +102,18 @@ CommonRefinement refine(
 		!refines && domain.holes == 0,
 		overlayListener(progress, refines, options.memoryLimit));
 }
+
+/// One more flow of a component in the plane, to a target that is chosen from a new start.
+/// \param chooseTarget none where there is nothing to gain
+/// \param steps Newton steps that the component has taken before
+/// \return none without a target, and where the flow fails: the metrics that are there are valid
+std::optional<FlowResult> flowAgain(
+	const EmbeddedSurface& surface,
+	const Options& options,
+	const std::function<std::optional<Target>(FlowStart&)>& chooseTarget,
+	int steps,
+	ProgressRange& progress,
+	std::vector<FlowState>& states);
 
 /// Scales the layout by \p scale and turns it so that its smallest bounding rectangle lies along the
 /// axes, from the origin.
