@@ -298,6 +298,14 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 	return {results, changedElements(settings.colorize, settings.flow.output)};
 }
 
+RichParameterList withDefaults(RichParameterList par, int filter)
+{
+	for (const RichParameter& parameter : filterParameters(filter))
+		if (!par.hasParameter(parameter.name()))
+			par.addParam(parameter);
+	return par;
+}
+
 } // namespace
 
 int preConditions()
@@ -313,11 +321,12 @@ int postConditions()
 
 Outcome applyFilter(
 	int filter,
-	const RichParameterList& par,
+	const RichParameterList& given,
 	MeshDocument& md,
 	vcg::CallBackPos* callback,
 	const Log& log)
 {
+	const RichParameterList par = withDefaults(given, filter);
 	HostProgress progress(callback, log);
 	const Outcome outcome = filter == Hyperbolic ? applyHyperbolic(par, md, progress)
 												 : applyEuclidean(par, md, progress);

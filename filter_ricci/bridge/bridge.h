@@ -28,8 +28,11 @@ struct FilterText
 
 FilterText filterText(int filter);
 
+/// Basic: without those that few runs need, for hosts that show every parameter they are told of.
+enum class Shown { Basic, All };
+
 /// The parameters in the order that stored .mlx scripts rely on.
-RichParameterList filterParameters(int filter);
+RichParameterList filterParameters(int filter, Shown shown = Shown::All);
 
 /// MeshModel::MeshElement bits the host checks before a run.
 int preConditions();
@@ -49,7 +52,8 @@ struct Outcome
 	int changedElements; ///< MeshModel::MeshElement bits
 };
 
-/// Runs the filter on the current mesh of \p md. Nothing is written before everything is computed.
+/// Runs the filter on the current mesh of \p md. Parameters that \p par lacks have their defaults.
+/// Nothing is written before everything is computed.
 /// \throw Refusal, ricci::Error, std::bad_alloc and what vcglib throws; see currentErrorSentence().
 Outcome applyFilter(
 	int filter,

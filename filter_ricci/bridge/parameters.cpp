@@ -186,8 +186,8 @@ void addSolverParameters(RichParameterList& list, double epsilon, int maxIterati
 		"A run that takes longer ends with an error and leaves the mesh as it was. 0: no limit."));
 }
 
-// What a first run needs comes first: MeshLab 2020.09 shows everything in one column.
-RichParameterList euclideanParameters()
+// What a first run needs comes first, and what few runs need after it.
+RichParameterList euclideanParameters(Shown shown)
 {
 	const ricci::Options defaults;
 	RichParameterList list;
@@ -231,6 +231,8 @@ RichParameterList euclideanParameters()
 		false,
 		"Flat mesh as new layer",
 		"Add a layer with the mesh laid out in the plane, cut along its seams."));
+	if (shown == Shown::Basic)
+		return list;
 	list.addParam(host::advanced<RichEnum>(
 		"holes",
 		static_cast<int>(defaults.holes),
@@ -288,7 +290,7 @@ RichParameterList euclideanParameters()
 	return list;
 }
 
-RichParameterList hyperbolicParameters()
+RichParameterList hyperbolicParameters(Shown shown)
 {
 	const ricci::HyperbolicOptions defaults;
 	RichParameterList list;
@@ -330,6 +332,8 @@ RichParameterList hyperbolicParameters()
 		"Canonical polygon",
 		"Add a layer with a fundamental polygon of 4 sides for each handle, as edges. Its sides "
 		"are geodesics that the canonical generators pair."));
+	if (shown == Shown::Basic)
+		return list;
 	list.addParam(host::advanced<RichBool>(
 		"free_boundary",
 		defaults.freeBoundary,
@@ -350,9 +354,9 @@ RichParameterList hyperbolicParameters()
 
 } // namespace
 
-RichParameterList filterParameters(int filter)
+RichParameterList filterParameters(int filter, Shown shown)
 {
-	return filter == Hyperbolic ? hyperbolicParameters() : euclideanParameters();
+	return filter == Hyperbolic ? hyperbolicParameters(shown) : euclideanParameters(shown);
 }
 
 Settings readSettings(const RichParameterList& par)

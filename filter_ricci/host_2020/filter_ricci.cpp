@@ -4,6 +4,26 @@
 #include "bridge.h"
 #include "sentences.h"
 
+#include <QCoreApplication>
+#include <QSettings>
+
+namespace {
+
+const char* const kShowAll = "MeshLab::Ricci::ShowAllParameters";
+
+/// This host's dialog is a plain list, higher than many screens if it shows every parameter. What it
+/// shows is a setting of the window, in whose file the host keeps it as XML. meshlabserver has no
+/// settings; it takes no parameter that the filter does not tell it of.
+filter_ricci::Shown shownParameters()
+{
+	const bool hasWindow = !QCoreApplication::organizationName().isEmpty();
+	if (!hasWindow || QSettings().value(kShowAll).toString().contains("value=\"true\""))
+		return filter_ricci::Shown::All;
+	return filter_ricci::Shown::Basic;
+}
+
+} // namespace
+
 FilterRicciPlugin::FilterRicciPlugin()
 {
 	typeList << filter_ricci::Euclidean << filter_ricci::Hyperbolic;
@@ -49,7 +69,18 @@ int FilterRicciPlugin::postCondition(QAction*) const
 // The variant with a document, because the host's default asks a document without a mesh for one.
 void FilterRicciPlugin::initParameterSet(QAction* action, MeshDocument&, RichParameterList& par)
 {
-	par.join(filter_ricci::filterParameters(ID(action)));
+	par.join(filter_ricci::filterParameters(ID(action), shownParameters()));
+}
+
+// Called for each filter.
+void FilterRicciPlugin::initGlobalParameterSet(QAction*, RichParameterList& settings)
+{
+	if (!settings.hasParameter(kShowAll))
+		settings.addParam(RichBool(
+			kShowAll,
+			false,
+			"Generalized Ricci Flow: show all parameters",
+			"The dialogs of both filters show the parameters that few runs need, too."));
 }
 
 bool FilterRicciPlugin::applyFilter(

@@ -31,7 +31,7 @@ inline void copyTextures(const MeshModel& from, MeshModel& to)
 	to.cm.textures = from.cm.textures;
 }
 
-/// A parameter that few runs need. This dialog shows all of them, in their order.
+/// A parameter that few runs need. Here the plugin itself leaves them out of the dialog.
 template<class Parameter, class... Arguments>
 Parameter advanced(Arguments&&... arguments)
 {

@@ -11,14 +11,15 @@ window_needs() {
 	[ ${#missing[@]} -eq 0 ] || { echo "not installed: ${missing[*]}"; return 1; }
 }
 
-# A display of its own, a window manager, and settings that keep MeshLab quiet and its canvas white.
-# High enough for the dialog with all parameters; window_screen=WxH asks for another.
+# A display of its own, a window manager, and settings that keep MeshLab quiet and its canvas white,
+# and with window_all_parameters have the filters' dialogs show all parameters.
+# As large as a small laptop's; window_screen=WxH asks for another.
 open_display() {
 	window_folder=$1
 	mkdir -p "$window_folder/home/.config/VCG" "$window_folder/home/runtime"
 	chmod 700 "$window_folder/home/runtime"
 	rm -f "$window_folder/display" # that of an earlier run
-	Xvfb -displayfd 3 -screen 0 "${window_screen:-1400x1100}x24" -nolisten tcp 3>"$window_folder/display" \
+	Xvfb -displayfd 3 -screen 0 "${window_screen:-1366x768}x24" -nolisten tcp 3>"$window_folder/display" \
 		>"$window_folder/xvfb.log" 2>&1 &
 	xvfb_pid=$!
 	wait_until 20 test -s "$window_folder/display" || return 1
@@ -46,6 +47,8 @@ write_settings() {
 	color_setting backgroundTopColor 255 255 255
 	color_setting backgroundBotColor 255 255 255
 	color_setting logAreaColor 90 90 90
+	[ -z "${window_all_parameters-}" ] ||
+		printf 'MeshLab%%3A%%3ARicci%%3A%%3AShowAllParameters="<Param name=\\"MeshLab::Ricci::ShowAllParameters\\" type=\\"RichBool\\" value=\\"true\\"/>"\n'
 }
 
 color_setting() {

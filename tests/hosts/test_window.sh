@@ -38,12 +38,38 @@ solved() {
 	open_meshlab "$program" torus.ply || fail "MeshLab did not open the torus"
 	open_filter "$name" || fail "the filter's dialog did not open"
 	picture "$pictures/dialog.png"
+	fits_the_screen || fail "the dialog is higher than the screen"
 	press_apply "$name"
 	wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "no result in the log"
 	sleep 2
 	picture "$pictures/result.png"
 	kill -0 "$meshlab_pid" || fail "MeshLab has ended"
 	close_meshlab
+}
+
+# Its lower end, where Apply is.
+fits_the_screen() {
+	local X Y WIDTH HEIGHT SCREEN WINDOW screen
+	screen=$(xdotool getdisplaygeometry | cut -d' ' -f2)
+	eval "$(xdotool getwindowgeometry --shell "$(find_window "$name")")"
+	echo "The dialog ends at $((Y + HEIGHT)) of $screen pixels"
+	[ $((Y + HEIGHT)) -le "$screen" ]
+}
+
+# What *Tools > Options* sets is read, and shows the rest.
+all_parameters() {
+	local HEIGHT=0 X Y WIDTH SCREEN WINDOW basic
+	for window_all_parameters in "" yes; do
+		basic=$HEIGHT
+		write_settings >"$XDG_CONFIG_HOME/VCG/MeshLab_64bit_fp.conf"
+		open_meshlab "$program" torus.ply || fail "MeshLab did not open the torus"
+		open_filter "$name" || fail "the filter's dialog did not open"
+		eval "$(xdotool getwindowgeometry --shell "$(find_window "$name")")"
+		close_meshlab
+	done
+	window_all_parameters=
+	echo "The dialog is $basic pixels high, with all parameters $HEIGHT"
+	[ "$HEIGHT" -gt $((basic + 200)) ] || fail "not all parameters are shown"
 }
 
 refused() {
@@ -68,4 +94,5 @@ write_meshes
 open_display "$folder/display" || { echo "SKIPPED: no display could be opened"; exit 77; }
 solved
 refused
+all_parameters
 echo "The filter ran in the window; pictures are in $pictures"
