@@ -8,8 +8,8 @@ namespace filter_ricci {
 namespace {
 
 const char* const kReference =
-	"See: <i>Yong-Liang Yang, Ren Guo, Feng Luo, Shi-Min Hu, Xianfeng Gu</i><br>"
-	"<b>\"Generalized Discrete Ricci Flow\"</b>, Computer Graphics Forum 28(7), 2005-2014, 2009.";
+	"See: Yang, Guo, Luo, Hu, Gu, <i>Generalized Discrete Ricci Flow</i>, Computer Graphics Forum "
+	"28(7), 2009.";
 
 FilterText euclideanText()
 {
@@ -17,12 +17,9 @@ FilterText euclideanText()
 	text.name = "Generalized Ricci Flow (Euclidean)";
 	text.pythonName = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge";
 	text.info =
-		"<b>Conformal parametrization</b> into per-wedge texture coordinates, unrolled from the "
-		"metric with the curvature asked for, which the discrete Ricci flow finds. Thin triangles "
-		"need no remeshing.<br>"
-		"<b>Input:</b> a triangle mesh of any topology.<br>"
-		"<b>Output:</b> texture coordinates (to be seen with <i>Set Texture</i>), the distortion "
-		"(1 = angles kept) as vertex quality.<br>";
+		"<b>Conformal texture coordinates</b> per wedge for any triangle mesh, unrolled from the "
+		"metric with the curvature asked for, which the discrete Ricci flow finds. The vertex "
+		"quality becomes the distortion (1 = angles kept).<br>";
 	text.info += kReference;
 	return text;
 }
@@ -34,11 +31,9 @@ FilterText hyperbolicText()
 	text.pythonName = "compute_texcoord_parametrization_ricci_flow_hyperbolic_per_wedge";
 	text.info =
 		"<b>Hyperbolic uniformization</b>: the metric of curvature -1 that is conformal to the "
-		"mesh's own, unrolled into the Poincaré disk.<br>"
-		"<b>Input:</b> a triangle mesh of negative Euler characteristic (two handles, a handle "
-		"and a boundary, or three boundaries), or any with cones that make up for it.<br>"
-		"<b>Output:</b> texture coordinates (to be seen with <i>Set Texture</i>), the distortion "
-		"(1 = angles kept) as vertex quality, on request the generators of the Fuchsian group.<br>";
+		"mesh's own, unrolled into the Poincaré disk. For meshes of negative Euler characteristic "
+		"(two handles, a handle and a boundary, or three boundaries), or any with cones that make "
+		"up for it. The vertex quality becomes the distortion (1 = angles kept).<br>";
 	text.info += kReference;
 	return text;
 }
