@@ -2,7 +2,9 @@
 #include "support/random.h"
 #include "support/shapes.h"
 
+#include <ricci/base/floating_point.h>
 #include <ricci/charts/finish_in_floats.h>
+#include <ricci/charts/pack.h>
 #include <ricci/math/orientation.h>
 
 #include <gtest/gtest.h>
@@ -42,7 +44,7 @@ bool isUpright(const Triangle2& p)
 	Triangle2 stored = p;
 	for (Point2& q : stored)
 		for (double& x : q)
-			x = static_cast<double>(static_cast<float>(x));
+			x = roundedToFloat(x);
 	return orientation(stored[0], stored[1], stored[2]) > 0;
 }
 
@@ -88,6 +90,50 @@ TEST(FinishInFloats, MendsWhatSmallPatchesInsideDoNot)
 	finishInFloats(
 		mesh, [] {}, map);
 	EXPECT_EQ(turnedIn(map), 0);
+}
+
+TEST(FinishInFloats, MendsTrianglesThatAreChartsOfTheirOwn)
+{
+	// Slivers lower than a step of a float, above and beside each other and a square.
+	SurfaceMesh mesh = rectangle(1, 1, 1.0, 1.0);
+	constexpr int kSlivers = 7;
+	for (int i = 0; i < kSlivers; ++i)
+		mesh = sideBySide(
+			mesh, SurfaceMesh{{{0, 0, 0}, {0.9, 0, 0}, {0.4, 1e-9 * i, 0}}, {{0, 1, 2}}}, 2.0 + i);
+	Parametrization map;
+	for (const Triangle& t : mesh.triangles) {
+		const auto place = [&](std::size_t k) {
+			const Point3& p = mesh.positions[at(t[k])];
+			return Point2{p[0], p[1]};
+		};
+		map.uv.push_back({place(0), place(1), place(2)});
+	}
+	map.reversed.assign(map.uv.size(), 0);
+	map.charts.resize(1 + kSlivers);
+	map.charts[0].faces = {0, 1};
+	for (int i = 0; i < kSlivers; ++i)
+		map.charts[at(1 + i)].faces = {2 + i};
+	for (const bool normalize : {false, true}) {
+		Parametrization packed = map;
+		packCharts(packed, normalize, 0.0, [](const std::vector<Box2>& boxes, double) {
+			std::vector<Point2> shifts;
+			double y = 0.0; // in one column
+			for (const Box2& box : boxes) {
+				shifts.push_back({-box.min[0], y - box.min[1]});
+				y += box.height();
+			}
+			return shifts;
+		});
+		ASSERT_EQ(turnedIn(packed), kSlivers);
+		finishInFloats(
+			mesh, [] {}, packed);
+		EXPECT_EQ(turnedIn(packed), 0);
+		EXPECT_EQ(packed.report.finishMoved, 3 * kSlivers);
+		for (const Chart& chart : packed.charts)
+			for (const int f : chart.faces)
+				for (const Point2& p : packed.uv[at(f)])
+					EXPECT_TRUE(chart.box.contains(p));
+	}
 }
 
 } // namespace

@@ -164,6 +164,34 @@ TEST(PackCharts, RefusesCoordinatesBeyondFloatInTheirOwnScaleOnly)
 	EXPECT_EQ(boxOf(map, map.charts[0]).max[0], 1.0);
 }
 
+TEST(PackCharts, GivesThinChartsRoomOfTheirOwn)
+{
+	const std::vector<Point2> sizes = {{2.0, 1.0}, {1.5, 1e-9}, {1e-9, 1.2}, {1e-9, 1e-9}};
+	constexpr double kLeast = 2e-6; // a height in six decimals, and as much again
+	for (const double margin : {0.0, 0.05}) {
+		Parametrization map = boxes(sizes);
+		packCharts(map, true, margin, inARow);
+		for (std::size_t i = 0; i < sizes.size(); ++i) {
+			const Box2& room = map.charts[i].box;
+			const Box2 own = boxOf(map, map.charts[i]);
+			EXPECT_GE(std::min(room.width(), room.height()), kLeast);
+			for (std::size_t k = 0; k < 2; ++k) {
+				EXPECT_LE(room.min[k], own.min[k]);
+				EXPECT_GE(room.max[k], own.max[k]);
+				EXPECT_NEAR(room.min[k] + room.max[k], own.min[k] + own.max[k], 1e-15);
+				EXPECT_GE(room.min[k], 0.0);
+				EXPECT_LE(room.max[k], 1.0);
+			}
+			for (std::size_t j = 0; j < i; ++j)
+				EXPECT_GE(room.min[0] - map.charts[j].box.max[0], margin - 1e-15);
+		}
+	}
+	Parametrization map = boxes({sizes[0]}); // a wide one is its own box
+	packCharts(map, false, 0.0, inARow);
+	EXPECT_EQ(map.charts[0].box.min, (Point2{0.0, 0.0}));
+	EXPECT_EQ(map.charts[0].box.max, sizes[0]);
+}
+
 TEST(PlaceDisks, GivesEachASquareOfItsOwn)
 {
 	for (int n : {1, 2, 4, 5, 10}) {

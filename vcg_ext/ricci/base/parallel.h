@@ -20,7 +20,18 @@ namespace ricci {
 inline int defaultThreads()
 {
 	constexpr unsigned kMost = 16; // memory is what these loops wait for
-	return static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMost));
+	// Read once: the system opens a file to count its processors.
+	static const int threads =
+		static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMost));
+	return threads;
+}
+
+/// Threads for tasks on so many triangles in all, each of which takes a microsecond or more: one where
+/// the start of another would take longer than the tasks.
+inline int threadsFor(std::int64_t triangles)
+{
+	constexpr std::int64_t kWorthAThread = 1000;
+	return triangles < kWorthAThread ? 1 : defaultThreads();
 }
 
 /// Calls work(first, last) for parts of [0, count), up to \p threads of them at

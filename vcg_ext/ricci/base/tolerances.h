@@ -137,6 +137,10 @@ constexpr double kLeastHeight = 0x1p-21, kLeastFloatSteps = 4.0, kWantedHeights 
 /// Formats of text give coordinates in the unit square with six decimals.
 constexpr double kTextStep = 1e-6;
 
+/// Least sides of the boxes of charts, as a share of the square that holds all of them: room for
+/// triangles of those heights, in six decimals too.
+constexpr double kLeastBoxSide = 0x1p-16;
+
 /// The pieces of a refinement may be as thin as a double shows.
 constexpr double kLeastRefinedHeight = 0x1p-46;
 

@@ -119,7 +119,9 @@ public:
 				chartOfFace[f] = number;
 			++number;
 		}
-		m_boxes.assign(chartCount(), {});
+		m_boxes.clear();
+		for (const Chart& chart : m_map.charts)
+			m_boxes.push_back(chart.box);
 		for (const int f : chartOfFace.indices())
 			for (const Point2& p : m_uv[positionOf(f)])
 				m_boxes[chartOfFace[f]].add(p);
@@ -133,7 +135,7 @@ public:
 				m_chartOfPoint[p] = chart[i];
 	}
 
-	/// Of all triangles of the charts.
+	/// Of all triangles of the charts, and the room that these were given.
 	const Array<Box2>& boxes() const { return m_boxes; }
 
 	int chartOf(int point) const { return m_chartOfPoint[point]; }

@@ -33,6 +33,17 @@ Point2 sum(const Point2& a, const Point2& b)
 	return {a[0] + b[0], a[1] + b[1]};
 }
 
+/// Widens boxes with a side shorter than \p least, about their middles.
+void widen(std::vector<Box2>& boxes, double least)
+{
+	for (Box2& box : boxes)
+		for (std::size_t k = 0; k < 2; ++k)
+			if (const double missing = least - (box.max[k] - box.min[k]); missing > 0.0) {
+				box.min[k] -= 0.5 * missing;
+				box.max[k] += 0.5 * missing;
+			}
+}
+
 /// Rounding may leave the unit square by one unit of the last place.
 void clampToUnitSquare(Parametrization& map)
 {
@@ -41,6 +52,10 @@ void clampToUnitSquare(Parametrization& map)
 			for (Point2& p : triangle)
 				for (double& x : p)
 					x = std::min(std::max(x, 0.0), 1.0);
+	for (Chart& chart : map.charts)
+		for (Point2* p : {&chart.box.min, &chart.box.max})
+			for (double& x : *p)
+				x = std::min(std::max(x, 0.0), 1.0);
 }
 
 void requireFloats(const std::vector<Triangle2>& triangles)
@@ -72,6 +87,13 @@ void packCharts(Parametrization& map, bool normalize, double margin, const Place
 	std::vector<Box2> boxes;
 	for (const Chart& chart : map.charts)
 		boxes.push_back(boxOf(map, chart));
+	// The square that holds all has this side at least.
+	double area = 0.0, extent = 0.0;
+	for (const Box2& box : boxes) {
+		area += box.width() * box.height();
+		extent = std::max(extent, box.extent());
+	}
+	widen(boxes, kLeastBoxSide * std::max(extent, std::sqrt(area)));
 	// The margin is a share of a square that grows with the margin.
 	std::vector<Point2> shift;
 	double size = 0.0, room = 0.0;
@@ -88,10 +110,16 @@ void packCharts(Parametrization& map, bool normalize, double margin, const Place
 		}
 		size = whole.extent() + 2.0 * room;
 	}
+	const auto place = [&](std::size_t i, double scale, const Point2& by) {
+		const auto placed = [&](const Point2& p) {
+			return Point2{scale * p[0] + by[0], scale * p[1] + by[1]};
+		};
+		transformChart(map, map.charts[i], scale, by);
+		map.charts[i].box = {placed(boxes[i].min), placed(boxes[i].max)};
+	};
 	if (!normalize) {
-		if (boxes.size() > 1)
-			for (std::size_t i = 0; i < boxes.size(); ++i)
-				transformChart(map, map.charts[i], 1.0, shift[i]);
+		for (std::size_t i = 0; i < boxes.size(); ++i)
+			place(i, 1.0, boxes.size() > 1 ? shift[i] : Point2{0.0, 0.0});
 		requireFloats(map.uv);
 		requireFloats(map.refined.uv);
 		return;
@@ -99,11 +127,7 @@ void packCharts(Parametrization& map, bool normalize, double margin, const Place
 	const Point2 corner{whole.min[0] - room, whole.min[1] - room};
 	const double scale = 1.0 / size;
 	for (std::size_t i = 0; i < boxes.size(); ++i)
-		transformChart(
-			map,
-			map.charts[i],
-			scale,
-			{(shift[i][0] - corner[0]) * scale, (shift[i][1] - corner[1]) * scale});
+		place(i, scale, {(shift[i][0] - corner[0]) * scale, (shift[i][1] - corner[1]) * scale});
 	clampToUnitSquare(map);
 }
 

@@ -27,7 +27,9 @@ bool marginsMayFit(std::size_t charts, double margin);
 
 /// Places the bounding boxes of the charts beside each other, and moves the charts there. With \p
 /// normalize the smallest square round all boxes with their margins is then scaled to [0, 1]^2.
-/// Without it the charts keep their scale, and a single chart keeps its place.
+/// Without it the charts keep their scale, and a single chart keeps its place. A chart that is thinner
+/// than what floats show of the whole gets a wider box, in which its triangles may be given a height
+/// (finishInFloats()). Fills Chart::box.
 /// \param margin least distance of two charts, and of a chart from the border of the unit square, as
 /// a share of the side of that square, between 0 and kMaxChartMargin
 /// \throw InvalidOption ChartMargin, or ChartMarginTooWide if so many charts do not fit with it;

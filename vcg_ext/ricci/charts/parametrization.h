@@ -19,6 +19,7 @@ struct Chart
 	std::vector<int> faces;   ///< of the opened mesh
 	std::vector<int> refined; ///< indices into RefinedMesh::triangles
 	FuchsianGroup group;      ///< hyperbolic flow
+	Box2 box;                 ///< the room that packCharts() has given it
 };
 
 /// The common refinement of the input with the triangles on which the map was found.

@@ -124,10 +124,14 @@ std::vector<Untangled>
 solveAll(const std::vector<Patch>& patches, const Tick& tick, const Solve& solve)
 {
 	std::vector<Untangled> found(patches.size());
+	std::int64_t triangles = 0;
+	for (const Patch& patch : patches)
+		triangles += static_cast<std::int64_t>(patch.triangles.size());
 	tasksInParallel(
-		static_cast<int>(patches.size()), defaultThreads(), tick, [&](int i, const Tick& own) {
-			found[positionOf(i)] = solve(patches[positionOf(i)], own);
-		});
+		static_cast<int>(patches.size()),
+		threadsFor(kExpectedSteps * triangles),
+		tick,
+		[&](int i, const Tick& own) { found[positionOf(i)] = solve(patches[positionOf(i)], own); });
 	return found;
 }
 

@@ -406,9 +406,10 @@ ComponentMap flatten(
 	EdgeArray<double> cost = cutCost(domain, map.flow, options);
 	avoidDiagonals(domain.isDiagonal, cost);
 	const HalfedgeArray<double> corners = cutCorners(domain, map, options);
+	const int threads = threadsFor(domain.surface.triangulation.faceCount());
 	LinkedPieces overlay;
 	besides(
-		defaultThreads(),
+		threads,
 		[&] { progress.step(1.0 - kAfterFlow, "Shortening the seams"); },
 		[&] { overlay = flowOverlay(domain, options, progress, map); },
 		[&](const Tick& tick) {
@@ -420,7 +421,7 @@ ComponentMap flatten(
 	measureInvariants(domain, options, map);
 	const Tick repairing = [&] { progress.step(1.0 - kAfterFlow, "Repairing the map"); };
 	besides(
-		defaultThreads(),
+		threads,
 		repairing,
 		[&] { finish(domain, options, repairing, map); },
 		[&](const Tick& tick) {
