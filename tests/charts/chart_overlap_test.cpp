@@ -88,24 +88,79 @@ TEST(ChartOverlap, OfARingBeginsPastAFullTurn)
 		EXPECT_FALSE(overlappingPairs(drawn(sector(2 * kPi * turns, 60, 4))).empty()) << turns;
 }
 
-/// All triangles of a fan have its apex in common, so that each pair of boxes in a quarter meets.
+/// Triangles round a vertex that go round it by \p angle, to the distances \p radius(i).
+template<class Radius>
+SurfaceMesh fan(int n, double angle, const Radius& radius)
+{
+	SurfaceMesh mesh;
+	mesh.positions.push_back({0, 0, 0});
+	for (int i = 0; i <= n; ++i) {
+		const double a = angle * i / n, r = radius(i);
+		mesh.positions.push_back({r * std::cos(a), r * std::sin(a), 0});
+		if (i < n)
+			mesh.triangles.push_back({0, 1 + i, 2 + i});
+	}
+	return mesh;
+}
+
+/// All triangles of a fan have its apex in common, so that the boxes in a quarter meet in pairs. Those
+/// that overlap are few.
+TEST(ChartOverlap, OfAFanTakesHardlyMoreStepsThanItHasTriangles)
+{
+	Random random(403);
+	std::vector<double> radii(16001);
+	for (double& r : radii)
+		r = random.real(0.1, 1.0);
+	const auto round = [](int) { return 1.0; };
+	const auto star = [&](int i) { return radii[at(i)]; };
+	for (int kind = 0; kind < 4; ++kind) {
+		std::array<double, 2> steps{};
+		for (const int n : {4000, 16000}) {
+			SurfaceMesh mesh = kind % 2 == 0 ? fan(n, 7.0, round) : fan(n, 7.0, star);
+			if (kind > 1) // a triangle is turned round
+				std::swap(mesh.triangles[at(n / 3)][1], mesh.triangles[at(n / 3)][2]);
+			const DrawnChart chart = drawn(mesh);
+			const OverlapSearch search(chart);
+			// 7 - 2 pi of the angle is covered twice, where each triangle meets two others.
+			const double twice = n * (1.0 - 2 * kPi / 7.0);
+			EXPECT_NEAR(static_cast<double>(search.pairs().size()), 2 * twice, 4.0) << kind;
+			steps[n == 4000 ? 0 : 1] = static_cast<double>(search.steps());
+		}
+		EXPECT_LT(steps[1], (kind % 2 == 0 ? 5.0 : 8.0) * steps[0]) << kind; // n^2: 16 times
+	}
+}
+
+/// With the outlines of nodes, from which on none are compared.
+TEST(ChartOverlap, OfFansIsWhatAllPairsGive)
+{
+	Random random(404);
+	for (const double angle : {3.0, 6.2, 7.0, 20.0}) {
+		SurfaceMesh mesh = fan(700, angle, [&](int) { return random.real(0.05, 1.0); });
+		const SurfaceMesh other = fan(300, 6.0, [&](int) { return random.real(0.05, 1.0); });
+		mesh = sideBySide(mesh, other, 0.3);
+		const DrawnChart chart = drawn(mesh);
+		const double touching = 1e-9 * boxTreeOf(chart.plane).extent();
+		std::vector<TrianglePair> pairs;
+		for (const int i : chart.plane.indices())
+			for (const int j : chart.plane.indices())
+				if (i < j && overlap(chart.plane[i], chart.plane[j], touching))
+					pairs.push_back({i, j});
+		const OverlapSearch search(chart);
+		EXPECT_GT(search.steps(), 64 * chart.plane.size());
+		EXPECT_EQ(search.pairs(), pairs) << angle;
+	}
+}
+
 TEST(ChartOverlap, ALongSearchIsHeardAndCanBeEnded)
 {
-	const int n = 6000;
-	SurfaceMesh fan;
-	fan.positions.push_back({0, 0, 0});
-	for (int i = 0; i < n; ++i) {
-		const double angle = 2 * kPi * i / n;
-		fan.positions.push_back({std::cos(angle), std::sin(angle), 0});
-		fan.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
-	}
+	const SurfaceMesh mesh = fan(60000, 2 * kPi, [](int) { return 1.0; });
 	int ticks = 0;
-	EXPECT_TRUE(overlappingPairs(drawn(fan), [&] { ++ticks; }).empty());
+	EXPECT_TRUE(overlappingPairs(drawn(mesh), [&] { ++ticks; }).empty());
 	EXPECT_GE(ticks, 3);
 	int ticksLeft = 2;
 	EXPECT_THROW(
 		overlappingPairs(
-			drawn(fan),
+			drawn(mesh),
 			[&] {
 				if (--ticksLeft == 0)
 					throw Cancelled();

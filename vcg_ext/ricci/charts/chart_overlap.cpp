@@ -2,16 +2,30 @@
 #include "chart_overlap.h"
 
 #include "../base/tolerances.h"
+#include "../math/convex_hull.h"
 #include "../math/orientation.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace ricci {
 
 namespace {
 
-/// Pairs of boxes that are looked at between two ticks.
-constexpr int kPairsBetweenTicks = 1 << 20;
+/// Steps, and outlines that are joined, between two ticks.
+constexpr std::int64_t kStepsBetweenTicks = 1 << 18;
+constexpr int kJoinsBetweenTicks = 1 << 14;
+
+/// Steps for each triangle from which on outlines save more than they cost: boxes of triangles of
+/// good shape meet in about ten pairs.
+constexpr std::int64_t kManySteps = 64;
+
+/// Corners of the outline of a node.
+constexpr std::size_t kMaxCorners = 8;
 
 /// Whether \p r lies deeper than \p touching to the left of the line from \p p to \p q.
 bool isDeeper(const Point2& p, const Point2& q, const Point2& r, double touching)
@@ -23,16 +37,18 @@ bool isDeeper(const Point2& p, const Point2& q, const Point2& r, double touching
 		   (area > touching * (x + y) || area > touching * distance(p, q));
 }
 
-/// Whether a side of \p a has \p b on its outer side, or no deeper inside than \p touching.
-bool separates(const Triangle2& a, const Triangle2& b, double touching)
+/// Whether a side of \p a has \p b on its outer side, or no deeper inside than \p touching, or there is
+/// no side. Both are corners of counter-clockwise convex polygons, b of a point, too.
+template<class PolygonA, class PolygonB>
+bool separates(const PolygonA& a, const PolygonB& b, double touching)
 {
-	for (std::size_t k = 0; k < 3; ++k) {
-		const Point2 &p = a[k], &q = a[(k + 1) % 3];
-		if (!isDeeper(p, q, b[0], touching) && !isDeeper(p, q, b[1], touching) &&
-			!isDeeper(p, q, b[2], touching))
+	for (std::size_t k = 0; k < a.size(); ++k) {
+		const Point2 &p = a[k], &q = a[k + 1 < a.size() ? k + 1 : 0];
+		if (std::none_of(
+				b.begin(), b.end(), [&](const Point2& r) { return isDeeper(p, q, r, touching); }))
 			return true;
 	}
-	return false;
+	return a.empty();
 }
 
 /// Mean of the corners of the common part of two counter-clockwise triangles.
@@ -92,12 +108,18 @@ OverlapSearch::OverlapSearch(const DrawnChart& chart, const Tick& tick, double e
 		proper[i] = orientation(m_plane[i][0], m_plane[i][1], m_plane[i][2]) > 0;
 	const bool hasFolds = std::find(proper.begin(), proper.end(), 0) != proper.end();
 	const double touching = kTouching * std::max(extent, m_tree.extent());
-	int untilTick = kPairsBetweenTicks;
-	m_tree.meetingPairs([&](int i, int j) {
-		if (--untilTick == 0) {
-			untilTick = kPairsBetweenTicks;
+	m_nothing = 0.5 * touching;
+	std::int64_t nextTick = kStepsBetweenTicks;
+	const auto step = [&] {
+		if (++m_steps >= nextTick) {
+			nextTick = m_steps + kStepsBetweenTicks;
 			tick();
 		}
+		if (m_outlines.empty() && m_steps > kManySteps * m_plane.size())
+			makeOutlines(tick);
+	};
+	const auto compare = [&](int i, int j) {
+		step();
 		if (!proper[i] || !proper[j] || !overlap(m_plane[i], m_plane[j], touching))
 			return;
 		const TrianglePair pair{std::min(i, j), std::max(i, j)};
@@ -110,8 +132,36 @@ OverlapSearch::OverlapSearch(const DrawnChart& chart, const Tick& tick, double e
 			else
 				m_hidden.push_back({pair, p});
 		}
+	};
+	m_tree.meetingPairs(compare, [&](int a, int b) {
+		step();
+		return !m_outlines.empty() && (separates(m_outlines[a], m_outlines[b], m_nothing) ||
+									   separates(m_outlines[b], m_outlines[a], m_nothing));
 	});
 	std::sort(m_pairs.begin(), m_pairs.end());
+}
+
+/// A convex polygon round the triangles of each node that are not flat. Two triangles overlap no deeper
+/// than such polygons do: the least depth of two convex polygons is that along a side of one of them.
+void OverlapSearch::makeOutlines(const Tick& tick)
+{
+	int joins = 0;
+	using Outline = std::vector<Point2>;
+	m_outlines = m_tree.valuesOfNodes<Outline>(
+		[&](int i) {
+			Outline corners(m_plane[i].begin(), m_plane[i].end());
+			const int turn = orientation(corners[0], corners[1], corners[2]);
+			if (turn < 0)
+				std::swap(corners[1], corners[2]);
+			return turn == 0 ? Outline() : corners;
+		},
+		[&](const Outline& a, const Outline& b) {
+			if (++joins % kJoinsBetweenTicks == 0)
+				tick();
+			Outline both = a;
+			both.insert(both.end(), b.begin(), b.end());
+			return simpleOutline(convexHull(std::move(both)), kMaxCorners);
+		});
 }
 
 /// Triangles round \p p less those turned round, of those that are counted: the winding number of
@@ -120,12 +170,18 @@ template<class IsCounted>
 int OverlapSearch::cover(const Point2& p, const IsCounted& isCounted) const
 {
 	int sum = 0;
-	m_tree.boxesAround(p, [&](int i) {
+	const auto add = [&](int i) {
+		++m_steps;
 		const Triangle2& c = m_plane[i];
 		const int first = isCounted(i) ? orientation(c[0], c[1], p) : 0;
 		if (first != 0 && orientation(c[1], c[2], p) == first &&
 			orientation(c[2], c[0], p) == first)
 			sum += first;
+	};
+	m_tree.boxesAround(p, add, [&](int node) {
+		++m_steps;
+		return !m_outlines.empty() &&
+			   separates(m_outlines[node], std::array<Point2, 1>{p}, -m_nothing);
 	});
 	return sum;
 }

@@ -9,6 +9,7 @@
 #include "../surface/surface_mesh.h"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace ricci {
@@ -35,8 +36,10 @@ bool overlap(const Triangle2& a, const Triangle2& b, double touching);
 
 /// Finds pairs of triangles that cover a part of the plane twice.
 ///
-/// These overlap() by more than kTouching. Candidates come from a tree of bounding boxes. So neither
-/// the chart's topology nor its boundary matters: holes, slits whose sides coincide, and parts that
+/// These overlap() by more than kTouching. Candidates come from a tree of bounding boxes; where these
+/// meet in many more pairs than there are triangles, as they do round a vertex of many long triangles,
+/// convex outlines of the tree's nodes are compared, too. So neither the chart's topology nor its
+/// boundary matters: holes, slits whose sides coincide, and parts that
 /// touch in points or along lines are no overlap; a cone of more than 2 pi at a boundary vertex is.
 ///
 /// Where triangles are turned round, the fold covers points three times although the chart goes on
@@ -49,8 +52,7 @@ class OverlapSearch
 public:
 	/// \param extent of the layout that the chart is a part of: how closely its sides can be expected
 	/// to meet. The chart's own where that is larger.
-	/// \param tick heard many times a second: the boxes of the n triangles round one vertex meet in as
-	/// many as n^2 / 2 pairs
+	/// \param tick heard many times a second: n triangles may overlap in n^2 / 2 pairs
 	explicit OverlapSearch(
 		const DrawnChart& chart, const Tick& tick = [] {}, double extent = 0.0);
 
@@ -63,7 +65,12 @@ public:
 
 	const BoxTree& tree() const { return m_tree; }
 
+	/// Pairs of boxes, pairs of nodes and boxes round points that have been looked at.
+	std::int64_t steps() const { return m_steps; }
+
 private:
+	void makeOutlines(const Tick& tick);
+
 	template<class IsCounted>
 	int cover(const Point2& p, const IsCounted& isCounted) const;
 
@@ -75,6 +82,9 @@ private:
 
 	const Array<Triangle2>& m_plane;
 	BoxTree m_tree;
+	Array<std::vector<Point2>> m_outlines; ///< [node of the tree], or none
+	double m_nothing = 0.0; ///< depth that outlines have in common where they are apart
+	mutable std::int64_t m_steps = 0;
 	std::vector<TrianglePair> m_pairs;
 	std::vector<HiddenPair> m_hidden;
 };

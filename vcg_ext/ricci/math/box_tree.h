@@ -21,6 +21,13 @@ public:
 	template<class Visit>
 	void meetingPairs(const Visit& visit) const
 	{
+		meetingPairs(visit, [](int, int) { return false; });
+	}
+
+	/// The same without the pairs that lie in two nodes for which areApart(node, node).
+	template<class Visit, class AreApart>
+	void meetingPairs(const Visit& visit, const AreApart& areApart) const
+	{
 		if (m_nodes.empty())
 			return;
 		std::vector<std::array<int, 2>> stack{{0, 0}};
@@ -28,7 +35,7 @@ public:
 			const auto [a, b] = stack.back();
 			stack.pop_back();
 			const Node &x = m_nodes[a], &y = m_nodes[b];
-			if (a != b && !x.box.meets(y.box))
+			if (a != b && (!x.box.meets(y.box) || areApart(a, b)))
 				continue;
 			if (x.isLeaf() && y.isLeaf()) {
 				for (int i = x.first; i < x.last; ++i)
@@ -56,19 +63,44 @@ public:
 	template<class Visit>
 	void boxesAround(const Point2& p, const Visit& visit) const
 	{
+		boxesAround(p, visit, [](int) { return false; });
+	}
+
+	/// The same without the boxes in nodes for which isOutside(node).
+	template<class Visit, class IsOutside>
+	void boxesAround(const Point2& p, const Visit& visit, const IsOutside& isOutside) const
+	{
 		search(
 			[&](const Box2& box) { return box.contains(p); },
 			[&](int i) {
 				visit(i);
 				return false;
-			});
+			},
+			isOutside);
+	}
+
+	/// For each node join() of the values of its boxes, from ofBox(i), beginning with Value().
+	template<class Value, class OfBox, class Join>
+	Array<Value> valuesOfNodes(const OfBox& ofBox, const Join& join) const
+	{
+		Array<Value> values(m_nodes.size());
+		for (int node = m_nodes.size() - 1; node >= 0; --node) { // those below come after it
+			const Node& x = m_nodes[node];
+			if (!x.isLeaf())
+				values[node] = join(values[x.left], values[x.right]);
+			else
+				for (int i = x.first; i < x.last; ++i)
+					values[node] = join(values[node], ofBox(m_order[i]));
+		}
+		return values;
 	}
 
 	/// Whether isFound(i) for a box that has inner points in common with \p box; no other is asked then.
 	template<class IsFound>
 	bool meetsAny(const Box2& box, const IsFound& isFound) const
 	{
-		return search([&](const Box2& own) { return own.meets(box); }, isFound);
+		return search(
+			[&](const Box2& own) { return own.meets(box); }, isFound, [](int) { return false; });
 	}
 
 	/// Longer side of the box round all boxes; 0 where there are none.
@@ -92,17 +124,19 @@ private:
 
 	int build(Array<Item>& items, const std::vector<Box2>& boxes, int first, int last);
 
-	/// Calls isFound(i) for the boxes for which \p concerns holds, as for all round them, until one is.
-	template<class Concerns, class IsFound>
-	bool search(const Concerns& concerns, const IsFound& isFound) const
+	/// Calls isFound(i) for the boxes for which \p concerns holds, as for all round them, until one is;
+	/// not for those in nodes that \p isLeftOut.
+	template<class Concerns, class IsFound, class IsLeftOut>
+	bool search(const Concerns& concerns, const IsFound& isFound, const IsLeftOut& isLeftOut) const
 	{
 		if (m_nodes.empty())
 			return false;
 		std::vector<int> stack{0};
 		while (!stack.empty()) {
-			const Node& x = m_nodes[stack.back()];
+			const int node = stack.back();
+			const Node& x = m_nodes[node];
 			stack.pop_back();
-			if (!concerns(x.box))
+			if (!concerns(x.box) || isLeftOut(node))
 				continue;
 			if (!x.isLeaf()) {
 				stack.push_back(x.left);

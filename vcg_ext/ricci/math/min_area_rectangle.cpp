@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "min_area_rectangle.h"
 
-#include "orientation.h"
+#include "convex_hull.h"
 
 #include <algorithm>
 #include <array>
@@ -12,68 +12,6 @@
 namespace ricci {
 
 namespace {
-
-/// More than the rounding error of a doubled area, in units of the square of the largest coordinate.
-constexpr double kAreaRounding = 64.0 * std::numeric_limits<double>::epsilon();
-
-/// Drops points inside the polygon of those that are farthest in eight directions, as far as doubles
-/// tell: they are no corners of the convex hull.
-void dropInside(std::vector<Point2>& points)
-{
-	static constexpr std::array<Point2, 8> directions{
-		{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
-	std::array<double, 8> farthest;
-	farthest.fill(-std::numeric_limits<double>::infinity());
-	std::array<Point2, 8> polygon{}; // counter-clockwise
-	double largest = 0.0;
-	for (const Point2& p : points) {
-		largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
-		for (std::size_t k = 0; k < 8; ++k)
-			if (const double along = directions[k][0] * p[0] + directions[k][1] * p[1];
-				along > farthest[k]) {
-				farthest[k] = along;
-				polygon[k] = p;
-			}
-	}
-	// A polygon that is seen counter-clockwise on all sides goes round.
-	const double least =
-		std::max(kAreaRounding * largest * largest, std::numeric_limits<double>::min());
-	const auto isInside = [&](const Point2& p) {
-		for (std::size_t k = 0; k < 8; ++k) {
-			const Point2 &a = polygon[k], &b = polygon[(k + 1) % 8];
-			if (a != b && !(doubledArea(a, b, p) > least))
-				return false;
-		}
-		return true;
-	};
-	if (polygon.front() != polygon[4] || polygon[2] != polygon[6])
-		points.erase(std::remove_if(points.begin(), points.end(), isInside), points.end());
-}
-
-/// Corners of the convex hull, counter-clockwise (monotone chain
-/// [Andrew 1979]).
-std::vector<Point2> convexHull(std::vector<Point2> points)
-{
-	if (!points.empty())
-		dropInside(points);
-	std::sort(points.begin(), points.end());
-	points.erase(std::unique(points.begin(), points.end()), points.end());
-	if (points.size() < 3)
-		return points;
-	std::vector<Point2> hull;
-	for (int pass = 0; pass < 2; ++pass) {
-		const std::size_t start = hull.size();
-		for (const Point2& p : points) {
-			while (hull.size() >= start + 2 &&
-				   orientation(hull[hull.size() - 2], hull.back(), p) <= 0)
-				hull.pop_back();
-			hull.push_back(p);
-		}
-		hull.pop_back();
-		std::reverse(points.begin(), points.end());
-	}
-	return hull;
-}
 
 /// The rectangle whose lower side is that of a convex polygon from corner \p i, without min and max.
 OrientedRectangle frameAlong(const std::vector<Point2>& hull, std::size_t i)

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "drawn_square.h"
+
+#include "support/random.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/finish/untangle.h>
+#include <ricci/math/orientation.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+using Complex = std::complex<double>;
+
+const Soundness kSound{1e-4, 1e-2, false};
+
+/// The whole of a drawing as one patch, with the shapes of the surface.
+struct Whole
+{
+	DrawnTriangles drawn;
+	PointGroups groups;
+	Patch patch;
+	std::vector<RestShape> shapes;
+
+	explicit Whole(DrawnTriangles d) : drawn(std::move(d)), groups(insidePoints(drawn))
+	{
+		const int middle = vertexAt(kSide / 2, kSide / 2);
+		std::vector<int> seeds;
+		for (const int f : drawn.corners.indices())
+			for (const int p : drawn.corners[f])
+				if (p == middle)
+					seeds.push_back(f);
+		std::vector<Patch> patches = PatchFinder(drawn, groups).patches(seeds, 2 * kSide);
+		patch = patches.at(0);
+		shapes = restShapes(drawn, patch, RestShapes::OfSurfaceEvenly, kSound);
+	}
+
+	/// The drawing with the patch's points at \p places.
+	DrawnTriangles with(const std::vector<Point2>& places) const
+	{
+		DrawnTriangles moved = drawn;
+		for (std::size_t i = 0; i < places.size(); ++i)
+			moved.points[patch.points[i]] = places[i];
+		return moved;
+	}
+
+	double strainOf(const DrawnTriangles& d) const
+	{
+		double sum = 0.0;
+		for (std::size_t i = 0; i < shapes.size(); ++i)
+			sum += strain(shapes[i], d.at(patch.triangles[i]));
+		return sum;
+	}
+};
+
+int notCounterClockwise(const DrawnTriangles& drawn)
+{
+	int count = 0;
+	for (const int f : drawn.corners.indices()) {
+		const Triangle2 p = drawn.at(f);
+		count += orientation(p[0], p[1], p[2]) != 1;
+	}
+	return count;
+}
+
+double sumOfAreas(const DrawnTriangles& drawn)
+{
+	double sum = 0.0;
+	for (const int f : drawn.corners.indices()) {
+		const Triangle2 p = drawn.at(f);
+		sum += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
+	}
+	return sum;
+}
+
+/// A map of a disk that keeps the border of a convex region and turns no triangle covers it once.
+TEST(Untangle, MakesATangledSquareInjectiveAndKeepsItsBorder)
+{
+	for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+		SCOPED_TRACE(seed);
+		const Whole whole(tangled(20, seed));
+		ASSERT_EQ(whole.patch.triangles.size(), std::size_t(2 * kSide * kSide));
+		ASSERT_EQ(whole.patch.variables, (kSide - 1) * (kSide - 1));
+		ASSERT_GT(notCounterClockwise(whole.drawn), 0);
+		ASSERT_GT(sumOfAreas(whole.drawn), kSide * kSide + 0.1);
+		const Untangled result =
+			untangle(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, [] {});
+		ASSERT_TRUE(result.sound);
+		EXPECT_GT(result.steps, 0);
+		const DrawnTriangles moved = whole.with(result.points);
+		EXPECT_EQ(notCounterClockwise(moved), 0);
+		EXPECT_NEAR(sumOfAreas(moved), kSide * kSide, 1e-10);
+		for (const int p : moved.points.indices())
+			if (!isInside(p)) {
+				EXPECT_EQ(moved.points[p], whole.drawn.points[p]);
+			}
+		for (const int f : moved.corners.indices())
+			EXPECT_TRUE(kSound.isSound(moved.at(f)));
+	}
+}
+
+/// The rest shapes fit together inside the border: there the energy is least.
+TEST(Untangle, FindsTheSurfaceWhereItIsFlat)
+{
+	for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+		const Whole whole(tangled(20, seed));
+		const Untangled sound =
+			untangle(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, [] {});
+		ASSERT_TRUE(sound.sound);
+		const DrawnTriangles moved = whole.with(sound.points), flat = square();
+		const Untangled eased = ease(moved, whole.groups, whole.patch, whole.shapes, kSound, [] {});
+		ASSERT_TRUE(eased.sound);
+		const DrawnTriangles last = whole.with(eased.points);
+		EXPECT_LE(whole.strainOf(last), whole.strainOf(moved));
+		EXPECT_LT(whole.strainOf(last), 1.002 * (2.0 * kSide * kSide)); // the least: 1 each
+		for (const int p : last.points.indices())
+			EXPECT_LT(distance(last.points[p], flat.points[p]), 0.03);
+	}
+}
+
+/// Three corners on the border decide: no point that moves can mend the triangle.
+TEST(Untangle, SaysWhatItCannotMend)
+{
+	DrawnTriangles drawn = tangled(20, 3);
+	drawn.points[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0};
+	const Whole whole(drawn);
+	const int before = notCounterClockwise(drawn);
+	const Untangled result =
+		untangle(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, [] {});
+	EXPECT_FALSE(result.sound);
+	ASSERT_FALSE(result.points.empty());
+	const int after = notCounterClockwise(whole.with(result.points));
+	EXPECT_GT(after, 0);
+	EXPECT_LT(after, before);
+}
+
+TEST(Untangle, IsHeardAndCanBeEnded)
+{
+	const Whole whole(tangled(20, 5));
+	int ticks = 0;
+	const Untangled result =
+		untangle(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, [&] { ++ticks; });
+	EXPECT_EQ(ticks, result.steps);
+	EXPECT_THROW(
+		untangle(
+			whole.drawn,
+			whole.groups,
+			whole.patch,
+			whole.shapes,
+			kSound,
+			[] { throw std::runtime_error("enough"); }),
+		std::runtime_error);
+}
+
+TEST(Ease, LowersTheStrainAndStaysSound)
+{
+	// Inner points are moved by less than what turns a triangle.
+	DrawnTriangles drawn = square();
+	Random random(930);
+	for (const int p : drawn.points.indices())
+		if (isInside(p))
+			drawn.points[p] = {
+				drawn.points[p][0] + random.real(-0.2, 0.2),
+				drawn.points[p][1] + random.real(-0.2, 0.2)};
+	const Whole whole(drawn);
+	ASSERT_EQ(notCounterClockwise(drawn), 0);
+	const Untangled result =
+		ease(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, [] {});
+	ASSERT_TRUE(result.sound);
+	const DrawnTriangles eased = whole.with(result.points);
+	EXPECT_EQ(notCounterClockwise(eased), 0);
+	EXPECT_GT(whole.strainOf(drawn), 2.0 * kSide * kSide + 1.0);
+	EXPECT_LT(whole.strainOf(eased), 1.002 * (2.0 * kSide * kSide)); // the least: 1 each
+}
+
+TEST(Ease, LeavesWhatIsNotSoundAlone)
+{
+	const Whole whole(tangled(20, 7));
+	const Untangled result =
+		ease(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, [] {});
+	EXPECT_FALSE(result.sound);
+	EXPECT_EQ(result.steps, 0);
+}
+
+/// (|J|^2 + lambda (1 + det^2 J)) / det J over its value for the rest shape, with lambda = 0.1.
+TEST(Strain, IsThatOfTheSingularValues)
+{
+	Random random(931);
+	for (int trial = 0; trial < 200; ++trial) {
+		const RestShape shape{
+			random.real(0.1, 3.0), Complex(random.real(-2.0, 2.0), random.real(0.05, 2.0))};
+		const double s = random.real(0.2, 4.0), t = random.real(0.2, 4.0);
+		const Complex before = std::polar(1.0, random.real(0.0, 2 * kPi));
+		const Complex after = std::polar(1.0, random.real(0.0, 2 * kPi));
+		const Complex shift(random.real(-5, 5), random.real(-5, 5));
+		const auto mapped = [&](Complex z, double sign) {
+			z *= before;
+			return asPoint(after * Complex(s * z.real(), sign * t * z.imag()) + shift);
+		};
+		const auto triangle = [&](double sign) {
+			return Triangle2{mapped(0.0, sign), mapped(shape.base, sign), mapped(shape.apex, sign)};
+		};
+		const double expected = (s * s + t * t + 0.1 * (1.0 + s * s * t * t)) / (s * t) / 2.2;
+		EXPECT_NEAR(strain(shape, triangle(1.0)), expected, 1e-9 * expected);
+		EXPECT_EQ(strain(shape, triangle(-1.0)), std::numeric_limits<double>::infinity());
+	}
+	const RestShape unit{1.0, Complex(0.0, 1.0)};
+	EXPECT_NEAR(strain(unit, {{{0, 0}, {1, 0}, {0, 1}}}), 1.0, 1e-15);
+	EXPECT_EQ(strain(unit, {{{0, 0}, {1, 0}, {2, 0}}}), std::numeric_limits<double>::infinity());
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "dense_flow.h"
+#include "linearised.h"
+
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/target/cone_model.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+LinearCase closed(int genus, double noise = 0.05)
+{
+	Random random(900);
+	return {"", shaken(perforatedSlab(genus, 2), noise, random), ConeBoundary::Fixed};
+}
+
+/// Five cones, the curvatures of which are given or fitted.
+std::vector<Vertex> someVertices()
+{
+	return {Vertex(3), Vertex(40), Vertex(17), Vertex(29), Vertex(8)};
+}
+
+std::vector<Vertex> conesOf(const ConeModel& model)
+{
+	std::vector<Vertex> vertices;
+	for (int i = 0; i < model.size(); ++i)
+		vertices.push_back(model.vertex(i));
+	return vertices;
+}
+
+std::vector<double> curvaturesOf(const ConeModel& model)
+{
+	std::vector<double> curvatures;
+	for (int i = 0; i < model.size(); ++i)
+		curvatures.push_back(model.curvature(i));
+	return curvatures;
+}
+
+/// \p phi less its mean by area: fields of closed surfaces are known up to a constant.
+VertexVector centred(VertexVector phi, const VertexVector& area)
+{
+	phi.array() -= area.dot(phi);
+	return phi;
+}
+
+/// The factor of the metric with curvature \p k.
+VertexVector factorOf(const DenseFlow& dense, const VertexVector& k)
+{
+	return dense.solve(k - dense.curvature);
+}
+
+/// The field phi with L phi = A u, up to a constant: L is symmetric.
+VertexVector gradientOf(const DenseFlow& dense, const VertexVector& u)
+{
+	return dense.solve(dense.area.cwiseProduct(u));
+}
+
+VertexVector conesAlone(const ConeModel& model, int size)
+{
+	VertexVector k = VertexVector::Zero(size);
+	for (int i = 0; i < model.size(); ++i)
+		k[model.vertex(i)] += model.curvature(i);
+	return k;
+}
+
+/// No angle is below a right one: a cone has 3 pi / 2 at most.
+TEST(ConeModel, NeedsAsManyConesAsTheTotalAsksFor)
+{
+	for (int genus = 0; genus <= 2; ++genus) {
+		Linearised linear(closed(genus));
+		const ConeModel model(linear.flow, 2 * kPi * (2 - 2 * genus));
+		EXPECT_TRUE(model.hasFixedSum());
+		EXPECT_EQ(
+			model.minSize(),
+			genus == 0   ? 3
+			: genus == 1 ? 0
+						 : 1); // ceil(4 pi / (3 pi / 2)) = 3
+	}
+	LinearCase open = closed(0);
+	open.mesh = withoutStars(open.mesh, {0});
+	Linearised linear(open);
+	const ConeModel model(linear.flow, 2 * kPi);
+	EXPECT_FALSE(model.hasFixedSum());
+	EXPECT_EQ(model.minSize(), 0);
+}
+
+/// A box is flat but for its corners: with cones there u is 0, and the best curvatures are its own.
+TEST(ConeModel, OfABoxIsExactWithConesAtItsCorners)
+{
+	Linearised linear({"", perforatedSlab(0, 3), ConeBoundary::Fixed});
+	ConeModel model(linear.flow, 4 * kPi);
+	const VertexVector& own = linear.flow.curvature();
+	EXPECT_GT(model.distortion(), 0.1); // curvature is needed somewhere
+	for (const Vertex v : own.indices())
+		if (own[v] > 1.0)
+			model.append(v);
+	model.append(Vertex(static_cast<int>(
+		std::find_if(own.begin(), own.end(), [](double k) { return std::abs(k) < 1e-9; }) -
+		own.begin())));
+	ASSERT_EQ(model.size(), 9);
+	model.fit();
+	for (int i = 0; i < model.size(); ++i)
+		EXPECT_NEAR(model.curvature(i), i < 8 ? kPi / 2 : 0.0, 1e-9);
+	EXPECT_LT(model.exactDistortion(), 1e-12);
+	EXPECT_LT(model.factor().lpNorm<Eigen::Infinity>(), 1e-12);
+	EXPECT_LT(model.distortion(), 1e-6); // the root of a sum that cancels
+}
+
+/// Where nothing is curved no cone is any use.
+TEST(ConeModel, OfAFlatTorusHasNothingToGain)
+{
+	// Of lengths alone: rows of equal triangles.
+	const int n = 6;
+	const SurfaceMesh grid = torus(3, 1, n, n);
+	IntrinsicMesh flat = intrinsicMesh(grid);
+	for (const Edge e : flat.lengths.indices())
+		flat.lengths[e] = 1.0;
+	Packed packed(flat.triangulation, flat.lengths);
+	const EmbeddedSurface surface = surfaceOf(packed);
+	FlowStart start = flowStart(surface, FlowOptions());
+	LinearFlow flow(surface, start, ConeBoundary::Fixed);
+	ConeModel model(flow, 0.0);
+	EXPECT_LT(model.distortion(), 1e-6);
+	model.append({Vertex(0), Vertex(7), Vertex(20)});
+	model.fit();
+	for (int i = 0; i < 3; ++i)
+		EXPECT_NEAR(model.curvature(i), 0.0, 1e-9);
+	EXPECT_LT(model.factor().lpNorm<Eigen::Infinity>(), 1e-12);
+}
+
+TEST(ConeModel, HasTheEnergyAndTheFactorOfTheDenseSystem)
+{
+	for (int genus : {0, 2}) {
+		Linearised linear(closed(genus));
+		const DenseFlow dense(linear.packed);
+		ConeModel model(linear.flow, 2 * kPi * (2 - 2 * genus));
+		model.append(someVertices());
+		model.fit();
+		const VertexVector u = factorOf(dense, conesAlone(model, linear.flow.vertexCount()));
+		const double size = u.lpNorm<Eigen::Infinity>();
+		EXPECT_LT((model.factor() - u).lpNorm<Eigen::Infinity>(), 1e-7 * size);
+		const double distortion = dense.distortion(conesOf(model), curvaturesOf(model));
+		EXPECT_GT(distortion, 0.01);
+		EXPECT_NEAR(model.distortion(), distortion, 1e-6 * distortion);
+		EXPECT_NEAR(model.exactDistortion(), distortion, 1e-6 * distortion);
+		EXPECT_NEAR(0.25 * distortion * distortion, model.energy(), 1e-5 * model.energy());
+	}
+}
+
+TEST(ConeModel, TheGradientIsTheAdjointField)
+{
+	for (int genus : {0, 2}) {
+		const double total = 2 * kPi * (2 - 2 * genus);
+		Linearised linear(closed(genus));
+		const DenseFlow dense(linear.packed);
+		ConeModel model(linear.flow, total);
+		model.append(someVertices());
+		model.fit();
+		const int n = linear.flow.vertexCount();
+		const VertexVector k = conesAlone(model, n);
+		const auto expectSame = [&](const VertexVector& phi, const VertexVector& expected) {
+			const VertexVector a = centred(phi, dense.area), b = centred(expected, dense.area);
+			EXPECT_LT((a - b).lpNorm<Eigen::Infinity>(), 1e-6 * b.lpNorm<Eigen::Infinity>());
+		};
+		expectSame(model.gradient(), gradientOf(dense, factorOf(dense, k)));
+		// At the cones of the best curvatures, none of which is at its bound, it is the same.
+		for (int i = 1; i < model.size(); ++i)
+			if (model.curvature(0) < 4.7 && model.curvature(i) < 4.7) {
+				EXPECT_NEAR(
+					model.gradient()[model.vertex(i)], model.gradient()[model.vertex(0)], 1e-9);
+			}
+		// All cones alike, and what is left spread by area.
+		const double share = total / 7;
+		VertexVector shares = (total - 5 * share) * dense.area;
+		for (const Vertex v : conesOf(model))
+			shares[v] += share;
+		expectSame(model.gradientWithShares(share), gradientOf(dense, factorOf(dense, shares)));
+		// The curvature of one cone spread by area.
+		for (int i = 0; i < model.size(); ++i) {
+			VertexVector others = k + model.curvature(i) * dense.area;
+			others[model.vertex(i)] -= model.curvature(i);
+			VertexVector phi(n);
+			for (const Vertex v : phi.indices())
+				phi[v] = model.gradientOfOthers(i, v);
+			expectSame(phi, gradientOf(dense, factorOf(dense, others)));
+		}
+	}
+}
+
+/// Of an open surface there is no constant: cones appear and go.
+TEST(ConeModel, TheGradientIsTheDerivativeOfHalfTheEnergy)
+{
+	LinearCase open = closed(0);
+	open.mesh = withoutStars(open.mesh, {0});
+	Linearised linear(open);
+	ConeModel model(linear.flow, 2 * kPi);
+	const VertexVector before = model.gradient();
+	const double energy = model.energy();
+	int count = 0;
+	for (const Vertex v : before.indices()) {
+		if (linear.surface.topology.boundary[v])
+			continue;
+		model.append(v);
+		model.fit();
+		// The energy is E(0) + 2 phi k + G k^2, the least of which is at k = -phi / G.
+		if (model.curvature(0) < 4.7) {
+			EXPECT_NEAR(model.energy(), energy + before[v] * model.curvature(0), 1e-9 * energy);
+			++count;
+		}
+		model.remove(0);
+		EXPECT_NEAR(model.energy(), energy, 1e-12 * energy);
+		EXPECT_EQ(model.size(), 0);
+		EXPECT_FALSE(model.isCone(v));
+	}
+	EXPECT_GT(count, 5);
+}
+
+TEST(ConeModel, SeveralConesAtATimeAreTheSameAsOneByOne)
+{
+	Linearised linear(closed(0));
+	ConeModel together(linear.flow, 4 * kPi), single(linear.flow, 4 * kPi);
+	together.append(someVertices());
+	for (const Vertex v : someVertices())
+		single.append(v);
+	together.fit();
+	single.fit();
+	EXPECT_EQ(conesOf(together), conesOf(single));
+	for (int i = 0; i < 5; ++i)
+		EXPECT_NEAR(together.curvature(i), single.curvature(i), 1e-10);
+	EXPECT_NEAR(together.energy(), single.energy(), 1e-10);
+}
+
+/// The model with a cone elsewhere is that which has it there from the beginning; a trial that is not
+/// taken leaves everything.
+TEST(ConeModel, TrialsAreUndoneUnlessTheyAreTaken)
+{
+	Linearised linear(closed(0));
+	ConeModel model(linear.flow, 4 * kPi), moved(linear.flow, 4 * kPi), less(linear.flow, 4 * kPi);
+	const Vertex to(50);
+	model.append(someVertices());
+	model.fit();
+	std::vector<Vertex> elsewhere = someVertices(), fewer = someVertices();
+	elsewhere[2] = to;
+	fewer.erase(fewer.begin() + 2);
+	moved.append(elsewhere);
+	moved.fit();
+	less.append(fewer);
+	less.fit();
+
+	const std::vector<double> before = curvaturesOf(model);
+	const VertexVector gradient = model.gradient();
+	const auto expectUnchanged = [&] {
+		EXPECT_EQ(conesOf(model), someVertices());
+		EXPECT_EQ(curvaturesOf(model), before);
+		EXPECT_LT((model.gradient() - gradient).lpNorm<Eigen::Infinity>(), 1e-13);
+		EXPECT_TRUE(model.isCone(someVertices()[2]));
+		EXPECT_FALSE(model.isCone(to));
+	};
+	double seen = 0.0;
+	EXPECT_FALSE(model.tryMove(2, to, [&](double energy) {
+		seen = energy;
+		return false;
+	}));
+	EXPECT_NEAR(seen, moved.energy(), 1e-9);
+	expectUnchanged();
+	model.without(2, [&] {
+		EXPECT_EQ(conesOf(model), fewer);
+		EXPECT_NEAR(model.energy(), less.energy(), 1e-10);
+		model.append(to);
+	});
+	expectUnchanged();
+	EXPECT_FALSE(model.tryWithout(2, [&] { return false; }));
+	expectUnchanged();
+
+	EXPECT_TRUE(model.tryMove(2, to, [](double) { return true; }));
+	EXPECT_EQ(conesOf(model), elsewhere);
+	EXPECT_TRUE(model.isCone(to));
+	EXPECT_FALSE(model.isCone(someVertices()[2]));
+	EXPECT_LT((model.gradient() - moved.gradient()).lpNorm<Eigen::Infinity>(), 1e-9);
+	EXPECT_TRUE(model.tryWithout(2, [] { return true; }));
+	EXPECT_EQ(conesOf(model), fewer);
+	EXPECT_NEAR(model.energy(), less.energy(), 1e-10);
+}
+
+/// The rise of the lowest energy without a cone, which byNeed() has from one matrix, by fits.
+TEST(ConeModel, NeedIsByHowMuchTheEnergyRises)
+{
+	for (int genus : {0, 1, 2}) {
+		Linearised linear(closed(genus, 0.1));
+		ConeModel model(linear.flow, 2 * kPi * (2 - 2 * genus));
+		// Where the surface is curved most, so that no cone is at its bound.
+		std::vector<Vertex> vertices;
+		for (const Vertex v : model.area().indices())
+			vertices.push_back(v);
+		const VertexVector& own = linear.flow.curvature();
+		std::sort(vertices.begin(), vertices.end(), [&](Vertex v, Vertex w) {
+			return std::abs(own[v]) > std::abs(own[w]);
+		});
+		vertices.resize(12);
+		model.append(vertices);
+		model.fit();
+		for (const double k : curvaturesOf(model))
+			ASSERT_LT(k, 4.7); // the bound plays no part
+		std::vector<double> without;
+		bool isBound = false;
+		for (int i = 0; i < model.size(); ++i)
+			model.without(i, [&] {
+				without.push_back(model.energy());
+				for (const double k : curvaturesOf(model))
+					isBound |= k > 4.7;
+			});
+		ASSERT_FALSE(isBound);
+		const std::vector<int> order = model.byNeed();
+		ASSERT_EQ(order.size(), 12u);
+		for (std::size_t i = 1; i < order.size(); ++i)
+			EXPECT_LE(without[at(order[i - 1])], without[at(order[i])]);
+	}
+}
+
+TEST(ConeModel, RoundedCurvaturesAreQuarterTurnsOfTheSameSum)
+{
+	Linearised linear(closed(0));
+	ConeModel model(linear.flow, 4 * kPi);
+	model.append(someVertices());
+	model.fit();
+	const std::vector<double> free = curvaturesOf(model);
+	const double energy = model.energy();
+	model.setRounding(ConeRounding::QuarterTurns);
+	double sum = 0.0;
+	for (const double k : curvaturesOf(model)) {
+		EXPECT_NEAR(k, kPi / 2 * std::round(k / (kPi / 2)), 1e-12);
+		sum += k;
+	}
+	EXPECT_NEAR(sum, 4 * kPi, 1e-12);
+	EXPECT_GE(model.energy(), energy);
+	model.setRounding(ConeRounding::Free);
+	EXPECT_EQ(curvaturesOf(model), free);
+}
+
+TEST(ConeModel, TicksBeforeSolutions)
+{
+	Linearised linear(closed(0));
+	int ticks = 0;
+	ConeModel model(linear.flow, 4 * kPi, [&] { ++ticks; });
+	EXPECT_EQ(ticks, 1);
+	model.append(someVertices()); // two at a time
+	EXPECT_EQ(ticks, 4);
+	model.fit();
+	EXPECT_EQ(ticks, 4); // fits are small
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "convex_hull.h"
+
+#include "orientation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// More than the rounding error of a doubled area, in units of the square of the largest coordinate.
+constexpr double kAreaRounding = 64.0 * std::numeric_limits<double>::epsilon();
+
+/// Drops points inside the polygon of those that are farthest in eight directions, as far as doubles
+/// tell: they are no corners of the convex hull.
+void dropInside(std::vector<Point2>& points)
+{
+	static constexpr std::array<Point2, 8> directions{
+		{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+	std::array<double, 8> farthest;
+	farthest.fill(-std::numeric_limits<double>::infinity());
+	std::array<Point2, 8> polygon{}; // counter-clockwise
+	double largest = 0.0;
+	for (const Point2& p : points) {
+		largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
+		for (std::size_t k = 0; k < 8; ++k)
+			if (const double along = directions[k][0] * p[0] + directions[k][1] * p[1];
+				along > farthest[k]) {
+				farthest[k] = along;
+				polygon[k] = p;
+			}
+	}
+	// A polygon that is seen counter-clockwise on all sides goes round.
+	const double least =
+		std::max(kAreaRounding * largest * largest, std::numeric_limits<double>::min());
+	const auto isInside = [&](const Point2& p) {
+		for (std::size_t k = 0; k < 8; ++k) {
+			const Point2 &a = polygon[k], &b = polygon[(k + 1) % 8];
+			if (a != b && !(doubledArea(a, b, p) > least))
+				return false;
+		}
+		return true;
+	};
+	if (polygon.front() != polygon[4] || polygon[2] != polygon[6])
+		points.erase(std::remove_if(points.begin(), points.end(), isInside), points.end());
+}
+
+/// A side of a polygon without which its neighbours meet in \p corner.
+struct SpareSide
+{
+	std::size_t side = 0;
+	Point2 corner{0.0, 0.0};
+	double area = std::numeric_limits<double>::infinity(); ///< twice what is added
+};
+
+/// The side of a convex polygon that adds the least area. Infinite area if neighbours meet nowhere.
+SpareSide spareSide(const std::vector<Point2>& polygon)
+{
+	SpareSide best;
+	const std::size_t n = polygon.size();
+	for (std::size_t i = 0; i < n; ++i) {
+		const Point2 &o = polygon[(i + n - 1) % n], &p = polygon[i];
+		const Point2 &q = polygon[(i + 1) % n], &r = polygon[(i + 2) % n];
+		// The line through o and p meets that through r and q in p + t (p - o).
+		const double turn = (p[0] - o[0]) * (r[1] - q[1]) - (p[1] - o[1]) * (r[0] - q[0]);
+		const double t = doubledArea(q, r, p) / turn;
+		if (!(turn > 0.0) || !std::isfinite(t))
+			continue;
+		const Point2 x{p[0] + t * (p[0] - o[0]), p[1] + t * (p[1] - o[1])};
+		const double area = std::abs(doubledArea(p, x, q));
+		if (area < best.area)
+			best = {i, x, area};
+	}
+	return best;
+}
+
+} // namespace
+
+std::vector<Point2> convexHull(std::vector<Point2> points)
+{
+	if (!points.empty())
+		dropInside(points);
+	std::sort(points.begin(), points.end());
+	points.erase(std::unique(points.begin(), points.end()), points.end());
+	if (points.size() < 3)
+		return points;
+	std::vector<Point2> hull;
+	for (int pass = 0; pass < 2; ++pass) {
+		const std::size_t start = hull.size();
+		for (const Point2& p : points) {
+			while (hull.size() >= start + 2 &&
+				   orientation(hull[hull.size() - 2], hull.back(), p) <= 0)
+				hull.pop_back();
+			hull.push_back(p);
+		}
+		hull.pop_back();
+		std::reverse(points.begin(), points.end());
+	}
+	return hull;
+}
+
+std::vector<Point2> simpleOutline(std::vector<Point2> polygon, std::size_t maxCorners)
+{
+	while (polygon.size() > maxCorners) {
+		const SpareSide spare = spareSide(polygon);
+		if (std::isinf(spare.area))
+			break;
+		const std::size_t next = (spare.side + 1) % polygon.size();
+		polygon[spare.side] = spare.corner;
+		polygon.erase(std::next(polygon.begin(), static_cast<std::ptrdiff_t>(next)));
+	}
+	return polygon;
+}
+
+} // namespace ricci
