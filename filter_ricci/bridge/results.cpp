@@ -95,6 +95,7 @@ Results toResults(const ricci::Report& report)
 		{"seam_length", report.seamLength},
 		{"seam_length_relative", report.seamLengthRelative},
 		{"charts", report.charts},
+		{"occupancy", report.occupancy},
 		{"capped_holes", report.cappedHoles},
 		{"overlapping_charts", report.overlappingCharts},
 		{"overlapping_faces", report.overlappingFaces},

@@ -45,6 +45,26 @@ std::vector<Point2> inARow(const std::vector<Box2>& boxes, double room)
 	return shifts;
 }
 
+/// In rows about as wide as high.
+std::vector<Point2> inRows(const std::vector<Box2>& boxes, double room)
+{
+	double area = 0.0;
+	for (const Box2& box : boxes)
+		area += (box.width() + room) * (box.height() + room);
+	std::vector<Point2> shifts;
+	double x = 0.0, y = 0.0, top = 0.0;
+	for (const Box2& box : boxes) {
+		if (x > std::sqrt(area)) {
+			x = 0.0;
+			y = top;
+		}
+		shifts.push_back({x - box.min[0], y - box.min[1]});
+		x += box.width() + room;
+		top = std::max(top, y + box.height() + room);
+	}
+	return shifts;
+}
+
 Box2 boxOf(const Parametrization& map, const Chart& chart)
 {
 	Box2 box;
@@ -137,6 +157,132 @@ TEST(PackCharts, RefusesMarginsThatLeaveNoRoom)
 			EXPECT_EQ(e.count, 40u);
 		}
 	}
+}
+
+/// Fans of triangles round the origin.
+Parametrization stars(int n, double orders, Random& random)
+{
+	Parametrization map;
+	for (int i = 0; i < n; ++i) {
+		Chart chart;
+		const int corners = 3 + random.index(9);
+		const double size = std::pow(10.0, -orders * i / n);
+		std::vector<Point2> p;
+		for (int k = 0; k < corners; ++k)
+			p.push_back(
+				asPoint(std::polar(size * random.real(0.2, 1.0), 6.283185307179586 * k / corners)));
+		for (std::size_t k = 0; k < p.size(); ++k) {
+			chart.faces.push_back(static_cast<int>(map.uv.size()));
+			map.uv.push_back({Point2{0, 0}, p[k], p[(k + 1) % p.size()]});
+			map.reversed.push_back(0);
+		}
+		map.charts.push_back(chart);
+	}
+	return map;
+}
+
+std::vector<Outline> outlinesOf(const Parametrization& map)
+{
+	std::vector<Outline> outlines;
+	for (const Chart& chart : map.charts) {
+		std::vector<Triangle2> triangles;
+		for (int f : chart.faces)
+			triangles.push_back(map.uv[positionOf(f)]);
+		outlines.push_back(outlineOf(triangles));
+	}
+	return outlines;
+}
+
+double areaOf(const std::vector<Triangle2>& triangles)
+{
+	double doubled = 0.0;
+	for (const Triangle2& t : triangles)
+		doubled += doubledArea(t[0], t[1], t[2]);
+	return 0.5 * doubled;
+}
+
+/// The margin is the distance of the outlines, for large and for small charts, turned or not; all are
+/// scaled alike, and turning takes no more room.
+TEST(PackCharts, KeepsTheMarginBetweenOutlines)
+{
+	Random random(372);
+	for (int n : {1, 2, 5, 30, 300})
+		for (double margin : {0.0001, 0.002, 0.01}) {
+			Parametrization byBoxes = stars(n, 1.5, random);
+			const Parametrization before = byBoxes;
+			packCharts(byBoxes, true, margin, inRows);
+			for (ChartTurns turns : {ChartTurns::Quarter, ChartTurns::Free}) {
+				Parametrization map = before;
+				packCharts(map, true, margin, inRows, turns);
+				EXPECT_TRUE(keepApart(outlinesOf(map), margin * (1.0 - 1e-9)));
+				for (const Triangle2& triangle : map.uv)
+					for (const Point2& p : triangle)
+						for (double x : p) {
+							EXPECT_GE(x, margin - 1e-12);
+							EXPECT_LE(x, 1.0 - margin + 1e-12);
+						}
+				const double scale = distance(map.uv[0][0], map.uv[0][1]) /
+									 distance(before.uv[0][0], before.uv[0][1]);
+				for (std::size_t f = 0; f < map.uv.size(); ++f)
+					for (std::size_t k = 0; k < 3; ++k)
+						EXPECT_NEAR(
+							distance(map.uv[f][k], map.uv[f][(k + 1) % 3]),
+							scale * distance(before.uv[f][k], before.uv[f][(k + 1) % 3]),
+							1e-12);
+				EXPECT_NEAR(map.report.occupancy, areaOf(map.uv), 1e-12);
+				EXPECT_GE(map.report.occupancy, byBoxes.report.occupancy * (1.0 - 1e-12));
+				if (n == 30) { // of many some fit between others
+					EXPECT_GT(map.report.occupancy, 1.1 * byBoxes.report.occupancy);
+				}
+			}
+		}
+}
+
+TEST(PackCharts, TurnsOneChartIntoTheSmallestSquare)
+{
+	Parametrization map = boxes({{1.0, 0.1}});
+	packCharts(map, true, 0.0, inARow, ChartTurns::Free);
+	EXPECT_NEAR(map.report.occupancy, 0.1 / (0.5 * 1.1 * 1.1), 1e-3); // at half a right angle
+	for (ChartTurns turns : {ChartTurns::None, ChartTurns::Free}) {
+		Parametrization wide = boxes({{1.0, 0.5}}); // no turn makes its square smaller
+		packCharts(wide, true, 0.0, inARow, turns);
+		EXPECT_EQ(boxOf(wide, wide.charts[0]).height(), 0.5);
+		EXPECT_NEAR(wide.report.occupancy, 0.5, 1e-15);
+	}
+	Parametrization upright = boxes({{1.0, 0.1}});
+	packCharts(upright, true, 0.0, inARow);
+	EXPECT_NEAR(upright.report.occupancy, 0.1, 1e-15);
+}
+
+TEST(PackCharts, WithoutTheUnitSquareTurnsNothing)
+{
+	Parametrization map = boxes({{1.0, 0.1}, {1.0, 0.1}}), turned = map;
+	packCharts(map, false, 0.0, inARow);
+	packCharts(turned, false, 0.0, inARow, ChartTurns::Free);
+	EXPECT_EQ(turned.uv, map.uv);
+	EXPECT_NEAR(map.report.occupancy, 0.2 / 4.0, 1e-15);
+}
+
+TEST(PackCharts, PutsManySmallChartsIntoOneBox)
+{
+	std::vector<Point2> sizes(2000, {0.01, 0.01});
+	for (const Point2& size : {Point2{1.0, 0.2}, Point2{0.2, 1.0}, Point2{0.5, 0.5}})
+		sizes.push_back(size);
+	Parametrization map = boxes(sizes), turned = map;
+	packCharts(map, true, 0.001, inRows);
+	packCharts(turned, true, 0.001, inRows, ChartTurns::Free);
+	EXPECT_TRUE(keepApart(outlinesOf(turned), 0.001 * (1.0 - 1e-9)));
+	EXPECT_GT(turned.report.occupancy, map.report.occupancy);
+}
+
+TEST(ChartTurns, RectanglesStayUprightAndQuarterTurnsStaySo)
+{
+	Options options;
+	EXPECT_EQ(chartTurns(options), ChartTurns::Free);
+	options.coneRounding = ConeRounding::QuarterTurns;
+	EXPECT_EQ(chartTurns(options), ChartTurns::Quarter);
+	options.target = TargetCurvature::Rectangle;
+	EXPECT_EQ(chartTurns(options), ChartTurns::None);
 }
 
 /// n squares of no extent with the margin m round each, side by side in a square of side 1: the

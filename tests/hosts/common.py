@@ -21,7 +21,8 @@ ALWAYS = {
     "genus": int, "boundary_loops": int, "components": int, "cut_nonmanifold_edges": int,
     "split_vertices": int, "duplicate_faces": int, "one_sided_components": int,
     "degenerate_faces": int, "cones": int, "seam_edges": int,
-    "seam_length": float, "seam_length_relative": float, "charts": int, "capped_holes": int,
+    "seam_length": float, "seam_length_relative": float, "charts": int,
+    "occupancy": float, "capped_holes": int,
     "overlapping_charts": int, "overlapping_faces": int, "overlap_cuts": int}
 
 

@@ -133,5 +133,47 @@ TEST(MinAreaRectangle, TakesTimeInProportionToTheCorners)
 	EXPECT_NEAR(r.height(), 2.0, 1e-9);
 }
 
+/// Half a right angle is best for a strip of 1 by h if h < sqrt(2) - 1, else none.
+TEST(MinExtentRectangle, OfAStrip)
+{
+	Random random(122);
+	for (double h : {0.0, 0.1, 0.3, 0.41, 0.42, 0.7, 1.0}) {
+		const double angle = random.real(-3, 3), c = std::cos(angle), s = std::sin(angle);
+		std::vector<Point2> points;
+		for (double x : {0.0, 1.0})
+			for (double y : {0.0, h})
+				points.push_back({c * x - s * y + 2.0, s * x + c * y - 1.0});
+		const OrientedRectangle r = minExtentRectangle(points);
+		const double least = std::min(1.0, (1.0 + h) * std::sqrt(0.5));
+		EXPECT_GE(std::max(r.width(), r.height()), least - 1e-12);
+		EXPECT_LE(std::max(r.width(), r.height()), least * (1 + kSquareAccuracy));
+	}
+}
+
+TEST(MinExtentRectangle, ContainsItsPointsAndNoTurnedOneIsShorter)
+{
+	Random random(123);
+	for (int trial = 0; trial < 50; ++trial) {
+		std::vector<Point2> points;
+		for (int i = 0; i < 3 + trial; ++i)
+			points.push_back({random.real(-1, 1), random.real(-2, 2)});
+		const OrientedRectangle r = minExtentRectangle(points);
+		EXPECT_NEAR(r.cosine * r.cosine + r.sine * r.sine, 1.0, 1e-15);
+		for (int i = 0; i < 1000; ++i) {
+			OrientedRectangle other;
+			other.cosine = std::cos(i * 0.0017), other.sine = std::sin(i * 0.0017);
+			Box2 box;
+			for (const Point2& p : points) {
+				box.add(other.inFrame(p));
+				for (std::size_t k = 0; k < 2; ++k) {
+					EXPECT_GE(r.inFrame(p)[k], r.min[k] - 1e-14);
+					EXPECT_LE(r.inFrame(p)[k], r.max[k] + 1e-14);
+				}
+			}
+			EXPECT_LE(std::max(r.width(), r.height()), box.extent() * (1 + kSquareAccuracy));
+		}
+	}
+}
+
 } // namespace
 } // namespace ricci::testing

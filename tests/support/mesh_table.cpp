@@ -179,7 +179,7 @@ void printHeader()
 		"qc_vertex_mean\tqc_area_mean\tqc_p99\tqc_max\tarea_mean\tarea_spread\tflipped\tflipped_"
 		"float\tflips\tadded_"
 		"points\tswaps\tsplits\tbroken\tcones\tseam_edges\tseam_length\tseam_relative\t"
-		"seam_mismatch\tcharts\toverlapping\toverlap_faces\toverlap_cuts\ttau_re\ttau_"
+		"seam_mismatch\tcharts\toverlapping\toverlap_faces\toverlap_cuts\toccupancy\ttau_re\ttau_"
 		"im\tmodulus\taspect\tcpu_s\tuv_charts\tbetween_charts\twithin_charts\trefused");
 }
 
@@ -305,11 +305,12 @@ void printResult(const Outcome& out, bool packed)
 	else
 		std::printf("-");
 	std::printf(
-		"\t%d\t%d\t%d\t%d\t%s\t%s\t%s\t%s\t%.2f",
+		"\t%d\t%d\t%d\t%d\t%.3f\t%s\t%s\t%s\t%s\t%.2f",
 		r.charts,
 		r.overlappingCharts,
 		r.overlappingFaces,
 		r.overlapCuts,
+		r.occupancy, // 0 where the charts are not packed
 		number(r.torusTauRe).c_str(),
 		number(r.torusTauIm).c_str(),
 		number(r.annulusModulus).c_str(),

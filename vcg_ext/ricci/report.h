@@ -64,6 +64,9 @@ struct Report
 	double seamLengthRelative = 0.0; ///< seamLength over the square root of the mesh's area
 
 	int charts = 0;
+	/// Share of the unit square, or of the square that holds all charts and their margins where they keep
+	/// their scale, that the charts cover. Known once they are packed.
+	double occupancy = 0.0;
 
 	int cutNonmanifoldEdges = 0; ///< edges with more than two faces, cut so that each sheet has two
 	int splitVertices = 0;       ///< vertices with more than one fan of faces, or on such an edge

@@ -152,6 +152,14 @@ constexpr double kSeamMatch = 1e-7;
 /// The room between charts is wider than the margin by this share, which rounding must not undercut.
 constexpr double kMarginSpare = 1e-6;
 
+/// Outlines of charts, whose boxes may meet, keep at least this distance, as a share of the square:
+/// more than the steps of floats by which their points are moved afterwards.
+constexpr double kLeastOutlineRoom = 2e-5;
+
+/// Charts are turned, and placed by their outlines, where the square's side gets shorter by this share:
+/// for less, upright charts are worth more.
+constexpr double kWorthTurning = 0.01;
+
 /// |Re tau| this near to its bound, or |tau| this near to 1, counts as on the border of the
 /// fundamental domain.
 constexpr double kDomainBorder = 1e-12;

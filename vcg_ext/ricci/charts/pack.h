@@ -3,8 +3,12 @@
 #ifndef RICCI_PACK_H
 #define RICCI_PACK_H
 
+#include "../options.h"
+#include "../progress.h"
+#include "outline_packing.h"
 #include "parametrization.h"
 
+#include <complex>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -25,25 +29,39 @@ void checkChartMargin(double margin);
 /// False if so many charts of any extent cannot keep \p margin, by the area of the margins alone.
 bool marginsMayFit(std::size_t charts, double margin);
 
+/// Free; but a rectangle stays upright, and quarter turns across seams stay quarter turns.
+ChartTurns chartTurns(const Options& options);
+
 /// Places the bounding boxes of the charts beside each other, and moves the charts there. With \p
 /// normalize the smallest square round all boxes with their margins is then scaled to [0, 1]^2.
 /// Without it the charts keep their scale, and a single chart keeps its place. A chart that is thinner
 /// than what floats show of the whole gets a wider box, in which its triangles may be given a height
 /// (finishInFloats()). Fills Chart::box.
+///
+/// With \p normalize charts may be turned, too, and the largest placed by their outlines, with the boxes
+/// of the small and the thin ones as one more chart, where the square gets smaller by kWorthTurning. One
+/// chart is turned as the smallest square round it lies. The report's occupancy is set in all cases.
 /// \param margin least distance of two charts, and of a chart from the border of the unit square, as
 /// a share of the side of that square, between 0 and kMaxChartMargin
 /// \throw InvalidOption ChartMargin, or ChartMarginTooWide if so many charts do not fit with it;
 /// InvalidMesh TooLargeForFloats if coordinates that keep their scale are beyond the range of float,
 /// in which they will be stored
-void packCharts(Parametrization& map, bool normalize, double margin, const PlaceBoxes& placeBoxes);
+void packCharts(
+	Parametrization& map,
+	bool normalize,
+	double margin,
+	const PlaceBoxes& placeBoxes,
+	ChartTurns turns = ChartTurns::None,
+	const Tick& tick = {});
 
 /// Places the unit disks of the charts, as parametrizeHyperbolic() leaves them, in equal squares, row
 /// by row from the origin, which together lie in [0, 1]^2, and moves the charts there.
 /// \return [chart] the square that its disk fills
 std::vector<Box2> placeDisks(Parametrization& map);
 
-/// Moves every point p of a chart to scale p + shift, in the input's faces and in the refinement.
-void transformChart(Parametrization& map, const Chart& chart, double scale, const Point2& shift);
+/// Moves every point p of a chart to factor p + shift, in the input's faces and in the refinement.
+void transformChart(
+	Parametrization& map, const Chart& chart, std::complex<double> factor, const Point2& shift);
 
 /// Counts the flipped triangles of the output (flippedFaces, flippedByRounding of \p report) at their
 /// present coordinates: rounding while the charts are packed can turn a thin triangle round. Exact.

@@ -27,6 +27,19 @@ OrientedRectangle frameAlong(const std::vector<Point2>& hull, std::size_t i)
 	return r;
 }
 
+/// Round all points.
+void measure(const std::vector<Point2>& hull, OrientedRectangle& r)
+{
+	r.min = r.max = r.inFrame(hull.front());
+	for (const Point2& p : hull) {
+		const Point2 x = r.inFrame(p);
+		for (std::size_t k = 0; k < 2; ++k) {
+			r.min[k] = std::min(r.min[k], x[k]);
+			r.max[k] = std::max(r.max[k], x[k]);
+		}
+	}
+}
+
 /// The corner of a convex polygon where \p height is largest, searched uphill from \p from.
 template<class Height>
 std::size_t
@@ -75,20 +88,43 @@ OrientedRectangle minAreaRectangle(std::vector<Point2> points)
 {
 	const std::vector<Point2> hull = convexHull(std::move(points));
 	OrientedRectangle best = frameAlong(hull, bestSide(hull));
-	best.min = best.max = best.inFrame(hull.front());
-	for (const Point2& p : hull) {
-		const Point2 x = best.inFrame(p);
-		for (std::size_t k = 0; k < 2; ++k) {
-			best.min[k] = std::min(best.min[k], x[k]);
-			best.max[k] = std::max(best.max[k], x[k]);
-		}
-	}
+	measure(hull, best);
 	if (best.height() > best.width()) { // a quarter turn
 		const OrientedRectangle r = best;
 		best.cosine = -r.sine;
 		best.sine = r.cosine;
 		best.min = {r.min[1], -r.max[0]};
 		best.max = {r.max[1], -r.min[0]};
+	}
+	return best;
+}
+
+OrientedRectangle minExtentRectangle(std::vector<Point2> points)
+{
+	const std::vector<Point2> hull = convexHull(std::move(points));
+	const auto extent = [](const OrientedRectangle& r) { return std::max(r.width(), r.height()); };
+	OrientedRectangle best;
+	measure(hull, best);
+	double bestAt = 0.0;
+	// Half the angle's tangent, 0 to 1. Between two steps an extent changes by less than their angle.
+	const auto look = [&](double at) {
+		OrientedRectangle r;
+		r.cosine = (1.0 - at * at) / (1.0 + at * at);
+		r.sine = 2.0 * at / (1.0 + at * at);
+		measure(hull, r);
+		if (extent(r) < extent(best)) {
+			best = r;
+			bestAt = at;
+		}
+	};
+	constexpr int steps = 256, finer = 16;
+	double step = 1.0 / steps;
+	for (int k = 1; k < steps; ++k)
+		look(k * step);
+	for (; step > 0.5 * kSquareAccuracy; step /= finer) {
+		const double from = bestAt;
+		for (int k = 1 - finer; k < finer; ++k)
+			look(std::clamp(from + k * step / finer, 0.0, 1.0));
 	}
 	return best;
 }

@@ -31,6 +31,13 @@ struct OrientedRectangle
 /// steps for n points.
 OrientedRectangle minAreaRectangle(std::vector<Point2> points);
 
+/// Rectangle round \p points, at least one, whose longer side is least, to within kSquareAccuracy of it.
+/// Its frame is turned by at most a right angle, and its cosine and sine are a rational point of the
+/// circle, so that they are the same on every machine.
+OrientedRectangle minExtentRectangle(std::vector<Point2> points);
+
+constexpr double kSquareAccuracy = 1e-4;
+
 } // namespace ricci
 
 #endif

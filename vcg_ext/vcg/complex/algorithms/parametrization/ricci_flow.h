@@ -63,8 +63,8 @@ public:
 		/// length).
 		bool normalizeUV = true;
 
-		/// Least distance of the bounding boxes of two charts, and of a box from the border of the
-		/// square that holds all, as a share of its side; at most ricci::kMaxChartMargin.
+		/// Least distance of two charts, and of a chart from the border of the square that holds
+		/// all, as a share of its side; at most ricci::kMaxChartMargin.
 		double chartMargin = 0.0;
 	};
 
@@ -109,7 +109,13 @@ public:
 		ricci::Parametrization flat = ricci::parametrizeEuclidean(mesh, input, par, progress);
 
 		Result r;
-		ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide);
+		ricci::packCharts(
+			flat,
+			par.normalizeUV,
+			par.chartMargin,
+			PlaceSideBySide,
+			ricci::chartTurns(par),
+			LastTick(progress));
 		if (ricci::isFinished(par))
 			ricci::finishInFloats(flat.opened.mesh, LastTick(progress), flat);
 		r.report = flat.report;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <ricci/charts/outline.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+Outline square(const Point2& corner, double side)
+{
+	const Point2 a = corner, c{a[0] + side, a[1] + side};
+	const Point2 b{c[0], a[1]}, d{a[0], c[1]};
+	return outlineOf({Triangle2{a, b, c}, Triangle2{a, c, d}});
+}
+
+/// The unit square without the middle one of nine, in squares of two triangles.
+std::vector<Triangle2> frame()
+{
+	std::vector<Triangle2> triangles;
+	for (int i = 0; i < 9; ++i) {
+		const double x = i % 3, y = i / 3;
+		const Point2 a{x / 3, y / 3}, b{(x + 1) / 3, y / 3}, c{(x + 1) / 3, (y + 1) / 3},
+			d{x / 3, (y + 1) / 3};
+		if (i != 4)
+			triangles.insert(triangles.end(), {Triangle2{a, b, c}, Triangle2{a, c, d}});
+	}
+	return triangles;
+}
+
+TEST(OutlineOf, HasTheBorderOnItsLeftWhateverTheTrianglesOrder)
+{
+	std::vector<Triangle2> triangles = frame();
+	const Outline outline = outlineOf(triangles);
+	EXPECT_EQ(outline.size(), 12u + 4u);
+	double doubled = 0.0;
+	for (const auto& side : outline)
+		doubled += doubledArea({0.0, 0.0}, side[0], side[1]);
+	EXPECT_NEAR(doubled, 2.0 * 8.0 / 9.0, 1e-14);
+	std::swap(triangles[5][1], triangles[5][2]);
+	std::reverse(triangles.begin(), triangles.end());
+	EXPECT_EQ(outlineOf(triangles), outline);
+}
+
+TEST(OutlineOf, OfNothing)
+{
+	EXPECT_TRUE(outlineOf({}).empty());
+	const Point2 p{1.0, 2.0};
+	EXPECT_TRUE(outlineOf({Triangle2{p, p, p}}).empty());
+}
+
+TEST(KeepApart, AgreesWithDistancesThatAreKnown)
+{
+	const double root = std::sqrt(0.5);
+	struct Case
+	{
+		Point2 corner;
+		double distance; // of [0, 1]^2 from the unit square there
+	};
+	for (const Case& c :
+		 {Case{{1.25, 0.5}, 0.25},
+		  Case{{0.3, -1.125}, 0.125},
+		  Case{{1.5, 1.5}, root},
+		  Case{{-1.5, 1.5}, root}}) {
+		const std::vector<Outline> outlines{square({0.0, 0.0}, 1.0), square(c.corner, 1.0)};
+		EXPECT_TRUE(keepApart(outlines, 0.999999 * c.distance));
+		EXPECT_FALSE(keepApart(outlines, 1.000001 * c.distance));
+	}
+}
+
+TEST(KeepApart, FindsChartsThatCrossOrHoldEachOther)
+{
+	const Outline outer = square({0.0, 0.0}, 1.0);
+	EXPECT_FALSE(keepApart({outer, square({0.5, 0.5}, 1.0)}, 1e-9));
+	EXPECT_FALSE(keepApart({outer, square({0.4, 0.4}, 0.2)}, 1e-9));
+	EXPECT_FALSE(keepApart({square({0.4, 0.4}, 0.2), outer}, 1e-9));
+	// In the hole of a frame there is room.
+	const Outline ring = outlineOf(frame());
+	EXPECT_TRUE(keepApart({ring, square({0.4, 0.4}, 0.2)}, 0.06));
+	EXPECT_FALSE(keepApart({ring, square({0.4, 0.4}, 0.2)}, 0.07));
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "outline.h"
+
+#include "../math/box_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+using Segment = std::array<Point2, 2>;
+
+double distanceFrom(const Segment& s, const Point2& p)
+{
+	const std::complex<double> a = asComplex(s[0]), along = asComplex(s[1]) - a;
+	const double length = std::norm(along);
+	const std::complex<double> q = asComplex(p) - a;
+	const double share =
+		length > 0.0 ? std::clamp((std::conj(along) * q).real() / length, 0.0, 1.0) : 0.0;
+	return std::abs(q - share * along);
+}
+
+bool cross(const Segment& s, const Segment& t)
+{
+	const auto isBetween = [](const Segment& line, const Segment& ends) {
+		return (doubledArea(line[0], line[1], ends[0]) > 0.0) !=
+			   (doubledArea(line[0], line[1], ends[1]) > 0.0);
+	};
+	return isBetween(s, t) && isBetween(t, s);
+}
+
+double distance(const Segment& s, const Segment& t)
+{
+	if (cross(s, t))
+		return 0.0;
+	return std::min(
+		{distanceFrom(s, t[0]),
+		 distanceFrom(s, t[1]),
+		 distanceFrom(t, s[0]),
+		 distanceFrom(t, s[1])});
+}
+
+/// Whether an outline goes round a point.
+bool contains(const Outline& outline, const Point2& p)
+{
+	int turns = 0;
+	for (const Segment& s : outline)
+		if ((s[0][1] <= p[1]) != (s[1][1] <= p[1])) {
+			const bool up = s[0][1] <= p[1];
+			if ((doubledArea(s[0], s[1], p) > 0.0) == up)
+				turns += up ? 1 : -1;
+		}
+	return turns != 0;
+}
+
+Box2 boxOf(const Segment& s, double room)
+{
+	Box2 box;
+	for (const Point2& p : s) {
+		box.add(Point2{p[0] - room, p[1] - room});
+		box.add(Point2{p[0] + room, p[1] + room});
+	}
+	return box;
+}
+
+} // namespace
+
+Outline outlineOf(const std::vector<Triangle2>& triangles)
+{
+	struct Side
+	{
+		Segment ends; // the lower one first
+		int count;    // 1 where it runs to the higher one, else -1
+	};
+	std::vector<Side> sides;
+	sides.reserve(3 * triangles.size());
+	for (Triangle2 t : triangles) {
+		if (doubledArea(t[0], t[1], t[2]) < 0.0)
+			std::swap(t[1], t[2]);
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Point2 &a = t[k], &b = t[(k + 1) % 3];
+			if (a != b)
+				sides.push_back(a < b ? Side{{a, b}, 1} : Side{{b, a}, -1});
+		}
+	}
+	std::sort(
+		sides.begin(), sides.end(), [](const Side& s, const Side& t) { return s.ends < t.ends; });
+	Outline outline;
+	for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
+		int count = 0;
+		for (; last != sides.end() && last->ends == first->ends; ++last)
+			count += last->count;
+		for (; count > 0; --count)
+			outline.push_back(first->ends);
+		for (; count < 0; ++count)
+			outline.push_back({first->ends[1], first->ends[0]});
+	}
+	return outline;
+}
+
+bool keepApart(const std::vector<Outline>& outlines, double room)
+{
+	std::vector<Segment> sides;
+	std::vector<std::size_t> owner;
+	std::vector<Box2> boxes, charts;
+	for (const Outline& outline : outlines) {
+		Box2 whole;
+		for (const Segment& s : outline) {
+			sides.push_back(s);
+			owner.push_back(charts.size());
+			boxes.push_back(boxOf(s, room));
+			whole.add(boxes.back());
+		}
+		charts.push_back(whole);
+	}
+	bool apart = true;
+	BoxTree(boxes).meetingPairs([&](int i, int j) {
+		const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+		apart = apart && (owner[a] == owner[b] || distance(sides[a], sides[b]) >= room);
+	});
+	// Where the sides keep apart, a chart that meets another lies in it.
+	BoxTree(charts).meetingPairs([&](int i, int j) {
+		const Outline &a = outlines[static_cast<std::size_t>(i)],
+					  &b = outlines[static_cast<std::size_t>(j)];
+		apart = apart && !contains(a, b.front()[0]) && !contains(b, a.front()[0]);
+	});
+	return apart;
+}
+
+} // namespace ricci

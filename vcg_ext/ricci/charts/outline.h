@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_OUTLINE_H
+#define RICCI_OUTLINE_H
+
+#include "../math/points.h"
+
+#include <array>
+#include <complex>
+#include <vector>
+
+namespace ricci {
+
+/// The border of a chart: straight sides from one point to the next, the chart on the left of each.
+using Outline = std::vector<std::array<Point2, 2>>;
+
+/// The sides of triangles, each taken counter-clockwise, that no other one has the other way. A point
+/// off them is covered by as many triangles as they go round it.
+Outline outlineOf(const std::vector<Triangle2>& triangles);
+
+/// Where a chart goes: p to turn p + shift.
+struct Motion
+{
+	std::complex<double> turn{1.0, 0.0}; ///< of absolute value 1
+	Point2 shift{0.0, 0.0};
+
+	Point2 operator()(const Point2& p) const
+	{
+		return {
+			turn.real() * p[0] - turn.imag() * p[1] + shift[0],
+			turn.imag() * p[0] + turn.real() * p[1] + shift[1]};
+	}
+};
+
+/// Whether no point of a chart is nearer than \p room > 0 to another chart, or in it, as far as doubles
+/// tell.
+bool keepApart(const std::vector<Outline>& outlines, double room);
+
+} // namespace ricci
+
+#endif

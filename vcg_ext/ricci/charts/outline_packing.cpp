@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "outline_packing.h"
+
+#include "../math/min_area_rectangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+constexpr int kWordBits = 64;
+
+/// Cells along a side of the square.
+constexpr int kLevels = 9, kCells = 1 << (kLevels - 1);
+
+/// Rows of cells compared after which no further angle of the largest chart is tried.
+constexpr long long kMaxWork = 10'000'000;
+
+/// Cells of a row that are taken, in its bits.
+using Row = std::array<std::uint64_t, kCells / kWordBits>;
+
+/// Adds the cells of \p row, moved to lower places.
+void addMovedDown(const Row& row, int cells, Row& sum)
+{
+	const auto words = static_cast<std::size_t>(cells / kWordBits);
+	const int bits = cells % kWordBits;
+	for (std::size_t i = 0; i + words < row.size(); ++i) {
+		sum[i] |= row[i + words] >> bits;
+		if (bits > 0 && i + words + 1 < row.size())
+			sum[i] |= row[i + words + 1] << (kWordBits - bits);
+	}
+}
+
+bool isFull(const Row& row)
+{
+	return std::all_of(
+		row.begin(), row.end(), [](std::uint64_t w) { return w == ~std::uint64_t{0}; });
+}
+
+void fill(Row& row, int first, int last)
+{
+	for (int x = first; x < last;) {
+		const int bit = x % kWordBits, count = std::min(kWordBits - bit, last - x);
+		const std::uint64_t ones =
+			count == kWordBits ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
+		row[static_cast<std::size_t>(x / kWordBits)] |= ones << bit;
+		x += count;
+	}
+}
+
+/// The lowest cell that is free, or kCells.
+int lowestFree(const Row& row)
+{
+	for (int x = 0; x < kCells; ++x) {
+		const std::uint64_t word = row[static_cast<std::size_t>(x / kWordBits)];
+		if (word == ~std::uint64_t{0})
+			x += kWordBits - 1 - x % kWordBits;
+		else if ((word >> (x % kWordBits) & 1) == 0)
+			return x;
+	}
+	return kCells;
+}
+
+/// Cells of one row, from first to before last.
+struct Run
+{
+	int row, first, last;
+};
+
+/// An outline that is turned, in cells from the lower left corner of a box round it.
+struct Shape
+{
+	Motion motion;   ///< brings that corner to the origin
+	int quarter = 0; ///< right angles that it is turned by besides
+	int width = 0, height = 0;
+	std::vector<Run> runs; ///< longest first
+};
+
+/// Draws an outline in cells.
+class Drawing
+{
+public:
+	/// \param reach taken, too: what is nearer than this along both axes
+	Drawing(const Outline& outline, std::complex<double> turn, double cell, double reach) :
+			m_cell(cell), m_reach(reach)
+	{
+		m_shape.motion.turn = turn;
+		Box2 box;
+		for (const auto& side : outline) {
+			m_sides.push_back({m_shape.motion(side[0]), m_shape.motion(side[1])});
+			box.add(m_sides.back()[0]);
+		}
+		m_shape.motion.shift = {reach - box.min[0], reach - box.min[1]};
+		for (auto& side : m_sides)
+			for (Point2& p : side)
+				p = {
+					(p[0] + m_shape.motion.shift[0]) / cell,
+					(p[1] + m_shape.motion.shift[1]) / cell};
+		m_reach /= cell;
+		m_shape.width = cellAt((box.width() + 2 * reach) / cell) + 1;
+		m_shape.height = cellAt((box.height() + 2 * reach) / cell) + 1;
+	}
+
+	bool fits() const { return std::max(m_shape.width, m_shape.height) <= kCells; }
+
+	Shape draw()
+	{
+		m_rows.resize(static_cast<std::size_t>(m_shape.height));
+		m_crossings.resize(m_rows.size());
+		for (const auto& side : m_sides)
+			drawSide(side);
+		for (auto& crossings : m_crossings)
+			fillBetween(
+				crossings, m_rows[static_cast<std::size_t>(&crossings - m_crossings.data())]);
+		int row = 0;
+		for (auto& spans : m_rows)
+			addRuns(row++, spans);
+		std::sort(m_shape.runs.begin(), m_shape.runs.end(), [](const Run& a, const Run& b) {
+			return std::make_tuple(a.first - a.last, a.row, a.first) <
+				   std::make_tuple(b.first - b.last, b.row, b.first);
+		});
+		return std::move(m_shape);
+	}
+
+private:
+	struct Crossing
+	{
+		double x;
+		int turns; // 1 where the side runs down, the outline's inner side on its right
+
+		bool operator<(const Crossing& other) const
+		{
+			return std::tie(x, turns) < std::tie(other.x, other.turns);
+		}
+	};
+
+	static int cellAt(double x) { return static_cast<int>(std::floor(x)); }
+
+	void addSpan(std::size_t row, double from, double to)
+	{
+		m_rows[row].push_back({std::max(cellAt(from), 0), std::min(cellAt(to) + 1, m_shape.width)});
+	}
+
+	void drawSide(const std::array<Point2, 2>& side)
+	{
+		const bool up = side[0][1] < side[1][1];
+		const Point2 &low = up ? side[0] : side[1], &high = up ? side[1] : side[0];
+		const double slope = high[1] > low[1] ? (high[0] - low[0]) / (high[1] - low[1]) : 0.0;
+		const auto xAt = [&](double y) {
+			return y <= low[1] ? low[0] : y >= high[1] ? high[0] : low[0] + slope * (y - low[1]);
+		};
+		const int first = std::max(cellAt(low[1] - m_reach), 0);
+		const int last = std::min(cellAt(high[1] + m_reach), m_shape.height - 1);
+		for (int row = first; row <= last; ++row) {
+			double from = xAt(row - m_reach), to = xAt(row + 1 + m_reach);
+			if (low[1] == high[1]) {
+				from = low[0];
+				to = high[0];
+			}
+			const auto i = static_cast<std::size_t>(row);
+			addSpan(i, std::min(from, to) - m_reach, std::max(from, to) + m_reach);
+			const double middle = row + 0.5;
+			if (low[1] <= middle && middle < high[1])
+				m_crossings[i].push_back({xAt(middle), up ? -1 : 1});
+		}
+	}
+
+	void fillBetween(std::vector<Crossing>& crossings, std::vector<std::array<int, 2>>& spans)
+	{
+		std::sort(crossings.begin(), crossings.end());
+		int turns = 0;
+		for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
+			turns += crossings[i].turns;
+			if (turns != 0)
+				spans.push_back({cellAt(crossings[i].x), cellAt(crossings[i + 1].x) + 1});
+		}
+	}
+
+	void addRuns(int row, std::vector<std::array<int, 2>>& spans)
+	{
+		std::sort(spans.begin(), spans.end());
+		for (const auto& [first, last] : spans) {
+			if (m_shape.runs.empty() || m_shape.runs.back().row != row ||
+				m_shape.runs.back().last < first)
+				m_shape.runs.push_back({row, first, last});
+			else
+				m_shape.runs.back().last = std::max(m_shape.runs.back().last, last);
+		}
+	}
+
+	double m_cell, m_reach;
+	Shape m_shape;
+	std::vector<std::array<Point2, 2>> m_sides; // in cells
+	std::vector<std::vector<std::array<int, 2>>> m_rows;
+	std::vector<std::vector<Crossing>> m_crossings;
+};
+
+/// Less is better: the side of the square, then how far out the shape lies.
+using Cost = std::array<int, 3>;
+
+struct Spot
+{
+	Cost cost{std::numeric_limits<int>::max(), 0, 0};
+	const Shape* shape = nullptr;
+	int x = 0, y = 0;
+};
+
+class Canvas
+{
+public:
+	int side() const { return m_side; }
+	long long work() const { return m_work; }
+
+	/// Takes a better place of \p shape than \p best, if there is one.
+	void look(const Shape& shape, Spot& best)
+	{
+		const int wanted = std::min(best.cost[0], kCells);
+		for (int y = 0; y + shape.height <= wanted; ++y) {
+			const int last = wanted - shape.width; // of x
+			if (last < 0)
+				return;
+			Row blocked{};
+			fill(blocked, last + 1, kCells);
+			for (const Run& run : shape.runs) {
+				block(run, y, blocked);
+				++m_work;
+				if (isFull(blocked))
+					break;
+			}
+			const int x = lowestFree(blocked);
+			if (x == kCells)
+				continue;
+			const int right = x + shape.width, top = y + shape.height;
+			const Cost cost{
+				std::max({m_side, right, top}), std::max(right, top), right + top + x + y};
+			if (cost < best.cost)
+				best = {cost, &shape, x, y};
+		}
+	}
+
+	void take(const Spot& spot)
+	{
+		for (const Run& run : spot.shape->runs) {
+			auto& taken = m_taken[static_cast<std::size_t>(spot.y + run.row)];
+			fill(taken[0], spot.x + run.first, spot.x + run.last);
+			for (std::size_t k = 0; k + 1 < taken.size(); ++k) {
+				taken[k + 1] = taken[k];
+				addMovedDown(taken[k], 1 << k, taken[k + 1]);
+			}
+		}
+		m_side = spot.cost[0];
+	}
+
+private:
+	/// Adds the x at which \p run meets cells that are taken.
+	void block(const Run& run, int y, Row& blocked) const
+	{
+		const int count = run.last - run.first;
+		std::size_t k = 0;
+		while (2 << k <= count)
+			++k;
+		const Row& taken = m_taken[static_cast<std::size_t>(y + run.row)][k];
+		addMovedDown(taken, run.first, blocked);
+		addMovedDown(taken, run.last - (1 << k), blocked);
+	}
+
+	/// [y][k] the x from which one of 2^k cells is taken
+	std::array<std::array<Row, kLevels>, kCells> m_taken{};
+	int m_side = 0; // of the square that holds all
+	long long m_work = 0;
+};
+
+double areaOf(const Outline& outline)
+{
+	double doubled = 0.0;
+	for (const auto& side : outline)
+		doubled += doubledArea(outline.front()[0], side[0], side[1]);
+	return 0.5 * doubled;
+}
+
+std::complex<double> turnToLeastExtent(const Outline& outline)
+{
+	std::vector<Point2> points;
+	for (const auto& side : outline)
+		points.push_back(side[0]);
+	const OrientedRectangle r = minExtentRectangle(std::move(points));
+	return {r.cosine, -r.sine};
+}
+
+/// Half the angle has this tangent, at most 1.
+std::complex<double> rationalTurn(int numerator, int denominator)
+{
+	const double t = static_cast<double>(numerator) / denominator;
+	return {(1.0 - t * t) / (1.0 + t * t), 2.0 * t / (1.0 + t * t)};
+}
+
+} // namespace
+
+std::vector<Motion> packOutlines(
+	const std::vector<Outline>& outlines,
+	const std::vector<ChartTurns>& turns,
+	double side,
+	double room,
+	const Tick& tick)
+{
+	const double cell = side / kCells, reach = 0.5 * room;
+	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 16);
+	std::vector<double> area;
+	for (const Outline& outline : outlines)
+		area.push_back(areaOf(outline));
+	std::vector<std::size_t> order(outlines.size());
+	std::iota(order.begin(), order.end(), std::size_t{0});
+	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+		return area[a] > area[b];
+	});
+	const std::size_t largest = order.front();
+
+	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]
+	for (std::size_t i = 0; i < outlines.size(); ++i) {
+		const int angles = turns[i] == ChartTurns::Free ? freeAngles : 1;
+		const int quarters = turns[i] == ChartTurns::None ? 1 : 4;
+		std::vector<std::complex<double>> firsts; // of the four turns by right angles
+		if (i == largest && turns[i] == ChartTurns::Free)
+			firsts.push_back(turnToLeastExtent(outlines[i]));
+		for (int k = 0; k < angles; ++k)
+			firsts.push_back(rationalTurn(k, angles));
+		for (std::complex<double> turn : firsts)
+			for (int q = 0; q < quarters; ++q, turn = {-turn.imag(), turn.real()}) {
+				Drawing drawing(outlines[i], turn, cell, reach);
+				if (drawing.fits()) {
+					shapes[i].push_back(drawing.draw());
+					shapes[i].back().quarter = q;
+				}
+				if (tick)
+					tick();
+			}
+	}
+
+	int least = kCells + 1;
+	long long work = 0;
+	std::vector<Motion> best;
+	for (const Shape& first : shapes[largest]) {
+		if (work > kMaxWork)
+			break;
+		if (first.quarter > 0)
+			continue;
+		Canvas canvas;
+		std::vector<Motion> motions(outlines.size());
+		for (const std::size_t i : order) {
+			Spot spot;
+			spot.cost[0] = least;
+			if (i == largest)
+				canvas.look(first, spot);
+			else
+				for (const Shape& shape : shapes[i]) {
+					canvas.look(shape, spot);
+					if (tick)
+						tick();
+				}
+			if (!spot.shape)
+				break;
+			canvas.take(spot);
+			motions[i] = spot.shape->motion;
+			motions[i].shift[0] += spot.x * cell;
+			motions[i].shift[1] += spot.y * cell;
+			if (i == order.back() && canvas.side() < least) {
+				least = canvas.side();
+				best = std::move(motions);
+			}
+		}
+		work += canvas.work();
+	}
+	return best;
+}
+
+} // namespace ricci

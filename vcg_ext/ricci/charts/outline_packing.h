@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_OUTLINE_PACKING_H
+#define RICCI_OUTLINE_PACKING_H
+
+#include "../progress.h"
+#include "outline.h"
+
+#include <vector>
+
+namespace ricci {
+
+/// How charts may be turned while they are packed.
+enum class ChartTurns {
+	None,
+	Quarter, ///< by right angles against each other; one chart alone in any way
+	Free
+};
+
+/// Packs outlines into a square from the origin, by cells that they touch, the largest first. Each goes
+/// where the square that holds all so far is smallest, also in holes of others. The largest chart is
+/// tried at several angles. The same outlines always get the same places: turns are rational points of
+/// the circle.
+/// \param outlines not empty, none without sides
+/// \param turns [outline]
+/// \param side of the square
+/// \param room least distance of two outlines
+/// \return [outline] its motion; empty where they do not fit
+std::vector<Motion> packOutlines(
+	const std::vector<Outline>& outlines,
+	const std::vector<ChartTurns>& turns,
+	double side,
+	double room,
+	const Tick& tick);
+
+} // namespace ricci
+
+#endif
