@@ -224,7 +224,7 @@ RichParameterList euclideanParameters(Shown shown)
 		static_cast<Scalarm>(Flow::Params().chartMargin),
 		"Margin of the charts",
 		"Room between two charts, and between the charts and the border, as a share of the side "
-		"of the square, for baking textures. 0.004 is 4 pixels of an image 1024 wide."));
+		"of the square, for baking textures. 0.004 is 4 pixels of an image 1024 wide, 8 of 2048."));
 	list.addParam(colorizeParameter());
 	list.addParam(RichBool(
 		"flat_layer",
@@ -271,6 +271,12 @@ RichParameterList euclideanParameters(Shown shown)
 		"Fit into the unit square",
 		"Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale "
 		"of the metric."));
+	list.addParam(host::advanced<RichBool>(
+		"cut_strips",
+		Flow::Params().cutStrips,
+		"Cut strips",
+		"A long and narrow chart is cut across once where all charts then cover about twice as "
+		"much of the unit square."));
 	list.addParam(host::advanced<RichBool>(
 		"sphere_layer",
 		false,
@@ -381,6 +387,7 @@ Settings readSettings(const RichParameterList& par)
 	settings.flow.seamHiding = static_cast<double>(par.getFloat("seam_hiding"));
 	settings.flow.maxIterations = par.getInt("max_iterations");
 	settings.flow.normalizeUV = par.getBool("normalize_uv");
+	settings.flow.cutStrips = par.getBool("cut_strips");
 	settings.flow.chartMargin = static_cast<double>(par.getFloat("chart_margin"));
 	settings.colorize = par.getBool("colorize");
 	settings.flatLayer = par.getBool("flat_layer");

@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -273,6 +275,71 @@ TEST(PackCharts, PutsManySmallChartsIntoOneBox)
 	packCharts(turned, true, 0.001, inRows, ChartTurns::Free);
 	EXPECT_TRUE(keepApart(outlinesOf(turned), 0.001 * (1.0 - 1e-9)));
 	EXPECT_GT(turned.report.occupancy, map.report.occupancy);
+}
+
+/// A grid of squares of two triangles over the plane, as one chart.
+Parametrization gridOf(int width, int height)
+{
+	Parametrization map;
+	SurfaceMesh& mesh = map.opened.mesh;
+	for (int y = 0; y <= height; ++y)
+		for (int x = 0; x <= width; ++x)
+			mesh.positions.push_back({1.0 * x, 1.0 * y, 0.0});
+	map.charts.emplace_back();
+	for (int y = 0; y < height; ++y)
+		for (int x = 0; x < width; ++x) {
+			const int a = y * (width + 1) + x, b = a + 1, d = a + width + 1, c = d + 1;
+			for (const Triangle& t : {Triangle{a, b, c}, Triangle{a, c, d}}) {
+				map.charts[0].faces.push_back(static_cast<int>(mesh.triangles.size()));
+				mesh.triangles.push_back(t);
+				map.reversed.push_back(0);
+				Triangle2 uv;
+				for (std::size_t k = 0; k < 3; ++k) {
+					const Point3& p = mesh.positions[positionOf(t[k])];
+					uv[k] = {p[0], p[1]};
+				}
+				map.uv.push_back(uv);
+			}
+		}
+	return map;
+}
+
+/// A strip of 20 by 2 is cut by the two edges across its middle into two of 10 by 2 at most.
+TEST(PackStrips, CutsAcrossWhereThatWins)
+{
+	const Parametrization before = gridOf(20, 2);
+	Parametrization whole = before, map = before;
+	packCharts(whole, true, 0.01, inRows, ChartTurns::Free);
+	packStrips(map, 0.01, inRows, ChartTurns::Free);
+	ASSERT_EQ(map.charts.size(), 2u);
+	EXPECT_EQ(map.report.charts, 2);
+	EXPECT_EQ(map.report.overlapCuts, 2);
+	EXPECT_NEAR(map.report.seamLength, 2.0, 1e-12);
+	EXPECT_NEAR(map.report.seamLengthRelative, 2.0 / std::sqrt(40.0), 1e-12);
+	EXPECT_EQ(map.charts[0].faces.size() + map.charts[1].faces.size(), 80u);
+	for (const Chart& chart : map.charts) {
+		EXPECT_GE(chart.faces.size(), 4u * 8); // within the middle fifth
+	}
+	EXPECT_GE(map.report.occupancy, kWorthCutting * whole.report.occupancy);
+	EXPECT_TRUE(keepApart(outlinesOf(map), 0.01 * (1.0 - 1e-9)));
+	for (const Triangle2& triangle : map.uv)
+		EXPECT_GT(doubledArea(triangle[0], triangle[1], triangle[2]), 0.0);
+}
+
+TEST(PackStrips, LeavesWholeWhatWinsNothing)
+{
+	for (const ChartTurns turns : {ChartTurns::None, ChartTurns::Free})
+		for (const std::array<int, 2> size : {std::array<int, 2>{8, 8}, {16, 10}, {30, 3}}) {
+			if (turns == ChartTurns::Free && size[0] == 30)
+				continue;
+			const Parametrization before = gridOf(size[0], size[1]);
+			Parametrization whole = before, map = before;
+			packCharts(whole, true, 0.0, inRows, turns);
+			packStrips(map, 0.0, inRows, turns);
+			EXPECT_EQ(map.uv, whole.uv);
+			EXPECT_EQ(map.charts.size(), 1u);
+			EXPECT_EQ(map.report.overlapCuts, 0);
+		}
 }
 
 TEST(ChartTurns, RectanglesStayUprightAndQuarterTurnsStaySo)

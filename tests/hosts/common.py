@@ -53,7 +53,8 @@ PARAMETERS = [
     ("colorize", "Bool", False), ("flat_layer", "Bool", False),
     ("holes", "Enum", 0), ("cone_count", "Int", 0), ("cone_rounding", "Enum", 0),
     ("surgery", "Enum", 2), ("finish", "Enum", 2), ("resolve_overlap", "Bool", True),
-    ("normalize_uv", "Bool", True), ("sphere_layer", "Bool", False), ("report", "String", ""),
+    ("normalize_uv", "Bool", True), ("cut_strips", "Bool", False),
+    ("sphere_layer", "Bool", False), ("report", "String", ""),
     ("circle_packing", "Enum", 0), ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200),
     ("time_limit", "Float", 0.0)]
 

@@ -73,31 +73,44 @@ Outline outlineOf(const std::vector<Triangle2>& triangles)
 {
 	struct Side
 	{
-		Segment ends; // the lower one first
-		int count;    // 1 where it runs to the higher one, else -1
+		double x; // of the lower end
+		std::size_t number;
+	};
+	// From the lower end; true where the triangle has it that way.
+	const auto endsOf = [&](const Side& side) {
+		const Triangle2& t = triangles[side.number / 3];
+		const std::size_t k = side.number % 3;
+		const Point2 &a = t[k], &b = t[(k + 1) % 3];
+		const bool upwards = a < b;
+		return std::make_pair(
+			upwards ? Segment{a, b} : Segment{b, a},
+			upwards == !(doubledArea(t[0], t[1], t[2]) < 0.0));
 	};
 	std::vector<Side> sides;
 	sides.reserve(3 * triangles.size());
-	for (Triangle2 t : triangles) {
-		if (doubledArea(t[0], t[1], t[2]) < 0.0)
-			std::swap(t[1], t[2]);
+	for (std::size_t i = 0; i < triangles.size(); ++i)
 		for (std::size_t k = 0; k < 3; ++k) {
-			const Point2 &a = t[k], &b = t[(k + 1) % 3];
+			const Point2 &a = triangles[i][k], &b = triangles[i][(k + 1) % 3];
 			if (a != b)
-				sides.push_back(a < b ? Side{{a, b}, 1} : Side{{b, a}, -1});
+				sides.push_back({std::min(a, b)[0], 3 * i + k});
 		}
-	}
-	std::sort(
-		sides.begin(), sides.end(), [](const Side& s, const Side& t) { return s.ends < t.ends; });
+	std::sort(sides.begin(), sides.end(), [&](const Side& s, const Side& t) {
+		return s.x != t.x ? s.x < t.x : endsOf(s).first < endsOf(t).first;
+	});
 	Outline outline;
 	for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
+		const Segment ends = endsOf(*first).first;
 		int count = 0;
-		for (; last != sides.end() && last->ends == first->ends; ++last)
-			count += last->count;
+		for (; last != sides.end() && last->x == first->x; ++last) {
+			const auto [other, isUpwards] = endsOf(*last);
+			if (other != ends)
+				break;
+			count += isUpwards ? 1 : -1;
+		}
 		for (; count > 0; --count)
-			outline.push_back(first->ends);
+			outline.push_back(ends);
 		for (; count < 0; ++count)
-			outline.push_back({first->ends[1], first->ends[0]});
+			outline.push_back({ends[1], ends[0]});
 	}
 	return outline;
 }

@@ -5,6 +5,7 @@
 #include "../error.h"
 #include "../math/min_area_rectangle.h"
 #include "../measure/distortion.h"
+#include "separate_charts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -325,6 +326,23 @@ void packCharts(
 	}
 	clampToUnitSquare(map);
 	map.report.occupancy = coveredArea(map);
+}
+
+void packStrips(
+	Parametrization& map,
+	double margin,
+	const PlaceBoxes& placeBoxes,
+	ChartTurns turns,
+	const Tick& tick)
+{
+	Parametrization cut = map;
+	packCharts(map, true, margin, placeBoxes, turns, tick);
+	if (turns == ChartTurns::None ||
+		!cutStrip(cut.opened.mesh, turns == ChartTurns::Free, tick, cut))
+		return;
+	packCharts(cut, true, margin, placeBoxes, turns, tick);
+	if (cut.report.occupancy >= kWorthCutting * map.report.occupancy)
+		map = std::move(cut);
 }
 
 std::vector<Box2> placeDisks(Parametrization& map)

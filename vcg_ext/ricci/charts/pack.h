@@ -54,6 +54,18 @@ void packCharts(
 	ChartTurns turns = ChartTurns::None,
 	const Tick& tick = {});
 
+/// A strip is cut where the charts then cover this many times as much of the square: about twice.
+constexpr double kWorthCutting = 1.7;
+
+/// packCharts() into the unit square, and once more with the largest chart cut by cutStrip(), which is
+/// taken where the charts then cover kWorthCutting times as much. Without turns nothing is cut.
+void packStrips(
+	Parametrization& map,
+	double margin,
+	const PlaceBoxes& placeBoxes,
+	ChartTurns turns,
+	const Tick& tick = {});
+
 /// Places the unit disks of the charts, as parametrizeHyperbolic() leaves them, in equal squares, row
 /// by row from the origin, which together lie in [0, 1]^2, and moves the charts there.
 /// \return [chart] the square that its disk fills

@@ -2,13 +2,18 @@
 #include "separate_charts.h"
 
 #include "../math/min_area_rectangle.h"
+#include "../math/min_cut.h"
+#include "../measure/distortion.h"
 #include "chart_division.h"
 #include "chart_overlap.h"
 #include "chart_sides.h"
 #include "join_parts.h"
+#include "part_graph.h"
 #include "simple_border.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace ricci {
@@ -183,6 +188,79 @@ std::vector<Chart> chartsOf(
 	return charts;
 }
 
+/// The share of the plane that a chart covers.
+double areaOf(Parametrization& map, const Chart& chart)
+{
+	double doubled = 0.0;
+	for (const int f : trianglesOf(map, chart)) {
+		const Triangle2& t = planeOf(map)[positionOf(f)];
+		doubled += std::abs(doubledArea(t[0], t[1], t[2]));
+	}
+	return 0.5 * doubled;
+}
+
+/// Part 1 on one side of the least cut across a chart, 0 on the other; empty for a chart that is no
+/// strip.
+Array<int> halves(const DrawnChart& drawn, const PartGraph& graph, const Tick& tick)
+{
+	std::vector<Point2> points;
+	for (const Triangle2& triangle : drawn.plane)
+		points.insert(points.end(), triangle.begin(), triangle.end());
+	const OrientedRectangle r = minAreaRectangle(std::move(points));
+	if (!(r.width() > kStripLength * r.height()))
+		return {};
+	std::vector<int> left, right;
+	Array<char> end(drawn.plane.size(), 0);
+	for (const int i : drawn.plane.indices()) {
+		double along = 0.0;
+		for (const Point2& p : drawn.plane[i])
+			along += (r.inFrame(p)[0] - r.min[0]) / (3.0 * r.width());
+		if (along < 0.4)
+			left.push_back(i);
+		else if (along > 0.6)
+			right.push_back(i);
+		end[i] = along < 0.4 ? 1 : along > 0.6 ? 2 : 0;
+	}
+	const MinCut::Side side =
+		MinCut(drawn.plane.size())
+			.run(
+				left,
+				right,
+				[&](int i, const MinCut::AddEdge& add) {
+					for (int own = 3 * i; own < 3 * i + 3; ++own)
+						if (const int other = graph.joined(own); other >= 0)
+							if (end[i] == 0 || end[i] != end[other / 3])
+								add(other / 3, graph.weight(own), graph.weight(own));
+				},
+				tick);
+	Array<int> part(drawn.plane.size(), 0);
+	for (const int i : side.nodes)
+		part[i] = 1;
+	return part;
+}
+
+/// The connected parts of a division.
+std::vector<std::vector<int>> connectedParts(const PartGraph& graph)
+{
+	Array<char> isDone(graph.part.size(), 0);
+	std::vector<std::vector<int>> parts;
+	for (const int first : graph.part.indices()) {
+		if (isDone[first])
+			continue;
+		isDone[first] = 1;
+		std::vector<int> part{first};
+		for (std::size_t head = 0; head < part.size(); ++head)
+			for (int side = 3 * part[head]; side < 3 * part[head] + 3; ++side)
+				if (const int other = graph.neighbour(side); other >= 0 && !isDone[other / 3]) {
+					isDone[other / 3] = 1;
+					part.push_back(other / 3);
+				}
+		std::sort(part.begin(), part.end());
+		parts.push_back(std::move(part));
+	}
+	return parts;
+}
+
 } // namespace
 
 void separateCharts(
@@ -227,6 +305,45 @@ void separateCharts(
 	}
 	map.charts = std::move(charts);
 	map.report.charts = static_cast<int>(map.charts.size());
+}
+
+bool cutStrip(const SurfaceMesh& mesh, bool turns, const Tick& tick, Parametrization& map)
+{
+	if (map.charts.empty())
+		return false;
+	std::vector<double> area;
+	for (const Chart& chart : map.charts)
+		area.push_back(areaOf(map, chart));
+	const auto largest = std::max_element(area.begin(), area.end()) - area.begin();
+	const Chart whole = map.charts[static_cast<std::size_t>(largest)];
+	const DrawnChart drawn = drawnChart(mesh, map, whole);
+	Array<int> across = sidesAcross(drawn);
+	const ChartSides sides{std::move(across), lengthsOf(mesh, map, drawn)};
+	PartGraph graph(drawn, sides);
+	Array<int> part = halves(drawn, graph, tick);
+	if (part.size() == 0)
+		return false;
+	graph.part = std::move(part);
+	const std::vector<std::vector<int>> parts = connectedParts(graph);
+	if (parts.size() != 2)
+		return false;
+	const double before = map.report.seamLength;
+	for (const int side : sides.across.indices())
+		if (const int other = graph.joined(side);
+			other > side && graph.part[other / 3] != graph.part[side / 3]) {
+			++map.report.overlapCuts;
+			map.report.seamLength += sides.lengthOf(side);
+		}
+	map.report.seamLengthRelative +=
+		(map.report.seamLength - before) / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
+	std::vector<char> faceDone(mesh.triangles.size(), 0);
+	std::vector<Chart> both = chartsOf(map, whole, parts, faceDone);
+	for (const Chart& chart : both)
+		place(map, chart, turns);
+	map.charts[static_cast<std::size_t>(largest)] = std::move(both[0]);
+	map.charts.push_back(std::move(both[1]));
+	map.report.charts = static_cast<int>(map.charts.size());
+	return true;
 }
 
 } // namespace ricci

@@ -20,6 +20,16 @@ namespace ricci {
 void separateCharts(
 	const SurfaceMesh& mesh, bool resolve, bool turns, const Tick& tick, Parametrization& map);
 
+/// A chart this many times as long as wide is a strip.
+constexpr double kStripLength = 1.5;
+
+/// Cuts the chart that covers most of the plane once across, if its smallest bounding rectangle is
+/// longer than kStripLength times its height: along the edges of least length in space in its middle
+/// fifth. The two parts are given back as those of separateCharts(), in the report, too. A chart that would
+/// fall into more parts stays whole.
+/// \return whether it was cut
+bool cutStrip(const SurfaceMesh& mesh, bool turns, const Tick& tick, Parametrization& map);
+
 } // namespace ricci
 
 #endif

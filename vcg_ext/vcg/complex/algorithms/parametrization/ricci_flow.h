@@ -66,6 +66,9 @@ public:
 		/// Least distance of two charts, and of a chart from the border of the square that holds
 		/// all, as a share of its side; at most ricci::kMaxChartMargin.
 		double chartMargin = 0.0;
+
+		/// With normalizeUV: cut a strip across where the charts then cover about twice as much.
+		bool cutStrips = false;
 	};
 
 	/// The hyperbolic flow takes these as they are.
@@ -109,13 +112,12 @@ public:
 		ricci::Parametrization flat = ricci::parametrizeEuclidean(mesh, input, par, progress);
 
 		Result r;
-		ricci::packCharts(
-			flat,
-			par.normalizeUV,
-			par.chartMargin,
-			PlaceSideBySide,
-			ricci::chartTurns(par),
-			LastTick(progress));
+		const ricci::ChartTurns turns = ricci::chartTurns(par);
+		const ricci::Tick tick = LastTick(progress);
+		if (par.cutStrips && par.normalizeUV)
+			ricci::packStrips(flat, par.chartMargin, PlaceSideBySide, turns, tick);
+		else
+			ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide, turns, tick);
 		if (ricci::isFinished(par))
 			ricci::finishInFloats(flat.opened.mesh, LastTick(progress), flat);
 		r.report = flat.report;
