@@ -39,6 +39,8 @@ const char* const kUsage =
 	"  --capped             close all boundary loops but the longest for the flow\n"
 	"  --whole-charts       leave charts that cover themselves whole\n"
 	"  --packed             the whole way to the unit square; count there what lies on each other\n"
+	"  --margin M           between the charts, with --packed\n"
+	"  --cut-strips         with --packed\n"
 	"  --prescribe-boundary free_boundary off\n"
 	"  --epsilon X          radians\n"
 	"  --max-iterations N\n"
@@ -65,6 +67,8 @@ struct Arguments
 	std::vector<std::string> meshes;
 	std::string objFolder;
 	bool packed = false;
+	double margin = 0.0;
+	bool cutStrips = false;
 	bool verbose = false;
 };
 
@@ -129,6 +133,10 @@ Arguments parse(int argc, char** argv)
 			a.options.resolveOverlap = false;
 		else if (word == "--packed")
 			a.packed = true;
+		else if (word == "--margin")
+			a.margin = std::atof(value().c_str());
+		else if (word == "--cut-strips")
+			a.cutStrips = true;
 		else if (word == "--prescribe-boundary")
 			a.options.freeBoundary = false;
 		else if (word == "--epsilon")
@@ -234,13 +242,16 @@ Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progr
 }
 
 /// The same by the facade for vcglib, which packs the charts.
-Outcome runPacked(const SurfaceMesh& mesh, const Options& options, Progress& progress)
+Outcome
+runPacked(const SurfaceMesh& mesh, const Options& options, const Arguments& a, Progress& progress)
 {
 	using Flow = vcg::tri::RicciFlow<testing::DoubleMesh>;
 	testing::DoubleMesh m;
 	testing::toVcg(mesh, m);
 	Flow::Params params;
 	static_cast<Options&>(params) = options;
+	params.chartMargin = a.margin;
+	params.cutStrips = a.cutStrips;
 	Outcome out;
 	const std::clock_t start = std::clock();
 	const Flow::Result flat = Flow::Compute(m, params, progress);
@@ -337,7 +348,7 @@ bool addRow(const Arguments& a, const std::string& path, const NamedTarget& targ
 		options.target = target.value;
 		Listener listener(a.verbose);
 		const Outcome out =
-			a.packed ? runPacked(mesh, options, listener) : runCore(mesh, options, listener);
+			a.packed ? runPacked(mesh, options, a, listener) : runCore(mesh, options, listener);
 		printResult(out, a.packed);
 		for (const std::string& note : out.notes)
 			listener.log(note);

@@ -78,9 +78,9 @@ struct Report
 
 	int overlappingCharts = 0; ///< charts that cover a part of the plane more than once
 	int overlappingFaces = 0;  ///< faces (of the output) that meet another of their chart
-	int overlapCuts =
-		0; ///< edges of the output cut so that no chart covers itself, or across strips, less those
-		   ///< along which charts were joined
+	/// Edges of the output cut so that no chart covers itself, or across strips, less those along which
+	/// charts were joined.
+	int overlapCuts = 0;
 
 	std::optional<double> torusTauRe, torusTauIm; ///< reduced to the fundamental domain
 	std::optional<double> annulusModulus;         ///< ln(r2/r1) / 2 pi
