@@ -10,6 +10,8 @@
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
 
 #include <ricci/base/numbers.h>
+#include <ricci/charts/chart_overlap.h>
+#include <ricci/charts/outline.h>
 #include <ricci/error.h>
 #include <ricci/measure/hyperbolic_distortion.h>
 #include <ricci/surface/triangulation.h>
@@ -448,7 +450,7 @@ TYPED_TEST(Facade, FacesWithoutTheirVerticesAreRefused)
 TYPED_TEST(Facade, NormalisedUvsFillTheUnitSquareInOneDirection)
 {
 	TypeParam m;
-	toVcg(rectangle(6, 3, 600, 200), m);
+	toVcg(rectangle(6, 3, 600, 400), m);
 	auto par = onFixedTriangulation<TypeParam>();
 	auto result = compute(m, par);
 	Point2 high{0, 0};
@@ -460,7 +462,7 @@ TYPED_TEST(Facade, NormalisedUvsFillTheUnitSquareInOneDirection)
 				high[k] = std::max(high[k], p[k]);
 			}
 	EXPECT_EQ(high[0], 1.0);
-	EXPECT_NEAR(high[1], 1.0 / 3, 1e-12); // the aspect is kept
+	EXPECT_NEAR(high[1], 2.0 / 3, 1e-12); // upright, and the aspect is kept
 	par.normalizeUV = false;
 	result = compute(m, par);
 	high = {0, 0};
@@ -469,7 +471,7 @@ TYPED_TEST(Facade, NormalisedUvsFillTheUnitSquareInOneDirection)
 			for (std::size_t k = 0; k < 2; ++k)
 				high[k] = std::max(high[k], p[k]);
 	EXPECT_NEAR(high[0], 600.0, 1e-9);
-	EXPECT_NEAR(high[1], 200.0, 1e-9);
+	EXPECT_NEAR(high[1], 400.0, 1e-9);
 }
 
 TYPED_TEST(Facade, ChartsOfSeveralComponentsDoNotOverlap)
@@ -493,26 +495,29 @@ TYPED_TEST(Facade, ChartsOfSeveralComponentsDoNotOverlap)
 			par.chartMargin = margin;
 			const auto result = compute(m, par);
 			EXPECT_EQ(result.report.components, count);
-			std::vector<Box2> boxes(at(count));
+			std::vector<std::vector<Triangle2>> charts(at(count));
 			for (int c = 0; c < count; ++c)
-				for (int f = first[at(c)]; f < first[at(c + 1)]; ++f)
-					for (const Point2& p : result.wedgeUV[at(f)]) {
-						boxes[at(c)].add(p);
+				for (int f = first[at(c)]; f < first[at(c + 1)]; ++f) {
+					charts[at(c)].push_back(result.wedgeUV[at(f)]);
+					for (const Point2& p : result.wedgeUV[at(f)])
 						for (std::size_t k = 0; k < 2 && normalize; ++k) {
 							EXPECT_GE(p[k], margin);
 							EXPECT_LE(p[k], 1.0 - margin);
 						}
-					}
-			int overlaps = 0;
-			for (std::size_t a = 0; a < boxes.size(); ++a)
-				for (std::size_t b = a + 1; b < boxes.size(); ++b) {
-					bool apart = false;
-					for (std::size_t k = 0; k < 2; ++k)
-						apart |= boxes[a].max[k] + margin <= boxes[b].min[k] ||
-								 boxes[b].max[k] + margin <= boxes[a].min[k];
-					overlaps += !apart;
 				}
+			std::vector<Outline> outlines;
+			int overlaps = 0;
+			for (std::size_t c = 0; c < charts.size(); ++c) {
+				outlines.push_back(outlineOf(charts[c]));
+				for (std::size_t d = 0; d < c; ++d)
+					for (const Triangle2& t : charts[c])
+						for (const Triangle2& other : charts[d])
+							overlaps += overlap(t, other, normalize ? 1e-9 : 1e-6);
+			}
 			EXPECT_EQ(overlaps, 0) << count << " charts";
+			if (margin > 0.0) {
+				EXPECT_TRUE(keepApart(outlines, margin * (1.0 - 1e-9))) << count << " charts";
+			}
 			// One scale for all.
 			const SurfaceMesh read = fromVcg(m);
 			double scale = 0.0;

@@ -22,7 +22,7 @@ constexpr int kWordBits = 64;
 constexpr int kLevels = 9, kCells = 1 << (kLevels - 1);
 
 /// Rows of cells compared after which no further angle of the largest chart is tried.
-constexpr long long kMaxWork = 10'000'000;
+constexpr long long kMaxWork = 4'000'000;
 
 /// Cells of a row that are taken, in its bits.
 using Row = std::array<std::uint64_t, kCells / kWordBits>;
