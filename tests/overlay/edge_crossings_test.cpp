@@ -2,6 +2,7 @@
 #include "support/closed_flows.h"
 #include "support/intrinsic.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/math/orientation.h>
 #include <ricci/overlay/edge_crossings.h>
 
@@ -157,6 +158,35 @@ TEST(EdgeCrossings, AreNumberedOnceEach)
 		for (const Edge e : x.startCurves.indices())
 			EXPECT_EQ(x.startCurves[e].crossings.size(), at(x.endOn.size(e)));
 	}
+}
+
+/// End edges do not cross each other, however far they wind.
+TEST(EdgeCrossings, WithTheEndAreInTheirOrder)
+{
+	Random random(804);
+	std::size_t longest = 0;
+	for (int trial = 0; trial < 20; ++trial) {
+		SurfaceMesh mesh = grid(6, 5, Ends::Joined, Ends::Joined, [&](int i, int) {
+			return Point3{i + random.real(-0.2, 0.2), random.real(-0.2, 0.2), 0.0};
+		});
+		mesh.positions[10][0] = 4000.0; // far out, at the end of needles
+		std::vector<double> curvature(mesh.positions.size(), 1.5 * kPi);
+		curvature[1] = -1.5 * kPi * static_cast<double>(mesh.positions.size() - 1);
+		const FlippedFlow flow(mesh, prescribed(curvature));
+		const EdgeCrossings x(flow.result, kDeaf);
+		for (const EdgeCrossings::Curve& curve : x.endCurves)
+			longest = std::max(longest, curve.crossings.size());
+		for (const Edge e : flow.result.history.start.triangulation.edges()) {
+			double before = 0.0;
+			for (const int n : x.endOn.of(e)) {
+				const double share = x.endCrossings[n].onStart.affine();
+				EXPECT_GE(share, before - 1e-12) << trial;
+				before = share;
+			}
+			EXPECT_LE(before, 1.0);
+		}
+	}
+	EXPECT_GT(longest, 30u); // or the test says little
 }
 
 /// A vector of R^{2,1} by weights of the corners of a start triangle, and by those of the ends of an

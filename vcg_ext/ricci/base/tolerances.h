@@ -124,6 +124,10 @@ constexpr double kEndGap = 1e-14;
 /// edge differ by no more than this.
 constexpr double kMergeGap = 1e-12;
 
+/// A difference below this share of its terms has lost the digits that places of crossings need: they are
+/// found in extended precision.
+constexpr double kLeastDifference = 1e-6;
+
 /// Two sides of a seam that lie this near to each other, relative to the size of the layout, are at
 /// one place; and two triangles that cover each other no deeper than this only touch. A layout is
 /// closed up to the sum of what its angles round.

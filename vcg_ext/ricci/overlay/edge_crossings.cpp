@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "edge_crossings.h"
 
+#include "../base/tolerances.h"
+#include "../math/double_double.h"
 #include "../metric/unfold.h"
 
 #include <algorithm>
@@ -20,6 +22,119 @@ bool isPositive(double x)
 {
 	return x > 0.0 && std::isfinite(x);
 }
+
+/// Values of a linear function on R^{2,1} at the ends of a start halfedge.
+template<class Real>
+struct Values
+{
+	Real from, to;
+};
+
+/// Three linear functions carried along an end edge ab from one start triangle to the next, each as values
+/// at the triangle's corners. In the first triangle, at a and at the ends of the side opposite to it, they
+/// are 0, 1, 0; 0, 0, 1; and 1, 0, 0.
+template<class Real>
+class CarriedFunctions
+{
+public:
+	CarriedFunctions(
+		const Triangulation& start,
+		const EdgeArray<double>& delta,
+		const NormalCoordinates::Curve& curve) :
+			m_start(start),
+			m_delta(delta)
+	{
+		values[0].assign(1, {Real(1.0), Real(0.0)});
+		values[1].assign(1, {Real(0.0), Real(1.0)});
+		values[2].assign(1, {Real(0.0), Real(0.0)});
+		// At the corner that the next crossed side leaves behind.
+		std::array<Real, 3> apex{Real(0.0), Real(0.0), Real(1.0)};
+		for (std::size_t i = 0; i < curve.crossings.size(); ++i) {
+			const Halfedge x = curve.crossings[i].halfedge;
+			const bool isLast = i + 1 == curve.crossings.size();
+			// Whether the next crossed side has the origin of x in common with x, or its target.
+			const bool fromStays =
+				!isLast && curve.crossings[i + 1].halfedge == m_start.next(x.twin());
+			const Across across(triangle(x), triangle(x.twin()), m_delta[x.edge()]);
+			for (std::size_t k = 0; k < 3; ++k) {
+				const Values<Real> v = values[k].back();
+				const Real next = across(v.from, v.to, apex[k]);
+				if (isLast)
+					atB[k] = next;
+				else if (fromStays) {
+					values[k].push_back({v.from, next});
+					apex[k] = v.to;
+				}
+				else {
+					values[k].push_back({next, v.to});
+					apex[k] = v.from;
+				}
+			}
+		}
+	}
+
+	std::array<std::vector<Values<Real>>, 3> values; ///< [function][crossing] of the start halfedge
+	std::array<Real, 3> atB{};                       ///< [function]
+
+private:
+	/// A start triangle ijk.
+	struct StartTriangle
+	{
+		Real ij, jk, ki; ///< inversive distances
+		Real rootD;      ///< root of minus the Gram determinant of x_i, x_j, x_k
+	};
+
+	/// The one on the left of h = ij.
+	StartTriangle triangle(Halfedge h) const
+	{
+		using std::sqrt;
+		const auto distance = [&](Halfedge side) { return Real(1.0) + Real(m_delta[side.edge()]); };
+		StartTriangle x;
+		x.ij = distance(h);
+		x.jk = distance(m_start.next(h));
+		x.ki = distance(m_start.previous(h));
+		x.rootD = sqrt(
+			x.ij * x.ij + x.jk * x.jk + x.ki * x.ki + Real(2.0) * x.ij * x.jk * x.ki - Real(1.0));
+		return x;
+	}
+
+	/// Value at l of a linear function on R^{2,1} that is fi, fj, fk at the vectors x_i, x_j, x_k of the
+	/// corners of a start triangle; l is the apex on the other side of ij.
+	///
+	///          k
+	///        /   \         D_k, D_l: of the triangles with apex k and l
+	///       i --> j        rootD_l x_k + rootD_k x_l = M_i x_i + M_j x_j
+	///        \   /         c2 = I_ij^2 - 1
+	///          l
+	///
+	/// M_i = (P_i + I_ij P_j) / c2, P_i = rootD_l I_ik + rootD_k I_il, and likewise with i and j
+	/// exchanged: the products of both sides with x_i and x_j, where <x_i, x_k> = -I_ik.
+	class Across
+	{
+	public:
+		/// \param b the triangle on the other side, with i and j exchanged
+		Across(const StartTriangle& a, const StartTriangle& b, double delta)
+		{
+			const Real c2 = Real(delta) * (Real(delta) + Real(2.0));
+			const Real pi = b.rootD * a.ki + a.rootD * b.jk;
+			const Real pj = b.rootD * a.jk + a.rootD * b.ki;
+			m_i = (pi + a.ij * pj) / c2;
+			m_j = (pj + a.ij * pi) / c2;
+			m_rootK = a.rootD;
+			m_rootL = b.rootD;
+		}
+		Real operator()(Real fi, Real fj, Real fk) const
+		{
+			return (m_i * fi + m_j * fj - m_rootL * fk) / m_rootK;
+		}
+
+	private:
+		Real m_i, m_j, m_rootK, m_rootL;
+	};
+
+	const Triangulation& m_start;
+	const EdgeArray<double>& m_delta;
+};
 
 } // namespace
 
@@ -91,121 +206,68 @@ void EdgeCrossings::placeInputCrossings()
 	}
 }
 
-/// The start triangle ijk on the left of h = ij.
-EdgeCrossings::StartTriangle EdgeCrossings::startTriangle(Halfedge h) const
-{
-	const EdgeArray<double>& delta = m_flow.history.startDelta;
-	StartTriangle x;
-	x.ij = 1.0 + delta[h.edge()];
-	x.jk = 1.0 + delta[m_start.next(h).edge()];
-	x.ki = 1.0 + delta[m_start.previous(h).edge()];
-	x.rootD = std::sqrt(x.ij * x.ij + x.jk * x.jk + x.ki * x.ki + 2.0 * x.ij * x.jk * x.ki - 1.0);
-	return x;
-}
-
-/// Value at l of a linear function on R^{2,1} that is fi, fj, fk at the vectors x_i, x_j, x_k of the
-/// corners of the triangle on the left of h = ij; l is the apex on the other side.
-///
-///          k
-///        /   \         D_k, D_l: of the triangles with apex k and l
-///       i --> j        rootD_l x_k + rootD_k x_l = M_i x_i + M_j x_j
-///        \   /         c2 = I_ij^2 - 1
-///          l
-///
-/// M_i = (P_i + I_ij P_j) / c2, P_i = rootD_l I_ik + rootD_k I_il, and likewise with i and j
-/// exchanged: the products of both sides with x_i and x_j, where <x_i, x_k> = -I_ik.
-double EdgeCrossings::across(Halfedge h, double fi, double fj, double fk) const
-{
-	const StartTriangle a = startTriangle(h), b = startTriangle(h.twin());
-	const double d = m_flow.history.startDelta[h.edge()];
-	const double c2 = d * (d + 2.0);
-	const double pi = b.rootD * a.ki + a.rootD * b.jk; // b has i and j exchanged
-	const double pj = b.rootD * a.jk + a.rootD * b.ki;
-	const double mi = (pi + a.ij * pj) / c2, mj = (pj + a.ij * pi) / c2;
-	return (mi * fi + mj * fj - b.rootD * fk) / a.rootD;
-}
-
-/// Carries three functions from triangle to triangle, each as values at the triangle's corners. In
-/// the first triangle, at a and at the ends of the side opposite to it, they are 0, 1, 0; 0, 0, 1;
-/// and 1, 0, 0.
-void EdgeCrossings::carry(const Curve& curve, CarriedFunctions& functions) const
-{
-	functions.values[0].assign(1, {1, 0});
-	functions.values[1].assign(1, {0, 1});
-	functions.values[2].assign(1, {0, 0});
-	std::array<double, 3> apex{0, 0, 1}; // the corner that the next crossed side leaves behind
-	for (std::size_t i = 0; i < curve.crossings.size(); ++i) {
-		const Halfedge x = curve.crossings[i].halfedge;
-		const bool isLast = i + 1 == curve.crossings.size();
-		// Whether the next crossed side has the origin of x in common with x, or its target.
-		const bool fromStays = !isLast && curve.crossings[i + 1].halfedge == m_start.next(x.twin());
-		for (std::size_t k = 0; k < 3; ++k) {
-			const Values v = functions.values[k].back();
-			const double next = across(x, v.from, v.to, apex[k]);
-			if (isLast)
-				functions.atB[k] = next;
-			else if (fromStays) {
-				functions.values[k].push_back({v.from, next});
-				apex[k] = v.to;
-			}
-			else {
-				functions.values[k].push_back({next, v.to});
-				apex[k] = v.from;
-			}
-		}
-	}
-}
-
 /// The end edge ab lies in the plane of R^{2,1} through a and b: the crossings are where the linear
-/// function that vanishes on it does.
+/// function that vanishes on it does. An edge that winds round the surface, or passes needles, loses
+/// digits on its way.
 void EdgeCrossings::placeEndCrossings()
 {
-	CarriedFunctions functions;
+	for (const Edge e : endCurves.indices())
+		if (!endCurves[e].crossings.empty() && !placeOnEndEdge<double>(e))
+			placeOnEndEdge<DoubleDouble>(e);
+}
+
+/// \return whether the places have digits enough
+template<class Real>
+bool EdgeCrossings::placeOnEndEdge(Edge e)
+{
+	using std::abs;
+	const Curve& curve = endCurves[e];
+	const std::size_t n = curve.crossings.size();
+	const CarriedFunctions<Real> functions(m_start, m_flow.history.startDelta, curve);
 	const auto& first = functions.values[0];
 	const auto& second = functions.values[1];
 	const auto& atA = functions.values[2];
-	const std::array<double, 3>& atB = functions.atB;
-	for (const Edge e : endCurves.indices()) {
-		const Curve& curve = endCurves[e];
-		const std::size_t n = curve.crossings.size();
-		if (n == 0)
-			continue;
-		carry(curve, functions);
-		double before = 0.0; // share of the crossing before on the end edge
-		for (std::size_t i = 0; i < n; ++i) {
-			// atB[1] first - atB[0] second vanishes at a and at b.
-			const double from = atB[1] * first[i].from - atB[0] * second[i].from;
-			const double to = atB[1] * first[i].to - atB[0] * second[i].to;
-			// The crossing is |to| x_from + |from| x_to, both weights positive.
-			EdgeWeights onStart{std::abs(to), std::abs(from)};
-			if (!isPositive(onStart.from) || !isPositive(onStart.to) || from * to > 0.0)
-				onStart = {1.0, 1.0};
-			const double scale = 1.0 / onStart.sum();
-			onStart.from *= scale;
-			onStart.to *= scale;
-			const auto valueOf = [&](const Values& v) {
-				return onStart.from * v.from + onStart.to * v.to;
-			};
-			// It also is onEnd.from x_a + onEnd.to x_b: first + second is 0 at a, and the third
-			// function is 1 there.
-			EdgeWeights onEnd;
-			onEnd.to = (valueOf(first[i]) + valueOf(second[i])) / (atB[0] + atB[1]);
-			onEnd.from = valueOf(atA[i]) - onEnd.to * atB[2];
-			if (!isPositive(onEnd.from) || !isPositive(onEnd.to)) {
-				const double share = static_cast<double>(i + 1) / static_cast<double>(n + 1);
-				onEnd = {1.0 - share, share};
-			}
-			// Order along the end edge, against rounding.
-			if (onEnd.affine() < before) {
-				const double sum = onEnd.sum();
-				onEnd.to = before * sum;
-				onEnd.from = sum - onEnd.to;
-			}
-			before = onEnd.affine();
-			endCrossings[endNumber(curve.crossings[i])] = {
-				e, curve.crossings[i].halfedge.isFirst() ? onStart : onStart.reversed(), onEnd};
+	const std::array<Real, 3>& atB = functions.atB;
+	bool isExact = true;
+	double before = 0.0; // share of the crossing before on the end edge
+	for (std::size_t i = 0; i < n; ++i) {
+		// atB[1] first - atB[0] second vanishes at a and at b.
+		const auto vanishing = [&](Real f, Real g) { return atB[1] * f - atB[0] * g; };
+		const auto size = [&](Real f, Real g) { return abs(atB[1] * f) + abs(atB[0] * g); };
+		const Real from = vanishing(first[i].from, second[i].from);
+		const Real to = vanishing(first[i].to, second[i].to);
+		const Real terms = size(first[i].from, second[i].from) + size(first[i].to, second[i].to);
+		isExact = isExact && abs(from) + abs(to) >= Real(kLeastDifference) * terms;
+		// The crossing is |to| x_from + |from| x_to, both weights positive.
+		Values<Real> weight{abs(to), abs(from)};
+		if (!isPositive(double(weight.from)) || !isPositive(double(weight.to)) ||
+			double(from) * double(to) > 0.0)
+			weight = {Real(1.0), Real(1.0)};
+		const Real scale = Real(1.0) / (weight.from + weight.to);
+		weight = {weight.from * scale, weight.to * scale};
+		const EdgeWeights onStart{double(weight.from), double(weight.to)};
+		const auto valueOf = [&](const Values<Real>& v) {
+			return weight.from * v.from + weight.to * v.to;
+		};
+		// It also is onEnd.from x_a + onEnd.to x_b: first + second is 0 at a, and the third
+		// function is 1 there.
+		const Real toEnd = (valueOf(first[i]) + valueOf(second[i])) / (atB[0] + atB[1]);
+		EdgeWeights onEnd{double(valueOf(atA[i]) - toEnd * atB[2]), double(toEnd)};
+		if (!isPositive(onEnd.from) || !isPositive(onEnd.to)) {
+			const double share = static_cast<double>(i + 1) / static_cast<double>(n + 1);
+			onEnd = {1.0 - share, share};
 		}
+		// Order along the end edge, against rounding.
+		if (onEnd.affine() < before) {
+			const double sum = onEnd.sum();
+			onEnd.to = before * sum;
+			onEnd.from = sum - onEnd.to;
+		}
+		before = onEnd.affine();
+		endCrossings[endNumber(curve.crossings[i])] = {
+			e, curve.crossings[i].halfedge.isFirst() ? onStart : onStart.reversed(), onEnd};
 	}
+	return isExact;
 }
 
 } // namespace ricci

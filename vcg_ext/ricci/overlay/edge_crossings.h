@@ -54,32 +54,10 @@ public:
 	Array<EndCrossing> endCrossings;
 
 private:
-	/// Values of a linear function on R^{2,1} at the ends of a start halfedge.
-	struct Values
-	{
-		double from, to;
-	};
-
-	/// Linear functions carried along an end edge ab, through the start triangles on its way.
-	struct CarriedFunctions
-	{
-		/// [function][crossing] at the ends of the crossed start halfedge
-		std::array<std::vector<Values>, 3> values;
-		std::array<double, 3> atB{0, 0, 0}; ///< [function]
-	};
-
-	/// A start triangle ijk.
-	struct StartTriangle
-	{
-		double ij, jk, ki; ///< inversive distances
-		double rootD;      ///< root of minus the Gram determinant of x_i, x_j, x_k
-	};
-
 	void placeInputCrossings();
 	void placeEndCrossings();
-	void carry(const Curve& curve, CarriedFunctions& functions) const;
-	StartTriangle startTriangle(Halfedge h) const;
-	double across(Halfedge h, double fi, double fj, double fk) const;
+	template<class Real>
+	bool placeOnEndEdge(Edge e);
 
 	const FlowResult& m_flow;
 	const Triangulation& m_start;
