@@ -4,21 +4,28 @@
 #include "support/complex.h"
 #include "support/flat_map.h"
 #include "support/intrinsic.h"
+#include "support/packed.h"
 #include "support/random.h"
+#include "support/random_surface.h"
 #include "support/shapes.h"
 #include "support/siegel.h"
 #include "support/transform.h"
 
 #include <ricci/base/numbers.h>
+#include <ricci/flow/ricci_flow.h>
 #include <ricci/math/disjoint_sets.h>
+#include <ricci/measure/distortion.h>
 #include <ricci/measure/invariants.h>
 #include <ricci/measure/period_matrix.h>
 #include <ricci/parametrize.h>
+#include <ricci/surface/topology.h>
+#include <ricci/target/linear_flow.h>
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
@@ -398,6 +405,76 @@ TEST(PeriodMatrix, BelongsToTheSameClassWithTheFactorOfANearbyMatrix)
 		if (report.torusTauIm) {
 			EXPECT_NEAR(*report.torusTauIm, own.imag(), 0.05 * own.imag());
 		}
+	}
+}
+
+/// Energies of the piecewise linear harmonic forms with integer periods on a torus of rows of
+/// \p nv cells, by dense matrices. Two forms are that which is 1 where an edge leaves the last row of cells.
+Eigen::Matrix2d harmonicEnergies(const SurfaceMesh& mesh, int nv)
+{
+	const auto n = static_cast<Eigen::Index>(mesh.positions.size());
+	const auto past = [](int from, int to) { // the end; 0, or +-1
+		return std::abs(to - from) <= 1 ? 0.0 : to < from ? 1.0 : -1.0;
+	};
+	Eigen::MatrixXd laplacian = Eigen::MatrixXd::Zero(n, n), right = Eigen::MatrixXd::Zero(n, 2);
+	Eigen::Matrix2d energy = Eigen::Matrix2d::Zero();
+	for (const Triangle& t : mesh.triangles)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const int v = t[k], w = t[(k + 1) % 3];
+			const Point3 &p = mesh.positions[at(v)], &q = mesh.positions[at(w)],
+						 &r = mesh.positions[at(t[(k + 2) % 3])];
+			double dot = 0.0;
+			for (std::size_t i = 0; i < 3; ++i)
+				dot += (p[i] - r[i]) * (q[i] - r[i]);
+			const double cotangent = dot / (2.0 * triangleArea({p, q, r}));
+			const Eigen::RowVector2d form(past(v / nv, w / nv), past(v % nv, w % nv));
+			const double weight = 0.5 * cotangent;
+			laplacian(v, v) += weight;
+			laplacian(w, w) += weight;
+			laplacian(v, w) -= weight;
+			laplacian(w, v) -= weight;
+			right.row(w) -= weight * form;
+			right.row(v) += weight * form;
+			energy += weight * form.transpose() * form;
+		}
+	const Eigen::MatrixXd functions = laplacian.completeOrthogonalDecomposition().solve(right);
+	return energy - right.transpose() * functions;
+}
+
+/// For genus 1 the eigenvalues of J^-1 E are +-i k with k^2 = det E.
+TEST(PeriodMatrix, ErrorIsTheLogarithmOfTheLargestEigenvalue)
+{
+	for (const int nu : {5, 8, 12}) {
+		const int nv = 6;
+		const SurfaceMesh mesh = torus(2.0, 1.0, nu, nv);
+		const double k = std::sqrt(harmonicEnergies(mesh, nv).determinant());
+		EXPECT_GT(k, 1.001);
+		EXPECT_NEAR(periodMatrixOf(intrinsicMesh(mesh)).error, std::log(k), 1e-9);
+	}
+}
+
+/// Conjugate gradients end when the energy of what is left is 1e-7, and the energies are about 1.
+TEST(PeriodMatrix, WithTheFactorOfANearbyMatrixItIsTheSameToSevenDigits)
+{
+	Random random(505);
+	for (const int genus : {1, 2}) {
+		const Packed packed(shaken(perforatedSlab(genus, 3), 0.05, random));
+		const EmbeddedSurface surface{
+			packed.triangulation, {}, packed.lengths, topologyOf(packed.triangulation)};
+		FlowStart start = flowStart(surface, FlowOptions());
+		const LinearFlow flow(surface, start, ConeBoundary::Fixed);
+		ASSERT_TRUE(start.hessian);
+		IntrinsicMesh mesh = start.packing.mesh;
+		for (double& l : mesh.lengths)
+			l *= random.real(0.9, 1.1);
+		int ticks = 0, ownTicks = 0;
+		const PeriodMatrix near =
+			periodMatrix(mesh.triangulation, mesh.lengths, start.hessian.get(), [&] { ++ticks; });
+		const PeriodMatrix own =
+			periodMatrix(mesh.triangulation, mesh.lengths, nullptr, [&] { ++ownTicks; });
+		EXPECT_GT(ticks, ownTicks + 2 * genus); // it is another matrix
+		EXPECT_LT(classDistance(own.omega, near.omega, 1e-3), 1e-6);
+		EXPECT_NEAR(near.error, own.error, 1e-6);
 	}
 }
 

@@ -331,6 +331,38 @@ TEST(OpenedMesh, AnEdgeIsDeterminedByItsVertices)
 	EXPECT_GT(opened(mesh).splitVertices, 0);
 }
 
+/// Two tetrahedra touch along an edge in such a way that their sheets cross straight on there. The two
+/// edges that this makes have the same ends, and so have the two sides of each once they are cut: one
+/// side more is cut in each tetrahedron, which opens it to a disk. No face comes off.
+TEST(OpenedMesh, ASlitIsProlongedByOneSide)
+{
+	SurfaceMesh mesh;
+	mesh.positions = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0.5}, {-1, 0, 0.5}, {0, -1, 0.5}, {0, 1, 0.5}};
+	const std::vector<Triangle> outward = {{0, 1, 2}, {1, 0, 5}, {1, 5, 2}, {0, 2, 5}};
+	for (int first = 0; first < 3; ++first) { // whichever side of a face the edge is
+		mesh.triangles.clear();
+		const auto add = [&](const Triangle& t) {
+			mesh.triangles.push_back(
+				{t[at(first)], t[at((first + 1) % 3)], t[at((first + 2) % 3)]});
+		};
+		for (const Triangle& t : outward)
+			add(t);
+		for (Triangle t : outward) { // its image under half a turn, inward
+			for (int& v : t)
+				v = v == 2 ? 3 : v == 5 ? 4 : v;
+			add(reversed(t));
+		}
+		expectOpened(mesh);
+		const OpenedMesh o = opened(mesh);
+		EXPECT_EQ(o.cutEdges, 1);
+		ASSERT_EQ(o.componentCount, 2);
+		for (const SurfaceType& type : typesOf(o))
+			EXPECT_TRUE(type.isDisk());
+		// A path of two edges is open in each: one vertex on it and both of its ends.
+		EXPECT_EQ(o.mesh.positions.size(), 2u * 5u);
+	}
+}
+
 TEST(OpenedMesh, HoldsForAnyTriangles)
 {
 	Random random(7);

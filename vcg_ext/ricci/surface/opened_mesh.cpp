@@ -178,7 +178,8 @@ private:
 	}
 
 	/// Cuts edges that share both vertices with another edge: first both edges, and where that has been
-	/// done, the triangles there all round.
+	/// done, the next side of every triangle there but one, whose corner between its two cut sides then
+	/// is a vertex of its own.
 	/// \return whether there were none
 	bool separateEdges()
 	{
@@ -195,8 +196,7 @@ private:
 				if (cut.size() > before)
 					return;
 				for (std::size_t i = 1; i < count; ++i)
-					for (int k = 0; k < 3; ++k)
-						cut.push_back(3 * sides[i].face + k);
+					cut.push_back(nextCorner(sides[i].index()));
 			});
 		for (const int s : cut) {
 			int& other = m_glued[positionOf(s)];
