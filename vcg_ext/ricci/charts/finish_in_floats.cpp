@@ -3,6 +3,7 @@
 
 #include "../base/tolerances.h"
 #include "../finish/repair.h"
+#include "../math/box_tree.h"
 #include "../math/orientation.h"
 #include "../measure/hyperbolic_distortion.h"
 #include "measure_result.h"
@@ -191,7 +192,8 @@ class BorderTest
 {
 public:
 	explicit BorderTest(const Output& output) :
-			m_output(output), m_border(output.chartCount()), m_moves(output.drawn.points.size(), 0)
+			m_output(output), m_border(output.chartCount()), m_near(output.chartCount()),
+			m_moves(output.drawn.points.size(), 0)
 	{
 		forEdges(sidesByEdge(output.drawn), [&](const DrawnSide* side, int count) {
 			if (!isInside(side, count))
@@ -199,9 +201,17 @@ public:
 					m_border[output.chartOf(side[i].atLow)].push_back(
 						{side[i].atLow, side[i].atHigh});
 		});
+		for (const int chart : m_near.indices())
+			m_near[chart].push_back(chart);
+		const Array<Box2>& boxes = output.boxes();
+		BoxTree({boxes.begin(), boxes.end()}).meetingPairs([&](int i, int j) {
+			m_near[i].push_back(j);
+			m_near[j].push_back(i);
+		});
 	}
 
-	/// Whether the patch stays in the boxes of its charts, and its moved border sides cross none.
+	/// Whether the patch stays in the boxes of its charts, and its moved border sides cross none of
+	/// theirs or of the charts whose boxes meet these.
 	bool operator()(const DrawnTriangles& drawn, const Patch& patch)
 	{
 		for (const int p : patch.points)
@@ -218,8 +228,9 @@ public:
 		for (const int chart : charts)
 			for (const BorderSide& side : m_border[chart])
 				if (m_moves[side[0]] || m_moves[side[1]])
-					for (const BorderSide& other : m_border[chart])
-						crosses = crosses || cross(drawn, side, other);
+					for (const int near : m_near[chart])
+						for (const BorderSide& other : m_border[near])
+							crosses = crosses || cross(drawn, side, other);
 		for (const int p : patch.points)
 			m_moves[p] = 0;
 		return !crosses;
@@ -243,6 +254,7 @@ private:
 
 	const Output& m_output;
 	Array<std::vector<BorderSide>> m_border; // [chart]
+	Array<std::vector<int>> m_near;          // [chart] itself, and those whose boxes meet its own
 	Array<char> m_moves;                     // [point] scratch, 0 between calls
 };
 
