@@ -282,7 +282,7 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 	const Flow::Result result = Flow::ComputeHyperbolic(model.cm, settings.flow, progress);
 	Results results = toResults(result.report);
 	if (result.groups.size() == 1 && result.groups.front().isCanonical())
-		results.emplace_back("generators", toNumbers(result.groups.front()));
+		addGenerators(result.groups.front(), results);
 	writeReport(reportFiles, Hyperbolic, par, model, result, results, progress);
 	NewLayers layers(md);
 	if (settings.flatLayer)

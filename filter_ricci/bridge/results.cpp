@@ -5,6 +5,7 @@
 #include <complex>
 #include <iomanip>
 #include <ios>
+#include <limits>
 #include <locale>
 #include <optional>
 #include <ostream>
@@ -28,12 +29,15 @@ void print(std::ostream& line, Number value)
 	line << value;
 }
 
-/// "[x,y,...]", without blanks so that a line of pairs stays easy to take apart.
+/// "[x,y,...]", without blanks so that a line of pairs stays easy to take apart. With all digits: they
+/// are to compute with.
 void print(std::ostream& line, const std::vector<double>& values)
 {
+	const std::streamsize before = line.precision(std::numeric_limits<double>::max_digits10);
 	for (std::size_t i = 0; i < values.size(); ++i)
 		line << (i == 0 ? '[' : ',') << values[i];
 	line << (values.empty() ? "[]" : "]");
+	line.precision(before);
 }
 
 std::string keyValueLine(Results::const_iterator begin, Results::const_iterator end)
@@ -124,13 +128,17 @@ void addSphereResults(const ricci::SphereMap& sphere, Results& results)
 	results.emplace_back("sphere_flipped_faces", sphere.flippedFaces);
 }
 
-std::vector<double> toNumbers(const ricci::FuchsianGroup& group)
+void addGenerators(const ricci::FuchsianGroup& group, Results& results)
 {
-	std::vector<double> numbers;
-	for (const auto* generators : {&group.handles, &group.peripheral})
-		for (const ricci::DiskIsometry& g : *generators)
-			numbers.insert(numbers.end(), {g.a.real(), g.a.imag(), g.b.real(), g.b.imag()});
-	return numbers;
+	std::vector<double> high, low;
+	for (const ricci::ExtendedIsometry& g : group.generators())
+		for (const ricci::DoubleDouble& x : {g.a.real(), g.a.imag(), g.b.real(), g.b.imag()}) {
+			high.push_back(x.high);
+			low.push_back(x.low);
+		}
+	results.emplace_back("generators", std::move(high));
+	results.emplace_back("generators_low", std::move(low));
+	results.emplace_back("generators_error", group.relationError);
 }
 
 std::string toSentence(const Results& results)

@@ -19,9 +19,9 @@ Results toResults(const ricci::Report& report);
 /// Adds what the map to the sphere measured.
 void addSphereResults(const ricci::SphereMap& sphere, Results& results);
 
-/// Re a, Im a, Re b, Im b of each generator: a canonical basis a1, b1, ..., then one generator for
-/// each boundary loop and cone.
-std::vector<double> toNumbers(const ricci::FuchsianGroup& group);
+/// Adds the canonical generators of a group.
+/// \pre group.isCanonical()
+void addGenerators(const ricci::FuchsianGroup& group, Results& results);
 
 /// What a person wants to know of a run.
 std::string toSentence(const Results& results);

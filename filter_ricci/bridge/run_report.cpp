@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ios>
+#include <limits>
 #include <locale>
 #include <sstream>
 
@@ -40,8 +41,10 @@ void print(std::ostream& out, Number value)
 	out << value;
 }
 
+/// With all digits: they are to compute with.
 void print(std::ostream& out, const std::vector<double>& values)
 {
+	out.precision(std::numeric_limits<double>::max_digits10);
 	for (std::size_t i = 0; i < values.size(); ++i)
 		out << (i == 0 ? "" : " ") << values[i];
 }

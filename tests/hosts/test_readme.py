@@ -95,7 +95,8 @@ class Readme(unittest.TestCase):
         expected = {**common.ALWAYS, **common.INVARIANTS, **common.SPHERE}
         self.assertEqual(euclidean, {key: kind.__name__ for key, kind in expected.items()})
         self.assertEqual(
-            hyperbolic, {"hyperbolic_area": "float", "relation_error": "float", "generators": "vector"})
+            hyperbolic, {"hyperbolic_area": "float", "relation_error": "float", "generators": "vector",
+                         "generators_low": "vector", "generators_error": "float"})
 
     def test_messages(self):
         """Every part of a message between two values ends in words of the bridge, or of the core's

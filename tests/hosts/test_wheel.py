@@ -158,6 +158,11 @@ class Functions(unittest.TestCase):
         self.assertAlmostEqual(result.hyperbolic_area, 4 * numpy.pi, delta=1e-6)
         a, b = numpy.asarray(result.generators).reshape(-1, 2, 2).transpose(1, 0, 2) @ [1, 1j]
         self.assertTrue(numpy.allclose(abs(a) ** 2 - abs(b) ** 2, 1.0))
+        high, low = numpy.asarray(result.generators), numpy.asarray(result.generators_low)
+        self.assertEqual(high.shape, low.shape)
+        self.assertTrue((abs(low) <= 2.0 ** -53 * abs(high)).all())
+        self.assertTrue(low.any())
+        self.assertLess(result.generators_error, 1e-8)
 
     def test_refusals(self):
         good = arrays(meshes.hill())

@@ -96,19 +96,22 @@ TEST(CanonicalGenerators, HaveTheProductOfTheWord)
 		const GroupWord word = randomWord(generators, random);
 		const Array<ExtendedIsometry> g = randomIsometries(generators, 0.5, random);
 		if (cornerCount(word) != 1) {
-			EXPECT_THROW(canonicalGenerators(word, g), InternalError);
+			EXPECT_THROW(canonicalBases(word, g), InternalError);
 			++refused;
 			continue;
 		}
-		const std::vector<ExtendedIsometry> handles = canonicalGenerators(word, g);
-		ASSERT_EQ(handles.size(), at(2 * genus));
-		double size = 1.0;
-		for (const ExtendedIsometry& h : handles)
-			size *= std::pow(static_cast<double>(abs(h.a) + abs(h.b)), 2);
-		const ExtendedIsometry difference = relationOf(handles).inverse() * productOf(word, g);
-		EXPECT_LT(
-			difference.distanceFromIdentity(),
-			100 * std::numeric_limits<DoubleDouble>::epsilon() * size);
+		const std::vector<Handles> bases = canonicalBases(word, g);
+		ASSERT_FALSE(bases.empty());
+		for (const Handles& handles : bases) {
+			ASSERT_EQ(handles.size(), at(2 * genus));
+			double size = 1.0;
+			for (const ExtendedIsometry& h : handles)
+				size *= std::pow(static_cast<double>(abs(h.a) + abs(h.b)), 2);
+			const ExtendedIsometry difference = relationOf(handles).inverse() * productOf(word, g);
+			EXPECT_LT(
+				difference.distanceFromIdentity(),
+				100 * std::numeric_limits<DoubleDouble>::epsilon() * size);
+		}
 		++canonical;
 	}
 	EXPECT_GT(canonical, 50); // or the test says little
@@ -119,7 +122,8 @@ TEST(CanonicalGenerators, OfACanonicalWordOfOneHandleAreItsLetters)
 {
 	Random random(872);
 	const Array<ExtendedIsometry> g = randomIsometries(2, 0.3, random);
-	const auto handles = canonicalGenerators({{0, false}, {1, false}, {0, true}, {1, true}}, g);
+	const Handles handles =
+		canonicalBases({{0, false}, {1, false}, {0, true}, {1, true}}, g).front();
 	ASSERT_EQ(handles.size(), 2u);
 	// The letters as they stand are one way to read the word; the one that moves 0 least is taken.
 	DoubleDouble farthest;
@@ -166,14 +170,14 @@ TEST(CanonicalGenerators, OfManyHandlesHaveTheProductOfTheWordAndTick)
 	ASSERT_EQ(cornerCount(word), 1);
 	const Array<ExtendedIsometry> g = randomIsometries(2 * handles, 1e-3, random);
 	int ticks = 0;
-	const auto found = canonicalGenerators(word, g, [&] { ++ticks; });
+	const Handles found = canonicalBases(word, g, [&] { ++ticks; }).front();
 	ASSERT_EQ(found.size(), at(2 * handles));
 	EXPECT_LT((relationOf(found).inverse() * productOf(word, g)).distanceFromIdentity(), 1e-12);
 	EXPECT_GE(ticks, handles);
 	struct Stop
 	{
 	};
-	EXPECT_THROW(canonicalGenerators(word, g, [] { throw Stop(); }), Stop);
+	EXPECT_THROW(canonicalBases(word, g, [] { throw Stop(); }), Stop);
 }
 
 TEST(CanonicalGenerators, AreNotGivenWhereTheyAreTooLarge)
@@ -181,14 +185,14 @@ TEST(CanonicalGenerators, AreNotGivenWhereTheyAreTooLarge)
 	const GroupWord word = {{0, false}, {1, false}, {0, true}, {1, true}};
 	Array<ExtendedIsometry> g(2);
 	g[0] = ExtendedIsometry::translation(1.0);
-	for (const double length : {kMaxGeneratorDistance - 3, kMaxGeneratorDistance + 3}) {
+	for (const double length : {kMaxSearchedDistance - 3, kMaxSearchedDistance + 3}) {
 		// Across the first axis, so that no way to read the word leads to shorter ones.
 		g[1] = ExtendedIsometry::rotation(kPi / 2) * ExtendedIsometry::translation(length) *
 			   ExtendedIsometry::rotation(-kPi / 2);
-		EXPECT_EQ(canonicalGenerators(word, g).empty(), length > kMaxGeneratorDistance);
+		EXPECT_EQ(canonicalBases(word, g).empty(), length > kMaxSearchedDistance);
 	}
 	g[1].b = std::numeric_limits<double>::quiet_NaN();
-	EXPECT_TRUE(canonicalGenerators(word, g).empty());
+	EXPECT_TRUE(canonicalBases(word, g).empty());
 }
 
 /// What g became, in the Lie algebra, from the left.

@@ -272,6 +272,11 @@ class Uniformization(Parametrization):
     """with Axes of the generators or Canonical polygon, one component only: Re a, Im a, Re b,
     Im b of the isometries z → (az + b)/(b̄z + ā), |a|² − |b|² = 1: a canonical basis a₁, b₁, …,
     then one isometry for each boundary loop and cone; Π[aᵢ, bᵢ] Π eₖ = ±1"""
+    generators_low: Array
+    """with generators, number by number: what a float cannot hold of it. The sum has 31
+    digits"""
+    generators_error: float
+    """with generators: largest entry of Π[aᵢ, bᵢ] Π eₖ ∓ 1 for the sums"""
 
 class MeshSet(pymeshlab.MeshSet):
     def compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge(

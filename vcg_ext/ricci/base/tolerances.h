@@ -207,6 +207,9 @@ constexpr double kWorthExtending = 1e-4;
 /// numbers of about 1e8 no longer hold |a|^2 - |b|^2 = 1 in double precision.
 constexpr double kMaxGeneratorDistance = 38.0;
 
+/// The same for extended precision, in which they are found: handle moves make them shorter.
+constexpr double kMaxSearchedDistance = 72.0;
+
 /// Copies of a fundamental domain further from 0 than this are smaller than a float can show; two
 /// whose images of 0 are nearer to each other are the same (hyperbolic distances).
 constexpr double kMaxTileDistance = 12.0, kSameTile = 1e-3;

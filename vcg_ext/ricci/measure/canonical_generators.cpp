@@ -67,7 +67,7 @@ double sizeOf(const ExtendedIsometry& m)
 /// A word that is partly made canonical: it is [a1,b1] ... [ak,bk] times the open part, conjugated.
 struct PartlyCanonical
 {
-	std::vector<ExtendedIsometry> handles;
+	Handles handles;
 	ExtendedIsometry conjugation;
 	GroupWord open;
 	double size = 0.0; ///< largest of an isometry above
@@ -231,10 +231,10 @@ ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>&
 	return productOf(word, 0, word.size(), generators);
 }
 
-std::vector<ExtendedIsometry> canonicalGenerators(
-	const GroupWord& word, const Array<ExtendedIsometry>& generators, const Tick& tick)
+std::vector<Handles>
+canonicalBases(const GroupWord& word, const Array<ExtendedIsometry>& generators, const Tick& tick)
 {
-	const double farthest = std::pow(std::sinh(kMaxGeneratorDistance / 2), 2);
+	const double farthest = std::pow(std::sinh(kMaxSearchedDistance / 2), 2);
 	std::vector<PartlyCanonical> best(1);
 	best.front().open = word;
 	while (!best.front().open.empty()) {
@@ -255,7 +255,11 @@ std::vector<ExtendedIsometry> canonicalGenerators(
 			return {};
 		best = std::move(steps);
 	}
-	return best.front().handles;
+	std::vector<Handles> bases;
+	bases.reserve(best.size());
+	for (PartlyCanonical& done : best)
+		bases.push_back(std::move(done.handles));
+	return bases;
 }
 
 void closeRelation(

@@ -20,11 +20,14 @@ struct GroupLetter
 
 using GroupWord = std::vector<GroupLetter>;
 
+/// a1, b1, ..., ag, bg.
+using Handles = std::vector<ExtendedIsometry>;
+
 /// Product of the letters of \p word.
 ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>& generators);
 
 /// Canonical generators a1, b1, ..., ag, bg of the surface whose fundamental polygon has the sides
-/// \p word: [a1,b1] ... [ag,bg] is the product of \p word.
+/// \p word: [a1,b1] ... [ag,bg] is the product of \p word. There are many; these move 0 least.
 ///
 /// The polygon is cut and glued as in the classification of surfaces [Seifert Threlfall 1934],
 /// one handle at a time:
@@ -35,9 +38,10 @@ ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>&
 /// isometries move 0 least are therefore followed: 64 of them at the same time up to genus 25, and
 /// fewer beyond, which bounds the work of one handle.
 /// \pre \p word has every generator once and its inverse once
-/// \return nothing where all that are followed move 0 by more than kMaxGeneratorDistance
+/// \return one basis for each way that is followed to its end, the one that moves 0 least first;
+/// nothing where all move 0 by more than kMaxSearchedDistance
 /// \throw InternalError if \p word is not that of a polygon whose corners are all one point
-std::vector<ExtendedIsometry> canonicalGenerators(
+std::vector<Handles> canonicalBases(
 	const GroupWord& word, const Array<ExtendedIsometry>& generators, const Tick& tick = {});
 
 /// Moves \p generators by as little as possible (in the sum of squares, on the Lie algebra) so that

@@ -2,6 +2,7 @@
 #include "fuchsian_group.h"
 
 #include "canonical_generators.h"
+#include "handle_moves.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -216,7 +217,8 @@ void addCanonicalBasis(
 {
 	if (!generators.empty())
 		closeRelation(word, tail, generators);
-	const std::vector<ExtendedIsometry> handles = canonicalGenerators(word, generators, tick);
+	const Handles handles =
+		bestConditioned(canonicalBases(word, generators, tick), peripheral, tick);
 	if (handles.size() != positionOf(generators.size()))
 		return;
 	for (std::size_t i = 0; i + 1 < handles.size(); i += 2) {
@@ -233,6 +235,16 @@ void addCanonicalBasis(
 }
 
 } // namespace
+
+std::vector<ExtendedIsometry> FuchsianGroup::generators() const
+{
+	std::vector<ExtendedIsometry> result;
+	const std::size_t commutators = 2 * handles.size(); // letters
+	for (std::size_t i = 0; i < relation.size(); ++i)
+		if (i >= commutators || i % 4 < 2)
+			result.push_back(relation[i]);
+	return result;
+}
 
 EdgeArray<SidePairing> pairingOfArcs(
 	const Triangulation& t,

@@ -26,12 +26,15 @@ struct FuchsianGroup
 	std::vector<DiskIsometry> peripheral;
 	std::vector<Vertex> peripheralVertex; ///< for each of them a vertex of the loop, or the cone
 
-	/// The canonical relation letter by letter, a1, b1, a1^-1, b1^-1, ..., e1, ..., en, before
-	/// rounding to double. Empty where it was not asked for, or moves points too far (see
-	/// canonicalGenerators()).
+	/// The canonical relation letter by letter, a1, b1, a1^-1, b1^-1, ..., e1, ..., en, in extended
+	/// precision: the last place of a double makes of it what relationCondition() says. Empty where
+	/// it was not asked for, or moves points too far (see kMaxGeneratorDistance).
 	std::vector<ExtendedIsometry> relation;
 
 	bool isCanonical() const { return !relation.empty(); }
+
+	/// a1, b1, ..., ag, bg, e1, ..., en: the letters of the relation, each once.
+	std::vector<ExtendedIsometry> generators() const;
 
 	/// Side pairings of the polygon into which the cut opens the surface, each followed by its
 	/// inverse: they take the fundamental domain to its neighbours. One pair for each arc of the
@@ -45,10 +48,10 @@ struct FuchsianGroup
 	/// The same for the loops round each single regular vertex at which the cut branches or ends.
 	double closingError = 0.0;
 
-	/// Largest entry of the difference of the canonical relation from +-1, before rounding to
-	/// double. Its generators have been moved by about polygonError so that the polygon's relation
-	/// holds. They are long words in the side pairings, and the relation multiplies large
-	/// isometries, so that rounding leaves more of it where the genus is higher.
+	/// Largest entry of the difference of the canonical relation from +-1, in extended precision.
+	/// Its generators have been moved by about polygonError so that the relation holds. It multiplies
+	/// large isometries, so that rounding leaves more of it where the genus is higher or the surface
+	/// longer: 2^-101 of relationCondition(), to the order of magnitude.
 	double relationError = 0.0;
 };
 
@@ -65,7 +68,8 @@ EdgeArray<SidePairing> pairingOfArcs(
 /// Computes the group from the side pairings of a layout. With each boundary loop drawn together to
 /// a point the cut is a graph, and all its edges but CutGraph::generators form a spanning tree. On
 /// the way round this tree, the crossings of the 4 g sides of the generators spell the relation of
-/// a polygon whose corners are one point, and canonicalGenerators() makes it canonical.
+/// a polygon whose corners are one point; canonicalBases() makes it canonical in many ways, and
+/// bestConditioned() takes one.
 ///
 /// \param pairing [edge] of the layout, for the edges of the cut
 /// \param cones [vertex] 1 at interior vertices that are not regular points of the metric
