@@ -213,8 +213,8 @@ std::string defectOfPieces(const Reading& reading, const RefinedMesh& refined, s
 	return {};
 }
 
-/// Whether the flow was asked for its target, floats have room for the map, its cones are those that the filter chose, and charts may be
-/// cut: of such a map no face may be turned round once it is finished.
+/// Whether the flow was asked for its target, floats have room for the map, its cones are those that the
+/// filter chose, and charts may be cut: of such a map no face may be turned round once it is finished.
 bool isOrdinary(const HostileMesh& hostile, const Reading& reading, const Report& report)
 {
 	return !hostile.hyperbolic && isFinished(hostile.options) && hostile.options.resolveOverlap &&
