@@ -61,7 +61,7 @@ TEST(OldOwners, KnowTheTexelsOfEachChart)
 			const bool onDiagonal = x % 20 == 19 - y % 20;
 			int count = 0;
 			for (std::size_t f = 0; f < faces.size(); ++f) {
-				if (!owners.belongs(static_cast<std::size_t>(y * size + x), charts[f]))
+				if (!owners.of(charts[f]).has(static_cast<std::size_t>(y * size + x)))
 					continue;
 				++count;
 				const Point3 w =
@@ -81,8 +81,8 @@ TEST(OldOwners, ShareWhatOverlaps)
 	const std::vector<int> charts = oldCharts(faces, nullptr);
 	const OldOwners owners(faces, charts, 0, 10, 10, nullptr);
 	const std::size_t middle = 6 * 10 + 7;
-	EXPECT_TRUE(owners.belongs(middle, charts[0]));
-	EXPECT_TRUE(owners.belongs(middle, charts[1]));
+	EXPECT_TRUE(owners.of(charts[0]).has(middle));
+	EXPECT_TRUE(owners.of(charts[1]).has(middle));
 }
 
 TEST(OldTexels, StartInTheFirstPicture)

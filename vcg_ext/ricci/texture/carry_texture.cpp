@@ -22,8 +22,8 @@ constexpr double kOnSide = 1e-6;
 /// Texels that a bilinear sample on the edge of a chart can read lie nearer.
 constexpr double kContinued = 1.5;
 
-/// Rows of one task.
-constexpr int kRows = 16;
+/// Texels are drawn in squares of this many, whose triangles stay in the cache.
+constexpr int kTile = 64;
 
 /// Which triangle each texel shows.
 class Sources
@@ -110,11 +110,13 @@ public:
 		// What a texel shows of its surroundings when it is larger than the triangle; without a bound
 		// needles would be mixed from everywhere.
 		m_reach = std::max(1.0, 4.0 * longest);
-		m_footprint.across = bounded(difference({1, 0}));
-		m_footprint.down = bounded(difference({0, 1}));
 	}
 
-	const Footprint& footprint() const { return m_footprint; }
+	/// What the map makes of a texel.
+	Footprint footprint() const
+	{
+		return {bounded(difference({1, 0})), bounded(difference({0, 1}))};
+	}
 
 	/// Barycentric coordinates of a point in the triangle, up to rounding.
 	Point3 weights(const Point2& p) const { return nearestInTriangle(m_new, p); }
@@ -157,7 +159,6 @@ private:
 
 	Triangle2 m_new, m_old; // in texels
 	double m_area = 0.0, m_reach = 0.0;
-	Footprint m_footprint;
 };
 
 /// The colour of a point of a face without a picture.
@@ -202,15 +203,24 @@ public:
 		int picture,
 		const PictureView<const Sample>& old,
 		const PictureSampler<Sample>* sampler,
+		const OldOwners* owners,
 		int threads,
 		const Tick& tick) const
 	{
-		const int tasks = (m_result.height + kRows - 1) / kRows;
+		const int tasks = (m_result.height + kTile - 1) / kTile;
 		tasksInParallel(tasks, threads, tick, [&](int task, const Tick& own) {
-			const int last = std::min((task + 1) * kRows, m_result.height);
-			for (int y = task * kRows; y < last; ++y) {
+			const int top = task * kTile, bottom = std::min(top + kTile, m_result.height);
+			for (int left = 0; left < m_result.width; left += kTile) {
 				own();
-				drawRow(y, picture, old, sampler);
+				for (int y = top; y < bottom; ++y)
+					drawRow(
+						y,
+						left,
+						std::min(left + kTile, m_result.width),
+						picture,
+						old,
+						sampler,
+						owners);
 			}
 		});
 	}
@@ -218,16 +228,19 @@ public:
 private:
 	void drawRow(
 		int y,
+		int left,
+		int right,
 		int picture,
 		const PictureView<const Sample>& old,
-		const PictureSampler<Sample>* sampler) const
+		const PictureSampler<Sample>* sampler,
+		const OldOwners* owners) const
 	{
-		for (int x = 0; x < m_result.width;) {
+		for (int x = left; x < right;) {
 			const int number = m_sources.triangle(m_result.index(x, y));
 			const int first = x;
 			do
 				++x;
-			while (x < m_result.width && m_sources.triangle(m_result.index(x, y)) == number);
+			while (x < right && m_sources.triangle(m_result.index(x, y)) == number);
 			if (number < 0)
 				continue;
 			const CarriedTriangle& triangle = m_mesh.triangles[positionOf(number)];
@@ -237,21 +250,28 @@ private:
 			const Triangle2 corners = inTexels(triangle.uv, m_result.width, m_result.height);
 			const TriangleMap map(
 				corners, triangle, sampler ? oldTexels(face, old.width, old.height) : Triangle2{});
+			if (sampler == nullptr) {
+				for (int at = first; at < x; ++at)
+					writeColour(
+						face,
+						triangle,
+						map.weights({at + 0.5, y + 0.5}),
+						m_hasAlpha,
+						m_result.rgba + 4 * m_result.index(at, y));
+				continue;
+			}
+			const OldOwners::Chart chart = owners->of(m_charts[positionOf(triangle.face)]);
+			const Footprint footprint = map.footprint();
 			for (int at = first; at < x; ++at) {
 				const std::size_t texel = m_result.index(at, y);
 				const Point2 middle{at + 0.5, y + 0.5};
 				const Point3 weights = map.weights(middle);
 				Sample* rgba = m_result.rgba + 4 * texel;
-				if (sampler == nullptr) {
-					writeColour(face, triangle, weights, m_hasAlpha, rgba);
-					continue;
-				}
-				const int chart = m_charts[positionOf(triangle.face)];
-				const Point2 nearest = map.old(weights);
 				if (!m_sources.inside(texel) &&
-					sampler->mean(map.continued(middle, weights), map.footprint(), chart, rgba))
+					sampler->mean(map.continued(middle, weights), footprint, chart, rgba))
 					continue;
-				if (!sampler->mean(nearest, map.footprint(), chart, rgba))
+				const Point2 nearest = map.old(weights);
+				if (!sampler->mean(nearest, footprint, chart, rgba))
 					sampler->nearest(nearest, chart, rgba);
 			}
 		}
@@ -300,11 +320,11 @@ void carryTexture(
 			const int number = static_cast<int>(i);
 			const PictureView<const Sample>& old = pictures[i];
 			const OldOwners owners(mesh.faces, charts, number, old.width, old.height, tick);
-			const PictureSampler<Sample> sampler(old, owners, hasAlpha);
-			drawing.draw(number, old, &sampler, threads, tick);
+			const PictureSampler<Sample> sampler(old, hasAlpha);
+			drawing.draw(number, old, &sampler, &owners, threads, tick);
 		}
 		if (used.back())
-			drawing.draw(-1, {}, nullptr, threads, tick);
+			drawing.draw(-1, {}, nullptr, nullptr, threads, tick);
 		covered = sources.covered();
 	}
 	fillFromNearest(covered, result, threads, tick);

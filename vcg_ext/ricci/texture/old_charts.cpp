@@ -122,13 +122,13 @@ OldOwners::OldOwners(
 			forEachTexelOf(t, border ? kBorder : -kBorder, -far, far, [&](int x, int y) {
 				int& owner = m_owners[view.index(wrapped(x, width), wrapped(y, height))];
 				if (owner == kNone)
-					owner = border ? key : key - 1;
-				else if (owner > kOverlap && (owner | 1) != key) {
-					if (!border)
-						owner = kOverlap;
-					else if ((owner & 1) == 1) // the others are inside of their chart
-						owner = kBorderOfTwo;
-				}
+					owner = border ? key + 1 : key;
+				else if (!border)
+					owner = owner == key ? key : kOverlap;
+				else if (owner == key + 1)
+					owner = key;
+				else if (owner % 2 == 1)
+					owner = kOutlineOfTwo;
 			});
 		}
 }

@@ -30,24 +30,43 @@ public:
 		int height,
 		const Tick& tick);
 
-	/// Whether a texel has colours of the chart. Those between charts, and those on the border of two,
-	/// belong to none; those where charts overlap belong to all. A chart with a triangle larger than
-	/// the picture has all of it.
-	bool belongs(std::size_t texel, int chart) const
+	/// The texels that have colours of one chart.
+	class Chart
 	{
-		const int owner = m_owners[texel];
-		return (owner | 1) == keyOf(chart) || owner == kOverlap ||
-			   m_extents[positionOf(chart)] == All;
+	public:
+		/// Those between charts, and those with their middle on the outline of one, belong to none;
+		/// those where charts overlap belong to all. A chart with a triangle larger than the picture
+		/// has all of it.
+		bool has(std::size_t texel) const
+		{
+			const int owner = m_owners[texel];
+			return owner == m_key || owner == kOverlap || m_extent == All;
+		}
+
+		/// Whether the chart goes on across the border of the picture, at the opposite side of it.
+		bool repeats() const { return m_extent != Inside; }
+
+	private:
+		friend class OldOwners;
+		const int* m_owners = nullptr;
+		int m_key = 0, m_extent = 0;
+	};
+
+	Chart of(int chart) const
+	{
+		Chart texels;
+		texels.m_owners = m_owners.data();
+		texels.m_key = keyOf(chart);
+		texels.m_extent = m_extents[positionOf(chart)];
+		return texels;
 	}
 
-	/// Whether the chart goes on across the border of the picture, at the opposite side of it.
-	bool repeats(int chart) const { return m_extents[positionOf(chart)] != Inside; }
-
 private:
-	/// Of texels inside of a chart the even number before, of those on its border the key itself.
-	static int keyOf(int chart) { return 2 * chart + 5; }
+	/// Of texels inside of a chart; the odd number after it is that of texels on the side of one
+	/// triangle, which become inside when they are on the side of another one of the chart.
+	static int keyOf(int chart) { return 2 * chart + 4; }
 
-	static constexpr int kNone = 0, kBorderOfTwo = 1, kOverlap = 2;
+	static constexpr int kNone = 0, kOutlineOfTwo = 1, kOverlap = 2;
 
 	enum Extent : char { Inside, AcrossBorder, All };
 
