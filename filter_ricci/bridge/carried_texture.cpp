@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
 
 namespace filter_ricci {
 
@@ -264,33 +265,34 @@ void CarriedTexture::draw(
 	m_result.fill(m_hasAlpha ? Qt::transparent : Qt::black);
 	const auto first = std::find_if(
 		m_pictures.begin(), m_pictures.end(), [](const QImage& image) { return !image.isNull(); });
-	std::vector<QImage> pictures;
-	std::vector<std::array<int, 2>> sizes;
-	int count = 0;
-	for (const QImage& picture : m_pictures) {
-		QImage image = picture;
-#if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
-		if (image.colorSpace().isValid() && first->colorSpace().isValid() &&
-			image.colorSpace() != first->colorSpace())
-			image.convertToColorSpace(first->colorSpace());
-#endif
-		if (!image.isNull()) {
-			++count;
-			image =
-				image.convertToFormat(m_hasWords ? QImage::Format_RGBA64 : QImage::Format_RGBA8888);
-			if (image.isNull())
-				throw std::bad_alloc();
-		}
-		pictures.push_back(image);
-		sizes.push_back({image.width(), image.height()});
-		tick();
-	}
 	if (first != m_pictures.end()) {
 		m_result.setDotsPerMeterX(first->dotsPerMeterX());
 		m_result.setDotsPerMeterY(first->dotsPerMeterY());
 #if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
 		m_result.setColorSpace(first->colorSpace());
 #endif
+	}
+	std::vector<QImage> pictures;
+	std::vector<std::array<int, 2>> sizes;
+	int count = 0;
+	for (QImage& picture : m_pictures) {
+		QImage image;
+		image.swap(picture); // whose memory is not needed twice
+		sizes.push_back({image.width(), image.height()});
+		if (!image.isNull()) {
+			++count;
+#if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
+			if (image.colorSpace().isValid() && m_result.colorSpace().isValid() &&
+				image.colorSpace() != m_result.colorSpace())
+				image.convertToColorSpace(m_result.colorSpace());
+#endif
+			image = std::move(image).convertToFormat(
+				m_hasWords ? QImage::Format_RGBA64 : QImage::Format_RGBA8888);
+			if (image.isNull())
+				throw std::bad_alloc();
+		}
+		pictures.push_back(image);
+		tick();
 	}
 	if (m_hasWords)
 		drawSamples<unsigned short>(pictures, tick);
@@ -311,6 +313,7 @@ void CarriedTexture::draw(
 	if (m_uncoloured > 0)
 		line += "; " + std::to_string(m_uncoloured) +
 				" faces have neither a texture nor a colour: they are white";
+	m_mesh = {};
 	progress.log(line + ".");
 	if (result.report.overlappingCharts > 0)
 		progress.log("Texture: where charts overlap, it shows one of the faces only.");

@@ -184,9 +184,8 @@ void addTextureParameters(RichParameterList& list)
 		QString(),
 		"PNG image (*.png)",
 		"Carry the texture over to",
-		"An image file (.png) in which what the mesh shows now, its textures or else its colours, "
-		"is drawn for the new texture coordinates. A relative name is beside the mesh. Empty: no "
-		"texture is drawn."));
+		"A PNG file that gets what the mesh shows now, its textures or else its colours, drawn "
+		"for the new texture coordinates. Empty: no texture."));
 	list.addParam(host::advanced<RichInt>(
 		"texture_size",
 		TextureSettings().size,

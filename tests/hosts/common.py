@@ -38,6 +38,8 @@ SPHERE = {
     "sphere_qc_area_mean": float, "sphere_area_distortion_mean": float,
     "sphere_flipped_faces": int}
 
+TEXTURE = {"texture_scale": float}
+
 # Parameter ids in the order of the public interface.
 TARGET = ["Automatic", "Flat everywhere", "Disk", "Rectangle", "Cones at selected vertices",
           "From vertex quality", "Placed cones"]
