@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -68,6 +69,17 @@ std::array<float, 4> asColour(const vcg::Color4b& c)
 double texels(const QImage& image)
 {
 	return static_cast<double>(image.width()) * image.height();
+}
+
+/// Not so in a damaged mesh, which the run will refuse.
+bool hasItsVertices(const CMeshO& m, const CFaceO& face)
+{
+	const std::less<const CVertexO*> before;
+	for (int k = 0; k < 3; ++k)
+		if (m.vert.empty() || before(face.cV(k), &m.vert.front()) ||
+			before(&m.vert.back(), face.cV(k)))
+			return false;
+	return true;
 }
 
 /// Barycentric coordinates of a point in a face of the mesh.
@@ -133,7 +145,7 @@ void CarriedTexture::readFaces(const MeshModel& model)
 	for (std::size_t f = 0; f < m.face.size(); ++f) {
 		const CFaceO& face = m.face[f];
 		ricci::TexturedFace& to = m_mesh.faces[f];
-		if (face.IsD())
+		if (face.IsD() || !hasItsVertices(m, face))
 			continue;
 		m_areas[f] = 0.5 * static_cast<double>(vcg::DoubleArea(face));
 		int texture = -1;
@@ -151,7 +163,10 @@ void CarriedTexture::readFaces(const MeshModel& model)
 			else if (faceColours)
 				to.colour[k] = asColour(face.cC());
 		}
-		if (texture >= 0 && texture < static_cast<int>(m.textures.size()))
+		const int count = static_cast<int>(m.textures.size());
+		if (places && !wedges && count > 0 && (texture < 0 || texture >= count))
+			texture = 0; // files give vertices no number of a texture
+		if (texture >= 0 && texture < count)
 			to.picture = texture;
 		else if (vertexColours || faceColours)
 			for (const std::array<float, 4>& colour : to.colour)
@@ -329,7 +344,8 @@ void CarriedTexture::write()
 	QString reason = m_file.errorString();
 	if (written) {
 		QImageWriter writer(&m_file, "png");
-		writer.setQuality(70); // of compression: a sixth of the default's time, files a sixth larger
+		writer.setQuality(
+			70); // of compression: a sixth of the default's time, files a sixth larger
 		written = writer.write(m_result);
 		reason = writer.errorString();
 	}
@@ -350,8 +366,11 @@ void CarriedTexture::publish()
 
 void CarriedTexture::assignTo(MeshModel& model) const
 {
-	if (isWanted())
-		host::setTexture(model, m_name.toStdString(), m_result);
+	if (!isWanted())
+		return;
+	host::setTexture(model, m_name.toStdString(), m_result);
+	// Coordinates of vertices, where there are some, belong to the old textures.
+	model.clearDataMask(MeshModel::MM_VERTTEXCOORD);
 }
 
 } // namespace filter_ricci

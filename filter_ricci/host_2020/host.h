@@ -5,8 +5,10 @@
 
 #include <common/interfaces.h>
 
+#include <QApplication>
 #include <QDir>
 #include <QImage>
+#include <QWidget>
 
 #include <string>
 #include <type_traits>
@@ -42,10 +44,16 @@ inline QImage texture(const MeshModel& model, const std::string& name)
 	return beside.isNull() ? QImage(file) : beside;
 }
 
-/// Makes an image, which has been written, the only texture.
+/// Makes an image, which has been written, the only texture. The window will look for it in the folder
+/// of the process; meshlabserver, which shows no widget, needs that one for the files that it writes.
 inline void setTexture(MeshModel& model, const std::string& name, const QImage&)
 {
 	model.cm.textures.assign(1, name);
+	for (const QWidget* widget : QApplication::topLevelWidgets())
+		if (widget->isVisible()) {
+			QDir::setCurrent(model.pathName());
+			return;
+		}
 }
 
 /// The name of a texture that does not lie below the mesh's folder: this host finds it by its path.

@@ -121,6 +121,27 @@ class Texture(unittest.TestCase):
         # Linear on edges of at most 0.6: second derivatives are at most twice 0.4.
         self.check(documents, textures.read_png(self.path("new.png")), 0.8 * 0.6 ** 2 / 4 + 1 / 255)
 
+    def test_coordinates_of_vertices(self):
+        """They show the old texture, and would show the new one wrong."""
+        self.mesh = meshes.hill()
+        places = [(x, y) for x, y, _ in self.mesh.vertices]
+        self.wedges = [[places[v] for v in face] for face in self.mesh.faces]
+        textures.write_png(self.path("old.png"), textures.painted(self.mesh, self.wedges, self.OLD))
+        textures.write_ply(self.path("in.ply"), self.mesh, names=["old.png"], coordinates=places)
+        documents = load(self.path("in.ply"))
+        self.carry(documents)
+        # The old picture is as wide as the mesh; two texels of it are mixed.
+        self.check(documents, textures.read_png(self.path("new.png")),
+                   2 / self.OLD * 2 * textures.GRADIENT + 1 / 255)
+        self.assertFalse(documents.current_mesh().has_vertex_tex_coord())
+
+    def test_mesh_without_a_file(self):
+        documents = self.textured()
+        documents.generate_copy_of_current_mesh()
+        self.carry(documents, carry_texture=self.path("new.png"))
+        self.check(documents, textures.read_png(self.path("new.png")))
+        self.assertEqual(list(documents.current_mesh().textures()), ["new.png"])
+
     def test_hyperbolic(self):
         self.mesh = meshes.double_torus()
         self.wedges = textures.shattered(self.mesh.faces)

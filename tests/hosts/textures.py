@@ -145,13 +145,16 @@ def largest_difference(mesh, wedges, image):
     return worst, count
 
 
-def write_ply(path, mesh, wedges=None, names=(), numbers=None, colours=None):
-    """Binary, with texture coordinates, names of textures, their numbers, colours of the vertices."""
+def write_ply(path, mesh, wedges=None, names=(), numbers=None, colours=None, coordinates=None):
+    """Binary, with texture coordinates, names of textures, their numbers; of vertices their colours and
+    coordinates."""
     header = ["ply", "format binary_little_endian 1.0"]
     header += [f"comment TextureFile {name}" for name in names]
     header += [f"element vertex {len(mesh.vertices)}", *(f"property float {axis}" for axis in "xyz")]
     if colours is not None:
         header += [f"property uchar {c}" for c in ("red", "green", "blue", "alpha")]
+    if coordinates is not None:
+        header += ["property float texture_u", "property float texture_v"]
     header += [f"element face {len(mesh.faces)}", "property list uchar int vertex_indices"]
     if wedges is not None:
         header.append("property list uchar float texcoord")
@@ -163,6 +166,8 @@ def write_ply(path, mesh, wedges=None, names=(), numbers=None, colours=None):
             out.write(struct.pack("<3f", *p))
             if colours is not None:
                 out.write(struct.pack("<4B", *colours[i]))
+            if coordinates is not None:
+                out.write(struct.pack("<2f", *coordinates[i]))
         for i, face in enumerate(mesh.faces):
             out.write(struct.pack("<B3i", 3, *face))
             if wedges is not None:
