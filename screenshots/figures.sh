@@ -55,7 +55,7 @@ shoot() {
 }
 
 has() {
-	[[ " ${RICCI_PICTURES-kitten bunny mask annulus bust} " == *" $1 "* ]]
+	[[ " ${RICCI_PICTURES-kitten bunny mask annulus bust texture} " == *" $1 "* ]]
 }
 
 # row OUT HEIGHT NAME=TEXT...: pictures side by side on white, at most HEIGHT pixels high, a line of
@@ -151,6 +151,13 @@ make_pictures() {
 		done
 		row bust 420 "bust_plain=$(cat bust_plain.txt)" "bust_plain_chart=its chart" \
 			"bust_default=$(cat bust_default.txt)" "bust_default_chart=its chart"
+	fi
+	if has texture; then
+		shoot texture_bunny_before texture_before.ply
+		shoot texture_bunny_after texture_after.ply
+		shoot texture_drawn texture_chart.ply
+		row texture 380 "texture_old=texture of single triangles" "texture_bunny_before=the mesh with it" \
+			"texture_drawn=carry_texture, in its chart" "texture_bunny_after=the mesh with this one"
 	fi
 	[ $# -eq 0 ] || compare rocker_arm rocker_arm_distortion
 }

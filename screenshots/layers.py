@@ -361,6 +361,51 @@ def bust(meshes, out, _):
             target.write(rf"{says}\nareas change {surface.results['area_distortion_mean']:.1f}-fold")
 
 
+def texture(meshes, out, _):
+    """A texture in an atlas of single triangles, and the same drawn for the filter's chart."""
+    ms = load(os.path.join(meshes, "meshes", "bunny00.off"))
+    ms.meshing_decimation_quadric_edge_collapse(targetfacenum=3000)
+    ms.compute_texcoord_parametrization_triangle_trivial_per_wedge(textdim=1024, border=1)
+    mesh = ms.current_mesh()
+    points, faces = mesh.vertex_matrix(), mesh.face_matrix()
+    wedges = mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+    write_png(f"{out}/texture_old.png", solid_texture(points, faces, wedges, 1024))
+    # By way of a file, which is what makes the host load an image.
+    write_ply(f"{out}/texture_in.ply", points, faces, wedges=wedges, texture="texture_old.png")
+    ms = load(f"{out}/texture_in.ply")
+    ms.apply_filter(FILTER, carry_texture="texture_new.png", texture_size=1024)
+    mesh = ms.current_mesh()
+    seen = turned(points, *BUNNY)
+    write_ply(f"{out}/texture_before.ply", seen, faces, wedges=wedges, texture="texture_old.png")
+    wedges = mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+    write_ply(f"{out}/texture_after.ply", seen, faces, wedges=wedges, texture="texture_new.png")
+    corners = numpy.column_stack([wedges.reshape(-1, 2), numpy.zeros(3 * len(faces))])
+    write_ply(f"{out}/texture_chart.ply", corners, numpy.arange(3 * len(faces)).reshape(-1, 3),
+              wedges=wedges, texture="texture_new.png",
+              normal=numpy.tile([0.0, 0.0, 1.0], (3 * len(faces), 1)))
+
+
+def solid_texture(points, faces, wedges, size):
+    """Bands that run through space, in the texels of each triangle and a little round it; else black."""
+    pixels = numpy.zeros((size, size, 3))
+    low, high = points.min(axis=0), points.max(axis=0)
+    places = (points - low) / (high - low).max()
+    for face, wedge in zip(faces, wedges):
+        corners = numpy.column_stack([wedge[:, 0], 1 - wedge[:, 1]]) * size
+        first = numpy.floor(corners.min(axis=0)).astype(int).clip(0)
+        last = numpy.ceil(corners.max(axis=0)).astype(int).clip(0, size)
+        x, y = numpy.meshgrid(*(numpy.arange(a, b) for a, b in zip(first, last)))
+        at = numpy.stack([x + 0.5, y + 0.5, numpy.ones_like(x)]).reshape(3, -1)
+        weights = numpy.linalg.solve(numpy.vstack([corners.T, numpy.ones(3)]), at)
+        inside = weights.min(axis=0) > -0.02
+        p = (places[face].T @ weights).T[inside]
+        bands = 0.5 + 0.5 * numpy.tanh(4 * numpy.sin(50 * p[:, 1] + 5 * numpy.sin(9 * p[:, 0])))
+        share = numpy.clip(p[:, 1], 0, 1)[:, None]
+        colour = (1 - share) * (214, 120, 60) + share * (70, 110, 190)
+        pixels[y.ravel()[inside], x.ravel()[inside]] = colour + (250 - colour) * 0.8 * bands[:, None]
+    return pixels
+
+
 def upright(ms):
     """The mannequin lies on its back."""
     ms.compute_matrix_from_rotation(rotaxis="X axis", angle=-90)
@@ -374,7 +419,8 @@ def largest(ms):
 
 
 KITTEN, BUNNY, MASK, ANNULUS, BUST = (10, 8), (-25, 5), (20, 0), (25, 25), (20, 10)
-PICTURES = {"kitten": kitten, "bunny": bunny, "mask": mask, "annulus": annulus, "bust": bust}
+PICTURES = {"kitten": kitten, "bunny": bunny, "mask": mask, "annulus": annulus, "bust": bust,
+            "texture": texture}
 
 
 def main(arguments):

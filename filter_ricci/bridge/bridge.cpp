@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bridge.h"
 
+#include "carried_texture.h"
 #include "free_memory.h"
 #include "parameters.h"
 #include "results.h"
@@ -28,6 +29,9 @@ using Layers = vcg::tri::RicciFlowLayers<CMeshO>;
 
 /// Share of the map to the sphere in the work of both maps.
 constexpr double kSphereShare = 0.4;
+
+/// Share of the texture in the work of a run.
+constexpr double kTextureShare = 0.15;
 
 /// Faces that the layer of the universal cover may have at most.
 constexpr std::size_t kMaxCoverFaces = 5000000;
@@ -122,14 +126,21 @@ private:
 };
 
 void addFlatLayer(
-	NewLayers& layers, MeshModel& model, const QString& name, const Flow::Result& result)
+	NewLayers& layers,
+	MeshModel& model,
+	const QString& name,
+	const Flow::Result& result,
+	const CarriedTexture& texture)
 {
 	MeshModel& flat = layers.add(name + " " + model.label());
 	flat.updateDataMask(MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY);
 	Layers::BuildFlatMesh(model.cm, result, flat.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(flat.cm);
 	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(flat.cm);
-	host::copyTextures(model, flat);
+	if (texture.isWanted())
+		texture.assignTo(flat);
+	else
+		host::copyTextures(model, flat);
 }
 
 void addCoverLayer(NewLayers& layers, MeshModel& model, int rings, const Flow::Result& result)
@@ -205,7 +216,11 @@ int changedElements(bool colorize, ricci::OutputTriangulation output)
 }
 
 void writeMesh(
-	MeshModel& model, bool colorize, ricci::OutputTriangulation output, const Flow::Result& result)
+	MeshModel& model,
+	bool colorize,
+	ricci::OutputTriangulation output,
+	const Flow::Result& result,
+	const CarriedTexture& texture)
 {
 	model.updateDataMask(changedElements(colorize, output));
 	if (output == ricci::OutputTriangulation::CommonRefinement) {
@@ -217,12 +232,38 @@ void writeMesh(
 		Flow::WriteVertexQuality(model.cm, result); // first, because memory may run out there
 		Flow::WriteWedgeTexCoord(model.cm, result);
 	}
+	texture.assignTo(model);
 	if (colorize)
 		colorizeByDistortion(model, result.report);
 }
 
+/// The flow with room for the gutter of a texture between its charts.
+/// \throw Refusal if there is none for so many charts
+Flow::Result computeFor(
+	const CarriedTexture& texture, MeshModel& model, Flow::Params par, ricci::Progress& progress)
+{
+	const bool widens = texture.leastMargin() > par.chartMargin;
+	if (widens) {
+		par.chartMargin = texture.leastMargin();
+		progress.log(
+			"Texture: a chart_margin of " + ricci::numberText(par.chartMargin, 3) +
+			" keeps its charts apart.");
+	}
+	try {
+		return Flow::Compute(model.cm, par, progress);
+	}
+	catch (const ricci::InvalidOption& e) {
+		if (!widens || e.problem != ricci::InvalidOption::ChartMarginTooWide)
+			throw;
+		throw Refusal(
+			"There are " + std::to_string(e.count) +
+			" charts, too many to be kept apart in a texture of this size: raise texture_size.");
+	}
+}
+
 // The order of writing: first the report, because the disk may be full; then the new layers, which
-// need the most memory; last the mesh. So a failure leaves the mesh as it was.
+// need the most memory; last the texture's file, which has been written beside its place, and the mesh.
+// So a failure leaves the mesh as it was.
 
 void writeReport(
 	const ReportFiles& files,
@@ -251,23 +292,29 @@ Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Pr
 	settings.flow.memoryLimit = freeMemory();
 	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::TargetCurvature::Prescribed);
 	const ReportFiles reportFiles(settings.report, model.pathName());
+	CarriedTexture texture(settings.texture, model);
 	// The sphere first: it refuses most surfaces.
 	const double share = settings.sphereLayer ? kSphereShare : 0.0;
-	PartOfProgress before(progress, 0.0, share), after(progress, share, 1.0);
+	const double drawn = texture.isWanted() ? 1.0 - kTextureShare : 1.0;
+	PartOfProgress before(progress, 0.0, share), after(progress, share, drawn);
+	PartOfProgress last(progress, drawn, 1.0);
 	ricci::SphereMap sphere;
 	if (settings.sphereLayer)
 		sphere = Flow::ComputeSphere(model.cm, settings.flow, before);
-	const Flow::Result result = Flow::Compute(model.cm, settings.flow, after);
+	const Flow::Result result = computeFor(texture, model, settings.flow, after);
 	Results results = toResults(result.report);
 	if (settings.sphereLayer)
 		addSphereResults(sphere, results);
+	texture.draw(model, result, last, results);
+	texture.write();
 	writeReport(reportFiles, Euclidean, par, model, result, results, progress);
 	NewLayers layers(md);
 	if (settings.flatLayer)
-		addFlatLayer(layers, model, "Flat", result);
+		addFlatLayer(layers, model, "Flat", result, texture);
 	if (settings.sphereLayer)
 		addSphereLayer(layers, model, sphere);
-	writeMesh(model, settings.colorize, settings.flow.output, result);
+	texture.publish();
+	writeMesh(model, settings.colorize, settings.flow.output, result, texture);
 	layers.keep();
 	return {results, changedElements(settings.colorize, settings.flow.output)};
 }
@@ -279,21 +326,27 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 	settings.flow.memoryLimit = freeMemory();
 	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::HyperbolicTarget::Prescribed);
 	const ReportFiles reportFiles(settings.report, model.pathName());
-	const Flow::Result result = Flow::ComputeHyperbolic(model.cm, settings.flow, progress);
+	CarriedTexture texture(settings.texture, model);
+	const double drawn = texture.isWanted() ? 1.0 - kTextureShare : 1.0;
+	PartOfProgress flow(progress, 0.0, drawn), last(progress, drawn, 1.0);
+	const Flow::Result result = Flow::ComputeHyperbolic(model.cm, settings.flow, flow);
 	Results results = toResults(result.report);
 	if (result.groups.size() == 1 && result.groups.front().isCanonical())
 		addGenerators(result.groups.front(), results);
+	texture.draw(model, result, last, results);
+	texture.write();
 	writeReport(reportFiles, Hyperbolic, par, model, result, results, progress);
 	NewLayers layers(md);
 	if (settings.flatLayer)
-		addFlatLayer(layers, model, "Disk", result);
+		addFlatLayer(layers, model, "Disk", result, texture);
 	if (settings.coverRings > 0)
 		addCoverLayer(layers, model, settings.coverRings, result);
 	if (settings.axes)
 		addAxesLayer(layers, model, result);
 	if (settings.canonicalPolygon)
 		addPolygonLayer(layers, model, result, progress);
-	writeMesh(model, settings.colorize, settings.flow.output, result);
+	texture.publish();
+	writeMesh(model, settings.colorize, settings.flow.output, result, texture);
 	layers.keep();
 	return {results, changedElements(settings.colorize, settings.flow.output)};
 }

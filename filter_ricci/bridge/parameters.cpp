@@ -101,6 +101,19 @@ double checkedTimeLimit(const RichParameterList& par)
 		" of time_limit cannot be used. Use a number of seconds, or 0 for no limit.");
 }
 
+TextureSettings checkedTexture(const RichParameterList& par)
+{
+	constexpr int kLeast = 16, kMost = 16384;
+	TextureSettings texture;
+	texture.file = host::text(par, "carry_texture");
+	texture.size = par.getInt("texture_size");
+	if (texture.size < kLeast || texture.size > kMost)
+		throw Refusal(
+			"The value " + std::to_string(texture.size) + " of texture_size cannot be used. Use " +
+			std::to_string(kLeast) + " to " + std::to_string(kMost) + " texels.");
+	return texture;
+}
+
 constexpr double kDegree = ricci::kPi / 180.0;
 
 /// The disk cannot show more rings than this.
@@ -162,6 +175,22 @@ host::FileToSave reportParameter()
 		"Report file",
 		"A report of the run: a page with diagrams and its data beside it (.html), or the data "
 		"alone (.csv). Empty: no report.");
+}
+
+void addTextureParameters(RichParameterList& list)
+{
+	list.addParam(host::advanced<host::FileToSave>(
+		"carry_texture",
+		QString(),
+		"PNG image (*.png)",
+		"Carry the texture over to",
+		"A PNG file that gets what the mesh shows now, its textures or else its colours, drawn "
+		"for the new texture coordinates. Empty: no texture."));
+	list.addParam(host::advanced<RichInt>(
+		"texture_size",
+		TextureSettings().size,
+		"Size of that texture",
+		"Width and height of the new texture, 16 to 16384 texels."));
 }
 
 /// What one solve may do and how long it may take.
@@ -283,6 +312,7 @@ RichParameterList euclideanParameters(Shown shown)
 		"Sphere as new layer",
 		"Add a layer with the mesh mapped conformally to the unit sphere. Only for one closed "
 		"surface of genus 0."));
+	addTextureParameters(list);
 	list.addParam(reportParameter());
 	list.addParam(host::advanced<RichEnum>(
 		"circle_packing",
@@ -353,6 +383,7 @@ RichParameterList hyperbolicParameters(Shown shown)
 		"Surgery",
 		"What to do where the flow breaks a triangle. The mesh itself is never changed."));
 	list.addParam(hyperbolicFinishParameter(defaults.finish));
+	addTextureParameters(list);
 	list.addParam(reportParameter());
 	addSolverParameters(list, defaults.epsilon, defaults.maxIterations);
 	return list;
@@ -394,8 +425,13 @@ Settings readSettings(const RichParameterList& par)
 	settings.flow.holes = static_cast<ricci::Holes>(checkedChoice(par, "holes", holesChoices()));
 	settings.flow.resolveOverlap = par.getBool("resolve_overlap");
 	settings.sphereLayer = par.getBool("sphere_layer");
+	settings.texture = checkedTexture(par);
 	settings.report = host::text(par, "report");
 	settings.timeLimit = checkedTimeLimit(par);
+	if (!settings.texture.file.trimmed().isEmpty() && !settings.flow.normalizeUV)
+		throw Refusal(
+			"carry_texture draws on the unit square: choose normalize_uv, or leave carry_texture "
+			"empty.");
 	ricci::checkOptions(settings.flow);
 	ricci::checkChartMargin(settings.flow.chartMargin);
 	return settings;
@@ -429,6 +465,7 @@ HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 	settings.axes = par.getBool("generator_axes");
 	settings.canonicalPolygon = par.getBool("canonical_polygon");
 	settings.flow.canonicalGenerators = settings.axes || settings.canonicalPolygon;
+	settings.texture = checkedTexture(par);
 	settings.report = host::text(par, "report");
 	settings.timeLimit = checkedTimeLimit(par);
 	ricci::checkOptions(settings.flow);

@@ -10,6 +10,12 @@ namespace filter_ricci {
 
 using Flow = vcg::tri::RicciFlow<CMeshO>;
 
+struct TextureSettings
+{
+	QString file; ///< empty: none
+	int size = 2048;
+};
+
 struct Settings
 {
 	Flow::Params flow;
@@ -18,6 +24,7 @@ struct Settings
 	bool sphereLayer = false;
 	double timeLimit = 0.0; ///< seconds, 0: none
 	QString report;         ///< file, empty: none
+	TextureSettings texture;
 };
 
 struct HyperbolicSettings
@@ -30,6 +37,7 @@ struct HyperbolicSettings
 	bool canonicalPolygon = false;
 	double timeLimit = 0.0; ///< seconds, 0: none
 	QString report;         ///< file, empty: none
+	TextureSettings texture;
 };
 
 /// Reads the parameters and checks them all. Scripts can hold any number for a choice, and no host

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_report.h"
 
+#include "output_path.h"
 #include "sentences.h"
-
-#include <QDir>
-#include <QFileInfo>
-#include <QSaveFile>
 
 #include <algorithm>
 #include <cmath>
@@ -253,21 +250,6 @@ void addHistogram(std::ostream& csv, const char* start, const ricci::Histogram& 
 	for (std::size_t i = 0; i < h.counts.size(); ++i)
 		csv << start << h.lowEdge(i) << "," << h.counts[i] << "\n";
 	csv << start << h.high << "," << h.above << "\n";
-}
-
-QString absolutePath(const QString& wanted, const QString& folder)
-{
-	return QDir::cleanPath(QDir(folder).absoluteFilePath(wanted));
-}
-
-/// A QSaveFile writes beside its target and renames: if it opens, both are allowed, and a file that is
-/// not committed leaves nothing behind.
-QString whyNotWritable(const QString& path)
-{
-	if (QFileInfo(path).isDir())
-		return "it is a folder";
-	QSaveFile file(path);
-	return file.open(QIODevice::WriteOnly) ? QString() : file.errorString();
 }
 
 void require(bool written, const QSaveFile& file)

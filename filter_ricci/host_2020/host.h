@@ -5,6 +5,11 @@
 
 #include <common/interfaces.h>
 
+#include <QApplication>
+#include <QDir>
+#include <QImage>
+#include <QWidget>
+
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -29,6 +34,32 @@ inline void removeMesh(MeshDocument& md, MeshModel* mesh)
 inline void copyTextures(const MeshModel& from, MeshModel& to)
 {
 	to.cm.textures = from.cm.textures;
+}
+
+/// Null if there is no such file, or none that Qt can read.
+inline QImage texture(const MeshModel& model, const std::string& name)
+{
+	const QString file = QString::fromStdString(name);
+	const QImage beside(QDir(model.pathName()).absoluteFilePath(file));
+	return beside.isNull() ? QImage(file) : beside;
+}
+
+/// Makes an image, which has been written, the only texture. The window will look for it in the folder
+/// of the process; meshlabserver, which shows no widget, needs that one for the files that it writes.
+inline void setTexture(MeshModel& model, const std::string& name, const QImage&)
+{
+	model.cm.textures.assign(1, name);
+	for (const QWidget* widget : QApplication::topLevelWidgets())
+		if (widget->isVisible()) {
+			QDir::setCurrent(model.pathName());
+			return;
+		}
+}
+
+/// The name of a texture that does not lie below the mesh's folder: this host finds it by its path.
+inline QString outsideTextureName(const QString& path)
+{
+	return path;
 }
 
 /// A parameter that few runs need. Here the plugin itself leaves them out of the dialog.

@@ -5,6 +5,9 @@
 
 #include <common/plugins/interfaces/filter_plugin.h>
 
+#include <QFileInfo>
+#include <QImage>
+
 #include <string>
 #include <utility>
 
@@ -22,6 +25,31 @@ inline void copyTextures(const MeshModel& from, MeshModel& to)
 {
 	for (const std::string& name : from.cm.textures)
 		to.addTexture(name, from.getTexture(name));
+}
+
+/// Null where the host found none when it opened the mesh: then it shows an image of its own.
+inline QImage texture(const MeshModel& model, const std::string& name)
+{
+	const QImage image = model.getTexture(name);
+	if (name == "dummy.png")
+		for (const char* own : {":/resources/images/dummy.png", ":/img/dummy.png"})
+			if (image == QImage(own))
+				return QImage();
+	return image;
+}
+
+/// Makes an image the only texture.
+inline void setTexture(MeshModel& model, const std::string& name, const QImage& image)
+{
+	model.clearTextures();
+	model.addTexture(name, image);
+}
+
+/// The name of a texture that does not lie below the mesh's folder: this host keeps the image, and
+/// writes it beside the mesh when that is saved.
+inline QString outsideTextureName(const QString& path)
+{
+	return QFileInfo(path).fileName();
 }
 
 /// A parameter that few runs need: the dialog shows it on request only.

@@ -38,6 +38,8 @@ SPHERE = {
     "sphere_qc_area_mean": float, "sphere_area_distortion_mean": float,
     "sphere_flipped_faces": int}
 
+TEXTURE = {"texture_scale": float}
+
 # Parameter ids in the order of the public interface.
 TARGET = ["Automatic", "Flat everywhere", "Disk", "Rectangle", "Cones at selected vertices",
           "From vertex quality", "Placed cones"]
@@ -53,8 +55,8 @@ PARAMETERS = [
     ("colorize", "Bool", False), ("flat_layer", "Bool", False),
     ("holes", "Enum", 0), ("cone_count", "Int", 0), ("cone_rounding", "Enum", 0),
     ("surgery", "Enum", 2), ("finish", "Enum", 2), ("resolve_overlap", "Bool", True),
-    ("normalize_uv", "Bool", True), ("cut_strips", "Bool", False),
-    ("sphere_layer", "Bool", False), ("report", "String", ""),
+    ("normalize_uv", "Bool", True), ("cut_strips", "Bool", False), ("sphere_layer", "Bool", False),
+    ("carry_texture", "String", ""), ("texture_size", "Int", 2048), ("report", "String", ""),
     ("circle_packing", "Enum", 0), ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200),
     ("time_limit", "Float", 0.0)]
 
@@ -73,7 +75,8 @@ HYPERBOLIC = types.SimpleNamespace(
         ("flat_layer", "Bool", False), ("universal_cover", "Int", 0),
         ("generator_axes", "Bool", False), ("canonical_polygon", "Bool", False),
         ("free_boundary", "Bool", False), ("surgery", "Enum", 1), ("finish", "Enum", 1),
-        ("report", "String", ""), ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200),
+        ("carry_texture", "String", ""), ("texture_size", "Int", 2048), ("report", "String", ""),
+        ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200),
         ("time_limit", "Float", 0.0)])
 
 # What the dialogs show at once; the rest is behind "Show advanced parameters".

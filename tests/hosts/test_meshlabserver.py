@@ -12,6 +12,7 @@ import unittest
 import common
 import meshes
 import meshlabserver as server
+import textures
 
 
 def run_on(mesh, before="", **values):
@@ -359,6 +360,100 @@ class Hyperbolic(unittest.TestCase):
                 self.assertIn("Problem with filter: " + common.HYPERBOLIC.NAME, run.text)
 
 
+class Texture(unittest.TestCase):
+    """The parameter carry_texture: what the mesh shows stays what it shows."""
+
+    OLD, NEW = 256, 300
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.mesh = meshes.torus()
+        self.wedges = textures.shattered(self.mesh.faces)
+        os.mkdir(self.path("mesh"))
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def write(self, *names, **more):
+        for i, name in enumerate(names):
+            faces = range(i, len(self.mesh.faces), len(names))
+            textures.write_png(self.path("mesh", name), textures.painted(
+                self.mesh, self.wedges, self.OLD, faces=faces, **more))
+        textures.write_ply(self.path("mesh", "in.ply"), self.mesh, self.wedges, names,
+                           [i % max(len(names), 1) for i in range(len(self.mesh.faces))])
+
+    def carry(self, output="mesh/out.ply", **values):
+        values = {"carry_texture": "new.png", "texture_size": self.NEW, **values}
+        with open(self.path("script.mlx"), "w", encoding="utf-8") as out:
+            out.write(server.script(**values))
+        finished = server.run(["-i", "mesh/in.ply", "-o", output, "-m", "wt", "-s", "script.mlx"],
+                              self.folder)
+        return finished.returncode, finished.stdout.decode("utf-8", "replace")
+
+    def check(self):
+        """The image beside the mesh shows the function at the saved coordinates."""
+        mesh = meshes.read_ply(self.path("mesh", "out.ply"))
+        image = textures.read_png(self.path("mesh", "new.png"))
+        self.assertEqual((image.width, image.height), (self.NEW, self.NEW))
+        worst, count = textures.largest_difference(mesh, mesh.wedges, image)
+        # As in test_texture.py.
+        bound = 3.5 * 0.6 / (self.OLD / 22) * textures.GRADIENT
+        self.assertLess(worst, bound + 1 / image.top)
+        self.assertGreater(count, 0.2 * self.NEW ** 2)
+        return image
+
+    def test_shattered_atlas(self):
+        self.write("old.png")
+        code, text = self.carry()
+        self.assertEqual(code, 0, text)
+        self.check()
+        self.assertGreater(float(server.results(text)["texture_scale"]), 0.3)
+        self.assertRegex(text, r"Texture: .*mesh/new\.png, 300 x 300 texels, from 1 image\.")
+        with open(self.path("mesh", "out.ply"), "rb") as source:
+            header = source.read(2000).split(b"end_header")[0].decode()
+        self.assertEqual(re.findall("TextureFile (.*)", header), ["new.png"])
+
+    def test_saved_obj_names_it(self):
+        self.write("old.png")
+        code, text = self.carry("mesh/out.obj")
+        self.assertEqual(code, 0, text)
+        with open(self.path("mesh", "out.obj.mtl"), encoding="utf-8") as source:
+            self.assertEqual(re.findall("map_Kd (.*)", source.read()), ["new.png"])
+
+    def test_sixteen_bits_and_two_textures(self):
+        self.write("one.png", "two.png", depth=16, alpha=0.5)
+        code, text = self.carry()
+        self.assertEqual(code, 0, text)
+        image = self.check()
+        self.assertEqual((image.depth, image.channels), (16, 4))
+        self.assertEqual({texel[3] for row in image.rows for texel in row}, {round(0.5 * 65535)})
+
+    def test_refusals(self):
+        self.write("old.png")
+        for words, values in (
+                (r"must end in \.png", {"carry_texture": "new.jpg"}),
+                ("is a texture of the mesh", {"carry_texture": "old.png"}),
+                ("cannot be written", {"carry_texture": "nowhere/new.png"}),
+                ("texture_size.*16 to 16384", {"texture_size": 15}),
+                ("choose normalize_uv", {"normalize_uv": False})):
+            with self.subTest(words):
+                code, text = self.carry(**values)
+                self.assertEqual(code, 255, text)
+                self.assertRegex(text, words)
+                self.assertNotIn("converged=", text)
+        os.remove(self.path("mesh", "old.png"))
+        code, text = self.carry()
+        self.assertEqual(code, 255, text)
+        self.assertIn("The texture old.png of the mesh cannot be loaded", text)
+        self.write()
+        code, text = self.carry()
+        self.assertEqual(code, 255, text)
+        self.assertRegex(text, "carry_texture needs")
+        self.assertEqual(os.listdir(self.path("mesh")), ["in.ply"])
+
+
 class OneProcess(unittest.TestCase):
     """Two meshes in one process, as layers of its one document (there is no second): -i takes both,
     a stock filter changes the current one, scripts run in turn, and -l names what is saved."""
@@ -473,7 +568,7 @@ class Samples(unittest.TestCase):
         for our_filter in (common, common.HYPERBOLIC):
             section = dump.split(our_filter.NAME, 1)[1].split("</TABLE>", 1)[0]
             kinds = re.findall(r"<TR><TD> \\c (\w+)", section)
-            self.assertEqual(kinds, ["FileName" if name == "report" else kind
+            self.assertEqual(kinds, ["FileName" if name in ("carry_texture", "report") else kind
                                      for name, kind, _ in our_filter.PARAMETERS])
 
     def test_scripts_of_any_order(self):

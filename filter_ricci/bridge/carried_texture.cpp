@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "carried_texture.h"
+
+#include "free_memory.h"
+#include "output_path.h"
+#include "sentences.h"
+
+#include <ricci/base/floating_point.h>
+#include <ricci/base/indexed.h>
+#include <ricci/base/parallel.h>
+#include <ricci/base/text.h>
+
+#if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
+#include <QColorSpace>
+#endif
+#include <QImageWriter>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace filter_ricci {
+
+namespace {
+
+/// Gutters take no more of the side of the square than this for one margin.
+constexpr double kMostMargin = 0.05;
+
+/// Names that files of meshes keep: PLY drops blanks and letters beyond ASCII from names of textures.
+bool isKeptByFiles(const QString& name)
+{
+	return std::all_of(
+		name.begin(), name.end(), [](QChar c) { return c.unicode() > 32 && c.unicode() < 125; });
+}
+
+bool hasWords(const QImage& image)
+{
+	switch (image.format()) {
+	case QImage::Format_BGR30:
+	case QImage::Format_A2BGR30_Premultiplied:
+	case QImage::Format_RGB30:
+	case QImage::Format_A2RGB30_Premultiplied:
+#if QT_VERSION >= QT_VERSION_CHECK(5, 12, 0)
+	case QImage::Format_RGBX64:
+	case QImage::Format_RGBA64:
+	case QImage::Format_RGBA64_Premultiplied:
+#endif
+#if QT_VERSION >= QT_VERSION_CHECK(5, 13, 0)
+	case QImage::Format_Grayscale16:
+#endif
+		return true;
+	default:
+		return false;
+	}
+}
+
+std::array<float, 4> asColour(const vcg::Color4b& c)
+{
+	return {c[0] / 255.0f, c[1] / 255.0f, c[2] / 255.0f, c[3] / 255.0f};
+}
+
+[[noreturn]] void refuse(const std::string& sentence)
+{
+	throw Refusal(sentence);
+}
+
+double texels(const QImage& image)
+{
+	return static_cast<double>(image.width()) * image.height();
+}
+
+/// Not so in a damaged mesh, which the run will refuse.
+bool hasItsVertices(const CMeshO& m, const CFaceO& face)
+{
+	const std::less<const CVertexO*> before;
+	for (int k = 0; k < 3; ++k)
+		if (m.vert.empty() || before(face.cV(k), &m.vert.front()) ||
+			before(&m.vert.back(), face.cV(k)))
+			return false;
+	return true;
+}
+
+/// Barycentric coordinates of a point in a face of the mesh.
+ricci::Point3 inFace(const ricci::SurfacePoint& p, const ricci::Triangle& face)
+{
+	ricci::Point3 weights{0, 0, 0};
+	double sum = 0.0;
+	for (std::size_t i = 0; i < 4; ++i)
+		for (std::size_t k = 0; k < 3; ++k)
+			if (p.weight[i] != 0.0 && p.vertex[i] == face[k]) {
+				weights[k] += p.weight[i];
+				sum += p.weight[i];
+				break;
+			}
+	for (double& w : weights)
+		w = sum > 0.0 ? w / sum : 1.0 / 3.0;
+	return weights;
+}
+
+} // namespace
+
+CarriedTexture::CarriedTexture(const TextureSettings& settings, const MeshModel& model)
+{
+	const QString wanted = settings.file.trimmed();
+	if (wanted.isEmpty())
+		return;
+	const std::string shown = "The texture " + wanted.toStdString() + " cannot be written";
+	if (QFileInfo(wanted).suffix().toLower() != "png")
+		refuse(shown + ": its name must end in .png.");
+	const QString path = absolutePath(wanted, model.pathName());
+	const QString relative = QDir(model.pathName()).relativeFilePath(path);
+	m_name = QDir::isRelativePath(relative) && !relative.startsWith("..")
+				 ? relative
+				 : host::outsideTextureName(path);
+	if (!isKeptByFiles(m_name))
+		refuse(
+			shown + ": files of meshes keep no blanks and no letters beyond ASCII in the names of "
+					"textures. Choose another name.");
+	m_size = settings.size;
+	readFaces(model);
+	for (std::size_t i = 0; i < model.cm.textures.size(); ++i)
+		if (path == absolutePath(QString::fromStdString(model.cm.textures[i]), model.pathName()))
+			refuse(shown + ": it is a texture of the mesh. Choose another name.");
+	loadPictures(model);
+	const QString reason = whyNotWritable(path);
+	if (!reason.isEmpty())
+		refuse(shown + " (" + reason.toStdString() + "): choose another place for it.");
+	requireMemory();
+	m_path = path;
+}
+
+void CarriedTexture::readFaces(const MeshModel& model)
+{
+	const CMeshO& m = model.cm;
+	const bool wedges = vcg::tri::HasPerWedgeTexCoord(m);
+	const bool places = wedges || vcg::tri::HasPerVertexTexCoord(m);
+	const bool vertexColours = model.hasDataMask(MeshModel::MM_VERTCOLOR);
+	const bool faceColours = vcg::tri::HasPerFaceColor(m);
+	m_mesh.faces.resize(m.face.size());
+	m_areas.resize(m.face.size(), 0.0);
+	m_pictures.resize(m.textures.size());
+	bool any = false;
+	for (std::size_t f = 0; f < m.face.size(); ++f) {
+		const CFaceO& face = m.face[f];
+		ricci::TexturedFace& to = m_mesh.faces[f];
+		if (face.IsD() || !hasItsVertices(m, face))
+			continue;
+		m_areas[f] = 0.5 * static_cast<double>(vcg::DoubleArea(face));
+		int texture = -1;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const int corner = static_cast<int>(k);
+			to.vertices[k] = static_cast<int>(vcg::tri::Index(m, face.cV(corner)));
+			if (places) {
+				const auto& at = wedges ? face.cWT(corner) : face.cV(corner)->cT();
+				to.uv[k] = {static_cast<double>(at.U()), static_cast<double>(at.V())};
+				texture = k == 0 ? at.N() : texture;
+			}
+			to.colour[k] = {1, 1, 1, 1};
+			if (vertexColours)
+				to.colour[k] = asColour(face.cV(corner)->cC());
+			else if (faceColours)
+				to.colour[k] = asColour(face.cC());
+		}
+		const int count = static_cast<int>(m.textures.size());
+		if (places && !wedges && count > 0 && (texture < 0 || texture >= count))
+			texture = 0; // files give vertices no number of a texture
+		if (texture >= 0 && texture < count)
+			to.picture = texture;
+		else if (vertexColours || faceColours)
+			for (const std::array<float, 4>& colour : to.colour)
+				m_hasAlpha = m_hasAlpha || colour[3] < 1.0f;
+		else
+			++m_uncoloured;
+		any = any || to.picture >= 0 || vertexColours || faceColours;
+	}
+	if (!any)
+		refuse(
+			m.textures.empty()
+				? "carry_texture needs something to draw, but the mesh has neither a texture nor "
+				  "colours."
+				: "carry_texture needs old texture coordinates, but the mesh has none, and no "
+				  "colours either.");
+}
+
+void CarriedTexture::loadPictures(const MeshModel& model)
+{
+	for (const ricci::TexturedFace& face : m_mesh.faces) {
+		if (face.picture < 0 || !m_pictures[ricci::positionOf(face.picture)].isNull())
+			continue;
+		const std::string& name = model.cm.textures[ricci::positionOf(face.picture)];
+		QImage image = host::texture(model, name);
+		if (image.isNull())
+			refuse(
+				"The texture " + name +
+				" of the mesh cannot be loaded: put its file beside the mesh and open the mesh "
+				"again, or leave carry_texture empty.");
+		m_hasAlpha = m_hasAlpha || image.hasAlphaChannel();
+		m_hasWords = m_hasWords || hasWords(image);
+		m_pictures[ricci::positionOf(face.picture)] = image;
+	}
+}
+
+void CarriedTexture::requireMemory() const
+{
+	const double sample = m_hasWords ? 8.0 : 4.0, square = static_cast<double>(m_size) * m_size;
+	double largest = 0.0, all = 0.0;
+	for (const QImage& picture : m_pictures) {
+		largest = std::max(largest, texels(picture));
+		all += texels(picture);
+	}
+	const double needed = (sample + 4.0) * square + sample * all + 4.0 * largest +
+						  512.0 * static_cast<double>(m_mesh.faces.size());
+	const double free = freeMemory();
+	if (free > 0.0 && needed > free)
+		refuse(
+			"A texture_size of " + std::to_string(m_size) + " needs about " +
+			ricci::numberText(needed / 1e9, 2) + " GB of memory for this mesh, but " +
+			ricci::numberText(free / 1e9, 2) + " GB are free: choose a smaller one.");
+}
+
+double CarriedTexture::leastMargin() const
+{
+	return isWanted() ? std::min(2.0 * ricci::kGutterTexels / m_size, kMostMargin) : 0.0;
+}
+
+template<class Sample>
+void CarriedTexture::drawSamples(const std::vector<QImage>& pictures, const ricci::Tick& tick)
+{
+	std::vector<ricci::PictureView<const Sample>> views;
+	for (const QImage& picture : pictures)
+		views.push_back(
+			{picture.width(),
+			 picture.height(),
+			 reinterpret_cast<const Sample*>(picture.constBits())});
+	ricci::carryTexture<Sample>(
+		m_mesh,
+		views,
+		m_hasAlpha,
+		{m_size, m_size, reinterpret_cast<Sample*>(m_result.bits())},
+		ricci::defaultThreads(),
+		tick);
+}
+
+void CarriedTexture::draw(
+	const MeshModel& model, const Flow::Result& result, ricci::Progress& progress, Results& results)
+{
+	if (!isWanted())
+		return;
+	const ricci::DefaultFloatingPoint defaultEnvironment;
+	const ricci::Tick tick = [&progress] { progress.step(0.0, "Drawing the texture"); };
+	tick();
+	const ricci::RefinedMesh& refined = result.refined;
+	for (std::size_t i = 0; i < refined.triangles.size(); ++i) {
+		ricci::CarriedTriangle triangle;
+		triangle.uv = refined.uv[i];
+		triangle.face = refined.inputFace[i];
+		for (std::size_t k = 0; k < 3; ++k)
+			triangle.corners[k] = inFace(
+				refined.points[ricci::positionOf(refined.triangles[i][k])],
+				m_mesh.faces[ricci::positionOf(triangle.face)].vertices);
+		m_mesh.triangles.push_back(triangle);
+	}
+	for (std::size_t f = 0; f < m_mesh.faces.size() && refined.triangles.empty(); ++f) {
+		if (model.cm.face[f].IsD())
+			continue;
+		ricci::CarriedTriangle triangle;
+		triangle.uv = result.wedgeUV[f];
+		triangle.face = static_cast<int>(f);
+		m_mesh.triangles.push_back(triangle);
+	}
+
+	const QImage::Format format =
+		m_hasWords ? (m_hasAlpha ? QImage::Format_RGBA64 : QImage::Format_RGBX64)
+				   : (m_hasAlpha ? QImage::Format_RGBA8888 : QImage::Format_RGBX8888);
+	m_result = QImage(m_size, m_size, format);
+	if (m_result.isNull())
+		throw std::bad_alloc();
+	m_result.fill(m_hasAlpha ? Qt::transparent : Qt::black);
+	const auto first = std::find_if(
+		m_pictures.begin(), m_pictures.end(), [](const QImage& image) { return !image.isNull(); });
+	if (first != m_pictures.end()) {
+		m_result.setDotsPerMeterX(first->dotsPerMeterX());
+		m_result.setDotsPerMeterY(first->dotsPerMeterY());
+#if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
+		m_result.setColorSpace(first->colorSpace());
+#endif
+	}
+	std::vector<QImage> pictures;
+	std::vector<std::array<int, 2>> sizes;
+	int count = 0;
+	for (QImage& picture : m_pictures) {
+		QImage image;
+		image.swap(picture); // whose memory is not needed twice
+		sizes.push_back({image.width(), image.height()});
+		if (!image.isNull()) {
+			++count;
+#if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
+			if (image.colorSpace().isValid() && m_result.colorSpace().isValid() &&
+				image.colorSpace() != m_result.colorSpace())
+				image.convertToColorSpace(m_result.colorSpace());
+#endif
+			image = std::move(image).convertToFormat(
+				m_hasWords ? QImage::Format_RGBA64 : QImage::Format_RGBA8888);
+			if (image.isNull())
+				throw std::bad_alloc();
+		}
+		pictures.push_back(image);
+		tick();
+	}
+	if (m_hasWords)
+		drawSamples<unsigned short>(pictures, tick);
+	else
+		drawSamples<unsigned char>(pictures, tick);
+
+	const std::string side = std::to_string(m_size);
+	std::string line = "Texture: " + m_path.toStdString() + ", " + side + " x " + side + " texels";
+	const ricci::TexelDensity density = ricci::texelDensity(m_mesh, m_areas, sizes, m_size);
+	if (density.ratio > 0.0) {
+		line += ", from " + std::to_string(count) + (count == 1 ? " image. " : " images. ") +
+				ricci::numberText(density.before, 4) + " texels for a unit of length before, " +
+				ricci::numberText(density.after, 4) + " after";
+		results.emplace_back("texture_scale", density.ratio);
+	}
+	else
+		line += ", from the colours of the mesh";
+	if (m_uncoloured > 0)
+		line += "; " + std::to_string(m_uncoloured) +
+				" faces have neither a texture nor a colour: they are white";
+	m_mesh = {};
+	progress.log(line + ".");
+	if (result.report.overlappingCharts > 0)
+		progress.log("Texture: where charts overlap, it shows one of the faces only.");
+}
+
+void CarriedTexture::write()
+{
+	if (!isWanted())
+		return;
+	m_file.setFileName(m_path);
+	// Without Qt's buffer: it drops what no longer fits on a full disk and reports no error.
+	bool written = m_file.open(QIODevice::WriteOnly | QIODevice::Unbuffered);
+	QString reason = m_file.errorString();
+	if (written) {
+		QImageWriter writer(&m_file, "png");
+		writer.setQuality(
+			70); // of compression: a sixth of the default's time, files a sixth larger
+		written = writer.write(m_result);
+		reason = writer.errorString();
+	}
+	if (!written)
+		refuse(
+			"The texture " + m_path.toStdString() + " could not be written (" +
+			reason.toStdString() + "): choose another place for it. The mesh is unchanged.");
+}
+
+void CarriedTexture::publish()
+{
+	if (isWanted() && !m_file.commit())
+		refuse(
+			"The texture " + m_path.toStdString() + " could not be written (" +
+			m_file.errorString().toStdString() +
+			"): choose another place for it. The mesh is unchanged.");
+}
+
+void CarriedTexture::assignTo(MeshModel& model) const
+{
+	if (!isWanted())
+		return;
+	host::setTexture(model, m_name.toStdString(), m_result);
+	// Coordinates of vertices, where there are some, belong to the old textures.
+	model.clearDataMask(MeshModel::MM_VERTTEXCOORD);
+}
+
+} // namespace filter_ricci

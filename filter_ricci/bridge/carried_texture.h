@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parameters "carry_texture" and "texture_size": what the mesh shows at its old texture coordinates,
+// drawn as one picture for the new ones.
+#ifndef FILTER_RICCI_CARRIED_TEXTURE_H
+#define FILTER_RICCI_CARRIED_TEXTURE_H
+
+#include "bridge.h"
+#include "parameters.h"
+
+#include <ricci/progress.h>
+#include <ricci/texture/carry_texture.h>
+
+#include <QImage>
+#include <QSaveFile>
+
+#include <vector>
+
+namespace filter_ricci {
+
+/// A run's new texture. Until the run has ended well, neither file nor mesh has changed.
+class CarriedTexture
+{
+public:
+	/// Loads the textures that the mesh has, and finds the new file writable.
+	/// \throw Refusal if anything is missing; nothing has been written then
+	CarriedTexture(const TextureSettings& settings, const MeshModel& model);
+
+	/// Otherwise the functions below do nothing.
+	bool isWanted() const { return !m_path.isEmpty(); }
+
+	/// Share of the square that charts must be apart, so that the gutters of two fit between them; for
+	/// small pictures less, so that charts keep most of the room.
+	double leastMargin() const;
+
+	/// Draws the picture into memory and adds its result.
+	/// \throw ricci::Cancelled and what the progress does, std::bad_alloc
+	void draw(
+		const MeshModel& model,
+		const Flow::Result& result,
+		ricci::Progress& progress,
+		Results& results);
+
+	/// Writes the file beside its place.
+	/// \throw Refusal if there is no room for it
+	void write();
+
+	/// Moves the written file to its place.
+	/// \throw Refusal if that cannot be done
+	void publish();
+
+	/// Makes it the only texture of a mesh.
+	void assignTo(MeshModel& model) const;
+
+private:
+	void readFaces(const MeshModel& model);
+	void loadPictures(const MeshModel& model);
+	void requireMemory() const;
+
+	template<class Sample>
+	void drawSamples(const std::vector<QImage>& pictures, const ricci::Tick& tick);
+
+	QString m_path; ///< empty: no texture is wanted
+	QString m_name; ///< that the mesh gets
+	int m_size = 0;
+	ricci::CarriedMesh m_mesh;   // its faces are those of the mesh, its triangles those of the map
+	std::vector<double> m_areas; // [face]
+	std::vector<QImage> m_pictures; // [texture of the mesh] null where no face has it
+	bool m_hasAlpha = false, m_hasWords = false;
+	int m_uncoloured = 0; ///< faces with neither texture nor colour
+	QImage m_result;
+	QSaveFile m_file;
+};
+
+} // namespace filter_ricci
+
+#endif

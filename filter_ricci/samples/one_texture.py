@@ -1,0 +1,24 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""New texture coordinates for a textured mesh, and its texture drawn for them: one_texture.py IN OUT [SIZE].
+
+OUT, a PLY or OBJ file, gets the image beside it: with as many texels for a unit of length as the old
+textures have, or SIZE texels wide. With pip install pymeshlab_ricci-*.whl."""
+
+import os
+import sys
+
+from pymeshlab_ricci import Refused, flatten
+
+mesh, out = sys.argv[1:3]
+size = int(sys.argv[3]) if len(sys.argv) > 3 else 0
+image = os.path.abspath(os.path.splitext(out)[0] + ".png")
+try:
+    result = flatten(mesh, carry_texture=image, texture_size=size or 1024)
+    scale = result.results.get("texture_scale", 1.0)
+    if not size and scale < 1.0:
+        result = flatten(mesh, carry_texture=image, texture_size=min(16384, round(1024 / scale)))
+except Refused as refusal:
+    sys.exit(f"{mesh}: {refusal}")
+result.save(out)
+print(f"{image}: {result.results.get('texture_scale', 0):.3g} times the texels for a unit of length")

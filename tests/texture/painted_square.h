@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A square of triangles with a picture of a known function.
+#ifndef RICCI_TESTS_PAINTED_SQUARE_H
+#define RICCI_TESTS_PAINTED_SQUARE_H
+
+#include "support/random.h"
+
+#include <ricci/base/indexed.h>
+#include <ricci/texture/carry_texture.h>
+#include <ricci/texture/texels_of_triangle.h>
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace ricci::testing {
+
+/// A picture that owns its samples.
+template<class Sample>
+struct Picture
+{
+	Picture(int w, int h) : width(w), height(h), rgba(4 * static_cast<std::size_t>(w * h), 0) {}
+
+	PictureView<const Sample> view() const { return {width, height, rgba.data()}; }
+	PictureView<Sample> target() { return {width, height, rgba.data()}; }
+	Sample* at(int x, int y) { return &rgba[4 * static_cast<std::size_t>(y * width + x)]; }
+	const Sample* at(int x, int y) const
+	{
+		return &rgba[4 * static_cast<std::size_t>(y * width + x)];
+	}
+
+	int width, height;
+	std::vector<Sample> rgba;
+};
+
+/// The unit square of n x n cells of two triangles; the places of its corners are also its first map.
+struct Square
+{
+	explicit Square(int n)
+	{
+		for (int y = 0; y < n; ++y)
+			for (int x = 0; x < n; ++x) {
+				const int a = y * (n + 1) + x, b = a + 1, c = b + n + 1, d = a + n + 1;
+				for (const Triangle& t : {Triangle{a, b, c}, Triangle{a, c, d}}) {
+					triangles.push_back(t);
+					Triangle2 at;
+					for (std::size_t k = 0; k < 3; ++k)
+						at[k] = {
+							static_cast<double>(t[k] % (n + 1)) / n,
+							static_cast<double>(t[k] / (n + 1)) / n};
+					place.push_back(at);
+				}
+			}
+	}
+
+	std::vector<Triangle> triangles;
+	std::vector<Triangle2> place;
+};
+
+/// An atlas of one cell for two triangles, without room between them, in random order: as MeshLab's own.
+inline std::vector<Triangle2> shatteredAtlas(std::size_t triangles, Random& random)
+{
+	std::vector<Triangle2> atlas(triangles);
+	std::vector<std::size_t> order(triangles);
+	for (std::size_t i = 0; i < triangles; ++i)
+		order[i] = i;
+	random.shuffle(order);
+	const int cells =
+		static_cast<int>(std::ceil(std::sqrt(static_cast<double>((triangles + 1) / 2))));
+	for (std::size_t i = 0; i < triangles; ++i) {
+		const double side = 1.0 / cells;
+		const double x = side * static_cast<double>(i / 2 % static_cast<std::size_t>(cells));
+		const double y = side * static_cast<double>(i / 2 / static_cast<std::size_t>(cells));
+		const Point2 a{x, y}, b{x + side, y}, c{x + side, y + side}, d{x, y + side};
+		atlas[order[i]] = i % 2 == 0 ? Triangle2{a, b, c} : Triangle2{a, c, d};
+	}
+	return atlas;
+}
+
+/// Every triangle by itself, with another map in place of each corner.
+inline std::vector<Triangle2>
+mapped(const std::vector<Triangle2>& triangles, const std::function<Point2(const Point2&)>& map)
+{
+	std::vector<Triangle2> result = triangles;
+	for (Triangle2& t : result)
+		for (Point2& p : t)
+			p = map(p);
+	return result;
+}
+
+inline CarriedMesh carriedMesh(
+	const Square& square, const std::vector<Triangle2>& old, const std::vector<Triangle2>& next)
+{
+	CarriedMesh mesh;
+	for (std::size_t i = 0; i < old.size(); ++i) {
+		TexturedFace face;
+		face.vertices = square.triangles[i];
+		face.uv = old[i];
+		face.picture = 0;
+		mesh.faces.push_back(face);
+		CarriedTriangle triangle;
+		triangle.uv = next[i];
+		triangle.face = static_cast<int>(i);
+		mesh.triangles.push_back(triangle);
+	}
+	return mesh;
+}
+
+/// The first triangle of an atlas that a texel's middle lies in, and where; -1: none.
+struct Hit
+{
+	int triangle = -1;
+	Point3 weights{};
+};
+
+inline std::vector<Hit> hits(const std::vector<Triangle2>& atlas, int width, int height)
+{
+	std::vector<Hit> found(static_cast<std::size_t>(width * height));
+	for (std::size_t i = 0; i < atlas.size(); ++i) {
+		const Triangle2 t = inTexels(atlas[i], width, height);
+		forEachTexelOf(t, 1e-9, 0, std::max(width, height) - 1, [&](int x, int y) {
+			if (x >= width || y >= height)
+				return;
+			Hit& hit = found[static_cast<std::size_t>(y * width + x)];
+			if (hit.triangle < 0)
+				hit = {static_cast<int>(i), nearestInTriangle(t, {x + 0.5, y + 0.5})};
+		});
+	}
+	return found;
+}
+
+/// A smooth function of the place on the square, between 0 and 1, of each of three channels.
+inline double painted(const Point2& p, std::size_t channel)
+{
+	const double phase = 1.3 * static_cast<double>(channel);
+	return 0.5 + 0.25 * std::sin(3.0 * p[0] + phase) + 0.25 * std::cos(4.0 * p[1] - phase);
+}
+
+/// Bounds of its derivatives: the gradient and the second derivatives along the axes.
+constexpr double kGradient = 1.25, kSecond = 2.25 + 4.0;
+
+/// That function in every texel of an atlas; black elsewhere.
+template<class Sample>
+Picture<Sample>
+paint(const Square& square, const std::vector<Triangle2>& atlas, int width, int height)
+{
+	Picture<Sample> picture(width, height);
+	const std::vector<Hit> found = hits(atlas, width, height);
+	for (std::size_t i = 0; i < found.size(); ++i) {
+		if (found[i].triangle < 0)
+			continue;
+		const Point2 p = pointOf(square.place[positionOf(found[i].triangle)], found[i].weights);
+		for (std::size_t c = 0; c < 3; ++c)
+			picture.rgba[4 * i + c] =
+				static_cast<Sample>(std::round(painted(p, c) * std::numeric_limits<Sample>::max()));
+		picture.rgba[4 * i + 3] = std::numeric_limits<Sample>::max();
+	}
+	return picture;
+}
+
+template<class Sample>
+Picture<Sample> carried(
+	const CarriedMesh& mesh,
+	const std::vector<const Picture<Sample>*>& old,
+	int size,
+	bool hasAlpha = false,
+	int threads = 1)
+{
+	std::vector<PictureView<const Sample>> views;
+	for (const Picture<Sample>* picture : old)
+		views.push_back(picture->view());
+	Picture<Sample> result(size, size);
+	carryTexture<Sample>(mesh, views, hasAlpha, result.target(), threads, [] {});
+	return result;
+}
+
+/// Largest and root mean square difference from the function in the texels of the triangles.
+struct Difference
+{
+	double worst = 0.0, rms = 0.0;
+};
+
+template<class Sample>
+Difference difference(
+	const Square& square, const std::vector<Triangle2>& atlas, const Picture<Sample>& picture)
+{
+	Difference d;
+	double sum = 0.0;
+	int count = 0;
+	const std::vector<Hit> found = hits(atlas, picture.width, picture.height);
+	for (std::size_t i = 0; i < found.size(); ++i) {
+		if (found[i].triangle < 0)
+			continue;
+		const Point2 p = pointOf(square.place[positionOf(found[i].triangle)], found[i].weights);
+		for (std::size_t c = 0; c < 3; ++c) {
+			const double off = std::abs(
+				picture.rgba[4 * i + c] / static_cast<double>(std::numeric_limits<Sample>::max()) -
+				painted(p, c));
+			d.worst = std::max(d.worst, off);
+			sum += off * off;
+			++count;
+		}
+	}
+	d.rms = std::sqrt(sum / std::max(count, 1));
+	return d;
+}
+
+} // namespace ricci::testing
+
+#endif

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "carry_texture.h"
+
+#include "../base/indexed.h"
+#include "../base/parallel.h"
+#include "nearest_fill.h"
+#include "old_charts.h"
+#include "picture_sampler.h"
+#include "texels_of_triangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ricci {
+
+namespace {
+
+/// Middles of texels this far outside of a triangle are in it: rounding.
+constexpr double kOnSide = 1e-6;
+
+/// Texels that a bilinear sample on the edge of a chart can read lie nearer.
+constexpr double kContinued = 1.5;
+
+/// Texels are drawn in squares of this many, whose triangles stay in the cache.
+constexpr int kTile = 64;
+
+/// Which triangle each texel shows.
+class Sources
+{
+public:
+	Sources(const CarriedMesh& mesh, int size, const Tick& tick) :
+			m_view{size, size, nullptr}, m_sources(m_view.texels(), kNone)
+	{
+		const std::vector<CarriedTriangle>& triangles = mesh.triangles;
+		for (std::size_t i = 0; i < triangles.size(); ++i) {
+			tickNowAndThen(tick, 64 * i);
+			forEachTexelOf(texels(triangles[i]), kOnSide, 0, size - 1, [&](int x, int y) {
+				int& source = m_sources[m_view.index(x, y)];
+				if (source == kNone)
+					source = static_cast<int>(i);
+			});
+		}
+		for (std::size_t i = 0; i < triangles.size(); ++i) {
+			tickNowAndThen(tick, 64 * i);
+			const Triangle2 t = texels(triangles[i]);
+			forEachTexelOf(t, kContinued, 0, size - 1, [&](int x, int y) {
+				int& source = m_sources[m_view.index(x, y)];
+				if (source >= 0)
+					return;
+				const Point2 middle{x + 0.5, y + 0.5};
+				const double apart = apartFrom(t, middle);
+				if (apart > kContinued)
+					return;
+				if (source == kNone ||
+					apart < apartFrom(texels(triangles[positionOf(beside(source))]), middle))
+					source = -static_cast<int>(i) - 2;
+			});
+		}
+	}
+
+	/// -1: none
+	int triangle(std::size_t texel) const
+	{
+		const int source = m_sources[texel];
+		return source >= kNone ? source : beside(source);
+	}
+	/// Whether the texel's middle is in that triangle, not only near it.
+	bool inside(std::size_t texel) const { return m_sources[texel] >= 0; }
+
+	std::vector<char> covered() const
+	{
+		std::vector<char> covered(m_sources.size());
+		for (std::size_t i = 0; i < m_sources.size(); ++i)
+			covered[i] = m_sources[i] != kNone;
+		return covered;
+	}
+
+private:
+	Triangle2 texels(const CarriedTriangle& t) const
+	{
+		return inTexels(t.uv, m_view.width, m_view.height);
+	}
+	static double apartFrom(const Triangle2& t, const Point2& p)
+	{
+		return distance(p, pointOf(t, nearestInTriangle(t, p)));
+	}
+	static int beside(int source) { return -source - 2; }
+
+	static constexpr int kNone = -1;
+
+	PictureView<const char> m_view;
+	std::vector<int> m_sources; // triangle; -triangle - 2 beside it
+};
+
+/// One triangle, with the maps to its face.
+class TriangleMap
+{
+public:
+	/// \param corners of the triangle in texels of the result
+	TriangleMap(const Triangle2& corners, const CarriedTriangle& triangle, const Triangle2& old) :
+			m_new(corners)
+	{
+		for (std::size_t k = 0; k < 3; ++k)
+			m_old[k] = pointOf(old, triangle.corners[k]);
+		m_area = doubledArea(m_new[0], m_new[1], m_new[2]);
+		double longest = 0.0;
+		for (std::size_t k = 0; k < 3; ++k)
+			longest = std::max(longest, distance(m_old[k], m_old[(k + 1) % 3]));
+		// What a texel shows of its surroundings when it is larger than the triangle; without a bound
+		// needles would be mixed from everywhere.
+		m_reach = std::max(1.0, 4.0 * longest);
+	}
+
+	/// What the map makes of a texel.
+	Footprint footprint() const
+	{
+		return {bounded(difference({1, 0})), bounded(difference({0, 1}))};
+	}
+
+	/// Barycentric coordinates of a point in the triangle, up to rounding.
+	Point3 weights(const Point2& p) const { return nearestInTriangle(m_new, p); }
+
+	Point2 old(const Point3& weights) const { return pointOf(m_old, weights); }
+
+	/// The map continued to \p p beside the triangle.
+	/// \param nearest the point of the triangle that is nearest to p, in the old picture
+	/// \return nearest itself where it would lead far away
+	Point2 continued(const Point2& p, const Point3& weights) const
+	{
+		const Point2 nearest = old(weights), on = pointOf(m_new, weights);
+		const Point2 step = difference({p[0] - on[0], p[1] - on[1]});
+		if (!(std::hypot(step[0], step[1]) <= m_reach))
+			return nearest;
+		return {nearest[0] + step[0], nearest[1] + step[1]};
+	}
+
+private:
+	/// The linear part of the map applied to d; 0 where the triangle has no area.
+	Point2 difference(const Point2& d) const
+	{
+		if (m_area == 0.0)
+			return {0, 0};
+		const Point2 a{m_new[1][0] - m_new[0][0], m_new[1][1] - m_new[0][1]};
+		const Point2 b{m_new[2][0] - m_new[0][0], m_new[2][1] - m_new[0][1]};
+		const double s = (d[0] * b[1] - d[1] * b[0]) / m_area;
+		const double t = (a[0] * d[1] - a[1] * d[0]) / m_area;
+		return {
+			s * (m_old[1][0] - m_old[0][0]) + t * (m_old[2][0] - m_old[0][0]),
+			s * (m_old[1][1] - m_old[0][1]) + t * (m_old[2][1] - m_old[0][1])};
+	}
+
+	Point2 bounded(const Point2& side) const
+	{
+		const double length = std::hypot(side[0], side[1]);
+		const double scale = length > m_reach ? m_reach / length : 1.0;
+		return {scale * side[0], scale * side[1]};
+	}
+
+	Triangle2 m_new, m_old; // in texels
+	double m_area = 0.0, m_reach = 0.0;
+};
+
+/// The colour of a point of a face without a picture.
+template<class Sample>
+void writeColour(
+	const TexturedFace& face,
+	const CarriedTriangle& triangle,
+	const Point3& weights,
+	bool hasAlpha,
+	Sample* rgba)
+{
+	constexpr double kMax = std::numeric_limits<Sample>::max();
+	for (std::size_t c = 0; c < 4; ++c) {
+		double colour = 0.0;
+		for (std::size_t k = 0; k < 3; ++k)
+			for (std::size_t j = 0; j < 3; ++j)
+				colour +=
+					weights[k] * triangle.corners[k][j] * static_cast<double>(face.colour[j][c]);
+		rgba[c] = static_cast<Sample>(std::clamp(kMax * colour, 0.0, kMax) + 0.5);
+	}
+	if (!hasAlpha)
+		rgba[3] = std::numeric_limits<Sample>::max();
+}
+
+/// Draws the texels of all triangles in one old picture, or (-1) in none.
+template<class Sample>
+class Drawing
+{
+public:
+	Drawing(
+		const CarriedMesh& mesh,
+		const Sources& sources,
+		const std::vector<int>& charts,
+		bool hasAlpha,
+		const PictureView<Sample>& result) :
+			m_mesh(mesh),
+			m_sources(sources), m_charts(charts), m_hasAlpha(hasAlpha), m_result(result)
+	{
+	}
+
+	void draw(
+		int picture,
+		const PictureView<const Sample>& old,
+		const PictureSampler<Sample>* sampler,
+		const OldOwners* owners,
+		int threads,
+		const Tick& tick) const
+	{
+		const int tasks = (m_result.height + kTile - 1) / kTile;
+		tasksInParallel(tasks, threads, tick, [&](int task, const Tick& own) {
+			const int top = task * kTile, bottom = std::min(top + kTile, m_result.height);
+			for (int left = 0; left < m_result.width; left += kTile) {
+				own();
+				for (int y = top; y < bottom; ++y)
+					drawRow(
+						y,
+						left,
+						std::min(left + kTile, m_result.width),
+						picture,
+						old,
+						sampler,
+						owners);
+			}
+		});
+	}
+
+private:
+	void drawRow(
+		int y,
+		int left,
+		int right,
+		int picture,
+		const PictureView<const Sample>& old,
+		const PictureSampler<Sample>* sampler,
+		const OldOwners* owners) const
+	{
+		for (int x = left; x < right;) {
+			const int number = m_sources.triangle(m_result.index(x, y));
+			const int first = x;
+			do
+				++x;
+			while (x < right && m_sources.triangle(m_result.index(x, y)) == number);
+			if (number < 0)
+				continue;
+			const CarriedTriangle& triangle = m_mesh.triangles[positionOf(number)];
+			const TexturedFace& face = m_mesh.faces[positionOf(triangle.face)];
+			if (face.picture != picture)
+				continue;
+			const Triangle2 corners = inTexels(triangle.uv, m_result.width, m_result.height);
+			const TriangleMap map(
+				corners, triangle, sampler ? oldTexels(face, old.width, old.height) : Triangle2{});
+			if (sampler == nullptr) {
+				for (int at = first; at < x; ++at)
+					writeColour(
+						face,
+						triangle,
+						map.weights({at + 0.5, y + 0.5}),
+						m_hasAlpha,
+						m_result.rgba + 4 * m_result.index(at, y));
+				continue;
+			}
+			const OldOwners::Chart chart = owners->of(m_charts[positionOf(triangle.face)]);
+			const Footprint footprint = map.footprint();
+			for (int at = first; at < x; ++at) {
+				const std::size_t texel = m_result.index(at, y);
+				const Point2 middle{at + 0.5, y + 0.5};
+				const Point3 weights = map.weights(middle);
+				Sample* rgba = m_result.rgba + 4 * texel;
+				if (!m_sources.inside(texel) &&
+					sampler->mean(map.continued(middle, weights), footprint, chart, rgba))
+					continue;
+				const Point2 nearest = map.old(weights);
+				if (!sampler->mean(nearest, footprint, chart, rgba))
+					sampler->nearest(nearest, chart, rgba);
+			}
+		}
+	}
+
+	const CarriedMesh& m_mesh;
+	const Sources& m_sources;
+	const std::vector<int>& m_charts;
+	bool m_hasAlpha;
+	const PictureView<Sample>& m_result;
+};
+
+std::vector<char> hasFaces(const CarriedMesh& mesh, std::size_t pictures)
+{
+	std::vector<char> used(pictures + 1, 0); // the last: without a picture
+	for (const TexturedFace& face : mesh.faces)
+		used[face.picture < 0 ? pictures : positionOf(face.picture)] = 1;
+	return used;
+}
+
+double area(const Triangle2& t)
+{
+	return 0.5 * std::abs(doubledArea(t[0], t[1], t[2]));
+}
+
+} // namespace
+
+template<class Sample>
+void carryTexture(
+	const CarriedMesh& mesh,
+	const std::vector<PictureView<const Sample>>& pictures,
+	bool hasAlpha,
+	const PictureView<Sample>& result,
+	int threads,
+	const Tick& tick)
+{
+	const std::vector<char> used = hasFaces(mesh, pictures.size());
+	const std::vector<int> charts = oldCharts(mesh.faces, tick);
+	std::vector<char> covered;
+	{
+		const Sources sources(mesh, result.width, tick);
+		const Drawing<Sample> drawing(mesh, sources, charts, hasAlpha, result);
+		for (std::size_t i = 0; i < pictures.size(); ++i) {
+			if (!used[i])
+				continue;
+			const int number = static_cast<int>(i);
+			const PictureView<const Sample>& old = pictures[i];
+			const OldOwners owners(mesh.faces, charts, number, old.width, old.height, tick);
+			const PictureSampler<Sample> sampler(old, hasAlpha);
+			drawing.draw(number, old, &sampler, &owners, threads, tick);
+		}
+		if (used.back())
+			drawing.draw(-1, {}, nullptr, nullptr, threads, tick);
+		covered = sources.covered();
+	}
+	fillFromNearest(covered, result, threads, tick);
+}
+
+template void carryTexture(
+	const CarriedMesh&,
+	const std::vector<PictureView<const unsigned char>>&,
+	bool,
+	const PictureView<unsigned char>&,
+	int,
+	const Tick&);
+template void carryTexture(
+	const CarriedMesh&,
+	const std::vector<PictureView<const unsigned short>>&,
+	bool,
+	const PictureView<unsigned short>&,
+	int,
+	const Tick&);
+
+TexelDensity texelDensity(
+	const CarriedMesh& mesh,
+	const std::vector<double>& faceAreas,
+	const std::vector<std::array<int, 2>>& pictures,
+	int size)
+{
+	double total = 0.0, before = 0.0, after = 0.0, ratio = 0.0;
+	for (const CarriedTriangle& triangle : mesh.triangles) {
+		const TexturedFace& face = mesh.faces[positionOf(triangle.face)];
+		if (face.picture < 0)
+			continue;
+		const auto& [width, height] = pictures[positionOf(face.picture)];
+		const Triangle2 old = oldTexels(face, width, height);
+		const auto& c = triangle.corners;
+		const double share =
+			2.0 * area({{{c[0][1], c[0][2]}, {c[1][1], c[1][2]}, {c[2][1], c[2][2]}}});
+		const double inSpace = share * faceAreas[positionOf(triangle.face)];
+		const double oldArea = share * area(old);
+		const double newArea = area(inTexels(triangle.uv, size, size));
+		if (!(inSpace > 0.0 && oldArea > 0.0))
+			continue;
+		total += inSpace;
+		before += std::sqrt(inSpace * oldArea);
+		after += std::sqrt(inSpace * newArea);
+		ratio += inSpace * std::sqrt(newArea / oldArea);
+	}
+	TexelDensity density;
+	if (total > 0.0) {
+		density.before = before / total;
+		density.after = after / total;
+		density.ratio = ratio / total;
+	}
+	return density;
+}
+
+} // namespace ricci

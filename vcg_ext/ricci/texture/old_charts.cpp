@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "old_charts.h"
+
+#include "../math/disjoint_sets.h"
+#include "texels_of_triangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace ricci {
+
+namespace {
+
+/// Texels this near to the side of a triangle count as on it: floats cannot tell.
+constexpr double kBorder = 0.01;
+
+/// Coordinates of two wedges that differ less are equal.
+constexpr double kSameCoordinate = 1e-6;
+
+struct Side
+{
+	int low, high; ///< vertices
+	int face;
+	Point2 atLow, atHigh; ///< old coordinates
+
+	bool operator<(const Side& other) const
+	{
+		return std::tie(low, high, face) < std::tie(other.low, other.high, other.face);
+	}
+};
+
+bool same(const Point2& a, const Point2& b)
+{
+	return std::abs(a[0] - b[0]) <= kSameCoordinate && std::abs(a[1] - b[1]) <= kSameCoordinate;
+}
+
+} // namespace
+
+std::vector<int> oldCharts(const std::vector<TexturedFace>& faces, const Tick& tick)
+{
+	std::vector<Side> sides;
+	sides.reserve(3 * faces.size());
+	for (std::size_t f = 0; f < faces.size(); ++f) {
+		tickNowAndThen(tick, f);
+		const TexturedFace& face = faces[f];
+		if (face.picture < 0)
+			continue;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::size_t next = (k + 1) % 3;
+			const int a = face.vertices[k], b = face.vertices[next];
+			const int number = static_cast<int>(f);
+			sides.push_back(
+				a < b ? Side{a, b, number, face.uv[k], face.uv[next]}
+					  : Side{b, a, number, face.uv[next], face.uv[k]});
+		}
+	}
+	std::sort(sides.begin(), sides.end());
+	DisjointSets sets(static_cast<int>(faces.size()));
+	for (std::size_t i = 0; i < sides.size(); ++i) {
+		tickNowAndThen(tick, i);
+		const Side& a = sides[i];
+		// Of an edge with many faces the next few are looked at.
+		for (std::size_t j = i + 1; j < std::min(i + 8, sides.size()); ++j) {
+			const Side& b = sides[j];
+			if (b.low != a.low || b.high != a.high)
+				break;
+			if (faces[positionOf(a.face)].picture == faces[positionOf(b.face)].picture &&
+				same(a.atLow, b.atLow) && same(a.atHigh, b.atHigh))
+				sets.merge(a.face, b.face);
+		}
+	}
+	std::vector<int> charts(faces.size());
+	for (std::size_t f = 0; f < faces.size(); ++f)
+		charts[f] = sets.find(static_cast<int>(f));
+	return charts;
+}
+
+Triangle2 oldTexels(const TexturedFace& face, int width, int height)
+{
+	Triangle2 uv = face.uv;
+	for (std::size_t k = 0; k < 2; ++k) {
+		const double low = std::floor(std::min({uv[0][k], uv[1][k], uv[2][k]}));
+		for (Point2& p : uv)
+			p[k] = std::isfinite(p[k] - low) ? p[k] - low : 0.0;
+	}
+	return inTexels(uv, width, height);
+}
+
+OldOwners::OldOwners(
+	const std::vector<TexturedFace>& faces,
+	const std::vector<int>& charts,
+	int picture,
+	int width,
+	int height,
+	const Tick& tick) :
+		m_extents(faces.size(), Inside)
+{
+	const PictureView<const char> view{width, height, nullptr};
+	m_owners.assign(view.texels(), kNone);
+	const auto wrapped = [](int x, int length) { return ((x % length) + length) % length; };
+	const int far = 3 * std::max(width, height);
+	for (const bool border : {false, true})
+		for (std::size_t f = 0; f < faces.size(); ++f) {
+			if (tick && f % 1024 == 0)
+				tick();
+			if (faces[f].picture != picture)
+				continue;
+			const Triangle2 t = oldTexels(faces[f], width, height);
+			Box2 box;
+			for (const Point2& p : t)
+				box.add(p);
+			const int key = keyOf(charts[f]);
+			Extent& extent = m_extents[positionOf(charts[f])];
+			if (box.width() > width + kBorder || box.height() > height + kBorder) {
+				extent = All;
+				continue;
+			}
+			// They start in the picture, which v leaves at the top.
+			if (box.max[0] > width + kBorder || box.min[1] < -kBorder)
+				extent = std::max(extent, AcrossBorder);
+			forEachTexelOf(t, border ? kBorder : -kBorder, -far, far, [&](int x, int y) {
+				int& owner = m_owners[view.index(wrapped(x, width), wrapped(y, height))];
+				if (owner == kNone)
+					owner = border ? key + 1 : key;
+				else if (!border)
+					owner = owner == key ? key : kOverlap;
+				else if (owner == key + 1)
+					owner = key;
+				else if (owner % 2 == 1)
+					owner = kOutlineOfTwo;
+			});
+		}
+}
+
+} // namespace ricci

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_OLD_CHARTS_H
+#define RICCI_OLD_CHARTS_H
+
+#include "../base/indexed.h"
+#include "carry_texture.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace ricci {
+
+/// [face] a number that the faces of one chart of the old map share: those that are joined by edges with
+/// the same picture and coordinates on both sides.
+std::vector<int> oldCharts(const std::vector<TexturedFace>& faces, const Tick& tick);
+
+/// Old coordinates in texels, moved by whole pictures so that they start in the first one; 0 where they
+/// are no numbers.
+Triangle2 oldTexels(const TexturedFace& face, int width, int height);
+
+/// Which chart each texel of one old picture belongs to: that in which its middle lies.
+class OldOwners
+{
+public:
+	OldOwners(
+		const std::vector<TexturedFace>& faces,
+		const std::vector<int>& charts,
+		int picture,
+		int width,
+		int height,
+		const Tick& tick);
+
+	/// The texels that have colours of one chart.
+	class Chart
+	{
+	public:
+		/// Those between charts, and those with their middle on the outline of one, belong to none;
+		/// those where charts overlap belong to all. A chart with a triangle larger than the picture
+		/// has all of it.
+		bool has(std::size_t texel) const
+		{
+			const int owner = m_owners[texel];
+			return owner == m_key || owner == kOverlap || m_extent == All;
+		}
+
+		/// Whether the chart goes on across the border of the picture, at the opposite side of it.
+		bool repeats() const { return m_extent != Inside; }
+
+	private:
+		friend class OldOwners;
+		const int* m_owners = nullptr;
+		int m_key = 0, m_extent = 0;
+	};
+
+	Chart of(int chart) const
+	{
+		Chart texels;
+		texels.m_owners = m_owners.data();
+		texels.m_key = keyOf(chart);
+		texels.m_extent = m_extents[positionOf(chart)];
+		return texels;
+	}
+
+private:
+	/// Of texels inside of a chart; the odd number after it is that of texels on the side of one
+	/// triangle, which become inside when they are on the side of another one of the chart.
+	static int keyOf(int chart) { return 2 * chart + 4; }
+
+	static constexpr int kNone = 0, kOutlineOfTwo = 1, kOverlap = 2;
+
+	enum Extent : char { Inside, AcrossBorder, All };
+
+	std::vector<int> m_owners;     // [texel]
+	std::vector<Extent> m_extents; // [chart]
+};
+
+} // namespace ricci
+
+#endif
