@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The address and undefined-behaviour sanitizers, valgrind and clang-tidy. Bounded: about ten minutes
-# on two cores. Needs what tests/run.sh installs and builds, and is run by it.
+# The address, undefined-behaviour and thread sanitizers, valgrind and clang-tidy. Bounded: about ten
+# minutes on two cores. Needs what tests/run.sh installs and builds, and is run by it.
 #
 #     bash tests/sanitize.sh          # what tests/run.sh runs
 #     bash tests/sanitize.sh --all    # clang's path-sensitive checks and all core tests, too
@@ -43,6 +43,19 @@ run_sanitized() {
 	return $status
 }
 
+# Data races, in the functions that start threads. That of the whole core takes minutes to compile, and
+# OpenMP in the system's CHOLMOD is reported where there is no race.
+run_thread_sanitizer() {
+	if ! echo 'int main() {}' | c++ -fsanitize=thread -x c++ -o /dev/null - 2>/dev/null; then
+		skipped "the thread sanitizer: this compiler has none"
+		return 0
+	fi
+	mkdir -p "$folder"
+	c++ -std=c++17 -O1 -g -fsanitize=thread -I"$root/vcg_ext" "$root/tests/base/parallel_test.cpp" \
+		-lgtest_main -lgtest -lpthread -o "$folder/parallel_test" || return 1
+	timeout 300 "$folder/parallel_test" --gtest_brief=1
+}
+
 # Also sees what was never set, and what the solver's library does: only memory faults, crashes and
 # hangs count here.
 run_valgrind() {
@@ -75,6 +88,7 @@ say "Sanitizers"
 if build_sanitized; then
 	run_sanitized || status=1
 fi
+run_thread_sanitizer || status=1
 say "Valgrind"
 run_valgrind || status=1
 say "clang-tidy"
