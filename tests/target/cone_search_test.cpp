@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -113,6 +114,30 @@ TEST(ConeSearch, EachConeMoreLowersTheEnergyUntilNoVertexIsLeft)
 		EXPECT_FALSE(addCone(search.model, search.sites));
 		EXPECT_EQ(search.cones().size(), 12u);
 		EXPECT_LT(search.cones().rbegin()->number(), 12);
+	}
+}
+
+/// After a fit the gradient is the same at all cones below their bound. Curvature that moves from there
+/// to another vertex changes the energy by the difference of the gradient.
+TEST(ConeSearch, TheNextConeIsWhereTheGradientDiffersMost)
+{
+	for (int genus : {0, 2}) {
+		Search search(shakenSlab(genus), genus);
+		startCones(search.model, search.sites);
+		for (int count = search.model.size(); count < 9; ++count) {
+			const VertexVector phi = search.model.gradient();
+			int free = 0; // a cone below its bound
+			while (search.model.curvature(free) > 4.7)
+				ASSERT_LT(++free, count);
+			const double level = phi[search.model.vertex(free)];
+			double most = 0.0;
+			for (const Vertex v : phi.indices())
+				if (!search.model.isCone(v))
+					most = std::max(most, std::abs(phi[v] - level));
+			ASSERT_TRUE(addCone(search.model, search.sites));
+			const Vertex added = search.model.vertex(count);
+			EXPECT_NEAR(std::abs(phi[added] - level), most, 1e-9 * most);
+		}
 	}
 }
 
