@@ -5,10 +5,9 @@
 
 #include <common/interfaces.h>
 
-#include <QApplication>
+#include <QCoreApplication>
 #include <QDir>
 #include <QImage>
-#include <QWidget>
 
 #include <string>
 #include <type_traits>
@@ -44,16 +43,13 @@ inline QImage texture(const MeshModel& model, const std::string& name)
 	return beside.isNull() ? QImage(file) : beside;
 }
 
-/// Makes an image, which has been written, the only texture. The window will look for it in the folder
-/// of the process; meshlabserver, which shows no widget, needs that one for the files that it writes.
+/// Makes an image, which has been written, the only texture. The window looks for it in the folder of
+/// the process; meshlabserver, which is of no organization, needs that folder for what it writes.
 inline void setTexture(MeshModel& model, const std::string& name, const QImage&)
 {
 	model.cm.textures.assign(1, name);
-	for (const QWidget* widget : QApplication::topLevelWidgets())
-		if (widget->isVisible()) {
-			QDir::setCurrent(model.pathName());
-			return;
-		}
+	if (!QCoreApplication::organizationName().isEmpty())
+		QDir::setCurrent(model.pathName());
 }
 
 /// The name of a texture that does not lie below the mesh's folder: this host finds it by its path.

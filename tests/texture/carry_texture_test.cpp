@@ -386,6 +386,7 @@ TEST(CarryTexture, TakesWhateverTheCoordinatesAre)
 	std::vector<Triangle2> atlas = mapped(square.place, curved);
 	atlas[5] = {atlas[5][0], atlas[5][0], atlas[5][0]};
 	atlas[6] = {Point2{-5, 3}, Point2{40, 0.5}, Point2{0.5, -100}};
+	atlas[7][1][1] = std::numeric_limits<double>::quiet_NaN();
 	EXPECT_NO_THROW(carried<unsigned char>(carriedMesh(square, wild, atlas), {&old}, 32, true));
 }
 

@@ -52,7 +52,7 @@ private:
 };
 
 /// A parallelogram about a point of an old picture, in texels, and the points in it that are read: at most
-/// one texel apart, and each read bilinearly, so that none is missed.
+/// one texel apart, and each read bilinearly, so that none is missed; but no more than 64 in a row.
 class Footprint
 {
 public:

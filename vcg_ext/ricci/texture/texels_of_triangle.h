@@ -17,9 +17,8 @@ namespace ricci {
 template<class Visit>
 void forEachTexelOf(const Triangle2& t, double reach, int first, int last, const Visit& visit)
 {
-	const auto clamped = [&](double x) { // NaN becomes first
-		return static_cast<int>(
-			std::min(std::max(x, static_cast<double>(first)), static_cast<double>(last) + 1.0));
+	const auto clamped = [&](double x) { // no number becomes first
+		return x > first ? static_cast<int>(std::min(x, last + 1.0)) : first;
 	};
 	const double low = std::min({t[0][1], t[1][1], t[2][1]}) - reach;
 	const double high = std::max({t[0][1], t[1][1], t[2][1]}) + reach;
