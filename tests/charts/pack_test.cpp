@@ -2,6 +2,7 @@
 #include "support/random.h"
 
 #include <ricci/base/indexed.h>
+#include <ricci/base/tolerances.h>
 #include <ricci/charts/pack.h>
 #include <ricci/error.h>
 
@@ -223,6 +224,13 @@ TEST(PackCharts, KeepsTheMarginBetweenOutlines)
 							EXPECT_GE(x, margin - 1e-12);
 							EXPECT_LE(x, 1.0 - margin + 1e-12);
 						}
+				for (const Chart& chart : map.charts) {
+					const Box2 box = boxOf(map, chart);
+					for (std::size_t k = 0; k < 2; ++k) {
+						EXPECT_LE(chart.box.min[k], box.min[k] + 1e-15);
+						EXPECT_GE(chart.box.max[k], box.max[k] - 1e-15);
+					}
+				}
 				const double scale = distance(map.uv[0][0], map.uv[0][1]) /
 									 distance(before.uv[0][0], before.uv[0][1]);
 				for (std::size_t f = 0; f < map.uv.size(); ++f)
@@ -275,6 +283,22 @@ TEST(PackCharts, PutsManySmallChartsIntoOneBox)
 	packCharts(turned, true, 0.001, inRows, ChartTurns::Free);
 	EXPECT_TRUE(keepApart(outlinesOf(turned), 0.001 * (1.0 - 1e-9)));
 	EXPECT_GT(turned.report.occupancy, map.report.occupancy);
+}
+
+/// A chart that is thinner than what floats show keeps its box, upright.
+TEST(PackCharts, ThinChartsStayUpright)
+{
+	for (const std::vector<Point2>& sizes :
+		 {std::vector<Point2>{{1.0, 1e-9}},
+		  std::vector<Point2>{{1.0, 1e-9}, {1.0, 0.1}, {0.5, 0.5}, {0.2, 0.9}}}) {
+		Parametrization map = boxes(sizes);
+		packCharts(map, true, 0.0, inRows, ChartTurns::Free);
+		const Box2 box = boxOf(map, map.charts[0]);
+		EXPECT_LT(std::min(box.width(), box.height()), 1e-8);
+		const Box2& room = map.charts[0].box;
+		EXPECT_GE(std::min(room.width(), room.height()), 0.5 * kLeastBoxSide);
+		EXPECT_TRUE(room.contains(box.min) && room.contains(box.max));
+	}
 }
 
 /// A grid of squares of two triangles over the plane, as one chart.

@@ -2,10 +2,13 @@
 #include "outline.h"
 
 #include "../math/box_tree.h"
+#include "../math/bucket_sort.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 namespace ricci {
@@ -57,6 +60,20 @@ bool contains(const Outline& outline, const Point2& p)
 	return turns != 0;
 }
 
+/// Different for nearly all points.
+std::uint64_t pointKey(const Point2& p)
+{
+	std::uint64_t key = 0;
+	for (const double x : p) {
+		const double unsignedZero = x + 0.0;
+		std::uint64_t bits = 0;
+		std::memcpy(&bits, &unsignedZero, sizeof bits);
+		key = (key ^ bits) * 0x9e3779b97f4a7c15U; // 2^64 over the golden ratio
+		key ^= key >> 29;
+	}
+	return key;
+}
+
 Box2 boxOf(const Segment& s, double room)
 {
 	Box2 box;
@@ -73,18 +90,14 @@ Outline outlineOf(const std::vector<Triangle2>& triangles)
 {
 	struct Side
 	{
-		double x; // of the lower end
+		std::uint64_t key; // of both ends, in any order
 		std::size_t number;
 	};
-	// From the lower end; true where the triangle has it that way.
+	// From the lower end.
 	const auto endsOf = [&](const Side& side) {
 		const Triangle2& t = triangles[side.number / 3];
-		const std::size_t k = side.number % 3;
-		const Point2 &a = t[k], &b = t[(k + 1) % 3];
-		const bool upwards = a < b;
-		return std::make_pair(
-			upwards ? Segment{a, b} : Segment{b, a},
-			upwards == !(doubledArea(t[0], t[1], t[2]) < 0.0));
+		const Point2 &a = t[side.number % 3], &b = t[(side.number + 1) % 3];
+		return a < b ? Segment{a, b} : Segment{b, a};
 	};
 	std::vector<Side> sides;
 	sides.reserve(3 * triangles.size());
@@ -92,26 +105,30 @@ Outline outlineOf(const std::vector<Triangle2>& triangles)
 		for (std::size_t k = 0; k < 3; ++k) {
 			const Point2 &a = triangles[i][k], &b = triangles[i][(k + 1) % 3];
 			if (a != b)
-				sides.push_back({std::min(a, b)[0], 3 * i + k});
+				sides.push_back({pointKey(a) + pointKey(b), 3 * i + k});
 		}
-	std::sort(sides.begin(), sides.end(), [&](const Side& s, const Side& t) {
-		return s.x != t.x ? s.x < t.x : endsOf(s).first < endsOf(t).first;
-	});
+	const std::uint64_t buckets = std::max<std::size_t>(sides.size(), 1);
+	bucketSort(
+		sides,
+		[&](const Side& s) { return static_cast<int>(s.key % buckets); },
+		[&](const Side& s, const Side& t) {
+			return s.key != t.key ? s.key < t.key : endsOf(s) < endsOf(t);
+		});
 	Outline outline;
 	for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
-		const Segment ends = endsOf(*first).first;
-		int count = 0;
-		for (; last != sides.end() && last->x == first->x; ++last) {
-			const auto [other, isUpwards] = endsOf(*last);
-			if (other != ends)
-				break;
-			count += isUpwards ? 1 : -1;
+		const Segment ends = endsOf(*first);
+		int count = 0; // upwards, less those downwards
+		for (; last != sides.end() && last->key == first->key && endsOf(*last) == ends; ++last) {
+			const Triangle2& t = triangles[last->number / 3];
+			const bool isUpwards = t[last->number % 3] == ends[0];
+			count += isUpwards == !(doubledArea(t[0], t[1], t[2]) < 0.0) ? 1 : -1;
 		}
 		for (; count > 0; --count)
 			outline.push_back(ends);
 		for (; count < 0; ++count)
 			outline.push_back({ends[1], ends[0]});
 	}
+	std::sort(outline.begin(), outline.end());
 	return outline;
 }
 
