@@ -50,8 +50,9 @@ struct Report
 	int edgeSwaps = 0;   ///< paper 5.4
 	int flips = 0;       ///< intrinsic flips, those to the start's triangulation included
 	int refinementPoints =
-		0;                   ///< points of the common refinement that are not vertices of the input
-	int boundarySplits = 0;  ///< paper 5.4: boundary edges split before a new start
+		0;                  ///< points of the common refinement that are not vertices of the input;
+							///< 0 where the result keeps the mesh
+	int boundarySplits = 0; ///< paper 5.4: boundary edges split before a new start
 	int brokenTriangles = 0; ///< faces that break the triangle inequality at the end
 
 	int eulerCharacteristic = 0;

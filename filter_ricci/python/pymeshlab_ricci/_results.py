@@ -27,8 +27,8 @@ EUCLIDEAN_RESULTS = \
                   'coordinates counts twice'),
  'flips': ('int', 'intrinsic flips, including those before the flow'),
  'refinement_points': ('int',
-                       'points of the common refinement that are not vertices of the mesh; '
-                       'counted with Keep the mesh too'),
+                       'points of the common refinement that are not vertices of the mesh; 0 '
+                       'with Keep the mesh'),
  'edge_swaps': ('int', 'made by Edge swap'),
  'boundary_splits': ('int', 'made by Edge swap'),
  'euler_characteristic': ('int', 'of the input, cut open where it is no oriented manifold'),

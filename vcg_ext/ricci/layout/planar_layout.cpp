@@ -40,7 +40,8 @@ PlanarLayout layOutInPlane(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
 	const HalfedgeArray<double>& angles,
-	const EdgeArray<char>& isCut)
+	const EdgeArray<char>& isCut,
+	Face root)
 {
 	PlanarLayout layout;
 	layout.wedges = cornerWedges(t, isCut);
@@ -71,11 +72,11 @@ PlanarLayout layOutInPlane(
 		place(third, {from[0] + length * std::cos(angle), from[1] + length * std::sin(angle)});
 	};
 
-	const Halfedge root = t.halfedge(Face(0));
-	place(root, {0.0, 0.0});
-	place(t.next(root), {lengths[root.edge()], 0.0});
-	placeTriangle(root, 0.0);
-	for (const Halfedge h : layoutTree(t, lengths, isCut, t.face(root)))
+	const Halfedge first = t.halfedge(root);
+	place(first, {0.0, 0.0});
+	place(t.next(first), {lengths[first.edge()], 0.0});
+	placeTriangle(first, 0.0);
+	for (const Halfedge h : layoutTree(t, lengths, isCut, root))
 		placeTriangle(h, std::remainder(direction[h.twin()] + kPi, 2 * kPi));
 	return layout;
 }

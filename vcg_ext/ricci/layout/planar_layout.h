@@ -33,11 +33,13 @@ struct PlanarLayout
 /// Counter-clockwise triangles stay counter-clockwise.
 /// \param lengths Euclidean
 /// \param angles radians, at the halfedge's origin
+/// \param root the first triangle; what is not connected to it has points without a meaning
 PlanarLayout layOutInPlane(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
 	const HalfedgeArray<double>& angles,
-	const EdgeArray<char>& isCut);
+	const EdgeArray<char>& isCut,
+	Face root = Face(0));
 
 } // namespace ricci
 

@@ -106,11 +106,9 @@ private:
 
 } // namespace
 
-EndSheets
-makeSheets(const LinkedPieces& linked, const FlowResult& flow, const EdgeArray<char>& isCut)
+void takeMetric(const FlowResult& flow, EndSheets& sheets)
 {
 	const Triangulation& end = flow.metric->triangulation();
-	EndSheets sheets = SheetMaker(linked, end, isCut).run();
 	const Triangulation& t = sheets.triangulation;
 	sheets.lengths.resize(t.edgeCount());
 	sheets.angles.resize(t.halfedgeCount(), 0.0);
@@ -121,6 +119,13 @@ makeSheets(const LinkedPieces& linked, const FlowResult& flow, const EdgeArray<c
 			sheets.angles[h[k]] = flow.metric->angles()[original[k]];
 		}
 	}
+}
+
+EndSheets
+makeSheets(const LinkedPieces& linked, const FlowResult& flow, const EdgeArray<char>& isCut)
+{
+	EndSheets sheets = SheetMaker(linked, flow.metric->triangulation(), isCut).run();
+	takeMetric(flow, sheets);
 	return sheets;
 }
 

@@ -19,10 +19,13 @@ struct EndSheets
 {
 	Triangulation triangulation; ///< its faces are the sheets, its vertices those of the end
 	FaceArray<Face> endFace;   ///< [sheet] its end triangle, whose halfedges() have the same order
-	Array<Face> of;            ///< [piece] its sheet
+	Array<Face> of;            ///< [piece] its sheet, where there is an overlay
 	EdgeArray<double> lengths; ///< of the sheets in the metric of the end
 	HalfedgeArray<double> angles; ///< at the halfedge's origin
 };
+
+/// Gives the sheets the lengths and angles of their end triangles.
+void takeMetric(const FlowResult& flow, EndSheets& sheets);
 
 /// Makes the sheets that belong to the pieces of an overlay, glued along end edges where the pieces
 /// meet off the cut. They form a surface without a cut.

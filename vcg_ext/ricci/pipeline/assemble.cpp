@@ -147,8 +147,10 @@ void append(
 	Chart chart;
 	chart.faces = component.face.values();
 	chart.group = map.group;
-	if (output == OutputTriangulation::CommonRefinement)
+	if (output == OutputTriangulation::CommonRefinement) {
 		appendRefinement(map.refinement, component, result.refined, chart);
+		result.report.refinementPoints += static_cast<int>(map.refinement.crossings);
+	}
 	for (const Face f : map.uv.indices()) {
 		const std::size_t face = positionOf(component.face[f]);
 		result.reversed[face] = component.reversed[f];
@@ -178,7 +180,6 @@ void append(
 	report.finishMoved += map.finishMoved;
 	report.edgeSwaps += map.edgeSwaps;
 	report.boundarySplits += map.boundarySplits;
-	report.refinementPoints += static_cast<int>(map.refinement.crossings);
 	report.eulerCharacteristic += map.type.eulerCharacteristic();
 	report.genus += map.type.genus;
 	report.boundaryLoops += map.type.boundaryLoops;

@@ -5,6 +5,7 @@
 #include "../base/text.h"
 #include "../cut/cut_graph.h"
 #include "../finish/finish.h"
+#include "../layout/corner_layout.h"
 #include "../layout/hole_seams.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../measure/distortion.h"
@@ -142,8 +143,7 @@ HalfedgeArray<double> cutCorners(const FlowDomain&, const ComponentMap&, const H
 	return {};
 }
 
-/// The layout of the corners of the component, open along the cut; with flips on the common
-/// refinement.
+/// The layout of the corners of the component, open along the cut.
 void placeCorners(
 	const FlowDomain& domain,
 	LinkedPieces overlay,
@@ -152,10 +152,14 @@ void placeCorners(
 	ComponentMap& map)
 {
 	const CurvatureMap& metric = *map.flow.metric;
-	if (options.surgery == Surgery::IntrinsicFlips) {
+	if (needsOverlay(domain, options)) {
 		map.refinement = refine(domain, map, std::move(overlay), options, progress);
 		map.layout = std::move(map.refinement.inputLayout);
 	}
+	else if (options.surgery == Surgery::IntrinsicFlips)
+		map.layout = layOutCorners(domain, map.flow, map.cut.isCut, [&] {
+			progress.step(1.0 - kAfterFlow, "Cutting and layout");
+		});
 	else
 		map.layout =
 			layOutInPlane(metric.triangulation(), metric.lengths(), metric.angles(), map.cut.isCut);

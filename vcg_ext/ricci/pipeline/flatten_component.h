@@ -28,7 +28,7 @@ struct ComponentMap
 	double seamLength = 0.0; ///< of the cut on the mesh
 
 	PlanarLayout layout;         ///< on the triangulation of the cut
-	CommonRefinement refinement; ///< with flips
+	CommonRefinement refinement; ///< where needsOverlay()
 	FaceArray<Triangle2> uv;     ///< [face of the component][corner]
 	double scale = 1.0;          ///< lengths in the layout over those of the flow's metric
 

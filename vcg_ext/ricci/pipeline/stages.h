@@ -69,8 +69,21 @@ CutGraph cutThroughCones(
 /// Sum of the lengths of the cut's edges.
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths);
 
-/// overlayOf() the flow, with what the options ask of it; nothing without flips. \p AnyOptions: Options,
-/// HyperbolicOptions
+/// Whether the map needs the overlay of a flow with flips: the layout of the mesh's own corners in the
+/// plane does without.
+inline bool needsOverlay(const FlowDomain& domain, const Options& options)
+{
+	return options.surgery == Surgery::IntrinsicFlips &&
+		   (options.output == OutputTriangulation::CommonRefinement || domain.holes > 0);
+}
+
+inline bool needsOverlay(const FlowDomain&, const HyperbolicOptions& options)
+{
+	return options.surgery == Surgery::IntrinsicFlips;
+}
+
+/// overlayOf() the flow, with what the options ask of it; nothing where none is needed. \p AnyOptions:
+/// Options, HyperbolicOptions
 template<class AnyOptions>
 LinkedPieces flowOverlay(
 	const FlowDomain& domain,
@@ -78,7 +91,7 @@ LinkedPieces flowOverlay(
 	ProgressRange& progress,
 	const ComponentMap& map)
 {
-	if (options.surgery != Surgery::IntrinsicFlips)
+	if (!needsOverlay(domain, options))
 		return {};
 	const bool refines = options.output == OutputTriangulation::CommonRefinement;
 	return overlayOf(domain, map.flow, overlayListener(progress, refines, options.memoryLimit));

@@ -6,28 +6,37 @@
 namespace ricci {
 
 NormalCoordinates::NormalCoordinates(const Triangulation& original) :
-		m_triangulation(original), m_normal(original.edgeCount(), -1),
-		m_roundabout(original.halfedgeCount(), -1), m_degree(original.vertexCount(), 0),
-		m_start(original.vertexCount(), 0), m_ranked(original.halfedgeCount())
+		NormalCoordinates(original, EdgeArray<char>(original.edgeCount(), 1))
+{
+}
+
+NormalCoordinates::NormalCoordinates(
+	const Triangulation& original, const EdgeArray<char>& isCurve) :
+		m_triangulation(original),
+		m_normal(original.edgeCount(), 0), m_roundabout(original.halfedgeCount(), -1),
+		m_degree(original.vertexCount(), 0), m_start(original.vertexCount(), 0)
 {
 	const Triangulation& t = m_triangulation;
-	for (const Halfedge h : t.halfedges())
-		++m_degree[t.origin(h)];
-	int count = 0;
-	for (const Vertex v : t.vertices()) {
-		m_start[v] = count;
-		count += m_degree[v];
-	}
+	for (const Edge e : t.edges())
+		if (isCurve[e]) {
+			m_normal[e] = -1;
+			for (const Vertex v : t.ends(e))
+				++m_degree[v];
+		}
+	m_ranked.reserve(static_cast<std::size_t>(std::count(isCurve.begin(), isCurve.end(), 1)) * 2);
 	// Counter-clockwise from the halfedge that has the exterior on its right, or from any.
 	for (const Vertex v : t.vertices()) {
-		Halfedge h = t.halfedge(v);
-		if (!h.isValid())
-			continue;
-		for (int rank = 0; rank < m_degree[v]; ++rank) {
-			m_roundabout[h] = rank;
-			m_ranked[m_start[v] + rank] = h;
-			if (!t.isExterior(h))
-				h = t.previous(h).twin();
+		m_start[v] = m_ranked.size();
+		const Halfedge first = t.halfedge(v);
+		for (Halfedge h = first; h.isValid();) {
+			m_roundabout[h] = (m_ranked.size() - m_start[v]) % std::max(m_degree[v], 1);
+			if (isCurve[h.edge()])
+				m_ranked.push_back(h);
+			if (t.isExterior(h))
+				break;
+			h = t.previous(h).twin();
+			if (h == first)
+				break;
 		}
 	}
 }
@@ -73,7 +82,8 @@ void NormalCoordinates::updateRoundabout(Halfedge h)
 {
 	const Halfedge clockwise = m_triangulation.next(h.twin());
 	const int passed = cornerCurves(clockwise).emanateFromI + (isCurve(clockwise.edge()) ? 1 : 0);
-	m_roundabout[h] = (m_roundabout[clockwise] + passed) % m_degree[m_triangulation.origin(h)];
+	m_roundabout[h] =
+		(m_roundabout[clockwise] + passed) % std::max(m_degree[m_triangulation.origin(h)], 1);
 }
 
 void NormalCoordinates::flip(Edge e)
@@ -94,10 +104,10 @@ void NormalCoordinates::unflip(Edge e)
 	updateRoundabout(e.halfedge().twin());
 }
 
-Halfedge NormalCoordinates::originalAtOrBefore(Halfedge h) const
+Halfedge NormalCoordinates::originalAtOrBefore(Halfedge h, int after) const
 {
 	const Vertex v = m_triangulation.origin(h);
-	return original(v, m_roundabout[h] + (isCurve(h.edge()) ? 0 : m_degree[v] - 1));
+	return original(v, m_roundabout[h] + (isCurve(h.edge()) ? 0 : m_degree[v] - 1) + after);
 }
 
 EdgeArray<NormalCoordinates::Curve> NormalCoordinates::trace() const

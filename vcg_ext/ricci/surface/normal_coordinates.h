@@ -52,6 +52,11 @@ class NormalCoordinates
 public:
 	explicit NormalCoordinates(const Triangulation& original);
 
+	/// The same with some of the edges for curves. What is said of original edges and halfedges below
+	/// holds for these alone.
+	/// \param isCurve 1 on these edges, which include those of the boundary
+	NormalCoordinates(const Triangulation& original, const EdgeArray<char>& isCurve);
+
 	/// Follow a flip of edge \p e, forwards or backwards (see Triangulation).
 	/// \pre \p e is flippable
 	void flip(Edge e);
@@ -86,10 +91,14 @@ public:
 	/// The ways of all original edges, by original edge.
 	EdgeArray<Curve> trace() const;
 
-	/// The original halfedge that \p h is, or that lies next clockwise from it, at its origin.
-	Halfedge originalAtOrBefore(Halfedge h) const;
+	/// Whether any curve starts at \p v.
+	bool hasCurves(Vertex v) const { return m_degree[v] > 0; }
 
-private:
+	/// The original halfedge that \p h is, or that lies next clockwise from it, at its origin; or the
+	/// one that lies \p after places counter-clockwise from there.
+	/// \pre a curve starts there
+	Halfedge originalAtOrBefore(Halfedge h, int after = 0) const;
+
 	/// Numbers of curves in the triangle on the left of a halfedge ij, apex k.
 	struct CornerCurves
 	{
@@ -97,7 +106,10 @@ private:
 		int emanateFromI = 0, emanateFromJ = 0, emanateFromK = 0; ///< e: curves that start there
 	};
 
+	/// \pre \p h is not exterior
 	CornerCurves cornerCurves(Halfedge h) const;
+
+private:
 	int flippedNormalCoordinate(Edge e) const;
 	void updateRoundabout(Halfedge h);
 

@@ -4,6 +4,7 @@
 #include "bounded_minimum.h"
 #include "cone_rounding.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <numeric>
@@ -11,14 +12,41 @@
 
 namespace ricci {
 
+namespace {
+
+/// The share of a bound that rounding must not add to it.
+constexpr double kBoundSlack = 1e-6;
+
+} // namespace
+
 ConeModel::ConeModel(LinearFlow& flow, double total, Tick tick) :
 		m_flow(flow), m_total(total), m_tick(std::move(tick)), m_isCone(flow.vertexCount(), 0)
 {
 	ConeModel::tick();
-	const VertexVector start = m_flow.factor(VertexVector::Zero(m_flow.vertexCount()));
-	m_startEnergy = m_flow.meanSquare(start);
-	m_start = m_flow.gradient(start);
-	m_uniform = m_flow.gradient(m_flow.solve(flow.area()));
+	m_startFactor = m_flow.factor(VertexVector::Zero(m_flow.vertexCount()));
+	m_startEnergy = m_flow.meanSquare(m_startFactor);
+}
+
+/// Makes the gradient fields of what is there. From now on cones come with theirs.
+void ConeModel::makeFields()
+{
+	if (hasFields())
+		return;
+	tick();
+	m_uniform = m_flow.gradient(m_flow.solve(m_flow.area()));
+	int i = 0;
+	for (; i + 1 < size(); i += 2) {
+		tick();
+		LinearFlow::Pair fields =
+			m_flow.gradient({std::move(m_factors[i]), std::move(m_factors[i + 1])});
+		for (VertexVector& field : fields)
+			m_fields.push_back(std::make_shared<const VertexVector>(std::move(field)));
+	}
+	if (i < size())
+		m_fields.push_back(std::make_shared<const VertexVector>(m_flow.gradient(m_factors[i])));
+	m_factors.clear();
+	m_start = m_flow.gradient(m_startFactor);
+	m_startFactor.resize(0);
 }
 
 int ConeModel::minSize() const
@@ -40,6 +68,7 @@ VertexVector ConeModel::factor()
 
 const VertexVector& ConeModel::gradient()
 {
+	makeFields();
 	if (m_gradient.size() == 0) {
 		m_gradient = m_start;
 		for (int i = 0; i < size(); ++i)
@@ -48,8 +77,9 @@ const VertexVector& ConeModel::gradient()
 	return m_gradient;
 }
 
-VertexVector ConeModel::gradientWithShares(double share) const
+VertexVector ConeModel::gradientWithShares(double share)
 {
+	makeFields();
 	VertexVector phi = m_start + (m_total - share * size()) * m_uniform;
 	for (const Field& field : m_fields)
 		phi += share * *field;
@@ -58,7 +88,7 @@ VertexVector ConeModel::gradientWithShares(double share) const
 
 void ConeModel::append(Vertex v)
 {
-	append(v, m_flow.gradient(unitFactor(v)));
+	append(v, unitFactor(v));
 }
 
 void ConeModel::append(const std::vector<Vertex>& vertices)
@@ -66,25 +96,35 @@ void ConeModel::append(const std::vector<Vertex>& vertices)
 	std::size_t i = 0;
 	for (; i + 1 < vertices.size(); i += 2) {
 		tick();
-		const LinearFlow::Pair u = m_flow.solve({unit(vertices[i]), unit(vertices[i + 1])});
-		LinearFlow::Pair fields = m_flow.gradient(u);
+		LinearFlow::Pair u = m_flow.solve({unit(vertices[i]), unit(vertices[i + 1])});
 		for (std::size_t k = 0; k < 2; ++k) {
 			m_ownProduct[vertices[i + k]] = m_flow.meanSquare(u[k]);
-			append(vertices[i + k], std::move(fields[k]));
+			append(vertices[i + k], std::move(u[k]));
 		}
 	}
 	if (i < vertices.size())
 		append(vertices[i]);
 }
 
-void ConeModel::append(Vertex v, VertexVector field)
+/// \param factor of a unit of curvature at \p v
+void ConeModel::append(Vertex v, VertexVector factor)
 {
+	const int i = size();
 	m_isCone[v] = 1;
 	m_now.vertices.push_back(v);
 	m_now.gram.conservativeResize(size(), size());
 	m_now.linear.conservativeResize(size());
-	setRow(size() - 1, v);
-	m_fields.push_back(std::make_shared<const VertexVector>(std::move(field)));
+	if (hasFields()) {
+		setRow(i, v, ownProduct(v));
+		m_fields.push_back(std::make_shared<const VertexVector>(m_flow.gradient(factor)));
+	}
+	else {
+		for (int k = 0; k < i; ++k)
+			m_now.gram(i, k) = m_now.gram(k, i) = m_flow.meanProduct(m_factors[k], factor);
+		m_now.gram(i, i) = ownProduct(v);
+		m_now.linear[i] = m_flow.meanProduct(m_startFactor, factor);
+		m_factors.push_back(std::move(factor));
+	}
 	m_gradient.resize(0);
 }
 
@@ -92,7 +132,10 @@ void ConeModel::remove(int i)
 {
 	m_isCone[vertex(i)] = 0;
 	removeRow(i);
-	m_fields.values().erase(m_fields.begin() + i);
+	if (hasFields())
+		m_fields.values().erase(m_fields.begin() + i);
+	else
+		m_factors.values().erase(m_factors.begin() + i);
 	m_gradient.resize(0);
 }
 
@@ -130,6 +173,25 @@ void ConeModel::fit()
 	m_now.values = boundedMinimum(m_now.gram, m_now.linear, kMaxConeCurvature, total);
 	if (m_rounding == ConeRounding::QuarterTurns && size() > 0)
 		m_now.values = roundToQuarterTurns(m_now.gram, m_now.linear, m_now.values, total);
+}
+
+/// Whether minOwnProduct() spares a solution. Rounded curvatures are not at the minimum of the energy.
+bool ConeModel::isBounded(Vertex v) const
+{
+	return m_rounding == ConeRounding::Free && v != m_lastVertex &&
+		   m_ownProduct.find(v) == m_ownProduct.end();
+}
+
+/// A bound of ownProduct(\p v) from below, without a linear solution: u_v is no shorter than its
+/// projection to the span of the factors of the cones. The lowest energy rises with it.
+/// \pre the rows of all cones are those of their fields
+double ConeModel::minOwnProduct(Vertex v) const
+{
+	Eigen::VectorXd products(size());
+	for (int k = 0; k < size(); ++k)
+		products[k] = (*m_fields[k])[v];
+	const double bound = products.dot(m_now.gram.ldlt().solve(products));
+	return std::isfinite(bound) ? std::max(0.0, (1.0 - kBoundSlack) * bound) : 0.0;
 }
 
 /// Mean square of the factor of a unit of curvature at \p v.
@@ -185,13 +247,13 @@ void ConeModel::restore(const State& state, const Array<Field>& fields)
 
 /// Puts cone \p i to \p v: row and column i of G, and entry i of b.
 /// \pre all other cones have their fields in m_fields
-void ConeModel::setRow(int i, Vertex v)
+void ConeModel::setRow(int i, Vertex v, double ownProduct)
 {
 	m_now.vertices[i] = v;
 	for (int k = 0; k < size(); ++k)
 		if (k != i)
 			m_now.gram(i, k) = m_now.gram(k, i) = (*m_fields[k])[v];
-	m_now.gram(i, i) = ownProduct(v);
+	m_now.gram(i, i) = ownProduct;
 	m_now.linear[i] = m_start[v];
 }
 

@@ -21,6 +21,9 @@ namespace ricci {
 /// With u_v the factor of a unit of curvature at v, and phi_j the gradient field of u_j (see
 /// LinearFlow), the mean of u_v u_j is phi_j(v). A trial of a vertex therefore costs one linear
 /// solution, that of its own u for the diagonal of G, and none if the vertex was tried before.
+///
+/// Cones that are only to be fitted need no fields: G holds products of their u. The fields are made when
+/// a search asks for the first one.
 class ConeModel
 {
 public:
@@ -67,14 +70,14 @@ public:
 
 	/// gradient() as it would be if every cone had curvature \p share, and the rest of the total
 	/// lay on the whole surface in proportion to area.
-	VertexVector gradientWithShares(double share) const;
+	VertexVector gradientWithShares(double share);
 
 	/// gradient() at \p v as it is without the field of cone \p i. Where the sum is fixed, the curvature
 	/// of cone \p i lies on the whole surface in proportion to area instead.
 	double gradientOfOthers(int i, Vertex v)
 	{
-		const double own = (*m_fields[i])[v] - (hasFixedSum() ? m_uniform[v] : 0.0);
-		return gradient()[v] - curvature(i) * own;
+		const double whole = gradient()[v];
+		return whole - curvature(i) * ((*m_fields[i])[v] - (hasFixedSum() ? m_uniform[v] : 0.0));
 	}
 
 	/// Takes one more cone in; its curvature has to be fitted.
@@ -93,17 +96,22 @@ public:
 	/// kMaxConeCurvature, rounded as set.
 	void fit();
 
-	/// Moves cone \p i to \p v, fits the curvatures, and undoes both unless \p accept, called with
-	/// the energy there, returns true.
+	/// Moves cone \p i to \p v, fits the curvatures, and undoes both unless \p isLow(energy there).
+	/// Most trials fail, and of those most by so much that a bound of the energy tells.
+	/// \param isLow holds for every energy below one for which it holds
 	/// \return whether the cone has moved
-	template<class Accept>
-	bool tryMove(int i, Vertex v, const Accept& accept)
+	template<class IsLow>
+	bool tryMove(int i, Vertex v, const IsLow& isLow)
 	{
+		makeFields();
 		State before = m_now;
 		VertexVector gradient = std::move(m_gradient);
-		setRow(i, v);
-		fit();
-		if (!accept(energy())) {
+		const auto isLowWith = [&](double ownProduct) {
+			setRow(i, v, ownProduct);
+			fit();
+			return isLow(energy());
+		};
+		if ((isBounded(v) && !isLowWith(minOwnProduct(v))) || !isLowWith(ownProduct(v))) {
 			m_now = std::move(before);
 			m_gradient = std::move(gradient);
 			return false;
@@ -119,6 +127,7 @@ public:
 	template<class Look>
 	void without(int i, const Look& look)
 	{
+		makeFields();
 		const State before = m_now;
 		const Array<Field> fields = m_fields;
 		remove(i);
@@ -137,6 +146,7 @@ public:
 	template<class Accept>
 	bool tryWithout(int i, const Accept& accept)
 	{
+		makeFields();
 		const State before = m_now;
 		const Array<Field> fields = m_fields;
 		remove(i);
@@ -160,14 +170,18 @@ private:
 	/// Gradient field of a unit of curvature at one vertex.
 	using Field = std::shared_ptr<const VertexVector>;
 
+	bool isBounded(Vertex v) const;
+	double minOwnProduct(Vertex v) const;
 	double ownProduct(Vertex v);
 	Field fieldOf(Vertex v);
 	VertexVector unit(Vertex v) const;
 	void tick() const;
-	void append(Vertex v, VertexVector field);
+	bool hasFields() const { return m_start.size() > 0; }
+	void makeFields();
+	void append(Vertex v, VertexVector factor);
 	void restore(const State& state, const Array<Field>& fields);
 	const VertexVector& unitFactor(Vertex v);
-	void setRow(int i, Vertex v);
+	void setRow(int i, Vertex v, double ownProduct);
 	void removeRow(int i);
 
 	LinearFlow& m_flow;
@@ -176,9 +190,11 @@ private:
 	ConeRounding m_rounding = ConeRounding::Free;
 	VertexArray<char> m_isCone;
 	State m_now;
-	Array<Field> m_fields;                 // by cone
+	Array<VertexVector> m_factors;         // by cone, until there are fields
+	Array<Field> m_fields;                 // by cone; see makeFields()
 	VertexVector m_gradient;               // empty: not known
 	double m_startEnergy = 0.0;            // without cones
+	VertexVector m_startFactor;            // without cones, until there are fields
 	VertexVector m_start;                  // gradient without cones
 	VertexVector m_uniform;                // gradient field of a unit of curvature spread by area
 	std::map<Vertex, double> m_ownProduct; // of vertices that were tried

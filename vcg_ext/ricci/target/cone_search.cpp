@@ -74,12 +74,10 @@ Vertex mostGain(ConeModel& model, const ConeSites& sites)
 /// Moves cone \p i to \p v if that lowers the energy \p present enough.
 bool move(ConeModel& model, int i, Vertex v, double& present)
 {
-	return model.tryMove(i, v, [&](double energy) {
-		if (!(energy < (1.0 - kMinGain) * present))
-			return false;
-		present = energy;
-		return true;
-	});
+	if (!model.tryMove(i, v, [&](double energy) { return energy < (1.0 - kMinGain) * present; }))
+		return false;
+	present = model.energy();
+	return true;
 }
 
 /// Moves cone \p i to where it gains most, or else down the gradient.

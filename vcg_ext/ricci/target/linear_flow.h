@@ -80,8 +80,12 @@ public:
 	Pair solve(Pair rhs);
 	Pair gradient(const Pair& u);
 
-	/// Mean of u^2 by area.
-	double meanSquare(const VertexVector& u) const { return m_area.dot(u.cwiseProduct(u)); }
+	/// Mean of u v, and of u^2, by area.
+	double meanProduct(const VertexVector& u, const VertexVector& v) const
+	{
+		return m_area.dot(u.cwiseProduct(v));
+	}
+	double meanSquare(const VertexVector& u) const { return meanProduct(u, u); }
 
 	/// The adjoint problem: the field phi with L phi = A u, where A holds the areas. phi(v) is the
 	/// derivative of half the mean square of \p u = solve(k - K) by the curvature k of a cone at v,

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_CORNER_LAYOUT_H
+#define RICCI_CORNER_LAYOUT_H
+
+#include "../flow/ricci_flow.h"
+#include "../progress.h"
+#include "../surface/flow_domain.h"
+#include "planar_layout.h"
+
+namespace ricci {
+
+/// The layout of the corners of the domain's surface in the plane: that of commonRefinement(), without
+/// an overlay.
+///
+/// The vertices of the surface are those of the end triangulation. That is laid out, open along the
+/// cut, whose edges, pulled tight, run through end triangles. Their normal coordinates tell into which
+/// parts they divide these, and beside which edges of the cut the corners of the parts lie; a part is
+/// a sheet as in sheets.h.
+/// \param isCut 1 on edges of the domain's surface, which they open to a disk
+/// \param tick called now and then if it is not empty; may throw
+/// \pre the flow ran in the plane, with intrinsic flips
+PlanarLayout layOutCorners(
+	const FlowDomain& domain,
+	const FlowResult& flow,
+	const EdgeArray<char>& isCut,
+	const Tick& tick);
+
+} // namespace ricci
+
+#endif
