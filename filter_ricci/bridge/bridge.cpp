@@ -13,6 +13,7 @@
 #include <ricci/progress.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
+#include <vcg/complex/algorithms/parametrization/ricci_seams.h>
 #include <vcg/complex/algorithms/update/bounding.h>
 #include <vcg/complex/algorithms/update/color.h>
 #include <vcg/complex/algorithms/update/normal.h>
@@ -96,6 +97,45 @@ MeshModel& checkedMesh(MeshDocument& md, bool readsQuality)
 			"target_curvature is From vertex quality, but the mesh has no vertex quality. Store "
 			"the curvature of each vertex, in radians, as its quality first.");
 	return *model;
+}
+
+/// The sides of faces at which the surface is to be opened.
+/// \throw Refusal if the mesh has none of what was chosen
+Flow::SideMarks chosenSeams(const MeshModel& model, Seams seams, ricci::Progress& progress)
+{
+	using Chosen = vcg::tri::RicciSeams<CMeshO>;
+	Flow::SideMarks marks;
+	switch (seams) {
+	case Seams::Shortest:
+		break;
+	case Seams::Texture:
+		if (!model.hasDataMask(MeshModel::MM_WEDGTEXCOORD) &&
+			!model.hasDataMask(MeshModel::MM_VERTTEXCOORD))
+			throw Refusal(
+				"seams is Existing texture seams, but the mesh has no texture coordinates: open "
+				"one that has them, or choose other seams.");
+		marks = Chosen::OfTexture(model.cm);
+		if (marks.empty())
+			progress.log(
+				"The texture coordinates jump at no edge inside the surface: there are no seams to "
+				"keep but its borders.");
+		break;
+	case Seams::SelectedEdges:
+		marks = Chosen::OfSelectedEdges(model.cm);
+		if (marks.empty())
+			throw Refusal(
+				"seams is Selected edges, but no edge of a face is selected: select some first "
+				"('Select Crease Edges'), or choose other seams.");
+		break;
+	case Seams::SelectedFaces:
+		marks = Chosen::OfSelectedFaces(model.cm);
+		if (marks.empty())
+			throw Refusal(
+				"seams is Border of selected faces, but no edge lies between a selected face and "
+				"another: select a part of the surface first, or choose other seams.");
+		break;
+	}
+	return marks;
 }
 
 /// Layers that one run adds. They are removed again unless the run reaches its end.
@@ -240,7 +280,11 @@ void writeMesh(
 /// The flow with room for the gutter of a texture between its charts.
 /// \throw Refusal if there is none for so many charts
 Flow::Result computeFor(
-	const CarriedTexture& texture, MeshModel& model, Flow::Params par, ricci::Progress& progress)
+	const CarriedTexture& texture,
+	MeshModel& model,
+	Flow::Params par,
+	const Flow::SideMarks& seams,
+	ricci::Progress& progress)
 {
 	const bool widens = texture.leastMargin() > par.chartMargin;
 	if (widens) {
@@ -250,7 +294,7 @@ Flow::Result computeFor(
 			" keeps its charts apart.");
 	}
 	try {
-		return Flow::Compute(model.cm, par, progress);
+		return Flow::Compute(model.cm, par, progress, seams);
 	}
 	catch (const ricci::InvalidOption& e) {
 		if (!widens || e.problem != ricci::InvalidOption::ChartMarginTooWide)
@@ -291,6 +335,7 @@ Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Pr
 	ricci::TimeLimit progress(listener, settings.timeLimit);
 	settings.flow.memoryLimit = freeMemory();
 	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::TargetCurvature::Prescribed);
+	const Flow::SideMarks seams = chosenSeams(model, settings.seams, progress);
 	const ReportFiles reportFiles(settings.report, model.pathName());
 	CarriedTexture texture(settings.texture, model);
 	// The sphere first: it refuses most surfaces.
@@ -301,7 +346,7 @@ Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Pr
 	ricci::SphereMap sphere;
 	if (settings.sphereLayer)
 		sphere = Flow::ComputeSphere(model.cm, settings.flow, before);
-	const Flow::Result result = computeFor(texture, model, settings.flow, after);
+	const Flow::Result result = computeFor(texture, model, settings.flow, seams, after);
 	Results results = toResults(result.report);
 	if (settings.sphereLayer)
 		addSphereResults(sphere, results);
@@ -325,11 +370,12 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 	ricci::TimeLimit progress(listener, settings.timeLimit);
 	settings.flow.memoryLimit = freeMemory();
 	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::HyperbolicTarget::Prescribed);
+	const Flow::SideMarks seams = chosenSeams(model, settings.seams, progress);
 	const ReportFiles reportFiles(settings.report, model.pathName());
 	CarriedTexture texture(settings.texture, model);
 	const double drawn = texture.isWanted() ? 1.0 - kTextureShare : 1.0;
 	PartOfProgress flow(progress, 0.0, drawn), last(progress, drawn, 1.0);
-	const Flow::Result result = Flow::ComputeHyperbolic(model.cm, settings.flow, flow);
+	const Flow::Result result = Flow::ComputeHyperbolic(model.cm, settings.flow, flow, seams);
 	Results results = toResults(result.report);
 	if (result.groups.size() == 1 && result.groups.front().isCanonical())
 		addGenerators(result.groups.front(), results);

@@ -64,6 +64,11 @@ QStringList holesChoices()
 	return {"Boundaries", "Capped"};
 }
 
+QStringList seamsChoices()
+{
+	return {"Shortest", "Existing texture seams", "Selected edges", "Border of selected faces"};
+}
+
 QStringList hyperbolicTargetChoices()
 {
 	return {"Hyperbolic metric", "Cones at selected vertices", "From vertex quality"};
@@ -130,6 +135,12 @@ RichEnum outputTriangulationParameter(ricci::OutputTriangulation chosen)
 		"faces are divided where the flow's edges cross them, so that the map is exact on every "
 		"piece.");
 }
+
+const char* const kSeamsName = "Seams";
+const char* const kSeamsTip =
+	"<b>Shortest</b>: as short as can be. The others open the surface where you choose, and it is "
+	"cut further only where it has to be: where the <b>texture</b> of the mesh jumps, along "
+	"<b>selected edges</b> ('Select Crease Edges'), or <b>around the selected faces</b>.";
 
 const char* const kFinishTip =
 	"What is done to the flow's map before it is stored: faces that would come out flipped are "
@@ -241,13 +252,8 @@ RichParameterList euclideanParameters(Shown shown)
 		"Cones: area distortion",
 		"Cones are added until areas typically change by less than this, relative to each other "
 		"(0.5: by half). Read where cones are placed and their number is 0."));
+	list.addParam(RichEnum("seams", 0, seamsChoices(), kSeamsName, kSeamsTip));
 	list.addParam(outputTriangulationParameter(defaults.output));
-	list.addParam(RichFloat(
-		"seam_hiding",
-		static_cast<Scalarm>(defaults.seamHiding),
-		"Seams: hide in hollows",
-		"0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to ten "
-		"times its length, so that seams run through hollows."));
 	list.addParam(RichFloat(
 		"chart_margin",
 		static_cast<Scalarm>(Flow::Params().chartMargin),
@@ -269,6 +275,12 @@ RichParameterList euclideanParameters(Shown shown)
 		"Holes",
 		"What the boundary loops other than the longest are. <b>Capped</b>: closed for the "
 		"flow, so that the chart goes round them without seams."));
+	list.addParam(host::advanced<RichFloat>(
+		"seam_hiding",
+		static_cast<Scalarm>(defaults.seamHiding),
+		"Seams: hide in hollows",
+		"0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to ten "
+		"times its length, so that seams run through hollows."));
 	list.addParam(host::advanced<RichInt>(
 		"cone_count",
 		defaults.coneCount,
@@ -370,6 +382,7 @@ RichParameterList hyperbolicParameters(Shown shown)
 		"are geodesics that the canonical generators pair."));
 	if (shown == Shown::Basic)
 		return list;
+	list.addParam(host::advanced<RichEnum>("seams", 0, seamsChoices(), kSeamsName, kSeamsTip));
 	list.addParam(host::advanced<RichBool>(
 		"free_boundary",
 		defaults.freeBoundary,
@@ -401,6 +414,7 @@ Settings readSettings(const RichParameterList& par)
 	Settings settings;
 	settings.flow.target = static_cast<ricci::TargetCurvature>(
 		checkedChoice(par, "target_curvature", targetCurvatureChoices()));
+	settings.seams = static_cast<Seams>(checkedChoice(par, "seams", seamsChoices()));
 	settings.flow.coneCount = par.getInt("cone_count");
 	settings.flow.coneDistortion = static_cast<double>(par.getFloat("cone_distortion"));
 	settings.flow.coneRounding = static_cast<ricci::ConeRounding>(
@@ -442,6 +456,7 @@ HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 	HyperbolicSettings settings;
 	settings.flow.target = static_cast<ricci::HyperbolicTarget>(
 		checkedChoice(par, "target_curvature", hyperbolicTargetChoices()));
+	settings.seams = static_cast<Seams>(checkedChoice(par, "seams", seamsChoices()));
 	settings.flow.coneAngle = static_cast<double>(par.getFloat("cone_angle")) * kDegree;
 	settings.flow.freeBoundary = par.getBool("free_boundary");
 	settings.flow.epsilon = static_cast<double>(par.getFloat("epsilon"));

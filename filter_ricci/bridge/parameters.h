@@ -10,6 +10,14 @@ namespace filter_ricci {
 
 using Flow = vcg::tri::RicciFlow<CMeshO>;
 
+/// Where the surface is opened before the flow.
+enum class Seams {
+	Shortest,      ///< nowhere: only along what the flow needs
+	Texture,       ///< where the texture coordinates that the mesh has jump
+	SelectedEdges, ///< sides of faces
+	SelectedFaces  ///< around them
+};
+
 struct TextureSettings
 {
 	QString file; ///< empty: none
@@ -19,6 +27,7 @@ struct TextureSettings
 struct Settings
 {
 	Flow::Params flow;
+	Seams seams = Seams::Shortest;
 	bool colorize = false;
 	bool flatLayer = false;
 	bool sphereLayer = false;
@@ -30,6 +39,7 @@ struct Settings
 struct HyperbolicSettings
 {
 	Flow::HyperbolicParams flow;
+	Seams seams = Seams::Shortest;
 	bool colorize = false;
 	bool flatLayer = false;
 	int coverRings = 0;

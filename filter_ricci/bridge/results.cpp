@@ -95,6 +95,8 @@ Results toResults(const ricci::Report& report)
 		{"one_sided_components", report.oneSidedComponents},
 		{"degenerate_faces", report.degenerateFaces},
 		{"cones", report.cones},
+		{"chosen_seam_edges", report.chosenSeamEdges},
+		{"chosen_seam_length", report.chosenSeamLength},
 		{"seam_edges", report.seamEdges},
 		{"seam_length", report.seamLength},
 		{"seam_length_relative", report.seamLengthRelative},

@@ -123,17 +123,19 @@ std::string inWords(const ricci::InvalidOption& e)
 		return std::string(
 				   e.target == ricci::TargetCurvature::Rectangle ? "'Rectangle'" : "'Disk'") +
 			   " needs a topological disk (genus 0, one boundary loop), but the surface is " +
-			   e.surface.name() + ".";
+			   e.surface.name() +
+			   ": choose seams that open it to disks, or another target_curvature.";
 	case Error::TooFewBoundaryVertices:
 		return "'Rectangle' needs four boundary vertices, but the boundary has " + count + ".";
 	case Error::CornerCount:
 		return "'Rectangle' needs four selected boundary vertices, or none, but " + count +
-			   " are selected.";
+			   " are selected. One on a seam counts at each of its places.";
 	case Error::CornersOffBoundary:
 		return "'Rectangle' needs four selected vertices on one boundary loop, but only " + count +
 			   " of the selected vertices lie on it.";
 	case Error::NothingSelected:
-		return "'Cones at selected vertices' needs selected vertices, but none is selected.";
+		return "'Cones at selected vertices' needs selected vertices, but none is selected: "
+			   "select some on every component.";
 	case Error::TooFewCones:
 		return "The surface needs at least " + numberText(e.bound, 10) +
 			   " placed cones, but cone_count is " + numberText(e.value, 10) + ".";

@@ -341,21 +341,25 @@ TEST(Sentences, OfTargetsThatTheSurfaceDoesNotHave)
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::NotADisk, TargetCurvature::Disk, surface(1, 0))),
 		"'Disk' needs a topological disk (genus 0, one boundary loop), but the surface is a closed "
-		"surface of genus 1 (a torus).");
+		"surface of genus 1 (a torus): choose seams that open it to disks, or another "
+		"target_curvature.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::NotADisk, TargetCurvature::Rectangle, surface(0, 2))),
 		"'Rectangle' needs a topological disk (genus 0, one boundary loop), but the surface is an "
-		"annulus.");
+		"annulus: choose seams that open it to disks, or another target_curvature.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::CornerCount, 0.0, 0.0, 3)),
-		"'Rectangle' needs four selected boundary vertices, or none, but 3 are selected.");
+		"'Rectangle' needs four selected boundary vertices, or none, but 3 are selected. One on a "
+		"seam counts at each of its places.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::CornersOffBoundary, 0.0, 0.0, 2)),
 		"'Rectangle' needs four selected vertices on one boundary loop, but only 2 of the selected "
 		"vertices lie on it.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::NothingSelected)),
-		"'Cones at selected vertices' needs selected vertices, but none is selected.");
+		"'Cones at selected vertices' needs selected vertices, but none is selected: select some "
+		"on "
+		"every component.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::TooFewCones, 2.0, 3.0)),
 		"The surface needs at least 3 placed cones, but cone_count is 2.");
@@ -521,7 +525,7 @@ TEST(Sentences, NameTheComponentThatFailed)
 	EXPECT_EQ(
 		sentence(error),
 		"Component with face 0 (4 faces): 'Cones at selected vertices' needs selected vertices, "
-		"but none is selected.");
+		"but none is selected: select some on every component.");
 }
 
 TEST(Sentences, OfTheExceptionBeingHandled)

@@ -20,7 +20,8 @@ ALWAYS = {
     "refinement_points": int, "edge_swaps": int, "boundary_splits": int, "euler_characteristic": int,
     "genus": int, "boundary_loops": int, "components": int, "cut_nonmanifold_edges": int,
     "split_vertices": int, "duplicate_faces": int, "one_sided_components": int,
-    "degenerate_faces": int, "cones": int, "seam_edges": int,
+    "degenerate_faces": int, "cones": int, "chosen_seam_edges": int,
+    "chosen_seam_length": float, "seam_edges": int,
     "seam_length": float, "seam_length_relative": float, "charts": int,
     "occupancy": float, "capped_holes": int,
     "overlapping_charts": int, "overlapping_faces": int, "overlap_cuts": int}
@@ -41,9 +42,11 @@ SPHERE = {
 TEXTURE = {"texture_scale": float}
 
 # Parameter ids in the order of the public interface.
+SEAMS = ["Shortest", "Existing texture seams", "Selected edges", "Border of selected faces"]
 TARGET = ["Automatic", "Flat everywhere", "Disk", "Rectangle", "Cones at selected vertices",
           "From vertex quality", "Placed cones"]
-CHOICES = {"target_curvature": TARGET, "cone_rounding": ["Free", "Multiples of pi/2"],
+CHOICES = {"target_curvature": TARGET, "seams": SEAMS,
+           "cone_rounding": ["Free", "Multiples of pi/2"],
            "circle_packing": ["Inversive distance", "Thurston"],
            "surgery": ["None", "Edge swap", "Intrinsic flips"],
            "output_triangulation": ["Keep the mesh", "Common refinement"],
@@ -51,9 +54,10 @@ CHOICES = {"target_curvature": TARGET, "cone_rounding": ["Free", "Multiples of p
            "holes": ["Boundaries", "Capped"]}
 PARAMETERS = [
     ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("cone_distortion", "Float", 0.5),
-    ("output_triangulation", "Enum", 0), ("seam_hiding", "Float", 0.0), ("chart_margin", "Float", 0.0),
+    ("seams", "Enum", 0), ("output_triangulation", "Enum", 0), ("chart_margin", "Float", 0.0),
     ("colorize", "Bool", False), ("flat_layer", "Bool", False),
-    ("holes", "Enum", 0), ("cone_count", "Int", 0), ("cone_rounding", "Enum", 0),
+    ("holes", "Enum", 0), ("seam_hiding", "Float", 0.0), ("cone_count", "Int", 0),
+    ("cone_rounding", "Enum", 0),
     ("surgery", "Enum", 2), ("finish", "Enum", 2), ("resolve_overlap", "Bool", True),
     ("normalize_uv", "Bool", True), ("cut_strips", "Bool", False), ("sphere_layer", "Bool", False),
     ("carry_texture", "String", ""), ("texture_size", "Int", 2048), ("report", "String", ""),
@@ -66,7 +70,7 @@ HYPERBOLIC = types.SimpleNamespace(
     CHOICES={
         "target_curvature": ["Hyperbolic metric", "Cones at selected vertices",
                              "From vertex quality"],
-        "surgery": ["None", "Intrinsic flips"],
+        "seams": SEAMS, "surgery": ["None", "Intrinsic flips"],
         "output_triangulation": ["Keep the mesh", "Common refinement"],
         "finish": ["None", "Repair"]},
     PARAMETERS=[
@@ -74,7 +78,8 @@ HYPERBOLIC = types.SimpleNamespace(
         ("output_triangulation", "Enum", 0), ("colorize", "Bool", False),
         ("flat_layer", "Bool", False), ("universal_cover", "Int", 0),
         ("generator_axes", "Bool", False), ("canonical_polygon", "Bool", False),
-        ("free_boundary", "Bool", False), ("surgery", "Enum", 1), ("finish", "Enum", 1),
+        ("seams", "Enum", 0), ("free_boundary", "Bool", False), ("surgery", "Enum", 1),
+        ("finish", "Enum", 1),
         ("carry_texture", "String", ""), ("texture_size", "Int", 2048), ("report", "String", ""),
         ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200),
         ("time_limit", "Float", 0.0)])

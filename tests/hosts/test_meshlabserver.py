@@ -107,6 +107,18 @@ class Results(unittest.TestCase):
         zeros = meshes.with_quality(mesh, [0.0] * len(mesh.vertices))
         self.check(zeros, target_curvature=5)
 
+    def test_seams_along_creases(self):
+        """The slab of 14 plane sides: each is a chart, drawn as it is."""
+        creases = (' <filter name="Select Crease Edges">\n'
+                   '  <Param type="RichFloat" name="AngleDegNeg" value="-45"/>\n'
+                   '  <Param type="RichFloat" name="AngleDegPos" value="45"/>\n'
+                   " </filter>\n")
+        pairs, _ = self.check(meshes.double_torus(), creases, seams=2)
+        self.assertEqual((pairs["components"], pairs["charts"], pairs["cones"]), ("14", "14", "0"))
+        self.assertEqual((pairs["seam_edges"], pairs["split_vertices"]), ("0", "0"))
+        self.assertAlmostEqual(float(pairs["area_distortion_mean"]), 1, delta=1e-5)
+        self.assertAlmostEqual(float(pairs["qc_max"]), 1, delta=1e-4)
+
     def test_two_components(self):
         one, two = meshes.torus(), meshes.hill()
         shift = len(one.vertices)
@@ -249,6 +261,10 @@ class BadInput(unittest.TestCase):
 
     def test_too_few_placed_cones(self):
         self.check("at least 3", meshes.sphere(), cone_count=2)
+
+    def test_seams_of_nothing(self):
+        for seams, words in ((1, "no texture coordinates"), (2, "no edge"), (3, "no edge lies")):
+            self.check(words, meshes.sphere(), seams=seams)
 
     def test_flat_disk(self):
         self.check("Euler|flat", meshes.hill(), target_curvature=1)
@@ -534,7 +550,8 @@ class Samples(unittest.TestCase):
     """The scripts that users start from list every parameter, and run."""
 
     MESHES = {"disk": meshes.hill, "rectangle": meshes.hill, "holes": meshes.annulus,
-              "cones": meshes.sphere, "hyperbolic": meshes.double_torus}
+              "cones": meshes.sphere, "hyperbolic": meshes.double_torus,
+              "seams": meshes.double_torus}
 
     def test_every_sample(self):
         paths = sorted(glob.glob(os.path.join(common.REPOSITORY, "filter_ricci", "samples", "*.mlx")))
@@ -552,6 +569,7 @@ class Samples(unittest.TestCase):
 
     def check_parameters(self, text):
         our_filter = common.HYPERBOLIC if common.HYPERBOLIC.NAME in text else common
+        text = text.split(f'<filter name="{our_filter.NAME}">')[1]
         listed = re.findall(r'<Param type="Rich(\w+)" name="(\w+)"', text)
         self.assertEqual(listed, [(kind, name) for name, kind, _ in our_filter.PARAMETERS])
         for name, choices in our_filter.CHOICES.items():

@@ -687,6 +687,88 @@ class AnyTriangles(unittest.TestCase):
         self.assertTrue(all(area > 0 for area in areas[1:-1]))
 
 
+class Seams(unittest.TestCase):
+    """The surface is opened where the user wants it, and nowhere else but where it has to be."""
+
+    @staticmethod
+    def jumps(documents):
+        """The edges, by their vertices, at which the texture coordinates jump."""
+        mesh = documents.current_mesh()
+        corners, jumps = {}, set()
+        for face, uv in zip(mesh.face_matrix().tolist(),
+                            mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2).tolist()):
+            for k in range(3):
+                ends = sorted(((face[k], uv[k]), (face[(k + 1) % 3], uv[(k + 1) % 3])))
+                edge = ends[0][0], ends[1][0]
+                if corners.setdefault(edge, ends) != ends:
+                    jumps.add(edge)
+        return jumps
+
+    def test_of_the_texture_stay(self):
+        for make in (meshes.sphere, meshes.torus, meshes.double_torus):
+            with self.subTest(make.__name__):
+                documents = mesh_set(make())
+                run(documents)
+                before = self.jumps(documents)
+                self.assertTrue(before)
+                with tempfile.TemporaryDirectory() as folder:
+                    path = os.path.join(folder, "mesh.ply")
+                    documents.save_current_mesh(path)
+                    documents = load(path)
+                returned = run(documents, seams="Existing texture seams")
+                self.assertEqual(returned["chosen_seam_edges"], len(before))
+                self.assertEqual(returned["split_vertices"], 0)
+                self.assertLessEqual(before, self.jumps(documents))
+
+    def test_texture_without_seams(self):
+        documents = mesh_set(meshes.hill())
+        run(documents)
+        returned = run(documents, seams="Existing texture seams")
+        self.assertEqual((returned["chosen_seam_edges"], returned["charts"]), (0, 1))
+
+    def test_along_creases(self):
+        """The sides of a slab are plane."""
+        documents = mesh_set(meshes.double_torus())
+        documents.compute_selection_crease_per_edge()
+        for output in ("Keep the mesh", "Common refinement"):
+            returned = run(documents, seams="Selected edges", output_triangulation=output)
+            self.assertEqual((returned["components"], returned["charts"]), (14, 14))
+            self.assertEqual((returned["cones"], returned["seam_edges"]), (0, 0))
+            self.assertAlmostEqual(returned["area_distortion_mean"], 1, delta=1e-5)
+            self.assertAlmostEqual(returned["qc_max"], 1, delta=1e-4)
+            self.assertEqual(returned["refinement_points"], 0)
+
+    def test_round_selected_faces(self):
+        documents = mesh_set(meshes.sphere())
+        documents.compute_selection_by_condition_per_face(condselect="z0 + z1 + z2 > 0")
+        returned = run(documents, seams="Border of selected faces")
+        self.assertEqual((returned["components"], returned["boundary_loops"]), (2, 2))
+        self.assertEqual(returned["chosen_seam_edges"], 16)
+        self.assertEqual((returned["cones"], returned["split_vertices"]), (0, 0))
+
+    def test_hyperbolic(self):
+        documents = mesh_set(meshes.double_torus())
+        documents.compute_selection_by_condition_per_face(condselect="x0 + x1 + x2 > 7.5")
+        returned = run(documents, common.HYPERBOLIC, seams="Border of selected faces")
+        self.assertEqual((returned["components"], returned["genus"]), (2, 2))
+        self.assertAlmostEqual(returned["hyperbolic_area"], 4 * math.pi, delta=1e-6)
+
+    def test_nothing_chosen(self):
+        for seams, words in (("Existing texture seams", "no texture coordinates"),
+                             ("Selected edges", "no edge of a face is selected"),
+                             ("Border of selected faces", "no edge lies between")):
+            for our_filter in (common, common.HYPERBOLIC):
+                documents = mesh_set(meshes.double_torus())
+                before = state(documents.current_mesh())
+                with self.assertRaisesRegex(pymeshlab.PyMeshLabException, words):
+                    run(documents, our_filter, seams=seams)
+                self.assertTrue(same(before, state(documents.current_mesh())))
+        documents = mesh_set(meshes.sphere())
+        documents.set_selection_all()
+        with self.assertRaisesRegex(pymeshlab.PyMeshLabException, "no edge lies between"):
+            run(documents, seams="Border of selected faces")
+
+
 class BadInput(unittest.TestCase):
     """A clear sentence as PyMeshLabException, and the mesh untouched."""
 

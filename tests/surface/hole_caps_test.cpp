@@ -29,7 +29,7 @@ TEST(HoleCaps, CloseAllLoopsButTheLongest)
 	const SurfaceMesh mesh = squareWithHoles(9);
 	const Triangulation t = glued(mesh);
 	ASSERT_EQ(t.boundaryLoops().size(), 4u);
-	const CappedSurface capped = capInnerLoops(t, VertexArray<Point3>(mesh.positions));
+	const CappedSurface capped = capHoles(t, VertexArray<Point3>(mesh.positions));
 	const Triangulation closed = triangulationOf(capped);
 	EXPECT_EQ(capped.holes, 3);
 	EXPECT_EQ(closed.boundaryLoops().size(), 1u);
@@ -51,7 +51,7 @@ TEST(HoleCaps, KeepTheNumbersOfTheSurface)
 {
 	const SurfaceMesh mesh = squareWithHoles(8);
 	const Triangulation t = glued(mesh);
-	const CappedSurface capped = capInnerLoops(t, VertexArray<Point3>(mesh.positions));
+	const CappedSurface capped = capHoles(t, VertexArray<Point3>(mesh.positions));
 	const Triangulation c = triangulationOf(capped);
 	for (const Halfedge h : t.halfedges()) {
 		EXPECT_EQ(c.origin(h), t.origin(h));
@@ -67,11 +67,33 @@ TEST(HoleCaps, KeepTheNumbersOfTheSurface)
 		EXPECT_EQ(capped.positions[v], mesh.positions[at(v)]);
 }
 
+/// A loop is a hole if all its edges are marked.
+TEST(HoleCaps, CloseMarkedLoops)
+{
+	const SurfaceMesh mesh = squareWithHoles(9);
+	const Triangulation t = glued(mesh);
+	const std::vector<Halfedge> loops = t.boundaryLoops();
+	ASSERT_EQ(loops.size(), 4u);
+	for (unsigned marked = 0; marked < 15; ++marked) {
+		EdgeArray<char> isHole(t.edgeCount(), 0);
+		VertexArray<char> expected(t.vertexCount(), 0);
+		for (std::size_t l = 0; l < loops.size(); ++l)
+			for (const Halfedge h : t.loop(loops[l])) {
+				const bool isMarked = (marked >> l & 1u) != 0;
+				isHole[h.edge()] = isMarked || h != loops[l]; // else all but one of its edges
+				expected[t.origin(h)] = isMarked;
+			}
+		const CappedSurface capped = capHoles(t, VertexArray<Point3>(mesh.positions), isHole);
+		EXPECT_EQ(capped.onHole.values(), expected.values());
+		EXPECT_EQ(triangulationOf(capped).boundaryLoops().size(), at(4 - capped.holes));
+	}
+}
+
 TEST(HoleCaps, LeaveASurfaceWithOneLoopOrNoneAlone)
 {
 	for (const SurfaceMesh& mesh : {rectangle(3, 3, 1.0, 1.0), tetrahedron()}) {
 		const Triangulation t = glued(mesh);
-		const CappedSurface capped = capInnerLoops(t, VertexArray<Point3>(mesh.positions));
+		const CappedSurface capped = capHoles(t, VertexArray<Point3>(mesh.positions));
 		EXPECT_EQ(capped.holes, 0);
 		EXPECT_EQ(triangulationOf(capped).faceCount(), t.faceCount());
 		EXPECT_EQ(std::count(capped.onHole.begin(), capped.onHole.end(), 1), 0);

@@ -103,6 +103,9 @@ void expectOpened(const SurfaceMesh& mesh)
 	std::map<int, int> copies;
 	for (const int v : used)
 		++copies[o.vertex[at(v)]];
+	EXPECT_EQ(o.isAsGiven(), o.degenerate.empty() && o.vertex.size() == mesh.positions.size());
+	if (!mesh.seam.empty())
+		return; // copies at seams are not counted
 	EXPECT_EQ(
 		std::count_if(copies.begin(), copies.end(), [](const auto& c) { return c.second > 1; }),
 		o.splitVertices);
@@ -494,6 +497,125 @@ TEST(OpenedMesh, PairsCoherentSheetsThatAreNearlyAsSmooth)
 		for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
 			EXPECT_EQ(o.reversed[Face(static_cast<int>(f))] == 1, turned < 3 && f == turned) << f;
 	}
+}
+
+/// Sides that are glued, as pairs of the input's.
+std::set<std::pair<int, int>> gluedSides(const OpenedMesh& o)
+{
+	std::map<std::pair<int, int>, std::vector<int>> sides;
+	for (std::size_t f = 0; f < o.mesh.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Triangle& t = o.mesh.triangles[f];
+			sides[std::minmax(t[k], t[(k + 1) % 3])].push_back(3 * o.face[f] + static_cast<int>(k));
+		}
+	std::set<std::pair<int, int>> pairs;
+	for (const auto& [ends, all] : sides)
+		if (all.size() == 2)
+			pairs.insert({all[0], all[1]});
+	return pairs;
+}
+
+/// Marks each side with this probability.
+void markSeams(SurfaceMesh& mesh, double share, Random& random)
+{
+	mesh.seam.assign(mesh.triangles.size(), {0, 0, 0});
+	for (auto& sides : mesh.seam)
+		for (char& side : sides)
+			side = random.real(0.0, 1.0) < share;
+}
+
+/// Nothing but the marked edges comes apart, and what has to so that a seam has two sides; on a manifold
+/// every other pair of sides stays glued.
+TEST(OpenedMesh, IsOpenAlongSeamsAndNowhereElse)
+{
+	Random random(11);
+	for (SurfaceMesh mesh :
+		 {tetrahedron(),
+		  torus(3.0, 1.0, 7, 6),
+		  rectangle(5, 4, 5.0, 4.0),
+		  perforatedSlab(2, 1),
+		  ring(1.0, 2.0, 9, 3)})
+		for (const double share : {0.005, 0.02, 0.1, 0.3, 1.0})
+			for (int run = 0; run < 8; ++run) {
+				mesh.seam.clear();
+				const auto whole = gluedSides(opened(mesh));
+				markSeams(mesh, share, random);
+				expectOpened(mesh);
+				const OpenedMesh o = opened(mesh);
+				const auto left = gluedSides(o);
+				EXPECT_TRUE(std::includes(whole.begin(), whole.end(), left.begin(), left.end()));
+				int chosen = 0;
+				for (const auto& pair : whole) {
+					const auto isMarked = [&](int side) {
+						return mesh.seam[at(side / 3)][at(side % 3)] != 0;
+					};
+					if (isMarked(pair.first) || isMarked(pair.second)) {
+						++chosen;
+						EXPECT_EQ(left.count(pair), 0u);
+					}
+				}
+				EXPECT_EQ(o.seamEdges, chosen);
+				EXPECT_EQ(whole.size() - left.size(), at(o.seamEdges + o.seamEdgesAdded));
+				EXPECT_EQ(o.splitVertices, 0);
+				EXPECT_EQ(o.cutEdges, 0);
+				EXPECT_EQ(o.hasSeam.size(), at(o.componentCount));
+				if (chosen == 0) {
+					EXPECT_TRUE(o.isAsGiven());
+				}
+			}
+}
+
+/// What is no manifold is cut in the same way with seams and without.
+TEST(OpenedMesh, CountsWithoutSeamsWhatHadToBeCut)
+{
+	Random random(12);
+	std::vector<SurfaceMesh> meshes = {book(5, 3), doubled(torus(3.0, 1.0, 6, 5), true)};
+	SurfaceMesh touching = tetrahedron(); // two of them at a vertex
+	for (const Triangle& t : tetrahedron().triangles) {
+		Triangle other = t;
+		for (int& v : other)
+			v = v == 0 ? 0 : v + 3;
+		touching.triangles.push_back(other);
+	}
+	for (int v = 1; v < 4; ++v)
+		touching.positions.push_back({2.0 + v, v * 0.3, v == 2 ? 1.0 : 0.0});
+	meshes.push_back(touching);
+	for (SurfaceMesh& mesh : meshes)
+		for (const double share : {0.03, 0.3, 1.0}) {
+			mesh.seam.clear();
+			const OpenedMesh whole = opened(mesh);
+			markSeams(mesh, share, random);
+			expectOpened(mesh);
+			const OpenedMesh o = opened(mesh);
+			EXPECT_EQ(o.splitVertices, whole.splitVertices);
+			EXPECT_EQ(o.cutEdges, whole.cutEdges);
+			EXPECT_EQ(o.duplicateFaces, whole.duplicateFaces);
+		}
+}
+
+/// Of each component the longest loop of the mesh itself is no hole, however long a seam is.
+TEST(OpenedMesh, KnowsHolesFromSeams)
+{
+	const auto vertex = [](int i, int j) { return i * 11 + j; };
+	SurfaceMesh mesh = withoutStars(rectangle(10, 10, 10.0, 10.0), {vertex(3, 3), vertex(7, 6)});
+	EXPECT_TRUE(opened(mesh).hole.empty());
+	mesh.seam.assign(mesh.triangles.size(), {1, 1, 1});
+	const OpenedMesh o = opened(mesh);
+	ASSERT_EQ(o.hole.size(), o.face.size());
+	std::map<std::pair<int, int>, int> faces;
+	for (const Triangle& t : mesh.triangles)
+		for (std::size_t k = 0; k < 3; ++k)
+			++faces[std::minmax(t[k], t[(k + 1) % 3])];
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Triangle& t = mesh.triangles[f];
+			const int a = t[k], b = t[(k + 1) % 3];
+			const auto inside = [&](int v) {
+				const Point3& p = mesh.positions[at(v)];
+				return p[0] > 0.0 && p[0] < 10.0 && p[1] > 0.0 && p[1] < 10.0;
+			};
+			EXPECT_EQ(o.hole[f][k] != 0, faces[std::minmax(a, b)] == 1 && inside(a));
+		}
 }
 
 TEST(OpenedMesh, TurnsTheMinorityOfAComponent)

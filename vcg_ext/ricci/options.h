@@ -6,9 +6,9 @@ namespace ricci {
 
 /// Which curvature the flow is asked to reach (paper 5.2). The order is that of the filter's menu.
 enum class TargetCurvature {
-	Automatic,     ///< annulus, torus: flat; other boundaries: free; but placed cones where areas
-				   ///< would change much without them (with flips, and on surfaces with boundary a
-				   ///< free one), and on other closed surfaces
+	Automatic,     ///< annulus, torus: flat; other boundaries, and all at chosen seams: free; but
+				   ///< placed cones where areas would change much without them (with flips, and on
+				   ///< surfaces with boundary a free one), and on other closed surfaces
 	Flat,          ///< K = 0 at every vertex, boundary included; needs Euler characteristic 0
 	Disk,          ///< the image of a topological disk is a round disk
 	Rectangle,     ///< four corners of pi/2 on the boundary of a topological disk

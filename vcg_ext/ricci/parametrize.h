@@ -29,8 +29,9 @@ void checkOptions(const HyperbolicOptions& options);
 /// packing (paper 4.1), flow (4.2), cut and layout (4.3), distortion (5.1). A chart keeps the area
 /// of its component unless its boundary is free, which fixes the scale.
 ///
-/// Any triangles may be given: openMesh() first cuts them open to oriented manifolds, and the result is
-/// in the numbers of the opened mesh.
+/// Any triangles may be given: openMesh() first cuts them open to oriented manifolds, and along the
+/// seams that they are marked with. Each piece then is a component, with a boundary like any other, and
+/// the result is in the numbers of the opened mesh.
 ///
 /// Everywhere in this library the paper, with its sections and equations, is [Yang et al. 2009].
 /// README.md lists this and all other sources.

@@ -59,10 +59,14 @@ struct Report
 	int genus = 0;
 	int boundaryLoops = 0;
 	int components = 0;
-	int cones = 0;                   ///< vertices inside that are not flat
-	int seamEdges = 0;               ///< edges of the input along which the layout is cut
-	double seamLength = 0.0;         ///< of these edges and of overlapCuts on the mesh, each once
+	int cones = 0;           ///< vertices inside that are not flat
+	int seamEdges = 0;       ///< edges of the input along which the layout is cut, but for those
+							 ///< that SurfaceMesh::seam asks for
+	double seamLength = 0.0; ///< of these edges and of overlapCuts on the mesh, each once
 	double seamLengthRelative = 0.0; ///< seamLength over the square root of the mesh's area
+
+	int chosenSeamEdges = 0;       ///< edges opened before the flow, as SurfaceMesh::seam asks for
+	double chosenSeamLength = 0.0; ///< of these, each once
 
 	int charts = 0;
 	/// Share of the unit square, or of the square that holds all charts and their margins where they keep

@@ -85,6 +85,10 @@ std::vector<Component> startResult(
 	result.report.duplicateFaces = result.opened.duplicateFaces;
 	result.report.oneSidedComponents = result.opened.oneSidedComponents;
 	result.report.degenerateFaces = static_cast<int>(result.opened.degenerate.size());
+	result.report.chosenSeamEdges = result.opened.seamEdges;
+	result.report.chosenSeamLength = result.opened.seamLength;
+	result.report.seamEdges = result.opened.seamEdgesAdded;
+	result.report.seamLength = result.opened.seamLengthAdded;
 	result.report.components = static_cast<int>(components.size());
 	for (std::size_t v = 0; refined && v < opened.positions.size(); ++v) {
 		SurfacePoint p;

@@ -35,6 +35,7 @@ TargetRequest targetRequest(
 	TargetRequest request;
 	request.mode = options.target;
 	request.freeBoundary = options.freeBoundary;
+	request.hasSeam = component.hasSeam;
 	request.selected = atVertices(component, input.selected);
 	request.prescribed = atVertices(component, input.targetCurvature);
 	request.prescribedPrecision = input.precision;

@@ -9,10 +9,24 @@
 
 namespace ricci {
 
+namespace {
+
+/// Marks of a triangle's sides, when it is turned if it is \p reversed.
+std::array<char, 3> inOrder(std::array<char, 3> sides, char reversed)
+{
+	if (reversed)
+		std::swap(sides[0], sides[2]);
+	return sides;
+}
+
+} // namespace
+
 std::vector<Component> splitIntoComponents(const OpenedMesh& opened)
 {
 	const SurfaceMesh& mesh = opened.mesh;
 	std::vector<Component> components(positionOf(opened.componentCount));
+	for (std::size_t c = 0; c < opened.hasSeam.size(); ++c)
+		components[c].hasSeam = opened.hasSeam[c] != 0;
 	std::vector<Vertex> local(mesh.positions.size()); // of each vertex of the mesh
 	for (const Face f : opened.component.indices()) {
 		Component& c = components[positionOf(opened.component[f])];
@@ -30,12 +44,10 @@ std::vector<Component> splitIntoComponents(const OpenedMesh& opened)
 			triangle[k] = known.number();
 		}
 		c.triangles.push_back(triangle);
-		if (!mesh.diagonal.empty()) {
-			std::array<char, 3> diagonal = mesh.diagonal[positionOf(f)];
-			if (opened.reversed[f])
-				std::swap(diagonal[0], diagonal[2]);
-			c.diagonal.push_back(diagonal);
-		}
+		if (!mesh.diagonal.empty())
+			c.diagonal.push_back(inOrder(mesh.diagonal[positionOf(f)], opened.reversed[f]));
+		if (!opened.hole.empty())
+			c.hole.push_back(inOrder(opened.hole[positionOf(f)], opened.reversed[f]));
 	}
 	return components;
 }

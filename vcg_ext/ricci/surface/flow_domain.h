@@ -33,8 +33,7 @@ struct FlowDomain
 	EmbeddedSurface surface;    ///< the component's own triangles
 	EdgeArray<char> isDiagonal; ///< [edge of surface] see SurfaceMesh; may be empty
 
-	/// The surface with caps on all boundary loops but the longest, where holes are to be closed
-	/// (hole_caps.h). Elements of the surface keep their numbers.
+	/// The surface with caps on its holes, where they are to be closed (hole_caps.h). Elements of the surface keep their numbers.
 	std::optional<EmbeddedSurface> capped;
 	VertexArray<char> onHole; ///< [vertex of surface] 1 on a loop that is closed
 	int holes = 0;            ///< loops that are closed

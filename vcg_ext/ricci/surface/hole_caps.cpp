@@ -28,7 +28,8 @@ Point3 centreOf(const std::vector<Vertex>& loop, const VertexArray<Point3>& posi
 
 } // namespace
 
-CappedSurface capInnerLoops(const Triangulation& t, const VertexArray<Point3>& positions)
+CappedSurface capHoles(
+	const Triangulation& t, const VertexArray<Point3>& positions, const EdgeArray<char>& isHole)
 {
 	CappedSurface capped;
 	capped.positions = positions;
@@ -39,12 +40,15 @@ CappedSurface capInnerLoops(const Triangulation& t, const VertexArray<Point3>& p
 	}
 	// An exterior halfedge has the direction of the side of the cap there.
 	std::vector<std::vector<Vertex>> loops;
+	std::vector<char> isClosed; // [loop]
 	std::size_t longest = 0;
 	double maxLength = -1.0;
 	for (const Halfedge first : t.boundaryLoops()) {
 		std::vector<Vertex> loop;
 		double length = 0.0;
+		bool all = true;
 		for (const Halfedge h : t.loop(first)) {
+			all &= isHole.empty() || isHole[h.edge()];
 			loop.push_back(t.origin(h));
 			length += distance(positions[t.origin(h)], positions[t.target(h)]);
 		}
@@ -52,10 +56,13 @@ CappedSurface capInnerLoops(const Triangulation& t, const VertexArray<Point3>& p
 			maxLength = length;
 			longest = loops.size();
 		}
+		isClosed.push_back(all);
 		loops.push_back(std::move(loop));
 	}
+	if (isHole.empty() && !loops.empty())
+		isClosed[longest] = 0;
 	for (std::size_t l = 0; l < loops.size(); ++l) {
-		if (l == longest)
+		if (!isClosed[l])
 			continue;
 		const std::vector<Vertex>& loop = loops[l];
 		const int centre = capped.positions.size();

@@ -8,7 +8,7 @@
 
 namespace ricci {
 
-/// The triangles of a surface whose boundary loops but the longest are closed by caps.
+/// The triangles of a surface whose holes are closed by caps.
 struct CappedSurface
 {
 	std::vector<Triangle> triangles; ///< those of the surface in order, then those of the caps
@@ -17,15 +17,19 @@ struct CappedSurface
 	int holes = 0;                   ///< loops that are closed
 };
 
-/// Closes every boundary loop but the longest by a fan round its centre of mass. A Triangulation of
-/// the result keeps the numbers of the surface's vertices, edges, halfedges and faces.
+/// Closes every hole by a fan round its centre of mass. Holes are the boundary loops all of whose
+/// edges are marked in \p isHole, or where that is empty, all but the longest. A Triangulation of the
+/// result keeps the numbers of the surface's vertices, edges, halfedges and faces.
 ///
 /// Positions serve only to give the edges of the fan a length, and its triangles may be thin: the
 /// flow starts from the intrinsic Delaunay triangulation and makes the fan flat, inside and
 /// together with the faces at its rim. A finer filling, by rings of ever fewer vertices, changes
 /// the distortion of the surface in the fourth digit only. A plane hole that is star-shaped from
 /// its centre is filled by the plane.
-CappedSurface capInnerLoops(const Triangulation& t, const VertexArray<Point3>& positions);
+CappedSurface capHoles(
+	const Triangulation& t,
+	const VertexArray<Point3>& positions,
+	const EdgeArray<char>& isHole = {});
 
 } // namespace ricci
 

@@ -75,6 +75,30 @@ public:
 		while (m_opened.cutEdges > 0 && !separateEdges());
 	}
 
+	/// Opens the seams that the caller wants.
+	/// \pre cutEdges()
+	void openSeams()
+	{
+		if (m_input.seam.empty())
+			return;
+		markHoles();
+		m_across.assign(m_glued.size(), -1);
+		forEachEdge(sortedSides(m_triangles), [&](const Side* sides, std::size_t count) {
+			bool isSeam = false;
+			for (std::size_t i = 0; i < count; ++i)
+				isSeam =
+					isSeam || m_input.seam[positionOf(m_opened.face[positionOf(sides[i].face)])]
+										  [positionOf(sides[i].corner)] != 0;
+			bool opens = false;
+			for (std::size_t i = 0; isSeam && i < count; ++i)
+				opens = open(sides[i].index()) || opens;
+			m_opened.seamEdges += opens;
+			m_opened.seamLength += opens ? lengthOf(sides->index()) : 0.0;
+		});
+		splitVertices();
+		lengthenLoneSeams();
+	}
+
 	void cutOneSidedComponents()
 	{
 		m_partition = partitionFaces(m_opened.mesh.triangles, m_glued);
@@ -117,17 +141,35 @@ public:
 			for (std::size_t k = 0; k < 3; ++k) {
 				const int other = m_glued[3 * f + k];
 				m_glued[3 * i + k] = other < 0 ? -1 : 3 * number[positionOf(other / 3)] + other % 3;
+				if (!m_across.empty()) {
+					const int a = m_across[3 * f + k];
+					const int face = a < 0 ? -1 : number[positionOf(a / 3)];
+					m_across[3 * i + k] = face < 0 ? -1 : 3 * face + a % 3;
+				}
 			}
+			if (!m_opened.hole.empty())
+				m_opened.hole[i] = m_opened.hole[f];
 		}
 		m_triangles.resize(kept.size());
 		m_opened.face.resize(kept.size());
 		m_glued.resize(3 * kept.size());
+		if (!m_across.empty()) {
+			m_across.resize(m_glued.size());
+			m_opened.hole.resize(kept.size());
+		}
 		splitVertices();
 		m_partition = partitionFaces(m_triangles, m_glued);
 	}
 
 	OpenedMesh result()
 	{
+		if (!m_across.empty()) {
+			countSplitWithoutSeams();
+			m_opened.hasSeam.assign(positionOf(m_partition.componentCount), 0);
+			for (std::size_t side = 0; side < m_across.size(); ++side)
+				if (m_across[side] >= 0)
+					m_opened.hasSeam[positionOf(m_partition.component[Face(side / 3)])] = 1;
+		}
 		m_opened.component = std::move(m_partition.component);
 		m_opened.reversed = std::move(m_partition.reversed);
 		m_opened.componentCount = m_partition.componentCount;
@@ -139,19 +181,26 @@ public:
 	}
 
 private:
-	/// Gives every fan of glued corners a vertex of its own: the first at a vertex the vertex itself,
-	/// the others copies.
-	void splitVertices()
+	/// The fans of glued corners, which are numbered like the sides.
+	DisjointSets fansOf(const std::vector<int>& glued) const
 	{
-		DisjointSets fans(static_cast<int>(m_glued.size())); // of corners, numbered like the sides
-		for (int s = 0; s < static_cast<int>(m_glued.size()); ++s) {
-			const int t = m_glued[positionOf(s)];
+		DisjointSets fans(static_cast<int>(glued.size()));
+		for (int s = 0; s < static_cast<int>(glued.size()); ++s) {
+			const int t = glued[positionOf(s)];
 			if (t < s)
 				continue;
 			const bool sameWay = vertexAt(s) == vertexAt(t);
 			fans.merge(s, sameWay ? t : nextCorner(t));
 			fans.merge(nextCorner(s), sameWay ? nextCorner(t) : t);
 		}
+		return fans;
+	}
+
+	/// Gives every fan of glued corners a vertex of its own: the first at a vertex the vertex itself,
+	/// the others copies.
+	void splitVertices()
+	{
+		DisjointSets fans = fansOf(m_glued);
 		m_opened.mesh.positions = m_input.positions;
 		m_opened.mesh.triangles = m_triangles;
 		m_opened.vertex.resize(m_input.positions.size());
@@ -175,6 +224,130 @@ private:
 			m_opened.mesh.triangles[positionOf(corner / 3)][positionOf(corner % 3)] = own;
 		}
 		m_opened.splitVertices = static_cast<int>(std::count(uses.begin(), uses.end(), 2));
+	}
+
+	/// The vertices that would have copies if the seams were glued.
+	void countSplitWithoutSeams()
+	{
+		std::vector<int> glued = m_glued;
+		for (std::size_t s = 0; s < glued.size(); ++s)
+			if (m_across[s] >= 0)
+				glued[s] = m_across[s];
+		DisjointSets fans = fansOf(glued);
+		constexpr int kNone = -1, kSeveral = -2;
+		std::vector<int> fanAt(m_input.positions.size(), kNone);
+		m_opened.splitVertices = 0;
+		for (int corner = 0; corner < static_cast<int>(glued.size()); ++corner) {
+			int& known = fanAt[positionOf(vertexAt(corner))];
+			const int fan = fans.find(corner);
+			if (known == kNone)
+				known = fan;
+			else if (known >= 0 && known != fan) {
+				known = kSeveral;
+				++m_opened.splitVertices;
+			}
+		}
+	}
+
+	/// Finds the sides of boundary loops other than the longest of each component.
+	void markHoles()
+	{
+		const FacePartition partition = partitionFaces(m_opened.mesh.triangles, m_glued);
+		DisjointSets loops = fansOf(m_glued); // of corners, joined along boundaries
+		std::vector<int> sides;               // of boundaries
+		for (int s = 0; s < static_cast<int>(m_glued.size()); ++s)
+			if (m_glued[positionOf(s)] < 0) {
+				sides.push_back(s);
+				loops.merge(s, nextCorner(s));
+			}
+		std::vector<double> length(m_glued.size(), 0.0); // [loop]
+		for (const int s : sides)
+			length[positionOf(loops.find(s))] += lengthOf(s);
+		std::vector<int> longest(positionOf(partition.componentCount), -1);
+		const auto longestBeside = [&](int side) -> int& {
+			return longest[positionOf(partition.component[Face(side / 3)])];
+		};
+		for (const int s : sides) {
+			const int loop = loops.find(s);
+			int& known = longestBeside(s);
+			if (known < 0 || length[positionOf(loop)] > length[positionOf(known)])
+				known = loop;
+		}
+		m_opened.hole.assign(m_triangles.size(), {0, 0, 0});
+		for (const int s : sides)
+			m_opened.hole[positionOf(s / 3)][positionOf(s % 3)] = loops.find(s) != longestBeside(s);
+	}
+
+	/// Opens a side for a seam.
+	/// \return whether it was glued
+	bool open(int side)
+	{
+		const int other = m_glued[positionOf(side)];
+		if (other < 0)
+			return false;
+		m_glued[positionOf(side)] = m_glued[positionOf(other)] = -1;
+		m_across[positionOf(side)] = other;
+		m_across[positionOf(other)] = side;
+		return true;
+	}
+
+	/// Lets a seam whose two sides still share both their vertices go on straight ahead, by one edge.
+	void lengthenLoneSeams()
+	{
+		struct Way
+		{
+			int from, to;           // vertices of the opened mesh
+			int side = -1;          // that goes on
+			double straight = -2.0; // cosine of the angle by which it turns
+		};
+		const std::vector<Triangle>& triangles = m_opened.mesh.triangles;
+		const auto ends = [&](int side) -> std::pair<int, int> {
+			const Triangle& t = triangles[positionOf(side / 3)];
+			return std::minmax(t[positionOf(side % 3)], t[positionOf(nextCorner(side) % 3)]);
+		};
+		std::vector<Way> ways;
+		std::vector<int> wayAt(m_opened.vertex.size(), -1); // [vertex]
+		for (int s = 0; s < static_cast<int>(m_across.size()); ++s) {
+			const int t = m_across[positionOf(s)];
+			const auto [a, b] = ends(s);
+			if (t < s || ends(s) != ends(t))
+				continue;
+			wayAt[positionOf(a)] = wayAt[positionOf(b)] = static_cast<int>(ways.size());
+			ways.push_back({a, b});
+		}
+		for (int s = 0; !ways.empty() && s < static_cast<int>(m_glued.size()); ++s) {
+			const auto [a, b] = ends(s);
+			for (const auto& [v, next] : {std::pair(a, b), std::pair(b, a)}) {
+				if (m_glued[positionOf(s)] < s || wayAt[positionOf(v)] < 0)
+					continue;
+				Way& way = ways[positionOf(wayAt[positionOf(v)])];
+				const double straight = cosineOfTurn(way.from == v ? way.to : way.from, v, next);
+				if (straight > way.straight) {
+					way.straight = straight;
+					way.side = s;
+				}
+			}
+		}
+		for (const Way& way : ways)
+			if (way.side >= 0 && open(way.side)) {
+				++m_opened.seamEdgesAdded;
+				m_opened.seamLengthAdded += lengthOf(way.side);
+			}
+		if (!ways.empty())
+			splitVertices();
+	}
+
+	/// Of the angle between the ways from \p a to \p b and on to \p c; 0 where they have no direction.
+	double cosineOfTurn(int a, int b, int c) const
+	{
+		const std::vector<Point3>& p = m_opened.mesh.positions;
+		double dot = 0.0;
+		for (std::size_t k = 0; k < 3; ++k)
+			dot += (p[positionOf(b)][k] - p[positionOf(a)][k]) *
+				   (p[positionOf(c)][k] - p[positionOf(b)][k]);
+		const double lengths = distance(p[positionOf(a)], p[positionOf(b)]) *
+							   distance(p[positionOf(b)], p[positionOf(c)]);
+		return lengths > 0.0 ? dot / lengths : 0.0;
 	}
 
 	/// Cuts edges that share both vertices with another edge: first both edges, and where that has been
@@ -240,6 +413,13 @@ private:
 		return isFlat;
 	}
 
+	double lengthOf(int side) const
+	{
+		return distance(
+			m_input.positions[positionOf(vertexAt(side))],
+			m_input.positions[positionOf(vertexAt(nextCorner(side)))]);
+	}
+
 	/// The vertex of the input at a corner: where the side of the same number starts.
 	int vertexAt(int corner) const
 	{
@@ -251,6 +431,7 @@ private:
 	const SurfaceMesh& m_input;
 	std::vector<Triangle> m_triangles; // those not degenerate, with the vertices of the input
 	std::vector<int> m_glued;          // see FaceGluing
+	std::vector<int> m_across;         // the side beyond a seam, or -1; empty without seams
 	FacePartition m_partition;
 	OpenedMesh m_opened;
 };
@@ -290,6 +471,12 @@ void describe(const OpenedMesh& opened, const SurfaceMesh& mesh, std::vector<std
 		"edge of more than two faces was",
 		"edges of more than two faces were",
 		" cut: sheets go on where they are smoothest.");
+	note(opened.seamEdges, "edge is a seam", "edges are seams", ", as chosen.");
+	note(
+		opened.seamEdgesAdded,
+		"seam of one edge alone goes on along one more",
+		"seams of one edge alone go on along one more",
+		": without it, nothing would come apart there.");
 	note(
 		opened.oneSidedComponents,
 		"one-sided component was",
@@ -314,6 +501,7 @@ OpenedMesh openMesh(const SurfaceMesh& mesh, std::vector<std::string>& notes)
 	checkElements(mesh);
 	Opening opening(mesh);
 	opening.cutEdges();
+	opening.openSeams();
 	opening.cutOneSidedComponents();
 	opening.leaveOutFlatComponents();
 	OpenedMesh opened = opening.result();

@@ -10,9 +10,10 @@
 
 namespace ricci {
 
-/// A mesh cut open where it is no oriented manifold. Its faces have the order of the input, those
-/// without area left out; a vertex keeps its number, and copies of it follow after all vertices. Of a
-/// mesh that needs no cut it is a copy with the same numbers.
+/// A mesh cut open where it is no oriented manifold, and along the seams that its caller wants. Its
+/// faces have the order of the input, those without area left out; a vertex keeps its number, and
+/// copies of it follow after all vertices. Of a mesh that needs no cut it is a copy with the same
+/// numbers.
 struct OpenedMesh
 {
 	/// At most two triangles at an edge, one fan at a vertex, two-sided components. An edge is
@@ -27,18 +28,37 @@ struct OpenedMesh
 		reversed; ///< [face of mesh] 1 if it is turned: the majority of a component is not
 	int componentCount = 0;
 
+	/// [face of mesh][k] 1 where the side from corner k lies on a hole: a boundary loop other than the
+	/// longest of its component before seams were opened. Empty where none were.
+	std::vector<std::array<char, 3>> hole;
+	/// [component] 1 where a seam that was opened is on the boundary. Empty where none were.
+	std::vector<char> hasSeam;
+
 	int cutEdges = 0;       ///< edges with more than two faces, or with two of the same vertices
-	int splitVertices = 0;  ///< vertices of the input that have copies
+	int splitVertices = 0;  ///< vertices of the input that have copies, also without the seams
 	int duplicateFaces = 0; ///< faces with the vertices of one before them
 	int oneSidedComponents = 0; ///< cut along one-sided loops
 
-	bool isAsGiven() const { return splitVertices == 0 && degenerate.empty(); }
+	int seamEdges = 0;            ///< edges opened because SurfaceMesh::seam marks them
+	double seamLength = 0.0;      ///< of these
+	int seamEdgesAdded = 0;       ///< edges by which seams of one edge alone were lengthened
+	double seamLengthAdded = 0.0; ///< of these
+
+	bool isAsGiven() const
+	{
+		const bool hasCopies =
+			!vertex.empty() && vertex.back() + 1 != static_cast<int>(vertex.size());
+		return !hasCopies && degenerate.empty();
+	}
 };
 
 /// Cuts a triangle soup open, so that every triangle with an area can be mapped (after the cutting of
 /// [Gueziec et al. 2001]): edges with more than two faces by glueFaces(), vertices with more than one
-/// fan into one copy for each, one-sided components along short one-sided loops. Left out are faces
-/// that use a vertex twice, and components that have no area. What was done is told in \p notes.
+/// fan into one copy for each, one-sided components along short one-sided loops. Before the last of
+/// these, all sheets are opened along SurfaceMesh::seam. A seam of one edge that touches neither
+/// another nor a boundary goes on along the edge that leads straightest on: else both its sides would
+/// have the same two vertices, and lie on each other in the plane. Left out are faces that use a
+/// vertex twice, and components that have no area. What was done is told in \p notes.
 /// \throw InvalidMesh for the first of these that is found, with its number: no faces; coordinates
 /// that are not finite or beyond 1e50; components smaller than 1e-50; no face with an area
 OpenedMesh openMesh(const SurfaceMesh& mesh, std::vector<std::string>& notes);

@@ -23,6 +23,9 @@ struct SurfaceMesh
 	/// may be empty.
 	std::vector<std::array<char, 3>> diagonal = {};
 	std::size_t absent = 0; ///< positions that stand for no vertex (deleted elements)
+	/// [face][k] 1 where the caller wants a seam along the side from corner k; one face of an edge is
+	/// enough. May be empty.
+	std::vector<std::array<char, 3>> seam = {};
 };
 
 } // namespace ricci

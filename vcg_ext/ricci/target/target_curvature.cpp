@@ -253,13 +253,20 @@ double maxPlainSpread(const TargetRequest& request)
 	return std::max(kMaxPlainSpread, request.coneDistortion);
 }
 
+/// Whether Automatic makes it flat, boundary included. A boundary at seams that were chosen is none of the
+/// shape's own: where the rest of a disk that a piece is cut out of keeps its metric, it keeps its areas.
+bool isFlatAnnulus(const EmbeddedSurface& surface, const TargetRequest& request)
+{
+	return surface.topology.type.isAnnulus() && !request.hasSeam;
+}
+
 /// The target without cones that a surface has by its topology: flat, or a boundary that is free or
 /// takes all curvature.
 /// \pre not closed, or a torus
 void setPlain(const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
 {
 	const SurfaceType& type = surface.topology.type;
-	if (type.isTorus() || type.isAnnulus())
+	if (type.isTorus() || isFlatAnnulus(surface, request))
 		setFlat(surface, request, target);
 	else if (request.freeBoundary)
 		freeTheBoundary(surface, target);
@@ -274,7 +281,7 @@ void choosePlainOrCones(
 	const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request, Target& target)
 {
 	// In an annulus, cones come with a free boundary.
-	const bool isFlat = surface.topology.type.isAnnulus();
+	const bool isFlat = isFlatAnnulus(surface, request);
 	const ConeBoundary boundary = isFlat ? ConeBoundary::Prescribed : ConeBoundary::Fixed;
 	LinearFlow flow(surface, start, boundary);
 	const double spread = 2.0 * std::sqrt(flow.meanSquare(flow.solve(-flow.curvature())));
@@ -370,8 +377,8 @@ std::optional<Target> targetToKeepAreas(
 		"The spread of the logarithm of the area factor comes out as " +
 		numberText(change.spread, 3) + ", the mean of the factor or its inverse as " +
 		numberText(change.mean, 3) + ": more or other cones are needed.");
-	const bool isFlatAnnulus = surface.topology.type.isAnnulus() && !flow.target.hasFixed();
-	if (isFlatAnnulus && request.freeBoundary)
+	const bool wasFlat = isFlatAnnulus(surface, request) && !flow.target.hasFixed();
+	if (wasFlat && request.freeBoundary)
 		choosePlacedCones(surface, start, request, target);
 	else
 		setPlacedCones(surface, moreCones(surface, flow, coneRequest(request)), request, target);

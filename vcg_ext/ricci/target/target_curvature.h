@@ -15,6 +15,7 @@ struct TargetRequest
 {
 	TargetCurvature mode = TargetCurvature::Automatic;
 	bool freeBoundary = true;
+	bool hasSeam = false;             ///< see OpenedMesh: Automatic makes no flat annulus of it
 	VertexArray<char> selected;       ///< 1 at the corners of Rectangle, the cones of SelectedCones
 	VertexArray<double> prescribed;   ///< radians, for Prescribed
 	double prescribedPrecision = 0.0; ///< relative rounding error of prescribed values

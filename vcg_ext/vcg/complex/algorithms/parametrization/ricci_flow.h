@@ -56,6 +56,10 @@ public:
 	/// One point of the plane for each corner of a face.
 	typedef ricci::Triangle2 WedgeUV;
 
+	/// [face][k] 1 where the side from corner k is to be a seam, see ricci::SurfaceMesh::seam and
+	/// ricci_seams.h; empty: no seams but those that the flow finds.
+	typedef std::vector<std::array<char, 3>> SideMarks;
+
 	struct Params : public ricci::Options
 	{
 		/// Fit the charts into [0,1]^2, all with one scale and their aspect kept; false: keep the
@@ -98,12 +102,16 @@ public:
 	/// vertex quality as curvature in radians (Prescribed).
 	/// \throw what ricci::parametrizeEuclidean() and ricci::packCharts() do, and ricci::InvalidMesh
 	/// DamagedFaces
-	static Result Compute(const MeshType& m, const Params& par, ricci::Progress& progress)
+	static Result Compute(
+		const MeshType& m,
+		const Params& par,
+		ricci::Progress& progress,
+		const SideMarks& seams = SideMarks())
 	{
 		ricci::checkChartMargin(par.chartMargin);
 		const ricci::DefaultFloatingPoint defaultEnvironment;
 		std::vector<int> faceIndex; // [compact] -> index in m.face
-		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex);
+		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex, seams);
 		const ricci::VertexInput input = ReadVertexInput(
 			m,
 			par.target == ricci::TargetCurvature::Rectangle ||
@@ -130,12 +138,15 @@ public:
 	/// Computes the hyperbolic flow; \p m is only read, as by Compute(). The Poincaré disk fills
 	/// [0,1]^2; with several components each has a disk of its own, side by side.
 	/// \throw what ricci::parametrizeHyperbolic() does, and ricci::InvalidMesh DamagedFaces
-	static Result
-	ComputeHyperbolic(const MeshType& m, const HyperbolicParams& par, ricci::Progress& progress)
+	static Result ComputeHyperbolic(
+		const MeshType& m,
+		const HyperbolicParams& par,
+		ricci::Progress& progress,
+		const SideMarks& seams = SideMarks())
 	{
 		const ricci::DefaultFloatingPoint defaultEnvironment;
 		std::vector<int> faceIndex; // [compact] -> index in m.face
-		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex);
+		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex, seams);
 		const ricci::VertexInput input = ReadVertexInput(
 			m,
 			par.target == ricci::HyperbolicTarget::SelectedCones,
@@ -275,6 +286,19 @@ public:
 		std::vector<int> faceIndex;
 		const ricci::DefaultFloatingPoint defaultEnvironment;
 		return ricci::mapToSphere(ReadSurface(m, faceIndex), par, progress);
+	}
+
+	/// Whether the face's vertices are in the mesh's vector and not deleted.
+	static bool HasItsVertices(const MeshType& m, const FaceType& face)
+	{
+		const std::less<const VertexType*> before;
+		for (int k = 0; k < 3; ++k) {
+			const VertexType* v = face.cV(k);
+			if (m.vert.empty() || before(v, &m.vert.front()) || before(&m.vert.back(), v) ||
+				v->IsD())
+				return false;
+		}
+		return true;
 	}
 
 private:
@@ -448,20 +472,8 @@ private:
 					std::min(255.0, std::max(0.0, std::round(colour[k]))));
 	}
 
-	/// Whether the face's vertices are in the mesh's vector and not deleted.
-	static bool HasItsVertices(const MeshType& m, const FaceType& face)
-	{
-		const std::less<const VertexType*> before;
-		for (int k = 0; k < 3; ++k) {
-			const VertexType* v = face.cV(k);
-			if (m.vert.empty() || before(v, &m.vert.front()) || before(&m.vert.back(), v) ||
-				v->IsD())
-				return false;
-		}
-		return true;
-	}
-
-	static ricci::SurfaceMesh ReadSurface(const MeshType& m, std::vector<int>& faceIndex)
+	static ricci::SurfaceMesh ReadSurface(
+		const MeshType& m, std::vector<int>& faceIndex, const SideMarks& seams = SideMarks())
 	{
 		ricci::SurfaceMesh mesh;
 		mesh.positions.resize(m.vert.size());
@@ -490,6 +502,8 @@ private:
 					hasPolygons = true;
 				}
 			mesh.diagonal.push_back(diagonal);
+			if (!seams.empty())
+				mesh.seam.push_back(seams[f]);
 			faceIndex.push_back(int(f));
 		}
 		if (damaged > 0)

@@ -1,0 +1,581 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Seams that the caller chooses, at the façade. Where the surface is developable between its seams, its map is
+// known: an isometry.
+#include "support/expect.h"
+#include "support/random.h"
+#include "support/shapes.h"
+#include "support/vcg_mesh.h"
+
+#include <vcg/complex/algorithms/parametrization/ricci_flow.h>
+#include <vcg/complex/algorithms/parametrization/ricci_seams.h>
+
+#include <ricci/base/numbers.h>
+#include <ricci/error.h>
+#include <ricci/measure/distortion.h>
+#include <ricci/surface/opened_mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+using Flow = vcg::tri::RicciFlow<DoubleMesh>;
+using Seams = vcg::tri::RicciSeams<DoubleMesh>;
+using Marks = Flow::SideMarks;
+using EdgeSet = std::set<std::pair<int, int>>; // of vertices, the lower first
+
+constexpr OutputTriangulation kOutputs[] = {
+	OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement};
+
+/// In the mesh's own size, without cones for the sake of areas.
+Flow::Params unscaled(OutputTriangulation output = OutputTriangulation::KeepMesh)
+{
+	Flow::Params params;
+	params.output = output;
+	params.normalizeUV = false;
+	params.coneDistortion = 100.0;
+	return params;
+}
+
+template<class Params>
+Flow::Result compute(const SurfaceMesh& mesh, const Params& params, const Marks& marks)
+{
+	DoubleMesh m;
+	toVcg(mesh, m);
+	Progress silent;
+	if constexpr (std::is_same_v<Params, Flow::Params>)
+		return Flow::Compute(m, params, silent, marks);
+	else
+		return Flow::ComputeHyperbolic(m, params, silent, marks);
+}
+
+std::pair<int, int> edge(const Triangle& t, std::size_t k)
+{
+	return std::minmax({t[k], t[(k + 1) % 3]});
+}
+
+using ChosenEdge = std::function<bool(const Point3&, const Point3&)>;
+
+/// The sides of edges between such points.
+Marks marksOf(const SurfaceMesh& mesh, const ChosenEdge& isChosen)
+{
+	Marks marks;
+	for (const Triangle& t : mesh.triangles) {
+		marks.push_back({0, 0, 0});
+		for (std::size_t k = 0; k < 3; ++k)
+			marks.back()[k] =
+				isChosen(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 1) % 3])]);
+	}
+	return marks;
+}
+
+/// The edges that are marked and have two faces.
+EdgeSet insideEdges(const SurfaceMesh& mesh, const Marks& marks)
+{
+	std::map<std::pair<int, int>, int> faces;
+	EdgeSet marked, inside;
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k) {
+			++faces[edge(mesh.triangles[f], k)];
+			if (marks[f][k])
+				marked.insert(edge(mesh.triangles[f], k));
+		}
+	for (const auto& e : marked)
+		if (faces[e] > 1)
+			inside.insert(e);
+	return inside;
+}
+
+/// The edges across which the map jumps.
+EdgeSet jumps(const SurfaceMesh& mesh, const Flow::Result& r)
+{
+	DoubleMesh m;
+	toVcg(mesh, m);
+	Flow::WriteWedgeTexCoord(m, r);
+	const Marks marks = Seams::OfTexture(m);
+	return marks.empty() ? EdgeSet() : insideEdges(mesh, marks);
+}
+
+double side(const Triangle2& t, std::size_t k)
+{
+	return std::hypot(t[k][0] - t[(k + 1) % 3][0], t[k][1] - t[(k + 1) % 3][1]);
+}
+
+/// Every triangle is drawn congruent to itself, to what floats of the coordinates' size can.
+void expectIsometric(const SurfaceMesh& mesh, const Flow::Result& r)
+{
+	double extent = 0.0;
+	for (const Triangle2& t : r.wedgeUV)
+		for (const Point2& p : t)
+			extent = std::max({extent, std::abs(p[0]), std::abs(p[1])});
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const auto [a, b] = edge(mesh.triangles[f], k);
+			EXPECT_NEAR(
+				side(r.wedgeUV[f], k),
+				distance(mesh.positions[at(a)], mesh.positions[at(b)]),
+				1e-6 * extent);
+		}
+	EXPECT_NEAR(r.report.qcMax, 1.0, 1e-4);
+	EXPECT_NEAR(r.report.areaDistortionMean, 1.0, 1e-5);
+	EXPECT_EQ(r.report.flippedFaces + r.report.flippedByRounding, 0);
+}
+
+/// Of a refinement, no vertex is there besides the mesh's own and the crossings: pieces meet at the mesh's
+/// own vertices.
+void expectJoined(const SurfaceMesh& mesh, const Flow::Result& r)
+{
+	DoubleMesh m;
+	toVcg(mesh, m);
+	Flow::WriteRefinement(m, r);
+	EXPECT_EQ(at(m.VN()), mesh.positions.size() + at(r.report.refinementPoints));
+	const SurfaceMesh after = fromVcg(m);
+	std::vector<double> area(mesh.triangles.size(), 0.0);
+	const auto areaOf = [](const SurfaceMesh& surface, const Triangle& t) {
+		return triangleArea(
+			{surface.positions[at(t[0])],
+			 surface.positions[at(t[1])],
+			 surface.positions[at(t[2])]});
+	};
+	for (std::size_t i = 0; i < r.refined.triangles.size(); ++i)
+		area[at(r.refined.inputFace[i])] += areaOf(after, r.refined.triangles[i]);
+	for (std::size_t f = 0; f < area.size(); ++f)
+		EXPECT_NEAR(area[f], areaOf(mesh, mesh.triangles[f]), 1e-9);
+}
+
+void expectCounts(const SurfaceMesh& mesh, const EdgeSet& chosen, const Report& report)
+{
+	double length = 0.0;
+	for (const auto& [a, b] : chosen)
+		length += distance(mesh.positions[at(a)], mesh.positions[at(b)]);
+	EXPECT_EQ(report.chosenSeamEdges, static_cast<int>(chosen.size()));
+	EXPECT_NEAR(report.chosenSeamLength, length, 1e-12 * (1.0 + length));
+	EXPECT_EQ(report.cutNonmanifoldEdges, 0);
+	EXPECT_EQ(report.splitVertices, 0);
+	EXPECT_EQ(report.oneSidedComponents, 0);
+	EXPECT_EQ(report.degenerateFaces, 0);
+}
+
+SurfaceMesh sphere(int rings, int around)
+{
+	std::vector<std::array<double, 2>> profile;
+	for (int i = 0; i <= rings; ++i)
+		profile.push_back({std::sin(kPi * i / rings), -std::cos(kPi * i / rings)});
+	profile.front()[0] = profile.back()[0] = 0.0;
+	return revolved(profile, around);
+}
+
+/// On the half plane in which the sphere's first meridian lies.
+bool onMeridian(const Point3& p)
+{
+	return std::abs(p[1]) < 1e-9 && p[0] > -1e-9;
+}
+
+bool onEquator(const Point3& p)
+{
+	return std::abs(p[2]) < 1e-9;
+}
+
+TEST(ChosenSeams, OpenASphereAlongASlit)
+{
+	const SurfaceMesh mesh = sphere(12, 16);
+	const Marks marks = marksOf(mesh, [](const Point3& p, const Point3& q) {
+		return onMeridian(p) && onMeridian(q) && std::abs(p[2]) < 0.99 && std::abs(q[2]) < 0.99;
+	});
+	const EdgeSet chosen = insideEdges(mesh, marks);
+	ASSERT_EQ(chosen.size(), 10u);
+	for (const OutputTriangulation output : kOutputs) {
+		const auto r = compute(mesh, unscaled(output), marks);
+		EXPECT_EQ(r.report.charts, 1);
+		EXPECT_EQ(r.report.components, 1);
+		EXPECT_EQ(r.report.boundaryLoops, 1);
+		EXPECT_EQ(r.report.cones, 0);
+		EXPECT_EQ(r.report.seamEdges, 0);
+		EXPECT_EQ(r.report.seamLength, 0.0);
+		expectCounts(mesh, chosen, r.report);
+		if (output == OutputTriangulation::KeepMesh) {
+			EXPECT_EQ(jumps(mesh, r), chosen);
+		}
+		else
+			expectJoined(mesh, r);
+	}
+}
+
+/// A box of 1 x 3 x 1, open along all edges of its top but one and along its upright edges.
+TEST(ChosenSeams, UnfoldABoxToItsNet)
+{
+	const SurfaceMesh mesh = perforatedSlab(0, 3);
+	Point3 low = mesh.positions.front(), high = low;
+	for (const Point3& p : mesh.positions)
+		for (std::size_t k = 0; k < 3; ++k) {
+			low[k] = std::min(low[k], p[k]);
+			high[k] = std::max(high[k], p[k]);
+		}
+	const auto both = [](const Point3& p, const Point3& q, std::size_t k, double x) {
+		return std::abs(p[k] - x) + std::abs(q[k] - x) < 1e-9;
+	};
+	const Marks marks = marksOf(mesh, [&](const Point3& p, const Point3& q) {
+		const bool x0 = both(p, q, 0, low[0]), x1 = both(p, q, 0, high[0]);
+		const bool y0 = both(p, q, 1, low[1]), y1 = both(p, q, 1, high[1]);
+		const bool top = both(p, q, 2, high[2]);
+		return ((x0 || x1) && (y0 || y1)) || (top && (x0 || x1 || y0));
+	});
+	const EdgeSet chosen = insideEdges(mesh, marks);
+	for (const OutputTriangulation output : kOutputs) {
+		const auto r = compute(mesh, unscaled(output), marks);
+		EXPECT_EQ(r.report.charts, 1);
+		EXPECT_EQ(r.report.cones, 0);
+		EXPECT_EQ(r.report.seamEdges, 0);
+		expectCounts(mesh, chosen, r.report);
+		expectIsometric(mesh, r);
+		if (output == OutputTriangulation::KeepMesh) {
+			EXPECT_EQ(jumps(mesh, r), chosen);
+		}
+		else
+			expectJoined(mesh, r);
+	}
+}
+
+TEST(ChosenSeams, OpenATorusAlongAHandleAndATunnelLoop)
+{
+	constexpr int kAround = 12, kAcross = 8;
+	const SurfaceMesh mesh = torus(3.0, 1.0, kAround, kAcross);
+	const Marks marks = marksOf(mesh, [](const Point3& p, const Point3& q) {
+		return (onMeridian(p) && onMeridian(q)) ||
+			   (std::hypot(p[0], p[1]) > 3.99 && std::hypot(q[0], q[1]) > 3.99);
+	});
+	const EdgeSet chosen = insideEdges(mesh, marks);
+	ASSERT_EQ(chosen.size(), std::size_t(kAround + kAcross));
+	const auto r = compute(mesh, unscaled(), marks);
+	EXPECT_EQ(r.report.charts, 1);
+	EXPECT_EQ(r.report.genus, 0);
+	EXPECT_EQ(r.report.boundaryLoops, 1);
+	EXPECT_EQ(r.report.seamEdges, 0);
+	expectCounts(mesh, chosen, r.report);
+	EXPECT_EQ(jumps(mesh, r), chosen);
+}
+
+TEST(ChosenSeams, AlongAllEdgesLeaveTheTriangles)
+{
+	const SurfaceMesh mesh = sphere(5, 7);
+	const Marks marks = marksOf(mesh, [](const Point3&, const Point3&) { return true; });
+	const int n = static_cast<int>(mesh.triangles.size());
+	const auto r = compute(mesh, unscaled(), marks);
+	EXPECT_EQ(r.report.components, n);
+	EXPECT_EQ(r.report.charts, n);
+	EXPECT_EQ(r.report.cones, 0);
+	EXPECT_EQ(r.report.seamEdges, 0);
+	expectCounts(mesh, insideEdges(mesh, marks), r.report);
+	expectIsometric(mesh, r);
+	EXPECT_EQ(jumps(mesh, r), insideEdges(mesh, marks));
+}
+
+/// The flow keeps the lengths along the seam, so that both halves come out at one scale.
+TEST(ChosenSeams, DivideASphereAlongItsEquator)
+{
+	const SurfaceMesh mesh = sphere(12, 16);
+	const Marks marks = marksOf(
+		mesh, [](const Point3& p, const Point3& q) { return onEquator(p) && onEquator(q); });
+	const EdgeSet chosen = insideEdges(mesh, marks);
+	Flow::Params params = unscaled();
+	params.finish = Finish::None;
+	const auto r = compute(mesh, params, marks);
+	EXPECT_EQ(r.report.components, 2);
+	EXPECT_EQ(r.report.charts, 2);
+	expectCounts(mesh, chosen, r.report);
+	EXPECT_EQ(jumps(mesh, r), chosen);
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			if (const auto e = edge(mesh.triangles[f], k); chosen.count(e) > 0) {
+				EXPECT_NEAR(
+					side(r.wedgeUV[f], k),
+					distance(mesh.positions[at(e.first)], mesh.positions[at(e.second)]),
+					1e-6);
+			}
+	params.target = TargetCurvature::Disk; // each piece is one
+	EXPECT_EQ(compute(mesh, params, marks).report.charts, 2);
+}
+
+/// In a plane both sides of a slit lie on each other.
+TEST(ChosenSeams, LeaveAPlaneAsItIs)
+{
+	const SurfaceMesh mesh = rectangle(8, 6, 8.0, 6.0);
+	const Marks marks = marksOf(mesh, [](const Point3& p, const Point3& q) {
+		return p[1] == 3.0 && q[1] == 3.0 && std::min(p[0], q[0]) > 1.5 &&
+			   std::max(p[0], q[0]) < 6.5;
+	});
+	const auto r = compute(mesh, unscaled(), marks);
+	EXPECT_EQ(r.report.charts, 1);
+	EXPECT_EQ(r.report.boundaryLoops, 2);
+	EXPECT_EQ(r.report.seamEdges, 0);
+	expectCounts(mesh, insideEdges(mesh, marks), r.report);
+	expectIsometric(mesh, r);
+}
+
+/// Corners on a seam have two places each: the four of a cylinder that is slit from end to end.
+TEST(ChosenSeams, MakeARectangleOfACylinder)
+{
+	constexpr int kAround = 12, kUp = 7;
+	const SurfaceMesh mesh =
+		grid(kAround, kUp, Ends::Joined, Ends::Open, [](int i, int j) -> Point3 {
+			const double a = 2 * kPi * i / kAround;
+			return {std::cos(a), std::sin(a), 0.6 * j};
+		});
+	const Marks marks = marksOf(
+		mesh, [](const Point3& p, const Point3& q) { return onMeridian(p) && onMeridian(q); });
+	DoubleMesh m;
+	toVcg(mesh, m);
+	for (auto& v : m.vert)
+		if (onMeridian({v.P()[0], v.P()[1], v.P()[2]}) &&
+			(v.P()[2] < 0.1 || v.P()[2] > 0.6 * kUp - 0.1))
+			v.SetS();
+	Flow::Params params = unscaled();
+	params.target = TargetCurvature::Rectangle;
+	Progress silent;
+	const auto r = Flow::Compute(m, params, silent, marks);
+	const double perimeter = 2 * kAround * std::sin(kPi / kAround);
+	ASSERT_TRUE(r.report.rectangleAspect.has_value());
+	EXPECT_NEAR(*r.report.rectangleAspect, perimeter / (0.6 * kUp), 1e-9);
+	expectCounts(mesh, insideEdges(mesh, marks), r.report);
+	// Uncut it is no disk.
+	EXPECT_EQ(
+		errorOf<InvalidOption>([&] { Flow::Compute(m, params, silent); })->problem,
+		InvalidOption::NotADisk);
+}
+
+/// Both sides of a single edge have its two vertices: its seam goes on along the next edge.
+TEST(ChosenSeams, OfOneEdgeGoOnAlongAnother)
+{
+	const SurfaceMesh mesh = sphere(12, 16);
+	const Marks marks = marksOf(mesh, [](const Point3& p, const Point3& q) {
+		return onMeridian(p) && onMeridian(q) && std::abs(p[2]) < 0.3 && std::abs(q[2]) < 0.3 &&
+			   p[2] + q[2] > 0.1;
+	});
+	const EdgeSet chosen = insideEdges(mesh, marks);
+	ASSERT_EQ(chosen.size(), 1u);
+	const auto r = compute(mesh, unscaled(), marks);
+	EXPECT_EQ(r.report.charts, 1);
+	EXPECT_EQ(r.report.boundaryLoops, 1);
+	expectCounts(mesh, chosen, r.report);
+	EXPECT_EQ(r.report.seamEdges, 1);
+	EXPECT_NEAR(r.report.seamLength, 2 * std::sin(kPi / 24), 1e-9);
+	const EdgeSet cut = jumps(mesh, r);
+	EXPECT_TRUE(std::includes(cut.begin(), cut.end(), chosen.begin(), chosen.end()));
+	for (const auto& [a, b] : cut) // straight on
+		EXPECT_TRUE(onMeridian(mesh.positions[at(a)]) && onMeridian(mesh.positions[at(b)]));
+	EXPECT_EQ(cut.size(), 2u);
+}
+
+/// Slits are never capped, nor is a hole that one of them touches.
+TEST(ChosenSeams, AreNoHoles)
+{
+	const auto vertex = [](int i, int j) { return i * 13 + j; };
+	const SurfaceMesh mesh =
+		withoutStars(rectangle(16, 12, 16.0, 12.0), {vertex(3, 3), vertex(10, 8)});
+	Flow::Params params = unscaled();
+	params.holes = Holes::Capped;
+	const auto count = [&](double low, double high) {
+		const Marks marks = marksOf(mesh, [=](const Point3& p, const Point3& q) {
+			return p[1] == 8.0 && q[1] == 8.0 && std::min(p[0], q[0]) >= low &&
+				   std::max(p[0], q[0]) <= high;
+		});
+		const auto r = compute(mesh, params, marks);
+		expectIsometric(mesh, r);
+		return r.report.cappedHoles;
+	};
+	EXPECT_EQ(count(20.0, 20.0), 2); // none
+	EXPECT_EQ(count(3.0, 7.0), 2);
+	EXPECT_EQ(count(3.0, 9.0), 1); // from one of the holes
+	EXPECT_EQ(count(0.0, 9.0), 1); // from there to the border
+	// A slit twice as long as the border leaves this open, and no hole is left out in a piece cut off.
+	const Marks piece = marksOf(mesh, [](const Point3& p, const Point3& q) {
+		const auto on = [](const Point3& r) {
+			return std::max(std::abs(r[0] - 3.0), std::abs(r[1] - 3.0)) == 2.0;
+		};
+		return on(p) && on(q) && (p[0] == q[0] || p[1] == q[1]);
+	});
+	const auto r = compute(mesh, params, piece);
+	EXPECT_EQ(r.report.components, 2);
+	EXPECT_EQ(r.report.cappedHoles, 2);
+	expectIsometric(mesh, r);
+}
+
+TEST(ChosenSeams, DividePiecesOfHyperbolicSurfaces)
+{
+	const SurfaceMesh mesh = perforatedSlab(2, 2);
+	double middle = 0.0;
+	for (const Point3& p : mesh.positions)
+		middle = std::max(middle, 0.5 * p[0]);
+	const Marks marks = marksOf(mesh, [&](const Point3& p, const Point3& q) {
+		return std::abs(p[0] - middle) + std::abs(q[0] - middle) < 1e-9;
+	});
+	const EdgeSet chosen = insideEdges(mesh, marks);
+	for (const OutputTriangulation output : kOutputs) {
+		Flow::HyperbolicParams params;
+		params.output = output;
+		const auto r = compute(mesh, params, marks);
+		EXPECT_EQ(r.report.components, 2);
+		EXPECT_EQ(r.report.genus, 2);
+		EXPECT_EQ(r.report.boundaryLoops, 2);
+		EXPECT_EQ(r.groups.size(), 2u);
+		expectCounts(mesh, chosen, r.report);
+		// Two tori with a geodesic for a border.
+		EXPECT_NEAR(r.report.hyperbolicArea.value_or(0.0), 4 * kPi, 1e-6);
+		if (output == OutputTriangulation::KeepMesh) {
+			const EdgeSet cut = jumps(mesh, r);
+			EXPECT_TRUE(std::includes(cut.begin(), cut.end(), chosen.begin(), chosen.end()));
+		}
+		else
+			expectJoined(mesh, r);
+	}
+}
+
+/// It does not matter which face of an edge is marked, nor in which order its corners are.
+TEST(ChosenSeams, AreThoseOfEdges)
+{
+	const SurfaceMesh mesh = sphere(8, 10);
+	const Marks marks = marksOf(
+		mesh, [](const Point3& p, const Point3& q) { return onMeridian(p) && onMeridian(q); });
+	const auto expected = compute(mesh, unscaled(), marks);
+	Random random(7);
+	SurfaceMesh turned = mesh;
+	Marks some = marks;
+	EdgeSet seen;
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+		for (std::size_t k = 0; k < 3; ++k)
+			if (marks[f][k] && !seen.insert(edge(mesh.triangles[f], k)).second)
+				some[f][k] = 0; // marked in its first face
+		const int turns = random.index(3);
+		std::rotate(
+			turned.triangles[f].begin(),
+			turned.triangles[f].begin() + turns,
+			turned.triangles[f].end());
+		std::rotate(some[f].begin(), some[f].begin() + turns, some[f].end());
+	}
+	const auto r = compute(turned, unscaled(), some);
+	expectCounts(turned, insideEdges(turned, some), r.report);
+	EXPECT_EQ(insideEdges(turned, some), insideEdges(mesh, marks));
+	EXPECT_EQ(jumps(turned, r), jumps(mesh, expected));
+	EXPECT_NEAR(r.report.qcMean, expected.report.qcMean, 1e-6);
+	EXPECT_EQ(r.report.charts, expected.report.charts);
+}
+
+/// A seam through an edge of more than two faces divides all its sheets, and is not counted as what had to be
+/// cut.
+TEST(ChosenSeams, DivideEverySheet)
+{
+	const SurfaceMesh mesh = book(4, 3);
+	const Marks none(mesh.triangles.size(), {0, 0, 0});
+	const Marks spine = marksOf(mesh, [](const Point3& p, const Point3& q) {
+		return std::hypot(p[0], p[1]) + std::hypot(q[0], q[1]) < 1e-9;
+	});
+	const auto whole = compute(mesh, unscaled(), none), divided = compute(mesh, unscaled(), spine);
+	EXPECT_EQ(whole.report.charts, 2);
+	EXPECT_EQ(whole.report.chosenSeamEdges, 0);
+	EXPECT_EQ(divided.report.charts, 4);
+	EXPECT_EQ(divided.report.chosenSeamEdges, 3);
+	EXPECT_EQ(divided.report.cutNonmanifoldEdges, whole.report.cutNonmanifoldEdges);
+	EXPECT_EQ(divided.report.splitVertices, whole.report.splitVertices);
+	expectIsometric(mesh, divided);
+}
+
+/// A Moebius band that is cut across needs no other cut.
+TEST(ChosenSeams, MakeAMoebiusBandTwoSided)
+{
+	const SurfaceMesh mesh = moebiusBand(20);
+	const auto across = marksOf(mesh, [&](const Point3& p, const Point3& q) {
+		return std::abs(p[1]) < 1e-9 && std::abs(q[1]) < 1e-9 && p[0] > 0.0 && q[0] > 0.0;
+	});
+	const auto r = compute(mesh, unscaled(), across);
+	EXPECT_EQ(r.report.chosenSeamEdges, 1);
+	EXPECT_EQ(r.report.oneSidedComponents, 0);
+	EXPECT_EQ(r.report.splitVertices, 0);
+	EXPECT_EQ(r.report.charts, 1);
+}
+
+TEST(ChosenSeams, AreFoundInTheTexture)
+{
+	const SurfaceMesh mesh = rectangle(2, 1, 2.0, 1.0);
+	DoubleMesh m;
+	toVcg(mesh, m);
+	EXPECT_TRUE(Seams::OfTexture(m).empty());
+	const auto edges = [&] { return insideEdges(mesh, Seams::OfTexture(m)); };
+	for (auto& f : m.face)
+		for (int k = 0; k < 3; ++k) {
+			f.WT(k).U() = float(f.P(k)[0]);
+			f.WT(k).V() = float(f.P(k)[1]);
+		}
+	EXPECT_TRUE(Seams::OfTexture(m).empty());
+	for (auto& f : m.face) // at two ends of an edge, at one, and for an index
+		f.WT(0).N() = f.WT(1).N() = f.WT(2).N() = short(vcg::tri::Index(m, f) >= 2);
+	EXPECT_EQ(edges().size(), 1u);
+	const EdgeSet byIndex = edges();
+	for (auto& f : m.face)
+		for (int k = 0; k < 3; ++k)
+			f.WT(k).N() = 0;
+	for (int k = 0; k < 3; ++k)
+		m.face[0].WT(k).V() += 1.0f;
+	EXPECT_FALSE(edges().empty());
+	for (const auto& e : byIndex)
+		EXPECT_EQ(
+			edges().count(e),
+			std::count_if(mesh.triangles[0].begin(), mesh.triangles[0].end(), [&](int v) {
+				return v == e.first || v == e.second;
+			}) == 2);
+}
+
+TEST(ChosenSeams, AreThoseSelected)
+{
+	const SurfaceMesh mesh = sphere(6, 8);
+	DoubleMesh m;
+	toVcg(mesh, m);
+	EXPECT_TRUE(Seams::OfSelectedEdges(m).empty());
+	EXPECT_TRUE(Seams::OfSelectedFaces(m).empty());
+	m.face[5].SetFaceEdgeS(2);
+	EXPECT_EQ(insideEdges(mesh, Seams::OfSelectedEdges(m)), EdgeSet{edge(mesh.triangles[5], 2)});
+	m.face[5].SetS();
+	EdgeSet border;
+	for (std::size_t k = 0; k < 3; ++k)
+		border.insert(edge(mesh.triangles[5], k));
+	EXPECT_EQ(insideEdges(mesh, Seams::OfSelectedFaces(m)), border);
+	for (auto& f : m.face)
+		f.SetS();
+	EXPECT_TRUE(Seams::OfSelectedFaces(m).empty());
+	// Deleted faces and damaged ones have no seams.
+	m.face[5].ClearS();
+	vcg::tri::Allocator<DoubleMesh>::DeleteFace(m, m.face[5]);
+	m.face[6].V(0) = nullptr;
+	EXPECT_TRUE(Seams::OfSelectedFaces(m).empty());
+	EXPECT_TRUE(Seams::OfSelectedEdges(m).empty());
+}
+
+/// What was cut once is cut again where the mesh is mapped anew along its texture seams.
+TEST(ChosenSeams, KeepTheSeamsOfAMap)
+{
+	for (const SurfaceMesh& mesh : {sphere(12, 16), torus(3.0, 1.0, 14, 9), perforatedSlab(2, 2)}) {
+		DoubleMesh m;
+		toVcg(mesh, m);
+		Progress silent;
+		Flow::WriteWedgeTexCoord(m, Flow::Compute(m, Flow::Params(), silent));
+		const Marks marks = Seams::OfTexture(m);
+		const EdgeSet before = insideEdges(mesh, marks);
+		ASSERT_FALSE(before.empty());
+		const auto r = Flow::Compute(m, Flow::Params(), silent, marks);
+		expectCounts(mesh, before, r.report);
+		const EdgeSet after = jumps(mesh, r);
+		EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,124 @@
+/****************************************************************************
+ * Generalized discrete Ricci flow on VCG meshes                             *
+ * An extension of the VCG Library                                           *
+ * SPDX-License-Identifier: GPL-3.0-or-later                                 *
+ ****************************************************************************/
+#ifndef __VCGLIB_RICCI_SEAMS
+#define __VCGLIB_RICCI_SEAMS
+
+#include <ricci/surface/face_gluing.h>
+
+#include <vcg/complex/algorithms/parametrization/ricci_flow.h>
+
+#include <vector>
+
+namespace vcg {
+namespace tri {
+
+/**
+ * @brief Seams for RicciFlow that a mesh has already: in its texture, or by what is selected.
+ *
+ * Each function reads the mesh and marks the sides of faces that are seams (RicciFlow::SideMarks); of
+ * an edge one side is enough. The result is empty where there are none.
+ */
+template<class MeshType>
+class RicciSeams
+{
+public:
+	typedef RicciFlow<MeshType> Flow;
+	typedef typename Flow::SideMarks SideMarks;
+	typedef typename MeshType::FaceType FaceType;
+
+	/// Edges at which the wedge texture coordinates of two faces or their texture indices differ, bit
+	/// for bit. Coordinates of vertices differ at no edge: a mesh that has only those is open at its
+	/// seams.
+	static SideMarks OfTexture(const MeshType& m)
+	{
+		if (!HasPerWedgeTexCoord(m))
+			return SideMarks();
+		return Between(
+			m, [](const FaceType& f, const Corners& a, const FaceType& g, const Corners& b) {
+				return Differ(f.cWT(a.low), g.cWT(b.low)) || Differ(f.cWT(a.high), g.cWT(b.high));
+			});
+	}
+
+	/// Edges between faces that are selected and faces that are not.
+	static SideMarks OfSelectedFaces(const MeshType& m)
+	{
+		return Between(m, [](const FaceType& f, const Corners&, const FaceType& g, const Corners&) {
+			return f.IsS() != g.IsS();
+		});
+	}
+
+	/// Edges that are selected in one of their faces (IsFaceEdgeS()).
+	static SideMarks OfSelectedEdges(const MeshType& m)
+	{
+		SideMarks marks;
+		for (size_t f = 0; f < m.face.size(); ++f)
+			for (int k = 0; k < 3; ++k)
+				if (!m.face[f].IsD() && m.face[f].IsFaceEdgeS(k))
+					Mark(m, f, k, marks);
+		return marks;
+	}
+
+private:
+	/// Those of a face at the ends of an edge.
+	struct Corners
+	{
+		int low, high;
+	};
+
+	static Corners CornersOf(const ricci::Side& side)
+	{
+		const int next = (side.corner + 1) % 3;
+		return side.ascending ? Corners{side.corner, next} : Corners{next, side.corner};
+	}
+
+	template<class TexCoord>
+	static bool Differ(const TexCoord& a, const TexCoord& b)
+	{
+		return a.N() != b.N() || a.U() != b.U() || a.V() != b.V();
+	}
+
+	static void Mark(const MeshType& m, size_t face, int k, SideMarks& marks)
+	{
+		marks.resize(m.face.size(), {0, 0, 0});
+		marks[face][size_t(k)] = 1;
+	}
+
+	/// The edges for two of whose faces \p isSeam(face, its corners, other face, its corners) holds. Faces
+	/// that use a vertex twice, or one that is not there, have none.
+	template<class Predicate>
+	static SideMarks Between(const MeshType& m, Predicate isSeam)
+	{
+		std::vector<ricci::Triangle> triangles;
+		std::vector<size_t> number; // [triangle] in m.face
+		for (size_t f = 0; f < m.face.size(); ++f) {
+			if (m.face[f].IsD() || !Flow::HasItsVertices(m, m.face[f]))
+				continue;
+			ricci::Triangle t;
+			for (int k = 0; k < 3; ++k)
+				t[size_t(k)] = int(Index(m, m.face[f].cV(k)));
+			if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+				continue;
+			triangles.push_back(t);
+			number.push_back(f);
+		}
+		SideMarks marks;
+		ricci::forEachEdge(
+			ricci::sortedSides(triangles), [&](const ricci::Side* sides, size_t count) {
+				const size_t first = number[size_t(sides->face)];
+				for (size_t i = 1; i < count; ++i) {
+					const FaceType& other = m.face[number[size_t(sides[i].face)]];
+					if (isSeam(m.face[first], CornersOf(sides[0]), other, CornersOf(sides[i])))
+						Mark(m, first, sides->corner, marks);
+				}
+			});
+		return marks;
+	}
+};
+
+} // namespace tri
+} // namespace vcg
+
+#endif
