@@ -333,11 +333,11 @@ Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Pr
 {
 	Settings settings = readSettings(par);
 	ricci::TimeLimit progress(listener, settings.timeLimit);
-	settings.flow.memoryLimit = freeMemory();
 	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::TargetCurvature::Prescribed);
 	const Flow::SideMarks seams = chosenSeams(model, settings.seams, progress);
 	const ReportFiles reportFiles(settings.report, model.pathName());
 	CarriedTexture texture(settings.texture, model);
+	settings.flow.memoryLimit = freeMemory(); // beside the pictures
 	// The sphere first: it refuses most surfaces.
 	const double share = settings.sphereLayer ? kSphereShare : 0.0;
 	const double drawn = texture.isWanted() ? 1.0 - kTextureShare : 1.0;
@@ -368,11 +368,11 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 {
 	HyperbolicSettings settings = readHyperbolicSettings(par);
 	ricci::TimeLimit progress(listener, settings.timeLimit);
-	settings.flow.memoryLimit = freeMemory();
 	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::HyperbolicTarget::Prescribed);
 	const Flow::SideMarks seams = chosenSeams(model, settings.seams, progress);
 	const ReportFiles reportFiles(settings.report, model.pathName());
 	CarriedTexture texture(settings.texture, model);
+	settings.flow.memoryLimit = freeMemory(); // beside the pictures
 	const double drawn = texture.isWanted() ? 1.0 - kTextureShare : 1.0;
 	PartOfProgress flow(progress, 0.0, drawn), last(progress, drawn, 1.0);
 	const Flow::Result result = Flow::ComputeHyperbolic(model.cm, settings.flow, flow, seams);

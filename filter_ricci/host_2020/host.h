@@ -67,6 +67,21 @@ Parameter advanced(Arguments&&... arguments)
 
 using FileToSave = RichSaveFile;
 
+/// A file whose name is mostly typed: RichSaveFile has a button to browse, but forgets what is typed.
+class TypedFile : public RichString
+{
+public:
+	TypedFile(
+		const QString& id,
+		const QString& value,
+		const QString& /*filter*/,
+		const QString& label,
+		const QString& text) :
+			RichString(id, value, label, text)
+	{
+	}
+};
+
 /// Of a file's name, which scripts may also hold as a text.
 inline QString text(const RichParameterList& par, const QString& id)
 {
