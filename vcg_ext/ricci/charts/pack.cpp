@@ -194,7 +194,7 @@ Packing packByOutlines(
 		(isLarge ? large : small).push_back(i);
 		(isLarge ? areaOfLarge : areaOfSmall) += area(i);
 	}
-	if (areaOfLarge < areaOfSmall)
+	if (large.empty() || areaOfLarge < areaOfSmall)
 		return {};
 	std::vector<Outline> outlines;
 	for (const std::size_t i : large) {
@@ -302,7 +302,8 @@ void packCharts(
 		map.report.occupancy = coveredArea(map) / (packing.side() * packing.side());
 		return;
 	}
-	if (turns != ChartTurns::None && !boxes.empty() && !(boxes.size() == 1 && isThin.front())) {
+	if (turns != ChartTurns::None && packing.side() > 0.0 &&
+		!(boxes.size() == 1 && isThin.front())) {
 		const double room = std::max(packing.room, kLeastOutlineRoom * packing.side());
 		Packing turned =
 			boxes.size() == 1
