@@ -265,12 +265,8 @@ TEST(ConeModel, TrialsAreUndoneUnlessTheyAreTaken)
 		EXPECT_TRUE(model.isCone(someVertices()[2]));
 		EXPECT_FALSE(model.isCone(to));
 	};
-	double seen = 0.0;
-	EXPECT_FALSE(model.tryMove(2, to, [&](double energy) {
-		seen = energy;
-		return false;
-	}));
-	EXPECT_NEAR(seen, moved.energy(), 1e-9);
+	const double there = moved.energy();
+	EXPECT_FALSE(model.tryMove(2, to, [&](double energy) { return energy < there - 1e-9; }));
 	expectUnchanged();
 	model.without(2, [&] {
 		EXPECT_EQ(conesOf(model), fewer);
@@ -281,7 +277,7 @@ TEST(ConeModel, TrialsAreUndoneUnlessTheyAreTaken)
 	EXPECT_FALSE(model.tryWithout(2, [&] { return false; }));
 	expectUnchanged();
 
-	EXPECT_TRUE(model.tryMove(2, to, [](double) { return true; }));
+	EXPECT_TRUE(model.tryMove(2, to, [&](double energy) { return energy < there + 1e-9; }));
 	EXPECT_EQ(conesOf(model), elsewhere);
 	EXPECT_TRUE(model.isCone(to));
 	EXPECT_FALSE(model.isCone(someVertices()[2]));
@@ -356,6 +352,100 @@ TEST(ConeModel, TicksBeforeSolutions)
 	EXPECT_EQ(ticks, 4);
 	model.fit();
 	EXPECT_EQ(ticks, 4); // fits are small
+}
+
+std::vector<LinearCase> cases()
+{
+	Random random(770);
+	const SurfaceMesh sphere = shaken(perforatedSlab(0, 3), 0.05, random);
+	return {
+		{"sphere", sphere, ConeBoundary::Fixed},
+		{"genus 2", shaken(perforatedSlab(2, 2), 0.05, random), ConeBoundary::Fixed},
+		{"disk, fixed boundary", withoutStars(sphere, {0}), ConeBoundary::Fixed},
+		{"disk, prescribed boundary", withoutStars(sphere, {0}), ConeBoundary::Prescribed}};
+}
+
+/// Different vertices inside.
+std::vector<Vertex>
+verticesInside(const EmbeddedSurface& surface, std::size_t count, Random& random)
+{
+	std::vector<Vertex> chosen;
+	while (chosen.size() < count) {
+		const Vertex v(random.index(surface.triangulation.vertexCount()));
+		if (!surface.topology.boundary[v] &&
+			std::find(chosen.begin(), chosen.end(), v) == chosen.end())
+			chosen.push_back(v);
+	}
+	return chosen;
+}
+
+double totalOf(const EmbeddedSurface& surface)
+{
+	return 2 * kPi * surface.topology.type.eulerCharacteristic();
+}
+
+/// The lowest energy with cones at these vertices.
+double energyOf(Linearised& linear, const std::vector<Vertex>& cones)
+{
+	ConeModel model(linear.flow, totalOf(linear.surface));
+	model.append(cones);
+	model.fit();
+	return model.energy();
+}
+
+TEST(ConeModel, FitsAlikeWithAndWithoutFields)
+{
+	Random random(771);
+	for (const LinearCase& c : cases()) {
+		SCOPED_TRACE(c.name);
+		Linearised linear(c);
+		const std::vector<Vertex> cones = verticesInside(linear.surface, 5, random);
+		ConeModel plain(linear.flow, totalOf(linear.surface));
+		plain.append(cones);
+		plain.fit();
+		ConeModel withFields(linear.flow, totalOf(linear.surface));
+		withFields.gradient();
+		withFields.append(cones);
+		withFields.fit();
+		EXPECT_NEAR(plain.energy(), withFields.energy(), 1e-9 * (1.0 + plain.energy()));
+		EXPECT_NEAR(plain.distortion(), plain.exactDistortion(), 1e-6);
+		for (int i = 0; i < plain.size(); ++i)
+			EXPECT_NEAR(plain.curvature(i), withFields.curvature(i), 1e-8);
+		const VertexVector difference = plain.gradient() - withFields.gradient();
+		EXPECT_LT(difference.lpNorm<Eigen::Infinity>(), 1e-8);
+	}
+}
+
+/// The bound that spares a solution decides as the energy itself does.
+TEST(ConeModel, AMoveIsMadeWhereTheEnergyIsLow)
+{
+	Random random(772);
+	int moved = 0, stayed = 0;
+	for (const LinearCase& c : cases()) {
+		SCOPED_TRACE(c.name);
+		Linearised linear(c);
+		for (int trial = 0; trial < 60; ++trial) {
+			std::vector<Vertex> cones = verticesInside(linear.surface, 6, random);
+			const Vertex to = cones.back();
+			cones.pop_back();
+			ConeModel model(linear.flow, totalOf(linear.surface));
+			model.append(cones);
+			model.fit();
+			const double before = model.energy(), wanted = random.real(0.5, 1.0) * before;
+			cones[2] = to;
+			const double after = energyOf(linear, cones);
+			if (std::abs(after - wanted) < 1e-6 * before)
+				continue;
+			const bool hasMoved =
+				model.tryMove(2, to, [&](double energy) { return energy < wanted; });
+			EXPECT_EQ(hasMoved, after < wanted);
+			EXPECT_NEAR(model.energy(), hasMoved ? after : before, 1e-9 * (1.0 + before));
+			EXPECT_EQ(model.isCone(to), hasMoved);
+			(hasMoved ? moved : stayed) += 1;
+		}
+	}
+	EXPECT_GT(moved, 10);
+	EXPECT_GT(stayed, 10);
 }
 
 } // namespace

@@ -60,6 +60,20 @@ void DistortionLaplacian::layOut(const MeanDistortion& energy)
 		m_start.push_back(static_cast<int>(m_row.size()));
 	}
 	m_entry.resize(m_row.size());
+	m_rowEntry.resize(m_row.size());
+	m_column.resize(m_row.size());
+	m_rowStart.assign(positionOf(n) + 1, 0);
+	for (const int row : m_row)
+		++m_rowStart[positionOf(row) + 1];
+	for (std::size_t r = 0; r < positionOf(n); ++r)
+		m_rowStart[r + 1] += m_rowStart[r];
+	cursor = m_rowStart;
+	for (int c = 0; c < n; ++c)
+		for (int i = m_start[positionOf(c)]; i < m_start[positionOf(c) + 1]; ++i) {
+			const int place = cursor[positionOf(m_row[positionOf(i)])]++;
+			m_column[positionOf(place)] = c;
+			m_place.push_back(place);
+		}
 	m_slot.assign(m_unknown.size(), {-1, -1, -1});
 	eachSide([&](Face f, std::size_t k, int column, int row) {
 		const auto first = m_row.begin() + m_start[positionOf(column)];
@@ -98,17 +112,19 @@ bool DistortionLaplacian::factorize(const MeanDistortion& energy)
 	}
 	for (int c = 0; c < m_points.unknowns; ++c)
 		for (int i = m_start[positionOf(c)]; i < m_start[positionOf(c) + 1]; ++i)
-			m_entry[positionOf(i)] *= m_scale[c] * m_scale[m_row[positionOf(i)]];
+			m_rowEntry[positionOf(m_place[positionOf(i)])] = m_entry[positionOf(i)] *=
+				m_scale[c] * m_scale[m_row[positionOf(i)]];
 	return true;
 }
 
 /// x = (1 + L)^-1 x for the entries L below the diagonal.
 void DistortionLaplacian::solveForward(Eigen::VectorXcd& x) const
 {
-	for (int c = 0; c < m_points.unknowns; ++c) {
-		const Complex solved = x[c];
-		for (int i = m_start[positionOf(c)]; i < m_start[positionOf(c) + 1]; ++i)
-			x[m_row[positionOf(i)]] -= m_entry[positionOf(i)] * solved;
+	for (int r = 0; r < m_points.unknowns; ++r) {
+		Complex sum = x[r];
+		for (int i = m_rowStart[positionOf(r)]; i < m_rowStart[positionOf(r) + 1]; ++i)
+			sum -= m_rowEntry[positionOf(i)] * x[m_column[positionOf(i)]];
+		x[r] = sum;
 	}
 }
 

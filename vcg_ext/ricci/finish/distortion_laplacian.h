@@ -49,6 +49,12 @@ private:
 	std::vector<int> m_start; // [column, and one after the last]
 	std::vector<int> m_row;
 	std::vector<double> m_entry;
+
+	// The same by rows: both substitutions gather what they add up, which is faster than to scatter it.
+	std::vector<int> m_rowStart; // [row, and one after the last]
+	std::vector<int> m_column;
+	std::vector<int> m_place; // [entry by columns] its place by rows
+	std::vector<double> m_rowEntry;
 	Eigen::VectorXd m_scale; // of the rows
 
 	Eigen::VectorXcd m_residual, m_direction, m_solved, m_product; // of solve()

@@ -196,10 +196,13 @@ void FlowRun::startFrom(const VertexVector& factor, std::vector<double> arcs)
 
 bool FlowRun::solve()
 {
-	m_solved = m_problem.target.circular ? solveOnCircle() : solveFor(m_options.epsilon);
+	const double maxFloor =
+		isFlatDisk() ? std::numeric_limits<double>::infinity() : kMaxDoubleFloor;
+	m_solved =
+		m_problem.target.circular ? solveOnCircle() : solveFor(m_options.epsilon, true, maxFloor);
 	const bool stopped =
 		!m_solved.converged && m_solved.residual < kWorthExtending && m_map->brokenTriangles() == 0;
-	const bool gaps = m_solved.converged && m_solved.floor > kMaxDoubleFloor && !isFlatDisk();
+	const bool gaps = m_solved.converged && m_solved.floor > maxFloor;
 	if (stopped || gaps)
 		m_solved = solveExtended();
 	if (m_problem.isDoubled() && m_solved.residual > kMaxAsymmetry &&
@@ -237,12 +240,13 @@ NewtonResult FlowRun::solveOnCircle()
 	}
 }
 
-NewtonResult FlowRun::solveFor(double epsilon, bool polishes)
+NewtonResult FlowRun::solveFor(double epsilon, bool polishes, double maxPolishedFloor)
 {
 	NewtonOptions newtonOptions;
 	newtonOptions.epsilon = epsilon;
 	newtonOptions.maxIterations = m_options.maxIterations;
 	newtonOptions.polishes = polishes;
+	newtonOptions.maxPolishedFloor = maxPolishedFloor;
 	const NewtonResult solved = m_newton->solve(
 		m_result.u,
 		m_problem.target.curvature,

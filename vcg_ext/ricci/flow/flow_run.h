@@ -8,6 +8,7 @@
 #include "ricci_flow.h"
 #include "target.h"
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -110,7 +111,10 @@ private:
 	std::unique_ptr<FactoredHessian> takeHessian();
 	VertexVector startU(const IntrinsicMesh& mesh, const VertexArray<double>& radii) const;
 	NewtonResult solveOnCircle();
-	NewtonResult solveFor(double epsilon, bool polishes = true);
+	NewtonResult solveFor(
+		double epsilon,
+		bool polishes = true,
+		double maxPolishedFloor = std::numeric_limits<double>::infinity());
 	NewtonResult solveExtended();
 	bool isFlatDisk() const;
 	double spreadOfScales() const;

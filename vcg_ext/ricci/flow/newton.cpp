@@ -293,8 +293,9 @@ NewtonResult NewtonSolver::solve(
 		const bool atFloor = valid && result.residual <= result.floor;
 		const bool brokenMinimum =
 			!valid && result.residual <= std::min(options.epsilon, result.floor);
+		const bool polishes = options.polishes && result.floor <= options.maxPolishedFloor;
 		if (atFloor || searchFails || brokenMinimum || m_hessian->unknowns() == 0 ||
-			(reached && polishing >= (options.polishes ? kPolishingSteps : 0)) ||
+			(reached && polishing >= (polishes ? kPolishingSteps : 0)) ||
 			(!reached && result.iterations >= options.maxIterations))
 			break;
 

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <limits>
 #include <memory>
 
 namespace ricci {
@@ -19,6 +20,9 @@ struct NewtonOptions
 	double epsilon = 1e-8; ///< radians: wanted bound of max |target - K|
 	int maxIterations = 200;
 	bool polishes = true; ///< goes on beyond epsilon with the factor that is there
+
+	/// Above this rounding floor there is nothing to polish: the caller goes on in other precision.
+	double maxPolishedFloor = std::numeric_limits<double>::infinity();
 };
 
 struct NewtonResult

@@ -231,6 +231,9 @@ public:
 			direction = step == 0
 							? corrected
 							: Pair(corrected + direction * energy.cwiseQuotient(last).asDiagonal());
+			const double expected =
+				step == 0 ? energy.maxCoeff()
+						  : energy.cwiseProduct(energy).cwiseQuotient(last).maxCoeff();
 			last = energy;
 			multiply(direction, image);
 			slope = direction.cwiseProduct(image).colwise().sum();
@@ -239,12 +242,18 @@ public:
 				l = std::isfinite(l) ? l : 0.0; // one side is solved already
 			x += direction * length.asDiagonal();
 			residual -= image * length.asDiagonal();
+			if (kCertainty * expected < kEnergyError)
+				break;
 		}
 	}
 
 private:
 	static constexpr double kEnergyError = 1e-7;
 	static constexpr int kMaxSteps = 100;
+
+	/// The energy falls by like factors. Where the last one would bring it so much below the bound, no
+	/// further solution is spent on finding it there.
+	static constexpr double kCertainty = 10.0;
 
 	void factorize()
 	{

@@ -14,8 +14,9 @@ namespace ricci {
 
 namespace {
 
-/// The share of a bound that rounding must not add to it.
-constexpr double kBoundSlack = 1e-6;
+/// The share of a bound that rounding must not add to it; and the least that the cone that moves must
+/// give to it, so that the quadratic function stays convex.
+constexpr double kBoundSlack = 1e-6, kMinBeyond = 1e-4;
 
 } // namespace
 
@@ -175,23 +176,24 @@ void ConeModel::fit()
 		m_now.values = roundToQuarterTurns(m_now.gram, m_now.linear, m_now.values, total);
 }
 
-/// Whether minOwnProduct() spares a solution. Rounded curvatures are not at the minimum of the energy.
-bool ConeModel::isBounded(Vertex v) const
+/// A bound of ownProduct(\p v) from below without a linear solution, with which cone \p i has a lowest
+/// energy at \p v that is no higher than the true one: u_v is no shorter than its projection to the span
+/// of the factors of the cones.
+/// \return 0 where there is nothing to gain: the product is known, curvatures are rounded, which are not
+/// at the minimum, or the span is about that of the other cones
+double ConeModel::minOwnProduct(int i, Vertex v) const
 {
-	return m_rounding == ConeRounding::Free && v != m_lastVertex &&
-		   m_ownProduct.find(v) == m_ownProduct.end();
-}
-
-/// A bound of ownProduct(\p v) from below, without a linear solution: u_v is no shorter than its
-/// projection to the span of the factors of the cones. The lowest energy rises with it.
-/// \pre the rows of all cones are those of their fields
-double ConeModel::minOwnProduct(Vertex v) const
-{
-	Eigen::VectorXd products(size());
+	if (m_rounding != ConeRounding::Free || v == m_lastVertex ||
+		m_ownProduct.find(v) != m_ownProduct.end())
+		return 0.0;
+	Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(size(), 2);
 	for (int k = 0; k < size(); ++k)
-		products[k] = (*m_fields[k])[v];
-	const double bound = products.dot(m_now.gram.ldlt().solve(products));
-	return std::isfinite(bound) ? std::max(0.0, (1.0 - kBoundSlack) * bound) : 0.0;
+		rhs(k, 0) = (*m_fields[k])[v];
+	rhs(i, 1) = 1.0;
+	const Eigen::MatrixXd solution = m_now.gram.ldlt().solve(rhs);
+	const double bound = rhs.col(0).dot(solution.col(0));
+	const double beyondOthers = solution(i, 0) * solution(i, 0) / solution(i, 1);
+	return beyondOthers > kMinBeyond * bound ? (1.0 - kBoundSlack) * bound : 0.0;
 }
 
 /// Mean square of the factor of a unit of curvature at \p v.

@@ -111,7 +111,8 @@ public:
 			fit();
 			return isLow(energy());
 		};
-		if ((isBounded(v) && !isLowWith(minOwnProduct(v))) || !isLowWith(ownProduct(v))) {
+		const double least = minOwnProduct(i, v);
+		if ((least > 0.0 && !isLowWith(least)) || !isLowWith(ownProduct(v))) {
 			m_now = std::move(before);
 			m_gradient = std::move(gradient);
 			return false;
@@ -170,8 +171,7 @@ private:
 	/// Gradient field of a unit of curvature at one vertex.
 	using Field = std::shared_ptr<const VertexVector>;
 
-	bool isBounded(Vertex v) const;
-	double minOwnProduct(Vertex v) const;
+	double minOwnProduct(int i, Vertex v) const;
 	double ownProduct(Vertex v);
 	Field fieldOf(Vertex v);
 	VertexVector unit(Vertex v) const;
