@@ -190,7 +190,7 @@ host::FileToSave reportParameter()
 
 void addTextureParameters(RichParameterList& list)
 {
-	list.addParam(host::advanced<host::TypedFile>(
+	list.addParam(host::advanced<host::FileToSave>(
 		"carry_texture",
 		QString(),
 		"PNG image (*.png)",

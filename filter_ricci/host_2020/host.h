@@ -65,13 +65,12 @@ Parameter advanced(Arguments&&... arguments)
 	return Parameter(std::forward<Arguments>(arguments)...);
 }
 
-using FileToSave = RichSaveFile;
-
-/// A file whose name is mostly typed: RichSaveFile has a button to browse, but forgets what is typed.
-class TypedFile : public RichString
+/// The name of a file to be written, as a text: RichSaveFile has a button to browse, but forgets what is
+/// typed.
+class FileToSave : public RichString
 {
 public:
-	TypedFile(
+	FileToSave(
 		const QString& id,
 		const QString& value,
 		const QString& /*filter*/,

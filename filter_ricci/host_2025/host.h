@@ -65,9 +65,6 @@ using FileToSave = RichFileSave;
 using FileToSave = RichSaveFile;
 #endif
 
-/// A file whose name is mostly typed.
-using TypedFile = FileToSave;
-
 inline QString text(const RichParameterList& par, const QString& id)
 {
 	return par.getString(id);
