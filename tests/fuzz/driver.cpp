@@ -40,6 +40,9 @@ constexpr int kPatience = 60;
 
 constexpr int kMaxInputSize = 96;
 
+/// Executions from one line of counts to the next.
+constexpr long kBetweenReports = 100000;
+
 const Input* running = nullptr;
 
 void saveInput(const char* name = kDefectFile)
@@ -206,12 +209,13 @@ int main(int argc, char** argv)
 	}
 	ricci::testing::Random random(seed);
 	const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
-	for (long i = 0; i < runs || std::chrono::steady_clock::now() < end; ++i)
+	for (long i = 0; i < runs || std::chrono::steady_clock::now() < end; ++i) {
 		if (!session.execute(generate(corpus, random)))
 			return 1;
-	if (session.executions() % 1000000 == 0) {
-		session.print(false);
-		std::fflush(stdout);
+		if (session.executions() % kBetweenReports == 0) {
+			session.print(false);
+			std::fflush(stdout);
+		}
 	}
 	session.print(sentences);
 	return session.defects() > 0;
