@@ -86,20 +86,24 @@ class Flattening(Parametrization):
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int
-    """points of the common refinement that are not vertices of the mesh; counted with Keep the
-    mesh too"""
+    """points of the common refinement that are not vertices of the mesh; 0 with Keep the
+    mesh"""
     edge_swaps: int
     """made by Edge swap"""
     boundary_splits: int
     """made by Edge swap"""
     euler_characteristic: int
-    """of the input, cut open where it is no oriented manifold"""
+    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
+    components are its pieces"""
     genus: int
-    """of the input, cut open where it is no oriented manifold"""
+    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
+    components are its pieces"""
     boundary_loops: int
-    """of the input, cut open where it is no oriented manifold"""
+    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
+    components are its pieces"""
     components: int
-    """of the input, cut open where it is no oriented manifold"""
+    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
+    components are its pieces"""
     cut_nonmanifold_edges: int
     """edges with more than two faces, or with two that have the same vertices"""
     split_vertices: int
@@ -113,10 +117,19 @@ class Flattening(Parametrization):
     without area"""
     cones: int
     """interior vertices that are not flat"""
+    chosen_seam_edges: int
+    """edges that are opened because seams asks for it, and their length on the mesh; edges on
+    its border do not count"""
+    chosen_seam_length: float
+    """edges that are opened because seams asks for it, and their length on the mesh; edges on
+    its border do not count"""
     seam_edges: int
-    """edges of the input along which the mesh is cut"""
+    """further edges of the input along which the mesh is cut"""
     charts: int
     """pieces in the plane"""
+    occupancy: float
+    """share of the unit square, without normalize_uv of the square that holds all charts, that
+    the charts cover"""
     capped_holes: int
     """loops closed for the flow"""
     overlapping_charts: int
@@ -127,7 +140,7 @@ class Flattening(Parametrization):
     """edges of the output that are cut to separate them, less those along which parts were
     joined elsewhere"""
     seam_length: float
-    """length of both kinds of cuts on the mesh, in its units"""
+    """length of these further edges and cuts on the mesh, in its units"""
     seam_length_relative: float
     """the same, divided by the root of the area of the mesh"""
     torus_tau_re: float
@@ -148,6 +161,9 @@ class Flattening(Parametrization):
     period_error: float
     """bound of its error: the largest distance, as logarithm, of the energies of harmonic forms
     (genus 1: the distance in the hyperbolic plane)"""
+    texture_scale: float
+    """with carry_texture, of faces that had a texture: texels of the new one for a unit of
+    length over those of the old one, mean by area in space"""
     sphere_qc_area_mean: float
     """of the sphere layer, if it was asked for"""
     sphere_area_distortion_mean: float
@@ -193,20 +209,24 @@ class Uniformization(Parametrization):
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int
-    """points of the common refinement that are not vertices of the mesh; counted with Keep the
-    mesh too"""
+    """points of the common refinement that are not vertices of the mesh; 0 with Keep the
+    mesh"""
     edge_swaps: int
     """made by Edge swap"""
     boundary_splits: int
     """made by Edge swap"""
     euler_characteristic: int
-    """of the input, cut open where it is no oriented manifold"""
+    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
+    components are its pieces"""
     genus: int
-    """of the input, cut open where it is no oriented manifold"""
+    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
+    components are its pieces"""
     boundary_loops: int
-    """of the input, cut open where it is no oriented manifold"""
+    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
+    components are its pieces"""
     components: int
-    """of the input, cut open where it is no oriented manifold"""
+    """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
+    components are its pieces"""
     cut_nonmanifold_edges: int
     """edges with more than two faces, or with two that have the same vertices"""
     split_vertices: int
@@ -220,10 +240,19 @@ class Uniformization(Parametrization):
     without area"""
     cones: int
     """interior vertices that are not flat"""
+    chosen_seam_edges: int
+    """edges that are opened because seams asks for it, and their length on the mesh; edges on
+    its border do not count"""
+    chosen_seam_length: float
+    """edges that are opened because seams asks for it, and their length on the mesh; edges on
+    its border do not count"""
     seam_edges: int
-    """edges of the input along which the mesh is cut"""
+    """further edges of the input along which the mesh is cut"""
     charts: int
     """pieces in the plane"""
+    occupancy: float
+    """share of the unit square, without normalize_uv of the square that holds all charts, that
+    the charts cover"""
     capped_holes: int
     """loops closed for the flow"""
     overlapping_charts: int
@@ -234,7 +263,7 @@ class Uniformization(Parametrization):
     """edges of the output that are cut to separate them, less those along which parts were
     joined elsewhere"""
     seam_length: float
-    """length of both kinds of cuts on the mesh, in its units"""
+    """length of these further edges and cuts on the mesh, in its units"""
     seam_length_relative: float
     """the same, divided by the root of the area of the mesh"""
     torus_tau_re: float
@@ -255,6 +284,9 @@ class Uniformization(Parametrization):
     period_error: float
     """bound of its error: the largest distance, as logarithm, of the energies of harmonic forms
     (genus 1: the distance in the hyperbolic plane)"""
+    texture_scale: float
+    """with carry_texture, of faces that had a texture: texels of the new one for a unit of
+    length over those of the old one, mean by area in space"""
     sphere_qc_area_mean: float
     """of the sphere layer, if it was asked for"""
     sphere_area_distortion_mean: float
@@ -293,11 +325,16 @@ class MeshSet(pymeshlab.MeshSet):
         ]] = 'Automatic',
         free_boundary: bool = True,
         cone_distortion: float = 0.5,
+        seams: Union[int, Literal[
+            'Shortest',
+            'Existing texture seams',
+            'Selected edges',
+            'Border of selected faces',
+        ]] = 'Shortest',
         output_triangulation: Union[int, Literal[
             'Keep the mesh',
             'Common refinement',
         ]] = 'Keep the mesh',
-        seam_hiding: float = 0.0,
         chart_margin: float = 0.0,
         colorize: bool = False,
         flat_layer: bool = False,
@@ -305,6 +342,7 @@ class MeshSet(pymeshlab.MeshSet):
             'Boundaries',
             'Capped',
         ]] = 'Boundaries',
+        seam_hiding: float = 0.0,
         cone_count: int = 0,
         cone_rounding: Union[int, Literal[
             'Free',
@@ -322,7 +360,10 @@ class MeshSet(pymeshlab.MeshSet):
         ]] = 'Least distortion',
         resolve_overlap: bool = True,
         normalize_uv: bool = True,
+        cut_strips: bool = False,
         sphere_layer: bool = False,
+        carry_texture: str = '',
+        texture_size: int = 2048,
         report: str = '',
         circle_packing: Union[int, Literal[
             'Inversive distance',
@@ -351,6 +392,12 @@ class MeshSet(pymeshlab.MeshSet):
         universal_cover: int = 0,
         generator_axes: bool = False,
         canonical_polygon: bool = False,
+        seams: Union[int, Literal[
+            'Shortest',
+            'Existing texture seams',
+            'Selected edges',
+            'Border of selected faces',
+        ]] = 'Shortest',
         free_boundary: bool = False,
         surgery: Union[int, Literal[
             'None',
@@ -360,6 +407,8 @@ class MeshSet(pymeshlab.MeshSet):
             'None',
             'Repair',
         ]] = 'Repair',
+        carry_texture: str = '',
+        texture_size: int = 2048,
         report: str = '',
         epsilon: float = 1e-08,
         max_iterations: int = 200,
@@ -383,11 +432,16 @@ def flatten(
     ]] = 'Automatic',
     free_boundary: bool = True,
     cone_distortion: float = 0.5,
+    seams: Union[int, Literal[
+        'Shortest',
+        'Existing texture seams',
+        'Selected edges',
+        'Border of selected faces',
+    ]] = 'Shortest',
     output_triangulation: Union[int, Literal[
         'Keep the mesh',
         'Common refinement',
     ]] = 'Keep the mesh',
-    seam_hiding: float = 0.0,
     chart_margin: float = 0.0,
     colorize: bool = False,
     flat_layer: bool = False,
@@ -395,6 +449,7 @@ def flatten(
         'Boundaries',
         'Capped',
     ]] = 'Boundaries',
+    seam_hiding: float = 0.0,
     cone_count: int = 0,
     cone_rounding: Union[int, Literal[
         'Free',
@@ -412,7 +467,10 @@ def flatten(
     ]] = 'Least distortion',
     resolve_overlap: bool = True,
     normalize_uv: bool = True,
+    cut_strips: bool = False,
     sphere_layer: bool = False,
+    carry_texture: str = '',
+    texture_size: int = 2048,
     report: str = '',
     circle_packing: Union[int, Literal[
         'Inversive distance',
@@ -432,18 +490,22 @@ def flatten(
         and ignore this.
     cone_distortion: Cones are added until areas typically change by less than this, relative to
         each other (0.5: by half). Read where cones are placed and their number is 0.
+    seams: Shortest: as short as can be. The others open the surface where you choose, and it is
+        cut further only where it has to be: where the texture of the mesh jumps, along selected
+        edges ('Select Crease Edges'), or around the selected faces.
     output_triangulation: Keep the mesh: vertices and faces stay as they are. Common refinement:
         faces are divided where the flow's edges cross them, so that the map is exact on every
         piece.
-    seam_hiding: 0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to
-        ten times its length, so that seams run through hollows.
     chart_margin: Room between two charts, and between the charts and the border, as a share of
-        the side of the square, for baking textures. 0.004 is 4 pixels of an image 1024 wide.
+        the side of the square, for baking textures. 0.004 is 4 pixels of an image 1024 wide, 8
+        of 2048.
     colorize: Colour the vertices by their quasi-conformal distortion: from 1 (angles kept) to
         the 99th percentile over the faces.
     flat_layer: Add a layer with the mesh laid out in the plane, cut along its seams.
     holes: What the boundary loops other than the longest are. Capped: closed for the flow, so
         that the chart goes round them without seams.
+    seam_hiding: 0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to
+        ten times its length, so that seams run through hollows.
     cone_count: The number of placed cones. 0: as many as it takes to reach 'Cones: area
         distortion'.
     cone_rounding: Free: those that change areas least. Multiples of pi/2: as quadrangulations
@@ -456,8 +518,13 @@ def flatten(
         lines that part what overlaps. Off: such charts are counted only.
     normalize_uv: Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the
         scale of the metric.
+    cut_strips: A long and narrow chart is cut across once where all charts then cover about
+        twice as much of the unit square.
     sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Only for one
         closed surface of genus 0.
+    carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
+        colours, drawn for the new texture coordinates. Empty: no texture.
+    texture_size: Width and height of the new texture, 16 to 16384 texels.
     report: A report of the run: a page with diagrams and its data beside it (.html), or the
         data alone (.csv). Empty: no report.
     circle_packing: Inversive distance: the generalized flow, exact on any triangles. Thurston:
@@ -490,6 +557,12 @@ def uniformize(
     universal_cover: int = 0,
     generator_axes: bool = False,
     canonical_polygon: bool = False,
+    seams: Union[int, Literal[
+        'Shortest',
+        'Existing texture seams',
+        'Selected edges',
+        'Border of selected faces',
+    ]] = 'Shortest',
     free_boundary: bool = False,
     surgery: Union[int, Literal[
         'None',
@@ -499,6 +572,8 @@ def uniformize(
         'None',
         'Repair',
     ]] = 'Repair',
+    carry_texture: str = '',
+    texture_size: int = 2048,
     report: str = '',
     epsilon: float = 1e-08,
     max_iterations: int = 200,
@@ -522,12 +597,18 @@ def uniformize(
         as edges. On the surface they are closed geodesics.
     canonical_polygon: Add a layer with a fundamental polygon of 4 sides for each handle, as
         edges. Its sides are geodesics that the canonical generators pair.
+    seams: Shortest: as short as can be. The others open the surface where you choose, and it is
+        cut further only where it has to be: where the texture of the mesh jumps, along selected
+        edges ('Select Crease Edges'), or around the selected faces.
     free_boundary: The circles of the boundary's vertices keep their radii, and the target holds
         inside only. Off: the target holds on the boundary too.
     surgery: What to do where the flow breaks a triangle. The mesh itself is never changed.
     finish: What is done to the flow's map before it is stored: faces that would come out
         flipped are repaired. No effect with 'Thurston', and with another surgery than
         'Intrinsic flips'.
+    carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
+        colours, drawn for the new texture coordinates. Empty: no texture.
+    texture_size: Width and height of the new texture, 16 to 16384 texels.
     report: A report of the run: a page with diagrams and its data beside it (.html), or the
         data alone (.csv). Empty: no report.
     epsilon: The flow stops when the curvature of every vertex is this close to its target, in

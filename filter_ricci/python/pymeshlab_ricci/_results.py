@@ -31,10 +31,18 @@ EUCLIDEAN_RESULTS = \
                        'with Keep the mesh'),
  'edge_swaps': ('int', 'made by Edge swap'),
  'boundary_splits': ('int', 'made by Edge swap'),
- 'euler_characteristic': ('int', 'of the input, cut open where it is no oriented manifold'),
- 'genus': ('int', 'of the input, cut open where it is no oriented manifold'),
- 'boundary_loops': ('int', 'of the input, cut open where it is no oriented manifold'),
- 'components': ('int', 'of the input, cut open where it is no oriented manifold'),
+ 'euler_characteristic': ('int',
+                          'of the input, cut open where it is no oriented manifold and at the '
+                          'seams that are chosen; components are its pieces'),
+ 'genus': ('int',
+           'of the input, cut open where it is no oriented manifold and at the seams that are '
+           'chosen; components are its pieces'),
+ 'boundary_loops': ('int',
+                    'of the input, cut open where it is no oriented manifold and at the seams '
+                    'that are chosen; components are its pieces'),
+ 'components': ('int',
+                'of the input, cut open where it is no oriented manifold and at the seams that '
+                'are chosen; components are its pieces'),
  'cut_nonmanifold_edges': ('int',
                            'edges with more than two faces, or with two that have the same '
                            'vertices'),
@@ -46,8 +54,17 @@ EUCLIDEAN_RESULTS = \
                       'drawn as a segment or a point: faces that use a vertex twice, and those '
                       'of components without area'),
  'cones': ('int', 'interior vertices that are not flat'),
- 'seam_edges': ('int', 'edges of the input along which the mesh is cut'),
+ 'chosen_seam_edges': ('int',
+                       'edges that are opened because seams asks for it, and their length on '
+                       'the mesh; edges on its border do not count'),
+ 'chosen_seam_length': ('float',
+                        'edges that are opened because seams asks for it, and their length on '
+                        'the mesh; edges on its border do not count'),
+ 'seam_edges': ('int', 'further edges of the input along which the mesh is cut'),
  'charts': ('int', 'pieces in the plane'),
+ 'occupancy': ('float',
+               'share of the unit square, without normalize_uv of the square that holds all '
+               'charts, that the charts cover'),
  'capped_holes': ('int', 'loops closed for the flow'),
  'overlapping_charts': ('int',
                         'charts that cover a part of the plane more than once; the faces that '
@@ -58,7 +75,7 @@ EUCLIDEAN_RESULTS = \
  'overlap_cuts': ('int',
                   'edges of the output that are cut to separate them, less those along which '
                   'parts were joined elsewhere'),
- 'seam_length': ('float', 'length of both kinds of cuts on the mesh, in its units'),
+ 'seam_length': ('float', 'length of these further edges and cuts on the mesh, in its units'),
  'seam_length_relative': ('float', 'the same, divided by the root of the area of the mesh'),
  'torus_tau_re': ('float', 'flat torus: its modulus in the fundamental domain'),
  'torus_tau_im': ('float', 'flat torus: its modulus in the fundamental domain'),
@@ -74,6 +91,9 @@ EUCLIDEAN_RESULTS = \
  'period_error': ('float',
                   'bound of its error: the largest distance, as logarithm, of the energies of '
                   'harmonic forms (genus 1: the distance in the hyperbolic plane)'),
+ 'texture_scale': ('float',
+                   'with carry_texture, of faces that had a texture: texels of the new one for '
+                   'a unit of length over those of the old one, mean by area in space'),
  'sphere_qc_area_mean': ('float', 'of the sphere layer, if it was asked for'),
  'sphere_area_distortion_mean': ('float', 'of the sphere layer, if it was asked for'),
  'sphere_flipped_faces': ('int', 'of the sphere layer, if it was asked for')}
