@@ -586,8 +586,7 @@ class Samples(unittest.TestCase):
         for our_filter in (common, common.HYPERBOLIC):
             section = dump.split(our_filter.NAME, 1)[1].split("</TABLE>", 1)[0]
             kinds = re.findall(r"<TR><TD> \\c (\w+)", section)
-            self.assertEqual(kinds, ["FileName" if name == "report" else kind
-                                     for name, kind, _ in our_filter.PARAMETERS])
+            self.assertEqual(kinds, [kind for _, kind, _ in our_filter.PARAMETERS])
 
     def test_scripts_of_any_order(self):
         """Stored scripts have another order, and those that the window saves another type of file."""

@@ -84,70 +84,64 @@ struct Shape
 	std::vector<Run> runs; ///< longest first
 };
 
-/// Draws an outline in cells.
+/// Draws outlines in cells, in buffers that it keeps.
 class Drawing
 {
 public:
 	/// \param reach taken, too: what is nearer than this along both axes
-	Drawing(const Outline& outline, std::complex<double> turn, double cell, double reach) :
-			m_cell(cell), m_reach(reach)
+	Drawing(double cell, double reach) : m_cell(cell), m_reach(reach / cell) {}
+
+	/// \return whether it fits into the square
+	bool draw(const Outline& outline, std::complex<double> turn, Shape& shape)
 	{
-		m_shape.motion.turn = turn;
+		shape.motion = {turn, {0.0, 0.0}};
+		m_sides.clear();
 		Box2 box;
 		for (const auto& side : outline) {
-			m_sides.push_back({m_shape.motion(side[0]), m_shape.motion(side[1])});
+			m_sides.push_back({shape.motion(side[0]), shape.motion(side[1])});
 			box.add(m_sides.back()[0]);
 		}
-		m_shape.motion.shift = {reach - box.min[0], reach - box.min[1]};
-		for (auto& side : m_sides)
+		const double reach = m_reach * m_cell;
+		shape.motion.shift = {reach - box.min[0], reach - box.min[1]};
+		m_width = cellAt(box.width() / m_cell + 2 * m_reach) + 1;
+		m_height = cellAt(box.height() / m_cell + 2 * m_reach) + 1;
+		if (std::max(m_width, m_height) > kCells)
+			return false;
+		m_spans.clear();
+		m_crossings.clear();
+		for (auto& side : m_sides) {
 			for (Point2& p : side)
 				p = {
-					(p[0] + m_shape.motion.shift[0]) / cell,
-					(p[1] + m_shape.motion.shift[1]) / cell};
-		m_reach /= cell;
-		m_shape.width = cellAt((box.width() + 2 * reach) / cell) + 1;
-		m_shape.height = cellAt((box.height() + 2 * reach) / cell) + 1;
-	}
-
-	bool fits() const { return std::max(m_shape.width, m_shape.height) <= kCells; }
-
-	Shape draw()
-	{
-		m_rows.resize(static_cast<std::size_t>(m_shape.height));
-		m_crossings.resize(m_rows.size());
-		for (const auto& side : m_sides)
+					(p[0] + shape.motion.shift[0]) / m_cell,
+					(p[1] + shape.motion.shift[1]) / m_cell};
 			drawSide(side);
-		for (auto& crossings : m_crossings)
-			fillBetween(
-				crossings, m_rows[static_cast<std::size_t>(&crossings - m_crossings.data())]);
-		int row = 0;
-		for (auto& spans : m_rows)
-			addRuns(row++, spans);
-		std::sort(m_shape.runs.begin(), m_shape.runs.end(), [](const Run& a, const Run& b) {
+		}
+		fillBetween();
+		joinSpans();
+		std::sort(m_runs.begin(), m_runs.end(), [](const Run& a, const Run& b) {
 			return std::make_tuple(a.first - a.last, a.row, a.first) <
 				   std::make_tuple(b.first - b.last, b.row, b.first);
 		});
-		return std::move(m_shape);
+		shape.width = m_width;
+		shape.height = m_height;
+		shape.runs.assign(m_runs.begin(), m_runs.end());
+		return true;
 	}
 
 private:
 	struct Crossing
 	{
+		int row;
 		double x;
 		int turns; // 1 where the side runs down, the outline's inner side on its right
 
 		bool operator<(const Crossing& other) const
 		{
-			return std::tie(x, turns) < std::tie(other.x, other.turns);
+			return std::tie(row, x, turns) < std::tie(other.row, other.x, other.turns);
 		}
 	};
 
 	static int cellAt(double x) { return static_cast<int>(std::floor(x)); }
-
-	void addSpan(std::size_t row, double from, double to)
-	{
-		m_rows[row].push_back({std::max(cellAt(from), 0), std::min(cellAt(to) + 1, m_shape.width)});
-	}
 
 	void drawSide(const std::array<Point2, 2>& side)
 	{
@@ -158,49 +152,54 @@ private:
 			return y <= low[1] ? low[0] : y >= high[1] ? high[0] : low[0] + slope * (y - low[1]);
 		};
 		const int first = std::max(cellAt(low[1] - m_reach), 0);
-		const int last = std::min(cellAt(high[1] + m_reach), m_shape.height - 1);
+		const int last = std::min(cellAt(high[1] + m_reach), m_height - 1);
 		for (int row = first; row <= last; ++row) {
 			double from = xAt(row - m_reach), to = xAt(row + 1 + m_reach);
 			if (low[1] == high[1]) {
 				from = low[0];
 				to = high[0];
 			}
-			const auto i = static_cast<std::size_t>(row);
-			addSpan(i, std::min(from, to) - m_reach, std::max(from, to) + m_reach);
+			m_spans.push_back(
+				{row,
+				 std::max(cellAt(std::min(from, to) - m_reach), 0),
+				 std::min(cellAt(std::max(from, to) + m_reach) + 1, m_width)});
 			const double middle = row + 0.5;
 			if (low[1] <= middle && middle < high[1])
-				m_crossings[i].push_back({xAt(middle), up ? -1 : 1});
+				m_crossings.push_back({row, xAt(middle), up ? -1 : 1});
 		}
 	}
 
-	void fillBetween(std::vector<Crossing>& crossings, std::vector<std::array<int, 2>>& spans)
+	void fillBetween()
 	{
-		std::sort(crossings.begin(), crossings.end());
-		int turns = 0;
-		for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
-			turns += crossings[i].turns;
+		std::sort(m_crossings.begin(), m_crossings.end());
+		int turns = 0; // 0 again at the end of each row
+		for (std::size_t i = 0; i + 1 < m_crossings.size(); ++i) {
+			const Crossing &a = m_crossings[i], &b = m_crossings[i + 1];
+			turns = a.row == b.row ? turns + a.turns : 0;
 			if (turns != 0)
-				spans.push_back({cellAt(crossings[i].x), cellAt(crossings[i + 1].x) + 1});
+				m_spans.push_back({a.row, cellAt(a.x), cellAt(b.x) + 1});
 		}
 	}
 
-	void addRuns(int row, std::vector<std::array<int, 2>>& spans)
+	void joinSpans()
 	{
-		std::sort(spans.begin(), spans.end());
-		for (const auto& [first, last] : spans) {
-			if (m_shape.runs.empty() || m_shape.runs.back().row != row ||
-				m_shape.runs.back().last < first)
-				m_shape.runs.push_back({row, first, last});
+		std::sort(m_spans.begin(), m_spans.end(), [](const Run& a, const Run& b) {
+			return std::tie(a.row, a.first, a.last) < std::tie(b.row, b.first, b.last);
+		});
+		m_runs.clear();
+		for (const Run& span : m_spans) {
+			if (m_runs.empty() || m_runs.back().row != span.row || m_runs.back().last < span.first)
+				m_runs.push_back(span);
 			else
-				m_shape.runs.back().last = std::max(m_shape.runs.back().last, last);
+				m_runs.back().last = std::max(m_runs.back().last, span.last);
 		}
 	}
 
-	double m_cell, m_reach;
-	Shape m_shape;
+	double m_cell, m_reach; // m_reach in cells
+	int m_width = 0, m_height = 0;
 	std::vector<std::array<Point2, 2>> m_sides; // in cells
-	std::vector<std::vector<std::array<int, 2>>> m_rows;
-	std::vector<std::vector<Crossing>> m_crossings;
+	std::vector<Run> m_spans, m_runs;
+	std::vector<Crossing> m_crossings;
 };
 
 /// Less is better: the side of the square, then how far out the shape lies.
@@ -323,6 +322,8 @@ std::vector<Motion> packOutlines(
 	});
 	const std::size_t largest = order.front();
 
+	Drawing drawing(cell, reach);
+	Shape drawn;
 	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]
 	for (std::size_t i = 0; i < outlines.size(); ++i) {
 		const int angles = turns[i] == ChartTurns::Free ? freeAngles : 1;
@@ -334,11 +335,9 @@ std::vector<Motion> packOutlines(
 			firsts.push_back(rationalTurn(k, angles));
 		for (std::complex<double> turn : firsts)
 			for (int q = 0; q < quarters; ++q, turn = {-turn.imag(), turn.real()}) {
-				Drawing drawing(outlines[i], turn, cell, reach);
-				if (drawing.fits()) {
-					shapes[i].push_back(drawing.draw());
-					shapes[i].back().quarter = q;
-				}
+				drawn.quarter = q;
+				if (drawing.draw(outlines[i], turn, drawn))
+					shapes[i].push_back(drawn);
 				if (tick)
 					tick();
 			}

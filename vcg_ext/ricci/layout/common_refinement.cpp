@@ -146,8 +146,9 @@ private:
 				sheets.angles[h]);
 		};
 		placePieces(tick, [&](int p, int corner) {
-			const DiskIsometry frame = rounded(disk.frame[t.halfedge(sheets.of[p])]);
-			return asPoint(frame(inSheet(p, corner).inDisk()));
+			// Rounded once, as the two sides of a seam see their points from afar.
+			const ExtendedIsometry& frame = disk.frame[t.halfedge(sheets.of[p])];
+			return asPoint(std::complex<double>(frame(inSheet(p, corner).inDisk())));
 		});
 		const OverlayPieces& pieces = m_linked.pieces;
 		m_kleinPoint.reserve(m_point.size());
