@@ -4,10 +4,10 @@
 #include "../base/tolerances.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 
 namespace ricci {
 
@@ -21,8 +21,8 @@ constexpr double kWorthMoving = 0.9;
 /// Moves from one tick to the next.
 constexpr int kTickEvery = 16;
 
-/// Bases times the square of the number of letters in their relation.
-constexpr std::size_t kTriedLetters = 64 * 20 * 20;
+/// Bases at most, and bases times the square of the number of letters in their relation.
+constexpr std::size_t kMaxTried = 32, kTriedLetters = 64 * 20 * 20;
 
 /// The operator norm: exp(d / 2) where 0 is moved by d.
 double sizeOf(const Isometry& m)
@@ -43,18 +43,23 @@ double conditionOf(const Isometry& a, const Isometry& b, Isometry& corner)
 	return sum;
 }
 
-/// One basis and the best of its moves.
+/// One basis and the best of its moves, in buffers that serve one basis after the other.
 class HandleMoves
 {
 public:
-	HandleMoves(Handles handles, const std::vector<Isometry>& peripheral) :
-			m_handles(std::move(handles)), m_isClosed(peripheral.empty())
+	/// \param letters of every basis
+	HandleMoves(std::size_t letters, const std::vector<Isometry>& peripheral) :
+			m_isClosed(peripheral.empty()), m_generators(static_cast<int>(letters))
 	{
 		for (const Isometry& element : peripheral)
 			m_tail = m_tail * element;
-		const int count = static_cast<int>(m_handles.size());
-		for (int a = 0; a < count; a += 2)
+		for (int a = 0; a < m_generators.size(); a += 2)
 			m_word.insert(m_word.end(), {{a, false}, {a + 1, false}, {a, true}, {a + 1, true}});
+	}
+
+	void start(const Handles& handles)
+	{
+		m_handles = handles;
 		measure();
 	}
 
@@ -64,7 +69,7 @@ public:
 	/// \return false if no move is worth it
 	bool improve()
 	{
-		m_best = Move();
+		m_best.letters.clear();
 		m_best.condition = kWorthMoving * m_condition;
 		for (std::size_t i = 0; i < m_handles.size(); i += 2) {
 			considerOnHandle(i);
@@ -97,13 +102,14 @@ private:
 	{
 		const Isometry &a = m_handles[i], &b = m_handles[i + 1];
 		const Isometry back = a.inverse(), down = b.inverse();
-		for (const Handles& letters :
-			 {Handles{a * b, b},
-			  Handles{a * down, b},
-			  Handles{a, b * a},
-			  Handles{a, b * back},
-			  Handles{a * b * back, back},
-			  Handles{down, b * a * down}})
+		using Letters = std::array<Isometry, 2>;
+		for (const Letters& letters :
+			 {Letters{a * b, b},
+			  Letters{a * down, b},
+			  Letters{a, b * a},
+			  Letters{a, b * back},
+			  Letters{a * b * back, back},
+			  Letters{down, b * a * down}})
 			consider(i, letters, m_corner[i / 2 + 1]);
 	}
 
@@ -114,26 +120,28 @@ private:
 		const Isometry k1 = a1 * b1 * a1.inverse() * b1.inverse(), k1Back = k1.inverse();
 		const Isometry k2 = a2 * b2 * a2.inverse() * b2.inverse(), k2Back = k2.inverse();
 		const Isometry& after = m_corner[i / 2 + 2];
-		consider(i, {k1 * a2 * k1Back, k1 * b2 * k1Back, a1, b1}, after);
-		consider(i, {a2, b2, k2Back * a1 * k2, k2Back * b1 * k2}, after);
+		using Letters = std::array<Isometry, 4>;
+		consider(i, Letters{k1 * a2 * k1Back, k1 * b2 * k1Back, a1, b1}, after);
+		consider(i, Letters{a2, b2, k2Back * a1 * k2, k2Back * b1 * k2}, after);
 		const Isometry twist = b1.inverse() * a2 * b2 * a2.inverse();
 		for (const Isometry& c : {twist, twist.inverse()})
-			consider(i, {a1 * c.inverse(), c * b1 * c.inverse(), c * a2, b2}, after);
+			consider(i, Letters{a1 * c.inverse(), c * b1 * c.inverse(), c * a2, b2}, after);
 	}
 
 	void considerConjugations()
 	{
 		for (const Isometry& letter : m_handles)
 			for (const Isometry& c : {letter, letter.inverse()}) {
-				Handles letters;
+				m_conjugates.clear();
 				for (const Isometry& m : m_handles)
-					letters.push_back(c * m * c.inverse());
-				consider(0, letters, Isometry());
+					m_conjugates.push_back(c * m * c.inverse());
+				consider(0, m_conjugates, Isometry());
 			}
 	}
 
 	/// \param after product of all letters up to the last of \p letters, which is to stay
-	void consider(std::size_t first, const Handles& letters, const Isometry& after)
+	template<class Letters>
+	void consider(std::size_t first, const Letters& letters, const Isometry& after)
 	{
 		double condition = m_condition, added = 0.0;
 		Isometry corner = m_corner[first / 2];
@@ -144,16 +152,18 @@ private:
 		condition += added;
 		// Short products of long isometries may be nothing but rounding.
 		const auto lost = static_cast<double>((after.inverse() * corner).distanceFromIdentity());
-		if (condition < m_best.condition && lost <= kUnitRoundoff * added)
-			m_best = {first, letters, condition};
+		if (condition < m_best.condition && lost <= kUnitRoundoff * added) {
+			m_best.first = first;
+			m_best.letters.assign(letters.begin(), letters.end());
+			m_best.condition = condition;
+		}
 	}
 
 	void close()
 	{
-		Array<Isometry> generators(static_cast<int>(m_handles.size()));
-		std::copy(m_handles.begin(), m_handles.end(), generators.begin());
-		closeRelation(m_word, m_tail, generators);
-		std::copy(generators.begin(), generators.end(), m_handles.begin());
+		std::copy(m_handles.begin(), m_handles.end(), m_generators.begin());
+		closeRelation(m_word, m_tail, m_generators);
+		std::copy(m_generators.begin(), m_generators.end(), m_handles.begin());
 	}
 
 	void measure()
@@ -177,6 +187,8 @@ private:
 	std::vector<double> m_share;    // of each handle in it
 	std::vector<Isometry> m_corner; // products of the letters before each handle, and of all
 	Move m_best;
+	Handles m_conjugates;
+	Array<Isometry> m_generators;
 };
 
 } // namespace
@@ -197,11 +209,12 @@ Handles bestConditioned(
 	if (bases.empty())
 		return best;
 	const std::size_t letters = 2 * bases.front().size();
-	const std::size_t tried =
-		std::max<std::size_t>(1, kTriedLetters / std::max<std::size_t>(1, letters * letters));
+	const std::size_t tried = std::clamp<std::size_t>(
+		kTriedLetters / std::max<std::size_t>(1, letters * letters), 1, kMaxTried);
 	double least = std::numeric_limits<double>::infinity();
+	HandleMoves moves(bases.front().size(), peripheral);
 	for (std::size_t i = 0; i < std::min(tried, bases.size()); ++i) {
-		HandleMoves moves(bases[i], peripheral);
+		moves.start(bases[i]);
 		int steps = 0;
 		do
 			if (tick && steps++ % kTickEvery == 0)
