@@ -248,7 +248,8 @@ public:
 	void take(const Spot& spot)
 	{
 		for (const Run& run : spot.shape->runs) {
-			auto& taken = m_taken[static_cast<std::size_t>(spot.y + run.row)];
+			const int y = spot.y + run.row;
+			auto& taken = m_taken[static_cast<std::size_t>(y)];
 			fill(taken[0], spot.x + run.first, spot.x + run.last);
 			for (std::size_t k = 0; k + 1 < taken.size(); ++k) {
 				taken[k + 1] = taken[k];
@@ -266,7 +267,8 @@ private:
 		std::size_t k = 0;
 		while (2 << k <= count)
 			++k;
-		const Row& taken = m_taken[static_cast<std::size_t>(y + run.row)][k];
+		y += run.row;
+		const Row& taken = m_taken[static_cast<std::size_t>(y)][k];
 		addMovedDown(taken, run.first, blocked);
 		addMovedDown(taken, run.last - (1 << k), blocked);
 	}
@@ -313,6 +315,7 @@ std::vector<Motion> packOutlines(
 	const double cell = side / kCells, reach = 0.5 * room;
 	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 16);
 	std::vector<double> area;
+	area.reserve(outlines.size());
 	for (const Outline& outline : outlines)
 		area.push_back(areaOf(outline));
 	std::vector<std::size_t> order(outlines.size());
@@ -372,7 +375,7 @@ std::vector<Motion> packOutlines(
 			motions[i].shift[1] += spot.y * cell;
 			if (i == order.back() && canvas.side() < least) {
 				least = canvas.side();
-				best = std::move(motions);
+				best = motions;
 			}
 		}
 		work += canvas.work();

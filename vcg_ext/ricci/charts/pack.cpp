@@ -205,6 +205,7 @@ Packing packByOutlines(
 			tick();
 	}
 	std::vector<Box2> smallBoxes;
+	smallBoxes.reserve(small.size());
 	for (const std::size_t i : small)
 		smallBoxes.push_back(boxes[i]);
 	const std::vector<Point2> shift = placeBoxes(smallBoxes, room);

@@ -321,7 +321,7 @@ bool cutStrip(const SurfaceMesh& mesh, bool turns, const Tick& tick, Parametriza
 	const ChartSides sides{std::move(across), lengthsOf(mesh, map, drawn)};
 	PartGraph graph(drawn, sides);
 	Array<int> part = halves(drawn, graph, tick);
-	if (part.size() == 0)
+	if (part.empty())
 		return false;
 	graph.part = std::move(part);
 	const std::vector<std::vector<int>> parts = connectedParts(graph);

@@ -177,7 +177,7 @@ void writeColour(
 			for (std::size_t j = 0; j < 3; ++j)
 				colour +=
 					weights[k] * triangle.corners[k][j] * static_cast<double>(face.colour[j][c]);
-		rgba[c] = static_cast<Sample>(std::clamp(kMax * colour, 0.0, kMax) + 0.5);
+		rgba[c] = static_cast<Sample>(std::lround(std::clamp(kMax * colour, 0.0, kMax)));
 	}
 	if (!hasAlpha)
 		rgba[3] = std::numeric_limits<Sample>::max();

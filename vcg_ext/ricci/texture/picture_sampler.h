@@ -43,7 +43,7 @@ public:
 	}
 
 private:
-	static Sample rounded(double x) { return static_cast<Sample>(x + 0.5); }
+	static Sample rounded(double x) { return static_cast<Sample>(std::lround(x)); }
 
 	bool m_hasAlpha;
 	double m_weight = 0.0;
