@@ -376,21 +376,12 @@ class Hyperbolic(unittest.TestCase):
                 self.assertIn("Problem with filter: " + common.HYPERBOLIC.NAME, run.text)
 
 
-class Texture(unittest.TestCase):
+class Texture(textures.TexturedTorus):
     """The parameter carry_texture: what the mesh shows stays what it shows."""
 
-    OLD, NEW = 256, 300
-
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.mesh = meshes.torus()
-        self.wedges = textures.shattered(self.mesh.faces)
+        super().setUp()
         os.mkdir(self.path("mesh"))
-
-    def path(self, *names):
-        return os.path.join(self.folder, *names)
 
     def write(self, *names, **more):
         for i, name in enumerate(names):
@@ -414,9 +405,7 @@ class Texture(unittest.TestCase):
         image = textures.read_png(self.path("mesh", "new.png"))
         self.assertEqual((image.width, image.height), (self.NEW, self.NEW))
         worst, count = textures.largest_difference(mesh, mesh.wedges, image)
-        # As in test_texture.py.
-        bound = 3.5 * 0.6 / (self.OLD / 22) * textures.GRADIENT
-        self.assertLess(worst, bound + 1 / image.top)
+        self.assertLess(worst, self.BOUND + 1 / image.top)
         self.assertGreater(count, 0.2 * self.NEW ** 2)
         return image
 

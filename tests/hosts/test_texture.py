@@ -2,8 +2,6 @@
 """The parameter carry_texture in PyMeshLab. Usage: test_texture.py BUILD_DIR [TEST...]."""
 
 import os
-import tempfile
-import unittest
 
 import common
 import meshes
@@ -11,23 +9,8 @@ import textures
 from pymeshlab_host import numpy, pymeshlab, load, mesh_set, run
 
 
-class Texture(unittest.TestCase):
+class Texture(textures.TexturedTorus):
     """What the mesh shows stays what it shows."""
-
-    OLD, NEW = 256, 300
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.mesh = meshes.torus()
-        self.wedges = textures.shattered(self.mesh.faces)
-        # A cell of 22 x 22 is an edge of at most 0.6 long: a texel beside the triangle is at most 2.5
-        # texels from one inside, and mixing takes another one.
-        self.bound = 3.5 * 0.6 / (self.OLD / 22) * textures.GRADIENT
-
-    def path(self, *names):
-        return os.path.join(self.folder, *names)
 
     def textured(self, depth=8, alpha=None):
         textures.write_png(self.path("old.png"),
@@ -45,7 +28,7 @@ class Texture(unittest.TestCase):
         mesh = meshes.Mesh(current.vertex_matrix().tolist(), current.face_matrix().tolist())
         wedges = current.wedge_tex_coord_matrix().reshape(-1, 3, 2).tolist()
         worst, count = textures.largest_difference(mesh, wedges, image)
-        self.assertLess(worst, bound or self.bound + 1 / image.top)
+        self.assertLess(worst, bound or self.BOUND + 1 / image.top)
         self.assertGreater(count, 0.2 * image.width * image.height)
 
     def test_shattered_atlas(self):
@@ -149,7 +132,7 @@ class Texture(unittest.TestCase):
         returned = self.carry(documents, common.HYPERBOLIC)
         self.assertIn("texture_scale", returned)
         # The edges are of length 1 and root 2, in cells of the same width.
-        self.bound *= 1.5 / 0.6
+        self.BOUND *= 1.5 / 0.6
         self.check(documents, textures.read_png(self.path("new.png")))
 
     def test_texture_scale(self):

@@ -2,8 +2,13 @@
 """Textured meshes for the host tests, and PNG files. Standard library only."""
 
 import math
+import os
 import struct
+import tempfile
+import unittest
 import zlib
+
+import meshes
 
 # Channels of the colour types of PNG files.
 _CHANNELS = {0: 1, 2: 3, 4: 2, 6: 4}
@@ -174,3 +179,22 @@ def write_ply(path, mesh, wedges=None, names=(), numbers=None, colours=None, coo
                 out.write(struct.pack("<B6f", 6, *(c for uv in wedges[i] for c in uv)))
             if numbers is not None:
                 out.write(struct.pack("<i", numbers[i]))
+
+
+class TexturedTorus(unittest.TestCase):
+    """A torus with an atlas of single triangles, and a folder."""
+
+    OLD, NEW = 256, 300
+    # Of the largest difference. A cell of 22 x 22 is an edge of at most 0.6 long: a texel beside the
+    # triangle is at most 2.5 texels from one inside, and mixing takes another one.
+    BOUND = 3.5 * 0.6 / (OLD / 22) * GRADIENT
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.mesh = meshes.torus()
+        self.wedges = shattered(self.mesh.faces)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)

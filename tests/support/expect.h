@@ -8,10 +8,13 @@
 
 #include <ricci/error.h>
 #include <ricci/layout/planar_layout.h>
+#include <ricci/report.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -88,6 +91,34 @@ inline void expectOpensToADisk(const Triangulation& t, const EdgeArray<char>& is
 			EXPECT_FALSE(t.isBoundary(e));
 		}
 	EXPECT_EQ(cornerWedges(t, isCut).count - (t.edgeCount() + cutEdges) + t.faceCount(), 1);
+}
+
+/// Length of the side of a triangle from corner \p k.
+inline double sideLength(const Triangle2& t, std::size_t k)
+{
+	return distance(t[k], t[(k + 1) % 3]);
+}
+
+/// The map \p uv draws every triangle congruent to itself, to what floats of the coordinates' size can.
+inline void
+expectIsometric(const SurfaceMesh& mesh, const std::vector<Triangle2>& uv, const Report& report)
+{
+	ASSERT_EQ(uv.size(), mesh.triangles.size());
+	double extent = 0.0;
+	for (const Triangle2& t : uv)
+		for (const Point2& p : t)
+			extent = std::max({extent, std::abs(p[0]), std::abs(p[1])});
+	for (std::size_t f = 0; f < uv.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Triangle& t = mesh.triangles[f];
+			EXPECT_NEAR(
+				sideLength(uv[f], k),
+				distance(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 1) % 3])]),
+				1e-6 * extent);
+		}
+	EXPECT_NEAR(report.qcMax, 1.0, 1e-4);
+	EXPECT_NEAR(report.areaDistortionMean, 1.0, 1e-5);
+	EXPECT_EQ(report.flippedFaces + report.flippedByRounding, 0);
 }
 
 } // namespace ricci::testing
