@@ -61,7 +61,7 @@ void expectTheLayoutOnTheOverlay(const FlippedFlow& flow, Random& random)
 	for (const CutGraph& cut : ways) {
 		int ticks = 0;
 		const PlanarLayout layout =
-			layOutCorners(flow.domain, flow.result, cut.isCut, [&] { ++ticks; });
+			layOutCorners(flow.domain, flow.result, cut.isCut, 0.0, [&] { ++ticks; });
 		expectCongruent(layout, onOverlay(flow, cut.isCut));
 		EXPECT_GT(ticks, 0);
 	}

@@ -260,6 +260,9 @@ TEST(AreaDistortion, OfTwoScalesHasAClosedForm)
 			EXPECT_NEAR(b.mean / a.mean, 1.0, 1e-13);
 			EXPECT_NEAR(b.spread, a.spread, 1e-12);
 		}
+	// A share that no number holds is as good as none.
+	const AreaDistortion c = areaDistortion({10.0, 5e-324, 10.0}, {1.0, 1e-6, 3.0});
+	EXPECT_NEAR(c.mean, 0.5 * 2.0 + 0.5 * 1.5, 1e-5);
 }
 
 TEST(Distortion, FacesThatRoundingToFloatFlips)

@@ -224,13 +224,12 @@ public:
 		}
 		std::sort(charts.begin(), charts.end());
 		charts.erase(std::unique(charts.begin(), charts.end()), charts.end());
-		bool crosses = false;
-		for (const int chart : charts)
-			for (const BorderSide& side : m_border[chart])
-				if (m_moves[side[0]] || m_moves[side[1]])
-					for (const int near : m_near[chart])
-						for (const BorderSide& other : m_border[near])
-							crosses = crosses || cross(drawn, side, other);
+		const bool crosses = std::any_of(charts.begin(), charts.end(), [&](int chart) {
+			const std::vector<BorderSide>& sides = m_border[chart];
+			return std::any_of(sides.begin(), sides.end(), [&](const BorderSide& side) {
+				return (m_moves[side[0]] || m_moves[side[1]]) && crossesAny(drawn, side, chart);
+			});
+		});
 		for (const int p : patch.points)
 			m_moves[p] = 0;
 		return !crosses;
@@ -239,16 +238,32 @@ public:
 private:
 	using BorderSide = std::array<int, 2>; // points
 
+	static Box2 boxOf(const DrawnTriangles& drawn, const BorderSide& side)
+	{
+		Box2 box;
+		box.add(drawn.points[side[0]]);
+		box.add(drawn.points[side[1]]);
+		return box;
+	}
+
+	/// Sides of a chart stay in its box.
+	bool crossesAny(const DrawnTriangles& drawn, const BorderSide& side, int chart) const
+	{
+		const Box2 box = boxOf(drawn, side);
+		for (const int near : m_near[chart])
+			if (m_output.boxes()[near].meets(box))
+				for (const BorderSide& other : m_border[near])
+					if (cross(drawn, side, other))
+						return true;
+		return false;
+	}
+
 	static bool cross(const DrawnTriangles& drawn, const BorderSide& s, const BorderSide& t)
 	{
 		const Point2 &a = drawn.points[s[0]], &b = drawn.points[s[1]];
 		const Point2 &c = drawn.points[t[0]], &d = drawn.points[t[1]];
-		Box2 first, second;
-		first.add(a);
-		first.add(b);
-		second.add(c);
-		second.add(d);
-		return first.meets(second) && orientation(a, b, c) * orientation(a, b, d) < 0 &&
+		return boxOf(drawn, s).meets(boxOf(drawn, t)) &&
+			   orientation(a, b, c) * orientation(a, b, d) < 0 &&
 			   orientation(c, d, a) * orientation(c, d, b) < 0;
 	}
 

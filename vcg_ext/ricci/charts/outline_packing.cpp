@@ -221,9 +221,8 @@ public:
 	/// Takes a better place of \p shape than \p best, if there is one.
 	void look(const Shape& shape, Spot& best)
 	{
-		const int wanted = std::min(best.cost[0], kCells);
-		for (int y = 0; y + shape.height <= wanted; ++y) {
-			const int last = wanted - shape.width; // of x
+		for (int y = 0; y + shape.height <= farthest(best); ++y) {
+			const int last = farthest(best) - shape.width; // of x
 			if (last < 0)
 				return;
 			Row blocked{};
@@ -260,6 +259,12 @@ public:
 	}
 
 private:
+	/// No place that reaches farther along an axis is better.
+	static int farthest(const Spot& best)
+	{
+		return best.shape ? best.cost[1] : std::min(best.cost[0] - 1, kCells);
+	}
+
 	/// Adds the x at which \p run meets cells that are taken.
 	void block(const Run& run, int y, Row& blocked) const
 	{

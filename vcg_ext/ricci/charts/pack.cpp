@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace ricci {
@@ -54,14 +55,15 @@ Point2 sum(const Point2& a, const Point2& b)
 	return {a[0] + b[0], a[1] + b[1]};
 }
 
-/// Widens boxes with a side shorter than \p least, about their middles.
+/// Widens boxes with a side shorter than \p minSide, about their middles.
 /// \return [box] 1 for these
-std::vector<char> widen(std::vector<Box2>& boxes, double least)
+std::vector<char> widen(std::vector<Box2>& boxes, double minSide)
 {
 	std::vector<char> isThin(boxes.size(), 0);
 	for (std::size_t i = 0; i < boxes.size(); ++i)
 		for (std::size_t k = 0; k < 2; ++k)
-			if (const double missing = least - (boxes[i].max[k] - boxes[i].min[k]); missing > 0.0) {
+			if (const double missing = minSide - (boxes[i].max[k] - boxes[i].min[k]);
+				missing > 0.0) {
 				boxes[i].min[k] -= 0.5 * missing;
 				boxes[i].max[k] += 0.5 * missing;
 				isThin[i] = 1;
@@ -337,14 +339,22 @@ void packStrips(
 	ChartTurns turns,
 	const Tick& tick)
 {
-	Parametrization cut = map;
+	std::optional<Parametrization> cut;
+	if (turns != ChartTurns::None)
+		cut = cutStrip(map, turns == ChartTurns::Free, tick);
 	packCharts(map, true, margin, placeBoxes, turns, tick);
-	if (turns == ChartTurns::None ||
-		!cutStrip(cut.opened.mesh, turns == ChartTurns::Free, tick, cut))
+	if (!cut)
 		return;
-	packCharts(cut, true, margin, placeBoxes, turns, tick);
-	if (cut.report.occupancy >= kWorthCutting * map.report.occupancy)
-		map = std::move(cut);
+	try {
+		packCharts(*cut, true, margin, placeBoxes, turns, tick);
+	}
+	catch (const InvalidOption& e) {
+		if (e.problem != InvalidOption::ChartMarginTooWide)
+			throw;
+		return; // there is no room for one chart more
+	}
+	if (cut->report.occupancy >= kWorthCutting * map.report.occupancy)
+		map = std::move(*cut);
 }
 
 std::vector<Box2> placeDisks(Parametrization& map)

@@ -59,6 +59,7 @@ constexpr double kWorthCutting = 1.7;
 
 /// packCharts() into the unit square, and once more with the largest chart cut by cutStrip(), which is
 /// taken where the charts then cover kWorthCutting times as much. Without turns nothing is cut.
+/// \throw what packCharts() does
 void packStrips(
 	Parametrization& map,
 	double margin,

@@ -41,7 +41,8 @@ struct Parametrization
 	Report report;
 	std::vector<std::string> notes; ///< what was done or chosen without being asked
 	std::vector<Chart> charts;
-	/// [face][corner] each chart with its smallest bounding rectangle along the axes, from the origin
+	/// [face][corner] in the plane each chart from the origin, with its smallest bounding rectangle along
+	/// the axes unless turns by right angles only are kept; in the disk as the group acts
 	std::vector<Triangle2> uv;
 	std::vector<char> reversed;          ///< [face] 1 if the face was turned round
 	std::vector<double> faceQC;          ///< sigma1 / sigma2

@@ -42,8 +42,13 @@ std::vector<Triangle2>& planeOf(Parametrization& map)
 	return map.isRefined() ? map.refined.uv : map.uv;
 }
 
+const std::vector<Triangle2>& planeOf(const Parametrization& map)
+{
+	return map.isRefined() ? map.refined.uv : map.uv;
+}
+
 /// The output's triangles of one chart, in the order of their component.
-DrawnChart drawnChart(const SurfaceMesh& mesh, Parametrization& map, const Chart& chart)
+DrawnChart drawnChart(const SurfaceMesh& mesh, const Parametrization& map, const Chart& chart)
 {
 	const std::vector<Triangle>& all = map.isRefined() ? map.refined.triangles : mesh.triangles;
 	DrawnChart drawn;
@@ -188,8 +193,8 @@ std::vector<Chart> chartsOf(
 	return charts;
 }
 
-/// The share of the plane that a chart covers.
-double areaOf(Parametrization& map, const Chart& chart)
+/// The area of the plane that a chart covers.
+double areaOf(const Parametrization& map, const Chart& chart)
 {
 	double doubled = 0.0;
 	for (const int f : trianglesOf(map, chart)) {
@@ -307,43 +312,47 @@ void separateCharts(
 	map.report.charts = static_cast<int>(map.charts.size());
 }
 
-bool cutStrip(const SurfaceMesh& mesh, bool turns, const Tick& tick, Parametrization& map)
+std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns, const Tick& tick)
 {
 	if (map.charts.empty())
-		return false;
+		return std::nullopt;
+	const SurfaceMesh& mesh = map.opened.mesh;
 	std::vector<double> area;
 	for (const Chart& chart : map.charts)
 		area.push_back(areaOf(map, chart));
-	const auto largest = std::max_element(area.begin(), area.end()) - area.begin();
-	const Chart whole = map.charts[static_cast<std::size_t>(largest)];
+	const auto largest =
+		static_cast<std::size_t>(std::max_element(area.begin(), area.end()) - area.begin());
+	const Chart& whole = map.charts[largest];
 	const DrawnChart drawn = drawnChart(mesh, map, whole);
 	Array<int> across = sidesAcross(drawn);
 	const ChartSides sides{std::move(across), lengthsOf(mesh, map, drawn)};
 	PartGraph graph(drawn, sides);
 	Array<int> part = halves(drawn, graph, tick);
 	if (part.empty())
-		return false;
+		return std::nullopt;
 	graph.part = std::move(part);
 	const std::vector<std::vector<int>> parts = connectedParts(graph);
 	if (parts.size() != 2)
-		return false;
-	const double before = map.report.seamLength;
+		return std::nullopt;
+	Parametrization cut = map;
 	for (const int side : sides.across.indices())
 		if (const int other = graph.joined(side);
 			other > side && graph.part[other / 3] != graph.part[side / 3]) {
-			++map.report.overlapCuts;
-			map.report.seamLength += sides.lengthOf(side);
+			++cut.report.overlapCuts;
+			cut.report.seamLength += sides.lengthOf(side);
 		}
-	map.report.seamLengthRelative +=
-		(map.report.seamLength - before) / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
-	std::vector<char> faceDone(mesh.triangles.size(), 0);
+	cut.report.seamLengthRelative += (cut.report.seamLength - map.report.seamLength) /
+									 std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
+	std::vector<char> faceDone(mesh.triangles.size(), 1); // by other charts
+	for (const int f : whole.faces)
+		faceDone[positionOf(f)] = 0;
 	std::vector<Chart> both = chartsOf(map, whole, parts, faceDone);
 	for (const Chart& chart : both)
-		place(map, chart, turns);
-	map.charts[static_cast<std::size_t>(largest)] = std::move(both[0]);
-	map.charts.push_back(std::move(both[1]));
-	map.report.charts = static_cast<int>(map.charts.size());
-	return true;
+		place(cut, chart, turns);
+	cut.charts[largest] = std::move(both[0]);
+	cut.charts.push_back(std::move(both[1]));
+	cut.report.charts = static_cast<int>(cut.charts.size());
+	return cut;
 }
 
 } // namespace ricci

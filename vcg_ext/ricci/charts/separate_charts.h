@@ -6,6 +6,8 @@
 #include "../surface/surface_mesh.h"
 #include "parametrization.h"
 
+#include <optional>
+
 namespace ricci {
 
 /// Finds the charts of \p map that cover a part of the plane more than once (see
@@ -13,9 +15,10 @@ namespace ricci {
 ///
 /// With \p resolve such charts are replaced by the parts of divideChart(), joined again by joinParts()
 /// across seams where they have room, each from the origin and, where \p turns, with its smallest
-/// bounding rectangle along the axes; else in the directions that it has. The report then has no overlap, but what the seams have grown or shrunk by, in edges
-/// and in length. A face of the input goes with the first of its pieces. Without \p resolve the
-/// report counts the charts, and their faces that overlap. In both cases it counts the charts.
+/// bounding rectangle along the axes; else in the directions that it has. The report then has no
+/// overlap, but what the seams have grown or shrunk by, in edges and in length. A face of the input goes
+/// with the first of its pieces. Without \p resolve the report counts the charts, and their faces that
+/// overlap. In both cases it counts the charts.
 /// \param tick see overlappingPairs()
 void separateCharts(
 	const SurfaceMesh& mesh, bool resolve, bool turns, const Tick& tick, Parametrization& map);
@@ -25,10 +28,10 @@ constexpr double kStripLength = 1.5;
 
 /// Cuts the chart that covers most of the plane once across, if its smallest bounding rectangle is
 /// longer than kStripLength times its height: along the edges of least length in space in its middle
-/// fifth. The two parts are given back as those of separateCharts(), in the report, too. A chart that would
-/// fall into more parts stays whole.
-/// \return whether it was cut
-bool cutStrip(const SurfaceMesh& mesh, bool turns, const Tick& tick, Parametrization& map);
+/// fifth. The two parts are given back as those of separateCharts(), in the report, too. A chart that
+/// would fall into more parts stays whole.
+/// \return the map that is cut, if one is
+std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns, const Tick& tick);
 
 } // namespace ricci
 

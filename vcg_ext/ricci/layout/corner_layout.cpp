@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "corner_layout.h"
 
+#include "../base/memory_estimate.h"
 #include "../surface/normal_coordinates.h"
 #include "sheets.h"
 
@@ -137,11 +138,16 @@ PlanarLayout layOutCorners(
 	const FlowDomain& domain,
 	const FlowResult& flow,
 	const EdgeArray<char>& isCut,
+	double memoryLimit,
 	const Tick& tick)
 {
 	const Triangulation& t = domain.surface.triangulation;
 	const Triangulation& end = flow.metric->triangulation();
 	const NormalCoordinates cut = cutOnEnd(domain, flow, isCut, tick);
+	std::size_t crossings = 0;
+	for (const Edge e : end.edges())
+		crossings += static_cast<std::size_t>(cut.crossings(e));
+	requireOverlayMemory(crossings, false, memoryLimit);
 	CutSheets parts(end, cut);
 	takeMetric(flow, parts.sheets);
 	PlanarLayout layout;

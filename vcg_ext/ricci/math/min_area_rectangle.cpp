@@ -106,7 +106,7 @@ OrientedRectangle minExtentRectangle(std::vector<Point2> points)
 	OrientedRectangle best;
 	measure(hull, best);
 	double bestAt = 0.0;
-	// Half the angle's tangent, 0 to 1. Between two steps an extent changes by less than their angle.
+	// Tangent of half the angle, 0 to 1. Between two steps an extent changes by less than their angle.
 	const auto look = [&](double at) {
 		OrientedRectangle r;
 		r.cosine = (1.0 - at * at) / (1.0 + at * at);

@@ -122,10 +122,10 @@ AreaDistortion areaDistortion(const std::vector<double>& before, const std::vect
 	double mean = 0.0, logMean = 0.0, logSquare = 0.0;
 	std::vector<double> binaryLogs;
 	for (std::size_t f = 0; f < before.size(); ++f) {
-		if (!counts(f))
+		const double weight = before[f] / totalBefore, share = after[f] / totalAfter;
+		if (!counts(f) || std::min(weight, share) < std::numeric_limits<double>::min())
 			continue;
-		const double weight = before[f] / totalBefore;
-		const double logFactor = std::log(after[f] / totalAfter) - std::log(weight);
+		const double logFactor = std::log(share) - std::log(weight);
 		binaryLogs.push_back(logFactor / std::log(2.0));
 		mean += weight * std::exp(std::abs(logFactor));
 		logMean += weight * logFactor;

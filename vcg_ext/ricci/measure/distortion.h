@@ -41,7 +41,7 @@ struct AreaDistortion
 };
 
 /// \param before, after [triangle] areas, not negative. Triangles where either is 0 are left out,
-/// of the totals too.
+/// of the totals too, and those whose shares of the totals are below the normal numbers.
 AreaDistortion areaDistortion(const std::vector<double>& before, const std::vector<double>& after);
 
 /// Measures the map of corner k of face f to plane[f][k], and fills the fields of \p report that

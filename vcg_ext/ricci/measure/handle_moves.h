@@ -28,8 +28,8 @@ double relationCondition(const Handles& handles);
 /// relationCondition() by a tenth or more, which bounds their number by its logarithm. Moves
 /// multiply large isometries, so the relation is closed anew after each by closeRelation().
 ///
-/// As many bases are tried, the first ones, as keeps the work independent of the genus: 64 on genus
-/// 5, 16 on genus 10, at least one.
+/// As many bases are tried, the first ones, as keeps the work independent of the genus: 32 up to genus
+/// 7, 16 on genus 10, at least one.
 /// \param peripheral the elements behind the handles in the relation
 /// \return nothing where each basis is left with a letter that moves 0 by more than
 /// kMaxGeneratorDistance, or the relation is beyond what numbers hold

@@ -157,7 +157,7 @@ void placeCorners(
 		map.layout = std::move(map.refinement.inputLayout);
 	}
 	else if (options.surgery == Surgery::IntrinsicFlips)
-		map.layout = layOutCorners(domain, map.flow, map.cut.isCut, [&] {
+		map.layout = layOutCorners(domain, map.flow, map.cut.isCut, options.memoryLimit, [&] {
 			progress.step(1.0 - kAfterFlow, "Cutting and layout");
 		});
 	else
@@ -186,9 +186,6 @@ void layOut(
 {
 	const Triangulation& t = domain.surface.triangulation;
 	const bool mayChangeCut = map.type.boundaryLoops > 1 && domain.holes == 0;
-	LinkedPieces kept;
-	if (mayChangeCut)
-		kept = overlay;
 	placeCorners(domain, std::move(overlay), options, progress, map);
 	if (mayChangeCut) {
 		// A hole round which the metric closes needs no seam.
@@ -200,7 +197,8 @@ void layOut(
 			map.cones,
 			map.cut);
 		if (map.cut.edgeCount < edges)
-			placeCorners(domain, std::move(kept), options, progress, map);
+			placeCorners(
+				domain, flowOverlay(domain, options, progress, map), options, progress, map);
 	}
 	if (!map.flow.target.hasFixed()) // else the boundary keeps its metric, which fixes the scale
 		map.scale = std::sqrt(

@@ -48,7 +48,9 @@ void keepAreas(
 		std::optional<FlowResult> next = flowAgain(
 			surface,
 			options,
-			[&](FlowStart& start) { return targetToKeepAreas(surface, start, before, request); },
+			[&](const MakeStart& start) {
+				return targetToKeepAreas(surface, start(), before, request);
+			},
 			steps,
 			progress,
 			map.flowStates);

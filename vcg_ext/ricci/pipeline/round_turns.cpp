@@ -46,7 +46,9 @@ void chooseCones(
 		std::optional<FlowResult> next = flowAgain(
 			surface,
 			options,
-			[&](FlowStart&) { return targetToRoundTurns(surface, best, turns, request, radius); },
+			[&](const MakeStart&) {
+				return targetToRoundTurns(surface, best, turns, request, radius);
+			},
 			steps,
 			progress,
 			map.flowStates);

@@ -109,15 +109,18 @@ double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)
 std::optional<FlowResult> flowAgain(
 	const EmbeddedSurface& surface,
 	const Options& options,
-	const std::function<std::optional<Target>(FlowStart&)>& chooseTarget,
+	const std::function<std::optional<Target>(const MakeStart&)>& chooseTarget,
 	int steps,
 	ProgressRange& progress,
 	std::vector<FlowState>& states)
 {
 	const Tick tick = [&] { progress.step(0.0, "Flipping edges"); };
 	try {
-		FlowStart start = flowStart(surface, options, tick);
-		const std::optional<Target> target = chooseTarget(start);
+		std::optional<FlowStart> start;
+		const MakeStart makeStart = [&]() -> FlowStart& {
+			return start ? *start : start.emplace(flowStart(surface, options, tick));
+		};
+		const std::optional<Target> target = chooseTarget(makeStart);
 		if (!target)
 			return std::nullopt;
 		for (const std::string& note : target->notes)
@@ -126,7 +129,7 @@ std::optional<FlowResult> flowAgain(
 		FlowResult flow = runRicciFlow(
 			Background::EuclideanPlane,
 			surface,
-			std::move(start),
+			std::move(makeStart()),
 			*target,
 			options,
 			[&](int step, double residual) { flowProgress(steps + step, residual); },

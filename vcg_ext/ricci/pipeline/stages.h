@@ -69,12 +69,19 @@ CutGraph cutThroughCones(
 /// Sum of the lengths of the cut's edges.
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths);
 
+/// Whether the overlay's pieces are drawn, not the corners of the mesh alone. With capped holes the area
+/// of the map is that of its pieces.
+template<class AnyOptions>
+bool drawsPieces(const FlowDomain& domain, const AnyOptions& options)
+{
+	return options.output == OutputTriangulation::CommonRefinement || domain.holes > 0;
+}
+
 /// Whether the map needs the overlay of a flow with flips: the layout of the mesh's own corners in the
 /// plane does without.
 inline bool needsOverlay(const FlowDomain& domain, const Options& options)
 {
-	return options.surgery == Surgery::IntrinsicFlips &&
-		   (options.output == OutputTriangulation::CommonRefinement || domain.holes > 0);
+	return options.surgery == Surgery::IntrinsicFlips && drawsPieces(domain, options);
 }
 
 inline bool needsOverlay(const FlowDomain&, const HyperbolicOptions& options)
@@ -93,8 +100,10 @@ LinkedPieces flowOverlay(
 {
 	if (!needsOverlay(domain, options))
 		return {};
-	const bool refines = options.output == OutputTriangulation::CommonRefinement;
-	return overlayOf(domain, map.flow, overlayListener(progress, refines, options.memoryLimit));
+	return overlayOf(
+		domain,
+		map.flow,
+		overlayListener(progress, drawsPieces(domain, options), options.memoryLimit));
 }
 
 /// commonRefinement() with what the options ask of it.
@@ -106,24 +115,27 @@ CommonRefinement refine(
 	const AnyOptions& options,
 	ProgressRange& progress)
 {
-	const bool refines = options.output == OutputTriangulation::CommonRefinement;
+	const bool draws = drawsPieces(domain, options);
 	return commonRefinement(
 		domain,
 		map.flow,
 		std::move(overlay),
 		map.cut.isCut,
-		!refines && domain.holes == 0,
-		overlayListener(progress, refines, options.memoryLimit));
+		!draws,
+		overlayListener(progress, draws, options.memoryLimit));
 }
 
-/// One more flow of a component in the plane, to a target that is chosen from a new start.
+/// Gives a flow's start, made when it is first called.
+using MakeStart = std::function<FlowStart&()>;
+
+/// One more flow of a component in the plane, from a new start.
 /// \param chooseTarget none where there is nothing to gain
 /// \param steps Newton steps that the component has taken before
 /// \return none without a target, and where the flow fails: the metrics that are there are valid
 std::optional<FlowResult> flowAgain(
 	const EmbeddedSurface& surface,
 	const Options& options,
-	const std::function<std::optional<Target>(FlowStart&)>& chooseTarget,
+	const std::function<std::optional<Target>(const MakeStart&)>& chooseTarget,
 	int steps,
 	ProgressRange& progress,
 	std::vector<FlowState>& states);

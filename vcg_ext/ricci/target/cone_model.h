@@ -20,10 +20,11 @@ namespace ricci {
 ///
 /// With u_v the factor of a unit of curvature at v, and phi_j the gradient field of u_j (see
 /// LinearFlow), the mean of u_v u_j is phi_j(v). A trial of a vertex therefore costs one linear
-/// solution, that of its own u for the diagonal of G, and none if the vertex was tried before.
+/// solution, that of its own u for the diagonal of G, and none if the vertex was tried before or a bound
+/// tells enough.
 ///
-/// Cones that are only to be fitted need no fields: G holds products of their u. The fields are made when
-/// a search asks for the first one.
+/// Cones that are only to be fitted need no fields: G holds products of their u, one for each pair. The
+/// fields are made when a search asks for the first one.
 class ConeModel
 {
 public:

@@ -57,7 +57,7 @@ public:
 	typedef ricci::Triangle2 WedgeUV;
 
 	/// [face][k] 1 where the side from corner k is to be a seam, see ricci::SurfaceMesh::seam and
-	/// ricci_seams.h; empty: no seams but those that the flow finds.
+	/// ricci_seams.h. Faces behind its end have none but those that the flow finds.
 	typedef std::vector<std::array<char, 3>> SideMarks;
 
 	struct Params : public ricci::Options
@@ -71,7 +71,8 @@ public:
 		/// all, as a share of its side; at most ricci::kMaxChartMargin.
 		double chartMargin = 0.0;
 
-		/// With normalizeUV: cut a strip across where the charts then cover about twice as much.
+		/// With normalizeUV: cut a strip across where the charts then cover about twice as much; the cut
+		/// counts as one of an overlap. Rectangles stay whole.
 		bool cutStrips = false;
 	};
 
@@ -186,7 +187,8 @@ public:
 	}
 
 	/// Writes the distortion as vertex quality and the per-vertex attributes of type ScalarType
-	/// "ricci_u" and "ricci_target_curvature". If memory runs out, nothing has changed.
+	/// "ricci_u" and "ricci_target_curvature". If memory runs out, nothing has changed, but attributes of
+	/// these names and another type are gone.
 	static void WriteVertexQuality(MeshType& m, const Result& r)
 	{
 		RequirePerVertexQuality(m);
@@ -503,7 +505,7 @@ private:
 				}
 			mesh.diagonal.push_back(diagonal);
 			if (!seams.empty())
-				mesh.seam.push_back(seams[f]);
+				mesh.seam.push_back(f < seams.size() ? seams[f] : std::array<char, 3>{0, 0, 0});
 			faceIndex.push_back(int(f));
 		}
 		if (damaged > 0)

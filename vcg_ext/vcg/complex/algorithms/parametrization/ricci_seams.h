@@ -29,8 +29,8 @@ public:
 	typedef typename Flow::SideMarks SideMarks;
 	typedef typename MeshType::FaceType FaceType;
 
-	/// Edges at which the wedge texture coordinates of two faces or their texture indices differ, bit
-	/// for bit. Coordinates of vertices differ at no edge: a mesh that has only those is open at its
+	/// Edges at which the wedge texture coordinates of two faces or their texture indices differ, if only
+	/// in the last bit; no number equals no number. Coordinates of vertices differ at no edge: a mesh that has only those is open at its
 	/// seams.
 	static SideMarks OfTexture(const MeshType& m)
 	{
@@ -77,7 +77,8 @@ private:
 	template<class TexCoord>
 	static bool Differ(const TexCoord& a, const TexCoord& b)
 	{
-		return a.N() != b.N() || a.U() != b.U() || a.V() != b.V();
+		const auto differ = [](auto x, auto y) { return x != y && (x == x || y == y); };
+		return a.N() != b.N() || differ(a.U(), b.U()) || differ(a.V(), b.V());
 	}
 
 	static void Mark(const MeshType& m, size_t face, int k, SideMarks& marks)
