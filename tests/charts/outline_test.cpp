@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/random.h"
+
+#include <ricci/base/numbers.h>
 #include <ricci/charts/outline.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -70,6 +74,63 @@ TEST(KeepApart, AgreesWithDistancesThatAreKnown)
 		EXPECT_TRUE(keepApart(outlines, 0.999999 * c.distance));
 		EXPECT_FALSE(keepApart(outlines, 1.000001 * c.distance));
 	}
+}
+
+/// A circle of n sides.
+Outline circle(const Point2& centre, double radius, int n)
+{
+	Outline outline;
+	const auto at = [&](int i) {
+		const double angle = 2.0 * kPi * (i % n) / n;
+		return Point2{centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle)};
+	};
+	for (int i = 0; i < n; ++i)
+		outline.push_back({at(i), at(i + 1)});
+	return outline;
+}
+
+TEST(KeepApart, AgreesWithEveryPairOfCornersOfRoundCharts)
+{
+	Random random(362);
+	int apart = 0;
+	for (int trial = 0; trial < 200; ++trial) {
+		std::vector<Outline> outlines;
+		for (int i = 0; i < 5; ++i)
+			outlines.push_back(circle({3.0 * i, random.real(-2.0, 2.0)}, 1.0, 20 + 30 * (i % 2)));
+		double nearest = HUGE_VAL;
+		for (std::size_t i = 0; i < outlines.size(); ++i)
+			for (std::size_t j = 0; j < i; ++j)
+				for (const auto& s : outlines[i])
+					for (const auto& t : outlines[j])
+						for (const std::size_t k : {0u, 1u}) {
+							const double to = nearestOnSegment(s[0], s[1], t[k]);
+							const double back = nearestOnSegment(t[0], t[1], s[k]);
+							nearest = std::min(
+								{nearest,
+								 distance(t[k], between(s[0], s[1], to)),
+								 distance(s[k], between(t[0], t[1], back))});
+						}
+		for (const double room : {0.5 * nearest, 0.999999 * nearest, 1.000001 * nearest, 3.0}) {
+			EXPECT_EQ(keepApart(outlines, room), room < nearest);
+			apart += room < nearest;
+		}
+	}
+	EXPECT_EQ(apart, 400);
+}
+
+TEST(KeepApart, EndsAtTheFirstPairAndWhenTickThrows)
+{
+	// Room for thousands of their sides.
+	std::vector<Outline> outlines{circle({0.0, 0.0}, 1.0, 20000), circle({1.8, 1.8}, 1.0, 20000)};
+	int ticks = 0;
+	EXPECT_TRUE(keepApart(outlines, 0.54, [&] { ++ticks; }));
+	EXPECT_GE(ticks, 20000 / 64);
+	outlines[1] = circle({2.5, 0.0}, 1.5, 30000);
+	ticks = 0;
+	EXPECT_FALSE(keepApart(outlines, 0.54, [&] { ++ticks; }));
+	EXPECT_EQ(ticks, 1); // the first side of the smaller one is its rightmost
+	EXPECT_THROW(
+		keepApart(outlines, 0.54, [] { throw std::runtime_error("stop"); }), std::runtime_error);
 }
 
 TEST(KeepApart, FindsChartsThatCrossOrHoldEachOther)

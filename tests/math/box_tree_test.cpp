@@ -26,6 +26,9 @@ std::vector<Box2> randomBoxes(int n, Random& random)
 	return boxes;
 }
 
+/// No node is left out.
+constexpr auto kEverywhere = [](int) { return false; };
+
 TEST(BoxTree, FindsEachPairOfBoxesThatMeetOnce)
 {
 	Random random(350);
@@ -62,7 +65,8 @@ TEST(BoxTree, FindsTheBoxesRoundAPoint)
 			for (int i = 0; i < n; ++i)
 				if (boxes[positionOf(i)].contains(p))
 					expected.push_back(i);
-			tree.boxesAround(p, [&](int i) { found.push_back(i); });
+			tree.boxesAround(
+				p, [&](int i) { found.push_back(i); }, kEverywhere);
 			std::sort(found.begin(), found.end());
 			EXPECT_EQ(found, expected);
 			count += static_cast<int>(expected.size());
@@ -123,7 +127,7 @@ TEST(BoxTree, LeavesOutNodesThatAreApart)
 					list.push_back(i);
 			};
 		};
-		tree.boxesAround(p, keepOnes(ones));
+		tree.boxesAround(p, keepOnes(ones), kEverywhere);
 		tree.boxesAround(p, keepOnes(some), [&](int node) { return colours[node] == 2; });
 		EXPECT_EQ(some, ones);
 		found += static_cast<int>(ones.size());

@@ -85,6 +85,27 @@ TEST(Box2, HoldsItsPointsAndNoMore)
 	EXPECT_FALSE(Box2().contains({0, 0}));
 }
 
+TEST(NearestOnSegment, HasNoNearerPointBesideIt)
+{
+	Random random(361);
+	for (int i = 0; i < 2000; ++i) {
+		const Point2 a = randomPoint(random), b = randomPoint(random), p = randomPoint(random);
+		const double share = nearestOnSegment(a, b, p);
+		EXPECT_GE(share, 0.0);
+		EXPECT_LE(share, 1.0);
+		const double apart = distance(p, between(a, b, share));
+		for (int k = 0; k <= 64; ++k)
+			EXPECT_LE(apart, distance(p, between(a, b, k / 64.0)) * (1.0 + 1e-12));
+	}
+	const Point2 a{1.0, 2.0}, b{5.0, 2.0};
+	EXPECT_EQ(nearestOnSegment(a, b, {2.0, 7.0}), 0.25);
+	EXPECT_EQ(nearestOnSegment(a, b, {9.0, 2.5}), 1.0);
+	EXPECT_EQ(nearestOnSegment(a, b, {-3.0, 2.5}), 0.0);
+	EXPECT_EQ(nearestOnSegment(a, a, b), 0.0);
+	EXPECT_EQ(between(a, b, 0.25), (Point2{2.0, 2.0}));
+	EXPECT_EQ(between(a, a, 1.0), a);
+}
+
 TEST(Box2, MeetsOnlyWithInnerPointsInCommon)
 {
 	const auto box = [](double x0, double y0, double x1, double y1) {

@@ -36,13 +36,6 @@ Picture<Sample> plain(int width, int height, const std::array<Sample, 4>& colour
 	return picture;
 }
 
-/// A square of two triangles from (x, y).
-std::vector<Triangle2> box(double x, double y, double width, double height)
-{
-	const Point2 a{x, y}, b{x + width, y}, c{x + width, y + height}, d{x, y + height};
-	return {Triangle2{a, b, c}, Triangle2{a, c, d}};
-}
-
 template<class Sample>
 class CarryTextureOf : public ::testing::Test
 {
@@ -421,6 +414,30 @@ TEST(CarryTexture, CanBeCancelled)
 				}),
 			std::runtime_error);
 	}
+}
+
+TEST(CarryTexture, VisitsOnlyTheTilesOfAPicture)
+{
+	// 64 cells, each one tile of the result and of a picture of its own.
+	const int cells = 8, size = 64 * cells, pictures = cells * cells;
+	const Square square(cells);
+	CarriedMesh mesh = carriedMesh(square, square.place, square.place);
+	std::vector<Picture<unsigned char>> old;
+	std::vector<PictureView<const unsigned char>> views;
+	for (int i = 0; i < pictures; ++i)
+		old.push_back(plain<unsigned char>(8, 8, {static_cast<unsigned char>(i), 0, 0, 255}));
+	for (int i = 0; i < pictures; ++i) {
+		views.push_back(old[positionOf(i)].view());
+		mesh.faces[positionOf(2 * i)].picture = mesh.faces[positionOf(2 * i + 1)].picture = i;
+	}
+	Picture<unsigned char> result(size, size);
+	int ticks = 0;
+	carryTexture<unsigned char>(mesh, views, false, result.target(), 1, [&] { ++ticks; });
+	// All tiles of all pictures would be 64 * 64 of them, the rows of the fill are 512.
+	EXPECT_LT(ticks, 512 + pictures * 16);
+	for (int y = 0; y < size; ++y)
+		for (int x = 0; x < size; ++x)
+			ASSERT_EQ(result.at(x, y)[0], (size - 1 - y) / 64 * cells + x / 64);
 }
 
 TEST(TexelDensityTest, CountsTexelsOfAUnitOfLength)

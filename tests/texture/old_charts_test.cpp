@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 namespace ricci::testing {
@@ -20,6 +21,13 @@ std::size_t chartsOf(const std::vector<TexturedFace>& faces)
 {
 	const std::vector<int> charts = oldCharts(faces, nullptr);
 	return std::set<int>(charts.begin(), charts.end()).size();
+}
+
+std::vector<int> allOf(const std::vector<TexturedFace>& faces)
+{
+	std::vector<int> numbers(faces.size());
+	std::iota(numbers.begin(), numbers.end(), 0);
+	return numbers;
 }
 
 TEST(OldCharts, AreJoinedByEqualCoordinates)
@@ -55,7 +63,7 @@ TEST(OldOwners, KnowTheTexelsOfEachChart)
 	const std::vector<TexturedFace> faces = facesOf(square, shatteredAtlas(32, random));
 	const std::vector<int> charts = oldCharts(faces, nullptr);
 	const int size = 80; // the diagonals of the cells of 20 x 20 run through middles of texels
-	const OldOwners owners(faces, charts, 0, size, size, nullptr);
+	const OldOwners owners(faces, charts, allOf(faces), size, size, nullptr);
 	for (int y = 0; y < size; ++y)
 		for (int x = 0; x < size; ++x) {
 			const bool onDiagonal = x % 20 == 19 - y % 20;
@@ -79,10 +87,41 @@ TEST(OldOwners, ShareWhatOverlaps)
 	faces[1].uv = {Point2{1, 0}, Point2{0, 0}, Point2{1, 1}}; // on the first one, turned over
 	faces[1].vertices = {4, 5, 6};
 	const std::vector<int> charts = oldCharts(faces, nullptr);
-	const OldOwners owners(faces, charts, 0, 10, 10, nullptr);
+	const OldOwners owners(faces, charts, allOf(faces), 10, 10, nullptr);
 	const std::size_t middle = 6 * 10 + 7;
 	EXPECT_TRUE(owners.of(charts[0]).has(middle));
 	EXPECT_TRUE(owners.of(charts[1]).has(middle));
+}
+
+TEST(OldOwners, CostsNoMoreThanAFewPicturesWhereAllFacesShowAllOfIt)
+{
+	// A thousand tiles, each with the whole picture in two triangles of one chart, in turns mirrored.
+	std::vector<TexturedFace> faces;
+	const std::vector<Triangle2> whole = box(0.0, 0.0, 1.0, 1.0);
+	for (int tile = 0; tile < 1000; ++tile)
+		for (const int half : {0, 1}) {
+			TexturedFace face;
+			face.picture = 0;
+			const int v = 4 * tile;
+			face.vertices = half == 0 ? Triangle{v, v + 1, v + 2} : Triangle{v, v + 2, v + 3};
+			face.uv = whole[positionOf(half)];
+			if (tile % 2 == 1)
+				for (Point2& p : face.uv)
+					p[0] = 1.0 - p[0];
+			faces.push_back(face);
+		}
+	const std::vector<int> charts = oldCharts(faces, nullptr);
+	const int size = 256; // 65536 texels: one tick
+	int ticks = 0;
+	const OldOwners owners(faces, charts, allOf(faces), size, size, [&] { ++ticks; });
+	const int ofPictures = static_cast<int>(OldOwners::kMaxLayers) + 2, ofFaces = 2;
+	EXPECT_LE(ticks, 2 * (ofPictures + ofFaces));
+	EXPECT_GE(ticks, 2 * ofPictures - 4);
+	for (const int chart : charts)
+		for (std::size_t texel = 0; texel < size * size; texel += 37) {
+			ASSERT_TRUE(owners.of(chart).has(texel));
+			ASSERT_FALSE(owners.of(chart).repeats());
+		}
 }
 
 TEST(OldTexels, StartInTheFirstPicture)

@@ -79,6 +79,13 @@ inline std::vector<Triangle2> shatteredAtlas(std::size_t triangles, Random& rand
 	return atlas;
 }
 
+/// A square of two triangles from (x, y).
+inline std::vector<Triangle2> box(double x, double y, double width, double height)
+{
+	const Point2 a{x, y}, b{x + width, y}, c{x + width, y + height}, d{x, y + height};
+	return {Triangle2{a, b, c}, Triangle2{a, c, d}};
+}
+
 /// Every triangle by itself, with another map in place of each corner.
 inline std::vector<Triangle2>
 mapped(const std::vector<Triangle2>& triangles, const std::function<Point2(const Point2&)>& map)

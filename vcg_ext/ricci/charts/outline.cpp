@@ -19,12 +19,7 @@ using Segment = std::array<Point2, 2>;
 
 double distanceFrom(const Segment& s, const Point2& p)
 {
-	const std::complex<double> a = asComplex(s[0]), along = asComplex(s[1]) - a;
-	const double length = std::norm(along);
-	const std::complex<double> q = asComplex(p) - a;
-	const double share =
-		length > 0.0 ? std::clamp((std::conj(along) * q).real() / length, 0.0, 1.0) : 0.0;
-	return std::abs(q - share * along);
+	return distance(p, between(s[0], s[1], nearestOnSegment(s[0], s[1], p)));
 }
 
 bool cross(const Segment& s, const Segment& t)
@@ -132,31 +127,36 @@ Outline outlineOf(const std::vector<Triangle2>& triangles)
 	return outline;
 }
 
-bool keepApart(const std::vector<Outline>& outlines, double room)
+bool keepApart(const std::vector<Outline>& outlines, double room, const Tick& tick)
 {
-	std::vector<Segment> sides;
-	std::vector<std::size_t> owner;
-	std::vector<Box2> boxes, charts;
+	std::vector<BoxTree> sides;
+	std::vector<Box2> charts;
 	for (const Outline& outline : outlines) {
+		std::vector<Box2> boxes;
 		Box2 whole;
 		for (const Segment& s : outline) {
-			sides.push_back(s);
-			owner.push_back(charts.size());
-			boxes.push_back(boxOf(s, room));
+			boxes.push_back(boxOf(s, 0.5 * room));
 			whole.add(boxes.back());
 		}
+		sides.emplace_back(boxes);
 		charts.push_back(whole);
 	}
+	std::size_t steps = 0;
 	bool apart = true;
-	BoxTree(boxes).meetingPairs([&](int i, int j) {
-		const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-		apart = apart && (owner[a] == owner[b] || distance(sides[a], sides[b]) >= room);
-	});
-	// Where the sides keep apart, a chart that meets another lies in it.
 	BoxTree(charts).meetingPairs([&](int i, int j) {
-		const Outline &a = outlines[static_cast<std::size_t>(i)],
-					  &b = outlines[static_cast<std::size_t>(j)];
-		apart = apart && !contains(a, b.front()[0]) && !contains(b, a.front()[0]);
+		std::size_t few = positionOf(i), many = positionOf(j);
+		if (outlines[few].size() > outlines[many].size())
+			std::swap(few, many);
+		const Outline &a = outlines[few], &b = outlines[many];
+		const auto isNear = [&](const Segment& s) {
+			tickNowAndThen(tick, 1024 * steps++);
+			return sides[many].meetsAny(boxOf(s, 0.5 * room), [&](int side) {
+				return distance(s, b[positionOf(side)]) < room;
+			});
+		};
+		// Where the sides keep apart, a chart that meets another lies in it.
+		apart = apart && std::none_of(a.begin(), a.end(), isNear) && !contains(a, b.front()[0]) &&
+				!contains(b, a.front()[0]);
 	});
 	return apart;
 }

@@ -59,14 +59,8 @@ public:
 		}
 	}
 
-	/// Calls visit(i) for each box that contains \p p, its border included.
-	template<class Visit>
-	void boxesAround(const Point2& p, const Visit& visit) const
-	{
-		boxesAround(p, visit, [](int) { return false; });
-	}
-
-	/// The same without the boxes in nodes for which isOutside(node).
+	/// Calls visit(i) for each box that contains \p p, its border included, but for those in nodes for
+	/// which isOutside(node).
 	template<class Visit, class IsOutside>
 	void boxesAround(const Point2& p, const Visit& visit, const IsOutside& isOutside) const
 	{

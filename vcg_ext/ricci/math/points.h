@@ -36,6 +36,20 @@ inline double distance(const Point3& a, const Point3& b)
 	return hypotOfThree(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
+/// Where the point of the segment ab that is nearest to p lies: 0 at a, 1 at b; 0 where a = b.
+inline double nearestOnSegment(const Point2& a, const Point2& b, const Point2& p)
+{
+	const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
+	const double along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy;
+	return square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
+}
+
+/// a at share 0, b at 1, and the points of their line between.
+inline Point2 between(const Point2& a, const Point2& b, double share)
+{
+	return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+}
+
 /// Twice the area of the triangle abc as rounding finds it, positive if counter-clockwise. Its sign
 /// is certain only from orientation().
 inline double doubledArea(const Point2& a, const Point2& b, const Point2& c)

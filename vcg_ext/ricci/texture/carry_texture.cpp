@@ -124,8 +124,8 @@ public:
 	Point2 old(const Point3& weights) const { return pointOf(m_old, weights); }
 
 	/// The map continued to \p p beside the triangle.
-	/// \param nearest the point of the triangle that is nearest to p, in the old picture
-	/// \return nearest itself where it would lead far away
+	/// \param weights of the point of the triangle that is nearest to p
+	/// \return the old place of this one where that of p would be far away
 	Point2 continued(const Point2& p, const Point3& weights) const
 	{
 		const Point2 nearest = old(weights), on = pointOf(m_new, weights);
@@ -183,97 +183,148 @@ void writeColour(
 		rgba[3] = std::numeric_limits<Sample>::max();
 }
 
-/// Draws the texels of all triangles in one old picture, or (-1) in none.
+/// One old picture, and which chart each texel of it belongs to.
 template<class Sample>
-class Drawing
+struct OldPicture
+{
+	int number;
+	const PictureView<const Sample>& view;
+	PictureSampler<Sample> sampler;
+	OldOwners owners;
+};
+
+/// Draws the texels of all triangles in one old picture after the other.
+template<class Sample>
+class TextureDrawing
 {
 public:
-	Drawing(
+	TextureDrawing(
 		const CarriedMesh& mesh,
 		const Sources& sources,
 		const std::vector<int>& charts,
 		bool hasAlpha,
-		const PictureView<Sample>& result) :
+		const PictureView<Sample>& result,
+		int threads,
+		const Tick& tick) :
 			m_mesh(mesh),
-			m_sources(sources), m_charts(charts), m_hasAlpha(hasAlpha), m_result(result)
+			m_sources(sources), m_charts(charts), m_hasAlpha(hasAlpha), m_result(result),
+			m_threads(threads), m_tick(tick), m_inARow((result.width + kTile - 1) / kTile),
+			m_rows((result.height + kTile - 1) / kTile),
+			m_pictures(positionOf(m_inARow) * positionOf(m_rows))
 	{
+		const auto isAny = [](const std::vector<int>&) { return true; };
+		forEachTile(isAny, [&](const Tile& tile) {
+			std::vector<int>& pictures = m_pictures[tile.number];
+			forEachRun(tile, [&](const Run&, const CarriedTriangle& triangle) {
+				const int picture = m_mesh.faces[positionOf(triangle.face)].picture;
+				if (!contains(pictures, picture))
+					pictures.push_back(picture);
+			});
+		});
 	}
 
-	void draw(
-		int picture,
-		const PictureView<const Sample>& old,
-		const PictureSampler<Sample>* sampler,
-		const OldOwners* owners,
-		int threads,
-		const Tick& tick) const
+	/// \param old nullptr: the faces without a picture
+	void draw(const OldPicture<Sample>* old) const
 	{
-		const int tasks = (m_result.height + kTile - 1) / kTile;
-		tasksInParallel(tasks, threads, tick, [&](int task, const Tick& own) {
-			const int top = task * kTile, bottom = std::min(top + kTile, m_result.height);
-			for (int left = 0; left < m_result.width; left += kTile) {
-				own();
-				for (int y = top; y < bottom; ++y)
-					drawRow(
-						y,
-						left,
-						std::min(left + kTile, m_result.width),
-						picture,
-						old,
-						sampler,
-						owners);
-			}
+		const int picture = old ? old->number : -1;
+		const auto shows = [&](const std::vector<int>& pictures) {
+			return contains(pictures, picture);
+		};
+		forEachTile(shows, [&](const Tile& tile) {
+			forEachRun(tile, [&](const Run& run, const CarriedTriangle& triangle) {
+				if (m_mesh.faces[positionOf(triangle.face)].picture == picture)
+					drawRun(run, triangle, old);
+			});
 		});
 	}
 
 private:
-	void drawRow(
-		int y,
-		int left,
-		int right,
-		int picture,
-		const PictureView<const Sample>& old,
-		const PictureSampler<Sample>* sampler,
-		const OldOwners* owners) const
+	struct Tile
 	{
-		for (int x = left; x < right;) {
-			const int number = m_sources.triangle(m_result.index(x, y));
-			const int first = x;
-			do
-				++x;
-			while (x < right && m_sources.triangle(m_result.index(x, y)) == number);
-			if (number < 0)
-				continue;
-			const CarriedTriangle& triangle = m_mesh.triangles[positionOf(number)];
-			const TexturedFace& face = m_mesh.faces[positionOf(triangle.face)];
-			if (face.picture != picture)
-				continue;
-			const Triangle2 corners = inTexels(triangle.uv, m_result.width, m_result.height);
-			const TriangleMap map(
-				corners, triangle, sampler ? oldTexels(face, old.width, old.height) : Triangle2{});
-			if (sampler == nullptr) {
-				for (int at = first; at < x; ++at)
-					writeColour(
-						face,
-						triangle,
-						map.weights({at + 0.5, y + 0.5}),
-						m_hasAlpha,
-						m_result.rgba + 4 * m_result.index(at, y));
-				continue;
-			}
-			const OldOwners::Chart chart = owners->of(m_charts[positionOf(triangle.face)]);
-			const Footprint footprint = map.footprint();
-			for (int at = first; at < x; ++at) {
-				const std::size_t texel = m_result.index(at, y);
-				const Point2 middle{at + 0.5, y + 0.5};
-				const Point3 weights = map.weights(middle);
-				Sample* rgba = m_result.rgba + 4 * texel;
-				if (!m_sources.inside(texel) &&
-					sampler->mean(map.continued(middle, weights), footprint, chart, rgba))
+		std::size_t number;
+		int left, right, top, bottom; // right and bottom are not in it
+	};
+
+	/// Texels of a row that show one triangle.
+	struct Run
+	{
+		int y, first, last; // last is not in it
+	};
+
+	static bool contains(const std::vector<int>& numbers, int number)
+	{
+		return std::find(numbers.begin(), numbers.end(), number) != numbers.end();
+	}
+
+	/// Calls visit(tile) in many threads where concerns(the tile's pictures).
+	template<class Concerns, class Visit>
+	void forEachTile(const Concerns& concerns, const Visit& visit) const
+	{
+		tasksInParallel(m_rows, m_threads, m_tick, [&](int row, const Tick& own) {
+			for (int i = 0; i < m_inARow; ++i) {
+				const Tile tile{
+					positionOf(row * m_inARow + i),
+					i * kTile,
+					std::min((i + 1) * kTile, m_result.width),
+					row * kTile,
+					std::min((row + 1) * kTile, m_result.height)};
+				if (!concerns(m_pictures[tile.number]))
 					continue;
-				const Point2 nearest = map.old(weights);
-				if (!sampler->mean(nearest, footprint, chart, rgba))
-					sampler->nearest(nearest, chart, rgba);
+				own();
+				visit(tile);
 			}
+		});
+	}
+
+	/// visit(run, its triangle)
+	template<class Visit>
+	void forEachRun(const Tile& tile, const Visit& visit) const
+	{
+		for (int y = tile.top; y < tile.bottom; ++y)
+			for (int x = tile.left; x < tile.right;) {
+				const int number = m_sources.triangle(m_result.index(x, y));
+				const int first = x;
+				do
+					++x;
+				while (x < tile.right && m_sources.triangle(m_result.index(x, y)) == number);
+				if (number >= 0)
+					visit(Run{y, first, x}, m_mesh.triangles[positionOf(number)]);
+			}
+	}
+
+	void
+	drawRun(const Run& run, const CarriedTriangle& triangle, const OldPicture<Sample>* old) const
+	{
+		const TexturedFace& face = m_mesh.faces[positionOf(triangle.face)];
+		const Triangle2 corners = inTexels(triangle.uv, m_result.width, m_result.height);
+		const TriangleMap map(
+			corners,
+			triangle,
+			old ? oldTexels(face, old->view.width, old->view.height) : Triangle2{});
+		if (old == nullptr) {
+			for (int x = run.first; x < run.last; ++x)
+				writeColour(
+					face,
+					triangle,
+					map.weights({x + 0.5, run.y + 0.5}),
+					m_hasAlpha,
+					m_result.rgba + 4 * m_result.index(x, run.y));
+			return;
+		}
+		const PictureSampler<Sample>& sampler = old->sampler;
+		const OldOwners::Chart chart = old->owners.of(m_charts[positionOf(triangle.face)]);
+		const Footprint footprint = map.footprint();
+		for (int x = run.first; x < run.last; ++x) {
+			const std::size_t texel = m_result.index(x, run.y);
+			const Point2 middle{x + 0.5, run.y + 0.5};
+			const Point3 weights = map.weights(middle);
+			Sample* rgba = m_result.rgba + 4 * texel;
+			if (!m_sources.inside(texel) &&
+				sampler.mean(map.continued(middle, weights), footprint, chart, rgba))
+				continue;
+			const Point2 nearest = map.old(weights);
+			if (!sampler.mean(nearest, footprint, chart, rgba))
+				sampler.nearest(nearest, chart, rgba);
 		}
 	}
 
@@ -282,14 +333,21 @@ private:
 	const std::vector<int>& m_charts;
 	bool m_hasAlpha;
 	const PictureView<Sample>& m_result;
+	int m_threads;
+	const Tick& m_tick;
+	int m_inARow, m_rows;                     // of tiles
+	std::vector<std::vector<int>> m_pictures; // [tile] that it shows; -1 for none
 };
 
-std::vector<char> hasFaces(const CarriedMesh& mesh, std::size_t pictures)
+/// [picture] its faces; the last: those without one
+std::vector<std::vector<int>> facesOfPictures(const CarriedMesh& mesh, std::size_t pictures)
 {
-	std::vector<char> used(pictures + 1, 0); // the last: without a picture
-	for (const TexturedFace& face : mesh.faces)
-		used[face.picture < 0 ? pictures : positionOf(face.picture)] = 1;
-	return used;
+	std::vector<std::vector<int>> faces(pictures + 1);
+	for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+		const int picture = mesh.faces[f].picture;
+		faces[picture < 0 ? pictures : positionOf(picture)].push_back(static_cast<int>(f));
+	}
+	return faces;
 }
 
 double area(const Triangle2& t)
@@ -308,23 +366,26 @@ void carryTexture(
 	int threads,
 	const Tick& tick)
 {
-	const std::vector<char> used = hasFaces(mesh, pictures.size());
+	const std::vector<std::vector<int>> faces = facesOfPictures(mesh, pictures.size());
 	const std::vector<int> charts = oldCharts(mesh.faces, tick);
 	std::vector<char> covered;
 	{
 		const Sources sources(mesh, result.width, tick);
-		const Drawing<Sample> drawing(mesh, sources, charts, hasAlpha, result);
+		const TextureDrawing<Sample> drawing(
+			mesh, sources, charts, hasAlpha, result, threads, tick);
 		for (std::size_t i = 0; i < pictures.size(); ++i) {
-			if (!used[i])
+			if (faces[i].empty())
 				continue;
-			const int number = static_cast<int>(i);
-			const PictureView<const Sample>& old = pictures[i];
-			const OldOwners owners(mesh.faces, charts, number, old.width, old.height, tick);
-			const PictureSampler<Sample> sampler(old, hasAlpha);
-			drawing.draw(number, old, &sampler, &owners, threads, tick);
+			const PictureView<const Sample>& view = pictures[i];
+			const OldPicture<Sample> old{
+				static_cast<int>(i),
+				view,
+				{view, hasAlpha},
+				{mesh.faces, charts, faces[i], view.width, view.height, tick}};
+			drawing.draw(&old);
 		}
-		if (used.back())
-			drawing.draw(-1, {}, nullptr, nullptr, threads, tick);
+		if (!faces.back().empty())
+			drawing.draw(nullptr);
 		covered = sources.covered();
 	}
 	fillFromNearest(covered, result, threads, tick);

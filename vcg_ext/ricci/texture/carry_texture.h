@@ -54,7 +54,8 @@ constexpr int kGutterTexels = 12;
 /// Samples are integers of 8 or 16 bits, mixed as they are stored. With equal coordinates and sizes the
 /// result is the same bit for bit in every covered texel.
 ///
-/// Memory: 4 bytes for each texel of the result, and 4 for each of the largest picture.
+/// Memory: 4 bytes for each texel of the result, and 4 for each of the largest picture or 1 more for
+/// each of the result, whichever is more.
 /// \param hasAlpha false: alpha is not read, and written as opaque
 /// \param result size x size texels
 /// \param threads that share the work; the result does not depend on it

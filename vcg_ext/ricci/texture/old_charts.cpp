@@ -90,36 +90,37 @@ Triangle2 oldTexels(const TexturedFace& face, int width, int height)
 OldOwners::OldOwners(
 	const std::vector<TexturedFace>& faces,
 	const std::vector<int>& charts,
-	int picture,
+	const std::vector<int>& shown,
 	int width,
 	int height,
 	const Tick& tick) :
-		m_extents(faces.size(), Inside)
+		m_extents(faces.size())
 {
 	const PictureView<const char> view{width, height, nullptr};
 	m_owners.assign(view.texels(), kNone);
 	const auto wrapped = [](int x, int length) { return ((x % length) + length) % length; };
 	const int far = 3 * std::max(width, height);
-	for (const bool border : {false, true})
-		for (std::size_t f = 0; f < faces.size(); ++f) {
-			if (tick && f % 1024 == 0)
-				tick();
-			if (faces[f].picture != picture)
-				continue;
+	for (const bool border : {false, true}) {
+		std::size_t visited = 0;
+		for (std::size_t i = 0; i < shown.size(); ++i) {
+			tickNowAndThen(tick, 64 * i);
+			const std::size_t f = positionOf(shown[i]);
 			const Triangle2 t = oldTexels(faces[f], width, height);
 			Box2 box;
 			for (const Point2& p : t)
 				box.add(p);
 			const int key = keyOf(charts[f]);
 			Extent& extent = m_extents[positionOf(charts[f])];
-			if (box.width() > width + kBorder || box.height() > height + kBorder) {
-				extent = All;
-				continue;
-			}
 			// They start in the picture, which v leaves at the top.
 			if (box.max[0] > width + kBorder || box.min[1] < -kBorder)
-				extent = std::max(extent, AcrossBorder);
+				extent.repeats = true;
+			if (box.width() > width + kBorder || box.height() > height + kBorder ||
+				visited > kMaxLayers * m_owners.size())
+				extent.isWhole = true;
+			if (extent.isWhole)
+				continue;
 			forEachTexelOf(t, border ? kBorder : -kBorder, -far, far, [&](int x, int y) {
+				tickNowAndThen(tick, visited++);
 				int& owner = m_owners[view.index(wrapped(x, width), wrapped(y, height))];
 				if (owner == kNone)
 					owner = border ? key + 1 : key;
@@ -131,6 +132,7 @@ OldOwners::OldOwners(
 					owner = kOutlineOfTwo;
 			});
 		}
+	}
 }
 
 } // namespace ricci

@@ -22,34 +22,41 @@ Triangle2 oldTexels(const TexturedFace& face, int width, int height);
 class OldOwners
 {
 public:
+	/// \param shown the faces with this picture
 	OldOwners(
 		const std::vector<TexturedFace>& faces,
 		const std::vector<int>& charts,
-		int picture,
+		const std::vector<int>& shown,
 		int width,
 		int height,
 		const Tick& tick);
+
+	/// Charts over one texel, in the mean, that are told apart; more would take the time of the faces
+	/// times that of the picture.
+	static constexpr std::size_t kMaxLayers = 16;
 
 	/// The texels that have colours of one chart.
 	class Chart
 	{
 	public:
-		/// Those between charts, and those with their middle on the outline of one, belong to none;
-		/// those where charts overlap belong to all. A chart with a triangle larger than the picture
-		/// has all of it.
+		/// Those between charts, and those with their middle on the outline of one, belong to none
+		/// (but where two triangles of a chart meet in a corner of it they can be its own); those where
+		/// charts overlap belong to all. A chart with a triangle larger than the picture has all of it,
+		/// as those have that come after charts with kMaxLayers times its texels.
 		bool has(std::size_t texel) const
 		{
 			const int owner = m_owners[texel];
-			return owner == m_key || owner == kOverlap || m_extent == All;
+			return owner == m_key || owner == kOverlap || m_isWhole;
 		}
 
 		/// Whether the chart goes on across the border of the picture, at the opposite side of it.
-		bool repeats() const { return m_extent != Inside; }
+		bool repeats() const { return m_repeats; }
 
 	private:
 		friend class OldOwners;
 		const int* m_owners = nullptr;
-		int m_key = 0, m_extent = 0;
+		int m_key = 0;
+		bool m_repeats = false, m_isWhole = false;
 	};
 
 	Chart of(int chart) const
@@ -57,7 +64,8 @@ public:
 		Chart texels;
 		texels.m_owners = m_owners.data();
 		texels.m_key = keyOf(chart);
-		texels.m_extent = m_extents[positionOf(chart)];
+		texels.m_repeats = m_extents[positionOf(chart)].repeats;
+		texels.m_isWhole = m_extents[positionOf(chart)].isWhole;
 		return texels;
 	}
 
@@ -68,7 +76,10 @@ private:
 
 	static constexpr int kNone = 0, kOutlineOfTwo = 1, kOverlap = 2;
 
-	enum Extent : char { Inside, AcrossBorder, All };
+	struct Extent
+	{
+		bool repeats = false, isWhole = false;
+	};
 
 	std::vector<int> m_owners;     // [texel]
 	std::vector<Extent> m_extents; // [chart]

@@ -79,9 +79,9 @@ private:
 	static int samplesAlong(const Point2& side)
 	{
 		constexpr double kSlack = 0.05; // a little larger is not smaller
-		constexpr double kMost = 64.0;
+		constexpr double kMaxSamples = 64.0;
 		const double length = std::hypot(side[0], side[1]);
-		return static_cast<int>(std::clamp(std::ceil(length - kSlack), 1.0, kMost));
+		return static_cast<int>(std::clamp(std::ceil(length - kSlack), 1.0, kMaxSamples));
 	}
 
 	Point2 m_across, m_down; // its sides
@@ -123,12 +123,12 @@ public:
 		const int y = std::min(static_cast<int>(q[1]), m_picture.height - 1);
 		std::size_t best = m_picture.index(x, y);
 		const bool onMiddle = distance(q, {x + 0.5, y + 0.5}) < kOnMiddle;
-		double least = onMiddle ? 0.0 : HUGE_VAL;
+		double nearestSoFar = onMiddle ? 0.0 : HUGE_VAL;
 		for (int dy = -kReach; dy <= kReach; ++dy)
 			for (int dx = -kReach; dx <= kReach; ++dx) {
 				const double apart = distance(q, {x + dx + 0.5, y + dy + 0.5});
-				if (apart < least && belongs(x + dx, y + dy, chart)) {
-					least = apart;
+				if (apart < nearestSoFar && belongs(x + dx, y + dy, chart)) {
+					nearestSoFar = apart;
 					best = index(x + dx, y + dy);
 				}
 			}

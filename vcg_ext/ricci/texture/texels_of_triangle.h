@@ -64,15 +64,13 @@ inline Point3 nearestInTriangle(const Triangle2& t, const Point2& p)
 			return weights;
 	}
 	Point3 nearest{1, 0, 0};
-	double least = HUGE_VAL;
+	double nearestSoFar = HUGE_VAL;
 	for (std::size_t k = 0; k < 3; ++k) {
 		const Point2 &a = t[k], &b = t[(k + 1) % 3];
-		const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
-		const double along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy;
-		const double share = square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
-		const double apart = distance(p, {a[0] + share * dx, a[1] + share * dy});
-		if (apart < least) {
-			least = apart;
+		const double share = nearestOnSegment(a, b, p);
+		const double apart = distance(p, between(a, b, share));
+		if (apart < nearestSoFar) {
+			nearestSoFar = apart;
 			nearest = {0, 0, 0};
 			nearest[k] = 1.0 - share;
 			nearest[(k + 1) % 3] = share;
