@@ -55,7 +55,7 @@ shoot() {
 }
 
 has() {
-	[[ " ${RICCI_PICTURES-kitten bunny mask annulus bust texture} " == *" $1 "* ]]
+	[[ " ${RICCI_PICTURES-kitten bunny mask annulus bust texture seams} " == *" $1 "* ]]
 }
 
 # row OUT HEIGHT NAME=TEXT...: pictures side by side on white, at most HEIGHT pixels high, a line of
@@ -68,7 +68,7 @@ row() {
 			-bordercolor white -border 8 -pointsize 17 "label:${pair#*=}" -append ')')
 	done
 	convert -background white -font DejaVu-Sans "${parts[@]}" -gravity south +append -strip +dither -colors 255 \
-		-define png:compression-level=9 "$here/$out.png"
+		-define png:compression-level=9 "PNG8:$here/$out.png"
 	echo "screenshots/$out.png: $(($(stat -c %s "$here/$out.png") / 1024)) KB"
 }
 
@@ -158,6 +158,16 @@ make_pictures() {
 		shoot texture_drawn texture_chart.ply
 		row texture 380 "texture_old=texture of single triangles" "texture_bunny_before=the mesh with it" \
 			"texture_drawn=carry_texture, in its chart" "texture_bunny_after=the mesh with this one"
+	fi
+	if has seams; then
+		local map
+		for map in creases atlas again; do
+			shoot seams_$map seams_$map.ply
+			shoot seams_${map}_chart seams_${map}_chart.ply
+		done
+		row seams 420 "seams_creases=Selected edges: the creases" "seams_creases_chart=its charts"
+		row seams_again 420 "seams_atlas=MeshLab's Voronoi atlas" "seams_atlas_chart=its charts" \
+			"seams_again=unwrapped again: Existing texture seams" "seams_again_chart=its charts"
 	fi
 	[ $# -eq 0 ] || compare rocker_arm rocker_arm_distortion
 }

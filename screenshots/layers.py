@@ -7,6 +7,7 @@ MESHES is the folder data/ of Debian's package libcgal-demo. Every surface is tu
 MeshLab's first view, from the front, is the one wanted: pictures of one surface share their camera.
 """
 
+import colorsys
 import json
 import os
 import struct
@@ -57,10 +58,11 @@ def checkerboard(path, cells, size=2048):
 
 
 def circles(path, across, size=2048):
-    """Equal circles, each touched by six others."""
+    """Equal circles, each touched by six others. Their rows fill a square, as nearly as 26 across do
+    by themselves, so that the picture can be repeated."""
     x, y = numpy.meshgrid((numpy.arange(size) + 0.5) / size, (numpy.arange(size) + 0.5) / size)
     step = 1.0 / across
-    high = step * 3 ** 0.5
+    high = 1.0 / round(1.0 / (step * 3 ** 0.5))
     distance = numpy.full_like(x, 9.0)
     for dx, dy in ((0, 0), (step / 2, high / 2)):
         u = (x - dx + step / 2) % step - step / 2
@@ -118,45 +120,83 @@ def turned(points, about_y=0.0, about_x=0.0):
 
 
 class Surface:
-    """A mesh on which the filter has run."""
+    """A mesh with texture coordinates."""
 
-    def __init__(self, source, name=FILTER, selected=None, **parameters):
+    def __init__(self, mesh, results=None):
+        self.results = results
+        self.points, self.faces = mesh.vertex_matrix(), mesh.face_matrix()
+        self.wedges = mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
+        self.quality = mesh.vertex_scalar_array()
+
+    @classmethod
+    def flattened(cls, source, name=FILTER, selected=None, **parameters):
+        """What the filter makes of a mesh, of which it gets no more than the triangles."""
         ms = documents()
         ms.add_mesh(pymeshlab.Mesh(source.vertex_matrix(), source.face_matrix()))
         if selected is not None:
             ms.compute_selection_by_condition_per_vertex(
                 condselect=" || ".join(f"(vi=={v})" for v in selected))
-        self.results = ms.apply_filter(name, **parameters)
-        mesh = ms.current_mesh()
-        self.points, self.faces = mesh.vertex_matrix(), mesh.face_matrix()
-        self.wedges = mesh.wedge_tex_coord_matrix().reshape(-1, 3, 2)
-        self.quality = mesh.vertex_scalar_array()
+        return cls.of_current(ms, name, **parameters)
 
-    def textured(self, path, texture, view, repeat=1.0):
-        write_ply(path, turned(self.points, *view), self.faces, wedges=self.wedges * repeat,
-                  texture=texture)
+    @classmethod
+    def of_current(cls, ms, name=FILTER, **parameters):
+        """What the filter makes of the current mesh with all that is selected there."""
+        results = ms.apply_filter(name, **parameters)
+        return cls(ms.current_mesh(), results)
+
+    def textured(self, path, texture, view, repeat=1.0, colours=None):
+        """With colours for the faces, those of one chart are a part of their own."""
+        if colours is None:
+            write_ply(path, turned(self.points, *view), self.faces, wedges=self.wedges * repeat,
+                      texture=texture)
+            return
+        places, faces, of_place = self.places()
+        points, vertices = turned(self.points, *view), places[:, 2].astype(int)
+        write_ply(path, points[vertices], faces, colours=colours[of_place],
+                  wedges=self.wedges * repeat, texture=texture, normal=normals(points, self.faces)[vertices])
 
     def coloured(self, path, view, top):
         """MeshLab's colours by quality are red, green, blue; the paper's are blue for 1, red for
         the top."""
         write_ply(path, turned(self.points, *view), self.faces, colours=ramp(self.quality, top))
 
-    def chart(self, path, view, texture=None, repeat=1.0, quarters=0):
-        """The plane, shaded as the surface is in that view, so that its features can be seen, and
-        turned by quarters."""
-        normal = turned(normals(self.points, self.faces), *view)
-        light = numpy.clip(0.62 + 0.38 * normal[:, 2], 0.3, 1.0)[self.faces].reshape(-1)
-        corners = self.wedges.reshape(-1, 2)
+    def places(self):
+        """Every vertex at each of its places in the plane (two coordinates and its number), the
+        faces between them, and one face at each."""
+        places, first, of_corner = numpy.unique(
+            numpy.column_stack([self.wedges.reshape(-1, 2), self.faces.reshape(-1)]), axis=0,
+            return_index=True, return_inverse=True)
+        return places, of_corner.reshape(-1, 3), first // 3
+
+    def chart_numbers(self):
+        """For each face the number of its chart, the largest chart first."""
+        places, faces, of_place = self.places()
+        chart, before = numpy.arange(len(places)), None
+        while before is None or (chart != before).any():
+            before = chart.copy()
+            least = chart[faces].min(axis=1)
+            for k in range(3):
+                numpy.minimum.at(chart, faces[:, k], least)
+            chart = chart[chart]
+        _, of_face, sizes = numpy.unique(chart[faces[:, 0]], return_inverse=True, return_counts=True)
+        rank = numpy.empty(len(sizes), dtype=int)
+        rank[numpy.argsort(-sizes, kind="stable")] = numpy.arange(len(sizes))
+        return rank[of_face.reshape(-1)]
+
+    def chart(self, path, view, texture=None, repeat=1.0, quarters=0, colours=None):
+        """The plane, shaded as the surface is in that view, so that its features can be seen, or
+        with colours for the faces, and turned by quarters."""
         # MeshLab shades one vertex for all faces at it: corners at one place are one vertex.
-        places, of_corner = numpy.unique(
-            numpy.column_stack([corners, self.faces.reshape(-1)]), axis=0, return_inverse=True)
-        of_corner = of_corner.reshape(-1)
-        grey = numpy.zeros(len(places))
-        grey[of_corner] = light
+        places, faces, of_place = self.places()
+        if colours is None:
+            normal = turned(normals(self.points, self.faces), *view)
+            light = numpy.clip(0.62 + 0.38 * normal[:, 2], 0.3, 1.0)[places[:, 2].astype(int)]
+            colours = numpy.repeat((255 * light)[:, None], 3, axis=1)
+        else:
+            colours = colours[of_place]
         turn = numpy.linalg.matrix_power(numpy.array([[0, 1], [-1, 0]]), quarters)
         points = numpy.column_stack([places[:, :2] @ turn, numpy.zeros(len(places))])
-        faces = of_corner.reshape(-1, 3)
-        write_ply(path, points, faces, colours=numpy.repeat((255 * grey)[:, None], 3, axis=1),
+        write_ply(path, points, faces, colours=colours,
                   wedges=self.wedges * repeat if texture else None, texture=texture,
                   normal=numpy.tile([0.0, 0.0, 1.0], (len(points), 1)))
 
@@ -190,6 +230,13 @@ def ramp(values, top):
     stops = numpy.linspace(0, 1, 5)
     colours = numpy.array([(0, 0, 255), (0, 255, 255), (0, 255, 0), (255, 255, 0), (255, 0, 0)])
     return numpy.column_stack([numpy.interp(t, stops, colours[:, c]) for c in range(3)])
+
+
+def tints(numbers):
+    """A light colour for each number."""
+    table = [colorsys.hsv_to_rgb((0.08 + 0.618034 * i) % 1, (0.5, 0.25)[i % 2], 1)
+             for i in range(numbers.max() + 1)]
+    return 255 * numpy.array(table)[numbers]
 
 
 def rod(a, b, radius, sides=6):
@@ -277,8 +324,8 @@ def far_apart(points, count, first):
 def kitten(meshes, out, _):
     """The paper's Figs 5, 7 and 10: the conventional against the generalized flow."""
     mesh = marching_cubes_kitten(meshes)
-    generalized = Surface(mesh, target_curvature="Flat everywhere")
-    conventional = Surface(mesh, target_curvature="Flat everywhere", circle_packing="Thurston")
+    generalized = Surface.flattened(mesh, target_curvature="Flat everywhere")
+    conventional = Surface.flattened(mesh, target_curvature="Flat everywhere", circle_packing="Thurston")
     for name, surface in (("generalized", generalized), ("conventional", conventional)):
         surface.textured(f"{out}/kitten_{name}.ply", "checkerboard.png", KITTEN, 2.5)
     compare("kitten", generalized, conventional, out, KITTEN)
@@ -286,8 +333,9 @@ def kitten(meshes, out, _):
 
 def rocker_arm(_, out, path):
     mesh = load(path).current_mesh()
-    compare("rocker_arm", Surface(mesh, target_curvature="Flat everywhere"),
-            Surface(mesh, target_curvature="Flat everywhere", circle_packing="Thurston"), out, (65, 20))
+    compare("rocker_arm", Surface.flattened(mesh, target_curvature="Flat everywhere"),
+            Surface.flattened(mesh, target_curvature="Flat everywhere", circle_packing="Thurston"),
+            out, (65, 20))
 
 
 def compare(name, generalized, conventional, out, view):
@@ -310,9 +358,9 @@ def bunny(meshes, out, _):
     mesh = load(os.path.join(meshes, "meshes", "bunny00.off")).current_mesh()
     points = mesh.vertex_matrix()
     cones = far_apart(points, 8, int(numpy.argmax(points[:, 1])))
-    surface = Surface(mesh, selected=cones, target_curvature="Cones at selected vertices")
+    surface = Surface.flattened(mesh, selected=cones, target_curvature="Cones at selected vertices")
     surface.textured(f"{out}/bunny_circles.ply", "circles.png", BUNNY, 3.0)
-    surface.textured(f"{out}/bunny_checkerboard.ply", "checkerboard.png", BUNNY, 3.0)
+    surface.textured(f"{out}/bunny_checkerboard.ply", "checkerboard.png", BUNNY, 2.2)
     surface.write_seams(f"{out}/bunny_seams.ply", BUNNY, cones)
 
 
@@ -324,9 +372,9 @@ def mask(meshes, out, _):
     mesh = largest(ms)
     # However much areas change, no cones: the boundary alone is free.
     for name, quarters, parameters in (("free", 1, {"cone_distortion": 1e9}),
-                                       ("disk", 0, {"target_curvature": "Disk"}),
-                                       ("rectangle", 0, {"target_curvature": "Rectangle"})):
-        surface = Surface(mesh, **parameters)
+                                       ("disk", 3, {"target_curvature": "Disk"}),
+                                       ("rectangle", 3, {"target_curvature": "Rectangle"})):
+        surface = Surface.flattened(mesh, **parameters)
         surface.textured(f"{out}/mask_{name}.ply", "checkerboard.png", MASK)
         surface.chart(f"{out}/mask_{name}_chart.ply", MASK, "checkerboard.png", quarters=quarters)
 
@@ -340,11 +388,11 @@ def annulus(meshes, out, _):
     ms.compute_selection_by_condition_per_vertex(condselect=f"(y > {top - 1.2})")
     ms.compute_selection_transfer_vertex_to_face()
     ms.meshing_remove_selected_faces()
-    surface = Surface(largest(ms), target_curvature="Flat everywhere", surgery="Edge swap")
+    surface = Surface.flattened(largest(ms), target_curvature="Flat everywhere", surgery="Edge swap")
     with open(f"{out}/annulus.txt", "w", encoding="utf-8") as target:
         target.write(f"annulus, {surface.results['edge_swaps']} edges swapped (Fig. 13)")
-    surface.textured(f"{out}/annulus.ply", "checkerboard.png", ANNULUS, 2.0)
-    surface.chart(f"{out}/annulus_chart.ply", ANNULUS, "checkerboard.png", 2.0)
+    surface.textured(f"{out}/annulus.ply", "checkerboard.png", ANNULUS, 1.5)
+    surface.chart(f"{out}/annulus_chart.ply", ANNULUS, "checkerboard.png", 1.5)
 
 
 def bust(meshes, out, _):
@@ -352,11 +400,11 @@ def bust(meshes, out, _):
     ms = load(os.path.join(meshes, "meshes", "mannequin-devil.off"))
     upright(ms)
     for name, says, parameters in (
-            ("plain", "version 1.0.0: no cones, no finish", {"finish": "None", "cone_distortion": 1e9}),
+            ("plain", "no cones, no finish", {"finish": "None", "cone_distortion": 1e9}),
             ("default", "default parameters", {})):
-        surface = Surface(ms.current_mesh(), **parameters)
-        surface.textured(f"{out}/bust_{name}.ply", "checkerboard.png", BUST, 2.0)
-        surface.chart(f"{out}/bust_{name}_chart.ply", BUST, "checkerboard.png", 2.0)
+        surface = Surface.flattened(ms.current_mesh(), **parameters)
+        surface.textured(f"{out}/bust_{name}.ply", "checkerboard.png", BUST, 1.4)
+        surface.chart(f"{out}/bust_{name}_chart.ply", BUST, "checkerboard.png", 1.4)
         with open(f"{out}/bust_{name}.txt", "w", encoding="utf-8") as target:
             target.write(rf"{says}\nareas change {surface.results['area_distortion_mean']:.1f}-fold")
 
@@ -406,6 +454,25 @@ def solid_texture(points, faces, wedges, size):
     return pixels
 
 
+def seams(meshes, out, _):
+    """A part cut along its creases, and an atlas of MeshLab's whose seams stay."""
+    ms = load(os.path.join(meshes, "meshes", "fandisk.off"))
+    ms.compute_selection_crease_per_edge(angledegneg=-45, angledegpos=45)
+    part = Surface.of_current(ms, seams="Selected edges")
+    ms = load(os.path.join(meshes, "meshes", "bear.off"))
+    ms.generate_voronoi_atlas_parametrization(regionnum=12)
+    ms.set_current_mesh(1)
+    ms.meshing_merge_close_vertices()  # each region is a part of its own
+    atlas = Surface(ms.current_mesh())
+    again = Surface.of_current(ms, seams="Existing texture seams")
+    # The second map of the bear has the colours of the first one's charts.
+    for name, surface, first, view in (("creases", part, part, PART), ("atlas", atlas, atlas, BEAR),
+                                       ("again", again, atlas, BEAR)):
+        colours = tints(first.chart_numbers())
+        surface.textured(f"{out}/seams_{name}.ply", "checkerboard.png", view, colours=colours)
+        surface.chart(f"{out}/seams_{name}_chart.ply", view, "checkerboard.png", colours=colours)
+
+
 def upright(ms):
     """The mannequin lies on its back."""
     ms.compute_matrix_from_rotation(rotaxis="X axis", angle=-90)
@@ -419,8 +486,9 @@ def largest(ms):
 
 
 KITTEN, BUNNY, MASK, ANNULUS, BUST = (10, 8), (-25, 5), (20, 0), (25, 25), (20, 10)
+PART, BEAR = (-30, 25), (20, 0)
 PICTURES = {"kitten": kitten, "bunny": bunny, "mask": mask, "annulus": annulus, "bust": bust,
-            "texture": texture}
+            "texture": texture, "seams": seams}
 
 
 def main(arguments):
@@ -429,7 +497,7 @@ def main(arguments):
     plugin, meshes, out = arguments[:3]
     pymeshlab.load_plugin(plugin)
     checkerboard(f"{out}/checkerboard.png", 48)
-    circles(f"{out}/circles.png", 36)
+    circles(f"{out}/circles.png", 26)
     wanted = os.environ.get("RICCI_PICTURES", " ".join(PICTURES)).split()
     for name in wanted:
         PICTURES[name](meshes, out, None)

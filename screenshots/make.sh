@@ -183,13 +183,11 @@ around() {
 }
 
 dialog() {
-	QT_FONT_DPI=84 show generalized.ply # or Apply would lie below the screen
+	show generalized.ply
 	tilt
-	shift_by 290 -30
+	shift_by 200 -30
 	open_filter "$name" || fail "the filter's dialog did not open"
-	local window
-	window=$(find_window "$name")
-	xdotool windowmove "$window" 0 0 windowsize "$window" 560 860 # all parameters in view
+	xdotool windowmove "$(find_window "$name")" 0 92
 	sleep 1
 	press_apply "$name"
 	wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "the filter did not run"
@@ -200,7 +198,6 @@ dialog() {
 
 flat() {
 	show flat.ply
-	zoom 1
 	shoot flat
 	close_meshlab
 }
