@@ -77,11 +77,12 @@ def parse(arguments):
 
 def make_job(options, mesh, name, target, record="", mark=""):
     parameters = dict(options.parameters)
-    if parameters.get("report"):
-        if record:  # the ending alone counts
-            parameters["report"] = os.path.splitext(target)[0] + os.path.splitext(
-                "x" + parameters["report"])[1]
-        parameters["report"] = os.path.abspath(parameters["report"])
+    for key in ("report", "carry_texture"):
+        if parameters.get(key):
+            if record:  # the ending alone counts
+                ending = os.path.splitext("x" + parameters[key])[1]
+                parameters[key] = os.path.splitext(target)[0] + ending
+            parameters[key] = os.path.abspath(parameters[key])
     return {"mesh": os.path.abspath(mesh), "name": name, "target": os.path.abspath(target),
             "record": record, "fingerprint": mark, "hyperbolic": options.hyperbolic,
             "parameters": parameters, "timeout": options.timeout}
