@@ -13,11 +13,12 @@
 #include <QImage>
 #include <QSaveFile>
 
+#include <string>
 #include <vector>
 
 namespace filter_ricci {
 
-/// A run's new texture. Until the run has ended well, neither file nor mesh has changed.
+/// A run's new texture. Before publish() no file has changed, before assignTo() no mesh.
 class CarriedTexture
 {
 public:
@@ -28,9 +29,12 @@ public:
 	/// Otherwise the functions below do nothing.
 	bool isWanted() const { return !m_path.isEmpty(); }
 
+	/// Width and height, in texels.
+	int size() const { return m_size; }
+
 	/// Share of the square that charts must be apart, so that the gutters of two fit between them; for
 	/// small pictures less, so that charts keep most of the room.
-	double leastMargin() const;
+	double minMargin() const;
 
 	/// Draws the picture into memory and adds its result.
 	/// \throw ricci::Cancelled and what the progress does, std::bad_alloc
@@ -41,8 +45,8 @@ public:
 		Results& results);
 
 	/// Writes the file beside its place.
-	/// \throw Refusal if there is no room for it
-	void write();
+	/// \throw Refusal if there is no room for it, ricci::Cancelled and what the progress does
+	void write(ricci::Progress& progress);
 
 	/// Moves the written file to its place.
 	/// \throw Refusal if that cannot be done
@@ -56,8 +60,15 @@ private:
 	void loadPictures(const MeshModel& model);
 	void requireMemory() const;
 
+	/// One step of drawing or writing, whose number is not known: the fraction grows towards 1.
+	void step(ricci::Progress& progress, const std::string& what);
+	void takeTriangles(const MeshModel& model, const Flow::Result& result);
+	void makeResult();
+	void convertPictures(const ricci::Tick& tick);
 	template<class Sample>
-	void drawSamples(const std::vector<QImage>& pictures, const ricci::Tick& tick);
+	void drawSamples(const ricci::Tick& tick);
+	void describe(ricci::Progress& progress, Results& results) const;
+	[[noreturn]] void refuseFile() const;
 
 	QString m_path; ///< empty: no texture is wanted
 	QString m_name; ///< that the mesh gets
@@ -67,6 +78,7 @@ private:
 	std::vector<QImage> m_pictures; // [texture of the mesh] null where no face has it
 	bool m_hasAlpha = false, m_hasWords = false;
 	int m_uncoloured = 0; ///< faces with neither texture nor colour
+	double m_ticks = 0.0;
 	QImage m_result;
 	QSaveFile m_file;
 };

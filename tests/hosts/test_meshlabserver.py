@@ -439,7 +439,7 @@ class Texture(textures.TexturedTorus):
         self.write("old.png")
         for words, values in (
                 (r"must end in \.png", {"carry_texture": "new.jpg"}),
-                ("is a texture of the mesh", {"carry_texture": "old.png"}),
+                ("name of a texture of the mesh", {"carry_texture": "old.png"}),
                 ("cannot be written", {"carry_texture": "nowhere/new.png"}),
                 ("texture_size.*16 to 16384", {"texture_size": 15}),
                 ("choose normalize_uv", {"normalize_uv": False})):
