@@ -342,9 +342,10 @@ public:
 		Results results,
 		const AddLayers& addLayers)
 	{
-		PartOfProgress last(progress, flowShare(), 1.0);
-		texture.draw(model, result, last, results);
-		texture.write(last);
+		const double drawn = 0.5 * (flowShare() + 1.0);
+		PartOfProgress drawing(progress, flowShare(), drawn), writing(progress, drawn, 1.0);
+		texture.draw(model, result, drawing, results);
+		texture.write(writing);
 		m_report.write(
 			{filterText(filter).name.toStdString(),
 			 model.shortName().toStdString(),
@@ -449,8 +450,8 @@ Outcome applyFilter(
 {
 	const RichParameterList par = withDefaults(given, filter);
 	HostProgress progress(callback, log);
-	const Outcome outcome = filter == Hyperbolic ? applyHyperbolic(par, md, progress)
-												 : applyEuclidean(par, md, progress);
+	Outcome outcome = filter == Hyperbolic ? applyHyperbolic(par, md, progress)
+										   : applyEuclidean(par, md, progress);
 	for (const std::string& line : toLogLines(outcome.results))
 		log(line);
 	log(toSentence(outcome.results));

@@ -96,6 +96,21 @@ ricci::Point3 inFace(const ricci::SurfacePoint& p, const ricci::Triangle& face)
 	return weights;
 }
 
+/// The steps of work whose number is known about only: the fraction grows towards 1.
+ricci::Tick steps(ricci::Progress& progress, const char* what, double expected)
+{
+	return [&progress, what, expected, done = 0.0]() mutable {
+		done += 1.0;
+		progress.step(done / (done + expected), what);
+	};
+}
+
+/// Squares of 128 x 128 texels: a few ticks for each, where a picture is drawn or written.
+double tiles(int size)
+{
+	return 1.0 + static_cast<double>(size) * size / (128.0 * 128.0);
+}
+
 /// Passes what is written on to a file, with a tick each time. No exception passes the library that
 /// writes: one of the tick makes the writing fail, and is kept.
 class TickingFile : public QIODevice
@@ -267,14 +282,6 @@ double CarriedTexture::minMargin() const
 	return isWanted() ? std::min(2.0 * ricci::kGutterTexels / m_size, kMaxMargin) : 0.0;
 }
 
-void CarriedTexture::step(ricci::Progress& progress, const std::string& what)
-{
-	constexpr double kSide = 64.0; // of the tiles that ticks come with, about
-	const double expected = 1.0 + m_size / kSide * (m_size / kSide);
-	m_ticks += 1.0;
-	progress.step(m_ticks / (m_ticks + expected), what);
-}
-
 void CarriedTexture::takeTriangles(const MeshModel& model, const Flow::Result& result)
 {
 	const ricci::RefinedMesh& refined = result.refined;
@@ -387,7 +394,8 @@ void CarriedTexture::draw(
 	if (!isWanted())
 		return;
 	const ricci::DefaultFloatingPoint defaultEnvironment;
-	const ricci::Tick tick = [this, &progress] { step(progress, "Drawing the texture"); };
+	const int threads = ricci::defaultThreads(); // of which one ticks
+	const ricci::Tick tick = steps(progress, "Drawing the texture", tiles(m_size) / threads);
 	tick();
 	takeTriangles(model, result);
 	makeResult();
@@ -410,7 +418,7 @@ void CarriedTexture::write(ricci::Progress& progress)
 	m_file.setFileName(m_path);
 	// Without Qt's buffer: it drops what no longer fits on a full disk and reports no error.
 	if (m_file.open(QIODevice::WriteOnly | QIODevice::Unbuffered)) {
-		TickingFile file(m_file, [this, &progress] { step(progress, "Writing the texture"); });
+		TickingFile file(m_file, steps(progress, "Writing the texture", tiles(m_size)));
 		QImageWriter writer(&file, "png");
 		writer.setQuality(
 			70); // of compression: a sixth of the default's time, files a sixth larger

@@ -13,7 +13,6 @@
 #include <QImage>
 #include <QSaveFile>
 
-#include <string>
 #include <vector>
 
 namespace filter_ricci {
@@ -60,8 +59,6 @@ private:
 	void loadPictures(const MeshModel& model);
 	void requireMemory() const;
 
-	/// One step of drawing or writing, whose number is not known: the fraction grows towards 1.
-	void step(ricci::Progress& progress, const std::string& what);
 	void takeTriangles(const MeshModel& model, const Flow::Result& result);
 	void makeResult();
 	void convertPictures(const ricci::Tick& tick);
@@ -78,7 +75,6 @@ private:
 	std::vector<QImage> m_pictures; // [texture of the mesh] null where no face has it
 	bool m_hasAlpha = false, m_hasWords = false;
 	int m_uncoloured = 0; ///< faces with neither texture nor colour
-	double m_ticks = 0.0;
 	QImage m_result;
 	QSaveFile m_file;
 };
