@@ -7,10 +7,11 @@
     python -m pymeshlab_ricci meshes out --scheduler tcp://host:8786
 
 Each mesh is a process of its own: a crash ends that mesh and nothing else. The folder OUT gets for
-meshes/a/b.off the files a/b.off.ply and a/b.off.json, and at the end results.csv with a row for
-each mesh and failures.txt with the meshes without a result. A run that was interrupted goes on
-where it stopped; a mesh runs again where mesh, parameters or plugin have changed. With a cluster,
-this package and both folders have to be on every machine, the folders at the same path.
+meshes/a/b.off the files a/b.off.ply and a/b.off.json, a/b.off.html for --report and a/b.off.png for
+--carry-texture, and at the end results.csv with a row for each mesh and failures.txt with the
+meshes without a result. A run that was interrupted goes on where it stopped; a mesh runs again
+where mesh, parameters or plugin have changed. With a cluster, this package and both folders have
+to be on every machine, the folders at the same path.
 
 Exit: 0 the mesh is solved (in a folder: or refused, each of them), 1 it is not, 130 interrupted.
 """
