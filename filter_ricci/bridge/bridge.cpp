@@ -286,9 +286,9 @@ Flow::Result computeFor(
 	const Flow::SideMarks& seams,
 	ricci::Progress& progress)
 {
-	const bool widens = texture.leastMargin() > par.chartMargin;
+	const bool widens = texture.minMargin() > par.chartMargin;
 	if (widens) {
-		par.chartMargin = texture.leastMargin();
+		par.chartMargin = texture.minMargin();
 		progress.log(
 			"Texture: a chart_margin of " + ricci::numberText(par.chartMargin, 3) +
 			" keeps its charts apart.");
@@ -301,100 +301,123 @@ Flow::Result computeFor(
 			throw;
 		throw Refusal(
 			"There are " + std::to_string(e.count) +
-			" charts, too many to be kept apart in a texture of this size: raise texture_size.");
+			(texture.size() < kMaxTextureSize
+				 ? " charts, too many to be kept apart in a texture of this size: raise "
+				   "texture_size, to " +
+					   std::to_string(kMaxTextureSize) + " at most."
+				 : " charts, too many to be kept apart in any texture: leave carry_texture "
+				   "empty."));
 	}
 }
 
-// The order of writing: first the report, because the disk may be full; then the new layers, which
-// need the most memory; last the texture's file, which has been written beside its place, and the mesh.
-// So a failure leaves the mesh as it was.
-
-void writeReport(
-	const ReportFiles& files,
-	int filter,
-	const RichParameterList& par,
-	const MeshModel& model,
-	const Flow::Result& result,
-	const Results& results,
-	ricci::Progress& progress)
+/// What the runs of both filters share: what is read first, and how the result is written.
+class Run
 {
-	const RunReport report = {
-		filterText(filter).name.toStdString(),
-		model.shortName().toStdString(),
-		settingsAsText(par),
-		result.notes,
-		results,
-		result.report};
-	for (const std::string& file : files.write(report))
-		progress.log("Report: " + file);
-}
+public:
+	/// \throw Refusal for a mesh or a file that cannot be used
+	Run(const RunSettings& settings,
+		MeshDocument& md,
+		bool readsQuality,
+		ricci::Progress& listener) :
+			progress(listener, settings.timeLimit),
+			model(checkedMesh(md, readsQuality)),
+			seams(chosenSeams(model, settings.seams, progress)), texture(settings.texture, model),
+			m_settings(settings), m_md(md), m_report(settings.report, model.pathName())
+	{
+	}
+
+	/// Share of the flow in the whole work.
+	double flowShare() const { return texture.isWanted() ? 1.0 - kTextureShare : 1.0; }
+
+	/// The order of writing: first the files, beside their places, because the disk may be full; then
+	/// the new layers, which need the most memory; then the files move to their places, and last the
+	/// mesh changes. So a failure leaves the mesh as it was, and before the files move also those.
+	/// \param addLayers called with the new layers
+	template<class AddLayers>
+	Outcome
+	end(int filter,
+		const RichParameterList& par,
+		ricci::OutputTriangulation output,
+		const Flow::Result& result,
+		Results results,
+		const AddLayers& addLayers)
+	{
+		const double drawn = 0.5 * (flowShare() + 1.0);
+		PartOfProgress drawing(progress, flowShare(), drawn), writing(progress, drawn, 1.0);
+		texture.draw(model, result, drawing, results);
+		texture.write(writing);
+		m_report.write(
+			{filterText(filter).name.toStdString(),
+			 model.shortName().toStdString(),
+			 settingsAsText(par),
+			 result.notes,
+			 results,
+			 result.report});
+		NewLayers layers(m_md);
+		addLayers(layers);
+		texture.publish();
+		for (const std::string& file : m_report.publish())
+			progress.log("Report: " + file);
+		writeMesh(model, m_settings.colorize, output, result, texture);
+		layers.keep();
+		return {results, changedElements(m_settings.colorize, output)};
+	}
+
+	ricci::TimeLimit progress;
+	MeshModel& model;
+	const Flow::SideMarks seams;
+	CarriedTexture texture;
+
+private:
+	const RunSettings& m_settings;
+	MeshDocument& m_md;
+	ReportFiles m_report;
+};
 
 Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Progress& listener)
 {
 	Settings settings = readSettings(par);
-	ricci::TimeLimit progress(listener, settings.timeLimit);
-	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::TargetCurvature::Prescribed);
-	const Flow::SideMarks seams = chosenSeams(model, settings.seams, progress);
-	const ReportFiles reportFiles(settings.report, model.pathName());
-	CarriedTexture texture(settings.texture, model);
+	Run run(settings, md, settings.flow.target == ricci::TargetCurvature::Prescribed, listener);
 	settings.flow.memoryLimit = freeMemory(); // beside the pictures
 	// The sphere first: it refuses most surfaces.
 	const double share = settings.sphereLayer ? kSphereShare : 0.0;
-	const double drawn = texture.isWanted() ? 1.0 - kTextureShare : 1.0;
-	PartOfProgress before(progress, 0.0, share), after(progress, share, drawn);
-	PartOfProgress last(progress, drawn, 1.0);
+	PartOfProgress before(run.progress, 0.0, share), flow(run.progress, share, run.flowShare());
 	ricci::SphereMap sphere;
 	if (settings.sphereLayer)
-		sphere = Flow::ComputeSphere(model.cm, settings.flow, before);
-	const Flow::Result result = computeFor(texture, model, settings.flow, seams, after);
+		sphere = Flow::ComputeSphere(run.model.cm, settings.flow, before);
+	const Flow::Result result = computeFor(run.texture, run.model, settings.flow, run.seams, flow);
 	Results results = toResults(result.report);
 	if (settings.sphereLayer)
 		addSphereResults(sphere, results);
-	texture.draw(model, result, last, results);
-	texture.write();
-	writeReport(reportFiles, Euclidean, par, model, result, results, progress);
-	NewLayers layers(md);
-	if (settings.flatLayer)
-		addFlatLayer(layers, model, "Flat", result, texture);
-	if (settings.sphereLayer)
-		addSphereLayer(layers, model, sphere);
-	texture.publish();
-	writeMesh(model, settings.colorize, settings.flow.output, result, texture);
-	layers.keep();
-	return {results, changedElements(settings.colorize, settings.flow.output)};
+	return run.end(Euclidean, par, settings.flow.output, result, results, [&](NewLayers& layers) {
+		if (settings.flatLayer)
+			addFlatLayer(layers, run.model, "Flat", result, run.texture);
+		if (settings.sphereLayer)
+			addSphereLayer(layers, run.model, sphere);
+	});
 }
 
 Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::Progress& listener)
 {
 	HyperbolicSettings settings = readHyperbolicSettings(par);
-	ricci::TimeLimit progress(listener, settings.timeLimit);
-	MeshModel& model = checkedMesh(md, settings.flow.target == ricci::HyperbolicTarget::Prescribed);
-	const Flow::SideMarks seams = chosenSeams(model, settings.seams, progress);
-	const ReportFiles reportFiles(settings.report, model.pathName());
-	CarriedTexture texture(settings.texture, model);
+	Run run(settings, md, settings.flow.target == ricci::HyperbolicTarget::Prescribed, listener);
 	settings.flow.memoryLimit = freeMemory(); // beside the pictures
-	const double drawn = texture.isWanted() ? 1.0 - kTextureShare : 1.0;
-	PartOfProgress flow(progress, 0.0, drawn), last(progress, drawn, 1.0);
-	const Flow::Result result = Flow::ComputeHyperbolic(model.cm, settings.flow, flow, seams);
+	PartOfProgress flow(run.progress, 0.0, run.flowShare());
+	const Flow::Result result =
+		Flow::ComputeHyperbolic(run.model.cm, settings.flow, flow, run.seams);
 	Results results = toResults(result.report);
 	if (result.groups.size() == 1 && result.groups.front().isCanonical())
 		addGenerators(result.groups.front(), results);
-	texture.draw(model, result, last, results);
-	texture.write();
-	writeReport(reportFiles, Hyperbolic, par, model, result, results, progress);
-	NewLayers layers(md);
-	if (settings.flatLayer)
-		addFlatLayer(layers, model, "Disk", result, texture);
-	if (settings.coverRings > 0)
-		addCoverLayer(layers, model, settings.coverRings, result);
-	if (settings.axes)
-		addAxesLayer(layers, model, result);
-	if (settings.canonicalPolygon)
-		addPolygonLayer(layers, model, result, progress);
-	texture.publish();
-	writeMesh(model, settings.colorize, settings.flow.output, result, texture);
-	layers.keep();
-	return {results, changedElements(settings.colorize, settings.flow.output)};
+	return run.end(Hyperbolic, par, settings.flow.output, result, results, [&](NewLayers& layers) {
+		if (settings.flatLayer)
+			addFlatLayer(layers, run.model, "Disk", result, run.texture);
+		if (settings.coverRings > 0)
+			addCoverLayer(layers, run.model, settings.coverRings, result);
+		if (settings.axes)
+			addAxesLayer(layers, run.model, result);
+		if (settings.canonicalPolygon)
+			addPolygonLayer(layers, run.model, result, run.progress);
+	});
 }
 
 RichParameterList withDefaults(RichParameterList par, int filter)
@@ -427,8 +450,8 @@ Outcome applyFilter(
 {
 	const RichParameterList par = withDefaults(given, filter);
 	HostProgress progress(callback, log);
-	const Outcome outcome = filter == Hyperbolic ? applyHyperbolic(par, md, progress)
-												 : applyEuclidean(par, md, progress);
+	Outcome outcome = filter == Hyperbolic ? applyHyperbolic(par, md, progress)
+										   : applyEuclidean(par, md, progress);
 	for (const std::string& line : toLogLines(outcome.results))
 		log(line);
 	log(toSentence(outcome.results));

@@ -31,7 +31,7 @@ FilterText filterText(int filter);
 /// Basic: without those that few runs need, for hosts that show every parameter they are told of.
 enum class Shown { Basic, All };
 
-/// The parameters in the order that stored .mlx scripts rely on.
+/// The parameters in the order of the dialog. Hosts find them by their names.
 RichParameterList filterParameters(int filter, Shown shown = Shown::All);
 
 /// MeshModel::MeshElement bits the host checks before a run.

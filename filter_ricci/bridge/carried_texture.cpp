@@ -17,7 +17,7 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -26,9 +26,9 @@ namespace filter_ricci {
 namespace {
 
 /// Gutters take no more of the side of the square than this for one margin.
-constexpr double kMostMargin = 0.05;
+constexpr double kMaxMargin = 0.05;
 
-/// Names that files of meshes keep: PLY drops blanks and letters beyond ASCII from names of textures.
+/// Names that files of meshes keep: PLY drops all other letters from names of textures.
 bool isKeptByFiles(const QString& name)
 {
 	return std::all_of(
@@ -71,15 +71,12 @@ double texels(const QImage& image)
 	return static_cast<double>(image.width()) * image.height();
 }
 
-/// Not so in a damaged mesh, which the run will refuse.
-bool hasItsVertices(const CMeshO& m, const CFaceO& face)
+/// Whether writing to \p path could overwrite \p old, sooner or later: hosts may know a texture by its
+/// bare name, and write it by that name when the mesh is saved.
+bool mayOverwrite(const QFileInfo& path, const QFileInfo& old)
 {
-	const std::less<const CVertexO*> before;
-	for (int k = 0; k < 3; ++k)
-		if (m.vert.empty() || before(face.cV(k), &m.vert.front()) ||
-			before(&m.vert.back(), face.cV(k)))
-			return false;
-	return true;
+	const bool isSame = path.exists() && path == old; // links lead to one file
+	return isSame || path.fileName().compare(old.fileName(), Qt::CaseInsensitive) == 0;
 }
 
 /// Barycentric coordinates of a point in a face of the mesh.
@@ -99,6 +96,66 @@ ricci::Point3 inFace(const ricci::SurfacePoint& p, const ricci::Triangle& face)
 	return weights;
 }
 
+/// The steps of work whose number is known about only: the fraction grows towards 1.
+ricci::Tick steps(ricci::Progress& progress, const char* what, double expected)
+{
+	return [&progress, what, expected, done = 0.0]() mutable {
+		done += 1.0;
+		progress.step(done / (done + expected), what);
+	};
+}
+
+/// Squares of 128 x 128 texels: a few ticks for each, where a picture is drawn or written.
+double tiles(int size)
+{
+	return 1.0 + static_cast<double>(size) * size / (128.0 * 128.0);
+}
+
+/// Passes what is written on to a file, with a tick each time. No exception passes the library that
+/// writes: one of the tick makes the writing fail, and is kept.
+class TickingFile : public QIODevice
+{
+public:
+	TickingFile(QIODevice& file, ricci::Tick tick) : m_file(file), m_tick(std::move(tick))
+	{
+		open(QIODevice::WriteOnly | QIODevice::Unbuffered);
+	}
+
+	bool isSequential() const override { return true; }
+
+	void rethrow() const
+	{
+		if (m_thrown)
+			std::rethrow_exception(m_thrown);
+	}
+
+protected:
+	qint64 readData(char*, qint64) override { return -1; }
+
+	qint64 writeData(const char* data, qint64 size) override
+	{
+		try {
+			m_tick();
+		}
+		catch (...) {
+			m_thrown = std::current_exception();
+			return -1;
+		}
+		// A disk that becomes full takes a part first; only the next call says why it takes no more.
+		for (qint64 done = 0, more = 0; done < size; done += more) {
+			more = m_file.write(data + done, size - done);
+			if (more <= 0)
+				return -1;
+		}
+		return size;
+	}
+
+private:
+	QIODevice& m_file;
+	ricci::Tick m_tick;
+	std::exception_ptr m_thrown;
+};
+
 } // namespace
 
 CarriedTexture::CarriedTexture(const TextureSettings& settings, const MeshModel& model)
@@ -110,19 +167,17 @@ CarriedTexture::CarriedTexture(const TextureSettings& settings, const MeshModel&
 	if (QFileInfo(wanted).suffix().toLower() != "png")
 		refuse(shown + ": its name must end in .png.");
 	const QString path = absolutePath(wanted, model.pathName());
-	const QString relative = QDir(model.pathName()).relativeFilePath(path);
-	m_name = QDir::isRelativePath(relative) && !relative.startsWith("..")
-				 ? relative
-				 : host::outsideTextureName(path);
+	m_name = host::textureName(path, model.pathName());
 	if (!isKeptByFiles(m_name))
 		refuse(
-			shown + ": files of meshes keep no blanks and no letters beyond ASCII in the names of "
-					"textures. Choose another name.");
+			shown +
+			": files of meshes keep no blanks, no } or ~, and no letters beyond ASCII in the "
+			"names and folders of textures. Choose another name or place.");
 	m_size = settings.size;
 	readFaces(model);
-	for (std::size_t i = 0; i < model.cm.textures.size(); ++i)
-		if (path == absolutePath(QString::fromStdString(model.cm.textures[i]), model.pathName()))
-			refuse(shown + ": it is a texture of the mesh. Choose another name.");
+	for (const std::string& old : model.cm.textures)
+		if (mayOverwrite(path, absolutePath(QString::fromStdString(old), model.pathName())))
+			refuse(shown + ": it has the name of a texture of the mesh. Choose another name.");
 	loadPictures(model);
 	const QString reason = whyNotWritable(path);
 	if (!reason.isEmpty())
@@ -145,8 +200,8 @@ void CarriedTexture::readFaces(const MeshModel& model)
 	for (std::size_t f = 0; f < m.face.size(); ++f) {
 		const CFaceO& face = m.face[f];
 		ricci::TexturedFace& to = m_mesh.faces[f];
-		if (face.IsD() || !hasItsVertices(m, face))
-			continue;
+		if (face.IsD() || !Flow::HasItsVertices(m, face))
+			continue; // damaged ones, which the run will refuse
 		m_areas[f] = 0.5 * static_cast<double>(vcg::DoubleArea(face));
 		int texture = -1;
 		for (std::size_t k = 0; k < 3; ++k) {
@@ -180,8 +235,10 @@ void CarriedTexture::readFaces(const MeshModel& model)
 			m.textures.empty()
 				? "carry_texture needs something to draw, but the mesh has neither a texture nor "
 				  "colours."
-				: "carry_texture needs old texture coordinates, but the mesh has none, and no "
-				  "colours either.");
+			: places ? "carry_texture needs something to draw, but no face of the mesh has one of "
+					   "its textures, and there are no colours."
+					 : "carry_texture needs old texture coordinates, but the mesh has none, and no "
+					   "colours either.");
 }
 
 void CarriedTexture::loadPictures(const MeshModel& model)
@@ -210,7 +267,7 @@ void CarriedTexture::requireMemory() const
 		largest = std::max(largest, texels(picture));
 		all += texels(picture);
 	}
-	const double needed = (sample + 4.0) * square + sample * all + 4.0 * largest +
+	const double needed = (sample + 4.0) * square + sample * all + std::max(square, 4.0 * largest) +
 						  512.0 * static_cast<double>(m_mesh.faces.size());
 	const double free = freeMemory();
 	if (free > 0.0 && needed > free)
@@ -220,38 +277,15 @@ void CarriedTexture::requireMemory() const
 			ricci::numberText(free / 1e9, 2) + " GB are free: choose a smaller one.");
 }
 
-double CarriedTexture::leastMargin() const
+double CarriedTexture::minMargin() const
 {
-	return isWanted() ? std::min(2.0 * ricci::kGutterTexels / m_size, kMostMargin) : 0.0;
+	return isWanted() ? std::min(2.0 * ricci::kGutterTexels / m_size, kMaxMargin) : 0.0;
 }
 
-template<class Sample>
-void CarriedTexture::drawSamples(const std::vector<QImage>& pictures, const ricci::Tick& tick)
+void CarriedTexture::takeTriangles(const MeshModel& model, const Flow::Result& result)
 {
-	std::vector<ricci::PictureView<const Sample>> views;
-	for (const QImage& picture : pictures)
-		views.push_back(
-			{picture.width(),
-			 picture.height(),
-			 reinterpret_cast<const Sample*>(picture.constBits())});
-	ricci::carryTexture<Sample>(
-		m_mesh,
-		views,
-		m_hasAlpha,
-		{m_size, m_size, reinterpret_cast<Sample*>(m_result.bits())},
-		ricci::defaultThreads(),
-		tick);
-}
-
-void CarriedTexture::draw(
-	const MeshModel& model, const Flow::Result& result, ricci::Progress& progress, Results& results)
-{
-	if (!isWanted())
-		return;
-	const ricci::DefaultFloatingPoint defaultEnvironment;
-	const ricci::Tick tick = [&progress] { progress.step(0.0, "Drawing the texture"); };
-	tick();
 	const ricci::RefinedMesh& refined = result.refined;
+	m_mesh.triangles.reserve(std::max(refined.triangles.size(), m_mesh.faces.size()));
 	for (std::size_t i = 0; i < refined.triangles.size(); ++i) {
 		ricci::CarriedTriangle triangle;
 		triangle.uv = refined.uv[i];
@@ -270,7 +304,10 @@ void CarriedTexture::draw(
 		triangle.face = static_cast<int>(f);
 		m_mesh.triangles.push_back(triangle);
 	}
+}
 
+void CarriedTexture::makeResult()
+{
 	const QImage::Format format =
 		m_hasWords ? (m_hasAlpha ? QImage::Format_RGBA64 : QImage::Format_RGBX64)
 				   : (m_hasAlpha ? QImage::Format_RGBA8888 : QImage::Format_RGBX8888);
@@ -280,40 +317,59 @@ void CarriedTexture::draw(
 	m_result.fill(m_hasAlpha ? Qt::transparent : Qt::black);
 	const auto first = std::find_if(
 		m_pictures.begin(), m_pictures.end(), [](const QImage& image) { return !image.isNull(); });
-	if (first != m_pictures.end()) {
-		m_result.setDotsPerMeterX(first->dotsPerMeterX());
-		m_result.setDotsPerMeterY(first->dotsPerMeterY());
+	if (first == m_pictures.end())
+		return;
+	m_result.setDotsPerMeterX(first->dotsPerMeterX());
+	m_result.setDotsPerMeterY(first->dotsPerMeterY());
 #if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
-		m_result.setColorSpace(first->colorSpace());
+	m_result.setColorSpace(first->colorSpace());
 #endif
+}
+
+void CarriedTexture::convertPictures(const ricci::Tick& tick)
+{
+	for (QImage& picture : m_pictures) {
+		tick();
+		if (picture.isNull())
+			continue;
+#if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
+		if (picture.colorSpace().isValid() && m_result.colorSpace().isValid() &&
+			picture.colorSpace() != m_result.colorSpace())
+			picture.convertToColorSpace(m_result.colorSpace());
+#endif
+		picture = std::move(picture).convertToFormat(
+			m_hasWords ? QImage::Format_RGBA64 : QImage::Format_RGBA8888);
+		if (picture.isNull())
+			throw std::bad_alloc();
 	}
-	std::vector<QImage> pictures;
+}
+
+template<class Sample>
+void CarriedTexture::drawSamples(const ricci::Tick& tick)
+{
+	std::vector<ricci::PictureView<const Sample>> views;
+	for (const QImage& picture : m_pictures)
+		views.push_back(
+			{picture.width(),
+			 picture.height(),
+			 reinterpret_cast<const Sample*>(picture.constBits())});
+	ricci::carryTexture<Sample>(
+		m_mesh,
+		views,
+		m_hasAlpha,
+		{m_size, m_size, reinterpret_cast<Sample*>(m_result.bits())},
+		ricci::defaultThreads(),
+		tick);
+}
+
+void CarriedTexture::describe(ricci::Progress& progress, Results& results) const
+{
 	std::vector<std::array<int, 2>> sizes;
 	int count = 0;
-	for (QImage& picture : m_pictures) {
-		QImage image;
-		image.swap(picture); // whose memory is not needed twice
-		sizes.push_back({image.width(), image.height()});
-		if (!image.isNull()) {
-			++count;
-#if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
-			if (image.colorSpace().isValid() && m_result.colorSpace().isValid() &&
-				image.colorSpace() != m_result.colorSpace())
-				image.convertToColorSpace(m_result.colorSpace());
-#endif
-			image = std::move(image).convertToFormat(
-				m_hasWords ? QImage::Format_RGBA64 : QImage::Format_RGBA8888);
-			if (image.isNull())
-				throw std::bad_alloc();
-		}
-		pictures.push_back(image);
-		tick();
+	for (const QImage& picture : m_pictures) {
+		sizes.push_back({picture.width(), picture.height()});
+		count += picture.isNull() ? 0 : 1;
 	}
-	if (m_hasWords)
-		drawSamples<unsigned short>(pictures, tick);
-	else
-		drawSamples<unsigned char>(pictures, tick);
-
 	const std::string side = std::to_string(m_size);
 	std::string line = "Texture: " + m_path.toStdString() + ", " + side + " x " + side + " texels";
 	const ricci::TexelDensity density = ricci::texelDensity(m_mesh, m_areas, sizes, m_size);
@@ -327,41 +383,66 @@ void CarriedTexture::draw(
 		line += ", from the colours of the mesh";
 	if (m_uncoloured > 0)
 		line += "; " + std::to_string(m_uncoloured) +
-				" faces have neither a texture nor a colour: they are white";
-	m_mesh = {};
+				(m_uncoloured == 1 ? " face has neither a texture nor a colour: it is white"
+								   : " faces have neither a texture nor a colour: they are white");
 	progress.log(line + ".");
-	if (result.report.overlappingCharts > 0)
-		progress.log("Texture: where charts overlap, it shows one of the faces only.");
 }
 
-void CarriedTexture::write()
+void CarriedTexture::draw(
+	const MeshModel& model, const Flow::Result& result, ricci::Progress& progress, Results& results)
+{
+	if (!isWanted())
+		return;
+	const ricci::DefaultFloatingPoint defaultEnvironment;
+	const int threads = ricci::defaultThreads(); // of which one ticks
+	const ricci::Tick tick = steps(progress, "Drawing the texture", tiles(m_size) / threads);
+	tick();
+	takeTriangles(model, result);
+	makeResult();
+	convertPictures(tick);
+	if (m_hasWords)
+		drawSamples<unsigned short>(tick);
+	else
+		drawSamples<unsigned char>(tick);
+	describe(progress, results);
+	if (result.report.overlappingCharts > 0)
+		progress.log("Texture: where charts overlap, it shows one of the faces only.");
+	m_mesh = {};
+	m_pictures.clear();
+}
+
+void CarriedTexture::write(ricci::Progress& progress)
 {
 	if (!isWanted())
 		return;
 	m_file.setFileName(m_path);
 	// Without Qt's buffer: it drops what no longer fits on a full disk and reports no error.
-	bool written = m_file.open(QIODevice::WriteOnly | QIODevice::Unbuffered);
-	QString reason = m_file.errorString();
-	if (written) {
-		QImageWriter writer(&m_file, "png");
+	if (m_file.open(QIODevice::WriteOnly | QIODevice::Unbuffered)) {
+		TickingFile file(m_file, steps(progress, "Writing the texture", tiles(m_size)));
+		QImageWriter writer(&file, "png");
 		writer.setQuality(
 			70); // of compression: a sixth of the default's time, files a sixth larger
-		written = writer.write(m_result);
-		reason = writer.errorString();
+		const bool written = writer.write(m_result);
+		file.rethrow();
+		if (written)
+			return;
 	}
-	if (!written)
-		refuse(
-			"The texture " + m_path.toStdString() + " could not be written (" +
-			reason.toStdString() + "): choose another place for it. The mesh is unchanged.");
+	refuseFile();
 }
 
 void CarriedTexture::publish()
 {
 	if (isWanted() && !m_file.commit())
-		refuse(
-			"The texture " + m_path.toStdString() + " could not be written (" +
-			m_file.errorString().toStdString() +
-			"): choose another place for it. The mesh is unchanged.");
+		refuseFile();
+}
+
+void CarriedTexture::refuseFile() const
+{
+	const bool isKnown = m_file.error() != QFileDevice::NoError;
+	const std::string reason = isKnown ? m_file.errorString().toStdString() : "is the disk full?";
+	refuse(
+		"The texture " + m_path.toStdString() + " could not be written (" + reason +
+		"): choose another place for it. The mesh is unchanged.");
 }
 
 void CarriedTexture::assignTo(MeshModel& model) const

@@ -17,7 +17,7 @@
 
 namespace filter_ricci {
 
-/// A run's new texture. Until the run has ended well, neither file nor mesh has changed.
+/// A run's new texture. Before publish() no file has changed, before assignTo() no mesh.
 class CarriedTexture
 {
 public:
@@ -28,9 +28,12 @@ public:
 	/// Otherwise the functions below do nothing.
 	bool isWanted() const { return !m_path.isEmpty(); }
 
+	/// Width and height, in texels.
+	int size() const { return m_size; }
+
 	/// Share of the square that charts must be apart, so that the gutters of two fit between them; for
 	/// small pictures less, so that charts keep most of the room.
-	double leastMargin() const;
+	double minMargin() const;
 
 	/// Draws the picture into memory and adds its result.
 	/// \throw ricci::Cancelled and what the progress does, std::bad_alloc
@@ -41,8 +44,8 @@ public:
 		Results& results);
 
 	/// Writes the file beside its place.
-	/// \throw Refusal if there is no room for it
-	void write();
+	/// \throw Refusal if there is no room for it, ricci::Cancelled and what the progress does
+	void write(ricci::Progress& progress);
 
 	/// Moves the written file to its place.
 	/// \throw Refusal if that cannot be done
@@ -56,8 +59,13 @@ private:
 	void loadPictures(const MeshModel& model);
 	void requireMemory() const;
 
+	void takeTriangles(const MeshModel& model, const Flow::Result& result);
+	void makeResult();
+	void convertPictures(const ricci::Tick& tick);
 	template<class Sample>
-	void drawSamples(const std::vector<QImage>& pictures, const ricci::Tick& tick);
+	void drawSamples(const ricci::Tick& tick);
+	void describe(ricci::Progress& progress, Results& results) const;
+	[[noreturn]] void refuseFile() const;
 
 	QString m_path; ///< empty: no texture is wanted
 	QString m_name; ///< that the mesh gets

@@ -108,15 +108,27 @@ double checkedTimeLimit(const RichParameterList& par)
 
 TextureSettings checkedTexture(const RichParameterList& par)
 {
-	constexpr int kLeast = 16, kMost = 16384;
 	TextureSettings texture;
 	texture.file = host::text(par, "carry_texture");
 	texture.size = par.getInt("texture_size");
-	if (texture.size < kLeast || texture.size > kMost)
+	if (texture.size < kMinTextureSize || texture.size > kMaxTextureSize)
 		throw Refusal(
 			"The value " + std::to_string(texture.size) + " of texture_size cannot be used. Use " +
-			std::to_string(kLeast) + " to " + std::to_string(kMost) + " texels.");
+			std::to_string(kMinTextureSize) + " to " + std::to_string(kMaxTextureSize) +
+			" texels.");
 	return texture;
+}
+
+RunSettings readRunSettings(const RichParameterList& par)
+{
+	RunSettings settings;
+	settings.seams = static_cast<Seams>(checkedChoice(par, "seams", seamsChoices()));
+	settings.colorize = par.getBool("colorize");
+	settings.flatLayer = par.getBool("flat_layer");
+	settings.timeLimit = checkedTimeLimit(par);
+	settings.report = host::text(par, "report");
+	settings.texture = checkedTexture(par);
+	return settings;
 }
 
 constexpr double kDegree = ricci::kPi / 180.0;
@@ -412,9 +424,9 @@ RichParameterList filterParameters(int filter, Shown shown)
 Settings readSettings(const RichParameterList& par)
 {
 	Settings settings;
+	static_cast<RunSettings&>(settings) = readRunSettings(par);
 	settings.flow.target = static_cast<ricci::TargetCurvature>(
 		checkedChoice(par, "target_curvature", targetCurvatureChoices()));
-	settings.seams = static_cast<Seams>(checkedChoice(par, "seams", seamsChoices()));
 	settings.flow.coneCount = par.getInt("cone_count");
 	settings.flow.coneDistortion = static_cast<double>(par.getFloat("cone_distortion"));
 	settings.flow.coneRounding = static_cast<ricci::ConeRounding>(
@@ -434,14 +446,9 @@ Settings readSettings(const RichParameterList& par)
 	settings.flow.normalizeUV = par.getBool("normalize_uv");
 	settings.flow.cutStrips = par.getBool("cut_strips");
 	settings.flow.chartMargin = static_cast<double>(par.getFloat("chart_margin"));
-	settings.colorize = par.getBool("colorize");
-	settings.flatLayer = par.getBool("flat_layer");
 	settings.flow.holes = static_cast<ricci::Holes>(checkedChoice(par, "holes", holesChoices()));
 	settings.flow.resolveOverlap = par.getBool("resolve_overlap");
 	settings.sphereLayer = par.getBool("sphere_layer");
-	settings.texture = checkedTexture(par);
-	settings.report = host::text(par, "report");
-	settings.timeLimit = checkedTimeLimit(par);
 	if (!settings.texture.file.trimmed().isEmpty() && !settings.flow.normalizeUV)
 		throw Refusal(
 			"carry_texture draws on the unit square: choose normalize_uv, or leave carry_texture "
@@ -454,9 +461,9 @@ Settings readSettings(const RichParameterList& par)
 HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 {
 	HyperbolicSettings settings;
+	static_cast<RunSettings&>(settings) = readRunSettings(par);
 	settings.flow.target = static_cast<ricci::HyperbolicTarget>(
 		checkedChoice(par, "target_curvature", hyperbolicTargetChoices()));
-	settings.seams = static_cast<Seams>(checkedChoice(par, "seams", seamsChoices()));
 	settings.flow.coneAngle = static_cast<double>(par.getFloat("cone_angle")) * kDegree;
 	settings.flow.freeBoundary = par.getBool("free_boundary");
 	settings.flow.epsilon = static_cast<double>(par.getFloat("epsilon"));
@@ -469,8 +476,6 @@ HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 							   ? ricci::Finish::Repair
 							   : ricci::Finish::None;
 	settings.flow.maxIterations = par.getInt("max_iterations");
-	settings.colorize = par.getBool("colorize");
-	settings.flatLayer = par.getBool("flat_layer");
 	settings.coverRings = par.getInt("universal_cover");
 	if (settings.coverRings < 0 || settings.coverRings > kMaxRings)
 		throw Refusal(
@@ -480,9 +485,6 @@ HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 	settings.axes = par.getBool("generator_axes");
 	settings.canonicalPolygon = par.getBool("canonical_polygon");
 	settings.flow.canonicalGenerators = settings.axes || settings.canonicalPolygon;
-	settings.texture = checkedTexture(par);
-	settings.report = host::text(par, "report");
-	settings.timeLimit = checkedTimeLimit(par);
 	ricci::checkOptions(settings.flow);
 	return settings;
 }

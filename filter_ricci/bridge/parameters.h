@@ -18,36 +18,38 @@ enum class Seams {
 	SelectedFaces  ///< around them
 };
 
+/// Texels.
+constexpr int kMinTextureSize = 16, kMaxTextureSize = 16384;
+
 struct TextureSettings
 {
 	QString file; ///< empty: none
 	int size = 2048;
 };
 
-struct Settings
+/// What both filters have.
+struct RunSettings
 {
-	Flow::Params flow;
 	Seams seams = Seams::Shortest;
 	bool colorize = false;
 	bool flatLayer = false;
-	bool sphereLayer = false;
 	double timeLimit = 0.0; ///< seconds, 0: none
 	QString report;         ///< file, empty: none
 	TextureSettings texture;
 };
 
-struct HyperbolicSettings
+struct Settings : RunSettings
+{
+	Flow::Params flow;
+	bool sphereLayer = false;
+};
+
+struct HyperbolicSettings : RunSettings
 {
 	Flow::HyperbolicParams flow;
-	Seams seams = Seams::Shortest;
-	bool colorize = false;
-	bool flatLayer = false;
 	int coverRings = 0;
 	bool axes = false;
 	bool canonicalPolygon = false;
-	double timeLimit = 0.0; ///< seconds, 0: none
-	QString report;         ///< file, empty: none
-	TextureSettings texture;
 };
 
 /// Reads the parameters and checks them all. Scripts can hold any number for a choice, and no host

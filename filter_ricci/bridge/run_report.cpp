@@ -370,26 +370,30 @@ ReportFiles::ReportFiles(const QString& wanted, const QString& folder)
 			" cannot be written: its name must end in .html (page, and its data beside it) or .csv "
 			"(data alone).");
 	if (ending == "html")
-		m_html = path;
-	m_csv = ending == "csv" ? path : path.left(path.size() - ending.size()) + "csv";
-	for (const QString& file : {m_html, m_csv}) {
-		const QString reason = file.isEmpty() ? QString() : whyNotWritable(file);
+		m_page.setFileName(path);
+	m_data.setFileName(ending == "csv" ? path : path.left(path.size() - ending.size()) + "csv");
+	for (const QSaveFile* file : {&m_page, &m_data}) {
+		const QString name = file->fileName();
+		const QString reason = name.isEmpty() ? QString() : whyNotWritable(name);
 		if (!reason.isEmpty())
 			throw Refusal(
-				"The report " + file.toStdString() + " cannot be written (" + reason.toStdString() +
+				"The report " + name.toStdString() + " cannot be written (" + reason.toStdString() +
 				"): choose another place for it.");
 	}
 }
 
-std::vector<std::string> ReportFiles::write(const RunReport& report) const
+void ReportFiles::write(const RunReport& report)
 {
-	QSaveFile page(m_html), data(m_csv);
-	if (!m_html.isEmpty())
-		fill(page, toHtml(report));
-	if (!m_csv.isEmpty())
-		fill(data, toCsv(report));
+	if (!m_page.fileName().isEmpty())
+		fill(m_page, toHtml(report));
+	if (!m_data.fileName().isEmpty())
+		fill(m_data, toCsv(report));
+}
+
+std::vector<std::string> ReportFiles::publish()
+{
 	std::vector<std::string> written;
-	for (QSaveFile* file : {&page, &data})
+	for (QSaveFile* file : {&m_page, &m_data})
 		if (file->isOpen()) {
 			require(file->commit(), *file);
 			written.push_back(file->fileName().toStdString());

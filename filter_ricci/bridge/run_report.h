@@ -7,6 +7,8 @@
 
 #include <ricci/report.h>
 
+#include <QSaveFile>
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,13 +46,17 @@ public:
 	/// \throw Refusal if no file can be written there; nothing has been written then
 	ReportFiles(const QString& wanted, const QString& folder);
 
-	/// Each file appears complete, or not at all, and none where there is no room for all.
-	/// \return the names of the files
+	/// Writes the files beside their places.
 	/// \throw Refusal if one cannot be written after all (a full disk)
-	std::vector<std::string> write(const RunReport& report) const;
+	void write(const RunReport& report);
+
+	/// Moves the written files to their places.
+	/// \return their names
+	/// \throw Refusal if that cannot be done
+	std::vector<std::string> publish();
 
 private:
-	QString m_html, m_csv; // empty: not wanted
+	QSaveFile m_page, m_data; // without a name: not wanted
 };
 
 } // namespace filter_ricci

@@ -52,10 +52,12 @@ inline void setTexture(MeshModel& model, const std::string& name, const QImage&)
 		QDir::setCurrent(model.pathName());
 }
 
-/// The name of a texture that does not lie below the mesh's folder: this host finds it by its path.
-inline QString outsideTextureName(const QString& path)
+/// The name of a texture by which this host finds its file: below the folder of the mesh from there,
+/// elsewhere by its path.
+inline QString textureName(const QString& path, const QString& folder)
 {
-	return path;
+	const QString relative = QDir(folder).relativeFilePath(path);
+	return QDir::isRelativePath(relative) && !relative.startsWith("..") ? relative : path;
 }
 
 /// A parameter that few runs need. Here the plugin itself leaves them out of the dialog.

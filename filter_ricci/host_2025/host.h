@@ -45,9 +45,8 @@ inline void setTexture(MeshModel& model, const std::string& name, const QImage& 
 	model.addTexture(name, image);
 }
 
-/// The name of a texture that does not lie below the mesh's folder: this host keeps the image, and
-/// writes it beside the mesh when that is saved.
-inline QString outsideTextureName(const QString& path)
+/// The name of a texture. This host keeps the image, and writes it beside the mesh when that is saved.
+inline QString textureName(const QString& path, const QString& /*folder*/)
 {
 	return QFileInfo(path).fileName();
 }

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """New texture coordinates for a textured mesh, and its texture drawn for them: one_texture.py IN OUT [SIZE].
 
-OUT, a PLY or OBJ file, gets the image beside it: with as many texels for a unit of length as the old
-textures have, or SIZE texels wide. With pip install pymeshlab_ricci-*.whl."""
+OUT, a PLY or OBJ file, gets the image beside it: 1024 to 16384 texels wide, as many as keep the detail
+of the old textures, or SIZE. With pip install pymeshlab_ricci-*.whl."""
 
 import os
 import sys
@@ -21,4 +21,6 @@ try:
 except Refused as refusal:
     sys.exit(f"{mesh}: {refusal}")
 result.save(out)
-print(f"{image}: {result.results.get('texture_scale', 0):.3g} times the texels for a unit of length")
+print(image)
+if "texture_scale" in result.results:  # not where there were colours only
+    print(f"{result.texture_scale:.3g} times the texels for a unit of length")

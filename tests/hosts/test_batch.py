@@ -14,6 +14,7 @@ import unittest
 
 import common
 import meshes
+import textures
 
 try:
     import pymeshlab  # noqa: F401
@@ -146,6 +147,31 @@ class Batch(unittest.TestCase):
         code, text = self.batch("--workers", "1", "--target-curvature", "Disk")
         self.assertEqual(code, 0, text)
         self.assertIn("1 to run", text)
+
+    def test_each_mesh_has_its_own_files(self):
+        """The ending of a name counts."""
+        names = ["1.ply", "more/2.ply"]
+        for i, name in enumerate(names):
+            mesh = meshes.torus(columns=10 + i)
+            wedges = textures.shattered(mesh.faces)
+            place = os.path.join(self.meshes, os.path.dirname(name))
+            textures.write_png(os.path.join(place, "old.png"), textures.painted(mesh, wedges, 256))
+            textures.write_ply(os.path.join(self.meshes, name), mesh, wedges, ["old.png"])
+        code, text = self.batch("--workers", "2", "--carry-texture", "new.png", "--texture-size",
+                                "64", "--report", "run.csv")
+        self.assertEqual(code, 0, text)
+        self.check_solved(names)
+        for name in names:
+            place, file = os.path.split(os.path.join(self.out, name))
+            written = [file + ending for ending in (".json", ".ply", ".png", ".csv")]
+            written += ["failures.txt", "more", "results.csv"] if place == self.out else []
+            self.assertEqual(sorted(os.listdir(place)), sorted(written))
+            with open(os.path.join(place, file + ".ply"), "rb") as saved:
+                self.assertIn(f"TextureFile {file}.png\n".encode(), saved.read(2000))
+            image = textures.read_png(os.path.join(place, file + ".png"))
+            self.assertEqual((image.width, image.height), (64, 64))
+        self.assertEqual(sorted(os.listdir(self.meshes)), ["1.ply", "more", "old.png"])
+        self.assertEqual(sorted(os.listdir(os.path.join(self.meshes, "more"))), ["2.ply", "old.png"])
 
     def test_refusals_and_failures_are_listed(self):
         disk = ("--target-curvature", "Disk")

@@ -415,6 +415,9 @@ class Texture(textures.TexturedTorus):
         self.assertEqual(code, 0, text)
         self.check()
         self.assertGreater(float(server.results(text)["texture_scale"]), 0.3)
+        # The host prints a step only where its percentage is another one.
+        for step in ("Drawing the texture", "Writing the texture"):
+            self.assertGreater(len(re.findall(f"(?m)^{step}$", text)), 1, step)
         self.assertRegex(text, r"Texture: .*mesh/new\.png, 300 x 300 texels, from 1 image\.")
         with open(self.path("mesh", "out.ply"), "rb") as source:
             header = source.read(2000).split(b"end_header")[0].decode()
@@ -439,7 +442,7 @@ class Texture(textures.TexturedTorus):
         self.write("old.png")
         for words, values in (
                 (r"must end in \.png", {"carry_texture": "new.jpg"}),
-                ("is a texture of the mesh", {"carry_texture": "old.png"}),
+                ("name of a texture of the mesh", {"carry_texture": "old.png"}),
                 ("cannot be written", {"carry_texture": "nowhere/new.png"}),
                 ("texture_size.*16 to 16384", {"texture_size": 15}),
                 ("choose normalize_uv", {"normalize_uv": False})):

@@ -2,6 +2,7 @@
 """The parameter carry_texture in PyMeshLab. Usage: test_texture.py BUILD_DIR [TEST...]."""
 
 import os
+import resource
 
 import common
 import meshes
@@ -65,6 +66,20 @@ class Texture(textures.TexturedTorus):
             again = load(os.path.join(out, name))
             self.assertEqual(list(again.current_mesh().textures()), ["new.png"])
             self.check(again, textures.read_png(os.path.join(out, "new.png")))
+
+    def test_in_a_folder_below_the_mesh(self):
+        """Saved elsewhere, the image lies beside the mesh."""
+        documents = self.textured()
+        os.mkdir(self.path("below"))
+        self.carry(documents, carry_texture="below/new.png")
+        self.assertEqual(list(documents.current_mesh().textures()), ["new.png"])
+        out = self.path("out")
+        os.mkdir(out)
+        documents.save_current_mesh(os.path.join(out, "mesh.ply"))
+        self.assertEqual(sorted(os.listdir(out)), ["mesh.ply", "new.png"])
+        self.assertEqual(sorted(os.listdir(self.folder)), ["below", "in.ply", "old.png", "out"])
+        self.check(load(os.path.join(out, "mesh.ply")),
+                   textures.read_png(self.path("below", "new.png")))
 
     def test_sixteen_bits_and_alpha(self):
         documents = self.textured(depth=16, alpha=0.25)
@@ -155,13 +170,18 @@ class Texture(textures.TexturedTorus):
     def test_refusals(self):
         documents = self.textured()
         os.mkdir(self.path("folder.png"))
+        os.symlink("old.png", self.path("link.png"))
         for words, values in (
                 (r"must end in \.png", {"carry_texture": "new.jpg"}),
                 (r"must end in \.png", {"carry_texture": "png"}),
                 ("it is a folder", {"carry_texture": "folder.png"}),
                 ("cannot be written", {"carry_texture": "nowhere/new.png"}),
                 ("no blanks", {"carry_texture": "my new.png"}),
-                ("is a texture of the mesh", {"carry_texture": "old.png"}),
+                ("no } or ~", {"carry_texture": "new~1.png"}),
+                ("name of a texture of the mesh", {"carry_texture": "old.png"}),
+                ("name of a texture of the mesh", {"carry_texture": "OLD.png"}),
+                ("name of a texture of the mesh", {"carry_texture": "folder.png/old.png"}),
+                ("name of a texture of the mesh", {"carry_texture": "link.png"}),
                 ("texture_size.*16 to 16384", {"texture_size": 15}),
                 ("texture_size.*16 to 16384", {"texture_size": 16385}),
                 ("choose normalize_uv", {"normalize_uv": False})):
@@ -173,9 +193,30 @@ class Texture(textures.TexturedTorus):
         self.refused("neither a texture nor colours", load(self.path("in.ply")))
         textures.write_ply(self.path("in.ply"), self.mesh, self.wedges, ["missing.png"])
         self.refused("cannot be loaded", load(self.path("in.ply")))
+        textures.write_png(self.path("old.png"),
+                           textures.painted(self.mesh, self.wedges, self.OLD))
+        textures.write_ply(self.path("in.ply"), self.mesh, self.wedges, ["old.png"],
+                           [-1] * len(self.mesh.faces))
+        self.refused("no face of the mesh has one", load(self.path("in.ply")))
 
     def test_refused_runs_leave_no_file(self):
         self.refused("time_limit", self.textured(), time_limit=1e-6)
+        self.mesh = meshes.double_torus()
+        self.wedges = textures.shattered(self.mesh.faces)
+        self.refused("universal_cover: 20 rings", self.textured(), common.HYPERBOLIC,
+                     universal_cover=20, report="page.html")
+
+    def test_no_room_for_the_file(self):
+        documents = self.textured()
+        before = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (10000, before[1]))
+        self.addCleanup(resource.setrlimit, resource.RLIMIT_FSIZE, before)
+        self.refused(r"could not be written \(file too large\)", documents)
+
+    def test_charts_without_room(self):
+        documents = self.textured()
+        self.refused("raise texture_size, to 16384 at most", documents,
+                     seams="Existing texture seams", texture_size=16)
 
 
 if __name__ == "__main__":

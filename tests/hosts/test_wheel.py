@@ -134,6 +134,25 @@ class Functions(unittest.TestCase):
         self.assertTrue(numpy.array_equal(expected.faces, faces))
         self.assertIn("charts=1", repr(expected))
 
+    def test_samples(self):
+        """One mesh, then along the seams it got, then along its creases."""
+        environment = {**os.environ, "PYTHONPATH": os.path.join(common.BUILD, "python")}
+        with tempfile.TemporaryDirectory() as folder:
+            path = {name: os.path.join(folder, name) for name in ("in.ply", "one.ply", "two.obj")}
+            meshes.write_ply(path["in.ply"], meshes.double_torus())
+
+            def run(sample, *arguments):
+                script = os.path.join(common.REPOSITORY, "filter_ricci", "samples", sample)
+                return subprocess.run([sys.executable, script, *arguments], text=True, check=True,
+                                      stdout=subprocess.PIPE, env=environment).stdout
+
+            self.assertRegex(run("one_mesh.py", path["in.ply"], path["one.ply"]), "^1 charts")
+            self.assertRegex(run("chosen_seams.py", path["one.ply"], path["two.obj"]),
+                             r"^\d\d+ edges as chosen, 0 more, 1 charts")
+            self.assertRegex(run("chosen_seams.py", path["in.ply"], path["two.obj"], "60"),
+                             "edges as chosen, 0 more, 14 charts")
+            self.assertTrue(os.path.exists(path["two.obj"]))
+
     def test_indexed(self):
         result = flatten(arrays(meshes.torus()))
         points, index = result.indexed()

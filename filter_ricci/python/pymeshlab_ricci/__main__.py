@@ -7,10 +7,11 @@
     python -m pymeshlab_ricci meshes out --scheduler tcp://host:8786
 
 Each mesh is a process of its own: a crash ends that mesh and nothing else. The folder OUT gets for
-meshes/a/b.off the files a/b.off.ply and a/b.off.json, and at the end results.csv with a row for
-each mesh and failures.txt with the meshes without a result. A run that was interrupted goes on
-where it stopped; a mesh runs again where mesh, parameters or plugin have changed. With a cluster,
-this package and both folders have to be on every machine, the folders at the same path.
+meshes/a/b.off the files a/b.off.ply and a/b.off.json, a/b.off.html for --report and a/b.off.png for
+--carry-texture, and at the end results.csv with a row for each mesh and failures.txt with the
+meshes without a result. A run that was interrupted goes on where it stopped; a mesh runs again
+where mesh, parameters or plugin have changed. With a cluster, this package and both folders have
+to be on every machine, the folders at the same path.
 
 Exit: 0 the mesh is solved (in a folder: or refused, each of them), 1 it is not, 130 interrupted.
 """
@@ -77,11 +78,12 @@ def parse(arguments):
 
 def make_job(options, mesh, name, target, record="", mark=""):
     parameters = dict(options.parameters)
-    if parameters.get("report"):
-        if record:  # the ending alone counts
-            parameters["report"] = os.path.splitext(target)[0] + os.path.splitext(
-                "x" + parameters["report"])[1]
-        parameters["report"] = os.path.abspath(parameters["report"])
+    for key in ("report", "carry_texture"):
+        if parameters.get(key):
+            if record:  # the ending alone counts
+                ending = os.path.splitext("x" + parameters[key])[1]
+                parameters[key] = os.path.splitext(target)[0] + ending
+            parameters[key] = os.path.abspath(parameters[key])
     return {"mesh": os.path.abspath(mesh), "name": name, "target": os.path.abspath(target),
             "record": record, "fingerprint": mark, "hyperbolic": options.hyperbolic,
             "parameters": parameters, "timeout": options.timeout}

@@ -38,6 +38,7 @@ def main():
     job = json.loads(sys.argv[1])
     solve = uniformize if job["hyperbolic"] else flatten
     try:
+        os.makedirs(os.path.dirname(job["target"]), exist_ok=True)  # for report and texture
         result = solve(job["mesh"], **job["parameters"])
         answer = {"state": "solved",
                   "results": {key: numpy.asarray(value).tolist()
