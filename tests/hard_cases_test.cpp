@@ -74,7 +74,7 @@ void expectSolved(const SurfaceMesh& mesh, const Options& options, const VertexI
 		mesh, {r.points, r.triangles, r.inputFace, r.uv}, flat.targetCurvature);
 	EXPECT_EQ(check.notPositive, 0);
 	EXPECT_LT(check.seamMismatch, 1e-9);
-	EXPECT_GE(check.leastWeight, -1e-12);
+	EXPECT_GE(check.minWeight, -1e-12);
 	EXPECT_LT(check.weightError, 1e-14);
 	EXPECT_EQ(check.seamsInside, 0);
 	EXPECT_EQ(check.eulerCharacteristic, report.eulerCharacteristic);

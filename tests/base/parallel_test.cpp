@@ -20,7 +20,7 @@ TEST(InParallel, EveryElementIsInOnePart)
 {
 	for (const int count : {0, 1, 7, 1000, 40000})
 		for (const int threads : {0, 1, 2, 5})
-			for (const int leastPart : {1, 100, 16384}) {
+			for (const int minPart : {1, 100, 16384}) {
 				std::vector<int> times(static_cast<std::size_t>(count), 0);
 				inParallel(
 					count,
@@ -29,7 +29,7 @@ TEST(InParallel, EveryElementIsInOnePart)
 						for (int i = first; i < last; ++i)
 							++times[static_cast<std::size_t>(i)];
 					},
-					leastPart);
+					minPart);
 				EXPECT_EQ(std::count(times.begin(), times.end(), 1), count);
 			}
 }

@@ -296,7 +296,7 @@ TEST(PackCharts, ThinChartsStayUpright)
 		const Box2 box = boxOf(map, map.charts[0]);
 		EXPECT_LT(std::min(box.width(), box.height()), 1e-8);
 		const Box2& room = map.charts[0].box;
-		EXPECT_GE(std::min(room.width(), room.height()), 0.5 * kLeastBoxSide);
+		EXPECT_GE(std::min(room.width(), room.height()), 0.5 * kMinBoxSide);
 		EXPECT_TRUE(room.contains(box.min) && room.contains(box.max));
 	}
 }
@@ -366,6 +366,66 @@ TEST(PackStrips, LeavesWholeWhatWinsNothing)
 		}
 }
 
+/// Its chart becomes one more of \p map.
+void append(const Parametrization& other, Parametrization& map)
+{
+	SurfaceMesh& mesh = map.opened.mesh;
+	const int vertices = static_cast<int>(mesh.positions.size());
+	const int faces = static_cast<int>(mesh.triangles.size());
+	const auto add = [](auto& to, const auto& from) {
+		to.insert(to.end(), from.begin(), from.end());
+	};
+	add(mesh.positions, other.opened.mesh.positions);
+	for (const Triangle& t : other.opened.mesh.triangles)
+		mesh.triangles.push_back({t[0] + vertices, t[1] + vertices, t[2] + vertices});
+	add(map.uv, other.uv);
+	add(map.reversed, other.reversed);
+	map.charts.push_back(other.charts[0]);
+	for (int& f : map.charts.back().faces)
+		f += faces;
+}
+
+TEST(PackStrips, LeaveWholeWhatTheMarginHasNoRoomForInTwo)
+{
+	Parametrization whole = gridOf(20, 10);
+	for (int i = 0; i < 3; ++i)
+		append(gridOf(12, 12), whole);
+	Parametrization map = whole;
+	packCharts(whole, true, 0.25, inRows, ChartTurns::Free);
+	packStrips(map, 0.25, inRows, ChartTurns::Free);
+	EXPECT_EQ(map.uv, whole.uv);
+	EXPECT_EQ(map.charts.size(), 4u);
+}
+
+/// A face goes with one piece of it, which may lie in another chart than the others.
+TEST(PackStrips, KeepEachFaceInOneChart)
+{
+	Parametrization map = gridOf(20, 2);
+	append(gridOf(1, 1), map);
+	RefinedMesh& refined = map.refined;
+	for (std::size_t v = 0; v < map.opened.mesh.positions.size(); ++v) {
+		refined.points.emplace_back();
+		refined.points.back().vertex.fill(static_cast<int>(v));
+	}
+	refined.triangles = map.opened.mesh.triangles;
+	refined.uv = map.uv;
+	for (Chart& chart : map.charts) {
+		chart.refined = chart.faces;
+		for (const int f : chart.faces)
+			refined.inputFace.push_back(f);
+	}
+	std::vector<int>& faces = map.charts[0].faces;
+	map.charts[1].faces.push_back(faces.front());
+	faces.erase(faces.begin());
+	packStrips(map, 0.01, inRows, ChartTurns::Free);
+	ASSERT_EQ(map.charts.size(), 3u);
+	std::vector<int> times(map.uv.size(), 0);
+	for (const Chart& chart : map.charts)
+		for (const int f : chart.faces)
+			++times[positionOf(f)];
+	EXPECT_EQ(times, std::vector<int>(map.uv.size(), 1));
+}
+
 TEST(ChartTurns, RectanglesStayUprightAndQuarterTurnsStaySo)
 {
 	Options options;
@@ -381,9 +441,9 @@ TEST(ChartTurns, RectanglesStayUprightAndQuarterTurnsStaySo)
 TEST(PackCharts, MarginsMayFitAgreesWithPointsOnAGrid)
 {
 	for (int k = 1; k < 60; ++k) {
-		const double most = 1.0 / (k + 1);
-		EXPECT_TRUE(marginsMayFit(positionOf(k * k), 0.999999 * most));
-		EXPECT_FALSE(marginsMayFit(positionOf(k * k), 1.000001 * most));
+		const double bound = 1.0 / (k + 1);
+		EXPECT_TRUE(marginsMayFit(positionOf(k * k), 0.999999 * bound));
+		EXPECT_FALSE(marginsMayFit(positionOf(k * k), 1.000001 * bound));
 	}
 }
 
@@ -404,14 +464,14 @@ TEST(PackCharts, RefusesCoordinatesBeyondFloatInTheirOwnScaleOnly)
 TEST(PackCharts, GivesThinChartsRoomOfTheirOwn)
 {
 	const std::vector<Point2> sizes = {{2.0, 1.0}, {1.5, 1e-9}, {1e-9, 1.2}, {1e-9, 1e-9}};
-	constexpr double kLeast = 2e-6; // a height in six decimals, and as much again
+	constexpr double kMinHeightInText = 2e-6; // a height in six decimals, and as much again
 	for (const double margin : {0.0, 0.05}) {
 		Parametrization map = boxes(sizes);
 		packCharts(map, true, margin, inARow);
 		for (std::size_t i = 0; i < sizes.size(); ++i) {
 			const Box2& room = map.charts[i].box;
 			const Box2 own = boxOf(map, map.charts[i]);
-			EXPECT_GE(std::min(room.width(), room.height()), kLeast);
+			EXPECT_GE(std::min(room.width(), room.height()), kMinHeightInText);
 			for (std::size_t k = 0; k < 2; ++k) {
 				EXPECT_LE(room.min[k], own.min[k]);
 				EXPECT_GE(room.max[k], own.max[k]);

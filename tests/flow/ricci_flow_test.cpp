@@ -33,7 +33,7 @@ void expectReached(const FlippedFlow& flow)
 
 /// Least weight of an edge, relative to the terms it is made of, from lengths and radii alone: the
 /// heights of the two power centres over the edge.
-double leastRelativeWeight(const FlowResult& r)
+double minRelativeWeight(const FlowResult& r)
 {
 	const Triangulation& t = r.metric->triangulation();
 	const auto& lengths = r.metric->lengths();
@@ -103,14 +103,14 @@ TEST(RicciFlow, WeightsAreNotNegativeAtTheEnd)
 	for (const SurfaceMesh& mesh : meshes) {
 		const FlippedFlow flat(mesh, requestOf(TargetCurvature::Flat));
 		expectReached(flat);
-		EXPECT_GE(leastRelativeWeight(flat.result), -1e-13);
+		EXPECT_GE(minRelativeWeight(flat.result), -1e-13);
 		const FlippedFlow curved(
 			mesh,
 			prescribed(randomCurvature(
 				static_cast<int>(mesh.positions.size()), 0, -3.0, 3.0, 0.3, random)));
 		expectReached(curved);
 		EXPECT_GT(curved.result.history.flowFlips.size(), 0u);
-		EXPECT_GE(leastRelativeWeight(curved.result), -1e-13);
+		EXPECT_GE(minRelativeWeight(curved.result), -1e-13);
 	}
 }
 

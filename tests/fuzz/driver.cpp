@@ -2,12 +2,13 @@
 // Runs the fuzz target without libFuzzer: on files, and on inputs from a generator of its own,
 // which are the same on every run. Does not watch coverage.
 //
-//     ricci_fuzz [--runs N] [--seconds S] [--seed K] [--sentences] [--go-on] [--find TEXT]
-//                [FILE|FOLDER...]
+//     ricci_fuzz [--runs N] [--seconds S] [--seed K] [--pack-every N] [--sentences] [--go-on]
+//                [--find TEXT] [FILE|FOLDER...]
 //
 // Ends at the first defect, with 1 and the input in the file "defect-input" (with --go-on, at the
 // end, and the n-th input in "defect-input-n"); a crash or a hang leaves its input there as well.
-// --find leaves the inputs whose refusal contains TEXT in "found-input-n".
+// --pack-every: of N generated inputs only the first may have its charts fitted into the unit square; 0:
+// none may, nor that of a FILE. --find leaves the inputs whose refusal contains TEXT in "found-input-n".
 #include "facade_check.h"
 #include "support/random.h"
 
@@ -88,11 +89,12 @@ public:
 	int defects() const { return m_defects; }
 
 	/// False at a defect.
-	bool execute(const Input& input)
+	bool execute(const Input& input, bool mayPack = true)
 	{
 		running = &input;
 		setPatience(kPatience);
-		const ricci::testing::Execution e = ricci::testing::runFacade(input.data(), input.size());
+		const ricci::testing::Execution e =
+			ricci::testing::runFacade(input.data(), input.size(), mayPack);
 		setPatience(0);
 		++m_count[e.verdict];
 		if (e.verdict == ricci::testing::Verdict::Refused)
@@ -170,7 +172,7 @@ Input generate(const std::vector<Input>& corpus, ricci::testing::Random& random)
 int main(int argc, char** argv)
 {
 	Session session;
-	long runs = 0, seconds = 0;
+	long runs = 0, seconds = 0, packEvery = 1;
 	std::uint64_t seed = 1;
 	bool sentences = false;
 	std::vector<std::filesystem::path> files;
@@ -181,6 +183,8 @@ int main(int argc, char** argv)
 			runs = value();
 		else if (argument == "--seconds")
 			seconds = value();
+		else if (argument == "--pack-every")
+			packEvery = value();
 		else if (argument == "--seed")
 			seed = static_cast<std::uint64_t>(value());
 		else if (argument == "--sentences")
@@ -202,7 +206,7 @@ int main(int argc, char** argv)
 	std::sort(files.begin(), files.end());
 	for (const auto& file : files) {
 		corpus.push_back(readFile(file));
-		if (!session.execute(corpus.back())) {
+		if (!session.execute(corpus.back(), packEvery > 0)) {
 			std::printf("in %s\n", file.c_str());
 			return 1;
 		}
@@ -210,7 +214,7 @@ int main(int argc, char** argv)
 	ricci::testing::Random random(seed);
 	const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
 	for (long i = 0; i < runs || std::chrono::steady_clock::now() < end; ++i) {
-		if (!session.execute(generate(corpus, random)))
+		if (!session.execute(generate(corpus, random), packEvery > 0 && i % packEvery == 0))
 			return 1;
 		if (session.executions() % kBetweenReports == 0) {
 			session.print(false);

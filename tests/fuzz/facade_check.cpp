@@ -3,6 +3,7 @@
 
 #include "hostile_mesh.h"
 #include "support/mesh_contents.h"
+#include "support/random.h"
 #include "support/shapes.h"
 #include "support/vcg_mesh.h"
 
@@ -95,7 +96,8 @@ struct Reading
 	std::vector<char> isDegenerate; // [VCG face]
 
 	template<class Mesh>
-	explicit Reading(const Mesh& m) : wanted(m.face.size(), 0), isDegenerate(m.face.size(), 0)
+	Reading(const Mesh& m, const std::vector<std::array<char, 3>>& seams) :
+			wanted(m.face.size(), 0), isDegenerate(m.face.size(), 0)
 	{
 		mesh = fromVcg(m);
 		mesh.absent = m.vert.size() - static_cast<std::size_t>(m.vn);
@@ -103,8 +105,11 @@ struct Reading
 			if (m.vert[v].IsD())
 				mesh.positions[v] = {0, 0, 0};
 		for (std::size_t f = 0; f < m.face.size(); ++f)
-			if (!m.face[f].IsD())
+			if (!m.face[f].IsD()) {
 				face.push_back(static_cast<int>(f));
+				if (!seams.empty())
+					mesh.seam.push_back(seams[f]);
+			}
 		std::vector<std::string> notes;
 		opened = openMesh(mesh, notes);
 		for (std::size_t f = 0; f < opened.face.size(); ++f)
@@ -430,6 +435,19 @@ defectOfCover(const Mesh& m, const typename vcg::tri::RicciFlow<Mesh>::Result& r
 	return {};
 }
 
+std::vector<std::array<char, 3>> seamsOf(const HostileMesh& hostile, std::size_t faces)
+{
+	std::vector<std::array<char, 3>> seams;
+	if (hostile.seamEvery == 0)
+		return seams;
+	Random random(static_cast<std::uint64_t>(hostile.seamSeed));
+	seams.resize(faces);
+	for (auto& face : seams)
+		for (char& side : face)
+			side = random.index(hostile.seamEvery) == 0;
+	return seams;
+}
+
 template<class Mesh>
 Execution run(const HostileMesh& hostile)
 {
@@ -445,6 +463,8 @@ Execution run(const HostileMesh& hostile)
 	static_cast<HyperbolicOptions&>(hyperbolicParams) = hostile.hyperbolicOptions;
 	hyperbolicParams.canonicalGenerators = true;
 	params.chartMargin = hostile.chartMargin;
+	params.cutStrips = hostile.cutStrips;
+	const typename Flow::SideMarks seams = seamsOf(hostile, m.face.size());
 	Watch watch(hostile.cancelAt, hostile.mesh.triangles.size());
 	typename Flow::Result result;
 	SphereMap sphere;
@@ -452,8 +472,8 @@ Execution run(const HostileMesh& hostile)
 		if (hostile.sphere)
 			sphere = Flow::ComputeSphere(m, params, watch);
 		else
-			result = hostile.hyperbolic ? Flow::ComputeHyperbolic(m, hyperbolicParams, watch)
-										: Flow::Compute(m, params, watch);
+			result = hostile.hyperbolic ? Flow::ComputeHyperbolic(m, hyperbolicParams, watch, seams)
+										: Flow::Compute(m, params, watch, seams);
 		execution.verdict = Verdict::Mapped;
 	}
 	catch (const Cancelled& cancelled) {
@@ -489,7 +509,7 @@ Execution run(const HostileMesh& hostile)
 	execution.defect = defectOf(
 		result.report,
 		hostile.hyperbolic ? hostile.hyperbolicOptions.epsilon : hostile.options.epsilon);
-	const Reading reading(m);
+	const Reading reading(m, seams);
 	if (execution.defect.empty())
 		execution.defect = contradictionOf(result.report, reading.opened);
 	const bool refined = !result.refined.triangles.empty();
@@ -525,10 +545,11 @@ Execution run(const HostileMesh& hostile)
 
 } // namespace
 
-Execution runFacade(const std::uint8_t* data, std::size_t size)
+Execution runFacade(const std::uint8_t* data, std::size_t size, bool mayPack)
 {
 	ByteSource bytes(data, size);
-	const HostileMesh hostile(bytes);
+	HostileMesh hostile(bytes);
+	hostile.normalizeUV = hostile.normalizeUV && mayPack;
 	const auto once = [&] {
 		return hostile.doublePrecision ? run<DoubleMesh>(hostile) : run<FloatMesh>(hostile);
 	};

@@ -549,6 +549,11 @@ void HostileMesh::drawRarerOptions(ByteSource& bytes)
 		options.memoryLimit = hyperbolicOptions.memoryLimit = awkward(bytes);
 	sphere = bytes.oneIn(16);
 	rings = bytes.below(3);
+	cutStrips = bytes.oneIn(8);
+	if (bytes.oneIn(8)) {
+		seamEvery = 1 + bytes.below(50);
+		seamSeed = bytes.byte();
+	}
 }
 
 /// Takes the cheapest reasons for a refusal away, so that more inputs come as far as the flow.

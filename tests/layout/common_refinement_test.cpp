@@ -121,7 +121,7 @@ void expectSound(const FlippedFlow& flow, const CommonRefinement& refinement)
 {
 	const RefinementCheck check(flow.mesh, MapOf(refinement), targetOf(flow));
 	EXPECT_LT(check.areaError, 1e-9);
-	EXPECT_GE(check.leastWeight, -1e-12);
+	EXPECT_GE(check.minWeight, -1e-12);
 	EXPECT_LT(check.weightError, 1e-14);
 	EXPECT_EQ(check.notPositive, 0);
 	EXPECT_LT(check.seamMismatch, 1e-9);

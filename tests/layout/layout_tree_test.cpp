@@ -28,7 +28,7 @@ double loss(const Triangulation& t, const EdgeArray<double>& lengths, Edge e)
 
 /// Least loss on a way from the root to every triangle, infinite where there is none: relaxed edge by
 /// edge until nothing changes (Bellman and Ford).
-FaceArray<double> leastLoss(
+FaceArray<double> minLoss(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
 	const EdgeArray<char>& isCut,
@@ -64,7 +64,7 @@ TEST(LayoutTree, ReachesEveryTriangleByTheWayThatLosesLeast)
 			for (char& cut : isCut)
 				cut = random.real(0.0, 1.0) < share;
 			const Face root(random.index(t.faceCount()));
-			const FaceArray<double> least = leastLoss(t, metric.lengths, isCut, root);
+			const FaceArray<double> least = minLoss(t, metric.lengths, isCut, root);
 			FaceArray<double> lost(t.faceCount(), kNever);
 			lost[root] = 0.0;
 			for (const Halfedge h : layoutTree(t, metric.lengths, isCut, root)) {

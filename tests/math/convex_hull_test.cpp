@@ -77,7 +77,7 @@ TEST(ConvexHull, OfPointsOnALineOrAtOnePlace)
 	EXPECT_EQ(convexHull({{1, 1}, {3, 3}, {2, 2}, {0, 0}}), (std::vector<Point2>{{0, 0}, {3, 3}}));
 }
 
-TEST(SimpleOutline, LiesRoundThePolygonAndHasFewCorners)
+TEST(EnclosingPolygon, LiesRoundThePolygonAndHasFewCorners)
 {
 	Random random(641);
 	for (int kind = 0; kind < 4; ++kind)
@@ -86,7 +86,7 @@ TEST(SimpleOutline, LiesRoundThePolygonAndHasFewCorners)
 			if (hull.size() < 3)
 				continue;
 			for (std::size_t maxCorners : {4u, 6u, 8u}) {
-				const std::vector<Point2> outline = simpleOutline(hull, maxCorners);
+				const std::vector<Point2> outline = enclosingPolygon(hull, maxCorners);
 				EXPECT_LE(outline.size(), maxCorners);
 				for (const Point2& p : hull)
 					EXPECT_GE(depthIn(outline, p), -1e-14);
@@ -98,11 +98,11 @@ TEST(SimpleOutline, LiesRoundThePolygonAndHasFewCorners)
 }
 
 /// Four sides are prolonged past the other two, which adds two triangles as large as one of the six.
-TEST(SimpleOutline, OfAHexagonAddsTwoTriangles)
+TEST(EnclosingPolygon, OfAHexagonAddsTwoTriangles)
 {
 	const double h = std::sqrt(0.75);
 	const std::vector<Point2> hexagon{{1, 0}, {0.5, h}, {-0.5, h}, {-1, 0}, {-0.5, -h}, {0.5, -h}};
-	const std::vector<Point2> four = simpleOutline(hexagon, 4);
+	const std::vector<Point2> four = enclosingPolygon(hexagon, 4);
 	ASSERT_EQ(four.size(), 4u);
 	const double area =
 		doubledArea(four[0], four[1], four[2]) + doubledArea(four[0], four[2], four[3]);
@@ -110,12 +110,12 @@ TEST(SimpleOutline, OfAHexagonAddsTwoTriangles)
 }
 
 /// No side of a triangle or a parallelogram can be left out.
-TEST(SimpleOutline, KeepsWhatCannotBeSimpler)
+TEST(EnclosingPolygon, KeepsWhatCannotBeSimpler)
 {
 	const std::vector<Point2> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}},
 		triangle{{0, 0}, {1, 0}, {0, 1}};
-	EXPECT_EQ(simpleOutline(square, 3), square);
-	EXPECT_EQ(simpleOutline(triangle, 2), triangle);
+	EXPECT_EQ(enclosingPolygon(square, 3), square);
+	EXPECT_EQ(enclosingPolygon(triangle, 2), triangle);
 }
 
 } // namespace

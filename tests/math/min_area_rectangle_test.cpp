@@ -81,7 +81,7 @@ TEST(MinAreaRectangle, OfPointsWithoutAnArea)
 }
 
 /// The least area of the rectangles along the sides of a convex polygon, side by side.
-double leastArea(const std::vector<Point2>& hull)
+double minArea(const std::vector<Point2>& hull)
 {
 	double least = std::numeric_limits<double>::infinity();
 	for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -116,7 +116,7 @@ TEST(MinAreaRectangle, IsTheLeastOfAllAlongSidesOfTheHull)
 			hull.push_back(
 				{std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y});
 		}
-		const double least = leastArea(hull);
+		const double least = minArea(hull);
 		EXPECT_NEAR(area(minAreaRectangle(hull)), least, 1e-12) << trial;
 	}
 }

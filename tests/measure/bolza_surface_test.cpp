@@ -65,7 +65,7 @@ FuchsianGroup groupOfFlow(const IntrinsicMesh& metric)
 }
 
 /// Least |trace| of an isometry along an axis, among the copies of the domain in a few rings.
-double leastTrace(const FuchsianGroup& group)
+double minTrace(const FuchsianGroup& group)
 {
 	double least = std::numeric_limits<double>::infinity();
 	for (const DiskIsometry& m : tiling(group.sides, 3, 20000).deck)
@@ -260,7 +260,7 @@ TEST(BolzaSurface, FlowFindsItExactlyWhereTheSymmetryIsKept)
 			const FuchsianGroup group = groupOfFlow(metric);
 			EXPECT_LT(group.polygonError, 1e-10);
 			EXPECT_LT(group.relationError, 1e-9);
-			EXPECT_NEAR(leastTrace(group), 2 * BolzaSurface::halfTrace(), 1e-9);
+			EXPECT_NEAR(minTrace(group), 2 * BolzaSurface::halfTrace(), 1e-9);
 		}
 	}
 }
@@ -279,7 +279,7 @@ TEST(BolzaSurface, ShortestGeodesicConvergesWithSecondOrder)
 	std::vector<double> errors;
 	for (int levels : {2, 3, 4, 5})
 		errors.push_back(std::abs(
-			leastTrace(groupOfFlow(BolzaSurface(levels).distorted(bump))) -
+			minTrace(groupOfFlow(BolzaSurface(levels).distorted(bump))) -
 			2 * BolzaSurface::halfTrace()));
 	EXPECT_LT(errors.back(), 0.01);
 	for (std::size_t i = 2; i < errors.size(); ++i)

@@ -130,7 +130,7 @@ TEST(BestConditioned, ShortensWhatTwistsHaveMadeLong)
 		const Handles regular = regularHandles(genus);
 		const double least = relationCondition(regular);
 		ASSERT_LT(static_cast<double>(relationOf(regular).distanceFromIdentity()), 1e-20);
-		int trials = 0, nearlyLeast = 0;
+		int trials = 0, nearlyMinimal = 0;
 		while (trials < 10) {
 			const Handles longer = tangled(regular, 6, random);
 			if (relationCondition(longer) > 1e25)
@@ -141,14 +141,14 @@ TEST(BestConditioned, ShortensWhatTwistsHaveMadeLong)
 			const double condition = relationCondition(found);
 			EXPECT_LE(condition, relationCondition(longer));
 			EXPECT_LT(condition, 1e8 * least);
-			nearlyLeast += condition < 100 * least;
+			nearlyMinimal += condition < 100 * least;
 			EXPECT_LT(
 				static_cast<double>(relationOf(found).distanceFromIdentity()),
 				kExtendedEpsilon * condition);
 			for (const ExtendedIsometry& m : found)
 				EXPECT_GT(std::abs(static_cast<double>(m.trace())), 2.0);
 		}
-		EXPECT_GE(nearlyLeast, 7);
+		EXPECT_GE(nearlyMinimal, 7);
 	}
 }
 

@@ -333,7 +333,7 @@ TEST(Assemble, NumbersOfTheRefinedPointsOfSeveralComponents)
 	const RefinementCheck check(
 		mesh, {r.points, r.triangles, r.inputFace, r.uv}, map.targetCurvature);
 	EXPECT_LT(check.areaError, 1e-12);
-	EXPECT_GE(check.leastWeight, -1e-12);
+	EXPECT_GE(check.minWeight, -1e-12);
 	EXPECT_LT(check.weightError, 1e-14);
 	EXPECT_EQ(check.notPositive, 0);
 	EXPECT_LT(check.seamMismatch, 1e-9);

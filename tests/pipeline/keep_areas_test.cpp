@@ -23,7 +23,7 @@
 namespace ricci::testing {
 namespace {
 
-constexpr int kMostRounds = 6;
+constexpr int kMaxRounds = 6;
 
 /// Keeps lines and names of stages; cancels at the n-th update of one name, if asked to.
 class Listener : public Progress
@@ -244,7 +244,7 @@ TEST(KeepAreas, EndsWithTheBestOfItsFlows)
 					last = excess;
 				}
 				// One round in vain is not the end.
-				if (flow.excess() > 1.0 && listener.count(kRound) < kMostRounds) {
+				if (flow.excess() > 1.0 && listener.count(kRound) < kMaxRounds) {
 					EXPECT_GT(last, flow.excess());
 				}
 				inVain += flow.excess() > 1.0;
@@ -266,7 +266,7 @@ TEST(KeepAreas, EndsAfterABoundedNumberOfRounds)
 	const double before = flow.excess();
 	Listener listener;
 	flow.keepAreas(listener);
-	EXPECT_EQ(listener.count(kRound), kMostRounds);
+	EXPECT_EQ(listener.count(kRound), kMaxRounds);
 	EXPECT_GT(flow.excess(), 1.0);
 	EXPECT_LT(flow.excess(), 0.1 * before);
 }

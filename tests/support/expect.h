@@ -52,13 +52,13 @@ inline void expectWords(const std::string& sentence, const std::vector<std::stri
 }
 
 /// The flow's target is reached, by its own word and by the lengths it gives, which \p Measure reads
-/// (MetricMeasure or HyperbolicMeasure). \p mostFloor bounds what rounding may prevent.
+/// (MetricMeasure or HyperbolicMeasure). \p maxFloor bounds what rounding may prevent.
 template<class Measure>
-void expectTarget(const FlippedFlow& flow, double mostFloor)
+void expectTarget(const FlippedFlow& flow, double maxFloor)
 {
 	const FlowResult& r = flow.result;
 	EXPECT_LE(r.residual, std::max(1e-10, r.floor));
-	EXPECT_LE(r.floor, mostFloor);
+	EXPECT_LE(r.floor, maxFloor);
 	EXPECT_EQ(r.metric->brokenTriangles(), 0);
 	EXPECT_TRUE(r.u.allFinite());
 	const Measure measure(r.metric->triangulation(), r.metric->lengths());

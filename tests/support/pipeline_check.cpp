@@ -23,7 +23,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 /// Cones of a closed component for each 2 pi of its curvature, and at least: few and strong ones
 /// shrink the rest of the surface below what one chart of doubles can hold.
-constexpr int kConesPerTurn = 16, kLeastCones = 4;
+constexpr int kConesPerTurn = 16, kMinCones = 4;
 
 /// Curvature that every component admits, its boundary being free.
 std::vector<double> admissibleCurvature(const SurfaceMesh& mesh)
@@ -36,8 +36,7 @@ std::vector<double> admissibleCurvature(const SurfaceMesh& mesh)
 			continue;
 		const int count = c.vertex.size();
 		const int chi = t.eulerCharacteristic();
-		const int cones =
-			std::min(chi > 0 ? kLeastCones : kConesPerTurn * std::max(1, -chi), count);
+		const int cones = std::min(chi > 0 ? kMinCones : kConesPerTurn * std::max(1, -chi), count);
 		for (int i = 0; i < cones; ++i)
 			curvature[at(c.vertex[Vertex(at(i) * at(count) / at(cones))])] = 2 * kPi * chi / cones;
 	}
@@ -95,7 +94,7 @@ std::string defectOf(const SurfaceMesh& input, const Parametrization& flat, int&
 	require(report.flippedFaces == check.notPositive, "flipped by the report", report.flippedFaces);
 	require(check.seamMismatch < 1e-9, "seam mismatch", check.seamMismatch);
 	require(check.seamsInside == 0, "seams inside faces", check.seamsInside);
-	require(check.leastWeight >= -1e-12, "weight", check.leastWeight);
+	require(check.minWeight >= -1e-12, "weight", check.minWeight);
 	require(check.weightError < 1e-14, "sum of weights", check.weightError);
 	require(
 		check.eulerCharacteristic == report.eulerCharacteristic,

@@ -98,7 +98,7 @@ RefinementCheck::RefinementCheck(
 			const SurfacePoint& p = map.points[at(point)];
 			for (int v : support(p)) {
 				const bool inFace = std::find(face.begin(), face.end(), v) != face.end();
-				leastWeight = std::min(leastWeight, inFace ? weightOf(p, v) : -1.0);
+				minWeight = std::min(minWeight, inFace ? weightOf(p, v) : -1.0);
 			}
 		}
 		if (orientation(map.uv[f][0], map.uv[f][1], map.uv[f][2]) > 0)

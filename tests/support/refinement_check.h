@@ -24,7 +24,7 @@ struct RefinedMap
 struct RefinementCheck
 {
 	double areaError = 0.0;   ///< relative: pieces of an input face against the face, in space
-	double leastWeight = 0.0; ///< barycentric, in the input face of the piece; -1 if not in it
+	double minWeight = 0.0;   ///< barycentric, in the input face of the piece; -1 if not in it
 	double weightError = 0.0; ///< of the sum of the weights of a point
 	int notPositive = 0;      ///< triangles of the plane that are not counter-clockwise, exactly
 	int notPositiveByRounding = 0; ///< of these, so thin that the places' last digit decides

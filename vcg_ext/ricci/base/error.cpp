@@ -278,16 +278,16 @@ SolverFailed::SolverFailed(Stage s) :
 {
 }
 
-TooLarge::TooLarge(Problem p, std::size_t n, double bytes, double most) :
-		Error(words(p, n, bytes, most)), problem(p), count(n), needed(bytes), limit(most)
+TooLarge::TooLarge(Problem p, std::size_t n, double bytes, double bound) :
+		Error(words(p, n, bytes, bound)), problem(p), count(n), needed(bytes), limit(bound)
 {
 }
 
-TimeOut::TimeOut(double seconds, double share, double most) :
+TimeOut::TimeOut(double seconds, double share, double bound) :
 		Stopped(
 			"The run was stopped after " + numberText(seconds, 3) + " seconds, with about " +
-			numberText(100.0 * share, 2) + "% done (limit: " + numberText(most, 6) + " seconds)"),
-		elapsed(seconds), done(share), limit(most)
+			numberText(100.0 * share, 2) + "% done (limit: " + numberText(bound, 6) + " seconds)"),
+		elapsed(seconds), done(share), limit(bound)
 {
 }
 

@@ -19,10 +19,10 @@ namespace ricci {
 /// Threads that loops over elements use by default.
 inline int defaultThreads()
 {
-	constexpr unsigned kMost = 16; // memory is what these loops wait for
+	constexpr unsigned kMaxThreads = 16; // memory is what these loops wait for
 	// Read once: the system opens a file to count its processors.
 	static const int threads =
-		static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMost));
+		static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, kMaxThreads));
 	return threads;
 }
 
@@ -38,11 +38,11 @@ inline int threadsFor(std::int64_t triangles)
 /// a time. The parts must be independent and \p work must not throw. The parts'
 /// bounds vary with the number of threads: a result that does not must not
 /// depend on them, so sums over elements are not for here.
-/// \param leastPart elements that are worth a thread
+/// \param minPart elements that are worth a thread
 template<class Work>
-void inParallel(int count, int threads, const Work& work, int leastPart = 16384)
+void inParallel(int count, int threads, const Work& work, int minPart = 16384)
 {
-	const int parts = std::clamp(count / leastPart, 1, std::max(threads, 1));
+	const int parts = std::clamp(count / minPart, 1, std::max(threads, 1));
 	const auto bound = [&](int part) {
 		return static_cast<int>(std::int64_t(count) * part / parts);
 	};

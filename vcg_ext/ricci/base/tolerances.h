@@ -126,7 +126,7 @@ constexpr double kMergeGap = 1e-12;
 
 /// A difference below this share of its terms has lost the digits that places of crossings need: they are
 /// found in extended precision.
-constexpr double kLeastDifference = 1e-6;
+constexpr double kMinDifference = 1e-6;
 
 /// Two sides of a seam that lie this near to each other, relative to the size of the layout, are at
 /// one place; and two triangles that cover each other no deeper than this only touch. A layout is
@@ -136,17 +136,17 @@ constexpr double kOnePlace = 1e-9, kTouching = 1e-9;
 /// Least height that triangles are given, relative to the extent of the map: eight steps of a float
 /// below 1. And in floats, in steps at the largest coordinate: rounding takes less than two. Triangles
 /// that are mended get so many times this height where they can.
-constexpr double kLeastHeight = 0x1p-21, kLeastFloatSteps = 4.0, kWantedHeights = 2.0;
+constexpr double kMinHeight = 0x1p-21, kMinFloatSteps = 4.0, kWantedHeights = 2.0;
 
 /// Formats of text give coordinates in the unit square with six decimals.
 constexpr double kTextStep = 1e-6;
 
 /// Least sides of the boxes of charts, as a share of the square that holds all of them: room for
 /// triangles of those heights, in six decimals too.
-constexpr double kLeastBoxSide = 0x1p-16;
+constexpr double kMinBoxSide = 0x1p-16;
 
 /// The pieces of a refinement may be as thin as a double shows.
-constexpr double kLeastRefinedHeight = 0x1p-46;
+constexpr double kMinRefinedHeight = 0x1p-46;
 
 /// The sides of a seam have one length up to this, relatively, and one transition up to this in
 /// radians: what the curvature that the flow leaves makes of them. A seam vertex that is moved by a
@@ -158,7 +158,7 @@ constexpr double kMarginSpare = 1e-6;
 
 /// Outlines of charts, whose boxes may meet, keep at least this distance, as a share of the square:
 /// more than the steps of floats by which their points are moved afterwards.
-constexpr double kLeastOutlineRoom = 2e-5;
+constexpr double kMinOutlineRoom = 2e-5;
 
 /// Charts are turned, and placed by their outlines, where the square's side gets shorter by this share:
 /// for less, upright charts are worth more.

@@ -16,15 +16,15 @@ namespace ricci {
 
 namespace {
 
-/// Steps, and outlines that are joined, between two ticks.
+/// Steps, and hulls that are joined, between two ticks.
 constexpr std::int64_t kStepsBetweenTicks = 1 << 18;
 constexpr int kJoinsBetweenTicks = 1 << 14;
 
-/// Steps for each triangle from which on outlines save more than they cost: boxes of triangles of
+/// Steps for each triangle from which on hulls save more than they cost: boxes of triangles of
 /// good shape meet in about ten pairs.
 constexpr std::int64_t kManySteps = 64;
 
-/// Corners of the outline of a node.
+/// Corners of the polygon round a node.
 constexpr std::size_t kMaxCorners = 8;
 
 /// Whether \p r lies deeper than \p touching to the left of the line from \p p to \p q.
@@ -115,8 +115,8 @@ OverlapSearch::OverlapSearch(const DrawnChart& chart, const Tick& tick, double e
 			nextTick = m_steps + kStepsBetweenTicks;
 			tick();
 		}
-		if (m_outlines.empty() && m_steps > kManySteps * m_plane.size())
-			makeOutlines(tick);
+		if (m_hulls.empty() && m_steps > kManySteps * m_plane.size())
+			makeHulls(tick);
 	};
 	const auto compare = [&](int i, int j) {
 		step();
@@ -135,32 +135,32 @@ OverlapSearch::OverlapSearch(const DrawnChart& chart, const Tick& tick, double e
 	};
 	m_tree.meetingPairs(compare, [&](int a, int b) {
 		step();
-		return !m_outlines.empty() && (separates(m_outlines[a], m_outlines[b], m_nothing) ||
-									   separates(m_outlines[b], m_outlines[a], m_nothing));
+		return !m_hulls.empty() && (separates(m_hulls[a], m_hulls[b], m_nothing) ||
+									separates(m_hulls[b], m_hulls[a], m_nothing));
 	});
 	std::sort(m_pairs.begin(), m_pairs.end());
 }
 
 /// A convex polygon round the triangles of each node that are not flat. Two triangles overlap no deeper
 /// than such polygons do: the least depth of two convex polygons is that along a side of one of them.
-void OverlapSearch::makeOutlines(const Tick& tick)
+void OverlapSearch::makeHulls(const Tick& tick)
 {
 	int joins = 0;
-	using Outline = std::vector<Point2>;
-	m_outlines = m_tree.valuesOfNodes<Outline>(
+	using Polygon = std::vector<Point2>;
+	m_hulls = m_tree.valuesOfNodes<Polygon>(
 		[&](int i) {
-			Outline corners(m_plane[i].begin(), m_plane[i].end());
+			Polygon corners(m_plane[i].begin(), m_plane[i].end());
 			const int turn = orientation(corners[0], corners[1], corners[2]);
 			if (turn < 0)
 				std::swap(corners[1], corners[2]);
-			return turn == 0 ? Outline() : corners;
+			return turn == 0 ? Polygon() : corners;
 		},
-		[&](const Outline& a, const Outline& b) {
+		[&](const Polygon& a, const Polygon& b) {
 			if (++joins % kJoinsBetweenTicks == 0)
 				tick();
-			Outline both = a;
+			Polygon both = a;
 			both.insert(both.end(), b.begin(), b.end());
-			return simpleOutline(convexHull(std::move(both)), kMaxCorners);
+			return enclosingPolygon(convexHull(std::move(both)), kMaxCorners);
 		});
 }
 
@@ -180,8 +180,7 @@ int OverlapSearch::cover(const Point2& p, const IsCounted& isCounted) const
 	};
 	m_tree.boxesAround(p, add, [&](int node) {
 		++m_steps;
-		return !m_outlines.empty() &&
-			   separates(m_outlines[node], std::array<Point2, 1>{p}, -m_nothing);
+		return !m_hulls.empty() && separates(m_hulls[node], std::array<Point2, 1>{p}, -m_nothing);
 	});
 	return sum;
 }

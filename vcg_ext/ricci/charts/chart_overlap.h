@@ -38,7 +38,7 @@ bool overlap(const Triangle2& a, const Triangle2& b, double touching);
 ///
 /// These overlap() by more than kTouching. Candidates come from a tree of bounding boxes; where these
 /// meet in many more pairs than there are triangles, as they do round a vertex of many long triangles,
-/// convex outlines of the tree's nodes are compared, too. So neither the chart's topology nor its
+/// convex polygons round the tree's nodes are compared, too. So neither the chart's topology nor its
 /// boundary matters: holes, slits whose sides coincide, and parts that
 /// touch in points or along lines are no overlap; a cone of more than 2 pi at a boundary vertex is.
 ///
@@ -69,7 +69,7 @@ public:
 	std::int64_t steps() const { return m_steps; }
 
 private:
-	void makeOutlines(const Tick& tick);
+	void makeHulls(const Tick& tick);
 
 	template<class IsCounted>
 	int cover(const Point2& p, const IsCounted& isCounted) const;
@@ -82,8 +82,8 @@ private:
 
 	const Array<Triangle2>& m_plane;
 	BoxTree m_tree;
-	Array<std::vector<Point2>> m_outlines; ///< [node of the tree], or none
-	double m_nothing = 0.0; ///< depth that outlines have in common where they are apart
+	Array<std::vector<Point2>> m_hulls; ///< [node of the tree], or none
+	double m_nothing = 0.0;             ///< depth that polygons have in common where they are apart
 	mutable std::int64_t m_steps = 0;
 	std::vector<TrianglePair> m_pairs;
 	std::vector<HiddenPair> m_hidden;

@@ -14,7 +14,7 @@
 namespace ricci {
 
 /// The connected pieces of a graph that contain one of \p starts, but for the largest. They are
-/// searched from all starts at once, where the least is known, and only until one piece is left: the
+/// searched from all starts at once, the one with the fewest nodes first, and only until one piece is left: the
 /// work depends on the small ones, or on how far the starts of one piece are apart.
 /// \param forNeighbours forNeighbours(i, visit) calls visit(j) for all neighbours of a node
 /// \param scratch [node] -1, as it is left
@@ -36,13 +36,13 @@ std::vector<std::vector<int>> smallerPieces(
 	DisjointSets sets(static_cast<int>(searches.size()));
 	const auto at = [&](int search) -> Search& { return searches[positionOf(search)]; };
 	using Entry = std::pair<std::size_t, int>; // nodes, search
-	std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> least;
+	std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> smallest;
 	for (int i = 0; i < sets.size(); ++i)
-		least.push({1, i});
+		smallest.push({1, i});
 	std::vector<std::vector<int>> pieces;
 	for (int left = sets.size(); left > 1;) {
-		const auto [size, first] = least.top();
-		least.pop();
+		const auto [size, first] = smallest.top();
+		smallest.pop();
 		int own = sets.find(first);
 		if (own != first || at(own).nodes.size() != size)
 			continue; // the search has a newer entry
@@ -73,7 +73,7 @@ std::vector<std::vector<int>> smallerPieces(
 			if (own == other)
 				std::swap(kept, gone);
 		});
-		least.push({at(own).nodes.size(), own});
+		smallest.push({at(own).nodes.size(), own});
 	}
 	for (const Search& search : searches)
 		for (const int i : search.nodes)

@@ -43,7 +43,7 @@ public:
 			for (const Point2& p : triangle)
 				for (const double x : p)
 					largest = std::max(largest, std::abs(x));
-		const double height = kLeastFloatSteps * floatStep(largest);
+		const double height = kMinFloatSteps * floatStep(largest);
 		soundness = {height, kWantedHeights * height, true};
 		inText = soundness;
 		if (!map.isRefined() && largest > 0.5 && largest <= 1.0)

@@ -143,6 +143,19 @@ private:
 
 	static int cellAt(double x) { return static_cast<int>(std::floor(x)); }
 
+	/// Sorted as fast as can be: by rows, then along them.
+	static std::uint64_t numberOf(const Run& run)
+	{
+		const auto bits = [](int x, int shift) { return static_cast<std::uint64_t>(x) << shift; };
+		return bits(run.row, 32) | bits(run.first, 16) | bits(run.last, 0);
+	}
+
+	static Run runOf(std::uint64_t number)
+	{
+		const auto field = [&](int shift) { return static_cast<int>(number >> shift & 0xffff); };
+		return {field(32), field(16), field(0)};
+	}
+
 	void drawSide(const std::array<Point2, 2>& side)
 	{
 		const bool up = side[0][1] < side[1][1];
@@ -159,10 +172,10 @@ private:
 				from = low[0];
 				to = high[0];
 			}
-			m_spans.push_back(
+			m_spans.push_back(numberOf(
 				{row,
 				 std::max(cellAt(std::min(from, to) - m_reach), 0),
-				 std::min(cellAt(std::max(from, to) + m_reach) + 1, m_width)});
+				 std::min(cellAt(std::max(from, to) + m_reach) + 1, m_width)}));
 			const double middle = row + 0.5;
 			if (low[1] <= middle && middle < high[1])
 				m_crossings.push_back({row, xAt(middle), up ? -1 : 1});
@@ -177,17 +190,16 @@ private:
 			const Crossing &a = m_crossings[i], &b = m_crossings[i + 1];
 			turns = a.row == b.row ? turns + a.turns : 0;
 			if (turns != 0)
-				m_spans.push_back({a.row, cellAt(a.x), cellAt(b.x) + 1});
+				m_spans.push_back(numberOf({a.row, cellAt(a.x), cellAt(b.x) + 1}));
 		}
 	}
 
 	void joinSpans()
 	{
-		std::sort(m_spans.begin(), m_spans.end(), [](const Run& a, const Run& b) {
-			return std::tie(a.row, a.first, a.last) < std::tie(b.row, b.first, b.last);
-		});
+		std::sort(m_spans.begin(), m_spans.end());
 		m_runs.clear();
-		for (const Run& span : m_spans) {
+		for (const std::uint64_t number : m_spans) {
+			const Run span = runOf(number);
 			if (m_runs.empty() || m_runs.back().row != span.row || m_runs.back().last < span.first)
 				m_runs.push_back(span);
 			else
@@ -198,7 +210,8 @@ private:
 	double m_cell, m_reach; // m_reach in cells
 	int m_width = 0, m_height = 0;
 	std::vector<std::array<Point2, 2>> m_sides; // in cells
-	std::vector<Run> m_spans, m_runs;
+	std::vector<std::uint64_t> m_spans;         // numbers of runs that may overlap
+	std::vector<Run> m_runs;
 	std::vector<Crossing> m_crossings;
 };
 
@@ -292,7 +305,7 @@ double areaOf(const Outline& outline)
 	return 0.5 * doubled;
 }
 
-std::complex<double> turnToLeastExtent(const Outline& outline)
+std::complex<double> turnToMinExtent(const Outline& outline)
 {
 	std::vector<Point2> points;
 	for (const auto& side : outline)
@@ -338,7 +351,7 @@ std::vector<Motion> packOutlines(
 		const int quarters = turns[i] == ChartTurns::None ? 1 : 4;
 		std::vector<std::complex<double>> firsts; // of the four turns by right angles
 		if (i == largest && turns[i] == ChartTurns::Free)
-			firsts.push_back(turnToLeastExtent(outlines[i]));
+			firsts.push_back(turnToMinExtent(outlines[i]));
 		for (int k = 0; k < angles; ++k)
 			firsts.push_back(rationalTurn(k, angles));
 		for (std::complex<double> turn : firsts)
@@ -351,7 +364,7 @@ std::vector<Motion> packOutlines(
 			}
 	}
 
-	int least = kCells + 1;
+	int minSide = kCells + 1;
 	long long work = 0;
 	std::vector<Motion> best;
 	for (const Shape& first : shapes[largest]) {
@@ -363,7 +376,7 @@ std::vector<Motion> packOutlines(
 		std::vector<Motion> motions(outlines.size());
 		for (const std::size_t i : order) {
 			Spot spot;
-			spot.cost[0] = least;
+			spot.cost[0] = minSide;
 			if (i == largest)
 				canvas.look(first, spot);
 			else
@@ -378,8 +391,8 @@ std::vector<Motion> packOutlines(
 			motions[i] = spot.shape->motion;
 			motions[i].shift[0] += spot.x * cell;
 			motions[i].shift[1] += spot.y * cell;
-			if (i == order.back() && canvas.side() < least) {
-				least = canvas.side();
+			if (i == order.back() && canvas.side() < minSide) {
+				minSide = canvas.side();
 				best = motions;
 			}
 		}

@@ -25,7 +25,7 @@ constexpr int kMaxAttempts = 60;
 constexpr std::size_t kMaxOutlines = 200;
 
 /// A chart is too small for that if its box is shorter than this share of the square.
-constexpr double kLeastOutlineExtent = 1.0 / 64.0;
+constexpr double kMinOutlineExtent = 1.0 / 64.0;
 
 /// The chart's triangles in the plane, of both triangulations.
 std::vector<Triangle2> trianglesOf(const Parametrization& map, const Chart& chart)
@@ -192,7 +192,7 @@ Packing packByOutlines(
 	double areaOfLarge = 0.0, areaOfSmall = 0.0;
 	for (const std::size_t i : order) {
 		const bool isLarge = large.size() < kMaxOutlines && !isThin[i] &&
-							 boxes[i].extent() > kLeastOutlineExtent * side;
+							 boxes[i].extent() > kMinOutlineExtent * side;
 		(isLarge ? large : small).push_back(i);
 		(isLarge ? areaOfLarge : areaOfSmall) += area(i);
 	}
@@ -231,7 +231,7 @@ Packing packByOutlines(
 				p = motions[k](p);
 				packing.whole.add(p);
 			}
-	if (!keepApart(outlines, (1.0 - kMarginSpare) * room))
+	if (!keepApart(outlines, (1.0 - kMarginSpare) * room, tick))
 		return {};
 	packing.motions.resize(boxes.size());
 	for (std::size_t k = 0; k < large.size(); ++k)
@@ -289,8 +289,7 @@ void packCharts(
 		area += box.width() * box.height();
 		extent = std::max(extent, box.extent());
 	}
-	const std::vector<char> isThin =
-		widen(boxes, kLeastBoxSide * std::max(extent, std::sqrt(area)));
+	const std::vector<char> isThin = widen(boxes, kMinBoxSide * std::max(extent, std::sqrt(area)));
 	Packing packing = packBoxes(boxes, margin, placeBoxes);
 	if (!normalize) {
 		for (std::size_t i = 0; i < boxes.size(); ++i)
@@ -307,7 +306,7 @@ void packCharts(
 	}
 	if (turns != ChartTurns::None && packing.side() > 0.0 &&
 		!(boxes.size() == 1 && isThin.front())) {
-		const double room = std::max(packing.room, kLeastOutlineRoom * packing.side());
+		const double room = std::max(packing.room, kMinOutlineRoom * packing.side());
 		Packing turned =
 			boxes.size() == 1
 				? packAlone(map)

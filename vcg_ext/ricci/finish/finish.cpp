@@ -81,7 +81,7 @@ FinishCounts repairLayout(
 	PlanarLayout& layout,
 	const Tick& tick)
 {
-	const Soundness soundness{kLeastHeight * extent, kWantedHeights * kLeastHeight * extent, false};
+	const Soundness soundness{kMinHeight * extent, kWantedHeights * kMinHeight * extent, false};
 	if (isSound(surface.triangulation, layout, soundness))
 		return {};
 	DrawnTriangles drawn = drawingOf(surface, layout);
@@ -128,7 +128,7 @@ finishDisk(const FlowDomain& domain, bool freeBoundary, PlanarLayout& layout, co
 FinishCounts finishDisk(
 	const FlowDomain& domain, bool freeBoundary, CommonRefinement& refinement, const Tick& tick)
 {
-	const Soundness soundness{kLeastRefinedHeight * kDiskExtent, kLeastHeight * kDiskExtent, false};
+	const Soundness soundness{kMinRefinedHeight * kDiskExtent, kMinHeight * kDiskExtent, false};
 	const int count = static_cast<int>(refinement.triangles.size());
 	int bad = 0;
 	for (const Triangle2& p : refinement.uv)

@@ -26,7 +26,7 @@ constexpr double kSmoothing = 1e-6;
 constexpr double kUncountedStiffness = 1e-4;
 
 /// See MeanDistortion::stiffness().
-constexpr double kMostBend = 4.0;
+constexpr double kMaxBend = 4.0;
 
 /// Steps of relax() are at most so many times the shortest side at the point long: where triangles are
 /// small, a point that leaves them for the others' sake does not come back.
@@ -235,7 +235,7 @@ double MeanDistortion::stiffness(Face f) const
 	if (weight == 0.0)
 		return m_stiffness[f];
 	const double over = 1.0 + 0.5 * std::pow(m_energy[f] / weight, 0.8);
-	return m_stiffness[f] * over * std::min(std::sqrt(over), kMostBend);
+	return m_stiffness[f] * over * std::min(std::sqrt(over), kMaxBend);
 }
 
 /// dE / d conj(point).

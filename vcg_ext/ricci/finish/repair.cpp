@@ -30,7 +30,7 @@ constexpr double kMaxStrain = 3.0;
 constexpr int kEasedRings[] = {2, 5, 13};
 
 /// Triangles times Newton steps that may be spent for each triangle of the drawing, and at least.
-constexpr std::int64_t kMaxWorkShare = 40, kLeastMaxWork = 1000000;
+constexpr std::int64_t kMaxWorkShare = 40, kMinMaxWork = 1000000;
 
 /// Steps that a patch is expected to take.
 constexpr std::int64_t kExpectedSteps = 30;
@@ -64,8 +64,8 @@ bool isHopeless(
 			return true;
 	}
 	// An equilateral triangle has the least area of all with its height.
-	const double least = soundness.height * soundness.height / std::sqrt(3.0);
-	return borderStays && area <= least * static_cast<double>(patch.triangles.size());
+	const double minArea = soundness.height * soundness.height / std::sqrt(3.0);
+	return borderStays && area <= minArea * static_cast<double>(patch.triangles.size());
 }
 
 /// What a patch has to work with.
@@ -251,7 +251,7 @@ Repair repair(
 	result.moved.assign(drawn.points.size(), 0);
 	PatchFinder finder(drawn, groups);
 	Array<PatchSize> failed(drawn.corners.size(), PatchSize{}); // [triangle] of its last patch
-	const std::int64_t maxWork = std::max(kMaxWorkShare * drawn.corners.size(), kLeastMaxWork);
+	const std::int64_t maxWork = std::max(kMaxWorkShare * drawn.corners.size(), kMinMaxWork);
 	for (const int rings : kRings) {
 		if (rings > rules.maxRings)
 			break;

@@ -12,7 +12,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// The least height, and the least side, over the longest side of a shape of the surface.
-constexpr double kLeastRatio = 1e-6;
+constexpr double kMinRatio = 1e-6;
 
 /// From the lengths of the sides 0-1, 1-2 and 2-0.
 RestShape shapeOf(const std::array<double, 3>& sides)
@@ -20,11 +20,11 @@ RestShape shapeOf(const std::array<double, 3>& sides)
 	const double longest = std::max({sides[0], sides[1], sides[2]});
 	if (!(longest > 0.0))
 		return {1.0, {0.5, std::sqrt(0.75)}};
-	double a = std::max(sides[0], kLeastRatio * longest);
-	double b = std::max(sides[1], kLeastRatio * longest);
-	double c = std::max(sides[2], kLeastRatio * longest);
+	double a = std::max(sides[0], kMinRatio * longest);
+	double b = std::max(sides[1], kMinRatio * longest);
+	double c = std::max(sides[2], kMinRatio * longest);
 	const double x = (a * a + c * c - b * b) / (2.0 * a);
-	const double height = kLeastRatio * longest * longest / a; // over side a
+	const double height = kMinRatio * longest * longest / a; // over side a
 	return {a, {x, std::max(std::sqrt(std::max(c * c - x * x, 0.0)), height)}};
 }
 

@@ -27,7 +27,7 @@ constexpr int kMaxRounds = 40, kStepsPerRound = 3, kLastSteps = 10;
 /// Newton steps of ease(), and the share of the energy that a step must not leave to be followed by
 /// another.
 constexpr int kEasingSteps = 40;
-constexpr double kLeastImprovement = 0.9999;
+constexpr double kMinImprovement = 0.9999;
 
 /// Rounds without a gain after which a patch is given up; the weight of triangles that are not sound
 /// after such a round grows by this factor.
@@ -35,7 +35,7 @@ constexpr int kMaxIdleRounds = 6;
 constexpr double kStress = 8.0;
 
 /// A round that leaves more than this share of the energy has gained nothing.
-constexpr double kLeastGain = 0.99;
+constexpr double kMinGain = 0.99;
 
 /// Halvings of a step.
 constexpr int kMaxHalvings = 30;
@@ -128,14 +128,14 @@ public:
 		double sum = 0.0;
 		for (const RestShape& s : shapes)
 			sum += s.base * s.apex.imag();
-		const double least = kLeastWeight / static_cast<double>(shapes.size());
+		const double minWeight = kMinWeight / static_cast<double>(shapes.size());
 		for (std::size_t i = 0; i < shapes.size(); ++i) {
 			const Derivatives derivatives(shapes[i], drawn.at(patch.triangles[i]));
 			const std::array<Complex, 3>& a = derivatives.byCorner;
 			Element element;
 			element.z0 = derivatives.z;
 			element.w0 = derivatives.w;
-			element.weight = std::max(shapes[i].base * shapes[i].apex.imag() / sum, least);
+			element.weight = std::max(shapes[i].base * shapes[i].apex.imag() / sum, minWeight);
 			for (std::size_t k = 0; k < 3; ++k) {
 				const int local = patch.corners[static_cast<int>(i)][k];
 				const Complex turn = groups.turn[patch.points[positionOf(local)]];
@@ -153,14 +153,14 @@ public:
 	/// Multiplies the weight of a triangle.
 	void stress(int triangle, double factor) { m_elements[positionOf(triangle)].weight *= factor; }
 
-	double leastDeterminant(const Eigen::VectorXd& x) const
+	double minDeterminant(const Eigen::VectorXd& x) const
 	{
-		double least = std::numeric_limits<double>::infinity();
+		double smallest = std::numeric_limits<double>::infinity();
 		for (const Element& element : m_elements) {
 			const auto [z, w] = mapAt(element, x);
-			least = std::min(least, std::norm(z) - std::norm(w));
+			smallest = std::min(smallest, std::norm(z) - std::norm(w));
 		}
-		return least;
+		return smallest;
 	}
 
 	double value(const Eigen::VectorXd& x, double eps) const
@@ -202,7 +202,7 @@ public:
 	}
 
 private:
-	static constexpr double kLeastWeight = 1e-3;
+	static constexpr double kMinWeight = 1e-3;
 	static constexpr double kShift = 1e-10, kShiftGrowth = 1e3;
 	static constexpr int kMaxShifts = 4;
 
@@ -353,7 +353,7 @@ public:
 	{
 		int idle = 0;
 		bool gained = true;
-		double soft = kFirstEps, least = m_energy.leastDeterminant(m_x);
+		double soft = kFirstEps, least = m_energy.minDeterminant(m_x);
 		std::size_t before = m_patch.triangles.size();
 		place(m_x);
 		m_found.points.clear(); // they are where they were
@@ -361,12 +361,12 @@ public:
 		for (int round = 0; round < kMaxRounds; ++round) {
 			// A positive determinant of the size of eps is as good as with eps = 0.
 			if (least > soft)
-				m_eps = kLeastEps;
+				m_eps = kMinEps;
 			else if (round > 0)
 				m_eps = std::max(
 					std::min(std::max(soft, -kEpsShare * least), gained ? m_eps : kEpsFall * m_eps),
-					kLeastEps);
-			soft = std::max(kEpsFall * soft, kLeastEps);
+					kMinEps);
+			soft = std::max(kEpsFall * soft, kMinEps);
 			double value = m_energy.value(m_x, m_eps);
 			const double first = value;
 			for (int i = 0; i < kStepsPerRound && descend(value, false); ++i)
@@ -375,8 +375,8 @@ public:
 				improve(kLastSteps);
 				break;
 			}
-			least = m_energy.leastDeterminant(m_x);
-			gained = value < kLeastGain * first;
+			least = m_energy.minDeterminant(m_x);
+			gained = value < kMinGain * first;
 			const std::size_t bad = m_unsound.size();
 			bool isIdle = false;
 			if (least > m_eps) { // all are the right way round, but some too low
@@ -421,11 +421,11 @@ private:
 	/// Goes on from a sound patch to a better one.
 	void improve(int steps)
 	{
-		m_eps = kLeastEps;
+		m_eps = kMinEps;
 		double value = m_energy.value(m_x, m_eps);
 		for (int i = 0; i < steps; ++i) {
 			const double before = value;
-			if (!descend(value, true) || value > kLeastImprovement * before)
+			if (!descend(value, true) || value > kMinImprovement * before)
 				return;
 		}
 	}
@@ -465,7 +465,7 @@ private:
 		return sound;
 	}
 
-	static constexpr double kArmijo = 1e-4, kEpsShare = 0.2, kLeastEps = 1e-9;
+	static constexpr double kArmijo = 1e-4, kEpsShare = 0.2, kMinEps = 1e-9;
 	static constexpr double kFirstEps = 0.1, kEpsFall = 0.2, kSmallEps = 0.02;
 
 	const DrawnTriangles& m_drawn;

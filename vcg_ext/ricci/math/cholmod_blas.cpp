@@ -56,16 +56,16 @@ struct Matrix
 };
 
 /// Products of two numbers that are worth a thread: they take a millisecond.
-constexpr double kLeastProducts = 4e6;
+constexpr double kMinProducts = 4e6;
 
 /// Calls work(i) for the first number i of every block of \p size rows or columns, which are independent
 /// of each other, in threads if there are many \p products of numbers in all.
 template<class Work>
 void forBlocks(Index size, double products, const Work& work)
 {
-	const int threads = products < 2.0 * kLeastProducts ? 1 : ricci::defaultThreads();
+	const int threads = products < 2.0 * kMinProducts ? 1 : ricci::defaultThreads();
 	const int parts =
-		static_cast<int>(std::min<double>(threads, std::max(1.0, products / kLeastProducts)));
+		static_cast<int>(std::min<double>(threads, std::max(1.0, products / kMinProducts)));
 	ricci::inParallel(
 		parts,
 		parts,

@@ -38,12 +38,12 @@ void dropInside(std::vector<Point2>& points)
 			}
 	}
 	// A polygon that is seen counter-clockwise on all sides goes round.
-	const double least =
+	const double minArea =
 		std::max(kAreaRounding * largest * largest, std::numeric_limits<double>::min());
 	const auto isInside = [&](const Point2& p) {
 		for (std::size_t k = 0; k < 8; ++k) {
 			const Point2 &a = polygon[k], &b = polygon[(k + 1) % 8];
-			if (a != b && !(doubledArea(a, b, p) > least))
+			if (a != b && !(doubledArea(a, b, p) > minArea))
 				return false;
 		}
 		return true;
@@ -106,7 +106,7 @@ std::vector<Point2> convexHull(std::vector<Point2> points)
 	return hull;
 }
 
-std::vector<Point2> simpleOutline(std::vector<Point2> polygon, std::size_t maxCorners)
+std::vector<Point2> enclosingPolygon(std::vector<Point2> polygon, std::size_t maxCorners)
 {
 	while (polygon.size() > maxCorners) {
 		const SpareSide spare = spareSide(polygon);

@@ -211,7 +211,7 @@ Handles bestConditioned(
 	const std::size_t letters = 2 * bases.front().size();
 	const std::size_t tried = std::clamp<std::size_t>(
 		kTriedLetters / std::max<std::size_t>(1, letters * letters), 1, kMaxTried);
-	double least = std::numeric_limits<double>::infinity();
+	double lowest = std::numeric_limits<double>::infinity();
 	HandleMoves moves(bases.front().size(), peripheral);
 	for (std::size_t i = 0; i < std::min(tried, bases.size()); ++i) {
 		moves.start(bases[i]);
@@ -224,8 +224,8 @@ Handles bestConditioned(
 			std::any_of(moves.handles().begin(), moves.handles().end(), [](const Isometry& m) {
 				return !(m.displacement() <= kMaxGeneratorDistance);
 			});
-		if (!isFar && moves.condition() < least) {
-			least = moves.condition();
+		if (!isFar && moves.condition() < lowest) {
+			lowest = moves.condition();
 			best = moves.handles();
 		}
 	}

@@ -237,7 +237,7 @@ bool EdgeCrossings::placeOnEndEdge(Edge e)
 		const Real from = vanishing(first[i].from, second[i].from);
 		const Real to = vanishing(first[i].to, second[i].to);
 		const Real terms = size(first[i].from, second[i].from) + size(first[i].to, second[i].to);
-		isExact = isExact && abs(from) + abs(to) >= Real(kLeastDifference) * terms;
+		isExact = isExact && abs(from) + abs(to) >= Real(kMinDifference) * terms;
 		// The crossing is |to| x_from + |from| x_to, both weights positive.
 		Values<Real> weight{abs(to), abs(from)};
 		if (!isPositive(double(weight.from)) || !isPositive(double(weight.to)) ||

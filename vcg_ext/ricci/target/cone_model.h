@@ -112,8 +112,8 @@ public:
 			fit();
 			return isLow(energy());
 		};
-		const double least = minOwnProduct(i, v);
-		if ((least > 0.0 && !isLowWith(least)) || !isLowWith(ownProduct(v))) {
+		const double bound = minOwnProduct(i, v);
+		if ((bound > 0.0 && !isLowWith(bound)) || !isLowWith(ownProduct(v))) {
 			m_now = std::move(before);
 			m_gradient = std::move(gradient);
 			return false;

@@ -64,7 +64,7 @@ double level(const ConeModel& model, const VertexVector& phi)
 }
 
 /// The vertex where one more cone gains most: where the gradient is farthest from its level.
-Vertex mostGain(ConeModel& model, const ConeSites& sites)
+Vertex maxGain(ConeModel& model, const ConeSites& sites)
 {
 	const VertexVector& phi = model.gradient();
 	const double base = level(model, phi);
@@ -121,7 +121,7 @@ bool replant(ConeModel& model, const ConeSites& sites, int i, double& present)
 		return false;
 	const Vertex old = model.vertex(i);
 	Vertex best = old;
-	model.without(i, [&] { best = mostGain(model, sites); });
+	model.without(i, [&] { best = maxGain(model, sites); });
 	return best.isValid() && best != old && move(model, i, best, present);
 }
 
@@ -143,7 +143,7 @@ void startCones(ConeModel& model, const ConeSites& sites)
 
 bool addCone(ConeModel& model, const ConeSites& sites)
 {
-	const Vertex v = mostGain(model, sites);
+	const Vertex v = maxGain(model, sites);
 	if (!v.isValid())
 		return false;
 	model.append(v);

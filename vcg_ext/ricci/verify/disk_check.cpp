@@ -75,13 +75,13 @@ DiskCheck checkDisk(
 {
 	DiskCheck check;
 	Point2 farthest{0.0, 0.0};
-	double leastGap = 1.0;
+	double minGap = 1.0;
 	for (const Triangle2& triangle : plane)
 		for (const Point2& p : triangle) {
 			const double own = gap(p);
 			check.outside += !(own > 0);
-			if (own < leastGap) {
-				leastGap = own;
+			if (own < minGap) {
+				minGap = own;
 				farthest = p;
 			}
 		}
