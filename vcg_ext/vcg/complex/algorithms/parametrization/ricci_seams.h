@@ -10,6 +10,7 @@
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>
 
+#include <cmath>
 #include <vector>
 
 namespace vcg {
@@ -77,7 +78,9 @@ private:
 	template<class TexCoord>
 	static bool Differ(const TexCoord& a, const TexCoord& b)
 	{
-		const auto differ = [](auto x, auto y) { return x != y && (x == x || y == y); };
+		const auto differ = [](auto x, auto y) {
+			return x != y && !(std::isnan(x) && std::isnan(y));
+		};
 		return a.N() != b.N() || differ(a.U(), b.U()) || differ(a.V(), b.V());
 	}
 
