@@ -64,7 +64,11 @@ stage() {
 	mkdir -p "$work"
 	cp "$here/../../filter_ricci/scripts/window.sh" "$here/window_newer_inside.sh" "$plugin" "$work/"
 	python3 "$here/../../filter_ricci/demo/checkerboard.py" "$work/checkerboard.png"
-	(cd "$here" && python3 -c "import meshes
+	(cd "$here" && python3 -c "import meshes, textures
+torus = meshes.torus()
+wedges = textures.shattered(torus.faces)
+textures.write_png('$work/old.png', textures.painted(torus, wedges, 256))
+textures.write_ply('$work/textured.ply', torus, wedges, ['old.png'])
 meshes.write_ply('$work/torus.ply', meshes.torus())
 meshes.name_texture('$work/torus.ply', 'checkerboard.png')
 meshes.write_ply('$work/line.ply', meshes.line())

@@ -32,6 +32,31 @@ apply() {
 	close_meshlab
 }
 
+# carry_texture in the filter's dialog: its advanced parameters are unfolded and scrolled to the end,
+# where the field lies at a place of its own.
+redraw_texture() {
+	local X Y WIDTH HEIGHT SCREEN WINDOW turn
+	rm -f redrawn.png
+	open_filter "$name" || fail "the dialog of $name did not open"
+	eval "$(xdotool getwindowgeometry --shell "$(find_window "$name")")"
+	xdotool mousemove $((X + WIDTH / 2)) $((Y + 337)) click 1
+	sleep 2
+	xdotool mousemove $((X + 40)) $((Y + 425))
+	for turn in {1..12}; do
+		xdotool click 5
+		sleep 0.3
+	done
+	xdotool mousemove $((X + 262)) $((Y + 193)) click 1
+	xdotool type --delay 40 "$PWD/redrawn.png"
+	sleep 1
+	press_apply "$name"
+	wait_until 60 grep -q 'texture_scale=' "$meshlab_log" || fail "no texture in the log"
+	sleep 2
+	[ -s redrawn.png ] || fail "no texture was written"
+	picture "texture_$year.png"
+	close_meshlab
+}
+
 # Help > Plugin Info > Load Plugins, as a person would.
 load_plugin() {
 	local dialog X Y WIDTH HEIGHT SCREEN WINDOW
@@ -73,6 +98,8 @@ load_plugin || fail "the plugin was not loaded through the menu"
 apply "$name" result
 open_mesh double_torus.ply
 apply "$hyperbolic" hyperbolic
+open_mesh textured.ply
+redraw_texture
 open_mesh line.ply
 open_filter "$name" || fail "the filter's dialog did not open"
 press_apply "$name"
@@ -82,7 +109,7 @@ picture "refused_$year.png"
 xdotool key Return
 sleep 2
 kill -0 "$meshlab_pid" || fail "MeshLab has ended"
-montage "plugin_$year.png" "result_$year.png" "hyperbolic_$year.png" "refused_$year.png" -tile 2x2 \
+montage "plugin_$year.png" "result_$year.png" "hyperbolic_$year.png" "texture_$year.png" -tile 2x2 \
 	-geometry 1000x+4+4 miff:- |
-	convert - -strip +dither -colors 128 -define png:compression-level=9 "PNG8:window_$year.png"
+	convert - -strip +dither -colors 255 -define png:compression-level=9 "PNG8:window_$year.png"
 echo "Both filters ran in the window of MeshLab $version, loaded through its menu."
