@@ -5,7 +5,8 @@
 Each mesh gets an atlas of single triangles with a picture of smooth waves that is projected on it, in the
 current folder. The filter's `carry_texture` and MeshLab's 'Texture Map Defragmentation' make one with fewer
 seams of it. A line for each: errors against the exact projection where a renderer would sample it, in steps
-of 255. Not a test: it is run by hand. Needs numpy and Pillow, and a display for MeshLab's filter: xvfb-run."""
+of 255. Not a test: it is run by hand. Needs numpy and Pillow, and Qt and a display for MeshLab's filter
+(tests/README.md)."""
 
 import os
 import sys
