@@ -92,47 +92,88 @@ TEST(FinishInFloats, MendsWhatSmallPatchesInsideDoNot)
 	EXPECT_EQ(turnedIn(map), 0);
 }
 
+constexpr int kSlivers = 7;
+
+/// A square, and slivers lower than a step of a float, each a chart of its own.
+struct Slivers
+{
+	SurfaceMesh mesh = rectangle(1, 1, 1.0, 1.0);
+	Parametrization map;
+
+	/// \param width of the slivers
+	explicit Slivers(double width)
+	{
+		for (int i = 0; i < kSlivers; ++i)
+			mesh = sideBySide(
+				mesh,
+				SurfaceMesh{{{0, 0, 0}, {width, 0, 0}, {0.5 * width, 1e-9 * i, 0}}, {{0, 1, 2}}},
+				2.0 + i);
+		for (const Triangle& t : mesh.triangles) {
+			const auto place = [&](std::size_t k) {
+				const Point3& p = mesh.positions[at(t[k])];
+				return Point2{p[0], p[1]};
+			};
+			map.uv.push_back({place(0), place(1), place(2)});
+		}
+		map.reversed.assign(map.uv.size(), 0);
+		map.charts.resize(1 + kSlivers);
+		map.charts[0].faces = {0, 1};
+		for (int i = 0; i < kSlivers; ++i)
+			map.charts[at(1 + i)].faces = {2 + i};
+	}
+};
+
+/// Puts boxes in one column that begins at \p x.
+PlaceBoxes inAColumn(double x)
+{
+	return [x](const std::vector<Box2>& boxes, double) {
+		std::vector<Point2> shifts;
+		double y = 0.0;
+		for (const Box2& box : boxes) {
+			shifts.push_back({x - box.min[0], y - box.min[1]});
+			y += box.height();
+		}
+		return shifts;
+	};
+}
+
 TEST(FinishInFloats, MendsTrianglesThatAreChartsOfTheirOwn)
 {
-	// Slivers lower than a step of a float, above and beside each other and a square.
-	SurfaceMesh mesh = rectangle(1, 1, 1.0, 1.0);
-	constexpr int kSlivers = 7;
-	for (int i = 0; i < kSlivers; ++i)
-		mesh = sideBySide(
-			mesh, SurfaceMesh{{{0, 0, 0}, {0.9, 0, 0}, {0.4, 1e-9 * i, 0}}, {{0, 1, 2}}}, 2.0 + i);
-	Parametrization map;
-	for (const Triangle& t : mesh.triangles) {
-		const auto place = [&](std::size_t k) {
-			const Point3& p = mesh.positions[at(t[k])];
-			return Point2{p[0], p[1]};
-		};
-		map.uv.push_back({place(0), place(1), place(2)});
-	}
-	map.reversed.assign(map.uv.size(), 0);
-	map.charts.resize(1 + kSlivers);
-	map.charts[0].faces = {0, 1};
-	for (int i = 0; i < kSlivers; ++i)
-		map.charts[at(1 + i)].faces = {2 + i};
+	const Slivers slivers(0.9);
 	for (const bool normalize : {false, true}) {
-		Parametrization packed = map;
-		packCharts(packed, normalize, 0.0, [](const std::vector<Box2>& boxes, double) {
-			std::vector<Point2> shifts;
-			double y = 0.0; // in one column
-			for (const Box2& box : boxes) {
-				shifts.push_back({-box.min[0], y - box.min[1]});
-				y += box.height();
-			}
-			return shifts;
-		});
+		Parametrization packed = slivers.map;
+		packCharts(packed, normalize, 0.0, inAColumn(0.0));
 		ASSERT_EQ(turnedIn(packed), kSlivers);
 		finishInFloats(
-			mesh, [] {}, packed);
+			slivers.mesh, [] {}, packed);
 		EXPECT_EQ(turnedIn(packed), 0);
 		EXPECT_EQ(packed.report.finishMoved, 3 * kSlivers);
 		for (const Chart& chart : packed.charts)
 			for (const int f : chart.faces)
 				for (const Point2& p : packed.uv[at(f)])
 					EXPECT_TRUE(chart.box.contains(p));
+	}
+}
+
+/// Points that move lie on floats, and these beyond the border of a box by less than a step.
+TEST(FinishInFloats, MendsChartsWhoseBoxesEndBetweenFloats)
+{
+	const Slivers slivers(0.001);
+	for (const double x : {8.01, 8.02, 8.03, 8.04}) {
+		Parametrization packed = slivers.map;
+		packCharts(packed, false, 0.0, inAColumn(x));
+		ASSERT_EQ(turnedIn(packed), kSlivers);
+		finishInFloats(
+			slivers.mesh, [] {}, packed);
+		EXPECT_EQ(turnedIn(packed), 0);
+		for (Chart& chart : packed.charts) {
+			for (Point2* corner : {&chart.box.min, &chart.box.max})
+				for (double& c : *corner)
+					c += corner == &chart.box.min ? -0x1p-20 : 0x1p-20;
+			for (const int f : chart.faces)
+				for (const Point2& p : packed.uv[at(f)])
+					EXPECT_TRUE(chart.box.contains(p));
+		}
 	}
 }
 

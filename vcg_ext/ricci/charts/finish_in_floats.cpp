@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -26,6 +27,21 @@ double floatStep(double x)
 {
 	const auto above = static_cast<float>(x);
 	return static_cast<double>(above) - static_cast<double>(std::nextafter(above, 0.0F));
+}
+
+/// Widens a box to floats: points that are rounded may lie on its border.
+void widenToFloats(Box2& box)
+{
+	constexpr float far = std::numeric_limits<float>::infinity();
+	for (std::size_t k = 0; k < 2; ++k) {
+		auto min = static_cast<float>(box.min[k]), max = static_cast<float>(box.max[k]);
+		if (static_cast<double>(min) > box.min[k])
+			min = std::nextafter(min, -far);
+		if (static_cast<double>(max) < box.max[k])
+			max = std::nextafter(max, far);
+		box.min[k] = static_cast<double>(min);
+		box.max[k] = static_cast<double>(max);
+	}
 }
 
 /// Rings round bad triangles that are drawn at first, of which one is the border of the largest patches.
@@ -126,6 +142,8 @@ public:
 		for (const int f : chartOfFace.indices())
 			for (const Point2& p : m_uv[positionOf(f)])
 				m_boxes[chartOfFace[f]].add(p);
+		for (Box2& box : m_boxes)
+			widenToFloats(box);
 		Array<int> chart;
 		for (const int f : m_faces)
 			chart.push_back(chartOfFace[f]);
