@@ -52,7 +52,7 @@ const char* remedy(const ricci::InvalidMesh& e)
 		return ": report the mesh.";
 	case Error::NotPuncturable:
 		return ". Remesh it, or separate its sheets.";
-	case Error::TooLargeForFloats:
+	case Error::BeyondFloats:
 		return ": choose normalize_uv, or run 'Transform: Scale, Normalize' first.";
 	}
 	return ".";

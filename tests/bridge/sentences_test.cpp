@@ -89,8 +89,8 @@ TEST(Sentences, EveryInvalidMeshHasOne)
 		InvalidMesh::Empty,
 		InvalidMesh::IncoherentEdge,
 		InvalidMesh::NotPuncturable,
-		InvalidMesh::TooLargeForFloats};
-	for (int i = InvalidMesh::Empty; i <= InvalidMesh::TooLargeForFloats; ++i) {
+		InvalidMesh::BeyondFloats};
+	for (int i = InvalidMesh::Empty; i <= InvalidMesh::BeyondFloats; ++i) {
 		const auto problem = static_cast<InvalidMesh::Problem>(i);
 		const bool counts =
 			std::find(withoutCount.begin(), withoutCount.end(), i) == withoutCount.end();
@@ -274,9 +274,9 @@ TEST(Sentences, OfMeshes)
 		of(InvalidMesh::FacesWithoutArea, 1),
 		"1 face has no area: run 'Remove Zero Area Faces' or 'Remove T-Vertices' first.");
 	EXPECT_EQ(
-		of(InvalidMesh::TooLargeForFloats, 1),
-		"The mesh is too large for texture coordinates in its own scale: choose normalize_uv, or "
-		"run 'Transform: Scale, Normalize' first.");
+		of(InvalidMesh::BeyondFloats, 1),
+		"The mesh is too large or too small for texture coordinates in its own scale: choose "
+		"normalize_uv, or run 'Transform: Scale, Normalize' first.");
 }
 
 TEST(Sentences, OfParameters)

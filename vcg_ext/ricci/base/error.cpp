@@ -52,8 +52,8 @@ std::string words(InvalidMesh::Problem problem, std::size_t n, const std::array<
 	case InvalidMesh::NotPuncturable:
 		return "The surface cannot be punctured for the map to the sphere: near its best vertices "
 			   "it touches itself";
-	case InvalidMesh::TooLargeForFloats:
-		return "The mesh is too large for texture coordinates in its own scale";
+	case InvalidMesh::BeyondFloats:
+		return "The mesh is too large or too small for texture coordinates in its own scale";
 	}
 	return "";
 }

@@ -157,6 +157,20 @@ public:
 	/// Of all triangles of the charts, and the room that these were given.
 	const Array<Box2>& boxes() const { return m_boxes; }
 
+	/// Each by itself, but those that have no room on one side: what they push outward leaves the room.
+	PointGroups pointsWithRoom() const
+	{
+		PointGroups groups = allPoints(drawn);
+		for (const int p : drawn.points.indices())
+			for (std::size_t k = 0; k < 2; ++k) {
+				const Box2& box = m_boxes[m_chartOfPoint[p]];
+				const double room =
+					std::min(drawn.points[p][k] - box.min[k], box.max[k] - drawn.points[p][k]);
+				groups.fixed[p] = groups.fixed[p] || room < soundness.height;
+			}
+		return groups;
+	}
+
 	int chartOf(int point) const { return m_chartOfPoint[point]; }
 	int chartCount() const { return static_cast<int>(m_map.charts.size()); }
 
@@ -329,6 +343,14 @@ bool finishEverywhere(const SurfaceMesh& mesh, const Tick& tick, Output& output)
 	if (result.left > 0)
 		result.add(
 			repairFreely(output.drawn, accepts, RestShapes::OfDrawing, output.soundness, tick));
+	if (result.left > 0)
+		result.add(repair(
+			output.drawn,
+			output.pointsWithRoom(),
+			RestShapes::OfDrawing,
+			output.soundness,
+			{kNearRings - 1, accepts},
+			tick));
 	return output.takeOver(result);
 }
 

@@ -243,11 +243,20 @@ Packing packByOutlines(
 
 void requireFloats(const std::vector<Triangle2>& triangles)
 {
+	using Float = std::numeric_limits<float>;
+	// The steps of floats become no smaller below the normal numbers.
+	const double smallest =
+		static_cast<double>(Float::min()) / static_cast<double>(Float::epsilon());
+	double largest = 0.0;
 	for (const Triangle2& triangle : triangles)
 		for (const Point2& p : triangle)
-			for (double x : p)
-				if (!(std::abs(x) <= static_cast<double>(std::numeric_limits<float>::max())))
-					throw InvalidMesh(InvalidMesh::TooLargeForFloats);
+			for (double x : p) {
+				if (!(std::abs(x) <= static_cast<double>(Float::max())))
+					throw InvalidMesh(InvalidMesh::BeyondFloats);
+				largest = std::max(largest, std::abs(x));
+			}
+	if (largest > 0.0 && largest < smallest)
+		throw InvalidMesh(InvalidMesh::BeyondFloats);
 }
 
 } // namespace
