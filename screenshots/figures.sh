@@ -54,6 +54,12 @@ shoot() {
 	close_meshlab
 }
 
+# shoot_map NAME: a surface and its chart.
+shoot_map() {
+	shoot "$1" "$1.ply"
+	shoot "$1_chart" "$1_chart.ply"
+}
+
 has() {
 	[[ " ${RICCI_PICTURES-kitten bunny mask annulus bust texture seams} " == *" $1 "* ]]
 }
@@ -131,23 +137,20 @@ make_pictures() {
 	if has mask; then
 		local outline
 		for outline in disk rectangle free; do
-			shoot mask_$outline mask_$outline.ply
-			shoot mask_${outline}_chart mask_${outline}_chart.ply
+			shoot_map mask_$outline
 		done
 		row outlines 460 "mask_disk=Disk" "mask_disk_chart=its chart" \
 			"mask_rectangle=Rectangle" "mask_rectangle_chart=its chart (Fig. 11)"
 		row free_boundary 500 "mask_free=free boundary (Fig. 12)" "mask_free_chart=its chart"
 	fi
 	if has annulus; then
-		shoot annulus annulus.ply
-		shoot annulus_chart annulus_chart.ply
+		shoot_map annulus
 		row annulus 500 "annulus=$(cat annulus.txt)" "annulus_chart=its chart"
 	fi
 	if has bust; then
 		local map
 		for map in plain default; do
-			shoot bust_$map bust_$map.ply
-			shoot bust_${map}_chart bust_${map}_chart.ply
+			shoot_map bust_$map
 		done
 		row bust 420 "bust_plain=$(cat bust_plain.txt)" "bust_plain_chart=its chart" \
 			"bust_default=$(cat bust_default.txt)" "bust_default_chart=its chart"
@@ -162,8 +165,7 @@ make_pictures() {
 	if has seams; then
 		local map
 		for map in creases atlas again; do
-			shoot seams_$map seams_$map.ply
-			shoot seams_${map}_chart seams_${map}_chart.ply
+			shoot_map seams_$map
 		done
 		row seams 420 "seams_creases=Selected edges: the creases" "seams_creases_chart=its charts"
 		row seams_again 420 "seams_atlas=MeshLab's Voronoi atlas" "seams_atlas_chart=its charts" \

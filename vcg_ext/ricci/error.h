@@ -51,7 +51,7 @@ public:
 		FacesWithoutArea,   ///< count; where no flips are allowed
 		IncoherentEdge,     ///< vertices: its ends; its triangles are not two of opposite direction
 		NotPuncturable,     ///< map to the sphere: the surface touches itself at its best vertices
-		BeyondFloats        ///< texture coordinates beyond the range of float
+		BeyondFloats        ///< texture coordinates too large or too small for float
 	};
 
 	explicit InvalidMesh(

@@ -14,8 +14,8 @@
 namespace ricci {
 
 /// The connected pieces of a graph that contain one of \p starts, but for the largest. They are
-/// searched from all starts at once, the one with the fewest nodes first, and only until one piece is left: the
-/// work depends on the small ones, or on how far the starts of one piece are apart.
+/// searched from all starts at once, the one with the fewest nodes first, and only until one piece is
+/// left: the work depends on the small ones, or on how far the starts of one piece are apart.
 /// \param forNeighbours forNeighbours(i, visit) calls visit(j) for all neighbours of a node
 /// \param scratch [node] -1, as it is left
 template<class ForNeighbours>

@@ -44,7 +44,7 @@ ChartTurns chartTurns(const Options& options);
 /// \param margin least distance of two charts, and of a chart from the border of the unit square, as
 /// a share of the side of that square, between 0 and kMaxChartMargin
 /// \throw InvalidOption ChartMargin, or ChartMarginTooWide if so many charts do not fit with it;
-/// InvalidMesh BeyondFloats if coordinates that keep their scale are beyond the range of float,
+/// InvalidMesh BeyondFloats if coordinates that keep their scale are too large or too small for float,
 /// in which they will be stored
 void packCharts(
 	Parametrization& map,

@@ -30,7 +30,7 @@ constexpr double kMaxStrain = 3.0;
 constexpr int kEasedRings[] = {2, 5, 13};
 
 /// Triangles times Newton steps that may be spent for each triangle of the drawing, and at least.
-constexpr std::int64_t kMaxWorkShare = 40, kMinMaxWork = 1000000;
+constexpr std::int64_t kMaxWorkShare = 40, kMinWorkLimit = 1000000;
 
 /// Steps that a patch is expected to take.
 constexpr std::int64_t kExpectedSteps = 30;
@@ -251,7 +251,7 @@ Repair repair(
 	result.moved.assign(drawn.points.size(), 0);
 	PatchFinder finder(drawn, groups);
 	Array<PatchSize> failed(drawn.corners.size(), PatchSize{}); // [triangle] of its last patch
-	const std::int64_t maxWork = std::max(kMaxWorkShare * drawn.corners.size(), kMinMaxWork);
+	const std::int64_t maxWork = std::max(kMaxWorkShare * drawn.corners.size(), kMinWorkLimit);
 	for (const int rings : kRings) {
 		if (rings > rules.maxRings)
 			break;

@@ -31,8 +31,8 @@ public:
 	typedef typename MeshType::FaceType FaceType;
 
 	/// Edges at which the wedge texture coordinates of two faces or their texture indices differ, if only
-	/// in the last bit; no number equals no number. Coordinates of vertices differ at no edge: a mesh that has only those is open at its
-	/// seams.
+	/// in the last bit; two NaN are equal. Coordinates of vertices differ at no edge: a mesh that has
+	/// only those is open at its seams.
 	static SideMarks OfTexture(const MeshType& m)
 	{
 		if (!HasPerWedgeTexCoord(m))
