@@ -110,6 +110,48 @@ TEST(SparseCholesky, SolvesLikeADenseSolver)
 	EXPECT_EQ(solver.work().analyses, 1);
 }
 
+/// Laplacian of a square grid with shift 1; lower triangle. Its factor takes a good while.
+SparseCholesky::Matrix gridLaplacian(int side)
+{
+	std::vector<Eigen::Triplet<double>> entries;
+	for (int i = 0; i < side * side; ++i) {
+		entries.emplace_back(i, i, 5.0);
+		if (i % side > 0)
+			entries.emplace_back(i, i - 1, -1.0);
+		if (i >= side)
+			entries.emplace_back(i, i - side, -1.0);
+	}
+	SparseCholesky::Matrix lower(side * side, side * side);
+	lower.setFromTriplets(entries.begin(), entries.end());
+	return lower;
+}
+
+/// What a tick throws at any time passes through, and leaves the solver as fit as before.
+TEST(SparseCholesky, EndsWhenATickThrows)
+{
+	System system(gridLaplacian(200));
+	SparseCholesky solver;
+	system.analyze(solver);
+	int ticks = 0;
+	ASSERT_TRUE(solver.factorize(system.matrix, [&] { ++ticks; }));
+	if (ticks == 0)
+		GTEST_SKIP() << solver.name() << " gives no occasion for ticks";
+	const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(system.given.rows(), -1.0, 1.0);
+	const Eigen::VectorXd x = system.solve(solver, b);
+	EXPECT_GT(ticks, solver.factorFlops() / 1e8); // many a second
+	for (const int last : {1, 2, ticks / 2, ticks}) {
+		int count = 0;
+		const auto throwAtLast = [&] {
+			if (++count == last)
+				throw Cancelled();
+		};
+		EXPECT_THROW(solver.factorize(system.matrix, throwAtLast), Cancelled) << last;
+		EXPECT_EQ(count, last); // none after it
+		ASSERT_TRUE(solver.factorize(system.matrix));
+		EXPECT_EQ(system.solve(solver, b), x);
+	}
+}
+
 /// A surface whose radii are all fixed has no unknowns.
 TEST(SparseCholesky, SolvesWithoutUnknowns)
 {

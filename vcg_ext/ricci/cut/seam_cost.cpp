@@ -68,7 +68,8 @@ SpatialSurface spatialSurface(
 
 /// The places after one implicit step of mean curvature flow, by rows: the solution x of
 /// (M + time L) x = M place, with the masses M and the cotangent Laplacian L.
-Eigen::MatrixX3d smoothedPlaces(const Triangulation& t, const SpatialSurface& s, double time)
+Eigen::MatrixX3d
+smoothedPlaces(const Triangulation& t, const SpatialSurface& s, double time, const Tick& tick)
 {
 	const int n = t.vertexCount();
 	std::vector<Eigen::Triplet<double>> entries; // lower triangle, numbered by vertices
@@ -98,7 +99,7 @@ Eigen::MatrixX3d smoothedPlaces(const Triangulation& t, const SpatialSurface& s,
 	layOut();
 	SparseCholesky cholesky;
 	cholesky.analyze(matrix, rowOf, layOut);
-	if (!cholesky.factorize(matrix))
+	if (!cholesky.factorize(matrix, tick))
 		throw SolverFailed(SolverFailed::SeamCost);
 	Eigen::MatrixX3d smooth(n, 3);
 	Eigen::VectorXd rhs(n), solution(n); // by rows of the matrix
@@ -115,7 +116,10 @@ Eigen::MatrixX3d smoothedPlaces(const Triangulation& t, const SpatialSurface& s,
 } // namespace
 
 VertexArray<double> exposure(
-	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<Point3>& positions)
+	const Triangulation& t,
+	const EdgeArray<double>& lengths,
+	const VertexArray<Point3>& positions,
+	const Tick& tick)
 {
 	VertexArray<double> result(t.vertexCount(), 0.5);
 	SpatialSurface s = spatialSurface(t, lengths, positions);
@@ -123,7 +127,7 @@ VertexArray<double> exposure(
 	if (!(area > 0.0))
 		return result;
 	s.mass.array() += kMassShare * area / static_cast<double>(t.vertexCount());
-	const Eigen::MatrixX3d smooth = smoothedPlaces(t, s, kSmoothing * area);
+	const Eigen::MatrixX3d smooth = smoothedPlaces(t, s, kSmoothing * area, tick);
 	VertexArray<double> height(t.vertexCount(), 0.0);
 	double square = 0.0;
 	for (const Vertex v : t.vertices()) {
@@ -145,12 +149,13 @@ EdgeArray<double> seamCost(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
 	const VertexArray<Point3>& positions,
-	double hiding)
+	double hiding,
+	const Tick& tick)
 {
 	EdgeArray<double> cost = lengths;
 	if (hiding == 0.0)
 		return cost;
-	const VertexArray<double> exposed = exposure(t, lengths, positions);
+	const VertexArray<double> exposed = exposure(t, lengths, positions, tick);
 	for (const Edge e : t.edges()) {
 		const auto [a, b] = t.ends(e);
 		cost[e] *= 1.0 + 0.5 * kMaxFactor * hiding * (exposed[a] + exposed[b]);

@@ -92,6 +92,7 @@ public:
 
 	/// \p tick is called by evaluate() now and then where many edges flip; may throw.
 	void useTick(Tick tick) { m_tick = std::move(tick); }
+	const Tick& tick() const { return m_tick; }
 
 	/// Replaces edge \p e by the other diagonal of its two triangles, with \p delta.
 	/// \pre \p e is flippable

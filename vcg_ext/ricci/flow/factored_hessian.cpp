@@ -49,19 +49,19 @@ void FactoredHessian::fill(const CurvatureMap& map, double shift)
 	m_hessian.fill(map, shift);
 }
 
-bool FactoredHessian::factorize(const CurvatureMap& map)
+bool FactoredHessian::factorize(const CurvatureMap& map, const Tick& tick)
 {
 	double shift = map.brokenTriangles() > 0 ? kRegularisation : 0.0;
 	fill(map, shift);
+	m_isFactored = false;
 	if (!m_isAnalyzed) {
 		const auto layOut = [&] { m_hessian.layOut(map, m_row, m_unknowns); };
-		m_isFactored = false;
 		if (m_cholesky.analyze(m_hessian.matrix(), m_row.values(), layOut))
 			m_hessian.fill(map, shift);
 		m_isAnalyzed = true;
 	}
 	const double scale = std::max(m_hessian.largestDiagonal(), 1.0);
-	while (!m_cholesky.factorize(m_hessian.matrix())) {
+	while (!m_cholesky.factorize(m_hessian.matrix(), tick)) {
 		shift = std::max(kShiftGrowth * shift, kFirstShift * scale);
 		if (!(shift <= scale) || std::isinf(shift))
 			throw SolverFailed(SolverFailed::Flow);

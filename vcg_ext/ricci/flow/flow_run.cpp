@@ -150,9 +150,11 @@ CirclePacking FlowRun::takeStart()
 template<class Geometry>
 std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing) const
 {
-	if (m_options.surgery != Surgery::IntrinsicFlips)
-		return std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
-	auto map = std::make_shared<FlippingCurvatureMap<Geometry>>(std::move(packing));
+	std::shared_ptr<CurvatureMap> map;
+	if (m_options.surgery == Surgery::IntrinsicFlips)
+		map = std::make_shared<FlippingCurvatureMap<Geometry>>(std::move(packing));
+	else
+		map = std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
 	map->useTick(m_tick);
 	return map;
 }

@@ -210,7 +210,7 @@ void NewtonSolver::direction(double accuracy, bool reached)
 		m_worn = 2 * iterations > limit;
 	}
 	if (!solved && !reached) {
-		m_hessian->factorize(*m_map);
+		m_hessian->factorize(*m_map, m_map->tick());
 		m_worn = false;
 		gatherRightSide(); // the unknowns may have been renumbered
 		m_hessian->cholesky().solve(m_rhs, m_solution);

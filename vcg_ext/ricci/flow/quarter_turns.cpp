@@ -129,7 +129,7 @@ public:
 		const CurvatureMap& map = *metric.map;
 		const Triangulation& t = map.triangulation();
 		FactoredHessian hessian(m_flow.target.fixed, true);
-		hessian.factorize(map);
+		hessian.factorize(map, m_tick);
 		Derivatives by;
 		setWeights(metric, by);
 		for (const FaceLoop& loop : metric.loops) {

@@ -10,6 +10,7 @@
 // No function allocates memory, because no exception may pass through CHOLMOD: matrices are taken in
 // blocks of a size that Eigen finds room for on the stack. What depends on it is the speed alone.
 #include "../base/parallel.h"
+#include "cholmod_tick.h"
 
 #include <Eigen/Cholesky>
 
@@ -59,10 +60,13 @@ struct Matrix
 constexpr double kMinProducts = 4e6;
 
 /// Calls work(i) for the first number i of every block of \p size rows or columns, which are independent
-/// of each other, in threads if there are many \p products of numbers in all.
+/// of each other, in threads if there are many \p products of numbers in all. For none if the
+/// factorisation is to end.
 template<class Work>
 void forBlocks(Index size, double products, const Work& work)
 {
+	if (!ricci::CholmodTick::goesOn(products))
+		return;
 	const int threads = products < 2.0 * kMinProducts ? 1 : ricci::defaultThreads();
 	const int parts =
 		static_cast<int>(std::min<double>(threads, std::max(1.0, products / kMinProducts)));
@@ -186,11 +190,12 @@ void dtrsm_(
 	divide({a, *columns, *columns, *strideA}, {b, *rows, *columns, *strideB});
 }
 
-/// The factor of the lower triangle a. Where that fails, the first column is named: CHOLMOD then ends
-/// at once, while it would repeat what comes before a later one.
+/// The factor of the lower triangle a. Where that fails, and where the tick has thrown, the first column
+/// is named: CHOLMOD then ends at once, while it would repeat what comes before a later one.
 void dpotrf_(const char*, const int* size, double* a, const int* stride, int* info)
 {
-	*info = factorize({a, *size, *size, *stride}) ? 0 : 1;
+	const bool isFactored = factorize({a, *size, *size, *stride});
+	*info = isFactored && ricci::CholmodTick::goesOn(0.0) ? 0 : 1;
 }
 
 // The loops of CHOLMOD that are parallel with OpenMP, in one thread.

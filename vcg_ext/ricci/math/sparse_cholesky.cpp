@@ -2,6 +2,7 @@
 #include "sparse_cholesky.h"
 
 #include "../error.h"
+#include "cholmod_tick.h"
 
 #include <algorithm>
 #include <limits>
@@ -362,14 +363,16 @@ void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
 	own.analyzed = false;
 }
 
-bool SparseCholesky::factorize(const Matrix& matrix)
+bool SparseCholesky::factorize(const Matrix& matrix, const Tick& tick)
 {
 	if (matrix.rows() == 0)
 		return true;
 	const OneThread oneThread;
+	const CholmodTick ticking(tick);
 	Implementation& own = *m_implementation;
 	View a(matrix);
 	cholmod_l_factorize(a.get(), own.factor, &own.common);
+	ticking.rethrow();
 	++m_work.factorizations;
 	m_work.flops += own.flops;
 	if (own.common.status < CHOLMOD_OK)
@@ -471,7 +474,7 @@ void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
 		throw TooLarge(TooLarge::Unknowns, static_cast<std::size_t>(pattern.rows()), 0.0, 0.0);
 }
 
-bool SparseCholesky::factorize(const Matrix& matrix)
+bool SparseCholesky::factorize(const Matrix& matrix, const Tick&)
 {
 	if (matrix.rows() == 0)
 		return true;

@@ -3,6 +3,7 @@
 #define RICCI_SPARSE_CHOLESKY_H
 
 #include "../base/indexed.h"
+#include "../progress.h"
 
 #include <Eigen/SparseCore>
 
@@ -83,9 +84,11 @@ public:
 	}
 
 	/// Numeric factorisation of a matrix with the pattern last analyzed.
+	/// \param tick called meanwhile if it is not empty, in this thread; may throw. With
+	/// cholmod_blas.cpp only: other solvers give no occasion
 	/// \return false if \p matrix is not positive definite
 	/// \throw as analyze()
-	bool factorize(const Matrix& matrix);
+	bool factorize(const Matrix& matrix, const Tick& tick = {});
 
 	/// Solves with the last factor: \p x = matrix^-1 \p rhs.
 	/// \pre factorize() has returned true

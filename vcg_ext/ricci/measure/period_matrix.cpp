@@ -201,8 +201,13 @@ using Pair = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 class Laplacian
 {
 public:
-	Laplacian(const Triangulation& t, const EdgeArray<double>& weights, FactoredHessian* near) :
-			m_t(t), m_weights(weights), m_row(t.vertexCount()),
+	Laplacian(
+		const Triangulation& t,
+		const EdgeArray<double>& weights,
+		FactoredHessian* near,
+		const Tick& tick) :
+			m_t(t),
+			m_weights(weights), m_row(t.vertexCount()),
 			m_cholesky(near != nullptr ? near->cholesky() : m_own)
 	{
 		if (near != nullptr) {
@@ -210,7 +215,7 @@ public:
 			m_rows.resize(near->unknowns());
 		}
 		else
-			factorize();
+			factorize(tick);
 	}
 
 	bool isFactored() const { return m_isFactored; }
@@ -255,7 +260,7 @@ private:
 	/// further solution is spent on finding it there.
 	static constexpr double kCertainty = 10.0;
 
-	void factorize()
+	void factorize(const Tick& tick)
 	{
 		for (const Vertex v : m_t.vertices())
 			m_row[v] = v.number() - 1; // the value at one vertex is held
@@ -267,7 +272,7 @@ private:
 		const auto layOut = [&] { fill(matrix); };
 		layOut();
 		m_own.analyze(matrix, m_row.values(), layOut);
-		m_isFactored = m_own.factorize(matrix);
+		m_isFactored = m_own.factorize(matrix, tick);
 	}
 
 	void fill(SparseCholesky::Matrix& matrix) const
@@ -339,7 +344,7 @@ Eigen::MatrixXd energies(
 	const Tick& tick)
 {
 	tick();
-	Laplacian laplacian(t, weights, near);
+	Laplacian laplacian(t, weights, near, tick);
 	if (!laplacian.isFactored())
 		return {};
 	const auto n = static_cast<Eigen::Index>(loops.size());

@@ -115,17 +115,19 @@ void roundLoopTurns(
 }
 
 /// What a seam along each edge costs.
-EdgeArray<double> cutCost(const FlowDomain& domain, const FlowResult&, const Options& options)
+EdgeArray<double>
+cutCost(const FlowDomain& domain, const FlowResult&, const Options& options, const Tick& tick)
 {
 	return seamCost(
 		domain.surface.triangulation,
 		domain.surface.lengths,
 		domain.surface.positions,
-		options.seamHiding);
+		options.seamHiding,
+		tick);
 }
 
-EdgeArray<double>
-cutCost(const FlowDomain& domain, const FlowResult& flow, const HyperbolicOptions& options)
+EdgeArray<double> cutCost(
+	const FlowDomain& domain, const FlowResult& flow, const HyperbolicOptions& options, const Tick&)
 {
 	return options.surgery == Surgery::IntrinsicFlips ? hyperbolicLengths(flow, domain.surface)
 													  : flow.metric->lengths();
@@ -263,7 +265,7 @@ void layOut(
 	EdgeArray<SidePairing> pairing =
 		placeInDisk(domain, std::move(overlay), options, progress, map);
 	if (const double radius = radiusOf(map.layout); radius > kWideRadius) {
-		map.cut = cutAroundCentre(t, cutCost(domain, map.flow, options), map.cones);
+		map.cut = cutAroundCentre(t, cutCost(domain, map.flow, options, {}), map.cones);
 		pairing = placeInDisk(
 			domain, flowOverlay(domain, options, progress, map), options, progress, map);
 		progress.log(
@@ -405,14 +407,15 @@ ComponentMap flatten(
 
 	progress.step(1.0 - kAfterFlow, "Cutting and layout");
 	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
-	EdgeArray<double> cost = cutCost(domain, map.flow, options);
+	const Tick shortening = [&] { progress.step(1.0 - kAfterFlow, "Shortening the seams"); };
+	EdgeArray<double> cost = cutCost(domain, map.flow, options, shortening);
 	avoidDiagonals(domain.isDiagonal, cost);
 	const HalfedgeArray<double> corners = cutCorners(domain, map, options);
 	const int threads = threadsFor(domain.surface.triangulation.faceCount());
 	LinkedPieces overlay;
 	besides(
 		threads,
-		[&] { progress.step(1.0 - kAfterFlow, "Shortening the seams"); },
+		shortening,
 		[&] { overlay = flowOverlay(domain, options, progress, map); },
 		[&](const Tick& tick) {
 			map.cut = cutThroughCones(domain, cost, map.cones, corners, tick);

@@ -79,7 +79,8 @@ ComponentMap flattenWithEdgeSwaps(
 	const Tick tick = [&] { progress.step(1.0 - kAfterFlow, "Shortening the seams"); };
 	map.cut = cutToDisk(
 		t,
-		seamCost(surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
+		seamCost(
+			surface.triangulation, surface.lengths, surface.positions, options.seamHiding, tick),
 		map.cones,
 		swapped.forbidden,
 		tick);

@@ -233,7 +233,7 @@ PlacedCones result(ConeModel& model)
 
 PlacedCones placeCones(const EmbeddedSurface& surface, FlowStart& start, const ConeRequest& request)
 {
-	LinearFlow flow(surface, start, request.boundary);
+	LinearFlow flow(surface, start, request.boundary, request.tick);
 	return placeCones(surface, flow, request);
 }
 
@@ -254,7 +254,8 @@ PlacedCones
 moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequest& request)
 {
 	const ConeSites sites(surface, request.vertices);
-	LinearFlow linear(surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)));
+	LinearFlow linear(
+		surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)), request.tick);
 	ConeModel model(linear, 2 * kPi * surface.topology.type.eulerCharacteristic(), request.tick);
 	std::vector<Vertex> cones;
 	for (const Vertex v : surface.triangulation.vertices())

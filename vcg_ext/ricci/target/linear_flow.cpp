@@ -62,7 +62,8 @@ std::unique_ptr<CurvatureMap> mapOf(const InitialPacking& packing)
 
 } // namespace
 
-LinearFlow::LinearFlow(const EmbeddedSurface& surface, FlowStart& start, ConeBoundary boundary) :
+LinearFlow::LinearFlow(
+	const EmbeddedSurface& surface, FlowStart& start, ConeBoundary boundary, const Tick& tick) :
 		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed())
 {
 	const bool isShared = start.packing.isDelaunay;
@@ -70,14 +71,15 @@ LinearFlow::LinearFlow(const EmbeddedSurface& surface, FlowStart& start, ConeBou
 		isShared ? start.packing : delaunayPacking({surface.triangulation, surface.lengths}, {}));
 	m_curvature = map->curvature();
 	computeAreas(*map);
-	factorize(surface, *map, boundary, isShared ? start.hessian : m_ownHessian);
+	factorize(surface, *map, boundary, isShared ? start.hessian : m_ownHessian, tick);
 }
 
 LinearFlow::LinearFlow(
 	const EmbeddedSurface& surface,
 	const FlowResult& flow,
 	ConeBoundary boundary,
-	VertexVector weights) :
+	VertexVector weights,
+	const Tick& tick) :
 		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed()),
 		m_curvature(flow.curvature), m_area(std::move(weights)), m_factor(flowFactor(flow))
 {
@@ -86,9 +88,10 @@ LinearFlow::LinearFlow(
 			surface,
 			*mapOf(delaunayPacking({surface.triangulation, surface.lengths}, {})),
 			boundary,
-			m_ownHessian);
+			m_ownHessian,
+			tick);
 	else
-		factorize(surface, *flow.metric, boundary, m_ownHessian);
+		factorize(surface, *flow.metric, boundary, m_ownHessian, tick);
 }
 
 LinearFlow::LinearFlow(LinearSystem system) :
@@ -174,7 +177,8 @@ void LinearFlow::factorize(
 	const EmbeddedSurface& surface,
 	const CurvatureMap& map,
 	ConeBoundary boundary,
-	std::unique_ptr<FactoredHessian>& hessian)
+	std::unique_ptr<FactoredHessian>& hessian,
+	const Tick& tick)
 {
 	hessian = std::make_unique<FactoredHessian>(
 		m_fixesBoundary ? surface.topology.boundary : VertexArray<char>(vertexCount(), 0),
@@ -182,7 +186,7 @@ void LinearFlow::factorize(
 	m_hessian = hessian.get();
 	m_unknowns = m_hessian->unknowns();
 	if (m_unknowns > 0)
-		m_hessian->factorize(map);
+		m_hessian->factorize(map, tick);
 	if (boundary == ConeBoundary::Prescribed && !surface.topology.type.isClosed())
 		spreadSink(surface);
 }

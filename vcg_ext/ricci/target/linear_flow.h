@@ -37,19 +37,26 @@ public:
 	/// here.
 	/// \param start the start of the flow on \p surface; has to outlive this object, with its
 	/// hessian
+	/// \param tick called while L is factorised, see SparseCholesky::factorize()
 	/// \throw SolverFailed
-	LinearFlow(const EmbeddedSurface& surface, FlowStart& start, ConeBoundary boundary);
+	LinearFlow(
+		const EmbeddedSurface& surface,
+		FlowStart& start,
+		ConeBoundary boundary,
+		const Tick& tick = {});
 
 	/// Factorises L where \p flow has led. Where that ran on the double of the surface, L is that of
 	/// a Delaunay start.
 	/// \param flow on \p surface, with intrinsic flips
 	/// \param weights of the vertices, which take the place of area() everywhere; they add up to 1
+	/// \param tick as above
 	/// \throw SolverFailed
 	LinearFlow(
 		const EmbeddedSurface& surface,
 		const FlowResult& flow,
 		ConeBoundary boundary,
-		VertexVector weights);
+		VertexVector weights,
+		const Tick& tick = {});
 	/// The flow with the equation \p system.
 	/// \throw SolverFailed
 	explicit LinearFlow(LinearSystem system);
@@ -107,7 +114,8 @@ private:
 		const EmbeddedSurface& surface,
 		const CurvatureMap& map,
 		ConeBoundary boundary,
-		std::unique_ptr<FactoredHessian>& hessian);
+		std::unique_ptr<FactoredHessian>& hessian,
+		const Tick& tick);
 	void spreadSink(const EmbeddedSurface& surface);
 	void balance(VertexVector& rhs) const;
 	VertexVector solveRows(const VertexVector& rhs);

@@ -283,7 +283,7 @@ void choosePlainOrCones(
 	// In an annulus, cones come with a free boundary.
 	const bool isFlat = isFlatAnnulus(surface, request);
 	const ConeBoundary boundary = isFlat ? ConeBoundary::Prescribed : ConeBoundary::Fixed;
-	LinearFlow flow(surface, start, boundary);
+	LinearFlow flow(surface, start, boundary, request.tick);
 	const double spread = 2.0 * std::sqrt(flow.meanSquare(flow.solve(-flow.curvature())));
 	if (spread <= maxPlainSpread(request)) {
 		setPlain(surface, request, target);

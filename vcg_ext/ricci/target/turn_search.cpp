@@ -59,7 +59,7 @@ public:
 			m_surface(surface),
 			m_turns(turns), m_tick(request.tick), m_sites(surface, request.vertices),
 			m_keepsCount(request.count > 0),
-			m_linear(surface, flow, request.boundary, areaShares(surface)),
+			m_linear(surface, flow, request.boundary, areaShares(surface), request.tick),
 			m_units(flow.curvature.size(), 0), m_curvature(flow.curvature), m_errors(turns.errors),
 			m_root(turns.cost.llt().matrixU()), m_area(surfaceArea(surface))
 	{

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_CHOLMOD_TICK_H
+#define RICCI_CHOLMOD_TICK_H
+
+#include "../progress.h"
+
+#include <exception>
+
+namespace ricci {
+
+/// A tick during a factorisation by CHOLMOD, for the BLAS in cholmod_blas.cpp. CHOLMOD hands nothing on
+/// to BLAS: while this object lives, its thread knows it.
+class CholmodTick
+{
+public:
+	/// \param tick may be empty, and throw
+	explicit CholmodTick(const Tick& tick);
+	~CholmodTick();
+	CholmodTick(const CholmodTick&) = delete;
+	CholmodTick& operator=(const CholmodTick&) = delete;
+
+	/// For BLAS, before it multiplies that many pairs of numbers: calls the thread's tick every few
+	/// milliseconds. No exception may pass through CHOLMOD, so what the tick throws is kept.
+	/// \return false from then on: what is factorised will not be used
+	static bool goesOn(double products);
+
+	/// Throws on what the tick has thrown.
+	void rethrow() const;
+
+private:
+	const Tick& m_tick;
+	CholmodTick* m_outer;    // of the same thread
+	double m_products = 0.0; // since the last tick
+	std::exception_ptr m_thrown;
+};
+
+} // namespace ricci
+
+#endif
