@@ -38,14 +38,12 @@ check_folder() {
 		[ -s "$1/$2/$file" ] || fail "$1/$2 has no $file"
 	done
 	compgen -G "$1/$2/samples/*.$kind" >/dev/null || fail "$1/$2 has no samples"
-	check_needs "$1/$2/libfilter_ricci.so" "$2"
-	check_symbols "$1/$2/libfilter_ricci.so" "$2"
+	check_needs "$1/$2/libfilter_ricci.so"
+	check_symbols "$1/$2/libfilter_ricci.so"
 }
 
-# Only the MeshLab of Debian 12 has SuiteSparse beside it.
 check_needs() {
 	local allowed='lib(meshlab-common|Qt5(Widgets|Gui|Core|Xml|OpenGL|Network)|stdc\+\+|m|gcc_s|c|gomp)\.so'
-	[ "$2" != meshlab-2020.09 ] || allowed="($allowed|libcholmod\.so)"
 	readelf -d "$1" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' | grep -Ev "^$allowed|^ld-linux" &&
 		fail "$1 needs a library that its host may not have"
 	readelf -d "$1" | grep -E 'RPATH|RUNPATH' && fail "$1 looks for libraries in a folder of this machine"
@@ -55,7 +53,6 @@ check_needs() {
 # A solver inside the plugin must not meet another one in the host's process: none of its names may be
 # defined for others or asked from them. Nor may its C library be newer than that of Ubuntu 22.04.
 check_symbols() {
-	[ "$2" != meshlab-2020.09 ] || return 0
 	nm -D "$1" >"$folder/symbols"
 	grep -E ' ((cholmod|amd|colamd|SuiteSparse|METIS|GOMP|omp|openblas)_|[dz][a-z]+_$)' \
 		"$folder/symbols" && fail "$1 shares the names of a solver with its host"
