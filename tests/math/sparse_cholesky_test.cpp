@@ -110,6 +110,8 @@ TEST(SparseCholesky, SolvesLikeADenseSolver)
 	EXPECT_EQ(solver.work().analyses, 1);
 }
 
+#ifdef RICCI_STATIC_CHOLMOD // other solvers never tick
+
 /// Laplacian of a square grid with shift 1; lower triangle. Its factor takes a good while.
 SparseCholesky::Matrix gridLaplacian(int side)
 {
@@ -126,7 +128,7 @@ SparseCholesky::Matrix gridLaplacian(int side)
 	return lower;
 }
 
-/// What a tick throws at any time passes through, and leaves the solver as fit as before.
+/// What a tick throws at any time passes through, and leaves the solver usable.
 TEST(SparseCholesky, EndsWhenATickThrows)
 {
 	System system(gridLaplacian(200));
@@ -134,8 +136,6 @@ TEST(SparseCholesky, EndsWhenATickThrows)
 	system.analyze(solver);
 	int ticks = 0;
 	ASSERT_TRUE(solver.factorize(system.matrix, [&] { ++ticks; }));
-	if (ticks == 0)
-		GTEST_SKIP() << solver.name() << " gives no occasion for ticks";
 	const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(system.given.rows(), -1.0, 1.0);
 	const Eigen::VectorXd x = system.solve(solver, b);
 	EXPECT_GT(ticks, solver.factorFlops() / 1e8); // many a second
@@ -151,6 +151,8 @@ TEST(SparseCholesky, EndsWhenATickThrows)
 		EXPECT_EQ(system.solve(solver, b), x);
 	}
 }
+
+#endif
 
 /// A surface whose radii are all fixed has no unknowns.
 TEST(SparseCholesky, SolvesWithoutUnknowns)

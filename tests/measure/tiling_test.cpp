@@ -49,6 +49,17 @@ void expectDifferent(const Tiling& tiles)
 			EXPECT_GT((tiles.deck[i].inverse() * tiles.deck[j]).distanceFromIdentity(), 0.1);
 }
 
+/// Images of 0 that no integer can number, and one that overflows.
+TEST(Tiling, LeavesOutWhatIsBeyondAllNumbers)
+{
+	for (const double length : {100.0, 1000.0, 3000.0}) {
+		const auto sides = withInverses({along(0.0, 2.5), along(kPi / 2, length)});
+		const Tiling tiles = tiling(sides, 2, 1000);
+		EXPECT_FALSE(tiles.complete);
+		EXPECT_EQ(countByRing(tiles), (std::vector<int>{1, 2, 2})) << length;
+	}
+}
+
 /// Two translations along perpendicular axes by lengths above 2 arsinh(1) play ping-pong: the group
 /// is free, and ring n holds the 4 * 3^(n - 1) reduced words of n letters.
 TEST(Tiling, OfAFreeGroupHasTheReducedWords)

@@ -37,7 +37,7 @@ flowWithEdgeSwaps(const Component& component, const Options& options, const Swap
 	int steps = 0;
 	for (int attempt = 0; attempt < kMaxStarts; ++attempt) {
 		result.surface = embeddedSurface(result.mesh.positions(), result.mesh.triangles());
-		FlowStart start = flowStart(result.surface, options);
+		FlowStart start = flowStart(result.surface, options, listener.tick);
 		const Target target = listener.chooseTarget(result.surface, start);
 		EdgeSwapper swapper(result.surface.positions, start.packing.radii);
 		try {
@@ -48,7 +48,8 @@ flowWithEdgeSwaps(const Component& component, const Options& options, const Swap
 				target,
 				options,
 				[&](int step, double residual) { listener.step(steps + step, residual); },
-				[&](CurvatureMap& map) { return swapper(map); });
+				[&](CurvatureMap& map) { return swapper(map); },
+				listener.tick);
 			steps += result.flow.iterations;
 		}
 		catch (NotConverged& error) {

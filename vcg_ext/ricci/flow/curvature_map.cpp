@@ -67,6 +67,7 @@ void GeometricCurvatureMap<Geometry>::releaseWorkSpace()
 	release(m_excess);
 	release(m_ratio);
 	release(m_halfWeights);
+	m_tick = nullptr;
 }
 
 template<class Geometry>
@@ -230,7 +231,6 @@ void FlippingCurvatureMap<Geometry>::releaseWorkSpace()
 {
 	GeometricCurvatureMap<Geometry>::releaseWorkSpace();
 	release(m_kappa);
-	this->m_tick = nullptr;
 	m_queue = DelaunayQueue();
 }
 

@@ -90,7 +90,8 @@ public:
 	/// change a bit of the result.
 	void useThreads(int threads) { m_threads = threads; }
 
-	/// \p tick is called by evaluate() now and then where many edges flip; may throw.
+	/// \p tick is called by evaluate() now and then where many edges flip, and while Newton's method
+	/// factorises the Hessian; may throw.
 	void useTick(Tick tick) { m_tick = std::move(tick); }
 	const Tick& tick() const { return m_tick; }
 

@@ -229,6 +229,7 @@ private:
 				std::move(packing));
 		else
 			next = std::make_shared<FlippingCurvatureMap<Euclidean>>(std::move(packing));
+		next->useTick(m_tick);
 		Metric result;
 		result.u = metric.u;
 		try {

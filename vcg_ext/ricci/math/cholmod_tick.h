@@ -9,7 +9,7 @@
 namespace ricci {
 
 /// A tick during a factorisation by CHOLMOD, for the BLAS in cholmod_blas.cpp. CHOLMOD hands nothing on
-/// to BLAS: while this object lives, its thread knows it.
+/// to BLAS, which finds this object by its thread as long as it lives.
 class CholmodTick
 {
 public:
@@ -19,12 +19,12 @@ public:
 	CholmodTick(const CholmodTick&) = delete;
 	CholmodTick& operator=(const CholmodTick&) = delete;
 
-	/// For BLAS, before it multiplies that many pairs of numbers: calls the thread's tick every few
-	/// milliseconds. No exception may pass through CHOLMOD, so what the tick throws is kept.
+	/// For BLAS, before it multiplies that many pairs of numbers: calls the thread's tick where some
+	/// milliseconds have passed since the last. No exception may pass through CHOLMOD, so what the tick throws is kept.
 	/// \return false from then on: what is factorised will not be used
 	static bool goesOn(double products);
 
-	/// Throws on what the tick has thrown.
+	/// Rethrows what the tick has thrown.
 	void rethrow() const;
 
 private:

@@ -368,7 +368,7 @@ bool SparseCholesky::factorize(const Matrix& matrix, const Tick& tick)
 	if (matrix.rows() == 0)
 		return true;
 	const OneThread oneThread;
-	const CholmodTick ticking(tick);
+	CholmodTick ticking(tick);
 	Implementation& own = *m_implementation;
 	View a(matrix);
 	cholmod_l_factorize(a.get(), own.factor, &own.common);

@@ -85,7 +85,7 @@ public:
 
 	/// Numeric factorisation of a matrix with the pattern last analyzed.
 	/// \param tick called meanwhile if it is not empty, in this thread; may throw. With
-	/// cholmod_blas.cpp only: other solvers give no occasion
+	/// cholmod_blas.cpp only: other solvers never call it
 	/// \return false if \p matrix is not positive definite
 	/// \throw as analyze()
 	bool factorize(const Matrix& matrix, const Tick& tick = {});

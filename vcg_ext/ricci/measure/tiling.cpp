@@ -67,9 +67,12 @@ Tiling tiling(const std::vector<DiskIsometry>& sides, int rings, int maxCount)
 			break;
 		for (const DiskIsometry& side : sides) {
 			const DiskIsometry m = (result.deck[next] * side).normalised();
-			if (known.contains(m))
+			const double distance = m.displacement();
+			// Farther out than any known tile a cell may have no number.
+			const bool mayBeKnown = distance <= kMaxTileDistance + kSameTile;
+			if (mayBeKnown && known.contains(m))
 				continue;
-			if (m.displacement() > kMaxTileDistance ||
+			if (!(distance <= kMaxTileDistance) ||
 				result.deck.size() >= static_cast<std::size_t>(maxCount)) {
 				result.complete = false;
 				continue;

@@ -391,6 +391,7 @@ ComponentMap flatten(
 	for (const std::string& note : target.notes)
 		progress.log(note);
 	FlowProgress flowProgress(progress, options.epsilon, map.flowStates);
+	const Tick whileSolving = [&] { progress.step(0.0, "Solving for the metric"); };
 	map.flow = runRicciFlow(
 		backgroundOf(options),
 		domain.solved(),
@@ -399,7 +400,7 @@ ComponentMap flatten(
 		options,
 		flowProgress,
 		nullptr,
-		whileFlipping);
+		whileSolving);
 	measurePeriods(domain.surface, progress, map);
 	keepAreas(domain.solved(), request, options, progress, map);
 	roundLoopTurns(domain.solved(), request, options, progress, map);

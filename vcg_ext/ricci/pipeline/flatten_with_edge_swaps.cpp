@@ -47,9 +47,11 @@ ComponentMap flattenWithEdgeSwaps(
 	bool first = true;
 	std::optional<FlowProgress> flowProgress;
 	SwapListener listener;
+	listener.tick = [&] { progress.step(0.0, "Solving for the metric"); };
 	listener.chooseTarget = [&](const EmbeddedSurface& surface, FlowStart& start) {
-		Target target = chooseTarget(
-			surface, start, targetRequest(component, input, options, surface.positions.size()));
+		TargetRequest request = targetRequest(component, input, options, surface.positions.size());
+		request.tick = listener.tick;
+		const Target target = chooseTarget(surface, start, request);
 		if (first) {
 			progress.log(description(component, surface.topology.type));
 			for (const std::string& note : target.notes)

@@ -114,7 +114,7 @@ std::optional<FlowResult> flowAgain(
 	ProgressRange& progress,
 	std::vector<FlowState>& states)
 {
-	const Tick tick = [&] { progress.step(0.0, "Flipping edges"); };
+	const Tick tick = [&] { progress.step(0.0, "Solving for the metric"); };
 	try {
 		std::optional<FlowStart> start;
 		const MakeStart makeStart = [&]() -> FlowStart& {
