@@ -90,6 +90,7 @@ TEST(ParametrizeHyperbolic, ClosedSurfacesLieInTheDisk)
 		EXPECT_TRUE(report.converged);
 		EXPECT_LE(report.maxCurvatureError, std::max(1e-8, report.residualFloor));
 		EXPECT_EQ(report.genus, genus);
+		EXPECT_EQ(report.charts, 1);
 		EXPECT_EQ(report.flippedFaces, 0);
 		EXPECT_EQ(report.brokenTriangles, 0);
 		ASSERT_TRUE(report.hyperbolicArea && report.relationError);

@@ -128,6 +128,7 @@ Parametrization parametrizeHyperbolic(
 	checkOptions(options);
 	Parametrization result = mapComponents(given, input, options, {}, progress);
 	const SurfaceMesh& mesh = result.opened.mesh;
+	result.report.charts = static_cast<int>(result.charts.size());
 	result.report.seamLengthRelative =
 		result.report.seamLength / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
 	measureResult(mesh, measureHyperbolicDistortion, result);
