@@ -137,6 +137,18 @@ class Batch(unittest.TestCase):
         self.assertEqual({name for name in names if after[name] != before[name]}, set(missing))
         self.check_solved(names)
 
+    def test_layers_and_no_results_of_other_parameters(self):
+        self.write("double.ply", meshes.double_torus())
+        code, text = self.batch("--flat-layer")
+        self.assertEqual(code, 0, text)
+        flat = meshes.read_ply(os.path.join(self.out, "double.ply.flat.ply"))
+        self.assertTrue(all(z == 0.0 for _, _, z in flat.vertices))
+        self.assertTrue(os.path.exists(os.path.join(self.out, "double.ply.ply")))
+        code, text = self.batch("--target-curvature", "Disk")
+        self.assertEqual(code, 0, text)
+        self.assertEqual(self.records()["double.ply"]["state"], "refused")
+        self.assertFalse(os.path.exists(os.path.join(self.out, "double.ply.ply")))
+
     def test_other_parameters_or_another_mesh_run_again(self):
         self.write("one.ply", meshes.hill(6))
         self.write("two.ply", meshes.hill(7))

@@ -151,7 +151,9 @@ class Functions(unittest.TestCase):
                              r"^\d\d+ edges as chosen, 0 more, 1 charts")
             self.assertRegex(run("chosen_seams.py", path["in.ply"], path["two.obj"], "60"),
                              "edges as chosen, 0 more, 14 charts")
-            self.assertTrue(os.path.exists(path["two.obj"]))
+            with open(path["two.obj"], encoding="utf-8") as source:
+                self.assertGreater(sum(line.startswith("vt ") for line in source),
+                                   len(meshes.double_torus().vertices))
 
     def test_indexed(self):
         result = flatten(arrays(meshes.torus()))
@@ -170,6 +172,19 @@ class Functions(unittest.TestCase):
         for again in (flatten((vertices, faces), selected=mask),
                       flatten((vertices, faces), curvature=result.target_curvature)):
             self.assertTrue(numpy.allclose(again.uv, result.uv, atol=1e-6))
+
+    def test_again_in_one_mesh_set(self):
+        vertices, faces = arrays(meshes.sphere())
+        documents = pymeshlab.MeshSet()
+        documents.add_mesh(pymeshlab.Mesh(vertices, faces.astype(numpy.int32)))
+        order = numpy.argsort(vertices[:, 2])
+        for cones in (order[[0, 1, -1]], order[[0, 1, -2, -1]]):
+            for given in ({"selected": cones}, {"curvature": numpy.where(
+                    numpy.isin(range(len(vertices)), cones), 4 * numpy.pi / len(cones), 0.0)}):
+                result = flatten(documents, **given)
+                self.assertTrue(numpy.allclose(result.target_curvature[cones],
+                                               4 * numpy.pi / len(cones)))
+                self.assertEqual(numpy.count_nonzero(result.target_curvature), len(cones))
 
     def test_uniformize(self):
         result = uniformize(arrays(meshes.double_torus()), generator_axes=True)
@@ -193,6 +208,11 @@ class Functions(unittest.TestCase):
                     (good[0], good[1] - 1)):
             with self.assertRaises(ValueError):
                 flatten(bad)
+        with self.assertRaises(pymeshlab_ricci.Refused):
+            flatten(good, target_curvature="Square")
+        for selected in ([0.5], [-1], [len(good[0])]):
+            with self.assertRaisesRegex(ValueError, "^selected must hold indices"):
+                flatten(good, selected=selected)
         with self.assertRaises(ValueError):
             flatten(good, curvature=[0.0])
 

@@ -13,6 +13,8 @@ meshes without a result. A run that was interrupted goes on where it stopped; a 
 where mesh, parameters or plugin have changed. With a cluster, this package and both folders have
 to be on every machine, the folders at the same path.
 
+Layers (--flat-layer and others) are files beside OUT: scan.flat.ply.
+
 Exit: 0 the mesh is solved (in a folder: or refused, each of them), 1 it is not, 130 interrupted.
 """
 

@@ -129,6 +129,9 @@ def run_one(job, processes=None):
         shutil.rmtree(partial_folder(job["target"], process.pid), ignore_errors=True)
     record["seconds"] = round(time.monotonic() - started, 3)
     if job["record"] and not processes.stopped:
+        if record["state"] != "solved":
+            with contextlib.suppress(OSError):  # the result of other parameters
+                os.remove(job["target"])
         write_record(job["record"], record)
     return record
 

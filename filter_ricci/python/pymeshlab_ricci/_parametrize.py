@@ -2,6 +2,7 @@
 """The filters as functions from meshes to results."""
 
 import inspect
+import itertools
 import os
 
 import numpy
@@ -15,7 +16,9 @@ _failed = []
 
 
 class Refused(pymeshlab.PyMeshLabException):
-    """The mesh or a parameter is refused; the text says why. The mesh is unchanged."""
+    """The mesh or a parameter is refused; the text says why. The mesh is unchanged, but for what
+    flatten() and uniformize() were given with it: `selected` stays as the selection of its vertices,
+    `curvature` as their quality."""
 
 
 class Parametrization:
@@ -55,10 +58,12 @@ class Parametrization:
         return unique[:, 1:], index.reshape(-1, 3)
 
     def save(self, path):
-        """Writes the mesh with its texture coordinates, to a PLY file with the quality too."""
+        """Writes the mesh with its texture coordinates, to a PLY file with the quality too. An OBJ file
+        gets triangles: PyMeshLab 2025.7 writes polygons without texture coordinates."""
         path = os.fspath(path)
-        keep = {"save_vertex_quality": True} if path.lower().endswith(".ply") else {}
-        self.mesh_set.save_current_mesh(path, save_wedge_texcoord=True, **keep)
+        keep = {".ply": {"save_vertex_quality": True}, ".obj": {"save_polygonal": False}}
+        ending = os.path.splitext(path)[1].lower()
+        self.mesh_set.save_current_mesh(path, save_wedge_texcoord=True, **keep.get(ending, {}))
 
 
 def _result(key, text):
@@ -125,11 +130,18 @@ def _mesh_set(mesh):
 
 
 def _per_vertex(mesh_set, name, values):
+    """The name of a new attribute with the values: PyMeshLab cannot change those that are there."""
     mesh = mesh_set.current_mesh()
     if values.shape != (mesh.vertex_number(),):
         raise ValueError(f"{name} must have a value for each of {mesh.vertex_number()} vertices, "
                          f"not the shape {values.shape}")
-    mesh.add_vertex_custom_scalar_attribute(values, f"ricci_{name}")
+    for number in itertools.count():
+        attribute = f"ricci_{name}{number or ''}"
+        try:
+            mesh.vertex_custom_scalar_attribute_array(attribute)
+        except pymeshlab.PyMeshLabException:
+            mesh.add_vertex_custom_scalar_attribute(values, attribute)
+            return attribute
 
 
 def _mask(mesh_set, selected):
@@ -138,23 +150,30 @@ def _mask(mesh_set, selected):
     if selected.dtype == bool:
         return selected.astype(numpy.float64)
     mask = numpy.zeros(mesh_set.current_mesh().vertex_number())
-    mask[selected.astype(numpy.int64)] = 1.0
+    indices = selected.astype(numpy.int64)
+    if (indices != selected).any() or ((indices < 0) | (indices >= len(mask))).any():
+        raise ValueError(f"selected must hold indices of vertices, from 0 to {len(mask) - 1}, or a "
+                         "truth value for each vertex")
+    mask[indices] = 1.0
     return mask
 
 
 def _solve(kind, name, mesh, selected, curvature, parameters):
     mesh_set = _mesh_set(mesh)
+    parameters = {key: os.fspath(value) if isinstance(value, os.PathLike) else value
+                  for key, value in parameters.items()}
     if selected is not None:
-        _per_vertex(mesh_set, "selected", _mask(mesh_set, selected))
-        mesh_set.compute_selection_by_condition_per_vertex(condselect="(ricci_selected > 0.5)")
+        attribute = _per_vertex(mesh_set, "selected", _mask(mesh_set, selected))
+        mesh_set.compute_selection_by_condition_per_vertex(condselect=f"({attribute} > 0.5)")
         parameters.setdefault("target_curvature", "Cones at selected vertices")
     if curvature is not None:
-        _per_vertex(mesh_set, "curvature", numpy.asarray(curvature, dtype=numpy.float64))
-        mesh_set.compute_scalar_by_function_per_vertex(q="ricci_curvature")
+        attribute = _per_vertex(mesh_set, "curvature",
+                                numpy.asarray(curvature, dtype=numpy.float64))
+        mesh_set.compute_scalar_by_function_per_vertex(q=attribute)
         parameters.setdefault("target_curvature", "From vertex quality")
     try:
         return kind(mesh_set, mesh_set.apply_filter(name, **parameters))
-    except pymeshlab.PyMeshLabException as refusal:
+    except (pymeshlab.PyMeshLabException, pymeshlab.InvalidEnumException) as refusal:
         _failed.append(mesh_set)
         raise Refused(str(refusal).split("Details: ")[-1].strip()) from None
 

@@ -22,12 +22,25 @@ def die_with_parent():
         pass
 
 
+def save_layers(documents, stem):
+    """The new layers: of mesh.ply, 'Flat mesh' is mesh.flat.ply."""
+    current = documents.current_mesh_id()
+    label = documents.current_mesh().label()
+    layers = [(mesh.id(), mesh.label()) for mesh in documents if mesh.id() != current]
+    for number, name in layers:
+        kind = name.removesuffix(label).strip().lower().replace(" ", "-")
+        documents.set_current_mesh(number)
+        documents.save_current_mesh(f"{stem}.{kind}.ply")
+    documents.set_current_mesh(current)
+
+
 def save(result, target):
     """Complete or not at all, with what belongs to the file, such as the materials of OBJ."""
     folder, name = os.path.split(os.path.abspath(target))
     partial = partial_folder(target, os.getpid())
     os.makedirs(partial)
     result.save(os.path.join(partial, name))
+    save_layers(result.mesh_set, os.path.join(partial, os.path.splitext(name)[0]))
     for written in sorted(os.listdir(partial), key=lambda file: file == name):
         os.replace(os.path.join(partial, written), os.path.join(folder, written))
     os.rmdir(partial)
