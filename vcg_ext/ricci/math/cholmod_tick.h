@@ -19,8 +19,9 @@ public:
 	CholmodTick(const CholmodTick&) = delete;
 	CholmodTick& operator=(const CholmodTick&) = delete;
 
-	/// For BLAS, before it multiplies that many pairs of numbers: calls the thread's tick where some
-	/// milliseconds have passed since the last. No exception may pass through CHOLMOD, so what the tick throws is kept.
+	/// For BLAS, before it multiplies that many pairs of numbers: calls the thread's tick where the last
+	/// was some milliseconds of work ago. No exception may pass through CHOLMOD, so what the tick throws
+	/// is kept.
 	/// \return false from then on: what is factorised will not be used
 	static bool goesOn(double products);
 
