@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
@@ -89,6 +90,32 @@ TEST(TasksInParallel, WhatATaskOrTheTickThrowsEndsAll)
 				}),
 			std::logic_error);
 	}
+}
+
+/// The task in the other thread goes on after the caller's own is done.
+TEST(TasksInParallel, TheTickIsHeardWhileTheCallerWaits)
+{
+	const auto caller = std::this_thread::get_id();
+	std::atomic<bool> begun{false}, left{false};
+	EXPECT_THROW(
+		tasksInParallel(
+			2,
+			2,
+			[&] {
+				if (left)
+					throw std::logic_error("the tick");
+			},
+			[&](int, const Tick& own) {
+				if (std::this_thread::get_id() != caller) {
+					begun = true;
+					for (;;)
+						own();
+				}
+				while (!begun)
+					std::this_thread::yield();
+				left = true;
+			}),
+		std::logic_error);
 }
 
 /// Both sides write into one array, to places of their own, which are read when both are done.

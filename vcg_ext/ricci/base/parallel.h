@@ -65,10 +65,13 @@ void inParallel(int count, int threads, const Work& work, int minPart = 16384)
 		other.join();
 }
 
+/// Time between two ticks of a thread that waits for others.
+constexpr std::chrono::milliseconds kBetweenTicks(400);
+
 /// Calls work(i, tick) for every i of [0, count), each in one of \p threads threads, in any order. The
 /// tasks must be independent of each other. In the calling thread tick is \p tick, which is called
-/// before the first task, too; in the others it does nothing but end them once another thread has
-/// thrown. What \p work or \p tick throws is thrown on.
+/// before the first task, too, and while it waits for the others; in these it does nothing but end them
+/// once another thread has thrown. What \p work or \p tick throws is thrown on.
 template<class Work>
 void tasksInParallel(int count, int threads, const std::function<void()>& tick, const Work& work)
 {
@@ -79,18 +82,21 @@ void tasksInParallel(int count, int threads, const std::function<void()>& tick, 
 	std::atomic<int> next{0};
 	std::atomic<bool> ended{false};
 	std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(std::max(threads, 1)));
-	const auto run = [&](std::size_t thread, const std::function<void()>& own) {
+	const auto unlessEnded = [&](std::size_t thread, const auto& run) {
 		try {
-			for (int i = next++; i < count; i = next++) {
-				own();
-				work(i, own);
-			}
+			run();
 		}
 		catch (const Ended&) {
 		}
 		catch (...) {
 			thrown[thread] = std::current_exception();
 			ended = true;
+		}
+	};
+	const auto runTasks = [&](const std::function<void()>& own) {
+		for (int i = next++; i < count; i = next++) {
+			own();
+			work(i, own);
 		}
 	};
 	const std::function<void()> endIfAsked = [&] {
@@ -101,19 +107,25 @@ void tasksInParallel(int count, int threads, const std::function<void()>& tick, 
 		endIfAsked();
 		tick();
 	};
-	std::vector<std::thread> others;
+	std::vector<std::future<void>> others;
 	try {
 		others.reserve(thrown.size());
-		for (int i = 1; i < std::min(threads, count); ++i)
-			others.emplace_back([&, i] { run(static_cast<std::size_t>(i), endIfAsked); });
+		for (std::size_t i = 1; i < std::min(thrown.size(), static_cast<std::size_t>(count)); ++i)
+			others.push_back(std::async(
+				std::launch::async, [&, i] { unlessEnded(i, [&] { runTasks(endIfAsked); }); }));
 	}
 	catch (const std::system_error&) { // no more threads to be had
 	}
 	catch (const std::bad_alloc&) { // nor memory for one
 	}
-	run(0, first);
-	for (std::thread& other : others)
-		other.join();
+	unlessEnded(0, [&] {
+		runTasks(first);
+		for (const std::future<void>& other : others)
+			while (other.wait_for(kBetweenTicks) != std::future_status::ready)
+				first();
+	});
+	for (const std::future<void>& other : others)
+		other.wait();
 	for (const std::exception_ptr& exception : thrown)
 		if (exception)
 			std::rethrow_exception(exception);
@@ -129,7 +141,6 @@ void besides(int threads, const std::function<void()>& tick, const Main& main, c
 	struct Ended
 	{
 	};
-	constexpr std::chrono::milliseconds kBetweenTicks(400);
 	std::atomic<bool> ended{false};
 	std::exception_ptr thrown;
 	const std::function<void()> own = [&] {

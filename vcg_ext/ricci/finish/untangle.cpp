@@ -2,20 +2,19 @@
 #include "untangle.h"
 
 #include "../base/tolerances.h"
-
-#include <Eigen/SparseCholesky>
+#include "../math/sparse_cholesky.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace ricci {
 
 namespace {
 
 using Complex = std::complex<double>;
-using Matrix = Eigen::SparseMatrix<double>;
 
 /// Weight of the area against the shape.
 constexpr double kAreaWeight = 0.1;
@@ -123,7 +122,8 @@ public:
 		const PointGroups& groups,
 		const Patch& patch,
 		const std::vector<RestShape>& shapes) :
-			m_size(2 * patch.variables)
+			m_size(2 * patch.variables),
+			m_hessian(m_size, m_size), m_row(positionOf(m_size)), m_rhs(m_size)
 	{
 		double sum = 0.0;
 		for (const RestShape& s : shapes)
@@ -174,27 +174,39 @@ public:
 	}
 
 	/// Newton's step with the projected Hessian.
+	/// \param tick called for every factorisation, and during it as SparseCholesky::factorize() says
 	/// \return false where the Hessian cannot be factored
 	bool newtonStep(
-		const Eigen::VectorXd& x, double eps, Eigen::VectorXd& gradient, Eigen::VectorXd& step)
+		const Eigen::VectorXd& x,
+		double eps,
+		Eigen::VectorXd& gradient,
+		Eigen::VectorXd& step,
+		const Tick& tick)
 	{
 		gradient.setZero(m_size);
 		std::fill_n(m_hessian.valuePtr(), m_hessian.nonZeros(), 0.0);
-		const std::array<int, 4>* slot = m_slots.data();
+		const std::array<Eigen::Index, 4>* slot = m_slots.data();
 		for (const Element& element : m_elements)
 			slot = add(element, x, eps, gradient, slot);
 		double trace = 0.0;
-		for (int i = 0; i < m_size; ++i)
-			trace += m_hessian.coeff(i, i);
+		for (int column = 0; column < m_size; ++column)
+			trace += diagonal(column);
 		if (!std::isfinite(trace))
 			return false;
-		double shift = kShift * trace / m_size;
-		for (int attempt = 0; attempt < kMaxShifts; ++attempt, shift *= kShiftGrowth) {
-			m_solver.setShift(shift);
-			m_solver.factorize(m_hessian);
-			if (m_solver.info() != Eigen::Success)
+		for (int i = 0; i < m_size; ++i)
+			m_rhs[m_row[i]] = -gradient[i];
+		double shift = 0.0, next = kShift * trace / m_size;
+		for (int attempt = 0; attempt < kMaxShifts; ++attempt, next *= kShiftGrowth) {
+			tick();
+			for (int column = 0; column < m_size; ++column)
+				diagonal(column) += next - shift;
+			shift = next;
+			if (!m_solver.factorize(m_hessian, tick))
 				continue;
-			step = m_solver.solve(-gradient);
+			m_solver.solve(m_rhs, m_solution);
+			step.resize(m_size);
+			for (int i = 0; i < m_size; ++i)
+				step[i] = m_solution[m_row[i]];
 			if (step.allFinite() && step.dot(gradient) < 0.0)
 				return true;
 		}
@@ -220,12 +232,12 @@ private:
 
 	/// Adds one triangle's gradient and Hessian.
 	/// \param slot where its blocks are; \return those of the next triangle
-	const std::array<int, 4>*
+	const std::array<Eigen::Index, 4>*
 	add(const Element& element,
 		const Eigen::VectorXd& x,
 		double eps,
 		Eigen::VectorXd& gradient,
-		const std::array<int, 4>* slot)
+		const std::array<Eigen::Index, 4>* slot)
 	{
 		const auto [z, w] = mapAt(element, x);
 		const double a = std::norm(z), b = std::norm(w), weight = element.weight;
@@ -270,7 +282,7 @@ private:
 		return slot;
 	}
 
-	void addBlock(const std::array<int, 4>& slot, bool diagonal, Complex s, Complex t)
+	void addBlock(const std::array<Eigen::Index, 4>& slot, bool diagonal, Complex s, Complex t)
 	{
 		double* values = m_hessian.valuePtr();
 		values[slot[0]] += s.real() + t.real();
@@ -280,46 +292,55 @@ private:
 		values[slot[3]] += s.real() - t.real();
 	}
 
+	/// The first entry of a column of the lower triangle.
+	double& diagonal(int column) { return m_hessian.valuePtr()[m_hessian.outerIndexPtr()[column]]; }
+
 	/// The pattern of the lower triangle, and where every block of every triangle lies in it.
 	void layOutMatrix()
 	{
-		std::vector<Eigen::Triplet<double>> entries;
 		const auto forBlocks = [&](const auto& use) {
 			for (const Element& element : m_elements)
-				for (const int row : element.variable)
-					for (const int column : element.variable)
-						if (row >= 0 && column >= 0 && column <= row)
-							use(row, column);
+				for (const int i : element.variable)
+					for (const int j : element.variable)
+						if (i >= 0 && j >= 0 && j <= i)
+							use(2 * i, 2 * j);
 		};
-		forBlocks([&](int row, int column) {
-			for (int i = 0; i < 2; ++i)
-				for (int j = 0; j < 2; ++j)
-					if (row != column || i >= j)
-						entries.emplace_back(2 * row + i, 2 * column + j, 0.0);
-		});
-		m_hessian.resize(m_size, m_size);
-		m_hessian.setFromTriplets(entries.begin(), entries.end());
-		const auto find = [&](int row, int column) {
-			const int* first = m_hessian.innerIndexPtr() + m_hessian.outerIndexPtr()[column];
-			const int* last = m_hessian.innerIndexPtr() + m_hessian.outerIndexPtr()[column + 1];
-			return static_cast<int>(std::lower_bound(first, last, row) - m_hessian.innerIndexPtr());
+		std::iota(m_row.begin(), m_row.end(), 0);
+		const auto layOut = [&] {
+			std::vector<Eigen::Triplet<double>> entries;
+			forBlocks([&](int i, int j) {
+				for (int k = 0; k < 2; ++k)
+					for (int l = 0; l < 2; ++l)
+						if (i != j || k >= l) {
+							const auto [column, row] = std::minmax(m_row[i + k], m_row[j + l]);
+							entries.emplace_back(row, column, 0.0);
+						}
+			});
+			m_hessian.setFromTriplets(entries.begin(), entries.end());
 		};
-		forBlocks([&](int row, int column) {
-			const int r = 2 * row, c = 2 * column;
+		layOut();
+		m_solver.analyze(m_hessian, m_row, layOut);
+		const auto find = [&](int i, int j) {
+			const auto [column, row] = std::minmax(m_row[i], m_row[j]);
+			const int* rows = m_hessian.innerIndexPtr();
+			const int* first = rows + m_hessian.outerIndexPtr()[column];
+			const int* last = rows + m_hessian.outerIndexPtr()[column + 1];
+			return Eigen::Index(std::lower_bound(first, last, row) - rows);
+		};
+		forBlocks([&](int i, int j) {
 			m_slots.push_back(
-				{find(r, c),
-				 find(r + 1, c),
-				 row == column ? -1 : find(r, c + 1),
-				 find(r + 1, c + 1)});
+				{find(i, j), find(i + 1, j), i == j ? -1 : find(i, j + 1), find(i + 1, j + 1)});
 		});
-		m_solver.analyzePattern(m_hessian);
 	}
 
 	int m_size; // two for each variable
 	std::vector<Element> m_elements;
-	Matrix m_hessian;                        // lower triangle
-	std::vector<std::array<int, 4>> m_slots; // of the blocks, in the order of the triangles
-	Eigen::SimplicialLDLT<Matrix> m_solver;
+	SparseCholesky::Matrix m_hessian; // lower triangle
+	Array<int> m_row;                 // [unknown] of the matrix
+	std::vector<std::array<Eigen::Index, 4>>
+		m_slots; // of the blocks, in the order of the triangles
+	SparseCholesky m_solver;
+	Eigen::VectorXd m_rhs, m_solution; // by rows
 };
 
 /// The search for a sound patch.
@@ -400,9 +421,8 @@ private:
 	/// \param soundOnly the step must leave the patch sound
 	bool descend(double& value, bool soundOnly)
 	{
-		m_tick();
 		++m_found.steps;
-		if (!m_energy.newtonStep(m_x, m_eps, m_gradient, m_step))
+		if (!m_energy.newtonStep(m_x, m_eps, m_gradient, m_step, m_tick))
 			return false;
 		const double slope = m_step.dot(m_gradient);
 		double length = 1.0;

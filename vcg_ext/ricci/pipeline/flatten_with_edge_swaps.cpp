@@ -51,7 +51,7 @@ ComponentMap flattenWithEdgeSwaps(
 	listener.chooseTarget = [&](const EmbeddedSurface& surface, FlowStart& start) {
 		TargetRequest request = targetRequest(component, input, options, surface.positions.size());
 		request.tick = listener.tick;
-		const Target target = chooseTarget(surface, start, request);
+		Target target = chooseTarget(surface, start, request);
 		if (first) {
 			progress.log(description(component, surface.topology.type));
 			for (const std::string& note : target.notes)
