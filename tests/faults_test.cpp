@@ -25,6 +25,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <optional>
@@ -501,6 +502,39 @@ TEST(Faults, ATimeLimitLeavesTheMesh)
 		EXPECT_EQ(slow.calls, 1) << c.name;
 		EXPECT_EQ(contents(m) == before, true) << c.name;
 	}
+}
+
+/// A time limit ends runs that are not done: until the coordinates are finished, none is.
+TEST(Faults, TheWorkIsDoneAtTheLastUpdateOnly)
+{
+	class Record : public Progress
+	{
+	public:
+		bool update(double fraction, const std::string&) override
+		{
+			fractions.push_back(fraction);
+			return true;
+		}
+		std::vector<double> fractions;
+	};
+	const auto expectDoneAtTheEnd = [](const Record& record) {
+		ASSERT_GT(record.fractions.size(), 2u);
+		EXPECT_EQ(record.fractions.back(), 1.0);
+		EXPECT_LT(*std::prev(record.fractions.end(), 2), 1.0);
+	};
+	for (const Case& c : cases()) {
+		SCOPED_TRACE(c.name);
+		Mesh m;
+		build(c.mesh, m);
+		Record record;
+		Flow::Compute(m, c.params, record);
+		expectDoneAtTheEnd(record);
+	}
+	Mesh m;
+	build(perforatedSlab(2, 1), m);
+	Record record;
+	Flow::ComputeHyperbolic(m, {}, record);
+	expectDoneAtTheEnd(record);
 }
 
 TEST(Faults, ATimeLimitThatIsNotReachedChangesNothing)

@@ -8,6 +8,7 @@
 #include "run_report.h"
 #include "sentences.h"
 
+#include <ricci/base/part_of_progress.h>
 #include <ricci/base/text.h>
 #include <ricci/base/time_limit.h>
 #include <ricci/progress.h>
@@ -58,27 +59,6 @@ public:
 private:
 	vcg::CallBackPos* callback_;
 	const Log& log_;
-};
-
-/// A part of a run: passes its share on as one of the whole.
-class PartOfProgress : public ricci::Progress
-{
-public:
-	PartOfProgress(ricci::Progress& whole, double from, double to) :
-			whole_(whole), from_(from), to_(to)
-	{
-	}
-
-	void log(const std::string& line) override { whole_.log(line); }
-
-	bool update(double fraction, const std::string& what) override
-	{
-		return whole_.update(from_ + fraction * (to_ - from_), what);
-	}
-
-private:
-	ricci::Progress& whole_;
-	double from_, to_;
 };
 
 MeshModel& checkedMesh(MeshDocument& md, bool readsQuality)
@@ -343,7 +323,7 @@ public:
 		const AddLayers& addLayers)
 	{
 		const double drawn = 0.5 * (flowShare() + 1.0);
-		PartOfProgress drawing(progress, flowShare(), drawn), writing(progress, drawn, 1.0);
+		ricci::PartOfProgress drawing(progress, flowShare(), drawn), writing(progress, drawn, 1.0);
 		texture.draw(model, result, drawing, results);
 		texture.write(writing);
 		m_report.write(
@@ -381,7 +361,8 @@ Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Pr
 	settings.flow.memoryLimit = freeMemory(); // beside the pictures
 	// The sphere first: it refuses most surfaces.
 	const double share = settings.sphereLayer ? kSphereShare : 0.0;
-	PartOfProgress before(run.progress, 0.0, share), flow(run.progress, share, run.flowShare());
+	ricci::PartOfProgress before(run.progress, 0.0, share),
+		flow(run.progress, share, run.flowShare());
 	ricci::SphereMap sphere;
 	if (settings.sphereLayer)
 		sphere = Flow::ComputeSphere(run.model.cm, settings.flow, before);
@@ -402,7 +383,7 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 	HyperbolicSettings settings = readHyperbolicSettings(par);
 	Run run(settings, md, settings.flow.target == ricci::HyperbolicTarget::Prescribed, listener);
 	settings.flow.memoryLimit = freeMemory(); // beside the pictures
-	PartOfProgress flow(run.progress, 0.0, run.flowShare());
+	ricci::PartOfProgress flow(run.progress, 0.0, run.flowShare());
 	const Flow::Result result =
 		Flow::ComputeHyperbolic(run.model.cm, settings.flow, flow, run.seams);
 	Results results = toResults(result.report);

@@ -7,6 +7,7 @@
 #define __VCGLIB_RICCI_FLOW
 
 #include <ricci/base/floating_point.h>
+#include <ricci/base/part_of_progress.h>
 #include <ricci/charts/finish_in_floats.h>
 #include <ricci/charts/input_numbers.h>
 #include <ricci/charts/pack.h>
@@ -118,7 +119,8 @@ public:
 			par.target == ricci::TargetCurvature::Rectangle ||
 				par.target == ricci::TargetCurvature::SelectedCones,
 			par.target == ricci::TargetCurvature::Prescribed);
-		ricci::Parametrization flat = ricci::parametrizeEuclidean(mesh, input, par, progress);
+		ricci::PartOfProgress mapping(progress, 0.0, MappedShare);
+		ricci::Parametrization flat = ricci::parametrizeEuclidean(mesh, input, par, mapping);
 
 		Result r;
 		const ricci::ChartTurns turns = ricci::chartTurns(par);
@@ -128,11 +130,12 @@ public:
 		else
 			ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide, turns, tick);
 		if (ricci::isFinished(par))
-			ricci::finishInFloats(flat.opened.mesh, LastTick(progress), flat);
+			ricci::finishInFloats(flat.opened.mesh, tick, flat);
 		r.report = flat.report;
 		r.notes = flat.notes;
 		ricci::countFlippedAsWritten(flat, r.report);
 		TakeOver(mesh, m.face.size(), faceIndex, flat, r);
+		progress.step(1.0, "Done");
 		return r;
 	}
 
@@ -152,7 +155,8 @@ public:
 			m,
 			par.target == ricci::HyperbolicTarget::SelectedCones,
 			par.target == ricci::HyperbolicTarget::Prescribed);
-		ricci::Parametrization disk = ricci::parametrizeHyperbolic(mesh, input, par, progress);
+		ricci::PartOfProgress mapping(progress, 0.0, MappedShare);
+		ricci::Parametrization disk = ricci::parametrizeHyperbolic(mesh, input, par, mapping);
 
 		Result r;
 		r.disks = ricci::placeDisks(disk);
@@ -171,6 +175,7 @@ public:
 		if (!ricci::isFinished(par)) // straight triangles may be turned where geodesic ones are not
 			r.report.flippedFaces = flipped;
 		TakeOver(mesh, m.face.size(), faceIndex, disk, r);
+		progress.step(1.0, "Done");
 		return r;
 	}
 
@@ -542,10 +547,12 @@ private:
 		return shifts;
 	}
 
-	/// For what is done once the map is found.
+	/// Share of the work that is done once the map is found.
+	static constexpr double MappedShare = 0.95;
+
 	static ricci::Tick LastTick(ricci::Progress& progress)
 	{
-		return [&progress] { progress.step(1.0, "Finishing the coordinates"); };
+		return [&progress] { progress.step(MappedShare, "Finishing the coordinates"); };
 	}
 
 	/// The arrays of \p flat, in the indices of the mesh.
