@@ -4,7 +4,6 @@
 #include "../math/disjoint_sets.h"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace ricci {
@@ -18,7 +17,7 @@ PatchFinder::PatchFinder(const DrawnTriangles& drawn, const PointGroups& groups)
 														  add(groups.group[p], f);
 											  }),
 		m_taken(drawn.corners.size(), 0), m_local(drawn.points.size(), -1),
-		m_count(groups.fixed.size(), 0)
+		m_count(groups.fixed.size(), 0), m_number(groups.fixed.size(), -1)
 {
 }
 
@@ -34,39 +33,46 @@ std::vector<Patch> PatchFinder::patches(const std::vector<int>& seeds, int rings
 		for (const int p : m_drawn.corners[f])
 			if (!m_groups.fixed[m_groups.group[p]])
 				take(f);
+	int groups = 0;
+	std::vector<int> reached; // [number of a group]
+	const auto isNew = [&](int group) {
+		if (m_number[group] >= 0)
+			return false;
+		m_number[group] = groups++;
+		reached.push_back(group);
+		return true;
+	};
 	for (std::size_t first = 0; rings > 0; --rings) {
 		const std::size_t end = taken.size();
 		for (; first < end; ++first)
 			for (const int p : m_drawn.corners[taken[first]])
-				for (const int f : m_trianglesOf[m_groups.group[p]])
-					take(f);
+				if (const int group = m_groups.group[p]; isNew(group))
+					for (const int f : m_trianglesOf[group])
+						take(f);
 	}
 	std::sort(taken.begin(), taken.end());
 
-	std::vector<int> groups; // of the triangles that were taken
 	for (const int f : taken)
 		for (const int p : m_drawn.corners[f])
-			groups.push_back(m_groups.group[p]);
-	std::sort(groups.begin(), groups.end());
-	groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-	const auto place = [&](int p) {
-		return static_cast<int>(
-			std::lower_bound(groups.begin(), groups.end(), m_groups.group[p]) - groups.begin());
-	};
-	DisjointSets sets(static_cast<int>(groups.size()));
+			isNew(m_groups.group[p]);
+	const auto numberOf = [&](int p) { return m_number[m_groups.group[p]]; };
+	DisjointSets sets(groups);
 	for (const int f : taken)
 		for (const int p : m_drawn.corners[f])
-			sets.merge(place(m_drawn.corners[f][0]), place(p));
-	std::map<int, std::size_t> number; // [set] of its patch
+			sets.merge(numberOf(m_drawn.corners[f][0]), numberOf(p));
+	Array<int> partOf(reached.size(), -1); // [set]
 	std::vector<std::vector<int>> parts;
 	for (const int f : taken) {
-		const int set = sets.find(place(m_drawn.corners[f][0]));
-		const auto [entry, isNew] = number.emplace(set, parts.size());
-		if (isNew)
+		int& part = partOf[sets.find(numberOf(m_drawn.corners[f][0]))];
+		if (part < 0) {
+			part = static_cast<int>(parts.size());
 			parts.emplace_back();
-		parts[entry->second].push_back(f);
+		}
+		parts[positionOf(part)].push_back(f);
 		m_taken[f] = 0;
 	}
+	for (const int group : reached)
+		m_number[group] = -1;
 	std::vector<Patch> result;
 	for (std::vector<int>& part : parts) {
 		Patch patch = makePatch(std::move(part));
@@ -94,17 +100,17 @@ Patch PatchFinder::makePatch(std::vector<int> triangles)
 		patch.corners.push_back(local);
 	}
 	// A group is inside if the patch has all its triangles.
-	std::map<int, int> number; // [group] of its variable
 	for (const int p : patch.points) {
 		const int group = m_groups.group[p];
-		const bool inside = !m_groups.fixed[group] && m_count[group] == m_trianglesOf[group].size();
-		patch.variable.push_back(
-			inside ? number.emplace(group, patch.variables).first->second : -1);
-		patch.variables = static_cast<int>(number.size());
+		if (!m_groups.fixed[group] && m_number[group] < 0 &&
+			m_count[group] == m_trianglesOf[group].size())
+			m_number[group] = patch.variables++;
+		patch.variable.push_back(m_number[group]);
 	}
 	for (const int p : patch.points) {
 		m_local[p] = -1;
 		m_count[m_groups.group[p]] = 0;
+		m_number[m_groups.group[p]] = -1;
 	}
 	return patch;
 }

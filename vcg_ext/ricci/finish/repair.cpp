@@ -29,11 +29,22 @@ constexpr double kAreaGrowth = 4.0;
 constexpr double kMaxStrain = 3.0;
 constexpr int kEasedRings[] = {2, 5, 13};
 
-/// Triangles times Newton steps that may be spent for each triangle of the drawing, and at least.
-constexpr std::int64_t kMaxWorkShare = 40, kMinWorkLimit = 1000000;
+/// Work (workOfStep()) that may be spent for each triangle of the drawing, and at least.
+constexpr std::int64_t kMaxWorkShare = 100, kMinWorkLimit = 1000000;
 
 /// Steps that a patch is expected to take.
 constexpr std::int64_t kExpectedSteps = 30;
+
+/// Triangles of a patch whose Hessian takes as long to factorise as to set up.
+constexpr double kFactorSize = 7000.0;
+
+/// Work of a Newton step on a patch: its triangles, and for the factorisation, whose operations
+/// grow like n^1.5 on planar meshes, as many as take the same time.
+std::int64_t workOfStep(const Patch& patch)
+{
+	const auto n = static_cast<double>(patch.triangles.size());
+	return std::llround(n * (1.0 + std::sqrt(n / kFactorSize)));
+}
 
 /// Whether no places of its variables make a patch sound: a triangle has a side that stays and is too
 /// short; or the triangles need more than the area that the patch keeps where its border stays.
@@ -144,7 +155,7 @@ void takeOver(
 	Repair& result)
 {
 	for (std::size_t i = 0; i < patches.size(); ++i) {
-		result.work += found[i].steps * static_cast<std::int64_t>(patches[i].triangles.size());
+		result.work += found[i].steps * workOfStep(patches[i]);
 		if (found[i].points.empty() || !(found[i].sound || rules.partly) ||
 			!apply(drawn, patches[i], found[i].points, rules.accepts))
 			continue;
@@ -271,7 +282,7 @@ Repair repair(
 		});
 		std::int64_t expected = 0;
 		const auto fits = [&](const Patch& patch) {
-			expected += kExpectedSteps * static_cast<std::int64_t>(patch.triangles.size());
+			expected += kExpectedSteps * workOfStep(patch);
 			return expected <= maxWork - result.work;
 		};
 		patches.erase(std::find_if_not(patches.begin(), patches.end(), fits), patches.end());

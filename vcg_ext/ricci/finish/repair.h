@@ -21,7 +21,7 @@ struct Repair
 	Array<char> moved; ///< [point] 1 where the repair moved it; empty where nothing was to be done
 	int bad = 0;       ///< triangles that were not sound before
 	int left = 0;      ///< and after
-	std::int64_t work = 0; ///< triangles times Newton steps
+	std::int64_t work = 0; ///< of Newton's steps, in triangles set up
 
 	int movedCount() const;
 	/// Takes over what a second repair of the same drawing has done.
