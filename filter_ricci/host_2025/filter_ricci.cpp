@@ -101,6 +101,8 @@ std::map<std::string, QVariant> FilterRicciPlugin::applyFilter(
 		return toMap(outcome.results);
 	}
 	catch (...) {
+		// PyMeshLab leaves a failed filter with the log of its document, which may not outlive it.
+		setLog(nullptr);
 		throw MLException(QString::fromStdString(filter_ricci::currentErrorSentence()));
 	}
 }

@@ -296,8 +296,22 @@ TEST(PackCharts, ThinChartsStayUpright)
 		const Box2 box = boxOf(map, map.charts[0]);
 		EXPECT_LT(std::min(box.width(), box.height()), 1e-8);
 		const Box2& room = map.charts[0].box;
-		EXPECT_GE(std::min(room.width(), room.height()), 0.5 * kMinBoxSide);
+		EXPECT_GE(std::min(room.width(), room.height()), 0.5 * kBoxRoom);
 		EXPECT_TRUE(room.contains(box.min) && room.contains(box.max));
+	}
+}
+
+/// Triangles at the border of a small chart may have to be pushed outward to be given a height.
+TEST(PackCharts, SmallChartsHaveRoomOnAllSides)
+{
+	for (const bool normalize : {false, true}) {
+		Parametrization map = boxes({{1.0, 1.0}, {2.0 * kBoxRoom, 3.0 * kBoxRoom}});
+		packCharts(map, normalize, 0.0, inRows, ChartTurns::Free);
+		const Box2 box = boxOf(map, map.charts[1]), room = map.charts[1].box;
+		for (std::size_t k = 0; k < 2; ++k) {
+			EXPECT_GT(box.min[k] - room.min[k], 0.25 * kBoxRoom);
+			EXPECT_GT(room.max[k] - box.max[k], 0.25 * kBoxRoom);
+		}
 	}
 }
 

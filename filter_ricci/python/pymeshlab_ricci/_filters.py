@@ -50,11 +50,21 @@ def documentation(description):
     return "\n".join(lines)
 
 
+def apply(mesh_set, name, **parameters):
+    """apply_filter. After a failure PyMeshLab 2025.7 keeps a pointer to the log of the MeshSet, and
+    later loads write there even if the MeshSet is gone. A filter that succeeds clears it."""
+    try:
+        return mesh_set.apply_filter(name, **parameters)
+    except Exception:
+        pymeshlab.MeshSet().create_cube()
+        raise
+
+
 def _bind(description):
     name = description["python_name"]
 
     def method(self, **parameters):
-        return self.apply_filter(name, **parameters)
+        return apply(self, name, **parameters)
 
     this = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
     method.__name__ = name

@@ -8,11 +8,8 @@ import os
 import numpy
 import pymeshlab
 
-from ._filters import DESCRIPTIONS, EUCLIDEAN, HYPERBOLIC, documentation, signature
+from ._filters import DESCRIPTIONS, EUCLIDEAN, HYPERBOLIC, apply, documentation, signature
 from ._results import EUCLIDEAN_RESULTS, HYPERBOLIC_RESULTS
-
-# PyMeshLab 2025.7 may crash at a later load once a MeshSet in which a filter failed is destroyed.
-_failed = []
 
 
 class Refused(pymeshlab.PyMeshLabException):
@@ -118,11 +115,7 @@ def _mesh_set(mesh):
     if isinstance(mesh, pymeshlab.Mesh):
         new.add_mesh(mesh)
     elif isinstance(mesh, (str, os.PathLike)):
-        try:
-            new.load_new_mesh(os.fspath(mesh))
-        except pymeshlab.PyMeshLabException:
-            _failed.append(new)
-            raise
+        new.load_new_mesh(os.fspath(mesh))
     else:
         vertices, faces = _arrays(mesh)
         new.add_mesh(pymeshlab.Mesh(vertex_matrix=vertices, face_matrix=faces))
@@ -164,17 +157,17 @@ def _solve(kind, name, mesh, selected, curvature, parameters):
                   for key, value in parameters.items()}
     if selected is not None:
         attribute = _per_vertex(mesh_set, "selected", _mask(mesh_set, selected))
-        mesh_set.compute_selection_by_condition_per_vertex(condselect=f"({attribute} > 0.5)")
+        apply(mesh_set, "compute_selection_by_condition_per_vertex",
+              condselect=f"({attribute} > 0.5)")
         parameters.setdefault("target_curvature", "Cones at selected vertices")
     if curvature is not None:
         attribute = _per_vertex(mesh_set, "curvature",
                                 numpy.asarray(curvature, dtype=numpy.float64))
-        mesh_set.compute_scalar_by_function_per_vertex(q=attribute)
+        apply(mesh_set, "compute_scalar_by_function_per_vertex", q=attribute)
         parameters.setdefault("target_curvature", "From vertex quality")
     try:
-        return kind(mesh_set, mesh_set.apply_filter(name, **parameters))
+        return kind(mesh_set, apply(mesh_set, name, **parameters))
     except (pymeshlab.PyMeshLabException, pymeshlab.InvalidEnumException) as refusal:
-        _failed.append(mesh_set)
         raise Refused(str(refusal).split("Details: ")[-1].strip()) from None
 
 

@@ -141,9 +141,9 @@ constexpr double kMinHeight = 0x1p-21, kMinFloatSteps = 4.0, kWantedHeights = 2.
 /// Formats of text give coordinates in the unit square with six decimals.
 constexpr double kTextStep = 1e-6;
 
-/// Least sides of the boxes of charts, as a share of the square that holds all of them: room for
-/// triangles of those heights, in six decimals too.
-constexpr double kMinBoxSide = 0x1p-16;
+/// Room in the boxes of charts, as a share of the square that holds all of them, for triangles of those
+/// heights, in six decimals too; and how many times that room the sides of boxes are that get it.
+constexpr double kBoxRoom = 0x1p-16, kThinSide = 4.0;
 
 /// The pieces of a refinement may be as thin as a double shows.
 constexpr double kMinRefinedHeight = 0x1p-46;

@@ -55,19 +55,29 @@ Point2 sum(const Point2& a, const Point2& b)
 	return {a[0] + b[0], a[1] + b[1]};
 }
 
-/// Widens boxes with a side shorter than \p minSide, about their middles.
+/// Room for triangles that are to be given a height, which lie side by side in two directions.
+double roomFor(const Chart& chart)
+{
+	const std::size_t triangles = chart.refined.empty() ? chart.faces.size() : chart.refined.size();
+	return kBoxRoom * (1.0 + 0.25 * std::sqrt(static_cast<double>(triangles)));
+}
+
+/// Widens the boxes of charts about their middles, where a side is shorter than kThinSide times the room
+/// that the chart's triangles want.
+/// \param side of a square that holds all
 /// \return [box] 1 for these
-std::vector<char> widen(std::vector<Box2>& boxes, double minSide)
+std::vector<char> widen(const std::vector<Chart>& charts, double side, std::vector<Box2>& boxes)
 {
 	std::vector<char> isThin(boxes.size(), 0);
-	for (std::size_t i = 0; i < boxes.size(); ++i)
+	for (std::size_t i = 0; i < boxes.size(); ++i) {
+		const double room = side * roomFor(charts[i]);
 		for (std::size_t k = 0; k < 2; ++k)
-			if (const double missing = minSide - (boxes[i].max[k] - boxes[i].min[k]);
-				missing > 0.0) {
-				boxes[i].min[k] -= 0.5 * missing;
-				boxes[i].max[k] += 0.5 * missing;
+			if (boxes[i].max[k] - boxes[i].min[k] < kThinSide * room) {
+				boxes[i].min[k] -= 0.5 * room;
+				boxes[i].max[k] += 0.5 * room;
 				isThin[i] = 1;
 			}
+	}
 	return isThin;
 }
 
@@ -298,7 +308,7 @@ void packCharts(
 		area += box.width() * box.height();
 		extent = std::max(extent, box.extent());
 	}
-	const std::vector<char> isThin = widen(boxes, kMinBoxSide * std::max(extent, std::sqrt(area)));
+	const std::vector<char> isThin = widen(map.charts, std::max(extent, std::sqrt(area)), boxes);
 	Packing packing = packBoxes(boxes, margin, placeBoxes);
 	if (!normalize) {
 		for (std::size_t i = 0; i < boxes.size(); ++i)

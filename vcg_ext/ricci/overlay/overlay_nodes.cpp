@@ -251,7 +251,8 @@ void merge(Edge e, double gi, double gj, const EdgeCrossings& crossings, EdgeNod
 		const double tb =
 			b < lastB ? keepInside(crossings.endCrossings[b].onStart.over(gi, gj).affine()) : kNone;
 		NodeOnEdge node;
-		node.share = std::min(ta, tb);
+		// Their order is known, their shares are rounded.
+		node.share = std::max(std::min(ta, tb), nodes.empty() ? 0.0 : nodes.back().share);
 		const bool takeA = ta <= tb + kMergeGap, takeB = tb <= ta + kMergeGap;
 		if (takeA)
 			node.input = a++;
