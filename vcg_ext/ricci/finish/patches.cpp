@@ -17,7 +17,7 @@ PatchFinder::PatchFinder(const DrawnTriangles& drawn, const PointGroups& groups)
 														  add(groups.group[p], f);
 											  }),
 		m_taken(drawn.corners.size(), 0), m_local(drawn.points.size(), -1),
-		m_count(groups.fixed.size(), 0), m_number(groups.fixed.size(), -1)
+		m_number(groups.fixed.size(), -1), m_count(groups.fixed.size(), 0)
 {
 }
 

@@ -39,8 +39,8 @@ private:
 	const PointGroups& m_groups;
 	Adjacency<int, int> m_trianglesOf; // [group] a triangle once for each of its corners
 	Array<char> m_taken;               // [triangle] scratch, 0 between calls
-	Array<int> m_local, m_count,
-		m_number; // [point], [group] twice: scratch, -1, 0, -1 between calls
+	Array<int> m_local;                // [point] scratch, -1 between calls
+	Array<int> m_number, m_count;      // [group] scratch, -1 and 0 between calls
 };
 
 } // namespace ricci

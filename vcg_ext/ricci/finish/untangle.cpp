@@ -113,6 +113,9 @@ struct Symmetric2
 	}
 };
 
+/// Where the entries of a block of two by two are in a matrix.
+using Slots = std::array<Eigen::Index, 4>;
+
 /// The patch as an optimization problem in the displacements of its variables.
 class PatchEnergy
 {
@@ -185,7 +188,7 @@ public:
 	{
 		gradient.setZero(m_size);
 		std::fill_n(m_hessian.valuePtr(), m_hessian.nonZeros(), 0.0);
-		const std::array<Eigen::Index, 4>* slot = m_slots.data();
+		const Slots* slot = m_slots.data();
 		for (const Element& element : m_elements)
 			slot = add(element, x, eps, gradient, slot);
 		double trace = 0.0;
@@ -232,12 +235,12 @@ private:
 
 	/// Adds one triangle's gradient and Hessian.
 	/// \param slot where its blocks are; \return those of the next triangle
-	const std::array<Eigen::Index, 4>*
+	const Slots*
 	add(const Element& element,
 		const Eigen::VectorXd& x,
 		double eps,
 		Eigen::VectorXd& gradient,
-		const std::array<Eigen::Index, 4>* slot)
+		const Slots* slot)
 	{
 		const auto [z, w] = mapAt(element, x);
 		const double a = std::norm(z), b = std::norm(w), weight = element.weight;
@@ -282,7 +285,7 @@ private:
 		return slot;
 	}
 
-	void addBlock(const std::array<Eigen::Index, 4>& slot, bool diagonal, Complex s, Complex t)
+	void addBlock(const Slots& slot, bool diagonal, Complex s, Complex t)
 	{
 		double* values = m_hessian.valuePtr();
 		values[slot[0]] += s.real() + t.real();
@@ -337,8 +340,7 @@ private:
 	std::vector<Element> m_elements;
 	SparseCholesky::Matrix m_hessian; // lower triangle
 	Array<int> m_row;                 // [unknown] of the matrix
-	std::vector<std::array<Eigen::Index, 4>>
-		m_slots; // of the blocks, in the order of the triangles
+	std::vector<Slots> m_slots;       // in the order of the triangles
 	SparseCholesky m_solver;
 	Eigen::VectorXd m_rhs, m_solution; // by rows
 };

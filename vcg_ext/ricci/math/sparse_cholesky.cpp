@@ -3,6 +3,7 @@
 
 #include "../error.h"
 #include "cholmod_tick.h"
+#include "one_thread.h"
 
 #include <algorithm>
 #include <limits>
@@ -17,60 +18,11 @@
 #include <Eigen/SparseCholesky>
 #endif
 
-#if defined(RICCI_USE_CHOLMOD) && !defined(RICCI_STATIC_CHOLMOD) && defined(__GNUC__) &&           \
-	defined(__ELF__)
-// Defined where the BLAS behind CHOLMOD is OpenBLAS, and where CHOLMOD was built with OpenMP.
-extern "C" {
-__attribute__((weak)) void openblas_set_num_threads(int);
-__attribute__((weak)) int openblas_get_num_threads(void);
-__attribute__((weak)) void omp_set_max_active_levels(int);
-__attribute__((weak)) int omp_get_max_active_levels(void);
-}
-#define RICCI_THREAD_CONTROL
-#endif
-
 namespace ricci {
 
 #ifdef RICCI_USE_CHOLMOD
 
 namespace {
-
-/// One thread for the libraries below: how many there are must not change a bit of the result, and
-/// CHOLMOD's own loops are so short that threads cost more than they save.
-class OneThread
-{
-public:
-	OneThread()
-	{
-#ifdef RICCI_THREAD_CONTROL
-		if (openblas_set_num_threads && openblas_get_num_threads) {
-			m_blasThreads = openblas_get_num_threads();
-			if (m_blasThreads > 1)
-				openblas_set_num_threads(1);
-		}
-		if (omp_set_max_active_levels && omp_get_max_active_levels) {
-			m_levels = omp_get_max_active_levels();
-			omp_set_max_active_levels(0);
-		}
-#endif
-	}
-	~OneThread()
-	{
-#ifdef RICCI_THREAD_CONTROL
-		if (m_blasThreads > 1)
-			openblas_set_num_threads(m_blasThreads);
-		if (m_levels >= 0)
-			omp_set_max_active_levels(m_levels);
-#endif
-	}
-	OneThread(const OneThread&) = delete;
-	OneThread& operator=(const OneThread&) = delete;
-
-#ifdef RICCI_THREAD_CONTROL
-private:
-	int m_blasThreads = 0, m_levels = -1;
-#endif
-};
 
 /// CHOLMOD's numbers of entries. The factor of ten million unknowns has more of them than int can
 /// tell; below that nothing but the analysis takes longer, by half.
