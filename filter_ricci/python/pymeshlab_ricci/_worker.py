@@ -60,8 +60,6 @@ def main():
     except pymeshlab.PyMeshLabException as refusal:
         answer = {"state": "refused", "reason": " ".join(str(refusal).split())}
     print("\n" + json.dumps(answer), flush=True)
-    # PyMeshLab 2025.7 may crash while it takes down a MeshSet in which a filter has failed.
-    os._exit(0)
 
 
 if __name__ == "__main__":
