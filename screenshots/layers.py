@@ -22,7 +22,8 @@ INK = (124, 143, 166)
 SEAM = (205, 60, 40)
 CONE = (30, 30, 30)
 
-_alive = []  # PyMeshLab 2025.7 may crash when a MeshSet goes in which a filter has failed
+# PyMeshLab 2025.7 writes into the log of a MeshSet in which a filter has failed, even if it is gone.
+_alive = []
 
 
 def documents():

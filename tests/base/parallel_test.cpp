@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <numeric>
 #include <stdexcept>
@@ -111,8 +112,8 @@ TEST(TasksInParallel, TheTickIsHeardWhileTheCallerWaits)
 					for (;;)
 						own();
 				}
-				while (!begun)
-					std::this_thread::yield();
+				for (int i = 0; !begun && i < 100000; ++i)
+					std::this_thread::sleep_for(std::chrono::microseconds(100));
 				left = true;
 			}),
 		std::logic_error);

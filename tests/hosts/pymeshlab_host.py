@@ -16,8 +16,8 @@ if not os.path.exists(_PLUGIN):
     common.skip("the plugin for PyMeshLab is not built")
 pymeshlab.load_plugin(_PLUGIN)
 
-# After any filter has failed, stock filters too, PyMeshLab 2025.7 writes into the log of that MeshSet even
-# when the MeshSet is gone: so every MeshSet lives as long as the program.
+# After any filter has failed, stock filters too, PyMeshLab 2025.7 writes into the log of that
+# MeshSet even when the MeshSet is gone: so every MeshSet lives as long as the program.
 _alive = []
 
 

@@ -65,8 +65,8 @@ void inParallel(int count, int threads, const Work& work, int minPart = 16384)
 		other.join();
 }
 
-/// Time between two ticks of a thread that waits for others.
-constexpr std::chrono::milliseconds kBetweenTicks(400);
+/// A thread that waits for others ticks after each such time.
+constexpr std::chrono::milliseconds kBetweenWaits(400);
 
 /// Calls work(i, tick) for every i of [0, count), each in one of \p threads threads, in any order. The
 /// tasks must be independent of each other. In the calling thread tick is \p tick, which is called
@@ -121,7 +121,7 @@ void tasksInParallel(int count, int threads, const std::function<void()>& tick, 
 	unlessEnded(0, [&] {
 		runTasks(first);
 		for (const std::future<void>& other : others)
-			while (other.wait_for(kBetweenTicks) != std::future_status::ready)
+			while (other.wait_for(kBetweenWaits) != std::future_status::ready)
 				first();
 	});
 	for (const std::future<void>& other : others)
@@ -163,7 +163,7 @@ void besides(int threads, const std::function<void()>& tick, const Main& main, c
 	}
 	try {
 		main();
-		while (other.wait_for(kBetweenTicks) != std::future_status::ready)
+		while (other.wait_for(kBetweenWaits) != std::future_status::ready)
 			tick();
 	}
 	catch (...) {

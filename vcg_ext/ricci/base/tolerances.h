@@ -141,8 +141,8 @@ constexpr double kMinHeight = 0x1p-21, kMinFloatSteps = 4.0, kWantedHeights = 2.
 /// Formats of text give coordinates in the unit square with six decimals.
 constexpr double kTextStep = 1e-6;
 
-/// Room in the boxes of charts, as a share of the square that holds all of them, for triangles of those
-/// heights, in six decimals too; and how many times that room the sides of boxes are that get it.
+/// Room in the box of a chart of a few triangles, as a share of the square that holds all charts, for
+/// triangles of those heights, in six decimals too. Sides shorter than kThinSide times the room get it.
 constexpr double kBoxRoom = 0x1p-16, kThinSide = 4.0;
 
 /// The pieces of a refinement may be as thin as a double shows.

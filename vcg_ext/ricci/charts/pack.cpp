@@ -65,17 +65,18 @@ double roomFor(const Chart& chart)
 /// Widens the boxes of charts about their middles, where a side is shorter than kThinSide times the room
 /// that the chart's triangles want.
 /// \param side of a square that holds all
-/// \return [box] 1 for these
+/// \return [box] 1 for those that are thinner than kBoxRoom, which are not turned
 std::vector<char> widen(const std::vector<Chart>& charts, double side, std::vector<Box2>& boxes)
 {
 	std::vector<char> isThin(boxes.size(), 0);
 	for (std::size_t i = 0; i < boxes.size(); ++i) {
 		const double room = side * roomFor(charts[i]);
 		for (std::size_t k = 0; k < 2; ++k)
-			if (boxes[i].max[k] - boxes[i].min[k] < kThinSide * room) {
+			if (const double length = boxes[i].max[k] - boxes[i].min[k];
+				length < kThinSide * room) {
 				boxes[i].min[k] -= 0.5 * room;
 				boxes[i].max[k] += 0.5 * room;
-				isThin[i] = 1;
+				isThin[i] = isThin[i] || length < side * kBoxRoom;
 			}
 	}
 	return isThin;

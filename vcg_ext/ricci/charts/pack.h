@@ -34,9 +34,9 @@ ChartTurns chartTurns(const Options& options);
 
 /// Places the bounding boxes of the charts beside each other, and moves the charts there. With \p
 /// normalize the smallest square round all boxes with their margins is then scaled to [0, 1]^2.
-/// Without it the charts keep their scale, and a single chart keeps its place. A chart that is not much
-/// wider than what floats show of the whole gets a wider box, in which its triangles may be given a
-/// height (finishInFloats()). Fills Chart::box.
+/// Without it the charts keep their scale, and a single chart keeps its place. A chart with a side that
+/// may be too short for triangles that have to be given a height (finishInFloats()) gets a wider box.
+/// Fills Chart::box.
 ///
 /// With \p normalize charts may be turned, too, and the largest placed by their outlines, with the boxes
 /// of the small and the thin ones as one more chart, where the square gets smaller by kWorthTurning. One

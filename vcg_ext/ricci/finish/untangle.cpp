@@ -177,7 +177,7 @@ public:
 	}
 
 	/// Newton's step with the projected Hessian.
-	/// \param tick called for every factorisation, and during it as SparseCholesky::factorize() says
+	/// \param tick called once, and during factorisations as SparseCholesky::factorize() says
 	/// \return false where the Hessian cannot be factored
 	bool newtonStep(
 		const Eigen::VectorXd& x,
@@ -186,6 +186,7 @@ public:
 		Eigen::VectorXd& step,
 		const Tick& tick)
 	{
+		tick();
 		gradient.setZero(m_size);
 		std::fill_n(m_hessian.valuePtr(), m_hessian.nonZeros(), 0.0);
 		const Slots* slot = m_slots.data();
@@ -200,7 +201,6 @@ public:
 			m_rhs[m_row[i]] = -gradient[i];
 		double shift = 0.0, next = kShift * trace / m_size;
 		for (int attempt = 0; attempt < kMaxShifts; ++attempt, next *= kShiftGrowth) {
-			tick();
 			for (int column = 0; column < m_size; ++column)
 				diagonal(column) += next - shift;
 			shift = next;

@@ -26,32 +26,28 @@ public:
 	OneThread()
 	{
 #ifdef RICCI_THREAD_CONTROL
-		Libraries& own = libraries();
-		const std::lock_guard<std::mutex> lock(own.mutex);
-		if (own.users++ > 0)
-			return;
-		if (openblas_set_num_threads && openblas_get_num_threads) {
-			own.blasThreads = openblas_get_num_threads();
-			if (own.blasThreads > 1)
-				openblas_set_num_threads(1);
-		}
 		if (omp_set_max_active_levels && omp_get_max_active_levels) {
-			own.levels = omp_get_max_active_levels();
+			m_levels = omp_get_max_active_levels();
 			omp_set_max_active_levels(0);
 		}
+		Blas& blas = commonBlas();
+		const std::lock_guard<std::mutex> lock(blas.mutex);
+		if (blas.users++ > 0 || !openblas_set_num_threads || !openblas_get_num_threads)
+			return;
+		blas.threads = openblas_get_num_threads();
+		if (blas.threads > 1)
+			openblas_set_num_threads(1);
 #endif
 	}
 	~OneThread()
 	{
 #ifdef RICCI_THREAD_CONTROL
-		Libraries& own = libraries();
-		const std::lock_guard<std::mutex> lock(own.mutex);
-		if (--own.users > 0)
-			return;
-		if (own.blasThreads > 1)
-			openblas_set_num_threads(own.blasThreads);
-		if (own.levels >= 0)
-			omp_set_max_active_levels(own.levels);
+		if (m_levels >= 0)
+			omp_set_max_active_levels(m_levels);
+		Blas& blas = commonBlas();
+		const std::lock_guard<std::mutex> lock(blas.mutex);
+		if (--blas.users == 0 && blas.threads > 1)
+			openblas_set_num_threads(blas.threads);
 #endif
 	}
 	OneThread(const OneThread&) = delete;
@@ -59,18 +55,20 @@ public:
 
 #ifdef RICCI_THREAD_CONTROL
 private:
-	/// What they are set to is common to all threads: the first user changes it, the last one puts it
-	/// back.
-	struct Libraries
+	/// OpenBLAS has one number of threads for all that call it: the first user changes it, the last one
+	/// puts it back.
+	struct Blas
 	{
 		std::mutex mutex;
-		int users = 0, blasThreads = 0, levels = -1;
+		int users = 0, threads = 0;
 	};
-	static Libraries& libraries()
+	static Blas& commonBlas()
 	{
-		static Libraries common;
-		return common;
+		static Blas blas;
+		return blas;
 	}
+
+	int m_levels = -1; // of OpenMP, which each thread has for itself
 #endif
 };
 
