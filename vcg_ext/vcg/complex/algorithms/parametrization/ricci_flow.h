@@ -550,6 +550,7 @@ private:
 	/// Share of the work that is done once the map is found.
 	static constexpr double MappedShare = 0.95;
 
+	/// For what is done after that.
 	static ricci::Tick LastTick(ricci::Progress& progress)
 	{
 		return [&progress] { progress.step(MappedShare, "Finishing the coordinates"); };
