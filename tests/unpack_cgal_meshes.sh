@@ -4,7 +4,7 @@
 # so they are not in the repository. Exit status 77 and the reason if they cannot be had.
 set -euo pipefail
 
-folder=${1:?usage: unpack_cgal_meshes.sh FOLDER}
+folder=$(realpath -m "${1:?usage: unpack_cgal_meshes.sh FOLDER}")
 [ -d "$folder/data/meshes" ] && exit 0
 
 skip() {

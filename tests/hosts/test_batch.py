@@ -139,15 +139,21 @@ class Batch(unittest.TestCase):
 
     def test_layers_and_no_results_of_other_parameters(self):
         self.write("double.ply", meshes.double_torus())
-        code, text = self.batch("--flat-layer")
+        self.write("double.ply.ply", meshes.hill())  # a name that begins alike
+        code, text = self.batch("--flat-layer", "--report", "run.html")
         self.assertEqual(code, 0, text)
+        others = {file for file in os.listdir(self.out) if file.startswith("double.ply.ply.")}
+        self.assertEqual(others, {"double.ply.ply." + ending
+                                  for ending in ("csv", "flat.ply", "html", "json", "ply")})
         flat = meshes.read_ply(os.path.join(self.out, "double.ply.flat.ply"))
         self.assertTrue(all(z == 0.0 for _, _, z in flat.vertices))
         self.assertTrue(os.path.exists(os.path.join(self.out, "double.ply.ply")))
         code, text = self.batch("--target-curvature", "Disk")
         self.assertEqual(code, 0, text)
         self.assertEqual(self.records()["double.ply"]["state"], "refused")
-        self.assertFalse(os.path.exists(os.path.join(self.out, "double.ply.ply")))
+        self.assertEqual(sorted(os.listdir(self.out)),
+                         ["double.ply.json", "double.ply.ply.json", "double.ply.ply.ply",
+                          "failures.txt", "results.csv"])
 
     def test_other_parameters_or_another_mesh_run_again(self):
         self.write("one.ply", meshes.hill(6))

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs jobs, each in a process of its own, here or on a cluster, and keeps their records.
 
-For meshes/a/b.off the folder OUT then holds a/b.off.json (state, results or reason, seconds) and
-a/b.off.ply. The record is written last. A mesh whose record is there is not run again unless mesh,
-parameters or plugin differ: a run that was interrupted goes on where it stopped."""
+For meshes/a/b.off the folder OUT then holds a/b.off.json (state, results or reason, files, seconds)
+and a/b.off.ply. The record is written last. A mesh whose record is there is not run again unless
+mesh, parameters or plugin differ: a run that was interrupted goes on where it stopped. What an
+earlier run wrote for a mesh goes before it runs again."""
 
 import concurrent.futures
 import contextlib
@@ -68,6 +69,16 @@ def write_record(path, record):
     os.replace(partial, path)
 
 
+def clear(job):
+    """Removes what an earlier run wrote under this mesh's name, not a texture that others show too.
+    The record goes first: files without some of theirs must not pass for a result."""
+    folder, name = os.path.split(job["record"].removesuffix("json"))
+    files = read_record(job["record"]).get("files", ())
+    for file in (name + "json", *(file for file in files if file.startswith(name))):
+        with contextlib.suppress(OSError):
+            os.remove(os.path.join(folder, file))
+
+
 def is_done(record, mark, retry):
     if record.get("fingerprint") != mark:
         return False
@@ -115,6 +126,8 @@ def run_one(job, processes=None):
     started = time.monotonic()
     record = {"mesh": job["name"], "fingerprint": job["fingerprint"]}
     processes = processes or Processes()
+    if job["record"]:
+        clear(job)
     process = processes.start([sys.executable, "-m", "pymeshlab_ricci._worker", json.dumps(job)])
     try:
         printed, errors = process.communicate(timeout=job["timeout"])
@@ -130,7 +143,7 @@ def run_one(job, processes=None):
     record["seconds"] = round(time.monotonic() - started, 3)
     if job["record"] and not processes.stopped:
         if record["state"] != "solved":
-            with contextlib.suppress(OSError):  # the result of other parameters
+            with contextlib.suppress(OSError):  # of a process that ended after it was written
                 os.remove(job["target"])
         write_record(job["record"], record)
     return record

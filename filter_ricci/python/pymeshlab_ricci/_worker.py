@@ -35,15 +35,24 @@ def save_layers(documents, stem):
 
 
 def save(result, target):
-    """Complete or not at all, with what belongs to the file, such as the materials of OBJ."""
+    """Complete or not at all, with what belongs to the file, such as materials of OBJ. The names
+    of the files."""
     folder, name = os.path.split(os.path.abspath(target))
     partial = partial_folder(target, os.getpid())
     os.makedirs(partial)
     result.save(os.path.join(partial, name))
     save_layers(result.mesh_set, os.path.join(partial, os.path.splitext(name)[0]))
-    for written in sorted(os.listdir(partial), key=lambda file: file == name):
-        os.replace(os.path.join(partial, written), os.path.join(folder, written))
+    written = sorted(os.listdir(partial), key=lambda file: (file == name, file))
+    for file in written:
+        os.replace(os.path.join(partial, file), os.path.join(folder, file))
     os.rmdir(partial)
+    return written
+
+
+def written_by_filter(parameters):
+    report, texture = (parameters.get(key, "") for key in ("report", "carry_texture"))
+    data = os.path.splitext(report)[0] + ".csv" if report else ""
+    return [os.path.basename(path) for path in {report, data, texture} if os.path.isfile(path)]
 
 
 def main():
@@ -56,9 +65,10 @@ def main():
         answer = {"state": "solved",
                   "results": {key: numpy.asarray(value).tolist()
                               for key, value in result.results.items()}}
-        save(result, job["target"])
+        answer["files"] = save(result, job["target"])
     except pymeshlab.PyMeshLabException as refusal:
-        answer = {"state": "refused", "reason": " ".join(str(refusal).split())}
+        answer = {"state": "refused", "reason": " ".join(str(refusal).split()), "files": []}
+    answer["files"] += written_by_filter(job["parameters"])
     print("\n" + json.dumps(answer), flush=True)
 
 
