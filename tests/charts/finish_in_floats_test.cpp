@@ -68,7 +68,7 @@ TEST(FinishInFloats, MovesPointsNearTurnedTrianglesOnly)
 		ASSERT_GT(turnedIn(before), 0);
 		Parametrization map = before;
 		finishInFloats(
-			mesh, [] {}, map);
+			mesh, ChartRoom::Kept, [] {}, map);
 		EXPECT_EQ(turnedIn(map), 0);
 		EXPECT_GT(map.report.finishMoved, 0);
 		for (std::size_t f = 0; f < map.uv.size(); ++f)
@@ -88,7 +88,7 @@ TEST(FinishInFloats, MendsWhatSmallPatchesInsideDoNot)
 	Parametrization map = mapWith(mesh, {{0, {1.5 / kSide, 1.4 / kSide}}});
 	ASSERT_GT(turnedIn(map), 0);
 	finishInFloats(
-		mesh, [] {}, map);
+		mesh, ChartRoom::Kept, [] {}, map);
 	EXPECT_EQ(turnedIn(map), 0);
 }
 
@@ -145,7 +145,7 @@ TEST(FinishInFloats, MendsTrianglesThatAreChartsOfTheirOwn)
 		packCharts(packed, normalize, 0.0, inAColumn(0.0));
 		ASSERT_EQ(turnedIn(packed), kSlivers);
 		finishInFloats(
-			slivers.mesh, [] {}, packed);
+			slivers.mesh, ChartRoom::Kept, [] {}, packed);
 		EXPECT_EQ(turnedIn(packed), 0);
 		EXPECT_EQ(packed.report.finishMoved, 3 * kSlivers);
 		for (const Chart& chart : packed.charts)
@@ -153,6 +153,28 @@ TEST(FinishInFloats, MendsTrianglesThatAreChartsOfTheirOwn)
 				for (const Point2& p : packed.uv[at(f)])
 					EXPECT_TRUE(chart.box.contains(p));
 	}
+}
+
+TEST(FinishInFloats, GivesChartsTheRoomThatTheyNeed)
+{
+	const Slivers slivers(0.9);
+	Parametrization tight = slivers.map;
+	packCharts(tight, true, 0.0, inAColumn(0.0));
+	for (Chart& chart : tight.charts) {
+		chart.box = {};
+		for (const int f : chart.faces)
+			for (const Point2& p : tight.uv[at(f)])
+				chart.box.add(p);
+	}
+	const Tick none = [] {};
+	Parametrization kept = tight;
+	EXPECT_FALSE(finishInFloats(slivers.mesh, ChartRoom::Kept, none, kept));
+	EXPECT_GT(turnedIn(kept), 0);
+	EXPECT_TRUE(finishInFloats(slivers.mesh, ChartRoom::MayGrow, none, tight));
+	EXPECT_EQ(turnedIn(tight), 0);
+	packCharts(tight, true, 0.0, inAColumn(0.0));
+	EXPECT_FALSE(finishInFloats(slivers.mesh, ChartRoom::MayGrow, none, tight));
+	EXPECT_EQ(turnedIn(tight), 0);
 }
 
 /// Points that move lie on floats, and these beyond the border of a box by less than a step.
@@ -164,7 +186,7 @@ TEST(FinishInFloats, MendsChartsWhoseBoxesEndBetweenFloats)
 		packCharts(packed, false, 0.0, inAColumn(x));
 		ASSERT_EQ(turnedIn(packed), kSlivers);
 		finishInFloats(
-			slivers.mesh, [] {}, packed);
+			slivers.mesh, ChartRoom::Kept, [] {}, packed);
 		EXPECT_EQ(turnedIn(packed), 0);
 		for (Chart& chart : packed.charts) {
 			for (Point2* corner : {&chart.box.min, &chart.box.max})

@@ -154,22 +154,8 @@ public:
 				m_chartOfPoint[p] = chart[i];
 	}
 
-	/// Of all triangles of the charts, and the room that these were given.
+	/// Of all triangles of the charts as they were drawn, and the room that these were given.
 	const Array<Box2>& boxes() const { return m_boxes; }
-
-	/// Each by itself, but those that have no room on one side: what they push outward leaves the room.
-	PointGroups pointsWithRoom() const
-	{
-		PointGroups groups = allPoints(drawn);
-		for (const int p : drawn.points.indices())
-			for (std::size_t k = 0; k < 2; ++k) {
-				const Box2& box = m_boxes[m_chartOfPoint[p]];
-				const double room =
-					std::min(drawn.points[p][k] - box.min[k], box.max[k] - drawn.points[p][k]);
-				groups.fixed[p] = groups.fixed[p] || room < soundness.height;
-			}
-		return groups;
-	}
 
 	int chartOf(int point) const { return m_chartOfPoint[point]; }
 	int chartCount() const { return static_cast<int>(m_map.charts.size()); }
@@ -223,9 +209,9 @@ private:
 class BorderTest
 {
 public:
-	explicit BorderTest(const Output& output) :
-			m_output(output), m_border(output.chartCount()), m_near(output.chartCount()),
-			m_moves(output.drawn.points.size(), 0)
+	BorderTest(const Output& output, ChartRoom room) :
+			m_output(output), m_staysInBox(room == ChartRoom::Kept), m_border(output.chartCount()),
+			m_near(output.chartCount()), m_moves(output.drawn.points.size(), 0)
 	{
 		forEdges(sidesByEdge(output.drawn), [&](const DrawnSide* side, int count) {
 			if (!isInside(side, count))
@@ -235,6 +221,8 @@ public:
 		});
 		for (const int chart : m_near.indices())
 			m_near[chart].push_back(chart);
+		if (!m_staysInBox) // the charts' places count for nothing
+			return;
 		const Array<Box2>& boxes = output.boxes();
 		BoxTree({boxes.begin(), boxes.end()}).meetingPairs([&](int i, int j) {
 			m_near[i].push_back(j);
@@ -242,12 +230,12 @@ public:
 		});
 	}
 
-	/// Whether the patch stays in the boxes of its charts, and its moved border sides cross none of
-	/// theirs or of the charts whose boxes meet these.
+	/// Whether the moved border sides of the patch cross none of its charts; and where these keep their
+	/// room, whether the patch stays in their boxes and crosses none of the charts whose boxes meet them.
 	bool operator()(const DrawnTriangles& drawn, const Patch& patch)
 	{
 		for (const int p : patch.points)
-			if (!m_output.boxes()[m_output.chartOf(p)].contains(drawn.points[p]))
+			if (m_staysInBox && !m_output.boxes()[m_output.chartOf(p)].contains(drawn.points[p]))
 				return false;
 		std::vector<int> charts;
 		for (std::size_t i = 0; i < patch.points.size(); ++i) {
@@ -278,12 +266,11 @@ private:
 		return box;
 	}
 
-	/// Sides of a chart stay in its box.
 	bool crossesAny(const DrawnTriangles& drawn, const BorderSide& side, int chart) const
 	{
 		const Box2 box = boxOf(drawn, side);
 		for (const int near : m_near[chart])
-			if (m_output.boxes()[near].meets(box))
+			if (near == chart || m_output.boxes()[near].meets(box))
 				for (const BorderSide& other : m_border[near])
 					if (cross(drawn, side, other))
 						return true;
@@ -300,6 +287,7 @@ private:
 	}
 
 	const Output& m_output;
+	bool m_staysInBox;
 	Array<std::vector<BorderSide>> m_border; // [chart]
 	Array<std::vector<int>> m_near;          // [chart] itself, and those whose boxes meet its own
 	Array<char> m_moves;                     // [point] scratch, 0 between calls
@@ -316,7 +304,7 @@ Point2 centreOf(const Box2& square)
 std::optional<bool> finishNear(const SurfaceMesh& mesh, const Tick& tick, Output& output)
 {
 	output.draw(mesh, output.near(mesh, output.inText, kNearRings));
-	BorderTest test(output);
+	BorderTest test(output, ChartRoom::Kept);
 	const PatchRules rules{kNearRings - 1, [&](const DrawnTriangles& drawn, const Patch& patch) {
 							   return test(drawn, patch);
 						   }};
@@ -328,11 +316,17 @@ std::optional<bool> finishNear(const SurfaceMesh& mesh, const Tick& tick, Output
 	return output.takeOver(result);
 }
 
-/// \return whether points were moved
-bool finishEverywhere(const SurfaceMesh& mesh, const Tick& tick, Output& output)
+/// What was moved.
+struct Finished
+{
+	bool points = false;
+	bool boxes = false; ///< charts have grown out of theirs
+};
+
+Finished finishEverywhere(const SurfaceMesh& mesh, ChartRoom room, const Tick& tick, Output& output)
 {
 	output.draw(mesh, output.all());
-	BorderTest test(output);
+	BorderTest test(output, ChartRoom::Kept);
 	const PatchTest accepts = [&](const DrawnTriangles& drawn, const Patch& patch) {
 		return test(drawn, patch);
 	};
@@ -343,15 +337,20 @@ bool finishEverywhere(const SurfaceMesh& mesh, const Tick& tick, Output& output)
 	if (result.left > 0)
 		result.add(
 			repairFreely(output.drawn, accepts, RestShapes::OfDrawing, output.soundness, tick));
-	if (result.left > 0)
-		result.add(repair(
+	Finished finished;
+	if (result.left > 0 && room == ChartRoom::MayGrow) {
+		BorderTest ofItself(output, room);
+		const Repair growth = repairFreely(
 			output.drawn,
-			output.pointsWithRoom(),
+			[&](const DrawnTriangles& drawn, const Patch& patch) { return ofItself(drawn, patch); },
 			RestShapes::OfDrawing,
 			output.soundness,
-			{kNearRings - 1, accepts},
-			tick));
-	return output.takeOver(result);
+			tick);
+		finished.boxes = growth.movedCount() > 0;
+		result.add(growth);
+	}
+	finished.points = output.takeOver(result);
+	return finished;
 }
 
 /// measureResult() of charts that fill \p disks, in the unit disk.
@@ -370,14 +369,17 @@ void measureInDisk(const SurfaceMesh& mesh, const std::vector<Box2>& disks, Para
 
 } // namespace
 
-void finishInFloats(const SurfaceMesh& mesh, const Tick& tick, Parametrization& map)
+bool finishInFloats(const SurfaceMesh& mesh, ChartRoom room, const Tick& tick, Parametrization& map)
 {
 	Output output(map);
 	if (output.isSound(output.inText))
-		return;
+		return false;
 	const std::optional<bool> moved = finishNear(mesh, tick, output);
-	if (moved ? *moved : finishEverywhere(mesh, tick, output))
+	const Finished finished =
+		moved ? Finished{*moved, false} : finishEverywhere(mesh, room, tick, output);
+	if (finished.points)
 		measureResult(mesh, measureDistortion, map);
+	return finished.boxes;
 }
 
 void finishInFloats(

@@ -10,16 +10,23 @@
 
 namespace ricci {
 
+/// Whether charts stay in the boxes that packCharts() gave them.
+enum class ChartRoom { Kept, MayGrow };
+
 /// The last look at a packed map, at the coordinates as they will be stored: mends the triangles of
 /// the output that are turned round or flat once the coordinates are rounded to float, or lower than a
 /// few steps of a float; and in a map of the mesh's own triangles that fills the unit square, those that
 /// six decimals would turn. Points move by a few steps near these triangles, to floats, and no others;
 /// the report's finishMoved counts them, and where there are any the distortion is measured again. No
-/// chart leaves its box, and no border is made to cross another. Seams stay isometric up to the
-/// rounding, but where a triangle can be mended in no other way.
+/// border is made to cross another. Seams stay isometric up to the rounding, but where a triangle can
+/// be mended in no other way.
 /// \param mesh that \p map is the map of
+/// \param room with ChartRoom::MayGrow, triangles that cannot be mended in the box of their chart are
+/// mended as if the chart were alone
 /// \param map after packCharts()
-void finishInFloats(const SurfaceMesh& mesh, const Tick& tick, Parametrization& map);
+/// \return whether charts have grown so: they have to be packed and finished again
+bool finishInFloats(
+	const SurfaceMesh& mesh, ChartRoom room, const Tick& tick, Parametrization& map);
 
 /// The same for charts in disks, whose seams move by steps of floats like points inside.
 /// \param disks [chart] the square that its disk fills, from placeDisks()
