@@ -52,7 +52,8 @@ def save(result, target):
 def written_by_filter(parameters):
     report, texture = (parameters.get(key, "") for key in ("report", "carry_texture"))
     data = os.path.splitext(report)[0] + ".csv" if report else ""
-    return [os.path.basename(path) for path in {report, data, texture} if os.path.isfile(path)]
+    return sorted(os.path.basename(path) for path in {report, data, texture}
+                  if os.path.isfile(path))
 
 
 def main():
