@@ -43,17 +43,21 @@ run_sanitized() {
 	return $status
 }
 
-# Data races, in the functions that start threads. That of the whole core takes minutes to compile, and
-# OpenMP in the system's CHOLMOD is reported where there is no race.
+# Data races, in the functions that start threads or that several threads meet in. That of the whole core
+# takes minutes to compile, and OpenMP in the system's CHOLMOD is reported where there is no race.
 run_thread_sanitizer() {
 	if ! echo 'int main() {}' | c++ -fsanitize=thread -x c++ -o /dev/null - 2>/dev/null; then
 		skipped "the thread sanitizer: this compiler has none"
 		return 0
 	fi
 	mkdir -p "$folder"
-	c++ -std=c++17 -O1 -g -fsanitize=thread -I"$root/vcg_ext" "$root/tests/base/parallel_test.cpp" \
-		-lgtest_main -lgtest -lpthread -o "$folder/parallel_test" || return 1
-	timeout 300 "$folder/parallel_test" --gtest_brief=1
+	local test program
+	for test in base/parallel_test math/one_thread_test; do
+		program=$folder/${test##*/}
+		c++ -std=c++17 -O1 -g -fsanitize=thread -I"$root/vcg_ext" "$root/tests/$test.cpp" \
+			-lgtest_main -lgtest -lpthread -o "$program" || return 1
+		timeout 300 "$program" --gtest_brief=1 || return 1
+	done
 }
 
 # Also sees what was never set, and what the solver's library does: only memory faults, crashes and
