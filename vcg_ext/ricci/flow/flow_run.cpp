@@ -366,8 +366,9 @@ NotConverged FlowRun::failure() const
 	const double scales = spreadOfScales();
 	const bool stalls =
 		m_solved.iterations < m_options.maxIterations && m_solved.residual > kWorthExtending;
-	if (m_options.surgery == Surgery::IntrinsicFlips && scales > kMaxScales &&
-		(broken > 0 || stalls))
+	const bool lost = m_options.surgery == Surgery::IntrinsicFlips && scales > kMaxScales &&
+					  (broken > 0 || stalls);
+	if (lost || !std::isfinite(m_solved.floor))
 		return withState(NotConverged(NotConverged::LostInRounding, broken, std::round(scales)));
 	if (broken > 0)
 		return withState(NotConverged(NotConverged::BrokenTriangles, broken));
