@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Needs nothing but the header, so that the thread sanitizer can have it alone. The libraries whose number
-// of threads it sets are played here.
+// Needs nothing but the header, so that the thread sanitizer can have it alone. Mocks of OpenBLAS and OpenMP
+// stand in for the libraries.
 #undef RICCI_STATIC_CHOLMOD
 #undef RICCI_USE_CHOLMOD
 #define RICCI_USE_CHOLMOD

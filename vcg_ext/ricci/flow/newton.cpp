@@ -354,7 +354,7 @@ NewtonResult NewtonSolver::solve(
 	m_start.reset();
 	const double observedFloor = searchFails ? kFloorUncertainty * result.floor : result.floor;
 	const bool atFloor = result.residual < kMaxFloor && result.residual <= observedFloor;
-	// Beyond all numbers it is no metric, however large epsilon is.
+	// Where the weights overflow there is no metric, however large epsilon is.
 	const bool isMetric = m_map->brokenTriangles() == 0 && std::isfinite(result.floor);
 	result.converged = isMetric && (result.residual < options.epsilon || atFloor);
 	return result;
