@@ -151,6 +151,22 @@ TEST(Repair, TheBoundaryMovesWhereNothingElseMends)
 	EXPECT_EQ(result.moved[corner], 1);
 }
 
+TEST(Repair, CountsWhatIsLeftOfThePatchesThatAreMendedPartly)
+{
+	const Soundness high{0.7, 0.705, false}; // nearly that of the cells
+	int partly = 0;
+	for (std::uint64_t seed = 0; seed < 20; ++seed) {
+		SCOPED_TRACE(seed);
+		DrawnTriangles drawn = tangled(8, seed);
+		drawn.points[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0}; // it stays there
+		const Repair result = repair(
+			drawn, insidePoints(drawn), RestShapes::OfSurface, high, {3, nullptr, true}, [] {});
+		EXPECT_EQ(result.left, static_cast<int>(badTriangles(drawn, high).size()));
+		partly += result.left > 0 && result.movedCount() > 0;
+	}
+	EXPECT_GT(partly, 0);
+}
+
 TEST(Repair, ALimbThatHasShrunkBelowFloatsGetsRoom)
 {
 	const Soundness wanted{0x1p-20, 0x1p-19, true};

@@ -4,6 +4,7 @@
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
+#include <ricci/finish/patch_energy.h>
 #include <ricci/finish/untangle.h>
 #include <ricci/math/orientation.h>
 

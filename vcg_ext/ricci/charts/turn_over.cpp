@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "turn_over.h"
 
+#include "../base/tolerances.h"
 #include "../finish/drawn_triangles.h"
 #include "../math/orientation.h"
 
@@ -53,10 +54,18 @@ std::pair<int, double> seams(const SurfaceMesh& mesh, const Parametrization& map
 
 void turnOver(const SurfaceMesh& mesh, Parametrization& map)
 {
+	Box2 box;
+	for (const Triangle2& p : map.uv)
+		for (const Point2& q : p)
+			box.add(q);
+	const double onePlace = kOnePlace * box.extent();
 	std::vector<std::size_t> turned;
 	for (std::size_t f = 0; f < map.uv.size(); ++f) {
 		const Triangle2& p = map.uv[f];
-		if (orientation(p[0], p[1], p[2]) * (map.reversed[f] ? -1 : 1) < 0)
+		if (orientation(p[0], p[1], p[2]) * (map.reversed[f] ? -1 : 1) >= 0)
+			continue;
+		const std::size_t k = oppositeLongest(p);
+		if (distance(reflected(p, k), p[k]) > onePlace)
 			turned.push_back(f);
 	}
 	if (turned.empty())

@@ -2,6 +2,7 @@
 #include "repair.h"
 
 #include "../base/parallel.h"
+#include "patch_energy.h"
 #include "untangle.h"
 
 #include <algorithm>
@@ -95,7 +96,8 @@ PatchSize sizeOf(const DrawnTriangles& drawn, const Patch& patch)
 	return size;
 }
 
-/// Whether a patch has failed that was nearly as large, in area too if that counts.
+/// Whether a patch has failed that was nearly as large, in area too if that counts; or for a patch all
+/// of whose points move, so that nothing holds it, as large.
 bool isHardlyLarger(
 	const DrawnTriangles& drawn, const Patch& patch, const Array<PatchSize>& failed, bool byArea)
 {
@@ -105,6 +107,8 @@ bool isHardlyLarger(
 		largest.area = std::max(largest.area, failed[f].area);
 	}
 	const PatchSize size = sizeOf(drawn, patch);
+	if (std::all_of(patch.variable.begin(), patch.variable.end(), [](int v) { return v >= 0; }))
+		return size.triangles <= largest.triangles;
 	return size.triangles < kPatchGrowth * largest.triangles &&
 		   (!byArea || size.area < kAreaGrowth * largest.area);
 }
@@ -303,8 +307,7 @@ Repair repair(
 					failed[f] = size;
 			}
 		takeOver(patches, found, rules, drawn, result);
-		const auto isMended = [&](int f) { return soundness.isSound(drawn.at(f)); };
-		bad.erase(std::remove_if(bad.begin(), bad.end(), isMended), bad.end());
+		bad = badTriangles(drawn, soundness); // a patch mended partly may have others than before
 		if (bad.empty() || result.work >= maxWork)
 			break;
 	}

@@ -66,8 +66,19 @@ RestShape shapeOf(const Triangle2& p)
 	return {std::abs(base), (asComplex(p[2]) - asComplex(p[0])) * std::conj(base) / std::abs(base)};
 }
 
+double longestSide(const Triangle2& p)
+{
+	return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+}
+
+double longestSide(const RestShape& s)
+{
+	return std::max({s.base, std::abs(s.apex), std::abs(s.apex - s.base)});
+}
+
 /// How much the drawing scales the surface round each triangle of a patch: the root of the quotient
-/// of areas over the triangles at its corners, or \p evenly over all.
+/// of areas over the triangles at its corners, or \p evenly over all. Where a triangle has no area on
+/// the surface, the squares of its longest sides stand for the areas.
 std::vector<double> scales(
 	const DrawnTriangles& drawn,
 	const Patch& patch,
@@ -78,7 +89,11 @@ std::vector<double> scales(
 	double planeSum = 0.0, surfaceSum = 0.0;
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
 		const Triangle2 p = drawn.at(patch.triangles[i]);
-		const double a = 0.5 * std::abs(doubledArea(p[0], p[1], p[2])), b = areaOf(shapes[i]);
+		double a = 0.5 * std::abs(doubledArea(p[0], p[1], p[2])), b = areaOf(shapes[i]);
+		if (const double side = longestSide(shapes[i]); b <= kMinRatio * side * side) {
+			a = longestSide(p) * longestSide(p);
+			b = side * side;
+		}
 		planeSum += a, surfaceSum += b;
 		for (const int q : patch.corners[static_cast<int>(i)])
 			plane[q] += a, surface[q] += b;

@@ -32,6 +32,10 @@ struct Untangled
 /// positive determinants remain [Garanzha et al. 2021, Eq. 3]. The steps are Newton's, with each
 /// triangle's Hessian made positive semidefinite: in terms of f_z and f_zbar its eigenvalues have
 /// closed forms.
+///
+/// A patch that nothing holds, all of whose points move, each by itself, is a disk in most cases. If no
+/// sound places are found from where it is, the search starts anew from convexLayout(), where no
+/// triangle is turned round, and with eps next to 0.
 Untangled untangle(
 	const DrawnTriangles& drawn,
 	const PointGroups& groups,
@@ -48,10 +52,6 @@ Untangled ease(
 	const std::vector<RestShape>& shapes,
 	const Soundness& soundness,
 	const Tick& tick);
-
-/// The energy of a triangle with eps = 0 over its weight and least value: 1 for the rest shape, large
-/// for one that is drawn out or flat; infinite where it is not counter-clockwise.
-double strain(const RestShape& shape, const Triangle2& plane);
 
 } // namespace ricci
 

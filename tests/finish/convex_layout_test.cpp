@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "drawn_square.h"
+
+#include <ricci/finish/convex_layout.h>
+#include <ricci/finish/repair.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <set>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+/// All triangles of a drawing.
+Patch wholeOf(const DrawnTriangles& drawn)
+{
+	std::vector<int> seeds;
+	for (const int f : drawn.corners.indices())
+		seeds.push_back(f);
+	return PatchFinder(drawn, allPoints(drawn)).patches(seeds, 1).at(0);
+}
+
+/// The square without the cells of \p holes and without points that no triangle has.
+DrawnTriangles squareWithout(const std::vector<std::array<int, 2>>& holes)
+{
+	const DrawnTriangles whole = square();
+	DrawnTriangles drawn;
+	drawn.points = whole.points;
+	for (const int f : whole.corners.indices()) {
+		bool isOpen = false;
+		for (const auto& [i, j] : holes)
+			isOpen = isOpen || f / 2 == j * kSide + i;
+		if (isOpen)
+			continue;
+		drawn.vertices.push_back(whole.vertices[f]);
+		drawn.corners.push_back(whole.corners[f]);
+		drawn.sides.push_back(whole.sides[f]);
+	}
+	return drawn;
+}
+
+void expectNoFold(const Patch& patch, const std::vector<Point2>& places)
+{
+	ASSERT_EQ(places.size(), patch.points.size());
+	for (const Triangle& t : patch.corners)
+		EXPECT_GT(
+			orientation(
+				places[positionOf(t[0])], places[positionOf(t[1])], places[positionOf(t[2])]),
+			0);
+}
+
+TEST(ConvexLayout, TurnsNoTriangleRoundWithOrWithoutHoles)
+{
+	for (const auto& holes :
+		 {std::vector<std::array<int, 2>>{},
+		  std::vector<std::array<int, 2>>{{5, 5}},
+		  std::vector<std::array<int, 2>>{{1, 1}, {8, 3}, {8, 4}, {9, 4}}}) {
+		SCOPED_TRACE(holes.size());
+		const DrawnTriangles drawn = squareWithout(holes);
+		const Patch patch = wholeOf(drawn);
+		expectNoFold(patch, convexLayout(patch));
+	}
+}
+
+TEST(ConvexLayout, PutsTheBorderOnTheCircleAndPointsInsideAtTheMeanOfTheirNeighbours)
+{
+	const DrawnTriangles drawn = square();
+	const Patch patch = wholeOf(drawn);
+	const std::vector<Point2> places = convexLayout(patch);
+	ASSERT_EQ(places.size(), patch.points.size());
+	std::vector<std::set<int>> neighbours(places.size());
+	for (const Triangle& t : patch.corners)
+		for (std::size_t k = 0; k < 3; ++k) {
+			neighbours[positionOf(t[k])].insert(t[(k + 1) % 3]);
+			neighbours[positionOf(t[k])].insert(t[(k + 2) % 3]);
+		}
+	for (std::size_t p = 0; p < places.size(); ++p) {
+		Point2 mean{0.0, 0.0};
+		for (const int q : neighbours[p])
+			for (std::size_t i = 0; i < 2; ++i)
+				mean[i] += places[positionOf(q)][i] / static_cast<double>(neighbours[p].size());
+		if (isInside(patch.points[p]))
+			EXPECT_LT(distance(places[p], mean), 1e-13);
+		else
+			EXPECT_NEAR(distance(places[p], {0.0, 0.0}), 1.0, 1e-15);
+	}
+}
+
+TEST(ConvexLayout, IsEmptyForWhatIsNoDisk)
+{
+	// A torus of 3 by 3 cells; a tetrahedron; two triangles glued at two of their sides.
+	Patch torus;
+	const auto at = [](int i, int j) { return 3 * (j % 3) + i % 3; };
+	for (int j = 0; j < 3; ++j)
+		for (int i = 0; i < 3; ++i) {
+			torus.corners.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+			torus.corners.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+		}
+	torus.points.resize(9);
+	torus.triangles.resize(18);
+	EXPECT_TRUE(convexLayout(torus).empty());
+	torus.corners = Array<Triangle>(std::vector<Triangle>(
+		torus.corners.begin() + 1, torus.corners.end())); // of genus 1 with a border
+	torus.triangles.resize(17);
+	EXPECT_TRUE(convexLayout(torus).empty());
+	Patch closed;
+	for (const Triangle& t :
+		 {Triangle{0, 1, 2}, Triangle{0, 2, 3}, Triangle{0, 3, 1}, Triangle{1, 3, 2}})
+		closed.corners.push_back(t);
+	closed.points.resize(4);
+	closed.triangles.resize(4);
+	EXPECT_TRUE(convexLayout(closed).empty());
+	Patch folded;
+	folded.corners.push_back({0, 1, 2});
+	folded.corners.push_back({0, 1, 2});
+	folded.points.resize(3);
+	folded.triangles.resize(2);
+	EXPECT_TRUE(convexLayout(folded).empty());
+}
+
+TEST(ConvexLayout, MendsADrawingWhosePointsAreAnywhere)
+{
+	const Soundness wanted{1e-6, 2e-6, false};
+	for (std::uint64_t seed = 0; seed < 10; ++seed) {
+		SCOPED_TRACE(seed);
+		DrawnTriangles drawn = squareWithout({{5, 5}});
+		Random random(seed);
+		for (Point2& p : drawn.points)
+			p = {random.real(0.0, kSide), 1e-9 * random.real(0.0, kSide)};
+		const Repair result = repairFreely(drawn, nullptr, RestShapes::OfSurface, wanted, [] {});
+		EXPECT_GT(result.bad, 100);
+		EXPECT_EQ(result.left, 0);
+		EXPECT_TRUE(badTriangles(drawn, wanted).empty());
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "patch_energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace ricci {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Weight of the area against the shape.
+constexpr double kAreaWeight = 0.1;
+
+/// Least share of a triangle of the mean one's weight.
+constexpr double kMinWeight = 1e-3;
+
+/// Multiple of the identity that is added to a Hessian, as a share of its mean diagonal, and how it grows
+/// until the sum can be factored.
+constexpr double kShift = 1e-10, kShiftGrowth = 1e3;
+constexpr int kMaxShifts = 4;
+
+/// The energy of one triangle by a = |f_z|^2 and b = |f_zbar|^2, where det J = a - b and
+/// |J|^2 = 2 (a + b), and its derivatives.
+struct Density
+{
+	double value, da, db, daa, dab, dbb;
+
+	Density(double a, double b, double eps)
+	{
+		const double d = a - b, r = std::sqrt(eps * eps + d * d);
+		const double chi = d > 0.0 ? 0.5 * (d + r) : 0.5 * eps * eps / (r - d);
+		const double n = 2.0 * (a + b) + kAreaWeight * (1.0 + d * d);
+		value = n / chi;
+		// By s = a + b and d; d chi / dd = chi / r.
+		const double vs = 2.0 / chi, vd = (2.0 * kAreaWeight * d - n / r) / chi;
+		const double vsd = -2.0 / (chi * r);
+		const double vdd =
+			(2.0 * kAreaWeight * (1.0 - 2.0 * d / r) + n * (d / r + 1.0) / (r * r)) / chi;
+		da = vs + vd, db = vs - vd;
+		daa = vdd + 2.0 * vsd, dab = -vdd, dbb = vdd - 2.0 * vsd;
+	}
+};
+
+/// f_z and f_zbar of a linear map, and their derivatives by the places of the corners, those of f_zbar
+/// conjugate to those of f_z.
+struct Derivatives
+{
+	std::array<Complex, 3> byCorner;
+	Complex z, w;
+
+	Derivatives(const RestShape& shape, const Triangle2& p)
+	{
+		const double b = shape.base, x = shape.apex.real(), y = shape.apex.imag();
+		const Complex first(0.5 / b, 0.5 * x / (b * y)), second(0.0, -0.5 / y);
+		byCorner = {-first - second, first, second};
+		const Complex d1 = asComplex(p[1]) - asComplex(p[0]);
+		const Complex d2 = asComplex(p[2]) - asComplex(p[0]);
+		z = first * d1 + second * d2;
+		w = std::conj(first) * d1 + std::conj(second) * d2;
+	}
+};
+
+/// (x, y) -> (xx x + xy y, xy x + yy y), made positive semidefinite.
+struct Symmetric2
+{
+	double xx, xy, yy;
+
+	void makeSemidefinite()
+	{
+		const double mean = 0.5 * (xx + yy), half = 0.5 * (xx - yy), root = std::hypot(half, xy);
+		const double high = mean + root, low = mean - root;
+		if (low >= 0.0)
+			return;
+		if (high <= 0.0) {
+			xx = xy = yy = 0.0;
+			return;
+		}
+		// high times the projection on its eigenvector.
+		const double c = root > 0.0 ? half / root : 1.0, s = root > 0.0 ? xy / root : 0.0;
+		xx = 0.5 * high * (1.0 + c);
+		yy = 0.5 * high * (1.0 - c);
+		xy = 0.5 * high * s;
+	}
+};
+
+} // namespace
+
+PatchEnergy::PatchEnergy(
+	const DrawnTriangles& drawn,
+	const PointGroups& groups,
+	const Patch& patch,
+	const std::vector<RestShape>& shapes) :
+		m_size(2 * patch.variables),
+		m_hessian(m_size, m_size), m_row(positionOf(m_size)), m_rhs(m_size)
+{
+	double sum = 0.0;
+	for (const RestShape& s : shapes)
+		sum += s.base * s.apex.imag();
+	const double minWeight = kMinWeight / static_cast<double>(shapes.size());
+	for (std::size_t i = 0; i < shapes.size(); ++i) {
+		const Derivatives derivatives(shapes[i], drawn.at(patch.triangles[i]));
+		const std::array<Complex, 3>& a = derivatives.byCorner;
+		Element element;
+		element.z0 = derivatives.z;
+		element.w0 = derivatives.w;
+		element.weight = std::max(shapes[i].base * shapes[i].apex.imag() / sum, minWeight);
+		for (std::size_t k = 0; k < 3; ++k) {
+			const int local = patch.corners[static_cast<int>(i)][k];
+			const Complex turn = groups.turn[patch.points[positionOf(local)]];
+			element.variable[k] = patch.variable[local];
+			element.c[k] = a[k] * turn;
+			element.e[k] = std::conj(a[k]) * turn;
+		}
+		m_elements.push_back(element);
+	}
+	layOutMatrix();
+}
+
+double PatchEnergy::minDeterminant(const Eigen::VectorXd& x) const
+{
+	double smallest = std::numeric_limits<double>::infinity();
+	for (const Element& element : m_elements) {
+		const auto [z, w] = mapAt(element, x);
+		smallest = std::min(smallest, std::norm(z) - std::norm(w));
+	}
+	return smallest;
+}
+
+double PatchEnergy::value(const Eigen::VectorXd& x, double eps) const
+{
+	double sum = 0.0;
+	for (const Element& element : m_elements) {
+		const auto [z, w] = mapAt(element, x);
+		sum += element.weight * Density(std::norm(z), std::norm(w), eps).value;
+	}
+	return sum;
+}
+
+bool PatchEnergy::newtonStep(
+	const Eigen::VectorXd& x,
+	double eps,
+	Eigen::VectorXd& gradient,
+	Eigen::VectorXd& step,
+	const Tick& tick)
+{
+	tick();
+	gradient.setZero(m_size);
+	std::fill_n(m_hessian.valuePtr(), m_hessian.nonZeros(), 0.0);
+	const Slots* slot = m_slots.data();
+	for (const Element& element : m_elements)
+		slot = add(element, x, eps, gradient, slot);
+	double trace = 0.0;
+	for (int column = 0; column < m_size; ++column)
+		trace += diagonal(column);
+	if (!std::isfinite(trace))
+		return false;
+	for (int i = 0; i < m_size; ++i)
+		m_rhs[m_row[i]] = -gradient[i];
+	double shift = 0.0, next = kShift * trace / m_size;
+	for (int attempt = 0; attempt < kMaxShifts; ++attempt, next *= kShiftGrowth) {
+		for (int column = 0; column < m_size; ++column)
+			diagonal(column) += next - shift;
+		shift = next;
+		if (!m_solver.factorize(m_hessian, tick))
+			continue;
+		m_solver.solve(m_rhs, m_solution);
+		step.resize(m_size);
+		for (int i = 0; i < m_size; ++i)
+			step[i] = m_solution[m_row[i]];
+		if (step.allFinite() && step.dot(gradient) < 0.0)
+			return true;
+	}
+	return false;
+}
+
+std::array<Complex, 2> PatchEnergy::mapAt(const Element& element, const Eigen::VectorXd& x)
+{
+	Complex z = element.z0, w = element.w0;
+	for (std::size_t k = 0; k < 3; ++k)
+		if (const int i = element.variable[k]; i >= 0) {
+			const Complex v(x[2 * i], x[2 * i + 1]);
+			z += element.c[k] * v;
+			w += element.e[k] * v;
+		}
+	return {z, w};
+}
+
+/// Adds one triangle's gradient and Hessian.
+/// \param slot where its blocks are; \return those of the next triangle
+const PatchEnergy::Slots* PatchEnergy::add(
+	const Element& element,
+	const Eigen::VectorXd& x,
+	double eps,
+	Eigen::VectorXd& gradient,
+	const Slots* slot)
+{
+	const auto [z, w] = mapAt(element, x);
+	const double a = std::norm(z), b = std::norm(w), weight = element.weight;
+	const Density density(a, b, eps);
+	const Complex gz = 2.0 * weight * density.da * z, gw = 2.0 * weight * density.db * w;
+	// In the frames along f_z and f_zbar: the radial directions, and the two across.
+	const Complex u = a > 0.0 ? z / std::sqrt(a) : 1.0, v = b > 0.0 ? w / std::sqrt(b) : 1.0;
+	Symmetric2 radial{
+		2.0 * density.da + 4.0 * a * density.daa,
+		4.0 * std::sqrt(a * b) * density.dab,
+		2.0 * density.db + 4.0 * b * density.dbb};
+	radial.makeSemidefinite();
+	const double acrossZ = std::max(2.0 * density.da, 0.0);
+	const double acrossW = std::max(2.0 * density.db, 0.0);
+	const double pz = 0.5 * weight * (radial.xx + acrossZ);
+	const double pw = 0.5 * weight * (radial.yy + acrossW);
+	const Complex qz = 0.5 * weight * (radial.xx - acrossZ) * u * u;
+	const Complex qw = 0.5 * weight * (radial.yy - acrossW) * v * v;
+	const Complex mixed = 0.5 * weight * radial.xy * u * std::conj(v);
+	const Complex mixedConj = 0.5 * weight * radial.xy * u * v;
+	for (std::size_t k = 0; k < 3; ++k) {
+		const int row = element.variable[k];
+		if (row < 0)
+			continue;
+		const Complex ck = std::conj(element.c[k]), ek = std::conj(element.e[k]);
+		const Complex g = ck * gz + ek * gw;
+		gradient[2 * row] += g.real();
+		gradient[2 * row + 1] += g.imag();
+		for (std::size_t l = 0; l < 3; ++l) {
+			const int column = element.variable[l];
+			if (column < 0 || column > row)
+				continue;
+			const Complex cl = element.c[l], el = element.e[l];
+			// The block takes a displacement d to s d + t conj(d).
+			const Complex s = ck * (pz * cl + mixed * el) + ek * (std::conj(mixed) * cl + pw * el);
+			const Complex t = ck * (qz * std::conj(cl) + mixedConj * std::conj(el)) +
+							  ek * (mixedConj * std::conj(cl) + qw * std::conj(el));
+			addBlock((*slot++), row == column, s, t);
+		}
+	}
+	return slot;
+}
+
+void PatchEnergy::addBlock(const Slots& slot, bool diagonal, Complex s, Complex t)
+{
+	double* values = m_hessian.valuePtr();
+	values[slot[0]] += s.real() + t.real();
+	values[slot[1]] += s.imag() + t.imag();
+	if (!diagonal)
+		values[slot[2]] += t.imag() - s.imag();
+	values[slot[3]] += s.real() - t.real();
+}
+
+/// The first entry of a column of the lower triangle.
+double& PatchEnergy::diagonal(int column)
+{
+	return m_hessian.valuePtr()[m_hessian.outerIndexPtr()[column]];
+}
+
+/// The pattern of the lower triangle, and where every block of every triangle lies in it.
+void PatchEnergy::layOutMatrix()
+{
+	const auto forBlocks = [&](const auto& use) {
+		for (const Element& element : m_elements)
+			for (const int i : element.variable)
+				for (const int j : element.variable)
+					if (i >= 0 && j >= 0 && j <= i)
+						use(2 * i, 2 * j);
+	};
+	std::iota(m_row.begin(), m_row.end(), 0);
+	const auto layOut = [&] {
+		std::vector<Eigen::Triplet<double>> entries;
+		forBlocks([&](int i, int j) {
+			for (int k = 0; k < 2; ++k)
+				for (int l = 0; l < 2; ++l)
+					if (i != j || k >= l) {
+						const auto [column, row] = std::minmax(m_row[i + k], m_row[j + l]);
+						entries.emplace_back(row, column, 0.0);
+					}
+		});
+		m_hessian.setFromTriplets(entries.begin(), entries.end());
+	};
+	layOut();
+	m_solver.analyze(m_hessian, m_row, layOut);
+	const auto find = [&](int i, int j) {
+		const auto [column, row] = std::minmax(m_row[i], m_row[j]);
+		const int* rows = m_hessian.innerIndexPtr();
+		const int* first = rows + m_hessian.outerIndexPtr()[column];
+		const int* last = rows + m_hessian.outerIndexPtr()[column + 1];
+		return Eigen::Index(std::lower_bound(first, last, row) - rows);
+	};
+	forBlocks([&](int i, int j) {
+		m_slots.push_back(
+			{find(i, j), find(i + 1, j), i == j ? -1 : find(i, j + 1), find(i + 1, j + 1)});
+	});
+}
+
+double strain(const RestShape& shape, const Triangle2& plane)
+{
+	const Derivatives d(shape, plane);
+	const double a = std::norm(d.z), b = std::norm(d.w);
+	if (!(a > b))
+		return std::numeric_limits<double>::infinity();
+	return Density(a, b, 0.0).value / (2.0 + 2.0 * kAreaWeight);
+}
+
+} // namespace ricci

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_PATCH_ENERGY_H
+#define RICCI_PATCH_ENERGY_H
+
+#include "../math/sparse_cholesky.h"
+#include "../progress.h"
+#include "drawn_triangles.h"
+#include "patches.h"
+#include "point_groups.h"
+#include "rest_shape.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <complex>
+#include <vector>
+
+namespace ricci {
+
+/// The energy of untangle() as a function of the displacements of a patch's variables, two numbers for
+/// each.
+class PatchEnergy
+{
+public:
+	PatchEnergy(
+		const DrawnTriangles& drawn,
+		const PointGroups& groups,
+		const Patch& patch,
+		const std::vector<RestShape>& shapes);
+
+	int size() const { return m_size; }
+
+	/// Multiplies the weight of a triangle.
+	void stress(int triangle, double factor) { m_elements[positionOf(triangle)].weight *= factor; }
+
+	double minDeterminant(const Eigen::VectorXd& x) const;
+
+	double value(const Eigen::VectorXd& x, double eps) const;
+
+	/// Newton's step with the projected Hessian.
+	/// \param tick called once, and during factorisations as SparseCholesky::factorize() says
+	/// \return false where the Hessian cannot be factored
+	bool newtonStep(
+		const Eigen::VectorXd& x,
+		double eps,
+		Eigen::VectorXd& gradient,
+		Eigen::VectorXd& step,
+		const Tick& tick);
+
+private:
+	using Complex = std::complex<double>;
+
+	/// A triangle's map from its rest shape: f_z = z0 + sum c v, f_zbar = w0 + sum e v over its corners
+	/// with displacements v of their variables.
+	struct Element
+	{
+		Complex z0, w0;
+		std::array<Complex, 3> c, e;
+		std::array<int, 3> variable; // -1: does not move
+		double weight;
+	};
+
+	/// Where the entries of a block of two by two are in a matrix.
+	using Slots = std::array<Eigen::Index, 4>;
+
+	static std::array<Complex, 2> mapAt(const Element& element, const Eigen::VectorXd& x);
+	const Slots*
+	add(const Element& element,
+		const Eigen::VectorXd& x,
+		double eps,
+		Eigen::VectorXd& gradient,
+		const Slots* slot);
+	void addBlock(const Slots& slot, bool diagonal, Complex s, Complex t);
+	double& diagonal(int column);
+	void layOutMatrix();
+
+	int m_size; // two for each variable
+	std::vector<Element> m_elements;
+	SparseCholesky::Matrix m_hessian; // lower triangle
+	Array<int> m_row;                 // [unknown] of the matrix
+	std::vector<Slots> m_slots;       // in the order of the triangles
+	SparseCholesky m_solver;
+	Eigen::VectorXd m_rhs, m_solution; // by rows
+};
+
+/// The energy of a triangle with eps = 0 over its weight and least value: 1 for the rest shape, large
+/// for one that is drawn out or flat; infinite where it is not counter-clockwise.
+double strain(const RestShape& shape, const Triangle2& plane);
+
+} // namespace ricci
+
+#endif
