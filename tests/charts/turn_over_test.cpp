@@ -24,6 +24,9 @@ Parametrization mapWith(const SurfaceMesh& mesh, int vertex, const Point2& place
 		map.uv.push_back(p);
 	}
 	map.reversed.assign(map.uv.size(), 0);
+	map.charts.resize(1);
+	for (std::size_t f = 0; f < map.uv.size(); ++f)
+		map.charts[0].faces.push_back(static_cast<int>(f));
 	return map;
 }
 
@@ -86,6 +89,28 @@ TEST(TurnOver, ReversedFacesAreProperlyClockwise)
 	ASSERT_GT(turnedIn(map), 0);
 	turnOver(reversed, map);
 	EXPECT_EQ(turnedIn(map), 0);
+}
+
+TEST(TurnOver, LeavesWhatIsTurnedByNoMoreThanOnePlace)
+{
+	// The vertex at 0 is in front of the diagonal of a square from (1, 0) to (0, 1), or behind it.
+	SurfaceMesh mesh;
+	mesh.positions = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
+	mesh.triangles = {{0, 1, 3}, {1, 2, 3}};
+	for (const double scale : {1e-6, 1.0, 1e6})
+		for (const double beyond : {1e-11, 1e-7}) {
+			SCOPED_TRACE(scale);
+			SCOPED_TRACE(beyond);
+			Parametrization map = mapWith(mesh, 0, {0.5 + beyond, 0.5 + beyond});
+			for (Triangle2& t : map.uv)
+				for (Point2& p : t)
+					p = {scale * p[0], scale * p[1]};
+			ASSERT_EQ(turnedIn(map), 1);
+			const auto before = map.uv;
+			turnOver(mesh, map);
+			EXPECT_EQ(map.uv == before, beyond < 1e-9);
+			EXPECT_EQ(map.report.overlapCuts, 0); // at the border
+		}
 }
 
 TEST(TurnOver, LeavesASoundMapAlone)

@@ -54,19 +54,22 @@ std::pair<int, double> seams(const SurfaceMesh& mesh, const Parametrization& map
 
 void turnOver(const SurfaceMesh& mesh, Parametrization& map)
 {
-	Box2 box;
-	for (const Triangle2& p : map.uv)
-		for (const Point2& q : p)
-			box.add(q);
-	const double onePlace = kOnePlace * box.extent();
 	std::vector<std::size_t> turned;
-	for (std::size_t f = 0; f < map.uv.size(); ++f) {
-		const Triangle2& p = map.uv[f];
-		if (orientation(p[0], p[1], p[2]) * (map.reversed[f] ? -1 : 1) >= 0)
-			continue;
-		const std::size_t k = oppositeLongest(p);
-		if (distance(reflected(p, k), p[k]) > onePlace)
-			turned.push_back(f);
+	for (const Chart& chart : map.charts) {
+		Box2 box;
+		for (const int f : chart.faces)
+			for (const Point2& p : map.uv[positionOf(f)])
+				box.add(p);
+		const double onePlace = kOnePlace * box.extent();
+		for (const int face : chart.faces) {
+			const std::size_t f = positionOf(face);
+			const Triangle2& p = map.uv[f];
+			if (orientation(p[0], p[1], p[2]) * (map.reversed[f] ? -1 : 1) >= 0)
+				continue;
+			const std::size_t k = oppositeLongest(p);
+			if (distance(reflected(p, k), p[k]) > onePlace)
+				turned.push_back(f);
+		}
 	}
 	if (turned.empty())
 		return;
