@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace ricci {
@@ -151,22 +152,26 @@ solveAll(const std::vector<Patch>& patches, const Tick& tick, const Solve& solve
 }
 
 /// Takes over the patches that are sound, or better than before if that will do.
-void takeOver(
+/// \return whether there are any
+bool takeOver(
 	const std::vector<Patch>& patches,
 	const std::vector<Untangled>& found,
 	const PatchRules& rules,
 	DrawnTriangles& drawn,
 	Repair& result)
 {
+	bool isAny = false;
 	for (std::size_t i = 0; i < patches.size(); ++i) {
 		result.work += found[i].steps * workOfStep(patches[i]);
 		if (found[i].points.empty() || !(found[i].sound || rules.partly) ||
 			!apply(drawn, patches[i], found[i].points, rules.accepts))
 			continue;
+		isAny = true;
 		for (std::size_t k = 0; k < patches[i].points.size(); ++k)
 			if (patches[i].variable[static_cast<int>(k)] >= 0)
 				result.moved[patches[i].points[k]] = 1;
 	}
+	return isAny;
 }
 
 /// Triangles at points that were moved whose shape on the surface is far from that in the drawing.
@@ -266,6 +271,7 @@ Repair repair(
 	result.moved.assign(drawn.points.size(), 0);
 	PatchFinder finder(drawn, groups);
 	Array<PatchSize> failed(drawn.corners.size(), PatchSize{}); // [triangle] of its last patch
+	std::set<std::vector<int>> tried; // triangles of patches, since the drawing last changed
 	const std::int64_t maxWork = std::max(kMaxWorkShare * drawn.corners.size(), kMinWorkLimit);
 	for (const int rings : kRings) {
 		if (rings > rules.maxRings)
@@ -276,7 +282,8 @@ Repair repair(
 				patches.begin(),
 				patches.end(),
 				[&](const Patch& patch) {
-					return isHardlyLarger(
+					return tried.count(patch.triangles) > 0 ||
+						   isHardlyLarger(
 							   drawn, patch, failed, shapes == RestShapes::OfSurfaceEvenly) ||
 						   isHopeless(drawn, groups, patch, soundness);
 				}),
@@ -306,7 +313,10 @@ Repair repair(
 				for (const int f : patches[i].triangles)
 					failed[f] = size;
 			}
-		takeOver(patches, found, rules, drawn, result);
+		for (const Patch& patch : patches)
+			tried.insert(patch.triangles);
+		if (takeOver(patches, found, rules, drawn, result))
+			tried.clear();
 		bad = badTriangles(drawn, soundness); // a patch mended partly may have others than before
 		if (bad.empty() || result.work >= maxWork)
 			break;
