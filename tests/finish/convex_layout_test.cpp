@@ -64,6 +64,22 @@ TEST(ConvexLayout, TurnsNoTriangleRoundWithOrWithoutHoles)
 	}
 }
 
+TEST(ConvexLayout, DrawsAStripWithoutPointsInside)
+{
+	for (int count = 1; count <= 5; ++count) {
+		SCOPED_TRACE(count);
+		Patch strip;
+		for (int i = 0; i < count; ++i) {
+			strip.triangles.push_back(i);
+			strip.corners.push_back(
+				i % 2 == 0 ? Triangle{i, i + 1, i + 2} : Triangle{i + 1, i, i + 2});
+		}
+		for (int p = 0; p < count + 2; ++p)
+			strip.points.push_back(p);
+		expectNoFold(strip, convexLayout(strip));
+	}
+}
+
 TEST(ConvexLayout, PutsTheBorderOnTheCircleAndPointsInsideAtTheMeanOfTheirNeighbours)
 {
 	const DrawnTriangles drawn = square();

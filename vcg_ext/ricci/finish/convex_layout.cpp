@@ -47,16 +47,16 @@ std::vector<std::vector<int>> bordersOf(const Patch& patch, const std::set<Side>
 std::vector<Point2> convexLayout(const Patch& patch)
 {
 	std::set<Side> sides;
-	std::size_t inside = 0; // sides with another triangle
+	std::size_t inside = 0; // edges of two triangles
 	for (const Triangle& t : patch.corners)
 		for (std::size_t k = 0; k < 3; ++k) {
 			const Side side{t[k], t[(k + 1) % 3]};
 			if (!sides.insert(side).second)
 				return {};
-			inside += 2 * sides.count({side.second, side.first});
+			inside += sides.count({side.second, side.first});
 		}
 	std::vector<std::vector<int>> borders = bordersOf(patch, sides);
-	const std::size_t edges = sides.size() - inside / 2;
+	const std::size_t edges = sides.size() - inside;
 	if (borders.empty() ||
 		patch.points.size() + patch.triangles.size() + borders.size() != edges + 2)
 		return {};
