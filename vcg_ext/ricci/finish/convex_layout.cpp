@@ -64,8 +64,8 @@ std::vector<Point2> convexLayout(const Patch& patch)
 		std::max_element(borders.begin(), borders.end(), [](const auto& a, const auto& b) {
 			return a.size() < b.size();
 		});
-	const auto places = static_cast<Eigen::Index>(patch.points.size() + borders.size() - 1);
-	std::vector<int> unknown(positionOf(static_cast<int>(places)), 0); // or -1 on the circle
+	// Of the points and the holes; -1 on the circle.
+	std::vector<int> unknown(patch.points.size() + borders.size() - 1, 0);
 	std::vector<Point2> layout(patch.points.size(), Point2{0.0, 0.0});
 	for (std::size_t i = 0; i < outer->size(); ++i) {
 		const std::size_t p = positionOf((*outer)[i]);

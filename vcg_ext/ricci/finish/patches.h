@@ -18,6 +18,9 @@ struct Patch
 	Array<Triangle> corners;    ///< [triangle of the patch] local points
 	Array<int> variable;        ///< [local point] the group that moves it, or -1
 	int variables = 0;          ///< groups all of whose triangles are in the patch
+
+	/// Whether nothing holds it: all points move, each by itself.
+	bool isFree() const { return variables == static_cast<int>(points.size()); }
 };
 
 /// Finds patches in one drawing.

@@ -97,8 +97,8 @@ PatchSize sizeOf(const DrawnTriangles& drawn, const Patch& patch)
 	return size;
 }
 
-/// Whether a patch has failed that was nearly as large, in area too if that counts; or for a patch all
-/// of whose points move, so that nothing holds it, as large.
+/// Whether a patch has failed that was nearly as large, in area too if that counts; or for a free patch,
+/// as large.
 bool isHardlyLarger(
 	const DrawnTriangles& drawn, const Patch& patch, const Array<PatchSize>& failed, bool byArea)
 {
@@ -108,7 +108,7 @@ bool isHardlyLarger(
 		largest.area = std::max(largest.area, failed[f].area);
 	}
 	const PatchSize size = sizeOf(drawn, patch);
-	if (std::all_of(patch.variable.begin(), patch.variable.end(), [](int v) { return v >= 0; }))
+	if (patch.isFree())
 		return size.triangles <= largest.triangles;
 	return size.triangles < kPatchGrowth * largest.triangles &&
 		   (!byArea || size.area < kAreaGrowth * largest.area);

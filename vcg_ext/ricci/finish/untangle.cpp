@@ -258,9 +258,8 @@ Untangled untangle(
 	const Tick& tick)
 {
 	Untangled found = Untangler(drawn, groups, patch, shapes, soundness, tick).run();
-	if (found.sound || patch.variables < static_cast<int>(patch.points.size()))
+	if (found.sound || !patch.isFree())
 		return found;
-	// Nothing holds the patch: it can always be drawn without a fold.
 	const std::vector<Point2> places = unfolded(drawn, patch, shapes);
 	if (places.empty())
 		return found;

@@ -33,9 +33,8 @@ struct Untangled
 /// triangle's Hessian made positive semidefinite: in terms of f_z and f_zbar its eigenvalues have
 /// closed forms.
 ///
-/// A patch that nothing holds, all of whose points move, each by itself, is a disk in most cases. If no
-/// sound places are found from where it is, the search starts anew from convexLayout(), where no
-/// triangle is turned round, and with eps next to 0.
+/// If no sound places are found for a free patch from where it is, the search starts anew from
+/// convexLayout(), where no triangle is turned round, and with eps next to 0.
 Untangled untangle(
 	const DrawnTriangles& drawn,
 	const PointGroups& groups,
