@@ -145,7 +145,9 @@ TEST(ConvexLayout, MendsADrawingWhosePointsAreAnywhere)
 		Random random(seed);
 		for (Point2& p : drawn.points)
 			p = {random.real(0.0, kSide), 1e-9 * random.real(0.0, kSide)};
-		const Repair result = repairFreely(drawn, nullptr, RestShapes::OfSurface, wanted, [] {});
+		WorkLimit limit(drawn.corners.size());
+		const Repair result =
+			repairFreely(drawn, nullptr, RestShapes::OfSurface, wanted, limit, [] {});
 		EXPECT_GT(result.bad, 100);
 		EXPECT_EQ(result.left, 0);
 		EXPECT_TRUE(badTriangles(drawn, wanted).empty());

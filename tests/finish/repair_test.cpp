@@ -56,12 +56,18 @@ BorderMoves nothingBeyond()
 	return {SeamGeometry::Plane, [](int) { return false; }, nullptr};
 }
 
+Repair mend(
+	DrawnTriangles& drawn, const Soundness& wanted, const Tick& tick = [] {})
+{
+	WorkLimit limit(drawn.corners.size());
+	return repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, wanted, limit, tick);
+}
+
 TEST(Repair, LeavesASoundDrawingAlone)
 {
 	DrawnTriangles drawn = square();
 	const Array<Point2> before = drawn.points;
-	const Repair result =
-		repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), [] {});
+	const Repair result = mend(drawn, soundness());
 	EXPECT_EQ(result.bad, 0);
 	EXPECT_EQ(result.movedCount(), 0);
 	EXPECT_EQ(drawn.points.values(), before.values());
@@ -74,8 +80,7 @@ TEST(Repair, MendsEveryTriangleAndMovesNoBoundaryWithoutNeed)
 		DrawnTriangles drawn = tangled(6, seed);
 		const DrawnTriangles before = drawn;
 		ASSERT_FALSE(badTriangles(drawn, soundness()).empty());
-		const Repair result =
-			repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), [] {});
+		const Repair result = mend(drawn, soundness());
 		EXPECT_EQ(result.left, 0);
 		for (const int f : drawn.corners.indices()) {
 			const Triangle2 p = drawn.at(f);
@@ -96,7 +101,7 @@ TEST(Repair, MovesOnlyWhatIsNearABadTriangle)
 	const int v = vertexAt(3, 3);
 	drawn.points[v] = {4.5, 3.2};
 	const Array<Point2> before = drawn.points;
-	repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), [] {});
+	mend(drawn, soundness());
 	EXPECT_TRUE(badTriangles(drawn, soundness()).empty());
 	for (const int p : drawn.points.indices()) {
 		const bool isFar = std::abs(p % (kSide + 1) - 3) > 3 || std::abs(p / (kSide + 1) - 3) > 3;
@@ -112,8 +117,8 @@ TEST(Repair, TheScaleOfTheDrawingPlaysNoPart)
 		small.points[p] = {kScale * small.points[p][0], kScale * small.points[p][1]};
 	const Soundness same = soundness();
 	const Soundness scaled{kScale * same.height, kScale * same.wanted, same.asFloats};
-	repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, same, [] {});
-	repairInStages(small, nothingBeyond(), RestShapes::OfSurface, scaled, [] {});
+	mend(drawn, same);
+	mend(small, scaled);
 	for (const int p : drawn.points.indices())
 		for (std::size_t k = 0; k < 2; ++k)
 			EXPECT_NEAR(small.points[p][k] / kScale, drawn.points[p][k], 1e-6) << p;
@@ -131,8 +136,7 @@ TEST(Repair, SoundMeansSoundInFloatsWhereFloatsAreStored)
 	const Soundness doubles{0.001, 0.3, false};
 	EXPECT_TRUE(badTriangles(drawn, doubles).empty());
 	ASSERT_FALSE(badTriangles(drawn, floats).empty());
-	const Repair result =
-		repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, floats, [] {});
+	const Repair result = mend(drawn, floats);
 	EXPECT_EQ(result.left, 0);
 	EXPECT_TRUE(badTriangles(drawn, floats).empty());
 }
@@ -143,8 +147,7 @@ TEST(Repair, TheBoundaryMovesWhereNothingElseMends)
 	// A corner triangle whose three points are on the boundary, turned round.
 	const int corner = vertexAt(kSide, 0);
 	drawn.points[corner] = {kSide - 2.0, 2.0};
-	const Repair result =
-		repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), [] {});
+	const Repair result = mend(drawn, soundness());
 	EXPECT_GT(result.bad, 0);
 	EXPECT_EQ(result.left, 0);
 	EXPECT_TRUE(badTriangles(drawn, soundness()).empty());
@@ -159,8 +162,10 @@ TEST(Repair, CountsWhatIsLeftOfThePatchesThatAreMendedPartly)
 		SCOPED_TRACE(seed);
 		DrawnTriangles drawn = tangled(8, seed);
 		drawn.points[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0}; // it stays there
+		WorkLimit limit(drawn.corners.size());
 		const Repair result = repair(
-			drawn, insidePoints(drawn), RestShapes::OfSurface, high, {3, nullptr, true}, [] {});
+			drawn, insidePoints(drawn), RestShapes::OfSurface, high, {3, nullptr, true}, limit, [] {
+			});
 		EXPECT_EQ(result.left, static_cast<int>(badTriangles(drawn, high).size()));
 		partly += result.left > 0 && result.movedCount() > 0;
 	}
@@ -173,12 +178,32 @@ TEST(Repair, ALimbThatHasShrunkBelowFloatsGetsRoom)
 	for (const double ratio : {0.6, 0.4, 0.25}) {
 		SCOPED_TRACE(ratio);
 		DrawnTriangles drawn = limb(5, 80, ratio);
-		const Repair result =
-			repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, wanted, [] {});
+		const Repair result = mend(drawn, wanted);
 		EXPECT_GT(result.bad, 500);
 		EXPECT_EQ(result.left, 0);
 		EXPECT_TRUE(badTriangles(drawn, wanted).empty());
 	}
+}
+
+/// Nothing mends a triangle whose corners stay; the search for it is over once the limit is spent.
+TEST(Repair, SpendsNoMoreThanItsLimit)
+{
+	DrawnTriangles drawn = tangled(60, 1);
+	WorkLimit limit(drawn.corners.size());
+	const std::int64_t all = limit.left();
+	repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), limit, [] {});
+	EXPECT_LT(limit.left(), all);
+	EXPECT_TRUE(badTriangles(drawn, soundness()).empty());
+
+	limit.spend(limit.left());
+	drawn = tangled(60, 1);
+	const Array<Point2> before = drawn.points;
+	const Repair none =
+		repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), limit, [] {});
+	EXPECT_EQ(limit.left(), 0);
+	EXPECT_GT(none.left, 0);
+	EXPECT_EQ(none.left, none.bad);
+	EXPECT_EQ(drawn.points.values(), before.values());
 }
 
 TEST(Repair, CanBeCancelled)
@@ -187,10 +212,7 @@ TEST(Repair, CanBeCancelled)
 	{
 	};
 	DrawnTriangles drawn = tangled(6, 3);
-	EXPECT_THROW(
-		repairInStages(
-			drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), [] { throw Cancelled(); }),
-		Cancelled);
+	EXPECT_THROW(mend(drawn, soundness(), [] { throw Cancelled(); }), Cancelled);
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -22,6 +23,9 @@ namespace {
 using Complex = std::complex<double>;
 
 const Soundness kSound{1e-4, 1e-2, false};
+
+/// More than any of them takes.
+constexpr int kMaxSteps = 1000;
 
 /// The whole of a drawing as one patch, with the shapes of the surface.
 struct Whole
@@ -92,8 +96,8 @@ TEST(Untangle, MakesATangledSquareInjectiveAndKeepsItsBorder)
 		ASSERT_EQ(whole.patch.variables, (kSide - 1) * (kSide - 1));
 		ASSERT_GT(notCounterClockwise(whole.drawn), 0);
 		ASSERT_GT(sumOfAreas(whole.drawn), kSide * kSide + 0.1);
-		const Untangled result =
-			untangle(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, [] {});
+		const Untangled result = untangle(
+			whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [] {});
 		ASSERT_TRUE(result.sound);
 		EXPECT_GT(result.steps, 0);
 		const DrawnTriangles moved = whole.with(result.points);
@@ -113,11 +117,12 @@ TEST(Untangle, FindsTheSurfaceWhereItIsFlat)
 {
 	for (std::uint64_t seed = 1; seed <= 4; ++seed) {
 		const Whole whole(tangled(20, seed));
-		const Untangled sound =
-			untangle(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, [] {});
+		const Untangled sound = untangle(
+			whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [] {});
 		ASSERT_TRUE(sound.sound);
 		const DrawnTriangles moved = whole.with(sound.points), flat = square();
-		const Untangled eased = ease(moved, whole.groups, whole.patch, whole.shapes, kSound, [] {});
+		const Untangled eased =
+			ease(moved, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [] {});
 		ASSERT_TRUE(eased.sound);
 		const DrawnTriangles last = whole.with(eased.points);
 		EXPECT_LE(whole.strainOf(last), whole.strainOf(moved));
@@ -135,7 +140,7 @@ TEST(Untangle, SaysWhatItCannotMend)
 	const Whole whole(drawn);
 	const int before = notCounterClockwise(drawn);
 	const Untangled result =
-		untangle(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, [] {});
+		untangle(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [] {});
 	EXPECT_FALSE(result.sound);
 	ASSERT_FALSE(result.points.empty());
 	const int after = notCounterClockwise(whole.with(result.points));
@@ -147,8 +152,8 @@ TEST(Untangle, IsHeardAndCanBeEnded)
 {
 	const Whole whole(tangled(20, 5));
 	int ticks = 0;
-	const Untangled result =
-		untangle(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, [&] { ++ticks; });
+	const Untangled result = untangle(
+		whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [&] { ++ticks; });
 	EXPECT_EQ(ticks, result.steps);
 	EXPECT_THROW(
 		untangle(
@@ -157,8 +162,23 @@ TEST(Untangle, IsHeardAndCanBeEnded)
 			whole.patch,
 			whole.shapes,
 			kSound,
+			kMaxSteps,
 			[] { throw std::runtime_error("enough"); }),
 		std::runtime_error);
+}
+
+TEST(Untangle, TakesNoMoreStepsThanItMay)
+{
+	const Whole whole(tangled(20, 5));
+	const auto steps = [&](int maxSteps) {
+		return untangle(
+				   whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, maxSteps, [] {})
+			.steps;
+	};
+	const int all = steps(kMaxSteps);
+	ASSERT_GT(all, 3);
+	for (int maxSteps = 0; maxSteps <= all + 2; ++maxSteps)
+		EXPECT_EQ(steps(maxSteps), std::min(maxSteps, all));
 }
 
 TEST(Ease, LowersTheStrainAndStaysSound)
@@ -174,7 +194,7 @@ TEST(Ease, LowersTheStrainAndStaysSound)
 	const Whole whole(drawn);
 	ASSERT_EQ(notCounterClockwise(drawn), 0);
 	const Untangled result =
-		ease(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, [] {});
+		ease(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [] {});
 	ASSERT_TRUE(result.sound);
 	const DrawnTriangles eased = whole.with(result.points);
 	EXPECT_EQ(notCounterClockwise(eased), 0);
@@ -186,7 +206,7 @@ TEST(Ease, LeavesWhatIsNotSoundAlone)
 {
 	const Whole whole(tangled(20, 7));
 	const Untangled result =
-		ease(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, [] {});
+		ease(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [] {});
 	EXPECT_FALSE(result.sound);
 	EXPECT_EQ(result.steps, 0);
 }

@@ -36,8 +36,12 @@ using Input = std::vector<std::uint8_t>;
 
 constexpr const char* kDefectFile = "defect-input";
 
-/// Seconds of CPU time after which an execution counts as hanging.
+/// Seconds of CPU time after which an execution counts as hanging; sanitizers take their time.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr int kPatience = 300;
+#else
 constexpr int kPatience = 60;
+#endif
 
 constexpr int kMaxInputSize = 96;
 

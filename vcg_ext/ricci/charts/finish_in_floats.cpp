@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -43,6 +44,9 @@ void widenToFloats(Box2& box)
 		box.max[k] = static_cast<double>(max);
 	}
 }
+
+/// Charts that need more room are packed so many times in all.
+constexpr int kMaxPackings = 4;
 
 /// Rings round bad triangles that are drawn at first, of which one is the border of the largest patches.
 constexpr int kNearRings = 4;
@@ -99,6 +103,8 @@ public:
 				taken.push_back(static_cast<int>(f));
 		return taken;
 	}
+
+	std::int64_t size() const { return static_cast<std::int64_t>(m_uv.size()); }
 
 	std::vector<int> all() const
 	{
@@ -209,8 +215,8 @@ private:
 class BorderTest
 {
 public:
-	BorderTest(const Output& output, ChartRoom room) :
-			m_output(output), m_staysInBox(room == ChartRoom::Kept), m_border(output.chartCount()),
+	BorderTest(const Output& output, bool staysInBox) :
+			m_output(output), m_staysInBox(staysInBox), m_border(output.chartCount()),
 			m_near(output.chartCount()), m_moves(output.drawn.points.size(), 0)
 	{
 		forEdges(sidesByEdge(output.drawn), [&](const DrawnSide* side, int count) {
@@ -301,16 +307,17 @@ Point2 centreOf(const Box2& square)
 /// What finishEverywhere() does where small patches inside the charts mend all: then all but what is near
 /// bad triangles plays no part.
 /// \return whether points were moved; none where that does not do, and nothing is changed
-std::optional<bool> finishNear(const SurfaceMesh& mesh, const Tick& tick, Output& output)
+std::optional<bool>
+finishNear(const SurfaceMesh& mesh, WorkLimit& limit, const Tick& tick, Output& output)
 {
 	output.draw(mesh, output.near(mesh, output.inText, kNearRings));
-	BorderTest test(output, ChartRoom::Kept);
+	BorderTest test(output, true);
 	const PatchRules rules{kNearRings - 1, [&](const DrawnTriangles& drawn, const Patch& patch) {
 							   return test(drawn, patch);
 						   }};
 	const PointGroups groups = insidePoints(output.drawn);
 	const Repair result =
-		repair(output.drawn, groups, RestShapes::OfDrawing, output.inText, rules, tick);
+		repair(output.drawn, groups, RestShapes::OfDrawing, output.inText, rules, limit, tick);
 	if (result.left > 0)
 		return std::nullopt;
 	return output.takeOver(result);
@@ -323,28 +330,33 @@ struct Finished
 	bool boxes = false; ///< charts have grown out of theirs
 };
 
-Finished finishEverywhere(const SurfaceMesh& mesh, ChartRoom room, const Tick& tick, Output& output)
+Finished finishEverywhere(
+	const SurfaceMesh& mesh, bool mayGrow, WorkLimit& limit, const Tick& tick, Output& output)
 {
 	output.draw(mesh, output.all());
-	BorderTest test(output, ChartRoom::Kept);
+	BorderTest test(output, true);
 	const PatchTest accepts = [&](const DrawnTriangles& drawn, const Patch& patch) {
 		return test(drawn, patch);
 	};
 	const BorderMoves moves{SeamGeometry::Plane, [](int) { return false; }, accepts};
-	Repair result = repairInStages(output.drawn, moves, RestShapes::OfDrawing, output.inText, tick);
+	const auto inStages = [&](const Soundness& wanted) {
+		return repairInStages(output.drawn, moves, RestShapes::OfDrawing, wanted, limit, tick);
+	};
+	Repair result = inStages(output.inText);
 	// Where there is no room for that, floats have to do.
-	result.add(repairInStages(output.drawn, moves, RestShapes::OfDrawing, output.soundness, tick));
+	result.add(inStages(output.soundness));
 	if (result.left > 0)
-		result.add(
-			repairFreely(output.drawn, accepts, RestShapes::OfDrawing, output.soundness, tick));
+		result.add(repairFreely(
+			output.drawn, accepts, RestShapes::OfDrawing, output.soundness, limit, tick));
 	Finished finished;
-	if (result.left > 0 && room == ChartRoom::MayGrow) {
-		BorderTest ofItself(output, room);
+	if (result.left > 0 && mayGrow) {
+		BorderTest ofItself(output, false);
 		const Repair growth = repairFreely(
 			output.drawn,
 			[&](const DrawnTriangles& drawn, const Patch& patch) { return ofItself(drawn, patch); },
 			RestShapes::OfDrawing,
 			output.soundness,
+			limit,
 			tick);
 		finished.boxes = growth.movedCount() > 0;
 		result.add(growth);
@@ -369,17 +381,27 @@ void measureInDisk(const SurfaceMesh& mesh, const std::vector<Box2>& disks, Para
 
 } // namespace
 
-bool finishInFloats(const SurfaceMesh& mesh, ChartRoom room, const Tick& tick, Parametrization& map)
+void finishInFloats(
+	const SurfaceMesh& mesh,
+	const std::function<void()>& packAgain,
+	const Tick& tick,
+	Parametrization& map)
 {
-	Output output(map);
-	if (output.isSound(output.inText))
-		return false;
-	const std::optional<bool> moved = finishNear(mesh, tick, output);
-	const Finished finished =
-		moved ? Finished{*moved, false} : finishEverywhere(mesh, room, tick, output);
-	if (finished.points)
-		measureResult(mesh, measureDistortion, map);
-	return finished.boxes;
+	WorkLimit limit(Output(map).size());
+	for (int packings = 1;; ++packings) {
+		Output output(map);
+		if (output.isSound(output.inText))
+			return;
+		const bool mayGrow = packAgain && packings < kMaxPackings;
+		const std::optional<bool> moved = finishNear(mesh, limit, tick, output);
+		const Finished finished =
+			moved ? Finished{*moved, false} : finishEverywhere(mesh, mayGrow, limit, tick, output);
+		if (finished.points)
+			measureResult(mesh, measureDistortion, map);
+		if (!finished.boxes)
+			return;
+		packAgain();
+	}
 }
 
 void finishInFloats(
@@ -397,8 +419,9 @@ void finishInFloats(
 		}
 		return true;
 	};
+	WorkLimit limit(output.size());
 	const bool moved = output.takeOver(
-		repairFreely(output.drawn, isInDisk, RestShapes::OfDrawing, output.soundness, tick));
+		repairFreely(output.drawn, isInDisk, RestShapes::OfDrawing, output.soundness, limit, tick));
 	if (moved)
 		measureInDisk(mesh, disks, map);
 }

@@ -6,12 +6,10 @@
 #include "../surface/surface_mesh.h"
 #include "parametrization.h"
 
+#include <functional>
 #include <vector>
 
 namespace ricci {
-
-/// Whether charts stay in the boxes that packCharts() gave them.
-enum class ChartRoom { Kept, MayGrow };
 
 /// The last look at a packed map, at the coordinates as they will be stored: mends the triangles of
 /// the output that are turned round or flat once the coordinates are rounded to float, or lower than a
@@ -21,12 +19,14 @@ enum class ChartRoom { Kept, MayGrow };
 /// border is made to cross another. Seams stay isometric up to the rounding, but where a triangle can
 /// be mended in no other way.
 /// \param mesh that \p map is the map of
-/// \param room with ChartRoom::MayGrow, triangles that cannot be mended in the box of their chart are
-/// mended as if the chart were alone
+/// \param packAgain packs the charts of \p map once more: triangles that cannot be mended in the box of
+/// their chart are mended as if the chart were alone, a few times at most. Without it all stay in their boxes.
 /// \param map after packCharts()
-/// \return whether charts have grown so: they have to be packed and finished again
-bool finishInFloats(
-	const SurfaceMesh& mesh, ChartRoom room, const Tick& tick, Parametrization& map);
+void finishInFloats(
+	const SurfaceMesh& mesh,
+	const std::function<void()>& packAgain,
+	const Tick& tick,
+	Parametrization& map);
 
 /// The same for charts in disks, whose seams move by steps of floats like points inside.
 /// \param disks [chart] the square that its disk fills, from placeDisks()

@@ -85,7 +85,9 @@ FinishCounts repairLayout(
 	if (isSound(surface.triangulation, layout, soundness))
 		return {};
 	DrawnTriangles drawn = drawingOf(surface, layout);
-	const Repair repair = repairInStages(drawn, moves, RestShapes::OfSurface, soundness, tick);
+	WorkLimit limit(drawn.corners.size());
+	const Repair repair =
+		repairInStages(drawn, moves, RestShapes::OfSurface, soundness, limit, tick);
 	layout.points = std::move(drawn.points);
 	return countsOf(repair);
 }
@@ -154,7 +156,9 @@ FinishCounts finishDisk(
 	// hole alone.
 	BorderMoves moves = movesInDisk(domain, freeBoundary);
 	moves.boundary = [freeBoundary](int) { return freeBoundary; };
-	const Repair repair = repairInStages(drawn, moves, RestShapes::OfDrawing, soundness, tick);
+	WorkLimit limit(count);
+	const Repair repair =
+		repairInStages(drawn, moves, RestShapes::OfDrawing, soundness, limit, tick);
 	for (int f = 0; f < count; ++f)
 		refinement.uv[positionOf(f)] = drawn.at(f);
 	return countsOf(repair);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -31,10 +32,7 @@ constexpr double kAreaGrowth = 4.0;
 constexpr double kMaxStrain = 3.0;
 constexpr int kEasedRings[] = {2, 5, 13};
 
-/// Work (workOfStep()) that may be spent for each triangle of the drawing, and at least.
-constexpr std::int64_t kMaxWorkShare = 100, kMinWorkLimit = 1000000;
-
-/// Steps that a patch is expected to take.
+/// Steps that a patch is expected to take to be untangled, or evened out.
 constexpr std::int64_t kExpectedSteps = 30;
 
 /// Triangles of a patch whose Hessian takes as long to factorise as to set up.
@@ -133,21 +131,38 @@ bool apply(
 	return false;
 }
 
-/// Solves patches side by side.
-/// \return [patch] what solve(patch, tick) gives
+/// Solves patches side by side, the first ones that are expected to need no more than \p work; the others
+/// are dropped. Each may take as many steps as all of them may.
+/// \param work what is left after it
+/// \return [patch] what solve(patch, maxSteps, tick) gives
 template<class Solve>
 std::vector<Untangled>
-solveAll(const std::vector<Patch>& patches, const Tick& tick, const Solve& solve)
+solveAll(std::vector<Patch>& patches, std::int64_t& work, const Tick& tick, const Solve& solve)
 {
-	std::vector<Untangled> found(patches.size());
-	std::int64_t triangles = 0;
-	for (const Patch& patch : patches)
+	std::int64_t ofStep = 0, triangles = 0;
+	const auto fits = [&](const Patch& patch) {
+		const std::int64_t more = ofStep + workOfStep(patch);
+		if (more > work / kExpectedSteps)
+			return false;
+		ofStep = more;
 		triangles += static_cast<std::int64_t>(patch.triangles.size());
+		return true;
+	};
+	patches.erase(std::find_if_not(patches.begin(), patches.end(), fits), patches.end());
+	std::vector<Untangled> found(patches.size());
+	if (patches.empty())
+		return found;
+	const int maxSteps =
+		static_cast<int>(std::min(work / ofStep, std::int64_t(std::numeric_limits<int>::max())));
 	tasksInParallel(
 		static_cast<int>(patches.size()),
 		threadsFor(kExpectedSteps * triangles),
 		tick,
-		[&](int i, const Tick& own) { found[positionOf(i)] = solve(patches[positionOf(i)], own); });
+		[&](int i, const Tick& own) {
+			found[positionOf(i)] = solve(patches[positionOf(i)], maxSteps, own);
+		});
+	for (std::size_t i = 0; i < patches.size(); ++i)
+		work -= found[i].steps * workOfStep(patches[i]);
 	return found;
 }
 
@@ -162,7 +177,6 @@ bool takeOver(
 {
 	bool isAny = false;
 	for (std::size_t i = 0; i < patches.size(); ++i) {
-		result.work += found[i].steps * workOfStep(patches[i]);
 		if (found[i].points.empty() || !(found[i].sound || rules.partly) ||
 			!apply(drawn, patches[i], found[i].points, rules.accepts))
 			continue;
@@ -200,33 +214,32 @@ void easeStrained(
 	const PointGroups& groups,
 	const Soundness& soundness,
 	const PatchTest& accepts,
+	WorkLimit& limit,
 	const Tick& tick,
 	Repair& result)
 {
 	PatchFinder finder(drawn, groups);
+	std::int64_t work = limit.ofStage();
+	const std::int64_t before = work;
 	for (const int rings : kEasedRings) {
 		const std::vector<int> strained = strainedTriangles(drawn, result.moved, soundness);
 		if (strained.empty())
-			return;
-		const std::vector<Patch> patches = finder.patches(strained, rings);
-		takeOver(
-			patches,
-			solveAll(
-				patches,
-				tick,
-				[&](const Patch& patch, const Tick& own) {
-					return ease(
-						drawn,
-						groups,
-						patch,
-						restShapes(drawn, patch, RestShapes::OfSurface, soundness),
-						soundness,
-						own);
-				}),
-			{0, accepts},
-			drawn,
-			result);
+			break;
+		std::vector<Patch> patches = finder.patches(strained, rings);
+		const std::vector<Untangled> found =
+			solveAll(patches, work, tick, [&](const Patch& patch, int maxSteps, const Tick& own) {
+				return ease(
+					drawn,
+					groups,
+					patch,
+					restShapes(drawn, patch, RestShapes::OfSurface, soundness),
+					soundness,
+					maxSteps,
+					own);
+			});
+		takeOver(patches, found, {0, accepts}, drawn, result);
 	}
+	limit.spend(before - work);
 }
 
 } // namespace
@@ -243,7 +256,6 @@ void Repair::add(const Repair& next)
 	for (const int p : next.moved.indices())
 		moved[p] = moved[p] || next.moved[p];
 	left = next.left;
-	work += next.work;
 }
 
 std::vector<int> badTriangles(const DrawnTriangles& drawn, const Soundness& soundness)
@@ -261,6 +273,7 @@ Repair repair(
 	RestShapes shapes,
 	const Soundness& soundness,
 	const PatchRules& rules,
+	WorkLimit& limit,
 	const Tick& tick)
 {
 	Repair result;
@@ -272,7 +285,8 @@ Repair repair(
 	PatchFinder finder(drawn, groups);
 	Array<PatchSize> failed(drawn.corners.size(), PatchSize{}); // [triangle] of its last patch
 	std::set<std::vector<int>> tried; // triangles of patches, since the drawing last changed
-	const std::int64_t maxWork = std::max(kMaxWorkShare * drawn.corners.size(), kMinWorkLimit);
+	std::int64_t work = limit.ofStage();
+	const std::int64_t before = work;
 	for (const int rings : kRings) {
 		if (rings > rules.maxRings)
 			break;
@@ -291,20 +305,15 @@ Repair repair(
 		std::stable_sort(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
 			return a.triangles.size() < b.triangles.size();
 		});
-		std::int64_t expected = 0;
-		const auto fits = [&](const Patch& patch) {
-			expected += kExpectedSteps * workOfStep(patch);
-			return expected <= maxWork - result.work;
-		};
-		patches.erase(std::find_if_not(patches.begin(), patches.end(), fits), patches.end());
 		const std::vector<Untangled> found =
-			solveAll(patches, tick, [&](const Patch& patch, const Tick& own) {
+			solveAll(patches, work, tick, [&](const Patch& patch, int maxSteps, const Tick& own) {
 				return untangle(
 					drawn,
 					groups,
 					patch,
 					restShapes(drawn, patch, shapes, soundness),
 					soundness,
+					maxSteps,
 					own);
 			});
 		for (std::size_t i = 0; i < patches.size(); ++i)
@@ -315,12 +324,14 @@ Repair repair(
 			}
 		for (const Patch& patch : patches)
 			tried.insert(patch.triangles);
-		if (takeOver(patches, found, rules, drawn, result))
-			tried.clear();
+		if (!takeOver(patches, found, rules, drawn, result))
+			continue;
+		tried.clear();
 		bad = badTriangles(drawn, soundness); // a patch mended partly may have others than before
-		if (bad.empty() || result.work >= maxWork)
+		if (bad.empty())
 			break;
 	}
+	limit.spend(before - work);
 	result.left = static_cast<int>(bad.size());
 	return result;
 }
@@ -330,19 +341,20 @@ Repair repairInStages(
 	const BorderMoves& moves,
 	RestShapes shapes,
 	const Soundness& soundness,
+	WorkLimit& limit,
 	const Tick& tick)
 {
 	if (badTriangles(drawn, soundness).empty())
 		return {};
 	PointGroups groups = insidePoints(drawn);
 	Repair result =
-		repair(drawn, groups, shapes, soundness, {kMaxInsideRings, moves.accepts}, tick);
+		repair(drawn, groups, shapes, soundness, {kMaxInsideRings, moves.accepts}, limit, tick);
 	const auto goOn = [&](const std::function<bool(int)>& boundary, RestShapes from, bool partly) {
 		if (result.left == 0)
 			return;
 		groups = joinedPoints(drawn, moves.seams, boundary);
-		result.add(
-			repair(drawn, groups, from, soundness, {kMaxRings, moves.accepts, partly}, tick));
+		result.add(repair(
+			drawn, groups, from, soundness, {kMaxRings, moves.accepts, partly}, limit, tick));
 	};
 	const auto everywhere = [](int) { return true; };
 	goOn(moves.boundary, shapes, false);
@@ -355,7 +367,7 @@ Repair repairInStages(
 		goOn(everywhere, shapes, true);
 	}
 	if (shapes == RestShapes::OfSurface)
-		easeStrained(drawn, groups, soundness, moves.accepts, tick, result);
+		easeStrained(drawn, groups, soundness, moves.accepts, limit, tick, result);
 	return result;
 }
 
@@ -364,16 +376,23 @@ Repair repairFreely(
 	const PatchTest& accepts,
 	RestShapes shapes,
 	const Soundness& soundness,
+	WorkLimit& limit,
 	const Tick& tick)
 {
 	if (badTriangles(drawn, soundness).empty())
 		return {};
-	Repair result =
-		repair(drawn, insidePoints(drawn), shapes, soundness, {kMaxInsideRings, accepts}, tick);
+	Repair result = repair(
+		drawn, insidePoints(drawn), shapes, soundness, {kMaxInsideRings, accepts}, limit, tick);
 	for (const bool partly : {false, true})
 		if (result.left > 0)
 			result.add(repair(
-				drawn, allPoints(drawn), shapes, soundness, {kMaxRings, accepts, partly}, tick));
+				drawn,
+				allPoints(drawn),
+				shapes,
+				soundness,
+				{kMaxRings, accepts, partly},
+				limit,
+				tick));
 	return result;
 }
 

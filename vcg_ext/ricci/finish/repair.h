@@ -8,8 +8,8 @@
 #include "point_groups.h"
 #include "rest_shape.h"
 #include "soundness.h"
+#include "work_limit.h"
 
-#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -21,7 +21,6 @@ struct Repair
 	Array<char> moved; ///< [point] 1 where the repair moved it; empty where nothing was to be done
 	int bad = 0;       ///< triangles that were not sound before
 	int left = 0;      ///< and after
-	std::int64_t work = 0; ///< of Newton's steps, in triangles set up
 
 	int movedCount() const;
 	/// Takes over what a second repair of the same drawing has done.
@@ -45,9 +44,9 @@ struct PatchRules
 /// Mends the triangles that are not sound: moves points near them, and no others.
 ///
 /// Patches of 1, 2, 3, 5, 8, ... rings round clusters of bad triangles are untangled
-/// (untangle.h) until one holds; triangles that no patch mends stay as they are. Patches of one size
-/// move no triangle of each other, so they are solved side by side, and the result does not depend on
-/// the number of threads.
+/// (untangle.h) until one holds, or until the limit's share of a stage is spent; triangles that no patch
+/// mends stay as they are. Patches of one size move no triangle of each other, so they are solved side by
+/// side, and the result does not depend on the number of threads.
 /// \param tick is called by the calling thread only
 Repair repair(
 	DrawnTriangles& drawn,
@@ -55,6 +54,7 @@ Repair repair(
 	RestShapes shapes,
 	const Soundness& soundness,
 	const PatchRules& rules,
+	WorkLimit& limit,
 	const Tick& tick);
 
 /// What may move beyond the points inside the charts.
@@ -74,6 +74,7 @@ Repair repairInStages(
 	const BorderMoves& moves,
 	RestShapes shapes,
 	const Soundness& soundness,
+	WorkLimit& limit,
 	const Tick& tick);
 
 /// The same where seams need not stay isometric: the points inside the charts; then all points, each
@@ -83,6 +84,7 @@ Repair repairFreely(
 	const PatchTest& accepts,
 	RestShapes shapes,
 	const Soundness& soundness,
+	WorkLimit& limit,
 	const Tick& tick);
 
 } // namespace ricci

@@ -46,10 +46,11 @@ public:
 		const Patch& patch,
 		const std::vector<RestShape>& shapes,
 		const Soundness& soundness,
+		int maxSteps,
 		const Tick& tick) :
 			m_drawn(drawn),
-			m_groups(groups), m_patch(patch), m_soundness(soundness), m_tick(tick),
-			m_energy(drawn, groups, patch, shapes),
+			m_groups(groups), m_patch(patch), m_soundness(soundness), m_maxSteps(maxSteps),
+			m_tick(tick), m_energy(drawn, groups, patch, shapes),
 			m_x(Eigen::VectorXd::Zero(m_energy.size())), m_least{
 															 patch.triangles.size() + 1,
 															 patch.triangles.size() + 1}
@@ -130,6 +131,8 @@ private:
 			if (idle >= (many ? kMaxIdleRounds / 3 : kMaxIdleRounds))
 				break;
 			before = bad;
+			if (m_found.steps == m_maxSteps)
+				break;
 		}
 	}
 
@@ -137,6 +140,8 @@ private:
 	/// \param soundOnly the step must leave the patch sound
 	bool descend(double& value, bool soundOnly)
 	{
+		if (m_found.steps == m_maxSteps)
+			return false;
 		++m_found.steps;
 		if (!m_energy.newtonStep(m_x, m_eps, m_gradient, m_step, m_tick))
 			return false;
@@ -208,6 +213,7 @@ private:
 	const PointGroups& m_groups;
 	const Patch& m_patch;
 	const Soundness& m_soundness;
+	const int m_maxSteps;
 	const Tick& m_tick;
 	PatchEnergy m_energy;
 	Eigen::VectorXd m_x, m_trial, m_gradient, m_step;
@@ -255,15 +261,18 @@ Untangled untangle(
 	const Patch& patch,
 	const std::vector<RestShape>& shapes,
 	const Soundness& soundness,
+	int maxSteps,
 	const Tick& tick)
 {
-	Untangled found = Untangler(drawn, groups, patch, shapes, soundness, tick).run();
-	if (found.sound || !patch.isFree())
+	Untangled found = Untangler(drawn, groups, patch, shapes, soundness, maxSteps, tick).run();
+	if (found.sound || found.steps == maxSteps || !patch.isFree())
 		return found;
 	const std::vector<Point2> places = unfolded(drawn, patch, shapes);
 	if (places.empty())
 		return found;
-	Untangled next = Untangler(drawn, groups, patch, shapes, soundness, tick).runFrom(places);
+	Untangled next =
+		Untangler(drawn, groups, patch, shapes, soundness, maxSteps - found.steps, tick)
+			.runFrom(places);
 	next.steps += found.steps;
 	if (next.sound)
 		return next;
@@ -277,9 +286,10 @@ Untangled ease(
 	const Patch& patch,
 	const std::vector<RestShape>& shapes,
 	const Soundness& soundness,
+	int maxSteps,
 	const Tick& tick)
 {
-	return Untangler(drawn, groups, patch, shapes, soundness, tick).ease();
+	return Untangler(drawn, groups, patch, shapes, soundness, maxSteps, tick).ease();
 }
 
 } // namespace ricci

@@ -35,12 +35,14 @@ struct Untangled
 ///
 /// If no sound places are found for a free patch from where it is, the search starts anew from
 /// convexLayout(), where no triangle is turned round, and with eps next to 0.
+/// \param maxSteps of Newton in all; then the search is over
 Untangled untangle(
 	const DrawnTriangles& drawn,
 	const PointGroups& groups,
 	const Patch& patch,
 	const std::vector<RestShape>& shapes,
 	const Soundness& soundness,
+	int maxSteps,
 	const Tick& tick);
 
 /// Lowers the same energy, with eps = 0, on a patch that is sound, which it stays.
@@ -50,6 +52,7 @@ Untangled ease(
 	const Patch& patch,
 	const std::vector<RestShape>& shapes,
 	const Soundness& soundness,
+	int maxSteps,
 	const Tick& tick);
 
 } // namespace ricci

@@ -125,23 +125,15 @@ public:
 		Result r;
 		const ricci::ChartTurns turns = ricci::chartTurns(par);
 		const ricci::Tick tick = LastTick(progress);
+		const auto pack = [&] {
+			ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide, turns, tick);
+		};
 		if (par.cutStrips && par.normalizeUV)
 			ricci::packStrips(flat, par.chartMargin, PlaceSideBySide, turns, tick);
 		else
-			ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide, turns, tick);
-		if (ricci::isFinished(par)) {
-			int packings = 1;
-			const auto finish = [&] {
-				return ricci::finishInFloats(
-					flat.opened.mesh,
-					packings < MaxPackings ? ricci::ChartRoom::MayGrow : ricci::ChartRoom::Kept,
-					tick,
-					flat);
-			};
-			for (; finish(); ++packings)
-				ricci::packCharts(
-					flat, par.normalizeUV, par.chartMargin, PlaceSideBySide, turns, tick);
-		}
+			pack();
+		if (ricci::isFinished(par))
+			ricci::finishInFloats(flat.opened.mesh, pack, tick, flat);
 		r.report = flat.report;
 		r.notes = flat.notes;
 		ricci::countFlippedAsWritten(flat, r.report);
@@ -560,9 +552,6 @@ private:
 
 	/// Share of the work that is done once the map is found.
 	static constexpr double MappedShare = 0.95;
-
-	/// Charts that need more room to be finished are packed so many times in all.
-	static constexpr int MaxPackings = 4;
 
 	/// For what is done after that.
 	static ricci::Tick LastTick(ricci::Progress& progress)
