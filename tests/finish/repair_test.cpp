@@ -185,25 +185,42 @@ TEST(Repair, ALimbThatHasShrunkBelowFloatsGetsRoom)
 	}
 }
 
-/// Nothing mends a triangle whose corners stay; the search for it is over once the limit is spent.
-TEST(Repair, SpendsNoMoreThanItsLimit)
+/// A corner that stays cannot be mended, however much is spent on it.
+TEST(Repair, EndsWhenItsLimitIsSpent)
 {
-	DrawnTriangles drawn = tangled(60, 1);
-	WorkLimit limit(drawn.corners.size());
-	const std::int64_t all = limit.left();
-	repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), limit, [] {});
-	EXPECT_LT(limit.left(), all);
-	EXPECT_TRUE(badTriangles(drawn, soundness()).empty());
-
-	limit.spend(limit.left());
-	drawn = tangled(60, 1);
-	const Array<Point2> before = drawn.points;
-	const Repair none =
-		repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, soundness(), limit, [] {});
-	EXPECT_EQ(limit.left(), 0);
-	EXPECT_GT(none.left, 0);
-	EXPECT_EQ(none.left, none.bad);
-	EXPECT_EQ(drawn.points.values(), before.values());
+	struct Spent
+	{
+		std::int64_t work, ticks;
+		int left;
+	};
+	const auto repairWith = [](std::int64_t allowed) {
+		DrawnTriangles drawn = tangled(20, 3);
+		drawn.points[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0};
+		WorkLimit limit(drawn.corners.size());
+		if (allowed >= 0)
+			limit.spend(limit.left() - allowed);
+		const std::int64_t before = limit.left();
+		Spent spent{0, 0, 0};
+		const Repair result = repair(
+			drawn,
+			insidePoints(drawn),
+			RestShapes::OfSurface,
+			soundness(),
+			{34, nullptr, true},
+			limit,
+			[&] { ++spent.ticks; });
+		spent.work = before - limit.left();
+		spent.left = result.left;
+		EXPECT_EQ(result.left, static_cast<int>(badTriangles(drawn, soundness()).size()));
+		return spent;
+	};
+	const Spent all = repairWith(-1), half = repairWith(all.work / 2), none = repairWith(0);
+	EXPECT_GT(all.left, 0);
+	EXPECT_LE(half.work, all.work / 2);
+	EXPECT_LT(half.ticks, all.ticks);
+	EXPECT_GT(half.work, 0);
+	EXPECT_EQ(none.work, 0);
+	EXPECT_GT(none.left, all.left);
 }
 
 TEST(Repair, CanBeCancelled)
