@@ -324,7 +324,7 @@ measureWholeWay(const SurfaceMesh& mesh, Background background, const Options& o
 			clock.enter("pack");
 			packCharts(map, true, 0.0, inARow);
 			tick();
-			finishInFloats(mesh, nullptr, tick, map);
+			finishInFloats(mesh, nullptr, false, tick, map);
 		}
 		else {
 			map = parametrizeHyperbolic(mesh, {}, HyperbolicOptions(), clock);

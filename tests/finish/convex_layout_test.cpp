@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <set>
 #include <vector>
@@ -152,6 +154,38 @@ TEST(ConvexLayout, MendsADrawingWhosePointsAreAnywhere)
 		EXPECT_EQ(result.left, 0);
 		EXPECT_TRUE(badTriangles(drawn, wanted).empty());
 	}
+}
+
+/// A flat chart that may be in the plane only where its border is convex.
+TEST(ConvexLayout, IsTakenWhereTheSearchLeadsToWhatIsRefused)
+{
+	const Soundness wanted{1e-6, 2e-6, false};
+	DrawnTriangles drawn = square();
+	for (Point2& p : drawn.points)
+		p = {p[0], 1e-9 * p[0]};
+	int refused = 0;
+	const PatchTest isRound = [&](const DrawnTriangles& d, const Patch& patch) {
+		const std::vector<Point2> layout = convexLayout(patch);
+		double scale = 0.0, error = 0.0;
+		Point2 middle{0.0, 0.0};
+		for (const int p : patch.points)
+			for (std::size_t i = 0; i < 2; ++i)
+				middle[i] += d.points[p][i] / static_cast<double>(patch.points.size());
+		for (std::size_t p = 0; p < layout.size(); ++p)
+			if (!isInside(patch.points[p])) {
+				const double radius = distance(d.points[patch.points[p]], middle);
+				error = std::max(error, scale > 0.0 ? std::abs(radius / scale - 1.0) : 0.0);
+				scale = radius;
+			}
+		refused += error > 0.01;
+		return patch.isFree() && error <= 0.01;
+	};
+	WorkLimit limit(drawn.corners.size());
+	const Repair result = repairFreely(drawn, isRound, RestShapes::OfSurface, wanted, limit, [] {});
+	EXPECT_EQ(result.bad, 2 * kSide * kSide);
+	EXPECT_GT(refused, 0);
+	EXPECT_EQ(result.left, 0);
+	EXPECT_TRUE(badTriangles(drawn, wanted).empty());
 }
 
 } // namespace

@@ -83,8 +83,8 @@ struct Report
 
 	int overlappingCharts = 0; ///< charts that cover a part of the plane more than once
 	int overlappingFaces = 0;  ///< faces (of the output) that meet another of their chart
-	/// Edges of the output cut so that no chart covers itself, or across strips, less those along which
-	/// charts were joined.
+	/// Edges of the output cut so that no chart covers itself, across strips, or round triangles that floats
+	/// cannot hold in their chart, less those along which charts were joined.
 	int overlapCuts = 0;
 
 	std::optional<double> torusTauRe, torusTauIm; ///< reduced to the fundamental domain

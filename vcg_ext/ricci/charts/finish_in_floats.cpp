@@ -8,6 +8,7 @@
 #include "../measure/hyperbolic_distortion.h"
 #include "measure_result.h"
 #include "pack.h"
+#include "separate_charts.h"
 
 #include <algorithm>
 #include <array>
@@ -111,6 +112,15 @@ public:
 		std::vector<int> faces(m_uv.size());
 		std::iota(faces.begin(), faces.end(), 0);
 		return faces;
+	}
+
+	/// [triangle] 1 for those that are not sound.
+	std::vector<char> unsound() const
+	{
+		std::vector<char> isUnsound(m_uv.size(), 0);
+		for (std::size_t f = 0; f < m_uv.size(); ++f)
+			isUnsound[f] = !soundness.isSound(inOrder(f, m_uv[f]));
+		return isUnsound;
 	}
 
 	/// Draws some of the triangles, in increasing order, counter-clockwise.
@@ -328,6 +338,7 @@ struct Finished
 {
 	bool points = false;
 	bool boxes = false; ///< charts have grown out of theirs
+	bool all = true;    ///< every triangle is sound
 };
 
 Finished finishEverywhere(
@@ -362,6 +373,7 @@ Finished finishEverywhere(
 		result.add(growth);
 	}
 	finished.points = output.takeOver(result);
+	finished.all = result.left == 0;
 	return finished;
 }
 
@@ -384,6 +396,7 @@ void measureInDisk(const SurfaceMesh& mesh, const std::vector<Box2>& disks, Para
 void finishInFloats(
 	const SurfaceMesh& mesh,
 	const std::function<void()>& packAgain,
+	bool mayCut,
 	const Tick& tick,
 	Parametrization& map)
 {
@@ -395,10 +408,11 @@ void finishInFloats(
 		const bool mayGrow = packAgain && packings < kMaxPackings;
 		const std::optional<bool> moved = finishNear(mesh, limit, tick, output);
 		const Finished finished =
-			moved ? Finished{*moved, false} : finishEverywhere(mesh, mayGrow, limit, tick, output);
+			moved ? Finished{*moved} : finishEverywhere(mesh, mayGrow, limit, tick, output);
 		if (finished.points)
 			measureResult(mesh, measureDistortion, map);
-		if (!finished.boxes)
+		const bool isCut = !finished.all && mayGrow && mayCut && cutOff(output.unsound(), map);
+		if (!finished.boxes && !isCut)
 			return;
 		packAgain();
 	}

@@ -21,10 +21,12 @@ namespace ricci {
 /// \param mesh that \p map is the map of
 /// \param packAgain packs the charts of \p map once more: triangles that cannot be mended in the box of
 /// their chart are mended as if the chart were alone, a few times at most. Without it all stay in their boxes.
+/// \param mayCut with \p packAgain, too: triangles that cannot be mended so are cut off, as charts of their own
 /// \param map after packCharts()
 void finishInFloats(
 	const SurfaceMesh& mesh,
 	const std::function<void()>& packAgain,
+	bool mayCut,
 	const Tick& tick,
 	Parametrization& map);
 

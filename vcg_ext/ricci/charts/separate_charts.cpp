@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
 namespace ricci {
@@ -266,6 +268,37 @@ std::vector<std::vector<int>> connectedParts(const PartGraph& graph)
 	return parts;
 }
 
+/// Puts the connected parts of a chart in its place, the first where it was, the others last; the report
+/// counts the sides between them.
+void divide(
+	std::size_t number,
+	const PartGraph& graph,
+	const ChartSides& sides,
+	bool turns,
+	Parametrization& map)
+{
+	const SurfaceMesh& mesh = map.opened.mesh;
+	double length = 0.0;
+	for (const int side : sides.across.indices())
+		if (const int other = graph.joined(side);
+			other > side && graph.part[other / 3] != graph.part[side / 3]) {
+			++map.report.overlapCuts;
+			length += sides.lengthOf(side);
+		}
+	map.report.seamLength += length;
+	map.report.seamLengthRelative +=
+		length / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
+	std::vector<char> faceDone(mesh.triangles.size(), 1); // by other charts
+	for (const int f : map.charts[number].faces)
+		faceDone[positionOf(f)] = 0;
+	std::vector<Chart> charts = chartsOf(map, map.charts[number], connectedParts(graph), faceDone);
+	for (const Chart& chart : charts)
+		place(map, chart, turns);
+	map.charts[number] = std::move(charts.front());
+	std::move(charts.begin() + 1, charts.end(), std::back_inserter(map.charts));
+	map.report.charts = static_cast<int>(map.charts.size());
+}
+
 } // namespace
 
 void separateCharts(
@@ -331,28 +364,32 @@ std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns, 
 	if (part.empty())
 		return std::nullopt;
 	graph.part = std::move(part);
-	const std::vector<std::vector<int>> parts = connectedParts(graph);
-	if (parts.size() != 2)
+	if (connectedParts(graph).size() != 2)
 		return std::nullopt;
 	Parametrization cut = map;
-	for (const int side : sides.across.indices())
-		if (const int other = graph.joined(side);
-			other > side && graph.part[other / 3] != graph.part[side / 3]) {
-			++cut.report.overlapCuts;
-			cut.report.seamLength += sides.lengthOf(side);
-		}
-	cut.report.seamLengthRelative += (cut.report.seamLength - map.report.seamLength) /
-									 std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
-	std::vector<char> faceDone(mesh.triangles.size(), 1); // by other charts
-	for (const int f : whole.faces)
-		faceDone[positionOf(f)] = 0;
-	std::vector<Chart> both = chartsOf(map, whole, parts, faceDone);
-	for (const Chart& chart : both)
-		place(cut, chart, turns);
-	cut.charts[largest] = std::move(both[0]);
-	cut.charts.push_back(std::move(both[1]));
-	cut.report.charts = static_cast<int>(cut.charts.size());
+	divide(largest, graph, sides, turns, cut);
 	return cut;
+}
+
+bool cutOff(const std::vector<char>& isOff, Parametrization& map)
+{
+	const std::size_t charts = map.charts.size();
+	for (std::size_t c = 0; c < charts; ++c) {
+		const std::vector<int>& triangles = trianglesOf(map, map.charts[c]);
+		const auto off = std::count_if(
+			triangles.begin(), triangles.end(), [&](int f) { return isOff[positionOf(f)] != 0; });
+		if (off == 0 || off == static_cast<std::ptrdiff_t>(triangles.size()))
+			continue;
+		const SurfaceMesh& mesh = map.opened.mesh;
+		const DrawnChart drawn = drawnChart(mesh, map, map.charts[c]);
+		Array<int> across = sidesAcross(drawn);
+		const ChartSides sides{std::move(across), lengthsOf(mesh, map, drawn)};
+		PartGraph graph(drawn, sides);
+		for (const int i : graph.part.indices())
+			graph.part[i] = isOff[positionOf(triangles[positionOf(i)])];
+		divide(c, graph, sides, false, map);
+	}
+	return map.charts.size() > charts;
 }
 
 } // namespace ricci

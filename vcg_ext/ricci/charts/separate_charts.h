@@ -7,6 +7,7 @@
 #include "parametrization.h"
 
 #include <optional>
+#include <vector>
 
 namespace ricci {
 
@@ -32,6 +33,13 @@ constexpr double kStripLength = 1.5;
 /// would fall into more parts stays whole.
 /// \return the map that is cut, if one is
 std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns, const Tick& tick);
+
+/// Divides the charts that have triangles of both kinds: each connected part of one kind becomes a chart
+/// from the origin, in the directions that it has. The report counts the charts and the cuts as
+/// separateCharts() does.
+/// \param isOff [triangle of the output]
+/// \return whether there are such charts
+bool cutOff(const std::vector<char>& isOff, Parametrization& map);
 
 } // namespace ricci
 

@@ -167,25 +167,43 @@ solveAll(std::vector<Patch>& patches, std::int64_t& work, const Tick& tick, cons
 }
 
 /// Takes over the patches that are sound, or better than before if that will do.
+/// \param found a patch that the test refuses has no places in it any more
 /// \return whether there are any
 bool takeOver(
 	const std::vector<Patch>& patches,
-	const std::vector<Untangled>& found,
+	std::vector<Untangled>& found,
 	const PatchRules& rules,
 	DrawnTriangles& drawn,
 	Repair& result)
 {
 	bool isAny = false;
 	for (std::size_t i = 0; i < patches.size(); ++i) {
-		if (found[i].points.empty() || !(found[i].sound || rules.partly) ||
-			!apply(drawn, patches[i], found[i].points, rules.accepts))
+		if (found[i].points.empty() || !(found[i].sound || rules.partly))
 			continue;
+		if (!apply(drawn, patches[i], found[i].points, rules.accepts)) {
+			found[i].points.clear();
+			continue;
+		}
 		isAny = true;
 		for (std::size_t k = 0; k < patches[i].points.size(); ++k)
 			if (patches[i].variable[static_cast<int>(k)] >= 0)
 				result.moved[patches[i].points[k]] = 1;
 	}
 	return isAny;
+}
+
+/// Whether a patch became sound and was refused where it is nothing that could be lost: it is a whole chart
+/// and none of its triangles is sound.
+bool isRefusedWhole(
+	const DrawnTriangles& drawn,
+	const Patch& patch,
+	const Untangled& found,
+	const Soundness& soundness)
+{
+	return patch.isFree() && found.sound && found.points.empty() &&
+		   std::none_of(patch.triangles.begin(), patch.triangles.end(), [&](int f) {
+			   return soundness.isSound(drawn.at(f));
+		   });
 }
 
 /// Triangles at points that were moved whose shape on the surface is far from that in the drawing.
@@ -226,7 +244,7 @@ void easeStrained(
 		if (strained.empty())
 			break;
 		std::vector<Patch> patches = finder.patches(strained, rings);
-		const std::vector<Untangled> found =
+		std::vector<Untangled> found =
 			solveAll(patches, work, tick, [&](const Patch& patch, int maxSteps, const Tick& own) {
 				return ease(
 					drawn,
@@ -305,17 +323,20 @@ Repair repair(
 		std::stable_sort(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
 			return a.triangles.size() < b.triangles.size();
 		});
-		const std::vector<Untangled> found =
-			solveAll(patches, work, tick, [&](const Patch& patch, int maxSteps, const Tick& own) {
-				return untangle(
-					drawn,
-					groups,
-					patch,
-					restShapes(drawn, patch, shapes, soundness),
-					soundness,
-					maxSteps,
-					own);
-			});
+		const auto untangleAll = [&](std::vector<Patch>& some, const auto& how) {
+			return solveAll(
+				some, work, tick, [&](const Patch& patch, int maxSteps, const Tick& own) {
+					return how(
+						drawn,
+						groups,
+						patch,
+						restShapes(drawn, patch, shapes, soundness),
+						soundness,
+						maxSteps,
+						own);
+				});
+		};
+		std::vector<Untangled> found = untangleAll(patches, untangle);
 		for (std::size_t i = 0; i < patches.size(); ++i)
 			if (!found[i].sound) {
 				const PatchSize size = sizeOf(drawn, patches[i]);
@@ -324,7 +345,15 @@ Repair repair(
 			}
 		for (const Patch& patch : patches)
 			tried.insert(patch.triangles);
-		if (!takeOver(patches, found, rules, drawn, result))
+		bool isAny = takeOver(patches, found, rules, drawn, result);
+		// Where a chart crosses itself now, its convex drawing does not.
+		std::vector<Patch> refused;
+		for (std::size_t i = 0; i < patches.size(); ++i)
+			if (isRefusedWhole(drawn, patches[i], found[i], soundness))
+				refused.push_back(patches[i]);
+		std::vector<Untangled> unfolded = untangleAll(refused, unfold);
+		isAny = takeOver(refused, unfolded, rules, drawn, result) || isAny;
+		if (!isAny)
 			continue;
 		tried.clear();
 		bad = badTriangles(drawn, soundness); // a patch mended partly may have others than before

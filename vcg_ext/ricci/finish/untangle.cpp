@@ -36,6 +36,10 @@ constexpr double kMinGain = 0.99;
 /// Halvings of a step.
 constexpr int kMaxHalvings = 30;
 
+/// A patch that is drawn anew is enlarged to so many of the least heights at most, a hundredth of what
+/// floats reach.
+constexpr double kMaxExtent = 1e4;
+
 /// The search for a sound patch.
 class Untangler
 {
@@ -65,7 +69,8 @@ public:
 	}
 
 	/// The same from other places of the points, where all triangles are the right way round.
-	Untangled runFrom(const std::vector<Point2>& places)
+	/// \param goOn if they are sound there, too
+	Untangled runFrom(const std::vector<Point2>& places, bool goOn)
 	{
 		for (std::size_t i = 0; i < places.size(); ++i) {
 			const int p = m_patch.points[i], variable = m_patch.variable[static_cast<int>(i)];
@@ -74,10 +79,10 @@ public:
 			m_x[2 * variable] = moved.real();
 			m_x[2 * variable + 1] = moved.imag();
 		}
-		if (place(m_x))
-			improve(kEasingSteps);
-		else
+		if (!place(m_x))
 			search(0.0);
+		else if (goOn)
+			improve(kEasingSteps);
 		return m_found;
 	}
 
@@ -230,21 +235,31 @@ double squareOfSides(const Point2& a, const Point2& b, const Point2& c)
 	return std::norm(q - p) + std::norm(r - q) + std::norm(p - r);
 }
 
-/// convexLayout() about where the patch is, as large as its shapes.
-std::vector<Point2>
-unfolded(const DrawnTriangles& drawn, const Patch& patch, const std::vector<RestShape>& shapes)
+/// convexLayout() about where the patch is, as large as its shapes, or as its lowest triangle needs.
+std::vector<Point2> unfolded(
+	const DrawnTriangles& drawn,
+	const Patch& patch,
+	const std::vector<RestShape>& shapes,
+	const Soundness& soundness)
 {
 	std::vector<Point2> places = convexLayout(patch);
 	if (places.empty())
 		return places;
-	double wanted = 0.0, has = 0.0;
+	double wanted = 0.0, has = 0.0, lowest = std::numeric_limits<double>::infinity();
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
 		const Triangle& t = patch.corners[static_cast<int>(i)];
 		wanted += squareOfSides({0.0, 0.0}, {shapes[i].base, 0.0}, asPoint(shapes[i].apex));
-		has += squareOfSides(
-			places[positionOf(t[0])], places[positionOf(t[1])], places[positionOf(t[2])]);
+		const Triangle2 p{
+			places[positionOf(t[0])], places[positionOf(t[1])], places[positionOf(t[2])]};
+		has += squareOfSides(p[0], p[1], p[2]);
+		const double longest =
+			std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+		lowest = std::min(lowest, doubledArea(p[0], p[1], p[2]) / longest);
 	}
-	const double scale = std::sqrt(wanted / has), share = 1.0 / static_cast<double>(places.size());
+	double scale = std::sqrt(wanted / has);
+	if (const double least = soundness.wanted / lowest; least > scale)
+		scale = std::clamp(least, scale, std::max(scale, kMaxExtent * soundness.height));
+	const double share = 1.0 / static_cast<double>(places.size());
 	Complex middle = 0.0;
 	for (const int p : patch.points)
 		middle += share * asComplex(drawn.points[p]);
@@ -267,17 +282,33 @@ Untangled untangle(
 	Untangled found = Untangler(drawn, groups, patch, shapes, soundness, maxSteps, tick).run();
 	if (found.sound || found.steps == maxSteps || !patch.isFree())
 		return found;
-	const std::vector<Point2> places = unfolded(drawn, patch, shapes);
+	const std::vector<Point2> places = unfolded(drawn, patch, shapes, soundness);
 	if (places.empty())
 		return found;
 	Untangled next =
 		Untangler(drawn, groups, patch, shapes, soundness, maxSteps - found.steps, tick)
-			.runFrom(places);
+			.runFrom(places, true);
 	next.steps += found.steps;
 	if (next.sound)
 		return next;
 	found.steps = next.steps;
 	return found;
+}
+
+Untangled unfold(
+	const DrawnTriangles& drawn,
+	const PointGroups& groups,
+	const Patch& patch,
+	const std::vector<RestShape>& shapes,
+	const Soundness& soundness,
+	int maxSteps,
+	const Tick& tick)
+{
+	const std::vector<Point2> places = unfolded(drawn, patch, shapes, soundness);
+	if (places.empty())
+		return {};
+	return Untangler(drawn, groups, patch, shapes, soundness, maxSteps, tick)
+		.runFrom(places, false);
 }
 
 Untangled ease(

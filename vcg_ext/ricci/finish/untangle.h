@@ -45,6 +45,17 @@ Untangled untangle(
 	int maxSteps,
 	const Tick& tick);
 
+/// convexLayout() of a free patch, large enough for its lowest triangle, within reason; where that is not
+/// enough, the search from there. Empty where there is no such layout.
+Untangled unfold(
+	const DrawnTriangles& drawn,
+	const PointGroups& groups,
+	const Patch& patch,
+	const std::vector<RestShape>& shapes,
+	const Soundness& soundness,
+	int maxSteps,
+	const Tick& tick);
+
 /// Lowers the same energy, with eps = 0, on a patch that is sound, which it stays.
 Untangled ease(
 	const DrawnTriangles& drawn,

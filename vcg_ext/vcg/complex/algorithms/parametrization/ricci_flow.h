@@ -132,8 +132,11 @@ public:
 			ricci::packStrips(flat, par.chartMargin, PlaceSideBySide, turns, tick);
 		else
 			pack();
+		const bool isWhole = par.target == ricci::TargetCurvature::Disk ||
+							 par.target == ricci::TargetCurvature::Rectangle;
 		if (ricci::isFinished(par))
-			ricci::finishInFloats(flat.opened.mesh, pack, tick, flat);
+			ricci::finishInFloats(
+				flat.opened.mesh, pack, par.resolveOverlap && !isWhole, tick, flat);
 		r.report = flat.report;
 		r.notes = flat.notes;
 		ricci::countFlippedAsWritten(flat, r.report);
