@@ -137,8 +137,8 @@ class Flattening(Parametrization):
     overlapping_faces: int
     """charts that cover a part of the plane more than once; the faces that do so"""
     overlap_cuts: int
-    """edges of the output that are cut to separate them, less those along which parts were
-    joined elsewhere"""
+    """edges of the output that are cut to separate them, or to set apart faces that floats
+    cannot hold in their chart, less those along which parts were joined elsewhere"""
     seam_length: float
     """length of these further edges and cuts on the mesh, in its units"""
     seam_length_relative: float
@@ -260,8 +260,8 @@ class Uniformization(Parametrization):
     overlapping_faces: int
     """charts that cover a part of the plane more than once; the faces that do so"""
     overlap_cuts: int
-    """edges of the output that are cut to separate them, less those along which parts were
-    joined elsewhere"""
+    """edges of the output that are cut to separate them, or to set apart faces that floats
+    cannot hold in their chart, less those along which parts were joined elsewhere"""
     seam_length: float
     """length of these further edges and cuts on the mesh, in its units"""
     seam_length_relative: float

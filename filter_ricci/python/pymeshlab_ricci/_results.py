@@ -73,8 +73,9 @@ EUCLIDEAN_RESULTS = \
                        'charts that cover a part of the plane more than once; the faces that '
                        'do so'),
  'overlap_cuts': ('int',
-                  'edges of the output that are cut to separate them, less those along which '
-                  'parts were joined elsewhere'),
+                  'edges of the output that are cut to separate them, or to set apart faces '
+                  'that floats cannot hold in their chart, less those along which parts were '
+                  'joined elsewhere'),
  'seam_length': ('float', 'length of these further edges and cuts on the mesh, in its units'),
  'seam_length_relative': ('float', 'the same, divided by the root of the area of the mesh'),
  'torus_tau_re': ('float', 'flat torus: its modulus in the fundamental domain'),
