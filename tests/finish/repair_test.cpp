@@ -141,6 +141,29 @@ TEST(Repair, SoundMeansSoundInFloatsWhereFloatsAreStored)
 	EXPECT_TRUE(badTriangles(drawn, floats).empty());
 }
 
+/// Decimal fractions on one line, which as doubles mostly are on none, and next to it.
+TEST(Repair, SixDecimalsAreJudgedExactly)
+{
+	constexpr double kStep = 1e-6;
+	const Soundness text{1e-12, 1e-6, true, kStep};
+	Random random(17);
+	int bent = 0;
+	for (int trial = 0; trial < 1000; ++trial) {
+		const int x = random.index(500000), y = random.index(500000);
+		const int dx = 1 + random.index(2000), dy = 1 + random.index(2000);
+		const auto place = [&](int i, int off) {
+			return Point2{(x + i * dx) * kStep, (y + i * dy + off) * kStep};
+		};
+		const Triangle2 flat{place(0, 0), place(1, 0), place(2, 0)};
+		bent += orientation(flat[0], flat[1], flat[2]) != 0;
+		EXPECT_FALSE(text.isUpright(flat));
+		EXPECT_FALSE(text.isUpright({flat[0], flat[2], flat[1]}));
+		EXPECT_TRUE(text.isUpright({place(0, 0), place(2, 0), place(1, 1)}));
+		EXPECT_FALSE(text.isUpright({place(0, 0), place(2, 0), place(1, -1)}));
+	}
+	EXPECT_GT(bent, 0);
+}
+
 TEST(Repair, TheBoundaryMovesWhereNothingElseMends)
 {
 	DrawnTriangles drawn = square();

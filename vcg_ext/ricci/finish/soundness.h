@@ -22,17 +22,14 @@ struct Soundness
 	/// The point as it is stored.
 	Point2 stored(const Point2& p) const
 	{
-		Point2 rounded = inMemory(p);
-		if (step > 0.0)
-			for (double& x : rounded)
-				x = std::nearbyint(x / step) * step;
-		return rounded;
+		const Point2 rounded = inSteps(p);
+		return step > 0.0 ? Point2{rounded[0] * step, rounded[1] * step} : rounded;
 	}
 
 	/// Whether it is counter-clockwise, exactly.
 	bool isUpright(const Triangle2& p) const
 	{
-		return orientation(stored(p[0]), stored(p[1]), stored(p[2])) > 0;
+		return orientation(inSteps(p[0]), inSteps(p[1]), inSteps(p[2])) > 0;
 	}
 
 	/// Whether it is counter-clockwise, exactly, and high enough.
@@ -48,6 +45,16 @@ struct Soundness
 	}
 
 private:
+	/// The point as it is stored, in steps if there are any: decimal fractions are no doubles.
+	Point2 inSteps(const Point2& p) const
+	{
+		Point2 rounded = inMemory(p);
+		if (step > 0.0)
+			for (double& x : rounded)
+				x = std::nearbyint(x / step);
+		return rounded;
+	}
+
 	Point2 inMemory(const Point2& p) const
 	{
 		return asFloats ? Point2{roundedToFloat(p[0]), roundedToFloat(p[1])} : p;
