@@ -386,7 +386,7 @@ bool cutOff(const std::vector<char>& isOff, Parametrization& map)
 		const ChartSides sides{std::move(across), lengthsOf(mesh, map, drawn)};
 		PartGraph graph(drawn, sides);
 		for (const int i : graph.part.indices())
-			graph.part[i] = isOff[positionOf(triangles[positionOf(i)])];
+			graph.part[i] = isOff[positionOf(triangles[positionOf(i)])] != 0 ? 1 : 0;
 		divide(c, graph, sides, false, map);
 	}
 	return map.charts.size() > charts;
