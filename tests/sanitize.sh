@@ -68,8 +68,8 @@ run_valgrind() {
 		skipped "valgrind: it is not installed"
 		return 0
 	fi
-	(cd "$build" && timeout 300 valgrind --quiet --error-exitcode=99 --exit-on-first-error=yes \
-		tests/ricci_fuzz --go-on --runs 400 "$root/tests/fuzz/corpus") || status=$?
+	(cd "$build" && timeout 600 valgrind --quiet --error-exitcode=99 --exit-on-first-error=yes \
+		tests/ricci_fuzz --go-on --patience 300 --runs 100 "$root/tests/fuzz/corpus") || status=$?
 	[ $status -ne 99 ] && [ $status -lt 124 ]
 }
 

@@ -3,7 +3,7 @@
 // which are the same on every run. Does not watch coverage.
 //
 //     ricci_fuzz [--runs N] [--seconds S] [--seed K] [--pack-every N] [--sentences] [--go-on]
-//                [--find TEXT] [FILE|FOLDER...]
+//                [--find TEXT] [--patience S] [FILE|FOLDER...]
 //
 // Ends at the first defect, with 1 and the input in the file "defect-input" (with --go-on, at the
 // end, and the n-th input in "defect-input-n"); a crash or a hang leaves its input there as well.
@@ -36,11 +36,12 @@ using Input = std::vector<std::uint8_t>;
 
 constexpr const char* kDefectFile = "defect-input";
 
-/// Seconds of CPU time after which an execution counts as hanging; sanitizers take their time.
+/// Seconds of CPU time after which an execution counts as hanging, but for --patience; sanitizers take
+/// their time.
 #if defined(__SANITIZE_ADDRESS__)
-constexpr int kPatience = 300;
+int patience = 300;
 #else
-constexpr int kPatience = 60;
+int patience = 60;
 #endif
 
 constexpr int kMaxInputSize = 96;
@@ -96,7 +97,7 @@ public:
 	bool execute(const Input& input, bool mayPack = true)
 	{
 		running = &input;
-		setPatience(kPatience);
+		setPatience(patience);
 		const ricci::testing::Execution e =
 			ricci::testing::runFacade(input.data(), input.size(), mayPack);
 		setPatience(0);
@@ -189,6 +190,8 @@ int main(int argc, char** argv)
 			seconds = value();
 		else if (argument == "--pack-every")
 			packEvery = value();
+		else if (argument == "--patience")
+			patience = static_cast<int>(value());
 		else if (argument == "--seed")
 			seed = static_cast<std::uint64_t>(value());
 		else if (argument == "--sentences")

@@ -27,7 +27,7 @@ public:
 private:
 	/// CAD meshes of 20000 triangles with a thousand needles take all of it; the
 	/// repair of a refinement of millions takes 1 to 2 for each triangle.
-	static constexpr std::int64_t kOfStage = 2500000, kOfStagePerTriangle = 2, kStages = 4;
+	static constexpr std::int64_t kOfStage = 1000000, kOfStagePerTriangle = 2, kStages = 6;
 
 	std::int64_t m_stage, m_left;
 };
