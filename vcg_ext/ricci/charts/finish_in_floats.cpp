@@ -414,6 +414,7 @@ void finishInFloats(
 		const bool isCut = !finished.all && mayGrow && mayCut && cutOff(output.unsound(), map);
 		if (!finished.boxes && !isCut)
 			return;
+		mayCut = mayCut && !isCut; // once: what is left then has had its chart
 		packAgain();
 	}
 }
