@@ -48,6 +48,20 @@ struct Whole
 		shapes = restShapes(drawn, patch, RestShapes::OfSurfaceEvenly, kSound);
 	}
 
+	/// \pre the tick lives as long
+	PatchProblem problem(
+		int maxSteps = kMaxSteps, const Tick& tick = [] {}) const
+	{
+		return problemOf(drawn, maxSteps, tick);
+	}
+
+	/// The same for the patch elsewhere.
+	PatchProblem problemOf(
+		const DrawnTriangles& d, int maxSteps = kMaxSteps, const Tick& tick = [] {}) const
+	{
+		return {d, groups, patch, shapes, kSound, maxSteps, tick};
+	}
+
 	/// The drawing with the patch's points at \p places.
 	DrawnTriangles with(const std::vector<Point2>& places) const
 	{
@@ -96,8 +110,7 @@ TEST(Untangle, MakesATangledSquareInjectiveAndKeepsItsBorder)
 		ASSERT_EQ(whole.patch.variables, (kSide - 1) * (kSide - 1));
 		ASSERT_GT(notCounterClockwise(whole.drawn), 0);
 		ASSERT_GT(sumOfAreas(whole.drawn), kSide * kSide + 0.1);
-		const Untangled result = untangle(
-			whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [] {});
+		const Untangled result = untangle(whole.problem());
 		ASSERT_TRUE(result.sound);
 		EXPECT_GT(result.steps, 0);
 		const DrawnTriangles moved = whole.with(result.points);
@@ -117,12 +130,10 @@ TEST(Untangle, FindsTheSurfaceWhereItIsFlat)
 {
 	for (std::uint64_t seed = 1; seed <= 4; ++seed) {
 		const Whole whole(tangled(20, seed));
-		const Untangled sound = untangle(
-			whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [] {});
+		const Untangled sound = untangle(whole.problem());
 		ASSERT_TRUE(sound.sound);
 		const DrawnTriangles moved = whole.with(sound.points), flat = square();
-		const Untangled eased =
-			ease(moved, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [] {});
+		const Untangled eased = ease(whole.problemOf(moved));
 		ASSERT_TRUE(eased.sound);
 		const DrawnTriangles last = whole.with(eased.points);
 		EXPECT_LE(whole.strainOf(last), whole.strainOf(moved));
@@ -139,8 +150,7 @@ TEST(Untangle, SaysWhatItCannotMend)
 	drawn.points[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0};
 	const Whole whole(drawn);
 	const int before = notCounterClockwise(drawn);
-	const Untangled result =
-		untangle(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [] {});
+	const Untangled result = untangle(whole.problem());
 	EXPECT_FALSE(result.sound);
 	ASSERT_FALSE(result.points.empty());
 	const int after = notCounterClockwise(whole.with(result.points));
@@ -152,29 +162,17 @@ TEST(Untangle, IsHeardAndCanBeEnded)
 {
 	const Whole whole(tangled(20, 5));
 	int ticks = 0;
-	const Untangled result = untangle(
-		whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [&] { ++ticks; });
+	const Untangled result = untangle(whole.problem(kMaxSteps, [&] { ++ticks; }));
 	EXPECT_EQ(ticks, result.steps);
 	EXPECT_THROW(
-		untangle(
-			whole.drawn,
-			whole.groups,
-			whole.patch,
-			whole.shapes,
-			kSound,
-			kMaxSteps,
-			[] { throw std::runtime_error("enough"); }),
+		untangle(whole.problem(kMaxSteps, [] { throw std::runtime_error("enough"); })),
 		std::runtime_error);
 }
 
 TEST(Untangle, TakesNoMoreStepsThanItMay)
 {
 	const Whole whole(tangled(20, 5));
-	const auto steps = [&](int maxSteps) {
-		return untangle(
-				   whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, maxSteps, [] {})
-			.steps;
-	};
+	const auto steps = [&](int maxSteps) { return untangle(whole.problem(maxSteps)).steps; };
 	const int all = steps(kMaxSteps);
 	ASSERT_GT(all, 3);
 	for (int maxSteps = 0; maxSteps <= all + 2; ++maxSteps)
@@ -193,8 +191,7 @@ TEST(Ease, LowersTheStrainAndStaysSound)
 				drawn.points[p][1] + random.real(-0.2, 0.2)};
 	const Whole whole(drawn);
 	ASSERT_EQ(notCounterClockwise(drawn), 0);
-	const Untangled result =
-		ease(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [] {});
+	const Untangled result = ease(whole.problem());
 	ASSERT_TRUE(result.sound);
 	const DrawnTriangles eased = whole.with(result.points);
 	EXPECT_EQ(notCounterClockwise(eased), 0);
@@ -205,8 +202,7 @@ TEST(Ease, LowersTheStrainAndStaysSound)
 TEST(Ease, LeavesWhatIsNotSoundAlone)
 {
 	const Whole whole(tangled(20, 7));
-	const Untangled result =
-		ease(whole.drawn, whole.groups, whole.patch, whole.shapes, kSound, kMaxSteps, [] {});
+	const Untangled result = ease(whole.problem());
 	EXPECT_FALSE(result.sound);
 	EXPECT_EQ(result.steps, 0);
 }

@@ -46,18 +46,36 @@ std::int64_t workOfStep(const Patch& patch)
 	return std::llround(n * (1.0 + std::sqrt(n / kFactorSize)));
 }
 
+/// What the patches of one repair have in common.
+struct PatchSetting
+{
+	const DrawnTriangles& drawn;
+	const PointGroups& groups;
+	RestShapes shapes;
+	const Soundness& soundness;
+
+	PatchProblem problem(const Patch& patch, int maxSteps, const Tick& tick) const
+	{
+		return {
+			drawn,
+			groups,
+			patch,
+			restShapes(drawn, patch, shapes, soundness),
+			soundness,
+			maxSteps,
+			tick};
+	}
+};
+
 /// Whether no places of its variables make a patch sound: a triangle has a side that stays and is too
 /// short; or the triangles need more than the area that the patch keeps where its border stays.
-bool isHopeless(
-	const DrawnTriangles& drawn,
-	const PointGroups& groups,
-	const Patch& patch,
-	const Soundness& soundness)
+bool isHopeless(const PatchSetting& setting, const Patch& patch)
 {
+	const Soundness& soundness = setting.soundness;
 	double area = 0.0;
 	bool borderStays = true;
 	for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
-		const Triangle2 p = drawn.at(patch.triangles[i]);
+		const Triangle2 p = setting.drawn.at(patch.triangles[i]);
 		const Triangle& local = patch.corners[static_cast<int>(i)];
 		area += 0.5 * doubledArea(p[0], p[1], p[2]);
 		int staying = 0;
@@ -69,7 +87,7 @@ bool isHopeless(
 				distance(soundness.stored(p[k]), soundness.stored(p[next])) <= soundness.height)
 				return true;
 			borderStays =
-				borderStays && (stays || groups.inside[patch.points[positionOf(local[k])]]);
+				borderStays && (stays || setting.groups.inside[patch.points[positionOf(local[k])]]);
 		}
 		if (staying == 3 && !soundness.isSound(p))
 			return true;
@@ -134,10 +152,13 @@ bool apply(
 /// Solves patches side by side, the first ones that are expected to need no more than \p work; the others
 /// are dropped. Each may take as many steps as all of them may.
 /// \param work what is left after it
-/// \return [patch] what solve(patch, maxSteps, tick) gives
-template<class Solve>
-std::vector<Untangled>
-solveAll(std::vector<Patch>& patches, std::int64_t& work, const Tick& tick, const Solve& solve)
+/// \return [patch] what \p solve gives
+std::vector<Untangled> solveAll(
+	const PatchSetting& setting,
+	Untangled (*solve)(const PatchProblem&),
+	std::vector<Patch>& patches,
+	std::int64_t& work,
+	const Tick& tick)
 {
 	std::int64_t ofStep = 0, triangles = 0;
 	const auto fits = [&](const Patch& patch) {
@@ -159,50 +180,52 @@ solveAll(std::vector<Patch>& patches, std::int64_t& work, const Tick& tick, cons
 		threadsFor(kExpectedSteps * triangles),
 		tick,
 		[&](int i, const Tick& own) {
-			found[positionOf(i)] = solve(patches[positionOf(i)], maxSteps, own);
+			found[positionOf(i)] = solve(setting.problem(patches[positionOf(i)], maxSteps, own));
 		});
 	for (std::size_t i = 0; i < patches.size(); ++i)
 		work -= found[i].steps * workOfStep(patches[i]);
 	return found;
 }
 
+/// What has become of the places that were found for a patch.
+enum class Outcome { Useless, Refused, TakenOver };
+
 /// Takes over the patches that are sound, or better than before if that will do.
-/// \param found a patch that the test refuses has no places in it any more
-/// \return whether there are any
-bool takeOver(
+/// \return [patch]
+std::vector<Outcome> takeOver(
 	const std::vector<Patch>& patches,
-	std::vector<Untangled>& found,
+	const std::vector<Untangled>& found,
 	const PatchRules& rules,
 	DrawnTriangles& drawn,
 	Repair& result)
 {
-	bool isAny = false;
+	std::vector<Outcome> outcomes(patches.size(), Outcome::Useless);
 	for (std::size_t i = 0; i < patches.size(); ++i) {
 		if (found[i].points.empty() || !(found[i].sound || rules.partly))
 			continue;
 		if (!apply(drawn, patches[i], found[i].points, rules.accepts)) {
-			found[i].points.clear();
+			outcomes[i] = Outcome::Refused;
 			continue;
 		}
-		isAny = true;
+		outcomes[i] = Outcome::TakenOver;
 		for (std::size_t k = 0; k < patches[i].points.size(); ++k)
 			if (patches[i].variable[static_cast<int>(k)] >= 0)
 				result.moved[patches[i].points[k]] = 1;
 	}
-	return isAny;
+	return outcomes;
 }
 
-/// Whether a patch became sound and was refused where it is nothing that could be lost: it is a whole chart
-/// and none of its triangles is sound.
-bool isRefusedWhole(
-	const DrawnTriangles& drawn,
-	const Patch& patch,
-	const Untangled& found,
-	const Soundness& soundness)
+bool isAnyTakenOver(const std::vector<Outcome>& outcomes)
 {
-	return patch.isFree() && found.sound && found.points.empty() &&
+	return std::count(outcomes.begin(), outcomes.end(), Outcome::TakenOver) > 0;
+}
+
+/// Whether a patch is a whole chart, and none of its triangles is sound: nothing that could be lost.
+bool isUnsoundWhole(const PatchSetting& setting, const Patch& patch)
+{
+	return patch.isFree() &&
 		   std::none_of(patch.triangles.begin(), patch.triangles.end(), [&](int f) {
-			   return soundness.isSound(drawn.at(f));
+			   return setting.soundness.isSound(setting.drawn.at(f));
 		   });
 }
 
@@ -237,6 +260,7 @@ void easeStrained(
 	Repair& result)
 {
 	PatchFinder finder(drawn, groups);
+	const PatchSetting setting{drawn, groups, RestShapes::OfSurface, soundness};
 	std::int64_t work = limit.ofStage();
 	const std::int64_t before = work;
 	for (const int rings : kEasedRings) {
@@ -244,17 +268,7 @@ void easeStrained(
 		if (strained.empty())
 			break;
 		std::vector<Patch> patches = finder.patches(strained, rings);
-		std::vector<Untangled> found =
-			solveAll(patches, work, tick, [&](const Patch& patch, int maxSteps, const Tick& own) {
-				return ease(
-					drawn,
-					groups,
-					patch,
-					restShapes(drawn, patch, RestShapes::OfSurface, soundness),
-					soundness,
-					maxSteps,
-					own);
-			});
+		const std::vector<Untangled> found = solveAll(setting, ease, patches, work, tick);
 		takeOver(patches, found, {0, accepts}, drawn, result);
 	}
 	limit.spend(before - work);
@@ -301,6 +315,7 @@ Repair repair(
 		return result;
 	result.moved.assign(drawn.points.size(), 0);
 	PatchFinder finder(drawn, groups);
+	const PatchSetting setting{drawn, groups, shapes, soundness};
 	Array<PatchSize> failed(drawn.corners.size(), PatchSize{}); // [triangle] of its last patch
 	std::set<std::vector<int>> tried; // triangles of patches, since the drawing last changed
 	std::int64_t work = limit.ofStage();
@@ -317,26 +332,13 @@ Repair repair(
 					return tried.count(patch.triangles) > 0 ||
 						   isHardlyLarger(
 							   drawn, patch, failed, shapes == RestShapes::OfSurfaceEvenly) ||
-						   isHopeless(drawn, groups, patch, soundness);
+						   isHopeless(setting, patch);
 				}),
 			patches.end());
 		std::stable_sort(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
 			return a.triangles.size() < b.triangles.size();
 		});
-		const auto untangleAll = [&](std::vector<Patch>& some, const auto& how) {
-			return solveAll(
-				some, work, tick, [&](const Patch& patch, int maxSteps, const Tick& own) {
-					return how(
-						drawn,
-						groups,
-						patch,
-						restShapes(drawn, patch, shapes, soundness),
-						soundness,
-						maxSteps,
-						own);
-				});
-		};
-		std::vector<Untangled> found = untangleAll(patches, untangle);
+		const std::vector<Untangled> found = solveAll(setting, untangle, patches, work, tick);
 		for (std::size_t i = 0; i < patches.size(); ++i)
 			if (!found[i].sound) {
 				const PatchSize size = sizeOf(drawn, patches[i]);
@@ -345,14 +347,16 @@ Repair repair(
 			}
 		for (const Patch& patch : patches)
 			tried.insert(patch.triangles);
-		bool isAny = takeOver(patches, found, rules, drawn, result);
+		const std::vector<Outcome> outcomes = takeOver(patches, found, rules, drawn, result);
+		bool isAny = isAnyTakenOver(outcomes);
 		// Where a chart crosses itself now, its convex drawing does not.
 		std::vector<Patch> refused;
 		for (std::size_t i = 0; i < patches.size(); ++i)
-			if (isRefusedWhole(drawn, patches[i], found[i], soundness))
+			if (outcomes[i] == Outcome::Refused && found[i].sound &&
+				isUnsoundWhole(setting, patches[i]))
 				refused.push_back(patches[i]);
-		std::vector<Untangled> unfolded = untangleAll(refused, unfold);
-		isAny = takeOver(refused, unfolded, rules, drawn, result) || isAny;
+		const std::vector<Untangled> unfolded = solveAll(setting, unfold, refused, work, tick);
+		isAny = isAnyTakenOver(takeOver(refused, unfolded, rules, drawn, result)) || isAny;
 		if (!isAny)
 			continue;
 		tried.clear();

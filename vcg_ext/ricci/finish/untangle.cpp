@@ -44,21 +44,15 @@ constexpr double kMaxExtent = 1e4;
 class Untangler
 {
 public:
-	Untangler(
-		const DrawnTriangles& drawn,
-		const PointGroups& groups,
-		const Patch& patch,
-		const std::vector<RestShape>& shapes,
-		const Soundness& soundness,
-		int maxSteps,
-		const Tick& tick) :
-			m_drawn(drawn),
-			m_groups(groups), m_patch(patch), m_soundness(soundness), m_maxSteps(maxSteps),
-			m_tick(tick), m_energy(drawn, groups, patch, shapes),
+	explicit Untangler(const PatchProblem& problem, int stepsBefore = 0) :
+			m_drawn(problem.drawn), m_groups(problem.groups), m_patch(problem.patch),
+			m_soundness(problem.soundness), m_maxSteps(problem.maxSteps), m_tick(problem.tick),
+			m_energy(m_drawn, m_groups, m_patch, problem.shapes),
 			m_x(Eigen::VectorXd::Zero(m_energy.size())), m_least{
-															 patch.triangles.size() + 1,
-															 patch.triangles.size() + 1}
+															 m_patch.triangles.size() + 1,
+															 m_patch.triangles.size() + 1}
 	{
+		m_found.steps = stepsBefore;
 	}
 
 	Untangled ease()
@@ -236,12 +230,10 @@ double squareOfSides(const Point2& a, const Point2& b, const Point2& c)
 }
 
 /// convexLayout() about where the patch is, as large as its shapes, or as its lowest triangle needs.
-std::vector<Point2> unfolded(
-	const DrawnTriangles& drawn,
-	const Patch& patch,
-	const std::vector<RestShape>& shapes,
-	const Soundness& soundness)
+std::vector<Point2> unfolded(const PatchProblem& problem)
 {
+	const Patch& patch = problem.patch;
+	const std::vector<RestShape>& shapes = problem.shapes;
 	std::vector<Point2> places = convexLayout(patch);
 	if (places.empty())
 		return places;
@@ -257,12 +249,12 @@ std::vector<Point2> unfolded(
 		lowest = std::min(lowest, doubledArea(p[0], p[1], p[2]) / longest);
 	}
 	double scale = std::sqrt(wanted / has);
-	if (const double least = soundness.wanted / lowest; least > scale)
-		scale = std::clamp(least, scale, std::max(scale, kMaxExtent * soundness.height));
+	if (const double least = problem.soundness.wanted / lowest; least > scale)
+		scale = std::clamp(least, scale, std::max(scale, kMaxExtent * problem.soundness.height));
 	const double share = 1.0 / static_cast<double>(places.size());
 	Complex middle = 0.0;
 	for (const int p : patch.points)
-		middle += share * asComplex(drawn.points[p]);
+		middle += share * asComplex(problem.drawn.points[p]);
 	for (Point2& p : places)
 		p = asPoint(middle + scale * asComplex(p));
 	return places;
@@ -270,57 +262,30 @@ std::vector<Point2> unfolded(
 
 } // namespace
 
-Untangled untangle(
-	const DrawnTriangles& drawn,
-	const PointGroups& groups,
-	const Patch& patch,
-	const std::vector<RestShape>& shapes,
-	const Soundness& soundness,
-	int maxSteps,
-	const Tick& tick)
+Untangled untangle(const PatchProblem& problem)
 {
-	Untangled found = Untangler(drawn, groups, patch, shapes, soundness, maxSteps, tick).run();
-	if (found.sound || found.steps == maxSteps || !patch.isFree())
+	Untangled found = Untangler(problem).run();
+	if (found.sound || found.steps == problem.maxSteps || !problem.patch.isFree())
 		return found;
-	const std::vector<Point2> places = unfolded(drawn, patch, shapes, soundness);
+	const std::vector<Point2> places = unfolded(problem);
 	if (places.empty())
 		return found;
-	Untangled next =
-		Untangler(drawn, groups, patch, shapes, soundness, maxSteps - found.steps, tick)
-			.runFrom(places, true);
-	next.steps += found.steps;
+	Untangled next = Untangler(problem, found.steps).runFrom(places, true);
 	if (next.sound)
 		return next;
 	found.steps = next.steps;
 	return found;
 }
 
-Untangled unfold(
-	const DrawnTriangles& drawn,
-	const PointGroups& groups,
-	const Patch& patch,
-	const std::vector<RestShape>& shapes,
-	const Soundness& soundness,
-	int maxSteps,
-	const Tick& tick)
+Untangled unfold(const PatchProblem& problem)
 {
-	const std::vector<Point2> places = unfolded(drawn, patch, shapes, soundness);
-	if (places.empty())
-		return {};
-	return Untangler(drawn, groups, patch, shapes, soundness, maxSteps, tick)
-		.runFrom(places, false);
+	const std::vector<Point2> places = unfolded(problem);
+	return places.empty() ? Untangled{} : Untangler(problem).runFrom(places, false);
 }
 
-Untangled ease(
-	const DrawnTriangles& drawn,
-	const PointGroups& groups,
-	const Patch& patch,
-	const std::vector<RestShape>& shapes,
-	const Soundness& soundness,
-	int maxSteps,
-	const Tick& tick)
+Untangled ease(const PatchProblem& problem)
 {
-	return Untangler(drawn, groups, patch, shapes, soundness, maxSteps, tick).ease();
+	return Untangler(problem).ease();
 }
 
 } // namespace ricci

@@ -12,6 +12,18 @@
 
 namespace ricci {
 
+/// A patch whose triangles are to be sound, and as near to their rest shapes as its border lets them be.
+struct PatchProblem
+{
+	const DrawnTriangles& drawn;
+	const PointGroups& groups;
+	const Patch& patch;
+	std::vector<RestShape> shapes; ///< [triangle of the patch]
+	const Soundness& soundness;
+	int maxSteps; ///< of Newton in all; then the search is over
+	const Tick& tick;
+};
+
 /// What untangle() found.
 struct Untangled
 {
@@ -23,8 +35,7 @@ struct Untangled
 	int steps = 0; ///< of Newton
 };
 
-/// Moves the inner points of a patch until all its triangles are sound, as near to their rest shapes
-/// as the border of the patch lets them be.
+/// Moves the inner points of a patch until all its triangles are sound.
 ///
 /// It minimises the sum over the triangles of w (|J|^2 + lambda (1 + det^2 J)) / chi(det J), where
 /// J is the linear map from the rest shape, w its area, and chi(d) = (d + sqrt(eps^2 + d^2)) / 2 is
@@ -35,36 +46,14 @@ struct Untangled
 ///
 /// If no sound places are found for a free patch from where it is, the search starts anew from
 /// convexLayout(), where no triangle is turned round, and with eps next to 0.
-/// \param maxSteps of Newton in all; then the search is over
-Untangled untangle(
-	const DrawnTriangles& drawn,
-	const PointGroups& groups,
-	const Patch& patch,
-	const std::vector<RestShape>& shapes,
-	const Soundness& soundness,
-	int maxSteps,
-	const Tick& tick);
+Untangled untangle(const PatchProblem& problem);
 
 /// convexLayout() of a free patch, large enough for its lowest triangle, within reason; where that is not
 /// enough, the search from there. Empty where there is no such layout.
-Untangled unfold(
-	const DrawnTriangles& drawn,
-	const PointGroups& groups,
-	const Patch& patch,
-	const std::vector<RestShape>& shapes,
-	const Soundness& soundness,
-	int maxSteps,
-	const Tick& tick);
+Untangled unfold(const PatchProblem& problem);
 
 /// Lowers the same energy, with eps = 0, on a patch that is sound, which it stays.
-Untangled ease(
-	const DrawnTriangles& drawn,
-	const PointGroups& groups,
-	const Patch& patch,
-	const std::vector<RestShape>& shapes,
-	const Soundness& soundness,
-	int maxSteps,
-	const Tick& tick);
+Untangled ease(const PatchProblem& problem);
 
 } // namespace ricci
 
