@@ -204,20 +204,21 @@ void addSphereLayer(NewLayers& layers, MeshModel& model, const ricci::SphereMap&
 	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(sphere.cm);
 }
 
-void colorizeByDistortion(MeshModel& model, const ricci::Report& report)
+/// The paper's colours (5.1): blue where angles are kept, red at \p top and above.
+void colorizeByDistortion(MeshModel& model, double top)
 {
-	// A ramp needs two different ends, but a plane has no distortion at all.
-	const double top = std::max(report.qcP99, 1.0 + 1e-6);
+	// The ramp of vcglib begins with red, so its ends change places.
 	vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(
-		model.cm, static_cast<Scalarm>(1.0), static_cast<Scalarm>(top));
+		model.cm, static_cast<Scalarm>(top), static_cast<Scalarm>(1.0));
 }
 
 /// The host draws nothing of what the filter writes until it is told to.
-std::string whereToLook(bool colorize)
+std::string whereToLook(bool colorize, const Results& results)
 {
 	const std::string colours =
 		colorize
-			? "The colours show the distortion (drawn where Color is Vert)"
+			? "The colours show the distortion, from " + colourRamp(results) +
+				  " (drawn where Color is Vert)"
 			: "Filters > Color Creation and Processing > 'Colorize by vertex Quality' colours the "
 			  "mesh by its distortion";
 	return "To see it: Filters > Texture > 'Set Texture' lays an image, such as a checkerboard, "
@@ -240,6 +241,7 @@ void writeMesh(
 	bool colorize,
 	ricci::OutputTriangulation output,
 	const Flow::Result& result,
+	const Results& results,
 	const CarriedTexture& texture)
 {
 	model.updateDataMask(changedElements(colorize, output));
@@ -254,7 +256,7 @@ void writeMesh(
 	}
 	texture.assignTo(model);
 	if (colorize)
-		colorizeByDistortion(model, result.report);
+		colorizeByDistortion(model, colourRampTop(results));
 }
 
 /// The flow with room for the gutter of a texture between its charts.
@@ -338,7 +340,7 @@ public:
 		texture.publish();
 		for (const std::string& file : m_report.publish())
 			progress.log("Report: " + file);
-		writeMesh(model, m_settings.colorize, output, result, texture);
+		writeMesh(model, m_settings.colorize, output, result, results, texture);
 		layers.keep();
 		return {results, changedElements(m_settings.colorize, output)};
 	}
@@ -436,7 +438,7 @@ Outcome applyFilter(
 	for (const std::string& line : toLogLines(outcome.results))
 		log(line);
 	log(toSentence(outcome.results));
-	log(whereToLook(par.getBool("colorize")));
+	log(whereToLook(par.getBool("colorize"), outcome.results));
 	return outcome;
 }
 

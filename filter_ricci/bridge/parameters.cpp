@@ -185,8 +185,8 @@ RichBool colorizeParameter()
 		"colorize",
 		false,
 		"Colour by distortion",
-		"Colour the vertices by their quasi-conformal distortion: from 1 (angles kept) to the "
-		"99th percentile over the faces.");
+		"Colour the vertices by their quasi-conformal distortion: from blue (1: angles "
+		"kept) over cyan, green and yellow to red (the 99th percentile over the faces, and more).");
 }
 
 host::FileToSave reportParameter()
@@ -263,7 +263,7 @@ RichParameterList euclideanParameters(Shown shown)
 		static_cast<Scalarm>(defaults.coneDistortion),
 		"Cones: area distortion",
 		"Cones are added until areas typically change by less than this, relative to each other "
-		"(0.5: by half). Read where cones are placed and their number is 0."));
+		"(0.25: by a quarter). Read where cones are placed and their number is 0."));
 	list.addParam(RichEnum("seams", 0, seamsChoices(), kSeamsName, kSeamsTip));
 	list.addParam(outputTriangulationParameter(defaults.output));
 	list.addParam(RichFloat(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results.h"
 
+#include <ricci/base/text.h>
+
 #include <algorithm>
 #include <complex>
 #include <iomanip>
@@ -157,6 +159,18 @@ std::string toSentence(const Results& results)
 		 << flipped << (flipped == 1 ? " flipped face, " : " flipped faces, ") << charts
 		 << (charts == 1 ? " chart." : " charts.");
 	return line.str();
+}
+
+double colourRampTop(const Results& results)
+{
+	return std::max(valueOf<double>(results, "qc_p99"), 1.0 + 1e-6);
+}
+
+std::string colourRamp(const Results& results)
+{
+	return "blue (1: angles kept) over cyan, green and yellow to red (" +
+		   ricci::numberText(colourRampTop(results), 3) +
+		   " and more: the 99th percentile over the faces)";
 }
 
 std::vector<std::string> toLogLines(const Results& results)

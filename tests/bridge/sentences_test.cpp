@@ -301,7 +301,7 @@ TEST(Sentences, OfParameters)
 	EXPECT_EQ(
 		of(InvalidOption::ConeDistortion, double(-0.1f)),
 		"The value -0.1 of cone_distortion cannot be used. Use a number greater than 0, for "
-		"example 0.5.");
+		"example 0.25.");
 	EXPECT_EQ(
 		of(InvalidOption::SeamHiding, double(1.1f)),
 		"The value 1.1 of seam_hiding cannot be used. Use a number from 0 to 1.");

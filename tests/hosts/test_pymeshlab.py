@@ -293,6 +293,12 @@ class Results(unittest.TestCase):
         self.check(documents, colorize=True)
         colors = documents.current_mesh().vertex_color_matrix()
         self.assertGreater(len(numpy.unique(colors.round(3), axis=0)), 5)
+        # Blue where angles are kept, red where the distortion is largest (the paper's 5.1).
+        distortion = documents.current_mesh().vertex_scalar_array()
+        least, largest = colors[distortion.argmin()], colors[distortion.argmax()]
+        self.assertGreater(least[2], 0.9)
+        self.assertLess(least[0], 0.1)
+        numpy.testing.assert_allclose(largest[:3], (1, 0, 0))
 
     def test_repeatable(self):
         documents = mesh_set(meshes.torus())

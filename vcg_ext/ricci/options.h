@@ -111,7 +111,7 @@ struct Options : FlowOptions
 	/// well, see keepAreas(). Above 1, coneDistortion also is the spread up to which Automatic does
 	/// without cones.
 	int coneCount = 0;
-	double coneDistortion = 0.5;
+	double coneDistortion = 0.25;
 	ConeRounding coneRounding = ConeRounding::Free;
 
 	/// How much longer a seam may be to run in hollows, 0 to 1; see seamCost().

@@ -21,7 +21,8 @@ public:
 	/// What one stage may spend of it.
 	std::int64_t ofStage() const { return std::min(m_stage, m_left); }
 
-	void spend(std::int64_t work) { m_left -= std::min(work, m_left); }
+	/// \param work no more than is left
+	void spend(std::int64_t work) { m_left -= work; }
 	std::int64_t left() const { return m_left; }
 
 private:

@@ -20,7 +20,7 @@ struct TargetRequest
 	VertexArray<double> prescribed;   ///< radians, for Prescribed
 	double prescribedPrecision = 0.0; ///< relative rounding error of prescribed values
 	int coneCount = 0;                ///< of placed cones, see ConeRequest
-	double coneDistortion = 0.5;
+	double coneDistortion = 0.25;
 	ConeRounding coneRounding = ConeRounding::Free;
 	bool keepsAreas = true; ///< measure areas; false: Automatic decides by topology alone
 	int coneVertices = -1;  ///< placed cones lie at vertices with a number below this; -1: at any
