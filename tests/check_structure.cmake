@@ -6,7 +6,9 @@
 cmake_minimum_required(VERSION 3.25)
 
 # A folder may include itself and the folders before it.
-set(order base math surface metric flow target cut overlay layout finish measure charts texture verify edge_swap pipeline)
+set(order
+	base math surface metric flow curvature cut overlay layout finish measure fuchsian charts texture verify
+	edge_swap pipeline)
 # Public headers that every folder may include, and those that only the last one may.
 set(leaves error.h options.h progress.h report.h)
 set(entries parametrize.h sphere_map.h)

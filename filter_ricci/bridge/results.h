@@ -4,7 +4,7 @@
 
 #include "bridge.h"
 
-#include <ricci/measure/fuchsian_group.h>
+#include <ricci/fuchsian/fuchsian_group.h>
 #include <ricci/report.h>
 #include <ricci/sphere_map.h>
 

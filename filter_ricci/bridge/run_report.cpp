@@ -319,7 +319,8 @@ std::string toHtml(const RunReport& report)
 	page << "<div class=\"pair\">\n<section>\n<h2>Quasi-conformal distortion of the vertices</h2>\n"
 		 << histogramPicture(
 				qc, "&sigma;&#8321;/&sigma;&#8322;, mean of the faces at the vertex by area")
-		 << "<p>1 where angles are kept. " << qc.above << " vertices lie beyond the scale. <i>Colour by distortion</i> paints them from "
+		 << "<p>1 where angles are kept. " << qc.above
+		 << " vertices lie beyond the scale. <i>Colour by distortion</i> paints them from "
 		 << escaped(colourRamp(report.results)) << ".</p>\n"
 		 << "</section>\n<section>\n<h2>Area factor of the faces</h2>\n"
 		 << histogramPicture(areas, "log&#8322; of the share in the plane over the share in space")

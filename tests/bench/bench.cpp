@@ -21,7 +21,7 @@
 #include <ricci/parametrize.h>
 #include <ricci/surface/component.h>
 #include <ricci/surface/flow_domain.h>
-#include <ricci/target/target_curvature.h>
+#include <ricci/curvature/target_curvature.h>
 
 #ifdef RICCI_USE_CHOLMOD
 #include <cholmod.h>

@@ -19,7 +19,7 @@
 #include <ricci/measure/period_matrix.h>
 #include <ricci/parametrize.h>
 #include <ricci/surface/topology.h>
-#include <ricci/target/linear_flow.h>
+#include <ricci/curvature/linear_flow.h>
 
 #include <gtest/gtest.h>
 

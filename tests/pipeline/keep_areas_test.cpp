@@ -9,7 +9,7 @@
 #include <ricci/parametrize.h>
 #include <ricci/pipeline/keep_areas.h>
 #include <ricci/pipeline/stages.h>
-#include <ricci/target/area_change.h>
+#include <ricci/curvature/area_change.h>
 
 #include <gtest/gtest.h>
 

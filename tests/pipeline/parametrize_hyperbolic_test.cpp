@@ -12,7 +12,7 @@
 #include <ricci/base/numbers.h>
 #include <ricci/error.h>
 #include <ricci/layout/hyperbolic_layout.h>
-#include <ricci/measure/tiling.h>
+#include <ricci/fuchsian/tiling.h>
 #include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>

@@ -15,7 +15,7 @@
 #include <ricci/metric/circle_packing.h>
 #include <ricci/parametrize.h>
 #include <ricci/surface/flow_domain.h>
-#include <ricci/target/target_curvature.h>
+#include <ricci/curvature/target_curvature.h>
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>

@@ -10,8 +10,8 @@
 #include <ricci/metric/initial_packing.h>
 #include <ricci/options.h>
 #include <ricci/surface/flow_domain.h>
-#include <ricci/target/hyperbolic_target.h>
-#include <ricci/target/target_curvature.h>
+#include <ricci/curvature/hyperbolic_target.h>
+#include <ricci/curvature/target_curvature.h>
 
 #include <vector>
 

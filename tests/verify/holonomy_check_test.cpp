@@ -6,7 +6,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/math/disk_isometry.h>
-#include <ricci/measure/fuchsian_group.h>
+#include <ricci/fuchsian/fuchsian_group.h>
 #include <ricci/verify/holonomy_check.h>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #define RICCI_PARAMETRIZATION_H
 
 #include "../math/points.h"
-#include "../measure/fuchsian_group.h"
+#include "../fuchsian/fuchsian_group.h"
 #include "../report.h"
 #include "../surface/opened_mesh.h"
 #include "../surface/surface_point.h"

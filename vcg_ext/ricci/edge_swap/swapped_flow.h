@@ -3,7 +3,7 @@
 #define RICCI_SWAPPED_FLOW_H
 
 #include "../flow/ricci_flow.h"
-#include "../target/target_curvature.h"
+#include "../curvature/target_curvature.h"
 #include "boundary_split.h"
 
 #include <functional>

@@ -6,7 +6,7 @@
 #include "../flow/ricci_flow.h"
 #include "../layout/common_refinement.h"
 #include "../layout/planar_layout.h"
-#include "../measure/fuchsian_group.h"
+#include "../fuchsian/fuchsian_group.h"
 #include "../measure/period_matrix.h"
 #include "../parametrize.h"
 #include "../surface/component.h"

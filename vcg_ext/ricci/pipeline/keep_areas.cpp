@@ -3,7 +3,7 @@
 
 #include "../base/text.h"
 #include "../base/tolerances.h"
-#include "../target/area_change.h"
+#include "../curvature/area_change.h"
 #include "stages.h"
 
 #include <optional>

@@ -2,7 +2,7 @@
 #ifndef RICCI_KEEP_AREAS_H
 #define RICCI_KEEP_AREAS_H
 
-#include "../target/target_curvature.h"
+#include "../curvature/target_curvature.h"
 #include "flatten_component.h"
 
 namespace ricci {

@@ -3,7 +3,7 @@
 
 #include "../base/text.h"
 #include "../flow/quarter_turns.h"
-#include "../target/turn_search.h"
+#include "../curvature/turn_search.h"
 #include "stages.h"
 
 #include <optional>

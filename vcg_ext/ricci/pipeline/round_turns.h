@@ -2,7 +2,7 @@
 #ifndef RICCI_ROUND_TURNS_H
 #define RICCI_ROUND_TURNS_H
 
-#include "../target/target_curvature.h"
+#include "../curvature/target_curvature.h"
 #include "flatten_component.h"
 
 namespace ricci {

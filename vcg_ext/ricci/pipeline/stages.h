@@ -6,7 +6,7 @@
 #include "../cut/cut_graph.h"
 #include "../cut/seam_cost.h"
 #include "../surface/flow_domain.h"
-#include "../target/target_curvature.h"
+#include "../curvature/target_curvature.h"
 #include "flatten_component.h"
 
 #include <functional>

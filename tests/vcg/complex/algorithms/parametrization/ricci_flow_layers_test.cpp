@@ -6,7 +6,7 @@
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
 
-#include <ricci/measure/tiling.h>
+#include <ricci/fuchsian/tiling.h>
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,9 @@
 
 #include <ricci/error.h>
 #include <ricci/math/disk_isometry.h>
-#include <ricci/measure/canonical_polygon.h>
-#include <ricci/measure/fuchsian_group.h>
-#include <ricci/measure/tiling.h>
+#include <ricci/fuchsian/canonical_polygon.h>
+#include <ricci/fuchsian/fuchsian_group.h>
+#include <ricci/fuchsian/tiling.h>
 #include <ricci/sphere_map.h>
 
 #include <vcg/complex/allocate.h>

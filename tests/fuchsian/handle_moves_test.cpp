@@ -4,7 +4,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/tolerances.h>
-#include <ricci/measure/handle_moves.h>
+#include <ricci/fuchsian/handle_moves.h>
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/target/cone_model.h>
+#include <ricci/curvature/cone_model.h>
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/error.h>
-#include <ricci/target/hyperbolic_target.h>
+#include <ricci/curvature/hyperbolic_target.h>
 
 #include <gtest/gtest.h>
 

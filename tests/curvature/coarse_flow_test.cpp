@@ -5,8 +5,8 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/target/coarse_flow.h>
-#include <ricci/target/cone_sites.h>
+#include <ricci/curvature/coarse_flow.h>
+#include <ricci/curvature/cone_sites.h>
 
 #include <gtest/gtest.h>
 

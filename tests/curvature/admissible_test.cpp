@@ -5,7 +5,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/error.h>
-#include <ricci/target/admissible.h>
+#include <ricci/curvature/admissible.h>
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "support/packed.h"
 
-#include <ricci/target/linear_flow.h>
+#include <ricci/curvature/linear_flow.h>
 
 #include <string>
 

@@ -10,9 +10,9 @@
 #include <ricci/base/numbers.h>
 #include <ricci/error.h>
 #include <ricci/parametrize.h>
-#include <ricci/target/area_change.h>
-#include <ricci/target/cone_placement.h>
-#include <ricci/target/target_curvature.h>
+#include <ricci/curvature/area_change.h>
+#include <ricci/curvature/cone_placement.h>
+#include <ricci/curvature/target_curvature.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -9,9 +9,9 @@
 #include <ricci/base/numbers.h>
 #include <ricci/base/tolerances.h>
 #include <ricci/error.h>
-#include <ricci/target/area_change.h>
-#include <ricci/target/rectangle_corners.h>
-#include <ricci/target/target_curvature.h>
+#include <ricci/curvature/area_change.h>
+#include <ricci/curvature/rectangle_corners.h>
+#include <ricci/curvature/target_curvature.h>
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include <ricci/base/numbers.h>
 #include <ricci/base/tolerances.h>
 #include <ricci/layout/hyperbolic_layout.h>
-#include <ricci/measure/canonical_polygon.h>
-#include <ricci/measure/fuchsian_group.h>
-#include <ricci/measure/tiling.h>
+#include <ricci/fuchsian/canonical_polygon.h>
+#include <ricci/fuchsian/fuchsian_group.h>
+#include <ricci/fuchsian/tiling.h>
 
 #include <gtest/gtest.h>
 

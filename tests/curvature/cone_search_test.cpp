@@ -5,7 +5,7 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/target/cone_search.h>
+#include <ricci/curvature/cone_search.h>
 
 #include <gtest/gtest.h>
 

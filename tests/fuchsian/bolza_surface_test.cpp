@@ -7,8 +7,8 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/layout/hyperbolic_layout.h>
-#include <ricci/measure/fuchsian_group.h>
-#include <ricci/measure/tiling.h>
+#include <ricci/fuchsian/fuchsian_group.h>
+#include <ricci/fuchsian/tiling.h>
 #include <ricci/metric/area.h>
 #include <ricci/metric/circle_packing.h>
 #include <ricci/metric/hyperbolic.h>

@@ -6,7 +6,7 @@
 #include <ricci/base/tolerances.h>
 #include <ricci/error.h>
 #include <ricci/math/disjoint_sets.h>
-#include <ricci/measure/canonical_generators.h>
+#include <ricci/fuchsian/canonical_generators.h>
 
 #include <gtest/gtest.h>
 

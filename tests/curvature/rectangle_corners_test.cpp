@@ -5,7 +5,7 @@
 #include "support/transform.h"
 
 #include <ricci/surface/topology.h>
-#include <ricci/target/rectangle_corners.h>
+#include <ricci/curvature/rectangle_corners.h>
 
 #include <gtest/gtest.h>
 

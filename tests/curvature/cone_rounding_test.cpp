@@ -2,8 +2,8 @@
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/target/cone_request.h>
-#include <ricci/target/cone_rounding.h>
+#include <ricci/curvature/cone_request.h>
+#include <ricci/curvature/cone_rounding.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

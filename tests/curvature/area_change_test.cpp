@@ -7,7 +7,7 @@
 
 #include <ricci/base/tolerances.h>
 #include <ricci/measure/distortion.h>
-#include <ricci/target/area_change.h>
+#include <ricci/curvature/area_change.h>
 
 #include <gtest/gtest.h>
 

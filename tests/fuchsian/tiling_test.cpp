@@ -4,7 +4,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/tolerances.h>
-#include <ricci/measure/tiling.h>
+#include <ricci/fuchsian/tiling.h>
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/target/linear_flow.h>
-#include <ricci/target/target_curvature.h>
+#include <ricci/curvature/linear_flow.h>
+#include <ricci/curvature/target_curvature.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Prints a digest of every array and number that runs on meshes give back, a line for each: what a
+// change that should change nothing is compared by, bit for bit.
+#include "mesh_file.h"
+#include "vcg_mesh.h"
+
+#include <vcg/complex/algorithms/parametrization/ricci_flow.h>
+
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace ricci;
+using Flow = vcg::tri::RicciFlow<testing::DoubleMesh>;
+
+/// FNV-1a of the bytes.
+class Digest
+{
+public:
+	template<class Number>
+	void add(const Number& x)
+	{
+		unsigned char bytes[sizeof x];
+		std::memcpy(bytes, &x, sizeof x);
+		for (const unsigned char byte : bytes)
+			m_value = (m_value ^ byte) * 1099511628211ull;
+	}
+	template<class Range>
+	void addAll(const Range& range)
+	{
+		for (const auto& x : range)
+			add(x);
+	}
+	std::uint64_t value() const { return m_value; }
+
+private:
+	std::uint64_t m_value = 14695981039346656037ull;
+};
+
+void print(const std::string& run, const char* what, const Digest& digest)
+{
+	std::printf("%s\t%s\t%016llx\n", run.c_str(), what, (unsigned long long) (digest.value()));
+}
+
+void print(const std::string& run, const char* what, double value)
+{
+	std::printf("%s\t%s\t%.17g\n", run.c_str(), what, value);
+}
+
+void printReport(const std::string& run, const Report& r)
+{
+	const std::pair<const char*, double> numbers[] = {
+		{"iterations", r.iterations},
+		{"curvature_error", r.maxCurvatureError},
+		{"qc_mean", r.qcMean},
+		{"qc_area_mean", r.qcAreaMean},
+		{"qc_max", r.qcMax},
+		{"area_mean", r.areaDistortionMean},
+		{"area_spread", r.areaDistortionSpread},
+		{"flipped", r.flippedFaces},
+		{"flipped_by_rounding", r.flippedByRounding},
+		{"finish_moved", r.finishMoved},
+		{"edge_swaps", r.edgeSwaps},
+		{"flips", r.flips},
+		{"refinement_points", r.refinementPoints},
+		{"boundary_splits", r.boundarySplits},
+		{"broken", r.brokenTriangles},
+		{"cones", r.cones},
+		{"seam_edges", r.seamEdges},
+		{"seam_length", r.seamLength},
+		{"charts", r.charts},
+		{"occupancy", r.occupancy},
+		{"overlapping_charts", r.overlappingCharts},
+		{"overlapping_faces", r.overlappingFaces},
+		{"overlap_cuts", r.overlapCuts},
+		{"tau_re", r.torusTauRe.value_or(0.0)},
+		{"tau_im", r.torusTauIm.value_or(0.0)},
+		{"modulus", r.annulusModulus.value_or(0.0)},
+		{"aspect", r.rectangleAspect.value_or(0.0)},
+		{"holonomy", r.holonomyError.value_or(0.0)},
+		{"period_error", r.periodError.value_or(0.0)},
+		{"hyperbolic_area", r.hyperbolicArea.value_or(0.0)},
+		{"relation_error", r.relationError.value_or(0.0)}};
+	for (const auto& [name, value] : numbers)
+		print(run, name, value);
+	Digest periods;
+	periods.addAll(r.periodMatrix);
+	print(run, "periods", periods);
+}
+
+void printResult(const std::string& run, const Flow::Result& result)
+{
+	printReport(run, result.report);
+	Digest uv, qc, u, target, refined, group;
+	uv.addAll(result.wedgeUV);
+	qc.addAll(result.vertexQC);
+	u.addAll(result.u);
+	target.addAll(result.targetCurvature);
+	refined.addAll(result.refined.triangles);
+	refined.addAll(result.refined.inputFace);
+	refined.addAll(result.refined.uv);
+	refined.addAll(result.refined.vertexQC);
+	for (const SurfacePoint& p : result.refined.points) {
+		refined.addAll(p.vertex);
+		refined.addAll(p.weight);
+	}
+	for (const FuchsianGroup& g : result.groups) {
+		for (const auto* isometries : {&g.handles, &g.peripheral, &g.sides})
+			for (const DiskIsometry& isometry : *isometries) {
+				group.add(isometry.a);
+				group.add(isometry.b);
+			}
+		group.add(g.relationError);
+	}
+	print(run, "uv", uv);
+	print(run, "qc", qc);
+	print(run, "u", u);
+	print(run, "target", target);
+	print(run, "refined", refined);
+	print(run, "group", group);
+}
+
+struct Case
+{
+	const char* name;
+	std::function<void(Flow::Params&)> change;
+};
+
+const std::vector<Case> kCases = {
+	{"default", [](Flow::Params&) {}},
+	{"refined", [](Flow::Params& p) { p.output = OutputTriangulation::CommonRefinement; }},
+	{"placed", [](Flow::Params& p) { p.target = TargetCurvature::PlacedCones; }},
+	{"quarter",
+	 [](Flow::Params& p) {
+		 p.target = TargetCurvature::PlacedCones;
+		 p.coneRounding = ConeRounding::QuarterTurns;
+	 }},
+	{"flat", [](Flow::Params& p) { p.target = TargetCurvature::Flat; }},
+	{"disk", [](Flow::Params& p) { p.target = TargetCurvature::Disk; }},
+	{"rectangle", [](Flow::Params& p) { p.target = TargetCurvature::Rectangle; }},
+	{"prescribed_boundary", [](Flow::Params& p) { p.freeBoundary = false; }},
+	{"capped", [](Flow::Params& p) { p.holes = Holes::Capped; }},
+	{"strips_unscaled",
+	 [](Flow::Params& p) {
+		 p.cutStrips = true;
+		 p.chartMargin = 0.01;
+	 }},
+	{"no_surgery", [](Flow::Params& p) { p.surgery = Surgery::None; }},
+	{"edge_swap", [](Flow::Params& p) { p.surgery = Surgery::EdgeSwap; }},
+	{"thurston", [](Flow::Params& p) {
+		 p.surgery = Surgery::None;
+		 p.packing = PackingScheme::Thurston;
+	 }}};
+
+const std::vector<std::pair<const char*, std::function<void(HyperbolicOptions&)>>>
+	kHyperbolicCases = {
+		{"hyperbolic", [](HyperbolicOptions& o) { o.canonicalGenerators = true; }},
+		{"hyperbolic_refined",
+		 [](HyperbolicOptions& o) { o.output = OutputTriangulation::CommonRefinement; }},
+		{"hyperbolic_no_surgery", [](HyperbolicOptions& o) { o.surgery = Surgery::None; }}};
+
+template<class Run>
+void tryRun(const std::string& run, const Run& body)
+{
+	try {
+		body();
+	}
+	catch (const std::exception& e) {
+		std::printf("%s\trefused\t%s\n", run.c_str(), e.what());
+	}
+	std::fflush(stdout);
+}
+
+} // namespace
+
+/// result_digest [--case NAME]... MESH...
+int main(int argc, char** argv)
+{
+	std::vector<std::string> wanted, meshes;
+	for (int i = 1; i < argc; ++i)
+		if (std::string(argv[i]) == "--case" && i + 1 < argc)
+			wanted.push_back(argv[++i]);
+		else
+			meshes.push_back(argv[i]);
+	const auto isWanted = [&](const std::string& name) {
+		return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+	};
+	for (const std::string& path : meshes) {
+		testing::DoubleMesh m;
+		try {
+			testing::toVcg(testing::readMesh(path), m);
+		}
+		catch (const std::exception& e) {
+			std::fprintf(stderr, "%s: %s\n", path.c_str(), e.what());
+			return 2;
+		}
+		const std::string mesh = std::filesystem::path(path).stem().string() + "\t";
+		Progress progress;
+		for (const Case& c : kCases)
+			if (isWanted(c.name))
+				tryRun(mesh + c.name, [&] {
+					Flow::Params params;
+					c.change(params);
+					printResult(mesh + c.name, Flow::Compute(m, params, progress));
+				});
+		for (const auto& [name, change] : kHyperbolicCases)
+			if (isWanted(name))
+				tryRun(mesh + name, [&, change = change, name = name] {
+					HyperbolicOptions options;
+					change(options);
+					printResult(mesh + name, Flow::ComputeHyperbolic(m, options, progress));
+				});
+		if (isWanted("sphere"))
+			tryRun(mesh + "sphere", [&] {
+				const SphereMap sphere = Flow::ComputeSphere(m, Flow::Params(), progress);
+				Digest digest;
+				digest.addAll(sphere.positions);
+				digest.addAll(sphere.triangles);
+				print(mesh + "sphere", "sphere", digest);
+			});
+	}
+}
