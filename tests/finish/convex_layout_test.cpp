@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "drawn_square.h"
+#include "flat_square.h"
 
 #include <ricci/finish/convex_layout.h>
 #include <ricci/finish/repair.h>
@@ -16,31 +16,31 @@ namespace ricci::testing {
 namespace {
 
 /// All triangles of a drawing.
-Patch wholeOf(const DrawnTriangles& drawn)
+Patch wholeOf(const FlatMesh& flat)
 {
 	std::vector<int> seeds;
-	for (const int f : drawn.corners.indices())
+	for (const int f : flat.points.indices())
 		seeds.push_back(f);
-	return PatchFinder(drawn, allPoints(drawn)).patches(seeds, 1).at(0);
+	return PatchFinder(flat, allPoints(flat)).patches(seeds, 1).at(0);
 }
 
 /// The square without the cells of \p holes and without points that no triangle has.
-DrawnTriangles squareWithout(const std::vector<std::array<int, 2>>& holes)
+FlatMesh squareWithout(const std::vector<std::array<int, 2>>& holes)
 {
-	const DrawnTriangles whole = square();
-	DrawnTriangles drawn;
-	drawn.points = whole.points;
-	for (const int f : whole.corners.indices()) {
+	const FlatMesh whole = square();
+	FlatMesh flat;
+	flat.place = whole.place;
+	for (const int f : whole.points.indices()) {
 		bool isOpen = false;
 		for (const auto& [i, j] : holes)
 			isOpen = isOpen || f / 2 == j * kSide + i;
 		if (isOpen)
 			continue;
-		drawn.vertices.push_back(whole.vertices[f]);
-		drawn.corners.push_back(whole.corners[f]);
-		drawn.sides.push_back(whole.sides[f]);
+		flat.vertices.push_back(whole.vertices[f]);
+		flat.points.push_back(whole.points[f]);
+		flat.lengths.push_back(whole.lengths[f]);
 	}
-	return drawn;
+	return flat;
 }
 
 void expectNoFold(const Patch& patch, const std::vector<Point2>& places)
@@ -60,8 +60,8 @@ TEST(ConvexLayout, TurnsNoTriangleRoundWithOrWithoutHoles)
 		  std::vector<std::array<int, 2>>{{5, 5}},
 		  std::vector<std::array<int, 2>>{{1, 1}, {8, 3}, {8, 4}, {9, 4}}}) {
 		SCOPED_TRACE(holes.size());
-		const DrawnTriangles drawn = squareWithout(holes);
-		const Patch patch = wholeOf(drawn);
+		const FlatMesh flat = squareWithout(holes);
+		const Patch patch = wholeOf(flat);
 		expectNoFold(patch, convexLayout(patch));
 	}
 }
@@ -84,8 +84,8 @@ TEST(ConvexLayout, DrawsAStripWithoutPointsInside)
 
 TEST(ConvexLayout, PutsTheBorderOnTheCircleAndPointsInsideAtTheMeanOfTheirNeighbours)
 {
-	const DrawnTriangles drawn = square();
-	const Patch patch = wholeOf(drawn);
+	const FlatMesh flat = square();
+	const Patch patch = wholeOf(flat);
 	const std::vector<Point2> places = convexLayout(patch);
 	ASSERT_EQ(places.size(), patch.points.size());
 	std::vector<std::set<int>> neighbours(places.size());
@@ -143,16 +143,16 @@ TEST(ConvexLayout, MendsADrawingWhosePointsAreAnywhere)
 	const Soundness wanted{1e-6, 2e-6, false};
 	for (std::uint64_t seed = 0; seed < 10; ++seed) {
 		SCOPED_TRACE(seed);
-		DrawnTriangles drawn = squareWithout({{5, 5}});
+		FlatMesh flat = squareWithout({{5, 5}});
 		Random random(seed);
-		for (Point2& p : drawn.points)
+		for (Point2& p : flat.place)
 			p = {random.real(0.0, kSide), 1e-9 * random.real(0.0, kSide)};
-		WorkLimit limit(drawn.corners.size());
+		WorkLimit limit(flat.points.size());
 		const Repair result =
-			repairFreely(drawn, nullptr, RestShapes::OfSurface, wanted, limit, [] {});
+			repairFreely(flat, nullptr, RestShapes::OfSurface, wanted, limit, [] {});
 		EXPECT_GT(result.bad, 100);
 		EXPECT_EQ(result.left, 0);
-		EXPECT_TRUE(badTriangles(drawn, wanted).empty());
+		EXPECT_TRUE(badTriangles(flat, wanted).empty());
 	}
 }
 
@@ -160,32 +160,32 @@ TEST(ConvexLayout, MendsADrawingWhosePointsAreAnywhere)
 TEST(ConvexLayout, IsTakenWhereTheSearchLeadsToWhatIsRefused)
 {
 	const Soundness wanted{1e-6, 2e-6, false};
-	DrawnTriangles drawn = square();
-	for (Point2& p : drawn.points)
+	FlatMesh flat = square();
+	for (Point2& p : flat.place)
 		p = {p[0], 1e-9 * p[0]};
 	int refused = 0;
-	const PatchTest isRound = [&](const DrawnTriangles& d, const Patch& patch) {
+	const PatchTest isRound = [&](const FlatMesh& d, const Patch& patch) {
 		const std::vector<Point2> layout = convexLayout(patch);
 		double scale = 0.0, error = 0.0;
 		Point2 middle{0.0, 0.0};
 		for (const int p : patch.points)
 			for (std::size_t i = 0; i < 2; ++i)
-				middle[i] += d.points[p][i] / static_cast<double>(patch.points.size());
+				middle[i] += d.place[p][i] / static_cast<double>(patch.points.size());
 		for (std::size_t p = 0; p < layout.size(); ++p)
 			if (!isInside(patch.points[p])) {
-				const double radius = distance(d.points[patch.points[p]], middle);
+				const double radius = distance(d.place[patch.points[p]], middle);
 				error = std::max(error, scale > 0.0 ? std::abs(radius / scale - 1.0) : 0.0);
 				scale = radius;
 			}
 		refused += error > 0.01;
 		return patch.isFree() && error <= 0.01;
 	};
-	WorkLimit limit(drawn.corners.size());
-	const Repair result = repairFreely(drawn, isRound, RestShapes::OfSurface, wanted, limit, [] {});
+	WorkLimit limit(flat.points.size());
+	const Repair result = repairFreely(flat, isRound, RestShapes::OfSurface, wanted, limit, [] {});
 	EXPECT_EQ(result.bad, 2 * kSide * kSide);
 	EXPECT_GT(refused, 0);
 	EXPECT_EQ(result.left, 0);
-	EXPECT_TRUE(badTriangles(drawn, wanted).empty());
+	EXPECT_TRUE(badTriangles(flat, wanted).empty());
 }
 
 } // namespace

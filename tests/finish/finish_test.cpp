@@ -96,7 +96,7 @@ Point2 gridPoint(Vertex v)
 
 constexpr int kMiddle = (kSide / 2) * (kSide + 1) + kSide / 2;
 
-/// The square with its middle drawn \p by cells to the right.
+/// The square with its middle moved \p by cells to the right.
 Point2 folded(Vertex v, double by)
 {
 	Point2 p = gridPoint(v);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "drawn_square.h"
+#include "flat_square.h"
 
 #include "support/random.h"
 #include "support/shapes.h"
@@ -19,22 +19,22 @@
 namespace ricci::testing {
 namespace {
 
-/// A tube of \p rings rings of \p n vertices with a tip, all sides 1, drawn in rings about 0 that each
+/// A tube of \p rings rings of \p n vertices with a tip, all sides 1, laid out in rings about 0 that each
 /// are \p ratio times the one outside.
-DrawnTriangles limb(int n, int rings, double ratio)
+FlatMesh limb(int n, int rings, double ratio)
 {
-	DrawnTriangles drawn;
+	FlatMesh flat;
 	const auto at = [&](int k, int i) { return k * n + i % n; };
 	for (int k = 0; k <= rings; ++k)
 		for (int i = 0; i < n; ++i)
-			drawn.points.push_back(
+			flat.place.push_back(
 				asPoint(std::polar(std::pow(ratio, k), 2 * kPi * (i + 0.5 * k) / n)));
-	const int tip = drawn.points.size();
-	drawn.points.push_back({0.0, 0.0});
+	const int tip = flat.place.size();
+	flat.place.push_back({0.0, 0.0});
 	const auto add = [&](const Triangle& t) {
-		drawn.vertices.push_back(t);
-		drawn.corners.push_back(t);
-		drawn.sides.push_back({1.0, 1.0, 1.0});
+		flat.vertices.push_back(t);
+		flat.points.push_back(t);
+		flat.lengths.push_back({1.0, 1.0, 1.0});
 	};
 	for (int k = 0; k < rings; ++k)
 		for (int i = 0; i < n; ++i) {
@@ -43,7 +43,7 @@ DrawnTriangles limb(int n, int rings, double ratio)
 		}
 	for (int i = 0; i < n; ++i)
 		add({at(rings, i), at(rings, i + 1), tip});
-	return drawn;
+	return flat;
 }
 
 Soundness soundness()
@@ -57,38 +57,38 @@ BorderMoves nothingBeyond()
 }
 
 Repair mend(
-	DrawnTriangles& drawn, const Soundness& wanted, const Tick& tick = [] {})
+	FlatMesh& flat, const Soundness& wanted, const Tick& tick = [] {})
 {
-	WorkLimit limit(drawn.corners.size());
-	return repairInStages(drawn, nothingBeyond(), RestShapes::OfSurface, wanted, limit, tick);
+	WorkLimit limit(flat.points.size());
+	return repairInStages(flat, nothingBeyond(), RestShapes::OfSurface, wanted, limit, tick);
 }
 
 TEST(Repair, LeavesASoundDrawingAlone)
 {
-	DrawnTriangles drawn = square();
-	const Array<Point2> before = drawn.points;
-	const Repair result = mend(drawn, soundness());
+	FlatMesh flat = square();
+	const Array<Point2> before = flat.place;
+	const Repair result = mend(flat, soundness());
 	EXPECT_EQ(result.bad, 0);
 	EXPECT_EQ(result.movedCount(), 0);
-	EXPECT_EQ(drawn.points.values(), before.values());
+	EXPECT_EQ(flat.place.values(), before.values());
 }
 
 TEST(Repair, MendsEveryTriangleAndMovesNoBoundaryWithoutNeed)
 {
 	for (std::uint64_t seed = 1; seed <= 20; ++seed) {
 		SCOPED_TRACE(seed);
-		DrawnTriangles drawn = tangled(6, seed);
-		const DrawnTriangles before = drawn;
-		ASSERT_FALSE(badTriangles(drawn, soundness()).empty());
-		const Repair result = mend(drawn, soundness());
+		FlatMesh flat = tangled(6, seed);
+		const FlatMesh before = flat;
+		ASSERT_FALSE(badTriangles(flat, soundness()).empty());
+		const Repair result = mend(flat, soundness());
 		EXPECT_EQ(result.left, 0);
-		for (const int f : drawn.corners.indices()) {
-			const Triangle2 p = drawn.at(f);
+		for (const int f : flat.points.indices()) {
+			const Triangle2 p = flat.at(f);
 			EXPECT_EQ(orientation(p[0], p[1], p[2]), 1) << f;
 		}
-		EXPECT_TRUE(badTriangles(drawn, soundness()).empty());
-		for (const int p : drawn.points.indices()) {
-			const bool isSame = drawn.points[p] == before.points[p];
+		EXPECT_TRUE(badTriangles(flat, soundness()).empty());
+		for (const int p : flat.place.indices()) {
+			const bool isSame = flat.place[p] == before.place[p];
 			EXPECT_TRUE(isSame || isInside(p)) << p;
 			EXPECT_EQ(isSame, result.moved[p] == 0) << p;
 		}
@@ -97,48 +97,48 @@ TEST(Repair, MendsEveryTriangleAndMovesNoBoundaryWithoutNeed)
 
 TEST(Repair, MovesOnlyWhatIsNearABadTriangle)
 {
-	DrawnTriangles drawn = square();
+	FlatMesh flat = square();
 	const int v = vertexAt(3, 3);
-	drawn.points[v] = {4.5, 3.2};
-	const Array<Point2> before = drawn.points;
-	mend(drawn, soundness());
-	EXPECT_TRUE(badTriangles(drawn, soundness()).empty());
-	for (const int p : drawn.points.indices()) {
+	flat.place[v] = {4.5, 3.2};
+	const Array<Point2> before = flat.place;
+	mend(flat, soundness());
+	EXPECT_TRUE(badTriangles(flat, soundness()).empty());
+	for (const int p : flat.place.indices()) {
 		const bool isFar = std::abs(p % (kSide + 1) - 3) > 3 || std::abs(p / (kSide + 1) - 3) > 3;
-		EXPECT_TRUE(!isFar || drawn.points[p] == before[p]) << p;
+		EXPECT_TRUE(!isFar || flat.place[p] == before[p]) << p;
 	}
 }
 
 TEST(Repair, TheScaleOfTheDrawingPlaysNoPart)
 {
 	constexpr double kScale = 0x1p-30;
-	DrawnTriangles drawn = tangled(6, 5), small = drawn;
-	for (const int p : small.points.indices())
-		small.points[p] = {kScale * small.points[p][0], kScale * small.points[p][1]};
+	FlatMesh flat = tangled(6, 5), small = flat;
+	for (const int p : small.place.indices())
+		small.place[p] = {kScale * small.place[p][0], kScale * small.place[p][1]};
 	const Soundness same = soundness();
 	const Soundness scaled{kScale * same.height, kScale * same.wanted, same.asFloats};
-	mend(drawn, same);
+	mend(flat, same);
 	mend(small, scaled);
-	for (const int p : drawn.points.indices())
+	for (const int p : flat.place.indices())
 		for (std::size_t k = 0; k < 2; ++k)
-			EXPECT_NEAR(small.points[p][k] / kScale, drawn.points[p][k], 1e-6) << p;
+			EXPECT_NEAR(small.place[p][k] / kScale, flat.place[p][k], 1e-6) << p;
 }
 
 TEST(Repair, SoundMeansSoundInFloatsWhereFloatsAreStored)
 {
-	DrawnTriangles drawn = square();
+	FlatMesh flat = square();
 	constexpr double kFar = 0x1p20; // where a float's step is an eighth
-	for (const int p : drawn.points.indices())
-		drawn.points[p] = {drawn.points[p][0] + kFar, drawn.points[p][1] + kFar};
+	for (const int p : flat.place.indices())
+		flat.place[p] = {flat.place[p][0] + kFar, flat.place[p][1] + kFar};
 	const int v = vertexAt(6, 6);
-	drawn.points[v][0] = kFar + 6.97; // rounds to its neighbour's
+	flat.place[v][0] = kFar + 6.97; // rounds to its neighbour's
 	const Soundness floats{0.2, 0.3, true};
 	const Soundness doubles{0.001, 0.3, false};
-	EXPECT_TRUE(badTriangles(drawn, doubles).empty());
-	ASSERT_FALSE(badTriangles(drawn, floats).empty());
-	const Repair result = mend(drawn, floats);
+	EXPECT_TRUE(badTriangles(flat, doubles).empty());
+	ASSERT_FALSE(badTriangles(flat, floats).empty());
+	const Repair result = mend(flat, floats);
 	EXPECT_EQ(result.left, 0);
-	EXPECT_TRUE(badTriangles(drawn, floats).empty());
+	EXPECT_TRUE(badTriangles(flat, floats).empty());
 }
 
 /// Decimal fractions on one line, which as doubles mostly are on none, and next to it.
@@ -166,14 +166,14 @@ TEST(Repair, SixDecimalsAreJudgedExactly)
 
 TEST(Repair, TheBoundaryMovesWhereNothingElseMends)
 {
-	DrawnTriangles drawn = square();
+	FlatMesh flat = square();
 	// A corner triangle whose three points are on the boundary, turned round.
 	const int corner = vertexAt(kSide, 0);
-	drawn.points[corner] = {kSide - 2.0, 2.0};
-	const Repair result = mend(drawn, soundness());
+	flat.place[corner] = {kSide - 2.0, 2.0};
+	const Repair result = mend(flat, soundness());
 	EXPECT_GT(result.bad, 0);
 	EXPECT_EQ(result.left, 0);
-	EXPECT_TRUE(badTriangles(drawn, soundness()).empty());
+	EXPECT_TRUE(badTriangles(flat, soundness()).empty());
 	EXPECT_EQ(result.moved[corner], 1);
 }
 
@@ -183,13 +183,13 @@ TEST(Repair, CountsWhatIsLeftOfThePatchesThatAreMendedPartly)
 	int partly = 0;
 	for (std::uint64_t seed = 0; seed < 20; ++seed) {
 		SCOPED_TRACE(seed);
-		DrawnTriangles drawn = tangled(8, seed);
-		drawn.points[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0}; // it stays there
-		WorkLimit limit(drawn.corners.size());
+		FlatMesh flat = tangled(8, seed);
+		flat.place[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0}; // it stays there
+		WorkLimit limit(flat.points.size());
 		const Repair result = repair(
-			drawn, insidePoints(drawn), RestShapes::OfSurface, high, {3, nullptr, true}, limit, [] {
+			flat, insidePoints(flat), RestShapes::OfSurface, high, {3, nullptr, true}, limit, [] {
 			});
-		EXPECT_EQ(result.left, static_cast<int>(badTriangles(drawn, high).size()));
+		EXPECT_EQ(result.left, static_cast<int>(badTriangles(flat, high).size()));
 		partly += result.left > 0 && result.movedCount() > 0;
 	}
 	EXPECT_GT(partly, 0);
@@ -200,11 +200,11 @@ TEST(Repair, ALimbThatHasShrunkBelowFloatsGetsRoom)
 	const Soundness wanted{0x1p-20, 0x1p-19, true};
 	for (const double ratio : {0.6, 0.4, 0.25}) {
 		SCOPED_TRACE(ratio);
-		DrawnTriangles drawn = limb(5, 80, ratio);
-		const Repair result = mend(drawn, wanted);
+		FlatMesh flat = limb(5, 80, ratio);
+		const Repair result = mend(flat, wanted);
 		EXPECT_GT(result.bad, 500);
 		EXPECT_EQ(result.left, 0);
-		EXPECT_TRUE(badTriangles(drawn, wanted).empty());
+		EXPECT_TRUE(badTriangles(flat, wanted).empty());
 	}
 }
 
@@ -217,21 +217,21 @@ TEST(Repair, EndsWhenItsLimitIsSpent)
 		int left;
 	};
 	const auto repairWith = [](std::int64_t allowed) {
-		DrawnTriangles drawn = tangled(20, 3);
-		drawn.points[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0};
-		WorkLimit limit(drawn.corners.size());
+		FlatMesh flat = tangled(20, 3);
+		flat.place[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0};
+		WorkLimit limit(flat.points.size());
 		if (allowed >= 0)
 			limit.spend(limit.left() - allowed);
 		const std::int64_t before = limit.left();
 		const Repair result = repair(
-			drawn,
-			insidePoints(drawn),
+			flat,
+			insidePoints(flat),
 			RestShapes::OfSurface,
 			soundness(),
 			{34, nullptr, true},
 			limit,
 			[] {});
-		EXPECT_EQ(result.left, static_cast<int>(badTriangles(drawn, soundness()).size()));
+		EXPECT_EQ(result.left, static_cast<int>(badTriangles(flat, soundness()).size()));
 		return Spent{before - limit.left(), result.left};
 	};
 	const Spent all = repairWith(-1), half = repairWith(all.work / 2), none = repairWith(0);
@@ -248,8 +248,8 @@ TEST(Repair, CanBeCancelled)
 	struct Cancelled
 	{
 	};
-	DrawnTriangles drawn = tangled(6, 3);
-	EXPECT_THROW(mend(drawn, soundness(), [] { throw Cancelled(); }), Cancelled);
+	FlatMesh flat = tangled(6, 3);
+	EXPECT_THROW(mend(flat, soundness(), [] { throw Cancelled(); }), Cancelled);
 }
 
 } // namespace

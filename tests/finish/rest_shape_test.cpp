@@ -16,23 +16,22 @@ constexpr Soundness kSound{1e-6, 2e-6, false};
 /// where the four points lie at \p places in space.
 std::vector<RestShape> shapesOf(const std::vector<Point2>& places)
 {
-	DrawnTriangles drawn;
-	drawn.points =
-		Array<Point2>(std::vector<Point2>{{0.0, 0.0}, {4.0, 0.0}, {2.0, 3.0}, {2.0, 1.0}});
+	FlatMesh flat;
+	flat.place = Array<Point2>(std::vector<Point2>{{0.0, 0.0}, {4.0, 0.0}, {2.0, 3.0}, {2.0, 1.0}});
 	Patch patch;
 	for (const Triangle& t : {Triangle{0, 1, 3}, Triangle{1, 2, 3}, Triangle{2, 0, 3}}) {
 		const auto side = [&](std::size_t i, std::size_t j) {
 			return distance(places[positionOf(t[i])], places[positionOf(t[j])]);
 		};
-		patch.triangles.push_back(drawn.corners.size());
+		patch.triangles.push_back(flat.points.size());
 		patch.corners.push_back(t);
-		drawn.vertices.push_back(t);
-		drawn.corners.push_back(t);
-		drawn.sides.push_back({side(0, 1), side(1, 2), side(2, 0)});
+		flat.vertices.push_back(t);
+		flat.points.push_back(t);
+		flat.lengths.push_back({side(0, 1), side(1, 2), side(2, 0)});
 	}
 	patch.points = {0, 1, 2, 3};
 	patch.variable = Array<int>(4, -1);
-	return restShapes(drawn, patch, RestShapes::OfSurface, kSound);
+	return restShapes(flat, patch, RestShapes::OfSurface, kSound);
 }
 
 double longest(const RestShape& s)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "drawn_square.h"
+#include "flat_square.h"
 
 #include "support/random.h"
 
@@ -30,48 +30,48 @@ constexpr int kMaxSteps = 1000;
 /// The whole of a drawing as one patch, with the shapes of the surface.
 struct Whole
 {
-	DrawnTriangles drawn;
+	FlatMesh flat;
 	PointGroups groups;
 	Patch patch;
 	std::vector<RestShape> shapes;
 
-	explicit Whole(DrawnTriangles d) : drawn(std::move(d)), groups(insidePoints(drawn))
+	explicit Whole(FlatMesh d) : flat(std::move(d)), groups(insidePoints(flat))
 	{
 		const int middle = vertexAt(kSide / 2, kSide / 2);
 		std::vector<int> seeds;
-		for (const int f : drawn.corners.indices())
-			for (const int p : drawn.corners[f])
+		for (const int f : flat.points.indices())
+			for (const int p : flat.points[f])
 				if (p == middle)
 					seeds.push_back(f);
-		std::vector<Patch> patches = PatchFinder(drawn, groups).patches(seeds, 2 * kSide);
+		std::vector<Patch> patches = PatchFinder(flat, groups).patches(seeds, 2 * kSide);
 		patch = patches.at(0);
-		shapes = restShapes(drawn, patch, RestShapes::OfSurfaceEvenly, kSound);
+		shapes = restShapes(flat, patch, RestShapes::OfSurfaceEvenly, kSound);
 	}
 
 	/// \pre the tick lives as long
 	PatchProblem problem(
 		int maxSteps = kMaxSteps, const Tick& tick = [] {}) const
 	{
-		return problemOf(drawn, maxSteps, tick);
+		return problemOf(flat, maxSteps, tick);
 	}
 
 	/// The same for the patch elsewhere.
 	PatchProblem problemOf(
-		const DrawnTriangles& d, int maxSteps = kMaxSteps, const Tick& tick = [] {}) const
+		const FlatMesh& d, int maxSteps = kMaxSteps, const Tick& tick = [] {}) const
 	{
 		return {d, groups, patch, shapes, kSound, maxSteps, tick};
 	}
 
 	/// The drawing with the patch's points at \p places.
-	DrawnTriangles with(const std::vector<Point2>& places) const
+	FlatMesh with(const std::vector<Point2>& places) const
 	{
-		DrawnTriangles moved = drawn;
+		FlatMesh moved = flat;
 		for (std::size_t i = 0; i < places.size(); ++i)
-			moved.points[patch.points[i]] = places[i];
+			moved.place[patch.points[i]] = places[i];
 		return moved;
 	}
 
-	double strainOf(const DrawnTriangles& d) const
+	double strainOf(const FlatMesh& d) const
 	{
 		double sum = 0.0;
 		for (std::size_t i = 0; i < shapes.size(); ++i)
@@ -80,21 +80,21 @@ struct Whole
 	}
 };
 
-int notCounterClockwise(const DrawnTriangles& drawn)
+int notCounterClockwise(const FlatMesh& flat)
 {
 	int count = 0;
-	for (const int f : drawn.corners.indices()) {
-		const Triangle2 p = drawn.at(f);
+	for (const int f : flat.points.indices()) {
+		const Triangle2 p = flat.at(f);
 		count += orientation(p[0], p[1], p[2]) != 1;
 	}
 	return count;
 }
 
-double sumOfAreas(const DrawnTriangles& drawn)
+double sumOfAreas(const FlatMesh& flat)
 {
 	double sum = 0.0;
-	for (const int f : drawn.corners.indices()) {
-		const Triangle2 p = drawn.at(f);
+	for (const int f : flat.points.indices()) {
+		const Triangle2 p = flat.at(f);
 		sum += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
 	}
 	return sum;
@@ -108,19 +108,19 @@ TEST(Untangle, MakesATangledSquareInjectiveAndKeepsItsBorder)
 		const Whole whole(tangled(20, seed));
 		ASSERT_EQ(whole.patch.triangles.size(), std::size_t(2 * kSide * kSide));
 		ASSERT_EQ(whole.patch.variables, (kSide - 1) * (kSide - 1));
-		ASSERT_GT(notCounterClockwise(whole.drawn), 0);
-		ASSERT_GT(sumOfAreas(whole.drawn), kSide * kSide + 0.1);
+		ASSERT_GT(notCounterClockwise(whole.flat), 0);
+		ASSERT_GT(sumOfAreas(whole.flat), kSide * kSide + 0.1);
 		const Untangled result = untangle(whole.problem());
 		ASSERT_TRUE(result.sound);
 		EXPECT_GT(result.steps, 0);
-		const DrawnTriangles moved = whole.with(result.points);
+		const FlatMesh moved = whole.with(result.points);
 		EXPECT_EQ(notCounterClockwise(moved), 0);
 		EXPECT_NEAR(sumOfAreas(moved), kSide * kSide, 1e-10);
-		for (const int p : moved.points.indices())
+		for (const int p : moved.place.indices())
 			if (!isInside(p)) {
-				EXPECT_EQ(moved.points[p], whole.drawn.points[p]);
+				EXPECT_EQ(moved.place[p], whole.flat.place[p]);
 			}
-		for (const int f : moved.corners.indices())
+		for (const int f : moved.points.indices())
 			EXPECT_TRUE(kSound.isSound(moved.at(f)));
 	}
 }
@@ -132,24 +132,24 @@ TEST(Untangle, FindsTheSurfaceWhereItIsFlat)
 		const Whole whole(tangled(20, seed));
 		const Untangled sound = untangle(whole.problem());
 		ASSERT_TRUE(sound.sound);
-		const DrawnTriangles moved = whole.with(sound.points), flat = square();
+		const FlatMesh moved = whole.with(sound.points), flat = square();
 		const Untangled eased = ease(whole.problemOf(moved));
 		ASSERT_TRUE(eased.sound);
-		const DrawnTriangles last = whole.with(eased.points);
+		const FlatMesh last = whole.with(eased.points);
 		EXPECT_LE(whole.strainOf(last), whole.strainOf(moved));
 		EXPECT_LT(whole.strainOf(last), 1.002 * (2.0 * kSide * kSide)); // the least: 1 each
-		for (const int p : last.points.indices())
-			EXPECT_LT(distance(last.points[p], flat.points[p]), 0.03);
+		for (const int p : last.place.indices())
+			EXPECT_LT(distance(last.place[p], flat.place[p]), 0.03);
 	}
 }
 
 /// Three corners on the border decide: no point that moves can mend the triangle.
 TEST(Untangle, SaysWhatItCannotMend)
 {
-	DrawnTriangles drawn = tangled(20, 3);
-	drawn.points[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0};
-	const Whole whole(drawn);
-	const int before = notCounterClockwise(drawn);
+	FlatMesh flat = tangled(20, 3);
+	flat.place[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0};
+	const Whole whole(flat);
+	const int before = notCounterClockwise(flat);
 	const Untangled result = untangle(whole.problem());
 	EXPECT_FALSE(result.sound);
 	ASSERT_FALSE(result.points.empty());
@@ -182,20 +182,20 @@ TEST(Untangle, TakesNoMoreStepsThanItMay)
 TEST(Ease, LowersTheStrainAndStaysSound)
 {
 	// Inner points are moved by less than what turns a triangle.
-	DrawnTriangles drawn = square();
+	FlatMesh flat = square();
 	Random random(930);
-	for (const int p : drawn.points.indices())
+	for (const int p : flat.place.indices())
 		if (isInside(p))
-			drawn.points[p] = {
-				drawn.points[p][0] + random.real(-0.2, 0.2),
-				drawn.points[p][1] + random.real(-0.2, 0.2)};
-	const Whole whole(drawn);
-	ASSERT_EQ(notCounterClockwise(drawn), 0);
+			flat.place[p] = {
+				flat.place[p][0] + random.real(-0.2, 0.2),
+				flat.place[p][1] + random.real(-0.2, 0.2)};
+	const Whole whole(flat);
+	ASSERT_EQ(notCounterClockwise(flat), 0);
 	const Untangled result = ease(whole.problem());
 	ASSERT_TRUE(result.sound);
-	const DrawnTriangles eased = whole.with(result.points);
+	const FlatMesh eased = whole.with(result.points);
 	EXPECT_EQ(notCounterClockwise(eased), 0);
-	EXPECT_GT(whole.strainOf(drawn), 2.0 * kSide * kSide + 1.0);
+	EXPECT_GT(whole.strainOf(flat), 2.0 * kSide * kSide + 1.0);
 	EXPECT_LT(whole.strainOf(eased), 1.002 * (2.0 * kSide * kSide)); // the least: 1 each
 }
 

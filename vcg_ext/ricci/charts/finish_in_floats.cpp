@@ -49,7 +49,7 @@ void widenToFloats(Box2& box)
 /// Charts that need more room are packed so many times in all.
 constexpr int kMaxPackings = 4;
 
-/// Rings round bad triangles that are drawn at first, of which one is the border of the largest patches.
+/// Rings round bad triangles that are moved at first, of which one is the border of the largest patches.
 constexpr int kNearRings = 4;
 
 /// The output's triangles, with what the repair wants to know of them.
@@ -163,14 +163,14 @@ public:
 		Array<int> chart;
 		for (const int f : m_faces)
 			chart.push_back(chartOfFace[f]);
-		drawn = drawingOf(std::move(vertices), plane, chart, std::move(sides));
-		m_chartOfPoint.assign(drawn.points.size(), 0);
-		for (const int i : drawn.corners.indices())
-			for (const int p : drawn.corners[i])
+		flat = flatMeshOf(std::move(vertices), plane, chart, std::move(sides));
+		m_chartOfPoint.assign(flat.place.size(), 0);
+		for (const int i : flat.points.indices())
+			for (const int p : flat.points[i])
 				m_chartOfPoint[p] = chart[i];
 	}
 
-	/// Of all triangles of the charts as they were drawn, and the room that these were given.
+	/// Of all triangles of the charts as they were laid out, and the room that these were given.
 	const Array<Box2>& boxes() const { return m_boxes; }
 
 	int chartOf(int point) const { return m_chartOfPoint[point]; }
@@ -182,19 +182,19 @@ public:
 	{
 		if (repair.movedCount() == 0)
 			return false;
-		for (const int i : drawn.corners.indices()) {
+		for (const int i : flat.points.indices()) {
 			const std::size_t f = positionOf(m_faces[positionOf(i)]);
 			Triangle2 uv = inOrder(f, m_uv[f]);
 			for (std::size_t k = 0; k < 3; ++k)
-				if (const int p = drawn.corners[i][k]; repair.moved[p])
-					uv[k] = drawn.points[p];
+				if (const int p = flat.points[i][k]; repair.moved[p])
+					uv[k] = flat.place[p];
 			m_uv[f] = inOrder(f, uv);
 		}
 		m_map.report.finishMoved += repair.movedCount();
 		return true;
 	}
 
-	DrawnTriangles drawn;
+	FlatMesh flat;
 	Soundness soundness;
 	Soundness inText; ///< for coordinates with six decimals, in the unit square
 
@@ -227,9 +227,9 @@ class BorderTest
 public:
 	BorderTest(const Output& output, bool staysInBox) :
 			m_output(output), m_staysInBox(staysInBox), m_border(output.chartCount()),
-			m_near(output.chartCount()), m_moves(output.drawn.points.size(), 0)
+			m_near(output.chartCount()), m_moves(output.flat.place.size(), 0)
 	{
-		forEdges(sidesByEdge(output.drawn), [&](const DrawnSide* side, int count) {
+		forEdges(sidesByEdge(output.flat), [&](const FlatSide* side, int count) {
 			if (!isInside(side, count))
 				for (int i = 0; i < count; ++i)
 					m_border[output.chartOf(side[i].atLow)].push_back(
@@ -248,10 +248,10 @@ public:
 
 	/// Whether the moved border sides of the patch cross none of its charts; and where these keep their
 	/// room, whether the patch stays in their boxes and crosses none of the charts whose boxes meet them.
-	bool operator()(const DrawnTriangles& drawn, const Patch& patch)
+	bool operator()(const FlatMesh& flat, const Patch& patch)
 	{
 		for (const int p : patch.points)
-			if (m_staysInBox && !m_output.boxes()[m_output.chartOf(p)].contains(drawn.points[p]))
+			if (m_staysInBox && !m_output.boxes()[m_output.chartOf(p)].contains(flat.place[p]))
 				return false;
 		std::vector<int> charts;
 		for (std::size_t i = 0; i < patch.points.size(); ++i) {
@@ -263,7 +263,7 @@ public:
 		const bool crosses = std::any_of(charts.begin(), charts.end(), [&](int chart) {
 			const std::vector<BorderSide>& sides = m_border[chart];
 			return std::any_of(sides.begin(), sides.end(), [&](const BorderSide& side) {
-				return (m_moves[side[0]] || m_moves[side[1]]) && crossesAny(drawn, side, chart);
+				return (m_moves[side[0]] || m_moves[side[1]]) && crossesAny(flat, side, chart);
 			});
 		});
 		for (const int p : patch.points)
@@ -274,30 +274,30 @@ public:
 private:
 	using BorderSide = std::array<int, 2>; // points
 
-	static Box2 boxOf(const DrawnTriangles& drawn, const BorderSide& side)
+	static Box2 boxOf(const FlatMesh& flat, const BorderSide& side)
 	{
 		Box2 box;
-		box.add(drawn.points[side[0]]);
-		box.add(drawn.points[side[1]]);
+		box.add(flat.place[side[0]]);
+		box.add(flat.place[side[1]]);
 		return box;
 	}
 
-	bool crossesAny(const DrawnTriangles& drawn, const BorderSide& side, int chart) const
+	bool crossesAny(const FlatMesh& flat, const BorderSide& side, int chart) const
 	{
-		const Box2 box = boxOf(drawn, side);
+		const Box2 box = boxOf(flat, side);
 		for (const int near : m_near[chart])
 			if (near == chart || m_output.boxes()[near].meets(box))
 				for (const BorderSide& other : m_border[near])
-					if (cross(drawn, side, other))
+					if (cross(flat, side, other))
 						return true;
 		return false;
 	}
 
-	static bool cross(const DrawnTriangles& drawn, const BorderSide& s, const BorderSide& t)
+	static bool cross(const FlatMesh& flat, const BorderSide& s, const BorderSide& t)
 	{
-		const Point2 &a = drawn.points[s[0]], &b = drawn.points[s[1]];
-		const Point2 &c = drawn.points[t[0]], &d = drawn.points[t[1]];
-		return boxOf(drawn, s).meets(boxOf(drawn, t)) &&
+		const Point2 &a = flat.place[s[0]], &b = flat.place[s[1]];
+		const Point2 &c = flat.place[t[0]], &d = flat.place[t[1]];
+		return boxOf(flat, s).meets(boxOf(flat, t)) &&
 			   orientation(a, b, c) * orientation(a, b, d) < 0 &&
 			   orientation(c, d, a) * orientation(c, d, b) < 0;
 	}
@@ -322,12 +322,12 @@ finishNear(const SurfaceMesh& mesh, WorkLimit& limit, const Tick& tick, Output& 
 {
 	output.draw(mesh, output.near(mesh, output.inText, kNearRings));
 	BorderTest test(output, true);
-	const PatchRules rules{kNearRings - 1, [&](const DrawnTriangles& drawn, const Patch& patch) {
-							   return test(drawn, patch);
+	const PatchRules rules{kNearRings - 1, [&](const FlatMesh& flat, const Patch& patch) {
+							   return test(flat, patch);
 						   }};
-	const PointGroups groups = insidePoints(output.drawn);
+	const PointGroups groups = insidePoints(output.flat);
 	const Repair result =
-		repair(output.drawn, groups, RestShapes::OfDrawing, output.inText, rules, limit, tick);
+		repair(output.flat, groups, RestShapes::OfDrawing, output.inText, rules, limit, tick);
 	if (result.left > 0)
 		return std::nullopt;
 	return output.takeOver(result);
@@ -346,25 +346,25 @@ Finished finishEverywhere(
 {
 	output.draw(mesh, output.all());
 	BorderTest test(output, true);
-	const PatchTest accepts = [&](const DrawnTriangles& drawn, const Patch& patch) {
-		return test(drawn, patch);
+	const PatchTest accepts = [&](const FlatMesh& flat, const Patch& patch) {
+		return test(flat, patch);
 	};
 	const BorderMoves moves{SeamGeometry::Plane, [](int) { return false; }, accepts};
 	const auto inStages = [&](const Soundness& wanted) {
-		return repairInStages(output.drawn, moves, RestShapes::OfDrawing, wanted, limit, tick);
+		return repairInStages(output.flat, moves, RestShapes::OfDrawing, wanted, limit, tick);
 	};
 	Repair result = inStages(output.inText);
 	// Where there is no room for that, floats have to do.
 	result.add(inStages(output.soundness));
 	if (result.left > 0)
 		result.add(repairFreely(
-			output.drawn, accepts, RestShapes::OfDrawing, output.soundness, limit, tick));
+			output.flat, accepts, RestShapes::OfDrawing, output.soundness, limit, tick));
 	Finished finished;
 	if (result.left > 0 && mayGrow) {
 		BorderTest ofItself(output, false);
 		const Repair growth = repairFreely(
-			output.drawn,
-			[&](const DrawnTriangles& drawn, const Patch& patch) { return ofItself(drawn, patch); },
+			output.flat,
+			[&](const FlatMesh& flat, const Patch& patch) { return ofItself(flat, patch); },
 			RestShapes::OfDrawing,
 			output.soundness,
 			limit,
@@ -426,17 +426,17 @@ void finishInFloats(
 	if (output.isSound(output.soundness))
 		return;
 	output.draw(mesh, output.all());
-	const auto isInDisk = [&](const DrawnTriangles& drawn, const Patch& patch) {
+	const auto isInDisk = [&](const FlatMesh& flat, const Patch& patch) {
 		for (const int p : patch.points) {
 			const Box2& square = disks[positionOf(output.chartOf(p))];
-			if (!(distance(drawn.points[p], centreOf(square)) < 0.5 * square.width()))
+			if (!(distance(flat.place[p], centreOf(square)) < 0.5 * square.width()))
 				return false;
 		}
 		return true;
 	};
 	WorkLimit limit(output.size());
 	const bool moved = output.takeOver(
-		repairFreely(output.drawn, isInDisk, RestShapes::OfDrawing, output.soundness, limit, tick));
+		repairFreely(output.flat, isInDisk, RestShapes::OfDrawing, output.soundness, limit, tick));
 	if (moved)
 		measureInDisk(mesh, disks, map);
 }

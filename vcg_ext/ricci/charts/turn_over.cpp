@@ -2,7 +2,7 @@
 #include "turn_over.h"
 
 #include "../base/tolerances.h"
-#include "../finish/drawn_triangles.h"
+#include "../layout/flat_mesh.h"
 #include "../math/orientation.h"
 
 #include <algorithm>
@@ -33,14 +33,14 @@ std::size_t oppositeLongest(const Triangle2& p)
 /// Seams of the map as it is: their number, and their length in space.
 std::pair<int, double> seams(const SurfaceMesh& mesh, const Parametrization& map)
 {
-	DrawnTriangles drawn = drawingOf(
+	FlatMesh flat = flatMeshOf(
 		Array<Triangle>(mesh.triangles),
 		Array<Triangle2>(map.uv),
 		Array<int>(mesh.triangles.size(), 0),
 		Array<std::array<double, 3>>(mesh.triangles.size()));
 	int count = 0;
 	double length = 0.0;
-	forEdges(sidesByEdge(drawn), [&](const DrawnSide* side, int sides) {
+	forEdges(sidesByEdge(flat), [&](const FlatSide* side, int sides) {
 		if (sides != 2 || isInside(side, sides))
 			return;
 		++count;

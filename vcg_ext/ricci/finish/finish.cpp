@@ -16,11 +16,11 @@ namespace {
 constexpr double kDiskExtent = 2.0;
 
 /// The triangles of a layout.
-DrawnTriangles drawingOf(const EmbeddedSurface& surface, const PlanarLayout& layout)
+FlatMesh flatMeshOf(const EmbeddedSurface& surface, const PlanarLayout& layout)
 {
 	const Triangulation& t = surface.triangulation;
-	DrawnTriangles drawn;
-	drawn.points = layout.points;
+	FlatMesh flat;
+	flat.place = layout.points;
 	for (const Face f : t.faces()) {
 		Triangle vertices{}, corners{};
 		std::array<double, 3> sides{};
@@ -30,11 +30,11 @@ DrawnTriangles drawingOf(const EmbeddedSurface& surface, const PlanarLayout& lay
 			corners[k] = layout.wedges.of[h[k]];
 			sides[k] = surface.lengths[h[k].edge()];
 		}
-		drawn.vertices.push_back(vertices);
-		drawn.corners.push_back(corners);
-		drawn.sides.push_back(sides);
+		flat.vertices.push_back(vertices);
+		flat.points.push_back(corners);
+		flat.lengths.push_back(sides);
 	}
-	return drawn;
+	return flat;
 }
 
 /// Whether the triangles of a layout are sound, without a drawing of them.
@@ -56,10 +56,10 @@ std::function<bool(int)> freeVertices(const FlowDomain& domain, bool freeBoundar
 	};
 }
 
-bool isInDisk(const DrawnTriangles& drawn, const Patch& patch)
+bool isInDisk(const FlatMesh& flat, const Patch& patch)
 {
 	for (const int p : patch.points)
-		if (!(std::norm(asComplex(drawn.points[p])) < 1.0))
+		if (!(std::norm(asComplex(flat.place[p])) < 1.0))
 			return false;
 	return true;
 }
@@ -84,11 +84,11 @@ FinishCounts repairLayout(
 	const Soundness soundness{kMinHeight * extent, kWantedHeights * kMinHeight * extent, false};
 	if (isSound(surface.triangulation, layout, soundness))
 		return {};
-	DrawnTriangles drawn = drawingOf(surface, layout);
-	WorkLimit limit(drawn.corners.size());
+	FlatMesh flat = flatMeshOf(surface, layout);
+	WorkLimit limit(flat.points.size());
 	const Repair repair =
-		repairInStages(drawn, moves, RestShapes::OfSurface, soundness, limit, tick);
-	layout.points = std::move(drawn.points);
+		repairInStages(flat, moves, RestShapes::OfSurface, soundness, limit, tick);
+	layout.points = std::move(flat.place);
 	return countsOf(repair);
 }
 
@@ -147,7 +147,7 @@ FinishCounts finishDisk(
 		};
 		sides.push_back({length(0, 1), length(1, 2), length(2, 0)});
 	}
-	DrawnTriangles drawn = drawingOf(
+	FlatMesh flat = flatMeshOf(
 		Array<Triangle>(refinement.triangles),
 		Array<Triangle2>(refinement.uv),
 		Array<int>(count, 0),
@@ -158,9 +158,9 @@ FinishCounts finishDisk(
 	moves.boundary = [freeBoundary](int) { return freeBoundary; };
 	WorkLimit limit(count);
 	const Repair repair =
-		repairInStages(drawn, moves, RestShapes::OfDrawing, soundness, limit, tick);
+		repairInStages(flat, moves, RestShapes::OfDrawing, soundness, limit, tick);
 	for (int f = 0; f < count; ++f)
-		refinement.uv[positionOf(f)] = drawn.at(f);
+		refinement.uv[positionOf(f)] = flat.at(f);
 	return countsOf(repair);
 }
 

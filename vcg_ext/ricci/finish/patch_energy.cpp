@@ -90,7 +90,7 @@ struct Symmetric2
 } // namespace
 
 PatchEnergy::PatchEnergy(
-	const DrawnTriangles& drawn,
+	const FlatMesh& flat,
 	const PointGroups& groups,
 	const Patch& patch,
 	const std::vector<RestShape>& shapes) :
@@ -102,7 +102,7 @@ PatchEnergy::PatchEnergy(
 		sum += s.base * s.apex.imag();
 	const double minWeight = kMinWeight / static_cast<double>(shapes.size());
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
-		const Derivatives derivatives(shapes[i], drawn.at(patch.triangles[i]));
+		const Derivatives derivatives(shapes[i], flat.at(patch.triangles[i]));
 		const std::array<Complex, 3>& a = derivatives.byCorner;
 		Element element;
 		element.z0 = derivatives.z;

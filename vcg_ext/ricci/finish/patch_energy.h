@@ -2,9 +2,9 @@
 #ifndef RICCI_PATCH_ENERGY_H
 #define RICCI_PATCH_ENERGY_H
 
+#include "../layout/flat_mesh.h"
 #include "../math/sparse_cholesky.h"
 #include "../progress.h"
-#include "drawn_triangles.h"
 #include "patches.h"
 #include "point_groups.h"
 #include "rest_shape.h"
@@ -23,7 +23,7 @@ class PatchEnergy
 {
 public:
 	PatchEnergy(
-		const DrawnTriangles& drawn,
+		const FlatMesh& flat,
 		const PointGroups& groups,
 		const Patch& patch,
 		const std::vector<RestShape>& shapes);
@@ -84,7 +84,7 @@ private:
 };
 
 /// The energy of a triangle with eps = 0 over its weight and least value: 1 for the rest shape, large
-/// for one that is drawn out or flat; infinite where it is not counter-clockwise.
+/// for one that is stretched out or flat; infinite where it is not counter-clockwise.
 double strain(const RestShape& shape, const Triangle2& plane);
 
 } // namespace ricci

@@ -8,15 +8,15 @@
 
 namespace ricci {
 
-PatchFinder::PatchFinder(const DrawnTriangles& drawn, const PointGroups& groups) :
-		m_drawn(drawn), m_groups(groups), m_trianglesOf(
-											  groups.fixed.size(),
-											  [&](const auto& add) {
-												  for (const int f : drawn.corners.indices())
-													  for (const int p : drawn.corners[f])
-														  add(groups.group[p], f);
-											  }),
-		m_taken(drawn.corners.size(), 0), m_local(drawn.points.size(), -1),
+PatchFinder::PatchFinder(const FlatMesh& flat, const PointGroups& groups) :
+		m_flat(flat), m_groups(groups), m_trianglesOf(
+											groups.fixed.size(),
+											[&](const auto& add) {
+												for (const int f : flat.points.indices())
+													for (const int p : flat.points[f])
+														add(groups.group[p], f);
+											}),
+		m_taken(flat.points.size(), 0), m_local(flat.place.size(), -1),
 		m_number(groups.fixed.size(), -1), m_count(groups.fixed.size(), 0)
 {
 }
@@ -30,7 +30,7 @@ std::vector<Patch> PatchFinder::patches(const std::vector<int>& seeds, int rings
 		m_taken[f] = 1;
 	};
 	for (const int f : seeds)
-		for (const int p : m_drawn.corners[f])
+		for (const int p : m_flat.points[f])
 			if (!m_groups.fixed[m_groups.group[p]])
 				take(f);
 	int groups = 0;
@@ -45,7 +45,7 @@ std::vector<Patch> PatchFinder::patches(const std::vector<int>& seeds, int rings
 	for (std::size_t first = 0; rings > 0; --rings) {
 		const std::size_t end = taken.size();
 		for (; first < end; ++first)
-			for (const int p : m_drawn.corners[taken[first]])
+			for (const int p : m_flat.points[taken[first]])
 				if (const int group = m_groups.group[p]; isNew(group))
 					for (const int f : m_trianglesOf[group])
 						take(f);
@@ -53,17 +53,17 @@ std::vector<Patch> PatchFinder::patches(const std::vector<int>& seeds, int rings
 	std::sort(taken.begin(), taken.end());
 
 	for (const int f : taken)
-		for (const int p : m_drawn.corners[f])
+		for (const int p : m_flat.points[f])
 			isNew(m_groups.group[p]);
 	const auto numberOf = [&](int p) { return m_number[m_groups.group[p]]; };
 	DisjointSets sets(groups);
 	for (const int f : taken)
-		for (const int p : m_drawn.corners[f])
-			sets.merge(numberOf(m_drawn.corners[f][0]), numberOf(p));
+		for (const int p : m_flat.points[f])
+			sets.merge(numberOf(m_flat.points[f][0]), numberOf(p));
 	Array<int> partOf(reached.size(), -1); // [set]
 	std::vector<std::vector<int>> parts;
 	for (const int f : taken) {
-		int& part = partOf[sets.find(numberOf(m_drawn.corners[f][0]))];
+		int& part = partOf[sets.find(numberOf(m_flat.points[f][0]))];
 		if (part < 0) {
 			part = static_cast<int>(parts.size());
 			parts.emplace_back();
@@ -89,7 +89,7 @@ Patch PatchFinder::makePatch(std::vector<int> triangles)
 	for (const int f : patch.triangles) {
 		Triangle local{};
 		for (std::size_t k = 0; k < 3; ++k) {
-			const int p = m_drawn.corners[f][k];
+			const int p = m_flat.points[f][k];
 			if (m_local[p] < 0) {
 				m_local[p] = static_cast<int>(patch.points.size());
 				patch.points.push_back(p);

@@ -2,8 +2,8 @@
 #ifndef RICCI_PATCHES_H
 #define RICCI_PATCHES_H
 
+#include "../layout/flat_mesh.h"
 #include "../math/adjacency.h"
-#include "drawn_triangles.h"
 #include "point_groups.h"
 
 #include <vector>
@@ -27,7 +27,7 @@ struct Patch
 class PatchFinder
 {
 public:
-	PatchFinder(const DrawnTriangles& drawn, const PointGroups& groups);
+	PatchFinder(const FlatMesh& flat, const PointGroups& groups);
 
 	/// The patches that \p rings rings round \p seeds make, k rings being the triangles that the
 	/// points of k - 1 rings belong to. Patches that meet in a point are one. So no variable of one
@@ -38,7 +38,7 @@ public:
 private:
 	Patch makePatch(std::vector<int> triangles);
 
-	const DrawnTriangles& m_drawn;
+	const FlatMesh& m_flat;
 	const PointGroups& m_groups;
 	Adjacency<int, int> m_trianglesOf; // [group] a triangle once for each of its corners
 	Array<char> m_taken;               // [triangle] scratch, 0 between calls

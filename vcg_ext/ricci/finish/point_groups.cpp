@@ -90,16 +90,15 @@ template<class Motion>
 class CopyGroups
 {
 public:
-	CopyGroups(const DrawnTriangles& drawn, const std::function<bool(int)>& boundaryMoves) :
-			m_points(drawn.points), m_fixed(drawn.points.size(), 0),
-			m_inside(drawn.points.size(), 1)
+	CopyGroups(const FlatMesh& flat, const std::function<bool(int)>& boundaryMoves) :
+			m_points(flat.place), m_fixed(flat.place.size(), 0), m_inside(flat.place.size(), 1)
 	{
 		Box2 box;
 		for (const Point2& p : m_points)
 			box.add(p);
 		const double rounding = kCoordinateRounding * box.extent();
 		std::vector<std::pair<int, Copy<Motion>>> copies;
-		forEdges(sidesByEdge(drawn), [&](const DrawnSide* side, int count) {
+		forEdges(sidesByEdge(flat), [&](const FlatSide* side, int count) {
 			if (isInside(side, count))
 				return;
 			for (int i = 0; i < count; ++i)
@@ -134,7 +133,7 @@ public:
 		std::stable_sort(copies.begin(), copies.end(), [](const auto& x, const auto& y) {
 			return x.second.error < y.second.error;
 		});
-		m_copies = Adjacency<int, Copy<Motion>>(drawn.points.size(), [&](const auto& add) {
+		m_copies = Adjacency<int, Copy<Motion>>(flat.place.size(), [&](const auto& add) {
 			for (const auto& [point, copy] : copies)
 				add(point, copy);
 		});
@@ -199,12 +198,12 @@ private:
 
 } // namespace
 
-PointGroups allPoints(const DrawnTriangles& drawn)
+PointGroups allPoints(const FlatMesh& flat)
 {
 	PointGroups result;
-	const int count = drawn.points.size();
+	const int count = flat.place.size();
 	result.inside.assign(count, 1);
-	forEdges(sidesByEdge(drawn), [&](const DrawnSide* side, int sides) {
+	forEdges(sidesByEdge(flat), [&](const FlatSide* side, int sides) {
 		if (!isInside(side, sides))
 			for (int i = 0; i < sides; ++i)
 				result.inside[side[i].atLow] = result.inside[side[i].atHigh] = 0;
@@ -217,21 +216,21 @@ PointGroups allPoints(const DrawnTriangles& drawn)
 	return result;
 }
 
-PointGroups insidePoints(const DrawnTriangles& drawn)
+PointGroups insidePoints(const FlatMesh& flat)
 {
-	PointGroups result = allPoints(drawn);
+	PointGroups result = allPoints(flat);
 	for (const int p : result.inside.indices())
 		result.fixed[p] = !result.inside[p];
 	return result;
 }
 
 PointGroups joinedPoints(
-	const DrawnTriangles& drawn,
+	const FlatMesh& flat,
 	SeamGeometry geometry,
 	const std::function<bool(int vertex)>& boundaryMoves)
 {
-	return geometry == SeamGeometry::Plane ? CopyGroups<PlaneMotion>(drawn, boundaryMoves).groups()
-										   : CopyGroups<DiskMotion>(drawn, boundaryMoves).groups();
+	return geometry == SeamGeometry::Plane ? CopyGroups<PlaneMotion>(flat, boundaryMoves).groups()
+										   : CopyGroups<DiskMotion>(flat, boundaryMoves).groups();
 }
 
 } // namespace ricci

@@ -2,8 +2,8 @@
 #ifndef RICCI_POINT_GROUPS_H
 #define RICCI_POINT_GROUPS_H
 
+#include "../layout/flat_mesh.h"
 #include "../math/disk_isometry.h"
-#include "drawn_triangles.h"
 
 #include <complex>
 #include <functional>
@@ -47,19 +47,19 @@ enum class SeamGeometry {
 
 /// Every point is a group; those on sides that belong to no two triangles with the same ends in the
 /// plane, the borders of charts, are fixed.
-PointGroups insidePoints(const DrawnTriangles& drawn);
+PointGroups insidePoints(const FlatMesh& flat);
 
 /// The copies of a seam vertex are a group, joined by the isometries that take one side of a seam to
 /// the other, so that seams stay isometric where a group moves. Fixed are cones, where these do not
 /// close round the vertex; seams whose sides differ in length; and points on sides of a single
 /// triangle, unless \p boundaryMoves of their vertices.
 PointGroups joinedPoints(
-	const DrawnTriangles& drawn,
+	const FlatMesh& flat,
 	SeamGeometry geometry,
 	const std::function<bool(int vertex)>& boundaryMoves);
 
 /// Every point is a group, and none is fixed.
-PointGroups allPoints(const DrawnTriangles& drawn);
+PointGroups allPoints(const FlatMesh& flat);
 
 } // namespace ricci
 

@@ -49,7 +49,7 @@ std::int64_t workOfStep(const Patch& patch)
 /// What the patches of one repair have in common.
 struct PatchSetting
 {
-	const DrawnTriangles& drawn;
+	const FlatMesh& flat;
 	const PointGroups& groups;
 	RestShapes shapes;
 	const Soundness& soundness;
@@ -57,10 +57,10 @@ struct PatchSetting
 	PatchProblem problem(const Patch& patch, int maxSteps, const Tick& tick) const
 	{
 		return {
-			drawn,
+			flat,
 			groups,
 			patch,
-			restShapes(drawn, patch, shapes, soundness),
+			restShapes(flat, patch, shapes, soundness),
 			soundness,
 			maxSteps,
 			tick};
@@ -75,7 +75,7 @@ bool isHopeless(const PatchSetting& setting, const Patch& patch)
 	double area = 0.0;
 	bool borderStays = true;
 	for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
-		const Triangle2 p = setting.drawn.at(patch.triangles[i]);
+		const Triangle2 p = setting.flat.at(patch.triangles[i]);
 		const Triangle& local = patch.corners[static_cast<int>(i)];
 		area += 0.5 * doubledArea(p[0], p[1], p[2]);
 		int staying = 0;
@@ -103,11 +103,11 @@ struct PatchSize
 	double triangles = 0.0, area = 0.0;
 };
 
-PatchSize sizeOf(const DrawnTriangles& drawn, const Patch& patch)
+PatchSize sizeOf(const FlatMesh& flat, const Patch& patch)
 {
 	PatchSize size{static_cast<double>(patch.triangles.size()), 0.0};
 	for (const int f : patch.triangles) {
-		const Triangle2 p = drawn.at(f);
+		const Triangle2 p = flat.at(f);
 		size.area += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
 	}
 	return size;
@@ -116,14 +116,14 @@ PatchSize sizeOf(const DrawnTriangles& drawn, const Patch& patch)
 /// Whether a patch has failed that was nearly as large, in area too if that counts; or for a free patch,
 /// as large.
 bool isHardlyLarger(
-	const DrawnTriangles& drawn, const Patch& patch, const Array<PatchSize>& failed, bool byArea)
+	const FlatMesh& flat, const Patch& patch, const Array<PatchSize>& failed, bool byArea)
 {
 	PatchSize largest;
 	for (const int f : patch.triangles) {
 		largest.triangles = std::max(largest.triangles, failed[f].triangles);
 		largest.area = std::max(largest.area, failed[f].area);
 	}
-	const PatchSize size = sizeOf(drawn, patch);
+	const PatchSize size = sizeOf(flat, patch);
 	if (patch.isFree())
 		return size.triangles <= largest.triangles;
 	return size.triangles < kPatchGrowth * largest.triangles &&
@@ -132,20 +132,17 @@ bool isHardlyLarger(
 
 /// Puts the points of a patch in their places, unless the test refuses the patch there.
 bool apply(
-	DrawnTriangles& drawn,
-	const Patch& patch,
-	const std::vector<Point2>& places,
-	const PatchTest& accepts)
+	FlatMesh& flat, const Patch& patch, const std::vector<Point2>& places, const PatchTest& accepts)
 {
 	std::vector<Point2> before;
 	for (std::size_t k = 0; k < places.size(); ++k) {
-		before.push_back(drawn.points[patch.points[k]]);
-		drawn.points[patch.points[k]] = places[k];
+		before.push_back(flat.place[patch.points[k]]);
+		flat.place[patch.points[k]] = places[k];
 	}
-	if (!accepts || accepts(drawn, patch))
+	if (!accepts || accepts(flat, patch))
 		return true;
 	for (std::size_t k = 0; k < places.size(); ++k)
-		drawn.points[patch.points[k]] = before[k];
+		flat.place[patch.points[k]] = before[k];
 	return false;
 }
 
@@ -196,14 +193,14 @@ std::vector<Outcome> takeOver(
 	const std::vector<Patch>& patches,
 	const std::vector<Untangled>& found,
 	const PatchRules& rules,
-	DrawnTriangles& drawn,
+	FlatMesh& flat,
 	Repair& result)
 {
 	std::vector<Outcome> outcomes(patches.size(), Outcome::Useless);
 	for (std::size_t i = 0; i < patches.size(); ++i) {
 		if (found[i].points.empty() || !(found[i].sound || rules.partly))
 			continue;
-		if (!apply(drawn, patches[i], found[i].points, rules.accepts)) {
+		if (!apply(flat, patches[i], found[i].points, rules.accepts)) {
 			outcomes[i] = Outcome::Refused;
 			continue;
 		}
@@ -225,25 +222,25 @@ bool isUnsoundWhole(const PatchSetting& setting, const Patch& patch)
 {
 	return patch.isFree() &&
 		   std::none_of(patch.triangles.begin(), patch.triangles.end(), [&](int f) {
-			   return setting.soundness.isSound(setting.drawn.at(f));
+			   return setting.soundness.isSound(setting.flat.at(f));
 		   });
 }
 
 /// Triangles at points that were moved whose shape on the surface is far from that in the drawing.
 std::vector<int>
-strainedTriangles(const DrawnTriangles& drawn, const Array<char>& moved, const Soundness& soundness)
+strainedTriangles(const FlatMesh& flat, const Array<char>& moved, const Soundness& soundness)
 {
 	std::vector<int> strained;
-	for (const int f : drawn.corners.indices()) {
-		const Triangle& c = drawn.corners[f];
+	for (const int f : flat.points.indices()) {
+		const Triangle& c = flat.points[f];
 		if (!moved[c[0]] && !moved[c[1]] && !moved[c[2]])
 			continue;
 		Patch alone;
 		alone.triangles = {f};
 		alone.points = {c[0], c[1], c[2]};
 		alone.corners.push_back({0, 1, 2});
-		const RestShape shape = restShapes(drawn, alone, RestShapes::OfSurface, soundness).front();
-		if (strain(shape, drawn.at(f)) > kMaxStrain)
+		const RestShape shape = restShapes(flat, alone, RestShapes::OfSurface, soundness).front();
+		if (strain(shape, flat.at(f)) > kMaxStrain)
 			strained.push_back(f);
 	}
 	return strained;
@@ -251,7 +248,7 @@ strainedTriangles(const DrawnTriangles& drawn, const Array<char>& moved, const S
 
 /// Makes the patches that were mended at a price larger and evens them out.
 void easeStrained(
-	DrawnTriangles& drawn,
+	FlatMesh& flat,
 	const PointGroups& groups,
 	const Soundness& soundness,
 	const PatchTest& accepts,
@@ -259,17 +256,17 @@ void easeStrained(
 	const Tick& tick,
 	Repair& result)
 {
-	PatchFinder finder(drawn, groups);
-	const PatchSetting setting{drawn, groups, RestShapes::OfSurface, soundness};
+	PatchFinder finder(flat, groups);
+	const PatchSetting setting{flat, groups, RestShapes::OfSurface, soundness};
 	std::int64_t work = limit.ofStage();
 	const std::int64_t before = work;
 	for (const int rings : kEasedRings) {
-		const std::vector<int> strained = strainedTriangles(drawn, result.moved, soundness);
+		const std::vector<int> strained = strainedTriangles(flat, result.moved, soundness);
 		if (strained.empty())
 			break;
 		std::vector<Patch> patches = finder.patches(strained, rings);
 		const std::vector<Untangled> found = solveAll(setting, ease, patches, work, tick);
-		takeOver(patches, found, {0, accepts}, drawn, result);
+		takeOver(patches, found, {0, accepts}, flat, result);
 	}
 	limit.spend(before - work);
 }
@@ -290,17 +287,17 @@ void Repair::add(const Repair& next)
 	left = next.left;
 }
 
-std::vector<int> badTriangles(const DrawnTriangles& drawn, const Soundness& soundness)
+std::vector<int> badTriangles(const FlatMesh& flat, const Soundness& soundness)
 {
 	std::vector<int> bad;
-	for (const int f : drawn.corners.indices())
-		if (!soundness.isSound(drawn.at(f)))
+	for (const int f : flat.points.indices())
+		if (!soundness.isSound(flat.at(f)))
 			bad.push_back(f);
 	return bad;
 }
 
 Repair repair(
-	DrawnTriangles& drawn,
+	FlatMesh& flat,
 	const PointGroups& groups,
 	RestShapes shapes,
 	const Soundness& soundness,
@@ -309,14 +306,14 @@ Repair repair(
 	const Tick& tick)
 {
 	Repair result;
-	std::vector<int> bad = badTriangles(drawn, soundness);
+	std::vector<int> bad = badTriangles(flat, soundness);
 	result.bad = result.left = static_cast<int>(bad.size());
 	if (bad.empty())
 		return result;
-	result.moved.assign(drawn.points.size(), 0);
-	PatchFinder finder(drawn, groups);
-	const PatchSetting setting{drawn, groups, shapes, soundness};
-	Array<PatchSize> failed(drawn.corners.size(), PatchSize{}); // [triangle] of its last patch
+	result.moved.assign(flat.place.size(), 0);
+	PatchFinder finder(flat, groups);
+	const PatchSetting setting{flat, groups, shapes, soundness};
+	Array<PatchSize> failed(flat.points.size(), PatchSize{}); // [triangle] of its last patch
 	std::set<std::vector<int>> tried; // triangles of patches, since the drawing last changed
 	std::int64_t work = limit.ofStage();
 	const std::int64_t before = work;
@@ -331,7 +328,7 @@ Repair repair(
 				[&](const Patch& patch) {
 					return tried.count(patch.triangles) > 0 ||
 						   isHardlyLarger(
-							   drawn, patch, failed, shapes == RestShapes::OfSurfaceEvenly) ||
+							   flat, patch, failed, shapes == RestShapes::OfSurfaceEvenly) ||
 						   isHopeless(setting, patch);
 				}),
 			patches.end());
@@ -341,13 +338,13 @@ Repair repair(
 		const std::vector<Untangled> found = solveAll(setting, untangle, patches, work, tick);
 		for (std::size_t i = 0; i < patches.size(); ++i)
 			if (!found[i].sound) {
-				const PatchSize size = sizeOf(drawn, patches[i]);
+				const PatchSize size = sizeOf(flat, patches[i]);
 				for (const int f : patches[i].triangles)
 					failed[f] = size;
 			}
 		for (const Patch& patch : patches)
 			tried.insert(patch.triangles);
-		const std::vector<Outcome> outcomes = takeOver(patches, found, rules, drawn, result);
+		const std::vector<Outcome> outcomes = takeOver(patches, found, rules, flat, result);
 		bool isAny = isAnyTakenOver(outcomes);
 		// Where a chart crosses itself now, its convex drawing does not.
 		std::vector<Patch> refused;
@@ -356,11 +353,11 @@ Repair repair(
 				isUnsoundWhole(setting, patches[i]))
 				refused.push_back(patches[i]);
 		const std::vector<Untangled> unfolded = solveAll(setting, unfold, refused, work, tick);
-		isAny = isAnyTakenOver(takeOver(refused, unfolded, rules, drawn, result)) || isAny;
+		isAny = isAnyTakenOver(takeOver(refused, unfolded, rules, flat, result)) || isAny;
 		if (!isAny)
 			continue;
 		tried.clear();
-		bad = badTriangles(drawn, soundness); // a patch mended partly may have others than before
+		bad = badTriangles(flat, soundness); // a patch mended partly may have others than before
 		if (bad.empty())
 			break;
 	}
@@ -370,24 +367,24 @@ Repair repair(
 }
 
 Repair repairInStages(
-	DrawnTriangles& drawn,
+	FlatMesh& flat,
 	const BorderMoves& moves,
 	RestShapes shapes,
 	const Soundness& soundness,
 	WorkLimit& limit,
 	const Tick& tick)
 {
-	if (badTriangles(drawn, soundness).empty())
+	if (badTriangles(flat, soundness).empty())
 		return {};
-	PointGroups groups = insidePoints(drawn);
+	PointGroups groups = insidePoints(flat);
 	Repair result =
-		repair(drawn, groups, shapes, soundness, {kMaxInsideRings, moves.accepts}, limit, tick);
+		repair(flat, groups, shapes, soundness, {kMaxInsideRings, moves.accepts}, limit, tick);
 	const auto goOn = [&](const std::function<bool(int)>& boundary, RestShapes from, bool partly) {
 		if (result.left == 0)
 			return;
-		groups = joinedPoints(drawn, moves.seams, boundary);
-		result.add(repair(
-			drawn, groups, from, soundness, {kMaxRings, moves.accepts, partly}, limit, tick));
+		groups = joinedPoints(flat, moves.seams, boundary);
+		result.add(
+			repair(flat, groups, from, soundness, {kMaxRings, moves.accepts, partly}, limit, tick));
 	};
 	const auto everywhere = [](int) { return true; };
 	goOn(moves.boundary, shapes, false);
@@ -400,27 +397,27 @@ Repair repairInStages(
 		goOn(everywhere, shapes, true);
 	}
 	if (shapes == RestShapes::OfSurface)
-		easeStrained(drawn, groups, soundness, moves.accepts, limit, tick, result);
+		easeStrained(flat, groups, soundness, moves.accepts, limit, tick, result);
 	return result;
 }
 
 Repair repairFreely(
-	DrawnTriangles& drawn,
+	FlatMesh& flat,
 	const PatchTest& accepts,
 	RestShapes shapes,
 	const Soundness& soundness,
 	WorkLimit& limit,
 	const Tick& tick)
 {
-	if (badTriangles(drawn, soundness).empty())
+	if (badTriangles(flat, soundness).empty())
 		return {};
 	Repair result = repair(
-		drawn, insidePoints(drawn), shapes, soundness, {kMaxInsideRings, accepts}, limit, tick);
+		flat, insidePoints(flat), shapes, soundness, {kMaxInsideRings, accepts}, limit, tick);
 	for (const bool partly : {false, true})
 		if (result.left > 0)
 			result.add(repair(
-				drawn,
-				allPoints(drawn),
+				flat,
+				allPoints(flat),
 				shapes,
 				soundness,
 				{kMaxRings, accepts, partly},

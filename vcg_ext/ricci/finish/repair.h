@@ -2,8 +2,8 @@
 #ifndef RICCI_REPAIR_H
 #define RICCI_REPAIR_H
 
+#include "../layout/flat_mesh.h"
 #include "../progress.h"
-#include "drawn_triangles.h"
 #include "patches.h"
 #include "point_groups.h"
 #include "rest_shape.h"
@@ -27,11 +27,11 @@ struct Repair
 	void add(const Repair& next);
 };
 
-/// Triangles of \p drawn that are not sound.
-std::vector<int> badTriangles(const DrawnTriangles& drawn, const Soundness& soundness);
+/// Triangles of \p flat that are not sound.
+std::vector<int> badTriangles(const FlatMesh& flat, const Soundness& soundness);
 
 /// Whether a patch may be as it is in the drawing; called one after another.
-using PatchTest = std::function<bool(const DrawnTriangles& drawn, const Patch& patch)>;
+using PatchTest = std::function<bool(const FlatMesh& flat, const Patch& patch)>;
 
 /// Which patches are tried, and which are taken over.
 struct PatchRules
@@ -49,7 +49,7 @@ struct PatchRules
 /// side, and the result does not depend on the number of threads.
 /// \param tick is called by the calling thread only
 Repair repair(
-	DrawnTriangles& drawn,
+	FlatMesh& flat,
 	const PointGroups& groups,
 	RestShapes shapes,
 	const Soundness& soundness,
@@ -70,7 +70,7 @@ struct BorderMoves
 /// with patches of which only a part is mended; and, for coordinates stored as floats and not as text,
 /// once more with patches whose triangles share their area as they do on the surface.
 Repair repairInStages(
-	DrawnTriangles& drawn,
+	FlatMesh& flat,
 	const BorderMoves& moves,
 	RestShapes shapes,
 	const Soundness& soundness,
@@ -80,7 +80,7 @@ Repair repairInStages(
 /// The same where seams need not stay isometric: the points inside the charts; then all points, each
 /// by itself; this again, with patches of which only a part is mended.
 Repair repairFreely(
-	DrawnTriangles& drawn,
+	FlatMesh& flat,
 	const PatchTest& accepts,
 	RestShapes shapes,
 	const Soundness& soundness,

@@ -79,16 +79,13 @@ double longestSide(const RestShape& s)
 /// How much the drawing scales the surface round each triangle of a patch: the root of the quotient
 /// of areas over the triangles at its corners, or \p evenly over all. Where a triangle has no area on
 /// the surface, the squares of its longest sides stand for the areas.
-std::vector<double> scales(
-	const DrawnTriangles& drawn,
-	const Patch& patch,
-	const std::vector<RestShape>& shapes,
-	bool evenly)
+std::vector<double>
+scales(const FlatMesh& flat, const Patch& patch, const std::vector<RestShape>& shapes, bool evenly)
 {
 	Array<double> plane(static_cast<int>(patch.points.size()), 0.0), surface = plane;
 	double planeSum = 0.0, surfaceSum = 0.0;
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
-		const Triangle2 p = drawn.at(patch.triangles[i]);
+		const Triangle2 p = flat.at(patch.triangles[i]);
 		double a = 0.5 * std::abs(doubledArea(p[0], p[1], p[2])), b = areaOf(shapes[i]);
 		if (const double side = longestSide(shapes[i]); b <= kMinRatio * side * side) {
 			a = longestSide(p) * longestSide(p);
@@ -113,16 +110,16 @@ std::vector<double> scales(
 
 } // namespace
 
-std::vector<RestShape> restShapes(
-	const DrawnTriangles& drawn, const Patch& patch, RestShapes from, const Soundness& soundness)
+std::vector<RestShape>
+restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Soundness& soundness)
 {
 	std::vector<RestShape> shapes;
 	for (const int f : patch.triangles)
-		shapes.push_back(shapeOf(drawn.sides[f]));
+		shapes.push_back(shapeOf(flat.lengths[f]));
 	const std::vector<double> scale =
-		scales(drawn, patch, shapes, from == RestShapes::OfSurfaceEvenly);
+		scales(flat, patch, shapes, from == RestShapes::OfSurfaceEvenly);
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
-		const Triangle2 p = drawn.at(patch.triangles[i]);
+		const Triangle2 p = flat.at(patch.triangles[i]);
 		shapes[i] = from == RestShapes::OfDrawing && doubledArea(p[0], p[1], p[2]) > 0.0
 						? shapeOf(p)
 						: scaled(shapes[i], scale[i]);

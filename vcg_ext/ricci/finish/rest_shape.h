@@ -2,7 +2,7 @@
 #ifndef RICCI_REST_SHAPE_H
 #define RICCI_REST_SHAPE_H
 
-#include "drawn_triangles.h"
+#include "../layout/flat_mesh.h"
 #include "patches.h"
 #include "soundness.h"
 
@@ -28,8 +28,8 @@ enum class RestShapes {
 
 /// The shapes of the triangles of \p patch. Those of triangles that have no shape, or a thin one, are made less thin
 /// elsewhere, and all are as high as \p soundness wants.
-std::vector<RestShape> restShapes(
-	const DrawnTriangles& drawn, const Patch& patch, RestShapes from, const Soundness& soundness);
+std::vector<RestShape>
+restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Soundness& soundness);
 
 } // namespace ricci
 

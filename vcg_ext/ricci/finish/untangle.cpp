@@ -36,7 +36,7 @@ constexpr double kMinGain = 0.99;
 /// Halvings of a step.
 constexpr int kMaxHalvings = 30;
 
-/// A patch that is drawn anew is enlarged to so many of the least heights at most, a hundredth of what
+/// A patch that is laid out anew is enlarged to so many of the least heights at most, a hundredth of what
 /// floats reach.
 constexpr double kMaxExtent = 1e4;
 
@@ -45,9 +45,9 @@ class Untangler
 {
 public:
 	explicit Untangler(const PatchProblem& problem, int stepsBefore = 0) :
-			m_drawn(problem.drawn), m_groups(problem.groups), m_patch(problem.patch),
+			m_flat(problem.flat), m_groups(problem.groups), m_patch(problem.patch),
 			m_soundness(problem.soundness), m_maxSteps(problem.maxSteps), m_tick(problem.tick),
-			m_energy(m_drawn, m_groups, m_patch, problem.shapes),
+			m_energy(m_flat, m_groups, m_patch, problem.shapes),
 			m_x(Eigen::VectorXd::Zero(m_energy.size())), m_least{
 															 m_patch.triangles.size() + 1,
 															 m_patch.triangles.size() + 1}
@@ -69,7 +69,7 @@ public:
 		for (std::size_t i = 0; i < places.size(); ++i) {
 			const int p = m_patch.points[i], variable = m_patch.variable[static_cast<int>(i)];
 			const Complex moved =
-				(asComplex(places[i]) - asComplex(m_drawn.points[p])) / m_groups.turn[p];
+				(asComplex(places[i]) - asComplex(m_flat.place[p])) / m_groups.turn[p];
 			m_x[2 * variable] = moved.real();
 			m_x[2 * variable + 1] = moved.imag();
 		}
@@ -180,9 +180,9 @@ private:
 			const int p = m_patch.points[i], variable = m_patch.variable[static_cast<int>(i)];
 			m_places.push_back(
 				variable < 0
-					? m_drawn.points[p]
+					? m_flat.place[p]
 					: m_soundness.stored(m_groups.displaced(
-						  p, m_drawn.points, Complex(x[2 * variable], x[2 * variable + 1]))));
+						  p, m_flat.place, Complex(x[2 * variable], x[2 * variable + 1]))));
 		}
 		m_unsound.clear();
 		std::size_t turned = 0;
@@ -208,7 +208,7 @@ private:
 	static constexpr double kArmijo = 1e-4, kEpsShare = 0.2, kMinEps = 1e-9;
 	static constexpr double kFirstEps = 0.1, kEpsFall = 0.2, kSmallEps = 0.02;
 
-	const DrawnTriangles& m_drawn;
+	const FlatMesh& m_flat;
 	const PointGroups& m_groups;
 	const Patch& m_patch;
 	const Soundness& m_soundness;
@@ -254,7 +254,7 @@ std::vector<Point2> unfolded(const PatchProblem& problem)
 	const double share = 1.0 / static_cast<double>(places.size());
 	Complex middle = 0.0;
 	for (const int p : patch.points)
-		middle += share * asComplex(problem.drawn.points[p]);
+		middle += share * asComplex(problem.flat.place[p]);
 	for (Point2& p : places)
 		p = asPoint(middle + scale * asComplex(p));
 	return places;

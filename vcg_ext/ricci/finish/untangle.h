@@ -2,8 +2,8 @@
 #ifndef RICCI_UNTANGLE_H
 #define RICCI_UNTANGLE_H
 
+#include "../layout/flat_mesh.h"
 #include "../progress.h"
-#include "drawn_triangles.h"
 #include "patches.h"
 #include "rest_shape.h"
 #include "soundness.h"
@@ -15,7 +15,7 @@ namespace ricci {
 /// A patch whose triangles are to be sound, and as near to their rest shapes as its border lets them be.
 struct PatchProblem
 {
-	const DrawnTriangles& drawn;
+	const FlatMesh& flat;
 	const PointGroups& groups;
 	const Patch& patch;
 	std::vector<RestShape> shapes; ///< [triangle of the patch]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "drawn_triangles.h"
+#include "flat_mesh.h"
 
 #include "../math/bucket_sort.h"
 #include "../math/disjoint_sets.h"
@@ -12,22 +12,22 @@ namespace ricci {
 namespace {
 
 /// \param at [triangle] the number that each corner has
-std::vector<DrawnSide> sidesOf(const Array<Triangle>& vertices, const Array<Triangle>& at)
+std::vector<FlatSide> sidesOf(const Array<Triangle>& vertices, const Array<Triangle>& at)
 {
-	std::vector<DrawnSide> sides;
+	std::vector<FlatSide> sides;
 	sides.reserve(3 * vertices.values().size());
 	for (const int f : vertices.indices())
 		for (std::size_t k = 0; k < 3; ++k) {
 			const std::size_t next = (k + 1) % 3;
 			const int a = vertices[f][k], b = vertices[f][next];
 			sides.push_back(
-				a < b ? DrawnSide{a, b, at[f][k], at[f][next], f}
-					  : DrawnSide{b, a, at[f][next], at[f][k], f});
+				a < b ? FlatSide{a, b, at[f][k], at[f][next], f}
+					  : FlatSide{b, a, at[f][next], at[f][k], f});
 		}
 	bucketSort(
 		sides,
-		[](const DrawnSide& s) { return s.low; },
-		[](const DrawnSide& a, const DrawnSide& b) {
+		[](const FlatSide& s) { return s.low; },
+		[](const FlatSide& a, const FlatSide& b) {
 			return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
 		});
 	return sides;
@@ -35,30 +35,30 @@ std::vector<DrawnSide> sidesOf(const Array<Triangle>& vertices, const Array<Tria
 
 } // namespace
 
-std::vector<DrawnSide> sidesByEdge(const DrawnTriangles& drawn)
+std::vector<FlatSide> sidesByEdge(const FlatMesh& mesh)
 {
-	return sidesOf(drawn.vertices, drawn.corners);
+	return sidesOf(mesh.vertices, mesh.points);
 }
 
-bool isInside(const DrawnSide* sides, int count)
+bool isInside(const FlatSide* sides, int count)
 {
 	return count == 2 && sides[0].atLow == sides[1].atLow && sides[0].atHigh == sides[1].atHigh;
 }
 
-DrawnTriangles drawingOf(
+FlatMesh flatMeshOf(
 	Array<Triangle> vertices,
 	const Array<Triangle2>& plane,
-	const Array<int>& chart,
-	Array<std::array<double, 3>> sides)
+	Array<int> chart,
+	Array<std::array<double, 3>> lengths)
 {
 	const auto place = [&](int corner) -> const Point2& {
 		return plane[corner / 3][positionOf(corner % 3)];
 	};
-	DrawnTriangles drawn;
+	FlatMesh mesh;
 	for (const int f : vertices.indices())
-		drawn.corners.push_back({3 * f, 3 * f + 1, 3 * f + 2});
+		mesh.points.push_back({3 * f, 3 * f + 1, 3 * f + 2});
 	DisjointSets sets(3 * vertices.size());
-	forEdges(sidesOf(vertices, drawn.corners), [&](const DrawnSide* side, int count) {
+	forEdges(sidesOf(vertices, mesh.points), [&](const FlatSide* side, int count) {
 		if (count == 2 && chart[side[0].triangle] == chart[side[1].triangle] &&
 			place(side[0].atLow) == place(side[1].atLow) &&
 			place(side[0].atHigh) == place(side[1].atHigh)) {
@@ -70,14 +70,15 @@ DrawnTriangles drawingOf(
 	for (int corner = 0; corner < sets.size(); ++corner) {
 		const int first = sets.find(corner); // never above the corner
 		if (first == corner) {
-			number[corner] = drawn.points.size();
-			drawn.points.push_back(place(corner));
+			number[corner] = mesh.place.size();
+			mesh.place.push_back(place(corner));
 		}
-		drawn.corners[corner / 3][positionOf(corner % 3)] = number[first];
+		mesh.points[corner / 3][positionOf(corner % 3)] = number[first];
 	}
-	drawn.vertices = std::move(vertices);
-	drawn.sides = std::move(sides);
-	return drawn;
+	mesh.vertices = std::move(vertices);
+	mesh.lengths = std::move(lengths);
+	mesh.chart = std::move(chart);
+	return mesh;
 }
 
 } // namespace ricci
