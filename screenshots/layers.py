@@ -326,7 +326,7 @@ def kitten(meshes, out, _):
     """The paper's Figs 5, 7 and 10: the conventional against the generalized flow."""
     mesh = marching_cubes_kitten(meshes)
     generalized = Surface.flattened(mesh, target_curvature="Flat everywhere")
-    conventional = Surface.flattened(mesh, target_curvature="Flat everywhere", circle_packing="Thurston")
+    conventional = Surface.flattened(mesh, target_curvature="Flat everywhere", method="Thurston")
     for name, surface in (("generalized", generalized), ("conventional", conventional)):
         surface.textured(f"{out}/kitten_{name}.ply", "checkerboard.png", KITTEN, 2.5)
     compare("kitten", generalized, conventional, out, KITTEN)
@@ -335,7 +335,7 @@ def kitten(meshes, out, _):
 def rocker_arm(_, out, path):
     mesh = load(path).current_mesh()
     compare("rocker_arm", Surface.flattened(mesh, target_curvature="Flat everywhere"),
-            Surface.flattened(mesh, target_curvature="Flat everywhere", circle_packing="Thurston"),
+            Surface.flattened(mesh, target_curvature="Flat everywhere", method="Thurston"),
             out, (65, 20))
 
 
@@ -389,7 +389,7 @@ def annulus(meshes, out, _):
     ms.compute_selection_by_condition_per_vertex(condselect=f"(y > {top - 1.2})")
     ms.compute_selection_transfer_vertex_to_face()
     ms.meshing_remove_selected_faces()
-    surface = Surface.flattened(largest(ms), target_curvature="Flat everywhere", surgery="Edge swap")
+    surface = Surface.flattened(largest(ms), target_curvature="Flat everywhere", method="Edge swaps")
     with open(f"{out}/annulus.txt", "w", encoding="utf-8") as target:
         target.write(f"annulus, {surface.results['edge_swaps']} edges swapped (Fig. 13)")
     surface.textured(f"{out}/annulus.ply", "checkerboard.png", ANNULUS, 1.5)

@@ -67,7 +67,7 @@ make_meshes() {
 	white generalized.mlx
 	textured generalized.mlx
 	run_script generalized.mlx -i mesh.ply -o generalized.ply -m wt vc vn
-	script thurston.mlx colorize=false circle_packing=1
+	script thurston.mlx colorize=false method=3
 	white thurston.mlx
 	textured thurston.mlx
 	run_script thurston.mlx -i mesh.ply -o thurston.ply -m wt vc vn

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# bash tests/bench.sh [--geometry=euclidean|hyperbolic] [--surgery=none|edge_swap|intrinsic_flips]
-#                     [--flow-only] [MESH|generated:FACES...]
+# bash tests/bench.sh [--geometry=euclidean|hyperbolic] [--flow-only]
+#                     [--method=intrinsic_flips|fixed_triangles|edge_swaps|thurston] [MESH|generated:FACES...]
 # Builds the benchmark and prints a table, with tabulators between the columns and a row for each
 # mesh; without meshes, for a generated one. Speed is compared by the column `ratio`: CPU time of the
 # flow over that of one analysis, factorisation and solution of the same matrix by CHOLMOD with AMD.

@@ -74,7 +74,7 @@ onFixedTriangulation(TargetCurvature target = TargetCurvature::Automatic)
 {
 	typename Flow<Mesh>::Params par;
 	par.target = target;
-	par.surgery = Surgery::None;
+	par.method = Method::FixedTriangles;
 	return par;
 }
 

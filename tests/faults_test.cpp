@@ -47,13 +47,13 @@ struct Case
 	Flow::Params params;
 };
 
-Flow::Params params(
-	TargetCurvature target, OutputTriangulation output, Surgery surgery = Surgery::IntrinsicFlips)
+Flow::Params
+params(TargetCurvature target, OutputTriangulation output, Method method = Method::IntrinsicFlips)
 {
 	Flow::Params p;
 	p.target = target;
 	p.output = output;
-	p.surgery = surgery;
+	p.method = method;
 	return p;
 }
 
@@ -69,13 +69,13 @@ std::vector<Case> cases()
 		 params(TargetCurvature::Automatic, OutputTriangulation::CommonRefinement)},
 		{"torus, kept",
 		 bumpyTorus(5, 4, random),
-		 params(TargetCurvature::Automatic, OutputTriangulation::KeepMesh, Surgery::None)},
+		 params(TargetCurvature::Automatic, OutputTriangulation::KeepMesh, Method::FixedTriangles)},
 		{"disk, round",
 		 sheet,
 		 params(TargetCurvature::Disk, OutputTriangulation::CommonRefinement)},
 		{"disk, swaps",
 		 sheet,
-		 params(TargetCurvature::Automatic, OutputTriangulation::KeepMesh, Surgery::EdgeSwap)},
+		 params(TargetCurvature::Automatic, OutputTriangulation::KeepMesh, Method::EdgeSwaps)},
 		{"two disks",
 		 sideBySide(sheet, rectangle(1, 2, 1, 1), 9),
 		 params(TargetCurvature::Automatic, OutputTriangulation::KeepMesh)}};

@@ -37,7 +37,7 @@ Options refined(TargetCurvature target, bool freeBoundary = true)
 	options.freeBoundary = freeBoundary;
 	options.epsilon = 1e-10;
 	options.output = OutputTriangulation::CommonRefinement;
-	options.resolveOverlap = false; // such cuts may cross faces, the flow's own seams may not
+	options.charts = Charts::OfTheFlow; // such cuts may cross faces, the flow's own seams may not
 	return options;
 }
 
@@ -217,9 +217,9 @@ TEST(HardCases, TheOtherSurgeriesRefuseWhatHasNoArea)
 	Random random(605);
 	SurfaceMesh mesh = randomPlanarDisk(5, random);
 	mesh.positions[14] = mesh.positions[15];
-	for (Surgery surgery : {Surgery::None, Surgery::EdgeSwap}) {
+	for (Method method : {Method::FixedTriangles, Method::EdgeSwaps}) {
 		Options options;
-		options.surgery = surgery;
+		options.method = method;
 		const auto error = errorOf<InvalidMesh>([&] { run(mesh, options); });
 		ASSERT_TRUE(error);
 		EXPECT_EQ(error->problem, InvalidMesh::EdgesWithoutLength);

@@ -119,7 +119,7 @@ TEST_F(SharedMeshes, RockerArmByTheConventionalFlow)
 {
 	SKIP_IF_MISSING("g1_rocker_arm.ply");
 	Options options = fixedTriangulation(TargetCurvature::Flat);
-	options.packing = PackingScheme::Thurston;
+	options.method = Method::Thurston;
 	const Parametrization flat = run(m_mesh, options);
 	EXPECT_NEAR(flat.report.qcVertexMean, 1.739, 0.005); // the paper's Table 1: 1.7405
 	EXPECT_LT(flat.report.maxCurvatureError, 1e-8);

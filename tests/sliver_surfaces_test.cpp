@@ -97,7 +97,7 @@ TEST(SliverSurfaces, EndInAFlatMetricOrAReason)
 			catch (const NotConverged& error) {
 				EXPECT_EQ(error.problem, NotConverged::BrokenTriangles) << error.what();
 				EXPECT_GT(error.count, 0u);
-				EXPECT_EQ(error.surgery, Surgery::None);
+				EXPECT_EQ(error.method, Method::FixedTriangles);
 				expectWords(error.what(), {"the triangle inequality at the end"});
 				++refused;
 			}
@@ -116,7 +116,7 @@ TEST(SliverSurfaces, EdgeSwapsMendWhatBreaks)
 				continue;
 			}
 			SCOPED_TRACE(c.name + ", seed " + std::to_string(seed));
-			c.options.surgery = Surgery::EdgeSwap;
+			c.options.method = Method::EdgeSwaps;
 			try {
 				const Parametrization flat = run(c.mesh, c.options, c.input);
 				++mended;
@@ -149,7 +149,7 @@ TEST(SliverSurfaces, IntrinsicFlipsSolveAll)
 	for (std::uint64_t seed : {1, 2, 3})
 		for (Case& c : cases(seed)) {
 			SCOPED_TRACE(c.name + ", seed " + std::to_string(seed));
-			c.options.surgery = Surgery::IntrinsicFlips;
+			c.options.method = Method::IntrinsicFlips;
 			c.options.output = OutputTriangulation::CommonRefinement;
 			const Parametrization flat = run(c.mesh, c.options, c.input);
 			const RefinedMesh& pieces = flat.refined;
@@ -188,7 +188,7 @@ TEST(SliverSurfaces, EdgeSwapChangesNothingWhereNothingBreaks)
 		++compared;
 		Options options = c.options;
 		const Parametrization own = run(c.mesh, options, c.input);
-		options.surgery = Surgery::EdgeSwap;
+		options.method = Method::EdgeSwaps;
 		const Parametrization other = run(c.mesh, options, c.input);
 		EXPECT_EQ(other.report.edgeSwaps, 0);
 		EXPECT_EQ(other.u, own.u);

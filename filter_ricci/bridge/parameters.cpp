@@ -33,14 +33,15 @@ QStringList coneRoundingChoices()
 	return {"Free", "Multiples of pi/2"};
 }
 
-QStringList circlePackingChoices()
+QStringList methodChoices()
 {
-	return {"Inversive distance", "Thurston"};
+	return {"Intrinsic flips", "Fixed triangles", "Edge swaps", "Thurston"};
 }
 
-QStringList surgeryChoices()
+// The hyperbolic flow has no edge swaps and no Thurston packing.
+QStringList hyperbolicMethodChoices()
 {
-	return {"None", "Edge swap", "Intrinsic flips"};
+	return methodChoices().mid(0, 2);
 }
 
 QStringList outputTriangulationChoices()
@@ -56,7 +57,7 @@ QStringList finishChoices()
 // The hyperbolic flow has no map of least distortion.
 QStringList hyperbolicFinishChoices()
 {
-	return {"None", "Repair"};
+	return finishChoices().mid(0, 2);
 }
 
 QStringList holesChoices()
@@ -74,10 +75,9 @@ QStringList hyperbolicTargetChoices()
 	return {"Hyperbolic metric", "Cones at selected vertices", "From vertex quality"};
 }
 
-// The hyperbolic flow has no edge swap.
-QStringList hyperbolicSurgeryChoices()
+QStringList chartsChoices()
 {
-	return {"None", "Intrinsic flips"};
+	return {"As the flow has them", "Without overlap", "Without overlap and strips"};
 }
 
 int checkedChoice(const RichParameterList& par, const char* id, const QStringList& choices)
@@ -154,9 +154,15 @@ const char* const kSeamsTip =
 	"cut further only where it has to be: where the <b>texture</b> of the mesh jumps, along "
 	"<b>selected edges</b> ('Select Crease Edges'), or <b>around the selected faces</b>.";
 
+const char* const kMethodTip =
+	"What to do if the flow breaks a triangle. <b>Intrinsic flips</b>: another triangulation of "
+	"the "
+	"same surface takes its place, so that none breaks. The mesh itself is never changed. <b>Fixed "
+	"triangles</b>: the run ends with an error if triangles stay broken.";
+
 const char* const kFinishTip =
 	"What is done to the flow's map before it is stored: faces that would come out flipped are "
-	"repaired%1. No effect with 'Thurston', and with another surgery than 'Intrinsic flips'.";
+	"repaired%1. Only for the method 'Intrinsic flips'.";
 
 RichEnum finishParameter(ricci::Finish chosen)
 {
@@ -216,8 +222,8 @@ void addTextureParameters(RichParameterList& list)
 		"Width and height of the new texture, 16 to 16384 texels."));
 }
 
-/// What one solve may do and how long it may take.
-void addSolverParameters(RichParameterList& list, double epsilon, int maxIterations)
+/// How accurate a solve is and how long a run may take.
+void addSolverParameters(RichParameterList& list, double epsilon)
 {
 	list.addParam(host::advanced<RichFloat>(
 		"epsilon",
@@ -225,12 +231,6 @@ void addSolverParameters(RichParameterList& list, double epsilon, int maxIterati
 		"Epsilon (rad)",
 		"The flow stops when the curvature of every vertex is this close to its target, in "
 		"radians, or at the floor that rounding sets."));
-	list.addParam(host::advanced<RichInt>(
-		"max_iterations",
-		maxIterations,
-		"Max Newton steps",
-		"One solve gives up with an error after this many Newton steps. A run takes fewer than "
-		"30 as a rule."));
 	list.addParam(host::advanced<RichFloat>(
 		"time_limit",
 		static_cast<Scalarm>(0),
@@ -306,30 +306,29 @@ RichParameterList euclideanParameters(Shown shown)
 		"<b>Free</b>: those that change areas least. <b>Multiples of pi/2</b>: as "
 		"quadrangulations need them; all seams then differ by quarter turns."));
 	list.addParam(host::advanced<RichEnum>(
-		"surgery",
-		static_cast<int>(defaults.surgery),
-		surgeryChoices(),
-		"Surgery",
-		"What to do where the flow breaks a triangle. The mesh itself is never changed."));
+		"method",
+		static_cast<int>(defaults.method),
+		methodChoices(),
+		"Method",
+		QString(kMethodTip) +
+			" <b>Edge swaps</b>: they are swapped, as in the paper. <b>Thurston</b>: the "
+			"conventional flow, which changes the metric of thin triangles. These three are there "
+			"to compare with."));
 	list.addParam(finishParameter(defaults.finish));
-	list.addParam(host::advanced<RichBool>(
-		"resolve_overlap",
-		defaults.resolveOverlap,
-		"Cut charts that overlap",
-		"A chart that covers a part of the plane twice is cut along the shortest lines that "
-		"part what overlaps. Off: such charts are counted only."));
+	list.addParam(host::advanced<RichEnum>(
+		"charts",
+		static_cast<int>(defaults.charts),
+		chartsChoices(),
+		"Charts",
+		"<b>Without overlap</b>: a chart that covers a part of the plane twice is cut along the "
+		"shortest lines that part what overlaps. <b>And strips</b>: a long and narrow chart is "
+		"cut across once if all charts then cover about twice as much of the unit square."));
 	list.addParam(host::advanced<RichBool>(
 		"normalize_uv",
 		Flow::Params().normalizeUV,
 		"Fit into the unit square",
 		"Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the scale "
 		"of the metric."));
-	list.addParam(host::advanced<RichBool>(
-		"cut_strips",
-		Flow::Params().cutStrips,
-		"Cut strips",
-		"A long and narrow chart is cut across once where all charts then cover about twice as "
-		"much of the unit square."));
 	list.addParam(host::advanced<RichBool>(
 		"sphere_layer",
 		false,
@@ -338,15 +337,7 @@ RichParameterList euclideanParameters(Shown shown)
 		"surface of genus 0."));
 	addTextureParameters(list);
 	list.addParam(reportParameter());
-	list.addParam(host::advanced<RichEnum>(
-		"circle_packing",
-		static_cast<int>(defaults.packing),
-		circlePackingChoices(),
-		"Circle packing",
-		"<b>Inversive distance</b>: the generalized flow, exact on any triangles. "
-		"<b>Thurston</b>: the conventional flow, which changes the metric of thin triangles, "
-		"for comparison."));
-	addSolverParameters(list, defaults.epsilon, defaults.maxIterations);
+	addSolverParameters(list, defaults.epsilon);
 	return list;
 }
 
@@ -402,15 +393,15 @@ RichParameterList hyperbolicParameters(Shown shown)
 		"The circles of the boundary's vertices keep their radii, and the target holds inside "
 		"only. Off: the target holds on the boundary too."));
 	list.addParam(host::advanced<RichEnum>(
-		"surgery",
-		defaults.surgery == ricci::Surgery::IntrinsicFlips ? 1 : 0,
-		hyperbolicSurgeryChoices(),
-		"Surgery",
-		"What to do where the flow breaks a triangle. The mesh itself is never changed."));
+		"method",
+		static_cast<int>(defaults.method),
+		hyperbolicMethodChoices(),
+		"Method",
+		kMethodTip));
 	list.addParam(hyperbolicFinishParameter(defaults.finish));
 	addTextureParameters(list);
 	list.addParam(reportParameter());
-	addSolverParameters(list, defaults.epsilon, defaults.maxIterations);
+	addSolverParameters(list, defaults.epsilon);
 	return list;
 }
 
@@ -433,21 +424,18 @@ Settings readSettings(const RichParameterList& par)
 		checkedChoice(par, "cone_rounding", coneRoundingChoices()));
 	settings.flow.freeBoundary = par.getBool("free_boundary");
 	settings.flow.epsilon = static_cast<double>(par.getFloat("epsilon"));
-	settings.flow.packing = static_cast<ricci::PackingScheme>(
-		checkedChoice(par, "circle_packing", circlePackingChoices()));
-	settings.flow.surgery =
-		static_cast<ricci::Surgery>(checkedChoice(par, "surgery", surgeryChoices()));
+	settings.flow.method =
+		static_cast<ricci::Method>(checkedChoice(par, "method", methodChoices()));
 	settings.flow.output = static_cast<ricci::OutputTriangulation>(
 		checkedChoice(par, "output_triangulation", outputTriangulationChoices()));
 	settings.flow.finish =
 		static_cast<ricci::Finish>(checkedChoice(par, "finish", finishChoices()));
 	settings.flow.seamHiding = static_cast<double>(par.getFloat("seam_hiding"));
-	settings.flow.maxIterations = par.getInt("max_iterations");
 	settings.flow.normalizeUV = par.getBool("normalize_uv");
-	settings.flow.cutStrips = par.getBool("cut_strips");
 	settings.flow.chartMargin = static_cast<double>(par.getFloat("chart_margin"));
 	settings.flow.holes = static_cast<ricci::Holes>(checkedChoice(par, "holes", holesChoices()));
-	settings.flow.resolveOverlap = par.getBool("resolve_overlap");
+	settings.flow.charts =
+		static_cast<ricci::Charts>(checkedChoice(par, "charts", chartsChoices()));
 	settings.sphereLayer = par.getBool("sphere_layer");
 	if (!settings.texture.file.trimmed().isEmpty() && !settings.flow.normalizeUV)
 		throw Refusal(
@@ -467,15 +455,12 @@ HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 	settings.flow.coneAngle = static_cast<double>(par.getFloat("cone_angle")) * kDegree;
 	settings.flow.freeBoundary = par.getBool("free_boundary");
 	settings.flow.epsilon = static_cast<double>(par.getFloat("epsilon"));
-	settings.flow.surgery = checkedChoice(par, "surgery", hyperbolicSurgeryChoices()) == 1
-								? ricci::Surgery::IntrinsicFlips
-								: ricci::Surgery::None;
+	settings.flow.method =
+		static_cast<ricci::Method>(checkedChoice(par, "method", hyperbolicMethodChoices()));
 	settings.flow.output = static_cast<ricci::OutputTriangulation>(
 		checkedChoice(par, "output_triangulation", outputTriangulationChoices()));
-	settings.flow.finish = checkedChoice(par, "finish", hyperbolicFinishChoices()) == 1
-							   ? ricci::Finish::Repair
-							   : ricci::Finish::None;
-	settings.flow.maxIterations = par.getInt("max_iterations");
+	settings.flow.finish =
+		static_cast<ricci::Finish>(checkedChoice(par, "finish", hyperbolicFinishChoices()));
 	settings.coverRings = par.getInt("universal_cover");
 	if (settings.coverRings < 0 || settings.coverRings > kMaxRings)
 		throw Refusal(

@@ -107,18 +107,11 @@ std::string inWords(const ricci::InvalidOption& e)
 	case Error::ChartMarginTooWide:
 		return "A chart_margin of " + numberText(e.value, 6, std::chars_format::fixed) +
 			   " leaves no room for " + count + " charts: choose a smaller one.";
-	case Error::RefinementWithoutFlips:
-		return "The output 'Common refinement' belongs to the surgery 'Intrinsic flips': choose "
-			   "this, or the output 'Keep the mesh'.";
-	case Error::RefinementOfThurston:
-		return "The output 'Common refinement' belongs to the surgery 'Intrinsic flips' with the "
-			   "circle packing 'Inversive distance': choose these, or the output 'Keep the mesh'.";
-	case Error::CapsWithoutFlips:
-		return "The holes 'Capped' belong to the surgery 'Intrinsic flips' with the circle packing "
-			   "'Inversive distance': choose these, or the holes 'Boundaries'.";
-	case Error::HyperbolicSurgery:
-		return "The hyperbolic flow runs with inversive distances and the surgery 'None' or "
-			   "'Intrinsic flips' only.";
+	case Error::WithoutFlips:
+		return "The output 'Common refinement' and the holes 'Capped' belong to the method "
+			   "'Intrinsic flips': choose this, or 'Keep the mesh' and 'Boundaries'.";
+	case Error::HyperbolicMethod:
+		return "The hyperbolic flow has the methods 'Intrinsic flips' and 'Fixed triangles' only.";
 	case Error::NotADisk:
 		return std::string(
 				   e.target == ricci::TargetCurvature::Rectangle ? "'Rectangle'" : "'Disk'") +
@@ -190,14 +183,14 @@ std::string remedy(const ricci::NotConverged& e)
 	using Error = ricci::NotConverged;
 	switch (e.problem) {
 	case Error::StepsUsedUp:
-		return ": raise max_iterations or epsilon.";
+		return ": raise epsilon.";
 	case Error::BrokenTriangles:
-		return (e.surgery == ricci::Surgery::EdgeSwap
+		return (e.method == ricci::Method::EdgeSwaps
 					? ", with " + std::to_string(e.swaps) + " edges swapped"
 					: std::string()) +
-			   (e.surgery == ricci::Surgery::IntrinsicFlips
+			   (e.method == ricci::Method::IntrinsicFlips
 					? ": remesh the worst triangles."
-					: ": choose the surgery 'Intrinsic flips', or remesh the worst triangles.");
+					: ": choose the method 'Intrinsic flips', or remesh the worst triangles.");
 	case Error::LostInRounding:
 		return ". Choose a target_curvature nearer to the curvature of the mesh.";
 	case Error::FlipsUsedUp:
@@ -205,11 +198,11 @@ std::string remedy(const ricci::NotConverged& e)
 	case Error::CircleUnsettled:
 		return ". Remesh the boundary, or choose another target_curvature.";
 	case Error::FlatTriangles:
-		return ". Choose the surgery 'Intrinsic flips', or another target_curvature.";
+		return ". Choose the method 'Intrinsic flips', or another target_curvature.";
 	case Error::SplitsUsedUp:
 		return ": remesh the boundary.";
 	case Error::NoCut:
-		return ": choose the surgery 'Intrinsic flips'.";
+		return ": choose the method 'Intrinsic flips'.";
 	case Error::OutsideDisk:
 		return ": choose larger cone angles.";
 	case Error::CheckFailed:

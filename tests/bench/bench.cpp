@@ -63,7 +63,7 @@ const char* const kHeader =
 	"\tcones_cpu_s\tflows_cpu_s\tcut_cpu_s\toverlay_cpu_s\tfinish_cpu_s\tcharts_cpu_s"
 	"\tpack_cpu_s\twrite_cpu_s\trest_cpu_s\tlongest_silence_s\tsilent_stage"
 	"\tevaluation_wall_s\tthreads\tthread_speedup\tfactorizations\tsolutions\tgflop\ttarget"
-	"\tsurgery\tsolver\tremark";
+	"\tmethod\tsolver\tremark";
 
 double cpuSeconds()
 {
@@ -159,7 +159,7 @@ private:
 
 struct Row
 {
-	std::string name, geometry, target, surgery, remark = "-";
+	std::string name, geometry, target, method, remark = "-";
 	std::size_t faces = 0;
 	double read = 0, packing = 0, flow = 0, oneFactor = 0;
 	double whole = 0, wholeWall = 0, peak = 0, evaluation = 0, speedup = 0;
@@ -207,7 +207,7 @@ struct Row
 		std::printf(
 			"\t%s\t%s\t%s\t%s\n",
 			target.c_str(),
-			surgery.c_str(),
+			method.c_str(),
 			SparseCholesky::name(),
 			remark.c_str());
 	}
@@ -386,7 +386,7 @@ void measure(
 	// The matrix of the flow's last step; where the flow ran on the double of the surface, that of
 	// the surface itself at the start.
 	const IntrinsicMesh metric{surface.triangulation, surface.lengths};
-	const InitialPacking packing = inputPacking(metric, PackingScheme::InversiveDistance);
+	const InitialPacking packing = inputPacking(metric);
 	VertexVector u(surface.triangulation.vertexCount());
 	for (const Vertex v : u.indices())
 		u[v] = std::log(packing.radii[v]);
@@ -455,6 +455,12 @@ SurfaceMesh read(const std::string& path)
 #endif
 }
 
+const std::map<std::string, Method> kMethods = {
+	{"intrinsic_flips", Method::IntrinsicFlips},
+	{"fixed_triangles", Method::FixedTriangles},
+	{"edge_swaps", Method::EdgeSwaps},
+	{"thurston", Method::Thurston}};
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -463,23 +469,17 @@ int main(int argc, char** argv)
 	Background background = Background::EuclideanPlane;
 	bool flowOnly = false; // not the whole way from mesh to plane, which needs more memory
 	std::string path;
-	const auto surgeryName = [&] {
-		return options.surgery == Surgery::None       ? "none"
-			   : options.surgery == Surgery::EdgeSwap ? "edge_swap"
-													  : "intrinsic_flips";
-	};
+	std::string method = "intrinsic_flips";
 	for (int i = 1; i < argc; ++i) {
 		const std::string word = argv[i];
 		if (word == "--header") {
 			std::puts(kHeader);
 			return 0;
 		}
-		if (word == "--surgery=none")
-			options.surgery = Surgery::None;
-		else if (word == "--surgery=edge_swap")
-			options.surgery = Surgery::EdgeSwap;
-		else if (word == "--surgery=intrinsic_flips")
-			options.surgery = Surgery::IntrinsicFlips;
+		if (word.rfind("--method=", 0) == 0 && kMethods.count(word.substr(9)) > 0) {
+			method = word.substr(9);
+			options.method = kMethods.at(method);
+		}
 		else if (word == "--flow-only")
 			flowOnly = true;
 		else if (word == "--geometry=euclidean")
@@ -492,14 +492,15 @@ int main(int argc, char** argv)
 			path.clear(), i = argc;
 	}
 	if (path.empty()) {
-		std::cerr << "usage: ricci_bench --header | [--surgery=none|edge_swap|intrinsic_flips] "
+		std::cerr << "usage: ricci_bench --header | "
+					 "[--method=intrinsic_flips|fixed_triangles|edge_swaps] "
 					 "[--geometry=euclidean|hyperbolic] [--flow-only] "
 					 "MESH|generated[:FACES]|slab[:FACES]\n";
 		return 2;
 	}
 	Row row;
 	row.name = std::filesystem::path(path).stem().string();
-	row.surgery = surgeryName();
+	row.method = method;
 	row.geometry = background == Background::EuclideanPlane ? "euclidean" : "hyperbolic";
 	int status = 0;
 	try {

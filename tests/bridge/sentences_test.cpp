@@ -21,10 +21,10 @@ using ricci::InadmissibleCurvature;
 using ricci::InternalError;
 using ricci::InvalidMesh;
 using ricci::InvalidOption;
+using ricci::Method;
 using ricci::NotConverged;
 using ricci::SolverFailed;
 using ricci::SurfaceType;
-using ricci::Surgery;
 using ricci::TargetCurvature;
 using ricci::TooLarge;
 
@@ -138,10 +138,8 @@ TEST(Sentences, EveryInvalidOptionHasOne)
 		case InvalidOption::SphereOfComponents:
 			numbers = {"61"};
 			break;
-		case InvalidOption::RefinementWithoutFlips:
-		case InvalidOption::RefinementOfThurston:
-		case InvalidOption::CapsWithoutFlips:
-		case InvalidOption::HyperbolicSurgery:
+		case InvalidOption::WithoutFlips:
+		case InvalidOption::HyperbolicMethod:
 		case InvalidOption::NotADisk:
 		case InvalidOption::NothingSelected:
 		case InvalidOption::NotASphere:
@@ -210,9 +208,9 @@ TEST(Sentences, EveryNotConvergedHasOne)
 		case NotConverged::CheckFailed:
 			break;
 		}
-		for (Surgery surgery : {Surgery::None, Surgery::EdgeSwap, Surgery::IntrinsicFlips}) {
+		for (Method method : {Method::FixedTriangles, Method::EdgeSwaps, Method::IntrinsicFlips}) {
 			NotConverged error(problem, 61, 17.0);
-			error.surgery = surgery;
+			error.method = method;
 			expectSentence(error, numbers);
 		}
 	}
@@ -319,21 +317,12 @@ TEST(Sentences, OfParameters)
 		"universal_cover: 9 rings would need more than 5000000 faces. Ask for fewer rings, or "
 		"simplify the mesh.");
 	EXPECT_EQ(
-		sentence(InvalidOption(InvalidOption::RefinementOfThurston)),
-		"The output 'Common refinement' belongs to the surgery 'Intrinsic flips' with the circle "
-		"packing 'Inversive distance': choose these, or the output 'Keep the mesh'.");
+		sentence(InvalidOption(InvalidOption::WithoutFlips)),
+		"The output 'Common refinement' and the holes 'Capped' belong to the method 'Intrinsic "
+		"flips': choose this, or 'Keep the mesh' and 'Boundaries'.");
 	EXPECT_EQ(
-		sentence(InvalidOption(InvalidOption::RefinementWithoutFlips)),
-		"The output 'Common refinement' belongs to the surgery 'Intrinsic flips': choose this, or "
-		"the output 'Keep the mesh'.");
-	EXPECT_EQ(
-		sentence(InvalidOption(InvalidOption::HyperbolicSurgery)),
-		"The hyperbolic flow runs with inversive distances and the surgery 'None' or 'Intrinsic "
-		"flips' only.");
-	EXPECT_EQ(
-		sentence(InvalidOption(InvalidOption::CapsWithoutFlips)),
-		"The holes 'Capped' belong to the surgery 'Intrinsic flips' with the circle packing "
-		"'Inversive distance': choose these, or the holes 'Boundaries'.");
+		sentence(InvalidOption(InvalidOption::HyperbolicMethod)),
+		"The hyperbolic flow has the methods 'Intrinsic flips' and 'Fixed triangles' only.");
 }
 
 TEST(Sentences, OfTargetsThatTheSurfaceDoesNotHave)
@@ -419,28 +408,28 @@ TEST(Sentences, OfFlowsThatStopped)
 	EXPECT_EQ(
 		sentence(NotConverged(2, 0.01234, 1e-8, 3e-14)),
 		"The flow stopped after 2 Newton steps with a curvature error of 0.0123 (wanted: 1e-08, "
-		"rounding floor: 3e-14): raise max_iterations or epsilon.");
+		"rounding floor: 3e-14): raise epsilon.");
 	NotConverged broken(NotConverged::BrokenTriangles, 1);
-	broken.surgery = Surgery::EdgeSwap;
+	broken.method = Method::EdgeSwaps;
 	broken.swaps = 25;
 	EXPECT_EQ(
 		sentence(broken),
 		"1 triangle breaks the triangle inequality at the end of the flow, with 25 edges swapped: "
-		"choose the surgery 'Intrinsic flips', or remesh the worst triangles.");
-	broken.surgery = Surgery::IntrinsicFlips;
+		"choose the method 'Intrinsic flips', or remesh the worst triangles.");
+	broken.method = Method::IntrinsicFlips;
 	EXPECT_EQ(
 		sentence(broken),
 		"1 triangle breaks the triangle inequality at the end of the flow: remesh the worst "
 		"triangles.");
-	broken.surgery = Surgery::None;
+	broken.method = Method::FixedTriangles;
 	EXPECT_EQ(
 		sentence(broken),
-		"1 triangle breaks the triangle inequality at the end of the flow: choose the surgery "
+		"1 triangle breaks the triangle inequality at the end of the flow: choose the method "
 		"'Intrinsic flips', or remesh the worst triangles.");
 	EXPECT_EQ(
 		sentence(NotConverged(NotConverged::FlatTriangles, 2)),
 		"2 triangles are flat at the end of the flow: the curvature asked for is the limit of what "
-		"these triangles reach. Choose the surgery 'Intrinsic flips', or another "
+		"these triangles reach. Choose the method 'Intrinsic flips', or another "
 		"target_curvature.");
 	EXPECT_EQ(
 		sentence(NotConverged(NotConverged::SplitsUsedUp, 9)),

@@ -389,12 +389,12 @@ TEST(SeparateCharts, OfAScrewSurfaceCoverNothingTwice)
 		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
 		Options options;
 		options.output = output;
-		options.resolveOverlap = false;
+		options.charts = Charts::OfTheFlow;
 		const Parametrization whole = run(mesh, options);
 		EXPECT_EQ(whole.charts.size(), 1u);
 		EXPECT_EQ(whole.report.overlappingCharts, 1);
 		EXPECT_GT(whole.report.overlappingFaces, 0);
-		options.resolveOverlap = true;
+		options.charts = Charts::WithoutOverlap;
 		const Parametrization flat = run(mesh, options);
 		EXPECT_EQ(flat.report.overlappingCharts, 0);
 		EXPECT_EQ(flat.report.overlappingFaces, 0);

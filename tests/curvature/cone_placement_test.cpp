@@ -360,7 +360,7 @@ TEST(ConePlacement, TakesTheStartOfTheFlowForItsOwn)
 	const Packed p(shaken(perforatedSlab(1, 3), 0.05, random));
 	const EmbeddedSurface surface = surfaceOf(p);
 	FlowOptions onInput;
-	onInput.surgery = Surgery::None;
+	onInput.method = Method::FixedTriangles;
 	ConeRequest request;
 	request.count = 6;
 	FlowStart shared = flowStart(surface, FlowOptions()), other = flowStart(surface, onInput);

@@ -56,7 +56,7 @@ struct SwapRun
 	SwapRun(const SurfaceMesh& mesh, double everywhere) : component(componentOf(mesh))
 	{
 		curvature.assign(component.positions.size(), everywhere);
-		options.surgery = Surgery::EdgeSwap;
+		options.method = Method::EdgeSwaps;
 	}
 
 	SwappedFlow operator()()
@@ -189,7 +189,7 @@ TEST(SwappedFlow, EndsInAMetricOrWithAReason)
 			++broken;
 			EXPECT_EQ(error.problem, NotConverged::BrokenTriangles) << error.what();
 			EXPECT_GT(error.count, 0u);
-			EXPECT_EQ(error.surgery, Surgery::EdgeSwap);
+			EXPECT_EQ(error.method, Method::EdgeSwaps);
 			EXPECT_GE(error.swaps, 0);
 		}
 	}

@@ -78,7 +78,7 @@ TEST(RicciFlow, SolvesWhatBreaksOnAFixedTriangulation)
 			const FlippedFlow flow(mesh, request);
 			expectReached(flow);
 			Options options;
-			options.surgery = Surgery::None;
+			options.method = Method::FixedTriangles;
 			try {
 				runRicciFlow(
 					Background::EuclideanPlane,

@@ -222,7 +222,7 @@ TEST(BolzaSurface, PrintedStartIsTheMetricAndTheScaleFreeOneConvergesToIt)
 		EXPECT_LT(printed.curvature().lpNorm<Eigen::Infinity>(), 1e-11);
 
 		FlowOptions options;
-		options.surgery = Surgery::None;
+		options.method = Method::FixedTriangles;
 		options.epsilon = 1e-12;
 		Target target;
 		target.curvature = Eigen::VectorXd::Zero(t.vertexCount());

@@ -222,7 +222,8 @@ std::string defectOfPieces(const Reading& reading, const RefinedMesh& refined, s
 /// filter chose, and charts may be cut: of such a map no face may be turned round once it is finished.
 bool isOrdinary(const HostileMesh& hostile, const Reading& reading, const Report& report)
 {
-	return !hostile.hyperbolic && isFinished(hostile.options) && hostile.options.resolveOverlap &&
+	return !hostile.hyperbolic && isFinished(hostile.options) &&
+		   hostile.options.charts != Charts::OfTheFlow &&
 		   hostile.options.target == TargetCurvature::Automatic && hostile.options.epsilon < 1e-6 &&
 		   isEven(reading.mesh, 1e3) && report.areaDistortionSpread < 2.0 && report.qcMax < 100.0;
 }
@@ -269,7 +270,7 @@ bool mayRefuse(const HostileMesh& hostile, InvalidMesh::Problem problem)
 		return false;
 	case InvalidMesh::EdgesWithoutLength:
 	case InvalidMesh::FacesWithoutArea:
-		return flow.surgery != Surgery::IntrinsicFlips || flow.packing == PackingScheme::Thurston;
+		return flow.method != Method::IntrinsicFlips;
 	case InvalidMesh::NotPuncturable:
 		return hostile.sphere;
 	default:
@@ -463,7 +464,6 @@ Execution run(const HostileMesh& hostile)
 	static_cast<HyperbolicOptions&>(hyperbolicParams) = hostile.hyperbolicOptions;
 	hyperbolicParams.canonicalGenerators = true;
 	params.chartMargin = hostile.chartMargin;
-	params.cutStrips = hostile.cutStrips;
 	const typename Flow::SideMarks seams = seamsOf(hostile, m.face.size());
 	Watch watch(hostile.cancelAt, hostile.mesh.triangles.size());
 	typename Flow::Result result;

@@ -374,20 +374,19 @@ Options anyOptions(ByteSource& bytes)
 	Options options;
 	options.target = static_cast<TargetCurvature>(bytes.below(6));
 	options.freeBoundary = bytes.below(2) != 0;
-	options.packing = bytes.oneIn(5) ? PackingScheme::Thurston : PackingScheme::InversiveDistance;
-	const int surgery = bytes.below(5);
-	options.surgery = surgery == 0   ? Surgery::None
-					  : surgery == 1 ? Surgery::EdgeSwap
-									 : Surgery::IntrinsicFlips;
-	const bool mayRefine = (options.surgery == Surgery::IntrinsicFlips &&
-							options.packing == PackingScheme::InversiveDistance) ||
-						   bytes.oneIn(32);
+	const bool thurston = bytes.oneIn(5);
+	const int other = bytes.below(5);
+	options.method = thurston     ? Method::Thurston
+					 : other == 0 ? Method::FixedTriangles
+					 : other == 1 ? Method::EdgeSwaps
+								  : Method::IntrinsicFlips;
+	const bool mayRefine = options.method == Method::IntrinsicFlips || bytes.oneIn(32);
 	options.output = mayRefine && bytes.below(2) ? OutputTriangulation::CommonRefinement
 												 : OutputTriangulation::KeepMesh;
 	options.epsilon = epsilons[bytes.oneIn(6) ? bytes.below(13) : 0];
 	options.maxIterations = iterations[bytes.oneIn(16) ? bytes.below(9) : 0];
 	options.holes = mayRefine && bytes.oneIn(4) ? Holes::Capped : Holes::Boundaries;
-	options.resolveOverlap = bytes.oneIn(4);
+	options.charts = bytes.oneIn(4) ? Charts::WithoutOverlap : Charts::OfTheFlow;
 	return options;
 }
 
@@ -549,7 +548,8 @@ void HostileMesh::drawRarerOptions(ByteSource& bytes)
 		options.memoryLimit = hyperbolicOptions.memoryLimit = awkward(bytes);
 	sphere = bytes.oneIn(16);
 	rings = bytes.below(3);
-	cutStrips = bytes.oneIn(8);
+	if (bytes.oneIn(8))
+		options.charts = Charts::WithoutOverlapAndStrips;
 	if (bytes.oneIn(8)) {
 		seamEvery = 1 + bytes.below(50);
 		seamSeed = bytes.byte();
@@ -559,9 +559,10 @@ void HostileMesh::drawRarerOptions(ByteSource& bytes)
 /// Takes the cheapest reasons for a refusal away, so that more inputs come as far as the flow.
 void HostileMesh::mend()
 {
-	if (hyperbolicOptions.surgery == Surgery::EdgeSwap)
-		hyperbolicOptions.surgery = Surgery::IntrinsicFlips;
-	hyperbolicOptions.packing = PackingScheme::InversiveDistance;
+	if (hyperbolicOptions.method == Method::EdgeSwaps)
+		hyperbolicOptions.method = Method::IntrinsicFlips;
+	if (hyperbolicOptions.method == Method::Thurston)
+		hyperbolicOptions.method = Method::FixedTriangles;
 	for (FlowOptions* flow :
 		 {static_cast<FlowOptions*>(&options), static_cast<FlowOptions*>(&hyperbolicOptions)}) {
 		if (!(flow->epsilon > 0.0))

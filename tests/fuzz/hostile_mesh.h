@@ -28,7 +28,6 @@ struct HostileMesh
 	double chartMargin = 0.0;
 	int cancelAt = -1;   ///< number of the progress call that cancels; -1: none
 	bool sphere = false; ///< map to the sphere in place of the plane
-	bool cutStrips = false;
 	int seamEvery = 0; ///< about one in so many sides of faces is a seam; 0: none
 	int seamSeed = 0;
 	int rings = 0; ///< of the universal cover

@@ -45,10 +45,11 @@ TEXTURE = {"texture_scale": float}
 SEAMS = ["Shortest", "Existing texture seams", "Selected edges", "Border of selected faces"]
 TARGET = ["Automatic", "Flat everywhere", "Disk", "Rectangle", "Cones at selected vertices",
           "From vertex quality", "Placed cones"]
+METHOD = ["Intrinsic flips", "Fixed triangles", "Edge swaps", "Thurston"]
 CHOICES = {"target_curvature": TARGET, "seams": SEAMS,
            "cone_rounding": ["Free", "Multiples of pi/2"],
-           "circle_packing": ["Inversive distance", "Thurston"],
-           "surgery": ["None", "Edge swap", "Intrinsic flips"],
+           "method": METHOD,
+           "charts": ["As the flow has them", "Without overlap", "Without overlap and strips"],
            "output_triangulation": ["Keep the mesh", "Common refinement"],
            "finish": ["None", "Repair", "Least distortion"],
            "holes": ["Boundaries", "Capped"]}
@@ -58,11 +59,10 @@ PARAMETERS = [
     ("colorize", "Bool", False), ("flat_layer", "Bool", False),
     ("holes", "Enum", 0), ("seam_hiding", "Float", 0.0), ("cone_count", "Int", 0),
     ("cone_rounding", "Enum", 0),
-    ("surgery", "Enum", 2), ("finish", "Enum", 2), ("resolve_overlap", "Bool", True),
-    ("normalize_uv", "Bool", True), ("cut_strips", "Bool", False), ("sphere_layer", "Bool", False),
+    ("method", "Enum", 0), ("finish", "Enum", 2), ("charts", "Enum", 1),
+    ("normalize_uv", "Bool", True), ("sphere_layer", "Bool", False),
     ("carry_texture", "String", ""), ("texture_size", "Int", 2048), ("report", "String", ""),
-    ("circle_packing", "Enum", 0), ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200),
-    ("time_limit", "Float", 0.0)]
+    ("epsilon", "Float", 1e-8), ("time_limit", "Float", 0.0)]
 
 HYPERBOLIC = types.SimpleNamespace(
     NAME="Generalized Ricci Flow (Hyperbolic)",
@@ -70,7 +70,7 @@ HYPERBOLIC = types.SimpleNamespace(
     CHOICES={
         "target_curvature": ["Hyperbolic metric", "Cones at selected vertices",
                              "From vertex quality"],
-        "seams": SEAMS, "surgery": ["None", "Intrinsic flips"],
+        "seams": SEAMS, "method": METHOD[:2],
         "output_triangulation": ["Keep the mesh", "Common refinement"],
         "finish": ["None", "Repair"]},
     PARAMETERS=[
@@ -78,11 +78,10 @@ HYPERBOLIC = types.SimpleNamespace(
         ("output_triangulation", "Enum", 0), ("colorize", "Bool", False),
         ("flat_layer", "Bool", False), ("universal_cover", "Int", 0),
         ("generator_axes", "Bool", False), ("canonical_polygon", "Bool", False),
-        ("seams", "Enum", 0), ("free_boundary", "Bool", False), ("surgery", "Enum", 1),
+        ("seams", "Enum", 0), ("free_boundary", "Bool", False), ("method", "Enum", 0),
         ("finish", "Enum", 1),
         ("carry_texture", "String", ""), ("texture_size", "Int", 2048), ("report", "String", ""),
-        ("epsilon", "Float", 1e-8), ("max_iterations", "Int", 200),
-        ("time_limit", "Float", 0.0)])
+        ("epsilon", "Float", 1e-8), ("time_limit", "Float", 0.0)])
 
 # What the dialogs show at once; the rest is behind "Show advanced parameters".
 SHOWN = 8

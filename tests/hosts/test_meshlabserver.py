@@ -59,7 +59,7 @@ class Results(unittest.TestCase):
 
     def test_torus_flat_thurston(self):
         inversive, _ = self.check(meshes.torus(), target_curvature=1)
-        thurston, _ = self.check(meshes.torus(), target_curvature=1, circle_packing=1)
+        thurston, _ = self.check(meshes.torus(), target_curvature=1, method=3)
         self.assertGreaterEqual(float(thurston["qc_mean"]), float(inversive["qc_mean"]) - 1e-9)
 
     def test_annulus_flat(self):
@@ -246,15 +246,15 @@ class BadInput(unittest.TestCase):
                 self.check(words, meshes.torus(), report=name)
 
     def test_zero_area_face(self):
-        self.check("area", meshes.with_zero_area_face(meshes.plane()), surgery=0)
+        self.check("area", meshes.with_zero_area_face(meshes.plane()), method=1)
         self.assertIn("converged=true", run_on(meshes.with_zero_area_face(meshes.plane())).text)
 
     def test_zero_length_edge(self):
-        self.check("length|area", meshes.with_zero_length_edge(meshes.torus()), surgery=0)
+        self.check("length|area", meshes.with_zero_length_edge(meshes.torus()), method=1)
         self.assertIn("converged=true", run_on(meshes.with_zero_length_edge(meshes.torus())).text)
 
     def test_refinement_without_flips(self):
-        self.check("Intrinsic flips", meshes.torus(), surgery=0, output_triangulation=1)
+        self.check("Intrinsic flips", meshes.torus(), method=1, output_triangulation=1)
 
     def test_not_finite(self):
         self.check("finite|NaN|not a number", meshes.with_nan(meshes.torus()))
@@ -309,7 +309,6 @@ class BadInput(unittest.TestCase):
         for words, values in (
                 (r"epsilon.*greater than 0", {"epsilon": 0.0}),
                 (r"epsilon.*greater than 0", {"epsilon": -1e-8}),
-                (r"max_iterations.*1 or more", {"max_iterations": 0}),
                 (r"time_limit.*number of seconds", {"time_limit": -1.0}),
                 (r"time_limit.*mesh is unchanged", {"time_limit": 1e-6}),
                 (r"target_curvature.*6 \(Placed cones\)", {"target_curvature": 7}),
@@ -320,13 +319,10 @@ class BadInput(unittest.TestCase):
                 (r"chart_margin.*from 0 to 0.25", {"chart_margin": -0.1}),
                 (r"target_curvature.*0 \(Automatic\)", {"target_curvature": -1}),
                 (r"finish.*2 \(Least distortion\)", {"finish": 3}),
-                (r"circle_packing.*1 \(Thurston\)", {"circle_packing": 2}),
-                (r"surgery.*Edge swap", {"surgery": 7})):
+                (r"charts.*1 \(Without overlap\)", {"charts": 3}),
+                (r"method.*3 \(Thurston\)", {"method": 7})):
             with self.subTest(values):
                 self.check(words, meshes.torus(), **values)
-
-    def test_too_few_iterations(self):
-        self.check("Newton|iteration|step", meshes.torus(), max_iterations=1)
 
 
 class Hyperbolic(unittest.TestCase):
@@ -368,7 +364,7 @@ class Hyperbolic(unittest.TestCase):
                 ("universal_cover: 20 rings", meshes.double_torus(),
                  {"universal_cover": 20, "flat_layer": True}),
                 ("Intrinsic flips", meshes.double_torus(),
-                 {"surgery": 0, "output_triangulation": 1})):
+                 {"method": 1, "output_triangulation": 1})):
             with self.subTest(words):
                 run = self.run_on(mesh, **values)
                 self.assertNotEqual(run.code, 0, run.text)

@@ -104,7 +104,7 @@ class Results(unittest.TestCase):
     def test_names_of_choices(self):
         documents = mesh_set(meshes.annulus())
         returned = self.check(documents, target_curvature="Flat everywhere",
-                              circle_packing="Inversive distance", surgery="None")
+                              charts="As the flow has them", method="Fixed triangles")
         self.assertIn("annulus_modulus", returned)
 
     def test_disk_and_rectangle(self):
@@ -182,7 +182,7 @@ class Results(unittest.TestCase):
         self.assertGreater(open_ring["seam_edges"], 0)
 
     def test_overlap(self):
-        counted = self.check(mesh_set(meshes.screw()), resolve_overlap=False)
+        counted = self.check(mesh_set(meshes.screw()), charts="As the flow has them")
         self.assertEqual(counted["overlapping_charts"], 1)
         self.assertGreater(counted["overlapping_faces"], 0)
         documents = mesh_set(meshes.screw())
@@ -231,9 +231,10 @@ class Results(unittest.TestCase):
         self.assertEqual(run(mesh_set(mesh), **values), least)  # the default
 
     def test_finish_is_for_flips(self):
-        for values in ({"surgery": "None"}, {"surgery": "Edge swap"}, {"circle_packing": "Thurston"}):
+        for method in common.METHOD[1:]:
             documents = [mesh_set(meshes.torus()) for _ in range(2)]
-            self.assertEqual(run(documents[0], **values), run(documents[1], finish="None", **values))
+            self.assertEqual(run(documents[0], method=method),
+                             run(documents[1], finish="None", method=method))
             self.assertTrue(numpy.array_equal(*(d.current_mesh().wedge_tex_coord_matrix()
                                                 for d in documents)))
 
@@ -610,7 +611,6 @@ class Hyperbolic(unittest.TestCase):
     def test_numbers_out_of_range(self):
         for words, values in (
                 ("epsilon.*greater than 0", {"epsilon": math.nan}),
-                ("max_iterations.*1 or more", {"max_iterations": -1}),
                 ("universal_cover.*0 to 20 rings", {"universal_cover": 21}),
                 ("universal_cover.*0 to 20 rings", {"universal_cover": -1}),
                 ("cone_angle", {"target_curvature": 1, "cone_angle": math.nan}),
@@ -802,8 +802,8 @@ class BadInput(unittest.TestCase):
                 run(documents)
 
     def test_degenerate(self):
-        self.check("area", meshes.with_zero_area_face(meshes.plane()), surgery="None")
-        self.check("length|area", meshes.with_zero_length_edge(meshes.torus()), surgery="None")
+        self.check("area", meshes.with_zero_area_face(meshes.plane()), method="Fixed triangles")
+        self.check("length|area", meshes.with_zero_length_edge(meshes.torus()), method="Fixed triangles")
         for mesh in (meshes.with_zero_area_face(meshes.plane()),
                      meshes.with_zero_length_edge(meshes.torus())):
             returned = run(mesh_set(mesh), output_triangulation="Common refinement")
@@ -811,11 +811,11 @@ class BadInput(unittest.TestCase):
             self.assertEqual(returned["flipped_faces"], 0)
 
     def test_refinement_without_flips(self):
-        self.check("Intrinsic flips", meshes.torus(), surgery="None",
+        self.check("Intrinsic flips", meshes.torus(), method="Fixed triangles",
                    output_triangulation="Common refinement")
 
     def test_capped_without_flips(self):
-        self.check("Intrinsic flips", meshes.annulus(), surgery="None", holes="Capped")
+        self.check("Intrinsic flips", meshes.annulus(), method="Fixed triangles", holes="Capped")
 
     def test_sphere_layer_of_another_surface(self):
         self.check("genus 0.*torus", meshes.torus(), sphere_layer=True)
@@ -854,7 +854,6 @@ class BadInput(unittest.TestCase):
                 ("epsilon.*greater than 0", {"epsilon": -1.0}),
                 ("epsilon.*greater than 0", {"epsilon": float("nan")}),
                 ("epsilon.*greater than 0", {"epsilon": math.inf}),
-                ("max_iterations.*1 or more", {"max_iterations": 0}),
                 ("cone_count.*0", {"cone_count": -1}),
                 ("cone_distortion.*greater than 0", {"cone_distortion": 0.0}),
                 ("cone_distortion.*greater than 0", {"cone_distortion": math.nan}),
@@ -872,7 +871,7 @@ class BadInput(unittest.TestCase):
 
     def test_choices_out_of_range(self):
         """PyMeshLab itself refuses what is not a choice."""
-        for values in ({"target_curvature": 7}, {"target_curvature": -1}, {"surgery": "Nonsense"}):
+        for values in ({"target_curvature": 7}, {"target_curvature": -1}, {"method": "Nonsense"}):
             documents = mesh_set(meshes.torus())
             before = state(documents.current_mesh())
             with self.assertRaisesRegex(Exception, "^Enum .* not (valid|found)"):

@@ -47,7 +47,7 @@ class RockerArm(unittest.TestCase):
         self.documents = load(path)
 
     def test_inversive_distance(self):
-        returned = run(self.documents, target_curvature="Flat everywhere", surgery="None",
+        returned = run(self.documents, target_curvature="Flat everywhere", method="Fixed triangles",
                        epsilon=1e-10)
         self.assertLess(returned["max_curvature_error"], 1e-10)
         self.assertLessEqual(returned["qc_vertex_mean"], 1.0466)
@@ -55,8 +55,7 @@ class RockerArm(unittest.TestCase):
         self.check_with_oracle()
 
     def test_thurston(self):
-        returned = run(self.documents, target_curvature="Flat everywhere", surgery="None",
-                       circle_packing="Thurston")
+        returned = run(self.documents, target_curvature="Flat everywhere", method="Thurston")
         self.assertAlmostEqual(returned["qc_vertex_mean"], 1.739, delta=0.005)
 
     def check_with_oracle(self):

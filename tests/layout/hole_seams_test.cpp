@@ -86,11 +86,11 @@ TEST(HoleSeams, AreDroppedBackToWhatTheCutMustReach)
 TEST(HoleSeams, AreLeftOutWhereTheMetricCloses)
 {
 	// A plane is flat as it is, and goes round its holes in one piece; a bumpy surface does not.
-	for (const Surgery surgery : {Surgery::IntrinsicFlips, Surgery::None})
+	for (const Method method : {Method::IntrinsicFlips, Method::FixedTriangles})
 		for (const double height : {0.0, 0.3}) {
 			const SurfaceMesh mesh = perforated(16, height);
 			Options options;
-			options.surgery = surgery;
+			options.method = method;
 			const Parametrization flat = run(mesh, options);
 			EXPECT_EQ(flat.report.cappedHoles, 0);
 			EXPECT_EQ(flat.report.seamEdges == 0, height == 0.0);
@@ -219,18 +219,16 @@ TEST(CappedHoles, CarryConesOnTheirRim)
 
 TEST(CappedHoles, BelongToIntrinsicFlips)
 {
-	std::vector<Options> refused(3, capped());
-	refused[0].surgery = Surgery::None;
-	refused[1].surgery = Surgery::EdgeSwap;
-	refused[2].packing = PackingScheme::Thurston;
-	for (const Options& options : refused)
+	Options options = capped();
+	for (const Method method : {Method::FixedTriangles, Method::EdgeSwaps, Method::Thurston})
 		try {
+			options.method = method;
 			run(perforated(9, 0.1), options);
 			ADD_FAILURE() << "capped holes without flips";
 		}
 		catch (const InvalidOption& error) {
-			EXPECT_EQ(error.problem, InvalidOption::CapsWithoutFlips);
-			expectWords(error.what(), {"apped holes", "intrinsic flips with inversive distances"});
+			EXPECT_EQ(error.problem, InvalidOption::WithoutFlips);
+			expectWords(error.what(), {"apped holes", "intrinsic flips"});
 		}
 }
 

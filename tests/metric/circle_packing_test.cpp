@@ -135,6 +135,14 @@ TEST(CirclePacking, ScalesWithTheMesh)
 	}
 }
 
+CirclePacking thurstonPacking(
+	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<double>& radii)
+{
+	CirclePacking packing = inversiveDistancePacking(t, lengths, radii);
+	packing.delta = thurstonDistancesLessOne(t, lengths, radii);
+	return packing;
+}
+
 TEST(CirclePacking, ThurstonClampsTheInversiveDistance)
 {
 	for (const SurfaceMesh& mesh : surfaces()) {

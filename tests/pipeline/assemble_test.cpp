@@ -36,7 +36,7 @@ Options withOutput(OutputTriangulation output)
 {
 	Options options;
 	options.output = output;
-	options.resolveOverlap = false;
+	options.charts = Charts::OfTheFlow;
 	return options;
 }
 
@@ -452,8 +452,8 @@ TEST(Assemble, RefusesWhatTheFlowCannotTakeBeforeItStarts)
 	EXPECT_EQ(tooLarge->count, mesh.triangles.size());
 	EXPECT_EQ(tooLarge->limit, 1000.0);
 	EXPECT_GT(tooLarge->needed, 1000.0);
-	for (const Surgery surgery : {Surgery::None, Surgery::EdgeSwap}) {
-		options.surgery = surgery;
+	for (const Method method : {Method::FixedTriangles, Method::EdgeSwaps}) {
+		options.method = method;
 		const auto noLength = errorOf<InvalidMesh>([&] { start(options); });
 		ASSERT_TRUE(noLength);
 		EXPECT_EQ(noLength->problem, InvalidMesh::EdgesWithoutLength);

@@ -224,12 +224,12 @@ SurfaceMesh everyThirdFaceReversed(SurfaceMesh mesh)
 	return mesh;
 }
 
-Options euclidean(TargetCurvature target, Surgery surgery = Surgery::IntrinsicFlips)
+Options euclidean(TargetCurvature target, Method method = Method::IntrinsicFlips)
 {
 	Options options;
 	options.target = target;
-	options.surgery = surgery;
-	options.resolveOverlap = false; // which is not a matter of one component
+	options.method = method;
+	options.charts = Charts::OfTheFlow; // which is not a matter of one component
 	return options;
 }
 
@@ -240,50 +240,50 @@ AnyOptions refining(AnyOptions options)
 	return options;
 }
 
-std::vector<Case<Options>> euclideanCases(Surgery surgery)
+std::vector<Case<Options>> euclideanCases(Method method)
 {
 	Random random(4100);
 	std::vector<Case<Options>> cases;
 	const SurfaceMesh disk = shuffled(bumpyDisk(7, random), random).mesh;
 	for (const TargetCurvature target :
 		 {TargetCurvature::Automatic, TargetCurvature::Disk, TargetCurvature::Rectangle})
-		cases.push_back({"disk", disk, euclidean(target, surgery), {}});
+		cases.push_back({"disk", disk, euclidean(target, method), {}});
 	cases.push_back(
 		{"disk of mixed order",
 		 everyThirdFaceReversed(disk),
-		 euclidean(TargetCurvature::Automatic, surgery),
+		 euclidean(TargetCurvature::Automatic, method),
 		 {}});
 	cases.push_back(
 		{"torus",
 		 shuffled(bumpyTorus(10, 7, random), random).mesh,
-		 euclidean(TargetCurvature::Flat, surgery),
+		 euclidean(TargetCurvature::Flat, method),
 		 {}});
 	cases.push_back(
 		{"annulus",
 		 shuffled(bumpyRing(random), random).mesh,
-		 euclidean(TargetCurvature::Flat, surgery),
+		 euclidean(TargetCurvature::Flat, method),
 		 {}});
 	const Renumbered closed = shuffled(shaken(perforatedSlab(2, 2), 0.02, random), random);
 	cases.push_back(
-		{"placed cones", closed.mesh, euclidean(TargetCurvature::PlacedCones, surgery), {}});
+		{"placed cones", closed.mesh, euclidean(TargetCurvature::PlacedCones, method), {}});
 	cases.push_back(
 		{"selected cones",
 		 closed.mesh,
-		 euclidean(TargetCurvature::SelectedCones, surgery),
+		 euclidean(TargetCurvature::SelectedCones, method),
 		 selectingOld(closed, {0, 5, 11, 17, 23, 29, 35, 41})});
 	cases.push_back(
 		{"three holes",
 		 shuffled(withoutStars(torus(3, 1, 16, 12), {0, 50, 100}), random).mesh,
-		 euclidean(TargetCurvature::Automatic, surgery),
+		 euclidean(TargetCurvature::Automatic, method),
 		 {}});
 	return cases;
 }
 
 TEST(FlattenComponent, IsTheEuclideanMapOfTheMeshItIs)
 {
-	for (const Surgery surgery : {Surgery::None, Surgery::EdgeSwap, Surgery::IntrinsicFlips})
-		for (const Case<Options>& c : euclideanCases(surgery)) {
-			SCOPED_TRACE(static_cast<int>(surgery));
+	for (const Method method : {Method::FixedTriangles, Method::EdgeSwaps, Method::IntrinsicFlips})
+		for (const Case<Options>& c : euclideanCases(method)) {
+			SCOPED_TRACE(static_cast<int>(method));
 			expectSame(c);
 		}
 }
@@ -291,7 +291,7 @@ TEST(FlattenComponent, IsTheEuclideanMapOfTheMeshItIs)
 TEST(FlattenComponent, IsTheEuclideanMapOnTheCommonRefinement)
 {
 	int crossings = 0;
-	for (Case<Options>& c : euclideanCases(Surgery::IntrinsicFlips)) {
+	for (Case<Options>& c : euclideanCases(Method::IntrinsicFlips)) {
 		c.options = refining(c.options);
 		expectSame(c);
 		crossings += run(c.mesh, c.options, c.input).report.refinementPoints;
@@ -315,8 +315,7 @@ TEST(FlattenComponent, IsTheEuclideanMapWithCappedHoles)
 TEST(FlattenComponent, IsTheEuclideanMapOfThurstonsPacking)
 {
 	Random random(4102);
-	Options options = euclidean(TargetCurvature::Flat, Surgery::None);
-	options.packing = PackingScheme::Thurston;
+	const Options options = euclidean(TargetCurvature::Flat, Method::Thurston);
 	expectSame(
 		Case<Options>{"torus", shuffled(bumpyTorus(10, 7, random), random).mesh, options, {}});
 }
@@ -329,7 +328,7 @@ TEST(FlattenComponent, IsTheEuclideanMapAfterEdgeSwaps)
 		VertexInput input;
 		input.targetCurvature =
 			randomCurvature(static_cast<int>(mesh.positions.size()), 0, -2.5, 2.5, 0.5, random);
-		const Options options = euclidean(TargetCurvature::Prescribed, Surgery::EdgeSwap);
+		const Options options = euclidean(TargetCurvature::Prescribed, Method::EdgeSwaps);
 		EXPECT_GT(flattened(componentsOf(mesh).front(), options, input).edgeSwaps, 0);
 		expectSame(Case<Options>{"round " + std::to_string(round), mesh, options, input});
 	}
@@ -348,7 +347,7 @@ TEST(FlattenComponent, IsTheEuclideanMapAfterABoundarySplit)
 	VertexInput input;
 	input.targetCurvature.assign(8, 0.0);
 	input.targetCurvature[0] = -3.0;
-	const Options options = euclidean(TargetCurvature::Prescribed, Surgery::EdgeSwap);
+	const Options options = euclidean(TargetCurvature::Prescribed, Method::EdgeSwaps);
 	EXPECT_EQ(flattened(componentsOf(fan).front(), options, input).boundarySplits, 1);
 	expectSame(Case<Options>{"fan", fan, options, input});
 }
@@ -392,7 +391,7 @@ TEST(FlattenComponent, IsTheHyperbolicMapOnTheGivenTriangulation)
 {
 	Random random(4104);
 	HyperbolicOptions options;
-	options.surgery = Surgery::None;
+	options.method = Method::FixedTriangles;
 	expectSame(Case<HyperbolicOptions>{
 		"genus 2", shuffled(perforatedSlab(2, 3), random).mesh, options, {}});
 }

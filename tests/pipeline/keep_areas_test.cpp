@@ -407,10 +407,11 @@ TEST(KeepAreas, IsForFlipsAlone)
 	std::vector<std::string> notes;
 	const Component component = splitIntoComponents(openMesh(mesh, notes)).front();
 	const int vertices = static_cast<int>(mesh.positions.size());
-	for (const Surgery surgery : {Surgery::None, Surgery::EdgeSwap, Surgery::IntrinsicFlips}) {
+	for (const Method method :
+		 {Method::FixedTriangles, Method::EdgeSwaps, Method::IntrinsicFlips}) {
 		Options options;
-		options.surgery = surgery;
-		const bool flips = surgery == Surgery::IntrinsicFlips;
+		options.method = method;
+		const bool flips = method == Method::IntrinsicFlips;
 		EXPECT_EQ(targetRequest(component, {}, options, vertices).keepsAreas, flips);
 		const Report report = run(mesh, options).report;
 		EXPECT_EQ(report.cones > 0, flips);

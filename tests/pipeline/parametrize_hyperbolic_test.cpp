@@ -449,22 +449,18 @@ TEST(ParametrizeHyperbolic, RefusesOptionsOutOfRange)
 		expectWords(error->what(), {"Newton steps", "at least 1, not " + std::to_string(most)});
 	}
 	HyperbolicOptions options;
-	options.surgery = Surgery::EdgeSwap;
-	const auto swaps = refusal<InvalidOption>(mesh, options);
-	ASSERT_TRUE(swaps);
-	EXPECT_EQ(swaps->problem, InvalidOption::HyperbolicSurgery);
-	expectWords(swaps->what(), {"without edge swaps"});
-	options = HyperbolicOptions();
-	options.packing = PackingScheme::Thurston;
-	const auto thurston = refusal<InvalidOption>(mesh, options);
-	ASSERT_TRUE(thurston);
-	EXPECT_EQ(thurston->problem, InvalidOption::HyperbolicSurgery);
-	expectWords(thurston->what(), {"inversive distances"});
+	for (const Method method : {Method::EdgeSwaps, Method::Thurston}) {
+		options.method = method;
+		const auto error = refusal<InvalidOption>(mesh, options);
+		ASSERT_TRUE(error);
+		EXPECT_EQ(error->problem, InvalidOption::HyperbolicMethod);
+		expectWords(error->what(), {"no edge swaps and no Thurston packing"});
+	}
 	options = refined();
-	options.surgery = Surgery::None;
+	options.method = Method::FixedTriangles;
 	const auto withoutFlips = refusal<InvalidOption>(mesh, options);
 	ASSERT_TRUE(withoutFlips);
-	EXPECT_EQ(withoutFlips->problem, InvalidOption::RefinementWithoutFlips);
+	EXPECT_EQ(withoutFlips->problem, InvalidOption::WithoutFlips);
 	expectWords(withoutFlips->what(), {"common refinement", "intrinsic flips"});
 	options = HyperbolicOptions();
 	options.maxIterations = 1;
@@ -482,7 +478,7 @@ TEST(ParametrizeHyperbolic, TheGivenTriangulationCanBeKept)
 {
 	const SurfaceMesh mesh = perforatedSlab(2, 3); // no triangle breaks
 	HyperbolicOptions options;
-	options.surgery = Surgery::None;
+	options.method = Method::FixedTriangles;
 	const Parametrization map = run(mesh, options);
 	EXPECT_EQ(map.report.flips, 0);
 	EXPECT_EQ(map.report.flippedFaces, 0);

@@ -543,7 +543,7 @@ TEST(Parametrize, ConventionalFlowIsLessConformal)
 	const SurfaceMesh mesh = bumpyTorus(20, 12, random);
 	Options options = fixedTriangulation();
 	const double inversive = run(mesh, options).report.qcVertexMean;
-	options.packing = PackingScheme::Thurston;
+	options.method = Method::Thurston;
 	const Parametrization conventional = run(mesh, options);
 	EXPECT_LT(conventional.report.maxCurvatureError, 1e-8);
 	EXPECT_GT(conventional.report.qcVertexMean, inversive + 0.1);
@@ -653,7 +653,7 @@ TEST(Parametrize, SplitsABoundaryEdgeThatWouldBreakItsTriangle)
 	VertexInput input;
 	input.targetCurvature.assign(8, 0.0);
 	Options options = fixedTriangulation(TargetCurvature::Prescribed);
-	options.surgery = Surgery::EdgeSwap;
+	options.method = Method::EdgeSwaps;
 	for (double K : {-1.0, -2.0, -3.0}) {
 		input.targetCurvature[0] = K;
 		const Parametrization flat = run(fan, options, input);
@@ -666,12 +666,12 @@ TEST(Parametrize, SplitsABoundaryEdgeThatWouldBreakItsTriangle)
 		EXPECT_NEAR(map.curvature[0], K, 1e-9);
 		ASSERT_EQ(flat.u.size(), fan.positions.size()); // the new vertex stays inside
 	}
-	options.surgery = Surgery::None;
+	options.method = Method::FixedTriangles;
 	const auto error = errorOf<NotConverged>([&] { run(fan, options, input); });
 	ASSERT_TRUE(error);
 	EXPECT_EQ(error->problem, NotConverged::BrokenTriangles);
 	EXPECT_EQ(error->count, 1u);
-	EXPECT_EQ(error->surgery, Surgery::None);
+	EXPECT_EQ(error->method, Method::FixedTriangles);
 	expectWords(error->what(), {"the triangle inequality at the end"});
 }
 
@@ -698,8 +698,8 @@ TEST(Parametrize, ACurvatureAtTheLimitOfATriangleIsRefused)
 	ASSERT_TRUE(error);
 	EXPECT_EQ(error->problem, NotConverged::BrokenTriangles);
 	EXPECT_EQ(error->count, 2u);
-	EXPECT_EQ(error->surgery, Surgery::None); // for which the flips are the remedy
-	options.surgery = Surgery::IntrinsicFlips;
+	EXPECT_EQ(error->method, Method::FixedTriangles); // for which the flips are the remedy
+	options.method = Method::IntrinsicFlips;
 	EXPECT_LT(run(mesh, options, input).report.maxCurvatureError, 1e-8);
 }
 

@@ -90,7 +90,7 @@ Options fixedTriangulation(TargetCurvature target)
 {
 	Options options;
 	options.target = target;
-	options.surgery = Surgery::None;
+	options.method = Method::FixedTriangles;
 	return options;
 }
 

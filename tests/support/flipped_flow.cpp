@@ -47,7 +47,7 @@ FlowDomain domainOf(EmbeddedSurface surface)
 FlowOptions optionsOf(double epsilon)
 {
 	FlowOptions options;
-	options.surgery = Surgery::IntrinsicFlips;
+	options.method = Method::IntrinsicFlips;
 	options.epsilon = epsilon;
 	return options;
 }

@@ -32,15 +32,13 @@ const char* const kUsage =
 	"  --cone-count N       of placed cones\n"
 	"  --cone-distortion X  that decides their number\n"
 	"  --cone-rounding R    free, quarter\n"
-	"  --surgery S          none, swap, flips\n"
-	"  --packing P          inversive, thurston\n"
+	"  --method M           flips, fixed, swaps, thurston\n"
 	"  --finish F           none, repair, least\n"
-	"  --refine             give the map on the common refinement (surgery flips)\n"
+	"  --refine             give the map on the common refinement (method flips)\n"
 	"  --capped             close all boundary loops but the longest for the flow\n"
-	"  --whole-charts       leave charts that cover themselves whole\n"
+	"  --charts C           flow, separate, strips (with --packed): which cuts they get\n"
 	"  --packed             the whole way to the unit square; count there what lies on each other\n"
 	"  --margin M           between the charts, with --packed\n"
-	"  --cut-strips         with --packed\n"
 	"  --prescribe-boundary free_boundary off\n"
 	"  --epsilon X          radians\n"
 	"  --max-iterations N\n"
@@ -68,7 +66,6 @@ struct Arguments
 	std::string objFolder;
 	bool packed = false;
 	double margin = 0.0;
-	bool cutStrips = false;
 	bool verbose = false;
 };
 
@@ -108,17 +105,13 @@ Arguments parse(int argc, char** argv)
 		};
 		if (word == "--target")
 			a.targets.push_back(targetByName(value()));
-		else if (word == "--surgery")
-			a.options.surgery = choose<Surgery>(
+		else if (word == "--method")
+			a.options.method = choose<Method>(
 				value(),
-				{{"none", Surgery::None},
-				 {"swap", Surgery::EdgeSwap},
-				 {"flips", Surgery::IntrinsicFlips}});
-		else if (word == "--packing")
-			a.options.packing = choose<PackingScheme>(
-				value(),
-				{{"inversive", PackingScheme::InversiveDistance},
-				 {"thurston", PackingScheme::Thurston}});
+				{{"flips", Method::IntrinsicFlips},
+				 {"fixed", Method::FixedTriangles},
+				 {"swaps", Method::EdgeSwaps},
+				 {"thurston", Method::Thurston}});
 		else if (word == "--finish")
 			a.options.finish = choose<Finish>(
 				value(),
@@ -129,14 +122,16 @@ Arguments parse(int argc, char** argv)
 			a.options.output = OutputTriangulation::CommonRefinement;
 		else if (word == "--capped")
 			a.options.holes = Holes::Capped;
-		else if (word == "--whole-charts")
-			a.options.resolveOverlap = false;
+		else if (word == "--charts")
+			a.options.charts = choose<Charts>(
+				value(),
+				{{"flow", Charts::OfTheFlow},
+				 {"separate", Charts::WithoutOverlap},
+				 {"strips", Charts::WithoutOverlapAndStrips}});
 		else if (word == "--packed")
 			a.packed = true;
 		else if (word == "--margin")
 			a.margin = std::atof(value().c_str());
-		else if (word == "--cut-strips")
-			a.cutStrips = true;
 		else if (word == "--prescribe-boundary")
 			a.options.freeBoundary = false;
 		else if (word == "--epsilon")
@@ -251,7 +246,6 @@ runPacked(const SurfaceMesh& mesh, const Options& options, const Arguments& a, P
 	Flow::Params params;
 	static_cast<Options&>(params) = options;
 	params.chartMargin = a.margin;
-	params.cutStrips = a.cutStrips;
 	Outcome out;
 	const std::clock_t start = std::clock();
 	const Flow::Result flat = Flow::Compute(m, params, progress);

@@ -122,7 +122,7 @@ PipelineCheck::PipelineCheck(const SurfaceMesh& mesh)
 	options.freeBoundary = true;
 	options.epsilon = 1e-10;
 	options.output = OutputTriangulation::CommonRefinement;
-	options.resolveOverlap = false; // such cuts may cross faces, the flow's own seams may not
+	options.charts = Charts::OfTheFlow; // such cuts may cross faces, the flow's own seams may not
 	try {
 		VertexInput input;
 		input.targetCurvature = admissibleCurvature(mesh);

@@ -149,22 +149,19 @@ const std::vector<Case> kCases = {
 	{"capped", [](Flow::Params& p) { p.holes = Holes::Capped; }},
 	{"strips_unscaled",
 	 [](Flow::Params& p) {
-		 p.cutStrips = true;
+		 p.charts = Charts::WithoutOverlapAndStrips;
 		 p.chartMargin = 0.01;
 	 }},
-	{"no_surgery", [](Flow::Params& p) { p.surgery = Surgery::None; }},
-	{"edge_swap", [](Flow::Params& p) { p.surgery = Surgery::EdgeSwap; }},
-	{"thurston", [](Flow::Params& p) {
-		 p.surgery = Surgery::None;
-		 p.packing = PackingScheme::Thurston;
-	 }}};
+	{"no_surgery", [](Flow::Params& p) { p.method = Method::FixedTriangles; }},
+	{"edge_swap", [](Flow::Params& p) { p.method = Method::EdgeSwaps; }},
+	{"thurston", [](Flow::Params& p) { p.method = Method::Thurston; }}};
 
 const std::vector<std::pair<const char*, std::function<void(HyperbolicOptions&)>>>
 	kHyperbolicCases = {
 		{"hyperbolic", [](HyperbolicOptions& o) { o.canonicalGenerators = true; }},
 		{"hyperbolic_refined",
 		 [](HyperbolicOptions& o) { o.output = OutputTriangulation::CommonRefinement; }},
-		{"hyperbolic_no_surgery", [](HyperbolicOptions& o) { o.surgery = Surgery::None; }}};
+		{"hyperbolic_no_surgery", [](HyperbolicOptions& o) { o.method = Method::FixedTriangles; }}};
 
 template<class Run>
 void tryRun(const std::string& run, const Run& body)

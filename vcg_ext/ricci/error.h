@@ -75,10 +75,8 @@ public:
 		SeamHiding,             ///< value; must be in [0, 1]
 		ChartMargin,            ///< value; must be in [0, bound]
 		ChartMarginTooWide,     ///< value; leaves no room for count charts
-		RefinementWithoutFlips, ///< the common refinement belongs to flips
-		RefinementOfThurston,   ///< the common refinement belongs to inversive distances with flips
-		CapsWithoutFlips,       ///< capped holes belong to inversive distances with flips
-		HyperbolicSurgery,      ///< the hyperbolic flow has no edge swaps and no Thurston packing
+		WithoutFlips,           ///< the common refinement and capped holes belong to flips
+		HyperbolicMethod,       ///< the hyperbolic flow has no edge swaps and no Thurston packing
 		NotADisk,               ///< target (Disk, Rectangle) and surface
 		TooFewBoundaryVertices, ///< count; a rectangle needs 4
 		CornerCount,            ///< count of selected vertices; a rectangle needs 4 or none
@@ -158,7 +156,7 @@ public:
 	int iterations = 0; ///< Newton steps made
 	double residual = 0.0, epsilon = 0.0, floor = 0.0;
 	int swaps = 0;
-	Surgery surgery = Surgery::IntrinsicFlips;
+	Method method = Method::IntrinsicFlips;
 	std::string finding;
 };
 

@@ -24,18 +24,18 @@ enum class ConeRounding {
 				 ///< roundLoopTurns()
 };
 
-/// How the circles of the two ends of an edge may lie.
-enum class PackingScheme {
-	InversiveDistance, ///< generalized flow: intersecting or disjoint, the mesh's own metric
-					   ///< exactly
-	Thurston           ///< conventional flow: inversive distance clamped to [0,1] (acute angles)
-};
-
-/// What happens where the flow would break the triangle inequality.
-enum class Surgery {
-	None,     ///< the triangulation is kept; the energy is extended past broken triangles
-	EdgeSwap, ///< paper 5.4: swap the edge, its inversive distance from the original 3D distance
-	IntrinsicFlips ///< weighted-Delaunay flips that keep the conformal class: no triangle breaks
+/// What the flow runs on, and what happens if it would break the triangle inequality. The order is
+/// that of the filters' menus.
+enum class Method {
+	/// Weighted-Delaunay flips that keep the conformal class: no triangle breaks.
+	IntrinsicFlips,
+	/// The mesh's triangles; the energy is extended past broken ones.
+	FixedTriangles,
+	/// In the plane only: swap the edge, its inversive distance from the 3D distance (paper 5.4).
+	EdgeSwaps,
+	/// In the plane only: the conventional flow, on the mesh's triangles with inversive distances
+	/// clamped to [0,1] (acute angles).
+	Thurston
 };
 
 /// What the boundary loops other than the longest are.
@@ -51,9 +51,17 @@ enum class OutputTriangulation {
 					 ///< exact
 };
 
+/// Whether the charts of the flow are cut further. The order is that of the filter's menu.
+enum class Charts {
+	OfTheFlow,              ///< they are not
+	WithoutOverlap,         ///< a chart that covers a part of the plane more than once becomes several
+							///< that do not; the others stay as they are
+	WithoutOverlapAndStrips ///< so do strips, if charts then cover about twice as much of the unit
+							///< square. A cut counts as one of an overlap; rectangles stay whole
+};
+
 /// What is done to a map that the flow has found, which is exact on its own triangles, for the
-/// straight triangles that are given back. Only maps found with flips and with circles that do not
-/// overlap are finished, see isFinished().
+/// straight triangles that are given back. Only maps found with flips are finished, see isFinished().
 enum class Finish {
 	None,           ///< the map is drawn as it is
 	Repair,         ///< no triangle is turned round or has no area
@@ -73,8 +81,10 @@ struct FlowOptions
 	/// Stop when max |target - K| falls below this, in radians. Must be positive.
 	double epsilon = 1e-8;
 
-	PackingScheme packing = PackingScheme::InversiveDistance;
-	Surgery surgery = Surgery::IntrinsicFlips;
+	Method method = Method::IntrinsicFlips;
+
+	/// CommonRefinement belongs to intrinsic flips.
+	OutputTriangulation output = OutputTriangulation::KeepMesh;
 
 	/// Newton steps of one solve, at least 1.
 	int maxIterations = 200;
@@ -87,11 +97,10 @@ struct FlowOptions
 	double memoryLimit = 0.0;
 };
 
-/// Whether maps are finished: those that are there to compare with are not.
+/// Whether a map is to be finished: those of the other methods are there to compare with.
 inline bool isFinished(const FlowOptions& options)
 {
-	return options.finish != Finish::None && options.surgery == Surgery::IntrinsicFlips &&
-		   options.packing == PackingScheme::InversiveDistance;
+	return options.finish != Finish::None && options.method == Method::IntrinsicFlips;
 }
 
 /// Which curvature the hyperbolic flow is asked to reach. The order is that of the filter's menu.
@@ -122,13 +131,10 @@ struct Options : FlowOptions
 	/// annulus prescribe the boundary and ignore this.
 	bool freeBoundary = true;
 
-	OutputTriangulation output = OutputTriangulation::KeepMesh;
-
+	/// Capped belongs to intrinsic flips.
 	Holes holes = Holes::Boundaries;
 
-	/// Cut a chart that covers a part of the plane more than once into several that do not. A chart
-	/// that does not is the same with it and without.
-	bool resolveOverlap = true;
+	Charts charts = Charts::WithoutOverlap;
 };
 
 /// Options of the hyperbolic flow.
@@ -143,8 +149,6 @@ struct HyperbolicOptions : FlowOptions
 	/// keep the radii that they have where the surface is scaled to the area 2 pi max(1, |chi|), so
 	/// that finely triangulated boundaries keep their lengths at that scale.
 	bool freeBoundary = false;
-
-	OutputTriangulation output = OutputTriangulation::KeepMesh;
 
 	/// Find canonical generators of the Fuchsian group, too, see FuchsianGroup::handles.
 	bool canonicalGenerators = false;

@@ -81,14 +81,10 @@ std::string words(const InvalidOption& e)
 	case InvalidOption::ChartMarginTooWide:
 		return "A margin of " + number(e.value) + " leaves no room for " + std::to_string(e.count) +
 			   " charts";
-	case InvalidOption::RefinementWithoutFlips:
-		return "The common refinement belongs to intrinsic flips";
-	case InvalidOption::RefinementOfThurston:
-		return "The common refinement belongs to intrinsic flips with inversive distances";
-	case InvalidOption::CapsWithoutFlips:
-		return "Capped holes belong to intrinsic flips with inversive distances";
-	case InvalidOption::HyperbolicSurgery:
-		return "The hyperbolic flow runs with inversive distances, and without edge swaps";
+	case InvalidOption::WithoutFlips:
+		return "The common refinement and capped holes belong to intrinsic flips";
+	case InvalidOption::HyperbolicMethod:
+		return "The hyperbolic flow has no edge swaps and no Thurston packing";
 	case InvalidOption::NotADisk:
 		return std::string(e.target == TargetCurvature::Rectangle ? "A rectangle" : "A disk") +
 			   " is the image of a topological disk (genus 0, one boundary loop), but the surface "

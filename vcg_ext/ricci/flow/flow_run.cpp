@@ -35,12 +35,12 @@ InitialPacking initialPacking(
 	const FlowOptions& options,
 	const Tick& tick)
 {
-	if (options.surgery != Surgery::IntrinsicFlips)
-		return inputPacking(std::move(mesh), options.packing);
-	InitialPacking packing = delaunayPacking(std::move(mesh), mirror, tick);
-	if (options.packing == PackingScheme::Thurston)
-		packing.delta = inversiveDistancesLessOne(
-			packing.mesh.triangulation, packing.mesh.lengths, packing.radii, options.packing);
+	if (options.method == Method::IntrinsicFlips)
+		return delaunayPacking(std::move(mesh), mirror, tick);
+	InitialPacking packing = inputPacking(std::move(mesh));
+	if (options.method == Method::Thurston)
+		packing.delta = thurstonDistancesLessOne(
+			packing.mesh.triangulation, packing.mesh.lengths, packing.radii);
 	return packing;
 }
 
@@ -118,8 +118,7 @@ FlowRun::FlowRun(
 std::unique_ptr<FactoredHessian> FlowRun::takeHessian()
 {
 	// It belongs to the Euclidean packing with the Delaunay triangulation's own metric.
-	if (m_background == Background::EuclideanPlane && m_problem.start.packing.isDelaunay &&
-		m_options.packing == PackingScheme::InversiveDistance)
+	if (m_background == Background::EuclideanPlane && m_problem.start.packing.isDelaunay)
 		return std::move(m_problem.start.hessian);
 	m_problem.start.hessian.reset();
 	return nullptr;
@@ -135,7 +134,7 @@ CirclePacking FlowRun::takeStart()
 	CirclePacking packing;
 	packing.triangulation = start.mesh.triangulation;
 	packing.delta = start.delta;
-	if (m_options.surgery == Surgery::IntrinsicFlips) {
+	if (m_options.method == Method::IntrinsicFlips) {
 		FlipHistory& history = m_result.history;
 		history.input = std::move(m_problem.input);
 		history.start = std::move(start.mesh);
@@ -151,7 +150,7 @@ template<class Geometry>
 std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing) const
 {
 	std::shared_ptr<CurvatureMap> map;
-	if (m_options.surgery == Surgery::IntrinsicFlips)
+	if (m_options.method == Method::IntrinsicFlips)
 		map = std::make_shared<FlippingCurvatureMap<Geometry>>(std::move(packing));
 	else
 		map = std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
@@ -366,8 +365,8 @@ NotConverged FlowRun::failure() const
 	const double scales = spreadOfScales();
 	const bool stalls =
 		m_solved.iterations < m_options.maxIterations && m_solved.residual > kWorthExtending;
-	const bool lost = m_options.surgery == Surgery::IntrinsicFlips && scales > kMaxScales &&
-					  (broken > 0 || stalls);
+	const bool lost =
+		m_options.method == Method::IntrinsicFlips && scales > kMaxScales && (broken > 0 || stalls);
 	if (lost || !std::isfinite(m_solved.floor))
 		return withState(NotConverged(NotConverged::LostInRounding, broken, std::round(scales)));
 	if (broken > 0)
@@ -382,7 +381,7 @@ NotConverged FlowRun::withState(NotConverged error) const
 	error.residual = m_solved.residual;
 	error.epsilon = m_options.epsilon;
 	error.floor = m_solved.floor;
-	error.surgery = m_options.surgery;
+	error.method = m_options.method;
 	return error;
 }
 

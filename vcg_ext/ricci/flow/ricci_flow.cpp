@@ -119,7 +119,7 @@ FlowResult runRicciFlow(
 	const NewtonSolver::Surgeon& surgeon,
 	const Tick& tick)
 {
-	const bool flips = options.surgery == Surgery::IntrinsicFlips;
+	const bool flips = options.method == Method::IntrinsicFlips;
 	if (!flips || surface.topology.loops.empty()) {
 		FlowRun run(
 			background,

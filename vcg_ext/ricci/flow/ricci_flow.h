@@ -62,7 +62,7 @@ struct FlowResult
 	double floor = 0.0;     ///< what rounding lets the residual reach
 	int iterations = 0;
 	CholeskyWork work;   ///< of the linear solver, on the surface the result is from
-	FlipHistory history; ///< Surgery::IntrinsicFlips only
+	FlipHistory history; ///< Method::IntrinsicFlips only
 
 	/// Newton's last factor; null where no step was needed. Of the double if doubled.
 	std::shared_ptr<FactoredHessian> hessian;
@@ -84,7 +84,7 @@ using FlowListener = std::function<void(int, double)>;
 /// the flow runs on the double of the surface, which is closed, so that every admissible target is
 /// reached; the solution is symmetric, and the surface is one half of it.
 ///
-/// \param surgeon see NewtonSolver; for Surgery::EdgeSwap
+/// \param surgeon see NewtonSolver; for Method::EdgeSwaps
 /// \param tick called now and then between the listener's calls if it is not empty; may throw
 /// \throw NotConverged if the target is not reached within the options' limits
 FlowResult runRicciFlow(

@@ -12,19 +12,20 @@ namespace ricci {
 
 namespace {
 
-CirclePacking pack(
-	Triangulation triangulation,
+/// I - 1 on each edge, between \p lowest and \p highest.
+EdgeArray<double> distancesLessOne(
+	const Triangulation& t,
 	const EdgeArray<double>& lengths,
 	const VertexArray<double>& radii,
-	PackingScheme scheme)
+	double lowest,
+	double highest)
 {
-	CirclePacking packing;
-	packing.delta = inversiveDistancesLessOne(triangulation, lengths, radii, scheme);
-	packing.u.resize(radii.size());
-	std::transform(
-		radii.begin(), radii.end(), packing.u.begin(), [](double g) { return std::log(g); });
-	packing.triangulation = std::move(triangulation);
-	return packing;
+	EdgeArray<double> delta(t.edgeCount());
+	for (const Edge e : t.edges()) {
+		const auto [i, j] = t.ends(e);
+		delta[e] = std::clamp(Euclidean::delta(lengths[e], radii[i], radii[j]), lowest, highest);
+	}
+	return delta;
 }
 
 } // namespace
@@ -44,31 +45,27 @@ VertexArray<double> initialRadii(const Triangulation& t, const EdgeArray<double>
 }
 
 EdgeArray<double> inversiveDistancesLessOne(
-	const Triangulation& t,
-	const EdgeArray<double>& lengths,
-	const VertexArray<double>& radii,
-	PackingScheme scheme)
+	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<double>& radii)
 {
-	EdgeArray<double> delta(t.edgeCount());
-	for (const Edge e : t.edges()) {
-		const auto [i, j] = t.ends(e);
-		const double exact = Euclidean::delta(lengths[e], radii[i], radii[j]);
-		delta[e] =
-			scheme == PackingScheme::Thurston ? std::clamp(exact, -1.0, 0.0) : std::max(exact, 0.0);
-	}
-	return delta;
+	return distancesLessOne(t, lengths, radii, 0.0, std::numeric_limits<double>::infinity());
+}
+
+EdgeArray<double> thurstonDistancesLessOne(
+	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<double>& radii)
+{
+	return distancesLessOne(t, lengths, radii, -1.0, 0.0);
 }
 
 CirclePacking inversiveDistancePacking(
 	Triangulation triangulation, const EdgeArray<double>& lengths, const VertexArray<double>& radii)
 {
-	return pack(std::move(triangulation), lengths, radii, PackingScheme::InversiveDistance);
-}
-
-CirclePacking thurstonPacking(
-	Triangulation triangulation, const EdgeArray<double>& lengths, const VertexArray<double>& radii)
-{
-	return pack(std::move(triangulation), lengths, radii, PackingScheme::Thurston);
+	CirclePacking packing;
+	packing.delta = inversiveDistancesLessOne(triangulation, lengths, radii);
+	packing.u.resize(radii.size());
+	std::transform(
+		radii.begin(), radii.end(), packing.u.begin(), [](double g) { return std::log(g); });
+	packing.triangulation = std::move(triangulation);
+	return packing;
 }
 
 } // namespace ricci

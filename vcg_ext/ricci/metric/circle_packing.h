@@ -2,7 +2,6 @@
 #ifndef RICCI_CIRCLE_PACKING_H
 #define RICCI_CIRCLE_PACKING_H
 
-#include "../options.h"
 #include "../surface/triangulation.h"
 
 namespace ricci {
@@ -21,25 +20,19 @@ struct CirclePacking
 /// Positive if every triangle satisfies the strict triangle inequality.
 VertexArray<double> initialRadii(const Triangulation& t, const EdgeArray<double>& lengths);
 
-/// Inversive distances less one (Eq. 3, Euclidean) of circles of these \p radii at this distance.
-/// PackingScheme::InversiveDistance: the packing metric equals \p lengths; values below 0, which
-/// only rounding makes of radii as of initialRadii(), become 0. PackingScheme::Thurston, the
-/// conventional flow of paper 5.1: clamped to [-1, 0], so that the packing metric no longer is that
-/// of \p lengths.
+/// Inversive distances less one (Eq. 3, Euclidean) of circles of these \p radii at this distance, with
+/// which the packing metric equals \p lengths. Values below 0, which only rounding makes of radii as
+/// of initialRadii(), become 0.
 EdgeArray<double> inversiveDistancesLessOne(
-	const Triangulation& t,
-	const EdgeArray<double>& lengths,
-	const VertexArray<double>& radii,
-	PackingScheme scheme);
+	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<double>& radii);
 
-/// The packing of PackingScheme::InversiveDistance.
+/// The same clamped to [-1, 0], for the conventional flow of paper 5.1: the packing metric no longer is
+/// that of \p lengths.
+EdgeArray<double> thurstonDistancesLessOne(
+	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<double>& radii);
+
+/// The packing of inversiveDistancesLessOne().
 CirclePacking inversiveDistancePacking(
-	Triangulation triangulation,
-	const EdgeArray<double>& lengths,
-	const VertexArray<double>& radii);
-
-/// The packing of PackingScheme::Thurston.
-CirclePacking thurstonPacking(
 	Triangulation triangulation,
 	const EdgeArray<double>& lengths,
 	const VertexArray<double>& radii);

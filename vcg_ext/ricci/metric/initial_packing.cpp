@@ -157,18 +157,16 @@ delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const Tic
 			tick();
 		makeDelaunay(mesh, packing.radii, packing.flips, tick);
 	} while (shrinkOverlapping(mesh, mirror, packing.radii));
-	packing.delta = inversiveDistancesLessOne(
-		mesh.triangulation, mesh.lengths, packing.radii, PackingScheme::InversiveDistance);
+	packing.delta = inversiveDistancesLessOne(mesh.triangulation, mesh.lengths, packing.radii);
 	packing.mesh = std::move(mesh);
 	return packing;
 }
 
-InitialPacking inputPacking(IntrinsicMesh mesh, PackingScheme scheme)
+InitialPacking inputPacking(IntrinsicMesh mesh)
 {
 	InitialPacking packing;
 	packing.radii = initialRadii(mesh.triangulation, mesh.lengths);
-	packing.delta =
-		inversiveDistancesLessOne(mesh.triangulation, mesh.lengths, packing.radii, scheme);
+	packing.delta = inversiveDistancesLessOne(mesh.triangulation, mesh.lengths, packing.radii);
 	packing.mesh = std::move(mesh);
 	return packing;
 }

@@ -18,7 +18,7 @@ struct IntrinsicMesh
 };
 
 /// Where the flow starts (paper 4.1): the mesh's own metric on a triangulation of it, and the
-/// circle packing whose metric it is (with PackingScheme::Thurston, nearly).
+/// circle packing whose metric it is (with Method::Thurston, nearly).
 struct InitialPacking
 {
 	IntrinsicMesh mesh;
@@ -58,7 +58,7 @@ delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const Tic
 
 /// The start on the mesh's own triangles, with the radii of paper 4.1 (initialRadii()).
 /// \pre every triangle satisfies the strict triangle inequality
-InitialPacking inputPacking(IntrinsicMesh mesh, PackingScheme scheme);
+InitialPacking inputPacking(IntrinsicMesh mesh);
 
 } // namespace ricci
 

@@ -69,7 +69,7 @@ std::vector<Component> startResult(
 	result.opened = openMesh(mesh, result.notes);
 	const SurfaceMesh& opened = result.opened.mesh;
 	std::vector<Component> components = splitIntoComponents(result.opened);
-	if (options.surgery != Surgery::IntrinsicFlips)
+	if (options.method != Method::IntrinsicFlips)
 		requireAreaEverywhere(components);
 	const bool refined = output == OutputTriangulation::CommonRefinement;
 	requireMemory(

@@ -129,8 +129,8 @@ cutCost(const FlowDomain& domain, const FlowResult&, const Options& options, con
 EdgeArray<double> cutCost(
 	const FlowDomain& domain, const FlowResult& flow, const HyperbolicOptions& options, const Tick&)
 {
-	return options.surgery == Surgery::IntrinsicFlips ? hyperbolicLengths(flow, domain.surface)
-													  : flow.metric->lengths();
+	return options.method == Method::IntrinsicFlips ? hyperbolicLengths(flow, domain.surface)
+													: flow.metric->lengths();
 }
 
 /// Angles at cones, which bound the width of wedges in the plane (see shortenCut()). In the disk wedges
@@ -158,7 +158,7 @@ void placeCorners(
 		map.refinement = refine(domain, map, std::move(overlay), options, progress);
 		map.layout = std::move(map.refinement.inputLayout);
 	}
-	else if (options.surgery == Surgery::IntrinsicFlips)
+	else if (options.method == Method::IntrinsicFlips)
 		map.layout = layOutCorners(domain, map.flow, map.cut.isCut, options.memoryLimit, [&] {
 			progress.step(1.0 - kAfterFlow, "Cutting and layout");
 		});
@@ -221,7 +221,7 @@ EdgeArray<SidePairing> placeInDisk(
 {
 	const Triangulation& t = domain.surface.triangulation;
 	EdgeArray<SidePairing> pairing(t.edgeCount());
-	if (options.surgery == Surgery::IntrinsicFlips) {
+	if (options.method == Method::IntrinsicFlips) {
 		map.refinement = refine(domain, map, std::move(overlay), options, progress);
 		map.layout = std::move(map.refinement.inputLayout);
 		pairing = std::move(map.refinement.pairing);
@@ -450,7 +450,7 @@ ComponentMap flattenComponent(
 	const Options& options,
 	ProgressRange& progress)
 {
-	return options.surgery == Surgery::EdgeSwap
+	return options.method == Method::EdgeSwaps
 			   ? flattenWithEdgeSwaps(component, input, options, progress)
 			   : flatten(component, input, options, progress);
 }

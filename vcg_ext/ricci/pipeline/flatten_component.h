@@ -40,7 +40,7 @@ struct ComponentMap
 
 	int finishMoved = 0; ///< points that the repair moved
 	int cappedHoles = 0;
-	int edgeSwaps = 0, boundarySplits = 0; ///< Surgery::EdgeSwap
+	int edgeSwaps = 0, boundarySplits = 0; ///< Method::EdgeSwaps
 };
 
 /// The stages of the paper on one component, in order: flow domain, initial packing (4.1), target

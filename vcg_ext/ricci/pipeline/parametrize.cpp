@@ -22,6 +22,9 @@ void checkFlowOptions(const FlowOptions& options)
 		throw InvalidOption(InvalidOption::Epsilon, options.epsilon);
 	if (options.maxIterations < 1)
 		throw InvalidOption(InvalidOption::MaxIterations, options.maxIterations);
+	if (options.output == OutputTriangulation::CommonRefinement &&
+		options.method != Method::IntrinsicFlips)
+		throw InvalidOption(InvalidOption::WithoutFlips);
 }
 
 /// Gives copies of vertices the values of their vertices, where there are any.
@@ -38,12 +41,10 @@ Parametrization mapComponents(
 	const SurfaceMesh& mesh,
 	const VertexInput& input,
 	const AnyOptions& options,
-	std::vector<std::string> notes,
 	Progress& progress)
 {
 	progress.step(0.0, "Checking the mesh");
 	Parametrization result;
-	result.notes = std::move(notes);
 	const std::vector<Component> components =
 		startResult(mesh, options, options.output, progress, result);
 	VertexInput ofCopies = input;
@@ -66,13 +67,9 @@ Parametrization mapComponents(
 
 void checkOptions(const Options& options)
 {
-	const bool exact = options.surgery == Surgery::IntrinsicFlips &&
-					   options.packing == PackingScheme::InversiveDistance;
-	if (options.output == OutputTriangulation::CommonRefinement && !exact)
-		throw InvalidOption(InvalidOption::RefinementOfThurston);
-	if (options.holes == Holes::Capped && !exact)
-		throw InvalidOption(InvalidOption::CapsWithoutFlips);
 	checkFlowOptions(options);
+	if (options.holes == Holes::Capped && options.method != Method::IntrinsicFlips)
+		throw InvalidOption(InvalidOption::WithoutFlips);
 	if (options.coneCount < 0)
 		throw InvalidOption(InvalidOption::ConeCount, options.coneCount);
 	if (!(options.coneDistortion > 0.0 && std::isfinite(options.coneDistortion)))
@@ -83,37 +80,28 @@ void checkOptions(const Options& options)
 
 void checkOptions(const HyperbolicOptions& options)
 {
-	if (options.surgery == Surgery::EdgeSwap || options.packing == PackingScheme::Thurston)
-		throw InvalidOption(InvalidOption::HyperbolicSurgery);
-	if (options.output == OutputTriangulation::CommonRefinement &&
-		options.surgery != Surgery::IntrinsicFlips)
-		throw InvalidOption(InvalidOption::RefinementWithoutFlips);
+	if (options.method == Method::EdgeSwaps || options.method == Method::Thurston)
+		throw InvalidOption(InvalidOption::HyperbolicMethod);
 	checkFlowOptions(options);
 }
 
 Parametrization parametrizeEuclidean(
-	const SurfaceMesh& given, const VertexInput& input, const Options& asked, Progress& progress)
+	const SurfaceMesh& given, const VertexInput& input, const Options& options, Progress& progress)
 {
-	checkOptions(asked);
-	Options options = asked;
-	std::vector<std::string> notes;
-	if (options.packing == PackingScheme::Thurston && options.surgery == Surgery::IntrinsicFlips) {
-		// Flips need circles that do not overlap.
-		options.surgery = Surgery::None;
-		notes.push_back("The Thurston packing runs on the mesh's own triangles, without flips.");
-	}
-	Parametrization result = mapComponents(given, input, options, std::move(notes), progress);
+	checkOptions(options);
+	Parametrization result = mapComponents(given, input, options, progress);
 	const SurfaceMesh& mesh = result.opened.mesh;
-	if (isFinished(options) && options.resolveOverlap && !result.isRefined())
+	const bool separates = options.charts != Charts::OfTheFlow;
+	if (isFinished(options) && separates && !result.isRefined())
 		turnOver(mesh, result);
 	measureResult(mesh, measureDistortion, result);
 	const Tick tick = [&] { progress.step(kMeasured, "Looking for charts that overlap"); };
 	tick();
 	const bool turns = options.coneRounding != ConeRounding::QuarterTurns;
-	separateCharts(mesh, options.resolveOverlap, turns, tick, result);
+	separateCharts(mesh, separates, turns, tick, result);
 	result.report.seamLengthRelative =
 		result.report.seamLength / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
-	if (options.resolveOverlap)
+	if (separates)
 		requireSeparateCharts(mesh, result, tick);
 	progress.step(1.0, "Layout done");
 	return result;
@@ -126,7 +114,7 @@ Parametrization parametrizeHyperbolic(
 	Progress& progress)
 {
 	checkOptions(options);
-	Parametrization result = mapComponents(given, input, options, {}, progress);
+	Parametrization result = mapComponents(given, input, options, progress);
 	const SurfaceMesh& mesh = result.opened.mesh;
 	result.report.charts = static_cast<int>(result.charts.size());
 	result.report.seamLengthRelative =

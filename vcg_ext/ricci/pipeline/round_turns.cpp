@@ -79,8 +79,8 @@ void roundLoopTurns(
 	ProgressRange& progress,
 	ComponentMap& map)
 {
-	if (!map.flow.target.quarterTurns || options.surgery != Surgery::IntrinsicFlips ||
-		options.packing != PackingScheme::InversiveDistance || map.flow.doubled)
+	if (!map.flow.target.quarterTurns || options.method != Method::IntrinsicFlips ||
+		map.flow.doubled)
 		return;
 	const Tick tick = [&] { progress.step(1.0 - kAfterFlow, "Rounding the turns"); };
 	chooseCones(surface, request, options, tick, progress, map);

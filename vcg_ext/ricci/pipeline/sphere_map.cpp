@@ -289,7 +289,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress&
 	flow.maxIterations = options.maxIterations;
 	flow.coneDistortion = std::numeric_limits<double>::max(); // no cones, however areas change
 	flow.finish = Finish::None;
-	flow.resolveOverlap = false;
+	flow.charts = Charts::OfTheFlow;
 	Quiet quiet(progress);
 	const Parametrization flat = parametrizeEuclidean(disk, {}, flow, quiet);
 	VertexArray<Point2> plane(c.positions.size(), {0.0, 0.0});

@@ -42,7 +42,7 @@ TargetRequest targetRequest(
 	request.coneCount = options.coneCount;
 	request.coneDistortion = options.coneDistortion;
 	request.coneRounding = options.coneRounding;
-	request.keepsAreas = options.surgery == Surgery::IntrinsicFlips;
+	request.keepsAreas = options.method == Method::IntrinsicFlips;
 	request.coneVertices = component.positions.size();
 	request.vertexNumbers = component.vertex;
 	request.selected.resize(vertexCount, 0);

@@ -81,12 +81,12 @@ bool drawsPieces(const FlowDomain& domain, const AnyOptions& options)
 /// plane does without.
 inline bool needsOverlay(const FlowDomain& domain, const Options& options)
 {
-	return options.surgery == Surgery::IntrinsicFlips && drawsPieces(domain, options);
+	return options.method == Method::IntrinsicFlips && drawsPieces(domain, options);
 }
 
 inline bool needsOverlay(const FlowDomain&, const HyperbolicOptions& options)
 {
-	return options.surgery == Surgery::IntrinsicFlips;
+	return options.method == Method::IntrinsicFlips;
 }
 
 /// overlayOf() the flow, with what the options ask of it; nothing where none is needed. \p AnyOptions:

@@ -71,10 +71,6 @@ public:
 		/// Least distance of two charts, and of a chart from the border of the square that holds
 		/// all, as a share of its side; at most ricci::kMaxChartMargin.
 		double chartMargin = 0.0;
-
-		/// With normalizeUV: cut a strip across where the charts then cover about twice as much; the cut
-		/// counts as one of an overlap. Rectangles stay whole.
-		bool cutStrips = false;
 	};
 
 	/// The hyperbolic flow takes these as they are.
@@ -128,7 +124,7 @@ public:
 		const auto pack = [&] {
 			ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide, turns, tick);
 		};
-		if (par.cutStrips && par.normalizeUV)
+		if (par.charts == ricci::Charts::WithoutOverlapAndStrips && par.normalizeUV)
 			ricci::packStrips(flat, par.chartMargin, PlaceSideBySide, turns, tick);
 		else
 			pack();
@@ -136,7 +132,11 @@ public:
 							 par.target == ricci::TargetCurvature::Rectangle;
 		if (ricci::isFinished(par))
 			ricci::finishInFloats(
-				flat.opened.mesh, pack, par.resolveOverlap && !isWhole, tick, flat);
+				flat.opened.mesh,
+				pack,
+				par.charts != ricci::Charts::OfTheFlow && !isWhole,
+				tick,
+				flat);
 		r.report = flat.report;
 		r.notes = flat.notes;
 		ricci::countFlippedAsWritten(flat, r.report);
