@@ -111,7 +111,8 @@ std::string inWords(const ricci::InvalidOption& e)
 		return "The output 'Common refinement' and the holes 'Capped' belong to the method "
 			   "'Intrinsic flips': choose this, or 'Keep the mesh' and 'Boundaries'.";
 	case Error::HyperbolicMethod:
-		return "The hyperbolic flow has the methods 'Intrinsic flips' and 'Fixed triangles' only.";
+		return "The hyperbolic flow has no such method: choose 'Intrinsic flips' or 'Fixed "
+			   "triangles'.";
 	case Error::NotADisk:
 		return std::string(
 				   e.target == ricci::TargetCurvature::Rectangle ? "'Rectangle'" : "'Disk'") +

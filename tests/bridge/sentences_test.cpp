@@ -41,9 +41,9 @@ bool contains(const std::string& text, const std::string& part)
 bool namesARemedy(const std::string& text)
 {
 	for (const char* words :
-		 {" run '",    "hoose ",  "elete ",  "open ",    "reconstruct ", "cut ",       "emesh ",
-		  "Use ",      "use ",    " needs ", "must be",  " takes ",      "raise ",     "separate ",
-		  "simplify ", "report ", "divide ", "correct ", "Ask for ",     "runs with ", "too few "})
+		 {" run '",    "hoose ",  "elete ",  "open ",    "reconstruct ", "cut ",    "emesh ",
+		  "Use ",      "use ",    " needs ", "must be",  " takes ",      "raise ",  "separate ",
+		  "simplify ", "report ", "divide ", "correct ", "Ask for ",     "too few "})
 		if (contains(text, words))
 			return true;
 	return false;
@@ -322,7 +322,7 @@ TEST(Sentences, OfParameters)
 		"flips': choose this, or 'Keep the mesh' and 'Boundaries'.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::HyperbolicMethod)),
-		"The hyperbolic flow has the methods 'Intrinsic flips' and 'Fixed triangles' only.");
+		"The hyperbolic flow has no such method: choose 'Intrinsic flips' or 'Fixed triangles'.");
 }
 
 TEST(Sentences, OfTargetsThatTheSurfaceDoesNotHave)
