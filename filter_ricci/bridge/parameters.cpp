@@ -80,11 +80,15 @@ QStringList chartsChoices()
 	return {"As the flow has them", "Without overlap", "Without overlap and strips"};
 }
 
-int checkedChoice(const RichParameterList& par, const char* id, const QStringList& choices)
+template<class Enum>
+void readChoice(
+	const RichParameterList& par, const char* id, const QStringList& choices, Enum& value)
 {
 	const int chosen = par.getEnum(id);
-	if (chosen >= 0 && chosen < choices.size())
-		return chosen;
+	if (chosen >= 0 && chosen < choices.size()) {
+		value = static_cast<Enum>(chosen);
+		return;
+	}
 	std::string uses;
 	for (int i = 0; i < choices.size(); ++i) {
 		if (i > 0)
@@ -96,9 +100,14 @@ int checkedChoice(const RichParameterList& par, const char* id, const QStringLis
 		uses + ".");
 }
 
+double number(const RichParameterList& par, const char* id)
+{
+	return static_cast<double>(par.getFloat(id));
+}
+
 double checkedTimeLimit(const RichParameterList& par)
 {
-	const double seconds = static_cast<double>(par.getFloat("time_limit"));
+	const double seconds = number(par, "time_limit");
 	if (std::isfinite(seconds) && seconds >= 0.0)
 		return seconds;
 	throw Refusal(
@@ -122,13 +131,25 @@ TextureSettings checkedTexture(const RichParameterList& par)
 RunSettings readRunSettings(const RichParameterList& par)
 {
 	RunSettings settings;
-	settings.seams = static_cast<Seams>(checkedChoice(par, "seams", seamsChoices()));
+	readChoice(par, "seams", seamsChoices(), settings.seams);
 	settings.colorize = par.getBool("colorize");
 	settings.flatLayer = par.getBool("flat_layer");
 	settings.timeLimit = checkedTimeLimit(par);
 	settings.report = host::text(par, "report");
 	settings.texture = checkedTexture(par);
 	return settings;
+}
+
+void readFlowOptions(
+	const RichParameterList& par,
+	const QStringList& methods,
+	const QStringList& finishes,
+	ricci::FlowOptions& flow)
+{
+	flow.epsilon = number(par, "epsilon");
+	readChoice(par, "method", methods, flow.method);
+	readChoice(par, "output_triangulation", outputTriangulationChoices(), flow.output);
+	readChoice(par, "finish", finishes, flow.finish);
 }
 
 constexpr double kDegree = ricci::kPi / 180.0;
@@ -154,36 +175,9 @@ const char* const kSeamsTip =
 	"cut further only where it has to be: where the <b>texture</b> of the mesh jumps, along "
 	"<b>selected edges</b> ('Select Crease Edges'), or <b>around the selected faces</b>.";
 
-const char* const kMethodTip =
-	"What to do if the flow breaks a triangle. <b>Intrinsic flips</b>: another triangulation of "
-	"the "
-	"same surface takes its place, so that none breaks. The mesh itself is never changed. <b>Fixed "
-	"triangles</b>: the run ends with an error if triangles stay broken.";
-
 const char* const kFinishTip =
 	"What is done to the flow's map before it is stored: faces that would come out flipped are "
 	"repaired%1. Only for the method 'Intrinsic flips'.";
-
-RichEnum finishParameter(ricci::Finish chosen)
-{
-	return host::advanced<RichEnum>(
-		"finish",
-		static_cast<int>(chosen),
-		finishChoices(),
-		"Finish",
-		QString(kFinishTip)
-			.arg(", and on 'Keep the mesh' the faces get the least mean conformal distortion"));
-}
-
-RichEnum hyperbolicFinishParameter(ricci::Finish chosen)
-{
-	return host::advanced<RichEnum>(
-		"finish",
-		chosen == ricci::Finish::None ? 0 : 1,
-		hyperbolicFinishChoices(),
-		"Finish",
-		QString(kFinishTip).arg(""));
-}
 
 RichBool colorizeParameter()
 {
@@ -195,18 +189,8 @@ RichBool colorizeParameter()
 		"kept) over cyan, green and yellow to red (the 99th percentile over the faces, and more).");
 }
 
-host::FileToSave reportParameter()
-{
-	return host::advanced<host::FileToSave>(
-		"report",
-		QString(),
-		"Page and its data (*.html);;Data alone (*.csv)",
-		"Report file",
-		"A report of the run: a page with diagrams and its data beside it (.html), or the data "
-		"alone (.csv). Empty: no report.");
-}
-
-void addTextureParameters(RichParameterList& list)
+/// The last parameters of both filters: files to write, and how accurate and how long a run may be.
+void addFilesAndLimits(RichParameterList& list, double epsilon)
 {
 	list.addParam(host::advanced<host::FileToSave>(
 		"carry_texture",
@@ -220,11 +204,13 @@ void addTextureParameters(RichParameterList& list)
 		TextureSettings().size,
 		"Size of that texture",
 		"Width and height of the new texture, 16 to 16384 texels."));
-}
-
-/// How accurate a solve is and how long a run may take.
-void addSolverParameters(RichParameterList& list, double epsilon)
-{
+	list.addParam(host::advanced<host::FileToSave>(
+		"report",
+		QString(),
+		"Page and its data (*.html);;Data alone (*.csv)",
+		"Report file",
+		"A report of the run: a page with diagrams and its data beside it (.html), or the data "
+		"alone (.csv). Empty: no report."));
 	list.addParam(host::advanced<RichFloat>(
 		"epsilon",
 		static_cast<Scalarm>(epsilon),
@@ -310,11 +296,17 @@ RichParameterList euclideanParameters(Shown shown)
 		static_cast<int>(defaults.method),
 		methodChoices(),
 		"Method",
-		QString(kMethodTip) +
-			" <b>Edge swaps</b>: they are swapped, as in the paper. <b>Thurston</b>: the "
-			"conventional flow, which changes the metric of thin triangles. These three are there "
-			"to compare with."));
-	list.addParam(finishParameter(defaults.finish));
+		"If a triangle breaks, <b>intrinsic flips</b> or the paper's <b>edge swaps</b> give the "
+		"flow "
+		"others, and <b>fixed triangles</b> end with an error; the mesh is never changed. "
+		"<b>Thurston</b>: the conventional flow on the mesh's triangles, to compare with."));
+	list.addParam(host::advanced<RichEnum>(
+		"finish",
+		static_cast<int>(defaults.finish),
+		finishChoices(),
+		"Finish",
+		QString(kFinishTip)
+			.arg(", and on 'Keep the mesh' the faces get the least mean conformal distortion")));
 	list.addParam(host::advanced<RichEnum>(
 		"charts",
 		static_cast<int>(defaults.charts),
@@ -335,9 +327,7 @@ RichParameterList euclideanParameters(Shown shown)
 		"Sphere as new layer",
 		"Add a layer with the mesh mapped conformally to the unit sphere. Only for one closed "
 		"surface of genus 0."));
-	addTextureParameters(list);
-	list.addParam(reportParameter());
-	addSolverParameters(list, defaults.epsilon);
+	addFilesAndLimits(list, defaults.epsilon);
 	return list;
 }
 
@@ -397,11 +387,15 @@ RichParameterList hyperbolicParameters(Shown shown)
 		static_cast<int>(defaults.method),
 		hyperbolicMethodChoices(),
 		"Method",
-		kMethodTip));
-	list.addParam(hyperbolicFinishParameter(defaults.finish));
-	addTextureParameters(list);
-	list.addParam(reportParameter());
-	addSolverParameters(list, defaults.epsilon);
+		"If a triangle breaks, <b>intrinsic flips</b> give the flow others, and <b>fixed "
+		"triangles</b> end with an error; the mesh is never changed."));
+	list.addParam(host::advanced<RichEnum>(
+		"finish",
+		static_cast<int>(ricci::Finish::Repair),
+		hyperbolicFinishChoices(),
+		"Finish",
+		QString(kFinishTip).arg("")));
+	addFilesAndLimits(list, defaults.epsilon);
 	return list;
 }
 
@@ -416,26 +410,17 @@ Settings readSettings(const RichParameterList& par)
 {
 	Settings settings;
 	static_cast<RunSettings&>(settings) = readRunSettings(par);
-	settings.flow.target = static_cast<ricci::TargetCurvature>(
-		checkedChoice(par, "target_curvature", targetCurvatureChoices()));
+	readFlowOptions(par, methodChoices(), finishChoices(), settings.flow);
+	readChoice(par, "target_curvature", targetCurvatureChoices(), settings.flow.target);
 	settings.flow.coneCount = par.getInt("cone_count");
-	settings.flow.coneDistortion = static_cast<double>(par.getFloat("cone_distortion"));
-	settings.flow.coneRounding = static_cast<ricci::ConeRounding>(
-		checkedChoice(par, "cone_rounding", coneRoundingChoices()));
+	settings.flow.coneDistortion = number(par, "cone_distortion");
+	readChoice(par, "cone_rounding", coneRoundingChoices(), settings.flow.coneRounding);
 	settings.flow.freeBoundary = par.getBool("free_boundary");
-	settings.flow.epsilon = static_cast<double>(par.getFloat("epsilon"));
-	settings.flow.method =
-		static_cast<ricci::Method>(checkedChoice(par, "method", methodChoices()));
-	settings.flow.output = static_cast<ricci::OutputTriangulation>(
-		checkedChoice(par, "output_triangulation", outputTriangulationChoices()));
-	settings.flow.finish =
-		static_cast<ricci::Finish>(checkedChoice(par, "finish", finishChoices()));
-	settings.flow.seamHiding = static_cast<double>(par.getFloat("seam_hiding"));
+	settings.flow.seamHiding = number(par, "seam_hiding");
 	settings.flow.normalizeUV = par.getBool("normalize_uv");
-	settings.flow.chartMargin = static_cast<double>(par.getFloat("chart_margin"));
-	settings.flow.holes = static_cast<ricci::Holes>(checkedChoice(par, "holes", holesChoices()));
-	settings.flow.charts =
-		static_cast<ricci::Charts>(checkedChoice(par, "charts", chartsChoices()));
+	settings.flow.chartMargin = number(par, "chart_margin");
+	readChoice(par, "holes", holesChoices(), settings.flow.holes);
+	readChoice(par, "charts", chartsChoices(), settings.flow.charts);
 	settings.sphereLayer = par.getBool("sphere_layer");
 	if (!settings.texture.file.trimmed().isEmpty() && !settings.flow.normalizeUV)
 		throw Refusal(
@@ -450,17 +435,10 @@ HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 {
 	HyperbolicSettings settings;
 	static_cast<RunSettings&>(settings) = readRunSettings(par);
-	settings.flow.target = static_cast<ricci::HyperbolicTarget>(
-		checkedChoice(par, "target_curvature", hyperbolicTargetChoices()));
-	settings.flow.coneAngle = static_cast<double>(par.getFloat("cone_angle")) * kDegree;
+	readFlowOptions(par, hyperbolicMethodChoices(), hyperbolicFinishChoices(), settings.flow);
+	readChoice(par, "target_curvature", hyperbolicTargetChoices(), settings.flow.target);
+	settings.flow.coneAngle = number(par, "cone_angle") * kDegree;
 	settings.flow.freeBoundary = par.getBool("free_boundary");
-	settings.flow.epsilon = static_cast<double>(par.getFloat("epsilon"));
-	settings.flow.method =
-		static_cast<ricci::Method>(checkedChoice(par, "method", hyperbolicMethodChoices()));
-	settings.flow.output = static_cast<ricci::OutputTriangulation>(
-		checkedChoice(par, "output_triangulation", outputTriangulationChoices()));
-	settings.flow.finish =
-		static_cast<ricci::Finish>(checkedChoice(par, "finish", hyperbolicFinishChoices()));
 	settings.coverRings = par.getInt("universal_cover");
 	if (settings.coverRings < 0 || settings.coverRings > kMaxRings)
 		throw Refusal(
