@@ -43,7 +43,7 @@ Flow::Params unscaled(OutputTriangulation output = OutputTriangulation::KeepMesh
 	Flow::Params params;
 	params.output = output;
 	params.normalizeUV = false;
-	params.coneDistortion = 100.0;
+	params.cones.distortion = 100.0;
 	return params;
 }
 

@@ -404,10 +404,10 @@ TEST(HardCases, FlatHandlesRoundASmallHole)
 	ASSERT_TRUE(error);
 	EXPECT_EQ(error->problem, NotConverged::LostInRounding);
 	EXPECT_GT(error->value, 15.0); // orders of magnitude
-	EXPECT_LT(error->iterations, 2 * options.maxIterations);
+	EXPECT_LT(error->iterations, 2 * NewtonOptions().maxIterations);
 	expectWords(error->what(), {"lost in rounding", "times as large as others"});
 	options.target = TargetCurvature::PlacedCones;
-	options.coneCount = 80;
+	options.cones.count = 80;
 	EXPECT_LT(run(mesh, options).report.maxCurvatureError, 1e-8);
 }
 

@@ -246,7 +246,7 @@ RichParameterList euclideanParameters(Shown shown)
 		"ignore this."));
 	list.addParam(RichFloat(
 		"cone_distortion",
-		static_cast<Scalarm>(defaults.coneDistortion),
+		static_cast<Scalarm>(defaults.cones.distortion),
 		"Cones: area distortion",
 		"Cones are added until areas typically change by less than this, relative to each other "
 		"(0.25: by a quarter). Read where cones are placed and their number is 0."));
@@ -281,12 +281,12 @@ RichParameterList euclideanParameters(Shown shown)
 		"times its length, so that seams run through hollows."));
 	list.addParam(host::advanced<RichInt>(
 		"cone_count",
-		defaults.coneCount,
+		defaults.cones.count,
 		"Cones: number",
 		"The number of placed cones. 0: as many as it takes to reach 'Cones: area distortion'."));
 	list.addParam(host::advanced<RichEnum>(
 		"cone_rounding",
-		static_cast<int>(defaults.coneRounding),
+		static_cast<int>(defaults.cones.rounding),
 		coneRoundingChoices(),
 		"Cones: curvatures",
 		"<b>Free</b>: those that change areas least. <b>Multiples of pi/2</b>: as "
@@ -412,9 +412,9 @@ Settings readSettings(const RichParameterList& par)
 	static_cast<RunSettings&>(settings) = readRunSettings(par);
 	readFlowOptions(par, methodChoices(), finishChoices(), settings.flow);
 	readChoice(par, "target_curvature", targetCurvatureChoices(), settings.flow.target);
-	settings.flow.coneCount = par.getInt("cone_count");
-	settings.flow.coneDistortion = number(par, "cone_distortion");
-	readChoice(par, "cone_rounding", coneRoundingChoices(), settings.flow.coneRounding);
+	settings.flow.cones.count = par.getInt("cone_count");
+	settings.flow.cones.distortion = number(par, "cone_distortion");
+	readChoice(par, "cone_rounding", coneRoundingChoices(), settings.flow.cones.rounding);
 	settings.flow.freeBoundary = par.getBool("free_boundary");
 	settings.flow.seamHiding = number(par, "seam_hiding");
 	settings.flow.normalizeUV = par.getBool("normalize_uv");

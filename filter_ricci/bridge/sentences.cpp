@@ -87,8 +87,6 @@ std::string inWords(const ricci::InvalidOption& e)
 	case Error::Epsilon:
 		return unusable(
 			e.value, "epsilon", "Use a number of radians greater than 0, for example 1e-8.");
-	case Error::MaxIterations:
-		return unusable(static_cast<int>(e.value), "max_iterations", "Use 1 or more Newton steps.");
 	case Error::ConeCount:
 		return unusable(
 			static_cast<int>(e.value),

@@ -225,7 +225,7 @@ TargetRequest chooseRequest(const EmbeddedSurface& surface, std::string& name)
 	if (!type.isClosed() || type.isTorus())
 		return request;
 	name = "uniform";
-	request.mode = TargetCurvature::Prescribed;
+	request.options.target = TargetCurvature::Prescribed;
 	request.prescribedPrecision = 1e-12;
 	request.prescribed.assign(
 		vertexCount, 2 * kPi * type.eulerCharacteristic() / static_cast<double>(vertexCount));

@@ -110,7 +110,6 @@ TEST(Sentences, EveryInvalidOptionHasOne)
 		std::vector<std::string> numbers;
 		switch (problem) {
 		case InvalidOption::Epsilon:
-		case InvalidOption::MaxIterations:
 		case InvalidOption::ConeCount:
 		case InvalidOption::ConeDistortion:
 		case InvalidOption::SeamHiding:
@@ -289,9 +288,6 @@ TEST(Sentences, OfParameters)
 	EXPECT_EQ(of(InvalidOption::Epsilon, -1.0), "The value -1" + epsilon);
 	EXPECT_EQ(of(InvalidOption::Epsilon, infinity), "The value inf" + epsilon);
 	EXPECT_EQ(of(InvalidOption::Epsilon, std::nan("")), "The value nan" + epsilon);
-	EXPECT_EQ(
-		of(InvalidOption::MaxIterations, 0.0),
-		"The value 0 of max_iterations cannot be used. Use 1 or more Newton steps.");
 	EXPECT_EQ(
 		of(InvalidOption::ConeCount, -2147483648.0),
 		"The value -2147483648 of cone_count cannot be used. Use the number of cones, or 0 to have "

@@ -444,7 +444,7 @@ TEST(ChartTurns, RectanglesStayUprightAndQuarterTurnsStaySo)
 {
 	Options options;
 	EXPECT_EQ(chartTurns(options), ChartTurns::Free);
-	options.coneRounding = ConeRounding::QuarterTurns;
+	options.cones.rounding = ConeRounding::QuarterTurns;
 	EXPECT_EQ(chartTurns(options), ChartTurns::Quarter);
 	options.target = TargetCurvature::Rectangle;
 	EXPECT_EQ(chartTurns(options), ChartTurns::None);

@@ -41,12 +41,13 @@ TEST(Admissible, PrescribedValuesOfTheSizeOfRoundingAreZero)
 	const Topology topology = topologyOf(glued(tetrahedron()));
 	Target target = zeroTarget(topology);
 	const double precision = std::numeric_limits<float>::epsilon();
-	setPrescribed({1.0, kPrescribedRounding * precision, -2 * precision, -1e-6}, precision, target);
+	const double small = kPrescribedRounding * precision;
+	setPrescribed({{}, {1.0, small, -2 * precision, -1e-6}, precision}, target);
 	EXPECT_EQ(target.curvature[Vertex(0)], 1.0);
 	EXPECT_EQ(target.curvature[Vertex(1)], 0.0);
 	EXPECT_EQ(target.curvature[Vertex(2)], 0.0);
 	EXPECT_EQ(target.curvature[Vertex(3)], -1e-6);
-	setPrescribed({1e-300, 0.0, 0.0, 0.0}, 0.0, target);
+	setPrescribed({{}, {1e-300, 0.0, 0.0, 0.0}, 0.0}, target);
 	EXPECT_EQ(target.curvature[Vertex(0)], 1e-300);
 }
 

@@ -192,7 +192,7 @@ TEST(ConePlacement, TheFlowReachesThePredictedDistortion)
 	const PlacedCones cones = place(Packed(mesh), 6);
 	Options options;
 	options.target = TargetCurvature::PlacedCones;
-	options.coneCount = 6;
+	options.cones.count = 6;
 	options.output = OutputTriangulation::CommonRefinement;
 	Progress silent;
 	const Parametrization map = parametrizeEuclidean(mesh, {}, options, silent);
@@ -221,9 +221,9 @@ TEST(ConePlacement, LowersTheDistortionInsideABoundary)
 		}
 		// With a prescribed boundary all curvatures together obey Gauss-Bonnet.
 		TargetRequest request;
-		request.mode = TargetCurvature::PlacedCones;
-		request.freeBoundary = false;
-		request.coneCount = 3;
+		request.options.target = TargetCurvature::PlacedCones;
+		request.options.freeBoundary = false;
+		request.options.cones.count = 3;
 		const EmbeddedSurface surface = surfaceOf(p);
 		FlowStart start = flowStart(surface, FlowOptions());
 		const Target target = chooseTarget(surface, start, request);
@@ -322,6 +322,7 @@ TEST(ConePlacement, TakesNoMoreWhereTheyBringNothing)
 	profile.front()[1] = 0.98;
 	const Packed spike(revolved(profile, 8));
 	ConeRequest request;
+	request.distortion = 0.5;
 	const PlacedCones enough = place(spike, request);
 	EXPECT_LE(static_cast<int>(enough.vertices.size()), kMaxPlacedCones);
 	const double withMore = place(spike, 90).distortion;
@@ -385,9 +386,9 @@ struct FlowToFewCones
 			boundary(b)
 	{
 		TargetRequest request;
-		request.mode = TargetCurvature::PlacedCones;
-		request.freeBoundary = boundary == ConeBoundary::Fixed;
-		request.coneCount = cones;
+		request.options.target = TargetCurvature::PlacedCones;
+		request.options.freeBoundary = boundary == ConeBoundary::Fixed;
+		request.options.cones.count = cones;
 		FlowStart start = flowStart(surface, FlowOptions());
 		const Target target = chooseTarget(surface, start, request);
 		flow = to(target);

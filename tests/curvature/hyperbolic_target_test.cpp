@@ -24,14 +24,14 @@ Target choose(const SurfaceMesh& mesh, HyperbolicRequest request)
 	const Triangulation t = glued(mesh);
 	request.selected.resize(mesh.positions.size(), 0);
 	request.prescribed.resize(mesh.positions.size(), 0.0);
-	return chooseHyperbolicTarget(topologyOf(t), request);
+	return chooseHyperbolicTarget(topologyOf(t), request.options, request);
 }
 
 HyperbolicRequest cones(const std::vector<Vertex>& vertices, double angle, std::size_t count)
 {
 	HyperbolicRequest request;
-	request.mode = HyperbolicTarget::SelectedCones;
-	request.coneAngle = angle;
+	request.options.target = HyperbolicTarget::SelectedCones;
+	request.options.coneAngle = angle;
 	request.selected.assign(count, 0);
 	for (const Vertex v : vertices)
 		request.selected[v] = 1;
@@ -94,7 +94,7 @@ TEST(HyperbolicTarget, AFreeBoundaryKeepsItsCirclesAndDoesNotCount)
 	for (const Vertex v : boundary.indices())
 		if (boundary[v])
 			request.prescribed[v] = 50.0; // no boundary has that, but nobody asks
-	request.freeBoundary = true;
+	request.options.freeBoundary = true;
 	const Target target = choose(mesh, request);
 	EXPECT_EQ(target.fixed, boundary);
 	EXPECT_EQ(target.curvature, Eigen::VectorXd::Zero(target.curvature.size()));
@@ -182,7 +182,7 @@ TEST(HyperbolicTarget, AFreeBoundaryTakesWhatGaussBonnetLeaves)
 		const double bound = 2 * kPi * topology.type.eulerCharacteristic() - kPi * n;
 		HyperbolicRequest request =
 			hyperbolicPrescribed(std::vector<double>(mesh.positions.size(), 0.0));
-		request.freeBoundary = true;
+		request.options.freeBoundary = true;
 		Vertex inside;
 		for (const Vertex v : topology.boundary.indices())
 			if (!topology.boundary[v])

@@ -191,9 +191,9 @@ TEST(LinearFlow, LeavesItsFactorToTheFlowWhichFindsTheSameToTheBit)
 		FlowOptions options;
 		options.epsilon = 1e-10;
 		TargetRequest request;
-		request.mode = TargetCurvature::PlacedCones;
-		request.freeBoundary = c.freeBoundary;
-		request.coneCount = 6;
+		request.options.target = TargetCurvature::PlacedCones;
+		request.options.freeBoundary = c.freeBoundary;
+		request.options.cones.count = 6;
 		FlowStart start = flowStart(surface, options);
 		EXPECT_FALSE(start.hessian);
 		const Target target = chooseTarget(surface, start, request);
@@ -239,9 +239,9 @@ struct AtTheEnd
 			boundary(b)
 	{
 		TargetRequest request;
-		request.mode = TargetCurvature::PlacedCones;
-		request.freeBoundary = boundary == ConeBoundary::Fixed;
-		request.coneCount = cones;
+		request.options.target = TargetCurvature::PlacedCones;
+		request.options.freeBoundary = boundary == ConeBoundary::Fixed;
+		request.options.cones.count = cones;
 		FlowStart start = flowStart(surface, FlowOptions());
 		target = chooseTarget(surface, start, request);
 		flow = to(target);

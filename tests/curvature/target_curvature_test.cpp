@@ -41,7 +41,7 @@ struct TestSurface : EmbeddedSurface
 	TargetRequest request(TargetCurvature mode, const std::vector<Vertex>& selected = {}) const
 	{
 		TargetRequest r;
-		r.mode = mode;
+		r.options.target = mode;
 		r.selected.assign(mesh.positions.size(), 0);
 		for (const Vertex v : selected)
 			r.selected[v] = 1;
@@ -303,7 +303,7 @@ TEST(TargetCurvature, AutomaticDoesWithoutConesWhereMoreDistortionIsAskedFor)
 		const TestSurface surface(p.mesh);
 		TargetRequest request = surface.request(TargetCurvature::Automatic);
 		for (const double distortion : {1.1 * p.spread, 1e9}) {
-			request.coneDistortion = distortion;
+			request.options.cones.distortion = distortion;
 			const Target target = surface.choose(request);
 			EXPECT_EQ(coneCount(surface, target), 0);
 			EXPECT_EQ(target.maxSpread, std::max(1.0, distortion));
@@ -311,7 +311,7 @@ TEST(TargetCurvature, AutomaticDoesWithoutConesWhereMoreDistortionIsAskedFor)
 		if (p.spread < 1.0)
 			continue;
 		++withCones;
-		request.coneDistortion = 0.9 * p.spread;
+		request.options.cones.distortion = 0.9 * p.spread;
 		EXPECT_GT(coneCount(surface, surface.choose(request)), 0);
 	}
 	EXPECT_GT(withCones, 0);
@@ -328,8 +328,9 @@ TEST(TargetCurvature, AutomaticGoesByTopologyWhereNoAreasAreMeasured)
 				if (keepsAreas && (freeBoundary || type.isClosed()))
 					continue;
 				TargetRequest request = surface.request(TargetCurvature::Automatic);
-				request.freeBoundary = freeBoundary;
-				request.keepsAreas = keepsAreas;
+				request.options.freeBoundary = freeBoundary;
+				request.options.method =
+					keepsAreas ? Method::IntrinsicFlips : Method::FixedTriangles;
 				const Target target = surface.choose(request);
 				EXPECT_EQ(coneCount(surface, target), 0);
 				EXPECT_FALSE(target.maxSpread);
@@ -350,11 +351,11 @@ TEST(TargetCurvature, OtherChoicesThanAutomaticPromiseNothingOfAreasUnlessConesA
 	EXPECT_FALSE(flat.maxSpread);
 	EXPECT_EQ(flat.curvature.lpNorm<Eigen::Infinity>(), 0.0);
 	TargetRequest request = surface.request(TargetCurvature::PlacedCones);
-	request.coneDistortion = 0.7;
+	request.options.cones.distortion = 0.7;
 	EXPECT_EQ(surface.choose(request).maxSpread, 0.7);
-	request.coneCount = 5; // the number is the user's
+	request.options.cones.count = 5; // the number is the user's
 	EXPECT_FALSE(surface.choose(request).maxSpread);
-	request.mode = TargetCurvature::Automatic;
+	request.options.target = TargetCurvature::Automatic;
 	const Target five = surface.choose(request);
 	EXPECT_FALSE(five.maxSpread);
 	EXPECT_EQ(coneCount(surface, five), 5);
@@ -397,9 +398,9 @@ TEST(TargetToKeepAreas, IsAskedForWhereAreasSpreadMoreThanTheTargetAllows)
 		SCOPED_TRACE(p.name + ", " + std::to_string(p.spread));
 		const TestSurface surface(p.mesh);
 		TargetRequest request = surface.request(TargetCurvature::Automatic);
-		request.keepsAreas = false;
+		request.options.method = Method::FixedTriangles;
 		FlowResult flow = flowTo(surface, surface.choose(request)); // without cones
-		request.keepsAreas = true;
+		request.options.method = Method::IntrinsicFlips;
 		const auto next = [&] {
 			FlowStart start = flowStart(surface, FlowOptions());
 			return targetToKeepAreas(surface, start, flow, request);
@@ -410,7 +411,7 @@ TEST(TargetToKeepAreas, IsAskedForWhereAreasSpreadMoreThanTheTargetAllows)
 		// The spread alone may be larger by the slack than what was asked for.
 		for (const double allowed : {0.5, 1.0, 1.5, change.spread / 1.05, change.spread / 1.15}) {
 			flow.target.maxSpread = allowed;
-			request.coneDistortion = allowed;
+			request.options.cones.distortion = allowed;
 			const bool isKept = areaExcess(change, allowed, kSpreadSlack) <= 1.0;
 			const std::optional<Target> target = next();
 			ASSERT_EQ(target.has_value(), !isKept) << allowed;
@@ -445,10 +446,10 @@ TEST(TargetCurvature, FreeBoundaryFixesTheBoundaryAndAsksForAFlatInside)
 TEST(TargetCurvature, PrescribedBoundariesObeyGaussBonnet)
 {
 	TargetRequest disk = flatDisk().request(TargetCurvature::Automatic);
-	disk.freeBoundary = false;
+	disk.options.freeBoundary = false;
 	const TestSurface pierced(withoutStars(torus(3, 1, 9, 9), {0, 40}));
 	TargetRequest holes = pierced.request(TargetCurvature::Automatic);
-	holes.freeBoundary = false;
+	holes.options.freeBoundary = false;
 	const struct
 	{
 		const TestSurface& surface;
@@ -723,7 +724,7 @@ TEST(TargetCurvature, PrescribedRefusesWhatNoMetricHas)
 		1,
 		{"1 vert", "not a finite number"});
 	TargetRequest disk = flatDisk().request(TargetCurvature::Prescribed);
-	disk.freeBoundary = false;
+	disk.options.freeBoundary = false;
 	disk.prescribed[flatDisk().vertexAt(0, 0)] = 3.5;
 	disk.prescribed[flatDisk().vertexAt(5, 4)] = 2 * kPi - 3.5;
 	expectNumbers(
@@ -769,7 +770,7 @@ TEST(TargetCurvature, TellsWhenFreeBoundaryHasNoEffect)
 			});
 		};
 		EXPECT_TRUE(said());
-		request.freeBoundary = false;
+		request.options.freeBoundary = false;
 		EXPECT_FALSE(said());
 	}
 }

@@ -100,5 +100,32 @@ TEST(FlowRun, GoesOnFromTheHalfOnTheDouble)
 	}
 }
 
+TEST(FlowRun, TellsWhyItStoppedEarly)
+{
+	Random random(210);
+	const FlippedFlow flow(bumpyTorus(12, 8, random), requestOf(TargetCurvature::Flat));
+	for (const Background background : {Background::EuclideanPlane, Background::HyperbolicPlane}) {
+		FlowOptions options;
+		options.epsilon = 1e-9;
+		Target target = flow.result.target;
+		if (background == Background::HyperbolicPlane)
+			target.curvature[Vertex(0)] = 1.0;
+		FlowProblem problem =
+			flowProblem(flow.surface(), flowStart(flow.surface(), options), target);
+		problem.maxSteps = 1;
+		const FlowListener silent = [](int, double) {};
+		FlowRun run(background, std::move(problem), options, 0, silent, {});
+		ASSERT_FALSE(run.solve());
+		const NotConverged error = run.failure();
+		EXPECT_EQ(error.problem, NotConverged::StepsUsedUp);
+		EXPECT_EQ(error.iterations, 1);
+		EXPECT_EQ(error.epsilon, options.epsilon);
+		EXPECT_GT(error.residual, options.epsilon);
+		EXPECT_GT(error.floor, 0.0);
+		EXPECT_LT(error.floor, options.epsilon);
+		EXPECT_NE(std::string(error.what()).find("after 1 Newton steps"), std::string::npos);
+	}
+}
+
 } // namespace
 } // namespace ricci::testing

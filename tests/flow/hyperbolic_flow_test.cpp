@@ -179,7 +179,7 @@ TEST(HyperbolicFlow, FreeBoundaryKeepsItsCircles)
 			SCOPED_TRACE(K);
 			HyperbolicRequest request =
 				hyperbolicPrescribed(std::vector<double>(mesh.positions.size(), 0.0));
-			request.freeBoundary = true;
+			request.options.freeBoundary = true;
 			request.prescribed[Vertex(inside[inside.size() / 2])] = K;
 			const FlippedFlow flow(mesh, request);
 			SCOPED_TRACE(flow.surface().topology.type.name());

@@ -370,7 +370,6 @@ Options anyOptions(ByteSource& bytes)
 		-1.0,
 		Limits::infinity(),
 		Limits::quiet_NaN()};
-	static const int iterations[] = {200, 200, 200, 50, 5, 1, 0, -1, 2147483647};
 	Options options;
 	options.target = static_cast<TargetCurvature>(bytes.below(6));
 	options.freeBoundary = bytes.below(2) != 0;
@@ -384,7 +383,6 @@ Options anyOptions(ByteSource& bytes)
 	options.output = mayRefine && bytes.below(2) ? OutputTriangulation::CommonRefinement
 												 : OutputTriangulation::KeepMesh;
 	options.epsilon = epsilons[bytes.oneIn(6) ? bytes.below(13) : 0];
-	options.maxIterations = iterations[bytes.oneIn(16) ? bytes.below(9) : 0];
 	options.holes = mayRefine && bytes.oneIn(4) ? Holes::Capped : Holes::Boundaries;
 	options.charts = bytes.oneIn(4) ? Charts::WithoutOverlap : Charts::OfTheFlow;
 	return options;
@@ -534,11 +532,11 @@ void HostileMesh::drawRarerOptions(ByteSource& bytes)
 	};
 	if (bytes.oneIn(8)) {
 		options.target = TargetCurvature::PlacedCones;
-		options.coneCount = bytes.oneIn(2) ? bytes.below(9) - (bytes.oneIn(16) ? 9 : 0) : 0;
+		options.cones.count = bytes.oneIn(2) ? bytes.below(9) - (bytes.oneIn(16) ? 9 : 0) : 0;
 	}
 	if (bytes.oneIn(4)) {
-		options.coneDistortion = number(0.05, 3.0);
-		options.coneRounding = bytes.oneIn(2) ? ConeRounding::QuarterTurns : ConeRounding::Free;
+		options.cones.distortion = number(0.05, 3.0);
+		options.cones.rounding = bytes.oneIn(2) ? ConeRounding::QuarterTurns : ConeRounding::Free;
 	}
 	if (bytes.oneIn(8))
 		options.seamHiding = number(0.0, 1.0);
@@ -567,7 +565,6 @@ void HostileMesh::mend()
 		 {static_cast<FlowOptions*>(&options), static_cast<FlowOptions*>(&hyperbolicOptions)}) {
 		if (!(flow->epsilon > 0.0))
 			flow->epsilon = 1e-8;
-		flow->maxIterations = std::max(flow->maxIterations, 1);
 	}
 	for (Point3& p : mesh.positions)
 		for (double& x : p)

@@ -528,12 +528,12 @@ TEST(CommonRefinement, AreaIsThatOfTheSurfaceInTheResult)
 {
 	int seen = 0;
 	for (const Problem& p : problems(5)) {
-		if (p.request.mode == TargetCurvature::Prescribed)
+		if (p.request.options.target == TargetCurvature::Prescribed)
 			continue;
 		SCOPED_TRACE(p.name);
 		Options options;
-		options.target = p.request.mode;
-		options.freeBoundary = p.request.freeBoundary;
+		options.target = p.request.options.target;
+		options.freeBoundary = p.request.options.freeBoundary;
 		options.epsilon = p.epsilon;
 		options.output = OutputTriangulation::CommonRefinement;
 		VertexInput input;

@@ -561,33 +561,6 @@ TEST(Parametrize, RefusesOptionsOutOfRange)
 		EXPECT_TRUE(error->value == epsilon || (std::isnan(error->value) && std::isnan(epsilon)));
 		expectWords(error->what(), {"must be greater than 0 radians"});
 	}
-	for (int most : {0, -5}) {
-		Options options = fixedTriangulation();
-		options.maxIterations = most;
-		const auto error = errorOf<InvalidOption>([&] { run(mesh, options); });
-		ASSERT_TRUE(error);
-		EXPECT_EQ(error->problem, InvalidOption::MaxIterations);
-		EXPECT_EQ(error->value, most);
-		expectWords(error->what(), {"at least 1, not " + std::to_string(most)});
-	}
-}
-
-TEST(Parametrize, TellsWhyItStoppedEarly)
-{
-	Random random(210);
-	Options options = fixedTriangulation();
-	options.maxIterations = 1;
-	const SurfaceMesh mesh = bumpyTorus(12, 8, random);
-	const auto error = errorOf<NotConverged>([&] { run(mesh, options); });
-	ASSERT_TRUE(error);
-	EXPECT_EQ(error->problem, NotConverged::StepsUsedUp);
-	EXPECT_EQ(error->iterations, 1);
-	EXPECT_EQ(error->epsilon, options.epsilon);
-	EXPECT_GT(error->residual, options.epsilon);
-	EXPECT_GT(error->floor, 0.0);
-	EXPECT_LT(error->floor, options.epsilon);
-	EXPECT_EQ(error->componentFaces, 0u); // there is one only
-	expectWords(error->what(), {"after 1 Newton steps"});
 }
 
 TEST(Parametrize, ProgressRisesFromZeroToOne)

@@ -50,7 +50,7 @@ Options quarterTurns(Finish finish)
 {
 	Options options;
 	options.target = TargetCurvature::PlacedCones;
-	options.coneRounding = ConeRounding::QuarterTurns;
+	options.cones.rounding = ConeRounding::QuarterTurns;
 	options.finish = finish;
 	return options;
 }
@@ -92,7 +92,7 @@ TEST(RoundLoopTurns, CostsLittleOfTheAngles)
 	// On this surface the turns of free cones would be up to an eighth of a turn off.
 	const SurfaceMesh mesh = bentSlab(2, 8);
 	Options free = quarterTurns(Finish::LeastDistortion);
-	free.coneRounding = ConeRounding::Free;
+	free.cones.rounding = ConeRounding::Free;
 	const Parametrization before = run(mesh, free);
 	const Parametrization after = run(mesh, quarterTurns(Finish::LeastDistortion));
 	EXPECT_FALSE(before.report.holonomyError);
@@ -107,7 +107,7 @@ TEST(RoundLoopTurns, RoundsHolesWithAFreeBoundary)
 		SCOPED_TRACE(genus);
 		const SurfaceMesh mesh = withoutStars(bentSlab(genus, 6), {0, 200, 400});
 		Options options = quarterTurns(Finish::LeastDistortion);
-		options.coneCount = 6;
+		options.cones.count = 6;
 		const Parametrization map = run(mesh, options);
 		ASSERT_EQ(map.report.boundaryLoops, 3);
 		EXPECT_LT(seamError(mesh, map), 1e-9);
@@ -120,7 +120,7 @@ TEST(RoundLoopTurns, LeavesPrescribedBoundaries)
 	const SurfaceMesh mesh = withoutStars(bentSlab(1, 6), {0});
 	Options options = quarterTurns(Finish::LeastDistortion);
 	options.freeBoundary = false;
-	options.coneCount = 6;
+	options.cones.count = 6;
 	const Parametrization map = run(mesh, options);
 	EXPECT_LT(map.report.maxCurvatureError, 1e-8);
 	EXPECT_EQ(map.report.flippedFaces, 0);
@@ -134,7 +134,7 @@ TEST(RoundLoopTurns, AddsNoConesToANumberThatIsAskedFor)
 {
 	for (const int count : {4, 7}) {
 		Options options = quarterTurns(Finish::LeastDistortion);
-		options.coneCount = count;
+		options.cones.count = count;
 		const SurfaceMesh mesh = bentSlab(2, 4);
 		const Parametrization map = run(mesh, options);
 		EXPECT_LE(map.report.cones, count);

@@ -89,7 +89,7 @@ void FlippedFlow::run(HyperbolicRequest request, double epsilon)
 		Background::HyperbolicPlane,
 		surface(),
 		flowStart(surface(), options),
-		chooseHyperbolicTarget(surface().topology, request),
+		chooseHyperbolicTarget(surface().topology, request.options, request),
 		options,
 		[](int, double) {});
 }
@@ -139,8 +139,8 @@ CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary)
 {
 	TargetRequest request;
-	request.mode = mode;
-	request.freeBoundary = freeBoundary;
+	request.options.target = mode;
+	request.options.freeBoundary = freeBoundary;
 	return request;
 }
 
@@ -163,14 +163,14 @@ TargetRequest prescribed(std::vector<double> curvature, bool freeBoundary)
 HyperbolicRequest hyperbolicMetric(bool freeBoundary)
 {
 	HyperbolicRequest request;
-	request.freeBoundary = freeBoundary;
+	request.options.freeBoundary = freeBoundary;
 	return request;
 }
 
 HyperbolicRequest hyperbolicPrescribed(std::vector<double> curvature)
 {
 	HyperbolicRequest request;
-	request.mode = HyperbolicTarget::Prescribed;
+	request.options.target = HyperbolicTarget::Prescribed;
 	request.prescribed = VertexArray<double>(std::move(curvature));
 	return request;
 }

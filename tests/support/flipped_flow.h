@@ -17,6 +17,12 @@
 
 namespace ricci::testing {
 
+/// What chooseHyperbolicTarget() is asked for.
+struct HyperbolicRequest : TargetInput
+{
+	HyperbolicOptions options;
+};
+
 /// The stages of the flow with intrinsic flips on one connected surface, up to the common
 /// refinement.
 struct FlippedFlow

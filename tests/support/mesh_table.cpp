@@ -136,14 +136,12 @@ Arguments parse(int argc, char** argv)
 			a.options.freeBoundary = false;
 		else if (word == "--epsilon")
 			a.options.epsilon = std::atof(value().c_str());
-		else if (word == "--max-iterations")
-			a.options.maxIterations = std::atoi(value().c_str());
 		else if (word == "--cone-count")
-			a.options.coneCount = std::atoi(value().c_str());
+			a.options.cones.count = std::atoi(value().c_str());
 		else if (word == "--cone-distortion")
-			a.options.coneDistortion = std::atof(value().c_str());
+			a.options.cones.distortion = std::atof(value().c_str());
 		else if (word == "--cone-rounding")
-			a.options.coneRounding = choose<ConeRounding>(
+			a.options.cones.rounding = choose<ConeRounding>(
 				value(), {{"free", ConeRounding::Free}, {"quarter", ConeRounding::QuarterTurns}});
 		else if (word == "--obj")
 			a.objFolder = value();

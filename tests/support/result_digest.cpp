@@ -140,7 +140,7 @@ const std::vector<Case> kCases = {
 	{"quarter",
 	 [](Flow::Params& p) {
 		 p.target = TargetCurvature::PlacedCones;
-		 p.coneRounding = ConeRounding::QuarterTurns;
+		 p.cones.rounding = ConeRounding::QuarterTurns;
 	 }},
 	{"flat", [](Flow::Params& p) { p.target = TargetCurvature::Flat; }},
 	{"disk", [](Flow::Params& p) { p.target = TargetCurvature::Disk; }},

@@ -68,7 +68,6 @@ class InvalidOption : public Error
 public:
 	enum Problem {
 		Epsilon,                ///< value; must be above 0
-		MaxIterations,          ///< value; must be at least 1
 		ConeCount,              ///< value; must not be negative
 		ConeDistortion,         ///< value; must be above 0
 		ConeAngle,              ///< value in radians; must be above 0 and finite

@@ -86,9 +86,6 @@ struct FlowOptions
 	/// CommonRefinement belongs to intrinsic flips.
 	OutputTriangulation output = OutputTriangulation::KeepMesh;
 
-	/// Newton steps of one solve, at least 1.
-	int maxIterations = 200;
-
 	/// The hyperbolic flow takes LeastDistortion for Repair: its deck transformations, which the map
 	/// of least distortion would have to keep, are no rigid motions of the plane.
 	Finish finish = Finish::LeastDistortion;
@@ -110,18 +107,22 @@ enum class HyperbolicTarget {
 	Prescribed        ///< one value for each vertex, in radians
 };
 
+/// Which cones are placed, see placeCones().
+struct ConeOptions
+{
+	/// Their number, or 0 for as many as it takes to bring the expected Report::areaDistortionSpread
+	/// below \ref distortion; with flips the areas that come out count as well, see keepAreas(). Above
+	/// 1, the distortion also is the spread up to which Automatic does without cones.
+	int count = 0;
+	double distortion = 0.25;
+	ConeRounding rounding = ConeRounding::Free;
+};
+
 /// Options of the Euclidean flow.
 struct Options : FlowOptions
 {
 	TargetCurvature target = TargetCurvature::Automatic;
-
-	/// Placed cones: their number, or 0 for as many as it takes to bring the expected
-	/// Report::areaDistortionSpread below coneDistortion; with flips the areas that come out count as
-	/// well, see keepAreas(). Above 1, coneDistortion also is the spread up to which Automatic does
-	/// without cones.
-	int coneCount = 0;
-	double coneDistortion = 0.25;
-	ConeRounding coneRounding = ConeRounding::Free;
+	ConeOptions cones;
 
 	/// How much longer a seam may be to run in hollows, 0 to 1; see seamCost().
 	double seamHiding = 0.0;

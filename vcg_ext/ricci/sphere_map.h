@@ -43,7 +43,7 @@ struct SphereMap
 ///
 /// Vertices that only faces without area use (see OpenedMesh) lie where another corner of such a face
 /// does, or else at the pole.
-/// \param options epsilon and maxIterations are used; the flow has intrinsic flips
+/// \param options only epsilon is used; the flow has intrinsic flips
 /// \throw InvalidMesh, InvalidOption (another topology), NotConverged, Cancelled
 SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress& progress);
 

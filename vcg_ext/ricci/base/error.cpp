@@ -64,8 +64,6 @@ std::string words(const InvalidOption& e)
 	case InvalidOption::Epsilon:
 		return "The curvature error asked for must be greater than 0 radians, not " +
 			   number(e.value);
-	case InvalidOption::MaxIterations:
-		return "The number of Newton steps must be at least 1, not " + number(e.value);
 	case InvalidOption::ConeCount:
 		return "The number of cones must be 0 or more, not " + number(e.value);
 	case InvalidOption::ConeDistortion:

@@ -287,7 +287,7 @@ bool marginsMayFit(std::size_t charts, double margin)
 ChartTurns chartTurns(const Options& options)
 {
 	return options.target == TargetCurvature::Rectangle         ? ChartTurns::None
-		   : options.coneRounding == ConeRounding::QuarterTurns ? ChartTurns::Quarter
+		   : options.cones.rounding == ConeRounding::QuarterTurns ? ChartTurns::Quarter
 																: ChartTurns::Free;
 }
 

@@ -33,13 +33,14 @@ std::vector<Vertex> selectedCones(const VertexArray<char>& selected)
 	return cones;
 }
 
-void setPrescribed(const VertexArray<double>& prescribed, double precision, Target& target)
+void setPrescribed(const TargetInput& input, Target& target)
 {
 	std::size_t notFinite = 0;
-	for (const Vertex v : prescribed.indices()) {
-		const double K = prescribed[v];
+	const double rounding = kPrescribedRounding * input.prescribedPrecision;
+	for (const Vertex v : input.prescribed.indices()) {
+		const double K = input.prescribed[v];
 		notFinite += !std::isfinite(K);
-		target.curvature[v] = std::abs(K) <= kPrescribedRounding * precision ? 0.0 : K;
+		target.curvature[v] = std::abs(K) <= rounding ? 0.0 : K;
 	}
 	if (notFinite > 0)
 		throw InadmissibleCurvature(InadmissibleCurvature::NotFinite, 0.0, 0.0, notFinite);

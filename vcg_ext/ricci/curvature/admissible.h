@@ -10,6 +10,14 @@
 
 namespace ricci {
 
+/// Values at the vertices of a surface that some targets read.
+struct TargetInput
+{
+	VertexArray<char> selected;       ///< 1 at the corners of Rectangle, the cones of SelectedCones
+	VertexArray<double> prescribed;   ///< radians, for Prescribed
+	double prescribedPrecision = 0.0; ///< relative rounding error of prescribed values
+};
+
 /// The target with K = 0 at every vertex of a surface, and no u fixed.
 Target zeroTarget(const Topology& topology);
 
@@ -22,10 +30,8 @@ std::vector<Vertex> selectedCones(const VertexArray<char>& selected);
 
 /// Copies prescribed curvatures to the target. Values of the size of rounding are no cones and
 /// become 0.
-/// \param prescribed radians
-/// \param precision relative rounding error of the values
 /// \throw InadmissibleCurvature (NotFinite) if a value is NaN or infinite
-void setPrescribed(const VertexArray<double>& prescribed, double precision, Target& target);
+void setPrescribed(const TargetInput& input, Target& target);
 
 /// Checks what holds for the curvature at each vertex of any metric, flat or hyperbolic, because its
 /// angles are positive: K < 2 pi inside and K < pi on the boundary. Vertices where u is fixed are

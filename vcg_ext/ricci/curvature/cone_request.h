@@ -27,15 +27,12 @@ enum class ConeBoundary {
 	Prescribed ///< the boundary takes what Gauss-Bonnet leaves, in proportion to its length
 };
 
-/// Which cones placeCones() looks for.
-struct ConeRequest
+/// Which cones placeCones() looks for, and where.
+struct ConeRequest : ConeOptions
 {
-	int count = 0;           ///< of cones; 0: the fewest found that reach the distortion
-	double distortion = 0.5; ///< wanted if count is 0; see PlacedCones::distortion
-	ConeRounding rounding = ConeRounding::Free;
 	ConeBoundary boundary = ConeBoundary::Fixed;
 	int vertices = -1; ///< cones lie at vertices with a number below this; -1: at any
-	Tick tick;         ///< called at each cone and each solution on the surface, if not empty
+	Tick tick = {};    ///< called at each cone and each solution on the surface, if not empty
 	/// On a sphere, move cones towards each other where that shortens the tree that joins them more
 	/// than it raises the distortion: up to the wanted distortion, or by kSeamAllowance for a given
 	/// count.

@@ -4,7 +4,6 @@
 #include "../base/numbers.h"
 #include "../base/text.h"
 #include "../error.h"
-#include "admissible.h"
 
 #include <cmath>
 #include <string>
@@ -13,16 +12,18 @@ namespace ricci {
 
 namespace {
 
-void setCones(const Topology& topology, const HyperbolicRequest& request, Target& target)
+/// \param angle total angle at each selected vertex, radians
+void setCones(
+	const Topology& topology, double angle, const VertexArray<char>& selected, Target& target)
 {
-	if (!(request.coneAngle > 0.0) || !std::isfinite(request.coneAngle))
-		throw InvalidOption(InvalidOption::ConeAngle, request.coneAngle);
-	const std::vector<Vertex> cones = selectedCones(request.selected);
+	if (!(angle > 0.0) || !std::isfinite(angle))
+		throw InvalidOption(InvalidOption::ConeAngle, angle);
+	const std::vector<Vertex> cones = selectedCones(selected);
 	for (const Vertex v : cones)
-		target.curvature[v] = (topology.boundary[v] ? kPi : 2 * kPi) - request.coneAngle;
+		target.curvature[v] = (topology.boundary[v] ? kPi : 2 * kPi) - angle;
 	target.notes.push_back(
 		std::to_string(cones.size()) + " cones of angle " +
-		numberText(request.coneAngle * 180.0 / kPi, 9) + " degrees each.");
+		numberText(angle * 180.0 / kPi, 9) + " degrees each.");
 }
 
 void freeTheBoundary(const Topology& topology, Target& target)
@@ -56,26 +57,27 @@ void checkSum(const Topology& topology, HyperbolicTarget mode, const Target& tar
 
 } // namespace
 
-Target chooseHyperbolicTarget(const Topology& topology, const HyperbolicRequest& request)
+Target chooseHyperbolicTarget(
+	const Topology& topology, const HyperbolicOptions& options, const TargetInput& input)
 {
 	Target target = zeroTarget(topology);
-	switch (request.mode) {
+	switch (options.target) {
 	case HyperbolicTarget::HyperbolicMetric:
 		break;
 	case HyperbolicTarget::SelectedCones:
-		setCones(topology, request, target);
+		setCones(topology, options.coneAngle, input.selected, target);
 		break;
 	case HyperbolicTarget::Prescribed:
-		setPrescribed(request.prescribed, request.prescribedPrecision, target);
+		setPrescribed(input, target);
 		break;
 	}
-	if (request.freeBoundary && !topology.type.isClosed())
+	if (options.freeBoundary && !topology.type.isClosed())
 		freeTheBoundary(topology, target);
 	checkVertexBounds(topology, target);
 	if (target.hasFixed())
 		checkFreeBoundary(topology, target);
 	else
-		checkSum(topology, request.mode, target);
+		checkSum(topology, options.target, target);
 	return target;
 }
 

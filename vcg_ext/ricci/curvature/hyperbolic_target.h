@@ -2,22 +2,10 @@
 #ifndef RICCI_HYPERBOLIC_TARGET_H
 #define RICCI_HYPERBOLIC_TARGET_H
 
-#include "../flow/target.h"
 #include "../options.h"
-#include "../surface/topology.h"
+#include "admissible.h"
 
 namespace ricci {
-
-/// What chooseHyperbolicTarget() is asked for.
-struct HyperbolicRequest
-{
-	HyperbolicTarget mode = HyperbolicTarget::HyperbolicMetric;
-	bool freeBoundary = false;
-	double coneAngle = 0.0;           ///< total angle at each selected vertex, radians
-	VertexArray<char> selected;       ///< 1 at the cones of SelectedCones
-	VertexArray<double> prescribed;   ///< radians, for Prescribed
-	double prescribedPrecision = 0.0; ///< relative rounding error of prescribed values
-};
 
 /// Chooses the target of the hyperbolic flow and checks that a metric with that curvature can exist:
 /// K < 2 pi inside, K < pi on the boundary, and sum K > 2 pi chi, because the difference is the area
@@ -27,7 +15,8 @@ struct HyperbolicRequest
 /// its circles keep their radii is freeBoundaryArea().
 /// \throw InvalidOption if a cone's angle is not positive, or nothing is selected for cones
 /// \throw InadmissibleCurvature otherwise, with the numbers that contradict each other
-Target chooseHyperbolicTarget(const Topology& topology, const HyperbolicRequest& request);
+Target chooseHyperbolicTarget(
+	const Topology& topology, const HyperbolicOptions& options, const TargetInput& input);
 
 } // namespace ricci
 

@@ -6,7 +6,6 @@
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../math/double_double.h"
-#include "admissible.h"
 #include "area_change.h"
 #include "cone_placement.h"
 #include "rectangle_corners.h"
@@ -39,10 +38,15 @@ void freeTheBoundary(const EmbeddedSurface& surface, Target& target)
 	target.notes.push_back("Free boundary: the boundary keeps its metric.");
 }
 
+bool measuresAreas(const TargetRequest& request)
+{
+	return request.options.method == Method::IntrinsicFlips;
+}
+
 void noteImpliedBoundary(
 	const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
 {
-	if (request.freeBoundary && !surface.topology.type.isClosed())
+	if (request.options.freeBoundary && !surface.topology.type.isClosed())
 		target.notes.push_back(
 			"The target prescribes the boundary: the choice of a free boundary has no effect on "
 			"it.");
@@ -148,7 +152,7 @@ void setCones(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 	}
 	target.notes.push_back(
 		std::to_string(cones.size()) + " cones of curvature " + number(share) + " each.");
-	if (topology.type.isClosed() || !request.freeBoundary)
+	if (topology.type.isClosed() || !request.options.freeBoundary)
 		return;
 	if (!onBoundary)
 		freeTheBoundary(surface, target);
@@ -162,8 +166,8 @@ void setCones(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 void setPrescribedValues(
 	const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
 {
-	setPrescribed(request.prescribed, request.prescribedPrecision, target);
-	if (!surface.topology.type.isClosed() && request.freeBoundary) {
+	setPrescribed(request, target);
+	if (!surface.topology.type.isClosed() && request.options.freeBoundary) {
 		freeTheBoundary(surface, target);
 		return;
 	}
@@ -204,13 +208,11 @@ std::string describe(const PlacedCones& cones, const VertexArray<int>& vertexNum
 
 ConeRequest coneRequest(const TargetRequest& request)
 {
-	ConeRequest wanted;
-	wanted.count = request.coneCount;
-	wanted.distortion = request.coneDistortion;
-	wanted.rounding = request.coneRounding;
-	wanted.vertices = request.coneVertices;
+	ConeRequest wanted{request.options.cones};
+	if (!request.vertexNumbers.empty())
+		wanted.vertices = request.vertexNumbers.size();
 	wanted.tick = request.tick;
-	wanted.boundary = request.freeBoundary ? ConeBoundary::Fixed : ConeBoundary::Prescribed;
+	wanted.boundary = request.options.freeBoundary ? ConeBoundary::Fixed : ConeBoundary::Prescribed;
 	return wanted;
 }
 
@@ -227,13 +229,13 @@ void setPlacedCones(
 		target.curvature[cones.vertices[i]] = cones.curvatures[i];
 		total += cones.curvatures[i];
 	}
-	target.quarterTurns = request.coneRounding == ConeRounding::QuarterTurns;
+	target.quarterTurns = request.options.cones.rounding == ConeRounding::QuarterTurns;
 	target.notes.push_back(describe(cones, request.vertexNumbers));
-	if (request.keepsAreas && request.coneCount == 0)
-		target.maxSpread = request.coneDistortion;
+	if (measuresAreas(request) && request.options.cones.count == 0)
+		target.maxSpread = request.options.cones.distortion;
 	if (surface.topology.type.isClosed())
 		return;
-	if (request.freeBoundary)
+	if (request.options.freeBoundary)
 		freeTheBoundary(surface, target);
 	else
 		prescribeByLength(surface, totalCurvature(surface) - total, target);
@@ -250,7 +252,7 @@ void choosePlacedCones(
 /// is asked for more cones, those are not needed either.
 double maxPlainSpread(const TargetRequest& request)
 {
-	return std::max(kMaxPlainSpread, request.coneDistortion);
+	return std::max(kMaxPlainSpread, request.options.cones.distortion);
 }
 
 /// Whether Automatic makes it flat, boundary included. A boundary at seams that were chosen is none of the
@@ -268,7 +270,7 @@ void setPlain(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 	const SurfaceType& type = surface.topology.type;
 	if (type.isTorus() || isFlatAnnulus(surface, request))
 		setFlat(surface, request, target);
-	else if (request.freeBoundary)
+	else if (request.options.freeBoundary)
 		freeTheBoundary(surface, target);
 	else if (type.isDisk())
 		setDisk(surface, request, target);
@@ -290,7 +292,7 @@ void choosePlainOrCones(
 		target.notes.push_back(
 			"No cones: the expected spread of the logarithm of the area factor is " +
 			numberText(spread, 3) + ".");
-		if (request.coneCount == 0)
+		if (request.options.cones.count == 0)
 			target.maxSpread = maxPlainSpread(request);
 		return;
 	}
@@ -311,7 +313,7 @@ void setAutomatic(
 		target.notes.push_back("Cones: " + type.name() + " has no flat metric without them.");
 		choosePlacedCones(surface, start, request, target);
 	}
-	else if (request.keepsAreas && (type.isClosed() || request.freeBoundary))
+	else if (measuresAreas(request) && (type.isClosed() || request.options.freeBoundary))
 		choosePlainOrCones(surface, start, request, target);
 	else
 		setPlain(surface, request, target);
@@ -329,7 +331,7 @@ void check(const EmbeddedSurface& surface, const Target& target)
 Target chooseTarget(const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request)
 {
 	Target target = zeroTarget(surface.topology);
-	switch (request.mode) {
+	switch (request.options.target) {
 	case TargetCurvature::Automatic:
 		setAutomatic(surface, start, request, target);
 		break;
@@ -378,7 +380,7 @@ std::optional<Target> targetToKeepAreas(
 		numberText(change.spread, 3) + ", the mean of the factor or its inverse as " +
 		numberText(change.mean, 3) + ": more or other cones are needed.");
 	const bool wasFlat = isFlatAnnulus(surface, request) && !flow.target.hasFixed();
-	if (wasFlat && request.freeBoundary)
+	if (wasFlat && request.options.freeBoundary)
 		choosePlacedCones(surface, start, request, target);
 	else
 		setPlacedCones(surface, moreCones(surface, flow, coneRequest(request)), request, target);

@@ -5,27 +5,23 @@
 #include "../flow/quarter_turns.h"
 #include "../flow/ricci_flow.h"
 #include "../progress.h"
+#include "admissible.h"
 
 #include <optional>
 
 namespace ricci {
 
-/// What chooseTarget() is asked for.
-struct TargetRequest
+/// What chooseTarget() is asked for. Without flips Automatic measures no areas: it decides by topology
+/// alone.
+struct TargetRequest : TargetInput
 {
-	TargetCurvature mode = TargetCurvature::Automatic;
-	bool freeBoundary = true;
-	bool hasSeam = false;             ///< see OpenedMesh: Automatic makes no flat annulus of it
-	VertexArray<char> selected;       ///< 1 at the corners of Rectangle, the cones of SelectedCones
-	VertexArray<double> prescribed;   ///< radians, for Prescribed
-	double prescribedPrecision = 0.0; ///< relative rounding error of prescribed values
-	int coneCount = 0;                ///< of placed cones, see ConeRequest
-	double coneDistortion = 0.25;
-	ConeRounding coneRounding = ConeRounding::Free;
-	bool keepsAreas = true; ///< measure areas; false: Automatic decides by topology alone
-	int coneVertices = -1;  ///< placed cones lie at vertices with a number below this; -1: at any
-	Tick tick; ///< called while cones are placed, if it is not empty; may throw to cancel
-	VertexArray<int> vertexNumbers; ///< under which notes name vertices; empty: their own
+	Options options;
+	bool hasSeam = false; ///< see OpenedMesh: Automatic makes no flat annulus of it
+	Tick tick = {}; ///< called while cones are placed, if it is not empty; may throw to cancel
+
+	/// Under which notes name vertices; placed cones lie at these alone. Empty: their own numbers,
+	/// and cones at any.
+	VertexArray<int> vertexNumbers = {};
 };
 
 /// Chooses the target of the Euclidean flow (paper 5.2, 5.3) and checks that a metric with that

@@ -245,7 +245,7 @@ NewtonResult FlowRun::solveFor(double epsilon, bool polishes, double maxPolished
 {
 	NewtonOptions newtonOptions;
 	newtonOptions.epsilon = epsilon;
-	newtonOptions.maxIterations = m_options.maxIterations;
+	newtonOptions.maxIterations = m_problem.maxSteps;
 	newtonOptions.polishes = polishes;
 	newtonOptions.maxPolishedFloor = maxPolishedFloor;
 	const NewtonResult solved = m_newton->solve(
@@ -364,7 +364,7 @@ NotConverged FlowRun::failure() const
 	const auto broken = static_cast<std::size_t>(m_map->brokenTriangles());
 	const double scales = spreadOfScales();
 	const bool stalls =
-		m_solved.iterations < m_options.maxIterations && m_solved.residual > kWorthExtending;
+		m_solved.iterations < m_problem.maxSteps && m_solved.residual > kWorthExtending;
 	const bool lost =
 		m_options.method == Method::IntrinsicFlips && scales > kMaxScales && (broken > 0 || stalls);
 	if (lost || !std::isfinite(m_solved.floor))

@@ -24,6 +24,8 @@ struct FlowProblem
 	/// Vertices of the surface, which have the lowest numbers in its double.
 	int vertexCount = 0;
 
+	int maxSteps = NewtonOptions().maxIterations; ///< of one solve
+
 	/// [vertex of a double] the image in the other copy; empty where the input is the surface.
 	VertexArray<Vertex> mirror;
 

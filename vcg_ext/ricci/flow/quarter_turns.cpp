@@ -106,8 +106,8 @@ struct Derivatives
 class TurnRounder
 {
 public:
-	TurnRounder(const FlowResult& flow, double epsilon, int maxIterations, const Tick& tick) :
-			m_flow(flow), m_epsilon(epsilon), m_maxIterations(maxIterations), m_tick(tick),
+	TurnRounder(const FlowResult& flow, double epsilon, const Tick& tick) :
+			m_flow(flow), m_epsilon(epsilon), m_tick(tick),
 			m_startU(flow.u - flowFactor(flow))
 	{
 	}
@@ -235,7 +235,7 @@ private:
 		try {
 			NewtonSolver newton(*next, m_flow.target.fixed);
 			result.solved = newton.solve(
-				result.u, m_flow.target.curvature, {m_epsilon, m_maxIterations}, [&](int, double) {
+				result.u, m_flow.target.curvature, {m_epsilon}, [&](int, double) {
 					m_tick();
 				});
 		}
@@ -262,7 +262,6 @@ private:
 
 	const FlowResult& m_flow;
 	double m_epsilon;
-	int m_maxIterations;
 	const Tick& m_tick;
 	VertexVector m_startU;
 };
@@ -276,7 +275,7 @@ LoopTurns loopTurns(const FlowResult& flow, const Tick& tick)
 	result.errors = metric.errors;
 	if (result.errors.size() == 0)
 		return result;
-	Derivatives by = TurnRounder(flow, 0.0, 0, tick).derivatives(metric);
+	Derivatives by = TurnRounder(flow, 0.0, tick).derivatives(metric);
 	result.byCurvature = std::move(by.curvatures);
 	// A metric that changes by h has the Beltrami coefficient mu with |h|^2 = 8 |mu|^2.
 	const Eigen::Index n = result.errors.size();
@@ -291,7 +290,7 @@ TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options, const Tick
 		return result;
 	Metric metric = metricOf(flow);
 	result.before = metric.error();
-	TurnRounder(flow, options.epsilon, options.maxIterations, tick).solve(metric);
+	TurnRounder(flow, options.epsilon, tick).solve(metric);
 	result.after = metric.error();
 	if (metric.map == flow.metric)
 		return result;

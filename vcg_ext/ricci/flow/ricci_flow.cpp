@@ -42,13 +42,13 @@ HalfFlow flowOnSurface(
 	FlowStart start,
 	const Target& target,
 	bool mayBeRough,
-	FlowOptions options,
+	const FlowOptions& options,
 	const FlowListener& listener,
 	const Tick& tick)
 {
-	options.maxIterations = std::min(options.maxIterations, kStepsBeforeDoubling);
-	FlowRun run(
-		background, flowProblem(surface, std::move(start), target), options, 0, listener, tick);
+	FlowProblem problem = flowProblem(surface, std::move(start), target);
+	problem.maxSteps = kStepsBeforeDoubling;
+	FlowRun run(background, std::move(problem), options, 0, listener, tick);
 	HalfFlow half;
 	bool solved = false, isRough = false;
 	try {

@@ -68,37 +68,35 @@ TargetRequest targetRequest(
 	return request;
 }
 
-HyperbolicRequest targetRequest(
+TargetInput targetRequest(
 	const FlowDomain&,
 	const Component& component,
 	const VertexInput& input,
-	const HyperbolicOptions& options,
+	const HyperbolicOptions&,
 	ProgressRange&)
 {
-	HyperbolicRequest request;
-	request.mode = options.target;
-	request.freeBoundary = options.freeBoundary;
-	request.coneAngle = options.coneAngle;
-	request.selected = atVertices(component, input.selected);
-	request.prescribed = atVertices(component, input.targetCurvature);
-	request.prescribedPrecision = input.precision;
-	return request;
+	return targetInput(component, input, component.vertex.size());
 }
 
-Target chooseTarget(const FlowDomain& domain, FlowStart& start, const TargetRequest& request)
+Target chooseTarget(
+	const FlowDomain& domain, FlowStart& start, const TargetRequest& request, const Options&)
 {
 	return chooseTarget(domain.solved(), start, request);
 }
 
-Target chooseTarget(const FlowDomain& domain, FlowStart&, const HyperbolicRequest& request)
+Target chooseTarget(
+	const FlowDomain& domain,
+	FlowStart&,
+	const TargetInput& input,
+	const HyperbolicOptions& options)
 {
-	return chooseHyperbolicTarget(domain.surface.topology, request);
+	return chooseHyperbolicTarget(domain.surface.topology, options, input);
 }
 
 /// Neither areas nor quarter turns play a part in the hyperbolic plane.
 void keepAreas(
 	const EmbeddedSurface&,
-	const HyperbolicRequest&,
+	const TargetInput&,
 	const HyperbolicOptions&,
 	ProgressRange&,
 	ComponentMap&)
@@ -107,7 +105,7 @@ void keepAreas(
 
 void roundLoopTurns(
 	const EmbeddedSurface&,
-	const HyperbolicRequest&,
+	const TargetInput&,
 	const HyperbolicOptions&,
 	ProgressRange&,
 	ComponentMap&)
@@ -333,7 +331,7 @@ void finish(
 /// How far the seams of what is given back are from rotations by quarter turns.
 void measureHolonomy(const FlowDomain& domain, const Options& options, ComponentMap& map)
 {
-	if (options.coneRounding == ConeRounding::QuarterTurns)
+	if (options.cones.rounding == ConeRounding::QuarterTurns)
 		map.holonomyError =
 			holonomyError(domain.surface.triangulation, map.layout, map.cut.isCut, map.cones);
 }
@@ -387,7 +385,7 @@ ComponentMap flatten(
 	FlowStart start = flowStart(domain.solved(), options, whileFlipping);
 	progress.step(0.0, "Choosing the target");
 	const auto request = targetRequest(domain, component, input, options, progress);
-	const Target target = chooseTarget(domain, start, request);
+	const Target target = chooseTarget(domain, start, request, options);
 	for (const std::string& note : target.notes)
 		progress.log(note);
 	FlowProgress flowProgress(progress, options.epsilon, map.flowStates);

@@ -20,8 +20,6 @@ void checkFlowOptions(const FlowOptions& options)
 {
 	if (!(options.epsilon > 0.0 && std::isfinite(options.epsilon)))
 		throw InvalidOption(InvalidOption::Epsilon, options.epsilon);
-	if (options.maxIterations < 1)
-		throw InvalidOption(InvalidOption::MaxIterations, options.maxIterations);
 	if (options.output == OutputTriangulation::CommonRefinement &&
 		options.method != Method::IntrinsicFlips)
 		throw InvalidOption(InvalidOption::WithoutFlips);
@@ -70,10 +68,10 @@ void checkOptions(const Options& options)
 	checkFlowOptions(options);
 	if (options.holes == Holes::Capped && options.method != Method::IntrinsicFlips)
 		throw InvalidOption(InvalidOption::WithoutFlips);
-	if (options.coneCount < 0)
-		throw InvalidOption(InvalidOption::ConeCount, options.coneCount);
-	if (!(options.coneDistortion > 0.0 && std::isfinite(options.coneDistortion)))
-		throw InvalidOption(InvalidOption::ConeDistortion, options.coneDistortion);
+	if (options.cones.count < 0)
+		throw InvalidOption(InvalidOption::ConeCount, options.cones.count);
+	if (!(options.cones.distortion > 0.0 && std::isfinite(options.cones.distortion)))
+		throw InvalidOption(InvalidOption::ConeDistortion, options.cones.distortion);
 	if (!(options.seamHiding >= 0.0 && options.seamHiding <= 1.0))
 		throw InvalidOption(InvalidOption::SeamHiding, options.seamHiding);
 }
@@ -97,7 +95,7 @@ Parametrization parametrizeEuclidean(
 	measureResult(mesh, measureDistortion, result);
 	const Tick tick = [&] { progress.step(kMeasured, "Looking for charts that overlap"); };
 	tick();
-	const bool turns = options.coneRounding != ConeRounding::QuarterTurns;
+	const bool turns = options.cones.rounding != ConeRounding::QuarterTurns;
 	separateCharts(mesh, separates, turns, tick, result);
 	result.report.seamLengthRelative =
 		result.report.seamLength / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));

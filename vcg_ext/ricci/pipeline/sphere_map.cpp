@@ -286,8 +286,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress&
 	const SurfaceMesh disk = punctured(c, pole);
 	Options flow;
 	flow.epsilon = options.epsilon;
-	flow.maxIterations = options.maxIterations;
-	flow.coneDistortion = std::numeric_limits<double>::max(); // no cones, however areas change
+	flow.cones.distortion = std::numeric_limits<double>::max(); // no cones, however areas change
 	flow.finish = Finish::None;
 	flow.charts = Charts::OfTheFlow;
 	Quiet quiet(progress);

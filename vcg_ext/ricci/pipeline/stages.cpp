@@ -29,24 +29,29 @@ std::string description(const Component& component, const SurfaceType& type)
 		   std::to_string(component.triangles.size()) + " faces: " + type.name() + ".";
 }
 
+TargetInput targetInput(const Component& component, const VertexInput& input, int vertexCount)
+{
+	TargetInput values;
+	values.selected.resize(vertexCount, 0);
+	values.prescribed.resize(vertexCount, 0.0);
+	values.prescribedPrecision = input.precision;
+	for (const Vertex v : component.vertex.indices()) {
+		if (!input.selected.empty())
+			values.selected[v] = input.selected[positionOf(component.vertex[v])];
+		if (!input.targetCurvature.empty())
+			values.prescribed[v] = input.targetCurvature[positionOf(component.vertex[v])];
+	}
+	return values;
+}
+
 TargetRequest targetRequest(
 	const Component& component, const VertexInput& input, const Options& options, int vertexCount)
 {
 	TargetRequest request;
-	request.mode = options.target;
-	request.freeBoundary = options.freeBoundary;
+	static_cast<TargetInput&>(request) = targetInput(component, input, vertexCount);
+	request.options = options;
 	request.hasSeam = component.hasSeam;
-	request.selected = atVertices(component, input.selected);
-	request.prescribed = atVertices(component, input.targetCurvature);
-	request.prescribedPrecision = input.precision;
-	request.coneCount = options.coneCount;
-	request.coneDistortion = options.coneDistortion;
-	request.coneRounding = options.coneRounding;
-	request.keepsAreas = options.method == Method::IntrinsicFlips;
-	request.coneVertices = component.positions.size();
 	request.vertexNumbers = component.vertex;
-	request.selected.resize(vertexCount, 0);
-	request.prescribed.resize(vertexCount, 0.0);
 	return request;
 }
 

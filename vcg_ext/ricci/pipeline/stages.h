@@ -28,19 +28,10 @@ ComponentMap flattenWithEdgeSwaps(
 /// "Component of 8 vertices, 12 faces: a closed surface of genus 0 (a sphere)."
 std::string description(const Component& component, const SurfaceType& type);
 
-/// The values of the component's vertices; 0 at all of them where the input has none.
-template<class T>
-VertexArray<T> atVertices(const Component& component, const std::vector<T>& input)
-{
-	VertexArray<T> values(component.vertex.size(), T(0));
-	for (const Vertex v : values.indices())
-		if (!input.empty())
-			values[v] = input[positionOf(component.vertex[v])];
-	return values;
-}
+/// The values of a surface of \p vertexCount vertices whose first ones are the component's.
+TargetInput targetInput(const Component& component, const VertexInput& input, int vertexCount);
 
-/// What the Euclidean target is chosen from, for a surface of \p vertexCount vertices whose first
-/// ones are the component's.
+/// What the Euclidean target of that surface is chosen from.
 TargetRequest targetRequest(
 	const Component& component, const VertexInput& input, const Options& options, int vertexCount);
 
