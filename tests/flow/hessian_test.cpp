@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/derivative.h"
+#include "support/intrinsic.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -32,7 +33,7 @@ Packed twoVertexTorus()
 	// Side 0 of faces 0, 1, 2: bottom, right, diagonal. Sides 1 and 2 lead to the inner vertex.
 	// Face 3: diagonal, top, left.
 	const std::vector<int> glued{10, 5, 7, 11, 8, 1, 9, 2, 4, 6, 0, 3};
-	const Triangulation t(2, triangles, glued);
+	const Triangulation t = testing::glued(2, triangles, glued);
 	const Point3 corner[]{{0, 0, 0}, {1, 0, 0}, {1.2, 1, 0}}, inside{0.7, 0.3, 0};
 	EdgeArray<double> lengths(t.edgeCount(), 0.0);
 	for (int f = 0; f < 3; ++f) {

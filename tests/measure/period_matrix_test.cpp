@@ -12,6 +12,7 @@
 #include "support/transform.h"
 
 #include <ricci/base/numbers.h>
+#include <ricci/curvature/linear_flow.h>
 #include <ricci/flow/ricci_flow.h>
 #include <ricci/math/disjoint_sets.h>
 #include <ricci/measure/distortion.h>
@@ -19,7 +20,6 @@
 #include <ricci/measure/period_matrix.h>
 #include <ricci/parametrize.h>
 #include <ricci/surface/topology.h>
-#include <ricci/curvature/linear_flow.h>
 
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ struct Pieces
 		std::vector<Triangle> triangles(glued.size() / 3);
 		for (int side = 0; side < sides; ++side)
 			triangles[at(side / 3)][at(side % 3)] = number[at(side)];
-		IntrinsicMesh result = {Triangulation(count, triangles, glued), {}};
+		IntrinsicMesh result = {testing::glued(count, triangles, glued), {}};
 		result.lengths.resize(result.triangulation.edgeCount());
 		for (const Face f : result.triangulation.faces())
 			for (int k = 0; k < 3; ++k)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/intrinsic.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -284,7 +285,7 @@ TEST(ConformalFlip, BoundaryAndSelfGluedEdgesAreDelaunay)
 	const VertexArray<double> kappa{1, 1, 1e9, 1e9};
 	for (const Edge e : t.edges())
 		EXPECT_EQ(isWeightedDelaunay(t, delta, kappa, e), t.isBoundary(e));
-	const Triangulation cone(2, {{0, 1, 0}}, {1, 0, -1});
+	const Triangulation cone = glued(2, {{0, 1, 0}}, {1, 0, -1});
 	EXPECT_TRUE(isWeightedDelaunay(cone, {1.0, 1.0}, {1e9, 1.0}, Edge(0)));
 }
 

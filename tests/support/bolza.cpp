@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "bolza.h"
 
+#include "intrinsic.h"
 #include "shapes.h"
 
 #include <algorithm>
@@ -120,7 +121,7 @@ BolzaSurface::BolzaSurface(int levels)
 	Pieces p = octagon();
 	for (int i = 0; i < levels; ++i)
 		p = divided(p);
-	triangulation = Triangulation(p.vertexCount, p.triangles, p.glued);
+	triangulation = glued(p.vertexCount, p.triangles, p.glued);
 	const Triangulation& t = triangulation;
 	lengths.resize(t.edgeCount());
 	angles.resize(t.halfedgeCount());

@@ -59,6 +59,15 @@ Triangulation glued(const SurfaceMesh& mesh)
 	return Triangulation(static_cast<int>(mesh.positions.size()), mesh.triangles);
 }
 
+Triangulation
+glued(int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& sides)
+{
+	CornerArray<ricci::Corner> across;
+	for (const int side : sides)
+		across.push_back(ricci::Corner(side));
+	return Triangulation(vertexCount, triangles, across);
+}
+
 EdgeArray<double> edgeLengths(const Triangulation& t, const SurfaceMesh& mesh)
 {
 	return ricci::edgeLengths(t, VertexArray<Point3>(mesh.positions));
@@ -74,7 +83,7 @@ Triangulation oneVertexTorus()
 {
 	// Sides 0..2 of the first triangle are bottom, right, diagonal; of the second: top, left,
 	// diagonal.
-	return Triangulation(1, {{0, 0, 0}, {0, 0, 0}}, {3, 4, 5, 0, 1, 2});
+	return glued(1, {{0, 0, 0}, {0, 0, 0}}, {3, 4, 5, 0, 1, 2});
 }
 
 MetricMeasure::MetricMeasure(const Triangulation& t, const EdgeArray<double>& lengths) :

@@ -14,6 +14,10 @@ namespace ricci::testing {
 
 Triangulation glued(const SurfaceMesh& mesh);
 
+/// Triangles glued side by side. \p sides [side] number of the other side, or -1.
+Triangulation
+glued(int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& sides);
+
 /// Lengths of the edges of a triangulation of the mesh.
 EdgeArray<double> edgeLengths(const Triangulation& t, const SurfaceMesh& mesh);
 

@@ -30,7 +30,7 @@ std::vector<Surface> surfaces()
 		{"triangle", Triangulation(3, {{0, 1, 2}})},
 		{"two triangles, their edge between two boundary vertices",
 		 Triangulation(4, {{0, 1, 2}, {0, 2, 3}})},
-		{"triangle glued to itself", Triangulation(2, {{0, 1, 0}}, {1, 0, -1})}};
+		{"triangle glued to itself", glued(2, {{0, 1, 0}}, {1, 0, -1})}};
 }
 
 int boundaryVertexCount(const Triangulation& t)

@@ -267,7 +267,7 @@ TEST(FlowDomain, TopologyOfSurfacesThatNoMeshHas)
 	EXPECT_TRUE(torus.type.isTorus());
 	EXPECT_TRUE(torus.loops.empty());
 	// One triangle with two sides glued: a disk, whose boundary is one edge from a vertex to itself.
-	const Topology cone = topologyOf(Triangulation(2, {{0, 1, 0}}, {1, 0, -1}));
+	const Topology cone = topologyOf(glued(2, {{0, 1, 0}}, {1, 0, -1}));
 	EXPECT_TRUE(cone.type.isDisk());
 	EXPECT_EQ(cone.loops, (std::vector<std::vector<Vertex>>{{Vertex(0)}}));
 	EXPECT_EQ(cone.boundary, (VertexArray<char>{1, 0}));

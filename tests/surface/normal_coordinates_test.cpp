@@ -38,7 +38,7 @@ std::vector<Surface> surfaces()
 		{"genus 2", glued(perforatedSlab(2, 1)), 150},
 		{"ring", glued(ring(1, 2, 9, 4)), 150},
 		{"one vertex", oneVertexTorus(), 45},
-		{"two triangles", Triangulation(3, {{0, 1, 2}, {1, 0, 2}}, {3, 5, 4, 0, 2, 1}), 14}};
+		{"two triangles", glued(3, {{0, 1, 2}, {1, 0, 2}}, {3, 5, 4, 0, 2, 1}), 14}};
 }
 
 std::vector<Edge> flipAtRandom(NormalCoordinates& coordinates, int count, Random& random)

@@ -116,11 +116,12 @@ double shortestOneSidedLoop(const SurfaceMesh& mesh, const std::set<int>& roots)
 std::set<int> rootsOf(const SurfaceMesh& mesh)
 {
 	std::set<int> roots;
-	const FaceGluing gluing = glueFaces(mesh.positions, mesh.triangles);
-	const FacePartition partition = partitionFaces(mesh.triangles, gluing.glued);
-	EXPECT_LE(partition.contradicted.size(), 16u); // all of them are tried
-	for (const int side : partition.contradicted)
-		roots.insert(mesh.triangles[at(side / 3)][at(side % 3)]);
+	const Array<Triangle> triangles(mesh.triangles);
+	const FaceGluing gluing = glueFaces(Array<Point3>(mesh.positions), triangles);
+	const FacePartition partition = partitionFaces(triangles, gluing.glued);
+	EXPECT_LE(partition.contradicted.size(), 16); // all of them are tried
+	for (const Corner side : partition.contradicted)
+		roots.insert(triangles[side]);
 	return roots;
 }
 

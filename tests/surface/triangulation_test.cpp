@@ -21,13 +21,13 @@ namespace {
 /// Side ab of the front meets ba of the back, and so on.
 Triangulation sphereOfTwoTriangles()
 {
-	return Triangulation(3, {{0, 1, 2}, {1, 0, 2}}, {3, 5, 4, 0, 2, 1});
+	return glued(3, {{0, 1, 2}, {1, 0, 2}}, {3, 5, 4, 0, 2, 1});
 }
 
 /// A cone: two sides of one triangle glued, the third a boundary loop of one edge.
 Triangulation coneOfOneTriangle()
 {
-	return Triangulation(2, {{0, 1, 0}}, {1, 0, -1});
+	return glued(2, {{0, 1, 0}}, {1, 0, -1});
 }
 
 /// All of a triangulation but the choice of halfedge(f) among the three of a face.

@@ -2,6 +2,7 @@
 #ifndef RICCI_INDEXED_H
 #define RICCI_INDEXED_H
 
+#include <array>
 #include <cstddef>
 #include <initializer_list>
 #include <type_traits>
@@ -81,6 +82,27 @@ private:
 	int m_first, m_last;
 };
 
+/// A corner of a triangle in a list of triangles, and the side that begins there: number 3 f + k.
+struct Corner : Index<Corner>
+{
+	using Index::Index;
+	constexpr Corner(int face, int k) : Index(3 * face + k) {}
+
+	constexpr int face() const { return number() / 3; }
+	/// 0, 1 or 2: which corner of its triangle.
+	constexpr std::size_t index() const { return static_cast<std::size_t>(number() % 3); }
+
+	/// The next corner of the triangle, where the side ends, and the one before.
+	constexpr Corner next() const { return Corner(number() + (number() % 3 < 2 ? 1 : -2)); }
+	constexpr Corner previous() const { return Corner(number() - (number() % 3 > 0 ? 1 : -2)); }
+};
+
+/// The corners of a triangle.
+constexpr IndexRange<Corner> cornersOf(int face)
+{
+	return {3 * face, 3 * face + 3};
+}
+
 /// A std::vector whose elements are found by indices of the type \p I.
 template<class I, class T>
 class IndexedArray
@@ -101,6 +123,18 @@ public:
 
 	T& operator[](I i) { return m_values[positionOf(i)]; }
 	const T& operator[](I i) const { return m_values[positionOf(i)]; }
+
+	/// What belongs to one corner, where \p T has three entries, one for each corner of a triangle.
+	template<class Three = T>
+	typename Three::value_type& operator[](Corner c)
+	{
+		return m_values[static_cast<std::size_t>(c.face())][c.index()];
+	}
+	template<class Three = T>
+	const typename Three::value_type& operator[](Corner c) const
+	{
+		return m_values[static_cast<std::size_t>(c.face())][c.index()];
+	}
 
 	int size() const { return static_cast<int>(m_values.size()); }
 	bool empty() const { return m_values.empty(); }
@@ -155,6 +189,8 @@ private:
 /// A std::vector of elements numbered by int (-1: none).
 template<class T>
 using Array = IndexedArray<int, T>;
+template<class T>
+using CornerArray = IndexedArray<Corner, T>;
 
 } // namespace ricci
 

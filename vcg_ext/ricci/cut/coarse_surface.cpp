@@ -195,21 +195,21 @@ void CoarseSurface::drawTogether()
 		const double costA = pathCost(a), costB = pathCost(b);
 		return costA != costB ? costA < costB : a.edge() < b.edge();
 	});
-	HalfedgeArray<int> side(m_t.halfedgeCount(), -1);
-	std::vector<Halfedge> sides;
+	HalfedgeArray<Corner> side(m_t.halfedgeCount());
+	CornerArray<Halfedge> sides;
 	std::vector<Triangle> triangles;
 	for (const Face f : m_t.faces())
 		if (!collapse.isGone(f)) {
 			Triangle corners;
 			for (std::size_t k = 0; k < 3; ++k) {
 				const Halfedge h = m_t.halfedges(f)[k];
-				side[h] = static_cast<int>(sides.size());
+				side[h] = Corner(sides.size());
 				sides.push_back(h);
 				corners[k] = m_centre[m_t.origin(h)].number();
 			}
 			triangles.push_back(corners);
 		}
-	std::vector<int> glued;
+	CornerArray<Corner> glued;
 	glued.reserve(sides.size());
 	for (const Halfedge h : sides)
 		glued.push_back(side[collapse.partner(h)]);
@@ -217,9 +217,9 @@ void CoarseSurface::drawTogether()
 	m_cost.resize(m_coarse.edgeCount());
 	m_middle.resize(m_coarse.edgeCount());
 	for (const Face f : m_coarse.faces())
-		for (std::size_t k = 0; k < 3; ++k) {
-			const Halfedge h = m_coarse.halfedges(f)[k];
-			const Halfedge middle = collapse.path(sides[3 * positionOf(f) + k]);
+		for (const Corner c : cornersOf(f.number())) {
+			const Halfedge h = m_coarse.halfedges(f)[c.index()];
+			const Halfedge middle = collapse.path(sides[c]);
 			m_middle[h.edge()] = middle.edge();
 			m_cost[h.edge()] = pathCost(middle);
 		}

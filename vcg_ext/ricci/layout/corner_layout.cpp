@@ -110,19 +110,19 @@ private:
 			const auto v = m_end.vertices(f);
 			triangles.push_back({v[0].number(), v[1].number(), v[2].number()});
 		}
-		Array<int> across(3 * triangles.size(), -1); // [3 sheet + side]
+		CornerArray<Corner> across(3 * triangles.size()); // [side of a sheet]
 		for (const Edge e : m_end.edges()) {
 			if (m_end.isBoundary(e) || m_cut.isCurve(e))
 				continue;
 			const Halfedge h = e.halfedge(), twin = h.twin();
 			const int n = m_cut.crossings(e), own = place(h), other = place(twin);
 			for (int i = 0; i <= n; ++i) {
-				const int a = 3 * beside(h, i) + own, b = 3 * beside(twin, n - i) + other;
+				const Corner a(beside(h, i), own), b(beside(twin, n - i), other);
 				across[a] = b;
 				across[b] = a;
 			}
 		}
-		sheets.triangulation = Triangulation(m_end.vertexCount(), triangles, across.values());
+		sheets.triangulation = Triangulation(m_end.vertexCount(), triangles, across);
 	}
 
 	const Triangulation& m_end;

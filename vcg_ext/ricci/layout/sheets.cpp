@@ -4,6 +4,7 @@
 #include "../math/disjoint_sets.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,7 @@ public:
 		do
 			listSheets();
 		while (!glue());
-		m_sheets.triangulation = Triangulation(m_end.vertexCount(), m_triangles, m_glued.values());
+		m_sheets.triangulation = Triangulation(m_end.vertexCount(), m_triangles, m_glued);
 		return std::move(m_sheets);
 	}
 
@@ -56,12 +57,12 @@ private:
 	}
 
 	/// Number of the side of a piece's sheet that is end halfedge h.
-	int sideOf(int piece, Halfedge h) const
+	Corner sideOf(int piece, Halfedge h) const
 	{
 		const Face sheet = m_sheets.of[piece];
 		const auto sides = m_end.halfedges(m_sheets.endFace[sheet]);
-		return 3 * sheet.number() +
-			   static_cast<int>(std::find(sides.begin(), sides.end(), h) - sides.begin());
+		const auto found = std::find(sides.begin(), sides.end(), h);
+		return {sheet.number(), static_cast<int>(found - sides.begin())};
 	}
 
 	/// Glues the sheets. The cut is straight in another metric than the end edges and may cross one
@@ -70,8 +71,8 @@ private:
 	/// \return false if there are such parts
 	bool glue()
 	{
-		Array<int> pieceAcross(3 * m_sheets.endFace.size(), -1); // [side] one of the other sheet
-		m_glued.assign(3 * m_sheets.endFace.size(), -1);
+		CornerArray<int> pieceAcross(3 * m_sheets.endFace.size(), -1); // [side] of the other sheet
+		m_glued.assign(3 * m_sheets.endFace.size(), Corner());
 		bool fits = true;
 		for (const auto& link : m_linked.links) {
 			if (!link[1].isValid())
@@ -79,12 +80,12 @@ private:
 			const PieceCorner& side = m_linked.at(link[0]);
 			if (isOnCut(side, m_isCut) || !side.end.isValid())
 				continue;
-			const int a = sideOf(link[0].piece, side.end);
-			const int b = sideOf(link[1].piece, side.end.twin());
+			const Corner a = sideOf(link[0].piece, side.end);
+			const Corner b = sideOf(link[1].piece, side.end.twin());
 			for (const auto& [from, to, piece] :
-				 {std::array<int, 3>{a, b, link[1].piece}, {b, a, link[0].piece}}) {
-				int& known = m_glued[from];
-				if (known >= 0 && known != to) {
+				 {std::tuple(a, b, link[1].piece), std::tuple(b, a, link[0].piece)}) {
+				Corner& known = m_glued[from];
+				if (known.isValid() && known != to) {
 					m_sets.merge(pieceAcross[from], piece);
 					fits = false;
 				}
@@ -101,7 +102,7 @@ private:
 	DisjointSets m_sets; // of pieces: those of one sheet
 	EndSheets m_sheets;
 	std::vector<Triangle> m_triangles; // [sheet]
-	Array<int> m_glued;                // [3 sheet + side] side across it, or -1
+	CornerArray<Corner> m_glued;       // [side of a sheet] the side across it
 };
 
 } // namespace

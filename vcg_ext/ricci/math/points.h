@@ -16,9 +16,78 @@ using Point3 = std::array<double, 3>;
 /// Corners of a triangle in the plane.
 using Triangle2 = std::array<Point2, 3>;
 
+// Points as vectors.
+
+inline Point2 operator+(const Point2& a, const Point2& b)
+{
+	return {a[0] + b[0], a[1] + b[1]};
+}
+inline Point2 operator-(const Point2& a, const Point2& b)
+{
+	return {a[0] - b[0], a[1] - b[1]};
+}
+inline Point2 operator*(double s, const Point2& a)
+{
+	return {s * a[0], s * a[1]};
+}
+inline Point2& operator+=(Point2& a, const Point2& b)
+{
+	return a = a + b;
+}
+inline Point2& operator-=(Point2& a, const Point2& b)
+{
+	return a = a - b;
+}
+inline Point2& operator*=(Point2& a, double s)
+{
+	return a = s * a;
+}
+inline double dot(const Point2& a, const Point2& b)
+{
+	return a[0] * b[0] + a[1] * b[1];
+}
+/// Of the parallelogram: positive if b is to the left of a.
+inline double cross(const Point2& a, const Point2& b)
+{
+	return a[0] * b[1] - a[1] * b[0];
+}
+inline double length(const Point2& a)
+{
+	return std::hypot(a[0], a[1]);
+}
+
+inline Point3 operator+(const Point3& a, const Point3& b)
+{
+	return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Point3 operator-(const Point3& a, const Point3& b)
+{
+	return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline Point3 operator*(double s, const Point3& a)
+{
+	return {s * a[0], s * a[1], s * a[2]};
+}
+inline Point3 operator/(const Point3& a, double s)
+{
+	return {a[0] / s, a[1] / s, a[2] / s};
+}
+inline Point3& operator+=(Point3& a, const Point3& b)
+{
+	return a = a + b;
+}
+inline double dot(const Point3& a, const Point3& b)
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Point3 cross(const Point3& a, const Point3& b)
+{
+	return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 inline double distance(const Point2& a, const Point2& b)
 {
-	return std::hypot(a[0] - b[0], a[1] - b[1]);
+	return length(a - b);
 }
 
 /// The root of x^2 + y^2 + z^2. std::hypot of three underflows in some libraries.
@@ -31,30 +100,35 @@ inline double hypotOfThree(double x, double y, double z)
 		   std::sqrt((x / size) * (x / size) + (y / size) * (y / size) + (z / size) * (z / size));
 }
 
+inline double length(const Point3& a)
+{
+	return hypotOfThree(a[0], a[1], a[2]);
+}
+
 inline double distance(const Point3& a, const Point3& b)
 {
-	return hypotOfThree(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+	return length(a - b);
 }
 
 /// Where the point of the segment ab that is nearest to p lies: 0 at a, 1 at b; 0 where a = b.
 inline double nearestOnSegment(const Point2& a, const Point2& b, const Point2& p)
 {
-	const double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
-	const double along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy;
-	return square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
+	const Point2 d = b - a;
+	const double square = dot(d, d);
+	return square > 0.0 ? std::clamp(dot(p - a, d) / square, 0.0, 1.0) : 0.0;
 }
 
 /// a at share 0, b at 1, and the points of their line between.
 inline Point2 between(const Point2& a, const Point2& b, double share)
 {
-	return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+	return a + share * (b - a);
 }
 
 /// Twice the area of the triangle abc as rounding finds it, positive if counter-clockwise. Its sign
 /// is certain only from orientation().
 inline double doubledArea(const Point2& a, const Point2& b, const Point2& c)
 {
-	return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+	return cross(b - a, c - a);
 }
 
 inline std::complex<double> asComplex(const Point2& p)

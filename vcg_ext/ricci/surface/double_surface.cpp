@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "double_surface.h"
 
-#include <vector>
-
 namespace ricci {
 
 DoubleSurface doubleOf(const Triangulation& t)
@@ -18,27 +16,29 @@ DoubleSurface doubleOf(const Triangulation& t)
 	for (const Vertex v : t.vertices())
 		d.mirror[d.mirror[v]] = v;
 
-	// Side 3 f + k of a face runs from corner k to k + 1; side 2 - k of its image mirrors it.
-	HalfedgeArray<int> side(t.halfedgeCount(), -1);
-	std::vector<Triangle> triangles(positionOf(2 * faceCount));
+	// Side k of a face runs from corner k to k + 1; side 2 - k of its image mirrors it.
+	HalfedgeArray<Corner> side(t.halfedgeCount());
+	Array<Triangle> triangles(2 * faceCount);
 	for (const Face f : t.faces()) {
 		const auto h = t.halfedges(f);
 		const auto v = t.vertices(f);
-		for (std::size_t k = 0; k < 3; ++k) {
-			side[h[k]] = 3 * f.number() + static_cast<int>(k);
-			triangles[positionOf(f)][k] = v[k].number();
+		for (const Corner c : cornersOf(f.number())) {
+			side[h[c.index()]] = c;
+			triangles[c] = v[c.index()].number();
 		}
-		triangles[positionOf(faceCount + f.number())] = {
+		triangles[faceCount + f.number()] = {
 			d.mirror[v[0]].number(), d.mirror[v[2]].number(), d.mirror[v[1]].number()};
 	}
-	const auto image = [&](int s) { return 3 * (faceCount + s / 3) + 2 - s % 3; };
-	std::vector<int> glued(positionOf(6 * faceCount));
+	const auto image = [&](Corner c) {
+		return Corner(faceCount + c.face(), 2 - static_cast<int>(c.index()));
+	};
+	CornerArray<Corner> glued(6 * faceCount);
 	for (const Halfedge h : t.interiorHalfedges()) {
-		const int s = side[h], across = side[h.twin()];
-		glued[positionOf(s)] = across >= 0 ? across : image(s);
-		glued[positionOf(image(s))] = across >= 0 ? image(across) : s;
+		const Corner s = side[h], across = side[h.twin()];
+		glued[s] = across.isValid() ? across : image(s);
+		glued[image(s)] = across.isValid() ? image(across) : s;
 	}
-	d.triangulation = Triangulation(vertexCount, triangles, glued);
+	d.triangulation = Triangulation(vertexCount, triangles.values(), glued);
 
 	d.edgeOf.resize(d.triangulation.edgeCount());
 	for (const Face f : t.faces()) {

@@ -4,6 +4,7 @@
 #include "../base/numbers.h"
 #include "../math/bucket_sort.h"
 #include "../math/parity_sets.h"
+#include "sides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ constexpr std::size_t kAllPairs = 64, kNearest = 8;
 /// Sides that meet at an edge with more than two.
 struct Page
 {
-	Side side;
+	Corner side;
 	double angle; // of the triangle about the edge, in [-pi, pi]
 };
 
@@ -28,7 +29,7 @@ struct Candidate
 {
 	double fold; // radians
 	int layers;  // how many sheets of equal triangles they are apart
-	int a, b;    // the sides
+	Corner a, b; // the sides
 
 	bool operator<(const Candidate& other) const
 	{
@@ -36,55 +37,29 @@ struct Candidate
 	}
 };
 
-Point3 difference(const Point3& p, const Point3& q)
-{
-	return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-}
-
-double dot(const Point3& p, const Point3& q)
-{
-	return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-}
-
-Point3 cross(const Point3& p, const Point3& q)
-{
-	return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
-
 /// Of length 1; as it is where it has no length.
 Point3 normalized(const Point3& p)
 {
-	const double length = hypotOfThree(p[0], p[1], p[2]);
-	return length > 0.0 ? Point3{p[0] / length, p[1] / length, p[2] / length} : p;
-}
-
-int oppositeVertex(const std::vector<Triangle>& triangles, const Side& s)
-{
-	return triangles[positionOf(s.face)][positionOf((s.corner + 2) % 3)];
+	const double size = length(p);
+	return size > 0.0 ? p / size : p;
 }
 
 /// The pages of an edge. Equal triangles have the same angle, bit for bit; one without area takes that
 /// of the first.
 std::vector<Page> pagesOf(
-	const std::vector<Point3>& positions,
-	const std::vector<Triangle>& triangles,
-	const Side* sides,
-	std::size_t count)
+	const Array<Point3>& positions, const Array<Triangle>& triangles, ItemRange<const Corner> sides)
 {
-	const Point3 &low = positions[positionOf(sides->low)],
-				 &high = positions[positionOf(sides->high)];
-	const Point3 axis = normalized(difference(high, low));
+	const auto [a, b] = std::minmax({triangles[sides[0]], triangles[sides[0].next()]});
+	const Point3 &low = positions[a], &high = positions[b];
+	const Point3 axis = normalized(high - low);
 	std::vector<Page> pages;
 	Point3 first{0, 0, 0};
-	for (std::size_t i = 0; i < count; ++i) {
-		const Point3 arm =
-			normalized(difference(positions[positionOf(oppositeVertex(triangles, sides[i]))], low));
-		const double along = dot(arm, axis);
-		const Point3 away{
-			arm[0] - along * axis[0], arm[1] - along * axis[1], arm[2] - along * axis[2]};
+	for (const Corner side : sides) {
+		const Point3 arm = normalized(positions[triangles[side.previous()]] - low);
+		const Point3 away = arm - dot(arm, axis) * axis;
 		if (dot(first, first) == 0.0)
 			first = away;
-		pages.push_back({sides[i], std::atan2(dot(cross(first, away), axis), dot(first, away))});
+		pages.push_back({side, std::atan2(dot(cross(first, away), axis), dot(first, away))});
 	}
 	return pages;
 }
@@ -96,7 +71,7 @@ double foldBetween(const Page& p, const Page& q)
 }
 
 /// [triangle] how many before it have the same vertices.
-std::vector<int> layersOf(const std::vector<Triangle>& triangles, int& duplicates)
+Array<int> layersOf(const Array<Triangle>& triangles, int& duplicates)
 {
 	struct Face
 	{
@@ -104,9 +79,9 @@ std::vector<int> layersOf(const std::vector<Triangle>& triangles, int& duplicate
 		int number;
 	};
 	std::vector<Face> faces;
-	faces.reserve(triangles.size());
-	for (const Triangle& t : triangles) {
-		faces.push_back({t, static_cast<int>(faces.size())});
+	faces.reserve(positionOf(triangles.size()));
+	for (const int f : triangles.indices()) {
+		faces.push_back({triangles[f], f});
 		std::sort(faces.back().vertices.begin(), faces.back().vertices.end());
 	}
 	bucketSort(
@@ -115,10 +90,10 @@ std::vector<int> layersOf(const std::vector<Triangle>& triangles, int& duplicate
 		[](const Face& a, const Face& b) {
 			return std::tie(a.vertices, a.number) < std::tie(b.vertices, b.number);
 		});
-	std::vector<int> layer(triangles.size(), 0);
+	Array<int> layer(triangles.size(), 0);
 	for (std::size_t i = 1; i < faces.size(); ++i)
 		if (faces[i].vertices == faces[i - 1].vertices) {
-			layer[positionOf(faces[i].number)] = layer[positionOf(faces[i - 1].number)] + 1;
+			layer[faces[i].number] = layer[faces[i - 1].number] + 1;
 			++duplicates;
 		}
 	return layer;
@@ -128,28 +103,25 @@ std::vector<int> layersOf(const std::vector<Triangle>& triangles, int& duplicate
 class Pairing
 {
 public:
-	Pairing(const std::vector<Triangle>& triangles, FaceGluing& gluing) :
+	Pairing(const Array<Triangle>& triangles, FaceGluing& gluing) :
 			m_triangles(triangles), m_layer(layersOf(triangles, gluing.duplicateFaces)),
-			m_gluing(gluing), m_orientation(static_cast<int>(triangles.size())),
-			m_reversed(triangles.size(), 0)
+			m_gluing(gluing), m_orientation(triangles.size()), m_reversed(triangles.size(), 0)
 	{
 	}
 
 	/// The orientation that most of each patch of glued triangles has is taken for the patch's.
-	void orientPatches(const std::vector<Side>& sorted)
+	void orientPatches(const Sides& sides)
 	{
-		forEachEdge(sorted, [&](const Side* s, std::size_t count) {
-			if (count == 2 && m_gluing.glued[positionOf(s[0].index())] >= 0)
-				m_orientation.merge(s[0].face, s[1].face, s[0].ascending == s[1].ascending);
+		sides.forEdges([&](const auto& edge) {
+			if (m_gluing.glued[edge[0]].isValid())
+				m_orientation.merge(edge[0].face(), edge[1].face(), parityOf(edge[0], edge[1]));
 		});
-		std::vector<int> surplus(m_triangles.size(), 0); // of faces like the patch's first
-		for (std::size_t f = 0; f < m_triangles.size(); ++f)
-			surplus[positionOf(m_orientation.find(static_cast<int>(f)))] +=
-				m_orientation.parity(static_cast<int>(f)) ? -1 : 1;
-		for (std::size_t f = 0; f < m_triangles.size(); ++f) {
-			const int face = static_cast<int>(f);
-			const bool firstIsRare = surplus[positionOf(m_orientation.find(face))] < 0;
-			m_reversed[f] = static_cast<char>(m_orientation.parity(face) ^ (firstIsRare ? 1 : 0));
+		Array<int> surplus(m_triangles.size(), 0); // of faces like the patch's first
+		for (const int f : m_triangles.indices())
+			surplus[m_orientation.find(f)] += m_orientation.parity(f) ? -1 : 1;
+		for (const int f : m_triangles.indices()) {
+			const bool firstIsRare = surplus[m_orientation.find(f)] < 0;
+			m_reversed[f] = static_cast<char>(m_orientation.parity(f) ^ (firstIsRare ? 1 : 0));
 		}
 	}
 
@@ -184,8 +156,9 @@ public:
 	{
 		std::sort(m_candidates.begin(), m_candidates.end());
 		for (const Candidate& c : m_candidates) {
-			int &a = m_gluing.glued[positionOf(c.a)], &b = m_gluing.glued[positionOf(c.b)];
-			if (a >= 0 || b >= 0 || !m_orientation.merge(c.a / 3, c.b / 3, parityOf(c.a, c.b)))
+			Corner &a = m_gluing.glued[c.a], &b = m_gluing.glued[c.b];
+			if (a.isValid() || b.isValid() ||
+				!m_orientation.merge(c.a.face(), c.b.face(), parityOf(c.a, c.b)))
 				continue;
 			a = c.b;
 			b = c.a;
@@ -194,69 +167,41 @@ public:
 
 private:
 	/// 1 where the triangles of two sides of an edge have opposite orders.
-	char parityOf(int a, int b) const
-	{
-		const auto start = [&](int side) {
-			return m_triangles[positionOf(side / 3)][positionOf(side % 3)];
-		};
-		return start(a) == start(b);
-	}
+	char parityOf(Corner a, Corner b) const { return m_triangles[a] == m_triangles[b]; }
 
 	void offer(const Page& p, const Page& q)
 	{
-		const Side &s = p.side, &t = q.side;
-		if (s.face == t.face || oppositeVertex(m_triangles, s) == oppositeVertex(m_triangles, t))
+		const auto [a, b] = std::minmax({p.side, q.side});
+		const int f = a.face(), g = b.face();
+		if (f == g || m_triangles[a.previous()] == m_triangles[b.previous()])
 			return;
-		const int a = std::min(s.index(), t.index()), b = std::max(s.index(), t.index());
-		if ((parityOf(a, b) ^ m_reversed[positionOf(s.face)] ^ m_reversed[positionOf(t.face)]) != 0)
+		if ((parityOf(a, b) ^ m_reversed[f] ^ m_reversed[g]) != 0)
 			return; // of a sheet that went on there a part would have to be turned
-		m_candidates.push_back(
-			{foldBetween(p, q),
-			 std::abs(m_layer[positionOf(s.face)] - m_layer[positionOf(t.face)]),
-			 a,
-			 b});
+		m_candidates.push_back({foldBetween(p, q), std::abs(m_layer[f] - m_layer[g]), a, b});
 	}
 
-	const std::vector<Triangle>& m_triangles;
-	std::vector<int> m_layer;
+	const Array<Triangle>& m_triangles;
+	Array<int> m_layer;
 	FaceGluing& m_gluing;
 	ParitySets m_orientation; // of triangles
-	std::vector<char> m_reversed;
+	Array<char> m_reversed;
 	std::vector<Candidate> m_candidates;
 };
 
 } // namespace
 
-std::vector<Side> sortedSides(const std::vector<Triangle>& triangles)
-{
-	std::vector<Side> sides;
-	sides.reserve(3 * triangles.size());
-	for (std::size_t f = 0; f < triangles.size(); ++f)
-		for (std::size_t k = 0; k < 3; ++k) {
-			const int a = triangles[f][k], b = triangles[f][(k + 1) % 3];
-			sides.push_back(
-				{std::min(a, b), std::max(a, b), static_cast<int>(f), static_cast<int>(k), a < b});
-		}
-	bucketSort(
-		sides,
-		[](const Side& s) { return s.low; },
-		[](const Side& a, const Side& b) {
-			return a.high != b.high ? a.high < b.high : a.face < b.face;
-		});
-	return sides;
-}
-
-FaceGluing glueFaces(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles)
+FaceGluing glueFaces(const Array<Point3>& positions, const Array<Triangle>& triangles)
 {
 	FaceGluing gluing;
-	gluing.glued.assign(3 * triangles.size(), -1);
-	const std::vector<Side> sorted = sortedSides(triangles);
-	forEachEdge(sorted, [&](const Side* s, std::size_t count) {
-		if (count == 1)
+	gluing.glued.assign(3 * triangles.size(), Corner());
+	const Sides sides(triangles.values());
+	sides.forEdges([&](const auto& edge) {
+		if (edge.size() == 1)
 			return;
-		if (count == 2 && oppositeVertex(triangles, s[0]) != oppositeVertex(triangles, s[1])) {
-			gluing.glued[positionOf(s[0].index())] = s[1].index();
-			gluing.glued[positionOf(s[1].index())] = s[0].index();
+		const Corner a = edge[0], b = edge[1];
+		if (edge.size() == 2 && triangles[a.previous()] != triangles[b.previous()]) {
+			gluing.glued[a] = b;
+			gluing.glued[b] = a;
 		}
 		else
 			++gluing.cutEdges;
@@ -264,10 +209,10 @@ FaceGluing glueFaces(const std::vector<Point3>& positions, const std::vector<Tri
 	if (gluing.cutEdges == 0)
 		return gluing;
 	Pairing pairing(triangles, gluing);
-	pairing.orientPatches(sorted);
-	forEachEdge(sorted, [&](const Side* s, std::size_t count) {
-		if (count > 2)
-			pairing.offer(pagesOf(positions, triangles, s, count));
+	pairing.orientPatches(sides);
+	sides.forEdges([&](const auto& edge) {
+		if (edge.size() > 2)
+			pairing.offer(pagesOf(positions, triangles, edge));
 	});
 	pairing.glue();
 	return gluing;

@@ -23,56 +23,40 @@ constexpr double kOrderFactor = 2.0;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-int startOf(const std::vector<Triangle>& triangles, int side)
-{
-	return triangles[positionOf(side / 3)][positionOf(side % 3)];
-}
-
-int endOf(const std::vector<Triangle>& triangles, int side)
-{
-	return triangles[positionOf(side / 3)][positionOf((side + 1) % 3)];
-}
-
-/// The corner of its triangle at which a side ends.
-int cornerAtEnd(int side)
-{
-	return side - side % 3 + (side + 1) % 3;
-}
-
 /// An edge as seen from one of its ends.
 struct Link
 {
-	int vertex;  // the other end
-	int side;    // the lower of its sides
-	char parity; // 1 if the orientations kept at the two ends are opposite
-	double length;
+	int vertex = -1; // the other end
+	Corner side;     // the lower of its sides
+	char parity = 0; // 1 if the orientations kept at the two ends are opposite
+	double length = 0.0;
 };
 
 /// The graph of the edges, in which a loop is one-sided if the parities of its edges add up to an odd
 /// number.
 Adjacency<int, Link> orientationGraph(
-	const std::vector<Point3>& positions,
-	const std::vector<Triangle>& triangles,
-	const std::vector<int>& glued)
+	const Array<Point3>& positions,
+	const Array<Triangle>& triangles,
+	const CornerArray<Corner>& glued)
 {
 	// Round a vertex the corners of its triangles agree on an orientation.
-	ParitySets corners(static_cast<int>(glued.size()));
-	for (int s = 0; s < static_cast<int>(glued.size()); ++s) {
-		const int t = glued[positionOf(s)];
+	ParitySets corners(glued.size());
+	for (const Corner s : glued.indices()) {
+		const Corner t = glued[s];
 		if (t < s)
 			continue;
-		const bool sameWay = startOf(triangles, s) == startOf(triangles, t);
-		corners.merge(s, sameWay ? t : cornerAtEnd(t), sameWay);
-		corners.merge(cornerAtEnd(s), sameWay ? cornerAtEnd(t) : t, sameWay);
+		const bool sameWay = triangles[s] == triangles[t];
+		corners.merge(s.number(), (sameWay ? t : t.next()).number(), sameWay);
+		corners.merge(s.next().number(), (sameWay ? t.next() : t).number(), sameWay);
 	}
-	return Adjacency<int, Link>(static_cast<int>(positions.size()), [&](const auto& add) {
-		for (int s = 0; s < static_cast<int>(glued.size()); ++s) {
-			if (glued[positionOf(s)] >= 0 && glued[positionOf(s)] < s)
+	return Adjacency<int, Link>(positions.size(), [&](const auto& add) {
+		for (const Corner s : glued.indices()) {
+			if (glued[s].isValid() && glued[s] < s)
 				continue;
-			const int a = startOf(triangles, s), b = endOf(triangles, s);
+			const int a = triangles[s], b = triangles[s.next()];
 			const auto parity =
-				static_cast<char>(corners.parity(s) ^ corners.parity(cornerAtEnd(s)));
-			const double length = distance(positions[positionOf(a)], positions[positionOf(b)]);
+				static_cast<char>(corners.parity(s.number()) ^ corners.parity(s.next().number()));
+			const double length = distance(positions[a], positions[b]);
 			add(a, Link{b, s, parity, length});
 			add(b, Link{a, s, parity, length});
 		}
@@ -83,15 +67,15 @@ Adjacency<int, Link> orientationGraph(
 class LoopSearch
 {
 public:
-	LoopSearch(Adjacency<int, Link> graph, std::size_t vertexCount) :
-			m_graph(std::move(graph)), m_places(vertexCount)
+	explicit LoopSearch(Adjacency<int, Link> graph) :
+			m_graph(std::move(graph)), m_places(m_graph.keyCount())
 	{
 	}
 
 	struct Loop
 	{
 		double length = kInfinity;
-		std::vector<int> sides;
+		std::vector<Corner> sides;
 	};
 
 	/// Replaces \p best by the shortest one-sided loop through \p root if that is shorter.
@@ -100,21 +84,21 @@ public:
 		using Entry = std::pair<double, int>;
 		std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
 		std::vector<int> touched{root};
-		m_places[positionOf(root)] = {0.0, {-1, -1, 0, 0.0}, 0, false};
+		m_places[root] = {0.0, {}, 0, false};
 		queue.push({0.0, root});
 		bool found = false;
 		std::pair<int, Link> closing;
 		while (!queue.empty()) {
 			const auto [length, v] = queue.top();
 			queue.pop();
-			Place& place = m_places[positionOf(v)];
+			Place& place = m_places[v];
 			if (place.done)
 				continue;
 			if (2.0 * length >= best.length)
 				break;
 			place.done = true;
 			for (const Link& link : m_graph[v]) {
-				Place& next = m_places[positionOf(link.vertex)];
+				Place& next = m_places[link.vertex];
 				if (next.done) {
 					const double loop = length + link.length + next.length;
 					if ((place.parity ^ next.parity ^ link.parity) && loop < best.length) {
@@ -136,12 +120,12 @@ public:
 		if (found) {
 			best.sides = {closing.second.side};
 			for (int v : {closing.first, closing.second.vertex})
-				for (; v != root; v = m_places[positionOf(v)].from.vertex)
-					best.sides.push_back(m_places[positionOf(v)].from.side);
+				for (; v != root; v = m_places[v].from.vertex)
+					best.sides.push_back(m_places[v].from.side);
 			// What both ways to the root share is no part of the loop.
 			std::sort(best.sides.begin(), best.sides.end());
-			std::vector<int> once;
-			for (const int s : best.sides)
+			std::vector<Corner> once;
+			for (const Corner s : best.sides)
 				if (!once.empty() && once.back() == s)
 					once.pop_back();
 				else
@@ -149,46 +133,46 @@ public:
 			best.sides = std::move(once);
 		}
 		for (const int v : touched)
-			m_places[positionOf(v)] = Place();
+			m_places[v] = Place();
 	}
 
 private:
 	struct Place
 	{
 		double length = kInfinity; // from the root
-		Link from{-1, -1, 0, 0.0};
+		Link from;
 		char parity = 0; // of the way from the root
 		bool done = false;
 	};
 
 	Adjacency<int, Link> m_graph;
-	std::vector<Place> m_places;
+	Array<Place> m_places; // [vertex]
 };
 
 /// Glued edges, by one of their sides.
 struct EdgeSet
 {
-	std::vector<int> sides;
+	std::vector<Corner> sides;
 	double length = 0.0;
 };
 
-void unglue(int side, std::vector<int>& glued)
-{
-	int& other = glued[positionOf(side)];
-	if (other >= 0)
-		glued[positionOf(other)] = -1;
-	other = -1;
-}
-
 } // namespace
 
-FacePartition partitionFaces(const std::vector<Triangle>& triangles, const std::vector<int>& glued)
+void unglue(Corner side, CornerArray<Corner>& glued)
+{
+	Corner& other = glued[side];
+	if (other.isValid())
+		glued[other] = Corner();
+	other = Corner();
+}
+
+FacePartition partitionFaces(const Array<Triangle>& triangles, const CornerArray<Corner>& glued)
 {
 	FacePartition part;
-	std::vector<Face> queue;
+	std::vector<int> queue;
 	part.component.assign(triangles.size(), -1);
 	part.reversed.assign(triangles.size(), 0);
-	for (const Face seed : part.component.indices()) {
+	for (const int seed : part.component.indices()) {
 		if (part.component[seed] >= 0)
 			continue;
 		bool isOneSided = false;
@@ -196,13 +180,13 @@ FacePartition partitionFaces(const std::vector<Triangle>& triangles, const std::
 		queue.assign(1, seed);
 		part.component[seed] = part.componentCount;
 		for (std::size_t head = 0; head < queue.size(); ++head) {
-			const Face f = queue[head];
-			for (int s = 3 * f.number(); s < 3 * f.number() + 3; ++s) {
-				const int t = glued[positionOf(s)];
-				if (t < 0)
+			const int f = queue[head];
+			for (const Corner s : cornersOf(f)) {
+				const Corner t = glued[s];
+				if (!t.isValid())
 					continue;
-				const Face g(t / 3);
-				const bool agrees = startOf(triangles, s) != startOf(triangles, t);
+				const int g = t.face();
+				const bool agrees = triangles[s] != triangles[t];
 				const auto wanted = static_cast<char>(part.reversed[f] ^ (agrees ? 0 : 1));
 				if (part.component[g] < 0) {
 					part.component[g] = part.componentCount;
@@ -218,7 +202,7 @@ FacePartition partitionFaces(const std::vector<Triangle>& triangles, const std::
 			}
 		}
 		if (2 * turned > queue.size())
-			for (const Face f : queue)
+			for (const int f : queue)
 				part.reversed[f] ^= 1;
 		part.isOneSided.push_back(isOneSided);
 		++part.componentCount;
@@ -227,51 +211,48 @@ FacePartition partitionFaces(const std::vector<Triangle>& triangles, const std::
 }
 
 void cutOneSided(
-	const std::vector<Point3>& positions,
-	const std::vector<Triangle>& triangles,
+	const Array<Point3>& positions,
+	const Array<Triangle>& triangles,
 	const FacePartition& partition,
 	bool everywhere,
-	std::vector<int>& glued)
+	CornerArray<Corner>& glued)
 {
 	if (everywhere) {
-		for (const int s : partition.contradicted)
+		for (const Corner s : partition.contradicted)
 			unglue(s, glued);
 		return;
 	}
-	const auto add = [&](int s, EdgeSet& set) {
+	const auto add = [&](Corner s, EdgeSet& set) {
 		set.sides.push_back(s);
-		set.length += distance(
-			positions[positionOf(startOf(triangles, s))],
-			positions[positionOf(endOf(triangles, s))]);
+		set.length += distance(positions[triangles[s]], positions[triangles[s.next()]]);
 	};
-	const auto edgeSet = [&](const std::vector<int>& loop) { // a loop may run along the border
+	const auto edgeSet = [&](const std::vector<Corner>& loop) { // a loop may run along the border
 		EdgeSet set;
-		for (const int s : loop)
-			if (glued[positionOf(s)] >= 0)
+		for (const Corner s : loop)
+			if (glued[s].isValid())
 				add(s, set);
 		return set;
 	};
-	std::vector<EdgeSet> incoherent(positionOf(partition.componentCount));
-	for (int s = 0; s < static_cast<int>(glued.size()); ++s) {
-		const int c = partition.component[Face(s / 3)], t = glued[positionOf(s)];
-		if (t > s && partition.isOneSided[positionOf(c)] &&
-			startOf(triangles, s) == startOf(triangles, t))
-			add(s, incoherent[positionOf(c)]);
-	}
-	LoopSearch search(orientationGraph(positions, triangles, glued), positions.size());
+	const auto componentOf = [&](Corner s) { return partition.component[s.face()]; };
+	Array<EdgeSet> incoherent(partition.componentCount);
+	for (const Corner s : glued.indices())
+		if (const Corner t = glued[s];
+			t > s && partition.isOneSided[componentOf(s)] && triangles[s] == triangles[t])
+			add(s, incoherent[componentOf(s)]);
+	LoopSearch search(orientationGraph(positions, triangles, glued));
 	// The contradicted edges of a component follow each other, and every one-sided loop crosses them.
-	const std::vector<int>& sides = partition.contradicted;
-	const auto componentOf = [&](std::size_t i) { return partition.component[Face(sides[i] / 3)]; };
+	const std::vector<Corner>& sides = partition.contradicted.values();
 	for (std::size_t first = 0, last; first < sides.size(); first = last) {
-		for (last = first; last < sides.size() && componentOf(last) == componentOf(first);)
+		const int component = componentOf(sides[first]);
+		for (last = first; last < sides.size() && componentOf(sides[last]) == component;)
 			++last;
 		LoopSearch::Loop loop;
 		const std::size_t count = std::min(kRoots, last - first);
 		for (std::size_t i = 0; i < count; ++i)
-			search.improve(startOf(triangles, sides[first + i * (last - first) / count]), loop);
+			search.improve(triangles[sides[first + i * (last - first) / count]], loop);
 		const EdgeSet shortest = edgeSet(loop.sides);
-		const EdgeSet& given = incoherent[positionOf(componentOf(first))];
-		for (const int s :
+		const EdgeSet& given = incoherent[component];
+		for (const Corner s :
 			 given.length <= kOrderFactor * shortest.length ? given.sides : shortest.sides)
 			unglue(s, glued);
 	}

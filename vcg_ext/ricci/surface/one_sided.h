@@ -2,25 +2,22 @@
 #ifndef RICCI_ONE_SIDED_H
 #define RICCI_ONE_SIDED_H
 
-#include "elements.h"
 #include "surface_mesh.h"
-
-#include <vector>
 
 namespace ricci {
 
 /// Connected pieces of glued triangles, and an orientation of each.
 struct FacePartition
 {
-	FaceArray<int> component;      ///< in the order of their lowest faces
-	FaceArray<char> reversed;      ///< 1 for the minority in each component that is to be turned
-	std::vector<char> isOneSided;  ///< [component] no orientation fits all its faces
-	std::vector<int> contradicted; ///< glued sides, the lower of each two, where it does not fit
+	Array<int> component;   ///< [face] in the order of their lowest faces
+	Array<char> reversed;   ///< [face] 1 for the minority in each component that is to be turned
+	Array<char> isOneSided; ///< [component] no orientation fits all its faces
+	Array<Corner> contradicted; ///< glued sides, the lower of each two, where it does not fit
 	int componentCount = 0;
 };
 
 /// \param glued see FaceGluing
-FacePartition partitionFaces(const std::vector<Triangle>& triangles, const std::vector<int>& glued);
+FacePartition partitionFaces(const Array<Triangle>& triangles, const CornerArray<Corner>& glued);
 
 /// Cuts every one-sided component of \p partition along a short one-sided loop of edges, or, with
 /// \p everywhere, along all contradicted edges, which leaves no one-sided component. The cut may
@@ -31,11 +28,14 @@ FacePartition partitionFaces(const std::vector<Triangle>& triangles, const std::
 /// two loops that a third path makes of a one-sided loop one is one-sided ([Thomassen 1990]).
 /// \pre an edge of glued triangles is determined by its vertices (see OpenedMesh)
 void cutOneSided(
-	const std::vector<Point3>& positions,
-	const std::vector<Triangle>& triangles,
+	const Array<Point3>& positions,
+	const Array<Triangle>& triangles,
 	const FacePartition& partition,
 	bool everywhere,
-	std::vector<int>& glued);
+	CornerArray<Corner>& glued);
+
+/// Leaves a side without the other that it was glued to.
+void unglue(Corner side, CornerArray<Corner>& glued);
 
 } // namespace ricci
 

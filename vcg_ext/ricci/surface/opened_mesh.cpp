@@ -6,6 +6,7 @@
 #include "../math/disjoint_sets.h"
 #include "face_gluing.h"
 #include "one_sided.h"
+#include "sides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +52,7 @@ void checkElements(const SurfaceMesh& mesh)
 class Opening
 {
 public:
-	explicit Opening(const SurfaceMesh& input) : m_input(input)
+	explicit Opening(const SurfaceMesh& input) : m_input(input), m_positions(input.positions)
 	{
 		for (std::size_t f = 0; f < input.triangles.size(); ++f) {
 			const Triangle& t = input.triangles[f];
@@ -66,7 +67,7 @@ public:
 
 	void cutEdges()
 	{
-		FaceGluing gluing = glueFaces(m_input.positions, m_triangles);
+		FaceGluing gluing = glueFaces(m_positions, m_triangles);
 		m_glued = std::move(gluing.glued);
 		m_opened.cutEdges = gluing.cutEdges;
 		m_opened.duplicateFaces = gluing.duplicateFaces;
@@ -82,18 +83,18 @@ public:
 		if (m_input.seam.empty())
 			return;
 		markHoles();
-		m_across.assign(m_glued.size(), -1);
-		forEachEdge(sortedSides(m_triangles), [&](const Side* sides, std::size_t count) {
-			bool isSeam = false;
-			for (std::size_t i = 0; i < count; ++i)
-				isSeam =
-					isSeam || m_input.seam[positionOf(m_opened.face[positionOf(sides[i].face)])]
-										  [positionOf(sides[i].corner)] != 0;
+		m_across.assign(m_glued.size(), Corner());
+		const auto isMarked = [&](Corner side) {
+			return m_input.seam[positionOf(m_opened.face[positionOf(side.face())])][side.index()] !=
+				   0;
+		};
+		Sides(m_triangles.values()).forEdges([&](const auto& edge) {
 			bool opens = false;
-			for (std::size_t i = 0; isSeam && i < count; ++i)
-				opens = open(sides[i].index()) || opens;
+			if (std::any_of(edge.begin(), edge.end(), isMarked))
+				for (const Corner side : edge)
+					opens = open(side) || opens;
 			m_opened.seamEdges += opens;
-			m_opened.seamLength += opens ? lengthOf(sides->index()) : 0.0;
+			m_opened.seamLength += opens ? lengthOf(edge[0]) : 0.0;
 		});
 		splitVertices();
 		lengthenLoneSeams();
@@ -101,61 +102,57 @@ public:
 
 	void cutOneSidedComponents()
 	{
-		m_partition = partitionFaces(m_opened.mesh.triangles, m_glued);
+		m_partition = partitionFaces(m_corners, m_glued);
 		m_opened.oneSidedComponents = static_cast<int>(
 			std::count(m_partition.isOneSided.begin(), m_partition.isOneSided.end(), 1));
 		for (int cuts = 0; !m_partition.contradicted.empty(); ++cuts) {
 			const bool everywhere = cuts == kMaxOneSidedCuts;
-			cutOneSided(
-				m_opened.mesh.positions, m_opened.mesh.triangles, m_partition, everywhere, m_glued);
+			cutOneSided(m_places, m_corners, m_partition, everywhere, m_glued);
 			do
 				splitVertices();
 			while (!separateEdges());
-			m_partition = partitionFaces(m_opened.mesh.triangles, m_glued);
+			m_partition = partitionFaces(m_corners, m_glued);
 		}
 	}
 
 	/// \throw InvalidMesh TooSmall; NoArea if no component has an area
 	void leaveOutFlatComponents()
 	{
-		const std::vector<char> isFlat = flatComponents();
+		const Array<char> isFlat = flatComponents();
 		if (!isFlat.empty() && std::count(isFlat.begin(), isFlat.end(), 1) == 0)
 			return;
-		std::vector<int> number(m_triangles.size(), -1), kept;
-		for (const Face f : m_partition.component.indices()) {
-			const std::size_t i = positionOf(f);
-			if (isFlat[positionOf(m_partition.component[f])])
-				m_opened.degenerate.push_back(m_opened.face[i]);
+		Array<int> number(m_triangles.size(), -1), kept;
+		for (const int f : m_triangles.indices())
+			if (isFlat[m_partition.component[f]])
+				m_opened.degenerate.push_back(m_opened.face[positionOf(f)]);
 			else {
-				number[i] = static_cast<int>(kept.size());
-				kept.push_back(f.number());
+				number[f] = kept.size();
+				kept.push_back(f);
 			}
-		}
 		std::sort(m_opened.degenerate.begin(), m_opened.degenerate.end());
 		if (kept.empty())
 			throw InvalidMesh(InvalidMesh::NoArea, m_opened.degenerate.size());
-		for (std::size_t i = 0; i < kept.size(); ++i) {
-			const std::size_t f = positionOf(kept[i]);
-			m_triangles[i] = m_triangles[f];
-			m_opened.face[i] = m_opened.face[f];
-			for (std::size_t k = 0; k < 3; ++k) {
-				const int other = m_glued[3 * f + k];
-				m_glued[3 * i + k] = other < 0 ? -1 : 3 * number[positionOf(other / 3)] + other % 3;
-				if (!m_across.empty()) {
-					const int a = m_across[3 * f + k];
-					const int face = a < 0 ? -1 : number[positionOf(a / 3)];
-					m_across[3 * i + k] = face < 0 ? -1 : 3 * face + a % 3;
-				}
-			}
-			if (!m_opened.hole.empty())
-				m_opened.hole[i] = m_opened.hole[f];
-		}
-		m_triangles.resize(kept.size());
-		m_opened.face.resize(kept.size());
-		m_glued.resize(3 * kept.size());
+		const auto renumbered = [&](Corner c) {
+			const int face = c.isValid() ? number[c.face()] : -1;
+			return face < 0 ? Corner() : Corner(face, static_cast<int>(c.index()));
+		};
+		const auto keep = [&](auto& values) { // [face]
+			for (const int i : kept.indices())
+				values[positionOf(i)] = values[positionOf(kept[i])];
+			values.resize(positionOf(kept.size()));
+		};
+		const auto keepSides = [&](CornerArray<Corner>& sides) {
+			for (const int i : kept.indices())
+				for (const Corner c : cornersOf(i))
+					sides[c] = renumbered(sides[Corner(kept[i], static_cast<int>(c.index()))]);
+			sides.resize(3 * kept.size());
+		};
+		keep(m_triangles.values());
+		keep(m_opened.face);
+		keepSides(m_glued);
 		if (!m_across.empty()) {
-			m_across.resize(m_glued.size());
-			m_opened.hole.resize(kept.size());
+			keepSides(m_across);
+			keep(m_opened.hole);
 		}
 		splitVertices();
 		m_partition = partitionFaces(m_triangles, m_glued);
@@ -166,12 +163,14 @@ public:
 		if (!m_across.empty()) {
 			countSplitWithoutSeams();
 			m_opened.hasSeam.assign(positionOf(m_partition.componentCount), 0);
-			for (std::size_t side = 0; side < m_across.size(); ++side)
-				if (m_across[side] >= 0)
-					m_opened.hasSeam[positionOf(m_partition.component[Face(side / 3)])] = 1;
+			for (const Corner side : m_across.indices())
+				if (m_across[side].isValid())
+					m_opened.hasSeam[positionOf(m_partition.component[side.face()])] = 1;
 		}
-		m_opened.component = std::move(m_partition.component);
-		m_opened.reversed = std::move(m_partition.reversed);
+		m_opened.mesh.positions = std::move(m_places.values());
+		m_opened.mesh.triangles = std::move(m_corners.values());
+		m_opened.component = FaceArray<int>(std::move(m_partition.component.values()));
+		m_opened.reversed = FaceArray<char>(std::move(m_partition.reversed.values()));
 		m_opened.componentCount = m_partition.componentCount;
 		m_opened.mesh.absent = m_input.absent;
 		if (!m_input.diagonal.empty())
@@ -181,17 +180,17 @@ public:
 	}
 
 private:
-	/// The fans of glued corners, which are numbered like the sides.
-	DisjointSets fansOf(const std::vector<int>& glued) const
+	/// The fans of glued corners.
+	DisjointSetsOf<Corner> fansOf(const CornerArray<Corner>& glued) const
 	{
-		DisjointSets fans(static_cast<int>(glued.size()));
-		for (int s = 0; s < static_cast<int>(glued.size()); ++s) {
-			const int t = glued[positionOf(s)];
+		DisjointSetsOf<Corner> fans(glued.size());
+		for (const Corner s : glued.indices()) {
+			const Corner t = glued[s];
 			if (t < s)
 				continue;
-			const bool sameWay = vertexAt(s) == vertexAt(t);
-			fans.merge(s, sameWay ? t : nextCorner(t));
-			fans.merge(nextCorner(s), sameWay ? nextCorner(t) : t);
+			const bool sameWay = m_triangles[s] == m_triangles[t];
+			fans.merge(s, sameWay ? t : t.next());
+			fans.merge(s.next(), sameWay ? t.next() : t);
 		}
 		return fans;
 	}
@@ -200,28 +199,27 @@ private:
 	/// the others copies.
 	void splitVertices()
 	{
-		DisjointSets fans = fansOf(m_glued);
-		m_opened.mesh.positions = m_input.positions;
-		m_opened.mesh.triangles = m_triangles;
+		DisjointSetsOf<Corner> fans = fansOf(m_glued);
+		m_places = m_positions;
+		m_corners = m_triangles;
 		m_opened.vertex.resize(m_input.positions.size());
 		std::iota(m_opened.vertex.begin(), m_opened.vertex.end(), 0);
-		std::vector<int> copy(m_glued.size(), -1);           // [fan]
-		std::vector<char> uses(m_input.positions.size(), 0); // fans of each vertex: none, one, more
-		for (int corner = 0; corner < static_cast<int>(m_glued.size()); ++corner) {
-			const int v = vertexAt(corner);
-			int& own = copy[positionOf(fans.find(corner))];
-			char& used = uses[positionOf(v)];
-			if (own < 0 && used == 0) {
+		CornerArray<int> copy(m_glued.size(), -1); // [fan]
+		Array<char> uses(m_positions.size(), 0);   // fans of each vertex: none, one, more
+		for (const Corner corner : m_glued.indices()) {
+			const int v = m_triangles[corner];
+			int& own = copy[fans.find(corner)];
+			if (own < 0 && uses[v] == 0) {
 				own = v;
-				used = 1;
+				uses[v] = 1;
 			}
 			else if (own < 0) {
-				own = static_cast<int>(m_opened.vertex.size());
+				own = m_places.size();
 				m_opened.vertex.push_back(v);
-				m_opened.mesh.positions.push_back(m_input.positions[positionOf(v)]);
-				used = 2;
+				m_places.push_back(m_positions[v]);
+				uses[v] = 2;
 			}
-			m_opened.mesh.triangles[positionOf(corner / 3)][positionOf(corner % 3)] = own;
+			m_corners[corner] = own;
 		}
 		m_opened.splitVertices = static_cast<int>(std::count(uses.begin(), uses.end(), 2));
 	}
@@ -229,65 +227,59 @@ private:
 	/// The vertices that would have copies if the seams were glued.
 	void countSplitWithoutSeams()
 	{
-		std::vector<int> glued = m_glued;
-		for (std::size_t s = 0; s < glued.size(); ++s)
-			if (m_across[s] >= 0)
+		CornerArray<Corner> glued = m_glued;
+		for (const Corner s : glued.indices())
+			if (m_across[s].isValid())
 				glued[s] = m_across[s];
-		DisjointSets fans = fansOf(glued);
-		constexpr int kNone = -1, kSeveral = -2;
-		std::vector<int> fanAt(m_input.positions.size(), kNone);
-		m_opened.splitVertices = 0;
-		for (int corner = 0; corner < static_cast<int>(glued.size()); ++corner) {
-			int& known = fanAt[positionOf(vertexAt(corner))];
-			const int fan = fans.find(corner);
-			if (known == kNone)
-				known = fan;
-			else if (known >= 0 && known != fan) {
-				known = kSeveral;
-				++m_opened.splitVertices;
-			}
+		DisjointSetsOf<Corner> fans = fansOf(glued);
+		Array<Corner> fanAt(m_positions.size()); // [vertex] the first that is met
+		Array<char> isSplit(m_positions.size(), 0);
+		for (const Corner corner : glued.indices()) {
+			const int v = m_triangles[corner];
+			const Corner fan = fans.find(corner);
+			if (!fanAt[v].isValid())
+				fanAt[v] = fan;
+			isSplit[v] |= fanAt[v] != fan;
 		}
+		m_opened.splitVertices = static_cast<int>(std::count(isSplit.begin(), isSplit.end(), 1));
 	}
 
 	/// Finds the sides of boundary loops other than the longest of each component.
 	void markHoles()
 	{
-		const FacePartition partition = partitionFaces(m_opened.mesh.triangles, m_glued);
-		DisjointSets loops = fansOf(m_glued); // of corners, joined along boundaries
-		std::vector<int> sides;               // of boundaries
-		for (int s = 0; s < static_cast<int>(m_glued.size()); ++s)
-			if (m_glued[positionOf(s)] < 0) {
+		const FacePartition partition = partitionFaces(m_corners, m_glued);
+		DisjointSetsOf<Corner> loops = fansOf(m_glued); // of corners, joined along boundaries
+		std::vector<Corner> sides;                      // of boundaries
+		for (const Corner s : m_glued.indices())
+			if (!m_glued[s].isValid()) {
 				sides.push_back(s);
-				loops.merge(s, nextCorner(s));
+				loops.merge(s, s.next());
 			}
-		std::vector<double> length(m_glued.size(), 0.0); // [loop]
-		for (const int s : sides)
-			length[positionOf(loops.find(s))] += lengthOf(s);
-		std::vector<int> longest(positionOf(partition.componentCount), -1);
-		const auto longestBeside = [&](int side) -> int& {
-			return longest[positionOf(partition.component[Face(side / 3)])];
-		};
-		for (const int s : sides) {
-			const int loop = loops.find(s);
-			int& known = longestBeside(s);
-			if (known < 0 || length[positionOf(loop)] > length[positionOf(known)])
+		CornerArray<double> length(m_glued.size(), 0.0); // [loop]
+		for (const Corner s : sides)
+			length[loops.find(s)] += lengthOf(s);
+		Array<Corner> longest(partition.componentCount);
+		for (const Corner s : sides) {
+			Corner& known = longest[partition.component[s.face()]];
+			if (const Corner loop = loops.find(s); !known.isValid() || length[loop] > length[known])
 				known = loop;
 		}
-		m_opened.hole.assign(m_triangles.size(), {0, 0, 0});
-		for (const int s : sides)
-			m_opened.hole[positionOf(s / 3)][positionOf(s % 3)] = loops.find(s) != longestBeside(s);
+		m_opened.hole.assign(positionOf(m_triangles.size()), {0, 0, 0});
+		for (const Corner s : sides)
+			m_opened.hole[positionOf(s.face())][s.index()] =
+				loops.find(s) != longest[partition.component[s.face()]];
 	}
 
 	/// Opens a side for a seam.
 	/// \return whether it was glued
-	bool open(int side)
+	bool open(Corner side)
 	{
-		const int other = m_glued[positionOf(side)];
-		if (other < 0)
+		const Corner other = m_glued[side];
+		if (!other.isValid())
 			return false;
-		m_glued[positionOf(side)] = m_glued[positionOf(other)] = -1;
-		m_across[positionOf(side)] = other;
-		m_across[positionOf(other)] = side;
+		unglue(side, m_glued);
+		m_across[side] = other;
+		m_across[other] = side;
 		return true;
 	}
 
@@ -297,30 +289,30 @@ private:
 		struct Way
 		{
 			int from, to;           // vertices of the opened mesh
-			int side = -1;          // that goes on
+			Corner side = {};       // that goes on
 			double straight = -2.0; // cosine of the angle by which it turns
 		};
-		const std::vector<Triangle>& triangles = m_opened.mesh.triangles;
-		const auto ends = [&](int side) -> std::pair<int, int> {
-			const Triangle& t = triangles[positionOf(side / 3)];
-			return std::minmax(t[positionOf(side % 3)], t[positionOf(nextCorner(side) % 3)]);
+		const auto ends = [&](Corner side) -> std::pair<int, int> {
+			return std::minmax(m_corners[side], m_corners[side.next()]);
 		};
-		std::vector<Way> ways;
-		std::vector<int> wayAt(m_opened.vertex.size(), -1); // [vertex]
-		for (int s = 0; s < static_cast<int>(m_across.size()); ++s) {
-			const int t = m_across[positionOf(s)];
+		Array<Way> ways;
+		Array<int> wayAt(m_places.size(), -1); // [vertex]
+		for (const Corner s : m_across.indices()) {
+			const Corner t = m_across[s];
 			const auto [a, b] = ends(s);
 			if (t < s || ends(s) != ends(t))
 				continue;
-			wayAt[positionOf(a)] = wayAt[positionOf(b)] = static_cast<int>(ways.size());
+			wayAt[a] = wayAt[b] = ways.size();
 			ways.push_back({a, b});
 		}
-		for (int s = 0; !ways.empty() && s < static_cast<int>(m_glued.size()); ++s) {
+		if (ways.empty())
+			return;
+		for (const Corner s : m_glued.indices()) {
 			const auto [a, b] = ends(s);
 			for (const auto& [v, next] : {std::pair(a, b), std::pair(b, a)}) {
-				if (m_glued[positionOf(s)] < s || wayAt[positionOf(v)] < 0)
+				if (m_glued[s] < s || wayAt[v] < 0)
 					continue;
-				Way& way = ways[positionOf(wayAt[positionOf(v)])];
+				Way& way = ways[wayAt[v]];
 				const double straight = cosineOfTurn(way.from == v ? way.to : way.from, v, next);
 				if (straight > way.straight) {
 					way.straight = straight;
@@ -329,25 +321,19 @@ private:
 			}
 		}
 		for (const Way& way : ways)
-			if (way.side >= 0 && open(way.side)) {
+			if (way.side.isValid() && open(way.side)) {
 				++m_opened.seamEdgesAdded;
 				m_opened.seamLengthAdded += lengthOf(way.side);
 			}
-		if (!ways.empty())
-			splitVertices();
+		splitVertices();
 	}
 
 	/// Of the angle between the ways from \p a to \p b and on to \p c; 0 where they have no direction.
 	double cosineOfTurn(int a, int b, int c) const
 	{
-		const std::vector<Point3>& p = m_opened.mesh.positions;
-		double dot = 0.0;
-		for (std::size_t k = 0; k < 3; ++k)
-			dot += (p[positionOf(b)][k] - p[positionOf(a)][k]) *
-				   (p[positionOf(c)][k] - p[positionOf(b)][k]);
-		const double lengths = distance(p[positionOf(a)], p[positionOf(b)]) *
-							   distance(p[positionOf(b)], p[positionOf(c)]);
-		return lengths > 0.0 ? dot / lengths : 0.0;
+		const Point3 &p = m_places[a], &q = m_places[b], &r = m_places[c];
+		const double lengths = distance(p, q) * distance(q, r);
+		return lengths > 0.0 ? dot(q - p, r - q) / lengths : 0.0;
 	}
 
 	/// Cuts edges that share both vertices with another edge: first both edges, and where that has been
@@ -356,56 +342,41 @@ private:
 	/// \return whether there were none
 	bool separateEdges()
 	{
-		std::vector<int> cut;
-		forEachEdge(
-			sortedSides(m_opened.mesh.triangles), [&](const Side* sides, std::size_t count) {
-				if (count == 1 ||
-					(count == 2 && m_glued[positionOf(sides[0].index())] == sides[1].index()))
-					return;
-				const std::size_t before = cut.size();
-				for (std::size_t i = 0; i < count; ++i)
-					if (m_glued[positionOf(sides[i].index())] >= 0)
-						cut.push_back(sides[i].index());
-				if (cut.size() > before)
-					return;
-				for (std::size_t i = 1; i < count; ++i)
-					cut.push_back(nextCorner(sides[i].index()));
-			});
-		for (const int s : cut) {
-			int& other = m_glued[positionOf(s)];
-			if (other >= 0)
-				m_glued[positionOf(other)] = -1;
-			other = -1;
-		}
+		std::vector<Corner> cut;
+		Sides(m_corners.values()).forEdges([&](const auto& edge) {
+			if (edge.size() == 1 || (edge.size() == 2 && m_glued[edge[0]] == edge[1]))
+				return;
+			const std::size_t before = cut.size();
+			for (const Corner side : edge)
+				if (m_glued[side].isValid())
+					cut.push_back(side);
+			if (cut.size() > before)
+				return;
+			for (int i = 1; i < edge.size(); ++i)
+				cut.push_back(edge[i].next());
+		});
+		for (const Corner s : cut)
+			unglue(s, m_glued);
 		return cut.empty();
 	}
 
 	/// [component] whether no triangle has an area.
 	/// \throw InvalidMesh TooSmall
-	std::vector<char> flatComponents() const
+	Array<char> flatComponents() const
 	{
 		// Twice the largest area of a triangle, and the longest side of all.
-		std::vector<double> area(positionOf(m_partition.componentCount), 0.0), longest = area;
-		for (const Face f : m_partition.component.indices()) {
-			const Triangle& t = m_triangles[positionOf(f)];
-			const Point3 &p = m_input.positions[positionOf(t[0])],
-						 &q = m_input.positions[positionOf(t[1])],
-						 &r = m_input.positions[positionOf(t[2])];
-			double a[3], b[3];
-			for (std::size_t k = 0; k < 3; ++k)
-				a[k] = q[k] - p[k], b[k] = r[k] - p[k];
-			const std::size_t c = positionOf(m_partition.component[f]);
-			area[c] = std::max(
-				area[c],
-				std::hypot(
-					a[1] * b[2] - a[2] * b[1],
-					a[2] * b[0] - a[0] * b[2],
-					a[0] * b[1] - a[1] * b[0]));
+		Array<double> area(m_partition.componentCount, 0.0), longest = area;
+		for (const int f : m_triangles.indices()) {
+			const Triangle& t = m_triangles[f];
+			const Point3 &p = m_positions[t[0]], &q = m_positions[t[1]], &r = m_positions[t[2]];
+			const Point3 normal = cross(q - p, r - p);
+			const int c = m_partition.component[f];
+			area[c] = std::max(area[c], std::hypot(normal[0], normal[1], normal[2]));
 			longest[c] = std::max({longest[c], distance(p, q), distance(q, r), distance(r, p)});
 		}
 		std::size_t tiny = 0;
-		std::vector<char> isFlat(area.size(), 0);
-		for (std::size_t c = 0; c < area.size(); ++c) {
+		Array<char> isFlat(area.size(), 0);
+		for (const int c : area.indices()) {
 			isFlat[c] = !(area[c] > kMinComponentArea * longest[c] * longest[c]);
 			tiny += longest[c] > 0.0 && longest[c] < kMinComponentSize;
 		}
@@ -413,25 +384,18 @@ private:
 		return isFlat;
 	}
 
-	double lengthOf(int side) const
+	double lengthOf(Corner side) const
 	{
-		return distance(
-			m_input.positions[positionOf(vertexAt(side))],
-			m_input.positions[positionOf(vertexAt(nextCorner(side)))]);
+		return distance(m_positions[m_triangles[side]], m_positions[m_triangles[side.next()]]);
 	}
-
-	/// The vertex of the input at a corner: where the side of the same number starts.
-	int vertexAt(int corner) const
-	{
-		return m_triangles[positionOf(corner / 3)][positionOf(corner % 3)];
-	}
-
-	static int nextCorner(int corner) { return corner - corner % 3 + (corner + 1) % 3; }
 
 	const SurfaceMesh& m_input;
-	std::vector<Triangle> m_triangles; // those not degenerate, with the vertices of the input
-	std::vector<int> m_glued;          // see FaceGluing
-	std::vector<int> m_across;         // the side beyond a seam, or -1; empty without seams
+	Array<Point3> m_positions;    // of the input
+	Array<Triangle> m_triangles;  // those not degenerate, with the vertices of the input
+	Array<Point3> m_places;       // of the opened mesh
+	Array<Triangle> m_corners;    // of the opened mesh
+	CornerArray<Corner> m_glued;  // see FaceGluing
+	CornerArray<Corner> m_across; // the side beyond a seam, or none; empty without seams
 	FacePartition m_partition;
 	OpenedMesh m_opened;
 };

@@ -2,6 +2,7 @@
 #ifndef RICCI_SURFACE_MESH_H
 #define RICCI_SURFACE_MESH_H
 
+#include "../base/indexed.h"
 #include "../math/points.h"
 
 #include <array>

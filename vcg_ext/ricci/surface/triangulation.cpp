@@ -2,7 +2,7 @@
 #include "triangulation.h"
 
 #include "../error.h"
-#include "../math/bucket_sort.h"
+#include "sides.h"
 
 #include <algorithm>
 
@@ -11,67 +11,42 @@ namespace ricci {
 namespace {
 
 /// For each side of each triangle the side that runs the other way between the same two vertices.
-std::vector<int> sidesByVertexPair(const std::vector<Triangle>& triangles)
+CornerArray<Corner> sidesByVertexPair(const std::vector<Triangle>& triangles)
 {
-	struct Side
-	{
-		int low, high, index;
-		bool ascending;
-	};
-	std::vector<Side> sides;
-	sides.reserve(3 * triangles.size());
-	for (std::size_t f = 0; f < triangles.size(); ++f)
-		for (std::size_t k = 0; k < 3; ++k) {
-			const int a = triangles[f][k], b = triangles[f][(k + 1) % 3];
-			sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(3 * f + k), a < b});
+	CornerArray<Corner> glued(3 * triangles.size());
+	Sides(triangles).forEdges([&](const auto& edge) {
+		if (edge.size() == 1)
+			return;
+		const auto start = [&](Corner c) { return triangles[positionOf(c.face())][c.index()]; };
+		const Corner a = edge[0], b = edge[1];
+		if (edge.size() > 2 || start(a) == start(b)) {
+			const auto [low, high] = std::minmax({start(a), start(a.next())});
+			throw InvalidMesh(InvalidMesh::IncoherentEdge, positionOf(edge.size()), {low, high});
 		}
-	bucketSort(
-		sides,
-		[](const Side& s) { return s.low; },
-		[](const Side& a, const Side& b) {
-			return a.high != b.high ? a.high < b.high : a.index < b.index;
-		});
-	std::vector<int> glued(sides.size(), -1);
-	for (std::size_t first = 0, last; first < sides.size(); first = last) {
-		for (last = first; last < sides.size() && sides[last].low == sides[first].low &&
-						   sides[last].high == sides[first].high;)
-			++last;
-		if (last - first == 1)
-			continue;
-		if (last - first > 2 || sides[first].ascending == sides[first + 1].ascending)
-			throw InvalidMesh(
-				InvalidMesh::IncoherentEdge, last - first, {sides[first].low, sides[first].high});
-		glued[positionOf(sides[first].index)] = sides[first + 1].index;
-		glued[positionOf(sides[first + 1].index)] = sides[first].index;
-	}
+		glued[a] = b;
+		glued[b] = a;
+	});
 	return glued;
 }
 
 } // namespace
 
-Triangulation::Triangulation(int vertexCount, const std::vector<Triangle>& triangles)
+Triangulation::Triangulation(int vertexCount, const std::vector<Triangle>& triangles) :
+		Triangulation(vertexCount, triangles, sidesByVertexPair(triangles))
 {
-	glue(vertexCount, triangles, sidesByVertexPair(triangles));
 }
 
 Triangulation::Triangulation(
-	int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& glued)
+	int vertexCount, const std::vector<Triangle>& triangles, const CornerArray<Corner>& glued)
 {
-	glue(vertexCount, triangles, glued);
-}
-
-void Triangulation::glue(
-	int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& glued)
-{
-	const std::size_t sideCount = 3 * triangles.size();
-	std::vector<Halfedge> halfedgeOf(sideCount);
+	CornerArray<Halfedge> halfedgeOf(glued.size());
 	int count = 0;
-	for (std::size_t side = 0; side < sideCount; ++side) {
+	for (const Corner side : glued.indices()) {
 		if (halfedgeOf[side].isValid())
 			continue;
 		halfedgeOf[side] = Halfedge(count);
-		if (glued[side] >= 0)
-			halfedgeOf[positionOf(glued[side])] = Halfedge(count + 1);
+		if (glued[side].isValid())
+			halfedgeOf[glued[side]] = Halfedge(count + 1);
 		count += 2;
 	}
 	m_next.assign(count, Halfedge());
@@ -79,14 +54,14 @@ void Triangulation::glue(
 	m_face.assign(count, Face());
 	m_faceHalfedge.resize(triangles.size());
 	for (const Face f : faces()) {
-		const std::size_t side = 3 * positionOf(f);
-		m_faceHalfedge[f] = halfedgeOf[side];
-		for (std::size_t k = 0; k < 3; ++k) {
-			const Halfedge h = halfedgeOf[side + k];
-			m_next[h] = halfedgeOf[side + (k + 1) % 3];
-			m_origin[h] = Vertex(triangles[positionOf(f)][k]);
+		const Triangle& t = triangles[positionOf(f)];
+		m_faceHalfedge[f] = halfedgeOf[Corner(f.number(), 0)];
+		for (const Corner c : cornersOf(f.number())) {
+			const Halfedge h = halfedgeOf[c];
+			m_next[h] = halfedgeOf[c.next()];
+			m_origin[h] = Vertex(t[c.index()]);
 			m_face[h] = f;
-			m_origin[h.twin()] = Vertex(triangles[positionOf(f)][(k + 1) % 3]);
+			m_origin[h.twin()] = Vertex(t[c.next().index()]);
 		}
 	}
 	// Turning about the end of an exterior halfedge, through the triangles there, leads to the next.

@@ -29,10 +29,9 @@ public:
 	Triangulation(int vertexCount, const std::vector<Triangle>& triangles);
 
 	/// Glues triangles along explicit pairs of sides, for surfaces whose edges are not determined
-	/// by their vertices. Side 3 f + k runs from triangles[f][k] to triangles[f][(k + 1) % 3]; \p
-	/// glued[side] is the other side, or -1 on the boundary.
+	/// by their vertices. \p glued[side] is the other side, or none on the boundary.
 	Triangulation(
-		int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& glued);
+		int vertexCount, const std::vector<Triangle>& triangles, const CornerArray<Corner>& glued);
 
 	int vertexCount() const { return m_vertexHalfedge.size(); }
 	int faceCount() const { return m_faceHalfedge.size(); }
@@ -231,8 +230,6 @@ public:
 	void unflip(Edge e);
 
 private:
-	void
-	glue(int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& glued);
 	void rewire(Halfedge h, std::array<Halfedge, 4> quad, Vertex from, Vertex to);
 
 	HalfedgeArray<Halfedge> m_next;

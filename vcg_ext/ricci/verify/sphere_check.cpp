@@ -18,7 +18,7 @@ namespace {
 
 // What cancels is computed exactly, the rest in double.
 
-DoubleDouble dot(const Point3& a, const Point3& b)
+DoubleDouble exactDot(const Point3& a, const Point3& b)
 {
 	DoubleDouble sum;
 	for (std::size_t k = 0; k < 3; ++k)
@@ -47,7 +47,7 @@ SphereCheck checkSphere(const std::vector<Triangle>& triangles, const std::vecto
 		std::array<double, 3> norm;
 		for (std::size_t k = 0; k < 3; ++k) {
 			p[k] = sphere[positionOf(t[k])];
-			const DoubleDouble square = dot(p[k], p[k]);
+			const DoubleDouble square = exactDot(p[k], p[k]);
 			norm[k] = std::sqrt(static_cast<double>(square));
 			const double error = std::abs(static_cast<double>(square - 1)) / (norm[k] + 1.0);
 			if (!(error <= check.radiusError))
@@ -57,7 +57,7 @@ SphereCheck checkSphere(const std::vector<Triangle>& triangles, const std::vecto
 		const double size = norm[0] * norm[1] * norm[2], det = determinant(p[0], p[1], p[2]);
 		double cosines = size;
 		for (std::size_t k = 0; k < 3; ++k)
-			cosines += norm[k] * static_cast<double>(dot(p[(k + 1) % 3], p[(k + 2) % 3]));
+			cosines += norm[k] * static_cast<double>(exactDot(p[(k + 1) % 3], p[(k + 2) % 3]));
 		sum += 2.0 * std::atan2(det, cosines);
 		check.turned += det < -kSphereRounding * size;
 	}
