@@ -534,9 +534,7 @@ TEST(Newton, TakesOverTheFactorOfItsFirstIterate)
 		EXPECT_GT(without.solved.result.iterations, 1);
 		auto start = factorAt(factored, mesh->u(), fixed);
 		// Work that was done with it before: one solution more than the solver needs.
-		Eigen::VectorXd right, solution;
-		start->gather(factored.curvature(), right);
-		start->cholesky().solve(right, solution);
+		start->cholesky().solve(start->gather(factored.curvature()));
 		const CholeskyWork before = start->cholesky().work();
 		EXPECT_EQ(before.factorizations, 1);
 		const SolvedFrom with = solveFrom(other, mesh->u(), fixed, std::move(start));

@@ -19,36 +19,6 @@ namespace {
 /// An edge with less than this share of a vertex's diagonal is one of rounding.
 constexpr double kNoEdge = 1e-9;
 
-/// The lower triangle of \p matrix with the rows \p row, those below 0 left out.
-Eigen::SparseMatrix<double>
-lowerTriangle(const Eigen::SparseMatrix<double>& matrix, const VertexArray<int>& row)
-{
-	std::vector<Eigen::Triplet<double>> entries;
-	int rows = 0;
-	for (const Vertex v : row.indices()) {
-		rows += row[v] >= 0;
-		for (Eigen::SparseMatrix<double>::InnerIterator e(matrix, v.number()); e; ++e)
-			if (row[v] >= 0 && row[Vertex(e.row())] >= row[v])
-				entries.emplace_back(row[Vertex(e.row())], row[v], e.value());
-	}
-	Eigen::SparseMatrix<double> lower(rows, rows);
-	lower.setFromTriplets(entries.begin(), entries.end());
-	return lower;
-}
-
-/// Both triangles of the matrix with the lower triangle \p lower, with other row numbers.
-Eigen::SparseMatrix<double>
-symmetric(const Eigen::SparseMatrix<double>& lower, const Array<int>& number)
-{
-	Eigen::VectorXi numbers(number.size());
-	for (const int row : number.indices())
-		numbers[row] = number[row];
-	const Eigen::PermutationMatrix<Eigen::Dynamic> permutation(numbers);
-	Eigen::SparseMatrix<double> full;
-	full = lower.selfadjointView<Eigen::Lower>().twistedBy(permutation);
-	return full;
-}
-
 /// The curvature map of \p packing at its radii.
 std::unique_ptr<CurvatureMap> mapOf(const InitialPacking& packing)
 {
@@ -95,23 +65,14 @@ LinearFlow::LinearFlow(
 }
 
 LinearFlow::LinearFlow(LinearSystem system) :
-		m_system(std::make_unique<FactoredSystem>()), m_fixesBoundary(system.fixesBoundary),
+		m_system(std::make_unique<SparseCholesky>()), m_fixesBoundary(system.fixesBoundary),
 		m_curvature(std::move(system.curvature)), m_area(std::move(system.area)),
 		m_factor(std::move(system.factor)), m_sink(std::move(system.sink))
 {
-	VertexArray<int>& row = m_system->row;
-	row.resize(vertexCount());
-	const int pinned = m_fixesBoundary ? 0 : 1;
-	for (const Vertex v : row.indices())
-		row[v] = v.number() - pinned;
-	m_unknowns = std::max(0, vertexCount() - pinned);
-	Eigen::SparseMatrix<double> lower;
-	const auto layOut = [&] { lower = lowerTriangle(system.laplacian, row); };
-	layOut();
-	if (m_unknowns == 0)
-		return;
-	m_system->cholesky.analyze(lower, row.values(), layOut);
-	if (!m_system->cholesky.factorize(lower))
+	m_unknowns = std::max(0, vertexCount() - (m_fixesBoundary ? 0 : 1));
+	const SparseCholesky::Matrix lower =
+		system.laplacian.bottomRightCorner(m_unknowns, m_unknowns).triangularView<Eigen::Lower>();
+	if (!m_system->factorize(lower))
 		throw SolverFailed(SolverFailed::Flow);
 }
 
@@ -124,19 +85,13 @@ LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
 {
 	const VertexArray<int>& row = m_hessian->row();
 	vertices.clear();
-	VertexArray<int> number(row.size(), -1);
-	Array<int> vertexOfRow(m_unknowns);
 	Vertex pinned;
 	for (const Vertex v : row.indices()) {
-		if (row[v] >= 0) {
-			number[v] = vertices.size();
-			vertexOfRow[row[v]] = vertices.size();
+		if (row[v] >= 0)
 			vertices.push_back(v);
-		}
 		else if (!m_fixesBoundary)
 			pinned = v;
 	}
-	const Eigen::SparseMatrix<double>& lower = m_hessian->hessian().matrix();
 	const auto ofVertices = [&](const VertexVector& values) {
 		VertexVector result(values.size() == 0 ? 0 : vertices.size());
 		if (values.size() > 0)
@@ -147,7 +102,7 @@ LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
 
 	LinearSystem result;
 	result.fixesBoundary = m_fixesBoundary;
-	result.laplacian = symmetric(lower, vertexOfRow);
+	result.laplacian = m_hessian->hessian().matrix().selfadjointView<Eigen::Lower>();
 	result.curvature = ofVertices(m_curvature);
 	result.area = ofVertices(m_area);
 	result.factor = ofVertices(m_factor);
@@ -243,37 +198,32 @@ void LinearFlow::balance(VertexVector& rhs) const
 		rhs -= rhs.sum() * m_sink;
 }
 
-/// L^-1 rhs on the unknown vertices, 0 on the others.
-VertexVector LinearFlow::solveRows(const VertexVector& rhs)
+/// L^-1 rhs on the unknown vertices, 0 on the others, for one or two columns.
+Eigen::MatrixXd LinearFlow::solveRows(const Eigen::MatrixXd& rhs)
 {
-	m_rhs.resize(m_unknowns);
-	for (const Vertex v : row().indices())
-		if (row()[v] >= 0)
-			m_rhs[row()[v]] = rhs[v];
+	if (m_system) {
+		Eigen::MatrixXd x = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
+		x.bottomRows(m_unknowns) = m_softness * m_system->solve(rhs.bottomRows(m_unknowns));
+		return x;
+	}
+	Eigen::MatrixXd rows(m_unknowns, rhs.cols());
+	for (Eigen::Index column = 0; column < rhs.cols(); ++column)
+		rows.col(column) = m_hessian->gather(rhs.col(column));
 	if (m_unknowns > 0)
-		cholesky().solve(m_rhs, m_solution);
-	VertexVector x(vertexCount());
-	for (const Vertex v : row().indices())
-		x[v] = row()[v] >= 0 ? m_softness * m_solution[row()[v]] : 0.0;
+		rows = m_hessian->cholesky().solve(rows);
+	Eigen::MatrixXd x(rhs.rows(), rhs.cols());
+	for (Eigen::Index column = 0; column < rhs.cols(); ++column)
+		x.col(column) = m_hessian->scatter(rows.col(column));
 	return x;
 }
 
+/// The same for two at once.
 LinearFlow::Pair LinearFlow::solveRows(const Pair& rhs)
 {
-	m_rhsPair.resize(m_unknowns);
-	for (const Vertex v : row().indices())
-		if (row()[v] >= 0)
-			m_rhsPair[row()[v]] = {rhs[0][v], rhs[1][v]};
-	if (m_unknowns > 0)
-		cholesky().solve(m_rhsPair, m_solutionPair);
-	Pair x{VertexVector(vertexCount()), VertexVector(vertexCount())};
-	for (const Vertex v : row().indices()) {
-		const std::complex<double> both =
-			row()[v] >= 0 ? m_softness * m_solutionPair[row()[v]] : 0.0;
-		x[0][v] = both.real();
-		x[1][v] = both.imag();
-	}
-	return x;
+	Eigen::MatrixXd columns(vertexCount(), 2);
+	columns << rhs[0], rhs[1];
+	const Eigen::MatrixXd x = solveRows(columns);
+	return {x.col(0), x.col(1)};
 }
 
 void LinearFlow::computeAreas(const CurvatureMap& map)

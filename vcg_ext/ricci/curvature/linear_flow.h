@@ -118,19 +118,10 @@ private:
 		const Tick& tick);
 	void spreadSink(const EmbeddedSurface& surface);
 	void balance(VertexVector& rhs) const;
-	VertexVector solveRows(const VertexVector& rhs);
+	Eigen::MatrixXd solveRows(const Eigen::MatrixXd& rhs);
 	Pair solveRows(const Pair& rhs);
-	const VertexArray<int>& row() const { return m_hessian ? m_hessian->row() : m_system->row; }
-	SparseCholesky& cholesky() { return m_hessian ? m_hessian->cholesky() : m_system->cholesky; }
 
-	/// Of a LinearSystem.
-	struct FactoredSystem
-	{
-		VertexArray<int> row; // or -1
-		SparseCholesky cholesky;
-	};
-
-	std::unique_ptr<FactoredSystem> m_system;      // null where there is a Hessian
+	std::unique_ptr<SparseCholesky> m_system;      // of a LinearSystem; null where there is a Hessian
 	std::unique_ptr<FactoredHessian> m_ownHessian; // null where that of the start is used
 	FactoredHessian* m_hessian = nullptr;
 	int m_unknowns = 0;
@@ -139,8 +130,6 @@ private:
 	VertexVector m_curvature, m_area;
 	VertexVector m_factor; // u where the flow is linearised; empty: 0
 	VertexVector m_sink;   // shares of the boundary vertices in a prescribed boundary; else empty
-	Eigen::VectorXd m_rhs, m_solution;
-	Eigen::VectorXcd m_rhsPair, m_solutionPair;
 };
 
 } // namespace ricci

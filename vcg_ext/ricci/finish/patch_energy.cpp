@@ -95,7 +95,7 @@ PatchEnergy::PatchEnergy(
 	const Patch& patch,
 	const std::vector<RestShape>& shapes) :
 		m_size(2 * patch.variables),
-		m_hessian(m_size, m_size), m_row(positionOf(m_size)), m_rhs(m_size)
+		m_hessian(m_size, m_size)
 {
 	double sum = 0.0;
 	for (const RestShape& s : shapes)
@@ -153,13 +153,12 @@ bool PatchEnergy::newtonStep(
 	const Slots* slot = m_slots.data();
 	for (const Element& element : m_elements)
 		slot = add(element, x, eps, gradient, slot);
-	double trace = 0.0;
+	Eigen::VectorXd diagonals(m_size); // in the order of elimination
 	for (int column = 0; column < m_size; ++column)
-		trace += diagonal(column);
+		diagonals[m_solver.order()[column]] = diagonal(column);
+	const double trace = std::accumulate(diagonals.begin(), diagonals.end(), 0.0);
 	if (!std::isfinite(trace))
 		return false;
-	for (int i = 0; i < m_size; ++i)
-		m_rhs[m_row[i]] = -gradient[i];
 	double shift = 0.0, next = kShift * trace / m_size;
 	for (int attempt = 0; attempt < kMaxShifts; ++attempt, next *= kShiftGrowth) {
 		for (int column = 0; column < m_size; ++column)
@@ -167,10 +166,7 @@ bool PatchEnergy::newtonStep(
 		shift = next;
 		if (!m_solver.factorize(m_hessian, tick))
 			continue;
-		m_solver.solve(m_rhs, m_solution);
-		step.resize(m_size);
-		for (int i = 0; i < m_size; ++i)
-			step[i] = m_solution[m_row[i]];
+		step = m_solver.solve(-gradient);
 		if (step.allFinite() && step.dot(gradient) < 0.0)
 			return true;
 	}
@@ -266,23 +262,16 @@ void PatchEnergy::layOutMatrix()
 					if (i >= 0 && j >= 0 && j <= i)
 						use(2 * i, 2 * j);
 	};
-	std::iota(m_row.begin(), m_row.end(), 0);
-	const auto layOut = [&] {
-		std::vector<Eigen::Triplet<double>> entries;
-		forBlocks([&](int i, int j) {
-			for (int k = 0; k < 2; ++k)
-				for (int l = 0; l < 2; ++l)
-					if (i != j || k >= l) {
-						const auto [column, row] = std::minmax(m_row[i + k], m_row[j + l]);
-						entries.emplace_back(row, column, 0.0);
-					}
-		});
-		m_hessian.setFromTriplets(entries.begin(), entries.end());
-	};
-	layOut();
-	m_solver.analyze(m_hessian, m_row, layOut);
-	const auto find = [&](int i, int j) {
-		const auto [column, row] = std::minmax(m_row[i], m_row[j]);
+	std::vector<Eigen::Triplet<double>> entries;
+	forBlocks([&](int i, int j) {
+		for (int k = 0; k < 2; ++k)
+			for (int l = 0; l < 2; ++l)
+				if (i != j || k >= l)
+					entries.emplace_back(i + k, j + l, 0.0);
+	});
+	m_hessian.setFromTriplets(entries.begin(), entries.end());
+	m_solver.analyze(m_hessian);
+	const auto find = [&](int row, int column) {
 		const int* rows = m_hessian.innerIndexPtr();
 		const int* first = rows + m_hessian.outerIndexPtr()[column];
 		const int* last = rows + m_hessian.outerIndexPtr()[column + 1];

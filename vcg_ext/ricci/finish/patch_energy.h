@@ -77,10 +77,8 @@ private:
 	int m_size; // two for each variable
 	std::vector<Element> m_elements;
 	SparseCholesky::Matrix m_hessian; // lower triangle
-	Array<int> m_row;                 // [unknown] of the matrix
 	std::vector<Slots> m_slots;       // in the order of the triangles
 	SparseCholesky m_solver;
-	Eigen::VectorXd m_rhs, m_solution; // by rows
 };
 
 /// The energy of a triangle with eps = 0 over its weight and least value: 1 for the rest shape, large

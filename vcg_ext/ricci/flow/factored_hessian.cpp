@@ -43,7 +43,6 @@ void FactoredHessian::fill(const CurvatureMap& map, double shift)
 {
 	if (m_revision != map.revision()) {
 		m_hessian.layOut(map, m_row, m_unknowns);
-		m_isAnalyzed = false;
 		m_revision = map.revision();
 	}
 	m_hessian.fill(map, shift);
@@ -54,12 +53,6 @@ bool FactoredHessian::factorize(const CurvatureMap& map, const Tick& tick)
 	double shift = map.brokenTriangles() > 0 ? kRegularisation : 0.0;
 	fill(map, shift);
 	m_isFactored = false;
-	if (!m_isAnalyzed) {
-		const auto layOut = [&] { m_hessian.layOut(map, m_row, m_unknowns); };
-		if (m_cholesky.analyze(m_hessian.matrix(), m_row.values(), layOut))
-			m_hessian.fill(map, shift);
-		m_isAnalyzed = true;
-	}
 	const double scale = std::max(m_hessian.largestDiagonal(), 1.0);
 	while (!m_cholesky.factorize(m_hessian.matrix(), tick)) {
 		shift = std::max(kShiftGrowth * shift, kFirstShift * scale);
@@ -77,19 +70,21 @@ void FactoredHessian::continueOn(const CurvatureMap& from, const CurvatureMap& t
 	m_revision = m_revision == from.revision() ? to.revision() : -1;
 }
 
-void FactoredHessian::gather(const VertexVector& values, Eigen::VectorXd& rows) const
+Eigen::VectorXd FactoredHessian::gather(const VertexVector& values) const
 {
-	rows.setZero(m_unknowns);
+	Eigen::VectorXd rows = Eigen::VectorXd::Zero(m_unknowns);
 	for (const Vertex v : m_row.indices())
 		if (m_row[v] >= 0)
 			rows[m_row[v]] += values[v];
+	return rows;
 }
 
-void FactoredHessian::scatter(const Eigen::VectorXd& rows, VertexVector& values) const
+VertexVector FactoredHessian::scatter(const Eigen::VectorXd& rows) const
 {
-	values.resize(m_row.size());
+	VertexVector values(m_row.size());
 	for (const Vertex v : m_row.indices())
 		values[v] = m_row[v] >= 0 ? rows[m_row[v]] : 0.0;
+	return values;
 }
 
 } // namespace ricci

@@ -22,7 +22,7 @@ public:
 
 	int unknowns() const { return m_unknowns; }
 
-	/// Row of the vertex's unknown, or -1. factorize() may change it.
+	/// Row of the vertex's unknown, or -1.
 	const VertexArray<int>& row() const { return m_row; }
 
 	/// Whether the same vertices are unknowns.
@@ -52,16 +52,14 @@ public:
 	/// present: the same equations in other precision.
 	void continueOn(const CurvatureMap& from, const CurvatureMap& to);
 
-	/// Entries of \p values in the order of the unknowns, those of images added up, and back (0
-	/// elsewhere).
-	void gather(const VertexVector& values, Eigen::VectorXd& rows) const;
-	void scatter(const Eigen::VectorXd& rows, VertexVector& values) const;
+	/// Entries of \p values by unknown, those of images added up, and back (0 elsewhere).
+	Eigen::VectorXd gather(const VertexVector& values) const;
+	VertexVector scatter(const Eigen::VectorXd& rows) const;
 
 private:
 	VertexArray<int> m_row;
 	int m_unknowns = 0;
-	int m_revision = -1;       // of the map, when the pattern was laid out
-	bool m_isAnalyzed = false; // the symbolic factorisation is that of the pattern
+	int m_revision = -1; // of the map, when the pattern was laid out
 	bool m_isFactored = false;
 	bool m_isShifted = false;
 	Hessian m_hessian;

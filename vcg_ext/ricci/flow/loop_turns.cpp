@@ -193,13 +193,7 @@ VertexVector turnByCurvature(
 		byU[i] += 0.5 * byLength[e] * (1.0 + difference / l2);
 		byU[j] += 0.5 * byLength[e] * (1.0 - difference / l2);
 	}
-	Eigen::VectorXd rows, solution;
-	hessian.gather(byU, rows);
-	solution.resize(rows.size());
-	hessian.cholesky().solve(rows, solution);
-	VertexVector result = VertexVector::Zero(t.vertexCount());
-	hessian.scatter(solution, result);
-	return result;
+	return hessian.scatter(hessian.cholesky().solve(hessian.gather(byU)));
 }
 
 } // namespace ricci

@@ -3,8 +3,6 @@
 
 #include "../base/tolerances.h"
 
-#include <Eigen/IterativeLinearSolvers>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -62,39 +60,6 @@ int solutionsPerFactorization(const SparseCholesky& cholesky)
 /// pi and round by up to two epsilons each.
 constexpr double kSumRounding = 24.0 * std::numeric_limits<double>::epsilon();
 
-/// A Cholesky factor of a nearby matrix, in the form of a preconditioner of Eigen.
-class FactorPreconditioner
-{
-public:
-	void attach(SparseCholesky& cholesky) { m_cholesky = &cholesky; }
-
-	template<class Matrix>
-	FactorPreconditioner& analyzePattern(const Matrix&)
-	{
-		return *this;
-	}
-	template<class Matrix>
-	FactorPreconditioner& factorize(const Matrix&)
-	{
-		return *this;
-	}
-	template<class Matrix>
-	FactorPreconditioner& compute(const Matrix&)
-	{
-		return *this;
-	}
-	const Eigen::VectorXd& solve(const Eigen::VectorXd& residual) const
-	{
-		m_cholesky->solve(residual, m_solution);
-		return m_solution;
-	}
-	Eigen::ComputationInfo info() { return Eigen::Success; }
-
-private:
-	SparseCholesky* m_cholesky = nullptr;
-	mutable Eigen::VectorXd m_solution; // kept as work space
-};
-
 } // namespace
 
 NewtonSolver::NewtonSolver(
@@ -117,8 +82,6 @@ NewtonSolver::NewtonSolver(
 	m_diagonal.resize(n);
 	m_trialLow.resize(n);
 	m_low.setZero(n);
-	m_rhs.resize(m_hessian->unknowns());
-	m_solution.resize(m_hessian->unknowns());
 }
 
 void NewtonSolver::continueOn(CurvatureMap& map)
@@ -156,28 +119,6 @@ double NewtonSolver::residual(const VertexVector& target)
 	return largest;
 }
 
-/// Conjugate gradients with the last factor for preconditioner, for the matrix as it is, until
-/// |H d + gradient| <= \p accuracy |gradient|.
-/// \return number of iterations, more than \p maxIterations if they do not suffice
-int NewtonSolver::iterate(double accuracy, int maxIterations)
-{
-	Eigen::ConjugateGradient<Hessian::Matrix, Eigen::Lower, FactorPreconditioner> gradients;
-	gradients.preconditioner().attach(m_hessian->cholesky());
-	gradients.setTolerance(accuracy);
-	gradients.setMaxIterations(maxIterations);
-	gradients.compute(m_hessian->hessian().matrix());
-	m_solution = gradients.solve(m_rhs);
-	const bool solved = gradients.info() == Eigen::Success && m_solution.allFinite();
-	return solved ? static_cast<int>(gradients.iterations()) : maxIterations + 1;
-}
-
-/// Right side of Newton's equations in the order of the unknowns.
-void NewtonSolver::gatherRightSide()
-{
-	m_hessian->gather(m_gradient, m_rhs);
-	m_rhs = -m_rhs;
-}
-
 /// Makes the factor that the solver was given its own.
 /// \return whether there is one
 bool NewtonSolver::takeOverStart()
@@ -195,27 +136,27 @@ void NewtonSolver::direction(double accuracy, bool reached)
 {
 	const bool isFirst = takeOverStart();
 	m_hessian->fill(*m_map, 0.0);
-	gatherRightSide();
-	bool solved = false;
-	if (isFirst) {
-		m_hessian->cholesky().solve(m_rhs, m_solution);
-		solved = true;
-	}
+	SparseCholesky& cholesky = m_hessian->cholesky();
+	const Eigen::VectorXd rhs = -m_hessian->gather(m_gradient);
+	Eigen::VectorXd solution;
 	const bool usable =
 		m_hessian->isFactored() && !m_hessian->isShifted() && m_map->brokenTriangles() == 0;
-	if (!solved && usable && (!m_worn || reached)) {
-		const int limit = solutionsPerFactorization(m_hessian->cholesky());
-		const int iterations = iterate(accuracy, limit);
+	bool solved = isFirst || (reached && !usable);
+	if (solved)
+		solution = cholesky.solve(rhs);
+	else if (usable && (!m_worn || reached)) {
+		const int limit = solutionsPerFactorization(cholesky);
+		const int iterations =
+			cholesky.iterate(m_hessian->hessian().matrix(), rhs, accuracy, limit, solution);
 		solved = iterations <= limit;
 		m_worn = 2 * iterations > limit;
 	}
 	if (!solved && !reached) {
 		m_hessian->factorize(*m_map, m_map->tick());
 		m_worn = false;
-		gatherRightSide(); // the unknowns may have been renumbered
-		m_hessian->cholesky().solve(m_rhs, m_solution);
+		solution = cholesky.solve(rhs);
 	}
-	m_hessian->scatter(m_solution, m_direction);
+	m_direction = m_hessian->scatter(solution);
 	if (m_gaugeFree)
 		m_direction.array() -= m_direction.mean();
 }

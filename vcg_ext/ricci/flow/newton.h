@@ -122,8 +122,6 @@ public:
 
 private:
 	double residual(const VertexVector& target);
-	int iterate(double accuracy, int maxIterations);
-	void gatherRightSide();
 	bool takeOverStart();
 	void direction(double accuracy, bool reached);
 	double longestStep(const VertexVector& u, double largest);
@@ -138,7 +136,6 @@ private:
 	std::unique_ptr<FactoredHessian> m_hessian;
 	std::unique_ptr<FactoredHessian> m_start; // for the first direction; none afterwards
 	VertexVector m_gradient;                  // K - target, 0 where fixed
-	Eigen::VectorXd m_rhs, m_solution;        // [unknown]
 	VertexVector m_direction, m_trial, m_diagonal;
 	VertexVector m_low, m_trialLow; // of u, below its last place
 };

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sparse_cholesky.h"
 
+#include "../base/indexed.h"
 #include "../error.h"
 #include "cholmod_tick.h"
 #include "one_thread.h"
+
+#include <Eigen/IterativeLinearSolvers>
 
 #include <algorithm>
 #include <limits>
@@ -63,7 +66,6 @@ struct SparseCholesky::Implementation
 {
 	cholmod_common common;
 	cholmod_factor* factor = nullptr;
-	bool analyzed = false; ///< by order()
 	double flops = 0.0, entries = 0.0;
 	/// Work space of solve(). Not an Eigen vector: memory is freed twice if its resize() fails.
 	std::vector<double> rowsBelow;
@@ -273,107 +275,64 @@ struct SparseCholesky::Implementation
 			}
 		}
 	}
-};
 
-/// [row chosen] row of the pattern.
-std::vector<int> SparseCholesky::order(const Matrix& pattern)
-{
-	if (pattern.rows() == 0)
-		return {};
-	const OneThread oneThread;
-	Implementation& own = *m_implementation;
-	// METIS may not be there, or not number so many edges.
-	const bool isDissected =
-		pattern.rows() >= own.nestedDissectionFrom && own.tryToAnalyze(pattern, CHOLMOD_METIS, 1);
-	if (!isDissected)
-		own.analyze(pattern, CHOLMOD_AMD, 1);
-	++m_work.orderings;
-	++m_work.analyses;
-	// The factor is that of the renumbered matrix in its natural order.
-	Long* permutation = static_cast<Long*>(own.factor->Perm);
-	std::vector<int> order(own.factor->n);
-	std::transform(permutation, permutation + own.factor->n, order.begin(), [](Long row) {
-		return static_cast<int>(row);
-	});
-	std::iota(permutation, permutation + own.factor->n, Long(0));
-	own.factor->ordering = CHOLMOD_NATURAL;
-	own.analyzed = true;
-	return order;
-}
-
-/// Costs nothing for the pattern that order() has just analyzed, renumbered.
-void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
-{
-	if (pattern.rows() == 0)
-		return;
-	Implementation& own = *m_implementation;
-	if (!own.analyzed || own.factor->n != static_cast<std::size_t>(pattern.rows())) {
+	/// A good order of elimination: [position] unknown.
+	std::vector<int> order(const Matrix& pattern)
+	{
 		const OneThread oneThread;
-		own.analyze(pattern, CHOLMOD_NATURAL, 0);
-		++m_work.analyses;
+		// METIS may not be there, or not number so many edges.
+		if (pattern.rows() < nestedDissectionFrom || !tryToAnalyze(pattern, CHOLMOD_METIS, 1))
+			analyze(pattern, CHOLMOD_AMD, 1);
+		// The factor is that of the renumbered matrix in its natural order.
+		auto* permutation = static_cast<Long*>(factor->Perm);
+		std::vector<int> result(factor->n);
+		std::transform(permutation, permutation + factor->n, result.begin(), [](Long unknown) {
+			return static_cast<int>(unknown);
+		});
+		std::iota(permutation, permutation + factor->n, Long(0));
+		factor->ordering = CHOLMOD_NATURAL;
+		return result;
 	}
-	own.analyzed = false;
-}
 
-bool SparseCholesky::factorize(const Matrix& matrix, const Tick& tick)
-{
-	if (matrix.rows() == 0)
-		return true;
-	const OneThread oneThread;
-	CholmodTick ticking(tick);
-	Implementation& own = *m_implementation;
-	View a(matrix);
-	cholmod_l_factorize(a.get(), own.factor, &own.common);
-	ticking.rethrow();
-	++m_work.factorizations;
-	m_work.flops += own.flops;
-	if (own.common.status < CHOLMOD_OK)
-		own.fail(matrix);
-	return own.common.status == CHOLMOD_OK;
-}
-
-// CHOLMOD's own solution calls BLAS for each supernode, most of which are so small that the calls
-// take as long as the arithmetic: this is about twice as fast.
-void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
-{
-	if (rhs.size() == 0) {
-		x = rhs;
-		return;
+	/// The symbolic factor for the natural order.
+	void analyze(const Matrix& pattern)
+	{
+		const OneThread oneThread;
+		analyze(pattern, CHOLMOD_NATURAL, 0);
 	}
-	Implementation& own = *m_implementation;
-	own.rowsBelow.resize(own.factor->maxesize);
-	x = rhs;
-	own.solveForward(x.data());
-	own.solveBackward(x.data());
-	++m_work.solutions;
-	m_work.flops += 4.0 * own.entries;
-}
 
-void SparseCholesky::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x)
-{
-	if (rhs.size() == 0) {
-		x = rhs;
-		return;
+	/// order() leaves the symbolic factor of the matrix in that order.
+	static constexpr bool kOrderAnalyzes = true;
+
+	bool factorize(const Matrix& matrix, const Tick& tick)
+	{
+		const OneThread oneThread;
+		CholmodTick ticking(tick);
+		View a(matrix);
+		cholmod_l_factorize(a.get(), factor, &common);
+		ticking.rethrow();
+		if (common.status < CHOLMOD_OK)
+			fail(matrix);
+		return common.status == CHOLMOD_OK;
 	}
-	Implementation& own = *m_implementation;
-	own.pairsBelow.resize(2 * own.factor->maxesize);
-	x = rhs;
-	auto* parts = reinterpret_cast<double*>(x.data()); // std::complex is two doubles
-	own.solvePairsForward(parts);
-	own.solvePairsBackward(parts);
-	m_work.solutions += 2;
-	m_work.flops += 8.0 * own.entries;
-}
 
-double SparseCholesky::factorEntries() const
-{
-	return m_implementation->entries;
-}
+	// CHOLMOD's own solution calls BLAS for each supernode, most of which are so small that the calls
+	// take as long as the arithmetic: this is about twice as fast.
+	void solve(Eigen::VectorXd& x)
+	{
+		rowsBelow.resize(factor->maxesize);
+		solveForward(x.data());
+		solveBackward(x.data());
+	}
 
-double SparseCholesky::factorFlops() const
-{
-	return m_implementation->flops;
-}
+	void solve(Eigen::VectorXcd& x)
+	{
+		pairsBelow.resize(2 * factor->maxesize);
+		auto* parts = reinterpret_cast<double*>(x.data()); // std::complex is two doubles
+		solvePairsForward(parts);
+		solvePairsBackward(parts);
+	}
+};
 
 const char* SparseCholesky::name()
 {
@@ -393,75 +352,237 @@ struct SparseCholesky::Implementation
 	double flops = 0.0, entries = 0.0;
 
 	explicit Implementation(int /*nestedDissectionFrom*/) {} // AMD is the only order here
+
+	std::vector<int> order(const Matrix& pattern)
+	{
+		Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
+		Eigen::AMDOrdering<int> ordering;
+		ordering(pattern.selfadjointView<Eigen::Lower>(), permutation);
+		const auto& indices = permutation.indices();
+		return {indices.data(), indices.data() + indices.size()};
+	}
+
+	static constexpr bool kOrderAnalyzes = false;
+
+	void analyze(const Matrix& pattern)
+	{
+		solver.analyzePattern(pattern);
+		if (solver.info() != Eigen::Success)
+			throw std::bad_alloc();
+		flops = entries = 0.0;
+		for (const int below : solver.columnEntries()) {
+			entries += 1.0 + below;
+			flops += (1.0 + below) * (1.0 + below);
+		}
+		if (entries > std::numeric_limits<int>::max())
+			throw TooLarge(
+				TooLarge::Unknowns, static_cast<std::size_t>(pattern.rows()), 0.0, 0.0);
+	}
+
+	bool factorize(const Matrix& matrix, const Tick&)
+	{
+		solver.factorize(matrix);
+		// LDLT goes through negative pivots without complaint.
+		return solver.info() == Eigen::Success && (solver.vectorD().array() > 0.0).all();
+	}
+
+	void solve(Eigen::VectorXd& x) { x = solver.solve(x).eval(); }
+
+	void solve(Eigen::VectorXcd& x)
+	{
+		using Pairs = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+		Eigen::Map<Pairs> pairs(reinterpret_cast<double*>(x.data()), x.size(), 2);
+		pairs = solver.solve(pairs).eval();
+	}
 };
 
-/// [row chosen] row of the pattern.
-std::vector<int> SparseCholesky::order(const Matrix& pattern)
+const char* SparseCholesky::name()
 {
-	if (pattern.rows() == 0)
-		return {};
-	Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-	Eigen::AMDOrdering<int> ordering;
-	ordering(pattern.selfadjointView<Eigen::Lower>(), permutation);
-	++m_work.orderings;
-	const auto& indices = permutation.indices();
-	return {indices.data(), indices.data() + indices.size()};
+	return "Eigen SimplicialLDLT";
 }
 
-void SparseCholesky::analyzeAsNumbered(const Matrix& pattern)
+#endif
+
+/// The last factor, in the form of a preconditioner of Eigen.
+class SparseCholesky::Preconditioner
 {
-	if (pattern.rows() == 0)
+public:
+	void attach(SparseCholesky& cholesky) { m_cholesky = &cholesky; }
+
+	template<class Any>
+	Preconditioner& analyzePattern(const Any&)
+	{
+		return *this;
+	}
+	template<class Any>
+	Preconditioner& factorize(const Any&)
+	{
+		return *this;
+	}
+	template<class Any>
+	Preconditioner& compute(const Any&)
+	{
+		return *this;
+	}
+	const Eigen::VectorXd& solve(const Eigen::VectorXd& residual) const
+	{
+		m_solution = residual;
+		m_cholesky->solveOrdered(m_solution);
+		return m_solution;
+	}
+	Eigen::ComputationInfo info() { return Eigen::Success; }
+
+private:
+	SparseCholesky* m_cholesky = nullptr;
+	mutable Eigen::VectorXd m_solution; // kept as work space
+};
+
+SparseCholesky::SparseCholesky(int nestedDissectionFrom) :
+		m_implementation(std::make_unique<Implementation>(nestedDissectionFrom))
+{
+}
+
+SparseCholesky::~SparseCholesky() = default;
+
+/// \return whether it differs from that of the last matrix
+bool SparseCholesky::takePattern(const Matrix& pattern)
+{
+	const int *starts = pattern.outerIndexPtr(), *rows = pattern.innerIndexPtr();
+	const int *startsEnd = starts + pattern.cols() + 1, *rowsEnd = rows + pattern.nonZeros();
+	if (std::equal(starts, startsEnd, m_starts.begin(), m_starts.end()) &&
+		std::equal(rows, rowsEnd, m_rows.begin(), m_rows.end()))
+		return false;
+	m_isAnalyzed = false;
+	m_starts.assign(starts, startsEnd);
+	m_rows.assign(rows, rowsEnd);
+	if (m_order.size() != pattern.rows()) {
+		m_order.setLinSpaced(pattern.rows(), 0, static_cast<int>(pattern.rows()) - 1);
+		m_flopsWhenOrdered = 0.0;
+	}
+	layOut();
+	return true;
+}
+
+/// Makes m_ordered, with numbers of entries for values, which are then put into m_entry.
+void SparseCholesky::layOut()
+{
+	std::vector<Eigen::Triplet<double>> entries;
+	entries.reserve(m_rows.size());
+	int entry = 0;
+	for (int column = 0; column < m_order.size(); ++column)
+		for (; entry < m_starts[positionOf(column) + 1]; ++entry) {
+			const auto [low, high] =
+				std::minmax(m_order[m_rows[positionOf(entry)]], m_order[column]);
+			entries.emplace_back(high, low, entry);
+		}
+	m_ordered.resize(m_order.size(), m_order.size());
+	m_ordered.setFromTriplets(entries.begin(), entries.end());
+	m_entry.assign(m_ordered.valuePtr(), m_ordered.valuePtr() + m_ordered.nonZeros());
+}
+
+void SparseCholesky::analyze(const Matrix& pattern)
+{
+	takePattern(pattern);
+	if (m_isAnalyzed || pattern.rows() == 0)
 		return;
 	Implementation& own = *m_implementation;
-	own.solver.analyzePattern(pattern);
-	if (own.solver.info() != Eigen::Success)
-		throw std::bad_alloc();
-	++m_work.analyses;
-	own.flops = own.entries = 0.0;
-	for (const int below : own.solver.columnEntries()) {
-		own.entries += 1.0 + below;
-		own.flops += (1.0 + below) * (1.0 + below);
+	const auto analyzeOrdered = [&] {
+		own.analyze(m_ordered);
+		++m_work.analyses;
+	};
+	if (m_flopsWhenOrdered > 0.0)
+		analyzeOrdered();
+	if (m_flopsWhenOrdered == 0.0 || own.flops > kMaxGrowth * m_flopsWhenOrdered) {
+		const std::vector<int> unknown = own.order(m_ordered);
+		++m_work.orderings;
+		Eigen::VectorXi position(m_order.size());
+		for (int i = 0; i < position.size(); ++i)
+			position[unknown[positionOf(i)]] = i;
+		for (int& i : m_order)
+			i = position[i];
+		layOut();
+		if (Implementation::kOrderAnalyzes)
+			++m_work.analyses;
+		else
+			analyzeOrdered();
+		m_flopsWhenOrdered = own.flops;
 	}
-	if (own.entries > std::numeric_limits<int>::max())
-		throw TooLarge(TooLarge::Unknowns, static_cast<std::size_t>(pattern.rows()), 0.0, 0.0);
+	m_isAnalyzed = true;
 }
 
-bool SparseCholesky::factorize(const Matrix& matrix, const Tick&)
+void SparseCholesky::takeValues(const Matrix& matrix)
 {
+	double* value = m_ordered.valuePtr();
+	for (const int entry : m_entry)
+		*value++ = matrix.valuePtr()[entry];
+}
+
+bool SparseCholesky::factorize(const Matrix& matrix, const Tick& tick)
+{
+	analyze(matrix);
 	if (matrix.rows() == 0)
 		return true;
-	Implementation& own = *m_implementation;
-	own.solver.factorize(matrix);
+	takeValues(matrix);
+	const bool isDefinite = m_implementation->factorize(m_ordered, tick);
 	++m_work.factorizations;
-	m_work.flops += own.flops;
-	// LDLT goes through negative pivots without complaint.
-	return own.solver.info() == Eigen::Success && (own.solver.vectorD().array() > 0.0).all();
+	m_work.flops += factorFlops();
+	return isDefinite;
 }
 
-void SparseCholesky::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x)
+void SparseCholesky::solveOrdered(Eigen::VectorXd& x)
 {
-	if (rhs.size() == 0) {
-		x = rhs;
-		return;
-	}
-	x.noalias() = m_implementation->solver.solve(rhs);
+	m_implementation->solve(x);
 	++m_work.solutions;
-	m_work.flops += 4.0 * m_implementation->entries;
+	m_work.flops += 4.0 * factorEntries();
 }
 
-void SparseCholesky::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x)
+Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs)
 {
-	if (rhs.size() == 0) {
-		x = rhs;
-		return;
+	Eigen::MatrixXd x(rhs.rows(), rhs.cols());
+	if (rhs.rows() == 0)
+		return x;
+	Eigen::Index column = 0;
+	Eigen::VectorXcd pair(rhs.rows());
+	for (; column + 2 <= rhs.cols(); column += 2) {
+		for (Eigen::Index i = 0; i < rhs.rows(); ++i)
+			pair[m_order[i]] = {rhs(i, column), rhs(i, column + 1)};
+		m_implementation->solve(pair);
+		m_work.solutions += 2;
+		m_work.flops += 8.0 * factorEntries();
+		for (Eigen::Index i = 0; i < rhs.rows(); ++i) {
+			x(i, column) = pair[m_order[i]].real();
+			x(i, column + 1) = pair[m_order[i]].imag();
+		}
 	}
-	using Pairs = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
-	x.resize(rhs.size());
-	const Eigen::Map<const Pairs> right(reinterpret_cast<const double*>(rhs.data()), rhs.size(), 2);
-	Eigen::Map<Pairs>(reinterpret_cast<double*>(x.data()), x.size(), 2) =
-		m_implementation->solver.solve(right);
-	m_work.solutions += 2;
-	m_work.flops += 8.0 * m_implementation->entries;
+	if (column < rhs.cols()) {
+		Eigen::VectorXd ordered(rhs.rows());
+		for (Eigen::Index i = 0; i < rhs.rows(); ++i)
+			ordered[m_order[i]] = rhs(i, column);
+		solveOrdered(ordered);
+		for (Eigen::Index i = 0; i < rhs.rows(); ++i)
+			x(i, column) = ordered[m_order[i]];
+	}
+	return x;
+}
+
+int SparseCholesky::iterate(
+	const Matrix& matrix,
+	const Eigen::VectorXd& rhs,
+	double accuracy,
+	int maxIterations,
+	Eigen::VectorXd& x)
+{
+	takePattern(matrix);
+	takeValues(matrix);
+	Eigen::ConjugateGradient<Matrix, Eigen::Lower, Preconditioner> gradients;
+	gradients.preconditioner().attach(*this);
+	gradients.setTolerance(accuracy);
+	gradients.setMaxIterations(maxIterations);
+	gradients.compute(m_ordered);
+	const Eigen::PermutationWrapper<const Eigen::VectorXi> order(m_order);
+	x = order.transpose() * gradients.solve(order * rhs).eval();
+	const bool isSolved = gradients.info() == Eigen::Success && x.allFinite();
+	return isSolved ? static_cast<int>(gradients.iterations()) : maxIterations + 1;
 }
 
 double SparseCholesky::factorEntries() const
@@ -472,30 +593,6 @@ double SparseCholesky::factorEntries() const
 double SparseCholesky::factorFlops() const
 {
 	return m_implementation->flops;
-}
-
-const char* SparseCholesky::name()
-{
-	return "Eigen SimplicialLDLT";
-}
-
-#endif
-
-SparseCholesky::SparseCholesky(int nestedDissectionFrom) :
-		m_implementation(std::make_unique<Implementation>(nestedDissectionFrom))
-{
-}
-
-SparseCholesky::~SparseCholesky() = default;
-
-/// [row of the pattern] the row that it should have.
-Array<int> SparseCholesky::chooseRows(const Matrix& pattern)
-{
-	const std::vector<int> order = this->order(pattern);
-	Array<int> chosen(order.size());
-	for (std::size_t i = 0; i < order.size(); ++i)
-		chosen[order[i]] = static_cast<int>(i);
-	return chosen;
 }
 
 } // namespace ricci

@@ -2,9 +2,9 @@
 #ifndef RICCI_SPARSE_CHOLESKY_H
 #define RICCI_SPARSE_CHOLESKY_H
 
-#include "../base/indexed.h"
 #include "../progress.h"
 
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <memory>
@@ -34,8 +34,8 @@ struct CholeskyWork
 /// RICCI_STATIC_CHOLMOD its static library, with cholmod_blas.cpp and without METIS), Eigen's
 /// SimplicialLDLT otherwise.
 ///
-/// Unknowns are eliminated in the order of their rows, which analyze() chooses: matrices are laid out
-/// in that order, so that nothing has to be permuted afterwards.
+/// Unknowns are eliminated in an order that keeps the factor sparse: that of approximate minimum degree,
+/// or of nested dissection where the factor is large and CHOLMOD has METIS.
 class SparseCholesky
 {
 public:
@@ -52,51 +52,38 @@ public:
 	SparseCholesky(const SparseCholesky&) = delete;
 	SparseCholesky& operator=(const SparseCholesky&) = delete;
 
-	/// Symbolic factorisation of \p pattern. Stays valid while the pattern does.
-	///
-	/// Where that reduces the fill, chooses other rows and has the pattern laid out for them by \p
-	/// layOut(): the first time, where the number of unknowns is another, and where changes of the
-	/// pattern have made a factorisation half as expensive again as when the rows were chosen. Their
-	/// order is that of approximate minimum degree, or of nested dissection where the factor is large and
-	/// CHOLMOD has METIS.
-	/// \param row an array of int, by element: the row of its unknown in the pattern, -1 if it has
-	/// none
-	/// \return whether the rows have changed
+	/// Symbolic factorisation, if \p pattern is not that of the last matrix. Keeps the order of
+	/// elimination unless the number of unknowns is another, or a factorisation has become half as
+	/// expensive again as when the order was chosen.
 	/// \throw std::bad_alloc; TooLarge where the solver cannot number the factor's entries;
 	/// InternalError where CHOLMOD fails otherwise
-	template<class Rows, class LayOut>
-	bool analyze(const Matrix& pattern, Rows& row, const LayOut& layOut)
-	{
-		if (pattern.rows() == m_orderedRows) {
-			analyzeAsNumbered(pattern);
-			if (factorFlops() <= kMaxGrowth * m_orderedFlops)
-				return false;
-		}
-		const Array<int> chosen = chooseRows(pattern);
-		for (int& r : row)
-			if (r >= 0)
-				r = chosen[r];
-		layOut();
-		analyzeAsNumbered(pattern);
-		m_orderedRows = pattern.rows();
-		m_orderedFlops = factorFlops();
-		return true;
-	}
+	void analyze(const Matrix& pattern);
 
-	/// Numeric factorisation of a matrix with the pattern last analyzed.
+	/// [unknown] When it is eliminated, by the last analyze().
+	const Eigen::VectorXi& order() const { return m_order; }
+
+	/// Numeric factorisation, after analyze().
 	/// \param tick called meanwhile if it is not empty, in this thread; may throw. With
 	/// cholmod_blas.cpp only: other solvers never call it
 	/// \return false if \p matrix is not positive definite
 	/// \throw as analyze()
 	bool factorize(const Matrix& matrix, const Tick& tick = {});
 
-	/// Solves with the last factor: \p x = matrix^-1 \p rhs.
+	/// matrix^-1 \p rhs with the last factor, for any number of columns. Two columns take little more
+	/// than half as long as two calls.
 	/// \pre factorize() has returned true
-	void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
+	Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs);
 
-	/// The same for real and imaginary parts in one pass over the factor, which takes little more
-	/// than half as long as two.
-	void solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x);
+	/// Conjugate gradients for \p matrix, which is near the one factorised: the factor is their
+	/// preconditioner. They end where |matrix x - rhs| <= \p accuracy |rhs|.
+	/// \return number of iterations, more than \p maxIterations if they do not suffice
+	/// \pre factorize() has returned true for a matrix of the same size
+	int iterate(
+		const Matrix& matrix,
+		const Eigen::VectorXd& rhs,
+		double accuracy,
+		int maxIterations,
+		Eigen::VectorXd& x);
 
 	/// Entries of the factor, by the last symbolic factorisation.
 	double factorEntries() const;
@@ -111,18 +98,24 @@ public:
 
 private:
 	struct Implementation;
+	class Preconditioner;
 
-	/// A factorisation may become more expensive by this factor before other rows are chosen.
+	/// A factorisation may become more expensive by this factor before another order is chosen.
 	static constexpr double kMaxGrowth = 1.5;
 
-	Array<int> chooseRows(const Matrix& pattern);
-	std::vector<int> order(const Matrix& pattern);
-	void analyzeAsNumbered(const Matrix& pattern);
+	bool takePattern(const Matrix& pattern);
+	void layOut();
+	void takeValues(const Matrix& matrix);
+	void solveOrdered(Eigen::VectorXd& x);
 
 	std::unique_ptr<Implementation> m_implementation;
 	CholeskyWork m_work;
-	Eigen::Index m_orderedRows = -1;
-	double m_orderedFlops = 0.0; ///< of a factorisation, when the rows were chosen
+	std::vector<int> m_starts, m_rows; // of the last matrix
+	Eigen::VectorXi m_order;           // [unknown] when it is eliminated
+	Matrix m_ordered;                  // the last matrix, its unknowns in that order
+	std::vector<int> m_entry;          // [entry of it] number among those of the last matrix
+	bool m_isAnalyzed = false;         // the symbolic factor is that of the last matrix
+	double m_flopsWhenOrdered = 0.0;   // of a factorisation
 };
 
 } // namespace ricci

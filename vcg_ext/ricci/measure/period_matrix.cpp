@@ -5,7 +5,7 @@
 #include "../error.h"
 #include "../math/disjoint_sets.h"
 #include "../math/sparse_cholesky.h"
-#include "../metric/area.h"
+#include "../metric/laplacian.h"
 #include "invariants.h"
 
 #include <Eigen/Cholesky>
@@ -175,162 +175,52 @@ Eigen::MatrixXd canonicalBasis(Eigen::MatrixXi wedge)
 	return ordered;
 }
 
-/// Half the sum of the cotangents of the opposite angles.
-EdgeArray<double> cotangentWeights(const Triangulation& t, const EdgeArray<double>& lengths)
+/// Bound of the energy of the error of a harmonic function.
+constexpr double kEnergyError = 1e-7;
+
+constexpr int kMaxSteps = 100;
+
+/// The energy falls by like factors. Where the last one would bring it so much below the bound, no
+/// further solution is spent on finding it there.
+constexpr double kCertainty = 10.0;
+
+/// Solves matrix x = residual for two columns, to an energy of the error of about kEnergyError, by
+/// conjugate gradients with the factor in \p near for preconditioner. (Eigen's end by the norm of the
+/// residual, which says nothing of the energy, and take one column at a time.)
+/// \param residual what is left of the right side on return
+Eigen::MatrixX2d solveNear(
+	SparseCholesky& near,
+	const SparseCholesky::Matrix& matrix,
+	Eigen::MatrixX2d& residual,
+	const Tick& tick)
 {
-	EdgeArray<double> weights(t.edgeCount(), 0.0);
-	for (const Face f : t.faces()) {
-		const auto h = t.halfedges(f);
-		const std::array<double, 3> l = {
-			lengths[h[0].edge()], lengths[h[1].edge()], lengths[h[2].edge()]};
-		const double area = euclideanArea(l);
-		for (std::size_t k = 0; k < 3; ++k) {
-			const double a = l[k], b = l[(k + 1) % 3], c = l[(k + 2) % 3];
-			weights[h[k].edge()] += ((b - a) * (b + a) + c * c) / (8.0 * area);
-		}
+	Eigen::MatrixX2d x = Eigen::MatrixX2d::Zero(residual.rows(), 2), direction = x, image = x;
+	Eigen::RowVector2d last;
+	for (int step = 0; step < kMaxSteps; ++step) {
+		tick();
+		const Eigen::MatrixX2d corrected = near.solve(residual);
+		const Eigen::RowVector2d energy = residual.cwiseProduct(corrected).colwise().sum();
+		if (!(energy.maxCoeff() > kEnergyError))
+			break;
+		if (step > 0)
+			direction *= energy.cwiseQuotient(last).asDiagonal();
+		direction += corrected;
+		image = matrix.selfadjointView<Eigen::Lower>() * direction;
+		const Eigen::RowVector2d slope = direction.cwiseProduct(image).colwise().sum();
+		Eigen::RowVector2d length = energy.cwiseQuotient(slope);
+		for (double& l : length)
+			l = std::isfinite(l) ? l : 0.0; // one side is solved already
+		x += direction * length.asDiagonal();
+		residual -= image * length.asDiagonal();
+		const double expected = step == 0
+									? energy.maxCoeff()
+									: energy.cwiseProduct(energy).cwiseQuotient(last).maxCoeff();
+		if (kCertainty * expected < kEnergyError)
+			break;
+		last = energy;
 	}
-	return weights;
+	return x;
 }
-
-/// Two values at each vertex.
-using Pair = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
-
-/// The cotangent Laplacian, with conjugate gradients for two right sides at a time. They are
-/// preconditioned with the factor of a nearby matrix, or with the Laplacian's own, which leaves them
-/// one step.
-class Laplacian
-{
-public:
-	Laplacian(
-		const Triangulation& t,
-		const EdgeArray<double>& weights,
-		FactoredHessian* near,
-		const Tick& tick) :
-			m_t(t),
-			m_weights(weights), m_row(t.vertexCount()),
-			m_cholesky(near != nullptr ? near->cholesky() : m_own)
-	{
-		if (near != nullptr) {
-			m_row = near->row();
-			m_rows.resize(near->unknowns());
-		}
-		else
-			factorize(tick);
-	}
-
-	bool isFactored() const { return m_isFactored; }
-
-	/// Solves for \p x to an energy of the error of about kEnergyError.
-	/// \param residual the right side, adding up to 0; what is left of it on return
-	void solve(Pair& residual, Pair& x, const Tick& tick)
-	{
-		x.setZero(residual.rows(), 2);
-		Pair direction, image, corrected;
-		Eigen::RowVector2d last, slope;
-		for (int step = 0; step < kMaxSteps; ++step) {
-			tick();
-			precondition(residual, corrected);
-			const Eigen::RowVector2d energy = residual.cwiseProduct(corrected).colwise().sum();
-			if (!(energy.maxCoeff() > kEnergyError))
-				break;
-			direction = step == 0
-							? corrected
-							: Pair(corrected + direction * energy.cwiseQuotient(last).asDiagonal());
-			const double expected =
-				step == 0 ? energy.maxCoeff()
-						  : energy.cwiseProduct(energy).cwiseQuotient(last).maxCoeff();
-			last = energy;
-			multiply(direction, image);
-			slope = direction.cwiseProduct(image).colwise().sum();
-			Eigen::RowVector2d length = energy.cwiseQuotient(slope);
-			for (double& l : length)
-				l = std::isfinite(l) ? l : 0.0; // one side is solved already
-			x += direction * length.asDiagonal();
-			residual -= image * length.asDiagonal();
-			if (kCertainty * expected < kEnergyError)
-				break;
-		}
-	}
-
-private:
-	static constexpr double kEnergyError = 1e-7;
-	static constexpr int kMaxSteps = 100;
-
-	/// The energy falls by like factors. Where the last one would bring it so much below the bound, no
-	/// further solution is spent on finding it there.
-	static constexpr double kCertainty = 10.0;
-
-	void factorize(const Tick& tick)
-	{
-		for (const Vertex v : m_t.vertices())
-			m_row[v] = v.number() - 1; // the value at one vertex is held
-		const int unknowns = m_t.vertexCount() - 1;
-		m_rows.resize(unknowns);
-		if (unknowns == 0)
-			return;
-		SparseCholesky::Matrix matrix(unknowns, unknowns);
-		const auto layOut = [&] { fill(matrix); };
-		layOut();
-		m_own.analyze(matrix, m_row.values(), layOut);
-		m_isFactored = m_own.factorize(matrix, tick);
-	}
-
-	void fill(SparseCholesky::Matrix& matrix) const
-	{
-		Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(matrix.rows());
-		std::vector<Eigen::Triplet<double>> entries;
-		entries.reserve(positionOf(m_t.edgeCount() + m_t.vertexCount()));
-		for (const Edge e : m_t.edges()) {
-			const auto ends = m_t.ends(e);
-			const int a = m_row[ends[0]], b = m_row[ends[1]];
-			if (a == b)
-				continue; // a loop
-			for (const int row : {a, b})
-				if (row >= 0)
-					diagonal[row] += m_weights[e];
-			if (a >= 0 && b >= 0)
-				entries.emplace_back(std::max(a, b), std::min(a, b), -m_weights[e]);
-		}
-		for (int row = 0; row < diagonal.size(); ++row)
-			entries.emplace_back(row, row, diagonal[row]);
-		matrix.setFromTriplets(entries.begin(), entries.end());
-	}
-
-	void precondition(const Pair& residual, Pair& corrected)
-	{
-		corrected.setZero(residual.rows(), 2);
-		if (m_rows.size() == 0)
-			return;
-		for (const Vertex v : m_row.indices())
-			if (m_row[v] >= 0)
-				m_rows[m_row[v]] = {residual(v.number(), 0), residual(v.number(), 1)};
-		m_cholesky.solve(m_rows, m_solution);
-		for (const Vertex v : m_row.indices())
-			if (m_row[v] >= 0)
-				corrected.row(v.number()) << m_solution[m_row[v]].real(),
-					m_solution[m_row[v]].imag();
-	}
-
-	void multiply(const Pair& x, Pair& image) const
-	{
-		image.setZero(x.rows(), 2);
-		for (const Edge e : m_t.edges()) {
-			const auto ends = m_t.ends(e);
-			const Eigen::RowVector2d flux =
-				m_weights[e] * (x.row(ends[0].number()) - x.row(ends[1].number()));
-			image.row(ends[0].number()) += flux;
-			image.row(ends[1].number()) -= flux;
-		}
-	}
-
-	const Triangulation& m_t;
-	const EdgeArray<double>& m_weights;
-	VertexArray<int> m_row; // of the factor's matrix, or -1
-	SparseCholesky m_own;
-	SparseCholesky& m_cholesky;
-	bool m_isFactored = true;
-	Eigen::VectorXcd m_rows, m_solution;
-};
 
 /// Inner products of closed forms, nearly harmonic, that are cohomologous to those of the loops; empty
 /// where the Laplacian has no factor. With the forms t, the functions f that are added to them, the right
@@ -344,29 +234,34 @@ Eigen::MatrixXd energies(
 	const Tick& tick)
 {
 	tick();
-	Laplacian laplacian(t, weights, near, tick);
-	if (!laplacian.isFactored())
+	VertexArray<int> row(t.vertexCount());
+	for (const Vertex v : t.vertices())
+		row[v] = near != nullptr ? near->row()[v] : v.number() - 1; // the value at one vertex is held
+	const int unknowns = near != nullptr ? near->unknowns() : t.vertexCount() - 1;
+	const SparseCholesky::Matrix matrix =
+		laplacian(t, weights, row, Eigen::VectorXd::Zero(unknowns));
+	SparseCholesky own;
+	SparseCholesky& cholesky = near != nullptr ? near->cholesky() : own;
+	if (near == nullptr && !own.factorize(matrix, tick))
 		return {};
 	const auto n = static_cast<Eigen::Index>(loops.size());
-	Eigen::MatrixXd energy(n, n), functions(t.vertexCount(), n);
+	Eigen::MatrixXd energy(n, n), functions(unknowns, n);
 	LoopForm form(t.edgeCount());
-	Pair residual, solution;
 	for (Eigen::Index k = 0; k < n; k += 2) {
-		residual.setZero(t.vertexCount(), 2);
+		Eigen::MatrixX2d residual = Eigen::MatrixX2d::Zero(unknowns, 2);
 		for (const Eigen::Index part : {0, 1})
-			for (const Halfedge h : loops[static_cast<std::size_t>(k + part)]) {
-				residual(t.origin(h).number(), part) += weights[h.edge()];
-				residual(t.target(h).number(), part) -= weights[h.edge()];
-			}
-		laplacian.solve(residual, solution, tick);
-		functions.middleCols<2>(k) = solution;
+			for (const Halfedge h : loops[static_cast<std::size_t>(k + part)])
+				for (const Halfedge side : {h, h.twin()})
+					if (const int i = row[t.origin(side)]; i >= 0)
+						residual(i, part) += side == h ? weights[h.edge()] : -weights[h.edge()];
+		functions.middleCols<2>(k) = solveNear(cholesky, matrix, residual, tick);
 		for (const Eigen::Index i : {k, k + 1}) {
+			const auto at = [&](Vertex v) { return row[v] >= 0 ? functions(row[v], i) : 0.0; };
 			form.add(loops[static_cast<std::size_t>(i)], 1);
 			for (Eigen::Index j = 0; j <= i; ++j) {
 				double sum = -functions.col(j).dot(residual.col(i - k));
 				for (const Halfedge h : loops[static_cast<std::size_t>(j)])
-					sum += weights[h.edge()] * (form[h] + functions(t.target(h).number(), i) -
-												functions(t.origin(h).number(), i));
+					sum += weights[h.edge()] * (form[h] + at(t.target(h)) - at(t.origin(h)));
 				energy(i, j) = energy(j, i) = sum;
 			}
 			form.add(loops[static_cast<std::size_t>(i)], -1);
