@@ -294,7 +294,7 @@ double oneFactorisation(const CurvatureMap& map, const Target& target, int repea
 	const FlowOptions& options)
 {
 	return runRicciFlow(
-		background, surface, flowStart(surface, options), target, options, [](int, double) {});
+		background, surface, initialPacking(surface, options), target, options, [](int, double) {});
 }
 
 /// One box beside the other: a host's packing is its own.
@@ -352,7 +352,7 @@ void measure(
 	row.read += timeOf(setUp);
 	const EmbeddedSurface& surface = domain.surface;
 	row.faces = static_cast<std::size_t>(surface.triangulation.faceCount());
-	FlowStart start;
+	InitialPacking start;
 	Target target;
 	if (background == Background::EuclideanPlane)
 		target = chooseTarget(surface, start, chooseRequest(surface, row.target));
@@ -368,7 +368,7 @@ void measure(
 	}
 
 	// By itself once more; the flow includes it.
-	row.packing = timeOf([&] { flowStart(surface, options); });
+	row.packing = timeOf([&] { initialPacking(surface, options); });
 	FlowResult flow;
 	const int repeat = repetitions(row.faces);
 	row.flow = INFINITY;

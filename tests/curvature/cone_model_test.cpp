@@ -126,7 +126,7 @@ TEST(ConeModel, OfAFlatTorusHasNothingToGain)
 		flat.lengths[e] = 1.0;
 	Packed packed(flat.triangulation, flat.lengths);
 	const EmbeddedSurface surface = surfaceOf(packed);
-	FlowStart start = flowStart(surface, FlowOptions());
+	InitialPacking start = initialPacking(surface, FlowOptions());
 	LinearFlow flow(surface, start, ConeBoundary::Fixed);
 	ConeModel model(flow, 0.0);
 	EXPECT_LT(model.distortion(), 1e-6);

@@ -31,7 +31,7 @@ constexpr double kQuarter = 0.5 * kPi;
 PlacedCones place(const Packed& p, const ConeRequest& request)
 {
 	const EmbeddedSurface surface = surfaceOf(p);
-	FlowStart start = flowStart(surface, FlowOptions());
+	InitialPacking start = initialPacking(surface, FlowOptions());
 	return placeCones(surface, start, request);
 }
 
@@ -225,7 +225,7 @@ TEST(ConePlacement, LowersTheDistortionInsideABoundary)
 		request.options.freeBoundary = false;
 		request.options.cones.count = 3;
 		const EmbeddedSurface surface = surfaceOf(p);
-		FlowStart start = flowStart(surface, FlowOptions());
+		InitialPacking start = initialPacking(surface, FlowOptions());
 		const Target target = chooseTarget(surface, start, request);
 		EXPECT_NEAR(
 			target.curvature.sum(), 2 * kPi * surface.topology.type.eulerCharacteristic(), 1e-10);
@@ -364,14 +364,12 @@ TEST(ConePlacement, TakesTheStartOfTheFlowForItsOwn)
 	onInput.method = Method::FixedTriangles;
 	ConeRequest request;
 	request.count = 6;
-	FlowStart shared = flowStart(surface, FlowOptions()), other = flowStart(surface, onInput);
+	InitialPacking shared = initialPacking(surface, FlowOptions()), other = initialPacking(surface, onInput);
 	const PlacedCones a = placeCones(surface, shared, request);
 	const PlacedCones b = placeCones(surface, other, request);
 	EXPECT_EQ(a.vertices, b.vertices);
 	EXPECT_EQ(a.curvatures, b.curvatures);
 	EXPECT_EQ(a.distortion, b.distortion);
-	EXPECT_TRUE(shared.hessian);
-	EXPECT_FALSE(other.hessian);
 }
 
 /// A flow to a few cones on a surface whose areas it changes much.
@@ -389,7 +387,7 @@ struct FlowToFewCones
 		request.options.target = TargetCurvature::PlacedCones;
 		request.options.freeBoundary = boundary == ConeBoundary::Fixed;
 		request.options.cones.count = cones;
-		FlowStart start = flowStart(surface, FlowOptions());
+		InitialPacking start = initialPacking(surface, FlowOptions());
 		const Target target = chooseTarget(surface, start, request);
 		flow = to(target);
 	}
@@ -399,7 +397,7 @@ struct FlowToFewCones
 		return runRicciFlow(
 			Background::EuclideanPlane,
 			surface,
-			flowStart(surface, FlowOptions()),
+			initialPacking(surface, FlowOptions()),
 			target,
 			FlowOptions(),
 			[](int, double) {});

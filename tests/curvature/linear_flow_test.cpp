@@ -169,63 +169,6 @@ bool sameBits(const VertexVector& a, const VertexVector& b)
 	return a.size() == b.size() && (a.array() == b.array()).all();
 }
 
-TEST(LinearFlow, LeavesItsFactorToTheFlowWhichFindsTheSameToTheBit)
-{
-	Random random(765);
-	const SurfaceMesh sphere = shaken(perforatedSlab(0, 4), 0.05, random);
-	const SurfaceMesh genus2 = shaken(perforatedSlab(2, 3), 0.05, random);
-	const struct
-	{
-		SurfaceMesh mesh;
-		bool freeBoundary;
-	} flows[] = {
-		{sphere, true},
-		{genus2, true},
-		{withoutStars(genus2, {0, 60}), true},
-		{withoutStars(sphere, {0}), false}};
-	int compared = 0;
-	for (const auto& c : flows) {
-		const EmbeddedSurface surface =
-			embeddedSurface(VertexArray<Point3>(c.mesh.positions), c.mesh.triangles);
-		SCOPED_TRACE(surface.topology.type.name());
-		FlowOptions options;
-		options.epsilon = 1e-10;
-		TargetRequest request;
-		request.options.target = TargetCurvature::PlacedCones;
-		request.options.freeBoundary = c.freeBoundary;
-		request.options.cones.count = 6;
-		FlowStart start = flowStart(surface, options);
-		EXPECT_FALSE(start.hessian);
-		const Target target = chooseTarget(surface, start, request);
-		ASSERT_TRUE(start.hessian);
-		const auto run = [&](FlowStart from) {
-			return runRicciFlow(
-				Background::EuclideanPlane,
-				surface,
-				std::move(from),
-				target,
-				options,
-				[](int, double) {});
-		};
-		const FlowResult with = run(std::move(start)), without = run(flowStart(surface, options));
-		EXPECT_EQ(with.iterations, without.iterations);
-		EXPECT_GT(with.iterations, 1);
-		EXPECT_TRUE(sameBits(with.u, without.u));
-		EXPECT_TRUE(sameBits(with.curvature, without.curvature));
-		EXPECT_EQ(with.metric->lengths(), without.metric->lengths());
-		EXPECT_EQ(with.history.flowFlips, without.history.flowFlips);
-		EXPECT_EQ(with.residual, without.residual);
-		EXPECT_EQ(with.doubled, without.doubled);
-		if (with.doubled)
-			continue; // the double has a start of its own
-		// The factor of the placement, which the flow counts as its own, spares it one.
-		EXPECT_EQ(with.work.factorizations, without.work.factorizations);
-		EXPECT_GT(with.work.solutions, without.work.solutions);
-		++compared;
-	}
-	EXPECT_GE(compared, 3);
-}
-
 /// A flow, and the linear flow where it ends.
 struct AtTheEnd
 {
@@ -242,7 +185,7 @@ struct AtTheEnd
 		request.options.target = TargetCurvature::PlacedCones;
 		request.options.freeBoundary = boundary == ConeBoundary::Fixed;
 		request.options.cones.count = cones;
-		FlowStart start = flowStart(surface, FlowOptions());
+		InitialPacking start = initialPacking(surface, FlowOptions());
 		target = chooseTarget(surface, start, request);
 		flow = to(target);
 	}
@@ -254,7 +197,7 @@ struct AtTheEnd
 		return runRicciFlow(
 			Background::EuclideanPlane,
 			surface,
-			flowStart(surface, options),
+			initialPacking(surface, options),
 			wanted,
 			options,
 			[](int, double) {});
@@ -318,7 +261,7 @@ TEST(LinearFlow, AtAFlowsEndKnowsOtherTargetsToSecondOrder)
 		if (end.flow.doubled)
 			continue; // linearised at a start
 		++tried;
-		FlowStart start = flowStart(end.surface, FlowOptions());
+		InitialPacking start = initialPacking(end.surface, FlowOptions());
 		LinearFlow atStart(end.surface, start, c.boundary);
 		LinearFlow atEnd(end.surface, end.flow, c.boundary, atStart.area());
 		const auto errors = [&](double k) {

@@ -25,11 +25,11 @@ struct Linearised
 {
 	Packed packed;
 	EmbeddedSurface surface;
-	FlowStart start;
+	InitialPacking start;
 	LinearFlow flow;
 
 	explicit Linearised(const LinearCase& c) :
-			packed(c.mesh), surface(surfaceOf(packed)), start(flowStart(surface, FlowOptions())),
+			packed(c.mesh), surface(surfaceOf(packed)), start(initialPacking(surface, FlowOptions())),
 			flow(surface, start, c.boundary)
 	{
 	}

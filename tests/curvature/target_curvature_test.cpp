@@ -51,7 +51,7 @@ struct TestSurface : EmbeddedSurface
 	}
 	Target choose(const TargetRequest& r) const
 	{
-		FlowStart start = flowStart(*this, FlowOptions());
+		InitialPacking start = initialPacking(*this, FlowOptions());
 		return chooseTarget(*this, start, r);
 	}
 	Target choose(TargetCurvature mode, const std::vector<Vertex>& selected = {}) const
@@ -329,8 +329,7 @@ TEST(TargetCurvature, AutomaticGoesByTopologyWhereNoAreasAreMeasured)
 					continue;
 				TargetRequest request = surface.request(TargetCurvature::Automatic);
 				request.options.freeBoundary = freeBoundary;
-				request.options.method =
-					keepsAreas ? Method::IntrinsicFlips : Method::FixedTriangles;
+				request.measuresAreas = keepsAreas;
 				const Target target = surface.choose(request);
 				EXPECT_EQ(coneCount(surface, target), 0);
 				EXPECT_FALSE(target.maxSpread);
@@ -385,7 +384,7 @@ FlowResult flowTo(const TestSurface& surface, const Target& target)
 	return runRicciFlow(
 		Background::EuclideanPlane,
 		surface,
-		flowStart(surface, FlowOptions()),
+		initialPacking(surface, FlowOptions()),
 		target,
 		FlowOptions(),
 		[](int, double) {});
@@ -398,11 +397,11 @@ TEST(TargetToKeepAreas, IsAskedForWhereAreasSpreadMoreThanTheTargetAllows)
 		SCOPED_TRACE(p.name + ", " + std::to_string(p.spread));
 		const TestSurface surface(p.mesh);
 		TargetRequest request = surface.request(TargetCurvature::Automatic);
-		request.options.method = Method::FixedTriangles;
+		request.measuresAreas = false;
 		FlowResult flow = flowTo(surface, surface.choose(request)); // without cones
-		request.options.method = Method::IntrinsicFlips;
+		request.measuresAreas = true;
 		const auto next = [&] {
-			FlowStart start = flowStart(surface, FlowOptions());
+			InitialPacking start = initialPacking(surface, FlowOptions());
 			return targetToKeepAreas(surface, start, flow, request);
 		};
 		EXPECT_FALSE(next()); // the target promises nothing

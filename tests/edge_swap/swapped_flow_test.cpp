@@ -62,8 +62,8 @@ struct SwapRun
 	SwappedFlow operator()()
 	{
 		SwapListener listener;
-		listener.chooseTarget = [&](const EmbeddedSurface& surface, FlowStart& start) {
-			EXPECT_EQ(start.packing.radii.size(), surface.positions.size());
+		listener.chooseTarget = [&](const EmbeddedSurface& surface, const InitialPacking& start) {
+			EXPECT_EQ(start.radii.size(), surface.positions.size());
 			++starts;
 			const int n = surface.triangulation.vertexCount();
 			startVertices.push_back(n);
@@ -281,7 +281,7 @@ TEST(SwappedFlow, ErrorsOfTheTargetPassThrough)
 {
 	SwapRun run(fanWithAWideTriangle(), -1.0);
 	SwapListener listener;
-	listener.chooseTarget = [](const EmbeddedSurface&, FlowStart&) -> Target {
+	listener.chooseTarget = [](const EmbeddedSurface&, const InitialPacking&) -> Target {
 		throw InvalidOption(InvalidOption::NothingSelected);
 	};
 	EXPECT_THROW(flowWithEdgeSwaps(run.component, run.options, listener), InvalidOption);

@@ -55,7 +55,7 @@ TEST(FlowProblem, TheDoubleIsSymmetricAndHasTwiceTheCurvature)
 			EXPECT_EQ(d.mirror[d.mirror[v]], v);
 			EXPECT_EQ(d.target.curvature[d.mirror[v]], d.target.curvature[v]);
 			EXPECT_EQ(d.target.fixed[d.mirror[v]], d.target.fixed[v]);
-			EXPECT_EQ(d.start.packing.radii[d.mirror[v]], d.start.packing.radii[v]);
+			EXPECT_EQ(d.start.radii[d.mirror[v]], d.start.radii[v]);
 			onAxis += d.mirror[v] == v;
 			if (v.number() < d.vertexCount) {
 				EXPECT_EQ(d.mirror[v] == v, topology.boundary[v] == 1);
@@ -78,7 +78,7 @@ TEST(FlowRun, GoesOnFromTheHalfOnTheDouble)
 		FlowRun half(
 			Background::EuclideanPlane,
 			flowProblem(
-				p.flow.surface(), flowStart(p.flow.surface(), p.options), p.flow.result.target),
+				p.flow.surface(), initialPacking(p.flow.surface(), p.options), p.flow.result.target),
 			p.options,
 			0,
 			silent,
@@ -111,7 +111,7 @@ TEST(FlowRun, TellsWhyItStoppedEarly)
 		if (background == Background::HyperbolicPlane)
 			target.curvature[Vertex(0)] = 1.0;
 		FlowProblem problem =
-			flowProblem(flow.surface(), flowStart(flow.surface(), options), target);
+			flowProblem(flow.surface(), initialPacking(flow.surface(), options), target);
 		problem.maxSteps = 1;
 		const FlowListener silent = [](int, double) {};
 		FlowRun run(background, std::move(problem), options, 0, silent, {});

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -118,7 +117,7 @@ TEST(Newton, SolvesADoubleOnHalfTheUnknowns)
 		ASSERT_TRUE(whole.result.converged);
 
 		Map map = mesh.map();
-		NewtonSolver solver(map, nothingFixed(mesh), nullptr, d.mirror);
+		NewtonSolver solver(map, nothingFixed(mesh), d.mirror);
 		VertexVector u = mesh.u();
 		const NewtonResult symmetric = solver.solve(u, target, options, silent);
 		ASSERT_TRUE(symmetric.converged);
@@ -469,167 +468,6 @@ TEST(Newton, StepsWithAnOldFactorReachTheSameMetric)
 	VertexVector difference = u - direct.u;
 	difference.array() -= difference.mean();
 	EXPECT_LT(difference.lpNorm<Eigen::Infinity>(), 1e-10);
-}
-
-/// A factor of the Hessian of \p map at \p u.
-std::unique_ptr<FactoredHessian>
-factorAt(CurvatureMap& map, const VertexVector& u, const VertexArray<char>& fixed)
-{
-	auto hessian = std::make_unique<FactoredHessian>(fixed, map.scaleInvariant());
-	map.evaluate(u);
-	hessian->factorize(map);
-	return hessian;
-}
-
-struct SolvedFrom
-{
-	Solved solved;
-	CholeskyWork work;
-};
-
-/// Solves for K = 0 with \p map from \p u and the factor \p start.
-SolvedFrom solveFrom(
-	CurvatureMap& map,
-	const VertexVector& u,
-	const VertexArray<char>& fixed,
-	std::unique_ptr<FactoredHessian> start,
-	const NewtonSolver::Surgeon& surgeon = nullptr)
-{
-	NewtonSolver solver(map, fixed, std::move(start));
-	Solved s;
-	s.u = u;
-	s.result = solver.solve(s.u, VertexVector::Zero(u.size()), {}, silent, surgeon);
-	s.low = solver.low();
-	return {s, solver.work()};
-}
-
-void expectSameSolution(const Solved& a, const Solved& b)
-{
-	EXPECT_EQ(a.result.converged, b.result.converged);
-	EXPECT_EQ(a.result.iterations, b.result.iterations);
-	EXPECT_EQ(a.result.residual, b.result.residual);
-	EXPECT_EQ(a.u, b.u);
-	EXPECT_EQ(a.low, b.low);
-}
-
-void expectSameWork(const CholeskyWork& a, const CholeskyWork& b)
-{
-	EXPECT_EQ(a.orderings, b.orderings);
-	EXPECT_EQ(a.analyses, b.analyses);
-	EXPECT_EQ(a.factorizations, b.factorizations);
-	EXPECT_EQ(a.solutions, b.solutions);
-	EXPECT_EQ(a.flops, b.flops);
-}
-
-TEST(Newton, TakesOverTheFactorOfItsFirstIterate)
-{
-	Random random(82);
-	const Packed closed(bumpyTorus(30, 20, random)), open(sliverDisk(12, 1.0, random));
-	for (const Packed* mesh : {&closed, &open}) {
-		const VertexArray<char> fixed =
-			mesh == &open ? open.triangulation.boundaryVertices() : nothingFixed(closed);
-		Map own = mesh->map(), other = mesh->map(), factored = mesh->map();
-		const SolvedFrom without = solveFrom(own, mesh->u(), fixed, nullptr);
-		EXPECT_TRUE(without.solved.result.converged);
-		EXPECT_GT(without.solved.result.iterations, 1);
-		auto start = factorAt(factored, mesh->u(), fixed);
-		// Work that was done with it before: one solution more than the solver needs.
-		start->cholesky().solve(start->gather(factored.curvature()));
-		const CholeskyWork before = start->cholesky().work();
-		EXPECT_EQ(before.factorizations, 1);
-		const SolvedFrom with = solveFrom(other, mesh->u(), fixed, std::move(start));
-		expectSameSolution(with.solved, without.solved);
-		// One factorisation and one ordering less of its own.
-		EXPECT_EQ(with.work.orderings - before.orderings, without.work.orderings - 1);
-		EXPECT_EQ(
-			with.work.factorizations - before.factorizations, without.work.factorizations - 1);
-		EXPECT_EQ(with.work.solutions - before.solutions, without.work.solutions);
-		EXPECT_LT(with.work.flops - before.flops, without.work.flops);
-	}
-}
-
-TEST(Newton, AFactorOfOtherUnknownsIsIgnored)
-{
-	Random random(83);
-	const Packed mesh(sliverDisk(12, 1.0, random));
-	const VertexArray<char> fixed = mesh.triangulation.boundaryVertices();
-	VertexArray<char> oneMore = fixed, oneLess = fixed;
-	*std::find(oneMore.begin(), oneMore.end(), 0) = 1;
-	*std::find(oneLess.begin(), oneLess.end(), 1) = 0;
-	Map own = mesh.map();
-	const SolvedFrom without = solveFrom(own, mesh.u(), fixed, nullptr);
-	EXPECT_GT(without.solved.result.iterations, 1);
-	for (const VertexArray<char>& others : {oneMore, oneLess, nothingFixed(mesh)}) {
-		Map map = mesh.map(), factored = mesh.map();
-		const SolvedFrom with =
-			solveFrom(map, mesh.u(), fixed, factorAt(factored, mesh.u(), others));
-		expectSameSolution(with.solved, without.solved);
-		expectSameWork(with.work, without.work);
-	}
-	// Nor is there anything to take over without a factorisation.
-	Map map = mesh.map();
-	const SolvedFrom with =
-		solveFrom(map, mesh.u(), fixed, std::make_unique<FactoredHessian>(fixed, true));
-	expectSameSolution(with.solved, without.solved);
-	expectSameWork(with.work, without.work);
-}
-
-TEST(Newton, AFactorOfAnotherTriangulationIsIgnored)
-{
-	// The first evaluation flips edges, so that the factor is that of triangles which are gone.
-	Random random(84);
-	const Packed mesh(bumpyTorus(30, 20, random));
-	VertexVector u = mesh.u();
-	for (double& x : u)
-		x += random.real(-0.2, 0.2);
-	FlippingCurvatureMap<Euclidean> own(mesh.packing), other(mesh.packing);
-	const SolvedFrom without = solveFrom(own, u, nothingFixed(mesh), nullptr);
-	EXPECT_TRUE(without.solved.result.converged);
-	EXPECT_GT(without.solved.result.iterations, 1);
-	Map unflipped = mesh.map();
-	auto start = factorAt(unflipped, u, nothingFixed(mesh));
-	ASSERT_EQ(unflipped.revision(), 0);
-	const SolvedFrom with = solveFrom(other, u, nothingFixed(mesh), std::move(start));
-	EXPECT_NE(other.revision(), 0);
-	expectSameSolution(with.solved, without.solved);
-	expectSameWork(with.work, without.work);
-}
-
-TEST(Newton, AFactorFromBeforeASwapIsIgnored)
-{
-	const Packed mesh(rectangle(6, 6, 1.0, 1.0));
-	const VertexArray<char> fixed = mesh.triangulation.boundaryVertices();
-	VertexVector u = mesh.u();
-	for (const Vertex v : u.indices())
-		if (!fixed[v])
-			u[v] -= 0.05;
-	const auto solveWith = [&](bool withFactor) {
-		Map map = mesh.map(), factored = mesh.map();
-		bool done = false;
-		const auto surgeon = [&](CurvatureMap& m) {
-			if (done)
-				return false;
-			done = true;
-			const Triangulation& t = m.triangulation();
-			const double d = std::sqrt(2.0) / 6;
-			for (const Edge e : t.edges()) {
-				if (!t.isFlippable(e) || std::abs(mesh.lengths[e] - d) > 1e-9)
-					continue;
-				const Vertex k = t.apex(e.halfedge()), l = t.apex(e.halfedge().twin());
-				m.swapEdge(e, Euclidean::delta(d, mesh.radii[k], mesh.radii[l]));
-				return true;
-			}
-			ADD_FAILURE() << "no diagonal";
-			return false;
-		};
-		return solveFrom(
-			map, u, fixed, withFactor ? factorAt(factored, u, fixed) : nullptr, surgeon);
-	};
-	const SolvedFrom without = solveWith(false), with = solveWith(true);
-	EXPECT_TRUE(without.solved.result.converged);
-	EXPECT_GT(without.solved.result.iterations, 1);
-	expectSameSolution(with.solved, without.solved);
-	expectSameWork(with.work, without.work);
 }
 
 TEST(Newton, FollowsASurgeonThatChangesTheConnectivity)

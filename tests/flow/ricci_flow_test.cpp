@@ -83,7 +83,7 @@ TEST(RicciFlow, SolvesWhatBreaksOnAFixedTriangulation)
 				runRicciFlow(
 					Background::EuclideanPlane,
 					flow.surface(),
-					flowStart(flow.surface(), options),
+					initialPacking(flow.surface(), options),
 					flow.result.target,
 					options,
 					[](int, double) {});
@@ -256,7 +256,7 @@ TEST(RicciFlow, TakesEqualSharesOfTheTotalCurvature)
 		const double share = -16 * kPi / static_cast<double>(n);
 		TargetRequest request = prescribed(std::vector<double>(n, share));
 		request.prescribedPrecision = std::numeric_limits<double>::epsilon();
-		FlowStart start; // a prescribed target does not ask for it
+		InitialPacking start; // a prescribed target does not ask for it
 		EXPECT_NO_THROW(chooseTarget(surface, start, request));
 	}
 }

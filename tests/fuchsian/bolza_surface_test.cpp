@@ -231,7 +231,7 @@ TEST(BolzaSurface, PrintedStartIsTheMetricAndTheScaleFreeOneConvergesToIt)
 		const FlowResult flow = runRicciFlow(
 			Background::HyperbolicPlane,
 			embedded,
-			flowStart(embedded, options),
+			initialPacking(embedded, options),
 			target,
 			options,
 			[](int, double) {});

@@ -12,14 +12,11 @@
 #include "support/transform.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/curvature/linear_flow.h>
-#include <ricci/flow/ricci_flow.h>
 #include <ricci/math/disjoint_sets.h>
 #include <ricci/measure/distortion.h>
 #include <ricci/measure/invariants.h>
 #include <ricci/measure/period_matrix.h>
 #include <ricci/parametrize.h>
-#include <ricci/surface/topology.h>
 
 #include <gtest/gtest.h>
 
@@ -450,31 +447,6 @@ TEST(PeriodMatrix, ErrorIsTheLogarithmOfTheLargestEigenvalue)
 		const double k = std::sqrt(harmonicEnergies(mesh, nv).determinant());
 		EXPECT_GT(k, 1.001);
 		EXPECT_NEAR(periodMatrixOf(intrinsicMesh(mesh)).error, std::log(k), 1e-9);
-	}
-}
-
-/// Conjugate gradients end when the energy of what is left is 1e-7, and the energies are about 1.
-TEST(PeriodMatrix, WithTheFactorOfANearbyMatrixItIsTheSameToSevenDigits)
-{
-	Random random(505);
-	for (const int genus : {1, 2}) {
-		const Packed packed(shaken(perforatedSlab(genus, 3), 0.05, random));
-		const EmbeddedSurface surface{
-			packed.triangulation, {}, packed.lengths, topologyOf(packed.triangulation)};
-		FlowStart start = flowStart(surface, FlowOptions());
-		const LinearFlow flow(surface, start, ConeBoundary::Fixed);
-		ASSERT_TRUE(start.hessian);
-		IntrinsicMesh mesh = start.packing.mesh;
-		for (double& l : mesh.lengths)
-			l *= random.real(0.9, 1.1);
-		int ticks = 0, ownTicks = 0;
-		const PeriodMatrix near =
-			periodMatrix(mesh.triangulation, mesh.lengths, start.hessian.get(), [&] { ++ticks; });
-		const PeriodMatrix own =
-			periodMatrix(mesh.triangulation, mesh.lengths, nullptr, [&] { ++ownTicks; });
-		EXPECT_GT(ticks, ownTicks + 2 * genus); // it is another matrix
-		EXPECT_LT(classDistance(own.omega, near.omega, 1e-3), 1e-6);
-		EXPECT_NEAR(near.error, own.error, 1e-6);
 	}
 }
 

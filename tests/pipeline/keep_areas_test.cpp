@@ -84,7 +84,7 @@ struct FirstFlow
 			surface(embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles))
 	{
 		request.options.cones.distortion = distortion;
-		FlowStart start = flowStart(surface, options);
+		InitialPacking start = initialPacking(surface, options);
 		run(chooseTarget(surface, start, request));
 	}
 
@@ -96,7 +96,7 @@ struct FirstFlow
 		few.options.cones.count = surface.topology.type.isSphere()   ? 3
 						: surface.topology.type.isClosed() ? 2
 														   : 1;
-		FlowStart start = flowStart(surface, options);
+		InitialPacking start = initialPacking(surface, options);
 		Target target = chooseTarget(surface, start, few);
 		target.maxSpread = request.options.cones.distortion;
 		run(target);
@@ -111,7 +111,7 @@ struct FirstFlow
 		map.flow = runRicciFlow(
 			Background::EuclideanPlane,
 			surface,
-			flowStart(surface, options),
+			initialPacking(surface, options),
 			target,
 			options,
 			progress);

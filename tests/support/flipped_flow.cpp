@@ -88,7 +88,7 @@ void FlippedFlow::run(HyperbolicRequest request, double epsilon)
 	result = runRicciFlow(
 		Background::HyperbolicPlane,
 		surface(),
-		flowStart(surface(), options),
+		initialPacking(surface(), options),
 		chooseHyperbolicTarget(surface().topology, request.options, request),
 		options,
 		[](int, double) {});
@@ -101,7 +101,7 @@ void FlippedFlow::run(TargetRequest request, double epsilon)
 	if (request.prescribedPrecision == 0.0)
 		request.prescribedPrecision = std::numeric_limits<double>::epsilon();
 	const FlowOptions options = optionsOf(epsilon);
-	FlowStart start = flowStart(surface(), options);
+	InitialPacking start = initialPacking(surface(), options);
 	const Target target = chooseTarget(surface(), start, request);
 	result = runRicciFlow(
 		Background::EuclideanPlane, surface(), std::move(start), target, options, [](int, double) {

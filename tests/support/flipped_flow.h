@@ -20,7 +20,7 @@ namespace ricci::testing {
 /// What chooseHyperbolicTarget() is asked for.
 struct HyperbolicRequest : TargetInput
 {
-	HyperbolicOptions options;
+	HyperbolicTargetOptions options;
 };
 
 /// The stages of the flow with intrinsic flips on one connected surface, up to the common

@@ -100,13 +100,6 @@ inline bool isFinished(const FlowOptions& options)
 	return options.finish != Finish::None && options.method == Method::IntrinsicFlips;
 }
 
-/// Which curvature the hyperbolic flow is asked to reach. The order is that of the filter's menu.
-enum class HyperbolicTarget {
-	HyperbolicMetric, ///< K = 0 at every vertex; a boundary becomes geodesic
-	SelectedCones,    ///< one total angle at each selected vertex, K = 0 elsewhere
-	Prescribed        ///< one value for each vertex, in radians
-};
-
 /// Which cones are placed, see placeCones().
 struct ConeOptions
 {
@@ -118,19 +111,23 @@ struct ConeOptions
 	ConeRounding rounding = ConeRounding::Free;
 };
 
-/// Options of the Euclidean flow.
-struct Options : FlowOptions
+/// What the target of the Euclidean flow is chosen by.
+struct TargetOptions
 {
 	TargetCurvature target = TargetCurvature::Automatic;
 	ConeOptions cones;
-
-	/// How much longer a seam may be to run in hollows, 0 to 1; see seamCost().
-	double seamHiding = 0.0;
 
 	/// Fix u on the boundary (paper 5.3: du = 0), so that the boundary keeps its metric; the
 	/// prescribed curvature then holds at interior vertices only. Disk, Rectangle and the flat
 	/// annulus prescribe the boundary and ignore this.
 	bool freeBoundary = true;
+};
+
+/// Options of the Euclidean flow.
+struct Options : FlowOptions, TargetOptions
+{
+	/// How much longer a seam may be to run in hollows, 0 to 1; see seamCost().
+	double seamHiding = 0.0;
 
 	/// Capped belongs to intrinsic flips.
 	Holes holes = Holes::Boundaries;
@@ -138,8 +135,15 @@ struct Options : FlowOptions
 	Charts charts = Charts::WithoutOverlap;
 };
 
-/// Options of the hyperbolic flow.
-struct HyperbolicOptions : FlowOptions
+/// Which curvature the hyperbolic flow is asked to reach. The order is that of the filter's menu.
+enum class HyperbolicTarget {
+	HyperbolicMetric, ///< K = 0 at every vertex; a boundary becomes geodesic
+	SelectedCones,    ///< one total angle at each selected vertex, K = 0 elsewhere
+	Prescribed        ///< one value for each vertex, in radians
+};
+
+/// What the target of the hyperbolic flow is chosen by.
+struct HyperbolicTargetOptions
 {
 	HyperbolicTarget target = HyperbolicTarget::HyperbolicMetric;
 
@@ -150,7 +154,11 @@ struct HyperbolicOptions : FlowOptions
 	/// keep the radii that they have where the surface is scaled to the area 2 pi max(1, |chi|), so
 	/// that finely triangulated boundaries keep their lengths at that scale.
 	bool freeBoundary = false;
+};
 
+/// Options of the hyperbolic flow.
+struct HyperbolicOptions : FlowOptions, HyperbolicTargetOptions
+{
 	/// Find canonical generators of the Fuchsian group, too, see FuchsianGroup::handles.
 	bool canonicalGenerators = false;
 };

@@ -231,7 +231,7 @@ PlacedCones result(ConeModel& model)
 
 } // namespace
 
-PlacedCones placeCones(const EmbeddedSurface& surface, FlowStart& start, const ConeRequest& request)
+PlacedCones placeCones(const EmbeddedSurface& surface, const InitialPacking& start, const ConeRequest& request)
 {
 	LinearFlow flow(surface, start, request.boundary, request.tick);
 	return placeCones(surface, flow, request);

@@ -45,13 +45,12 @@ struct PlacedCones
 /// All of it is greedy: the cones are good ones, not provably the best. On a closed surface the
 /// curvatures add up to 2 pi chi. No cone lies on the boundary. The result depends on nothing but
 /// the arguments.
-/// \param start of the flow on \p surface, to which L belongs if it is a Delaunay start; its hessian
-/// then is left there for Newton's first step
+/// \param start of the flow on \p surface, to which L belongs if it is a Delaunay start
 /// \throw InvalidOption (TooFewCones, TooFewVertices) if the count is too small for the surface, or
 /// larger than its number of interior vertices
 /// \throw SolverFailed
 PlacedCones
-placeCones(const EmbeddedSurface& surface, FlowStart& start, const ConeRequest& request);
+placeCones(const EmbeddedSurface& surface, const InitialPacking& start, const ConeRequest& request);
 
 /// The same with the linear problem at hand.
 /// \param flow at the start on \p surface, with the boundary of \p request

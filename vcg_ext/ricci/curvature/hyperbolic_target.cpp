@@ -58,7 +58,7 @@ void checkSum(const Topology& topology, HyperbolicTarget mode, const Target& tar
 } // namespace
 
 Target chooseHyperbolicTarget(
-	const Topology& topology, const HyperbolicOptions& options, const TargetInput& input)
+	const Topology& topology, const HyperbolicTargetOptions& options, const TargetInput& input)
 {
 	Target target = zeroTarget(topology);
 	switch (options.target) {

@@ -16,7 +16,7 @@ namespace ricci {
 /// \throw InvalidOption if a cone's angle is not positive, or nothing is selected for cones
 /// \throw InadmissibleCurvature otherwise, with the numbers that contradict each other
 Target chooseHyperbolicTarget(
-	const Topology& topology, const HyperbolicOptions& options, const TargetInput& input);
+	const Topology& topology, const HyperbolicTargetOptions& options, const TargetInput& input);
 
 } // namespace ricci
 

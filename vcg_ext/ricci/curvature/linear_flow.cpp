@@ -33,15 +33,14 @@ std::unique_ptr<CurvatureMap> mapOf(const InitialPacking& packing)
 } // namespace
 
 LinearFlow::LinearFlow(
-	const EmbeddedSurface& surface, FlowStart& start, ConeBoundary boundary, const Tick& tick) :
+	const EmbeddedSurface& surface, const InitialPacking& start, ConeBoundary boundary, const Tick& tick) :
 		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed())
 {
-	const bool isShared = start.packing.isDelaunay;
 	const auto map = mapOf(
-		isShared ? start.packing : delaunayPacking({surface.triangulation, surface.lengths}, {}));
+		start.isDelaunay ? start : delaunayPacking({surface.triangulation, surface.lengths}, {}));
 	m_curvature = map->curvature();
 	computeAreas(*map);
-	factorize(surface, *map, boundary, isShared ? start.hessian : m_ownHessian, tick);
+	factorize(surface, *map, boundary, tick);
 }
 
 LinearFlow::LinearFlow(
@@ -58,10 +57,9 @@ LinearFlow::LinearFlow(
 			surface,
 			*mapOf(delaunayPacking({surface.triangulation, surface.lengths}, {})),
 			boundary,
-			m_ownHessian,
 			tick);
 	else
-		factorize(surface, *flow.metric, boundary, m_ownHessian, tick);
+		factorize(surface, *flow.metric, boundary, tick);
 }
 
 LinearFlow::LinearFlow(LinearSystem system) :
@@ -132,13 +130,11 @@ void LinearFlow::factorize(
 	const EmbeddedSurface& surface,
 	const CurvatureMap& map,
 	ConeBoundary boundary,
-	std::unique_ptr<FactoredHessian>& hessian,
 	const Tick& tick)
 {
-	hessian = std::make_unique<FactoredHessian>(
+	m_hessian = std::make_unique<FactoredHessian>(
 		m_fixesBoundary ? surface.topology.boundary : VertexArray<char>(vertexCount(), 0),
 		map.scaleInvariant());
-	m_hessian = hessian.get();
 	m_unknowns = m_hessian->unknowns();
 	if (m_unknowns > 0)
 		m_hessian->factorize(map, tick);

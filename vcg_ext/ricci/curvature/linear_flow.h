@@ -32,16 +32,14 @@ struct LinearSystem
 class LinearFlow
 {
 public:
-	/// Factorises L. If \p start is a Delaunay start, L is the Hessian there, and its factor is left
-	/// in start.hessian, where Newton's first step finds it; else L is that of a Delaunay start made
-	/// here.
-	/// \param start the start of the flow on \p surface; has to outlive this object, with its
-	/// hessian
+	/// Factorises L. If \p start is a Delaunay start, L is the Hessian there; else L is that of a
+	/// Delaunay start made here.
+	/// \param start the start of the flow on \p surface
 	/// \param tick called while L is factorised, see SparseCholesky::factorize()
 	/// \throw SolverFailed
 	LinearFlow(
 		const EmbeddedSurface& surface,
-		FlowStart& start,
+		const InitialPacking& start,
 		ConeBoundary boundary,
 		const Tick& tick = {});
 
@@ -114,16 +112,14 @@ private:
 		const EmbeddedSurface& surface,
 		const CurvatureMap& map,
 		ConeBoundary boundary,
-		std::unique_ptr<FactoredHessian>& hessian,
 		const Tick& tick);
 	void spreadSink(const EmbeddedSurface& surface);
 	void balance(VertexVector& rhs) const;
 	Eigen::MatrixXd solveRows(const Eigen::MatrixXd& rhs);
 	Pair solveRows(const Pair& rhs);
 
-	std::unique_ptr<SparseCholesky> m_system;      // of a LinearSystem; null where there is a Hessian
-	std::unique_ptr<FactoredHessian> m_ownHessian; // null where that of the start is used
-	FactoredHessian* m_hessian = nullptr;
+	std::unique_ptr<SparseCholesky> m_system;   // of a LinearSystem; null where there is a Hessian
+	std::unique_ptr<FactoredHessian> m_hessian; // null where there is a LinearSystem
 	int m_unknowns = 0;
 	double m_softness = 1.0; // L is divided by
 	bool m_fixesBoundary;

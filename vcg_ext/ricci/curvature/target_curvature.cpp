@@ -38,11 +38,6 @@ void freeTheBoundary(const EmbeddedSurface& surface, Target& target)
 	target.notes.push_back("Free boundary: the boundary keeps its metric.");
 }
 
-bool measuresAreas(const TargetRequest& request)
-{
-	return request.options.method == Method::IntrinsicFlips;
-}
-
 void noteImpliedBoundary(
 	const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
 {
@@ -231,7 +226,7 @@ void setPlacedCones(
 	}
 	target.quarterTurns = request.options.cones.rounding == ConeRounding::QuarterTurns;
 	target.notes.push_back(describe(cones, request.vertexNumbers));
-	if (measuresAreas(request) && request.options.cones.count == 0)
+	if (request.measuresAreas && request.options.cones.count == 0)
 		target.maxSpread = request.options.cones.distortion;
 	if (surface.topology.type.isClosed())
 		return;
@@ -243,7 +238,7 @@ void setPlacedCones(
 
 /// Cones where they lower the distortion of area.
 void choosePlacedCones(
-	const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request, Target& target)
+	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request, Target& target)
 {
 	setPlacedCones(surface, placeCones(surface, start, coneRequest(request)), request, target);
 }
@@ -280,7 +275,7 @@ void setPlain(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 
 /// The plain target where areas are expected to keep well enough with it, else placed cones.
 void choosePlainOrCones(
-	const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request, Target& target)
+	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request, Target& target)
 {
 	// In an annulus, cones come with a free boundary.
 	const bool isFlat = isFlatAnnulus(surface, request);
@@ -306,14 +301,14 @@ void choosePlainOrCones(
 }
 
 void setAutomatic(
-	const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request, Target& target)
+	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request, Target& target)
 {
 	const SurfaceType& type = surface.topology.type;
 	if (type.isClosed() && !type.isTorus()) {
 		target.notes.push_back("Cones: " + type.name() + " has no flat metric without them.");
 		choosePlacedCones(surface, start, request, target);
 	}
-	else if (measuresAreas(request) && (type.isClosed() || request.options.freeBoundary))
+	else if (request.measuresAreas && (type.isClosed() || request.options.freeBoundary))
 		choosePlainOrCones(surface, start, request, target);
 	else
 		setPlain(surface, request, target);
@@ -328,7 +323,7 @@ void check(const EmbeddedSurface& surface, const Target& target)
 
 } // namespace
 
-Target chooseTarget(const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request)
+Target chooseTarget(const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request)
 {
 	Target target = zeroTarget(surface.topology);
 	switch (request.options.target) {
@@ -367,7 +362,7 @@ bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow)
 
 std::optional<Target> targetToKeepAreas(
 	const EmbeddedSurface& surface,
-	FlowStart& start,
+	const InitialPacking& start,
 	const FlowResult& flow,
 	const TargetRequest& request)
 {

@@ -11,11 +11,11 @@
 
 namespace ricci {
 
-/// What chooseTarget() is asked for. Without flips Automatic measures no areas: it decides by topology
-/// alone.
+/// What chooseTarget() is asked for.
 struct TargetRequest : TargetInput
 {
-	Options options;
+	TargetOptions options;
+	bool measuresAreas = true; ///< false: Automatic decides by topology alone
 	bool hasSeam = false; ///< see OpenedMesh: Automatic makes no flat annulus of it
 	Tick tick = {}; ///< called while cones are placed, if it is not empty; may throw to cancel
 
@@ -30,13 +30,12 @@ struct TargetRequest : TargetInput
 /// vertices) where the boundary is free. For closed surfaces and flips these conditions suffice
 /// [Bobenko Lutz 2023].
 /// \param surface whose positions choose the corners of a rectangle if none are selected
-/// \param start of the flow on \p surface; placed cones belong to it, and leave a hessian there (see
-/// placeCones())
+/// \param start of the flow on \p surface; placed cones belong to it
 /// \throw InvalidOption if the mode does not fit the topology or the selection
 /// \throw InadmissibleCurvature otherwise, with the numbers that contradict each other
 /// \throw InvalidMesh (BoundaryWithoutLength)
 /// \throw SolverFailed where cones are placed
-Target chooseTarget(const EmbeddedSurface& surface, FlowStart& start, const TargetRequest& request);
+Target chooseTarget(const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request);
 
 /// Whether \p flow changes areas no more than its target was chosen for, or its target was not chosen
 /// to keep them.
@@ -50,7 +49,7 @@ bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow);
 /// \throw as chooseTarget()
 std::optional<Target> targetToKeepAreas(
 	const EmbeddedSurface& surface,
-	FlowStart& start,
+	const InitialPacking& start,
 	const FlowResult& flow,
 	const TargetRequest& request);
 

@@ -37,9 +37,9 @@ flowWithEdgeSwaps(const Component& component, const Options& options, const Swap
 	int steps = 0;
 	for (int attempt = 0; attempt < kMaxStarts; ++attempt) {
 		result.surface = embeddedSurface(result.mesh.positions(), result.mesh.triangles());
-		FlowStart start = flowStart(result.surface, options, listener.tick);
+		InitialPacking start = initialPacking(result.surface, options, listener.tick);
 		const Target target = listener.chooseTarget(result.surface, start);
-		EdgeSwapper swapper(result.surface.positions, start.packing.radii);
+		EdgeSwapper swapper(result.surface.positions, start.radii);
 		try {
 			result.flow = runRicciFlow(
 				Background::EuclideanPlane,

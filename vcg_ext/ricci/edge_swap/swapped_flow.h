@@ -25,11 +25,11 @@ struct SwappedFlow
 /// What the loop of starts tells its caller.
 struct SwapListener
 {
-	std::function<Target(const EmbeddedSurface&, FlowStart&)> chooseTarget;
+	std::function<Target(const EmbeddedSurface&, const InitialPacking&)> chooseTarget;
 	FlowListener step;                          ///< Newton steps over all starts, residual
 	std::function<void(const FlowResult&)> end; ///< after a start that reached its target
 	std::function<void(int)> split;             ///< boundary edges split so far
-	Tick tick;                                  ///< see flowStart() and runRicciFlow()
+	Tick tick;                                  ///< see initialPacking() and runRicciFlow()
 };
 
 /// \throw NotConverged, what chooseTarget throws

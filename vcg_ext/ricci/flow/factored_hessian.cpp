@@ -31,14 +31,6 @@ FactoredHessian::FactoredHessian(
 	}
 }
 
-bool FactoredHessian::hasUnknownsOf(const FactoredHessian& other) const
-{
-	return std::equal(
-		m_row.begin(), m_row.end(), other.m_row.begin(), other.m_row.end(), [](int a, int b) {
-			return (a >= 0) == (b >= 0);
-		});
-}
-
 void FactoredHessian::fill(const CurvatureMap& map, double shift)
 {
 	if (m_revision != map.revision()) {

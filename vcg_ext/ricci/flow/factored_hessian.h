@@ -25,9 +25,6 @@ public:
 	/// Row of the vertex's unknown, or -1.
 	const VertexArray<int>& row() const { return m_row; }
 
-	/// Whether the same vertices are unknowns.
-	bool hasUnknownsOf(const FactoredHessian& other) const;
-
 	const Hessian& hessian() const { return m_hessian; }
 	SparseCholesky& cholesky() { return m_cholesky; }
 	const SparseCholesky& cholesky() const { return m_cholesky; }

@@ -44,7 +44,8 @@ InitialPacking initialPacking(
 	return packing;
 }
 
-FlowProblem flowProblem(const EmbeddedSurface& surface, FlowStart start, const Target& target)
+FlowProblem
+flowProblem(const EmbeddedSurface& surface, InitialPacking start, const Target& target)
 {
 	FlowProblem problem;
 	problem.input = surface.triangulation;
@@ -56,7 +57,7 @@ FlowProblem flowProblem(const EmbeddedSurface& surface, FlowStart start, const T
 		for (const Vertex v : problem.loop) {
 			const Edge e = surface.triangulation.halfedge(v).edge();
 			problem.loopEdges.push_back(e);
-			problem.loopLengths.push_back(surface.lengths[e] + problem.start.packing.lengthened);
+			problem.loopLengths.push_back(surface.lengths[e] + problem.start.lengthened);
 		}
 	}
 	return problem;
@@ -74,9 +75,8 @@ FlowProblem flowProblemOnDouble(
 	mesh.lengths.resize(d.edgeOf.size());
 	for (const Edge e : d.edgeOf.indices())
 		mesh.lengths[e] = surface.lengths[d.edgeOf[e]];
-	FlowStart start;
-	start.packing = initialPacking(std::move(mesh), d.mirror, options, tick);
-	FlowProblem problem = flowProblem(surface, std::move(start), target);
+	FlowProblem problem =
+		flowProblem(surface, initialPacking(std::move(mesh), d.mirror, options, tick), target);
 	problem.input = std::move(d.triangulation);
 	Target& doubled = problem.target;
 	doubled.curvature.conservativeResize(d.mirror.size());
@@ -106,29 +106,18 @@ FlowRun::FlowRun(
 {
 	m_result.background = background;
 	m_result.iterations = stepsBefore;
-	std::unique_ptr<FactoredHessian> hessian = takeHessian();
 	CirclePacking packing = takeStart();
 	m_map = m_background == Background::EuclideanPlane ? makeMap<Euclidean>(std::move(packing))
 													   : makeMap<Hyperbolic>(std::move(packing));
-	m_newton = std::make_unique<NewtonSolver>(
-		*m_map, m_problem.target.fixed, std::move(hessian), m_problem.mirror);
-}
-
-/// The factor of the start, if it is that of this run's packing and background.
-std::unique_ptr<FactoredHessian> FlowRun::takeHessian()
-{
-	// It belongs to the Euclidean packing with the Delaunay triangulation's own metric.
-	if (m_background == Background::EuclideanPlane && m_problem.start.packing.isDelaunay)
-		return std::move(m_problem.start.hessian);
-	m_problem.start.hessian.reset();
-	return nullptr;
+	m_newton =
+		std::make_unique<NewtonSolver>(*m_map, m_problem.target.fixed, m_problem.mirror);
 }
 
 /// The packing of the first step, at m_startU. Moves the start, and the input, to the history if
 /// edges flip.
 CirclePacking FlowRun::takeStart()
 {
-	InitialPacking& start = m_problem.start.packing;
+	InitialPacking& start = m_problem.start;
 	m_startU = startU(start.mesh, start.radii);
 	m_result.u = m_startU;
 	CirclePacking packing;
@@ -338,7 +327,6 @@ FlowResult FlowRun::result()
 	m_result.residual = m_solved.residual;
 	m_result.floor = m_solved.floor;
 	m_result.work = m_newton->work();
-	m_result.hessian = m_newton->takeHessian();
 	m_newton.reset();
 	m_result.history.flowFlips = flowFlips();
 	m_result.area = m_background == Background::EuclideanPlane

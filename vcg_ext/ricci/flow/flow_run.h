@@ -18,7 +18,7 @@ namespace ricci {
 struct FlowProblem
 {
 	Triangulation input; ///< the surface, or its double
-	FlowStart start;     ///< on the input's metric
+	InitialPacking start; ///< on the input's metric
 	Target target;       ///< on the input
 
 	/// Vertices of the surface, which have the lowest numbers in its double.
@@ -48,7 +48,8 @@ InitialPacking initialPacking(
 	const Tick& tick);
 
 /// \param start the initial packing of \p surface
-FlowProblem flowProblem(const EmbeddedSurface& surface, FlowStart start, const Target& target);
+FlowProblem
+flowProblem(const EmbeddedSurface& surface, InitialPacking start, const Target& target);
 
 /// On the double of the surface, with its own, symmetric initial packing. Curvature is twice as
 /// large on the boundary.
@@ -110,7 +111,6 @@ private:
 	CirclePacking takeStart();
 	template<class Geometry>
 	std::shared_ptr<CurvatureMap> makeMap(CirclePacking packing) const;
-	std::unique_ptr<FactoredHessian> takeHessian();
 	VertexVector startU(const IntrinsicMesh& mesh, const VertexArray<double>& radii) const;
 	NewtonResult solveOnCircle();
 	NewtonResult solveFor(

@@ -63,18 +63,12 @@ constexpr double kSumRounding = 24.0 * std::numeric_limits<double>::epsilon();
 } // namespace
 
 NewtonSolver::NewtonSolver(
-	CurvatureMap& map,
-	VertexArray<char> fixed,
-	std::unique_ptr<FactoredHessian> start,
-	const VertexArray<Vertex>& mirror) :
-		m_map(&map),
-		m_fixed(std::move(fixed))
+	CurvatureMap& map, VertexArray<char> fixed, const VertexArray<Vertex>& mirror) :
+		m_map(&map), m_fixed(std::move(fixed))
 {
 	const bool anyFixed = std::find(m_fixed.begin(), m_fixed.end(), 1) != m_fixed.end();
 	m_gaugeFree = !anyFixed && map.scaleInvariant();
 	m_hessian = std::make_unique<FactoredHessian>(m_fixed, map.scaleInvariant(), mirror);
-	if (start && start->isFactored() && start->hasUnknownsOf(*m_hessian))
-		m_start = std::move(start);
 	const int n = m_fixed.size();
 	m_gradient.resize(n);
 	m_direction.resize(n);
@@ -119,52 +113,10 @@ double NewtonSolver::residual(const VertexVector& target)
 	return largest;
 }
 
-/// Makes the factor that the solver was given its own.
-/// \return whether there is one
-bool NewtonSolver::takeOverStart()
+/// Share of m_direction that keeps u in range. May shorten entries of m_direction.
+double NewtonSolver::longestStep(const VertexVector& u)
 {
-	if (!m_start)
-		return false;
-	m_hessian = std::move(m_start);
-	return true;
-}
-
-/// Solves H d = -(K - target) so that what is left is at most \p accuracy of the right side, with
-/// the last factor as long as that takes less work than a new one. Once epsilon is reached, the
-/// last factor has to do.
-void NewtonSolver::direction(double accuracy, bool reached)
-{
-	const bool isFirst = takeOverStart();
-	m_hessian->fill(*m_map, 0.0);
-	SparseCholesky& cholesky = m_hessian->cholesky();
-	const Eigen::VectorXd rhs = -m_hessian->gather(m_gradient);
-	Eigen::VectorXd solution;
-	const bool usable =
-		m_hessian->isFactored() && !m_hessian->isShifted() && m_map->brokenTriangles() == 0;
-	bool solved = isFirst || (reached && !usable);
-	if (solved)
-		solution = cholesky.solve(rhs);
-	else if (usable && (!m_worn || reached)) {
-		const int limit = solutionsPerFactorization(cholesky);
-		const int iterations =
-			cholesky.iterate(m_hessian->hessian().matrix(), rhs, accuracy, limit, solution);
-		solved = iterations <= limit;
-		m_worn = 2 * iterations > limit;
-	}
-	if (!solved && !reached) {
-		m_hessian->factorize(*m_map, m_map->tick());
-		m_worn = false;
-		solution = cholesky.solve(rhs);
-	}
-	m_direction = m_hessian->scatter(solution);
-	if (m_gaugeFree)
-		m_direction.array() -= m_direction.mean();
-}
-
-/// Share of m_direction, whose largest entry is \p largest, that keeps u in range. May shorten
-/// entries of m_direction.
-double NewtonSolver::longestStep(const VertexVector& u, double largest)
-{
+	const double largest = m_direction.lpNorm<Eigen::Infinity>();
 	const double cap = largest > kStepCap ? kStepCap / largest : 1.0;
 	if (m_map->scaleInvariant())
 		return cap;
@@ -206,6 +158,21 @@ double NewtonSolver::roundingFloor()
 	return 4.0 * m_map->precision() * amplification + kSumRounding;
 }
 
+/// One call of solve().
+struct NewtonSolver::Run
+{
+	VertexVector& u;
+	const VertexVector& target;
+	const NewtonOptions& options;
+	const Surgeon& surgeon;
+	NewtonResult result = {};   // so far
+	double firstNorm = 0.0;     // of the gradient, kStagnationSteps ago
+	int polishing = 0;          // steps with the last factor
+	int slopeSteps = 0;         // steps searched by the energy's slope
+	bool searchesSlope = false; // the next step is
+	bool isStuck = false;       // no further step can be found
+};
+
 NewtonResult NewtonSolver::solve(
 	VertexVector& u,
 	const VertexVector& target,
@@ -213,91 +180,140 @@ NewtonResult NewtonSolver::solve(
 	const std::function<void(int, double)>& report,
 	const Surgeon& surgeon)
 {
-	NewtonResult result;
+	Run run{u, target, options, surgeon};
 	m_map->evaluate(u, m_low);
 	m_map->accept();
-	if (surgeon && surgeon(*m_map))
-		m_map->evaluate(u, m_low);
-	if (m_map->revision() != 0)
-		m_start.reset();
-	result.residual = residual(target);
-	int polishing = 0;
-	double normThen = m_gradient.norm(); // kStagnationSteps ago
-	bool searchFails = false, bySlope = false;
-	int slopeSteps = 0;
-
+	run.result.residual = residual(target);
+	operate(run);
+	run.firstNorm = m_gradient.norm();
 	while (true) {
-		report(result.iterations, result.residual);
-		result.floor = roundingFloor();
-		const bool valid = m_map->brokenTriangles() == 0;
-		const bool reached = valid && result.residual < options.epsilon;
-		const bool atFloor = valid && result.residual <= result.floor;
-		const bool brokenMinimum =
-			!valid && result.residual <= std::min(options.epsilon, result.floor);
-		const bool polishes = options.polishes && result.floor <= options.maxPolishedFloor;
-		if (atFloor || searchFails || brokenMinimum || m_hessian->unknowns() == 0 ||
-			(reached && polishing >= (polishes ? kPolishingSteps : 0)) ||
-			(!reached && result.iterations >= options.maxIterations))
-			break;
-
-		// Nothing is gained by solving for less than rounding leaves.
-		const double accuracy = std::max(result.residual, 0.5 * result.floor / result.residual);
-		direction(std::min(accuracy, kMaxInaccuracy), reached && m_hessian->isFactored());
-		const double largest = m_direction.lpNorm<Eigen::Infinity>();
-		if (!std::isfinite(largest))
-			break;
-		double t = longestStep(u, largest);
-		const double before = m_gradient.norm(), slope = m_gradient.dot(m_direction);
-		double after = 0.0;
-		double trialResidual;
-		while (true) {
-			applyStep(u, t);
-			m_map->evaluate(m_trial, m_trialLow);
-			trialResidual = residual(target);
-			after = m_gradient.norm();
-			const bool falls = bySlope ? m_gradient.dot(m_direction) <= kDecrease * slope
-									   : after <= (1.0 - kDecrease * t) * before;
-			if (std::isfinite(trialResidual) && falls)
-				break;
-			m_map->reject();
-			t *= 0.5;
-			// A full step that only rounding keeps from descending is the end, not a failure.
-			if (t < kMinNewtonStep || reached) {
-				searchFails = true;
-				break;
-			}
-		}
-		if (searchFails) {
-			m_map->evaluate(u, m_low);
-			result.residual = residual(target);
-			searchFails = valid || bySlope;
-			bySlope = !valid;
-			continue;
-		}
-		u.swap(m_trial);
-		m_low.swap(m_trialLow);
-		m_map->accept();
-		result.residual = trialResidual;
-		slopeSteps += bySlope;
-		if (reached)
-			++polishing;
-		else if (++result.iterations % kStagnationSteps == 0) {
-			const bool stagnates = m_map->brokenTriangles() > 0 && after > kStagnation * normThen;
-			searchFails = stagnates && slopeSteps >= kSlopeSteps;
-			bySlope = bySlope || stagnates;
-			normThen = after;
-		}
-		if (surgeon && surgeon(*m_map)) {
-			m_map->evaluate(u, m_low);
-			result.residual = residual(target);
-		}
+		report(run.result.iterations, run.result.residual);
+		const Verdict verdict = judge(run);
+		if (verdict == Verdict::Stop || !findDirection(run, verdict))
+			return ended(run);
+		if (searchLine(run, verdict))
+			accept(run, verdict);
 	}
-	m_start.reset();
-	const double observedFloor = searchFails ? kFloorUncertainty * result.floor : result.floor;
+}
+
+/// What to do at the present iterate: the only place that says when a solve stops.
+NewtonSolver::Verdict NewtonSolver::judge(Run& run)
+{
+	NewtonResult& result = run.result;
+	result.floor = roundingFloor();
+	const bool isMetric = m_map->brokenTriangles() == 0;
+	const double bound =
+		isMetric ? result.floor : std::min(run.options.epsilon, result.floor); // a minimum
+	if (result.residual <= bound || run.isStuck || m_hessian->unknowns() == 0)
+		return Verdict::Stop;
+	if (!isMetric || !(result.residual < run.options.epsilon))
+		return result.iterations < run.options.maxIterations ? Verdict::Step : Verdict::Stop;
+	const bool polishes = run.options.polishes && result.floor <= run.options.maxPolishedFloor;
+	return polishes && run.polishing < kPolishingSteps ? Verdict::Polish : Verdict::Stop;
+}
+
+/// Solves H d = -(K - target), with the last factor as long as that takes less work than a new one, or
+/// if there is one and the step only polishes.
+/// \return whether the direction is finite
+bool NewtonSolver::findDirection(Run& run, Verdict verdict)
+{
+	// Nothing is gained by solving for less than rounding leaves.
+	const double left = std::max(run.result.residual, 0.5 * run.result.floor / run.result.residual);
+	const double accuracy = std::min(left, kMaxInaccuracy);
+	const bool keepsFactor = verdict == Verdict::Polish && m_hessian->isFactored();
+	m_hessian->fill(*m_map, 0.0);
+	SparseCholesky& cholesky = m_hessian->cholesky();
+	const Eigen::VectorXd rhs = -m_hessian->gather(m_gradient);
+	Eigen::VectorXd solution;
+	const bool usable =
+		m_hessian->isFactored() && !m_hessian->isShifted() && m_map->brokenTriangles() == 0;
+	bool solved = keepsFactor && !usable;
+	if (solved)
+		solution = cholesky.solve(rhs);
+	else if (usable && (!m_worn || keepsFactor)) {
+		const int limit = solutionsPerFactorization(cholesky);
+		const int iterations =
+			cholesky.iterate(m_hessian->hessian().matrix(), rhs, accuracy, limit, solution);
+		solved = iterations <= limit;
+		m_worn = 2 * iterations > limit;
+	}
+	if (!solved && !keepsFactor) {
+		m_hessian->factorize(*m_map, m_map->tick());
+		m_worn = false;
+		solution = cholesky.solve(rhs);
+	}
+	m_direction = m_hessian->scatter(solution);
+	if (m_gaugeFree)
+		m_direction.array() -= m_direction.mean();
+	return std::isfinite(m_direction.lpNorm<Eigen::Infinity>());
+}
+
+/// Shortens the step until |K - target| falls enough, or the energy still falls at its end. Where no
+/// step does, returns to the iterate; if triangles are broken there, the next step is searched by the
+/// energy's slope.
+/// \return whether m_trial is better than u
+bool NewtonSolver::searchLine(Run& run, Verdict verdict)
+{
+	const bool isMetric = m_map->brokenTriangles() == 0;
+	double t = longestStep(run.u);
+	const double norm = m_gradient.norm(), slope = m_gradient.dot(m_direction);
+	do {
+		applyStep(run.u, t);
+		m_map->evaluate(m_trial, m_trialLow);
+		const double trialResidual = residual(run.target);
+		const bool falls = run.searchesSlope ? m_gradient.dot(m_direction) <= kDecrease * slope
+											 : m_gradient.norm() <= (1.0 - kDecrease * t) * norm;
+		if (std::isfinite(trialResidual) && falls) {
+			run.result.residual = trialResidual;
+			return true;
+		}
+		m_map->reject();
+		t *= 0.5;
+		// A full step that only rounding keeps from descending is the end, not a failure.
+	} while (t >= kMinNewtonStep && verdict == Verdict::Step);
+	m_map->evaluate(run.u, m_low);
+	run.result.residual = residual(run.target);
+	run.isStuck = isMetric || run.searchesSlope;
+	run.searchesSlope = !isMetric;
+	return false;
+}
+
+/// Makes m_trial the iterate, and looks whether the steps still get somewhere.
+void NewtonSolver::accept(Run& run, Verdict verdict)
+{
+	run.u.swap(m_trial);
+	m_low.swap(m_trialLow);
+	m_map->accept();
+	run.slopeSteps += run.searchesSlope;
+	if (verdict == Verdict::Polish)
+		++run.polishing;
+	else if (++run.result.iterations % kStagnationSteps == 0) {
+		const double norm = m_gradient.norm();
+		const bool stagnates = m_map->brokenTriangles() > 0 && norm > kStagnation * run.firstNorm;
+		run.isStuck = stagnates && run.slopeSteps >= kSlopeSteps;
+		run.searchesSlope = run.searchesSlope || stagnates;
+		run.firstNorm = norm;
+	}
+	operate(run);
+}
+
+/// Lets the surgeon change the map at the present iterate.
+void NewtonSolver::operate(Run& run)
+{
+	if (!run.surgeon || !run.surgeon(*m_map))
+		return;
+	m_map->evaluate(run.u, m_low);
+	run.result.residual = residual(run.target);
+}
+
+NewtonResult NewtonSolver::ended(const Run& run) const
+{
+	NewtonResult result = run.result;
+	const double observedFloor = run.isStuck ? kFloorUncertainty * result.floor : result.floor;
 	const bool atFloor = result.residual < kMaxFloor && result.residual <= observedFloor;
 	// Where the weights overflow there is no metric, however large epsilon is.
 	const bool isMetric = m_map->brokenTriangles() == 0 && std::isfinite(result.floor);
-	result.converged = isMetric && (result.residual < options.epsilon || atFloor);
+	result.converged = isMetric && (result.residual < run.options.epsilon || atFloor);
 	return result;
 }
 

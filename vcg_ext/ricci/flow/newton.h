@@ -70,20 +70,10 @@ public:
 	/// \param map is evaluated by solve(); must live as long as the solver, or until continueOn()
 	/// \param fixed 1 where u keeps its value (du = 0 in paper 5.3); the target is ignored there.
 	/// If nothing is fixed and the background is scale invariant, the mean of u is kept.
-	/// \param start the factor of the Hessian at the first iterate, or none. It is taken over if
-	/// its unknowns are those of this solver, and if the first evaluation leaves the map's
-	/// revision() at 0: no flip has changed the connectivity for which the factor was made. The
-	/// first direction is then solved with it directly, which gives the numbers that a
-	/// factorisation of the solver's own would give. Otherwise, or if the first call of solve()
-	/// makes no step, it is dropped.
 	/// \param mirror the images of the vertices where map, target and u are symmetric, or empty. Then u
 	/// stays symmetric, and there are half as many equations.
-	/// \pre \p start was factorised for a map of the same packing and background at the same u
 	NewtonSolver(
-		CurvatureMap& map,
-		VertexArray<char> fixed,
-		std::unique_ptr<FactoredHessian> start = nullptr,
-		const VertexArray<Vertex>& mirror = {});
+		CurvatureMap& map, VertexArray<char> fixed, const VertexArray<Vertex>& mirror = {});
 
 	/// Goes on with \p map, which has the triangulation of the present one, from the present u and
 	/// with the present factorisation: the same equations in other precision.
@@ -92,16 +82,8 @@ public:
 	/// Goes on with an unknown for every vertex.
 	void dropSymmetry();
 
-	/// What the linear solver has done since the construction. Where the first factor was taken
-	/// over, all that was done with it before is included, so that it need not be counted
-	/// elsewhere.
+	/// What the linear solver has done since the construction.
 	CholeskyWork work() const;
-
-	/// The last factor, null if there was none. Ends the use of this object.
-	std::unique_ptr<FactoredHessian> takeHessian()
-	{
-		return m_hessian->isFactored() ? std::move(m_hessian) : nullptr;
-	}
 
 	/// Part of u below the last place of its doubles, as the last solve left it.
 	const VertexVector& low() const { return m_low; }
@@ -121,10 +103,24 @@ public:
 		const Surgeon& surgeon = nullptr);
 
 private:
+	struct Run;
+
+	/// What is to be done at an iterate.
+	enum class Verdict {
+		Step,   ///< a step of Newton's method
+		Polish, ///< a step with the last factor: epsilon is reached
+		Stop
+	};
+
+	Verdict judge(Run& run);
+	bool findDirection(Run& run, Verdict verdict);
+	bool searchLine(Run& run, Verdict verdict);
+	void accept(Run& run, Verdict verdict);
+	void operate(Run& run);
+	NewtonResult ended(const Run& run) const;
+
 	double residual(const VertexVector& target);
-	bool takeOverStart();
-	void direction(double accuracy, bool reached);
-	double longestStep(const VertexVector& u, double largest);
+	double longestStep(const VertexVector& u);
 	void applyStep(const VertexVector& u, double t);
 	double roundingFloor();
 
@@ -134,8 +130,7 @@ private:
 	bool m_gaugeFree = false;     // the mean of u is free
 	bool m_worn = false;          // the factor has become a bad preconditioner
 	std::unique_ptr<FactoredHessian> m_hessian;
-	std::unique_ptr<FactoredHessian> m_start; // for the first direction; none afterwards
-	VertexVector m_gradient;                  // K - target, 0 where fixed
+	VertexVector m_gradient; // K - target, 0 where fixed
 	VertexVector m_direction, m_trial, m_diagonal;
 	VertexVector m_low, m_trialLow; // of u, below its last place
 };

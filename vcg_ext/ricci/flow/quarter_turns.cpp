@@ -295,7 +295,6 @@ TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options, const Tick
 	if (metric.map == flow.metric)
 		return result;
 	flow.metric = std::move(metric.map);
-	flow.hessian.reset(); // it is that of the metric before
 	flow.u = std::move(metric.u);
 	flow.residual = metric.solved.residual;
 	flow.floor = metric.solved.floor;

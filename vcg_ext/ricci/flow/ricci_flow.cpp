@@ -39,7 +39,7 @@ struct HalfFlow
 HalfFlow flowOnSurface(
 	Background background,
 	const EmbeddedSurface& surface,
-	FlowStart start,
+	InitialPacking start,
 	const Target& target,
 	bool mayBeRough,
 	const FlowOptions& options,
@@ -102,17 +102,16 @@ FlowResult flowOnDouble(
 
 } // namespace
 
-FlowStart flowStart(const EmbeddedSurface& surface, const FlowOptions& options, const Tick& tick)
+InitialPacking
+initialPacking(const EmbeddedSurface& surface, const FlowOptions& options, const Tick& tick)
 {
-	FlowStart start;
-	start.packing = initialPacking({surface.triangulation, surface.lengths}, {}, options, tick);
-	return start;
+	return initialPacking({surface.triangulation, surface.lengths}, {}, options, tick);
 }
 
 FlowResult runRicciFlow(
 	Background background,
 	const EmbeddedSurface& surface,
-	FlowStart start,
+	InitialPacking start,
 	const Target& target,
 	const FlowOptions& options,
 	const FlowListener& listener,
@@ -151,7 +150,7 @@ FlowResult runRicciFlow(
 			half = flowOnSurface(
 				background,
 				surface,
-				flowStart(surface, options, tick),
+				initialPacking(surface, options, tick),
 				target,
 				false,
 				options,

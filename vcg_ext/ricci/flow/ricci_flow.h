@@ -5,7 +5,6 @@
 #include "../metric/initial_packing.h"
 #include "../options.h"
 #include "../surface/flow_domain.h"
-#include "factored_hessian.h"
 #include "newton.h"
 #include "target.h"
 
@@ -15,21 +14,11 @@
 
 namespace ricci {
 
-/// The start of the flow, shared by the placement of cones and the flow itself.
-struct FlowStart
-{
-	InitialPacking packing;
-
-	/// Factor of the Hessian at the start, once the placement of cones has made one: Newton's first
-	/// step takes it over where its unknowns are the same.
-	std::unique_ptr<FactoredHessian> hessian;
-};
-
 /// The initial packing (paper 4.1): with intrinsic flips on the weighted Delaunay triangulation,
 /// else on the surface's own triangles.
 /// \param tick called now and then if it is not empty; may throw
-FlowStart
-flowStart(const EmbeddedSurface& surface, const FlowOptions& options, const Tick& tick = {});
+InitialPacking initialPacking(
+	const EmbeddedSurface& surface, const FlowOptions& options, const Tick& tick = {});
 
 /// The flow with intrinsic flips: what leads from the input's triangles to those of the result.
 struct FlipHistory
@@ -63,9 +52,6 @@ struct FlowResult
 	int iterations = 0;
 	CholeskyWork work;   ///< of the linear solver, on the surface the result is from
 	FlipHistory history; ///< Method::IntrinsicFlips only
-
-	/// Newton's last factor; null where no step was needed. Of the double if doubled.
-	std::shared_ptr<FactoredHessian> hessian;
 };
 
 /// Gets the number of Newton steps so far and the residual before each step; may throw to cancel.
@@ -90,7 +76,7 @@ using FlowListener = std::function<void(int, double)>;
 FlowResult runRicciFlow(
 	Background background,
 	const EmbeddedSurface& surface,
-	FlowStart start,
+	InitialPacking start,
 	const Target& target,
 	const FlowOptions& options,
 	const FlowListener& listener,

@@ -175,97 +175,44 @@ Eigen::MatrixXd canonicalBasis(Eigen::MatrixXi wedge)
 	return ordered;
 }
 
-/// Bound of the energy of the error of a harmonic function.
-constexpr double kEnergyError = 1e-7;
-
-constexpr int kMaxSteps = 100;
-
-/// The energy falls by like factors. Where the last one would bring it so much below the bound, no
-/// further solution is spent on finding it there.
-constexpr double kCertainty = 10.0;
-
-/// Solves matrix x = residual for two columns, to an energy of the error of about kEnergyError, by
-/// conjugate gradients with the factor in \p near for preconditioner. (Eigen's end by the norm of the
-/// residual, which says nothing of the energy, and take one column at a time.)
-/// \param residual what is left of the right side on return
-Eigen::MatrixX2d solveNear(
-	SparseCholesky& near,
-	const SparseCholesky::Matrix& matrix,
-	Eigen::MatrixX2d& residual,
-	const Tick& tick)
-{
-	Eigen::MatrixX2d x = Eigen::MatrixX2d::Zero(residual.rows(), 2), direction = x, image = x;
-	Eigen::RowVector2d last;
-	for (int step = 0; step < kMaxSteps; ++step) {
-		tick();
-		const Eigen::MatrixX2d corrected = near.solve(residual);
-		const Eigen::RowVector2d energy = residual.cwiseProduct(corrected).colwise().sum();
-		if (!(energy.maxCoeff() > kEnergyError))
-			break;
-		if (step > 0)
-			direction *= energy.cwiseQuotient(last).asDiagonal();
-		direction += corrected;
-		image = matrix.selfadjointView<Eigen::Lower>() * direction;
-		const Eigen::RowVector2d slope = direction.cwiseProduct(image).colwise().sum();
-		Eigen::RowVector2d length = energy.cwiseQuotient(slope);
-		for (double& l : length)
-			l = std::isfinite(l) ? l : 0.0; // one side is solved already
-		x += direction * length.asDiagonal();
-		residual -= image * length.asDiagonal();
-		const double expected = step == 0
-									? energy.maxCoeff()
-									: energy.cwiseProduct(energy).cwiseQuotient(last).maxCoeff();
-		if (kCertainty * expected < kEnergyError)
-			break;
-		last = energy;
-	}
-	return x;
-}
-
-/// Inner products of closed forms, nearly harmonic, that are cohomologous to those of the loops; empty
-/// where the Laplacian has no factor. With the forms t, the functions f that are added to them, the right
-/// sides b = -d*t and what the solver leaves of them, r, they are <t_j, t_k> - b_j f_k - f_j r_k. They
-/// are too large by the energy of the solver's errors, which the bound of the period matrix contains.
+/// Inner products of the harmonic forms that are cohomologous to those of the loops; empty if the
+/// Laplacian has no factor. With the forms t and the functions f that make them harmonic, they are
+/// <t_j, t_k + df_k>.
 Eigen::MatrixXd energies(
 	const Triangulation& t,
 	const EdgeArray<double>& weights,
 	const std::vector<DualLoop>& loops,
-	FactoredHessian* near,
 	const Tick& tick)
 {
 	tick();
+	const int unknowns = t.vertexCount() - 1; // the value at the first vertex is held
 	VertexArray<int> row(t.vertexCount());
 	for (const Vertex v : t.vertices())
-		row[v] = near != nullptr ? near->row()[v] : v.number() - 1; // the value at one vertex is held
-	const int unknowns = near != nullptr ? near->unknowns() : t.vertexCount() - 1;
-	const SparseCholesky::Matrix matrix =
-		laplacian(t, weights, row, Eigen::VectorXd::Zero(unknowns));
-	SparseCholesky own;
-	SparseCholesky& cholesky = near != nullptr ? near->cholesky() : own;
-	if (near == nullptr && !own.factorize(matrix, tick))
+		row[v] = v.number() - 1;
+	SparseCholesky cholesky;
+	if (!cholesky.factorize(laplacian(t, weights, row, Eigen::VectorXd::Zero(unknowns)), tick))
 		return {};
 	const auto n = static_cast<Eigen::Index>(loops.size());
-	Eigen::MatrixXd energy(n, n), functions(unknowns, n);
+	Eigen::MatrixXd functions = Eigen::MatrixXd::Zero(unknowns, n);
+	for (Eigen::Index k = 0; k < n; ++k)
+		for (const Halfedge h : loops[static_cast<std::size_t>(k)])
+			for (const Halfedge side : {h, h.twin()})
+				if (const int i = row[t.origin(side)]; i >= 0)
+					functions(i, k) += side == h ? weights[h.edge()] : -weights[h.edge()];
+	functions = cholesky.solve(functions);
+	tick();
+	Eigen::MatrixXd energy(n, n);
 	LoopForm form(t.edgeCount());
-	for (Eigen::Index k = 0; k < n; k += 2) {
-		Eigen::MatrixX2d residual = Eigen::MatrixX2d::Zero(unknowns, 2);
-		for (const Eigen::Index part : {0, 1})
-			for (const Halfedge h : loops[static_cast<std::size_t>(k + part)])
-				for (const Halfedge side : {h, h.twin()})
-					if (const int i = row[t.origin(side)]; i >= 0)
-						residual(i, part) += side == h ? weights[h.edge()] : -weights[h.edge()];
-		functions.middleCols<2>(k) = solveNear(cholesky, matrix, residual, tick);
-		for (const Eigen::Index i : {k, k + 1}) {
-			const auto at = [&](Vertex v) { return row[v] >= 0 ? functions(row[v], i) : 0.0; };
-			form.add(loops[static_cast<std::size_t>(i)], 1);
-			for (Eigen::Index j = 0; j <= i; ++j) {
-				double sum = -functions.col(j).dot(residual.col(i - k));
-				for (const Halfedge h : loops[static_cast<std::size_t>(j)])
-					sum += weights[h.edge()] * (form[h] + at(t.target(h)) - at(t.origin(h)));
-				energy(i, j) = energy(j, i) = sum;
-			}
-			form.add(loops[static_cast<std::size_t>(i)], -1);
+	for (Eigen::Index i = 0; i < n; ++i) {
+		const auto at = [&](Vertex v) { return row[v] >= 0 ? functions(row[v], i) : 0.0; };
+		form.add(loops[static_cast<std::size_t>(i)], 1);
+		for (Eigen::Index j = 0; j <= i; ++j) {
+			double sum = 0.0;
+			for (const Halfedge h : loops[static_cast<std::size_t>(j)])
+				sum += weights[h.edge()] * (form[h] + at(t.target(h)) - at(t.origin(h)));
+			energy(i, j) = energy(j, i) = sum;
 		}
+		form.add(loops[static_cast<std::size_t>(i)], -1);
 	}
 	return energy;
 }
@@ -363,14 +310,11 @@ void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 
 } // namespace
 
-PeriodMatrix periodMatrix(
-	const Triangulation& t,
-	const EdgeArray<double>& lengths,
-	FactoredHessian* near,
-	const Tick& tick)
+PeriodMatrix
+periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths, const Tick& tick)
 {
 	const std::vector<DualLoop> loops = dualLoops(t, tick);
-	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops, near, tick);
+	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops, tick);
 	if (energy.size() == 0)
 		return {};
 	const Eigen::MatrixXd basis = canonicalBasis(wedgeProducts(t, loops));

@@ -2,7 +2,6 @@
 #ifndef RICCI_PERIOD_MATRIX_H
 #define RICCI_PERIOD_MATRIX_H
 
-#include "../flow/factored_hessian.h"
 #include "../progress.h"
 #include "../surface/triangulation.h"
 
@@ -39,14 +38,10 @@ struct PeriodMatrix
 /// Where there is no cone, as on flat tori, it is rounding alone.
 ///
 /// \param lengths of the edges; the bound is best on the Delaunay triangulation [Rippa 1990]
-/// \param near a factored Hessian of the Ricci energy on the same vertices, of about this conformal class,
-/// which conjugate gradients use as preconditioner; without one the Laplacian gets a factor of its own,
-/// which takes longer than all the rest
 /// \pre \p t is connected, closed and of genus 1 at least; its triangles have an area
 PeriodMatrix periodMatrix(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
-	FactoredHessian* near = nullptr,
 	const Tick& tick = [] {});
 
 /// The period matrix in another basis [Siegel 1989], [Deconinck et al. 2004]: its imaginary part is

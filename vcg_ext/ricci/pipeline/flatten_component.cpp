@@ -79,14 +79,14 @@ TargetInput targetRequest(
 }
 
 Target chooseTarget(
-	const FlowDomain& domain, FlowStart& start, const TargetRequest& request, const Options&)
+	const FlowDomain& domain, const InitialPacking& start, const TargetRequest& request, const Options&)
 {
 	return chooseTarget(domain.solved(), start, request);
 }
 
 Target chooseTarget(
 	const FlowDomain& domain,
-	FlowStart&,
+	const InitialPacking&,
 	const TargetInput& input,
 	const HyperbolicOptions& options)
 {
@@ -382,7 +382,7 @@ ComponentMap flatten(
 	map.cappedHoles = domain.holes;
 	progress.log(description(component, map.type));
 	const Tick whileFlipping = [&] { progress.step(0.0, "Flipping edges"); };
-	FlowStart start = flowStart(domain.solved(), options, whileFlipping);
+	InitialPacking start = initialPacking(domain.solved(), options, whileFlipping);
 	progress.step(0.0, "Choosing the target");
 	const auto request = targetRequest(domain, component, input, options, progress);
 	const Target target = chooseTarget(domain, start, request, options);

@@ -48,7 +48,7 @@ ComponentMap flattenWithEdgeSwaps(
 	std::optional<FlowProgress> flowProgress;
 	SwapListener listener;
 	listener.tick = [&] { progress.step(0.0, "Solving for the metric"); };
-	listener.chooseTarget = [&](const EmbeddedSurface& surface, FlowStart& start) {
+	listener.chooseTarget = [&](const EmbeddedSurface& surface, const InitialPacking& start) {
 		TargetRequest request = targetRequest(component, input, options, surface.positions.size());
 		request.tick = listener.tick;
 		Target target = chooseTarget(surface, start, request);

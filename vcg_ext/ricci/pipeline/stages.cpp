@@ -50,6 +50,7 @@ TargetRequest targetRequest(
 	TargetRequest request;
 	static_cast<TargetInput&>(request) = targetInput(component, input, vertexCount);
 	request.options = options;
+	request.measuresAreas = options.method == Method::IntrinsicFlips;
 	request.hasSeam = component.hasSeam;
 	request.vertexNumbers = component.vertex;
 	return request;
@@ -121,9 +122,9 @@ std::optional<FlowResult> flowAgain(
 {
 	const Tick tick = [&] { progress.step(0.0, "Solving for the metric"); };
 	try {
-		std::optional<FlowStart> start;
-		const MakeStart makeStart = [&]() -> FlowStart& {
-			return start ? *start : start.emplace(flowStart(surface, options, tick));
+		std::optional<InitialPacking> start;
+		const MakeStart makeStart = [&]() -> InitialPacking& {
+			return start ? *start : start.emplace(initialPacking(surface, options, tick));
 		};
 		const std::optional<Target> target = chooseTarget(makeStart);
 		if (!target)
@@ -131,7 +132,7 @@ std::optional<FlowResult> flowAgain(
 		for (const std::string& note : target->notes)
 			progress.log(note);
 		FlowProgress flowProgress(progress, options.epsilon, states);
-		FlowResult flow = runRicciFlow(
+		return runRicciFlow(
 			Background::EuclideanPlane,
 			surface,
 			std::move(makeStart()),
@@ -140,8 +141,6 @@ std::optional<FlowResult> flowAgain(
 			[&](int step, double residual) { flowProgress(steps + step, residual); },
 			nullptr,
 			tick);
-		flow.hessian.reset(); // only the first flow's is used, and it is large
-		return flow;
 	}
 	catch (const Stopped&) {
 		throw;
@@ -191,7 +190,6 @@ void conformalInvariants(const Triangulation& t, ComponentMap& map)
 
 void measurePeriods(const EmbeddedSurface& surface, ProgressRange& progress, ComponentMap& map)
 {
-	const std::shared_ptr<FactoredHessian> factor = std::move(map.flow.hessian);
 	if (map.type.boundaryLoops > 0 || map.type.genus < 1 || map.type.genus > kMaxPeriodGenus)
 		return;
 	const IntrinsicMesh& start = map.flow.history.start; // without flips there is none
@@ -200,7 +198,6 @@ void measurePeriods(const EmbeddedSurface& surface, ProgressRange& progress, Com
 	map.periods = periodMatrix(
 		flips ? start.triangulation : surface.triangulation,
 		flips ? start.lengths : surface.lengths,
-		factor.get(),
 		tick);
 }
 

@@ -117,7 +117,7 @@ CommonRefinement refine(
 }
 
 /// Gives a flow's start, made when it is first called.
-using MakeStart = std::function<FlowStart&()>;
+using MakeStart = std::function<InitialPacking&()>;
 
 /// One more flow of a component in the plane, from a new start.
 /// \param chooseTarget none where there is nothing to gain
@@ -143,7 +143,7 @@ FaceArray<Triangle2> cornersOf(const Triangulation& t, const PlanarLayout& layou
 void conformalInvariants(const Triangulation& t, ComponentMap& map);
 
 /// The period matrix of a closed surface of genus 1 to kMaxPeriodGenus, in the metric of the mesh, on the
-/// triangulation at the start of the flow. Takes the factor that the flow has left.
+/// triangulation at the start of the flow.
 void measurePeriods(const EmbeddedSurface& surface, ProgressRange& progress, ComponentMap& map);
 
 /// Whether straight faces of the component may turn round in the map although it is right: flips,
