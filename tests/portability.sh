@@ -18,7 +18,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../filter_ricci/scripts/machine.sh"
 
 folder=$build/portability
 googletest=/usr/src/googletest
-programs=(math_test surface_test metric_test cut_test layout_test verify_test sentences_test)
+programs=(math_test surface_test metric_test cut_test layout_test verify_test error_sentences_test)
 parts=(clang long-double windows extra-plugins)
 
 for argument in "$@"; do

@@ -129,7 +129,7 @@ TEST(SliverSurfaces, EdgeSwapsMendWhatBreaks)
 				EXPECT_LT(FlatMap(c.mesh, flat.uv).seamMismatch, 1e-8);
 			}
 			catch (const NotConverged& error) {
-				// All of them ask for a remesh (tests/bridge/sentences_test.cpp).
+				// All of them ask for a remesh (tests/bridge/error_sentences_test.cpp).
 				EXPECT_TRUE(
 					error.problem == NotConverged::BrokenTriangles ||
 					error.problem == NotConverged::SplitsUsedUp)

@@ -2,11 +2,11 @@
 #include "bridge.h"
 
 #include "carried_texture.h"
+#include "error_sentences.h"
 #include "free_memory.h"
 #include "parameters.h"
 #include "results.h"
 #include "run_report.h"
-#include "sentences.h"
 
 #include <ricci/base/part_of_progress.h>
 #include <ricci/base/text.h>

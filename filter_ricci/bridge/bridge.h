@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What every host shares: the filters' texts and parameters, and one run of a filter on the current
-// mesh of a document. The hosts' plugin classes only pass calls on. sentences.h puts failures into
+// mesh of a document. The hosts' plugin classes only pass calls on. error_sentences.h puts failures into
 // words.
 #ifndef FILTER_RICCI_BRIDGE_H
 #define FILTER_RICCI_BRIDGE_H

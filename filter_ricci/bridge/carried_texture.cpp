@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "carried_texture.h"
 
+#include "error_sentences.h"
 #include "free_memory.h"
 #include "output_path.h"
-#include "sentences.h"
 
 #include <ricci/base/floating_point.h>
 #include <ricci/base/indexed.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parameters.h"
 
-#include "sentences.h"
+#include "error_sentences.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/text.h>

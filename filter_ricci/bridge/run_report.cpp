@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_report.h"
 
+#include "error_sentences.h"
 #include "output_path.h"
 #include "results.h"
-#include "sentences.h"
 
 #include <algorithm>
 #include <cmath>

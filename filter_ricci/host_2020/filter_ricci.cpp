@@ -2,7 +2,7 @@
 #include "filter_ricci.h"
 
 #include "bridge.h"
-#include "sentences.h"
+#include "error_sentences.h"
 
 #include <QCoreApplication>
 #include <QSettings>

@@ -7,7 +7,7 @@
 #include "support/shapes.h"
 #include "support/vcg_mesh.h"
 
-#include <bridge/sentences.h>
+#include <bridge/error_sentences.h>
 
 #include <ricci/error.h>
 #include <ricci/math/orientation.h>

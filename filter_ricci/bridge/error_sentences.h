@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the user reads of a failure. The algorithm throws its errors as data; here they become
 // sentences that name the filters of MeshLab and the parameters of the plugin.
-#ifndef FILTER_RICCI_SENTENCES_H
-#define FILTER_RICCI_SENTENCES_H
+#ifndef FILTER_RICCI_ERROR_SENTENCES_H
+#define FILTER_RICCI_ERROR_SENTENCES_H
 
 #include <ricci/error.h>
 

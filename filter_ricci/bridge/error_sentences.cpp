@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sentences.h"
+#include "error_sentences.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/text.h>

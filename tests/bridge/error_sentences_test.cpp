@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/decimal_commas.h"
 
-#include <bridge/sentences.h>
+#include <bridge/error_sentences.h>
 
 #include <ricci/error.h>
 
