@@ -44,8 +44,7 @@ Flow::Result compute(const SurfaceMesh& mesh, const Flow::Params& params)
 {
 	DoubleMesh m;
 	toVcg(mesh, m);
-	Progress silent;
-	return Flow::Compute(m, params, silent);
+	return Flow::Compute(m, params);
 }
 
 void expectFinite(const Flow::Result& r)
@@ -350,12 +349,11 @@ TEST(AnyTriangles, TheSphereLayerHasBothPlacesOfAPinch)
 	const SurfaceMesh sphere = horn(10, 12);
 	SurfaceMesh mesh = pinched(sphere);
 	mesh.triangles.push_back({3, 4, 4}); // without area
-	Progress silent;
 	DoubleMesh whole, m, layer;
 	toVcg(sphere, whole);
 	toVcg(mesh, m);
-	const SphereMap expected = Flow::ComputeSphere(whole, {}, silent);
-	const SphereMap map = Flow::ComputeSphere(m, {}, silent);
+	const SphereMap expected = Flow::ComputeSphere(whole, {});
+	const SphereMap map = Flow::ComputeSphere(m, {});
 	EXPECT_EQ(map.positions, expected.positions);
 	EXPECT_EQ(map.vertex.back(), 0);
 	Layers::BuildSphereMesh(m, map, layer);
@@ -370,13 +368,12 @@ TEST(AnyTriangles, OnlyFacesWithoutAreaAreRefused)
 {
 	DoubleMesh m;
 	toVcg(SurfaceMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 1}, {2, 2, 2}}}, m);
-	Progress silent;
 	for (const bool sphere : {false, true})
 		try {
 			if (sphere)
-				Flow::ComputeSphere(m, {}, silent);
+				Flow::ComputeSphere(m, {});
 			else
-				Flow::Compute(m, {}, silent);
+				Flow::Compute(m, {});
 			FAIL();
 		}
 		catch (const InvalidMesh& refusal) {
@@ -396,8 +393,7 @@ TEST(AnyTriangles, ASelectedPinchIsAConeTwice)
 		toVcg(surface, m);
 		for (const std::size_t v : selected)
 			m.vert[v].SetS();
-		Progress silent;
-		return Flow::Compute(m, params, silent);
+		return Flow::Compute(m, params);
 	};
 	const auto r = with(mesh, {0, 50});
 	const auto whole = with(sphere, {0, 50, sphere.positions.size() - 1});
@@ -428,8 +424,7 @@ TEST(AnyTriangles, PrescribedCurvatureBesideFacesWithoutArea)
 			m.vert[v].Q() = wanted[v];
 		Flow::Params params = unscaled(output);
 		params.target = TargetCurvature::Prescribed;
-		Progress silent;
-		const auto r = Flow::Compute(m, params, silent);
+		const auto r = Flow::Compute(m, params);
 		EXPECT_EQ(r.report.degenerateFaces, 3);
 		EXPECT_EQ(r.report.components, 1);
 		EXPECT_EQ(r.report.flippedFaces + r.report.flippedByRounding, 0);
@@ -459,9 +454,8 @@ TEST(AnyTriangles, RefusalsNameTheComponentInTheInputsNumbers)
 	mesh.triangles.push_back({first[0], first[1], static_cast<int>(mesh.positions.size()) - 1});
 	DoubleMesh m;
 	toVcg(mesh, m);
-	Progress silent;
 	try {
-		Flow::ComputeHyperbolic(m, {}, silent);
+		Flow::ComputeHyperbolic(m, {});
 		FAIL();
 	}
 	catch (const InadmissibleCurvature& refusal) {
@@ -472,7 +466,7 @@ TEST(AnyTriangles, RefusalsNameTheComponentInTheInputsNumbers)
 	Flow::Params disk;
 	disk.target = TargetCurvature::Disk;
 	try {
-		Flow::Compute(m, disk, silent);
+		Flow::Compute(m, disk);
 		FAIL();
 	}
 	catch (const InvalidOption& refusal) {

@@ -52,11 +52,10 @@ Flow::Result compute(const SurfaceMesh& mesh, const Params& params, const Marks&
 {
 	DoubleMesh m;
 	toVcg(mesh, m);
-	Progress silent;
 	if constexpr (std::is_same_v<Params, Flow::Params>)
-		return Flow::Compute(m, params, silent, marks);
+		return Flow::Compute(m, params, marks);
 	else
-		return Flow::ComputeHyperbolic(m, params, silent, marks);
+		return Flow::ComputeHyperbolic(m, params, marks);
 }
 
 std::pair<int, int> edge(const Triangle& t, std::size_t k)
@@ -316,15 +315,14 @@ TEST(ChosenSeams, MakeARectangleOfACylinder)
 			v.SetS();
 	Flow::Params params = unscaled();
 	params.target = TargetCurvature::Rectangle;
-	Progress silent;
-	const auto r = Flow::Compute(m, params, silent, marks);
+	const auto r = Flow::Compute(m, params, marks);
 	const double perimeter = 2 * kAround * std::sin(kPi / kAround);
 	ASSERT_TRUE(r.report.rectangleAspect.has_value());
 	EXPECT_NEAR(*r.report.rectangleAspect, perimeter / (0.6 * kUp), 1e-9);
 	expectCounts(mesh, insideEdges(mesh, marks), r.report);
 	// Uncut it is no disk.
 	EXPECT_EQ(
-		errorOf<InvalidOption>([&] { Flow::Compute(m, params, silent); })->problem,
+		errorOf<InvalidOption>([&] { Flow::Compute(m, params); })->problem,
 		InvalidOption::NotADisk);
 }
 
@@ -540,12 +538,11 @@ TEST(ChosenSeams, KeepTheSeamsOfAMap)
 	for (const SurfaceMesh& mesh : {sphere(12, 16), torus(3.0, 1.0, 14, 9), perforatedSlab(2, 2)}) {
 		DoubleMesh m;
 		toVcg(mesh, m);
-		Progress silent;
-		Flow::WriteWedgeTexCoord(m, Flow::Compute(m, Flow::Params(), silent));
+		Flow::WriteWedgeTexCoord(m, Flow::Compute(m, Flow::Params()));
 		const Marks marks = Seams::OfTexture(m);
 		const EdgeSet before = insideEdges(mesh, marks);
 		ASSERT_FALSE(before.empty());
-		const auto r = Flow::Compute(m, Flow::Params(), silent, marks);
+		const auto r = Flow::Compute(m, Flow::Params(), marks);
 		expectCounts(mesh, before, r.report);
 		const EdgeSet after = jumps(mesh, r);
 		EXPECT_TRUE(std::includes(after.begin(), after.end(), before.begin(), before.end()));

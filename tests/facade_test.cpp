@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/flat_map.h"
-#include "support/impatient.h"
+#include "support/listener.h"
 #include "support/mesh_contents.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -81,8 +81,7 @@ onFixedTriangulation(TargetCurvature target = TargetCurvature::Automatic)
 template<class Mesh>
 typename Flow<Mesh>::Result compute(const Mesh& m, const typename Flow<Mesh>::Params& par)
 {
-	Progress silent;
-	return Flow<Mesh>::Compute(m, par, silent);
+	return Flow<Mesh>::Compute(m, par);
 }
 
 /// The error of type \p Refusal that Compute() throws.
@@ -131,9 +130,11 @@ TYPED_TEST(Facade, CancellingLeavesTheMeshAsItWas)
 	fill(bumpyTorus(12, 8, random), m);
 	const auto before = contents(m);
 	for (int calls = 1; calls < 8; ++calls) {
-		Impatient impatient(calls);
+		Listener impatient(calls);
 		EXPECT_THROW(
-			Flow<TypeParam>::Compute(m, onFixedTriangulation<TypeParam>(), impatient), Cancelled);
+			heard(impatient, [&] {
+				return Flow<TypeParam>::Compute(m, onFixedTriangulation<TypeParam>());
+			}), Cancelled);
 		EXPECT_EQ(contents(m), before);
 	}
 }
@@ -303,10 +304,9 @@ TYPED_TEST(Facade, HyperbolicDistortionIsMeasuredWhereTheCoordinatesAreStored)
 	toVcg(swirled(perforatedSlab(2, 3)), m);
 	typename Flow<TypeParam>::HyperbolicParams par;
 	par.output = OutputTriangulation::CommonRefinement;
-	Progress silent;
 	const SurfaceMesh mesh = fromVcg(m);
-	const Report before = parametrizeHyperbolic(mesh, {}, par, silent).report;
-	const auto result = Flow<TypeParam>::ComputeHyperbolic(m, par, silent);
+	const Report before = parametrizeHyperbolic(mesh, {}, par).report;
+	const auto result = Flow<TypeParam>::ComputeHyperbolic(m, par);
 	EXPECT_GT(result.report.finishMoved, before.finishMoved);
 	EXPECT_NE(result.report.qcMean, before.qcMean);
 	expectMeasuredAsStored(

@@ -3,6 +3,7 @@
 #include "support/decimal_commas.h"
 #include "support/expect.h"
 #include "support/failing_malloc.h"
+#include "support/listener.h"
 #include "support/mesh_contents.h"
 #include "support/random_surface.h"
 #include "support/read_only.h"
@@ -14,7 +15,6 @@
 #include <ricci/base/memory_estimate.h>
 #include <ricci/base/numbers.h>
 #include <ricci/base/parallel.h>
-#include <ricci/base/time_limit.h>
 #include <ricci/error.h>
 
 #include <gtest/gtest.h>
@@ -159,16 +159,16 @@ struct Way
 {
 	const char* name;
 	SurfaceMesh mesh;
-	std::function<void(const Mesh& m, Progress& progress)> run;
+	std::function<void(const Mesh& m)> run;
 };
 
 std::vector<Way> otherWays()
 {
-	const auto hyperbolic = [](const Mesh& m, Progress& progress) {
+	const auto hyperbolic = [](const Mesh& m) {
 		Flow::HyperbolicParams p;
 		p.output = OutputTriangulation::CommonRefinement;
 		p.canonicalGenerators = true;
-		const Flow::Result result = Flow::ComputeHyperbolic(m, p, progress);
+		const Flow::Result result = Flow::ComputeHyperbolic(m, p);
 		Mesh flat, cover, axes, polygon;
 		Layers::BuildFlatMesh(m, result, flat);
 		Layers::BuildUniversalCover(m, result, 1, 100000, cover);
@@ -176,9 +176,9 @@ std::vector<Way> otherWays()
 		Layers::BuildCanonicalPolygons(result, 10, polygon);
 	};
 	const auto euclidean = [](Flow::Params p) {
-		return [p](const Mesh& m, Progress& progress) {
+		return [p](const Mesh& m) {
 			Mesh flat;
-			Layers::BuildFlatMesh(m, Flow::Compute(m, p, progress), flat);
+			Layers::BuildFlatMesh(m, Flow::Compute(m, p), flat);
 		};
 	};
 	Flow::Params cones, capped;
@@ -188,9 +188,9 @@ std::vector<Way> otherWays()
 		{"hyperbolic", perforatedSlab(2, 1), hyperbolic},
 		{"placed cones", perforatedSlab(0, 1), euclidean(cones)},
 		{"capped ring", ring(1, 2, 5, 2), euclidean(capped)},
-		{"sphere", perforatedSlab(0, 1), [](const Mesh& m, Progress& progress) {
+		{"sphere", perforatedSlab(0, 1), [](const Mesh& m) {
 			 Mesh sphere;
-			 Layers::BuildSphereMesh(m, Flow::ComputeSphere(m, {}, progress), sphere);
+			 Layers::BuildSphereMesh(m, Flow::ComputeSphere(m, {}), sphere);
 		 }}};
 }
 
@@ -233,8 +233,7 @@ TEST(Faults, OutOfMemoryWhileComputingLeavesTheMesh)
 				which,
 				[] {},
 				[&] {
-					Progress silent;
-					Flow::Compute(m, c.params, silent);
+					Flow::Compute(m, c.params);
 				},
 				[&](bool completed, long failures, long n) {
 					EXPECT_EQ(contents(m) == before, true) << c.name << ", allocation " << n;
@@ -259,8 +258,7 @@ TEST(Faults, OutOfMemoryOnAnyOtherWayLeavesTheMesh)
 				which,
 				[] {},
 				[&] {
-					Progress silent;
-					way.run(m, silent);
+					way.run(m);
 				},
 				[&](bool completed, long failures, long n) {
 					EXPECT_EQ(contents(m) == before, true) << way.name << ", allocation " << n;
@@ -279,8 +277,7 @@ TEST(Faults, OutOfMemoryWhileWritingLeavesTheMesh)
 		for (Failing which : {Failing::One, Failing::AllThatFollow}) {
 			Mesh original;
 			build(c.mesh, original);
-			Progress silent;
-			const Flow::Result result = Flow::Compute(original, c.params, silent);
+			const Flow::Result result = Flow::Compute(original, c.params);
 			std::unique_ptr<Mesh> m;
 			std::string before;
 			const long tried = failEveryAllocation(
@@ -325,13 +322,12 @@ TEST(Faults, WithoutMemoryForAThreadBothAreDoneAllTheSame)
 {
 	RICCI_NEEDS_FAILING_MALLOC();
 	int main = 0, aside = 0;
-	const std::function<void()> deaf = [] {};
 	const long tried = failEveryAllocation(
 		Failing::AllThatFollow,
 		[&] { main = aside = 0; },
 		[&] {
 			besides(
-				2, deaf, [&] { ++main; }, [&](const auto&) { ++aside; });
+				2, [&] { ++main; }, [&] { ++aside; });
 		},
 		[&](bool completed, long, long n) {
 			EXPECT_TRUE(completed) << "allocation " << n;
@@ -349,16 +345,15 @@ TEST(Faults, WhatIsThrownBesidesIsThrownOn)
 	struct Aside
 	{
 	};
-	const std::function<void()> deaf = [] {};
 	for (const int threads : {1, 2}) {
 		bool done = false;
 		EXPECT_THROW(
 			besides(
-				threads, deaf, [] { throw Main(); }, [&](const auto&) { done = true; }),
+				threads, [] { throw Main(); }, [&] { done = true; }),
 			Main);
 		EXPECT_THROW(
 			besides(
-				threads, deaf, [] {}, [](const auto&) { throw Aside(); }),
+				threads, [] {}, [] { throw Aside(); }),
 			Aside);
 		// The tick of the other thread ends it once the main one has thrown.
 		if (threads == 1)
@@ -367,29 +362,29 @@ TEST(Faults, WhatIsThrownBesidesIsThrownOn)
 		EXPECT_THROW(
 			besides(
 				threads,
-				deaf,
 				[&] {
 					while (!isRunning)
 						std::this_thread::yield();
 					throw Main();
 				},
-				[&](const auto& own) {
+				[&] {
 					isRunning = true;
 					for (;;)
-						own();
+						checkpoint();
 				}),
 			Main);
 		// While it waits, the calling thread hears Cancel.
+		Listener impatient(1);
+		const Task task(impatient);
 		EXPECT_THROW(
 			besides(
 				threads,
-				[] { throw Main(); },
 				[] {},
-				[&](const auto& own) {
+				[] {
 					for (;;)
-						own();
+						checkpoint();
 				}),
-			Main);
+			Cancelled);
 	}
 }
 
@@ -400,11 +395,11 @@ TEST(Faults, CancellingAtAnyCallLeavesTheMesh)
 		build(c.mesh, m);
 		const std::string before = contents(m);
 		CancelAt never(-1);
-		const auto result = Flow::Compute(m, c.params, never);
+		const auto result = heard(never, [&] { return Flow::Compute(m, c.params); });
 		EXPECT_GE(never.newtonSteps, result.report.iterations) << c.name;
 		for (int call = 0; call < never.calls; ++call) {
 			CancelAt cancel(call);
-			EXPECT_THROW(Flow::Compute(m, c.params, cancel), Cancelled) << c.name;
+			EXPECT_THROW(heard(cancel, [&] { return Flow::Compute(m, c.params); }), Cancelled) << c.name;
 			EXPECT_EQ(cancel.calls, call + 1) << "called again after a refusal to go on";
 			EXPECT_EQ(contents(m) == before, true) << c.name << ", call " << call;
 		}
@@ -418,11 +413,11 @@ TEST(Faults, CancellingAnyOtherWayAtAnyCallLeavesTheMesh)
 		build(way.mesh, m);
 		const std::string before = contents(m);
 		CancelAt never(-1);
-		way.run(m, never);
+		heard(never, [&] { way.run(m); });
 		EXPECT_GT(never.calls, 3) << way.name;
 		for (int call = 0; call < never.calls; ++call) {
 			CancelAt cancel(call);
-			EXPECT_THROW(way.run(m, cancel), Cancelled) << way.name;
+			EXPECT_THROW(heard(cancel, [&] { return way.run(m); }), Cancelled) << way.name;
 			EXPECT_EQ(cancel.calls, call + 1) << "called again after a refusal to go on";
 			EXPECT_EQ(contents(m) == before, true) << way.name << ", call " << call;
 		}
@@ -439,8 +434,7 @@ TEST(Faults, ASolverThatDoesNotConvergeLeavesTheMesh)
 	std::string before = contents(m);
 	Flow::Params p;
 	p.target = TargetCurvature::Prescribed;
-	Progress silent;
-	auto error = errorOf<NotConverged>([&] { Flow::Compute(m, p, silent); });
+	auto error = errorOf<NotConverged>([&] { Flow::Compute(m, p); });
 	ASSERT_TRUE(error);
 	EXPECT_EQ(error->problem, NotConverged::LostInRounding);
 	EXPECT_EQ(contents(m) == before, true);
@@ -453,7 +447,7 @@ TEST(Faults, ASolverThatDoesNotConvergeLeavesTheMesh)
 	before = contents(slab);
 	Flow::HyperbolicParams kept;
 	kept.method = Method::FixedTriangles;
-	error = errorOf<NotConverged>([&] { Flow::ComputeHyperbolic(slab, kept, silent); });
+	error = errorOf<NotConverged>([&] { Flow::ComputeHyperbolic(slab, kept); });
 	ASSERT_TRUE(error);
 	EXPECT_EQ(error->problem, NotConverged::BrokenTriangles);
 	EXPECT_EQ(contents(slab) == before, true);
@@ -478,9 +472,9 @@ TEST(Faults, ATimeLimitLeavesTheMesh)
 		build(c.mesh, m);
 		const std::string before = contents(m);
 		Slow slow;
-		TimeLimit progress(slow, 0.01);
 		try {
-			Flow::Compute(m, c.params, progress);
+			const Task task(slow, 0.01);
+			Flow::Compute(m, c.params);
 			ADD_FAILURE() << c.name << " takes no time";
 		}
 		catch (const TimeOut& late) {
@@ -517,13 +511,13 @@ TEST(Faults, TheWorkIsDoneAtTheLastUpdateOnly)
 		Mesh m;
 		build(c.mesh, m);
 		Record record;
-		Flow::Compute(m, c.params, record);
+		heard(record, [&] { return Flow::Compute(m, c.params); });
 		expectDoneAtTheEnd(record);
 	}
 	Mesh m;
 	build(perforatedSlab(2, 1), m);
 	Record record;
-	Flow::ComputeHyperbolic(m, {}, record);
+	heard(record, [&] { return Flow::ComputeHyperbolic(m, {}); });
 	expectDoneAtTheEnd(record);
 }
 
@@ -533,12 +527,10 @@ TEST(Faults, ATimeLimitThatIsNotReachedChangesNothing)
 		for (double seconds : {0.0, 1e6}) {
 			Mesh m;
 			build(c.mesh, m);
+			const auto expected = Flow::Compute(m, c.params).wedgeUV;
 			Progress silent;
-			TimeLimit progress(silent, seconds);
-			EXPECT_EQ(
-				Flow::Compute(m, c.params, progress).wedgeUV,
-				Flow::Compute(m, c.params, silent).wedgeUV)
-				<< c.name;
+			const Task task(silent, seconds);
+			EXPECT_EQ(Flow::Compute(m, c.params).wedgeUV, expected) << c.name;
 		}
 }
 
@@ -547,10 +539,9 @@ template<class Refusal>
 Refusal refusal(Mesh& m, const Flow::Params& p)
 {
 	const std::string before = contents(m);
-	Progress silent;
 	std::optional<Refusal> refused;
 	try {
-		Flow::Compute(m, p, silent);
+		Flow::Compute(m, p);
 	}
 	catch (const Refusal& error) {
 		refused = error;
@@ -569,18 +560,19 @@ TEST(Faults, AnEstimateAboveTheMemoryIsRefused)
 	Mesh m;
 	build(rectangle(20, 20, 1, 1), m);
 	Flow::Params p;
-	p.memoryLimit = 1000;
+	Progress silent;
+	Task task(silent);
+	task.setMemoryLimit(1000);
 	const TooLarge refused = refusal<TooLarge>(m, p);
 	EXPECT_EQ(refused.problem, TooLarge::Memory);
 	EXPECT_EQ(refused.count, 800u);
 	EXPECT_EQ(refused.needed, estimatedMemory(800, 800, false));
 	EXPECT_EQ(refused.limit, 1000.0);
 	EXPECT_TRUE(startsWith(refused, "The mesh has 800 faces")) << refused.what();
-	p.memoryLimit = 1e9;
-	Progress silent;
-	EXPECT_NO_THROW(Flow::Compute(m, p, silent));
-	EXPECT_NO_THROW(requireMemory(100000000, 100000000, false, 0.0));
-	EXPECT_THROW(requireMemory(400000000, 400000000, false, 0.0), TooLarge);
+	task.setMemoryLimit(1e9);
+	EXPECT_NO_THROW(Flow::Compute(m, p));
+	EXPECT_NO_THROW(requireMemory(10000, 10000, false));
+	EXPECT_THROW(requireMemory(400000000, 400000000, false), TooLarge);
 }
 
 TEST(Faults, ADoubleAboveTheMemoryIsRefused)
@@ -591,14 +583,17 @@ TEST(Faults, ADoubleAboveTheMemoryIsRefused)
 	Mesh m;
 	build(strip, m);
 	Flow::Params p = params(TargetCurvature::Disk, OutputTriangulation::KeepMesh);
-	p.memoryLimit = 1.1 * estimatedMemory(faces, faces, false);
+	const double limit = 1.1 * estimatedMemory(faces, faces, false);
+	Progress silent;
+	Task task(silent);
+	task.setMemoryLimit(limit);
 	const TooLarge tooLarge = refusal<TooLarge>(m, p);
 	EXPECT_EQ(tooLarge.problem, TooLarge::DoubleMemory);
 	EXPECT_EQ(tooLarge.count, 2 * faces);
 	EXPECT_GT(tooLarge.needed, tooLarge.limit);
-	EXPECT_EQ(tooLarge.limit, p.memoryLimit);
+	EXPECT_EQ(tooLarge.limit, limit);
 	EXPECT_TRUE(startsWith(tooLarge, "Boundary edges have to flip")) << tooLarge.what();
-	p.memoryLimit = 0.0;
+	task.setMemoryLimit(0.0);
 	// The disk's ends are e^-47 of its middle (crowding).
 	const NotConverged lost = refusal<NotConverged>(m, p);
 	EXPECT_EQ(lost.problem, NotConverged::LostInRounding);
@@ -630,15 +625,17 @@ TEST(Faults, AnOverlayAboveTheMemoryIsRefused)
 	const SurfaceMesh shape = drum(200);
 	build(shape, m);
 	Flow::Params p = params(TargetCurvature::PlacedCones, OutputTriangulation::CommonRefinement);
-	p.memoryLimit = 1.2 * estimatedMemory(shape.triangles.size(), shape.triangles.size(), true);
+	Progress silent;
+	Task task(silent);
+	task.setMemoryLimit(
+		1.2 * estimatedMemory(shape.triangles.size(), shape.triangles.size(), true));
 	const TooLarge refused = refusal<TooLarge>(m, p);
 	EXPECT_EQ(refused.problem, TooLarge::OverlayMemory);
 	EXPECT_GT(refused.needed, refused.limit);
 	EXPECT_TRUE(startsWith(refused, "The edges after the flow cross")) << refused.what();
-	Progress silent;
-	p.memoryLimit = 1e9;
-	EXPECT_NO_THROW(Flow::Compute(m, p, silent));
-	EXPECT_THROW(requireOverlayMemory(1000000000, false, 0.0), TooLarge);
+	task.setMemoryLimit(1e9);
+	EXPECT_NO_THROW(Flow::Compute(m, p));
+	EXPECT_THROW(requireOverlayMemory(1000000000, false), TooLarge);
 }
 
 /// The overlay is heard while it grows, not only before and after.
@@ -660,12 +657,12 @@ TEST(Faults, CancellingWithinTheOverlayLeavesTheMesh)
 	const Flow::Params p =
 		params(TargetCurvature::PlacedCones, OutputTriangulation::CommonRefinement);
 	InTheOverlay all;
-	EXPECT_NO_THROW(Flow::Compute(m, p, all));
+	EXPECT_NO_THROW(heard(all, [&] { return Flow::Compute(m, p); }));
 	EXPECT_GE(all.calls, 5);
 	for (int n = 1; n <= all.calls; ++n) {
 		InTheOverlay progress;
 		progress.cancelAt = n;
-		EXPECT_THROW(Flow::Compute(m, p, progress), Cancelled);
+		EXPECT_THROW(Flow::Compute(m, p), Cancelled);
 		EXPECT_EQ(progress.calls, n);
 		EXPECT_EQ(contents(m) == before, true);
 	}
@@ -688,13 +685,12 @@ TEST(Faults, AHostThatTrapsFloatingPointExceptionsGetsTheSameResult)
 	for (const Case& c : cases()) {
 		Mesh m;
 		build(c.mesh, m);
-		Progress silent;
-		const auto expected = Flow::Compute(m, c.params, silent);
+		const auto expected = Flow::Compute(m, c.params);
 		const int traps = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
 		std::fesetround(FE_UPWARD);
 		feclearexcept(FE_ALL_EXCEPT);
 		feenableexcept(traps);
-		const auto found = Flow::Compute(m, c.params, silent);
+		const auto found = Flow::Compute(m, c.params);
 		const int trapsLeft = fegetexcept(), rounding = std::fegetround();
 		fedisableexcept(traps);
 		std::fesetround(FE_TONEAREST);
@@ -725,11 +721,11 @@ TEST(Faults, AHostWithDecimalCommasGetsTheSame)
 			build(c.mesh, m);
 			const std::string before = contents(m);
 			Listener listener;
-			const Flow::Result result = Flow::Compute(m, c.params, listener);
+			const Flow::Result result = heard(listener, [&] { return Flow::Compute(m, c.params); });
 			Flow::Params refused = c.params;
 			refused.epsilon = -0.5;
 			try {
-				Flow::Compute(m, refused, listener);
+				heard(listener, [&] { return Flow::Compute(m, refused); });
 			}
 			catch (const Error& error) {
 				listener.log(error.what());
@@ -763,8 +759,7 @@ TEST(Faults, AReadOnlyMeshIsOnlyRead)
 				const ReadOnly vertices(m.vert);
 				const ReadOnly faces(m.face);
 				ASSERT_TRUE(vertices.works() && faces.works());
-				Progress silent;
-				Flow::Compute(m, params(TargetCurvature::Automatic, output), silent);
+				Flow::Compute(m, params(TargetCurvature::Automatic, output));
 				EXPECT_EQ(
 					refusal<InvalidOption>(m, params(TargetCurvature::SelectedCones, output))
 						.problem,
@@ -784,11 +779,10 @@ TEST(Faults, ASecondRunGivesTheSame)
 		++compared;
 		Mesh m;
 		build(c.mesh, m);
-		Progress silent;
-		const auto first = Flow::Compute(m, c.params, silent);
+		const auto first = Flow::Compute(m, c.params);
 		write(m, c.params, first);
 		const std::string after = contents(m);
-		const auto second = Flow::Compute(m, c.params, silent);
+		const auto second = Flow::Compute(m, c.params);
 		write(m, c.params, second);
 		EXPECT_EQ(second.u, first.u) << c.name;
 		EXPECT_EQ(contents(m) == after, true) << c.name;
@@ -820,19 +814,18 @@ TEST(Faults, TwoMeshesInTurnGetWhatEachGetsAlone)
 	placed.cones.count = 4;
 	DoubleFlow::Params refused;
 	refused.target = TargetCurvature::Disk;
-	Progress silent;
 
 	std::string torusAlone, slabAlone, conesAlone;
 	{
 		Mesh m;
 		build(torus, m);
-		torusAlone = written(m, Flow::Compute(m, {}, silent));
+		torusAlone = written(m, Flow::Compute(m, {}));
 	}
 	{
 		DoubleMesh m;
 		toVcg(slab, m);
-		slabAlone = written(m, DoubleFlow::ComputeHyperbolic(m, {}, silent));
-		conesAlone = written(m, DoubleFlow::Compute(m, placed, silent));
+		slabAlone = written(m, DoubleFlow::ComputeHyperbolic(m, {}));
+		conesAlone = written(m, DoubleFlow::Compute(m, placed));
 	}
 
 	Mesh a;
@@ -840,17 +833,17 @@ TEST(Faults, TwoMeshesInTurnGetWhatEachGetsAlone)
 	build(torus, a);
 	toVcg(slab, b);
 	const std::string before = contents(b);
-	EXPECT_THROW(DoubleFlow::Compute(b, refused, silent), Error);
-	const auto first = Flow::Compute(a, {}, silent);
-	const auto disk = DoubleFlow::ComputeHyperbolic(b, {}, silent);
+	EXPECT_THROW(DoubleFlow::Compute(b, refused), Error);
+	const auto first = Flow::Compute(a, {});
+	const auto disk = DoubleFlow::ComputeHyperbolic(b, {});
 	EXPECT_EQ(contents(b) == before, true);
 	EXPECT_EQ(written(a, first) == torusAlone, true);
 	EXPECT_EQ(contents(b) == before, true);
-	const auto again = Flow::Compute(a, {}, silent);
+	const auto again = Flow::Compute(a, {});
 	EXPECT_EQ(written(b, disk) == slabAlone, true);
-	EXPECT_THROW(DoubleFlow::Compute(b, refused, silent), Error);
+	EXPECT_THROW(DoubleFlow::Compute(b, refused), Error);
 	EXPECT_EQ(written(a, again) == torusAlone, true);
-	EXPECT_EQ(written(b, DoubleFlow::Compute(b, placed, silent)) == conesAlone, true);
+	EXPECT_EQ(written(b, DoubleFlow::Compute(b, placed)) == conesAlone, true);
 }
 
 TEST(Faults, AnAttributeOfAnotherTypeIsReplaced)
@@ -862,8 +855,7 @@ TEST(Faults, AnAttributeOfAnotherTypeIsReplaced)
 	auto old = Allocator::AddPerVertexAttribute<float>(m, "ricci_target_curvature");
 	for (std::size_t v = 0; v < m.vert.size(); ++v)
 		old[v] = 7.0f;
-	Progress silent;
-	const auto result = Flow::Compute(m, {}, silent);
+	const auto result = Flow::Compute(m, {});
 	Flow::WriteVertexQuality(m, result);
 	EXPECT_EQ(m.vert_attr.size(), 2u);
 	auto u = Allocator::FindPerVertexAttribute<float>(m, "ricci_u");

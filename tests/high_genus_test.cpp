@@ -34,8 +34,7 @@ Parametrization run(const SurfaceMesh& mesh, const VertexInput& input = {})
 	options.output = OutputTriangulation::CommonRefinement;
 	options.target = input.targetCurvature.empty() ? HyperbolicTarget::HyperbolicMetric
 												   : HyperbolicTarget::Prescribed;
-	Progress silent;
-	return parametrizeHyperbolic(mesh, input, options, silent);
+	return parametrizeHyperbolic(mesh, input, options);
 }
 
 /// The skin round the edges of a graph with corners in space. Of genus edges - corners + 1.

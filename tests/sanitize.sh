@@ -55,6 +55,7 @@ run_thread_sanitizer() {
 	for test in base/parallel_test math/one_thread_test; do
 		program=$folder/${test##*/}
 		c++ -std=c++17 -O1 -g -fsanitize=thread -I"$root/vcg_ext" "$root/tests/$test.cpp" \
+			"$root"/vcg_ext/ricci/base/{task,error}.cpp \
 			-lgtest_main -lgtest -lpthread -o "$program" || return 1
 		timeout 300 "$program" --gtest_brief=1 || return 1
 	done

@@ -8,10 +8,8 @@
 #include "results.h"
 #include "run_report.h"
 
-#include <ricci/base/part_of_progress.h>
+#include <ricci/base/task.h>
 #include <ricci/base/text.h>
-#include <ricci/base/time_limit.h>
-#include <ricci/progress.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
 #include <vcg/complex/algorithms/parametrization/ricci_seams.h>
@@ -81,7 +79,7 @@ MeshModel& checkedMesh(MeshDocument& md, bool readsQuality)
 
 /// The sides of faces at which the surface is to be opened.
 /// \throw Refusal if the mesh has none of what was chosen
-Flow::SideMarks chosenSeams(const MeshModel& model, Seams seams, ricci::Progress& progress)
+Flow::SideMarks chosenSeams(const MeshModel& model, Seams seams)
 {
 	using Chosen = vcg::tri::RicciSeams<CMeshO>;
 	Flow::SideMarks marks;
@@ -96,7 +94,7 @@ Flow::SideMarks chosenSeams(const MeshModel& model, Seams seams, ricci::Progress
 				"one that has them, or choose other seams.");
 		marks = Chosen::OfTexture(model.cm);
 		if (marks.empty())
-			progress.log(
+			ricci::logLine(
 				"The texture coordinates jump at no edge inside the surface: there are no seams to "
 				"keep but its borders.");
 		break;
@@ -180,11 +178,11 @@ void addAxesLayer(NewLayers& layers, MeshModel& model, const Flow::Result& resul
 }
 
 void addPolygonLayer(
-	NewLayers& layers, MeshModel& model, const Flow::Result& result, ricci::Progress& progress)
+	NewLayers& layers, MeshModel& model, const Flow::Result& result)
 {
 	MeshModel& layer = layers.add("Canonical polygon " + model.label());
 	for (const auto& polygon : Layers::BuildCanonicalPolygons(result, kGeodesicPieces, layer.cm))
-		progress.log(
+		ricci::logLine(
 			polygon.corners.empty()
 				? "Canonical polygon: not drawn, because its sides are too long to close up in "
 				  "floating point numbers."
@@ -265,18 +263,17 @@ Flow::Result computeFor(
 	const CarriedTexture& texture,
 	MeshModel& model,
 	Flow::Params par,
-	const Flow::SideMarks& seams,
-	ricci::Progress& progress)
+	const Flow::SideMarks& seams)
 {
 	const bool widens = texture.minMargin() > par.chartMargin;
 	if (widens) {
 		par.chartMargin = texture.minMargin();
-		progress.log(
+		ricci::logLine(
 			"Texture: a chart_margin of " + ricci::numberText(par.chartMargin, 3) +
 			" keeps its charts apart.");
 	}
 	try {
-		return Flow::Compute(model.cm, par, progress, seams);
+		return Flow::Compute(model.cm, par, seams);
 	}
 	catch (const ricci::InvalidOption& e) {
 		if (!widens || e.problem != ricci::InvalidOption::ChartMarginTooWide)
@@ -301,9 +298,9 @@ public:
 		MeshDocument& md,
 		bool readsQuality,
 		ricci::Progress& listener) :
-			progress(listener, settings.timeLimit),
+			task(listener, settings.timeLimit),
 			model(checkedMesh(md, readsQuality)),
-			seams(chosenSeams(model, settings.seams, progress)), texture(settings.texture, model),
+			seams(chosenSeams(model, settings.seams)), texture(settings.texture, model),
 			m_settings(settings), m_md(md), m_report(settings.report, model.pathName())
 	{
 	}
@@ -325,9 +322,14 @@ public:
 		const AddLayers& addLayers)
 	{
 		const double drawn = 0.5 * (flowShare() + 1.0);
-		ricci::PartOfProgress drawing(progress, flowShare(), drawn), writing(progress, drawn, 1.0);
-		texture.draw(model, result, drawing, results);
-		texture.write(writing);
+		{
+			const ricci::Task drawing(flowShare(), drawn);
+			texture.draw(model, result, results);
+		}
+		{
+			const ricci::Task writing(drawn, 1.0);
+			texture.write();
+		}
 		m_report.write(
 			{filterText(filter).name.toStdString(),
 			 model.shortName().toStdString(),
@@ -339,13 +341,13 @@ public:
 		addLayers(layers);
 		texture.publish();
 		for (const std::string& file : m_report.publish())
-			progress.log("Report: " + file);
+			ricci::logLine("Report: " + file);
 		writeMesh(model, m_settings.colorize, output, result, results, texture);
 		layers.keep();
 		return {results, changedElements(m_settings.colorize, output)};
 	}
 
-	ricci::TimeLimit progress;
+	ricci::Task task;
 	MeshModel& model;
 	const Flow::SideMarks seams;
 	CarriedTexture texture;
@@ -360,15 +362,18 @@ Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Pr
 {
 	Settings settings = readSettings(par);
 	Run run(settings, md, settings.flow.target == ricci::TargetCurvature::Prescribed, listener);
-	settings.flow.memoryLimit = freeMemory(); // beside the pictures
+	run.task.setMemoryLimit(freeMemory()); // beside the pictures
 	// The sphere first: it refuses most surfaces.
 	const double share = settings.sphereLayer ? kSphereShare : 0.0;
-	ricci::PartOfProgress before(run.progress, 0.0, share),
-		flow(run.progress, share, run.flowShare());
 	ricci::SphereMap sphere;
-	if (settings.sphereLayer)
-		sphere = Flow::ComputeSphere(run.model.cm, settings.flow, before);
-	const Flow::Result result = computeFor(run.texture, run.model, settings.flow, run.seams, flow);
+	if (settings.sphereLayer) {
+		const ricci::Task before(0.0, share);
+		sphere = Flow::ComputeSphere(run.model.cm, settings.flow);
+	}
+	const Flow::Result result = [&] {
+		const ricci::Task flow(share, run.flowShare());
+		return computeFor(run.texture, run.model, settings.flow, run.seams);
+	}();
 	Results results = toResults(result.report);
 	if (settings.sphereLayer)
 		addSphereResults(sphere, results);
@@ -384,10 +389,11 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 {
 	HyperbolicSettings settings = readHyperbolicSettings(par);
 	Run run(settings, md, settings.flow.target == ricci::HyperbolicTarget::Prescribed, listener);
-	settings.flow.memoryLimit = freeMemory(); // beside the pictures
-	ricci::PartOfProgress flow(run.progress, 0.0, run.flowShare());
-	const Flow::Result result =
-		Flow::ComputeHyperbolic(run.model.cm, settings.flow, flow, run.seams);
+	run.task.setMemoryLimit(freeMemory()); // beside the pictures
+	const Flow::Result result = [&] {
+		const ricci::Task flow(0.0, run.flowShare());
+		return Flow::ComputeHyperbolic(run.model.cm, settings.flow, run.seams);
+	}();
 	Results results = toResults(result.report);
 	if (result.groups.size() == 1 && result.groups.front().isCanonical())
 		addGenerators(result.groups.front(), results);
@@ -399,7 +405,7 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 		if (settings.axes)
 			addAxesLayer(layers, run.model, result);
 		if (settings.canonicalPolygon)
-			addPolygonLayer(layers, run.model, result, run.progress);
+			addPolygonLayer(layers, run.model, result);
 	});
 }
 

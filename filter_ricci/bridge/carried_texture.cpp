@@ -96,27 +96,12 @@ ricci::Point3 inFace(const ricci::SurfacePoint& p, const ricci::Triangle& face)
 	return weights;
 }
 
-/// The steps of work whose number is known about only: the fraction grows towards 1.
-ricci::Tick steps(ricci::Progress& progress, const char* what, double expected)
-{
-	return [&progress, what, expected, done = 0.0]() mutable {
-		done += 1.0;
-		progress.step(done / (done + expected), what);
-	};
-}
-
-/// Squares of 128 x 128 texels: a few ticks for each, where a picture is drawn or written.
-double tiles(int size)
-{
-	return 1.0 + static_cast<double>(size) * size / (128.0 * 128.0);
-}
-
-/// Passes what is written on to a file, with a tick each time. No exception passes the library that
-/// writes: one of the tick makes the writing fail, and is kept.
-class TickingFile : public QIODevice
+/// Passes what is written on to a file, with a checkpoint each time. No exception passes the library that
+/// writes: one of the checkpoint makes the writing fail, and is kept.
+class WatchedFile : public QIODevice
 {
 public:
-	TickingFile(QIODevice& file, ricci::Tick tick) : m_file(file), m_tick(std::move(tick))
+	explicit WatchedFile(QIODevice& file) : m_file(file)
 	{
 		open(QIODevice::WriteOnly | QIODevice::Unbuffered);
 	}
@@ -135,7 +120,7 @@ protected:
 	qint64 writeData(const char* data, qint64 size) override
 	{
 		try {
-			m_tick();
+			ricci::checkpoint();
 		}
 		catch (...) {
 			m_thrown = std::current_exception();
@@ -152,7 +137,6 @@ protected:
 
 private:
 	QIODevice& m_file;
-	ricci::Tick m_tick;
 	std::exception_ptr m_thrown;
 };
 
@@ -326,10 +310,10 @@ void CarriedTexture::makeResult()
 #endif
 }
 
-void CarriedTexture::convertPictures(const ricci::Tick& tick)
+void CarriedTexture::convertPictures()
 {
 	for (QImage& picture : m_pictures) {
-		tick();
+		ricci::checkpoint();
 		if (picture.isNull())
 			continue;
 #if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
@@ -345,7 +329,7 @@ void CarriedTexture::convertPictures(const ricci::Tick& tick)
 }
 
 template<class Sample>
-void CarriedTexture::drawSamples(const ricci::Tick& tick)
+void CarriedTexture::drawSamples()
 {
 	std::vector<ricci::PictureView<const Sample>> views;
 	for (const QImage& picture : m_pictures)
@@ -358,11 +342,10 @@ void CarriedTexture::drawSamples(const ricci::Tick& tick)
 		views,
 		m_hasAlpha,
 		{m_size, m_size, reinterpret_cast<Sample*>(m_result.bits())},
-		ricci::defaultThreads(),
-		tick);
+		ricci::defaultThreads());
 }
 
-void CarriedTexture::describe(ricci::Progress& progress, Results& results) const
+void CarriedTexture::describe(Results& results) const
 {
 	std::vector<std::array<int, 2>> sizes;
 	int count = 0;
@@ -385,40 +368,39 @@ void CarriedTexture::describe(ricci::Progress& progress, Results& results) const
 		line += "; " + std::to_string(m_uncoloured) +
 				(m_uncoloured == 1 ? " face has neither a texture nor a colour: it is white"
 								   : " faces have neither a texture nor a colour: they are white");
-	progress.log(line + ".");
+	ricci::logLine(line + ".");
 }
 
 void CarriedTexture::draw(
-	const MeshModel& model, const Flow::Result& result, ricci::Progress& progress, Results& results)
+	const MeshModel& model, const Flow::Result& result, Results& results)
 {
 	if (!isWanted())
 		return;
 	const ricci::DefaultFloatingPoint defaultEnvironment;
-	const int threads = ricci::defaultThreads(); // of which one ticks
-	const ricci::Tick tick = steps(progress, "Drawing the texture", tiles(m_size) / threads);
-	tick();
+	ricci::advance(0.0, "Drawing the texture");
 	takeTriangles(model, result);
 	makeResult();
-	convertPictures(tick);
+	convertPictures();
 	if (m_hasWords)
-		drawSamples<unsigned short>(tick);
+		drawSamples<unsigned short>();
 	else
-		drawSamples<unsigned char>(tick);
-	describe(progress, results);
+		drawSamples<unsigned char>();
+	describe(results);
 	if (result.report.overlappingCharts > 0)
-		progress.log("Texture: where charts overlap, it shows one of the faces only.");
+		ricci::logLine("Texture: where charts overlap, it shows one of the faces only.");
 	m_mesh = {};
 	m_pictures.clear();
 }
 
-void CarriedTexture::write(ricci::Progress& progress)
+void CarriedTexture::write()
 {
 	if (!isWanted())
 		return;
 	m_file.setFileName(m_path);
 	// Without Qt's buffer: it drops what no longer fits on a full disk and reports no error.
 	if (m_file.open(QIODevice::WriteOnly | QIODevice::Unbuffered)) {
-		TickingFile file(m_file, steps(progress, "Writing the texture", tiles(m_size)));
+		ricci::advance(0.0, "Writing the texture");
+		WatchedFile file(m_file);
 		QImageWriter writer(&file, "png");
 		writer.setQuality(
 			70); // of compression: a sixth of the default's time, files a sixth larger

@@ -7,7 +7,7 @@
 #include "bridge.h"
 #include "parameters.h"
 
-#include <ricci/progress.h>
+#include <ricci/base/task.h>
 #include <ricci/texture/carry_texture.h>
 
 #include <QImage>
@@ -36,16 +36,12 @@ public:
 	double minMargin() const;
 
 	/// Draws the picture into memory and adds its result.
-	/// \throw ricci::Cancelled and what the progress does, std::bad_alloc
-	void draw(
-		const MeshModel& model,
-		const Flow::Result& result,
-		ricci::Progress& progress,
-		Results& results);
+	/// \throw ricci::Stopped, std::bad_alloc
+	void draw(const MeshModel& model, const Flow::Result& result, Results& results);
 
 	/// Writes the file beside its place.
-	/// \throw Refusal if there is no room for it, ricci::Cancelled and what the progress does
-	void write(ricci::Progress& progress);
+	/// \throw Refusal if there is no room for it, ricci::Stopped
+	void write();
 
 	/// Moves the written file to its place.
 	/// \throw Refusal if that cannot be done
@@ -61,10 +57,10 @@ private:
 
 	void takeTriangles(const MeshModel& model, const Flow::Result& result);
 	void makeResult();
-	void convertPictures(const ricci::Tick& tick);
+	void convertPictures();
 	template<class Sample>
-	void drawSamples(const ricci::Tick& tick);
-	void describe(ricci::Progress& progress, Results& results) const;
+	void drawSamples();
+	void describe(Results& results) const;
 	[[noreturn]] void refuseFile() const;
 
 	QString m_path; ///< empty: no texture is wanted

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Needs nothing but the header, so that the thread sanitizer can have it alone.
 #include <ricci/base/parallel.h>
 
 #include <gtest/gtest.h>
@@ -10,13 +9,13 @@
 #include <functional>
 #include <numeric>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace ricci::testing {
 namespace {
-
-using Tick = std::function<void()>;
 
 TEST(InParallel, EveryElementIsInOnePart)
 {
@@ -36,87 +35,94 @@ TEST(InParallel, EveryElementIsInOnePart)
 			}
 }
 
-TEST(TasksInParallel, EachIsDoneOnceAndTheCallingThreadAloneTicks)
+/// Calls \p heard at every update.
+class Caller : public Progress
+{
+public:
+	explicit Caller(std::function<void(double)> heard) : m_heard(std::move(heard)) {}
+	bool update(double fraction, const std::string&) override
+	{
+		m_heard(fraction);
+		return true;
+	}
+
+private:
+	std::function<void(double)> m_heard;
+};
+
+TEST(TasksInParallel, EachIsDoneOnceAndTheCallingThreadAloneIsHeard)
 {
 	for (const int count : {0, 1, 3, 500})
 		for (const int threads : {0, 1, 2, 5}) {
 			const auto caller = std::this_thread::get_id();
-			int ticks = 0;
-			const Tick tick = [&] {
+			int heard = 0;
+			Caller listener([&](double) {
 				EXPECT_EQ(std::this_thread::get_id(), caller);
-				++ticks;
-			};
+				++heard;
+			});
+			const Task task(listener);
 			std::vector<long> sums(static_cast<std::size_t>(count), 0);
-			tasksInParallel(count, threads, tick, [&](int i, const Tick& own) {
+			tasksInParallel(count, threads, [&](int i) {
 				for (int k = 0; k <= i; ++k) {
-					own();
+					checkpoint();
 					sums[static_cast<std::size_t>(i)] += k;
 				}
 			});
-			EXPECT_GE(ticks, 1);
+			EXPECT_GE(heard, 1);
 			for (int i = 0; i < count; ++i)
 				EXPECT_EQ(sums[static_cast<std::size_t>(i)], long(i) * (i + 1) / 2);
 		}
 }
 
-TEST(TasksInParallel, WhatATaskOrTheTickThrowsEndsAll)
+TEST(TasksInParallel, WhatATaskOrTheListenerThrowsEndsAll)
 {
 	for (const int threads : {1, 2, 5}) {
 		std::vector<char> done(200, 0);
-		const auto work = [&](int i, const Tick& own) {
-			own();
+		const auto work = [&](int i) {
+			checkpoint();
 			if (i == 20)
 				throw std::runtime_error("a task");
 			done[static_cast<std::size_t>(i)] = 1;
 		};
-		EXPECT_THROW(
-			tasksInParallel(
-				200, threads, [] {}, work),
-			std::runtime_error);
+		EXPECT_THROW(tasksInParallel(200, threads, work), std::runtime_error);
 		EXPECT_EQ(done[20], 0);
 		EXPECT_LT(std::count(done.begin(), done.end(), 1), 200);
-		// No task ends by itself: the others hear that the tick has thrown.
-		int ticks = 0;
-		EXPECT_THROW(
-			tasksInParallel(
-				threads,
-				threads,
-				[&] {
-					if (++ticks == 100)
-						throw std::logic_error("the tick");
-				},
-				[](int, const Tick& own) {
-					for (;;)
-						own();
-				}),
-			std::logic_error);
+		// No task ends by itself: the others hear that the listener has thrown.
+		int heard = 0;
+		Caller listener([&](double) {
+			if (++heard == 100)
+				throw std::logic_error("the listener");
+		});
+		const Task task(listener);
+		const auto endless = [](int) {
+			for (;;)
+				checkpoint();
+		};
+		EXPECT_THROW(tasksInParallel(threads, threads, endless), std::logic_error);
 	}
 }
 
 /// The task in the other thread goes on after the caller's own is done.
-TEST(TasksInParallel, TheTickIsHeardWhileTheCallerWaits)
+TEST(TasksInParallel, TheListenerIsHeardWhileTheCallerWaits)
 {
 	const auto caller = std::this_thread::get_id();
 	std::atomic<bool> begun{false}, left{false};
-	EXPECT_THROW(
-		tasksInParallel(
-			2,
-			2,
-			[&] {
-				if (left)
-					throw std::logic_error("the tick");
-			},
-			[&](int, const Tick& own) {
-				if (std::this_thread::get_id() != caller) {
-					begun = true;
-					for (;;)
-						own();
-				}
-				for (int i = 0; !begun && i < 100000; ++i)
-					std::this_thread::sleep_for(std::chrono::microseconds(100));
-				left = true;
-			}),
-		std::logic_error);
+	Caller listener([&](double) {
+		if (left)
+			throw std::logic_error("the listener");
+	});
+	const Task task(listener);
+	const auto work = [&](int) {
+		if (std::this_thread::get_id() != caller) {
+			begun = true;
+			for (;;)
+				checkpoint();
+		}
+		for (int i = 0; !begun && i < 100000; ++i)
+			std::this_thread::sleep_for(std::chrono::microseconds(100));
+		left = true;
+	};
+	EXPECT_THROW(tasksInParallel(2, 2, work), std::logic_error);
 }
 
 /// Both sides write into one array, to places of their own, which are read when both are done.
@@ -125,20 +131,21 @@ TEST(Besides, BothAreDoneAndSeenAfterwards)
 	for (const int threads : {1, 2})
 		for (int run = 0; run < 50; ++run) {
 			std::vector<int> both(2000, 0);
-			int ticks = 0;
+			int heard = 0;
+			Caller listener([&](double) { ++heard; });
+			const Task task(listener);
 			besides(
 				threads,
-				[&] { ++ticks; },
 				[&] { std::iota(both.begin(), both.begin() + 1000, 0); },
-				[&](const Tick& own) {
+				[&] {
 					for (std::size_t i = 1000; i < both.size(); ++i) {
-						own();
+						checkpoint();
 						both[i] = static_cast<int>(i);
 					}
 				});
 			for (std::size_t i = 0; i < both.size(); ++i)
 				EXPECT_EQ(both[i], static_cast<int>(i));
-			EXPECT_GE(ticks, threads == 1 ? 1000 : 0);
+			EXPECT_GE(heard, threads == 1 ? 1000 : 0);
 		}
 }
 
@@ -146,26 +153,47 @@ TEST(Besides, WhatIsThrownInOneEndsTheOther)
 {
 	for (int run = 0; run < 20; ++run) {
 		std::vector<int> written(100, 0);
-		EXPECT_THROW(
-			besides(
-				2,
-				[] {},
-				[] { throw std::runtime_error("main"); },
-				[&](const Tick& own) {
-					for (std::size_t i = 0;; ++i) {
-						own();
-						++written[i % written.size()];
-					}
-				}),
-			std::runtime_error);
+		const auto fails = [] { throw std::runtime_error("main"); };
+		const auto writes = [&] {
+			for (std::size_t i = 0;; ++i) {
+				checkpoint();
+				++written[i % written.size()];
+			}
+		};
+		EXPECT_THROW(besides(2, fails, writes), std::runtime_error);
 		// It has ended: nothing writes any more.
 		const std::vector<int> seen = written;
 		EXPECT_EQ(written, seen);
-		EXPECT_THROW(
-			besides(
-				2, [] {}, [] {}, [](const Tick&) { throw std::logic_error("aside"); }),
-			std::logic_error);
+		const auto failsAside = [] { throw std::logic_error("aside"); };
+		EXPECT_THROW(besides(2, [] {}, failsAside), std::logic_error);
 	}
+}
+
+TEST(Task, PartsShareTheBarWhichNeverGoesBack)
+{
+	std::vector<double> fractions;
+	Caller recorder([&](double fraction) { fractions.push_back(fraction); });
+	const Task whole(recorder);
+	advance(0.25, "begin");
+	{
+		const Task part(0.5, 1.0);
+		advance(0.5, "part");
+		const Task piece(0.0, 0.5); // of the part
+		advance(1.0, "piece");
+	}
+	advance(0.25, "again");
+	checkpoint();
+	EXPECT_EQ(fractions, (std::vector<double>{0.25, 0.75, 0.75, 0.75, 0.75}));
+}
+
+TEST(Task, ItsMemoryLimitHoldsInItsPartsAndInThreadsThatHelp)
+{
+	EXPECT_EQ(Task::memoryLimit(), 0.0);
+	Progress silent;
+	Task whole(silent);
+	whole.setMemoryLimit(1000.0);
+	const Task part(0.0, 1.0);
+	tasksInParallel(8, 4, [](int) { EXPECT_EQ(Task::memoryLimit(), 1000.0); });
 }
 
 } // namespace

@@ -145,7 +145,8 @@ private:
 			{"Shortening the seams", "cut"},
 			{"Overlay of the two triangulations", "overlay"},
 			{"Repairing the map", "finish"},
-			{"Looking for charts that overlap", "charts"}};
+			{"Looking for charts that overlap", "charts"},
+			{"Finishing the coordinates", "write"}};
 		for (const auto& [word, stage] : words)
 			if (what.rfind(word, 0) == 0)
 				return stage;
@@ -317,21 +318,21 @@ measureWholeWay(const SurfaceMesh& mesh, Background background, const Options& o
 	const double begin = wallSeconds();
 	StageClock& clock = row.stages;
 	row.whole = timeOf([&] {
+		const Task task(clock);
 		Parametrization map;
-		const Tick tick = [&] { clock.enter("write"); };
 		if (background == Background::EuclideanPlane) {
-			map = parametrizeEuclidean(mesh, {}, options, clock);
+			map = parametrizeEuclidean(mesh, {}, options);
 			clock.enter("pack");
 			packCharts(map, true, 0.0, inARow);
-			tick();
-			finishInFloats(mesh, nullptr, false, tick, map);
+			advance(1.0, "Finishing the coordinates");
+			finishInFloats(mesh, nullptr, false, map);
 		}
 		else {
-			map = parametrizeHyperbolic(mesh, {}, HyperbolicOptions(), clock);
+			map = parametrizeHyperbolic(mesh, {}, HyperbolicOptions());
 			clock.enter("pack");
 			const std::vector<Box2> disks = placeDisks(map);
-			tick();
-			finishInFloats(mesh, disks, tick, map);
+			advance(1.0, "Finishing the coordinates");
+			finishInFloats(mesh, disks, map);
 		}
 		clock.enter("rest");
 	});

@@ -149,7 +149,7 @@ TEST(BorderFlow, LeavesTheMinimumCutAsItIs)
 		if (sources.empty() || sinks.empty())
 			continue;
 		BorderFlow flow(c.graph);
-		flow.find(sources, sinks, terminal, [] {});
+		flow.find(sources, sinks, terminal);
 		expectFlow(c, terminal, flow);
 		const std::int64_t begin = sent(c, kSource, terminal, flow);
 		EXPECT_GE(begin, 0);
@@ -201,7 +201,7 @@ TEST(BorderFlow, BetweenBlobsAtTheBorderIsTheMaximum)
 		const auto sinks =
 			c.blob(n - 1 - random.index(2 * size), 1 + random.index(30), kSink, terminal);
 		BorderFlow flow(c.graph);
-		flow.find(sources, sinks, terminal, [] {});
+		flow.find(sources, sinks, terminal);
 		expectFlow(c, terminal, flow);
 		// A blob may reach the border at several places, or with a corner of a triangle only.
 		const std::int64_t all = flowBetween(n + 2, linksOf(c, terminal), n, n + 1);

@@ -68,7 +68,7 @@ TEST(FinishInFloats, MovesPointsNearTurnedTrianglesOnly)
 		ASSERT_GT(turnedIn(before), 0);
 		Parametrization map = before;
 		finishInFloats(
-			mesh, nullptr, false, [] {}, map);
+			mesh, nullptr, false, map);
 		EXPECT_EQ(turnedIn(map), 0);
 		EXPECT_GT(map.report.finishMoved, 0);
 		for (std::size_t f = 0; f < map.uv.size(); ++f)
@@ -88,7 +88,7 @@ TEST(FinishInFloats, MendsWhatSmallPatchesInsideDoNot)
 	Parametrization map = mapWith(mesh, {{0, {1.5 / kSide, 1.4 / kSide}}});
 	ASSERT_GT(turnedIn(map), 0);
 	finishInFloats(
-		mesh, nullptr, false, [] {}, map);
+		mesh, nullptr, false, map);
 	EXPECT_EQ(turnedIn(map), 0);
 }
 
@@ -145,7 +145,7 @@ TEST(FinishInFloats, MendsTrianglesThatAreChartsOfTheirOwn)
 		packCharts(packed, normalize, 0.0, inAColumn(0.0));
 		ASSERT_EQ(turnedIn(packed), kSlivers);
 		finishInFloats(
-			slivers.mesh, nullptr, false, [] {}, packed);
+			slivers.mesh, nullptr, false, packed);
 		EXPECT_EQ(turnedIn(packed), 0);
 		EXPECT_EQ(packed.report.finishMoved, 3 * kSlivers);
 		for (const Chart& chart : packed.charts)
@@ -166,9 +166,8 @@ TEST(FinishInFloats, GivesChartsTheRoomThatTheyNeed)
 			for (const Point2& p : tight.uv[at(f)])
 				chart.box.add(p);
 	}
-	const Tick none = [] {};
 	Parametrization kept = tight;
-	finishInFloats(slivers.mesh, nullptr, false, none, kept);
+	finishInFloats(slivers.mesh, nullptr, false, kept);
 	EXPECT_GT(turnedIn(kept), 0);
 	int packings = 0;
 	const auto packAgain = [&] {
@@ -176,7 +175,7 @@ TEST(FinishInFloats, GivesChartsTheRoomThatTheyNeed)
 		packCharts(tight, true, 0.0, inAColumn(0.0));
 		++packings;
 	};
-	finishInFloats(slivers.mesh, packAgain, false, none, tight);
+	finishInFloats(slivers.mesh, packAgain, false, tight);
 	EXPECT_EQ(turnedIn(tight), 0);
 	EXPECT_EQ(packings, 1);
 }
@@ -190,7 +189,7 @@ TEST(FinishInFloats, MendsChartsWhoseBoxesEndBetweenFloats)
 		packCharts(packed, false, 0.0, inAColumn(x));
 		ASSERT_EQ(turnedIn(packed), kSlivers);
 		finishInFloats(
-			slivers.mesh, nullptr, false, [] {}, packed);
+			slivers.mesh, nullptr, false, packed);
 		EXPECT_EQ(turnedIn(packed), 0);
 		for (Chart& chart : packed.charts) {
 			for (Point2* corner : {&chart.box.min, &chart.box.max})

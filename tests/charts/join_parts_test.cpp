@@ -52,7 +52,7 @@ struct Scattered
 	JoinedParts join()
 	{
 		const BoxTree tree = boxTreeOf(drawn.plane);
-		return joinParts(drawn, {sidesAcross(drawn), lengths}, tree, parts, [] {});
+		return joinParts(drawn, {sidesAcross(drawn), lengths}, tree, parts);
 	}
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/listener.h"
 #include "support/random.h"
 
 #include <ricci/charts/outline_packing.h>
@@ -41,11 +42,10 @@ std::vector<Motion> pack(
 	const std::vector<Outline>& outlines,
 	double side,
 	double room,
-	ChartTurns turns,
-	const Tick& tick)
+	ChartTurns turns)
 {
 	return packOutlines(
-		outlines, std::vector<ChartTurns>(outlines.size(), turns), side, room, tick);
+		outlines, std::vector<ChartTurns>(outlines.size(), turns), side, room);
 }
 
 std::vector<Outline> moved(std::vector<Outline> outlines, const std::vector<Motion>& motions)
@@ -78,7 +78,7 @@ TEST(PackOutlines, KeepsTheRoomAndTheShapes)
 			outlines.push_back(star(random.real(0.1, 1.0), random));
 		const double side = 1.2 * (2.0 + trial), room = trial % 3 == 0 ? 0.0 : 0.03 * trial;
 		for (ChartTurns turns : {ChartTurns::None, ChartTurns::Quarter, ChartTurns::Free}) {
-			const std::vector<Motion> motions = pack(outlines, side, room, turns, {});
+			const std::vector<Motion> motions = pack(outlines, side, room, turns);
 			ASSERT_EQ(motions.size(), outlines.size());
 			expectInSquare(moved(outlines, motions), side, room);
 			for (const Motion& motion : motions) {
@@ -102,14 +102,14 @@ TEST(PackOutlines, UsesHolesAndNotches)
 	frame.insert(frame.end(), hole.begin(), hole.end());
 	const std::vector<Outline> outlines{rectangle(0.9, 0.9), frame, rectangle(0.9, 0.9)};
 	const double side = 3.05;
-	const std::vector<Motion> motions = pack(outlines, side, 0.01, ChartTurns::Free, {});
+	const std::vector<Motion> motions = pack(outlines, side, 0.01, ChartTurns::Free);
 	ASSERT_EQ(motions.size(), outlines.size());
 	expectInSquare(moved(outlines, motions), side, 0.01);
 	// Two L of three squares each fill a rectangle of two by three, with a turn by two right angles.
 	const Outline corner = polygon({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}});
 	for (ChartTurns turns : {ChartTurns::Quarter, ChartTurns::Free})
-		EXPECT_EQ(pack({corner, corner}, 3.05, 0.0, turns, {}).size(), 2u);
-	EXPECT_TRUE(pack({corner, corner}, 2.9, 0.0, ChartTurns::Free, {}).empty());
+		EXPECT_EQ(pack({corner, corner}, 3.05, 0.0, turns).size(), 2u);
+	EXPECT_TRUE(pack({corner, corner}, 2.9, 0.0, ChartTurns::Free).empty());
 }
 
 TEST(PackOutlines, TurnsWhatFitsInNoOtherWay)
@@ -117,9 +117,9 @@ TEST(PackOutlines, TurnsWhatFitsInNoOtherWay)
 	// A strip of 1 by 0.1 has a square of side 1.1 / sqrt(2) round it, turned by half a right angle.
 	const std::vector<Outline> strips{rectangle(1.0, 0.1), rectangle(0.3, 0.3)};
 	const double least = 1.1 * std::sqrt(0.5);
-	EXPECT_TRUE(pack(strips, 0.99, 0.0, ChartTurns::Quarter, {}).empty());
-	EXPECT_TRUE(pack(strips, 0.99 * least, 0.0, ChartTurns::Free, {}).empty());
-	EXPECT_EQ(pack(strips, 1.03 * least, 0.0, ChartTurns::Free, {}).size(), 2u);
+	EXPECT_TRUE(pack(strips, 0.99, 0.0, ChartTurns::Quarter).empty());
+	EXPECT_TRUE(pack(strips, 0.99 * least, 0.0, ChartTurns::Free).empty());
+	EXPECT_EQ(pack(strips, 1.03 * least, 0.0, ChartTurns::Free).size(), 2u);
 }
 
 TEST(PackOutlines, IsHeardWhileItRuns)
@@ -128,9 +128,9 @@ TEST(PackOutlines, IsHeardWhileItRuns)
 	std::vector<Outline> outlines;
 	for (int i = 0; i < 30; ++i)
 		outlines.push_back(star(0.3, random));
-	int ticks = 0;
-	pack(outlines, 6.0, 0.0, ChartTurns::Free, [&] { ++ticks; });
-	EXPECT_GT(ticks, 100);
+	Listener ticks;
+	heard(ticks, [&] { return pack(outlines, 6.0, 0.0, ChartTurns::Free); });
+	EXPECT_GT(ticks.calls(), 100);
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/listener.h"
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
@@ -122,15 +123,15 @@ TEST(KeepApart, EndsAtTheFirstPairAndWhenTickThrows)
 {
 	// Room for thousands of their sides.
 	std::vector<Outline> outlines{circle({0.0, 0.0}, 1.0, 20000), circle({1.8, 1.8}, 1.0, 20000)};
-	int ticks = 0;
-	EXPECT_TRUE(keepApart(outlines, 0.54, [&] { ++ticks; }));
-	EXPECT_GE(ticks, 20000 / 64);
+	Listener ticks;
+	EXPECT_TRUE(heard(ticks, [&] { return keepApart(outlines, 0.54); }));
+	EXPECT_GE(ticks.calls(), 20000 / 64);
 	outlines[1] = circle({2.5, 0.0}, 1.5, 30000);
-	ticks = 0;
-	EXPECT_FALSE(keepApart(outlines, 0.54, [&] { ++ticks; }));
-	EXPECT_EQ(ticks, 1); // the first side of the smaller one is its rightmost
-	EXPECT_THROW(
-		keepApart(outlines, 0.54, [] { throw std::runtime_error("stop"); }), std::runtime_error);
+	Listener again;
+	EXPECT_FALSE(heard(again, [&] { return keepApart(outlines, 0.54); }));
+	EXPECT_EQ(again.calls(), 1); // the first side of the smaller one is its rightmost
+	Listener impatient(1);
+	EXPECT_THROW(heard(impatient, [&] { keepApart(outlines, 0.54); }), Cancelled);
 }
 
 TEST(KeepApart, FindsChartsThatCrossOrHoldEachOther)

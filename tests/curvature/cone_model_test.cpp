@@ -2,6 +2,7 @@
 #include "dense_flow.h"
 #include "linearised.h"
 
+#include "support/listener.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
@@ -345,13 +346,14 @@ TEST(ConeModel, RoundedCurvaturesAreQuarterTurnsOfTheSameSum)
 TEST(ConeModel, TicksBeforeSolutions)
 {
 	Linearised linear(closed(0));
-	int ticks = 0;
-	ConeModel model(linear.flow, 4 * kPi, [&] { ++ticks; });
-	EXPECT_EQ(ticks, 1);
+	Listener ticks;
+	const Task task(ticks);
+	ConeModel model(linear.flow, 4 * kPi);
+	EXPECT_EQ(ticks.calls(), 1);
 	model.append(someVertices()); // two at a time
-	EXPECT_EQ(ticks, 4);
+	EXPECT_EQ(ticks.calls(), 4);
 	model.fit();
-	EXPECT_EQ(ticks, 4); // fits are small
+	EXPECT_EQ(ticks.calls(), 4); // fits are small
 }
 
 std::vector<LinearCase> cases()

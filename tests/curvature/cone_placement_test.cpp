@@ -194,8 +194,7 @@ TEST(ConePlacement, TheFlowReachesThePredictedDistortion)
 	options.target = TargetCurvature::PlacedCones;
 	options.cones.count = 6;
 	options.output = OutputTriangulation::CommonRefinement;
-	Progress silent;
-	const Parametrization map = parametrizeEuclidean(mesh, {}, options, silent);
+	const Parametrization map = parametrizeEuclidean(mesh, {}, options);
 	EXPECT_EQ(map.report.cones, static_cast<int>(cones.vertices.size()));
 	EXPECT_NEAR(map.report.areaDistortionSpread, cones.distortion, 0.1 * cones.distortion);
 }

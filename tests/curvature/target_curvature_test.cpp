@@ -283,8 +283,8 @@ TEST(TargetCurvature, AutomaticPlacesConesWhereAreasWouldSpreadMoreWithoutThem)
 		EXPECT_NEAR(numberAfter(notes, yes) / p.spread, 1.0, 0.03) << notes;
 		EXPECT_EQ(notes.find(no), std::string::npos);
 		EXPECT_GT(coneCount(surface, target), 0);
-		EXPECT_EQ(*target.maxSpread, 0.5);
-		EXPECT_LE(numberAfter(notes, "expected area distortion "), 0.5);
+		EXPECT_EQ(*target.maxSpread, ConeOptions().distortion);
+		EXPECT_LE(numberAfter(notes, "expected area distortion "), ConeOptions().distortion);
 		// The boundary of an annulus comes free with cones, like any other.
 		EXPECT_EQ(target.fixed, surface.topology.boundary);
 		if (surface.topology.type.isClosed()) {

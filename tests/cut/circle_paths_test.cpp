@@ -130,7 +130,7 @@ TEST(CirclePaths, StayNearWhatWasRemoved)
 	int shut = 0;
 	for (int i = 0; i < 20; ++i) {
 		ThreeMarks s(random);
-		const CoarseSurface coarse(s.t, s.p.lengths, s.marked, 40, [] {});
+		const CoarseSurface coarse(s.t, s.p.lengths, s.marked, 40);
 		CutSegments cut(s.t, s.marked, s.nowhere, s.isCut);
 		CirclePaths everywhere(s.t, s.p.lengths, cut, nullptr);
 		CirclePaths paths(s.t, s.p.lengths, cut, &coarse);

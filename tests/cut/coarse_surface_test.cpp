@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/listener.h"
 #include "support/expect.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
@@ -47,7 +48,7 @@ TEST(CoarseSurface, IsTheClosedSurfaceOfTheSameGenus)
 		SCOPED_TRACE(topology.type.name());
 		for (int count : {8, 40, 10000}) {
 			const VertexArray<char> marked = randomMarks(t, 3, random);
-			const CoarseSurface coarse(t, p.lengths, marked, count, [] {});
+			const CoarseSurface coarse(t, p.lengths, marked, count);
 			const Triangulation& c = coarse.triangulation();
 			if (c.faceCount() == 0)
 				continue;
@@ -79,7 +80,7 @@ TEST(CoarseSurface, ItsCutsOpenTheGivenSurface)
 		SCOPED_TRACE(topologyOf(t).type.name());
 		for (int count : {8, 40, 10000}) {
 			const VertexArray<char> marked = randomMarks(t, 4, random);
-			const CoarseSurface coarse(t, p.lengths, marked, count, [] {});
+			const CoarseSurface coarse(t, p.lengths, marked, count);
 			if (coarse.triangulation().faceCount() == 0)
 				continue;
 			const CutGraph cut =
@@ -111,7 +112,7 @@ TEST(CoarseSurface, OfMarkedVerticesIsTheSurfaceItself)
 	Random random(742);
 	const Packed p(bumpyTorus(12, 9, random));
 	const Triangulation& t = p.triangulation;
-	const CoarseSurface coarse(t, p.lengths, VertexArray<char>(t.vertexCount(), 1), 8, [] {});
+	const CoarseSurface coarse(t, p.lengths, VertexArray<char>(t.vertexCount(), 1), 8);
 	EXPECT_EQ(coarse.triangulation().vertexCount(), t.vertexCount());
 	EXPECT_EQ(coarse.triangulation().edgeCount(), t.edgeCount());
 	EXPECT_EQ(coarse.triangulation().faceCount(), t.faceCount());
@@ -123,9 +124,9 @@ TEST(CoarseSurface, CanBeCancelled)
 	Random random(743);
 	const Packed p(bumpyTorus(80, 60, random));
 	const VertexArray<char> unmarked(p.triangulation.vertexCount(), 0);
+	Listener impatient(1);
 	EXPECT_THROW(
-		CoarseSurface(p.triangulation, p.lengths, unmarked, 200, [] { throw Cancelled(); }),
-		Cancelled);
+		heard(impatient, [&] { CoarseSurface(p.triangulation, p.lengths, unmarked, 200); }), Cancelled);
 }
 
 } // namespace

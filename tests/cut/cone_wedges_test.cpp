@@ -120,7 +120,7 @@ TEST(ConeWedges, NoneIsWiderThanAFullTurnAndTheCutStaysADisk)
 		const HalfedgeArray<double> corners = coneCorners(t, p.lengths, chosen.angle);
 		const CutGraph plain = cutToDisk(t, p.lengths, chosen.marked, {});
 		const CutGraph cut = cutToDisk(
-			t, p.lengths, chosen.marked, {}, [] {}, corners);
+			t, p.lengths, chosen.marked, {}, corners);
 		expectOpensToADisk(t, cut.isCut);
 		EXPECT_EQ(cut.generators.size(), plain.generators.size());
 		EXPECT_GE(cut.length, plain.length * (1 - 1e-9));
@@ -155,7 +155,7 @@ TEST(ConeWedges, NarrowConesChangeNothing)
 	const HalfedgeArray<double> corners = coneCorners(t, p.lengths, cones.angle);
 	const CutGraph plain = cutToDisk(t, p.lengths, cones.marked, {});
 	const CutGraph cut = cutToDisk(
-		t, p.lengths, cones.marked, {}, [] {}, corners);
+		t, p.lengths, cones.marked, {}, corners);
 	EXPECT_TRUE(cut.isCut == plain.isCut);
 }
 

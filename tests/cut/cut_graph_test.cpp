@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/expect.h"
+#include "support/listener.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -89,9 +90,9 @@ TEST(CutGraph, OpensLargeSurfacesToADisk)
 			VertexArray<char> marked(t.vertexCount(), 0);
 			for (int i = 0; i < 12; ++i)
 				marked[Vertex(random.index(t.vertexCount()))] = 1;
-			int ticks = 0;
-			const CutGraph cut = cutToDisk(t, packed.lengths, marked, {}, [&] { ++ticks; });
-			EXPECT_GT(ticks, 5);
+			Listener ticks;
+			const CutGraph cut = heard(ticks, [&] { return cutToDisk(t, packed.lengths, marked, {}); });
+			EXPECT_GT(ticks.calls(), 5);
 			expectCutToADisk(t, cut);
 			EXPECT_EQ(static_cast<int>(cut.generators.size()), 2 * genus);
 			EXPECT_NEAR(cut.length, lengthOf(cut, packed.lengths), 1e-12 * cut.length);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/expect.h"
+#include "support/listener.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -146,26 +147,16 @@ TEST(ShortenCut, ASearchThatIsEndedLeavesADisk)
 	for (int i = 0; i < 120; ++i)
 		marked[randomVertex(t, random)] = 1;
 	const EdgeArray<char> clumsy = clumsyCut(t, marked);
-	int ticks = 0;
+	Listener ticks;
 	EdgeArray<char> whole = clumsy;
-	shortenCut(t, p.lengths, marked, {}, whole, [&] { ++ticks; });
-	EXPECT_GE(ticks, 3);
+	heard(ticks, [&] { return shortenCut(t, p.lengths, marked, {}, whole); });
+	EXPECT_GE(ticks.calls(), 3);
 	double before = costOf(clumsy, p.lengths);
-	for (int n = 1; n <= ticks; ++n) {
+	for (int n = 1; n <= ticks.calls(); ++n) {
 		EdgeArray<char> isCut = clumsy;
-		int left = n;
+		Listener impatient(n);
 		EXPECT_THROW(
-			shortenCut(
-				t,
-				p.lengths,
-				marked,
-				{},
-				isCut,
-				[&] {
-					if (--left == 0)
-						throw Cancelled();
-				}),
-			Cancelled);
+			heard(impatient, [&] { shortenCut(t, p.lengths, marked, {}, isCut); }), Cancelled);
 		expectDiskThroughMarks(t, isCut, marked);
 		const double now = costOf(isCut, p.lengths);
 		EXPECT_LE(now, before * (1 + 1e-12));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/listener.h"
 #include "support/random.h"
 #include "support/shapes.h"
 
@@ -69,9 +70,9 @@ struct LaidOut
 	}
 
 	FinishCounts finish(
-		bool freeBoundary, Finish how, const Tick& tick = [] {})
+		bool freeBoundary, Finish how)
 	{
-		return finishMap(domain, isCut, cones, freeBoundary, how, layout, tick);
+		return finishMap(domain, isCut, cones, freeBoundary, how, layout);
 	}
 };
 
@@ -174,9 +175,8 @@ TEST(FinishMap, OfLeastDistortionIsConformalWhereTheSurfaceIsFlat)
 TEST(FinishMap, CanBeCancelled)
 {
 	LaidOut map([](Vertex v) { return folded(v, 1.6); });
-	EXPECT_THROW(
-		map.finish(false, Finish::Repair, [] { throw std::runtime_error("cancelled"); }),
-		std::runtime_error);
+	Listener impatient(1);
+	EXPECT_THROW(heard(impatient, [&] { map.finish(false, Finish::Repair); }), Cancelled);
 }
 
 /// A square inside the unit disk.
@@ -191,7 +191,7 @@ TEST(FinishDisk, RepairsInsideTheDisk)
 	for (const bool freeBoundary : {false, true}) {
 		LaidOut map([](Vertex v) { return inDisk(v, 1.6); });
 		ASSERT_GT(notCounterClockwise(map.triangles()), 0);
-		const FinishCounts counts = finishDisk(map.domain, freeBoundary, map.layout, [] {});
+		const FinishCounts counts = finishDisk(map.domain, freeBoundary, map.layout);
 		EXPECT_EQ(counts.left, 0);
 		EXPECT_GT(counts.moved, 0);
 		EXPECT_EQ(notCounterClockwise(map.triangles()), 0);
@@ -224,14 +224,14 @@ TEST(FinishDisk, RepairsARefinementAndLeavesASoundOne)
 {
 	const LaidOut sound([](Vertex v) { return inDisk(v, 0.0); });
 	CommonRefinement refinement = refinementOf(sound);
-	const FinishCounts none = finishDisk(sound.domain, false, refinement, [] {});
+	const FinishCounts none = finishDisk(sound.domain, false, refinement);
 	EXPECT_EQ(none.moved, 0);
 	EXPECT_EQ(none.left, 0);
 	EXPECT_EQ(refinement.uv, sound.triangles());
 
 	const LaidOut map([](Vertex v) { return inDisk(v, 1.6); });
 	refinement = refinementOf(map);
-	const FinishCounts counts = finishDisk(map.domain, false, refinement, [] {});
+	const FinishCounts counts = finishDisk(map.domain, false, refinement);
 	EXPECT_GT(counts.moved, 0);
 	EXPECT_EQ(counts.left, 0);
 	EXPECT_EQ(notCounterClockwise(refinement.uv), 0);

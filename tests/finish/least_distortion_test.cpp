@@ -2,6 +2,7 @@
 #include "support/complex.h"
 #include "support/flipped_flow.h"
 #include "support/intrinsic.h"
+#include "support/listener.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 #include "support/transform.h"
@@ -63,9 +64,9 @@ struct Drawing
 			layout.points[layout.wedges.of[h]] = places[at(t.origin(h))];
 	}
 
-	LeastDistortion improve(const Tick& tick = [] {})
+	LeastDistortion improve()
 	{
-		return leastDistortion(t, lengths, isCut, cones, boundaryMoves, layout, tick);
+		return leastDistortion(t, lengths, isCut, cones, boundaryMoves, layout);
 	}
 
 	MovablePoints points() const { return movablePoints(t, isCut, cones, boundaryMoves, layout); }
@@ -653,10 +654,10 @@ TEST(LeastDistortion, TicksBetweenStepsAndChangesNothingWhereItIsStopped)
 	const SurfaceMesh mesh = wavyDisk(12, random);
 	const Drawing start(mesh, fromAbove(mesh));
 	Drawing whole = start;
-	int ticks = 0;
-	const LeastDistortion result = whole.improve([&] { ++ticks; });
-	EXPECT_GE(ticks, result.steps);
-	EXPECT_LE(ticks, result.steps + 1);
+	Listener ticks;
+	const LeastDistortion result = heard(ticks, [&] { return whole.improve(); });
+	EXPECT_GE(ticks.calls(), result.steps);
+	EXPECT_LE(ticks.calls(), result.steps + 1);
 	EXPECT_GT(result.steps, 3);
 	EXPECT_LT(result.after, 0.9 * result.before);
 	const LeastDistortion again = whole.improve();
@@ -664,13 +665,8 @@ TEST(LeastDistortion, TicksBetweenStepsAndChangesNothingWhereItIsStopped)
 	EXPECT_LE(again.after, again.before);
 	EXPECT_GT(again.after, 0.95 * again.before);
 	Drawing stopped = start;
-	ticks = 0;
-	EXPECT_THROW(
-		stopped.improve([&] {
-			if (++ticks == 3)
-				throw std::runtime_error("stopped");
-		}),
-		std::runtime_error);
+	Listener impatient(3);
+	EXPECT_THROW(heard(impatient, [&] { stopped.improve(); }), Cancelled);
 	EXPECT_EQ(stopped.layout.points, start.layout.points);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_square.h"
 
+#include "support/listener.h"
 #include "support/random.h"
 #include "support/shapes.h"
 
@@ -57,10 +58,10 @@ BorderMoves nothingBeyond()
 }
 
 Repair mend(
-	FlatMesh& flat, const Soundness& wanted, const Tick& tick = [] {})
+	FlatMesh& flat, const Soundness& wanted)
 {
 	WorkLimit limit(flat.points.size());
-	return repairInStages(flat, nothingBeyond(), RestShapes::OfSurface, wanted, limit, tick);
+	return repairInStages(flat, nothingBeyond(), RestShapes::OfSurface, wanted, limit);
 }
 
 TEST(Repair, LeavesASoundDrawingAlone)
@@ -187,8 +188,7 @@ TEST(Repair, CountsWhatIsLeftOfThePatchesThatAreMendedPartly)
 		flat.place[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0}; // it stays there
 		WorkLimit limit(flat.points.size());
 		const Repair result = repair(
-			flat, insidePoints(flat), RestShapes::OfSurface, high, {3, nullptr, true}, limit, [] {
-			});
+			flat, insidePoints(flat), RestShapes::OfSurface, high, {3, nullptr, true}, limit);
 		EXPECT_EQ(result.left, static_cast<int>(badTriangles(flat, high).size()));
 		partly += result.left > 0 && result.movedCount() > 0;
 	}
@@ -229,8 +229,7 @@ TEST(Repair, EndsWhenItsLimitIsSpent)
 			RestShapes::OfSurface,
 			soundness(),
 			{34, nullptr, true},
-			limit,
-			[] {});
+			limit);
 		EXPECT_EQ(result.left, static_cast<int>(badTriangles(flat, soundness()).size()));
 		return Spent{before - limit.left(), result.left};
 	};
@@ -245,11 +244,9 @@ TEST(Repair, EndsWhenItsLimitIsSpent)
 
 TEST(Repair, CanBeCancelled)
 {
-	struct Cancelled
-	{
-	};
 	FlatMesh flat = tangled(6, 3);
-	EXPECT_THROW(mend(flat, soundness(), [] { throw Cancelled(); }), Cancelled);
+	Listener impatient(1);
+	EXPECT_THROW(heard(impatient, [&] { mend(flat, soundness()); }), Cancelled);
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_square.h"
 
+#include "support/listener.h"
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
@@ -50,16 +51,16 @@ struct Whole
 
 	/// \pre the tick lives as long
 	PatchProblem problem(
-		int maxSteps = kMaxSteps, const Tick& tick = [] {}) const
+		int maxSteps = kMaxSteps) const
 	{
-		return problemOf(flat, maxSteps, tick);
+		return problemOf(flat, maxSteps);
 	}
 
 	/// The same for the patch elsewhere.
 	PatchProblem problemOf(
-		const FlatMesh& d, int maxSteps = kMaxSteps, const Tick& tick = [] {}) const
+		const FlatMesh& d, int maxSteps = kMaxSteps) const
 	{
-		return {d, groups, patch, shapes, kSound, maxSteps, tick};
+		return {d, groups, patch, shapes, kSound, maxSteps};
 	}
 
 	/// The drawing with the patch's points at \p places.
@@ -161,12 +162,11 @@ TEST(Untangle, SaysWhatItCannotMend)
 TEST(Untangle, IsHeardAndCanBeEnded)
 {
 	const Whole whole(tangled(20, 5));
-	int ticks = 0;
-	const Untangled result = untangle(whole.problem(kMaxSteps, [&] { ++ticks; }));
-	EXPECT_EQ(ticks, result.steps);
-	EXPECT_THROW(
-		untangle(whole.problem(kMaxSteps, [] { throw std::runtime_error("enough"); })),
-		std::runtime_error);
+	Listener ticks;
+	const Untangled result = heard(ticks, [&] { return untangle(whole.problem(kMaxSteps)); });
+	EXPECT_EQ(ticks.calls(), result.steps);
+	Listener impatient(1);
+	EXPECT_THROW(heard(impatient, [&] { untangle(whole.problem(kMaxSteps)); }), Cancelled);
 }
 
 TEST(Untangle, TakesNoMoreStepsThanItMay)

@@ -24,7 +24,7 @@ struct Problem
 
 	FlowProblem onDouble() const
 	{
-		return flowProblemOnDouble(flow.surface(), flow.result.target, options, {});
+		return flowProblemOnDouble(flow.surface(), flow.result.target, options);
 	}
 };
 
@@ -74,18 +74,16 @@ TEST(FlowRun, GoesOnFromTheHalfOnTheDouble)
 {
 	for (const Problem& p : problems()) {
 		const FlowListener silent = [](int, double) {};
-		const Tick noTick;
 		FlowRun half(
 			Background::EuclideanPlane,
 			flowProblem(
 				p.flow.surface(), initialPacking(p.flow.surface(), p.options), p.flow.result.target),
 			p.options,
 			0,
-			silent,
-			noTick);
+			silent);
 		ASSERT_TRUE(half.solve());
 		FlowRun whole(
-			Background::EuclideanPlane, p.onDouble(), p.options, half.iterations(), silent, noTick);
+			Background::EuclideanPlane, p.onDouble(), p.options, half.iterations(), silent);
 		whole.startFrom(half.factor(), half.arcs());
 		ASSERT_TRUE(whole.solve());
 		EXPECT_GE(whole.iterations(), half.iterations());

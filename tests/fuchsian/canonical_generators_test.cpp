@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/listener.h"
 #include "support/random.h"
 #include "support/shapes.h"
 
@@ -162,22 +163,20 @@ GroupWord tangledWord(int handles, Random& random)
 }
 
 /// Beyond genus 25, where fewer words are followed.
-TEST(CanonicalGenerators, OfManyHandlesHaveTheProductOfTheWordAndTick)
+TEST(CanonicalGenerators, OfManyHandlesHaveTheProductOfTheWordAndAreHeard)
 {
 	Random random(874);
 	const int handles = 40;
 	const GroupWord word = tangledWord(handles, random);
 	ASSERT_EQ(cornerCount(word), 1);
 	const Array<ExtendedIsometry> g = randomIsometries(2 * handles, 1e-3, random);
-	int ticks = 0;
-	const Handles found = canonicalBases(word, g, [&] { ++ticks; }).front();
+	Listener ticks;
+	const Handles found = heard(ticks, [&] { return canonicalBases(word, g); }).front();
 	ASSERT_EQ(found.size(), at(2 * handles));
 	EXPECT_LT((relationOf(found).inverse() * productOf(word, g)).distanceFromIdentity(), 1e-12);
-	EXPECT_GE(ticks, handles);
-	struct Stop
-	{
-	};
-	EXPECT_THROW(canonicalBases(word, g, [] { throw Stop(); }), Stop);
+	EXPECT_GE(ticks.calls(), handles);
+	Listener impatient(1);
+	EXPECT_THROW(heard(impatient, [&] { canonicalBases(word, g); }), Cancelled);
 }
 
 TEST(CanonicalGenerators, AreNotGivenWhereTheyAreTooLarge)

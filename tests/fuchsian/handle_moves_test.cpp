@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/listener.h"
 #include "support/random.h"
 #include "support/shapes.h"
 
@@ -192,20 +193,18 @@ TEST(BestConditioned, TakesTheBestAndRefusesTheFar)
 	EXPECT_TRUE(bestConditioned({far}, {}).empty());
 }
 
-/// Work is bounded: a tick for at most 16 moves, and each lowers the condition by a tenth.
-TEST(BestConditioned, TicksAndStops)
+/// Work is bounded: a checkpoint for at most 16 moves, and each lowers the condition by a tenth.
+TEST(BestConditioned, IsHeardAndStops)
 {
 	Random random(884);
 	const Handles longer = tangled(regularHandles(3), 6, random);
-	int ticks = 0;
-	const Handles found = bestConditioned({longer, longer}, {}, [&] { ++ticks; });
+	Listener ticks;
+	const Handles found = heard(ticks, [&] { return bestConditioned({longer, longer}, {}); });
 	const double lowered = relationCondition(longer) / relationCondition(found);
-	EXPECT_GE(ticks, 2);
-	EXPECT_LE(ticks, 2 * (1 + std::log(lowered) / std::log(1 / 0.9) / 16));
-	struct Stop
-	{
-	};
-	EXPECT_THROW(bestConditioned({longer}, {}, [] { throw Stop(); }), Stop);
+	EXPECT_GE(ticks.calls(), 2);
+	EXPECT_LE(ticks.calls(), 2 * (1 + std::log(lowered) / std::log(1 / 0.9) / 16));
+	Listener impatient(1);
+	EXPECT_THROW(heard(impatient, [&] { bestConditioned({longer}, {}); }), Cancelled);
 }
 
 } // namespace

@@ -466,14 +466,16 @@ Execution run(const HostileMesh& hostile)
 	params.chartMargin = hostile.chartMargin;
 	const typename Flow::SideMarks seams = seamsOf(hostile, m.face.size());
 	Watch watch(hostile.cancelAt, hostile.mesh.triangles.size());
+	Task task(watch);
+	task.setMemoryLimit(hostile.memoryLimit);
 	typename Flow::Result result;
 	SphereMap sphere;
 	try {
 		if (hostile.sphere)
-			sphere = Flow::ComputeSphere(m, params, watch);
+			sphere = Flow::ComputeSphere(m, params);
 		else
-			result = hostile.hyperbolic ? Flow::ComputeHyperbolic(m, hyperbolicParams, watch, seams)
-										: Flow::Compute(m, params, watch, seams);
+			result = hostile.hyperbolic ? Flow::ComputeHyperbolic(m, hyperbolicParams, seams)
+										: Flow::Compute(m, params, seams);
 		execution.verdict = Verdict::Mapped;
 	}
 	catch (const Cancelled& cancelled) {

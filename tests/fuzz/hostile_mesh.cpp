@@ -543,7 +543,7 @@ void HostileMesh::drawRarerOptions(ByteSource& bytes)
 	if (bytes.oneIn(8))
 		chartMargin = number(0.0, 0.25);
 	if (bytes.oneIn(64))
-		options.memoryLimit = hyperbolicOptions.memoryLimit = awkward(bytes);
+		memoryLimit = awkward(bytes);
 	sphere = bytes.oneIn(16);
 	rings = bytes.below(3);
 	if (bytes.oneIn(8))

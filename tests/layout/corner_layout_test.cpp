@@ -3,6 +3,7 @@
 #include "support/complex.h"
 #include "support/flipped_flow.h"
 #include "support/implicit_surface.h"
+#include "support/listener.h"
 #include "support/random.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -24,14 +25,12 @@ using Complex = std::complex<double>;
 /// The layout on the overlay, which is another way to the same points.
 PlanarLayout onOverlay(const FlippedFlow& flow, const EdgeArray<char>& isCut)
 {
-	const OverlayListener deaf = [](double, std::size_t) {};
 	return commonRefinement(
 			   flow.domain,
 			   flow.result,
-			   overlayOf(flow.domain, flow.result, deaf),
+			   overlayOf(flow.domain, flow.result, true),
 			   isCut,
-			   true,
-			   deaf)
+			   true)
 		.inputLayout;
 }
 
@@ -59,11 +58,11 @@ void expectTheLayoutOnTheOverlay(const FlippedFlow& flow, Random& random)
 	EXPECT_GT(flow.result.history.flips(), 0);
 	const CutGraph ways[] = {flow.cut(), flow.cutAnywhere(random), flow.cutAnywhere(random)};
 	for (const CutGraph& cut : ways) {
-		int ticks = 0;
+		Listener ticks;
 		const PlanarLayout layout =
-			layOutCorners(flow.domain, flow.result, cut.isCut, 0.0, [&] { ++ticks; });
+			heard(ticks, [&] { return layOutCorners(flow.domain, flow.result, cut.isCut); });
 		expectCongruent(layout, onOverlay(flow, cut.isCut));
-		EXPECT_GT(ticks, 0);
+		EXPECT_GT(ticks.calls(), 0);
 	}
 }
 

@@ -298,9 +298,8 @@ TEST(HyperbolicRefinement, CrossingsAreWhereGeodesicsMeet)
 		flow.history.startDelta = packing.delta;
 		flow.history.startRadii = radii;
 		flow.history.flowFlips = {e};
-		const OverlayListener deaf = [](double, std::size_t) {};
 		const CommonRefinement r = commonRefinement(
-			domain, flow, overlayOf(domain, flow, deaf), EdgeArray<char>(5, 0), false, deaf);
+			domain, flow, overlayOf(domain, flow, true), EdgeArray<char>(5, 0), false);
 		ASSERT_EQ(r.points.size(), 5u);
 		ASSERT_EQ(r.triangles.size(), 4u);
 		std::vector<Complex> place(5);

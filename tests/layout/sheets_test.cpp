@@ -16,7 +16,7 @@ namespace {
 LinkedPieces piecesOf(const FlippedFlow& flow)
 {
 	return linkPieces(
-		divideStartTriangles(flow.result, [](double, std::size_t) {}),
+		divideStartTriangles(flow.result, true),
 		flow.base(),
 		flow.result.metric->triangulation(),
 		flow.base().faceCount());

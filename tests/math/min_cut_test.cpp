@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/listener.h"
 #include "support/max_flow.h"
 #include "support/random.h"
 
@@ -207,13 +208,11 @@ TEST(MinCut, CanBeEnded)
 {
 	const int width = 500, height = 500;
 	int asked = 0;
+	Listener impatient(1);
+	const Task task(impatient);
 	EXPECT_THROW(
 		MinCut(width * height)
-			.run(
-				{0},
-				{width * height - 1},
-				gridWithAGap(width, height, -2, asked),
-				[] { throw Cancelled(); }),
+			.run({0}, {width * height - 1}, gridWithAGap(width, height, -2, asked)),
 		Cancelled);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/listener.h"
 #include "support/random.h"
 
 #include <ricci/base/indexed.h>
@@ -63,7 +64,7 @@ TEST(SparseCholesky, SolvesLikeADenseSolver)
 	EXPECT_EQ(solver.work().analyses, 1);
 }
 
-#ifdef RICCI_STATIC_CHOLMOD // other solvers never tick
+#ifdef RICCI_STATIC_CHOLMOD // other solvers have no checkpoints inside
 
 /// Laplacian of a square grid with shift 1; lower triangle. Its factor takes a good while.
 SparseCholesky::Matrix gridLaplacian(int side)
@@ -81,24 +82,20 @@ SparseCholesky::Matrix gridLaplacian(int side)
 	return lower;
 }
 
-/// What a tick throws at any time passes through, and leaves the solver usable.
-TEST(SparseCholesky, EndsWhenATickThrows)
+/// What checkpoint() throws at any time passes through, and leaves the solver usable.
+TEST(SparseCholesky, EndsWhenItIsCancelled)
 {
 	const SparseCholesky::Matrix matrix = gridLaplacian(200);
 	SparseCholesky solver;
-	int ticks = 0;
-	ASSERT_TRUE(solver.factorize(matrix, [&] { ++ticks; }));
+	Listener ticks;
+	ASSERT_TRUE(heard(ticks, [&] { return solver.factorize(matrix); }));
 	const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(matrix.rows(), -1.0, 1.0);
 	const Eigen::VectorXd x = solver.solve(b);
-	EXPECT_GT(ticks, solver.factorFlops() / 1e8); // many a second
-	for (const int last : {1, 2, ticks / 2, ticks}) {
-		int count = 0;
-		const auto throwAtLast = [&] {
-			if (++count == last)
-				throw Cancelled();
-		};
-		EXPECT_THROW(solver.factorize(matrix, throwAtLast), Cancelled) << last;
-		EXPECT_EQ(count, last); // none after it
+	EXPECT_GT(ticks.calls(), solver.factorFlops() / 1e8); // many a second
+	for (const int last : {1, 2, ticks.calls() / 2, ticks.calls()}) {
+		Listener impatient(last);
+		EXPECT_THROW(heard(impatient, [&] { solver.factorize(matrix); }), Cancelled) << last;
+		EXPECT_EQ(impatient.calls(), last); // none after it
 		ASSERT_TRUE(solver.factorize(matrix));
 		EXPECT_EQ(solver.solve(b), x);
 	}

@@ -4,6 +4,7 @@
 #include "support/complex.h"
 #include "support/flat_map.h"
 #include "support/intrinsic.h"
+#include "support/listener.h"
 #include "support/packed.h"
 #include "support/random.h"
 #include "support/random_surface.h"

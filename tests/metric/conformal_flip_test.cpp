@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/intrinsic.h"
+#include "support/listener.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -206,19 +207,19 @@ TEST(ConformalFlip, UnwindsANeedleOfManyTurns)
 		const EdgeArray<double> woundDelta = delta;
 		FlipJournal journal;
 		DelaunayQueue queue;
-		int ticks = 0;
+		Listener ticks;
 		const int flips =
-			makeWeightedDelaunay(t, delta, kappa, journal, queue, 1, [&] { ++ticks; });
+			heard(ticks, [&] { return makeWeightedDelaunay(t, delta, kappa, journal, queue, 1); });
 		EXPECT_GE(flips, static_cast<int>(0.5 * turns));
-		EXPECT_GE(ticks, flips / 65536);
+		EXPECT_GE(ticks.calls(), flips / 65536);
 		for (const Edge e : t.edges())
 			EXPECT_TRUE(isWeightedDelaunay(t, delta, kappa, e));
 		t = wound;
 		delta = woundDelta;
 		journal.clear();
-		EXPECT_THROW(
-			makeWeightedDelaunay(t, delta, kappa, journal, queue, 1, [] { throw Cancelled(); }),
-			Cancelled);
+		Listener impatient(1);
+		const Task task(impatient);
+		EXPECT_THROW(makeWeightedDelaunay(t, delta, kappa, journal, queue, 1), Cancelled);
 		journal.rewind(t, delta);
 		EXPECT_EQ(delta, woundDelta);
 	}

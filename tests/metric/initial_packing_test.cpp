@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/intrinsic.h"
+#include "support/listener.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -175,17 +176,13 @@ TEST(DelaunayPacking, RefusesLengthsThatAreNoNumbers)
 TEST(DelaunayPacking, TicksWhileItFlips)
 {
 	const IntrinsicMesh wound{oneVertexTorus(), woundLengths(200000.0, 3000.0)};
-	int ticks = 0;
-	const auto start = delaunayPacking(wound, {}, [&] { ++ticks; });
-	EXPECT_GE(static_cast<std::size_t>(ticks), start.flips.size() / 65536);
-	EXPECT_GE(ticks, 3);
-	for (int last = 0; last < ticks; ++last) {
-		int left = last;
-		const Tick stop = [&] {
-			if (left-- == 0)
-				throw Cancelled();
-		};
-		EXPECT_THROW(delaunayPacking(wound, {}, stop), Cancelled);
+	Listener ticks;
+	const auto start = heard(ticks, [&] { return delaunayPacking(wound, {}); });
+	EXPECT_GE(static_cast<std::size_t>(ticks.calls()), start.flips.size() / 65536);
+	EXPECT_GE(ticks.calls(), 3);
+	for (int last = 0; last < ticks.calls(); ++last) {
+		Listener impatient(last + 1);
+		EXPECT_THROW(heard(impatient, [&] { delaunayPacking(wound, {}); }), Cancelled);
 	}
 }
 
@@ -197,7 +194,7 @@ TEST(DelaunayQueue, FlipsThatDoNotEndAreAnError)
 	std::int64_t flips = 0;
 	try {
 		queue.flipFrom(
-			Edge(0), t, flips, [](Edge) { return false; }, [&](Edge e) { t.flip(e); }, {});
+			Edge(0), t, flips, [](Edge) { return false; }, [&](Edge e) { t.flip(e); });
 		ADD_FAILURE() << "ended after " << flips;
 	}
 	catch (const NotConverged& error) {

@@ -17,7 +17,6 @@
 namespace ricci::testing {
 namespace {
 
-const OverlayListener kDeaf = [](double, std::size_t) {};
 
 Point3 between(const Point3& a, const Point3& b, double share)
 {
@@ -41,7 +40,7 @@ TEST(EdgeCrossings, WithTheInputLieOnStraightLines)
 	Random random(800);
 	int crossings = 0;
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const EdgeCrossings x(flow.result, kDeaf);
+		const EdgeCrossings x(flow.result, true);
 		const IntrinsicMesh& start = flow.result.history.start;
 		const Triangulation& input = flow.base();
 		for (const Edge e : start.triangulation.edges()) {
@@ -87,7 +86,7 @@ TEST(EdgeCrossings, InThePlaneAreThoseOfTheDrawing)
 			p[0] *= 1.0 + 3.0 * trial; // needles
 		const FlippedFlow flow(mesh, requestOf(TargetCurvature::Automatic));
 		ASSERT_FALSE(flow.result.doubled);
-		const EdgeCrossings x(flow.result, kDeaf);
+		const EdgeCrossings x(flow.result, true);
 		const Triangulation& start = flow.result.history.start.triangulation;
 		const VertexArray<Point3>& p = flow.surface().positions;
 		const auto side = [&](const std::array<Vertex, 2>& line, Vertex v) {
@@ -120,12 +119,7 @@ TEST(EdgeCrossings, AreNumberedOnceEach)
 {
 	Random random(802);
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		std::size_t heard = 0;
-		const EdgeCrossings x(flow.result, [&](double share, std::size_t count) {
-			EXPECT_EQ(share, 0.0);
-			heard = count;
-		});
-		EXPECT_EQ(heard, at(x.inputOn.total() + x.endOn.total()));
+		const EdgeCrossings x(flow.result, true);
 		const auto expectEachOnce = [](const EdgeArray<EdgeCrossings::Curve>& curves,
 									   const Groups<Edge>& on,
 									   const auto& numberOf,
@@ -173,7 +167,7 @@ TEST(EdgeCrossings, WithTheEndAreInTheirOrder)
 		std::vector<double> curvature(mesh.positions.size(), 1.5 * kPi);
 		curvature[1] = -1.5 * kPi * static_cast<double>(mesh.positions.size() - 1);
 		const FlippedFlow flow(mesh, prescribed(curvature));
-		const EdgeCrossings x(flow.result, kDeaf);
+		const EdgeCrossings x(flow.result, true);
 		for (const EdgeCrossings::Curve& curve : x.endCurves)
 			longest = std::max(longest, curve.crossings.size());
 		for (const Edge e : flow.result.history.start.triangulation.edges()) {
@@ -217,7 +211,7 @@ TEST(EdgeCrossings, WithTheEndAreVectorsOfBothTriangulations)
 	Random random(803);
 	int crossings = 0, several = 0;
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const EdgeCrossings x(flow.result, kDeaf);
+		const EdgeCrossings x(flow.result, true);
 		const Triangulation& start = flow.result.history.start.triangulation;
 		const EdgeArray<double>& startDelta = flow.result.history.startDelta;
 		const auto corner = [&](Halfedge h) { // whose origin it is, in its triangle

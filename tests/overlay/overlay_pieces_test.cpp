@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/listener.h"
 #include "support/closed_flows.h"
 #include "support/intrinsic.h"
 
@@ -12,12 +13,12 @@
 #include <cmath>
 #include <map>
 #include <utility>
+#include <algorithm>
 #include <vector>
 
 namespace ricci::testing {
 namespace {
 
-const OverlayListener kDeaf = [](double, std::size_t) {};
 
 /// Weight of a vertex of the input in a point; 0 where it has none.
 double weightOf(const SurfacePoint& p, Vertex v)
@@ -34,7 +35,7 @@ TEST(OverlayPieces, AreTheFacesOfASurface)
 	Random random(810);
 	int crossings = 0;
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const OverlayPieces pieces = divideStartTriangles(flow.result, kDeaf);
+		const OverlayPieces pieces = divideStartTriangles(flow.result, true);
 		EXPECT_EQ(
 			pieces.nodes.size() - pieces.sideCount + pieces.count(),
 			flow.base().eulerCharacteristic());
@@ -59,7 +60,7 @@ TEST(OverlayPieces, KnowTheEdgesAndCornersTheyLieAt)
 {
 	Random random(811);
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const OverlayPieces pieces = divideStartTriangles(flow.result, kDeaf);
+		const OverlayPieces pieces = divideStartTriangles(flow.result, true);
 		const Triangulation& input = flow.base();
 		const Triangulation& end = flow.result.metric->triangulation();
 		HalfedgeArray<int> inputCorners(input.halfedgeCount(), 0), endCorners = inputCorners;
@@ -114,9 +115,9 @@ TEST(OverlayPieces, DivideStartTrianglesAlongStraightLines)
 	Random random(813);
 	int crossings = 0;
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const OverlayPieces pieces = divideStartTriangles(flow.result, kDeaf);
+		const OverlayPieces pieces = divideStartTriangles(flow.result, true);
 		Array<OverlayNode> onStartEdges;
-		StartEdgeNodes(flow.result, EdgeCrossings(flow.result, kDeaf), onStartEdges);
+		StartEdgeNodes(flow.result, EdgeCrossings(flow.result, true), onStartEdges);
 		const auto place = [&](int p, int i) {
 			return placeOnSurface(pieces.nodes[pieces(p, i).node].point, flow.mesh.positions);
 		};
@@ -155,7 +156,7 @@ TEST(OverlayPieces, OfAnInputThatStaysAreItsTriangles)
 	const SurfaceMesh mesh = tetrahedron();
 	const FlippedFlow flow(mesh, prescribed(curvatureInSpace(mesh)));
 	ASSERT_EQ(flow.result.history.flips(), 0);
-	const OverlayPieces pieces = divideStartTriangles(flow.result, kDeaf);
+	const OverlayPieces pieces = divideStartTriangles(flow.result, true);
 	EXPECT_EQ(pieces.nodes.size(), 4);
 	EXPECT_EQ(pieces.sideCount, 6);
 	ASSERT_EQ(pieces.count(), 4);
@@ -167,23 +168,18 @@ TEST(OverlayPieces, OfAnInputThatStaysAreItsTriangles)
 		}
 }
 
-TEST(OverlayPieces, TellTheListenerAndEndByWhatItThrows)
+TEST(OverlayPieces, AreHeardAndCanBeEnded)
 {
 	Random random(812);
 	const FlippedFlow flow(bumpyTorus(90, 70, random), requestOf(TargetCurvature::Flat));
-	double last = 0.0;
-	int calls = 0;
-	const OverlayPieces pieces =
-		divideStartTriangles(flow.result, [&](double share, std::size_t crossings) {
-			EXPECT_GE(share, last);
-			EXPECT_LE(share, 1.0);
-			EXPECT_GT(crossings, 0u);
-			last = share;
-			++calls;
-		});
-	EXPECT_GT(calls, 1);
-	EXPECT_GT(last, 0.3);
-	EXPECT_THROW(divideStartTriangles(flow.result, [](double, std::size_t) { throw 17; }), int);
+	Listener listener;
+	heard(listener, [&] { return divideStartTriangles(flow.result, true); });
+	EXPECT_GT(listener.calls(), 1);
+	EXPECT_GT(listener.fractions.back(), 0.3);
+	EXPECT_TRUE(std::is_sorted(listener.fractions.begin(), listener.fractions.end()));
+	Listener impatient(2);
+	EXPECT_THROW(
+		heard(impatient, [&] { divideStartTriangles(flow.result, true); }), Cancelled);
 }
 
 TEST(OverlayPieces, KeepThoseThatAreWanted)

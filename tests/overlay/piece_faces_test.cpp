@@ -44,7 +44,7 @@ TEST(PieceFaces, TileTheTrianglesOfTheInputAndOfTheEnd)
 		const Triangulation& input = flow.base();
 		const Triangulation& end = flow.result.metric->triangulation();
 		const LinkedPieces linked = linkPieces(
-			divideStartTriangles(flow.result, [](double, std::size_t) {}),
+			divideStartTriangles(flow.result, true),
 			input,
 			end,
 			input.faceCount());
@@ -79,7 +79,7 @@ TEST(PieceFaces, ForgetWhatIsNotKept)
 	for (const FlippedFlow& flow : closedFlows(random)) {
 		const Triangulation& input = flow.base();
 		const Triangulation& end = flow.result.metric->triangulation();
-		const OverlayPieces all = divideStartTriangles(flow.result, [](double, std::size_t) {});
+		const OverlayPieces all = divideStartTriangles(flow.result, true);
 		const LinkedPieces whole = linkPieces(all, input, end, input.faceCount());
 		const int kept = input.faceCount() / 2;
 		const LinkedPieces half = linkPieces(all, input, end, kept);

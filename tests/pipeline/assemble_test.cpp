@@ -3,7 +3,7 @@
 // numbers are those of the input, and errors say where they come from.
 #include "../support/expect.h"
 #include "../support/flat_map.h"
-#include "../support/impatient.h"
+#include "../support/listener.h"
 #include "../support/random_surface.h"
 #include "../support/refinement_check.h"
 #include "../support/shapes.h"
@@ -43,9 +43,7 @@ Options withOutput(OutputTriangulation output)
 template<class AnyOptions>
 ComponentMap flattened(const Component& component, const AnyOptions& options)
 {
-	Progress silent;
-	ProgressRange range(silent, 0.0, 1.0);
-	return flattenComponent(component, {}, options, range);
+	return flattenComponent(component, {}, options);
 }
 
 OpenedMesh opened(const SurfaceMesh& mesh)
@@ -227,10 +225,9 @@ TEST(Assemble, AFaceOfTheOutputThatIsTurnedRoundIsFound)
 template<class AnyOptions>
 void expectTheOutputIsWritten(const SurfaceMesh& mesh, const AnyOptions& options)
 {
-	Progress silent;
 	Parametrization result;
 	const std::vector<Component> components =
-		startResult(mesh, options, options.output, silent, result);
+		startResult(mesh, options, options.output, result);
 	ASSERT_EQ(components.size(), 3u);
 	for (const Component& c : components) {
 		const ComponentMap map = flattened(c, options);
@@ -387,8 +384,7 @@ TEST(Assemble, NumbersOfTheRefinedPointsOfSeveralHyperbolicComponents)
 			mesh = everyThirdFaceReversed(mesh);
 		HyperbolicOptions options;
 		options.output = kRefined;
-		Progress silent;
-		const Parametrization map = parametrizeHyperbolic(mesh, {}, options, silent);
+		const Parametrization map = parametrizeHyperbolic(mesh, {}, options);
 		expectNumbersOfSeveralComponents(mesh, map);
 		for (const Chart& chart : map.charts)
 			EXPECT_FALSE(chart.group.sides.empty());
@@ -418,8 +414,8 @@ TEST(Assemble, StartsWithArraysOfTheMeshsSizes)
 	for (const OutputTriangulation output : {kKept, kRefined}) {
 		Parametrization result;
 		result.notes = {"the first one"};
-		Impatient listener(1000);
-		const auto components = startResult(mesh, Options(), output, listener, result);
+		Listener listener;
+		const auto components = heard(listener, [&] { return startResult(mesh, Options(), output, result); });
 		EXPECT_EQ(components.size(), 1u);
 		EXPECT_EQ(result.report.components, 1);
 		EXPECT_EQ(result.uv.size(), mesh.triangles.size());
@@ -439,13 +435,14 @@ TEST(Assemble, RefusesWhatTheFlowCannotTakeBeforeItStarts)
 	SurfaceMesh mesh = rectangle(4, 4, 1, 1);
 	mesh.positions[6] = mesh.positions[7];
 	const auto start = [&](const FlowOptions& options) {
-		Progress silent;
 		Parametrization result;
-		startResult(mesh, options, kKept, silent, result);
+		startResult(mesh, options, kKept, result);
 	};
 	FlowOptions options;
 	EXPECT_NO_THROW(start(options));
-	options.memoryLimit = 1000.0;
+	Progress silent;
+	Task task(silent);
+	task.setMemoryLimit(1000.0);
 	const auto tooLarge = errorOf<TooLarge>([&] { start(options); });
 	ASSERT_TRUE(tooLarge);
 	EXPECT_EQ(tooLarge->problem, TooLarge::Memory);
@@ -501,9 +498,8 @@ template<class E>
 std::optional<E> thrownInTheSecond(const SurfaceMesh& mesh, const E& thrown)
 {
 	return errorOf<E>([&] {
-		Progress silent;
 		runComponents(
-			opened(mesh), componentsOf(mesh), silent, [&](const Component& c, ProgressRange) {
+			opened(mesh), componentsOf(mesh), [&](const Component& c) {
 				if (c.face.front() == 8)
 					throw thrown;
 			});
@@ -540,11 +536,10 @@ TEST(Assemble, AnErrorKeepsItsTypeAndGetsItsComponent)
 
 TEST(Assemble, AnErrorOfTheOnlyComponentHasNoComponent)
 {
-	Progress silent;
 	const SurfaceMesh mesh = tetrahedron();
 	const auto error = errorOf<InvalidOption>([&] {
 		runComponents(
-			opened(mesh), componentsOf(mesh), silent, [](const Component&, ProgressRange) {
+			opened(mesh), componentsOf(mesh), [](const Component&) {
 				throw InvalidOption(InvalidOption::NothingSelected);
 			});
 	});
@@ -570,27 +565,25 @@ TEST(Assemble, StoppingNamesNoComponent)
 TEST(Assemble, OtherExceptionsPassThrough)
 {
 	const SurfaceMesh mesh = twoComponents();
-	Progress silent;
 	EXPECT_THROW(
 		runComponents(
 			opened(mesh),
 			componentsOf(mesh),
-			silent,
-			[](const Component&, ProgressRange) { throw std::runtime_error("full disk"); }),
+			[](const Component&) { throw std::runtime_error("full disk"); }),
 		std::runtime_error);
 }
 
 TEST(Assemble, ComponentsShareTheProgressByTheirFaces)
 {
 	const SurfaceMesh mesh = twoComponents(); // 8 and 4 faces
-	Impatient listener(1000);
-	runComponents(
-		opened(mesh), componentsOf(mesh), listener, [](const Component&, ProgressRange range) {
-			range.step(0.0, "begin");
-			range.step(0.5, "middle");
-			range.step(0.25, "again");
-			range.step(1.0, "end");
-		});
+	Listener listener;
+	const Task task(listener);
+	runComponents(opened(mesh), componentsOf(mesh), [](const Component&) {
+		advance(0.0, "begin");
+		advance(0.5, "middle");
+		advance(0.25, "again");
+		advance(1.0, "end");
+	});
 	const double first = kComponentsDone * 8 / 12, all = kComponentsDone;
 	const std::vector<double> expected{
 		0.0, 0.5 * first, 0.5 * first, first, first, 0.5 * (first + all), 0.5 * (first + all), all};

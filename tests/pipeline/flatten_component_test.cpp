@@ -4,7 +4,7 @@
 #include "../support/expect.h"
 #include "../support/flat_map.h"
 #include "../support/flipped_flow.h"
-#include "../support/impatient.h"
+#include "../support/listener.h"
 #include "../support/random_surface.h"
 #include "../support/shapes.h"
 #include "../support/transform.h"
@@ -37,9 +37,7 @@ template<class AnyOptions>
 ComponentMap
 flattened(const Component& component, const AnyOptions& options, const VertexInput& input = {})
 {
-	Progress silent;
-	ProgressRange range(silent, 0.0, 1.0);
-	return flattenComponent(component, input, options, range);
+	return flattenComponent(component, input, options);
 }
 
 Parametrization wholeWay(const SurfaceMesh& mesh, const VertexInput& input, const Options& options)
@@ -50,8 +48,7 @@ Parametrization wholeWay(const SurfaceMesh& mesh, const VertexInput& input, cons
 Parametrization
 wholeWay(const SurfaceMesh& mesh, const VertexInput& input, const HyperbolicOptions& options)
 {
-	Progress silent;
-	return parametrizeHyperbolic(mesh, input, options, silent);
+	return parametrizeHyperbolic(mesh, input, options);
 }
 
 std::vector<Component> componentsOf(const SurfaceMesh& mesh)
@@ -438,9 +435,10 @@ TEST(FlattenComponent, KeepsToItsShareOfTheProgress)
 {
 	Random random(4106);
 	const SurfaceMesh mesh = bumpyTorus(10, 7, random);
-	Impatient patient(1000000);
-	ProgressRange range(patient, 0.25, 0.75);
-	flattenComponent(componentsOf(mesh).front(), {}, euclidean(TargetCurvature::Automatic), range);
+	Listener patient;
+	const Task task(patient);
+	const Task part(0.25, 0.75);
+	flattenComponent(componentsOf(mesh).front(), {}, euclidean(TargetCurvature::Automatic));
 	ASSERT_GT(patient.fractions.size(), 5u);
 	EXPECT_EQ(patient.fractions.front(), 0.25);
 	EXPECT_EQ(patient.fractions.back(), 0.75);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../support/flat_map.h"
+#include "../support/listener.h"
 #include "../support/random_surface.h"
 #include "../support/shapes.h"
 #include "../support/transform.h"
@@ -105,9 +106,7 @@ struct FirstFlow
 	void run(const Target& target)
 	{
 		map.flowStates.clear();
-		Progress silent;
-		ProgressRange range(silent, 0.0, 1.0);
-		FlowProgress progress(range, options.epsilon, map.flowStates);
+		FlowProgress progress(options.epsilon, map.flowStates);
 		map.flow = runRicciFlow(
 			Background::EuclideanPlane,
 			surface,
@@ -131,10 +130,10 @@ struct FirstFlow
 		return count;
 	}
 
-	void keepAreas(Progress& progress)
+	void keepAreas(Progress& listener)
 	{
-		ProgressRange range(progress, 0.0, 1.0);
-		ricci::keepAreas(surface, request, options, range, map);
+		const Task task(listener);
+		ricci::keepAreas(surface, request, options, map);
 	}
 };
 
@@ -199,7 +198,7 @@ TEST(KeepAreas, LeavesGentleSurfacesWithoutCones)
 	});
 	for (const SurfaceMesh& mesh : {terrain, torus(3.0, 1.0, 30, 30), ring(1.0, 3.0, 40, 20)}) {
 		Listener listener;
-		const Report report = parametrizeEuclidean(mesh, {}, Options(), listener).report;
+		const Report report = heard(listener, [&] { return parametrizeEuclidean(mesh, {}, Options()); }).report;
 		EXPECT_EQ(report.cones, 0);
 		EXPECT_LT(report.areaDistortionSpread, 1.0);
 		EXPECT_EQ(listener.count("No cones: the expected spread"), 1);
@@ -367,11 +366,8 @@ TEST(KeepAreas, LeavesByCancelledWhereverItIs)
 		{
 			FirstFlow flow(mesh);
 			flow.runToFewCones();
-			flow.request.tick = [] {};
 			Listener listener(stage);
-			ProgressRange range(listener, 0.0, 1.0);
-			flow.request.tick = [&] { range.step(0.0, "Placing cones"); };
-			keepAreas(flow.surface, flow.request, flow.options, range, flow.map);
+			flow.keepAreas(listener);
 			all = listener.updates;
 		}
 		ASSERT_GT(all, 2) << stage;
@@ -379,10 +375,7 @@ TEST(KeepAreas, LeavesByCancelledWhereverItIs)
 			FirstFlow flow(mesh);
 			flow.runToFewCones();
 			Listener listener(stage, n);
-			ProgressRange range(listener, 0.0, 1.0);
-			flow.request.tick = [&] { range.step(0.0, "Placing cones"); };
-			EXPECT_THROW(
-				keepAreas(flow.surface, flow.request, flow.options, range, flow.map), Cancelled)
+			EXPECT_THROW(flow.keepAreas(listener), Cancelled)
 				<< stage << " " << n;
 			EXPECT_EQ(listener.updates, n);
 		}
@@ -393,11 +386,11 @@ TEST(KeepAreas, TheWholeWayIsCancelledWhileConesArePlaced)
 {
 	const SurfaceMesh mesh = sphereWithTube(0.02, 3.0, 0.4, 12, 3);
 	Listener all("Placing cones");
-	parametrizeEuclidean(mesh, {}, Options(), all);
+	heard(all, [&] { return parametrizeEuclidean(mesh, {}, Options()); });
 	ASSERT_GT(all.updates, 2);
 	for (const int n : {1, all.updates}) {
 		Listener listener("Placing cones", n);
-		EXPECT_THROW(parametrizeEuclidean(mesh, {}, Options(), listener), Cancelled);
+		EXPECT_THROW(heard(listener, [&] { return parametrizeEuclidean(mesh, {}, Options()); }), Cancelled);
 	}
 }
 

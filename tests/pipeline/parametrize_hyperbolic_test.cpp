@@ -4,7 +4,7 @@
 #include "../support/expect.h"
 #include "../support/flat_map.h"
 #include "../support/flipped_flow.h"
-#include "../support/impatient.h"
+#include "../support/listener.h"
 #include "../support/random_surface.h"
 #include "../support/shapes.h"
 #include "../support/transform.h"
@@ -32,8 +32,7 @@ namespace {
 Parametrization
 run(const SurfaceMesh& mesh, const HyperbolicOptions& options = {}, const VertexInput& input = {})
 {
-	Progress silent;
-	return parametrizeHyperbolic(mesh, input, options, silent);
+	return parametrizeHyperbolic(mesh, input, options);
 }
 
 HyperbolicOptions refined()
@@ -513,8 +512,8 @@ TEST(ParametrizeHyperbolic, SaysWhyThereAreNoCanonicalGenerators)
 {
 	HyperbolicOptions options;
 	options.canonicalGenerators = true;
-	Impatient patient(1000000);
-	const Parametrization map = parametrizeHyperbolic(perforatedSlab(12, 2), {}, options, patient);
+	Listener patient;
+	const Parametrization map = heard(patient, [&] { return parametrizeHyperbolic(perforatedSlab(12, 2), {}, options); });
 	EXPECT_FALSE(map.charts[0].group.isCanonical());
 	const auto says = [](const std::string& line) {
 		return line.find("no canonical generators") != line.npos;
@@ -527,16 +526,16 @@ TEST(ParametrizeHyperbolic, CanBeCancelledAtEveryCall)
 	const SurfaceMesh mesh = genusTwo(710, 1);
 	HyperbolicOptions options = refined();
 	options.canonicalGenerators = true;
-	Impatient patient(1000000);
-	parametrizeHyperbolic(mesh, {}, options, patient);
+	Listener patient;
+	heard(patient, [&] { return parametrizeHyperbolic(mesh, {}, options); });
 	const int calls = static_cast<int>(patient.fractions.size());
 	ASSERT_GT(calls, 5);
 	EXPECT_TRUE(std::is_sorted(patient.fractions.begin(), patient.fractions.end()));
 	EXPECT_EQ(patient.fractions.front(), 0.0);
 	EXPECT_EQ(patient.fractions.back(), 1.0);
 	for (int last = 1; last <= calls; ++last) {
-		Impatient impatient(last);
-		EXPECT_THROW(parametrizeHyperbolic(mesh, {}, options, impatient), Cancelled);
+		Listener impatient(last);
+		EXPECT_THROW(heard(impatient, [&] { return parametrizeHyperbolic(mesh, {}, options); }), Cancelled);
 		EXPECT_EQ(static_cast<int>(impatient.fractions.size()), last);
 	}
 }
@@ -567,7 +566,7 @@ TEST(ParametrizeHyperbolic, AMapThatIsTooWideIsCutAroundItsMiddle)
 	for (const int genus : {10, 16}) {
 		Log log;
 		const Parametrization map =
-			parametrizeHyperbolic(perforatedSlab(genus, 2), {}, HyperbolicOptions(), log);
+			heard(log, [&] { return parametrizeHyperbolic(perforatedSlab(genus, 2), {}, HyperbolicOptions()); });
 		EXPECT_TRUE(log.recut);
 		double radius = 0.0;
 		for (const Triangle2& t : map.uv)

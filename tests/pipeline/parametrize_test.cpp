@@ -3,7 +3,7 @@
 // metric can be checked in the plane.
 #include "../support/expect.h"
 #include "../support/flat_map.h"
-#include "../support/impatient.h"
+#include "../support/listener.h"
 #include "../support/random_surface.h"
 #include "../support/shapes.h"
 #include "../support/transform.h"
@@ -341,7 +341,7 @@ TEST(Parametrize, TheLogNamesConesByTheirNumbersInTheMesh)
 	SurfaceMesh mesh = sideBySide(one, shaken(perforatedSlab(2, 3), 0.05, random), 9.0);
 	std::reverse(mesh.triangles.begin(), mesh.triangles.end()); // components number by first use
 	Listener listener;
-	const Parametrization flat = parametrizeEuclidean(mesh, {}, Options(), listener);
+	const Parametrization flat = heard(listener, [&] { return parametrizeEuclidean(mesh, {}, Options()); });
 	EXPECT_EQ(static_cast<int>(listener.cones.size()), flat.report.cones);
 	for (const auto& [vertex, curvature] : listener.cones)
 		EXPECT_NEAR(flat.targetCurvature[at(vertex)], curvature * kPi, 1e-6) << vertex;
@@ -567,8 +567,8 @@ TEST(Parametrize, ProgressRisesFromZeroToOne)
 {
 	Random random(211);
 	const SurfaceMesh mesh = sideBySide(bumpyTorus(12, 8, random), bumpyPatch(8), 10);
-	Impatient patient(1000000);
-	parametrizeEuclidean(mesh, {}, fixedTriangulation(), patient);
+	Listener patient;
+	heard(patient, [&] { return parametrizeEuclidean(mesh, {}, fixedTriangulation()); });
 	EXPECT_EQ(patient.fractions.front(), 0.0);
 	EXPECT_EQ(patient.fractions.back(), 1.0);
 	EXPECT_TRUE(std::is_sorted(patient.fractions.begin(), patient.fractions.end()));
@@ -582,13 +582,13 @@ TEST(Parametrize, CanBeCancelledAtEveryCall)
 {
 	Random random(212);
 	const SurfaceMesh mesh = bumpyTorus(12, 8, random);
-	Impatient patient(1000000);
-	parametrizeEuclidean(mesh, {}, fixedTriangulation(), patient);
+	Listener patient;
+	heard(patient, [&] { return parametrizeEuclidean(mesh, {}, fixedTriangulation()); });
 	const int calls = static_cast<int>(patient.fractions.size());
 	ASSERT_GT(calls, 5);
 	for (int last = 1; last <= calls; ++last) {
-		Impatient impatient(last);
-		EXPECT_THROW(parametrizeEuclidean(mesh, {}, fixedTriangulation(), impatient), Cancelled);
+		Listener impatient(last);
+		EXPECT_THROW(heard(impatient, [&] { return parametrizeEuclidean(mesh, {}, fixedTriangulation()); }), Cancelled);
 		EXPECT_EQ(static_cast<int>(impatient.fractions.size()), last);
 	}
 }
@@ -600,7 +600,7 @@ TEST(Parametrize, ErrorsOfTheListenerPassThrough)
 		bool update(double, const std::string&) override { throw std::runtime_error("full disk"); }
 	} broken;
 	EXPECT_THROW(
-		parametrizeEuclidean(rectangle(2, 2, 1, 1), {}, fixedTriangulation(), broken),
+		heard(broken, [&] { return parametrizeEuclidean(rectangle(2, 2, 1, 1), {}, fixedTriangulation()); }),
 		std::runtime_error);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "../support/listener.h"
 #include "../support/shapes.h"
 
 #include <ricci/base/numbers.h>
@@ -57,8 +58,7 @@ Options quarterTurns(Finish finish)
 
 Parametrization run(const SurfaceMesh& mesh, const Options& options)
 {
-	Progress silent;
-	return parametrizeEuclidean(mesh, {}, options, silent);
+	return parametrizeEuclidean(mesh, {}, options);
 }
 
 void expectCones(const Parametrization& map, int eulerCharacteristic)
@@ -179,13 +179,13 @@ TEST(RoundLoopTurns, CanBeCancelledAtAnyCall)
 	};
 	const SurfaceMesh mesh = bentSlab(1, 4);
 	Impatient patient;
-	parametrizeEuclidean(mesh, {}, quarterTurns(Finish::None), patient);
+	heard(patient, [&] { return parametrizeEuclidean(mesh, {}, quarterTurns(Finish::None)); });
 	ASSERT_GT(patient.calls, 3);
 	for (int last = 1; last <= patient.calls; last += std::max(1, patient.calls / 8)) {
 		Impatient impatient;
 		impatient.last = last;
 		EXPECT_THROW(
-			parametrizeEuclidean(mesh, {}, quarterTurns(Finish::None), impatient), Cancelled);
+			heard(impatient, [&] { return parametrizeEuclidean(mesh, {}, quarterTurns(Finish::None)); }), Cancelled);
 	}
 }
 

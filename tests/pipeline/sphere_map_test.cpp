@@ -26,8 +26,7 @@ using Complex = std::complex<double>;
 
 SphereMap toSphere(const SurfaceMesh& mesh)
 {
-	Progress silent;
-	return mapToSphere(mesh, Options(), silent);
+	return mapToSphere(mesh, Options());
 }
 
 /// Icosahedron with every face cut into 4^level, on the unit sphere.

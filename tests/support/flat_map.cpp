@@ -73,8 +73,7 @@ double FlatMap::error(const std::vector<double>& target) const
 
 Parametrization run(const SurfaceMesh& mesh, const Options& options, const VertexInput& input)
 {
-	Progress silent;
-	return parametrizeEuclidean(mesh, input, options, silent);
+	return parametrizeEuclidean(mesh, input, options);
 }
 
 VertexInput selecting(const SurfaceMesh& mesh, const std::vector<int>& vertices)

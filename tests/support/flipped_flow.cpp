@@ -131,9 +131,8 @@ CutGraph FlippedFlow::cutAnywhere(Random& random) const
 
 CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
 {
-	const OverlayListener deaf = [](double, std::size_t) {};
 	return commonRefinement(
-		domain, result, overlayOf(domain, result, deaf), cutGraph.isCut, false, deaf);
+		domain, result, overlayOf(domain, result, true), cutGraph.isCut, false);
 }
 
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary)

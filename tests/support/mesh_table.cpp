@@ -3,6 +3,7 @@
 // tabulators between the columns; the last column is the refusal, if there is one.
 #include "covered_twice.h"
 #include "flat_map.h"
+#include "listener.h"
 #include "mesh_file.h"
 #include "obj_writer.h"
 #include "vcg_mesh.h"
@@ -217,7 +218,7 @@ Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progr
 {
 	Outcome out;
 	const std::clock_t start = std::clock();
-	const Parametrization flat = parametrizeEuclidean(mesh, {}, options, progress);
+	const Parametrization flat = testing::heard(progress, [&] { return parametrizeEuclidean(mesh, {}, options); });
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
 	out.notes = flat.notes;
@@ -246,7 +247,7 @@ runPacked(const SurfaceMesh& mesh, const Options& options, const Arguments& a, P
 	params.chartMargin = a.margin;
 	Outcome out;
 	const std::clock_t start = std::clock();
-	const Flow::Result flat = Flow::Compute(m, params, progress);
+	const Flow::Result flat = testing::heard(progress, [&] { return Flow::Compute(m, params); });
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
 	out.notes = flat.notes;

@@ -199,24 +199,23 @@ int main(int argc, char** argv)
 			return 2;
 		}
 		const std::string mesh = std::filesystem::path(path).stem().string() + "\t";
-		Progress progress;
 		for (const Case& c : kCases)
 			if (isWanted(c.name))
 				tryRun(mesh + c.name, [&] {
 					Flow::Params params;
 					c.change(params);
-					printResult(mesh + c.name, Flow::Compute(m, params, progress));
+					printResult(mesh + c.name, Flow::Compute(m, params));
 				});
 		for (const auto& [name, change] : kHyperbolicCases)
 			if (isWanted(name))
 				tryRun(mesh + name, [&, change = change, name = name] {
 					HyperbolicOptions options;
 					change(options);
-					printResult(mesh + name, Flow::ComputeHyperbolic(m, options, progress));
+					printResult(mesh + name, Flow::ComputeHyperbolic(m, options));
 				});
 		if (isWanted("sphere"))
 			tryRun(mesh + "sphere", [&] {
-				const SphereMap sphere = Flow::ComputeSphere(m, Flow::Params(), progress);
+				const SphereMap sphere = Flow::ComputeSphere(m, Flow::Params());
 				Digest digest;
 				digest.addAll(sphere.positions);
 				digest.addAll(sphere.triangles);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "painted_square.h"
 
+#include "support/listener.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -400,19 +402,16 @@ TEST(CarryTexture, CanBeCancelled)
 	const Square square(2);
 	Picture<unsigned char> old(8, 8), result(8, 8);
 	for (int after = 0; after < 6; ++after) {
-		int calls = 0;
+		Listener impatient(after + 1);
+		const Task task(impatient);
 		EXPECT_THROW(
 			carryTexture<unsigned char>(
 				carriedMesh(square, square.place, square.place),
 				{old.view()},
 				false,
 				result.target(),
-				1,
-				[&] {
-					if (calls++ == after)
-						throw std::runtime_error("stop");
-				}),
-			std::runtime_error);
+				1),
+			Cancelled);
 	}
 }
 
@@ -431,10 +430,10 @@ TEST(CarryTexture, VisitsOnlyTheTilesOfAPicture)
 		mesh.faces[positionOf(2 * i)].picture = mesh.faces[positionOf(2 * i + 1)].picture = i;
 	}
 	Picture<unsigned char> result(size, size);
-	int ticks = 0;
-	carryTexture<unsigned char>(mesh, views, false, result.target(), 1, [&] { ++ticks; });
+	Listener ticks;
+	heard(ticks, [&] { return carryTexture<unsigned char>(mesh, views, false, result.target(), 1); });
 	// All tiles of all pictures would be 64 * 64 of them, the rows of the fill are 512.
-	EXPECT_LT(ticks, 512 + pictures * 16);
+	EXPECT_LT(ticks.calls(), 512 + pictures * 16);
 	for (int y = 0; y < size; ++y)
 		for (int x = 0; x < size; ++x)
 			ASSERT_EQ(result.at(x, y)[0], (size - 1 - y) / 64 * cells + x / 64);

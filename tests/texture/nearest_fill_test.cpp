@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
+#include "support/listener.h"
+
 #include <ricci/texture/nearest_fill.h>
 
 #include <gtest/gtest.h>
@@ -29,7 +31,7 @@ TEST(NearestFill, IsTheNearestByTryingAll)
 			places.push_back(at);
 		}
 		const PictureView<unsigned short> view{width, height, rgba.data()};
-		fillFromNearest(covered, view, 1, [] {});
+		fillFromNearest(covered, view, 1);
 		for (int at = 0; at < width * height; ++at) {
 			const auto square = [&](int other) {
 				const int dx = other % width - at % width, dy = other / width - at / width;
@@ -59,8 +61,8 @@ TEST(NearestFill, IsTheSameWithManyThreads)
 		one[4 * at] = static_cast<unsigned char>(random.index(256));
 	}
 	std::vector<unsigned char> many = one;
-	fillFromNearest(covered, PictureView<unsigned char>{size, size, one.data()}, 1, [] {});
-	fillFromNearest(covered, PictureView<unsigned char>{size, size, many.data()}, 5, [] {});
+	fillFromNearest(covered, PictureView<unsigned char>{size, size, one.data()}, 1);
+	fillFromNearest(covered, PictureView<unsigned char>{size, size, many.data()}, 5);
 	EXPECT_EQ(one, many);
 }
 
@@ -68,13 +70,10 @@ TEST(NearestFill, CanBeCancelled)
 {
 	std::vector<unsigned char> rgba(4 * 64 * 64, 0);
 	const std::vector<char> covered(64 * 64, 0);
+	Listener impatient(1);
+	const Task task(impatient);
 	EXPECT_THROW(
-		fillFromNearest(
-			covered,
-			PictureView<unsigned char>{64, 64, rgba.data()},
-			2,
-			[] { throw std::runtime_error("stop"); }),
-		std::runtime_error);
+		fillFromNearest(covered, PictureView<unsigned char>{64, 64, rgba.data()}, 2), Cancelled);
 }
 
 } // namespace

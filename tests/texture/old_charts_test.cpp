@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "painted_square.h"
 
+#include "support/listener.h"
+
 #include <ricci/texture/old_charts.h>
 
 #include <gtest/gtest.h>
@@ -19,7 +21,7 @@ std::vector<TexturedFace> facesOf(const Square& square, const std::vector<Triang
 
 std::size_t chartsOf(const std::vector<TexturedFace>& faces)
 {
-	const std::vector<int> charts = oldCharts(faces, nullptr);
+	const std::vector<int> charts = oldCharts(faces);
 	return std::set<int>(charts.begin(), charts.end()).size();
 }
 
@@ -61,9 +63,9 @@ TEST(OldOwners, KnowTheTexelsOfEachChart)
 	Random random(734);
 	const Square square(4);
 	const std::vector<TexturedFace> faces = facesOf(square, shatteredAtlas(32, random));
-	const std::vector<int> charts = oldCharts(faces, nullptr);
+	const std::vector<int> charts = oldCharts(faces);
 	const int size = 80; // the diagonals of the cells of 20 x 20 run through middles of texels
-	const OldOwners owners(faces, charts, allOf(faces), size, size, nullptr);
+	const OldOwners owners(faces, charts, allOf(faces), size, size);
 	for (int y = 0; y < size; ++y)
 		for (int x = 0; x < size; ++x) {
 			const bool onDiagonal = x % 20 == 19 - y % 20;
@@ -86,8 +88,8 @@ TEST(OldOwners, ShareWhatOverlaps)
 	std::vector<TexturedFace> faces = facesOf(square, square.place);
 	faces[1].uv = {Point2{1, 0}, Point2{0, 0}, Point2{1, 1}}; // on the first one, turned over
 	faces[1].vertices = {4, 5, 6};
-	const std::vector<int> charts = oldCharts(faces, nullptr);
-	const OldOwners owners(faces, charts, allOf(faces), 10, 10, nullptr);
+	const std::vector<int> charts = oldCharts(faces);
+	const OldOwners owners(faces, charts, allOf(faces), 10, 10);
 	const std::size_t middle = 6 * 10 + 7;
 	EXPECT_TRUE(owners.of(charts[0]).has(middle));
 	EXPECT_TRUE(owners.of(charts[1]).has(middle));
@@ -110,13 +112,14 @@ TEST(OldOwners, CostsNoMoreThanAFewPicturesWhereAllFacesShowAllOfIt)
 					p[0] = 1.0 - p[0];
 			faces.push_back(face);
 		}
-	const std::vector<int> charts = oldCharts(faces, nullptr);
+	const std::vector<int> charts = oldCharts(faces);
 	const int size = 256; // 65536 texels: one tick
-	int ticks = 0;
-	const OldOwners owners(faces, charts, allOf(faces), size, size, [&] { ++ticks; });
+	Listener ticks;
+	const Task task(ticks);
+	const OldOwners owners(faces, charts, allOf(faces), size, size);
 	const int ofPictures = static_cast<int>(OldOwners::kMaxLayers) + 2, ofFaces = 2;
-	EXPECT_LE(ticks, 2 * (ofPictures + ofFaces));
-	EXPECT_GE(ticks, 2 * ofPictures - 4);
+	EXPECT_LE(ticks.calls(), 2 * (ofPictures + ofFaces));
+	EXPECT_GE(ticks.calls(), 2 * ofPictures - 4);
 	for (const int chart : charts)
 		for (std::size_t texel = 0; texel < size * size; texel += 37) {
 			ASSERT_TRUE(owners.of(chart).has(texel));

@@ -179,7 +179,7 @@ Picture<Sample> carried(
 	for (const Picture<Sample>* picture : old)
 		views.push_back(picture->view());
 	Picture<Sample> result(size, size);
-	carryTexture<Sample>(mesh, views, hasAlpha, result.target(), threads, [] {});
+	carryTexture<Sample>(mesh, views, hasAlpha, result.target(), threads);
 	return result;
 }
 

@@ -38,7 +38,7 @@ void checkOptions(const HyperbolicOptions& options);
 /// \throw InvalidMesh, InvalidOption, InadmissibleCurvature, NotConverged, SolverFailed, TooLarge,
 /// Stopped; where the mesh has several components, with the failed one named
 Parametrization parametrizeEuclidean(
-	const SurfaceMesh& mesh, const VertexInput& input, const Options& options, Progress& progress);
+	const SurfaceMesh& mesh, const VertexInput& input, const Options& options);
 
 /// The hyperbolic generalized Ricci flow from a mesh to the Poincaré disk, component by component.
 /// The uv coordinates are points of the unit disk, the middle of each component at 0; u is
@@ -49,8 +49,7 @@ Parametrization parametrizeEuclidean(
 Parametrization parametrizeHyperbolic(
 	const SurfaceMesh& mesh,
 	const VertexInput& input,
-	const HyperbolicOptions& options,
-	Progress& progress);
+	const HyperbolicOptions& options);
 
 } // namespace ricci
 

@@ -45,7 +45,7 @@ struct SphereMap
 /// does, or else at the pole.
 /// \param options only epsilon is used; the flow has intrinsic flips
 /// \throw InvalidMesh, InvalidOption (another topology), NotConverged, Cancelled
-SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress& progress);
+SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options);
 
 } // namespace ricci
 

@@ -2,6 +2,7 @@
 #include "memory_estimate.h"
 
 #include "../error.h"
+#include "task.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,28 +40,28 @@ double estimatedMemory(std::size_t faces, std::size_t allFaces, bool refines)
 	return kEveryFace * static_cast<double>(allFaces) + each * n;
 }
 
-void requireMemory(std::size_t faces, std::size_t allFaces, bool refines, double limit)
+void requireMemory(std::size_t faces, std::size_t allFaces, bool refines)
 {
 	if (allFaces > kMaxFaces)
 		throw TooLarge(TooLarge::Faces, allFaces, 0.0, static_cast<double>(kMaxFaces));
 	const double needed = estimatedMemory(faces, allFaces, refines);
-	if (limit > 0.0 && needed > limit)
+	if (const double limit = Task::memoryLimit(); limit > 0.0 && needed > limit)
 		throw TooLarge(TooLarge::Memory, allFaces, needed, limit);
 }
 
-void requireMemoryForDouble(std::size_t faces, double limit)
+void requireMemoryForDouble(std::size_t faces)
 {
 	const double needed = estimatedMemory(2 * faces, faces, false);
-	if (limit > 0.0 && needed > limit)
+	if (const double limit = Task::memoryLimit(); limit > 0.0 && needed > limit)
 		throw TooLarge(TooLarge::DoubleMemory, 2 * faces, needed, limit);
 }
 
-void requireOverlayMemory(std::size_t crossings, bool refines, double limit)
+void requireOverlayMemory(std::size_t crossings, bool refines)
 {
 	if (crossings > kMaxCrossings)
 		throw TooLarge(TooLarge::Crossings, crossings, 0.0, static_cast<double>(kMaxCrossings));
 	const double needed = (refines ? kCrossingRefined : kCrossing) * static_cast<double>(crossings);
-	if (limit > 0.0 && needed > limit)
+	if (const double limit = Task::memoryLimit(); limit > 0.0 && needed > limit)
 		throw TooLarge(TooLarge::OverlayMemory, crossings, needed, limit);
 }
 

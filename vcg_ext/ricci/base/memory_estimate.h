@@ -12,18 +12,17 @@ namespace ricci {
 /// which grows like n log n on surfaces.
 double estimatedMemory(std::size_t faces, std::size_t allFaces, bool refines);
 
-/// \throw TooLarge if the estimate is above \p limit bytes (0: none), or if int cannot number the
-/// elements
-void requireMemory(std::size_t faces, std::size_t allFaces, bool refines, double limit);
+/// \throw TooLarge if the estimate is above Task::memoryLimit(), or if int cannot number the elements
+void requireMemory(std::size_t faces, std::size_t allFaces, bool refines);
 
 /// For the flow on the double of a surface with boundary, which \p faces are one half of.
-/// \throw TooLarge if that needs more than \p limit bytes (0: none)
-void requireMemoryForDouble(std::size_t faces, double limit);
+/// \throw TooLarge if that needs more than Task::memoryLimit()
+void requireMemoryForDouble(std::size_t faces);
 
 /// For the overlay of two triangulations, whose size the faces do not tell: a fan of n triangles at
 /// one vertex can make n^2 crossings.
-/// \throw TooLarge if \p crossings need more than \p limit bytes (0: none), or are too many for int
-void requireOverlayMemory(std::size_t crossings, bool refines, double limit);
+/// \throw TooLarge if \p crossings need more than Task::memoryLimit(), or are too many for int
+void requireOverlayMemory(std::size_t crossings, bool refines);
 
 } // namespace ricci
 

@@ -2,12 +2,13 @@
 #ifndef RICCI_PARALLEL_H
 #define RICCI_PARALLEL_H
 
+#include "task.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <future>
 #include <new>
 #include <system_error>
@@ -65,64 +66,55 @@ void inParallel(int count, int threads, const Work& work, int minPart = 16384)
 		other.join();
 }
 
-/// A thread that waits for others ticks after each such time.
+/// A thread that waits for others calls checkpoint() after each such time.
 constexpr std::chrono::milliseconds kBetweenWaits(400);
 
-/// Calls work(i, tick) for every i of [0, count), each in one of \p threads threads, in any order. The
-/// tasks must be independent of each other. In the calling thread tick is \p tick, which is called
-/// before the first task, too, and while it waits for the others; in these it does nothing but end them
-/// once another thread has thrown. What \p work or \p tick throws is thrown on.
+/// Calls work(i) for every i of [0, count), each in one of \p threads threads, in any order. The tasks
+/// must be independent of each other. checkpoint() is the run's own in the calling thread, which also calls
+/// it before each task and while it waits for the others; in these it does nothing but end them once another
+/// thread has thrown. What \p work or checkpoint() throws is thrown on.
 template<class Work>
-void tasksInParallel(int count, int threads, const std::function<void()>& tick, const Work& work)
+void tasksInParallel(int count, int threads, const Work& work)
 {
-	tick();
-	struct Ended
-	{
-	};
+	checkpoint();
 	std::atomic<int> next{0};
 	std::atomic<bool> ended{false};
+	const double memory = Task::memoryLimit();
 	std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(std::max(threads, 1)));
 	const auto unlessEnded = [&](std::size_t thread, const auto& run) {
+		const HelpGuard guard(ended, memory);
 		try {
 			run();
 		}
-		catch (const Ended&) {
+		catch (const HelpEnded&) {
 		}
 		catch (...) {
 			thrown[thread] = std::current_exception();
 			ended = true;
 		}
 	};
-	const auto runTasks = [&](const std::function<void()>& own) {
+	const auto runTasks = [&] {
 		for (int i = next++; i < count; i = next++) {
-			own();
-			work(i, own);
+			checkpoint();
+			work(i);
 		}
-	};
-	const std::function<void()> endIfAsked = [&] {
-		if (ended)
-			throw Ended();
-	};
-	const std::function<void()> first = [&] {
-		endIfAsked();
-		tick();
 	};
 	std::vector<std::future<void>> others;
 	try {
 		others.reserve(thrown.size());
 		for (std::size_t i = 1; i < std::min(thrown.size(), static_cast<std::size_t>(count)); ++i)
-			others.push_back(std::async(
-				std::launch::async, [&, i] { unlessEnded(i, [&] { runTasks(endIfAsked); }); }));
+			others.push_back(
+				std::async(std::launch::async, [&, i] { unlessEnded(i, runTasks); }));
 	}
 	catch (const std::system_error&) { // no more threads to be had
 	}
 	catch (const std::bad_alloc&) { // nor memory for one
 	}
 	unlessEnded(0, [&] {
-		runTasks(first);
+		runTasks();
 		for (const std::future<void>& other : others)
 			while (other.wait_for(kBetweenWaits) != std::future_status::ready)
-				first();
+				checkpoint();
 	});
 	for (const std::future<void>& other : others)
 		other.wait();
@@ -131,40 +123,37 @@ void tasksInParallel(int count, int threads, const std::function<void()>& tick, 
 			std::rethrow_exception(exception);
 }
 
-/// Calls main() in the calling thread and meanwhile aside(own) in another one, if \p threads are more
-/// than one; else first aside(tick), then main(). They must be independent of each other. In the other
-/// thread own() does nothing but end \p aside once main() or \p tick has thrown; \p tick is called
-/// while the calling thread waits. What any of them throws is thrown on.
+/// Calls main() in the calling thread and meanwhile aside() in another one, if \p threads are more than
+/// one; else first aside(), then main(). They must be independent of each other. checkpoint() is the run's
+/// own in the calling thread, also while it waits; in the other one it does nothing but end \p aside once
+/// the calling thread has thrown. What any of them throws is thrown on.
 template<class Main, class Aside>
-void besides(int threads, const std::function<void()>& tick, const Main& main, const Aside& aside)
+void besides(int threads, const Main& main, const Aside& aside)
 {
-	struct Ended
-	{
-	};
 	std::atomic<bool> ended{false};
 	std::exception_ptr thrown;
-	const std::function<void()> own = [&] {
-		if (ended)
-			throw Ended();
-	};
+	const double memory = Task::memoryLimit();
 	std::future<void> other;
 	if (threads > 1)
 		try {
-			other = std::async(std::launch::async, [&] { aside(own); });
+			other = std::async(std::launch::async, [&] {
+				const HelpGuard guard(ended, memory);
+				aside();
+			});
 		}
 		catch (const std::system_error&) { // no more threads to be had
 		}
 		catch (const std::bad_alloc&) { // nor memory for one
 		}
 	if (!other.valid()) {
-		aside(tick);
+		aside();
 		main();
 		return;
 	}
 	try {
 		main();
 		while (other.wait_for(kBetweenWaits) != std::future_status::ready)
-			tick();
+			checkpoint();
 	}
 	catch (...) {
 		thrown = std::current_exception();
@@ -173,7 +162,7 @@ void besides(int threads, const std::function<void()>& tick, const Main& main, c
 	try {
 		other.get();
 	}
-	catch (const Ended&) {
+	catch (const HelpEnded&) {
 	}
 	catch (...) {
 		if (!thrown)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "border_flow.h"
 
+#include "../base/task.h"
+
 #include <algorithm>
 #include <functional>
 #include <queue>
@@ -10,7 +12,7 @@ namespace ricci {
 
 namespace {
 
-/// Vertices that are looked at between two ticks.
+/// Vertices that are looked at between two checkpoints.
 constexpr int kNodesBetweenTicks = 1 << 14;
 
 } // namespace
@@ -22,24 +24,22 @@ BorderFlow::BorderFlow(const PartGraph& graph) : m_graph(graph), m_nodeAt(3 * gr
 void BorderFlow::find(
 	const std::vector<int>& sources,
 	const std::vector<int>& sinks,
-	const Array<Terminal>& terminal,
-	const Tick& tick)
+	const Array<Terminal>& terminal)
 {
 	for (const int corner : m_known)
 		m_nodeAt[corner] = -1;
 	m_known.clear();
 	m_nodes.clear();
 	m_paths.clear();
-	if (findFrom(sources, 1, terminal, tick) == 0)
-		findFrom(sinks, -1, terminal, tick);
+	if (findFrom(sources, 1, terminal) == 0)
+		findFrom(sinks, -1, terminal);
 }
 
 /// \return the number of paths between the ends of the triangles' rim
 int BorderFlow::findFrom(
 	const std::vector<int>& triangles,
 	std::int64_t sign,
-	const Array<Terminal>& terminal,
-	const Tick& tick)
+	const Array<Terminal>& terminal)
 {
 	int count = 0;
 	for (const int i : triangles)
@@ -52,7 +52,7 @@ int BorderFlow::findFrom(
 			for (int s = side; s >= 0; s = besideOnRim(s, true, terminal))
 				last = s;
 			m_paths.push_back({sign, 0});
-			measure(side, nextSide(last), terminal, tick);
+			measure(side, nextSide(last), terminal);
 			++count;
 		}
 	return count;
@@ -70,7 +70,7 @@ int BorderFlow::besideOnRim(int side, bool isNext, const Array<Terminal>& termin
 
 /// Finds the distances from a corner of those vertices that are nearer than corner \p to, for the last
 /// path. It has no length where it meets another one. A path that follows the border costs nothing.
-void BorderFlow::measure(int from, int to, const Array<Terminal>& terminal, const Tick& tick)
+void BorderFlow::measure(int from, int to, const Array<Terminal>& terminal)
 {
 	const int path = m_paths.size() - 1, target = nodeAt(to);
 	using Entry = std::pair<std::int64_t, int>; // distance, node
@@ -105,7 +105,7 @@ void BorderFlow::measure(int from, int to, const Array<Terminal>& terminal, cons
 			continue;
 		if (--untilTick == 0) {
 			untilTick = kNodesBetweenTicks;
-			tick();
+			checkpoint();
 		}
 		forCorners(m_nodes[number].corner, [&, distance = distance](int corner) {
 			follow(corner, nextSide(corner), distance);

@@ -2,7 +2,6 @@
 #ifndef RICCI_BORDER_FLOW_H
 #define RICCI_BORDER_FLOW_H
 
-#include "../progress.h"
 #include "part_graph.h"
 
 #include <cstdint>
@@ -25,12 +24,10 @@ public:
 
 	/// Finds the flow between triangles of one part.
 	/// \param terminal [triangle]
-	/// \param tick called many times a second
 	void find(
 		const std::vector<int>& sources,
 		const std::vector<int>& sinks,
-		const Array<Terminal>& terminal,
-		const Tick& tick);
+		const Array<Terminal>& terminal);
 
 	/// The flow that leaves its triangle across a side, at most its weight.
 	std::int64_t across(int side) const { return excessAt(nextSide(side)) - excessAt(side); }
@@ -50,10 +47,9 @@ private:
 	int findFrom(
 		const std::vector<int>& triangles,
 		std::int64_t sign,
-		const Array<Terminal>& terminal,
-		const Tick& tick);
+		const Array<Terminal>& terminal);
 	int besideOnRim(int side, bool isNext, const Array<Terminal>& terminal) const;
-	void measure(int from, int to, const Array<Terminal>& terminal, const Tick& tick);
+	void measure(int from, int to, const Array<Terminal>& terminal);
 	int nodeAt(int corner);
 	std::int64_t excessAt(int corner) const;
 	template<class Visit>

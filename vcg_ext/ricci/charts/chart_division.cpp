@@ -24,10 +24,9 @@ public:
 	ChartDivider(
 		const DrawnChart& chart,
 		const std::vector<TrianglePair>& pairs,
-		const ChartSides& sides,
-		const Tick& tick) :
+		const ChartSides& sides) :
 			m_chart(chart),
-			m_sides(sides), m_tick(tick), m_graph(chart, sides), m_flow(m_graph),
+			m_sides(sides), m_graph(chart, sides), m_flow(m_graph),
 			m_minCut(chart.triangles.size()), m_terminal(chart.triangles.size(), kNoTerminal),
 			m_scratch(chart.triangles.size(), -1), m_pairs(pairs),
 			m_rivals(chart.triangles.size(), [&](const auto& add) {
@@ -127,7 +126,7 @@ private:
 				if (m_terminal[i] == kNoTerminal && hasRival(i))
 					claim(i);
 			});
-		m_flow.find(sheet, covered, m_terminal, m_tick);
+		m_flow.find(sheet, covered, m_terminal);
 		const MinCut::Side side = m_minCut.run(
 			sheet,
 			covered,
@@ -139,8 +138,7 @@ private:
 									   flow = m_flow.across(across);
 					add(j, weight - flow, weight + flow);
 				});
-			},
-			m_tick);
+			});
 		for (const std::vector<int>* marked : {&sheet, &covered})
 			for (const int i : *marked)
 				m_terminal[i] = kNoTerminal;
@@ -236,7 +234,6 @@ private:
 
 	const DrawnChart& m_chart;
 	const ChartSides& m_sides;
-	const Tick& m_tick;
 	PartGraph m_graph;
 	Array<int>& m_part = m_graph.part;
 	int m_partCount = 0;
@@ -255,10 +252,9 @@ std::vector<std::vector<int>> divideChart(
 	const DrawnChart& chart,
 	const std::vector<TrianglePair>& pairs,
 	const ChartSides& sides,
-	ChartCuts& cuts,
-	const Tick& tick)
+	ChartCuts& cuts)
 {
-	return ChartDivider(chart, pairs, sides, tick).run(cuts);
+	return ChartDivider(chart, pairs, sides).run(cuts);
 }
 
 } // namespace ricci

@@ -29,14 +29,12 @@ struct ChartCuts
 /// the same parts.
 /// \param pairs from overlappingPairs()
 /// \param cuts receives what was cut
-/// \param tick called many times a second
 /// \return the triangles of each connected part, in increasing order, the parts by their first
 std::vector<std::vector<int>> divideChart(
 	const DrawnChart& chart,
 	const std::vector<TrianglePair>& pairs,
 	const ChartSides& sides,
-	ChartCuts& cuts,
-	const Tick& tick = [] {});
+	ChartCuts& cuts);
 
 } // namespace ricci
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chart_overlap.h"
 
+#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../math/convex_hull.h"
 #include "../math/orientation.h"
@@ -16,7 +17,7 @@ namespace ricci {
 
 namespace {
 
-/// Steps, and hulls that are joined, between two ticks.
+/// Steps, and hulls that are joined, between two checkpoints.
 constexpr std::int64_t kStepsBetweenTicks = 1 << 18;
 constexpr int kJoinsBetweenTicks = 1 << 14;
 
@@ -100,7 +101,7 @@ bool overlap(const Triangle2& a, const Triangle2& b, double touching)
 	return !separates(a, b, touching) && !separates(b, a, touching);
 }
 
-OverlapSearch::OverlapSearch(const DrawnChart& chart, const Tick& tick, double extent) :
+OverlapSearch::OverlapSearch(const DrawnChart& chart, double extent) :
 		m_plane(chart.plane), m_tree(boxTreeOf(chart.plane))
 {
 	Array<char> proper(m_plane.size());
@@ -113,10 +114,10 @@ OverlapSearch::OverlapSearch(const DrawnChart& chart, const Tick& tick, double e
 	const auto step = [&] {
 		if (++m_steps >= nextTick) {
 			nextTick = m_steps + kStepsBetweenTicks;
-			tick();
+			checkpoint();
 		}
 		if (m_hulls.empty() && m_steps > kManySteps * m_plane.size())
-			makeHulls(tick);
+			makeHulls();
 	};
 	const auto compare = [&](int i, int j) {
 		step();
@@ -143,7 +144,7 @@ OverlapSearch::OverlapSearch(const DrawnChart& chart, const Tick& tick, double e
 
 /// A convex polygon round the triangles of each node that are not flat. Two triangles overlap no deeper
 /// than such polygons do: the least depth of two convex polygons is that along a side of one of them.
-void OverlapSearch::makeHulls(const Tick& tick)
+void OverlapSearch::makeHulls()
 {
 	int joins = 0;
 	using Polygon = std::vector<Point2>;
@@ -157,7 +158,7 @@ void OverlapSearch::makeHulls(const Tick& tick)
 		},
 		[&](const Polygon& a, const Polygon& b) {
 			if (++joins % kJoinsBetweenTicks == 0)
-				tick();
+				checkpoint();
 			Polygon both = a;
 			both.insert(both.end(), b.begin(), b.end());
 			return enclosingPolygon(convexHull(std::move(both)), kMaxCorners);
@@ -198,9 +199,9 @@ std::vector<TrianglePair> OverlapSearch::uncovered(const Array<int>& part) const
 	return pairs;
 }
 
-std::vector<TrianglePair> overlappingPairs(const DrawnChart& chart, const Tick& tick, double extent)
+std::vector<TrianglePair> overlappingPairs(const DrawnChart& chart, double extent)
 {
-	return OverlapSearch(chart, tick, extent).pairs();
+	return OverlapSearch(chart, extent).pairs();
 }
 
 } // namespace ricci

@@ -5,7 +5,6 @@
 #include "../base/indexed.h"
 #include "../math/box_tree.h"
 #include "../math/points.h"
-#include "../progress.h"
 #include "../surface/surface_mesh.h"
 
 #include <array>
@@ -52,9 +51,8 @@ class OverlapSearch
 public:
 	/// \param extent of the layout that the chart is a part of: how closely its sides can be expected
 	/// to meet. The chart's own where that is larger.
-	/// \param tick heard many times a second: n triangles may overlap in n^2 / 2 pairs
 	explicit OverlapSearch(
-		const DrawnChart& chart, const Tick& tick = [] {}, double extent = 0.0);
+		const DrawnChart& chart, double extent = 0.0);
 
 	/// In increasing order.
 	const std::vector<TrianglePair>& pairs() const { return m_pairs; }
@@ -69,7 +67,7 @@ public:
 	std::int64_t steps() const { return m_steps; }
 
 private:
-	void makeHulls(const Tick& tick);
+	void makeHulls();
 
 	template<class IsCounted>
 	int cover(const Point2& p, const IsCounted& isCounted) const;
@@ -91,7 +89,7 @@ private:
 
 /// OverlapSearch::pairs().
 std::vector<TrianglePair> overlappingPairs(
-	const DrawnChart& chart, const Tick& tick = [] {}, double extent = 0.0);
+	const DrawnChart& chart, double extent = 0.0);
 
 } // namespace ricci
 

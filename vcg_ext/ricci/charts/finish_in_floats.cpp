@@ -318,7 +318,7 @@ Point2 centreOf(const Box2& square)
 /// bad triangles plays no part.
 /// \return whether points were moved; none where that does not do, and nothing is changed
 std::optional<bool>
-finishNear(const SurfaceMesh& mesh, WorkLimit& limit, const Tick& tick, Output& output)
+finishNear(const SurfaceMesh& mesh, WorkLimit& limit, Output& output)
 {
 	output.draw(mesh, output.near(mesh, output.inText, kNearRings));
 	BorderTest test(output, true);
@@ -327,7 +327,7 @@ finishNear(const SurfaceMesh& mesh, WorkLimit& limit, const Tick& tick, Output& 
 						   }};
 	const PointGroups groups = insidePoints(output.flat);
 	const Repair result =
-		repair(output.flat, groups, RestShapes::OfDrawing, output.inText, rules, limit, tick);
+		repair(output.flat, groups, RestShapes::OfDrawing, output.inText, rules, limit);
 	if (result.left > 0)
 		return std::nullopt;
 	return output.takeOver(result);
@@ -342,7 +342,7 @@ struct Finished
 };
 
 Finished finishEverywhere(
-	const SurfaceMesh& mesh, bool mayGrow, WorkLimit& limit, const Tick& tick, Output& output)
+	const SurfaceMesh& mesh, bool mayGrow, WorkLimit& limit, Output& output)
 {
 	output.draw(mesh, output.all());
 	BorderTest test(output, true);
@@ -351,14 +351,14 @@ Finished finishEverywhere(
 	};
 	const BorderMoves moves{SeamGeometry::Plane, [](int) { return false; }, accepts};
 	const auto inStages = [&](const Soundness& wanted) {
-		return repairInStages(output.flat, moves, RestShapes::OfDrawing, wanted, limit, tick);
+		return repairInStages(output.flat, moves, RestShapes::OfDrawing, wanted, limit);
 	};
 	Repair result = inStages(output.inText);
 	// Where there is no room for that, floats have to do.
 	result.add(inStages(output.soundness));
 	if (result.left > 0)
 		result.add(repairFreely(
-			output.flat, accepts, RestShapes::OfDrawing, output.soundness, limit, tick));
+			output.flat, accepts, RestShapes::OfDrawing, output.soundness, limit));
 	Finished finished;
 	if (result.left > 0 && mayGrow) {
 		BorderTest ofItself(output, false);
@@ -367,8 +367,7 @@ Finished finishEverywhere(
 			[&](const FlatMesh& flat, const Patch& patch) { return ofItself(flat, patch); },
 			RestShapes::OfDrawing,
 			output.soundness,
-			limit,
-			tick);
+			limit);
 		finished.boxes = growth.movedCount() > 0;
 		result.add(growth);
 	}
@@ -397,7 +396,6 @@ void finishInFloats(
 	const SurfaceMesh& mesh,
 	const std::function<void()>& packAgain,
 	bool mayCut,
-	const Tick& tick,
 	Parametrization& map)
 {
 	WorkLimit limit(Output(map).size());
@@ -406,9 +404,9 @@ void finishInFloats(
 		if (output.isSound(output.inText))
 			return;
 		const bool mayGrow = packAgain && packings < kMaxPackings;
-		const std::optional<bool> moved = finishNear(mesh, limit, tick, output);
+		const std::optional<bool> moved = finishNear(mesh, limit, output);
 		const Finished finished =
-			moved ? Finished{*moved} : finishEverywhere(mesh, mayGrow, limit, tick, output);
+			moved ? Finished{*moved} : finishEverywhere(mesh, mayGrow, limit, output);
 		if (finished.points)
 			measureResult(mesh, measureDistortion, map);
 		const bool isCut = !finished.all && mayGrow && mayCut && cutOff(output.unsound(), map);
@@ -420,7 +418,7 @@ void finishInFloats(
 }
 
 void finishInFloats(
-	const SurfaceMesh& mesh, const std::vector<Box2>& disks, const Tick& tick, Parametrization& map)
+	const SurfaceMesh& mesh, const std::vector<Box2>& disks, Parametrization& map)
 {
 	Output output(map);
 	if (output.isSound(output.soundness))
@@ -436,7 +434,7 @@ void finishInFloats(
 	};
 	WorkLimit limit(output.size());
 	const bool moved = output.takeOver(
-		repairFreely(output.flat, isInDisk, RestShapes::OfDrawing, output.soundness, limit, tick));
+		repairFreely(output.flat, isInDisk, RestShapes::OfDrawing, output.soundness, limit));
 	if (moved)
 		measureInDisk(mesh, disks, map);
 }

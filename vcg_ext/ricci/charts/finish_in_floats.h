@@ -2,7 +2,6 @@
 #ifndef RICCI_FINISH_IN_FLOATS_H
 #define RICCI_FINISH_IN_FLOATS_H
 
-#include "../progress.h"
 #include "../surface/surface_mesh.h"
 #include "parametrization.h"
 
@@ -27,7 +26,6 @@ void finishInFloats(
 	const SurfaceMesh& mesh,
 	const std::function<void()>& packAgain,
 	bool mayCut,
-	const Tick& tick,
 	Parametrization& map);
 
 /// The same for charts in disks, whose seams move by steps of floats like points inside.
@@ -35,7 +33,6 @@ void finishInFloats(
 void finishInFloats(
 	const SurfaceMesh& mesh,
 	const std::vector<Box2>& disks,
-	const Tick& tick,
 	Parametrization& map);
 
 } // namespace ricci

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "join_parts.h"
 
+#include "../base/task.h"
 #include "connected_pieces.h"
 
 #include <algorithm>
@@ -23,10 +24,9 @@ public:
 		DrawnChart& chart,
 		const ChartSides& sides,
 		const BoxTree& tree,
-		const std::vector<std::vector<int>>& parts,
-		const Tick& tick) :
+		const std::vector<std::vector<int>>& parts) :
 			m_chart(chart),
-			m_sides(sides), m_tick(tick), m_parts(chart, sides, tree, parts),
+			m_sides(sides), m_parts(chart, sides, tree, parts),
 			m_mark(chart.plane.size(), kNone), m_scratch(chart.plane.size(), -1)
 	{
 	}
@@ -105,7 +105,7 @@ private:
 			const int part = open.begin()->second;
 			open.erase(open.begin());
 			for (const Place& place : placesOf(part)) {
-				m_tick();
+				checkpoint();
 				if (m_parts.covering(part, place, [](int, int) { return true; }))
 					continue;
 				// A part that has no room stays without.
@@ -126,7 +126,7 @@ private:
 		while (isMoved && !m_parts.isEmpty(part)) {
 			isMoved = false;
 			for (const Place& place : placesOf(part)) {
-				m_tick();
+				checkpoint();
 				const std::vector<int> free = freeAt(part, place);
 				if (free.empty())
 					continue;
@@ -169,7 +169,7 @@ private:
 		if (!isDone) {
 			m_parts.undo();
 			for (const Place& place : placesOf(part)) {
-				m_tick();
+				checkpoint();
 				isDone = displace(part, place, maxArea);
 				if (isDone)
 					break;
@@ -236,7 +236,7 @@ private:
 	void grow(int part, double area)
 	{
 		for (const Place& place : placesOf(part)) {
-			m_tick();
+			checkpoint();
 			if (m_parts.area(place.other) < 2.0 * area)
 				continue;
 			const std::vector<int> given = nextTo(part, place, area);
@@ -339,7 +339,6 @@ private:
 
 	DrawnChart& m_chart;
 	const ChartSides& m_sides;
-	const Tick& m_tick;
 	MovableParts m_parts;
 	Array<char> m_mark;   // [triangle] Mark, kNone between uses
 	Array<int> m_scratch; // [triangle] -1 between uses
@@ -351,10 +350,9 @@ JoinedParts joinParts(
 	DrawnChart& chart,
 	const ChartSides& sides,
 	const BoxTree& tree,
-	const std::vector<std::vector<int>>& parts,
-	const Tick& tick)
+	const std::vector<std::vector<int>>& parts)
 {
-	return PartJoiner(chart, sides, tree, parts, tick).run();
+	return PartJoiner(chart, sides, tree, parts).run();
 }
 
 } // namespace ricci

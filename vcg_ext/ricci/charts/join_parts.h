@@ -2,7 +2,6 @@
 #ifndef RICCI_JOIN_PARTS_H
 #define RICCI_JOIN_PARTS_H
 
-#include "../progress.h"
 #include "chart_division.h"
 #include "movable_parts.h"
 
@@ -27,13 +26,11 @@ struct JoinedParts
 /// \param chart its corners are moved
 /// \param tree boxTreeOf(chart.plane)
 /// \param parts connected, and none covers itself
-/// \param tick called many times a second
 JoinedParts joinParts(
 	DrawnChart& chart,
 	const ChartSides& sides,
 	const BoxTree& tree,
-	const std::vector<std::vector<int>>& parts,
-	const Tick& tick);
+	const std::vector<std::vector<int>>& parts);
 
 } // namespace ricci
 

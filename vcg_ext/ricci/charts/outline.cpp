@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "outline.h"
 
+#include "../base/task.h"
 #include "../math/box_tree.h"
 #include "../math/bucket_sort.h"
 
@@ -127,7 +128,7 @@ Outline outlineOf(const std::vector<Triangle2>& triangles)
 	return outline;
 }
 
-bool keepApart(const std::vector<Outline>& outlines, double room, const Tick& tick)
+bool keepApart(const std::vector<Outline>& outlines, double room)
 {
 	std::vector<BoxTree> sides;
 	std::vector<Box2> charts;
@@ -149,7 +150,7 @@ bool keepApart(const std::vector<Outline>& outlines, double room, const Tick& ti
 			std::swap(few, many);
 		const Outline &a = outlines[few], &b = outlines[many];
 		const auto isNear = [&](const Segment& s) {
-			tickNowAndThen(tick, 1024 * steps++);
+			checkpointNowAndThen(1024 * steps++);
 			return sides[many].meetsAny(boxOf(s, 0.5 * room), [&](int side) {
 				return distance(s, b[positionOf(side)]) < room;
 			});

@@ -3,7 +3,6 @@
 #define RICCI_OUTLINE_H
 
 #include "../math/points.h"
-#include "../progress.h"
 
 #include <array>
 #include <complex>
@@ -34,7 +33,7 @@ struct Motion
 
 /// Whether no point of a chart is nearer than \p room > 0 to another chart, or in it, as far as doubles
 /// tell.
-bool keepApart(const std::vector<Outline>& outlines, double room, const Tick& tick = nullptr);
+bool keepApart(const std::vector<Outline>& outlines, double room);
 
 } // namespace ricci
 

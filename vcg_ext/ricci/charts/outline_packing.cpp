@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "outline_packing.h"
 
+#include "../base/task.h"
 #include "../math/min_area_rectangle.h"
 
 #include <algorithm>
@@ -327,8 +328,7 @@ std::vector<Motion> packOutlines(
 	const std::vector<Outline>& outlines,
 	const std::vector<ChartTurns>& turns,
 	double side,
-	double room,
-	const Tick& tick)
+	double room)
 {
 	const double cell = side / kCells, reach = 0.5 * room;
 	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 16);
@@ -359,8 +359,7 @@ std::vector<Motion> packOutlines(
 				drawn.quarter = q;
 				if (drawing.draw(outlines[i], turn, drawn))
 					shapes[i].push_back(drawn);
-				if (tick)
-					tick();
+				checkpoint();
 			}
 	}
 
@@ -382,8 +381,7 @@ std::vector<Motion> packOutlines(
 			else
 				for (const Shape& shape : shapes[i]) {
 					canvas.look(shape, spot);
-					if (tick)
-						tick();
+					checkpoint();
 				}
 			if (!spot.shape)
 				break;

@@ -2,7 +2,6 @@
 #ifndef RICCI_OUTLINE_PACKING_H
 #define RICCI_OUTLINE_PACKING_H
 
-#include "../progress.h"
 #include "outline.h"
 
 #include <vector>
@@ -29,8 +28,7 @@ std::vector<Motion> packOutlines(
 	const std::vector<Outline>& outlines,
 	const std::vector<ChartTurns>& turns,
 	double side,
-	double room,
-	const Tick& tick);
+	double room);
 
 } // namespace ricci
 

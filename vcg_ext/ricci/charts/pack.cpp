@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pack.h"
 
+#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../math/min_area_rectangle.h"
@@ -189,8 +190,7 @@ Packing packByOutlines(
 	const Packing& byBoxes,
 	double room,
 	const PlaceBoxes& placeBoxes,
-	ChartTurns turns,
-	const Tick& tick)
+	ChartTurns turns)
 {
 	const double side = byBoxes.side();
 	std::vector<std::size_t> order(boxes.size());
@@ -214,8 +214,7 @@ Packing packByOutlines(
 		outlines.push_back(outlineOf(trianglesOf(map, map.charts[i])));
 		if (outlines.back().empty()) // without area
 			return {};
-		if (tick)
-			tick();
+		checkpoint();
 	}
 	std::vector<Box2> smallBoxes;
 	smallBoxes.reserve(small.size());
@@ -232,7 +231,7 @@ Packing packByOutlines(
 		outlines.push_back(borderOf(ofSmall));
 		turnsOf.push_back(ChartTurns::Quarter); // their boxes stay upright
 	}
-	const std::vector<Motion> motions = packOutlines(outlines, turnsOf, side - room, room, tick);
+	const std::vector<Motion> motions = packOutlines(outlines, turnsOf, side - room, room);
 	if (motions.empty())
 		return {};
 	Packing packing;
@@ -242,7 +241,7 @@ Packing packByOutlines(
 				p = motions[k](p);
 				packing.whole.add(p);
 			}
-	if (!keepApart(outlines, (1.0 - kMarginSpare) * room, tick))
+	if (!keepApart(outlines, (1.0 - kMarginSpare) * room))
 		return {};
 	packing.motions.resize(boxes.size());
 	for (std::size_t k = 0; k < large.size(); ++k)
@@ -296,8 +295,7 @@ void packCharts(
 	bool normalize,
 	double margin,
 	const PlaceBoxes& placeBoxes,
-	ChartTurns turns,
-	const Tick& tick)
+	ChartTurns turns)
 {
 	checkChartMargin(margin);
 	std::vector<Box2> boxes;
@@ -330,7 +328,7 @@ void packCharts(
 		Packing turned =
 			boxes.size() == 1
 				? packAlone(map)
-				: packByOutlines(map, boxes, isThin, packing, room, placeBoxes, turns, tick);
+				: packByOutlines(map, boxes, isThin, packing, room, placeBoxes, turns);
 		const double share = (1.0 + kMarginSpare) * margin; // of the square, on each side
 		turned.room = share / (1.0 - 2.0 * share) * turned.whole.extent();
 		if (!turned.motions.empty() && turned.side() <= (1.0 - kWorthTurning) * packing.side())
@@ -355,17 +353,16 @@ void packStrips(
 	Parametrization& map,
 	double margin,
 	const PlaceBoxes& placeBoxes,
-	ChartTurns turns,
-	const Tick& tick)
+	ChartTurns turns)
 {
 	std::optional<Parametrization> cut;
 	if (turns != ChartTurns::None)
-		cut = cutStrip(map, turns == ChartTurns::Free, tick);
-	packCharts(map, true, margin, placeBoxes, turns, tick);
+		cut = cutStrip(map, turns == ChartTurns::Free);
+	packCharts(map, true, margin, placeBoxes, turns);
 	if (!cut)
 		return;
 	try {
-		packCharts(*cut, true, margin, placeBoxes, turns, tick);
+		packCharts(*cut, true, margin, placeBoxes, turns);
 	}
 	catch (const InvalidOption& e) {
 		if (e.problem != InvalidOption::ChartMarginTooWide)

@@ -4,7 +4,6 @@
 #define RICCI_PACK_H
 
 #include "../options.h"
-#include "../progress.h"
 #include "outline_packing.h"
 #include "parametrization.h"
 
@@ -51,8 +50,7 @@ void packCharts(
 	bool normalize,
 	double margin,
 	const PlaceBoxes& placeBoxes,
-	ChartTurns turns = ChartTurns::None,
-	const Tick& tick = {});
+	ChartTurns turns = ChartTurns::None);
 
 /// A strip is cut where the charts then cover this many times as much of the square: about twice.
 constexpr double kWorthCutting = 1.7;
@@ -64,8 +62,7 @@ void packStrips(
 	Parametrization& map,
 	double margin,
 	const PlaceBoxes& placeBoxes,
-	ChartTurns turns,
-	const Tick& tick = {});
+	ChartTurns turns);
 
 /// Places the unit disks of the charts, as parametrizeHyperbolic() leaves them, in equal squares, row
 /// by row from the origin, which together lie in [0, 1]^2, and moves the charts there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "separate_charts.h"
 
+#include "../base/task.h"
 #include "../math/min_area_rectangle.h"
 #include "../math/min_cut.h"
 #include "../measure/distortion.h"
@@ -99,12 +100,11 @@ std::vector<std::vector<int>> separateParts(
 	const DrawnChart& chart,
 	const ChartSides& sides,
 	const OverlapSearch& overlaps,
-	const Tick& tick,
 	ChartCuts& cuts)
 {
 	std::vector<TrianglePair> pairs = overlaps.pairs();
 	for (;;) {
-		std::vector<std::vector<int>> parts = divideChart(chart, pairs, sides, cuts, tick);
+		std::vector<std::vector<int>> parts = divideChart(chart, pairs, sides, cuts);
 		const auto more = overlaps.uncovered(numbersOf(parts, chart.triangles.size()));
 		if (more.empty())
 			return parts;
@@ -119,10 +119,9 @@ std::vector<std::vector<int>> join(
 	const BoxTree& tree,
 	const Chart& whole,
 	const std::vector<std::vector<int>>& parts,
-	const Tick& tick,
 	Parametrization& map)
 {
-	JoinedParts joined = joinParts(drawn, sides, tree, parts, tick);
+	JoinedParts joined = joinParts(drawn, sides, tree, parts);
 	map.report.overlapCuts += joined.seams.edges;
 	map.report.seamLength += joined.seams.length;
 	const std::vector<int>& triangles = trianglesOf(map, whole);
@@ -208,7 +207,7 @@ double areaOf(const Parametrization& map, const Chart& chart)
 
 /// Part 1 on one side of the least cut across a chart, 0 on the other; empty for a chart that is no
 /// strip.
-Array<int> halves(const DrawnChart& drawn, const PartGraph& graph, const Tick& tick)
+Array<int> halves(const DrawnChart& drawn, const PartGraph& graph)
 {
 	std::vector<Point2> points;
 	for (const Triangle2& triangle : drawn.plane)
@@ -238,8 +237,7 @@ Array<int> halves(const DrawnChart& drawn, const PartGraph& graph, const Tick& t
 						if (const int other = graph.joined(own); other >= 0)
 							if (end[i] == 0 || end[i] != end[other / 3])
 								add(other / 3, graph.weight(own), graph.weight(own));
-				},
-				tick);
+				});
 	Array<int> part(drawn.plane.size(), 0);
 	for (const int i : side.nodes)
 		part[i] = 1;
@@ -302,7 +300,7 @@ void divide(
 } // namespace
 
 void separateCharts(
-	const SurfaceMesh& mesh, bool resolve, bool turns, const Tick& tick, Parametrization& map)
+	const SurfaceMesh& mesh, bool resolve, bool turns, Parametrization& map)
 {
 	std::vector<Chart> charts;
 	std::vector<char> faceDone(mesh.triangles.size(), 0);
@@ -313,9 +311,9 @@ void separateCharts(
 			charts.push_back(std::move(chart));
 			continue;
 		}
-		tick();
-		const OverlapSearch overlaps(drawn, tick);
-		tick();
+		checkpoint();
+		const OverlapSearch overlaps(drawn);
+		checkpoint();
 		const std::vector<TrianglePair>& pairs = overlaps.pairs();
 		if (!pairs.empty() && !resolve) {
 			Array<char> isCovered(drawn.triangles.size(), 0);
@@ -332,8 +330,8 @@ void separateCharts(
 		}
 		const ChartSides sides{std::move(across), lengthsOf(mesh, map, drawn)};
 		ChartCuts cuts;
-		auto parts = separateParts(drawn, sides, overlaps, tick, cuts);
-		parts = join(drawn, sides, overlaps.tree(), chart, parts, tick, map);
+		auto parts = separateParts(drawn, sides, overlaps, cuts);
+		parts = join(drawn, sides, overlaps.tree(), chart, parts, map);
 		map.report.overlapCuts += cuts.edges;
 		map.report.seamLength += cuts.length;
 		for (Chart& part : chartsOf(map, chart, parts, faceDone)) {
@@ -345,7 +343,7 @@ void separateCharts(
 	map.report.charts = static_cast<int>(map.charts.size());
 }
 
-std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns, const Tick& tick)
+std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns)
 {
 	if (map.charts.empty())
 		return std::nullopt;
@@ -360,7 +358,7 @@ std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns, 
 	Array<int> across = sidesAcross(drawn);
 	const ChartSides sides{std::move(across), lengthsOf(mesh, map, drawn)};
 	PartGraph graph(drawn, sides);
-	Array<int> part = halves(drawn, graph, tick);
+	Array<int> part = halves(drawn, graph);
 	if (part.empty())
 		return std::nullopt;
 	graph.part = std::move(part);

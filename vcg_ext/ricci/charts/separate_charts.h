@@ -2,7 +2,6 @@
 #ifndef RICCI_SEPARATE_CHARTS_H
 #define RICCI_SEPARATE_CHARTS_H
 
-#include "../progress.h"
 #include "../surface/surface_mesh.h"
 #include "parametrization.h"
 
@@ -20,9 +19,8 @@ namespace ricci {
 /// overlap, but what the seams have grown or shrunk by, in edges and in length. A face of the input goes
 /// with the first of its pieces. Without \p resolve the report counts the charts, and their faces that
 /// overlap. In both cases it counts the charts.
-/// \param tick see overlappingPairs()
 void separateCharts(
-	const SurfaceMesh& mesh, bool resolve, bool turns, const Tick& tick, Parametrization& map);
+	const SurfaceMesh& mesh, bool resolve, bool turns, Parametrization& map);
 
 /// A chart this many times as long as wide is a strip.
 constexpr double kStripLength = 1.5;
@@ -32,7 +30,7 @@ constexpr double kStripLength = 1.5;
 /// fifth. The two parts are given back as those of separateCharts(), in the report, too. A chart that
 /// would fall into more parts stays whole.
 /// \return the map that is cut, if one is
-std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns, const Tick& tick);
+std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns);
 
 /// Divides the charts that have triangles of both kinds: each connected part of one kind becomes a chart
 /// from the origin, in the directions that it has. The report counts the charts and the cuts as

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_model.h"
 
+#include "../base/task.h"
 #include "bounded_minimum.h"
 #include "cone_rounding.h"
 
@@ -20,10 +21,10 @@ constexpr double kBoundSlack = 1e-6, kMinBeyond = 1e-4;
 
 } // namespace
 
-ConeModel::ConeModel(LinearFlow& flow, double total, Tick tick) :
-		m_flow(flow), m_total(total), m_tick(std::move(tick)), m_isCone(flow.vertexCount(), 0)
+ConeModel::ConeModel(LinearFlow& flow, double total) :
+		m_flow(flow), m_total(total), m_isCone(flow.vertexCount(), 0)
 {
-	ConeModel::tick();
+	checkpoint();
 	m_startFactor = m_flow.factor(VertexVector::Zero(m_flow.vertexCount()));
 	m_startEnergy = m_flow.meanSquare(m_startFactor);
 }
@@ -33,11 +34,11 @@ void ConeModel::makeFields()
 {
 	if (hasFields())
 		return;
-	tick();
+	checkpoint();
 	m_uniform = m_flow.gradient(m_flow.solve(m_flow.area()));
 	int i = 0;
 	for (; i + 1 < size(); i += 2) {
-		tick();
+		checkpoint();
 		LinearFlow::Pair fields =
 			m_flow.gradient({std::move(m_factors[i]), std::move(m_factors[i + 1])});
 		for (VertexVector& field : fields)
@@ -96,7 +97,7 @@ void ConeModel::append(const std::vector<Vertex>& vertices)
 {
 	std::size_t i = 0;
 	for (; i + 1 < vertices.size(); i += 2) {
-		tick();
+		checkpoint();
 		LinearFlow::Pair u = m_flow.solve({unit(vertices[i]), unit(vertices[i + 1])});
 		for (std::size_t k = 0; k < 2; ++k) {
 			m_ownProduct[vertices[i + k]] = m_flow.meanSquare(u[k]);
@@ -205,12 +206,6 @@ double ConeModel::ownProduct(Vertex v)
 	return m_ownProduct[v] = m_flow.meanSquare(unitFactor(v));
 }
 
-void ConeModel::tick() const
-{
-	if (m_tick)
-		m_tick();
-}
-
 /// A unit of curvature at \p v.
 VertexVector ConeModel::unit(Vertex v) const
 {
@@ -223,7 +218,7 @@ VertexVector ConeModel::unit(Vertex v) const
 const VertexVector& ConeModel::unitFactor(Vertex v)
 {
 	if (m_lastVertex != v) {
-		tick();
+		checkpoint();
 		m_lastFactor = m_flow.solve(unit(v));
 		m_lastVertex = v;
 	}

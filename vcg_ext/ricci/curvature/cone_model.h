@@ -30,8 +30,7 @@ class ConeModel
 public:
 	/// No cones yet.
 	/// \param total 2 pi chi, what the curvatures add up to where their sum is fixed
-	/// \param tick called before linear solutions, if it is not empty; may throw
-	ConeModel(LinearFlow& flow, double total, Tick tick = {});
+	ConeModel(LinearFlow& flow, double total);
 
 	int size() const { return m_now.vertices.size(); }
 	Vertex vertex(int i) const { return m_now.vertices[i]; }
@@ -176,7 +175,6 @@ private:
 	double ownProduct(Vertex v);
 	Field fieldOf(Vertex v);
 	VertexVector unit(Vertex v) const;
-	void tick() const;
 	bool hasFields() const { return m_start.size() > 0; }
 	void makeFields();
 	void append(Vertex v, VertexVector factor);
@@ -187,7 +185,6 @@ private:
 
 	LinearFlow& m_flow;
 	double m_total;
-	Tick m_tick;
 	ConeRounding m_rounding = ConeRounding::Free;
 	VertexArray<char> m_isCone;
 	State m_now;

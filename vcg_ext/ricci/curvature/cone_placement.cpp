@@ -2,6 +2,7 @@
 #include "cone_placement.h"
 
 #include "../base/numbers.h"
+#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "area_change.h"
@@ -40,18 +41,10 @@ void checkCount(const ConeRequest& request, const ConeModel& model, const ConeSi
 			static_cast<std::size_t>(sites.count()));
 }
 
-/// One more cone. \return false if no vertex is left
-bool addCone(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
-{
-	if (request.tick)
-		request.tick();
-	return addCone(model, sites);
-}
-
 /// Adds cones up to the number that is asked for.
 void placeCount(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
-	while (model.size() < request.count && addCone(request, model, sites)) {
+	while (model.size() < request.count && addCone(model, sites)) {
 	}
 	relocateCones(model, sites);
 	model.setRounding(request.rounding);
@@ -107,7 +100,7 @@ void addForDistortion(const ConeRequest& request, ConeModel& model, const ConeSi
 	Growth growth(model, request.distortion);
 	while (model.distortion() > request.distortion && growth.mayGoOn()) {
 		model.setRounding(ConeRounding::Free);
-		if (!addCone(request, model, sites))
+		if (!addCone(model, sites))
 			break;
 		if (model.distortion() <= kNearlyEnough * request.distortion)
 			relocateCones(model, sites);
@@ -135,7 +128,7 @@ void addForAreas(
 	while (model.size() < limit &&
 		   areaExcess(areaChange(surface, model.factor()), request.distortion) > 1.0) {
 		model.setRounding(ConeRounding::Free);
-		if (!addCone(request, model, sites))
+		if (!addCone(model, sites))
 			break;
 		model.setRounding(request.rounding);
 	}
@@ -233,15 +226,16 @@ PlacedCones result(ConeModel& model)
 
 PlacedCones placeCones(const EmbeddedSurface& surface, const InitialPacking& start, const ConeRequest& request)
 {
-	LinearFlow flow(surface, start, request.boundary, request.tick);
+	LinearFlow flow(surface, start, request.boundary);
 	return placeCones(surface, flow, request);
 }
 
 PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request)
 {
+	advance(0.0, "Placing cones");
 	const SurfaceType& type = surface.topology.type;
 	const ConeSites sites(surface, request.vertices);
-	ConeModel model(flow, 2 * kPi * type.eulerCharacteristic(), request.tick);
+	ConeModel model(flow, 2 * kPi * type.eulerCharacteristic());
 	checkCount(request, model, sites);
 	if (surface.triangulation.vertexCount() <= kMaxSearched)
 		search(type, request, model, sites);
@@ -253,10 +247,11 @@ PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const C
 PlacedCones
 moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequest& request)
 {
+	advance(0.0, "Placing cones");
 	const ConeSites sites(surface, request.vertices);
 	LinearFlow linear(
-		surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)), request.tick);
-	ConeModel model(linear, 2 * kPi * surface.topology.type.eulerCharacteristic(), request.tick);
+		surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)));
+	ConeModel model(linear, 2 * kPi * surface.topology.type.eulerCharacteristic());
 	std::vector<Vertex> cones;
 	for (const Vertex v : surface.triangulation.vertices())
 		if (sites.isAllowed(v) && flow.target.curvature[v] != 0.0)

@@ -3,7 +3,6 @@
 #define RICCI_CONE_REQUEST_H
 
 #include "../options.h"
-#include "../progress.h"
 
 namespace ricci {
 
@@ -32,7 +31,7 @@ struct ConeRequest : ConeOptions
 {
 	ConeBoundary boundary = ConeBoundary::Fixed;
 	int vertices = -1; ///< cones lie at vertices with a number below this; -1: at any
-	Tick tick = {};    ///< called at each cone and each solution on the surface, if not empty
+
 	/// On a sphere, move cones towards each other where that shortens the tree that joins them more
 	/// than it raises the distortion: up to the wanted distortion, or by kSeamAllowance for a given
 	/// count.

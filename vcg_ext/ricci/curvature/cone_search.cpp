@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_search.h"
 
+#include "../base/task.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -143,6 +145,7 @@ void startCones(ConeModel& model, const ConeSites& sites)
 
 bool addCone(ConeModel& model, const ConeSites& sites)
 {
+	checkpoint();
 	const Vertex v = maxGain(model, sites);
 	if (!v.isValid())
 		return false;

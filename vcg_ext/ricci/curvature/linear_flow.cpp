@@ -33,22 +33,21 @@ std::unique_ptr<CurvatureMap> mapOf(const InitialPacking& packing)
 } // namespace
 
 LinearFlow::LinearFlow(
-	const EmbeddedSurface& surface, const InitialPacking& start, ConeBoundary boundary, const Tick& tick) :
+	const EmbeddedSurface& surface, const InitialPacking& start, ConeBoundary boundary) :
 		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed())
 {
 	const auto map = mapOf(
 		start.isDelaunay ? start : delaunayPacking({surface.triangulation, surface.lengths}, {}));
 	m_curvature = map->curvature();
 	computeAreas(*map);
-	factorize(surface, *map, boundary, tick);
+	factorize(surface, *map, boundary);
 }
 
 LinearFlow::LinearFlow(
 	const EmbeddedSurface& surface,
 	const FlowResult& flow,
 	ConeBoundary boundary,
-	VertexVector weights,
-	const Tick& tick) :
+	VertexVector weights) :
 		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed()),
 		m_curvature(flow.curvature), m_area(std::move(weights)), m_factor(flowFactor(flow))
 {
@@ -56,10 +55,9 @@ LinearFlow::LinearFlow(
 		factorize(
 			surface,
 			*mapOf(delaunayPacking({surface.triangulation, surface.lengths}, {})),
-			boundary,
-			tick);
+			boundary);
 	else
-		factorize(surface, *flow.metric, boundary, tick);
+		factorize(surface, *flow.metric, boundary);
 }
 
 LinearFlow::LinearFlow(LinearSystem system) :
@@ -129,15 +127,14 @@ LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
 void LinearFlow::factorize(
 	const EmbeddedSurface& surface,
 	const CurvatureMap& map,
-	ConeBoundary boundary,
-	const Tick& tick)
+	ConeBoundary boundary)
 {
 	m_hessian = std::make_unique<FactoredHessian>(
 		m_fixesBoundary ? surface.topology.boundary : VertexArray<char>(vertexCount(), 0),
 		map.scaleInvariant());
 	m_unknowns = m_hessian->unknowns();
 	if (m_unknowns > 0)
-		m_hessian->factorize(map, tick);
+		m_hessian->factorize(map);
 	if (boundary == ConeBoundary::Prescribed && !surface.topology.type.isClosed())
 		spreadSink(surface);
 }

@@ -35,26 +35,22 @@ public:
 	/// Factorises L. If \p start is a Delaunay start, L is the Hessian there; else L is that of a
 	/// Delaunay start made here.
 	/// \param start the start of the flow on \p surface
-	/// \param tick called while L is factorised, see SparseCholesky::factorize()
 	/// \throw SolverFailed
 	LinearFlow(
 		const EmbeddedSurface& surface,
 		const InitialPacking& start,
-		ConeBoundary boundary,
-		const Tick& tick = {});
+		ConeBoundary boundary);
 
 	/// Factorises L where \p flow has led. Where that ran on the double of the surface, L is that of
 	/// a Delaunay start.
 	/// \param flow on \p surface, with intrinsic flips
 	/// \param weights of the vertices, which take the place of area() everywhere; they add up to 1
-	/// \param tick as above
 	/// \throw SolverFailed
 	LinearFlow(
 		const EmbeddedSurface& surface,
 		const FlowResult& flow,
 		ConeBoundary boundary,
-		VertexVector weights,
-		const Tick& tick = {});
+		VertexVector weights);
 	/// The flow with the equation \p system.
 	/// \throw SolverFailed
 	explicit LinearFlow(LinearSystem system);
@@ -111,8 +107,7 @@ private:
 	void factorize(
 		const EmbeddedSurface& surface,
 		const CurvatureMap& map,
-		ConeBoundary boundary,
-		const Tick& tick);
+		ConeBoundary boundary);
 	void spreadSink(const EmbeddedSurface& surface);
 	void balance(VertexVector& rhs) const;
 	Eigen::MatrixXd solveRows(const Eigen::MatrixXd& rhs);

@@ -206,7 +206,6 @@ ConeRequest coneRequest(const TargetRequest& request)
 	ConeRequest wanted{request.options.cones};
 	if (!request.vertexNumbers.empty())
 		wanted.vertices = request.vertexNumbers.size();
-	wanted.tick = request.tick;
 	wanted.boundary = request.options.freeBoundary ? ConeBoundary::Fixed : ConeBoundary::Prescribed;
 	return wanted;
 }
@@ -280,7 +279,7 @@ void choosePlainOrCones(
 	// In an annulus, cones come with a free boundary.
 	const bool isFlat = isFlatAnnulus(surface, request);
 	const ConeBoundary boundary = isFlat ? ConeBoundary::Prescribed : ConeBoundary::Fixed;
-	LinearFlow flow(surface, start, boundary, request.tick);
+	LinearFlow flow(surface, start, boundary);
 	const double spread = 2.0 * std::sqrt(flow.meanSquare(flow.solve(-flow.curvature())));
 	if (spread <= maxPlainSpread(request)) {
 		setPlain(surface, request, target);

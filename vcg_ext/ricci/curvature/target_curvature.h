@@ -4,7 +4,6 @@
 
 #include "../flow/quarter_turns.h"
 #include "../flow/ricci_flow.h"
-#include "../progress.h"
 #include "admissible.h"
 
 #include <optional>
@@ -17,7 +16,7 @@ struct TargetRequest : TargetInput
 	TargetOptions options;
 	bool measuresAreas = true; ///< false: Automatic decides by topology alone
 	bool hasSeam = false; ///< see OpenedMesh: Automatic makes no flat annulus of it
-	Tick tick = {}; ///< called while cones are placed, if it is not empty; may throw to cancel
+
 
 	/// Under which notes name vertices; placed cones lie at these alone. Empty: their own numbers,
 	/// and cones at any.

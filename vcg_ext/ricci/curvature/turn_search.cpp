@@ -2,6 +2,7 @@
 #include "turn_search.h"
 
 #include "../base/numbers.h"
+#include "../base/task.h"
 #include "../math/points.h"
 #include "../metric/area.h"
 #include "area_change.h"
@@ -57,9 +58,9 @@ public:
 		const ConeRequest& request,
 		double radius) :
 			m_surface(surface),
-			m_turns(turns), m_tick(request.tick), m_sites(surface, request.vertices),
+			m_turns(turns), m_sites(surface, request.vertices),
 			m_keepsCount(request.count > 0),
-			m_linear(surface, flow, request.boundary, areaShares(surface), request.tick),
+			m_linear(surface, flow, request.boundary, areaShares(surface)),
 			m_units(flow.curvature.size(), 0), m_curvature(flow.curvature), m_errors(turns.errors),
 			m_root(turns.cost.llt().matrixU()), m_area(surfaceArea(surface))
 	{
@@ -159,12 +160,6 @@ private:
 		return false;
 	}
 
-	void tick() const
-	{
-		if (m_tick)
-			m_tick();
-	}
-
 	/// The turns' errors after a change, in coordinates in which their cost is the square of the norm.
 	double turnCost(const Eigen::VectorXd& errors) const
 	{
@@ -213,7 +208,7 @@ private:
 		for (const Vertex from : m_units.indices()) {
 			if (m_units[from] == 0)
 				continue;
-			tick();
+			checkpoint();
 			for (const Vertex to : m_units.indices()) {
 				if (to == from || !m_sites.isAllowed(to))
 					continue;
@@ -265,7 +260,7 @@ private:
 		for (const Move& move : some)
 			changes.push_back(turnChange(move));
 		for (std::size_t i = 0; i < some.size(); ++i) {
-			tick();
+			checkpoint();
 			const Eigen::VectorXd first = m_errors + changes[i];
 			for (std::size_t k = i + 1; k < some.size(); ++k) {
 				if (some[i].cost + some[k].cost >= lowest)
@@ -285,7 +280,6 @@ private:
 
 	const EmbeddedSurface& m_surface;
 	const LoopTurns& m_turns;
-	Tick m_tick;
 	ConeSites m_sites;
 	bool m_keepsCount; // the number of cones was asked for
 	LinearFlow m_linear;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "coarse_surface.h"
 
+#include "../base/task.h"
 #include "../metric/triangle.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace ricci {
 
 namespace {
 
-/// Vertices reached between two ticks.
+/// Vertices reached between two checkpoints.
 constexpr int kVerticesBetweenTicks = 1 << 16;
 
 /// The same for centres.
@@ -110,18 +111,17 @@ CoarseSurface::CoarseSurface(
 	const Triangulation& t,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& marked,
-	int vertexCount,
-	const Tick& tick) :
+	int vertexCount) :
 		m_t(t),
 		m_fineCost(cost), m_centre(t.vertexCount())
 {
-	chooseCentres(marked, vertexCount, tick);
-	tick();
+	chooseCentres(marked, vertexCount);
+	checkpoint();
 	drawTogether();
 }
 
 /// Lets the paths grow from new centres.
-void CoarseSurface::grow(double radius, Front& front, const Tick& tick) const
+void CoarseSurface::grow(double radius, Front& front) const
 {
 	int reached = 0;
 	for (Vertex v; (v = front.next()).isValid();) {
@@ -131,12 +131,12 @@ void CoarseSurface::grow(double radius, Front& front, const Tick& tick) const
 				front.offer(m_t.target(h), distance, h);
 		}
 		if (++reached % kVerticesBetweenTicks == 0)
-			tick();
+			checkpoint();
 	}
 }
 
 void CoarseSurface::chooseCentres(
-	const VertexArray<char>& marked, int vertexCount, const Tick& tick)
+	const VertexArray<char>& marked, int vertexCount)
 {
 	const double radius = kRadiusOfShare * std::sqrt(areaOf(m_t, m_fineCost) / vertexCount);
 	Front front(m_t.vertexCount());
@@ -154,13 +154,13 @@ void CoarseSurface::chooseCentres(
 		if (marked[v] && !m_centre[v].isValid() && m_t.halfedge(v).isValid())
 			draw(v, count++);
 	m_marked.assign(count, 1);
-	grow(radius, front, tick);
+	grow(radius, front);
 	for (const Vertex v : m_t.vertices())
 		if (front[v] == kFar && m_t.halfedge(v).isValid()) {
 			draw(v, count++);
-			grow(radius, front, tick);
+			grow(radius, front);
 			if (count % kCentresBetweenTicks == 0)
-				tick();
+				checkpoint();
 		}
 	m_marked.resize(count, 0);
 	m_paths = front.release();

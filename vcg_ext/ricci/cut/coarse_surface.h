@@ -3,7 +3,6 @@
 #define RICCI_COARSE_SURFACE_H
 
 #include "../math/shortest_paths.h"
-#include "../progress.h"
 #include "../surface/triangulation.h"
 
 #include <vector>
@@ -25,13 +24,11 @@ public:
 	/// \param cost of the edges, not negative
 	/// \param marked 1 at vertices that are to be centres
 	/// \param vertexCount about how many vertices there shall be; more where much is marked
-	/// \param tick is called many times a second. What it throws ends the construction.
 	CoarseSurface(
 		const Triangulation& t,
 		const EdgeArray<double>& cost,
 		const VertexArray<char>& marked,
-		int vertexCount,
-		const Tick& tick);
+		int vertexCount);
 
 	/// Without triangles if all of them have vanished: then there is no coarse surface.
 	const Triangulation& triangulation() const { return m_coarse; }
@@ -52,8 +49,8 @@ public:
 private:
 	using Front = SearchFront<Vertex, Halfedge>;
 
-	void chooseCentres(const VertexArray<char>& marked, int vertexCount, const Tick& tick);
-	void grow(double radius, Front& front, const Tick& tick) const;
+	void chooseCentres(const VertexArray<char>& marked, int vertexCount);
+	void grow(double radius, Front& front) const;
 	void drawTogether();
 	double pathCost(Halfedge h) const;
 

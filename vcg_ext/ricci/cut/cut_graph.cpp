@@ -291,13 +291,12 @@ std::optional<CoarseSurface> coarseSurface(
 	const Triangulation& t,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& marked,
-	const EdgeArray<char>& forbidden,
-	const Tick& tick)
+	const EdgeArray<char>& forbidden)
 {
 	std::optional<CoarseSurface> coarse;
 	const int count = std::max(kMinCoarseVertices, t.vertexCount() / kMaxCoarsening);
 	if (forbidden.empty() && t.vertexCount() > kMinCoarsening * count) {
-		coarse.emplace(t, cost, marked, count, tick);
+		coarse.emplace(t, cost, marked, count);
 		if (coarse->triangulation().faceCount() == 0)
 			coarse.reset();
 	}
@@ -305,13 +304,13 @@ std::optional<CoarseSurface> coarseSurface(
 }
 
 /// A short cut graph of a coarse surface.
-EdgeArray<char> cutOf(const CoarseSurface& coarse, const Tick& tick)
+EdgeArray<char> cutOf(const CoarseSurface& coarse)
 {
 	const Triangulation& t = coarse.triangulation();
 	const EdgeArray<char> nowhere;
 	const ContractedGraph graph(t, coarse.cost(), nowhere);
 	const auto shorten = [&](EdgeArray<char>& isCut) {
-		shortenCut(t, coarse.cost(), coarse.marked(), {}, isCut, tick);
+		shortenCut(t, coarse.cost(), coarse.marked(), {}, isCut);
 	};
 	return shortestOfSeveral(graph, graph.terminals(coarse.marked()), shorten).isCut;
 }
@@ -406,19 +405,18 @@ CutGraph cutToDisk(
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& marked,
 	const EdgeArray<char>& forbidden,
-	const Tick& tick,
 	const HalfedgeArray<double>& corners)
 {
 	const ContractedGraph graph(t, cost, forbidden);
 	CutGraph cut;
-	if (std::optional<CoarseSurface> coarse = coarseSurface(t, cost, marked, forbidden, tick)) {
-		cut.isCut = coarse->lifted(cutOf(*coarse, tick));
+	if (std::optional<CoarseSurface> coarse = coarseSurface(t, cost, marked, forbidden)) {
+		cut.isCut = coarse->lifted(cutOf(*coarse));
 		prune(graph, graph.terminals(marked), cut.isCut);
-		shortenCut(t, cost, marked, forbidden, cut.isCut, tick, corners, &*coarse);
+		shortenCut(t, cost, marked, forbidden, cut.isCut, corners, &*coarse);
 	}
 	else {
 		cut = shortestOfSeveral(graph, graph.terminals(marked), [](EdgeArray<char>&) {});
-		shortenCut(t, cost, marked, forbidden, cut.isCut, tick, corners);
+		shortenCut(t, cost, marked, forbidden, cut.isCut, corners);
 	}
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);

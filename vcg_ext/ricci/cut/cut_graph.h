@@ -2,7 +2,6 @@
 #ifndef RICCI_CUT_GRAPH_H
 #define RICCI_CUT_GRAPH_H
 
-#include "../progress.h"
 #include "../surface/triangulation.h"
 
 #include <vector>
@@ -38,7 +37,7 @@ struct CutGraph
 /// sum
 /// \param marked 1 where the cut must pass or end, inside
 /// \param forbidden 1 where the cut must not run; may be empty
-/// \param tick, corners see shortenCut()
+/// \param corners see shortenCut()
 /// \pre \p t is connected
 /// \throw NotConverged (NoCut) if the forbidden edges leave no cut
 CutGraph cutToDisk(
@@ -46,7 +45,6 @@ CutGraph cutToDisk(
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& marked,
 	const EdgeArray<char>& forbidden,
-	const Tick& tick = [] {},
 	const HalfedgeArray<double>& corners = {});
 
 /// The cut graph that leaves the disk with the least radius that a search finds: a shortest-path tree of

@@ -31,13 +31,12 @@ Eigen::MatrixX3d smoothedPlaces(
 	const Triangulation& t,
 	const EdgeArray<double>& weights,
 	const VertexVector& mass,
-	const Eigen::MatrixX3d& place,
-	const Tick& tick)
+	const Eigen::MatrixX3d& place)
 {
 	VertexArray<int> row(t.vertexCount());
 	std::iota(row.begin(), row.end(), 0);
 	SparseCholesky cholesky;
-	if (!cholesky.factorize(laplacian(t, weights, row, mass), tick))
+	if (!cholesky.factorize(laplacian(t, weights, row, mass)))
 		throw SolverFailed(SolverFailed::SeamCost);
 	Eigen::MatrixX3d smooth(place.rows(), 3);
 	for (int k = 0; k < 3; ++k)
@@ -50,8 +49,7 @@ Eigen::MatrixX3d smoothedPlaces(
 VertexArray<double> exposure(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
-	const VertexArray<Point3>& positions,
-	const Tick& tick)
+	const VertexArray<Point3>& positions)
 {
 	VertexArray<double> result(t.vertexCount(), 0.5);
 	VertexVector mass = vertexAreas(t, lengths);
@@ -73,7 +71,7 @@ VertexArray<double> exposure(
 		for (const Vertex v : {a, b, c})
 			normal.row(v.number()) += twice;
 	}
-	const Eigen::MatrixX3d smooth = smoothedPlaces(t, weights, mass, place, tick);
+	const Eigen::MatrixX3d smooth = smoothedPlaces(t, weights, mass, place);
 	VertexArray<double> height(t.vertexCount(), 0.0);
 	double square = 0.0;
 	for (const Vertex v : t.vertices()) {
@@ -95,13 +93,12 @@ EdgeArray<double> seamCost(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
 	const VertexArray<Point3>& positions,
-	double hiding,
-	const Tick& tick)
+	double hiding)
 {
 	EdgeArray<double> cost = lengths;
 	if (hiding == 0.0)
 		return cost;
-	const VertexArray<double> exposed = exposure(t, lengths, positions, tick);
+	const VertexArray<double> exposed = exposure(t, lengths, positions);
 	for (const Edge e : t.edges()) {
 		const auto [a, b] = t.ends(e);
 		cost[e] *= 1.0 + 0.5 * kMaxFactor * hiding * (exposed[a] + exposed[b]);

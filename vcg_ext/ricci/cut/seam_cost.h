@@ -3,7 +3,6 @@
 #define RICCI_SEAM_COST_H
 
 #include "../math/points.h"
-#include "../progress.h"
 #include "../surface/triangulation.h"
 
 namespace ricci {
@@ -16,26 +15,22 @@ namespace ricci {
 /// the surface's size vanish. With the root mean square s of all heights, the height h gives
 /// (1 + tanh(h / s)) / 2, so that the scale of the surface does not matter.
 /// \param lengths of the edges between \p positions, positive
-/// \param tick called during the step, see SparseCholesky::factorize()
 /// \throw SolverFailed (SeamCost)
 VertexArray<double> exposure(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
-	const VertexArray<Point3>& positions,
-	const Tick& tick = {});
+	const VertexArray<Point3>& positions);
 
 /// What a seam along each edge costs: its length, times a factor between 1 and 10 that grows
 /// linearly with the mean exposure of its ends.
 /// \param lengths of the edges between \p positions, positive
 /// \param hiding 0: the length alone; 1: the full factor
-/// \param tick as for exposure()
 /// \throw SolverFailed (SeamCost)
 EdgeArray<double> seamCost(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
 	const VertexArray<Point3>& positions,
-	double hiding,
-	const Tick& tick = {});
+	double hiding);
 
 /// Raises the cost of seams along diagonals of polygons by a hundredth, so that of paths of about the
 /// same cost the one along sides is taken.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shorten_cut.h"
 
+#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "circle_paths.h"
 #include "cone_wedges.h"
@@ -20,7 +21,7 @@ namespace {
 /// Rounds over all segments and nodes.
 constexpr int kMaxRounds = 12;
 
-/// Halfedges that are labelled, or take as long, between two ticks.
+/// Halfedges that are labelled, or take as long, between two checkpoints.
 constexpr std::size_t kWorkBetweenTicks = 1 << 21;
 
 /// The same in all, after which the cut stays as it is: every move labels the whole cut, so that
@@ -43,19 +44,18 @@ public:
 		const VertexArray<char>& marked,
 		const EdgeArray<char>& forbidden,
 		EdgeArray<char>& isCut,
-		const Tick& tick,
 		const HalfedgeArray<double>& corners,
 		const CoarseSurface* parts) :
 			m_t(t),
 			m_cost(cost), m_cut(t, marked, forbidden, isCut), m_wedges(t, m_cut, corners),
-			m_paths(t, cost, m_cut, parts), m_tick(tick), m_parts(parts),
+			m_paths(t, cost, m_cut, parts), m_parts(parts),
 			m_changedAt(parts ? parts->triangulation().vertexCount() : 0, 0), m_front(0)
 	{
 	}
 
 	void run()
 	{
-		m_tick();
+		checkpoint();
 		shorten();
 		m_keepsWedges = true;
 		if (divideWedges())
@@ -127,7 +127,7 @@ private:
 		if (m_work < m_workAtTick + kWorkBetweenTicks)
 			return;
 		m_workAtTick = m_work;
-		m_tick();
+		checkpoint();
 	}
 
 	/// Puts \p added in place of \p removed, which has been taken out, unless a wedge becomes too wide
@@ -335,7 +335,6 @@ private:
 	ConeWedges m_wedges;
 	CirclePaths m_paths;
 	bool m_keepsWedges = false;
-	const Tick& m_tick;
 	const CoarseSurface* m_parts; // null: moves look everywhere
 	Failures<Edge> m_exchanges;
 	Failures<Vertex> m_rebuilds;
@@ -355,12 +354,11 @@ void shortenCut(
 	const VertexArray<char>& marked,
 	const EdgeArray<char>& forbidden,
 	EdgeArray<char>& isCut,
-	const Tick& tick,
 	const HalfedgeArray<double>& corners,
 	const CoarseSurface* parts)
 {
 	if (std::find(isCut.begin(), isCut.end(), 1) != isCut.end())
-		CutShortener(t, cost, marked, forbidden, isCut, tick, corners, parts).run();
+		CutShortener(t, cost, marked, forbidden, isCut, corners, parts).run();
 }
 
 } // namespace ricci

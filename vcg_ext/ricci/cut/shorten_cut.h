@@ -2,7 +2,6 @@
 #ifndef RICCI_SHORTEN_CUT_H
 #define RICCI_SHORTEN_CUT_H
 
-#include "../progress.h"
 #include "../surface/triangulation.h"
 #include "coarse_surface.h"
 
@@ -54,7 +53,6 @@ namespace ricci {
 /// \param marked 1 at vertices that the cut must reach
 /// \param forbidden 1 where the cut must not run; may be empty
 /// \param isCut changed in place; never a boundary edge
-/// \param tick is called between moves, many times a second. What it throws ends the search.
 /// \param corners angles at cones, from coneCorners(); empty: wedges may be as wide as they like
 /// \param parts a coarse surface of \p t, with which every move looks for paths only in the parts
 /// (vertices of one centre) at which what it takes out lies, and in those beside them; null: everywhere
@@ -65,7 +63,6 @@ void shortenCut(
 	const VertexArray<char>& marked,
 	const EdgeArray<char>& forbidden,
 	EdgeArray<char>& isCut,
-	const Tick& tick = [] {},
 	const HalfedgeArray<double>& corners = {},
 	const CoarseSurface* parts = nullptr);
 

@@ -37,7 +37,7 @@ flowWithEdgeSwaps(const Component& component, const Options& options, const Swap
 	int steps = 0;
 	for (int attempt = 0; attempt < kMaxStarts; ++attempt) {
 		result.surface = embeddedSurface(result.mesh.positions(), result.mesh.triangles());
-		InitialPacking start = initialPacking(result.surface, options, listener.tick);
+		InitialPacking start = initialPacking(result.surface, options);
 		const Target target = listener.chooseTarget(result.surface, start);
 		EdgeSwapper swapper(result.surface.positions, start.radii);
 		try {
@@ -48,8 +48,7 @@ flowWithEdgeSwaps(const Component& component, const Options& options, const Swap
 				target,
 				options,
 				[&](int step, double residual) { listener.step(steps + step, residual); },
-				[&](CurvatureMap& map) { return swapper(map); },
-				listener.tick);
+				[&](CurvatureMap& map) { return swapper(map); });
 			steps += result.flow.iterations;
 		}
 		catch (NotConverged& error) {

@@ -29,7 +29,6 @@ struct SwapListener
 	FlowListener step;                          ///< Newton steps over all starts, residual
 	std::function<void(const FlowResult&)> end; ///< after a start that reached its target
 	std::function<void(int)> split;             ///< boundary edges split so far
-	Tick tick;                                  ///< see initialPacking() and runRicciFlow()
 };
 
 /// \throw NotConverged, what chooseTarget throws

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "finish.h"
 
+#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "least_distortion.h"
 #include "repair.h"
@@ -78,8 +79,7 @@ FinishCounts repairLayout(
 	const EmbeddedSurface& surface,
 	const BorderMoves& moves,
 	double extent,
-	PlanarLayout& layout,
-	const Tick& tick)
+	PlanarLayout& layout)
 {
 	const Soundness soundness{kMinHeight * extent, kWantedHeights * kMinHeight * extent, false};
 	if (isSound(surface.triangulation, layout, soundness))
@@ -87,7 +87,7 @@ FinishCounts repairLayout(
 	FlatMesh flat = flatMeshOf(surface, layout);
 	WorkLimit limit(flat.points.size());
 	const Repair repair =
-		repairInStages(flat, moves, RestShapes::OfSurface, soundness, limit, tick);
+		repairInStages(flat, moves, RestShapes::OfSurface, soundness, limit);
 	layout.points = std::move(flat.place);
 	return countsOf(repair);
 }
@@ -100,10 +100,9 @@ FinishCounts finishMap(
 	const VertexArray<char>& cones,
 	bool freeBoundary,
 	Finish finish,
-	PlanarLayout& layout,
-	const Tick& tick)
+	PlanarLayout& layout)
 {
-	tick();
+	checkpoint();
 	Box2 box;
 	for (const Point2& p : layout.points)
 		box.add(p);
@@ -112,23 +111,22 @@ FinishCounts finishMap(
 		surface,
 		{SeamGeometry::Plane, freeVertices(domain, freeBoundary), nullptr},
 		box.extent(),
-		layout,
-		tick);
+		layout);
 	if (finish == Finish::LeastDistortion)
 		leastDistortion(
-			surface.triangulation, surface.lengths, isCut, cones, freeBoundary, layout, tick);
+			surface.triangulation, surface.lengths, isCut, cones, freeBoundary, layout);
 	return counts;
 }
 
 FinishCounts
-finishDisk(const FlowDomain& domain, bool freeBoundary, PlanarLayout& layout, const Tick& tick)
+finishDisk(const FlowDomain& domain, bool freeBoundary, PlanarLayout& layout)
 {
 	return repairLayout(
-		domain.surface, movesInDisk(domain, freeBoundary), kDiskExtent, layout, tick);
+		domain.surface, movesInDisk(domain, freeBoundary), kDiskExtent, layout);
 }
 
 FinishCounts finishDisk(
-	const FlowDomain& domain, bool freeBoundary, CommonRefinement& refinement, const Tick& tick)
+	const FlowDomain& domain, bool freeBoundary, CommonRefinement& refinement)
 {
 	const Soundness soundness{kMinRefinedHeight * kDiskExtent, kMinHeight * kDiskExtent, false};
 	const int count = static_cast<int>(refinement.triangles.size());
@@ -158,7 +156,7 @@ FinishCounts finishDisk(
 	moves.boundary = [freeBoundary](int) { return freeBoundary; };
 	WorkLimit limit(count);
 	const Repair repair =
-		repairInStages(flat, moves, RestShapes::OfDrawing, soundness, limit, tick);
+		repairInStages(flat, moves, RestShapes::OfDrawing, soundness, limit);
 	for (int f = 0; f < count; ++f)
 		refinement.uv[positionOf(f)] = flat.at(f);
 	return countsOf(repair);

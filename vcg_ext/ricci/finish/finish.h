@@ -5,7 +5,6 @@
 #include "../layout/common_refinement.h"
 #include "../layout/planar_layout.h"
 #include "../options.h"
-#include "../progress.h"
 #include "../surface/flow_domain.h"
 
 namespace ricci {
@@ -30,17 +29,16 @@ FinishCounts finishMap(
 	const VertexArray<char>& cones,
 	bool freeBoundary,
 	Finish finish,
-	PlanarLayout& layout,
-	const Tick& tick);
+	PlanarLayout& layout);
 
 /// The repair of a map to the Poincaré disk, for the straight triangles between its points. Seams stay
 /// isometric in the hyperbolic metric, and all points in the disk.
 FinishCounts
-finishDisk(const FlowDomain& domain, bool freeBoundary, PlanarLayout& layout, const Tick& tick);
+finishDisk(const FlowDomain& domain, bool freeBoundary, PlanarLayout& layout);
 
 /// The same for a refinement, which keeps the shapes of its triangles.
 FinishCounts finishDisk(
-	const FlowDomain& domain, bool freeBoundary, CommonRefinement& refinement, const Tick& tick);
+	const FlowDomain& domain, bool freeBoundary, CommonRefinement& refinement);
 
 } // namespace ricci
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "least_distortion.h"
 
+#include "../base/task.h"
 #include "distortion_laplacian.h"
 #include "limited_memory_bfgs.h"
 #include "mean_distortion.h"
@@ -59,7 +60,7 @@ public:
 		m_value = m_energy.evaluate(m_position);
 	}
 
-	LeastDistortion descend(const Tick& tick)
+	LeastDistortion descend()
 	{
 		LeastDistortion result{0, m_value, m_value};
 		if (!std::isfinite(m_value))
@@ -67,7 +68,7 @@ public:
 		const double worth = kPointGain * m_value / m_points.unknowns;
 		double gain = kInfinity;
 		while (result.steps < kMaxSweeps && gain > kSweepGain * m_value) {
-			tick();
+			checkpoint();
 			gain = sweep(result.steps == 0 ? 1.0 : kOverrelaxation, worth);
 			result.steps += gain > 0.0;
 			result.after = m_value;
@@ -75,7 +76,7 @@ public:
 		m_energy.gradient(m_gradient);
 		double lastGain = kInfinity;
 		for (int i = 0; i < kMaxSteps; ++i, lastGain = gain) {
-			tick();
+			checkpoint();
 			if (i % kSameStiffness == 0 && !m_laplacian.factorize(m_energy))
 				break;
 			m_bfgs.direction(
@@ -171,8 +172,7 @@ LeastDistortion leastDistortion(
 	const EdgeArray<char>& isCut,
 	const VertexArray<char>& cones,
 	bool boundaryMoves,
-	PlanarLayout& layout,
-	const Tick& tick)
+	PlanarLayout& layout)
 {
 	MeanDistortion energy(t, lengths, layout);
 	const MovablePoints points = movablePoints(t, isCut, cones, boundaryMoves, layout);
@@ -182,7 +182,7 @@ LeastDistortion leastDistortion(
 		return {0, value, value};
 	}
 	DistortionDescent descent(energy, points, layout);
-	const LeastDistortion result = descent.descend(tick);
+	const LeastDistortion result = descent.descend();
 	if (result.steps > 0)
 		descent.write(layout);
 	return result;

@@ -3,7 +3,6 @@
 #define RICCI_LEAST_DISTORTION_H
 
 #include "../layout/planar_layout.h"
-#include "../progress.h"
 
 namespace ricci {
 
@@ -38,7 +37,6 @@ struct LeastDistortion
 /// \param boundaryMoves whether the boundary is free; else its points stay
 /// \param layout its triangles that are not counter-clockwise do not count, and may turn. Where nothing
 /// stays, its size may change.
-/// \param tick called between steps; where it throws, \p layout is what it was
 /// \throw std::bad_alloc
 LeastDistortion leastDistortion(
 	const Triangulation& t,
@@ -46,8 +44,7 @@ LeastDistortion leastDistortion(
 	const EdgeArray<char>& isCut,
 	const VertexArray<char>& cones,
 	bool boundaryMoves,
-	PlanarLayout& layout,
-	const Tick& tick);
+	PlanarLayout& layout);
 
 } // namespace ricci
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "patch_energy.h"
 
+#include "../base/task.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -144,10 +146,9 @@ bool PatchEnergy::newtonStep(
 	const Eigen::VectorXd& x,
 	double eps,
 	Eigen::VectorXd& gradient,
-	Eigen::VectorXd& step,
-	const Tick& tick)
+	Eigen::VectorXd& step)
 {
-	tick();
+	checkpoint();
 	gradient.setZero(m_size);
 	std::fill_n(m_hessian.valuePtr(), m_hessian.nonZeros(), 0.0);
 	const Slots* slot = m_slots.data();
@@ -164,7 +165,7 @@ bool PatchEnergy::newtonStep(
 		for (int column = 0; column < m_size; ++column)
 			diagonal(column) += next - shift;
 		shift = next;
-		if (!m_solver.factorize(m_hessian, tick))
+		if (!m_solver.factorize(m_hessian))
 			continue;
 		step = m_solver.solve(-gradient);
 		if (step.allFinite() && step.dot(gradient) < 0.0)

@@ -4,7 +4,6 @@
 
 #include "../layout/flat_mesh.h"
 #include "../math/sparse_cholesky.h"
-#include "../progress.h"
 #include "patches.h"
 #include "point_groups.h"
 #include "rest_shape.h"
@@ -38,14 +37,12 @@ public:
 	double value(const Eigen::VectorXd& x, double eps) const;
 
 	/// Newton's step with the projected Hessian.
-	/// \param tick called once, and during factorisations as SparseCholesky::factorize() says
 	/// \return false where the Hessian cannot be factored
 	bool newtonStep(
 		const Eigen::VectorXd& x,
 		double eps,
 		Eigen::VectorXd& gradient,
-		Eigen::VectorXd& step,
-		const Tick& tick);
+		Eigen::VectorXd& step);
 
 private:
 	using Complex = std::complex<double>;

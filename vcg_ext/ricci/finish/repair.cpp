@@ -54,7 +54,7 @@ struct PatchSetting
 	RestShapes shapes;
 	const Soundness& soundness;
 
-	PatchProblem problem(const Patch& patch, int maxSteps, const Tick& tick) const
+	PatchProblem problem(const Patch& patch, int maxSteps) const
 	{
 		return {
 			flat,
@@ -62,8 +62,7 @@ struct PatchSetting
 			patch,
 			restShapes(flat, patch, shapes, soundness),
 			soundness,
-			maxSteps,
-			tick};
+			maxSteps};
 	}
 };
 
@@ -154,8 +153,7 @@ std::vector<Untangled> solveAll(
 	const PatchSetting& setting,
 	Untangled (*solve)(const PatchProblem&),
 	std::vector<Patch>& patches,
-	std::int64_t& work,
-	const Tick& tick)
+	std::int64_t& work)
 {
 	std::int64_t ofStep = 0, triangles = 0;
 	const auto fits = [&](const Patch& patch) {
@@ -175,9 +173,8 @@ std::vector<Untangled> solveAll(
 	tasksInParallel(
 		static_cast<int>(patches.size()),
 		threadsFor(kExpectedSteps * triangles),
-		tick,
-		[&](int i, const Tick& own) {
-			found[positionOf(i)] = solve(setting.problem(patches[positionOf(i)], maxSteps, own));
+		[&](int i) {
+			found[positionOf(i)] = solve(setting.problem(patches[positionOf(i)], maxSteps));
 		});
 	for (std::size_t i = 0; i < patches.size(); ++i)
 		work -= found[i].steps * workOfStep(patches[i]);
@@ -253,7 +250,6 @@ void easeStrained(
 	const Soundness& soundness,
 	const PatchTest& accepts,
 	WorkLimit& limit,
-	const Tick& tick,
 	Repair& result)
 {
 	PatchFinder finder(flat, groups);
@@ -265,7 +261,7 @@ void easeStrained(
 		if (strained.empty())
 			break;
 		std::vector<Patch> patches = finder.patches(strained, rings);
-		const std::vector<Untangled> found = solveAll(setting, ease, patches, work, tick);
+		const std::vector<Untangled> found = solveAll(setting, ease, patches, work);
 		takeOver(patches, found, {0, accepts}, flat, result);
 	}
 	limit.spend(before - work);
@@ -302,8 +298,7 @@ Repair repair(
 	RestShapes shapes,
 	const Soundness& soundness,
 	const PatchRules& rules,
-	WorkLimit& limit,
-	const Tick& tick)
+	WorkLimit& limit)
 {
 	Repair result;
 	std::vector<int> bad = badTriangles(flat, soundness);
@@ -335,7 +330,7 @@ Repair repair(
 		std::stable_sort(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
 			return a.triangles.size() < b.triangles.size();
 		});
-		const std::vector<Untangled> found = solveAll(setting, untangle, patches, work, tick);
+		const std::vector<Untangled> found = solveAll(setting, untangle, patches, work);
 		for (std::size_t i = 0; i < patches.size(); ++i)
 			if (!found[i].sound) {
 				const PatchSize size = sizeOf(flat, patches[i]);
@@ -352,7 +347,7 @@ Repair repair(
 			if (outcomes[i] == Outcome::Refused && found[i].sound &&
 				isUnsoundWhole(setting, patches[i]))
 				refused.push_back(patches[i]);
-		const std::vector<Untangled> unfolded = solveAll(setting, unfold, refused, work, tick);
+		const std::vector<Untangled> unfolded = solveAll(setting, unfold, refused, work);
 		isAny = isAnyTakenOver(takeOver(refused, unfolded, rules, flat, result)) || isAny;
 		if (!isAny)
 			continue;
@@ -371,20 +366,19 @@ Repair repairInStages(
 	const BorderMoves& moves,
 	RestShapes shapes,
 	const Soundness& soundness,
-	WorkLimit& limit,
-	const Tick& tick)
+	WorkLimit& limit)
 {
 	if (badTriangles(flat, soundness).empty())
 		return {};
 	PointGroups groups = insidePoints(flat);
 	Repair result =
-		repair(flat, groups, shapes, soundness, {kMaxInsideRings, moves.accepts}, limit, tick);
+		repair(flat, groups, shapes, soundness, {kMaxInsideRings, moves.accepts}, limit);
 	const auto goOn = [&](const std::function<bool(int)>& boundary, RestShapes from, bool partly) {
 		if (result.left == 0)
 			return;
 		groups = joinedPoints(flat, moves.seams, boundary);
 		result.add(
-			repair(flat, groups, from, soundness, {kMaxRings, moves.accepts, partly}, limit, tick));
+			repair(flat, groups, from, soundness, {kMaxRings, moves.accepts, partly}, limit));
 	};
 	const auto everywhere = [](int) { return true; };
 	goOn(moves.boundary, shapes, false);
@@ -397,7 +391,7 @@ Repair repairInStages(
 		goOn(everywhere, shapes, true);
 	}
 	if (shapes == RestShapes::OfSurface)
-		easeStrained(flat, groups, soundness, moves.accepts, limit, tick, result);
+		easeStrained(flat, groups, soundness, moves.accepts, limit, result);
 	return result;
 }
 
@@ -406,13 +400,12 @@ Repair repairFreely(
 	const PatchTest& accepts,
 	RestShapes shapes,
 	const Soundness& soundness,
-	WorkLimit& limit,
-	const Tick& tick)
+	WorkLimit& limit)
 {
 	if (badTriangles(flat, soundness).empty())
 		return {};
 	Repair result = repair(
-		flat, insidePoints(flat), shapes, soundness, {kMaxInsideRings, accepts}, limit, tick);
+		flat, insidePoints(flat), shapes, soundness, {kMaxInsideRings, accepts}, limit);
 	for (const bool partly : {false, true})
 		if (result.left > 0)
 			result.add(repair(
@@ -421,8 +414,7 @@ Repair repairFreely(
 				shapes,
 				soundness,
 				{kMaxRings, accepts, partly},
-				limit,
-				tick));
+				limit));
 	return result;
 }
 

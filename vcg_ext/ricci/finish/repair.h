@@ -3,7 +3,6 @@
 #define RICCI_REPAIR_H
 
 #include "../layout/flat_mesh.h"
-#include "../progress.h"
 #include "patches.h"
 #include "point_groups.h"
 #include "rest_shape.h"
@@ -47,15 +46,13 @@ struct PatchRules
 /// (untangle.h) until one holds, or until the limit's share of a stage is spent; triangles that no patch
 /// mends stay as they are. Patches of one size move no triangle of each other, so they are solved side by
 /// side, and the result does not depend on the number of threads.
-/// \param tick is called by the calling thread only
 Repair repair(
 	FlatMesh& flat,
 	const PointGroups& groups,
 	RestShapes shapes,
 	const Soundness& soundness,
 	const PatchRules& rules,
-	WorkLimit& limit,
-	const Tick& tick);
+	WorkLimit& limit);
 
 /// What may move beyond the points inside the charts.
 struct BorderMoves
@@ -74,8 +71,7 @@ Repair repairInStages(
 	const BorderMoves& moves,
 	RestShapes shapes,
 	const Soundness& soundness,
-	WorkLimit& limit,
-	const Tick& tick);
+	WorkLimit& limit);
 
 /// The same where seams need not stay isometric: the points inside the charts; then all points, each
 /// by itself; this again, with patches of which only a part is mended.
@@ -84,8 +80,7 @@ Repair repairFreely(
 	const PatchTest& accepts,
 	RestShapes shapes,
 	const Soundness& soundness,
-	WorkLimit& limit,
-	const Tick& tick);
+	WorkLimit& limit);
 
 } // namespace ricci
 

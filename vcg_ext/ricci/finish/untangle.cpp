@@ -46,7 +46,7 @@ class Untangler
 public:
 	explicit Untangler(const PatchProblem& problem, int stepsBefore = 0) :
 			m_flat(problem.flat), m_groups(problem.groups), m_patch(problem.patch),
-			m_soundness(problem.soundness), m_maxSteps(problem.maxSteps), m_tick(problem.tick),
+			m_soundness(problem.soundness), m_maxSteps(problem.maxSteps),
 			m_energy(m_flat, m_groups, m_patch, problem.shapes),
 			m_x(Eigen::VectorXd::Zero(m_energy.size())), m_least{
 															 m_patch.triangles.size() + 1,
@@ -142,7 +142,7 @@ private:
 		if (m_found.steps == m_maxSteps)
 			return false;
 		++m_found.steps;
-		if (!m_energy.newtonStep(m_x, m_eps, m_gradient, m_step, m_tick))
+		if (!m_energy.newtonStep(m_x, m_eps, m_gradient, m_step))
 			return false;
 		const double slope = m_step.dot(m_gradient);
 		double length = 1.0;
@@ -213,7 +213,6 @@ private:
 	const Patch& m_patch;
 	const Soundness& m_soundness;
 	const int m_maxSteps;
-	const Tick& m_tick;
 	PatchEnergy m_energy;
 	Eigen::VectorXd m_x, m_trial, m_gradient, m_step;
 	double m_eps = 1.0;

@@ -3,7 +3,6 @@
 #define RICCI_UNTANGLE_H
 
 #include "../layout/flat_mesh.h"
-#include "../progress.h"
 #include "patches.h"
 #include "rest_shape.h"
 #include "soundness.h"
@@ -21,7 +20,6 @@ struct PatchProblem
 	std::vector<RestShape> shapes; ///< [triangle of the patch]
 	const Soundness& soundness;
 	int maxSteps; ///< of Newton in all; then the search is over
-	const Tick& tick;
 };
 
 /// What untangle() found.

@@ -67,7 +67,6 @@ void GeometricCurvatureMap<Geometry>::releaseWorkSpace()
 	release(m_excess);
 	release(m_ratio);
 	release(m_halfWeights);
-	m_tick = nullptr;
 }
 
 template<class Geometry>
@@ -218,8 +217,7 @@ void FlippingCurvatureMap<Geometry>::evaluate(const VertexVector& u, const Verte
 		m_kappa,
 		m_journal,
 		m_queue,
-		this->m_threads,
-		this->m_tick);
+		this->m_threads);
 	if (flips > 0)
 		++this->m_revision;
 	this->evaluateEdges();

@@ -90,11 +90,6 @@ public:
 	/// change a bit of the result.
 	void useThreads(int threads) { m_threads = threads; }
 
-	/// \p tick is called by evaluate() now and then where many edges flip, and while Newton's method
-	/// factorises the Hessian; may throw.
-	void useTick(Tick tick) { m_tick = std::move(tick); }
-	const Tick& tick() const { return m_tick; }
-
 	/// Replaces edge \p e by the other diagonal of its two triangles, with \p delta.
 	/// \pre \p e is flippable
 	void swapEdge(Edge e, double delta);
@@ -108,7 +103,6 @@ protected:
 	EdgeArray<double> m_lengths, m_weights, m_cosineLess1;
 	HalfedgeArray<double> m_angles;
 	int m_threads;
-	Tick m_tick;
 	int m_broken = 0;
 	std::vector<Edge> m_flips;
 	double m_needleRatio = 1.0;

@@ -40,13 +40,13 @@ void FactoredHessian::fill(const CurvatureMap& map, double shift)
 	m_hessian.fill(map, shift);
 }
 
-bool FactoredHessian::factorize(const CurvatureMap& map, const Tick& tick)
+bool FactoredHessian::factorize(const CurvatureMap& map)
 {
 	double shift = map.brokenTriangles() > 0 ? kRegularisation : 0.0;
 	fill(map, shift);
 	m_isFactored = false;
 	const double scale = std::max(m_hessian.largestDiagonal(), 1.0);
-	while (!m_cholesky.factorize(m_hessian.matrix(), tick)) {
+	while (!m_cholesky.factorize(m_hessian.matrix())) {
 		shift = std::max(kShiftGrowth * shift, kFirstShift * scale);
 		if (!(shift <= scale) || std::isinf(shift))
 			throw SolverFailed(SolverFailed::Flow);

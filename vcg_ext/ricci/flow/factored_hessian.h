@@ -35,10 +35,9 @@ public:
 
 	/// Factorises the matrix at the state of \p map. Where it is not positive definite, and where
 	/// triangles are broken (their derivatives are 0), a shift is added to the diagonal.
-	/// \param tick see SparseCholesky::factorize()
 	/// \return whether the factor is that of the matrix without a shift
 	/// \throw SolverFailed where no shift makes it positive definite
-	bool factorize(const CurvatureMap& map, const Tick& tick = {});
+	bool factorize(const CurvatureMap& map);
 
 	bool isFactored() const { return m_isFactored; }
 

@@ -32,11 +32,10 @@ constexpr double kMaxStartU = -1e-3;
 InitialPacking initialPacking(
 	IntrinsicMesh mesh,
 	const VertexArray<Vertex>& mirror,
-	const FlowOptions& options,
-	const Tick& tick)
+	const FlowOptions& options)
 {
 	if (options.method == Method::IntrinsicFlips)
-		return delaunayPacking(std::move(mesh), mirror, tick);
+		return delaunayPacking(std::move(mesh), mirror);
 	InitialPacking packing = inputPacking(std::move(mesh));
 	if (options.method == Method::Thurston)
 		packing.delta = thurstonDistancesLessOne(
@@ -66,8 +65,7 @@ flowProblem(const EmbeddedSurface& surface, InitialPacking start, const Target& 
 FlowProblem flowProblemOnDouble(
 	const EmbeddedSurface& surface,
 	const Target& target,
-	const FlowOptions& options,
-	const Tick& tick)
+	const FlowOptions& options)
 {
 	DoubleSurface d = doubleOf(surface.triangulation);
 	IntrinsicMesh mesh;
@@ -76,7 +74,7 @@ FlowProblem flowProblemOnDouble(
 	for (const Edge e : d.edgeOf.indices())
 		mesh.lengths[e] = surface.lengths[d.edgeOf[e]];
 	FlowProblem problem =
-		flowProblem(surface, initialPacking(std::move(mesh), d.mirror, options, tick), target);
+		flowProblem(surface, initialPacking(std::move(mesh), d.mirror, options), target);
 	problem.input = std::move(d.triangulation);
 	Target& doubled = problem.target;
 	doubled.curvature.conservativeResize(d.mirror.size());
@@ -98,10 +96,9 @@ FlowRun::FlowRun(
 	const FlowOptions& options,
 	int stepsBefore,
 	const FlowListener& listener,
-	const Tick& tick,
 	NewtonSolver::Surgeon surgeon) :
 		m_background(background),
-		m_problem(std::move(problem)), m_options(options), m_listener(listener), m_tick(tick),
+		m_problem(std::move(problem)), m_options(options), m_listener(listener),
 		m_surgeon(std::move(surgeon))
 {
 	m_result.background = background;
@@ -143,7 +140,6 @@ std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing) const
 		map = std::make_shared<FlippingCurvatureMap<Geometry>>(std::move(packing));
 	else
 		map = std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
-	map->useTick(m_tick);
 	return map;
 }
 

@@ -40,12 +40,11 @@ struct FlowProblem
 
 /// The packing in which a flow with these options starts: with intrinsic flips on the weighted
 /// Delaunay triangulation of \p mesh, else on its own.
-/// \param mirror, tick see delaunayPacking()
+/// \param mirror see delaunayPacking()
 InitialPacking initialPacking(
 	IntrinsicMesh mesh,
 	const VertexArray<Vertex>& mirror,
-	const FlowOptions& options,
-	const Tick& tick);
+	const FlowOptions& options);
 
 /// \param start the initial packing of \p surface
 FlowProblem
@@ -56,23 +55,20 @@ flowProblem(const EmbeddedSurface& surface, InitialPacking start, const Target& 
 FlowProblem flowProblemOnDouble(
 	const EmbeddedSurface& surface,
 	const Target& target,
-	const FlowOptions& options,
-	const Tick& tick);
+	const FlowOptions& options);
 
 /// One run of the flow on one surface.
 class FlowRun
 {
 public:
 	/// \p options and \p listener must live as long as the run. \p stepsBefore is added to the
-	/// number of steps that the listener gets and the result has. \p tick: see
-	/// CurvatureMap::useTick().
+	/// number of steps that the listener gets and the result has.
 	FlowRun(
 		Background background,
 		FlowProblem problem,
 		const FlowOptions& options,
 		int stepsBefore,
 		const FlowListener& listener,
-		const Tick& tick,
 		NewtonSolver::Surgeon surgeon = nullptr);
 
 	/// Starts from what another run found on the half of this double: its factor() and its arcs().
@@ -128,7 +124,6 @@ private:
 	FlowProblem m_problem; // the history takes over its input and start where edges flip
 	const FlowOptions& m_options;
 	const FlowListener& m_listener;
-	const Tick& m_tick;
 	NewtonSolver::Surgeon m_surgeon;
 	FlowResult m_result;
 	VertexVector m_startU;

@@ -238,7 +238,7 @@ bool NewtonSolver::findDirection(Run& run, Verdict verdict)
 		m_worn = 2 * iterations > limit;
 	}
 	if (!solved && !keepsFactor) {
-		m_hessian->factorize(*m_map, m_map->tick());
+		m_hessian->factorize(*m_map);
 		m_worn = false;
 		solution = cholesky.solve(rhs);
 	}

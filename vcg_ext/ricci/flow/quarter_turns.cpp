@@ -2,6 +2,7 @@
 #include "quarter_turns.h"
 
 #include "../base/numbers.h"
+#include "../base/task.h"
 #include "../error.h"
 #include "../math/double_double.h"
 #include "../metric/area.h"
@@ -106,8 +107,8 @@ struct Derivatives
 class TurnRounder
 {
 public:
-	TurnRounder(const FlowResult& flow, double epsilon, const Tick& tick) :
-			m_flow(flow), m_epsilon(epsilon), m_tick(tick),
+	TurnRounder(const FlowResult& flow, double epsilon) :
+			m_flow(flow), m_epsilon(epsilon),
 			m_startU(flow.u - flowFactor(flow))
 	{
 	}
@@ -129,11 +130,11 @@ public:
 		const CurvatureMap& map = *metric.map;
 		const Triangulation& t = map.triangulation();
 		FactoredHessian hessian(m_flow.target.fixed, true);
-		hessian.factorize(map, m_tick);
+		hessian.factorize(map);
 		Derivatives by;
 		setWeights(metric, by);
 		for (const FaceLoop& loop : metric.loops) {
-			m_tick();
+			checkpoint();
 			HalfedgeArray<double> corners = turnedCorners(t, loop);
 			by.curvatures.push_back(turnByCurvature(map, metric.u, hessian, corners));
 			// A length also changes curvatures, which u takes back, and with it the turn.
@@ -229,14 +230,13 @@ private:
 				std::move(packing));
 		else
 			next = std::make_shared<FlippingCurvatureMap<Euclidean>>(std::move(packing));
-		next->useTick(m_tick);
 		Metric result;
 		result.u = metric.u;
 		try {
 			NewtonSolver newton(*next, m_flow.target.fixed);
 			result.solved = newton.solve(
 				result.u, m_flow.target.curvature, {m_epsilon}, [&](int, double) {
-					m_tick();
+					checkpoint();
 				});
 		}
 		catch (const Stopped&) {
@@ -262,20 +262,19 @@ private:
 
 	const FlowResult& m_flow;
 	double m_epsilon;
-	const Tick& m_tick;
 	VertexVector m_startU;
 };
 
 } // namespace
 
-LoopTurns loopTurns(const FlowResult& flow, const Tick& tick)
+LoopTurns loopTurns(const FlowResult& flow)
 {
 	const Metric metric = metricOf(flow);
 	LoopTurns result;
 	result.errors = metric.errors;
 	if (result.errors.size() == 0)
 		return result;
-	Derivatives by = TurnRounder(flow, 0.0, tick).derivatives(metric);
+	Derivatives by = TurnRounder(flow, 0.0).derivatives(metric);
 	result.byCurvature = std::move(by.curvatures);
 	// A metric that changes by h has the Beltrami coefficient mu with |h|^2 = 8 |mu|^2.
 	const Eigen::Index n = result.errors.size();
@@ -283,14 +282,14 @@ LoopTurns loopTurns(const FlowResult& flow, const Tick& tick)
 	return result;
 }
 
-TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options, const Tick& tick)
+TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options)
 {
 	TurnRounding result;
 	if (flow.doubled)
 		return result;
 	Metric metric = metricOf(flow);
 	result.before = metric.error();
-	TurnRounder(flow, options.epsilon, tick).solve(metric);
+	TurnRounder(flow, options.epsilon).solve(metric);
 	result.after = metric.error();
 	if (metric.map == flow.metric)
 		return result;

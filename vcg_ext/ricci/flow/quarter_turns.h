@@ -2,7 +2,6 @@
 #ifndef RICCI_QUARTER_TURNS_H
 #define RICCI_QUARTER_TURNS_H
 
-#include "../progress.h"
 #include "ricci_flow.h"
 
 #include <Eigen/Core>
@@ -22,7 +21,7 @@ struct LoopTurns
 };
 
 /// \pre \p flow is Euclidean, not on a double
-LoopTurns loopTurns(const FlowResult& flow, const Tick& tick);
+LoopTurns loopTurns(const FlowResult& flow);
 
 /// What roundTurns() did.
 struct TurnRounding
@@ -48,7 +47,7 @@ struct TurnRounding
 ///
 /// The metric stays as it is where that fails, and on the double of a surface.
 /// \pre Euclidean, with intrinsic flips
-TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options, const Tick& tick);
+TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options);
 
 } // namespace ricci
 

@@ -43,12 +43,11 @@ HalfFlow flowOnSurface(
 	const Target& target,
 	bool mayBeRough,
 	const FlowOptions& options,
-	const FlowListener& listener,
-	const Tick& tick)
+	const FlowListener& listener)
 {
 	FlowProblem problem = flowProblem(surface, std::move(start), target);
 	problem.maxSteps = kStepsBeforeDoubling;
-	FlowRun run(background, std::move(problem), options, 0, listener, tick);
+	FlowRun run(background, std::move(problem), options, 0, listener);
 	HalfFlow half;
 	bool solved = false, isRough = false;
 	try {
@@ -81,18 +80,15 @@ FlowResult flowOnDouble(
 	const Target& target,
 	const FlowOptions& options,
 	const FlowListener& listener,
-	const Tick& tick,
 	const HalfFlow& half)
 {
-	requireMemoryForDouble(
-		static_cast<std::size_t>(surface.triangulation.faceCount()), options.memoryLimit);
+	requireMemoryForDouble(static_cast<std::size_t>(surface.triangulation.faceCount()));
 	FlowRun run(
 		background,
-		flowProblemOnDouble(surface, target, options, tick),
+		flowProblemOnDouble(surface, target, options),
 		options,
 		half.iterations,
-		listener,
-		tick);
+		listener);
 	if (half.factor.size() > 0)
 		run.startFrom(half.factor, half.arcs);
 	if (!run.solve())
@@ -103,9 +99,9 @@ FlowResult flowOnDouble(
 } // namespace
 
 InitialPacking
-initialPacking(const EmbeddedSurface& surface, const FlowOptions& options, const Tick& tick)
+initialPacking(const EmbeddedSurface& surface, const FlowOptions& options)
 {
-	return initialPacking({surface.triangulation, surface.lengths}, {}, options, tick);
+	return initialPacking({surface.triangulation, surface.lengths}, {}, options);
 }
 
 FlowResult runRicciFlow(
@@ -115,8 +111,7 @@ FlowResult runRicciFlow(
 	const Target& target,
 	const FlowOptions& options,
 	const FlowListener& listener,
-	const NewtonSolver::Surgeon& surgeon,
-	const Tick& tick)
+	const NewtonSolver::Surgeon& surgeon)
 {
 	const bool flips = options.method == Method::IntrinsicFlips;
 	if (!flips || surface.topology.loops.empty()) {
@@ -126,7 +121,6 @@ FlowResult runRicciFlow(
 			options,
 			0,
 			listener,
-			tick,
 			surgeon);
 		if (!run.solve())
 			throw run.failure();
@@ -135,11 +129,11 @@ FlowResult runRicciFlow(
 
 	const bool isPrescribed = !target.hasFixed();
 	HalfFlow half = flowOnSurface(
-		background, surface, std::move(start), target, isPrescribed, options, listener, tick);
+		background, surface, std::move(start), target, isPrescribed, options, listener);
 	if (half.result && !(isPrescribed && half.bends))
 		return std::move(*half.result);
 	try {
-		return flowOnDouble(background, surface, target, options, listener, tick, half);
+		return flowOnDouble(background, surface, target, options, listener, half);
 	}
 	catch (const Stopped&) {
 		throw;
@@ -150,12 +144,11 @@ FlowResult runRicciFlow(
 			half = flowOnSurface(
 				background,
 				surface,
-				initialPacking(surface, options, tick),
+				initialPacking(surface, options),
 				target,
 				false,
 				options,
-				listener,
-				tick);
+				listener);
 		if (!half.result)
 			throw;
 		return std::move(*half.result);

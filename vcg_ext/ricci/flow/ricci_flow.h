@@ -16,9 +16,8 @@ namespace ricci {
 
 /// The initial packing (paper 4.1): with intrinsic flips on the weighted Delaunay triangulation,
 /// else on the surface's own triangles.
-/// \param tick called now and then if it is not empty; may throw
 InitialPacking initialPacking(
-	const EmbeddedSurface& surface, const FlowOptions& options, const Tick& tick = {});
+	const EmbeddedSurface& surface, const FlowOptions& options);
 
 /// The flow with intrinsic flips: what leads from the input's triangles to those of the result.
 struct FlipHistory
@@ -71,7 +70,6 @@ using FlowListener = std::function<void(int, double)>;
 /// reached; the solution is symmetric, and the surface is one half of it.
 ///
 /// \param surgeon see NewtonSolver; for Method::EdgeSwaps
-/// \param tick called now and then between the listener's calls if it is not empty; may throw
 /// \throw NotConverged if the target is not reached within the options' limits
 FlowResult runRicciFlow(
 	Background background,
@@ -80,8 +78,7 @@ FlowResult runRicciFlow(
 	const Target& target,
 	const FlowOptions& options,
 	const FlowListener& listener,
-	const NewtonSolver::Surgeon& surgeon = nullptr,
-	const Tick& tick = {});
+	const NewtonSolver::Surgeon& surgeon = nullptr);
 
 /// [vertex of the surface] Logarithm of the factor by which a flow with intrinsic flips has scaled
 /// lengths: u at its end less u at its start.

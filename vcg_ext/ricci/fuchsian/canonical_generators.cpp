@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "canonical_generators.h"
 
+#include "../base/task.h"
 #include "../base/tolerances.h"
 
 #include <Eigen/Cholesky>
@@ -30,7 +31,7 @@ constexpr int kClosingSteps = 3;
 /// are fewer.
 constexpr std::size_t kFollowed = 64, kReadPairs = kFollowed * 100 * 100;
 
-/// Letters from one tick to the next.
+/// Letters from one checkpoint to the next.
 constexpr std::size_t kTickEvery = 64;
 
 std::size_t followed(std::size_t letters)
@@ -125,7 +126,6 @@ void appendReadings(
 	const PartlyCanonical& word,
 	std::size_t number,
 	const Array<ExtendedIsometry>& generators,
-	const Tick& tick,
 	std::vector<Reading>& readings)
 {
 	const std::size_t n = word.open.size();
@@ -158,8 +158,8 @@ void appendReadings(
 			p = p * letter[y];
 		}
 		outer = outer * letter[0];
-		if (tick && x % kTickEvery == 0)
-			tick();
+		if (x % kTickEvery == 0)
+			checkpoint();
 	}
 }
 
@@ -232,7 +232,7 @@ ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>&
 }
 
 std::vector<Handles>
-canonicalBases(const GroupWord& word, const Array<ExtendedIsometry>& generators, const Tick& tick)
+canonicalBases(const GroupWord& word, const Array<ExtendedIsometry>& generators)
 {
 	const double farthest = std::pow(std::sinh(kMaxSearchedDistance / 2), 2);
 	std::vector<PartlyCanonical> best(1);
@@ -240,7 +240,7 @@ canonicalBases(const GroupWord& word, const Array<ExtendedIsometry>& generators,
 	while (!best.front().open.empty()) {
 		std::vector<Reading> readings;
 		for (std::size_t i = 0; i < best.size(); ++i)
-			appendReadings(best[i], i, generators, tick, readings);
+			appendReadings(best[i], i, generators, readings);
 		if (readings.empty())
 			throw InternalError("The fundamental polygon has more than one corner");
 		std::stable_sort(readings.begin(), readings.end(), [](const auto& r, const auto& s) {

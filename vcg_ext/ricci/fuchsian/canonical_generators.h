@@ -5,7 +5,6 @@
 
 #include "../base/indexed.h"
 #include "../math/disk_isometry.h"
-#include "../progress.h"
 
 #include <vector>
 
@@ -42,7 +41,7 @@ ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>&
 /// nothing where all move 0 by more than kMaxSearchedDistance
 /// \throw InternalError if \p word is not that of a polygon whose corners are all one point
 std::vector<Handles> canonicalBases(
-	const GroupWord& word, const Array<ExtendedIsometry>& generators, const Tick& tick = {});
+	const GroupWord& word, const Array<ExtendedIsometry>& generators);
 
 /// Moves \p generators by as little as possible (in the sum of squares, on the Lie algebra) so that
 /// the product of \p word times \p tail is +-1. The metric holds more rounding than this

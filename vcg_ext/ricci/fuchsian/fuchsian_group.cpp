@@ -212,13 +212,12 @@ void addCanonicalBasis(
 	Array<ExtendedIsometry> generators,
 	const std::vector<ExtendedIsometry>& peripheral,
 	const ExtendedIsometry& tail,
-	const Tick& tick,
 	FuchsianGroup& group)
 {
 	if (!generators.empty())
 		closeRelation(word, tail, generators);
 	const Handles handles =
-		bestConditioned(canonicalBases(word, generators, tick), peripheral, tick);
+		bestConditioned(canonicalBases(word, generators), peripheral);
 	if (handles.size() != positionOf(generators.size()))
 		return;
 	for (std::size_t i = 0; i + 1 < handles.size(); i += 2) {
@@ -266,8 +265,7 @@ FuchsianGroup fuchsianGroup(
 	const CutGraph& cut,
 	const EdgeArray<SidePairing>& pairing,
 	const VertexArray<char>& cones,
-	bool canonical,
-	const Tick& tick)
+	bool canonical)
 {
 	FuchsianGroup group;
 	const EdgeArray<SidePairing> exact = pairingOfArcs(t, cut, pairing, cones);
@@ -294,7 +292,7 @@ FuchsianGroup fuchsianGroup(
 	group.peripheral = allRounded(peripheral);
 	group.peripheralVertex.assign(walk.peripheralVertex.rbegin(), walk.peripheralVertex.rend());
 	if (canonical)
-		addCanonicalBasis(walk.word, std::move(generators), peripheral, tail, tick, group);
+		addCanonicalBasis(walk.word, std::move(generators), peripheral, tail, group);
 	return group;
 }
 

@@ -5,7 +5,6 @@
 #include "../cut/cut_graph.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../math/disk_isometry.h"
-#include "../progress.h"
 #include "../surface/triangulation.h"
 
 #include <vector>
@@ -80,8 +79,7 @@ FuchsianGroup fuchsianGroup(
 	const CutGraph& cut,
 	const EdgeArray<SidePairing>& pairing,
 	const VertexArray<char>& cones,
-	bool canonical = false,
-	const Tick& tick = {});
+	bool canonical = false);
 
 } // namespace ricci
 

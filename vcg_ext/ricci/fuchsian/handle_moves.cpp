@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "handle_moves.h"
 
+#include "../base/task.h"
 #include "../base/tolerances.h"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ using Isometry = ExtendedIsometry;
 /// A move has to bring the condition below this share.
 constexpr double kWorthMoving = 0.9;
 
-/// Moves from one tick to the next.
+/// Moves from one checkpoint to the next.
 constexpr int kTickEvery = 16;
 
 /// Bases at most, and bases times the square of the number of letters in their relation.
@@ -203,7 +204,7 @@ double relationCondition(const Handles& handles)
 }
 
 Handles bestConditioned(
-	const std::vector<Handles>& bases, const std::vector<Isometry>& peripheral, const Tick& tick)
+	const std::vector<Handles>& bases, const std::vector<Isometry>& peripheral)
 {
 	Handles best;
 	if (bases.empty())
@@ -217,8 +218,8 @@ Handles bestConditioned(
 		moves.start(bases[i]);
 		int steps = 0;
 		do
-			if (tick && steps++ % kTickEvery == 0)
-				tick();
+			if (steps++ % kTickEvery == 0)
+				checkpoint();
 		while (moves.improve());
 		const bool isFar =
 			std::any_of(moves.handles().begin(), moves.handles().end(), [](const Isometry& m) {

@@ -36,8 +36,7 @@ double relationCondition(const Handles& handles);
 /// \pre all bases have the same number of handles; the relation holds but for rounding
 Handles bestConditioned(
 	const std::vector<Handles>& bases,
-	const std::vector<ExtendedIsometry>& peripheral,
-	const Tick& tick = {});
+	const std::vector<ExtendedIsometry>& peripheral);
 
 } // namespace ricci
 

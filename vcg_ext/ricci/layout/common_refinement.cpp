@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common_refinement.h"
 
+#include "../base/memory_estimate.h"
+#include "../base/task.h"
 #include "../math/disjoint_sets.h"
 #include "../overlay/piece_faces.h"
 #include "../overlay/piece_triangulation.h"
@@ -17,6 +19,8 @@ namespace {
 
 /// Shares of the work that are done after the division of the start triangles, after the layout.
 constexpr double kDivided = 0.5, kLaidOut = 0.85;
+
+constexpr const char* kPlacing = "Placing the pieces of the overlay";
 
 /// The edges of the input on which the overlay is open: the cut, and the border of the wanted part.
 EdgeArray<char>
@@ -77,21 +81,17 @@ public:
 		const FlowDomain& domain,
 		const FlowResult& flow,
 		LinkedPieces linked,
-		const EdgeArray<char>& isCut,
-		const OverlayListener& listener) :
+		const EdgeArray<char>& isCut) :
 			m_surface(domain.surface),
 			m_flow(flow), m_end(flow.metric->triangulation()), m_surfaceCut(isCut),
-			m_isCut(opened(domain, flow, isCut)), m_listener(listener), m_linked(std::move(linked))
+			m_isCut(opened(domain, flow, isCut)), m_linked(std::move(linked))
 	{
 	}
 
 	CommonRefinement run(bool cornersOnly)
 	{
-		const auto crossings =
-			static_cast<std::size_t>(m_linked.pieces.nodes.size() - m_end.vertexCount());
-		m_listener(kOverlayShare, crossings);
-		layOut([&] { m_listener(kOverlayShare, crossings); });
-		m_listener(kLaidOut, crossings);
+		layOut();
+		advance(kLaidOut, kPlacing);
 		m_linked.links = {};
 		numberPoints();
 		if (!cornersOnly)
@@ -102,26 +102,25 @@ public:
 
 private:
 	/// Lays the sheets out and places the pieces in them.
-	void layOut(const Tick& tick)
+	void layOut()
 	{
 		const EndSheets sheets = makeSheets(m_linked, m_flow, m_isCut);
 		const EdgeArray<char> noCut(sheets.triangulation.edgeCount(), 0);
 		if (m_flow.background == Background::EuclideanPlane)
 			placeInPlane(
 				sheets,
-				layOutInPlane(sheets.triangulation, sheets.lengths, sheets.angles, noCut),
-				tick);
+				layOutInPlane(sheets.triangulation, sheets.lengths, sheets.angles, noCut));
 		else {
 			const HyperbolicLayout disk =
-				layOutInDisk(sheets.triangulation, sheets.lengths, sheets.angles, noCut, tick);
-			placeInDisk(sheets, disk, tick);
+				layOutInDisk(sheets.triangulation, sheets.lengths, sheets.angles, noCut);
+			placeInDisk(sheets, disk);
 			findPairings(sheets, disk);
 		}
 	}
 
-	void placeInPlane(const EndSheets& sheets, const PlanarLayout& plane, const Tick& tick)
+	void placeInPlane(const EndSheets& sheets, const PlanarLayout& plane)
 	{
-		placePieces(tick, [&](int p, int corner) {
+		placePieces([&](int p, int corner) {
 			const auto h = sheets.triangulation.halfedges(sheets.of[p]);
 			const auto weight = inEndTriangle(m_linked, m_end, p, corner);
 			Point2 x{0.0, 0.0};
@@ -132,7 +131,7 @@ private:
 		});
 	}
 
-	void placeInDisk(const EndSheets& sheets, const HyperbolicLayout& disk, const Tick& tick)
+	void placeInDisk(const EndSheets& sheets, const HyperbolicLayout& disk)
 	{
 		const Triangulation& t = sheets.triangulation;
 		// As seen from the frame of the sheet's halfedge.
@@ -145,7 +144,7 @@ private:
 				sheets.lengths[t.next(h).edge()],
 				sheets.angles[h]);
 		};
-		placePieces(tick, [&](int p, int corner) {
+		placePieces([&](int p, int corner) {
 			// Rounded once, as the two sides of a seam see their points from afar.
 			const ExtendedIsometry& frame = disk.frame[t.halfedge(sheets.of[p])];
 			return asPoint(std::complex<double>(frame(inSheet(p, corner).inDisk())));
@@ -153,7 +152,7 @@ private:
 		const OverlayPieces& pieces = m_linked.pieces;
 		m_kleinPoint.reserve(m_point.size());
 		for (int p = 0; p < pieces.count(); ++p) {
-			tickNowAndThen(tick, positionOf(p));
+			checkpointNowAndThen(positionOf(p));
 			for (int i = 0; i < pieces.size(p); ++i)
 				m_kleinPoint.push_back(inSheet(p, i).inKleinModel());
 		}
@@ -162,7 +161,7 @@ private:
 	/// Corners of pieces that meet off the cut are one point of the layout.
 	/// \p place(piece, corner) gives the point that the corner's own sheet has for it.
 	template<class Place>
-	void placePieces(const Tick& tick, Place place)
+	void placePieces(Place place)
 	{
 		const OverlayPieces& pieces = m_linked.pieces;
 		DisjointSets sets(pieces.cornerCount());
@@ -175,7 +174,7 @@ private:
 		}
 		m_point.resize(sets.size());
 		for (int p = 0; p < pieces.count(); ++p) {
-			tickNowAndThen(tick, positionOf(p));
+			checkpointNowAndThen(positionOf(p));
 			for (int i = 0; i < pieces.size(p); ++i) {
 				const int corner = pieces.corner(p, i), first = sets.find(corner);
 				m_point[corner] = first == corner ? place(p, i) : m_point[first];
@@ -293,7 +292,6 @@ private:
 	const Triangulation& m_end;
 	const EdgeArray<char>& m_surfaceCut; // [surface edge]
 	const EdgeArray<char> m_isCut;       // [input edge]
-	const OverlayListener& m_listener;
 
 	LinkedPieces m_linked;
 	Array<Point2> m_point;      // [corner of a piece] in the plane or the disk
@@ -304,18 +302,16 @@ private:
 
 } // namespace
 
-LinkedPieces
-overlayOf(const FlowDomain& domain, const FlowResult& flow, const OverlayListener& listener)
+LinkedPieces overlayOf(const FlowDomain& domain, const FlowResult& flow, bool refines)
 {
-	OverlayPieces pieces = divideStartTriangles(
-		flow, [&](double share, std::size_t crossings) { listener(kDivided * share, crossings); });
+	OverlayPieces pieces = [&] {
+		const Task dividing(0.0, kDivided);
+		return divideStartTriangles(flow, refines);
+	}();
 	const Triangulation& end = flow.metric->triangulation();
-	const auto crossings = static_cast<std::size_t>(pieces.nodes.size() - end.vertexCount());
-	listener(kDivided, crossings);
-	LinkedPieces linked = linkPieces(
+	requireOverlayMemory(static_cast<std::size_t>(pieces.nodes.size() - end.vertexCount()), refines);
+	return linkPieces(
 		std::move(pieces), flow.history.input, end, domain.surface.triangulation.faceCount());
-	listener(kOverlayShare, crossings);
-	return linked;
 }
 
 CommonRefinement commonRefinement(
@@ -323,10 +319,9 @@ CommonRefinement commonRefinement(
 	const FlowResult& flow,
 	LinkedPieces linked,
 	const EdgeArray<char>& isCut,
-	bool cornersOnly,
-	const OverlayListener& listener)
+	bool cornersOnly)
 {
-	return RefinementMaker(domain, flow, std::move(linked), isCut, listener).run(cornersOnly);
+	return RefinementMaker(domain, flow, std::move(linked), isCut).run(cornersOnly);
 }
 
 } // namespace ricci

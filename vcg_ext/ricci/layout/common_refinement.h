@@ -30,13 +30,11 @@ struct CommonRefinement
 
 /// The overlay (overlay_pieces.h) for the faces of the domain's surface. Where the flow's surface goes on
 /// beyond it (its double, caps on holes), the overlay ends at its boundary.
-/// \param listener hears of its progress, from 0 to kOverlayShare
+/// It takes the first half of the task in hand.
+/// \param refines see requireOverlayMemory()
 /// \pre the flow ran with intrinsic flips
 LinkedPieces
-overlayOf(const FlowDomain& domain, const FlowResult& flow, const OverlayListener& listener);
-
-/// Share of overlayOf() in the work of the common refinement.
-constexpr double kOverlayShare = 0.65;
+overlayOf(const FlowDomain& domain, const FlowResult& flow, bool refines);
 
 /// Lays the overlay \p linked of \p flow out, cut along the surface's edges with \p isCut.
 ///
@@ -47,14 +45,12 @@ constexpr double kOverlayShare = 0.65;
 ///
 /// \param cornersOnly the layout of the surface's corners is all that is wanted: no points,
 /// triangles and uv
-/// \param listener hears of the progress, from kOverlayShare to 1
 CommonRefinement commonRefinement(
 	const FlowDomain& domain,
 	const FlowResult& flow,
 	LinkedPieces linked,
 	const EdgeArray<char>& isCut,
-	bool cornersOnly,
-	const OverlayListener& listener);
+	bool cornersOnly);
 
 } // namespace ricci
 

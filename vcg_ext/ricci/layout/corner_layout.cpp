@@ -2,6 +2,7 @@
 #include "corner_layout.h"
 
 #include "../base/memory_estimate.h"
+#include "../base/task.h"
 #include "../surface/normal_coordinates.h"
 #include "sheets.h"
 
@@ -17,8 +18,7 @@ namespace {
 NormalCoordinates cutOnEnd(
 	const FlowDomain& domain,
 	const FlowResult& flow,
-	const EdgeArray<char>& isCut,
-	const Tick& tick)
+	const EdgeArray<char>& isCut)
 {
 	const Triangulation& t = domain.surface.triangulation;
 	EdgeArray<char> isCurve = isCut;
@@ -30,7 +30,7 @@ NormalCoordinates cutOnEnd(
 	std::size_t done = 0;
 	for (const std::vector<Edge>* flips : {&flow.history.startFlips, &flow.history.flowFlips})
 		for (const Edge e : *flips) {
-			tickNowAndThen(tick, done++);
+			checkpointNowAndThen(done++);
 			cut.flip(e);
 		}
 	return cut;
@@ -137,17 +137,15 @@ private:
 PlanarLayout layOutCorners(
 	const FlowDomain& domain,
 	const FlowResult& flow,
-	const EdgeArray<char>& isCut,
-	double memoryLimit,
-	const Tick& tick)
+	const EdgeArray<char>& isCut)
 {
 	const Triangulation& t = domain.surface.triangulation;
 	const Triangulation& end = flow.metric->triangulation();
-	const NormalCoordinates cut = cutOnEnd(domain, flow, isCut, tick);
+	const NormalCoordinates cut = cutOnEnd(domain, flow, isCut);
 	std::size_t crossings = 0;
 	for (const Edge e : end.edges())
 		crossings += static_cast<std::size_t>(cut.crossings(e));
-	requireOverlayMemory(crossings, false, memoryLimit);
+	requireOverlayMemory(crossings, false);
 	CutSheets parts(end, cut);
 	takeMetric(flow, parts.sheets);
 	PlanarLayout layout;
@@ -176,8 +174,7 @@ PlanarLayout layOutCorners(
 		if (!root.isValid())
 			root = sheet;
 	});
-	if (tick)
-		tick();
+	checkpoint();
 	const Triangulation& sheets = parts.sheets.triangulation;
 	const PlanarLayout plane = layOutInPlane(
 		sheets,
@@ -185,8 +182,7 @@ PlanarLayout layOutCorners(
 		parts.sheets.angles,
 		EdgeArray<char>(sheets.edgeCount(), 0),
 		root);
-	if (tick)
-		tick();
+	checkpoint();
 	eachCorner([&](int wedge, Face sheet, std::size_t k) {
 		layout.points[wedge] = plane[sheets.halfedges(sheet)[k]];
 	});

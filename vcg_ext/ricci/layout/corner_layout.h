@@ -3,7 +3,6 @@
 #define RICCI_CORNER_LAYOUT_H
 
 #include "../flow/ricci_flow.h"
-#include "../progress.h"
 #include "../surface/flow_domain.h"
 #include "planar_layout.h"
 
@@ -17,16 +16,12 @@ namespace ricci {
 /// parts they divide these, and beside which edges of the cut the corners of the parts lie; a part is
 /// a sheet as in sheets.h.
 /// \param isCut 1 on edges of the domain's surface, which they open to a disk
-/// \param memoryLimit bytes, 0: none
-/// \param tick called now and then if it is not empty; may throw
 /// \throw TooLarge if end edges and the cut cross too often, see requireOverlayMemory()
 /// \pre the flow ran in the plane, with intrinsic flips
 PlanarLayout layOutCorners(
 	const FlowDomain& domain,
 	const FlowResult& flow,
-	const EdgeArray<char>& isCut,
-	double memoryLimit,
-	const Tick& tick);
+	const EdgeArray<char>& isCut);
 
 } // namespace ricci
 

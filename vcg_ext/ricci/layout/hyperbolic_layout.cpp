@@ -2,6 +2,7 @@
 #include "hyperbolic_layout.h"
 
 #include "../base/numbers.h"
+#include "../base/task.h"
 #include "../metric/area.h"
 #include "layout_tree.h"
 
@@ -48,14 +49,13 @@ public:
 		const Triangulation& t,
 		const EdgeArray<double>& lengths,
 		const HalfedgeArray<double>& angles,
-		const EdgeArray<char>& isCut,
-		const Tick& tick) :
+		const EdgeArray<char>& isCut) :
 			m_t(t),
-			m_lengths(lengths), m_angles(angles), m_isCut(isCut), m_tick(tick),
+			m_lengths(lengths), m_angles(angles), m_isCut(isCut),
 			m_alongEdge(t.edgeCount())
 	{
 		for (const Edge e : t.edges()) {
-			tickNowAndThen(tick, positionOf(e));
+			checkpointNowAndThen(positionOf(e));
 			m_alongEdge[e] = ExtendedIsometry::translation(lengths[e]);
 		}
 	}
@@ -68,7 +68,7 @@ public:
 		place(layout, m_t.halfedge(root), ExtendedIsometry());
 		std::size_t placed = 0;
 		for (const Halfedge h : layoutTree(m_t, m_lengths, m_isCut, root)) {
-			tickNowAndThen(m_tick, placed++);
+			checkpointNowAndThen(placed++);
 			place(layout, h, layout.frame[h.twin()] * along(h) * m_turn);
 		}
 		return layout;
@@ -81,7 +81,7 @@ public:
 		DoubleDouble x0;
 		ExtendedComplex x;
 		for (const Face f : m_t.faces()) {
-			tickNowAndThen(m_tick, positionOf(f));
+			checkpointNowAndThen(positionOf(f));
 			const auto side = m_t.halfedges(f);
 			// By the sides: what the angles are short of pi is rounding where triangles are tiny.
 			const double area = hyperbolicArea({length(side[0]), length(side[1]), length(side[2])});
@@ -100,7 +100,7 @@ public:
 		Face nearest(0);
 		DoubleDouble minSpread;
 		for (const Face f : m_t.faces()) {
-			tickNowAndThen(m_tick, positionOf(f));
+			checkpointNowAndThen(positionOf(f));
 			DoubleDouble spread; // grows with the distances of the corners from 0
 			for (const Halfedge h : m_t.halfedges(f)) {
 				ExtendedIsometry& g = layout.frame[h];
@@ -141,7 +141,6 @@ private:
 	const EdgeArray<double>& m_lengths;
 	const HalfedgeArray<double>& m_angles;
 	const EdgeArray<char>& m_isCut;
-	const Tick& m_tick;
 	EdgeArray<ExtendedIsometry> m_alongEdge; // translations by the lengths
 	const ExtendedIsometry m_turn = ExtendedIsometry::rotation(kExtendedPi);
 };
@@ -152,10 +151,9 @@ HyperbolicLayout layOutInDisk(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
 	const HalfedgeArray<double>& angles,
-	const EdgeArray<char>& isCut,
-	const Tick& tick)
+	const EdgeArray<char>& isCut)
 {
-	const DiskUnfolding unfolding(t, lengths, angles, isCut, tick);
+	const DiskUnfolding unfolding(t, lengths, angles, isCut);
 	// The first layout shows where the middle is. Only the second is exact there.
 	HyperbolicLayout layout = unfolding.from(deepestFace(t, isCut));
 	layout = unfolding.from(unfolding.moveMiddleToZero(layout));

@@ -3,7 +3,6 @@
 #define RICCI_HYPERBOLIC_LAYOUT_H
 
 #include "../math/disk_isometry.h"
-#include "../progress.h"
 #include "../surface/triangulation.h"
 
 #include <complex>
@@ -40,8 +39,7 @@ HyperbolicLayout layOutInDisk(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,
 	const HalfedgeArray<double>& angles,
-	const EdgeArray<char>& isCut,
-	const Tick& tick = {});
+	const EdgeArray<char>& isCut);
 
 /// The isometry that continues a layout across an edge of its cut: it takes the layout of the
 /// triangle on the right of the edge's halfedge to where the triangle on the left would have it.

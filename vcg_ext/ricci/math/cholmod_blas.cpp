@@ -12,6 +12,8 @@
 #include "../base/parallel.h"
 #include "cholmod_tick.h"
 
+#include "../base/task.h"
+
 #include <Eigen/Cholesky>
 
 #include <cholmod.h>
@@ -190,7 +192,7 @@ void dtrsm_(
 	divide({a, *columns, *columns, *strideA}, {b, *rows, *columns, *strideB});
 }
 
-/// The factor of the lower triangle a. Where that fails, and where the tick has thrown, the first column
+/// The factor of the lower triangle a. Where that fails, and where checkpoint() has thrown, the first column
 /// is named: CHOLMOD then ends at once, while it would repeat what comes before a later one.
 void dpotrf_(const char*, const int* size, double* a, const int* stride, int* info)
 {

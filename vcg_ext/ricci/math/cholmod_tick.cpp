@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cholmod_tick.h"
 
+#include "../base/task.h"
+
 namespace ricci {
 
 namespace {
 
-/// Products of two numbers between two ticks: some milliseconds.
+/// Products of two numbers between two calls of checkpoint(): some milliseconds.
 constexpr double kBetweenTicks = 2e7;
 
 thread_local CholmodTick* current = nullptr;
 
 } // namespace
 
-CholmodTick::CholmodTick(const Tick& tick) : m_tick(tick), m_outer(current)
+CholmodTick::CholmodTick() : m_outer(current)
 {
 	current = this;
 }
@@ -25,13 +27,13 @@ CholmodTick::~CholmodTick()
 bool CholmodTick::goesOn(double products)
 {
 	CholmodTick* own = current;
-	if (!own || !own->m_tick)
+	if (!own)
 		return true;
 	own->m_products += products;
 	if (own->m_products > kBetweenTicks && !own->m_thrown) {
 		own->m_products = 0.0;
 		try {
-			own->m_tick();
+			checkpoint();
 		}
 		catch (...) {
 			own->m_thrown = std::current_exception();

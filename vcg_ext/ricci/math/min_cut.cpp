@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "min_cut.h"
 
+#include "../base/task.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -8,7 +10,7 @@ namespace ricci {
 
 namespace {
 
-/// Nodes that are looked at between two ticks.
+/// Nodes that are looked at between two checkpoints.
 constexpr int kNodesBetweenTicks = 1 << 12;
 
 } // namespace
@@ -16,8 +18,7 @@ constexpr int kNodesBetweenTicks = 1 << 12;
 MinCut::Side MinCut::run(
 	const std::vector<int>& sources,
 	const std::vector<int>& sinks,
-	const ForEdges& forEdges,
-	const Tick& tick)
+	const ForEdges& forEdges)
 {
 	clear();
 	for (const Tree tree : {kSources, kSinks})
@@ -38,7 +39,7 @@ MinCut::Side MinCut::run(
 			growFrom(node, forEdges);
 		if (--untilTick == 0) {
 			untilTick = kNodesBetweenTicks;
-			tick();
+			checkpoint();
 		}
 	}
 	const Tree found = m_active[kSources].empty() ? kSources : kSinks;

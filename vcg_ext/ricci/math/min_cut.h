@@ -3,7 +3,6 @@
 #define RICCI_MIN_CUT_H
 
 #include "../base/indexed.h"
-#include "../progress.h"
 
 #include <cstdint>
 #include <deque>
@@ -37,13 +36,11 @@ public:
 	};
 
 	/// A cut of minimum capacity between \p sources and \p sinks, which have no node in common.
-	/// \param tick called many times a second
 	/// \return the side that was found: of all minimum cuts the one with the fewest nodes on it
 	Side run(
 		const std::vector<int>& sources,
 		const std::vector<int>& sinks,
-		const ForEdges& forEdges,
-		const Tick& tick = [] {});
+		const ForEdges& forEdges);
 
 private:
 	enum Tree : char { kSources, kSinks, kNone };

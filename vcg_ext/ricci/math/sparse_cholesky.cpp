@@ -304,10 +304,10 @@ struct SparseCholesky::Implementation
 	/// order() leaves the symbolic factor of the matrix in that order.
 	static constexpr bool kOrderAnalyzes = true;
 
-	bool factorize(const Matrix& matrix, const Tick& tick)
+	bool factorize(const Matrix& matrix)
 	{
 		const OneThread oneThread;
-		CholmodTick ticking(tick);
+		const CholmodTick ticking;
 		View a(matrix);
 		cholmod_l_factorize(a.get(), factor, &common);
 		ticking.rethrow();
@@ -379,7 +379,7 @@ struct SparseCholesky::Implementation
 				TooLarge::Unknowns, static_cast<std::size_t>(pattern.rows()), 0.0, 0.0);
 	}
 
-	bool factorize(const Matrix& matrix, const Tick&)
+	bool factorize(const Matrix& matrix)
 	{
 		solver.factorize(matrix);
 		// LDLT goes through negative pivots without complaint.
@@ -517,13 +517,13 @@ void SparseCholesky::takeValues(const Matrix& matrix)
 		*value++ = matrix.valuePtr()[entry];
 }
 
-bool SparseCholesky::factorize(const Matrix& matrix, const Tick& tick)
+bool SparseCholesky::factorize(const Matrix& matrix)
 {
 	analyze(matrix);
 	if (matrix.rows() == 0)
 		return true;
 	takeValues(matrix);
-	const bool isDefinite = m_implementation->factorize(m_ordered, tick);
+	const bool isDefinite = m_implementation->factorize(m_ordered);
 	++m_work.factorizations;
 	m_work.flops += factorFlops();
 	return isDefinite;

@@ -2,7 +2,6 @@
 #ifndef RICCI_SPARSE_CHOLESKY_H
 #define RICCI_SPARSE_CHOLESKY_H
 
-#include "../progress.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -63,11 +62,9 @@ public:
 	const Eigen::VectorXi& order() const { return m_order; }
 
 	/// Numeric factorisation, after analyze().
-	/// \param tick called meanwhile if it is not empty, in this thread; may throw. With
-	/// cholmod_blas.cpp only: other solvers never call it
 	/// \return false if \p matrix is not positive definite
 	/// \throw as analyze()
-	bool factorize(const Matrix& matrix, const Tick& tick = {});
+	bool factorize(const Matrix& matrix);
 
 	/// matrix^-1 \p rhs with the last factor, for any number of columns. Two columns take little more
 	/// than half as long as two calls.

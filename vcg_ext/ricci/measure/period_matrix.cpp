@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "period_matrix.h"
 
+#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../math/disjoint_sets.h"
@@ -36,14 +37,14 @@ struct DualTree
 	FaceArray<int> depth;
 	EdgeArray<char> isCrossed;
 
-	DualTree(const Triangulation& t, const Tick& tick) :
+	DualTree(const Triangulation& t) :
 			toParent(t.faceCount()), depth(t.faceCount(), -1), isCrossed(t.edgeCount(), 0)
 	{
 		std::vector<Face> reached = {Face(0)};
 		reached.reserve(positionOf(t.faceCount()));
 		depth[Face(0)] = 0;
 		for (std::size_t i = 0; i < reached.size(); ++i) {
-			tickNowAndThen(tick, i);
+			checkpointNowAndThen(i);
 			const Face f = reached[i];
 			for (const Halfedge h : t.halfedges(f)) {
 				const Face g = t.face(h.twin());
@@ -78,13 +79,13 @@ struct DualTree
 
 /// 2 genus loops that generate the homology: those across the edges in neither of a tree of the
 /// triangles and a tree of the remaining edges.
-std::vector<DualLoop> dualLoops(const Triangulation& t, const Tick& tick)
+std::vector<DualLoop> dualLoops(const Triangulation& t)
 {
-	const DualTree tree(t, tick);
+	const DualTree tree(t);
 	DisjointSetsOf<Vertex> joined(t.vertexCount());
 	std::vector<DualLoop> loops;
 	for (const Edge e : t.edges()) {
-		tickNowAndThen(tick, positionOf(e));
+		checkpointNowAndThen(positionOf(e));
 		if (!tree.isCrossed[e] && !joined.merge(t.ends(e)[0], t.ends(e)[1]))
 			loops.push_back(tree.loopAcross(t, e.halfedge()));
 	}
@@ -181,16 +182,15 @@ Eigen::MatrixXd canonicalBasis(Eigen::MatrixXi wedge)
 Eigen::MatrixXd energies(
 	const Triangulation& t,
 	const EdgeArray<double>& weights,
-	const std::vector<DualLoop>& loops,
-	const Tick& tick)
+	const std::vector<DualLoop>& loops)
 {
-	tick();
+	checkpoint();
 	const int unknowns = t.vertexCount() - 1; // the value at the first vertex is held
 	VertexArray<int> row(t.vertexCount());
 	for (const Vertex v : t.vertices())
 		row[v] = v.number() - 1;
 	SparseCholesky cholesky;
-	if (!cholesky.factorize(laplacian(t, weights, row, Eigen::VectorXd::Zero(unknowns)), tick))
+	if (!cholesky.factorize(laplacian(t, weights, row, Eigen::VectorXd::Zero(unknowns))))
 		return {};
 	const auto n = static_cast<Eigen::Index>(loops.size());
 	Eigen::MatrixXd functions = Eigen::MatrixXd::Zero(unknowns, n);
@@ -200,7 +200,7 @@ Eigen::MatrixXd energies(
 				if (const int i = row[t.origin(side)]; i >= 0)
 					functions(i, k) += side == h ? weights[h.edge()] : -weights[h.edge()];
 	functions = cholesky.solve(functions);
-	tick();
+	checkpoint();
 	Eigen::MatrixXd energy(n, n);
 	LoopForm form(t.edgeCount());
 	for (Eigen::Index i = 0; i < n; ++i) {
@@ -311,10 +311,10 @@ void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 } // namespace
 
 PeriodMatrix
-periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths, const Tick& tick)
+periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths)
 {
-	const std::vector<DualLoop> loops = dualLoops(t, tick);
-	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops, tick);
+	const std::vector<DualLoop> loops = dualLoops(t);
+	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops);
 	if (energy.size() == 0)
 		return {};
 	const Eigen::MatrixXd basis = canonicalBasis(wedgeProducts(t, loops));

@@ -2,7 +2,6 @@
 #ifndef RICCI_PERIOD_MATRIX_H
 #define RICCI_PERIOD_MATRIX_H
 
-#include "../progress.h"
 #include "../surface/triangulation.h"
 
 #include <Eigen/Core>
@@ -41,8 +40,7 @@ struct PeriodMatrix
 /// \pre \p t is connected, closed and of genus 1 at least; its triangles have an area
 PeriodMatrix periodMatrix(
 	const Triangulation& t,
-	const EdgeArray<double>& lengths,
-	const Tick& tick = [] {});
+	const EdgeArray<double>& lengths);
 
 /// The period matrix in another basis [Siegel 1989], [Deconinck et al. 2004]: its imaginary part is
 /// reduced in the sense of Minkowski up to g = 4 (beyond that, no vector of the basis is made shorter

@@ -85,8 +85,7 @@ int makeWeightedDelaunay(
 	const VertexArray<double>& kappa,
 	FlipJournal& journal,
 	DelaunayQueue& queue,
-	int threads,
-	const Tick& tick)
+	int threads)
 {
 	const auto isGood = [&](Edge e) { return isWeightedDelaunay(t, delta, kappa, e); };
 	const auto flip = [&](Edge e) {
@@ -107,7 +106,7 @@ int makeWeightedDelaunay(
 		if (!queue.queued[e])
 			continue;
 		queue.queued[e] = 0;
-		queue.flipFrom(e, t, flips, isGood, flip, tick);
+		queue.flipFrom(e, t, flips, isGood, flip);
 	}
 	return static_cast<int>(flips);
 }

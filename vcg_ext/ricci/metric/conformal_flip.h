@@ -86,7 +86,6 @@ private:
 /// Flips edges until every one is weighted Delaunay, in an order that depends on the input alone
 /// and not on the number of \p threads, which test the edges beforehand. The flips are recorded in
 /// \p journal; \p queue is work space.
-/// \param tick called at every 65536th flip if it is not empty; may throw
 /// \return number of flips
 /// \throw NotConverged (FlipsUsedUp) where rounding keeps the flips from ending
 int makeWeightedDelaunay(
@@ -95,8 +94,7 @@ int makeWeightedDelaunay(
 	const VertexArray<double>& kappa,
 	FlipJournal& journal,
 	DelaunayQueue& queue,
-	int threads = 1,
-	const Tick& tick = {});
+	int threads = 1);
 
 } // namespace ricci
 

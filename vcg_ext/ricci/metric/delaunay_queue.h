@@ -3,7 +3,7 @@
 #define RICCI_DELAUNAY_QUEUE_H
 
 #include "../error.h"
-#include "../progress.h"
+#include "../base/task.h"
 #include "../surface/triangulation.h"
 
 #include <algorithm>
@@ -33,7 +33,6 @@ struct DelaunayQueue
 	/// flipped, until no edge is left on the stack. \p isGood(e) tells whether edge e stays, \p
 	/// flip(e) flips it in \p t and in what belongs to it.
 	/// \param flips counts the flips of all calls
-	/// \param tick called now and then if it is not empty; may throw
 	/// \pre the stack is empty, queued[first] is 0; edges that are queued wait for a later call
 	/// \throw NotConverged (FlipsUsedUp) beyond maxFlips()
 	template<class IsGood, class Flip>
@@ -42,8 +41,7 @@ struct DelaunayQueue
 		const Triangulation& t,
 		std::int64_t& flips,
 		IsGood isGood,
-		Flip flip,
-		const Tick& tick)
+		Flip flip)
 	{
 		edges.push_back(first);
 		while (!edges.empty()) {
@@ -54,7 +52,7 @@ struct DelaunayQueue
 				continue;
 			if (flips >= maxFlips(t.edgeCount()))
 				throw NotConverged(NotConverged::FlipsUsedUp, static_cast<std::size_t>(flips));
-			tickNowAndThen(tick, static_cast<std::size_t>(flips));
+			checkpointNowAndThen(static_cast<std::size_t>(flips));
 			const auto quad = t.quad(e);
 			flip(e);
 			++flips;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "initial_packing.h"
 
+#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "circle_packing.h"
 #include "delaunay_queue.h"
@@ -66,7 +67,7 @@ bool isDelaunay(const IntrinsicMesh& mesh, const VertexArray<double>& radii, Edg
 
 /// Flips edges until all are Delaunay for circles of these radii, and appends them to \p log.
 void makeDelaunay(
-	IntrinsicMesh& mesh, const VertexArray<double>& radii, std::vector<Edge>& log, const Tick& tick)
+	IntrinsicMesh& mesh, const VertexArray<double>& radii, std::vector<Edge>& log)
 {
 	Triangulation& t = mesh.triangulation;
 	const auto isGood = [&](Edge e) { return isDelaunay(mesh, radii, e); };
@@ -79,7 +80,7 @@ void makeDelaunay(
 	queue.queued.assign(t.edgeCount(), 0);
 	std::int64_t flips = 0;
 	for (const Edge e : t.edges())
-		queue.flipFrom(e, t, flips, isGood, flip, tick);
+		queue.flipFrom(e, t, flips, isGood, flip);
 }
 
 /// Radii for the weighted Delaunay triangulation: a share of the initial ones, alike at mirror
@@ -145,17 +146,16 @@ double flippedLength(const IntrinsicMesh& mesh, Edge e)
 }
 
 InitialPacking
-delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const Tick& tick)
+delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror)
 {
 	InitialPacking packing;
 	packing.isDelaunay = true;
 	packing.lengthened = mollify(mesh.triangulation, mesh.lengths);
-	makeDelaunay(mesh, {}, packing.flips, tick);
+	makeDelaunay(mesh, {}, packing.flips);
 	packing.radii = startRadii(mesh, mirror);
 	do {
-		if (tick)
-			tick();
-		makeDelaunay(mesh, packing.radii, packing.flips, tick);
+		checkpoint();
+		makeDelaunay(mesh, packing.radii, packing.flips);
 	} while (shrinkOverlapping(mesh, mirror, packing.radii));
 	packing.delta = inversiveDistancesLessOne(mesh.triangulation, mesh.lengths, packing.radii);
 	packing.mesh = std::move(mesh);

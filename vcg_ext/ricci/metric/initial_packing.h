@@ -3,7 +3,6 @@
 #define RICCI_INITIAL_PACKING_H
 
 #include "../options.h"
-#include "../progress.h"
 #include "../surface/triangulation.h"
 
 #include <vector>
@@ -50,11 +49,10 @@ double flippedLength(const IntrinsicMesh& mesh, Edge e);
 /// is shorter than the shortest geodesic between vertices.
 /// \param mirror [vertex] the vertex whose radius must be the same (its image in a double, or
 /// itself); may be empty
-/// \param tick called now and then if it is not empty; may throw
 /// \throw InternalError where an edge is left without a length; NotConverged (FlipsUsedUp) where
 /// rounding keeps the flips from ending
 InitialPacking
-delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const Tick& tick = {});
+delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror);
 
 /// The start on the mesh's own triangles, with the radii of paper 4.1 (initialRadii()).
 /// \pre every triangle satisfies the strict triangle inequality

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "edge_crossings.h"
 
+#include "../base/memory_estimate.h"
+#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../math/double_double.h"
 #include "../metric/unfold.h"
@@ -138,7 +140,7 @@ private:
 
 } // namespace
 
-EdgeCrossings::EdgeCrossings(const FlowResult& flow, const OverlayListener& listener) :
+EdgeCrossings::EdgeCrossings(const FlowResult& flow, bool refines) :
 		inputOnStart(flow.history.input), endOnStart(flow.metric->triangulation()), m_flow(flow),
 		m_start(flow.history.start.triangulation)
 {
@@ -151,7 +153,8 @@ EdgeCrossings::EdgeCrossings(const FlowResult& flow, const OverlayListener& list
 	for (const Edge e : m_start.edges())
 		count += static_cast<std::size_t>(inputOnStart.crossings(e)) +
 				 static_cast<std::size_t>(endOnStart.crossings(e));
-	listener(0.0, count);
+	checkpoint();
+	requireOverlayMemory(count, refines);
 
 	NormalCoordinates startOnEnd(m_start);
 	for (const Edge e : flowFlips)

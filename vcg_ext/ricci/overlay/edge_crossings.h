@@ -36,8 +36,8 @@ class EdgeCrossings
 public:
 	using Curve = NormalCoordinates::Curve;
 
-	/// \param listener is told the number of crossings before there is an array of them
-	EdgeCrossings(const FlowResult& flow, const OverlayListener& listener);
+	/// \param refines see requireOverlayMemory(), which is asked before there is an array of crossings
+	EdgeCrossings(const FlowResult& flow, bool refines);
 
 	/// Number of a crossing of an input edge in inputCrossings, of an end edge in endCrossings.
 	int inputNumber(const NormalCoordinates::Crossing& x) const;

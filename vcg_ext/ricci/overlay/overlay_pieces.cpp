@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "overlay_pieces.h"
 
+#include "../base/memory_estimate.h"
+#include "../base/task.h"
 #include "../error.h"
 #include "chord_arrangement.h"
 #include "edge_crossings.h"
@@ -14,8 +16,10 @@ namespace ricci {
 
 namespace {
 
-/// Triangles and sides of pieces in them between two calls of the listener.
+/// Triangles and sides of pieces in them between two checkpoints.
 constexpr int kWorkBetweenCalls = 1 << 14;
+
+constexpr const char* kDividing = "Overlay of the two triangulations";
 
 /// The families of chords.
 constexpr std::size_t kInput = 0, kEnd = 1;
@@ -39,9 +43,9 @@ struct Chord
 class PieceMaker
 {
 public:
-	PieceMaker(const FlowResult& flow, const OverlayListener& listener) :
+	PieceMaker(const FlowResult& flow, bool refines) :
 			m_input(flow.history.input), m_start(flow.history.start.triangulation),
-			m_end(flow.metric->triangulation()), m_listener(listener), m_crossings(flow, listener),
+			m_end(flow.metric->triangulation()), m_refines(refines), m_crossings(flow, refines),
 			m_edgeNodes(flow, m_crossings, m_result.nodes)
 	{
 	}
@@ -52,7 +56,7 @@ public:
 		collectChords(m_crossings.endCurves, kEnd);
 		m_sidesOn = {m_start.edges(), [&](Edge e) { return m_edgeNodes.count(e) + 1; }};
 		m_result.sideCount = m_sidesOn.total();
-		int unheard = 0; // work since the listener was called
+		int unheard = 0; // work since the last checkpoint
 		for (const Face f : m_start.faces()) {
 			const int before = m_result.sideCount;
 			divide(f);
@@ -60,9 +64,9 @@ public:
 			if (unheard < kWorkBetweenCalls)
 				continue;
 			unheard = 0;
-			m_listener(
-				static_cast<double>(f.number()) / m_start.faceCount(),
-				static_cast<std::size_t>(m_result.nodes.size() - m_start.vertexCount()));
+			advance(static_cast<double>(f.number()) / m_start.faceCount(), kDividing);
+			requireOverlayMemory(
+				static_cast<std::size_t>(m_result.nodes.size() - m_start.vertexCount()), m_refines);
 		}
 		return std::move(m_result);
 	}
@@ -283,7 +287,7 @@ private:
 	const Triangulation& m_input;
 	const Triangulation& m_start;
 	const Triangulation& m_end;
-	const OverlayListener& m_listener;
+	bool m_refines;
 	OverlayPieces m_result;
 	const EdgeCrossings m_crossings;
 	const StartEdgeNodes m_edgeNodes;
@@ -303,9 +307,9 @@ private:
 
 } // namespace
 
-OverlayPieces divideStartTriangles(const FlowResult& flow, const OverlayListener& listener)
+OverlayPieces divideStartTriangles(const FlowResult& flow, bool refines)
 {
-	return PieceMaker(flow, listener).run();
+	return PieceMaker(flow, refines).run();
 }
 
 } // namespace ricci

@@ -33,10 +33,6 @@
 
 namespace ricci {
 
-/// Hears from time to time how the overlay grows: the share of the work that is done, in [0,1], and
-/// the number of its crossings so far. What it throws ends the computation.
-using OverlayListener = std::function<void(double, std::size_t)>;
-
 /// A point of the end triangulation, by the element inside which it lies.
 class PointOnEnd
 {
@@ -161,10 +157,10 @@ private:
 /// their numeric positions there, used by both start triangles; whether two chords cross then
 /// follows from the order of their ends.
 ///
-/// \param listener is told the number of crossings on start edges before there is an array of them
+/// \param refines see requireOverlayMemory(), which is asked before there is an array of crossings
 /// \pre the flow ran with intrinsic flips
 /// \throw InternalError if the chords do not fit together: a fault of the program
-OverlayPieces divideStartTriangles(const FlowResult& flow, const OverlayListener& listener);
+OverlayPieces divideStartTriangles(const FlowResult& flow, bool refines);
 
 } // namespace ricci
 

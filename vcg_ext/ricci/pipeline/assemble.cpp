@@ -2,6 +2,7 @@
 #include "assemble.h"
 
 #include "../base/memory_estimate.h"
+#include "../base/task.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,7 +64,6 @@ std::vector<Component> startResult(
 	const SurfaceMesh& mesh,
 	const FlowOptions& options,
 	OutputTriangulation output,
-	Progress& progress,
 	Parametrization& result)
 {
 	result.opened = openMesh(mesh, result.notes);
@@ -73,9 +73,9 @@ std::vector<Component> startResult(
 		requireAreaEverywhere(components);
 	const bool refined = output == OutputTriangulation::CommonRefinement;
 	requireMemory(
-		largestComponent(components), opened.triangles.size(), refined, options.memoryLimit);
+		largestComponent(components), opened.triangles.size(), refined);
 	for (const std::string& note : result.notes)
-		progress.log(note);
+		logLine(note);
 	result.uv.resize(opened.triangles.size());
 	result.reversed.assign(opened.triangles.size(), 0);
 	result.u.assign(opened.positions.size(), 0.0);

@@ -6,7 +6,7 @@
 #include "../charts/output_triangles.h"
 #include "../charts/parametrization.h"
 #include "../options.h"
-#include "../progress.h"
+#include "../base/task.h"
 #include "../surface/component.h"
 #include "flatten_component.h"
 
@@ -23,7 +23,6 @@ std::vector<Component> startResult(
 	const SurfaceMesh& mesh,
 	const FlowOptions& options,
 	OutputTriangulation output,
-	Progress& progress,
 	Parametrization& result);
 
 /// The triangles of a component's map as they are given back, in the component's numbers and the
@@ -47,11 +46,11 @@ constexpr std::size_t kDescribedComponents = 20;
 /// [component] 1 where the log says nothing of it.
 std::vector<char> silentComponents(const std::vector<Component>& components);
 
-/// Runs \p run(component, range) on every component with its share of the progress. Where there are
+/// Runs \p run(component) on every component as its part of the task. Where there are
 /// several, an error other than Stopped keeps its type and gets the component's data.
 template<class Run>
 void runComponents(
-	const OpenedMesh& opened, const std::vector<Component>& components, Progress& progress, Run run)
+	const OpenedMesh& opened, const std::vector<Component>& components, Run run)
 {
 	const std::vector<char> isSilent = silentComponents(components);
 	std::size_t facesDone = 0;
@@ -64,7 +63,8 @@ void runComponents(
 		const double from = done();
 		facesDone += component.triangles.size();
 		try {
-			run(component, ProgressRange(progress, from, done(), isSilent[i]));
+			const Task part(from, done(), isSilent[i]);
+			run(component);
 		}
 		catch (const Stopped&) {
 			throw; // not the component's fault
@@ -78,7 +78,7 @@ void runComponents(
 		}
 	}
 	if (components.size() > kDescribedComponents)
-		progress.log(
+		logLine(
 			"The log leaves out the smaller ones of " + std::to_string(components.size()) +
 			" components.");
 }

@@ -2,7 +2,10 @@
 #include "flatten_component.h"
 
 #include "../base/parallel.h"
+#include "../base/task.h"
 #include "../base/text.h"
+#include "../curvature/hyperbolic_target.h"
+#include "../curvature/target_curvature.h"
 #include "../cut/cut_graph.h"
 #include "../finish/finish.h"
 #include "../layout/corner_layout.h"
@@ -11,8 +14,6 @@
 #include "../measure/distortion.h"
 #include "../measure/invariants.h"
 #include "../surface/flow_domain.h"
-#include "../curvature/hyperbolic_target.h"
-#include "../curvature/target_curvature.h"
 #include "../verify/flow_check.h"
 #include "../verify/holonomy_check.h"
 #include "../verify/result_check.h"
@@ -59,12 +60,10 @@ TargetRequest targetRequest(
 	const FlowDomain& domain,
 	const Component& component,
 	const VertexInput& input,
-	const Options& options,
-	ProgressRange& progress)
+	const Options& options)
 {
 	TargetRequest request =
 		targetRequest(component, input, options, domain.solved().positions.size());
-	request.tick = [&] { progress.step(0.0, "Placing cones"); };
 	return request;
 }
 
@@ -72,8 +71,7 @@ TargetInput targetRequest(
 	const FlowDomain&,
 	const Component& component,
 	const VertexInput& input,
-	const HyperbolicOptions&,
-	ProgressRange&)
+	const HyperbolicOptions&)
 {
 	return targetInput(component, input, component.vertex.size());
 }
@@ -98,7 +96,6 @@ void keepAreas(
 	const EmbeddedSurface&,
 	const TargetInput&,
 	const HyperbolicOptions&,
-	ProgressRange&,
 	ComponentMap&)
 {
 }
@@ -107,25 +104,23 @@ void roundLoopTurns(
 	const EmbeddedSurface&,
 	const TargetInput&,
 	const HyperbolicOptions&,
-	ProgressRange&,
 	ComponentMap&)
 {
 }
 
 /// What a seam along each edge costs.
 EdgeArray<double>
-cutCost(const FlowDomain& domain, const FlowResult&, const Options& options, const Tick& tick)
+cutCost(const FlowDomain& domain, const FlowResult&, const Options& options)
 {
 	return seamCost(
 		domain.surface.triangulation,
 		domain.surface.lengths,
 		domain.surface.positions,
-		options.seamHiding,
-		tick);
+		options.seamHiding);
 }
 
 EdgeArray<double> cutCost(
-	const FlowDomain& domain, const FlowResult& flow, const HyperbolicOptions& options, const Tick&)
+	const FlowDomain& domain, const FlowResult& flow, const HyperbolicOptions& options)
 {
 	return options.method == Method::IntrinsicFlips ? hyperbolicLengths(flow, domain.surface)
 													: flow.metric->lengths();
@@ -148,18 +143,15 @@ void placeCorners(
 	const FlowDomain& domain,
 	LinkedPieces overlay,
 	const Options& options,
-	ProgressRange& progress,
 	ComponentMap& map)
 {
 	const CurvatureMap& metric = *map.flow.metric;
 	if (needsOverlay(domain, options)) {
-		map.refinement = refine(domain, map, std::move(overlay), options, progress);
+		map.refinement = refine(domain, map, std::move(overlay), options);
 		map.layout = std::move(map.refinement.inputLayout);
 	}
 	else if (options.method == Method::IntrinsicFlips)
-		map.layout = layOutCorners(domain, map.flow, map.cut.isCut, options.memoryLimit, [&] {
-			progress.step(1.0 - kAfterFlow, "Cutting and layout");
-		});
+		map.layout = layOutCorners(domain, map.flow, map.cut.isCut);
 	else
 		map.layout =
 			layOutInPlane(metric.triangulation(), metric.lengths(), metric.angles(), map.cut.isCut);
@@ -181,12 +173,11 @@ void layOut(
 	const FlowDomain& domain,
 	LinkedPieces overlay,
 	const Options& options,
-	ProgressRange& progress,
 	ComponentMap& map)
 {
 	const Triangulation& t = domain.surface.triangulation;
 	const bool mayChangeCut = map.type.boundaryLoops > 1 && domain.holes == 0;
-	placeCorners(domain, std::move(overlay), options, progress, map);
+	placeCorners(domain, std::move(overlay), options, map);
 	if (mayChangeCut) {
 		// A hole round which the metric closes needs no seam.
 		const int edges = map.cut.edgeCount;
@@ -198,7 +189,7 @@ void layOut(
 			map.cut);
 		if (map.cut.edgeCount < edges)
 			placeCorners(
-				domain, flowOverlay(domain, options, progress, map), options, progress, map);
+				domain, flowOverlay(domain, options, map), options, map);
 	}
 	if (!map.flow.target.hasFixed()) // else the boundary keeps its metric, which fixes the scale
 		map.scale = std::sqrt(
@@ -214,21 +205,19 @@ EdgeArray<SidePairing> placeInDisk(
 	const FlowDomain& domain,
 	LinkedPieces overlay,
 	const HyperbolicOptions& options,
-	ProgressRange& progress,
 	ComponentMap& map)
 {
 	const Triangulation& t = domain.surface.triangulation;
 	EdgeArray<SidePairing> pairing(t.edgeCount());
 	if (options.method == Method::IntrinsicFlips) {
-		map.refinement = refine(domain, map, std::move(overlay), options, progress);
+		map.refinement = refine(domain, map, std::move(overlay), options);
 		map.layout = std::move(map.refinement.inputLayout);
 		pairing = std::move(map.refinement.pairing);
 	}
 	else {
 		const CurvatureMap& metric = *map.flow.metric;
-		const Tick tick = [&] { progress.step(1.0 - kAfterFlow, "Layout"); };
 		const HyperbolicLayout disk =
-			layOutInDisk(t, metric.lengths(), metric.angles(), map.cut.isCut, tick);
+			layOutInDisk(t, metric.lengths(), metric.angles(), map.cut.isCut);
 		for (const Edge e : t.edges())
 			if (map.cut.isCut[e])
 				offerPairing(
@@ -256,17 +245,16 @@ void layOut(
 	const FlowDomain& domain,
 	LinkedPieces overlay,
 	const HyperbolicOptions& options,
-	ProgressRange& progress,
 	ComponentMap& map)
 {
 	const Triangulation& t = domain.surface.triangulation;
 	EdgeArray<SidePairing> pairing =
-		placeInDisk(domain, std::move(overlay), options, progress, map);
+		placeInDisk(domain, std::move(overlay), options, map);
 	if (const double radius = radiusOf(map.layout); radius > kWideRadius) {
-		map.cut = cutAroundCentre(t, cutCost(domain, map.flow, options, {}), map.cones);
+		map.cut = cutAroundCentre(t, cutCost(domain, map.flow, options), map.cones);
 		pairing = placeInDisk(
-			domain, flowOverlay(domain, options, progress, map), options, progress, map);
-		progress.log(
+			domain, flowOverlay(domain, options, map), options, map);
+		logLine(
 			"The short seams lead " + numberText(radius, 3) +
 			" out in the disk, too far for floats. Longer ones around the middle lead " +
 			numberText(radiusOf(map.layout), 3) + " out.");
@@ -275,11 +263,10 @@ void layOut(
 	pairing = pairingOfArcs(t, map.cut, pairing, map.cones);
 	map.relationError = holonomyError(
 		t, map.cut, pairing, map.layout, domain.surface.topology, map.cones, map.flow.target);
-	map.group = fuchsianGroup(t, map.cut, pairing, map.cones, options.canonicalGenerators, [&] {
-		progress.step(1.0 - kAfterFlow, "Canonical generators");
-	});
+	advance(1.0 - kAfterFlow, "Canonical generators");
+	map.group = fuchsianGroup(t, map.cut, pairing, map.cones, options.canonicalGenerators);
 	if (options.canonicalGenerators && !map.group.isCanonical())
-		progress.log(
+		logLine(
 			"There are no canonical generators: they would move points farther than floating point "
 			"numbers can tell.");
 }
@@ -295,7 +282,7 @@ void measureInvariants(const FlowDomain&, const HyperbolicOptions&, ComponentMap
 }
 
 /// The finish of what is given back. The invariants are those of the flow's own layout.
-void finish(const FlowDomain& domain, const Options& options, const Tick& tick, ComponentMap& map)
+void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 {
 	if (!isFinished(options) || options.output == OutputTriangulation::CommonRefinement)
 		return; // the refinement is exact
@@ -306,8 +293,7 @@ void finish(const FlowDomain& domain, const Options& options, const Tick& tick, 
 						  map.cones,
 						  map.flow.target.hasFixed(),
 						  options.finish,
-						  map.layout,
-						  tick)
+						  map.layout)
 						  .moved;
 	if (map.layout.points != before) // its border may have moved
 		turnUpright(1.0, map);
@@ -315,16 +301,16 @@ void finish(const FlowDomain& domain, const Options& options, const Tick& tick, 
 }
 
 void finish(
-	const FlowDomain& domain, const HyperbolicOptions& options, const Tick& tick, ComponentMap& map)
+	const FlowDomain& domain, const HyperbolicOptions& options, ComponentMap& map)
 {
 	if (!isFinished(options))
 		return;
 	const bool freeBoundary = map.flow.target.hasFixed();
 	if (options.output == OutputTriangulation::CommonRefinement) {
-		map.finishMoved = finishDisk(domain, freeBoundary, map.refinement, tick).moved;
+		map.finishMoved = finishDisk(domain, freeBoundary, map.refinement).moved;
 		return;
 	}
-	map.finishMoved = finishDisk(domain, freeBoundary, map.layout, tick).moved;
+	map.finishMoved = finishDisk(domain, freeBoundary, map.layout).moved;
 	map.uv = cornersOf(domain.surface.triangulation, map.layout);
 }
 
@@ -348,7 +334,7 @@ bool mayBeTurned(const AnyOptions& options, const ComponentMap& map)
 }
 
 void requireLayout(
-	const Component& component, const Options& options, const Tick&, const ComponentMap& map)
+	const Component& component, const Options& options, const ComponentMap& map)
 {
 	requireMap(
 		outputTriangles(component, map, options.output), map.flow, mayBeTurned(options, map));
@@ -357,86 +343,78 @@ void requireLayout(
 void requireLayout(
 	const Component& component,
 	const HyperbolicOptions& options,
-	const Tick& tick,
 	const ComponentMap& map)
 {
 	requireDisk(
 		outputTriangles(component, map, options.output),
 		map.layout,
 		map.flow,
-		mayBeTurned(options, map),
-		tick);
+		mayBeTurned(options, map));
 }
 
 template<class AnyOptions>
 ComponentMap flatten(
 	const Component& component,
 	const VertexInput& input,
-	const AnyOptions& options,
-	ProgressRange& progress)
+	const AnyOptions& options)
 {
 	ComponentMap map;
-	progress.step(0.0, "Circle packing");
+	advance(0.0, "Circle packing");
 	const FlowDomain domain = flowDomain(component, holesOf(options));
 	map.type = domain.surface.topology.type;
 	map.cappedHoles = domain.holes;
-	progress.log(description(component, map.type));
-	const Tick whileFlipping = [&] { progress.step(0.0, "Flipping edges"); };
-	InitialPacking start = initialPacking(domain.solved(), options, whileFlipping);
-	progress.step(0.0, "Choosing the target");
-	const auto request = targetRequest(domain, component, input, options, progress);
+	logLine(description(component, map.type));
+	advance(0.0, "Flipping edges");
+	InitialPacking start = initialPacking(domain.solved(), options);
+	advance(0.0, "Choosing the target");
+	const auto request = targetRequest(domain, component, input, options);
 	const Target target = chooseTarget(domain, start, request, options);
 	for (const std::string& note : target.notes)
-		progress.log(note);
-	FlowProgress flowProgress(progress, options.epsilon, map.flowStates);
-	const Tick whileSolving = [&] { progress.step(0.0, "Solving for the metric"); };
+		logLine(note);
+	FlowProgress flowProgress(options.epsilon, map.flowStates);
+	advance(0.0, "Solving for the metric");
 	map.flow = runRicciFlow(
 		backgroundOf(options),
 		domain.solved(),
 		std::move(start),
 		target,
 		options,
-		flowProgress,
-		nullptr,
-		whileSolving);
-	measurePeriods(domain.surface, progress, map);
-	keepAreas(domain.solved(), request, options, progress, map);
-	roundLoopTurns(domain.solved(), request, options, progress, map);
-	logFlow(map.flow, options, progress);
+		flowProgress);
+	measurePeriods(domain.surface, map);
+	keepAreas(domain.solved(), request, options, map);
+	roundLoopTurns(domain.solved(), request, options, map);
+	logFlow(map.flow, options);
 
-	progress.step(1.0 - kAfterFlow, "Cutting and layout");
+	advance(1.0 - kAfterFlow, "Cutting and layout");
 	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
-	const Tick shortening = [&] { progress.step(1.0 - kAfterFlow, "Shortening the seams"); };
-	EdgeArray<double> cost = cutCost(domain, map.flow, options, shortening);
+	advance(1.0 - kAfterFlow, "Shortening the seams");
+	EdgeArray<double> cost = cutCost(domain, map.flow, options);
 	avoidDiagonals(domain.isDiagonal, cost);
 	const HalfedgeArray<double> corners = cutCorners(domain, map, options);
 	const int threads = threadsFor(domain.surface.triangulation.faceCount());
 	LinkedPieces overlay;
 	besides(
 		threads,
-		shortening,
-		[&] { overlay = flowOverlay(domain, options, progress, map); },
-		[&](const Tick& tick) {
-			map.cut = cutThroughCones(domain, cost, map.cones, corners, tick);
+		[&] { overlay = flowOverlay(domain, options, map); },
+		[&]() {
+			map.cut = cutThroughCones(domain, cost, map.cones, corners);
 		});
-	progress.step(1.0 - kAfterFlow, "Cutting and layout");
-	layOut(component, domain, std::move(overlay), options, progress, map);
+	advance(1.0 - kAfterFlow, "Cutting and layout");
+	layOut(component, domain, std::move(overlay), options, map);
 	map.seamLength = lengthOf(map.cut, domain.surface.lengths);
 	measureInvariants(domain, options, map);
-	const Tick repairing = [&] { progress.step(1.0 - kAfterFlow, "Repairing the map"); };
+	advance(1.0 - kAfterFlow, "Repairing the map");
 	besides(
 		threads,
-		repairing,
-		[&] { finish(domain, options, repairing, map); },
-		[&](const Tick& tick) {
-			requireMetric(map.flow, domain.solved().topology.boundary, tick);
+		[&] { finish(domain, options, map); },
+		[&]() {
+			requireMetric(map.flow, domain.solved().topology.boundary);
 		});
 
 	measureHolonomy(domain, options, map);
 
-	const Tick tick = [&] { progress.step(1.0, "Checking the result"); };
-	tick();
-	requireLayout(component, options, tick, map);
+	advance(1.0, "Checking the result");
+	requireLayout(component, options, map);
 	return map;
 }
 
@@ -445,21 +423,19 @@ ComponentMap flatten(
 ComponentMap flattenComponent(
 	const Component& component,
 	const VertexInput& input,
-	const Options& options,
-	ProgressRange& progress)
+	const Options& options)
 {
 	return options.method == Method::EdgeSwaps
-			   ? flattenWithEdgeSwaps(component, input, options, progress)
-			   : flatten(component, input, options, progress);
+			   ? flattenWithEdgeSwaps(component, input, options)
+			   : flatten(component, input, options);
 }
 
 ComponentMap flattenComponent(
 	const Component& component,
 	const VertexInput& input,
-	const HyperbolicOptions& options,
-	ProgressRange& progress)
+	const HyperbolicOptions& options)
 {
-	return flatten(component, input, options, progress);
+	return flatten(component, input, options);
 }
 
 } // namespace ricci

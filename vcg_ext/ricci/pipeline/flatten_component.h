@@ -50,13 +50,11 @@ struct ComponentMap
 ComponentMap flattenComponent(
 	const Component& component,
 	const VertexInput& input,
-	const Options& options,
-	ProgressRange& progress);
+	const Options& options);
 ComponentMap flattenComponent(
 	const Component& component,
 	const VertexInput& input,
-	const HyperbolicOptions& options,
-	ProgressRange& progress);
+	const HyperbolicOptions& options);
 
 } // namespace ricci
 

@@ -7,6 +7,8 @@
 #include "assemble.h"
 #include "stages.h"
 
+#include "../base/task.h"
+
 #include <cmath>
 #include <string>
 #include <utility>
@@ -39,32 +41,30 @@ const Point2& pointOf(
 ComponentMap flattenWithEdgeSwaps(
 	const Component& component,
 	const VertexInput& input,
-	const Options& options,
-	ProgressRange& progress)
+	const Options& options)
 {
 	ComponentMap map;
-	progress.step(0.0, "Circle packing");
+	advance(0.0, "Circle packing");
 	bool first = true;
 	std::optional<FlowProgress> flowProgress;
 	SwapListener listener;
-	listener.tick = [&] { progress.step(0.0, "Solving for the metric"); };
+	advance(0.0, "Solving for the metric");
 	listener.chooseTarget = [&](const EmbeddedSurface& surface, const InitialPacking& start) {
 		TargetRequest request = targetRequest(component, input, options, surface.positions.size());
-		request.tick = listener.tick;
 		Target target = chooseTarget(surface, start, request);
 		if (first) {
-			progress.log(description(component, surface.topology.type));
+			logLine(description(component, surface.topology.type));
 			for (const std::string& note : target.notes)
-				progress.log(note);
+				logLine(note);
 		}
 		first = false;
-		flowProgress.emplace(progress, options.epsilon, map.flowStates);
+		flowProgress.emplace(options.epsilon, map.flowStates);
 		return target;
 	};
 	listener.step = [&](int step, double residual) { (*flowProgress)(step, residual); };
-	listener.end = [&](const FlowResult& flow) { logFlow(flow, options, progress); };
+	listener.end = [&](const FlowResult& flow) { logFlow(flow, options); };
 	listener.split = [&](int splits) {
-		progress.log(std::to_string(splits) + " boundary edges split; the flow starts again.");
+		logLine(std::to_string(splits) + " boundary edges split; the flow starts again.");
 	};
 	SwappedFlow swapped = flowWithEdgeSwaps(component, options, listener);
 	const EmbeddedSurface& surface = swapped.surface;
@@ -72,20 +72,19 @@ ComponentMap flattenWithEdgeSwaps(
 	map.flow = std::move(swapped.flow);
 	map.edgeSwaps = swapped.swaps;
 	map.boundarySplits = swapped.mesh.splits();
-	measurePeriods(surface, progress, map);
+	measurePeriods(surface, map);
 
-	progress.step(1.0 - kAfterFlow, "Cutting and layout");
+	advance(1.0 - kAfterFlow, "Cutting and layout");
 	const CurvatureMap& metric = *map.flow.metric;
 	const Triangulation& t = metric.triangulation();
 	map.cones = conesOf(surface, map.flow.target);
-	const Tick tick = [&] { progress.step(1.0 - kAfterFlow, "Shortening the seams"); };
+	advance(1.0 - kAfterFlow, "Shortening the seams");
 	map.cut = cutToDisk(
 		t,
 		seamCost(
-			surface.triangulation, surface.lengths, surface.positions, options.seamHiding, tick),
+			surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
 		map.cones,
-		swapped.forbidden,
-		tick);
+		swapped.forbidden);
 	const auto placeCorners = [&] {
 		map.layout = layOutInPlane(t, metric.lengths(), metric.angles(), map.cut.isCut);
 	};
@@ -114,7 +113,7 @@ ComponentMap flattenWithEdgeSwaps(
 				map.layout,
 				swapped.mesh.corner(surface.triangulation, f, k));
 
-	progress.step(1.0, "Checking the result");
+	advance(1.0, "Checking the result");
 	requireMetric(map.flow, surface.topology.boundary);
 	requireMap(
 		outputTriangles(component, map, options.output), map.flow, isBent(map, options.output));

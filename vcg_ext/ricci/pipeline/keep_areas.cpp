@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "keep_areas.h"
 
+#include "../base/task.h"
 #include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../curvature/area_change.h"
@@ -34,7 +35,6 @@ void keepAreas(
 	const EmbeddedSurface& surface,
 	const TargetRequest& request,
 	const Options& options,
-	ProgressRange& progress,
 	ComponentMap& map)
 {
 	FlowResult& best = map.flow;
@@ -52,7 +52,6 @@ void keepAreas(
 				return targetToKeepAreas(surface, start(), before, request);
 			},
 			steps,
-			progress,
 			map.flowStates);
 		if (!next)
 			break;
@@ -67,7 +66,7 @@ void keepAreas(
 	best.iterations = steps;
 	if (round > 0) {
 		const AreaChange change = areaChange(surface, best);
-		progress.log(
+		logLine(
 			"The spread of the logarithm of the area factor is " + numberText(change.spread, 3) +
 			" now, the mean of the factor or its inverse " + numberText(change.mean, 3) + ".");
 	}

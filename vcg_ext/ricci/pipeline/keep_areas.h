@@ -16,7 +16,6 @@ void keepAreas(
 	const EmbeddedSurface& surface,
 	const TargetRequest& request,
 	const Options& options,
-	ProgressRange& progress,
 	ComponentMap& map);
 
 } // namespace ricci

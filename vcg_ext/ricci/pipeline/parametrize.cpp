@@ -10,6 +10,8 @@
 #include "assemble.h"
 #include "flatten_component.h"
 
+#include "../base/task.h"
+
 #include <cmath>
 
 namespace ricci {
@@ -38,26 +40,25 @@ template<class AnyOptions>
 Parametrization mapComponents(
 	const SurfaceMesh& mesh,
 	const VertexInput& input,
-	const AnyOptions& options,
-	Progress& progress)
+	const AnyOptions& options)
 {
-	progress.step(0.0, "Checking the mesh");
+	advance(0.0, "Checking the mesh");
 	Parametrization result;
 	const std::vector<Component> components =
-		startResult(mesh, options, options.output, progress, result);
+		startResult(mesh, options, options.output, result);
 	VertexInput ofCopies = input;
 	extendToCopies(result.opened, ofCopies.selected);
 	extendToCopies(result.opened, ofCopies.targetCurvature);
 	runComponents(
-		result.opened, components, progress, [&](const Component& component, ProgressRange range) {
+		result.opened, components, [&](const Component& component) {
 			append(
 				component,
-				flattenComponent(component, ofCopies, options, range),
+				flattenComponent(component, ofCopies, options),
 				options.output,
 				result);
 		});
 	result.report.converged = true;
-	progress.step(kComponentsDone, "Measuring the distortion");
+	advance(kComponentsDone, "Measuring the distortion");
 	return result;
 }
 
@@ -84,41 +85,40 @@ void checkOptions(const HyperbolicOptions& options)
 }
 
 Parametrization parametrizeEuclidean(
-	const SurfaceMesh& given, const VertexInput& input, const Options& options, Progress& progress)
+	const SurfaceMesh& given, const VertexInput& input, const Options& options)
 {
 	checkOptions(options);
-	Parametrization result = mapComponents(given, input, options, progress);
+	Parametrization result = mapComponents(given, input, options);
 	const SurfaceMesh& mesh = result.opened.mesh;
 	const bool separates = options.charts != Charts::OfTheFlow;
 	if (isFinished(options) && separates && !result.isRefined())
 		turnOver(mesh, result);
 	measureResult(mesh, measureDistortion, result);
-	const Tick tick = [&] { progress.step(kMeasured, "Looking for charts that overlap"); };
-	tick();
+	advance(kMeasured, "Looking for charts that overlap");
+	checkpoint();
 	const bool turns = options.cones.rounding != ConeRounding::QuarterTurns;
-	separateCharts(mesh, separates, turns, tick, result);
+	separateCharts(mesh, separates, turns, result);
 	result.report.seamLengthRelative =
 		result.report.seamLength / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
 	if (separates)
-		requireSeparateCharts(mesh, result, tick);
-	progress.step(1.0, "Layout done");
+		requireSeparateCharts(mesh, result);
+	advance(1.0, "Layout done");
 	return result;
 }
 
 Parametrization parametrizeHyperbolic(
 	const SurfaceMesh& given,
 	const VertexInput& input,
-	const HyperbolicOptions& options,
-	Progress& progress)
+	const HyperbolicOptions& options)
 {
 	checkOptions(options);
-	Parametrization result = mapComponents(given, input, options, progress);
+	Parametrization result = mapComponents(given, input, options);
 	const SurfaceMesh& mesh = result.opened.mesh;
 	result.report.charts = static_cast<int>(result.charts.size());
 	result.report.seamLengthRelative =
 		result.report.seamLength / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
 	measureResult(mesh, measureHyperbolicDistortion, result);
-	progress.step(1.0, "Layout done");
+	advance(1.0, "Layout done");
 	return result;
 }
 

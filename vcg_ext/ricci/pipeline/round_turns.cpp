@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "round_turns.h"
 
+#include "../base/task.h"
 #include "../base/text.h"
-#include "../flow/quarter_turns.h"
 #include "../curvature/turn_search.h"
+#include "../flow/quarter_turns.h"
 #include "stages.h"
 
 #include <optional>
@@ -31,12 +32,10 @@ void chooseCones(
 	const EmbeddedSurface& surface,
 	const TargetRequest& request,
 	const Options& options,
-	const Tick& tick,
-	ProgressRange& progress,
 	ComponentMap& map)
 {
 	FlowResult& best = map.flow;
-	LoopTurns turns = loopTurns(best, tick);
+	LoopTurns turns = loopTurns(best);
 	TurnCost lowest = turnCost(surface, best, turns);
 	int steps = best.iterations;
 	double radius = kFirstRadius;
@@ -50,12 +49,11 @@ void chooseCones(
 				return targetToRoundTurns(surface, best, turns, request, radius);
 			},
 			steps,
-			progress,
 			map.flowStates);
 		if (!next || next->doubled)
 			break;
 		steps += next->iterations;
-		LoopTurns nextTurns = loopTurns(*next, tick);
+		LoopTurns nextTurns = loopTurns(*next);
 		const TurnCost cost = turnCost(surface, *next, nextTurns);
 		const double gain = lowest.total() - cost.total();
 		vain = gain < kMinGain * lowest.angles ? vain + 1 : 0;
@@ -76,17 +74,16 @@ void roundLoopTurns(
 	const EmbeddedSurface& surface,
 	const TargetRequest& request,
 	const Options& options,
-	ProgressRange& progress,
 	ComponentMap& map)
 {
 	if (!map.flow.target.quarterTurns || options.method != Method::IntrinsicFlips ||
 		map.flow.doubled)
 		return;
-	const Tick tick = [&] { progress.step(1.0 - kAfterFlow, "Rounding the turns"); };
-	chooseCones(surface, request, options, tick, progress, map);
-	const TurnRounding done = roundTurns(map.flow, options, tick);
+	advance(1.0 - kAfterFlow, "Rounding the turns");
+	chooseCones(surface, request, options, map);
+	const TurnRounding done = roundTurns(map.flow, options);
 	if (done.before > 0.0)
-		progress.log(
+		logLine(
 			"Turns of loops are up to " + numberText(done.before, 3) +
 			" from a multiple of a quarter turn, and " + numberText(done.after, 3) +
 			" once the metric has changed.");

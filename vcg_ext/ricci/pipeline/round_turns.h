@@ -15,7 +15,6 @@ void roundLoopTurns(
 	const EmbeddedSurface& surface,
 	const TargetRequest& request,
 	const Options& options,
-	ProgressRange& progress,
 	ComponentMap& map);
 
 } // namespace ricci

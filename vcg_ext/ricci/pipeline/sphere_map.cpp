@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "../base/task.h"
 #include "../sphere_map.h"
 
 #include "../base/numbers.h"
@@ -41,21 +42,6 @@ Vector vec(const Point3& p)
 {
 	return {p[0], p[1], p[2]};
 }
-
-/// Passes fractions on, within an interval, but no lines for the log: they would speak of the
-/// punctured surface.
-class Quiet : public Progress
-{
-public:
-	explicit Quiet(Progress& listener) : m_listener(listener) {}
-	bool update(double fraction, const std::string&) override
-	{
-		return m_listener.update(fraction, "Mapping to the sphere");
-	}
-
-private:
-	Progress& m_listener;
-};
 
 /// The vertex whose star has the largest smallest angle, among those that no other vertex comes near
 /// in space.
@@ -270,7 +256,7 @@ void placeVertices(
 
 } // namespace
 
-SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress& progress)
+SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 {
 	std::vector<std::string> notes;
 	const OpenedMesh opened = openMesh(mesh, notes);
@@ -289,8 +275,10 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options, Progress&
 	flow.cones.distortion = std::numeric_limits<double>::max(); // no cones, however areas change
 	flow.finish = Finish::None;
 	flow.charts = Charts::OfTheFlow;
-	Quiet quiet(progress);
-	const Parametrization flat = parametrizeEuclidean(disk, {}, flow, quiet);
+	const Parametrization flat = [&] {
+		const Task quiet(0.0, 1.0, true); // the log would speak of the punctured surface
+		return parametrizeEuclidean(disk, {}, flow);
+	}();
 	VertexArray<Point2> plane(c.positions.size(), {0.0, 0.0});
 	for (std::size_t f = 0; f < disk.triangles.size(); ++f)
 		for (std::size_t k = 0; k < 3; ++k)

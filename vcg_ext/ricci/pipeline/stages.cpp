@@ -2,6 +2,7 @@
 #include "stages.h"
 
 #include "../base/numbers.h"
+#include "../base/task.h"
 #include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../cut/cone_wedges.h"
@@ -56,15 +57,15 @@ TargetRequest targetRequest(
 	return request;
 }
 
-void logFlow(const FlowResult& flow, const FlowOptions& options, ProgressRange& progress)
+void logFlow(const FlowResult& flow, const FlowOptions& options)
 {
 	if (flow.history.lengthened > 0.0)
-		progress.log(
+		logLine(
 			"Some faces have no area, or one side a million times shorter than another: the flow "
 			"sees every edge longer by " +
 			numberText(flow.history.lengthened, 3) + ".");
 	if (flow.residual >= options.epsilon)
-		progress.log(
+		logLine(
 			"The residual asked for is below what rounding allows: the curvature is reached to " +
 			numberText(flow.residual, 3) + " (rounding floor " + numberText(flow.floor, 3) + ").");
 }
@@ -94,10 +95,9 @@ CutGraph cutThroughCones(
 	const FlowDomain& domain,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& cones,
-	const HalfedgeArray<double>& corners,
-	const Tick& tick)
+	const HalfedgeArray<double>& corners)
 {
-	CutGraph cut = cutToDisk(domain.surface.triangulation, cost, cones, {}, tick, corners);
+	CutGraph cut = cutToDisk(domain.surface.triangulation, cost, cones, {}, corners);
 	if (domain.holes > 0)
 		dropSeamsToHoles(
 			domain.surface.triangulation, domain.surface.lengths, domain.onHole, cones, cut);
@@ -117,21 +117,20 @@ std::optional<FlowResult> flowAgain(
 	const Options& options,
 	const std::function<std::optional<Target>(const MakeStart&)>& chooseTarget,
 	int steps,
-	ProgressRange& progress,
 	std::vector<FlowState>& states)
 {
-	const Tick tick = [&] { progress.step(0.0, "Solving for the metric"); };
+	advance(0.0, "Solving for the metric");
 	try {
 		std::optional<InitialPacking> start;
 		const MakeStart makeStart = [&]() -> InitialPacking& {
-			return start ? *start : start.emplace(initialPacking(surface, options, tick));
+			return start ? *start : start.emplace(initialPacking(surface, options));
 		};
 		const std::optional<Target> target = chooseTarget(makeStart);
 		if (!target)
 			return std::nullopt;
 		for (const std::string& note : target->notes)
-			progress.log(note);
-		FlowProgress flowProgress(progress, options.epsilon, states);
+			logLine(note);
+		FlowProgress flowProgress(options.epsilon, states);
 		return runRicciFlow(
 			Background::EuclideanPlane,
 			surface,
@@ -139,8 +138,7 @@ std::optional<FlowResult> flowAgain(
 			*target,
 			options,
 			[&](int step, double residual) { flowProgress(steps + step, residual); },
-			nullptr,
-			tick);
+			nullptr);
 	}
 	catch (const Stopped&) {
 		throw;
@@ -188,17 +186,16 @@ void conformalInvariants(const Triangulation& t, ComponentMap& map)
 		map.rectangleAspect = rectangleAspect(t, map.layout, *target.corners);
 }
 
-void measurePeriods(const EmbeddedSurface& surface, ProgressRange& progress, ComponentMap& map)
+void measurePeriods(const EmbeddedSurface& surface, ComponentMap& map)
 {
 	if (map.type.boundaryLoops > 0 || map.type.genus < 1 || map.type.genus > kMaxPeriodGenus)
 		return;
 	const IntrinsicMesh& start = map.flow.history.start; // without flips there is none
 	const bool flips = start.triangulation.edgeCount() > 0;
-	const Tick tick = [&] { progress.step(0.0, "Period matrix"); };
+	advance(0.0, "Period matrix");
 	map.periods = periodMatrix(
 		flips ? start.triangulation : surface.triangulation,
-		flips ? start.lengths : surface.lengths,
-		tick);
+		flips ? start.lengths : surface.lengths);
 }
 
 bool isBent(const ComponentMap& map, OutputTriangulation output)

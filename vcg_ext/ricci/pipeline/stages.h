@@ -3,6 +3,7 @@
 #ifndef RICCI_STAGES_H
 #define RICCI_STAGES_H
 
+#include "../base/task.h"
 #include "../cut/cut_graph.h"
 #include "../cut/seam_cost.h"
 #include "../surface/flow_domain.h"
@@ -22,8 +23,7 @@ namespace ricci {
 ComponentMap flattenWithEdgeSwaps(
 	const Component& component,
 	const VertexInput& input,
-	const Options& options,
-	ProgressRange& progress);
+	const Options& options);
 
 /// "Component of 8 vertices, 12 faces: a closed surface of genus 0 (a sphere)."
 std::string description(const Component& component, const SurfaceType& type);
@@ -36,7 +36,7 @@ TargetRequest targetRequest(
 	const Component& component, const VertexInput& input, const Options& options, int vertexCount);
 
 /// Logs what the user should know of a flow that reached its target.
-void logFlow(const FlowResult& flow, const FlowOptions& options, ProgressRange& progress);
+void logFlow(const FlowResult& flow, const FlowOptions& options);
 
 /// 1 at the vertices inside that are not flat in the target: the cut must reach them.
 /// \p onHole 1 at vertices of holes that the flow closes with caps; may be empty.
@@ -54,8 +54,7 @@ CutGraph cutThroughCones(
 	const FlowDomain& domain,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& cones,
-	const HalfedgeArray<double>& corners,
-	const Tick& tick);
+	const HalfedgeArray<double>& corners);
 
 /// Sum of the lengths of the cut's edges.
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths);
@@ -86,15 +85,12 @@ template<class AnyOptions>
 LinkedPieces flowOverlay(
 	const FlowDomain& domain,
 	const AnyOptions& options,
-	ProgressRange& progress,
 	const ComponentMap& map)
 {
 	if (!needsOverlay(domain, options))
 		return {};
-	return overlayOf(
-		domain,
-		map.flow,
-		overlayListener(progress, drawsPieces(domain, options), options.memoryLimit));
+	const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
+	return overlayOf(domain, map.flow, drawsPieces(domain, options));
 }
 
 /// commonRefinement() with what the options ask of it.
@@ -103,8 +99,7 @@ CommonRefinement refine(
 	const FlowDomain& domain,
 	const ComponentMap& map,
 	LinkedPieces overlay,
-	const AnyOptions& options,
-	ProgressRange& progress)
+	const AnyOptions& options)
 {
 	const bool draws = drawsPieces(domain, options);
 	return commonRefinement(
@@ -112,8 +107,7 @@ CommonRefinement refine(
 		map.flow,
 		std::move(overlay),
 		map.cut.isCut,
-		!draws,
-		overlayListener(progress, draws, options.memoryLimit));
+		!draws);
 }
 
 /// Gives a flow's start, made when it is first called.
@@ -128,7 +122,6 @@ std::optional<FlowResult> flowAgain(
 	const Options& options,
 	const std::function<std::optional<Target>(const MakeStart&)>& chooseTarget,
 	int steps,
-	ProgressRange& progress,
 	std::vector<FlowState>& states);
 
 /// Scales the layout by \p scale and turns it so that its smallest bounding rectangle lies along the
@@ -144,7 +137,7 @@ void conformalInvariants(const Triangulation& t, ComponentMap& map);
 
 /// The period matrix of a closed surface of genus 1 to kMaxPeriodGenus, in the metric of the mesh, on the
 /// triangulation at the start of the flow.
-void measurePeriods(const EmbeddedSurface& surface, ProgressRange& progress, ComponentMap& map);
+void measurePeriods(const EmbeddedSurface& surface, ComponentMap& map);
 
 /// Whether straight faces of the component may turn round in the map although it is right: flips,
 /// swaps and splits bend their edges.

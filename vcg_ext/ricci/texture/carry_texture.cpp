@@ -3,6 +3,7 @@
 
 #include "../base/indexed.h"
 #include "../base/parallel.h"
+#include "../base/task.h"
 #include "nearest_fill.h"
 #include "old_charts.h"
 #include "picture_sampler.h"
@@ -29,12 +30,12 @@ constexpr int kTile = 64;
 class Sources
 {
 public:
-	Sources(const CarriedMesh& mesh, int size, const Tick& tick) :
+	Sources(const CarriedMesh& mesh, int size) :
 			m_view{size, size, nullptr}, m_sources(m_view.texels(), kNone)
 	{
 		const std::vector<CarriedTriangle>& triangles = mesh.triangles;
 		for (std::size_t i = 0; i < triangles.size(); ++i) {
-			tickNowAndThen(tick, 64 * i);
+			checkpointNowAndThen(64 * i);
 			forEachTexelOf(texels(triangles[i]), kOnSide, 0, size - 1, [&](int x, int y) {
 				int& source = m_sources[m_view.index(x, y)];
 				if (source == kNone)
@@ -42,7 +43,7 @@ public:
 			});
 		}
 		for (std::size_t i = 0; i < triangles.size(); ++i) {
-			tickNowAndThen(tick, 64 * i);
+			checkpointNowAndThen(64 * i);
 			const Triangle2 t = texels(triangles[i]);
 			forEachTexelOf(t, kContinued, 0, size - 1, [&](int x, int y) {
 				int& source = m_sources[m_view.index(x, y)];
@@ -204,11 +205,10 @@ public:
 		const std::vector<int>& charts,
 		bool hasAlpha,
 		const PictureView<Sample>& result,
-		int threads,
-		const Tick& tick) :
+		int threads) :
 			m_mesh(mesh),
 			m_sources(sources), m_charts(charts), m_hasAlpha(hasAlpha), m_result(result),
-			m_threads(threads), m_tick(tick), m_inARow((result.width + kTile - 1) / kTile),
+			m_threads(threads), m_inARow((result.width + kTile - 1) / kTile),
 			m_rows((result.height + kTile - 1) / kTile),
 			m_pictures(positionOf(m_inARow) * positionOf(m_rows))
 	{
@@ -260,7 +260,8 @@ private:
 	template<class Concerns, class Visit>
 	void forEachTile(const Concerns& concerns, const Visit& visit) const
 	{
-		tasksInParallel(m_rows, m_threads, m_tick, [&](int row, const Tick& own) {
+		tasksInParallel(m_rows, m_threads, [&](int row) {
+			advance(static_cast<double>(row) / m_rows, "Drawing the texture");
 			for (int i = 0; i < m_inARow; ++i) {
 				const Tile tile{
 					positionOf(row * m_inARow + i),
@@ -270,7 +271,7 @@ private:
 					std::min((row + 1) * kTile, m_result.height)};
 				if (!concerns(m_pictures[tile.number]))
 					continue;
-				own();
+				checkpoint();
 				visit(tile);
 			}
 		});
@@ -334,7 +335,6 @@ private:
 	bool m_hasAlpha;
 	const PictureView<Sample>& m_result;
 	int m_threads;
-	const Tick& m_tick;
 	int m_inARow, m_rows;                     // of tiles
 	std::vector<std::vector<int>> m_pictures; // [tile] that it shows; -1 for none
 };
@@ -363,16 +363,15 @@ void carryTexture(
 	const std::vector<PictureView<const Sample>>& pictures,
 	bool hasAlpha,
 	const PictureView<Sample>& result,
-	int threads,
-	const Tick& tick)
+	int threads)
 {
 	const std::vector<std::vector<int>> faces = facesOfPictures(mesh, pictures.size());
-	const std::vector<int> charts = oldCharts(mesh.faces, tick);
+	const std::vector<int> charts = oldCharts(mesh.faces);
 	std::vector<char> covered;
 	{
-		const Sources sources(mesh, result.width, tick);
+		const Sources sources(mesh, result.width);
 		const TextureDrawing<Sample> drawing(
-			mesh, sources, charts, hasAlpha, result, threads, tick);
+			mesh, sources, charts, hasAlpha, result, threads);
 		for (std::size_t i = 0; i < pictures.size(); ++i) {
 			if (faces[i].empty())
 				continue;
@@ -381,14 +380,14 @@ void carryTexture(
 				static_cast<int>(i),
 				view,
 				{view, hasAlpha},
-				{mesh.faces, charts, faces[i], view.width, view.height, tick}};
+				{mesh.faces, charts, faces[i], view.width, view.height}};
 			drawing.draw(&old);
 		}
 		if (!faces.back().empty())
 			drawing.draw(nullptr);
 		covered = sources.covered();
 	}
-	fillFromNearest(covered, result, threads, tick);
+	fillFromNearest(covered, result, threads);
 }
 
 template void carryTexture(
@@ -396,15 +395,13 @@ template void carryTexture(
 	const std::vector<PictureView<const unsigned char>>&,
 	bool,
 	const PictureView<unsigned char>&,
-	int,
-	const Tick&);
+	int);
 template void carryTexture(
 	const CarriedMesh&,
 	const std::vector<PictureView<const unsigned short>>&,
 	bool,
 	const PictureView<unsigned short>&,
-	int,
-	const Tick&);
+	int);
 
 TexelDensity texelDensity(
 	const CarriedMesh& mesh,

@@ -4,7 +4,6 @@
 #define RICCI_CARRY_TEXTURE_H
 
 #include "../math/points.h"
-#include "../progress.h"
 #include "../surface/surface_mesh.h"
 #include "picture.h"
 
@@ -65,23 +64,20 @@ void carryTexture(
 	const std::vector<PictureView<const Sample>>& pictures,
 	bool hasAlpha,
 	const PictureView<Sample>& result,
-	int threads,
-	const Tick& tick);
+	int threads);
 
 extern template void carryTexture(
 	const CarriedMesh&,
 	const std::vector<PictureView<const unsigned char>>&,
 	bool,
 	const PictureView<unsigned char>&,
-	int,
-	const Tick&);
+	int);
 extern template void carryTexture(
 	const CarriedMesh&,
 	const std::vector<PictureView<const unsigned short>>&,
 	bool,
 	const PictureView<unsigned short>&,
-	int,
-	const Tick&);
+	int);
 
 /// Means over the surface by area, of faces with pictures and an area there.
 struct TexelDensity

@@ -2,6 +2,7 @@
 #include "nearest_fill.h"
 
 #include "../base/parallel.h"
+#include "../base/task.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -23,17 +24,16 @@ template<class Sample>
 std::vector<std::int16_t> offsetsInColumns(
 	const std::vector<char>& covered,
 	const PictureView<Sample>& picture,
-	int threads,
-	const Tick& tick)
+	int threads)
 {
 	std::vector<std::int16_t> offsets(picture.texels(), kNone);
 	const int tasks = (picture.width + kColumns - 1) / kColumns;
-	tasksInParallel(tasks, threads, tick, [&](int task, const Tick& own) {
+	tasksInParallel(tasks, threads, [&](int task) {
 		const int first = task * kColumns, last = std::min(first + kColumns, picture.width);
 		// Row by row, because that is how the texels lie in memory.
 		for (int y = 0; y < picture.height; ++y) {
 			if (y % 1024 == 0)
-				own();
+				checkpoint();
 			for (int x = first; x < last; ++x) {
 				const std::size_t i = picture.index(x, y);
 				if (covered[i])
@@ -113,16 +113,15 @@ template<class Sample>
 void fillFromNearest(
 	const std::vector<char>& covered,
 	const PictureView<Sample>& picture,
-	int threads,
-	const Tick& tick)
+	int threads)
 {
-	const std::vector<std::int16_t> offsets = offsetsInColumns(covered, picture, threads, tick);
+	const std::vector<std::int16_t> offsets = offsetsInColumns(covered, picture, threads);
 	const int tasks = (picture.height + kRows - 1) / kRows;
-	tasksInParallel(tasks, threads, tick, [&](int task, const Tick& own) {
+	tasksInParallel(tasks, threads, [&](int task) {
 		Envelope envelope(picture.width);
 		const int last = std::min((task + 1) * kRows, picture.height);
 		for (int y = task * kRows; y < last; ++y) {
-			own();
+			checkpoint();
 			const std::int16_t* row = &offsets[picture.index(0, y)];
 			if (std::all_of(row, row + picture.width, [](std::int16_t o) { return o == 0; }))
 				continue;
@@ -141,8 +140,8 @@ void fillFromNearest(
 }
 
 template void
-fillFromNearest(const std::vector<char>&, const PictureView<unsigned char>&, int, const Tick&);
+fillFromNearest(const std::vector<char>&, const PictureView<unsigned char>&, int);
 template void
-fillFromNearest(const std::vector<char>&, const PictureView<unsigned short>&, int, const Tick&);
+fillFromNearest(const std::vector<char>&, const PictureView<unsigned short>&, int);
 
 } // namespace ricci

@@ -2,7 +2,6 @@
 #ifndef RICCI_NEAREST_FILL_H
 #define RICCI_NEAREST_FILL_H
 
-#include "../progress.h"
 #include "picture.h"
 
 #include <vector>
@@ -16,13 +15,12 @@ template<class Sample>
 void fillFromNearest(
 	const std::vector<char>& covered,
 	const PictureView<Sample>& picture,
-	int threads,
-	const Tick& tick);
+	int threads);
 
 extern template void
-fillFromNearest(const std::vector<char>&, const PictureView<unsigned char>&, int, const Tick&);
+fillFromNearest(const std::vector<char>&, const PictureView<unsigned char>&, int);
 extern template void
-fillFromNearest(const std::vector<char>&, const PictureView<unsigned short>&, int, const Tick&);
+fillFromNearest(const std::vector<char>&, const PictureView<unsigned short>&, int);
 
 } // namespace ricci
 

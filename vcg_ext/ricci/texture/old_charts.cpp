@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "old_charts.h"
 
+#include "../base/task.h"
 #include "../math/disjoint_sets.h"
 #include "texels_of_triangle.h"
 
@@ -37,12 +38,12 @@ bool same(const Point2& a, const Point2& b)
 
 } // namespace
 
-std::vector<int> oldCharts(const std::vector<TexturedFace>& faces, const Tick& tick)
+std::vector<int> oldCharts(const std::vector<TexturedFace>& faces)
 {
 	std::vector<Side> sides;
 	sides.reserve(3 * faces.size());
 	for (std::size_t f = 0; f < faces.size(); ++f) {
-		tickNowAndThen(tick, f);
+		checkpointNowAndThen(f);
 		const TexturedFace& face = faces[f];
 		if (face.picture < 0)
 			continue;
@@ -58,7 +59,7 @@ std::vector<int> oldCharts(const std::vector<TexturedFace>& faces, const Tick& t
 	std::sort(sides.begin(), sides.end());
 	DisjointSets sets(static_cast<int>(faces.size()));
 	for (std::size_t i = 0; i < sides.size(); ++i) {
-		tickNowAndThen(tick, i);
+		checkpointNowAndThen(i);
 		const Side& a = sides[i];
 		// Of an edge with many faces the next few are looked at.
 		for (std::size_t j = i + 1; j < std::min(i + 8, sides.size()); ++j) {
@@ -92,8 +93,7 @@ OldOwners::OldOwners(
 	const std::vector<int>& charts,
 	const std::vector<int>& shown,
 	int width,
-	int height,
-	const Tick& tick) :
+	int height) :
 		m_extents(faces.size())
 {
 	const PictureView<const char> view{width, height, nullptr};
@@ -103,7 +103,7 @@ OldOwners::OldOwners(
 	for (const bool border : {false, true}) {
 		std::size_t visited = 0;
 		for (std::size_t i = 0; i < shown.size(); ++i) {
-			tickNowAndThen(tick, 64 * i);
+			checkpointNowAndThen(64 * i);
 			const std::size_t f = positionOf(shown[i]);
 			const Triangle2 t = oldTexels(faces[f], width, height);
 			Box2 box;
@@ -120,7 +120,7 @@ OldOwners::OldOwners(
 			if (extent.isWhole)
 				continue;
 			forEachTexelOf(t, border ? kBorder : -kBorder, -far, far, [&](int x, int y) {
-				tickNowAndThen(tick, visited++);
+				checkpointNowAndThen(visited++);
 				int& owner = m_owners[view.index(wrapped(x, width), wrapped(y, height))];
 				if (owner == kNone)
 					owner = border ? key + 1 : key;

@@ -12,7 +12,7 @@ namespace ricci {
 
 /// [face] a number that the faces of one chart of the old map share: those that are joined by edges with
 /// the same picture and coordinates on both sides.
-std::vector<int> oldCharts(const std::vector<TexturedFace>& faces, const Tick& tick);
+std::vector<int> oldCharts(const std::vector<TexturedFace>& faces);
 
 /// Old coordinates in texels, moved by whole pictures so that they start in the first one; 0 where they
 /// are no numbers.
@@ -28,8 +28,7 @@ public:
 		const std::vector<int>& charts,
 		const std::vector<int>& shown,
 		int width,
-		int height,
-		const Tick& tick);
+		int height);
 
 	/// Charts over one texel, in the mean, that are told apart; more would take the time of the faces
 	/// times that of the picture.

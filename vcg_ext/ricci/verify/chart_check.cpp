@@ -2,6 +2,7 @@
 #include "chart_check.h"
 
 #include "../base/indexed.h"
+#include "../base/task.h"
 #include "shared_edges.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace ricci {
 
 namespace {
 
-/// Pairs of sides that are looked at between two ticks.
+/// Pairs of sides that are looked at between two checkpoints.
 constexpr std::size_t kPairsPerTick = 1000000;
 
 /// Distance of \p p from the line of \p s, positive on the left; 0 where it has no length.
@@ -53,8 +54,7 @@ borderOf(const std::vector<Triangle>& triangles, const std::vector<Triangle2>& p
 int borderCrossings(
 	const std::vector<Triangle>& triangles,
 	const std::vector<Triangle2>& plane,
-	double depth,
-	const Tick& tick)
+	double depth)
 {
 	std::vector<PlaneSide> sides = borderOf(triangles, plane);
 	// A line sweeps from left to right.
@@ -68,9 +68,9 @@ int borderCrossings(
 	std::size_t pairs = 0;
 	for (const PlaneSide& s : sides) {
 		pairs += 1 + swept.size();
-		if (tick && pairs > kPairsPerTick) {
+		if (pairs > kPairsPerTick) {
 			pairs = 0;
-			tick();
+			checkpoint();
 		}
 		const auto isPassed = [&](const PlaneSide* other) { return right(*other) < left(s); };
 		swept.erase(std::remove_if(swept.begin(), swept.end(), isPassed), swept.end());

@@ -3,7 +3,6 @@
 #define RICCI_CHART_CHECK_H
 
 #include "../math/points.h"
-#include "../progress.h"
 #include "../surface/surface_mesh.h"
 
 #include <cstddef>
@@ -20,8 +19,7 @@ namespace ricci {
 int borderCrossings(
 	const std::vector<Triangle>& triangles,
 	const std::vector<Triangle2>& plane,
-	double depth,
-	const Tick& tick = {});
+	double depth);
 
 /// Whether each of 0 .. \p count - 1 is in exactly one of \p parts.
 bool isPartition(const std::vector<const std::vector<int>*>& parts, std::size_t count);

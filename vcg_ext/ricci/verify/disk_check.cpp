@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "disk_check.h"
 
+#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../math/double_double.h"
 #include "shared_edges.h"
@@ -70,8 +71,7 @@ DiskCheck checkDisk(
 	const std::vector<Triangle>& triangles,
 	const std::vector<Triangle2>& plane,
 	const std::vector<char>& reversed,
-	double tolerance,
-	const Tick& tick)
+	double tolerance)
 {
 	DiskCheck check;
 	Point2 farthest{0.0, 0.0};
@@ -91,7 +91,7 @@ DiskCheck checkDisk(
 	std::vector<DiskSide> sides;
 	sides.reserve(3 * triangles.size());
 	for (std::size_t f = 0; f < triangles.size(); ++f) {
-		tickNowAndThen(tick, f);
+		checkpointNowAndThen(f);
 		const Triangle& t = triangles[f];
 		const Triangle2& p = plane[f];
 		double longest = 0.0, allowed = tolerance;

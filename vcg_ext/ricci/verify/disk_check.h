@@ -3,7 +3,6 @@
 #define RICCI_DISK_CHECK_H
 
 #include "../math/points.h"
-#include "../progress.h"
 #include "../surface/surface_mesh.h"
 
 #include <cstddef>
@@ -38,8 +37,7 @@ DiskCheck checkDisk(
 	const std::vector<Triangle>& triangles,
 	const std::vector<Triangle2>& plane,
 	const std::vector<char>& reversed,
-	double tolerance,
-	const Tick& tick = {});
+	double tolerance);
 
 } // namespace ricci
 

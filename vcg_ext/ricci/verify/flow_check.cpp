@@ -12,7 +12,7 @@
 
 namespace ricci {
 
-void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary, const Tick& tick)
+void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary)
 {
 	const CurvatureMap& metric = *flow.metric;
 	VertexVector target = VertexVector::Constant(
@@ -26,8 +26,7 @@ void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary, co
 		metric.delta(),
 		flow.u,
 		metric.lengths(),
-		target,
-		tick);
+		target);
 	// On the boundary of a double the residual counts twice.
 	const bool exact = check.lengthError <= kCheckedLength &&
 					   check.curvatureError <= 2.0 * flow.residual + kCheckedCurvature;

@@ -3,7 +3,6 @@
 #define RICCI_FLOW_CHECK_H
 
 #include "../flow/ricci_flow.h"
-#include "../progress.h"
 
 #include <string>
 
@@ -14,7 +13,7 @@ namespace ricci {
 /// \param boundary [vertex of the surface on which the flow ran] 1 on its boundary
 /// \throw NotConverged
 void requireMetric(
-	const FlowResult& flow, const VertexArray<char>& boundary, const Tick& tick = {});
+	const FlowResult& flow, const VertexArray<char>& boundary);
 
 /// Sum of |target - K| over the surface, in radians: all of the curvature by which the result
 /// misses its target.

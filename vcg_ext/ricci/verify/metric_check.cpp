@@ -2,6 +2,7 @@
 #include "metric_check.h"
 
 #include "../base/numbers.h"
+#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../math/double_double.h"
 
@@ -86,8 +87,7 @@ MetricCheck checkMetric(
 	const EdgeArray<double>& delta,
 	const VertexVector& u,
 	const EdgeArray<double>& lengths,
-	const VertexVector& target,
-	const Tick& tick)
+	const VertexVector& target)
 {
 	MetricCheck check;
 	VertexArray<double> radius(t.vertexCount());
@@ -95,7 +95,7 @@ MetricCheck checkMetric(
 		radius[v] = radiusOf(background, u[v]);
 	EdgeArray<double> ofLength(t.edgeCount());
 	for (const Edge e : t.edges()) {
-		tickNowAndThen(tick, positionOf(e));
+		checkpointNowAndThen(positionOf(e));
 		ofLength[e] = lengthFunction(background, lengths[e]);
 		const Vertex i = t.origin(e.halfedge()), j = t.target(e.halfedge());
 		const double ui = u[i], uj = u[j];
@@ -113,7 +113,7 @@ MetricCheck checkMetric(
 	for (const Vertex v : t.vertices())
 		curvature[v] = boundary[v] ? kPi : 2.0 * kPi;
 	for (const Face f : t.faces()) {
-		tickNowAndThen(tick, positionOf(f));
+		checkpointNowAndThen(positionOf(f));
 		const std::array<Halfedge, 3> h = t.halfedges(f);
 		std::array<double, 3> l;
 		for (std::size_t k = 0; k < 3; ++k)

@@ -3,7 +3,6 @@
 #define RICCI_METRIC_CHECK_H
 
 #include "../options.h"
-#include "../progress.h"
 #include "../surface/triangulation.h"
 
 namespace ricci {
@@ -36,8 +35,7 @@ MetricCheck checkMetric(
 	const EdgeArray<double>& delta,
 	const VertexVector& u,
 	const EdgeArray<double>& lengths,
-	const VertexVector& target,
-	const Tick& tick = {});
+	const VertexVector& target);
 
 } // namespace ricci
 

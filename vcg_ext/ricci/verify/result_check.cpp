@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "result_check.h"
 
+#include "../base/task.h"
 #include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../error.h"
@@ -32,8 +33,7 @@ void requireDisk(
 	const OutputTriangles& output,
 	const PlanarLayout& layout,
 	const FlowResult& flow,
-	bool bent,
-	const Tick& tick)
+	bool bent)
 {
 	// The gap that an open angle leaves grows like sinh of the distance across the layout.
 	double radius = 0.0;
@@ -45,7 +45,7 @@ void requireDisk(
 	}
 	const double tolerance = kCheckedGap + openCurvature(flow) * std::sinh(2.0 * radius);
 	const DiskCheck check =
-		checkDisk(output.triangles, output.plane, output.reversed, tolerance, tick);
+		checkDisk(output.triangles, output.plane, output.reversed, tolerance);
 	if (check.outside > 0 && finite) // the doubles of the disk end at a distance of about 37
 		throw NotConverged(NotConverged::OutsideDisk, check.outside);
 	if (check.outside > 0)
@@ -69,7 +69,7 @@ double extentOf(const std::vector<int>& triangles, const std::vector<Triangle2>&
 
 } // namespace
 
-void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map, const Tick& tick)
+void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map)
 {
 	const bool refined = map.isRefined();
 	const std::vector<Triangle>& all = refined ? map.refined.triangles : mesh.triangles;
@@ -82,8 +82,7 @@ void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map, 
 		extent = std::max(extent, extentOf(refined ? chart.refined : chart.faces, uv));
 	for (const Chart& chart : map.charts) {
 		parts.push_back(refined ? &chart.refined : &chart.faces);
-		if (tick)
-			tick();
+		checkpoint();
 		std::vector<Triangle> triangles;
 		std::vector<Triangle2> plane;
 		bool turned = false;
@@ -97,7 +96,7 @@ void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map, 
 			plane.push_back(p);
 		}
 		if (!turned)
-			crossings += borderCrossings(triangles, plane, kCheckedGap * extent, tick);
+			crossings += borderCrossings(triangles, plane, kCheckedGap * extent);
 	}
 	if (crossings > 0 || !isPartition(parts, all.size()))
 		failCheck(

@@ -8,7 +8,6 @@
 #include "../charts/parametrization.h"
 #include "../flow/ricci_flow.h"
 #include "../layout/planar_layout.h"
-#include "../progress.h"
 
 namespace ricci {
 
@@ -27,15 +26,14 @@ void requireDisk(
 	const OutputTriangles& output,
 	const PlanarLayout& layout,
 	const FlowResult& flow,
-	bool bent,
-	const Tick& tick = {});
+	bool bent);
 
 /// Checks that the charts contain every triangle of the output once, and that no chart overlaps
 /// itself (chart_check.h) by more than kCheckedGap of the largest, those with turned triangles
 /// excepted.
 /// \throw NotConverged
 void requireSeparateCharts(
-	const SurfaceMesh& mesh, const Parametrization& map, const Tick& tick = {});
+	const SurfaceMesh& mesh, const Parametrization& map);
 
 } // namespace ricci
 

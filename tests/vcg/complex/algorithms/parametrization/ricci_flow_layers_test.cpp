@@ -135,8 +135,7 @@ TYPED_TEST(UniversalCover, CopiesAreMovedBeforeTheyAreRounded)
 		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
 		typename Flow<TypeParam>::HyperbolicParams par;
 		par.output = output;
-		Progress silent;
-		const auto r = Flow<TypeParam>::ComputeHyperbolic(m, par, silent);
+		const auto r = Flow<TypeParam>::ComputeHyperbolic(m, par);
 		TypeParam cover;
 		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(m, r, 1, 1000000, cover);
 		expectCover(cover, expectedCover(m, r, 1, 1000));
@@ -156,8 +155,7 @@ TYPED_TEST(UniversalCover, CopiesMeetAtTheirSeams)
 		typename Flow<TypeParam>::HyperbolicParams par;
 		par.output = output;
 		par.finish = Finish::None;
-		Progress silent;
-		const auto r = Flow<TypeParam>::ComputeHyperbolic(m, par, silent);
+		const auto r = Flow<TypeParam>::ComputeHyperbolic(m, par);
 		TypeParam cover;
 		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(m, r, 1, 1000000, cover);
 		const std::size_t copies = tiling(r.groups[0].sides, 1, 1000).deck.size();

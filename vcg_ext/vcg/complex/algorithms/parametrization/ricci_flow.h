@@ -7,14 +7,13 @@
 #define __VCGLIB_RICCI_FLOW
 
 #include <ricci/base/floating_point.h>
-#include <ricci/base/part_of_progress.h>
+#include <ricci/base/task.h>
 #include <ricci/charts/finish_in_floats.h>
 #include <ricci/charts/input_numbers.h>
 #include <ricci/charts/pack.h>
 #include <ricci/error.h>
 #include <ricci/options.h>
 #include <ricci/parametrize.h>
-#include <ricci/progress.h>
 #include <ricci/report.h>
 #include <ricci/sphere_map.h>
 
@@ -103,7 +102,6 @@ public:
 	static Result Compute(
 		const MeshType& m,
 		const Params& par,
-		ricci::Progress& progress,
 		const SideMarks& seams = SideMarks())
 	{
 		ricci::checkChartMargin(par.chartMargin);
@@ -115,17 +113,19 @@ public:
 			par.target == ricci::TargetCurvature::Rectangle ||
 				par.target == ricci::TargetCurvature::SelectedCones,
 			par.target == ricci::TargetCurvature::Prescribed);
-		ricci::PartOfProgress mapping(progress, 0.0, MappedShare);
-		ricci::Parametrization flat = ricci::parametrizeEuclidean(mesh, input, par, mapping);
+		ricci::Parametrization flat = [&] {
+			const ricci::Task mapping(0.0, MappedShare);
+			return ricci::parametrizeEuclidean(mesh, input, par);
+		}();
+		ricci::advance(MappedShare, "Finishing the coordinates");
 
 		Result r;
 		const ricci::ChartTurns turns = ricci::chartTurns(par);
-		const ricci::Tick tick = LastTick(progress);
 		const auto pack = [&] {
-			ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide, turns, tick);
+			ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide, turns);
 		};
 		if (par.charts == ricci::Charts::WithoutOverlapAndStrips && par.normalizeUV)
-			ricci::packStrips(flat, par.chartMargin, PlaceSideBySide, turns, tick);
+			ricci::packStrips(flat, par.chartMargin, PlaceSideBySide, turns);
 		else
 			pack();
 		const bool isWhole = par.target == ricci::TargetCurvature::Disk ||
@@ -135,13 +135,12 @@ public:
 				flat.opened.mesh,
 				pack,
 				par.charts != ricci::Charts::OfTheFlow && !isWhole,
-				tick,
 				flat);
 		r.report = flat.report;
 		r.notes = flat.notes;
 		ricci::countFlippedAsWritten(flat, r.report);
 		TakeOver(mesh, m.face.size(), faceIndex, flat, r);
-		progress.step(1.0, "Done");
+		ricci::advance(1.0, "Done");
 		return r;
 	}
 
@@ -151,7 +150,6 @@ public:
 	static Result ComputeHyperbolic(
 		const MeshType& m,
 		const HyperbolicParams& par,
-		ricci::Progress& progress,
 		const SideMarks& seams = SideMarks())
 	{
 		const ricci::DefaultFloatingPoint defaultEnvironment;
@@ -161,13 +159,16 @@ public:
 			m,
 			par.target == ricci::HyperbolicTarget::SelectedCones,
 			par.target == ricci::HyperbolicTarget::Prescribed);
-		ricci::PartOfProgress mapping(progress, 0.0, MappedShare);
-		ricci::Parametrization disk = ricci::parametrizeHyperbolic(mesh, input, par, mapping);
+		ricci::Parametrization disk = [&] {
+			const ricci::Task mapping(0.0, MappedShare);
+			return ricci::parametrizeHyperbolic(mesh, input, par);
+		}();
+		ricci::advance(MappedShare, "Finishing the coordinates");
 
 		Result r;
 		r.disks = ricci::placeDisks(disk);
 		if (ricci::isFinished(par))
-			ricci::finishInFloats(disk.opened.mesh, r.disks, LastTick(progress), disk);
+			ricci::finishInFloats(disk.opened.mesh, r.disks, disk);
 		r.report = disk.report;
 		r.notes = disk.notes;
 		r.component.resize(m.face.size());
@@ -181,7 +182,7 @@ public:
 		if (!ricci::isFinished(par)) // straight triangles may be turned where geodesic ones are not
 			r.report.flippedFaces = flipped;
 		TakeOver(mesh, m.face.size(), faceIndex, disk, r);
-		progress.step(1.0, "Done");
+		ricci::advance(1.0, "Done");
 		return r;
 	}
 
@@ -294,11 +295,11 @@ public:
 	/// \p m is only read. The result is indexed like the mesh's vertex vector.
 	/// \throw what ricci::mapToSphere() does, and ricci::InvalidMesh DamagedFaces
 	static ricci::SphereMap
-	ComputeSphere(const MeshType& m, const Params& par, ricci::Progress& progress)
+	ComputeSphere(const MeshType& m, const Params& par)
 	{
 		std::vector<int> faceIndex;
 		const ricci::DefaultFloatingPoint defaultEnvironment;
-		return ricci::mapToSphere(ReadSurface(m, faceIndex), par, progress);
+		return ricci::mapToSphere(ReadSurface(m, faceIndex), par);
 	}
 
 	/// Whether the face's vertices are in the mesh's vector and not deleted.
@@ -556,11 +557,6 @@ private:
 	/// Share of the work that is done once the map is found.
 	static constexpr double MappedShare = 0.95;
 
-	/// For what is done after that.
-	static ricci::Tick LastTick(ricci::Progress& progress)
-	{
-		return [&progress] { progress.step(MappedShare, "Finishing the coordinates"); };
-	}
 
 	/// The arrays of \p flat, in the indices of the mesh.
 	static void TakeOver(

@@ -6,7 +6,7 @@
 #ifndef __VCGLIB_RICCI_SEAMS
 #define __VCGLIB_RICCI_SEAMS
 
-#include <ricci/surface/face_gluing.h>
+#include <ricci/surface/sides.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>
 
@@ -69,10 +69,11 @@ private:
 		int low, high;
 	};
 
-	static Corners CornersOf(const ricci::Side& side)
+	static Corners CornersOf(const std::vector<ricci::Triangle>& triangles, ricci::Corner side)
 	{
-		const int next = (side.corner + 1) % 3;
-		return side.ascending ? Corners{side.corner, next} : Corners{next, side.corner};
+		const ricci::Triangle& t = triangles[size_t(side.face())];
+		const int k = int(side.index()), next = int(side.next().index());
+		return t[size_t(k)] < t[size_t(next)] ? Corners{k, next} : Corners{next, k};
 	}
 
 	template<class TexCoord>
@@ -109,15 +110,17 @@ private:
 			number.push_back(f);
 		}
 		SideMarks marks;
-		ricci::forEachEdge(
-			ricci::sortedSides(triangles), [&](const ricci::Side* sides, size_t count) {
-				const size_t first = number[size_t(sides->face)];
-				for (size_t i = 1; i < count; ++i) {
-					const FaceType& other = m.face[number[size_t(sides[i].face)]];
-					if (isSeam(m.face[first], CornersOf(sides[0]), other, CornersOf(sides[i])))
-						Mark(m, first, sides->corner, marks);
-				}
-			});
+		ricci::Sides(triangles).forEdges([&](const auto& sides) {
+			const ricci::Corner side = *sides.begin();
+			const size_t first = number[size_t(side.face())];
+			for (const ricci::Corner other : sides)
+				if (other != side && isSeam(
+										 m.face[first],
+										 CornersOf(triangles, side),
+										 m.face[number[size_t(other.face())]],
+										 CornersOf(triangles, other)))
+					Mark(m, first, int(side.index()), marks);
+		});
 		return marks;
 	}
 };

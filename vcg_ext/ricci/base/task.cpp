@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "task.h"
+
+#include <algorithm>
+
+namespace ricci {
+
+namespace {
+
+thread_local Task* current = nullptr;
+thread_local const std::atomic<bool>* helpEnded = nullptr;
+thread_local double helperMemoryLimit = 0.0;
+
+} // namespace
+
+Task::Task(Progress& listener, double seconds) :
+		m_outer(current), m_listener(&listener), m_seconds(seconds),
+		m_start(std::chrono::steady_clock::now())
+{
+	current = this;
+}
+
+Task::Task(double from, double to, bool isSilent) :
+		m_outer(current), m_from(from), m_to(to), m_isSilent(isSilent)
+{
+	current = this;
+}
+
+Task::~Task()
+{
+	current = m_outer;
+}
+
+double Task::memoryLimit()
+{
+	for (const Task* task = current; task; task = task->m_outer)
+		if (task->m_memory > 0.0)
+			return task->m_memory;
+	return helperMemoryLimit;
+}
+
+/// Passes the share on to the task that this one is a part of, and to the listener at last.
+void Task::tell(double fraction)
+{
+	m_done = std::max(m_done, std::clamp(fraction, 0.0, 1.0));
+	if (!m_listener) {
+		if (m_outer) {
+			m_outer->m_what = m_what;
+			m_outer->tell(std::min(m_to, m_from + m_done * (m_to - m_from)));
+		}
+		return;
+	}
+	const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - m_start;
+	if (m_seconds > 0.0 && elapsed.count() > m_seconds && m_done < 1.0)
+		throw TimeOut(elapsed.count(), m_done, m_seconds);
+	m_listener->step(m_done, m_what);
+}
+
+void checkpoint()
+{
+	if (helpEnded && *helpEnded)
+		throw HelpEnded();
+	if (current)
+		current->tell(current->m_done);
+}
+
+void advance(double fraction, const std::string& what)
+{
+	if (!current)
+		return;
+	current->m_what = what;
+	current->tell(fraction);
+}
+
+void logLine(const std::string& line)
+{
+	for (const Task* task = current; task; task = task->m_outer) {
+		if (task->m_isSilent)
+			return;
+		if (task->m_listener) {
+			task->m_listener->log(line);
+			return;
+		}
+	}
+}
+
+HelpGuard::HelpGuard(const std::atomic<bool>& ended, double memoryLimit) :
+		m_outerEnded(helpEnded), m_outerMemoryLimit(helperMemoryLimit)
+{
+	helpEnded = &ended;
+	helperMemoryLimit = memoryLimit;
+}
+
+HelpGuard::~HelpGuard()
+{
+	helpEnded = m_outerEnded;
+	helperMemoryLimit = m_outerMemoryLimit;
+}
+
+} // namespace ricci

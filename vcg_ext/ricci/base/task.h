@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a run speaks to its listener and how the listener ends it, at any depth of calls and with nothing
+// passed down for it: what a thread works for is known by the thread.
+#ifndef RICCI_TASK_H
+#define RICCI_TASK_H
+
+#include "../progress.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace ricci {
+
+/// What the thread that makes it works for until it is destroyed: a whole run, or a part of the task that
+/// the thread has in hand. A thread without one is silent and cannot be ended.
+class Task
+{
+public:
+	/// A whole run.
+	/// \param seconds of wall-clock time that it may take from now on; 0: no limit
+	explicit Task(Progress& listener, double seconds = 0.0);
+
+	/// A part of the thread's task, from one share of it to another.
+	/// \param isSilent whether its lines are not logged
+	Task(double from, double to, bool isSilent = false);
+
+	~Task();
+	Task(const Task&) = delete;
+	Task& operator=(const Task&) = delete;
+
+	/// Bytes that this task may use, and its parts; 0, the default: no limit.
+	void setMemoryLimit(double bytes) { m_memory = bytes; }
+	/// That of the thread's task.
+	static double memoryLimit();
+
+private:
+	friend void checkpoint();
+	friend void advance(double, const std::string&);
+	friend void logLine(const std::string&);
+
+	void tell(double fraction);
+
+	Task* m_outer;
+	Progress* m_listener = nullptr;
+	double m_from = 0.0, m_to = 1.0, m_done = 0.0;
+	bool m_isSilent = false;
+	double m_memory = 0.0, m_seconds = 0.0;
+	std::string m_what;
+	std::chrono::steady_clock::time_point m_start;
+};
+
+/// Ends the run if its listener has cancelled it or its time is over. To be called in every loop that can
+/// be long, many times a second; in a thread that helps another one it ends the help once that has failed.
+/// \throw Cancelled, TimeOut
+void checkpoint();
+
+/// checkpoint() at every 65536th of a loop's short steps.
+inline void checkpointNowAndThen(std::size_t step)
+{
+	if (step % 65536 == 0)
+		checkpoint();
+}
+
+/// Tells the listener what is being done now, and how much of the task has been done. The bar never goes
+/// back: a stage that starts again leaves it where it is.
+/// \param fraction of the thread's task, in [0, 1]
+/// \throw Cancelled, TimeOut
+void advance(double fraction, const std::string& what);
+
+/// One line for the user's log, without a line end.
+void logLine(const std::string& line);
+
+/// Thrown by checkpoint() in threads whose result nobody waits for any more.
+struct HelpEnded
+{
+};
+
+/// What a thread works for while it helps with the task of another one, which has set \p ended once its
+/// help is of no use; for parallel.h.
+class HelpGuard
+{
+public:
+	HelpGuard(const std::atomic<bool>& ended, double memoryLimit);
+	~HelpGuard();
+	HelpGuard(const HelpGuard&) = delete;
+	HelpGuard& operator=(const HelpGuard&) = delete;
+
+private:
+	const std::atomic<bool>* m_outerEnded;
+	double m_outerMemoryLimit;
+};
+
+} // namespace ricci
+
+#endif
