@@ -15,7 +15,7 @@
 #include <string>
 
 #ifdef RICCI_USE_CHOLMOD
-#include <cholmod.h>
+#include "supernodal_solver.h"
 #else
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
@@ -26,10 +26,6 @@ namespace ricci {
 #ifdef RICCI_USE_CHOLMOD
 
 namespace {
-
-/// CHOLMOD's numbers of entries. The factor of ten million unknowns has more of them than int can
-/// tell; below that nothing but the analysis takes longer, by half.
-using Long = SuiteSparse_long;
 
 /// A matrix as CHOLMOD sees it: it is only read.
 class View
@@ -67,9 +63,7 @@ struct SparseCholesky::Implementation
 	cholmod_common common;
 	cholmod_factor* factor = nullptr;
 	double flops = 0.0, entries = 0.0;
-	/// Work space of solve(). Not an Eigen vector: memory is freed twice if its resize() fails.
-	std::vector<double> rowsBelow;
-	std::vector<double> pairsBelow; ///< the same for complex right sides
+	SupernodalSolver solver;
 	const int nestedDissectionFrom;
 
 	explicit Implementation(int dissectionFrom) : nestedDissectionFrom(dissectionFrom)
@@ -124,158 +118,6 @@ struct SparseCholesky::Implementation
 			fail(pattern);
 	}
 
-	/// Columns first .. first + width - 1 of the factor, which have the same rows: their own, and
-	/// \p height others below. Stored by columns, each from the diagonal block's first row.
-	struct Supernode
-	{
-		int first, width, height;
-		const Long* below; ///< [height] rows below the diagonal block
-		const double* values;
-
-		const double* column(int c) const
-		{
-			return values + positionOf(c) * (positionOf(width) + positionOf(height));
-		}
-		using Vector = Eigen::Map<const Eigen::VectorXd>;
-		Vector columnBelow(int c) const { return {column(c) + width, height}; }
-	};
-
-	Supernode supernode(std::size_t k) const
-	{
-		const auto* first = static_cast<const Long*>(factor->super);
-		const auto* rows = static_cast<const Long*>(factor->pi);
-		const auto* start = static_cast<const Long*>(factor->px);
-		const auto width = static_cast<int>(first[k + 1] - first[k]);
-		return {
-			static_cast<int>(first[k]),
-			width,
-			static_cast<int>(rows[k + 1] - rows[k]) - width,
-			static_cast<const Long*>(factor->s) + rows[k] + width,
-			static_cast<const double*>(factor->x) + start[k]};
-	}
-
-	/// x = L^-1 x, supernode by supernode. A right side of few entries reaches few of them.
-	void solveForward(double* x)
-	{
-		for (std::size_t k = 0; k < factor->nsuper; ++k) {
-			const Supernode node = supernode(k);
-			double* own = x + node.first;
-			if (std::all_of(own, own + node.width, [](double value) { return value == 0.0; }))
-				continue;
-			for (int c = 0; c < node.width; ++c) {
-				const double* column = node.column(c);
-				own[c] /= column[c];
-				for (int r = c + 1; r < node.width; ++r)
-					own[r] -= column[r] * own[c];
-			}
-			Eigen::Map<Eigen::VectorXd> below(rowsBelow.data(), node.height);
-			below.setZero();
-			int c = 0;
-			for (; c + 4 <= node.width; c += 4) // a quarter of the passes over the sums
-				below += node.columnBelow(c) * own[c] + node.columnBelow(c + 1) * own[c + 1] +
-						 node.columnBelow(c + 2) * own[c + 2] +
-						 node.columnBelow(c + 3) * own[c + 3];
-			for (; c < node.width; ++c)
-				below += node.columnBelow(c) * own[c];
-			for (int r = 0; r < node.height; ++r)
-				x[node.below[r]] -= below[r];
-		}
-	}
-
-	/// x = L^-T x.
-	void solveBackward(double* x)
-	{
-		for (std::size_t k = factor->nsuper; k-- > 0;) {
-			const Supernode node = supernode(k);
-			double* own = x + node.first;
-			Eigen::Map<Eigen::VectorXd> below(rowsBelow.data(), node.height);
-			for (int r = 0; r < node.height; ++r)
-				below[r] = x[node.below[r]];
-			for (int c = node.width - 1; c >= 0; --c) {
-				const double* column = node.column(c);
-				double sum = own[c] - node.columnBelow(c).dot(below);
-				for (int r = c + 1; r < node.width; ++r)
-					sum -= column[r] * own[r];
-				own[c] = sum / column[c];
-			}
-		}
-	}
-
-	/// A complex number among the real and imaginary parts of many, for the machine's vectors.
-	using Pair = Eigen::Array2d;
-	static Eigen::Map<Pair> at(double* parts, Long i) { return Eigen::Map<Pair>(parts + 2 * i); }
-
-	/// x = L^-1 x for complex numbers.
-	void solvePairsForward(double* x)
-	{
-		double* below = pairsBelow.data();
-		for (std::size_t k = 0; k < factor->nsuper; ++k) {
-			const Supernode node = supernode(k);
-			double* own = x + 2 * node.first;
-			for (int c = 0; c < node.width; ++c) {
-				const double* column = node.column(c);
-				const Pair solved = at(own, c) / column[c];
-				at(own, c) = solved;
-				for (int r = c + 1; r < node.width; ++r)
-					at(own, r) -= column[r] * solved;
-			}
-			std::fill(below, below + 2 * node.height, 0.0);
-			int c = 0;
-			for (; c + 4 <= node.width; c += 4)
-				addColumns<4>(node, c, own, below);
-			for (; c < node.width; ++c)
-				addColumns<1>(node, c, own, below);
-			for (int r = 0; r < node.height; ++r)
-				at(x, node.below[r]) -= at(below, r);
-		}
-	}
-
-	/// Adds what columns first .. first + Count - 1 contribute to the rows below.
-	template<int Count>
-	static void addColumns(const Supernode& node, int first, double* own, double* below)
-	{
-		const double* values[Count];
-		Pair solved[Count];
-		for (int i = 0; i < Count; ++i) {
-			values[i] = node.column(first + i) + node.width;
-			solved[i] = at(own, first + i);
-		}
-		for (int r = 0; r < node.height; ++r) {
-			Pair sum = at(below, r);
-			for (int i = 0; i < Count; ++i)
-				sum += values[i][r] * solved[i];
-			at(below, r) = sum;
-		}
-	}
-
-	/// x = L^-T x for complex numbers.
-	void solvePairsBackward(double* x)
-	{
-		double* below = pairsBelow.data();
-		for (std::size_t k = factor->nsuper; k-- > 0;) {
-			const Supernode node = supernode(k);
-			double* own = x + 2 * node.first;
-			for (int r = 0; r < node.height; ++r)
-				at(below, r) = at(x, node.below[r]);
-			for (int c = node.width - 1; c >= 0; --c) {
-				const double *column = node.column(c), *values = column + node.width;
-				Pair sum = at(own, c),
-					 others = Pair::Zero(); // two, which do not wait for each other
-				int r = 0;
-				for (; r + 2 <= node.height; r += 2) {
-					sum -= values[r] * at(below, r);
-					others -= values[r + 1] * at(below, r + 1);
-				}
-				if (r < node.height)
-					sum -= values[r] * at(below, r);
-				sum += others;
-				for (r = c + 1; r < node.width; ++r)
-					sum -= column[r] * at(own, r);
-				at(own, c) = sum / column[c];
-			}
-		}
-	}
-
 	/// A good order of elimination: [position] unknown.
 	std::vector<int> order(const Matrix& pattern)
 	{
@@ -316,22 +158,8 @@ struct SparseCholesky::Implementation
 		return common.status == CHOLMOD_OK;
 	}
 
-	// CHOLMOD's own solution calls BLAS for each supernode, most of which are so small that the calls
-	// take as long as the arithmetic: this is about twice as fast.
-	void solve(Eigen::VectorXd& x)
-	{
-		rowsBelow.resize(factor->maxesize);
-		solveForward(x.data());
-		solveBackward(x.data());
-	}
-
-	void solve(Eigen::VectorXcd& x)
-	{
-		pairsBelow.resize(2 * factor->maxesize);
-		auto* parts = reinterpret_cast<double*>(x.data()); // std::complex is two doubles
-		solvePairsForward(parts);
-		solvePairsBackward(parts);
-	}
+	void solve(Eigen::VectorXd& x) { solver.solve(*factor, x); }
+	void solve(Eigen::VectorXcd& x) { solver.solve(*factor, x); }
 };
 
 const char* SparseCholesky::name()
@@ -410,16 +238,6 @@ public:
 	void attach(SparseCholesky& cholesky) { m_cholesky = &cholesky; }
 
 	template<class Any>
-	Preconditioner& analyzePattern(const Any&)
-	{
-		return *this;
-	}
-	template<class Any>
-	Preconditioner& factorize(const Any&)
-	{
-		return *this;
-	}
-	template<class Any>
 	Preconditioner& compute(const Any&)
 	{
 		return *this;
@@ -444,14 +262,14 @@ SparseCholesky::SparseCholesky(int nestedDissectionFrom) :
 
 SparseCholesky::~SparseCholesky() = default;
 
-/// \return whether it differs from that of the last matrix
-bool SparseCholesky::takePattern(const Matrix& pattern)
+/// Notices whether it is another than that of the last matrix.
+void SparseCholesky::takePattern(const Matrix& pattern)
 {
 	const int *starts = pattern.outerIndexPtr(), *rows = pattern.innerIndexPtr();
 	const int *startsEnd = starts + pattern.cols() + 1, *rowsEnd = rows + pattern.nonZeros();
 	if (std::equal(starts, startsEnd, m_starts.begin(), m_starts.end()) &&
 		std::equal(rows, rowsEnd, m_rows.begin(), m_rows.end()))
-		return false;
+		return;
 	m_isAnalyzed = false;
 	m_starts.assign(starts, startsEnd);
 	m_rows.assign(rows, rowsEnd);
@@ -460,7 +278,6 @@ bool SparseCholesky::takePattern(const Matrix& pattern)
 		m_flopsWhenOrdered = 0.0;
 	}
 	layOut();
-	return true;
 }
 
 /// Makes m_ordered, with numbers of entries for values, which are then put into m_entry.
@@ -538,31 +355,27 @@ void SparseCholesky::solveOrdered(Eigen::VectorXd& x)
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs)
 {
-	Eigen::MatrixXd x(rhs.rows(), rhs.cols());
-	if (rhs.rows() == 0)
+	const Eigen::PermutationWrapper<const Eigen::VectorXi> order(m_order);
+	Eigen::MatrixXd x = order * rhs;
+	if (x.rows() == 0)
 		return x;
 	Eigen::Index column = 0;
-	Eigen::VectorXcd pair(rhs.rows());
-	for (; column + 2 <= rhs.cols(); column += 2) {
-		for (Eigen::Index i = 0; i < rhs.rows(); ++i)
-			pair[m_order[i]] = {rhs(i, column), rhs(i, column + 1)};
+	for (; column + 2 <= x.cols(); column += 2) {
+		Eigen::VectorXcd pair(x.rows());
+		pair.real() = x.col(column);
+		pair.imag() = x.col(column + 1);
 		m_implementation->solve(pair);
 		m_work.solutions += 2;
 		m_work.flops += 8.0 * factorEntries();
-		for (Eigen::Index i = 0; i < rhs.rows(); ++i) {
-			x(i, column) = pair[m_order[i]].real();
-			x(i, column + 1) = pair[m_order[i]].imag();
-		}
+		x.col(column) = pair.real();
+		x.col(column + 1) = pair.imag();
 	}
-	if (column < rhs.cols()) {
-		Eigen::VectorXd ordered(rhs.rows());
-		for (Eigen::Index i = 0; i < rhs.rows(); ++i)
-			ordered[m_order[i]] = rhs(i, column);
-		solveOrdered(ordered);
-		for (Eigen::Index i = 0; i < rhs.rows(); ++i)
-			x(i, column) = ordered[m_order[i]];
+	if (column < x.cols()) {
+		Eigen::VectorXd last = x.col(column);
+		solveOrdered(last);
+		x.col(column) = last;
 	}
-	return x;
+	return order.transpose() * x;
 }
 
 int SparseCholesky::iterate(

@@ -100,7 +100,7 @@ private:
 	/// A factorisation may become more expensive by this factor before another order is chosen.
 	static constexpr double kMaxGrowth = 1.5;
 
-	bool takePattern(const Matrix& pattern);
+	void takePattern(const Matrix& pattern);
 	void layOut();
 	void takeValues(const Matrix& matrix);
 	void solveOrdered(Eigen::VectorXd& x);
