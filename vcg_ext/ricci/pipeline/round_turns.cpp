@@ -79,8 +79,8 @@ void roundLoopTurns(
 	if (!map.flow.target.quarterTurns || options.method != Method::IntrinsicFlips ||
 		map.flow.doubled)
 		return;
-	advance(1.0 - kAfterFlow, "Rounding the turns");
 	chooseCones(surface, request, options, map);
+	advance(1.0 - kAfterFlow, "Rounding the turns");
 	const TurnRounding done = roundTurns(map.flow, options);
 	if (done.before > 0.0)
 		logLine(
