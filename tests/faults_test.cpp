@@ -662,7 +662,7 @@ TEST(Faults, CancellingWithinTheOverlayLeavesTheMesh)
 	for (int n = 1; n <= all.calls; ++n) {
 		InTheOverlay progress;
 		progress.cancelAt = n;
-		EXPECT_THROW(Flow::Compute(m, p), Cancelled);
+		EXPECT_THROW(heard(progress, [&] { return Flow::Compute(m, p); }), Cancelled);
 		EXPECT_EQ(progress.calls, n);
 		EXPECT_EQ(contents(m) == before, true);
 	}

@@ -14,14 +14,15 @@ thread_local double helperMemoryLimit = 0.0;
 } // namespace
 
 Task::Task(Progress& listener, double seconds) :
-		m_outer(current), m_listener(&listener), m_seconds(seconds),
+		m_outer(current), m_listener(&listener), m_seconds(seconds), m_what("Starting"),
 		m_start(std::chrono::steady_clock::now())
 {
 	current = this;
 }
 
 Task::Task(double from, double to, bool isSilent) :
-		m_outer(current), m_from(from), m_to(to), m_isSilent(isSilent)
+		m_outer(current), m_from(from), m_to(to), m_isSilent(isSilent),
+		m_what(current ? current->m_what : std::string())
 {
 	current = this;
 }

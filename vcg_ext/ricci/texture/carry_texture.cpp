@@ -261,7 +261,6 @@ private:
 	void forEachTile(const Concerns& concerns, const Visit& visit) const
 	{
 		tasksInParallel(m_rows, m_threads, [&](int row) {
-			advance(static_cast<double>(row) / m_rows, "Drawing the texture");
 			for (int i = 0; i < m_inARow; ++i) {
 				const Tile tile{
 					positionOf(row * m_inARow + i),
@@ -271,7 +270,7 @@ private:
 					std::min((row + 1) * kTile, m_result.height)};
 				if (!concerns(m_pictures[tile.number]))
 					continue;
-				checkpoint();
+				advance(static_cast<double>(row) / m_rows, "Drawing the texture");
 				visit(tile);
 			}
 		});
