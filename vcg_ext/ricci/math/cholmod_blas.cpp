@@ -10,7 +10,7 @@
 // No function allocates memory, because no exception may pass through CHOLMOD: matrices are taken in
 // blocks of a size that Eigen finds room for on the stack. What depends on it is the speed alone.
 #include "../base/parallel.h"
-#include "cholmod_tick.h"
+#include "cholmod_checkpoint.h"
 
 #include "../base/task.h"
 
@@ -67,7 +67,7 @@ constexpr double kMinProducts = 4e6;
 template<class Work>
 void forBlocks(Index size, double products, const Work& work)
 {
-	if (!ricci::CholmodTick::goesOn(products))
+	if (!ricci::checkpointInCholmod(products))
 		return;
 	const int threads = products < 2.0 * kMinProducts ? 1 : ricci::defaultThreads();
 	const int parts =
@@ -197,7 +197,7 @@ void dtrsm_(
 void dpotrf_(const char*, const int* size, double* a, const int* stride, int* info)
 {
 	const bool isFactored = factorize({a, *size, *size, *stride});
-	*info = isFactored && ricci::CholmodTick::goesOn(0.0) ? 0 : 1;
+	*info = isFactored && ricci::checkpointInCholmod(0.0) ? 0 : 1;
 }
 
 // The loops of CHOLMOD that are parallel with OpenMP, in one thread.

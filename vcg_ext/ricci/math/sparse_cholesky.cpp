@@ -3,7 +3,7 @@
 
 #include "../base/indexed.h"
 #include "../error.h"
-#include "cholmod_tick.h"
+#include "cholmod_checkpoint.h"
 #include "one_thread.h"
 
 #include <Eigen/IterativeLinearSolvers>
@@ -149,10 +149,9 @@ struct SparseCholesky::Implementation
 	bool factorize(const Matrix& matrix)
 	{
 		const OneThread oneThread;
-		const CholmodTick ticking;
 		View a(matrix);
 		cholmod_l_factorize(a.get(), factor, &common);
-		ticking.rethrow();
+		rethrowFromCholmod();
 		if (common.status < CHOLMOD_OK)
 			fail(matrix);
 		return common.status == CHOLMOD_OK;
