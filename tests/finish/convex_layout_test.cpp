@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "flat_square.h"
+#include "flat_maps.h"
 
 #include <ricci/finish/convex_layout.h>
 #include <ricci/finish/repair.h>
@@ -148,8 +148,7 @@ TEST(ConvexLayout, MendsADrawingWhosePointsAreAnywhere)
 		for (Point2& p : flat.place)
 			p = {random.real(0.0, kSide), 1e-9 * random.real(0.0, kSide)};
 		WorkLimit limit(flat.points.size());
-		const Repair result =
-			repairFreely(flat, nullptr, RestShapes::OfSurface, wanted, limit);
+		const Repair result = repairFreely(flat, nullptr, RestShapes::OfSurface, wanted, limit);
 		EXPECT_GT(result.bad, 100);
 		EXPECT_EQ(result.left, 0);
 		EXPECT_TRUE(badTriangles(flat, wanted).empty());

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "flat_maps.h"
 #include "support/complex.h"
 #include "support/flipped_flow.h"
 #include "support/intrinsic.h"
@@ -12,7 +13,7 @@
 #include <ricci/finish/least_distortion.h>
 #include <ricci/finish/limited_memory_bfgs.h>
 #include <ricci/finish/mean_distortion.h>
-#include <ricci/finish/movable_points.h>
+#include <ricci/finish/numbered_points.h>
 #include <ricci/math/orientation.h>
 #include <ricci/measure/distortion.h>
 
@@ -31,77 +32,74 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A map of a mesh's own triangles to the plane, cut open.
-struct Drawing
+struct CutMap
 {
 	SurfaceMesh mesh;
-	Triangulation t;
-	EdgeArray<double> lengths;
-	EdgeArray<char> isCut;
+	FlatMesh flat;
 	VertexArray<char> cones;
 	bool boundaryMoves = true;
-	PlanarLayout layout;
 
 	/// The flow's map, cut along random ways.
-	Drawing(const SurfaceMesh& m, const TargetRequest& request, Random& random) : mesh(m)
+	CutMap(const SurfaceMesh& m, const TargetRequest& request, Random& random) : mesh(m)
 	{
 		const FlippedFlow flow(m, request);
-		const CutGraph cut = flow.cutAnywhere(random);
-		t = flow.base();
-		lengths = flow.surface().lengths;
-		isCut = cut.isCut;
+		flat = flatMeshOf(flow.surface(), flow.refinement(flow.cutAnywhere(random)).inputLayout);
 		cones = flow.cones();
-		layout = flow.refinement(cut).inputLayout;
 	}
 
-	/// A disk whose vertices are drawn at \p places.
-	Drawing(const SurfaceMesh& m, const std::vector<Point2>& places) :
-			mesh(m), t(glued(m)), lengths(edgeLengths(t, m)), isCut(t.edgeCount(), 0),
-			cones(t.vertexCount(), 0)
+	/// A disk whose vertices are at \p places.
+	CutMap(const SurfaceMesh& m, const std::vector<Point2>& places) :
+			mesh(m), flat(flatDisk(m, places)), cones(m.positions.size(), 0)
 	{
-		layout.wedges = cornerWedges(t, isCut);
-		layout.points.resize(layout.wedges.count);
-		for (const Halfedge h : t.interiorHalfedges())
-			layout.points[layout.wedges.of[h]] = places[at(t.origin(h))];
 	}
 
-	LeastDistortion improve()
+	LeastDistortion improve() { return leastDistortion(flat, cones, boundaryMoves); }
+
+	NumberedPoints points() const
 	{
-		return leastDistortion(t, lengths, isCut, cones, boundaryMoves, layout);
+		return {flat, joinedPoints(flat, cones, [this](int) { return boundaryMoves; })};
 	}
 
-	MovablePoints points() const { return movablePoints(t, isCut, cones, boundaryMoves, layout); }
+	int flipped() const { return notCounterClockwise(flat); }
 
-	int turned() const
-	{
-		int count = 0;
-		for (const Face f : t.faces()) {
-			const auto h = t.halfedges(f);
-			count += orientation(layout[h[0]], layout[h[1]], layout[h[2]]) != 1;
-		}
-		return count;
-	}
-
-	double extent() const
-	{
-		Box2 box;
-		for (const Point2& p : layout.points)
-			box.add(p);
-		return box.extent();
-	}
+	double extent() const { return flat.box().extent(); }
 
 	Report measured() const
 	{
 		std::vector<Triangle2> plane;
-		SurfaceMesh faces{mesh.positions, {}};
-		for (const Face f : t.faces()) {
-			const auto h = t.halfedges(f);
-			const auto v = t.vertices(f);
-			plane.push_back({layout[h[0]], layout[h[1]], layout[h[2]]});
-			faces.triangles.push_back({v[0].number(), v[1].number(), v[2].number()});
-		}
+		for (const int f : flat.points.indices())
+			plane.push_back(flat.at(f));
 		Report report;
-		measureDistortion(faces, plane, std::vector<char>(plane.size(), 0), report);
+		measureDistortion(
+			{mesh.positions, flat.vertices.values()},
+			plane,
+			std::vector<char>(plane.size(), 0),
+			report);
 		return report;
+	}
+};
+
+/// The seams and the boundary of a map.
+struct Borders
+{
+	Sides sides;
+	std::vector<Corner> seams; ///< sides
+	Array<int> seamsAt;        ///< [vertex]
+	Array<char> boundary;      ///< [vertex]
+
+	explicit Borders(const FlatMesh& flat) :
+			sides(flat.vertices.values()), seamsAt(flat.vertexCount(), 0),
+			boundary(flat.vertexCount(), 0)
+	{
+		for (int c = 0; c < 3 * flat.points.size(); ++c) {
+			const Corner side(c), across = sides.across(side);
+			if (!across.isValid())
+				boundary[flat.vertices[side]] = boundary[flat.vertices[side.next()]] = 1;
+			else if (!isJoined(flat, side, across)) {
+				seams.push_back(side);
+				++seamsAt[flat.vertices[side]];
+			}
+		}
 	}
 };
 
@@ -124,58 +122,57 @@ std::vector<Point2> fromAbove(const SurfaceMesh& mesh)
 
 /// A sphere with cones of pi, whose seams turn; a torus, whose seams are translations; a disk with
 /// a free boundary and a cone inside, whose seam ends there.
-std::vector<Drawing> drawingsWithSeams(Random& random)
+std::vector<CutMap> mapsWithSeams(Random& random)
 {
 	const SurfaceMesh slab = shaken(perforatedSlab(0, 6), 0.02, random);
 	const SurfaceMesh open = withoutStars(slab, {7});
 	std::vector<double> curvature(open.positions.size(), 0.0);
 	curvature[50] = 0.7;
-	std::vector<Drawing> drawings;
-	drawings.emplace_back(slab, conesAt(slab, {0, 57, 110, 163}), random);
-	drawings.emplace_back(bumpyTorus(20, 12, random), requestOf(TargetCurvature::Flat), random);
-	drawings.emplace_back(open, prescribed(curvature, true), random);
-	return drawings;
+	std::vector<CutMap> maps;
+	maps.emplace_back(slab, conesAt(slab, {0, 57, 110, 163}), random);
+	maps.emplace_back(bumpyTorus(20, 12, random), requestOf(TargetCurvature::Flat), random);
+	maps.emplace_back(open, prescribed(curvature, true), random);
+	return maps;
 }
 
 /// Maps of surfaces of every kind to which the automatic target leads, where no straight triangle
-/// is turned.
-std::vector<Drawing> drawingsOfEveryKind(Random& random)
+/// is flipped.
+std::vector<CutMap> mapsOfEveryKind(Random& random)
 {
-	std::vector<Drawing> drawings;
+	std::vector<CutMap> maps;
 	for (const SurfaceMesh& mesh : surfacesOfEveryKind(random)) {
-		Drawing drawing(mesh, requestOf(TargetCurvature::Automatic), random);
-		if (drawing.turned() == 0)
-			drawings.push_back(std::move(drawing));
+		CutMap map(mesh, requestOf(TargetCurvature::Automatic), random);
+		if (map.flipped() == 0)
+			maps.push_back(std::move(map));
 	}
-	return drawings;
+	return maps;
 }
 
-/// An energy at the points of a drawing.
+/// An energy at the points of a map.
 struct Measured
 {
+	NumberedPoints points;
 	MeanDistortion energy;
-	MovablePoints points;
-	Eigen::VectorXcd start; ///< [point]
+	Eigen::VectorXcd start; ///< [number of a point]
 
-	explicit Measured(const Drawing& d) :
-			energy(d.t, d.lengths, d.layout), points(d.points()), start(points.number.size())
+	explicit Measured(const CutMap& d) :
+			points(d.points()), energy(d.flat, points), start(points.number.size())
 	{
-		energy.usePoints(points);
-		place(d);
+		place(d.flat);
 	}
 
-	void place(const Drawing& d)
+	void place(const FlatMesh& flat)
 	{
-		for (const int wedge : points.number.indices())
-			start[points.number[wedge]] = asComplex(d.layout.points[wedge]);
+		for (const int p : flat.place.indices())
+			start[points.number[p]] = asComplex(flat.place[p]);
 	}
 
 	/// The points after the unknowns have moved by \p d.
 	Eigen::VectorXcd moved(const Eigen::VectorXcd& d) const
 	{
 		Eigen::VectorXcd position = start;
-		for (int p = 0; p < points.moving(); ++p)
-			position[p] += points.turnOf(p) * d[points.unknownOf(p)];
+		for (int p = 0; p < points.moving; ++p)
+			position[p] += points.turn[p] * d[points.unknown[p]];
 		return position;
 	}
 };
@@ -203,92 +200,94 @@ double difference(Measured& m, const Eigen::VectorXcd& from, const Eigen::Vector
 
 // ---- The points that move -----------------------------------------------------------------------
 
-TEST(MovablePoints, MoveAsTheirSeamsAllow)
+TEST(NumberedPoints, MoveAsTheirSeamsAllow)
 {
 	Random random(601);
-	for (const Drawing& d : drawingsWithSeams(random)) {
-		const MovablePoints points = d.points();
-		const VertexArray<char> boundary = d.t.boundaryVertices();
+	for (const CutMap& d : mapsWithSeams(random)) {
+		const NumberedPoints points = d.points();
+		const Borders borders(d.flat);
 		std::vector<int> seen;
 		int images = 0, free = 0, stay = 0;
-		for (const Vertex v : d.t.vertices()) {
-			std::vector<int> copies;
-			int cuts = 0;
-			for (const Halfedge h : d.t.around(v)) {
-				cuts += d.isCut[h.edge()];
-				if (!d.t.isExterior(h))
-					copies.push_back(points.number[d.layout.wedges.of[h]]);
-			}
+		const Adjacency<int, int> pointsAt(d.flat.vertexCount(), [&](const auto& add) {
+			for (int c = 0; c < 3 * d.flat.points.size(); ++c)
+				add(d.flat.vertices[Corner(c)], points.number[d.flat.points[Corner(c)]]);
+		});
+		for (const Vertex v : d.cones.indices()) {
+			const auto all = pointsAt[v.number()];
+			const int seams = borders.seamsAt[v.number()];
+			std::vector<int> copies(all.begin(), all.end());
 			std::sort(copies.begin(), copies.end());
 			copies.erase(std::unique(copies.begin(), copies.end()), copies.end());
 			seen.insert(seen.end(), copies.begin(), copies.end());
-			if (cuts == 2 && !d.cones[v] && !boundary[v]) {
+			if (seams == 2 && !d.cones[v] && !borders.boundary[v.number()]) {
 				ASSERT_EQ(copies.size(), 2u);
 				EXPECT_LT(copies[0], points.unknowns);
-				EXPECT_EQ(points.unknownOf(copies[1]), copies[0]);
+				EXPECT_EQ(points.unknown[copies[1]], copies[0]);
 				EXPECT_GE(copies[1], points.unknowns);
 				++images;
 			}
-			else if (cuts == 0 && !d.cones[v]) {
+			else if (seams == 0 && !d.cones[v]) {
 				ASSERT_EQ(copies.size(), 1u);
-				EXPECT_EQ(points.unknownOf(copies[0]), copies[0]);
+				EXPECT_EQ(points.unknown[copies[0]], copies[0]);
 				++free;
 			}
 			else
 				for (const int copy : copies) {
-					EXPECT_EQ(points.unknownOf(copy), -1);
+					EXPECT_EQ(points.unknown[copy], -1);
 					++stay;
 				}
 		}
 		EXPECT_EQ(points.unknowns, free + images);
-		EXPECT_EQ(points.moving(), free + 2 * images);
+		EXPECT_EQ(points.moving, free + 2 * images);
 		EXPECT_GT(images, 2);
 		EXPECT_GT(stay, 0);
 		std::sort(seen.begin(), seen.end());
 		for (int p = 0; p < static_cast<int>(seen.size()); ++p)
 			EXPECT_EQ(seen[at(p)], p);
-		EXPECT_EQ(static_cast<int>(seen.size()), d.layout.wedges.count);
+		EXPECT_EQ(static_cast<int>(seen.size()), d.flat.place.size());
 	}
 }
 
-TEST(MovablePoints, CopiesTurnAsTheEdgesOfTheirSeam)
+TEST(NumberedPoints, CopiesTurnAsTheEdgesOfTheirSeam)
 {
 	Random random(602);
-	for (const Drawing& d : drawingsWithSeams(random)) {
-		const MovablePoints points = d.points();
+	for (const CutMap& d : mapsWithSeams(random)) {
+		const NumberedPoints points = d.points();
+		const Borders borders(d.flat);
+		const auto alongSide = [&](Corner from, Corner to) {
+			return asComplex(d.flat.place[d.flat.points[to]] - d.flat.place[d.flat.points[from]]);
+		};
 		int compared = 0;
-		for (const Halfedge h : d.t.halfedges()) {
-			if (!d.isCut[h.edge()])
+		for (const Corner side : borders.seams) {
+			const Corner across = borders.sides.across(side);
+			const int p = points.number[d.flat.points[side]];
+			const int q = points.number[d.flat.points[across.next()]];
+			if (p >= points.unknowns || points.unknown[q] != p)
 				continue;
-			const Halfedge g = h.twin();
-			const int p = points.number[d.layout.wedges.of[h]];
-			const int q = points.number[d.layout.wedges.of[d.t.next(g)]];
-			if (p >= points.unknowns || points.unknownOf(q) != p)
-				continue;
-			const Complex left = asComplex(d.layout[d.t.next(h)]) - asComplex(d.layout[h]);
-			const Complex right = asComplex(d.layout[g]) - asComplex(d.layout[d.t.next(g)]);
-			EXPECT_LT(std::abs(right / left - points.turnOf(q)), 1e-9);
-			EXPECT_NEAR(std::abs(points.turnOf(q)), 1.0, 1e-15);
+			const Complex left = alongSide(side, side.next());
+			const Complex right = alongSide(across.next(), across);
+			EXPECT_LT(std::abs(right / left - points.turn[q]), 1e-9);
+			EXPECT_NEAR(std::abs(points.turn[q]), 1.0, 1e-15);
 			++compared;
 		}
 		EXPECT_GT(compared, 2);
 	}
 }
 
-TEST(MovablePoints, AreWalkedAlikeWhateverTheNumbers)
+TEST(NumberedPoints, AreWalkedAlikeWhateverTheNumbers)
 {
 	Random random(604);
 	const SurfaceMesh mesh = wavyDisk(9, random);
 	const Renumbered other = renumbered(mesh, random);
 	for (const bool boundaryMoves : {true, false}) {
-		Drawing a(mesh, fromAbove(mesh)), b(other.mesh, fromAbove(other.mesh));
+		CutMap a(mesh, fromAbove(mesh)), b(other.mesh, fromAbove(other.mesh));
 		a.boundaryMoves = b.boundaryMoves = boundaryMoves;
-		const auto vertexOf = [](const Drawing& d) {
-			const MovablePoints points = d.points();
+		const auto vertexOf = [](const CutMap& d) {
+			const NumberedPoints points = d.points();
 			std::vector<int> vertices(at(points.unknowns), -1);
-			for (const Halfedge h : d.t.interiorHalfedges())
-				if (const int p = points.number[d.layout.wedges.of[h]]; p < points.unknowns)
-					vertices[at(p)] = d.t.origin(h).number();
+			for (const int v : points.number.indices()) // every vertex has one point
+				if (const int p = points.number[v]; p < points.unknowns)
+					vertices[at(p)] = v;
 			return vertices;
 		};
 		const std::vector<int> first = vertexOf(a), second = vertexOf(b);
@@ -296,38 +295,34 @@ TEST(MovablePoints, AreWalkedAlikeWhateverTheNumbers)
 		int apart = 0; // unknowns that are no neighbours of an earlier one
 		for (std::size_t i = 0; i < first.size(); ++i) {
 			EXPECT_EQ(first[i], other.vertex[at(second[i])]);
-			bool isNext = false;
-			for (const Halfedge h : a.t.around(Vertex(first[i])))
-				isNext = isNext || std::find(
-									   first.begin(),
-									   first.begin() + static_cast<std::ptrdiff_t>(i),
-									   a.t.target(h).number()) !=
-									   first.begin() + static_cast<std::ptrdiff_t>(i);
-			apart += !isNext;
+			const auto here = first.begin() + static_cast<std::ptrdiff_t>(i);
+			apart +=
+				std::none_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+					return std::count(t.begin(), t.end(), *here) > 0 &&
+						   std::find_first_of(first.begin(), here, t.begin(), t.end()) != here;
+				});
 		}
 		EXPECT_EQ(apart, 1);
 	}
 }
 
-TEST(MovablePoints, BoundaryStaysOrTwoFarPointsDo)
+TEST(NumberedPoints, BoundaryStaysOrTwoFarPointsDo)
 {
 	Random random(603);
 	const SurfaceMesh mesh = wavyDisk(8, random);
-	Drawing d(mesh, fromAbove(mesh));
-	const MovablePoints free = d.points();
-	ASSERT_EQ(free.unknowns, d.t.vertexCount() - 2);
+	CutMap d(mesh, fromAbove(mesh));
+	const NumberedPoints free = d.points();
+	ASSERT_EQ(free.unknowns, d.flat.vertexCount() - 2);
 	std::vector<Point2> pinned;
-	for (const int wedge : free.number.indices())
-		if (free.unknownOf(free.number[wedge]) < 0)
-			pinned.push_back(d.layout.points[wedge]);
+	for (const int p : free.number.indices())
+		if (free.unknown[free.number[p]] < 0)
+			pinned.push_back(d.flat.place[p]);
 	EXPECT_GT(distance(pinned[0], pinned[1]), 1.2); // in a unit square
 	d.boundaryMoves = false;
-	const MovablePoints held = d.points();
-	const VertexArray<char> boundary = d.t.boundaryVertices();
-	for (const Halfedge h : d.t.interiorHalfedges()) {
-		const int point = held.number[d.layout.wedges.of[h]];
-		EXPECT_EQ(held.unknownOf(point) < 0, boundary[d.t.origin(h)] != 0);
-	}
+	const NumberedPoints held = d.points();
+	const Borders borders(d.flat);
+	for (const int v : held.number.indices())
+		EXPECT_EQ(held.unknown[held.number[v]] < 0, borders.boundary[v] != 0);
 }
 
 // ---- The energy ---------------------------------------------------------------------------------
@@ -336,32 +331,30 @@ TEST(MeanDistortion, IsTheWeightedMeanOfTheDilatations)
 {
 	Random random(611);
 	int compared = 0;
-	for (Drawing& d : drawingsWithSeams(random)) {
+	for (CutMap& d : mapsWithSeams(random)) {
 		Measured m(d);
-		if (d.turned() > 0)
+		if (d.flipped() > 0)
 			continue;
 		++compared;
-		FaceArray<double> area(d.t.faceCount());
-		VertexArray<double> ring(d.t.vertexCount(), 0.0);
+		Array<double> area, ring(d.flat.vertexCount(), 0.0);
 		double total = 0.0;
-		const auto corners = [&](Face f) {
-			const auto v = d.t.vertices(f);
+		const auto corners = [&](int f) {
+			const Triangle& v = d.flat.vertices[f];
 			return std::array<Point3, 3>{
 				d.mesh.positions[at(v[0])], d.mesh.positions[at(v[1])], d.mesh.positions[at(v[2])]};
 		};
-		for (const Face f : d.t.faces()) {
-			total += area[f] = triangleArea(corners(f));
-			for (const Vertex v : d.t.vertices(f))
+		for (const int f : d.flat.points.indices()) {
+			area.push_back(triangleArea(corners(f)));
+			total += area[f];
+			for (const int v : d.flat.vertices[f])
 				ring[v] += area[f];
 		}
 		double sum = 0.0, weights = 0.0;
-		for (const Face f : d.t.faces()) {
-			const auto h = d.t.halfedges(f);
-			const double K = quasiConformalDistortion(
-				corners(f), {d.layout[h[0]], d.layout[h[1]], d.layout[h[2]]});
-			double weight = 0.05 / d.t.faceCount() + 0.15 * area[f] / total;
-			for (const Vertex v : d.t.vertices(f))
-				weight += 0.8 * area[f] / ring[v] / d.t.vertexCount();
+		for (const int f : area.indices()) {
+			const double K = quasiConformalDistortion(corners(f), d.flat.at(f));
+			double weight = 0.05 / area.size() + 0.15 * area[f] / total;
+			for (const int v : d.flat.vertices[f])
+				weight += 0.8 * area[f] / ring[v] / ring.size();
 			const double mu = (K - 1) / (K + 1), m2 = (mu * mu + 1e-6) / (1 + 1e-6);
 			sum += weight * std::pow(2 * std::sqrt(m2) / (1 - std::sqrt(m2)), 1.25);
 			weights += weight;
@@ -376,8 +369,8 @@ TEST(MeanDistortion, GradientIsThatOfDifferences)
 {
 	Random random(612);
 	int compared = 0;
-	for (Drawing& d : drawingsWithSeams(random)) {
-		if (d.turned() > 0)
+	for (CutMap& d : mapsWithSeams(random)) {
+		if (d.flipped() > 0)
 			continue;
 		Measured m(d);
 		for (int round = 0; round < 3; ++round) {
@@ -387,8 +380,8 @@ TEST(MeanDistortion, GradientIsThatOfDifferences)
 			Eigen::VectorXcd gradient;
 			m.energy.gradient(gradient);
 			double height = kInfinity; // the least of a triangle
-			for (const Face f : d.t.faces()) {
-				const std::array<int, 3>& c = m.energy.corners(f);
+			for (const int f : d.flat.points.indices()) {
+				const Triangle& c = m.energy.corners(f);
 				const Complex a = position[c[0]], b = position[c[1]] - a, e = position[c[2]] - a;
 				const double longest = std::max({std::abs(b), std::abs(e), std::abs(e - b)});
 				height = std::min(height, (std::conj(b) * e).imag() / longest);
@@ -400,10 +393,9 @@ TEST(MeanDistortion, GradientIsThatOfDifferences)
 				if (k > 0) // a seam vertex alone, or any other one
 					along = along.cwiseProduct(Eigen::VectorXcd::Unit(
 						m.points.unknowns,
-						k % 2 ? m.points
-									.images[at(
-										random.index(static_cast<int>(m.points.images.size())))]
-									.source
+						k % 2 ? m.points.unknown
+									[m.points.unknowns +
+									 random.index(m.points.moving - m.points.unknowns)]
 							  : random.index(m.points.unknowns)));
 				const double slope = 2 * LimitedMemoryBfgs::dot(gradient, along);
 				const double step = 1e-4 * height / along.cwiseAbs().maxCoeff();
@@ -414,7 +406,7 @@ TEST(MeanDistortion, GradientIsThatOfDifferences)
 			}
 		}
 	}
-	EXPECT_EQ(compared, 45); // no drawing is left out
+	EXPECT_EQ(compared, 45); // no map is left out
 }
 
 TEST(MeanDistortion, IsInfiniteWhereATriangleIsNotCounterClockwise)
@@ -425,18 +417,16 @@ TEST(MeanDistortion, IsInfiniteWhereATriangleIsNotCounterClockwise)
 	// A corner of a triangle exactly on the opposite side, then beyond it.
 	const Triangle& t = mesh.triangles[20];
 	const Point2 a = places[at(t[0])], b = places[at(t[1])], c = places[at(t[2])];
-	const Drawing d(mesh, places);
+	const CutMap d(mesh, places);
 	Measured m(d);
 	EXPECT_TRUE(std::isfinite(m.energy.evaluate(m.start)));
 	for (const double share : {1.0, 1.5}) {
-		Drawing other = d;
+		CutMap other = d;
 		const Point2 foot{
 			c[0] + share * ((a[0] + b[0]) / 2 - c[0]), c[1] + share * ((a[1] + b[1]) / 2 - c[1])};
-		for (const Halfedge h : d.t.interiorHalfedges())
-			if (d.t.origin(h) == Vertex(t[2]))
-				other.layout.points[d.layout.wedges.of[h]] = foot;
-		ASSERT_GT(other.turned(), 0);
-		m.place(other);
+		other.flat.place[t[2]] = foot;
+		ASSERT_GT(other.flipped(), 0);
+		m.place(other.flat);
 		EXPECT_EQ(m.energy.evaluate(m.start), kInfinity);
 	}
 }
@@ -445,8 +435,8 @@ TEST(MeanDistortion, HasTheSameBitsWithAnyNumberOfThreads)
 {
 	Random random(614);
 	const SurfaceMesh mesh = wavyDisk(160, random);
-	const Drawing d(mesh, fromAbove(mesh));
-	ASSERT_GT(d.t.faceCount(), 3 * 16384); // enough for several
+	const CutMap d(mesh, fromAbove(mesh));
+	ASSERT_GT(d.flat.points.size(), 3 * 16384); // enough for several
 	Measured m(d);
 	m.energy.useThreads(1);
 	const double one = m.energy.evaluate(m.start);
@@ -464,8 +454,8 @@ TEST(MeanDistortion, FallsWhereSinglePointsMove)
 {
 	Random random(631);
 	int compared = 0, moved = 0;
-	for (Drawing& d : drawingsWithSeams(random)) {
-		if (d.turned() > 0)
+	for (CutMap& d : mapsWithSeams(random)) {
+		if (d.flipped() > 0)
 			continue;
 		Measured m(d);
 		Eigen::VectorXcd position = m.moved(shake(m, 0.02 * d.extent(), random));
@@ -485,12 +475,12 @@ TEST(MeanDistortion, FallsWhereSinglePointsMove)
 			EXPECT_LT((kept - gradient).norm(), 1e-12 * gradient.norm());
 		}
 		for (int p = 0; p < static_cast<int>(position.size()); ++p) {
-			const int unknown = m.points.unknownOf(p);
+			const int unknown = m.points.unknown[p];
 			const Complex step = position[p] - start[p];
 			moved += step != 0.0;
 			const Complex wanted = unknown < 0
 									   ? Complex(0.0)
-									   : m.points.turnOf(p) * (position[unknown] - start[unknown]);
+									   : m.points.turn[p] * (position[unknown] - start[unknown]);
 			EXPECT_LT(std::abs(step - wanted), 1e-14 * d.extent());
 		}
 		++compared;
@@ -504,7 +494,7 @@ TEST(MeanDistortion, ComesNearlyAsLowWhereSinglePointsMoveForLong)
 	Random random(632);
 	for (const int n : {5, 8}) {
 		const SurfaceMesh mesh = wavyDisk(n, random);
-		Drawing d(mesh, fromAbove(mesh));
+		CutMap d(mesh, fromAbove(mesh));
 		Measured m(d);
 		Eigen::VectorXcd position = m.start;
 		double value = m.energy.evaluate(position);
@@ -519,12 +509,11 @@ TEST(DistortionLaplacian, IsTheRealPartOfTheReweightedSquares)
 {
 	Random random(615);
 	int compared = 0;
-	for (Drawing& d : drawingsWithSeams(random)) {
-		if (d.turned() > 0)
+	for (CutMap& d : mapsWithSeams(random)) {
+		if (d.flipped() > 0)
 			continue;
 		Measured m(d);
 		DistortionLaplacian laplacian(m.energy, m.points);
-		m.place(d); // the unknowns have new numbers
 		ASSERT_TRUE(std::isfinite(m.energy.evaluate(m.start)));
 		ASSERT_TRUE(laplacian.factorize(m.energy));
 		Eigen::VectorXcd rhs(m.points.unknowns), x;
@@ -534,12 +523,12 @@ TEST(DistortionLaplacian, IsTheRealPartOfTheReweightedSquares)
 		// y = Re(B^H diag(s) B) x for real vectors x, with f_zbar = B x, by faces.
 		const auto product = [&](const Eigen::VectorXd& real) {
 			Eigen::VectorXcd y = Eigen::VectorXcd::Zero(real.size());
-			for (const Face f : d.t.faces()) {
+			for (const int f : d.flat.points.indices()) {
 				Complex fzbar = 0.0;
 				const auto each = [&](const auto& use) {
 					for (std::size_t k = 0; k < 3; ++k)
-						if (const int p = m.energy.corners(f)[k]; m.points.unknownOf(p) >= 0)
-							use(m.points.unknownOf(p), m.energy.slopes(f)[k] * m.points.turnOf(p));
+						if (const int p = m.energy.corners(f)[k]; m.points.unknown[p] >= 0)
+							use(m.points.unknown[p], m.energy.slopes(f)[k] * m.points.turn[p]);
 				};
 				each([&](int u, Complex slope) { fzbar += slope * real[u]; });
 				each([&](int u, Complex slope) {
@@ -559,8 +548,8 @@ TEST(DistortionLaplacian, ComesNearerAsTheResidualFalls)
 {
 	Random random(633);
 	int compared = 0;
-	for (Drawing& d : drawingsWithSeams(random)) {
-		if (d.turned() > 0)
+	for (CutMap& d : mapsWithSeams(random)) {
+		if (d.flipped() > 0)
 			continue;
 		Measured m(d);
 		DistortionLaplacian laplacian(m.energy, m.points);
@@ -629,31 +618,31 @@ TEST(LimitedMemoryBfgs, TakesTheLastStepBackFromItsChange)
 TEST(LeastDistortion, FallsWithoutTurningATriangle)
 {
 	Random random(621);
-	std::vector<Drawing> drawings = drawingsOfEveryKind(random);
-	EXPECT_GE(drawings.size(), 8u);
+	std::vector<CutMap> maps = mapsOfEveryKind(random);
+	EXPECT_GE(maps.size(), 8u);
 	int better = 0;
-	for (Drawing& d : drawings) {
+	for (CutMap& d : maps) {
 		const Report before = d.measured();
 		Measured m(d);
 		const double start = m.energy.evaluate(m.start);
 		const LeastDistortion result = d.improve();
-		EXPECT_EQ(d.turned(), 0);
+		EXPECT_EQ(d.flipped(), 0);
 		EXPECT_LE(result.after, result.before);
 		EXPECT_NEAR(result.before / start, 1.0, 1e-12); // the points have other numbers there
-		m.place(d);
+		m.place(d.flat);
 		EXPECT_NEAR(m.energy.evaluate(m.start) / result.after, 1.0, 1e-12);
 		EXPECT_GT(result.steps, 0);
 		better += d.measured().qcVertexMean < before.qcVertexMean;
 	}
-	EXPECT_EQ(better, static_cast<int>(drawings.size()));
+	EXPECT_EQ(better, static_cast<int>(maps.size()));
 }
 
 TEST(LeastDistortion, TicksBetweenStepsAndChangesNothingWhereItIsStopped)
 {
 	Random random(622);
 	const SurfaceMesh mesh = wavyDisk(12, random);
-	const Drawing start(mesh, fromAbove(mesh));
-	Drawing whole = start;
+	const CutMap start(mesh, fromAbove(mesh));
+	CutMap whole = start;
 	Listener ticks;
 	const LeastDistortion result = heard(ticks, [&] { return whole.improve(); });
 	EXPECT_GE(ticks.calls(), result.steps);
@@ -664,10 +653,10 @@ TEST(LeastDistortion, TicksBetweenStepsAndChangesNothingWhereItIsStopped)
 	EXPECT_NEAR(again.before / result.after, 1.0, 1e-12);
 	EXPECT_LE(again.after, again.before);
 	EXPECT_GT(again.after, 0.95 * again.before);
-	Drawing stopped = start;
+	CutMap stopped = start;
 	Listener impatient(3);
 	EXPECT_THROW(heard(impatient, [&] { stopped.improve(); }), Cancelled);
-	EXPECT_EQ(stopped.layout.points, start.layout.points);
+	EXPECT_EQ(stopped.flat.place, start.flat.place);
 }
 
 TEST(LeastDistortion, ComesAsLowAsALongDescentByGradients)
@@ -675,7 +664,7 @@ TEST(LeastDistortion, ComesAsLowAsALongDescentByGradients)
 	Random random(623);
 	for (int n : {5, 8}) {
 		const SurfaceMesh mesh = wavyDisk(n, random);
-		Drawing d(mesh, fromAbove(mesh));
+		CutMap d(mesh, fromAbove(mesh));
 		Measured m(d);
 		Eigen::VectorXcd x = Eigen::VectorXcd::Zero(m.points.unknowns), gradient, trial;
 		double value = m.energy.evaluate(m.start), step = 1e-3;
@@ -710,13 +699,13 @@ TEST(LeastDistortion, KeepsAConformalMap)
 	for (Point2& p : places)
 		p = asPoint(turn * asComplex(p) + shift);
 	for (const bool boundaryMoves : {true, false}) {
-		Drawing d(mesh, places);
+		CutMap d(mesh, places);
 		d.boundaryMoves = boundaryMoves;
-		const PlanarLayout start = d.layout;
+		const FlatMesh start = d.flat;
 		const LeastDistortion result = d.improve();
 		EXPECT_NEAR(result.after / result.before, 1.0, 1e-9);
-		for (const int wedge : start.points.indices())
-			EXPECT_LT(distance(d.layout.points[wedge], start.points[wedge]), 1e-9 * d.extent());
+		for (const int p : start.place.indices())
+			EXPECT_LT(distance(d.flat.place[p], start.place[p]), 1e-9 * d.extent());
 	}
 }
 
@@ -724,32 +713,33 @@ TEST(LeastDistortion, KeepsSeamsIsometricAndConesInPlace)
 {
 	Random random(625);
 	int seams = 0, moved = 0;
-	for (Drawing& d : drawingsWithSeams(random)) {
-		if (d.turned() > 0)
+	for (CutMap& d : mapsWithSeams(random)) {
+		if (d.flipped() > 0)
 			continue;
-		const PlanarLayout start = d.layout;
+		const FlatMesh start = d.flat;
+		const Borders borders(start);
 		EXPECT_GT(d.improve().steps, 0);
-		const auto transition = [&](const PlanarLayout& layout, Halfedge h) {
-			const Halfedge g = h.twin();
-			return (asComplex(layout[g]) - asComplex(layout[d.t.next(g)])) /
-				   (asComplex(layout[d.t.next(h)]) - asComplex(layout[h]));
+		const auto transition = [&](const FlatMesh& flat, Corner side) {
+			const auto along = [&](Corner c) {
+				return asComplex(flat.place[flat.points[c.next()]] - flat.place[flat.points[c]]);
+			};
+			return -along(borders.sides.across(side)) / along(side);
 		};
-		for (const Edge e : d.t.edges()) {
-			if (!d.isCut[e])
-				continue;
-			const Halfedge h = e.halfedge();
-			const double gapThen = std::abs(std::abs(transition(start, h)) - 1.0);
-			EXPECT_LT(std::abs(std::abs(transition(d.layout, h)) - 1.0), 1e-12 + 2 * gapThen);
-			EXPECT_LT(std::abs(transition(d.layout, h) - transition(start, h)), 1e-10);
-			moved += d.layout[h] != start[h];
+		for (const Corner side : borders.seams) {
+			const Complex then = transition(start, side), after = transition(d.flat, side);
+			EXPECT_LT(std::abs(std::abs(after) - 1.0), 1e-12 + 2 * std::abs(std::abs(then) - 1.0));
+			EXPECT_LT(std::abs(after - then), 1e-10);
+			moved += d.flat.place[d.flat.points[side]] != start.place[start.points[side]];
 			++seams;
 		}
-		const MovablePoints points = d.points();
-		for (const Halfedge h : d.t.interiorHalfedges())
-			if (d.cones[d.t.origin(h)] ||
-				points.unknownOf(points.number[d.layout.wedges.of[h]]) < 0) {
-				EXPECT_EQ(d.layout[h], start[h]);
+		const NumberedPoints points = d.points();
+		for (int c = 0; c < 3 * start.points.size(); ++c) {
+			const int p = start.points[Corner(c)];
+			if (d.cones[Vertex(start.vertices[Corner(c)])] ||
+				points.unknown[points.number[p]] < 0) {
+				EXPECT_EQ(d.flat.place[p], start.place[p]);
 			}
+		}
 	}
 	EXPECT_GT(seams, 30);
 	EXPECT_GT(moved, 15);
@@ -759,47 +749,46 @@ TEST(LeastDistortion, HoldsABoundaryThatDoesNotMove)
 {
 	Random random(626);
 	const SurfaceMesh mesh = wavyDisk(12, random);
-	Drawing d(mesh, fromAbove(mesh));
+	CutMap d(mesh, fromAbove(mesh));
 	d.boundaryMoves = false;
-	const PlanarLayout start = d.layout;
-	const VertexArray<char> boundary = d.t.boundaryVertices();
+	const Array<Point2> start = d.flat.place;
+	const Borders borders(d.flat);
 	EXPECT_GT(d.improve().steps, 0);
-	EXPECT_EQ(d.turned(), 0);
+	EXPECT_EQ(d.flipped(), 0);
 	int inside = 0;
-	for (const Halfedge h : d.t.interiorHalfedges())
-		if (boundary[d.t.origin(h)]) {
-			EXPECT_EQ(d.layout[h], start[h]);
+	for (const int v : start.indices()) // every vertex has one point
+		if (borders.boundary[v]) {
+			EXPECT_EQ(d.flat.place[v], start[v]);
 		}
 		else
-			inside += d.layout[h] != start[h];
+			inside += d.flat.place[v] != start[v];
 	EXPECT_GT(inside, 100);
 }
 
-TEST(LeastDistortion, TurnsAndGrowsWithTheDrawing)
+TEST(LeastDistortion, TurnsAndGrowsWithTheMap)
 {
 	Random random(627);
 	const SurfaceMesh mesh = wavyDisk(12, random);
-	Drawing d(mesh, fromAbove(mesh));
+	CutMap d(mesh, fromAbove(mesh));
 	// Sizes that only just leave products of four lengths in the range of doubles.
 	for (const auto& [inSpace, turn] :
 		 {std::pair<double, Complex>{3.0, std::polar(0.2, 2.0)},
 		  {1e-40, std::polar(1e40, 0.3)},
 		  {1e45, std::polar(1e-45, -1.0)}}) {
-		Drawing other = d;
-		for (double& length : other.lengths)
-			length *= inSpace;
-		for (Point2& p : other.layout.points)
+		CutMap other = d;
+		for (auto& lengths : other.flat.lengths)
+			for (double& length : lengths)
+				length *= inSpace;
+		for (Point2& p : other.flat.place)
 			p = asPoint(turn * asComplex(p));
-		Drawing first = d;
+		CutMap first = d;
 		const LeastDistortion a = first.improve(), b = other.improve();
 		EXPECT_EQ(a.steps, b.steps);
 		EXPECT_NEAR(b.before / a.before, 1.0, 1e-12);
 		EXPECT_NEAR(b.after / a.after, 1.0, 1e-9);
-		for (const int wedge : first.layout.points.indices())
+		for (const int p : first.flat.place.indices())
 			EXPECT_LT(
-				std::abs(
-					asComplex(other.layout.points[wedge]) / turn -
-					asComplex(first.layout.points[wedge])),
+				std::abs(asComplex(other.flat.place[p]) / turn - asComplex(first.flat.place[p])),
 				1e-8);
 	}
 }
@@ -809,13 +798,10 @@ TEST(LeastDistortion, DoesNotDependOnNumbers)
 	Random random(628);
 	const SurfaceMesh mesh = wavyDisk(12, random);
 	const Renumbered other = renumbered(mesh, random);
-	Drawing a(mesh, fromAbove(mesh)), b(other.mesh, fromAbove(other.mesh));
+	CutMap a(mesh, fromAbove(mesh)), b(other.mesh, fromAbove(other.mesh));
 	EXPECT_NEAR(a.improve().after / b.improve().after, 1.0, 1e-9);
-	std::vector<Point2> places(mesh.positions.size());
-	for (const Halfedge h : a.t.interiorHalfedges())
-		places[at(a.t.origin(h))] = a.layout[h];
-	for (const Halfedge h : b.t.interiorHalfedges())
-		EXPECT_LT(distance(b.layout[h], places[at(other.vertex[at(b.t.origin(h))])]), 1e-8);
+	for (const int v : b.flat.place.indices())
+		EXPECT_LT(distance(b.flat.place[v], a.flat.place[other.vertex[at(v)]]), 1e-8);
 }
 
 /// All others get better, and none of them turns.
@@ -828,27 +814,27 @@ TEST(LeastDistortion, ATurnedTriangleDoesNotCount)
 	places[at(t[0])] = {
 		(places[at(t[1])][0] + places[at(t[2])][0]) / 2 * 2 - places[at(t[0])][0],
 		(places[at(t[1])][1] + places[at(t[2])][1]) / 2 * 2 - places[at(t[0])][1]};
-	Drawing d(mesh, places);
-	const int turned = d.turned();
-	ASSERT_GT(turned, 0);
+	CutMap d(mesh, places);
+	const int flipped = d.flipped();
+	ASSERT_GT(flipped, 0);
 	const LeastDistortion result = d.improve();
 	EXPECT_GT(result.steps, 0);
 	EXPECT_LT(result.after, result.before);
-	EXPECT_LE(d.turned(), turned);
+	EXPECT_LE(d.flipped(), flipped);
 }
 
 TEST(LeastDistortion, LeavesALayoutWithNothingToMove)
 {
 	const SurfaceMesh mesh = rectangle(1, 1, 2.0, 1.0);
-	Drawing d(mesh, {{0, 0}, {0, 1}, {1, 0}, {1, 2}});
-	ASSERT_EQ(d.turned(), 0);
+	CutMap d(mesh, {{0, 0}, {0, 1}, {1, 0}, {1, 2}});
+	ASSERT_EQ(d.flipped(), 0);
 	d.boundaryMoves = false;
-	const PlanarLayout start = d.layout;
+	const Array<Point2> start = d.flat.place;
 	const LeastDistortion result = d.improve();
 	EXPECT_EQ(result.steps, 0);
 	EXPECT_EQ(result.before, result.after);
 	EXPECT_TRUE(std::isfinite(result.after));
-	EXPECT_EQ(d.layout.points, start.points);
+	EXPECT_EQ(d.flat.place, start);
 }
 
 TEST(LeastDistortion, DoesNotTurnTrianglesWithoutAreaInSpace)
@@ -863,12 +849,12 @@ TEST(LeastDistortion, DoesNotTurnTrianglesWithoutAreaInSpace)
 			mesh.positions[at(t[0])][k] =
 				(mesh.positions[at(t[1])][k] + mesh.positions[at(t[2])][k]) / 2;
 	}
-	Drawing d(mesh, places);
+	CutMap d(mesh, places);
 	const LeastDistortion result = d.improve();
 	EXPECT_GT(result.steps, 2);
 	EXPECT_LT(result.after, 0.95 * result.before);
-	EXPECT_EQ(d.turned(), 0);
-	for (const Point2& p : d.layout.points)
+	EXPECT_EQ(d.flipped(), 0);
+	for (const Point2& p : d.flat.place)
 		EXPECT_TRUE(std::isfinite(p[0]) && std::isfinite(p[1]));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "flat_square.h"
+#include "flat_maps.h"
 
 #include "support/listener.h"
 #include "support/random.h"
@@ -57,8 +57,7 @@ BorderMoves nothingBeyond()
 	return {SeamGeometry::Plane, [](int) { return false; }, nullptr};
 }
 
-Repair mend(
-	FlatMesh& flat, const Soundness& wanted)
+Repair mend(FlatMesh& flat, const Soundness& wanted)
 {
 	WorkLimit limit(flat.points.size());
 	return repairInStages(flat, nothingBeyond(), RestShapes::OfSurface, wanted, limit);

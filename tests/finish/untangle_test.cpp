@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "flat_square.h"
+#include "flat_maps.h"
 
 #include "support/listener.h"
 #include "support/random.h"
@@ -50,15 +50,10 @@ struct Whole
 	}
 
 	/// \pre the tick lives as long
-	PatchProblem problem(
-		int maxSteps = kMaxSteps) const
-	{
-		return problemOf(flat, maxSteps);
-	}
+	PatchProblem problem(int maxSteps = kMaxSteps) const { return problemOf(flat, maxSteps); }
 
 	/// The same for the patch elsewhere.
-	PatchProblem problemOf(
-		const FlatMesh& d, int maxSteps = kMaxSteps) const
+	PatchProblem problemOf(const FlatMesh& d, int maxSteps = kMaxSteps) const
 	{
 		return {d, groups, patch, shapes, kSound, maxSteps};
 	}
@@ -80,16 +75,6 @@ struct Whole
 		return sum;
 	}
 };
-
-int notCounterClockwise(const FlatMesh& flat)
-{
-	int count = 0;
-	for (const int f : flat.points.indices()) {
-		const Triangle2 p = flat.at(f);
-		count += orientation(p[0], p[1], p[2]) != 1;
-	}
-	return count;
-}
 
 double sumOfAreas(const FlatMesh& flat)
 {

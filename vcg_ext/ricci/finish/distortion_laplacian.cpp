@@ -21,64 +21,27 @@ double realProduct(Complex a, Complex b)
 } // namespace
 
 DistortionLaplacian::DistortionLaplacian(
-	const MeanDistortion& energy, const MovablePoints& points) :
+	const MeanDistortion& energy, const NumberedPoints& points) :
 		m_points(points),
-		m_unknown(energy.faceCount()), m_slot(energy.faceCount()), m_scale(points.unknowns),
-		m_residual(points.unknowns), m_direction(points.unknowns), m_solved(points.unknowns),
-		m_product(points.unknowns)
+		m_slot(energy.size(), {-1, -1, -1}), m_below(points.unknowns, points.unknowns),
+		m_scale(points.unknowns), m_residual(points.unknowns), m_direction(points.unknowns),
+		m_solved(points.unknowns), m_product(points.unknowns)
 {
-	layOut(energy);
-}
-
-void DistortionLaplacian::layOut(const MeanDistortion& energy)
-{
-	const int n = m_points.unknowns;
-	for (const Face f : m_unknown.indices())
-		for (std::size_t k = 0; k < 3; ++k)
-			m_unknown[f][k] = m_points.unknownOf(energy.corners(f)[k]);
 	const auto eachSide = [&](const auto& use) {
-		for (const Face f : m_unknown.indices())
+		for (const int f : m_slot.indices())
 			for (std::size_t k = 0; k < 3; ++k) {
-				const int a = m_unknown[f][k], b = m_unknown[f][(k + 1) % 3];
-				if (a >= 0 && b >= 0 && a != b)
-					use(f, k, std::min(a, b), std::max(a, b));
+				const auto [column, row] = std::minmax(
+					{points.unknown[energy.corners(f)[k]],
+					 points.unknown[energy.corners(f)[(k + 1) % 3]]});
+				if (column >= 0 && column != row)
+					use(row, column, m_slot[f][k]);
 			}
 	};
-	std::vector<int> start(positionOf(n) + 1, 0);
-	eachSide([&](Face, std::size_t, int column, int) { ++start[positionOf(column) + 1]; });
-	for (std::size_t c = 0; c < positionOf(n); ++c)
-		start[c + 1] += start[c];
-	std::vector<int> rows(positionOf(start.back())), cursor = start;
-	eachSide([&](Face, std::size_t, int column, int row) {
-		rows[positionOf(cursor[positionOf(column)]++)] = row;
-	});
-	m_start.assign(1, 0);
-	for (std::size_t c = 0; c < positionOf(n); ++c) { // most rows are there twice
-		const auto first = rows.begin() + start[c], last = rows.begin() + start[c + 1];
-		std::sort(first, last);
-		m_row.insert(m_row.end(), first, std::unique(first, last));
-		m_start.push_back(static_cast<int>(m_row.size()));
-	}
-	m_entry.resize(m_row.size());
-	m_rowEntry.resize(m_row.size());
-	m_column.resize(m_row.size());
-	m_rowStart.assign(positionOf(n) + 1, 0);
-	for (const int row : m_row)
-		++m_rowStart[positionOf(row) + 1];
-	for (std::size_t r = 0; r < positionOf(n); ++r)
-		m_rowStart[r + 1] += m_rowStart[r];
-	cursor = m_rowStart;
-	for (int c = 0; c < n; ++c)
-		for (int i = m_start[positionOf(c)]; i < m_start[positionOf(c) + 1]; ++i) {
-			const int place = cursor[positionOf(m_row[positionOf(i)])]++;
-			m_column[positionOf(place)] = c;
-			m_place.push_back(place);
-		}
-	m_slot.assign(m_unknown.size(), {-1, -1, -1});
-	eachSide([&](Face f, std::size_t k, int column, int row) {
-		const auto first = m_row.begin() + m_start[positionOf(column)];
-		const auto last = m_row.begin() + m_start[positionOf(column) + 1];
-		m_slot[f][k] = static_cast<int>(std::lower_bound(first, last, row) - m_row.begin());
+	std::vector<Eigen::Triplet<double>> entries;
+	eachSide([&](int row, int column, Eigen::Index) { entries.emplace_back(row, column, 0.0); });
+	m_below.setFromTriplets(entries.begin(), entries.end());
+	eachSide([&](int row, int column, Eigen::Index& slot) {
+		slot = &m_below.coeffRef(row, column) - m_below.valuePtr();
 	});
 }
 
@@ -86,21 +49,24 @@ bool DistortionLaplacian::factorize(const MeanDistortion& energy)
 {
 	Eigen::VectorXd& diagonal = m_scale;
 	diagonal.setZero();
-	std::fill(m_entry.begin(), m_entry.end(), 0.0);
-	for (const Face f : m_unknown.indices()) {
-		const std::array<int, 3>& unknown = m_unknown[f];
+	m_below.coeffs().setZero();
+	for (const int f : m_slot.indices()) {
 		const double s = energy.stiffness(f);
 		std::array<Complex, 3> slopes = energy.slopes(f);
-		for (std::size_t k = 0; k < 3; ++k)
-			if (unknown[k] >= 0 && energy.corners(f)[k] != unknown[k]) // an image
-				slopes[k] *= m_points.turnOf(energy.corners(f)[k]);
+		Triangle unknown{};
+		for (std::size_t k = 0; k < 3; ++k) {
+			const int point = energy.corners(f)[k];
+			unknown[k] = m_points.unknown[point];
+			if (unknown[k] >= 0 && unknown[k] != point) // an image
+				slopes[k] *= m_points.turn[point];
+		}
 		for (std::size_t k = 0; k < 3; ++k) {
 			if (unknown[k] < 0)
 				continue;
 			diagonal[unknown[k]] += s * std::norm(slopes[k]);
 			const std::size_t next = (k + 1) % 3;
 			if (m_slot[f][k] >= 0)
-				m_entry[positionOf(m_slot[f][k])] += s * realProduct(slopes[k], slopes[next]);
+				m_below.coeffs()[m_slot[f][k]] += s * realProduct(slopes[k], slopes[next]);
 			else if (unknown[k] == unknown[next]) // the two copies of a seam vertex
 				diagonal[unknown[k]] += 2.0 * s * realProduct(slopes[k], slopes[next]);
 		}
@@ -110,33 +76,23 @@ bool DistortionLaplacian::factorize(const MeanDistortion& energy)
 			return false;
 		d = 1.0 / std::sqrt(d);
 	}
-	for (int c = 0; c < m_points.unknowns; ++c)
-		for (int i = m_start[positionOf(c)]; i < m_start[positionOf(c) + 1]; ++i)
-			m_rowEntry[positionOf(m_place[positionOf(i)])] = m_entry[positionOf(i)] *=
-				m_scale[c] * m_scale[m_row[positionOf(i)]];
+	for (int column = 0; column < m_points.unknowns; ++column)
+		for (Eigen::SparseMatrix<double>::InnerIterator entry(m_below, column); entry; ++entry)
+			entry.valueRef() *= m_scale[column] * m_scale[entry.row()];
+	m_belowByRows = m_below;
 	return true;
 }
 
 /// x = (1 + L)^-1 x for the entries L below the diagonal.
 void DistortionLaplacian::solveForward(Eigen::VectorXcd& x) const
 {
-	for (int r = 0; r < m_points.unknowns; ++r) {
-		Complex sum = x[r];
-		for (int i = m_rowStart[positionOf(r)]; i < m_rowStart[positionOf(r) + 1]; ++i)
-			sum -= m_rowEntry[positionOf(i)] * x[m_column[positionOf(i)]];
-		x[r] = sum;
-	}
+	m_belowByRows.triangularView<Eigen::UnitLower>().solveInPlace(x);
 }
 
 /// x = (1 + L)^-T x.
 void DistortionLaplacian::solveBackward(Eigen::VectorXcd& x) const
 {
-	for (int c = m_points.unknowns; c-- > 0;) {
-		Complex sum = x[c];
-		for (int i = m_start[positionOf(c)]; i < m_start[positionOf(c) + 1]; ++i)
-			sum -= m_entry[positionOf(i)] * x[m_row[positionOf(i)]];
-		x[c] = sum;
-	}
+	m_below.transpose().triangularView<Eigen::UnitUpper>().solveInPlace(x);
 }
 
 /// With A = 1 + L + L^T, conjugate gradients run on (1 + L)^-1 A (1 + L)^-T y = (1 + L)^-1 rhs, where

@@ -4,7 +4,9 @@
 
 #include "mean_distortion.h"
 
-#include <vector>
+#include <Eigen/SparseCore>
+
+#include <array>
 
 namespace ricci {
 
@@ -22,7 +24,7 @@ class DistortionLaplacian
 {
 public:
 	/// Lays the matrix out for \p points, which \p energy must use, and which must outlive it.
-	DistortionLaplacian(const MeanDistortion& energy, const MovablePoints& points);
+	DistortionLaplacian(const MeanDistortion& energy, const NumberedPoints& points);
 
 	/// Takes the stiffness where \p energy was last evaluated.
 	/// \return false where a row has no positive diagonal
@@ -36,25 +38,16 @@ public:
 private:
 	static constexpr double kRounding = 1e-14;
 
-	void layOut(const MeanDistortion& energy);
 	void solveForward(Eigen::VectorXcd& x) const;
 	void solveBackward(Eigen::VectorXcd& x) const;
 
-	const MovablePoints& m_points;
-	FaceArray<std::array<int, 3>> m_unknown; // of the corners, or -1
-	FaceArray<std::array<int, 3>> m_slot;    // of the entry between corners k and k + 1, or -1
+	const NumberedPoints& m_points;
+	Array<std::array<Eigen::Index, 3>> m_slot; // of the entry between corners k and k + 1, or -1
 
-	// The matrix with rows and columns scaled so that its diagonal is 1: the entries below that, by
-	// columns.
-	std::vector<int> m_start; // [column, and one after the last]
-	std::vector<int> m_row;
-	std::vector<double> m_entry;
-
-	// The same by rows: both substitutions gather what they add up, which is faster than to scatter it.
-	std::vector<int> m_rowStart; // [row, and one after the last]
-	std::vector<int> m_column;
-	std::vector<int> m_place; // [entry by columns] its place by rows
-	std::vector<double> m_rowEntry;
+	// The matrix with rows and columns scaled so that its diagonal is 1: the entries below that. By
+	// columns and by rows: both substitutions gather what they add up, which is faster than to scatter it.
+	Eigen::SparseMatrix<double> m_below;
+	Eigen::SparseMatrix<double, Eigen::RowMajor> m_belowByRows;
 	Eigen::VectorXd m_scale; // of the rows
 
 	Eigen::VectorXcd m_residual, m_direction, m_solved, m_product; // of solve()

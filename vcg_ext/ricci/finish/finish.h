@@ -2,10 +2,9 @@
 #ifndef RICCI_FINISH_H
 #define RICCI_FINISH_H
 
-#include "../layout/common_refinement.h"
-#include "../layout/planar_layout.h"
+#include "../layout/flat_mesh.h"
 #include "../options.h"
-#include "../surface/flow_domain.h"
+#include "point_groups.h"
 
 namespace ricci {
 
@@ -16,29 +15,23 @@ struct FinishCounts
 	int left = 0;  ///< triangles that it could not mend
 };
 
-/// The finish of a map to the plane on the triangles of the domain's surface, which straight lines in
-/// place of bent ones may have turned round: repairs it (repair.h), and makes it the map of least
-/// distortion.
-/// \param isCut of the layout
+/// The finish of a component's map to the plane on its own triangles, which straight lines in place of
+/// bent ones may have flipped: repairs it (repair.h), and makes it the map of least distortion.
 /// \param cones 1 at cones inside
 /// \param freeBoundary whether the curvature of the boundary is free
+/// \param onHole 1 at vertices of holes, where the boundary may be repaired in any case; may be empty
 /// \pre finish is not Finish::None
-FinishCounts finishMap(
-	const FlowDomain& domain,
-	const EdgeArray<char>& isCut,
+FinishCounts finishInPlane(
+	FlatMesh& flat,
 	const VertexArray<char>& cones,
 	bool freeBoundary,
-	Finish finish,
-	PlanarLayout& layout);
+	const VertexArray<char>& onHole,
+	Finish finish);
 
-/// The repair of a map to the Poincaré disk, for the straight triangles between its points. Seams stay
-/// isometric in the hyperbolic metric, and all points in the disk.
-FinishCounts
-finishDisk(const FlowDomain& domain, bool freeBoundary, PlanarLayout& layout);
-
-/// The same for a refinement, which keeps the shapes of its triangles.
-FinishCounts finishDisk(
-	const FlowDomain& domain, bool freeBoundary, CommonRefinement& refinement);
+/// The repair of a component's map to the Poincaré disk, for the straight triangles between its points.
+/// Seams stay isometric in the hyperbolic metric, and all points in the disk. The triangles of a
+/// refinement keep their shapes.
+FinishCounts finishInDisk(FlatMesh& flat, bool freeBoundary);
 
 } // namespace ricci
 

@@ -5,7 +5,6 @@
 #include "distortion_laplacian.h"
 #include "limited_memory_bfgs.h"
 #include "mean_distortion.h"
-#include "movable_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,26 +35,24 @@ constexpr double kResidual = 0.1;
 /// to the next; the shortest step.
 constexpr double kDecrease = 1e-4, kMinShortening = 0.1, kMaxShortening = 0.5, kMinStep = 1e-6;
 
-/// [point]
-Eigen::VectorXcd positionsOf(const MovablePoints& points, const PlanarLayout& layout)
+/// [number of a point]
+Eigen::VectorXcd positionsOf(const NumberedPoints& points, const FlatMesh& flat)
 {
 	Eigen::VectorXcd positions(points.number.size());
-	for (const int wedge : points.number.indices())
-		positions[points.number[wedge]] = asComplex(layout.points[wedge]);
+	for (const int p : flat.place.indices())
+		positions[points.number[p]] = asComplex(flat.place[p]);
 	return positions;
 }
 
-/// A layout on its way to less distortion. Nothing is allocated between steps.
+/// A flat mesh on its way to less distortion. Nothing is allocated between steps.
 class DistortionDescent
 {
 public:
 	/// \p energy, which uses \p points, and they must outlive it.
-	DistortionDescent(
-		MeanDistortion& energy, const MovablePoints& points, const PlanarLayout& layout) :
-			m_points(points),
-			m_energy(energy), m_laplacian(energy, m_points), m_bfgs(m_points.unknowns, kDepth),
-			m_start(positionsOf(m_points, layout)), m_position(m_start), m_trial(m_start),
-			m_direction(m_points.unknowns)
+	DistortionDescent(MeanDistortion& energy, const NumberedPoints& points, const FlatMesh& flat) :
+			m_points(points), m_energy(energy), m_laplacian(energy, m_points),
+			m_bfgs(m_points.unknowns, kDepth), m_start(positionsOf(m_points, flat)),
+			m_position(m_start), m_trial(m_start), m_direction(m_points.unknowns)
 	{
 		m_value = m_energy.evaluate(m_position);
 	}
@@ -96,10 +93,10 @@ public:
 		return result;
 	}
 
-	void write(PlanarLayout& layout) const
+	void write(FlatMesh& flat) const
 	{
-		for (const int wedge : m_points.number.indices())
-			layout.points[wedge] = asPoint(m_position[m_points.number[wedge]]);
+		for (const int p : flat.place.indices())
+			flat.place[p] = asPoint(m_position[m_points.number[p]]);
 	}
 
 private:
@@ -149,42 +146,36 @@ private:
 		const int unknowns = m_points.unknowns;
 		m_trial.head(unknowns) = m_position.head(unknowns) + length * m_direction;
 		// From the start on, so that the sides of a seam differ as they did there.
-		for (int p = unknowns; p < m_points.moving(); ++p) {
-			const int source = m_points.unknownOf(p);
-			m_trial[p] = m_start[p] + m_points.turnOf(p) * (m_trial[source] - m_start[source]);
+		for (int p = unknowns; p < m_points.moving; ++p) {
+			const int source = m_points.unknown[p];
+			m_trial[p] = m_start[p] + m_points.turn[p] * (m_trial[source] - m_start[source]);
 		}
 	}
 
-	const MovablePoints& m_points;
+	const NumberedPoints& m_points;
 	MeanDistortion& m_energy;
 	DistortionLaplacian m_laplacian;
 	LimitedMemoryBfgs m_bfgs;
-	Eigen::VectorXcd m_start, m_position, m_trial;            // [point]
+	Eigen::VectorXcd m_start, m_position, m_trial;            // [number of a point]
 	Eigen::VectorXcd m_direction, m_gradient, m_nextGradient; // [unknown]
 	double m_value;
 };
 
 } // namespace
 
-LeastDistortion leastDistortion(
-	const Triangulation& t,
-	const EdgeArray<double>& lengths,
-	const EdgeArray<char>& isCut,
-	const VertexArray<char>& cones,
-	bool boundaryMoves,
-	PlanarLayout& layout)
+LeastDistortion leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves)
 {
-	MeanDistortion energy(t, lengths, layout);
-	const MovablePoints points = movablePoints(t, isCut, cones, boundaryMoves, layout);
-	energy.usePoints(points);
+	const NumberedPoints points(
+		flat, joinedPoints(flat, cones, [&](int) { return boundaryMoves; }));
+	MeanDistortion energy(flat, points);
 	if (points.unknowns == 0) {
-		const double value = energy.evaluate(positionsOf(points, layout));
+		const double value = energy.evaluate(positionsOf(points, flat));
 		return {0, value, value};
 	}
-	DistortionDescent descent(energy, points, layout);
+	DistortionDescent descent(energy, points, flat);
 	const LeastDistortion result = descent.descend();
 	if (result.steps > 0)
-		descent.write(layout);
+		descent.write(flat);
 	return result;
 }
 

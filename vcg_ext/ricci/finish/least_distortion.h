@@ -2,7 +2,8 @@
 #ifndef RICCI_LEAST_DISTORTION_H
 #define RICCI_LEAST_DISTORTION_H
 
-#include "../layout/planar_layout.h"
+#include "../layout/flat_mesh.h"
+#include "../surface/elements.h"
 
 namespace ricci {
 
@@ -10,15 +11,15 @@ namespace ricci {
 struct LeastDistortion
 {
 	int steps = 0; ///< of single points, each of all of them, and of all at once; 0: nothing moved
-	double before = 0.0, after = 0.0; ///< MeanDistortion of the layout
+	double before = 0.0, after = 0.0; ///< MeanDistortion of the map
 };
 
-/// Moves the points of a layout so that the mean conformal distortion of the map on the mesh's own
+/// Moves the points of a map to the plane so that the mean conformal distortion of the map on the mesh's own
 /// straight triangles becomes small. A flow that flips edges finds the conformal map of the
-/// surface; drawn straight between its vertices, it is near to the best map of these triangles, not
+/// surface; with straight triangles between its vertices, it is near to the best map of these triangles, not
 /// the best one. No triangle that counts turns, the distortion never rises, and the two sides of every seam
 /// stay isometric: the angles of the cones and the holonomy of the flat metric stay exactly what
-/// they are (movable_points.h says what moves, mean_distortion.h what is minimised).
+/// they are (joinedPoints() says what moves, mean_distortion.h what is minimised).
 ///
 /// Single points move first, one after another, each as far as it lowers the distortion: needles go,
 /// which would keep all others from moving far. Then all points move at once. Every such step solves
@@ -31,20 +32,13 @@ struct LeastDistortion
 /// what two in a row gain is not seen in a mean. All of it takes time in proportion to the triangles.
 ///
 /// The same result to the bit with any number of threads.
-/// \param lengths of the edges in space
-/// \param isCut 1 on the seams of the layout
+/// \param flat one component. Its triangles that are not counter-clockwise do not count, and may turn.
+/// If nothing stays, its size may change.
 /// \param cones 1 at cones inside
 /// \param boundaryMoves whether the boundary is free; else its points stay
-/// \param layout its triangles that are not counter-clockwise do not count, and may turn. Where nothing
-/// stays, its size may change.
+/// It checks between steps whether the run has ended; then \p flat is what it was.
 /// \throw std::bad_alloc
-LeastDistortion leastDistortion(
-	const Triangulation& t,
-	const EdgeArray<double>& lengths,
-	const EdgeArray<char>& isCut,
-	const VertexArray<char>& cones,
-	bool boundaryMoves,
-	PlanarLayout& layout);
+LeastDistortion leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves);
 
 } // namespace ricci
 

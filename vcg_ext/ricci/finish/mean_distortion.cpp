@@ -76,8 +76,8 @@ struct PlacedTriangle
 	}
 
 	/// As it lies in the plane.
-	explicit PlacedTriangle(const std::array<Complex, 3>& corners) :
-			second(corners[1] - corners[0]), third(corners[2] - corners[0]),
+	explicit PlacedTriangle(const Triangle2& corners) :
+			second(asComplex(corners[1] - corners[0])), third(asComplex(corners[2] - corners[0])),
 			scale(std::max({std::abs(second), std::abs(third), std::abs(third - second)}))
 	{
 		second /= scale;
@@ -93,79 +93,63 @@ struct PlacedTriangle
 
 } // namespace
 
-MeanDistortion::MeanDistortion(
-	const Triangulation& t, const EdgeArray<double>& lengths, const PlanarLayout& layout) :
-		m_t(t),
-		m_layout(layout), m_threads(defaultThreads()), m_shape(t.faceCount()),
-		m_corners(t.faceCount()), m_energy(t.faceCount(), 0.0), m_stiffness(t.faceCount(), 0.0),
-		m_pull(t.faceCount())
+MeanDistortion::MeanDistortion(const FlatMesh& flat, const NumberedPoints& points) :
+		m_points(points), m_threads(defaultThreads()), m_shape(flat.points.size()),
+		m_corners(flat.points.size()), m_image(points.unknowns, -1), m_settled(points.unknowns, 0),
+		m_energy(flat.points.size(), 0.0), m_stiffness(flat.points.size(), 0.0),
+		m_pull(flat.points.size())
 {
-	FaceArray<double> area(t.faceCount(), 0.0);
-	VertexArray<double> ring(t.vertexCount(), 0.0);
+	setShapes(flat);
+	for (const int f : m_corners.indices())
+		for (std::size_t k = 0; k < 3; ++k)
+			m_corners[f][k] = points.number[flat.points[f][k]];
+	m_cornersOf = Adjacency<int, Corner>(points.moving, [&](const auto& add) {
+		for (int c = 0; c < 3 * m_corners.size(); ++c)
+			if (const int p = m_corners[Corner(c)]; p < points.moving)
+				add(p, Corner(c));
+	});
+	for (int p = points.unknowns; p < points.moving; ++p)
+		m_image[points.unknown[p]] = p;
+}
+
+void MeanDistortion::setShapes(const FlatMesh& flat)
+{
+	Array<double> area(flat.points.size(), 0.0), ring(flat.vertexCount(), 0.0);
 	double total = 0.0;
-	for (const Face f : t.faces()) {
-		const auto h = t.halfedges(f);
-		PlacedTriangle placed(std::array<double, 3>{
-			lengths[h[0].edge()], lengths[h[1].edge()], lengths[h[2].edge()]});
+	for (const int f : area.indices()) {
+		PlacedTriangle placed(flat.lengths[f]);
 		if (placed.hasShape()) {
 			area[f] = placed.area * placed.scale * placed.scale;
 			total += area[f];
-			for (const Vertex v : t.vertices(f))
+			for (const int v : flat.vertices[f])
 				ring[v] += area[f];
 		}
 		else
-			placed = PlacedTriangle(std::array<Complex, 3>{
-				asComplex(layout[h[0]]), asComplex(layout[h[1]]), asComplex(layout[h[2]])});
+			placed = PlacedTriangle(flat.at(f));
 		const Complex over(0.0, 0.25 / placed.area);
 		m_shape[f] = {-over * placed.third, over * placed.second, 0.0};
 	}
 	const auto vertices = static_cast<double>(
 		std::count_if(ring.begin(), ring.end(), [](double a) { return a > 0.0; }));
-	for (const Face f : t.faces()) {
-		const auto h = t.halfedges(f);
-		if (orientation(layout[h[0]], layout[h[1]], layout[h[2]]) != 1)
+	for (const int f : area.indices()) {
+		const Triangle2 p = flat.at(f);
+		if (orientation(p[0], p[1], p[2]) != 1)
 			continue;
-		double& weight = m_shape[f].weight = kFacePart / t.faceCount();
+		double& weight = m_shape[f].weight = kFacePart / size();
 		if (!(area[f] > 0.0))
 			continue;
 		weight += kAreaPart * area[f] / total;
-		for (const Vertex v : t.vertices(f))
+		for (const int v : flat.vertices[f])
 			weight += kVertexPart * area[f] / (ring[v] * vertices);
 	}
-}
-
-void MeanDistortion::usePoints(const MovablePoints& points)
-{
-	m_points = &points;
-	m_firstCorner.assign(points.moving() + 1, 0);
-	for (const Face f : m_t.faces()) {
-		const auto h = m_t.halfedges(f);
-		for (std::size_t k = 0; k < 3; ++k) {
-			const int point = m_corners[f][k] = points.number[m_layout.wedges.of[h[k]]];
-			if (point < points.moving())
-				++m_firstCorner[point + 1];
-		}
-	}
-	for (int p = 0; p < points.moving(); ++p)
-		m_firstCorner[p + 1] += m_firstCorner[p];
-	m_cornerOf.resize(positionOf(m_firstCorner.back()));
-	Array<int> cursor = m_firstCorner;
-	for (const Face f : m_t.faces())
-		for (int k = 0; k < 3; ++k)
-			if (const int point = m_corners[f][positionOf(k)]; point < points.moving())
-				m_cornerOf[positionOf(cursor[point]++)] = {f, k};
-	m_image.assign(points.unknowns, -1);
-	for (int p = points.unknowns; p < points.moving(); ++p)
-		m_image[points.unknownOf(p)] = p;
-	m_settled.assign(points.unknowns, 0);
 }
 
 /// With s = kSmoothing, m^2 = (|f_zbar|^2 / |f_z|^2 + s) / (1 + s) < 1 and k = K - 1 = 2 m / (1 -
 /// m), dE / d|f_zbar|^2 = weight 5/4 k^(1/4) / ((1 - m)^2 m (1 + s) |f_z|^2), and dE / d|f_z|^2 is
 /// -|f_zbar|^2 / |f_z|^2 times that.
-void MeanDistortion::evaluate(Face f, const Eigen::VectorXcd& position)
+void MeanDistortion::evaluate(int f, const Eigen::VectorXcd& position)
 {
-	const std::array<int, 3>& corners = m_corners[f];
+	const Triangle& corners = m_corners[f];
 	const Complex origin = position[corners[0]];
 	const Complex e1 = position[corners[1]] - origin, e2 = position[corners[2]] - origin;
 	const Shape& s = m_shape[f];
@@ -173,7 +157,7 @@ void MeanDistortion::evaluate(Face f, const Eigen::VectorXcd& position)
 		const double square = std::norm(s.first * e1 + s.second * e2) +
 							  std::norm(std::conj(s.first) * e1 + std::conj(s.second) * e2);
 		m_energy[f] = 0.0;
-		m_stiffness[f] = kUncountedStiffness / (faceCount() * (square + kTiny));
+		m_stiffness[f] = kUncountedStiffness / (size() * (square + kTiny));
 		m_pull[f] = {};
 		return;
 	}
@@ -210,8 +194,8 @@ void MeanDistortion::evaluate(Face f, const Eigen::VectorXcd& position)
 double MeanDistortion::evaluate(const Eigen::VectorXcd& position)
 {
 	std::fill(m_settled.begin(), m_settled.end(), 0);
-	inParallel(faceCount(), m_threads, [&](int first, int last) {
-		for (const Face f : IndexRange<Face>(first, last))
+	inParallel(size(), m_threads, [&](int first, int last) {
+		for (int f = first; f < last; ++f)
 			evaluate(f, position);
 	});
 	return sum();
@@ -229,7 +213,7 @@ double MeanDistortion::sum() const
 /// By k = K - 1 = (E / weight)^(4/5), 1 / (1 - m) = 1 + k / 2. The second derivative of k^(5/4) by m is
 /// that of the square times (2 m + 1/4) / (1 - m), and f_z, which falls, may double it: from m = 0 to 1,
 /// (1 - m)^(-3/2), and in the end 4 / (1 - m), is of that size.
-double MeanDistortion::stiffness(Face f) const
+double MeanDistortion::stiffness(int f) const
 {
 	const double weight = m_shape[f].weight;
 	if (weight == 0.0)
@@ -242,32 +226,32 @@ double MeanDistortion::stiffness(Face f) const
 MeanDistortion::Complex MeanDistortion::pull(int point) const
 {
 	Complex sum = 0.0;
-	for (int i = m_firstCorner[point]; i < m_firstCorner[point + 1]; ++i)
-		sum += pull(m_cornerOf[positionOf(i)]);
+	for (const Corner corner : m_cornersOf[point])
+		sum += pull(corner);
 	return sum;
 }
 
-MeanDistortion::Complex MeanDistortion::pull(const Corner& corner) const
+MeanDistortion::Complex MeanDistortion::pull(Corner corner) const
 {
-	const std::array<Complex, 2>& pull = m_pull[corner.face];
-	return corner.place == 0 ? -(pull[0] + pull[1]) : pull[positionOf(corner.place - 1)];
+	const std::array<Complex, 2>& pull = m_pull[corner.face()];
+	return corner.index() == 0 ? -(pull[0] + pull[1]) : pull[corner.index() - 1];
 }
 
 void MeanDistortion::gradient(Eigen::VectorXcd& gradient) const
 {
-	gradient.resize(m_points->unknowns);
-	inParallel(m_points->unknowns, m_threads, [&](int first, int last) {
+	gradient.resize(m_points.unknowns);
+	inParallel(m_points.unknowns, m_threads, [&](int first, int last) {
 		for (int i = first; i < last; ++i)
 			gradient[i] = pull(i);
 	});
-	for (int i = m_points->unknowns; i < m_points->moving(); ++i)
-		gradient[m_points->unknownOf(i)] += conjugateProduct(m_points->turnOf(i), pull(i));
+	for (int i = m_points.unknowns; i < m_points.moving; ++i)
+		gradient[m_points.unknown[i]] += conjugateProduct(m_points.turn[i], pull(i));
 }
 
 double MeanDistortion::relax(
 	double relaxation, double worth, const Eigen::VectorXcd& start, Eigen::VectorXcd& position)
 {
-	for (int unknown = 0; unknown < m_points->unknowns; ++unknown)
+	for (int unknown = 0; unknown < m_points.unknowns; ++unknown)
 		if (!m_settled[unknown])
 			relax(unknown, relaxation, worth, start, position);
 	return sum();
@@ -281,20 +265,16 @@ void MeanDistortion::relax(
 	Eigen::VectorXcd& position)
 {
 	const int image = m_image[unknown];
-	const Complex turn = image < 0 ? 1.0 : m_points->turnOf(image);
-	const auto eachCorner = [&](int point, const auto& use) {
-		for (int i = m_firstCorner[point]; i < m_firstCorner[point + 1]; ++i)
-			use(m_cornerOf[positionOf(i)]);
-	};
+	const Complex turn = image < 0 ? 1.0 : m_points.turn[image];
 	double before = 0.0, stiffness = 0.0;
 	const auto gather = [&](int point) {
 		Complex sum = 0.0;
-		eachCorner(point, [&](const Corner& corner) {
+		for (const Corner corner : m_cornersOf[point]) {
+			const int f = corner.face();
 			sum += pull(corner);
-			before += m_energy[corner.face];
-			stiffness +=
-				m_stiffness[corner.face] * std::norm(slopes(corner.face)[positionOf(corner.place)]);
-		});
+			before += m_energy[f];
+			stiffness += m_stiffness[f] * std::norm(slopes(f)[corner.index()]);
+		}
 		return sum;
 	};
 	Complex gradient = gather(unknown);
@@ -308,14 +288,13 @@ void MeanDistortion::relax(
 	const Complex from = position[unknown], step = -gradient / stiffness;
 	double shortest = kInfinity; // squared
 	const auto lookRound = [&](int point) {
-		eachCorner(point, [&](const Corner& corner) {
-			for (const int other : m_corners[corner.face]) {
-				if (const int next = m_points->unknownOf(other); next >= 0)
+		for (const Corner corner : m_cornersOf[point])
+			for (const int other : m_corners[corner.face()]) {
+				if (const int next = m_points.unknown[other]; next >= 0)
 					m_settled[next] = 0;
 				if (other != point)
 					shortest = std::min(shortest, std::norm(position[other] - position[point]));
 			}
-		});
 	};
 	lookRound(unknown);
 	if (image >= 0)
@@ -325,10 +304,10 @@ void MeanDistortion::relax(
 		position[unknown] = from + length * step;
 		double after = 0.0;
 		const auto place = [&](int point) {
-			eachCorner(point, [&](const Corner& corner) {
-				evaluate(corner.face, position);
-				after += m_energy[corner.face];
-			});
+			for (const Corner corner : m_cornersOf[point]) {
+				evaluate(corner.face(), position);
+				after += m_energy[corner.face()];
+			}
 		};
 		if (image >= 0)
 			position[image] = start[image] + product(turn, position[unknown] - start[unknown]);

@@ -2,7 +2,8 @@
 #ifndef RICCI_MEAN_DISTORTION_H
 #define RICCI_MEAN_DISTORTION_H
 
-#include "movable_points.h"
+#include "../math/adjacency.h"
+#include "numbered_points.h"
 
 #include <Eigen/Core>
 
@@ -30,17 +31,10 @@ class MeanDistortion
 public:
 	using Complex = std::complex<double>;
 
-	/// \param lengths of the edges in space. A triangle that has no area there by its lengths has
-	/// no shape to keep: the shape that it has in \p layout takes the place. Triangles that are not
-	/// counter-clockwise in \p layout do not count.
-	/// \pre \p t and \p layout outlive it
-	MeanDistortion(
-		const Triangulation& t, const EdgeArray<double>& lengths, const PlanarLayout& layout);
-
-	/// Names the points at the corners. To be called before the first evaluation, and when \p
-	/// points are numbered anew.
-	/// \param points to be kept by the caller as long as they are used
-	void usePoints(const MovablePoints& points);
+	/// A triangle that has no area by its lengths has no shape to keep: the shape that it has in the plane
+	/// takes the place. Triangles that are not counter-clockwise do not count.
+	/// \pre \p points, which number those of \p flat, outlive it
+	MeanDistortion(const FlatMesh& flat, const NumberedPoints& points);
 
 	/// Computes E at \p position [point] and prepares gradient(), stiffness().
 	/// \return infinity where a triangle is not counter-clockwise, by an exact test
@@ -62,23 +56,23 @@ public:
 	double relax(
 		double relaxation, double worth, const Eigen::VectorXcd& start, Eigen::VectorXcd& position);
 
-	/// By which E changes with |f_zbar|^2 of a face: dE / d |f_zbar|^2 where its shape is nearly
+	/// By which E changes with |f_zbar|^2 of a triangle: dE / d |f_zbar|^2 where its shape is nearly
 	/// kept. Elsewhere more, as E bends upwards, so that the square is no lower than E for steps that
 	/// do not turn it.
-	double stiffness(Face f) const;
+	double stiffness(int triangle) const;
 
-	/// The points at the corners of a face, and how f_zbar depends on them.
-	const std::array<int, 3>& corners(Face f) const { return m_corners[f]; }
-	std::array<Complex, 3> slopes(Face f) const
+	/// The points at the corners of a triangle, and how f_zbar depends on them.
+	const Triangle& corners(int triangle) const { return m_corners[triangle]; }
+	std::array<Complex, 3> slopes(int triangle) const
 	{
-		const Shape& s = m_shape[f];
+		const Shape& s = m_shape[triangle];
 		return {-(s.first + s.second), s.first, s.second};
 	}
 
 	/// Threads that evaluate; the result does not depend on them.
 	void useThreads(int threads) { m_threads = threads; }
 
-	int faceCount() const { return m_shape.size(); }
+	int size() const { return m_shape.size(); }
 
 private:
 	/// f_zbar = first e1 + second e2, and f_z with the conjugate coefficients.
@@ -87,17 +81,12 @@ private:
 		Complex first, second;
 		double weight;
 	};
-	/// A corner that a point has: in which face, at which place there.
-	struct Corner
-	{
-		Face face;
-		int place;
-	};
 
-	void evaluate(Face f, const Eigen::VectorXcd& position);
+	void setShapes(const FlatMesh& flat);
+	void evaluate(int triangle, const Eigen::VectorXcd& position);
 	double sum() const;
 	Complex pull(int point) const;
-	Complex pull(const Corner& corner) const;
+	Complex pull(Corner corner) const;
 	void relax(
 		int unknown,
 		double relaxation,
@@ -105,20 +94,16 @@ private:
 		const Eigen::VectorXcd& start,
 		Eigen::VectorXcd& position);
 
-	const Triangulation& m_t;
-	const PlanarLayout& m_layout;
+	const NumberedPoints& m_points;
 	int m_threads;
-	FaceArray<Shape> m_shape;
-	FaceArray<std::array<int, 3>> m_corners;
+	Array<Shape> m_shape;
+	Array<Triangle> m_corners;
+	Adjacency<int, Corner> m_cornersOf; // [moving point]
+	Array<int> m_image;                 // [unknown] the point that is its image, or -1
+	Array<char> m_settled;              // [unknown] 1 where relax() need not look
 
-	const MovablePoints* m_points = nullptr;
-	Array<int> m_firstCorner; // [moving point, and one after the last] in m_cornerOf
-	std::vector<Corner> m_cornerOf;
-	Array<int> m_image;    // [unknown] the point that is its image, or -1
-	Array<char> m_settled; // [unknown] 1 where relax() need not look
-
-	FaceArray<double> m_energy, m_stiffness;
-	FaceArray<std::array<Complex, 2>> m_pull; // of the face at its corners 1 and 2
+	Array<double> m_energy, m_stiffness;
+	Array<std::array<Complex, 2>> m_pull; // of the triangle at its corners 1 and 2
 };
 
 } // namespace ricci

@@ -143,10 +143,7 @@ double PatchEnergy::value(const Eigen::VectorXd& x, double eps) const
 }
 
 bool PatchEnergy::newtonStep(
-	const Eigen::VectorXd& x,
-	double eps,
-	Eigen::VectorXd& gradient,
-	Eigen::VectorXd& step)
+	const Eigen::VectorXd& x, double eps, Eigen::VectorXd& gradient, Eigen::VectorXd& step)
 {
 	checkpoint();
 	gradient.setZero(m_size);

@@ -39,10 +39,7 @@ public:
 	/// Newton's step with the projected Hessian.
 	/// \return false where the Hessian cannot be factored
 	bool newtonStep(
-		const Eigen::VectorXd& x,
-		double eps,
-		Eigen::VectorXd& gradient,
-		Eigen::VectorXd& step);
+		const Eigen::VectorXd& x, double eps, Eigen::VectorXd& gradient, Eigen::VectorXd& step);
 
 private:
 	using Complex = std::complex<double>;

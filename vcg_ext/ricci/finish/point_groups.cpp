@@ -36,12 +36,30 @@ struct PlaneMotion
 
 	static double length(Complex a, Complex b) { return std::abs(b - a); }
 
-	/// Takes the side ab to cd, of the same length.
 	PlaneMotion() = default;
 	PlaneMotion(Complex t) : turn(t) {}
+	/// Takes the side ab to cd, of the same length.
 	PlaneMotion(Complex a, Complex b, Complex c, Complex d) :
 			turn((d - c) * std::conj(b - a) / (std::abs(d - c) * std::abs(b - a)))
 	{
+		turn /= std::abs(turn);
+	}
+
+	/// The motion that takes points to those paired with them, nearly, and how far it misses one at most.
+	static std::pair<PlaneMotion, double> fitting(const std::vector<std::array<Complex, 2>>& pairs)
+	{
+		std::array<Complex, 2> mean{};
+		for (const auto& pair : pairs)
+			for (std::size_t k = 0; k < 2; ++k)
+				mean[k] += pair[k] / static_cast<double>(pairs.size());
+		Complex product = 0.0;
+		for (const auto& [a, b] : pairs)
+			product += (b - mean[1]) * std::conj(a - mean[0]);
+		const Complex turn = product / std::abs(product);
+		double gap = 0.0;
+		for (const auto& [a, b] : pairs)
+			gap = std::max(gap, std::abs((b - mean[1]) - turn * (a - mean[0])));
+		return {turn, gap};
 	}
 };
 
@@ -85,64 +103,121 @@ struct Copy
 	double error; ///< that the derivative may have by rounding; more than 1 where nothing is told
 };
 
+/// Calls \p visit(sides) for every edge that is on the border of a chart: whose sides are not two that
+/// are joined.
+template<class Visit>
+void forBorders(const FlatMesh& flat, const Sides& sides, const Visit& visit)
+{
+	sides.forEdges([&](ItemRange<const Corner> edge) {
+		if (edge.size() != 2 || !isJoined(flat, edge[0], edge[1]))
+			visit(edge);
+	});
+}
+
 /// Groups the copies of the seam vertices.
 template<class Motion>
 class CopyGroups
 {
 public:
-	CopyGroups(const FlatMesh& flat, const std::function<bool(int)>& boundaryMoves) :
-			m_points(flat.place), m_fixed(flat.place.size(), 0), m_inside(flat.place.size(), 1)
+	CopyGroups(const FlatMesh& flat, const Sides& sides, const BoundaryRule& boundaryMoves) :
+			m_flat(flat), m_sides(sides), m_extent(flat.box().extent()),
+			m_fixed(flat.place.size(), 0), m_inside(flat.place.size(), 1),
+			m_isImage(flat.place.size(), 0)
 	{
-		Box2 box;
-		for (const Point2& p : m_points)
-			box.add(p);
-		const double rounding = kCoordinateRounding * box.extent();
-		std::vector<std::pair<int, Copy<Motion>>> copies;
-		forEdges(sidesByEdge(flat), [&](const FlatSide* side, int count) {
-			if (isInside(side, count))
-				return;
-			for (int i = 0; i < count; ++i)
-				m_inside[side[i].atLow] = m_inside[side[i].atHigh] = 0;
-			if (count != 2) {
-				for (int i = 0; i < count; ++i) {
-					fixUnless(count == 1 && boundaryMoves(side[i].low), side[i].atLow);
-					fixUnless(count == 1 && boundaryMoves(side[i].high), side[i].atHigh);
+		forBorders(flat, sides, [&](ItemRange<const Corner> edge) {
+			for (const Corner side : edge)
+				for (const Corner c : {side, side.next()}) {
+					const int p = flat.points[c];
+					m_inside[p] = 0;
+					if (!sides.across(side).isValid() &&
+						!(edge.size() == 1 && boundaryMoves(flat.vertices[c])))
+						m_fixed[p] = 1;
 				}
+		});
+	}
+
+	/// Joins the two sides of every edge of a seam.
+	void joinEdges()
+	{
+		const double rounding = kCoordinateRounding * m_extent;
+		forBorders(m_flat, m_sides, [&](ItemRange<const Corner> edge) {
+			if (!m_sides.across(edge[0]).isValid())
 				return;
-			}
-			const auto place = [&](int p) { return asComplex(m_points[p]); };
-			const Complex a = place(side[0].atLow), b = place(side[0].atHigh);
-			const Complex c = place(side[1].atLow), d = place(side[1].atHigh);
+			// From the lower vertex to the higher one.
+			std::array<int, 2> one = pointsOf(edge[0]), other = pointsOf(edge[1]);
+			if (m_flat.vertices[edge[0]] < m_flat.vertices[edge[1]])
+				std::swap(other[0], other[1]);
+			else
+				std::swap(one[0], one[1]);
+			const Complex a = place(one[0]), b = place(one[1]);
+			const Complex c = place(other[0]), d = place(other[1]);
 			const double first = Motion::length(a, b), second = Motion::length(c, d);
 			const double error =
 				rounding / std::max(std::min(std::abs(b - a), std::abs(d - c)), rounding);
 			if (!(std::abs(first - second) <= (kSeamMatch + error) * (first + second))) {
-				for (int i = 0; i < 2; ++i)
-					m_fixed[side[i].atLow] = m_fixed[side[i].atHigh] = 1;
+				for (const int p : {one[0], one[1], other[0], other[1]})
+					m_fixed[p] = 1;
 				return;
 			}
 			const Motion motion = error < 1.0 ? Motion(a, b, c, d) : Motion();
-			const auto join = [&](int from, int to) {
-				copies.push_back({from, {to, motion, error}});
-				copies.push_back({to, {from, motion.inverse(), error}});
-			};
-			join(side[0].atLow, side[1].atLow);
-			join(side[0].atHigh, side[1].atHigh);
+			join(one[0], other[0], motion, error);
+			join(one[1], other[1], motion, error);
 		});
 		// The longest sides are followed first.
-		std::stable_sort(copies.begin(), copies.end(), [](const auto& x, const auto& y) {
+		std::stable_sort(m_copies.begin(), m_copies.end(), [](const auto& x, const auto& y) {
 			return x.second.error < y.second.error;
 		});
-		m_copies = Adjacency<int, Copy<Motion>>(flat.place.size(), [&](const auto& add) {
-			for (const auto& [point, copy] : copies)
-				add(point, copy);
+	}
+
+	/// Joins the two sides of every seam as a whole, from one of its ends to the other or round it.
+	void joinSeams(const VertexArray<char>& cones)
+	{
+		const Adjacency<Vertex, Corner> leaving(cones.size(), [&](const auto& add) {
+			forBorders(m_flat, m_sides, [&](ItemRange<const Corner> edge) {
+				for (const Corner side : edge)
+					add(Vertex(m_flat.vertices[side]), side);
+			});
 		});
+		VertexArray<char> isOnSeam(cones.size()), seen(cones.size(), 0);
+		for (const Vertex v : cones.indices()) {
+			int seams = 0;
+			for (const Corner side : leaving[v])
+				seams += m_sides.across(side).isValid();
+			isOnSeam[v] = !cones[v] && seams == 2 && leaving[v].size() == 2;
+			if (cones[v] || (seams > 0 && !isOnSeam[v]))
+				for (const Corner side : leaving[v])
+					m_fixed[m_flat.points[side]] = 1;
+		}
+		const auto end = [&](Corner side) { return Vertex(m_flat.vertices[side.next()]); };
+		const auto onward = [&](Corner side) {
+			const ItemRange<const Corner> out = leaving[end(side)];
+			return out[out[0] == m_sides.across(side)];
+		};
+		for (const Vertex v : cones.indices()) {
+			if (!isOnSeam[v] || seen[v])
+				continue;
+			const ItemRange<const Corner> out = leaving[v];
+			Corner first = out[m_flat.points[out[1]] < m_flat.points[out[0]]];
+			while (isOnSeam[end(first)] && end(first) != v)
+				first = onward(first);
+			const bool closed = isOnSeam[end(first)];
+			std::vector<Corner> seam{closed ? onward(first) : m_sides.across(first)};
+			while (isOnSeam[end(seam.back())] && !(closed && end(seam.back()) == v)) {
+				seam.push_back(onward(seam.back()));
+				seen[Vertex(m_flat.vertices[seam.back()])] = 1;
+			}
+			join(seam, closed);
+		}
 	}
 
 	PointGroups groups() const
 	{
 		PointGroups result;
-		const int count = m_points.size();
+		const int count = m_flat.place.size();
+		const Adjacency<int, Copy<Motion>> copies(count, [&](const auto& add) {
+			for (const auto& [point, copy] : m_copies)
+				add(point, copy);
+		});
 		result.group.assign(count, -1);
 		result.turn.assign(count, 1.0);
 		result.inside = m_inside;
@@ -150,9 +225,8 @@ public:
 		Array<double> error(count, 0.0);
 		std::vector<int> members;
 		for (int first = 0; first < count; ++first) {
-			if (result.group[first] >= 0)
+			if (result.group[first] >= 0 || m_isImage[first])
 				continue;
-			const Complex place = asComplex(m_points[first]);
 			const int group = result.first.size();
 			bool fixed = false;
 			members.assign(1, first);
@@ -160,9 +234,9 @@ public:
 			for (std::size_t i = 0; i < members.size(); ++i) {
 				const int p = members[i];
 				fixed = fixed || m_fixed[p];
-				for (const Copy<Motion>& copy : m_copies[p]) {
-					const Motion next = copy.motion * motion[p];
-					const Complex turn = next.derivative(place);
+				for (const Copy<Motion>& copy : copies[p]) {
+					const Motion next = i == 0 ? copy.motion : copy.motion * motion[p];
+					const Complex turn = next.derivative(place(first));
 					if (result.group[copy.point] < 0) {
 						result.group[copy.point] = group;
 						result.turn[copy.point] = turn;
@@ -185,15 +259,47 @@ public:
 	}
 
 private:
-	void fixUnless(bool moves, int point)
+	Complex place(int point) const { return asComplex(m_flat.place[point]); }
+
+	std::array<int, 2> pointsOf(Corner side) const
 	{
-		if (!moves)
-			m_fixed[point] = 1;
+		return {m_flat.points[side], m_flat.points[side.next()]};
 	}
 
-	const Array<Point2>& m_points;
+	void join(int from, int to, const Motion& motion, double error)
+	{
+		m_copies.push_back({from, {to, motion, error}});
+		m_copies.push_back({to, {from, motion.inverse(), error}});
+	}
+
+	/// Joins the points on the right of a seam, given by its sides on the left, to those on its left.
+	void join(const std::vector<Corner>& seam, bool closed)
+	{
+		const auto copies = [&](Corner side) {
+			return std::array<int, 2>{
+				m_flat.points[side], m_flat.points[m_sides.across(side).next()]};
+		};
+		const Corner last = seam.back();
+		std::vector<std::array<Complex, 2>> pairs{
+			{place(m_flat.points[last.next()]), place(m_flat.points[m_sides.across(last)])}};
+		for (const Corner side : seam)
+			pairs.push_back({place(copies(side)[0]), place(copies(side)[1])});
+		const auto [motion, gap] = Motion::fitting(pairs);
+		const bool fits = gap <= kCheckedGap * m_extent; // not if the turn is no number
+		for (std::size_t i = closed ? 0 : 1; i < seam.size(); ++i) {
+			const auto [left, right] = copies(seam[i]);
+			m_isImage[right] = 1;
+			m_fixed[left] = m_fixed[right] = !fits;
+			join(left, right, motion, 0.0);
+		}
+	}
+
+	const FlatMesh& m_flat;
+	const Sides& m_sides;
+	double m_extent;
 	Array<char> m_fixed, m_inside; // [point]
-	Adjacency<int, Copy<Motion>> m_copies;
+	Array<char> m_isImage;         // [point] 1 on the right of a seam that moves as a whole
+	std::vector<std::pair<int, Copy<Motion>>> m_copies; // [i] of a point
 };
 
 } // namespace
@@ -203,10 +309,9 @@ PointGroups allPoints(const FlatMesh& flat)
 	PointGroups result;
 	const int count = flat.place.size();
 	result.inside.assign(count, 1);
-	forEdges(sidesByEdge(flat), [&](const FlatSide* side, int sides) {
-		if (!isInside(side, sides))
-			for (int i = 0; i < sides; ++i)
-				result.inside[side[i].atLow] = result.inside[side[i].atHigh] = 0;
+	forBorders(flat, Sides(flat.vertices.values()), [&](ItemRange<const Corner> edge) {
+		for (const Corner side : edge)
+			result.inside[flat.points[side]] = result.inside[flat.points[side.next()]] = 0;
 	});
 	result.turn.assign(count, 1.0);
 	result.fixed.assign(count, 0);
@@ -224,13 +329,26 @@ PointGroups insidePoints(const FlatMesh& flat)
 	return result;
 }
 
-PointGroups joinedPoints(
-	const FlatMesh& flat,
-	SeamGeometry geometry,
-	const std::function<bool(int vertex)>& boundaryMoves)
+PointGroups
+joinedPoints(const FlatMesh& flat, SeamGeometry geometry, const BoundaryRule& boundaryMoves)
 {
-	return geometry == SeamGeometry::Plane ? CopyGroups<PlaneMotion>(flat, boundaryMoves).groups()
-										   : CopyGroups<DiskMotion>(flat, boundaryMoves).groups();
+	const Sides sides(flat.vertices.values());
+	const auto groups = [&](auto copies) {
+		copies.joinEdges();
+		return copies.groups();
+	};
+	return geometry == SeamGeometry::Plane
+			   ? groups(CopyGroups<PlaneMotion>(flat, sides, boundaryMoves))
+			   : groups(CopyGroups<DiskMotion>(flat, sides, boundaryMoves));
+}
+
+PointGroups joinedPoints(
+	const FlatMesh& flat, const VertexArray<char>& cones, const BoundaryRule& boundaryMoves)
+{
+	const Sides sides(flat.vertices.values());
+	CopyGroups<PlaneMotion> copies(flat, sides, boundaryMoves);
+	copies.joinSeams(cones);
+	return copies.groups();
 }
 
 } // namespace ricci

@@ -4,18 +4,19 @@
 
 #include "../layout/flat_mesh.h"
 #include "../math/disk_isometry.h"
+#include "../surface/elements.h"
 
 #include <complex>
 #include <functional>
 
 namespace ricci {
 
-/// Which points of a drawing may move, and which of them together: the points of one group are images
+/// Which points of a flat mesh may move, and which of them together: the points of one group are images
 /// of its first point.
 struct PointGroups
 {
 	Array<int> group;  ///< [point]
-	Array<int> first;  ///< [group] its lowest point
+	Array<int> first;  ///< [group]
 	Array<char> fixed; ///< [group]
 
 	Array<char> inside; ///< [point] 1 where no border of a chart is
@@ -45,21 +46,28 @@ enum class SeamGeometry {
 	Disk   ///< isometries of the Poincaré disk
 };
 
-/// Every point is a group; those on sides that belong to no two triangles with the same ends in the
-/// plane, the borders of charts, are fixed.
+/// Whether the boundary may move at a vertex.
+using BoundaryRule = std::function<bool(int vertex)>;
+
+/// Every point is a group, and none is fixed.
+PointGroups allPoints(const FlatMesh& flat);
+
+/// Every point is a group; the borders of charts are fixed.
 PointGroups insidePoints(const FlatMesh& flat);
 
 /// The copies of a seam vertex are a group, joined by the isometries that take one side of a seam to
 /// the other, so that seams stay isometric where a group moves. Fixed are cones, where these do not
-/// close round the vertex; seams whose sides differ in length; and points on sides of a single
-/// triangle, unless \p boundaryMoves of their vertices.
-PointGroups joinedPoints(
-	const FlatMesh& flat,
-	SeamGeometry geometry,
-	const std::function<bool(int vertex)>& boundaryMoves);
+/// close round the vertex; seams whose sides differ in length; and points of the boundary, unless
+/// \p boundaryMoves there.
+PointGroups
+joinedPoints(const FlatMesh& flat, SeamGeometry geometry, const BoundaryRule& boundaryMoves);
 
-/// Every point is a group, and none is fixed.
-PointGroups allPoints(const FlatMesh& flat);
+/// The same in the plane for a map whose cones are known: a seam, from one of its ends to the other, has
+/// one motion, that which fits its two sides best, so that the holonomy stays what it is up to rounding.
+/// The first point of a group lies on the left of its seam. Fixed are, too: cones, vertices where seams
+/// end or several meet, and seams whose sides do not fit.
+PointGroups joinedPoints(
+	const FlatMesh& flat, const VertexArray<char>& cones, const BoundaryRule& boundaryMoves);
 
 } // namespace ricci
 

@@ -57,12 +57,7 @@ struct PatchSetting
 	PatchProblem problem(const Patch& patch, int maxSteps) const
 	{
 		return {
-			flat,
-			groups,
-			patch,
-			restShapes(flat, patch, shapes, soundness),
-			soundness,
-			maxSteps};
+			flat, groups, patch, restShapes(flat, patch, shapes, soundness), soundness, maxSteps};
 	}
 };
 
@@ -171,9 +166,7 @@ std::vector<Untangled> solveAll(
 	const int maxSteps =
 		static_cast<int>(std::min(work / ofStep, std::int64_t(std::numeric_limits<int>::max())));
 	tasksInParallel(
-		static_cast<int>(patches.size()),
-		threadsFor(kExpectedSteps * triangles),
-		[&](int i) {
+		static_cast<int>(patches.size()), threadsFor(kExpectedSteps * triangles), [&](int i) {
 			found[positionOf(i)] = solve(setting.problem(patches[positionOf(i)], maxSteps));
 		});
 	for (std::size_t i = 0; i < patches.size(); ++i)
@@ -404,17 +397,12 @@ Repair repairFreely(
 {
 	if (badTriangles(flat, soundness).empty())
 		return {};
-	Repair result = repair(
-		flat, insidePoints(flat), shapes, soundness, {kMaxInsideRings, accepts}, limit);
+	Repair result =
+		repair(flat, insidePoints(flat), shapes, soundness, {kMaxInsideRings, accepts}, limit);
 	for (const bool partly : {false, true})
 		if (result.left > 0)
 			result.add(repair(
-				flat,
-				allPoints(flat),
-				shapes,
-				soundness,
-				{kMaxRings, accepts, partly},
-				limit));
+				flat, allPoints(flat), shapes, soundness, {kMaxRings, accepts, partly}, limit));
 	return result;
 }
 

@@ -324,4 +324,26 @@ CommonRefinement commonRefinement(
 	return RefinementMaker(domain, flow, std::move(linked), isCut).run(cornersOnly);
 }
 
+FlatMesh flatMeshOf(const EmbeddedSurface& surface, const CommonRefinement& refinement)
+{
+	std::vector<Point3> places;
+	for (const SurfacePoint& p : refinement.points)
+		places.push_back(placeOnSurface(p, surface.positions.values()));
+	Array<std::array<double, 3>> lengths;
+	for (const Triangle& t : refinement.triangles) {
+		const auto length = [&](std::size_t i, std::size_t j) {
+			return distance(places[positionOf(t[i])], places[positionOf(t[j])]);
+		};
+		lengths.push_back({length(0, 1), length(1, 2), length(2, 0)});
+	}
+	const std::size_t count = refinement.triangles.size();
+	FlatMesh flat = flatMeshOf(
+		Array<Triangle>(refinement.triangles),
+		Array<Triangle2>(refinement.uv),
+		Array<int>(count, 0),
+		std::move(lengths));
+	flat.source = Array<SurfacePoint>(refinement.points);
+	return flat;
+}
+
 } // namespace ricci

@@ -6,6 +6,7 @@
 #include "../overlay/piece_faces.h"
 #include "../surface/flow_domain.h"
 #include "../surface/surface_point.h"
+#include "flat_mesh.h"
 #include "hyperbolic_layout.h"
 #include "planar_layout.h"
 
@@ -27,6 +28,9 @@ struct CommonRefinement
 	PlanarLayout inputLayout;         ///< of the corners of the surface's triangles
 	std::size_t crossings = 0;        ///< points that are not vertices of the surface
 };
+
+/// Its triangles, joined where they lie on each other.
+FlatMesh flatMeshOf(const EmbeddedSurface& surface, const CommonRefinement& refinement);
 
 /// The overlay (overlay_pieces.h) for the faces of the domain's surface. Where the flow's surface goes on
 /// beyond it (its double, caps on holes), the overlay ends at its boundary.

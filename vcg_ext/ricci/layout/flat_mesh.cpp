@@ -4,6 +4,7 @@
 #include "../math/bucket_sort.h"
 #include "../math/disjoint_sets.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
@@ -34,6 +35,22 @@ std::vector<FlatSide> sidesOf(const Array<Triangle>& vertices, const Array<Trian
 }
 
 } // namespace
+
+int FlatMesh::vertexCount() const
+{
+	int count = 0;
+	for (const Triangle& t : vertices)
+		count = std::max({count, t[0] + 1, t[1] + 1, t[2] + 1});
+	return count;
+}
+
+Box2 FlatMesh::box() const
+{
+	Box2 box;
+	for (const Point2& p : place)
+		box.add(p);
+	return box;
+}
 
 std::vector<FlatSide> sidesByEdge(const FlatMesh& mesh)
 {

@@ -4,6 +4,7 @@
 
 #include "../base/indexed.h"
 #include "../math/points.h"
+#include "../surface/sides.h"
 #include "../surface/surface_mesh.h"
 #include "../surface/surface_point.h"
 
@@ -33,7 +34,20 @@ struct FlatMesh
 		const Triangle& p = points[triangle];
 		return {place[p[0]], place[p[1]], place[p[2]]};
 	}
+
+	/// 1 + the highest number of a vertex.
+	int vertexCount() const;
+
+	/// Of all points.
+	Box2 box() const;
 };
+
+/// Whether the two sides of an edge have the same ends in the plane.
+inline bool isJoined(const FlatMesh& mesh, Corner side, Corner across)
+{
+	return mesh.points[side] == mesh.points[across.next()] &&
+		   mesh.points[side.next()] == mesh.points[across];
+}
 
 /// One side of a triangle, by the lower and the higher number of its ends.
 struct FlatSide

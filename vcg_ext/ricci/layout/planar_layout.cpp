@@ -36,6 +36,26 @@ Wedges cornerWedges(const Triangulation& t, const EdgeArray<char>& isCut)
 	return wedges;
 }
 
+FlatMesh flatMeshOf(const EmbeddedSurface& surface, const PlanarLayout& layout)
+{
+	const Triangulation& t = surface.triangulation;
+	FlatMesh flat;
+	flat.place = layout.points;
+	flat.vertices.resize(t.faceCount());
+	flat.points.resize(t.faceCount());
+	flat.lengths.resize(t.faceCount());
+	for (const Face f : t.faces()) {
+		Corner c(f.number(), 0);
+		for (const Halfedge h : t.halfedges(f)) {
+			flat.vertices[c] = t.origin(h).number();
+			flat.points[c] = layout.wedges.of[h];
+			flat.lengths[c] = surface.lengths[h.edge()];
+			c = c.next();
+		}
+	}
+	return flat;
+}
+
 PlanarLayout layOutInPlane(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,

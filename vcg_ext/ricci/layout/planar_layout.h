@@ -3,7 +3,9 @@
 #define RICCI_PLANAR_LAYOUT_H
 
 #include "../math/points.h"
+#include "../surface/flow_domain.h"
 #include "../surface/triangulation.h"
+#include "flat_mesh.h"
 
 namespace ricci {
 
@@ -27,6 +29,9 @@ struct PlanarLayout
 
 	const Point2& operator[](Halfedge h) const { return points[wedges.of[h]]; }
 };
+
+/// The triangles of the surface as they are laid out; their points are the wedges.
+FlatMesh flatMeshOf(const EmbeddedSurface& surface, const PlanarLayout& layout);
 
 /// Unfolds the triangles one after another across the edges with isCut 0, which must leave the
 /// surface connected and simply connected, along the tree that loses least to rounding.

@@ -77,7 +77,10 @@ TargetInput targetRequest(
 }
 
 Target chooseTarget(
-	const FlowDomain& domain, const InitialPacking& start, const TargetRequest& request, const Options&)
+	const FlowDomain& domain,
+	const InitialPacking& start,
+	const TargetRequest& request,
+	const Options&)
 {
 	return chooseTarget(domain.solved(), start, request);
 }
@@ -92,25 +95,17 @@ Target chooseTarget(
 }
 
 /// Neither areas nor quarter turns play a part in the hyperbolic plane.
-void keepAreas(
-	const EmbeddedSurface&,
-	const TargetInput&,
-	const HyperbolicOptions&,
-	ComponentMap&)
+void keepAreas(const EmbeddedSurface&, const TargetInput&, const HyperbolicOptions&, ComponentMap&)
 {
 }
 
 void roundLoopTurns(
-	const EmbeddedSurface&,
-	const TargetInput&,
-	const HyperbolicOptions&,
-	ComponentMap&)
+	const EmbeddedSurface&, const TargetInput&, const HyperbolicOptions&, ComponentMap&)
 {
 }
 
 /// What a seam along each edge costs.
-EdgeArray<double>
-cutCost(const FlowDomain& domain, const FlowResult&, const Options& options)
+EdgeArray<double> cutCost(const FlowDomain& domain, const FlowResult&, const Options& options)
 {
 	return seamCost(
 		domain.surface.triangulation,
@@ -119,8 +114,8 @@ cutCost(const FlowDomain& domain, const FlowResult&, const Options& options)
 		options.seamHiding);
 }
 
-EdgeArray<double> cutCost(
-	const FlowDomain& domain, const FlowResult& flow, const HyperbolicOptions& options)
+EdgeArray<double>
+cutCost(const FlowDomain& domain, const FlowResult& flow, const HyperbolicOptions& options)
 {
 	return options.method == Method::IntrinsicFlips ? hyperbolicLengths(flow, domain.surface)
 													: flow.metric->lengths();
@@ -140,10 +135,7 @@ HalfedgeArray<double> cutCorners(const FlowDomain&, const ComponentMap&, const H
 
 /// The layout of the corners of the component, open along the cut.
 void placeCorners(
-	const FlowDomain& domain,
-	LinkedPieces overlay,
-	const Options& options,
-	ComponentMap& map)
+	const FlowDomain& domain, LinkedPieces overlay, const Options& options, ComponentMap& map)
 {
 	const CurvatureMap& metric = *map.flow.metric;
 	if (needsOverlay(domain, options)) {
@@ -188,8 +180,7 @@ void layOut(
 			map.cones,
 			map.cut);
 		if (map.cut.edgeCount < edges)
-			placeCorners(
-				domain, flowOverlay(domain, options, map), options, map);
+			placeCorners(domain, flowOverlay(domain, options, map), options, map);
 	}
 	if (!map.flow.target.hasFixed()) // else the boundary keeps its metric, which fixes the scale
 		map.scale = std::sqrt(
@@ -248,12 +239,10 @@ void layOut(
 	ComponentMap& map)
 {
 	const Triangulation& t = domain.surface.triangulation;
-	EdgeArray<SidePairing> pairing =
-		placeInDisk(domain, std::move(overlay), options, map);
+	EdgeArray<SidePairing> pairing = placeInDisk(domain, std::move(overlay), options, map);
 	if (const double radius = radiusOf(map.layout); radius > kWideRadius) {
 		map.cut = cutAroundCentre(t, cutCost(domain, map.flow, options), map.cones);
-		pairing = placeInDisk(
-			domain, flowOverlay(domain, options, map), options, map);
+		pairing = placeInDisk(domain, flowOverlay(domain, options, map), options, map);
 		logLine(
 			"The short seams lead " + numberText(radius, 3) +
 			" out in the disk, too far for floats. Longer ones around the middle lead " +
@@ -286,31 +275,31 @@ void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 {
 	if (!isFinished(options) || options.output == OutputTriangulation::CommonRefinement)
 		return; // the refinement is exact
-	const Array<Point2> before = map.layout.points;
-	map.finishMoved = finishMap(
-						  domain,
-						  map.cut.isCut,
-						  map.cones,
-						  map.flow.target.hasFixed(),
-						  options.finish,
-						  map.layout)
-						  .moved;
-	if (map.layout.points != before) // its border may have moved
+	FlatMesh flat = flatMeshOf(domain.surface, map.layout);
+	map.finishMoved =
+		finishInPlane(flat, map.cones, map.flow.target.hasFixed(), domain.onHole, options.finish)
+			.moved;
+	flat.place.swap(map.layout.points);
+	if (map.layout.points != flat.place) // its border may have moved
 		turnUpright(1.0, map);
 	map.uv = cornersOf(domain.surface.triangulation, map.layout);
 }
 
-void finish(
-	const FlowDomain& domain, const HyperbolicOptions& options, ComponentMap& map)
+void finish(const FlowDomain& domain, const HyperbolicOptions& options, ComponentMap& map)
 {
 	if (!isFinished(options))
 		return;
 	const bool freeBoundary = map.flow.target.hasFixed();
-	if (options.output == OutputTriangulation::CommonRefinement) {
-		map.finishMoved = finishDisk(domain, freeBoundary, map.refinement).moved;
+	const bool refined = options.output == OutputTriangulation::CommonRefinement;
+	FlatMesh flat = refined ? flatMeshOf(domain.surface, map.refinement)
+							: flatMeshOf(domain.surface, map.layout);
+	map.finishMoved = finishInDisk(flat, freeBoundary).moved;
+	if (refined) {
+		for (const int f : flat.points.indices())
+			map.refinement.uv[positionOf(f)] = flat.at(f);
 		return;
 	}
-	map.finishMoved = finishDisk(domain, freeBoundary, map.layout).moved;
+	map.layout.points = std::move(flat.place);
 	map.uv = cornersOf(domain.surface.triangulation, map.layout);
 }
 
@@ -333,17 +322,14 @@ bool mayBeTurned(const AnyOptions& options, const ComponentMap& map)
 	return isBent(map, options.output) || map.finishMoved > 0;
 }
 
-void requireLayout(
-	const Component& component, const Options& options, const ComponentMap& map)
+void requireLayout(const Component& component, const Options& options, const ComponentMap& map)
 {
 	requireMap(
 		outputTriangles(component, map, options.output), map.flow, mayBeTurned(options, map));
 }
 
 void requireLayout(
-	const Component& component,
-	const HyperbolicOptions& options,
-	const ComponentMap& map)
+	const Component& component, const HyperbolicOptions& options, const ComponentMap& map)
 {
 	requireDisk(
 		outputTriangles(component, map, options.output),
@@ -353,10 +339,8 @@ void requireLayout(
 }
 
 template<class AnyOptions>
-ComponentMap flatten(
-	const Component& component,
-	const VertexInput& input,
-	const AnyOptions& options)
+ComponentMap
+flatten(const Component& component, const VertexInput& input, const AnyOptions& options)
 {
 	ComponentMap map;
 	advance(0.0, "Circle packing");
@@ -374,12 +358,7 @@ ComponentMap flatten(
 	FlowProgress flowProgress(options.epsilon, map.flowStates);
 	advance(0.0, "Solving for the metric");
 	map.flow = runRicciFlow(
-		backgroundOf(options),
-		domain.solved(),
-		std::move(start),
-		target,
-		options,
-		flowProgress);
+		backgroundOf(options), domain.solved(), std::move(start), target, options, flowProgress);
 	measurePeriods(domain.surface, map);
 	keepAreas(domain.solved(), request, options, map);
 	roundLoopTurns(domain.solved(), request, options, map);
@@ -396,9 +375,7 @@ ComponentMap flatten(
 	besides(
 		threads,
 		[&] { overlay = flowOverlay(domain, options, map); },
-		[&]() {
-			map.cut = cutThroughCones(domain, cost, map.cones, corners);
-		});
+		[&]() { map.cut = cutThroughCones(domain, cost, map.cones, corners); });
 	advance(1.0 - kAfterFlow, "Cutting and layout");
 	layOut(component, domain, std::move(overlay), options, map);
 	map.seamLength = lengthOf(map.cut, domain.surface.lengths);
@@ -407,9 +384,7 @@ ComponentMap flatten(
 	besides(
 		threads,
 		[&] { finish(domain, options, map); },
-		[&]() {
-			requireMetric(map.flow, domain.solved().topology.boundary);
-		});
+		[&]() { requireMetric(map.flow, domain.solved().topology.boundary); });
 
 	measureHolonomy(domain, options, map);
 
@@ -420,20 +395,15 @@ ComponentMap flatten(
 
 } // namespace
 
-ComponentMap flattenComponent(
-	const Component& component,
-	const VertexInput& input,
-	const Options& options)
+ComponentMap
+flattenComponent(const Component& component, const VertexInput& input, const Options& options)
 {
-	return options.method == Method::EdgeSwaps
-			   ? flattenWithEdgeSwaps(component, input, options)
-			   : flatten(component, input, options);
+	return options.method == Method::EdgeSwaps ? flattenWithEdgeSwaps(component, input, options)
+											   : flatten(component, input, options);
 }
 
 ComponentMap flattenComponent(
-	const Component& component,
-	const VertexInput& input,
-	const HyperbolicOptions& options)
+	const Component& component, const VertexInput& input, const HyperbolicOptions& options)
 {
 	return flatten(component, input, options);
 }
