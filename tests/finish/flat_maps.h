@@ -3,6 +3,7 @@
 #define RICCI_TESTS_FLAT_MAPS_H
 
 #include "support/random.h"
+#include "support/shapes.h"
 
 #include <ricci/layout/flat_mesh.h>
 #include <ricci/math/orientation.h>

@@ -42,24 +42,6 @@ struct PlaneMotion
 	PlaneMotion(Complex a, Complex b, Complex c, Complex d) :
 			turn((d - c) * std::conj(b - a) / (std::abs(d - c) * std::abs(b - a)))
 	{
-		turn /= std::abs(turn);
-	}
-
-	/// The motion that takes points to those paired with them, nearly, and how far it misses one at most.
-	static std::pair<PlaneMotion, double> fitting(const std::vector<std::array<Complex, 2>>& pairs)
-	{
-		std::array<Complex, 2> mean{};
-		for (const auto& pair : pairs)
-			for (std::size_t k = 0; k < 2; ++k)
-				mean[k] += pair[k] / static_cast<double>(pairs.size());
-		Complex product = 0.0;
-		for (const auto& [a, b] : pairs)
-			product += (b - mean[1]) * std::conj(a - mean[0]);
-		const Complex turn = product / std::abs(product);
-		double gap = 0.0;
-		for (const auto& [a, b] : pairs)
-			gap = std::max(gap, std::abs((b - mean[1]) - turn * (a - mean[0])));
-		return {turn, gap};
 	}
 };
 
@@ -114,54 +96,44 @@ void forBorders(const FlatMesh& flat, const Sides& sides, const Visit& visit)
 	});
 }
 
-/// Groups the copies of the seam vertices.
+/// Every point as a group; points of the boundary are fixed unless it moves there.
+PointGroups
+withBoundary(const FlatMesh& flat, const Sides& sides, const BoundaryRule& boundaryMoves)
+{
+	PointGroups result;
+	const int count = flat.place.size();
+	result.turn.assign(count, 1.0);
+	result.fixed.assign(count, 0);
+	result.inside.assign(count, 1);
+	for (int p = 0; p < count; ++p)
+		result.group.push_back(p);
+	result.first = result.group;
+	forBorders(flat, sides, [&](ItemRange<const Corner> edge) {
+		for (const Corner side : edge)
+			for (const Corner c : {side, side.next()}) {
+				const int p = flat.points[c];
+				result.inside[p] = 0;
+				if (!sides.across(side).isValid() &&
+					(edge.size() > 1 || !boundaryMoves(flat.vertices[c])))
+					result.fixed[p] = 1;
+			}
+	});
+	return result;
+}
+
+/// Joins the copies of the seam vertices by the sides of the seams.
 template<class Motion>
 class CopyGroups
 {
 public:
-	CopyGroups(const FlatMesh& flat, const Sides& sides, const BoundaryRule& boundaryMoves) :
-			m_flat(flat), m_sides(sides), m_extent(flat.box().extent()),
-			m_fixed(flat.place.size(), 0), m_inside(flat.place.size(), 1),
-			m_isImage(flat.place.size(), 0)
+	CopyGroups(const FlatMesh& flat, const BoundaryRule& boundaryMoves) :
+			m_flat(flat), m_sides(flat.vertices.values()),
+			m_points(withBoundary(flat, m_sides, boundaryMoves))
 	{
-		forBorders(flat, sides, [&](ItemRange<const Corner> edge) {
-			for (const Corner side : edge)
-				for (const Corner c : {side, side.next()}) {
-					const int p = flat.points[c];
-					m_inside[p] = 0;
-					if (!sides.across(side).isValid() &&
-						!(edge.size() == 1 && boundaryMoves(flat.vertices[c])))
-						m_fixed[p] = 1;
-				}
-		});
-	}
-
-	/// Joins the two sides of every edge of a seam.
-	void joinEdges()
-	{
-		const double rounding = kCoordinateRounding * m_extent;
-		forBorders(m_flat, m_sides, [&](ItemRange<const Corner> edge) {
-			if (!m_sides.across(edge[0]).isValid())
-				return;
-			// From the lower vertex to the higher one.
-			std::array<int, 2> one = pointsOf(edge[0]), other = pointsOf(edge[1]);
-			if (m_flat.vertices[edge[0]] < m_flat.vertices[edge[1]])
-				std::swap(other[0], other[1]);
-			else
-				std::swap(one[0], one[1]);
-			const Complex a = place(one[0]), b = place(one[1]);
-			const Complex c = place(other[0]), d = place(other[1]);
-			const double first = Motion::length(a, b), second = Motion::length(c, d);
-			const double error =
-				rounding / std::max(std::min(std::abs(b - a), std::abs(d - c)), rounding);
-			if (!(std::abs(first - second) <= (kSeamMatch + error) * (first + second))) {
-				for (const int p : {one[0], one[1], other[0], other[1]})
-					m_fixed[p] = 1;
-				return;
-			}
-			const Motion motion = error < 1.0 ? Motion(a, b, c, d) : Motion();
-			join(one[0], other[0], motion, error);
-			join(one[1], other[1], motion, error);
+		const double rounding = kCoordinateRounding * flat.box().extent();
+		forBorders(flat, m_sides, [&](ItemRange<const Corner> edge) {
+			if (m_sides.across(edge[0]).isValid())
+				joinSides(edge, rounding);
 		});
 		// The longest sides are followed first.
 		std::stable_sort(m_copies.begin(), m_copies.end(), [](const auto& x, const auto& y) {
@@ -169,63 +141,22 @@ public:
 		});
 	}
 
-	/// Joins the two sides of every seam as a whole, from one of its ends to the other or round it.
-	void joinSeams(const VertexArray<char>& cones)
-	{
-		const Adjacency<Vertex, Corner> leaving(cones.size(), [&](const auto& add) {
-			forBorders(m_flat, m_sides, [&](ItemRange<const Corner> edge) {
-				for (const Corner side : edge)
-					add(Vertex(m_flat.vertices[side]), side);
-			});
-		});
-		VertexArray<char> isOnSeam(cones.size()), seen(cones.size(), 0);
-		for (const Vertex v : cones.indices()) {
-			int seams = 0;
-			for (const Corner side : leaving[v])
-				seams += m_sides.across(side).isValid();
-			isOnSeam[v] = !cones[v] && seams == 2 && leaving[v].size() == 2;
-			if (cones[v] || (seams > 0 && !isOnSeam[v]))
-				for (const Corner side : leaving[v])
-					m_fixed[m_flat.points[side]] = 1;
-		}
-		const auto end = [&](Corner side) { return Vertex(m_flat.vertices[side.next()]); };
-		const auto onward = [&](Corner side) {
-			const ItemRange<const Corner> out = leaving[end(side)];
-			return out[out[0] == m_sides.across(side)];
-		};
-		for (const Vertex v : cones.indices()) {
-			if (!isOnSeam[v] || seen[v])
-				continue;
-			const ItemRange<const Corner> out = leaving[v];
-			Corner first = out[m_flat.points[out[1]] < m_flat.points[out[0]]];
-			while (isOnSeam[end(first)] && end(first) != v)
-				first = onward(first);
-			const bool closed = isOnSeam[end(first)];
-			std::vector<Corner> seam{closed ? onward(first) : m_sides.across(first)};
-			while (isOnSeam[end(seam.back())] && !(closed && end(seam.back()) == v)) {
-				seam.push_back(onward(seam.back()));
-				seen[Vertex(m_flat.vertices[seam.back()])] = 1;
-			}
-			join(seam, closed);
-		}
-	}
-
 	PointGroups groups() const
 	{
-		PointGroups result;
+		PointGroups result = m_points;
 		const int count = m_flat.place.size();
 		const Adjacency<int, Copy<Motion>> copies(count, [&](const auto& add) {
 			for (const auto& [point, copy] : m_copies)
 				add(point, copy);
 		});
 		result.group.assign(count, -1);
-		result.turn.assign(count, 1.0);
-		result.inside = m_inside;
+		result.first.clear();
+		result.fixed.clear();
 		Array<Motion> motion(count); // from the first point of the group
 		Array<double> error(count, 0.0);
 		std::vector<int> members;
 		for (int first = 0; first < count; ++first) {
-			if (result.group[first] >= 0 || m_isImage[first])
+			if (result.group[first] >= 0)
 				continue;
 			const int group = result.first.size();
 			bool fixed = false;
@@ -233,9 +164,9 @@ public:
 			result.group[first] = group;
 			for (std::size_t i = 0; i < members.size(); ++i) {
 				const int p = members[i];
-				fixed = fixed || m_fixed[p];
+				fixed = fixed || m_points.fixed[p];
 				for (const Copy<Motion>& copy : copies[p]) {
-					const Motion next = i == 0 ? copy.motion : copy.motion * motion[p];
+					const Motion next = copy.motion * motion[p];
 					const Complex turn = next.derivative(place(first));
 					if (result.group[copy.point] < 0) {
 						result.group[copy.point] = group;
@@ -261,63 +192,81 @@ public:
 private:
 	Complex place(int point) const { return asComplex(m_flat.place[point]); }
 
-	std::array<int, 2> pointsOf(Corner side) const
+	/// Joins both ends of the two sides of an edge.
+	void joinSides(ItemRange<const Corner> edge, double rounding)
 	{
-		return {m_flat.points[side], m_flat.points[side.next()]};
-	}
-
-	void join(int from, int to, const Motion& motion, double error)
-	{
-		m_copies.push_back({from, {to, motion, error}});
-		m_copies.push_back({to, {from, motion.inverse(), error}});
-	}
-
-	/// Joins the points on the right of a seam, given by its sides on the left, to those on its left.
-	void join(const std::vector<Corner>& seam, bool closed)
-	{
-		const auto copies = [&](Corner side) {
-			return std::array<int, 2>{
-				m_flat.points[side], m_flat.points[m_sides.across(side).next()]};
+		const auto ends = [&](Corner side) { // the lower vertex first
+			std::array<int, 2> points{m_flat.points[side], m_flat.points[side.next()]};
+			if (m_flat.vertices[side] > m_flat.vertices[side.next()])
+				std::swap(points[0], points[1]);
+			return points;
 		};
-		const Corner last = seam.back();
-		std::vector<std::array<Complex, 2>> pairs{
-			{place(m_flat.points[last.next()]), place(m_flat.points[m_sides.across(last)])}};
-		for (const Corner side : seam)
-			pairs.push_back({place(copies(side)[0]), place(copies(side)[1])});
-		const auto [motion, gap] = Motion::fitting(pairs);
-		const bool fits = gap <= kCheckedGap * m_extent; // not if the turn is no number
-		for (std::size_t i = closed ? 0 : 1; i < seam.size(); ++i) {
-			const auto [left, right] = copies(seam[i]);
-			m_isImage[right] = 1;
-			m_fixed[left] = m_fixed[right] = !fits;
-			join(left, right, motion, 0.0);
+		const auto one = ends(edge[0]), other = ends(edge[1]);
+		const Complex a = place(one[0]), b = place(one[1]);
+		const Complex c = place(other[0]), d = place(other[1]);
+		const double first = Motion::length(a, b), second = Motion::length(c, d);
+		const double error =
+			rounding / std::max(std::min(std::abs(b - a), std::abs(d - c)), rounding);
+		if (!(std::abs(first - second) <= (kSeamMatch + error) * (first + second))) {
+			for (const int p : {one[0], one[1], other[0], other[1]})
+				m_points.fixed[p] = 1;
+			return;
+		}
+		const Motion motion = error < 1.0 ? Motion(a, b, c, d) : Motion();
+		for (std::size_t i = 0; i < 2; ++i) {
+			m_copies.push_back({one[i], {other[i], motion, error}});
+			m_copies.push_back({other[i], {one[i], motion.inverse(), error}});
 		}
 	}
 
 	const FlatMesh& m_flat;
-	const Sides& m_sides;
-	double m_extent;
-	Array<char> m_fixed, m_inside; // [point]
-	Array<char> m_isImage;         // [point] 1 on the right of a seam that moves as a whole
-	std::vector<std::pair<int, Copy<Motion>>> m_copies; // [i] of a point
+	const Sides m_sides;
+	PointGroups m_points;                               // each a group by itself
+	std::vector<std::pair<int, Copy<Motion>>> m_copies; // of points
 };
+
+/// Joins the points on the right of a seam to those on its left by the turn that fits its two sides best.
+/// \param copies on the left and on the right
+/// \param ends number of the first of them that lie at ends of the seam, which stay
+void joinSeam(
+	const FlatMesh& flat,
+	const std::vector<std::array<int, 2>>& copies,
+	std::size_t ends,
+	double maxGap,
+	PointGroups& groups)
+{
+	std::vector<std::array<Complex, 2>> pairs;
+	std::array<Complex, 2> mean{};
+	for (const auto& [left, right] : copies) {
+		pairs.push_back({asComplex(flat.place[left]), asComplex(flat.place[right])});
+		for (std::size_t k = 0; k < 2; ++k)
+			mean[k] += pairs.back()[k] / static_cast<double>(copies.size());
+	}
+	Complex product = 0.0;
+	for (auto& [a, b] : pairs) {
+		a -= mean[0], b -= mean[1];
+		product += b * std::conj(a);
+	}
+	const Complex turn = product / std::abs(product);
+	double gap = 0.0;
+	for (const auto& [a, b] : pairs)
+		gap = std::max(gap, std::abs(b - turn * a));
+	const bool fits = gap <= maxGap; // not if the turn is no number
+	for (std::size_t i = ends; i < copies.size(); ++i) {
+		const auto [left, right] = copies[i];
+		groups.group[right] = left;
+		groups.turn[right] = turn;
+		groups.fixed[left] = groups.fixed[right] = !fits;
+	}
+}
 
 } // namespace
 
 PointGroups allPoints(const FlatMesh& flat)
 {
-	PointGroups result;
-	const int count = flat.place.size();
-	result.inside.assign(count, 1);
-	forBorders(flat, Sides(flat.vertices.values()), [&](ItemRange<const Corner> edge) {
-		for (const Corner side : edge)
-			result.inside[flat.points[side]] = result.inside[flat.points[side.next()]] = 0;
-	});
-	result.turn.assign(count, 1.0);
-	result.fixed.assign(count, 0);
-	for (int p = 0; p < count; ++p)
-		result.group.push_back(p);
-	result.first = result.group;
+	PointGroups result =
+		withBoundary(flat, Sides(flat.vertices.values()), [](int) { return true; });
+	result.fixed.assign(result.fixed.size(), 0); // nor are edges with more than two sides
 	return result;
 }
 
@@ -332,23 +281,59 @@ PointGroups insidePoints(const FlatMesh& flat)
 PointGroups
 joinedPoints(const FlatMesh& flat, SeamGeometry geometry, const BoundaryRule& boundaryMoves)
 {
-	const Sides sides(flat.vertices.values());
-	const auto groups = [&](auto copies) {
-		copies.joinEdges();
-		return copies.groups();
-	};
-	return geometry == SeamGeometry::Plane
-			   ? groups(CopyGroups<PlaneMotion>(flat, sides, boundaryMoves))
-			   : groups(CopyGroups<DiskMotion>(flat, sides, boundaryMoves));
+	return geometry == SeamGeometry::Plane ? CopyGroups<PlaneMotion>(flat, boundaryMoves).groups()
+										   : CopyGroups<DiskMotion>(flat, boundaryMoves).groups();
 }
 
 PointGroups joinedPoints(
 	const FlatMesh& flat, const VertexArray<char>& cones, const BoundaryRule& boundaryMoves)
 {
 	const Sides sides(flat.vertices.values());
-	CopyGroups<PlaneMotion> copies(flat, sides, boundaryMoves);
-	copies.joinSeams(cones);
-	return copies.groups();
+	PointGroups groups = withBoundary(flat, sides, boundaryMoves);
+	const double maxGap = kCheckedGap * flat.box().extent();
+	const auto origin = [&](Corner side) { return Vertex(flat.vertices[side]); };
+	const Adjacency<Vertex, Corner> leaving(cones.size(), [&](const auto& add) {
+		forBorders(flat, sides, [&](ItemRange<const Corner> edge) {
+			for (const Corner side : edge)
+				add(origin(side), side);
+		});
+	});
+	VertexArray<char> isOnSeam(cones.size()), seen(cones.size(), 0);
+	for (const Vertex v : cones.indices()) {
+		int seams = 0;
+		for (const Corner side : leaving[v])
+			seams += sides.across(side).isValid();
+		isOnSeam[v] = !cones[v] && seams == 2 && leaving[v].size() == 2;
+		if (cones[v] || (seams > 0 && !isOnSeam[v]))
+			for (const Corner side : leaving[v])
+				groups.fixed[flat.points[side]] = 1;
+	}
+	const auto goesOn = [&](Corner side) { return isOnSeam[origin(side.next())]; };
+	const auto onward = [&](Corner side) {
+		const ItemRange<const Corner> out = leaving[origin(side.next())];
+		return out[out[0] == sides.across(side)];
+	};
+	for (const Vertex v : cones.indices()) {
+		if (!isOnSeam[v] || seen[v])
+			continue;
+		const ItemRange<const Corner> out = leaving[v];
+		Corner first = out[flat.points[out[1]] < flat.points[out[0]]];
+		while (goesOn(first) && origin(first.next()) != v)
+			first = onward(first);
+		const bool closed = goesOn(first);
+		std::vector<Corner> seam{closed ? onward(first) : sides.across(first)};
+		while (goesOn(seam.back()) && !(closed && origin(seam.back().next()) == v)) {
+			seam.push_back(onward(seam.back()));
+			seen[origin(seam.back())] = 1;
+		}
+		const Corner last = seam.back();
+		std::vector<std::array<int, 2>> copies{
+			{flat.points[last.next()], flat.points[sides.across(last)]}};
+		for (const Corner side : seam)
+			copies.push_back({flat.points[side], flat.points[sides.across(side).next()]});
+		joinSeam(flat, copies, closed ? 1 : 2, maxGap, groups);
+	}
+	return groups;
 }
 
 } // namespace ricci
