@@ -18,12 +18,8 @@ set(max_lines 550)
 set(max_types 7)
 set(max_parameters 6)
 set(more_parameters
-	charts/pack.cpp charts/separate_charts.cpp cut/shorten_cut.cpp cut/shorten_cut.h finish/finish.cpp finish/finish.h
-	finish/least_distortion.cpp finish/least_distortion.h finish/repair.cpp finish/repair.h
-	flow/flow_run.cpp flow/flow_run.h flow/ricci_flow.cpp flow/ricci_flow.h metric/conformal_flip.cpp
-	metric/conformal_flip.h texture/carry_texture.cpp verify/holonomy_check.cpp verify/holonomy_check.h
-	verify/metric_check.cpp verify/metric_check.h
-	math/cholmod_blas.cpp) # BLAS
+	charts/pack.cpp cut/shorten_cut.cpp cut/shorten_cut.h flow/ricci_flow.cpp flow/ricci_flow.h
+	verify/holonomy_check.cpp verify/holonomy_check.h math/cholmod_blas.cpp) # BLAS
 # The drivers choose by the options of the filters; the headers of the stages take what they need.
 set(naming_options charts/pack.h edge_swap/swapped_flow.h)
 set(host_words "MeshLab|PyMeshLab|meshlabserver|Qt[A-Z]|vcg::")

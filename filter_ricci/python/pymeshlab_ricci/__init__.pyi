@@ -89,9 +89,9 @@ class Flattening(Parametrization):
     """points of the common refinement that are not vertices of the mesh; 0 with Keep the
     mesh"""
     edge_swaps: int
-    """made by Edge swap"""
+    """made by Edge swaps"""
     boundary_splits: int
-    """made by Edge swap"""
+    """made by Edge swaps"""
     euler_characteristic: int
     """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
     components are its pieces"""
@@ -152,7 +152,7 @@ class Flattening(Parametrization):
     rectangle_aspect: float
     """rectangle: longer side over shorter side"""
     holonomy_error: float
-    """with cone_rounding 1, but for Edge swap: the largest distance of the rotation across a
+    """with cone_rounding 1, but for Edge swaps: the largest distance of the rotation across a
     seam from a multiple of π/2, in radians"""
     period_matrix: Array
     """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
@@ -212,9 +212,9 @@ class Uniformization(Parametrization):
     """points of the common refinement that are not vertices of the mesh; 0 with Keep the
     mesh"""
     edge_swaps: int
-    """made by Edge swap"""
+    """made by Edge swaps"""
     boundary_splits: int
-    """made by Edge swap"""
+    """made by Edge swaps"""
     euler_characteristic: int
     """of the input, cut open where it is no oriented manifold and at the seams that are chosen;
     components are its pieces"""
@@ -275,7 +275,7 @@ class Uniformization(Parametrization):
     rectangle_aspect: float
     """rectangle: longer side over shorter side"""
     holonomy_error: float
-    """with cone_rounding 1, but for Edge swap: the largest distance of the rotation across a
+    """with cone_rounding 1, but for Edge swaps: the largest distance of the rotation across a
     seam from a multiple of π/2, in radians"""
     period_matrix: Array
     """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
@@ -324,7 +324,7 @@ class MeshSet(pymeshlab.MeshSet):
             'Placed cones',
         ]] = 'Automatic',
         free_boundary: bool = True,
-        cone_distortion: float = 0.5,
+        cone_distortion: float = 0.25,
         seams: Union[int, Literal[
             'Shortest',
             'Existing texture seams',
@@ -348,29 +348,28 @@ class MeshSet(pymeshlab.MeshSet):
             'Free',
             'Multiples of pi/2',
         ]] = 'Free',
-        surgery: Union[int, Literal[
-            'None',
-            'Edge swap',
+        method: Union[int, Literal[
             'Intrinsic flips',
+            'Fixed triangles',
+            'Edge swaps',
+            'Thurston',
         ]] = 'Intrinsic flips',
         finish: Union[int, Literal[
             'None',
             'Repair',
             'Least distortion',
         ]] = 'Least distortion',
-        resolve_overlap: bool = True,
+        charts: Union[int, Literal[
+            'As the flow has them',
+            'Without overlap',
+            'Without overlap and strips',
+        ]] = 'Without overlap',
         normalize_uv: bool = True,
-        cut_strips: bool = False,
         sphere_layer: bool = False,
         carry_texture: str = '',
         texture_size: int = 2048,
         report: str = '',
-        circle_packing: Union[int, Literal[
-            'Inversive distance',
-            'Thurston',
-        ]] = 'Inversive distance',
         epsilon: float = 1e-08,
-        max_iterations: int = 200,
         time_limit: float = 0.0,
     ) -> dict[str, Any]:
         """MeshLab's filter 'Generalized Ricci Flow (Euclidean)' on the current mesh."""
@@ -399,9 +398,9 @@ class MeshSet(pymeshlab.MeshSet):
             'Border of selected faces',
         ]] = 'Shortest',
         free_boundary: bool = False,
-        surgery: Union[int, Literal[
-            'None',
+        method: Union[int, Literal[
             'Intrinsic flips',
+            'Fixed triangles',
         ]] = 'Intrinsic flips',
         finish: Union[int, Literal[
             'None',
@@ -411,7 +410,6 @@ class MeshSet(pymeshlab.MeshSet):
         texture_size: int = 2048,
         report: str = '',
         epsilon: float = 1e-08,
-        max_iterations: int = 200,
         time_limit: float = 0.0,
     ) -> dict[str, Any]:
         """MeshLab's filter 'Generalized Ricci Flow (Hyperbolic)' on the current mesh."""
@@ -431,7 +429,7 @@ def flatten(
         'Placed cones',
     ]] = 'Automatic',
     free_boundary: bool = True,
-    cone_distortion: float = 0.5,
+    cone_distortion: float = 0.25,
     seams: Union[int, Literal[
         'Shortest',
         'Existing texture seams',
@@ -455,29 +453,28 @@ def flatten(
         'Free',
         'Multiples of pi/2',
     ]] = 'Free',
-    surgery: Union[int, Literal[
-        'None',
-        'Edge swap',
+    method: Union[int, Literal[
         'Intrinsic flips',
+        'Fixed triangles',
+        'Edge swaps',
+        'Thurston',
     ]] = 'Intrinsic flips',
     finish: Union[int, Literal[
         'None',
         'Repair',
         'Least distortion',
     ]] = 'Least distortion',
-    resolve_overlap: bool = True,
+    charts: Union[int, Literal[
+        'As the flow has them',
+        'Without overlap',
+        'Without overlap and strips',
+    ]] = 'Without overlap',
     normalize_uv: bool = True,
-    cut_strips: bool = False,
     sphere_layer: bool = False,
     carry_texture: str = '',
     texture_size: int = 2048,
     report: str = '',
-    circle_packing: Union[int, Literal[
-        'Inversive distance',
-        'Thurston',
-    ]] = 'Inversive distance',
     epsilon: float = 1e-08,
-    max_iterations: int = 200,
     time_limit: float = 0.0,
 ) -> Flattening:
     """Conformal map of a mesh into the Euclidean plane.
@@ -489,7 +486,7 @@ def flatten(
         for a surface with boundary. Disk, Rectangle and the flat annulus prescribe the boundary
         and ignore this.
     cone_distortion: Cones are added until areas typically change by less than this, relative to
-        each other (0.5: by half). Read where cones are placed and their number is 0.
+        each other (0.25: by a quarter). Read where cones are placed and their number is 0.
     seams: Shortest: as short as can be. The others open the surface where you choose, and it is
         cut further only where it has to be: where the texture of the mesh jumps, along selected
         edges ('Select Crease Edges'), or around the selected faces.
@@ -499,8 +496,8 @@ def flatten(
     chart_margin: Room between two charts, and between the charts and the border, as a share of
         the side of the square, for baking textures. 0.004 is 4 pixels of an image 1024 wide, 8
         of 2048.
-    colorize: Colour the vertices by their quasi-conformal distortion: from 1 (angles kept) to
-        the 99th percentile over the faces.
+    colorize: Colour the vertices by their quasi-conformal distortion: from blue (1: angles
+        kept) over cyan, green and yellow to red (the 99th percentile over the faces, and more).
     flat_layer: Add a layer with the mesh laid out in the plane, cut along its seams.
     holes: What the boundary loops other than the longest are. Capped: closed for the flow, so
         that the chart goes round them without seams.
@@ -510,16 +507,17 @@ def flatten(
         distortion'.
     cone_rounding: Free: those that change areas least. Multiples of pi/2: as quadrangulations
         need them; all seams then differ by quarter turns.
-    surgery: What to do where the flow breaks a triangle. The mesh itself is never changed.
+    method: If a triangle breaks, intrinsic flips or the paper's edge swaps give the flow
+        others, and fixed triangles end with an error; the mesh is never changed. Thurston: the
+        conventional flow on the mesh's triangles, to compare with.
     finish: What is done to the flow's map before it is stored: faces that would come out
         flipped are repaired, and on 'Keep the mesh' the faces get the least mean conformal
-        distortion. No effect with 'Thurston', and with another surgery than 'Intrinsic flips'.
-    resolve_overlap: A chart that covers a part of the plane twice is cut along the shortest
-        lines that part what overlaps. Off: such charts are counted only.
+        distortion. Only for the method 'Intrinsic flips'.
+    charts: Without overlap: a chart that covers a part of the plane twice is cut along the
+        shortest lines that part what overlaps. And strips: a long and narrow chart is cut
+        across once if all charts then cover about twice as much of the unit square.
     normalize_uv: Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the
         scale of the metric.
-    cut_strips: A long and narrow chart is cut across once where all charts then cover about
-        twice as much of the unit square.
     sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Only for one
         closed surface of genus 0.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
@@ -527,12 +525,8 @@ def flatten(
     texture_size: Width and height of the new texture, 16 to 16384 texels.
     report: A report of the run: a page with diagrams and its data beside it (.html), or the
         data alone (.csv). Empty: no report.
-    circle_packing: Inversive distance: the generalized flow, exact on any triangles. Thurston:
-        the conventional flow, which changes the metric of thin triangles, for comparison.
     epsilon: The flow stops when the curvature of every vertex is this close to its target, in
         radians, or at the floor that rounding sets.
-    max_iterations: One solve gives up with an error after this many Newton steps. A run takes
-        fewer than 30 as a rule.
     time_limit: A run that takes longer ends with an error and leaves the mesh as it was. 0: no
         limit.
     """
@@ -564,9 +558,9 @@ def uniformize(
         'Border of selected faces',
     ]] = 'Shortest',
     free_boundary: bool = False,
-    surgery: Union[int, Literal[
-        'None',
+    method: Union[int, Literal[
         'Intrinsic flips',
+        'Fixed triangles',
     ]] = 'Intrinsic flips',
     finish: Union[int, Literal[
         'None',
@@ -576,7 +570,6 @@ def uniformize(
     texture_size: int = 2048,
     report: str = '',
     epsilon: float = 1e-08,
-    max_iterations: int = 200,
     time_limit: float = 0.0,
 ) -> Uniformization:
     """Hyperbolic metric of a mesh, in the Poincaré disk.
@@ -588,8 +581,8 @@ def uniformize(
     output_triangulation: Keep the mesh: vertices and faces stay as they are. Common refinement:
         faces are divided where the flow's edges cross them, so that the map is exact on every
         piece.
-    colorize: Colour the vertices by their quasi-conformal distortion: from 1 (angles kept) to
-        the 99th percentile over the faces.
+    colorize: Colour the vertices by their quasi-conformal distortion: from blue (1: angles
+        kept) over cyan, green and yellow to red (the 99th percentile over the faces, and more).
     flat_layer: Add a layer with the mesh laid out in the Poincaré disk, cut along its seams.
     universal_cover: Add a layer with the mesh in the Poincaré disk and this many rings of
         copies round it, which tile the disk. 0: no layer.
@@ -602,10 +595,10 @@ def uniformize(
         edges ('Select Crease Edges'), or around the selected faces.
     free_boundary: The circles of the boundary's vertices keep their radii, and the target holds
         inside only. Off: the target holds on the boundary too.
-    surgery: What to do where the flow breaks a triangle. The mesh itself is never changed.
+    method: If a triangle breaks, intrinsic flips give the flow others, and fixed triangles end
+        with an error; the mesh is never changed.
     finish: What is done to the flow's map before it is stored: faces that would come out
-        flipped are repaired. No effect with 'Thurston', and with another surgery than
-        'Intrinsic flips'.
+        flipped are repaired. Only for the method 'Intrinsic flips'.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
     texture_size: Width and height of the new texture, 16 to 16384 texels.
@@ -613,8 +606,6 @@ def uniformize(
         data alone (.csv). Empty: no report.
     epsilon: The flow stops when the curvature of every vertex is this close to its target, in
         radians, or at the floor that rounding sets.
-    max_iterations: One solve gives up with an error after this many Newton steps. A run takes
-        fewer than 30 as a rule.
     time_limit: A run that takes longer ends with an error and leaves the mesh as it was. 0: no
         limit.
     """

@@ -29,8 +29,8 @@ EUCLIDEAN_RESULTS = \
  'refinement_points': ('int',
                        'points of the common refinement that are not vertices of the mesh; 0 '
                        'with Keep the mesh'),
- 'edge_swaps': ('int', 'made by Edge swap'),
- 'boundary_splits': ('int', 'made by Edge swap'),
+ 'edge_swaps': ('int', 'made by Edge swaps'),
+ 'boundary_splits': ('int', 'made by Edge swaps'),
  'euler_characteristic': ('int',
                           'of the input, cut open where it is no oriented manifold and at the '
                           'seams that are chosen; components are its pieces'),
@@ -83,7 +83,7 @@ EUCLIDEAN_RESULTS = \
  'annulus_modulus': ('float', 'flat annulus: ln(r₂/r₁) / 2π'),
  'rectangle_aspect': ('float', 'rectangle: longer side over shorter side'),
  'holonomy_error': ('float',
-                    'with cone_rounding 1, but for Edge swap: the largest distance of the '
+                    'with cone_rounding 1, but for Edge swaps: the largest distance of the '
                     'rotation across a seam from a multiple of π/2, in radians'),
  'period_matrix': ('vector',
                    'one closed component of genus g from 1 to 10: Re, Im of the entries of its '
