@@ -25,12 +25,7 @@ using Complex = std::complex<double>;
 /// The layout on the overlay, which is another way to the same points.
 PlanarLayout onOverlay(const FlippedFlow& flow, const EdgeArray<char>& isCut)
 {
-	return commonRefinement(
-			   flow.domain,
-			   flow.result,
-			   overlayOf(flow.domain, flow.result, true),
-			   isCut,
-			   true)
+	return commonRefinement(flow.domain, flow.result, overlayOf(flow.domain, flow.result), isCut)
 		.inputLayout;
 }
 

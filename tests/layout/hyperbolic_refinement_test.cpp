@@ -12,6 +12,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/layout/common_refinement.h>
+#include <ricci/layout/corner_layout.h>
 #include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/metric/conformal_flip.h>
 #include <ricci/metric/hyperbolic.h>
@@ -218,21 +219,35 @@ TEST(HyperbolicRefinement, IsAMetricOfCurvatureMinusOneOnTheInput)
 		EXPECT_GE(seams, cut.edgeCount);
 		// ... and differ by the isometry that is reported.
 		const Triangulation& input = flow.base();
-		for (const Edge e : input.edges()) {
-			if (!cut.isCut[e])
-				continue;
-			const Halfedge h = e.halfedge(), g = h.twin();
-			const DiskIsometry isometry = rounded(r.pairing[e].isometry());
-			EXPECT_LT(
-				std::abs(
-					isometry(asComplex(r.inputLayout[input.next(g)])) -
-					asComplex(r.inputLayout[h])),
-				1e-9);
-			EXPECT_LT(
-				std::abs(
-					isometry(asComplex(r.inputLayout[g])) -
-					asComplex(r.inputLayout[input.next(h)])),
-				1e-9);
+		const auto expectPairing = [&](const PlanarLayout& layout,
+									   const EdgeArray<SidePairing>& pairing) {
+			const auto at = [&](Halfedge h) { return asComplex(layout[h]); };
+			for (const Edge e : input.edges()) {
+				if (!cut.isCut[e])
+					continue;
+				const Halfedge h = e.halfedge(), g = h.twin();
+				const DiskIsometry isometry = rounded(pairing[e].isometry());
+				EXPECT_LT(std::abs(isometry(at(input.next(g))) - at(h)), 1e-9);
+				EXPECT_LT(std::abs(isometry(at(g)) - at(input.next(h))), 1e-9);
+			}
+		};
+		expectPairing(r.inputLayout, r.pairing);
+		// The layout of the corners alone is the same figure.
+		const DiskLayout disk = layOutCornersInDisk(flow.domain, flow.result, cut.isCut);
+		expectPairing(disk.corners, disk.pairing);
+		for (const Halfedge h : input.interiorHalfedges()) {
+			const auto fromFirst = [&](const PlanarLayout& layout) {
+				return static_cast<double>(
+					distanceInDisk(asComplex(layout[h]), asComplex(layout.points[0])));
+			};
+			const auto rounding = [&](const PlanarLayout& layout) {
+				return 1e-14 / (1.0 - std::norm(asComplex(layout[h]))) +
+					   1e-14 / (1.0 - std::norm(asComplex(layout.points[0])));
+			};
+			EXPECT_NEAR(
+				fromFirst(disk.corners),
+				fromFirst(r.inputLayout),
+				1e-9 + rounding(disk.corners) + rounding(r.inputLayout));
 		}
 	}
 	EXPECT_GT(crossings, 200u);
@@ -298,8 +313,8 @@ TEST(HyperbolicRefinement, CrossingsAreWhereGeodesicsMeet)
 		flow.history.startDelta = packing.delta;
 		flow.history.startRadii = radii;
 		flow.history.flowFlips = {e};
-		const CommonRefinement r = commonRefinement(
-			domain, flow, overlayOf(domain, flow, true), EdgeArray<char>(5, 0), false);
+		const CommonRefinement r =
+			commonRefinement(domain, flow, overlayOf(domain, flow), EdgeArray<char>(5, 0));
 		ASSERT_EQ(r.points.size(), 5u);
 		ASSERT_EQ(r.triangles.size(), 4u);
 		std::vector<Complex> place(5);

@@ -17,7 +17,6 @@
 namespace ricci::testing {
 namespace {
 
-
 Point3 between(const Point3& a, const Point3& b, double share)
 {
 	Point3 p;
@@ -40,7 +39,7 @@ TEST(EdgeCrossings, WithTheInputLieOnStraightLines)
 	Random random(800);
 	int crossings = 0;
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const EdgeCrossings x(flow.result, true);
+		const EdgeCrossings x(flow.result);
 		const IntrinsicMesh& start = flow.result.history.start;
 		const Triangulation& input = flow.base();
 		for (const Edge e : start.triangulation.edges()) {
@@ -86,7 +85,7 @@ TEST(EdgeCrossings, InThePlaneAreThoseOfTheDrawing)
 			p[0] *= 1.0 + 3.0 * trial; // needles
 		const FlippedFlow flow(mesh, requestOf(TargetCurvature::Automatic));
 		ASSERT_FALSE(flow.result.doubled);
-		const EdgeCrossings x(flow.result, true);
+		const EdgeCrossings x(flow.result);
 		const Triangulation& start = flow.result.history.start.triangulation;
 		const VertexArray<Point3>& p = flow.surface().positions;
 		const auto side = [&](const std::array<Vertex, 2>& line, Vertex v) {
@@ -119,7 +118,7 @@ TEST(EdgeCrossings, AreNumberedOnceEach)
 {
 	Random random(802);
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const EdgeCrossings x(flow.result, true);
+		const EdgeCrossings x(flow.result);
 		const auto expectEachOnce = [](const EdgeArray<EdgeCrossings::Curve>& curves,
 									   const Groups<Edge>& on,
 									   const auto& numberOf,
@@ -167,7 +166,7 @@ TEST(EdgeCrossings, WithTheEndAreInTheirOrder)
 		std::vector<double> curvature(mesh.positions.size(), 1.5 * kPi);
 		curvature[1] = -1.5 * kPi * static_cast<double>(mesh.positions.size() - 1);
 		const FlippedFlow flow(mesh, prescribed(curvature));
-		const EdgeCrossings x(flow.result, true);
+		const EdgeCrossings x(flow.result);
 		for (const EdgeCrossings::Curve& curve : x.endCurves)
 			longest = std::max(longest, curve.crossings.size());
 		for (const Edge e : flow.result.history.start.triangulation.edges()) {
@@ -211,7 +210,7 @@ TEST(EdgeCrossings, WithTheEndAreVectorsOfBothTriangulations)
 	Random random(803);
 	int crossings = 0, several = 0;
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const EdgeCrossings x(flow.result, true);
+		const EdgeCrossings x(flow.result);
 		const Triangulation& start = flow.result.history.start.triangulation;
 		const EdgeArray<double>& startDelta = flow.result.history.startDelta;
 		const auto corner = [&](Halfedge h) { // whose origin it is, in its triangle

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/listener.h"
 #include "support/closed_flows.h"
 #include "support/intrinsic.h"
+#include "support/listener.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/overlay/overlay_nodes.h>
@@ -9,16 +9,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <utility>
-#include <algorithm>
 #include <vector>
 
 namespace ricci::testing {
 namespace {
-
 
 /// Weight of a vertex of the input in a point; 0 where it has none.
 double weightOf(const SurfacePoint& p, Vertex v)
@@ -35,7 +34,7 @@ TEST(OverlayPieces, AreTheFacesOfASurface)
 	Random random(810);
 	int crossings = 0;
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const OverlayPieces pieces = divideStartTriangles(flow.result, true);
+		const OverlayPieces pieces = divideStartTriangles(flow.result);
 		EXPECT_EQ(
 			pieces.nodes.size() - pieces.sideCount + pieces.count(),
 			flow.base().eulerCharacteristic());
@@ -60,7 +59,7 @@ TEST(OverlayPieces, KnowTheEdgesAndCornersTheyLieAt)
 {
 	Random random(811);
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const OverlayPieces pieces = divideStartTriangles(flow.result, true);
+		const OverlayPieces pieces = divideStartTriangles(flow.result);
 		const Triangulation& input = flow.base();
 		const Triangulation& end = flow.result.metric->triangulation();
 		HalfedgeArray<int> inputCorners(input.halfedgeCount(), 0), endCorners = inputCorners;
@@ -115,9 +114,9 @@ TEST(OverlayPieces, DivideStartTrianglesAlongStraightLines)
 	Random random(813);
 	int crossings = 0;
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const OverlayPieces pieces = divideStartTriangles(flow.result, true);
+		const OverlayPieces pieces = divideStartTriangles(flow.result);
 		Array<OverlayNode> onStartEdges;
-		StartEdgeNodes(flow.result, EdgeCrossings(flow.result, true), onStartEdges);
+		StartEdgeNodes(flow.result, EdgeCrossings(flow.result), onStartEdges);
 		const auto place = [&](int p, int i) {
 			return placeOnSurface(pieces.nodes[pieces(p, i).node].point, flow.mesh.positions);
 		};
@@ -156,7 +155,7 @@ TEST(OverlayPieces, OfAnInputThatStaysAreItsTriangles)
 	const SurfaceMesh mesh = tetrahedron();
 	const FlippedFlow flow(mesh, prescribed(curvatureInSpace(mesh)));
 	ASSERT_EQ(flow.result.history.flips(), 0);
-	const OverlayPieces pieces = divideStartTriangles(flow.result, true);
+	const OverlayPieces pieces = divideStartTriangles(flow.result);
 	EXPECT_EQ(pieces.nodes.size(), 4);
 	EXPECT_EQ(pieces.sideCount, 6);
 	ASSERT_EQ(pieces.count(), 4);
@@ -173,13 +172,12 @@ TEST(OverlayPieces, AreHeardAndCanBeEnded)
 	Random random(812);
 	const FlippedFlow flow(bumpyTorus(90, 70, random), requestOf(TargetCurvature::Flat));
 	Listener listener;
-	heard(listener, [&] { return divideStartTriangles(flow.result, true); });
+	heard(listener, [&] { return divideStartTriangles(flow.result); });
 	EXPECT_GT(listener.calls(), 1);
 	EXPECT_GT(listener.fractions.back(), 0.3);
 	EXPECT_TRUE(std::is_sorted(listener.fractions.begin(), listener.fractions.end()));
 	Listener impatient(2);
-	EXPECT_THROW(
-		heard(impatient, [&] { divideStartTriangles(flow.result, true); }), Cancelled);
+	EXPECT_THROW(heard(impatient, [&] { divideStartTriangles(flow.result); }), Cancelled);
 }
 
 TEST(OverlayPieces, KeepThoseThatAreWanted)

@@ -43,11 +43,8 @@ TEST(PieceFaces, TileTheTrianglesOfTheInputAndOfTheEnd)
 	for (const FlippedFlow& flow : closedFlows(random)) {
 		const Triangulation& input = flow.base();
 		const Triangulation& end = flow.result.metric->triangulation();
-		const LinkedPieces linked = linkPieces(
-			divideStartTriangles(flow.result, true),
-			input,
-			end,
-			input.faceCount());
+		const LinkedPieces linked =
+			linkPieces(divideStartTriangles(flow.result), input, end, input.faceCount());
 		const OverlayPieces& pieces = linked.pieces;
 		FaceArray<double> ofInput(input.faceCount(), 0.0), ofEnd(end.faceCount(), 0.0);
 		for (int p = 0; p < pieces.count(); ++p) {
@@ -79,7 +76,7 @@ TEST(PieceFaces, ForgetWhatIsNotKept)
 	for (const FlippedFlow& flow : closedFlows(random)) {
 		const Triangulation& input = flow.base();
 		const Triangulation& end = flow.result.metric->triangulation();
-		const OverlayPieces all = divideStartTriangles(flow.result, true);
+		const OverlayPieces all = divideStartTriangles(flow.result);
 		const LinkedPieces whole = linkPieces(all, input, end, input.faceCount());
 		const int kept = input.faceCount() / 2;
 		const LinkedPieces half = linkPieces(all, input, end, kept);

@@ -131,8 +131,7 @@ CutGraph FlippedFlow::cutAnywhere(Random& random) const
 
 CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
 {
-	return commonRefinement(
-		domain, result, overlayOf(domain, result, true), cutGraph.isCut, false);
+	return commonRefinement(domain, result, overlayOf(domain, result), cutGraph.isCut);
 }
 
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary)

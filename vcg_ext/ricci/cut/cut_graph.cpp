@@ -423,4 +423,57 @@ CutGraph cutToDisk(
 	return cut;
 }
 
+void dropSeamsToHoles(
+	const Triangulation& t,
+	const EdgeArray<double>& cost,
+	const VertexArray<char>& closes,
+	const VertexArray<char>& marked,
+	CutGraph& cut)
+{
+	const EdgeArray<char> nowhere;
+	const ContractedGraph graph(t, cost, nowhere);
+	VertexArray<char> terminal(t.vertexCount(), 0); // [node]
+	for (const Vertex v : t.vertices())
+		if (marked[v])
+			terminal[graph.node(v)] = 1;
+	for (const Vertex n : graph.loopNodes())
+		if (!closes[n])
+			terminal[n] = 1;
+	prune(graph, terminal, cut.isCut);
+	measure(graph, cut);
+}
+
+std::vector<std::vector<Halfedge>>
+seamsOf(const Triangulation& t, const EdgeArray<char>& isCut, const VertexArray<char>& cones)
+{
+	VertexArray<int> degree(t.vertexCount(), 0);
+	for (const Halfedge h : t.halfedges())
+		degree[t.origin(h)] += isCut[h.edge()];
+	const VertexArray<char> boundary = t.boundaryVertices();
+	const auto endsAt = [&](Vertex v) { return degree[v] != 2 || boundary[v] || cones[v]; };
+	std::vector<std::vector<Halfedge>> seams;
+	EdgeArray<char> isDone(t.edgeCount(), 0);
+	const auto walk = [&](Halfedge h) {
+		seams.emplace_back();
+		for (;;) {
+			seams.back().push_back(h);
+			isDone[h.edge()] = 1;
+			if (endsAt(t.target(h)))
+				return;
+			Halfedge next;
+			for (const Halfedge g : t.around(t.target(h)))
+				if (g != h.twin() && isCut[g.edge()])
+					next = g;
+			if (isDone[next.edge()])
+				return;
+			h = next;
+		}
+	};
+	for (const bool fromEnds : {true, false})
+		for (const Halfedge h : t.halfedges())
+			if (isCut[h.edge()] && !isDone[h.edge()] && (!fromEnds || endsAt(t.origin(h))))
+				walk(h);
+	return seams;
+}
+
 } // namespace ricci

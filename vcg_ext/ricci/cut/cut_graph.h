@@ -56,6 +56,24 @@ CutGraph cutToDisk(
 CutGraph cutAroundCentre(
 	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<char>& marked);
 
+/// Takes back the parts of \p cut that end at holes round which the metric closes: the chart goes
+/// round them in one piece. Where the cut runs on through such a hole to another place that it has
+/// to reach, it stays.
+/// \param cost what CutGraph::length adds up
+/// \param closes 1 on boundary loops whose holonomy is trivial, in rotation and in translation
+/// \param marked 1 at cones, which the cut must reach
+void dropSeamsToHoles(
+	const Triangulation& t,
+	const EdgeArray<double>& cost,
+	const VertexArray<char>& closes,
+	const VertexArray<char>& marked,
+	CutGraph& cut);
+
+/// The edges of a cut as seams: chains of halfedges, each from a vertex where the cut branches or ends,
+/// at a cone or on the boundary to the next such vertex; or a loop without any, which come last.
+std::vector<std::vector<Halfedge>>
+seamsOf(const Triangulation& t, const EdgeArray<char>& isCut, const VertexArray<char>& cones);
+
 } // namespace ricci
 
 #endif

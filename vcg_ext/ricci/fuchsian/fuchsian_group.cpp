@@ -144,50 +144,6 @@ private:
 	Record m_record;
 };
 
-/// The halfedge of the cut that goes on at the end of \p h, where the cut does not branch.
-Halfedge onwardAlongCut(const Triangulation& t, const CutGraph& cut, Halfedge h)
-{
-	Halfedge g = h.twin();
-	do
-		g = t.previous(g).twin();
-	while (!cut.isCut[g.edge()]);
-	return g;
-}
-
-/// The arcs of the cut, as halfedges one behind the other: they end where it branches, at cones and
-/// at the boundary. All edges of an arc have the same side pairing but for rounding.
-std::vector<std::vector<Halfedge>>
-arcsOfCut(const Triangulation& t, const CutGraph& cut, const VertexArray<char>& cones)
-{
-	VertexArray<int> degree(t.vertexCount(), 0);
-	for (const Halfedge h : t.halfedges())
-		degree[t.origin(h)] += cut.isCut[h.edge()];
-	const VertexArray<char> boundary = t.boundaryVertices();
-	const auto endsArcs = [&](Vertex v) { return degree[v] != 2 || boundary[v] || cones[v]; };
-	std::vector<std::vector<Halfedge>> arcs;
-	EdgeArray<char> seen(t.edgeCount(), 0);
-	// From the ends of arcs first; closed curves without one are left.
-	for (const bool fromEnds : {true, false})
-		for (const Halfedge h : t.halfedges()) {
-			const Edge e = h.edge();
-			if (!cut.isCut[e] || seen[e] || (fromEnds && !endsArcs(t.origin(h))))
-				continue;
-			std::vector<Halfedge> arc;
-			Halfedge next = h;
-			while (true) {
-				seen[next.edge()] = 1;
-				arc.push_back(next);
-				if (endsArcs(t.target(next)))
-					break;
-				next = onwardAlongCut(t, cut, next);
-				if (seen[next.edge()])
-					break;
-			}
-			arcs.push_back(std::move(arc));
-		}
-	return arcs;
-}
-
 /// The most exact side pairing of an arc, for each of its halfedges.
 SidePairing bestOf(const std::vector<Halfedge>& arc, const EdgeArray<SidePairing>& pairing)
 {
@@ -216,8 +172,7 @@ void addCanonicalBasis(
 {
 	if (!generators.empty())
 		closeRelation(word, tail, generators);
-	const Handles handles =
-		bestConditioned(canonicalBases(word, generators), peripheral);
+	const Handles handles = bestConditioned(canonicalBases(word, generators), peripheral);
 	if (handles.size() != positionOf(generators.size()))
 		return;
 	for (std::size_t i = 0; i + 1 < handles.size(); i += 2) {
@@ -252,7 +207,7 @@ EdgeArray<SidePairing> pairingOfArcs(
 	const VertexArray<char>& cones)
 {
 	EdgeArray<SidePairing> exact(t.edgeCount());
-	for (const std::vector<Halfedge>& arc : arcsOfCut(t, cut, cones)) {
+	for (const std::vector<Halfedge>& arc : seamsOf(t, cut.isCut, cones)) {
 		const SidePairing best = bestOf(arc, pairing);
 		for (const Halfedge h : arc)
 			exact[h.edge()] = h.isFirst() ? best : best.reversed();
@@ -269,7 +224,7 @@ FuchsianGroup fuchsianGroup(
 {
 	FuchsianGroup group;
 	const EdgeArray<SidePairing> exact = pairingOfArcs(t, cut, pairing, cones);
-	for (const std::vector<Halfedge>& arc : arcsOfCut(t, cut, cones)) {
+	for (const std::vector<Halfedge>& arc : seamsOf(t, cut.isCut, cones)) {
 		const ExtendedIsometry side = across(arc.front(), exact).isometry();
 		group.sides.push_back(rounded(side));
 		group.sides.push_back(rounded(side.inverse()));

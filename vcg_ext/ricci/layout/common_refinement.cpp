@@ -6,7 +6,7 @@
 #include "../math/disjoint_sets.h"
 #include "../overlay/piece_faces.h"
 #include "../overlay/piece_triangulation.h"
-#include "sheets.h"
+#include "end_sheets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -88,14 +88,13 @@ public:
 	{
 	}
 
-	CommonRefinement run(bool cornersOnly)
+	CommonRefinement run()
 	{
 		layOut();
 		advance(kLaidOut, kPlacing);
 		m_linked.links = {};
 		numberPoints();
-		if (!cornersOnly)
-			emitPieces();
+		emitPieces();
 		placeSurface();
 		return std::move(m_result);
 	}
@@ -108,8 +107,7 @@ private:
 		const EdgeArray<char> noCut(sheets.triangulation.edgeCount(), 0);
 		if (m_flow.background == Background::EuclideanPlane)
 			placeInPlane(
-				sheets,
-				layOutInPlane(sheets.triangulation, sheets.lengths, sheets.angles, noCut));
+				sheets, layOutInPlane(sheets.triangulation, sheets.lengths, sheets.angles, noCut));
 		else {
 			const HyperbolicLayout disk =
 				layOutInDisk(sheets.triangulation, sheets.lengths, sheets.angles, noCut);
@@ -302,14 +300,14 @@ private:
 
 } // namespace
 
-LinkedPieces overlayOf(const FlowDomain& domain, const FlowResult& flow, bool refines)
+LinkedPieces overlayOf(const FlowDomain& domain, const FlowResult& flow)
 {
 	OverlayPieces pieces = [&] {
 		const Task dividing(0.0, kDivided);
-		return divideStartTriangles(flow, refines);
+		return divideStartTriangles(flow);
 	}();
 	const Triangulation& end = flow.metric->triangulation();
-	requireOverlayMemory(static_cast<std::size_t>(pieces.nodes.size() - end.vertexCount()), refines);
+	requireOverlayMemory(static_cast<std::size_t>(pieces.nodes.size() - end.vertexCount()), true);
 	return linkPieces(
 		std::move(pieces), flow.history.input, end, domain.surface.triangulation.faceCount());
 }
@@ -318,10 +316,9 @@ CommonRefinement commonRefinement(
 	const FlowDomain& domain,
 	const FlowResult& flow,
 	LinkedPieces linked,
-	const EdgeArray<char>& isCut,
-	bool cornersOnly)
+	const EdgeArray<char>& isCut)
 {
-	return RefinementMaker(domain, flow, std::move(linked), isCut).run(cornersOnly);
+	return RefinementMaker(domain, flow, std::move(linked), isCut).run();
 }
 
 FlatMesh flatMeshOf(const EmbeddedSurface& surface, const CommonRefinement& refinement)

@@ -35,10 +35,8 @@ FlatMesh flatMeshOf(const EmbeddedSurface& surface, const CommonRefinement& refi
 /// The overlay (overlay_pieces.h) for the faces of the domain's surface. Where the flow's surface goes on
 /// beyond it (its double, caps on holes), the overlay ends at its boundary.
 /// It takes the first half of the task in hand.
-/// \param refines see requireOverlayMemory()
 /// \pre the flow ran with intrinsic flips
-LinkedPieces
-overlayOf(const FlowDomain& domain, const FlowResult& flow, bool refines);
+LinkedPieces overlayOf(const FlowDomain& domain, const FlowResult& flow);
 
 /// Lays the overlay \p linked of \p flow out, cut along the surface's edges with \p isCut.
 ///
@@ -47,14 +45,11 @@ overlayOf(const FlowDomain& domain, const FlowResult& flow, bool refines);
 /// end triangle with the same vertices [Springborn Schroeder Pinkall 2008], [Bobenko Lutz 2023];
 /// on the refinement it is continuous across all edges [Gillespie Springborn Crane 2021].
 ///
-/// \param cornersOnly the layout of the surface's corners is all that is wanted: no points,
-/// triangles and uv
 CommonRefinement commonRefinement(
 	const FlowDomain& domain,
 	const FlowResult& flow,
 	LinkedPieces linked,
-	const EdgeArray<char>& isCut,
-	bool cornersOnly);
+	const EdgeArray<char>& isCut);
 
 } // namespace ricci
 

@@ -3,8 +3,9 @@
 
 #include "../base/memory_estimate.h"
 #include "../base/task.h"
+#include "../math/disjoint_sets.h"
 #include "../surface/normal_coordinates.h"
-#include "sheets.h"
+#include "end_sheets.h"
 
 #include <algorithm>
 #include <vector>
@@ -15,10 +16,8 @@ namespace {
 
 /// The cut on the end triangulation. Its curves are the edges at which the surface is open: those of
 /// the cut and of the surface's boundary, beyond which the triangulation may go on.
-NormalCoordinates cutOnEnd(
-	const FlowDomain& domain,
-	const FlowResult& flow,
-	const EdgeArray<char>& isCut)
+NormalCoordinates
+cutOnEnd(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut)
 {
 	const Triangulation& t = domain.surface.triangulation;
 	EdgeArray<char> isCurve = isCut;
@@ -33,6 +32,10 @@ NormalCoordinates cutOnEnd(
 			checkpointNowAndThen(done++);
 			cut.flip(e);
 		}
+	std::size_t crossings = 0;
+	for (const Edge e : cut.triangulation().edges())
+		crossings += static_cast<std::size_t>(cut.crossings(e));
+	requireOverlayMemory(crossings, false);
 	return cut;
 }
 
@@ -43,32 +46,25 @@ NormalCoordinates cutOnEnd(
 class CutSheets
 {
 public:
-	EndSheets sheets; ///< without an overlay
-
 	CutSheets(const Triangulation& end, const NormalCoordinates& cut) :
 			m_end(end), m_cut(cut), m_isDivided(end.faceCount(), 0), m_middle(end.faceCount()),
 			m_cutOff(end.halfedgeCount())
 	{
-		int count = 0;
-		sheets.endFace.reserve(end.faceCount());
+		m_endFace.reserve(end.faceCount());
 		for (const Face f : end.faces()) {
-			m_middle[f] = count;
+			int count = m_middle[f] = m_endFace.size();
 			const auto h = end.halfedges(f);
 			for (const Halfedge side : h)
 				m_isDivided[f] |= cut.crossings(side.edge()) > 0;
-			if (!m_isDivided[f]) {
-				sheets.endFace.push_back(f);
-				++count;
-				continue;
+			if (m_isDivided[f]) {
+				const NormalCoordinates::CornerCurves c = cut.cornerCurves(h[0]);
+				m_cutOff[h[0]] = count + 1 + c.emanateFromI + c.emanateFromJ + c.emanateFromK;
+				m_cutOff[h[1]] = m_cutOff[h[0]] + c.cutOffI;
+				m_cutOff[h[2]] = m_cutOff[h[1]] + c.cutOffJ;
+				count = m_cutOff[h[2]] + c.cutOffK - 1;
 			}
-			const NormalCoordinates::CornerCurves c = cut.cornerCurves(h[0]);
-			m_cutOff[h[0]] = count + 1 + c.emanateFromI + c.emanateFromJ + c.emanateFromK;
-			m_cutOff[h[1]] = m_cutOff[h[0]] + c.cutOffI;
-			m_cutOff[h[2]] = m_cutOff[h[1]] + c.cutOffJ;
-			count = m_cutOff[h[2]] + c.cutOffK;
-			sheets.endFace.resize(count, f);
+			m_endFace.resize(count + 1, f);
 		}
-		glue();
 	}
 
 	/// The sheet on the left of end halfedge \p h, between its crossings \p i - 1 and \p i with the
@@ -93,7 +89,6 @@ public:
 		return m_isDivided[m_end.face(h)] ? m_cut.cornerCurves(h).emanateFromI + 1 : 1;
 	}
 
-private:
 	/// Which of its triangle's halfedges end halfedge \p h is.
 	int place(Halfedge h) const
 	{
@@ -101,91 +96,205 @@ private:
 		return static_cast<int>(std::find(sides.begin(), sides.end(), h) - sides.begin());
 	}
 
-	/// Along the end edges that are not on the cut.
-	void glue()
+	/// The sheets on the same side of the surface's boundary as \p root, glued along the end edges
+	/// that are not on the cut.
+	/// \param number becomes [sheet] its face; none beyond the boundary
+	EndSheets glued(int root, Array<Face>& number) const
 	{
-		std::vector<Triangle> triangles;
-		triangles.reserve(sheets.endFace.values().size());
-		for (const Face f : sheets.endFace) {
-			const auto v = m_end.vertices(f);
-			triangles.push_back({v[0].number(), v[1].number(), v[2].number()});
-		}
-		CornerArray<Corner> across(3 * triangles.size()); // [side of a sheet]
+		CornerArray<Corner> across(3 * m_endFace.size()); // [side of a sheet]
+		DisjointSets joined(m_endFace.size());
 		for (const Edge e : m_end.edges()) {
 			if (m_end.isBoundary(e) || m_cut.isCurve(e))
 				continue;
 			const Halfedge h = e.halfedge(), twin = h.twin();
-			const int n = m_cut.crossings(e), own = place(h), other = place(twin);
+			const int n = m_cut.crossings(e);
 			for (int i = 0; i <= n; ++i) {
-				const Corner a(beside(h, i), own), b(beside(twin, n - i), other);
+				const Corner a(beside(h, i), place(h)), b(beside(twin, n - i), place(twin));
 				across[a] = b;
 				across[b] = a;
+				joined.merge(a.face(), b.face());
 			}
 		}
-		sheets.triangulation = Triangulation(m_end.vertexCount(), triangles, across);
+		EndSheets sheets;
+		number.assign(m_endFace.size(), Face());
+		std::vector<Triangle> triangles;
+		for (const int sheet : m_endFace.indices())
+			if (joined.find(sheet) == joined.find(root)) {
+				number[sheet] = Face(triangles.size());
+				sheets.endFace.push_back(m_endFace[sheet]);
+				const auto v = m_end.vertices(m_endFace[sheet]);
+				triangles.push_back({v[0].number(), v[1].number(), v[2].number()});
+			}
+		CornerArray<Corner> glued;
+		for (const int sheet : number.indices())
+			if (number[sheet].isValid())
+				for (const Corner c : cornersOf(sheet)) {
+					const Corner other = across[c];
+					glued.push_back(
+						other.isValid()
+							? Corner(number[other.face()].number(), static_cast<int>(other.index()))
+							: Corner());
+				}
+		sheets.triangulation = Triangulation(m_end.vertexCount(), triangles, glued);
+		return sheets;
 	}
 
+private:
 	const Triangulation& m_end;
 	const NormalCoordinates& m_cut;
+	Array<Face> m_endFace;       // [sheet]
 	FaceArray<char> m_isDivided; // [end face]
 	FaceArray<int> m_middle;     // [end face] its first sheet
 	HalfedgeArray<int> m_cutOff; // [end halfedge] first sheet of those cut off at its origin
 };
 
-} // namespace
-
-PlanarLayout layOutCorners(
-	const FlowDomain& domain,
-	const FlowResult& flow,
-	const EdgeArray<char>& isCut)
+/// The end triangles, open along the cut, and what the surface has of them.
+class CornersOnSheets
 {
-	const Triangulation& t = domain.surface.triangulation;
-	const Triangulation& end = flow.metric->triangulation();
-	const NormalCoordinates cut = cutOnEnd(domain, flow, isCut);
-	std::size_t crossings = 0;
-	for (const Edge e : end.edges())
-		crossings += static_cast<std::size_t>(cut.crossings(e));
-	requireOverlayMemory(crossings, false);
-	CutSheets parts(end, cut);
-	takeMetric(flow, parts.sheets);
-	PlanarLayout layout;
-	layout.wedges = cornerWedges(t, isCut);
-	layout.points.assign(layout.wedges.count, {0.0, 0.0});
+public:
+	CornersOnSheets(
+		const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut) :
+			m_surface(domain.surface.triangulation),
+			m_end(flow.metric->triangulation()), m_isCut(isCut),
+			m_cut(cutOnEnd(domain, flow, isCut)), m_parts(m_end, m_cut),
+			m_wedges(cornerWedges(m_surface, isCut))
+	{
+		int root = -1;
+		eachCorner([&](int, int sheet, std::size_t) { root = root < 0 ? sheet : root; });
+		m_sheets = m_parts.glued(root, m_number);
+		m_root = m_number[root];
+		takeMetric(flow, m_sheets);
+	}
 
+	const EndSheets& sheets() const { return m_sheets; }
+	Face root() const { return m_root; } ///< one of the sheets
+
+	/// \param place gives the point at the corner of a sheet that a halfedge of the sheets leaves
+	template<class Place>
+	PlanarLayout layout(const Place& place) const
+	{
+		PlanarLayout layout{m_wedges, Array<Point2>(m_wedges.count, {0.0, 0.0})};
+		eachCorner([&](int wedge, int sheet, std::size_t k) {
+			layout.points[wedge] = place(m_sheets.triangulation.halfedges(m_number[sheet])[k]);
+		});
+		return layout;
+	}
+
+	/// How \p disk goes on across the cut.
+	EdgeArray<SidePairing> pairing(const HyperbolicLayout& disk) const
+	{
+		const Triangulation& sheets = m_sheets.triangulation;
+		EdgeArray<SidePairing> pairing(m_surface.edgeCount());
+		const auto curves = m_cut.trace();
+		for (const Edge e : m_surface.edges()) {
+			if (!m_isCut[e])
+				continue;
+			// Through an end triangle.
+			const auto offer = [&](Halfedge side, int onLeft, int onRight) {
+				const Face left = m_number[m_parts.beside(side, onLeft)];
+				const Face right = m_number[m_parts.beside(side, onRight)];
+				pairing[e].offer(
+					disk.frame[sheets.halfedge(left)], disk.frame[sheets.halfedge(right)]);
+			};
+			for (const auto& [side, i] : curves[e].crossings)
+				offer(side, i + 1, i);
+			if (!curves[e].crossings.empty()) { // the last triangle is entered there
+				const auto& [side, i] = curves[e].crossings.back();
+				const int back = m_cut.crossings(side.edge()) - 1 - i;
+				offer(side.twin(), back, back + 1);
+				continue;
+			}
+			const auto inSheet = [&](Halfedge h) {
+				const Face sheet = m_number[m_parts.beside(h, 0)];
+				return sheets.halfedges(sheet)[positionOf(m_parts.place(h))];
+			};
+			const Halfedge h = inSheet(curves[e].first), twin = inSheet(curves[e].first.twin());
+			offerPairing(disk, m_sheets.lengths[h.edge()], h, twin, pairing[e]);
+		}
+		return pairing;
+	}
+
+private:
 	/// Calls \p use(wedge, sheet, k): corner k of the sheet is in this wedge of the surface.
-	const auto eachCorner = [&](const auto& use) {
-		for (const Face f : end.faces())
+	template<class Use>
+	void eachCorner(const Use& use) const
+	{
+		for (const Face f : m_end.faces())
 			for (std::size_t k = 0; k < 3; ++k) {
-				const Halfedge h = end.halfedges(f)[k];
-				const Vertex v = end.origin(h);
-				if (v.number() >= t.vertexCount())
+				const Halfedge h = m_end.halfedges(f)[k];
+				const Vertex v = m_end.origin(h);
+				if (v.number() >= m_surface.vertexCount())
 					continue;
-				const int first = parts.beside(h, 0), count = parts.countAt(h);
+				const int first = m_parts.beside(h, 0), count = m_parts.countAt(h);
 				for (int i = 0; i < count; ++i) {
 					const Halfedge corner =
-						cut.hasCurves(v) ? cut.originalAtOrBefore(h, i) : t.halfedge(v);
-					if (corner.number() < t.halfedgeCount() && !t.isExterior(corner))
-						use(layout.wedges.of[corner], Face(first + i), k);
+						m_cut.hasCurves(v) ? m_cut.originalAtOrBefore(h, i) : m_surface.halfedge(v);
+					if (corner.number() < m_surface.halfedgeCount() &&
+						!m_surface.isExterior(corner))
+						use(m_wedges.of[corner], first + i, k);
 				}
 			}
-	};
-	Face root; // on the domain's side of its boundary
-	eachCorner([&](int, Face sheet, std::size_t) {
-		if (!root.isValid())
-			root = sheet;
-	});
+	}
+
+	const Triangulation& m_surface;
+	const Triangulation& m_end;
+	const EdgeArray<char>& m_isCut;
+	const NormalCoordinates m_cut;
+	const CutSheets m_parts;
+	const Wedges m_wedges;
+	Array<Face> m_number; // [sheet of m_parts] its face in m_sheets
+	EndSheets m_sheets;
+	Face m_root;
+};
+
+bool hasFlips(const FlowResult& flow)
+{
+	return flow.history.input.faceCount() > 0;
+}
+
+} // namespace
+
+PlanarLayout
+layOutCorners(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut)
+{
+	const CurvatureMap& metric = *flow.metric;
+	if (!hasFlips(flow))
+		return layOutInPlane(metric.triangulation(), metric.lengths(), metric.angles(), isCut);
+	const CornersOnSheets corners(domain, flow, isCut);
+	const EndSheets& sheets = corners.sheets();
+	const Triangulation& t = sheets.triangulation;
+	const EdgeArray<char> noCut(t.edgeCount(), 0);
+	const PlanarLayout plane =
+		layOutInPlane(t, sheets.lengths, sheets.angles, noCut, corners.root());
 	checkpoint();
-	const Triangulation& sheets = parts.sheets.triangulation;
-	const PlanarLayout plane = layOutInPlane(
-		sheets,
-		parts.sheets.lengths,
-		parts.sheets.angles,
-		EdgeArray<char>(sheets.edgeCount(), 0),
-		root);
-	checkpoint();
-	eachCorner([&](int wedge, Face sheet, std::size_t k) {
-		layout.points[wedge] = plane[sheets.halfedges(sheet)[k]];
-	});
+	return corners.layout([&](Halfedge h) { return plane[h]; });
+}
+
+DiskLayout
+layOutCornersInDisk(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut)
+{
+	const Triangulation& t = domain.surface.triangulation;
+	if (hasFlips(flow)) {
+		const CornersOnSheets corners(domain, flow, isCut);
+		const EndSheets& sheets = corners.sheets();
+		const EdgeArray<char> noCut(sheets.triangulation.edgeCount(), 0);
+		const HyperbolicLayout disk =
+			layOutInDisk(sheets.triangulation, sheets.lengths, sheets.angles, noCut);
+		return {
+			corners.layout([&](Halfedge h) { return asPoint(disk[h]); }), corners.pairing(disk)};
+	}
+	const EdgeArray<double>& lengths = flow.metric->lengths();
+	const HyperbolicLayout disk = layOutInDisk(t, lengths, flow.metric->angles(), isCut);
+	DiskLayout layout;
+	layout.pairing.resize(t.edgeCount());
+	for (const Edge e : t.edges())
+		if (isCut[e])
+			offerPairing(disk, lengths[e], e.halfedge(), e.halfedge().twin(), layout.pairing[e]);
+	layout.corners.wedges = cornerWedges(t, isCut);
+	layout.corners.points.resize(layout.corners.wedges.count);
+	for (int i = t.halfedgeCount(); i-- > 0;) // the lowest halfedge gives a wedge its point
+		if (const Halfedge h(i); !t.isExterior(h))
+			layout.corners.points[layout.corners.wedges.of[h]] = asPoint(disk[h]);
 	return layout;
 }
 

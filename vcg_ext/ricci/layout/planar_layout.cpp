@@ -2,6 +2,7 @@
 #include "planar_layout.h"
 
 #include "../base/numbers.h"
+#include "../base/tolerances.h"
 #include "layout_tree.h"
 
 #include <algorithm>
@@ -99,6 +100,35 @@ PlanarLayout layOutInPlane(
 	for (const Halfedge h : layoutTree(t, lengths, isCut, root))
 		placeTriangle(h, std::remainder(direction[h.twin()] + kPi, 2 * kPi));
 	return layout;
+}
+
+VertexArray<char>
+loopsThatClose(const Triangulation& t, const PlanarLayout& layout, const EdgeArray<char>& isCut)
+{
+	double size = 0.0;
+	for (const Point2& p : layout.points)
+		size = std::max({size, std::abs(p[0]), std::abs(p[1])});
+	// Points that are not numbers are apart.
+	const auto apart = [&](Halfedge a, Halfedge b) {
+		return !(distance(layout[a], layout[b]) <= kOnePlace * size);
+	};
+	VertexArray<char> opens(t.vertexCount(), 0); // at an edge whose sides lie apart
+	for (const Edge e : t.edges()) {
+		if (!isCut[e] || t.isBoundary(e))
+			continue;
+		const Halfedge h = e.halfedge(), g = h.twin();
+		if (apart(h, t.next(g)) || apart(t.next(h), g))
+			opens[t.origin(h)] = opens[t.origin(g)] = 1;
+	}
+	VertexArray<char> closes(t.vertexCount(), 0);
+	for (const Halfedge first : t.boundaryLoops()) {
+		bool all = true;
+		for (const Halfedge h : t.loop(first))
+			all &= !opens[t.origin(h)];
+		for (const Halfedge h : t.loop(first))
+			closes[t.origin(h)] = all;
+	}
+	return closes;
 }
 
 } // namespace ricci

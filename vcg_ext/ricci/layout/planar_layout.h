@@ -46,6 +46,14 @@ PlanarLayout layOutInPlane(
 	const EdgeArray<char>& isCut,
 	Face root = Face(0));
 
+/// Finds the boundary loops round which the metric closes by rotation and translation, so that it
+/// needs no seam at them: every edge of the cut at such a loop has both of its sides in one place
+/// of the layout.
+/// \param layout of \p t, cut open along \p isCut
+/// \return 1 at the vertices of these loops
+VertexArray<char>
+loopsThatClose(const Triangulation& t, const PlanarLayout& layout, const EdgeArray<char>& isCut);
+
 } // namespace ricci
 
 #endif

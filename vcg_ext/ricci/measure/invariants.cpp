@@ -7,50 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <vector>
 
 namespace ricci {
-
-namespace {
-
-/// The cut edges inside, as seams: each a chain of halfedges between vertices at which the cut branches
-/// or ends, that are cones, or that lie on the boundary; or a loop.
-std::vector<std::vector<Halfedge>>
-seams(const Triangulation& t, const EdgeArray<char>& isCut, const VertexArray<char>& cones)
-{
-	const auto isSeam = [&](Halfedge h) { return isCut[h.edge()] && !t.isBoundary(h.edge()); };
-	VertexArray<int> degree(t.vertexCount(), 0);
-	for (const Halfedge h : t.halfedges())
-		degree[t.origin(h)] += isSeam(h);
-	const VertexArray<char> boundary = t.boundaryVertices();
-	const auto endsAt = [&](Vertex v) { return degree[v] != 2 || cones[v] || boundary[v]; };
-	EdgeArray<char> isDone(t.edgeCount(), 0);
-	std::vector<std::vector<Halfedge>> found;
-	const auto walk = [&](Halfedge h) {
-		found.emplace_back();
-		for (;;) {
-			found.back().push_back(h);
-			isDone[h.edge()] = 1;
-			if (endsAt(t.target(h)))
-				return;
-			Halfedge next;
-			for (const Halfedge g : t.around(t.target(h)))
-				if (g != h.twin() && isSeam(g))
-					next = g;
-			if (!next.isValid() || isDone[next.edge()])
-				return;
-			h = next;
-		}
-	};
-	for (const bool fromEnds : {true, false})
-		for (const Halfedge h : t.halfedges())
-			if (isSeam(h) && !isDone[h.edge()] && (!fromEnds || endsAt(t.origin(h))))
-				walk(h);
-	return found;
-}
-
-} // namespace
 
 std::complex<double> period(const Triangulation& t, const PlanarLayout& layout, Edge e)
 {
@@ -102,7 +61,7 @@ double holonomyError(
 	const VertexArray<char>& cones)
 {
 	double error = 0.0;
-	for (const std::vector<Halfedge>& seam : seams(t, isCut, cones)) {
+	for (const std::vector<Halfedge>& seam : seamsOf(t, isCut, cones)) {
 		std::complex<double> sum = 0.0;
 		for (const Halfedge h : seam) {
 			const Halfedge g = h.twin();

@@ -140,7 +140,7 @@ private:
 
 } // namespace
 
-EdgeCrossings::EdgeCrossings(const FlowResult& flow, bool refines) :
+EdgeCrossings::EdgeCrossings(const FlowResult& flow) :
 		inputOnStart(flow.history.input), endOnStart(flow.metric->triangulation()), m_flow(flow),
 		m_start(flow.history.start.triangulation)
 {
@@ -154,7 +154,7 @@ EdgeCrossings::EdgeCrossings(const FlowResult& flow, bool refines) :
 		count += static_cast<std::size_t>(inputOnStart.crossings(e)) +
 				 static_cast<std::size_t>(endOnStart.crossings(e));
 	checkpoint();
-	requireOverlayMemory(count, refines);
+	requireOverlayMemory(count, true);
 
 	NormalCoordinates startOnEnd(m_start);
 	for (const Edge e : flowFlips)

@@ -36,8 +36,8 @@ class EdgeCrossings
 public:
 	using Curve = NormalCoordinates::Curve;
 
-	/// \param refines see requireOverlayMemory(), which is asked before there is an array of crossings
-	EdgeCrossings(const FlowResult& flow, bool refines);
+	/// Asks requireOverlayMemory() before there is an array of crossings.
+	explicit EdgeCrossings(const FlowResult& flow);
 
 	/// Number of a crossing of an input edge in inputCrossings, of an end edge in endCrossings.
 	int inputNumber(const NormalCoordinates::Crossing& x) const;

@@ -43,9 +43,9 @@ struct Chord
 class PieceMaker
 {
 public:
-	PieceMaker(const FlowResult& flow, bool refines) :
+	explicit PieceMaker(const FlowResult& flow) :
 			m_input(flow.history.input), m_start(flow.history.start.triangulation),
-			m_end(flow.metric->triangulation()), m_refines(refines), m_crossings(flow, refines),
+			m_end(flow.metric->triangulation()), m_crossings(flow),
 			m_edgeNodes(flow, m_crossings, m_result.nodes)
 	{
 	}
@@ -66,7 +66,7 @@ public:
 			unheard = 0;
 			advance(static_cast<double>(f.number()) / m_start.faceCount(), kDividing);
 			requireOverlayMemory(
-				static_cast<std::size_t>(m_result.nodes.size() - m_start.vertexCount()), m_refines);
+				static_cast<std::size_t>(m_result.nodes.size() - m_start.vertexCount()), true);
 		}
 		return std::move(m_result);
 	}
@@ -287,7 +287,6 @@ private:
 	const Triangulation& m_input;
 	const Triangulation& m_start;
 	const Triangulation& m_end;
-	bool m_refines;
 	OverlayPieces m_result;
 	const EdgeCrossings m_crossings;
 	const StartEdgeNodes m_edgeNodes;
@@ -307,9 +306,9 @@ private:
 
 } // namespace
 
-OverlayPieces divideStartTriangles(const FlowResult& flow, bool refines)
+OverlayPieces divideStartTriangles(const FlowResult& flow)
 {
-	return PieceMaker(flow, refines).run();
+	return PieceMaker(flow).run();
 }
 
 } // namespace ricci

@@ -157,10 +157,10 @@ private:
 /// their numeric positions there, used by both start triangles; whether two chords cross then
 /// follows from the order of their ends.
 ///
-/// \param refines see requireOverlayMemory(), which is asked before there is an array of crossings
+/// Asks requireOverlayMemory() before there is an array of crossings.
 /// \pre the flow ran with intrinsic flips
 /// \throw InternalError if the chords do not fit together: a fault of the program
-OverlayPieces divideStartTriangles(const FlowResult& flow, bool refines);
+OverlayPieces divideStartTriangles(const FlowResult& flow);
 
 } // namespace ricci
 

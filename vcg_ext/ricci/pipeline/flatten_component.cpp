@@ -9,7 +9,6 @@
 #include "../cut/cut_graph.h"
 #include "../finish/finish.h"
 #include "../layout/corner_layout.h"
-#include "../layout/hole_seams.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../measure/distortion.h"
 #include "../measure/invariants.h"
@@ -137,19 +136,15 @@ HalfedgeArray<double> cutCorners(const FlowDomain&, const ComponentMap&, const H
 void placeCorners(
 	const FlowDomain& domain, LinkedPieces overlay, const Options& options, ComponentMap& map)
 {
-	const CurvatureMap& metric = *map.flow.metric;
-	if (needsOverlay(domain, options)) {
-		map.refinement = refine(domain, map, std::move(overlay), options);
+	if (drawsPieces(options)) {
+		map.refinement = refine(domain, map, std::move(overlay));
 		map.layout = std::move(map.refinement.inputLayout);
 	}
-	else if (options.method == Method::IntrinsicFlips)
-		map.layout = layOutCorners(domain, map.flow, map.cut.isCut);
 	else
-		map.layout =
-			layOutInPlane(metric.triangulation(), metric.lengths(), metric.angles(), map.cut.isCut);
+		map.layout = layOutCorners(domain, map.flow, map.cut.isCut);
 }
 
-/// Area of the component in the flow's metric, without caps.
+/// Area in the flow's metric of the triangles that are given back, without caps.
 double areaInPlane(const FlowDomain& domain, const ComponentMap& map)
 {
 	if (domain.holes == 0)
@@ -157,6 +152,9 @@ double areaInPlane(const FlowDomain& domain, const ComponentMap& map)
 	double area = 0.0;
 	for (const Triangle2& p : map.refinement.uv)
 		area += 0.5 * doubledArea(p[0], p[1], p[2]);
+	if (map.refinement.uv.empty())
+		for (const Triangle2& p : cornersOf(domain.surface.triangulation, map.layout))
+			area += 0.5 * doubledArea(p[0], p[1], p[2]);
 	return area;
 }
 
@@ -198,28 +196,14 @@ EdgeArray<SidePairing> placeInDisk(
 	const HyperbolicOptions& options,
 	ComponentMap& map)
 {
-	const Triangulation& t = domain.surface.triangulation;
-	EdgeArray<SidePairing> pairing(t.edgeCount());
-	if (options.method == Method::IntrinsicFlips) {
-		map.refinement = refine(domain, map, std::move(overlay), options);
+	if (drawsPieces(options)) {
+		map.refinement = refine(domain, map, std::move(overlay));
 		map.layout = std::move(map.refinement.inputLayout);
-		pairing = std::move(map.refinement.pairing);
+		return std::move(map.refinement.pairing);
 	}
-	else {
-		const CurvatureMap& metric = *map.flow.metric;
-		const HyperbolicLayout disk =
-			layOutInDisk(t, metric.lengths(), metric.angles(), map.cut.isCut);
-		for (const Edge e : t.edges())
-			if (map.cut.isCut[e])
-				offerPairing(
-					disk, metric.lengths()[e], e.halfedge(), e.halfedge().twin(), pairing[e]);
-		map.layout.wedges = cornerWedges(t, map.cut.isCut);
-		map.layout.points.resize(map.layout.wedges.count);
-		for (int i = t.halfedgeCount(); i-- > 0;) // the lowest halfedge gives a wedge its point
-			if (const Halfedge h(i); !t.isExterior(h))
-				map.layout.points[map.layout.wedges.of[h]] = asPoint(disk[h]);
-	}
-	return pairing;
+	DiskLayout disk = layOutCornersInDisk(domain, map.flow, map.cut.isCut);
+	map.layout = std::move(disk.corners);
+	return std::move(disk.pairing);
 }
 
 /// Farthest point of a layout from the centre of the disk, in the hyperbolic metric.

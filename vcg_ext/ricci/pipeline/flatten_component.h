@@ -4,9 +4,9 @@
 
 #include "../cut/cut_graph.h"
 #include "../flow/ricci_flow.h"
+#include "../fuchsian/fuchsian_group.h"
 #include "../layout/common_refinement.h"
 #include "../layout/planar_layout.h"
-#include "../fuchsian/fuchsian_group.h"
 #include "../measure/period_matrix.h"
 #include "../parametrize.h"
 #include "../surface/component.h"
@@ -28,7 +28,7 @@ struct ComponentMap
 	double seamLength = 0.0; ///< of the cut on the mesh
 
 	PlanarLayout layout;         ///< on the triangulation of the cut
-	CommonRefinement refinement; ///< where needsOverlay()
+	CommonRefinement refinement; ///< where drawsPieces()
 	FaceArray<Triangle2> uv;     ///< [face of the component][corner]
 	double scale = 1.0;          ///< lengths in the layout over those of the flow's metric
 
@@ -47,14 +47,10 @@ struct ComponentMap
 /// (5.2, 5.3), flow (4.2), cut and layout (4.3), invariants, the finish, and the checks of the result
 /// by other formulas. Only target, layout, invariants and finish differ by geometry.
 /// \throw what the stages throw
+ComponentMap
+flattenComponent(const Component& component, const VertexInput& input, const Options& options);
 ComponentMap flattenComponent(
-	const Component& component,
-	const VertexInput& input,
-	const Options& options);
-ComponentMap flattenComponent(
-	const Component& component,
-	const VertexInput& input,
-	const HyperbolicOptions& options);
+	const Component& component, const VertexInput& input, const HyperbolicOptions& options);
 
 } // namespace ricci
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../edge_swap/swapped_flow.h"
-#include "../layout/hole_seams.h"
 #include "../measure/distortion.h"
 #include "../verify/flow_check.h"
 #include "../verify/result_check.h"
@@ -38,10 +37,8 @@ const Point2& pointOf(
 
 } // namespace
 
-ComponentMap flattenWithEdgeSwaps(
-	const Component& component,
-	const VertexInput& input,
-	const Options& options)
+ComponentMap
+flattenWithEdgeSwaps(const Component& component, const VertexInput& input, const Options& options)
 {
 	ComponentMap map;
 	advance(0.0, "Circle packing");
@@ -81,8 +78,7 @@ ComponentMap flattenWithEdgeSwaps(
 	advance(1.0 - kAfterFlow, "Shortening the seams");
 	map.cut = cutToDisk(
 		t,
-		seamCost(
-			surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
+		seamCost(surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
 		map.cones,
 		swapped.forbidden);
 	const auto placeCorners = [&] {

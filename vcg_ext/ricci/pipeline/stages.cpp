@@ -7,7 +7,6 @@
 #include "../base/tolerances.h"
 #include "../cut/cone_wedges.h"
 #include "../error.h"
-#include "../layout/hole_seams.h"
 #include "../math/min_area_rectangle.h"
 #include "../measure/invariants.h"
 #include "progress_share.h"
@@ -102,6 +101,20 @@ CutGraph cutThroughCones(
 		dropSeamsToHoles(
 			domain.surface.triangulation, domain.surface.lengths, domain.onHole, cones, cut);
 	return cut;
+}
+
+LinkedPieces
+flowOverlay(const FlowDomain& domain, const FlowOptions& options, const ComponentMap& map)
+{
+	if (!drawsPieces(options))
+		return {};
+	const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
+	return overlayOf(domain, map.flow);
+}
+
+CommonRefinement refine(const FlowDomain& domain, const ComponentMap& map, LinkedPieces overlay)
+{
+	return commonRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
 }
 
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)

@@ -4,10 +4,10 @@
 #define RICCI_STAGES_H
 
 #include "../base/task.h"
+#include "../curvature/target_curvature.h"
 #include "../cut/cut_graph.h"
 #include "../cut/seam_cost.h"
 #include "../surface/flow_domain.h"
-#include "../curvature/target_curvature.h"
 #include "flatten_component.h"
 
 #include <functional>
@@ -20,10 +20,8 @@ namespace ricci {
 
 /// The flow with the paper's remedy for broken triangles (5.4), which changes the triangulation and
 /// may start again; then the same stages as flattenComponent().
-ComponentMap flattenWithEdgeSwaps(
-	const Component& component,
-	const VertexInput& input,
-	const Options& options);
+ComponentMap
+flattenWithEdgeSwaps(const Component& component, const VertexInput& input, const Options& options);
 
 /// "Component of 8 vertices, 12 faces: a closed surface of genus 0 (a sphere)."
 std::string description(const Component& component, const SurfaceType& type);
@@ -59,56 +57,19 @@ CutGraph cutThroughCones(
 /// Sum of the lengths of the cut's edges.
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths);
 
-/// Whether the overlay's pieces are drawn, not the corners of the mesh alone. With capped holes the area
-/// of the map is that of its pieces.
-template<class AnyOptions>
-bool drawsPieces(const FlowDomain& domain, const AnyOptions& options)
+/// Whether the pieces of the overlay of a flow with flips are drawn, not the corners of the mesh alone.
+inline bool drawsPieces(const FlowOptions& options)
 {
-	return options.output == OutputTriangulation::CommonRefinement || domain.holes > 0;
+	return options.method == Method::IntrinsicFlips &&
+		   options.output == OutputTriangulation::CommonRefinement;
 }
 
-/// Whether the map needs the overlay of a flow with flips: the layout of the mesh's own corners in the
-/// plane does without.
-inline bool needsOverlay(const FlowDomain& domain, const Options& options)
-{
-	return options.method == Method::IntrinsicFlips && drawsPieces(domain, options);
-}
+/// overlayOf() the flow, with what the options ask of it; nothing where its pieces are not drawn.
+LinkedPieces
+flowOverlay(const FlowDomain& domain, const FlowOptions& options, const ComponentMap& map);
 
-inline bool needsOverlay(const FlowDomain&, const HyperbolicOptions& options)
-{
-	return options.method == Method::IntrinsicFlips;
-}
-
-/// overlayOf() the flow, with what the options ask of it; nothing where none is needed. \p AnyOptions:
-/// Options, HyperbolicOptions
-template<class AnyOptions>
-LinkedPieces flowOverlay(
-	const FlowDomain& domain,
-	const AnyOptions& options,
-	const ComponentMap& map)
-{
-	if (!needsOverlay(domain, options))
-		return {};
-	const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
-	return overlayOf(domain, map.flow, drawsPieces(domain, options));
-}
-
-/// commonRefinement() with what the options ask of it.
-template<class AnyOptions>
-CommonRefinement refine(
-	const FlowDomain& domain,
-	const ComponentMap& map,
-	LinkedPieces overlay,
-	const AnyOptions& options)
-{
-	const bool draws = drawsPieces(domain, options);
-	return commonRefinement(
-		domain,
-		map.flow,
-		std::move(overlay),
-		map.cut.isCut,
-		!draws);
-}
+/// commonRefinement() of the map.
+CommonRefinement refine(const FlowDomain& domain, const ComponentMap& map, LinkedPieces overlay);
 
 /// Gives a flow's start, made when it is first called.
 using MakeStart = std::function<InitialPacking&()>;

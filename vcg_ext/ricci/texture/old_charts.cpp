@@ -3,11 +3,11 @@
 
 #include "../base/task.h"
 #include "../math/disjoint_sets.h"
+#include "../surface/sides.h"
 #include "texels_of_triangle.h"
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace ricci {
 
@@ -19,58 +19,43 @@ constexpr double kBorder = 0.01;
 /// Coordinates of two wedges that differ less are equal.
 constexpr double kSameCoordinate = 1e-6;
 
-struct Side
-{
-	int low, high; ///< vertices
-	int face;
-	Point2 atLow, atHigh; ///< old coordinates
-
-	bool operator<(const Side& other) const
-	{
-		return std::tie(low, high, face) < std::tie(other.low, other.high, other.face);
-	}
-};
-
 bool same(const Point2& a, const Point2& b)
 {
 	return std::abs(a[0] - b[0]) <= kSameCoordinate && std::abs(a[1] - b[1]) <= kSameCoordinate;
+}
+
+/// Whether two sides of an edge have the same place in the same picture.
+bool isSame(const std::vector<TexturedFace>& faces, Corner c, Corner d)
+{
+	const TexturedFace &f = faces[positionOf(c.face())], &g = faces[positionOf(d.face())];
+	const bool sameWay = f.vertices[c.index()] == g.vertices[d.index()];
+	const Corner first = sameWay ? d : d.next(), second = sameWay ? d.next() : d;
+	return f.picture == g.picture && same(f.uv[c.index()], g.uv[first.index()]) &&
+		   same(f.uv[c.next().index()], g.uv[second.index()]);
 }
 
 } // namespace
 
 std::vector<int> oldCharts(const std::vector<TexturedFace>& faces)
 {
-	std::vector<Side> sides;
-	sides.reserve(3 * faces.size());
-	for (std::size_t f = 0; f < faces.size(); ++f) {
-		checkpointNowAndThen(f);
-		const TexturedFace& face = faces[f];
-		if (face.picture < 0)
-			continue;
-		for (std::size_t k = 0; k < 3; ++k) {
-			const std::size_t next = (k + 1) % 3;
-			const int a = face.vertices[k], b = face.vertices[next];
-			const int number = static_cast<int>(f);
-			sides.push_back(
-				a < b ? Side{a, b, number, face.uv[k], face.uv[next]}
-					  : Side{b, a, number, face.uv[next], face.uv[k]});
-		}
-	}
-	std::sort(sides.begin(), sides.end());
+	std::vector<Triangle> triangles;
+	for (const TexturedFace& face : faces)
+		triangles.push_back(face.vertices);
 	DisjointSets sets(static_cast<int>(faces.size()));
-	for (std::size_t i = 0; i < sides.size(); ++i) {
-		checkpointNowAndThen(i);
-		const Side& a = sides[i];
-		// Of an edge with many faces the next few are looked at.
-		for (std::size_t j = i + 1; j < std::min(i + 8, sides.size()); ++j) {
-			const Side& b = sides[j];
-			if (b.low != a.low || b.high != a.high)
-				break;
-			if (faces[positionOf(a.face)].picture == faces[positionOf(b.face)].picture &&
-				same(a.atLow, b.atLow) && same(a.atHigh, b.atHigh))
-				sets.merge(a.face, b.face);
+	std::size_t visited = 0;
+	Sides(triangles).forEdges([&](const auto& edge) {
+		std::vector<Corner> textured;
+		for (const Corner c : edge)
+			if (faces[positionOf(c.face())].picture >= 0)
+				textured.push_back(c);
+		for (std::size_t i = 0; i < textured.size(); ++i) {
+			checkpointNowAndThen(visited++);
+			// Of an edge with many faces the next few are looked at.
+			for (std::size_t j = i + 1; j < std::min(i + 8, textured.size()); ++j)
+				if (isSame(faces, textured[i], textured[j]))
+					sets.merge(textured[i].face(), textured[j].face());
 		}
-	}
+	});
 	std::vector<int> charts(faces.size());
 	for (std::size_t f = 0; f < faces.size(); ++f)
 		charts[f] = sets.find(static_cast<int>(f));

@@ -5,7 +5,7 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/layout/hole_seams.h>
+#include <ricci/cut/cut_graph.h>
 #include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "sheets.h"
+#include "end_sheets.h"
 
 #include "../math/disjoint_sets.h"
 

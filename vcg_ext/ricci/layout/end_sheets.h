@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_SHEETS_H
-#define RICCI_SHEETS_H
+#ifndef RICCI_END_SHEETS_H
+#define RICCI_END_SHEETS_H
 
 #include "../overlay/piece_faces.h"
 

@@ -2,7 +2,7 @@
 #include "support/closed_flows.h"
 #include "support/expect.h"
 
-#include <ricci/layout/sheets.h>
+#include <ricci/layout/end_sheets.h>
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 LinkedPieces piecesOf(const FlippedFlow& flow)
 {
 	return linkPieces(
-		divideStartTriangles(flow.result, true),
+		divideStartTriangles(flow.result),
 		flow.base(),
 		flow.result.metric->triangulation(),
 		flow.base().faceCount());
