@@ -20,6 +20,17 @@
 namespace ricci::testing {
 namespace {
 
+void shorten(
+	const Triangulation& t,
+	const EdgeArray<double>& cost,
+	const VertexArray<char>& marked,
+	const EdgeArray<char>& forbidden,
+	EdgeArray<char>& isCut)
+{
+	CutSegments cut(t, marked, forbidden, isCut);
+	shortenCut(cost, cut);
+}
+
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 double costOf(const EdgeArray<char>& isCut, const EdgeArray<double>& cost)
@@ -125,12 +136,12 @@ TEST(ShortenCut, StaysADiskThroughTheMarksAndGetsShorter)
 			EdgeArray<char> isCut = clumsyCut(t, marked);
 			expectDiskThroughMarks(t, isCut, marked);
 			const double before = costOf(isCut, p.lengths);
-			shortenCut(t, p.lengths, marked, {}, isCut);
+			shorten(t, p.lengths, marked, {}, isCut);
 			expectDiskThroughMarks(t, isCut, marked);
 			const double after = costOf(isCut, p.lengths);
 			EXPECT_LE(after, before * (1 + 1e-12));
 			// Nothing is left to gain.
-			shortenCut(t, p.lengths, marked, {}, isCut);
+			shorten(t, p.lengths, marked, {}, isCut);
 			EXPECT_NEAR(costOf(isCut, p.lengths), after, 1e-9 * after);
 		}
 	}
@@ -149,14 +160,14 @@ TEST(ShortenCut, ASearchThatIsEndedLeavesADisk)
 	const EdgeArray<char> clumsy = clumsyCut(t, marked);
 	Listener ticks;
 	EdgeArray<char> whole = clumsy;
-	heard(ticks, [&] { return shortenCut(t, p.lengths, marked, {}, whole); });
+	heard(ticks, [&] { return shorten(t, p.lengths, marked, {}, whole); });
 	EXPECT_GE(ticks.calls(), 3);
 	double before = costOf(clumsy, p.lengths);
 	for (int n = 1; n <= ticks.calls(); ++n) {
 		EdgeArray<char> isCut = clumsy;
 		Listener impatient(n);
 		EXPECT_THROW(
-			heard(impatient, [&] { shortenCut(t, p.lengths, marked, {}, isCut); }), Cancelled);
+			heard(impatient, [&] { shorten(t, p.lengths, marked, {}, isCut); }), Cancelled);
 		expectDiskThroughMarks(t, isCut, marked);
 		const double now = costOf(isCut, p.lengths);
 		EXPECT_LE(now, before * (1 + 1e-12));
@@ -180,7 +191,7 @@ TEST(ShortenCut, JoinsTwoMarksByAShortestPath)
 		VertexArray<char> marked(t.vertexCount(), 0);
 		marked[a] = marked[b] = 1;
 		EdgeArray<char> isCut = clumsyCut(t, marked);
-		shortenCut(t, p.lengths, marked, {}, isCut);
+		shorten(t, p.lengths, marked, {}, isCut);
 		EXPECT_NEAR(costOf(isCut, p.lengths), distance[a][b], 1e-12);
 	}
 	EXPECT_GT(tried, 15);
@@ -203,7 +214,7 @@ TEST(ShortenCut, JoinsThreeMarksNearlyAsShortAsCanBe)
 		for (const Vertex m : mark)
 			marked[m] = 1;
 		EdgeArray<char> isCut = clumsyCut(t, marked);
-		shortenCut(t, p.lengths, marked, {}, isCut);
+		shorten(t, p.lengths, marked, {}, isCut);
 		const double found = costOf(isCut, p.lengths);
 		double min = kFar;
 		for (const Vertex v : t.vertices())
@@ -230,7 +241,7 @@ TEST(ShortenCut, KeepsOffForbiddenEdges)
 	for (const Edge e : forbidden.indices())
 		if (e.number() % 3 == 0)
 			forbidden[e] = !isCut[e];
-	shortenCut(p.triangulation, p.lengths, unmarked, forbidden, isCut);
+	shorten(p.triangulation, p.lengths, unmarked, forbidden, isCut);
 	expectDiskThroughMarks(p.triangulation, isCut, unmarked);
 	for (const Edge e : forbidden.indices())
 		EXPECT_FALSE(forbidden[e] && isCut[e]);

@@ -120,7 +120,7 @@ TEST(EdgeCrossings, AreNumberedOnceEach)
 	for (const FlippedFlow& flow : closedFlows(random)) {
 		const EdgeCrossings x(flow.result);
 		const auto expectEachOnce = [](const EdgeArray<EdgeCrossings::Curve>& curves,
-									   const Groups<Edge>& on,
+									   const NumberRanges<Edge>& on,
 									   const auto& numberOf,
 									   const auto& edgeOf) {
 			std::vector<int> numbers;

@@ -135,8 +135,7 @@ void CoarseSurface::grow(double radius, Front& front) const
 	}
 }
 
-void CoarseSurface::chooseCentres(
-	const VertexArray<char>& marked, int vertexCount)
+void CoarseSurface::chooseCentres(const VertexArray<char>& marked, int vertexCount)
 {
 	const double radius = kRadiusOfShare * std::sqrt(areaOf(m_t, m_fineCost) / vertexCount);
 	Front front(m_t.vertexCount());

@@ -310,7 +310,8 @@ EdgeArray<char> cutOf(const CoarseSurface& coarse)
 	const EdgeArray<char> nowhere;
 	const ContractedGraph graph(t, coarse.cost(), nowhere);
 	const auto shorten = [&](EdgeArray<char>& isCut) {
-		shortenCut(t, coarse.cost(), coarse.marked(), {}, isCut);
+		CutSegments segments(t, coarse.marked(), nowhere, isCut);
+		shortenCut(coarse.cost(), segments);
 	};
 	return shortestOfSeveral(graph, graph.terminals(coarse.marked()), shorten).isCut;
 }
@@ -409,15 +410,15 @@ CutGraph cutToDisk(
 {
 	const ContractedGraph graph(t, cost, forbidden);
 	CutGraph cut;
-	if (std::optional<CoarseSurface> coarse = coarseSurface(t, cost, marked, forbidden)) {
+	const std::optional<CoarseSurface> coarse = coarseSurface(t, cost, marked, forbidden);
+	if (coarse) {
 		cut.isCut = coarse->lifted(cutOf(*coarse));
 		prune(graph, graph.terminals(marked), cut.isCut);
-		shortenCut(t, cost, marked, forbidden, cut.isCut, corners, &*coarse);
 	}
-	else {
+	else
 		cut = shortestOfSeveral(graph, graph.terminals(marked), [](EdgeArray<char>&) {});
-		shortenCut(t, cost, marked, forbidden, cut.isCut, corners);
-	}
+	CutSegments segments(t, marked, forbidden, cut.isCut);
+	shortenCut(cost, segments, corners, coarse ? &*coarse : nullptr);
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);
 	return cut;

@@ -26,6 +26,7 @@ public:
 		const EdgeArray<char>& forbidden,
 		EdgeArray<char>& isCut);
 
+	const Triangulation& triangulation() const { return m_t; }
 	bool isCut(Edge e) const { return m_isCut[e]; }
 	bool isMarked(Vertex v) const { return m_marked[v]; }
 

@@ -47,9 +47,7 @@ Eigen::MatrixX3d smoothedPlaces(
 } // namespace
 
 VertexArray<double> exposure(
-	const Triangulation& t,
-	const EdgeArray<double>& lengths,
-	const VertexArray<Point3>& positions)
+	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<Point3>& positions)
 {
 	VertexArray<double> result(t.vertexCount(), 0.5);
 	VertexVector mass = vertexAreas(t, lengths);

@@ -17,9 +17,7 @@ namespace ricci {
 /// \param lengths of the edges between \p positions, positive
 /// \throw SolverFailed (SeamCost)
 VertexArray<double> exposure(
-	const Triangulation& t,
-	const EdgeArray<double>& lengths,
-	const VertexArray<Point3>& positions);
+	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<Point3>& positions);
 
 /// What a seam along each edge costs: its length, times a factor between 1 and 10 that grows
 /// linearly with the mean exposure of its ends.

@@ -5,7 +5,6 @@
 #include "../base/tolerances.h"
 #include "circle_paths.h"
 #include "cone_wedges.h"
-#include "cut_segments.h"
 
 #include <algorithm>
 #include <limits>
@@ -39,17 +38,14 @@ class CutShortener
 {
 public:
 	CutShortener(
-		const Triangulation& t,
 		const EdgeArray<double>& cost,
-		const VertexArray<char>& marked,
-		const EdgeArray<char>& forbidden,
-		EdgeArray<char>& isCut,
+		CutSegments& cut,
 		const HalfedgeArray<double>& corners,
 		const CoarseSurface* parts) :
-			m_t(t),
-			m_cost(cost), m_cut(t, marked, forbidden, isCut), m_wedges(t, m_cut, corners),
-			m_paths(t, cost, m_cut, parts), m_parts(parts),
-			m_changedAt(parts ? parts->triangulation().vertexCount() : 0, 0), m_front(0)
+			m_t(cut.triangulation()),
+			m_cost(cost), m_cut(cut), m_wedges(m_t, cut, corners), m_paths(m_t, cost, cut, parts),
+			m_parts(parts), m_changedAt(parts ? parts->triangulation().vertexCount() : 0, 0),
+			m_front(0)
 	{
 	}
 
@@ -331,7 +327,7 @@ private:
 
 	const Triangulation& m_t;
 	const EdgeArray<double>& m_cost;
-	CutSegments m_cut;
+	CutSegments& m_cut;
 	ConeWedges m_wedges;
 	CirclePaths m_paths;
 	bool m_keepsWedges = false;
@@ -349,16 +345,13 @@ private:
 } // namespace
 
 void shortenCut(
-	const Triangulation& t,
 	const EdgeArray<double>& cost,
-	const VertexArray<char>& marked,
-	const EdgeArray<char>& forbidden,
-	EdgeArray<char>& isCut,
+	CutSegments& cut,
 	const HalfedgeArray<double>& corners,
 	const CoarseSurface* parts)
 {
-	if (std::find(isCut.begin(), isCut.end(), 1) != isCut.end())
-		CutShortener(t, cost, marked, forbidden, isCut, corners, parts).run();
+	if (!cut.segments().empty())
+		CutShortener(cost, cut, corners, parts).run();
 }
 
 } // namespace ricci

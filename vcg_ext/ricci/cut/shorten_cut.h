@@ -2,8 +2,8 @@
 #ifndef RICCI_SHORTEN_CUT_H
 #define RICCI_SHORTEN_CUT_H
 
-#include "../surface/triangulation.h"
 #include "coarse_surface.h"
+#include "cut_segments.h"
 
 namespace ricci {
 
@@ -48,21 +48,16 @@ namespace ricci {
 ///        +-------+-------+        +---+---+    ---+
 ///
 /// Deterministic: of equally short paths always the same is taken. Between two moves the complement
-/// of \p isCut is a disk.
+/// of the cut is a disk.
 /// \param cost positive
-/// \param marked 1 at vertices that the cut must reach
-/// \param forbidden 1 where the cut must not run; may be empty
-/// \param isCut changed in place; never a boundary edge
+/// \param cut changed in place
 /// \param corners angles at cones, from coneCorners(); empty: wedges may be as wide as they like
-/// \param parts a coarse surface of \p t, with which every move looks for paths only in the parts
-/// (vertices of one centre) at which what it takes out lies, and in those beside them; null: everywhere
-/// \pre the surface opened along \p isCut is a disk, or nothing is cut
+/// \param parts a coarse surface, with which every move looks for paths only in the parts (vertices of
+/// one centre) at which what it takes out lies, and in those beside them; null: everywhere
+/// \pre the surface opened along \p cut is a disk, or nothing is cut
 void shortenCut(
-	const Triangulation& t,
 	const EdgeArray<double>& cost,
-	const VertexArray<char>& marked,
-	const EdgeArray<char>& forbidden,
-	EdgeArray<char>& isCut,
+	CutSegments& cut,
 	const HalfedgeArray<double>& corners = {},
 	const CoarseSurface* parts = nullptr);
 

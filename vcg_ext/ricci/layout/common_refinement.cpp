@@ -123,8 +123,7 @@ private:
 			const auto weight = inEndTriangle(m_linked, m_end, p, corner);
 			Point2 x{0.0, 0.0};
 			for (std::size_t k = 0; k < 3; ++k)
-				for (std::size_t j = 0; j < 2; ++j)
-					x[j] += weight[k] * plane[h[k]][j];
+				x += weight[k] * plane[h[k]];
 			return x;
 		});
 	}

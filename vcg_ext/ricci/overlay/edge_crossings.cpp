@@ -193,14 +193,14 @@ void EdgeCrossings::placeInputCrossings()
 			continue;
 		unfold(m_start, m_flow.history.start.lengths, curve, strip);
 		const Point2 last = strip.end;
-		const double size2 = last[0] * last[0] + last[1] * last[1];
+		const double size2 = dot(last, last);
 		double before = 0.0; // share of the crossing before on the input edge
 		for (std::size_t i = 0; i < strip.sides.size(); ++i) {
 			const Point2 &p = strip.sides[i].from, &q = strip.sides[i].to;
-			const double dp = p[0] * last[1] - p[1] * last[0], dq = q[0] * last[1] - q[1] * last[0];
+			const double dp = cross(p, last), dq = cross(q, last);
 			const double t = keepInside(dp / (dp - dq));
 			const Point2 x{mix(p[0], q[0], t), mix(p[1], q[1], t)};
-			double s = keepInside((x[0] * last[0] + x[1] * last[1]) / size2);
+			double s = keepInside(dot(x, last) / size2);
 			s = std::max(s, before);
 			before = s;
 			inputCrossings[inputNumber(curve.crossings[i])] = {

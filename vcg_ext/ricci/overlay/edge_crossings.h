@@ -3,9 +3,9 @@
 #define RICCI_EDGE_CROSSINGS_H
 
 #include "../surface/normal_coordinates.h"
-#include "groups.h"
+#include "barycentric.h"
+#include "number_ranges.h"
 #include "overlay_pieces.h"
-#include "weights.h"
 
 #include <array>
 #include <vector>
@@ -49,7 +49,7 @@ public:
 	EdgeArray<Curve> startCurves; ///< [start edge] on the end triangulation
 
 	/// The crossings on each start edge, in order from the origin of its halfedge().
-	Groups<Edge> inputOn, endOn;
+	NumberRanges<Edge> inputOn, endOn;
 	Array<InputCrossing> inputCrossings;
 	Array<EndCrossing> endCrossings;
 

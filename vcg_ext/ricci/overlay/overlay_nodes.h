@@ -3,7 +3,7 @@
 #define RICCI_OVERLAY_NODES_H
 
 #include "edge_crossings.h"
-#include "groups.h"
+#include "number_ranges.h"
 #include "overlay_pieces.h"
 
 namespace ricci {
@@ -49,7 +49,7 @@ private:
 	int slot(Halfedge h, int i) const { return m_on.first(h.edge()) + index(h, i); }
 
 	int m_vertexCount;
-	Groups<Edge> m_on;
+	NumberRanges<Edge> m_on;
 	Array<double> m_share;                   // [node less m_vertexCount]
 	Array<int> m_indexOfInput, m_indexOfEnd; // [crossing]
 };

@@ -85,7 +85,7 @@ private:
 				++count[m_start.face(x.halfedge)];
 			++count[m_start.face(curve.last)];
 		}
-		Groups<Face>& in = m_chordsIn[family];
+		NumberRanges<Face>& in = m_chordsIn[family];
 		in = {m_start.faces(), [&](Face f) { return count[f]; }};
 		m_chords[family].resize(in.total());
 		count.assign(m_start.faceCount(), 0); // chords that are entered
@@ -291,9 +291,10 @@ private:
 	const EdgeCrossings m_crossings;
 	const StartEdgeNodes m_edgeNodes;
 
-	std::array<Array<Chord>, 2> m_chords;   // [family]
-	std::array<Groups<Face>, 2> m_chordsIn; // [family] numbers in m_chords by start triangle
-	Groups<Edge> m_sidesOn; // numbers of the sides on each start edge; they come before all others
+	std::array<Array<Chord>, 2> m_chords;         // [family]
+	std::array<NumberRanges<Face>, 2> m_chordsIn; // [family] numbers in m_chords by start triangle
+	NumberRanges<Edge>
+		m_sidesOn; // numbers of the sides on each start edge; they come before all others
 
 	// Of the start triangle that is being divided:
 	std::array<Halfedge, 3> m_sides;

@@ -25,7 +25,7 @@
 
 #include "../flow/ricci_flow.h"
 #include "../surface/surface_point.h"
-#include "weights.h"
+#include "barycentric.h"
 
 #include <array>
 #include <cstddef>

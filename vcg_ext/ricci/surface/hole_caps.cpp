@@ -16,14 +16,10 @@ Point3 centreOf(const std::vector<Vertex>& loop, const VertexArray<Point3>& posi
 		const Point3 &p = positions[loop[i]], &q = positions[loop[(i + 1) % loop.size()]];
 		const double side = distance(p, q);
 		length += side;
-		for (std::size_t x = 0; x < 3; ++x) {
-			centre[x] += 0.5 * side * (p[x] + q[x]);
-			mean[x] += p[x] / static_cast<double>(loop.size());
-		}
+		centre += 0.5 * side * (p + q);
+		mean += p / static_cast<double>(loop.size());
 	}
-	for (double& x : centre)
-		x /= length;
-	return length > 0.0 ? centre : mean;
+	return length > 0.0 ? centre / length : mean;
 }
 
 } // namespace

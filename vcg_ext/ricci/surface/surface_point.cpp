@@ -10,8 +10,7 @@ Point3 placeOnSurface(const SurfacePoint& p, const std::vector<Point3>& position
 	Point3 x{0, 0, 0};
 	for (std::size_t i = 0; i < 4; ++i)
 		if (p.weight[i] != 0.0)
-			for (std::size_t k = 0; k < 3; ++k)
-				x[k] += p.weight[i] * positions[positionOf(p.vertex[i])][k];
+			x += p.weight[i] * positions[positionOf(p.vertex[i])];
 	return x;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points of edges and triangles by coordinates that belong to their ends and corners.
+// Points of edges and triangles by barycentric coordinates.
 //
 // An affine coordinate of a point of an edge is its share: 0 at the origin of the edge's halfedge(),
 // 1 at the target. Homogeneous coordinates are weights, of which only the ratio counts.
-#ifndef RICCI_WEIGHTS_H
-#define RICCI_WEIGHTS_H
+#ifndef RICCI_BARYCENTRIC_H
+#define RICCI_BARYCENTRIC_H
 
 #include "../base/tolerances.h"
 #include "../surface/triangulation.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_GROUPS_H
-#define RICCI_GROUPS_H
+#ifndef RICCI_NUMBER_RANGES_H
+#define RICCI_NUMBER_RANGES_H
 
 #include "../base/indexed.h"
 
@@ -8,31 +8,31 @@
 
 namespace ricci {
 
-/// The numbers 0, 1, 2, ... divided into consecutive groups, one for each index of the type \p I.
+/// The numbers 0, 1, 2, ... divided into consecutive ranges, one for each index of the type \p I.
 template<class I>
-class Groups
+class NumberRanges
 {
 public:
-	Groups() : m_first(1, 0) {}
+	NumberRanges() : m_first(1, 0) {}
 
-	/// Group i gets the next \p size(i) numbers.
+	/// Range i gets the next \p size(i) numbers.
 	template<class Size>
-	Groups(IndexRange<I> indices, Size size) : Groups()
+	NumberRanges(IndexRange<I> indices, Size size) : NumberRanges()
 	{
 		m_first.reserve(positionOf(indices.size()) + 1);
 		for (const I i : indices)
 			append(size(i));
 	}
 
-	/// Adds one more group.
+	/// Adds one more range.
 	void append(int size) { m_first.push_back(m_first.back() + size); }
 
 	int first(I i) const { return m_first[positionOf(i)]; }
-	int last(I i) const { return m_first[positionOf(i) + 1]; } ///< one past the group
+	int last(I i) const { return m_first[positionOf(i) + 1]; } ///< one past the range
 	int size(I i) const { return last(i) - first(i); }
 	int total() const { return m_first.back(); }
 
-	/// The numbers of a group, for range-based loops.
+	/// The numbers of a range, for range-based loops.
 	IndexRange<int> of(I i) const { return IndexRange<int>(first(i), last(i)); }
 
 private:
