@@ -2,6 +2,7 @@
 #include "least_distortion.h"
 
 #include "../base/task.h"
+#include "../math/line_search.h"
 #include "distortion_laplacian.h"
 #include "limited_memory_bfgs.h"
 #include "mean_distortion.h"
@@ -31,9 +32,7 @@ constexpr double kSweepGain = 0.01, kPointGain = 1e-3, kOverrelaxation = 1.5;
 constexpr int kDepth = 5, kSameStiffness = 8;
 constexpr double kResidual = 0.1;
 
-/// The share of the slope's promise that a step must keep; bounds of the factor from a trial step
-/// to the next; the shortest step.
-constexpr double kDecrease = 1e-4, kMinShortening = 0.1, kMaxShortening = 0.5, kMinStep = 1e-6;
+constexpr double kMinStep = 1e-6;
 
 /// [number of a point]
 Eigen::VectorXcd positionsOf(const NumberedPoints& points, const FlatMesh& flat)
@@ -117,19 +116,13 @@ private:
 	{
 		if (!(slope < 0.0 && std::isfinite(slope)))
 			return 0.0;
-		double length = 1.0, value;
-		while (true) {
-			setTrial(length);
-			value = m_energy.evaluate(m_trial);
-			if (value <= m_value + kDecrease * length * slope)
-				break;
-			// The parabola through both values with the slope has its vertex at this share.
-			const double vertex = -slope * length / (2.0 * (value - m_value - slope * length));
-			length *= std::isfinite(value) ? std::clamp(vertex, kMinShortening, kMaxShortening)
-										   : kMaxShortening;
-			if (length < kMinStep)
-				return 0.0;
-		}
+		double value = m_value;
+		const double length = LineSearch{kMinStep}.run(1.0, slope, m_value, [&](double trial) {
+			setTrial(trial);
+			return value = m_energy.evaluate(m_trial);
+		});
+		if (length == 0.0)
+			return 0.0;
 		const double gain = m_value - value;
 		m_value = value;
 		m_position.swap(m_trial);

@@ -3,6 +3,7 @@
 
 #include "../base/parallel.h"
 #include "../base/tolerances.h"
+#include "../math/line_search.h"
 #include "../math/orientation.h"
 
 #include <algorithm>
@@ -32,9 +33,8 @@ constexpr double kMaxBend = 4.0;
 /// small, a point that leaves them for the others' sake does not come back.
 constexpr double kMaxStep = 2.0;
 
-/// The share of the promise that a step of relax() must keep, and the shortest of them; bounds of the
-/// factor from a trial to the next.
-constexpr double kDecrease = 1e-4, kMinStep = 1e-3, kMinShortening = 0.1, kMaxShortening = 0.5;
+/// The length of the shortest of them, where 1 is what the stiffness asks for.
+constexpr double kMinStep = 1e-3;
 
 /// As in orientation(): a determinant above this share of its terms has the right sign, but for
 /// underflow.
@@ -316,15 +316,9 @@ void MeanDistortion::relax(
 			place(image);
 		return after;
 	};
-	for (double length = std::min(relaxation, longest); length > kMinStep;) {
-		const double after = move(length), slope = -2.0 * length * promise;
-		if (after <= before + kDecrease * slope)
-			return;
-		// The parabola through both values with the slope has its vertex at this share.
-		const double vertex = -slope / (2.0 * (after - before - slope));
-		length *= std::isfinite(after) ? std::clamp(vertex, kMinShortening, kMaxShortening)
-									   : kMaxShortening;
-	}
+	const double length = std::min(relaxation, longest);
+	if (LineSearch{kMinStep}.run(length, -2.0 * promise, before, move) > 0.0)
+		return;
 	move(0.0);
 	m_settled[unknown] = 1;
 }

@@ -260,6 +260,37 @@ void easeStrained(
 	limit.spend(before - work);
 }
 
+/// A stage of a repair.
+struct Stage
+{
+	std::function<PointGroups()> groups; ///< what may move
+	RestShapes shapes;
+	int maxRings;
+	bool partly; ///< see PatchRules
+};
+
+/// Repairs in stages, each for what those before have left.
+/// \param groups receives those of the last stage that was needed
+Repair
+run(const std::vector<Stage>& stages,
+	const PatchTest& accepts,
+	const Soundness& soundness,
+	WorkLimit& limit,
+	FlatMesh& flat,
+	PointGroups& groups)
+{
+	Repair result;
+	result.bad = result.left = static_cast<int>(badTriangles(flat, soundness).size());
+	for (const Stage& stage : stages) {
+		if (result.left == 0)
+			break;
+		groups = stage.groups();
+		const PatchRules rules{stage.maxRings, accepts, stage.partly};
+		result.add(repair(flat, groups, stage.shapes, soundness, rules, limit));
+	}
+	return result;
+}
+
 } // namespace
 
 int Repair::movedCount() const
@@ -361,29 +392,25 @@ Repair repairInStages(
 	const Soundness& soundness,
 	WorkLimit& limit)
 {
-	if (badTriangles(flat, soundness).empty())
-		return {};
-	PointGroups groups = insidePoints(flat);
-	Repair result =
-		repair(flat, groups, shapes, soundness, {kMaxInsideRings, moves.accepts}, limit);
-	const auto goOn = [&](const std::function<bool(int)>& boundary, RestShapes from, bool partly) {
-		if (result.left == 0)
-			return;
-		groups = joinedPoints(flat, moves.seams, boundary);
-		result.add(
-			repair(flat, groups, from, soundness, {kMaxRings, moves.accepts, partly}, limit));
+	const auto inside = [&] { return insidePoints(flat); };
+	const auto asAllowed = [&] { return joinedPoints(flat, moves.seams, moves.boundary); };
+	const auto everywhere = [&] {
+		return joinedPoints(flat, moves.seams, [](int) { return true; });
 	};
-	const auto everywhere = [](int) { return true; };
-	goOn(moves.boundary, shapes, false);
-	goOn(everywhere, shapes, false);
-	goOn(everywhere, shapes, true);
-	// A limb that the drawing has shrunk below any height needs room from all round it. That bends the
+	std::vector<Stage> stages{
+		{inside, shapes, kMaxInsideRings, false},
+		{asAllowed, shapes, kMaxRings, false},
+		{everywhere, shapes, kMaxRings, false},
+		{everywhere, shapes, kMaxRings, true}};
+	// A limb that the map has shrunk below any height needs room from all round it. That bends the
 	// map, so only what is stored as it is gets it: floats, not text.
 	if (soundness.asFloats && soundness.step == 0.0) {
-		goOn(everywhere, RestShapes::OfSurfaceEvenly, true);
-		goOn(everywhere, shapes, true);
+		stages.push_back({everywhere, RestShapes::OfSurfaceEvenly, kMaxRings, true});
+		stages.push_back({everywhere, shapes, kMaxRings, true});
 	}
-	if (shapes == RestShapes::OfSurface)
+	PointGroups groups;
+	Repair result = run(stages, moves.accepts, soundness, limit, flat, groups);
+	if (result.bad > 0 && shapes == RestShapes::OfSurface)
 		easeStrained(flat, groups, soundness, moves.accepts, limit, result);
 	return result;
 }
@@ -395,15 +422,18 @@ Repair repairFreely(
 	const Soundness& soundness,
 	WorkLimit& limit)
 {
-	if (badTriangles(flat, soundness).empty())
-		return {};
-	Repair result =
-		repair(flat, insidePoints(flat), shapes, soundness, {kMaxInsideRings, accepts}, limit);
-	for (const bool partly : {false, true})
-		if (result.left > 0)
-			result.add(repair(
-				flat, allPoints(flat), shapes, soundness, {kMaxRings, accepts, partly}, limit));
-	return result;
+	const auto inside = [&] { return insidePoints(flat); };
+	const auto all = [&] { return allPoints(flat); };
+	PointGroups groups;
+	return run(
+		{{inside, shapes, kMaxInsideRings, false},
+		 {all, shapes, kMaxRings, false},
+		 {all, shapes, kMaxRings, true}},
+		accepts,
+		soundness,
+		limit,
+		flat,
+		groups);
 }
 
 } // namespace ricci

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "untangle.h"
 
+#include "../math/line_search.h"
 #include "convex_layout.h"
 #include "patch_energy.h"
 
@@ -33,8 +34,8 @@ constexpr double kStress = 8.0;
 /// A round that leaves more than this share of the energy has gained nothing.
 constexpr double kMinGain = 0.99;
 
-/// Halvings of a step.
-constexpr int kMaxHalvings = 30;
+/// Steps of a search are halved, 29 times at most.
+constexpr LineSearch kHalving{0x1p-29, 0.5, 0.5};
 
 /// A patch that is laid out anew is enlarged to so many of the least heights at most, a hundredth of what
 /// floats reach.
@@ -144,18 +145,21 @@ private:
 		++m_found.steps;
 		if (!m_energy.newtonStep(m_x, m_eps, m_gradient, m_step))
 			return false;
-		const double slope = m_step.dot(m_gradient);
-		double length = 1.0;
-		for (int i = 0; i < kMaxHalvings; ++i, length *= 0.5) {
-			m_trial = m_x + length * m_step;
-			const double next = m_energy.value(m_trial, m_eps);
-			if (!(next <= value + kArmijo * length * slope) || (soundOnly && !place(m_trial)))
-				continue;
-			m_x.swap(m_trial);
-			value = next;
-			return true;
-		}
-		return false;
+		double next = value;
+		const double length = kHalving.run(
+			1.0,
+			m_step.dot(m_gradient),
+			value,
+			[&](double trial) {
+				m_trial = m_x + trial * m_step;
+				return next = m_energy.value(m_trial, m_eps);
+			},
+			[&] { return !soundOnly || place(m_trial); });
+		if (length == 0.0)
+			return false;
+		m_x.swap(m_trial);
+		value = next;
+		return true;
 	}
 
 	/// Goes on from a sound patch to a better one.
@@ -205,7 +209,7 @@ private:
 		return sound;
 	}
 
-	static constexpr double kArmijo = 1e-4, kEpsShare = 0.2, kMinEps = 1e-9;
+	static constexpr double kEpsShare = 0.2, kMinEps = 1e-9;
 	static constexpr double kFirstEps = 0.1, kEpsFall = 0.2, kSmallEps = 0.02;
 
 	const FlatMesh& m_flat;
