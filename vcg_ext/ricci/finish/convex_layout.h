@@ -9,7 +9,7 @@
 
 namespace ricci {
 
-/// A drawing of a patch in which no triangle is turned round, whatever their shapes: the longest of its
+/// A layout of a patch in which no triangle is flipped, whatever their shapes: the longest of its
 /// borders lies evenly on the unit circle, and every other point is the mean of its neighbours
 /// [Tutte 1963, Floater 2003]. A hole is filled for that by a point that its border is joined to.
 /// \return [local point] places; empty for a patch that is no disk with or without holes, or in which

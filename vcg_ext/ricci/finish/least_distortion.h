@@ -17,7 +17,7 @@ struct LeastDistortion
 /// Moves the points of a map to the plane so that the mean conformal distortion of the map on the mesh's own
 /// straight triangles becomes small. A flow that flips edges finds the conformal map of the
 /// surface; with straight triangles between its vertices, it is near to the best map of these triangles, not
-/// the best one. No triangle that counts turns, the distortion never rises, and the two sides of every seam
+/// the best one. No triangle that counts is flipped, the distortion never rises, and the two sides of every seam
 /// stay isometric: the angles of the cones and the holonomy of the flat metric stay exactly what
 /// they are (joinedPoints() says what moves, mean_distortion.h what is minimised).
 ///
@@ -25,14 +25,14 @@ struct LeastDistortion
 /// which would keep all others from moving far. Then all points move at once. Every such step solves
 /// with a Laplacian (distortion_laplacian.h) for its direction, which limited-memory BFGS improves by
 /// what the steps before have shown, as [Liu Bouaziz Kavan 2017] do for elastic bodies, and is
-/// shortened until no triangle turns, by an exact test, and the distortion falls enough
+/// shortened until no triangle is flipped, by an exact test, and the distortion falls enough
 /// [Nocedal Wright 2006, 3.1, 3.5]. A few iterations for the direction are enough: the flow's map is
 /// wrong in the small, where triangles are bent, and solving Newton's equations takes as many steps,
 /// each at several times the cost, for the weights change as fast as the points. The steps end when
 /// what two in a row gain is not seen in a mean. All of it takes time in proportion to the triangles.
 ///
 /// The same result to the bit with any number of threads.
-/// \param flat one component. Its triangles that are not counter-clockwise do not count, and may turn.
+/// \param flat one component. Its triangles that are not counter-clockwise do not count, and may be flipped.
 /// If nothing stays, its size may change.
 /// \param cones 1 at cones inside
 /// \param boundaryMoves whether the boundary is free; else its points stay

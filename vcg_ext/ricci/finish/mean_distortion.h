@@ -46,7 +46,7 @@ public:
 
 	/// Moves the unknowns one after another to where E is less with all others in place, or a
 	/// little beyond: Gauss-Seidel steps with overrelaxation, each along the gradient as far as the
-	/// stiffness asks for times \p relaxation, or less. No triangle turns.
+	/// stiffness asks for times \p relaxation, or less. No triangle is flipped.
 	/// \param worth unknowns whose step promises to lower E by less stay, and are looked at again only
 	/// when something moves beside them
 	/// \param start [point] from where images follow

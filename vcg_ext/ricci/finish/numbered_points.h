@@ -9,8 +9,8 @@ namespace ricci {
 /// The points of a flat mesh in the order in which an optimisation takes them: the unknowns, which are
 /// the first points of the groups that move, then their images, then the points that stay.
 ///
-/// The unknowns follow a walk over the surface, breadth first from its point farthest from the middle of
-/// the mesh, and at every vertex to the farthest neighbours first: what takes them one after another
+/// The unknowns follow a walk over the surface, breadth first from its point farthest from the middle
+/// of the mesh, and at every vertex to the farthest neighbours first: what takes them one after another
 /// does not depend on the numbers of the mesh, and finds neighbours near in memory.
 struct NumberedPoints
 {

@@ -10,11 +10,11 @@
 
 namespace ricci {
 
-/// A part of a drawing whose inner points may move while everything round it stays.
+/// A part of a flat mesh whose inner points may move while everything round it stays.
 struct Patch
 {
-	std::vector<int> triangles; ///< of the drawing, in increasing order
-	std::vector<int> points;    ///< of the drawing: [local point]
+	std::vector<int> triangles; ///< of the mesh, in increasing order
+	std::vector<int> points;    ///< of the mesh: [local point]
 	Array<Triangle> corners;    ///< [triangle of the patch] local points
 	Array<int> variable;        ///< [local point] the group that moves it, or -1
 	int variables = 0;          ///< groups all of whose triangles are in the patch
@@ -23,7 +23,7 @@ struct Patch
 	bool isFree() const { return variables == static_cast<int>(points.size()); }
 };
 
-/// Finds patches in one drawing.
+/// Finds patches in one flat mesh.
 class PatchFinder
 {
 public:

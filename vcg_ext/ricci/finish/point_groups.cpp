@@ -225,7 +225,7 @@ private:
 	std::vector<std::pair<int, Copy<Motion>>> m_copies; // of points
 };
 
-/// Joins the points on the right of a seam to those on its left by the turn that fits its two sides best.
+/// Joins the points on the right of a seam to those on its left by the turn that fits its sides best.
 /// \param copies on the left and on the right
 /// \param ends number of the first of them that lie at ends of the seam, which stay
 void joinSeam(

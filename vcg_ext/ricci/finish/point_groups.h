@@ -62,8 +62,9 @@ PointGroups insidePoints(const FlatMesh& flat);
 PointGroups
 joinedPoints(const FlatMesh& flat, SeamGeometry geometry, const BoundaryRule& boundaryMoves);
 
-/// The same in the plane for a map whose cones are known: a seam, from one of its ends to the other, has
-/// one motion, that which fits its two sides best, so that the holonomy stays what it is up to rounding.
+/// The same in the plane for a map whose cones are known: a seam, from one of its ends to the other,
+/// has one motion, that which fits its two sides best, so that the holonomy stays what it is up to
+/// rounding.
 /// The first point of a group lies on the left of its seam. Fixed are, too: cones, vertices where seams
 /// end or several meet, and seams whose sides do not fit.
 PointGroups joinedPoints(

@@ -216,7 +216,7 @@ bool isUnsoundWhole(const PatchSetting& setting, const Patch& patch)
 		   });
 }
 
-/// Triangles at points that were moved whose shape on the surface is far from that in the drawing.
+/// Triangles at points that were moved whose shape on the surface is far from that in the map.
 std::vector<int>
 strainedTriangles(const FlatMesh& flat, const Array<char>& moved, const Soundness& soundness)
 {
@@ -333,7 +333,7 @@ Repair repair(
 	PatchFinder finder(flat, groups);
 	const PatchSetting setting{flat, groups, shapes, soundness};
 	Array<PatchSize> failed(flat.points.size(), PatchSize{}); // [triangle] of its last patch
-	std::set<std::vector<int>> tried; // triangles of patches, since the drawing last changed
+	std::set<std::vector<int>> tried; // triangles of patches, since the map last changed
 	std::int64_t work = limit.ofStage();
 	const std::int64_t before = work;
 	for (const int rings : kRings) {
@@ -365,7 +365,7 @@ Repair repair(
 			tried.insert(patch.triangles);
 		const std::vector<Outcome> outcomes = takeOver(patches, found, rules, flat, result);
 		bool isAny = isAnyTakenOver(outcomes);
-		// Where a chart crosses itself now, its convex drawing does not.
+		// Where a chart crosses itself now, its convex layout does not.
 		std::vector<Patch> refused;
 		for (std::size_t i = 0; i < patches.size(); ++i)
 			if (outcomes[i] == Outcome::Refused && found[i].sound &&

@@ -22,14 +22,14 @@ struct Repair
 	int left = 0;      ///< and after
 
 	int movedCount() const;
-	/// Takes over what a second repair of the same drawing has done.
+	/// Takes over what a second repair of the same mesh has done.
 	void add(const Repair& next);
 };
 
 /// Triangles of \p flat that are not sound.
 std::vector<int> badTriangles(const FlatMesh& flat, const Soundness& soundness);
 
-/// Whether a patch may be as it is in the drawing; called one after another.
+/// Whether a patch may be as it is in the map; called one after another.
 using PatchTest = std::function<bool(const FlatMesh& flat, const Patch& patch)>;
 
 /// Which patches are tried, and which are taken over.

@@ -76,7 +76,7 @@ double longestSide(const RestShape& s)
 	return std::max({s.base, std::abs(s.apex), std::abs(s.apex - s.base)});
 }
 
-/// How much the drawing scales the surface round each triangle of a patch: the root of the quotient
+/// How much the map scales the surface round each triangle of a patch: the root of the quotient
 /// of areas over the triangles at its corners, or \p evenly over all. Where a triangle has no area on
 /// the surface, the squares of its longest sides stand for the areas.
 std::vector<double>

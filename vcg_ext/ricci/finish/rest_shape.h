@@ -21,13 +21,13 @@ struct RestShape
 
 /// Where the triangles of a patch have their shapes from.
 enum class RestShapes {
-	OfSurface,       ///< from their sides on the surface, scaled as the drawing scales them nearby
+	OfSurface,       ///< from their sides on the surface, scaled as the map scales them nearby
 	OfSurfaceEvenly, ///< from their sides on the surface, all of the patch scaled alike
-	OfDrawing        ///< from the drawing, where they are counter-clockwise there, else OfSurface
+	OfDrawing        ///< as they are in the plane, if counter-clockwise; else OfSurface
 };
 
-/// The shapes of the triangles of \p patch. Those of triangles that have no shape, or a thin one, are made less thin
-/// elsewhere, and all are as high as \p soundness wants.
+/// The shapes of the triangles of \p patch. A triangle without a shape, or with a thin one, gets one that is
+/// less thin. All are as high as \p soundness wants.
 std::vector<RestShape>
 restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Soundness& soundness);
 

@@ -189,7 +189,7 @@ private:
 						  p, m_flat.place, Complex(x[2 * variable], x[2 * variable + 1]))));
 		}
 		m_unsound.clear();
-		std::size_t turned = 0;
+		std::size_t flipped = 0;
 		for (const int i : m_patch.corners.indices()) {
 			const Triangle& t = m_patch.corners[i];
 			const Triangle2 corners{
@@ -197,9 +197,9 @@ private:
 			if (m_soundness.isSound(corners))
 				continue;
 			m_unsound.push_back(i);
-			turned += !m_soundness.isUpright(corners);
+			flipped += !m_soundness.isUpright(corners);
 		}
-		const std::array<std::size_t, 2> counts{turned, m_unsound.size()};
+		const std::array<std::size_t, 2> counts{flipped, m_unsound.size()};
 		const bool sound = m_unsound.empty();
 		if (sound || counts < m_least) {
 			m_least = counts;
@@ -222,7 +222,7 @@ private:
 	double m_eps = 1.0;
 	std::vector<Point2> m_places;       // of the last trial
 	std::vector<int> m_unsound;         // triangles of the patch there
-	std::array<std::size_t, 2> m_least; // turned and unsound ones at the best places
+	std::array<std::size_t, 2> m_least; // flipped and unsound ones at the best places
 	Untangled m_found;
 };
 

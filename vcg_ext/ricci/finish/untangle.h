@@ -27,7 +27,7 @@ struct Untangled
 {
 	bool sound = false; ///< every triangle of the patch is
 	/// [local point] Places, as they are stored, where all triangles are sound, or where fewer are
-	/// turned round or flat than before, or as many are and fewer are too low. Empty if none were
+	/// flipped or flat than before, or as many are and fewer are too low. Empty if none were
 	/// found.
 	std::vector<Point2> points;
 	int steps = 0; ///< of Newton
@@ -37,17 +37,17 @@ struct Untangled
 ///
 /// It minimises the sum over the triangles of w (|J|^2 + lambda (1 + det^2 J)) / chi(det J), where
 /// J is the linear map from the rest shape, w its area, and chi(d) = (d + sqrt(eps^2 + d^2)) / 2 is
-/// positive for triangles that are turned round, too. eps falls with them, and in the end only
+/// positive for flipped triangles, too. eps falls with them, and in the end only
 /// positive determinants remain [Garanzha et al. 2021, Eq. 3]. The steps are Newton's, with each
 /// triangle's Hessian made positive semidefinite: in terms of f_z and f_zbar its eigenvalues have
 /// closed forms.
 ///
 /// If no sound places are found for a free patch from where it is, the search starts anew from
-/// convexLayout(), where no triangle is turned round, and with eps next to 0.
+/// convexLayout(), where no triangle is flipped, and with eps next to 0.
 Untangled untangle(const PatchProblem& problem);
 
-/// convexLayout() of a free patch, large enough for its lowest triangle, within reason; where that is not
-/// enough, the search from there. Empty where there is no such layout.
+/// convexLayout() of a free patch, enlarged for its lowest triangle within bounds. If a triangle still is not
+/// sound, the search goes on from there. Empty if there is no such layout.
 Untangled unfold(const PatchProblem& problem);
 
 /// Lowers the same energy, with eps = 0, on a patch that is sound, which it stays.
