@@ -177,8 +177,7 @@ void addAxesLayer(NewLayers& layers, MeshModel& model, const Flow::Result& resul
 	vcg::tri::UpdateBounding<CMeshO>::Box(axes.cm);
 }
 
-void addPolygonLayer(
-	NewLayers& layers, MeshModel& model, const Flow::Result& result)
+void addPolygonLayer(NewLayers& layers, MeshModel& model, const Flow::Result& result)
 {
 	MeshModel& layer = layers.add("Canonical polygon " + model.label());
 	for (const auto& polygon : Layers::BuildCanonicalPolygons(result, kGeodesicPieces, layer.cm))
@@ -260,10 +259,7 @@ void writeMesh(
 /// The flow with room for the gutter of a texture between its charts.
 /// \throw Refusal if there is none for so many charts
 Flow::Result computeFor(
-	const CarriedTexture& texture,
-	MeshModel& model,
-	Flow::Params par,
-	const Flow::SideMarks& seams)
+	const CarriedTexture& texture, MeshModel& model, Flow::Params par, const Flow::SideMarks& seams)
 {
 	const bool widens = texture.minMargin() > par.chartMargin;
 	if (widens) {
@@ -299,9 +295,9 @@ public:
 		bool readsQuality,
 		ricci::Progress& listener) :
 			task(listener, settings.timeLimit),
-			model(checkedMesh(md, readsQuality)),
-			seams(chosenSeams(model, settings.seams)), texture(settings.texture, model),
-			m_settings(settings), m_md(md), m_report(settings.report, model.pathName())
+			model(checkedMesh(md, readsQuality)), seams(chosenSeams(model, settings.seams)),
+			texture(settings.texture, model), m_settings(settings), m_md(md),
+			m_report(settings.report, model.pathName())
 	{
 	}
 

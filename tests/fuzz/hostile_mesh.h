@@ -26,10 +26,10 @@ struct HostileMesh
 	bool normalizeUV = true;
 	bool doublePrecision = false; ///< which of the hosts' scalar types
 	double chartMargin = 0.0;
-	int cancelAt = -1;   ///< number of the progress call that cancels; -1: none
+	int cancelAt = -1;        ///< number of the progress call that cancels; -1: none
 	double memoryLimit = 0.0; ///< see Task::setMemoryLimit()
-	bool sphere = false; ///< map to the sphere in place of the plane
-	int seamEvery = 0; ///< about one in so many sides of faces is a seam; 0: none
+	bool sphere = false;      ///< map to the sphere in place of the plane
+	int seamEvery = 0;        ///< about one in so many sides of faces is a seam; 0: none
 	int seamSeed = 0;
 	int rings = 0; ///< of the universal cover
 
