@@ -9,7 +9,7 @@ cmake_minimum_required(VERSION 3.25)
 
 # A folder may include itself and the folders before it.
 set(order
-	base math surface metric flow curvature cut overlay layout finish measure fuchsian charts texture verify
+	base math surface metric flow curvature seamless cut overlay layout finish measure fuchsian charts texture verify
 	edge_swap pipeline)
 # Public headers that every folder may include, and those that only the last one may.
 set(leaves error.h options.h progress.h report.h)
@@ -18,7 +18,7 @@ set(max_lines 550)
 set(max_types 7)
 set(max_parameters 6)
 set(more_parameters
-	charts/pack.cpp flow/ricci_flow.cpp flow/ricci_flow.h
+	charts/pack.cpp
 	verify/holonomy_check.cpp verify/holonomy_check.h math/cholmod_blas.cpp) # BLAS
 # The drivers choose by the options of the filters; the headers of the stages take what they need.
 set(naming_options charts/pack.h edge_swap/swapped_flow.h)

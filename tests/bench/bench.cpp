@@ -288,14 +288,11 @@ double oneFactorisation(const CurvatureMap& map, const Target& target, int repea
 }
 
 /// The flow with its start: what core.work_guard counts.
-[[gnu::noinline]] FlowResult startAndFlow(
-	Background background,
-	const EmbeddedSurface& surface,
-	const Target& target,
-	const FlowOptions& options)
+[[gnu::noinline]] FlowResult
+startAndFlow(const EmbeddedSurface& surface, const Target& target, const FlowOptions& options)
 {
 	return runRicciFlow(
-		background, surface, initialPacking(surface, options), target, options, [](int, double) {});
+		surface, initialPacking(surface, options), target, options, [](int, double) {});
 }
 
 /// One box beside the other: a host's packing is its own.
@@ -359,6 +356,7 @@ void measure(
 		target = chooseTarget(surface, start, chooseRequest(surface, row.target));
 	else {
 		row.target = "zero";
+		target.background = background;
 		target.curvature = VertexVector(Eigen::VectorXd::Zero(surface.triangulation.vertexCount()));
 		target.fixed.assign(surface.triangulation.vertexCount(), 0);
 	}
@@ -375,15 +373,15 @@ void measure(
 	row.flow = INFINITY;
 	for (int i = 0; i < repeat; ++i) {
 		flow = FlowResult();
-		row.flow = std::min(
-			row.flow, timeOf([&] { flow = startAndFlow(background, surface, target, options); }));
+		row.flow =
+			std::min(row.flow, timeOf([&] { flow = startAndFlow(surface, target, options); }));
 	}
 	if (row.peak == 0.0)
 		row.peak = peakMegabytes();
 	row.work = flow.work;
 	row.iterations = flow.iterations;
 	row.residual = flow.residual;
-	row.flips = static_cast<std::size_t>(flow.history.flips());
+	row.flips = static_cast<std::size_t>(flow.flipCount());
 	// The matrix of the flow's last step; where the flow ran on the double of the surface, that of
 	// the surface itself at the start.
 	const IntrinsicMesh metric{surface.triangulation, surface.lengths};

@@ -394,7 +394,6 @@ struct FlowToFewCones
 	FlowResult to(const Target& target) const
 	{
 		return runRicciFlow(
-			Background::EuclideanPlane,
 			surface,
 			initialPacking(surface, FlowOptions()),
 			target,

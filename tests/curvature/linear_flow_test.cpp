@@ -195,12 +195,7 @@ struct AtTheEnd
 		FlowOptions options;
 		options.epsilon = 1e-11;
 		return runRicciFlow(
-			Background::EuclideanPlane,
-			surface,
-			initialPacking(surface, options),
-			wanted,
-			options,
-			[](int, double) {});
+			surface, initialPacking(surface, options), wanted, options, [](int, double) {});
 	}
 
 	/// The target with \p k more curvature at one cone. On a closed surface another gives it; a

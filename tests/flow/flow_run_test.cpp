@@ -5,10 +5,12 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/flow/flow_run.h>
+#include <ricci/surface/double_surface.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace ricci::testing {
@@ -21,11 +23,6 @@ struct Problem
 	FlowOptions options;
 
 	Problem(const SurfaceMesh& mesh, const TargetRequest& request) : flow(mesh, request) {}
-
-	FlowProblem onDouble() const
-	{
-		return flowProblemOnDouble(flow.surface(), flow.result.target, options);
-	}
 };
 
 std::vector<Problem> problems()
@@ -41,30 +38,20 @@ std::vector<Problem> problems()
 }
 
 /// Gauss-Bonnet on the double, which is closed: twice 2 pi chi of the surface.
-TEST(FlowProblem, TheDoubleIsSymmetricAndHasTwiceTheCurvature)
+TEST(TargetOnDouble, IsSymmetricAndHasTwiceTheCurvature)
 {
 	for (const Problem& p : problems()) {
-		const FlowProblem d = p.onDouble();
+		const DoubleSurface d = doubleOf(p.flow.base());
+		const Target target = targetOnDouble(p.flow.result.target, d.mirror);
 		const Topology& topology = p.flow.surface().topology;
-		ASSERT_TRUE(d.isDoubled());
-		EXPECT_EQ(d.input.eulerCharacteristic(), 2 * topology.type.eulerCharacteristic());
-		EXPECT_TRUE(d.input.boundaryLoops().empty());
-		EXPECT_EQ(d.vertexCount, topology.boundary.size());
-		int onAxis = 0;
+		EXPECT_EQ(d.triangulation.eulerCharacteristic(), 2 * topology.type.eulerCharacteristic());
 		for (const Vertex v : d.mirror.indices()) {
-			EXPECT_EQ(d.mirror[d.mirror[v]], v);
-			EXPECT_EQ(d.target.curvature[d.mirror[v]], d.target.curvature[v]);
-			EXPECT_EQ(d.target.fixed[d.mirror[v]], d.target.fixed[v]);
-			EXPECT_EQ(d.start.radii[d.mirror[v]], d.start.radii[v]);
-			onAxis += d.mirror[v] == v;
-			if (v.number() < d.vertexCount) {
-				EXPECT_EQ(d.mirror[v] == v, topology.boundary[v] == 1);
-			}
+			EXPECT_EQ(target.curvature[d.mirror[v]], target.curvature[v]);
+			EXPECT_EQ(target.fixed[d.mirror[v]], target.fixed[v]);
 		}
-		EXPECT_EQ(d.mirror.size() + onAxis, 2 * d.vertexCount);
-		if (!d.target.hasFixed()) {
+		if (!target.hasFixed()) {
 			EXPECT_NEAR(
-				d.target.curvature.sum(), 4 * kPi * topology.type.eulerCharacteristic(), 1e-11);
+				target.curvature.sum(), 4 * kPi * topology.type.eulerCharacteristic(), 1e-11);
 		}
 	}
 }
@@ -74,23 +61,23 @@ TEST(FlowRun, GoesOnFromTheHalfOnTheDouble)
 {
 	for (const Problem& p : problems()) {
 		const FlowListener silent = [](int, double) {};
-		FlowRun half(
-			Background::EuclideanPlane,
-			flowProblem(
-				p.flow.surface(), initialPacking(p.flow.surface(), p.options), p.flow.result.target),
-			p.options,
-			0,
-			silent);
+		const EmbeddedSurface& surface = p.flow.surface();
+		const Target& target = p.flow.result.target;
+		FlowRun half(surface, initialPacking(surface, p.options), target, p.options, silent);
 		ASSERT_TRUE(half.solve());
-		FlowRun whole(
-			Background::EuclideanPlane, p.onDouble(), p.options, half.iterations(), silent);
-		whole.startFrom(half.factor(), half.arcs());
+		FlowRun whole = FlowRun::onDouble(surface, target, p.options, silent);
+		whole.goOnFrom(half, true);
 		ASSERT_TRUE(whole.solve());
-		EXPECT_GE(whole.iterations(), half.iterations());
+		const int steps = half.result().iterations;
 		const FlowResult result = whole.result();
 		EXPECT_TRUE(result.doubled);
+		EXPECT_GE(result.iterations, steps);
+		EXPECT_EQ(
+			result.input.eulerCharacteristic(), 2 * surface.topology.type.eulerCharacteristic());
+		const VertexArray<Vertex> mirror = doubleOf(surface.triangulation).mirror;
+		for (const Vertex v : mirror.indices())
+			EXPECT_EQ(result.start.radii[mirror[v]], result.start.radii[v]);
 		EXPECT_LT(result.residual, 1e-8);
-		const Target& target = p.flow.result.target;
 		for (const Vertex v : result.curvature.indices())
 			if (!target.fixed[v]) {
 				EXPECT_NEAR(result.curvature[v], target.curvature[v], 1e-8);
@@ -106,13 +93,13 @@ TEST(FlowRun, TellsWhyItStoppedEarly)
 		FlowOptions options;
 		options.epsilon = 1e-9;
 		Target target = flow.result.target;
+		target.background = background;
 		if (background == Background::HyperbolicPlane)
 			target.curvature[Vertex(0)] = 1.0;
-		FlowProblem problem =
-			flowProblem(flow.surface(), initialPacking(flow.surface(), options), target);
-		problem.maxSteps = 1;
 		const FlowListener silent = [](int, double) {};
-		FlowRun run(background, std::move(problem), options, 0, silent, {});
+		FlowRun run(
+			flow.surface(), initialPacking(flow.surface(), options), target, options, silent);
+		run.limitSteps(1);
 		ASSERT_FALSE(run.solve());
 		const NotConverged error = run.failure();
 		EXPECT_EQ(error.problem, NotConverged::StepsUsedUp);

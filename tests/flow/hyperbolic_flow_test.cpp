@@ -81,9 +81,8 @@ TEST(HyperbolicFlow, LengthsOfTheInputAreExactWhereNothingFlips)
 {
 	Random random(505);
 	const FlippedFlow flow(shaken(perforatedSlab(2, 3), 0.08, random), hyperbolicMetric());
-	const FlipHistory& history = flow.result.history;
 	EdgeArray<char> flipped(flow.base().edgeCount(), 0);
-	for (const std::vector<Edge>* flips : {&history.startFlips, &history.flowFlips})
+	for (const std::vector<Edge>* flips : {&flow.result.start.flips, &flow.result.flips})
 		for (const Edge e : *flips)
 			flipped[e] = 1;
 	const EdgeArray<double> found = hyperbolicLengths(flow.result, flow.surface());
@@ -186,7 +185,7 @@ TEST(HyperbolicFlow, FreeBoundaryKeepsItsCircles)
 			expectReached(flow);
 			ASSERT_FALSE(flow.result.doubled);
 			const int chi = flow.surface().topology.type.eulerCharacteristic();
-			const IntrinsicMesh& start = flow.result.history.start;
+			const IntrinsicMesh& start = flow.result.start.mesh;
 			const double scale = std::sqrt(
 				2 * kPi * std::max(1, std::abs(chi)) /
 				euclideanArea(start.triangulation, start.lengths));
@@ -194,7 +193,7 @@ TEST(HyperbolicFlow, FreeBoundaryKeepsItsCircles)
 			for (const Vertex v : flow.base().vertices())
 				if (boundary[v]) {
 					const double radius = Hyperbolic::circle(flow.result.u[v]).radius;
-					EXPECT_NEAR(radius / flow.result.history.startRadii[v] / scale, 1.0, 1e-13);
+					EXPECT_NEAR(radius / flow.result.start.radii[v] / scale, 1.0, 1e-13);
 					++kept;
 				}
 			EXPECT_GT(kept, 0);

@@ -81,7 +81,6 @@ TEST(RicciFlow, SolvesWhatBreaksOnAFixedTriangulation)
 			options.method = Method::FixedTriangles;
 			try {
 				runRicciFlow(
-					Background::EuclideanPlane,
 					flow.surface(),
 					initialPacking(flow.surface(), options),
 					flow.result.target,
@@ -109,7 +108,7 @@ TEST(RicciFlow, WeightsAreNotNegativeAtTheEnd)
 			prescribed(randomCurvature(
 				static_cast<int>(mesh.positions.size()), 0, -3.0, 3.0, 0.3, random)));
 		expectReached(curved);
-		EXPECT_GT(curved.result.history.flowFlips.size(), 0u);
+		EXPECT_GT(curved.result.flips.size(), 0u);
 		EXPECT_GE(minRelativeWeight(curved.result), -1e-13);
 	}
 }
@@ -299,13 +298,13 @@ TEST(RicciFlow, FreeBoundaryKeepsItsLengths)
 		ASSERT_FALSE(flow.result.doubled);
 		for (const Vertex v : flow.base().vertices())
 			if (flow.surface().topology.boundary[v]) {
-				EXPECT_EQ(flow.result.u[v], std::log(flow.result.history.startRadii[v]));
+				EXPECT_EQ(flow.result.u[v], std::log(flow.result.start.radii[v]));
 			}
 		for (const Edge e : flow.base().edges())
 			if (flow.base().isBoundary(e)) {
 				EXPECT_DOUBLE_EQ(
-					flow.result.metric->lengths()[e], flow.result.history.start.lengths[e]);
-				EXPECT_EQ(flow.result.history.start.lengths[e], flow.surface().lengths[e]);
+					flow.result.metric->lengths()[e], flow.result.start.mesh.lengths[e]);
+				EXPECT_EQ(flow.result.start.mesh.lengths[e], flow.surface().lengths[e]);
 			}
 	}
 }
@@ -363,15 +362,15 @@ TEST(RicciFlow, StartFlippedBackIsTheInput)
 	for (const Problem& p : closedProblems()) {
 		SCOPED_TRACE(p.name);
 		const FlippedFlow flow(p.mesh, prescribed(p.curvature));
-		const FlipHistory& history = flow.result.history;
-		EXPECT_GT(history.startFlips.size(), 0u);
+		EXPECT_GT(flow.result.start.flips.size(), 0u);
 		const MetricMeasure before(flow.base(), flow.surface().lengths);
-		const MetricMeasure start(history.start.triangulation, history.start.lengths);
+		const MetricMeasure start(
+			flow.result.start.mesh.triangulation, flow.result.start.mesh.lengths);
 		EXPECT_NEAR(static_cast<double>(start.area / before.area), 1.0, 1e-13);
 		for (const Vertex v : before.curvature.indices())
 			EXPECT_NEAR(static_cast<double>(start.curvature[v] - before.curvature[v]), 0.0, 1e-12);
-		IntrinsicMesh metric = history.start;
-		for (auto e = history.startFlips.rbegin(); e != history.startFlips.rend(); ++e) {
+		IntrinsicMesh metric = flow.result.start.mesh;
+		for (auto e = flow.result.start.flips.rbegin(); e != flow.result.start.flips.rend(); ++e) {
 			metric.lengths[*e] = flippedLength(metric, *e);
 			metric.triangulation.unflip(*e);
 		}
@@ -379,8 +378,8 @@ TEST(RicciFlow, StartFlippedBackIsTheInput)
 			ASSERT_EQ(metric.triangulation.next(h), flow.base().next(h));
 		for (const Edge e : flow.surface().lengths.indices())
 			EXPECT_NEAR(metric.lengths[e] / flow.surface().lengths[e], 1.0, 1e-10);
-		Triangulation end = history.start.triangulation;
-		for (const Edge e : history.flowFlips)
+		Triangulation end = flow.result.start.mesh.triangulation;
+		for (const Edge e : flow.result.flips)
 			end.flip(e);
 		for (const Halfedge h : end.halfedges())
 			ASSERT_EQ(end.next(h), flow.result.metric->triangulation().next(h));

@@ -225,16 +225,12 @@ TEST(BolzaSurface, PrintedStartIsTheMetricAndTheScaleFreeOneConvergesToIt)
 		options.method = Method::FixedTriangles;
 		options.epsilon = 1e-12;
 		Target target;
+		target.background = Background::HyperbolicPlane;
 		target.curvature = Eigen::VectorXd::Zero(t.vertexCount());
 		target.fixed.assign(t.vertexCount(), 0);
 		const EmbeddedSurface embedded{t, {}, surface.lengths, topologyOf(t)};
 		const FlowResult flow = runRicciFlow(
-			Background::HyperbolicPlane,
-			embedded,
-			initialPacking(embedded, options),
-			target,
-			options,
-			[](int, double) {});
+			embedded, initialPacking(embedded, options), target, options, [](int, double) {});
 		double squares = 0.0;
 		for (const Edge e : t.edges())
 			squares += std::pow(flow.metric->lengths()[e] / surface.lengths[e] - 1.0, 2);

@@ -203,8 +203,8 @@ long crossingsTooMany(const FlippedFlow& flow, const CommonRefinement& refinemen
 		for (int point : line.points)
 			crossings += !inputEdgeAt(refinement.points[at(point)]).empty();
 	crossings /= 2; // a line is found from both its ends
-	NormalCoordinates tight(flow.result.history.input);
-	for (const auto* flips : {&flow.result.history.startFlips, &flow.result.history.flowFlips})
+	NormalCoordinates tight(flow.result.input);
+	for (const auto* flips : {&flow.result.start.flips, &flow.result.flips})
 		for (const Edge e : *flips)
 			tight.flip(e);
 	for (const Edge e : flow.base().edges())
@@ -235,8 +235,8 @@ TEST(CommonRefinement, TheCutMayCrossAnEndEdgeTwice)
 /// Ends of the edges of the input that are not edges of the start.
 std::set<std::pair<int, int>> flippedInputEdges(const FlippedFlow& flow)
 {
-	NormalCoordinates coordinates(flow.result.history.input);
-	for (const Edge e : flow.result.history.startFlips)
+	NormalCoordinates coordinates(flow.result.input);
+	for (const Edge e : flow.result.start.flips)
 		coordinates.flip(e);
 	const auto curves = coordinates.trace();
 	std::set<std::pair<int, int>> flipped;
@@ -340,7 +340,7 @@ TEST(CommonRefinement, TheMapIsTheProjectiveOneOfTheRadii)
 			const FlowResult& result = flow.result;
 			const CommonRefinement r = flow.refinement(flow.cut());
 			const auto flipped = flippedInputEdges(flow);
-			const VertexVector change = result.u - logOf(result.history.startRadii);
+			const VertexVector change = result.u - logOf(result.start.radii);
 			const Triangulation& end = result.metric->triangulation();
 			std::map<std::pair<int, int>, std::vector<double>> lengths;
 			for (const Halfedge h : end.halfedges())
@@ -410,8 +410,8 @@ TEST(CommonRefinement, IsTheInputWhereNothingFlips)
 		return Point3{0.5 * (i + j), (i - j) * -0.5 * std::sqrt(3.0), 0.0};
 	});
 	const FlippedFlow flow(mesh, requestOf(TargetCurvature::Automatic));
-	ASSERT_TRUE(flow.result.history.startFlips.empty());
-	ASSERT_TRUE(flow.result.history.flowFlips.empty());
+	ASSERT_TRUE(flow.result.start.flips.empty());
+	ASSERT_TRUE(flow.result.flips.empty());
 	const CommonRefinement r = flow.refinement(flow.cut());
 	EXPECT_EQ(r.points.size(), mesh.positions.size());
 	EXPECT_EQ(r.crossings, 0u);
@@ -439,7 +439,7 @@ TEST(CommonRefinement, APlaneIsMappedToItself)
 			for (Point3& p : mesh.positions)
 				p[0] *= 30.0; // needles
 		const FlippedFlow flow(mesh, requestOf(TargetCurvature::Automatic));
-		EXPECT_GT(flow.result.history.startFlips.size(), 10u);
+		EXPECT_GT(flow.result.start.flips.size(), 10u);
 		const CommonRefinement r = flow.refinement(flow.cut());
 		EXPECT_GT(r.crossings, 10u);
 		expectSound(flow, r);
@@ -492,10 +492,9 @@ TEST(CommonRefinement, IsTheDevelopmentWhereTheMetricStays)
 			const FlowResult& result = flow.result;
 			if (result.doubled)
 				continue;
-			flips += static_cast<int>(result.history.startFlips.size());
+			flips += static_cast<int>(result.start.flips.size());
 			const CommonRefinement r = flow.refinement(flow.cut());
-			ASSERT_LT(
-				(result.u - logOf(result.history.startRadii)).lpNorm<Eigen::Infinity>(), 1e-9);
+			ASSERT_LT((result.u - logOf(result.start.radii)).lpNorm<Eigen::Infinity>(), 1e-9);
 			expectSound(flow, r);
 			for (std::size_t piece = 0; piece < r.triangles.size(); ++piece) {
 				const auto h = flow.base().halfedges(r.inputFace[piece]);

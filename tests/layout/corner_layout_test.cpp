@@ -50,7 +50,7 @@ void expectCongruent(const PlanarLayout& a, const PlanarLayout& b)
 
 void expectTheLayoutOnTheOverlay(const FlippedFlow& flow, Random& random)
 {
-	EXPECT_GT(flow.result.history.flips(), 0);
+	EXPECT_GT(flow.result.flipCount(), 0);
 	const CutGraph ways[] = {flow.cut(), flow.cutAnywhere(random), flow.cutAnywhere(random)};
 	for (const CutGraph& cut : ways) {
 		Listener ticks;

@@ -305,14 +305,14 @@ TEST(HyperbolicRefinement, CrossingsAreWhereGeodesicsMeet)
 		domain.surface = embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles);
 		domain.onHole.assign(t.vertexCount(), 0);
 		FlowResult flow;
-		flow.background = Background::HyperbolicPlane;
+		flow.target.background = Background::HyperbolicPlane;
 		flow.metric = after;
 		flow.u = u;
-		flow.history.input = t;
-		flow.history.start = {t, lengths};
-		flow.history.startDelta = packing.delta;
-		flow.history.startRadii = radii;
-		flow.history.flowFlips = {e};
+		flow.input = t;
+		flow.start.mesh = {t, lengths};
+		flow.start.delta = packing.delta;
+		flow.start.radii = radii;
+		flow.flips = {e};
 		const CommonRefinement r =
 			commonRefinement(domain, flow, overlayOf(domain, flow), EdgeArray<char>(5, 0));
 		ASSERT_EQ(r.points.size(), 5u);

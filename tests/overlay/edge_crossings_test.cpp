@@ -40,7 +40,7 @@ TEST(EdgeCrossings, WithTheInputLieOnStraightLines)
 	int crossings = 0;
 	for (const FlippedFlow& flow : closedFlows(random)) {
 		const EdgeCrossings x(flow.result);
-		const IntrinsicMesh& start = flow.result.history.start;
+		const IntrinsicMesh& start = flow.result.start.mesh;
 		const Triangulation& input = flow.base();
 		for (const Edge e : start.triangulation.edges()) {
 			const auto [i, j] = start.triangulation.ends(e);
@@ -86,7 +86,7 @@ TEST(EdgeCrossings, InThePlaneAreThoseOfTheDrawing)
 		const FlippedFlow flow(mesh, requestOf(TargetCurvature::Automatic));
 		ASSERT_FALSE(flow.result.doubled);
 		const EdgeCrossings x(flow.result);
-		const Triangulation& start = flow.result.history.start.triangulation;
+		const Triangulation& start = flow.result.start.mesh.triangulation;
 		const VertexArray<Point3>& p = flow.surface().positions;
 		const auto side = [&](const std::array<Vertex, 2>& line, Vertex v) {
 			const auto flat = [&](Vertex w) { return Point2{p[w][0], p[w][1]}; };
@@ -169,7 +169,7 @@ TEST(EdgeCrossings, WithTheEndAreInTheirOrder)
 		const EdgeCrossings x(flow.result);
 		for (const EdgeCrossings::Curve& curve : x.endCurves)
 			longest = std::max(longest, curve.crossings.size());
-		for (const Edge e : flow.result.history.start.triangulation.edges()) {
+		for (const Edge e : flow.result.start.mesh.triangulation.edges()) {
 			double before = 0.0;
 			for (const int n : x.endOn.of(e)) {
 				const double share = x.endCrossings[n].onStart.affine();
@@ -211,8 +211,8 @@ TEST(EdgeCrossings, WithTheEndAreVectorsOfBothTriangulations)
 	int crossings = 0, several = 0;
 	for (const FlippedFlow& flow : closedFlows(random)) {
 		const EdgeCrossings x(flow.result);
-		const Triangulation& start = flow.result.history.start.triangulation;
-		const EdgeArray<double>& startDelta = flow.result.history.startDelta;
+		const Triangulation& start = flow.result.start.mesh.triangulation;
+		const EdgeArray<double>& startDelta = flow.result.start.delta;
 		const auto corner = [&](Halfedge h) { // whose origin it is, in its triangle
 			const auto sides = start.halfedges(start.face(h));
 			return static_cast<std::size_t>(

@@ -89,7 +89,7 @@ void expectSameReport(const ComponentMap& map, const Report& report)
 	EXPECT_EQ(report.iterations, map.flow.iterations);
 	EXPECT_EQ(report.maxCurvatureError, map.flow.residual);
 	EXPECT_EQ(report.residualFloor, map.flow.floor);
-	EXPECT_EQ(report.flips, map.flow.history.flips());
+	EXPECT_EQ(report.flips, map.flow.flipCount());
 	EXPECT_EQ(report.edgeSwaps, map.edgeSwaps);
 	EXPECT_EQ(report.boundarySplits, map.boundarySplits);
 	EXPECT_EQ(report.cappedHoles, map.cappedHoles);

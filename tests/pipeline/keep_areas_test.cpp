@@ -107,13 +107,8 @@ struct FirstFlow
 	{
 		map.flowStates.clear();
 		FlowProgress progress(options.epsilon, map.flowStates);
-		map.flow = runRicciFlow(
-			Background::EuclideanPlane,
-			surface,
-			initialPacking(surface, options),
-			target,
-			options,
-			progress);
+		map.flow =
+			runRicciFlow(surface, initialPacking(surface, options), target, options, progress);
 	}
 
 	double excess() const

@@ -86,7 +86,6 @@ void FlippedFlow::run(HyperbolicRequest request, double epsilon)
 	request.prescribed.resize(base().vertexCount(), 0.0);
 	const FlowOptions options = optionsOf(epsilon);
 	result = runRicciFlow(
-		Background::HyperbolicPlane,
 		surface(),
 		initialPacking(surface(), options),
 		chooseHyperbolicTarget(surface().topology, request.options, request),
@@ -103,9 +102,7 @@ void FlippedFlow::run(TargetRequest request, double epsilon)
 	const FlowOptions options = optionsOf(epsilon);
 	InitialPacking start = initialPacking(surface(), options);
 	const Target target = chooseTarget(surface(), start, request);
-	result = runRicciFlow(
-		Background::EuclideanPlane, surface(), std::move(start), target, options, [](int, double) {
-		});
+	result = runRicciFlow(surface(), std::move(start), target, options, [](int, double) {});
 }
 
 VertexArray<char> FlippedFlow::cones() const
@@ -229,7 +226,7 @@ HyperbolicMeasure::HyperbolicMeasure(const Triangulation& t, const EdgeArray<dou
 
 IndependentError::IndependentError(const FlippedFlow& flow)
 {
-	if (flow.result.background == Background::HyperbolicPlane)
+	if (flow.result.target.background == Background::HyperbolicPlane)
 		compare<HyperbolicMeasure>(flow);
 	else
 		compare<MetricMeasure>(flow);

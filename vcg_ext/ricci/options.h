@@ -21,7 +21,7 @@ enum class TargetCurvature {
 enum class ConeRounding {
 	Free,        ///< any below 2 pi
 	QuarterTurns ///< multiples of pi / 2, and so are the rotations across all seams, see
-				 ///< roundLoopTurns()
+				 ///< makeSeamless()
 };
 
 /// What the flow runs on, and what happens if it would break the triangle inequality. The order is

@@ -61,6 +61,7 @@ Target chooseHyperbolicTarget(
 	const Topology& topology, const HyperbolicTargetOptions& options, const TargetInput& input)
 {
 	Target target = zeroTarget(topology);
+	target.background = Background::HyperbolicPlane;
 	switch (options.target) {
 	case HyperbolicTarget::HyperbolicMetric:
 		break;

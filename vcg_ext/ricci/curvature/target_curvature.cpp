@@ -7,9 +7,7 @@
 #include "../error.h"
 #include "../math/double_double.h"
 #include "area_change.h"
-#include "cone_placement.h"
 #include "rectangle_corners.h"
-#include "turn_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -201,15 +199,6 @@ std::string describe(const PlacedCones& cones, const VertexArray<int>& vertexNum
 		   number(cones.distortion) + " (spread); vertex (curvature / pi):" + list + ".";
 }
 
-ConeRequest coneRequest(const TargetRequest& request)
-{
-	ConeRequest wanted{request.options.cones};
-	if (!request.vertexNumbers.empty())
-		wanted.vertices = request.vertexNumbers.size();
-	wanted.boundary = request.options.freeBoundary ? ConeBoundary::Fixed : ConeBoundary::Prescribed;
-	return wanted;
-}
-
 /// The target with these cones. A boundary is free or, if it is not to be, takes the rest of the
 /// curvature in proportion to its length.
 void setPlacedCones(
@@ -223,7 +212,7 @@ void setPlacedCones(
 		target.curvature[cones.vertices[i]] = cones.curvatures[i];
 		total += cones.curvatures[i];
 	}
-	target.quarterTurns = request.options.cones.rounding == ConeRounding::QuarterTurns;
+	target.isSeamless = request.options.cones.rounding == ConeRounding::QuarterTurns;
 	target.notes.push_back(describe(cones, request.vertexNumbers));
 	if (request.measuresAreas && request.options.cones.count == 0)
 		target.maxSpread = request.options.cones.distortion;
@@ -359,14 +348,12 @@ bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow)
 			   areaChange(surface, flowFactor(flow)), *flow.target.maxSpread, kSpreadSlack) <= 1.0;
 }
 
-std::optional<Target> targetToKeepAreas(
+Target targetToKeepAreas(
 	const EmbeddedSurface& surface,
 	const InitialPacking& start,
 	const FlowResult& flow,
 	const TargetRequest& request)
 {
-	if (keepsAreas(surface, flow))
-		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
 	Target target = zeroTarget(surface.topology);
 	target.notes.push_back(
@@ -382,19 +369,20 @@ std::optional<Target> targetToKeepAreas(
 	return target;
 }
 
-std::optional<Target> targetToRoundTurns(
-	const EmbeddedSurface& surface,
-	const FlowResult& flow,
-	const LoopTurns& turns,
-	const TargetRequest& request,
-	double radius)
+ConeRequest coneRequest(const TargetRequest& request)
 {
-	const std::optional<PlacedCones> cones =
-		conesToRoundTurns(surface, flow, turns, coneRequest(request), radius);
-	if (!cones)
-		return std::nullopt;
+	ConeRequest wanted{request.options.cones};
+	if (!request.vertexNumbers.empty())
+		wanted.vertices = request.vertexNumbers.size();
+	wanted.boundary = request.options.freeBoundary ? ConeBoundary::Fixed : ConeBoundary::Prescribed;
+	return wanted;
+}
+
+Target targetWithCones(
+	const EmbeddedSurface& surface, const PlacedCones& cones, const TargetRequest& request)
+{
 	Target target = zeroTarget(surface.topology);
-	setPlacedCones(surface, *cones, request, target);
+	setPlacedCones(surface, cones, request, target);
 	check(surface, target);
 	return target;
 }

@@ -2,9 +2,9 @@
 #ifndef RICCI_TARGET_CURVATURE_H
 #define RICCI_TARGET_CURVATURE_H
 
-#include "../flow/quarter_turns.h"
 #include "../flow/ricci_flow.h"
 #include "admissible.h"
+#include "cone_placement.h"
 
 #include <optional>
 
@@ -41,26 +41,25 @@ Target chooseTarget(const EmbeddedSurface& surface, const InitialPacking& start,
 /// \param flow with intrinsic flips
 bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow);
 
-/// The next target after \p flow where keepsAreas() does not hold: cones as moreCones() finds them. None
-/// where it does.
+/// The next target after \p flow: cones as moreCones() finds them.
 /// \param start of another flow on \p surface, as for chooseTarget()
 /// \param flow with intrinsic flips
+/// \pre !keepsAreas(\p surface, \p flow)
 /// \throw as chooseTarget()
-std::optional<Target> targetToKeepAreas(
+Target targetToKeepAreas(
 	const EmbeddedSurface& surface,
 	const InitialPacking& start,
 	const FlowResult& flow,
 	const TargetRequest& request);
 
-/// The next target after \p flow where other cones bring the turns of loops nearer to multiples of
-/// pi / 2, see conesToRoundTurns(). None where there are none.
+/// What placeCones() is asked for.
+ConeRequest coneRequest(const TargetRequest& request);
+
+/// The target with these cones. A boundary is free or, if it is not to be, takes the rest of the
+/// curvature in proportion to its length.
 /// \throw as chooseTarget()
-std::optional<Target> targetToRoundTurns(
-	const EmbeddedSurface& surface,
-	const FlowResult& flow,
-	const LoopTurns& turns,
-	const TargetRequest& request,
-	double radius);
+Target targetWithCones(
+	const EmbeddedSurface& surface, const PlacedCones& cones, const TargetRequest& request);
 
 } // namespace ricci
 

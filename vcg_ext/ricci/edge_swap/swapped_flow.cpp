@@ -42,7 +42,6 @@ flowWithEdgeSwaps(const Component& component, const Options& options, const Swap
 		EdgeSwapper swapper(result.surface.positions, start.radii);
 		try {
 			result.flow = runRicciFlow(
-				Background::EuclideanPlane,
 				result.surface,
 				std::move(start),
 				target,

@@ -256,4 +256,26 @@ template class FlippingCurvatureMap<Hyperbolic>;
 template class GeometricCurvatureMap<HyperbolicGeometry<DoubleDouble>>;
 template class FlippingCurvatureMap<HyperbolicGeometry<DoubleDouble>>;
 
+namespace {
+
+template<class Geometry>
+std::shared_ptr<CurvatureMap> mapIn(CirclePacking packing, bool flips)
+{
+	if (flips)
+		return std::make_shared<FlippingCurvatureMap<Geometry>>(std::move(packing));
+	return std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
+}
+
+} // namespace
+
+std::shared_ptr<CurvatureMap>
+curvatureMap(CirclePacking packing, Background background, bool flips, bool isExtended)
+{
+	if (background == Background::EuclideanPlane)
+		return isExtended ? mapIn<EuclideanGeometry<DoubleDouble>>(std::move(packing), flips)
+						  : mapIn<Euclidean>(std::move(packing), flips);
+	return isExtended ? mapIn<HyperbolicGeometry<DoubleDouble>>(std::move(packing), flips)
+					  : mapIn<Hyperbolic>(std::move(packing), flips);
+}
+
 } // namespace ricci

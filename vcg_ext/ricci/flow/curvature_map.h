@@ -7,6 +7,7 @@
 #include "../surface/elements.h"
 
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -159,6 +160,12 @@ private:
 	FlipJournal m_journal;
 	DelaunayQueue m_queue;
 };
+
+/// The map of \p packing in \p background.
+/// \param flips whether it is a FlippingCurvatureMap
+/// \param isExtended whether it is evaluated in double-double arithmetic, else in doubles
+std::shared_ptr<CurvatureMap>
+curvatureMap(CirclePacking packing, Background background, bool flips, bool isExtended);
 
 } // namespace ricci
 

@@ -3,10 +3,7 @@
 
 #include "../base/numbers.h"
 #include "../base/tolerances.h"
-#include "../math/double_double.h"
 #include "../metric/area.h"
-#include "../metric/euclidean.h"
-#include "../metric/hyperbolic.h"
 #include "../metric/unfold.h"
 #include "../surface/double_surface.h"
 #include "../surface/normal_coordinates.h"
@@ -43,120 +40,100 @@ InitialPacking initialPacking(
 	return packing;
 }
 
-FlowProblem
-flowProblem(const EmbeddedSurface& surface, InitialPacking start, const Target& target)
+Target targetOnDouble(Target target, const VertexArray<Vertex>& mirror)
 {
-	FlowProblem problem;
-	problem.input = surface.triangulation;
-	problem.start = std::move(start);
-	problem.target = target;
-	problem.vertexCount = surface.triangulation.vertexCount();
-	if (target.circular) {
-		problem.loop = surface.topology.loops.front();
-		for (const Vertex v : problem.loop) {
-			const Edge e = surface.triangulation.halfedge(v).edge();
-			problem.loopEdges.push_back(e);
-			problem.loopLengths.push_back(surface.lengths[e] + problem.start.lengthened);
-		}
+	const int vertices = target.fixed.size();
+	target.curvature.conservativeResize(mirror.size());
+	target.fixed.resize(mirror.size());
+	for (const Vertex v : IndexRange<Vertex>(0, vertices)) {
+		const Vertex image = mirror[v];
+		if (image == v)
+			target.curvature[v] *= 2.0;
+		target.curvature[image] = target.curvature[v];
+		target.fixed[image] = target.fixed[v];
 	}
-	return problem;
+	return target;
 }
 
-FlowProblem flowProblemOnDouble(
-	const EmbeddedSurface& surface,
-	const Target& target,
-	const FlowOptions& options)
+FlowRun::FlowRun(const FlowOptions& options, const FlowListener& listener) :
+		m_options(options), m_listener(listener)
 {
-	DoubleSurface d = doubleOf(surface.triangulation);
-	IntrinsicMesh mesh;
-	mesh.triangulation = d.triangulation;
-	mesh.lengths.resize(d.edgeOf.size());
-	for (const Edge e : d.edgeOf.indices())
-		mesh.lengths[e] = surface.lengths[d.edgeOf[e]];
-	FlowProblem problem =
-		flowProblem(surface, initialPacking(std::move(mesh), d.mirror, options), target);
-	problem.input = std::move(d.triangulation);
-	Target& doubled = problem.target;
-	doubled.curvature.conservativeResize(d.mirror.size());
-	doubled.fixed.resize(d.mirror.size());
-	for (const Vertex v : surface.triangulation.vertices()) {
-		const Vertex image = d.mirror[v];
-		if (image == v)
-			doubled.curvature[v] *= 2.0;
-		doubled.curvature[image] = doubled.curvature[v];
-		doubled.fixed[image] = doubled.fixed[v];
-	}
-	problem.mirror = std::move(d.mirror);
-	return problem;
 }
 
 FlowRun::FlowRun(
-	Background background,
-	FlowProblem problem,
+	const EmbeddedSurface& surface,
+	InitialPacking start,
+	const Target& target,
 	const FlowOptions& options,
-	int stepsBefore,
 	const FlowListener& listener,
 	NewtonSolver::Surgeon surgeon) :
-		m_background(background),
-		m_problem(std::move(problem)), m_options(options), m_listener(listener),
-		m_surgeon(std::move(surgeon))
+		FlowRun(options, listener)
 {
-	m_result.background = background;
-	m_result.iterations = stepsBefore;
-	CirclePacking packing = takeStart();
-	m_map = m_background == Background::EuclideanPlane ? makeMap<Euclidean>(std::move(packing))
-													   : makeMap<Hyperbolic>(std::move(packing));
-	m_newton =
-		std::make_unique<NewtonSolver>(*m_map, m_problem.target.fixed, m_problem.mirror);
+	m_surgeon = std::move(surgeon);
+	m_result.input = surface.triangulation;
+	m_result.start = std::move(start);
+	m_result.target = target;
+	begin(surface);
 }
 
-/// The packing of the first step, at m_startU. Moves the start, and the input, to the history if
-/// edges flip.
-CirclePacking FlowRun::takeStart()
+FlowRun FlowRun::onDouble(
+	const EmbeddedSurface& surface,
+	const Target& target,
+	const FlowOptions& options,
+	const FlowListener& listener)
 {
-	InitialPacking& start = m_problem.start;
-	m_startU = startU(start.mesh, start.radii);
-	m_result.u = m_startU;
-	CirclePacking packing;
-	packing.triangulation = start.mesh.triangulation;
-	packing.delta = start.delta;
-	if (m_options.method == Method::IntrinsicFlips) {
-		FlipHistory& history = m_result.history;
-		history.input = std::move(m_problem.input);
-		history.start = std::move(start.mesh);
-		history.startDelta = std::move(start.delta);
-		history.startRadii = std::move(start.radii);
-		history.startFlips = std::move(start.flips);
-		history.lengthened = start.lengthened;
+	FlowRun run(options, listener);
+	DoubleSurface d = doubleOf(surface.triangulation);
+	IntrinsicMesh mesh{d.triangulation, EdgeArray<double>(d.edgeOf.size())};
+	for (const Edge e : d.edgeOf.indices())
+		mesh.lengths[e] = surface.lengths[d.edgeOf[e]];
+	run.m_result.doubled = true;
+	run.m_result.input = std::move(d.triangulation);
+	run.m_result.start = initialPacking(std::move(mesh), d.mirror, options);
+	run.m_result.target = targetOnDouble(target, d.mirror);
+	run.m_mirror = std::move(d.mirror);
+	run.begin(surface);
+	return run;
+}
+
+void FlowRun::begin(const EmbeddedSurface& surface)
+{
+	m_vertexCount = surface.triangulation.vertexCount();
+	if (m_result.target.circular) {
+		m_loop = surface.topology.loops.front();
+		for (const Vertex v : m_loop) {
+			const Edge e = surface.triangulation.halfedge(v).edge();
+			m_loopEdges.push_back(e);
+			m_loopLengths.push_back(surface.lengths[e] + m_result.start.lengthened);
+		}
 	}
-	return packing;
+	m_result.u = m_startU = startU();
+	m_map = makeMap({m_result.start.mesh.triangulation, m_result.start.delta, {}}, false);
+	m_newton = std::make_unique<NewtonSolver>(*m_map, m_result.target.fixed, m_mirror);
 }
 
-template<class Geometry>
-std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing) const
+std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing, bool isExtended) const
 {
-	std::shared_ptr<CurvatureMap> map;
-	if (m_options.method == Method::IntrinsicFlips)
-		map = std::make_shared<FlippingCurvatureMap<Geometry>>(std::move(packing));
-	else
-		map = std::make_shared<GeometricCurvatureMap<Geometry>>(std::move(packing));
-	return map;
+	const bool flips = m_options.method == Method::IntrinsicFlips;
+	return curvatureMap(std::move(packing), m_result.target.background, flips, isExtended);
 }
 
 /// ln radius. In the hyperbolic plane at the scale at which the flat surface has the area of the metric
 /// to be found, because the inversive distances are the Euclidean ones, which have no scale; there
 /// tanh(radius / 2) is nearly radius / 2. The area that a free boundary leaves is not known before: it
 /// has a scale of its own, at which radii that are kept are exact.
-VertexVector FlowRun::startU(const IntrinsicMesh& mesh, const VertexArray<double>& radii) const
+VertexVector FlowRun::startU() const
 {
-	const Target& target = m_problem.target;
+	const Target& target = m_result.target;
+	const IntrinsicMesh& mesh = m_result.start.mesh;
+	const VertexArray<double>& radii = m_result.start.radii;
 	VertexVector u(radii.size());
-	if (m_background == Background::EuclideanPlane) {
+	if (target.background == Background::EuclideanPlane) {
 		for (const Vertex v : radii.indices())
 			u[v] = std::log(radii[v]);
 		return u;
 	}
-	const int copies = m_problem.isDoubled() ? 2 : 1;
+	const int copies = m_result.doubled ? 2 : 1;
 	const int chi = mesh.triangulation.eulerCharacteristic();
 	const bool keeps = target.hasFixed();
 	const double area =
@@ -169,14 +146,18 @@ VertexVector FlowRun::startU(const IntrinsicMesh& mesh, const VertexArray<double
 	return u;
 }
 
-void FlowRun::startFrom(const VertexVector& factor, std::vector<double> arcs)
+void FlowRun::goOnFrom(const FlowRun& half, bool solved)
 {
-	m_arcs = std::move(arcs);
-	for (const Vertex v : factor.indices()) {
-		m_result.u[v] += factor[v];
-		const Vertex image = m_problem.mirror[v];
+	m_result.iterations = half.m_result.iterations;
+	if (!solved)
+		return;
+	m_arcs = half.m_arcs;
+	for (const Vertex v : half.m_startU.indices()) {
+		const double factor = half.m_result.u[v] - half.m_startU[v];
+		m_result.u[v] += factor;
+		const Vertex image = m_mirror[v];
 		if (image != v)
-			m_result.u[image] += factor[v];
+			m_result.u[image] += factor;
 	}
 }
 
@@ -185,14 +166,13 @@ bool FlowRun::solve()
 	const double maxFloor =
 		isFlatDisk() ? std::numeric_limits<double>::infinity() : kMaxDoubleFloor;
 	m_solved =
-		m_problem.target.circular ? solveOnCircle() : solveFor(m_options.epsilon, true, maxFloor);
+		m_result.target.circular ? solveOnCircle() : solveFor(m_options.epsilon, true, maxFloor);
 	const bool stopped =
 		!m_solved.converged && m_solved.residual < kWorthExtending && m_map->brokenTriangles() == 0;
 	const bool gaps = m_solved.converged && m_solved.floor > maxFloor;
 	if (stopped || gaps)
 		m_solved = solveExtended();
-	if (m_problem.isDoubled() && m_solved.residual > kMaxAsymmetry &&
-		m_map->brokenTriangles() == 0) {
+	if (m_result.doubled && m_solved.residual > kMaxAsymmetry && m_map->brokenTriangles() == 0) {
 		m_newton->dropSymmetry();
 		m_solved = solveFor(m_options.epsilon);
 	}
@@ -207,12 +187,12 @@ bool FlowRun::solveRoughly(double epsilon)
 
 NewtonResult FlowRun::solveOnCircle()
 {
-	VertexVector& curvature = m_problem.target.curvature;
-	const double copies = m_problem.isDoubled() ? 2.0 : 1.0;
-	CircleTarget circle(m_problem.loopLengths, m_arcs);
+	VertexVector& curvature = m_result.target.curvature;
+	const double copies = m_result.doubled ? 2.0 : 1.0;
+	CircleTarget circle(m_loopLengths, m_arcs);
 	const auto solveForAngles = [&](const std::vector<double>& angles, double epsilon) {
 		for (std::size_t i = 0; i < angles.size(); ++i)
-			curvature[m_problem.loop[i]] = copies * angles[i];
+			curvature[m_loop[i]] = copies * angles[i];
 		return m_solved = solveFor(epsilon);
 	};
 	try {
@@ -230,12 +210,12 @@ NewtonResult FlowRun::solveFor(double epsilon, bool polishes, double maxPolished
 {
 	NewtonOptions newtonOptions;
 	newtonOptions.epsilon = epsilon;
-	newtonOptions.maxIterations = m_problem.maxSteps;
+	newtonOptions.maxIterations = m_maxSteps;
 	newtonOptions.polishes = polishes;
 	newtonOptions.maxPolishedFloor = maxPolishedFloor;
 	const NewtonResult solved = m_newton->solve(
 		m_result.u,
-		m_problem.target.curvature,
+		m_result.target.curvature,
 		newtonOptions,
 		[&](int step, double residual) { m_listener(m_result.iterations + step, residual); },
 		m_surgeon);
@@ -247,11 +227,7 @@ NewtonResult FlowRun::solveFor(double epsilon, bool polishes, double maxPolished
 NewtonResult FlowRun::solveExtended()
 {
 	m_flipsBefore = flowFlips();
-	CirclePacking packing = m_map->releasePacking();
-	std::shared_ptr<CurvatureMap> map =
-		m_background == Background::EuclideanPlane
-			? makeMap<EuclideanGeometry<DoubleDouble>>(std::move(packing))
-			: makeMap<HyperbolicGeometry<DoubleDouble>>(std::move(packing));
+	std::shared_ptr<CurvatureMap> map = makeMap(m_map->releasePacking(), true);
 	m_newton->continueOn(*map);
 	m_map = std::move(map);
 	return solveFor(m_options.epsilon);
@@ -260,8 +236,8 @@ NewtonResult FlowRun::solveExtended()
 /// A disk without cones, around which nothing has to close.
 bool FlowRun::isFlatDisk() const
 {
-	return !m_problem.isDoubled() && m_map->triangulation().eulerCharacteristic() == 1 &&
-		   m_problem.target.curvature.isZero(0.0);
+	return !m_result.doubled && m_map->triangulation().eulerCharacteristic() == 1 &&
+		   m_result.target.curvature.isZero(0.0);
 }
 
 bool FlowRun::bendsAtBoundary() const
@@ -292,19 +268,19 @@ std::vector<Edge> FlowRun::flowFlips() const
 std::vector<double> FlowRun::presentLoopLengths() const
 {
 	std::vector<double> lengths;
-	for (const Edge e : m_problem.loopEdges)
+	for (const Edge e : m_loopEdges)
 		lengths.push_back(m_map->lengths()[e]);
-	if (!m_problem.isDoubled())
+	if (!m_result.doubled)
 		return lengths;
-	NormalCoordinates coordinates(m_result.history.input);
-	for (const Edge e : m_result.history.startFlips)
+	NormalCoordinates coordinates(m_result.input);
+	for (const Edge e : m_result.start.flips)
 		coordinates.flip(e);
 	for (const Edge e : flowFlips())
 		coordinates.flip(e);
 	const auto curves = coordinates.trace();
 	Strip strip;
 	for (std::size_t i = 0; i < lengths.size(); ++i) {
-		const NormalCoordinates::Curve& curve = curves[m_problem.loopEdges[i]];
+		const NormalCoordinates::Curve& curve = curves[m_loopEdges[i]];
 		if (curve.crossings.empty()) {
 			lengths[i] = m_map->lengths()[curve.first.edge()];
 			continue;
@@ -315,27 +291,31 @@ std::vector<double> FlowRun::presentLoopLengths() const
 	return lengths;
 }
 
-FlowResult FlowRun::result()
+void FlowRun::end()
 {
-	m_map->releaseWorkSpace();
-	m_result.metric = m_map;
-	m_result.doubled = m_problem.isDoubled();
-	m_result.residual = m_solved.residual;
-	m_result.floor = m_solved.floor;
 	m_result.work = m_newton->work();
 	m_newton.reset();
-	m_result.history.flowFlips = flowFlips();
-	m_result.area = m_background == Background::EuclideanPlane
+	m_map->releaseWorkSpace();
+}
+
+FlowResult FlowRun::result()
+{
+	if (m_newton)
+		end();
+	m_result.metric = m_map;
+	m_result.residual = m_solved.residual;
+	m_result.floor = m_solved.floor;
+	m_result.flips = flowFlips();
+	m_result.area = m_result.target.background == Background::EuclideanPlane
 						? euclideanArea(m_map->triangulation(), m_map->lengths())
 						: hyperbolicArea(m_map->triangulation(), m_map->lengths());
-	m_result.curvature = m_map->curvature().head(m_problem.vertexCount);
-	m_result.target = std::move(m_problem.target);
-	m_result.target.curvature.conservativeResize(m_problem.vertexCount);
-	m_result.target.fixed.resize(m_problem.vertexCount);
-	if (m_problem.isDoubled()) {
+	m_result.curvature = m_map->curvature().head(m_vertexCount);
+	m_result.target.curvature.conservativeResize(m_vertexCount);
+	m_result.target.fixed.resize(m_vertexCount);
+	if (m_result.doubled) {
 		m_result.area *= 0.5;
 		for (const Vertex v : m_result.curvature.indices())
-			if (m_problem.mirror[v] == v) {
+			if (m_mirror[v] == v) {
 				m_result.curvature[v] *= 0.5;
 				m_result.target.curvature[v] *= 0.5;
 			}
@@ -347,8 +327,7 @@ NotConverged FlowRun::failure() const
 {
 	const auto broken = static_cast<std::size_t>(m_map->brokenTriangles());
 	const double scales = spreadOfScales();
-	const bool stalls =
-		m_solved.iterations < m_problem.maxSteps && m_solved.residual > kWorthExtending;
+	const bool stalls = m_solved.iterations < m_maxSteps && m_solved.residual > kWorthExtending;
 	const bool lost =
 		m_options.method == Method::IntrinsicFlips && scales > kMaxScales && (broken > 0 || stalls);
 	if (lost || !std::isfinite(m_solved.floor))

@@ -14,30 +14,6 @@
 
 namespace ricci {
 
-/// What one run of the flow starts from and is to reach: on the surface, or on its double.
-struct FlowProblem
-{
-	Triangulation input; ///< the surface, or its double
-	InitialPacking start; ///< on the input's metric
-	Target target;       ///< on the input
-
-	/// Vertices of the surface, which have the lowest numbers in its double.
-	int vertexCount = 0;
-
-	int maxSteps = NewtonOptions().maxIterations; ///< of one solve
-
-	/// [vertex of a double] the image in the other copy; empty where the input is the surface.
-	VertexArray<Vertex> mirror;
-
-	/// The boundary of a circular target, else empty: its vertices in order, the edge from each one
-	/// to the next, and the lengths of these edges before the flow.
-	std::vector<Vertex> loop;
-	std::vector<Edge> loopEdges;
-	std::vector<double> loopLengths;
-
-	bool isDoubled() const { return !mirror.empty(); }
-};
-
 /// The packing in which a flow with these options starts: with intrinsic flips on the weighted
 /// Delaunay triangulation of \p mesh, else on its own.
 /// \param mirror see delaunayPacking()
@@ -46,33 +22,36 @@ InitialPacking initialPacking(
 	const VertexArray<Vertex>& mirror,
 	const FlowOptions& options);
 
-/// \param start the initial packing of \p surface
-FlowProblem
-flowProblem(const EmbeddedSurface& surface, InitialPacking start, const Target& target);
+/// The target on the double of a surface, whose curvature is twice as large on the boundary.
+/// \param mirror [vertex of the double] its image in the other copy
+Target targetOnDouble(Target target, const VertexArray<Vertex>& mirror);
 
-/// On the double of the surface, with its own, symmetric initial packing. Curvature is twice as
-/// large on the boundary.
-FlowProblem flowProblemOnDouble(
-	const EmbeddedSurface& surface,
-	const Target& target,
-	const FlowOptions& options);
-
-/// One run of the flow on one surface.
+/// One run of the flow on one surface, or on its double.
 class FlowRun
 {
 public:
-	/// \p options and \p listener must live as long as the run. \p stepsBefore is added to the
-	/// number of steps that the listener gets and the result has.
+	/// On \p surface, from its initial packing. \p options and \p listener must live as long as the run.
 	FlowRun(
-		Background background,
-		FlowProblem problem,
+		const EmbeddedSurface& surface,
+		InitialPacking start,
+		const Target& target,
 		const FlowOptions& options,
-		int stepsBefore,
 		const FlowListener& listener,
 		NewtonSolver::Surgeon surgeon = nullptr);
 
-	/// Starts from what another run found on the half of this double: its factor() and its arcs().
-	void startFrom(const VertexVector& factor, std::vector<double> arcs);
+	/// On the double of \p surface, with its own, symmetric initial packing.
+	static FlowRun onDouble(
+		const EmbeddedSurface& surface,
+		const Target& target,
+		const FlowOptions& options,
+		const FlowListener& listener);
+
+	/// Bounds the Newton steps of one solve.
+	void limitSteps(int most) { m_maxSteps = most; }
+
+	/// Goes on from the run on the half of this double, which has ended: counts its steps, and starts
+	/// from its metric if that is \p solved.
+	void goOnFrom(const FlowRun& half, bool solved);
 
 	/// Runs the flow, at the end in extended precision where rounding calls for it.
 	/// \return whether the target is reached
@@ -84,18 +63,12 @@ public:
 	/// \pre the target is not circular
 	bool solveRoughly(double epsilon);
 
-	/// Newton steps so far, those before this run included.
-	int iterations() const { return m_result.iterations; }
-
-	/// Arcs of a circular boundary.
-	const std::vector<double>& arcs() const { return m_arcs; }
-
-	/// Logarithmic conformal factor at the surface's vertices, end less start.
-	VertexVector factor() const { return (m_result.u - m_startU).head(m_problem.vertexCount); }
-
 	/// Whether a boundary edge would have to flip in the double: the circle of its triangle extends
 	/// beyond it.
 	bool bendsAtBoundary() const;
+
+	/// Frees what only solving needs.
+	void end();
 
 	/// What the flow found, moved out: no other function may be called afterwards.
 	FlowResult result();
@@ -104,10 +77,10 @@ public:
 	NotConverged failure() const;
 
 private:
-	CirclePacking takeStart();
-	template<class Geometry>
-	std::shared_ptr<CurvatureMap> makeMap(CirclePacking packing) const;
-	VertexVector startU(const IntrinsicMesh& mesh, const VertexArray<double>& radii) const;
+	FlowRun(const FlowOptions& options, const FlowListener& listener);
+	void begin(const EmbeddedSurface& surface);
+	std::shared_ptr<CurvatureMap> makeMap(CirclePacking packing, bool isExtended) const;
+	VertexVector startU() const;
 	NewtonResult solveOnCircle();
 	NewtonResult solveFor(
 		double epsilon,
@@ -120,18 +93,24 @@ private:
 	std::vector<double> presentLoopLengths() const;
 	NotConverged withState(NotConverged error) const;
 
-	Background m_background;
-	FlowProblem m_problem; // the history takes over its input and start where edges flip
 	const FlowOptions& m_options;
 	const FlowListener& m_listener;
 	NewtonSolver::Surgeon m_surgeon;
-	FlowResult m_result;
+	FlowResult m_result;          // its target is that on the double, if there is one
+	VertexArray<Vertex> m_mirror; // [vertex of a double] its image; empty on the surface
+	int m_vertexCount = 0;        // of the surface, whose numbers are the lowest in its double
+	int m_maxSteps = NewtonOptions().maxIterations;
 	VertexVector m_startU;
 	std::shared_ptr<CurvatureMap> m_map;
 	std::vector<Edge> m_flipsBefore; // those of the map in double, once the map is an extended one
 	std::unique_ptr<NewtonSolver> m_newton;
 	NewtonResult m_solved;
-	std::vector<double> m_arcs; // of a circular boundary
+
+	// Of a circular target: the boundary's vertices in order, the edge from each one to the next, the
+	// lengths of these edges before the flow, and the arcs of the solution.
+	std::vector<Vertex> m_loop;
+	std::vector<Edge> m_loopEdges;
+	std::vector<double> m_loopLengths, m_arcs;
 };
 
 } // namespace ricci

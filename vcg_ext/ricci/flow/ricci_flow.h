@@ -19,25 +19,9 @@ namespace ricci {
 InitialPacking initialPacking(
 	const EmbeddedSurface& surface, const FlowOptions& options);
 
-/// The flow with intrinsic flips: what leads from the input's triangles to those of the result.
-struct FlipHistory
-{
-	Triangulation input;            ///< the surface, or its double
-	IntrinsicMesh start;            ///< the input's metric on the triangulation of the first step
-	EdgeArray<double> startDelta;   ///< [edge of start] inversive distance less one
-	VertexArray<double> startRadii; ///< Euclidean, in the input's metric
-	std::vector<Edge> startFlips;   ///< from the input's triangulation to the start's, in order
-	std::vector<Edge> flowFlips;    ///< from the start's triangulation to the last, in order
-	double lengthened = 0.0;        ///< added to every edge of a degenerate mesh, see mollify()
-
-	int flips() const { return static_cast<int>(startFlips.size() + flowFlips.size()); }
-};
-
 /// The metric of constant curvature (with cones) that the flow found on one connected surface.
 struct FlowResult
 {
-	Background background = Background::EuclideanPlane;
-
 	/// Triangulation, lengths and angles at the end; of the double of the surface if doubled.
 	std::shared_ptr<const CurvatureMap> metric;
 	bool doubled = false;
@@ -50,7 +34,13 @@ struct FlowResult
 	double floor = 0.0;     ///< what rounding lets the residual reach
 	int iterations = 0;
 	CholeskyWork work;   ///< of the linear solver, on the surface the result is from
-	FlipHistory history; ///< Method::IntrinsicFlips only
+
+	// What leads from the input's triangles to those of the result:
+	Triangulation input;     ///< the surface, or its double
+	InitialPacking start;    ///< of the input
+	std::vector<Edge> flips; ///< from the start's triangulation to the last, in order
+
+	int flipCount() const { return static_cast<int>(start.flips.size() + flips.size()); }
 };
 
 /// Gets the number of Newton steps so far and the residual before each step; may throw to cancel.
@@ -58,7 +48,7 @@ using FlowListener = std::function<void(int, double)>;
 
 /// Runs the flow from \p start, the initial packing of \p surface, to \p target.
 ///
-/// The start is the same in both backgrounds: the Euclidean inversive distances, which have no
+/// The start is the same in both backgrounds of \p target: the Euclidean inversive distances, which have no
 /// scale, on the weighted Delaunay triangulation of the flat triangles. So the Euclidean and the
 /// hyperbolic flow find metrics of one discrete conformal class. The hyperbolic start has about
 /// the area that Gauss-Bonnet gives to the target, sum K - 2 pi chi, which must be positive; where u
@@ -72,7 +62,6 @@ using FlowListener = std::function<void(int, double)>;
 /// \param surgeon see NewtonSolver; for Method::EdgeSwaps
 /// \throw NotConverged if the target is not reached within the options' limits
 FlowResult runRicciFlow(
-	Background background,
 	const EmbeddedSurface& surface,
 	InitialPacking start,
 	const Target& target,

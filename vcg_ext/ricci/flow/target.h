@@ -3,6 +3,7 @@
 #define RICCI_TARGET_H
 
 #include "../base/numbers.h"
+#include "../options.h"
 #include "../surface/elements.h"
 
 #include <algorithm>
@@ -17,13 +18,14 @@ namespace ricci {
 /// A target curvature that Gauss-Bonnet allows.
 struct Target
 {
+	Background background = Background::EuclideanPlane;
 	VertexVector curvature;  ///< radians; meaningless where fixed
 	VertexArray<char> fixed; ///< 1 where u keeps its value (free boundary, du = 0 in paper 5.3)
 	bool circular = false;   ///< boundary curvature to be adapted to a round disk
 	std::optional<std::array<Vertex, 4>> corners; ///< of a rectangle, in boundary order
 	std::optional<double> maxSpread; ///< of the logarithm of the area factor, where the target was
 									 ///< chosen to keep areas
-	bool quarterTurns = false;       ///< cones were placed with multiples of pi / 2
+	bool isSeamless = false;         ///< cones were placed with multiples of pi / 2
 	std::vector<std::string> notes;  ///< what was chosen, in sentences
 
 	bool hasFixed() const { return std::find(fixed.begin(), fixed.end(), 1) != fixed.end(); }

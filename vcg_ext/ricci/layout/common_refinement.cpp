@@ -32,7 +32,7 @@ opened(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& 
 		for (const Edge e : t.edges())
 			if (t.isBoundary(e))
 				open[e] = 1;
-	open.resize(flow.history.input.edgeCount(), 0); // the surface's edges come first
+	open.resize(flow.input.edgeCount(), 0); // the surface's edges come first
 	return open;
 }
 
@@ -105,7 +105,7 @@ private:
 	{
 		const EndSheets sheets = makeSheets(m_linked, m_flow, m_isCut);
 		const EdgeArray<char> noCut(sheets.triangulation.edgeCount(), 0);
-		if (m_flow.background == Background::EuclideanPlane)
+		if (m_flow.target.background == Background::EuclideanPlane)
 			placeInPlane(
 				sheets, layOutInPlane(sheets.triangulation, sheets.lengths, sheets.angles, noCut));
 		else {
@@ -279,7 +279,7 @@ private:
 			for (int i = 0; i < pieces.size(p); ++i) {
 				const Halfedge h = pieces(p, i).inputCorner;
 				// In a piece of a face that is kept it is a halfedge of the surface, and the same one.
-				if (h.isValid() && !m_flow.history.input.isExterior(h))
+				if (h.isValid() && !m_flow.input.isExterior(h))
 					layout.points[layout.wedges.of[h]] = m_point[pieces.corner(p, i)];
 			}
 	}
@@ -308,7 +308,7 @@ LinkedPieces overlayOf(const FlowDomain& domain, const FlowResult& flow)
 	const Triangulation& end = flow.metric->triangulation();
 	requireOverlayMemory(static_cast<std::size_t>(pieces.nodes.size() - end.vertexCount()), true);
 	return linkPieces(
-		std::move(pieces), flow.history.input, end, domain.surface.triangulation.faceCount());
+		std::move(pieces), flow.input, end, domain.surface.triangulation.faceCount());
 }
 
 CommonRefinement commonRefinement(

@@ -24,10 +24,10 @@ cutOnEnd(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>
 	for (const Edge e : t.edges())
 		if (t.isBoundary(e))
 			isCurve[e] = 1;
-	isCurve.resize(flow.history.input.edgeCount(), 0); // the surface's edges come first
-	NormalCoordinates cut(flow.history.input, isCurve);
+	isCurve.resize(flow.input.edgeCount(), 0); // the surface's edges come first
+	NormalCoordinates cut(flow.input, isCurve);
 	std::size_t done = 0;
-	for (const std::vector<Edge>* flips : {&flow.history.startFlips, &flow.history.flowFlips})
+	for (const std::vector<Edge>* flips : {&flow.start.flips, &flow.flips})
 		for (const Edge e : *flips) {
 			checkpointNowAndThen(done++);
 			cut.flip(e);
@@ -249,7 +249,7 @@ private:
 
 bool hasFlips(const FlowResult& flow)
 {
-	return flow.history.input.faceCount() > 0;
+	return flow.input.faceCount() > 0;
 }
 
 } // namespace

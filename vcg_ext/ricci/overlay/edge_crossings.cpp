@@ -141,11 +141,11 @@ private:
 } // namespace
 
 EdgeCrossings::EdgeCrossings(const FlowResult& flow) :
-		inputOnStart(flow.history.input), endOnStart(flow.metric->triangulation()), m_flow(flow),
-		m_start(flow.history.start.triangulation)
+		inputOnStart(flow.input), endOnStart(flow.metric->triangulation()), m_flow(flow),
+		m_start(flow.start.mesh.triangulation)
 {
-	const std::vector<Edge>& flowFlips = flow.history.flowFlips;
-	for (const Edge e : flow.history.startFlips)
+	const std::vector<Edge>& flowFlips = flow.flips;
+	for (const Edge e : flow.start.flips)
 		inputOnStart.flip(e);
 	for (auto e = flowFlips.rbegin(); e != flowFlips.rend(); ++e)
 		endOnStart.unflip(*e);
@@ -191,7 +191,7 @@ void EdgeCrossings::placeInputCrossings()
 		const Curve& curve = inputCurves[e];
 		if (curve.crossings.empty())
 			continue;
-		unfold(m_start, m_flow.history.start.lengths, curve, strip);
+		unfold(m_start, m_flow.start.mesh.lengths, curve, strip);
 		const Point2 last = strip.end;
 		const double size2 = dot(last, last);
 		double before = 0.0; // share of the crossing before on the input edge
@@ -226,7 +226,7 @@ bool EdgeCrossings::placeOnEndEdge(Edge e)
 	using std::abs;
 	const Curve& curve = endCurves[e];
 	const std::size_t n = curve.crossings.size();
-	const CarriedFunctions<Real> functions(m_start, m_flow.history.startDelta, curve);
+	const CarriedFunctions<Real> functions(m_start, m_flow.start.delta, curve);
 	const auto& first = functions.values[0];
 	const auto& second = functions.values[1];
 	const auto& atA = functions.values[2];

@@ -29,8 +29,9 @@ VertexArray<double> radiiAtEnd(const FlowResult& flow)
 {
 	VertexArray<double> radius(flow.u.size());
 	for (const Vertex v : radius.indices())
-		radius[v] = flow.background == Background::EuclideanPlane ? Euclidean::circle(flow.u[v]).s
-																  : Hyperbolic::circle(flow.u[v]).s;
+		radius[v] = flow.target.background == Background::EuclideanPlane
+						? Euclidean::circle(flow.u[v]).s
+						: Hyperbolic::circle(flow.u[v]).s;
 	return radius;
 }
 
@@ -64,8 +65,7 @@ class InputLocator
 {
 public:
 	InputLocator(const FlowResult& flow, const EdgeCrossings& crossings) :
-			m_input(flow.history.input), m_start(flow.history.start.triangulation),
-			m_crossings(crossings)
+			m_input(flow.input), m_start(flow.start.mesh.triangulation), m_crossings(crossings)
 	{
 	}
 
@@ -120,9 +120,8 @@ class EndLocator
 {
 public:
 	EndLocator(const FlowResult& flow, const EdgeCrossings& crossings) :
-			m_start(flow.history.start.triangulation), m_end(flow.metric->triangulation()),
-			m_startRadius(flow.history.startRadii), m_endRadius(radiiAtEnd(flow)),
-			m_crossings(crossings)
+			m_start(flow.start.mesh.triangulation), m_end(flow.metric->triangulation()),
+			m_startRadius(flow.start.radii), m_endRadius(radiiAtEnd(flow)), m_crossings(crossings)
 	{
 	}
 
@@ -276,7 +275,7 @@ SurfacePoint pointOfEdge(const Triangulation& t, Edge e, double share)
 StartEdgeNodes::StartEdgeNodes(
 	const FlowResult& flow, const EdgeCrossings& crossings, Array<OverlayNode>& nodes)
 {
-	const Triangulation& start = flow.history.start.triangulation;
+	const Triangulation& start = flow.start.mesh.triangulation;
 	const InputLocator input(flow, crossings);
 	const EndLocator end(flow, crossings);
 	m_vertexCount = start.vertexCount();

@@ -44,7 +44,7 @@ class PieceMaker
 {
 public:
 	explicit PieceMaker(const FlowResult& flow) :
-			m_input(flow.history.input), m_start(flow.history.start.triangulation),
+			m_input(flow.input), m_start(flow.start.mesh.triangulation),
 			m_end(flow.metric->triangulation()), m_crossings(flow),
 			m_edgeNodes(flow, m_crossings, m_result.nodes)
 	{

@@ -180,7 +180,7 @@ void append(
 	report.maxCurvatureError = std::max(report.maxCurvatureError, map.flow.residual);
 	report.residualFloor = std::max(report.residualFloor, map.flow.floor);
 	report.brokenTriangles += map.flow.metric->brokenTriangles();
-	report.flips += map.flow.history.flips();
+	report.flips += map.flow.flipCount();
 	report.finishMoved += map.finishMoved;
 	report.edgeSwaps += map.edgeSwaps;
 	report.boundarySplits += map.boundarySplits;

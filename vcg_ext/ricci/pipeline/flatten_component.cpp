@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten_component.h"
 
+#include "../base/attempt.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
 #include "../base/text.h"
@@ -12,13 +13,13 @@
 #include "../layout/hyperbolic_layout.h"
 #include "../measure/distortion.h"
 #include "../measure/invariants.h"
+#include "../seamless/make_seamless.h"
 #include "../surface/flow_domain.h"
 #include "../verify/flow_check.h"
 #include "../verify/holonomy_check.h"
 #include "../verify/result_check.h"
 #include "assemble.h"
 #include "keep_areas.h"
-#include "round_turns.h"
 #include "stages.h"
 
 #include <algorithm>
@@ -34,16 +35,6 @@ namespace {
 constexpr double kWideRadius = 12.0;
 
 // What differs by geometry.
-
-constexpr Background backgroundOf(const Options&)
-{
-	return Background::EuclideanPlane;
-}
-
-constexpr Background backgroundOf(const HyperbolicOptions&)
-{
-	return Background::HyperbolicPlane;
-}
 
 Holes holesOf(const Options& options)
 {
@@ -93,12 +84,34 @@ Target chooseTarget(
 	return chooseHyperbolicTarget(domain.surface.topology, options, input);
 }
 
-/// Neither areas nor quarter turns play a part in the hyperbolic plane.
+/// Neither areas nor seamless maps play a part in the hyperbolic plane.
 void keepAreas(const EmbeddedSurface&, const TargetInput&, const HyperbolicOptions&, ComponentMap&)
 {
 }
 
-void roundLoopTurns(
+/// makeSeamless() as the options say.
+void makeSeamless(
+	const EmbeddedSurface& surface,
+	const TargetRequest& request,
+	const Options& options,
+	ComponentMap& map)
+{
+	if (options.method != Method::IntrinsicFlips)
+		return;
+	const FlowTo flowTo = [&](const Target& target) {
+		return attempt([&] {
+			return flowAgain(surface, initialPacking(surface, options), target, options, map);
+		});
+	};
+	const HolonomyRounding done = makeSeamless(surface, request, options.epsilon, flowTo, map.flow);
+	if (done.before > 0.0)
+		logLine(
+			"The rotations across seams are up to " + numberText(done.before, 3) +
+			" from a multiple of a quarter turn, and " + numberText(done.after, 3) +
+			" once the metric has changed.");
+}
+
+void makeSeamless(
 	const EmbeddedSurface&, const TargetInput&, const HyperbolicOptions&, ComponentMap&)
 {
 }
@@ -341,11 +354,10 @@ flatten(const Component& component, const VertexInput& input, const AnyOptions& 
 		logLine(note);
 	FlowProgress flowProgress(options.epsilon, map.flowStates);
 	advance(0.0, "Solving for the metric");
-	map.flow = runRicciFlow(
-		backgroundOf(options), domain.solved(), std::move(start), target, options, flowProgress);
-	measurePeriods(domain.surface, map);
+	map.flow = runRicciFlow(domain.solved(), std::move(start), target, options, flowProgress);
+	measurePeriods(map);
 	keepAreas(domain.solved(), request, options, map);
-	roundLoopTurns(domain.solved(), request, options, map);
+	makeSeamless(domain.solved(), request, options, map);
 	logFlow(map.flow, options);
 
 	advance(1.0 - kAfterFlow, "Cutting and layout");

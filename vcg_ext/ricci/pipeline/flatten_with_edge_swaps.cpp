@@ -69,7 +69,7 @@ flattenWithEdgeSwaps(const Component& component, const VertexInput& input, const
 	map.flow = std::move(swapped.flow);
 	map.edgeSwaps = swapped.swaps;
 	map.boundarySplits = swapped.mesh.splits();
-	measurePeriods(surface, map);
+	measurePeriods(map);
 
 	advance(1.0 - kAfterFlow, "Cutting and layout");
 	const CurvatureMap& metric = *map.flow.metric;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "keep_areas.h"
 
+#include "../base/attempt.h"
 #include "../base/task.h"
 #include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../curvature/area_change.h"
+#include "../flow/improve.h"
 #include "stages.h"
 
 #include <optional>
@@ -39,31 +41,27 @@ void keepAreas(
 {
 	FlowResult& best = map.flow;
 	std::optional<FlowResult> last; // where it is not the best
-	int steps = best.iterations;
-	int round = 0;
-	for (int vain = 0; round < kMaxRounds && vain < kMaxVainRounds; ++round) {
+	const auto propose = [&]() -> std::optional<FlowResult> {
 		const FlowResult& before = last ? *last : best;
 		if (keepsAreas(surface, before))
-			break; // without the cost of another start
-		std::optional<FlowResult> next = flowAgain(
-			surface,
-			options,
-			[&](const MakeStart& start) {
-				return targetToKeepAreas(surface, start(), before, request);
-			},
-			steps,
-			map.flowStates);
-		if (!next)
-			break;
-		steps += next->iterations;
-		const double spread = *next->target.maxSpread;
-		const bool isBest = areaExcess(surface, *next, spread) <= areaExcess(surface, best, spread);
+			return std::nullopt; // without the cost of another start
+		return attempt([&] {
+			InitialPacking start = initialPacking(surface, options);
+			const Target target = targetToKeepAreas(surface, start, before, request);
+			return flowAgain(surface, std::move(start), target, options, map);
+		});
+	};
+	const auto take = [&](FlowResult next) {
+		const double spread = *next.target.maxSpread;
+		const bool isBest = areaExcess(surface, next, spread) <= areaExcess(surface, best, spread);
+		last.reset();
 		if (isBest)
-			best = std::move(*next);
-		last = isBest ? std::nullopt : std::move(next);
-		vain = isBest ? 0 : vain + 1;
-	}
-	best.iterations = steps;
+			best = std::move(next);
+		else
+			last = std::move(next);
+		return isBest;
+	};
+	const int round = improve(best, kMaxRounds, kMaxVainRounds, propose, take);
 	if (round > 0) {
 		const AreaChange change = areaChange(surface, best);
 		logLine(

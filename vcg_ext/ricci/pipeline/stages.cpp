@@ -58,11 +58,11 @@ TargetRequest targetRequest(
 
 void logFlow(const FlowResult& flow, const FlowOptions& options)
 {
-	if (flow.history.lengthened > 0.0)
+	if (flow.start.lengthened > 0.0)
 		logLine(
 			"Some faces have no area, or one side a million times shorter than another: the flow "
 			"sees every edge longer by " +
-			numberText(flow.history.lengthened, 3) + ".");
+			numberText(flow.start.lengthened, 3) + ".");
 	if (flow.residual >= options.epsilon)
 		logLine(
 			"The residual asked for is below what rounding allows: the curvature is reached to " +
@@ -125,40 +125,21 @@ double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)
 	return length;
 }
 
-std::optional<FlowResult> flowAgain(
+FlowResult flowAgain(
 	const EmbeddedSurface& surface,
+	InitialPacking start,
+	const Target& target,
 	const Options& options,
-	const std::function<std::optional<Target>(const MakeStart&)>& chooseTarget,
-	int steps,
-	std::vector<FlowState>& states)
+	ComponentMap& map)
 {
+	for (const std::string& note : target.notes)
+		logLine(note);
 	advance(0.0, "Solving for the metric");
-	try {
-		std::optional<InitialPacking> start;
-		const MakeStart makeStart = [&]() -> InitialPacking& {
-			return start ? *start : start.emplace(initialPacking(surface, options));
-		};
-		const std::optional<Target> target = chooseTarget(makeStart);
-		if (!target)
-			return std::nullopt;
-		for (const std::string& note : target->notes)
-			logLine(note);
-		FlowProgress flowProgress(options.epsilon, states);
-		return runRicciFlow(
-			Background::EuclideanPlane,
-			surface,
-			std::move(makeStart()),
-			*target,
-			options,
-			[&](int step, double residual) { flowProgress(steps + step, residual); },
-			nullptr);
-	}
-	catch (const Stopped&) {
-		throw;
-	}
-	catch (const Error&) {
-		return std::nullopt;
-	}
+	FlowProgress flowProgress(options.epsilon, map.flowStates);
+	const int steps = map.flow.iterations;
+	return runRicciFlow(surface, std::move(start), target, options, [&](int step, double residual) {
+		flowProgress(steps + step, residual);
+	});
 }
 
 void turnUpright(double scale, ComponentMap& map)
@@ -199,22 +180,19 @@ void conformalInvariants(const Triangulation& t, ComponentMap& map)
 		map.rectangleAspect = rectangleAspect(t, map.layout, *target.corners);
 }
 
-void measurePeriods(const EmbeddedSurface& surface, ComponentMap& map)
+void measurePeriods(ComponentMap& map)
 {
 	if (map.type.boundaryLoops > 0 || map.type.genus < 1 || map.type.genus > kMaxPeriodGenus)
 		return;
-	const IntrinsicMesh& start = map.flow.history.start; // without flips there is none
-	const bool flips = start.triangulation.edgeCount() > 0;
 	advance(0.0, "Period matrix");
-	map.periods = periodMatrix(
-		flips ? start.triangulation : surface.triangulation,
-		flips ? start.lengths : surface.lengths);
+	const IntrinsicMesh& start = map.flow.start.mesh;
+	map.periods = periodMatrix(start.triangulation, start.lengths);
 }
 
 bool isBent(const ComponentMap& map, OutputTriangulation output)
 {
 	return output == OutputTriangulation::KeepMesh &&
-		   (map.flow.history.flips() > 0 || map.flow.doubled || map.edgeSwaps > 0 ||
+		   (map.flow.flipCount() > 0 || map.flow.doubled || map.edgeSwaps > 0 ||
 			map.boundarySplits > 0);
 }
 

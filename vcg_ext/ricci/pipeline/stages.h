@@ -71,19 +71,14 @@ flowOverlay(const FlowDomain& domain, const FlowOptions& options, const Componen
 /// commonRefinement() of the map.
 CommonRefinement refine(const FlowDomain& domain, const ComponentMap& map, LinkedPieces overlay);
 
-/// Gives a flow's start, made when it is first called.
-using MakeStart = std::function<InitialPacking&()>;
-
-/// One more flow of a component in the plane, from a new start.
-/// \param chooseTarget none where there is nothing to gain
-/// \param steps Newton steps that the component has taken before
-/// \return none without a target, and where the flow fails: the metrics that are there are valid
-std::optional<FlowResult> flowAgain(
+/// One more flow of a component in the plane, on the surface of map.flow, whose steps it goes on to count.
+/// \throw as runRicciFlow()
+FlowResult flowAgain(
 	const EmbeddedSurface& surface,
+	InitialPacking start,
+	const Target& target,
 	const Options& options,
-	const std::function<std::optional<Target>(const MakeStart&)>& chooseTarget,
-	int steps,
-	std::vector<FlowState>& states);
+	ComponentMap& map);
 
 /// Scales the layout by \p scale and turns it so that its smallest bounding rectangle lies along the
 /// axes, from the origin.
@@ -98,7 +93,7 @@ void conformalInvariants(const Triangulation& t, ComponentMap& map);
 
 /// The period matrix of a closed surface of genus 1 to kMaxPeriodGenus, in the metric of the mesh, on the
 /// triangulation at the start of the flow.
-void measurePeriods(const EmbeddedSurface& surface, ComponentMap& map);
+void measurePeriods(ComponentMap& map);
 
 /// Whether straight faces of the component may turn round in the map although it is right: flips,
 /// swaps and splits bend their edges.

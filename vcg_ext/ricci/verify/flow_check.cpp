@@ -21,7 +21,7 @@ void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary)
 		if (!flow.target.fixed[v])
 			target[v] = flow.target.curvature[v] * (flow.doubled && boundary[v] ? 2.0 : 1.0);
 	const MetricCheck check = checkMetric(
-		flow.background,
+		flow.target.background,
 		metric.triangulation(),
 		metric.delta(),
 		flow.u,

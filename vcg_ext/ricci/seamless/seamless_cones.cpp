@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "turn_search.h"
+#include "seamless_cones.h"
 
 #include "../base/numbers.h"
 #include "../base/task.h"
+#include "../curvature/area_change.h"
+#include "../curvature/cone_sites.h"
+#include "../curvature/linear_flow.h"
 #include "../math/points.h"
 #include "../metric/area.h"
-#include "area_change.h"
-#include "cone_sites.h"
-#include "linear_flow.h"
 
 #include <Eigen/Cholesky>
 
@@ -48,21 +48,22 @@ struct Move
 	double cost = 0.0; // of areas and cones
 };
 
-class TurnSearch
+class ConeMoves
 {
 public:
-	TurnSearch(
+	ConeMoves(
 		const EmbeddedSurface& surface,
 		const FlowResult& flow,
-		const LoopTurns& turns,
+		const Holonomy& holonomy,
 		const ConeRequest& request,
 		double radius) :
 			m_surface(surface),
-			m_turns(turns), m_sites(surface, request.vertices),
+			m_holonomy(holonomy), m_sites(surface, request.vertices),
 			m_keepsCount(request.count > 0),
 			m_linear(surface, flow, request.boundary, areaShares(surface)),
-			m_units(flow.curvature.size(), 0), m_curvature(flow.curvature), m_errors(turns.errors),
-			m_root(turns.cost.llt().matrixU()), m_area(surfaceArea(surface))
+			m_units(flow.curvature.size(), 0), m_curvature(flow.curvature),
+			m_errors(holonomy.errors), m_root(holonomy.cost.llt().matrixU()),
+			m_area(surfaceArea(surface))
 	{
 		m_radius = radius * std::sqrt(m_area);
 		for (const Vertex v : m_units.indices())
@@ -133,13 +134,16 @@ private:
 			std::count_if(m_units.begin(), m_units.end(), [](int n) { return n != 0; }));
 	}
 
-	double total() const { return turnCost(m_errors) + kAreaCost * m_areas + kConeCost * m_cones; }
+	double total() const
+	{
+		return holonomyCost(m_errors) + kAreaCost * m_areas + kConeCost * m_cones;
+	}
 
 	/// Makes \p moves. \return false, with nothing changed, where the linear problem sees no gain
 	bool apply(const std::vector<Move>& moves)
 	{
 		const double before = total();
-		const double enough = 0.25 * kMinGain * turnCost(m_errors);
+		const double enough = 0.25 * kMinGain * holonomyCost(m_errors);
 		const Eigen::VectorXd errors = m_errors;
 		const auto move = [&](int sign) {
 			for (const Move& m : moves) {
@@ -151,7 +155,7 @@ private:
 			measure();
 		};
 		for (const Move& m : moves)
-			m_errors = wrapped(m_errors + turnChange(m));
+			m_errors = wrapped(m_errors + holonomyChange(m));
 		move(1);
 		if (total() < before - enough)
 			return true;
@@ -160,8 +164,8 @@ private:
 		return false;
 	}
 
-	/// The turns' errors after a change, in coordinates in which their cost is the square of the norm.
-	double turnCost(const Eigen::VectorXd& errors) const
+	/// What the holonomies cost with these errors.
+	double holonomyCost(const Eigen::VectorXd& errors) const
 	{
 		return (m_root * wrapped(errors)).squaredNorm();
 	}
@@ -173,11 +177,11 @@ private:
 		return errors;
 	}
 
-	Eigen::VectorXd turnChange(const Move& move) const
+	Eigen::VectorXd holonomyChange(const Move& move) const
 	{
 		Eigen::VectorXd change(m_errors.size());
 		for (Eigen::Index j = 0; j < change.size(); ++j) {
-			const VertexVector& by = m_turns.byCurvature[std::size_t(j)];
+			const VertexVector& by = m_holonomy.byCurvature[std::size_t(j)];
 			change[j] = kQuarterTurn * move.units * (by[move.to] - by[move.from]);
 		}
 		return change;
@@ -241,14 +245,14 @@ private:
 	/// The move, or the two, with the most gain by the derivatives; empty if there is none.
 	std::vector<Move> best()
 	{
-		const double present = turnCost(m_errors);
+		const double present = holonomyCost(m_errors);
 		const std::vector<Move> all = moves(present);
 		double lowest = (1.0 - kMinGain) * present;
 		std::vector<Move> chosen;
 		for (const Move& move : denserAtStart(all, kMaxTried)) {
 			if (move.cost >= lowest)
 				break;
-			const double cost = move.cost + turnCost(m_errors + turnChange(move));
+			const double cost = move.cost + holonomyCost(m_errors + holonomyChange(move));
 			if (cost < lowest) {
 				lowest = cost;
 				chosen = {move};
@@ -258,7 +262,7 @@ private:
 		std::vector<Eigen::VectorXd> changes;
 		changes.reserve(some.size());
 		for (const Move& move : some)
-			changes.push_back(turnChange(move));
+			changes.push_back(holonomyChange(move));
 		for (std::size_t i = 0; i < some.size(); ++i) {
 			checkpoint();
 			const Eigen::VectorXd first = m_errors + changes[i];
@@ -268,7 +272,7 @@ private:
 				if (some[i].from == some[k].from || some[i].to == some[k].to ||
 					some[i].from == some[k].to || some[i].to == some[k].from)
 					continue;
-				const double cost = some[i].cost + some[k].cost + turnCost(first + changes[k]);
+				const double cost = some[i].cost + some[k].cost + holonomyCost(first + changes[k]);
 				if (cost < lowest) {
 					lowest = cost;
 					chosen = {some[i], some[k]};
@@ -279,30 +283,32 @@ private:
 	}
 
 	const EmbeddedSurface& m_surface;
-	const LoopTurns& m_turns;
+	const Holonomy& m_holonomy;
 	ConeSites m_sites;
 	bool m_keepsCount; // the number of cones was asked for
 	LinearFlow m_linear;
 	VertexArray<int> m_units; // quarter turns of the cones
 	VertexVector m_curvature; // with the present cones
 	VertexVector m_field;     // derivative of half the mean square of the factor by curvature
-	Eigen::VectorXd m_errors; // of the turns, at the present cones
-	Eigen::MatrixXd m_root;   // of the cost of turns
+	Eigen::VectorXd m_errors; // of the holonomies, at the present cones
+	Eigen::MatrixXd m_root;   // of the cost of holonomies
 	double m_area, m_radius, m_areas = 0.0;
 	int m_cones = 0;
 };
 
 } // namespace
 
-double TurnCost::total() const
+double SeamlessCost::total() const
 {
 	return angles + kAreaCost * areas + kConeCost * cones;
 }
 
-TurnCost turnCost(const EmbeddedSurface& surface, const FlowResult& flow, const LoopTurns& turns)
+SeamlessCost
+seamlessCost(const EmbeddedSurface& surface, const FlowResult& flow, const Holonomy& holonomy)
 {
-	TurnCost cost;
-	cost.angles = turns.errors.size() == 0 ? 0.0 : turns.errors.dot(turns.cost * turns.errors);
+	SeamlessCost cost;
+	cost.angles =
+		holonomy.errors.size() == 0 ? 0.0 : holonomy.errors.dot(holonomy.cost * holonomy.errors);
 	const double spread = areaChange(surface, flowFactor(flow)).spread; // of 2 u
 	cost.areas = 0.25 * spread * spread;
 	for (const Vertex v : flow.target.curvature.indices())
@@ -312,16 +318,16 @@ TurnCost turnCost(const EmbeddedSurface& surface, const FlowResult& flow, const 
 	return cost;
 }
 
-std::optional<PlacedCones> conesToRoundTurns(
+std::optional<PlacedCones> seamlessCones(
 	const EmbeddedSurface& surface,
 	const FlowResult& flow,
-	const LoopTurns& turns,
+	const Holonomy& holonomy,
 	const ConeRequest& request,
 	double radius)
 {
-	if (turns.errors.size() == 0)
+	if (holonomy.errors.size() == 0)
 		return std::nullopt;
-	TurnSearch search(surface, flow, turns, request, radius);
+	ConeMoves search(surface, flow, holonomy, request, radius);
 	if (!search.run())
 		return std::nullopt;
 	PlacedCones placed = search.cones();

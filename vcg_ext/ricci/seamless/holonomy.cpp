@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "loop_turns.h"
+#include "holonomy.h"
 
 #include "../math/disjoint_sets.h"
 #include "../math/double_double.h"
@@ -174,7 +174,7 @@ EdgeArray<double> derivativeByLengths(
 	return derivative;
 }
 
-VertexVector turnByCurvature(
+VertexVector holonomyByCurvature(
 	const CurvatureMap& map,
 	const VertexVector& u,
 	FactoredHessian& hessian,

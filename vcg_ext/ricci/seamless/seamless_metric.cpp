@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "quarter_turns.h"
+#include "seamless_metric.h"
 
+#include "../base/attempt.h"
 #include "../base/numbers.h"
 #include "../base/task.h"
-#include "../error.h"
-#include "../math/double_double.h"
 #include "../metric/area.h"
 #include "../metric/euclidean.h"
-#include "loop_turns.h"
+#include "holonomy.h"
 
 #include <Eigen/Cholesky>
 
@@ -25,9 +24,9 @@ namespace {
 
 constexpr double kQuarterTurn = 0.5 * kPi;
 
-/// Turns this near to a multiple of pi / 2 are one, radians: what the sums of some thousand angles
+/// A holonomy this near to a multiple of pi / 2 is one, radians: what the sums of some thousand angles
 /// lose.
-constexpr double kTurnRounding = 1e-12;
+constexpr double kHolonomyRounding = 1e-12;
 
 constexpr int kMaxSteps = 12;
 
@@ -45,7 +44,7 @@ struct Metric
 	NewtonResult solved;
 	std::vector<Edge> flips; ///< since the flow
 	std::vector<FaceLoop> loops;
-	Eigen::VectorXd errors; ///< [loop] turn less the nearest multiple of pi / 2
+	Eigen::VectorXd errors; ///< [loop] holonomy less the nearest multiple of pi / 2
 
 	double error() const { return errors.size() == 0 ? 0.0 : errors.cwiseAbs().maxCoeff(); }
 };
@@ -94,7 +93,7 @@ Areas areasOf(const Metric& metric, const VertexVector& startU)
 	return areas;
 }
 
-/// The derivatives of the turns.
+/// The derivatives of the holonomies.
 struct Derivatives
 {
 	std::vector<VertexVector> curvatures;   // [loop] by those of the target
@@ -104,20 +103,19 @@ struct Derivatives
 	double area = 0.0;                      // in space
 };
 
-class TurnRounder
+class HolonomyRounder
 {
 public:
-	TurnRounder(const FlowResult& flow, double epsilon) :
-			m_flow(flow), m_epsilon(epsilon),
-			m_startU(flow.u - flowFactor(flow))
+	HolonomyRounder(const FlowResult& flow, double epsilon) :
+			m_flow(flow), m_epsilon(epsilon), m_startU(flow.u - flowFactor(flow))
 	{
 	}
 
-	/// Goes from \p metric to the one of which the turns are multiples of pi / 2, as far as Newton's
-	/// method gets there.
+	/// Goes from \p metric to the one of which the holonomies are multiples of pi / 2, as far as
+	/// Newton's method gets there.
 	void solve(Metric& metric) const
 	{
-		for (int step = 0; step < kMaxSteps && metric.error() > kTurnRounding; ++step) {
+		for (int step = 0; step < kMaxSteps && metric.error() > kHolonomyRounding; ++step) {
 			std::optional<Metric> next = searchAlong(metric, direction(metric));
 			if (!next)
 				return;
@@ -136,8 +134,8 @@ public:
 		for (const FaceLoop& loop : metric.loops) {
 			checkpoint();
 			HalfedgeArray<double> corners = turnedCorners(t, loop);
-			by.curvatures.push_back(turnByCurvature(map, metric.u, hessian, corners));
-			// A length also changes curvatures, which u takes back, and with it the turn.
+			by.curvatures.push_back(holonomyByCurvature(map, metric.u, hessian, corners));
+			// A length also changes curvatures, which u takes back, and with them the holonomy.
 			for (const Halfedge h : t.interiorHalfedges())
 				corners[h] += by.curvatures.back()[t.origin(h)];
 			by.lengths.push_back(derivativeByLengths(t, corners, map.angles()));
@@ -224,29 +222,20 @@ private:
 			if (!(packing.delta[e] >= 0.0))
 				return std::nullopt;
 		}
-		std::shared_ptr<CurvatureMap> next;
-		if (map.precision() < std::numeric_limits<double>::epsilon())
-			next = std::make_shared<FlippingCurvatureMap<EuclideanGeometry<DoubleDouble>>>(
-				std::move(packing));
-		else
-			next = std::make_shared<FlippingCurvatureMap<Euclidean>>(std::move(packing));
+		const bool isExtended = map.precision() < std::numeric_limits<double>::epsilon();
+		const std::shared_ptr<CurvatureMap> next =
+			curvatureMap(std::move(packing), Background::EuclideanPlane, true, isExtended);
 		Metric result;
 		result.u = metric.u;
-		try {
-			NewtonSolver newton(*next, m_flow.target.fixed);
-			result.solved = newton.solve(
-				result.u, m_flow.target.curvature, {m_epsilon}, [&](int, double) {
+		const std::optional<NewtonResult> solved = attempt([&] {
+			return NewtonSolver(*next, m_flow.target.fixed)
+				.solve(result.u, m_flow.target.curvature, {m_epsilon}, [&](int, double) {
 					checkpoint();
 				});
-		}
-		catch (const Stopped&) {
-			throw;
-		}
-		catch (const Error&) {
+		});
+		if (!solved || !solved->converged || next->brokenTriangles() > 0)
 			return std::nullopt;
-		}
-		if (!result.solved.converged || next->brokenTriangles() > 0)
-			return std::nullopt;
+		result.solved = *solved;
 		result.flips = metric.flips;
 		result.loops = metric.loops;
 		Triangulation t = map.triangulation();
@@ -256,7 +245,7 @@ private:
 		}
 		result.errors = errorsOf(*next, result.loops);
 		next->releaseWorkSpace();
-		result.map = std::move(next);
+		result.map = next;
 		return result;
 	}
 
@@ -267,14 +256,14 @@ private:
 
 } // namespace
 
-LoopTurns loopTurns(const FlowResult& flow)
+Holonomy holonomy(const FlowResult& flow)
 {
 	const Metric metric = metricOf(flow);
-	LoopTurns result;
+	Holonomy result;
 	result.errors = metric.errors;
 	if (result.errors.size() == 0)
 		return result;
-	Derivatives by = TurnRounder(flow, 0.0).derivatives(metric);
+	Derivatives by = HolonomyRounder(flow, 0.0).derivatives(metric);
 	result.byCurvature = std::move(by.curvatures);
 	// A metric that changes by h has the Beltrami coefficient mu with |h|^2 = 8 |mu|^2.
 	const Eigen::Index n = result.errors.size();
@@ -282,14 +271,14 @@ LoopTurns loopTurns(const FlowResult& flow)
 	return result;
 }
 
-TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options)
+HolonomyRounding roundHolonomy(FlowResult& flow, double epsilon)
 {
-	TurnRounding result;
+	HolonomyRounding result;
 	if (flow.doubled)
 		return result;
 	Metric metric = metricOf(flow);
 	result.before = metric.error();
-	TurnRounder(flow, options.epsilon).solve(metric);
+	HolonomyRounder(flow, epsilon).solve(metric);
 	result.after = metric.error();
 	if (metric.map == flow.metric)
 		return result;
@@ -299,8 +288,7 @@ TurnRounding roundTurns(FlowResult& flow, const FlowOptions& options)
 	flow.floor = metric.solved.floor;
 	flow.curvature = flow.metric->curvature();
 	flow.area = euclideanArea(flow.metric->triangulation(), flow.metric->lengths());
-	flow.history.flowFlips.insert(
-		flow.history.flowFlips.end(), metric.flips.begin(), metric.flips.end());
+	flow.flips.insert(flow.flips.end(), metric.flips.begin(), metric.flips.end());
 	return result;
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far directions turn on a walk round a loop of a flat metric with cones.
-#ifndef RICCI_LOOP_TURNS_H
-#define RICCI_LOOP_TURNS_H
+// The holonomy of a flat metric with cones: how far directions turn on a walk round a loop.
+#ifndef RICCI_HOLONOMY_H
+#define RICCI_HOLONOMY_H
 
+#include "../flow/curvature_map.h"
+#include "../flow/factored_hessian.h"
 #include "../surface/elements.h"
 #include "../surface/triangulation.h"
-#include "curvature_map.h"
-#include "factored_hessian.h"
 
 #include <vector>
 
@@ -24,9 +24,9 @@ std::vector<FaceLoop> homologyLoops(const Triangulation& t, bool roundHoles);
 void flip(Triangulation& t, std::vector<FaceLoop>& loops, Edge e);
 
 /// The corners round which \p loop turns: 1 where they are on its left, -1 on its right; 0 elsewhere.
-/// The sum of their angles is the turn of the loop, in radians: the angle by which a direction that
+/// The sum of their angles is the holonomy of the loop, in radians: the angle by which a direction that
 /// goes along with the walk has turned against the walk's own. Across a vertex with curvature K it
-/// changes by K, so that loops with one homology have one turn up to sums of curvatures.
+/// changes by K, so that loops of one homology class have one holonomy up to sums of curvatures.
 HalfedgeArray<double> turnedCorners(const Triangulation& t, const FaceLoop& loop);
 
 /// Sum of \p weights times \p angles, both at the halfedges' origins.
@@ -38,12 +38,12 @@ EdgeArray<double> derivativeByLengths(
 	const HalfedgeArray<double>& weights,
 	const HalfedgeArray<double>& angles);
 
-/// [vertex] The derivative of the turn of a loop by the curvature that the flow is to reach there: u
-/// follows the curvature, and the turn follows u. 0 where u is fixed.
+/// [vertex] The derivative of the holonomy of a loop by the curvature that the flow is to reach there: u
+/// follows the curvature, and the holonomy follows u. 0 where u is fixed.
 /// \param corners turnedCorners()
 /// \param u where \p map was evaluated
 /// \param hessian factorised there
-VertexVector turnByCurvature(
+VertexVector holonomyByCurvature(
 	const CurvatureMap& map,
 	const VertexVector& u,
 	FactoredHessian& hessian,

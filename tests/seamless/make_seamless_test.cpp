@@ -47,7 +47,7 @@ SurfaceMesh bentSlab(int genus, int subdivision)
 	return mesh;
 }
 
-Options quarterTurns(Finish finish)
+Options seamless(Finish finish)
 {
 	Options options;
 	options.target = TargetCurvature::PlacedCones;
@@ -71,13 +71,13 @@ void expectCones(const Parametrization& map, int eulerCharacteristic)
 	EXPECT_NEAR(sum, 2 * kPi * eulerCharacteristic, 1e-9);
 }
 
-TEST(RoundLoopTurns, MakesSeamsQuarterTurnsOnEveryGenus)
+TEST(MakeSeamless, RotatesByQuarterTurnsOnEveryGenus)
 {
 	for (int genus = 0; genus <= 5; ++genus)
 		for (const Finish finish : {Finish::Repair, Finish::LeastDistortion}) {
 			SCOPED_TRACE(genus);
 			const SurfaceMesh mesh = bentSlab(genus, 4);
-			const Parametrization map = run(mesh, quarterTurns(finish));
+			const Parametrization map = run(mesh, seamless(finish));
 			EXPECT_LT(seamError(mesh, map), 1e-9);
 			ASSERT_TRUE(map.report.holonomyError);
 			EXPECT_LT(*map.report.holonomyError, 1e-9);
@@ -87,26 +87,26 @@ TEST(RoundLoopTurns, MakesSeamsQuarterTurnsOnEveryGenus)
 		}
 }
 
-TEST(RoundLoopTurns, CostsLittleOfTheAngles)
+TEST(MakeSeamless, CostsLittleOfTheAngles)
 {
-	// On this surface the turns of free cones would be up to an eighth of a turn off.
+	// On this surface the rotations with free cones would be up to an eighth of a turn off.
 	const SurfaceMesh mesh = bentSlab(2, 8);
-	Options free = quarterTurns(Finish::LeastDistortion);
+	Options free = seamless(Finish::LeastDistortion);
 	free.cones.rounding = ConeRounding::Free;
 	const Parametrization before = run(mesh, free);
-	const Parametrization after = run(mesh, quarterTurns(Finish::LeastDistortion));
+	const Parametrization after = run(mesh, seamless(Finish::LeastDistortion));
 	EXPECT_FALSE(before.report.holonomyError);
 	EXPECT_GT(seamError(mesh, before), 0.01);
 	EXPECT_LT(seamError(mesh, after), 1e-9);
 	EXPECT_LT(after.report.qcAreaMean - 1.0, 1.5 * (before.report.qcAreaMean - 1.0));
 }
 
-TEST(RoundLoopTurns, RoundsHolesWithAFreeBoundary)
+TEST(MakeSeamless, RoundsHolesWithAFreeBoundary)
 {
 	for (int genus = 0; genus <= 2; ++genus) {
 		SCOPED_TRACE(genus);
 		const SurfaceMesh mesh = withoutStars(bentSlab(genus, 6), {0, 200, 400});
-		Options options = quarterTurns(Finish::LeastDistortion);
+		Options options = seamless(Finish::LeastDistortion);
 		options.cones.count = 6;
 		const Parametrization map = run(mesh, options);
 		ASSERT_EQ(map.report.boundaryLoops, 3);
@@ -115,10 +115,10 @@ TEST(RoundLoopTurns, RoundsHolesWithAFreeBoundary)
 	}
 }
 
-TEST(RoundLoopTurns, LeavesPrescribedBoundaries)
+TEST(MakeSeamless, LeavesPrescribedBoundaries)
 {
 	const SurfaceMesh mesh = withoutStars(bentSlab(1, 6), {0});
-	Options options = quarterTurns(Finish::LeastDistortion);
+	Options options = seamless(Finish::LeastDistortion);
 	options.freeBoundary = false;
 	options.cones.count = 6;
 	const Parametrization map = run(mesh, options);
@@ -130,10 +130,10 @@ TEST(RoundLoopTurns, LeavesPrescribedBoundaries)
 	EXPECT_NEAR(sum, 2 * kPi * map.report.eulerCharacteristic, 1e-9);
 }
 
-TEST(RoundLoopTurns, AddsNoConesToANumberThatIsAskedFor)
+TEST(MakeSeamless, AddsNoConesToANumberThatIsAskedFor)
 {
 	for (const int count : {4, 7}) {
-		Options options = quarterTurns(Finish::LeastDistortion);
+		Options options = seamless(Finish::LeastDistortion);
 		options.cones.count = count;
 		const SurfaceMesh mesh = bentSlab(2, 4);
 		const Parametrization map = run(mesh, options);
@@ -142,50 +142,52 @@ TEST(RoundLoopTurns, AddsNoConesToANumberThatIsAskedFor)
 	}
 }
 
-TEST(RoundLoopTurns, ChangesNothingOnASphere)
+TEST(MakeSeamless, ChangesNothingOnASphere)
 {
 	const SurfaceMesh mesh = bentSlab(0, 4);
-	const Parametrization map = run(mesh, quarterTurns(Finish::None));
+	const Parametrization map = run(mesh, seamless(Finish::None));
 	// The rotations across a tree of cones are sums of their curvatures.
 	EXPECT_LT(map.report.holonomyError.value_or(1.0), 1e-12);
 }
 
-TEST(RoundLoopTurns, GivesTheSameTwice)
+TEST(MakeSeamless, GivesTheSameTwice)
 {
 	const SurfaceMesh mesh = bentSlab(2, 4);
-	const Options options = quarterTurns(Finish::LeastDistortion);
+	const Options options = seamless(Finish::LeastDistortion);
 	EXPECT_EQ(run(mesh, options).uv, run(mesh, options).uv);
 }
 
-TEST(RoundLoopTurns, HoldsOnTheCommonRefinement)
+TEST(MakeSeamless, HoldsOnTheCommonRefinement)
 {
-	Options options = quarterTurns(Finish::LeastDistortion);
+	Options options = seamless(Finish::LeastDistortion);
 	options.output = OutputTriangulation::CommonRefinement;
 	const Parametrization map = run(bentSlab(2, 4), options);
 	EXPECT_LT(map.report.holonomyError.value_or(1.0), 1e-9);
 	EXPECT_EQ(map.report.flippedFaces, 0);
 }
 
-TEST(RoundLoopTurns, CanBeCancelledAtAnyCall)
+TEST(MakeSeamless, CanBeCancelledAtAnyCall)
 {
 	class Impatient : public Progress
 	{
 	public:
 		bool update(double, const std::string& what) override
 		{
-			return what != "Rounding the turns" || ++calls < last;
+			return what != "Rounding the rotations" || ++calls < last;
 		}
 		int calls = 0, last = 1 << 30;
 	};
 	const SurfaceMesh mesh = bentSlab(1, 4);
 	Impatient patient;
-	heard(patient, [&] { return parametrizeEuclidean(mesh, {}, quarterTurns(Finish::None)); });
+	heard(patient, [&] { return parametrizeEuclidean(mesh, {}, seamless(Finish::None)); });
 	ASSERT_GT(patient.calls, 3);
 	for (int last = 1; last <= patient.calls; last += std::max(1, patient.calls / 8)) {
 		Impatient impatient;
 		impatient.last = last;
 		EXPECT_THROW(
-			heard(impatient, [&] { return parametrizeEuclidean(mesh, {}, quarterTurns(Finish::None)); }), Cancelled);
+			heard(
+				impatient, [&] { return parametrizeEuclidean(mesh, {}, seamless(Finish::None)); }),
+			Cancelled);
 	}
 }
 

@@ -3,7 +3,7 @@
 #include "../support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/flow/loop_turns.h>
+#include <ricci/seamless/holonomy.h>
 #include <ricci/surface/component.h>
 #include <ricci/surface/flow_domain.h>
 
@@ -58,7 +58,7 @@ TEST(HomologyLoops, AreTwoForEachHandleAndOneForEachFurtherHole)
 	}
 }
 
-TEST(TurnOfALoop, IsZeroOnAFlatTorus)
+TEST(HolonomyOfALoop, IsZeroOnAFlatTorus)
 {
 	// The torus as a grid of squares, whatever its image in space.
 	const EmbeddedSurface surface = surfaceOf(torus(3, 1, 9, 7));
@@ -85,16 +85,16 @@ TEST(TurnOfALoop, IsZeroOnAFlatTorus)
 			1e-12);
 }
 
-TEST(TurnOfALoop, IsThatBeforeIsometricFlips)
+TEST(HolonomyOfALoop, IsThatBeforeIsometricFlips)
 {
 	// The loops keep their homotopy class off the vertices.
 	EmbeddedSurface surface = surfaceOf(perforatedSlab(2, 3));
 	Triangulation t = surface.triangulation;
 	EdgeArray<double> lengths = surface.lengths;
 	std::vector<FaceLoop> loops = homologyLoops(t, false);
-	std::vector<double> turns;
+	std::vector<double> holonomies;
 	for (const FaceLoop& loop : loops)
-		turns.push_back(sumOfAngles(turnedCorners(t, loop), anglesOf(t, lengths)));
+		holonomies.push_back(sumOfAngles(turnedCorners(t, loop), anglesOf(t, lengths)));
 	Random random(7);
 	int flips = 0;
 	for (int trial = 0; trial < 2000; ++trial) {
@@ -114,7 +114,8 @@ TEST(TurnOfALoop, IsThatBeforeIsometricFlips)
 	}
 	EXPECT_GT(flips, 100);
 	for (std::size_t i = 0; i < loops.size(); ++i)
-		EXPECT_NEAR(sumOfAngles(turnedCorners(t, loops[i]), anglesOf(t, lengths)), turns[i], 1e-9);
+		EXPECT_NEAR(
+			sumOfAngles(turnedCorners(t, loops[i]), anglesOf(t, lengths)), holonomies[i], 1e-9);
 }
 
 TEST(SumOfAngles, HasTheDerivativeOfDifferences)
