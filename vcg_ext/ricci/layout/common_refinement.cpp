@@ -20,6 +20,7 @@ namespace {
 /// Shares of the work that are done after the division of the start triangles, after the layout.
 constexpr double kDivided = 0.5, kLaidOut = 0.85;
 
+constexpr const char* kOverlay = "Overlay of the two triangulations";
 constexpr const char* kPlacing = "Placing the pieces of the overlay";
 
 /// The edges of the input on which the overlay is open: the cut, and the border of the wanted part.
@@ -301,10 +302,12 @@ private:
 
 LinkedPieces overlayOf(const FlowDomain& domain, const FlowResult& flow)
 {
+	advance(0.0, kOverlay);
 	OverlayPieces pieces = [&] {
 		const Task dividing(0.0, kDivided);
 		return divideStartTriangles(flow);
 	}();
+	advance(kDivided, kOverlay);
 	const Triangulation& end = flow.metric->triangulation();
 	requireOverlayMemory(static_cast<std::size_t>(pieces.nodes.size() - end.vertexCount()), true);
 	return linkPieces(
