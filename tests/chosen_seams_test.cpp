@@ -121,8 +121,8 @@ void expectJoined(const SurfaceMesh& mesh, const Flow::Result& r)
 			 surface.positions[at(t[1])],
 			 surface.positions[at(t[2])]});
 	};
-	for (std::size_t i = 0; i < r.refined.triangles.size(); ++i)
-		area[at(r.refined.inputFace[i])] += areaOf(after, r.refined.triangles[i]);
+	for (const int i : r.mesh.points.indices())
+		area[at(r.mesh.face[i])] += areaOf(after, r.mesh.vertices[i]);
 	for (std::size_t f = 0; f < area.size(); ++f)
 		EXPECT_NEAR(area[f], areaOf(mesh, mesh.triangles[f]), 1e-9);
 }
@@ -211,7 +211,7 @@ TEST(ChosenSeams, UnfoldABoxToItsNet)
 		EXPECT_EQ(r.report.cones, 0);
 		EXPECT_EQ(r.report.seamEdges, 0);
 		expectCounts(mesh, chosen, r.report);
-		expectIsometric(mesh, r.wedgeUV, r.report);
+		expectIsometric(mesh, wedgesOf(r), r.report);
 		if (output == OutputTriangulation::KeepMesh) {
 			EXPECT_EQ(jumps(mesh, r), chosen);
 		}
@@ -250,7 +250,7 @@ TEST(ChosenSeams, AlongAllEdgesLeaveTheTriangles)
 	EXPECT_EQ(r.report.cones, 0);
 	EXPECT_EQ(r.report.seamEdges, 0);
 	expectCounts(mesh, insideEdges(mesh, marks), r.report);
-	expectIsometric(mesh, r.wedgeUV, r.report);
+	expectIsometric(mesh, wedgesOf(r), r.report);
 	EXPECT_EQ(jumps(mesh, r), insideEdges(mesh, marks));
 }
 
@@ -272,7 +272,7 @@ TEST(ChosenSeams, DivideASphereAlongItsEquator)
 		for (std::size_t k = 0; k < 3; ++k)
 			if (const auto e = edge(mesh.triangles[f], k); chosen.count(e) > 0) {
 				EXPECT_NEAR(
-					sideLength(r.wedgeUV[f], k),
+					sideLength(wedgesOf(r)[f], k),
 					distance(mesh.positions[at(e.first)], mesh.positions[at(e.second)]),
 					1e-6);
 			}
@@ -293,7 +293,7 @@ TEST(ChosenSeams, LeaveAPlaneAsItIs)
 	EXPECT_EQ(r.report.boundaryLoops, 2);
 	EXPECT_EQ(r.report.seamEdges, 0);
 	expectCounts(mesh, insideEdges(mesh, marks), r.report);
-	expectIsometric(mesh, r.wedgeUV, r.report);
+	expectIsometric(mesh, wedgesOf(r), r.report);
 }
 
 /// Corners on a seam have two places each: the four of a cylinder that is slit from end to end.
@@ -363,7 +363,7 @@ TEST(ChosenSeams, AreNoHoles)
 				   std::max(p[0], q[0]) <= high;
 		});
 		const auto r = compute(mesh, params, marks);
-		expectIsometric(mesh, r.wedgeUV, r.report);
+		expectIsometric(mesh, wedgesOf(r), r.report);
 		return r.report.cappedHoles;
 	};
 	EXPECT_EQ(count(20.0, 20.0), 2); // none
@@ -380,7 +380,7 @@ TEST(ChosenSeams, AreNoHoles)
 	const auto r = compute(mesh, params, piece);
 	EXPECT_EQ(r.report.components, 2);
 	EXPECT_EQ(r.report.cappedHoles, 2);
-	expectIsometric(mesh, r.wedgeUV, r.report);
+	expectIsometric(mesh, wedgesOf(r), r.report);
 }
 
 TEST(ChosenSeams, DividePiecesOfHyperbolicSurfaces)
@@ -400,7 +400,7 @@ TEST(ChosenSeams, DividePiecesOfHyperbolicSurfaces)
 		EXPECT_EQ(r.report.components, 2);
 		EXPECT_EQ(r.report.genus, 2);
 		EXPECT_EQ(r.report.boundaryLoops, 2);
-		EXPECT_EQ(r.groups.size(), 2u);
+		EXPECT_EQ(r.charts.size(), 2u);
 		expectCounts(mesh, chosen, r.report);
 		// Two tori with a geodesic for a border.
 		EXPECT_NEAR(r.report.hyperbolicArea.value_or(0.0), 4 * kPi, 1e-6);
@@ -459,7 +459,7 @@ TEST(ChosenSeams, DivideEverySheet)
 	EXPECT_EQ(divided.report.chosenSeamEdges, 3);
 	EXPECT_EQ(divided.report.cutNonmanifoldEdges, whole.report.cutNonmanifoldEdges);
 	EXPECT_EQ(divided.report.splitVertices, whole.report.splitVertices);
-	expectIsometric(mesh, divided.wedgeUV, divided.report);
+	expectIsometric(mesh, wedgesOf(divided), divided.report);
 }
 
 /// A Moebius band that is cut across needs no other cut.

@@ -21,7 +21,7 @@ double imTau(const SurfaceMesh& mesh)
 {
 	Options options;
 	options.target = TargetCurvature::Flat; // with cones there would be no modulus
-	const Parametrization flat = run(mesh, options);
+	const FlatResult flat = run(mesh, options);
 	EXPECT_TRUE(flat.report.torusTauIm);
 	EXPECT_NEAR(flat.report.torusTauRe.value_or(1), 0.0, 1e-9);
 	return flat.report.torusTauIm.value_or(0);
@@ -138,7 +138,7 @@ double aspect(const SurfaceMesh& mesh, const std::vector<Point2>& corners)
 	}
 	Options options;
 	options.target = TargetCurvature::Rectangle;
-	const Parametrization flat = run(mesh, options, input);
+	const FlatResult flat = run(mesh, options, input);
 	EXPECT_TRUE(flat.report.rectangleAspect);
 	return flat.report.rectangleAspect.value_or(0);
 }

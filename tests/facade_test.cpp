@@ -132,9 +132,10 @@ TYPED_TEST(Facade, CancellingLeavesTheMeshAsItWas)
 	for (int calls = 1; calls < 8; ++calls) {
 		Listener impatient(calls);
 		EXPECT_THROW(
-			heard(impatient, [&] {
-				return Flow<TypeParam>::Compute(m, onFixedTriangulation<TypeParam>());
-			}), Cancelled);
+			heard(
+				impatient,
+				[&] { return Flow<TypeParam>::Compute(m, onFixedTriangulation<TypeParam>()); }),
+			Cancelled);
 		EXPECT_EQ(contents(m), before);
 	}
 }
@@ -157,7 +158,7 @@ TYPED_TEST(Facade, MatchesTheCore)
 	toVcg(bumpyTorus(12, 8, random), m);
 	const auto par = onFixedTriangulation<TypeParam>();
 	const auto result = compute(m, par);
-	const auto core = run(fromVcg(m), par);
+	const auto core = parametrizeEuclidean(fromVcg(m), {}, par);
 	EXPECT_EQ(result.report.qcMean, core.report.qcMean);
 	EXPECT_EQ(result.report.maxCurvatureError, core.report.maxCurvatureError);
 	EXPECT_EQ(result.report.torusTauIm, core.report.torusTauIm);
@@ -183,7 +184,7 @@ TYPED_TEST(Facade, SixDecimalsTurnNoTriangleRound)
 	par.normalizeUV = true;
 	const auto turnedInText = [&](const auto& map) {
 		int turned = 0;
-		for (auto t : map.wedgeUV) {
+		for (auto t : map.mesh.corners()) {
 			for (auto& p : t)
 				for (auto& x : p) {
 					char text[32];
@@ -234,17 +235,8 @@ TYPED_TEST(Facade, AFinishedMapHasNoTriangleTurnedRoundAsItIsStored)
 template<class Result, class Measure>
 void expectMeasuredAsStored(SurfaceMesh mesh, const Result& result, Measure measure)
 {
-	const bool refined = !result.refined.triangles.empty();
-	if (refined) {
-		std::vector<Point3> places;
-		for (const SurfacePoint& p : result.refined.points)
-			places.push_back(placeOnSurface(p, mesh.positions));
-		mesh = {std::move(places), result.refined.triangles, {}, 0};
-	}
 	Report own;
-	const std::vector<char> reversed(mesh.triangles.size(), 0);
-	const DistortionField field =
-		measure(mesh, refined ? result.refined.uv : result.wedgeUV, reversed, own);
+	const DistortionField field = measure(result.mesh, result.mesh.onSurface(mesh.positions), own);
 	const Report& report = result.report;
 	const auto expectSame = [](double found, double expected) {
 		EXPECT_NEAR(found / expected, 1.0, 1e-6);
@@ -256,7 +248,7 @@ void expectMeasuredAsStored(SurfaceMesh mesh, const Result& result, Measure meas
 	expectSame(report.qcMax, own.qcMax);
 	expectSame(report.areaDistortionMean, own.areaDistortionMean);
 	expectSame(report.areaDistortionSpread, own.areaDistortionSpread);
-	const std::vector<double>& vertexQC = refined ? result.refined.vertexQC : result.vertexQC;
+	const std::vector<double>& vertexQC = result.vertexQC;
 	ASSERT_EQ(vertexQC.size(), field.vertex.size());
 	for (std::size_t v = 0; v < vertexQC.size(); ++v)
 		expectSame(vertexQC[v], field.vertex[v]);
@@ -276,7 +268,10 @@ TYPED_TEST(Facade, DistortionIsMeasuredWhereTheCoordinatesAreStored)
 	const auto result = compute(m, par);
 	EXPECT_GT(result.report.finishMoved, before.finishMoved);
 	EXPECT_NE(result.report.qcMean, before.qcMean);
-	expectMeasuredAsStored(mesh, result, measureDistortion);
+	expectMeasuredAsStored(
+		mesh, result, [](const FlatMesh& map, const std::vector<Point3>& surface, Report& report) {
+			return measureDistortion(map, surface, report);
+		});
 }
 
 /// Turned round the middle of its box, fast there and less and less outwards: faces grow long, and
@@ -305,21 +300,15 @@ TYPED_TEST(Facade, HyperbolicDistortionIsMeasuredWhereTheCoordinatesAreStored)
 	typename Flow<TypeParam>::HyperbolicParams par;
 	par.output = OutputTriangulation::CommonRefinement;
 	const SurfaceMesh mesh = fromVcg(m);
-	const Report before = parametrizeHyperbolic(mesh, {}, par).report;
+	const Report before = runInDisk(mesh, par).report;
 	const auto result = Flow<TypeParam>::ComputeHyperbolic(m, par);
 	EXPECT_GT(result.report.finishMoved, before.finishMoved);
 	EXPECT_NE(result.report.qcMean, before.qcMean);
 	expectMeasuredAsStored(
-		mesh,
-		result,
-		[](const SurfaceMesh& surface,
-		   std::vector<Triangle2> uv,
-		   const std::vector<char>& reversed,
-		   Report& report) {
-			for (Triangle2& triangle : uv) // the disk fills the unit square
-				for (Point2& p : triangle)
-					p = {2 * p[0] - 1, 2 * p[1] - 1};
-			return measureHyperbolicDistortion(surface, uv, reversed, report);
+		mesh, result, [](FlatMesh map, const std::vector<Point3>& surface, Report& report) {
+			for (Point2& p : map.place)
+				p = {2 * p[0] - 1, 2 * p[1] - 1};
+			return measureHyperbolicDistortion(map, surface, report);
 		});
 }
 
@@ -331,10 +320,11 @@ TYPED_TEST(Facade, WritesWedgesQualityAndAttributes)
 	const auto result = compute(m, onFixedTriangulation<TypeParam>());
 	Flow<TypeParam>::WriteWedgeTexCoord(m, result);
 	Flow<TypeParam>::WriteVertexQuality(m, result);
+	const std::vector<Triangle2> wedges = wedgesOf(result);
 	for (std::size_t f = 0; f < m.face.size(); ++f)
 		for (int k = 0; k < 3; ++k) {
-			EXPECT_EQ(m.face[f].cWT(k).U(), static_cast<float>(result.wedgeUV[f][at(k)][0]));
-			EXPECT_EQ(m.face[f].cWT(k).V(), static_cast<float>(result.wedgeUV[f][at(k)][1]));
+			EXPECT_EQ(m.face[f].cWT(k).U(), static_cast<float>(wedges[f][at(k)][0]));
+			EXPECT_EQ(m.face[f].cWT(k).V(), static_cast<float>(wedges[f][at(k)][1]));
 			EXPECT_EQ(m.face[f].cWT(k).N(), 0);
 		}
 	using Scalar = typename TypeParam::ScalarType;
@@ -415,9 +405,9 @@ TYPED_TEST(Facade, DeletedElementsTakeNoPart)
 	const auto a = compute(clean, onFixedTriangulation<TypeParam>());
 	const auto b = compute(dirty, onFixedTriangulation<TypeParam>());
 	EXPECT_EQ(a.report.qcMean, b.report.qcMean);
-	ASSERT_EQ(b.wedgeUV.size(), a.wedgeUV.size() + 4);
-	for (std::size_t f = 0; f < a.wedgeUV.size(); ++f)
-		EXPECT_EQ(a.wedgeUV[f], b.wedgeUV[f + 4]);
+	EXPECT_EQ(a.mesh.corners(), b.mesh.corners());
+	for (const int f : a.mesh.face.indices())
+		EXPECT_EQ(a.mesh.face[f] + 4, b.mesh.face[f]);
 	for (std::size_t v = 0; v < a.u.size(); ++v)
 		EXPECT_EQ(a.u[v], b.u[v + 4]);
 	Flow<TypeParam>::WriteWedgeTexCoord(dirty, b);
@@ -454,7 +444,7 @@ TYPED_TEST(Facade, NormalisedUvsFillTheUnitSquareInOneDirection)
 	auto par = onFixedTriangulation<TypeParam>();
 	auto result = compute(m, par);
 	Point2 high{0, 0};
-	for (const auto& face : result.wedgeUV)
+	for (const auto& face : result.mesh.corners())
 		for (const Point2& p : face)
 			for (std::size_t k = 0; k < 2; ++k) {
 				EXPECT_GE(p[k], 0.0);
@@ -466,7 +456,7 @@ TYPED_TEST(Facade, NormalisedUvsFillTheUnitSquareInOneDirection)
 	par.normalizeUV = false;
 	result = compute(m, par);
 	high = {0, 0};
-	for (const auto& face : result.wedgeUV)
+	for (const auto& face : result.mesh.corners())
 		for (const Point2& p : face)
 			for (std::size_t k = 0; k < 2; ++k)
 				high[k] = std::max(high[k], p[k]);
@@ -496,19 +486,23 @@ TYPED_TEST(Facade, ChartsOfSeveralComponentsDoNotOverlap)
 			const auto result = compute(m, par);
 			EXPECT_EQ(result.report.components, count);
 			std::vector<std::vector<Triangle2>> charts(at(count));
-			for (int c = 0; c < count; ++c)
-				for (int f = first[at(c)]; f < first[at(c + 1)]; ++f) {
-					charts[at(c)].push_back(result.wedgeUV[at(f)]);
-					for (const Point2& p : result.wedgeUV[at(f)])
-						for (std::size_t k = 0; k < 2 && normalize; ++k) {
-							EXPECT_GE(p[k], margin);
-							EXPECT_LE(p[k], 1.0 - margin);
-						}
+			const FlatMesh& flat = result.mesh;
+			for (const int f : flat.points.indices()) {
+				const int c = flat.chart[f];
+				EXPECT_TRUE(first[at(c)] <= flat.face[f] && flat.face[f] < first[at(c + 1)]);
+				charts[at(c)].push_back(flat.at(f));
+			}
+			for (const Point2& p : flat.place)
+				for (std::size_t k = 0; k < 2 && normalize; ++k) {
+					EXPECT_GE(p[k], margin);
+					EXPECT_LE(p[k], 1.0 - margin);
 				}
+			const Sides sides(flat.vertices.values());
+			const auto triangles = flat.trianglesByChart(charts.size());
 			std::vector<Outline> outlines;
 			int overlaps = 0;
 			for (std::size_t c = 0; c < charts.size(); ++c) {
-				outlines.push_back(outlineOf(charts[c]));
+				outlines.push_back(outlineOf(flat, sides, triangles[c]));
 				for (std::size_t d = 0; d < c; ++d)
 					for (const Triangle2& t : charts[c])
 						for (const Triangle2& other : charts[d])
@@ -523,7 +517,7 @@ TYPED_TEST(Facade, ChartsOfSeveralComponentsDoNotOverlap)
 			double scale = 0.0;
 			for (int c = 0; c < count; ++c) {
 				const Triangle& t = read.triangles[at(first[at(c)])];
-				const auto& face = result.wedgeUV[at(first[at(c)])];
+				const Triangle2& face = charts[at(c)].front();
 				const double s = std::hypot(face[0][0] - face[1][0], face[0][1] - face[1][1]) /
 								 distance(read.positions[at(t[0])], read.positions[at(t[1])]);
 				if (c == 0)
@@ -557,7 +551,7 @@ TYPED_TEST(Facade, FlatMeshIsTheLayout)
 	TypeParam m, flat;
 	toVcg(bumpyTorus(12, 8, random), m);
 	const auto result = compute(m, onFixedTriangulation<TypeParam>());
-	Layers<TypeParam>::BuildFlatMesh(m, result, flat);
+	Layers<TypeParam>::BuildFlatMesh(result, flat);
 	ASSERT_EQ(flat.FN(), m.FN());
 	const SurfaceMesh shape = fromVcg(flat);
 	const Triangulation t(flat.VN(), shape.triangles);
@@ -568,10 +562,11 @@ TYPED_TEST(Facade, FlatMeshIsTheLayout)
 		boundary += t.isBoundary(e);
 	EXPECT_EQ(boundary, 2 * result.report.seamEdges);
 	using Scalar = typename TypeParam::ScalarType;
+	const std::vector<Triangle2> wedges = wedgesOf(result);
 	for (std::size_t f = 0; f < shape.triangles.size(); ++f)
 		for (int k = 0; k < 3; ++k) {
-			EXPECT_EQ(flat.face[f].cP(k)[0], static_cast<Scalar>(result.wedgeUV[f][at(k)][0]));
-			EXPECT_EQ(flat.face[f].cP(k)[1], static_cast<Scalar>(result.wedgeUV[f][at(k)][1]));
+			EXPECT_EQ(flat.face[f].cP(k)[0], static_cast<Scalar>(wedges[f][at(k)][0]));
+			EXPECT_EQ(flat.face[f].cP(k)[1], static_cast<Scalar>(wedges[f][at(k)][1]));
 			EXPECT_EQ(flat.face[f].cP(k)[2], Scalar(0));
 		}
 }
@@ -625,7 +620,7 @@ TYPED_TEST(Facade, RefinementKeepsTheSurface)
 	const int vertices = m.VN(), faces = m.FN();
 	Flow<TypeParam>::WriteRefinement(m, result);
 	EXPECT_EQ(m.VN(), vertices + result.report.refinementPoints);
-	EXPECT_EQ(m.FN(), static_cast<int>(result.refined.triangles.size()));
+	EXPECT_EQ(m.FN(), result.mesh.size());
 	EXPECT_GT(m.FN(), faces);
 
 	const double precision = 30 * double(std::numeric_limits<Scalar>::epsilon());
@@ -647,7 +642,7 @@ TYPED_TEST(Facade, RefinementKeepsTheSurface)
 	EXPECT_TRUE(vcg::tri::Allocator<TypeParam>::IsValidHandle(m, u));
 
 	TypeParam flat;
-	Layers<TypeParam>::BuildFlatMesh(m, result, flat);
+	Layers<TypeParam>::BuildFlatMesh(result, flat);
 	EXPECT_EQ(flat.FN(), m.FN());
 }
 

@@ -51,7 +51,7 @@ VertexInput curvatureInput(std::vector<double> curvature)
 /// Runs the whole algorithm and checks what it hands over.
 void expectSolved(const SurfaceMesh& mesh, const Options& options, const VertexInput& input = {})
 {
-	Parametrization flat;
+	FlatResult flat;
 	try {
 		flat = run(mesh, options, input);
 	}
@@ -69,9 +69,11 @@ void expectSolved(const SurfaceMesh& mesh, const Options& options, const VertexI
 	for (const auto& triangle : flat.uv)
 		for (const Point2& p : triangle)
 			EXPECT_TRUE(std::isfinite(p[0]) && std::isfinite(p[1]));
-	const RefinedMesh& r = flat.refined;
+	const UV plane = flat.mesh.corners().values();
 	const RefinementCheck check(
-		mesh, {r.points, r.triangles, r.inputFace, r.uv}, flat.targetCurvature);
+		mesh,
+		{flat.mesh.source.values(), flat.mesh.vertices.values(), flat.mesh.face.values(), plane},
+		flat.targetCurvature);
 	EXPECT_EQ(check.notPositive, 0);
 	EXPECT_LT(check.seamMismatch, 1e-9);
 	EXPECT_GE(check.minWeight, -1e-12);
@@ -80,7 +82,7 @@ void expectSolved(const SurfaceMesh& mesh, const Options& options, const VertexI
 	EXPECT_EQ(check.eulerCharacteristic, report.eulerCharacteristic);
 	EXPECT_EQ(check.boundaryLoops, report.boundaryLoops);
 	std::vector<char> covered(mesh.triangles.size(), 0);
-	for (int f : r.inputFace)
+	for (int f : flat.mesh.face)
 		covered[at(f)] = 1;
 	EXPECT_EQ(std::count(covered.begin(), covered.end(), 0), 0) << "faces are lost";
 }

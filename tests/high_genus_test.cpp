@@ -2,6 +2,7 @@
 // The whole way to the Poincaré disk where the layout reaches far out: many handles, many holes; and
 // cones so weak that the seam need not reach them.
 #include "support/complex.h"
+#include "support/flat_map.h"
 #include "support/implicit_surface.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -28,13 +29,13 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-Parametrization run(const SurfaceMesh& mesh, const VertexInput& input = {})
+FlatResult run(const SurfaceMesh& mesh, const VertexInput& input = {})
 {
 	HyperbolicOptions options;
 	options.output = OutputTriangulation::CommonRefinement;
 	options.target = input.targetCurvature.empty() ? HyperbolicTarget::HyperbolicMetric
 												   : HyperbolicTarget::Prescribed;
-	return parametrizeHyperbolic(mesh, input, options);
+	return runInDisk(mesh, options, input);
 }
 
 /// The skin round the edges of a graph with corners in space. Of genus edges - corners + 1.
@@ -101,7 +102,7 @@ SurfaceMesh skeleton(int genus)
 double radiusOf(const Parametrization& map)
 {
 	double largest = 0.0;
-	for (const Triangle2& triangle : map.refined.uv)
+	for (const Triangle2& triangle : map.mesh.corners())
 		for (const Point2& p : triangle)
 			largest = std::max(largest, std::abs(asComplex(p)));
 	return 2.0 * std::atanh(largest);
@@ -134,12 +135,12 @@ void expectHyperbolicMap(const Parametrization& map, int genus)
 	EXPECT_LT(*report.relationError, slack);
 	double area = 0.0;
 	std::map<std::pair<int, int>, std::vector<std::pair<Point2, Point2>>> sides;
-	for (std::size_t f = 0; f < map.refined.triangles.size(); ++f) {
-		const Triangle2& p = map.refined.uv[f];
+	for (const int f : map.mesh.points.indices()) {
+		const Triangle2 p = map.mesh.at(f);
 		area += hyperbolicArea(
 			std::array<double, 3>{length(p[0], p[1]), length(p[1], p[2]), length(p[2], p[0])});
 		for (std::size_t k = 0; k < 3; ++k) {
-			const int i = map.refined.triangles[f][k], j = map.refined.triangles[f][(k + 1) % 3];
+			const int i = map.mesh.vertices[f][k], j = map.mesh.vertices[f][(k + 1) % 3];
 			const Point2 &from = p[k], &to = p[(k + 1) % 3];
 			sides[std::minmax(i, j)].push_back(i < j ? std::pair(from, to) : std::pair(to, from));
 		}
@@ -196,7 +197,7 @@ TEST(HighGenus, ManyHoles)
 		std::vector<int> stars;
 		for (std::size_t i = 0; i < count; ++i)
 			stars.push_back(static_cast<int>(i * (whole.positions.size() / count)));
-		const Parametrization map = run(withoutStars(whole, stars));
+		const FlatResult map = run(withoutStars(whole, stars));
 		const int holes = map.report.boundaryLoops;
 		EXPECT_GE(holes, static_cast<int>(count) * 3 / 4);
 		EXPECT_EQ(map.report.flippedFaces, 0);
@@ -218,14 +219,14 @@ TEST(HighGenus, WeakConesAreLeftInTheRelation)
 		input.targetCurvature.assign(mesh.positions.size(), 0.0);
 		for (const double K : {1e-11, 1e-10, 9e-10}) {
 			input.targetCurvature[40] = K;
-			const Parametrization map = run(mesh, input);
+			const FlatResult map = run(mesh, input);
 			EXPECT_EQ(map.report.cones, 0);
 			EXPECT_EQ(map.report.flippedFaces, 0);
 			EXPECT_GE(*map.report.relationError, K / (4 * genus - 2) - 1e-12);
 			EXPECT_LE(*map.report.relationError, 10 * K + 1e-12);
 		}
 		input.targetCurvature[40] = 1.1e-9;
-		const Parametrization map = run(mesh, input);
+		const FlatResult map = run(mesh, input);
 		EXPECT_EQ(map.report.cones, 1);
 		EXPECT_LT(*map.report.relationError, 1e-11);
 	}

@@ -56,7 +56,7 @@ protected:
 	}
 
 	/// Has the independent checker, if it can run, judge the doubles of the core.
-	void expectVerified(const Parametrization& flat, const std::string& name)
+	void expectVerified(const FlatResult& flat, const std::string& name)
 	{
 		const std::string python = pythonWithNumpy();
 		if (python.empty() || !fs::exists(kChecker))
@@ -77,7 +77,7 @@ protected:
 	std::optional<NotConverged> judge(const std::string& name, TargetCurvature target)
 	{
 		return errorOf<NotConverged>([&] {
-			const Parametrization flat = run(m_mesh, fixedTriangulation(target));
+			const FlatResult flat = run(m_mesh, fixedTriangulation(target));
 			const FlatMap map(m_mesh, flat.uv);
 			EXPECT_LT(map.seamMismatch, 1e-9) << name;
 			EXPECT_EQ(flat.report.flippedFaces, 0) << name;
@@ -105,7 +105,7 @@ TEST_F(SharedMeshes, CheckerCanRun)
 TEST_F(SharedMeshes, RockerArm)
 {
 	SKIP_IF_MISSING("g1_rocker_arm.ply");
-	const Parametrization flat = run(m_mesh, fixedTriangulation(TargetCurvature::Flat));
+	const FlatResult flat = run(m_mesh, fixedTriangulation(TargetCurvature::Flat));
 	EXPECT_LT(flat.report.maxCurvatureError, 1e-10);
 	EXPECT_LE(flat.report.qcVertexMean, 1.0466); // the paper's Table 1: 1.0461
 	EXPECT_EQ(flat.report.flippedFaces, 0);
@@ -120,7 +120,7 @@ TEST_F(SharedMeshes, RockerArmByTheConventionalFlow)
 	SKIP_IF_MISSING("g1_rocker_arm.ply");
 	Options options = fixedTriangulation(TargetCurvature::Flat);
 	options.method = Method::Thurston;
-	const Parametrization flat = run(m_mesh, options);
+	const FlatResult flat = run(m_mesh, options);
 	EXPECT_NEAR(flat.report.qcVertexMean, 1.739, 0.005); // the paper's Table 1: 1.7405
 	EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
 }
@@ -166,7 +166,7 @@ TEST_F(SharedMeshes, CrankOfGenusTwelve)
 	Options options;
 	for (const Finish finish : {Finish::None, Finish::LeastDistortion}) {
 		options.finish = finish;
-		const Parametrization flat = run(m_mesh, options);
+		const FlatResult flat = run(m_mesh, options);
 		EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
 		EXPECT_GT(flat.report.overlapCuts, 0);
 		// Some seams have sides of 5e-7 in a map of 0.2. Where the finish moves their ends, their
@@ -181,7 +181,7 @@ TEST_F(SharedMeshes, PizzaOfGenusSeventyThree)
 	SKIP_IF_MISSING("hard/g73b1_pizza.ply");
 	Options options;
 	options.target = TargetCurvature::PlacedCones;
-	const Parametrization flat = run(m_mesh, options);
+	const FlatResult flat = run(m_mesh, options);
 	EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
 	EXPECT_LT(FlatMap(m_mesh, flat.uv).seamMismatch, 1e-9);
 }

@@ -69,7 +69,7 @@ std::vector<Case> cases(std::uint64_t seed)
 }
 
 /// The prescribed metric, seen in the plane.
-void expectFlat(const Case& c, const Parametrization& flat)
+void expectFlat(const Case& c, const FlatResult& flat)
 {
 	const Report& report = flat.report;
 	EXPECT_TRUE(report.converged);
@@ -118,7 +118,7 @@ TEST(SliverSurfaces, EdgeSwapsMendWhatBreaks)
 			SCOPED_TRACE(c.name + ", seed " + std::to_string(seed));
 			c.options.method = Method::EdgeSwaps;
 			try {
-				const Parametrization flat = run(c.mesh, c.options, c.input);
+				const FlatResult flat = run(c.mesh, c.options, c.input);
 				++mended;
 				swapped += flat.report.edgeSwaps > 0;
 				EXPECT_GT(flat.report.edgeSwaps + flat.report.boundarySplits, 0);
@@ -151,8 +151,7 @@ TEST(SliverSurfaces, IntrinsicFlipsSolveAll)
 			SCOPED_TRACE(c.name + ", seed " + std::to_string(seed));
 			c.options.method = Method::IntrinsicFlips;
 			c.options.output = OutputTriangulation::CommonRefinement;
-			const Parametrization flat = run(c.mesh, c.options, c.input);
-			const RefinedMesh& pieces = flat.refined;
+			const FlatResult flat = run(c.mesh, c.options, c.input);
 			EXPECT_TRUE(flat.report.converged);
 			EXPECT_EQ(flat.report.brokenTriangles, 0);
 			EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
@@ -160,15 +159,14 @@ TEST(SliverSurfaces, IntrinsicFlipsSolveAll)
 			EXPECT_GT(flat.report.flips, 0);
 			// The refinement is the same surface, whole and flat off the cones.
 			SurfaceMesh refined;
-			for (const SurfacePoint& p : pieces.points)
-				refined.positions.push_back(placeOnSurface(p, c.mesh.positions));
-			refined.triangles = pieces.triangles;
+			refined.positions = flat.mesh.onSurface(c.mesh.positions);
+			refined.triangles = flat.mesh.vertices.values();
 			const Triangulation t(static_cast<int>(refined.positions.size()), refined.triangles);
 			EXPECT_EQ(t.eulerCharacteristic(), flat.report.eulerCharacteristic);
 			EXPECT_EQ(static_cast<int>(t.boundaryLoops().size()), c.loops);
 			std::vector<double> target = flat.targetCurvature;
 			target.resize(refined.positions.size(), 0.0);
-			const FlatMap map(refined, pieces.uv);
+			const FlatMap map(refined, flat.mesh.corners().values());
 			EXPECT_LT(map.insideError(target), 1e-6);
 			double inputArea = 0.0, area = 0.0;
 			for (const Triangle& f : c.mesh.triangles)
@@ -187,9 +185,9 @@ TEST(SliverSurfaces, EdgeSwapChangesNothingWhereNothingBreaks)
 			continue;
 		++compared;
 		Options options = c.options;
-		const Parametrization own = run(c.mesh, options, c.input);
+		const FlatResult own = run(c.mesh, options, c.input);
 		options.method = Method::EdgeSwaps;
-		const Parametrization other = run(c.mesh, options, c.input);
+		const FlatResult other = run(c.mesh, options, c.input);
 		EXPECT_EQ(other.report.edgeSwaps, 0);
 		EXPECT_EQ(other.u, own.u);
 		EXPECT_EQ(other.uv, own.uv);

@@ -152,7 +152,7 @@ void addFlatLayer(
 {
 	MeshModel& flat = layers.add(name + " " + model.label());
 	flat.updateDataMask(MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY);
-	Layers::BuildFlatMesh(model.cm, result, flat.cm);
+	Layers::BuildFlatMesh(result, flat.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(flat.cm);
 	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(flat.cm);
 	if (texture.isWanted())
@@ -165,7 +165,7 @@ void addCoverLayer(NewLayers& layers, MeshModel& model, int rings, const Flow::R
 {
 	MeshModel& cover = layers.add("Universal cover " + model.label());
 	cover.updateDataMask(MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY);
-	Layers::BuildUniversalCover(model.cm, result, rings, kMaxCoverFaces, cover.cm);
+	Layers::BuildUniversalCover(result, rings, kMaxCoverFaces, cover.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(cover.cm);
 	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(cover.cm);
 }
@@ -391,8 +391,8 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 		return Flow::ComputeHyperbolic(run.model.cm, settings.flow, run.seams);
 	}();
 	Results results = toResults(result.report);
-	if (result.groups.size() == 1 && result.groups.front().isCanonical())
-		addGenerators(result.groups.front(), results);
+	if (result.charts.size() == 1 && result.charts.front().group.isCanonical())
+		addGenerators(result.charts.front().group, results);
 	return run.end(Hyperbolic, par, settings.flow.output, result, results, [&](NewLayers& layers) {
 		if (settings.flatLayer)
 			addFlatLayer(layers, run.model, "Disk", result, run.texture);

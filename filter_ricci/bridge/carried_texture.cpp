@@ -266,26 +266,18 @@ double CarriedTexture::minMargin() const
 	return isWanted() ? std::min(2.0 * ricci::kGutterTexels / m_size, kMaxMargin) : 0.0;
 }
 
-void CarriedTexture::takeTriangles(const MeshModel& model, const Flow::Result& result)
+void CarriedTexture::takeTriangles(const Flow::Result& result)
 {
-	const ricci::RefinedMesh& refined = result.refined;
-	m_mesh.triangles.reserve(std::max(refined.triangles.size(), m_mesh.faces.size()));
-	for (std::size_t i = 0; i < refined.triangles.size(); ++i) {
+	const ricci::FlatMesh& map = result.mesh;
+	m_mesh.triangles.reserve(ricci::positionOf(map.size()));
+	for (const int f : map.points.indices()) {
 		ricci::CarriedTriangle triangle;
-		triangle.uv = refined.uv[i];
-		triangle.face = refined.inputFace[i];
+		triangle.uv = map.at(f);
+		triangle.face = map.face[f];
 		for (std::size_t k = 0; k < 3; ++k)
 			triangle.corners[k] = inFace(
-				refined.points[ricci::positionOf(refined.triangles[i][k])],
+				map.source[map.vertices[f][k]],
 				m_mesh.faces[ricci::positionOf(triangle.face)].vertices);
-		m_mesh.triangles.push_back(triangle);
-	}
-	for (std::size_t f = 0; f < m_mesh.faces.size() && refined.triangles.empty(); ++f) {
-		if (model.cm.face[f].IsD())
-			continue;
-		ricci::CarriedTriangle triangle;
-		triangle.uv = result.wedgeUV[f];
-		triangle.face = static_cast<int>(f);
 		m_mesh.triangles.push_back(triangle);
 	}
 }
@@ -377,7 +369,7 @@ void CarriedTexture::draw(const MeshModel& model, const Flow::Result& result, Re
 		return;
 	const ricci::DefaultFloatingPoint defaultEnvironment;
 	ricci::advance(0.0, "Drawing the texture");
-	takeTriangles(model, result);
+	takeTriangles(result);
 	makeResult();
 	convertPictures();
 	if (m_hasWords)

@@ -55,7 +55,7 @@ private:
 	void loadPictures(const MeshModel& model);
 	void requireMemory() const;
 
-	void takeTriangles(const MeshModel& model, const Flow::Result& result);
+	void takeTriangles(const Flow::Result& result);
 	void makeResult();
 	void convertPictures();
 	template<class Sample>

@@ -11,8 +11,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/parallel.h>
-#include <ricci/charts/finish_in_floats.h>
-#include <ricci/charts/pack.h>
+#include <ricci/curvature/target_curvature.h>
 #include <ricci/flow/factored_hessian.h>
 #include <ricci/flow/ricci_flow.h>
 #include <ricci/math/sparse_cholesky.h>
@@ -21,7 +20,6 @@
 #include <ricci/parametrize.h>
 #include <ricci/surface/component.h>
 #include <ricci/surface/flow_domain.h>
-#include <ricci/curvature/target_curvature.h>
 
 #ifdef RICCI_USE_CHOLMOD
 #include <cholmod.h>
@@ -295,18 +293,6 @@ startAndFlow(const EmbeddedSurface& surface, const Target& target, const FlowOpt
 		surface, initialPacking(surface, options), target, options, [](int, double) {});
 }
 
-/// One box beside the other: a host's packing is its own.
-std::vector<Point2> inARow(const std::vector<Box2>& boxes, double room)
-{
-	std::vector<Point2> places;
-	double x = 0.0;
-	for (const Box2& box : boxes) {
-		places.push_back({x, 0.0});
-		x += box.max[0] - box.min[0] + room;
-	}
-	return places;
-}
-
 /// From the mesh to the coordinates that a host stores, with default parameters; core.work_guard
 /// counts it.
 [[gnu::noinline]] void
@@ -316,21 +302,10 @@ measureWholeWay(const SurfaceMesh& mesh, Background background, const Options& o
 	StageClock& clock = row.stages;
 	row.whole = timeOf([&] {
 		const Task task(clock);
-		Parametrization map;
-		if (background == Background::EuclideanPlane) {
-			map = parametrizeEuclidean(mesh, {}, options);
-			clock.enter("pack");
-			packCharts(map, true, 0.0, inARow);
-			advance(1.0, "Finishing the coordinates");
-			finishInFloats(mesh, nullptr, false, map);
-		}
-		else {
-			map = parametrizeHyperbolic(mesh, {}, HyperbolicOptions());
-			clock.enter("pack");
-			const std::vector<Box2> disks = placeDisks(map);
-			advance(1.0, "Finishing the coordinates");
-			finishInFloats(mesh, disks, map);
-		}
+		if (background == Background::EuclideanPlane)
+			parametrizeEuclidean(mesh, {}, options);
+		else
+			parametrizeHyperbolic(mesh, {}, HyperbolicOptions());
 		clock.enter("rest");
 	});
 	row.wholeWall = wallSeconds() - begin;

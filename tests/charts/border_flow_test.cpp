@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/flat_meshes.h"
 #include "support/max_flow.h"
 #include "support/random.h"
 #include "support/shapes.h"
@@ -17,13 +18,13 @@ namespace {
 /// A grid in the plane with random lengths in space, some of its triangles left out or in another part.
 struct RandomChart
 {
-	DrawnChart chart;
-	ChartSides sides;
-	PartGraph graph;
+	FlatMesh chart;
+	Sides sides;
+	DualGraph graph;
 
 	RandomChart(Random& random, int size, bool isWhole) :
-			chart(chartOf(random, size, isWhole)),
-			sides{sidesAcross(chart), lengthsOf(random, chart)}, graph(chart, sides)
+			chart(chartOf(random, size, isWhole)), sides(chart.vertices.values()),
+			graph(chart, sides)
 	{
 		for (int& part : graph.part)
 			part = !isWhole && random.index(20) == 0;
@@ -41,42 +42,29 @@ struct RandomChart
 		};
 		take(first);
 		for (std::size_t i = 0; i < triangles.size(); ++i)
-			for (int k = 0; k < 3; ++k)
-				if (const int other = graph.neighbour(3 * triangles[i] + k);
-					other >= 0 && static_cast<int>(triangles.size()) < count)
-					take(other / 3);
+			for (const Corner side : cornersOf(triangles[i]))
+				if (const Corner other = graph.neighbour(side);
+					other.isValid() && static_cast<int>(triangles.size()) < count)
+					take(other.face());
 		return triangles;
 	}
 
 private:
-	static DrawnChart chartOf(Random& random, int size, bool isWhole)
+	static FlatMesh chartOf(Random& random, int size, bool isWhole)
 	{
-		const SurfaceMesh mesh = rectangle(size, size, 1.0, 1.0);
-		DrawnChart chart;
-		for (const Triangle& t : mesh.triangles) {
-			if (!isWhole && random.index(20) == 0)
-				continue;
-			Triangle2 p;
-			for (std::size_t k = 0; k < 3; ++k)
-				p[k] = {mesh.positions[at(t[k])][0], mesh.positions[at(t[k])][1]};
-			chart.triangles.push_back(t);
-			chart.plane.push_back(p);
-		}
+		SurfaceMesh mesh = rectangle(size, size, 1.0, 1.0), rest{mesh.positions, {}};
+		for (const Triangle& t : mesh.triangles)
+			if (isWhole || random.index(20) != 0)
+				rest.triangles.push_back(t);
+		FlatMesh chart = flatMesh(rest);
+		const Sides sides(rest.triangles);
+		for (const int f : chart.points.indices())
+			for (const Corner side : cornersOf(f)) {
+				chart.lengths[side] = random.real(0.1, 1.0);
+				if (const Corner other = sides.across(side); other.isValid())
+					chart.lengths[other] = chart.lengths[side]; // the same on both sides
+			}
 		return chart;
-	}
-
-	/// The same on both sides.
-	static Array<std::array<double, 3>> lengthsOf(Random& random, const DrawnChart& chart)
-	{
-		Array<std::array<double, 3>> lengths(chart.triangles.size());
-		const Array<int> across = sidesAcross(chart);
-		for (const int s : across.indices()) {
-			const double length = random.real(0.1, 1.0);
-			lengths[s / 3][at(s % 3)] = length;
-			if (const int other = across[s]; other >= 0)
-				lengths[other / 3][at(other % 3)] = length;
-		}
-		return lengths;
 	}
 };
 
@@ -85,12 +73,12 @@ void expectFlow(const RandomChart& c, const Array<Terminal>& terminal, const Bor
 {
 	for (const int i : terminal.indices()) {
 		std::int64_t sum = 0;
-		for (int side = 3 * i; side < 3 * i + 3; ++side) {
+		for (const Corner side : cornersOf(i)) {
 			sum += flow.across(side);
-			const int other = c.graph.neighbour(side);
-			if (other >= 0) {
+			const Corner other = c.graph.neighbour(side);
+			if (other.isValid()) {
 				EXPECT_EQ(flow.across(other), -flow.across(side));
-				if (terminal[i] == kNoTerminal || terminal[i] != terminal[other / 3]) {
+				if (terminal[i] == kNoTerminal || terminal[i] != terminal[other.face()]) {
 					EXPECT_LE(std::abs(flow.across(side)), c.graph.weight(side));
 				}
 			}
@@ -108,9 +96,9 @@ sent(const RandomChart& c, Terminal kind, const Array<Terminal>& terminal, const
 {
 	std::int64_t sum = 0;
 	for (const int i : terminal.indices())
-		for (int side = 3 * i; side < 3 * i + 3 && terminal[i] == kind; ++side)
-			if (const int other = c.graph.neighbour(side);
-				other >= 0 && terminal[other / 3] != kind)
+		for (const Corner side : cornersOf(i))
+			if (const Corner other = c.graph.neighbour(side);
+				terminal[i] == kind && other.isValid() && terminal[other.face()] != kind)
 				sum += flow.across(side);
 	return sum;
 }
@@ -121,9 +109,9 @@ std::vector<Link> linksOf(const RandomChart& c, const Array<Terminal>& terminal)
 	std::vector<Link> links;
 	const int n = terminal.size();
 	for (const int i : terminal.indices()) {
-		for (int side = 3 * i; side < 3 * i + 3; ++side)
-			if (const int other = c.graph.neighbour(side); other > side)
-				links.push_back({i, other / 3, c.graph.weight(side), c.graph.weight(side)});
+		for (const Corner side : cornersOf(i))
+			if (const Corner other = c.graph.neighbour(side); other > side)
+				links.push_back({i, other.face(), c.graph.weight(side), c.graph.weight(side)});
 		const std::int64_t unlimited = std::int64_t(1) << 60;
 		if (terminal[i] != kNoTerminal)
 			links.push_back({i, terminal[i] == kSource ? n : n + 1, unlimited, unlimited});
@@ -138,7 +126,7 @@ TEST(BorderFlow, LeavesTheMinimumCutAsItIs)
 	int cuts = 0, begun = 0;
 	for (int trial = 0; trial < 300; ++trial) {
 		const RandomChart c(random, 9, trial % 3 == 0);
-		const int n = c.chart.triangles.size();
+		const int n = c.chart.size();
 		Array<Terminal> terminal(n, kNoTerminal);
 		const std::vector<int> sources =
 			c.blob(random.index(n), 1 + random.index(20), kSource, terminal);
@@ -156,11 +144,11 @@ TEST(BorderFlow, LeavesTheMinimumCutAsItIs)
 
 		const MinCut::Side side =
 			MinCut(n).run(sources, sinks, [&](int i, const MinCut::AddEdge& add) {
-				for (int s = 3 * i; s < 3 * i + 3; ++s)
-					if (const int other = c.graph.neighbour(s);
-						other >= 0 &&
-						(terminal[i] == kNoTerminal || terminal[i] != terminal[other / 3]))
-						add(other / 3,
+				for (const Corner s : cornersOf(i))
+					if (const Corner other = c.graph.neighbour(s);
+						other.isValid() &&
+						(terminal[i] == kNoTerminal || terminal[i] != terminal[other.face()]))
+						add(other.face(),
 							c.graph.weight(s) - flow.across(s),
 							c.graph.weight(s) + flow.across(s));
 			});
@@ -172,10 +160,11 @@ TEST(BorderFlow, LeavesTheMinimumCutAsItIs)
 		for (const int i : sinks)
 			EXPECT_EQ(isOnSide[i] != 0, !side.isOfSources);
 		std::int64_t cut = 0;
-		for (int s = 0; s < 3 * n; ++s)
-			if (const int other = c.graph.neighbour(s);
-				other >= 0 && isOnSide[s / 3] && !isOnSide[other / 3])
-				cut += c.graph.weight(s);
+		for (const int i : isOnSide.indices())
+			for (const Corner s : cornersOf(i))
+				if (const Corner other = c.graph.neighbour(s);
+					other.isValid() && isOnSide[i] && !isOnSide[other.face()])
+					cut += c.graph.weight(s);
 		EXPECT_EQ(cut, flowBetween(n + 2, linksOf(c, terminal), n, n + 1));
 		EXPECT_LE(begin, cut);
 		cuts += cut > 0;
@@ -193,7 +182,7 @@ TEST(BorderFlow, BetweenBlobsAtTheBorderIsTheMaximum)
 	for (int trial = 0; trial < 100; ++trial) {
 		const int size = 8;
 		const RandomChart c(random, size, true);
-		const int n = c.chart.triangles.size();
+		const int n = c.chart.size();
 		Array<Terminal> terminal(n, kNoTerminal);
 		// The first and the last row of the grid.
 		const auto sources =

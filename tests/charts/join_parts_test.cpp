@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/flat_meshes.h"
 #include "support/random.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -20,8 +21,7 @@ namespace {
 /// A mesh over the plane, of which each part lies elsewhere.
 struct Scattered
 {
-	DrawnChart drawn;
-	Array<std::array<double, 3>> lengths;
+	FlatMesh flat;
 	std::vector<std::vector<int>> parts;
 
 	/// \param partOf [triangle]
@@ -33,26 +33,18 @@ struct Scattered
 			motions.push_back(
 				{std::polar(1.0, random.real(0, 2 * kPi)),
 				 {random.real(-20, 20), random.real(-20, 20)}});
-		drawn.triangles = Array<Triangle>(mesh.triangles);
+		std::vector<Triangle2> plane = flatMesh(mesh).corners().values();
 		for (const int f : partOf.indices()) {
-			const Triangle& t = mesh.triangles[at(f)];
-			Triangle2 p;
-			std::array<double, 3> l;
-			for (std::size_t k = 0; k < 3; ++k) {
-				const Point3 &a = mesh.positions[at(t[k])], &b = mesh.positions[at(t[(k + 1) % 3])];
-				p[k] = motions[at(partOf[f])](Point2{a[0], a[1]});
-				l[k] = distance(a, b);
-			}
-			drawn.plane.push_back(p);
-			lengths.push_back(l);
+			plane[at(f)] = motions[at(partOf[f])](plane[at(f)]);
 			parts[at(partOf[f])].push_back(f);
 		}
+		flat = flatMesh(mesh, plane);
 	}
 
 	JoinedParts join()
 	{
-		const BoxTree tree = boxTreeOf(drawn.plane);
-		return joinParts(drawn, {sidesAcross(drawn), lengths}, tree, parts);
+		const BoxTree tree = boxTreeOf(flat.corners());
+		return joinParts(flat, Sides(flat.vertices.values()), tree, parts);
 	}
 };
 
@@ -66,16 +58,10 @@ Point2 centreOf(const SurfaceMesh& mesh, const Triangle& t)
 }
 
 /// Triangles of one part must not cover each other.
-void expectNothingCoveredTwice(const DrawnChart& drawn, const std::vector<std::vector<int>>& parts)
+void expectNothingCoveredTwice(const FlatMesh& flat, const std::vector<std::vector<int>>& parts)
 {
-	for (const std::vector<int>& part : parts) {
-		DrawnChart chart;
-		for (const int f : part) {
-			chart.triangles.push_back(drawn.triangles[f]);
-			chart.plane.push_back(drawn.plane[f]);
-		}
-		EXPECT_TRUE(overlappingPairs(chart).empty());
-	}
+	for (const std::vector<int>& part : parts)
+		EXPECT_TRUE(overlappingPairs(flat.part(part)).empty());
 }
 
 TEST(JoinParts, PutsAPictureTogether)
@@ -89,7 +75,6 @@ TEST(JoinParts, PutsAPictureTogether)
 	}
 	Scattered s(mesh, block, random);
 	ASSERT_EQ(s.parts.size(), 6u);
-	const DrawnChart before = s.drawn;
 	const JoinedParts joined = s.join();
 	ASSERT_EQ(joined.parts.size(), 1u);
 	EXPECT_EQ(joined.parts[0].size(), mesh.triangles.size());
@@ -97,19 +82,15 @@ TEST(JoinParts, PutsAPictureTogether)
 	EXPECT_EQ(joined.seams.edges, -14);
 	EXPECT_NEAR(joined.seams.length, -14.0, 1e-12);
 	// The picture is the rectangle again, up to one motion.
-	std::vector<std::complex<double>> place(mesh.positions.size());
-	for (const int f : s.drawn.plane.indices())
-		for (std::size_t k = 0; k < 3; ++k) {
-			const Point2 p = s.drawn.plane[f][k];
-			std::complex<double>& known = place[at(s.drawn.triangles[f][k])];
-			EXPECT_TRUE(known == 0.0 || known == asComplex(p)) << "to the last bit";
-			known = asComplex(p);
-			EXPECT_LT(distance(p, joined.motion[f](before.plane[f][k])), 1e-12);
-		}
+	ASSERT_EQ(at(s.flat.place.size()), mesh.positions.size());
+	std::vector<Point2> place(mesh.positions.size());
+	for (const int f : s.flat.points.indices())
+		for (const Corner c : cornersOf(f))
+			place[at(s.flat.vertices[c])] = s.flat.at(c);
 	for (std::size_t a = 0; a < place.size(); ++a)
 		for (std::size_t b = 0; b < a; ++b)
 			EXPECT_NEAR(
-				std::abs(place[a] - place[b]),
+				distance(place[a], place[b]),
 				distance(mesh.positions[a], mesh.positions[b]),
 				1e-11);
 }
@@ -139,11 +120,11 @@ TEST(JoinParts, LeavesWhatHasNoRoom)
 {
 	Random random(921);
 	Scattered s(manyTurns(24, 1.5), arcs(24, {0, 12}), random);
-	const DrawnChart before = s.drawn;
+	const FlatMesh before = s.flat;
 	const JoinedParts joined = s.join();
 	EXPECT_EQ(joined.parts.size(), 2u);
 	EXPECT_EQ(joined.seams.edges, 0);
-	EXPECT_TRUE(s.drawn.plane == before.plane);
+	EXPECT_TRUE(s.flat.corners() == before.corners());
 }
 
 /// Two full turns in arcs of 398, 6 and 396 cells. The short one fits to neither of its neighbours as
@@ -153,7 +134,7 @@ TEST(JoinParts, ACrumbIsDividedAmongItsNeighbours)
 	Random random(922);
 	Scattered s(manyTurns(800, 2.0), arcs(800, {0, 398, 404}), random);
 	const JoinedParts joined = s.join();
-	expectNothingCoveredTwice(s.drawn, joined.parts);
+	expectNothingCoveredTwice(s.flat, joined.parts);
 	ASSERT_EQ(joined.parts.size(), 2u);
 	EXPECT_EQ(joined.parts[0].size(), 800u);
 	EXPECT_EQ(joined.parts[1].size(), 800u);
@@ -167,7 +148,7 @@ TEST(JoinParts, ACrumbWithoutRoomGrows)
 	Random random(924);
 	Scattered s(manyTurns(803, 803.0 / 400.0), arcs(803, {0, 400, 403}), random);
 	const JoinedParts joined = s.join();
-	expectNothingCoveredTwice(s.drawn, joined.parts);
+	expectNothingCoveredTwice(s.flat, joined.parts);
 	ASSERT_EQ(joined.parts.size(), 3u);
 	for (const std::vector<int>& part : joined.parts)
 		EXPECT_GE(part.size(), 17u); // a hundredth of 1606
@@ -198,7 +179,7 @@ TEST(JoinParts, RandomParts)
 			s.parts.end());
 		const JoinedParts joined = s.join();
 		EXPECT_EQ(joined.parts.size(), 1u) << "round " << round;
-		expectNothingCoveredTwice(s.drawn, joined.parts);
+		expectNothingCoveredTwice(s.flat, joined.parts);
 	}
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "drawn_mesh.h"
-
+#include "support/flat_meshes.h"
 #include "support/random.h"
 #include "support/shapes.h"
 
@@ -19,14 +18,17 @@
 namespace ricci::testing {
 namespace {
 
-DrawnChart square(int size)
+FlatMesh square(int size)
 {
-	return drawn(rectangle(size, size, 1.0, 1.0));
+	return flatMesh(rectangle(size, size, 1.0, 1.0));
 }
 
-Array<std::array<double, 3>> unitLengths(const DrawnChart& chart)
+Array<Triangle2> placesOf(const MovableParts& parts, int triangleCount)
 {
-	return Array<std::array<double, 3>>(chart.triangles.size(), {1.0, 1.0, 1.0});
+	Array<Triangle2> places;
+	for (int f = 0; f < triangleCount; ++f)
+		places.push_back(parts.at(f));
+	return places;
 }
 
 /// Parts of consecutive triangles.
@@ -60,39 +62,34 @@ TEST(MovableParts, UndoRestoresAll)
 {
 	Random random(1230);
 	for (int trial = 0; trial < 30; ++trial) {
-		DrawnChart chart = square(6);
-		const ChartSides sides{sidesAcross(chart), unitLengths(chart)};
-		const BoxTree tree = boxTreeOf(chart.plane);
-		const int n = chart.triangles.size();
+		const FlatMesh chart = square(6);
+		const Sides sides(chart.vertices.values());
+		const BoxTree tree = boxTreeOf(chart.corners());
+		const int n = chart.size();
 		MovableParts parts(chart, sides, tree, stripes(n, 4));
 		for (int i = 0; i < 5; ++i)
 			moveSome(parts, random);
 		parts.commit();
-		const DrawnChart before = chart;
+		const Array<Triangle2> before = placesOf(parts, n);
 		std::vector<std::vector<int>> lists;
 		std::vector<double> areas;
 		for (int part = 0; part < 4; ++part) {
 			lists.push_back(parts.trianglesOf(part));
 			areas.push_back(parts.area(part));
 		}
-		std::vector<std::complex<double>> turns;
-		for (int f = 0; f < n; ++f)
-			turns.push_back(parts.motionOf(f).turn);
 
 		parts.addPart();
 		for (int i = random.index(8); i > 0; --i)
 			moveSome(parts, random);
 		parts.undo();
 		EXPECT_EQ(parts.count(), 4);
-		EXPECT_EQ(chart.plane, before.plane);
+		EXPECT_EQ(placesOf(parts, n), before);
 		for (int part = 0; part < 4; ++part) {
 			EXPECT_EQ(parts.trianglesOf(part), lists[at(part)]);
 			EXPECT_EQ(parts.area(part), areas[at(part)]);
 			for (const int f : lists[at(part)])
 				EXPECT_EQ(parts.partOf(f), part);
 		}
-		for (int f = 0; f < n; ++f)
-			EXPECT_EQ(parts.motionOf(f).turn, turns[at(f)]);
 	}
 }
 
@@ -100,24 +97,19 @@ TEST(MovableParts, UndoRestoresAll)
 TEST(MovableParts, FindsWhatCoversAPart)
 {
 	Random random(1231);
-	const DrawnChart origin = square(5);
+	const FlatMesh chart = square(5);
 	int found = 0;
 	for (int trial = 0; trial < 200; ++trial) {
-		DrawnChart chart = origin;
-		const ChartSides sides{sidesAcross(chart), unitLengths(chart)};
-		const BoxTree tree = boxTreeOf(chart.plane);
-		MovableParts parts(chart, sides, tree, stripes(chart.triangles.size(), 3));
+		const Sides sides(chart.vertices.values());
+		const BoxTree tree = boxTreeOf(chart.corners());
+		MovableParts parts(chart, sides, tree, stripes(chart.size(), 3));
 		for (int i = random.index(4); i > 0; --i)
 			moveSome(parts, random);
-		for (const int f : chart.plane.indices())
-			for (std::size_t k = 0; k < 3; ++k)
-				EXPECT_LT(
-					distance(parts.motionOf(f)(origin.plane[f])[k], chart.plane[f][k]), 1e-14);
 		const Place place{1, randomMotion(random), 0.0};
 		std::set<std::pair<int, int>> wanted, pairs;
 		for (const int f : parts.trianglesOf(0))
 			for (const int g : parts.trianglesOf(1))
-				if (overlap(place.motion(chart.plane[f]), chart.plane[g], 1e-9))
+				if (overlap(place.motion(parts.at(f)), parts.at(g), 1e-9))
 					wanted.insert({f, g});
 		EXPECT_FALSE(parts.covering(0, place, [&](int f, int g) {
 			EXPECT_TRUE(pairs.insert({f, g}).second) << "twice";

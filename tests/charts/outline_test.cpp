@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/flat_meshes.h"
 #include "support/listener.h"
 #include "support/random.h"
 
@@ -16,46 +17,62 @@
 namespace ricci::testing {
 namespace {
 
+Outline outlineOf(const FlatMesh& chart)
+{
+	return outlineOf(chart, Sides(chart.vertices.values()), chart.trianglesByChart(1).front());
+}
+
 Outline square(const Point2& corner, double side)
 {
-	const Point2 a = corner, c{a[0] + side, a[1] + side};
-	const Point2 b{c[0], a[1]}, d{a[0], c[1]};
-	return outlineOf({Triangle2{a, b, c}, Triangle2{a, c, d}});
+	FlatMesh mesh = flatMesh(rectangle(1, 1, side, side));
+	for (Point2& p : mesh.place)
+		p += corner;
+	return outlineOf(mesh);
 }
 
 /// The unit square without the middle one of nine, in squares of two triangles.
-std::vector<Triangle2> frame()
+SurfaceMesh frame()
 {
-	std::vector<Triangle2> triangles;
-	for (int i = 0; i < 9; ++i) {
-		const double x = i % 3, y = i / 3;
-		const Point2 a{x / 3, y / 3}, b{(x + 1) / 3, y / 3}, c{(x + 1) / 3, (y + 1) / 3},
-			d{x / 3, (y + 1) / 3};
-		if (i != 4)
-			triangles.insert(triangles.end(), {Triangle2{a, b, c}, Triangle2{a, c, d}});
-	}
-	return triangles;
+	SurfaceMesh mesh = rectangle(3, 3, 1.0, 1.0);
+	mesh.triangles.erase(mesh.triangles.begin() + 8, mesh.triangles.begin() + 10);
+	return mesh;
 }
 
 TEST(OutlineOf, HasTheBorderOnItsLeftWhateverTheTrianglesOrder)
 {
-	std::vector<Triangle2> triangles = frame();
-	const Outline outline = outlineOf(triangles);
+	SurfaceMesh mesh = frame();
+	const Outline outline = outlineOf(flatMesh(mesh));
 	EXPECT_EQ(outline.size(), 12u + 4u);
 	double doubled = 0.0;
 	for (const auto& side : outline)
 		doubled += doubledArea({0.0, 0.0}, side[0], side[1]);
 	EXPECT_NEAR(doubled, 2.0 * 8.0 / 9.0, 1e-14);
-	std::swap(triangles[5][1], triangles[5][2]);
-	std::reverse(triangles.begin(), triangles.end());
-	EXPECT_EQ(outlineOf(triangles), outline);
+	std::reverse(mesh.triangles.begin(), mesh.triangles.end());
+	EXPECT_EQ(outlineOf(flatMesh(mesh)), outline);
+}
+
+/// A flipped triangle covers its points as often less: both sides of its edges go round them.
+TEST(OutlineOf, OfAFoldHasItsSidesTwice)
+{
+	const SurfaceMesh square{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+	const FlatMesh mesh = flatMesh(square), folded = flatMesh(square, 3, {0.9, 0.1});
+	const auto diagonals = [](const FlatMesh& chart) {
+		const Outline outline = outlineOf(chart);
+		return std::count_if(outline.begin(), outline.end(), [](const auto& s) {
+			return s[0][0] != s[1][0] && s[0][1] != s[1][1] && distance(s[0], s[1]) > 1.4 &&
+				   distance(s[0], s[1]) < 1.42;
+		});
+	};
+	EXPECT_EQ(flippedIn(mesh), 0);
+	ASSERT_EQ(flippedIn(folded), 1);
+	EXPECT_EQ(diagonals(mesh), 0);
+	EXPECT_EQ(diagonals(folded), 2);
 }
 
 TEST(OutlineOf, OfNothing)
 {
-	EXPECT_TRUE(outlineOf({}).empty());
-	const Point2 p{1.0, 2.0};
-	EXPECT_TRUE(outlineOf({Triangle2{p, p, p}}).empty());
+	const SurfaceMesh point{{{1, 2, 0}, {1, 2, 0}, {1, 2, 0}}, {{0, 1, 2}}};
+	EXPECT_TRUE(outlineOf(flatMesh(point)).empty());
 }
 
 TEST(KeepApart, AgreesWithDistancesThatAreKnown)
@@ -141,7 +158,7 @@ TEST(KeepApart, FindsChartsThatCrossOrHoldEachOther)
 	EXPECT_FALSE(keepApart({outer, square({0.4, 0.4}, 0.2)}, 1e-9));
 	EXPECT_FALSE(keepApart({square({0.4, 0.4}, 0.2), outer}, 1e-9));
 	// In the hole of a frame there is room.
-	const Outline ring = outlineOf(frame());
+	const Outline ring = outlineOf(flatMesh(frame()));
 	EXPECT_TRUE(keepApart({ring, square({0.4, 0.4}, 0.2)}, 0.06));
 	EXPECT_FALSE(keepApart({ring, square({0.4, 0.4}, 0.2)}, 0.07));
 }

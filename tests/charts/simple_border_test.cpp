@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "drawn_mesh.h"
-
+#include "support/flat_meshes.h"
 #include "support/random.h"
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/charts/chart_sides.h>
+#include <ricci/charts/chart_overlap.h>
 #include <ricci/charts/simple_border.h>
 
 #include <gtest/gtest.h>
@@ -17,9 +16,9 @@
 namespace ricci::testing {
 namespace {
 
-bool isSimple(const DrawnChart& chart)
+bool isSimple(const FlatMesh& chart)
 {
-	return hasSimpleBorder(chart, sidesAcross(chart));
+	return hasSimpleBorder(chart, Sides(chart.vertices.values()));
 }
 
 /// A ring that goes round by \p turns, with a border that is shifted at random.
@@ -35,10 +34,10 @@ SurfaceMesh ring(double turns, double shift, Ends ends, Random& random)
 TEST(SimpleBorder, OfDisksAndRings)
 {
 	Random random(1240);
-	EXPECT_TRUE(isSimple(drawn(rectangle(5, 4, 3.0, 2.0))));
-	EXPECT_TRUE(isSimple(drawn(ring(0.9, 0.0, Ends::Open, random))));
-	EXPECT_TRUE(isSimple(drawn(ring(1.0, 0.0, Ends::Joined, random)))); // with a hole
-	EXPECT_FALSE(isSimple(drawn(ring(1.1, 0.0, Ends::Open, random))));
+	EXPECT_TRUE(isSimple(flatMesh(rectangle(5, 4, 3.0, 2.0))));
+	EXPECT_TRUE(isSimple(flatMesh(ring(0.9, 0.0, Ends::Open, random))));
+	EXPECT_TRUE(isSimple(flatMesh(ring(1.0, 0.0, Ends::Joined, random)))); // with a hole
+	EXPECT_FALSE(isSimple(flatMesh(ring(1.1, 0.0, Ends::Open, random))));
 }
 
 /// Holes that meet in a point, or a slit, are left to another test.
@@ -51,7 +50,7 @@ TEST(SimpleBorder, TouchesNothing)
 		std::sort(faces.rbegin(), faces.rend());
 		for (const int f : faces)
 			rest.triangles.erase(rest.triangles.begin() + f);
-		return drawn(rest);
+		return flatMesh(rest);
 	};
 	const int a = cell(2, 2), b = cell(3, 3), c = cell(4, 4);
 	EXPECT_TRUE(isSimple(without({a, a + 1})));
@@ -64,21 +63,21 @@ TEST(SimpleBorder, TouchesNothing)
 			slit.positions.push_back(slit.positions[at(v)]);
 			v = static_cast<int>(slit.positions.size()) - 1;
 		}
-	EXPECT_FALSE(isSimple(drawn(slit)));
+	EXPECT_FALSE(isSimple(flatMesh(slit)));
 }
 
 TEST(SimpleBorder, HasOneOuterPolygon)
 {
 	const SurfaceMesh large = rectangle(2, 2, 4.0, 4.0), small = rectangle(1, 1, 0.5, 0.5);
 	for (const double shift : {0.7, 9.0}) // inside the other one, and beside it
-		EXPECT_FALSE(isSimple(drawn(sideBySide(large, small, shift))));
+		EXPECT_FALSE(isSimple(flatMesh(sideBySide(large, small, shift))));
 }
 
 TEST(SimpleBorder, HasNoFold)
 {
 	SurfaceMesh mesh = rectangle(6, 6, 6.0, 6.0);
 	mesh.positions[at(3 * 7 + 3)] = {4.4, 4.1, 0.0};
-	EXPECT_FALSE(isSimple(drawn(mesh)));
+	EXPECT_FALSE(isSimple(flatMesh(mesh)));
 }
 
 /// Where it is simple, the search finds nothing; and where the search finds something, it is not.
@@ -87,8 +86,8 @@ TEST(SimpleBorder, AgreesWithTheSearch)
 	Random random(1241);
 	int simple = 0, overlapping = 0;
 	for (int trial = 0; trial < 400; ++trial) {
-		const DrawnChart chart =
-			drawn(ring(random.real(0.9, 1.06), trial % 2 == 0 ? 0.0 : 0.3, Ends::Open, random));
+		const FlatMesh chart =
+			flatMesh(ring(random.real(0.9, 1.06), trial % 2 == 0 ? 0.0 : 0.3, Ends::Open, random));
 		const bool isFree = overlappingPairs(chart).empty();
 		if (isSimple(chart)) {
 			EXPECT_TRUE(isFree);

@@ -71,10 +71,7 @@ struct CutMap
 			plane.push_back(flat.at(f));
 		Report report;
 		measureDistortion(
-			{mesh.positions, flat.vertices.values()},
-			plane,
-			std::vector<char>(plane.size(), 0),
-			report);
+			flat.vertices, mesh.positions, Array<Triangle2>(plane), report);
 		return report;
 	}
 };

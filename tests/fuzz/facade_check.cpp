@@ -174,7 +174,7 @@ bool isEven(const SurfaceMesh& mesh, double ratio)
 }
 
 /// Whether the pieces of every face cover it once.
-std::string defectOfPieces(const Reading& reading, const RefinedMesh& refined, std::size_t vertices)
+std::string defectOfPieces(const Reading& reading, const FlatMesh& refined, std::size_t vertices)
 {
 	constexpr double kTolerance = 1e-6, kEven = 1e6;
 	std::map<int, std::pair<int, double>> covered; // [VCG face] pieces, their part of the area
@@ -182,24 +182,24 @@ std::string defectOfPieces(const Reading& reading, const RefinedMesh& refined, s
 	for (std::size_t f = 0; f < reading.face.size(); ++f)
 		number[reading.face[f]] = f;
 	for (std::size_t v = 0; v < vertices; ++v)
-		if (refined.points[v].vertex[0] != static_cast<int>(v) ||
-			refined.points[v].weight[0] != 1.0)
+		if (refined.source.values()[v].vertex[0] != static_cast<int>(v) ||
+			refined.source.values()[v].weight[0] != 1.0)
 			return "a point of the refinement is not the vertex of its number";
-	for (std::size_t i = 0; i < refined.triangles.size(); ++i) {
-		const int f = refined.inputFace[i];
+	for (const int i : refined.vertices.indices()) {
+		const int f = refined.face[i];
 		if (number.count(f) == 0)
 			return "a piece belongs to no face";
 		const Triangle& t = reading.mesh.triangles[number[f]];
 		auto& [pieces, area] = covered[f];
 		++pieces;
 		if (reading.isDegenerate[at(f)]) {
-			if (refined.triangles[i] != t || pieces > 1)
+			if (refined.vertices[i] != t || pieces > 1)
 				return "a face without area is not drawn as it is";
 			continue;
 		}
 		Point3 w[3];
 		for (std::size_t k = 0; k < 3; ++k)
-			if (!coordinatesIn(t, refined.points[at(refined.triangles[i][k])], w[k]) ||
+			if (!coordinatesIn(t, refined.source[refined.vertices[i][k]], w[k]) ||
 				std::min({w[k][0], w[k][1], w[k][2]}) < -kTolerance)
 				return "a piece lies outside its face";
 		const double part = w[0][0] * (w[1][1] * w[2][2] - w[1][2] * w[2][1]) -
@@ -282,7 +282,6 @@ bool mayRefuse(const HostileMesh& hostile, InvalidMesh::Problem problem)
 /// the written floats do.
 template<class Mesh>
 std::string miscounted(
-	const Mesh& m,
 	const typename vcg::tri::RicciFlow<Mesh>::Result& result,
 	const Reading& reading,
 	bool mustBeRight,
@@ -299,13 +298,8 @@ std::string miscounted(
 		else
 			byRounding += inFloats != reading.wanted[f];
 	};
-	if (result.refined.triangles.empty())
-		for (std::size_t f = 0; f < m.face.size(); ++f) {
-			if (!m.face[f].IsD())
-				count(result.wedgeUV[f], f);
-		}
-	for (std::size_t i = 0; i < result.refined.triangles.size(); ++i)
-		count(result.refined.uv[i], at(result.refined.inputFace[i]));
+	for (const int f : result.mesh.points.indices())
+		count(result.mesh.at(f), at(result.mesh.face[f]));
 	if (drawn > 0)
 		return "a face without area has one in the map";
 	if (isHyperbolic) // whose faces are geodesic triangles
@@ -404,13 +398,12 @@ bool isSentence(const std::string& text)
 
 /// The layers of the hyperbolic filter.
 template<class Mesh>
-std::string
-defectOfCover(const Mesh& m, const typename vcg::tri::RicciFlow<Mesh>::Result& result, int rings)
+std::string defectOfCover(const typename vcg::tri::RicciFlow<Mesh>::Result& result, int rings)
 {
 	constexpr std::size_t kMaxFaces = 2000;
 	Mesh cover;
 	try {
-		vcg::tri::RicciFlowLayers<Mesh>::BuildUniversalCover(m, result, rings, kMaxFaces, cover);
+		vcg::tri::RicciFlowLayers<Mesh>::BuildUniversalCover(result, rings, kMaxFaces, cover);
 	}
 	catch (const InvalidOption& error) {
 		if (error.problem != InvalidOption::CoverTooLarge || !isSentence(sentence(error)))
@@ -514,17 +507,19 @@ Execution run(const HostileMesh& hostile)
 	const Reading reading(m, seams);
 	if (execution.defect.empty())
 		execution.defect = contradictionOf(result.report, reading.opened);
-	const bool refined = !result.refined.triangles.empty();
+	const bool refined =
+		(hostile.hyperbolic ? hostile.hyperbolicOptions.output : hostile.options.output) ==
+		OutputTriangulation::CommonRefinement;
 	if (execution.defect.empty() && refined)
-		execution.defect = defectOfPieces(reading, result.refined, m.vert.size());
+		execution.defect = defectOfPieces(reading, result.mesh, m.vert.size());
 	if (!execution.defect.empty())
 		return execution;
 	const bool finished = isOrdinary(hostile, reading, result.report);
-	execution.defect = miscounted(m, result, reading, finished, hostile.hyperbolic);
+	execution.defect = miscounted<Mesh>(result, reading, finished, hostile.hyperbolic);
 	if (!execution.defect.empty())
 		return execution;
 	if (hostile.hyperbolic)
-		execution.defect = defectOfCover<Mesh>(m, result, hostile.rings);
+		execution.defect = defectOfCover<Mesh>(result, hostile.rings);
 	if (!execution.defect.empty())
 		return execution;
 	Mesh flat;
@@ -539,7 +534,7 @@ Execution run(const HostileMesh& hostile)
 	execution.defect = defectOfWritten(m, hostile.normalizeUV || hostile.hyperbolic);
 	if (execution.defect.empty() && shapeOf(m, vertices, !refined) != shape)
 		execution.defect = "the mesh is not what it was";
-	vcg::tri::RicciFlowLayers<Mesh>::BuildFlatMesh(m, result, flat);
+	vcg::tri::RicciFlowLayers<Mesh>::BuildFlatMesh(result, flat);
 	if (execution.defect.empty() && flat.FN() != m.FN())
 		execution.defect = "the flat mesh has another number of faces";
 	return execution;

@@ -537,10 +537,13 @@ TEST(CommonRefinement, AreaIsThatOfTheSurfaceInTheResult)
 		options.output = OutputTriangulation::CommonRefinement;
 		VertexInput input;
 		input.selected = p.request.selected.values();
-		const Parametrization flat = run(p.mesh, options, input);
-		const RefinedMesh& r = flat.refined;
+		const FlatResult flat = run(p.mesh, options, input);
+		const FlatMesh& r = flat.mesh;
+		const UV plane = r.corners().values();
 		const RefinementCheck check(
-			p.mesh, {r.points, r.triangles, r.inputFace, r.uv}, flat.targetCurvature);
+			p.mesh,
+			{r.source.values(), r.vertices.values(), r.face.values(), plane},
+			flat.targetCurvature);
 		EXPECT_EQ(check.notPositive, 0);
 		EXPECT_EQ(flat.report.flippedFaces, 0);
 		EXPECT_LT(check.seamMismatch, 1e-9);
@@ -557,7 +560,7 @@ TEST(CommonRefinement, AreaIsThatOfTheSurfaceInTheResult)
 		EXPECT_NEAR(check.area / area, 1.0, 1e-9);
 		EXPECT_EQ(
 			flat.report.refinementPoints,
-			static_cast<int>(r.points.size() - p.mesh.positions.size()));
+			r.source.size() - static_cast<int>(p.mesh.positions.size()));
 		++seen;
 	}
 	EXPECT_EQ(seen, 10); // all but the three with prescribed curvature

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/flat_meshes.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 #include "support/transform.h"
@@ -135,7 +136,7 @@ TEST(Distortion, MeansByFaceAreaAndVertex)
 		plane.push_back(p);
 	}
 	Report report;
-	const DistortionField field = measureDistortion(mesh, plane, {0, 0, 0, 0}, report);
+	const DistortionField field = measured(mesh, plane, report);
 	const double face[] = {1, 1, 2, 2};
 	for (std::size_t f = 0; f < 4; ++f)
 		EXPECT_NEAR(field.face[f], face[f], 1e-14);
@@ -168,7 +169,7 @@ TEST(Distortion, TheHistogramRunsOverTheVerticesThatHaveFaces)
 	const Eigen::Matrix2d stretch = Eigen::Vector2d(1.5, 1.0).asDiagonal();
 	const auto plane = mapped(mesh, stretch);
 	Report report;
-	measureDistortion(mesh, plane, std::vector<char>(plane.size(), 0), report);
+	measured(mesh, plane, report);
 	const Histogram& h = report.qcHistogram;
 	std::size_t counted = h.below + h.above;
 	for (std::size_t i = 0; i < h.counts.size(); ++i) {
@@ -194,7 +195,7 @@ TEST(Distortion, PercentileIsTheValueThat99PercentDoNotExceed)
 		plane.push_back({{{0, 0}, {1.0 + i, 0}, {0, 1}}});
 	}
 	Report report;
-	measureDistortion(mesh, plane, std::vector<char>(200, 0), report);
+	measured(mesh, plane, report);
 	EXPECT_NEAR(report.qcP99, 198.0, 1e-11);
 	EXPECT_NEAR(report.qcMax, 200.0, 1e-11);
 	EXPECT_NEAR(report.qcMean, 100.5, 1e-11);
@@ -205,15 +206,10 @@ TEST(Distortion, CountsFacesWithTheWrongOrNoOrientation)
 	const SurfaceMesh mesh = rectangle(2, 1, 2, 1);
 	auto plane = mapped(mesh, Eigen::Matrix2d::Identity());
 	Report report;
-	measureDistortion(mesh, plane, {0, 0, 0, 0}, report);
-	EXPECT_EQ(report.flippedFaces, 0);
-	measureDistortion(mesh, plane, {0, 1, 0, 1}, report);
-	EXPECT_EQ(report.flippedFaces, 2);
-	std::swap(plane[1][0], plane[1][1]);
-	measureDistortion(mesh, plane, {0, 1, 0, 0}, report);
+	measured(mesh, plane, report);
 	EXPECT_EQ(report.flippedFaces, 0);
 	plane[2][1] = plane[2][0]; // no area
-	const DistortionField field = measureDistortion(mesh, plane, {0, 1, 0, 0}, report);
+	const DistortionField field = measured(mesh, plane, report);
 	EXPECT_EQ(report.flippedFaces, 1);
 	EXPECT_TRUE(std::isinf(field.face[2]));
 	EXPECT_NEAR(report.qcMax, 1.0, 1e-14); // it is kept out of the means
@@ -232,8 +228,7 @@ TEST(AreaDistortion, OfASimilarityIsOneAndOfALinearMapToo)
 		if (std::abs(A.determinant()) < 0.1)
 			continue;
 		Report report;
-		measureDistortion(
-			mesh, mapped(mesh, A), std::vector<char>(mesh.triangles.size(), 0), report);
+		measured(mesh, mapped(mesh, A), report);
 		EXPECT_NEAR(report.areaDistortionMean, 1.0, 1e-6);
 		EXPECT_NEAR(report.areaDistortionSpread, 0.0, 1e-6);
 		++seen;
@@ -269,18 +264,18 @@ TEST(Distortion, FacesThatRoundingToFloatFlips)
 {
 	// Corners that differ by less than a unit in the last place of a float, and one that does not.
 	const double ulp = 0x1p-24;
-	const std::vector<Triangle2> plane{
-		{{{0.5, 0.25}, {0.5 + 0.3 * ulp, 0.25}, {0.25, 0.75}}},
-		{{{0.5, 0.25}, {0.5 + 4 * ulp, 0.25}, {0.25, 0.75}}},
-		{{{0.5, 0.25}, {0.25, 0.75}, {0.5 + 0.3 * ulp, 0.25}}}};
-	const auto count = [&](const std::vector<char>& reversed) {
+	const Triangle2 thin{Point2{0.5, 0.25}, {0.5 + 0.3 * ulp, 0.25}, {0.25, 0.75}},
+		wide{Point2{0.5, 0.25}, {0.5 + 4 * ulp, 0.25}, {0.25, 0.75}},
+		flipped{thin[0], thin[2], thin[1]};
+	const auto count = [&](const std::vector<Triangle2>& plane) {
+		const SurfaceMesh mesh{std::vector<Point3>(9), {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}}};
 		Report report;
-		countFlipped(plane, reversed, report);
+		countFlipped(flatMesh(mesh, plane), report);
 		return std::make_pair(report.flippedFaces, report.flippedByRounding);
 	};
-	EXPECT_EQ(count({0, 0, 0}), std::make_pair(1, 1));
-	EXPECT_EQ(count({0, 0, 1}), std::make_pair(0, 2));
-	EXPECT_EQ(count({1, 1, 0}), std::make_pair(3, 0));
+	EXPECT_EQ(count({thin, wide, flipped}), std::make_pair(1, 1));
+	EXPECT_EQ(count({thin, wide, thin}), std::make_pair(0, 2));
+	EXPECT_EQ(count({flipped, flipped, flipped}), std::make_pair(3, 0));
 }
 
 } // namespace

@@ -91,7 +91,7 @@ TEST(HoleSeams, AreLeftOutWhereTheMetricCloses)
 			const SurfaceMesh mesh = perforated(16, height);
 			Options options;
 			options.method = method;
-			const Parametrization flat = run(mesh, options);
+			const FlatResult flat = run(mesh, options);
 			EXPECT_EQ(flat.report.cappedHoles, 0);
 			EXPECT_EQ(flat.report.seamEdges == 0, height == 0.0);
 			EXPECT_EQ(flat.report.flippedFaces, 0);
@@ -118,7 +118,7 @@ TEST(CappedHoles, OfAPlaneDoNotMoveIt)
 		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
 		Options options = capped();
 		options.output = output;
-		const Parametrization flat = run(mesh, options);
+		const FlatResult flat = run(mesh, options);
 		EXPECT_EQ(flat.report.cappedHoles, 3);
 		EXPECT_EQ(flat.report.boundaryLoops, 4);
 		EXPECT_EQ(flat.report.seamEdges, 0);
@@ -148,7 +148,7 @@ TEST(CappedHoles, GiveOneChartWithoutSeamsForEveryTargetOfADisk)
 			Options options = capped();
 			options.target = target;
 			options.freeBoundary = freeBoundary;
-			const Parametrization flat = run(mesh, options);
+			const FlatResult flat = run(mesh, options);
 			EXPECT_EQ(flat.report.seamEdges, 0);
 			EXPECT_EQ(flat.report.flippedFaces, 0);
 			EXPECT_EQ(flat.report.overlappingCharts, 0);
@@ -174,14 +174,14 @@ TEST(CappedHoles, TurnAnAnnulusIntoADisk)
 	// structure in the limit: the ring becomes the plane ring that it is.
 	const SurfaceMesh mesh = ring(0.2, 1.0, 48, 12);
 	Options options = capped();
-	const Parametrization flat = run(mesh, options);
+	const FlatResult flat = run(mesh, options);
 	EXPECT_EQ(flat.report.genus, 0);
 	EXPECT_EQ(flat.report.boundaryLoops, 2);
 	EXPECT_EQ(flat.report.seamEdges, 0);
 	EXPECT_FALSE(flat.report.annulusModulus);
 	EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
 	options.target = TargetCurvature::Disk;
-	const Parametrization disk = run(mesh, options);
+	const FlatResult disk = run(mesh, options);
 	EXPECT_NEAR(disk.report.qcMax, 1.0, 1e-7);
 }
 
@@ -212,7 +212,7 @@ TEST(CappedHoles, CarryConesOnTheirRim)
 		expectWords(error.what(), {"6.28318531", "at an interior vertex (1 "});
 	}
 	input.selected[at(vertex(8, 8))] = 1;
-	const Parametrization flat = run(mesh, options, input);
+	const FlatResult flat = run(mesh, options, input);
 	EXPECT_GT(flat.report.seamEdges, 0);
 	EXPECT_NEAR(flat.targetCurvature[at(rim)], kPi, 1e-12);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "../support/flat_map.h"
 #include "../support/listener.h"
 #include "../support/shapes.h"
 
@@ -17,7 +18,7 @@ namespace ricci::testing {
 namespace {
 
 /// The largest distance of the rotation between the two images of an edge from a multiple of pi / 2.
-double seamError(const SurfaceMesh& mesh, const Parametrization& map)
+double seamError(const SurfaceMesh& mesh, const FlatResult& map)
 {
 	std::map<std::pair<int, int>, std::complex<double>> image;
 	double error = 0.0;
@@ -56,11 +57,6 @@ Options seamless(Finish finish)
 	return options;
 }
 
-Parametrization run(const SurfaceMesh& mesh, const Options& options)
-{
-	return parametrizeEuclidean(mesh, {}, options);
-}
-
 void expectCones(const Parametrization& map, int eulerCharacteristic)
 {
 	double sum = 0.0;
@@ -77,7 +73,7 @@ TEST(MakeSeamless, RotatesByQuarterTurnsOnEveryGenus)
 		for (const Finish finish : {Finish::Repair, Finish::LeastDistortion}) {
 			SCOPED_TRACE(genus);
 			const SurfaceMesh mesh = bentSlab(genus, 4);
-			const Parametrization map = run(mesh, seamless(finish));
+			const FlatResult map = run(mesh, seamless(finish));
 			EXPECT_LT(seamError(mesh, map), 1e-9);
 			ASSERT_TRUE(map.report.holonomyError);
 			EXPECT_LT(*map.report.holonomyError, 1e-9);
@@ -93,8 +89,8 @@ TEST(MakeSeamless, CostsLittleOfTheAngles)
 	const SurfaceMesh mesh = bentSlab(2, 8);
 	Options free = seamless(Finish::LeastDistortion);
 	free.cones.rounding = ConeRounding::Free;
-	const Parametrization before = run(mesh, free);
-	const Parametrization after = run(mesh, seamless(Finish::LeastDistortion));
+	const FlatResult before = run(mesh, free);
+	const FlatResult after = run(mesh, seamless(Finish::LeastDistortion));
 	EXPECT_FALSE(before.report.holonomyError);
 	EXPECT_GT(seamError(mesh, before), 0.01);
 	EXPECT_LT(seamError(mesh, after), 1e-9);
@@ -108,7 +104,7 @@ TEST(MakeSeamless, RoundsHolesWithAFreeBoundary)
 		const SurfaceMesh mesh = withoutStars(bentSlab(genus, 6), {0, 200, 400});
 		Options options = seamless(Finish::LeastDistortion);
 		options.cones.count = 6;
-		const Parametrization map = run(mesh, options);
+		const FlatResult map = run(mesh, options);
 		ASSERT_EQ(map.report.boundaryLoops, 3);
 		EXPECT_LT(seamError(mesh, map), 1e-9);
 		EXPECT_EQ(map.report.flippedFaces, 0);
@@ -121,7 +117,7 @@ TEST(MakeSeamless, LeavesPrescribedBoundaries)
 	Options options = seamless(Finish::LeastDistortion);
 	options.freeBoundary = false;
 	options.cones.count = 6;
-	const Parametrization map = run(mesh, options);
+	const FlatResult map = run(mesh, options);
 	EXPECT_LT(map.report.maxCurvatureError, 1e-8);
 	EXPECT_EQ(map.report.flippedFaces, 0);
 	double sum = 0.0;
@@ -136,7 +132,7 @@ TEST(MakeSeamless, AddsNoConesToANumberThatIsAskedFor)
 		Options options = seamless(Finish::LeastDistortion);
 		options.cones.count = count;
 		const SurfaceMesh mesh = bentSlab(2, 4);
-		const Parametrization map = run(mesh, options);
+		const FlatResult map = run(mesh, options);
 		EXPECT_LE(map.report.cones, count);
 		EXPECT_LT(seamError(mesh, map), 1e-9);
 	}
@@ -145,7 +141,7 @@ TEST(MakeSeamless, AddsNoConesToANumberThatIsAskedFor)
 TEST(MakeSeamless, ChangesNothingOnASphere)
 {
 	const SurfaceMesh mesh = bentSlab(0, 4);
-	const Parametrization map = run(mesh, seamless(Finish::None));
+	const FlatResult map = run(mesh, seamless(Finish::None));
 	// The rotations across a tree of cones are sums of their curvatures.
 	EXPECT_LT(map.report.holonomyError.value_or(1.0), 1e-12);
 }
@@ -161,7 +157,7 @@ TEST(MakeSeamless, HoldsOnTheCommonRefinement)
 {
 	Options options = seamless(Finish::LeastDistortion);
 	options.output = OutputTriangulation::CommonRefinement;
-	const Parametrization map = run(bentSlab(2, 4), options);
+	const FlatResult map = run(bentSlab(2, 4), options);
 	EXPECT_LT(map.report.holonomyError.value_or(1.0), 1e-9);
 	EXPECT_EQ(map.report.flippedFaces, 0);
 }

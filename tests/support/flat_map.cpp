@@ -4,7 +4,10 @@
 #include "complex.h"
 #include "shapes.h"
 
+#include <ricci/charts/input_indices.h>
 #include <ricci/error.h>
+#include <ricci/measure/distortion.h>
+#include <ricci/pipeline/whole_map.h>
 #include <ricci/surface/triangulation.h>
 
 #include <algorithm>
@@ -71,9 +74,43 @@ double FlatMap::error(const std::vector<double>& target) const
 	return largest;
 }
 
-Parametrization run(const SurfaceMesh& mesh, const Options& options, const VertexInput& input)
+namespace {
+
+FlatResult withInputIndices(const SurfaceMesh& mesh, const OpenedMesh& opened, Parametrization map)
 {
-	return parametrizeEuclidean(mesh, input, options);
+	toInputIndices(mesh, opened, map);
+	FlatResult result{std::move(map), UV(mesh.triangles.size())};
+	for (const int f : result.mesh.points.indices())
+		for (const Corner c : cornersOf(f))
+			for (std::size_t k = 0; k < 3; ++k)
+				if (mesh.triangles[at(result.mesh.face[f])][k] == result.mesh.vertices[c])
+					result.uv[at(result.mesh.face[f])][k] = result.mesh.at(c);
+	return result;
+}
+
+} // namespace
+
+double qcOf(const SurfaceMesh& mesh, const FlatResult& map, std::size_t face)
+{
+	const Triangle& t = mesh.triangles[face];
+	return quasiConformalDistortion(
+		{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]},
+		map.uv[face]);
+}
+
+FlatResult run(const SurfaceMesh& mesh, const Options& options, const VertexInput& input)
+{
+	OpenedMesh opened;
+	Parametrization map = chartsInPlane(mesh, input, options, opened);
+	return withInputIndices(mesh, opened, std::move(map));
+}
+
+FlatResult
+runInDisk(const SurfaceMesh& mesh, const HyperbolicOptions& options, const VertexInput& input)
+{
+	OpenedMesh opened;
+	Parametrization map = chartsInDisk(mesh, input, options, opened);
+	return withInputIndices(mesh, opened, std::move(map));
 }
 
 VertexInput selecting(const SurfaceMesh& mesh, const std::vector<int>& vertices)

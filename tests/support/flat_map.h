@@ -29,8 +29,21 @@ struct FlatMap
 	double error(const std::vector<double>& target) const;
 };
 
-/// Runs the core with a listener that never cancels.
-Parametrization run(const SurfaceMesh& mesh, const Options& options, const VertexInput& input = {});
+/// A map before its charts are packed, in the indices of the input, with what it gives the input's faces.
+struct FlatResult : Parametrization
+{
+	UV uv; ///< [face][corner]
+};
+
+/// quasiConformalDistortion() of a face of \p mesh.
+double qcOf(const SurfaceMesh& mesh, const FlatResult& map, std::size_t face);
+
+/// Charts in the plane, each from the origin.
+FlatResult run(const SurfaceMesh& mesh, const Options& options, const VertexInput& input = {});
+
+/// Charts in the Poincaré disk.
+FlatResult
+runInDisk(const SurfaceMesh& mesh, const HyperbolicOptions& options, const VertexInput& input = {});
 
 /// These vertices selected.
 VertexInput selecting(const SurfaceMesh& mesh, const std::vector<int>& vertices);

@@ -9,7 +9,7 @@
 #include "vcg_mesh.h"
 
 #include <ricci/layout/common_refinement.h>
-#include <ricci/parametrize.h>
+#include <ricci/pipeline/whole_map.h>
 #include <ricci/surface/component.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>
@@ -206,32 +206,29 @@ struct Outcome
 	double seconds = 0.0;       ///< of the processor
 };
 
-void draw(const SurfaceMesh& mesh, const RefinedMesh& refined, Outcome& out)
+/// \param positions of the vertices that the map is of
+void draw(const FlatMesh& map, const std::vector<Point3>& positions, Outcome& out)
 {
-	for (const SurfacePoint& p : refined.points)
-		out.drawn.positions.push_back(placeOnSurface(p, mesh.positions));
-	out.drawn.triangles = refined.triangles;
-	out.uv = refined.uv;
+	out.drawn.positions = map.onSurface(positions);
+	for (const int f : map.points.indices())
+		if (map.chart[f] >= 0) { // no degenerate face
+			out.drawn.triangles.push_back(map.vertices[f]);
+			out.uv.push_back(map.at(f));
+		}
 }
 
 Outcome runCore(const SurfaceMesh& mesh, const Options& options, Progress& progress)
 {
 	Outcome out;
+	OpenedMesh opened;
 	const std::clock_t start = std::clock();
-	const Parametrization flat = testing::heard(progress, [&] { return parametrizeEuclidean(mesh, {}, options); });
+	const Parametrization flat =
+		testing::heard(progress, [&] { return chartsInPlane(mesh, {}, options, opened); });
 	out.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 	out.report = flat.report;
 	out.notes = flat.notes;
-	if (options.output == OutputTriangulation::CommonRefinement) {
-		draw(flat.opened.mesh, flat.refined, out);
-		for (int f : flat.refined.inputFace)
-			out.reversed.push_back(flat.reversed[positionOf(f)]);
-	}
-	else {
-		out.drawn = flat.opened.mesh;
-		out.uv = flat.uv;
-		out.reversed = flat.reversed;
-	}
+	draw(flat.mesh, opened.mesh.positions, out);
+	out.reversed.assign(out.uv.size(), 0);
 	return out;
 }
 
@@ -253,19 +250,12 @@ runPacked(const SurfaceMesh& mesh, const Options& options, const Arguments& a, P
 	out.notes = flat.notes;
 	std::vector<std::string> notes;
 	const OpenedMesh opened = openMesh(mesh, notes);
-	if (options.output == OutputTriangulation::CommonRefinement) {
-		draw(mesh, flat.refined, out);
-		std::vector<char> reversed(mesh.triangles.size(), 0);
-		for (const Face f : opened.reversed.indices())
-			reversed[positionOf(opened.face[positionOf(f)])] = opened.reversed[f];
-		for (const int f : flat.refined.inputFace)
-			out.reversed.push_back(reversed[positionOf(f)]);
-		return out;
-	}
-	out.drawn = opened.mesh;
-	for (const int f : opened.face)
-		out.uv.push_back(flat.wedgeUV[positionOf(f)]);
-	out.reversed = opened.reversed.values();
+	draw(flat.mesh, mesh.positions, out);
+	std::vector<char> reversed(mesh.triangles.size(), 0);
+	for (const Face f : opened.reversed.indices())
+		reversed[positionOf(opened.face[positionOf(f)])] = opened.reversed[f];
+	for (std::size_t f = 0; f < out.uv.size(); ++f)
+		out.reversed.push_back(reversed[positionOf(flat.mesh.face[static_cast<int>(f)])]);
 	return out;
 }
 

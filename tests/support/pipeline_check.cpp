@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pipeline_check.h"
 
-#include "flat_map.h"
 #include "refinement_check.h"
 #include "shapes.h"
 
 #include <ricci/error.h>
-#include <ricci/parametrize.h>
+#include <ricci/pipeline/whole_map.h>
 #include <ricci/surface/component.h>
 #include <ricci/surface/triangulation.h>
 
@@ -43,35 +42,28 @@ std::vector<double> admissibleCurvature(const SurfaceMesh& mesh)
 	return curvature;
 }
 
-/// The map with every face turned as the algorithm turned it.
-struct CoherentMap
+/// The opened mesh with every face turned as the algorithm turned it.
+SurfaceMesh coherent(const OpenedMesh& opened)
 {
-	SurfaceMesh mesh;
-	RefinedMesh refined;
+	SurfaceMesh mesh = opened.mesh;
+	for (const Face f : opened.reversed.indices())
+		if (opened.reversed[f])
+			std::swap(mesh.triangles[at(f)][1], mesh.triangles[at(f)][2]);
+	return mesh;
+}
 
-	CoherentMap(const SurfaceMesh& input, const Parametrization& flat) :
-			mesh(input), refined(flat.refined)
-	{
-		for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-			if (flat.reversed[f])
-				std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
-		for (std::size_t f = 0; f < refined.triangles.size(); ++f)
-			if (flat.reversed[at(refined.inputFace[f])]) {
-				std::swap(refined.triangles[f][1], refined.triangles[f][2]);
-				std::swap(refined.uv[f][1], refined.uv[f][2]);
-			}
-	}
-};
-
-std::string defectOf(const SurfaceMesh& input, const Parametrization& flat, int& belowResolution)
+std::string defectOf(const OpenedMesh& opened, const Parametrization& flat, int& belowResolution)
 {
 	const Report& report = flat.report;
-	const CoherentMap map(input, flat);
-	const RefinedMesh& r = map.refined;
+	const SurfaceMesh input = coherent(opened);
+	const FlatMesh& mesh = flat.mesh;
+	const std::vector<Triangle2> plane = mesh.corners().values();
 	const RefinementCheck check(
-		map.mesh, {r.points, r.triangles, r.inputFace, r.uv}, flat.targetCurvature);
+		input,
+		{mesh.source.values(), mesh.vertices.values(), mesh.face.values(), plane},
+		flat.targetCurvature);
 	std::vector<char> covered(input.triangles.size(), 0);
-	for (int f : r.inputFace)
+	for (int f : mesh.face)
 		covered[at(f)] = 1;
 	std::string defects;
 	const auto require = [&](bool good, const char* name, double value) {
@@ -104,9 +96,8 @@ std::string defectOf(const SurfaceMesh& input, const Parametrization& flat, int&
 	const auto lost = std::count(covered.begin(), covered.end(), 0);
 	require(lost == 0, "faces lost", static_cast<double>(lost));
 	bool finite = true;
-	for (const auto& triangle : r.uv)
-		for (const Point2& p : triangle)
-			finite &= std::isfinite(p[0]) && std::isfinite(p[1]);
+	for (const Point2& p : mesh.place)
+		finite &= std::isfinite(p[0]) && std::isfinite(p[1]);
 	for (double u : flat.u)
 		finite &= std::isfinite(u);
 	require(finite, "finite", finite);
@@ -126,9 +117,10 @@ PipelineCheck::PipelineCheck(const SurfaceMesh& mesh)
 	try {
 		VertexInput input;
 		input.targetCurvature = admissibleCurvature(mesh);
-		const Parametrization flat = run(mesh, options, input);
+		OpenedMesh opened;
+		const Parametrization flat = chartsInPlane(mesh, input, options, opened);
 		report = flat.report;
-		defect = defectOf(flat.opened.mesh, flat, belowResolution);
+		defect = defectOf(opened, flat, belowResolution);
 	}
 	catch (const Error& error) {
 		refusal = error.what();

@@ -6,6 +6,7 @@
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -97,21 +98,33 @@ void printReport(const std::string& run, const Report& r)
 
 void printResult(const std::string& run, const Flow::Result& result)
 {
+	const bool isRefined = run.find("refined") != std::string::npos;
 	printReport(run, result.report);
 	Digest uv, qc, u, target, refined, group;
-	uv.addAll(result.wedgeUV);
-	qc.addAll(result.vertexQC);
+	const FlatMesh& mesh = result.mesh;
 	u.addAll(result.u);
 	target.addAll(result.targetCurvature);
-	refined.addAll(result.refined.triangles);
-	refined.addAll(result.refined.inputFace);
-	refined.addAll(result.refined.uv);
-	refined.addAll(result.refined.vertexQC);
-	for (const SurfacePoint& p : result.refined.points) {
-		refined.addAll(p.vertex);
-		refined.addAll(p.weight);
+	if (isRefined) {
+		refined.addAll(mesh.vertices);
+		refined.addAll(mesh.face);
+		refined.addAll(mesh.corners());
+		refined.addAll(result.vertexQC);
+		for (const SurfacePoint& p : mesh.source) {
+			refined.addAll(p.vertex);
+			refined.addAll(p.weight);
+		}
 	}
-	for (const FuchsianGroup& g : result.groups) {
+	else {
+		std::vector<Triangle2> byFace(positionOf(mesh.size()));
+		for (const int f : mesh.face.indices())
+			byFace[positionOf(mesh.face[f])] = mesh.at(f);
+		uv.addAll(byFace);
+		qc.addAll(result.vertexQC);
+	}
+	for (const Chart& chart : result.charts) {
+		const FuchsianGroup& g = chart.group;
+		if (!result.report.relationError)
+			continue; // in the plane there is none
 		for (const auto* isometries : {&g.handles, &g.peripheral, &g.sides})
 			for (const DiskIsometry& isometry : *isometries) {
 				group.add(isometry.a);

@@ -2,6 +2,7 @@
 #ifndef RICCI_TESTS_VCG_MESH_H
 #define RICCI_TESTS_VCG_MESH_H
 
+#include <ricci/charts/parametrization.h>
 #include <ricci/surface/surface_mesh.h>
 
 #include <vcg/complex/complex.h>
@@ -132,6 +133,18 @@ SurfaceMesh fromVcg(const MeshType& from)
 				 static_cast<int>(vcg::tri::Index(from, f.cV(1))),
 				 static_cast<int>(vcg::tri::Index(from, f.cV(2)))});
 	return mesh;
+}
+
+/// [face] what a map gives its corners, of each face its first triangle.
+inline std::vector<Triangle2> wedgesOf(const Parametrization& map)
+{
+	std::vector<Triangle2> wedges;
+	for (int f = map.mesh.size(); f-- > 0;) {
+		const std::size_t face = static_cast<std::size_t>(map.mesh.face[f]);
+		wedges.resize(std::max(wedges.size(), face + 1));
+		wedges[face] = map.mesh.at(f);
+	}
+	return wedges;
 }
 
 } // namespace ricci::testing

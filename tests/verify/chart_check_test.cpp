@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/shapes.h"
+#include "support/flat_meshes.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/verify/chart_check.h>
@@ -20,14 +20,7 @@ int crossingsOfAStrip(double angle, double rise, double depth)
 		const double a = angle * i / n, r = 2.0 - 0.5 * j + rise * a / (2 * kPi);
 		return Point3{r * std::cos(a), r * std::sin(a), 0.0};
 	});
-	std::vector<Triangle2> plane;
-	for (const Triangle& t : strip.triangles) {
-		Triangle2 p;
-		for (std::size_t k = 0; k < 3; ++k)
-			p[k] = {strip.positions[at(t[k])][0], strip.positions[at(t[k])][1]};
-		plane.push_back(p);
-	}
-	return borderCrossings(strip.triangles, plane, depth);
+	return borderCrossings(flatMesh(strip), depth);
 }
 
 TEST(ChartCheck, ABorderThatDoesNotCrossItself)
@@ -46,7 +39,8 @@ TEST(ChartCheck, ASideMayEndOnAnother)
 				const std::vector<Triangle2> plane = {
 					{{{-2.0, 0.0}, {2.0, 0.0}, {0.0, -3.0 * up}}},
 					{{{0.1, -past * up}, {0.6, up}, {-0.4, up}}}};
-				const int crossings = borderCrossings({{0, 1, 2}, second}, plane, 1e-6);
+				const SurfaceMesh two{std::vector<Point3>(6), {{0, 1, 2}, second}};
+				const int crossings = borderCrossings(flatMesh(two, plane), 1e-6);
 				EXPECT_EQ(crossings, past > 1e-6 ? 2 : 0);
 			}
 }
@@ -59,16 +53,6 @@ TEST(ChartCheck, ABorderThatCrossesItself)
 	EXPECT_EQ(crossingsOfAStrip(3.9 * kPi, 0.6, 1e-9), 2);
 	// The sides that cross are half a unit long.
 	EXPECT_EQ(crossingsOfAStrip(2.3 * kPi, 0.5, 0.5), 0);
-}
-
-TEST(ChartCheck, APartitionHasEveryNumberOnce)
-{
-	const std::vector<int> a = {0, 3}, b = {2, 1}, c = {1}, d = {4};
-	EXPECT_TRUE(isPartition({&a, &b}, 4));
-	EXPECT_FALSE(isPartition({&a, &b}, 5));
-	EXPECT_FALSE(isPartition({&a, &b, &c}, 4));
-	EXPECT_FALSE(isPartition({&a, &b, &d}, 4));
-	EXPECT_TRUE(isPartition({&a, &b, &d}, 5));
 }
 
 } // namespace

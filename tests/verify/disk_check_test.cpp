@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/flat_meshes.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
@@ -18,17 +19,16 @@ namespace ricci::testing {
 namespace {
 
 /// Straight triangles of the Klein model, which are the geodesic ones of the Poincaré disk at
-/// k / (1 + sqrt(1 - |k|^2)); every second one is clockwise, like its vertices.
+/// k / (1 + sqrt(1 - |k|^2)).
 struct Sheet
 {
-	std::vector<Triangle> triangles;
+	SurfaceMesh mesh;
 	std::vector<Triangle2> plane;
-	std::vector<char> reversed;
 
 	Sheet()
 	{
 		Random random(620);
-		SurfaceMesh mesh = randomPlanarDisk(5, random);
+		mesh = randomPlanarDisk(5, random);
 		double largest = 0.0;
 		Point2 middle{0.0, 0.0};
 		for (const Point3& p : mesh.positions)
@@ -36,11 +36,7 @@ struct Sheet
 				middle[k] += p[k] / static_cast<double>(mesh.positions.size());
 		for (const Point3& p : mesh.positions)
 			largest = std::max(largest, std::hypot(p[0] - middle[0], p[1] - middle[1]));
-		for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-			Triangle t = mesh.triangles[f];
-			reversed.push_back(f % 2 == 1);
-			if (f % 2 == 1)
-				std::swap(t[1], t[2]);
+		for (const Triangle& t : mesh.triangles) {
 			Triangle2 corners;
 			for (std::size_t k = 0; k < 3; ++k) {
 				const Point3& p = mesh.positions[at(t[k])];
@@ -49,7 +45,6 @@ struct Sheet
 				const double scale = 1.0 / (1.0 + std::sqrt(1.0 - x * x - y * y));
 				corners[k] = {scale * x, scale * y};
 			}
-			triangles.push_back(t);
 			plane.push_back(corners);
 		}
 	}
@@ -65,7 +60,7 @@ struct Sheet
 
 	DiskCheck check(double tolerance = 1e-9) const
 	{
-		return checkDisk(triangles, plane, reversed, tolerance);
+		return checkDisk(flatMesh(mesh, plane), tolerance);
 	}
 };
 
@@ -75,28 +70,29 @@ TEST(DiskCheck, AcceptsAMapWithAndWithoutSeams)
 	DiskCheck check = s.check();
 	EXPECT_EQ(check.outside, 0u);
 	EXPECT_LE(check.seamGap, 0.0);
-	EXPECT_EQ(check.turned, 0);
+	EXPECT_EQ(check.flipped, 0);
 	// Cut apart by an isometry, all of the border between the halves becomes a seam.
 	s.moveHalf(DiskIsometry::translationTo({0.3, -0.4}) * DiskIsometry::rotation(2.0));
 	check = s.check();
 	EXPECT_LT(check.seamGap, 1e-13);
-	EXPECT_EQ(check.turned, 0);
+	EXPECT_EQ(check.flipped, 0);
 }
+
+const SurfaceMesh kTwoTriangles{std::vector<Point3>(4), {{0, 1, 2}, {1, 0, 3}}};
 
 TEST(DiskCheck, SeesASeamThatDoesNotFit)
 {
 	// Two triangles on one diameter: their common sides have the lengths 1 and 1.01.
 	const auto on = [](double distance) { return std::tanh(0.5 * distance); };
-	const std::vector<Triangle> triangles = {{0, 1, 2}, {1, 0, 3}};
 	const Point2 origin{0.0, 0.0};
 	const DiskCheck check = checkDisk(
-		triangles,
-		{{{origin, {on(1.0), 0.0}, {0.0, 0.5}}}, {{{on(1.01), 0.0}, origin, {0.0, -0.5}}}},
-		{0, 0},
+		flatMesh(
+			kTwoTriangles,
+			{{{origin, {on(1.0), 0.0}, {0.0, 0.5}}}, {{{on(1.01), 0.0}, origin, {0.0, -0.5}}}}),
 		1e-9);
 	EXPECT_NEAR(check.seamGap, 0.01, 1e-13);
 	EXPECT_NEAR(check.radius, 2.0 * std::atanh(0.5), 1e-14);
-	EXPECT_EQ(check.turned, 0);
+	EXPECT_EQ(check.flipped, 0);
 	// A similarity of the plane is no isometry of the disk.
 	Sheet s;
 	s.moveHalf([](std::complex<double> z) { return 0.9 * z; });
@@ -122,9 +118,7 @@ TEST(DiskCheck, AllowsForTheRoundingOfBothSidesOfASeam)
 		const auto& first = swapped ? far : near;
 		const auto& second = swapped ? near : far;
 		const DiskCheck check = checkDisk(
-			{{0, 1, 2}, {1, 0, 3}},
-			{{{first[0], first[1], apex}}, {{second[1], second[0], apex}}},
-			{0, 0},
+			flatMesh(kTwoTriangles, {{{first[0], first[1], apex}}, {{second[1], second[0], apex}}}),
 			1.0);
 		EXPECT_LE(check.seamGap, 0.0);
 		largest = std::max(largest, std::abs(chordLength(x, y) - chordLength(p, q)));
@@ -132,25 +126,23 @@ TEST(DiskCheck, AllowsForTheRoundingOfBothSidesOfASeam)
 	EXPECT_GT(largest, 1e-12); // or there is nothing to allow for
 }
 
-TEST(DiskCheck, CountsTurnedTrianglesByTheirHeight)
+TEST(DiskCheck, CountsFlippedTrianglesByTheirHeight)
 {
 	// The third corner lies at the distance 0.25 from a diameter, on the wrong side, anywhere in
 	// the disk.
 	const double height = 0.25, y = -std::tanh(0.5 * height);
-	for (double place : {0.0, 0.9, 0.999})
-		for (bool reversed : {false, true}) {
-			const DiskIsometry move =
-				DiskIsometry::translationTo({place, 0.0}) * DiskIsometry::rotation(0.7);
-			Triangle2 p = {Point2{-0.5, 0.0}, Point2{0.5, 0.0}, Point2{0.0, y}};
-			for (Point2& q : p)
-				q = asPoint(move(asComplex(q)));
-			if (reversed)
-				std::swap(p[0], p[1]);
-			const std::vector<char> wanted = {reversed};
-			EXPECT_EQ(checkDisk({{0, 1, 2}}, {p}, wanted, 0.9 * height).turned, 1) << place;
-			EXPECT_EQ(checkDisk({{0, 1, 2}}, {p}, wanted, 1.1 * height).turned, 0) << place;
-			EXPECT_EQ(checkDisk({{0, 1, 2}}, {p}, {!reversed}, 0.0).turned, 0) << place;
-		}
+	const SurfaceMesh triangle{std::vector<Point3>(3), {{0, 1, 2}}};
+	for (double place : {0.0, 0.9, 0.999}) {
+		const DiskIsometry move =
+			DiskIsometry::translationTo({place, 0.0}) * DiskIsometry::rotation(0.7);
+		Triangle2 p = {Point2{-0.5, 0.0}, Point2{0.5, 0.0}, Point2{0.0, y}};
+		for (Point2& q : p)
+			q = asPoint(move(asComplex(q)));
+		EXPECT_EQ(checkDisk(flatMesh(triangle, {p}), 0.9 * height).flipped, 1) << place;
+		EXPECT_EQ(checkDisk(flatMesh(triangle, {p}), 1.1 * height).flipped, 0) << place;
+		std::swap(p[0], p[1]);
+		EXPECT_EQ(checkDisk(flatMesh(triangle, {p}), 0.0).flipped, 0) << place;
+	}
 }
 
 TEST(DiskCheck, CountsPointsThatAreNotInTheDisk)

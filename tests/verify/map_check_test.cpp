@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/flat_meshes.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
@@ -15,32 +16,22 @@
 namespace ricci::testing {
 namespace {
 
-/// A plane mesh as its own map, with every second face clockwise, like its vertices.
+/// A plane mesh as its own map.
 struct Sheet
 {
 	SurfaceMesh mesh;
 	std::vector<Triangle2> plane;
-	std::vector<char> reversed;
 
 	Sheet()
 	{
 		Random random(610);
 		mesh = randomPlanarDisk(5, random);
-		for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-			Triangle& t = mesh.triangles[f];
-			reversed.push_back(f % 2 == 1);
-			if (f % 2 == 1)
-				std::swap(t[1], t[2]);
-			Triangle2 p;
-			for (std::size_t k = 0; k < 3; ++k)
-				p[k] = {mesh.positions[at(t[k])][0], mesh.positions[at(t[k])][1]};
-			plane.push_back(p);
-		}
+		plane = flatMesh(mesh).corners().values();
 	}
 
 	MapCheck check(double tolerance = 1e-9) const
 	{
-		return checkMap(mesh.triangles, plane, reversed, tolerance);
+		return checkMap(flatMesh(mesh, plane), tolerance);
 	}
 };
 
@@ -50,14 +41,14 @@ TEST(MapCheck, AcceptsAMapWithAndWithoutSeams)
 	MapCheck check = s.check();
 	EXPECT_TRUE(check.finite);
 	EXPECT_EQ(check.seamGap, 0.0);
-	EXPECT_EQ(check.turned, 0);
+	EXPECT_EQ(check.flipped, 0);
 	// Cut apart by a motion of a half: all its border becomes a seam.
 	for (std::size_t f = 0; f < s.plane.size() / 2; ++f)
 		for (Point2& p : s.plane[f])
 			p = {3.0 - p[1], p[0]};
 	check = s.check();
 	EXPECT_LT(check.seamGap, 1e-15);
-	EXPECT_EQ(check.turned, 0);
+	EXPECT_EQ(check.flipped, 0);
 }
 
 TEST(MapCheck, SeesSeamsOfDifferentLengths)
@@ -87,18 +78,24 @@ TEST(MapCheck, SeesSeamsOfDifferentLengths)
 	EXPECT_NEAR(s.check().seamGap, longest() * (1 - 1 / 1.001) / extent, 1e-14);
 }
 
-TEST(MapCheck, SeesTurnedAndFlatFaces)
+TEST(MapCheck, SeesFlippedAndFlatFaces)
 {
 	Sheet s;
-	std::swap(s.reversed[7], s.reversed[8]);
-	EXPECT_EQ(s.check().turned, 2);
-	std::swap(s.reversed[7], s.reversed[8]);
-	// A face turned by less than the tolerance is left to rounding.
+	for (const std::size_t f : {7u, 8u})
+		std::swap(s.mesh.triangles[f][1], s.mesh.triangles[f][2]);
+	for (const std::size_t f : {7u, 8u})
+		std::swap(s.plane[f][1], s.plane[f][2]);
+	EXPECT_EQ(s.check().flipped, 2);
+	for (const std::size_t f : {7u, 8u}) {
+		std::swap(s.mesh.triangles[f][1], s.mesh.triangles[f][2]);
+		std::swap(s.plane[f][1], s.plane[f][2]);
+	}
+	// A face flipped by less than the tolerance is left to rounding.
 	auto& p = s.plane[4];
 	const double x = p[1][0] - p[0][0], y = p[1][1] - p[0][1], l = std::hypot(x, y);
 	p[2] = {p[0][0] + 0.5 * x + 1e-10 * y / l, p[0][1] + 0.5 * y - 1e-10 * x / l};
-	EXPECT_EQ(s.check(1e-9).turned, 0);
-	EXPECT_EQ(s.check(1e-11).turned, 1);
+	EXPECT_EQ(s.check(1e-9).flipped, 0);
+	EXPECT_EQ(s.check(1e-11).flipped, 1);
 }
 
 TEST(MapCheck, SeesWhatIsNoNumber)

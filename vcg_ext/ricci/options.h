@@ -2,6 +2,11 @@
 #ifndef RICCI_OPTIONS_H
 #define RICCI_OPTIONS_H
 
+#include "math/points.h"
+
+#include <functional>
+#include <vector>
+
 namespace ricci {
 
 /// Which curvature the flow is asked to reach (paper 5.2). The order is that of the filter's menu.
@@ -89,6 +94,9 @@ struct FlowOptions
 	/// The hyperbolic flow takes LeastDistortion for Repair: its deck transformations, which the map
 	/// of least distortion would have to keep, are no rigid motions of the plane.
 	Finish finish = Finish::LeastDistortion;
+
+	/// Bytes of memory that may be used; a run whose estimate is higher is refused. 0: no limit.
+	double memoryLimit = 0.0;
 };
 
 /// Whether a map is to be finished: those of the other methods are there to compare with.
@@ -108,6 +116,28 @@ struct ConeOptions
 	ConeRounding rounding = ConeRounding::Free;
 };
 
+/// The widest margin that charts are packed with.
+constexpr double kMaxChartMargin = 0.25;
+
+/// Finds places for boxes along the axes, none of them empty: [box] translations that leave at least
+/// \p room >= 0 between any two. One box alone stays where it is. Neither turns nor scales.
+using PlaceBoxes = std::function<std::vector<Point2>(const std::vector<Box2>& boxes, double room)>;
+
+/// How the charts of a map are packed.
+struct PackOptions
+{
+	/// Fit the charts into [0,1]^2, all with one scale and their aspect kept; false: keep the scale at
+	/// which a chart has the area of its component (or its boundary the input's length).
+	bool normalizeUV = true;
+
+	/// Least distance of two charts, and of a chart from the border of the square that holds all, as a
+	/// share of its side, between 0 and kMaxChartMargin.
+	double chartMargin = 0.0;
+
+	/// One box beside the other where there is none.
+	PlaceBoxes placeBoxes;
+};
+
 /// What the target of the Euclidean flow is chosen by.
 struct TargetOptions
 {
@@ -121,7 +151,7 @@ struct TargetOptions
 };
 
 /// Options of the Euclidean flow.
-struct Options : FlowOptions, TargetOptions
+struct Options : FlowOptions, TargetOptions, PackOptions
 {
 	/// How much longer a seam may be to run in hollows, 0 to 1; see seamCost().
 	double seamHiding = 0.0;

@@ -109,6 +109,11 @@ struct Report
 	/// that reaches the distance d from 0 is about 1e-18 e^d in it. Cones of up to 1e-9, which the seam
 	/// need not reach, are left in it.
 	std::optional<double> relationError;
+
+	/// Adds what the run of one more component has measured: counts add up, the larger of two errors
+	/// stays, and the conformal invariants are those of a component alone. What is measured on the whole
+	/// map stays as it is.
+	Report& operator+=(const Report& next);
 };
 
 } // namespace ricci

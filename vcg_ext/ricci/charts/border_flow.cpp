@@ -17,16 +17,14 @@ constexpr int kNodesBetweenTicks = 1 << 14;
 
 } // namespace
 
-BorderFlow::BorderFlow(const PartGraph& graph) : m_graph(graph), m_nodeAt(3 * graph.part.size(), -1)
+BorderFlow::BorderFlow(const DualGraph& graph) : m_graph(graph), m_nodeAt(3 * graph.part.size(), -1)
 {
 }
 
 void BorderFlow::find(
-	const std::vector<int>& sources,
-	const std::vector<int>& sinks,
-	const Array<Terminal>& terminal)
+	const std::vector<int>& sources, const std::vector<int>& sinks, const Array<Terminal>& terminal)
 {
-	for (const int corner : m_known)
+	for (const Corner corner : m_known)
 		m_nodeAt[corner] = -1;
 	m_known.clear();
 	m_nodes.clear();
@@ -37,46 +35,44 @@ void BorderFlow::find(
 
 /// \return the number of paths between the ends of the triangles' rim
 int BorderFlow::findFrom(
-	const std::vector<int>& triangles,
-	std::int64_t sign,
-	const Array<Terminal>& terminal)
+	const std::vector<int>& triangles, std::int64_t sign, const Array<Terminal>& terminal)
 {
 	int count = 0;
 	for (const int i : triangles)
-		for (int side = 3 * i; side < 3 * i + 3; ++side) {
-			const int other = m_graph.neighbour(side);
-			if (other < 0 || terminal[other / 3] == terminal[i] ||
-				besideOnRim(side, false, terminal) >= 0)
+		for (const Corner side : cornersOf(i)) {
+			const Corner other = m_graph.neighbour(side);
+			if (!other.isValid() || terminal[other.face()] == terminal[i] ||
+				besideOnRim(side, false, terminal).isValid())
 				continue;
-			int last = side;
-			for (int s = side; s >= 0; s = besideOnRim(s, true, terminal))
+			Corner last = side;
+			for (Corner s = side; s.isValid(); s = besideOnRim(s, true, terminal))
 				last = s;
 			m_paths.push_back({sign, 0});
-			measure(side, nextSide(last), terminal);
+			measure(side, last.next(), terminal);
 			++count;
 		}
 	return count;
 }
 
-/// The side of the rim behind \p side, or before it; -1 at the border of the part.
-int BorderFlow::besideOnRim(int side, bool isNext, const Array<Terminal>& terminal) const
+/// The side of the rim behind \p side, or before it; none at the border of the part.
+Corner BorderFlow::besideOnRim(Corner side, bool isNext, const Array<Terminal>& terminal) const
 {
-	for (int s = m_graph.neighbour(side);;) {
-		s = m_graph.neighbour(isNext ? previousSide(s) : nextSide(s));
-		if (s < 0 || terminal[s / 3] == terminal[side / 3])
+	for (Corner s = m_graph.neighbour(side);;) {
+		s = m_graph.neighbour(isNext ? s.previous() : s.next());
+		if (!s.isValid() || terminal[s.face()] == terminal[side.face()])
 			return s;
 	}
 }
 
 /// Finds the distances from a corner of those vertices that are nearer than corner \p to, for the last
 /// path. It has no length where it meets another one. A path that follows the border costs nothing.
-void BorderFlow::measure(int from, int to, const Array<Terminal>& terminal)
+void BorderFlow::measure(Corner from, Corner to, const Array<Terminal>& terminal)
 {
 	const int path = m_paths.size() - 1, target = nodeAt(to);
 	using Entry = std::pair<std::int64_t, int>; // distance, node
 	std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
 	bool isFree = true;
-	const auto reach = [&](int corner, std::int64_t distance) {
+	const auto reach = [&](Corner corner, std::int64_t distance) {
 		const int number = nodeAt(corner);
 		Node& node = m_nodes[number];
 		if (node.path >= 0 && node.path != path)
@@ -87,12 +83,12 @@ void BorderFlow::measure(int from, int to, const Array<Terminal>& terminal)
 			queue.push({distance, number});
 		}
 	};
-	const auto follow = [&](int side, int corner, std::int64_t distance) {
-		const int other = m_graph.neighbour(side);
-		const Terminal own = terminal[side / 3];
-		if (other < 0 && own == kNoTerminal)
+	const auto follow = [&](Corner side, Corner corner, std::int64_t distance) {
+		const Corner other = m_graph.neighbour(side);
+		const Terminal own = terminal[side.face()];
+		if (!other.isValid() && own == kNoTerminal)
 			reach(corner, distance);
-		else if (other >= 0 && (own == kNoTerminal || own != terminal[other / 3]))
+		else if (other.isValid() && (own == kNoTerminal || own != terminal[other.face()]))
 			reach(corner, distance + m_graph.weight(side));
 	};
 	int untilTick = kNodesBetweenTicks;
@@ -107,9 +103,9 @@ void BorderFlow::measure(int from, int to, const Array<Terminal>& terminal)
 			untilTick = kNodesBetweenTicks;
 			checkpoint();
 		}
-		forCorners(m_nodes[number].corner, [&, distance = distance](int corner) {
-			follow(corner, nextSide(corner), distance);
-			follow(previousSide(corner), previousSide(corner), distance);
+		forCorners(m_nodes[number].corner, [&, distance = distance](Corner corner) {
+			follow(corner, corner.next(), distance);
+			follow(corner.previous(), corner.previous(), distance);
 		});
 	}
 	m_paths[path].length = m_nodes[target].distance;
@@ -121,23 +117,23 @@ void BorderFlow::measure(int from, int to, const Array<Terminal>& terminal)
 
 /// Calls visit(corner) for the corners of the part at one vertex.
 template<class Visit>
-void BorderFlow::forCorners(int corner, const Visit& visit) const
+void BorderFlow::forCorners(Corner corner, const Visit& visit) const
 {
 	visit(corner);
-	for (int s = m_graph.neighbour(corner); s >= 0; s = m_graph.neighbour(s)) {
-		s = nextSide(s);
+	for (Corner s = m_graph.neighbour(corner); s.isValid(); s = m_graph.neighbour(s)) {
+		s = s.next();
 		if (s == corner)
 			return;
 		visit(s);
 	}
-	for (int s = corner; (s = m_graph.neighbour(previousSide(s))) >= 0;)
+	for (Corner s = corner; (s = m_graph.neighbour(s.previous())).isValid();)
 		visit(s);
 }
 
-int BorderFlow::nodeAt(int corner)
+int BorderFlow::nodeAt(Corner corner)
 {
 	if (m_nodeAt[corner] < 0) {
-		forCorners(corner, [&](int c) {
+		forCorners(corner, [&](Corner c) {
 			m_nodeAt[c] = m_nodes.size();
 			m_known.push_back(c);
 		});
@@ -147,7 +143,7 @@ int BorderFlow::nodeAt(int corner)
 }
 
 /// What the function has at a corner above its values far from the paths.
-std::int64_t BorderFlow::excessAt(int corner) const
+std::int64_t BorderFlow::excessAt(Corner corner) const
 {
 	const int number = m_nodeAt[corner];
 	if (number < 0 || m_nodes[number].path < 0)

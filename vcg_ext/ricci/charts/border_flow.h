@@ -2,7 +2,7 @@
 #ifndef RICCI_BORDER_FLOW_H
 #define RICCI_BORDER_FLOW_H
 
-#include "part_graph.h"
+#include "dual_graph.h"
 
 #include <cstdint>
 #include <vector>
@@ -20,7 +20,7 @@ enum Terminal : char { kNoTerminal, kSource, kSink };
 class BorderFlow
 {
 public:
-	explicit BorderFlow(const PartGraph& graph);
+	explicit BorderFlow(const DualGraph& graph);
 
 	/// Finds the flow between triangles of one part.
 	/// \param terminal [triangle]
@@ -30,12 +30,12 @@ public:
 		const Array<Terminal>& terminal);
 
 	/// The flow that leaves its triangle across a side, at most its weight.
-	std::int64_t across(int side) const { return excessAt(nextSide(side)) - excessAt(side); }
+	std::int64_t across(Corner side) const { return excessAt(side.next()) - excessAt(side); }
 
 private:
 	struct Node
 	{
-		int corner;
+		Corner corner;
 		int path = -1;
 		std::int64_t distance = 0;
 	};
@@ -44,21 +44,19 @@ private:
 		std::int64_t sign, length;
 	};
 
-	int findFrom(
-		const std::vector<int>& triangles,
-		std::int64_t sign,
-		const Array<Terminal>& terminal);
-	int besideOnRim(int side, bool isNext, const Array<Terminal>& terminal) const;
-	void measure(int from, int to, const Array<Terminal>& terminal);
-	int nodeAt(int corner);
-	std::int64_t excessAt(int corner) const;
+	int
+	findFrom(const std::vector<int>& triangles, std::int64_t sign, const Array<Terminal>& terminal);
+	Corner besideOnRim(Corner side, bool isNext, const Array<Terminal>& terminal) const;
+	void measure(Corner from, Corner to, const Array<Terminal>& terminal);
+	int nodeAt(Corner corner);
+	std::int64_t excessAt(Corner corner) const;
 	template<class Visit>
-	void forCorners(int corner, const Visit& visit) const;
+	void forCorners(Corner corner, const Visit& visit) const;
 
-	const PartGraph& m_graph;
-	Array<int> m_nodeAt;      // [corner] -1 where no path has been
-	std::vector<int> m_known; // corners where one has been
-	Array<Node> m_nodes;      // vertices of the part
+	const DualGraph& m_graph;
+	CornerArray<int> m_nodeAt;   // -1 where no path has been
+	std::vector<Corner> m_known; // corners where one has been
+	Array<Node> m_nodes;         // vertices of the part
 	Array<Path> m_paths;
 };
 

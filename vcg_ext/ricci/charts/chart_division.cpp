@@ -5,7 +5,7 @@
 #include "../math/min_cut.h"
 #include "border_flow.h"
 #include "connected_pieces.h"
-#include "part_graph.h"
+#include "dual_graph.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -22,14 +22,11 @@ class ChartDivider
 {
 public:
 	ChartDivider(
-		const DrawnChart& chart,
-		const std::vector<TrianglePair>& pairs,
-		const ChartSides& sides) :
+		const FlatMesh& chart, const Sides& sides, const std::vector<TrianglePair>& pairs) :
 			m_chart(chart),
-			m_sides(sides), m_graph(chart, sides), m_flow(m_graph),
-			m_minCut(chart.triangles.size()), m_terminal(chart.triangles.size(), kNoTerminal),
-			m_scratch(chart.triangles.size(), -1), m_pairs(pairs),
-			m_rivals(chart.triangles.size(), [&](const auto& add) {
+			m_graph(chart, sides), m_flow(m_graph), m_minCut(chart.size()),
+			m_terminal(chart.size(), kNoTerminal), m_scratch(chart.size(), -1), m_pairs(pairs),
+			m_rivals(chart.size(), [&](const auto& add) {
 				for (const TrianglePair& pair : pairs) {
 					add(pair[0], pair[1]);
 					add(pair[1], pair[0]);
@@ -56,10 +53,10 @@ public:
 				parts.push_back(std::move(part));
 		std::sort(parts.begin(), parts.end());
 		cuts = ChartCuts();
-		for (const int side : m_cutSides)
-			if (m_part[side / 3] != m_part[m_graph.joined(side) / 3]) {
+		for (const Corner side : m_cutSides)
+			if (m_part[side.face()] != m_part[m_graph.joined(side).face()]) {
 				++cuts.edges;
-				cuts.length += m_sides.lengthOf(side);
+				cuts.length += m_chart.lengths[side];
 			}
 		return parts;
 	}
@@ -84,7 +81,7 @@ private:
 		std::vector<std::pair<double, int>> byArea;
 		for (const int i : m_part.indices())
 			if (!m_rivals[i].empty()) {
-				const Triangle2& p = m_chart.plane[i];
+				const Triangle2 p = m_chart.at(i);
 				byArea.push_back({-doubledArea(p[0], p[1], p[2]), i});
 			}
 		std::sort(byArea.begin(), byArea.end());
@@ -100,9 +97,9 @@ private:
 	template<class Visit>
 	void neighbours(int i, const Visit& visit) const
 	{
-		for (int side = 3 * i; side < 3 * i + 3; ++side)
-			if (const int other = m_graph.neighbour(side); other >= 0)
-				visit(other / 3, side);
+		for (const Corner side : cornersOf(i))
+			if (const Corner other = m_graph.neighbour(side); other.isValid())
+				visit(other.face(), side);
 	}
 
 	/// Gives a new number to one side of the minimum cut between the sheet of \p seed and what it
@@ -122,16 +119,14 @@ private:
 		};
 		claim(seed);
 		for (std::size_t head = 0; head < sheet.size(); ++head)
-			neighbours(sheet[head], [&](int i, int) {
+			neighbours(sheet[head], [&](int i, Corner) {
 				if (m_terminal[i] == kNoTerminal && hasRival(i))
 					claim(i);
 			});
 		m_flow.find(sheet, covered, m_terminal);
-		const MinCut::Side side = m_minCut.run(
-			sheet,
-			covered,
-			[&](int i, const MinCut::AddEdge& add) {
-				neighbours(i, [&](int j, int across) {
+		const MinCut::Side side =
+			m_minCut.run(sheet, covered, [&](int i, const MinCut::AddEdge& add) {
+				neighbours(i, [&](int j, Corner across) {
 					if (m_terminal[i] != kNoTerminal && m_terminal[i] == m_terminal[j])
 						return;
 					const std::int64_t weight = m_graph.weight(across),
@@ -145,37 +140,23 @@ private:
 		renumber(side.nodes);
 		std::vector<int> ends, otherEnds;
 		for (const int i : side.nodes)
-			for (int own = 3 * i; own < 3 * i + 3; ++own)
-				if (const int other = m_graph.joined(own);
-					other >= 0 && m_part[other / 3] == whole) {
+			for (const Corner own : cornersOf(i))
+				if (const Corner other = m_graph.joined(own);
+					other.isValid() && m_part[other.face()] == whole) {
 					m_cutSides.push_back(std::min(own, other));
 					ends.push_back(i);
-					otherEnds.push_back(other / 3);
+					otherEnds.push_back(other.face());
 				}
 		separate(ends);
 		separate(otherEnds);
 	}
 
-	/// Gives a number to each connected piece of the chart: a triangle that was turned over may have
-	/// cut one off.
+	/// Gives a number to each connected piece of the chart: a flipped triangle that was reflected may
+	/// have cut one off.
 	void numberPieces()
 	{
-		std::vector<int> piece;
-		for (const int first : m_part.indices()) {
-			if (m_scratch[first] >= 0)
-				continue;
-			piece.assign(1, first);
-			m_scratch[first] = ++m_partCount;
-			for (std::size_t head = 0; head < piece.size(); ++head)
-				neighbours(piece[head], [&](int i, int) {
-					if (m_scratch[i] < 0) {
-						m_scratch[i] = m_partCount;
-						piece.push_back(i);
-					}
-				});
-		}
-		m_part.swap(m_scratch);
-		m_scratch.assign(m_part.size(), -1);
+		for (const std::vector<int>& piece : m_graph.connectedPieces())
+			renumber(piece);
 	}
 
 	/// Gives a new number to triangles.
@@ -191,7 +172,7 @@ private:
 	void separate(const std::vector<int>& ends)
 	{
 		const auto ownNeighbours = [&](int i, const auto& visit) {
-			neighbours(i, [&](int j, int) { visit(j); });
+			neighbours(i, [&](int j, Corner) { visit(j); });
 		};
 		for (const std::vector<int>& piece : smallerPieces(ends, ownNeighbours, m_scratch))
 			renumber(piece);
@@ -208,11 +189,11 @@ private:
 		std::iota(name.begin(), name.end(), 0);
 		for (;;) {
 			std::map<PartPair, double> borders;
-			for (const int side : m_cutSides) {
+			for (const Corner side : m_cutSides) {
 				const PartPair pair =
-					inOrder(name[m_part[side / 3]], name[m_part[m_graph.joined(side) / 3]]);
+					inOrder(name[m_part[side.face()]], name[m_part[m_graph.joined(side).face()]]);
 				if (pair[0] != pair[1] && !rivals.count(pair))
-					borders[pair] += m_sides.lengthOf(side);
+					borders[pair] += m_chart.lengths[side];
 			}
 			if (borders.empty())
 				break;
@@ -232,16 +213,15 @@ private:
 			part = name[part];
 	}
 
-	const DrawnChart& m_chart;
-	const ChartSides& m_sides;
-	PartGraph m_graph;
+	const FlatMesh& m_chart;
+	DualGraph m_graph;
 	Array<int>& m_part = m_graph.part;
 	int m_partCount = 0;
 	BorderFlow m_flow;
 	MinCut m_minCut;
-	Array<Terminal> m_terminal;  // [triangle] kNoTerminal between cuts
-	Array<int> m_scratch;        // [triangle] -1 between uses
-	std::vector<int> m_cutSides; // the lower one of each two
+	Array<Terminal> m_terminal;     // [triangle] kNoTerminal between cuts
+	Array<int> m_scratch;           // [triangle] -1 between uses
+	std::vector<Corner> m_cutSides; // the lower one of each two
 	const std::vector<TrianglePair>& m_pairs;
 	Adjacency<int, int> m_rivals; // triangles that overlap a triangle
 };
@@ -249,12 +229,12 @@ private:
 } // namespace
 
 std::vector<std::vector<int>> divideChart(
-	const DrawnChart& chart,
+	const FlatMesh& chart,
+	const Sides& sides,
 	const std::vector<TrianglePair>& pairs,
-	const ChartSides& sides,
 	ChartCuts& cuts)
 {
-	return ChartDivider(chart, pairs, sides).run(cuts);
+	return ChartDivider(chart, sides, pairs).run(cuts);
 }
 
 } // namespace ricci

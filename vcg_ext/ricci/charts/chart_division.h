@@ -3,7 +3,6 @@
 #define RICCI_CHART_DIVISION_H
 
 #include "chart_overlap.h"
-#include "chart_sides.h"
 
 #include <vector>
 
@@ -13,16 +12,15 @@ namespace ricci {
 struct ChartCuts
 {
 	int edges = 0;
-	double length = 0.0; ///< in space
+	double length = 0.0; ///< on the surface
 };
 
 /// Divides a chart along edges of its triangles so that no part contains both triangles of one of
-/// \p pairs. Two triangles are joined where they share an edge's vertices, and both its ends in the
-/// plane.
+/// \p pairs. Two triangles are neighbours where their sides are joined (joinedSide()).
 ///
 /// As long as a part has an overlap, one sheet of it is grown from its largest overlapping triangle,
 /// and the minimum cut of the dual graph between this sheet and all that it covers divides the part
-/// (cutting an edge costs its length in space). Cutting moves nothing in the plane, so each cut
+/// (cutting an edge costs its length on the surface). Cutting moves nothing in the plane, so each cut
 /// removes pairs and makes none. The cut is exact, but only the smaller side of it is searched, and
 /// what is nearer to the border of the part than the cut is long (border_flow.h, min_cut.h). In the
 /// end neighbouring parts that do not cover each other are joined again. The same input always gives
@@ -31,9 +29,9 @@ struct ChartCuts
 /// \param cuts receives what was cut
 /// \return the triangles of each connected part, in increasing order, the parts by their first
 std::vector<std::vector<int>> divideChart(
-	const DrawnChart& chart,
+	const FlatMesh& chart,
+	const Sides& sides,
 	const std::vector<TrianglePair>& pairs,
-	const ChartSides& sides,
 	ChartCuts& cuts);
 
 } // namespace ricci

@@ -101,14 +101,14 @@ bool overlap(const Triangle2& a, const Triangle2& b, double touching)
 	return !separates(a, b, touching) && !separates(b, a, touching);
 }
 
-OverlapSearch::OverlapSearch(const DrawnChart& chart, double extent) :
-		m_plane(chart.plane), m_tree(boxTreeOf(chart.plane))
+OverlapSearch::OverlapSearch(Array<Triangle2> triangles) :
+		m_plane(std::move(triangles)), m_tree(boxTreeOf(m_plane))
 {
 	Array<char> proper(m_plane.size());
 	for (const int i : m_plane.indices())
 		proper[i] = orientation(m_plane[i][0], m_plane[i][1], m_plane[i][2]) > 0;
 	const bool hasFolds = std::find(proper.begin(), proper.end(), 0) != proper.end();
-	const double touching = kTouching * std::max(extent, m_tree.extent());
+	const double touching = kTouching * m_tree.extent();
 	m_nothing = 0.5 * touching;
 	std::int64_t nextTick = kStepsBetweenTicks;
 	const auto step = [&] {
@@ -165,7 +165,7 @@ void OverlapSearch::makeHulls()
 		});
 }
 
-/// Triangles round \p p less those turned round, of those that are counted: the winding number of
+/// Triangles round \p p less the flipped ones, of those that are counted: the winding number of
 /// their boundary, where p lies on no edge.
 template<class IsCounted>
 int OverlapSearch::cover(const Point2& p, const IsCounted& isCounted) const
@@ -199,9 +199,9 @@ std::vector<TrianglePair> OverlapSearch::uncovered(const Array<int>& part) const
 	return pairs;
 }
 
-std::vector<TrianglePair> overlappingPairs(const DrawnChart& chart, double extent)
+std::vector<TrianglePair> overlappingPairs(const FlatMesh& chart)
 {
-	return OverlapSearch(chart, extent).pairs();
+	return OverlapSearch(chart.corners()).pairs();
 }
 
 } // namespace ricci

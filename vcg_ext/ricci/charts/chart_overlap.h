@@ -3,23 +3,15 @@
 #define RICCI_CHART_OVERLAP_H
 
 #include "../base/indexed.h"
+#include "../layout/flat_mesh.h"
 #include "../math/box_tree.h"
 #include "../math/points.h"
-#include "../surface/surface_mesh.h"
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace ricci {
-
-/// The triangles of one chart, drawn in the plane. Their corners are ordered so that those which are
-/// counter-clockwise in the plane are properly oriented.
-struct DrawnChart
-{
-	Array<Triangle> triangles; ///< vertices, which tell the edges that triangles share
-	Array<Triangle2> plane;    ///< [triangle][corner]
-};
 
 /// Two triangles of a chart, the lower number first.
 using TrianglePair = std::array<int, 2>;
@@ -41,7 +33,7 @@ bool overlap(const Triangle2& a, const Triangle2& b, double touching);
 /// boundary matters: holes, slits whose sides coincide, and parts that
 /// touch in points or along lines are no overlap; a cone of more than 2 pi at a boundary vertex is.
 ///
-/// Where triangles are turned round, the fold covers points three times although the chart goes on
+/// Where triangles are flipped, the fold covers points three times although the chart goes on
 /// behind it. Folds are counted elsewhere (Report::flippedFaces). Here triangles that are not
 /// counter-clockwise count as negative cover, and a pair is an overlap only if a point of its common
 /// part is covered more than once in the sum, which is the winding number of the chart's boundary
@@ -49,10 +41,8 @@ bool overlap(const Triangle2& a, const Triangle2& b, double touching);
 class OverlapSearch
 {
 public:
-	/// \param extent of the layout that the chart is a part of: how closely its sides can be expected
-	/// to meet. The chart's own where that is larger.
-	explicit OverlapSearch(
-		const DrawnChart& chart, double extent = 0.0);
+	/// \param triangles of the chart in the plane; counter-clockwise where they are right
+	explicit OverlapSearch(Array<Triangle2> triangles);
 
 	/// In increasing order.
 	const std::vector<TrianglePair>& pairs() const { return m_pairs; }
@@ -78,7 +68,7 @@ private:
 		Point2 common; ///< a point of both
 	};
 
-	const Array<Triangle2>& m_plane;
+	Array<Triangle2> m_plane;
 	BoxTree m_tree;
 	Array<std::vector<Point2>> m_hulls; ///< [node of the tree], or none
 	double m_nothing = 0.0;             ///< depth that polygons have in common where they are apart
@@ -88,8 +78,7 @@ private:
 };
 
 /// OverlapSearch::pairs().
-std::vector<TrianglePair> overlappingPairs(
-	const DrawnChart& chart, double extent = 0.0);
+std::vector<TrianglePair> overlappingPairs(const FlatMesh& chart);
 
 } // namespace ricci
 

@@ -5,20 +5,14 @@
 #include "../finish/repair.h"
 #include "../math/box_tree.h"
 #include "../math/orientation.h"
-#include "../measure/hyperbolic_distortion.h"
-#include "measure_result.h"
-#include "pack.h"
 #include "separate_charts.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <numeric>
 #include <optional>
-#include <utility>
 
 namespace ricci {
 
@@ -52,194 +46,81 @@ constexpr int kMaxPackings = 4;
 /// Rings round bad triangles that are moved at first, of which one is the border of the largest patches.
 constexpr int kNearRings = 4;
 
-/// The output's triangles, with what the repair wants to know of them.
-class Output
+/// What the triangles of a map have to be once they are stored.
+struct Wanted
 {
-public:
-	explicit Output(Parametrization& map) :
-			m_map(map), m_uv(map.isRefined() ? map.refined.uv : map.uv)
+	Soundness soundness;
+	Soundness inText; ///< also for coordinates with six decimals, in the unit square
+
+	Wanted(const FlatMesh& mesh, bool forText)
 	{
 		double largest = 0.0;
-		for (const Triangle2& triangle : m_uv)
-			for (const Point2& p : triangle)
-				for (const double x : p)
-					largest = std::max(largest, std::abs(x));
+		for (const Point2& p : mesh.place)
+			for (const double x : p)
+				largest = std::max(largest, std::abs(x));
 		const double height = kMinFloatSteps * floatStep(largest);
 		soundness = {height, kWantedHeights * height, true};
 		inText = soundness;
-		if (!map.isRefined() && largest > 0.5 && largest <= 1.0)
+		if (forText && largest > 0.5 && largest <= 1.0)
 			inText = {height, kWantedHeights * kTextStep, true, kTextStep};
 	}
-
-	bool isSound(const Soundness& wanted) const
-	{
-		for (std::size_t f = 0; f < m_uv.size(); ++f)
-			if (!wanted.isSound(inOrder(f, m_uv[f])))
-				return false;
-		return true;
-	}
-
-	/// The triangles that are not sound, and so many rings round them.
-	std::vector<int> near(const SurfaceMesh& mesh, const Soundness& wanted, int rings) const
-	{
-		const std::vector<Triangle>& triangles = trianglesOf(mesh);
-		std::vector<char> isTaken(triangles.size(), 0),
-			isNear(m_map.isRefined() ? m_map.refined.points.size() : mesh.positions.size(), 0);
-		for (std::size_t f = 0; f < m_uv.size(); ++f)
-			if (!wanted.isSound(inOrder(f, m_uv[f])))
-				isTaken[f] = 1;
-		for (; rings > 0; --rings) {
-			for (std::size_t f = 0; f < triangles.size(); ++f)
-				if (isTaken[f])
-					for (const int v : triangles[f])
-						isNear[positionOf(v)] = 1;
-			for (std::size_t f = 0; f < triangles.size(); ++f)
-				for (const int v : triangles[f])
-					if (isNear[positionOf(v)])
-						isTaken[f] = 1;
-		}
-		std::vector<int> taken;
-		for (std::size_t f = 0; f < isTaken.size(); ++f)
-			if (isTaken[f])
-				taken.push_back(static_cast<int>(f));
-		return taken;
-	}
-
-	std::int64_t size() const { return static_cast<std::int64_t>(m_uv.size()); }
-
-	std::vector<int> all() const
-	{
-		std::vector<int> faces(m_uv.size());
-		std::iota(faces.begin(), faces.end(), 0);
-		return faces;
-	}
-
-	/// [triangle] 1 for those that are not sound.
-	std::vector<char> unsound() const
-	{
-		std::vector<char> isUnsound(m_uv.size(), 0);
-		for (std::size_t f = 0; f < m_uv.size(); ++f)
-			isUnsound[f] = !soundness.isSound(inOrder(f, m_uv[f]));
-		return isUnsound;
-	}
-
-	/// Draws some of the triangles, in increasing order, counter-clockwise.
-	void draw(const SurfaceMesh& mesh, std::vector<int> faces)
-	{
-		m_faces = std::move(faces);
-		std::vector<Point3> places;
-		for (const SurfacePoint& p : m_map.refined.points)
-			places.push_back(placeOnSurface(p, mesh.positions));
-		const std::vector<Point3>& positions = m_map.isRefined() ? places : mesh.positions;
-		const std::vector<Triangle>& triangles = trianglesOf(mesh);
-		Array<Triangle> vertices;
-		Array<Triangle2> plane;
-		Array<std::array<double, 3>> sides;
-		for (const int face : m_faces) {
-			const std::size_t f = positionOf(face);
-			const Triangle t = inOrder(f, triangles[f]);
-			const auto length = [&](std::size_t i, std::size_t j) {
-				return distance(positions[positionOf(t[i])], positions[positionOf(t[j])]);
-			};
-			vertices.push_back(t);
-			plane.push_back(inOrder(f, m_uv[f]));
-			sides.push_back({length(0, 1), length(1, 2), length(2, 0)});
-		}
-		Array<int> chartOfFace(static_cast<int>(triangles.size()), 0);
-		int number = 0;
-		for (const Chart& chart : m_map.charts) {
-			for (const int f : m_map.isRefined() ? chart.refined : chart.faces)
-				chartOfFace[f] = number;
-			++number;
-		}
-		m_boxes.clear();
-		for (const Chart& chart : m_map.charts)
-			m_boxes.push_back(chart.box);
-		for (const int f : chartOfFace.indices())
-			for (const Point2& p : m_uv[positionOf(f)])
-				m_boxes[chartOfFace[f]].add(p);
-		for (Box2& box : m_boxes)
-			widenToFloats(box);
-		Array<int> chart;
-		for (const int f : m_faces)
-			chart.push_back(chartOfFace[f]);
-		flat = flatMeshOf(std::move(vertices), plane, chart, std::move(sides));
-		m_chartOfPoint.assign(flat.place.size(), 0);
-		for (const int i : flat.points.indices())
-			for (const int p : flat.points[i])
-				m_chartOfPoint[p] = chart[i];
-	}
-
-	/// Of all triangles of the charts as they were laid out, and the room that these were given.
-	const Array<Box2>& boxes() const { return m_boxes; }
-
-	int chartOf(int point) const { return m_chartOfPoint[point]; }
-	int chartCount() const { return static_cast<int>(m_map.charts.size()); }
-
-	/// Writes the points that were moved back.
-	/// \return whether there are any
-	bool takeOver(const Repair& repair)
-	{
-		if (repair.movedCount() == 0)
-			return false;
-		for (const int i : flat.points.indices()) {
-			const std::size_t f = positionOf(m_faces[positionOf(i)]);
-			Triangle2 uv = inOrder(f, m_uv[f]);
-			for (std::size_t k = 0; k < 3; ++k)
-				if (const int p = flat.points[i][k]; repair.moved[p])
-					uv[k] = flat.place[p];
-			m_uv[f] = inOrder(f, uv);
-		}
-		m_map.report.finishMoved += repair.movedCount();
-		return true;
-	}
-
-	FlatMesh flat;
-	Soundness soundness;
-	Soundness inText; ///< for coordinates with six decimals, in the unit square
-
-private:
-	const std::vector<Triangle>& trianglesOf(const SurfaceMesh& mesh) const
-	{
-		return m_map.isRefined() ? m_map.refined.triangles : mesh.triangles;
-	}
-
-	/// The corners of a triangle with two of them swapped if it is reversed.
-	template<class Corners>
-	Corners inOrder(std::size_t f, Corners corners) const
-	{
-		const std::size_t face = m_map.isRefined() ? positionOf(m_map.refined.inputFace[f]) : f;
-		if (m_map.reversed[face])
-			std::swap(corners[1], corners[2]);
-		return corners;
-	}
-
-	Parametrization& m_map;
-	std::vector<Triangle2>& m_uv;
-	std::vector<int> m_faces;  // those that are drawn
-	Array<int> m_chartOfPoint; // of the drawing
-	Array<Box2> m_boxes;       // [chart]
 };
+
+/// The triangles that are not sound, and so many rings round them.
+std::vector<int> near(const FlatMesh& mesh, std::vector<int> bad, int rings)
+{
+	std::vector<char> isTaken(positionOf(mesh.size()), 0), isNear(mesh.source.values().size(), 0);
+	for (const int f : bad)
+		isTaken[positionOf(f)] = 1;
+	for (; rings > 0; --rings) {
+		for (const int f : mesh.points.indices())
+			if (isTaken[positionOf(f)])
+				for (const int v : mesh.vertices[f])
+					isNear[positionOf(v)] = 1;
+		for (const int f : mesh.points.indices())
+			for (const int v : mesh.vertices[f])
+				if (isNear[positionOf(v)])
+					isTaken[positionOf(f)] = 1;
+	}
+	std::vector<int> taken;
+	for (const int f : mesh.points.indices())
+		if (isTaken[positionOf(f)])
+			taken.push_back(f);
+	return taken;
+}
+
+/// [chart] what it was given, and all its triangles.
+Array<Box2> boxesOf(const Parametrization& map)
+{
+	Array<Box2> boxes;
+	for (const Chart& chart : map.charts)
+		boxes.push_back(chart.box);
+	for (const int f : map.mesh.points.indices())
+		for (const Point2& p : map.mesh.at(f))
+			boxes[map.mesh.chart[f]].add(p);
+	for (Box2& box : boxes)
+		widenToFloats(box);
+	return boxes;
+}
 
 /// Tests patches that move borders of charts in the plane.
 class BorderTest
 {
 public:
-	BorderTest(const Output& output, bool staysInBox) :
-			m_output(output), m_staysInBox(staysInBox), m_border(output.chartCount()),
-			m_near(output.chartCount()), m_moves(output.flat.place.size(), 0)
+	/// \param boxes [chart]
+	BorderTest(const FlatMesh& mesh, const Array<Box2>& boxes, bool staysInBox) :
+			m_boxes(boxes), m_staysInBox(staysInBox), m_chartOf(mesh.chartOfPoints()),
+			m_border(boxes.size()), m_near(boxes.size()), m_moves(mesh.place.size(), 0)
 	{
-		forEdges(sidesByEdge(output.flat), [&](const FlatSide* side, int count) {
+		forEdges(sidesByEdge(mesh), [&](const FlatSide* side, int count) {
 			if (!isInside(side, count))
 				for (int i = 0; i < count; ++i)
-					m_border[output.chartOf(side[i].atLow)].push_back(
-						{side[i].atLow, side[i].atHigh});
+					m_border[m_chartOf[side[i].atLow]].push_back({side[i].atLow, side[i].atHigh});
 		});
 		for (const int chart : m_near.indices())
 			m_near[chart].push_back(chart);
 		if (!m_staysInBox) // the charts' places count for nothing
 			return;
-		const Array<Box2>& boxes = output.boxes();
 		BoxTree({boxes.begin(), boxes.end()}).meetingPairs([&](int i, int j) {
 			m_near[i].push_back(j);
 			m_near[j].push_back(i);
@@ -251,12 +132,12 @@ public:
 	bool operator()(const FlatMesh& flat, const Patch& patch)
 	{
 		for (const int p : patch.points)
-			if (m_staysInBox && !m_output.boxes()[m_output.chartOf(p)].contains(flat.place[p]))
+			if (m_staysInBox && !m_boxes[m_chartOf[p]].contains(flat.place[p]))
 				return false;
 		std::vector<int> charts;
 		for (std::size_t i = 0; i < patch.points.size(); ++i) {
 			m_moves[patch.points[i]] = patch.variable[static_cast<int>(i)] >= 0;
-			charts.push_back(m_output.chartOf(patch.points[i]));
+			charts.push_back(m_chartOf[patch.points[i]]);
 		}
 		std::sort(charts.begin(), charts.end());
 		charts.erase(std::unique(charts.begin(), charts.end()), charts.end());
@@ -286,7 +167,7 @@ private:
 	{
 		const Box2 box = boxOf(flat, side);
 		for (const int near : m_near[chart])
-			if (near == chart || m_output.boxes()[near].meets(box))
+			if (near == chart || m_boxes[near].meets(box))
 				for (const BorderSide& other : m_border[near])
 					if (cross(flat, side, other))
 						return true;
@@ -302,35 +183,42 @@ private:
 			   orientation(c, d, a) * orientation(c, d, b) < 0;
 	}
 
-	const Output& m_output;
+	const Array<Box2>& m_boxes; // [chart]
 	bool m_staysInBox;
+	Array<int> m_chartOf;                    // [point]
 	Array<std::vector<BorderSide>> m_border; // [chart]
 	Array<std::vector<int>> m_near;          // [chart] itself, and those whose boxes meet its own
 	Array<char> m_moves;                     // [point] scratch, 0 between calls
 };
 
-Point2 centreOf(const Box2& square)
-{
-	return {(square.min[0] + square.max[0]) / 2, (square.min[1] + square.max[1]) / 2};
-}
-
 /// What finishEverywhere() does where small patches inside the charts mend all: then all but what is near
 /// bad triangles plays no part.
 /// \return whether points were moved; none where that does not do, and nothing is changed
-std::optional<bool>
-finishNear(const SurfaceMesh& mesh, WorkLimit& limit, Output& output)
+std::optional<bool> finishNear(const Soundness& soundness, WorkLimit& limit, Parametrization& map)
 {
-	output.draw(mesh, output.near(mesh, output.inText, kNearRings));
-	BorderTest test(output, true);
+	const std::vector<int> taken = near(map.mesh, badTriangles(map.mesh, soundness), kNearRings);
+	FlatMesh part = map.mesh.part(taken);
+	for (const int i : part.chart.indices())
+		part.chart[i] = map.mesh.chart[taken[positionOf(i)]];
+	splitPoints(part);
+	const Array<Box2> boxes = boxesOf(map);
+	BorderTest test(part, boxes, true);
 	const PatchRules rules{kNearRings - 1, [&](const FlatMesh& flat, const Patch& patch) {
 							   return test(flat, patch);
 						   }};
-	const PointGroups groups = insidePoints(output.flat);
 	const Repair result =
-		repair(output.flat, groups, RestShapes::OfDrawing, output.inText, rules, limit);
+		repair(part, insidePoints(part), RestShapes::OfDrawing, soundness, rules, limit);
 	if (result.left > 0)
 		return std::nullopt;
-	return output.takeOver(result);
+	if (result.movedCount() == 0)
+		return false;
+	for (const int i : part.points.indices())
+		for (const Corner c : cornersOf(i))
+			if (const int p = part.points[c]; result.moved[p])
+				map.mesh.place[map.mesh.points[Corner(taken[positionOf(i)], int(c.index()))]] =
+					part.place[p];
+	map.report.finishMoved += result.movedCount();
+	return true;
 }
 
 /// What was moved.
@@ -341,102 +229,89 @@ struct Finished
 	bool all = true;    ///< every triangle is sound
 };
 
-Finished finishEverywhere(
-	const SurfaceMesh& mesh, bool mayGrow, WorkLimit& limit, Output& output)
+Finished
+finishEverywhere(const Wanted& wanted, bool mayGrow, WorkLimit& limit, Parametrization& map)
 {
-	output.draw(mesh, output.all());
-	BorderTest test(output, true);
+	const Array<Box2> boxes = boxesOf(map);
+	BorderTest test(map.mesh, boxes, true);
 	const PatchTest accepts = [&](const FlatMesh& flat, const Patch& patch) {
 		return test(flat, patch);
 	};
 	const BorderMoves moves{SeamGeometry::Plane, [](int) { return false; }, accepts};
-	const auto inStages = [&](const Soundness& wanted) {
-		return repairInStages(output.flat, moves, RestShapes::OfDrawing, wanted, limit);
+	const auto inStages = [&](const Soundness& soundness) {
+		return repairInStages(map.mesh, moves, RestShapes::OfDrawing, soundness, limit);
 	};
-	Repair result = inStages(output.inText);
+	const auto freely = [&](const PatchTest& isAccepted) {
+		return repairFreely(map.mesh, isAccepted, RestShapes::OfDrawing, wanted.soundness, limit);
+	};
+	Repair result = inStages(wanted.inText);
 	// Where there is no room for that, floats have to do.
-	result.add(inStages(output.soundness));
+	result.add(inStages(wanted.soundness));
 	if (result.left > 0)
-		result.add(repairFreely(
-			output.flat, accepts, RestShapes::OfDrawing, output.soundness, limit));
+		result.add(freely(accepts));
 	Finished finished;
 	if (result.left > 0 && mayGrow) {
-		BorderTest ofItself(output, false);
-		const Repair growth = repairFreely(
-			output.flat,
-			[&](const FlatMesh& flat, const Patch& patch) { return ofItself(flat, patch); },
-			RestShapes::OfDrawing,
-			output.soundness,
-			limit);
+		BorderTest ofItself(map.mesh, boxes, false);
+		const Repair growth =
+			freely([&](const FlatMesh& flat, const Patch& patch) { return ofItself(flat, patch); });
 		finished.boxes = growth.movedCount() > 0;
 		result.add(growth);
 	}
-	finished.points = output.takeOver(result);
+	finished.points = result.movedCount() > 0;
 	finished.all = result.left == 0;
+	map.report.finishMoved += result.movedCount();
 	return finished;
-}
-
-/// measureResult() of charts that fill \p disks, in the unit disk.
-void measureInDisk(const SurfaceMesh& mesh, const std::vector<Box2>& disks, Parametrization& map)
-{
-	std::vector<Triangle2> uv = map.uv, refined = map.refined.uv;
-	for (std::size_t i = 0; i < map.charts.size(); ++i) {
-		const double scale = 2.0 / disks[i].width();
-		const Point2 centre = centreOf(disks[i]);
-		transformChart(map, map.charts[i], scale, {-scale * centre[0], -scale * centre[1]});
-	}
-	measureResult(mesh, measureHyperbolicDistortion, map);
-	map.uv = std::move(uv);
-	map.refined.uv = std::move(refined);
 }
 
 } // namespace
 
-void finishInFloats(
-	const SurfaceMesh& mesh,
-	const std::function<void()>& packAgain,
-	bool mayCut,
-	Parametrization& map)
+void finishInFloats(const FloatFinish& finish, Parametrization& map)
 {
-	WorkLimit limit(Output(map).size());
+	WorkLimit limit(map.mesh.size());
+	bool mayCut = finish.mayCut;
 	for (int packings = 1;; ++packings) {
-		Output output(map);
-		if (output.isSound(output.inText))
+		const Wanted wanted(map.mesh, finish.forText);
+		if (badTriangles(map.mesh, wanted.inText).empty())
 			return;
-		const bool mayGrow = packAgain && packings < kMaxPackings;
-		const std::optional<bool> moved = finishNear(mesh, limit, output);
+		const bool mayGrow = finish.packAgain && packings < kMaxPackings;
+		const std::optional<bool> moved = finishNear(wanted.inText, limit, map);
 		const Finished finished =
-			moved ? Finished{*moved} : finishEverywhere(mesh, mayGrow, limit, output);
+			moved ? Finished{*moved} : finishEverywhere(wanted, mayGrow, limit, map);
 		if (finished.points)
-			measureResult(mesh, measureDistortion, map);
-		const bool isCut = !finished.all && mayGrow && mayCut && cutOff(output.unsound(), map);
+			finish.measure();
+		bool isCut = false;
+		if (!finished.all && mayGrow && mayCut) {
+			std::vector<char> isBad(positionOf(map.mesh.size()), 0);
+			for (const int f : badTriangles(map.mesh, wanted.soundness))
+				isBad[positionOf(f)] = 1;
+			isCut = cutOff(isBad, map);
+		}
 		if (!finished.boxes && !isCut)
 			return;
 		mayCut = mayCut && !isCut; // once: what is left then has had its chart
-		packAgain();
+		finish.packAgain();
 	}
 }
 
-void finishInFloats(
-	const SurfaceMesh& mesh, const std::vector<Box2>& disks, Parametrization& map)
+bool finishDisksInFloats(Parametrization& map)
 {
-	Output output(map);
-	if (output.isSound(output.soundness))
-		return;
-	output.draw(mesh, output.all());
+	const Wanted wanted(map.mesh, false);
+	if (badTriangles(map.mesh, wanted.soundness).empty())
+		return false;
+	const Array<int> chartOf = map.mesh.chartOfPoints();
 	const auto isInDisk = [&](const FlatMesh& flat, const Patch& patch) {
 		for (const int p : patch.points) {
-			const Box2& square = disks[positionOf(output.chartOf(p))];
-			if (!(distance(flat.place[p], centreOf(square)) < 0.5 * square.width()))
+			const Box2& square = map.charts[positionOf(chartOf[p])].box;
+			if (!(distance(flat.place[p], square.centre()) < 0.5 * square.width()))
 				return false;
 		}
 		return true;
 	};
-	WorkLimit limit(output.size());
-	const bool moved = output.takeOver(
-		repairFreely(output.flat, isInDisk, RestShapes::OfDrawing, output.soundness, limit));
-	if (moved)
-		measureInDisk(mesh, disks, map);
+	WorkLimit limit(map.mesh.size());
+	const Repair result =
+		repairFreely(map.mesh, isInDisk, RestShapes::OfDrawing, wanted.soundness, limit);
+	map.report.finishMoved += result.movedCount();
+	return result.movedCount() > 0;
 }
 
 } // namespace ricci

@@ -21,13 +21,13 @@ class PartJoiner
 {
 public:
 	PartJoiner(
-		DrawnChart& chart,
-		const ChartSides& sides,
+		FlatMesh& chart,
+		const Sides& sides,
 		const BoxTree& tree,
 		const std::vector<std::vector<int>>& parts) :
 			m_chart(chart),
-			m_sides(sides), m_parts(chart, sides, tree, parts),
-			m_mark(chart.plane.size(), kNone), m_scratch(chart.plane.size(), -1)
+			m_sides(sides), m_parts(chart, sides, tree, parts), m_mark(chart.size(), kNone),
+			m_scratch(chart.size(), -1)
 	{
 	}
 
@@ -55,9 +55,11 @@ public:
 			}
 		std::sort(result.parts.begin(), result.parts.end());
 		measureSeams(1, result.seams);
-		unite();
-		for (const int f : m_chart.plane.indices())
-			result.motion.push_back(m_parts.motionOf(f));
+		numberPoints(
+			m_sides,
+			[&](Corner c) { return m_parts.at(c.face())[c.index()]; },
+			[&](Corner side, Corner) { return m_parts.isJoined(side); },
+			m_chart);
 		return result;
 	}
 
@@ -65,11 +67,13 @@ private:
 	/// Adds the seams as they are, \p sign times.
 	void measureSeams(int sign, ChartCuts& cuts) const
 	{
-		for (const int side : m_sides.across.indices())
-			if (m_sides.across[side] > side && !m_parts.isJoined(side)) {
-				cuts.edges += sign;
-				cuts.length += sign * m_sides.lengthOf(side);
-			}
+		for (const int f : m_chart.points.indices())
+			m_parts.forSides(f, [&](Corner side, Corner across) {
+				if (across > side && !m_parts.isJoined(side)) {
+					cuts.edges += sign;
+					cuts.length += sign * m_chart.lengths[side];
+				}
+			});
 	}
 
 	/// Those with the longest borders first.
@@ -77,17 +81,17 @@ private:
 	{
 		std::vector<Place> places;
 		for (const int f : m_parts.trianglesOf(part))
-			m_parts.forSides(f, [&](int side, int across) {
-				const int other = m_parts.partOf(across / 3);
+			m_parts.forSides(f, [&](Corner side, Corner across) {
+				const int other = m_parts.partOf(across.face());
 				if (other == part)
 					return;
 				const auto known = std::find_if(places.begin(), places.end(), [&](const Place& p) {
 					return p.other == other && m_parts.fits(p.motion, side);
 				});
 				if (known != places.end())
-					known->length += m_sides.lengthOf(side);
+					known->length += m_chart.lengths[side];
 				else if (const auto motion = m_parts.across(side); m_parts.fits(motion, side))
-					places.push_back({other, motion, m_sides.lengthOf(side)});
+					places.push_back({other, motion, m_chart.lengths[side]});
 			});
 		std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
 			return a.length > b.length;
@@ -186,16 +190,16 @@ private:
 		const auto isIn = [&](int f) { return m_parts.partOf(f) == part && m_mark[f] != kTaken; };
 		std::vector<int> ends;
 		for (const int f : triangles)
-			m_parts.forSides(f, [&](int, int across) {
-				if (isIn(across / 3))
-					ends.push_back(across / 3);
+			m_parts.forSides(f, [&](Corner, Corner across) {
+				if (isIn(across.face()))
+					ends.push_back(across.face());
 			});
 		return smallerPieces(
 			ends,
 			[&](int f, const auto& visit) {
-				m_parts.forSides(f, [&](int side, int across) {
-					if (isIn(across / 3) && m_parts.isJoined(side))
-						visit(across / 3);
+				m_parts.forSides(f, [&](Corner side, Corner across) {
+					if (isIn(across.face()) && m_parts.isJoined(side))
+						visit(across.face());
 				});
 			},
 			m_scratch);
@@ -218,14 +222,15 @@ private:
 			}
 		};
 		for (const int f : m_parts.trianglesOf(part))
-			m_parts.forSides(f, [&](int side, int across) {
-				if (m_parts.partOf(across / 3) == place.other && m_parts.fits(place.motion, side))
+			m_parts.forSides(f, [&](Corner side, Corner across) {
+				if (m_parts.partOf(across.face()) == place.other &&
+					m_parts.fits(place.motion, side))
 					take(f);
 			});
 		for (std::size_t i = 0; i < free.size(); ++i)
-			m_parts.forSides(free[i], [&](int side, int across) {
+			m_parts.forSides(free[i], [&](Corner side, Corner across) {
 				if (m_parts.isJoined(side))
-					take(across / 3);
+					take(across.face());
 			});
 		unmark(marked);
 		unmark(free);
@@ -267,14 +272,14 @@ private:
 			sum += m_parts.areaOf(f);
 		};
 		for (const int f : m_parts.trianglesOf(part))
-			m_parts.forSides(f, [&](int side, int across) {
+			m_parts.forSides(f, [&](Corner side, Corner across) {
 				if (m_parts.fits(place.motion, side))
-					take(across / 3);
+					take(across.face());
 			});
 		for (std::size_t i = 0; i < taken.size() && sum < area; ++i)
-			m_parts.forSides(taken[i], [&](int side, int across) {
+			m_parts.forSides(taken[i], [&](Corner side, Corner across) {
 				if (m_parts.isJoined(side))
-					take(across / 3);
+					take(across.face());
 			});
 		// What is cut off by it goes with it.
 		bool isWhole = sum >= area;
@@ -294,51 +299,10 @@ private:
 			m_mark[f] = kNone;
 	}
 
-	/// Gives the ends of joined sides the same coordinates, to the last bit: at each vertex those of
-	/// the triangle with the lowest number.
-	void unite()
-	{
-		for (const int side : m_sides.across.indices()) {
-			const int across = m_sides.across[side];
-			if (across < side || !m_parts.isJoined(side))
-				continue;
-			const auto own = endsOf(m_chart, side), other = endsOf(m_chart, across);
-			if (own[0] != other[1])
-				uniteAt(side);
-			if (own[1] != other[0])
-				uniteAt(across);
-		}
-	}
-
-	/// Unites the corners that joined sides connect with the one where \p side begins.
-	void uniteAt(int side)
-	{
-		std::vector<int> corners{side};
-		bool isRing = false;
-		for (int s = side; !isRing && m_sides.across[s] >= 0 && m_parts.isJoined(s);) {
-			s = nextSide(m_sides.across[s]);
-			isRing = s == side;
-			corners.push_back(s);
-		}
-		for (int s = side; !isRing;) {
-			s = previousSide(s);
-			if (m_sides.across[s] < 0 || !m_parts.isJoined(s))
-				break;
-			s = m_sides.across[s];
-			corners.push_back(s);
-		}
-		const auto corner = [&](int s) -> Point2& {
-			return m_chart.plane[s / 3][positionOf(s % 3)];
-		};
-		const Point2 place = corner(*std::min_element(corners.begin(), corners.end()));
-		for (const int s : corners)
-			corner(s) = place;
-	}
-
 	enum Mark : char { kNone, kCovering, kTaken };
 
-	DrawnChart& m_chart;
-	const ChartSides& m_sides;
+	FlatMesh& m_chart;
+	const Sides& m_sides;
 	MovableParts m_parts;
 	Array<char> m_mark;   // [triangle] Mark, kNone between uses
 	Array<int> m_scratch; // [triangle] -1 between uses
@@ -347,8 +311,8 @@ private:
 } // namespace
 
 JoinedParts joinParts(
-	DrawnChart& chart,
-	const ChartSides& sides,
+	FlatMesh& chart,
+	const Sides& sides,
 	const BoxTree& tree,
 	const std::vector<std::vector<int>>& parts)
 {

@@ -12,18 +12,18 @@
 namespace ricci {
 
 MovableParts::MovableParts(
-	DrawnChart& chart,
-	const ChartSides& sides,
+	const FlatMesh& chart,
+	const Sides& sides,
 	const BoxTree& tree,
 	const std::vector<std::vector<int>>& parts) :
 		m_chart(chart),
 		m_sides(sides), m_tree(tree), m_onePlace(kOnePlace * tree.extent()),
-		m_touching(kTouching * tree.extent()), m_isProper(chart.plane.size()),
-		m_part(chart.plane.size(), -1), m_group(chart.plane.size(), -1),
-		m_before(chart.plane.size(), -1), m_next(chart.plane.size(), -1)
+		m_touching(kTouching * tree.extent()), m_plane(chart.corners()), m_isProper(chart.size()),
+		m_part(chart.size(), -1), m_group(chart.size(), -1), m_before(chart.size(), -1),
+		m_next(chart.size(), -1)
 {
-	for (const int f : chart.plane.indices()) {
-		const Triangle2& p = chart.plane[f];
+	for (const int f : m_plane.indices()) {
+		const Triangle2& p = m_plane[f];
 		m_isProper[f] = orientation(p[0], p[1], p[2]) > 0;
 	}
 	for (const std::vector<int>& triangles : parts) {
@@ -34,7 +34,7 @@ MovableParts::MovableParts(
 			append(f, part);
 			m_group[f] = m_groups.size();
 			m_area[part] += areaOf(f);
-			for (const Point2& p : chart.plane[f])
+			for (const Point2& p : m_plane[f])
 				group.box.add(p);
 		}
 		m_groups.push_back(group);
@@ -50,9 +50,9 @@ std::vector<int> MovableParts::trianglesOf(int part) const
 	return triangles;
 }
 
-RigidMotion MovableParts::across(int side) const
+RigidMotion MovableParts::across(Corner side) const
 {
-	const auto own = endsOf(m_chart, side), other = endsOf(m_chart, m_sides.across[side]);
+	const auto own = endsOf(side), other = endsOf(m_sides.across(side));
 	const auto vector = [](const Point2& p, const Point2& q) {
 		return asComplex(q) - asComplex(p);
 	};
@@ -68,19 +68,19 @@ RigidMotion MovableParts::across(int side) const
 	return motion;
 }
 
-bool MovableParts::fits(const RigidMotion& motion, int side) const
+bool MovableParts::fits(const RigidMotion& motion, Corner side) const
 {
-	const auto own = endsOf(m_chart, side), other = endsOf(m_chart, m_sides.across[side]);
+	const auto own = endsOf(side), other = endsOf(m_sides.across(side));
 	return distance(motion(own[0]), other[1]) <= m_onePlace &&
 		   distance(motion(own[1]), other[0]) <= m_onePlace;
 }
 
-bool MovableParts::isJoined(int side) const
+bool MovableParts::isJoined(Corner side) const
 {
-	const int across = m_sides.across[side];
-	if (m_part[side / 3] != m_part[across / 3])
+	const Corner across = m_sides.across(side);
+	if (m_part[side.face()] != m_part[across.face()])
 		return false;
-	const auto own = endsOf(m_chart, side), other = endsOf(m_chart, across);
+	const auto own = endsOf(side), other = endsOf(across);
 	return (own[0] == other[1] && own[1] == other[0]) || fits({}, side);
 }
 
@@ -109,7 +109,7 @@ void MovableParts::move(const std::vector<int>& triangles, const Place& place)
 		}
 		m_area[from] -= areaOf(f);
 		m_area[to] += areaOf(f);
-		Triangle2& plane = m_chart.plane[f];
+		Triangle2& plane = m_plane[f];
 		done.changes.push_back({f, m_group[f], remove(f), plane});
 		append(f, to);
 		m_group[f] = group->second;
@@ -135,7 +135,7 @@ void MovableParts::undo()
 			remove(change->triangle);
 			insertBehind(change->before, change->triangle, move.from);
 			m_group[change->triangle] = change->group;
-			m_chart.plane[change->triangle] = change->plane;
+			m_plane[change->triangle] = change->plane;
 		}
 		m_groupsOf[move.to].resize(move.groups);
 		m_area[move.from] = move.fromArea;
@@ -150,7 +150,7 @@ void MovableParts::undo()
 
 double MovableParts::areaOf(int triangle) const
 {
-	return euclideanArea(m_sides.length[triangle]);
+	return euclideanArea(m_chart.lengths[triangle]);
 }
 
 void MovableParts::append(int triangle, int part)

@@ -2,8 +2,9 @@
 #ifndef RICCI_MOVABLE_PARTS_H
 #define RICCI_MOVABLE_PARTS_H
 
+#include "../layout/flat_mesh.h"
 #include "../math/box_tree.h"
-#include "chart_sides.h"
+#include "chart_overlap.h"
 
 #include <array>
 #include <complex>
@@ -30,20 +31,19 @@ struct Place
 {
 	int other; ///< part
 	RigidMotion motion;
-	double length; ///< of the common border, in space
+	double length; ///< of the common border, on the surface
 };
 
-/// Parts of a drawing whose triangles move from one to another. Moves can be undone; each costs what
-/// it moves.
+/// Parts of a chart whose triangles move from one to another. Moves can be undone; each costs what it
+/// moves.
 class MovableParts
 {
 public:
-	/// \param chart its corners are moved
-	/// \param tree boxTreeOf(chart.plane)
+	/// \param tree boxTreeOf(chart.corners())
 	/// \param parts triangles
 	MovableParts(
-		DrawnChart& chart,
-		const ChartSides& sides,
+		const FlatMesh& chart,
+		const Sides& sides,
 		const BoxTree& tree,
 		const std::vector<std::vector<int>>& parts);
 
@@ -51,37 +51,38 @@ public:
 	bool isEmpty(int part) const { return m_first[part] < 0; }
 	std::vector<int> trianglesOf(int part) const;
 	int partOf(int triangle) const { return m_part[triangle]; }
-	/// In space.
+	/// On the surface.
 	double area(int part) const { return m_area[part]; }
 	double areaOf(int triangle) const;
-	const RigidMotion& motionOf(int triangle) const { return m_groups[m_group[triangle]].motion; }
+	/// Where a triangle is.
+	const Triangle2& at(int triangle) const { return m_plane[triangle]; }
 
 	/// Calls visit(side, other) for the sides of \p triangle with a side of another one across.
 	template<class Visit>
 	void forSides(int triangle, const Visit& visit) const
 	{
-		for (int side = 3 * triangle; side < 3 * triangle + 3; ++side)
-			if (const int other = m_sides.across[side]; other >= 0)
+		for (const Corner side : cornersOf(triangle))
+			if (const Corner other = m_sides.across(side); other.isValid())
 				visit(side, other);
 	}
 
 	/// The motion of a side to the one across.
-	RigidMotion across(int side) const;
+	RigidMotion across(Corner side) const;
 
 	/// Whether \p motion brings a side to the place of the one across.
-	bool fits(const RigidMotion& motion, int side) const;
+	bool fits(const RigidMotion& motion, Corner side) const;
 
 	/// Whether a side and the one across are at one place in one part.
-	bool isJoined(int side) const;
+	bool isJoined(Corner side) const;
 
 	/// Calls isEnough(f, g) for the triangles f of the part and g of the other one that cover each
-	/// other at the part's new place, those that are turned round left out, until it is.
+	/// other at the part's new place, flipped ones left out, until it is.
 	/// \return whether it was
 	template<class IsEnough>
 	bool covering(int part, const Place& place, const IsEnough& isEnough) const
 	{
 		for (int f = m_first[part]; f >= 0; f = m_next[f])
-			if (m_isProper[f] && coveredBy(place.motion(m_chart.plane[f]), place.other, [&](int g) {
+			if (m_isProper[f] && coveredBy(place.motion(m_plane[f]), place.other, [&](int g) {
 					return isEnough(f, g);
 				}))
 				return true;
@@ -140,20 +141,26 @@ private:
 				before.add(corner);
 			if (m_tree.meetsAny(before, [&](int g) {
 					return m_group[g] == group && m_isProper[g] &&
-						   overlap(p, m_chart.plane[g], m_touching) && isFound(g);
+						   overlap(p, m_plane[g], m_touching) && isFound(g);
 				}))
 				return true;
 		}
 		return false;
 	}
 
-	DrawnChart& m_chart;
-	const ChartSides& m_sides;
+	std::array<Point2, 2> endsOf(Corner side) const
+	{
+		return {m_plane[side], m_plane[side.next()]};
+	}
+
+	const FlatMesh& m_chart;
+	const Sides& m_sides;
 	const BoxTree& m_tree;
 	double m_onePlace, m_touching;
-	Array<char> m_isProper; // [triangle] counter-clockwise
-	Array<int> m_part;      // [triangle]
-	Array<int> m_group;     // [triangle]
+	Array<Triangle2> m_plane; // [triangle] where it is
+	Array<char> m_isProper;   // [triangle] counter-clockwise
+	Array<int> m_part;        // [triangle]
+	Array<int> m_group;       // [triangle]
 	Array<Group> m_groups;
 	Array<std::vector<int>> m_groupsOf; // [part]
 	Array<double> m_area;               // [part]

@@ -3,13 +3,10 @@
 
 #include "../base/task.h"
 #include "../math/box_tree.h"
-#include "../math/bucket_sort.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
 #include <utility>
 
 namespace ricci {
@@ -56,20 +53,6 @@ bool contains(const Outline& outline, const Point2& p)
 	return turns != 0;
 }
 
-/// Different for nearly all points.
-std::uint64_t pointKey(const Point2& p)
-{
-	std::uint64_t key = 0;
-	for (const double x : p) {
-		const double unsignedZero = x + 0.0;
-		std::uint64_t bits = 0;
-		std::memcpy(&bits, &unsignedZero, sizeof bits);
-		key = (key ^ bits) * 0x9e3779b97f4a7c15U; // 2^64 over the golden ratio
-		key ^= key >> 29;
-	}
-	return key;
-}
-
 Box2 boxOf(const Segment& s, double room)
 {
 	Box2 box;
@@ -82,48 +65,20 @@ Box2 boxOf(const Segment& s, double room)
 
 } // namespace
 
-Outline outlineOf(const std::vector<Triangle2>& triangles)
+Outline outlineOf(const FlatMesh& mesh, const Sides& sides, const std::vector<int>& triangles)
 {
-	struct Side
-	{
-		std::uint64_t key; // of both ends, in any order
-		std::size_t number;
+	const auto isFlipped = [&](int f) {
+		const Triangle2 t = mesh.at(f);
+		return doubledArea(t[0], t[1], t[2]) < 0.0;
 	};
-	// From the lower end.
-	const auto endsOf = [&](const Side& side) {
-		const Triangle2& t = triangles[side.number / 3];
-		const Point2 &a = t[side.number % 3], &b = t[(side.number + 1) % 3];
-		return a < b ? Segment{a, b} : Segment{b, a};
-	};
-	std::vector<Side> sides;
-	sides.reserve(3 * triangles.size());
-	for (std::size_t i = 0; i < triangles.size(); ++i)
-		for (std::size_t k = 0; k < 3; ++k) {
-			const Point2 &a = triangles[i][k], &b = triangles[i][(k + 1) % 3];
-			if (a != b)
-				sides.push_back({pointKey(a) + pointKey(b), 3 * i + k});
-		}
-	const std::uint64_t buckets = std::max<std::size_t>(sides.size(), 1);
-	bucketSort(
-		sides,
-		[&](const Side& s) { return static_cast<int>(s.key % buckets); },
-		[&](const Side& s, const Side& t) {
-			return s.key != t.key ? s.key < t.key : endsOf(s) < endsOf(t);
-		});
 	Outline outline;
-	for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
-		const Segment ends = endsOf(*first);
-		int count = 0; // upwards, less those downwards
-		for (; last != sides.end() && last->key == first->key && endsOf(*last) == ends; ++last) {
-			const Triangle2& t = triangles[last->number / 3];
-			const bool isUpwards = t[last->number % 3] == ends[0];
-			count += isUpwards == !(doubledArea(t[0], t[1], t[2]) < 0.0) ? 1 : -1;
+	for (const int f : triangles)
+		for (const Corner side : cornersOf(f)) {
+			const auto [a, b] = mesh.ends(side);
+			const Corner other = joinedSide(mesh, sides, side);
+			if (a != b && !(other.isValid() && isFlipped(f) == isFlipped(other.face())))
+				outline.push_back(isFlipped(f) ? Segment{b, a} : Segment{a, b});
 		}
-		for (; count > 0; --count)
-			outline.push_back(ends);
-		for (; count < 0; ++count)
-			outline.push_back({ends[1], ends[0]});
-	}
 	std::sort(outline.begin(), outline.end());
 	return outline;
 }

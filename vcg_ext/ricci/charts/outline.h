@@ -2,6 +2,7 @@
 #ifndef RICCI_OUTLINE_H
 #define RICCI_OUTLINE_H
 
+#include "../layout/flat_mesh.h"
 #include "../math/points.h"
 
 #include <array>
@@ -13,9 +14,9 @@ namespace ricci {
 /// The border of a chart: straight sides from one point to the next, the chart on the left of each.
 using Outline = std::vector<std::array<Point2, 2>>;
 
-/// The sides of triangles, each taken counter-clockwise, that no other one has the other way. A point
-/// off them is covered by as many triangles as they go round it.
-Outline outlineOf(const std::vector<Triangle2>& triangles);
+/// The sides of a chart's triangles, each taken counter-clockwise, but for two that are joined and run
+/// opposite ways. A point off them is covered by as many triangles as they go round it.
+Outline outlineOf(const FlatMesh& mesh, const Sides& sides, const std::vector<int>& triangles);
 
 /// Where a chart goes: p to turn p + shift.
 struct Motion

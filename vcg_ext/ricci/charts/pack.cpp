@@ -5,7 +5,6 @@
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../math/min_area_rectangle.h"
-#include "../measure/distortion.h"
 #include "separate_charts.h"
 
 #include <algorithm>
@@ -28,50 +27,27 @@ constexpr std::size_t kMaxOutlines = 200;
 /// A chart is too small for that if its box is shorter than this share of the square.
 constexpr double kMinOutlineExtent = 1.0 / 64.0;
 
-/// The chart's triangles in the plane, of both triangulations.
-std::vector<Triangle2> trianglesOf(const Parametrization& map, const Chart& chart)
+/// [chart]
+std::vector<Box2> boxesOf(const Parametrization& map)
 {
-	std::vector<Triangle2> triangles;
-	for (int f : chart.faces)
-		triangles.push_back(map.uv[positionOf(f)]);
-	for (int f : chart.refined)
-		triangles.push_back(map.refined.uv[positionOf(f)]);
-	return triangles;
-}
-
-Box2 boxOf(const Parametrization& map, const Chart& chart)
-{
-	Box2 box;
-	for (int f : chart.faces)
-		for (const Point2& p : map.uv[positionOf(f)])
-			box.add(p);
-	for (int f : chart.refined)
-		for (const Point2& p : map.refined.uv[positionOf(f)])
-			box.add(p);
-	return box;
-}
-
-Point2 sum(const Point2& a, const Point2& b)
-{
-	return {a[0] + b[0], a[1] + b[1]};
-}
-
-/// Room for triangles that are to be given a height, which lie side by side in two directions.
-double roomFor(const Chart& chart)
-{
-	const std::size_t triangles = chart.refined.empty() ? chart.faces.size() : chart.refined.size();
-	return kBoxRoom * (1.0 + 0.25 * std::sqrt(static_cast<double>(triangles)));
+	std::vector<Box2> boxes(map.charts.size());
+	for (const int f : map.mesh.points.indices())
+		for (const Point2& p : map.mesh.at(f))
+			boxes[positionOf(map.mesh.chart[f])].add(p);
+	return boxes;
 }
 
 /// Widens the boxes of charts about their middles, where a side is shorter than kThinSide times the room
-/// that the chart's triangles want.
+/// that the chart's triangles want: to be given a height they lie side by side in two directions.
 /// \param side of a square that holds all
 /// \return [box] 1 for those that are thinner than kBoxRoom, which are not turned
-std::vector<char> widen(const std::vector<Chart>& charts, double side, std::vector<Box2>& boxes)
+std::vector<char>
+widen(const std::vector<std::vector<int>>& triangles, double side, std::vector<Box2>& boxes)
 {
 	std::vector<char> isThin(boxes.size(), 0);
 	for (std::size_t i = 0; i < boxes.size(); ++i) {
-		const double room = side * roomFor(charts[i]);
+		const double count = static_cast<double>(triangles[i].size());
+		const double room = side * (kBoxRoom * (1.0 + 0.25 * std::sqrt(count)));
 		for (std::size_t k = 0; k < 2; ++k)
 			if (const double length = boxes[i].max[k] - boxes[i].min[k];
 				length < kThinSide * room) {
@@ -86,24 +62,35 @@ std::vector<char> widen(const std::vector<Chart>& charts, double side, std::vect
 /// Rounding may leave the unit square by one unit of the last place.
 void clampToUnitSquare(Parametrization& map)
 {
-	for (std::vector<Triangle2>* triangles : {&map.uv, &map.refined.uv})
-		for (Triangle2& triangle : *triangles)
-			for (Point2& p : triangle)
-				for (double& x : p)
-					x = std::min(std::max(x, 0.0), 1.0);
+	for (Point2& p : map.mesh.place)
+		for (double& x : p)
+			x = std::min(std::max(x, 0.0), 1.0);
 	for (Chart& chart : map.charts)
 		for (Point2* p : {&chart.box.min, &chart.box.max})
 			for (double& x : *p)
 				x = std::min(std::max(x, 0.0), 1.0);
 }
 
-/// Of the output's triangles.
-double coveredArea(const Parametrization& map)
+double coveredArea(const FlatMesh& mesh)
 {
 	double doubled = 0.0;
-	for (const Triangle2& t : map.isRefined() ? map.refined.uv : map.uv)
+	for (const int f : mesh.points.indices()) {
+		const Triangle2 t = mesh.at(f);
 		doubled += std::abs(doubledArea(t[0], t[1], t[2]));
+	}
 	return 0.5 * doubled;
+}
+
+/// One box beside the other.
+std::vector<Point2> inARow(const std::vector<Box2>& boxes, double room)
+{
+	std::vector<Point2> shifts;
+	double x = boxes.empty() ? 0.0 : boxes.front().min[0];
+	for (const Box2& box : boxes) {
+		shifts.push_back({x - box.min[0], 0.0});
+		x += box.width() + room;
+	}
+	return shifts;
 }
 
 /// Charts in a square: their motions, the box round them and the room between it and the square.
@@ -129,8 +116,8 @@ Packing packBoxes(const std::vector<Box2>& boxes, double margin, const PlaceBoxe
 		packing.room = (1.0 + kMarginSpare) * margin * size;
 		const std::vector<Point2> shift = placeBoxes(boxes, packing.room);
 		for (std::size_t i = 0; i < boxes.size(); ++i) {
-			packing.whole.add(sum(boxes[i].min, shift[i]));
-			packing.whole.add(sum(boxes[i].max, shift[i]));
+			packing.whole.add(boxes[i].min + shift[i]);
+			packing.whole.add(boxes[i].max + shift[i]);
 			packing.motions.push_back({1.0, shift[i]});
 		}
 		size = packing.side();
@@ -139,12 +126,9 @@ Packing packBoxes(const std::vector<Box2>& boxes, double margin, const PlaceBoxe
 }
 
 /// One chart, turned so that the square round it is smallest.
-Packing packAlone(const Parametrization& map)
+Packing packAlone(const FlatMesh& mesh)
 {
-	std::vector<Point2> points;
-	for (const Triangle2& triangle : trianglesOf(map, map.charts.front()))
-		points.insert(points.end(), triangle.begin(), triangle.end());
-	const OrientedRectangle r = minExtentRectangle(std::move(points));
+	const OrientedRectangle r = minExtentRectangle(mesh.place.values());
 	Packing packing;
 	packing.motions.push_back({{r.cosine, -r.sine}, {0.0, 0.0}});
 	packing.whole.add(r.min);
@@ -159,43 +143,44 @@ Outline borderOf(const Box2& box)
 	return {{a, b}, {b, c}, {c, d}, {d, a}};
 }
 
-/// transformChart(), and the same for the box that it has. A chart that is turned by less than a right
-/// angle gets its own.
-void place(
-	Parametrization& map,
-	Chart& chart,
-	std::complex<double> factor,
-	const Point2& shift,
-	const Box2& box)
+/// Moves the charts and their boxes. A chart that is turned by less than a right angle gets its own box.
+void place(const std::vector<Motion>& motions, const std::vector<Box2>& boxes, Parametrization& map)
 {
-	transformChart(map, chart, factor, shift);
-	if (factor.real() != 0.0 && factor.imag() != 0.0) {
-		chart.box = boxOf(map, chart);
-		return;
-	}
-	chart.box = {};
-	for (const Point2& p : {box.min, box.max}) {
-		const std::complex<double> q = factor * asComplex(p) + asComplex(shift);
-		chart.box.add(asPoint(q));
+	moveCharts(motions, map.mesh);
+	std::vector<Box2> own = boxesOf(map);
+	for (std::size_t i = 0; i < boxes.size(); ++i) {
+		const Motion& motion = motions[i];
+		Box2& box = map.charts[i].box;
+		box = {};
+		if (motion.turn.real() != 0.0 && motion.turn.imag() != 0.0)
+			box = own[i];
+		else
+			for (const Point2& p : {boxes[i].min, boxes[i].max})
+				box.add(asPoint(motion.turn * asComplex(p) + asComplex(motion.shift)));
 	}
 }
 
-/// The largest charts by their outlines, the others in one box.
-/// \param room between charts
-/// \return without motions where they do not fit into the square of \p byBoxes
-Packing packByOutlines(
-	const Parametrization& map,
-	const std::vector<Box2>& boxes,
-	const std::vector<char>& isThin,
-	const Packing& byBoxes,
-	double room,
-	const PlaceBoxes& placeBoxes,
-	ChartTurns turns)
+/// What packByOutlines() packs.
+struct OutlineTask
 {
-	const double side = byBoxes.side();
+	const FlatMesh& mesh;
+	const std::vector<std::vector<int>>& triangles; ///< [chart]
+	const std::vector<Box2>& boxes;                 ///< [chart]
+	const std::vector<char>& isThin;                ///< [chart]
+	double side;                                    ///< of the square that holds the boxes
+	double room;                                    ///< between charts
+};
+
+/// The largest charts by their outlines, the others in one box.
+/// \return without motions where they do not fit into the square of the task
+Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, ChartTurns turns)
+{
+	const auto& [mesh, triangles, boxes, isThin, side, room] = task;
 	std::vector<std::size_t> order(boxes.size());
 	std::iota(order.begin(), order.end(), std::size_t{0});
-	const auto area = [&](std::size_t i) { return boxes[i].width() * boxes[i].height(); };
+	const auto area = [&boxes = boxes](std::size_t i) {
+		return boxes[i].width() * boxes[i].height();
+	};
 	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
 		return area(a) > area(b);
 	});
@@ -209,9 +194,10 @@ Packing packByOutlines(
 	}
 	if (large.empty() || areaOfLarge < areaOfSmall)
 		return {};
+	const Sides sides(mesh.vertices.values());
 	std::vector<Outline> outlines;
 	for (const std::size_t i : large) {
-		outlines.push_back(outlineOf(trianglesOf(map, map.charts[i])));
+		outlines.push_back(outlineOf(mesh, sides, triangles[i]));
 		if (outlines.back().empty()) // without area
 			return {};
 		checkpoint();
@@ -223,8 +209,8 @@ Packing packByOutlines(
 	const std::vector<Point2> shift = placeBoxes(smallBoxes, room);
 	Box2 ofSmall;
 	for (std::size_t k = 0; k < small.size(); ++k) {
-		ofSmall.add(sum(smallBoxes[k].min, shift[k]));
-		ofSmall.add(sum(smallBoxes[k].max, shift[k]));
+		ofSmall.add(smallBoxes[k].min + shift[k]);
+		ofSmall.add(smallBoxes[k].max + shift[k]);
 	}
 	std::vector<ChartTurns> turnsOf(large.size(), turns);
 	if (!small.empty()) {
@@ -251,20 +237,19 @@ Packing packByOutlines(
 	return packing;
 }
 
-void requireFloats(const std::vector<Triangle2>& triangles)
+void requireFloats(const Array<Point2>& places)
 {
 	using Float = std::numeric_limits<float>;
 	// The steps of floats become no smaller below the normal numbers.
 	const double smallest =
 		static_cast<double>(Float::min()) / static_cast<double>(Float::epsilon());
 	double largest = 0.0;
-	for (const Triangle2& triangle : triangles)
-		for (const Point2& p : triangle)
-			for (double x : p) {
-				if (!(std::abs(x) <= static_cast<double>(Float::max())))
-					throw InvalidMesh(InvalidMesh::BeyondFloats);
-				largest = std::max(largest, std::abs(x));
-			}
+	for (const Point2& p : places)
+		for (double x : p) {
+			if (!(std::abs(x) <= static_cast<double>(Float::max())))
+				throw InvalidMesh(InvalidMesh::BeyondFloats);
+			largest = std::max(largest, std::abs(x));
+		}
 	if (largest > 0.0 && largest < smallest)
 		throw InvalidMesh(InvalidMesh::BeyondFloats);
 }
@@ -283,86 +268,64 @@ bool marginsMayFit(std::size_t charts, double margin)
 	return static_cast<double>(charts) * margin * margin <= free * free;
 }
 
-ChartTurns chartTurns(const Options& options)
+void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
-	return options.target == TargetCurvature::Rectangle         ? ChartTurns::None
-		   : options.cones.rounding == ConeRounding::QuarterTurns ? ChartTurns::Quarter
-																: ChartTurns::Free;
-}
-
-void packCharts(
-	Parametrization& map,
-	bool normalize,
-	double margin,
-	const PlaceBoxes& placeBoxes,
-	ChartTurns turns)
-{
-	checkChartMargin(margin);
-	std::vector<Box2> boxes;
-	for (const Chart& chart : map.charts)
-		boxes.push_back(boxOf(map, chart));
+	checkChartMargin(options.chartMargin);
+	std::vector<Box2> boxes = boxesOf(map);
 	// The square that holds all has this side at least.
 	double area = 0.0, extent = 0.0;
 	for (const Box2& box : boxes) {
 		area += box.width() * box.height();
 		extent = std::max(extent, box.extent());
 	}
-	const std::vector<char> isThin = widen(map.charts, std::max(extent, std::sqrt(area)), boxes);
-	Packing packing = packBoxes(boxes, margin, placeBoxes);
-	if (!normalize) {
-		for (std::size_t i = 0; i < boxes.size(); ++i)
-			place(
-				map,
-				map.charts[i],
-				1.0,
-				boxes.size() > 1 ? packing.motions[i].shift : Point2{0.0, 0.0},
-				boxes[i]);
-		requireFloats(map.uv);
-		requireFloats(map.refined.uv);
-		map.report.occupancy = coveredArea(map) / (packing.side() * packing.side());
+	const auto triangles = map.mesh.trianglesByChart(boxes.size());
+	const std::vector<char> isThin = widen(triangles, std::max(extent, std::sqrt(area)), boxes);
+	const PlaceBoxes placeBoxes = options.placeBoxes ? options.placeBoxes : inARow;
+	Packing packing = packBoxes(boxes, options.chartMargin, placeBoxes);
+	if (!options.normalizeUV) {
+		if (boxes.size() == 1)
+			packing.motions.front().shift = {0.0, 0.0};
+		place(packing.motions, boxes, map);
+		requireFloats(map.mesh.place);
+		map.report.occupancy = coveredArea(map.mesh) / (packing.side() * packing.side());
 		return;
 	}
 	if (turns != ChartTurns::None && packing.side() > 0.0 &&
 		!(boxes.size() == 1 && isThin.front())) {
 		const double room = std::max(packing.room, kMinOutlineRoom * packing.side());
-		Packing turned =
-			boxes.size() == 1
-				? packAlone(map)
-				: packByOutlines(map, boxes, isThin, packing, room, placeBoxes, turns);
-		const double share = (1.0 + kMarginSpare) * margin; // of the square, on each side
+		Packing turned = boxes.size() == 1
+							 ? packAlone(map.mesh)
+							 : packByOutlines(
+								   {map.mesh, triangles, boxes, isThin, packing.side(), room},
+								   placeBoxes,
+								   turns);
+		const double share =
+			(1.0 + kMarginSpare) * options.chartMargin; // of the square, on each side
 		turned.room = share / (1.0 - 2.0 * share) * turned.whole.extent();
 		if (!turned.motions.empty() && turned.side() <= (1.0 - kWorthTurning) * packing.side())
 			packing = std::move(turned);
 	}
 	const Point2 corner{packing.whole.min[0] - packing.room, packing.whole.min[1] - packing.room};
 	const double scale = 1.0 / packing.side();
-	for (std::size_t i = 0; i < boxes.size(); ++i) {
-		const Motion& motion = packing.motions[i];
-		place(
-			map,
-			map.charts[i],
+	for (Motion& motion : packing.motions)
+		motion = {
 			scale * motion.turn,
-			{(motion.shift[0] - corner[0]) * scale, (motion.shift[1] - corner[1]) * scale},
-			boxes[i]);
-	}
+			{(motion.shift[0] - corner[0]) * scale, (motion.shift[1] - corner[1]) * scale}};
+	place(packing.motions, boxes, map);
 	clampToUnitSquare(map);
-	map.report.occupancy = coveredArea(map);
+	map.report.occupancy = coveredArea(map.mesh);
 }
 
-void packStrips(
-	Parametrization& map,
-	double margin,
-	const PlaceBoxes& placeBoxes,
-	ChartTurns turns)
+void packStrips(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
 	std::optional<Parametrization> cut;
 	if (turns != ChartTurns::None)
 		cut = cutStrip(map, turns == ChartTurns::Free);
-	packCharts(map, true, margin, placeBoxes, turns);
+	packCharts(map, options, turns);
 	if (!cut)
 		return;
 	try {
-		packCharts(*cut, true, margin, placeBoxes, turns);
+		packCharts(*cut, options, turns);
 	}
 	catch (const InvalidOption& e) {
 		if (e.problem != InvalidOption::ChartMarginTooWide)
@@ -373,53 +336,34 @@ void packStrips(
 		map = std::move(*cut);
 }
 
-std::vector<Box2> placeDisks(Parametrization& map)
+void placeDisks(Parametrization& map)
 {
 	const int perRow =
 		static_cast<int>(std::ceil(std::sqrt(static_cast<double>(map.charts.size()))));
 	const double side = 1.0 / perRow;
-	std::vector<Box2> squares;
-	for (const Chart& chart : map.charts) {
-		const int i = static_cast<int>(squares.size()), row = i / perRow;
-		Box2 square;
+	std::vector<Motion> motions;
+	for (Chart& chart : map.charts) {
+		const int i = static_cast<int>(motions.size()), row = i / perRow;
+		Box2& square = chart.box;
+		square = {};
 		square.min = {side * (i % perRow), side * row};
 		square.max = {square.min[0] + side, square.min[1] + side};
-		squares.push_back(square);
-		transformChart(
-			map,
-			chart,
-			0.5 * side,
-			{(square.min[0] + square.max[0]) / 2, (square.min[1] + square.max[1]) / 2});
+		motions.push_back(
+			{0.5 * side,
+			 {(square.min[0] + square.max[0]) / 2, (square.min[1] + square.max[1]) / 2}});
 	}
-	clampToUnitSquare(map);
-	map.report.occupancy = coveredArea(map);
-	return squares;
+	moveCharts(motions, map.mesh);
+	for (Point2& p : map.mesh.place)
+		for (double& x : p)
+			x = std::min(std::max(x, 0.0), 1.0);
+	map.report.occupancy = coveredArea(map.mesh);
 }
 
-void transformChart(
-	Parametrization& map, const Chart& chart, std::complex<double> factor, const Point2& shift)
+void moveCharts(const std::vector<Motion>& motions, FlatMesh& mesh)
 {
-	const double re = factor.real(), im = factor.imag();
-	const auto move = [&](Triangle2& triangle) {
-		for (Point2& p : triangle)
-			p = {re * p[0] - im * p[1] + shift[0], im * p[0] + re * p[1] + shift[1]};
-	};
-	for (int f : chart.faces)
-		move(map.uv[positionOf(f)]);
-	for (int f : chart.refined)
-		move(map.refined.uv[positionOf(f)]);
-}
-
-void countFlippedAsWritten(const Parametrization& map, Report& report)
-{
-	if (!map.isRefined()) {
-		countFlipped(map.uv, map.reversed, report);
-		return;
-	}
-	std::vector<char> reversed;
-	for (int f : map.refined.inputFace)
-		reversed.push_back(map.reversed[positionOf(f)]);
-	countFlipped(map.refined.uv, reversed, report);
+	const Array<int> chart = mesh.chartOfPoints();
+	for (const int p : chart.indices())
+		mesh.place[p] = motions[positionOf(chart[p])](mesh.place[p]);
 }
 
 } // namespace ricci

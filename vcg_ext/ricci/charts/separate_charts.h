@@ -2,7 +2,6 @@
 #ifndef RICCI_SEPARATE_CHARTS_H
 #define RICCI_SEPARATE_CHARTS_H
 
-#include "../surface/surface_mesh.h"
 #include "parametrization.h"
 
 #include <optional>
@@ -11,31 +10,29 @@
 namespace ricci {
 
 /// Finds the charts of \p map that cover a part of the plane more than once (see
-/// overlappingPairs()), on the triangles of the output: those of the refinement where there is one.
+/// overlappingPairs()).
 ///
 /// With \p resolve such charts are replaced by the parts of divideChart(), joined again by joinParts()
 /// across seams where they have room, each from the origin and, where \p turns, with its smallest
 /// bounding rectangle along the axes; else in the directions that it has. The report then has no
-/// overlap, but what the seams have grown or shrunk by, in edges and in length. A face of the input goes
-/// with the first of its pieces. Without \p resolve the report counts the charts, and their faces that
-/// overlap. In both cases it counts the charts.
-void separateCharts(
-	const SurfaceMesh& mesh, bool resolve, bool turns, Parametrization& map);
+/// overlap, but what the seams have grown or shrunk by, in edges and in length. Without \p resolve the
+/// report counts the charts, and their triangles that overlap. In both cases it counts the charts.
+void separateCharts(bool resolve, bool turns, Parametrization& map);
 
 /// A chart this many times as long as wide is a strip.
 constexpr double kStripLength = 1.5;
 
 /// Cuts the chart that covers most of the plane once across, if its smallest bounding rectangle is
-/// longer than kStripLength times its height: along the edges of least length in space in its middle
-/// fifth. The two parts are given back as those of separateCharts(), in the report, too. A chart that
-/// would fall into more parts stays whole.
+/// longer than kStripLength times its height: along the edges of least length on the surface in its
+/// middle fifth. The two parts are given back as those of separateCharts(), in the report, too. A chart
+/// that would fall into more parts stays whole.
 /// \return the map that is cut, if one is
 std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns);
 
 /// Divides the charts that have triangles of both kinds: each connected part of one kind becomes a chart
 /// from the origin, in the directions that it has. The report counts the charts and the cuts as
 /// separateCharts() does.
-/// \param isOff [triangle of the output]
+/// \param isOff [triangle]
 /// \return whether there are such charts
 bool cutOff(const std::vector<char>& isOff, Parametrization& map);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simple_border.h"
 
+#include "../math/box_tree.h"
 #include "../math/orientation.h"
-#include "chart_sides.h"
 
 #include <algorithm>
 #include <array>
@@ -25,23 +25,23 @@ struct BorderSide
 };
 
 /// In order of the triangles.
-Array<BorderSide> borderOf(const DrawnChart& chart, const Array<int>& across)
+Array<BorderSide> borderOf(const FlatMesh& chart, const Sides& sides)
 {
-	Array<int> number(across.size(), -1);
-	std::vector<int> border;
-	for (const int side : across.indices())
-		if (joinedSide(chart, across, side) < 0) {
+	CornerArray<int> number(3 * chart.size(), -1);
+	std::vector<Corner> border;
+	for (const Corner side : number.indices())
+		if (!joinedSide(chart, sides, side).isValid()) {
 			number[side] = static_cast<int>(border.size());
 			border.push_back(side);
 		}
-	Array<BorderSide> sides;
-	for (const int side : border) {
-		int next = nextSide(side);
-		for (int other; (other = joinedSide(chart, across, next)) >= 0;)
-			next = nextSide(other);
-		sides.push_back({endsOf(chart, side), number[next]});
+	Array<BorderSide> result;
+	for (const Corner side : border) {
+		Corner next = side.next();
+		for (Corner other; (other = joinedSide(chart, sides, next)).isValid();)
+			next = other.next();
+		result.push_back({chart.ends(side), number[next]});
 	}
-	return sides;
+	return result;
 }
 
 /// Whether the sides have no point in common, but for the one where the first goes on as the second.
@@ -104,12 +104,12 @@ int counterClockwisePolygons(const Array<BorderSide>& border)
 
 } // namespace
 
-bool hasSimpleBorder(const DrawnChart& chart, const Array<int>& across)
+bool hasSimpleBorder(const FlatMesh& chart, const Sides& sides)
 {
-	for (const Triangle2& p : chart.plane)
+	for (const Triangle2& p : chart.corners())
 		if (orientation(p[0], p[1], p[2]) <= 0)
 			return false;
-	const Array<BorderSide> border = borderOf(chart, across);
+	const Array<BorderSide> border = borderOf(chart, sides);
 	return areApart(border) && counterClockwisePolygons(border) == 1;
 }
 

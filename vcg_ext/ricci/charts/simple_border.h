@@ -2,11 +2,11 @@
 #ifndef RICCI_SIMPLE_BORDER_H
 #define RICCI_SIMPLE_BORDER_H
 
-#include "chart_overlap.h"
+#include "../layout/flat_mesh.h"
 
 namespace ricci {
 
-/// Whether the border of a chart shows that the chart covers nothing twice: no triangle is turned round
+/// Whether the border of a chart shows that the chart covers nothing twice: no triangle is flipped
 /// or flat; the sides without a joined one form closed polygons that neither touch each other nor
 /// themselves; and one of them alone goes round counter-clockwise. False where this cannot be seen so
 /// easily.
@@ -15,8 +15,7 @@ namespace ricci {
 /// an edge inside the chart cancel: whatever the topology of the chart. A polygon of the border goes
 /// round a point once or not at all, and where it runs clockwise it only takes away. Orientations are
 /// exact, so this is.
-/// \param across from sidesAcross()
-bool hasSimpleBorder(const DrawnChart& chart, const Array<int>& across);
+bool hasSimpleBorder(const FlatMesh& chart, const Sides& sides);
 
 } // namespace ricci
 

@@ -2,7 +2,6 @@
 #include "flat_mesh.h"
 
 #include "../math/bucket_sort.h"
-#include "../math/disjoint_sets.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -62,39 +61,111 @@ bool isInside(const FlatSide* sides, int count)
 	return count == 2 && sides[0].atLow == sides[1].atLow && sides[0].atHigh == sides[1].atHigh;
 }
 
+Array<Triangle2> FlatMesh::corners() const
+{
+	Array<Triangle2> corners;
+	corners.reserve(size());
+	for (const int f : points.indices())
+		corners.push_back(at(f));
+	return corners;
+}
+
+Array<int> FlatMesh::chartOfPoints() const
+{
+	Array<int> chartOf(place.size(), -1);
+	for (const int f : points.indices())
+		for (const int p : points[f])
+			chartOf[p] = chart[f];
+	return chartOf;
+}
+
+std::vector<int> FlatMesh::pointsOf(const std::vector<int>& triangles) const
+{
+	std::vector<int> found;
+	for (const int f : triangles)
+		found.insert(found.end(), points[f].begin(), points[f].end());
+	std::sort(found.begin(), found.end());
+	found.erase(std::unique(found.begin(), found.end()), found.end());
+	return found;
+}
+
+std::vector<std::vector<int>> FlatMesh::trianglesByChart(std::size_t chartCount) const
+{
+	std::vector<std::vector<int>> triangles(chartCount);
+	for (const int f : chart.indices())
+		if (chart[f] >= 0)
+			triangles[positionOf(chart[f])].push_back(f);
+	return triangles;
+}
+
+FlatMesh FlatMesh::part(const std::vector<int>& triangles) const
+{
+	FlatMesh part;
+	const std::vector<int> known = pointsOf(triangles);
+	for (const int p : known)
+		part.place.push_back(place[p]);
+	for (const int f : triangles) {
+		Triangle own{};
+		for (std::size_t k = 0; k < 3; ++k)
+			own[k] = static_cast<int>(
+				std::lower_bound(known.begin(), known.end(), points[f][k]) - known.begin());
+		part.points.push_back(own);
+		part.vertices.push_back(vertices[f]);
+		part.lengths.push_back(lengths[f]);
+		part.face.push_back(face[f]);
+	}
+	part.chart.assign(triangles.size(), 0);
+	return part;
+}
+
+std::vector<Point3> FlatMesh::onSurface(const std::vector<Point3>& positions) const
+{
+	std::vector<Point3> places;
+	places.reserve(source.values().size());
+	for (const SurfacePoint& p : source)
+		places.push_back(placeOnSurface(p, positions));
+	return places;
+}
+
+void weld(FlatMesh& mesh)
+{
+	numberPoints(
+		Sides(mesh.vertices.values()),
+		[&](Corner c) { return mesh.at(c); },
+		[&](Corner a, Corner b) {
+			return mesh.chart[a.face()] == mesh.chart[b.face()] &&
+				   mesh.at(a) == mesh.at(b.next()) && mesh.at(a.next()) == mesh.at(b);
+		},
+		mesh);
+}
+
+void splitPoints(FlatMesh& mesh)
+{
+	numberPoints(
+		Sides(mesh.vertices.values()),
+		[&](Corner c) { return mesh.at(c); },
+		[&](Corner a, Corner b) {
+			return mesh.chart[a.face()] == mesh.chart[b.face()] && isJoined(mesh, a, b);
+		},
+		mesh);
+}
+
 FlatMesh flatMeshOf(
 	Array<Triangle> vertices,
 	const Array<Triangle2>& plane,
 	Array<int> chart,
 	Array<std::array<double, 3>> lengths)
 {
-	const auto place = [&](int corner) -> const Point2& {
-		return plane[corner / 3][positionOf(corner % 3)];
-	};
 	FlatMesh mesh;
-	for (const int f : vertices.indices())
+	for (const int f : vertices.indices()) {
 		mesh.points.push_back({3 * f, 3 * f + 1, 3 * f + 2});
-	DisjointSets sets(3 * vertices.size());
-	forEdges(sidesOf(vertices, mesh.points), [&](const FlatSide* side, int count) {
-		if (count == 2 && chart[side[0].triangle] == chart[side[1].triangle] &&
-			place(side[0].atLow) == place(side[1].atLow) &&
-			place(side[0].atHigh) == place(side[1].atHigh)) {
-			sets.merge(side[0].atLow, side[1].atLow);
-			sets.merge(side[0].atHigh, side[1].atHigh);
-		}
-	});
-	Array<int> number(sets.size(), -1);
-	for (int corner = 0; corner < sets.size(); ++corner) {
-		const int first = sets.find(corner); // never above the corner
-		if (first == corner) {
-			number[corner] = mesh.place.size();
-			mesh.place.push_back(place(corner));
-		}
-		mesh.points[corner / 3][positionOf(corner % 3)] = number[first];
+		for (const Point2& p : plane[f])
+			mesh.place.push_back(p);
 	}
 	mesh.vertices = std::move(vertices);
 	mesh.lengths = std::move(lengths);
 	mesh.chart = std::move(chart);
+	weld(mesh);
 	return mesh;
 }
 

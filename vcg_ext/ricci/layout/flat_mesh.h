@@ -3,12 +3,15 @@
 #define RICCI_FLAT_MESH_H
 
 #include "../base/indexed.h"
+#include "../math/disjoint_sets.h"
 #include "../math/points.h"
 #include "../surface/sides.h"
 #include "../surface/surface_mesh.h"
 #include "../surface/surface_point.h"
 
 #include <array>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -24,16 +27,34 @@ struct FlatMesh
 	Array<Triangle> points;
 	Array<Point2> place;                  ///< [point]
 	Array<std::array<double, 3>> lengths; ///< [triangle] of its sides on the surface
-	Array<int> chart;                     ///< [triangle]
+	Array<int> chart;                     ///< [triangle] -1: of none
 	Array<int> face;                      ///< [triangle] the input's face that it lies in
-	/// [vertex] where it lies on the input; empty where the triangles are the mesh's own
+	/// [vertex] where it lies on the input: first the input's vertices, then points of the refinement
 	Array<SurfacePoint> source;
+
+	int size() const { return points.size(); }
 
 	Triangle2 at(int triangle) const
 	{
 		const Triangle& p = points[triangle];
 		return {place[p[0]], place[p[1]], place[p[2]]};
 	}
+	const Point2& at(Corner c) const { return place[points[c]]; }
+	/// Of a side.
+	std::array<Point2, 2> ends(Corner side) const { return {at(side), at(side.next())}; }
+
+	/// at() of all triangles.
+	Array<Triangle2> corners() const;
+	/// [point]
+	Array<int> chartOfPoints() const;
+	/// The points of some triangles, in increasing order.
+	std::vector<int> pointsOf(const std::vector<int>& triangles) const;
+	/// [chart] its triangles, in increasing order; those of no chart are left out.
+	std::vector<std::vector<int>> trianglesByChart(std::size_t chartCount) const;
+	/// Some triangles as one chart by itself. Vertices keep their numbers, and the part has no sources.
+	FlatMesh part(const std::vector<int>& triangles) const;
+	/// [vertex] its place on the surface with the vertices \p positions.
+	std::vector<Point3> onSurface(const std::vector<Point3>& positions) const;
 
 	/// 1 + the highest number of a vertex.
 	int vertexCount() const;
@@ -48,6 +69,50 @@ inline bool isJoined(const FlatMesh& mesh, Corner side, Corner across)
 	return mesh.points[side] == mesh.points[across.next()] &&
 		   mesh.points[side.next()] == mesh.points[across];
 }
+
+/// The side across (Sides::across()) if it is joined to \p side; else none.
+inline Corner joinedSide(const FlatMesh& mesh, const Sides& sides, Corner side)
+{
+	const Corner other = sides.across(side);
+	return other.isValid() && isJoined(mesh, side, other) ? other : Corner();
+}
+
+/// Numbers the points anew: two corners are one point if a chain of triangles with joined sides connects
+/// them, at the place of the first of them. Points are in the order of their first corners.
+/// \param place place(corner)
+/// \param isJoined isJoined(side, across) for the two sides of an edge
+template<class Place, class IsJoined>
+void numberPoints(const Sides& sides, const Place& place, const IsJoined& isJoined, FlatMesh& mesh)
+{
+	DisjointSets sets(3 * mesh.vertices.size());
+	for (int c = 0; c < sets.size(); ++c)
+		if (const Corner side(c), other = sides.across(side);
+			other > side && isJoined(side, other)) {
+			sets.merge(c, other.next().number());
+			sets.merge(side.next().number(), other.number());
+		}
+	Array<int> number(sets.size(), -1);
+	Array<Point2> places;
+	Array<Triangle> points(mesh.vertices.size());
+	for (int c = 0; c < sets.size(); ++c) {
+		const int first = sets.find(c); // never above the corner
+		if (first == c) {
+			number[c] = places.size();
+			places.push_back(place(Corner(c)));
+		}
+		points[Corner(c)] = number[first];
+	}
+	mesh.points = std::move(points);
+	mesh.place = std::move(places);
+}
+
+/// Joins the two sides of an edge in one chart where they lie on each other: a seam round which the
+/// metric closes by chance is none.
+void weld(FlatMesh& mesh);
+
+/// Gives triangles that no chain of joined sides in one chart connects points of their own, and forgets
+/// points that no corner has.
+void splitPoints(FlatMesh& mesh);
 
 /// One side of a triangle, by the lower and the higher number of its ends.
 struct FlatSide

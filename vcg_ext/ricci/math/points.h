@@ -169,6 +169,7 @@ struct Box2
 	{
 		return min[0] <= p[0] && p[0] <= max[0] && min[1] <= p[1] && p[1] <= max[1];
 	}
+	Point2 centre() const { return {(min[0] + max[0]) / 2, (min[1] + max[1]) / 2}; }
 	double width() const { return max[0] - min[0]; }
 	double height() const { return max[1] - min[1]; }
 	/// The longer side.

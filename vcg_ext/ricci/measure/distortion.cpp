@@ -18,14 +18,14 @@ namespace ricci {
 
 namespace {
 
-/// A triangle in space drawn in the plane, its first corner at 0, the second on the positive real
+/// A triangle in space laid out in the plane, its first corner at 0, the second on the positive real
 /// axis.
-struct DrawnTriangle
+struct LaidOutTriangle
 {
 	double base, height;
 	std::complex<double> apex;
 
-	explicit DrawnTriangle(const std::array<Point3, 3>& p)
+	explicit LaidOutTriangle(const std::array<Point3, 3>& p)
 	{
 		double a[3], b[3], dot = 0.0;
 		for (std::size_t i = 0; i < 3; ++i) {
@@ -50,15 +50,15 @@ struct DrawnTriangle
 	}
 };
 
-double distortionOf(const DrawnTriangle& drawn, const Triangle2& plane)
+double distortionOf(const LaidOutTriangle& own, const Triangle2& plane)
 {
-	if (!drawn.hasShape())
+	if (!own.hasShape())
 		return std::numeric_limits<double>::quiet_NaN();
 	// The map z -> alpha z + beta conj(z) sends base to b and the apex to c.
 	const std::complex<double> b(plane[1][0] - plane[0][0], plane[1][1] - plane[0][1]);
 	const std::complex<double> c(plane[2][0] - plane[0][0], plane[2][1] - plane[0][1]);
-	const std::complex<double> alongBase = b / drawn.base;
-	const std::complex<double> across = (c - alongBase * drawn.apex.real()) / drawn.height;
+	const std::complex<double> alongBase = b / own.base;
+	const std::complex<double> across = (c - alongBase * own.apex.real()) / own.height;
 	const std::complex<double> i(0.0, 1.0);
 	const double alpha = std::abs(alongBase - i * across);
 	const double beta = std::abs(alongBase + i * across);
@@ -71,24 +71,16 @@ double planeArea(const Triangle2& p)
 	return 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
 }
 
-std::array<Point3, 3> cornersOf(const SurfaceMesh& mesh, const Triangle& t)
+bool isCounterClockwise(const Triangle2& p)
 {
-	return {
-		mesh.positions[positionOf(t[0])],
-		mesh.positions[positionOf(t[1])],
-		mesh.positions[positionOf(t[2])]};
-}
-
-bool isOriented(const Triangle2& p, bool reversed)
-{
-	return orientation(p[0], p[1], p[2]) == (reversed ? -1 : 1);
+	return orientation(p[0], p[1], p[2]) > 0;
 }
 
 } // namespace
 
 double triangleArea(const std::array<Point3, 3>& p)
 {
-	return DrawnTriangle(p).area();
+	return LaidOutTriangle(p).area();
 }
 
 double surfaceArea(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles)
@@ -104,7 +96,7 @@ double surfaceArea(const std::vector<Point3>& positions, const std::vector<Trian
 
 double quasiConformalDistortion(const std::array<Point3, 3>& surface, const Triangle2& plane)
 {
-	return distortionOf(DrawnTriangle(surface), plane);
+	return distortionOf(LaidOutTriangle(surface), plane);
 }
 
 AreaDistortion areaDistortion(const std::vector<double>& before, const std::vector<double>& after)
@@ -138,38 +130,41 @@ AreaDistortion areaDistortion(const std::vector<double>& before, const std::vect
 }
 
 DistortionField measureDistortion(
-	const SurfaceMesh& mesh,
-	const std::vector<Triangle2>& plane,
-	const std::vector<char>& reversed,
+	const Array<Triangle>& vertices,
+	const std::vector<Point3>& surface,
+	const Array<Triangle2>& plane,
 	Report& report)
 {
 	DistortionField field;
-	field.face.resize(mesh.triangles.size());
-	field.vertex.assign(mesh.positions.size(), 0.0);
-	std::vector<double> ringArea(mesh.positions.size(), 0.0), measured;
+	const std::vector<Triangle>& triangles = vertices.values();
+	field.face.resize(triangles.size());
+	field.vertex.assign(surface.size(), 0.0);
+	std::vector<double> ringArea(surface.size(), 0.0), measured;
 	double sum = 0.0, areaSum = 0.0, weightedSum = 0.0;
-	std::vector<double> areaBefore(mesh.triangles.size(), 0.0), areaAfter = areaBefore;
-	inParallel(static_cast<int>(mesh.triangles.size()), defaultThreads(), [&](int first, int last) {
+	std::vector<double> areaBefore(triangles.size(), 0.0), areaAfter = areaBefore;
+	inParallel(vertices.size(), defaultThreads(), [&](int first, int last) {
 		for (std::size_t f = positionOf(first); f < positionOf(last); ++f) {
-			const DrawnTriangle drawn(cornersOf(mesh, mesh.triangles[f]));
-			field.face[f] = distortionOf(drawn, plane[f]);
+			const Triangle& t = triangles[f];
+			const LaidOutTriangle own(
+				{surface[positionOf(t[0])], surface[positionOf(t[1])], surface[positionOf(t[2])]});
+			field.face[f] = distortionOf(own, plane.values()[f]);
 			if (!std::isfinite(field.face[f]))
 				continue;
-			areaBefore[f] = drawn.area();
-			areaAfter[f] = planeArea(plane[f]);
+			areaBefore[f] = own.area();
+			areaAfter[f] = planeArea(plane.values()[f]);
 		}
 	});
 	report.flippedFaces = 0;
-	for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+	for (std::size_t f = 0; f < triangles.size(); ++f) {
 		const double qc = field.face[f], area = areaBefore[f];
-		report.flippedFaces += !isOriented(plane[f], reversed[f]);
+		report.flippedFaces += !isCounterClockwise(plane.values()[f]);
 		if (!std::isfinite(qc))
 			continue;
 		measured.push_back(qc);
 		sum += qc;
 		areaSum += area;
 		weightedSum += area * qc;
-		for (const int v : mesh.triangles[f]) {
+		for (const int v : triangles[f]) {
 			field.vertex[positionOf(v)] += area * qc;
 			ringArea[positionOf(v)] += area;
 		}
@@ -200,20 +195,25 @@ DistortionField measureDistortion(
 	return field;
 }
 
-void countFlipped(
-	const std::vector<Triangle2>& plane, const std::vector<char>& reversed, Report& report)
+DistortionField
+measureDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report)
+{
+	return measureDistortion(mesh.vertices, surface, mesh.corners(), report);
+}
+
+void countFlipped(const FlatMesh& mesh, Report& report)
 {
 	report.flippedFaces = report.flippedByRounding = 0;
 	const auto rounded = [](const Point2& p) {
 		return Point2{roundedToFloat(p[0]), roundedToFloat(p[1])};
 	};
-	for (std::size_t f = 0; f < plane.size(); ++f) {
-		const Triangle2& p = plane[f];
-		if (!isOriented(p, reversed[f]))
+	for (const int f : mesh.points.indices()) {
+		const Triangle2 p = mesh.at(f);
+		if (!isCounterClockwise(p))
 			++report.flippedFaces;
 		else
 			report.flippedByRounding +=
-				!isOriented({rounded(p[0]), rounded(p[1]), rounded(p[2])}, reversed[f]);
+				!isCounterClockwise({rounded(p[0]), rounded(p[1]), rounded(p[2])});
 	}
 }
 

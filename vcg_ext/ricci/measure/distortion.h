@@ -2,6 +2,7 @@
 #ifndef RICCI_DISTORTION_H
 #define RICCI_DISTORTION_H
 
+#include "../layout/flat_mesh.h"
 #include "../math/histogram.h"
 #include "../math/points.h"
 #include "../report.h"
@@ -44,22 +45,25 @@ struct AreaDistortion
 /// of the totals too, and those whose shares of the totals are below the normal numbers.
 AreaDistortion areaDistortion(const std::vector<double>& before, const std::vector<double>& after);
 
-/// Measures the map of corner k of face f to plane[f][k], and fills the fields of \p report that
-/// state qc and area distortion, and flippedFaces. Faces without area in space are kept out of the
-/// means, and so are those of infinite distortion. Orientation is exact.
-/// \param plane [face][corner] counter-clockwise unless reversed
-/// \param reversed [face] 1 where clockwise is wanted
+/// Measures the linear maps of triangles to the plane, and fills the fields of \p report that state qc
+/// and area distortion, and flippedFaces. Triangles without area in space are kept out of the means, and
+/// so are those of infinite distortion. Orientation is exact.
+/// \param surface [vertex] its place in space
+/// \param plane [triangle][corner] counter-clockwise where it is right
 DistortionField measureDistortion(
-	const SurfaceMesh& mesh,
-	const std::vector<Triangle2>& plane,
-	const std::vector<char>& reversed,
+	const Array<Triangle>& vertices,
+	const std::vector<Point3>& surface,
+	const Array<Triangle2>& plane,
 	Report& report);
 
-/// Sets flippedFaces, the number of triangles whose orientation in the plane is not the wanted one,
-/// and flippedByRounding, how many more these are with coordinates rounded to float. Exact. The
-/// parameters are those of measureDistortion().
-void countFlipped(
-	const std::vector<Triangle2>& plane, const std::vector<char>& reversed, Report& report);
+/// Of a whole map to the plane.
+/// \param surface FlatMesh::onSurface()
+DistortionField
+measureDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report);
+
+/// Sets flippedFaces, the number of triangles that are not counter-clockwise in the plane, and
+/// flippedByRounding, how many more these are with coordinates rounded to float. Exact.
+void countFlipped(const FlatMesh& mesh, Report& report);
 
 } // namespace ricci
 

@@ -5,9 +5,7 @@
 #include "../math/disk_isometry.h"
 #include "../metric/triangle.h"
 
-#include <algorithm>
 #include <complex>
-#include <cstddef>
 
 namespace ricci {
 
@@ -34,17 +32,16 @@ Triangle2 chordTriangle(const Triangle2& p)
 } // namespace
 
 DistortionField measureHyperbolicDistortion(
-	const SurfaceMesh& mesh,
-	const std::vector<Triangle2>& uv,
-	const std::vector<char>& reversed,
-	Report& report)
+	const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report)
 {
-	std::vector<Triangle2> chords(uv.size());
-	std::transform(uv.begin(), uv.end(), chords.begin(), chordTriangle);
-	DistortionField field = measureDistortion(mesh, chords, reversed, report);
-	report.flippedFaces = 0;
-	for (std::size_t f = 0; f < uv.size(); ++f)
-		report.flippedFaces += orientationInDisk(uv[f]) != (reversed[f] ? -1 : 1);
+	Array<Triangle2> chords;
+	int flipped = 0;
+	for (const int f : mesh.points.indices()) {
+		chords.push_back(chordTriangle(mesh.at(f)));
+		flipped += orientationInDisk(mesh.at(f)) <= 0;
+	}
+	DistortionField field = measureDistortion(mesh.vertices, surface, chords, report);
+	report.flippedFaces = flipped;
 	return field;
 }
 

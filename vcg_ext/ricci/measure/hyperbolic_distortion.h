@@ -10,14 +10,8 @@ namespace ricci {
 /// triangles with the corners of the geodesic ones on the hyperboloid, whose sides are its chords,
 /// 2 sinh(d / 2) for the distance d. flippedFaces counts the geodesic triangles of the wrong
 /// orientation, or without area, as far as rounding can tell.
-///
-/// \param uv [face][corner] in the disk
-/// \param reversed [face] 1 where clockwise is wanted
 DistortionField measureHyperbolicDistortion(
-	const SurfaceMesh& mesh,
-	const std::vector<Triangle2>& uv,
-	const std::vector<char>& reversed,
-	Report& report);
+	const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report);
 
 } // namespace ricci
 

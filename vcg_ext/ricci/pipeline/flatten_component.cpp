@@ -18,9 +18,9 @@
 #include "../verify/flow_check.h"
 #include "../verify/holonomy_check.h"
 #include "../verify/result_check.h"
-#include "assemble.h"
 #include "keep_areas.h"
 #include "stages.h"
+#include "whole_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -319,20 +319,14 @@ bool mayBeTurned(const AnyOptions& options, const ComponentMap& map)
 	return isBent(map, options.output) || map.finishMoved > 0;
 }
 
-void requireLayout(const Component& component, const Options& options, const ComponentMap& map)
+void requireLayout(const Options& options, const ComponentMap& map)
 {
-	requireMap(
-		outputTriangles(component, map, options.output), map.flow, mayBeTurned(options, map));
+	requireMap(map.mesh, map.flow, mayBeTurned(options, map));
 }
 
-void requireLayout(
-	const Component& component, const HyperbolicOptions& options, const ComponentMap& map)
+void requireLayout(const HyperbolicOptions& options, const ComponentMap& map)
 {
-	requireDisk(
-		outputTriangles(component, map, options.output),
-		map.layout,
-		map.flow,
-		mayBeTurned(options, map));
+	requireDisk(map.mesh, map.flow, mayBeTurned(options, map));
 }
 
 template<class AnyOptions>
@@ -385,7 +379,8 @@ flatten(const Component& component, const VertexInput& input, const AnyOptions& 
 	measureHolonomy(domain, options, map);
 
 	advance(1.0, "Checking the result");
-	requireLayout(component, options, map);
+	map.mesh = flatMesh(component, map, options.output);
+	requireLayout(options, map);
 	return map;
 }
 

@@ -6,6 +6,7 @@
 #include "../flow/ricci_flow.h"
 #include "../fuchsian/fuchsian_group.h"
 #include "../layout/common_refinement.h"
+#include "../layout/flat_mesh.h"
 #include "../layout/planar_layout.h"
 #include "../measure/period_matrix.h"
 #include "../parametrize.h"
@@ -30,6 +31,7 @@ struct ComponentMap
 	PlanarLayout layout;         ///< on the triangulation of the cut
 	CommonRefinement refinement; ///< where drawsPieces()
 	FaceArray<Triangle2> uv;     ///< [face of the component][corner]
+	FlatMesh mesh;               ///< what is given back, see flatMesh()
 	double scale = 1.0;          ///< lengths in the layout over those of the flow's metric
 
 	FuchsianGroup group;  ///< hyperbolic

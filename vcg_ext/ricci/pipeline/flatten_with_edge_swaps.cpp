@@ -3,8 +3,8 @@
 #include "../measure/distortion.h"
 #include "../verify/flow_check.h"
 #include "../verify/result_check.h"
-#include "assemble.h"
 #include "stages.h"
+#include "whole_map.h"
 
 #include "../base/task.h"
 
@@ -111,8 +111,8 @@ flattenWithEdgeSwaps(const Component& component, const VertexInput& input, const
 
 	advance(1.0, "Checking the result");
 	requireMetric(map.flow, surface.topology.boundary);
-	requireMap(
-		outputTriangles(component, map, options.output), map.flow, isBent(map, options.output));
+	map.mesh = flatMesh(component, map, options.output);
+	requireMap(map.mesh, map.flow, isBent(map, options.output));
 	return map;
 }
 

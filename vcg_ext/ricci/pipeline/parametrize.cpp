@@ -1,22 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../parametrize.h"
 
-#include "../charts/measure_result.h"
+#include "../base/task.h"
+#include "../charts/finish_in_floats.h"
+#include "../charts/flipped_triangles.h"
+#include "../charts/input_indices.h"
+#include "../charts/pack.h"
 #include "../charts/separate_charts.h"
-#include "../charts/turn_over.h"
 #include "../measure/distortion.h"
 #include "../measure/hyperbolic_distortion.h"
 #include "../verify/result_check.h"
-#include "assemble.h"
 #include "flatten_component.h"
-
-#include "../base/task.h"
+#include "whole_map.h"
 
 #include <cmath>
+#include <utility>
 
 namespace ricci {
 
 namespace {
+
+/// Share of the progress after which the charts are found.
+constexpr double kMapped = 0.95;
 
 void checkFlowOptions(const FlowOptions& options)
 {
@@ -40,26 +45,76 @@ template<class AnyOptions>
 Parametrization mapComponents(
 	const SurfaceMesh& mesh,
 	const VertexInput& input,
-	const AnyOptions& options)
+	const AnyOptions& options,
+	OpenedMesh& opened)
 {
 	advance(0.0, "Checking the mesh");
-	Parametrization result;
-	const std::vector<Component> components =
-		startResult(mesh, options, options.output, result);
+	Parametrization map;
+	const std::vector<Component> components = startMap(mesh, options, opened, map);
 	VertexInput ofCopies = input;
-	extendToCopies(result.opened, ofCopies.selected);
-	extendToCopies(result.opened, ofCopies.targetCurvature);
-	runComponents(
-		result.opened, components, [&](const Component& component) {
-			append(
-				component,
-				flattenComponent(component, ofCopies, options),
-				options.output,
-				result);
-		});
-	result.report.converged = true;
+	extendToCopies(opened, ofCopies.selected);
+	extendToCopies(opened, ofCopies.targetCurvature);
+	runComponents(opened, components, [&](const Component& component) {
+		append(component, flattenComponent(component, ofCopies, options), map);
+	});
+	map.report.converged = true;
+	map.report.charts = static_cast<int>(map.charts.size());
 	advance(kComponentsDone, "Measuring the distortion");
-	return result;
+	return map;
+}
+
+void measure(const OpenedMesh& opened, Parametrization& map)
+{
+	const std::vector<Point3> surface = map.mesh.onSurface(opened.mesh.positions);
+	map.vertexQC = measureDistortion(map.mesh, surface, map.report).vertex;
+}
+
+/// In the unit disk, whatever the squares are in which the disks lie.
+void measureInDisk(const OpenedMesh& opened, Parametrization& map)
+{
+	FlatMesh mesh = map.mesh;
+	std::vector<Motion> motions;
+	for (const Chart& chart : map.charts) {
+		const bool isPlaced = chart.box.width() > 0.0;
+		const double scale = isPlaced ? 2.0 / chart.box.width() : 1.0;
+		const Point2 centre = isPlaced ? chart.box.centre() : Point2{0.0, 0.0};
+		motions.push_back({scale, {-scale * centre[0], -scale * centre[1]}});
+	}
+	moveCharts(motions, mesh);
+	const std::vector<Point3> surface = mesh.onSurface(opened.mesh.positions);
+	map.vertexQC = measureHyperbolicDistortion(mesh, surface, map.report).vertex;
+}
+
+/// From charts to texture coordinates.
+void pack(const OpenedMesh& opened, const Options& options, Parametrization& map)
+{
+	advance(kMapped, "Packing the charts");
+	const ChartTurns turns = chartTurns(options);
+	if (options.charts == Charts::WithoutOverlapAndStrips && options.normalizeUV)
+		packStrips(map, options, turns);
+	else
+		packCharts(map, options, turns);
+	advance(kMapped, "Finishing the coordinates");
+	const bool isWhole =
+		options.target == TargetCurvature::Disk || options.target == TargetCurvature::Rectangle;
+	FloatFinish finish;
+	finish.forText = options.output == OutputTriangulation::KeepMesh;
+	finish.measure = [&] { measure(opened, map); };
+	finish.packAgain = [&] { packCharts(map, options, turns); };
+	finish.mayCut = options.charts != Charts::OfTheFlow && !isWhole;
+	if (isFinished(options))
+		finishInFloats(finish, map);
+	countFlipped(map.mesh, map.report);
+}
+
+/// Gives the result the input's indices.
+void complete(const SurfaceMesh& mesh, const OpenedMesh& opened, Parametrization& map)
+{
+	map.report.seamLengthRelative =
+		map.report.seamLength /
+		std::sqrt(surfaceArea(opened.mesh.positions, opened.mesh.triangles));
+	toInputIndices(mesh, opened, map);
+	advance(1.0, "Done");
 }
 
 } // namespace
@@ -73,6 +128,7 @@ void checkOptions(const Options& options)
 		throw InvalidOption(InvalidOption::ConeCount, options.cones.count);
 	if (!(options.cones.distortion > 0.0 && std::isfinite(options.cones.distortion)))
 		throw InvalidOption(InvalidOption::ConeDistortion, options.cones.distortion);
+	checkChartMargin(options.chartMargin);
 	if (!(options.seamHiding >= 0.0 && options.seamHiding <= 1.0))
 		throw InvalidOption(InvalidOption::SeamHiding, options.seamHiding);
 }
@@ -84,42 +140,72 @@ void checkOptions(const HyperbolicOptions& options)
 	checkFlowOptions(options);
 }
 
-Parametrization parametrizeEuclidean(
-	const SurfaceMesh& given, const VertexInput& input, const Options& options)
+ChartTurns chartTurns(const Options& options)
+{
+	return options.target == TargetCurvature::Rectangle           ? ChartTurns::None
+		   : options.cones.rounding == ConeRounding::QuarterTurns ? ChartTurns::Quarter
+																  : ChartTurns::Free;
+}
+
+Parametrization chartsInPlane(
+	const SurfaceMesh& mesh, const VertexInput& input, const Options& options, OpenedMesh& opened)
 {
 	checkOptions(options);
-	Parametrization result = mapComponents(given, input, options);
-	const SurfaceMesh& mesh = result.opened.mesh;
+	const Task part(0.0, kMapped);
+	Parametrization map = mapComponents(mesh, input, options, opened);
 	const bool separates = options.charts != Charts::OfTheFlow;
-	if (isFinished(options) && separates && !result.isRefined())
-		turnOver(mesh, result);
-	measureResult(mesh, measureDistortion, result);
+	if (isFinished(options) && separates && options.output == OutputTriangulation::KeepMesh)
+		reflectFlipped(map);
+	measure(opened, map);
 	advance(kMeasured, "Looking for charts that overlap");
 	checkpoint();
 	const bool turns = options.cones.rounding != ConeRounding::QuarterTurns;
-	separateCharts(mesh, separates, turns, result);
-	result.report.seamLengthRelative =
-		result.report.seamLength / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
+	separateCharts(separates, turns, map);
 	if (separates)
-		requireSeparateCharts(mesh, result);
+		requireSeparateCharts(map);
 	advance(1.0, "Layout done");
-	return result;
+	return map;
+}
+
+Parametrization chartsInDisk(
+	const SurfaceMesh& mesh,
+	const VertexInput& input,
+	const HyperbolicOptions& options,
+	OpenedMesh& opened)
+{
+	checkOptions(options);
+	const Task part(0.0, kMapped);
+	Parametrization map = mapComponents(mesh, input, options, opened);
+	measureInDisk(opened, map);
+	advance(1.0, "Layout done");
+	return map;
+}
+
+Parametrization
+parametrizeEuclidean(const SurfaceMesh& mesh, const VertexInput& input, const Options& options)
+{
+	OpenedMesh opened;
+	Parametrization map = chartsInPlane(mesh, input, options, opened);
+	pack(opened, options, map);
+	complete(mesh, opened, map);
+	return map;
 }
 
 Parametrization parametrizeHyperbolic(
-	const SurfaceMesh& given,
-	const VertexInput& input,
-	const HyperbolicOptions& options)
+	const SurfaceMesh& mesh, const VertexInput& input, const HyperbolicOptions& options)
 {
-	checkOptions(options);
-	Parametrization result = mapComponents(given, input, options);
-	const SurfaceMesh& mesh = result.opened.mesh;
-	result.report.charts = static_cast<int>(result.charts.size());
-	result.report.seamLengthRelative =
-		result.report.seamLength / std::sqrt(surfaceArea(mesh.positions, mesh.triangles));
-	measureResult(mesh, measureHyperbolicDistortion, result);
-	advance(1.0, "Layout done");
-	return result;
+	OpenedMesh opened;
+	Parametrization map = chartsInDisk(mesh, input, options, opened);
+	placeDisks(map);
+	advance(kMapped, "Finishing the coordinates");
+	if (isFinished(options) && finishDisksInFloats(map))
+		measureInDisk(opened, map);
+	const int flipped = map.report.flippedFaces; // of geodesic triangles
+	countFlipped(map.mesh, map.report);
+	if (!isFinished(options)) // straight triangles may be flipped where geodesic ones are not
+		map.report.flippedFaces = flipped;
+	complete(mesh, opened, map);
+	return map;
 }
 
 } // namespace ricci

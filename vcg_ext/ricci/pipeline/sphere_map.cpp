@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "../base/task.h"
 #include "../sphere_map.h"
+#include "../base/task.h"
 
 #include "../base/numbers.h"
 #include "../base/text.h"
@@ -13,6 +13,7 @@
 #include "../surface/topology.h"
 #include "../verify/flow_check.h"
 #include "../verify/sphere_check.h"
+#include "whole_map.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -275,14 +276,15 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	flow.cones.distortion = std::numeric_limits<double>::max(); // no cones, however areas change
 	flow.finish = Finish::None;
 	flow.charts = Charts::OfTheFlow;
+	OpenedMesh openedDisk;
 	const Parametrization flat = [&] {
 		const Task quiet(0.0, 1.0, true); // the log would speak of the punctured surface
-		return parametrizeEuclidean(disk, {}, flow);
+		return chartsInPlane(disk, {}, flow, openedDisk);
 	}();
 	VertexArray<Point2> plane(c.positions.size(), {0.0, 0.0});
-	for (std::size_t f = 0; f < disk.triangles.size(); ++f)
-		for (std::size_t k = 0; k < 3; ++k)
-			plane[Vertex(disk.triangles[f][k])] = flat.uv[f][k];
+	for (const int f : flat.mesh.points.indices())
+		for (const Corner corner : cornersOf(f))
+			plane[Vertex(flat.mesh.vertices[corner])] = flat.mesh.at(corner);
 
 	VertexArray<double> weights(c.positions.size(), 0.0);
 	for (const Triangle& t : c.triangles) {

@@ -1,101 +1,71 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chart_check.h"
 
-#include "../base/indexed.h"
 #include "../base/task.h"
-#include "shared_edges.h"
 
 #include <algorithm>
-#include <tuple>
+#include <array>
+#include <cstddef>
+#include <vector>
 
 namespace ricci {
 
 namespace {
 
 /// Pairs of sides that are looked at between two checkpoints.
-constexpr std::size_t kPairsPerTick = 1000000;
+constexpr std::size_t kPairsPerCheckpoint = 1000000;
+
+using Ends = std::array<Point2, 2>; // of a side
 
 /// Distance of \p p from the line of \p s, positive on the left; 0 where it has no length.
-double offset(const PlaneSide& s, const Point2& p)
+double offset(const Ends& s, const Point2& p)
 {
-	const double length = distance(s.atHigh, s.atLow);
-	return length > 0.0 ? doubledArea(s.atLow, s.atHigh, p) / length : 0.0;
+	const double length = distance(s[1], s[0]);
+	return length > 0.0 ? doubledArea(s[0], s[1], p) / length : 0.0;
 }
 
 /// Whether the ends of \p s lie on different sides of \p line, both deeper than \p depth.
-bool separates(const PlaneSide& line, const PlaneSide& s, double depth)
+bool separates(const Ends& line, const Ends& s, double depth)
 {
-	const double a = offset(line, s.atLow), b = offset(line, s.atHigh);
+	const double a = offset(line, s[0]), b = offset(line, s[1]);
 	return (a > depth && b < -depth) || (a < -depth && b > depth);
-}
-
-/// The sides of which no second triangle has the ends and the places.
-std::vector<PlaneSide>
-borderOf(const std::vector<Triangle>& triangles, const std::vector<Triangle2>& plane)
-{
-	std::vector<PlaneSide> sides = planeSides(triangles, plane), border;
-	const auto places = [](const PlaneSide& s) { return std::tie(s.atLow, s.atHigh); };
-	forEdgesOf(sides, [&](std::size_t first, std::size_t count) {
-		std::sort(&sides[first], &sides[first] + count, [&](const auto& a, const auto& b) {
-			return places(a) < places(b);
-		});
-		for (std::size_t i = first, end = first; i < first + count; i = end) {
-			while (end < first + count && places(sides[end]) == places(sides[i]))
-				++end;
-			if ((end - i) % 2 == 1)
-				border.push_back(sides[i]);
-		}
-	});
-	return border;
 }
 
 } // namespace
 
-int borderCrossings(
-	const std::vector<Triangle>& triangles,
-	const std::vector<Triangle2>& plane,
-	double depth)
+int borderCrossings(const FlatMesh& chart, double depth)
 {
-	std::vector<PlaneSide> sides = borderOf(triangles, plane);
+	const Sides across(chart.vertices.values());
+	std::vector<Ends> sides;
+	for (const int f : chart.points.indices())
+		for (const Corner side : cornersOf(f))
+			if (!joinedSide(chart, across, side).isValid())
+				sides.push_back(chart.ends(side));
 	// A line sweeps from left to right.
-	const auto left = [](const PlaneSide& s) { return std::min(s.atLow[0], s.atHigh[0]); };
-	const auto right = [](const PlaneSide& s) { return std::max(s.atLow[0], s.atHigh[0]); };
-	std::sort(sides.begin(), sides.end(), [&](const PlaneSide& a, const PlaneSide& b) {
+	const auto left = [](const Ends& s) { return std::min(s[0][0], s[1][0]); };
+	const auto right = [](const Ends& s) { return std::max(s[0][0], s[1][0]); };
+	std::sort(sides.begin(), sides.end(), [&](const Ends& a, const Ends& b) {
 		return left(a) < left(b);
 	});
 	int crossings = 0;
-	std::vector<const PlaneSide*> swept;
+	std::vector<const Ends*> swept;
 	std::size_t pairs = 0;
-	for (const PlaneSide& s : sides) {
+	for (const Ends& s : sides) {
 		pairs += 1 + swept.size();
-		if (pairs > kPairsPerTick) {
+		if (pairs > kPairsPerCheckpoint) {
 			pairs = 0;
 			checkpoint();
 		}
-		const auto isPassed = [&](const PlaneSide* other) { return right(*other) < left(s); };
+		const auto isPassed = [&](const Ends* other) { return right(*other) < left(s); };
 		swept.erase(std::remove_if(swept.begin(), swept.end(), isPassed), swept.end());
-		const auto [bottom, top] = std::minmax({s.atLow[1], s.atHigh[1]});
-		for (const PlaneSide* other : swept)
-			if (std::max(other->atLow[1], other->atHigh[1]) > bottom &&
-				std::min(other->atLow[1], other->atHigh[1]) < top)
+		const auto [bottom, top] = std::minmax({s[0][1], s[1][1]});
+		for (const Ends* other : swept)
+			if (std::max((*other)[0][1], (*other)[1][1]) > bottom &&
+				std::min((*other)[0][1], (*other)[1][1]) < top)
 				crossings += separates(s, *other, depth) && separates(*other, s, depth);
 		swept.push_back(&s);
 	}
 	return crossings;
-}
-
-bool isPartition(const std::vector<const std::vector<int>*>& parts, std::size_t count)
-{
-	std::vector<char> seen(count, 0);
-	std::size_t sum = 0;
-	for (const std::vector<int>* part : parts)
-		for (const int i : *part) {
-			if (i < 0 || positionOf(i) >= count || seen[positionOf(i)])
-				return false;
-			seen[positionOf(i)] = 1;
-			++sum;
-		}
-	return sum == count;
 }
 
 } // namespace ricci

@@ -4,7 +4,6 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../math/double_double.h"
-#include "shared_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,25 +58,16 @@ double determinant(const Point2& p, const Point2& q, const Point2& r)
 	return 4.0 * static_cast<double>(minor) / (gap(p) * gap(q) * gap(r));
 }
 
-struct DiskSide
-{
-	int low, high;
-	double length, rounding;
-};
-
 } // namespace
 
-DiskCheck checkDisk(
-	const std::vector<Triangle>& triangles,
-	const std::vector<Triangle2>& plane,
-	const std::vector<char>& reversed,
-	double tolerance)
+DiskCheck checkDisk(const FlatMesh& chart, double tolerance)
 {
 	DiskCheck check;
 	Point2 farthest{0.0, 0.0};
 	double minGap = 1.0;
-	for (const Triangle2& triangle : plane)
-		for (const Point2& p : triangle) {
+	for (const Triangle& triangle : chart.points)
+		for (const int point : triangle) {
+			const Point2& p = chart.place[point];
 			const double own = gap(p);
 			check.outside += !(own > 0);
 			if (own < minGap) {
@@ -88,32 +78,28 @@ DiskCheck checkDisk(
 	if (check.outside > 0)
 		return check;
 	check.radius = distanceOf(farthest, Point2{0.0, 0.0});
-	std::vector<DiskSide> sides;
-	sides.reserve(3 * triangles.size());
-	for (std::size_t f = 0; f < triangles.size(); ++f) {
-		checkpointNowAndThen(f);
-		const Triangle& t = triangles[f];
-		const Triangle2& p = plane[f];
+	CornerArray<double> length(3 * chart.size()); // of the side
+	for (const Corner side : length.indices())
+		length[side] = distanceOf(chart.at(side), chart.at(side.next()));
+	const auto roundingOf = [&](Corner side) {
+		return rounding(chart.at(side)) + rounding(chart.at(side.next()));
+	};
+	const Sides sides(chart.vertices.values());
+	for (const int f : chart.points.indices()) {
+		checkpointNowAndThen(positionOf(f));
+		const Triangle2 p = chart.at(f);
 		double longest = 0.0, allowed = tolerance;
-		for (std::size_t k = 0; k < 3; ++k) {
-			const std::size_t next = (k + 1) % 3;
-			const double length = distanceOf(p[k], p[next]);
-			sides.push_back(
-				{std::min(t[k], t[next]),
-				 std::max(t[k], t[next]),
-				 length,
-				 rounding(p[k]) + rounding(p[next])});
-			longest = std::max(longest, length);
-			allowed += rounding(p[k]);
+		for (const Corner side : cornersOf(f)) {
+			longest = std::max(longest, length[side]);
+			allowed += rounding(chart.at(side));
+			if (const Corner other = sides.across(side); other > side)
+				check.seamGap = std::max(
+					check.seamGap,
+					std::abs(length[side] - length[other]) - roundingOf(side) - roundingOf(other));
 		}
 		const double det = determinant(p[0], p[1], p[2]);
-		const bool right = reversed[f] ? det < 0 : det > 0;
-		check.turned += !right && std::abs(det) > std::sinh(allowed) * std::sinh(longest);
+		check.flipped += det <= 0 && -det > std::sinh(allowed) * std::sinh(longest);
 	}
-	forSharedEdges(sides, [&](const DiskSide& a, const DiskSide& b) {
-		const double error = std::abs(a.length - b.length) - a.rounding - b.rounding;
-		check.seamGap = std::max(check.seamGap, error);
-	});
 	return check;
 }
 

@@ -2,11 +2,9 @@
 #ifndef RICCI_DISK_CHECK_H
 #define RICCI_DISK_CHECK_H
 
-#include "../math/points.h"
-#include "../surface/surface_mesh.h"
+#include "../layout/flat_mesh.h"
 
 #include <cstddef>
-#include <vector>
 
 namespace ricci {
 
@@ -15,7 +13,7 @@ namespace ricci {
 /// the circle is a large distance.
 struct DiskCheck
 {
-	std::size_t outside = 0; ///< points that are not in the open unit disk; NaN counts
+	std::size_t outside = 0; ///< corners that are not in the open unit disk; NaN counts
 
 	/// Largest difference of the lengths of the two sides of a seam, or of any edge that two
 	/// triangles share.
@@ -23,21 +21,14 @@ struct DiskCheck
 
 	/// Geodesic triangles of the wrong orientation, by the sign of det(X, Y, Z) on the hyperboloid,
 	/// that are higher than the tolerance: sinh(height) sinh(side) = |det|.
-	int turned = 0;
+	int flipped = 0;
 
 	double radius = 0.0; ///< largest distance of a point from 0
 };
 
-/// \param triangles corners by vertex; a side that not exactly two triangles share is no seam
-/// \param plane [triangle][corner]
-/// \param reversed [triangle] 1 where clockwise is wanted
 /// \param tolerance hyperbolic distance
 /// \return outside alone, if that is not 0
-DiskCheck checkDisk(
-	const std::vector<Triangle>& triangles,
-	const std::vector<Triangle2>& plane,
-	const std::vector<char>& reversed,
-	double tolerance);
+DiskCheck checkDisk(const FlatMesh& chart, double tolerance);
 
 } // namespace ricci
 

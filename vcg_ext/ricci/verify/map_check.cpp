@@ -2,7 +2,6 @@
 #include "map_check.h"
 
 #include "../math/orientation.h"
-#include "shared_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +10,6 @@
 namespace ricci {
 
 namespace {
-
-double lengthOf(const PlaneSide& s)
-{
-	return distance(s.atHigh, s.atLow);
-}
 
 /// Over the longest side.
 double heightOf(const Triangle2& p)
@@ -28,33 +22,29 @@ double heightOf(const Triangle2& p)
 
 } // namespace
 
-MapCheck checkMap(
-	const std::vector<Triangle>& triangles,
-	const std::vector<Triangle2>& plane,
-	const std::vector<char>& reversed,
-	double tolerance)
+MapCheck checkMap(const FlatMesh& chart, double tolerance)
 {
 	MapCheck check;
 	Box2 box;
-	for (const Triangle2& triangle : plane)
-		for (const Point2& p : triangle) {
-			check.finite = check.finite && std::isfinite(p[0]) && std::isfinite(p[1]);
-			box.add(p);
-		}
-	if (!check.finite || plane.empty())
+	for (const Point2& p : chart.place) {
+		check.finite = check.finite && std::isfinite(p[0]) && std::isfinite(p[1]);
+		box.add(p);
+	}
+	if (!check.finite || chart.size() == 0)
 		return check;
 	const double extent = box.extent();
-
-	for (std::size_t f = 0; f < triangles.size(); ++f) {
-		const int wanted = reversed[f] ? -1 : 1;
-		check.turned += orientation(plane[f][0], plane[f][1], plane[f][2]) != wanted &&
-						heightOf(plane[f]) > tolerance * extent;
+	const Sides sides(chart.vertices.values());
+	const auto lengthOf = [&](Corner side) {
+		return distance(chart.at(side), chart.at(side.next()));
+	};
+	for (const int f : chart.points.indices()) {
+		const Triangle2 p = chart.at(f);
+		check.flipped += orientation(p[0], p[1], p[2]) <= 0 && heightOf(p) > tolerance * extent;
+		for (const Corner side : cornersOf(f))
+			if (const Corner other = sides.across(side); other > side && extent > 0.0)
+				check.seamGap =
+					std::max(check.seamGap, std::abs(lengthOf(side) - lengthOf(other)) / extent);
 	}
-	std::vector<PlaneSide> sides = planeSides(triangles, plane);
-	forSharedEdges(sides, [&](const PlaneSide& a, const PlaneSide& b) {
-		if (extent > 0.0 && (a.atLow != b.atLow || a.atHigh != b.atHigh))
-			check.seamGap = std::max(check.seamGap, std::abs(lengthOf(a) - lengthOf(b)) / extent);
-	});
 	return check;
 }
 

@@ -2,10 +2,7 @@
 #ifndef RICCI_MAP_CHECK_H
 #define RICCI_MAP_CHECK_H
 
-#include "../math/points.h"
-#include "../surface/surface_mesh.h"
-
-#include <vector>
+#include "../layout/flat_mesh.h"
 
 namespace ricci {
 
@@ -14,24 +11,17 @@ struct MapCheck
 {
 	bool finite = true;
 
-	/// Largest difference of the lengths of the two sides of a seam, relative to the extent of the
-	/// chart. Sides in the same place are no seam.
+	/// Largest difference of the lengths of the two sides of an edge that two triangles share, relative
+	/// to the extent of the chart.
 	double seamGap = 0.0;
 
-	/// Triangles that the map turns round or flattens (exact predicate) although they are higher
-	/// than \p tolerance times the extent.
-	int turned = 0;
+	/// Triangles that the map flips or flattens (exact predicate) although they are higher than \p
+	/// tolerance times the extent.
+	int flipped = 0;
 };
 
-/// \param triangles corners by vertex; a side that not exactly two triangles share is no seam
-/// \param plane [triangle][corner]
-/// \param reversed [triangle] 1 where clockwise is wanted
 /// \param tolerance relative to the extent of the chart
-MapCheck checkMap(
-	const std::vector<Triangle>& triangles,
-	const std::vector<Triangle2>& plane,
-	const std::vector<char>& reversed,
-	double tolerance);
+MapCheck checkMap(const FlatMesh& chart, double tolerance);
 
 } // namespace ricci
 

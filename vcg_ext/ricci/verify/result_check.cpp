@@ -19,86 +19,62 @@
 
 namespace ricci {
 
-void requireMap(const OutputTriangles& output, const FlowResult& flow, bool bent)
+void requireMap(const FlatMesh& chart, const FlowResult& flow, bool bent)
 {
 	const double tolerance = kCheckedGap + openCurvature(flow);
-	const MapCheck check = checkMap(output.triangles, output.plane, output.reversed, tolerance);
-	if (!check.finite || !(check.seamGap <= tolerance) || (check.turned > 0 && !bent))
+	const MapCheck check = checkMap(chart, tolerance);
+	if (!check.finite || !(check.seamGap <= tolerance) || (check.flipped > 0 && !bent))
 		failCheck(
 			"seams " + numberText(check.seamGap, 3) + " of the chart apart, " +
-			std::to_string(check.turned) + " faces turned round");
+			std::to_string(check.flipped) + " faces flipped");
 }
 
-void requireDisk(
-	const OutputTriangles& output,
-	const PlanarLayout& layout,
-	const FlowResult& flow,
-	bool bent)
+void requireDisk(const FlatMesh& chart, const FlowResult& flow, bool bent)
 {
 	// The gap that an open angle leaves grows like sinh of the distance across the layout.
 	double radius = 0.0;
 	bool finite = true;
-	for (const Point2& p : layout.points) {
+	for (const Point2& p : chart.place) {
 		const double r = std::hypot(p[0], p[1]);
 		finite = finite && std::isfinite(r);
 		radius = std::max(radius, 2.0 * std::atanh(std::min(1.0, r)));
 	}
 	const double tolerance = kCheckedGap + openCurvature(flow) * std::sinh(2.0 * radius);
-	const DiskCheck check =
-		checkDisk(output.triangles, output.plane, output.reversed, tolerance);
+	const DiskCheck check = checkDisk(chart, tolerance);
 	if (check.outside > 0 && finite) // the doubles of the disk end at a distance of about 37
 		throw NotConverged(NotConverged::OutsideDisk, check.outside);
 	if (check.outside > 0)
 		failCheck(std::to_string(check.outside) + " points lie outside the disk");
-	if (!(check.seamGap <= tolerance) || (check.turned > 0 && !bent))
+	if (!(check.seamGap <= tolerance) || (check.flipped > 0 && !bent))
 		failCheck(
 			"seams " + numberText(check.seamGap, 3) + " apart in the disk, " +
-			std::to_string(check.turned) + " faces turned round");
+			std::to_string(check.flipped) + " faces flipped");
 }
 
-namespace {
-
-double extentOf(const std::vector<int>& triangles, const std::vector<Triangle2>& uv)
+void requireSeparateCharts(const Parametrization& map)
 {
-	Box2 box;
-	for (const int i : triangles)
-		for (const Point2& p : uv[positionOf(i)])
-			box.add(p);
-	return box.extent();
-}
-
-} // namespace
-
-void requireSeparateCharts(const SurfaceMesh& mesh, const Parametrization& map)
-{
-	const bool refined = map.isRefined();
-	const std::vector<Triangle>& all = refined ? map.refined.triangles : mesh.triangles;
-	const std::vector<Triangle2>& uv = refined ? map.refined.uv : map.uv;
-	std::vector<const std::vector<int>*> parts;
-	int crossings = 0;
-	// Charts are drawn beside each other on one scale.
-	double extent = 0.0;
-	for (const Chart& chart : map.charts)
-		extent = std::max(extent, extentOf(refined ? chart.refined : chart.faces, uv));
-	for (const Chart& chart : map.charts) {
-		parts.push_back(refined ? &chart.refined : &chart.faces);
-		checkpoint();
-		std::vector<Triangle> triangles;
-		std::vector<Triangle2> plane;
-		bool turned = false;
-		for (const int i : *parts.back()) {
-			const std::size_t f = positionOf(i);
-			const std::size_t input = refined ? positionOf(map.refined.inputFace[f]) : f;
-			const Triangle2& p = uv[f];
-			const int wanted = map.reversed[input] ? -1 : 1;
-			turned = turned || orientation(p[0], p[1], p[2]) != wanted;
-			triangles.push_back(all[f]);
-			plane.push_back(p);
-		}
-		if (!turned)
-			crossings += borderCrossings(triangles, plane, kCheckedGap * extent);
+	std::vector<Box2> boxes(map.charts.size());
+	std::vector<char> hasFlipped(map.charts.size(), 0);
+	for (const int f : map.mesh.points.indices()) {
+		const Triangle2 p = map.mesh.at(f);
+		const std::size_t chart = positionOf(map.mesh.chart[f]);
+		for (const Point2& corner : p)
+			boxes[chart].add(corner);
+		if (orientation(p[0], p[1], p[2]) <= 0)
+			hasFlipped[chart] = 1;
 	}
-	if (crossings > 0 || !isPartition(parts, all.size()))
+	// Charts lie beside each other on one scale.
+	double extent = 0.0;
+	for (const Box2& box : boxes)
+		extent = std::max(extent, box.extent());
+	int crossings = 0;
+	const auto triangles = map.mesh.trianglesByChart(map.charts.size());
+	for (std::size_t chart = 0; chart < triangles.size(); ++chart) {
+		checkpoint();
+		if (!hasFlipped[chart])
+			crossings += borderCrossings(map.mesh.part(triangles[chart]), kCheckedGap * extent);
+	}
+	if (crossings > 0)
 		failCheck(
 			std::to_string(crossings) +
 			" crossings of the borders of charts that should not overlap");

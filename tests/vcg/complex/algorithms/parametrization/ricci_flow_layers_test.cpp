@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/complex.h"
+#include "support/flat_meshes.h"
 #include "support/random_surface.h"
-#include "support/shapes.h"
 #include "support/vcg_mesh.h"
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
@@ -46,26 +46,23 @@ Point2 moved(const DiskIsometry& m, const Point2& p, const Box2& disk)
 /// The corners of each face of the cover, in the order that it is to have: copy by copy, in each the
 /// layout's triangles.
 template<class Mesh>
-std::vector<Triangle2>
-expectedCover(const Mesh& m, const typename Flow<Mesh>::Result& r, int rings, int maxCount)
+std::vector<Triangle2> expectedCover(const typename Flow<Mesh>::Result& r, int rings, int maxCount)
 {
 	std::vector<Tiling> tilings;
 	std::size_t copies = 0;
-	for (const FuchsianGroup& group : r.groups) {
-		tilings.push_back(tiling(group.sides, rings, maxCount));
+	for (const Chart& chart : r.charts) {
+		tilings.push_back(tiling(chart.group.sides, rings, maxCount));
 		copies = std::max(copies, tilings.back().deck.size());
 	}
-	const bool refined = !r.refined.triangles.empty();
 	std::vector<Triangle2> expected;
 	for (std::size_t copy = 0; copy < copies; ++copy)
-		for (std::size_t i = 0; i < (refined ? r.refined.uv.size() : m.face.size()); ++i) {
-			const std::size_t face = refined ? at(r.refined.inputFace[i]) : i;
-			const std::size_t component = r.component[face];
+		for (const int f : r.mesh.points.indices()) {
+			const std::size_t component = at(r.mesh.chart[f]);
 			if (copy >= tilings[component].deck.size())
 				continue;
-			Triangle2 corners = refined ? r.refined.uv[i] : r.wedgeUV[i];
+			Triangle2 corners = r.mesh.at(f);
 			for (Point2& p : corners)
-				p = moved(tilings[component].deck[copy], p, r.disks[component]);
+				p = moved(tilings[component].deck[copy], p, r.charts[component].box);
 			expected.push_back(corners);
 		}
 	return expected;
@@ -97,27 +94,25 @@ void expectCover(const Mesh& cover, const std::vector<Triangle2>& expected)
 /// floats far out in its disk, and belongs to its own disk all the same.
 TYPED_TEST(UniversalCover, APointOnTheSideOfTwoSquaresStaysInItsComponent)
 {
-	SurfaceMesh shape;
-	shape.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
-	shape.triangles = {{0, 1, 2}, {3, 4, 5}};
-	TypeParam m;
-	toVcg(shape, m);
-	typename Flow<TypeParam>::Result r;
-	r.vertexQC.assign(6, 1.0);
-	r.disks = {{{0.0, 0.0}, {0.5, 0.5}}, {{0.5, 0.0}, {1.0, 0.5}}};
+	const SurfaceMesh shape{std::vector<Point3>(6), {{0, 1, 2}, {3, 4, 5}}};
 	const double side = std::nextafter(0.5, 0.0); // a float of 0.5
-	r.wedgeUV = {
-		Triangle2{Point2{0.25, 0.25}, Point2{side, 0.25}, Point2{0.25, 0.3}},
-		Triangle2{Point2{0.75, 0.25}, Point2{0.5 + 1e-12, 0.25}, Point2{0.75, 0.2}}};
-	r.component = {0, 1};
+	FlatMesh flat = flatMesh(
+		shape,
+		{Triangle2{Point2{0.25, 0.25}, Point2{side, 0.25}, Point2{0.25, 0.3}},
+		 Triangle2{Point2{0.75, 0.25}, Point2{0.5 + 1e-12, 0.25}, Point2{0.75, 0.2}}});
+	flat.chart[1] = 1;
+	typename Flow<TypeParam>::Result r = mapWith(flat);
+	r.vertexQC.assign(6, 1.0);
+	r.charts[0].box = {{0.0, 0.0}, {0.5, 0.5}};
+	r.charts[1].box = {{0.5, 0.0}, {1.0, 0.5}};
 	const DiskIsometry step = DiskIsometry::translation(1.0);
 	for (const bool first : {true, false}) {
-		r.groups.assign(2, {});
-		r.groups[first ? 0 : 1].sides = {step, step.inverse()};
+		r.charts[first ? 0 : 1].group.sides = {step, step.inverse()};
+		r.charts[first ? 1 : 0].group.sides.clear();
 		TypeParam cover;
-		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(m, r, 1, 100, cover);
+		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(r, 1, 100, cover);
 		EXPECT_EQ(cover.fn, 4);
-		expectCover(cover, expectedCover(m, r, 1, 100));
+		expectCover(cover, expectedCover<TypeParam>(r, 1, 100));
 	}
 }
 
@@ -137,8 +132,8 @@ TYPED_TEST(UniversalCover, CopiesAreMovedBeforeTheyAreRounded)
 		par.output = output;
 		const auto r = Flow<TypeParam>::ComputeHyperbolic(m, par);
 		TypeParam cover;
-		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(m, r, 1, 1000000, cover);
-		expectCover(cover, expectedCover(m, r, 1, 1000));
+		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(r, 1, 1000000, cover);
+		expectCover(cover, expectedCover<TypeParam>(r, 1, 1000));
 	}
 }
 
@@ -157,8 +152,8 @@ TYPED_TEST(UniversalCover, CopiesMeetAtTheirSeams)
 		par.finish = Finish::None;
 		const auto r = Flow<TypeParam>::ComputeHyperbolic(m, par);
 		TypeParam cover;
-		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(m, r, 1, 1000000, cover);
-		const std::size_t copies = tiling(r.groups[0].sides, 1, 1000).deck.size();
+		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(r, 1, 1000000, cover);
+		const std::size_t copies = tiling(r.charts[0].group.sides, 1, 1000).deck.size();
 		ASSERT_EQ(cover.vert.size() % copies, 0u);
 		const std::size_t perCopy = cover.vert.size() / copies;
 		ASSERT_GT(copies, 8u);

@@ -8,16 +8,13 @@
 
 #include <ricci/base/floating_point.h>
 #include <ricci/base/task.h>
-#include <ricci/charts/finish_in_floats.h>
-#include <ricci/charts/input_numbers.h>
-#include <ricci/charts/pack.h>
 #include <ricci/error.h>
 #include <ricci/options.h>
 #include <ricci/parametrize.h>
-#include <ricci/report.h>
 #include <ricci/sphere_map.h>
 
 #include <vcg/complex/allocate.h>
+#include <vcg/complex/allocate_all_or_none.h>
 #include <vcg/complex/complex.h>
 #include <vcg/space/boxes_side_by_side.h>
 
@@ -36,10 +33,9 @@ namespace tri {
 /**
  * @brief Conformal parametrization by the generalized discrete Ricci flow.
  *
- * Reads a mesh, runs the algorithm of ricci/parametrize.h on arrays, packs the charts, and writes
- * wedge texture coordinates, quality and attributes. Computing and writing are separate, so that a
- * failed or cancelled run leaves the mesh as it was. ricci_flow_layers.h builds further meshes from
- * the result.
+ * Reads a mesh, runs the algorithm of ricci/parametrize.h on arrays, and writes wedge texture
+ * coordinates, quality and attributes. Computing and writing are separate, so that a failed or cancelled
+ * run leaves the mesh as it was. ricci_flow_layers.h builds further meshes from the result.
  *
  * Y. Yang, R. Guo, F. Luo, S. Hu, X. Gu: Generalized Discrete Ricci Flow.
  * Computer Graphics Forum 28(7), 2009.
@@ -53,149 +49,60 @@ public:
 	typedef typename MeshType::VertexType VertexType;
 	typedef typename MeshType::FaceType FaceType;
 
-	/// One point of the plane for each corner of a face.
-	typedef ricci::Triangle2 WedgeUV;
-
 	/// [face][k] 1 where the side from corner k is to be a seam, see ricci::SurfaceMesh::seam and
 	/// ricci_seams.h. Faces behind its end have none but those that the flow finds.
 	typedef std::vector<std::array<char, 3>> SideMarks;
 
-	struct Params : public ricci::Options
-	{
-		/// Fit the charts into [0,1]^2, all with one scale and their aspect kept; false: keep the
-		/// scale at which a chart has the area of its component (or its boundary the input's
-		/// length).
-		bool normalizeUV = true;
-
-		/// Least distance of two charts, and of a chart from the border of the square that holds
-		/// all, as a share of its side; at most ricci::kMaxChartMargin.
-		double chartMargin = 0.0;
-	};
-
-	/// The hyperbolic flow takes these as they are.
+	/// The charts are packed by BoxesSideBySide, whatever placeBoxes is.
+	typedef ricci::Options Params;
 	typedef ricci::HyperbolicOptions HyperbolicParams;
 
-	/// Everything that a run computed, indexed like the mesh's face and vertex vectors (deleted
-	/// elements included; their entries mean nothing).
-	struct Result
-	{
-		ricci::Report report;
-		std::vector<std::string> notes; ///< what was done without being asked
-		std::vector<WedgeUV> wedgeUV;   ///< [face][corner] charts packed, normalised if asked
-		std::vector<double> vertexQC;   ///< area-weighted mean of sigma1 / sigma2 round the vertex
-		std::vector<double> u;          ///< ln radius of the vertex circle
-		std::vector<double> targetCurvature; ///< radians
-		/// Common refinement, if asked for; its points and faces index the mesh's vertex and face
-		/// vectors, its points beyond them are new.
-		ricci::RefinedMesh refined;
-		/// Hyperbolic flow: one for each component, with the square that its disk fills in the
-		/// texture plane.
-		std::vector<ricci::FuchsianGroup> groups;
-		std::vector<ricci::Box2> disks;
-		std::vector<size_t> component; ///< [face] of them, for faces that are not deleted
-	};
+	/// Everything that a run computed, in the indices of the mesh's face and vertex vectors: entries of
+	/// deleted vertices mean nothing, and new points of a refinement follow after all vertices.
+	typedef ricci::Parametrization Result;
 
 	/// Computes; \p m is only read: positions, faces, selected vertices (Rectangle, SelectedCones),
 	/// vertex quality as curvature in radians (Prescribed).
-	/// \throw what ricci::parametrizeEuclidean() and ricci::packCharts() do, and ricci::InvalidMesh
-	/// DamagedFaces
-	static Result Compute(
-		const MeshType& m,
-		const Params& par,
-		const SideMarks& seams = SideMarks())
+	/// \throw what ricci::parametrizeEuclidean() does, and ricci::InvalidMesh DamagedFaces
+	static Result
+	Compute(const MeshType& m, const Params& par, const SideMarks& seams = SideMarks())
 	{
-		ricci::checkChartMargin(par.chartMargin);
-		const ricci::DefaultFloatingPoint defaultEnvironment;
-		std::vector<int> faceIndex; // [compact] -> index in m.face
-		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex, seams);
-		const ricci::VertexInput input = ReadVertexInput(
+		Params options = par;
+		options.placeBoxes = PlaceSideBySide;
+		return Run(
 			m,
+			seams,
 			par.target == ricci::TargetCurvature::Rectangle ||
 				par.target == ricci::TargetCurvature::SelectedCones,
-			par.target == ricci::TargetCurvature::Prescribed);
-		ricci::Parametrization flat = [&] {
-			const ricci::Task mapping(0.0, MappedShare);
-			return ricci::parametrizeEuclidean(mesh, input, par);
-		}();
-		ricci::advance(MappedShare, "Finishing the coordinates");
-
-		Result r;
-		const ricci::ChartTurns turns = ricci::chartTurns(par);
-		const auto pack = [&] {
-			ricci::packCharts(flat, par.normalizeUV, par.chartMargin, PlaceSideBySide, turns);
-		};
-		if (par.charts == ricci::Charts::WithoutOverlapAndStrips && par.normalizeUV)
-			ricci::packStrips(flat, par.chartMargin, PlaceSideBySide, turns);
-		else
-			pack();
-		const bool isWhole = par.target == ricci::TargetCurvature::Disk ||
-							 par.target == ricci::TargetCurvature::Rectangle;
-		if (ricci::isFinished(par))
-			ricci::finishInFloats(
-				flat.opened.mesh,
-				pack,
-				par.charts != ricci::Charts::OfTheFlow && !isWhole,
-				flat);
-		r.report = flat.report;
-		r.notes = flat.notes;
-		ricci::countFlippedAsWritten(flat, r.report);
-		TakeOver(mesh, m.face.size(), faceIndex, flat, r);
-		ricci::advance(1.0, "Done");
-		return r;
+			par.target == ricci::TargetCurvature::Prescribed,
+			[&](const ricci::SurfaceMesh& mesh, const ricci::VertexInput& input) {
+				return ricci::parametrizeEuclidean(mesh, input, options);
+			});
 	}
 
 	/// Computes the hyperbolic flow; \p m is only read, as by Compute(). The Poincaré disk fills
 	/// [0,1]^2; with several components each has a disk of its own, side by side.
 	/// \throw what ricci::parametrizeHyperbolic() does, and ricci::InvalidMesh DamagedFaces
 	static Result ComputeHyperbolic(
-		const MeshType& m,
-		const HyperbolicParams& par,
-		const SideMarks& seams = SideMarks())
+		const MeshType& m, const HyperbolicParams& par, const SideMarks& seams = SideMarks())
 	{
-		const ricci::DefaultFloatingPoint defaultEnvironment;
-		std::vector<int> faceIndex; // [compact] -> index in m.face
-		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex, seams);
-		const ricci::VertexInput input = ReadVertexInput(
+		return Run(
 			m,
+			seams,
 			par.target == ricci::HyperbolicTarget::SelectedCones,
-			par.target == ricci::HyperbolicTarget::Prescribed);
-		ricci::Parametrization disk = [&] {
-			const ricci::Task mapping(0.0, MappedShare);
-			return ricci::parametrizeHyperbolic(mesh, input, par);
-		}();
-		ricci::advance(MappedShare, "Finishing the coordinates");
-
-		Result r;
-		r.disks = ricci::placeDisks(disk);
-		if (ricci::isFinished(par))
-			ricci::finishInFloats(disk.opened.mesh, r.disks, disk);
-		r.report = disk.report;
-		r.notes = disk.notes;
-		r.component.resize(m.face.size());
-		for (const ricci::Chart& chart : disk.charts) {
-			for (int f : chart.faces)
-				r.component[size_t(faceIndex[size_t(f)])] = r.groups.size();
-			r.groups.push_back(chart.group);
-		}
-		const int flipped = r.report.flippedFaces; // of geodesic triangles
-		ricci::countFlippedAsWritten(disk, r.report);
-		if (!ricci::isFinished(par)) // straight triangles may be turned where geodesic ones are not
-			r.report.flippedFaces = flipped;
-		TakeOver(mesh, m.face.size(), faceIndex, disk, r);
-		ricci::advance(1.0, "Done");
-		return r;
+			par.target == ricci::HyperbolicTarget::Prescribed,
+			[&](const ricci::SurfaceMesh& mesh, const ricci::VertexInput& input) {
+				return ricci::parametrizeHyperbolic(mesh, input, par);
+			});
 	}
 
 	/// Writes wedge texture coordinates, texture index 0. They must be enabled on \p m.
 	static void WriteWedgeTexCoord(MeshType& m, const Result& r)
 	{
 		RequirePerFaceWedgeTexCoord(m);
-		for (size_t f = 0; f < m.face.size(); ++f) {
-			if (m.face[f].IsD())
-				continue;
+		for (const int f : r.mesh.points.indices())
 			for (int k = 0; k < 3; ++k)
-				SetWedge(m.face[f], k, r.wedgeUV[f][size_t(k)]);
-		}
+				SetWedge(m.face[size_t(r.mesh.face[f])], k, r.mesh.at(ricci::Corner(f, k)));
 	}
 
 	/// Writes the distortion as vertex quality and the per-vertex attributes of type ScalarType
@@ -206,15 +113,9 @@ public:
 		RequirePerVertexQuality(m);
 		NewAttributes attributes(m);
 		attributes.Keep();
-		VertexAttribute& u = attributes.u;
-		VertexAttribute& target = attributes.target;
-		for (size_t v = 0; v < m.vert.size(); ++v) {
-			if (m.vert[v].IsD())
-				continue;
-			m.vert[v].Q() = typename VertexType::QualityType(r.vertexQC[v]);
-			u[v] = ScalarType(r.u[v]);
-			target[v] = ScalarType(r.targetCurvature[v]);
-		}
+		for (size_t v = 0; v < m.vert.size(); ++v)
+			if (!m.vert[v].IsD())
+				attributes.Set(m.vert[v], r.vertexQC[v], r.u[v], r.targetCurvature[v]);
 	}
 
 	/// Replaces the faces of \p m by those of the common refinement. New vertices take position,
@@ -227,56 +128,47 @@ public:
 	{
 		RequirePerFaceWedgeTexCoord(m);
 		RequirePerVertexQuality(m);
-		const ricci::RefinedMesh& refined = r.refined;
+		const ricci::FlatMesh& mesh = r.mesh;
+		const std::vector<ricci::SurfacePoint>& points = mesh.source.values();
 		const size_t oldVertices = m.vert.size(), oldFaces = m.face.size();
 		std::vector<FaceSides> before;
 		for (size_t f = 0; f < oldFaces; ++f)
 			before.push_back(SidesOf(m, m.face[f]));
 		// The first piece of a face takes its place, the others are appended.
-		std::vector<int> slot(refined.triangles.size(), -1);
+		std::vector<size_t> slot;
 		std::vector<char> taken(oldFaces, 0);
 		size_t added = 0;
-		for (size_t i = 0; i < refined.triangles.size(); ++i) {
-			const size_t f = size_t(refined.inputFace[i]);
-			slot[i] = taken[f] ? int(oldFaces + added++) : int(f);
-			taken[f] = 1;
+		for (const int f : mesh.face) {
+			slot.push_back(taken[size_t(f)] ? oldFaces + added++ : size_t(f));
+			taken[size_t(f)] = 1;
 		}
 		NewAttributes attributes(m);
-		Append(m, refined.points.size() - oldVertices, added);
+		AllOrNone<MeshType>::Append(m, points.size() - oldVertices, added);
 		attributes.Keep();
-		VertexAttribute& u = attributes.u;
-		VertexAttribute& target = attributes.target;
-
 		for (size_t v = 0; v < oldVertices; ++v)
-			if (!m.vert[v].IsD()) {
-				u[v] = ScalarType(r.u[v]);
-				target[v] = ScalarType(r.targetCurvature[v]);
-			}
-		for (size_t v = oldVertices; v < refined.points.size(); ++v) {
-			Interpolate(m, refined.points[v], m.vert[v]);
+			if (!m.vert[v].IsD())
+				attributes.Set(m.vert[v], r.vertexQC[v], r.u[v], r.targetCurvature[v]);
+		for (size_t v = oldVertices; v < points.size(); ++v) {
+			Interpolate(m, points[v], m.vert[v]);
 			double logRadius = 0.0;
 			for (size_t i = 0; i < 4; ++i)
-				logRadius += refined.points[v].weight[i] * r.u[size_t(refined.points[v].vertex[i])];
-			u[v] = ScalarType(logRadius);
-			target[v] = ScalarType(0);
+				logRadius += points[v].weight[i] * r.u[size_t(points[v].vertex[i])];
+			attributes.Set(m.vert[v], r.vertexQC[v], logRadius, 0.0);
 		}
-		for (size_t v = 0; v < refined.points.size(); ++v)
-			if (!m.vert[v].IsD())
-				m.vert[v].Q() = typename VertexType::QualityType(refined.vertexQC[v]);
-		for (size_t i = 0; i < refined.triangles.size(); ++i) {
-			FaceType& face = m.face[size_t(slot[i])];
-			if (size_t(slot[i]) >= oldFaces)
-				face.ImportData(m.face[size_t(refined.inputFace[i])]);
+		for (const int i : mesh.vertices.indices()) {
+			const size_t input = size_t(mesh.face[i]), own = slot[size_t(i)];
+			FaceType& face = m.face[own];
+			if (own >= oldFaces)
+				face.ImportData(m.face[input]);
 			face.ClearAllF();
 			for (int k = 0; k < 3; ++k) {
-				const ricci::Triangle& t = refined.triangles[i];
-				face.V(k) = &m.vert[size_t(t[size_t(k)])];
-				SetWedge(face, k, refined.uv[i][size_t(k)]);
+				const ricci::Corner corner(i, k);
+				const size_t v = size_t(mesh.vertices[corner]);
+				face.V(k) = &m.vert[v];
+				SetWedge(face, k, mesh.at(corner));
 				face.ClearB(k);
 				face.ClearFaceEdgeS(k);
-				const ricci::SurfacePoint& p = refined.points[size_t(t[size_t(k)])];
-				const ricci::SurfacePoint& q = refined.points[size_t(t[size_t(k + 1) % 3])];
-				if (before[size_t(refined.inputFace[i])].IsFaux(p, q))
+				if (before[input].IsFaux(points[v], points[size_t(mesh.vertices[corner.next()])]))
 					face.SetF(k);
 			}
 		}
@@ -294,8 +186,7 @@ public:
 	/// Maps a mesh of one closed component of genus 0 to the unit sphere (see ricci::mapToSphere());
 	/// \p m is only read. The result is indexed like the mesh's vertex vector.
 	/// \throw what ricci::mapToSphere() does, and ricci::InvalidMesh DamagedFaces
-	static ricci::SphereMap
-	ComputeSphere(const MeshType& m, const Params& par)
+	static ricci::SphereMap ComputeSphere(const MeshType& m, const Params& par)
 	{
 		std::vector<int> faceIndex;
 		const ricci::DefaultFloatingPoint defaultEnvironment;
@@ -317,6 +208,24 @@ public:
 
 private:
 	typedef typename MeshType::template PerVertexAttributeHandle<ScalarType> VertexAttribute;
+
+	/// What \p parametrize gives, with the faces' indices in the mesh.
+	template<class Parametrize>
+	static Result
+	Run(const MeshType& m,
+		const SideMarks& seams,
+		bool readSelection,
+		bool readQuality,
+		Parametrize parametrize)
+	{
+		const ricci::DefaultFloatingPoint defaultEnvironment;
+		std::vector<int> faceIndex;
+		const ricci::SurfaceMesh mesh = ReadSurface(m, faceIndex, seams);
+		Result r = parametrize(mesh, ReadVertexInput(m, readSelection, readQuality));
+		for (int& f : r.mesh.face)
+			f = faceIndex[size_t(f)];
+		return r;
+	}
 
 	/// The attribute of that name, made anew if there is one of another type.
 	static VertexAttribute Attribute(MeshType& m, const char* name)
@@ -357,7 +266,12 @@ private:
 
 		void Keep() { m_kept = true; }
 
-		VertexAttribute u, target;
+		void Set(VertexType& v, double quality, double logRadius, double curvature)
+		{
+			v.Q() = typename VertexType::QualityType(quality);
+			u[v] = ScalarType(logRadius);
+			target[v] = ScalarType(curvature);
+		}
 
 	private:
 		void Remove()
@@ -370,6 +284,7 @@ private:
 		}
 
 		MeshType& m_mesh;
+		VertexAttribute u, target;
 		bool m_hadU = false, m_hadTarget = false, m_kept = false;
 	};
 
@@ -408,58 +323,6 @@ private:
 		return sides;
 	}
 
-	/// Takes the attributes of a vector of elements away while it grows: vcglib would resize them
-	/// after the vector, and copies their names on the way, for which there may be no memory any
-	/// more. They get room before, and their size when they are put back.
-	template<class Attributes, class Elements>
-	class HeldAttributes
-	{
-	public:
-		HeldAttributes(Attributes& attributes, const Elements& elements, size_t added) :
-				m_attributes(attributes), m_elements(elements)
-		{
-			for (auto& attribute : attributes) {
-				attribute._handle->Resize(elements.size() + added);
-				attribute._handle->Resize(elements.size());
-			}
-			m_held.swap(attributes);
-		}
-		~HeldAttributes()
-		{
-			m_held.swap(m_attributes);
-			for (auto& attribute : m_attributes)
-				attribute._handle->Resize(m_elements.size());
-		}
-		HeldAttributes(const HeldAttributes&) = delete;
-		HeldAttributes& operator=(const HeldAttributes&) = delete;
-
-	private:
-		Attributes m_held;
-		Attributes& m_attributes;
-		const Elements& m_elements;
-	};
-
-	/// Appends elements, all or none.
-	static void Append(MeshType& m, size_t vertices, size_t faces)
-	{
-		const size_t oldVertices = m.vert.size();
-		const HeldAttributes<decltype(m.vert_attr), decltype(m.vert)> ofVertices(
-			m.vert_attr, m.vert, vertices);
-		const HeldAttributes<decltype(m.face_attr), decltype(m.face)> ofFaces(
-			m.face_attr, m.face, faces);
-		if (vertices > 0)
-			Allocator<MeshType>::AddVertices(m, vertices);
-		try {
-			if (faces > 0)
-				Allocator<MeshType>::AddFaces(m, faces);
-		}
-		catch (...) {
-			m.vert.resize(oldVertices);
-			m.vn -= int(vertices);
-			throw;
-		}
-	}
-
 	/// Position, normal, and the colour where there is any, at an affine combination of vertices of
 	/// \p m.
 	static void Interpolate(const MeshType& m, const ricci::SurfacePoint& p, VertexType& to)
@@ -486,6 +349,7 @@ private:
 					std::min(255.0, std::max(0.0, std::round(colour[k]))));
 	}
 
+	/// \param faceIndex [face that is read] its index in m.face
 	static ricci::SurfaceMesh ReadSurface(
 		const MeshType& m, std::vector<int>& faceIndex, const SideMarks& seams = SideMarks())
 	{
@@ -552,30 +416,6 @@ private:
 		for (const Point2d& shift : BoxesSideBySide::Shifts(own, room))
 			shifts.push_back({shift[0], shift[1]});
 		return shifts;
-	}
-
-	/// Share of the work that is done once the map is found.
-	static constexpr double MappedShare = 0.95;
-
-
-	/// The arrays of \p flat, in the indices of the mesh.
-	static void TakeOver(
-		const ricci::SurfaceMesh& mesh,
-		size_t faces,
-		const std::vector<int>& faceIndex,
-		ricci::Parametrization& flat,
-		Result& r)
-	{
-		ricci::toInputNumbers(mesh, flat);
-		r.wedgeUV.resize(faces);
-		for (size_t f = 0; f < faceIndex.size(); ++f)
-			r.wedgeUV[size_t(faceIndex[f])] = flat.uv[f];
-		r.vertexQC = std::move(flat.vertexQC);
-		r.u = std::move(flat.u);
-		r.targetCurvature = std::move(flat.targetCurvature);
-		r.refined = std::move(flat.refined);
-		for (int& f : r.refined.inputFace)
-			f = faceIndex[size_t(f)];
 	}
 };
 

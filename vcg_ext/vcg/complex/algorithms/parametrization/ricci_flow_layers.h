@@ -9,10 +9,10 @@
 #include "ricci_flow.h"
 
 #include <ricci/error.h>
-#include <ricci/math/disk_isometry.h>
 #include <ricci/fuchsian/canonical_polygon.h>
 #include <ricci/fuchsian/fuchsian_group.h>
 #include <ricci/fuchsian/tiling.h>
+#include <ricci/math/disk_isometry.h>
 #include <ricci/sphere_map.h>
 
 #include <vcg/complex/allocate.h>
@@ -23,7 +23,6 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -44,32 +43,31 @@ public:
 	typedef typename MeshType::VertexIterator VertexIterator;
 	typedef typename MeshType::FaceType FaceType;
 	typedef typename MeshType::FaceIterator FaceIterator;
-	typedef typename RicciFlow<MeshType>::WedgeUV WedgeUV;
 	typedef typename RicciFlow<MeshType>::Result Result;
 
-	/// Fills the empty mesh \p flat with the layout: the vertices of \p m, once for each place that
+	/// Fills the empty mesh \p flat with the layout: the vertices of the mesh, once for each point that
 	/// they have in the plane, at z = 0, with the distortion as their quality. Wedge texture
 	/// coordinates are written if they are enabled on \p flat.
-	static void BuildFlatMesh(const MeshType& m, const Result& r, MeshType& flat)
+	static void BuildFlatMesh(const Result& r, MeshType& flat)
 	{
-		const LaidOut layout(m, r);
-		const std::vector<Place>& places = layout.places;
-		const std::vector<std::array<size_t, 3>>& faces = layout.faces;
-		Allocator<MeshType>::AddVertices(flat, places.size());
-		for (size_t i = 0; i < places.size(); ++i) {
-			const ricci::Point2& p = places[i].second;
-			flat.vert[i].P() = CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(0));
-			flat.vert[i].N() = CoordType(0, 0, 1);
-			flat.vert[i].Q() = layout.QualityAt(i);
+		const Points points(r);
+		Allocator<MeshType>::AddVertices(flat, points.component.size());
+		for (const int i : r.mesh.place.indices()) {
+			VertexType& v = flat.vert[size_t(i)];
+			v.P() = PlaceOf(r.mesh.place[i]);
+			v.N() = CoordType(0, 0, 1);
+			v.Q() = points.QualityAt(i);
 		}
-		FaceIterator fi = Allocator<MeshType>::AddFaces(flat, faces.size());
-		for (size_t f = 0; f < faces.size(); ++f, ++fi) {
-			for (int k = 0; k < 3; ++k)
-				fi->V(k) = &flat.vert[faces[f][size_t(k)]];
+		FaceIterator fi = Allocator<MeshType>::AddFaces(flat, size_t(r.mesh.size()));
+		for (const int f : r.mesh.points.indices()) {
+			for (int k = 0; k < 3; ++k) {
+				const ricci::Corner corner(f, k);
+				fi->V(k) = &flat.vert[size_t(r.mesh.points[corner])];
+				if (HasPerWedgeTexCoord(flat))
+					RicciFlow<MeshType>::SetWedge(*fi, k, r.mesh.at(corner));
+			}
 			fi->N() = CoordType(0, 0, 1);
-			if (HasPerWedgeTexCoord(flat))
-				for (int k = 0; k < 3; ++k)
-					RicciFlow<MeshType>::SetWedge(*fi, k, places[faces[f][size_t(k)]].second);
+			++fi;
 		}
 	}
 
@@ -106,23 +104,22 @@ public:
 	/// of the texture plane, at z = 0. Each copy has its own colour, where vertices or faces of
 	/// \p cover have any.
 	/// \throw ricci::InvalidOption CoverTooLarge if that is more than \p maxFaces faces
-	static void BuildUniversalCover(
-		const MeshType& m, const Result& r, int rings, size_t maxFaces, MeshType& cover)
+	static void BuildUniversalCover(const Result& r, int rings, size_t maxFaces, MeshType& cover)
 	{
-		const LaidOut layout(m, r);
-		const size_t faces = layout.faces.size();
+		const Points points(r);
+		const size_t faces = size_t(r.mesh.size());
 		std::vector<ricci::Tiling> tilings;
 		size_t copies = 0;
-		for (const ricci::FuchsianGroup& group : r.groups) {
+		for (const ricci::Chart& chart : r.charts) {
 			const size_t limit = maxFaces / std::max<size_t>(1, faces) + 2;
-			tilings.push_back(ricci::tiling(group.sides, rings, int(limit)));
+			tilings.push_back(ricci::tiling(chart.group.sides, rings, int(limit)));
 			copies = std::max(copies, tilings.back().deck.size());
 		}
 		if (copies * faces > maxFaces)
 			throw ricci::InvalidOption(
 				ricci::InvalidOption::CoverTooLarge, double(rings), 0.0, maxFaces);
 		for (size_t copy = 0; copy < copies; ++copy)
-			AddCopy(layout, r, tilings, copy, cover);
+			AddCopy(points, r, tilings, copy, cover);
 	}
 
 	/// Fills the empty mesh \p curves with edges: the axes of the generators in the Poincaré disk,
@@ -130,15 +127,13 @@ public:
 	/// have no axis. Those of handles need HyperbolicParams::canonicalGenerators.
 	static void BuildAxes(const Result& r, int pieces, MeshType& curves)
 	{
-		for (size_t i = 0; i < r.groups.size(); ++i) {
-			const ricci::FuchsianGroup& group = r.groups[i];
-			for (const auto* generators : {&group.handles, &group.peripheral})
+		for (const ricci::Chart& chart : r.charts)
+			for (const auto* generators : {&chart.group.handles, &chart.group.peripheral})
 				for (const ricci::DiskIsometry& g : *generators) {
 					std::complex<double> from, to;
 					if (g.axis(from, to))
-						AddGeodesic(r.disks[i], from, to, pieces, curves);
+						AddGeodesic(chart.box, from, to, pieces, curves);
 				}
-		}
 	}
 
 	/// Fills the empty mesh \p curves with edges: for each component a fundamental polygon whose
@@ -150,12 +145,12 @@ public:
 	{
 		const auto klein = [](std::complex<double> z) { return 2.0 * z / (1.0 + std::norm(z)); };
 		std::vector<ricci::CanonicalPolygon> polygons;
-		for (size_t i = 0; i < r.groups.size(); ++i) {
-			polygons.push_back(ricci::canonicalPolygon(r.groups[i]));
+		for (const ricci::Chart& chart : r.charts) {
+			polygons.push_back(ricci::canonicalPolygon(chart.group));
 			const std::vector<std::complex<double>>& corners = polygons.back().corners;
 			for (size_t k = 0; k < corners.size(); ++k)
 				AddGeodesic(
-					r.disks[i],
+					chart.box,
 					klein(corners[k]),
 					klein(corners[(k + 1) % corners.size()]),
 					pieces,
@@ -165,118 +160,92 @@ public:
 	}
 
 private:
-	typedef std::pair<size_t, ricci::Point2> Place; // vertex, point
-
-	/// The layout on its own vertices: those of the mesh, once for each place that they have.
-	struct LaidOut
+	/// What the points of the layout belong to.
+	struct Points
 	{
-		LaidOut(const MeshType& m, const Result& r) :
-				m_quality(r.refined.triangles.empty() ? r.vertexQC : r.refined.vertexQC)
+		explicit Points(const Result& r) :
+				component(size_t(r.mesh.place.size()), 0), m_vertex(component.size(), 0),
+				m_quality(r.vertexQC)
 		{
-			for (size_t i = 0; i < r.refined.triangles.size(); ++i) {
-				const ricci::Triangle& t = r.refined.triangles[i];
-				Add({size_t(t[0]), size_t(t[1]), size_t(t[2])},
-					r.refined.uv[i],
-					r,
-					size_t(r.refined.inputFace[i]));
-			}
-			for (size_t f = 0; f < m.face.size() && r.refined.triangles.empty(); ++f)
-				if (!m.face[f].IsD())
-					Add({Index(m, m.face[f].cV(0)),
-						 Index(m, m.face[f].cV(1)),
-						 Index(m, m.face[f].cV(2))},
-						r.wedgeUV[f],
-						r,
-						f);
+			// Degenerate faces, the last ones, have no chart, but points of others.
+			for (int f = r.mesh.size(); f-- > 0;)
+				for (size_t k = 0; k < 3; ++k) {
+					const size_t p = size_t(r.mesh.points[f][k]);
+					component[p] = size_t(std::max(0, r.mesh.chart[f]));
+					m_vertex[p] = size_t(r.mesh.vertices[f][k]);
+				}
+			for (int f = 0; f < r.mesh.size(); ++f)
+				if (r.mesh.chart[f] < 0) {
+					size_t largest = 0;
+					for (const int p : r.mesh.points[f])
+						largest = std::max(largest, component[size_t(p)]);
+					for (const int p : r.mesh.points[f])
+						component[size_t(p)] = largest;
+				}
 		}
 
-		typename VertexType::QualityType QualityAt(size_t place) const
+		typename VertexType::QualityType QualityAt(int point) const
 		{
-			return typename VertexType::QualityType(m_quality[places[place].first]);
+			return typename VertexType::QualityType(m_quality[m_vertex[size_t(point)]]);
 		}
 
-		std::vector<Place> places;
-		std::vector<std::array<size_t, 3>> faces; // indices of places
-		std::vector<size_t> component;            // [place] hyperbolic flow
+		std::vector<size_t> component; // [point] hyperbolic flow
 
 	private:
-		void
-		Add(const std::array<size_t, 3>& vertex,
-			const WedgeUV& uv,
-			const Result& r,
-			size_t inputFace)
-		{
-			const size_t ofFace = r.component.empty() ? 0 : r.component[inputFace];
-			std::array<size_t, 3> corner;
-			for (size_t k = 0; k < 3; ++k) {
-				const Place place(vertex[k], uv[k]);
-				const auto found =
-					m_index.insert(std::make_pair(std::make_pair(ofFace, place), places.size()));
-				if (found.second) {
-					places.push_back(place);
-					component.push_back(ofFace);
-				}
-				corner[k] = found.first->second;
-			}
-			faces.push_back(corner);
-		}
-
-		std::map<std::pair<size_t, Place>, size_t> m_index; // component, place
-		const std::vector<double>& m_quality;               // [vertex]
+		std::vector<size_t> m_vertex; // [point]
+		const std::vector<double>& m_quality;
 	};
+
+	static CoordType PlaceOf(const ricci::Point2& p)
+	{
+		return CoordType(ScalarType(p[0]), ScalarType(p[1]), ScalarType(0));
+	}
 
 	/// Adds the copies with the number \p copy of those components whose tilings have so many.
 	static void AddCopy(
-		const LaidOut& layout,
+		const Points& points,
 		const Result& r,
 		const std::vector<ricci::Tiling>& tilings,
 		size_t copy,
 		MeshType& cover)
 	{
-		const auto isCopied = [&](size_t place) {
-			return copy < tilings[layout.component[place]].deck.size();
+		const auto isCopied = [&](int point) {
+			return copy < tilings[points.component[size_t(point)]].deck.size();
 		};
-		std::vector<size_t> copied; // places
-		for (size_t i = 0; i < layout.places.size(); ++i)
+		std::vector<int> copied; // points
+		for (const int i : r.mesh.place.indices())
 			if (isCopied(i))
 				copied.push_back(i);
-		std::vector<VertexType*> vertexAt(layout.places.size(), nullptr);
+		std::vector<VertexType*> vertexAt(points.component.size(), nullptr);
 		VertexIterator vi = Allocator<MeshType>::AddVertices(cover, copied.size());
-		for (size_t i : copied) {
-			const size_t component = layout.component[i];
-			const ricci::Point2 middle = Middle(r.disks[component]);
-			const double radius = 0.5 * r.disks[component].width();
-			const ricci::Point2& p = layout.places[i].second;
+		for (int i : copied) {
+			const size_t component = points.component[size_t(i)];
+			const ricci::Box2& disk = r.charts[component].box;
+			const ricci::Point2 middle = disk.centre();
+			const double radius = 0.5 * disk.width();
+			const ricci::Point2& p = r.mesh.place[i];
 			const std::complex<double> z = tilings[component].deck[copy](
 				std::complex<double>((p[0] - middle[0]) / radius, (p[1] - middle[1]) / radius));
-			vi->P() = CoordType(
-				ScalarType(middle[0] + radius * z.real()),
-				ScalarType(middle[1] + radius * z.imag()),
-				ScalarType(0));
+			vi->P() = PlaceOf({middle[0] + radius * z.real(), middle[1] + radius * z.imag()});
 			vi->N() = CoordType(0, 0, 1);
-			vi->Q() = layout.QualityAt(i);
+			vi->Q() = points.QualityAt(i);
 			if (HasPerVertexColor(cover))
 				vi->C() = TileColor(copy);
-			vertexAt[i] = &*vi++;
+			vertexAt[size_t(i)] = &*vi++;
 		}
-		std::vector<const std::array<size_t, 3>*> faces;
-		for (const std::array<size_t, 3>& face : layout.faces)
+		std::vector<const ricci::Triangle*> faces;
+		for (const ricci::Triangle& face : r.mesh.points)
 			if (isCopied(face[0])) // and so are its other corners, of the same component
 				faces.push_back(&face);
 		FaceIterator fi = Allocator<MeshType>::AddFaces(cover, faces.size());
-		for (const std::array<size_t, 3>* face : faces) {
+		for (const ricci::Triangle* face : faces) {
 			for (int k = 0; k < 3; ++k)
-				fi->V(k) = vertexAt[(*face)[size_t(k)]];
+				fi->V(k) = vertexAt[size_t((*face)[size_t(k)])];
 			fi->N() = CoordType(0, 0, 1);
 			if (HasPerFaceColor(cover))
 				fi->C() = TileColor(copy);
 			++fi;
 		}
-	}
-
-	static ricci::Point2 Middle(const ricci::Box2& box)
-	{
-		return {(box.min[0] + box.max[0]) / 2, (box.min[1] + box.max[1]) / 2};
 	}
 
 	/// Adds a polyline along the geodesic between two points of the Klein model, where it is
@@ -290,7 +259,7 @@ private:
 	{
 		VertexIterator vi = Allocator<MeshType>::AddVertices(curves, size_t(pieces) + 1);
 		std::vector<VertexType*> points;
-		const ricci::Point2 middle = Middle(disk);
+		const ricci::Point2 middle = disk.centre();
 		const double radius = 0.5 * disk.width();
 		for (int k = 0; k <= pieces; ++k, ++vi) {
 			// Denser towards the ends, where the disk is smaller.
@@ -298,10 +267,7 @@ private:
 			const std::complex<double> klein = (1.0 - t) * from + t * to;
 			const std::complex<double> z =
 				klein / (1.0 + std::sqrt(std::max(0.0, 1.0 - std::norm(klein))));
-			vi->P() = CoordType(
-				ScalarType(middle[0] + z.real() * radius),
-				ScalarType(middle[1] + z.imag() * radius),
-				ScalarType(0));
+			vi->P() = PlaceOf({middle[0] + z.real() * radius, middle[1] + z.imag() * radius});
 			vi->N() = CoordType(0, 0, 1);
 			points.push_back(&*vi);
 		}

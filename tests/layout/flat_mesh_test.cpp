@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/flat_meshes.h"
+
+#include <ricci/layout/flat_mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+constexpr int kSide = 4;
+
+/// A square whose upper half lies elsewhere.
+FlatMesh withSeam(const Point2& shift)
+{
+	const SurfaceMesh mesh = rectangle(kSide, kSide, 1.0, 1.0);
+	std::vector<Triangle2> plane = flatMesh(mesh).corners().values();
+	for (std::size_t f = 0; f < plane.size(); ++f)
+		if (std::any_of(
+				plane[f].begin(), plane[f].end(), [](const Point2& p) { return p[1] > 0.5; }))
+			for (Point2& p : plane[f])
+				p += shift;
+	return flatMesh(mesh, plane);
+}
+
+int seamsOf(const FlatMesh& mesh)
+{
+	const Sides sides(mesh.vertices.values());
+	int seams = 0;
+	for (int c = 0; c < 3 * mesh.size(); ++c)
+		if (const Corner side(c), other = sides.across(side); other > side) {
+			const bool joined = isJoined(mesh, side, other);
+			EXPECT_EQ(joinedSide(mesh, sides, side), joined ? other : Corner());
+			seams += !joined;
+		}
+	return seams;
+}
+
+TEST(FlatMesh, IsJoinedWhereSidesLieOnEachOther)
+{
+	const FlatMesh whole = withSeam({0.0, 0.0}), apart = withSeam({2.0, 0.0});
+	EXPECT_EQ(whole.place.size(), (kSide + 1) * (kSide + 1));
+	EXPECT_EQ(seamsOf(whole), 0);
+	EXPECT_EQ(apart.place.size(), (kSide + 1) * (kSide + 2));
+	EXPECT_EQ(seamsOf(apart), kSide);
+}
+
+TEST(FlatMesh, WeldJoinsSeamsThatCloseButNoCharts)
+{
+	for (const bool twoCharts : {false, true}) {
+		FlatMesh mesh = withSeam({2.0, 0.0});
+		for (const int f : mesh.chart.indices())
+			mesh.chart[f] = twoCharts && mesh.at(f)[0][0] > 1.5 ? 1 : 0;
+		for (Point2& p : mesh.place)
+			if (p[0] > 1.5)
+				p[0] -= 2.0;
+		weld(mesh);
+		EXPECT_EQ(seamsOf(mesh), twoCharts ? kSide : 0);
+		EXPECT_EQ(mesh.corners(), withSeam({0.0, 0.0}).corners());
+	}
+}
+
+TEST(FlatMesh, SplitPointsBelongToOneChartAndOneFan)
+{
+	FlatMesh mesh = withSeam({0.0, 0.0});
+	const Array<Triangle2> before = mesh.corners();
+	for (const int f : mesh.chart.indices())
+		mesh.chart[f] = f % 2;
+	splitPoints(mesh);
+	EXPECT_EQ(mesh.corners(), before);
+	// Triangles of one kind meet in points alone.
+	EXPECT_EQ(mesh.place.size(), 3 * mesh.size());
+	const Array<int> chart = mesh.chartOfPoints();
+	for (const int f : mesh.points.indices())
+		for (const int p : mesh.points[f])
+			EXPECT_EQ(chart[p], mesh.chart[f]);
+}
+
+TEST(FlatMesh, PartsKeepTheirTrianglesAndShareNoIndices)
+{
+	const FlatMesh mesh = withSeam({2.0, 0.0});
+	const std::vector<int> some = {3, 4, 17, 30};
+	const FlatMesh part = mesh.part(some);
+	ASSERT_EQ(part.size(), 4);
+	for (std::size_t i = 0; i < some.size(); ++i) {
+		const int own = static_cast<int>(i);
+		EXPECT_EQ(part.at(own), mesh.at(some[i]));
+		EXPECT_EQ(part.vertices[own], mesh.vertices[some[i]]);
+		EXPECT_EQ(part.lengths[own], mesh.lengths[some[i]]);
+		EXPECT_EQ(part.face[own], mesh.face[some[i]]);
+	}
+	EXPECT_EQ(at(part.place.size()), mesh.pointsOf(some).size());
+	EXPECT_EQ(mesh.trianglesByChart(1).front().size(), at(mesh.size()));
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "../report.h"
+
+#include <algorithm>
+
+namespace ricci {
+
+Report& Report::operator+=(const Report& next)
+{
+	for (FlowState state : next.flowStates) {
+		state.component += components;
+		flowStates.push_back(state);
+	}
+	for (int Report::*count :
+		 {&Report::components,
+		  &Report::iterations,
+		  &Report::brokenTriangles,
+		  &Report::flips,
+		  &Report::finishMoved,
+		  &Report::edgeSwaps,
+		  &Report::boundarySplits,
+		  &Report::refinementPoints,
+		  &Report::eulerCharacteristic,
+		  &Report::genus,
+		  &Report::boundaryLoops,
+		  &Report::cappedHoles,
+		  &Report::cones,
+		  &Report::seamEdges})
+		this->*count += next.*count;
+	seamLength += next.seamLength;
+	for (double Report::*error : {&Report::maxCurvatureError, &Report::residualFloor})
+		this->*error = std::max(this->*error, next.*error);
+	if (next.hyperbolicArea)
+		hyperbolicArea = hyperbolicArea.value_or(0.0) + *next.hyperbolicArea;
+	for (std::optional<double> Report::*error : {&Report::holonomyError, &Report::relationError})
+		if (next.*error)
+			this->*error = std::max((this->*error).value_or(0.0), *(next.*error));
+	const bool isOnly = components == next.components;
+	for (std::optional<double> Report::*invariant :
+		 {&Report::torusTauRe,
+		  &Report::torusTauIm,
+		  &Report::annulusModulus,
+		  &Report::rectangleAspect,
+		  &Report::periodError})
+		this->*invariant = isOnly ? next.*invariant : std::nullopt;
+	periodMatrix = isOnly ? next.periodMatrix : std::vector<std::complex<double>>();
+	return *this;
+}
+
+} // namespace ricci

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef RICCI_DUAL_GRAPH_H
+#define RICCI_DUAL_GRAPH_H
+
+#include "../layout/flat_mesh.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace ricci {
+
+/// The dual graph of a chart that falls into parts: triangles with joined sides are neighbours. An edge
+/// weighs what it costs to cut it: its length.
+class DualGraph
+{
+public:
+	DualGraph(const FlatMesh& chart, const Sides& sides) :
+			part(chart.size(), 0), m_chart(chart), m_sides(sides)
+	{
+		for (const auto& lengths : chart.lengths)
+			m_longest = std::max({m_longest, lengths[0], lengths[1], lengths[2]});
+	}
+
+	/// joinedSide().
+	Corner joined(Corner side) const { return joinedSide(m_chart, m_sides, side); }
+
+	/// joined(), if it is in the same part; else none.
+	Corner neighbour(Corner side) const
+	{
+		const Corner other = joined(side);
+		return other.isValid() && part[other.face()] == part[side.face()] ? other : Corner();
+	}
+
+	/// In units of 1e-9 of the chart's longest edge, at least 1.
+	std::int64_t weight(Corner side) const
+	{
+		constexpr double kUnits = 1e9;
+		return m_longest > 0.0
+				   ? static_cast<std::int64_t>(m_chart.lengths[side] / m_longest * kUnits) + 1
+				   : 1;
+	}
+
+	/// The connected pieces of all parts: the triangles of each, in increasing order.
+	std::vector<std::vector<int>> connectedPieces() const
+	{
+		Array<char> isDone(part.size(), 0);
+		std::vector<std::vector<int>> pieces;
+		for (const int first : part.indices()) {
+			if (isDone[first])
+				continue;
+			isDone[first] = 1;
+			std::vector<int> piece{first};
+			for (std::size_t head = 0; head < piece.size(); ++head)
+				for (const Corner side : cornersOf(piece[head]))
+					if (const Corner other = neighbour(side);
+						other.isValid() && !isDone[other.face()]) {
+						isDone[other.face()] = 1;
+						piece.push_back(other.face());
+					}
+			std::sort(piece.begin(), piece.end());
+			pieces.push_back(std::move(piece));
+		}
+		return pieces;
+	}
+
+	Array<int> part; ///< [triangle] number
+
+private:
+	const FlatMesh& m_chart;
+	const Sides& m_sides;
+	double m_longest = 0.0; // edge, on the surface
+};
+
+} // namespace ricci
+
+#endif

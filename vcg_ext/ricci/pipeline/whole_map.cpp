@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "whole_map.h"
+
+#include "../base/memory_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+std::size_t largestComponent(const std::vector<Component>& components)
+{
+	std::size_t largest = 0;
+	for (const Component& component : components)
+		largest = std::max(largest, component.triangles.size());
+	return largest;
+}
+
+/// Vertices as points of their surface.
+std::vector<SurfacePoint> verticesOf(std::size_t count)
+{
+	std::vector<SurfacePoint> points(count);
+	for (std::size_t v = 0; v < count; ++v)
+		points[v].vertex[0] = static_cast<int>(v);
+	return points;
+}
+
+} // namespace
+
+std::vector<Component> startMap(
+	const SurfaceMesh& mesh, const FlowOptions& options, OpenedMesh& opened, Parametrization& map)
+{
+	opened = openMesh(mesh, map.notes);
+	std::vector<Component> components = splitIntoComponents(opened);
+	if (options.method != Method::IntrinsicFlips)
+		requireAreaEverywhere(components);
+	requireMemory(
+		largestComponent(components),
+		opened.mesh.triangles.size(),
+		options.output == OutputTriangulation::CommonRefinement);
+	for (const std::string& note : map.notes)
+		logLine(note);
+	map.mesh.source = Array<SurfacePoint>(verticesOf(opened.mesh.positions.size()));
+	map.u.assign(opened.mesh.positions.size(), 0.0);
+	map.targetCurvature.assign(opened.mesh.positions.size(), 0.0);
+	map.report.cutNonmanifoldEdges = opened.cutEdges;
+	map.report.splitVertices = opened.splitVertices;
+	map.report.duplicateFaces = opened.duplicateFaces;
+	map.report.oneSidedComponents = opened.oneSidedComponents;
+	map.report.degenerateFaces = static_cast<int>(opened.degenerate.size());
+	map.report.chosenSeamEdges = opened.seamEdges;
+	map.report.chosenSeamLength = opened.seamLength;
+	map.report.seamEdges = opened.seamEdgesAdded;
+	map.report.seamLength = opened.seamLengthAdded;
+	return components;
+}
+
+std::vector<char> silentComponents(const std::vector<Component>& components)
+{
+	std::vector<std::size_t> order(components.size());
+	std::iota(order.begin(), order.end(), std::size_t(0));
+	const std::size_t described = std::min(kDescribedComponents, order.size());
+	std::partial_sort(
+		order.begin(),
+		order.begin() + static_cast<std::ptrdiff_t>(described),
+		order.end(),
+		[&](std::size_t a, std::size_t b) {
+			const std::size_t m = components[a].triangles.size(),
+							  n = components[b].triangles.size();
+			return m != n ? m > n : a < b;
+		});
+	std::vector<char> isSilent(components.size(), 1);
+	for (std::size_t i = 0; i < described; ++i)
+		isSilent[order[i]] = 0;
+	return isSilent;
+}
+
+FlatMesh flatMesh(const Component& component, const ComponentMap& map, OutputTriangulation output)
+{
+	const bool refined = output == OutputTriangulation::CommonRefinement;
+	FlatMesh mesh;
+	mesh.source = Array<SurfacePoint>(
+		refined ? map.refinement.points : verticesOf(component.positions.values().size()));
+	const std::vector<Point3> places = mesh.onSurface(component.positions.values());
+	Array<std::array<double, 3>> lengths;
+	Array<Triangle> vertices(refined ? map.refinement.triangles : component.triangles);
+	for (const Triangle& t : vertices) {
+		const auto length = [&](std::size_t i, std::size_t j) {
+			return distance(places[positionOf(t[i])], places[positionOf(t[j])]);
+		};
+		lengths.push_back({length(0, 1), length(1, 2), length(2, 0)});
+	}
+	Array<int> face;
+	for (const int f : vertices.indices())
+		face.push_back(refined ? map.refinement.inputFace[positionOf(f)].number() : f);
+	std::vector<SurfacePoint> source = std::move(mesh.source.values());
+	mesh = flatMeshOf(
+		std::move(vertices),
+		Array<Triangle2>(refined ? map.refinement.uv : map.uv.values()),
+		Array<int>(face.size(), 0),
+		std::move(lengths));
+	mesh.source = Array<SurfacePoint>(std::move(source));
+	mesh.face = std::move(face);
+	return mesh;
+}
+
+Report reportOf(const ComponentMap& map)
+{
+	Report report;
+	report.components = 1;
+	report.flowStates = map.flowStates;
+	report.iterations = map.flow.iterations;
+	report.maxCurvatureError = map.flow.residual;
+	report.residualFloor = map.flow.floor;
+	report.brokenTriangles = map.flow.metric->brokenTriangles();
+	report.flips = map.flow.flipCount();
+	report.finishMoved = map.finishMoved;
+	report.edgeSwaps = map.edgeSwaps;
+	report.boundarySplits = map.boundarySplits;
+	report.eulerCharacteristic = map.type.eulerCharacteristic();
+	report.genus = map.type.genus;
+	report.boundaryLoops = map.type.boundaryLoops;
+	report.cappedHoles = map.cappedHoles;
+	report.cones = static_cast<int>(std::count(map.cones.begin(), map.cones.end(), 1));
+	report.seamEdges = map.cut.edgeCount;
+	report.seamLength = map.seamLength;
+	if (map.torusModulus) {
+		report.torusTauRe = map.torusModulus->real();
+		report.torusTauIm = map.torusModulus->imag();
+	}
+	report.annulusModulus = map.annulusModulus;
+	report.rectangleAspect = map.rectangleAspect;
+	const Eigen::MatrixXcd& omega = map.periods.omega;
+	for (Eigen::Index i = 0; i < omega.rows(); ++i)
+		for (Eigen::Index j = 0; j < omega.cols(); ++j)
+			report.periodMatrix.push_back(omega(i, j));
+	if (omega.size() > 0)
+		report.periodError = map.periods.error;
+	report.hyperbolicArea = map.hyperbolicArea;
+	report.holonomyError = map.holonomyError;
+	report.relationError = map.relationError;
+	return report;
+}
+
+void append(const Component& component, const ComponentMap& map, Parametrization& whole)
+{
+	FlatMesh& mesh = whole.mesh;
+	const auto vertexCount = component.vertex.values().size();
+	const std::vector<SurfacePoint>& source = map.mesh.source.values();
+	std::vector<int> index = component.vertex.values(); // of each vertex of the component's mesh
+	for (std::size_t i = vertexCount; i < source.size(); ++i) {
+		SurfacePoint p = source[i];
+		for (int& v : p.vertex)
+			v = component.vertex[Vertex(v)];
+		index.push_back(mesh.source.size());
+		mesh.source.push_back(p);
+	}
+	const int firstPoint = mesh.place.size();
+	for (const Point2& p : map.mesh.place)
+		mesh.place.push_back(p);
+	for (const int f : map.mesh.points.indices()) {
+		Triangle vertices = map.mesh.vertices[f], points = map.mesh.points[f];
+		for (int& v : vertices)
+			v = index[positionOf(v)];
+		for (int& p : points)
+			p += firstPoint;
+		mesh.vertices.push_back(vertices);
+		mesh.points.push_back(points);
+		mesh.lengths.push_back(map.mesh.lengths[f]);
+		mesh.chart.push_back(static_cast<int>(whole.charts.size()));
+		mesh.face.push_back(component.face[Face(map.mesh.face[f])]);
+	}
+	whole.charts.push_back({map.group, {}});
+	const Target& target = map.flow.target;
+	const double shift = std::log(map.scale);
+	for (const Vertex v : component.vertex.indices()) {
+		const std::size_t vertex = positionOf(component.vertex[v]);
+		whole.u[vertex] = map.flow.u[v] + shift;
+		whole.targetCurvature[vertex] =
+			target.fixed[v] ? map.flow.curvature[v] : target.curvature[v];
+	}
+	Report report = reportOf(map);
+	if (map.mesh.source.size() > component.vertex.size())
+		report.refinementPoints = map.mesh.source.size() - component.vertex.size();
+	whole.report += report;
+}
+
+} // namespace ricci
