@@ -320,7 +320,7 @@ public:
 		const double drawn = 0.5 * (flowShare() + 1.0);
 		{
 			const ricci::Task drawing(flowShare(), drawn);
-			texture.draw(model, result, results);
+			texture.draw(result, results);
 		}
 		{
 			const ricci::Task writing(drawn, 1.0);

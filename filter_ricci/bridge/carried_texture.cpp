@@ -363,7 +363,7 @@ void CarriedTexture::describe(Results& results) const
 	ricci::logLine(line + ".");
 }
 
-void CarriedTexture::draw(const MeshModel& model, const Flow::Result& result, Results& results)
+void CarriedTexture::draw(const Flow::Result& result, Results& results)
 {
 	if (!isWanted())
 		return;

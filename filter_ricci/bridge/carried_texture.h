@@ -37,7 +37,7 @@ public:
 
 	/// Draws the picture into memory and adds its result.
 	/// \throw ricci::Stopped, std::bad_alloc
-	void draw(const MeshModel& model, const Flow::Result& result, Results& results);
+	void draw(const Flow::Result& result, Results& results);
 
 	/// Writes the file beside its place.
 	/// \throw Refusal if there is no room for it, ricci::Stopped

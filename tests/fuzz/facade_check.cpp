@@ -398,7 +398,8 @@ bool isSentence(const std::string& text)
 
 /// The layers of the hyperbolic filter.
 template<class Mesh>
-std::string defectOfCover(const typename vcg::tri::RicciFlow<Mesh>::Result& result, int rings)
+std::string
+defectOfCover(const Mesh& m, const typename vcg::tri::RicciFlow<Mesh>::Result& result, int rings)
 {
 	constexpr std::size_t kMaxFaces = 2000;
 	Mesh cover;
@@ -519,7 +520,7 @@ Execution run(const HostileMesh& hostile)
 	if (!execution.defect.empty())
 		return execution;
 	if (hostile.hyperbolic)
-		execution.defect = defectOfCover<Mesh>(result, hostile.rings);
+		execution.defect = defectOfCover<Mesh>(m, result, hostile.rings);
 	if (!execution.defect.empty())
 		return execution;
 	Mesh flat;
