@@ -6,11 +6,11 @@
 #include "../support/transform.h"
 
 #include <ricci/base/tolerances.h>
+#include <ricci/curvature/area_change.h>
 #include <ricci/error.h>
 #include <ricci/parametrize.h>
 #include <ricci/pipeline/keep_areas.h>
 #include <ricci/pipeline/stages.h>
-#include <ricci/curvature/area_change.h>
 
 #include <gtest/gtest.h>
 
@@ -95,8 +95,8 @@ struct FirstFlow
 		TargetRequest few = request;
 		few.options.target = TargetCurvature::PlacedCones;
 		few.options.cones.count = surface.topology.type.isSphere()   ? 3
-						: surface.topology.type.isClosed() ? 2
-														   : 1;
+								  : surface.topology.type.isClosed() ? 2
+																	 : 1;
 		InitialPacking start = initialPacking(surface, options);
 		Target target = chooseTarget(surface, start, few);
 		target.maxSpread = request.options.cones.distortion;
@@ -193,7 +193,8 @@ TEST(KeepAreas, LeavesGentleSurfacesWithoutCones)
 	});
 	for (const SurfaceMesh& mesh : {terrain, torus(3.0, 1.0, 30, 30), ring(1.0, 3.0, 40, 20)}) {
 		Listener listener;
-		const Report report = heard(listener, [&] { return parametrizeEuclidean(mesh, {}, Options()); }).report;
+		const Report report =
+			heard(listener, [&] { return parametrizeEuclidean(mesh, {}, Options()); }).report;
 		EXPECT_EQ(report.cones, 0);
 		EXPECT_LT(report.areaDistortionSpread, 1.0);
 		EXPECT_EQ(listener.count("No cones: the expected spread"), 1);
@@ -370,8 +371,7 @@ TEST(KeepAreas, LeavesByCancelledWhereverItIs)
 			FirstFlow flow(mesh);
 			flow.runToFewCones();
 			Listener listener(stage, n);
-			EXPECT_THROW(flow.keepAreas(listener), Cancelled)
-				<< stage << " " << n;
+			EXPECT_THROW(flow.keepAreas(listener), Cancelled) << stage << " " << n;
 			EXPECT_EQ(listener.updates, n);
 		}
 	}
@@ -385,7 +385,8 @@ TEST(KeepAreas, TheWholeWayIsCancelledWhileConesArePlaced)
 	ASSERT_GT(all.updates, 2);
 	for (const int n : {1, all.updates}) {
 		Listener listener("Placing cones", n);
-		EXPECT_THROW(heard(listener, [&] { return parametrizeEuclidean(mesh, {}, Options()); }), Cancelled);
+		EXPECT_THROW(
+			heard(listener, [&] { return parametrizeEuclidean(mesh, {}, Options()); }), Cancelled);
 	}
 }
 

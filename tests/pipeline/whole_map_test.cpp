@@ -40,10 +40,14 @@ Options withOutput(OutputTriangulation output)
 	return options;
 }
 
-template<class AnyOptions>
-ComponentMap flattened(const Component& component, const AnyOptions& options)
+ComponentMap flattened(const Component& component, const Options& options)
 {
-	return flattenComponent(component, {}, options);
+	return flattenToPlane(component, {}, options);
+}
+
+ComponentMap flattened(const Component& component, const HyperbolicOptions& options)
+{
+	return flattenToDisk(component, {}, options);
 }
 
 OpenedMesh opened(const SurfaceMesh& mesh)

@@ -48,7 +48,7 @@ void keepAreas(
 		return attempt([&] {
 			InitialPacking start = initialPacking(surface, options);
 			const Target target = targetToKeepAreas(surface, start, before, request);
-			return flowAgain(surface, std::move(start), target, options, map);
+			return runFlow(surface, std::move(start), target, options, map);
 		});
 	};
 	const auto take = [&](FlowResult next) {

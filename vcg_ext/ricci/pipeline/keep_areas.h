@@ -3,7 +3,7 @@
 #define RICCI_KEEP_AREAS_H
 
 #include "../curvature/target_curvature.h"
-#include "flatten_component.h"
+#include "flatten.h"
 
 namespace ricci {
 

@@ -10,7 +10,7 @@
 #include "../measure/distortion.h"
 #include "../measure/hyperbolic_distortion.h"
 #include "../verify/result_check.h"
-#include "flatten_component.h"
+#include "flatten.h"
 #include "whole_map.h"
 
 #include <cmath>
@@ -46,6 +46,7 @@ Parametrization mapComponents(
 	const SurfaceMesh& mesh,
 	const VertexInput& input,
 	const AnyOptions& options,
+	ComponentMap (*flatten)(const Component&, const VertexInput&, const AnyOptions&),
 	OpenedMesh& opened)
 {
 	advance(0.0, "Checking the mesh");
@@ -55,7 +56,7 @@ Parametrization mapComponents(
 	extendToCopies(opened, ofCopies.selected);
 	extendToCopies(opened, ofCopies.targetCurvature);
 	runComponents(opened, components, [&](const Component& component) {
-		append(component, flattenComponent(component, ofCopies, options), map);
+		append(component, flatten(component, ofCopies, options), map);
 	});
 	map.report.converged = true;
 	map.report.charts = static_cast<int>(map.charts.size());
@@ -152,7 +153,7 @@ Parametrization chartsInPlane(
 {
 	checkOptions(options);
 	const Task part(0.0, kMapped);
-	Parametrization map = mapComponents(mesh, input, options, opened);
+	Parametrization map = mapComponents(mesh, input, options, flattenToPlane, opened);
 	const bool separates = options.charts != Charts::OfTheFlow;
 	if (isFinished(options) && separates && options.output == OutputTriangulation::KeepMesh)
 		reflectFlipped(map);
@@ -175,7 +176,7 @@ Parametrization chartsInDisk(
 {
 	checkOptions(options);
 	const Task part(0.0, kMapped);
-	Parametrization map = mapComponents(mesh, input, options, opened);
+	Parametrization map = mapComponents(mesh, input, options, flattenToDisk, opened);
 	measureInDisk(opened, map);
 	advance(1.0, "Layout done");
 	return map;

@@ -4,7 +4,6 @@
 
 #include "../base/task.h"
 #include "../base/text.h"
-#include "../base/task.h"
 #include "../report.h"
 
 #include <algorithm>

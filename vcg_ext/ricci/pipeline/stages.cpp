@@ -2,6 +2,7 @@
 #include "stages.h"
 
 #include "../base/numbers.h"
+#include "../base/parallel.h"
 #include "../base/task.h"
 #include "../base/text.h"
 #include "../base/tolerances.h"
@@ -90,19 +91,6 @@ cornersOfCones(const EmbeddedSurface& surface, const Target& target, const Verte
 	return coneCorners(surface.triangulation, surface.lengths, coneAngle);
 }
 
-CutGraph cutThroughCones(
-	const FlowDomain& domain,
-	const EdgeArray<double>& cost,
-	const VertexArray<char>& cones,
-	const HalfedgeArray<double>& corners)
-{
-	CutGraph cut = cutToDisk(domain.surface.triangulation, cost, cones, {}, corners);
-	if (domain.holes > 0)
-		dropSeamsToHoles(
-			domain.surface.triangulation, domain.surface.lengths, domain.onHole, cones, cut);
-	return cut;
-}
-
 LinkedPieces
 flowOverlay(const FlowDomain& domain, const FlowOptions& options, const ComponentMap& map)
 {
@@ -110,6 +98,28 @@ flowOverlay(const FlowDomain& domain, const FlowOptions& options, const Componen
 		return {};
 	const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
 	return overlayOf(domain, map.flow);
+}
+
+LinkedPieces cutAndOverlay(
+	const FlowDomain& domain,
+	EdgeArray<double> cost,
+	const HalfedgeArray<double>& corners,
+	const FlowOptions& options,
+	ComponentMap& map)
+{
+	const Triangulation& t = domain.surface.triangulation;
+	avoidDiagonals(domain.isDiagonal, cost);
+	LinkedPieces overlay;
+	besides(
+		threadsFor(t.faceCount()),
+		[&] { overlay = flowOverlay(domain, options, map); },
+		[&] {
+			map.cut = cutToDisk(t, cost, map.cones, {}, corners);
+			if (domain.holes > 0)
+				dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, map.cones, map.cut);
+		});
+	advance(1.0 - kAfterFlow, "Cutting and layout");
+	return overlay;
 }
 
 CommonRefinement refine(const FlowDomain& domain, const ComponentMap& map, LinkedPieces overlay)
@@ -125,11 +135,18 @@ double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)
 	return length;
 }
 
-FlowResult flowAgain(
+void describe(const Component& component, const FlowDomain& domain, ComponentMap& map)
+{
+	map.type = domain.surface.topology.type;
+	map.cappedHoles = domain.holes;
+	logLine(description(component, map.type));
+}
+
+FlowResult runFlow(
 	const EmbeddedSurface& surface,
 	InitialPacking start,
 	const Target& target,
-	const Options& options,
+	const FlowOptions& options,
 	ComponentMap& map)
 {
 	for (const std::string& note : target.notes)
@@ -189,11 +206,11 @@ void measurePeriods(ComponentMap& map)
 	map.periods = periodMatrix(start.triangulation, start.lengths);
 }
 
-bool isBent(const ComponentMap& map, OutputTriangulation output)
+bool mayBeFlipped(const ComponentMap& map, OutputTriangulation output)
 {
-	return output == OutputTriangulation::KeepMesh &&
-		   (map.flow.flipCount() > 0 || map.flow.doubled || map.edgeSwaps > 0 ||
-			map.boundarySplits > 0);
+	const bool isBent =
+		map.flow.flipCount() > 0 || map.flow.doubled || map.edgeSwaps > 0 || map.boundarySplits > 0;
+	return map.finishMoved > 0 || (isBent && output == OutputTriangulation::KeepMesh);
 }
 
 } // namespace ricci

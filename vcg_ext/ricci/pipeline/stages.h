@@ -8,7 +8,7 @@
 #include "../cut/cut_graph.h"
 #include "../cut/seam_cost.h"
 #include "../surface/flow_domain.h"
-#include "flatten_component.h"
+#include "flatten.h"
 
 #include <functional>
 #include <optional>
@@ -19,7 +19,7 @@
 namespace ricci {
 
 /// The flow with the paper's remedy for broken triangles (5.4), which changes the triangulation and
-/// may start again; then the same stages as flattenComponent().
+/// may start again; then the same stages as flattenToPlane().
 ComponentMap
 flattenWithEdgeSwaps(const Component& component, const VertexInput& input, const Options& options);
 
@@ -45,14 +45,17 @@ conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<
 HalfedgeArray<double> cornersOfCones(
 	const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& cones);
 
-/// The cut graph through all cones on edges of the surface (paper 4.3), without seams to holes that
-/// the flow closes with caps.
+/// The cut graph through all cones on edges of the surface (paper 4.3), without seams to holes that the
+/// flow closes with caps and, where it can, without seams inside polygons; and beside it, in another thread
+/// if there is one, the overlay of the flow if its pieces are drawn.
+/// \param cost [edge] of a seam
 /// \param corners see shortenCut()
-CutGraph cutThroughCones(
+LinkedPieces cutAndOverlay(
 	const FlowDomain& domain,
-	const EdgeArray<double>& cost,
-	const VertexArray<char>& cones,
-	const HalfedgeArray<double>& corners);
+	EdgeArray<double> cost,
+	const HalfedgeArray<double>& corners,
+	const FlowOptions& options,
+	ComponentMap& map);
 
 /// Sum of the lengths of the cut's edges.
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths);
@@ -71,13 +74,17 @@ flowOverlay(const FlowDomain& domain, const FlowOptions& options, const Componen
 /// commonRefinement() of the map.
 CommonRefinement refine(const FlowDomain& domain, const ComponentMap& map, LinkedPieces overlay);
 
-/// One more flow of a component in the plane, on the surface of map.flow, whose steps it goes on to count.
+/// Takes down what is known of a component before its flow, and logs it.
+void describe(const Component& component, const FlowDomain& domain, ComponentMap& map);
+
+/// A flow of a component, first or again: steps are counted on from those of map.flow. Logs the notes of
+/// the target.
 /// \throw as runRicciFlow()
-FlowResult flowAgain(
+FlowResult runFlow(
 	const EmbeddedSurface& surface,
 	InitialPacking start,
 	const Target& target,
-	const Options& options,
+	const FlowOptions& options,
 	ComponentMap& map);
 
 /// Scales the layout by \p scale and turns it so that its smallest bounding rectangle lies along the
@@ -95,9 +102,9 @@ void conformalInvariants(const Triangulation& t, ComponentMap& map);
 /// triangulation at the start of the flow.
 void measurePeriods(ComponentMap& map);
 
-/// Whether straight faces of the component may turn round in the map although it is right: flips,
-/// swaps and splits bend their edges.
-bool isBent(const ComponentMap& map, OutputTriangulation output);
+/// Whether straight faces of the component may be flipped in the map although it is right: flips, swaps
+/// and splits bend their edges, and the repair moves their corners.
+bool mayBeFlipped(const ComponentMap& map, OutputTriangulation output);
 
 } // namespace ricci
 

@@ -9,7 +9,7 @@
 #include "../options.h"
 #include "../parametrize.h"
 #include "../surface/component.h"
-#include "flatten_component.h"
+#include "flatten.h"
 
 #include <string>
 #include <vector>

@@ -33,11 +33,16 @@ struct Case
 	VertexInput input;
 };
 
-template<class AnyOptions>
 ComponentMap
-flattened(const Component& component, const AnyOptions& options, const VertexInput& input = {})
+flattened(const Component& component, const Options& options, const VertexInput& input = {})
 {
-	return flattenComponent(component, input, options);
+	return flattenToPlane(component, input, options);
+}
+
+ComponentMap flattened(
+	const Component& component, const HyperbolicOptions& options, const VertexInput& input = {})
+{
+	return flattenToDisk(component, input, options);
 }
 
 FlatResult wholeWay(const SurfaceMesh& mesh, const VertexInput& input, const Options& options)
@@ -248,7 +253,7 @@ std::vector<Case<Options>> euclideanCases(Method method)
 	return cases;
 }
 
-TEST(FlattenComponent, IsTheEuclideanMapOfTheMeshItIs)
+TEST(Flatten, IsTheEuclideanMapOfTheMeshItIs)
 {
 	for (const Method method : {Method::FixedTriangles, Method::EdgeSwaps, Method::IntrinsicFlips})
 		for (const Case<Options>& c : euclideanCases(method)) {
@@ -257,7 +262,7 @@ TEST(FlattenComponent, IsTheEuclideanMapOfTheMeshItIs)
 		}
 }
 
-TEST(FlattenComponent, IsTheEuclideanMapOnTheCommonRefinement)
+TEST(Flatten, IsTheEuclideanMapOnTheCommonRefinement)
 {
 	int crossings = 0;
 	for (Case<Options>& c : euclideanCases(Method::IntrinsicFlips)) {
@@ -268,7 +273,7 @@ TEST(FlattenComponent, IsTheEuclideanMapOnTheCommonRefinement)
 	EXPECT_GT(crossings, 100);
 }
 
-TEST(FlattenComponent, IsTheEuclideanMapWithCappedHoles)
+TEST(Flatten, IsTheEuclideanMapWithCappedHoles)
 {
 	Random random(4101);
 	const SurfaceMesh mesh =
@@ -281,7 +286,7 @@ TEST(FlattenComponent, IsTheEuclideanMapWithCappedHoles)
 	EXPECT_EQ(flattened(componentsOf(mesh).front(), options).cappedHoles, 2);
 }
 
-TEST(FlattenComponent, IsTheEuclideanMapOfThurstonsPacking)
+TEST(Flatten, IsTheEuclideanMapOfThurstonsPacking)
 {
 	Random random(4102);
 	const Options options = euclidean(TargetCurvature::Flat, Method::Thurston);
@@ -289,7 +294,7 @@ TEST(FlattenComponent, IsTheEuclideanMapOfThurstonsPacking)
 		Case<Options>{"torus", shuffled(bumpyTorus(10, 7, random), random).mesh, options, {}});
 }
 
-TEST(FlattenComponent, IsTheEuclideanMapAfterEdgeSwaps)
+TEST(Flatten, IsTheEuclideanMapAfterEdgeSwaps)
 {
 	Random random(4107);
 	for (int round = 0; round < 3; ++round) {
@@ -304,7 +309,7 @@ TEST(FlattenComponent, IsTheEuclideanMapAfterEdgeSwaps)
 }
 
 /// Seven triangles round a vertex, whose strong curvature splits the boundary edge of the widest.
-TEST(FlattenComponent, IsTheEuclideanMapAfterABoundarySplit)
+TEST(Flatten, IsTheEuclideanMapAfterABoundarySplit)
 {
 	SurfaceMesh fan;
 	fan.positions.push_back({0, 0, 0});
@@ -342,13 +347,13 @@ std::vector<Case<HyperbolicOptions>> hyperbolicCases()
 	return cases;
 }
 
-TEST(FlattenComponent, IsTheHyperbolicMapOfTheMeshItIs)
+TEST(Flatten, IsTheHyperbolicMapOfTheMeshItIs)
 {
 	for (const Case<HyperbolicOptions>& c : hyperbolicCases())
 		expectSame(c);
 }
 
-TEST(FlattenComponent, IsTheHyperbolicMapOnTheCommonRefinement)
+TEST(Flatten, IsTheHyperbolicMapOnTheCommonRefinement)
 {
 	for (Case<HyperbolicOptions>& c : hyperbolicCases()) {
 		c.options = refining(c.options);
@@ -356,7 +361,7 @@ TEST(FlattenComponent, IsTheHyperbolicMapOnTheCommonRefinement)
 	}
 }
 
-TEST(FlattenComponent, IsTheHyperbolicMapOnTheGivenTriangulation)
+TEST(Flatten, IsTheHyperbolicMapOnTheGivenTriangulation)
 {
 	Random random(4104);
 	HyperbolicOptions options;
@@ -384,7 +389,7 @@ void expectComponentsOnTheirOwn(const SurfaceMesh& mesh, const AnyOptions& optio
 	}
 }
 
-TEST(FlattenComponent, DoesNotDependOnTheRestOfTheMesh)
+TEST(Flatten, DoesNotDependOnTheRestOfTheMesh)
 {
 	Random random(4105);
 	const SurfaceMesh flat = sideBySide(bumpyTorus(10, 7, random), bumpyDisk(6, random), 10.0);
@@ -401,14 +406,14 @@ TEST(FlattenComponent, DoesNotDependOnTheRestOfTheMesh)
 	}
 }
 
-TEST(FlattenComponent, KeepsToItsShareOfTheProgress)
+TEST(Flatten, KeepsToItsShareOfTheProgress)
 {
 	Random random(4106);
 	const SurfaceMesh mesh = bumpyTorus(10, 7, random);
 	Listener patient;
 	const Task task(patient);
 	const Task part(0.25, 0.75);
-	flattenComponent(componentsOf(mesh).front(), {}, euclidean(TargetCurvature::Automatic));
+	flattenToPlane(componentsOf(mesh).front(), {}, euclidean(TargetCurvature::Automatic));
 	ASSERT_GT(patient.fractions.size(), 5u);
 	EXPECT_EQ(patient.fractions.front(), 0.25);
 	EXPECT_EQ(patient.fractions.back(), 0.75);
@@ -417,7 +422,7 @@ TEST(FlattenComponent, KeepsToItsShareOfTheProgress)
 	expectWords(patient.lines.front(), {"70 vertices", "140 faces", "a torus"});
 }
 
-TEST(FlattenComponent, LeavesItToItsCallerToNameTheComponent)
+TEST(Flatten, LeavesItToItsCallerToNameTheComponent)
 {
 	const SurfaceMesh pair = sideBySide(rectangle(2, 2, 1, 1), tetrahedron(), 10);
 	const auto error = errorOf<InvalidOption>(

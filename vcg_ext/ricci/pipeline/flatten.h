@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_FLATTEN_COMPONENT_H
-#define RICCI_FLATTEN_COMPONENT_H
+#ifndef RICCI_FLATTEN_H
+#define RICCI_FLATTEN_H
 
 #include "../cut/cut_graph.h"
 #include "../flow/ricci_flow.h"
@@ -45,13 +45,16 @@ struct ComponentMap
 	int edgeSwaps = 0, boundarySplits = 0; ///< Method::EdgeSwaps
 };
 
-/// The stages of the paper on one component, in order: flow domain, initial packing (4.1), target
-/// (5.2, 5.3), flow (4.2), cut and layout (4.3), invariants, the finish, and the checks of the result
-/// by other formulas. Only target, layout, invariants and finish differ by geometry.
+/// The stages of the paper on one component, in order, to the plane: flow domain, initial packing (4.1),
+/// target (5.2, 5.3), flow (4.2), cut and layout (4.3), invariants, the finish, and the checks of the
+/// result by other formulas.
 /// \throw what the stages throw
 ComponentMap
-flattenComponent(const Component& component, const VertexInput& input, const Options& options);
-ComponentMap flattenComponent(
+flattenToPlane(const Component& component, const VertexInput& input, const Options& options);
+
+/// The same to the Poincaré disk, where neither areas nor rotations across seams are asked for, and the side
+/// pairings of the cut generate a Fuchsian group.
+ComponentMap flattenToDisk(
 	const Component& component, const VertexInput& input, const HyperbolicOptions& options);
 
 } // namespace ricci

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flatten.h"
+
+#include "../base/parallel.h"
+#include "../base/task.h"
+#include "../base/text.h"
+#include "../curvature/hyperbolic_target.h"
+#include "../cut/cut_graph.h"
+#include "../finish/finish.h"
+#include "../layout/corner_layout.h"
+#include "../layout/hyperbolic_layout.h"
+#include "../surface/flow_domain.h"
+#include "../verify/flow_check.h"
+#include "../verify/holonomy_check.h"
+#include "../verify/result_check.h"
+#include "stages.h"
+#include "whole_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// Hyperbolic distance from the centre of the disk beyond which a map is cut anew: a triangle of a
+/// fiftieth there is as small as a step of floats.
+constexpr double kWideRadius = 12.0;
+
+/// What a seam along each edge costs: its length in the metric of the flow.
+EdgeArray<double> cutCost(const FlowDomain& domain, const FlowResult& flow, Method method)
+{
+	return method == Method::IntrinsicFlips ? hyperbolicLengths(flow, domain.surface)
+											: flow.metric->lengths();
+}
+
+/// The layout of the corners in the disk, open along the cut.
+/// \return what continues it across the edges of the cut
+EdgeArray<SidePairing> placeInDisk(
+	const FlowDomain& domain,
+	LinkedPieces overlay,
+	const HyperbolicOptions& options,
+	ComponentMap& map)
+{
+	if (drawsPieces(options)) {
+		map.refinement = refine(domain, map, std::move(overlay));
+		map.layout = std::move(map.refinement.inputLayout);
+		return std::move(map.refinement.pairing);
+	}
+	DiskLayout disk = layOutCornersInDisk(domain, map.flow, map.cut.isCut);
+	map.layout = std::move(disk.corners);
+	return std::move(disk.pairing);
+}
+
+/// Farthest point of a layout from the centre of the disk, in the hyperbolic metric.
+double radiusOf(const PlanarLayout& layout)
+{
+	double r = 0.0;
+	for (const Point2& p : layout.points)
+		r = std::max(r, std::hypot(p[0], p[1]));
+	return 2.0 * std::atanh(std::min(1.0, r));
+}
+
+/// Lays the component out in the disk, with a longer cut if floats cannot hold the first one, and finds its
+/// group.
+void layOut(
+	const FlowDomain& domain,
+	LinkedPieces overlay,
+	const HyperbolicOptions& options,
+	ComponentMap& map)
+{
+	const Triangulation& t = domain.surface.triangulation;
+	EdgeArray<SidePairing> pairing = placeInDisk(domain, std::move(overlay), options, map);
+	if (const double radius = radiusOf(map.layout); radius > kWideRadius) {
+		map.cut = cutAroundCentre(t, cutCost(domain, map.flow, options.method), map.cones);
+		pairing = placeInDisk(domain, flowOverlay(domain, options, map), options, map);
+		logLine(
+			"The short seams lead " + numberText(radius, 3) +
+			" out in the disk, too far for floats. Longer ones around the middle lead " +
+			numberText(radiusOf(map.layout), 3) + " out.");
+	}
+	map.uv = cornersOf(t, map.layout);
+	pairing = pairingOfArcs(t, map.cut, pairing, map.cones);
+	map.relationError = holonomyError(
+		t, map.cut, pairing, map.layout, domain.surface.topology, map.cones, map.flow.target);
+	advance(1.0 - kAfterFlow, "Canonical generators");
+	map.group = fuchsianGroup(t, map.cut, pairing, map.cones, options.canonicalGenerators);
+	if (options.canonicalGenerators && !map.group.isCanonical())
+		logLine(
+			"There are no canonical generators: they would move points farther than floating point "
+			"numbers can tell.");
+}
+
+/// The finish of what is given back, the refinement or the mesh's own triangles.
+void finish(const FlowDomain& domain, const HyperbolicOptions& options, ComponentMap& map)
+{
+	if (!isFinished(options))
+		return;
+	const bool freeBoundary = map.flow.target.hasFixed();
+	const bool refined = options.output == OutputTriangulation::CommonRefinement;
+	FlatMesh flat = refined ? flatMeshOf(domain.surface, map.refinement)
+							: flatMeshOf(domain.surface, map.layout);
+	map.finishMoved = finishInDisk(flat, freeBoundary).moved;
+	if (refined) {
+		for (const int f : flat.points.indices())
+			map.refinement.uv[positionOf(f)] = flat.at(f);
+		return;
+	}
+	map.layout.points = std::move(flat.place);
+	map.uv = cornersOf(domain.surface.triangulation, map.layout);
+}
+
+} // namespace
+
+ComponentMap flattenToDisk(
+	const Component& component, const VertexInput& input, const HyperbolicOptions& options)
+{
+	ComponentMap map;
+	advance(0.0, "Circle packing");
+	const FlowDomain domain = flowDomain(component, Holes::Boundaries);
+	describe(component, domain, map);
+	advance(0.0, "Flipping edges");
+	InitialPacking start = initialPacking(domain.solved(), options); // 4.1
+	advance(0.0, "Choosing the target");
+	const TargetInput values = targetInput(component, input, component.vertex.size());
+	const Target target =
+		chooseHyperbolicTarget(domain.surface.topology, options, values);        // 5.2, 5.3
+	map.flow = runFlow(domain.solved(), std::move(start), target, options, map); // 4.2
+	measurePeriods(map);
+	logFlow(map.flow, options);
+
+	map.cones = conesOf(domain.surface, map.flow.target);
+	advance(1.0 - kAfterFlow, "Shortening the seams");
+	// Wedges at cones may be as wide as they like in the disk.
+	LinkedPieces overlay = cutAndOverlay( // 4.3
+		domain,
+		cutCost(domain, map.flow, options.method),
+		{},
+		options,
+		map);
+	layOut(domain, std::move(overlay), options, map); // 4.3
+	map.seamLength = lengthOf(map.cut, domain.surface.lengths);
+	map.hyperbolicArea = map.flow.area;
+	advance(1.0 - kAfterFlow, "Repairing the map");
+	besides(
+		threadsFor(domain.surface.triangulation.faceCount()),
+		[&] { finish(domain, options, map); },
+		[&] { requireMetric(map.flow, domain.solved().topology.boundary); });
+
+	advance(1.0, "Checking the result");
+	map.mesh = flatMesh(component, map, options.output);
+	requireDisk(map.mesh, map.flow, mayBeFlipped(map, options.output));
+	return map;
+}
+
+} // namespace ricci

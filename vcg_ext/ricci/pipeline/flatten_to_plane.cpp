@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "flatten.h"
+
+#include "../base/attempt.h"
+#include "../base/parallel.h"
+#include "../base/task.h"
+#include "../base/text.h"
+#include "../curvature/target_curvature.h"
+#include "../cut/cut_graph.h"
+#include "../cut/seam_cost.h"
+#include "../finish/finish.h"
+#include "../layout/corner_layout.h"
+#include "../measure/distortion.h"
+#include "../measure/invariants.h"
+#include "../seamless/make_seamless.h"
+#include "../surface/flow_domain.h"
+#include "../verify/flow_check.h"
+#include "../verify/holonomy_check.h"
+#include "../verify/result_check.h"
+#include "keep_areas.h"
+#include "stages.h"
+#include "whole_map.h"
+
+#include <cmath>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// makeSeamless() as the options say.
+void makeSeamless(
+	const EmbeddedSurface& surface,
+	const TargetRequest& request,
+	const Options& options,
+	ComponentMap& map)
+{
+	if (options.method != Method::IntrinsicFlips)
+		return;
+	const FlowTo flowTo = [&](const Target& target) {
+		return attempt([&] {
+			return runFlow(surface, initialPacking(surface, options), target, options, map);
+		});
+	};
+	const HolonomyRounding done = makeSeamless(surface, request, options.epsilon, flowTo, map.flow);
+	if (done.before > 0.0)
+		logLine(
+			"The rotations across seams are up to " + numberText(done.before, 3) +
+			" from a multiple of a quarter turn, and " + numberText(done.after, 3) +
+			" once the metric has changed.");
+}
+
+/// The layout of the corners of the component, open along the cut.
+void placeCorners(
+	const FlowDomain& domain, LinkedPieces overlay, const Options& options, ComponentMap& map)
+{
+	if (drawsPieces(options)) {
+		map.refinement = refine(domain, map, std::move(overlay));
+		map.layout = std::move(map.refinement.inputLayout);
+	}
+	else
+		map.layout = layOutCorners(domain, map.flow, map.cut.isCut);
+}
+
+/// Area in the flow's metric of the triangles that are given back, without caps.
+double areaInPlane(const FlowDomain& domain, const ComponentMap& map)
+{
+	if (domain.holes == 0)
+		return map.flow.area;
+	double area = 0.0;
+	for (const Triangle2& p : map.refinement.uv)
+		area += 0.5 * doubledArea(p[0], p[1], p[2]);
+	if (map.refinement.uv.empty())
+		for (const Triangle2& p : cornersOf(domain.surface.triangulation, map.layout))
+			area += 0.5 * doubledArea(p[0], p[1], p[2]);
+	return area;
+}
+
+/// Lays the component out in the plane, upright and with its area unless the boundary keeps its metric. Drops
+/// seams from the cut round which the metric closes.
+void layOut(
+	const Component& component,
+	const FlowDomain& domain,
+	LinkedPieces overlay,
+	const Options& options,
+	ComponentMap& map)
+{
+	const Triangulation& t = domain.surface.triangulation;
+	const bool mayChangeCut = map.type.boundaryLoops > 1 && domain.holes == 0;
+	placeCorners(domain, std::move(overlay), options, map);
+	if (mayChangeCut) {
+		// A hole round which the metric closes needs no seam.
+		const int edges = map.cut.edgeCount;
+		dropSeamsToHoles(
+			t,
+			domain.surface.lengths,
+			loopsThatClose(t, map.layout, map.cut.isCut),
+			map.cones,
+			map.cut);
+		if (map.cut.edgeCount < edges)
+			placeCorners(domain, flowOverlay(domain, options, map), options, map);
+	}
+	if (!map.flow.target.hasFixed()) // else the boundary keeps its metric, which fixes the scale
+		map.scale = std::sqrt(
+			surfaceArea(component.positions.values(), component.triangles) /
+			areaInPlane(domain, map));
+	turnUpright(map.scale, map);
+	map.uv = cornersOf(t, map.layout);
+}
+
+/// The finish of what is given back. The invariants are those of the flow's own layout.
+void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
+{
+	if (!isFinished(options) || options.output == OutputTriangulation::CommonRefinement)
+		return; // the refinement is exact
+	FlatMesh flat = flatMeshOf(domain.surface, map.layout);
+	map.finishMoved =
+		finishInPlane(flat, map.cones, map.flow.target.hasFixed(), domain.onHole, options.finish)
+			.moved;
+	flat.place.swap(map.layout.points);
+	if (map.layout.points != flat.place) // its border may have moved
+		turnUpright(1.0, map);
+	map.uv = cornersOf(domain.surface.triangulation, map.layout);
+}
+
+} // namespace
+
+ComponentMap
+flattenToPlane(const Component& component, const VertexInput& input, const Options& options)
+{
+	if (options.method == Method::EdgeSwaps)
+		return flattenWithEdgeSwaps(component, input, options); // 5.4
+	ComponentMap map;
+	advance(0.0, "Circle packing");
+	const FlowDomain domain = flowDomain(component, options.holes);
+	describe(component, domain, map);
+	advance(0.0, "Flipping edges");
+	InitialPacking start = initialPacking(domain.solved(), options); // 4.1
+	advance(0.0, "Choosing the target");
+	const TargetRequest request =
+		targetRequest(component, input, options, domain.solved().positions.size());
+	const Target target = chooseTarget(domain.solved(), start, request);         // 5.2, 5.3
+	map.flow = runFlow(domain.solved(), std::move(start), target, options, map); // 4.2
+	measurePeriods(map);
+	keepAreas(domain.solved(), request, options, map);
+	makeSeamless(domain.solved(), request, options, map);
+	logFlow(map.flow, options);
+
+	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
+	advance(1.0 - kAfterFlow, "Shortening the seams");
+	const EmbeddedSurface& surface = domain.surface;
+	LinkedPieces overlay = cutAndOverlay( // 4.3
+		domain,
+		seamCost(surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
+		cornersOfCones(surface, map.flow.target, map.cones),
+		options,
+		map);
+	layOut(component, domain, std::move(overlay), options, map); // 4.3
+	map.seamLength = lengthOf(map.cut, surface.lengths);
+	conformalInvariants(surface.triangulation, map);
+	advance(1.0 - kAfterFlow, "Repairing the map");
+	besides(
+		threadsFor(surface.triangulation.faceCount()),
+		[&] { finish(domain, options, map); },
+		[&] { requireMetric(map.flow, domain.solved().topology.boundary); });
+	if (options.cones.rounding == ConeRounding::QuarterTurns)
+		map.holonomyError =
+			holonomyError(surface.triangulation, map.layout, map.cut.isCut, map.cones);
+
+	advance(1.0, "Checking the result");
+	map.mesh = flatMesh(component, map, options.output);
+	requireMap(map.mesh, map.flow, mayBeFlipped(map, options.output));
+	return map;
+}
+
+} // namespace ricci
