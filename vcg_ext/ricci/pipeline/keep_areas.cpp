@@ -9,6 +9,7 @@
 #include "../flow/improve.h"
 #include "stages.h"
 
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -40,7 +41,7 @@ void keepAreas(
 	ComponentMap& map)
 {
 	FlowResult& best = map.flow;
-	std::optional<FlowResult> last; // where it is not the best
+	std::unique_ptr<const FlowResult> last; // where it is not the best
 	const auto propose = [&]() -> std::optional<FlowResult> {
 		const FlowResult& before = last ? *last : best;
 		if (keepsAreas(surface, before))
@@ -58,7 +59,7 @@ void keepAreas(
 		if (isBest)
 			best = std::move(next);
 		else
-			last = std::move(next);
+			last = std::make_unique<const FlowResult>(std::move(next));
 		return isBest;
 	};
 	const int round = improve(best, kMaxRounds, kMaxVainRounds, propose, take);

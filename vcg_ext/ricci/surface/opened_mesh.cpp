@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace ricci {
@@ -233,15 +234,16 @@ private:
 				glued[s] = m_across[s];
 		DisjointSetsOf<Corner> fans = fansOf(glued);
 		Array<Corner> fanAt(m_positions.size()); // [vertex] the first that is met
-		Array<char> isSplit(m_positions.size(), 0);
+		std::set<int> split;
 		for (const Corner corner : glued.indices()) {
 			const int v = m_triangles[corner];
 			const Corner fan = fans.find(corner);
 			if (!fanAt[v].isValid())
 				fanAt[v] = fan;
-			isSplit[v] |= fanAt[v] != fan;
+			if (fanAt[v] != fan)
+				split.insert(v);
 		}
-		m_opened.splitVertices = static_cast<int>(std::count(isSplit.begin(), isSplit.end(), 1));
+		m_opened.splitVertices = static_cast<int>(split.size());
 	}
 
 	/// Finds the sides of boundary loops other than the longest of each component.
