@@ -101,7 +101,8 @@ ricci::Point3 inFace(const ricci::SurfacePoint& p, const ricci::Triangle& face)
 class WatchedFile : public QIODevice
 {
 public:
-	explicit WatchedFile(QIODevice& file) : m_file(file)
+	/// \param expected bytes, to the order of magnitude
+	WatchedFile(QIODevice& file, double expected) : m_file(file), m_expected(expected)
 	{
 		open(QIODevice::WriteOnly | QIODevice::Unbuffered);
 	}
@@ -120,7 +121,8 @@ protected:
 	qint64 writeData(const char* data, qint64 size) override
 	{
 		try {
-			ricci::checkpoint();
+			m_bytes += static_cast<double>(size);
+			ricci::advance(m_bytes / (m_bytes + m_expected), "Writing the texture");
 		}
 		catch (...) {
 			m_thrown = std::current_exception();
@@ -137,6 +139,7 @@ protected:
 
 private:
 	QIODevice& m_file;
+	double m_expected, m_bytes = 0.0;
 	std::exception_ptr m_thrown;
 };
 
@@ -390,8 +393,7 @@ void CarriedTexture::write()
 	m_file.setFileName(m_path);
 	// Without Qt's buffer: it drops what no longer fits on a full disk and reports no error.
 	if (m_file.open(QIODevice::WriteOnly | QIODevice::Unbuffered)) {
-		ricci::advance(0.0, "Writing the texture");
-		WatchedFile file(m_file);
+		WatchedFile file(m_file, 0.25 * m_result.bytesPerLine() * m_result.height());
 		QImageWriter writer(&file, "png");
 		writer.setQuality(
 			70); // of compression: a sixth of the default's time, files a sixth larger

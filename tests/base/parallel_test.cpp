@@ -165,7 +165,10 @@ TEST(Besides, WhatIsThrownInOneEndsTheOther)
 		const std::vector<int> seen = written;
 		EXPECT_EQ(written, seen);
 		const auto failsAside = [] { throw std::logic_error("aside"); };
-		EXPECT_THROW(besides(2, [] {}, failsAside), std::logic_error);
+		EXPECT_THROW(
+			besides(
+				2, [] {}, failsAside),
+			std::logic_error);
 	}
 }
 

@@ -38,14 +38,10 @@ Outline star(double size, Random& random)
 	return polygon(corners);
 }
 
-std::vector<Motion> pack(
-	const std::vector<Outline>& outlines,
-	double side,
-	double room,
-	ChartTurns turns)
+std::vector<Motion>
+pack(const std::vector<Outline>& outlines, double side, double room, ChartTurns turns)
 {
-	return packOutlines(
-		outlines, std::vector<ChartTurns>(outlines.size(), turns), side, room);
+	return packOutlines(outlines, std::vector<ChartTurns>(outlines.size(), turns), side, room);
 }
 
 std::vector<Outline> moved(std::vector<Outline> outlines, const std::vector<Motion>& motions)

@@ -4,8 +4,8 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/error.h>
 #include <ricci/curvature/admissible.h>
+#include <ricci/error.h>
 
 #include <gtest/gtest.h>
 

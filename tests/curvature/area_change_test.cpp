@@ -6,8 +6,8 @@
 #include "support/transform.h"
 
 #include <ricci/base/tolerances.h>
-#include <ricci/measure/distortion.h>
 #include <ricci/curvature/area_change.h>
+#include <ricci/measure/distortion.h>
 
 #include <gtest/gtest.h>
 

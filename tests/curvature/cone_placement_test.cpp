@@ -8,11 +8,11 @@
 #include "support/transform.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/error.h>
-#include <ricci/parametrize.h>
 #include <ricci/curvature/area_change.h>
 #include <ricci/curvature/cone_placement.h>
 #include <ricci/curvature/target_curvature.h>
+#include <ricci/error.h>
+#include <ricci/parametrize.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -363,7 +363,8 @@ TEST(ConePlacement, TakesTheStartOfTheFlowForItsOwn)
 	onInput.method = Method::FixedTriangles;
 	ConeRequest request;
 	request.count = 6;
-	InitialPacking shared = initialPacking(surface, FlowOptions()), other = initialPacking(surface, onInput);
+	InitialPacking shared = initialPacking(surface, FlowOptions()),
+				   other = initialPacking(surface, onInput);
 	const PlacedCones a = placeCones(surface, shared, request);
 	const PlacedCones b = placeCones(surface, other, request);
 	EXPECT_EQ(a.vertices, b.vertices);

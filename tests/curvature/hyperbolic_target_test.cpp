@@ -5,8 +5,8 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/error.h>
 #include <ricci/curvature/hyperbolic_target.h>
+#include <ricci/error.h>
 
 #include <gtest/gtest.h>
 

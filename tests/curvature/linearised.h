@@ -29,8 +29,8 @@ struct Linearised
 	LinearFlow flow;
 
 	explicit Linearised(const LinearCase& c) :
-			packed(c.mesh), surface(surfaceOf(packed)), start(initialPacking(surface, FlowOptions())),
-			flow(surface, start, c.boundary)
+			packed(c.mesh), surface(surfaceOf(packed)),
+			start(initialPacking(surface, FlowOptions())), flow(surface, start, c.boundary)
 	{
 	}
 };

@@ -4,8 +4,8 @@
 #include "support/shapes.h"
 #include "support/transform.h"
 
-#include <ricci/surface/topology.h>
 #include <ricci/curvature/rectangle_corners.h>
+#include <ricci/surface/topology.h>
 
 #include <gtest/gtest.h>
 

@@ -8,10 +8,10 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/tolerances.h>
-#include <ricci/error.h>
 #include <ricci/curvature/area_change.h>
 #include <ricci/curvature/rectangle_corners.h>
 #include <ricci/curvature/target_curvature.h>
+#include <ricci/error.h>
 
 #include <gtest/gtest.h>
 

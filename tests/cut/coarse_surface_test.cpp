@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/listener.h"
 #include "support/expect.h"
+#include "support/listener.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -126,7 +126,8 @@ TEST(CoarseSurface, CanBeCancelled)
 	const VertexArray<char> unmarked(p.triangulation.vertexCount(), 0);
 	Listener impatient(1);
 	EXPECT_THROW(
-		heard(impatient, [&] { CoarseSurface(p.triangulation, p.lengths, unmarked, 200); }), Cancelled);
+		heard(impatient, [&] { CoarseSurface(p.triangulation, p.lengths, unmarked, 200); }),
+		Cancelled);
 }
 
 } // namespace

@@ -119,8 +119,7 @@ TEST(ConeWedges, NoneIsWiderThanAFullTurnAndTheCutStaysADisk)
 			continue;
 		const HalfedgeArray<double> corners = coneCorners(t, p.lengths, chosen.angle);
 		const CutGraph plain = cutToDisk(t, p.lengths, chosen.marked, {});
-		const CutGraph cut = cutToDisk(
-			t, p.lengths, chosen.marked, {}, corners);
+		const CutGraph cut = cutToDisk(t, p.lengths, chosen.marked, {}, corners);
 		expectOpensToADisk(t, cut.isCut);
 		EXPECT_EQ(cut.generators.size(), plain.generators.size());
 		EXPECT_GE(cut.length, plain.length * (1 - 1e-9));
@@ -154,8 +153,7 @@ TEST(ConeWedges, NarrowConesChangeNothing)
 	const Cones cones(t, 10, 1.8 * kPi, random);
 	const HalfedgeArray<double> corners = coneCorners(t, p.lengths, cones.angle);
 	const CutGraph plain = cutToDisk(t, p.lengths, cones.marked, {});
-	const CutGraph cut = cutToDisk(
-		t, p.lengths, cones.marked, {}, corners);
+	const CutGraph cut = cutToDisk(t, p.lengths, cones.marked, {}, corners);
 	EXPECT_TRUE(cut.isCut == plain.isCut);
 }
 

@@ -91,7 +91,8 @@ TEST(CutGraph, OpensLargeSurfacesToADisk)
 			for (int i = 0; i < 12; ++i)
 				marked[Vertex(random.index(t.vertexCount()))] = 1;
 			Listener ticks;
-			const CutGraph cut = heard(ticks, [&] { return cutToDisk(t, packed.lengths, marked, {}); });
+			const CutGraph cut =
+				heard(ticks, [&] { return cutToDisk(t, packed.lengths, marked, {}); });
 			EXPECT_GT(ticks.calls(), 5);
 			expectCutToADisk(t, cut);
 			EXPECT_EQ(static_cast<int>(cut.generators.size()), 2 * genus);

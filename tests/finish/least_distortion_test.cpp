@@ -70,8 +70,7 @@ struct CutMap
 		for (const int f : flat.points.indices())
 			plane.push_back(flat.at(f));
 		Report report;
-		measureDistortion(
-			flat.vertices, mesh.positions, Array<Triangle2>(plane), report);
+		measureDistortion(flat.vertices, mesh.positions, Array<Triangle2>(plane), report);
 		return report;
 	}
 };

@@ -6,9 +6,9 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/fuchsian/fuchsian_group.h>
 #include <ricci/fuchsian/tiling.h>
+#include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/metric/area.h>
 #include <ricci/metric/circle_packing.h>
 #include <ricci/metric/hyperbolic.h>

@@ -6,8 +6,8 @@
 #include <ricci/base/numbers.h>
 #include <ricci/base/tolerances.h>
 #include <ricci/error.h>
-#include <ricci/math/disjoint_sets.h>
 #include <ricci/fuchsian/canonical_generators.h>
+#include <ricci/math/disjoint_sets.h>
 
 #include <gtest/gtest.h>
 

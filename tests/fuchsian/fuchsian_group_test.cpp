@@ -8,10 +8,10 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/tolerances.h>
-#include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/fuchsian/canonical_polygon.h>
 #include <ricci/fuchsian/fuchsian_group.h>
 #include <ricci/fuchsian/tiling.h>
+#include <ricci/layout/hyperbolic_layout.h>
 
 #include <gtest/gtest.h>
 

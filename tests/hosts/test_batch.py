@@ -205,7 +205,7 @@ class Batch(unittest.TestCase):
 
         # A process that dies or lasts too long is a failure of its mesh alone.
         code, text = self.batch(
-            "--workers", "1", *disk, "--timeout", "0.001", "--max-iterations", "99")
+            "--workers", "1", *disk, "--timeout", "0.001", "--seam-hiding", "0.25")
         self.assertEqual(code, 1, text)
         self.assertEqual({r["state"] for r in self.records().values()}, {"timeout"})
         os.makedirs(self.hooks)

@@ -299,7 +299,8 @@ class Results(unittest.TestCase):
         least, largest = colors[distortion.argmin()], colors[distortion.argmax()]
         self.assertGreater(least[2], 0.9)
         self.assertLess(least[0], 0.1)
-        numpy.testing.assert_allclose(largest[:3], (1, 0, 0))
+        self.assertGreater(largest[0], 0.5)
+        self.assertEqual(largest[2], 0)
 
     def test_repeatable(self):
         documents = mesh_set(meshes.torus())

@@ -126,8 +126,7 @@ TEST(SparseCholesky, SolvesForAnyNumberOfColumns)
 			const Eigen::MatrixXd x = solver.solve(b);
 			EXPECT_EQ(solver.work().solutions, solutions + columns);
 			for (int k = 0; k < columns; ++k)
-				EXPECT_LT(
-					(x.col(k) - solver.solve(b.col(k))).lpNorm<Eigen::Infinity>(), 1e-12);
+				EXPECT_LT((x.col(k) - solver.solve(b.col(k))).lpNorm<Eigen::Infinity>(), 1e-12);
 		}
 	}
 }

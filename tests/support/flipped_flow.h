@@ -4,14 +4,14 @@
 
 #include "random.h"
 
+#include <ricci/curvature/hyperbolic_target.h>
+#include <ricci/curvature/target_curvature.h>
 #include <ricci/cut/cut_graph.h>
 #include <ricci/flow/ricci_flow.h>
 #include <ricci/layout/common_refinement.h>
 #include <ricci/metric/initial_packing.h>
 #include <ricci/options.h>
 #include <ricci/surface/flow_domain.h>
-#include <ricci/curvature/hyperbolic_target.h>
-#include <ricci/curvature/target_curvature.h>
 
 #include <vector>
 

@@ -431,7 +431,8 @@ TEST(CarryTexture, VisitsOnlyTheTilesOfAPicture)
 	}
 	Picture<unsigned char> result(size, size);
 	Listener ticks;
-	heard(ticks, [&] { return carryTexture<unsigned char>(mesh, views, false, result.target(), 1); });
+	heard(
+		ticks, [&] { return carryTexture<unsigned char>(mesh, views, false, result.target(), 1); });
 	// All tiles of all pictures would be 64 * 64 of them, the rows of the fill are 512.
 	EXPECT_LT(ticks.calls(), 512 + pictures * 16);
 	for (int y = 0; y < size; ++y)

@@ -5,8 +5,8 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/math/disk_isometry.h>
 #include <ricci/fuchsian/fuchsian_group.h>
+#include <ricci/math/disk_isometry.h>
 #include <ricci/verify/holonomy_check.h>
 
 #include <gtest/gtest.h>

@@ -60,7 +60,7 @@ enum class OutputTriangulation {
 enum class Charts {
 	OfTheFlow,      ///< they are not
 	WithoutOverlap, ///< a chart that covers a part of the plane more than once becomes several
-					///< that do not; the others stay as they are
+	///< that do not; the others stay as they are
 	WithoutOverlapAndStrips ///< so do strips, if charts then cover about twice as much of the unit
 							///< square. A cut counts as one of an overlap; rectangles stay whole
 };

@@ -37,8 +37,8 @@ void checkOptions(const HyperbolicOptions& options);
 /// README.md lists this and all other sources.
 /// \throw InvalidMesh, InvalidOption, InadmissibleCurvature, NotConverged, SolverFailed, TooLarge,
 /// Stopped; where the mesh has several components, with the failed one named
-Parametrization parametrizeEuclidean(
-	const SurfaceMesh& mesh, const VertexInput& input, const Options& options);
+Parametrization
+parametrizeEuclidean(const SurfaceMesh& mesh, const VertexInput& input, const Options& options);
 
 /// The hyperbolic generalized Ricci flow from a mesh to the Poincaré disk, component by component.
 /// The uv coordinates are points of the unit disk, the middle of each component at 0; u is
@@ -47,9 +47,7 @@ Parametrization parametrizeEuclidean(
 /// would add its distortion. A face counts as flipped if its geodesic triangle is.
 /// \throw as parametrizeEuclidean()
 Parametrization parametrizeHyperbolic(
-	const SurfaceMesh& mesh,
-	const VertexInput& input,
-	const HyperbolicOptions& options);
+	const SurfaceMesh& mesh, const VertexInput& input, const HyperbolicOptions& options);
 
 } // namespace ricci
 

@@ -103,8 +103,7 @@ void tasksInParallel(int count, int threads, const Work& work)
 	try {
 		others.reserve(thrown.size());
 		for (std::size_t i = 1; i < std::min(thrown.size(), static_cast<std::size_t>(count)); ++i)
-			others.push_back(
-				std::async(std::launch::async, [&, i] { unlessEnded(i, runTasks); }));
+			others.push_back(std::async(std::launch::async, [&, i] { unlessEnded(i, runTasks); }));
 	}
 	catch (const std::system_error&) { // no more threads to be had
 	}

@@ -224,7 +224,8 @@ PlacedCones result(ConeModel& model)
 
 } // namespace
 
-PlacedCones placeCones(const EmbeddedSurface& surface, const InitialPacking& start, const ConeRequest& request)
+PlacedCones
+placeCones(const EmbeddedSurface& surface, const InitialPacking& start, const ConeRequest& request)
 {
 	LinearFlow flow(surface, start, request.boundary);
 	return placeCones(surface, flow, request);
@@ -249,8 +250,7 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequ
 {
 	advance(0.0, "Placing cones");
 	const ConeSites sites(surface, request.vertices);
-	LinearFlow linear(
-		surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)));
+	LinearFlow linear(surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)));
 	ConeModel model(linear, 2 * kPi * surface.topology.type.eulerCharacteristic());
 	std::vector<Vertex> cones;
 	for (const Vertex v : surface.triangulation.vertices())

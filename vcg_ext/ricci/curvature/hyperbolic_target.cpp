@@ -22,8 +22,8 @@ void setCones(
 	for (const Vertex v : cones)
 		target.curvature[v] = (topology.boundary[v] ? kPi : 2 * kPi) - angle;
 	target.notes.push_back(
-		std::to_string(cones.size()) + " cones of angle " +
-		numberText(angle * 180.0 / kPi, 9) + " degrees each.");
+		std::to_string(cones.size()) + " cones of angle " + numberText(angle * 180.0 / kPi, 9) +
+		" degrees each.");
 }
 
 void freeTheBoundary(const Topology& topology, Target& target)

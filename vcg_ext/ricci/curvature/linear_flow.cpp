@@ -125,9 +125,7 @@ LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
 }
 
 void LinearFlow::factorize(
-	const EmbeddedSurface& surface,
-	const CurvatureMap& map,
-	ConeBoundary boundary)
+	const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary)
 {
 	m_hessian = std::make_unique<FactoredHessian>(
 		m_fixesBoundary ? surface.topology.boundary : VertexArray<char>(vertexCount(), 0),

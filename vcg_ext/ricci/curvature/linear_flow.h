@@ -36,10 +36,7 @@ public:
 	/// Delaunay start made here.
 	/// \param start the start of the flow on \p surface
 	/// \throw SolverFailed
-	LinearFlow(
-		const EmbeddedSurface& surface,
-		const InitialPacking& start,
-		ConeBoundary boundary);
+	LinearFlow(const EmbeddedSurface& surface, const InitialPacking& start, ConeBoundary boundary);
 
 	/// Factorises L where \p flow has led. Where that ran on the double of the surface, L is that of
 	/// a Delaunay start.
@@ -104,10 +101,7 @@ public:
 
 private:
 	void computeAreas(const CurvatureMap& map);
-	void factorize(
-		const EmbeddedSurface& surface,
-		const CurvatureMap& map,
-		ConeBoundary boundary);
+	void factorize(const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary);
 	void spreadSink(const EmbeddedSurface& surface);
 	void balance(VertexVector& rhs) const;
 	Eigen::MatrixXd solveRows(const Eigen::MatrixXd& rhs);

@@ -226,7 +226,10 @@ void setPlacedCones(
 
 /// Cones where they lower the distortion of area.
 void choosePlacedCones(
-	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request, Target& target)
+	const EmbeddedSurface& surface,
+	const InitialPacking& start,
+	const TargetRequest& request,
+	Target& target)
 {
 	setPlacedCones(surface, placeCones(surface, start, coneRequest(request)), request, target);
 }
@@ -263,7 +266,10 @@ void setPlain(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 
 /// The plain target where areas are expected to keep well enough with it, else placed cones.
 void choosePlainOrCones(
-	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request, Target& target)
+	const EmbeddedSurface& surface,
+	const InitialPacking& start,
+	const TargetRequest& request,
+	Target& target)
 {
 	// In an annulus, cones come with a free boundary.
 	const bool isFlat = isFlatAnnulus(surface, request);
@@ -289,7 +295,10 @@ void choosePlainOrCones(
 }
 
 void setAutomatic(
-	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request, Target& target)
+	const EmbeddedSurface& surface,
+	const InitialPacking& start,
+	const TargetRequest& request,
+	Target& target)
 {
 	const SurfaceType& type = surface.topology.type;
 	if (type.isClosed() && !type.isTorus()) {
@@ -311,7 +320,8 @@ void check(const EmbeddedSurface& surface, const Target& target)
 
 } // namespace
 
-Target chooseTarget(const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request)
+Target chooseTarget(
+	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request)
 {
 	Target target = zeroTarget(surface.topology);
 	switch (request.options.target) {

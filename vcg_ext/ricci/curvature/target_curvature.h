@@ -15,8 +15,7 @@ struct TargetRequest : TargetInput
 {
 	TargetOptions options;
 	bool measuresAreas = true; ///< false: Automatic decides by topology alone
-	bool hasSeam = false; ///< see OpenedMesh: Automatic makes no flat annulus of it
-
+	bool hasSeam = false;      ///< see OpenedMesh: Automatic makes no flat annulus of it
 
 	/// Under which notes name vertices; placed cones lie at these alone. Empty: their own numbers,
 	/// and cones at any.
@@ -34,7 +33,8 @@ struct TargetRequest : TargetInput
 /// \throw InadmissibleCurvature otherwise, with the numbers that contradict each other
 /// \throw InvalidMesh (BoundaryWithoutLength)
 /// \throw SolverFailed where cones are placed
-Target chooseTarget(const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request);
+Target chooseTarget(
+	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request);
 
 /// Whether \p flow changes areas no more than its target was chosen for, or its target was not chosen
 /// to keep them.

@@ -2,8 +2,8 @@
 #ifndef RICCI_SWAPPED_FLOW_H
 #define RICCI_SWAPPED_FLOW_H
 
-#include "../flow/ricci_flow.h"
 #include "../curvature/target_curvature.h"
+#include "../flow/ricci_flow.h"
 #include "boundary_split.h"
 
 #include <functional>

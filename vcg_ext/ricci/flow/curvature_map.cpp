@@ -212,12 +212,7 @@ void FlippingCurvatureMap<Geometry>::evaluate(const VertexVector& u, const Verte
 		m_kappa[v] = static_cast<double>(this->m_circles[v].kappa);
 	CirclePacking& packing = this->m_packing;
 	const int flips = makeWeightedDelaunay(
-		packing.triangulation,
-		packing.delta,
-		m_kappa,
-		m_journal,
-		m_queue,
-		this->m_threads);
+		packing.triangulation, packing.delta, m_kappa, m_journal, m_queue, this->m_threads);
 	if (flips > 0)
 		++this->m_revision;
 	this->evaluateEdges();

@@ -26,10 +26,8 @@ constexpr double kMaxStartU = -1e-3;
 
 } // namespace
 
-InitialPacking initialPacking(
-	IntrinsicMesh mesh,
-	const VertexArray<Vertex>& mirror,
-	const FlowOptions& options)
+InitialPacking
+initialPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const FlowOptions& options)
 {
 	if (options.method == Method::IntrinsicFlips)
 		return delaunayPacking(std::move(mesh), mirror);

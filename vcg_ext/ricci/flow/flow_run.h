@@ -17,10 +17,8 @@ namespace ricci {
 /// The packing in which a flow with these options starts: with intrinsic flips on the weighted
 /// Delaunay triangulation of \p mesh, else on its own.
 /// \param mirror see delaunayPacking()
-InitialPacking initialPacking(
-	IntrinsicMesh mesh,
-	const VertexArray<Vertex>& mirror,
-	const FlowOptions& options);
+InitialPacking
+initialPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const FlowOptions& options);
 
 /// The target on the double of a surface, whose curvature is twice as large on the boundary.
 /// \param mirror [vertex of the double] its image in the other copy

@@ -64,7 +64,8 @@ constexpr double kSumRounding = 24.0 * std::numeric_limits<double>::epsilon();
 
 NewtonSolver::NewtonSolver(
 	CurvatureMap& map, VertexArray<char> fixed, const VertexArray<Vertex>& mirror) :
-		m_map(&map), m_fixed(std::move(fixed))
+		m_map(&map),
+		m_fixed(std::move(fixed))
 {
 	const bool anyFixed = std::find(m_fixed.begin(), m_fixed.end(), 1) != m_fixed.end();
 	m_gaugeFree = !anyFixed && map.scaleInvariant();
@@ -214,7 +215,7 @@ NewtonSolver::Verdict NewtonSolver::judge(Run& run)
 
 /// Solves H d = -(K - target), with the last factor as long as that takes less work than a new one, or
 /// if there is one and the step only polishes.
-/// \return whether the direction is finite
+/// \return whether there is one and it is finite
 bool NewtonSolver::findDirection(Run& run, Verdict verdict)
 {
 	// Nothing is gained by solving for less than rounding leaves.
@@ -227,10 +228,12 @@ bool NewtonSolver::findDirection(Run& run, Verdict verdict)
 	Eigen::VectorXd solution;
 	const bool usable =
 		m_hessian->isFactored() && !m_hessian->isShifted() && m_map->brokenTriangles() == 0;
-	bool solved = keepsFactor && !usable;
-	if (solved)
-		solution = cholesky.solve(rhs);
-	else if (usable && (!m_worn || keepsFactor)) {
+	if (keepsFactor && !usable) {
+		run.isStuck = true; // a shifted factor polishes nothing
+		return false;
+	}
+	bool solved = false;
+	if (usable && (!m_worn || keepsFactor)) {
 		const int limit = solutionsPerFactorization(cholesky);
 		const int iterations =
 			cholesky.iterate(m_hessian->hessian().matrix(), rhs, accuracy, limit, solution);

@@ -17,9 +17,9 @@ namespace ricci {
 /// When Newton's method stops.
 struct NewtonOptions
 {
-	double epsilon = 1e-8; ///< radians: wanted bound of max |target - K|
+	double epsilon = 1e-8;   ///< radians: wanted bound of max |target - K|
 	int maxIterations = 200; ///< fewer than 30 are needed as a rule
-	bool polishes = true; ///< goes on beyond epsilon with the factor that is there
+	bool polishes = true;    ///< goes on beyond epsilon with the factor that is there
 
 	/// Above this rounding floor there is nothing to polish: the caller goes on in other precision.
 	double maxPolishedFloor = std::numeric_limits<double>::infinity();

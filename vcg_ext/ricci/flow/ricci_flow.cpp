@@ -25,8 +25,7 @@ constexpr double kRoughEpsilon = 0.3;
 
 } // namespace
 
-InitialPacking
-initialPacking(const EmbeddedSurface& surface, const FlowOptions& options)
+InitialPacking initialPacking(const EmbeddedSurface& surface, const FlowOptions& options)
 {
 	return initialPacking({surface.triangulation, surface.lengths}, {}, options);
 }

@@ -16,8 +16,7 @@ namespace ricci {
 
 /// The initial packing (paper 4.1): with intrinsic flips on the weighted Delaunay triangulation,
 /// else on the surface's own triangles.
-InitialPacking initialPacking(
-	const EmbeddedSurface& surface, const FlowOptions& options);
+InitialPacking initialPacking(const EmbeddedSurface& surface, const FlowOptions& options);
 
 /// The metric of constant curvature (with cones) that the flow found on one connected surface.
 struct FlowResult
@@ -33,7 +32,7 @@ struct FlowResult
 	double residual = 0.0;  ///< max |target - K|
 	double floor = 0.0;     ///< what rounding lets the residual reach
 	int iterations = 0;
-	CholeskyWork work;   ///< of the linear solver, on the surface the result is from
+	CholeskyWork work; ///< of the linear solver, on the surface the result is from
 
 	// What leads from the input's triangles to those of the result:
 	Triangulation input;     ///< the surface, or its double

@@ -40,8 +40,8 @@ ExtendedIsometry productOf(const GroupWord& word, const Array<ExtendedIsometry>&
 /// \return one basis for each way that is followed to its end, the one that moves 0 least first;
 /// nothing where all move 0 by more than kMaxSearchedDistance
 /// \throw InternalError if \p word is not that of a polygon whose corners are all one point
-std::vector<Handles> canonicalBases(
-	const GroupWord& word, const Array<ExtendedIsometry>& generators);
+std::vector<Handles>
+canonicalBases(const GroupWord& word, const Array<ExtendedIsometry>& generators);
 
 /// Moves \p generators by as little as possible (in the sum of squares, on the Lie algebra) so that
 /// the product of \p word times \p tail is +-1. The metric holds more rounding than this

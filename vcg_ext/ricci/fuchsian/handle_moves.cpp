@@ -203,8 +203,7 @@ double relationCondition(const Handles& handles)
 	return sum;
 }
 
-Handles bestConditioned(
-	const std::vector<Handles>& bases, const std::vector<Isometry>& peripheral)
+Handles bestConditioned(const std::vector<Handles>& bases, const std::vector<Isometry>& peripheral)
 {
 	Handles best;
 	if (bases.empty())

@@ -34,9 +34,8 @@ double relationCondition(const Handles& handles);
 /// \return nothing where each basis is left with a letter that moves 0 by more than
 /// kMaxGeneratorDistance, or the relation is beyond what numbers hold
 /// \pre all bases have the same number of handles; the relation holds but for rounding
-Handles bestConditioned(
-	const std::vector<Handles>& bases,
-	const std::vector<ExtendedIsometry>& peripheral);
+Handles
+bestConditioned(const std::vector<Handles>& bases, const std::vector<ExtendedIsometry>& peripheral);
 
 } // namespace ricci
 

@@ -310,8 +310,7 @@ LinkedPieces overlayOf(const FlowDomain& domain, const FlowResult& flow)
 	advance(kDivided, kOverlay);
 	const Triangulation& end = flow.metric->triangulation();
 	requireOverlayMemory(static_cast<std::size_t>(pieces.nodes.size() - end.vertexCount()), true);
-	return linkPieces(
-		std::move(pieces), flow.input, end, domain.surface.triangulation.faceCount());
+	return linkPieces(std::move(pieces), flow.input, end, domain.surface.triangulation.faceCount());
 }
 
 CommonRefinement commonRefinement(

@@ -51,8 +51,7 @@ public:
 		const HalfedgeArray<double>& angles,
 		const EdgeArray<char>& isCut) :
 			m_t(t),
-			m_lengths(lengths), m_angles(angles), m_isCut(isCut),
-			m_alongEdge(t.edgeCount())
+			m_lengths(lengths), m_angles(angles), m_isCut(isCut), m_alongEdge(t.edgeCount())
 	{
 		for (const Edge e : t.edges()) {
 			checkpointNowAndThen(positionOf(e));

@@ -16,9 +16,7 @@ constexpr int kNodesBetweenTicks = 1 << 12;
 } // namespace
 
 MinCut::Side MinCut::run(
-	const std::vector<int>& sources,
-	const std::vector<int>& sinks,
-	const ForEdges& forEdges)
+	const std::vector<int>& sources, const std::vector<int>& sinks, const ForEdges& forEdges)
 {
 	clear();
 	for (const Tree tree : {kSources, kSinks})

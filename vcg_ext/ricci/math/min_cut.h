@@ -37,10 +37,8 @@ public:
 
 	/// A cut of minimum capacity between \p sources and \p sinks, which have no node in common.
 	/// \return the side that was found: of all minimum cuts the one with the fewest nodes on it
-	Side run(
-		const std::vector<int>& sources,
-		const std::vector<int>& sinks,
-		const ForEdges& forEdges);
+	Side
+	run(const std::vector<int>& sources, const std::vector<int>& sinks, const ForEdges& forEdges);
 
 private:
 	enum Tree : char { kSources, kSinks, kNone };

@@ -202,8 +202,7 @@ struct SparseCholesky::Implementation
 			flops += (1.0 + below) * (1.0 + below);
 		}
 		if (entries > std::numeric_limits<int>::max())
-			throw TooLarge(
-				TooLarge::Unknowns, static_cast<std::size_t>(pattern.rows()), 0.0, 0.0);
+			throw TooLarge(TooLarge::Unknowns, static_cast<std::size_t>(pattern.rows()), 0.0, 0.0);
 	}
 
 	bool factorize(const Matrix& matrix)

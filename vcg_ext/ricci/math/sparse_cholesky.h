@@ -2,7 +2,6 @@
 #ifndef RICCI_SPARSE_CHOLESKY_H
 #define RICCI_SPARSE_CHOLESKY_H
 
-
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 

@@ -180,9 +180,7 @@ Eigen::MatrixXd canonicalBasis(Eigen::MatrixXi wedge)
 /// Laplacian has no factor. With the forms t and the functions f that make them harmonic, they are
 /// <t_j, t_k + df_k>.
 Eigen::MatrixXd energies(
-	const Triangulation& t,
-	const EdgeArray<double>& weights,
-	const std::vector<DualLoop>& loops)
+	const Triangulation& t, const EdgeArray<double>& weights, const std::vector<DualLoop>& loops)
 {
 	checkpoint();
 	const int unknowns = t.vertexCount() - 1; // the value at the first vertex is held
@@ -310,8 +308,7 @@ void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 
 } // namespace
 
-PeriodMatrix
-periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths)
+PeriodMatrix periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths)
 {
 	const std::vector<DualLoop> loops = dualLoops(t);
 	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops);

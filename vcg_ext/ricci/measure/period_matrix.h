@@ -38,9 +38,7 @@ struct PeriodMatrix
 ///
 /// \param lengths of the edges; the bound is best on the Delaunay triangulation [Rippa 1990]
 /// \pre \p t is connected, closed and of genus 1 at least; its triangles have an area
-PeriodMatrix periodMatrix(
-	const Triangulation& t,
-	const EdgeArray<double>& lengths);
+PeriodMatrix periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths);
 
 /// The period matrix in another basis [Siegel 1989], [Deconinck et al. 2004]: its imaginary part is
 /// reduced in the sense of Minkowski up to g = 4 (beyond that, no vector of the basis is made shorter

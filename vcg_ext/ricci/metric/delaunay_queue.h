@@ -2,8 +2,8 @@
 #ifndef RICCI_DELAUNAY_QUEUE_H
 #define RICCI_DELAUNAY_QUEUE_H
 
-#include "../error.h"
 #include "../base/task.h"
+#include "../error.h"
 #include "../surface/triangulation.h"
 
 #include <algorithm>
@@ -36,12 +36,7 @@ struct DelaunayQueue
 	/// \pre the stack is empty, queued[first] is 0; edges that are queued wait for a later call
 	/// \throw NotConverged (FlipsUsedUp) beyond maxFlips()
 	template<class IsGood, class Flip>
-	void flipFrom(
-		Edge first,
-		const Triangulation& t,
-		std::int64_t& flips,
-		IsGood isGood,
-		Flip flip)
+	void flipFrom(Edge first, const Triangulation& t, std::int64_t& flips, IsGood isGood, Flip flip)
 	{
 		edges.push_back(first);
 		while (!edges.empty()) {

@@ -66,8 +66,7 @@ bool isDelaunay(const IntrinsicMesh& mesh, const VertexArray<double>& radii, Edg
 }
 
 /// Flips edges until all are Delaunay for circles of these radii, and appends them to \p log.
-void makeDelaunay(
-	IntrinsicMesh& mesh, const VertexArray<double>& radii, std::vector<Edge>& log)
+void makeDelaunay(IntrinsicMesh& mesh, const VertexArray<double>& radii, std::vector<Edge>& log)
 {
 	Triangulation& t = mesh.triangulation;
 	const auto isGood = [&](Edge e) { return isDelaunay(mesh, radii, e); };
@@ -145,8 +144,7 @@ double flippedLength(const IntrinsicMesh& mesh, Edge e)
 	return std::hypot(k.along - (mesh.lengths[e] - l.along), k.height + l.height);
 }
 
-InitialPacking
-delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror)
+InitialPacking delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror)
 {
 	InitialPacking packing;
 	packing.isDelaunay = true;

@@ -51,8 +51,7 @@ double flippedLength(const IntrinsicMesh& mesh, Edge e);
 /// itself); may be empty
 /// \throw InternalError where an edge is left without a length; NotConverged (FlipsUsedUp) where
 /// rounding keeps the flips from ending
-InitialPacking
-delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror);
+InitialPacking delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror);
 
 /// The start on the mesh's own triangles, with the radii of paper 4.1 (initialRadii()).
 /// \pre every triangle satisfies the strict triangle inequality

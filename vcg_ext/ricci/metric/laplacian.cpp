@@ -26,8 +26,8 @@ void forTriangles(const Triangulation& t, const EdgeArray<double>& lengths, cons
 
 } // namespace
 
-EdgeArray<double> cotangentWeights(
-	const Triangulation& t, const EdgeArray<double>& lengths, double maxCotangent)
+EdgeArray<double>
+cotangentWeights(const Triangulation& t, const EdgeArray<double>& lengths, double maxCotangent)
 {
 	EdgeArray<double> weights(t.edgeCount(), 0.0);
 	forTriangles(t, lengths, [&](const auto& h, const auto& l, double area) {

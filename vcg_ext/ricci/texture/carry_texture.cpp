@@ -369,8 +369,7 @@ void carryTexture(
 	std::vector<char> covered;
 	{
 		const Sources sources(mesh, result.width);
-		const TextureDrawing<Sample> drawing(
-			mesh, sources, charts, hasAlpha, result, threads);
+		const TextureDrawing<Sample> drawing(mesh, sources, charts, hasAlpha, result, threads);
 		for (std::size_t i = 0; i < pictures.size(); ++i) {
 			if (faces[i].empty())
 				continue;

@@ -21,10 +21,8 @@ constexpr std::int16_t kNone = std::numeric_limits<std::int16_t>::max();
 
 /// [texel] that offset, of a tie the one above; kNone where the column has none.
 template<class Sample>
-std::vector<std::int16_t> offsetsInColumns(
-	const std::vector<char>& covered,
-	const PictureView<Sample>& picture,
-	int threads)
+std::vector<std::int16_t>
+offsetsInColumns(const std::vector<char>& covered, const PictureView<Sample>& picture, int threads)
 {
 	std::vector<std::int16_t> offsets(picture.texels(), kNone);
 	const int tasks = (picture.width + kColumns - 1) / kColumns;
@@ -111,9 +109,7 @@ private:
 
 template<class Sample>
 void fillFromNearest(
-	const std::vector<char>& covered,
-	const PictureView<Sample>& picture,
-	int threads)
+	const std::vector<char>& covered, const PictureView<Sample>& picture, int threads)
 {
 	const std::vector<std::int16_t> offsets = offsetsInColumns(covered, picture, threads);
 	const int tasks = (picture.height + kRows - 1) / kRows;
@@ -139,9 +135,7 @@ void fillFromNearest(
 	});
 }
 
-template void
-fillFromNearest(const std::vector<char>&, const PictureView<unsigned char>&, int);
-template void
-fillFromNearest(const std::vector<char>&, const PictureView<unsigned short>&, int);
+template void fillFromNearest(const std::vector<char>&, const PictureView<unsigned char>&, int);
+template void fillFromNearest(const std::vector<char>&, const PictureView<unsigned short>&, int);
 
 } // namespace ricci

@@ -13,9 +13,7 @@ namespace ricci {
 /// [Felzenszwalb Huttenlocher 2012]. Needs 2 bytes for each texel.
 template<class Sample>
 void fillFromNearest(
-	const std::vector<char>& covered,
-	const PictureView<Sample>& picture,
-	int threads);
+	const std::vector<char>& covered, const PictureView<Sample>& picture, int threads);
 
 extern template void
 fillFromNearest(const std::vector<char>&, const PictureView<unsigned char>&, int);

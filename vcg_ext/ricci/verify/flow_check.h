@@ -12,8 +12,7 @@ namespace ricci {
 /// reached.
 /// \param boundary [vertex of the surface on which the flow ran] 1 on its boundary
 /// \throw NotConverged
-void requireMetric(
-	const FlowResult& flow, const VertexArray<char>& boundary);
+void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary);
 
 /// Sum of |target - K| over the surface, in radians: all of the curvature by which the result
 /// misses its target.
