@@ -67,7 +67,7 @@ struct Wanted
 };
 
 /// The triangles that are not sound, and so many rings round them.
-std::vector<int> near(const FlatMesh& mesh, std::vector<int> bad, int rings)
+std::vector<int> near(const FlatMesh& mesh, const std::vector<int>& bad, int rings)
 {
 	std::vector<char> isTaken(positionOf(mesh.size()), 0), isNear(mesh.source.values().size(), 0);
 	for (const int f : bad)

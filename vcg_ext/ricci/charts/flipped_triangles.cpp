@@ -68,6 +68,7 @@ void reflectFlipped(Parametrization& map)
 	const Sides sides(mesh.vertices.values());
 	const auto before = seams(mesh, sides);
 	std::vector<Triangle2> corners;
+	corners.reserve(flipped.size());
 	for (const int f : flipped)
 		corners.push_back(mesh.at(f));
 	for (std::size_t i = 0; i < flipped.size(); ++i) {
