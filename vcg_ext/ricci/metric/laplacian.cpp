@@ -57,7 +57,7 @@ Eigen::SparseMatrix<double> laplacian(
 	Eigen::VectorXd diagonal)
 {
 	std::vector<Eigen::Triplet<double>> entries;
-	entries.reserve(weights.size() + row.size());
+	entries.reserve(positionOf(weights.size() + row.size()));
 	for (const Edge e : t.edges()) {
 		const auto ends = t.ends(e);
 		const int a = row[ends[0]], b = row[ends[1]];
