@@ -23,9 +23,8 @@ parts=(clang long-double windows extra-plugins)
 
 for argument in "$@"; do
 	case $argument in
-	--all) programs+=(flow_test target_test charts_test finish_test bolza_surface_test
-		period_matrix_test pipeline_test parametrize_test parametrize_hyperbolic_test
-		conformal_invariants_test sphere_map_test free_memory_test) ;;
+	--all) programs+=(flow_test curvature_test seamless_test charts_test finish_test fuchsian_test measure_test
+		pipeline_test conformal_invariants_test free_memory_test) ;;
 	*) parts=("$argument") ;;
 	esac
 done
