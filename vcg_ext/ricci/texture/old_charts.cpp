@@ -39,6 +39,7 @@ bool isSame(const std::vector<TexturedFace>& faces, Corner c, Corner d)
 std::vector<int> oldCharts(const std::vector<TexturedFace>& faces)
 {
 	std::vector<Triangle> triangles;
+	triangles.reserve(faces.size());
 	for (const TexturedFace& face : faces)
 		triangles.push_back(face.vertices);
 	DisjointSets sets(static_cast<int>(faces.size()));
