@@ -197,7 +197,7 @@ void expectAppended(const SurfaceMesh& mesh, const AnyOptions& options)
 		const Component& c = components[i];
 		const ComponentMap map = flattened(c, options);
 		const int first = whole.mesh.size();
-		append(c, map, whole);
+		append(c, asParametrization(c, map), whole);
 		ASSERT_EQ(whole.mesh.size(), first + map.mesh.size());
 		ASSERT_EQ(whole.charts.size(), i + 1);
 		for (const int f : map.mesh.points.indices()) {

@@ -25,7 +25,10 @@ Report& Report::operator+=(const Report& next)
 		  &Report::boundaryLoops,
 		  &Report::cappedHoles,
 		  &Report::cones,
-		  &Report::seamEdges})
+		  &Report::seamEdges,
+		  &Report::overlappingCharts,
+		  &Report::overlappingFaces,
+		  &Report::overlapCuts})
 		this->*count += next.*count;
 	seamLength += next.seamLength;
 	for (double Report::*error : {&Report::maxCurvatureError, &Report::residualFloor})

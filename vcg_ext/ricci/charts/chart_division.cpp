@@ -36,7 +36,7 @@ public:
 		numberPieces();
 	}
 
-	std::vector<std::vector<int>> run(ChartCuts& cuts)
+	std::vector<std::vector<int>> run()
 	{
 		// A cut makes no overlaps: each of these triangles is the largest of its part in turn.
 		for (const int i : overlappingByArea())
@@ -52,12 +52,6 @@ public:
 			if (!part.empty())
 				parts.push_back(std::move(part));
 		std::sort(parts.begin(), parts.end());
-		cuts = ChartCuts();
-		for (const Corner side : m_cutSides)
-			if (m_part[side.face()] != m_part[m_graph.joined(side).face()]) {
-				++cuts.edges;
-				cuts.length += m_chart.lengths[side];
-			}
 		return parts;
 	}
 
@@ -228,13 +222,10 @@ private:
 
 } // namespace
 
-std::vector<std::vector<int>> divideChart(
-	const FlatMesh& chart,
-	const Sides& sides,
-	const std::vector<TrianglePair>& pairs,
-	ChartCuts& cuts)
+std::vector<std::vector<int>>
+divideChart(const FlatMesh& chart, const Sides& sides, const std::vector<TrianglePair>& pairs)
 {
-	return ChartDivider(chart, sides, pairs).run(cuts);
+	return ChartDivider(chart, sides, pairs).run();
 }
 
 } // namespace ricci

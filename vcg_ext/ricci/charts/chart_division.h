@@ -8,13 +8,6 @@
 
 namespace ricci {
 
-/// What a division cuts: edges of the chart's triangles, each counted once.
-struct ChartCuts
-{
-	int edges = 0;
-	double length = 0.0; ///< on the surface
-};
-
 /// Divides a chart along edges of its triangles so that no part contains both triangles of one of
 /// \p pairs. Two triangles are neighbours where their sides are joined (joinedSide()).
 ///
@@ -26,13 +19,9 @@ struct ChartCuts
 /// end neighbouring parts that do not cover each other are joined again. The same input always gives
 /// the same parts.
 /// \param pairs from overlappingPairs()
-/// \param cuts receives what was cut
 /// \return the triangles of each connected part, in increasing order, the parts by their first
-std::vector<std::vector<int>> divideChart(
-	const FlatMesh& chart,
-	const Sides& sides,
-	const std::vector<TrianglePair>& pairs,
-	ChartCuts& cuts);
+std::vector<std::vector<int>>
+divideChart(const FlatMesh& chart, const Sides& sides, const std::vector<TrianglePair>& pairs);
 
 } // namespace ricci
 

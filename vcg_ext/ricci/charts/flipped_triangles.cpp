@@ -3,6 +3,7 @@
 
 #include "../base/tolerances.h"
 #include "../math/orientation.h"
+#include "separate_charts.h"
 
 #include <complex>
 #include <cstddef>
@@ -30,21 +31,6 @@ std::size_t oppositeLongest(const Triangle2& p)
 	return best;
 }
 
-/// Seams of the map as it is: their number, and their length on the surface.
-std::pair<int, double> seams(const FlatMesh& mesh, const Sides& sides)
-{
-	std::pair<int, double> sum{0, 0.0};
-	sides.forEdges([&](const auto& ofEdge) {
-		const Corner side = *ofEdge.begin();
-		if (const Corner other = sides.across(side);
-			!other.isValid() || isJoined(mesh, side, other))
-			return;
-		++sum.first;
-		sum.second += mesh.lengths[side];
-	});
-	return sum;
-}
-
 } // namespace
 
 void reflectFlipped(Parametrization& map)
@@ -66,7 +52,7 @@ void reflectFlipped(Parametrization& map)
 	if (flipped.empty())
 		return;
 	const Sides sides(mesh.vertices.values());
-	const auto before = seams(mesh, sides);
+	const Seams before = seams(mesh, sides);
 	std::vector<Triangle2> corners;
 	corners.reserve(flipped.size());
 	for (const int f : flipped)
@@ -77,9 +63,7 @@ void reflectFlipped(Parametrization& map)
 		mesh.place.push_back(reflected(corners[i], k));
 	}
 	splitPoints(mesh);
-	const auto after = seams(mesh, sides);
-	map.report.overlapCuts += after.first - before.first;
-	map.report.seamLength += after.second - before.second;
+	countCuts(before, sides, map);
 }
 
 } // namespace ricci

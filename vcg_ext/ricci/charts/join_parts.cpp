@@ -6,77 +6,185 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <set>
+#include <map>
+#include <queue>
 #include <utility>
 
 namespace ricci {
 
 namespace {
 
-/// Share of the area in space below which a part is no part of its own if that can be had; and up to
-/// which it grows.
-constexpr double kCrumb = 0.01, kGrown = 0.012;
+/// Share of the area in space below which a part is no part of its own if that can be had.
+constexpr double kCrumb = 0.01;
 
+/// Places at which a part is tried before it is divided: the round wall of a hole has as many as facets.
+constexpr std::ptrdiff_t kMaxPlaces = 8;
+
+using Parts = std::vector<std::vector<int>>; // triangles of each
+
+/// What parts are left: the triangles of each in increasing order, the parts by their first.
+Parts partsOf(const MovableParts& movable)
+{
+	Parts parts;
+	for (int part = 0; part < movable.count(); ++part)
+		if (!movable.isEmpty(part)) {
+			parts.push_back(movable.trianglesOf(part));
+			std::sort(parts.back().begin(), parts.back().end());
+		}
+	std::sort(parts.begin(), parts.end());
+	return parts;
+}
+
+/// Puts the triangles where the parts are, and joins the sides that lie on each other there.
+void take(const MovableParts& parts, const Sides& sides, FlatMesh& chart)
+{
+	numberPoints(
+		sides,
+		[&](Corner c) { return parts.at(c.face())[c.index()]; },
+		[&](Corner side, Corner) { return parts.isJoined(side); },
+		chart);
+}
+
+/// Joins whole parts.
 class PartJoiner
 {
 public:
-	PartJoiner(
-		FlatMesh& chart,
-		const Sides& sides,
-		const BoxTree& tree,
-		const std::vector<std::vector<int>>& parts) :
-			m_chart(chart),
-			m_sides(sides), m_parts(chart, sides, tree, parts), m_mark(chart.size(), kNone),
-			m_scratch(chart.size(), -1)
+	PartJoiner(const FlatMesh& chart, const Sides& sides, MovableParts& parts) :
+			m_chart(chart), m_sides(sides), m_parts(parts), m_borders(parts.count())
 	{
 	}
 
-	JoinedParts run()
-	{
-		JoinedParts result;
-		measureSeams(-1, result.seams);
-		joinWhole();
-		double total = 0.0;
-		for (int part = 0; part < m_parts.count(); ++part)
-			total += m_parts.area(part);
-		const auto isCrumb = [&](int part) {
-			return !m_parts.isEmpty(part) && m_parts.area(part) < kCrumb * total;
-		};
-		for (int part = 0; part < m_parts.count(); ++part)
-			if (isCrumb(part))
-				dissolve(part, kCrumb * total);
-		for (int part = 0; part < m_parts.count(); ++part)
-			if (isCrumb(part))
-				grow(part, kGrown * total);
-		for (int part = 0; part < m_parts.count(); ++part)
-			if (!m_parts.isEmpty(part)) {
-				result.parts.push_back(m_parts.trianglesOf(part));
-				std::sort(result.parts.back().begin(), result.parts.back().end());
-			}
-		std::sort(result.parts.begin(), result.parts.end());
-		measureSeams(1, result.seams);
-		numberPoints(
-			m_sides,
-			[&](Corner c) { return m_parts.at(c.face())[c.index()]; },
-			[&](Corner side, Corner) { return m_parts.isJoined(side); },
-			m_chart);
-		return result;
-	}
-
-private:
-	/// Adds the seams as they are, \p sign times.
-	void measureSeams(int sign, ChartCuts& cuts) const
+	/// Two parts at a time, along the longest border at which the one with fewer triangles has room beside
+	/// the other. Parts only grow: a border without room stays without.
+	void run()
 	{
 		for (const int f : m_chart.points.indices())
 			m_parts.forSides(f, [&](Corner side, Corner across) {
-				if (across > side && !m_parts.isJoined(side)) {
-					cuts.edges += sign;
-					cuts.length += sign * m_chart.lengths[side];
-				}
+				const int part = m_parts.partOf(f), other = m_parts.partOf(across.face());
+				if (part < other && m_parts.fits(m_parts.across(side), side))
+					add({side, m_chart.lengths[side]}, part, other);
 			});
+		for (int part = 0; part < m_borders.size(); ++part)
+			for (const auto& [other, borders] : m_borders[part])
+				for (const Border& border : borders)
+					if (part < other)
+						m_open.push({border, part, other});
+		while (!m_open.empty()) {
+			checkpoint();
+			Candidate next = m_open.top();
+			m_open.pop();
+			if (!isPresent(next))
+				continue;
+			if (m_parts.size(next.part) > m_parts.size(next.other))
+				std::swap(next.part, next.other);
+			const Corner side = sideIn(next.part, next.border);
+			const Place place{next.other, m_parts.across(side), next.border.length};
+			if (!m_parts.covering(next.part, place, [](int, int) { return true; }))
+				join(next.part, place);
+		}
 	}
 
-	/// Those with the longest borders first.
+private:
+	/// Sides of two parts that one motion brings to those across.
+	struct Border
+	{
+		Corner side;   ///< one of them
+		double length; ///< of all, on the surface
+	};
+
+	struct Candidate
+	{
+		Border border;
+		int part, other;
+
+		/// The shorter border comes later; of two as long, that of the later side.
+		bool operator<(const Candidate& c) const
+		{
+			return border.length != c.border.length ? border.length < c.border.length
+													: border.side > c.border.side;
+		}
+	};
+
+	Corner sideIn(int part, const Border& border) const
+	{
+		return m_parts.partOf(border.side.face()) == part ? border.side
+														  : m_sides.across(border.side);
+	}
+
+	/// Adds a border to what two parts have in common. \return the border that it has become
+	Border add(const Border& added, int part, int other)
+	{
+		std::vector<Border>& borders = m_borders[part][other];
+		const Corner side = sideIn(part, added);
+		auto known = std::find_if(borders.begin(), borders.end(), [&](const Border& b) {
+			return m_parts.fits(m_parts.across(sideIn(part, b)), side);
+		});
+		if (known == borders.end())
+			known = borders.insert(known, added);
+		else
+			known->length += added.length;
+		m_borders[other][part] = borders;
+		return *known;
+	}
+
+	/// Whether the parts still are two, with a border as long as it was.
+	bool isPresent(const Candidate& c) const
+	{
+		const auto borders = m_borders[c.part].find(c.other);
+		return borders != m_borders[c.part].end() &&
+			   std::any_of(borders->second.begin(), borders->second.end(), [&](const Border& b) {
+				   return b.side == c.border.side && b.length == c.border.length;
+			   });
+	}
+
+	void join(int part, const Place& place)
+	{
+		const int whole = place.other;
+		m_parts.move(m_parts.trianglesOf(part), place);
+		m_parts.commit();
+		m_borders[whole].erase(part);
+		for (const auto& [other, borders] : m_borders[part]) {
+			if (other == whole)
+				continue;
+			m_borders[other].erase(part);
+			for (const Border& border : borders)
+				m_open.push({add(border, whole, other), whole, other});
+		}
+		m_borders[part].clear();
+	}
+
+	const FlatMesh& m_chart;
+	const Sides& m_sides;
+	MovableParts& m_parts;
+	Array<std::map<int, std::vector<Border>>> m_borders; // [part] with each other part
+	std::priority_queue<Candidate> m_open;
+};
+
+/// Divides parts that are too small to stay among others.
+class CrumbDivider
+{
+public:
+	CrumbDivider(const FlatMesh& chart, MovableParts& parts) :
+			m_chart(chart), m_parts(parts), m_mark(chart.size(), kNone), m_scratch(chart.size(), -1)
+	{
+	}
+
+	void run()
+	{
+		double total = 0.0;
+		for (int part = 0; part < m_parts.count(); ++part)
+			total += m_parts.area(part);
+		std::vector<std::pair<double, int>> crumbs;
+		for (int part = 0; part < m_parts.count(); ++part)
+			if (!m_parts.isEmpty(part) && m_parts.area(part) < kCrumb * total)
+				crumbs.emplace_back(m_parts.area(part), part);
+		std::sort(crumbs.begin(), crumbs.end());
+		for (const auto& [area, part] : crumbs)
+			dissolve(part, kCrumb * total);
+	}
+
+private:
+	/// Those with the longest borders, the longest first.
 	std::vector<Place> placesOf(int part) const
 	{
 		std::vector<Place> places;
@@ -96,31 +204,9 @@ private:
 		std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
 			return a.length > b.length;
 		});
+		if (static_cast<std::ptrdiff_t>(places.size()) > kMaxPlaces)
+			places.erase(places.begin() + kMaxPlaces, places.end());
 		return places;
-	}
-
-	/// Moves all parts that have room elsewhere, the smallest first.
-	void joinWhole()
-	{
-		std::set<std::pair<double, int>> open; // by area
-		for (int part = 0; part < m_parts.count(); ++part)
-			open.insert({m_parts.area(part), part});
-		while (open.size() > 1) {
-			const int part = open.begin()->second;
-			open.erase(open.begin());
-			for (const Place& place : placesOf(part)) {
-				checkpoint();
-				if (m_parts.covering(part, place, [](int, int) { return true; }))
-					continue;
-				// A part that has no room stays without.
-				const bool isOpen = open.erase({m_parts.area(place.other), place.other}) > 0;
-				m_parts.move(m_parts.trianglesOf(part), place);
-				m_parts.commit();
-				if (isOpen)
-					open.insert({m_parts.area(place.other), place.other});
-				break;
-			}
-		}
 	}
 
 	/// Divides a part among others. \return whether nothing is left of it
@@ -166,15 +252,34 @@ private:
 		return divide(displaced);
 	}
 
-	/// Does away with a part, or leaves all as it is.
+	/// Length of the seams at \p triangles, which are in increasing order.
+	double seamsAt(const std::vector<int>& triangles) const
+	{
+		double length = 0.0;
+		for (const int f : triangles)
+			m_parts.forSides(f, [&](Corner side, Corner across) {
+				if (m_parts.isJoined(side))
+					return;
+				const bool isInside =
+					std::binary_search(triangles.begin(), triangles.end(), across.face());
+				length += (isInside ? 0.5 : 1.0) * m_chart.lengths[side];
+			});
+		return length;
+	}
+
+	/// Does away with a part if seams get no longer by it, or leaves all as it is.
 	void dissolve(int part, double maxArea)
 	{
-		bool isDone = divide(part);
+		std::vector<int> triangles = m_parts.trianglesOf(part);
+		std::sort(triangles.begin(), triangles.end());
+		const double before = seamsAt(triangles);
+		const auto isShorter = [&] { return seamsAt(triangles) <= before; };
+		bool isDone = divide(part) && isShorter();
 		if (!isDone) {
 			m_parts.undo();
 			for (const Place& place : placesOf(part)) {
 				checkpoint();
-				isDone = displace(part, place, maxArea);
+				isDone = displace(part, place, maxArea) && isShorter();
 				if (isDone)
 					break;
 				m_parts.undo();
@@ -237,62 +342,6 @@ private:
 		return free;
 	}
 
-	/// Gives a part triangles of another one, up to an area that the other has twice.
-	void grow(int part, double area)
-	{
-		for (const Place& place : placesOf(part)) {
-			checkpoint();
-			if (m_parts.area(place.other) < 2.0 * area)
-				continue;
-			const std::vector<int> given = nextTo(part, place, area);
-			if (given.empty())
-				continue;
-			m_parts.move(given, {part, place.motion.inverse(), 0.0});
-			m_parts.commit();
-			return;
-		}
-	}
-
-	/// Triangles of the other part, from the common border on, that cover nothing of the part at its
-	/// new place and leave the other one in one piece. None if they do not have the area with the part.
-	std::vector<int> nextTo(int part, const Place& place, double area)
-	{
-		std::vector<int> marked, taken;
-		m_parts.covering(part, place, [&](int, int g) {
-			marked.push_back(g);
-			m_mark[g] = kCovering;
-			return false;
-		});
-		double sum = m_parts.area(part);
-		const auto take = [&](int f) {
-			if (m_parts.partOf(f) != place.other || m_mark[f] != kNone)
-				return;
-			m_mark[f] = kTaken;
-			taken.push_back(f);
-			sum += m_parts.areaOf(f);
-		};
-		for (const int f : m_parts.trianglesOf(part))
-			m_parts.forSides(f, [&](Corner side, Corner across) {
-				if (m_parts.fits(place.motion, side))
-					take(across.face());
-			});
-		for (std::size_t i = 0; i < taken.size() && sum < area; ++i)
-			m_parts.forSides(taken[i], [&](Corner side, Corner across) {
-				if (m_parts.isJoined(side))
-					take(across.face());
-			});
-		// What is cut off by it goes with it.
-		bool isWhole = sum >= area;
-		for (const std::vector<int>& piece : smallerPiecesRound(taken, place.other))
-			for (const int f : piece) {
-				isWhole = isWhole && m_mark[f] == kNone;
-				take(f);
-			}
-		unmark(marked);
-		unmark(taken);
-		return isWhole ? taken : std::vector<int>();
-	}
-
 	void unmark(const std::vector<int>& triangles)
 	{
 		for (const int f : triangles)
@@ -301,22 +350,26 @@ private:
 
 	enum Mark : char { kNone, kCovering, kTaken };
 
-	FlatMesh& m_chart;
-	const Sides& m_sides;
-	MovableParts m_parts;
+	const FlatMesh& m_chart;
+	MovableParts& m_parts;
 	Array<char> m_mark;   // [triangle] Mark, kNone between uses
 	Array<int> m_scratch; // [triangle] -1 between uses
 };
 
 } // namespace
 
-JoinedParts joinParts(
-	FlatMesh& chart,
-	const Sides& sides,
-	const BoxTree& tree,
-	const std::vector<std::vector<int>>& parts)
+Parts joinParts(FlatMesh& chart, const Sides& sides, const Parts& parts)
 {
-	return PartJoiner(chart, sides, tree, parts).run();
+	const BoxTree before = boxTreeOf(chart.corners());
+	MovableParts whole(chart, sides, before, parts);
+	PartJoiner(chart, sides, whole).run();
+	take(whole, sides, chart);
+	// Parts that were put together from many are looked through faster once they are one again.
+	const BoxTree joined = boxTreeOf(chart.corners());
+	MovableParts movable(chart, sides, joined, partsOf(whole));
+	CrumbDivider(chart, movable).run();
+	take(movable, sides, chart);
+	return partsOf(movable);
 }
 
 } // namespace ricci

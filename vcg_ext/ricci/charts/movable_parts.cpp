@@ -90,6 +90,7 @@ int MovableParts::addPart()
 	m_last.push_back(-1);
 	m_groupsOf.push_back({});
 	m_area.push_back(0.0);
+	m_size.push_back(0);
 	return count() - 1;
 }
 
@@ -144,6 +145,7 @@ void MovableParts::undo()
 	m_groups.resize(m_committedGroups);
 	m_groupsOf.resize(m_committedParts);
 	m_area.resize(m_committedParts);
+	m_size.resize(m_committedParts);
 	m_first.resize(m_committedParts);
 	m_last.resize(m_committedParts);
 }
@@ -162,6 +164,7 @@ void MovableParts::append(int triangle, int part)
 int MovableParts::remove(int triangle)
 {
 	const int before = m_before[triangle], next = m_next[triangle], part = m_part[triangle];
+	--m_size[part];
 	(before >= 0 ? m_next[before] : m_first[part]) = next;
 	(next >= 0 ? m_before[next] : m_last[part]) = before;
 	return before;
@@ -171,6 +174,7 @@ void MovableParts::insertBehind(int before, int triangle, int part)
 {
 	const int next = before >= 0 ? m_next[before] : m_first[part];
 	m_part[triangle] = part;
+	++m_size[part];
 	m_before[triangle] = before;
 	m_next[triangle] = next;
 	(before >= 0 ? m_next[before] : m_first[part]) = triangle;

@@ -51,6 +51,8 @@ public:
 	bool isEmpty(int part) const { return m_first[part] < 0; }
 	std::vector<int> trianglesOf(int part) const;
 	int partOf(int triangle) const { return m_part[triangle]; }
+	/// Number of triangles.
+	int size(int part) const { return m_size[part]; }
 	/// On the surface.
 	double area(int part) const { return m_area[part]; }
 	double areaOf(int triangle) const;
@@ -164,6 +166,7 @@ private:
 	Array<Group> m_groups;
 	Array<std::vector<int>> m_groupsOf; // [part]
 	Array<double> m_area;               // [part]
+	Array<int> m_size;                  // [part]
 	// The triangles of a part are a list: those before and behind a triangle, and its ends.
 	Array<int> m_before, m_next, m_first, m_last;
 	// Since commit().

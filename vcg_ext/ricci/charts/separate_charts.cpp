@@ -24,12 +24,11 @@ using Parts = std::vector<std::vector<int>>; // triangles of each
 /// Divides the chart so that no part covers itself. A fold may hide an overlap and then go to another
 /// part than the triangles that it hides: what appears in the parts is added to the pairs, and the
 /// chart is divided anew.
-Parts separateParts(
-	const FlatMesh& chart, const Sides& sides, const OverlapSearch& overlaps, ChartCuts& cuts)
+Parts separateParts(const FlatMesh& chart, const Sides& sides, const OverlapSearch& overlaps)
 {
 	std::vector<TrianglePair> pairs = overlaps.pairs();
 	for (;;) {
-		Parts parts = divideChart(chart, sides, pairs, cuts);
+		Parts parts = divideChart(chart, sides, pairs);
 		Array<int> partOf(chart.size());
 		for (std::size_t p = 0; p < parts.size(); ++p)
 			for (const int i : parts[p])
@@ -65,6 +64,37 @@ void settle(const std::vector<int>& charts, bool turns, Parametrization& map)
 	}
 }
 
+/// Lays the charts out in rows, so that they do not lie on each other.
+void setApart(Parametrization& map)
+{
+	std::vector<Box2> boxes(map.charts.size());
+	for (const int f : map.mesh.points.indices())
+		for (const Point2& p : map.mesh.at(f))
+			boxes[positionOf(map.mesh.chart[f])].add(p);
+	double area = 0.0, width = 0.0;
+	for (const Box2& box : boxes) {
+		area += box.width() * box.height();
+		width = std::max(width, box.width());
+	}
+	width = std::max(width, std::sqrt(area));
+	std::vector<Point2> shifts;
+	Point2 corner{0.0, 0.0};
+	double height = 0.0; // of the row
+	for (const Box2& box : boxes) {
+		if (corner[0] > width) {
+			corner = {0.0, corner[1] + height};
+			height = 0.0;
+		}
+		shifts.push_back(corner - box.min);
+		corner[0] += box.width();
+		height = std::max(height, box.height());
+	}
+	const Array<int> chart = map.mesh.chartOfPoints();
+	for (const int p : map.mesh.place.indices())
+		if (chart[p] >= 0)
+			map.mesh.place[p] += shifts[positionOf(chart[p])];
+}
+
 /// Part 1 on one side of the least cut across a chart, 0 on the other; empty for a chart that is no
 /// strip.
 Array<int> halves(const FlatMesh& chart, const DualGraph& graph)
@@ -98,25 +128,13 @@ Array<int> halves(const FlatMesh& chart, const DualGraph& graph)
 }
 
 /// Puts the connected pieces of the parts of a chart in its place, the first where it was, the others
-/// last; the report counts the sides between them.
-/// \param triangles of the chart \p number of \p map, which is \p chart
+/// last.
+/// \param triangles of the chart \p number of \p map
+/// \param graph of that chart
 /// \return the numbers of the pieces, which settle() has to be called for
-std::vector<int> divide(
-	int number,
-	const std::vector<int>& triangles,
-	const FlatMesh& chart,
-	const DualGraph& graph,
-	Parametrization& map)
+std::vector<int>
+divide(int number, const std::vector<int>& triangles, const DualGraph& graph, Parametrization& map)
 {
-	double length = 0.0;
-	for (const int f : chart.points.indices())
-		for (const Corner side : cornersOf(f))
-			if (const Corner other = graph.joined(side);
-				other > side && graph.part[other.face()] != graph.part[f]) {
-				++map.report.overlapCuts;
-				length += chart.lengths[side];
-			}
-	map.report.seamLength += length;
 	std::vector<int> charts;
 	for (const std::vector<int>& piece : graph.connectedPieces()) {
 		charts.push_back(charts.empty() ? number : static_cast<int>(map.charts.size()));
@@ -132,10 +150,19 @@ std::vector<int> divide(
 
 } // namespace
 
+void countCuts(const Seams& before, const Sides& sides, Parametrization& map)
+{
+	const Seams after = seams(map.mesh, sides);
+	map.report.overlapCuts += after.edges - before.edges;
+	map.report.seamLength += after.length - before.length;
+}
+
 void separateCharts(bool resolve, bool turns, Parametrization& map)
 {
 	std::vector<Chart> charts;
-	std::vector<int> divided; // numbers of the parts
+	std::vector<int> divided;      // numbers of the parts
+	std::optional<Sides> allSides; // once there are such
+	Seams before;
 	const auto add = [&](const std::vector<int>& triangles, Chart chart) {
 		for (const int f : triangles)
 			map.mesh.chart[f] = static_cast<int>(charts.size());
@@ -167,20 +194,18 @@ void separateCharts(bool resolve, bool turns, Parametrization& map)
 			add(triangles, std::move(map.charts[c]));
 			continue;
 		}
-		ChartCuts cuts;
-		Parts parts = separateParts(chart, sides, overlaps, cuts);
-		JoinedParts joined = joinParts(chart, sides, overlaps.tree(), parts);
-		map.report.overlapCuts += joined.seams.edges;
-		map.report.seamLength += joined.seams.length;
-		map.report.overlapCuts += cuts.edges;
-		map.report.seamLength += cuts.length;
+		if (divided.empty()) {
+			allSides.emplace(map.mesh.vertices.values());
+			before = seams(map.mesh, *allSides);
+		}
+		Parts joined = joinParts(chart, sides, separateParts(chart, sides, overlaps));
 		const int first = map.mesh.place.size();
 		for (const Point2& p : chart.place)
 			map.mesh.place.push_back(p);
 		for (std::size_t i = 0; i < triangles.size(); ++i)
 			for (std::size_t k = 0; k < 3; ++k)
 				map.mesh.points[triangles[i]][k] = first + chart.points[static_cast<int>(i)][k];
-		for (std::vector<int>& part : joined.parts) {
+		for (std::vector<int>& part : joined) {
 			for (int& i : part)
 				i = triangles[positionOf(i)];
 			divided.push_back(static_cast<int>(charts.size()));
@@ -189,8 +214,27 @@ void separateCharts(bool resolve, bool turns, Parametrization& map)
 	}
 	map.charts = std::move(charts);
 	map.report.charts = static_cast<int>(map.charts.size());
-	if (!divided.empty())
-		settle(divided, turns, map);
+	if (divided.empty())
+		return;
+	settle(divided, turns, map);
+	countCuts(before, *allSides, map);
+}
+
+void joinCharts(Parametrization& map)
+{
+	FlatMesh& mesh = map.mesh;
+	setApart(map);
+	const Sides sides(mesh.vertices.values());
+	const Parts parts = joinParts(mesh, sides, mesh.trianglesByChart(map.charts.size()));
+	map.charts.assign(parts.size(), {});
+	std::vector<int> charts;
+	for (const std::vector<int>& part : parts) {
+		for (const int f : part)
+			mesh.chart[f] = static_cast<int>(charts.size());
+		charts.push_back(static_cast<int>(charts.size()));
+	}
+	map.report.charts = static_cast<int>(charts.size());
+	settle(charts, true, map);
 }
 
 std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns)
@@ -215,7 +259,10 @@ std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns)
 	if (graph.connectedPieces().size() != 2)
 		return std::nullopt;
 	Parametrization cut = map;
-	settle(divide(static_cast<int>(largest), triangles, chart, graph, cut), turns, cut);
+	const Sides allSides(map.mesh.vertices.values());
+	const Seams before = seams(map.mesh, allSides);
+	settle(divide(static_cast<int>(largest), triangles, graph, cut), turns, cut);
+	countCuts(before, allSides, cut);
 	return cut;
 }
 
@@ -234,12 +281,16 @@ bool cutOff(const std::vector<char>& isOff, Parametrization& map)
 		DualGraph graph(chart, sides);
 		for (const int i : graph.part.indices())
 			graph.part[i] = isOff[positionOf(triangles[positionOf(i)])] != 0 ? 1 : 0;
-		for (const int piece : divide(static_cast<int>(c), triangles, chart, graph, map))
+		for (const int piece : divide(static_cast<int>(c), triangles, graph, map))
 			divided.push_back(piece);
 	}
-	if (!divided.empty())
-		settle(divided, false, map);
-	return !divided.empty();
+	if (divided.empty())
+		return false;
+	const Sides sides(map.mesh.vertices.values());
+	const Seams before = seams(map.mesh, sides);
+	settle(divided, false, map);
+	countCuts(before, sides, map);
+	return true;
 }
 
 } // namespace ricci

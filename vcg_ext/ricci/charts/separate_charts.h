@@ -9,6 +9,11 @@
 
 namespace ricci {
 
+/// Counts in the report, as overlapCuts and in its seamLength, by what the seams have grown since they were
+/// \p before.
+/// \param sides of the triangles of \p map
+void countCuts(const Seams& before, const Sides& sides, Parametrization& map);
+
 /// Finds the charts of \p map that cover a part of the plane more than once (see
 /// overlappingPairs()).
 ///
@@ -18,6 +23,12 @@ namespace ricci {
 /// overlap, but what the seams have grown or shrunk by, in edges and in length. Without \p resolve the
 /// report counts the charts, and their triangles that overlap. In both cases it counts the charts.
 void separateCharts(bool resolve, bool turns, Parametrization& map);
+
+/// Joins charts across seams where they have room (joinParts()): those whose sides are as long in the
+/// plane on both sides of the seam. Each is left as separateCharts() leaves a divided one. The report
+/// counts the charts, not what the seams have shrunk by.
+/// \pre no chart overlaps itself
+void joinCharts(Parametrization& map);
 
 /// A chart this many times as long as wide is a strip.
 constexpr double kStripLength = 1.5;

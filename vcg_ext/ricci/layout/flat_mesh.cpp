@@ -127,6 +127,20 @@ std::vector<Point3> FlatMesh::onSurface(const std::vector<Point3>& positions) co
 	return places;
 }
 
+Seams seams(const FlatMesh& mesh, const Sides& sides)
+{
+	Seams sum;
+	sides.forEdges([&](const auto& ofEdge) {
+		const Corner side = ofEdge[0];
+		if (const Corner other = sides.across(side);
+			!other.isValid() || isJoined(mesh, side, other))
+			return;
+		++sum.edges;
+		sum.length += mesh.lengths[side];
+	});
+	return sum;
+}
+
 void weld(FlatMesh& mesh)
 {
 	numberPoints(

@@ -77,6 +77,14 @@ inline Corner joinedSide(const FlatMesh& mesh, const Sides& sides, Corner side)
 	return other.isValid() && isJoined(mesh, side, other) ? other : Corner();
 }
 
+/// Edges of the surface whose two sides are not joined, in one chart or two.
+struct Seams
+{
+	int edges = 0;
+	double length = 0.0; ///< on the surface, each edge once
+};
+Seams seams(const FlatMesh& mesh, const Sides& sides);
+
 /// Numbers the points anew: two corners are one point if a chain of triangles with joined sides connects
 /// them, at the place of the first of them. Points are in the order of their first corners.
 /// \param place place(corner)

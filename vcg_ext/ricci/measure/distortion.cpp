@@ -6,6 +6,7 @@
 #include "../base/parallel.h"
 #include "../base/tolerances.h"
 #include "../math/orientation.h"
+#include "../metric/area.h"
 
 #include <algorithm>
 #include <cmath>
@@ -215,6 +216,38 @@ void countFlipped(const FlatMesh& mesh, Report& report)
 			report.flippedByRounding +=
 				!isCounterClockwise({rounded(p[0]), rounded(p[1]), rounded(p[2])});
 	}
+}
+
+double stretchEnergy(const FlatMesh& mesh)
+{
+	double total = 0.0, forth = 0.0, back = 0.0; // of area, of area |J|^2, of area |J^-1|^2
+	for (const int f : mesh.points.indices()) {
+		const auto& l = mesh.lengths[f];
+		const double area = euclideanArea(l);
+		const double longest = std::max({l[0], l[1], l[2]});
+		if (!(2.0 * area > kMinTriangleHeight * longest * longest))
+			continue;
+		// In space from corner 0 along side 0, which has length a: the others end at (x, h).
+		const double a = l[0], h = 2.0 * area / a;
+		const double x = (a * a + l[2] * l[2] - l[1] * l[1]) / (2.0 * a);
+		const Triangle2 p = mesh.at(f);
+		const Point2 along = (1.0 / a) * (p[1] - p[0]);
+		const Point2 up = (1.0 / h) * ((p[2] - p[0]) - x * along);
+		const double determinant = cross(along, up), square = dot(along, along) + dot(up, up);
+		total += area;
+		forth += area * square;
+		back += area * (square / (determinant * determinant));
+	}
+	return total > 0.0 ? 2.0 * std::sqrt(forth * back) / total : 4.0;
+}
+
+double objective(const FlatMesh& mesh, double seamLength)
+{
+	double area = 0.0;
+	for (const auto& lengths : mesh.lengths)
+		area += euclideanArea(lengths);
+	const double seams = area > 0.0 ? seamLength / std::sqrt(area) : 0.0;
+	return stretchEnergy(mesh) + kSeamPrice * seams;
 }
 
 } // namespace ricci

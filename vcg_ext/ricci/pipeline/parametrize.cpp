@@ -2,8 +2,8 @@
 #include "../parametrize.h"
 
 #include "../base/task.h"
+#include "../base/text.h"
 #include "../charts/finish_in_floats.h"
-#include "../charts/flipped_triangles.h"
 #include "../charts/input_indices.h"
 #include "../charts/pack.h"
 #include "../charts/separate_charts.h"
@@ -11,6 +11,7 @@
 #include "../measure/hyperbolic_distortion.h"
 #include "../verify/result_check.h"
 #include "flatten.h"
+#include "unfold.h"
 #include "whole_map.h"
 
 #include <cmath>
@@ -41,12 +42,13 @@ void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
 }
 
 /// Maps every component.
-template<class AnyOptions>
+/// \param flatten flatten(component, input) to a Parametrization
+template<class AnyOptions, class Flatten>
 Parametrization mapComponents(
 	const SurfaceMesh& mesh,
 	const VertexInput& input,
 	const AnyOptions& options,
-	ComponentMap (*flatten)(const Component&, const VertexInput&, const AnyOptions&),
+	const Flatten& flatten,
 	OpenedMesh& opened)
 {
 	advance(0.0, "Checking the mesh");
@@ -56,12 +58,54 @@ Parametrization mapComponents(
 	extendToCopies(opened, ofCopies.selected);
 	extendToCopies(opened, ofCopies.targetCurvature);
 	runComponents(opened, components, [&](const Component& component) {
-		append(component, flatten(component, ofCopies, options), map);
+		append(component, flatten(component, ofCopies), map);
 	});
 	map.report.converged = true;
 	map.report.charts = static_cast<int>(map.charts.size());
 	advance(kComponentsDone, "Measuring the distortion");
 	return map;
+}
+
+/// Whether Automatic may unfold a component: nothing but the default has been asked for that a flow of the
+/// whole component would have to give.
+bool mayUnfold(const Component& component, const Options& options)
+{
+	return options.target == TargetCurvature::Automatic && options.freeBoundary &&
+		   options.cones.count == 0 && options.cones.rounding == ConeRounding::Free &&
+		   isFinished(options) && options.output == OutputTriangulation::KeepMesh &&
+		   options.holes != Holes::Capped && options.charts != Charts::OfTheFlow &&
+		   !component.hasSeam;
+}
+
+/// "energy 4.01, seams 11.9 (objective 4.6)"
+std::string costText(const Parametrization& map)
+{
+	const double energy = stretchEnergy(map.mesh);
+	const double cost = objective(map.mesh, map.report.seamLength);
+	return "energy " + numberText(energy, 3) + ", seams " +
+		   numberText((cost - energy) / kSeamPrice, 3) + " (objective " + numberText(cost, 3) + ")";
+}
+
+/// The charts of a component: those of the flow or, where that costs less, of the surface unfolded between
+/// its creases.
+Parametrization
+mapToPlane(const Component& component, const VertexInput& input, const Options& options)
+{
+	std::optional<Parametrization> unfolded;
+	if (mayUnfold(component, options))
+		unfolded = unfold(component, options);
+	Parametrization map = asParametrization(component, flattenToPlane(component, input, options));
+	separateCharts(options, map);
+	if (!unfolded)
+		return map;
+	const auto cost = [](const Parametrization& p) {
+		return objective(p.mesh, p.report.seamLength);
+	};
+	const bool isUnfolded = cost(*unfolded) < cost(map);
+	logLine(
+		"Cut along creases and unfolded: " + costText(*unfolded) + "; as a whole: " +
+		costText(map) + ". The " + (isUnfolded ? "first" : "second") + " is taken.");
+	return isUnfolded ? std::move(*unfolded) : std::move(map);
 }
 
 void measure(const OpenedMesh& opened, Parametrization& map)
@@ -153,16 +197,17 @@ Parametrization chartsInPlane(
 {
 	checkOptions(options);
 	const Task part(0.0, kMapped);
-	Parametrization map = mapComponents(mesh, input, options, flattenToPlane, opened);
-	const bool separates = options.charts != Charts::OfTheFlow;
-	if (isFinished(options) && separates && options.output == OutputTriangulation::KeepMesh)
-		reflectFlipped(map);
+	Parametrization map = mapComponents(
+		mesh,
+		input,
+		options,
+		[&](const Component& component, const VertexInput& ofCopies) {
+			return mapToPlane(component, ofCopies, options);
+		},
+		opened);
 	measure(opened, map);
 	advance(kMeasured, "Looking for charts that overlap");
-	checkpoint();
-	const bool turns = options.cones.rounding != ConeRounding::QuarterTurns;
-	separateCharts(separates, turns, map);
-	if (separates)
+	if (options.charts != Charts::OfTheFlow)
 		requireSeparateCharts(map);
 	advance(1.0, "Layout done");
 	return map;
@@ -176,7 +221,14 @@ Parametrization chartsInDisk(
 {
 	checkOptions(options);
 	const Task part(0.0, kMapped);
-	Parametrization map = mapComponents(mesh, input, options, flattenToDisk, opened);
+	Parametrization map = mapComponents(
+		mesh,
+		input,
+		options,
+		[&](const Component& component, const VertexInput& ofCopies) {
+			return asParametrization(component, flattenToDisk(component, ofCopies, options));
+		},
+		opened);
 	measureInDisk(opened, map);
 	advance(1.0, "Layout done");
 	return map;

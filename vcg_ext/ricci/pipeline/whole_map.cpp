@@ -2,6 +2,8 @@
 #include "whole_map.h"
 
 #include "../base/memory_estimate.h"
+#include "../charts/flipped_triangles.h"
+#include "../charts/separate_charts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +22,8 @@ std::size_t largestComponent(const std::vector<Component>& components)
 	return largest;
 }
 
-/// Vertices as points of their surface.
+} // namespace
+
 std::vector<SurfacePoint> verticesOf(std::size_t count)
 {
 	std::vector<SurfacePoint> points(count);
@@ -28,8 +31,6 @@ std::vector<SurfacePoint> verticesOf(std::size_t count)
 		points[v].vertex[0] = static_cast<int>(v);
 	return points;
 }
-
-} // namespace
 
 std::vector<Component> startMap(
 	const SurfaceMesh& mesh, const FlowOptions& options, OpenedMesh& opened, Parametrization& map)
@@ -146,11 +147,36 @@ Report reportOf(const ComponentMap& map)
 	return report;
 }
 
-void append(const Component& component, const ComponentMap& map, Parametrization& whole)
+Parametrization asParametrization(const Component& component, ComponentMap map)
+{
+	Parametrization part;
+	const Target& target = map.flow.target;
+	const double shift = std::log(map.scale);
+	for (const Vertex v : component.vertex.indices()) {
+		part.u.push_back(map.flow.u[v] + shift);
+		part.targetCurvature.push_back(
+			target.fixed[v] ? map.flow.curvature[v] : target.curvature[v]);
+	}
+	part.report = reportOf(map);
+	part.charts.push_back({std::move(map.group), {}});
+	part.mesh = std::move(map.mesh);
+	return part;
+}
+
+void separateCharts(const Options& options, Parametrization& map)
+{
+	const bool separates = options.charts != Charts::OfTheFlow;
+	if (isFinished(options) && separates && options.output == OutputTriangulation::KeepMesh)
+		reflectFlipped(map);
+	const bool turns = options.cones.rounding != ConeRounding::QuarterTurns;
+	separateCharts(separates, turns, map);
+}
+
+void append(const Component& component, const Parametrization& part, Parametrization& whole)
 {
 	FlatMesh& mesh = whole.mesh;
 	const auto vertexCount = component.vertex.values().size();
-	const std::vector<SurfacePoint>& source = map.mesh.source.values();
+	const std::vector<SurfacePoint>& source = part.mesh.source.values();
 	std::vector<int> index = component.vertex.values(); // of each vertex of the component's mesh
 	for (std::size_t i = vertexCount; i < source.size(); ++i) {
 		SurfacePoint p = source[i];
@@ -160,32 +186,29 @@ void append(const Component& component, const ComponentMap& map, Parametrization
 		mesh.source.push_back(p);
 	}
 	const int firstPoint = mesh.place.size();
-	for (const Point2& p : map.mesh.place)
+	for (const Point2& p : part.mesh.place)
 		mesh.place.push_back(p);
-	for (const int f : map.mesh.points.indices()) {
-		Triangle vertices = map.mesh.vertices[f], points = map.mesh.points[f];
+	for (const int f : part.mesh.points.indices()) {
+		Triangle vertices = part.mesh.vertices[f], points = part.mesh.points[f];
 		for (int& v : vertices)
 			v = index[positionOf(v)];
 		for (int& p : points)
 			p += firstPoint;
 		mesh.vertices.push_back(vertices);
 		mesh.points.push_back(points);
-		mesh.lengths.push_back(map.mesh.lengths[f]);
-		mesh.chart.push_back(static_cast<int>(whole.charts.size()));
-		mesh.face.push_back(component.face[Face(map.mesh.face[f])]);
+		mesh.lengths.push_back(part.mesh.lengths[f]);
+		mesh.chart.push_back(static_cast<int>(whole.charts.size()) + part.mesh.chart[f]);
+		mesh.face.push_back(component.face[Face(part.mesh.face[f])]);
 	}
-	whole.charts.push_back({map.group, {}});
-	const Target& target = map.flow.target;
-	const double shift = std::log(map.scale);
+	whole.charts.insert(whole.charts.end(), part.charts.begin(), part.charts.end());
 	for (const Vertex v : component.vertex.indices()) {
 		const std::size_t vertex = positionOf(component.vertex[v]);
-		whole.u[vertex] = map.flow.u[v] + shift;
-		whole.targetCurvature[vertex] =
-			target.fixed[v] ? map.flow.curvature[v] : target.curvature[v];
+		whole.u[vertex] = part.u[positionOf(v)];
+		whole.targetCurvature[vertex] = part.targetCurvature[positionOf(v)];
 	}
-	Report report = reportOf(map);
-	if (map.mesh.source.size() > component.vertex.size())
-		report.refinementPoints = map.mesh.source.size() - component.vertex.size();
+	Report report = part.report;
+	if (source.size() > vertexCount)
+		report.refinementPoints = static_cast<int>(source.size() - vertexCount);
 	whole.report += report;
 }
 

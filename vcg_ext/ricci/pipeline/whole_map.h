@@ -32,6 +32,9 @@ Parametrization chartsInDisk(
 /// Free; but a rectangle stays upright, and quarter turns across seams stay quarter turns.
 ChartTurns chartTurns(const Options& options);
 
+/// Vertices as points of their surface.
+std::vector<SurfacePoint> verticesOf(std::size_t count);
+
 /// Opens and checks \p mesh, sees whether memory will do, logs what there is to note, and makes \p map
 /// ready for its components: its arrays have their sizes, and its mesh the vertices of the opened one.
 /// \throw InvalidMesh, TooLarge
@@ -44,8 +47,15 @@ FlatMesh flatMesh(const Component& component, const ComponentMap& map, OutputTri
 /// What the run of one component has measured.
 Report reportOf(const ComponentMap& map);
 
-/// Appends a component's map as one more chart, in the indices of the opened mesh.
-void append(const Component& component, const ComponentMap& map, Parametrization& whole);
+/// A component's map as one chart, in the component's indices.
+Parametrization asParametrization(const Component& component, ComponentMap map);
+
+/// Finds charts that overlap, as \p options say; divides them, and reflects flipped triangles, unless the charts
+/// are to be those of the flow.
+void separateCharts(const Options& options, Parametrization& map);
+
+/// Appends the map of a component, in its indices, to that of the surface that it is a component of.
+void append(const Component& component, const Parametrization& part, Parametrization& whole);
 
 /// Shares of the progress after which all components are mapped, and their distortion is measured.
 constexpr double kComponentsDone = 0.9, kMeasured = 0.95;

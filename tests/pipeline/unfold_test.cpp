@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "../support/flat_map.h"
+#include "../support/random_surface.h"
+#include "../support/shapes.h"
+
+#include <ricci/base/numbers.h>
+#include <ricci/charts/chart_overlap.h>
+#include <ricci/measure/distortion.h>
+#include <ricci/pipeline/unfold.h>
+#include <ricci/surface/opened_mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+namespace ricci::testing {
+namespace {
+
+Component only(const SurfaceMesh& mesh)
+{
+	std::vector<std::string> notes;
+	const std::vector<Component> components = splitIntoComponents(openMesh(mesh, notes));
+	EXPECT_EQ(components.size(), 1u);
+	return components.front();
+}
+
+void expectIsometric(const Parametrization& map)
+{
+	for (const int f : map.mesh.points.indices())
+		for (const Corner side : cornersOf(f)) {
+			const auto [p, q] = map.mesh.ends(side);
+			EXPECT_NEAR(distance(p, q), map.mesh.lengths[side], 1e-9);
+		}
+	EXPECT_NEAR(stretchEnergy(map.mesh), 4.0, 1e-9);
+	for (const std::vector<int>& chart : map.mesh.trianglesByChart(map.charts.size()))
+		EXPECT_TRUE(overlappingPairs(map.mesh.part(chart)).empty());
+}
+
+/// A box is its net: of the 12 edges 5 are joined, the longest that make a tree of its faces.
+TEST(Unfold, ABoxIsItsNet)
+{
+	const SurfaceMesh box = perforatedSlab(0, 4);
+	const std::optional<Parametrization> map = unfold(only(box), Options());
+	ASSERT_TRUE(map);
+	expectIsometric(*map);
+	EXPECT_EQ(map->charts.size(), 1u);
+	// Eight corners of a quarter of 4 pi each, nothing elsewhere.
+	int corners = 0;
+	double sum = 0.0;
+	for (const double k : map->targetCurvature) {
+		corners += k != 0.0;
+		sum += k;
+		EXPECT_NEAR(std::abs(k - 0.25 * kPi), 0.25 * kPi, 1e-9); // 0 or pi / 2
+	}
+	EXPECT_EQ(corners, 8);
+	EXPECT_EQ(map->report.cones, 8);
+	EXPECT_NEAR(sum, 4.0 * kPi, 1e-9);
+	EXPECT_EQ(map->report.components, 1);
+	EXPECT_EQ(map->report.eulerCharacteristic, 2);
+	const Seams seam = seams(map->mesh, Sides(map->mesh.vertices.values()));
+	EXPECT_EQ(map->report.seamEdges, seam.edges);
+	EXPECT_DOUBLE_EQ(map->report.seamLength, seam.length);
+}
+
+/// Wall, bottom and lid of a cylinder touch in one edge each then.
+TEST(Unfold, ACylinderIsItsWallWithTwoLids)
+{
+	constexpr int kSides = 16;
+	const SurfaceMesh mesh = revolved({{0.0, 0.0}, {1.0, 0.0}, {1.0, 3.0}, {0.0, 3.0}}, kSides);
+	const std::optional<Parametrization> map = unfold(only(mesh), Options());
+	ASSERT_TRUE(map);
+	expectIsometric(*map);
+	EXPECT_EQ(map->charts.size(), 1u);
+	const double side = 2.0 * std::sin(kPi / kSides);
+	EXPECT_NEAR(map->report.seamLength, 2.0 * (kSides - 1) * side + 3.0, 1e-9);
+}
+
+TEST(Unfold, LeavesRoundSurfacesToTheFlow)
+{
+	EXPECT_FALSE(unfold(only(torus(2.0, 1.0, 40, 20)), Options()));
+	EXPECT_FALSE(unfold(only(ring(1.0, 2.0, 30, 5)), Options()));
+}
+
+/// Of both maps the one that costs less is given back.
+TEST(Unfold, IsTakenWhereItCostsLess)
+{
+	const SurfaceMesh box = perforatedSlab(2, 4);
+	const std::optional<Parametrization> unfolded = unfold(only(box), Options());
+	ASSERT_TRUE(unfolded);
+	const FlatResult given = run(box, Options());
+	Options placed;
+	placed.target = TargetCurvature::PlacedCones;
+	const FlatResult whole = run(box, placed);
+	const double cost = objective(given.mesh, given.report.seamLength);
+	EXPECT_LE(cost, objective(whole.mesh, whole.report.seamLength) + 1e-9);
+	EXPECT_LE(cost, objective(unfolded->mesh, unfolded->report.seamLength) + 1e-9);
+}
+
+} // namespace
+} // namespace ricci::testing

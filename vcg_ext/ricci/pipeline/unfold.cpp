@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "unfold.h"
+
+#include "../base/attempt.h"
+#include "../base/numbers.h"
+#include "../base/task.h"
+#include "../base/tolerances.h"
+#include "../charts/separate_charts.h"
+#include "../measure/distortion.h"
+#include "../surface/creases.h"
+#include "../surface/flow_domain.h"
+#include "../surface/opened_mesh.h"
+#include "flatten.h"
+#include "whole_map.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+/// Angles above which an edge is a crease: less sharp ones are those of coarse round parts, whose pieces are
+/// flat enough, and at sharper ones fillets of few triangles are left in one piece with what they round.
+constexpr double kCreaseAngles[] = {40.0 * kPi / 180.0, 60.0 * kPi / 180.0};
+
+/// Share of the curvature that may be left between creases.
+constexpr double kMaxCurvatureBetween = 0.25;
+
+/// The pieces of a component between creases, as components of it; none if pieces have no area.
+std::vector<Component> pieces(const Component& component, const Creases& creases)
+{
+	SurfaceMesh surface{component.positions.values(), component.triangles, component.diagonal};
+	surface.seam = creases.sides;
+	std::vector<std::string> notes; // which speak of seams that nobody has asked for
+	const OpenedMesh opened = openMesh(surface, notes);
+	if (!opened.degenerate.empty())
+		return {};
+	std::vector<Component> pieces = splitIntoComponents(opened);
+	for (Component& piece : pieces)
+		for (int& v : piece.vertex.values())
+			v = opened.vertex[positionOf(v)];
+	return pieces;
+}
+
+/// What the triangles of the map leave of a full turn round a vertex inside, and of half a turn on the
+/// boundary.
+void measureCurvature(const VertexArray<char>& isBoundary, Parametrization& map)
+{
+	std::vector<double>& curvature = map.targetCurvature;
+	for (const Vertex v : isBoundary.indices())
+		curvature[positionOf(v)] = isBoundary[v] ? kPi : 2.0 * kPi;
+	for (const int f : map.mesh.points.indices())
+		for (const Corner c : cornersOf(f)) {
+			const Point2 a = map.mesh.at(c.next()) - map.mesh.at(c);
+			const Point2 b = map.mesh.at(c.next().next()) - map.mesh.at(c);
+			curvature[positionOf(map.mesh.vertices[c])] -=
+				std::atan2(std::abs(cross(a, b)), dot(a, b));
+		}
+	for (const Vertex v : isBoundary.indices())
+		if (double& k = curvature[positionOf(v)]; !isBoundary[v]) {
+			k = std::abs(k) > kConeCurvature ? k : 0.0;
+			map.report.cones += k != 0.0;
+		}
+}
+
+Parametrization
+joined(const Component& component, const std::vector<Component>& pieces, const Options& options)
+{
+	Options ofPieces = options;
+	ofPieces.finish =
+		Finish::Repair; // leaves free boundaries as long as they are, so that they join
+	ofPieces.holes = Holes::Boundaries; // they are pieces elsewhere
+	const auto vertexCount = component.positions.values().size();
+	Parametrization map;
+	map.mesh.source = Array<SurfacePoint>(verticesOf(vertexCount));
+	map.u.resize(vertexCount, 0.0);
+	map.targetCurvature.resize(vertexCount, 0.0);
+	for (const Component& piece : pieces)
+		append(piece, asParametrization(piece, flattenToPlane(piece, {}, ofPieces)), map);
+	separateCharts(ofPieces, map);
+	joinCharts(map);
+	const Topology topology = flowDomain(component, Holes::Boundaries).surface.topology;
+	Report& report = map.report;
+	report.components = 1;
+	for (FlowState& state : report.flowStates)
+		state.component = 0;
+	report.genus = topology.type.genus;
+	report.boundaryLoops = topology.type.boundaryLoops;
+	report.eulerCharacteristic = topology.type.eulerCharacteristic();
+	report.cones = 0;
+	measureCurvature(topology.boundary, map);
+	const Seams seam = seams(map.mesh, Sides(map.mesh.vertices.values()));
+	report.seamEdges = seam.edges;
+	report.seamLength = seam.length;
+	report.overlapCuts = 0;
+	return map;
+}
+
+} // namespace
+
+std::optional<Parametrization> unfold(const Component& component, const Options& options)
+{
+	const auto cost = [](const Parametrization& map) {
+		return objective(map.mesh, map.report.seamLength);
+	};
+	std::optional<Parametrization> best;
+	int edges = 0; // that are creases
+	for (const double angle : kCreaseAngles) {
+		const Creases found = creases(component.positions.values(), component.triangles, angle);
+		if (found.edges == 0 || found.edges == edges ||
+			found.curvatureBetween > kMaxCurvatureBetween)
+			continue;
+		edges = found.edges;
+		const std::vector<Component> all = pieces(component, found);
+		if (all.empty())
+			continue;
+		const Task silent(0.0, 0.0, true);
+		std::optional<Parametrization> map =
+			attempt([&] { return joined(component, all, options); });
+		if (map && (!best || cost(*map) < cost(*best)))
+			best = std::move(map);
+	}
+	return best;
+}
+
+} // namespace ricci
