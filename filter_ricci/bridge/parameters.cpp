@@ -77,7 +77,7 @@ QStringList hyperbolicTargetChoices()
 
 QStringList chartsChoices()
 {
-	return {"As the flow has them", "Without overlap", "Without overlap and strips"};
+	return {"As the flow has them", "Without overlap", "Without overlap, cut for room"};
 }
 
 template<class Enum>
@@ -313,8 +313,9 @@ RichParameterList euclideanParameters(Shown shown)
 		chartsChoices(),
 		"Charts",
 		"<b>Without overlap</b>: a chart that covers a part of the plane twice is cut along the "
-		"shortest lines that part what overlaps. <b>And strips</b>: a long and narrow chart is "
-		"cut across once if all charts then cover about twice as much of the unit square."));
+		"shortest lines that part what overlaps. <b>Cut for room</b>: with <b>Automatic</b>, a chart "
+		"that leaves most of the unit square empty is also cut across where that gives all charts "
+		"enough room to be worth the seam."));
 	list.addParam(host::advanced<RichBool>(
 		"normalize_uv",
 		Flow::Params().normalizeUV,

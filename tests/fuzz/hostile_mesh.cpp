@@ -547,7 +547,7 @@ void HostileMesh::drawRarerOptions(ByteSource& bytes)
 	sphere = bytes.oneIn(16);
 	rings = bytes.below(3);
 	if (bytes.oneIn(8))
-		options.charts = Charts::WithoutOverlapAndStrips;
+		options.charts = Charts::CutForRoom;
 	if (bytes.oneIn(8)) {
 		seamEvery = 1 + bytes.below(50);
 		seamSeed = bytes.byte();

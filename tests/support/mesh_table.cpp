@@ -128,7 +128,7 @@ Arguments parse(int argc, char** argv)
 				value(),
 				{{"flow", Charts::OfTheFlow},
 				 {"separate", Charts::WithoutOverlap},
-				 {"strips", Charts::WithoutOverlapAndStrips}});
+				 {"strips", Charts::CutForRoom}});
 		else if (word == "--packed")
 			a.packed = true;
 		else if (word == "--margin")

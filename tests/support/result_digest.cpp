@@ -162,7 +162,7 @@ const std::vector<Case> kCases = {
 	{"capped", [](Flow::Params& p) { p.holes = Holes::Capped; }},
 	{"strips_unscaled",
 	 [](Flow::Params& p) {
-		 p.charts = Charts::WithoutOverlapAndStrips;
+		 p.charts = Charts::CutForRoom;
 		 p.chartMargin = 0.01;
 	 }},
 	{"no_surgery", [](Flow::Params& p) { p.method = Method::FixedTriangles; }},

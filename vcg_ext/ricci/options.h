@@ -61,8 +61,8 @@ enum class Charts {
 	OfTheFlow,      ///< they are not
 	WithoutOverlap, ///< a chart that covers a part of the plane more than once becomes several
 	///< that do not; the others stay as they are
-	WithoutOverlapAndStrips ///< so do strips, if charts then cover about twice as much of the unit
-							///< square. A cut counts as one of an overlap; rectangles stay whole
+	CutForRoom ///< and of Automatic, a chart that leaves most of the square empty is cut where that is worth
+			   ///< the seam, see packForRoom(). A cut counts as one of an overlap
 };
 
 /// What is done to a map that the flow has found, which is exact on its own triangles, for the
@@ -159,7 +159,7 @@ struct Options : FlowOptions, TargetOptions, PackOptions
 	/// Capped belongs to intrinsic flips.
 	Holes holes = Holes::Boundaries;
 
-	Charts charts = Charts::WithoutOverlap;
+	Charts charts = Charts::CutForRoom;
 };
 
 /// Which curvature the hyperbolic flow is asked to reach. The order is that of the filter's menu.

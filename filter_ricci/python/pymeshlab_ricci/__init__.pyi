@@ -362,7 +362,7 @@ class MeshSet(pymeshlab.MeshSet):
         charts: Union[int, Literal[
             'As the flow has them',
             'Without overlap',
-            'Without overlap and strips',
+            'Without overlap, cut for room',
         ]] = 'Without overlap',
         normalize_uv: bool = True,
         sphere_layer: bool = False,
@@ -467,7 +467,7 @@ def flatten(
     charts: Union[int, Literal[
         'As the flow has them',
         'Without overlap',
-        'Without overlap and strips',
+        'Without overlap, cut for room',
     ]] = 'Without overlap',
     normalize_uv: bool = True,
     sphere_layer: bool = False,

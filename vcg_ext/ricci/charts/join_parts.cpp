@@ -14,9 +14,6 @@ namespace ricci {
 
 namespace {
 
-/// Share of the area in space below which a part is no part of its own if that can be had.
-constexpr double kCrumb = 0.01;
-
 /// Places at which a part is tried before it is divided: the round wall of a hole has as many as facets.
 constexpr std::ptrdiff_t kMaxPlaces = 8;
 

@@ -8,9 +8,12 @@
 
 namespace ricci {
 
+/// Share of the area in space below which a part is no part of its own if that can be had.
+constexpr double kCrumb = 0.01;
+
 /// Joins parts of a chart across seams: the sides of a seam are isometric, so that a part can be moved to
 /// the other side of it, where it often has room. Two parts at a time are joined, along the longest border
-/// at which nothing is covered twice then. What is left and smaller than a hundredth of all is divided
+/// at which nothing is covered twice then. What is left and smaller than kCrumb of all is divided
 /// among the parts round it, if they have room for all of it and seams get no longer. Sides that come to
 /// lie on each other are joined.
 /// \param chart its points are moved and numbered anew

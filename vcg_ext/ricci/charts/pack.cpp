@@ -5,6 +5,7 @@
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../math/min_area_rectangle.h"
+#include "../metric/area.h"
 #include "separate_charts.h"
 
 #include <algorithm>
@@ -316,24 +317,39 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 	map.report.occupancy = coveredArea(map.mesh);
 }
 
-void packStrips(Parametrization& map, const PackOptions& options, ChartTurns turns)
+void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
-	std::optional<Parametrization> cut;
-	if (turns != ChartTurns::None)
-		cut = cutStrip(map, turns == ChartTurns::Free);
 	packCharts(map, options, turns);
-	if (!cut)
+	if (turns == ChartTurns::None)
 		return;
-	try {
-		packCharts(*cut, options, turns);
+	double area = 0.0;
+	for (const auto& lengths : map.mesh.lengths)
+		area += euclideanArea(lengths);
+	std::optional<Parametrization> last; // where it is not the best
+	for (int cuts = 0, vain = 0; cuts < kMaxCuts && vain < kMaxVainCuts; ++cuts) {
+		if (map.report.occupancy > kEnoughCovered)
+			return;
+		std::optional<Parametrization> next =
+			cutForRoom(last ? *last : map, turns == ChartTurns::Free);
+		if (!next)
+			return;
+		try {
+			packCharts(*next, options, turns);
+		}
+		catch (const InvalidOption& e) {
+			if (e.problem != InvalidOption::ChartMarginTooWide)
+				throw;
+			return; // there is no room for one chart more
+		}
+		const double seams = (next->report.seamLength - map.report.seamLength) / std::sqrt(area);
+		const bool isWorth =
+			next->report.occupancy >
+			map.report.occupancy * std::exp(std::max(kMinRoom, kRoomPrice * seams));
+		vain = isWorth ? 0 : vain + 1;
+		(isWorth ? map : last.emplace()) = std::move(*next);
+		if (isWorth)
+			last.reset();
 	}
-	catch (const InvalidOption& e) {
-		if (e.problem != InvalidOption::ChartMarginTooWide)
-			throw;
-		return; // there is no room for one chart more
-	}
-	if (cut->report.occupancy >= kWorthCutting * map.report.occupancy)
-		map = std::move(*cut);
 }
 
 void placeDisks(Parametrization& map)

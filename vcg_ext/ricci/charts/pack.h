@@ -34,13 +34,17 @@ bool marginsMayFit(std::size_t charts, double margin);
 /// in which they will be stored
 void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns);
 
-/// A strip is cut where the charts then cover this many times as much of the square: about twice.
-constexpr double kWorthCutting = 1.7;
-
-/// packCharts() into the unit square, and once more with the largest chart cut by cutStrip(), which is
-/// taken where the charts then cover kWorthCutting times as much. Without turns nothing is cut.
+/// packCharts() into the unit square, with charts cut by cutForRoom() as long as that is worth it: a seam as
+/// long as the square root of the surface's area has to bring a share kRoomPrice more of covered square, as
+/// much as it costs in the scale of the map (kSeamPrice), and any cut kMinRoom more; until kEnoughCovered is
+/// covered. Without turns nothing is cut.
 /// \throw what packCharts() does
-void packStrips(Parametrization& map, const PackOptions& options, ChartTurns turns);
+void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns turns);
+
+constexpr double kRoomPrice = 0.5, kMinRoom = 0.1, kEnoughCovered = 0.6;
+
+/// Cuts at most, and those in a row that may bring nothing.
+constexpr int kMaxCuts = 12, kMaxVainCuts = 2;
 
 /// Places the unit disks of the charts, as the hyperbolic layout leaves them, in equal squares, row by
 /// row from the origin, which together lie in [0, 1]^2, and moves the charts there. Fills Chart::box.

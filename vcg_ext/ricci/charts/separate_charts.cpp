@@ -4,6 +4,7 @@
 #include "../base/task.h"
 #include "../math/min_area_rectangle.h"
 #include "../math/min_cut.h"
+#include "../metric/area.h"
 #include "chart_division.h"
 #include "chart_overlap.h"
 #include "dual_graph.h"
@@ -95,13 +96,10 @@ void setApart(Parametrization& map)
 			map.mesh.place[p] += shifts[positionOf(chart[p])];
 }
 
-/// Part 1 on one side of the least cut across a chart, 0 on the other; empty for a chart that is no
-/// strip.
-Array<int> halves(const FlatMesh& chart, const DualGraph& graph)
+/// Part 1 on one side of the least cut across the middle of a chart's smallest bounding rectangle, 0 on the
+/// other.
+Array<int> halves(const FlatMesh& chart, const OrientedRectangle& r, const DualGraph& graph)
 {
-	const OrientedRectangle r = minAreaRectangle(chart.place.values());
-	if (!(r.width() > kStripLength * r.height()))
-		return {};
 	std::vector<int> left, right;
 	Array<char> end(chart.size(), 0);
 	for (const int i : end.indices()) {
@@ -237,31 +235,54 @@ void joinCharts(Parametrization& map)
 	settle(charts, true, map);
 }
 
-std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns)
+std::optional<Parametrization> cutForRoom(const Parametrization& map, bool turns)
 {
-	if (map.charts.empty())
-		return std::nullopt;
-	std::vector<double> area(map.charts.size(), 0.0); // doubled, in the plane
-	for (const int f : map.mesh.points.indices()) {
-		const Triangle2 t = map.mesh.at(f);
-		area[positionOf(map.mesh.chart[f])] += std::abs(doubledArea(t[0], t[1], t[2]));
+	const Parts byChart = map.mesh.trianglesByChart(map.charts.size());
+	double mostRoom = 0.0; // area in the rectangle beside the chart
+	std::size_t widest = byChart.size();
+	OrientedRectangle rectangle;
+	for (std::size_t c = 0; c < byChart.size(); ++c) {
+		std::vector<Point2> places;
+		double area = 0.0;
+		for (const int p : map.mesh.pointsOf(byChart[c]))
+			places.push_back(map.mesh.place[p]);
+		for (const int f : byChart[c]) {
+			const Triangle2 p = map.mesh.at(f);
+			area += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
+		}
+		const OrientedRectangle r = minAreaRectangle(std::move(places));
+		// Beside a strip there is room in the square, too.
+		const double room = r.width() * std::max(r.height(), 0.5 * r.width()) - area;
+		if (room > mostRoom) {
+			mostRoom = room;
+			widest = c;
+			rectangle = r;
+		}
 	}
-	const auto largest =
-		static_cast<std::size_t>(std::max_element(area.begin(), area.end()) - area.begin());
-	const std::vector<int> triangles = map.mesh.trianglesByChart(area.size())[largest];
-	const FlatMesh chart = map.mesh.part(triangles);
+	if (widest == byChart.size())
+		return std::nullopt;
+	const FlatMesh chart = map.mesh.part(byChart[widest]);
 	const Sides sides(chart.vertices.values());
 	DualGraph graph(chart, sides);
-	Array<int> part = halves(chart, graph);
-	if (part.empty())
-		return std::nullopt;
-	graph.part = std::move(part);
-	if (graph.connectedPieces().size() != 2)
+	graph.part = halves(chart, rectangle, graph);
+	const auto areaOf = [&](const std::vector<int>& triangles) {
+		double area = 0.0;
+		for (const int i : triangles)
+			area += euclideanArea(chart.lengths[i]);
+		return area;
+	};
+	double least = 0.0, whole = 0.0; // of the pieces
+	for (const std::vector<int>& piece : graph.connectedPieces()) {
+		const double area = areaOf(piece);
+		least = whole == 0.0 ? area : std::min(least, area);
+		whole += area;
+	}
+	if (least < kCrumb * whole)
 		return std::nullopt;
 	Parametrization cut = map;
 	const Sides allSides(map.mesh.vertices.values());
 	const Seams before = seams(map.mesh, allSides);
-	settle(divide(static_cast<int>(largest), triangles, graph, cut), turns, cut);
+	settle(divide(static_cast<int>(widest), byChart[widest], graph, cut), turns, cut);
 	countCuts(before, allSides, cut);
 	return cut;
 }

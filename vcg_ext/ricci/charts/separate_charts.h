@@ -30,15 +30,10 @@ void separateCharts(bool resolve, bool turns, Parametrization& map);
 /// \pre no chart overlaps itself
 void joinCharts(Parametrization& map);
 
-/// A chart this many times as long as wide is a strip.
-constexpr double kStripLength = 1.5;
-
-/// Cuts the chart that covers most of the plane once across, if its smallest bounding rectangle is
-/// longer than kStripLength times its height: along the edges of least length on the surface in its
-/// middle fifth. The two parts are given back as those of separateCharts(), in the report, too. A chart
-/// that would fall into more parts stays whole.
-/// \return the map that is cut, if one is
-std::optional<Parametrization> cutStrip(const Parametrization& map, bool turns);
+/// Cuts the chart that leaves most room beside itself in its smallest bounding rectangle in two: along the
+/// edges of least length on the surface across the middle fifth of that. The parts are given back as those of separateCharts(), in the report, too.
+/// \return the map that is cut; none where a piece of the chart would be smaller than kCrumb of it
+std::optional<Parametrization> cutForRoom(const Parametrization& map, bool turns);
 
 /// Divides the charts that have triangles of both kinds: each connected part of one kind becomes a chart
 /// from the origin, in the directions that it has. The report counts the charts and the cuts as

@@ -135,8 +135,9 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 {
 	advance(kMapped, "Packing the charts");
 	const ChartTurns turns = chartTurns(options);
-	if (options.charts == Charts::WithoutOverlapAndStrips && options.normalizeUV)
-		packStrips(map, options, turns);
+	if (options.charts == Charts::CutForRoom && options.normalizeUV &&
+		options.target == TargetCurvature::Automatic)
+		packForRoom(map, options, turns);
 	else
 		packCharts(map, options, turns);
 	advance(kMapped, "Finishing the coordinates");
