@@ -108,6 +108,8 @@ Results toResults(const ricci::Report& report)
 		{"overlapping_charts", report.overlappingCharts},
 		{"overlapping_faces", report.overlappingFaces},
 		{"overlap_cuts", report.overlapCuts}};
+	addIfPresent(results, "stretch", report.stretch);
+	addIfPresent(results, "objective", report.objective);
 	addIfPresent(results, "torus_tau_re", report.torusTauRe);
 	addIfPresent(results, "torus_tau_im", report.torusTauIm);
 	addIfPresent(results, "annulus_modulus", report.annulusModulus);
@@ -155,8 +157,8 @@ std::string toSentence(const Results& results)
 	line << "Curvature within " << valueOf<double>(results, "max_curvature_error")
 		 << " rad of the target after " << valueOf<int>(results, "iterations")
 		 << " Newton steps. Distortion " << std::fixed << std::setprecision(3)
-		 << valueOf<double>(results, "qc_area_mean") << " on average (1 keeps all angles), "
-		 << flipped << (flipped == 1 ? " flipped face, " : " flipped faces, ") << charts
+		 << valueOf<double>(results, "qc_area_mean") << " on average (1 keeps all angles), areas "
+		 << "by a factor of " << valueOf<double>(results, "area_distortion_mean") << ", " << flipped << (flipped == 1 ? " flipped face, " : " flipped faces, ") << charts
 		 << (charts == 1 ? " chart." : " charts.");
 	return line.str();
 }

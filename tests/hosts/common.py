@@ -16,6 +16,7 @@ ALWAYS = {
     "converged": bool, "iterations": int, "max_curvature_error": float, "residual_floor": float,
     "qc_mean": float, "qc_vertex_mean": float, "qc_area_mean": float, "qc_p99": float,
     "qc_max": float, "area_distortion_mean": float, "area_distortion_spread": float,
+    "stretch": float, "objective": float,
     "flipped_faces": int, "flipped_by_rounding": int, "finish_moved": int, "flips": int,
     "refinement_points": int, "edge_swaps": int, "boundary_splits": int, "euler_characteristic": int,
     "genus": int, "boundary_loops": int, "components": int, "cut_nonmanifold_edges": int,

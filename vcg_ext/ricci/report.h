@@ -43,6 +43,10 @@ struct Report
 	double areaDistortionSpread = 0.0; ///< standard deviation of ln s, weighted by 3D area
 	Histogram areaHistogram;           ///< binary logarithms of s over the faces
 
+	/// Of a map to the plane: its symmetric Dirichlet energy at the best scale, stretchEnergy(); and with the
+	/// price of all seams, objective().
+	std::optional<double> stretch, objective;
+
 	int flippedFaces = 0;      ///< faces whose image in the plane is reversed or has no area
 	int flippedByRounding = 0; ///< more of them once the coordinates are rounded to float
 	int finishMoved = 0; ///< points of the map that the repair moved, see Finish; one that was

@@ -112,6 +112,7 @@ void measure(const OpenedMesh& opened, Parametrization& map)
 {
 	const std::vector<Point3> surface = map.mesh.onSurface(opened.mesh.positions);
 	map.vertexQC = measureDistortion(map.mesh, surface, map.report).vertex;
+	map.report.stretch = stretchEnergy(map.mesh);
 }
 
 /// In the unit disk, whatever the squares are in which the disks lie.
@@ -159,6 +160,9 @@ void complete(const SurfaceMesh& mesh, const OpenedMesh& opened, Parametrization
 	map.report.seamLengthRelative =
 		map.report.seamLength /
 		std::sqrt(surfaceArea(opened.mesh.positions, opened.mesh.triangles));
+	if (map.report.stretch)
+		map.report.objective =
+			objective(map.mesh, map.report.seamLength + map.report.chosenSeamLength);
 	toInputIndices(mesh, opened, map);
 	advance(1.0, "Done");
 }
