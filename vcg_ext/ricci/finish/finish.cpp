@@ -4,6 +4,7 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "least_distortion.h"
+#include "least_stretch.h"
 #include "repair.h"
 
 namespace ricci {
@@ -70,7 +71,10 @@ FinishCounts finishInPlane(
 				flat.place.swap(best);
 		}
 	}
-	leastDistortion(flat, cones, freeBoundary);
+	if (finish == Finish::LeastStretch)
+		leastStretch(flat);
+	else
+		leastDistortion(flat, cones, freeBoundary);
 	return counts;
 }
 
