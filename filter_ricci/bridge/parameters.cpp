@@ -51,10 +51,10 @@ QStringList outputTriangulationChoices()
 
 QStringList finishChoices()
 {
-	return {"None", "Repair", "Least distortion"};
+	return {"None", "Repair", "Least distortion", "Least stretch"};
 }
 
-// The hyperbolic flow has no map of least distortion.
+// The hyperbolic flow has no map of least distortion or stretch.
 QStringList hyperbolicFinishChoices()
 {
 	return finishChoices().mid(0, 2);
@@ -306,7 +306,9 @@ RichParameterList euclideanParameters(Shown shown)
 		finishChoices(),
 		"Finish",
 		QString(kFinishTip)
-			.arg(", and on 'Keep the mesh' the faces get the least mean conformal distortion")));
+			.arg(", and on 'Keep the mesh' the faces get the least mean conformal distortion, or "
+				 "<b>least stretch</b>: lengths are kept as well as angles, best on chosen seams, "
+				 "whose two sides then differ")));
 	list.addParam(host::advanced<RichEnum>(
 		"charts",
 		static_cast<int>(defaults.charts),

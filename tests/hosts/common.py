@@ -52,7 +52,7 @@ CHOICES = {"target_curvature": TARGET, "seams": SEAMS,
            "method": METHOD,
            "charts": ["As the flow has them", "Without overlap", "Without overlap and strips"],
            "output_triangulation": ["Keep the mesh", "Common refinement"],
-           "finish": ["None", "Repair", "Least distortion"],
+           "finish": ["None", "Repair", "Least distortion", "Least stretch"],
            "holes": ["Boundaries", "Capped"]}
 PARAMETERS = [
     ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("cone_distortion", "Float", 0.25),

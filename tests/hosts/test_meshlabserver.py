@@ -318,7 +318,7 @@ class BadInput(unittest.TestCase):
                 (r"seam_hiding.*from 0 to 1", {"seam_hiding": 1.5}),
                 (r"chart_margin.*from 0 to 0.25", {"chart_margin": -0.1}),
                 (r"target_curvature.*0 \(Automatic\)", {"target_curvature": -1}),
-                (r"finish.*2 \(Least distortion\)", {"finish": 3}),
+                (r"finish.*3 \(Least stretch\)", {"finish": 4}),
                 (r"charts.*1 \(Without overlap\)", {"charts": 3}),
                 (r"method.*3 \(Thurston\)", {"method": 7})):
             with self.subTest(values):

@@ -136,6 +136,38 @@ TEST(Parametrize, AFinishedChartStandsUprightInItsLeastRectangle)
 	EXPECT_NEAR(box.max[1], least.height(), 1e-10);
 }
 
+TEST(Parametrize, LeastStretchLetsSeamsGoAndKeepsAreasBetter)
+{
+	Random random(216);
+	const SurfaceMesh mesh = bumpyTorus(20, 12, random);
+	Options options;
+	const FlatResult conformal = run(mesh, options);
+	options.finish = Finish::LeastStretch;
+	const FlatResult even = run(mesh, options);
+	EXPECT_EQ(even.report.flippedFaces, 0);
+	EXPECT_EQ(even.report.overlappingCharts, 0);
+	EXPECT_LT(
+		even.report.areaDistortionMean - 1.0, 0.9 * (conformal.report.areaDistortionMean - 1.0));
+	EXPECT_LT(FlatMap(mesh, conformal.uv).seamMismatch, 1e-8);
+	EXPECT_GT(FlatMap(mesh, even.uv).seamMismatch, 1e-3);
+}
+
+/// What a map has to keep, it keeps.
+TEST(Parametrize, APrescribedBoundaryOrQuarterTurnsGetTheLeastDistortionForTheLeastStretch)
+{
+	Random random(217);
+	Options disk, quarters;
+	disk.target = TargetCurvature::Disk;
+	quarters.cones.rounding = ConeRounding::QuarterTurns;
+	for (const auto& [mesh, asked] :
+		 {std::pair(bumpyPatch(10), disk), std::pair(bumpyTorus(14, 9, random), quarters)}) {
+		Options options = asked;
+		const UV distortion = run(mesh, options).uv;
+		options.finish = Finish::LeastStretch;
+		EXPECT_EQ(run(mesh, options).uv, distortion);
+	}
+}
+
 TEST(Parametrize, TheStatesOfTheFlowRunFromTheMeshToTheResult)
 {
 	const SurfaceMesh mesh = torus(2.0, 1.0, 24, 14);

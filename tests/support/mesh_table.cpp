@@ -34,7 +34,7 @@ const char* const kUsage =
 	"  --cone-distortion X  that decides their number\n"
 	"  --cone-rounding R    free, quarter\n"
 	"  --method M           flips, fixed, swaps, thurston\n"
-	"  --finish F           none, repair, least\n"
+	"  --finish F           none, repair, least, stretch\n"
 	"  --refine             give the map on the common refinement (method flips)\n"
 	"  --capped             close all boundary loops but the longest for the flow\n"
 	"  --charts C           flow, separate, strips (with --packed): which cuts they get\n"
@@ -118,7 +118,8 @@ Arguments parse(int argc, char** argv)
 				value(),
 				{{"none", Finish::None},
 				 {"repair", Finish::Repair},
-				 {"least", Finish::LeastDistortion}});
+				 {"least", Finish::LeastDistortion},
+				 {"stretch", Finish::LeastStretch}});
 		else if (word == "--refine")
 			a.options.output = OutputTriangulation::CommonRefinement;
 		else if (word == "--capped")

@@ -68,10 +68,13 @@ enum class Charts {
 /// What is done to a map that the flow has found, which is exact on its own triangles, for the
 /// straight triangles that are given back. Only maps found with flips are finished, see isFinished().
 enum class Finish {
-	None,           ///< the map is drawn as it is
-	Repair,         ///< no triangle is turned round or has no area
-	LeastDistortion ///< and on the mesh's own triangles, the conformal distortion is the least that
-					///< seams and cones allow
+	None,            ///< the map is drawn as it is
+	Repair,          ///< no triangle is turned round or has no area
+	LeastDistortion, ///< and on the mesh's own triangles, the conformal distortion is the least that
+					 ///< seams and cones allow
+	LeastStretch ///< and they keep lengths as well as they can, with the two sides of each seam, and the
+				 ///< boundary, let go: least symmetric Dirichlet energy, see leastStretch(). For
+				 ///< LeastDistortion where boundary or quarter turns are prescribed
 };
 
 /// Geometry of the plane that triangles are cut from (Definition 3.1).
@@ -91,8 +94,8 @@ struct FlowOptions
 	/// CommonRefinement belongs to intrinsic flips.
 	OutputTriangulation output = OutputTriangulation::KeepMesh;
 
-	/// The hyperbolic flow takes LeastDistortion for Repair: its deck transformations, which the map
-	/// of least distortion would have to keep, are no rigid motions of the plane.
+	/// The hyperbolic flow takes what is above Repair for Repair: its deck transformations, which the
+	/// map of least distortion would have to keep, are no rigid motions of the plane.
 	Finish finish = Finish::LeastDistortion;
 
 	/// Bytes of memory that may be used; a run whose estimate is higher is refused. 0: no limit.

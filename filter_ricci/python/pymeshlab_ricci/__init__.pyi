@@ -358,6 +358,7 @@ class MeshSet(pymeshlab.MeshSet):
             'None',
             'Repair',
             'Least distortion',
+            'Least stretch',
         ]] = 'Least distortion',
         charts: Union[int, Literal[
             'As the flow has them',
@@ -463,6 +464,7 @@ def flatten(
         'None',
         'Repair',
         'Least distortion',
+        'Least stretch',
     ]] = 'Least distortion',
     charts: Union[int, Literal[
         'As the flow has them',
@@ -512,7 +514,8 @@ def flatten(
         conventional flow on the mesh's triangles, to compare with.
     finish: What is done to the flow's map before it is stored: faces that would come out
         flipped are repaired, and on 'Keep the mesh' the faces get the least mean conformal
-        distortion. Only for the method 'Intrinsic flips'.
+        distortion, or least stretch: lengths are kept as well as angles, best on chosen seams,
+        whose two sides then differ. Only for the method 'Intrinsic flips'.
     charts: Without overlap: a chart that covers a part of the plane twice is cut along the
         shortest lines that part what overlaps. And strips: a long and narrow chart is cut
         across once if all charts then cover about twice as much of the unit square.

@@ -4,6 +4,7 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "least_distortion.h"
+#include "least_stretch.h"
 #include "repair.h"
 
 namespace ricci {
@@ -12,6 +13,10 @@ namespace {
 
 /// Extent of the disk.
 constexpr double kDiskExtent = 2.0;
+
+/// Where a repair raises the mean distortion by more than this factor, the map that it starts from is too
+/// far from what its triangles would have: it is repaired once that is made better, if that costs less.
+constexpr double kMaxRepairCost = 2.0;
 
 bool isInDisk(const FlatMesh& flat, const Patch& patch)
 {
@@ -39,16 +44,36 @@ FinishCounts finishInPlane(
 	Finish finish)
 {
 	checkpoint();
-	const auto boundaryMoves = [&](int v) {
-		return freeBoundary || (!onHole.empty() && onHole[Vertex(v)]);
+	const BorderMoves moves{
+		SeamGeometry::Plane,
+		[&](int v) { return freeBoundary || (!onHole.empty() && onHole[Vertex(v)]); },
+		nullptr};
+	const auto repair = [&] {
+		const double height = kMinHeight * flat.box().extent();
+		return repaired(
+			flat, moves, RestShapes::OfSurface, {height, kWantedHeights * height, false});
 	};
-	const double height = kMinHeight * flat.box().extent();
-	const FinishCounts counts = repaired(
-		flat,
-		{SeamGeometry::Plane, boundaryMoves, nullptr},
-		RestShapes::OfSurface,
-		{height, kWantedHeights * height, false});
-	if (finish == Finish::LeastDistortion)
+	if (finish == Finish::Repair)
+		return repair();
+	Array<Point2> best = flat.place;
+	FinishCounts counts = repair();
+	if (counts.moved > 0) {
+		flat.place.swap(best);
+		const double before = meanDistortion(flat);
+		flat.place.swap(best);
+		if (const double after = meanDistortion(flat); after > kMaxRepairCost * before) {
+			flat.place.swap(best);
+			leastDistortion(flat, cones, freeBoundary);
+			const FinishCounts next = repair();
+			if (meanDistortion(flat) < after)
+				counts = next;
+			else
+				flat.place.swap(best);
+		}
+	}
+	if (finish == Finish::LeastStretch)
+		leastStretch(flat);
+	else
 		leastDistortion(flat, cones, freeBoundary);
 	return counts;
 }

@@ -16,7 +16,8 @@ struct FinishCounts
 };
 
 /// The finish of a component's map to the plane on its own triangles, which straight lines in place of
-/// bent ones may have flipped: repairs it (repair.h), and makes it the map of least distortion.
+/// bent ones may have flipped: repairs it (repair.h), and makes it the map of least distortion, or of
+/// least stretch.
 /// \param cones 1 at cones inside
 /// \param freeBoundary whether the curvature of the boundary is free
 /// \param onHole 1 at vertices of holes, where the boundary may be repaired in any case; may be empty

@@ -156,6 +156,14 @@ private:
 
 } // namespace
 
+double meanDistortion(const FlatMesh& flat)
+{
+	PointGroups groups = allPoints(flat);
+	groups.fixed.assign(groups.fixed.size(), 1);
+	const NumberedPoints points(flat, groups);
+	return MeanDistortion(flat, points).evaluate(positionsOf(points, flat));
+}
+
 LeastDistortion leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves)
 {
 	const NumberedPoints points(

@@ -14,6 +14,9 @@ struct LeastDistortion
 	double before = 0.0, after = 0.0; ///< MeanDistortion of the map
 };
 
+/// MeanDistortion of a map, its triangles that are not counter-clockwise left out.
+double meanDistortion(const FlatMesh& flat);
+
 /// Moves the points of a map to the plane so that the mean conformal distortion of the map on the mesh's own
 /// straight triangles becomes small. A flow that flips edges finds the conformal map of the
 /// surface; with straight triangles between its vertices, it is near to the best map of these triangles, not

@@ -25,25 +25,49 @@ constexpr double kMinWeight = 1e-3;
 constexpr double kShift = 1e-10, kShiftGrowth = 1e3;
 constexpr int kMaxShifts = 4;
 
-/// The energy of one triangle by a = |f_z|^2 and b = |f_zbar|^2, where det J = a - b and
-/// |J|^2 = 2 (a + b), and its derivatives.
+/// The energy of one triangle by a = |f_z|^2 and b = |f_zbar|^2, where d = det J = a - b and
+/// |J|^2 = 2 s, s = a + b, and its derivatives.
 struct Density
 {
 	double value, da, db, daa, dab, dbb;
 
-	Density(double a, double b, double eps)
+	static Density of(PatchCost cost, double a, double b, double eps)
+	{
+		return cost == PatchCost::Untangling ? untangling(a, b, eps) : symmetricDirichlet(a, b);
+	}
+
+	static Density untangling(double a, double b, double eps)
 	{
 		const double d = a - b, r = std::sqrt(eps * eps + d * d);
 		const double chi = d > 0.0 ? 0.5 * (d + r) : 0.5 * eps * eps / (r - d);
 		const double n = 2.0 * (a + b) + kAreaWeight * (1.0 + d * d);
-		value = n / chi;
-		// By s = a + b and d; d chi / dd = chi / r.
+		// d chi / dd = chi / r.
 		const double vs = 2.0 / chi, vd = (2.0 * kAreaWeight * d - n / r) / chi;
 		const double vsd = -2.0 / (chi * r);
 		const double vdd =
 			(2.0 * kAreaWeight * (1.0 - 2.0 * d / r) + n * (d / r + 1.0) / (r * r)) / chi;
-		da = vs + vd, db = vs - vd;
-		daa = vdd + 2.0 * vsd, dab = -vdd, dbb = vdd - 2.0 * vsd;
+		return {n / chi, vs, vd, vsd, vdd};
+	}
+
+private:
+	static Density symmetricDirichlet(double a, double b)
+	{
+		const double s = a + b, d = a - b, over = 1.0 / d, square = over * over;
+		if (!(d > 0.0))
+			return {std::numeric_limits<double>::infinity(), 0.0, 0.0, 0.0, 0.0};
+		return {
+			2.0 * s * (1.0 + square),
+			2.0 * (1.0 + square),
+			-4.0 * s * square * over,
+			-4.0 * square * over,
+			12.0 * s * square * square};
+	}
+
+	/// By s and d; the energies are linear in s.
+	Density(double v, double vs, double vd, double vsd, double vdd) :
+			value(v), da(vs + vd), db(vs - vd), daa(vdd + 2.0 * vsd), dab(-vdd),
+			dbb(vdd - 2.0 * vsd)
+	{
 	}
 };
 
@@ -95,9 +119,10 @@ PatchEnergy::PatchEnergy(
 	const FlatMesh& flat,
 	const PointGroups& groups,
 	const Patch& patch,
-	const std::vector<RestShape>& shapes) :
+	const std::vector<RestShape>& shapes,
+	PatchCost cost) :
 		m_size(2 * patch.variables),
-		m_hessian(m_size, m_size)
+		m_cost(cost), m_hessian(m_size, m_size)
 {
 	double sum = 0.0;
 	for (const RestShape& s : shapes)
@@ -137,7 +162,8 @@ double PatchEnergy::value(const Eigen::VectorXd& x, double eps) const
 	double sum = 0.0;
 	for (const Element& element : m_elements) {
 		const auto [z, w] = mapAt(element, x);
-		sum += element.weight * Density(std::norm(z), std::norm(w), eps).value;
+		if (element.weight > 0.0)
+			sum += element.weight * Density::of(m_cost, std::norm(z), std::norm(w), eps).value;
 	}
 	return sum;
 }
@@ -194,7 +220,7 @@ const PatchEnergy::Slots* PatchEnergy::add(
 {
 	const auto [z, w] = mapAt(element, x);
 	const double a = std::norm(z), b = std::norm(w), weight = element.weight;
-	const Density density(a, b, eps);
+	const Density density = Density::of(m_cost, a, b, eps);
 	const Complex gz = 2.0 * weight * density.da * z, gw = 2.0 * weight * density.db * w;
 	// In the frames along f_z and f_zbar: the radial directions, and the two across.
 	const Complex u = a > 0.0 ? z / std::sqrt(a) : 1.0, v = b > 0.0 ? w / std::sqrt(b) : 1.0;
@@ -287,7 +313,7 @@ double strain(const RestShape& shape, const Triangle2& plane)
 	const double a = std::norm(d.z), b = std::norm(d.w);
 	if (!(a > b))
 		return std::numeric_limits<double>::infinity();
-	return Density(a, b, 0.0).value / (2.0 + 2.0 * kAreaWeight);
+	return Density::untangling(a, b, 0.0).value / (2.0 + 2.0 * kAreaWeight);
 }
 
 } // namespace ricci

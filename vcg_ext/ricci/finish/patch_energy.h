@@ -16,8 +16,14 @@
 
 namespace ricci {
 
-/// The energy of untangle() as a function of the displacements of a patch's variables, two numbers for
-/// each.
+/// What is asked of the triangles of a patch. J is the linear map from the rest shape of a triangle, w its
+/// area.
+enum class PatchCost {
+	Untangling,        ///< see untangle()
+	SymmetricDirichlet ///< w |J|^2 (1 + 1 / det^2 J), 4 w for a rotation; infinite if flipped
+};
+
+/// The energy of a patch as a function of the displacements of its variables, two numbers for each.
 class PatchEnergy
 {
 public:
@@ -25,15 +31,17 @@ public:
 		const FlatMesh& flat,
 		const PointGroups& groups,
 		const Patch& patch,
-		const std::vector<RestShape>& shapes);
+		const std::vector<RestShape>& shapes,
+		PatchCost cost = PatchCost::Untangling);
 
 	int size() const { return m_size; }
 
-	/// Multiplies the weight of a triangle.
+	/// Multiplies the weight of a triangle, by 0 if it is not to count.
 	void stress(int triangle, double factor) { m_elements[positionOf(triangle)].weight *= factor; }
 
 	double minDeterminant(const Eigen::VectorXd& x) const;
 
+	/// \param eps of untangle()
 	double value(const Eigen::VectorXd& x, double eps) const;
 
 	/// Newton's step with the projected Hessian.
@@ -69,6 +77,7 @@ private:
 	void layOutMatrix();
 
 	int m_size; // two for each variable
+	PatchCost m_cost;
 	std::vector<Element> m_elements;
 	SparseCholesky::Matrix m_hessian; // lower triangle
 	std::vector<Slots> m_slots;       // in the order of the triangles

@@ -400,16 +400,29 @@ Repair repairInStages(
 	std::vector<Stage> stages{
 		{inside, shapes, kMaxInsideRings, false},
 		{asAllowed, shapes, kMaxRings, false},
-		{everywhere, shapes, kMaxRings, false},
-		{everywhere, shapes, kMaxRings, true}};
+		{everywhere, shapes, kMaxRings, false}};
+	const Stage partly{everywhere, shapes, kMaxRings, true};
+	// Half a repair stretches what is right for fewer flipped triangles. In the plane, where those that
+	// are left get charts of their own, that is worth it only where it leads to a whole one.
+	const bool allOrNothing = moves.seams == SeamGeometry::Plane && shapes == RestShapes::OfSurface;
+	if (!allOrNothing)
+		stages.push_back(partly);
 	// A limb that the map has shrunk below any height needs room from all round it. That bends the
 	// map, so only what is stored as it is gets it: floats, not text.
 	if (soundness.asFloats && soundness.step == 0.0) {
 		stages.push_back({everywhere, RestShapes::OfSurfaceEvenly, kMaxRings, true});
-		stages.push_back({everywhere, shapes, kMaxRings, true});
+		stages.push_back(partly);
 	}
 	PointGroups groups;
 	Repair result = run(stages, moves.accepts, soundness, limit, flat, groups);
+	if (result.left > 0 && allOrNothing) {
+		Array<Point2> before = flat.place;
+		const Repair last = run({partly}, moves.accepts, soundness, limit, flat, groups);
+		if (last.left == 0)
+			result.add(last);
+		else
+			flat.place.swap(before);
+	}
 	if (result.bad > 0 && shapes == RestShapes::OfSurface)
 		easeStrained(flat, groups, soundness, moves.accepts, limit, result);
 	return result;

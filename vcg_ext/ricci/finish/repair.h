@@ -64,7 +64,8 @@ struct BorderMoves
 
 /// repair() in stages, each for what the one before has left: the points inside the charts; the copies
 /// of seam vertices together, and the boundary where it is free; the boundary everywhere; this again,
-/// with patches of which only a part is mended; and, for coordinates stored as floats and not as text,
+/// with patches of which only a part is mended, for a map of the surface to the plane only if nothing is
+/// left then; and, for coordinates stored as floats and not as text,
 /// once more with patches whose triangles share their area as they do on the surface.
 Repair repairInStages(
 	FlatMesh& flat,

@@ -40,7 +40,8 @@ struct ComponentMap
 	std::optional<double> annulusModulus, rectangleAspect, hyperbolicArea, relationError;
 	std::optional<double> holonomyError;
 
-	int finishMoved = 0; ///< points that the repair moved
+	int finishMoved = 0;       ///< points that the repair moved
+	bool hasFreeSeams = false; ///< the finish has let seams go
 	int cappedHoles = 0;
 	int edgeSwaps = 0, boundarySplits = 0; ///< Method::EdgeSwaps
 };

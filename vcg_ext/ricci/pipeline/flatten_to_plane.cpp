@@ -108,15 +108,28 @@ void layOut(
 	map.uv = cornersOf(t, map.layout);
 }
 
+/// The finish that is asked for, or LeastDistortion where that would lose what the map has to keep.
+Finish finishOf(const Options& options, const ComponentMap& map)
+{
+	const bool isPrescribed = options.cones.rounding == ConeRounding::QuarterTurns ||
+							  (map.type.boundaryLoops > 0 && !map.flow.target.hasFixed());
+	if (options.finish != Finish::LeastStretch || !isPrescribed)
+		return options.finish;
+	logLine("The boundary or the turns across seams are prescribed: least distortion, not least "
+			"stretch.");
+	return Finish::LeastDistortion;
+}
+
 /// The finish of what is given back. The invariants are those of the flow's own layout.
 void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 {
 	if (!isFinished(options) || options.output == OutputTriangulation::CommonRefinement)
 		return; // the refinement is exact
+	const Finish finish = finishOf(options, map);
 	FlatMesh flat = flatMeshOf(domain.surface, map.layout);
 	map.finishMoved =
-		finishInPlane(flat, map.cones, map.flow.target.hasFixed(), domain.onHole, options.finish)
-			.moved;
+		finishInPlane(flat, map.cones, map.flow.target.hasFixed(), domain.onHole, finish).moved;
+	map.hasFreeSeams = finish == Finish::LeastStretch;
 	flat.place.swap(map.layout.points);
 	if (map.layout.points != flat.place) // its border may have moved
 		turnUpright(1.0, map);
@@ -169,7 +182,7 @@ flattenToPlane(const Component& component, const VertexInput& input, const Optio
 
 	advance(1.0, "Checking the result");
 	map.mesh = flatMesh(component, map, options.output);
-	requireMap(map.mesh, map.flow, mayBeFlipped(map, options.output));
+	requireMap(map.mesh, map.flow, mayBeFlipped(map, options.output), !map.hasFreeSeams);
 	return map;
 }
 

@@ -19,11 +19,12 @@
 
 namespace ricci {
 
-void requireMap(const FlatMesh& chart, const FlowResult& flow, bool bent)
+void requireMap(const FlatMesh& chart, const FlowResult& flow, bool bent, bool seamsFit)
 {
 	const double tolerance = kCheckedGap + openCurvature(flow);
 	const MapCheck check = checkMap(chart, tolerance);
-	if (!check.finite || !(check.seamGap <= tolerance) || (check.flipped > 0 && !bent))
+	if (!check.finite || (seamsFit && !(check.seamGap <= tolerance)) ||
+		(check.flipped > 0 && !bent))
 		failCheck(
 			"seams " + numberText(check.seamGap, 3) + " of the chart apart, " +
 			std::to_string(check.flipped) + " faces flipped");

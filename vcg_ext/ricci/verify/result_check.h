@@ -15,8 +15,9 @@ namespace ricci {
 /// \param chart of one component
 /// \param bent whether flips or splits may bend the triangles of the chart in the metric found, so that
 /// their straight images may be flipped
+/// \param seamsFit whether the two sides of seams are to fit
 /// \throw NotConverged
-void requireMap(const FlatMesh& chart, const FlowResult& flow, bool bent);
+void requireMap(const FlatMesh& chart, const FlowResult& flow, bool bent, bool seamsFit = true);
 
 /// The same for a chart in the Poincaré disk (disk_check.h), whose points must lie inside it.
 /// \throw NotConverged
