@@ -14,7 +14,7 @@ PYTHON_NAME = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge"
 
 ALWAYS = {
     "converged": bool, "iterations": int, "max_curvature_error": float, "residual_floor": float,
-    "qc_mean": float, "qc_vertex_mean": float, "qc_area_mean": float, "qc_p99": float,
+    "lengthened": float, "qc_mean": float, "qc_vertex_mean": float, "qc_area_mean": float, "qc_p99": float,
     "qc_max": float, "area_distortion_mean": float, "area_distortion_spread": float,
     "flipped_faces": int, "flipped_by_rounding": int, "finish_moved": int, "flips": int,
     "refinement_points": int, "edge_swaps": int, "boundary_splits": int, "euler_characteristic": int,
@@ -52,12 +52,12 @@ CHOICES = {"target_curvature": TARGET, "seams": SEAMS,
            "charts": ["As the flow has them", "Without overlap", "Without overlap and strips"],
            "output_triangulation": ["Keep the mesh", "Common refinement"],
            "finish": ["None", "Repair", "Least distortion"],
-           "holes": ["Boundaries", "Capped"]}
+           "holes": ["Boundaries", "Capped", "Short ones capped"]}
 PARAMETERS = [
     ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("cone_distortion", "Float", 0.25),
     ("seams", "Enum", 0), ("output_triangulation", "Enum", 0), ("chart_margin", "Float", 0.0),
     ("colorize", "Bool", False), ("flat_layer", "Bool", False),
-    ("holes", "Enum", 0), ("seam_hiding", "Float", 0.0), ("cone_count", "Int", 0),
+    ("holes", "Enum", 2), ("seam_hiding", "Float", 0.0), ("cone_count", "Int", 0),
     ("cone_rounding", "Enum", 0),
     ("method", "Enum", 0), ("finish", "Enum", 2), ("charts", "Enum", 1),
     ("normalize_uv", "Bool", True), ("sphere_layer", "Bool", False),

@@ -86,6 +86,14 @@ void measureInDisk(const OpenedMesh& opened, Parametrization& map)
 	map.vertexQC = measureHyperbolicDistortion(mesh, surface, map.report).vertex;
 }
 
+/// Whether charts may be cut where they cover themselves. A disk or a rectangle is asked for as one piece;
+/// that it is none at a few faces, which the finish could not mend, is counted.
+bool mayCutCharts(const Options& options)
+{
+	return options.charts != Charts::OfTheFlow && options.target != TargetCurvature::Disk &&
+		   options.target != TargetCurvature::Rectangle;
+}
+
 /// From charts to texture coordinates.
 void pack(const OpenedMesh& opened, const Options& options, Parametrization& map)
 {
@@ -96,13 +104,11 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	else
 		packCharts(map, options, turns);
 	advance(kMapped, "Finishing the coordinates");
-	const bool isWhole =
-		options.target == TargetCurvature::Disk || options.target == TargetCurvature::Rectangle;
 	FloatFinish finish;
 	finish.forText = options.output == OutputTriangulation::KeepMesh;
 	finish.measure = [&] { measure(opened, map); };
 	finish.packAgain = [&] { packCharts(map, options, turns); };
-	finish.mayCut = options.charts != Charts::OfTheFlow && !isWhole;
+	finish.mayCut = mayCutCharts(options);
 	if (isFinished(options))
 		finishInFloats(finish, map);
 	countFlipped(map.mesh, map.report);
@@ -154,7 +160,7 @@ Parametrization chartsInPlane(
 	checkOptions(options);
 	const Task part(0.0, kMapped);
 	Parametrization map = mapComponents(mesh, input, options, flattenToPlane, opened);
-	const bool separates = options.charts != Charts::OfTheFlow;
+	const bool separates = mayCutCharts(options);
 	if (isFinished(options) && separates && options.output == OutputTriangulation::KeepMesh)
 		reflectFlipped(map);
 	measure(opened, map);

@@ -116,6 +116,7 @@ Report reportOf(const ComponentMap& map)
 	report.iterations = map.flow.iterations;
 	report.maxCurvatureError = map.flow.residual;
 	report.residualFloor = map.flow.floor;
+	report.lengthened = map.flow.start.lengthened.largest;
 	report.brokenTriangles = map.flow.metric->brokenTriangles();
 	report.flips = map.flow.flipCount();
 	report.finishMoved = map.finishMoved;
