@@ -73,6 +73,7 @@ Results toResults(const ricci::Report& report)
 		{"iterations", report.iterations},
 		{"max_curvature_error", report.maxCurvatureError},
 		{"residual_floor", report.residualFloor},
+		{"lengthened", report.lengthened},
 		{"qc_mean", report.qcMean},
 		{"qc_vertex_mean", report.qcVertexMean},
 		{"qc_area_mean", report.qcAreaMean},

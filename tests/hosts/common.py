@@ -14,7 +14,7 @@ PYTHON_NAME = "compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge"
 
 ALWAYS = {
     "converged": bool, "iterations": int, "max_curvature_error": float, "residual_floor": float,
-    "qc_mean": float, "qc_vertex_mean": float, "qc_area_mean": float, "qc_p99": float,
+    "lengthened": float, "qc_mean": float, "qc_vertex_mean": float, "qc_area_mean": float, "qc_p99": float,
     "qc_max": float, "area_distortion_mean": float, "area_distortion_spread": float,
     "stretch": float, "objective": float,
     "flipped_faces": int, "flipped_by_rounding": int, "finish_moved": int, "flips": int,
@@ -50,17 +50,17 @@ METHOD = ["Intrinsic flips", "Fixed triangles", "Edge swaps", "Thurston"]
 CHOICES = {"target_curvature": TARGET, "seams": SEAMS,
            "cone_rounding": ["Free", "Multiples of pi/2"],
            "method": METHOD,
-           "charts": ["As the flow has them", "Without overlap", "Without overlap and strips"],
+           "charts": ["As the flow has them", "Without overlap", "Without overlap, cut for room"],
            "output_triangulation": ["Keep the mesh", "Common refinement"],
            "finish": ["None", "Repair", "Least distortion", "Least stretch"],
-           "holes": ["Boundaries", "Capped"]}
+           "holes": ["Boundaries", "Capped", "Short ones capped"]}
 PARAMETERS = [
     ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("cone_distortion", "Float", 0.25),
     ("seams", "Enum", 0), ("output_triangulation", "Enum", 0), ("chart_margin", "Float", 0.0),
     ("colorize", "Bool", False), ("flat_layer", "Bool", False),
-    ("holes", "Enum", 0), ("seam_hiding", "Float", 0.0), ("cone_count", "Int", 0),
+    ("holes", "Enum", 2), ("seam_hiding", "Float", 0.0), ("cone_count", "Int", 0),
     ("cone_rounding", "Enum", 0),
-    ("method", "Enum", 0), ("finish", "Enum", 2), ("charts", "Enum", 1),
+    ("method", "Enum", 0), ("finish", "Enum", 2), ("charts", "Enum", 2),
     ("normalize_uv", "Bool", True), ("sphere_layer", "Bool", False),
     ("carry_texture", "String", ""), ("texture_size", "Int", 2048), ("report", "String", ""),
     ("epsilon", "Float", 1e-8), ("time_limit", "Float", 0.0)]

@@ -177,7 +177,7 @@ class Results(unittest.TestCase):
         returned = self.check(documents, holes="Capped", cone_distortion=10)
         self.assertEqual((returned["boundary_loops"], returned["capped_holes"]), (2, 1))
         self.assertEqual((returned["seam_edges"], returned["charts"]), (0, 1))
-        open_ring = self.check(mesh_set(meshes.annulus()))
+        open_ring = self.check(mesh_set(meshes.annulus())) # its hole is no short one
         self.assertEqual(open_ring["capped_holes"], 0)
         self.assertGreater(open_ring["seam_edges"], 0)
 
@@ -807,11 +807,13 @@ class BadInput(unittest.TestCase):
     def test_degenerate(self):
         self.check("area", meshes.with_zero_area_face(meshes.plane()), method="Fixed triangles")
         self.check("length|area", meshes.with_zero_length_edge(meshes.torus()), method="Fixed triangles")
-        for mesh in (meshes.with_zero_area_face(meshes.plane()),
-                     meshes.with_zero_length_edge(meshes.torus())):
+        for mesh, lengthened in ((meshes.with_zero_area_face(meshes.plane()), 1e-5),
+                                 (meshes.with_zero_length_edge(meshes.torus()), 1.0)):
             returned = run(mesh_set(mesh), output_triangulation="Common refinement")
             self.assertTrue(returned["converged"])
             self.assertEqual(returned["flipped_faces"], 0)
+            self.assertGreater(returned["lengthened"], 0)
+            self.assertLessEqual(returned["lengthened"], lengthened)
 
     def test_refinement_without_flips(self):
         self.check("Intrinsic flips", meshes.torus(), method="Fixed triangles",

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -78,7 +79,7 @@ TEST(DelaunayPacking, KeepsTheMetricOfTheSurface)
 		const Packed packed(mesh);
 		const auto start = startOf(packed);
 		EXPECT_GT(start.flips.size(), 0u);
-		EXPECT_EQ(start.lengthened, 0.0);
+		EXPECT_EQ(start.lengthened.largest, 0.0);
 		const VertexVector before = curvatureOf(packed.triangulation, packed.lengths);
 		const VertexVector after = curvatureOf(start.mesh.triangulation, start.mesh.lengths);
 		EXPECT_LT((before - after).lpNorm<Eigen::Infinity>(), 1e-9);
@@ -154,7 +155,7 @@ TEST(DelaunayPacking, UnwindsANeedleOfManyTurns)
 	for (const double turns : {10.0, 1000.0, 20000.0}) {
 		const Packed wound(oneVertexTorus(), woundLengths(turns, 30.0));
 		const auto start = startOf(wound);
-		EXPECT_EQ(start.lengthened, 0.0);
+		EXPECT_EQ(start.lengthened.largest, 0.0);
 		EXPECT_GE(start.flips.size(), static_cast<std::size_t>(turns) - 1);
 		std::vector<double> lengths = start.mesh.lengths.values();
 		std::sort(lengths.begin(), lengths.end());
@@ -205,58 +206,151 @@ TEST(DelaunayQueue, FlipsThatDoNotEndAreAnError)
 	EXPECT_EQ(maxFlips(1500000), 1500000000);
 }
 
+/// Sum of the two sides at the origin of h less the third.
+double excessAt(const Triangulation& t, const EdgeArray<double>& lengths, Halfedge h)
+{
+	const double next = lengths[t.next(h).edge()], own = lengths[h.edge()];
+	return (own - next) + lengths[t.previous(h).edge()];
+}
+
+/// That every corner has the excess it had and twice what its vertex got, and edges what their ends got.
+void expectAddedAtVertices(
+	const Triangulation& t,
+	const EdgeArray<double>& before,
+	const EdgeArray<double>& after,
+	const Lengthening& added)
+{
+	double largest = 0.0;
+	for (const Edge e : t.edges()) {
+		EXPECT_EQ(after[e], added.lengthOf(t, e, before[e]));
+		largest = std::max(largest, (after[e] - before[e]) / after[e]);
+	}
+	EXPECT_EQ(added.largest, largest);
+	for (const Face f : t.faces())
+		for (const Halfedge h : t.halfedges(f)) {
+			const double sides = after[h.edge()] + after[t.previous(h).edge()];
+			EXPECT_NEAR(
+				excessAt(t, after, h),
+				excessAt(t, before, h) + 2 * added.atVertex[t.origin(h)],
+				1e-15 * sides);
+			EXPECT_GT(excessAt(t, after, h), 1e-12 * sides);
+		}
+}
+
+EdgeArray<double> sidesOf(const Triangulation& t, const std::array<double, 3>& sides)
+{
+	EdgeArray<double> lengths(3);
+	for (std::size_t k = 0; k < 3; ++k)
+		lengths[t.halfedges(Face(0))[k].edge()] = sides[k];
+	return lengths;
+}
+
 TEST(Mollify, LeavesASoundMeshAlone)
 {
 	for (const SurfaceMesh& mesh : surfaces()) {
 		const Packed packed(mesh);
 		EdgeArray<double> lengths = packed.lengths;
-		EXPECT_EQ(mollify(packed.triangulation, lengths), 0.0);
+		const Lengthening added = mollify(packed.triangulation, lengths);
+		EXPECT_TRUE(added.atVertex.empty());
+		EXPECT_EQ(added.largest, 0.0);
 		EXPECT_EQ(lengths, packed.lengths);
+		EXPECT_EQ(added.lengthOf(packed.triangulation, Edge(3), 2.5), 2.5);
 	}
 }
 
-TEST(Mollify, GivesJustTheExcessThatIsMissing)
+TEST(Mollify, GivesANeedleTheExcessThatIsMissing)
 {
-	// A needle whose two sides are longer than the third by 2e-7, one without excess, and one that
-	// misses the triangle inequality by 1e-3.
+	// Two sides longer than the third by 2e-7, by nothing, and shorter by 1e-3: both corners at the short
+	// side get an excess of 1e-5 of the longest where they have less, the third nothing.
 	const Triangulation t(3, {{0, 1, 2}});
-	for (double third : {1.0 - 3e-7, 1.0 - 5e-7, 0.999 - 5e-7}) {
-		EdgeArray<double> lengths(3);
+	for (const double third : {1.0 - 3e-7, 1.0 - 5e-7, 0.999 - 5e-7}) {
+		const EdgeArray<double> before = sidesOf(t, {1.0, third, 5e-7});
+		EdgeArray<double> lengths = before;
+		const Lengthening added = mollify(t, lengths);
+		expectAddedAtVertices(t, before, lengths, added);
 		const auto h = t.halfedges(Face(0));
-		lengths[h[0].edge()] = 1.0;
-		lengths[h[1].edge()] = third;
-		lengths[h[2].edge()] = 5e-7;
-		const double excess = third + 5e-7 - 1.0;
-		EXPECT_NEAR(mollify(t, lengths), 1e-5 - excess, 1e-15);
-		double sum = 0.0;
-		for (double l : lengths)
-			sum += l;
-		EXPECT_NEAR(sum - 2 * *std::max_element(lengths.begin(), lengths.end()), 1e-5, 1e-15);
+		EXPECT_NEAR(excessAt(t, lengths, h[0]), std::max(1e-5, 1.0 - third + 5e-7), 1e-15);
+		EXPECT_EQ(added.atVertex[t.origin(h[1])], 0.0);
+		EXPECT_NEAR(excessAt(t, lengths, h[2]), 1e-5, 1e-15);
 	}
+}
+
+TEST(Mollify, GivesAFlatTriangleTheExcessThatIsMissing)
+{
+	// 1e-5 of the shorter side at the flat corner, however long the others are; no other corner changes.
+	const Triangulation t(3, {{0, 1, 2}});
+	for (const double shorter : {0.5, 1e-3, 1e-5})
+		for (const double excess : {0.0, -1e-6}) {
+			const EdgeArray<double> before = sidesOf(t, {1.0, 1.0 - shorter, shorter + excess});
+			EdgeArray<double> lengths = before;
+			const Lengthening added = mollify(t, lengths);
+			expectAddedAtVertices(t, before, lengths, added);
+			const auto h = t.halfedges(Face(0));
+			EXPECT_NEAR(
+				excessAt(t, lengths, h[2]), 1e-5 * std::min(1 - shorter, shorter + excess), 1e-15);
+			EXPECT_EQ(added.atVertex[t.origin(h[0])], 0.0);
+			EXPECT_EQ(added.atVertex[t.origin(h[1])], 0.0);
+		}
 }
 
 TEST(Mollify, GivesDegenerateTrianglesAnArea)
 {
-	Random random(163);
 	SurfaceMesh mesh = rectangle(8, 8, 1, 1);
-	mesh.positions[12] = mesh.positions[13]; // an edge without length
-	mesh.positions[40] = {0.5, 0.5, 0.0};    // faces folded into a line or over each other
+	mesh.positions[12] = mesh.positions[13];   // an edge without length
+	mesh.positions[40] = {0.4375, 0.375, 0.0}; // a face folded into a line
 	const Triangulation t = glued(mesh);
 	const auto original = edgeLengths(t, mesh);
 	auto lengths = original;
-	const double added = mollify(t, lengths);
-	EXPECT_GT(added, 0.0);
-	EXPECT_LT(added, 1e-3);
-	for (const Edge e : t.edges())
-		EXPECT_NEAR(lengths[e] - original[e], added, 1e-15);
+	const Lengthening added = mollify(t, lengths);
+	EXPECT_EQ(added.largest, 1.0);
+	expectAddedAtVertices(t, original, lengths, added);
+	// Only at degenerate faces.
+	VertexArray<char> isNear(t.vertexCount(), 0);
 	for (const Face f : t.faces()) {
-		double sum = 0.0, longest = 0.0;
-		for (const Halfedge h : t.halfedges(f)) {
-			sum += lengths[h.edge()];
-			longest = std::max(longest, lengths[h.edge()]);
-		}
-		EXPECT_GT(sum - 2 * longest, 0.0);
+		const auto [a, b, c] = t.vertices(f);
+		const Point3& p = mesh.positions[at(a)];
+		if (length(cross(mesh.positions[at(b)] - p, mesh.positions[at(c)] - p)) < 1e-12)
+			for (const Vertex v : t.vertices(f))
+				isNear[v] = 1;
 	}
+	for (const Vertex v : t.vertices())
+		EXPECT_TRUE(isNear[v] || added.atVertex[v] == 0.0) << v.number();
+}
+
+TEST(Mollify, VerticesAtOnePlaceGetTheSame)
+{
+	SurfaceMesh mesh = rectangle(12, 12, 1, 1);
+	const auto isOne = [](int v) { return v % 13 > 3 && v % 13 < 9 && v / 13 > 3 && v / 13 < 9; };
+	for (int v = 0; v < 13 * 13; ++v)
+		if (isOne(v))
+			mesh.positions[at(v)] = {0.5, 0.5, 0.0};
+	const Triangulation t = glued(mesh);
+	const auto original = edgeLengths(t, mesh);
+	auto lengths = original;
+	const Lengthening added = mollify(t, lengths);
+	expectAddedAtVertices(t, original, lengths, added);
+	EXPECT_GT(added.atVertex[Vertex(6 * 13 + 6)], 0.0);
+	for (const Vertex v : t.vertices())
+		if (isOne(v.number())) {
+			EXPECT_EQ(added.atVertex[v], added.atVertex[Vertex(6 * 13 + 6)]);
+		}
+}
+
+TEST(Mollify, KeepsTheAnglesAwayFromALongDegenerateFace)
+{
+	// Cells of 0.02 by 0.001, and at a corner a needle and a flat triangle 1000 long.
+	const SurfaceMesh mesh =
+		withFlatTail(rectangle(50, 50, 1, 0.05), 51 * 51 - 2, 51 * 51 - 1, 1000.0);
+	const Triangulation t = glued(mesh);
+	const auto original = edgeLengths(t, mesh);
+	auto lengths = original;
+	const Lengthening added = mollify(t, lengths);
+	expectAddedAtVertices(t, original, lengths, added);
+	int touched = 0;
+	for (const Vertex v : t.vertices())
+		touched += added.atVertex[v] > 0.0;
+	EXPECT_LE(touched, 4);
+	EXPECT_GE(touched, 1);
 }
 
 } // namespace

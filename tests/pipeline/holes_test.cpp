@@ -11,7 +11,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -215,6 +217,74 @@ TEST(CappedHoles, CarryConesOnTheirRim)
 	const FlatResult flat = run(mesh, options, input);
 	EXPECT_GT(flat.report.seamEdges, 0);
 	EXPECT_NEAR(flat.targetCurvature[at(rim)], kPi, 1e-12);
+}
+
+/// A bumpy square of 80 x 80 cells without single vertices.
+SurfaceMesh withPinHoles()
+{
+	const auto vertex = [](int i, int j) { return i * 81 + j; };
+	const SurfaceMesh whole = grid(80, 80, Ends::Open, Ends::Open, [](int i, int j) {
+		const double x = i / 80.0, y = j / 80.0;
+		return Point3{x, y, 0.15 * std::sin(3 * x + 1) * std::cos(4 * y)};
+	});
+	return withoutStars(whole, {vertex(20, 20), vertex(40, 60), vertex(63, 17), vertex(9, 71)});
+}
+
+TEST(ShortHoles, AreCappedByDefault)
+{
+	const SurfaceMesh mesh = withPinHoles();
+	const FlatResult flat = run(mesh, Options());
+	EXPECT_EQ(flat.report.boundaryLoops, 5);
+	EXPECT_EQ(flat.report.cappedHoles, 4);
+	EXPECT_EQ(flat.report.seamEdges, 0);
+	EXPECT_EQ(flat.charts.size(), 1u);
+	EXPECT_EQ(flat.report.flippedFaces, 0);
+	EXPECT_EQ(run(mesh, capped()).uv, flat.uv);
+	Options open;
+	open.holes = Holes::Boundaries;
+	EXPECT_EQ(run(mesh, open).report.cappedHoles, 0);
+}
+
+TEST(ShortHoles, AreBoundariesWhereTheyCannotBeCapped)
+{
+	// Without flips, and where the target is one for the surface's own boundary.
+	SurfaceMesh mesh = withPinHoles();
+	Options options;
+	options.method = Method::FixedTriangles;
+	EXPECT_EQ(run(mesh, options).report.cappedHoles, 0);
+	options = Options();
+	options.target = TargetCurvature::Prescribed;
+	VertexInput input;
+	input.targetCurvature.assign(mesh.positions.size(), 0.0);
+	EXPECT_EQ(run(mesh, options, input).report.cappedHoles, 0);
+	options.target = TargetCurvature::Flat;
+	const FlatResult annulus =
+		run(withoutStars(rectangle(80, 80, 1.0, 1.0), {40 * 81 + 40}), options);
+	EXPECT_EQ(annulus.report.cappedHoles, 0);
+	EXPECT_TRUE(annulus.report.annulusModulus);
+}
+
+TEST(ShortHoles, ThatAreAllThereIsLeaveAClosedSurface)
+{
+	// The cones add up to 4 pi, and none is lost in the hole: all vertices of the mesh have the curvature
+	// that the sphere has there, those on the rim too.
+	std::vector<std::array<double, 2>> profile;
+	for (int i = 0; i <= 120; ++i)
+		profile.push_back(
+			{std::sin(kPi * i / 120) * (1 + 0.3 * std::sin(kPi * i / 40)),
+			 -3 * std::cos(kPi * i / 120)});
+	profile.front()[0] = profile.back()[0] = 0.0;
+	const SurfaceMesh mesh = withoutStars(revolved(profile, 90), {1000, 3000});
+	const FlatResult flat = run(mesh, Options());
+	EXPECT_EQ(flat.report.boundaryLoops, 2);
+	EXPECT_EQ(flat.report.cappedHoles, 2);
+	double total = 0.0;
+	for (const double k : flat.targetCurvature)
+		total += k;
+	EXPECT_NEAR(total, 4 * kPi, 1e-9);
+	EXPECT_EQ(flat.report.flippedFaces, 0);
+	EXPECT_EQ(flat.report.overlappingCharts, 0);
+	EXPECT_LT(FlatMap(mesh, flat.uv).seamMismatch, 1e-6);
 }
 
 TEST(CappedHoles, BelongToIntrinsicFlips)

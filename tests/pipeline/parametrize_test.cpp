@@ -263,6 +263,34 @@ TEST(Parametrize, AFlatRectangleKeepsItsAspect)
 	}
 }
 
+TEST(Parametrize, AFaceWithoutAreaChangesNoOther)
+{
+	// Its edge is 1000 times as long as the rectangle, whose faces keep their angles all the same: the plane
+	// is mapped to itself.
+	const int n = 60, faces = 2 * n * n, corner = (n + 1) * (n + 1) - 1;
+	const SurfaceMesh tail = withFlatTail(rectangle(n, n, 0.05, 1), corner - 1, corner, 1000.0);
+	Options options;
+	options.finish = Finish::None;
+	const FlatResult flat = run(tail, options);
+	EXPECT_GT(flat.report.lengthened, 0.0);
+	EXPECT_LT(flat.report.lengthened, 2e-5);
+	for (int f = 0; f < faces; ++f)
+		EXPECT_NEAR(qcOf(tail, flat, at(f)), 1.0, 1e-6) << f;
+
+	// The tail opens a sixtieth of a side of the rectangle, and the face without area nothing.
+	options.target = TargetCurvature::Rectangle;
+	const std::vector<int> corners{0, n, n * (n + 1), corner};
+	SurfaceMesh without = tail;
+	without.triangles.pop_back();
+	without.positions.pop_back();
+	const FlatResult one = run(tail, options, selecting(tail, corners));
+	const FlatResult other = run(without, options, selecting(without, corners));
+	EXPECT_GT(one.report.lengthened, 0.0);
+	EXPECT_EQ(other.report.lengthened, 0.0);
+	EXPECT_NEAR(*one.report.rectangleAspect, *other.report.rectangleAspect, 1e-3);
+	EXPECT_NEAR(*one.report.rectangleAspect, 20.0, 20.0 / n);
+}
+
 TEST(Parametrize, ARectangleHasFourStraightSides)
 {
 	const SurfaceMesh mesh = grid(24, 16, Ends::Open, Ends::Open, [](int i, int j) {
@@ -315,6 +343,26 @@ double roundness(const SurfaceMesh& mesh, const UV& uv)
 		worst = std::max(
 			worst, std::abs(std::hypot(p[0] + 0.5 * c[0], p[1] + 0.5 * c[1]) / radius - 1.0));
 	return worst;
+}
+
+TEST(Parametrize, ADiskOrARectangleIsOneChart)
+{
+	// Straight triangles that the flow has bent may lie over others; that is counted, not cut.
+	Random random(204);
+	int overlapping = 0;
+	for (int i = 0; i < 6; ++i) {
+		const SurfaceMesh mesh = sliverDisk(14, 3.0, random);
+		for (const TargetCurvature target : {TargetCurvature::Disk, TargetCurvature::Rectangle}) {
+			Options options;
+			options.target = target;
+			options.finish = i % 2 == 0 ? Finish::None : Finish::Repair;
+			const FlatResult flat = run(mesh, options);
+			EXPECT_EQ(flat.charts.size(), 1u);
+			EXPECT_EQ(flat.report.overlapCuts, 0);
+			overlapping += flat.report.overlappingFaces;
+		}
+	}
+	EXPECT_GT(overlapping, 0);
 }
 
 TEST(Parametrize, ADiskIsRound)

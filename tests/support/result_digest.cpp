@@ -60,6 +60,7 @@ void printReport(const std::string& run, const Report& r)
 	const std::pair<const char*, double> numbers[] = {
 		{"iterations", r.iterations},
 		{"curvature_error", r.maxCurvatureError},
+		{"lengthened", r.lengthened},
 		{"qc_mean", r.qcMean},
 		{"qc_area_mean", r.qcAreaMean},
 		{"qc_max", r.qcMax},

@@ -47,6 +47,17 @@ SurfaceMesh rectangle(int nx, int ny, double width, double height)
 	});
 }
 
+SurfaceMesh withFlatTail(SurfaceMesh mesh, int i, int j, double length)
+{
+	const int apex = static_cast<int>(mesh.positions.size()), middle = apex + 1;
+	const Point3 start = mesh.positions[at(j)];
+	mesh.positions.push_back(start + Point3{length, 0, 0});
+	mesh.positions.push_back(start + Point3{length / 2, 0, 0});
+	mesh.triangles.push_back({j, i, apex});
+	mesh.triangles.push_back({j, apex, middle});
+	return mesh;
+}
+
 SurfaceMesh torus(double R, double r, int nu, int nv)
 {
 	return grid(nu, nv, Ends::Joined, Ends::Joined, [&](int i, int j) {

@@ -370,6 +370,48 @@ TEST(FlowDomain, CapsKeepTheNumbersAndTheMetricOfTheSurface)
 	}
 }
 
+TEST(FlowDomain, ShortLoopsAreThoseBelowATenthOfTheRootOfTheArea)
+{
+	// A square of 1 with a hole: a smaller square less two opposite corners, cut off from the middles of sides.
+	for (const double side : {0.0280, 0.0292, 0.0294, 0.04}) {
+		SurfaceMesh mesh = withoutStars(rectangle(6, 6, 1.0, 1.0), {16});
+		const bool isShort =
+			(2 + std::sqrt(2.0)) * side < 0.1 * std::sqrt(1.0 - 0.75 * side * side);
+		const Point3 centre{2.0 / 6, 2.0 / 6, 0.0};
+		for (Point3& p : mesh.positions) {
+			const Point3 d = p - centre;
+			const double far = std::max(std::abs(d[0]), std::abs(d[1]));
+			if (far < 0.2)
+				p = centre + (0.5 * side / far) * d;
+		}
+		const FlowDomain domain = flowDomain(componentOf(mesh), Holes::ShortCapped);
+		EXPECT_EQ(domain.holes, isShort ? 1 : 0) << side;
+		EXPECT_EQ(domain.capped.has_value(), isShort);
+		EXPECT_EQ(domain.surface.topology.type.boundaryLoops, 2);
+		EXPECT_EQ(domain.solved().topology.type.boundaryLoops, isShort ? 1 : 2);
+		// The same at any scale.
+		for (Point3& p : mesh.positions)
+			p = 1e6 * p;
+		EXPECT_EQ(flowDomain(componentOf(mesh), Holes::ShortCapped).holes, domain.holes);
+	}
+}
+
+TEST(FlowDomain, ASurfaceWithShortLoopsAloneIsClosed)
+{
+	// Of a fine torus single vertices, and of a coarse one.
+	const SurfaceMesh fine = torus(3, 1, 160, 80), coarse = torus(3, 1, 20, 10);
+	for (const std::vector<int>& missing : {std::vector<int>{5}, {5, 2000, 7000}}) {
+		const FlowDomain domain =
+			flowDomain(componentOf(withoutStars(fine, missing)), Holes::ShortCapped);
+		EXPECT_EQ(domain.holes, static_cast<int>(missing.size()));
+		EXPECT_TRUE(domain.solved().topology.type.isTorus());
+	}
+	const FlowDomain domain =
+		flowDomain(componentOf(withoutStars(coarse, {5})), Holes::ShortCapped);
+	EXPECT_EQ(domain.holes, 0);
+	EXPECT_FALSE(domain.capped.has_value());
+}
+
 TEST(FlowDomain, OneLoopOrNoneHasNothingToCap)
 {
 	for (const SurfaceMesh& mesh : {rectangle(3, 3, 1, 1), tetrahedron(), torus(3, 1, 8, 6)}) {

@@ -43,10 +43,12 @@ enum class Method {
 	Thurston
 };
 
-/// What the boundary loops other than the longest are.
+/// What the boundary loops other than the longest are. The order is that of the filter's menu.
 enum class Holes {
 	Boundaries, ///< boundary like the longest loop: free or prescribed, with seams that join them
-	Capped      ///< closed by caps that take part in the flow and are not written, see hole_caps.h
+	Capped,     ///< closed by caps that take part in the flow and are not written, see hole_caps.h
+	ShortCapped ///< capped where they are short against the surface, the longest as well if all are;
+				///< the others stay boundaries. See flowDomain()
 };
 
 /// What a map on flipped triangles is given back on.
@@ -60,7 +62,7 @@ enum class OutputTriangulation {
 enum class Charts {
 	OfTheFlow,      ///< they are not
 	WithoutOverlap, ///< a chart that covers a part of the plane more than once becomes several
-	///< that do not; the others stay as they are
+	///< that do not; the others stay as they are, and so do disks and rectangles
 	CutForRoom ///< and of Automatic, a chart that leaves most of the square empty is cut where that is worth
 			   ///< the seam, see packForRoom(). A cut counts as one of an overlap
 };
@@ -159,8 +161,9 @@ struct Options : FlowOptions, TargetOptions, PackOptions
 	/// How much longer a seam may be to run in hollows, 0 to 1; see seamCost().
 	double seamHiding = 0.0;
 
-	/// Capped belongs to intrinsic flips.
-	Holes holes = Holes::Boundaries;
+	/// Capped belongs to intrinsic flips. ShortCapped is Boundaries with the other methods, and where the
+	/// target gives values for the surface's own boundary: Flat and Prescribed.
+	Holes holes = Holes::ShortCapped;
 
 	Charts charts = Charts::CutForRoom;
 };

@@ -28,6 +28,10 @@ struct Report
 	double maxCurvatureError = 0.0; ///< max |target - K| in radians, where K is prescribed
 	double residualFloor = 0.0;     ///< radians: what rounding allows max |target - K| to reach
 
+	/// Largest share of an edge's length that the flow has added to it, because a face at one of its ends has
+	/// no area or is a needle: 0 where there is no such face, 1 where an edge has no length.
+	double lengthened = 0.0;
+
 	double qcMean = 1.0;       ///< mean of sigma1/sigma2 over the faces
 	double qcVertexMean = 1.0; ///< mean over vertices of the area-weighted ring value (paper 5.1)
 	double qcAreaMean = 1.0;   ///< mean over the faces, weighted by their 3D area

@@ -59,6 +59,10 @@ class Flattening(Parametrization):
     """max|K̄ − K| in radians where K is prescribed"""
     residual_floor: float
     """the smallest residual that rounding allows"""
+    lengthened: float
+    """0, but where faces have no area or one side a million times shorter than another: the
+    flow sees the edges at their vertices longer, and this is the largest share of an edge that
+    is added (1: of an edge without length)"""
     qc_mean: float
     """conformal distortion σ₁/σ₂ (1: angles are kept), mean over faces; this and the three
     below leave out faces whose height is below 1e-9 of their side, and faces without area in
@@ -182,6 +186,10 @@ class Uniformization(Parametrization):
     """max|K̄ − K| in radians where K is prescribed"""
     residual_floor: float
     """the smallest residual that rounding allows"""
+    lengthened: float
+    """0, but where faces have no area or one side a million times shorter than another: the
+    flow sees the edges at their vertices longer, and this is the largest share of an edge that
+    is added (1: of an edge without length)"""
     qc_mean: float
     """conformal distortion σ₁/σ₂ (1: angles are kept), mean over faces; this and the three
     below leave out faces whose height is below 1e-9 of their side, and faces without area in
@@ -341,7 +349,8 @@ class MeshSet(pymeshlab.MeshSet):
         holes: Union[int, Literal[
             'Boundaries',
             'Capped',
-        ]] = 'Boundaries',
+            'Short ones capped',
+        ]] = 'Short ones capped',
         seam_hiding: float = 0.0,
         cone_count: int = 0,
         cone_rounding: Union[int, Literal[
@@ -447,7 +456,8 @@ def flatten(
     holes: Union[int, Literal[
         'Boundaries',
         'Capped',
-    ]] = 'Boundaries',
+        'Short ones capped',
+    ]] = 'Short ones capped',
     seam_hiding: float = 0.0,
     cone_count: int = 0,
     cone_rounding: Union[int, Literal[
@@ -501,8 +511,11 @@ def flatten(
     colorize: Colour the vertices by their quasi-conformal distortion: from blue (1: angles
         kept) over cyan, green and yellow to red (the 99th percentile over the faces, and more).
     flat_layer: Add a layer with the mesh laid out in the plane, cut along its seams.
-    holes: What the boundary loops other than the longest are. Capped: closed for the flow, so
-        that the chart goes round them without seams.
+    holes: What the boundary loops other than the longest are. Boundaries: like it, with seams
+        that join them. Capped: closed for the flow, so that the chart goes round them without
+        seams. Short ones capped: those no longer than a tenth of the root of the surface's area
+        are, like single missing faces of a fine mesh, even if all loops are so short; the
+        others stay boundaries.
     seam_hiding: 0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to
         ten times its length, so that seams run through hollows.
     cone_count: The number of placed cones. 0: as many as it takes to reach 'Cones: area

@@ -7,6 +7,10 @@ EUCLIDEAN_RESULTS = \
  'iterations': ('int', 'Newton steps, over all solves'),
  'max_curvature_error': ('float', 'max|K̄ − K| in radians where K is prescribed'),
  'residual_floor': ('float', 'the smallest residual that rounding allows'),
+ 'lengthened': ('float',
+                '0, but where faces have no area or one side a million times shorter than '
+                'another: the flow sees the edges at their vertices longer, and this is the '
+                'largest share of an edge that is added (1: of an edge without length)'),
  'qc_mean': ('float',
              'conformal distortion σ₁/σ₂ (1: angles are kept), mean over faces; this and the '
              'three below leave out faces whose height is below 1e-9 of their side, and faces '

@@ -175,9 +175,17 @@ constexpr double kLengthRounding = 16.0;
 
 // ---- Heuristic: other values would work as well, these were measured to do ----------------------
 
-/// Excess of two sides over the third that a degenerate triangle is given, relative to its longest
-/// side. Less leaves needles whose rounding floor is above what counts as converged.
+/// Excess of two sides over the third that a degenerate triangle is given: relative to the longest side of a
+/// needle, else to the shorter of the two. Less leaves needles whose rounding floor is above what counts as
+/// converged.
 constexpr double kMollification = 1e-5;
+
+/// A boundary loop no longer than this share of the square root of the surface's area is a short hole: of the
+/// surface it takes less than a thousandth, which no map misses, while its seam, and flat metrics round a point
+/// that is no cone of the shape, are as long and as distorted as those of a large hole. A vertex is missing from
+/// some 8000 faces or more then; in a coarser mesh its hole is a feature. With many handles seams pass everywhere
+/// and holes cost little: short is divided by the Euler characteristic.
+constexpr double kShortHole = 0.1;
 
 /// Expected spread of the logarithm of the area factor above which Automatic places cones. At 1 most
 /// areas keep within a factor of e, and no map of those measured that stays below has a mean factor

@@ -102,7 +102,8 @@ void FlowRun::begin(const EmbeddedSurface& surface)
 		for (const Vertex v : m_loop) {
 			const Edge e = surface.triangulation.halfedge(v).edge();
 			m_loopEdges.push_back(e);
-			m_loopLengths.push_back(surface.lengths[e] + m_result.start.lengthened);
+			m_loopLengths.push_back(
+				m_result.start.lengthened.lengthOf(surface.triangulation, e, surface.lengths[e]));
 		}
 	}
 	m_result.u = m_startU = startU();

@@ -98,7 +98,7 @@ EdgeArray<double> hyperbolicLengths(const FlowResult& flow, const EmbeddedSurfac
 	EdgeArray<double> found(t.edgeCount());
 	for (const Edge e : t.edges()) {
 		const auto [i, j] = t.ends(e);
-		const double l = surface.lengths[e] + flow.start.lengthened;
+		const double l = flow.start.lengthened.lengthOf(t, e, surface.lengths[e]);
 		const double delta = std::max(0.0, Euclidean::delta(l, radii[i], radii[j]));
 		found[e] =
 			Hyperbolic::edge(Hyperbolic::circle(flow.u[i]), Hyperbolic::circle(flow.u[j]), delta)

@@ -3,6 +3,7 @@
 
 #include "../base/task.h"
 #include "../base/tolerances.h"
+#include "../math/disjoint_sets.h"
 #include "circle_packing.h"
 #include "delaunay_queue.h"
 #include "triangle.h"
@@ -119,23 +120,75 @@ bool shrinkOverlapping(
 	return overlap;
 }
 
+/// Half of what the excess of a corner lacks, at its vertex, for the degenerate triangles: the largest of
+/// all of them there, and of all vertices at one place. Empty where no triangle is degenerate.
+VertexArray<double> missing(const Triangulation& t, const EdgeArray<double>& lengths)
+{
+	VertexArray<double> half;
+	const auto raise = [&](Vertex v, double excess, double wanted) {
+		half.resize(t.vertexCount(), 0.0);
+		half[v] = std::max(half[v], 0.5 * (wanted - excess));
+	};
+	for (const Face f : t.faces()) {
+		auto side = t.halfedges(f);
+		const auto length = [&](std::size_t k) { return lengths[side[k].edge()]; };
+		const auto isShorter = [&](Halfedge h, Halfedge k) {
+			return lengths[h.edge()] < lengths[k.edge()];
+		};
+		std::sort(side.begin(), side.end(), isShorter);
+		const double excess = (length(0) - length(2)) + length(1);
+		const double needed = kMollification * length(2);
+		if (length(0) * kNeedleRatio <= length(2)) {
+			// Both ends of the short side. One scale for a triangle without size: that of its place.
+			raise(t.apex(side[2]), excess, needed);
+			raise(t.apex(side[1]), (length(2) - length(1)) + length(0), needed);
+		}
+		else if (excess <= kDegenerateTriangle * length(2))
+			raise(t.apex(side[2]), excess, kMollification * length(0));
+	}
+	if (half.empty())
+		return half;
+	DisjointSetsOf<Vertex> places(t.vertexCount());
+	for (const Edge e : t.edges())
+		if (lengths[e] == 0.0)
+			places.merge(t.ends(e)[0], t.ends(e)[1]);
+	for (const Vertex v : t.vertices())
+		half[places.find(v)] = std::max(half[places.find(v)], half[v]);
+	for (const Vertex v : t.vertices())
+		half[v] = half[places.find(v)];
+	return half;
+}
+
 } // namespace
 
-double mollify(const Triangulation& t, EdgeArray<double>& lengths)
+double Lengthening::lengthOf(const Triangulation& t, Edge e, double l) const
 {
-	double added = 0.0;
-	for (const Face f : t.faces()) {
-		std::array<double, 3> l;
-		for (std::size_t k = 0; k < 3; ++k)
-			l[k] = lengths[t.halfedges(f)[k].edge()];
-		std::sort(l.begin(), l.end());
-		const double excess = (l[0] - l[2]) + l[1];
-		if (excess <= kDegenerateTriangle * l[2] || l[0] * kNeedleRatio <= l[2])
-			added = std::max(added, kMollification * l[2] - excess);
+	const auto [i, j] = t.ends(e);
+	return atVertex.empty() ? l : l + (atVertex[i] + atVertex[j]);
+}
+
+Lengthening mollify(const Triangulation& t, EdgeArray<double>& lengths)
+{
+	Lengthening total;
+	const EdgeArray<double> original = lengths;
+	for (VertexArray<double> more = missing(t, lengths); !more.empty();
+		 more = missing(t, lengths)) {
+		total.atVertex.resize(t.vertexCount(), 0.0);
+		bool isLonger = false;
+		for (const Vertex v : t.vertices())
+			total.atVertex[v] += more[v];
+		for (const Edge e : t.edges()) {
+			const double before = lengths[e];
+			lengths[e] = total.lengthOf(t, e, original[e]);
+			isLonger |= lengths[e] > before;
+		}
+		if (!isLonger)
+			break; // lengths that are no numbers
 	}
-	for (double& l : lengths)
-		l += added;
-	return added;
+	for (const Edge e : t.edges())
+		if (lengths[e] > original[e])
+			total.largest = std::max(total.largest, (lengths[e] - original[e]) / lengths[e]);
+	return total;
 }
 
 double flippedLength(const IntrinsicMesh& mesh, Edge e)

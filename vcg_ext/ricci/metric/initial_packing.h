@@ -16,6 +16,17 @@ struct IntrinsicMesh
 	EdgeArray<double> lengths;
 };
 
+/// What mollify() adds to the edges: atVertex[i] + atVertex[j] to edge ij.
+struct Lengthening
+{
+	VertexArray<double> atVertex; ///< empty where no triangle is degenerate
+	double largest =
+		0.0; ///< largest share of an edge that is added: 1 where it has no length itself
+
+	/// Length with what is added of edge \p e of \p t, whose own length is \p l.
+	double lengthOf(const Triangulation& t, Edge e, double l) const;
+};
+
 /// Where the flow starts (paper 4.1): the mesh's own metric on a triangulation of it, and the
 /// circle packing whose metric it is (with Method::Thurston, nearly).
 struct InitialPacking
@@ -25,16 +36,22 @@ struct InitialPacking
 	EdgeArray<double> delta; ///< inversive distance less one
 	std::vector<Edge> flips; ///< edges flipped since the input, in order
 	bool isDelaunay = false; ///< from delaunayPacking()
-	double lengthened = 0.0; ///< what mollify() added to every edge
+	Lengthening lengthened;  ///< of the input's edges, by delaunayPacking()
 };
 
-/// Where triangles are degenerate (they satisfy the triangle inequality by less than rounding can
-/// tell, or have a side a million times shorter than another), adds one constant to all lengths, so
-/// large that in those triangles every two sides exceed the third by 1e-5 of their longest
-/// (intrinsic mollification [Sharp Crane 2020]). No face is lost, and no length changes by more
-/// than the constant.
-/// \return the constant, 0 where no triangle is degenerate
-double mollify(const Triangulation& t, EdgeArray<double>& lengths);
+/// Gives degenerate triangles a shape (intrinsic mollification [Sharp Crane 2020], but vertex by vertex): those
+/// that satisfy the triangle inequality by less than rounding can tell, or have a side a million times
+/// shorter than another. To add e_i + e_j to edge ij, with any e >= 0, changes the excess l_ij + l_ki - l_jk
+/// of a corner i by 2 e_i and no other excess. So no triangle inequality is lost, and triangles that touch no
+/// degenerate one are left alone, however large that is.
+///
+/// In a needle the two corners at the short side get an excess of 1e-5 of the longest, which bounds its two
+/// large angles away from pi. In a triangle flat on its longest side the corner there gets 1e-5 of the
+/// shorter side *at the corner*: its angle then is about pi - 0.0045, whatever the sides' ratio, and no
+/// edge changes by more than the angle needs. Less would do for the angle, but a circle's radius is at most
+/// half the excess at its corner, and radii of all scales make the flow ill-conditioned. Vertices at one place
+/// get the largest of what they need.
+Lengthening mollify(const Triangulation& t, EdgeArray<double>& lengths);
 
 /// Length of the other diagonal of the two plane triangles at edge \p e.
 /// \pre \p e is flippable

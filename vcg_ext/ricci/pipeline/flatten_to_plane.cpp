@@ -28,6 +28,16 @@ namespace ricci {
 
 namespace {
 
+/// What the holes are to the flow. Short ones are boundaries where they cannot be closed without flips, and
+/// where the target has values for the boundary that the surface has.
+Holes holesOf(const Options& options)
+{
+	const bool mayCap = options.method == Method::IntrinsicFlips &&
+						options.target != TargetCurvature::Flat &&
+						options.target != TargetCurvature::Prescribed;
+	return options.holes == Holes::ShortCapped && !mayCap ? Holes::Boundaries : options.holes;
+}
+
 /// makeSeamless() as the options say.
 void makeSeamless(
 	const EmbeddedSurface& surface,
@@ -86,7 +96,7 @@ void layOut(
 	ComponentMap& map)
 {
 	const Triangulation& t = domain.surface.triangulation;
-	const bool mayChangeCut = map.type.boundaryLoops > 1 && domain.holes == 0;
+	const bool mayChangeCut = map.type.boundaryLoops - domain.holes > 1;
 	placeCorners(domain, std::move(overlay), options, map);
 	if (mayChangeCut) {
 		// A hole round which the metric closes needs no seam.
@@ -145,7 +155,7 @@ flattenToPlane(const Component& component, const VertexInput& input, const Optio
 		return flattenWithEdgeSwaps(component, input, options); // 5.4
 	ComponentMap map;
 	advance(0.0, "Circle packing");
-	const FlowDomain domain = flowDomain(component, options.holes);
+	const FlowDomain domain = flowDomain(component, holesOf(options));
 	describe(component, domain, map);
 	advance(0.0, "Flipping edges");
 	InitialPacking start = initialPacking(domain.solved(), options); // 4.1

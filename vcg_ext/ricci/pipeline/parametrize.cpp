@@ -142,13 +142,11 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	else
 		packCharts(map, options, turns);
 	advance(kMapped, "Finishing the coordinates");
-	const bool isWhole =
-		options.target == TargetCurvature::Disk || options.target == TargetCurvature::Rectangle;
 	FloatFinish finish;
 	finish.forText = options.output == OutputTriangulation::KeepMesh;
 	finish.measure = [&] { measure(opened, map); };
 	finish.packAgain = [&] { packCharts(map, options, turns); };
-	finish.mayCut = options.charts != Charts::OfTheFlow && !isWhole;
+	finish.mayCut = mayCutCharts(options);
 	if (isFinished(options))
 		finishInFloats(finish, map);
 	countFlipped(map.mesh, map.report);
@@ -212,7 +210,7 @@ Parametrization chartsInPlane(
 		opened);
 	measure(opened, map);
 	advance(kMeasured, "Looking for charts that overlap");
-	if (options.charts != Charts::OfTheFlow)
+	if (mayCutCharts(options))
 		requireSeparateCharts(map);
 	advance(1.0, "Layout done");
 	return map;

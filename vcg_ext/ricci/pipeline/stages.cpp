@@ -59,11 +59,16 @@ TargetRequest targetRequest(
 
 void logFlow(const FlowResult& flow, const FlowOptions& options)
 {
-	if (flow.start.lengthened > 0.0)
+	const Lengthening& added = flow.start.lengthened;
+	if (added.largest > 0.0) {
+		const auto count =
+			added.atVertex.size() - std::count(added.atVertex.begin(), added.atVertex.end(), 0.0);
 		logLine(
 			"Some faces have no area, or one side a million times shorter than another: the flow "
-			"sees every edge longer by " +
-			numberText(flow.start.lengthened, 3) + ".");
+			"sees the edges at " +
+			std::to_string(count) + " of the vertices longer, by up to " +
+			numberText(added.largest, 3) + " of what they then are.");
+	}
 	if (flow.residual >= options.epsilon)
 		logLine(
 			"The residual asked for is below what rounding allows: the curvature is reached to " +

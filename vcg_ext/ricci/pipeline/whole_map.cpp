@@ -117,6 +117,7 @@ Report reportOf(const ComponentMap& map)
 	report.iterations = map.flow.iterations;
 	report.maxCurvatureError = map.flow.residual;
 	report.residualFloor = map.flow.floor;
+	report.lengthened = map.flow.start.lengthened.largest;
 	report.brokenTriangles = map.flow.metric->brokenTriangles();
 	report.flips = map.flow.flipCount();
 	report.finishMoved = map.finishMoved;
@@ -165,7 +166,7 @@ Parametrization asParametrization(const Component& component, ComponentMap map)
 
 void separateCharts(const Options& options, Parametrization& map)
 {
-	const bool separates = options.charts != Charts::OfTheFlow;
+	const bool separates = mayCutCharts(options);
 	if (isFinished(options) && separates && options.output == OutputTriangulation::KeepMesh)
 		reflectFlipped(map);
 	const bool turns = options.cones.rounding != ConeRounding::QuarterTurns;

@@ -50,6 +50,14 @@ Report reportOf(const ComponentMap& map);
 /// A component's map as one chart, in the component's indices.
 Parametrization asParametrization(const Component& component, ComponentMap map);
 
+/// Whether charts may be cut where they cover themselves. A disk or a rectangle is asked for as one piece;
+/// that it is none at a few faces, which the finish could not mend, is counted.
+inline bool mayCutCharts(const Options& options)
+{
+	return options.charts != Charts::OfTheFlow && options.target != TargetCurvature::Disk &&
+		   options.target != TargetCurvature::Rectangle;
+}
+
 /// Finds charts that overlap, as \p options say; divides them, and reflects flipped triangles, unless the charts
 /// are to be those of the flow.
 void separateCharts(const Options& options, Parametrization& map);

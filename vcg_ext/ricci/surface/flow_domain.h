@@ -42,8 +42,10 @@ struct FlowDomain
 	const EmbeddedSurface& solved() const { return capped ? *capped : surface; }
 };
 
-/// The domain of \p component. Holes are closed only with Holes::Capped, and only where there is
-/// more than one boundary loop.
+/// The domain of \p component. Holes are the loops other than the longest; Holes::Capped closes all of them.
+/// Holes::ShortCapped closes the loops no longer than a tenth of the square root of the surface's area, divided
+/// by 2 genus - 2 if that is above 1: also the longest, so that a closed surface that lacks some faces is closed
+/// for the flow.
 FlowDomain flowDomain(const Component& component, Holes holes);
 
 } // namespace ricci
