@@ -55,17 +55,6 @@ double logMeanOfNormal(double spread)
 
 } // namespace
 
-double conformalEnergy(const VertexVector& area, const VertexVector& u)
-{
-	VertexArray<double> weight(static_cast<int>(u.size())), plus(weight), minus(weight);
-	for (const Vertex v : u.indices()) {
-		weight[v] = area[v];
-		plus[v] = 2.0 * u[v];
-		minus[v] = -plus[v];
-	}
-	return 4.0 * std::exp(0.5 * (logMean(weight, plus) + logMean(weight, minus)));
-}
-
 AreaChange areaChange(const EmbeddedSurface& surface, const VertexVector& factor)
 {
 	const Triangulation& t = surface.triangulation;

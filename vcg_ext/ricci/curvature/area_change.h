@@ -16,10 +16,6 @@ struct AreaChange
 						 ///< the root of the mean of 1 / s, weighted by the area in space
 };
 
-/// The energy 4 sqrt(mean exp(2 u) mean exp(-2 u)) of a conformal map with the factor \p u.
-/// \param area shares of the vertices
-double conformalEnergy(const VertexVector& area, const VertexVector& u);
-
 /// The change by the metric that scales lengths at each vertex by exp(\p factor). The factor of a
 /// triangle is taken from the geometric mean of those at its corners: so flips do not matter, nor how
 /// bent edges are drawn.

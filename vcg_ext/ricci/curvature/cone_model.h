@@ -62,11 +62,7 @@ public:
 	VertexVector factor();
 
 	/// distortion() from the factor itself, which has all digits where the sum of energy() cancels.
-	double exactDistortion() { return distortionOf(factor()); }
-	double distortionOf(const VertexVector& factor) const
-	{
-		return 2.0 * std::sqrt(m_flow.meanSquare(factor));
-	}
+	double exactDistortion() { return 2.0 * std::sqrt(m_flow.meanSquare(factor())); }
 
 	/// Derivative of half the energy by the curvature of a cone at each vertex, up to a constant
 	/// where the sum is fixed.

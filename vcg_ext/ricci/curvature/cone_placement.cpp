@@ -119,17 +119,26 @@ private:
 /// As many cones as lower the energy and the price of the seams together.
 void placeForObjective(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
+	const auto dbg = [&](const char* w, const SeamTree& t) { fprintf(stderr, "t=%.3f %s n=%d s=%.3f L=%.3f E=%.4f\n", double(clock())/CLOCKS_PER_SEC, w, model.size(), model.distortion(), t.length(), expectedEnergy(model.distortion())+kSeamPrice*t.length()); };
 	Growth growth(model, sites);
+	int next = 16;
 	while (growth.mayGoOn() && growth.add()) {
+		if (model.size() >= next) { relocateCones(model, sites, 1); next = 2*model.size(); }
 	}
+	{ SeamTree x(sites, model); dbg("over", x); }
 	growth.goBack();
+	{ SeamTree x(sites, model); dbg("grown", x); }
 	relocateCones(model, sites);
 	SeamTree tree(sites, model);
+	dbg("relocated", tree);
 	dropCostlyCones(model, tree);
+	dbg("dropped", tree);
 	if (!request.shortSeams)
 		return;
 	shortenConeTree(model, tree, sites, std::numeric_limits<double>::infinity());
+	dbg("shorter", tree);
 	dropCostlyCones(model, tree);
+	dbg("dropped", tree);
 }
 
 /// Adds cones until they reach the distortion. Free curvatures show where to put them; the rounded
@@ -249,13 +258,10 @@ void searchFromCoarse(
 	removeWeakCones(model);
 }
 
-/// \param area of the vertices, as shares
 PlacedCones result(ConeModel& model, const ConeSites& sites)
 {
 	PlacedCones placed;
-	const VertexVector factor = model.factor();
-	placed.distortion = model.distortionOf(factor);
-	placed.energy = conformalEnergy(model.area(), factor);
+	placed.distortion = model.exactDistortion();
 	placed.seams = SeamTree(sites, model).length();
 	placed.seamsWithout = sites.cutLength();
 	std::vector<std::pair<Vertex, double>> cones;
@@ -311,9 +317,7 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequ
 		addForAreas(surface, request, model, sites);
 	removeWeakCones(model);
 	PlacedCones placed = result(model, sites);
-	const AreaChange change = areaChange(surface, model.factor());
-	placed.distortion = change.spread;
-	placed.energy = change.energy;
+	placed.distortion = areaChange(surface, model.factor()).spread;
 	return placed;
 }
 

@@ -18,7 +18,6 @@ struct PlacedCones
 	/// Standard deviation by area of 2 u, the logarithm of the change of areas
 	/// (AreaDistortion::spread), as the linear problem predicts it.
 	double distortion = 0.0;
-	double energy = kLeastEnergy; ///< of the map, as the linear problem predicts it; see kEnergyPrice
 	/// Length of the seams that are to be expected, and of those without cones, in units of the square
 	/// root of the area.
 	double seams = 0.0, seamsWithout = 0.0;

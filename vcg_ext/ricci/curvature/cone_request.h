@@ -11,9 +11,15 @@ constexpr double kMaxConeCurvature = 4.71238898038468985769;
 
 /// What cones are to lower: the symmetric Dirichlet energy of the map, by area and at its best scale, and
 /// the price of its seams. A conformal map with area factors exp(2 u) has the energy
-/// 4 sqrt(mean exp(2 u) mean exp(-2 u)), which is kLeastEnergy + kEnergyPrice times the mean square of u
-/// where that is small. A seam as long as the square root of the area costs kSeamPrice.
-constexpr double kLeastEnergy = 4.0, kEnergyPrice = 8.0, kSeamPrice = 0.05;
+/// 4 sqrt(mean exp(2 u) mean exp(-2 u)), which is 4 and kEnergyPrice times the mean square of u where that
+/// is small. A seam as long as the square root of the area costs kSeamPrice.
+constexpr double kEnergyPrice = 8.0, kSeamPrice = 0.05;
+
+/// The energy to be expected where the standard deviation of 2 u is \p spread.
+inline double expectedEnergy(double spread)
+{
+	return 4.0 + 0.25 * kEnergyPrice * spread * spread;
+}
 
 /// By this factor the distortion of a given number of cones may grow for shorter seams.
 constexpr double kSeamAllowance = 1.05;

@@ -15,9 +15,6 @@ namespace {
 /// A cone this weak, in radians, is better placed anew than moved.
 constexpr double kNegligible = 0.3;
 
-/// Rounds in which every cone may move.
-constexpr int kMaxRounds = 5;
-
 /// Places down the gradient that are tried.
 constexpr int kMaxTrials = 4;
 
@@ -175,10 +172,10 @@ bool addCones(ConeModel& model, const ConeSites& sites, int count)
 	return !places.empty();
 }
 
-void relocateCones(ConeModel& model, const ConeSites& sites)
+void relocateCones(ConeModel& model, const ConeSites& sites, int rounds)
 {
 	double present = model.energy();
-	for (int round = 0; round < kMaxRounds; ++round) {
+	for (int round = 0; round < rounds; ++round) {
 		bool hasMoved = false;
 		for (int i = 0; i < model.size(); ++i)
 			hasMoved |= std::abs(model.curvature(i)) > kNegligible

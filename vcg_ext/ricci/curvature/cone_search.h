@@ -20,7 +20,7 @@ bool addCones(ConeModel& model, const ConeSites& sites, int count = 1);
 
 /// Takes every cone in turn out and puts it where it gains most, or moves it down the gradient, in
 /// several rounds, while that lowers the energy.
-void relocateCones(ConeModel& model, const ConeSites& sites);
+void relocateCones(ConeModel& model, const ConeSites& sites, int rounds = 5);
 
 /// Takes the cones that are needed least out, one after another, while the others can move so that
 /// the distortion stays below \p distortion.

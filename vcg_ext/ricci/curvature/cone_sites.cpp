@@ -79,7 +79,7 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 		isCut[e] = sign > 0;
 		for (const Vertex v : t.ends(e))
 			uses[v] += sign;
-		m_cutLength += sign * surface.lengths[e] / unit(surface);
+		m_cutLength += sign * surface.lengths[e];
 	};
 	for (const auto& [length, e] : others) {
 		if (joined.merge(t.face(e.halfedge()), t.face(e.halfedge().twin())))
@@ -101,6 +101,7 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 	for (const Vertex v : t.vertices())
 		if (uses[v] > 0)
 			m_toCut[v] = 0.0;
+	m_cutLength /= unit(surface);
 }
 
 ConeSites::ConeSites(const ConeSites& fine, const VertexArray<Vertex>& chosen) :

@@ -193,7 +193,7 @@ double cost(const ExpectedMap& map)
 
 ExpectedMap expectation(const PlacedCones& cones)
 {
-	return {cones.energy, cones.seams};
+	return {expectedEnergy(cones.distortion), cones.seams};
 }
 
 /// "expected energy 4.09, seams 3.31 (in units of the square root of the area)"
@@ -293,13 +293,12 @@ void choosePlainOrCones(
 	// In an annulus, cones come with a free boundary.
 	const bool isFlat = isFlatAnnulus(surface, request);
 	LinearFlow flow(surface, start, isFlat ? ConeBoundary::Prescribed : ConeBoundary::Fixed);
-	const VertexVector u = flow.solve(-flow.curvature());
-	const double spread = 2.0 * std::sqrt(flow.meanSquare(u));
+	const double spread = 2.0 * std::sqrt(flow.meanSquare(flow.solve(-flow.curvature())));
 	const ConeOptions& wanted = request.options.cones;
 	const bool goesBySpread = wanted.count == 0 && !isForObjective(wanted);
-	ExpectedMap plain{conformalEnergy(flow.area(), u), 0.0};
+	ExpectedMap plain{expectedEnergy(spread), 0.0};
 	const bool isKept = goesBySpread ? spread <= wanted.distortion
-									 : plain.energy - kLeastEnergy < kNegligible;
+									 : plain.energy - expectedEnergy(0.0) < kNegligible;
 	std::optional<PlacedCones> cones;
 	if (!isKept) {
 		cones = isFlat ? placeCones(surface, start, coneRequest(request))
