@@ -126,13 +126,19 @@ void placeForObjective(const ConeRequest& request, ConeModel& model, const ConeS
 		if (model.size() >= next) { relocateCones(model, sites, 1); next = 2*model.size(); }
 	}
 	{ SeamTree x(sites, model); dbg("over", x); }
-	growth.goBack();
-	{ SeamTree x(sites, model); dbg("grown", x); }
-	relocateCones(model, sites);
+	relocateCones(model, sites, 2);
 	SeamTree tree(sites, model);
 	dbg("relocated", tree);
+	for (int round = 0; round < 3; ++round) {
+	const int before = model.size();
 	dropCostlyCones(model, tree);
 	dbg("dropped", tree);
+	if (model.size()==before) break;
+	shortenConeTree(model, tree, sites, std::numeric_limits<double>::infinity());
+	dbg("shorter", tree);
+	tree = SeamTree(sites, model);
+	dbg("rebuilt", tree);
+	}
 	if (!request.shortSeams)
 		return;
 	shortenConeTree(model, tree, sites, std::numeric_limits<double>::infinity());

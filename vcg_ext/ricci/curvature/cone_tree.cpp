@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_tree.h"
 
+#include "../base/numbers.h"
 #include "../math/shortest_paths.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ricci {
 
@@ -16,46 +18,47 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 /// Rounds in which every cone may move.
 constexpr int kMaxRounds = 4;
 
-/// Trials of one cone's move.
-constexpr int kMaxAttempts = 3;
+/// Trials of one cone's move, and how far it goes at once.
+constexpr std::size_t kMaxAttempts = 3;
+constexpr double kMaxStep = 0.25;
 
 /// A move must lower energy and price of seams together by this.
-constexpr double kMinGain = 5e-4;
+constexpr double kMinGain = 1e-4;
 
-/// Moves cone \p i, which the tree ends at, nearer to the rest of the tree if that is worth it.
-/// \param tree without the cone, \p own as long as it was with it
+/// Moves cone \p i to a place around where energy and price of seams are lower.
+/// \param tree without the cone, \p own shorter than with it
 /// \return whether it has moved
-bool moveTowards(
-	ConeModel& model, const SeamTree& tree, const ConeSites& sites, int i, double own, double room)
+bool moveNearby(
+	ConeModel& model, const SeamTree& tree, const ConeSites& sites, int i, double own, double maxEnergy)
 {
 	const double present = model.energy(), curvature = model.curvature(i);
 	const Vertex old = model.vertex(i);
-	// The cone's own field is about the same around every place.
-	const double oldField = model.gradientOfOthers(i, old);
-	for (int attempt = 0; attempt < kMaxAttempts && room > 0.0; ++attempt, room *= 0.5) {
-		Vertex best;
-		double aim = kSeamPrice * own - kMinGain;
-		for (const Vertex v : model.area().indices()) {
-			const double price = kSeamPrice * tree.distance(v);
-			if (price >= aim || model.isCone(v) || !sites.isAllowed(v))
-				continue;
-			// A prediction below the present energy is not trusted.
-			const double rise = std::max(
-				0.0, 2.0 * curvature * (model.gradientOfOthers(i, v) - oldField));
-			if (rise <= room && price + kEnergyPrice * rise < aim) {
-				aim = price + kEnergyPrice * rise;
-				best = v;
-			}
-		}
-		if (!best.isValid())
-			return false;
+	const VertexVector& phi = model.gradient();
+	std::vector<std::pair<double, Vertex>> places; // change that is predicted
+	SearchFront<Vertex, Vertex> front(static_cast<int>(phi.size()));
+	front.offer(old, 0.0);
+	for (Vertex v = front.next(kMaxStep); v.isValid(); v = front.next(kMaxStep)) {
+		for (const ConeSites::Way& way : sites.ways(v))
+			front.offer(way.to, front[v] + way.length, v);
+		if (model.isCone(v) || !sites.isAllowed(v))
+			continue;
+		// The factor of curvature that goes the distance r is that of a dipole, with the mean square
+		// r^2 (ln(1 / r) + 1 / 2) / (4 pi) in a flat disk of radius 1.
+		const double r = front[v];
+		const double dipole = curvature * curvature * r * r * (0.5 - std::log(r)) / (8.0 * kPi);
+		const double rise = 2.0 * curvature * (phi[v] - phi[old]) + dipole;
+		const double change = kEnergyPrice * rise + kSeamPrice * (tree.distance(v) - own);
+		if (change < -kMinGain && present + rise <= maxEnergy)
+			places.emplace_back(change, v);
+	}
+	std::sort(places.begin(), places.end());
+	for (std::size_t k = 0; k < places.size() && k < kMaxAttempts; ++k) {
+		const Vertex v = places[k].second;
 		const double most = std::min(
-			present + room,
-			present + (kSeamPrice * (own - tree.distance(best)) - kMinGain) / kEnergyPrice);
-		if (model.tryMove(i, best, [&](double energy) { return energy <= most; }))
+			maxEnergy,
+			present + (kSeamPrice * (own - tree.distance(v)) - kMinGain) / kEnergyPrice);
+		if (model.tryMove(i, v, [&](double energy) { return energy <= most; }))
 			return true;
-		// The prediction was too good.
-		room = std::min(room, most - present);
 	}
 	return false;
 }
@@ -63,7 +66,7 @@ bool moveTowards(
 } // namespace
 
 SeamTree::SeamTree(const ConeSites& sites) :
-		m_sites(sites), m_length(sites.cutLength()), m_distance(sites.toCut()),
+		m_sites(&sites), m_length(sites.cutLength()), m_distance(sites.toCut()),
 		m_next(sites.toCut().size()), m_uses(sites.toCut().size(), 0)
 {
 	std::vector<Vertex> cut;
@@ -119,15 +122,15 @@ double SeamTree::remove(Vertex cone)
 	}
 	// All whose shortest way led there look for another.
 	for (std::size_t i = 0; i < loose.size(); ++i)
-		for (const ConeSites::Way& way : m_sites.ways(loose[i]))
+		for (const ConeSites::Way& way : m_sites->ways(loose[i]))
 			if (m_next[way.to] == loose[i] && m_distance[way.to] < kFar) {
 				m_distance[way.to] = kFar;
 				loose.push_back(way.to);
 			}
 	for (const Vertex v : loose) {
-		m_distance[v] = m_sites.toCut()[v];
+		m_distance[v] = m_sites->toCut()[v];
 		m_next[v] = Vertex();
-		for (const ConeSites::Way& way : m_sites.ways(v))
+		for (const ConeSites::Way& way : m_sites->ways(v))
 			if (m_distance[way.to] + way.length < m_distance[v]) {
 				m_distance[v] = m_distance[way.to] + way.length;
 				m_next[v] = way.to;
@@ -142,9 +145,9 @@ double SeamTree::remove(Vertex cone)
 double SeamTree::lengthOfStep(Vertex v) const
 {
 	if (!m_next[v].isValid())
-		return m_sites.toCut()[v] < kFar ? m_sites.toCut()[v] : 0.0;
+		return m_sites->toCut()[v] < kFar ? m_sites->toCut()[v] : 0.0;
 	double shortest = kFar;
-	for (const ConeSites::Way& way : m_sites.ways(v))
+	for (const ConeSites::Way& way : m_sites->ways(v))
 		if (way.to == m_next[v])
 			shortest = std::min(shortest, way.length);
 	return shortest;
@@ -161,7 +164,7 @@ void SeamTree::spread(const std::vector<Vertex>& from)
 		const auto [distance, v] = queue.pop();
 		if (distance != m_distance[v])
 			continue;
-		for (const ConeSites::Way& way : m_sites.ways(v))
+		for (const ConeSites::Way& way : m_sites->ways(v))
 			if (distance + way.length < m_distance[way.to]) {
 				m_distance[way.to] = distance + way.length;
 				m_next[way.to] = v;
@@ -176,10 +179,8 @@ void shortenConeTree(ConeModel& model, SeamTree& tree, const ConeSites& sites, d
 	for (int round = 0; round < kMaxRounds; ++round) {
 		bool hasMoved = false;
 		for (int i = 0; i < model.size(); ++i) {
-			if (tree.ownLength(model.vertex(i)) * kSeamPrice <= kMinGain)
-				continue;
 			const double own = tree.remove(model.vertex(i));
-			hasMoved |= moveTowards(model, tree, sites, i, own, maxEnergy - model.energy());
+			hasMoved |= moveNearby(model, tree, sites, i, own, maxEnergy);
 			tree.add(model.vertex(i));
 		}
 		if (!hasMoved)

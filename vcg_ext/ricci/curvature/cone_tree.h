@@ -40,7 +40,7 @@ private:
 	double lengthOfStep(Vertex v) const;
 	void spread(const std::vector<Vertex>& from);
 
-	const ConeSites& m_sites;
+	const ConeSites* m_sites;
 	double m_length;
 	VertexArray<double> m_distance; // to the tree
 	VertexArray<Vertex> m_next;     // on the way to the tree, and on it to where its paths began
