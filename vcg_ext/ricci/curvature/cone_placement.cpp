@@ -60,7 +60,11 @@ int maxCones(const ConeModel& model)
 	return std::clamp(kMaxConeNumbers / vertices, kMaxPlacedCones, kMaxNeededCones);
 }
 
-/// Adds cones while that lowers the energy that is expected and the price of the seams together.
+/// In a search for the objective, cones move first when there are so many, and again whenever there are
+/// twice as many; afterwards, those that are not worth their seams go in so many rounds.
+constexpr int kFirstRelocated = 16, kMaxObjectiveRounds = 3;
+
+/// Adds cones while that lowers the energy that is expected and the price of seams and cones together.
 class Growth
 {
 public:
@@ -93,20 +97,12 @@ public:
 		return true;
 	}
 
-	/// Takes the last cones out, which lowered nothing.
-	void goBack()
-	{
-		for (int i = m_model.size() - 1; i >= m_best; --i)
-			m_model.remove(i);
-		m_model.fit();
-	}
-
 private:
 	static constexpr int kMaxVain = 8, kShareVain = 4, kShareAtOnce = 8;
 
 	double objective() const
 	{
-		return kEnergyPrice * m_model.energy() + kSeamPrice * m_tree.length();
+		return kEnergyPrice * m_model.energy() + kSeamPrice * m_tree.length() + kConePrice * m_model.size();
 	}
 
 	ConeModel& m_model;
@@ -116,35 +112,24 @@ private:
 	double m_least;
 };
 
-/// As many cones as lower the energy and the price of the seams together.
+/// As many cones as lower the energy and the price of the seams together: more than those at first, then
+/// without those that are not worth their seams.
 void placeForObjective(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
-	const auto dbg = [&](const char* w, const SeamTree& t) { fprintf(stderr, "t=%.3f %s n=%d s=%.3f L=%.3f E=%.4f\n", double(clock())/CLOCKS_PER_SEC, w, model.size(), model.distortion(), t.length(), expectedEnergy(model.distortion())+kSeamPrice*t.length()); };
 	Growth growth(model, sites);
-	int next = 16;
-	while (growth.mayGoOn() && growth.add()) {
-		if (model.size() >= next) { relocateCones(model, sites, 1); next = 2*model.size(); }
-	}
-	{ SeamTree x(sites, model); dbg("over", x); }
+	for (int relocated = kFirstRelocated; growth.mayGoOn() && growth.add();)
+		if (model.size() >= relocated) {
+			relocateCones(model, sites, 1);
+			relocated = 2 * model.size();
+		}
 	relocateCones(model, sites, 2);
-	SeamTree tree(sites, model);
-	dbg("relocated", tree);
-	for (int round = 0; round < 3; ++round) {
-	const int before = model.size();
-	dropCostlyCones(model, tree);
-	dbg("dropped", tree);
-	if (model.size()==before) break;
-	shortenConeTree(model, tree, sites, std::numeric_limits<double>::infinity());
-	dbg("shorter", tree);
-	tree = SeamTree(sites, model);
-	dbg("rebuilt", tree);
+	for (int round = 0; round < kMaxObjectiveRounds; ++round) {
+		SeamTree tree(sites, model);
+		if (!dropCostlyCones(model, tree) && round > 0)
+			return;
+		if (request.shortSeams)
+			shortenConeTree(model, tree, sites, std::numeric_limits<double>::infinity());
 	}
-	if (!request.shortSeams)
-		return;
-	shortenConeTree(model, tree, sites, std::numeric_limits<double>::infinity());
-	dbg("shorter", tree);
-	dropCostlyCones(model, tree);
-	dbg("dropped", tree);
 }
 
 /// Adds cones until they reach the distortion. Free curvatures show where to put them; the rounded

@@ -15,6 +15,10 @@ constexpr double kMaxConeCurvature = 4.71238898038468985769;
 /// is small. A seam as long as the square root of the area costs kSeamPrice.
 constexpr double kEnergyPrice = 8.0, kSeamPrice = 0.05;
 
+/// What one more cone must save beyond the price of its seam: charts with more cones overlap themselves
+/// more often, and are divided there by seams that no tree of cones foretells.
+constexpr double kConePrice = 0.0015;
+
 /// The energy to be expected where the standard deviation of 2 u is \p spread.
 inline double expectedEnergy(double spread)
 {

@@ -202,13 +202,14 @@ void dropCones(ConeModel& model, const ConeSites& sites, double distortion)
 	}
 }
 
-void dropCostlyCones(ConeModel& model, SeamTree& tree)
+bool dropCostlyCones(ConeModel& model, SeamTree& tree)
 {
+	const int before = model.size();
 	while (model.size() > model.minSize()) {
 		int dearest = -1;
 		double most = 0.0;
 		for (int i = 0; i < model.size(); ++i) {
-			const double loss = kSeamPrice * tree.ownLength(model.vertex(i)) -
+			const double loss = kConePrice + kSeamPrice * tree.ownLength(model.vertex(i)) -
 								kEnergyPrice * model.need(i);
 			if (loss > most) {
 				most = loss;
@@ -216,11 +217,12 @@ void dropCostlyCones(ConeModel& model, SeamTree& tree)
 			}
 		}
 		if (dearest < 0)
-			return;
+			break;
 		tree.remove(model.vertex(dearest));
 		model.remove(dearest);
 		model.fit();
 	}
+	return model.size() < before;
 }
 
 void removeWeakCones(ConeModel& model)

@@ -19,16 +19,17 @@ void startCones(ConeModel& model, const ConeSites& sites);
 bool addCones(ConeModel& model, const ConeSites& sites, int count = 1);
 
 /// Takes every cone in turn out and puts it where it gains most, or moves it down the gradient, in
-/// several rounds, while that lowers the energy.
+/// \p rounds at most, while that lowers the energy.
 void relocateCones(ConeModel& model, const ConeSites& sites, int rounds = 5);
 
 /// Takes the cones that are needed least out, one after another, while the others can move so that
 /// the distortion stays below \p distortion.
 void dropCones(ConeModel& model, const ConeSites& sites, double distortion);
 
-/// Takes cones out whose seams cost more than the energy that they save, see kSeamPrice.
+/// Takes cones out that save less energy than they and their seams cost, see kSeamPrice.
 /// \param tree of the cones
-void dropCostlyCones(ConeModel& model, SeamTree& tree);
+/// \return whether there were any
+bool dropCostlyCones(ConeModel& model, SeamTree& tree);
 
 /// Takes out cones that are too weak to be worth a seam, down to ConeModel::minSize().
 void removeWeakCones(ConeModel& model);
