@@ -24,7 +24,7 @@ constexpr double kNearlyEnough = 1.1;
 
 /// On more vertices than the first number, cones are searched for on at most so many aggregates of
 /// them as the second.
-constexpr int kMaxSearched = 10000, kMaxAggregates = 7000;
+constexpr int kMaxSearched = 20000, kMaxAggregates = 12000;
 
 /// Searches on aggregates, each for the distortion that the surface itself missed.
 constexpr int kMaxCoarseRounds = 3;
@@ -295,6 +295,14 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequ
 	advance(0.0, "Placing cones");
 	const ConeSites sites(surface, request.vertices);
 	LinearFlow linear(surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)));
+	if (isForObjective(request)) {
+		PlacedCones placed = placeCones(surface, linear, request);
+		VertexVector k = VertexVector::Zero(linear.vertexCount());
+		for (std::size_t i = 0; i < placed.vertices.size(); ++i)
+			k[placed.vertices[i]] = placed.curvatures[i];
+		placed.distortion = areaChange(surface, linear.factor(std::move(k))).spread;
+		return placed;
+	}
 	ConeModel model(linear, 2 * kPi * surface.topology.type.eulerCharacteristic());
 	std::vector<Vertex> cones;
 	for (const Vertex v : surface.triangulation.vertices())
@@ -302,10 +310,7 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequ
 			cones.push_back(v);
 	model.append(cones);
 	model.fit();
-	if (isForObjective(request))
-		placeForObjective(request, model, sites);
-	else
-		addForAreas(surface, request, model, sites);
+	addForAreas(surface, request, model, sites);
 	removeWeakCones(model);
 	PlacedCones placed = result(model, sites);
 	placed.distortion = areaChange(surface, model.factor()).spread;
