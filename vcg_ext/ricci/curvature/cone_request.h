@@ -17,7 +17,7 @@ constexpr double kEnergyPrice = 8.0, kSeamPrice = 0.05;
 
 /// What one more cone must save beyond the price of its seam: charts with more cones overlap themselves
 /// more often, and are divided there by seams that no tree of cones foretells.
-constexpr double kConePrice = 0.0015;
+constexpr double kConePrice = 0.001;
 
 /// The energy to be expected where the standard deviation of 2 u is \p spread.
 inline double expectedEnergy(double spread)
