@@ -26,8 +26,9 @@ constexpr double kNearlyEnough = 1.1;
 /// them as the second.
 constexpr int kMaxSearched = 20000, kMaxAggregates = 12000;
 
-/// Searches on aggregates, each for the distortion that the surface itself missed.
-constexpr int kMaxCoarseRounds = 3;
+/// Searches on aggregates, each for the distortion that the surface itself missed; and rounds in which
+/// cones move on the surface itself.
+constexpr int kMaxCoarseRounds = 3, kMaxFineRounds = 2;
 
 void checkCount(const ConeRequest& request, const ConeModel& model, const ConeSites& sites)
 {
@@ -243,7 +244,7 @@ void searchFromCoarse(
 		coarseRequest.distortion /= excess;
 	}
 	if (request.count > 0 || excess > 1.0)
-		relocateCones(model, sites);
+		relocateCones(model, sites, kMaxFineRounds);
 	if (request.count == 0)
 		addForDistortion(request, model, sites);
 	removeWeakCones(model);
