@@ -94,7 +94,7 @@ std::string inWords(const ricci::InvalidOption& e)
 			"Use the number of cones, or 0 to have it chosen by cone_distortion.");
 	case Error::ConeDistortion:
 		return unusable(
-			e.value, "cone_distortion", "Use a number greater than 0, for example 0.25.");
+			e.value, "cone_distortion", "Use 0, or a number greater than 0, for example 0.25.");
 	case Error::ConeAngle:
 		return "cone_angle must be greater than 0 degrees, not " +
 			   numberText(e.value * 180.0 / ricci::kPi, 9) + ".";

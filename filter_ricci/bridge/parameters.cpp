@@ -248,8 +248,9 @@ RichParameterList euclideanParameters(Shown shown)
 		"cone_distortion",
 		static_cast<Scalarm>(defaults.cones.distortion),
 		"Cones: area distortion",
-		"Cones are added until areas typically change by less than this, relative to each other "
-		"(0.25: by a quarter). Read where cones are placed and their number is 0."));
+		"0: as many cones as lower the distortion by more than their seams cost. Above 0: cones are "
+		"added until areas typically change by less than this, relative to each other (0.25: by a "
+		"quarter). Read where cones are placed and their number is 0."));
 	list.addParam(RichEnum("seams", 0, seamsChoices(), kSeamsName, kSeamsTip));
 	list.addParam(outputTriangulationParameter(defaults.output));
 	list.addParam(RichFloat(
@@ -287,7 +288,7 @@ RichParameterList euclideanParameters(Shown shown)
 		"cone_count",
 		defaults.cones.count,
 		"Cones: number",
-		"The number of placed cones. 0: as many as it takes to reach 'Cones: area distortion'."));
+		"The number of placed cones. 0: as many as 'Cones: area distortion' asks for."));
 	list.addParam(host::advanced<RichEnum>(
 		"cone_rounding",
 		static_cast<int>(defaults.cones.rounding),

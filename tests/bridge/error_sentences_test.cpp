@@ -294,7 +294,7 @@ TEST(Sentences, OfParameters)
 		"it chosen by cone_distortion.");
 	EXPECT_EQ(
 		of(InvalidOption::ConeDistortion, double(-0.1f)),
-		"The value -0.1 of cone_distortion cannot be used. Use a number greater than 0, for "
+		"The value -0.1 of cone_distortion cannot be used. Use 0, or a number greater than 0, for "
 		"example 0.25.");
 	EXPECT_EQ(
 		of(InvalidOption::SeamHiding, double(1.1f)),

@@ -218,8 +218,8 @@ TEST(AreaExcess, IsOneAtItsBounds)
 		EXPECT_NEAR(areaExcess({1.0, kSpreadSlack * spread}, spread, kSpreadSlack), 1.0, 1e-15);
 		EXPECT_NEAR(areaExcess({1.0, 3.0 * spread}, spread), 3.0, 1e-14);
 		double mean = kMaxAreaMean;
-		if (spread > kMaxPlainSpread)
-			mean *= meanOfNormal(spread) / meanOfNormal(kMaxPlainSpread);
+		if (spread > kWideSpread)
+			mean *= meanOfNormal(spread) / meanOfNormal(kWideSpread);
 		EXPECT_NEAR(areaExcess({mean, 0.0}, spread), 1.0, 1e-9) << spread;
 		EXPECT_NEAR(areaExcess({mean, 0.0}, spread, 1.7), 1.0, 1e-9); // the slack is the spread's
 	}
@@ -262,7 +262,7 @@ TEST(TailWeights, HaveTheDerivativeOfTheHyperbolicCosine)
 		const EmbeddedSurface surface = surfaceOf(mesh);
 		VertexVector u = randomFactor(size, 0.3, random);
 		u[Vertex(random.index(size))] += 1.5; // a tail
-		ASSERT_LT(areaChange(surface, u).spread, kMaxPlainSpread);
+		ASSERT_LT(areaChange(surface, u).spread, kWideSpread);
 		const VertexVector area = vertexAreas(mesh), weights = tailWeights(surface, u);
 		EXPECT_NEAR(weights.sum(), 1.0, 1e-13);
 		const auto cosine = [&](const VertexVector& x, double c) {
@@ -308,7 +308,7 @@ TEST(TailWeights, AreTheAreasWhereTheFactorIsConstantOrSpreadsFar)
 		const int size = static_cast<int>(mesh.positions.size());
 		const EmbeddedSurface surface = surfaceOf(mesh);
 		const VertexVector area = vertexAreas(mesh), far = randomFactor(size, 6.0, random);
-		ASSERT_GT(areaChange(surface, far).spread, kMaxPlainSpread);
+		ASSERT_GT(areaChange(surface, far).spread, kWideSpread);
 		for (const VertexVector& u : {far, VertexVector(VertexVector::Constant(size, 0.4))})
 			EXPECT_LT((tailWeights(surface, u) - area).lpNorm<Eigen::Infinity>(), 1e-12);
 	}

@@ -106,12 +106,12 @@ TEST(ConeSearch, EachConeMoreLowersTheEnergyUntilNoVertexIsLeft)
 		startCones(search.model, search.sites);
 		double energy = search.model.energy();
 		while (search.model.size() < 12) {
-			ASSERT_TRUE(addCone(search.model, search.sites));
+			ASSERT_TRUE(addCones(search.model, search.sites));
 			EXPECT_LE(search.model.energy(), energy * (1 + 1e-9));
 			energy = search.model.energy();
 			EXPECT_NEAR(search.sum(), 2 * kPi * (2 - 2 * genus), 1e-10);
 		}
-		EXPECT_FALSE(addCone(search.model, search.sites));
+		EXPECT_FALSE(addCones(search.model, search.sites));
 		EXPECT_EQ(search.cones().size(), 12u);
 		EXPECT_LT(search.cones().rbegin()->number(), 12);
 	}
@@ -134,7 +134,7 @@ TEST(ConeSearch, TheNextConeIsWhereTheGradientDiffersMost)
 			for (const Vertex v : phi.indices())
 				if (!search.model.isCone(v))
 					most = std::max(most, std::abs(phi[v] - level));
-			ASSERT_TRUE(addCone(search.model, search.sites));
+			ASSERT_TRUE(addCones(search.model, search.sites));
 			const Vertex added = search.model.vertex(count);
 			EXPECT_NEAR(std::abs(phi[added] - level), most, 1e-9 * most);
 		}
@@ -153,7 +153,7 @@ TEST(ConeSearch, FindsTheCornerOfABoxThatIsMissing)
 		search.model.append(all);
 		search.model.fit();
 		EXPECT_GT(search.model.distortion(), 0.01);
-		ASSERT_TRUE(addCone(search.model, search.sites));
+		ASSERT_TRUE(addCones(search.model, search.sites));
 		relocateCones(search.model, search.sites);
 		EXPECT_TRUE(search.model.isCone(last));
 		EXPECT_LT(search.model.exactDistortion(), 1e-9);
@@ -205,7 +205,7 @@ TEST(ConeSearch, NoMoreConesAreDroppedThanTheDistortionAllows)
 	Search search(shakenSlab(0), 0);
 	startCones(search.model, search.sites);
 	while (search.model.size() < 14)
-		ASSERT_TRUE(addCone(search.model, search.sites));
+		ASSERT_TRUE(addCones(search.model, search.sites));
 	const double wanted = 2.0 * search.model.distortion();
 	dropCones(search.model, search.sites, wanted);
 	EXPECT_LT(search.model.size(), 14);

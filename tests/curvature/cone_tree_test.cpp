@@ -6,6 +6,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/curvature/cone_tree.h>
+#include <ricci/metric/area.h>
 
 #include <gtest/gtest.h>
 
@@ -75,84 +76,115 @@ SurfaceMesh sphere()
 	return shaken(perforatedSlab(0, 3), 0.05, random);
 }
 
-TEST(ConeTree, IsShortenedMoreThanTheDistortionGrows)
+/// Units of length of the surface in one of its sites.
+double unit(const EmbeddedSurface& surface)
+{
+	return std::sqrt(euclideanArea(surface.triangulation, surface.lengths));
+}
+
+std::vector<Vertex> places(int step, int n)
+{
+	std::vector<Vertex> vertices;
+	for (int i = 0; i < 5; ++i)
+		vertices.emplace_back(i * step % n);
+	return vertices;
+}
+
+/// On a sphere, where there are no other seams, paths that may begin on one another are no longer than those
+/// between the cones alone, and no shorter than half of them.
+TEST(SeamTree, IsNoLongerThanTheMinimumSpanningTree)
 {
 	Linearised linear({"", sphere(), ConeBoundary::Fixed});
 	const ConeSites sites(linear.surface, -1);
 	const auto distance = distances(linear.surface);
-	const int n = linear.flow.vertexCount();
-	bool hasMoved = false;
+	const double whole = unit(linear.surface);
 	for (const int step : {7, 13, 19}) {
 		ConeModel model(linear.flow, 4 * kPi);
-		for (int i = 0; i < 5; ++i)
-			model.append(Vertex(i * step % n));
+		model.append(places(step, linear.flow.vertexCount()));
 		model.fit();
-		const double distortion = model.distortion(), length = treeLength(distance, conesOf(model));
-		for (const double allowed : {1.05, 1.5}) {
-			ConeModel shorter(linear.flow, 4 * kPi);
-			shorter.append(conesOf(model));
-			shorter.fit();
-			shortenConeTree(shorter, sites, allowed * distortion);
-			const double now = treeLength(distance, conesOf(shorter));
-			EXPECT_EQ(shorter.size(), 5);
-			EXPECT_LE(shorter.distortion(), allowed * distortion * (1 + 1e-9));
-			if (conesOf(shorter) == conesOf(model))
-				continue;
-			hasMoved = true;
-			// Each move lowers the product by half a percent.
-			EXPECT_LE(
-				now * std::sqrt(shorter.distortion()),
-				0.995 * length * std::sqrt(distortion) + 1e-9);
+		const SeamTree tree(sites, model);
+		const double spanning = treeLength(distance, conesOf(model)) / whole;
+		EXPECT_LE(tree.length(), spanning * (1 + 1e-12));
+		EXPECT_GE(tree.length(), 0.5 * spanning);
+		for (const Vertex v : conesOf(model))
+			EXPECT_EQ(tree.distance(v), 0.0);
+		for (const Vertex v : model.area().indices())
+			for (const Vertex cone : conesOf(model))
+				EXPECT_LE(tree.distance(v), distance[at(v)][at(cone)] / whole + 1e-12);
+	}
+}
+
+/// Taking a cone out leaves the tree as if it had never been there.
+TEST(SeamTree, ForgetsConesThatAreTakenOut)
+{
+	Random random(922);
+	for (const int genus : {0, 1, 2}) {
+		Linearised linear({"", shaken(perforatedSlab(genus, 3), 0.05, random), ConeBoundary::Fixed});
+		const ConeSites sites(linear.surface, -1);
+		EXPECT_EQ(sites.cutLength() > 0.0, genus > 0);
+		const std::vector<Vertex> cones = places(17, linear.flow.vertexCount());
+		for (std::size_t out = 1; out < cones.size(); ++out) {
+			SeamTree tree(sites);
+			for (const Vertex v : cones)
+				if (v != cones[out])
+					tree.add(v);
+			SeamTree other = tree;
+			const double longer = tree.distance(cones[out]);
+			other.add(cones[out]);
+			EXPECT_NEAR(other.length(), tree.length() + longer, 1e-12);
+			EXPECT_NEAR(other.ownLength(cones[out]), longer, 1e-12);
+			EXPECT_NEAR(other.remove(cones[out]), longer, 1e-12);
+			EXPECT_NEAR(other.length(), tree.length(), 1e-12);
+			for (const Vertex v : linear.surface.triangulation.vertices())
+				EXPECT_NEAR(other.distance(v), tree.distance(v), 1e-12);
 		}
 	}
-	EXPECT_TRUE(hasMoved);
 }
 
-/// A move is taken only if it lowers the product; where no place does, nothing moves.
-TEST(ConeTree, EndsWhereNoMoveOfOneConeIsWorthIt)
+/// The seams without cones open a surface to a disk: 2 g + b - 1 loops or paths are in them.
+TEST(ConeSites, SeamsWithoutConesBeginOnTheBoundary)
 {
-	Linearised linear({"", sphere(), ConeBoundary::Fixed});
+	const SurfaceMesh cylinder = revolved({{1.0, 0.0}, {1.0, 0.5}, {1.0, 1.0}, {1.0, 1.5}}, 16);
+	Linearised linear({"", cylinder, ConeBoundary::Fixed});
 	const ConeSites sites(linear.surface, -1);
-	const auto distance = distances(linear.surface);
-	ConeModel model(linear.flow, 4 * kPi);
-	model.append({Vertex(0), Vertex(60), Vertex(100), Vertex(30)});
-	model.fit();
-	const double allowed = 1.3 * model.distortion();
-	for (int i = 0; i < 4; ++i)
-		shortenConeTree(model, sites, allowed);
-	const std::vector<Vertex> still = conesOf(model);
-	shortenConeTree(model, sites, allowed);
-	EXPECT_EQ(conesOf(model), still);
-	// A cone beside another shortens the tree, but adds too much distortion.
-	const double product = treeLength(distance, still) * std::sqrt(model.distortion());
-	int worse = 0, count = 0;
-	for (int i = 0; i < model.size(); ++i)
-		for (const Vertex v : model.area().indices()) {
-			if (model.isCone(v))
-				continue;
-			std::vector<Vertex> there = still;
-			there[at(i)] = v;
-			const double length = treeLength(distance, there);
-			ConeModel trial = model;
-			worse += !trial.tryMove(i, v, [&](double energy) {
-				const double moved = 2.0 * std::sqrt(energy);
-				return moved <= allowed && length * std::sqrt(moved) <= 0.98 * product;
-			});
-			++count;
+	EXPECT_NEAR(sites.cutLength(), 1.5 / unit(linear.surface), 1e-9);
+	for (const Vertex v : linear.surface.triangulation.vertices())
+		if (linear.surface.topology.boundary[v]) {
+			EXPECT_EQ(sites.toCut()[v], 0.0);
 		}
-	EXPECT_GE(worse, 0.97 * count);
+	Linearised ball({"", sphere(), ConeBoundary::Fixed});
+	EXPECT_EQ(ConeSites(ball.surface, -1).cutLength(), 0.0);
 }
 
-TEST(ConeTree, StaysWhereNoDistortionMayBeAdded)
+double cost(const ConeModel& model, const SeamTree& tree)
+{
+	return kEnergyPrice * model.energy() + kSeamPrice * tree.length();
+}
+
+TEST(ConeTree, MovesLowerEnergyAndPriceOfSeams)
 {
 	Linearised linear({"", sphere(), ConeBoundary::Fixed});
 	const ConeSites sites(linear.surface, -1);
-	ConeModel model(linear.flow, 4 * kPi);
-	model.append({Vertex(0), Vertex(60), Vertex(100), Vertex(30)});
-	model.fit();
-	const std::vector<Vertex> before = conesOf(model);
-	shortenConeTree(model, sites, 0.9 * model.distortion());
-	EXPECT_EQ(conesOf(model), before);
+	int moved = 0;
+	for (const int step : {7, 13, 19})
+		for (const double allowed : {1.0, 1.05, 1e9}) {
+			ConeModel model(linear.flow, 4 * kPi);
+			model.append(places(step, linear.flow.vertexCount()));
+			model.fit();
+			const double distortion = model.distortion();
+			const std::vector<Vertex> before = conesOf(model);
+			SeamTree tree(sites, model);
+			const double least = cost(model, tree);
+			shortenConeTree(model, tree, sites, allowed * distortion);
+			EXPECT_EQ(model.size(), 5);
+			EXPECT_LE(model.distortion(), allowed * distortion * (1 + 1e-9));
+			EXPECT_LE(cost(model, tree), least + 1e-12);
+			moved += conesOf(model) != before;
+			if (conesOf(model) != before) {
+				EXPECT_LT(cost(model, tree), least - 9e-5);
+			}
+		}
+	EXPECT_GT(moved, 0);
 }
 
 TEST(ConeTree, MovesToAllowedPlacesOnly)
@@ -163,22 +195,10 @@ TEST(ConeTree, MovesToAllowedPlacesOnly)
 	ConeModel model(linear.flow, 4 * kPi);
 	model.append({Vertex(0), Vertex(13), Vertex(26), Vertex(39)});
 	model.fit();
-	shortenConeTree(model, sites, 3.0 * model.distortion());
+	SeamTree tree(sites, model);
+	shortenConeTree(model, tree, sites, 3.0 * model.distortion());
 	for (const Vertex v : conesOf(model))
 		EXPECT_LT(v.number(), allowed);
-}
-
-/// Nothing joins one cone to.
-TEST(ConeTree, OfOneConeIsNone)
-{
-	Random random(921);
-	Linearised linear({"", shaken(perforatedSlab(2, 2), 0.05, random), ConeBoundary::Fixed});
-	const ConeSites sites(linear.surface, -1);
-	ConeModel model(linear.flow, -4 * kPi);
-	model.append(Vertex(5));
-	model.fit();
-	shortenConeTree(model, sites, 2.0 * model.distortion());
-	EXPECT_EQ(conesOf(model), std::vector<Vertex>{Vertex(5)});
 }
 
 } // namespace

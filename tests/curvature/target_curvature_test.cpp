@@ -254,50 +254,64 @@ int coneCount(const TestSurface& surface, const Target& target)
 	return count;
 }
 
-TEST(TargetCurvature, AutomaticPlacesConesWhereAreasWouldSpreadMoreWithoutThem)
+TEST(TargetCurvature, AutomaticTakesWhatIsExpectedToCostLess)
 {
-	int plain = 0, withCones = 0;
+	int withCones = 0;
 	for (const Plain& p : plainSurfaces()) {
 		SCOPED_TRACE(p.name + ", " + std::to_string(p.spread));
 		const TestSurface surface(p.mesh);
 		const Target target = surface.choose(TargetCurvature::Automatic);
 		const std::string notes = joined(target);
-		const std::string no =
-			"No cones: the expected spread of the logarithm of the area factor is ";
-		const std::string yes =
-			"Cones: without them the spread of the logarithm of the area factor would be ";
-		ASSERT_TRUE(target.maxSpread);
-		if (p.spread < 1.0) {
-			++plain;
-			EXPECT_NEAR(numberAfter(notes, no) / p.spread, 1.0, 0.03) << notes;
-			EXPECT_EQ(notes.find(yes), std::string::npos);
+		ASSERT_TRUE(target.expected);
+		EXPECT_FALSE(target.maxSpread);
+		const double energy = numberAfter(notes, " expected energy "); // without cones
+		const double spread = numberAfter(notes, "area distortion ");
+		EXPECT_NEAR(spread / p.spread, 1.0, 0.03) << notes;
+		EXPECT_NEAR(energy, expectedEnergy(spread), 0.01 * energy);
+		EXPECT_LE(target.expected->energy, 1.005 * energy);
+		if (notes.find("No cones: ") != std::string::npos) {
 			EXPECT_EQ(coneCount(surface, target), 0);
-			EXPECT_EQ(*target.maxSpread, 1.0);
-			if (p.name == "disk")
-				EXPECT_EQ(target.fixed, surface.topology.boundary);
-			else
-				EXPECT_TRUE(isPrescribed(target));
+			EXPECT_EQ(target.fixed == surface.topology.boundary, p.name == "disk");
 			continue;
 		}
+		EXPECT_NE(notes.find("Cones: without them "), std::string::npos);
 		++withCones;
-		EXPECT_NEAR(numberAfter(notes, yes) / p.spread, 1.0, 0.03) << notes;
-		EXPECT_EQ(notes.find(no), std::string::npos);
-		EXPECT_GT(coneCount(surface, target), 0);
-		EXPECT_EQ(*target.maxSpread, ConeOptions().distortion);
-		EXPECT_LE(numberAfter(notes, "expected area distortion "), ConeOptions().distortion);
+		// What the cones save is more than the seams that they need.
+		const double seams = numberAfter(notes, ", seams "); // without cones
+		EXPECT_LT(
+			target.expected->energy + kSeamPrice * target.expected->seams,
+			1.005 * energy + kSeamPrice * 1.005 * seams);
+		// A plane ring keeps all areas as soon as its boundary is free.
+		EXPECT_EQ(coneCount(surface, target) > 0, p.name != "plane ring");
 		// The boundary of an annulus comes free with cones, like any other.
 		EXPECT_EQ(target.fixed, surface.topology.boundary);
 		if (surface.topology.type.isClosed()) {
 			EXPECT_NEAR(target.curvature.sum(), 0.0, 1e-11);
 		}
 	}
-	EXPECT_GE(plain, 4);
 	EXPECT_GE(withCones, 4);
+}
+
+TEST(TargetCurvature, AutomaticLeavesFlatSurfacesWithoutCones)
+{
+	// A cylinder is flat, and so is a disk in the plane.
+	const SurfaceMesh cylinder = revolved({{1.0, 0.0}, {1.0, 1.0}, {1.0, 2.0}, {1.0, 3.0}}, 24);
+	const SurfaceMesh square = grid(12, 12, Ends::Open, Ends::Open, [](int i, int j) {
+		return Point3{0.1 * i, 0.1 * j, 0.0};
+	});
+	for (const SurfaceMesh& mesh : {cylinder, square}) {
+		const TestSurface surface(mesh);
+		const Target target = surface.choose(TargetCurvature::Automatic);
+		EXPECT_EQ(coneCount(surface, target), 0);
+		EXPECT_NE(joined(target).find("No cones: "), std::string::npos);
+		ASSERT_TRUE(target.expected);
+		EXPECT_NEAR(target.expected->energy, 4.0, 1e-9);
+		EXPECT_EQ(target.curvature.lpNorm<Eigen::Infinity>(), 0.0);
+	}
 }
 
 TEST(TargetCurvature, AutomaticDoesWithoutConesWhereMoreDistortionIsAskedFor)
 {
-	int withCones = 0;
 	for (const Plain& p : plainSurfaces()) {
 		SCOPED_TRACE(p.name + ", " + std::to_string(p.spread));
 		const TestSurface surface(p.mesh);
@@ -306,15 +320,13 @@ TEST(TargetCurvature, AutomaticDoesWithoutConesWhereMoreDistortionIsAskedFor)
 			request.options.cones.distortion = distortion;
 			const Target target = surface.choose(request);
 			EXPECT_EQ(coneCount(surface, target), 0);
-			EXPECT_EQ(target.maxSpread, std::max(1.0, distortion));
+			EXPECT_EQ(target.maxSpread, distortion);
 		}
-		if (p.spread < 1.0)
-			continue;
-		++withCones;
 		request.options.cones.distortion = 0.9 * p.spread;
-		EXPECT_GT(coneCount(surface, surface.choose(request)), 0);
+		const Target target = surface.choose(request);
+		EXPECT_EQ(coneCount(surface, target) > 0, p.name != "plane ring");
+		EXPECT_EQ(target.fixed, surface.topology.boundary);
 	}
-	EXPECT_GT(withCones, 0);
 }
 
 TEST(TargetCurvature, AutomaticGoesByTopologyWhereNoAreasAreMeasured)
@@ -333,6 +345,7 @@ TEST(TargetCurvature, AutomaticGoesByTopologyWhereNoAreasAreMeasured)
 				const Target target = surface.choose(request);
 				EXPECT_EQ(coneCount(surface, target), 0);
 				EXPECT_FALSE(target.maxSpread);
+				EXPECT_FALSE(target.expected);
 				EXPECT_EQ(joined(target).find("ones"), std::string::npos); // Cones, No cones
 				EXPECT_EQ(target.circular, type.isDisk() && !freeBoundary);
 				EXPECT_EQ(isPrescribed(target), !type.isDisk() || !freeBoundary);

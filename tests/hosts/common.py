@@ -55,7 +55,7 @@ CHOICES = {"target_curvature": TARGET, "seams": SEAMS,
            "finish": ["None", "Repair", "Least distortion", "Least stretch"],
            "holes": ["Boundaries", "Capped", "Short ones capped"]}
 PARAMETERS = [
-    ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("cone_distortion", "Float", 0.25),
+    ("target_curvature", "Enum", 0), ("free_boundary", "Bool", True), ("cone_distortion", "Float", 0.0),
     ("seams", "Enum", 0), ("output_triangulation", "Enum", 0), ("chart_margin", "Float", 0.0),
     ("colorize", "Bool", False), ("flat_layer", "Bool", False),
     ("holes", "Enum", 2), ("seam_hiding", "Float", 0.0), ("cone_count", "Int", 0),

@@ -313,7 +313,7 @@ class BadInput(unittest.TestCase):
                 (r"time_limit.*mesh is unchanged", {"time_limit": 1e-6}),
                 (r"target_curvature.*6 \(Placed cones\)", {"target_curvature": 7}),
                 (r"cone_count.*0", {"cone_count": -1}),
-                (r"cone_distortion.*greater than 0", {"cone_distortion": 0.0}),
+                (r"cone_distortion.*greater than 0", {"cone_distortion": -0.1}),
                 (r"cone_rounding.*1 \(Multiples of pi/2\)", {"cone_rounding": 2}),
                 (r"seam_hiding.*from 0 to 1", {"seam_hiding": 1.5}),
                 (r"chart_margin.*from 0 to 0.25", {"chart_margin": -0.1}),

@@ -860,7 +860,7 @@ class BadInput(unittest.TestCase):
                 ("epsilon.*greater than 0", {"epsilon": float("nan")}),
                 ("epsilon.*greater than 0", {"epsilon": math.inf}),
                 ("cone_count.*0", {"cone_count": -1}),
-                ("cone_distortion.*greater than 0", {"cone_distortion": 0.0}),
+                ("cone_distortion.*greater than 0", {"cone_distortion": -0.1}),
                 ("cone_distortion.*greater than 0", {"cone_distortion": math.nan}),
                 ("cone_distortion.*greater than 0", {"cone_distortion": math.inf}),
                 ("seam_hiding.*from 0 to 1", {"seam_hiding": -0.1}),

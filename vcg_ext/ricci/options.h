@@ -114,12 +114,19 @@ inline bool isFinished(const FlowOptions& options)
 struct ConeOptions
 {
 	/// Their number, or 0 for as many as it takes to bring the expected Report::areaDistortionSpread
-	/// below \ref distortion; with flips the areas that come out count as well, see keepAreas(). Above
-	/// 1, the distortion also is the spread up to which Automatic does without cones.
+	/// below \ref distortion, or, if that is 0, for as many as lower the expected energy of the map and
+	/// the price of its seams together, see kSeamPrice; with flips the areas that come out count as well,
+	/// see keepAreas(). The distortion also is the spread up to which Automatic does without cones.
 	int count = 0;
-	double distortion = 0.25;
+	double distortion = 0.0;
 	ConeRounding rounding = ConeRounding::Free;
 };
+
+/// Whether cones are to lower energy and price of seams together.
+inline bool isForObjective(const ConeOptions& options)
+{
+	return options.count == 0 && options.distortion == 0.0;
+}
 
 /// The widest margin that charts are packed with.
 constexpr double kMaxChartMargin = 0.25;

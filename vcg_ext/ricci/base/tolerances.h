@@ -187,10 +187,10 @@ constexpr double kMollification = 1e-5;
 /// and holes cost little: short is divided by the Euler characteristic.
 constexpr double kShortHole = 0.1;
 
-/// Expected spread of the logarithm of the area factor above which Automatic places cones. At 1 most
-/// areas keep within a factor of e, and no map of those measured that stays below has a mean factor
-/// above 3, while nearly all above have.
-constexpr double kMaxPlainSpread = 1.0;
+/// Spread of the logarithm of the area factor beyond which a linear problem knows nothing of the tails,
+/// and above which the mean factor may be larger than kMaxAreaMean. At 1 most areas keep within a factor
+/// of e.
+constexpr double kWideSpread = 1.0;
 
 /// The spread that comes out may be larger by this factor than what placed cones were asked for,
 /// because the linear problem that places them misses about as much on fine meshes. More is what a

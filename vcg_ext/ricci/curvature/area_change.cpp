@@ -64,21 +64,25 @@ AreaChange areaChange(const EmbeddedSurface& surface, const VertexVector& factor
 		for (const Vertex v : t.vertices(f))
 			logFactor[f] += 2.0 / 3.0 * factor[v];
 	const double level = logMean(share, logFactor);
-	double mean = 0.0, logSum = 0.0, logSquare = 0.0;
+	double mean = 0.0, meanInverse = 0.0, logSum = 0.0, logSquare = 0.0;
 	for (const Face f : t.faces()) {
 		const double x = logFactor[f] - level;
 		mean += share[f] * std::exp(std::abs(x));
+		meanInverse += share[f] * std::exp(-x);
 		logSum += share[f] * x;
 		logSquare += share[f] * x * x;
 	}
-	return {mean, std::sqrt(std::max(0.0, logSquare - logSum * logSum))};
+	return {
+		mean,
+		std::sqrt(std::max(0.0, logSquare - logSum * logSum)),
+		4.0 * std::sqrt(meanInverse)};
 }
 
 double areaExcess(const AreaChange& change, double spread, double slack)
 {
 	const double maxLogMean =
 		std::log(kMaxAreaMean) +
-		std::max(0.0, logMeanOfNormal(spread) - logMeanOfNormal(kMaxPlainSpread));
+		std::max(0.0, logMeanOfNormal(spread) - logMeanOfNormal(kWideSpread));
 	return std::max(change.spread / (slack * spread), std::log(change.mean) / maxLogMean);
 }
 
@@ -94,7 +98,7 @@ VertexVector tailWeights(const EmbeddedSurface& surface, const VertexVector& fac
 		plus[v] = 2.0 * factor[v];
 		minus[v] = -plus[v];
 	}
-	const bool isLinear = areaChange(surface, factor).spread <= kMaxPlainSpread;
+	const bool isLinear = areaChange(surface, factor).spread <= kWideSpread;
 	const double centre = 0.5 * (logMean(area, plus) - logMean(area, minus));
 	VertexVector weights(t.vertexCount());
 	for (const Vertex v : t.vertices()) {

@@ -12,6 +12,8 @@ struct AreaChange
 {
 	double mean = 1.0;   ///< of max(s, 1/s), weighted by the area in space
 	double spread = 0.0; ///< standard deviation of ln s, weighted by the area in space
+	double energy = 4.0; ///< symmetric Dirichlet energy of a conformal map that changes areas so: 4 times
+						 ///< the root of the mean of 1 / s, weighted by the area in space
 };
 
 /// The change by the metric that scales lengths at each vertex by exp(\p factor). The factor of a
@@ -21,7 +23,7 @@ AreaChange areaChange(const EmbeddedSurface& surface, const VertexVector& factor
 
 /// How far \p change is from that of a metric that is to have this \p spread: at most 1 where its
 /// spread is no larger than that, times \p slack, and its mean no larger than kMaxAreaMean; or, for
-/// spreads above kMaxPlainSpread, by as much larger as the mean of normally distributed logarithms
+/// spreads above kWideSpread, by as much larger as the mean of normally distributed logarithms
 /// is. A small part of the surface that becomes very small or very large raises the mean alone.
 double areaExcess(const AreaChange& change, double spread, double slack = 1.0);
 

@@ -3,7 +3,7 @@
 
 #include "../base/indexed.h"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <limits>
@@ -12,6 +12,8 @@
 namespace ricci {
 
 namespace {
+
+constexpr double kTiny = std::numeric_limits<double>::min();
 
 class ActiveSet
 {
@@ -107,28 +109,27 @@ private:
 		const auto n = static_cast<int>(free.size());
 		if (n == 0)
 			return k;
-		const int rows = n + (m_total ? 1 : 0); // the last one for the sum
-		Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows, rows);
-		Eigen::VectorXd rhs = Eigen::VectorXd::Zero(rows);
+		// Where the sum is fixed, any multiple of its square can be added, which makes the matrix
+		// positive definite.
+		const double sumWeight = m_total ? std::max(m_gram.trace() / m_size, kTiny) : 0.0;
+		Eigen::MatrixXd system(n, n);
+		Eigen::MatrixXd rhs = Eigen::MatrixXd::Ones(n, 2); // of the minimum, and of the sum
 		for (int a = 0; a < n; ++a) {
 			const int i = free[positionOf(a)];
 			for (int b = 0; b < n; ++b)
-				system(a, b) = m_gram(i, free[positionOf(b)]);
-			rhs[a] = -m_linear[i];
+				system(a, b) = m_gram(i, free[positionOf(b)]) + sumWeight;
+			rhs(a, 0) = -m_linear[i];
 			for (int j = 0; j < m_size; ++j)
 				if (m_isBound[j])
-					rhs[a] -= m_gram(i, j) * m_max;
+					rhs(a, 0) -= m_gram(i, j) * m_max;
 		}
-		if (rows > n) {
-			system.row(n).head(n).setOnes();
-			system.col(n).head(n).setOnes();
-			rhs[n] = total;
-		}
-		const Eigen::VectorXd solution = system.fullPivLu().solve(rhs);
+		const Eigen::MatrixXd solution = system.ldlt().solve(rhs);
+		const double lacking =
+			m_total ? (total - solution.col(0).sum()) / solution.col(1).sum() : 0.0;
 		for (int a = 0; a < n; ++a)
-			k[free[positionOf(a)]] = solution[a];
-		if (rows > n)
-			m_level = solution[n];
+			k[free[positionOf(a)]] = solution(a, 0) + lacking * solution(a, 1);
+		if (m_total)
+			m_level = sumWeight * total - lacking;
 		return k;
 	}
 

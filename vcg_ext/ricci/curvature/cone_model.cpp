@@ -5,9 +5,9 @@
 #include "bounded_minimum.h"
 #include "cone_rounding.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -15,9 +15,17 @@ namespace ricci {
 
 namespace {
 
-/// The share of a bound that rounding must not add to it; and the least that the cone that moves must
-/// give to it, so that the quadratic function stays convex.
-constexpr double kBoundSlack = 1e-6, kMinBeyond = 1e-4;
+/// The share of a bound that rounding must not add to it.
+constexpr double kBoundSlack = 1e-6;
+
+/// An entry of the inverse, or what a row adds to the rank, is one of rounding below this share of what
+/// it is the difference of.
+constexpr double kMinPivot = 1e-8;
+
+/// An inverse that leaves a larger share of the right-hand side is made anew.
+constexpr double kMaxDrift = 1e-6;
+
+constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
 } // namespace
 
@@ -116,8 +124,14 @@ void ConeModel::append(Vertex v, VertexVector factor)
 	m_now.vertices.push_back(v);
 	m_now.gram.conservativeResize(size(), size());
 	m_now.linear.conservativeResize(size());
+	const int rows = size() + border();
+	if (m_now.inverse.rows() == rows - 1) {
+		m_now.inverse.conservativeResize(rows, rows);
+		m_now.inverse.row(rows - 1).setZero();
+		m_now.inverse.col(rows - 1).setZero();
+	}
 	if (hasFields()) {
-		setRow(i, v, ownProduct(v));
+		setRow(i, v);
 		m_fields.push_back(std::make_shared<const VertexVector>(m_flow.gradient(factor)));
 	}
 	else {
@@ -127,6 +141,7 @@ void ConeModel::append(Vertex v, VertexVector factor)
 		m_now.linear[i] = m_flow.meanProduct(m_startFactor, factor);
 		m_factors.push_back(std::move(factor));
 	}
+	join(i);
 	m_gradient.resize(0);
 }
 
@@ -141,22 +156,20 @@ void ConeModel::remove(int i)
 	m_gradient.resize(0);
 }
 
-std::vector<int> ConeModel::byNeed() const
+double ConeModel::need(int i)
 {
-	const int n = size(), rows = n + (hasFixedSum() ? 1 : 0);
-	Eigen::MatrixXd system = Eigen::MatrixXd::Zero(rows, rows);
-	system.topLeftCorner(n, n) = m_now.gram;
-	if (rows > n) {
-		system.row(n).head(n).setOnes();
-		system.col(n).head(n).setOnes();
-	}
-	const Eigen::MatrixXd inverse = system.fullPivLu().inverse();
-	std::vector<int> cones(positionOf(n));
+	if (m_now.inverse.rows() == 0)
+		invert();
+	const double pivot = m_now.inverse(i + border(), i + border());
+	return pivot > 0.0 ? curvature(i) * curvature(i) / pivot : std::numeric_limits<double>::max();
+}
+
+std::vector<int> ConeModel::byNeed()
+{
+	std::vector<int> cones(positionOf(size()));
 	std::iota(cones.begin(), cones.end(), 0);
-	std::stable_sort(cones.begin(), cones.end(), [&](int a, int b) {
-		return curvature(a) * curvature(a) / inverse(a, a) <
-			   curvature(b) * curvature(b) / inverse(b, b);
-	});
+	std::stable_sort(
+		cones.begin(), cones.end(), [&](int a, int b) { return need(a) < need(b); });
 	return cones;
 }
 
@@ -171,30 +184,138 @@ void ConeModel::setRounding(ConeRounding rounding)
 void ConeModel::fit()
 {
 	m_gradient.resize(0);
+	m_now.isFree = false;
 	const auto total = hasFixedSum() ? std::optional<double>(m_total) : std::nullopt;
-	m_now.values = boundedMinimum(m_now.gram, m_now.linear, kMaxConeCurvature, total);
+	if (size() > 0) {
+		Eigen::VectorXd rhs(size() + border()), solution;
+		rhs.head(border()).setConstant(m_total);
+		rhs.tail(size()) = -m_now.linear;
+		for (const bool isNew : {false, true}) {
+			if (isNew || m_now.inverse.rows() == 0)
+				invert();
+			solution = m_now.inverse * rhs;
+			const Eigen::VectorXd rest = rhs - times(solution);
+			if (rest.norm() <= kMaxDrift * rhs.norm()) {
+				solution += m_now.inverse * rest;
+				break;
+			}
+		}
+		m_now.values = solution.tail(size());
+		m_now.level = border() > 0 ? solution[0] : 0.0;
+		m_now.isFree = m_rounding == ConeRounding::Free && solution.allFinite() &&
+					   m_now.values.maxCoeff() <= kMaxConeCurvature;
+	}
+	if (!m_now.isFree)
+		m_now.values = boundedMinimum(m_now.gram, m_now.linear, kMaxConeCurvature, total);
 	if (m_rounding == ConeRounding::QuarterTurns && size() > 0)
 		m_now.values = roundToQuarterTurns(m_now.gram, m_now.linear, m_now.values, total);
 }
 
-/// A bound of ownProduct(\p v) from below without a linear solution, with which cone \p i has a lowest
-/// energy at \p v that is no higher than the true one: u_v is no shorter than its projection to the span
-/// of the factors of the cones.
-/// \return 0 where there is nothing to gain: the product is known, curvatures are rounded, which are not
-/// at the minimum, or the span is about that of the other cones
-double ConeModel::minOwnProduct(int i, Vertex v) const
+/// The matrix of the fit times \p x: G, with a first row and column of ones where the sum is fixed.
+Eigen::VectorXd ConeModel::times(const Eigen::VectorXd& x) const
 {
-	if (m_rounding != ConeRounding::Free || v == m_lastVertex ||
-		m_ownProduct.find(v) != m_ownProduct.end())
-		return 0.0;
-	Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(size(), 2);
+	Eigen::VectorXd result(x.size());
+	result.tail(size()) = m_now.gram * x.tail(size());
+	if (border() > 0) {
+		result[0] = x.tail(size()).sum();
+		result.tail(size()).array() += x[0];
+	}
+	return result;
+}
+
+/// Inverts the matrix of the fit.
+void ConeModel::invert()
+{
+	const int rows = size() + border();
+	Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows, rows);
+	matrix.bottomRightCorner(size(), size()) = m_now.gram;
+	matrix.topRightCorner(border(), size()).setOnes();
+	matrix.bottomLeftCorner(size(), border()).setOnes();
+	m_now.inverse = matrix.partialPivLu().inverse();
+}
+
+/// Takes row and column \p i out of what is inverted: they become 0 in the inverse.
+void ConeModel::leave(int i)
+{
+	if (m_now.inverse.rows() == 0)
+		return;
+	const int row = i + border();
+	const Eigen::VectorXd own = m_now.inverse.col(row);
+	if (!(own[row] > kMinPivot * own.cwiseAbs().maxCoeff())) {
+		m_now.inverse.resize(0, 0);
+		return;
+	}
+	m_now.inverse.noalias() -= own * (own.transpose() / own[row]);
+	m_now.inverse.row(row).setZero();
+	m_now.inverse.col(row).setZero();
+}
+
+/// Takes row and column \p i of G into what is inverted, where the inverse has zeros.
+void ConeModel::join(int i)
+{
+	if (m_now.inverse.rows() == 0)
+		return;
+	const int row = i + border();
+	Eigen::VectorXd column(m_now.inverse.rows());
+	column.head(border()).setOnes();
+	column.tail(size()) = m_now.gram.col(i);
+	column[row] = 0.0;
+	Eigen::VectorXd moved = m_now.inverse * column;
+	const double own = m_now.gram(i, i), beyond = own - column.dot(moved);
+	if (!(beyond > kMinPivot * own)) {
+		m_now.inverse.resize(0, 0);
+		return;
+	}
+	moved[row] = -1.0;
+	m_now.inverse.noalias() += moved * (moved.transpose() / beyond);
+}
+
+/// Products of the factor of a unit of curvature at \p v with those of the cones, as a column of the
+/// matrix of the fit.
+Eigen::VectorXd ConeModel::column(Vertex v) const
+{
+	Eigen::VectorXd result(size() + border());
+	result.head(border()).setOnes();
 	for (int k = 0; k < size(); ++k)
-		rhs(k, 0) = (*m_fields[k])[v];
-	rhs(i, 1) = 1.0;
-	const Eigen::MatrixXd solution = m_now.gram.ldlt().solve(rhs);
-	const double bound = rhs.col(0).dot(solution.col(0));
-	const double beyondOthers = solution(i, 0) * solution(i, 0) / solution(i, 1);
-	return beyondOthers > kMinBeyond * bound ? (1.0 - kBoundSlack) * bound : 0.0;
+		result[k + border()] = (*m_fields[k])[v];
+	return result;
+}
+
+/// A bound of ownProduct(\p v) from below without a linear solution: u_v is no shorter than its
+/// distance from what the cones span.
+double ConeModel::minOwnProduct(Vertex v) const
+{
+	const auto known = m_ownProduct.find(v);
+	if (known != m_ownProduct.end())
+		return known->second;
+	if (!m_now.isFree || m_now.inverse.rows() == 0)
+		return 0.0;
+	const Eigen::VectorXd products = column(v);
+	return (1.0 - kBoundSlack) * products.dot(m_now.inverse * products);
+}
+
+/// A bound from below of the energy with cone \p i at \p v instead, by the minimum without bounds of
+/// curvatures.
+/// \param ownProduct of \p v, or less
+/// \return the lowest number where there is none: the curvatures are not at that minimum, or \p v adds
+/// nothing to the other cones
+double ConeModel::minEnergyAt(int i, Vertex v, double ownProduct) const
+{
+	if (!m_now.isFree || m_now.inverse.rows() == 0)
+		return kUnknown;
+	const int row = i + border();
+	const Eigen::VectorXd products = column(v), left = m_now.inverse.col(row);
+	if (!(left[row] > 0.0))
+		return kUnknown;
+	const double along = left.dot(products), k = curvature(i);
+	const double beyond = ownProduct - products.dot(m_now.inverse * products) +
+						  along * along / left[row];
+	if (!(beyond > kMinPivot * ownProduct))
+		return kUnknown;
+	// Half the slope at v when the others have made up for cone i.
+	double slope = m_start[v] + products.tail(size()).dot(m_now.values) - along * k / left[row];
+	slope += border() > 0 ? m_now.level : 0.0;
+	return energy() + k * k / left[row] - slope * slope / beyond;
 }
 
 /// Mean square of the factor of a unit of curvature at \p v.
@@ -244,35 +365,35 @@ void ConeModel::restore(const State& state, const Array<Field>& fields)
 
 /// Puts cone \p i to \p v: row and column i of G, and entry i of b.
 /// \pre all other cones have their fields in m_fields
-void ConeModel::setRow(int i, Vertex v, double ownProduct)
+void ConeModel::setRow(int i, Vertex v)
 {
 	m_now.vertices[i] = v;
 	for (int k = 0; k < size(); ++k)
 		if (k != i)
 			m_now.gram(i, k) = m_now.gram(k, i) = (*m_fields[k])[v];
-	m_now.gram(i, i) = ownProduct;
+	m_now.gram(i, i) = ownProduct(v);
 	m_now.linear[i] = m_start[v];
 }
 
 void ConeModel::removeRow(int i)
 {
-	std::vector<int> kept;
-	for (int k = 0; k < size(); ++k)
-		if (k != i)
-			kept.push_back(k);
-	const auto n = static_cast<int>(kept.size());
-	State smaller;
-	smaller.values = Eigen::VectorXd::Zero(n);
-	smaller.gram.resize(n, n);
-	smaller.linear.resize(n);
-	for (int a = 0; a < n; ++a) {
-		const int from = kept[positionOf(a)];
-		smaller.vertices.push_back(m_now.vertices[from]);
-		smaller.linear[a] = m_now.linear[from];
-		for (int b = 0; b < n; ++b)
-			smaller.gram(a, b) = m_now.gram(from, kept[positionOf(b)]);
-	}
-	m_now = std::move(smaller);
+	leave(i);
+	m_now.vertices.values().erase(m_now.vertices.begin() + i);
+	// The last rows and columns move up.
+	const auto erase = [](Eigen::MatrixXd& matrix, int row) {
+		const Eigen::Index last = matrix.rows() - 1, left = last - row;
+		matrix.block(row, 0, left, last + 1) = matrix.bottomRows(left).eval();
+		matrix.block(0, row, last + 1, left) = matrix.rightCols(left).eval();
+		matrix.conservativeResize(last, last);
+	};
+	erase(m_now.gram, i);
+	if (m_now.inverse.rows() > 0)
+		erase(m_now.inverse, i + border());
+	const Eigen::Index left = size() - i;
+	m_now.linear.segment(i, left) = m_now.linear.tail(left).eval();
+	m_now.linear.conservativeResize(size());
+	m_now.values = Eigen::VectorXd::Zero(size());
+	m_now.isFree = false;
 }
 
 } // namespace ricci

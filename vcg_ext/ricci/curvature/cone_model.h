@@ -97,22 +97,23 @@ public:
 	void fit();
 
 	/// Moves cone \p i to \p v, fits the curvatures, and undoes both unless \p isLow(energy there).
-	/// Most trials fail, and of those most by so much that a bound of the energy tells.
+	/// Most trials fail, and nearly all of those by bounds of the energy that need no fit, and many no
+	/// linear solution.
 	/// \param isLow holds for every energy below one for which it holds
 	/// \return whether the cone has moved
 	template<class IsLow>
 	bool tryMove(int i, Vertex v, const IsLow& isLow)
 	{
 		makeFields();
+		if (!isLow(minEnergyAt(i, v, minOwnProduct(v))) || !isLow(minEnergyAt(i, v, ownProduct(v))))
+			return false;
 		State before = m_now;
 		VertexVector gradient = std::move(m_gradient);
-		const auto isLowWith = [&](double ownProduct) {
-			setRow(i, v, ownProduct);
-			fit();
-			return isLow(energy());
-		};
-		const double bound = minOwnProduct(i, v);
-		if ((bound > 0.0 && !isLowWith(bound)) || !isLowWith(ownProduct(v))) {
+		leave(i);
+		setRow(i, v);
+		join(i);
+		fit();
+		if (!isLow(energy())) {
 			m_now = std::move(before);
 			m_gradient = std::move(gradient);
 			return false;
@@ -137,9 +138,13 @@ public:
 		restore(before, fields);
 	}
 
-	/// The cones by how much the lowest energy rises without each, the one needed least first: by k_i^2
-	/// over entry i of the diagonal of the inverse of G, bordered by the sum where it is fixed.
-	std::vector<int> byNeed() const;
+	/// By how much the lowest energy rises without cone \p i, as long as no bound of a curvature is
+	/// reached: k_i^2 over entry i of the diagonal of the inverse of G, bordered by the sum where it is
+	/// fixed.
+	double need(int i);
+
+	/// The cones by need(), the one needed least first.
+	std::vector<int> byNeed();
 
 	/// Takes cone \p i out, fits the others, and undoes that and whatever \p accept has done to the
 	/// model unless it returns true.
@@ -163,15 +168,26 @@ private:
 	struct State
 	{
 		Array<Vertex> vertices;
-		Eigen::VectorXd values; // k, radians
-		Eigen::MatrixXd gram;   // G
-		Eigen::VectorXd linear; // b
+		Eigen::VectorXd values;  // k, radians
+		Eigen::MatrixXd gram;    // G
+		Eigen::VectorXd linear;  // b
+		Eigen::MatrixXd inverse; // of G, with a first row and column for the sum where it is fixed;
+								 // empty: not known
+		double level = 0.0;      // of half the energy's slope by a cone's curvature, times -1
+		bool isFree = false;     // k is the minimum without bounds and rounding
 	};
 
 	/// Gradient field of a unit of curvature at one vertex.
 	using Field = std::shared_ptr<const VertexVector>;
 
-	double minOwnProduct(int i, Vertex v) const;
+	int border() const { return hasFixedSum() ? 1 : 0; }
+	double minOwnProduct(Vertex v) const;
+	double minEnergyAt(int i, Vertex v, double ownProduct) const;
+	Eigen::VectorXd column(Vertex v) const;
+	Eigen::VectorXd times(const Eigen::VectorXd& x) const;
+	void invert();
+	void leave(int i);
+	void join(int i);
 	double ownProduct(Vertex v);
 	Field fieldOf(Vertex v);
 	VertexVector unit(Vertex v) const;
@@ -180,7 +196,7 @@ private:
 	void append(Vertex v, VertexVector factor);
 	void restore(const State& state, const Array<Field>& fields);
 	const VertexVector& unitFactor(Vertex v);
-	void setRow(int i, Vertex v, double ownProduct);
+	void setRow(int i, Vertex v);
 	void removeRow(int i);
 
 	LinearFlow& m_flow;

@@ -11,6 +11,7 @@
 #include "cone_tree.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -23,10 +24,11 @@ constexpr double kNearlyEnough = 1.1;
 
 /// On more vertices than the first number, cones are searched for on at most so many aggregates of
 /// them as the second.
-constexpr int kMaxSearched = 10000, kMaxAggregates = 7000;
+constexpr int kMaxSearched = 20000, kMaxAggregates = 12000;
 
-/// Searches on aggregates, each for the distortion that the surface itself missed.
-constexpr int kMaxCoarseRounds = 3;
+/// Searches on aggregates, each for the distortion that the surface itself missed; and rounds in which
+/// cones move on the surface itself.
+constexpr int kMaxCoarseRounds = 3, kMaxFineRounds = 2;
 
 void checkCount(const ConeRequest& request, const ConeModel& model, const ConeSites& sites)
 {
@@ -44,7 +46,9 @@ void checkCount(const ConeRequest& request, const ConeModel& model, const ConeSi
 /// Adds cones up to the number that is asked for.
 void placeCount(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
-	while (model.size() < request.count && addCone(model, sites)) {
+	while (model.size() < request.count &&
+		   addCones(
+			   model, sites, std::min(request.count - model.size(), 1 + model.size() / 8))) {
 	}
 	relocateCones(model, sites);
 	model.setRounding(request.rounding);
@@ -57,50 +61,88 @@ int maxCones(const ConeModel& model)
 	return std::clamp(kMaxConeNumbers / vertices, kMaxPlacedCones, kMaxNeededCones);
 }
 
-/// Decides whether there may be more cones to bring the distortion down to what is wanted.
+/// In a search for the objective, cones move first when there are so many, and again whenever there are
+/// twice as many; afterwards, those that are not worth their seams go in so many rounds.
+constexpr int kFirstRelocated = 16, kMaxObjectiveRounds = 3;
+
+/// Adds cones while that lowers the energy that is expected and the price of seams and cones together.
 class Growth
 {
 public:
-	Growth(const ConeModel& model, double wanted) :
-			m_model(model), m_needed(std::max(kMaxPlainSpread, wanted))
+	Growth(ConeModel& model, const ConeSites& sites) :
+			m_model(model), m_sites(sites), m_tree(sites, model), m_best(model.size()),
+			m_least(objective())
 	{
 	}
 
-	/// To be called once for each cone. Where cones are needed beyond kMaxPlacedCones, the distortion,
-	/// which falls ever more slowly, must reach the limit with as many as there may be if it goes on
-	/// as with the last ones.
-	bool mayGoOn()
+	/// Whether some of the last cones lowered it.
+	bool mayGoOn() const
 	{
-		const double present = m_model.distortion();
-		m_distortions.push_back(present);
-		if (m_model.size() < kMaxPlacedCones)
-			return true;
-		const int left = maxCones(m_model) - m_model.size();
-		if (present <= m_needed || left <= 0)
+		return m_model.size() < maxCones(m_model) &&
+			   m_model.size() - m_best <= kMaxVain + m_best / kShareVain;
+	}
+
+	/// Adds one cone, or some at a time where there are many already, and fits the curvatures.
+	/// \return false if no vertex is left
+	bool add()
+	{
+		const int before = m_model.size();
+		if (!addCones(m_model, m_sites, 1 + before / kShareAtOnce))
 			return false;
-		if (m_distortions.size() <= kPace)
-			return true;
-		const double fall = m_distortions[m_distortions.size() - 1 - kPace] - present;
-		return fall * left >= (present - m_needed) * kPace;
+		for (int i = before; i < m_model.size(); ++i)
+			m_tree.add(m_model.vertex(i));
+		if (objective() < m_least) {
+			m_least = objective();
+			m_best = m_model.size();
+		}
+		return true;
 	}
 
 private:
-	static constexpr int kPace = 32; // cones that show how fast the distortion falls
+	static constexpr int kMaxVain = 8, kShareVain = 4, kShareAtOnce = 8;
 
-	const ConeModel& m_model;
-	double m_needed;
-	std::vector<double> m_distortions; // with each number of cones so far
+	double objective() const
+	{
+		return kEnergyPrice * m_model.energy() + kSeamPrice * m_tree.length() + kConePrice * m_model.size();
+	}
+
+	ConeModel& m_model;
+	const ConeSites& m_sites;
+	SeamTree m_tree;
+	int m_best; // number of cones
+	double m_least;
 };
+
+/// As many cones as lower the energy and the price of the seams together: more than those at first, then
+/// without those that are not worth their seams.
+void placeForObjective(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
+{
+	Growth growth(model, sites);
+	for (int relocated = kFirstRelocated; growth.mayGoOn() && growth.add();)
+		if (model.size() >= relocated) {
+			relocateCones(model, sites, 1);
+			relocated = 2 * model.size();
+		}
+	relocateCones(model, sites, 2);
+	for (int round = 0; round < kMaxObjectiveRounds; ++round) {
+		SeamTree tree(sites, model);
+		if (!dropCostlyCones(model, tree) && round > 0)
+			return;
+		if (request.shortSeams)
+			shortenConeTree(model, tree, sites, std::numeric_limits<double>::infinity());
+	}
+}
 
 /// Adds cones until they reach the distortion. Free curvatures show where to put them; the rounded
 /// ones have to reach it.
 void addForDistortion(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	model.setRounding(request.rounding);
-	Growth growth(model, request.distortion);
-	while (model.distortion() > request.distortion && growth.mayGoOn()) {
+	Growth growth(model, sites);
+	while (model.distortion() > request.distortion &&
+		   (model.size() < kMaxPlacedCones || growth.mayGoOn())) {
 		model.setRounding(ConeRounding::Free);
-		if (!addCone(model, sites))
+		if (!growth.add())
 			break;
 		if (model.distortion() <= kNearlyEnough * request.distortion)
 			relocateCones(model, sites);
@@ -128,7 +170,7 @@ void addForAreas(
 	while (model.size() < limit &&
 		   areaExcess(areaChange(surface, model.factor()), request.distortion) > 1.0) {
 		model.setRounding(ConeRounding::Free);
-		if (!addCone(model, sites))
+		if (!addCones(model, sites))
 			break;
 		model.setRounding(request.rounding);
 	}
@@ -152,12 +194,13 @@ void copyCones(const ConeModel& coarse, const VertexArray<Vertex>& roots, ConeMo
 }
 
 /// All of the search, from the cones that \p model has.
-void search(
-	const SurfaceType& type, const ConeRequest& request, ConeModel& model, const ConeSites& sites)
+void search(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	startCones(model, sites);
 	if (request.count > 0)
 		placeCount(request, model, sites);
+	else if (isForObjective(request))
+		placeForObjective(request, model, sites);
 	else
 		placeForDistortion(request, model, sites);
 	if (request.rounding != ConeRounding::Free) {
@@ -165,11 +208,11 @@ void search(
 		relocateCones(model, sites);
 	}
 	removeWeakCones(model);
-
-	// The cut of a sphere is the tree of its cones and nothing else.
-	if (request.shortSeams && type.isSphere()) {
+	if (request.shortSeams && !isForObjective(request)) {
+		SeamTree tree(sites, model);
 		shortenConeTree(
 			model,
+			tree,
 			sites,
 			request.count > 0 ? kSeamAllowance * model.distortion() : request.distortion);
 		removeWeakCones(model);
@@ -179,7 +222,6 @@ void search(
 /// The same on aggregates of vertices, then on the surface itself as far as its own distortion asks
 /// for it.
 void searchFromCoarse(
-	const SurfaceType& type,
 	const ConeRequest& request,
 	LinearFlow& flow,
 	ConeModel& model,
@@ -192,24 +234,28 @@ void searchFromCoarse(
 	model.setRounding(request.rounding);
 	double excess = 0.0; // of the distortion on the surface itself
 	for (int round = 0; round < kMaxCoarseRounds; ++round) {
-		search(type, coarseRequest, coarseModel, coarseSites);
+		search(coarseRequest, coarseModel, coarseSites);
 		copyCones(coarseModel, coarse.roots, model);
+		if (isForObjective(request))
+			return;
 		excess = model.distortion() / request.distortion;
 		if (request.count > 0 || excess <= 1.0)
 			break;
 		coarseRequest.distortion /= excess;
 	}
 	if (request.count > 0 || excess > 1.0)
-		relocateCones(model, sites);
+		relocateCones(model, sites, kMaxFineRounds);
 	if (request.count == 0)
 		addForDistortion(request, model, sites);
 	removeWeakCones(model);
 }
 
-PlacedCones result(ConeModel& model)
+PlacedCones result(ConeModel& model, const ConeSites& sites)
 {
 	PlacedCones placed;
 	placed.distortion = model.exactDistortion();
+	placed.seams = SeamTree(sites, model).length();
+	placed.seamsWithout = sites.cutLength();
 	std::vector<std::pair<Vertex, double>> cones;
 	for (int i = 0; i < model.size(); ++i)
 		if (model.curvature(i) != 0.0)
@@ -234,15 +280,14 @@ placeCones(const EmbeddedSurface& surface, const InitialPacking& start, const Co
 PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request)
 {
 	advance(0.0, "Placing cones");
-	const SurfaceType& type = surface.topology.type;
 	const ConeSites sites(surface, request.vertices);
-	ConeModel model(flow, 2 * kPi * type.eulerCharacteristic());
+	ConeModel model(flow, 2 * kPi * surface.topology.type.eulerCharacteristic());
 	checkCount(request, model, sites);
 	if (surface.triangulation.vertexCount() <= kMaxSearched)
-		search(type, request, model, sites);
+		search(request, model, sites);
 	else
-		searchFromCoarse(type, request, flow, model, sites);
-	return result(model);
+		searchFromCoarse(request, flow, model, sites);
+	return result(model, sites);
 }
 
 PlacedCones
@@ -251,6 +296,14 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequ
 	advance(0.0, "Placing cones");
 	const ConeSites sites(surface, request.vertices);
 	LinearFlow linear(surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)));
+	if (isForObjective(request)) {
+		PlacedCones placed = placeCones(surface, linear, request);
+		VertexVector k = VertexVector::Zero(linear.vertexCount());
+		for (std::size_t i = 0; i < placed.vertices.size(); ++i)
+			k[placed.vertices[i]] = placed.curvatures[i];
+		placed.distortion = areaChange(surface, linear.factor(std::move(k))).spread;
+		return placed;
+	}
 	ConeModel model(linear, 2 * kPi * surface.topology.type.eulerCharacteristic());
 	std::vector<Vertex> cones;
 	for (const Vertex v : surface.triangulation.vertices())
@@ -260,7 +313,7 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequ
 	model.fit();
 	addForAreas(surface, request, model, sites);
 	removeWeakCones(model);
-	PlacedCones placed = result(model);
+	PlacedCones placed = result(model, sites);
 	placed.distortion = areaChange(surface, model.factor()).spread;
 	return placed;
 }

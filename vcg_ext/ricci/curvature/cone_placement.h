@@ -18,6 +18,9 @@ struct PlacedCones
 	/// Standard deviation by area of 2 u, the logarithm of the change of areas
 	/// (AreaDistortion::spread), as the linear problem predicts it.
 	double distortion = 0.0;
+	/// Length of the seams that are to be expected, and of those without cones, in units of the square
+	/// root of the area.
+	double seams = 0.0, seamsWithout = 0.0;
 };
 
 /// Chooses cones so that the flow to them changes areas little.

@@ -15,11 +15,11 @@ namespace {
 /// A cone this weak, in radians, is better placed anew than moved.
 constexpr double kNegligible = 0.3;
 
-/// Rounds in which every cone may move.
-constexpr int kMaxRounds = 5;
-
 /// Places down the gradient that are tried.
 constexpr int kMaxTrials = 4;
+
+/// Of several cones that are added at once, each gains at least about this share of the best.
+constexpr double kMinPeak = 0.5;
 
 /// Cones of which one may be dropped.
 constexpr std::size_t kMaxDropTrials = 3;
@@ -65,12 +65,32 @@ double level(const ConeModel& model, const VertexVector& phi)
 	return count > 0 ? sum / count : model.area().dot(phi);
 }
 
-/// The vertex where one more cone gains most: where the gradient is farthest from its level.
-Vertex maxGain(ConeModel& model, const ConeSites& sites)
+/// The vertices where one more cone gains most of all places around, those first where it gains most of
+/// all: where the gradient is farthest from its level. At least one if a vertex is left, \p count at most.
+std::vector<Vertex> maxGains(ConeModel& model, const ConeSites& sites, int count)
 {
 	const VertexVector& phi = model.gradient();
 	const double base = level(model, phi);
-	return lowest(model, sites, [&](Vertex v) { return -std::abs(phi[v] - base); });
+	const auto isFree = [&](Vertex v) { return sites.isAllowed(v) && !model.isCone(v); };
+	// The first of equals counts as higher.
+	const auto isHigher = [&](Vertex a, Vertex b) {
+		const double x = std::abs(phi[a] - base), y = std::abs(phi[b] - base);
+		return x != y ? x > y : a < b;
+	};
+	std::vector<Vertex> peaks;
+	for (const Vertex v : phi.indices()) {
+		const auto isAbove = [&](const ConeSites::Way& way) {
+			return way.to == v || !isFree(way.to) || isHigher(v, way.to);
+		};
+		if (isFree(v) && std::all_of(sites.ways(v).begin(), sites.ways(v).end(), isAbove))
+			peaks.push_back(v);
+	}
+	std::sort(peaks.begin(), peaks.end(), isHigher);
+	while (static_cast<int>(peaks.size()) > count ||
+		   (peaks.size() > 1 && std::abs(phi[peaks.back()] - base) <
+									kMinPeak * std::abs(phi[peaks.front()] - base)))
+		peaks.pop_back();
+	return peaks;
 }
 
 /// Moves cone \p i to \p v if that lowers the energy \p present enough.
@@ -122,9 +142,9 @@ bool replant(ConeModel& model, const ConeSites& sites, int i, double& present)
 	if (model.size() <= model.minSize())
 		return false;
 	const Vertex old = model.vertex(i);
-	Vertex best = old;
-	model.without(i, [&] { best = maxGain(model, sites); });
-	return best.isValid() && best != old && move(model, i, best, present);
+	std::vector<Vertex> best;
+	model.without(i, [&] { best = maxGains(model, sites, 1); });
+	return !best.empty() && best.front() != old && move(model, i, best.front(), present);
 }
 
 } // namespace
@@ -143,21 +163,19 @@ void startCones(ConeModel& model, const ConeSites& sites)
 	model.fit();
 }
 
-bool addCone(ConeModel& model, const ConeSites& sites)
+bool addCones(ConeModel& model, const ConeSites& sites, int count)
 {
 	checkpoint();
-	const Vertex v = maxGain(model, sites);
-	if (!v.isValid())
-		return false;
-	model.append(v);
+	const std::vector<Vertex> places = maxGains(model, sites, count);
+	model.append(places);
 	model.fit();
-	return true;
+	return !places.empty();
 }
 
-void relocateCones(ConeModel& model, const ConeSites& sites)
+void relocateCones(ConeModel& model, const ConeSites& sites, int rounds)
 {
 	double present = model.energy();
-	for (int round = 0; round < kMaxRounds; ++round) {
+	for (int round = 0; round < rounds; ++round) {
 		bool hasMoved = false;
 		for (int i = 0; i < model.size(); ++i)
 			hasMoved |= std::abs(model.curvature(i)) > kNegligible
@@ -182,6 +200,29 @@ void dropCones(ConeModel& model, const ConeSites& sites, double distortion)
 	};
 	while (model.size() > model.minSize() && dropOne()) {
 	}
+}
+
+bool dropCostlyCones(ConeModel& model, SeamTree& tree)
+{
+	const int before = model.size();
+	while (model.size() > model.minSize()) {
+		int dearest = -1;
+		double most = 0.0;
+		for (int i = 0; i < model.size(); ++i) {
+			const double loss = kConePrice + kSeamPrice * tree.ownLength(model.vertex(i)) -
+								kEnergyPrice * model.need(i);
+			if (loss > most) {
+				most = loss;
+				dearest = i;
+			}
+		}
+		if (dearest < 0)
+			break;
+		tree.remove(model.vertex(dearest));
+		model.remove(dearest);
+		model.fit();
+	}
+	return model.size() < before;
 }
 
 void removeWeakCones(ConeModel& model)

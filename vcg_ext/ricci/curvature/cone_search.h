@@ -4,6 +4,7 @@
 
 #include "cone_model.h"
 #include "cone_sites.h"
+#include "cone_tree.h"
 
 namespace ricci {
 
@@ -11,18 +12,24 @@ namespace ricci {
 /// equal shares of it gain most, the rest of the total on the whole surface by area.
 void startCones(ConeModel& model, const ConeSites& sites);
 
-/// Places one more cone where it gains most, and fits all curvatures anew (a step of orthogonal
-/// matching pursuit [Pati Rezaiifar Krishnaprasad 1993]).
+/// Places one more cone where it gains most, and others where they gain most of all places around, \p
+/// count at most; then fits all curvatures anew (a step of orthogonal matching pursuit
+/// [Pati Rezaiifar Krishnaprasad 1993]).
 /// \return false if no vertex is left
-bool addCone(ConeModel& model, const ConeSites& sites);
+bool addCones(ConeModel& model, const ConeSites& sites, int count = 1);
 
 /// Takes every cone in turn out and puts it where it gains most, or moves it down the gradient, in
-/// several rounds, while that lowers the energy.
-void relocateCones(ConeModel& model, const ConeSites& sites);
+/// \p rounds at most, while that lowers the energy.
+void relocateCones(ConeModel& model, const ConeSites& sites, int rounds = 5);
 
 /// Takes the cones that are needed least out, one after another, while the others can move so that
 /// the distortion stays below \p distortion.
 void dropCones(ConeModel& model, const ConeSites& sites, double distortion);
+
+/// Takes cones out that save less energy than they and their seams cost, see kSeamPrice.
+/// \param tree of the cones
+/// \return whether there were any
+bool dropCostlyCones(ConeModel& model, SeamTree& tree);
 
 /// Takes out cones that are too weak to be worth a seam, down to ConeModel::minSize().
 void removeWeakCones(ConeModel& model);

@@ -1,28 +1,111 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_sites.h"
 
+#include "../math/disjoint_sets.h"
 #include "../math/shortest_paths.h"
+#include "../metric/area.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 namespace ricci {
 
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+double unit(const EmbeddedSurface& surface)
+{
+	return std::sqrt(euclideanArea(surface.triangulation, surface.lengths));
+}
+
+} // namespace
+
 ConeSites::ConeSites(const EmbeddedSurface& surface, int vertices) :
 		m_isAllowed(surface.triangulation.vertexCount()),
 		m_ways(surface.triangulation.vertexCount(), [&](const auto& add) {
 			const Triangulation& t = surface.triangulation;
+			const double whole = unit(surface);
 			for (const Halfedge h : t.halfedges())
-				add(t.origin(h), Way{t.target(h), surface.lengths[h.edge()]});
-		})
+				add(t.origin(h), Way{t.target(h), surface.lengths[h.edge()] / whole});
+		}),
+		m_toCut(surface.triangulation.vertexCount(), kFar)
 {
 	for (const Vertex v : m_isAllowed.indices())
 		m_isAllowed[v] = (vertices < 0 || v.number() < vertices) && !surface.topology.boundary[v];
+	findCut(surface);
 }
 
-ConeSites::ConeSites(const ConeSites& fine, const VertexArray<Vertex>& chosen)
+/// What a tree of shortest paths, from the boundary if there is one, and a tree of dual edges leave over,
+/// the longest ways between two paths first [Erickson Whittlesey 2005].
+void ConeSites::findCut(const EmbeddedSurface& surface)
+{
+	const Triangulation& t = surface.triangulation;
+	std::vector<Vertex> roots;
+	for (const Vertex v : t.vertices())
+		if (surface.topology.boundary[v]) {
+			roots.push_back(v);
+			m_toCut[v] = 0.0;
+		}
+	if (surface.topology.type.isSphere() || surface.topology.type.isDisk())
+		return;
+	if (roots.empty())
+		roots.emplace_back(0);
+	const auto paths = shortestPaths<Vertex, Halfedge>(
+		t.vertexCount(), roots, [&](Vertex from, const auto& visit) {
+			for (const Halfedge h : t.around(from))
+				visit(t.target(h), surface.lengths[h.edge()], h);
+		});
+	EdgeArray<char> isPath(t.edgeCount(), 0);
+	for (const Halfedge h : paths.parent)
+		if (h.isValid())
+			isPath[h.edge()] = 1;
+	std::vector<std::pair<double, Edge>> others;
+	for (const Edge e : t.edges())
+		if (!isPath[e] && !t.isBoundary(e)) {
+			const auto [a, b] = t.ends(e);
+			others.emplace_back(
+				-(paths.distance[a] + surface.lengths[e] + paths.distance[b]), e);
+		}
+	std::sort(others.begin(), others.end());
+	DisjointSetsOf<Face> joined(t.faceCount());
+	VertexArray<int> uses(t.vertexCount(), 0); // edges of the cut at a vertex
+	EdgeArray<char> isCut(t.edgeCount(), 0);
+	const auto take = [&](Edge e, int sign) {
+		isCut[e] = sign > 0;
+		for (const Vertex v : t.ends(e))
+			uses[v] += sign;
+		m_cutLength += sign * surface.lengths[e];
+	};
+	for (const auto& [length, e] : others) {
+		if (joined.merge(t.face(e.halfedge()), t.face(e.halfedge().twin())))
+			continue;
+		take(e, 1);
+		for (Vertex v : t.ends(e))
+			for (Halfedge h = paths.parent[v]; h.isValid() && !isCut[h.edge()];
+				 h = paths.parent[t.origin(h)])
+				take(h.edge(), 1);
+	}
+	// The paths have come together before the root.
+	for (Vertex end = roots.front(); surface.topology.type.isClosed() && uses[end] == 1;)
+		for (const Halfedge h : t.around(end))
+			if (isCut[h.edge()]) {
+				take(h.edge(), -1);
+				end = t.target(h);
+				break;
+			}
+	for (const Vertex v : t.vertices())
+		if (uses[v] > 0)
+			m_toCut[v] = 0.0;
+	m_cutLength /= unit(surface);
+}
+
+ConeSites::ConeSites(const ConeSites& fine, const VertexArray<Vertex>& chosen) :
+		m_toCut(chosen.size(), kFar), m_cutLength(fine.m_cutLength)
 {
 	SearchFront<Vertex, Vertex> front(fine.m_isAllowed.size());
 	VertexArray<Vertex> nearest(fine.m_isAllowed.size());
@@ -34,6 +117,8 @@ ConeSites::ConeSites(const ConeSites& fine, const VertexArray<Vertex>& chosen)
 	for (Vertex v = front.next(); v.isValid(); v = front.next()) {
 		if (front.parent(v).isValid())
 			nearest[v] = nearest[front.parent(v)];
+		if (nearest[v].isValid())
+			m_toCut[nearest[v]] = std::min(m_toCut[nearest[v]], front[v] + fine.m_toCut[v]);
 		for (const Way& way : fine.ways(v))
 			front.offer(way.to, front[v] + way.length, v);
 	}
@@ -57,16 +142,6 @@ ConeSites::ConeSites(const ConeSites& fine, const VertexArray<Vertex>& chosen)
 int ConeSites::count() const
 {
 	return static_cast<int>(std::count(m_isAllowed.begin(), m_isAllowed.end(), 1));
-}
-
-VertexArray<double> ConeSites::distancesFrom(Vertex v) const
-{
-	auto paths =
-		shortestPaths<Vertex, Vertex>(m_isAllowed.size(), {v}, [&](Vertex from, const auto& visit) {
-			for (const Way& way : ways(from))
-				visit(way.to, way.length, from);
-		});
-	return std::move(paths.distance);
 }
 
 } // namespace ricci

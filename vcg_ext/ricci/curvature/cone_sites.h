@@ -7,7 +7,8 @@
 
 namespace ricci {
 
-/// Where cones may lie on a surface, and the ways from one site to the next.
+/// Where cones may lie on a surface, the ways from one site to the next, and those that seams take without
+/// any cone. Lengths are in units of the square root of the surface's area.
 class ConeSites
 {
 public:
@@ -36,12 +37,20 @@ public:
 	/// The ways from \p v.
 	ItemRange<const Way> ways(Vertex v) const { return m_ways[v]; }
 
-	/// Lengths of the shortest paths from \p v to every site.
-	VertexArray<double> distancesFrom(Vertex v) const;
+	/// How far every site is from the seams that open the surface to a disk or a sphere without cones, and
+	/// from its boundary; infinite where there are none.
+	const VertexArray<double>& toCut() const { return m_toCut; }
+
+	/// Length of those seams.
+	double cutLength() const { return m_cutLength; }
 
 private:
+	void findCut(const EmbeddedSurface& surface);
+
 	VertexArray<char> m_isAllowed;
 	Adjacency<Vertex, Way> m_ways;
+	VertexArray<double> m_toCut; // of the surface's own vertices: 0 or infinite
+	double m_cutLength = 0.0;
 };
 
 } // namespace ricci

@@ -1,151 +1,188 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_tree.h"
 
+#include "../base/numbers.h"
+#include "../math/shortest_paths.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ricci {
 
 namespace {
 
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
 /// Rounds in which every cone may move.
-constexpr int kMaxRounds = 6;
+constexpr int kMaxRounds = 4;
 
-/// Trials of one cone's move.
-constexpr int kMaxAttempts = 3;
+/// Trials of one cone's move, and how far it goes at once.
+constexpr std::size_t kMaxAttempts = 3;
+constexpr double kMaxStep = 0.25;
 
-/// Exponent of the mean square in the product with the length that moves lower: distortion counts
-/// half as much as length.
-constexpr double kDistortionWeight = 0.25;
+/// A move must lower energy and price of seams together by this.
+constexpr double kMinGain = 1e-4;
 
-/// A move must lower the product by this share.
-constexpr double kMinGain = 0.005;
-
-/// Branches of the tree at one cone for which moves are bounded without building the tree: short
-/// trees have no more.
-constexpr int kMaxBranches = 5;
-
-/// What moves lower.
-double cost(double energy, double length)
+/// Moves cone \p i to a place around where energy and price of seams are lower.
+/// \param tree without the cone, \p own shorter than with it
+/// \return whether it has moved
+bool moveNearby(
+	ConeModel& model, const SeamTree& tree, const ConeSites& sites, int i, double own, double maxEnergy)
 {
-	return std::pow(energy, kDistortionWeight) * length;
+	const double present = model.energy(), curvature = model.curvature(i);
+	const Vertex old = model.vertex(i);
+	const VertexVector& phi = model.gradient();
+	std::vector<std::pair<double, Vertex>> places; // change that is predicted
+	SearchFront<Vertex, Vertex> front(static_cast<int>(phi.size()));
+	front.offer(old, 0.0);
+	for (Vertex v = front.next(kMaxStep); v.isValid(); v = front.next(kMaxStep)) {
+		for (const ConeSites::Way& way : sites.ways(v))
+			front.offer(way.to, front[v] + way.length, v);
+		if (model.isCone(v) || !sites.isAllowed(v))
+			continue;
+		// The factor of curvature that goes the distance r is that of a dipole, with the mean square
+		// r^2 (ln(1 / r) + 1 / 2) / (4 pi) in a flat disk of radius 1.
+		const double r = front[v];
+		const double dipole = curvature * curvature * r * r * (0.5 - std::log(r)) / (8.0 * kPi);
+		const double rise = 2.0 * curvature * (phi[v] - phi[old]) + dipole;
+		const double change = kEnergyPrice * rise + kSeamPrice * (tree.distance(v) - own);
+		if (change < -kMinGain && present + rise <= maxEnergy)
+			places.emplace_back(change, v);
+	}
+	std::sort(places.begin(), places.end());
+	for (std::size_t k = 0; k < places.size() && k < kMaxAttempts; ++k) {
+		const Vertex v = places[k].second;
+		const double most = std::min(
+			maxEnergy,
+			present + (kSeamPrice * (own - tree.distance(v)) - kMinGain) / kEnergyPrice);
+		if (model.tryMove(i, v, [&](double energy) { return energy <= most; }))
+			return true;
+	}
+	return false;
 }
-
-class TreeShortener
-{
-public:
-	TreeShortener(ConeModel& model, const ConeSites& sites, double maxEnergy) :
-			m_model(model), m_sites(sites), m_maxEnergy(maxEnergy)
-	{
-		for (int i = 0; i < model.size(); ++i)
-			m_distance.push_back(sites.distancesFrom(model.vertex(i)));
-	}
-
-	/// Moves cone \p i where that lowers the cost. \return whether it has moved
-	bool move(int i)
-	{
-		const double present = m_model.energy();
-		const double length = treeLength(-1, Vertex());
-		const double aim = (1.0 - kMinGain) * cost(present, length);
-		VertexVector phi = m_model.gradient();
-		for (const Vertex v : phi.indices())
-			phi[v] = m_model.gradientOfOthers(i, v);
-		// Where the prediction of the energy was too good, the next one gets half the room.
-		double room = m_maxEnergy - present;
-		for (int attempt = 0; attempt < kMaxAttempts && room > 0.0; ++attempt, room *= 0.5) {
-			const Place place = bestPlace(i, phi, length, aim, room);
-			if (!place.vertex.isValid())
-				return false;
-			if (m_model.tryMove(i, place.vertex, [&](double energy) {
-					return energy <= m_maxEnergy && cost(energy, place.length) < aim;
-				})) {
-				m_distance[i] = m_sites.distancesFrom(place.vertex);
-				return true;
-			}
-		}
-		return false;
-	}
-
-private:
-	/// A vertex for a cone, and the length of the tree there.
-	struct Place
-	{
-		Vertex vertex;
-		double length = 0.0;
-	};
-
-	/// Where cone \p i is predicted to cost least, among the vertices at which it costs less than
-	/// \p aim and raises the energy by \p room at most; an invalid vertex if there is none.
-	/// \param phi gradient of the others: the cone's own field is about the same around every place
-	/// \param length of the tree as it is
-	Place bestPlace(int i, const VertexVector& phi, double length, double aim, double room) const
-	{
-		const double own = m_model.curvature(i), present = m_model.energy();
-		const Vertex old = m_model.vertex(i);
-		Place best;
-		for (const Vertex v : phi.indices()) {
-			const double energy = present + 2.0 * own * (phi[v] - phi[old]);
-			if (m_model.isCone(v) || !m_sites.isAllowed(v) || energy > present + room)
-				continue;
-			// A prediction below the present energy is not trusted.
-			const double trusted = std::max(energy, present);
-			// A branch at the cone becomes shorter by no more than the way that the cone goes.
-			if (cost(trusted, length - kMaxBranches * m_distance[i][v]) >= aim)
-				continue;
-			const double there = treeLength(i, v);
-			if (cost(trusted, there) < aim) {
-				aim = cost(trusted, there);
-				best = {v, there};
-			}
-		}
-		return best;
-	}
-
-	/// Length of the minimum spanning tree of the cones by paths along edges [Prim 1957], with cone \p
-	/// moved at \p to (-1: all as they are).
-	double treeLength(int moved, Vertex to) const
-	{
-		const int count = m_model.size();
-		Array<double> nearest(count, std::numeric_limits<double>::infinity());
-		Array<char> isJoined(count, 0);
-		int last = 0;
-		double length = 0.0;
-		while (true) {
-			isJoined[last] = 1;
-			int next = -1;
-			for (int k = 0; k < count; ++k) {
-				if (isJoined[k])
-					continue;
-				const double d = last == moved
-									 ? m_distance[k][to]
-									 : m_distance[last][k == moved ? to : m_model.vertex(k)];
-				nearest[k] = std::min(nearest[k], d);
-				if (next < 0 || nearest[k] < nearest[next])
-					next = k;
-			}
-			if (next < 0)
-				return length;
-			length += nearest[next];
-			last = next;
-		}
-	}
-
-	ConeModel& m_model;
-	const ConeSites& m_sites;
-	double m_maxEnergy;
-	Array<VertexArray<double>> m_distance; // from each cone
-};
 
 } // namespace
 
-void shortenConeTree(ConeModel& model, const ConeSites& sites, double maxDistortion)
+SeamTree::SeamTree(const ConeSites& sites) :
+		m_sites(&sites), m_length(sites.cutLength()), m_distance(sites.toCut()),
+		m_next(sites.toCut().size()), m_uses(sites.toCut().size(), 0)
 {
-	TreeShortener shortener(model, sites, 0.25 * maxDistortion * maxDistortion);
+	std::vector<Vertex> cut;
+	for (const Vertex v : m_distance.indices())
+		if (m_distance[v] < kFar)
+			cut.push_back(v);
+	spread(cut);
+}
+
+SeamTree::SeamTree(const ConeSites& sites, const ConeModel& model) : SeamTree(sites)
+{
+	std::vector<Vertex> cones;
+	for (int i = 0; i < model.size(); ++i)
+		cones.push_back(model.vertex(i));
+	while (!cones.empty()) {
+		const auto nearest = std::min_element(cones.begin(), cones.end(), [&](Vertex a, Vertex b) {
+			return m_distance[a] < m_distance[b];
+		});
+		add(*nearest);
+		cones.erase(nearest);
+	}
+}
+
+void SeamTree::add(Vertex cone)
+{
+	std::vector<Vertex> path;
+	for (Vertex v = cone; v.isValid(); v = m_next[v]) {
+		if (m_uses[v]++ > 0)
+			break;
+		m_length += lengthOfStep(v);
+		m_distance[v] = 0.0;
+		path.push_back(v);
+	}
+	spread(path);
+}
+
+double SeamTree::ownLength(Vertex cone) const
+{
+	double length = 0.0;
+	for (Vertex v = cone; v.isValid() && m_uses[v] == 1; v = m_next[v])
+		length += lengthOfStep(v);
+	return length;
+}
+
+double SeamTree::remove(Vertex cone)
+{
+	std::vector<Vertex> loose;
+	double length = 0.0;
+	for (Vertex v = cone; v.isValid() && --m_uses[v] == 0; v = m_next[v]) {
+		length += lengthOfStep(v);
+		m_distance[v] = kFar;
+		loose.push_back(v);
+	}
+	// All whose shortest way led there look for another.
+	for (std::size_t i = 0; i < loose.size(); ++i)
+		for (const ConeSites::Way& way : m_sites->ways(loose[i]))
+			if (m_next[way.to] == loose[i] && m_distance[way.to] < kFar) {
+				m_distance[way.to] = kFar;
+				loose.push_back(way.to);
+			}
+	for (const Vertex v : loose) {
+		m_distance[v] = m_sites->toCut()[v];
+		m_next[v] = Vertex();
+		for (const ConeSites::Way& way : m_sites->ways(v))
+			if (m_distance[way.to] + way.length < m_distance[v]) {
+				m_distance[v] = m_distance[way.to] + way.length;
+				m_next[v] = way.to;
+			}
+	}
+	spread(loose);
+	m_length -= length;
+	return length;
+}
+
+/// From \p v on the way to the tree; nothing where the tree begins.
+double SeamTree::lengthOfStep(Vertex v) const
+{
+	if (!m_next[v].isValid())
+		return m_sites->toCut()[v] < kFar ? m_sites->toCut()[v] : 0.0;
+	double shortest = kFar;
+	for (const ConeSites::Way& way : m_sites->ways(v))
+		if (way.to == m_next[v])
+			shortest = std::min(shortest, way.length);
+	return shortest;
+}
+
+/// Makes the distances shorter that are so by those of \p from.
+void SeamTree::spread(const std::vector<Vertex>& from)
+{
+	DistanceQueue<Vertex> queue;
+	for (const Vertex v : from)
+		if (m_distance[v] < kFar)
+			queue.push(m_distance[v], v);
+	while (!queue.empty()) {
+		const auto [distance, v] = queue.pop();
+		if (distance != m_distance[v])
+			continue;
+		for (const ConeSites::Way& way : m_sites->ways(v))
+			if (distance + way.length < m_distance[way.to]) {
+				m_distance[way.to] = distance + way.length;
+				m_next[way.to] = v;
+				queue.push(m_distance[way.to], way.to);
+			}
+	}
+}
+
+void shortenConeTree(ConeModel& model, SeamTree& tree, const ConeSites& sites, double maxDistortion)
+{
+	const double maxEnergy = 0.25 * maxDistortion * maxDistortion;
 	for (int round = 0; round < kMaxRounds; ++round) {
 		bool hasMoved = false;
-		for (int i = 0; i < model.size(); ++i)
-			hasMoved |= shortener.move(i);
+		for (int i = 0; i < model.size(); ++i) {
+			const double own = tree.remove(model.vertex(i));
+			hasMoved |= moveNearby(model, tree, sites, i, own, maxEnergy);
+			tree.add(model.vertex(i));
+		}
 		if (!hasMoved)
 			return;
 	}

@@ -18,6 +18,10 @@ namespace ricci {
 
 namespace {
 
+/// By so much less, energy and price of seams are not worth a search for cones; and by so much less, not
+/// another flow.
+constexpr double kNegligible = 1e-3, kWorthAFlow = 0.03;
+
 std::string number(double x)
 {
 	return numberText(x, 9);
@@ -181,7 +185,25 @@ void setPrescribedValues(
 		target.curvature += (defect / magnitude) * target.curvature.cwiseAbs();
 }
 
-/// "12 cones placed, ...", with the vertices and their curvatures.
+/// Energy and price of seams.
+double cost(const ExpectedMap& map)
+{
+	return map.energy + kSeamPrice * map.seams;
+}
+
+ExpectedMap expectation(const PlacedCones& cones)
+{
+	return {expectedEnergy(cones.distortion), cones.seams};
+}
+
+/// "expected energy 4.09, seams 3.31 (in units of the square root of the area)"
+std::string describe(const ExpectedMap& map)
+{
+	return "expected energy " + numberText(map.energy, 3) + ", seams " + numberText(map.seams, 3) +
+		   " (in units of the square root of the area)";
+}
+
+/// "12 cones placed: ...", with the vertices and their curvatures.
 std::string describe(const PlacedCones& cones, const VertexArray<int>& vertexNumbers)
 {
 	std::vector<std::pair<int, double>> named;
@@ -195,8 +217,9 @@ std::string describe(const PlacedCones& cones, const VertexArray<int>& vertexNum
 	for (const auto& [vertex, curvature] : named)
 		list += (list.empty() ? " " : ", ") + std::to_string(vertex) + " (" +
 				number(curvature / kPi) + ")";
-	return std::to_string(cones.vertices.size()) + " cones placed, expected area distortion " +
-		   number(cones.distortion) + " (spread); vertex (curvature / pi):" + list + ".";
+	return std::to_string(cones.vertices.size()) + " cones placed: " + describe(expectation(cones)) +
+		   ", area distortion " + numberText(cones.distortion, 3) +
+		   " (spread); vertex (curvature / pi):" + list + ".";
 }
 
 /// The target with these cones. A boundary is free or, if it is not to be, takes the rest of the
@@ -214,7 +237,9 @@ void setPlacedCones(
 	}
 	target.isSeamless = request.options.cones.rounding == ConeRounding::QuarterTurns;
 	target.notes.push_back(describe(cones, request.vertexNumbers));
-	if (request.measuresAreas && request.options.cones.count == 0)
+	if (request.measuresAreas && isForObjective(request.options.cones))
+		target.expected = expectation(cones);
+	else if (request.measuresAreas && request.options.cones.count == 0)
 		target.maxSpread = request.options.cones.distortion;
 	if (surface.topology.type.isClosed())
 		return;
@@ -232,13 +257,6 @@ void choosePlacedCones(
 	Target& target)
 {
 	setPlacedCones(surface, placeCones(surface, start, coneRequest(request)), request, target);
-}
-
-/// The spread of the logarithm of the area factor up to which Automatic does without cones: where it
-/// is asked for more cones, those are not needed either.
-double maxPlainSpread(const TargetRequest& request)
-{
-	return std::max(kMaxPlainSpread, request.options.cones.distortion);
 }
 
 /// Whether Automatic makes it flat, boundary included. A boundary at seams that were chosen is none of the
@@ -264,7 +282,8 @@ void setPlain(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 		prescribeByLength(surface, totalCurvature(surface), target);
 }
 
-/// The plain target where areas are expected to keep well enough with it, else placed cones.
+/// The plain target or cones: what is expected to cost less, or cones where the spread of areas would be
+/// larger without them than is asked for.
 void choosePlainOrCones(
 	const EmbeddedSurface& surface,
 	const InitialPacking& start,
@@ -273,25 +292,36 @@ void choosePlainOrCones(
 {
 	// In an annulus, cones come with a free boundary.
 	const bool isFlat = isFlatAnnulus(surface, request);
-	const ConeBoundary boundary = isFlat ? ConeBoundary::Prescribed : ConeBoundary::Fixed;
-	LinearFlow flow(surface, start, boundary);
+	LinearFlow flow(surface, start, isFlat ? ConeBoundary::Prescribed : ConeBoundary::Fixed);
 	const double spread = 2.0 * std::sqrt(flow.meanSquare(flow.solve(-flow.curvature())));
-	if (spread <= maxPlainSpread(request)) {
-		setPlain(surface, request, target);
-		target.notes.push_back(
-			"No cones: the expected spread of the logarithm of the area factor is " +
-			numberText(spread, 3) + ".");
-		if (request.options.cones.count == 0)
-			target.maxSpread = maxPlainSpread(request);
+	const ConeOptions& wanted = request.options.cones;
+	const bool goesBySpread = wanted.count == 0 && !isForObjective(wanted);
+	ExpectedMap plain{expectedEnergy(spread), 0.0};
+	const bool isKept = goesBySpread ? spread <= wanted.distortion
+									 : plain.energy - expectedEnergy(0.0) < kNegligible;
+	std::optional<PlacedCones> cones;
+	if (!isKept) {
+		cones = isFlat ? placeCones(surface, start, coneRequest(request))
+					   : placeCones(surface, flow, coneRequest(request));
+		plain.seams = cones->seamsWithout;
+	}
+	const std::string without = describe(plain) + ", area distortion " + numberText(spread, 3) + " (spread)";
+	if (cones && (goesBySpread || cost(expectation(*cones)) < cost(plain))) {
+		target.notes.push_back("Cones: without them " + without + ".");
+		setPlacedCones(surface, *cones, request, target);
 		return;
 	}
+	setPlain(surface, request, target);
 	target.notes.push_back(
-		"Cones: without them the spread of the logarithm of the area factor would be " +
-		numberText(spread, 3) + ".");
-	if (isFlat)
-		choosePlacedCones(surface, start, request, target);
-	else
-		setPlacedCones(surface, placeCones(surface, flow, coneRequest(request)), request, target);
+		"No cones: " + without +
+		(cones ? "; with " + std::to_string(cones->vertices.size()) + " cones " +
+					 describe(expectation(*cones))
+			   : "") +
+		".");
+	if (isForObjective(wanted))
+		target.expected = plain;
+	else if (goesBySpread)
+		target.maxSpread = wanted.distortion;
 }
 
 void setAutomatic(
@@ -353,28 +383,40 @@ Target chooseTarget(
 
 bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow)
 {
-	return !flow.target.maxSpread ||
-		   areaExcess(
-			   areaChange(surface, flowFactor(flow)), *flow.target.maxSpread, kSpreadSlack) <= 1.0;
+	const Target& target = flow.target;
+	if (target.expected)
+		return areaCost(surface, flow) <= cost(*target.expected) + kWorthAFlow;
+	return !target.maxSpread || areaCost(surface, flow) <= 1.0;
 }
 
-Target targetToKeepAreas(
+double areaCost(const EmbeddedSurface& surface, const FlowResult& flow)
+{
+	const AreaChange change = areaChange(surface, flowFactor(flow));
+	return flow.target.expected ? cost({change.energy, flow.target.expected->seams})
+								: areaExcess(change, *flow.target.maxSpread, kSpreadSlack);
+}
+
+std::optional<Target> targetToKeepAreas(
 	const EmbeddedSurface& surface,
 	const InitialPacking& start,
 	const FlowResult& flow,
 	const TargetRequest& request)
 {
+	const bool wasFlat = isFlatAnnulus(surface, request) && !flow.target.hasFixed();
+	const PlacedCones cones = wasFlat && request.options.freeBoundary
+								  ? placeCones(surface, start, coneRequest(request))
+								  : moreCones(surface, flow, coneRequest(request));
+	if (flow.target.expected &&
+		cost(expectation(cones)) > areaCost(surface, flow) - kWorthAFlow)
+		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
 	Target target = zeroTarget(surface.topology);
 	target.notes.push_back(
 		"The spread of the logarithm of the area factor comes out as " +
 		numberText(change.spread, 3) + ", the mean of the factor or its inverse as " +
-		numberText(change.mean, 3) + ": more or other cones are needed.");
-	const bool wasFlat = isFlatAnnulus(surface, request) && !flow.target.hasFixed();
-	if (wasFlat && request.options.freeBoundary)
-		choosePlacedCones(surface, start, request, target);
-	else
-		setPlacedCones(surface, moreCones(surface, flow, coneRequest(request)), request, target);
+		numberText(change.mean, 3) + ", the energy as " + numberText(change.energy, 3) +
+		": more or other cones are needed.");
+	setPlacedCones(surface, cones, request, target);
 	check(surface, target);
 	return target;
 }

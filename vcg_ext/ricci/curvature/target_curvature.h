@@ -36,17 +36,23 @@ struct TargetRequest : TargetInput
 Target chooseTarget(
 	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request);
 
-/// Whether \p flow changes areas no more than its target was chosen for, or its target was not chosen
-/// to keep them.
+/// Whether \p flow changes areas no more than its target was chosen for, or costs little more than was
+/// expected then; or its target was chosen by neither.
 /// \param flow with intrinsic flips
 bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow);
 
-/// The next target after \p flow: cones as moreCones() finds them.
+/// What \p flow has in excess of one that its target was chosen for: areaExcess(), or energy and price of
+/// the seams (see kSeamPrice).
+/// \pre the target was chosen by one of them
+double areaCost(const EmbeddedSurface& surface, const FlowResult& flow);
+
+/// The next target after \p flow: cones as moreCones() finds them; none where the target was chosen to
+/// cost least and no other is expected to cost less by what another flow is worth.
 /// \param start of another flow on \p surface, as for chooseTarget()
 /// \param flow with intrinsic flips
 /// \pre !keepsAreas(\p surface, \p flow)
 /// \throw as chooseTarget()
-Target targetToKeepAreas(
+std::optional<Target> targetToKeepAreas(
 	const EmbeddedSurface& surface,
 	const InitialPacking& start,
 	const FlowResult& flow,

@@ -15,6 +15,13 @@
 
 namespace ricci {
 
+/// What a map costs that is still to be made.
+struct ExpectedMap
+{
+	double energy = 4.0; ///< symmetric Dirichlet energy by area, at the best scale
+	double seams = 0.0;  ///< their length, in units of the square root of the area
+};
+
 /// A target curvature that Gauss-Bonnet allows.
 struct Target
 {
@@ -24,7 +31,8 @@ struct Target
 	bool circular = false;   ///< boundary curvature to be adapted to a round disk
 	std::optional<std::array<Vertex, 4>> corners; ///< of a rectangle, in boundary order
 	std::optional<double> maxSpread; ///< of the logarithm of the area factor, where the target was
-									 ///< chosen to keep areas
+									 ///< chosen to keep areas so far
+	std::optional<ExpectedMap> expected; ///< where it was chosen to cost least
 	bool isSeamless = false;         ///< cones were placed with multiples of pi / 2
 	std::vector<std::string> notes;  ///< what was chosen, in sentences
 

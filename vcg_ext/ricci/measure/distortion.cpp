@@ -5,6 +5,7 @@
 #include "../base/indexed.h"
 #include "../base/parallel.h"
 #include "../base/tolerances.h"
+#include "../curvature/cone_request.h"
 #include "../math/orientation.h"
 #include "../metric/area.h"
 

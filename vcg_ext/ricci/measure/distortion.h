@@ -66,10 +66,6 @@ measureDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface, Repo
 /// the plane. Orientation does not count. Triangles without area in space are left out.
 double stretchEnergy(const FlatMesh& mesh);
 
-/// What a seam as long as the square root of the surface's area is worth in stretchEnergy(): about as much as
-/// a standard deviation of 16 % in the scale of the map.
-constexpr double kSeamPrice = 0.05;
-
 /// What a map costs: stretchEnergy() and kSeamPrice.
 /// \param seamLength on the surface
 double objective(const FlatMesh& mesh, double seamLength);

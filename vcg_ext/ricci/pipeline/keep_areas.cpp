@@ -18,19 +18,9 @@ namespace ricci {
 
 namespace {
 
-/// Flows after the first one, and those in a row that may bring nothing.
-constexpr int kMaxRounds = 6, kMaxVainRounds = 2;
-
-AreaChange areaChange(const EmbeddedSurface& surface, const FlowResult& flow)
-{
-	return areaChange(surface, flowFactor(flow));
-}
-
-/// As targetToKeepAreas() measures it.
-double areaExcess(const EmbeddedSurface& surface, const FlowResult& flow, double spread)
-{
-	return areaExcess(areaChange(surface, flow), spread, kSpreadSlack);
-}
+/// Flows after the first one, and those in a row that may bring nothing: where areas are to be kept so
+/// far, and where the map is to cost little.
+constexpr int kMaxRounds = 6, kMaxVainRounds = 2, kMaxCheaper = 2, kMaxVainCheaper = 1;
 
 } // namespace
 
@@ -46,15 +36,17 @@ void keepAreas(
 		const FlowResult& before = last ? *last : best;
 		if (keepsAreas(surface, before))
 			return std::nullopt; // without the cost of another start
-		return attempt([&] {
+		auto next = attempt([&]() -> std::optional<FlowResult> {
 			InitialPacking start = initialPacking(surface, options);
-			const Target target = targetToKeepAreas(surface, start, before, request);
-			return runFlow(surface, std::move(start), target, options, map);
+			const auto target = targetToKeepAreas(surface, start, before, request);
+			if (!target)
+				return std::nullopt;
+			return runFlow(surface, std::move(start), *target, options, map);
 		});
+		return next ? std::move(*next) : std::nullopt;
 	};
 	const auto take = [&](FlowResult next) {
-		const double spread = *next.target.maxSpread;
-		const bool isBest = areaExcess(surface, next, spread) <= areaExcess(surface, best, spread);
+		const bool isBest = areaCost(surface, next) <= areaCost(surface, best);
 		last.reset();
 		if (isBest)
 			best = std::move(next);
@@ -62,12 +54,19 @@ void keepAreas(
 			last = std::make_unique<const FlowResult>(std::move(next));
 		return isBest;
 	};
-	const int round = improve(best, kMaxRounds, kMaxVainRounds, propose, take);
+	const bool isForCost = best.target.expected.has_value();
+	const int round = improve(
+		best,
+		isForCost ? kMaxCheaper : kMaxRounds,
+		isForCost ? kMaxVainCheaper : kMaxVainRounds,
+		propose,
+		take);
 	if (round > 0) {
-		const AreaChange change = areaChange(surface, best);
+		const AreaChange change = areaChange(surface, flowFactor(best));
 		logLine(
 			"The spread of the logarithm of the area factor is " + numberText(change.spread, 3) +
-			" now, the mean of the factor or its inverse " + numberText(change.mean, 3) + ".");
+			" now, the mean of the factor or its inverse " + numberText(change.mean, 3) +
+			", the energy " + numberText(change.energy, 3) + ".");
 	}
 }
 

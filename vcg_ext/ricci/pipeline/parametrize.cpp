@@ -174,7 +174,7 @@ void checkOptions(const Options& options)
 		throw InvalidOption(InvalidOption::WithoutFlips);
 	if (options.cones.count < 0)
 		throw InvalidOption(InvalidOption::ConeCount, options.cones.count);
-	if (!(options.cones.distortion > 0.0 && std::isfinite(options.cones.distortion)))
+	if (!(options.cones.distortion >= 0.0 && std::isfinite(options.cones.distortion)))
 		throw InvalidOption(InvalidOption::ConeDistortion, options.cones.distortion);
 	checkChartMargin(options.chartMargin);
 	if (!(options.seamHiding >= 0.0 && options.seamHiding <= 1.0))
