@@ -248,7 +248,8 @@ RichParameterList euclideanParameters(Shown shown)
 		"cone_distortion",
 		static_cast<Scalarm>(defaults.cones.distortion),
 		"Cones: area distortion",
-		"0: as many cones as lower the distortion by more than their seams cost. Above 0: cones are "
+		"0: as many cones as lower the distortion by more than their seams cost. Above 0: cones "
+		"are "
 		"added until areas typically change by less than this, relative to each other (0.25: by a "
 		"quarter). Read where cones are placed and their number is 0."));
 	list.addParam(RichEnum("seams", 0, seamsChoices(), kSeamsName, kSeamsTip));
@@ -320,7 +321,8 @@ RichParameterList euclideanParameters(Shown shown)
 		chartsChoices(),
 		"Charts",
 		"<b>Without overlap</b>: a chart that covers a part of the plane twice is cut along the "
-		"shortest lines that part what overlaps. <b>Cut for room</b>: with <b>Automatic</b>, a chart "
+		"shortest lines that part what overlaps. <b>Cut for room</b>: with <b>Automatic</b>, a "
+		"chart "
 		"that leaves most of the unit square empty is also cut across where that gives all charts "
 		"enough room to be worth the seam."));
 	list.addParam(host::advanced<RichBool>(

@@ -159,7 +159,8 @@ std::string toSentence(const Results& results)
 		 << " rad of the target after " << valueOf<int>(results, "iterations")
 		 << " Newton steps. Distortion " << std::fixed << std::setprecision(3)
 		 << valueOf<double>(results, "qc_area_mean") << " on average (1 keeps all angles), areas "
-		 << "by a factor of " << valueOf<double>(results, "area_distortion_mean") << ", " << flipped << (flipped == 1 ? " flipped face, " : " flipped faces, ") << charts
+		 << "by a factor of " << valueOf<double>(results, "area_distortion_mean") << ", " << flipped
+		 << (flipped == 1 ? " flipped face, " : " flipped faces, ") << charts
 		 << (charts == 1 ? " chart." : " charts.");
 	return line.str();
 }

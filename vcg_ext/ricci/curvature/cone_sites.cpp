@@ -27,12 +27,14 @@ double unit(const EmbeddedSurface& surface)
 
 ConeSites::ConeSites(const EmbeddedSurface& surface, int vertices) :
 		m_isAllowed(surface.triangulation.vertexCount()),
-		m_ways(surface.triangulation.vertexCount(), [&](const auto& add) {
-			const Triangulation& t = surface.triangulation;
-			const double whole = unit(surface);
-			for (const Halfedge h : t.halfedges())
-				add(t.origin(h), Way{t.target(h), surface.lengths[h.edge()] / whole});
-		}),
+		m_ways(
+			surface.triangulation.vertexCount(),
+			[&](const auto& add) {
+				const Triangulation& t = surface.triangulation;
+				const double whole = unit(surface);
+				for (const Halfedge h : t.halfedges())
+					add(t.origin(h), Way{t.target(h), surface.lengths[h.edge()] / whole});
+			}),
 		m_toCut(surface.triangulation.vertexCount(), kFar)
 {
 	for (const Vertex v : m_isAllowed.indices())
@@ -68,8 +70,7 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 	for (const Edge e : t.edges())
 		if (!isPath[e] && !t.isBoundary(e)) {
 			const auto [a, b] = t.ends(e);
-			others.emplace_back(
-				-(paths.distance[a] + surface.lengths[e] + paths.distance[b]), e);
+			others.emplace_back(-(paths.distance[a] + surface.lengths[e] + paths.distance[b]), e);
 		}
 	std::sort(others.begin(), others.end());
 	DisjointSetsOf<Face> joined(t.faceCount());

@@ -7,6 +7,7 @@
 #include "../charts/input_indices.h"
 #include "../charts/pack.h"
 #include "../charts/separate_charts.h"
+#include "../curvature/cone_request.h"
 #include "../measure/distortion.h"
 #include "../measure/hyperbolic_distortion.h"
 #include "../verify/result_check.h"
