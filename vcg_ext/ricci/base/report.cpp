@@ -28,7 +28,8 @@ Report& Report::operator+=(const Report& next)
 		  &Report::seamEdges})
 		this->*count += next.*count;
 	seamLength += next.seamLength;
-	for (double Report::*error : {&Report::maxCurvatureError, &Report::residualFloor, &Report::lengthened})
+	for (double Report::*error :
+		 {&Report::maxCurvatureError, &Report::residualFloor, &Report::lengthened})
 		this->*error = std::max(this->*error, next.*error);
 	if (next.hyperbolicArea)
 		hyperbolicArea = hyperbolicArea.value_or(0.0) + *next.hyperbolicArea;
