@@ -47,8 +47,7 @@ enum class Method {
 enum class Holes {
 	Boundaries, ///< boundary like the longest loop: free or prescribed, with seams that join them
 	Capped,     ///< closed by caps that take part in the flow and are not written, see hole_caps.h
-	ShortCapped ///< capped where they are short against the surface, the longest too if all are;
-				///< the others stay boundaries. See flowDomain()
+	ShortCapped ///< capped where they are short, see flowDomain(); the others are boundaries
 };
 
 /// What a map on flipped triangles is given back on.
