@@ -273,12 +273,11 @@ RichParameterList euclideanParameters(Shown shown)
 		static_cast<int>(defaults.holes),
 		holesChoices(),
 		"Holes",
-		"What the boundary loops other than the longest are. <b>Boundaries</b>: like it, with "
-		"seams "
-		"that join them. <b>Capped</b>: closed for the flow, so that the chart goes round them "
-		"without seams. <b>Short ones capped</b>: those no longer than a tenth of the root of the "
-		"surface's area are, like single missing faces of a fine mesh, even if all loops are so "
-		"short; the others stay boundaries."));
+		"What the boundary loops other than the longest are: boundaries too, or <b>Capped</b>, "
+		"closed "
+		"for the flow, so that the chart goes round them without seams. <b>Short ones capped</b>: "
+		"loops no longer than a tenth of the root of the surface's area, even if all are so "
+		"short."));
 	list.addParam(host::advanced<RichFloat>(
 		"seam_hiding",
 		static_cast<Scalarm>(defaults.seamHiding),

@@ -36,7 +36,7 @@ struct Case
 ComponentMap
 flattened(const Component& component, const Options& options, const VertexInput& input = {})
 {
-	return flattenToPlane(component, input, options);
+	return *flattenToPlane(component, input, options);
 }
 
 ComponentMap flattened(

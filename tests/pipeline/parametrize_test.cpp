@@ -345,26 +345,6 @@ double roundness(const SurfaceMesh& mesh, const UV& uv)
 	return worst;
 }
 
-TEST(Parametrize, ADiskOrARectangleIsOneChart)
-{
-	// Straight triangles that the flow has bent may lie over others; that is counted, not cut.
-	Random random(204);
-	int overlapping = 0;
-	for (int i = 0; i < 6; ++i) {
-		const SurfaceMesh mesh = sliverDisk(14, 3.0, random);
-		for (const TargetCurvature target : {TargetCurvature::Disk, TargetCurvature::Rectangle}) {
-			Options options;
-			options.target = target;
-			options.finish = i % 2 == 0 ? Finish::None : Finish::Repair;
-			const FlatResult flat = run(mesh, options);
-			EXPECT_EQ(flat.charts.size(), 1u);
-			EXPECT_EQ(flat.report.overlapCuts, 0);
-			overlapping += flat.report.overlappingFaces;
-		}
-	}
-	EXPECT_GT(overlapping, 0);
-}
-
 TEST(Parametrize, ADiskIsRound)
 {
 	Random random(203);

@@ -42,7 +42,7 @@ Options withOutput(OutputTriangulation output)
 
 ComponentMap flattened(const Component& component, const Options& options)
 {
-	return flattenToPlane(component, {}, options);
+	return *flattenToPlane(component, {}, options);
 }
 
 ComponentMap flattened(const Component& component, const HyperbolicOptions& options)

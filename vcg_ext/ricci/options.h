@@ -5,6 +5,7 @@
 #include "math/points.h"
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace ricci {
@@ -47,8 +48,7 @@ enum class Method {
 enum class Holes {
 	Boundaries, ///< boundary like the longest loop: free or prescribed, with seams that join them
 	Capped,     ///< closed by caps that take part in the flow and are not written, see hole_caps.h
-	ShortCapped ///< capped where they are short against the surface, the longest as well if all are;
-	///< the others stay boundaries. See flowDomain()
+	ShortCapped ///< capped where they are short, see flowDomain(); the others are boundaries
 };
 
 /// What a map on flipped triangles is given back on.
@@ -120,6 +120,10 @@ struct ConeOptions
 	int count = 0;
 	double distortion = 0.0;
 	ConeRounding rounding = ConeRounding::Free;
+
+	/// Energy and price of seams of another map that is at hand: no more than kMaxPlacedCones are placed
+	/// then to lower both, and no flow runs if they are expected to cost more.
+	double alternative = std::numeric_limits<double>::infinity();
 };
 
 /// Whether cones are to lower energy and price of seams together.

@@ -511,11 +511,9 @@ def flatten(
     colorize: Colour the vertices by their quasi-conformal distortion: from blue (1: angles
         kept) over cyan, green and yellow to red (the 99th percentile over the faces, and more).
     flat_layer: Add a layer with the mesh laid out in the plane, cut along its seams.
-    holes: What the boundary loops other than the longest are. Boundaries: like it, with seams
-        that join them. Capped: closed for the flow, so that the chart goes round them without
-        seams. Short ones capped: those no longer than a tenth of the root of the surface's area
-        are, like single missing faces of a fine mesh, even if all loops are so short; the
-        others stay boundaries.
+    holes: What the boundary loops other than the longest are: boundaries too, or Capped, closed
+        for the flow, so that the chart goes round them without seams. Short ones capped: loops
+        no longer than a tenth of the root of the surface's area, even if all are so short.
     seam_hiding: 0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to
         ten times its length, so that seams run through hollows.
     cone_count: The number of placed cones. 0: as many as it takes to reach 'Cones: area

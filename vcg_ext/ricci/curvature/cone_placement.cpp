@@ -54,8 +54,10 @@ void placeCount(const ConeRequest& request, ConeModel& model, const ConeSites& s
 }
 
 /// How many cones \p model can work with.
-int maxCones(const ConeModel& model)
+int maxCones(const ConeModel& model, const ConeRequest& request)
 {
+	if (std::isfinite(request.alternative))
+		return kMaxPlacedCones;
 	const auto vertices = static_cast<int>(model.area().size());
 	return std::clamp(kMaxConeNumbers / vertices, kMaxPlacedCones, kMaxNeededCones);
 }

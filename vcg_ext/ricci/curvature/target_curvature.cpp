@@ -185,12 +185,6 @@ void setPrescribedValues(
 		target.curvature += (defect / magnitude) * target.curvature.cwiseAbs();
 }
 
-/// Energy and price of seams.
-double cost(const ExpectedMap& map)
-{
-	return map.energy + kSeamPrice * map.seams;
-}
-
 ExpectedMap expectation(const PlacedCones& cones)
 {
 	return {expectedEnergy(cones.distortion), cones.seams};
@@ -307,7 +301,7 @@ void choosePlainOrCones(
 	}
 	const std::string without =
 		describe(plain) + ", area distortion " + numberText(spread, 3) + " (spread)";
-	if (cones && (goesBySpread || cost(expectation(*cones)) < cost(plain))) {
+	if (cones && (goesBySpread || costOf(expectation(*cones)) < costOf(plain))) {
 		target.notes.push_back("Cones: without them " + without + ".");
 		setPlacedCones(surface, *cones, request, target);
 		return;
@@ -351,6 +345,11 @@ void check(const EmbeddedSurface& surface, const Target& target)
 
 } // namespace
 
+double costOf(const ExpectedMap& map)
+{
+	return map.energy + kSeamPrice * map.seams;
+}
+
 Target chooseTarget(
 	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request)
 {
@@ -386,14 +385,14 @@ bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow)
 {
 	const Target& target = flow.target;
 	if (target.expected)
-		return areaCost(surface, flow) <= cost(*target.expected) + kWorthAFlow;
+		return areaCost(surface, flow) <= costOf(*target.expected) + kWorthAFlow;
 	return !target.maxSpread || areaCost(surface, flow) <= 1.0;
 }
 
 double areaCost(const EmbeddedSurface& surface, const FlowResult& flow)
 {
 	const AreaChange change = areaChange(surface, flowFactor(flow));
-	return flow.target.expected ? cost({change.energy, flow.target.expected->seams})
+	return flow.target.expected ? costOf({change.energy, flow.target.expected->seams})
 								: areaExcess(change, *flow.target.maxSpread, kSpreadSlack);
 }
 
@@ -407,7 +406,7 @@ std::optional<Target> targetToKeepAreas(
 	const PlacedCones cones = wasFlat && request.options.freeBoundary
 								  ? placeCones(surface, start, coneRequest(request))
 								  : moreCones(surface, flow, coneRequest(request));
-	if (flow.target.expected && cost(expectation(cones)) > areaCost(surface, flow) - kWorthAFlow)
+	if (flow.target.expected && costOf(expectation(cones)) > areaCost(surface, flow) - kWorthAFlow)
 		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
 	Target target = zeroTarget(surface.topology);

@@ -36,6 +36,9 @@ struct TargetRequest : TargetInput
 Target chooseTarget(
 	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request);
 
+/// Energy and price of seams, see kSeamPrice.
+double costOf(const ExpectedMap& map);
+
 /// Whether \p flow changes areas no more than its target was chosen for, or costs little more than was
 /// expected then; or its target was chosen by neither.
 /// \param flow with intrinsic flips

@@ -49,8 +49,9 @@ struct ComponentMap
 /// The stages of the paper on one component, in order, to the plane: flow domain, initial packing (4.1),
 /// target (5.2, 5.3), flow (4.2), cut and layout (4.3), invariants, the finish, and the checks of the
 /// result by other formulas.
+/// \return none if the target is expected to cost more than ConeOptions::alternative
 /// \throw what the stages throw
-ComponentMap
+std::optional<ComponentMap>
 flattenToPlane(const Component& component, const VertexInput& input, const Options& options);
 
 /// The same to the Poincaré disk, where neither areas nor rotations across seams are asked for, and the side

@@ -148,7 +148,7 @@ void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 
 } // namespace
 
-ComponentMap
+std::optional<ComponentMap>
 flattenToPlane(const Component& component, const VertexInput& input, const Options& options)
 {
 	if (options.method == Method::EdgeSwaps)
@@ -163,6 +163,8 @@ flattenToPlane(const Component& component, const VertexInput& input, const Optio
 	const TargetRequest request =
 		targetRequest(component, input, options, domain.solved().positions.size());
 	const Target target = chooseTarget(domain.solved(), start, request);         // 5.2, 5.3
+	if (target.expected && costOf(*target.expected) > options.cones.alternative)
+		return std::nullopt;
 	map.flow = runFlow(domain.solved(), std::move(start), target, options, map); // 4.2
 	measurePeriods(map);
 	keepAreas(domain.solved(), request, options, map);

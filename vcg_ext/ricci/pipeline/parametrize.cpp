@@ -92,20 +92,29 @@ std::string costText(const Parametrization& map)
 Parametrization
 mapToPlane(const Component& component, const VertexInput& input, const Options& options)
 {
-	std::optional<Parametrization> unfolded;
-	if (mayUnfold(component, options))
-		unfolded = unfold(component, options);
-	Parametrization map = asParametrization(component, flattenToPlane(component, input, options));
-	separateCharts(options, map);
-	if (!unfolded)
-		return map;
 	const auto cost = [](const Parametrization& p) {
 		return objective(p.mesh, p.report.seamLength);
 	};
+	std::optional<Parametrization> unfolded;
+	if (mayUnfold(component, options))
+		unfolded = unfold(component, options);
+	Options ofFlow = options;
+	if (unfolded)
+		ofFlow.cones.alternative = cost(*unfolded);
+	std::optional<ComponentMap> flow = flattenToPlane(component, input, ofFlow);
+	if (!flow) {
+		logLine(
+			"Cut along creases and unfolded: " + costText(*unfolded) + "; cones are expected to cost more.");
+		return std::move(*unfolded);
+	}
+	Parametrization map = asParametrization(component, std::move(*flow));
+	separateCharts(options, map);
+	if (!unfolded)
+		return map;
 	const bool isUnfolded = cost(*unfolded) < cost(map);
 	logLine(
-		"Cut along creases and unfolded: " + costText(*unfolded) + "; as a whole: " +
-		costText(map) + ". The " + (isUnfolded ? "first" : "second") + " is taken.");
+		"Cut along creases and unfolded: " + costText(*unfolded) + "; as a whole: " + costText(map) +
+		". The " + (isUnfolded ? "first" : "second") + " is taken.");
 	return isUnfolded ? std::move(*unfolded) : std::move(map);
 }
 

@@ -79,7 +79,7 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 	map.u.resize(vertexCount, 0.0);
 	map.targetCurvature.resize(vertexCount, 0.0);
 	for (const Component& piece : pieces)
-		append(piece, asParametrization(piece, flattenToPlane(piece, {}, ofPieces)), map);
+		append(piece, asParametrization(piece, *flattenToPlane(piece, {}, ofPieces)), map);
 	separateCharts(ofPieces, map);
 	joinCharts(map);
 	const Topology topology = flowDomain(component, Holes::Boundaries).surface.topology;
