@@ -248,7 +248,8 @@ RichParameterList euclideanParameters(Shown shown)
 		"cone_distortion",
 		static_cast<Scalarm>(defaults.cones.distortion),
 		"Cones: area distortion",
-		"0: as many cones as lower the distortion by more than their seams cost. Above 0: cones are "
+		"0: as many cones as lower the distortion by more than their seams cost. Above 0: cones "
+		"are "
 		"added until areas typically change by less than this, relative to each other (0.25: by a "
 		"quarter). Read where cones are placed and their number is 0."));
 	list.addParam(RichEnum("seams", 0, seamsChoices(), kSeamsName, kSeamsTip));

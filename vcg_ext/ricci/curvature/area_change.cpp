@@ -73,16 +73,13 @@ AreaChange areaChange(const EmbeddedSurface& surface, const VertexVector& factor
 		logSquare += share[f] * x * x;
 	}
 	return {
-		mean,
-		std::sqrt(std::max(0.0, logSquare - logSum * logSum)),
-		4.0 * std::sqrt(meanInverse)};
+		mean, std::sqrt(std::max(0.0, logSquare - logSum * logSum)), 4.0 * std::sqrt(meanInverse)};
 }
 
 double areaExcess(const AreaChange& change, double spread, double slack)
 {
-	const double maxLogMean =
-		std::log(kMaxAreaMean) +
-		std::max(0.0, logMeanOfNormal(spread) - logMeanOfNormal(kWideSpread));
+	const double maxLogMean = std::log(kMaxAreaMean) +
+							  std::max(0.0, logMeanOfNormal(spread) - logMeanOfNormal(kWideSpread));
 	return std::max(change.spread / (slack * spread), std::log(change.mean) / maxLogMean);
 }
 

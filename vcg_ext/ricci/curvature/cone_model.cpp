@@ -168,8 +168,7 @@ std::vector<int> ConeModel::byNeed()
 {
 	std::vector<int> cones(positionOf(size()));
 	std::iota(cones.begin(), cones.end(), 0);
-	std::stable_sort(
-		cones.begin(), cones.end(), [&](int a, int b) { return need(a) < need(b); });
+	std::stable_sort(cones.begin(), cones.end(), [&](int a, int b) { return need(a) < need(b); });
 	return cones;
 }
 
@@ -308,8 +307,8 @@ double ConeModel::minEnergyAt(int i, Vertex v, double ownProduct) const
 	if (!(left[row] > 0.0))
 		return kUnknown;
 	const double along = left.dot(products), k = curvature(i);
-	const double beyond = ownProduct - products.dot(m_now.inverse * products) +
-						  along * along / left[row];
+	const double beyond =
+		ownProduct - products.dot(m_now.inverse * products) + along * along / left[row];
 	if (!(beyond > kMinPivot * ownProduct))
 		return kUnknown;
 	// Half the slope at v when the others have made up for cone i.

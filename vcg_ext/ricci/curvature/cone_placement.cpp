@@ -47,8 +47,7 @@ void checkCount(const ConeRequest& request, const ConeModel& model, const ConeSi
 void placeCount(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	while (model.size() < request.count &&
-		   addCones(
-			   model, sites, std::min(request.count - model.size(), 1 + model.size() / 8))) {
+		   addCones(model, sites, std::min(request.count - model.size(), 1 + model.size() / 8))) {
 	}
 	relocateCones(model, sites);
 	model.setRounding(request.rounding);
@@ -103,7 +102,8 @@ private:
 
 	double objective() const
 	{
-		return kEnergyPrice * m_model.energy() + kSeamPrice * m_tree.length() + kConePrice * m_model.size();
+		return kEnergyPrice * m_model.energy() + kSeamPrice * m_tree.length() +
+			   kConePrice * m_model.size();
 	}
 
 	ConeModel& m_model;
@@ -222,10 +222,7 @@ void search(const ConeRequest& request, ConeModel& model, const ConeSites& sites
 /// The same on aggregates of vertices, then on the surface itself as far as its own distortion asks
 /// for it.
 void searchFromCoarse(
-	const ConeRequest& request,
-	LinearFlow& flow,
-	ConeModel& model,
-	const ConeSites& sites)
+	const ConeRequest& request, LinearFlow& flow, ConeModel& model, const ConeSites& sites)
 {
 	CoarseFlow coarse(flow, kMaxAggregates);
 	const ConeSites coarseSites(sites, coarse.roots);

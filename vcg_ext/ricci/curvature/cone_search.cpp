@@ -87,8 +87,8 @@ std::vector<Vertex> maxGains(ConeModel& model, const ConeSites& sites, int count
 	}
 	std::sort(peaks.begin(), peaks.end(), isHigher);
 	while (static_cast<int>(peaks.size()) > count ||
-		   (peaks.size() > 1 && std::abs(phi[peaks.back()] - base) <
-									kMinPeak * std::abs(phi[peaks.front()] - base)))
+		   (peaks.size() > 1 &&
+			std::abs(phi[peaks.back()] - base) < kMinPeak * std::abs(phi[peaks.front()] - base)))
 		peaks.pop_back();
 	return peaks;
 }

@@ -27,12 +27,14 @@ double unit(const EmbeddedSurface& surface)
 
 ConeSites::ConeSites(const EmbeddedSurface& surface, int vertices) :
 		m_isAllowed(surface.triangulation.vertexCount()),
-		m_ways(surface.triangulation.vertexCount(), [&](const auto& add) {
-			const Triangulation& t = surface.triangulation;
-			const double whole = unit(surface);
-			for (const Halfedge h : t.halfedges())
-				add(t.origin(h), Way{t.target(h), surface.lengths[h.edge()] / whole});
-		}),
+		m_ways(
+			surface.triangulation.vertexCount(),
+			[&](const auto& add) {
+				const Triangulation& t = surface.triangulation;
+				const double whole = unit(surface);
+				for (const Halfedge h : t.halfedges())
+					add(t.origin(h), Way{t.target(h), surface.lengths[h.edge()] / whole});
+			}),
 		m_toCut(surface.triangulation.vertexCount(), kFar)
 {
 	for (const Vertex v : m_isAllowed.indices())
@@ -58,8 +60,8 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 		VertexArray<double> lengths(t.vertexCount(), 0.0);
 		for (const Halfedge h : t.halfedges())
 			lengths[t.origin(h)] += surface.lengths[h.edge()];
-		roots.emplace_back(static_cast<int>(
-			std::max_element(lengths.begin(), lengths.end()) - lengths.begin()));
+		roots.emplace_back(
+			static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin()));
 	}
 	const auto paths = shortestPaths<Vertex, Halfedge>(
 		t.vertexCount(), roots, [&](Vertex from, const auto& visit) {
@@ -74,8 +76,7 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 	for (const Edge e : t.edges())
 		if (!isPath[e] && !t.isBoundary(e)) {
 			const auto [a, b] = t.ends(e);
-			others.emplace_back(
-				-(paths.distance[a] + surface.lengths[e] + paths.distance[b]), e);
+			others.emplace_back(-(paths.distance[a] + surface.lengths[e] + paths.distance[b]), e);
 		}
 	std::sort(others.begin(), others.end());
 	DisjointSetsOf<Face> joined(t.faceCount());

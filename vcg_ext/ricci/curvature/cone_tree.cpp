@@ -29,7 +29,12 @@ constexpr double kMinGain = 1e-4;
 /// \param tree without the cone, \p own shorter than with it
 /// \return whether it has moved
 bool moveNearby(
-	ConeModel& model, const SeamTree& tree, const ConeSites& sites, int i, double own, double maxEnergy)
+	ConeModel& model,
+	const SeamTree& tree,
+	const ConeSites& sites,
+	int i,
+	double own,
+	double maxEnergy)
 {
 	const double present = model.energy(), curvature = model.curvature(i);
 	const Vertex old = model.vertex(i);
@@ -55,8 +60,7 @@ bool moveNearby(
 	for (std::size_t k = 0; k < places.size() && k < kMaxAttempts; ++k) {
 		const Vertex v = places[k].second;
 		const double most = std::min(
-			maxEnergy,
-			present + (kSeamPrice * (own - tree.distance(v)) - kMinGain) / kEnergyPrice);
+			maxEnergy, present + (kSeamPrice * (own - tree.distance(v)) - kMinGain) / kEnergyPrice);
 		if (model.tryMove(i, v, [&](double energy) { return energy <= most; }))
 			return true;
 	}

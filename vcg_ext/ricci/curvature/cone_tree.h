@@ -51,7 +51,8 @@ private:
 /// its seams together (see kSeamPrice), in several rounds, and keeps the distortion (see
 /// ConeModel::distortion()) at or below \p maxDistortion.
 /// \param tree of the cones of \p model
-void shortenConeTree(ConeModel& model, SeamTree& tree, const ConeSites& sites, double maxDistortion);
+void shortenConeTree(
+	ConeModel& model, SeamTree& tree, const ConeSites& sites, double maxDistortion);
 
 } // namespace ricci
 

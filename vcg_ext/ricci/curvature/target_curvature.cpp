@@ -217,9 +217,9 @@ std::string describe(const PlacedCones& cones, const VertexArray<int>& vertexNum
 	for (const auto& [vertex, curvature] : named)
 		list += (list.empty() ? " " : ", ") + std::to_string(vertex) + " (" +
 				number(curvature / kPi) + ")";
-	return std::to_string(cones.vertices.size()) + " cones placed: " + describe(expectation(cones)) +
-		   ", area distortion " + numberText(cones.distortion, 3) +
-		   " (spread); vertex (curvature / pi):" + list + ".";
+	return std::to_string(cones.vertices.size()) +
+		   " cones placed: " + describe(expectation(cones)) + ", area distortion " +
+		   numberText(cones.distortion, 3) + " (spread); vertex (curvature / pi):" + list + ".";
 }
 
 /// The target with these cones. A boundary is free or, if it is not to be, takes the rest of the
@@ -305,7 +305,8 @@ void choosePlainOrCones(
 					   : placeCones(surface, flow, coneRequest(request));
 		plain.seams = cones->seamsWithout;
 	}
-	const std::string without = describe(plain) + ", area distortion " + numberText(spread, 3) + " (spread)";
+	const std::string without =
+		describe(plain) + ", area distortion " + numberText(spread, 3) + " (spread)";
 	if (cones && (goesBySpread || cost(expectation(*cones)) < cost(plain))) {
 		target.notes.push_back("Cones: without them " + without + ".");
 		setPlacedCones(surface, *cones, request, target);
@@ -406,8 +407,7 @@ std::optional<Target> targetToKeepAreas(
 	const PlacedCones cones = wasFlat && request.options.freeBoundary
 								  ? placeCones(surface, start, coneRequest(request))
 								  : moreCones(surface, flow, coneRequest(request));
-	if (flow.target.expected &&
-		cost(expectation(cones)) > areaCost(surface, flow) - kWorthAFlow)
+	if (flow.target.expected && cost(expectation(cones)) > areaCost(surface, flow) - kWorthAFlow)
 		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
 	Target target = zeroTarget(surface.topology);
