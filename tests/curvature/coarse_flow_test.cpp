@@ -4,10 +4,10 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/math/shortest_paths.h>
 #include <ricci/base/numbers.h>
 #include <ricci/curvature/coarse_flow.h>
 #include <ricci/curvature/cone_sites.h>
+#include <ricci/math/shortest_paths.h>
 
 #include <gtest/gtest.h>
 

@@ -119,7 +119,8 @@ TEST(SeamTree, ForgetsConesThatAreTakenOut)
 {
 	Random random(922);
 	for (const int genus : {0, 1, 2}) {
-		Linearised linear({"", shaken(perforatedSlab(genus, 3), 0.05, random), ConeBoundary::Fixed});
+		Linearised linear(
+			{"", shaken(perforatedSlab(genus, 3), 0.05, random), ConeBoundary::Fixed});
 		const ConeSites sites(linear.surface, -1);
 		EXPECT_EQ(sites.cutLength() > 0.0, genus > 0);
 		const std::vector<Vertex> cones = places(17, linear.flow.vertexCount());

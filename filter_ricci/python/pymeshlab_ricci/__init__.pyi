@@ -332,7 +332,7 @@ class MeshSet(pymeshlab.MeshSet):
             'Placed cones',
         ]] = 'Automatic',
         free_boundary: bool = True,
-        cone_distortion: float = 0.25,
+        cone_distortion: float = 0,
         seams: Union[int, Literal[
             'Shortest',
             'Existing texture seams',
@@ -439,7 +439,7 @@ def flatten(
         'Placed cones',
     ]] = 'Automatic',
     free_boundary: bool = True,
-    cone_distortion: float = 0.25,
+    cone_distortion: float = 0,
     seams: Union[int, Literal[
         'Shortest',
         'Existing texture seams',
@@ -497,8 +497,9 @@ def flatten(
     free_boundary: The boundary keeps the metric that it has on the mesh: the least distortion
         for a surface with boundary. Disk, Rectangle and the flat annulus prescribe the boundary
         and ignore this.
-    cone_distortion: Cones are added until areas typically change by less than this, relative to
-        each other (0.25: by a quarter). Read where cones are placed and their number is 0.
+    cone_distortion: 0: as many cones as lower the distortion by more than their seams cost. Above
+        0: cones are added until areas typically change by less than this, relative to each
+        other (0.25: by a quarter). Read where cones are placed and their number is 0.
     seams: Shortest: as short as can be. The others open the surface where you choose, and it is
         cut further only where it has to be: where the texture of the mesh jumps, along selected
         edges ('Select Crease Edges'), or around the selected faces.
@@ -516,8 +517,7 @@ def flatten(
         no longer than a tenth of the root of the surface's area, even if all are so short.
     seam_hiding: 0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to
         ten times its length, so that seams run through hollows.
-    cone_count: The number of placed cones. 0: as many as it takes to reach 'Cones: area
-        distortion'.
+    cone_count: The number of placed cones. 0: as many as 'Cones: area distortion' asks for.
     cone_rounding: Free: those that change areas least. Multiples of pi/2: as quadrangulations
         need them; all seams then differ by quarter turns.
     method: If a triangle breaks, intrinsic flips or the paper's edge swaps give the flow

@@ -11,6 +11,7 @@
 #include "cone_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -70,17 +71,16 @@ constexpr int kFirstRelocated = 16, kMaxObjectiveRounds = 3;
 class Growth
 {
 public:
-	Growth(ConeModel& model, const ConeSites& sites) :
-			m_model(model), m_sites(sites), m_tree(sites, model), m_best(model.size()),
-			m_least(objective())
+	Growth(const ConeRequest& request, ConeModel& model, const ConeSites& sites) :
+			m_model(model), m_sites(sites), m_tree(sites, model), m_most(maxCones(model, request)),
+			m_best(model.size()), m_least(objective())
 	{
 	}
 
 	/// Whether some of the last cones lowered it.
 	bool mayGoOn() const
 	{
-		return m_model.size() < maxCones(m_model) &&
-			   m_model.size() - m_best <= kMaxVain + m_best / kShareVain;
+		return m_model.size() < m_most && m_model.size() - m_best <= kMaxVain + m_best / kShareVain;
 	}
 
 	/// Adds one cone, or some at a time where there are many already, and fits the curvatures.
@@ -111,7 +111,7 @@ private:
 	ConeModel& m_model;
 	const ConeSites& m_sites;
 	SeamTree m_tree;
-	int m_best; // number of cones
+	int m_most, m_best; // numbers of cones
 	double m_least;
 };
 
@@ -119,7 +119,7 @@ private:
 /// without those that are not worth their seams.
 void placeForObjective(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
-	Growth growth(model, sites);
+	Growth growth(request, model, sites);
 	for (int relocated = kFirstRelocated; growth.mayGoOn() && growth.add();)
 		if (model.size() >= relocated) {
 			relocateCones(model, sites, 1);
@@ -140,7 +140,7 @@ void placeForObjective(const ConeRequest& request, ConeModel& model, const ConeS
 void addForDistortion(const ConeRequest& request, ConeModel& model, const ConeSites& sites)
 {
 	model.setRounding(request.rounding);
-	Growth growth(model, sites);
+	Growth growth(request, model, sites);
 	while (model.distortion() > request.distortion &&
 		   (model.size() < kMaxPlacedCones || growth.mayGoOn())) {
 		model.setRounding(ConeRounding::Free);
@@ -167,7 +167,7 @@ void addForAreas(
 	ConeModel& model,
 	const ConeSites& sites)
 {
-	const int limit = std::min(model.size() + kMaxMoreCones, maxCones(model));
+	const int limit = std::min(model.size() + kMaxMoreCones, maxCones(model, request));
 	model.setRounding(request.rounding);
 	while (model.size() < limit &&
 		   areaExcess(areaChange(surface, model.factor()), request.distortion) > 1.0) {

@@ -39,8 +39,9 @@ struct PlacedCones
 /// 2. Every cone in turn is taken out and put where it gains most, while that helps.
 /// 3. With ConeRounding::QuarterTurns the curvatures are multiples of pi / 2 from a search by single
 ///    steps and exchanges (roundToQuarterTurns()).
-/// 4. On a sphere, whose seams are a tree through its cones, cones move towards each other
-///    (shortenConeTree()).
+/// 4. Cones move to where energy and price of their seams together are lower (shortenConeTree()). Where
+///    neither number nor distortion is given, cones are added beyond the least sum of the two, and those
+///    that are not worth their seams taken out (dropCostlyCones()).
 ///
 /// On a large surface, all of this happens on aggregates of its vertices (CoarseFlow); on the surface
 /// itself the curvatures are fitted, and cones moved or added where its own distortion asks for it.

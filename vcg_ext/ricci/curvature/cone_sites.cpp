@@ -55,8 +55,14 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 		}
 	if (surface.topology.type.isSphere() || surface.topology.type.isDisk())
 		return;
-	if (roots.empty())
-		roots.emplace_back(0);
+	if (roots.empty()) {
+		// One that depends on no numbers: with the longest edges.
+		VertexArray<double> lengths(t.vertexCount(), 0.0);
+		for (const Halfedge h : t.halfedges())
+			lengths[t.origin(h)] += surface.lengths[h.edge()];
+		roots.emplace_back(
+			static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin()));
+	}
 	const auto paths = shortestPaths<Vertex, Halfedge>(
 		t.vertexCount(), roots, [&](Vertex from, const auto& visit) {
 			for (const Halfedge h : t.around(from))

@@ -33,8 +33,8 @@ struct Target
 	std::optional<double> maxSpread; ///< of the logarithm of the area factor, where the target was
 									 ///< chosen to keep areas so far
 	std::optional<ExpectedMap> expected; ///< where it was chosen to cost least
-	bool isSeamless = false;         ///< cones were placed with multiples of pi / 2
-	std::vector<std::string> notes;  ///< what was chosen, in sentences
+	bool isSeamless = false;             ///< cones were placed with multiples of pi / 2
+	std::vector<std::string> notes;      ///< what was chosen, in sentences
 
 	bool hasFixed() const { return std::find(fixed.begin(), fixed.end(), 1) != fixed.end(); }
 };

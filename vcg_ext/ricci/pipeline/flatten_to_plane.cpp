@@ -162,7 +162,7 @@ flattenToPlane(const Component& component, const VertexInput& input, const Optio
 	advance(0.0, "Choosing the target");
 	const TargetRequest request =
 		targetRequest(component, input, options, domain.solved().positions.size());
-	const Target target = chooseTarget(domain.solved(), start, request);         // 5.2, 5.3
+	const Target target = chooseTarget(domain.solved(), start, request); // 5.2, 5.3
 	if (target.expected && costOf(*target.expected) > options.cones.alternative)
 		return std::nullopt;
 	map.flow = runFlow(domain.solved(), std::move(start), target, options, map); // 4.2

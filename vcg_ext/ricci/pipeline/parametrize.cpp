@@ -104,7 +104,8 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	std::optional<ComponentMap> flow = flattenToPlane(component, input, ofFlow);
 	if (!flow) {
 		logLine(
-			"Cut along creases and unfolded: " + costText(*unfolded) + "; cones are expected to cost more.");
+			"Cut along creases and unfolded: " + costText(*unfolded) +
+			"; cones are expected to cost more.");
 		return std::move(*unfolded);
 	}
 	Parametrization map = asParametrization(component, std::move(*flow));
@@ -113,8 +114,8 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 		return map;
 	const bool isUnfolded = cost(*unfolded) < cost(map);
 	logLine(
-		"Cut along creases and unfolded: " + costText(*unfolded) + "; as a whole: " + costText(map) +
-		". The " + (isUnfolded ? "first" : "second") + " is taken.");
+		"Cut along creases and unfolded: " + costText(*unfolded) + "; as a whole: " +
+		costText(map) + ". The " + (isUnfolded ? "first" : "second") + " is taken.");
 	return isUnfolded ? std::move(*unfolded) : std::move(map);
 }
 
