@@ -80,6 +80,12 @@ class Flattening(Parametrization):
     1/s), weighted by area in space; 1 if all areas keep their ratios"""
     area_distortion_spread: float
     """standard deviation of ln s, weighted likewise"""
+    stretch: float
+    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
+    4 if all lengths keep their ratios"""
+    objective: float
+    """Euclidean filter: what Automatic makes small: stretch and, for all seams as long as the
+    square root of the area, 0.05"""
     flipped_faces: int
     """faces that are turned over or have no area in the plane"""
     flipped_by_rounding: int
@@ -207,6 +213,12 @@ class Uniformization(Parametrization):
     1/s), weighted by area in space; 1 if all areas keep their ratios"""
     area_distortion_spread: float
     """standard deviation of ln s, weighted likewise"""
+    stretch: float
+    """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
+    4 if all lengths keep their ratios"""
+    objective: float
+    """Euclidean filter: what Automatic makes small: stretch and, for all seams as long as the
+    square root of the area, 0.05"""
     flipped_faces: int
     """faces that are turned over or have no area in the plane"""
     flipped_by_rounding: int
@@ -332,7 +344,7 @@ class MeshSet(pymeshlab.MeshSet):
             'Placed cones',
         ]] = 'Automatic',
         free_boundary: bool = True,
-        cone_distortion: float = 0,
+        cone_distortion: float = 0.0,
         seams: Union[int, Literal[
             'Shortest',
             'Existing texture seams',
@@ -373,7 +385,7 @@ class MeshSet(pymeshlab.MeshSet):
             'As the flow has them',
             'Without overlap',
             'Without overlap, cut for room',
-        ]] = 'Without overlap',
+        ]] = 'Without overlap, cut for room',
         normalize_uv: bool = True,
         sphere_layer: bool = False,
         carry_texture: str = '',
@@ -439,7 +451,7 @@ def flatten(
         'Placed cones',
     ]] = 'Automatic',
     free_boundary: bool = True,
-    cone_distortion: float = 0,
+    cone_distortion: float = 0.0,
     seams: Union[int, Literal[
         'Shortest',
         'Existing texture seams',
@@ -480,7 +492,7 @@ def flatten(
         'As the flow has them',
         'Without overlap',
         'Without overlap, cut for room',
-    ]] = 'Without overlap',
+    ]] = 'Without overlap, cut for room',
     normalize_uv: bool = True,
     sphere_layer: bool = False,
     carry_texture: str = '',
@@ -497,9 +509,9 @@ def flatten(
     free_boundary: The boundary keeps the metric that it has on the mesh: the least distortion
         for a surface with boundary. Disk, Rectangle and the flat annulus prescribe the boundary
         and ignore this.
-    cone_distortion: 0: as many cones as lower the distortion by more than their seams cost. Above
-        0: cones are added until areas typically change by less than this, relative to each
-        other (0.25: by a quarter). Read where cones are placed and their number is 0.
+    cone_distortion: 0: as many cones as lower the distortion by more than their seams cost.
+        Above 0: cones are added until areas typically change by less than this, relative to
+        each other (0.25: by a quarter). Read where cones are placed and their number is 0.
     seams: Shortest: as short as can be. The others open the surface where you choose, and it is
         cut further only where it has to be: where the texture of the mesh jumps, along selected
         edges ('Select Crease Edges'), or around the selected faces.
@@ -528,8 +540,9 @@ def flatten(
         distortion, or least stretch: lengths are kept as well as angles, best on chosen seams,
         whose two sides then differ. Only for the method 'Intrinsic flips'.
     charts: Without overlap: a chart that covers a part of the plane twice is cut along the
-        shortest lines that part what overlaps. And strips: a long and narrow chart is cut
-        across once if all charts then cover about twice as much of the unit square.
+        shortest lines that part what overlaps. Cut for room: with Automatic, a chart that
+        leaves most of the unit square empty is also cut across where that gives all charts
+        enough room to be worth the seam.
     normalize_uv: Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the
         scale of the metric.
     sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Only for one

@@ -24,6 +24,12 @@ EUCLIDEAN_RESULTS = \
                           'space: mean of max(s, 1/s), weighted by area in space; 1 if all '
                           'areas keep their ratios'),
  'area_distortion_spread': ('float', 'standard deviation of ln s, weighted likewise'),
+ 'stretch': ('float',
+             'Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of '
+             'the map: 4 if all lengths keep their ratios'),
+ 'objective': ('float',
+               'Euclidean filter: what Automatic makes small: stretch and, for all seams as '
+               'long as the square root of the area, 0.05'),
  'flipped_faces': ('int', 'faces that are turned over or have no area in the plane'),
  'flipped_by_rounding': ('int', 'additional ones once the coordinates are floats'),
  'finish_moved': ('int',
