@@ -481,6 +481,7 @@ TYPED_TEST(Facade, ChartsOfSeveralComponentsDoNotOverlap)
 		for (const auto& [normalize, margin] :
 			 {std::pair(true, 0.0), std::pair(true, 0.004), std::pair(false, 0.0)}) {
 			auto par = onFixedTriangulation<TypeParam>();
+			par.charts = Charts::WithoutOverlap;
 			par.normalizeUV = normalize;
 			par.chartMargin = margin;
 			const auto result = compute(m, par);
@@ -550,7 +551,9 @@ TYPED_TEST(Facade, FlatMeshIsTheLayout)
 	Random random(307);
 	TypeParam m, flat;
 	toVcg(bumpyTorus(12, 8, random), m);
-	const auto result = compute(m, onFixedTriangulation<TypeParam>());
+	auto par = onFixedTriangulation<TypeParam>();
+	par.charts = Charts::WithoutOverlap;
+	const auto result = compute(m, par);
 	Layers<TypeParam>::BuildFlatMesh(result, flat);
 	ASSERT_EQ(flat.FN(), m.FN());
 	const SurfaceMesh shape = fromVcg(flat);

@@ -185,6 +185,7 @@ TEST_F(SharedMeshes, CrankOfGenusTwelve)
 {
 	SKIP_IF_MISSING("hard/g12_crank.ply");
 	Options options;
+	options.cones.distortion = 0.25;
 	for (const Finish finish : {Finish::None, Finish::LeastDistortion}) {
 		options.finish = finish;
 		const FlatResult flat = run(m_mesh, options);

@@ -454,6 +454,8 @@ int main(int argc, char** argv)
 			method = word.substr(9);
 			options.method = kMethods.at(method);
 		}
+		else if (word.rfind("--cone-distortion=", 0) == 0)
+			options.cones.distortion = std::stod(word.substr(18));
 		else if (word == "--flow-only")
 			flowOnly = true;
 		else if (word == "--geometry=euclidean")
@@ -468,7 +470,7 @@ int main(int argc, char** argv)
 	if (path.empty()) {
 		std::cerr << "usage: ricci_bench --header | "
 					 "[--method=intrinsic_flips|fixed_triangles|edge_swaps] "
-					 "[--geometry=euclidean|hyperbolic] [--flow-only] "
+					 "[--geometry=euclidean|hyperbolic] [--flow-only] [--cone-distortion=X] "
 					 "MESH|generated[:FACES]|slab[:FACES]\n";
 		return 2;
 	}

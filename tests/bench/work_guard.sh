@@ -45,7 +45,7 @@ quotient() {
 mesh=generated:50000
 {
 	"$bench" --header
-	"$bench" --flow-only "$mesh"
+	"$bench" --flow-only --cone-distortion=1 "$mesh"
 } >"$work/table"
 echo "$mesh"
 no_more "  Newton steps" "$(column iterations)" 3
@@ -59,11 +59,11 @@ if ! command -v valgrind >/dev/null || ! command -v taskset >/dev/null; then
 	exit 77
 fi
 # Flow and factorisation run equally often.
-flow=$(instructions '*startAndFlow*' --flow-only generated:6000)
-factor=$(instructions '*solveOnce*' --flow-only generated:6000)
+flow=$(instructions '*startAndFlow*' --flow-only --cone-distortion=1 generated:6000)
+factor=$(instructions '*solveOnce*' --flow-only --cone-distortion=1 generated:6000)
 no_more "instructions, flow over one factorisation" "$(quotient "$flow" "$factor")" 2.6
 # The whole way with cones, seams, charts and finish grows hardly faster than the mesh.
-small=$(instructions '*measureWholeWay*Row&)' slab:6000)
-large=$(instructions '*measureWholeWay*Row&)' slab:24000)
+small=$(instructions '*measureWholeWay*Row&)' --cone-distortion=0.25 slab:6000)
+large=$(instructions '*measureWholeWay*Row&)' --cone-distortion=0.25 slab:24000)
 no_more "instructions, whole way with four times as many faces" "$(quotient "$large" "$small")" 5
 exit $status

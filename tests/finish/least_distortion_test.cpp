@@ -137,7 +137,9 @@ std::vector<CutMap> mapsOfEveryKind(Random& random)
 {
 	std::vector<CutMap> maps;
 	for (const SurfaceMesh& mesh : surfacesOfEveryKind(random)) {
-		CutMap map(mesh, requestOf(TargetCurvature::Automatic), random);
+		TargetRequest request = requestOf(TargetCurvature::Automatic);
+		request.options.cones.distortion = 0.25;
+		CutMap map(mesh, request, random);
 		if (map.flipped() == 0)
 			maps.push_back(std::move(map));
 	}

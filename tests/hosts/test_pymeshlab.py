@@ -92,7 +92,7 @@ class Results(unittest.TestCase):
     def test_torus(self):
         documents = mesh_set(meshes.torus())
         before = documents.current_mesh().vertex_matrix()
-        returned = self.check(documents)
+        returned = self.check(documents, cone_distortion=1.0)
         self.assertEqual(returned["genus"], 1)
         tau = complex(returned["torus_tau_re"], returned["torus_tau_im"])
         self.assertLess(abs(complex(*returned["period_matrix"]) - tau), 0.02 * abs(tau))
@@ -199,14 +199,14 @@ class Results(unittest.TestCase):
 
     def test_finish(self):
         hill, slab = meshes.swirled(meshes.hill()), meshes.swirled(meshes.double_torus(), 4.0, 1.5)
-        for mesh, values in ((hill, {}), (hill, {"target_curvature": "Rectangle"}),
+        for mesh, values in ((hill, {"cone_distortion": 1.0}), (hill, {"target_curvature": "Rectangle"}),
                              (slab, {"cone_count": 4})):
             with self.subTest(vertices=len(mesh.vertices), **values):
                 self.check_finish(mesh, values)
 
     def test_least_distortion(self):
         for mesh in (meshes.hill(), meshes.torus(), meshes.sphere(), meshes.swirled(meshes.hill())):
-            repaired, least = (self.check(mesh_set(mesh), finish=finish)
+            repaired, least = (self.check(mesh_set(mesh), finish=finish, cone_distortion=0.25)
                                for finish in ("Repair", "Least distortion"))
             for key in ("qc_mean", "qc_vertex_mean", "qc_area_mean"):
                 self.assertLess(least[key], repaired[key])
@@ -731,8 +731,8 @@ class Seams(unittest.TestCase):
 
     def test_texture_without_seams(self):
         documents = mesh_set(meshes.hill())
-        run(documents)
-        returned = run(documents, seams="Existing texture seams")
+        run(documents, cone_distortion=1.0)
+        returned = run(documents, seams="Existing texture seams", cone_distortion=1.0)
         self.assertEqual((returned["chosen_seam_edges"], returned["charts"]), (0, 1))
 
     def test_along_creases(self):
@@ -750,7 +750,7 @@ class Seams(unittest.TestCase):
     def test_round_selected_faces(self):
         documents = mesh_set(meshes.sphere())
         documents.compute_selection_by_condition_per_face(condselect="z0 + z1 + z2 > 0")
-        returned = run(documents, seams="Border of selected faces")
+        returned = run(documents, seams="Border of selected faces", cone_distortion=1.0)
         self.assertEqual((returned["components"], returned["boundary_loops"]), (2, 2))
         self.assertEqual(returned["chosen_seam_edges"], 16)
         self.assertEqual((returned["cones"], returned["split_vertices"]), (0, 0))
@@ -991,7 +991,7 @@ class Faults(unittest.TestCase):
 
     def test_attributes_of_the_same_name(self):
         straight = mesh_set(meshes.torus())
-        run(straight)
+        run(straight, cone_distortion=1.0)
         u = straight.current_mesh().vertex_custom_scalar_attribute_array("ricci_u")
         documents = mesh_set(meshes.torus())
         mesh = documents.current_mesh()
@@ -1003,7 +1003,7 @@ class Faults(unittest.TestCase):
             run(documents, target_curvature="Disk")
         self.assertTrue(numpy.array_equal(
             mesh.vertex_custom_point_attribute_matrix("ricci_u"), mesh.vertex_matrix()))
-        run(documents)
+        run(documents, cone_distortion=1.0)
         self.assertTrue(numpy.array_equal(
             mesh.vertex_custom_scalar_attribute_array("ricci_u"), u))
         self.assertEqual(
@@ -1015,10 +1015,10 @@ class Treatment(unittest.TestCase):
     """What the filter repairs for the run by itself."""
 
     def test_orientation(self):
-        straight = run(mesh_set(meshes.torus()))
+        straight = run(mesh_set(meshes.torus()), cone_distortion=1.0)
         documents = mesh_set(meshes.with_flipped_faces(meshes.torus()))
         faces = documents.current_mesh().face_matrix()
-        returned = run(documents)
+        returned = run(documents, cone_distortion=1.0)
         self.assertAlmostEqual(returned["qc_mean"], straight["qc_mean"], delta=1e-6)
         self.assertTrue(numpy.array_equal(faces, documents.current_mesh().face_matrix()))
 

@@ -199,7 +199,7 @@ void ConeModel::fit()
 				break;
 			}
 		}
-		m_now.values = solution.tail(size());
+		m_now.values = Eigen::VectorXd(solution.tail(size()));
 		m_now.level = border() > 0 ? solution[0] : 0.0;
 		m_now.isFree = m_rounding == ConeRounding::Free && solution.allFinite() &&
 					   m_now.values.maxCoeff() <= kMaxConeCurvature;
@@ -230,7 +230,7 @@ void ConeModel::invert()
 	matrix.bottomRightCorner(size(), size()) = m_now.gram;
 	matrix.topRightCorner(border(), size()).setOnes();
 	matrix.bottomLeftCorner(size(), border()).setOnes();
-	m_now.inverse = matrix.partialPivLu().inverse();
+	m_now.inverse = Eigen::MatrixXd(matrix.partialPivLu().inverse());
 }
 
 /// Takes row and column \p i out of what is inverted: they become 0 in the inverse.
@@ -355,7 +355,8 @@ void ConeModel::restore(const State& state, const Array<Field>& fields)
 {
 	for (const Vertex v : m_now.vertices)
 		m_isCone[v] = 0;
-	m_now = state;
+	// Eigen frees what it assigns to before it asks for other memory, which may fail.
+	m_now = State(state);
 	m_fields = fields;
 	for (const Vertex v : m_now.vertices)
 		m_isCone[v] = 1;

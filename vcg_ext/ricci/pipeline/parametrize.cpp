@@ -72,7 +72,7 @@ Parametrization mapComponents(
 bool mayUnfold(const Component& component, const Options& options)
 {
 	return options.target == TargetCurvature::Automatic && options.freeBoundary &&
-		   options.cones.count == 0 && options.cones.rounding == ConeRounding::Free &&
+		   isForObjective(options.cones) && options.cones.rounding == ConeRounding::Free &&
 		   isFinished(options) && options.output == OutputTriangulation::KeepMesh &&
 		   options.holes != Holes::Capped && options.charts != Charts::OfTheFlow &&
 		   !component.hasSeam;
