@@ -213,11 +213,13 @@ struct Row
 };
 
 /// The automatic target, and uniform curvature where a closed surface has none.
-TargetRequest chooseRequest(const EmbeddedSurface& surface, std::string& name)
+TargetRequest
+chooseRequest(const EmbeddedSurface& surface, const TargetOptions& options, std::string& name)
 {
 	const SurfaceType& type = surface.topology.type;
 	const int vertexCount = surface.triangulation.vertexCount();
 	TargetRequest request;
+	request.options = options;
 	request.selected.assign(vertexCount, 0);
 	request.prescribed.assign(vertexCount, 0.0);
 	name = "automatic";
@@ -328,7 +330,7 @@ void measure(
 	InitialPacking start;
 	Target target;
 	if (background == Background::EuclideanPlane)
-		target = chooseTarget(surface, start, chooseRequest(surface, row.target));
+		target = chooseTarget(surface, start, chooseRequest(surface, options, row.target));
 	else {
 		row.target = "zero";
 		target.background = background;

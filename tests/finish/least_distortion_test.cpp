@@ -138,7 +138,7 @@ std::vector<CutMap> mapsOfEveryKind(Random& random)
 	std::vector<CutMap> maps;
 	for (const SurfaceMesh& mesh : surfacesOfEveryKind(random)) {
 		TargetRequest request = requestOf(TargetCurvature::Automatic);
-		request.options.cones.distortion = 0.25;
+		request.options.cones.distortion = 1.0;
 		CutMap map(mesh, request, random);
 		if (map.flipped() == 0)
 			maps.push_back(std::move(map));

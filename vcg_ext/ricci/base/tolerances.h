@@ -175,9 +175,7 @@ constexpr double kLengthRounding = 16.0;
 
 // ---- Heuristic: other values would work as well, these were measured to do ----------------------
 
-/// Excess of two sides over the third that a degenerate triangle is given: relative to the longest side of a
-/// needle, else to the shorter of the two. Less leaves needles whose rounding floor is above what counts as
-/// converged.
+/// Excess of two sides over the third that a flat triangle is given, relative to the shorter of the two.
 constexpr double kMollification = 1e-5;
 
 /// A boundary loop no longer than this share of the square root of the surface's area is a short hole: of the

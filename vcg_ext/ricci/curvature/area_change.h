@@ -14,7 +14,7 @@ struct AreaChange
 	double spread = 0.0; ///< standard deviation of ln s, weighted by the area in space
 	double energy =
 		4.0; ///< symmetric Dirichlet energy of a conformal map that changes areas so: 4 times
-			 ///< the root of the mean of 1 / s, weighted by the area in space
+		///< the root of the mean of 1 / s, weighted by the area in space
 };
 
 /// The change by the metric that scales lengths at each vertex by exp(\p factor). The factor of a

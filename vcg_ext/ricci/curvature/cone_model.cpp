@@ -392,7 +392,7 @@ void ConeModel::removeRow(int i)
 	const Eigen::Index left = size() - i;
 	m_now.linear.segment(i, left) = m_now.linear.tail(left).eval();
 	m_now.linear.conservativeResize(size());
-	m_now.values = Eigen::VectorXd::Zero(size());
+	m_now.values = Eigen::VectorXd(Eigen::VectorXd::Zero(size()));
 	m_now.isFree = false;
 }
 

@@ -120,6 +120,10 @@ bool shrinkOverlapping(
 	return overlap;
 }
 
+/// Excess that a needle is given at its short side, relative to its longest: ten times what flat triangles get.
+/// With less, refinements of disks with rounded coordinates have triangles that doubles cannot hold.
+constexpr double kNeedleExcess = 1e-4;
+
 /// Half of what the excess of a corner lacks, at its vertex, for the degenerate triangles: the largest of
 /// all of them there, and of all vertices at one place. Empty where no triangle is degenerate.
 VertexArray<double> missing(const Triangulation& t, const EdgeArray<double>& lengths)
@@ -137,7 +141,7 @@ VertexArray<double> missing(const Triangulation& t, const EdgeArray<double>& len
 		};
 		std::sort(side.begin(), side.end(), isShorter);
 		const double excess = (length(0) - length(2)) + length(1);
-		const double needed = kMollification * length(2);
+		const double needed = kNeedleExcess * length(2);
 		if (length(0) * kNeedleRatio <= length(2)) {
 			// Both ends of the short side. One scale for a triangle without size: that of its place.
 			raise(t.apex(side[2]), excess, needed);
