@@ -83,6 +83,7 @@ SeamTree::SeamTree(const ConeSites& sites) :
 SeamTree::SeamTree(const ConeSites& sites, const ConeModel& model) : SeamTree(sites)
 {
 	std::vector<Vertex> cones;
+	cones.reserve(positionOf(model.size()));
 	for (int i = 0; i < model.size(); ++i)
 		cones.push_back(model.vertex(i));
 	while (!cones.empty()) {
