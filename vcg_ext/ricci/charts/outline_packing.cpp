@@ -306,12 +306,44 @@ double areaOf(const Outline& outline)
 	return 0.5 * doubled;
 }
 
-std::complex<double> turnToMinExtent(const Outline& outline)
+std::vector<Point2> pointsOf(const Outline& outline)
 {
 	std::vector<Point2> points;
+	points.reserve(outline.size());
 	for (const auto& side : outline)
 		points.push_back(side[0]);
-	const OrientedRectangle r = minExtentRectangle(std::move(points));
+	return points;
+}
+
+using Order = std::vector<std::size_t>; // of outlines
+
+/// The largest first: by area, by that of the smallest rectangle round it, by the longer side of that. Which
+/// one packs best differs from case to case.
+std::vector<Order> ordersOf(const std::vector<Outline>& outlines)
+{
+	std::array<std::vector<double>, 3> sizes;
+	for (const Outline& outline : outlines) {
+		const OrientedRectangle r = minAreaRectangle(pointsOf(outline));
+		sizes[0].push_back(areaOf(outline));
+		sizes[1].push_back(r.width() * r.height());
+		sizes[2].push_back(r.width());
+	}
+	std::vector<Order> orders;
+	for (const std::vector<double>& size : sizes) {
+		Order order(outlines.size());
+		std::iota(order.begin(), order.end(), std::size_t{0});
+		std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+			return size[a] > size[b];
+		});
+		if (std::find(orders.begin(), orders.end(), order) == orders.end())
+			orders.push_back(std::move(order));
+	}
+	return orders;
+}
+
+std::complex<double> turnToMinExtent(const Outline& outline)
+{
+	const OrientedRectangle r = minExtentRectangle(pointsOf(outline));
 	return {r.cosine, -r.sine};
 }
 
@@ -332,16 +364,11 @@ std::vector<Motion> packOutlines(
 {
 	const double cell = side / kCells, reach = 0.5 * room;
 	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 16);
-	std::vector<double> area;
-	area.reserve(outlines.size());
-	for (const Outline& outline : outlines)
-		area.push_back(areaOf(outline));
-	std::vector<std::size_t> order(outlines.size());
-	std::iota(order.begin(), order.end(), std::size_t{0});
-	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-		return area[a] > area[b];
-	});
-	const std::size_t largest = order.front();
+	const std::vector<Order> orders = ordersOf(outlines);
+	const auto isFirst = [&](std::size_t i) {
+		return std::any_of(
+			orders.begin(), orders.end(), [&](const Order& order) { return order.front() == i; });
+	};
 
 	Drawing drawing(cell, reach);
 	Shape drawn;
@@ -350,7 +377,7 @@ std::vector<Motion> packOutlines(
 		const int angles = turns[i] == ChartTurns::Free ? freeAngles : 1;
 		const int quarters = turns[i] == ChartTurns::None ? 1 : 4;
 		std::vector<std::complex<double>> firsts; // of the four turns by right angles
-		if (i == largest && turns[i] == ChartTurns::Free)
+		if (turns[i] == ChartTurns::Free && isFirst(i))
 			firsts.push_back(turnToMinExtent(outlines[i]));
 		for (int k = 0; k < angles; ++k)
 			firsts.push_back(rationalTurn(k, angles));
@@ -366,35 +393,42 @@ std::vector<Motion> packOutlines(
 	int minSide = kCells + 1;
 	long long work = 0;
 	std::vector<Motion> best;
-	for (const Shape& first : shapes[largest]) {
-		if (work > kMaxWork)
-			break;
-		if (first.quarter > 0)
-			continue;
-		Canvas canvas;
-		std::vector<Motion> motions(outlines.size());
-		for (const std::size_t i : order) {
-			Spot spot;
-			spot.cost[0] = minSide;
-			if (i == largest)
-				canvas.look(first, spot);
-			else
-				for (const Shape& shape : shapes[i]) {
-					canvas.look(shape, spot);
-					checkpoint();
+	for (std::size_t k = 0; work <= kMaxWork; ++k) {
+		bool isAny = false; // turn of the first outline left
+		for (const Order& order : orders) {
+			const std::vector<Shape>& firsts = shapes[order.front()];
+			if (k >= firsts.size())
+				continue;
+			isAny = true;
+			if (firsts[k].quarter > 0)
+				continue;
+			Canvas canvas;
+			std::vector<Motion> motions(outlines.size());
+			for (const std::size_t i : order) {
+				Spot spot;
+				spot.cost[0] = minSide;
+				if (i == order.front())
+					canvas.look(firsts[k], spot);
+				else
+					for (const Shape& shape : shapes[i]) {
+						canvas.look(shape, spot);
+						checkpoint();
+					}
+				if (!spot.shape)
+					break;
+				canvas.take(spot);
+				motions[i] = spot.shape->motion;
+				motions[i].shift[0] += spot.x * cell;
+				motions[i].shift[1] += spot.y * cell;
+				if (i == order.back() && canvas.side() < minSide) {
+					minSide = canvas.side();
+					best = motions;
 				}
-			if (!spot.shape)
-				break;
-			canvas.take(spot);
-			motions[i] = spot.shape->motion;
-			motions[i].shift[0] += spot.x * cell;
-			motions[i].shift[1] += spot.y * cell;
-			if (i == order.back() && canvas.side() < minSide) {
-				minSide = canvas.side();
-				best = motions;
 			}
+			work += canvas.work();
 		}
-		work += canvas.work();
+		if (!isAny)
+			break;
 	}
 	return best;
 }

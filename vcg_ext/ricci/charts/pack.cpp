@@ -325,6 +325,10 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 	double area = 0.0;
 	for (const auto& lengths : map.mesh.lengths)
 		area += euclideanArea(lengths);
+	const auto worth = [&](const Parametrization& m) {
+		return std::log(m.report.occupancy) -
+			   kRoomPrice * std::log(std::sqrt(area) + m.report.seamLength);
+	};
 	std::optional<Parametrization> last; // where it is not the best
 	for (int cuts = 0, vain = 0; cuts < kMaxCuts && vain < kMaxVainCuts; ++cuts) {
 		if (map.report.occupancy > kEnoughCovered)
@@ -341,14 +345,14 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 				throw;
 			return; // there is no room for one chart more
 		}
-		const double seams = (next->report.seamLength - map.report.seamLength) / std::sqrt(area);
-		const bool isWorth =
-			next->report.occupancy >
-			map.report.occupancy * std::exp(std::max(kMinRoom, kRoomPrice * seams));
-		vain = isWorth ? 0 : vain + 1;
-		(isWorth ? map : last.emplace()) = std::move(*next);
-		if (isWorth)
+		++vain;
+		if (worth(*next) > worth(map) + vain * kMinRoom) {
+			map = *std::move(next);
 			last.reset();
+			vain = 0;
+		}
+		else
+			last = std::move(next);
 	}
 }
 

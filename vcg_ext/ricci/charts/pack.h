@@ -34,17 +34,16 @@ bool marginsMayFit(std::size_t charts, double margin);
 /// in which they will be stored
 void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns);
 
-/// packCharts() into the unit square, with charts cut by cutForRoom() as long as that is worth it: a seam as
-/// long as the square root of the surface's area has to bring a share kRoomPrice more of covered square, as
-/// much as it costs in the scale of the map (kSeamPrice), and any cut kMinRoom more; until kEnoughCovered is
-/// covered. Without turns nothing is cut.
+/// packCharts() into the unit square, with charts cut by cutForRoom() as long as that is worth it
+/// (kRoomPrice) and each cut brings kMinRoom besides; until kEnoughCovered is covered. Without turns nothing
+/// is cut.
 /// \throw what packCharts() does
 void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns turns);
 
-constexpr double kRoomPrice = 0.5, kMinRoom = 0.1, kEnoughCovered = 0.6;
+constexpr double kMinRoom = 0.01, kEnoughCovered = 0.6;
 
-/// Cuts at most, and those in a row that may bring nothing.
-constexpr int kMaxCuts = 12, kMaxVainCuts = 2;
+/// Cuts at most, and those in a row that bring nothing.
+constexpr int kMaxCuts = 24, kMaxVainCuts = 3;
 
 /// Places the unit disks of the charts, as the hyperbolic layout leaves them, in equal squares, row by
 /// row from the origin, which together lie in [0, 1]^2, and moves the charts there. Fills Chart::box.

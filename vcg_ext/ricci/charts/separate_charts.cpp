@@ -96,21 +96,33 @@ void setApart(Parametrization& map)
 			map.mesh.place[p] += shifts[positionOf(chart[p])];
 }
 
-/// Part 1 on one side of the least cut across the middle of a chart's smallest bounding rectangle, 0 on the
-/// other.
-Array<int> halves(const FlatMesh& chart, const OrientedRectangle& r, const DualGraph& graph)
+/// A chart in two parts, and how long the cut between them is on the surface.
+struct Halves
 {
+	DualGraph graph;
+	double length = 0.0;
+};
+
+/// The least cut across the middle fifth of a chart's smallest bounding rectangle. What is smaller than
+/// kCrumb of the chart goes to the other part.
+/// \return none where such a crumb is left, or nothing is cut
+std::optional<Halves> halves(const FlatMesh& chart, const OrientedRectangle& r, const Sides& sides)
+{
+	Halves cut{{chart, sides}};
+	DualGraph& graph = cut.graph;
+	// A triangle that reaches across the middle may go to either part.
 	std::vector<int> left, right;
 	Array<char> end(chart.size(), 0);
 	for (const int i : end.indices()) {
-		double along = 0.0;
-		for (const Point2& p : chart.at(i))
-			along += (r.inFrame(p)[0] - r.min[0]) / (3.0 * r.width());
-		if (along < 0.4)
-			left.push_back(i);
-		else if (along > 0.6)
-			right.push_back(i);
-		end[i] = along < 0.4 ? 1 : along > 0.6 ? 2 : 0;
+		double first = 1.0, last = 0.0; // along the rectangle
+		for (const Point2& p : chart.at(i)) {
+			const double along = (r.inFrame(p)[0] - r.min[0]) / r.width();
+			first = std::min(first, along);
+			last = std::max(last, along);
+		}
+		end[i] = last < 0.4 ? 1 : first > 0.6 ? 2 : 0;
+		if (end[i] != 0)
+			(end[i] == 1 ? left : right).push_back(i);
 	}
 	const MinCut::Side side =
 		MinCut(chart.size()).run(left, right, [&](int i, const MinCut::AddEdge& add) {
@@ -119,10 +131,30 @@ Array<int> halves(const FlatMesh& chart, const OrientedRectangle& r, const DualG
 					if (end[i] == 0 || end[i] != end[other.face()])
 						add(other.face(), graph.weight(own), graph.weight(own));
 		});
-	Array<int> part(chart.size(), 0);
 	for (const int i : side.nodes)
-		part[i] = 1;
-	return part;
+		graph.part[i] = 1;
+	const auto areaOf = [&](const auto& triangles) {
+		double area = 0.0;
+		for (const int i : triangles)
+			area += euclideanArea(chart.lengths[i]);
+		return area;
+	};
+	const double crumb = kCrumb * areaOf(chart.points.indices());
+	for (const std::vector<int>& piece : graph.connectedPieces())
+		if (areaOf(piece) < crumb)
+			for (const int i : piece)
+				graph.part[i] = 1 - graph.part[i];
+	const Parts pieces = graph.connectedPieces();
+	if (pieces.size() < 2 || std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
+			return areaOf(piece) < crumb;
+		}))
+		return std::nullopt;
+	for (const int f : chart.points.indices())
+		for (const Corner own : cornersOf(f))
+			if (const Corner other = graph.joined(own);
+				other.isValid() && graph.part[other.face()] != graph.part[f])
+				cut.length += 0.5 * chart.lengths[own];
+	return cut;
 }
 
 /// Puts the connected pieces of the parts of a chart in its place, the first where it was, the others
@@ -237,10 +269,16 @@ void joinCharts(Parametrization& map)
 
 std::optional<Parametrization> cutForRoom(const Parametrization& map, bool turns)
 {
+	struct Wide
+	{
+		double room; ///< area beside the chart in its rectangle
+		double area;
+		std::size_t chart;
+		OrientedRectangle rectangle;
+	};
 	const Parts byChart = map.mesh.trianglesByChart(map.charts.size());
-	double mostRoom = 0.0; // area in the rectangle beside the chart
-	std::size_t widest = byChart.size();
-	OrientedRectangle rectangle;
+	std::vector<Wide> byRoom;
+	double total = 0.0, onSurface = 0.0; // areas
 	for (std::size_t c = 0; c < byChart.size(); ++c) {
 		std::vector<Point2> places;
 		double area = 0.0;
@@ -249,42 +287,38 @@ std::optional<Parametrization> cutForRoom(const Parametrization& map, bool turns
 		for (const int f : byChart[c]) {
 			const Triangle2 p = map.mesh.at(f);
 			area += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
+			onSurface += euclideanArea(map.mesh.lengths[f]);
 		}
+		total += area;
 		const OrientedRectangle r = minAreaRectangle(std::move(places));
 		// Beside a strip there is room in the square, too.
-		const double room = r.width() * std::max(r.height(), 0.5 * r.width()) - area;
-		if (room > mostRoom) {
-			mostRoom = room;
-			widest = c;
-			rectangle = r;
-		}
+		byRoom.push_back({r.width() * std::max(r.height(), 0.5 * r.width()) - area, area, c, r});
 	}
-	if (widest == byChart.size())
-		return std::nullopt;
-	const FlatMesh chart = map.mesh.part(byChart[widest]);
-	const Sides sides(chart.vertices.values());
-	DualGraph graph(chart, sides);
-	graph.part = halves(chart, rectangle, graph);
-	const auto areaOf = [&](const std::vector<int>& triangles) {
-		double area = 0.0;
-		for (const int i : triangles)
-			area += euclideanArea(chart.lengths[i]);
-		return area;
-	};
-	double least = 0.0, whole = 0.0; // of the pieces
-	for (const std::vector<int>& piece : graph.connectedPieces()) {
-		const double area = areaOf(piece);
-		least = whole == 0.0 ? area : std::min(least, area);
-		whole += area;
+	const double square = total / map.report.occupancy;
+	std::stable_sort(
+		byRoom.begin(), byRoom.end(), [](const Wide& a, const Wide& b) { return a.room > b.room; });
+	for (const Wide& wide : byRoom) {
+		if (wide.room < kRoomOfChart * square)
+			return std::nullopt;
+		const std::vector<int>& triangles = byChart[wide.chart];
+		const FlatMesh chart = map.mesh.part(triangles);
+		const Sides sides(chart.vertices.values());
+		const std::optional<Halves> cut = halves(chart, wide.rectangle, sides);
+		// The square loses all that is beside the chart in a square round it at most.
+		const double width = wide.rectangle.width();
+		const double most = std::log(square / std::max(square - width * width + wide.area, total));
+		if (!cut ||
+			most < kRoomPrice *
+					   std::log1p(cut->length / (std::sqrt(onSurface) + map.report.seamLength)))
+			continue;
+		Parametrization result = map;
+		const Sides allSides(map.mesh.vertices.values());
+		const Seams before = seams(map.mesh, allSides);
+		settle(divide(static_cast<int>(wide.chart), triangles, cut->graph, result), turns, result);
+		countCuts(before, allSides, result);
+		return result;
 	}
-	if (least < kCrumb * whole)
-		return std::nullopt;
-	Parametrization cut = map;
-	const Sides allSides(map.mesh.vertices.values());
-	const Seams before = seams(map.mesh, allSides);
-	settle(divide(static_cast<int>(widest), byChart[widest], graph, cut), turns, cut);
-	countCuts(before, allSides, cut);
-	return cut;
+	return std::nullopt;
 }
 
 bool cutOff(const std::vector<char>& isOff, Parametrization& map)

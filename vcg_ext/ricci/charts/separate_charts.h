@@ -30,9 +30,18 @@ void separateCharts(bool resolve, bool turns, Parametrization& map);
 /// \pre no chart overlaps itself
 void joinCharts(Parametrization& map);
 
-/// Cuts the chart that leaves most room beside itself in its smallest bounding rectangle in two: along the
-/// edges of least length on the surface across the middle fifth of that. The parts are given back as those of separateCharts(), in the report, too.
-/// \return the map that is cut; none where a piece of the chart would be smaller than kCrumb of it
+/// Seams may grow by one part for this many parts more of covered square: the worth of a map is
+/// log(occupancy) - kRoomPrice log(sqrt(area) + seams), up to a constant.
+constexpr double kRoomPrice = 2.0;
+
+/// Share of the square that has to lie beside a chart in its smallest bounding rectangle, where it is cut.
+constexpr double kRoomOfChart = 0.04;
+
+/// Cuts a chart in two: along the edges of least length on the surface across the middle fifth of its
+/// smallest bounding rectangle. Takes the chart that leaves most room there, of those whose cut may be worth
+/// what it costs by kRoomPrice. The parts are given back as those of separateCharts(), in the report, too.
+/// \param map packed
+/// \return none where there is no such chart
 std::optional<Parametrization> cutForRoom(const Parametrization& map, bool turns);
 
 /// Divides the charts that have triangles of both kinds: each connected part of one kind becomes a chart
