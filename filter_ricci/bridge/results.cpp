@@ -84,6 +84,7 @@ Results toResults(const ricci::Report& report)
 		{"flipped_faces", report.flippedFaces},
 		{"flipped_by_rounding", report.flippedByRounding},
 		{"finish_moved", report.finishMoved},
+		{"ended_early", report.endedEarly},
 		{"flips", report.flips},
 		{"refinement_points", report.refinementPoints},
 		{"edge_swaps", report.edgeSwaps},

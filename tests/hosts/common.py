@@ -17,7 +17,7 @@ ALWAYS = {
     "lengthened": float, "qc_mean": float, "qc_vertex_mean": float, "qc_area_mean": float, "qc_p99": float,
     "qc_max": float, "area_distortion_mean": float, "area_distortion_spread": float,
     "stretch": float, "objective": float,
-    "flipped_faces": int, "flipped_by_rounding": int, "finish_moved": int, "flips": int,
+    "flipped_faces": int, "flipped_by_rounding": int, "finish_moved": int, "ended_early": int, "flips": int,
     "refinement_points": int, "edge_swaps": int, "boundary_splits": int, "euler_characteristic": int,
     "genus": int, "boundary_loops": int, "components": int, "cut_nonmanifold_edges": int,
     "split_vertices": int, "duplicate_faces": int, "one_sided_components": int,

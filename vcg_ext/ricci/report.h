@@ -55,6 +55,8 @@ struct Report
 	int flippedByRounding = 0; ///< more of them once the coordinates are rounded to float
 	int finishMoved = 0; ///< points of the map that the repair moved, see Finish; one that was
 						 ///< moved again in the coordinates stored counts twice
+	/// Searches for something better that the bound on their work has ended; the log says which.
+	int endedEarly = 0;
 	int edgeSwaps = 0;   ///< paper 5.4
 	int flips = 0;       ///< intrinsic flips, those to the start's triangulation included
 	int refinementPoints =

@@ -17,6 +17,7 @@ Report& Report::operator+=(const Report& next)
 		  &Report::brokenTriangles,
 		  &Report::flips,
 		  &Report::finishMoved,
+		  &Report::endedEarly,
 		  &Report::edgeSwaps,
 		  &Report::boundarySplits,
 		  &Report::refinementPoints,

@@ -7,6 +7,8 @@
 #include "least_stretch.h"
 #include "repair.h"
 
+#include <string>
+
 namespace ricci {
 
 namespace {
@@ -31,7 +33,12 @@ repaired(FlatMesh& flat, const BorderMoves& moves, RestShapes shapes, const Soun
 {
 	WorkLimit limit(flat.points.size());
 	const Repair repair = repairInStages(flat, moves, shapes, soundness, limit);
-	return {repair.movedCount(), repair.left};
+	const bool endedEarly = repair.left > 0 && limit.left() == 0;
+	if (endedEarly)
+		logLine(
+			"The repair of flipped faces has ended at the bound on its work, with " +
+			std::to_string(repair.left) + " left.");
+	return {repair.movedCount(), repair.left, endedEarly ? 1 : 0};
 }
 
 } // namespace
@@ -71,10 +78,13 @@ FinishCounts finishInPlane(
 				flat.place.swap(best);
 		}
 	}
-	if (finish == Finish::LeastStretch)
-		leastStretch(flat);
-	else
-		leastDistortion(flat, cones, freeBoundary);
+	const bool endedEarly = finish == Finish::LeastStretch
+								? leastStretch(flat).endedEarly
+								: leastDistortion(flat, cones, freeBoundary).endedEarly;
+	if (endedEarly)
+		logLine("The finish has ended at the bound on its steps: the map could still become a "
+				"little better.");
+	counts.endedEarly += endedEarly;
 	return counts;
 }
 

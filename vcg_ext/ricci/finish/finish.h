@@ -13,6 +13,7 @@ struct FinishCounts
 {
 	int moved = 0; ///< points that the repair moved
 	int left = 0;  ///< triangles that it could not mend
+	int endedEarly = 0; ///< parts of the finish that the bound on their work has ended
 };
 
 /// The finish of a component's map to the plane on its own triangles, which straight lines in place of

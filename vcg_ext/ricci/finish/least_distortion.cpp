@@ -17,9 +17,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Steps at most. They end when two in a row gain what this change of K in all triangles is worth: it is
-/// not seen in the fourth decimal of a mean.
-constexpr int kMaxSteps = 30;
+/// Steps at most: a few are enough for most maps, CAD with long triangles takes a hundred. They end when two
+/// in a row gain what this change of K in all triangles is worth: it is not seen in the fourth decimal of a
+/// mean.
+constexpr int kMaxSteps = 100;
 constexpr double kSeen = 2e-5;
 
 /// Steps of one point after another come first, as long as each gains this share of the distortion.
@@ -88,6 +89,7 @@ public:
 			result.after = m_value;
 			if (gain + lastGain < worthOf(kSeen))
 				break;
+			result.endedEarly = i + 1 == kMaxSteps;
 		}
 		return result;
 	}

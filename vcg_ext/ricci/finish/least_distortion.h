@@ -12,6 +12,7 @@ struct LeastDistortion
 {
 	int steps = 0; ///< of single points, each of all of them, and of all at once; 0: nothing moved
 	double before = 0.0, after = 0.0; ///< MeanDistortion of the map
+	bool endedEarly = false;          ///< by the number of steps; it may become smaller still
 };
 
 /// MeanDistortion of a map, its triangles that are not counter-clockwise left out.

@@ -86,6 +86,8 @@ public:
 			++result.steps;
 			result.after = m_value;
 		}
+		result.endedEarly =
+			result.steps == kMaxSteps && gain > kMinGain * (m_value - kIsometry);
 		return result;
 	}
 

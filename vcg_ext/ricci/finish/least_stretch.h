@@ -11,6 +11,7 @@ struct LeastStretch
 {
 	int steps = 0;
 	double before = 0.0, after = 0.0; ///< mean energy by area: 4 for an isometry
+	bool endedEarly = false;          ///< by the number of steps; it may become smaller still
 };
 
 /// Moves all points of a map to the plane, so that its mean symmetric Dirichlet energy

@@ -41,6 +41,7 @@ struct ComponentMap
 	std::optional<double> holonomyError;
 
 	int finishMoved = 0;       ///< points that the repair moved
+	int endedEarly = 0;        ///< see Report::endedEarly
 	bool hasFreeSeams = false; ///< the finish has let seams go
 	int cappedHoles = 0;
 	int edgeSwaps = 0, boundarySplits = 0; ///< Method::EdgeSwaps

@@ -101,7 +101,9 @@ void finish(const FlowDomain& domain, const HyperbolicOptions& options, Componen
 	const bool refined = options.output == OutputTriangulation::CommonRefinement;
 	FlatMesh flat = refined ? flatMeshOf(domain.surface, map.refinement)
 							: flatMeshOf(domain.surface, map.layout);
-	map.finishMoved = finishInDisk(flat, freeBoundary).moved;
+	const FinishCounts counts = finishInDisk(flat, freeBoundary);
+	map.finishMoved = counts.moved;
+	map.endedEarly += counts.endedEarly;
 	if (refined) {
 		for (const int f : flat.points.indices())
 			map.refinement.uv[positionOf(f)] = flat.at(f);

@@ -137,8 +137,10 @@ void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 		return; // the refinement is exact
 	const Finish finish = finishOf(options, map);
 	FlatMesh flat = flatMeshOf(domain.surface, map.layout);
-	map.finishMoved =
-		finishInPlane(flat, map.cones, map.flow.target.hasFixed(), domain.onHole, finish).moved;
+	const FinishCounts counts =
+		finishInPlane(flat, map.cones, map.flow.target.hasFixed(), domain.onHole, finish);
+	map.finishMoved = counts.moved;
+	map.endedEarly += counts.endedEarly;
 	map.hasFreeSeams = finish == Finish::LeastStretch;
 	flat.place.swap(map.layout.points);
 	if (map.layout.points != flat.place) // its border may have moved

@@ -61,11 +61,15 @@ void keepAreas(
 		isForCost ? kMaxVainCheaper : kMaxVainRounds,
 		propose,
 		take);
+	if (!isForCost && round == kMaxRounds) {
+		++map.endedEarly;
+		logLine("The search for cones that keep areas has ended at the bound on its flows.");
+	}
 	if (round > 0) {
 		const AreaChange change = areaChange(surface, flowFactor(best));
 		logLine(
 			"The spread of the logarithm of the area factor is " + numberText(change.spread, 3) +
-			" now, the mean of the factor or its inverse " + numberText(change.mean, 3) +
+			", the mean of the factor or its inverse " + numberText(change.mean, 3) +
 			", the energy " + numberText(change.energy, 3) + ".");
 	}
 }

@@ -121,6 +121,7 @@ Report reportOf(const ComponentMap& map)
 	report.brokenTriangles = map.flow.metric->brokenTriangles();
 	report.flips = map.flow.flipCount();
 	report.finishMoved = map.finishMoved;
+	report.endedEarly = map.endedEarly;
 	report.edgeSwaps = map.edgeSwaps;
 	report.boundarySplits = map.boundarySplits;
 	report.eulerCharacteristic = map.type.eulerCharacteristic();
