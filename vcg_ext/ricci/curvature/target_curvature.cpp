@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "target_curvature.h"
 
+#include "../base/attempt.h"
 #include "../base/numbers.h"
 #include "../base/text.h"
 #include "../base/tolerances.h"
@@ -276,6 +277,13 @@ void setPlain(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 		prescribeByLength(surface, totalCurvature(surface), target);
 }
 
+/// What any target has to fulfil.
+void check(const EmbeddedSurface& surface, const Target& target)
+{
+	checkVertexBounds(surface.topology, target);
+	checkFreeBoundary(surface.topology, target);
+}
+
 /// The plain target or cones: what is expected to cost less, or cones where the spread of areas would be
 /// larger without them than is asked for.
 void choosePlainOrCones(
@@ -302,9 +310,18 @@ void choosePlainOrCones(
 	const std::string without =
 		describe(plain) + ", area distortion " + numberText(spread, 3) + " (spread)";
 	if (cones && (goesBySpread || costOf(expectation(*cones)) < costOf(plain))) {
-		target.notes.push_back("Cones: without them " + without + ".");
-		setPlacedCones(surface, *cones, request, target);
-		return;
+		// They may leave more to a short boundary than it can take.
+		std::optional<Target> admissible = attempt([&] {
+			Target withCones = target;
+			withCones.notes.push_back("Cones: without them " + without + ".");
+			setPlacedCones(surface, *cones, request, withCones);
+			check(surface, withCones);
+			return withCones;
+		});
+		if (admissible) {
+			target = *std::move(admissible);
+			return;
+		}
 	}
 	setPlain(surface, request, target);
 	target.notes.push_back(
@@ -334,13 +351,6 @@ void setAutomatic(
 		choosePlainOrCones(surface, start, request, target);
 	else
 		setPlain(surface, request, target);
-}
-
-/// What any target has to fulfil.
-void check(const EmbeddedSurface& surface, const Target& target)
-{
-	checkVertexBounds(surface.topology, target);
-	checkFreeBoundary(surface.topology, target);
 }
 
 } // namespace
