@@ -3,7 +3,6 @@
 
 #include "../base/task.h"
 #include "../math/min_area_rectangle.h"
-#include "../math/min_cut.h"
 #include "../metric/area.h"
 #include "chart_division.h"
 #include "chart_overlap.h"
@@ -21,25 +20,6 @@ namespace ricci {
 namespace {
 
 using Parts = std::vector<std::vector<int>>; // triangles of each
-
-/// Divides the chart so that no part covers itself. A fold may hide an overlap and then go to another
-/// part than the triangles that it hides: what appears in the parts is added to the pairs, and the
-/// chart is divided anew.
-Parts separateParts(const FlatMesh& chart, const Sides& sides, const OverlapSearch& overlaps)
-{
-	std::vector<TrianglePair> pairs = overlaps.pairs();
-	for (;;) {
-		Parts parts = divideChart(chart, sides, pairs);
-		Array<int> partOf(chart.size());
-		for (std::size_t p = 0; p < parts.size(); ++p)
-			for (const int i : parts[p])
-				partOf[i] = static_cast<int>(p);
-		const auto more = overlaps.uncovered(partOf);
-		if (more.empty())
-			return parts;
-		pairs.insert(pairs.end(), more.begin(), more.end());
-	}
-}
 
 /// Gives new charts points of their own, and moves each to the origin; where \p turns turns it so that
 /// its smallest bounding rectangle lies along the axes.
@@ -101,8 +81,7 @@ void setApart(Parametrization& map)
 Array<int> halves(const FlatMesh& chart, const OrientedRectangle& r, const DualGraph& graph)
 {
 	std::vector<int> left, right;
-	Array<char> end(chart.size(), 0);
-	for (const int i : end.indices()) {
+	for (int i = 0; i < chart.size(); ++i) {
 		double along = 0.0;
 		for (const Point2& p : chart.at(i))
 			along += (r.inFrame(p)[0] - r.min[0]) / (3.0 * r.width());
@@ -110,19 +89,8 @@ Array<int> halves(const FlatMesh& chart, const OrientedRectangle& r, const DualG
 			left.push_back(i);
 		else if (along > 0.6)
 			right.push_back(i);
-		end[i] = along < 0.4 ? 1 : along > 0.6 ? 2 : 0;
 	}
-	const MinCut::Side side =
-		MinCut(chart.size()).run(left, right, [&](int i, const MinCut::AddEdge& add) {
-			for (const Corner own : cornersOf(i))
-				if (const Corner other = graph.joined(own); other.isValid())
-					if (end[i] == 0 || end[i] != end[other.face()])
-						add(other.face(), graph.weight(own), graph.weight(own));
-		});
-	Array<int> part(chart.size(), 0);
-	for (const int i : side.nodes)
-		part[i] = 1;
-	return part;
+	return leastCut(graph, left, right);
 }
 
 /// Puts the connected pieces of the parts of a chart in its place, the first where it was, the others
@@ -178,17 +146,13 @@ void separateCharts(bool resolve, bool turns, Parametrization& map)
 		checkpoint();
 		const OverlapSearch overlaps(chart.corners());
 		checkpoint();
-		const std::vector<TrianglePair>& pairs = overlaps.pairs();
-		if (!pairs.empty() && !resolve) {
-			Array<char> isCovered(chart.size(), 0);
-			for (const TrianglePair& pair : pairs)
-				for (int i : pair)
-					isCovered[i] = 1;
+		const bool overlapsItself = !overlaps.pairs().empty();
+		if (overlapsItself && !resolve) {
 			++map.report.overlappingCharts;
-			for (char covered : isCovered)
-				map.report.overlappingFaces += covered;
+			for (const char isIn : overlaps.overlapping())
+				map.report.overlappingFaces += isIn;
 		}
-		if (pairs.empty() || !resolve) {
+		if (!overlapsItself || !resolve) {
 			add(triangles, std::move(map.charts[c]));
 			continue;
 		}
@@ -196,7 +160,7 @@ void separateCharts(bool resolve, bool turns, Parametrization& map)
 			allSides.emplace(map.mesh.vertices.values());
 			before = seams(map.mesh, *allSides);
 		}
-		Parts joined = joinParts(chart, sides, separateParts(chart, sides, overlaps));
+		Parts joined = joinParts(chart, sides, divideChart(chart, sides, overlaps));
 		const int first = map.mesh.place.size();
 		for (const Point2& p : chart.place)
 			map.mesh.place.push_back(p);
