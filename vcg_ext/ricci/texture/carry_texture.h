@@ -42,7 +42,7 @@ struct CarriedMesh
 /// half of such a block from its middle, and a whole one to the next.
 constexpr int kGutterTexels = 12;
 
-/// Its owner, and a third of that and of four words for the blocks.
+/// For its owner, and a third of that and of four words for the blocks.
 constexpr double kBytesOfOldTexel = 4.0 + (4.0 + 8.0) / 3.0;
 
 /// Draws the picture that the new coordinates have to show. Every texel whose middle lies in a triangle
