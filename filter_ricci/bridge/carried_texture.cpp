@@ -254,7 +254,8 @@ void CarriedTexture::requireMemory() const
 		largest = std::max(largest, texels(picture));
 		all += texels(picture);
 	}
-	const double needed = (sample + 4.0) * square + sample * all + std::max(square, 4.0 * largest) +
+	const double needed = (sample + 4.0) * square + sample * all +
+						  std::max(square, ricci::kBytesOfOldTexel * largest) +
 						  512.0 * static_cast<double>(m_mesh.faces.size());
 	const double free = freeMemory();
 	if (free > 0.0 && needed > free)

@@ -7,6 +7,7 @@
 
 #include <ricci/charts/chart_division.h>
 #include <ricci/charts/chart_overlap.h>
+#include <ricci/charts/join_parts.h>
 #include <ricci/charts/separate_charts.h>
 #include <ricci/error.h>
 #include <ricci/math/orientation.h>
@@ -27,7 +28,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 std::vector<std::vector<int>> divided(const FlatMesh& chart)
 {
-	return divideChart(chart, Sides(chart.vertices.values()), overlappingPairs(chart));
+	return divideChart(chart, Sides(chart.vertices.values()), OverlapSearch(chart.corners()));
 }
 
 /// What of a chart's joined edges lies between its parts.
@@ -136,20 +137,33 @@ TEST(ChartOverlap, OfAFanTakesHardlyMoreStepsThanItHasTriangles)
 TEST(ChartOverlap, OfFansIsWhatAllPairsGive)
 {
 	Random random(404);
-	for (const double angle : {3.0, 6.2, 7.0, 20.0}) {
+	for (const double angle : {3.0, 6.2, 7.0, 20.0, 100.0}) {
 		SurfaceMesh mesh = fan(700, angle, [&](int) { return random.real(0.05, 1.0); });
 		const SurfaceMesh other = fan(300, 6.0, [&](int) { return random.real(0.05, 1.0); });
-		mesh = sideBySide(mesh, other, 0.3);
+		const bool isStacked = angle > 50.0;
+		mesh = sideBySide(mesh, other, isStacked ? 0.3 : 1.8);
 		const FlatMesh chart = flatMesh(mesh);
 		const double touching = 1e-9 * boxTreeOf(chart.corners()).extent();
 		std::vector<TrianglePair> pairs;
+		Array<char> isIn(chart.size(), 0);
 		for (const int i : chart.points.indices())
 			for (const int j : chart.points.indices())
-				if (i < j && overlap(chart.at(i), chart.at(j), touching))
+				if (i < j && overlap(chart.at(i), chart.at(j), touching)) {
 					pairs.push_back({i, j});
+					isIn[i] = isIn[j] = 1;
+				}
 		const OverlapSearch search(chart.corners());
-		EXPECT_GT(search.steps(), 64 * chart.size());
-		EXPECT_EQ(search.pairs(), pairs) << angle;
+		EXPECT_EQ(search.isComplete(), !isStacked);
+		EXPECT_EQ(search.overlapping(), isIn) << angle;
+		if (!isStacked) {
+			EXPECT_GT(search.steps(), 64 * chart.size());
+			EXPECT_EQ(search.pairs(), pairs) << angle;
+		}
+		else {
+			ASSERT_EQ(search.pairs().size(), 1u);
+			EXPECT_EQ(std::count(pairs.begin(), pairs.end(), search.pairs().front()), 1);
+			EXPECT_GT(pairs.size(), at(chart.size()));
+		}
 	}
 }
 
@@ -304,6 +318,32 @@ TEST(ChartDivision, OfRingsTakesAsManyPartsAsTurns)
 		EXPECT_LE(parts.size(), static_cast<std::size_t>(std::ceil(turns)) + 1);
 		EXPECT_EQ(cuts.edges, 3 * (static_cast<int>(parts.size()) - 1)); // each straight across
 		EXPECT_GE(cuts.length, static_cast<double>(parts.size() - 1) - 1e-12); // the ring is 1 wide
+	}
+}
+
+/// A staircase of so many turns that not all pairs are listed.
+TEST(ChartDivision, OfManyTurnsTakesHardlyMoreStepsThanItHasTriangles)
+{
+	double before = 0.0;
+	for (const int turns : {40, 160}) {
+		FlatMesh chart = flatMesh(sector(2 * kPi * turns, 20 * turns, 2));
+		const Sides sides(chart.vertices.values());
+		const OverlapSearch overlaps(chart.corners());
+		EXPECT_FALSE(overlaps.isComplete());
+		const Array<char> isIn = overlaps.overlapping();
+		EXPECT_EQ(std::count(isIn.begin(), isIn.end(), 0), 0);
+		const auto steps = static_cast<double>(overlaps.steps());
+		if (before > 0.0) {
+			EXPECT_LT(steps, 5.0 * before); // of all pairs: 16 times
+		}
+		before = steps;
+		const auto parts = divideChart(chart, sides, overlaps);
+		expectDivided(chart, parts);
+		EXPECT_GE(parts.size(), at(turns));
+		const auto joined = joinParts(chart, sides, parts);
+		expectDivided(chart, joined);
+		EXPECT_GE(joined.size(), at(turns));
+		EXPECT_LE(joined.size(), at(turns + turns / 4));
 	}
 }
 

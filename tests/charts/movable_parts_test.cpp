@@ -64,9 +64,8 @@ TEST(MovableParts, UndoRestoresAll)
 	for (int trial = 0; trial < 30; ++trial) {
 		const FlatMesh chart = square(6);
 		const Sides sides(chart.vertices.values());
-		const BoxTree tree = boxTreeOf(chart.corners());
 		const int n = chart.size();
-		MovableParts parts(chart, sides, tree, stripes(n, 4));
+		MovableParts parts(chart, sides, stripes(n, 4));
 		for (int i = 0; i < 5; ++i)
 			moveSome(parts, random);
 		parts.commit();
@@ -101,8 +100,7 @@ TEST(MovableParts, FindsWhatCoversAPart)
 	int found = 0;
 	for (int trial = 0; trial < 200; ++trial) {
 		const Sides sides(chart.vertices.values());
-		const BoxTree tree = boxTreeOf(chart.corners());
-		MovableParts parts(chart, sides, tree, stripes(chart.size(), 3));
+		MovableParts parts(chart, sides, stripes(chart.size(), 3));
 		for (int i = random.index(4); i > 0; --i)
 			moveSome(parts, random);
 		const Place place{1, randomMotion(random), 0.0};

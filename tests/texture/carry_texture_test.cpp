@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
+#include <utility>
 
 namespace ricci::testing {
 namespace {
@@ -178,6 +180,72 @@ TYPED_TEST(CarryTextureOf, MeanOfATexelIsThatOfItsArea)
 			EXPECT_NEAR(half.at(x, y)[0], 0.5 * kMax, 1.0);
 }
 
+/// Symmetric means of a linear function are its values, of whatever blocks they are taken.
+TYPED_TEST(CarryTextureOf, MeansOfManyTexelsKeepLinearFunctions)
+{
+	constexpr double kMax = std::numeric_limits<TypeParam>::max();
+	const Square square(1);
+	const std::vector<Triangle2> atlas = mapped(square.place, [](const Point2& p) {
+		return Point2{0.38 + 0.5 * p[0] - 0.3 * p[1], 0.12 + 0.3 * p[0] + 0.5 * p[1]};
+	});
+	for (const int oldSize : {250, 512, 1000}) {
+		Picture<TypeParam> old(oldSize, oldSize);
+		for (int y = 0; y < oldSize; ++y)
+			for (int x = 0; x < oldSize; ++x) {
+				old.at(x, y)[0] = static_cast<TypeParam>(std::lround(kMax * (x + 0.5) / oldSize));
+				old.at(x, y)[1] = static_cast<TypeParam>(std::lround(kMax * (y + 0.5) / oldSize));
+			}
+		const int size = 30; // of 14, 29 and 57 old texels
+		const Picture<TypeParam> result =
+			carried<TypeParam>(carriedMesh(square, square.place, atlas), {&old}, size);
+		int inside = 0;
+		const std::vector<Hit> found = hits(atlas, size, size);
+		for (std::size_t i = 0; i < found.size(); ++i) {
+			if (found[i].triangle < 0)
+				continue;
+			const Point2 p = pointOf(square.place[positionOf(found[i].triangle)], found[i].weights);
+			// Neither the texel nor a block beside it reach beyond the picture.
+			if (std::min({p[0], p[1], 1.0 - p[0], 1.0 - p[1]}) < 0.12)
+				continue;
+			++inside;
+			// Of the old picture, of words at up to four levels, and of the result.
+			const double rounding = 0.5 + 4 * 0.5 * kMax / 65535.0 + 0.5 + 1e-6;
+			EXPECT_NEAR(result.rgba[4 * i], kMax * p[0], rounding);
+			EXPECT_NEAR(result.rgba[4 * i + 1], kMax * (1.0 - p[1]), rounding);
+		}
+		EXPECT_GT(inside, 100);
+	}
+}
+
+/// Blocks of two charts are divided down to their texels.
+TYPED_TEST(CarryTextureOf, TakesNothingFromTheOtherChartOfABlock)
+{
+	const int oldSize = 500, border = 203;
+	Picture<TypeParam> old(oldSize, oldSize);
+	for (int y = 0; y < oldSize; ++y)
+		for (int x = 0; x < oldSize; ++x)
+			old.at(x, y)[x < border ? 0 : 2] = 200;
+	const Square square(1);
+	const double width = static_cast<double>(border) / oldSize;
+	CarriedMesh mesh = carriedMesh(square, box(0, 0, width, 1), box(0.05, 0.05, 0.4, 0.9));
+	const CarriedMesh other =
+		carriedMesh(square, box(width, 0, 1 - width, 1), box(0.55, 0.05, 0.4, 0.9));
+	for (std::size_t i = 0; i < 2; ++i) {
+		mesh.faces.push_back(other.faces[i]);
+		for (int& v : mesh.faces.back().vertices)
+			v += 4;
+		mesh.triangles.push_back(other.triangles[i]);
+		mesh.triangles.back().face += 2;
+	}
+	for (const int size : {8, 20, 40}) {
+		const Picture<TypeParam> result = carried<TypeParam>(mesh, {&old}, size);
+		for (int y = 0; y < size; ++y)
+			for (int x = 0; x < size; ++x)
+				for (const std::size_t c : {0, 2})
+					EXPECT_EQ(result.at(x, y)[c], (2 * x < size) == (c == 0) ? 200 : 0) << size;
+	}
+}
+
 TYPED_TEST(CarryTextureOf, WeighsColoursByTheirAlpha)
 {
 	constexpr TypeParam kMax = std::numeric_limits<TypeParam>::max();
@@ -194,15 +262,17 @@ TYPED_TEST(CarryTextureOf, WeighsColoursByTheirAlpha)
 		}
 	const Square square(2);
 	const CarriedMesh mesh = carriedMesh(square, square.place, mapped(square.place, curved));
-	const Picture<TypeParam> result = carried<TypeParam>(mesh, {&old}, 40, true);
 	int mixed = 0;
-	for (int i = 0; i < 40 * 40; ++i) {
-		const TypeParam* texel = &result.rgba[static_cast<std::size_t>(4 * i)];
-		if (texel[3] == 0)
-			continue;
-		EXPECT_EQ(texel[0], 0);
-		EXPECT_EQ(texel[2], blue);
-		mixed += texel[3] < kMax;
+	for (const int size : {40, 8}) { // of a few texels, and of blocks of them
+		const Picture<TypeParam> result = carried<TypeParam>(mesh, {&old}, size, true);
+		for (int i = 0; i < size * size; ++i) {
+			const TypeParam* texel = &result.rgba[static_cast<std::size_t>(4 * i)];
+			if (texel[3] == 0)
+				continue;
+			EXPECT_EQ(texel[0], 0);
+			EXPECT_EQ(texel[2], blue);
+			mixed += texel[3] < kMax;
+		}
 	}
 	EXPECT_GT(mixed, 100);
 	const Picture<TypeParam> opaque = carried<TypeParam>(mesh, {&old}, 40, false);
@@ -359,13 +429,21 @@ TEST(CarryTexture, RepeatsThePicture)
 	const Picture<unsigned char> b =
 		carried<unsigned char>(carriedMesh(square, moved, atlas), {&old}, 80);
 	EXPECT_EQ(a.rgba, b.rgba);
-	// Many times in one triangle: the mean of all.
+	// Many times in one texel: the mean of all, to the rounding of the result and of the blocks.
 	const std::vector<Triangle2> often = mapped(square.place, [](const Point2& p) {
 		return Point2{900 * p[0], 900 * p[1]};
 	});
-	const Picture<unsigned char> grey =
-		carried<unsigned char>(carriedMesh(square, often, atlas), {&old}, 16);
-	EXPECT_NEAR(grey.at(8, 8)[0], 127.5, 20.0);
+	for (const auto& [width, height] : {std::pair(64, 64), std::pair(50, 37)}) {
+		const Picture<unsigned char> tile = noise<unsigned char>(width, height, random);
+		std::array<double, 3> mean{};
+		for (std::size_t i = 0; i < tile.rgba.size(); ++i)
+			if (i % 4 < 3)
+				mean[i % 4] += tile.rgba[i] / static_cast<double>(width * height);
+		const Picture<unsigned char> grey =
+			carried<unsigned char>(carriedMesh(square, often, atlas), {&tile}, 16);
+		for (std::size_t c = 0; c < 3; ++c)
+			EXPECT_NEAR(grey.at(8, 8)[c], mean[c], 0.51);
+	}
 }
 
 TEST(CarryTexture, TakesWhateverTheCoordinatesAre)

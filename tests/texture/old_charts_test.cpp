@@ -82,6 +82,44 @@ TEST(OldOwners, KnowTheTexelsOfEachChart)
 		}
 }
 
+TEST(OldOwners, KnowTheBlocksOfEachChart)
+{
+	Random random(735);
+	const Square square(4);
+	const std::vector<TexturedFace> faces = facesOf(square, shatteredAtlas(32, random));
+	const std::vector<int> charts = oldCharts(faces);
+	const Blocks blocks{83, 57};
+	OldOwners owners(faces, charts, allOf(faces), blocks.width, blocks.height);
+	owners.addLevels(blocks.lastLevel());
+	int whole = 0, parts = 0;
+	for (const int chart : charts)
+		for (int level = 0; level <= blocks.lastLevel(); ++level)
+			blocks.forLevel(level, [&](const Block& b) {
+				const int side = 1 << level;
+				int all = 0, own = 0;
+				for (int y = b.y * side; y < std::min((b.y + 1) * side, blocks.height); ++y)
+					for (int x = b.x * side; x < std::min((b.x + 1) * side, blocks.width); ++x) {
+						++all;
+						own += owners.of(chart).has(blocks.index({0, x, y}));
+					}
+				ASSERT_EQ(blocks.texels(b), all);
+				switch (owners.of(chart).of(level, blocks.index(b))) {
+				case OldOwners::Share::All:
+					EXPECT_EQ(own, all);
+					break;
+				case OldOwners::Share::None:
+					EXPECT_EQ(own, 0);
+					break;
+				case OldOwners::Share::Part: // what overlaps is own and may look like a part
+					EXPECT_LT(own, all);
+					++parts;
+				}
+				whole += level > 0 && own == all;
+			});
+	EXPECT_GT(whole, 100);
+	EXPECT_GT(parts, 100);
+}
+
 TEST(OldOwners, ShareWhatOverlaps)
 {
 	const Square square(1);

@@ -15,6 +15,10 @@ namespace {
 /// Vertices that are looked at between two checkpoints.
 constexpr int kNodesBetweenTicks = 1 << 14;
 
+/// Vertices for each terminal that a path looks at; what is farther is left to be found. Where a chart has
+/// many holes, whose borders cost nothing, all of it can be nearer than the end of the path.
+constexpr std::size_t kNodesOfTriangle = 64;
+
 } // namespace
 
 BorderFlow::BorderFlow(const DualGraph& graph) : m_graph(graph), m_nodeAt(3 * graph.part.size(), -1)
@@ -29,6 +33,7 @@ void BorderFlow::find(
 	m_known.clear();
 	m_nodes.clear();
 	m_paths.clear();
+	m_mostNodes = kNodesOfTriangle * (sources.size() + sinks.size());
 	if (findFrom(sources, 1, terminal) == 0)
 		findFrom(sinks, -1, terminal);
 }
@@ -64,20 +69,24 @@ Corner BorderFlow::besideOnRim(Corner side, bool isNext, const Array<Terminal>& 
 	}
 }
 
-/// Finds the distances from a corner of those vertices that are nearer than corner \p to, for the last
-/// path. It has no length where it meets another one. A path that follows the border costs nothing.
+/// Finds the distances from a corner of those vertices that are nearer than corner \p to, or of the nearest
+/// ones, for the last path: cut off at any distance it is a flow. It has no length where it meets another
+/// one. A path that follows the border costs nothing.
 void BorderFlow::measure(Corner from, Corner to, const Array<Terminal>& terminal)
 {
 	const int path = m_paths.size() - 1, target = nodeAt(to);
 	using Entry = std::pair<std::int64_t, int>; // distance, node
 	std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
 	bool isFree = true;
+	std::vector<int> reached;
 	const auto reach = [&](Corner corner, std::int64_t distance) {
 		const int number = nodeAt(corner);
 		Node& node = m_nodes[number];
 		if (node.path >= 0 && node.path != path)
 			isFree = false;
 		else if (node.path < 0 || distance < node.distance) {
+			if (node.path < 0)
+				reached.push_back(number);
 			node.path = path;
 			node.distance = distance;
 			queue.push({distance, number});
@@ -92,10 +101,12 @@ void BorderFlow::measure(Corner from, Corner to, const Array<Terminal>& terminal
 			reach(corner, distance + m_graph.weight(side));
 	};
 	int untilTick = kNodesBetweenTicks;
+	std::int64_t length = 0;
 	for (reach(from, 0); isFree && !queue.empty();) {
 		const auto [distance, number] = queue.top();
 		queue.pop();
-		if (number == target)
+		length = distance;
+		if (number == target || reached.size() > m_mostNodes)
 			break;
 		if (distance > m_nodes[number].distance)
 			continue;
@@ -108,11 +119,10 @@ void BorderFlow::measure(Corner from, Corner to, const Array<Terminal>& terminal
 			follow(corner.previous(), corner.previous(), distance);
 		});
 	}
-	m_paths[path].length = m_nodes[target].distance;
+	m_paths[path].length = length;
 	if (!isFree)
-		for (Node& node : m_nodes)
-			if (node.path == path)
-				node.path = -1;
+		for (const int number : reached)
+			m_nodes[number].path = -1;
 }
 
 /// Calls visit(corner) for the corners of the part at one vertex.

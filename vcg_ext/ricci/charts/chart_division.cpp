@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chart_division.h"
 
+#include "../base/task.h"
 #include "../math/adjacency.h"
 #include "../math/min_cut.h"
 #include "border_flow.h"
 #include "connected_pieces.h"
-#include "dual_graph.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <map>
-#include <numeric>
-#include <set>
 #include <utility>
 
 namespace ricci {
 
 namespace {
 
+using Parts = std::vector<std::vector<int>>; // triangles of each
+
+/// Divides a chart so that no part contains both triangles of a pair.
 class ChartDivider
 {
 public:
@@ -25,7 +26,7 @@ public:
 		const FlatMesh& chart, const Sides& sides, const std::vector<TrianglePair>& pairs) :
 			m_chart(chart),
 			m_graph(chart, sides), m_flow(m_graph), m_minCut(chart.size()),
-			m_terminal(chart.size(), kNoTerminal), m_scratch(chart.size(), -1), m_pairs(pairs),
+			m_terminal(chart.size(), kNoTerminal), m_scratch(chart.size(), -1),
 			m_rivals(chart.size(), [&](const auto& add) {
 				for (const TrianglePair& pair : pairs) {
 					add(pair[0], pair[1]);
@@ -36,30 +37,16 @@ public:
 		numberPieces();
 	}
 
-	std::vector<std::vector<int>> run()
+	Parts run()
 	{
 		// A cut makes no overlaps: each of these triangles is the largest of its part in turn.
 		for (const int i : overlappingByArea())
 			if (hasRival(i))
 				cut(i);
-		std::sort(m_cutSides.begin(), m_cutSides.end());
-		rejoin();
-		Array<std::vector<int>> byNumber(m_partCount + 1);
-		for (const int i : m_part.indices())
-			byNumber[m_part[i]].push_back(i);
-		std::vector<std::vector<int>> parts;
-		for (std::vector<int>& part : byNumber)
-			if (!part.empty())
-				parts.push_back(std::move(part));
-		std::sort(parts.begin(), parts.end());
-		return parts;
+		return m_graph.connectedPieces();
 	}
 
 private:
-	using PartPair = std::array<int, 2>; // numbers of parts, the lower first
-
-	static PartPair inOrder(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
 	/// Whether \p i overlaps a triangle of its own part.
 	bool hasRival(int i) const
 	{
@@ -137,7 +124,6 @@ private:
 			for (const Corner own : cornersOf(i))
 				if (const Corner other = m_graph.joined(own);
 					other.isValid() && m_part[other.face()] == whole) {
-					m_cutSides.push_back(std::min(own, other));
 					ends.push_back(i);
 					otherEnds.push_back(other.face());
 				}
@@ -172,60 +158,116 @@ private:
 			renumber(piece);
 	}
 
-	/// Joins neighbouring parts that do not cover each other again, those with the longest common
-	/// border first: a later cut can make an earlier one needless.
-	void rejoin()
-	{
-		std::set<PartPair> rivals;
-		for (const TrianglePair& pair : m_pairs)
-			rivals.insert(inOrder(m_part[pair[0]], m_part[pair[1]]));
-		Array<int> name(m_partCount + 1);
-		std::iota(name.begin(), name.end(), 0);
-		for (;;) {
-			std::map<PartPair, double> borders;
-			for (const Corner side : m_cutSides) {
-				const PartPair pair =
-					inOrder(name[m_part[side.face()]], name[m_part[m_graph.joined(side).face()]]);
-				if (pair[0] != pair[1] && !rivals.count(pair))
-					borders[pair] += m_chart.lengths[side];
-			}
-			if (borders.empty())
-				break;
-			const PartPair longest =
-				std::max_element(borders.begin(), borders.end(), [](const auto& x, const auto& y) {
-					return x.second < y.second;
-				})->first;
-			const auto renamed = [&](int part) { return part == longest[1] ? longest[0] : part; };
-			for (int& part : name)
-				part = renamed(part);
-			std::set<PartPair> remaining;
-			for (const PartPair& pair : rivals)
-				remaining.insert(inOrder(renamed(pair[0]), renamed(pair[1])));
-			rivals.swap(remaining);
-		}
-		for (int& part : m_part)
-			part = name[part];
-	}
-
 	const FlatMesh& m_chart;
 	DualGraph m_graph;
 	Array<int>& m_part = m_graph.part;
 	int m_partCount = 0;
 	BorderFlow m_flow;
 	MinCut m_minCut;
-	Array<Terminal> m_terminal;     // [triangle] kNoTerminal between cuts
-	Array<int> m_scratch;           // [triangle] -1 between uses
-	std::vector<Corner> m_cutSides; // the lower one of each two
-	const std::vector<TrianglePair>& m_pairs;
+	Array<Terminal> m_terminal;   // [triangle] kNoTerminal between cuts
+	Array<int> m_scratch;         // [triangle] -1 between uses
 	Adjacency<int, int> m_rivals; // triangles that overlap a triangle
 };
 
+/// The triangles of a connected chart, those last that are farthest from the first, over the fewest others.
+std::vector<int> breadthFirst(int first, const DualGraph& graph)
+{
+	Array<char> isIn(graph.part.size(), 0);
+	std::vector<int> order{first};
+	isIn[first] = 1;
+	for (std::size_t head = 0; head < order.size(); ++head)
+		for (const Corner side : cornersOf(order[head]))
+			if (const Corner other = graph.neighbour(side);
+				other.isValid() && !isIn[other.face()]) {
+				isIn[other.face()] = 1;
+				order.push_back(other.face());
+			}
+	return order;
+}
+
+/// The connected pieces of a chart, of a connected one those on both sides of the least cut across the
+/// middle fifth of what lies between its ends.
+Parts halves(const FlatMesh& chart, const Sides& sides)
+{
+	DualGraph graph(chart, sides);
+	Parts pieces = graph.connectedPieces();
+	if (pieces.size() > 1)
+		return pieces;
+	const std::vector<int> order = breadthFirst(breadthFirst(0, graph).back(), graph);
+	const auto end = static_cast<std::ptrdiff_t>(0.4 * static_cast<double>(order.size()));
+	graph.part =
+		leastCut(graph, {order.begin(), order.begin() + end}, {order.end() - end, order.end()});
+	return graph.connectedPieces();
+}
+
 } // namespace
 
-std::vector<std::vector<int>>
-divideChart(const FlatMesh& chart, const Sides& sides, const std::vector<TrianglePair>& pairs)
+Array<int>
+leastCut(const DualGraph& graph, const std::vector<int>& from, const std::vector<int>& to)
 {
-	return ChartDivider(chart, sides, pairs).run();
+	Array<Terminal> terminal(graph.part.size(), kNoTerminal);
+	for (const int i : from)
+		terminal[i] = kSource;
+	for (const int i : to)
+		terminal[i] = kSink;
+	const auto forEdges = [&](int i, const auto& visit) {
+		for (const Corner own : cornersOf(i))
+			if (const Corner other = graph.joined(own);
+				other.isValid() &&
+				(terminal[i] == kNoTerminal || terminal[i] != terminal[other.face()]))
+				visit(other.face(), graph.weight(own));
+	};
+	const auto rimOf = [&](const std::vector<int>& triangles) {
+		std::vector<int> rim;
+		for (const int i : triangles) {
+			bool isOnRim = false;
+			forEdges(i, [&](int, std::int64_t) { isOnRim = true; });
+			if (isOnRim)
+				rim.push_back(i);
+		}
+		return rim;
+	};
+	const MinCut::Side side =
+		MinCut(terminal.size()).run(rimOf(from), rimOf(to), [&](int i, const MinCut::AddEdge& add) {
+			forEdges(i, [&](int j, std::int64_t weight) { add(j, weight, weight); });
+		});
+	Array<int> part(terminal.size(), 0);
+	for (const int i : side.nodes)
+		part[i] = 1;
+	for (const int i : side.isOfSources ? from : to)
+		part[i] = 1;
+	return part;
+}
+
+Parts divideChart(const FlatMesh& chart, const Sides& sides, const OverlapSearch& overlaps)
+{
+	if (!overlaps.isComplete()) {
+		Parts parts;
+		for (const std::vector<int>& half : halves(chart, sides)) {
+			checkpoint();
+			const FlatMesh own = chart.part(half);
+			for (std::vector<int>& part :
+				 divideChart(own, Sides(own.vertices.values()), OverlapSearch(own.corners()))) {
+				for (int& i : part)
+					i = half[positionOf(i)];
+				parts.push_back(std::move(part));
+			}
+		}
+		std::sort(parts.begin(), parts.end());
+		return parts;
+	}
+	std::vector<TrianglePair> pairs = overlaps.pairs();
+	for (;;) {
+		Parts parts = ChartDivider(chart, sides, pairs).run();
+		Array<int> partOf(chart.size());
+		for (std::size_t p = 0; p < parts.size(); ++p)
+			for (const int i : parts[p])
+				partOf[i] = static_cast<int>(p);
+		const auto more = overlaps.uncovered(partOf);
+		if (more.empty())
+			return parts;
+		pairs.insert(pairs.end(), more.begin(), more.end());
+	}
 }
 
 } // namespace ricci

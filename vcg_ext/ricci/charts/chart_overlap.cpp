@@ -25,6 +25,10 @@ constexpr int kJoinsBetweenTicks = 1 << 14;
 /// good shape meet in about ten pairs.
 constexpr std::int64_t kManySteps = 64;
 
+/// Pairs for each triangle from which on they are not listed: those of triangles of good shape in some six
+/// sheets.
+constexpr std::size_t kManyPairs = 16;
+
 /// Corners of the polygon round a node.
 constexpr std::size_t kMaxCorners = 8;
 
@@ -83,16 +87,20 @@ bool commonPoint(const Triangle2& a, const Triangle2& b, Point2& point)
 
 } // namespace
 
+Box2 boxOf(const Triangle2& triangle)
+{
+	Box2 box;
+	for (const Point2& p : triangle)
+		box.add(p);
+	return box;
+}
+
 BoxTree boxTreeOf(const Array<Triangle2>& triangles)
 {
 	std::vector<Box2> boxes;
 	boxes.reserve(triangles.values().size());
-	for (const Triangle2& triangle : triangles) {
-		Box2 box;
-		for (const Point2& p : triangle)
-			box.add(p);
-		boxes.push_back(box);
-	}
+	for (const Triangle2& triangle : triangles)
+		boxes.push_back(boxOf(triangle));
 	return BoxTree(boxes);
 }
 
@@ -102,49 +110,90 @@ bool overlap(const Triangle2& a, const Triangle2& b, double touching)
 }
 
 OverlapSearch::OverlapSearch(Array<Triangle2> triangles) :
-		m_plane(std::move(triangles)), m_tree(boxTreeOf(m_plane))
+		m_plane(std::move(triangles)), m_isProper(m_plane.size()), m_tree(boxTreeOf(m_plane)),
+		m_touching(kTouching * m_tree.extent())
 {
-	Array<char> proper(m_plane.size());
 	for (const int i : m_plane.indices())
-		proper[i] = orientation(m_plane[i][0], m_plane[i][1], m_plane[i][2]) > 0;
-	const bool hasFolds = std::find(proper.begin(), proper.end(), 0) != proper.end();
-	const double touching = kTouching * m_tree.extent();
-	m_nothing = 0.5 * touching;
-	std::int64_t nextTick = kStepsBetweenTicks;
-	const auto step = [&] {
-		if (++m_steps >= nextTick) {
-			nextTick = m_steps + kStepsBetweenTicks;
-			checkpoint();
-		}
-		if (m_hulls.empty() && m_steps > kManySteps * m_plane.size())
-			makeHulls();
-	};
-	const auto compare = [&](int i, int j) {
-		step();
-		if (!proper[i] || !proper[j] || !overlap(m_plane[i], m_plane[j], touching))
-			return;
-		const TrianglePair pair{std::min(i, j), std::max(i, j)};
-		Point2 p;
-		if (!hasFolds)
-			m_pairs.push_back(pair);
-		else if (commonPoint(m_plane[i], m_plane[j], p)) {
-			if (cover(p, [](int) { return true; }) > 1)
+		m_isProper[i] = orientation(m_plane[i][0], m_plane[i][1], m_plane[i][2]) > 0;
+	m_hasFolds = std::find(m_isProper.begin(), m_isProper.end(), 0) != m_isProper.end();
+	const std::size_t most = kManyPairs * m_plane.values().size();
+	m_tree.meetingPairs(
+		[&](int i, int j) {
+			step();
+			Point2 common;
+			const Meeting found = m_isComplete ? meeting(i, j, common) : Meeting::None;
+			const TrianglePair pair{std::min(i, j), std::max(i, j)};
+			if (found == Meeting::Overlap)
 				m_pairs.push_back(pair);
-			else
-				m_hidden.push_back({pair, p});
-		}
-	};
-	m_tree.meetingPairs(compare, [&](int a, int b) {
-		step();
-		return !m_hulls.empty() && (separates(m_hulls[a], m_hulls[b], m_nothing) ||
-									separates(m_hulls[b], m_hulls[a], m_nothing));
-	});
+			else if (found == Meeting::Hidden)
+				m_hidden.push_back({pair, common});
+			m_isComplete = m_pairs.size() <= most;
+		},
+		[&](int a, int b) {
+			step();
+			return !m_isComplete || (!m_hulls.empty() && isApart(m_hulls[a], b));
+		});
+	if (!m_isComplete) {
+		m_pairs.resize(1);
+		m_pairs.shrink_to_fit();
+	}
 	std::sort(m_pairs.begin(), m_pairs.end());
+}
+
+void OverlapSearch::step() const
+{
+	if (++m_steps % kStepsBetweenTicks == 0)
+		checkpoint();
+	if (m_hulls.empty() && m_steps > kManySteps * m_plane.size())
+		makeHulls();
+}
+
+/// Whether a convex counter-clockwise polygon has nothing in common with the triangles of a node, where that
+/// is known.
+template<class Polygon>
+bool OverlapSearch::isApart(const Polygon& polygon, int node) const
+{
+	return !m_hulls.empty() && (separates(polygon, m_hulls[node], nothing()) ||
+								separates(m_hulls[node], polygon, nothing()));
+}
+
+/// \param common takes a point of both where folds are asked
+OverlapSearch::Meeting OverlapSearch::meeting(int i, int j, Point2& common) const
+{
+	if (!m_isProper[i] || !m_isProper[j] || !overlap(m_plane[i], m_plane[j], m_touching))
+		return Meeting::None;
+	if (!m_hasFolds)
+		return Meeting::Overlap;
+	if (!commonPoint(m_plane[i], m_plane[j], common))
+		return Meeting::None;
+	return cover(common, [](int) { return true; }) > 1 ? Meeting::Overlap : Meeting::Hidden;
+}
+
+Array<char> OverlapSearch::overlapping() const
+{
+	Array<char> isIn(m_plane.size(), 0);
+	for (const TrianglePair& pair : m_pairs)
+		for (const int i : pair)
+			isIn[i] = 1;
+	if (m_isComplete)
+		return isIn;
+	for (const int i : isIn.indices()) {
+		const auto overlapsWith = [&](int j) {
+			step();
+			Point2 common;
+			return i != j && meeting(i, j, common) == Meeting::Overlap;
+		};
+		isIn[i] = m_isProper[i] && m_tree.meetsAny(boxOf(m_plane[i]), overlapsWith, [&](int node) {
+			step();
+			return isApart(m_plane[i], node);
+		});
+	}
+	return isIn;
 }
 
 /// A convex polygon round the triangles of each node that are not flat. Two triangles overlap no deeper
 /// than such polygons do: the least depth of two convex polygons is that along a side of one of them.
-void OverlapSearch::makeHulls()
+void OverlapSearch::makeHulls() const
 {
 	int joins = 0;
 	using Polygon = std::vector<Point2>;
@@ -172,7 +221,7 @@ int OverlapSearch::cover(const Point2& p, const IsCounted& isCounted) const
 {
 	int sum = 0;
 	const auto add = [&](int i) {
-		++m_steps;
+		step();
 		const Triangle2& c = m_plane[i];
 		const int first = isCounted(i) ? orientation(c[0], c[1], p) : 0;
 		if (first != 0 && orientation(c[1], c[2], p) == first &&
@@ -180,8 +229,8 @@ int OverlapSearch::cover(const Point2& p, const IsCounted& isCounted) const
 			sum += first;
 	};
 	m_tree.boxesAround(p, add, [&](int node) {
-		++m_steps;
-		return !m_hulls.empty() && separates(m_hulls[node], std::array<Point2, 1>{p}, -m_nothing);
+		step();
+		return !m_hulls.empty() && separates(m_hulls[node], std::array<Point2, 1>{p}, -nothing());
 	});
 	return sum;
 }

@@ -16,6 +16,9 @@ namespace ricci {
 /// Two triangles of a chart, the lower number first.
 using TrianglePair = std::array<int, 2>;
 
+/// Round the corners.
+Box2 boxOf(const Triangle2& triangle);
+
 /// Boxes of triangles, in their order.
 BoxTree boxTreeOf(const Array<Triangle2>& triangles);
 
@@ -47,17 +50,32 @@ public:
 	/// In increasing order.
 	const std::vector<TrianglePair>& pairs() const { return m_pairs; }
 
+	/// Whether pairs() and uncovered() are all that there are. Where many sheets lie over each other, so
+	/// that pairs are many times as many as triangles, only one is listed.
+	bool isComplete() const { return m_isComplete; }
+
+	/// [triangle] whether it is in a pair, listed or not.
+	Array<char> overlapping() const;
+
 	/// Pairs of triangles of one part that only the folds of other parts hide, in increasing order.
 	/// \param part [triangle]
 	std::vector<TrianglePair> uncovered(const Array<int>& part) const;
-
-	const BoxTree& tree() const { return m_tree; }
 
 	/// Pairs of boxes, pairs of nodes and boxes round points that have been looked at.
 	std::int64_t steps() const { return m_steps; }
 
 private:
-	void makeHulls();
+	enum class Meeting { None, Hidden, Overlap };
+
+	void step() const;
+	void makeHulls() const;
+	Meeting meeting(int i, int j, Point2& common) const;
+
+	template<class Polygon>
+	bool isApart(const Polygon& polygon, int node) const;
+
+	/// Depth that polygons have in common where they are apart.
+	double nothing() const { return 0.5 * m_touching; }
 
 	template<class IsCounted>
 	int cover(const Point2& p, const IsCounted& isCounted) const;
@@ -69,10 +87,13 @@ private:
 	};
 
 	Array<Triangle2> m_plane;
+	Array<char> m_isProper; ///< [triangle] counter-clockwise
+	bool m_hasFolds = false;
 	BoxTree m_tree;
-	Array<std::vector<Point2>> m_hulls; ///< [node of the tree], or none
-	double m_nothing = 0.0;             ///< depth that polygons have in common where they are apart
+	double m_touching;
+	mutable Array<std::vector<Point2>> m_hulls; ///< [node of the tree], or none
 	mutable std::int64_t m_steps = 0;
+	bool m_isComplete = true;
 	std::vector<TrianglePair> m_pairs;
 	std::vector<HiddenPair> m_hidden;
 };

@@ -357,13 +357,11 @@ private:
 
 Parts joinParts(FlatMesh& chart, const Sides& sides, const Parts& parts)
 {
-	const BoxTree before = boxTreeOf(chart.corners());
-	MovableParts whole(chart, sides, before, parts);
+	MovableParts whole(chart, sides, parts);
 	PartJoiner(chart, sides, whole).run();
 	take(whole, sides, chart);
 	// Parts that were put together from many are looked through faster once they are one again.
-	const BoxTree joined = boxTreeOf(chart.corners());
-	MovableParts movable(chart, sides, joined, partsOf(whole));
+	MovableParts movable(chart, sides, partsOf(whole));
 	CrumbDivider(chart, movable).run();
 	take(movable, sides, chart);
 	return partsOf(movable);

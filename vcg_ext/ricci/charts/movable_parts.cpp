@@ -12,16 +12,13 @@
 namespace ricci {
 
 MovableParts::MovableParts(
-	const FlatMesh& chart,
-	const Sides& sides,
-	const BoxTree& tree,
-	const std::vector<std::vector<int>>& parts) :
+	const FlatMesh& chart, const Sides& sides, const std::vector<std::vector<int>>& parts) :
 		m_chart(chart),
-		m_sides(sides), m_tree(tree), m_onePlace(kOnePlace * tree.extent()),
-		m_touching(kTouching * tree.extent()), m_plane(chart.corners()), m_isProper(chart.size()),
+		m_sides(sides), m_plane(chart.corners()), m_isProper(chart.size()),
 		m_part(chart.size(), -1), m_group(chart.size(), -1), m_before(chart.size(), -1),
 		m_next(chart.size(), -1)
 {
+	Box2 whole;
 	for (const int f : m_plane.indices()) {
 		const Triangle2& p = m_plane[f];
 		m_isProper[f] = orientation(p[0], p[1], p[2]) > 0;
@@ -29,16 +26,21 @@ MovableParts::MovableParts(
 	for (const std::vector<int>& triangles : parts) {
 		const int part = addPart();
 		m_groupsOf[part].push_back(m_groups.size());
-		Group group;
+		Group group{m_origins.size(), {}, {}, {}};
+		std::vector<Box2> boxes;
 		for (const int f : triangles) {
 			append(f, part);
 			m_group[f] = m_groups.size();
 			m_area[part] += areaOf(f);
-			for (const Point2& p : m_plane[f])
-				group.box.add(p);
+			boxes.push_back(boxOf(m_plane[f]));
+			group.box.add(boxes.back());
+			whole.add(boxes.back());
 		}
 		m_groups.push_back(group);
+		m_origins.push_back({triangles, BoxTree(boxes)});
 	}
+	m_onePlace = kOnePlace * whole.extent();
+	m_touching = kTouching * whole.extent();
 	commit();
 }
 
@@ -102,10 +104,11 @@ void MovableParts::move(const std::vector<int>& triangles, const Place& place)
 	for (const int f : triangles) {
 		const auto [group, isNew] = groups.try_emplace(m_group[f], m_groups.size());
 		if (isNew) {
-			const RigidMotion& old = m_groups[m_group[f]].motion;
+			const Group& old = m_groups[m_group[f]];
 			const RigidMotion motion{
-				place.motion.turn * old.turn, place.motion.turn * old.shift + place.motion.shift};
-			m_groups.push_back({motion, motion.inverse(), Box2()});
+				place.motion.turn * old.motion.turn,
+				place.motion.turn * old.motion.shift + place.motion.shift};
+			m_groups.push_back({old.origin, motion, motion.inverse(), Box2()});
 			m_groupsOf[to].push_back(group->second);
 		}
 		m_area[from] -= areaOf(f);

@@ -39,13 +39,9 @@ struct Place
 class MovableParts
 {
 public:
-	/// \param tree boxTreeOf(chart.corners())
 	/// \param parts triangles
 	MovableParts(
-		const FlatMesh& chart,
-		const Sides& sides,
-		const BoxTree& tree,
-		const std::vector<std::vector<int>>& parts);
+		const FlatMesh& chart, const Sides& sides, const std::vector<std::vector<int>>& parts);
 
 	int count() const { return m_area.size(); }
 	bool isEmpty(int part) const { return m_first[part] < 0; }
@@ -104,9 +100,17 @@ public:
 	void undo();
 
 private:
+	/// A part as it was in the beginning: parts that lie over each other are not looked through together.
+	struct Origin
+	{
+		std::vector<int> triangles;
+		BoxTree tree; ///< of these
+	};
+
 	/// Triangles of one part that were moved alike.
 	struct Group
 	{
+		int origin;
 		RigidMotion motion, back; ///< since the beginning, and its inverse
 		Box2 box;                 ///< round the triangles where they are now, at least
 	};
@@ -131,17 +135,13 @@ private:
 	template<class IsFound>
 	bool coveredBy(const Triangle2& p, int part, const IsFound& isFound) const
 	{
-		Box2 box;
-		for (const Point2& corner : p)
-			box.add(corner);
+		const Box2 box = boxOf(p);
 		for (const int group : m_groupsOf[part]) {
 			if (!m_groups[group].box.meets(box))
 				continue;
-			// The tree knows where the triangles were in the beginning.
-			Box2 before;
-			for (const Point2& corner : m_groups[group].back(p))
-				before.add(corner);
-			if (m_tree.meetsAny(before, [&](int g) {
+			const Origin& origin = m_origins[m_groups[group].origin];
+			if (origin.tree.meetsAny(boxOf(m_groups[group].back(p)), [&](int i) {
+					const int g = origin.triangles[positionOf(i)];
 					return m_group[g] == group && m_isProper[g] &&
 						   overlap(p, m_plane[g], m_touching) && isFound(g);
 				}))
@@ -157,12 +157,12 @@ private:
 
 	const FlatMesh& m_chart;
 	const Sides& m_sides;
-	const BoxTree& m_tree;
-	double m_onePlace, m_touching;
+	double m_onePlace = 0.0, m_touching = 0.0;
 	Array<Triangle2> m_plane; // [triangle] where it is
 	Array<char> m_isProper;   // [triangle] counter-clockwise
 	Array<int> m_part;        // [triangle]
 	Array<int> m_group;       // [triangle]
+	Array<Origin> m_origins;
 	Array<Group> m_groups;
 	Array<std::vector<int>> m_groupsOf; // [part]
 	Array<double> m_area;               // [part]

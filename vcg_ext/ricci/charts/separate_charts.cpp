@@ -3,7 +3,6 @@
 
 #include "../base/task.h"
 #include "../math/min_area_rectangle.h"
-#include "../math/min_cut.h"
 #include "../metric/area.h"
 #include "chart_division.h"
 #include "chart_overlap.h"
@@ -21,25 +20,6 @@ namespace ricci {
 namespace {
 
 using Parts = std::vector<std::vector<int>>; // triangles of each
-
-/// Divides the chart so that no part covers itself. A fold may hide an overlap and then go to another
-/// part than the triangles that it hides: what appears in the parts is added to the pairs, and the
-/// chart is divided anew.
-Parts separateParts(const FlatMesh& chart, const Sides& sides, const OverlapSearch& overlaps)
-{
-	std::vector<TrianglePair> pairs = overlaps.pairs();
-	for (;;) {
-		Parts parts = divideChart(chart, sides, pairs);
-		Array<int> partOf(chart.size());
-		for (std::size_t p = 0; p < parts.size(); ++p)
-			for (const int i : parts[p])
-				partOf[i] = static_cast<int>(p);
-		const auto more = overlaps.uncovered(partOf);
-		if (more.empty())
-			return parts;
-		pairs.insert(pairs.end(), more.begin(), more.end());
-	}
-}
 
 /// Gives new charts points of their own, and moves each to the origin; where \p turns turns it so that
 /// its smallest bounding rectangle lies along the axes.
@@ -112,27 +92,19 @@ std::optional<Halves> halves(const FlatMesh& chart, const OrientedRectangle& r, 
 	DualGraph& graph = cut.graph;
 	// A triangle that reaches across the middle may go to either part.
 	std::vector<int> left, right;
-	Array<char> end(chart.size(), 0);
-	for (const int i : end.indices()) {
+	for (const int i : chart.points.indices()) {
 		double first = 1.0, last = 0.0; // along the rectangle
 		for (const Point2& p : chart.at(i)) {
 			const double along = (r.inFrame(p)[0] - r.min[0]) / r.width();
 			first = std::min(first, along);
 			last = std::max(last, along);
 		}
-		end[i] = last < 0.4 ? 1 : first > 0.6 ? 2 : 0;
-		if (end[i] != 0)
-			(end[i] == 1 ? left : right).push_back(i);
+		if (last < 0.4)
+			left.push_back(i);
+		else if (first > 0.6)
+			right.push_back(i);
 	}
-	const MinCut::Side side =
-		MinCut(chart.size()).run(left, right, [&](int i, const MinCut::AddEdge& add) {
-			for (const Corner own : cornersOf(i))
-				if (const Corner other = graph.joined(own); other.isValid())
-					if (end[i] == 0 || end[i] != end[other.face()])
-						add(other.face(), graph.weight(own), graph.weight(own));
-		});
-	for (const int i : side.nodes)
-		graph.part[i] = 1;
+	graph.part = leastCut(graph, left, right);
 	const auto areaOf = [&](const auto& triangles) {
 		double area = 0.0;
 		for (const int i : triangles)
@@ -210,17 +182,13 @@ void separateCharts(bool resolve, bool turns, Parametrization& map)
 		checkpoint();
 		const OverlapSearch overlaps(chart.corners());
 		checkpoint();
-		const std::vector<TrianglePair>& pairs = overlaps.pairs();
-		if (!pairs.empty() && !resolve) {
-			Array<char> isCovered(chart.size(), 0);
-			for (const TrianglePair& pair : pairs)
-				for (int i : pair)
-					isCovered[i] = 1;
+		const bool overlapsItself = !overlaps.pairs().empty();
+		if (overlapsItself && !resolve) {
 			++map.report.overlappingCharts;
-			for (char covered : isCovered)
-				map.report.overlappingFaces += covered;
+			for (const char isIn : overlaps.overlapping())
+				map.report.overlappingFaces += isIn;
 		}
-		if (pairs.empty() || !resolve) {
+		if (!overlapsItself || !resolve) {
 			add(triangles, std::move(map.charts[c]));
 			continue;
 		}
@@ -228,7 +196,7 @@ void separateCharts(bool resolve, bool turns, Parametrization& map)
 			allSides.emplace(map.mesh.vertices.values());
 			before = seams(map.mesh, *allSides);
 		}
-		Parts joined = joinParts(chart, sides, separateParts(chart, sides, overlaps));
+		Parts joined = joinParts(chart, sides, divideChart(chart, sides, overlaps));
 		const int first = map.mesh.place.size();
 		for (const Point2& p : chart.place)
 			map.mesh.place.push_back(p);

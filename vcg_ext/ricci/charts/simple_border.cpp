@@ -73,11 +73,13 @@ bool areApart(const Array<BorderSide>& border)
 		boxes.push_back(box);
 	}
 	bool apart = true;
-	BoxTree(boxes).meetingPairs([&](int i, int j) {
-		if (border[j].next == i)
-			std::swap(i, j);
-		apart = apart && areApart(border[i], border[j], border[i].next == j);
-	});
+	BoxTree(boxes).meetingPairs(
+		[&](int i, int j) {
+			if (border[j].next == i)
+				std::swap(i, j);
+			apart = apart && areApart(border[i], border[j], border[i].next == j);
+		},
+		[&](int, int) { return !apart; });
 	return apart;
 }
 

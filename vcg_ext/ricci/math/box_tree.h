@@ -93,8 +93,14 @@ public:
 	template<class IsFound>
 	bool meetsAny(const Box2& box, const IsFound& isFound) const
 	{
-		return search(
-			[&](const Box2& own) { return own.meets(box); }, isFound, [](int) { return false; });
+		return meetsAny(box, isFound, [](int) { return false; });
+	}
+
+	/// The same without the boxes in nodes for which areApart(node).
+	template<class IsFound, class AreApart>
+	bool meetsAny(const Box2& box, const IsFound& isFound, const AreApart& areApart) const
+	{
+		return search([&](const Box2& own) { return own.meets(box); }, isFound, areApart);
 	}
 
 	/// Longer side of the box round all boxes; 0 where there are none.

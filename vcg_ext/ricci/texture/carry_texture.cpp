@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ricci {
 
@@ -190,8 +191,21 @@ struct OldPicture
 {
 	int number;
 	const PictureView<const Sample>& view;
-	PictureSampler<Sample> sampler;
 	OldOwners owners;
+	PictureSampler<Sample> sampler;
+
+	/// \param lastLevel of the blocks that the picture is read in
+	OldPicture(
+		int picture,
+		const PictureView<const Sample>& samples,
+		bool hasAlpha,
+		OldOwners&& ofTexels,
+		int lastLevel) :
+			number(picture),
+			view(samples), owners(std::move(ofTexels)), sampler(samples, hasAlpha, lastLevel)
+	{
+		owners.addLevels(lastLevel);
+	}
 };
 
 /// Draws the texels of all triangles in one old picture after the other.
@@ -221,6 +235,26 @@ public:
 					pictures.push_back(picture);
 			});
 		});
+	}
+
+	/// [picture] the level of the largest blocks in which texels of the result read it
+	std::vector<int> lastLevels(const std::vector<PictureView<const Sample>>& pictures) const
+	{
+		std::vector<int> levels(pictures.size(), 0);
+		for (std::size_t i = 0; i < m_mesh.triangles.size(); ++i) {
+			checkpointNowAndThen(i);
+			const CarriedTriangle& triangle = m_mesh.triangles[i];
+			const int picture = m_mesh.faces[positionOf(triangle.face)].picture;
+			if (picture < 0)
+				continue;
+			const auto& [width, height, samples] = pictures[positionOf(picture)];
+			int& level = levels[positionOf(picture)];
+			level = std::max(level, mapOf(triangle, width, height).footprint().level());
+		}
+		for (std::size_t i = 0; i < levels.size(); ++i)
+			levels[i] =
+				std::min(levels[i], Blocks{pictures[i].width, pictures[i].height}.lastLevel());
+		return levels;
 	}
 
 	/// \param old nullptr: the faces without a picture
@@ -292,15 +326,21 @@ private:
 			}
 	}
 
+	/// \param width, height of its picture
+	TriangleMap mapOf(const CarriedTriangle& triangle, int width, int height) const
+	{
+		return TriangleMap(
+			inTexels(triangle.uv, m_result.width, m_result.height),
+			triangle,
+			oldTexels(m_mesh.faces[positionOf(triangle.face)], width, height));
+	}
+
 	void
 	drawRun(const Run& run, const CarriedTriangle& triangle, const OldPicture<Sample>* old) const
 	{
 		const TexturedFace& face = m_mesh.faces[positionOf(triangle.face)];
-		const Triangle2 corners = inTexels(triangle.uv, m_result.width, m_result.height);
-		const TriangleMap map(
-			corners,
-			triangle,
-			old ? oldTexels(face, old->view.width, old->view.height) : Triangle2{});
+		const TriangleMap map =
+			mapOf(triangle, old ? old->view.width : 0, old ? old->view.height : 0);
 		if (old == nullptr) {
 			for (int x = run.first; x < run.last; ++x)
 				writeColour(
@@ -370,15 +410,17 @@ void carryTexture(
 	{
 		const Sources sources(mesh, result.width);
 		const TextureDrawing<Sample> drawing(mesh, sources, charts, hasAlpha, result, threads);
+		const std::vector<int> lastLevels = drawing.lastLevels(pictures);
 		for (std::size_t i = 0; i < pictures.size(); ++i) {
 			if (faces[i].empty())
 				continue;
 			const PictureView<const Sample>& view = pictures[i];
-			const OldPicture<Sample> old{
+			const OldPicture<Sample> old(
 				static_cast<int>(i),
 				view,
-				{view, hasAlpha},
-				{mesh.faces, charts, faces[i], view.width, view.height}};
+				hasAlpha,
+				{mesh.faces, charts, faces[i], view.width, view.height},
+				lastLevels[i]);
 			drawing.draw(&old);
 		}
 		if (!faces.back().empty())

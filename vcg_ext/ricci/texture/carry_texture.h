@@ -42,8 +42,12 @@ struct CarriedMesh
 /// half of such a block from its middle, and a whole one to the next.
 constexpr int kGutterTexels = 12;
 
+/// For its owner, and a third of that and of four words for the blocks.
+constexpr double kBytesOfOldTexel = 4.0 + (4.0 + 8.0) / 3.0;
+
 /// Draws the picture that the new coordinates have to show. Every texel whose middle lies in a triangle
-/// takes the mean of the old picture, bilinear between its texels, over the parallelogram that the
+/// takes the mean of the old picture, bilinear between its texels, or between blocks of them where they are
+/// many (footprints in picture_sampler.h), over the parallelogram that the
 /// affine map from new to old coordinates makes of the texel; colours weigh by their alpha. Old texels
 /// count only where their middle lies in the same chart of the old map (or where charts overlap), so
 /// that nothing is taken from charts beside it or from between charts. Texels up to 1.5 outside of a
@@ -53,8 +57,8 @@ constexpr int kGutterTexels = 12;
 /// Samples are integers of 8 or 16 bits, mixed as they are stored. With equal coordinates and sizes the
 /// result is the same bit for bit in every covered texel.
 ///
-/// Memory: 4 bytes for each texel of the result, and 4 for each of the largest picture or 1 more for
-/// each of the result, whichever is more.
+/// Memory: 4 bytes for each texel of the result, and kBytesOfOldTexel for each of the largest picture or 1
+/// more for each of the result, whichever is more.
 /// \param hasAlpha false: alpha is not read, and written as opaque
 /// \param result size x size texels
 /// \param threads that share the work; the result does not depend on it

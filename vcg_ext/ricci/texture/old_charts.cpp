@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ricci {
 
@@ -80,10 +81,12 @@ OldOwners::OldOwners(
 	const std::vector<int>& shown,
 	int width,
 	int height) :
-		m_extents(faces.size())
+		m_blocks{width, height},
+		m_owners(1), m_extents(faces.size())
 {
 	const PictureView<const char> view{width, height, nullptr};
-	m_owners.assign(view.texels(), kNone);
+	std::vector<int>& owners = m_owners.front();
+	owners.assign(view.texels(), kNone);
 	const auto wrapped = [](int x, int length) { return ((x % length) + length) % length; };
 	const int far = 3 * std::max(width, height);
 	for (const bool border : {false, true}) {
@@ -101,13 +104,13 @@ OldOwners::OldOwners(
 			if (box.max[0] > width + kBorder || box.min[1] < -kBorder)
 				extent.repeats = true;
 			if (box.width() > width + kBorder || box.height() > height + kBorder ||
-				visited > kMaxLayers * m_owners.size())
+				visited > kMaxLayers * owners.size())
 				extent.isWhole = true;
 			if (extent.isWhole)
 				continue;
 			forEachTexelOf(t, border ? kBorder : -kBorder, -far, far, [&](int x, int y) {
 				checkpointNowAndThen(visited++);
-				int& owner = m_owners[view.index(wrapped(x, width), wrapped(y, height))];
+				int& owner = owners[view.index(wrapped(x, width), wrapped(y, height))];
 				if (owner == kNone)
 					owner = border ? key + 1 : key;
 				else if (!border)
@@ -118,6 +121,26 @@ OldOwners::OldOwners(
 					owner = kOutlineOfTwo;
 			});
 		}
+	}
+}
+
+void OldOwners::addLevels(int last)
+{
+	for (int level = 1; level <= last; ++level) {
+		const std::vector<int>& finer = m_owners.back();
+		std::vector<int> owners;
+		m_blocks.forLevel(level, [&](const Block& block) {
+			checkpointNowAndThen(owners.size());
+			int owner = kNone;
+			bool isFirst = true;
+			m_blocks.forParts(block, [&](const Block& part) {
+				const int own = finer[m_blocks.index(part)];
+				owner = isFirst || own == owner ? own : kMixed;
+				isFirst = false;
+			});
+			owners.push_back(owner);
+		});
+		m_owners.push_back(std::move(owners));
 	}
 }
 

@@ -3,6 +3,7 @@
 #define RICCI_OLD_CHARTS_H
 
 #include "../base/indexed.h"
+#include "blocks.h"
 #include "carry_texture.h"
 
 #include <cstddef>
@@ -34,6 +35,12 @@ public:
 	/// times that of the picture.
 	static constexpr std::size_t kMaxLayers = 16;
 
+	/// Looks at the blocks of levels up to \p last, too.
+	void addLevels(int last);
+
+	/// How much of a block has colours of a chart.
+	enum class Share { None, Part, All };
+
 	/// The texels that have colours of one chart.
 	class Chart
 	{
@@ -42,10 +49,13 @@ public:
 		/// (but where two triangles of a chart meet in a corner of it they can be its own); those where
 		/// charts overlap belong to all. A chart with a triangle larger than the picture has all of it,
 		/// as those have that come after charts with kMaxLayers times its texels.
-		bool has(std::size_t texel) const
+		bool has(std::size_t texel) const { return isOwn(m_texels[texel]); }
+
+		/// \param index of a block of a level that has been added, or of a texel
+		Share of(int level, std::size_t index) const
 		{
-			const int owner = m_owners[texel];
-			return owner == m_key || owner == kOverlap || m_isWhole;
+			const int owner = (*m_owners)[positionOf(level)][index];
+			return isOwn(owner) ? Share::All : owner == kMixed ? Share::Part : Share::None;
 		}
 
 		/// Whether the chart goes on across the border of the picture, at the opposite side of it.
@@ -53,7 +63,11 @@ public:
 
 	private:
 		friend class OldOwners;
-		const int* m_owners = nullptr;
+
+		bool isOwn(int owner) const { return owner == m_key || owner == kOverlap || m_isWhole; }
+
+		const std::vector<std::vector<int>>* m_owners = nullptr;
+		const int* m_texels = nullptr;
 		int m_key = 0;
 		bool m_repeats = false, m_isWhole = false;
 	};
@@ -61,7 +75,8 @@ public:
 	Chart of(int chart) const
 	{
 		Chart texels;
-		texels.m_owners = m_owners.data();
+		texels.m_owners = &m_owners;
+		texels.m_texels = m_owners.front().data();
 		texels.m_key = keyOf(chart);
 		texels.m_repeats = m_extents[positionOf(chart)].repeats;
 		texels.m_isWhole = m_extents[positionOf(chart)].isWhole;
@@ -73,15 +88,16 @@ private:
 	/// triangle, which become inside when they are on the side of another one of the chart.
 	static int keyOf(int chart) { return 2 * chart + 4; }
 
-	static constexpr int kNone = 0, kOutlineOfTwo = 1, kOverlap = 2;
+	static constexpr int kMixed = -1, kNone = 0, kOutlineOfTwo = 1, kOverlap = 2;
 
 	struct Extent
 	{
 		bool repeats = false, isWhole = false;
 	};
 
-	std::vector<int> m_owners;     // [texel]
-	std::vector<Extent> m_extents; // [chart]
+	Blocks m_blocks;
+	std::vector<std::vector<int>> m_owners; // [level][block]
+	std::vector<Extent> m_extents;          // [chart]
 };
 
 } // namespace ricci

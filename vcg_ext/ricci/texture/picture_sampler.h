@@ -2,6 +2,8 @@
 #ifndef RICCI_PICTURE_SAMPLER_H
 #define RICCI_PICTURE_SAMPLER_H
 
+#include "../base/task.h"
+#include "blocks.h"
 #include "old_charts.h"
 #include "picture.h"
 
@@ -9,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace ricci {
 
@@ -19,31 +23,39 @@ class MeanColour
 public:
 	explicit MeanColour(bool hasAlpha) : m_hasAlpha(hasAlpha) {}
 
-	void add(const Sample* rgba, double weight)
+	/// Samples may have other integers for the same range.
+	template<class Stored>
+	void add(const Stored* rgba, double weight)
 	{
 		m_weight += weight;
 		for (std::size_t c = 0; c < 4; ++c)
-			m_plain[c] += weight * rgba[c];
+			m_plain[c] += weight * kUnit<Stored> * rgba[c];
 		if (!m_hasAlpha)
 			return;
-		const double share = weight * rgba[3];
+		const double share = weight * kUnit<Stored> * rgba[3];
 		for (std::size_t c = 0; c < 3; ++c)
-			m_visible[c] += share * rgba[c];
+			m_visible[c] += share * kUnit<Stored> * rgba[c];
 	}
 
 	double weight() const { return m_weight; }
 
-	void write(Sample* rgba) const
+	template<class Stored>
+	void write(Stored* rgba) const
 	{
+		const auto rounded = [](double x) {
+			return static_cast<Stored>(std::lround(x / kUnit<Stored>));
+		};
 		const double alpha = m_plain[3];
 		for (std::size_t c = 0; c < 3; ++c)
 			rgba[c] =
 				rounded(m_hasAlpha && alpha > 0.0 ? m_visible[c] / alpha : m_plain[c] / m_weight);
-		rgba[3] = m_hasAlpha ? rounded(alpha / m_weight) : std::numeric_limits<Sample>::max();
+		rgba[3] = m_hasAlpha ? rounded(alpha / m_weight) : std::numeric_limits<Stored>::max();
 	}
 
 private:
-	static Sample rounded(double x) { return static_cast<Sample>(std::lround(x)); }
+	template<class Stored>
+	static constexpr double kUnit = static_cast<double>(std::numeric_limits<Sample>::max()) /
+									std::numeric_limits<Stored>::max();
 
 	bool m_hasAlpha;
 	double m_weight = 0.0;
@@ -52,15 +64,26 @@ private:
 };
 
 /// A parallelogram about a point of an old picture, in texels, and the points in it that are read: at most
-/// one texel apart, and each read bilinearly, so that none is missed; but no more than 64 in a row.
+/// one block apart, and each read bilinearly between blocks, so that no texel is missed. Blocks are single
+/// texels where that takes at most kMaxTexels, else the smallest of which at most kMaxBlocks do.
 class Footprint
 {
 public:
-	Footprint(const Point2& across, const Point2& down) :
-			m_across(across), m_down(down), m_columns(samplesAlong(across)),
-			m_rows(samplesAlong(down))
+	static constexpr double kMaxTexels = 64.0, kMaxBlocks = 16.0;
+
+	Footprint(const Point2& across, const Point2& down) : m_across(across), m_down(down)
 	{
+		// There are no pictures of more texels in a row than ints.
+		for (double most = kMaxTexels; samples(across) * samples(down) > most && m_level < 30;) {
+			++m_level;
+			most = kMaxBlocks;
+		}
+		m_columns = static_cast<int>(std::min(samples(across), kMaxTexels));
+		m_rows = static_cast<int>(std::min(samples(down), kMaxTexels));
 	}
+
+	/// Of the blocks.
+	int level() const { return m_level; }
 
 	/// visit(point) for those about \p p.
 	template<class Visit>
@@ -76,15 +99,15 @@ public:
 	}
 
 private:
-	static int samplesAlong(const Point2& side)
+	double samples(const Point2& side) const
 	{
 		constexpr double kSlack = 0.05; // a little larger is not smaller
-		constexpr double kMaxSamples = 64.0;
-		const double length = std::hypot(side[0], side[1]);
-		return static_cast<int>(std::clamp(std::ceil(length - kSlack), 1.0, kMaxSamples));
+		const double length = std::ldexp(std::hypot(side[0], side[1]), -m_level);
+		return std::max(std::ceil(length - kSlack), 1.0);
 	}
 
 	Point2 m_across, m_down; // its sides
+	int m_level = 0;
 	int m_columns, m_rows;
 };
 
@@ -95,9 +118,12 @@ class PictureSampler
 public:
 	using Chart = OldOwners::Chart;
 
-	PictureSampler(const PictureView<const Sample>& picture, bool hasAlpha) :
-			m_picture(picture), m_hasAlpha(hasAlpha)
+	/// \param lastLevel of the blocks that footprints are to be read in; larger ones are read in these
+	PictureSampler(const PictureView<const Sample>& picture, bool hasAlpha, int lastLevel) :
+			m_picture(picture), m_blocks{picture.width, picture.height}, m_hasAlpha(hasAlpha)
 	{
+		for (int level = 1; level <= lastLevel; ++level)
+			addLevel(level);
 	}
 
 	/// The mean over the footprint at \p p of what belongs to the chart.
@@ -105,7 +131,11 @@ public:
 	bool mean(const Point2& p, const Footprint& footprint, const Chart& chart, Sample* rgba) const
 	{
 		MeanColour<Sample> sum(m_hasAlpha);
-		footprint.forEachSample(p, [&](const Point2& q) { addBilinear(q, chart, sum); });
+		const int level = std::min(footprint.level(), static_cast<int>(m_means.size()));
+		if (level == 0)
+			footprint.forEachSample(p, [&](const Point2& q) { addBilinear(q, chart, sum); });
+		else
+			footprint.forEachSample(p, [&](const Point2& q) { addBlocks(q, level, chart, sum); });
 		if (!(sum.weight() > 0.0))
 			return false;
 		sum.write(rgba);
@@ -162,6 +192,85 @@ private:
 		return (in || chart.repeats()) && chart.has(index(x, y));
 	}
 
+	void addLevel(int level)
+	{
+		std::vector<Word> means;
+		m_blocks.forLevel(level, [&](const Block& block) {
+			checkpointNowAndThen(means.size());
+			MeanColour<Sample> sum(m_hasAlpha);
+			m_blocks.forParts(
+				block, [&](const Block& part) { addMean(part, m_blocks.texels(part), sum); });
+			std::array<Word, 4> rgba;
+			sum.write(rgba.data());
+			means.insert(means.end(), rgba.begin(), rgba.end());
+		});
+		m_means.push_back(std::move(means));
+	}
+
+	void addMean(const Block& block, double weight, MeanColour<Sample>& sum) const
+	{
+		const std::size_t first = 4 * m_blocks.index(block);
+		if (block.level == 0)
+			sum.add(m_picture.rgba + first, weight);
+		else
+			sum.add(m_means[positionOf(block.level - 1)].data() + first, weight);
+	}
+
+	/// Adds what belongs to the chart of the blocks round \p p.
+	void addBlocks(Point2 p, int level, const Chart& chart, MeanColour<Sample>& sum) const
+	{
+		if (chart.repeats())
+			p = inside(p);
+		const double side = 1 << level, x = p[0] / side - 0.5, y = p[1] / side - 0.5;
+		const int across = m_blocks.across(level), down = m_blocks.down(level);
+		if (!(x > -1.0 && x < across && y > -1.0 && y < down))
+			return;
+		const Block first{level, static_cast<int>(x + 1.0) - 1, static_cast<int>(y + 1.0) - 1};
+		const std::array<double, 2> right{1.0 - (x - first.x), x - first.x},
+			below{1.0 - (y - first.y), y - first.y};
+		for (int j = 0; j < 2; ++j)
+			for (int i = 0; i < 2; ++i) {
+				Block block{level, first.x + i, first.y + j};
+				if (chart.repeats()) {
+					block.x += block.x < 0 ? across : block.x < across ? 0 : -across;
+					block.y += block.y < 0 ? down : block.y < down ? 0 : -down;
+				}
+				if (block.x >= 0 && block.x < across && block.y >= 0 && block.y < down)
+					addBlock(
+						block,
+						level - kDepth,
+						right[positionOf(i)] * below[positionOf(j)] / (side * side),
+						chart,
+						sum);
+			}
+	}
+
+	/// \param weight of a texel
+	/// \param leastLevel of blocks that are divided if the chart has a part of them; of smaller ones the
+	/// texel in the middle decides
+	void addBlock(
+		const Block& block,
+		int leastLevel,
+		double weight,
+		const Chart& chart,
+		MeanColour<Sample>& sum) const
+	{
+		switch (chart.of(block.level, m_blocks.index(block))) {
+		case OldOwners::Share::None:
+			return;
+		case OldOwners::Share::All:
+			addMean(block, weight * m_blocks.texels(block), sum);
+			return;
+		case OldOwners::Share::Part:
+			break;
+		}
+		if (block.level > leastLevel)
+			m_blocks.forParts(
+				block, [&](const Block& part) { addBlock(part, leastLevel, weight, chart, sum); });
+		else if (const Block middle = m_blocks.middle(block); chart.has(m_blocks.index(middle)))
+			addMean(middle, weight * m_blocks.texels(block), sum);
+	}
+
 	void addBilinear(Point2 p, const Chart& chart, MeanColour<Sample>& sum) const
 	{
 		constexpr double kNoWeight = 1e-6; // rounding of the coordinates
@@ -193,8 +302,15 @@ private:
 			}
 	}
 
+	using Word = unsigned short; // of means: the mean of many bytes needs more than a byte
+
+	/// Levels that a block is divided by where only a part of it belongs to the chart.
+	static constexpr int kDepth = 3;
+
 	const PictureView<const Sample>& m_picture;
+	Blocks m_blocks;
 	bool m_hasAlpha;
+	std::vector<std::vector<Word>> m_means; // [level - 1] of the blocks; colours by their alpha
 };
 
 } // namespace ricci
