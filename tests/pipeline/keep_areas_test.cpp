@@ -336,7 +336,7 @@ TEST(KeepAreas, SaysWhatAreasHaveBecome)
 			change.spread,
 			0.005 * change.spread);
 		EXPECT_NEAR(
-			numberAfter(line, " now, the mean of the factor or its inverse "),
+			numberAfter(line, ", the mean of the factor or its inverse "),
 			change.mean,
 			0.005 * change.mean);
 	}

@@ -4,6 +4,7 @@
 #include "complex.h"
 #include "shapes.h"
 
+#include <ricci/charts/chart_overlap.h>
 #include <ricci/charts/input_indices.h>
 #include <ricci/error.h>
 #include <ricci/measure/distortion.h>
@@ -96,6 +97,15 @@ double qcOf(const SurfaceMesh& mesh, const FlatResult& map, std::size_t face)
 	return quasiConformalDistortion(
 		{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]},
 		map.uv[face]);
+}
+
+std::size_t overlapsIn(const FlatMesh& mesh)
+{
+	std::size_t pairs = 0;
+	const int last = *std::max_element(mesh.chart.begin(), mesh.chart.end());
+	for (const std::vector<int>& triangles : mesh.trianglesByChart(positionOf(last + 1)))
+		pairs += overlappingPairs(mesh.part(triangles)).size();
+	return pairs;
 }
 
 FlatResult run(const SurfaceMesh& mesh, const Options& options, const VertexInput& input)

@@ -38,6 +38,9 @@ struct FlatResult : Parametrization
 /// quasiConformalDistortion() of a face of \p mesh.
 double qcOf(const SurfaceMesh& mesh, const FlatResult& map, std::size_t face);
 
+/// Pairs of triangles of one chart that cover a part of the plane together.
+std::size_t overlapsIn(const FlatMesh& mesh);
+
 /// Charts in the plane, each from the origin.
 FlatResult run(const SurfaceMesh& mesh, const Options& options, const VertexInput& input = {});
 

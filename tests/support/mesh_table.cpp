@@ -305,7 +305,7 @@ void printResult(const Outcome& out, bool packed)
 		r.overlappingCharts,
 		r.overlappingFaces,
 		r.overlapCuts,
-		r.occupancy, // 0 where the charts are not packed
+		r.occupancy, // 0 where the charts are not packed, as overlaps are
 		number(r.torusTauRe).c_str(),
 		number(r.torusTauIm).c_str(),
 		number(r.annulusModulus).c_str(),

@@ -163,58 +163,5 @@ TEST(ResultCheck, PointsOnTheBorderOfTheDiskAreRounding)
 	expectFailure([&] { require(s.chart(), 0.0, true); }, {"1 points lie outside the disk"});
 }
 
-/// The strip of a ring, turning by \p angle: it overlaps itself where that is more than 2 pi, unless the
-/// first and the second half are charts of their own.
-Parametrization strip(double angle, int charts, double scale = 1.0)
-{
-	SurfaceMesh mesh = grid(40, 2, Ends::Open, Ends::Open, [&](int i, int j) {
-		const double a = angle * i / 40, r = 2.0 - 0.5 * j + 0.5 * a / (2 * kPi);
-		return Point3{scale * r * std::cos(a), scale * r * std::sin(a), 0.0};
-	});
-	FlatMesh flat = flatMesh(mesh);
-	for (const int f : flat.chart.indices())
-		flat.chart[f] = f * charts / flat.size();
-	splitPoints(flat);
-	return mapWith(flat);
-}
-
-TEST(ResultCheck, AChartDoesNotOverlapItself)
-{
-	EXPECT_NO_THROW(requireSeparateCharts(strip(1.5 * kPi, 1)));
-	Parametrization overlapping = strip(2.3 * kPi, 1);
-	expectFailure(
-		[&] { requireSeparateCharts(overlapping); }, {"2 crossings", "should not overlap"});
-	EXPECT_NO_THROW(requireSeparateCharts(strip(2.3 * kPi, 2)));
-	// A chart with a flipped triangle may.
-	std::swap(overlapping.mesh.points[5][1], overlapping.mesh.points[5][2]);
-	EXPECT_NO_THROW(requireSeparateCharts(overlapping));
-}
-
-/// Parts of one layout may differ in scale by more than rounding lets them resolve.
-TEST(ResultCheck, AChartSmallerThanATexelMayOverlapItself)
-{
-	for (const double scale : {1e-2, 1e-8}) {
-		Parametrization both = strip(1.5 * kPi, 1);
-		const FlatMesh tiny = strip(2.3 * kPi, 1, scale).mesh;
-		const int vertices = both.mesh.source.size(), points = both.mesh.place.size();
-		for (const Point2& p : tiny.place)
-			both.mesh.place.push_back(p);
-		for (const int f : tiny.points.indices()) {
-			const Triangle &v = tiny.vertices[f], &p = tiny.points[f];
-			both.mesh.vertices.push_back({v[0] + vertices, v[1] + vertices, v[2] + vertices});
-			both.mesh.points.push_back({p[0] + points, p[1] + points, p[2] + points});
-			both.mesh.lengths.push_back(tiny.lengths[f]);
-			both.mesh.chart.push_back(1);
-			both.mesh.face.push_back(both.mesh.face.size());
-		}
-		both.charts.emplace_back();
-		if (scale > 1e-6)
-			expectFailure(
-				[&] { requireSeparateCharts(both); }, {"2 crossings", "should not overlap"});
-		else
-			EXPECT_NO_THROW(requireSeparateCharts(both));
-	}
-}
-
 } // namespace
 } // namespace ricci::testing

@@ -57,8 +57,8 @@ struct Report
 						 ///< moved again in the coordinates stored counts twice
 	/// Searches for something better that the bound on their work has ended; the log says which.
 	int endedEarly = 0;
-	int edgeSwaps = 0;   ///< paper 5.4
-	int flips = 0;       ///< intrinsic flips, those to the start's triangulation included
+	int edgeSwaps = 0; ///< paper 5.4
+	int flips = 0;     ///< intrinsic flips, those to the start's triangulation included
 	int refinementPoints =
 		0;                  ///< points of the common refinement that are not vertices of the input;
 							///< 0 where the result keeps the mesh
@@ -91,8 +91,9 @@ struct Report
 
 	int cappedHoles = 0; ///< boundary loops closed for the flow
 
-	int overlappingCharts = 0; ///< charts that cover a part of the plane more than once
-	int overlappingFaces = 0;  ///< faces (of the output) that meet another of their chart
+	/// Faces of the output that cover a part of the plane together with another one, in coordinates rounded
+	/// to float, and charts that these are in: see countOverlaps().
+	int overlappingFaces = 0, overlappingCharts = 0;
 	/// Edges of the output cut so that no chart covers itself, across strips, or round triangles that floats
 	/// cannot hold in their chart, less those along which charts were joined.
 	int overlapCuts = 0;

@@ -3,6 +3,7 @@
 #define RICCI_FLOATING_POINT_H
 
 #include <cfenv>
+#include <cmath>
 
 namespace ricci {
 
@@ -31,6 +32,13 @@ inline double roundedToFloat(double x)
 {
 	const volatile float rounded = static_cast<float>(x);
 	return static_cast<double>(rounded);
+}
+
+/// The step of floats just below \p x > 0.
+inline double floatStep(double x)
+{
+	const auto above = static_cast<float>(x);
+	return static_cast<double>(above) - static_cast<double>(std::nextafter(above, 0.0F));
 }
 
 } // namespace ricci

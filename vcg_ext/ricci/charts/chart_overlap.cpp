@@ -109,9 +109,13 @@ bool overlap(const Triangle2& a, const Triangle2& b, double touching)
 	return !separates(a, b, touching) && !separates(b, a, touching);
 }
 
-OverlapSearch::OverlapSearch(Array<Triangle2> triangles) :
+OverlapSearch::OverlapSearch(Array<Triangle2> triangles) : OverlapSearch(std::move(triangles), -1.0)
+{
+}
+
+OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching) :
 		m_plane(std::move(triangles)), m_isProper(m_plane.size()), m_tree(boxTreeOf(m_plane)),
-		m_touching(kTouching * m_tree.extent())
+		m_touching(touching >= 0.0 ? touching : kTouching * m_tree.extent())
 {
 	for (const int i : m_plane.indices())
 		m_isProper[i] = orientation(m_plane[i][0], m_plane[i][1], m_plane[i][2]) > 0;

@@ -47,6 +47,9 @@ public:
 	/// \param triangles of the chart in the plane; counter-clockwise where they are right
 	explicit OverlapSearch(Array<Triangle2> triangles);
 
+	/// \param touching depth to which triangles only touch, in place of kTouching of their extent
+	OverlapSearch(Array<Triangle2> triangles, double touching);
+
 	/// In increasing order.
 	const std::vector<TrianglePair>& pairs() const { return m_pairs; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "finish_in_floats.h"
 
+#include "../base/floating_point.h"
 #include "../base/tolerances.h"
 #include "../finish/repair.h"
 #include "../math/box_tree.h"
@@ -17,13 +18,6 @@
 namespace ricci {
 
 namespace {
-
-/// The step of floats just below \p x > 0.
-double floatStep(double x)
-{
-	const auto above = static_cast<float>(x);
-	return static_cast<double>(above) - static_cast<double>(std::nextafter(above, 0.0F));
-}
 
 /// Widens a box to floats: points that are rounded may lie on its border.
 void widenToFloats(Box2& box)

@@ -159,7 +159,7 @@ void countCuts(const Seams& before, const Sides& sides, Parametrization& map)
 	map.report.seamLength += after.length - before.length;
 }
 
-void separateCharts(bool resolve, bool turns, Parametrization& map)
+void separateCharts(bool turns, Parametrization& map)
 {
 	std::vector<Chart> charts;
 	std::vector<int> divided;      // numbers of the parts
@@ -182,13 +182,7 @@ void separateCharts(bool resolve, bool turns, Parametrization& map)
 		checkpoint();
 		const OverlapSearch overlaps(chart.corners());
 		checkpoint();
-		const bool overlapsItself = !overlaps.pairs().empty();
-		if (overlapsItself && !resolve) {
-			++map.report.overlappingCharts;
-			for (const char isIn : overlaps.overlapping())
-				map.report.overlappingFaces += isIn;
-		}
-		if (!overlapsItself || !resolve) {
+		if (overlaps.pairs().empty()) {
 			add(triangles, std::move(map.charts[c]));
 			continue;
 		}

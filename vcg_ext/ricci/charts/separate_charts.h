@@ -14,15 +14,12 @@ namespace ricci {
 /// \param sides of the triangles of \p map
 void countCuts(const Seams& before, const Sides& sides, Parametrization& map);
 
-/// Finds the charts of \p map that cover a part of the plane more than once (see
-/// overlappingPairs()).
-///
-/// With \p resolve such charts are replaced by the parts of divideChart(), joined again by joinParts()
-/// across seams where they have room, each from the origin and, where \p turns, with its smallest
-/// bounding rectangle along the axes; else in the directions that it has. The report then has no
-/// overlap, but what the seams have grown or shrunk by, in edges and in length. Without \p resolve the
-/// report counts the charts, and their triangles that overlap. In both cases it counts the charts.
-void separateCharts(bool resolve, bool turns, Parametrization& map);
+/// Replaces the charts of \p map that cover a part of the plane more than once (see OverlapSearch) by the
+/// parts of divideChart(), joined again by joinParts() across seams where they have room, each from the
+/// origin and, where \p turns, with its smallest bounding rectangle along the axes; else in the directions
+/// that it has. The report counts the charts, and what the seams have grown or shrunk by, in edges and in
+/// length.
+void separateCharts(bool turns, Parametrization& map);
 
 /// Joins charts across seams where they have room (joinParts()): those whose sides are as long in the
 /// plane on both sides of the seam. Each is left as separateCharts() leaves a divided one. The report

@@ -10,7 +10,7 @@
 #include "../curvature/cone_request.h"
 #include "../measure/distortion.h"
 #include "../measure/hyperbolic_distortion.h"
-#include "../verify/result_check.h"
+#include "../verify/overlap_check.h"
 #include "flatten.h"
 #include "unfold.h"
 #include "whole_map.h"
@@ -161,6 +161,7 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	if (isFinished(options))
 		finishInFloats(finish, map);
 	countFlipped(map.mesh, map.report);
+	countOverlaps(map);
 }
 
 /// Gives the result the input's indices.
@@ -220,9 +221,6 @@ Parametrization chartsInPlane(
 		},
 		opened);
 	measure(opened, map);
-	advance(kMeasured, "Looking for charts that overlap");
-	if (mayCutCharts(options))
-		requireSeparateCharts(map);
 	advance(1.0, "Layout done");
 	return map;
 }

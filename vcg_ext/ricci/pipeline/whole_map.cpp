@@ -167,11 +167,11 @@ Parametrization asParametrization(const Component& component, ComponentMap map)
 
 void separateCharts(const Options& options, Parametrization& map)
 {
-	const bool separates = mayCutCharts(options);
-	if (isFinished(options) && separates && options.output == OutputTriangulation::KeepMesh)
+	if (!mayCutCharts(options))
+		return;
+	if (isFinished(options) && options.output == OutputTriangulation::KeepMesh)
 		reflectFlipped(map);
-	const bool turns = options.cones.rounding != ConeRounding::QuarterTurns;
-	separateCharts(separates, turns, map);
+	separateCharts(options.cones.rounding != ConeRounding::QuarterTurns, map);
 }
 
 void append(const Component& component, const Parametrization& part, Parametrization& whole)

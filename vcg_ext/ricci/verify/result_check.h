@@ -4,7 +4,6 @@
 #ifndef RICCI_RESULT_CHECK_H
 #define RICCI_RESULT_CHECK_H
 
-#include "../charts/parametrization.h"
 #include "../flow/ricci_flow.h"
 #include "../layout/flat_mesh.h"
 
@@ -22,11 +21,6 @@ void requireMap(const FlatMesh& chart, const FlowResult& flow, bool bent, bool s
 /// The same for a chart in the Poincaré disk (disk_check.h), whose points must lie inside it.
 /// \throw NotConverged
 void requireDisk(const FlatMesh& chart, const FlowResult& flow, bool bent);
-
-/// Checks that no chart overlaps itself (chart_check.h) by more than kCheckedGap of the largest, those
-/// with flipped triangles excepted.
-/// \throw NotConverged
-void requireSeparateCharts(const Parametrization& map);
 
 } // namespace ricci
 

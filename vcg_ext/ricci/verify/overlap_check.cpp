@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "overlap_check.h"
+
+#include "../base/floating_point.h"
+#include "../base/task.h"
+#include "../charts/chart_overlap.h"
+#include "../charts/outline.h"
+#include "../charts/simple_border.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace ricci {
+
+namespace {
+
+/// Whether this can be seen from borders alone.
+bool coversNothingTwice(const FlatMesh& mesh, std::size_t charts, double room)
+{
+	const Sides sides(mesh.vertices.values());
+	std::vector<Outline> outlines;
+	for (const std::vector<int>& triangles : mesh.trianglesByChart(charts)) {
+		checkpoint();
+		const FlatMesh chart = mesh.part(triangles);
+		if (!hasSimpleBorder(chart, Sides(chart.vertices.values())))
+			return false;
+		if (charts > 1)
+			outlines.push_back(outlineOf(mesh, sides, triangles));
+	}
+	return charts == 1 || keepApart(outlines, room);
+}
+
+} // namespace
+
+void countOverlaps(Parametrization& map)
+{
+	FlatMesh stored = map.mesh;
+	double largest = 0.0;
+	for (Point2& p : stored.place)
+		for (double& x : p) {
+			x = roundedToFloat(x);
+			largest = std::max(largest, std::abs(x));
+		}
+	const double step = floatStep(largest);
+	map.report.overlappingFaces = map.report.overlappingCharts = 0;
+	if (coversNothingTwice(stored, map.charts.size(), step))
+		return;
+	const OverlapSearch search(stored.corners(), kTouchingSteps * step);
+	const Array<char> overlaps = search.overlapping();
+	std::vector<char> isChart(map.charts.size(), 0);
+	for (const int f : overlaps.indices())
+		if (overlaps[f]) {
+			++map.report.overlappingFaces;
+			isChart[positionOf(stored.chart[f])] = 1;
+		}
+	map.report.overlappingCharts = static_cast<int>(std::count(isChart.begin(), isChart.end(), 1));
+}
+
+} // namespace ricci
