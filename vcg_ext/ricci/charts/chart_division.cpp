@@ -186,7 +186,7 @@ std::vector<int> breadthFirst(int first, const DualGraph& graph)
 }
 
 /// The connected pieces of a chart, of a connected one those on both sides of the least cut across the
-/// middle fifth of what lies between its ends.
+/// middle tenth of what lies between its ends.
 Parts halves(const FlatMesh& chart, const Sides& sides)
 {
 	DualGraph graph(chart, sides);
@@ -194,7 +194,7 @@ Parts halves(const FlatMesh& chart, const Sides& sides)
 	if (pieces.size() > 1)
 		return pieces;
 	const std::vector<int> order = breadthFirst(breadthFirst(0, graph).back(), graph);
-	const auto end = static_cast<std::ptrdiff_t>(0.4 * static_cast<double>(order.size()));
+	const auto end = static_cast<std::ptrdiff_t>(0.45 * static_cast<double>(order.size()));
 	graph.part =
 		leastCut(graph, {order.begin(), order.begin() + end}, {order.end() - end, order.end()});
 	return graph.connectedPieces();

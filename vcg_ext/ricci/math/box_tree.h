@@ -131,16 +131,16 @@ private:
 	{
 		if (m_nodes.empty())
 			return false;
-		std::vector<int> stack{0};
-		while (!stack.empty()) {
-			const int node = stack.back();
+		// One node of each level and one more; halves of ints have at most 32 levels.
+		std::array<int, 40> stack{};
+		for (std::size_t height = 1; height > 0;) {
+			const int node = stack[--height];
 			const Node& x = m_nodes[node];
-			stack.pop_back();
 			if (!concerns(x.box) || isLeftOut(node))
 				continue;
 			if (!x.isLeaf()) {
-				stack.push_back(x.left);
-				stack.push_back(x.right);
+				stack[height++] = x.left;
+				stack[height++] = x.right;
 				continue;
 			}
 			for (int i = x.first; i < x.last; ++i)

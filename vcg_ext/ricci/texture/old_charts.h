@@ -6,6 +6,7 @@
 #include "blocks.h"
 #include "carry_texture.h"
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -56,6 +57,14 @@ public:
 		{
 			const int owner = (*m_owners)[positionOf(level)][index];
 			return isOwn(owner) ? Share::All : owner == kMixed ? Share::Part : Share::None;
+		}
+
+		/// Whether all of these blocks of a level have its colours only.
+		bool hasAll(int level, const std::array<std::size_t, 4>& indices) const
+		{
+			const int* owners = (*m_owners)[positionOf(level)].data();
+			return m_isWhole || (isOwn(owners[indices[0]]) && isOwn(owners[indices[1]]) &&
+								 isOwn(owners[indices[2]]) && isOwn(owners[indices[3]]));
 		}
 
 		/// Whether the chart goes on across the border of the picture, at the opposite side of it.

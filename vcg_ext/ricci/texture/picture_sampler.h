@@ -226,8 +226,19 @@ private:
 		if (!(x > -1.0 && x < across && y > -1.0 && y < down))
 			return;
 		const Block first{level, static_cast<int>(x + 1.0) - 1, static_cast<int>(y + 1.0) - 1};
-		const std::array<double, 2> right{1.0 - (x - first.x), x - first.x},
-			below{1.0 - (y - first.y), y - first.y};
+		const double tx = x - first.x, ty = y - first.y;
+		const std::array<double, 2> right{1.0 - tx, tx}, below{1.0 - ty, ty};
+		if (first.x >= 0 && first.y >= 0 && first.x + 2 < across && first.y + 2 < down) {
+			const std::size_t upper = m_blocks.index(first), lower = upper + positionOf(across);
+			if (chart.hasAll(level, {upper, upper + 1, lower, lower + 1})) { // and none is cut off
+				const Word* means = m_means[positionOf(level - 1)].data();
+				sum.add(means + 4 * upper, right[0] * below[0]);
+				sum.add(means + 4 * upper + 4, right[1] * below[0]);
+				sum.add(means + 4 * lower, right[0] * below[1]);
+				sum.add(means + 4 * lower + 4, right[1] * below[1]);
+				return;
+			}
+		}
 		for (int j = 0; j < 2; ++j)
 			for (int i = 0; i < 2; ++i) {
 				Block block{level, first.x + i, first.y + j};
