@@ -697,6 +697,7 @@ TEST(Parametrize, ChosenTargetsAreReported)
 	const FlatResult closed = run(plate, Options());
 	EXPECT_EQ(closed.report.targetUsed, TargetUsed::Unfolded);
 	EXPECT_TRUE(closed.placedCones.empty());
+	EXPECT_FALSE(closed.report.boundaryRatioMax);
 	Options options;
 	options.target = TargetCurvature::PlacedCones;
 	const FlatResult cones = run(perforatedSlab(0, 4), options);

@@ -99,6 +99,10 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 	report.targetUsed = TargetUsed::Unfolded;
 	report.choice.clear();
 	report.expectedSpread.reset();
+	if (topology.type.isClosed()) { // the boundaries are the creases' alone
+		report.boundaryRatioMin.reset();
+		report.boundaryRatioMax.reset();
+	}
 	map.notes.clear();
 	return map;
 }
