@@ -497,6 +497,9 @@ TEST(ChosenSeams, AreFoundInTheTexture)
 		for (int k = 0; k < 3; ++k)
 			f.WT(k).N() = 0;
 	for (int k = 0; k < 3; ++k)
+		m.face[0].WT(k).V() += 1e-6f; // of coordinates from 0 to 2: what rounding does to them
+	EXPECT_TRUE(Seams::OfTexture(m).empty());
+	for (int k = 0; k < 3; ++k)
 		m.face[0].WT(k).V() += 1.0f;
 	EXPECT_FALSE(edges().empty());
 	for (const auto& e : byIndex)

@@ -431,6 +431,12 @@ TEST(Faults, ASolverThatDoesNotConvergeLeavesTheMesh)
 	std::string before = contents(m);
 	Flow::Params p;
 	p.target = TargetCurvature::Prescribed;
+	const auto refused = errorOf<InadmissibleCurvature>([&] { Flow::Compute(m, p); });
+	ASSERT_TRUE(refused);
+	EXPECT_EQ(refused->problem, InadmissibleCurvature::ScalesApart);
+	EXPECT_EQ(contents(m) == before, true);
+	p.target = TargetCurvature::Automatic;
+	p.cones.distortion = 1e9; // none
 	auto error = errorOf<NotConverged>([&] { Flow::Compute(m, p); });
 	ASSERT_TRUE(error);
 	EXPECT_EQ(error->problem, NotConverged::LostInRounding);

@@ -42,6 +42,10 @@ std::string pythonWithNumpy()
 	return {};
 }
 
+/// By how much a distortion may differ from the paper's Table 1, relative to what it has above 1: the meshes
+/// have the paper's names and numbers of vertices, but need not be its files.
+constexpr double kFromTable = 0.01;
+
 class SharedMeshes : public ::testing::Test
 {
 protected:
@@ -107,7 +111,7 @@ TEST_F(SharedMeshes, RockerArm)
 	SKIP_IF_MISSING("g1_rocker_arm.ply");
 	const FlatResult flat = run(m_mesh, fixedTriangulation(TargetCurvature::Flat));
 	EXPECT_LT(flat.report.maxCurvatureError, 1e-10);
-	EXPECT_LE(flat.report.qcVertexMean, 1.0466); // the paper's Table 1: 1.0461
+	EXPECT_NEAR(flat.report.qcVertexMean - 1.0, 0.0461, kFromTable * 0.0461);
 	EXPECT_EQ(flat.report.flippedFaces, 0);
 	const FlatMap map(m_mesh, flat.uv);
 	EXPECT_LT(map.seamMismatch, 1e-9);
@@ -121,7 +125,7 @@ TEST_F(SharedMeshes, RockerArmByTheConventionalFlow)
 	Options options = fixedTriangulation(TargetCurvature::Flat);
 	options.method = Method::Thurston;
 	const FlatResult flat = run(m_mesh, options);
-	EXPECT_NEAR(flat.report.qcVertexMean, 1.739, 0.005); // the paper's Table 1: 1.7405
+	EXPECT_NEAR(flat.report.qcVertexMean - 1.0, 0.7405, kFromTable * 0.7405);
 	EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
 }
 

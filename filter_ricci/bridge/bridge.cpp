@@ -8,6 +8,7 @@
 #include "results.h"
 #include "run_report.h"
 
+#include <ricci/base/numbers.h>
 #include <ricci/base/task.h>
 #include <ricci/base/text.h>
 
@@ -18,6 +19,8 @@
 #include <vcg/complex/algorithms/update/normal.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -59,6 +62,53 @@ private:
 	const Log& log_;
 };
 
+/// Whether the vertex quality is a distortion: with the filter's attribute beside it, 1 or more everywhere,
+/// and more altogether than the curvature of a sphere.
+bool isOwnOutput(const CMeshO& m)
+{
+	double sum = 0.0, least = 1.0;
+	for (const CVertexO& v : m.vert)
+		if (!v.IsD()) {
+			sum += static_cast<double>(v.cQ());
+			least = std::min(least, static_cast<double>(v.cQ()));
+		}
+	return vcg::tri::HasPerVertexAttribute(m, "ricci_u") && least > 1.0 - 1e-6 &&
+		   sum > 4.0 * ricci::kPi + 1e-3;
+}
+
+/// Vertices at the place of another one.
+std::size_t coincidentVertices(const CMeshO& m)
+{
+	std::vector<std::array<Scalarm, 3>> places;
+	for (const CVertexO& v : m.vert)
+		if (!v.IsD())
+			places.push_back({v.cP()[0], v.cP()[1], v.cP()[2]});
+	std::sort(places.begin(), places.end());
+	const auto end = std::unique(places.begin(), places.end());
+	return static_cast<std::size_t>(places.end() - end);
+}
+
+/// Share of the vertices from which on the mesh is told to be open between those at one place.
+constexpr double kManyCoincident = 0.1;
+
+/// Sides of faces at chosen seams, for each face: beyond it they part more faces than they leave joined.
+constexpr int kManySeams = 2;
+
+/// Whether the layer's matrix changes angles: what is seen then is another surface than the file's.
+bool isStretched(const CMeshO& m)
+{
+	double product[3][3] = {};
+	for (int i = 0; i < 3; ++i)
+		for (int j = 0; j < 3; ++j)
+			for (int k = 0; k < 3; ++k)
+				product[i][j] += static_cast<double>(m.Tr[k][i]) * static_cast<double>(m.Tr[k][j]);
+	double worst = 0.0;
+	for (int i = 0; i < 3; ++i)
+		for (int j = 0; j < 3; ++j)
+			worst = std::max(worst, std::abs(product[i][j] - (i == j ? product[0][0] : 0.0)));
+	return worst > 1e-5 * product[0][0];
+}
+
 MeshModel& checkedMesh(MeshDocument& md, bool readsQuality)
 {
 	MeshModel* model = md.mm();
@@ -74,6 +124,11 @@ MeshModel& checkedMesh(MeshDocument& md, bool readsQuality)
 		throw Refusal(
 			"target_curvature is From vertex quality, but the mesh has no vertex quality. Store "
 			"the curvature of each vertex, in radians, as its quality first.");
+	if (readsQuality && isOwnOutput(model->cm))
+		throw Refusal(
+			"target_curvature is From vertex quality, but the quality is the distortion that this "
+			"filter has written, not a curvature. Its own target is back with 'Per Vertex Quality "
+			"Function' and the function ricci_target_curvature.");
 	return *model;
 }
 
@@ -223,11 +278,13 @@ std::string whereToLook(bool colorize, const Results& results)
 		   colours + "; Render > '" + host::kHistogramName + "' shows how it is spread.";
 }
 
-int changedElements(bool colorize, ricci::OutputTriangulation output)
+int changedElements(bool colorize, bool hasTexture, ricci::OutputTriangulation output)
 {
 	int elements = MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY;
 	if (colorize)
 		elements |= MeshModel::MM_VERTCOLOR;
+	if (hasTexture)
+		elements |= MeshModel::MM_FACECOLOR;
 	if (output == ricci::OutputTriangulation::CommonRefinement)
 		elements |= MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
 	return elements;
@@ -241,7 +298,7 @@ void writeMesh(
 	const Results& results,
 	const CarriedTexture& texture)
 {
-	model.updateDataMask(changedElements(colorize, output));
+	model.updateDataMask(changedElements(colorize, false, output));
 	if (output == ricci::OutputTriangulation::CommonRefinement) {
 		model.clearDataMask(MeshModel::MM_FACEFACETOPO | MeshModel::MM_VERTFACETOPO);
 		Flow::WriteRefinement(model.cm, result);
@@ -326,21 +383,27 @@ public:
 			const ricci::Task writing(drawn, 1.0);
 			texture.write();
 		}
-		m_report.write(
-			{filterText(filter).name.toStdString(),
-			 model.shortName().toStdString(),
-			 settingsAsText(par),
-			 result.notes,
-			 results,
-			 result.report});
+		const std::vector<std::string> sentences = summary(filter, par, result.report, results);
+		RunReport report{
+			filterText(filter).name.toStdString(),
+			model.shortName().toStdString(),
+			settingsAsText(par),
+			result.notes,
+			results,
+			result.report};
+		report.notes.insert(report.notes.end(), sentences.begin(), sentences.end());
+		m_report.write(report);
 		NewLayers layers(m_md);
+		ricci::advance(1.0, "Adding the layers");
 		addLayers(layers);
+		ricci::checkpoint();
 		texture.publish();
 		for (const std::string& file : m_report.publish())
 			ricci::logLine("Report: " + file);
 		writeMesh(model, m_settings.colorize, output, result, results, texture);
 		layers.keep();
-		return {results, changedElements(m_settings.colorize, output)};
+		return {
+			results, sentences, changedElements(m_settings.colorize, texture.isWanted(), output)};
 	}
 
 	ricci::Task task;
@@ -349,6 +412,35 @@ public:
 	CarriedTexture texture;
 
 private:
+	std::vector<std::string> summary(
+		int filter,
+		const RichParameterList& par,
+		const ricci::Report& report,
+		const Results& results) const
+	{
+		std::vector<std::string> lines{toSentence(results, report.choice)};
+		for (const std::string& doubt : doubts(filter, results, par))
+			lines.push_back(doubt);
+		const std::size_t coincident = report.components > 1 ? coincidentVertices(model.cm) : 0;
+		if (static_cast<double>(coincident) > kManyCoincident * model.cm.vn)
+			lines.push_back(
+				std::to_string(coincident) +
+				" vertices lie where others do, and the surface is open between them: 'Merge Close "
+				"Vertices' joins its " +
+				std::to_string(report.components) + " components.");
+		if (isStretched(model.cm))
+			lines.push_back("The matrix of the layer stretches the mesh: it is flattened as it is "
+							"seen, and measured so.");
+		if (2 * report.chosenSeamEdges > kManySeams * model.cm.fn)
+			lines.push_back(
+				"The surface is opened at " + std::to_string(report.chosenSeamEdges) +
+				" chosen edges, at most of those that it has: its charts are of single faces.");
+		if (!texture.isWanted() && !model.cm.textures.empty())
+			lines.push_back("The image that the mesh has no longer fits its texture coordinates: "
+							"'Carry the texture over to' draws it for the new ones.");
+		return lines;
+	}
+
 	const RunSettings& m_settings;
 	MeshDocument& m_md;
 	ReportFiles m_report;
@@ -371,6 +463,7 @@ Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Pr
 		return computeFor(run.texture, run.model, settings.flow, run.seams);
 	}();
 	Results results = toResults(result.report);
+	addPlacedCones(result, results);
 	if (settings.sphereLayer)
 		addSphereResults(sphere, results);
 	return run.end(Euclidean, par, settings.flow.output, result, results, [&](NewLayers& layers) {
@@ -423,7 +516,7 @@ int preConditions()
 int postConditions()
 {
 	return MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR |
-		   MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
+		   MeshModel::MM_FACECOLOR | MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
 }
 
 Outcome applyFilter(
@@ -439,7 +532,8 @@ Outcome applyFilter(
 										   : applyEuclidean(par, md, progress);
 	for (const std::string& line : toLogLines(outcome.results))
 		log(line);
-	log(toSentence(outcome.results));
+	for (const std::string& line : outcome.sentences)
+		log(line);
 	log(whereToLook(par.getBool("colorize"), outcome.results));
 	return outcome;
 }

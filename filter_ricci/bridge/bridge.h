@@ -49,7 +49,8 @@ using Log = std::function<void(const std::string&)>;
 struct Outcome
 {
 	Results results;
-	int changedElements; ///< MeshModel::MeshElement bits
+	std::vector<std::string> sentences; ///< that sum up the run
+	int changedElements;                ///< MeshModel::MeshElement bits
 };
 
 /// Runs the filter on the current mesh of \p md. Parameters that \p par lacks have their defaults.

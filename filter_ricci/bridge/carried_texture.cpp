@@ -9,6 +9,10 @@
 #include <ricci/base/indexed.h>
 #include <ricci/base/parallel.h>
 #include <ricci/base/text.h>
+#include <ricci/measure/distortion.h>
+#include <ricci/texture/old_charts.h>
+
+#include <vcg/complex/algorithms/update/color.h>
 
 #if QT_VERSION >= QT_VERSION_CHECK(5, 14, 0)
 #include <QColorSpace>
@@ -17,6 +21,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
 #include <string>
 #include <utility>
@@ -166,6 +171,8 @@ CarriedTexture::CarriedTexture(const TextureSettings& settings, const MeshModel&
 		if (mayOverwrite(path, absolutePath(QString::fromStdString(old), model.pathName())))
 			refuse(shown + ": it has the name of a texture of the mesh. Choose another name.");
 	loadPictures(model);
+	if (m_size == 0)
+		fitSize();
 	const QString reason = whyNotWritable(path);
 	if (!reason.isEmpty())
 		refuse(shown + " (" + reason.toStdString() + "): choose another place for it.");
@@ -189,7 +196,10 @@ void CarriedTexture::readFaces(const MeshModel& model)
 		ricci::TexturedFace& to = m_mesh.faces[f];
 		if (face.IsD() || !Flow::HasItsVertices(m, face))
 			continue; // damaged ones, which the run will refuse
-		m_areas[f] = 0.5 * static_cast<double>(vcg::DoubleArea(face));
+		m_areas[f] = ricci::triangleArea(
+			{Flow::PlaceOf(m, *face.cV(0)),
+			 Flow::PlaceOf(m, *face.cV(1)),
+			 Flow::PlaceOf(m, *face.cV(2))});
 		int texture = -1;
 		for (std::size_t k = 0; k < 3; ++k) {
 			const int corner = static_cast<int>(k);
@@ -244,6 +254,32 @@ void CarriedTexture::loadPictures(const MeshModel& model)
 		m_hasWords = m_hasWords || hasWords(image);
 		m_pictures[ricci::positionOf(face.picture)] = image;
 	}
+}
+
+std::vector<std::array<int, 2>> CarriedTexture::pictureSizes() const
+{
+	std::vector<std::array<int, 2>> sizes;
+	for (const QImage& picture : m_pictures)
+		sizes.push_back({picture.width(), picture.height()});
+	return sizes;
+}
+
+/// The side of a square of as many texels as the faces have now: a map fills no square.
+void CarriedTexture::fitSize()
+{
+	double count = 0.0;
+	for (const ricci::TexturedFace& face : m_mesh.faces)
+		if (face.picture >= 0) {
+			const QImage& picture = m_pictures[ricci::positionOf(face.picture)];
+			const ricci::Triangle2 t = ricci::oldTexels(face, picture.width(), picture.height());
+			count += 0.5 * std::abs(ricci::doubledArea(t[0], t[1], t[2]));
+		}
+	m_fits = count > 0.0;
+	m_size = m_fits ? static_cast<int>(std::clamp(
+						  std::ceil(std::sqrt(count)),
+						  static_cast<double>(kMinTextureSize),
+						  static_cast<double>(kMaxTextureSize)))
+					: TextureSettings().size;
 }
 
 void CarriedTexture::requireMemory() const
@@ -343,15 +379,13 @@ void CarriedTexture::drawSamples()
 
 void CarriedTexture::describe(Results& results) const
 {
-	std::vector<std::array<int, 2>> sizes;
 	int count = 0;
-	for (const QImage& picture : m_pictures) {
-		sizes.push_back({picture.width(), picture.height()});
+	for (const QImage& picture : m_pictures)
 		count += picture.isNull() ? 0 : 1;
-	}
 	const std::string side = std::to_string(m_size);
 	std::string line = "Texture: " + m_path.toStdString() + ", " + side + " x " + side + " texels";
-	const ricci::TexelDensity density = ricci::texelDensity(m_mesh, m_areas, sizes, m_size);
+	const ricci::TexelDensity density =
+		ricci::texelDensity(m_mesh, m_areas, pictureSizes(), m_size);
 	if (density.ratio > 0.0) {
 		line += ", from " + std::to_string(count) + (count == 1 ? " image. " : " images. ") +
 				ricci::numberText(density.before, 4) + " texels for a unit of length before, " +
@@ -374,6 +408,15 @@ void CarriedTexture::draw(const Flow::Result& result, Results& results)
 	const ricci::DefaultFloatingPoint defaultEnvironment;
 	ricci::advance(0.0, "Drawing the texture");
 	takeTriangles(result);
+	if (m_fits) {
+		const double ratio = ricci::texelDensity(m_mesh, m_areas, pictureSizes(), m_size).ratio;
+		if (ratio > 0.0)
+			m_size = static_cast<int>(std::clamp(
+				std::ceil(m_size / ratio),
+				static_cast<double>(m_size),
+				static_cast<double>(kMaxTextureSize)));
+		requireMemory();
+	}
 	makeResult();
 	convertPictures();
 	if (m_hasWords)
@@ -428,6 +471,9 @@ void CarriedTexture::assignTo(MeshModel& model) const
 	host::setTexture(model, m_name.toStdString(), m_result);
 	// Coordinates of vertices, where there are some, belong to the old textures.
 	model.clearDataMask(MeshModel::MM_VERTTEXCOORD);
+	// Files of materials multiply the image by the colours of faces, which are in it or were the old images'.
+	if (vcg::tri::HasPerFaceColor(model.cm))
+		vcg::tri::UpdateColor<CMeshO>::PerFaceConstant(model.cm, vcg::Color4b::White);
 }
 
 } // namespace filter_ricci

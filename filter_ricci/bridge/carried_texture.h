@@ -55,6 +55,8 @@ private:
 	void loadPictures(const MeshModel& model);
 	void requireMemory() const;
 
+	std::vector<std::array<int, 2>> pictureSizes() const;
+	void fitSize();
 	void takeTriangles(const Flow::Result& result);
 	void makeResult();
 	void convertPictures();
@@ -63,9 +65,10 @@ private:
 	void describe(Results& results) const;
 	[[noreturn]] void refuseFile() const;
 
-	QString m_path; ///< empty: no texture is wanted
-	QString m_name; ///< that the mesh gets
-	int m_size = 0;
+	QString m_path;      ///< empty: no texture is wanted
+	QString m_name;      ///< that the mesh gets
+	int m_size = 0;      ///< if it is to fit, the least that it may become before the map is known
+	bool m_fits = false; ///< it is to have texels as fine as the old ones
 	ricci::CarriedMesh m_mesh;   // its faces are those of the mesh, its triangles those of the map
 	std::vector<double> m_areas; // [face]
 	std::vector<QImage> m_pictures; // [texture of the mesh] null where no face has it

@@ -168,6 +168,9 @@ std::string inWords(const ricci::InadmissibleCurvature& e)
 		return what + ". Choose more or weaker cones.";
 	case Error::FreeBoundary:
 		return what + ".";
+	case Error::ScalesApart:
+		return what + ". The quality of each vertex must be its curvature in radians, and not far "
+					  "from that of the mesh.";
 	case Error::HyperbolicSurface:
 		return what + ": use 'Generalized Ricci Flow (Euclidean)', or choose 'Cones at selected "
 					  "vertices' with small angles.";

@@ -120,11 +120,11 @@ TextureSettings checkedTexture(const RichParameterList& par)
 	TextureSettings texture;
 	texture.file = host::text(par, "carry_texture");
 	texture.size = par.getInt("texture_size");
-	if (texture.size < kMinTextureSize || texture.size > kMaxTextureSize)
+	if (texture.size != 0 && (texture.size < kMinTextureSize || texture.size > kMaxTextureSize))
 		throw Refusal(
 			"The value " + std::to_string(texture.size) + " of texture_size cannot be used. Use " +
 			std::to_string(kMinTextureSize) + " to " + std::to_string(kMaxTextureSize) +
-			" texels.");
+			" texels, or 0 for as many as keep the old ones.");
 	return texture;
 }
 
@@ -203,7 +203,7 @@ void addFilesAndLimits(RichParameterList& list, double epsilon)
 		"texture_size",
 		TextureSettings().size,
 		"Size of that texture",
-		"Width and height of the new texture, 16 to 16384 texels."));
+		"Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old ones."));
 	list.addParam(host::advanced<host::FileToSave>(
 		"report",
 		QString(),
@@ -241,9 +241,9 @@ RichParameterList euclideanParameters(Shown shown)
 		"free_boundary",
 		defaults.freeBoundary,
 		"Free boundary",
-		"The boundary keeps the metric that it has on the mesh: the least distortion for a "
-		"surface with boundary. Disk, Rectangle and the flat annulus prescribe the boundary and "
-		"ignore this."));
+		"The flow keeps the metric that the boundary has on the mesh, which distorts least; the "
+		"finish then changes its lengths a little, by the factors in the log. Disk, Rectangle and "
+		"the flat annulus prescribe the boundary and ignore this."));
 	list.addParam(RichFloat(
 		"cone_distortion",
 		static_cast<Scalarm>(defaults.cones.distortion),

@@ -23,8 +23,8 @@ constexpr int kMinTextureSize = 16, kMaxTextureSize = 16384;
 
 struct TextureSettings
 {
-	QString file; ///< empty: none
-	int size = 2048;
+	QString file;    ///< empty: none
+	int size = 2048; ///< texels; 0: as many as the old ones need, which are so as fine as they were
 };
 
 /// What both filters have.

@@ -19,6 +19,12 @@ namespace filter_ricci {
 
 namespace {
 
+/// Beyond these a picture on the surface is distorted in a way that is seen at once, or is mostly empty.
+constexpr double kDoubtfulAngles = 2.0, kDoubtfulAreas = 4.0, kDoubtfulOccupancy = 0.1;
+
+/// Of texture_scale.
+constexpr double kCoarser = 0.9;
+
 void addIfPresent(Results& results, const char* key, const std::optional<double>& value)
 {
 	if (value)
@@ -112,6 +118,11 @@ Results toResults(const ricci::Report& report)
 		{"overlap_cuts", report.overlapCuts}};
 	addIfPresent(results, "stretch", report.stretch);
 	addIfPresent(results, "objective", report.objective);
+	if (report.targetUsed)
+		results.emplace_back("target_used", static_cast<int>(*report.targetUsed));
+	addIfPresent(results, "expected_spread", report.expectedSpread);
+	addIfPresent(results, "boundary_ratio_min", report.boundaryRatioMin);
+	addIfPresent(results, "boundary_ratio_max", report.boundaryRatioMax);
 	addIfPresent(results, "torus_tau_re", report.torusTauRe);
 	addIfPresent(results, "torus_tau_im", report.torusTauIm);
 	addIfPresent(results, "annulus_modulus", report.annulusModulus);
@@ -127,6 +138,19 @@ Results toResults(const ricci::Report& report)
 	addIfPresent(results, "hyperbolic_area", report.hyperbolicArea);
 	addIfPresent(results, "relation_error", report.relationError);
 	return results;
+}
+
+void addPlacedCones(const ricci::Parametrization& map, Results& results)
+{
+	if (map.placedCones.empty())
+		return;
+	std::vector<double> vertices, curvatures;
+	for (const int v : map.placedCones) {
+		vertices.push_back(v);
+		curvatures.push_back(map.targetCurvature[static_cast<std::size_t>(v)]);
+	}
+	results.emplace_back("cone_vertices", std::move(vertices));
+	results.emplace_back("cone_curvatures", std::move(curvatures));
 }
 
 void addSphereResults(const ricci::SphereMap& sphere, Results& results)
@@ -149,21 +173,69 @@ void addGenerators(const ricci::FuchsianGroup& group, Results& results)
 	results.emplace_back("generators_error", group.relationError);
 }
 
-std::string toSentence(const Results& results)
+std::string toSentence(const Results& results, const std::string& choice)
 {
 	const int charts = valueOf<int>(results, "charts");
+	const int cones = valueOf<int>(results, "cones");
 	const int flipped = valueOf<int>(results, "flipped_faces");
 	std::ostringstream line;
 	line.imbue(std::locale::classic());
 	line.precision(2);
+	if (!choice.empty())
+		line << "Automatic chose " << choice << ". ";
 	line << "Curvature within " << valueOf<double>(results, "max_curvature_error")
 		 << " rad of the target after " << valueOf<int>(results, "iterations")
 		 << " Newton steps. Distortion " << std::fixed << std::setprecision(3)
 		 << valueOf<double>(results, "qc_area_mean") << " on average (1 keeps all angles), areas "
 		 << "by a factor of " << valueOf<double>(results, "area_distortion_mean") << ", " << flipped
-		 << (flipped == 1 ? " flipped face, " : " flipped faces, ") << charts
+		 << (flipped == 1 ? " flipped face, " : " flipped faces, ") << cones
+		 << (cones == 1 ? " cone, " : " cones, ") << charts
 		 << (charts == 1 ? " chart." : " charts.");
 	return line.str();
+}
+
+std::vector<std::string> doubts(int filter, const Results& results, const RichParameterList& par)
+{
+	const auto is = [&](const char* id, int value) { return par.getEnum(id) == value; };
+	const double qc = valueOf<double>(results, "qc_area_mean");
+	std::vector<std::string> lines;
+	if (qc > kDoubtfulAngles)
+		lines.push_back(
+			"The use of this map is doubtful: angles are distorted by " + ricci::numberText(qc, 3) +
+			" on average. " +
+			(!is("method", static_cast<int>(ricci::Method::IntrinsicFlips))
+				 ? "The method 'Intrinsic flips' keeps them."
+				 : "The output 'Common refinement' keeps them, and so does a mesh without needles "
+				   "('Remeshing: Isotropic Explicit Remeshing')."));
+	for (const auto& [key, value] : results)
+		if (key == "texture_scale" && std::get<double>(value) < kCoarser)
+			lines.push_back(
+				"The new image is coarser than the old ones, with " +
+				ricci::numberText(std::get<double>(value), 2) +
+				" of their texels for a unit of length. " +
+				(par.getInt("texture_size") == 0 ? "It has the largest size that there is."
+												 : "A texture_size of 0 keeps them all."));
+	if (filter == Hyperbolic)
+		return lines; // a hyperbolic metric has areas of its own
+	const bool isAutomatic = is("target_curvature", 0);
+	const double areas = valueOf<double>(results, "area_distortion_mean");
+	const double occupancy = valueOf<double>(results, "occupancy");
+	if (areas > kDoubtfulAreas)
+		lines.push_back(
+			"The use of this map is doubtful: areas change by a factor of " +
+			ricci::numberText(areas, 3) + " on average. " +
+			(isAutomatic || is("target_curvature", 6)
+				 ? "A cone_distortion of 0.25 asks for more cones, which keep areas."
+				 : "The target 'Automatic' places cones, which keep areas."));
+	if (occupancy < kDoubtfulOccupancy)
+		lines.push_back(
+			"The use of this map is doubtful: its charts cover " +
+			ricci::numberText(100.0 * occupancy, 2) + " % of the square. " +
+			(isAutomatic && is("charts", static_cast<int>(ricci::Charts::CutForRoom))
+				 ? "Seams that are chosen ('Seams') part it into charts that fit."
+				 : "The target 'Automatic' with the charts 'Without overlap, cut for room' cuts it "
+				   "into charts that fit."));
+	return lines;
 }
 
 double colourRampTop(const Results& results)

@@ -4,8 +4,7 @@
 
 #include "bridge.h"
 
-#include <ricci/fuchsian/fuchsian_group.h>
-#include <ricci/report.h>
+#include <ricci/charts/parametrization.h>
 #include <ricci/sphere_map.h>
 
 #include <string>
@@ -16,6 +15,9 @@ namespace filter_ricci {
 /// The report under the names that scripts read; an invariant that does not exist is left out.
 Results toResults(const ricci::Report& report);
 
+/// Adds the cones that were placed, if any.
+void addPlacedCones(const ricci::Parametrization& map, Results& results);
+
 /// Adds what the map to the sphere measured.
 void addSphereResults(const ricci::SphereMap& sphere, Results& results);
 
@@ -24,7 +26,11 @@ void addSphereResults(const ricci::SphereMap& sphere, Results& results);
 void addGenerators(const ricci::FuchsianGroup& group, Results& results);
 
 /// What a person wants to know of a run.
-std::string toSentence(const Results& results);
+/// \param choice see ricci::Report
+std::string toSentence(const Results& results, const std::string& choice);
+
+/// What makes the use of the map doubtful, and what helps.
+std::vector<std::string> doubts(int filter, const Results& results, const RichParameterList& par);
 
 /// The distortion from which on "Colour by distortion" paints red: the 99th percentile over the faces,
 /// and above 1 also where nothing is distorted, for a ramp needs two ends.

@@ -183,14 +183,17 @@ std::string histogramPicture(const ricci::Histogram& h, const std::string& label
 	return diagram.finish(label);
 }
 
-std::vector<std::vector<double>> residualsByComponent(const ricci::Report& data)
+using States = std::vector<ricci::FlowState>;
+
+/// Those of each component.
+std::vector<States> statesByComponent(const ricci::Report& data)
 {
-	std::vector<std::vector<double>> residuals;
+	std::vector<States> states;
 	for (const ricci::FlowState& state : data.flowStates) {
-		residuals.resize(std::max(residuals.size(), static_cast<std::size_t>(state.component) + 1));
-		residuals[static_cast<std::size_t>(state.component)].push_back(state.residual);
+		states.resize(std::max(states.size(), static_cast<std::size_t>(state.component) + 1));
+		states[static_cast<std::size_t>(state.component)].push_back(state);
 	}
-	return residuals;
+	return states;
 }
 
 /// More components than this make the diagram unreadable; the data has them all.
@@ -198,32 +201,37 @@ constexpr std::size_t kMaxLines = 20;
 
 std::string residualPicture(const ricci::Report& data)
 {
-	std::vector<std::vector<double>> residuals = residualsByComponent(data);
-	if (residuals.size() > kMaxLines)
-		residuals.resize(kMaxLines);
+	std::vector<States> components = statesByComponent(data);
+	if (components.size() > kMaxLines)
+		components.resize(kMaxLines);
 	double low = 0.0, high = -99.0;
-	std::size_t length = 2;
-	for (std::vector<double>& component : residuals) {
-		length = std::max(length, component.size());
-		for (double& r : component) {
-			r = std::log10(std::max(r, 1e-17));
-			low = std::min(low, std::floor(r));
-			high = std::max(high, std::ceil(r));
+	int last = 1;
+	for (States& states : components)
+		for (ricci::FlowState& state : states) {
+			last = std::max(last, state.step);
+			state.residual = std::log10(std::max(state.residual, 1e-17));
+			low = std::min(low, std::floor(state.residual));
+			high = std::max(high, std::ceil(state.residual));
 		}
-	}
 	high = std::max(high, low + 1.0);
-	Diagram diagram(0.0, static_cast<double>(length - 1), low, high);
+	Diagram diagram(0.0, static_cast<double>(last), low, high);
 	const double step = std::max(1.0, std::ceil((high - low) / 8.0));
 	for (double exponent = high; exponent >= low; exponent -= step)
 		diagram.tickY(exponent, "1e" + number(exponent));
-	const std::size_t stride = (length + 9) / 10;
-	for (std::size_t i = 0; i < length; i += stride)
+	for (int i = 0; i <= last; i += (last + 10) / 10)
 		diagram.tickX(static_cast<double>(i), std::to_string(i));
-	for (const std::vector<double>& component : residuals) {
-		std::vector<std::pair<double, double>> points;
-		for (std::size_t i = 0; i < component.size(); ++i)
-			points.emplace_back(static_cast<double>(i), component[i]);
-		diagram.line(points);
+	for (const States& states : components) {
+		std::vector<std::pair<double, double>> solve;
+		int before = -1;
+		for (const ricci::FlowState& state : states) {
+			if (state.step == before) { // another solve begins
+				diagram.line(solve);
+				solve.clear();
+			}
+			solve.emplace_back(static_cast<double>(state.step), state.residual);
+			before = state.step;
+		}
+		diagram.line(solve);
 	}
 	return diagram.finish("step");
 }
@@ -328,8 +336,8 @@ std::string toHtml(const RunReport& report)
 		 << " faces lie beyond the scale.</p>\n"
 		 << "</section>\n<section>\n<h2>Largest curvature error before each Newton step</h2>\n"
 		 << residualPicture(report.data)
-		 << "<p>max |K&#772; &minus; K| in radians; one line for each component"
-		 << (residualsByComponent(report.data).size() > kMaxLines ? ", the first 20" : "")
+		 << "<p>max |K&#772; &minus; K| in radians; a line for each solve of each component"
+		 << (statesByComponent(report.data).size() > kMaxLines ? ", the first 20" : "")
 		 << ".</p>\n</section>\n</div>\n";
 	page << "<div class=\"pair\">\n<section>\n<h2>Results</h2>\n<table>\n";
 	for (const auto& [key, value] : report.results)
@@ -351,10 +359,8 @@ std::string toCsv(const RunReport& report)
 		csv << "setting,," << id << "," << csvField(value) << "\n";
 	for (const auto& [key, value] : report.results)
 		csv << "result,," << key << "," << csvField(text(value)) << "\n";
-	const auto residuals = residualsByComponent(report.data);
-	for (std::size_t c = 0; c < residuals.size(); ++c)
-		for (std::size_t i = 0; i < residuals[c].size(); ++i)
-			csv << "newton," << c << "," << i << "," << residuals[c][i] << "\n";
+	for (const ricci::FlowState& state : report.data.flowStates)
+		csv << "newton," << state.component << "," << state.step << "," << state.residual << "\n";
 	addHistogram(csv, "qc_histogram,vertices,", report.data.qcHistogram);
 	addHistogram(csv, "area_histogram,faces,", report.data.areaHistogram);
 	return csv.str();

@@ -32,7 +32,8 @@ std::vector<std::pair<std::string, std::string>> settingsAsText(const RichParame
 std::string toHtml(const RunReport& report);
 
 /// The same data as rows "table,group,key,value": tables "setting" and "result" without a group,
-/// "newton" (group: component, key: evaluation, value: residual in radians), "qc_histogram" (group:
+/// "newton" (group: component, key: Newton steps done, value: residual in radians; a key that is repeated
+/// begins another solve), "qc_histogram" (group:
 /// vertices, key: lower end of the bin, value: vertices), "area_histogram" (group: faces, key: lower
 /// end in log2 of the area factor, value: faces). UTF-8, fields quoted where they need it.
 std::string toCsv(const RunReport& report);

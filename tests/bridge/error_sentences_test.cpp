@@ -175,6 +175,9 @@ TEST(Sentences, EveryInadmissibleCurvatureHasOne)
 		case InadmissibleCurvature::FreeBoundary:
 			numbers = {"7.5", "2.25", "61"};
 			break;
+		case InadmissibleCurvature::ScalesApart:
+			numbers = {"1e7.5"};
+			break;
 		case InadmissibleCurvature::HyperbolicSurface:
 			numbers = {"genus 4", "5 boundary loops", "-11"};
 			break;

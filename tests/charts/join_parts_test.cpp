@@ -47,7 +47,7 @@ struct Scattered
 		const Seams before = seams(flat, sides);
 		auto joined = joinParts(flat, sides, parts);
 		const Seams after = seams(flat, sides);
-		edgesJoined = before.edges - after.edges;
+		edgesJoined = static_cast<int>(before.edges.size() - after.edges.size());
 		lengthJoined = before.length - after.length;
 		return joined;
 	}

@@ -53,6 +53,33 @@ TEST(CutOff, MakesAChartOfEachConnectedPart)
 	EXPECT_EQ(map.mesh.place.size(), (kSide + 1) * (kSide + 3));
 }
 
+/// What is joined elsewhere takes nothing from what is cut.
+TEST(CountCuts, CountsTheEdgesThatAreCut)
+{
+	Parametrization map = squareMap();
+	const Sides sides(map.mesh.vertices.values());
+	const auto cutAt = [&](double x) {
+		for (const int f : map.mesh.chart.indices()) {
+			const Triangle2 p = map.mesh.at(f);
+			map.mesh.chart[f] = (p[0][0] + p[1][0] + p[2][0]) / 3.0 > x;
+		}
+		splitPoints(map.mesh);
+	};
+	cutAt(0.5);
+	const Seams before = seams(map.mesh, sides);
+	EXPECT_EQ(before.edges.size(), std::size_t(kSide));
+	map.mesh = squareMap().mesh;
+	map.report.seamEdges = kSide + 2;
+	countCuts(before, sides, map);
+	EXPECT_EQ(map.report.overlapCuts, 0);
+	EXPECT_EQ(map.report.seamEdges, 2);
+	EXPECT_NEAR(map.report.seamLength, -1.0, 1e-14);
+	cutAt(1.0 / 3.0);
+	countCuts(before, sides, map);
+	EXPECT_EQ(map.report.overlapCuts, kSide);
+	EXPECT_NEAR(map.report.seamLength, -1.0, 1e-14);
+}
+
 TEST(CutOff, LeavesChartsOfOneKind)
 {
 	for (const bool kind : {false, true}) {

@@ -770,6 +770,24 @@ TEST(TargetCurvature, FreeBoundaryBoundsTheInsideFromBelow)
 	EXPECT_NO_THROW(flatDisk().choose(request));
 }
 
+/// A free boundary takes the rest of the curvature, whatever it is; but no coordinates hold what that makes of
+/// lengths.
+TEST(TargetCurvature, MuchCurvatureInsideAFreeBoundaryIsRefused)
+{
+	const TestSurface disk(rectangle(40, 40, 1, 1));
+	TargetRequest request = disk.request(TargetCurvature::Prescribed);
+	for (double& k : request.prescribed)
+		k = 1e-3;
+	EXPECT_NO_THROW(disk.choose(request));
+	for (double& k : request.prescribed)
+		k = 1.0;
+	const auto error = refusal<InadmissibleCurvature>(
+		disk, request, InadmissibleCurvature::ScalesApart, {"times as large as others"});
+	// u = (1 - r^2) / 4 per unit of curvature in a round disk; the density is 1600.
+	EXPECT_GT(error.value, 0.25 * 1600 * 0.25 / std::log(10.0));
+	EXPECT_LT(error.value, 0.25 * 1600 * 0.5 / std::log(10.0));
+}
+
 TEST(TargetCurvature, TellsWhenFreeBoundaryHasNoEffect)
 {
 	for (TargetCurvature mode : {TargetCurvature::Disk, TargetCurvature::Rectangle}) {

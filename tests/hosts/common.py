@@ -36,6 +36,8 @@ INVARIANTS = {
     "torus_tau_re": float, "torus_tau_im": float, "annulus_modulus": float,
     "rectangle_aspect": float, "holonomy_error": float, "period_matrix": vector,
     "period_error": float}
+CHOSEN = {"target_used": int, "expected_spread": float, "cone_vertices": vector, "cone_curvatures": vector}
+FREE_BOUNDARY = {"boundary_ratio_min": float, "boundary_ratio_max": float}
 SPHERE = {
     "sphere_qc_area_mean": float, "sphere_area_distortion_mean": float,
     "sphere_flipped_faces": int}

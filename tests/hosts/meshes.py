@@ -188,6 +188,19 @@ def plane(size=8):
     return grid(size, size, lambda s, t: (s, t, 0.0))
 
 
+def plate(size, thickness):
+    """Closed, genus 0: two square sheets that a strip joins along their border."""
+    sheet = plane(size)
+    count = len(sheet.vertices)
+    vertices = sheet.vertices + [(x, y, -thickness) for x, y, _ in sheet.vertices]
+    faces = sheet.faces + [(a + count, c + count, b + count) for a, b, c in sheet.faces]
+    sides = {(f[k], f[(k + 1) % 3]) for f in sheet.faces for k in range(3)}
+    for a, b in sorted(sides):
+        if (b, a) not in sides:
+            faces += [(b, a, a + count), (b, a + count, b + count)]
+    return Mesh(vertices, faces)
+
+
 def with_zero_area_face(mesh):
     """A face without area fills the slit between an edge and its own midpoint."""
     a, b, c = mesh.faces[len(mesh.faces) // 2]

@@ -27,7 +27,8 @@ class Results(unittest.TestCase):
         self.assertEqual(run.code, 0, run.text)
         pairs = server.results(run.text)
         self.assertLessEqual(set(common.ALWAYS), set(pairs), run.text)
-        self.assertLessEqual(set(pairs), set(common.ALWAYS) | set(common.INVARIANTS))
+        self.assertLessEqual(set(pairs), {*common.ALWAYS, *common.INVARIANTS, *common.CHOSEN,
+                                          *common.FREE_BOUNDARY})
         self.assertEqual(pairs["converged"], "true", run.text)
         self.assertLess(float(pairs["max_curvature_error"]), 1e-8)
         self.assertTrue(run.saved)

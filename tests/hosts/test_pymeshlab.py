@@ -68,7 +68,8 @@ class Results(unittest.TestCase):
     def check(self, documents, **values):
         returned = run(documents, **values)
         self.assertLessEqual(set(common.ALWAYS), set(returned))
-        types = {**common.ALWAYS, **common.INVARIANTS, **common.SPHERE}
+        types = {**common.ALWAYS, **common.INVARIANTS, **common.CHOSEN, **common.FREE_BOUNDARY,
+                 **common.SPHERE}
         for key, value in returned.items():
             self.assertIs(type(value), types[key], key)
         self.assertTrue(returned["converged"])
@@ -227,7 +228,7 @@ class Results(unittest.TestCase):
         self.assertEqual(drawn["finish_moved"], 0)
         self.assertGreater(repaired["finish_moved"], 0)
         self.assertGreater(least["finish_moved"], 0)
-        for key in common.INVARIANTS:
+        for key in (*common.INVARIANTS, *common.CHOSEN):
             self.assertEqual(drawn.get(key), least.get(key))
             self.assertEqual(drawn.get(key), even.get(key))
         self.assertEqual(run(mesh_set(mesh), **values), least)  # the default
@@ -453,7 +454,7 @@ class Report(unittest.TestCase):
         self.assertEqual(groups, {str(i) for i in range(25)})
         with open(self.path("page.html"), encoding="utf-8") as source:
             text = source.read()
-        self.assertIn("one line for each component, the first 20.", text)
+        self.assertIn("a line for each solve of each component, the first 20.", text)
         self.assertEqual(text.count("<polyline"), 20)
 
     def test_every_face_is_in_the_histogram(self):

@@ -85,7 +85,8 @@ class Readme(unittest.TestCase):
              for key, kind in zip(re.findall(r"`(\w+)`", row[0]),
                                   row[1].split(", ") * (1 if ", " in row[1] else 9))}
             for rows in tables(self.text, "| key | type | |"))
-        expected = {**common.ALWAYS, **common.INVARIANTS, **common.TEXTURE, **common.SPHERE}
+        expected = {**common.ALWAYS, **common.INVARIANTS, **common.CHOSEN, **common.FREE_BOUNDARY,
+                    **common.TEXTURE, **common.SPHERE}
         self.assertEqual(euclidean, {key: kind.__name__ for key, kind in expected.items()})
         self.assertEqual(
             hyperbolic, {"hyperbolic_area": "float", "relation_error": "float", "generators": "vector",

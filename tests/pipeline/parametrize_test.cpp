@@ -639,6 +639,80 @@ TEST(Parametrize, ProgressRisesFromZeroToOne)
 	EXPECT_GE(steps, 4);
 }
 
+TEST(Parametrize, TheLogSaysWhenAnotherSolveBegins)
+{
+	Options options;
+	options.target = TargetCurvature::Disk; // solve by solve, and on the double
+	Listener listener;
+	const Parametrization flat =
+		heard(listener, [&] { return parametrizeEuclidean(bumpyPatch(12), {}, options); });
+	int solves = 0;
+	for (std::size_t i = 1; i < listener.lines.size(); ++i) {
+		const auto residual = [&](std::size_t line) {
+			const std::size_t equals = listener.lines[line].rfind("= ");
+			return listener.lines[line].rfind("Newton step", 0) == 0
+					   ? std::stod(listener.lines[line].substr(equals + 2))
+					   : 0.0;
+		};
+		if (residual(i - 1) > 0.0) {
+			EXPECT_LT(residual(i), residual(i - 1)) << listener.lines[i];
+		}
+		const std::string& line = listener.lines[i];
+		solves += line.rfind("Solve ", 0) == 0 || line.rfind("Another solve", 0) == 0;
+	}
+	EXPECT_GT(solves, 0);
+	const std::vector<FlowState>& states = flat.report.flowStates;
+	int repeated = 0; // numbers, with which solves begin
+	for (std::size_t i = 1; i < states.size(); ++i)
+		repeated += states[i].step == states[i - 1].step;
+	EXPECT_GE(repeated, solves);
+	EXPECT_EQ(static_cast<int>(states.size()) - 1 - repeated, flat.report.iterations);
+}
+
+TEST(Parametrize, AFreeBoundaryTellsWhatTheFinishDoesToItsLengths)
+{
+	Options options;
+	options.finish = Finish::None;
+	const FlatResult kept = run(bumpyPatch(8), options);
+	EXPECT_NEAR(kept.report.boundaryRatioMin.value(), 1.0, 1e-9);
+	EXPECT_NEAR(kept.report.boundaryRatioMax.value(), 1.0, 1e-9);
+	options.finish = Finish::LeastDistortion;
+	const FlatResult moved = run(bumpyPatch(8), options);
+	EXPECT_LT(moved.report.boundaryRatioMin.value(), 1.0 - 1e-4);
+	EXPECT_GT(moved.report.boundaryRatioMax.value(), 1.0 + 1e-4);
+	options.target = TargetCurvature::Disk;
+	EXPECT_FALSE(run(bumpyPatch(8), options).report.boundaryRatioMax);
+}
+
+TEST(Parametrize, ChosenTargetsAreReported)
+{
+	const auto reportFor = [](const SurfaceMesh& mesh) { return run(mesh, Options()).report; };
+	const Report flat = reportFor(rectangle(4, 4, 1, 1));
+	EXPECT_EQ(flat.targetUsed, TargetUsed::FreeBoundary);
+	EXPECT_EQ(flat.choice.rfind("no cones", 0), 0u);
+	EXPECT_NEAR(flat.expectedSpread.value(), 0.0, 1e-9);
+	SurfaceMesh plate = perforatedSlab(0, 4);
+	for (Point3& p : plate.positions)
+		p[2] *= 0.1;
+	const FlatResult closed = run(plate, Options());
+	EXPECT_EQ(closed.report.targetUsed, TargetUsed::Unfolded);
+	EXPECT_TRUE(closed.placedCones.empty());
+	EXPECT_FALSE(closed.report.boundaryRatioMax);
+	Options options;
+	options.target = TargetCurvature::PlacedCones;
+	const FlatResult cones = run(perforatedSlab(0, 4), options);
+	EXPECT_EQ(cones.report.targetUsed, TargetUsed::PlacedCones);
+	EXPECT_TRUE(cones.report.choice.empty());
+	EXPECT_EQ(static_cast<int>(cones.placedCones.size()), cones.report.cones);
+	double sum = 0.0;
+	for (const int v : cones.placedCones)
+		sum += cones.targetCurvature[at(v)];
+	EXPECT_NEAR(sum, 4 * kPi, 1e-9);
+	const Report both = reportFor(sideBySide(rectangle(4, 4, 1, 1), perforatedSlab(0, 4), 10));
+	EXPECT_EQ(both.targetUsed, TargetUsed::Several);
+	EXPECT_TRUE(both.choice.empty());
+}
+
 TEST(Parametrize, CanBeCancelledAtEveryCall)
 {
 	Random random(212);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../support/expect.h"
 #include "../support/flat_map.h"
+#include "../support/listener.h"
 #include "../support/random.h"
 #include "../support/shapes.h"
 #include "../support/transform.h"
@@ -269,6 +270,14 @@ TEST(SphereMap, RefusesOtherSurfaces)
 	EXPECT_EQ(pair->problem, InvalidOption::SphereOfComponents);
 	EXPECT_EQ(pair->count, 2u);
 	expectWords(pair->what(), {"2 components"});
+}
+
+TEST(SphereMap, KeepsToTheMemoryLimitOfItsTask)
+{
+	Listener listener;
+	Task task(listener);
+	task.setMemoryLimit(1000.0);
+	EXPECT_THROW(toSphere(icosphere(2)), TooLarge);
 }
 
 } // namespace

@@ -59,7 +59,7 @@ TEST(Unfold, ABoxIsItsNet)
 	EXPECT_EQ(map->report.components, 1);
 	EXPECT_EQ(map->report.eulerCharacteristic, 2);
 	const Seams seam = seams(map->mesh, Sides(map->mesh.vertices.values()));
-	EXPECT_EQ(map->report.seamEdges, seam.edges);
+	EXPECT_EQ(at(map->report.seamEdges), seam.edges.size());
 	EXPECT_DOUBLE_EQ(map->report.seamLength, seam.length);
 }
 

@@ -110,6 +110,7 @@ public:
 		TooLargeInside,     ///< value at the worst of count vertices; must be below bound = 2 pi
 		TooLargeOnBoundary, ///< the same on the boundary, bound = pi
 		FreeBoundary,      ///< value: sum inside; must be above bound, with count boundary vertices
+		ScalesApart,       ///< value: orders of magnitude between scale factors; at most bound
 		HyperbolicSurface, ///< surface: Euler characteristic not negative, no cones
 		HyperbolicSum      ///< value: sum; must be above bound = 2 pi chi
 	};

@@ -99,9 +99,6 @@ struct FlowOptions
 	/// The hyperbolic flow takes what is above Repair for Repair: its deck transformations, which the
 	/// map of least distortion would have to keep, are no rigid motions of the plane.
 	Finish finish = Finish::LeastDistortion;
-
-	/// Bytes of memory that may be used; a run whose estimate is higher is refused. 0: no limit.
-	double memoryLimit = 0.0;
 };
 
 /// Whether a map is to be finished: those of the other methods are there to compare with.

@@ -6,6 +6,7 @@
 
 #include <complex>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace ricci {
@@ -13,10 +14,24 @@ namespace ricci {
 /// The flow before one of its Newton steps, or at its end.
 struct FlowState
 {
-	int component = 0;     ///< number of the component, from 0
-	int step = 0;          ///< Newton steps done; a step with the last factor that only polishes is
-						   ///< not counted
+	int component = 0; ///< number of the component, from 0
+	int step = 0;      ///< Newton steps done; another solve begins with the number of the last one
 	double residual = 0.0; ///< max |target - K| in radians
+};
+
+/// What a component was mapped with in the end. The first ones are those of TargetCurvature, by their
+/// numbers, and Automatic ends with one of the others.
+enum class TargetUsed {
+	Several, ///< those of the components differ
+	Flat,
+	Disk,
+	Rectangle,
+	SelectedCones,
+	Prescribed,
+	PlacedCones,
+	FreeBoundary,       ///< no cones; the boundary keeps its metric
+	PrescribedBoundary, ///< no cones; the boundary's curvature is in proportion to its length
+	Unfolded            ///< cut along creases, each piece with a free boundary
 };
 
 /// What a run measured. With several components counts are sums, errors maxima, means run over all
@@ -24,13 +39,23 @@ struct FlowState
 struct Report
 {
 	bool converged = false;
-	int iterations = 0;             ///< Newton steps, over all solves
+	int iterations = 0; ///< Newton steps, over all solves, also for maps that were not taken
 	double maxCurvatureError = 0.0; ///< max |target - K| in radians, where K is prescribed
 	double residualFloor = 0.0;     ///< radians: what rounding allows max |target - K| to reach
 
 	/// Largest share of an edge's length that the flow has added to it, because a face at one of its ends has
 	/// no area or is a needle: 0 where there is no such face, 1 where an edge has no length.
 	double lengthened = 0.0;
+
+	std::optional<TargetUsed> targetUsed; ///< Euclidean flow
+	/// What Automatic chose and why, as part of a sentence; empty where there was nothing to choose, or where
+	/// the choices of several components differ.
+	std::string choice;
+	/// What the linear equation lets expect of areaDistortionSpread, where cones were placed or declined.
+	std::optional<double> expectedSpread;
+	/// Free boundary: the smallest and the largest length of one of its edges in the map, at the scale of the
+	/// flow, over that on the mesh. The flow keeps them; the finish may not.
+	std::optional<double> boundaryRatioMin, boundaryRatioMax;
 
 	double qcMean = 1.0;       ///< mean of sigma1/sigma2 over the faces
 	double qcVertexMean = 1.0; ///< mean over vertices of the area-weighted ring value (paper 5.1)
@@ -95,7 +120,7 @@ struct Report
 	/// to float, and charts that these are in: see countOverlaps().
 	int overlappingFaces = 0, overlappingCharts = 0;
 	/// Edges of the output cut so that no chart covers itself, across strips, or round triangles that floats
-	/// cannot hold in their chart, less those along which charts were joined.
+	/// cannot hold in their chart. Where parts are joined elsewhere, seamEdges get fewer.
 	int overlapCuts = 0;
 
 	std::optional<double> torusTauRe, torusTauIm; ///< reduced to the fundamental domain

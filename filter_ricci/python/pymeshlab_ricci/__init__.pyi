@@ -54,7 +54,7 @@ class Flattening(Parametrization):
     converged: bool
     """always true; anything else is an error"""
     iterations: int
-    """Newton steps, over all solves"""
+    """Newton steps, over all solves, also for maps that were not taken"""
     max_curvature_error: float
     """max|K̄ − K| in radians where K is prescribed"""
     residual_floor: float
@@ -86,6 +86,25 @@ class Flattening(Parametrization):
     objective: float
     """Euclidean filter: what Automatic makes small: stretch and, for all seams as long as the
     square root of the area, 0.05"""
+    target_used: int
+    """Euclidean filter: what the map was made with in the end: the number of a
+    target_curvature, or 7: a free boundary without cones, 8: a boundary prescribed by its
+    length, 9: cut along creases and unfolded; 0: components differ"""
+    expected_spread: float
+    """Euclidean filter, where cones are placed or declined: the area_distortion_spread that the
+    linear problem predicts"""
+    cone_vertices: Array
+    """Euclidean filter: the vertices at which cones were placed, and their curvatures in
+    radians"""
+    cone_curvatures: Array
+    """Euclidean filter: the vertices at which cones were placed, and their curvatures in
+    radians"""
+    boundary_ratio_min: float
+    """Euclidean filter, free boundary: the least and the largest length of a boundary edge in
+    the map, without normalize_uv, over that on the mesh; 1 but for what the finish moves"""
+    boundary_ratio_max: float
+    """Euclidean filter, free boundary: the least and the largest length of a boundary edge in
+    the map, without normalize_uv, over that on the mesh; 1 but for what the finish moves"""
     flipped_faces: int
     """faces that are turned over or have no area in the plane"""
     flipped_by_rounding: int
@@ -148,7 +167,7 @@ class Flattening(Parametrization):
     """charts that cover a part of the plane more than once; the faces that do so"""
     overlap_cuts: int
     """edges of the output that are cut to separate them, or to set apart faces that floats
-    cannot hold in their chart, less those along which parts were joined elsewhere"""
+    cannot hold in their chart; where parts are joined elsewhere, there are fewer seam_edges"""
     seam_length: float
     """length of these further edges and cuts on the mesh, in its units"""
     seam_length_relative: float
@@ -187,7 +206,7 @@ class Uniformization(Parametrization):
     converged: bool
     """always true; anything else is an error"""
     iterations: int
-    """Newton steps, over all solves"""
+    """Newton steps, over all solves, also for maps that were not taken"""
     max_curvature_error: float
     """max|K̄ − K| in radians where K is prescribed"""
     residual_floor: float
@@ -219,6 +238,25 @@ class Uniformization(Parametrization):
     objective: float
     """Euclidean filter: what Automatic makes small: stretch and, for all seams as long as the
     square root of the area, 0.05"""
+    target_used: int
+    """Euclidean filter: what the map was made with in the end: the number of a
+    target_curvature, or 7: a free boundary without cones, 8: a boundary prescribed by its
+    length, 9: cut along creases and unfolded; 0: components differ"""
+    expected_spread: float
+    """Euclidean filter, where cones are placed or declined: the area_distortion_spread that the
+    linear problem predicts"""
+    cone_vertices: Array
+    """Euclidean filter: the vertices at which cones were placed, and their curvatures in
+    radians"""
+    cone_curvatures: Array
+    """Euclidean filter: the vertices at which cones were placed, and their curvatures in
+    radians"""
+    boundary_ratio_min: float
+    """Euclidean filter, free boundary: the least and the largest length of a boundary edge in
+    the map, without normalize_uv, over that on the mesh; 1 but for what the finish moves"""
+    boundary_ratio_max: float
+    """Euclidean filter, free boundary: the least and the largest length of a boundary edge in
+    the map, without normalize_uv, over that on the mesh; 1 but for what the finish moves"""
     flipped_faces: int
     """faces that are turned over or have no area in the plane"""
     flipped_by_rounding: int
@@ -281,7 +319,7 @@ class Uniformization(Parametrization):
     """charts that cover a part of the plane more than once; the faces that do so"""
     overlap_cuts: int
     """edges of the output that are cut to separate them, or to set apart faces that floats
-    cannot hold in their chart, less those along which parts were joined elsewhere"""
+    cannot hold in their chart; where parts are joined elsewhere, there are fewer seam_edges"""
     seam_length: float
     """length of these further edges and cuts on the mesh, in its units"""
     seam_length_relative: float
@@ -506,9 +544,9 @@ def flatten(
     target_curvature: The curvature that the flow is asked to reach. Automatic suits most
         meshes: flat, or with the metric of the boundary kept, and with cones where areas would
         change much.
-    free_boundary: The boundary keeps the metric that it has on the mesh: the least distortion
-        for a surface with boundary. Disk, Rectangle and the flat annulus prescribe the boundary
-        and ignore this.
+    free_boundary: The flow keeps the metric that the boundary has on the mesh, which distorts
+        least; the finish then changes its lengths a little, by the factors in the log. Disk,
+        Rectangle and the flat annulus prescribe the boundary and ignore this.
     cone_distortion: 0: as many cones as lower the distortion by more than their seams cost.
         Above 0: cones are added until areas typically change by less than this, relative to
         each other (0.25: by a quarter). Read where cones are placed and their number is 0.
@@ -549,7 +587,8 @@ def flatten(
         closed surface of genus 0.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
-    texture_size: Width and height of the new texture, 16 to 16384 texels.
+    texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
+        ones.
     report: A report of the run: a page with diagrams and its data beside it (.html), or the
         data alone (.csv). Empty: no report.
     epsilon: The flow stops when the curvature of every vertex is this close to its target, in
@@ -628,7 +667,8 @@ def uniformize(
         flipped are repaired. Only for the method 'Intrinsic flips'.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
-    texture_size: Width and height of the new texture, 16 to 16384 texels.
+    texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
+        ones.
     report: A report of the run: a page with diagrams and its data beside it (.html), or the
         data alone (.csv). Empty: no report.
     epsilon: The flow stops when the curvature of every vertex is this close to its target, in

@@ -4,7 +4,7 @@
 
 EUCLIDEAN_RESULTS = \
 {'converged': ('bool', 'always true; anything else is an error'),
- 'iterations': ('int', 'Newton steps, over all solves'),
+ 'iterations': ('int', 'Newton steps, over all solves, also for maps that were not taken'),
  'max_curvature_error': ('float', 'max|K̄ − K| in radians where K is prescribed'),
  'residual_floor': ('float', 'the smallest residual that rounding allows'),
  'lengthened': ('float',
@@ -30,6 +30,28 @@ EUCLIDEAN_RESULTS = \
  'objective': ('float',
                'Euclidean filter: what Automatic makes small: stretch and, for all seams as '
                'long as the square root of the area, 0.05'),
+ 'target_used': ('int',
+                 'Euclidean filter: what the map was made with in the end: the number of a '
+                 'target_curvature, or 7: a free boundary without cones, 8: a boundary '
+                 'prescribed by its length, 9: cut along creases and unfolded; 0: components '
+                 'differ'),
+ 'expected_spread': ('float',
+                     'Euclidean filter, where cones are placed or declined: the '
+                     'area_distortion_spread that the linear problem predicts'),
+ 'cone_vertices': ('vector',
+                   'Euclidean filter: the vertices at which cones were placed, and their '
+                   'curvatures in radians'),
+ 'cone_curvatures': ('vector',
+                     'Euclidean filter: the vertices at which cones were placed, and their '
+                     'curvatures in radians'),
+ 'boundary_ratio_min': ('float',
+                        'Euclidean filter, free boundary: the least and the largest length of '
+                        'a boundary edge in the map, without normalize_uv, over that on the '
+                        'mesh; 1 but for what the finish moves'),
+ 'boundary_ratio_max': ('float',
+                        'Euclidean filter, free boundary: the least and the largest length of '
+                        'a boundary edge in the map, without normalize_uv, over that on the '
+                        'mesh; 1 but for what the finish moves'),
  'flipped_faces': ('int', 'faces that are turned over or have no area in the plane'),
  'flipped_by_rounding': ('int', 'additional ones once the coordinates are floats'),
  'finish_moved': ('int',
@@ -84,8 +106,8 @@ EUCLIDEAN_RESULTS = \
                        'do so'),
  'overlap_cuts': ('int',
                   'edges of the output that are cut to separate them, or to set apart faces '
-                  'that floats cannot hold in their chart, less those along which parts were '
-                  'joined elsewhere'),
+                  'that floats cannot hold in their chart; where parts are joined elsewhere, '
+                  'there are fewer seam_edges'),
  'seam_length': ('float', 'length of these further edges and cuts on the mesh, in its units'),
  'seam_length_relative': ('float', 'the same, divided by the root of the area of the mesh'),
  'torus_tau_re': ('float', 'flat torus: its modulus in the fundamental domain'),

@@ -144,6 +144,9 @@ std::string words(const InadmissibleCurvature& e)
 			   ", but with a free boundary of " + std::to_string(e.count) +
 			   " vertices it must be more than 2 pi chi - pi (boundary vertices) = " +
 			   number(e.bound);
+	case InadmissibleCurvature::ScalesApart:
+		return "The target curvature would make parts of the surface about 1e" + number(e.value) +
+			   " times as large as others";
 	case InadmissibleCurvature::HyperbolicSurface:
 		return "A hyperbolic metric without cones needs an Euler characteristic below 0, but the "
 			   "surface is " +

@@ -37,10 +37,22 @@ Report& Report::operator+=(const Report& next)
 		this->*error = std::max(this->*error, next.*error);
 	if (next.hyperbolicArea)
 		hyperbolicArea = hyperbolicArea.value_or(0.0) + *next.hyperbolicArea;
-	for (std::optional<double> Report::*error : {&Report::holonomyError, &Report::relationError})
-		if (next.*error)
-			this->*error = std::max((this->*error).value_or(0.0), *(next.*error));
 	const bool isOnly = components == next.components;
+	if (isOnly || targetUsed == next.targetUsed)
+		targetUsed = next.targetUsed;
+	else
+		targetUsed = TargetUsed::Several;
+	choice = isOnly || choice == next.choice ? next.choice : "";
+	for (std::optional<double> Report::*largest :
+		 {&Report::holonomyError,
+		  &Report::relationError,
+		  &Report::expectedSpread,
+		  &Report::boundaryRatioMax})
+		if (next.*largest)
+			this->*largest = std::max((this->*largest).value_or(0.0), *(next.*largest));
+	if (next.boundaryRatioMin)
+		boundaryRatioMin =
+			std::min(boundaryRatioMin.value_or(*next.boundaryRatioMin), *next.boundaryRatioMin);
 	for (std::optional<double> Report::*invariant :
 		 {&Report::torusTauRe,
 		  &Report::torusTauIm,

@@ -165,6 +165,8 @@ void toInputIndices(const SurfaceMesh& input, const OpenedMesh& opened, Parametr
 	VertexMeans(opened, vertexCount)(map.vertexQC);
 	map.u.resize(vertexCount);
 	map.targetCurvature.resize(vertexCount);
+	for (int& v : map.placedCones)
+		v = opened.vertex[positionOf(v)];
 	for (Triangle& t : mesh.vertices)
 		for (int& v : t)
 			v = positionOf(v) < opened.vertex.size() ? opened.vertex[positionOf(v)]

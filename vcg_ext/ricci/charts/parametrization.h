@@ -34,6 +34,7 @@ struct Parametrization
 	std::vector<double> vertexQC;
 	std::vector<double> u;               ///< [vertex of the input] Eq. 6; 0 at unused vertices
 	std::vector<double> targetCurvature; ///< [vertex of the input] radians, as reached
+	std::vector<int> placedCones;        ///< vertices of the input at which cones were placed
 };
 
 } // namespace ricci

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <utility>
 
 namespace ricci {
@@ -155,7 +156,13 @@ divide(int number, const std::vector<int>& triangles, const DualGraph& graph, Pa
 void countCuts(const Seams& before, const Sides& sides, Parametrization& map)
 {
 	const Seams after = seams(map.mesh, sides);
-	map.report.overlapCuts += after.edges - before.edges;
+	const std::set<Corner> old(before.edges.begin(), before.edges.end());
+	int cut = 0;
+	for (const Corner side : after.edges)
+		cut += old.count(side) == 0;
+	const int joined = static_cast<int>(before.edges.size() - after.edges.size()) + cut;
+	map.report.overlapCuts += cut;
+	map.report.seamEdges = std::max(0, map.report.seamEdges - joined);
 	map.report.seamLength += after.length - before.length;
 }
 

@@ -34,11 +34,18 @@ double totalCurvature(const EmbeddedSurface& surface)
 	return 2 * kPi * surface.topology.type.eulerCharacteristic();
 }
 
+/// What any target has to fulfil.
+void check(const EmbeddedSurface& surface, const Target& target)
+{
+	checkVertexBounds(surface.topology, target);
+	checkFreeBoundary(surface.topology, target);
+}
+
 /// Fixes u on the boundary (paper 5.3).
 void freeTheBoundary(const EmbeddedSurface& surface, Target& target)
 {
 	target.fixed = surface.topology.boundary;
-	target.notes.push_back("Free boundary: the boundary keeps its metric.");
+	target.notes.push_back("Free boundary: the flow keeps the boundary's metric.");
 }
 
 void noteImpliedBoundary(
@@ -160,13 +167,30 @@ void setCones(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 			"boundary has no effect.");
 }
 
+/// A free boundary takes whatever the curvature inside leaves of 2 pi chi: what it cannot take shows in the
+/// scale factors of the linear flow.
+void checkScales(const EmbeddedSurface& surface, const InitialPacking& start, const Target& target)
+{
+	LinearFlow flow(surface, start, ConeBoundary::Fixed);
+	const VertexVector u = flow.solve(target.curvature - flow.curvature());
+	const double scales = (u.maxCoeff() - u.minCoeff()) / std::log(10.0);
+	if (!(scales <= 2.0 * kMaxScales))
+		throw InadmissibleCurvature(
+			InadmissibleCurvature::ScalesApart, std::round(scales), 2.0 * kMaxScales);
+}
+
 /// Copies the prescribed values; a defect of rounding size is spread in proportion to |K|.
 void setPrescribedValues(
-	const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
+	const EmbeddedSurface& surface,
+	const InitialPacking& start,
+	const TargetRequest& request,
+	Target& target)
 {
 	setPrescribed(request, target);
 	if (!surface.topology.type.isClosed() && request.options.freeBoundary) {
 		freeTheBoundary(surface, target);
+		check(surface, target);
+		checkScales(surface, start, target);
 		return;
 	}
 	// A sum of many equal values in double drifts by more than their own rounding.
@@ -230,6 +254,8 @@ void setPlacedCones(
 		target.curvature[cones.vertices[i]] = cones.curvatures[i];
 		total += cones.curvatures[i];
 	}
+	target.used = TargetUsed::PlacedCones;
+	target.expectedSpread = cones.distortion;
 	target.isSeamless = request.options.cones.rounding == ConeRounding::QuarterTurns;
 	target.notes.push_back(describe(cones, request.vertexNumbers));
 	if (request.measuresAreas && isForObjective(request.options.cones))
@@ -267,21 +293,22 @@ bool isFlatAnnulus(const EmbeddedSurface& surface, const TargetRequest& request)
 void setPlain(const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
 {
 	const SurfaceType& type = surface.topology.type;
-	if (type.isTorus() || isFlatAnnulus(surface, request))
+	if (type.isTorus() || isFlatAnnulus(surface, request)) {
+		target.used = TargetUsed::Flat;
 		setFlat(surface, request, target);
-	else if (request.options.freeBoundary)
+	}
+	else if (request.options.freeBoundary) {
+		target.used = TargetUsed::FreeBoundary;
 		freeTheBoundary(surface, target);
-	else if (type.isDisk())
+	}
+	else if (type.isDisk()) {
+		target.used = TargetUsed::Disk;
 		setDisk(surface, request, target);
-	else
+	}
+	else {
+		target.used = TargetUsed::PrescribedBoundary;
 		prescribeByLength(surface, totalCurvature(surface), target);
-}
-
-/// What any target has to fulfil.
-void check(const EmbeddedSurface& surface, const Target& target)
-{
-	checkVertexBounds(surface.topology, target);
-	checkFreeBoundary(surface.topology, target);
+	}
 }
 
 /// The plain target or cones: what is expected to cost less, or cones where the spread of areas would be
@@ -309,10 +336,16 @@ void choosePlainOrCones(
 	}
 	const std::string without =
 		describe(plain) + ", area distortion " + numberText(spread, 3) + " (spread)";
-	if (cones && (goesBySpread || costOf(expectation(*cones)) < costOf(plain))) {
+	const double costWithout = costOf(plain), cost = cones ? costOf(expectation(*cones)) : 0.0;
+	if (cones && (goesBySpread || cost < costWithout)) {
 		// They may leave more to a short boundary than it can take.
-		std::optional<Target> admissible = attempt([&] {
+		std::optional<Target> admissible = attempt("no cones are placed", [&] {
 			Target withCones = target;
+			withCones.choice = goesBySpread
+								   ? "cones, because without them areas would spread by " +
+										 numberText(spread, 3) + ", more than was asked for"
+								   : "cones, which are expected to lower the objective from " +
+										 numberText(costWithout, 3) + " to " + numberText(cost, 3);
 			withCones.notes.push_back("Cones: without them " + without + ".");
 			setPlacedCones(surface, *cones, request, withCones);
 			check(surface, withCones);
@@ -323,7 +356,15 @@ void choosePlainOrCones(
 			return;
 		}
 	}
+	target.choice = "no cones, because " +
+					(!isKept && (goesBySpread || cost < costWithout)
+						 ? "they leave more curvature to the boundary than its vertices can take"
+					 : cones ? "they are expected to raise the objective from " +
+								   numberText(costWithout, 3) + " to " + numberText(cost, 3)
+							 : "areas are expected to spread by " + numberText(spread, 3) +
+								   " only without them");
 	setPlain(surface, request, target);
+	target.expectedSpread = spread;
 	target.notes.push_back(
 		"No cones: " + without +
 		(cones ? "; with " + std::to_string(cones->vertices.size()) + " cones " +
@@ -344,13 +385,16 @@ void setAutomatic(
 {
 	const SurfaceType& type = surface.topology.type;
 	if (type.isClosed() && !type.isTorus()) {
+		target.choice = "cones, because " + type.name() + " has no flat metric without them";
 		target.notes.push_back("Cones: " + type.name() + " has no flat metric without them.");
 		choosePlacedCones(surface, start, request, target);
 	}
 	else if (request.measuresAreas && (type.isClosed() || request.options.freeBoundary))
 		choosePlainOrCones(surface, start, request, target);
-	else
+	else {
+		target.choice = "no cones, because of the surface's topology and the boundary asked for";
 		setPlain(surface, request, target);
+	}
 }
 
 } // namespace
@@ -364,6 +408,8 @@ Target chooseTarget(
 	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request)
 {
 	Target target = zeroTarget(surface.topology);
+	target.used =
+		static_cast<TargetUsed>(request.options.target); // Automatic ends with another one
 	switch (request.options.target) {
 	case TargetCurvature::Automatic:
 		setAutomatic(surface, start, request, target);
@@ -381,7 +427,7 @@ Target chooseTarget(
 		setCones(surface, request, target);
 		break;
 	case TargetCurvature::Prescribed:
-		setPrescribedValues(surface, request, target);
+		setPrescribedValues(surface, start, request, target);
 		break;
 	case TargetCurvature::PlacedCones:
 		choosePlacedCones(surface, start, request, target);
@@ -420,6 +466,7 @@ std::optional<Target> targetToKeepAreas(
 		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
 	Target target = zeroTarget(surface.topology);
+	target.choice = flow.target.choice;
 	target.notes.push_back(
 		"The spread of the logarithm of the area factor comes out as " +
 		numberText(change.spread, 3) + ", the mean of the factor or its inverse as " +

@@ -2,6 +2,8 @@
 #include "flow_run.h"
 
 #include "../base/numbers.h"
+#include "../base/task.h"
+#include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../metric/area.h"
 #include "../metric/unfold.h"
@@ -11,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 namespace ricci {
@@ -172,6 +175,8 @@ bool FlowRun::solve()
 	if (stopped || gaps)
 		m_solved = solveExtended();
 	if (m_result.doubled && m_solved.residual > kMaxAsymmetry && m_map->brokenTriangles() == 0) {
+		logLine(
+			"Another solve, without symmetry: rounding has made the copies of the double differ.");
 		m_newton->dropSymmetry();
 		m_solved = solveFor(m_options.epsilon);
 	}
@@ -189,7 +194,12 @@ NewtonResult FlowRun::solveOnCircle()
 	VertexVector& curvature = m_result.target.curvature;
 	const double copies = m_result.doubled ? 2.0 : 1.0;
 	CircleTarget circle(m_loopLengths, m_arcs);
+	int solves = 0;
 	const auto solveForAngles = [&](const std::vector<double>& angles, double epsilon) {
+		if (++solves > 1)
+			logLine(
+				"Solve " + std::to_string(solves) +
+				" for the circle: its angles follow the lengths that the boundary has now.");
 		for (std::size_t i = 0; i < angles.size(); ++i)
 			curvature[m_loop[i]] = copies * angles[i];
 		return m_solved = solveFor(epsilon);
@@ -212,19 +222,24 @@ NewtonResult FlowRun::solveFor(double epsilon, bool polishes, double maxPolished
 	newtonOptions.maxIterations = m_maxSteps;
 	newtonOptions.polishes = polishes;
 	newtonOptions.maxPolishedFloor = maxPolishedFloor;
-	const NewtonResult solved = m_newton->solve(
+	const int before = m_result.iterations;
+	return m_newton->solve(
 		m_result.u,
 		m_result.target.curvature,
 		newtonOptions,
-		[&](int step, double residual) { m_listener(m_result.iterations + step, residual); },
+		[&](int step, double residual) {
+			m_result.iterations = before + step;
+			m_listener(m_result.iterations, residual);
+		},
 		m_surgeon);
-	m_result.iterations += solved.iterations;
-	return solved;
 }
 
 /// Goes on from the present state in extended precision.
 NewtonResult FlowRun::solveExtended()
 {
+	logLine(
+		"Another solve, in extended precision: doubles end at " + numberText(m_solved.residual, 3) +
+		" rad (rounding floor " + numberText(m_solved.floor, 3) + ").");
 	m_flipsBefore = flowFlips();
 	std::shared_ptr<CurvatureMap> map = makeMap(m_map->releasePacking(), true);
 	m_newton->continueOn(*map);

@@ -13,21 +13,19 @@ namespace ricci {
 /// Runs the flow on the surface of another flow once more, to a new target; none if it fails.
 using FlowTo = std::function<std::optional<FlowResult>(const Target&)>;
 
-/// Asks for other metrics in place of \p flow, round after round, and counts the steps of all of them.
+/// Asks for other metrics in place of a flow's, round after round.
 /// \param propose () -> std::optional<FlowResult>: the next one; none ends the rounds
-/// \param take (FlowResult) -> bool: puts the next one into \p flow if it is better
+/// \param take (FlowResult) -> bool: takes the next one if it is better
 /// \return rounds made. There are \p maxVain in a row at most in which \p take returns false
 template<class Propose, class Take>
-int improve(FlowResult& flow, int maxRounds, int maxVain, Propose propose, Take take)
+int improve(int maxRounds, int maxVain, Propose propose, Take take)
 {
-	int steps = flow.iterations, round = 0;
+	int round = 0;
 	for (int vain = 0; round < maxRounds && vain < maxVain; ++round) {
 		std::optional<FlowResult> next = propose();
 		if (!next)
 			break;
-		steps += next->iterations;
 		vain = take(std::move(*next)) ? 0 : vain + 1;
-		flow.iterations = steps;
 	}
 	return round;
 }

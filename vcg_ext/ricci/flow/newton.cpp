@@ -288,9 +288,8 @@ void NewtonSolver::accept(Run& run, Verdict verdict)
 	m_low.swap(m_trialLow);
 	m_map->accept();
 	run.slopeSteps += run.searchesSlope;
-	if (verdict == Verdict::Polish)
-		++run.polishing;
-	else if (++run.result.iterations % kStagnationSteps == 0) {
+	run.polishing += verdict == Verdict::Polish;
+	if (++run.result.iterations % kStagnationSteps == 0 && verdict == Verdict::Step) {
 		const double norm = m_gradient.norm();
 		const bool stagnates = m_map->brokenTriangles() > 0 && norm > kStagnation * run.firstNorm;
 		run.isStuck = stagnates && run.slopeSteps >= kSlopeSteps;

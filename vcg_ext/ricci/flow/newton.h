@@ -28,7 +28,7 @@ struct NewtonOptions
 struct NewtonResult
 {
 	bool converged = false;
-	int iterations = 0;
+	int iterations = 0;    ///< steps, those that polish included
 	double residual = 0.0; ///< max |target - K| over the free vertices, radians
 	double floor = 0.0;    ///< estimate of what rounding lets the residual reach, radians
 };

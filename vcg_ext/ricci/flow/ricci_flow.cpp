@@ -3,6 +3,7 @@
 
 #include "../base/attempt.h"
 #include "../base/memory_estimate.h"
+#include "../base/task.h"
 #include "../error.h"
 #include "../metric/euclidean.h"
 #include "../metric/hyperbolic.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace ricci {
@@ -50,7 +52,7 @@ FlowResult runRicciFlow(
 	run.limitSteps(kStepsBeforeDoubling);
 	const bool isPrescribed = !target.hasFixed();
 	bool isRough = false; // a rough solution has shown that the boundary bends
-	const bool solved = attempt([&] {
+	const bool solved = attempt("the double of the surface is tried", [&] {
 							isRough = isPrescribed && !target.circular &&
 									  run.solveRoughly(kRoughEpsilon) && run.bendsAtBoundary();
 							return isRough || run.solve();
@@ -58,6 +60,10 @@ FlowResult runRicciFlow(
 	if (solved && !isRough && !(isPrescribed && run.bendsAtBoundary()))
 		return run.result();
 	run.end();
+	logLine(
+		std::string("Another solve, on the double of the surface: ") +
+		(solved ? "on the surface alone, the boundary bends."
+				: "the surface alone does not reach the target."));
 	try {
 		requireMemoryForDouble(static_cast<std::size_t>(surface.triangulation.faceCount()));
 		FlowRun onDouble = FlowRun::onDouble(surface, target, options, listener);
@@ -69,15 +75,17 @@ FlowResult runRicciFlow(
 	catch (const Stopped&) {
 		throw;
 	}
-	catch (const Error&) {
+	catch (const Error& error) {
 		// The half is less conformal at the boundary, but it has the metric asked for.
-		if (solved && !isRough)
-			return run.result();
 		if (!solved)
 			throw;
+		const std::string alone = "The surface alone is taken, less conformal at its boundary";
+		logLine(alone + ", because its double fails (" + error.what() + ").");
+		if (!isRough)
+			return run.result();
 		FlowRun half(surface, initialPacking(surface, options), target, options, listener);
 		half.limitSteps(kStepsBeforeDoubling);
-		if (!attempt([&] { return half.solve(); }).value_or(false))
+		if (!attempt("it fails, too", [&] { return half.solve(); }).value_or(false))
 			throw;
 		return half.result();
 	}

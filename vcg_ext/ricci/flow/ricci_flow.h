@@ -42,7 +42,8 @@ struct FlowResult
 	int flipCount() const { return static_cast<int>(start.flips.size() + flips.size()); }
 };
 
-/// Gets the number of Newton steps so far and the residual before each step; may throw to cancel.
+/// Gets the number of Newton steps so far and the residual before each step; a number that is no larger than
+/// the last one begins another solve. May throw to cancel.
 using FlowListener = std::function<void(int, double)>;
 
 /// Runs the flow from \p start, the initial packing of \p surface, to \p target.

@@ -4,6 +4,7 @@
 
 #include "../base/numbers.h"
 #include "../options.h"
+#include "../report.h"
 #include "../surface/elements.h"
 
 #include <algorithm>
@@ -34,7 +35,10 @@ struct Target
 									 ///< chosen to keep areas so far
 	std::optional<ExpectedMap> expected; ///< where it was chosen to cost least
 	bool isSeamless = false;             ///< cones were placed with multiples of pi / 2
-	std::vector<std::string> notes;      ///< what was chosen, in sentences
+	TargetUsed used = TargetUsed::Prescribed;
+	std::optional<double> expectedSpread; ///< see Report
+	std::string choice;                   ///< see Report
+	std::vector<std::string> notes;       ///< what was chosen, in sentences
 
 	bool hasFixed() const { return std::find(fixed.begin(), fixed.end(), 1) != fixed.end(); }
 };

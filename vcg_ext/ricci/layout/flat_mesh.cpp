@@ -135,7 +135,7 @@ Seams seams(const FlatMesh& mesh, const Sides& sides)
 		if (const Corner other = sides.across(side);
 			!other.isValid() || isJoined(mesh, side, other))
 			return;
-		++sum.edges;
+		sum.edges.push_back(side);
 		sum.length += mesh.lengths[side];
 	});
 	return sum;

@@ -80,8 +80,8 @@ inline Corner joinedSide(const FlatMesh& mesh, const Sides& sides, Corner side)
 /// Edges of the surface whose two sides are not joined, in one chart or two.
 struct Seams
 {
-	int edges = 0;
-	double length = 0.0; ///< on the surface, each edge once
+	std::vector<Corner> edges; ///< one side of each
+	double length = 0.0;       ///< on the surface, each edge once
 };
 Seams seams(const FlatMesh& mesh, const Sides& sides);
 

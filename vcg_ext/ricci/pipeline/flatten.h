@@ -40,6 +40,10 @@ struct ComponentMap
 	std::optional<double> annulusModulus, rectangleAspect, hyperbolicArea, relationError;
 	std::optional<double> holonomyError;
 
+	std::vector<std::string> notes; ///< what was chosen, in sentences
+	int seamlessSteps = 0;          ///< of Newton's method, for turns across seams
+	std::optional<double> boundaryRatioMin, boundaryRatioMax; ///< see Report
+
 	int finishMoved = 0;       ///< points that the repair moved
 	int endedEarly = 0;        ///< see Report::endedEarly
 	bool hasFreeSeams = false; ///< the finish has let seams go

@@ -21,12 +21,17 @@
 #include "stages.h"
 #include "whole_map.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace ricci {
 
 namespace {
+
+/// Of the edges of a free boundary, relative: less is not worth a line.
+constexpr double kKeptLength = 1e-3;
 
 /// What the holes are to the flow. Short ones are boundaries where they cannot be closed without flips, and
 /// where the target has values for the boundary that the surface has.
@@ -48,11 +53,12 @@ void makeSeamless(
 	if (options.method != Method::IntrinsicFlips)
 		return;
 	const FlowTo flowTo = [&](const Target& target) {
-		return attempt([&] {
+		return attempt("the metric before it stays", [&] {
 			return runFlow(surface, initialPacking(surface, options), target, options, map);
 		});
 	};
 	const HolonomyRounding done = makeSeamless(surface, request, options.epsilon, flowTo, map.flow);
+	map.seamlessSteps = done.steps;
 	if (done.before > 0.0)
 		logLine(
 			"The rotations across seams are up to " + numberText(done.before, 3) +
@@ -148,6 +154,33 @@ void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 	map.uv = cornersOf(domain.surface.triangulation, map.layout);
 }
 
+/// How the lengths of a free boundary compare in the map and on the mesh.
+void measureBoundary(const EmbeddedSurface& surface, ComponentMap& map)
+{
+	if (!map.flow.target.hasFixed())
+		return;
+	const Triangulation& t = surface.triangulation;
+	double least = std::numeric_limits<double>::infinity(), most = 0.0;
+	for (const Halfedge h : t.exteriorHalfedges()) {
+		const Halfedge side = h.twin();
+		const double before = surface.lengths[h.edge()];
+		if (!(before > 0.0))
+			continue;
+		const Point2 along = map.layout[t.next(side)] - map.layout[side];
+		const double ratio = std::hypot(along[0], along[1]) / before;
+		least = std::min(least, ratio);
+		most = std::max(most, ratio);
+	}
+	if (!(most > 0.0))
+		return;
+	map.boundaryRatioMin = least;
+	map.boundaryRatioMax = most;
+	if (std::max(most - 1.0, 1.0 - least) > kKeptLength)
+		logLine(
+			"Free boundary: in the map its edges are " + numberText(least, 3) + " to " +
+			numberText(most, 3) + " times as long as on the mesh.");
+}
+
 } // namespace
 
 std::optional<ComponentMap>
@@ -190,6 +223,7 @@ flattenToPlane(const Component& component, const VertexInput& input, const Optio
 		threadsFor(surface.triangulation.faceCount()),
 		[&] { finish(domain, options, map); },
 		[&] { requireMetric(map.flow, domain.solved().topology.boundary); });
+	measureBoundary(surface, map);
 	if (options.cones.rounding == ConeRounding::QuarterTurns)
 		map.holonomyError =
 			holonomyError(surface.triangulation, map.layout, map.cut.isCut, map.cones);

@@ -53,6 +53,7 @@ flattenWithEdgeSwaps(const Component& component, const VertexInput& input, const
 			logLine(description(component, surface.topology.type));
 			for (const std::string& note : target.notes)
 				logLine(note);
+			map.notes = target.notes;
 		}
 		first = false;
 		flowProgress.emplace(options.epsilon, map.flowStates);

@@ -36,7 +36,7 @@ void keepAreas(
 		const FlowResult& before = last ? *last : best;
 		if (keepsAreas(surface, before))
 			return std::nullopt; // without the cost of another start
-		auto next = attempt([&]() -> std::optional<FlowResult> {
+		auto next = attempt("the metric before it stays", [&]() -> std::optional<FlowResult> {
 			InitialPacking start = initialPacking(surface, options);
 			const auto target = targetToKeepAreas(surface, start, before, request);
 			if (!target)
@@ -56,7 +56,6 @@ void keepAreas(
 	};
 	const bool isForCost = best.target.expected.has_value();
 	const int round = improve(
-		best,
 		isForCost ? kMaxCheaper : kMaxRounds,
 		isForCost ? kMaxVainCheaper : kMaxVainRounds,
 		propose,

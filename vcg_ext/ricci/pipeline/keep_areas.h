@@ -9,7 +9,7 @@ namespace ricci {
 
 /// The promise of Target::maxSpread: while the metric of map.flow changes areas more than its target
 /// was chosen for, runs the flow again, to targetToKeepAreas(), in a bounded number of rounds. The
-/// metric that keeps areas best stays in map.flow. Steps are counted over all rounds.
+/// metric that keeps areas best stays in map.flow.
 /// \param surface on which map.flow has run
 /// \throw Cancelled
 void keepAreas(

@@ -101,22 +101,28 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	Options ofFlow = options;
 	if (unfolded)
 		ofFlow.cones.alternative = cost(*unfolded);
+	const auto chosen = [](const std::string& choice, Parametrization map) {
+		map.report.choice = choice;
+		map.notes.push_back("Automatic: " + choice + ".");
+		logLine(map.notes.back());
+		return map;
+	};
 	std::optional<ComponentMap> flow = flattenToPlane(component, input, ofFlow);
-	if (!flow) {
-		logLine(
-			"Cut along creases and unfolded: " + costText(*unfolded) +
-			"; cones are expected to cost more.");
-		return std::move(*unfolded);
-	}
+	const std::string cut =
+		unfolded ? "cut along creases and unfolded: " + costText(*unfolded) : "";
+	if (!flow)
+		return chosen(cut + "; cones are expected to cost more", std::move(*unfolded));
 	Parametrization map = asParametrization(component, std::move(*flow));
 	separateCharts(options, map);
 	if (!unfolded)
 		return map;
 	const bool isUnfolded = cost(*unfolded) < cost(map);
-	logLine(
-		"Cut along creases and unfolded: " + costText(*unfolded) + "; as a whole: " +
-		costText(map) + ". The " + (isUnfolded ? "first" : "second") + " is taken.");
-	return isUnfolded ? std::move(*unfolded) : std::move(map);
+	const std::string whole = "as a whole: " + costText(map);
+	const int steps = unfolded->report.iterations + map.report.iterations;
+	map = isUnfolded ? chosen(cut + "; " + whole, std::move(*unfolded))
+					 : chosen(map.report.choice + "; " + whole + "; " + cut, std::move(map));
+	map.report.iterations = steps;
+	return map;
 }
 
 void measure(const OpenedMesh& opened, Parametrization& map)

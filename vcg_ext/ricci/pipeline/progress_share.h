@@ -24,7 +24,7 @@ constexpr double kOverlay = 0.7;
 class FlowProgress
 {
 public:
-	/// Every state that is passed is appended to \p states.
+	/// Every state that is passed is appended to \p states, with the steps counted on from those there.
 	FlowProgress(double epsilon, std::vector<FlowState>& states) :
 			m_epsilon(epsilon), m_states(states)
 	{
@@ -32,17 +32,21 @@ public:
 
 	void operator()(int step, double residual)
 	{
-		m_states.push_back({0, step, residual});
+		const bool begins =
+			step <= m_step; // another solve, which may go on where the last one ended
+		m_step = step;
+		const int count = m_states.empty() ? 0 : m_states.back().step + (begins ? 0 : 1);
+		const bool isKnown = begins && !m_states.empty() && m_states.back().residual == residual;
+		m_states.push_back({0, count, residual});
 		if (m_first < 0.0)
 			m_first = std::max(residual, 10 * m_epsilon);
 		const double done =
 			std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon);
 		m_done = std::max(m_done, std::clamp(done, 0.0, 1.0));
-		const std::string line = "Newton step " + std::to_string(step) + ": max |target - K| = " +
+		const std::string line = "Newton step " + std::to_string(count) + ": max |target - K| = " +
 								 numberText(residual, 3, std::chars_format::scientific);
-		if (step != m_step) // a repeated number: a step that only polishes
+		if (!isKnown)
 			logLine(line);
-		m_step = step;
 		// Rounding must not carry the bar past the stage that follows.
 		advance(
 			std::min(kBeforeFlow + m_done * (1.0 - kBeforeFlow - kAfterFlow), 1.0 - kAfterFlow),
@@ -52,7 +56,7 @@ public:
 private:
 	double m_epsilon, m_first = -1.0, m_done = 0.0;
 	std::vector<FlowState>& m_states;
-	int m_step = -1;
+	int m_step = 0;
 };
 
 } // namespace ricci

@@ -36,21 +36,63 @@ using Vector = Eigen::Vector3d;
 /// surface.
 constexpr double kNearest = 0.5;
 
-/// Vertices that are tried for the puncture.
-constexpr int kMaxPoles = 100;
-
 Vector vec(const Point3& p)
 {
 	return {p[0], p[1], p[2]};
 }
 
+/// The vertices by one coordinate, that in which they reach farthest: few lie near any of them in it.
+class SortedVertices
+{
+public:
+	explicit SortedVertices(const VertexArray<Point3>& positions) : m_positions(positions)
+	{
+		double widest = -1.0;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const auto [low, high] = std::minmax_element(
+				positions.begin(), positions.end(), [k](const Point3& a, const Point3& b) {
+					return a[k] < b[k];
+				});
+			if ((*high)[k] - (*low)[k] > widest) {
+				widest = (*high)[k] - (*low)[k];
+				m_axis = k;
+			}
+		}
+		for (const Vertex v : positions.indices())
+			m_order.push_back(v);
+		std::stable_sort(m_order.begin(), m_order.end(), [&](Vertex a, Vertex b) {
+			return positions[a][m_axis] < positions[b][m_axis];
+		});
+	}
+
+	/// Distance of the vertex nearest to \p v, or \p radius if none is nearer.
+	double nearest(Vertex v, double radius) const
+	{
+		const Point3& centre = m_positions[v];
+		auto other = std::lower_bound(
+			m_order.begin(), m_order.end(), centre[m_axis] - radius, [&](Vertex w, double low) {
+				return m_positions[w][m_axis] < low;
+			});
+		for (; other != m_order.end() && m_positions[*other][m_axis] <= centre[m_axis] + radius;
+			 ++other)
+			if (*other != v)
+				radius = std::min(radius, distance(m_positions[*other], centre));
+		return radius;
+	}
+
+private:
+	const VertexArray<Point3>& m_positions;
+	std::size_t m_axis = 0;
+	std::vector<Vertex> m_order;
+};
+
 /// The vertex whose star has the largest smallest angle, among those that no other vertex comes near
-/// in space.
+/// in space; where there is none, the one that others come least near.
 Vertex choosePole(const Component& c)
 {
 	const int n = c.positions.size();
 	VertexArray<double> minAngle(n, std::numeric_limits<double>::infinity());
-	VertexArray<double> nearest(n, std::numeric_limits<double>::infinity());
+	VertexArray<double> nearest(n, std::numeric_limits<double>::infinity()); // neighbour
 	for (const Triangle& t : c.triangles) {
 		double angle = std::numeric_limits<double>::infinity();
 		for (std::size_t k = 0; k < 3; ++k) {
@@ -69,23 +111,26 @@ Vertex choosePole(const Component& c)
 	std::vector<Vertex> order;
 	for (const Vertex v : c.positions.indices())
 		order.push_back(v);
-	const int tried = std::min(kMaxPoles, n);
-	std::partial_sort(order.begin(), order.begin() + tried, order.end(), [&](Vertex a, Vertex b) {
+	std::sort(order.begin(), order.end(), [&](Vertex a, Vertex b) {
 		return minAngle[a] != minAngle[b] ? minAngle[a] > minAngle[b] : a < b;
 	});
-	order.resize(positionOf(tried));
+	const SortedVertices sorted(c.positions);
+	Vertex best;
+	double mostAlone = 0.0;
 	for (const Vertex pole : order) {
-		bool alone = nearest[pole] > 0.0;
-		for (const Vertex v : c.positions.indices()) {
-			if (!alone)
-				break;
-			alone = v == pole ||
-					distance(c.positions[v], c.positions[pole]) >= kNearest * nearest[pole];
+		checkpoint();
+		const double reach = kNearest * nearest[pole];
+		const double alone = reach > 0.0 ? sorted.nearest(pole, reach) / nearest[pole] : 0.0;
+		if (alone > mostAlone) {
+			mostAlone = alone;
+			best = pole;
 		}
-		if (alone)
-			return pole;
+		if (mostAlone >= kNearest)
+			break;
 	}
-	throw InvalidMesh(InvalidMesh::NotPuncturable);
+	if (!best.isValid())
+		throw InvalidMesh(InvalidMesh::NotPuncturable);
+	return best;
 }
 
 /// The component inverted about its pole, whose star is taken out.

@@ -156,11 +156,11 @@ FlowResult runFlow(
 {
 	for (const std::string& note : target.notes)
 		logLine(note);
+	map.notes.insert(map.notes.end(), target.notes.begin(), target.notes.end());
 	advance(0.0, "Solving for the metric");
 	FlowProgress flowProgress(options.epsilon, map.flowStates);
-	const int steps = map.flow.iterations;
 	return runRicciFlow(surface, std::move(start), target, options, [&](int step, double residual) {
-		flowProgress(steps + step, residual);
+		flowProgress(step, residual);
 	});
 }
 

@@ -77,8 +77,8 @@ CommonRefinement refine(const FlowDomain& domain, const ComponentMap& map, Linke
 /// Takes down what is known of a component before its flow, and logs it.
 void describe(const Component& component, const FlowDomain& domain, ComponentMap& map);
 
-/// A flow of a component, first or again: steps are counted on from those of map.flow. Logs the notes of
-/// the target.
+/// A flow of a component, first or again: states and steps go on from those of map.flowStates. Logs the notes
+/// of the target.
 /// \throw as runRicciFlow()
 FlowResult runFlow(
 	const EmbeddedSurface& surface,

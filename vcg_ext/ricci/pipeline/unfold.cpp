@@ -93,9 +93,17 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 	report.cones = 0;
 	measureCurvature(topology.boundary, map);
 	const Seams seam = seams(map.mesh, Sides(map.mesh.vertices.values()));
-	report.seamEdges = seam.edges;
+	report.seamEdges = static_cast<int>(seam.edges.size());
 	report.seamLength = seam.length;
 	report.overlapCuts = 0;
+	report.targetUsed = TargetUsed::Unfolded;
+	report.choice.clear();
+	report.expectedSpread.reset();
+	if (topology.type.isClosed()) { // the boundaries are the creases' alone
+		report.boundaryRatioMin.reset();
+		report.boundaryRatioMax.reset();
+	}
+	map.notes.clear();
 	return map;
 }
 
@@ -108,6 +116,7 @@ std::optional<Parametrization> unfold(const Component& component, const Options&
 	};
 	std::optional<Parametrization> best;
 	int edges = 0; // that are creases
+	int steps = 0; // Newton's
 	for (const double angle : kCreaseAngles) {
 		const Creases found = creases(component.positions.values(), component.triangles, angle);
 		if (found.edges == 0 || found.edges == edges ||
@@ -119,10 +128,13 @@ std::optional<Parametrization> unfold(const Component& component, const Options&
 			continue;
 		const Task silent(0.0, 0.0, true);
 		std::optional<Parametrization> map =
-			attempt([&] { return joined(component, all, options); });
+			attempt("it is not unfolded", [&] { return joined(component, all, options); });
+		steps += map ? map->report.iterations : 0;
 		if (map && (!best || cost(*map) < cost(*best)))
 			best = std::move(map);
 	}
+	if (best)
+		best->report.iterations = steps;
 	return best;
 }
 

@@ -114,10 +114,18 @@ Report reportOf(const ComponentMap& map)
 	Report report;
 	report.components = 1;
 	report.flowStates = map.flowStates;
-	report.iterations = map.flow.iterations;
+	report.iterations = map.seamlessSteps;
+	if (!map.flowStates.empty())
+		report.iterations += map.flowStates.back().step;
 	report.maxCurvatureError = map.flow.residual;
 	report.residualFloor = map.flow.floor;
 	report.lengthened = map.flow.start.lengthened.largest;
+	if (map.flow.target.background == Background::EuclideanPlane)
+		report.targetUsed = map.flow.target.used;
+	report.choice = map.flow.target.choice;
+	report.expectedSpread = map.flow.target.expectedSpread;
+	report.boundaryRatioMin = map.boundaryRatioMin;
+	report.boundaryRatioMax = map.boundaryRatioMax;
 	report.brokenTriangles = map.flow.metric->brokenTriangles();
 	report.flips = map.flow.flipCount();
 	report.finishMoved = map.finishMoved;
@@ -159,6 +167,10 @@ Parametrization asParametrization(const Component& component, ComponentMap map)
 		part.targetCurvature.push_back(
 			target.fixed[v] ? map.flow.curvature[v] : target.curvature[v]);
 	}
+	for (const Vertex v : map.cones.indices())
+		if (map.cones[v] && target.used == TargetUsed::PlacedCones)
+			part.placedCones.push_back(v.number());
+	part.notes = map.notes;
 	part.report = reportOf(map);
 	part.charts.push_back({std::move(map.group), {}});
 	part.mesh = std::move(map.mesh);
@@ -208,6 +220,10 @@ void append(const Component& component, const Parametrization& part, Parametriza
 		whole.u[vertex] = part.u[positionOf(v)];
 		whole.targetCurvature[vertex] = part.targetCurvature[positionOf(v)];
 	}
+	for (const int v : part.placedCones)
+		whole.placedCones.push_back(component.vertex[Vertex(v)]);
+	if (positionOf(whole.report.components) < kDescribedComponents)
+		whole.notes.insert(whole.notes.end(), part.notes.begin(), part.notes.end());
 	Report report = part.report;
 	if (source.size() > vertexCount)
 		report.refinementPoints = static_cast<int>(source.size() - vertexCount);

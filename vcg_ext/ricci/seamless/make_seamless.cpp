@@ -42,7 +42,7 @@ HolonomyRounding makeSeamless(
 	const auto propose = [&]() -> std::optional<FlowResult> {
 		if (lowest.angles <= kCheap)
 			return std::nullopt;
-		const auto target = attempt([&]() -> std::optional<Target> {
+		const auto target = attempt("the cones stay", [&]() -> std::optional<Target> {
 			const auto cones = seamlessCones(surface, flow, present, coneRequest(request), radius);
 			return cones ? std::optional(targetWithCones(surface, *cones, request)) : std::nullopt;
 		});
@@ -63,7 +63,7 @@ HolonomyRounding makeSeamless(
 			radius *= kShorter; // the linear problem reaches no farther
 		return isEnough;
 	};
-	improve(flow, kMaxRounds, kMaxVainRounds, propose, take);
+	improve(kMaxRounds, kMaxVainRounds, propose, take);
 	advance(0.0, "Rounding the rotations");
 	return roundHolonomy(flow, epsilon);
 }

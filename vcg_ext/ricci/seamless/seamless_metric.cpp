@@ -113,7 +113,7 @@ public:
 
 	/// Goes from \p metric to the one of which the holonomies are multiples of pi / 2, as far as
 	/// Newton's method gets there.
-	void solve(Metric& metric) const
+	void solve(Metric& metric)
 	{
 		for (int step = 0; step < kMaxSteps && metric.error() > kHolonomyRounding; ++step) {
 			std::optional<Metric> next = searchAlong(metric, direction(metric));
@@ -122,6 +122,9 @@ public:
 			metric = std::move(*next);
 		}
 	}
+
+	/// Newton's, for the metrics.
+	int steps() const { return m_steps; }
 
 	Derivatives derivatives(const Metric& metric) const
 	{
@@ -189,7 +192,7 @@ private:
 	}
 
 	/// The metric that is better than \p metric by the longest share of \p change.
-	std::optional<Metric> searchAlong(const Metric& metric, const EdgeArray<double>& change) const
+	std::optional<Metric> searchAlong(const Metric& metric, const EdgeArray<double>& change)
 	{
 		double largest = 0.0;
 		for (const double x : change)
@@ -206,7 +209,7 @@ private:
 	/// The metric with lengths changed by \p share of \p change, and with the curvatures of the
 	/// target. \return none where it is not found
 	std::optional<Metric>
-	changed(const Metric& metric, const EdgeArray<double>& change, double share) const
+	changed(const Metric& metric, const EdgeArray<double>& change, double share)
 	{
 		const CurvatureMap& map = *metric.map;
 		CirclePacking packing;
@@ -227,12 +230,13 @@ private:
 			curvatureMap(std::move(packing), Background::EuclideanPlane, true, isExtended);
 		Metric result;
 		result.u = metric.u;
-		const std::optional<NewtonResult> solved = attempt([&] {
+		const std::optional<NewtonResult> solved = attempt("a shorter step is tried", [&] {
 			return NewtonSolver(*next, m_flow.target.fixed)
 				.solve(result.u, m_flow.target.curvature, {m_epsilon}, [&](int, double) {
 					checkpoint();
 				});
 		});
+		m_steps += solved ? solved->iterations : 0;
 		if (!solved || !solved->converged || next->brokenTriangles() > 0)
 			return std::nullopt;
 		result.solved = *solved;
@@ -252,6 +256,7 @@ private:
 	const FlowResult& m_flow;
 	double m_epsilon;
 	VertexVector m_startU;
+	int m_steps = 0;
 };
 
 } // namespace
@@ -278,8 +283,10 @@ HolonomyRounding roundHolonomy(FlowResult& flow, double epsilon)
 		return result;
 	Metric metric = metricOf(flow);
 	result.before = metric.error();
-	HolonomyRounder(flow, epsilon).solve(metric);
+	HolonomyRounder rounder(flow, epsilon);
+	rounder.solve(metric);
 	result.after = metric.error();
+	result.steps = rounder.steps();
 	if (metric.map == flow.metric)
 		return result;
 	flow.metric = std::move(metric.map);

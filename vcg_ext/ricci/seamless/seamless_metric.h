@@ -28,6 +28,7 @@ struct HolonomyRounding
 {
 	double before = 0.0; ///< largest distance from a multiple of pi / 2, radians
 	double after = 0.0;  ///< the same in the new metric
+	int steps = 0;       ///< of Newton's method
 };
 
 /// Changes the metric of \p flow, with the least distortion of angles, so that the holonomies of all

@@ -17,9 +17,6 @@ namespace {
 /// Texels this near to the side of a triangle count as on it: floats cannot tell.
 constexpr double kBorder = 0.01;
 
-/// Coordinates of two wedges that differ less are equal.
-constexpr double kSameCoordinate = 1e-6;
-
 bool same(const Point2& a, const Point2& b)
 {
 	return std::abs(a[0] - b[0]) <= kSameCoordinate && std::abs(a[1] - b[1]) <= kSameCoordinate;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/complex.h"
 #include "support/flat_meshes.h"
+#include "support/listener.h"
 #include "support/random_surface.h"
 #include "support/vcg_mesh.h"
 
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -88,6 +90,40 @@ void expectCover(const Mesh& cover, const std::vector<Triangle2>& expected)
 		for (int k = 0; k < 3; ++k)
 			used.insert(f.cV(k));
 	EXPECT_EQ(used.size(), cover.vert.size());
+}
+
+/// Memory for the layers is taken and they are filled while the run may still be ended.
+TYPED_TEST(UniversalCover, LayersAreBuiltUnderTheTaskOfTheRun)
+{
+	TypeParam m, layer;
+	toVcg(perforatedSlab(2, 1), m);
+	typename Flow<TypeParam>::HyperbolicParams par;
+	par.canonicalGenerators = true;
+	const auto r = Flow<TypeParam>::ComputeHyperbolic(m, par);
+	using Layers = vcg::tri::RicciFlowLayers<TypeParam>;
+	const std::vector<std::function<void()>> builders{
+		[&] { Layers::BuildFlatMesh(r, layer); },
+		[&] { Layers::BuildUniversalCover(r, 1, 1000000, layer); },
+		[&] { Layers::BuildAxes(r, 10, layer); },
+		[&] { Layers::BuildCanonicalPolygons(r, 10, layer); }};
+	for (const auto& build : builders) {
+		layer.Clear();
+		Listener impatient(1);
+		EXPECT_THROW(
+			heard(
+				impatient,
+				[&] {
+					build();
+					return 0;
+				}),
+			Cancelled);
+	}
+	TypeParam ball;
+	toVcg(perforatedSlab(0, 1), ball);
+	const SphereMap sphere =
+		Flow<TypeParam>::ComputeSphere(ball, typename Flow<TypeParam>::Params());
+	layer.Clear();
+	EXPECT_GT(checkpointsOf([&] { Layers::BuildSphereMesh(ball, sphere, layer); }), 0);
 }
 
 /// Two components with disks side by side. One reaches the side that the squares share, as it does in

@@ -61,8 +61,8 @@ public:
 	/// deleted vertices mean nothing, and new points of a refinement follow after all vertices.
 	typedef ricci::Parametrization Result;
 
-	/// Computes; \p m is only read: positions, faces, selected vertices (Rectangle, SelectedCones),
-	/// vertex quality as curvature in radians (Prescribed).
+	/// Computes; \p m is only read: positions as PlaceOf() has them, faces, selected vertices (Rectangle,
+	/// SelectedCones), vertex quality as curvature in radians (Prescribed).
 	/// \throw what ricci::parametrizeEuclidean() does, and ricci::InvalidMesh DamagedFaces
 	static Result
 	Compute(const MeshType& m, const Params& par, const SideMarks& seams = SideMarks())
@@ -193,6 +193,13 @@ public:
 		return ricci::mapToSphere(ReadSurface(m, faceIndex), par);
 	}
 
+	/// Where a vertex is seen, up to a translation: the matrix Tr that some types of meshes have is applied.
+	static ricci::Point3 PlaceOf(const MeshType& m, const VertexType& v)
+	{
+		const ricci::Point3 p{double(v.cP()[0]), double(v.cP()[1]), double(v.cP()[2])};
+		return Turned(m, p, 0);
+	}
+
 	/// Whether the face's vertices are in the mesh's vector and not deleted.
 	static bool HasItsVertices(const MeshType& m, const FaceType& face)
 	{
@@ -208,6 +215,23 @@ public:
 
 private:
 	typedef typename MeshType::template PerVertexAttributeHandle<ScalarType> VertexAttribute;
+
+	template<class Mesh>
+	static auto Turned(const Mesh& m, const ricci::Point3& p, int)
+		-> decltype(void(m.Tr), ricci::Point3())
+	{
+		ricci::Point3 q;
+		for (int i = 0; i < 3; ++i)
+			q[size_t(i)] =
+				double(m.Tr[i][0]) * p[0] + double(m.Tr[i][1]) * p[1] + double(m.Tr[i][2]) * p[2];
+		return q;
+	}
+
+	template<class Mesh>
+	static ricci::Point3 Turned(const Mesh&, const ricci::Point3& p, long)
+	{
+		return p;
+	}
 
 	/// What \p parametrize gives, with the faces' indices in the mesh.
 	template<class Parametrize>
@@ -357,8 +381,7 @@ private:
 		mesh.positions.resize(m.vert.size());
 		for (size_t v = 0; v < m.vert.size(); ++v)
 			if (!m.vert[v].IsD()) // a deleted vertex may hold anything
-				for (int k = 0; k < 3; ++k)
-					mesh.positions[v][size_t(k)] = double(m.vert[v].cP()[k]);
+				mesh.positions[v] = PlaceOf(m, m.vert[v]);
 		mesh.absent = m.vert.size() - size_t(m.vn);
 		size_t damaged = 0;
 		bool hasPolygons = false;

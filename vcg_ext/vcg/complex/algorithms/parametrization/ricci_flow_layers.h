@@ -8,6 +8,7 @@
 
 #include "ricci_flow.h"
 
+#include <ricci/base/task.h>
 #include <ricci/error.h>
 #include <ricci/fuchsian/canonical_polygon.h>
 #include <ricci/fuchsian/fuchsian_group.h>
@@ -30,6 +31,8 @@ namespace vcg {
 namespace tri {
 
 /**
+ * The functions can be cancelled as the run itself (ricci::Task); what they have filled then is of no use.
+ *
  * @brief Meshes that show the result of RicciFlow: the layout in the plane, the map to the sphere, and
  * in the Poincaré disk the universal cover, the axes of the Fuchsian group and its canonical polygon.
  */
@@ -53,6 +56,7 @@ public:
 		const Points points(r);
 		Allocator<MeshType>::AddVertices(flat, points.component.size());
 		for (const int i : r.mesh.place.indices()) {
+			ricci::checkpointNowAndThen(size_t(i));
 			VertexType& v = flat.vert[size_t(i)];
 			v.P() = PlaceOf(r.mesh.place[i]);
 			v.N() = CoordType(0, 0, 1);
@@ -60,6 +64,7 @@ public:
 		}
 		FaceIterator fi = Allocator<MeshType>::AddFaces(flat, size_t(r.mesh.size()));
 		for (const int f : r.mesh.points.indices()) {
+			ricci::checkpointNowAndThen(size_t(f));
 			for (int k = 0; k < 3; ++k) {
 				const ricci::Corner corner(f, k);
 				fi->V(k) = &flat.vert[size_t(r.mesh.points[corner])];
@@ -81,6 +86,7 @@ public:
 		VertexIterator vi = Allocator<MeshType>::AddVertices(sphere, size_t(m.vn) + copies);
 		size_t next = 0;
 		for (size_t i = 0; i < map.vertex.size(); ++i) {
+			ricci::checkpointNowAndThen(i);
 			const VertexType& v = m.vert[size_t(map.vertex[i])];
 			if (v.IsD())
 				continue;
@@ -118,8 +124,10 @@ public:
 		if (copies * faces > maxFaces)
 			throw ricci::InvalidOption(
 				ricci::InvalidOption::CoverTooLarge, double(rings), 0.0, maxFaces);
-		for (size_t copy = 0; copy < copies; ++copy)
+		for (size_t copy = 0; copy < copies; ++copy) {
+			ricci::checkpoint();
 			AddCopy(points, r, tilings, copy, cover);
+		}
 	}
 
 	/// Fills the empty mesh \p curves with edges: the axes of the generators in the Poincaré disk,
@@ -130,6 +138,7 @@ public:
 		for (const ricci::Chart& chart : r.charts)
 			for (const auto* generators : {&chart.group.handles, &chart.group.peripheral})
 				for (const ricci::DiskIsometry& g : *generators) {
+					ricci::checkpoint();
 					std::complex<double> from, to;
 					if (g.axis(from, to))
 						AddGeodesic(chart.box, from, to, pieces, curves);
@@ -146,6 +155,7 @@ public:
 		const auto klein = [](std::complex<double> z) { return 2.0 * z / (1.0 + std::norm(z)); };
 		std::vector<ricci::CanonicalPolygon> polygons;
 		for (const ricci::Chart& chart : r.charts) {
+			ricci::checkpoint();
 			polygons.push_back(ricci::canonicalPolygon(chart.group));
 			const std::vector<std::complex<double>>& corners = polygons.back().corners;
 			for (size_t k = 0; k < corners.size(); ++k)

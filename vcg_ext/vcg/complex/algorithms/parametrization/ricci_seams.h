@@ -7,9 +7,11 @@
 #define __VCGLIB_RICCI_SEAMS
 
 #include <ricci/surface/sides.h>
+#include <ricci/texture/old_charts.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -30,16 +32,18 @@ public:
 	typedef typename Flow::SideMarks SideMarks;
 	typedef typename MeshType::FaceType FaceType;
 
-	/// Edges at which the wedge texture coordinates of two faces or their texture indices differ, if only
-	/// in the last bit; two NaN are equal. Coordinates of vertices differ at no edge: a mesh that has
-	/// only those is open at its seams.
+	/// Edges at which the texture indices of two faces differ, or their wedge texture coordinates by more than
+	/// ricci::kSameCoordinate of the widest extent of all; two NaN are equal. Coordinates of vertices differ at
+	/// no edge: a mesh that has only those is open at its seams.
 	static SideMarks OfTexture(const MeshType& m)
 	{
 		if (!HasPerWedgeTexCoord(m))
 			return SideMarks();
+		const double bound = ricci::kSameCoordinate * TextureExtent(m);
 		return Between(
-			m, [](const FaceType& f, const Corners& a, const FaceType& g, const Corners& b) {
-				return Differ(f.cWT(a.low), g.cWT(b.low)) || Differ(f.cWT(a.high), g.cWT(b.high));
+			m, [bound](const FaceType& f, const Corners& a, const FaceType& g, const Corners& b) {
+				return Differ(f.cWT(a.low), g.cWT(b.low), bound) ||
+					   Differ(f.cWT(a.high), g.cWT(b.high), bound);
 			});
 	}
 
@@ -76,11 +80,24 @@ private:
 		return t[size_t(k)] < t[size_t(next)] ? Corners{k, next} : Corners{next, k};
 	}
 
-	template<class TexCoord>
-	static bool Differ(const TexCoord& a, const TexCoord& b)
+	/// Of u or v, whichever is wider.
+	static double TextureExtent(const MeshType& m)
 	{
-		const auto differ = [](auto x, auto y) {
-			return x != y && !(std::isnan(x) && std::isnan(y));
+		ricci::Box2 box;
+		for (const FaceType& f : m.face)
+			for (int k = 0; k < 3 && !f.IsD(); ++k) {
+				const ricci::Point2 p{double(f.cWT(k).U()), double(f.cWT(k).V())};
+				if (std::isfinite(p[0]) && std::isfinite(p[1]))
+					box.add(p);
+			}
+		return std::max(0.0, std::max(box.width(), box.height()));
+	}
+
+	template<class TexCoord>
+	static bool Differ(const TexCoord& a, const TexCoord& b, double bound)
+	{
+		const auto differ = [bound](double x, double y) {
+			return !(std::abs(x - y) <= bound) && x != y && !(std::isnan(x) && std::isnan(y));
 		};
 		return a.N() != b.N() || differ(a.U(), b.U()) || differ(a.V(), b.V());
 	}
