@@ -544,9 +544,9 @@ def flatten(
     target_curvature: The curvature that the flow is asked to reach. Automatic suits most
         meshes: flat, or with the metric of the boundary kept, and with cones where areas would
         change much.
-    free_boundary: The flow keeps the metric that the boundary has on the mesh, which distorts
-        least; the finish then changes its lengths a little, by the factors in the log. Disk,
-        Rectangle and the flat annulus prescribe the boundary and ignore this.
+    free_boundary: The boundary keeps the metric that it has on the mesh: the least distortion
+        for a surface with boundary. Disk, Rectangle and the flat annulus prescribe the boundary
+        and ignore this.
     cone_distortion: 0: as many cones as lower the distortion by more than their seams cost.
         Above 0: cones are added until areas typically change by less than this, relative to
         each other (0.25: by a quarter). Read where cones are placed and their number is 0.
@@ -587,8 +587,7 @@ def flatten(
         closed surface of genus 0.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
-    texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
-        ones.
+    texture_size: Width and height of the new texture, 16 to 16384 texels.
     report: A report of the run: a page with diagrams and its data beside it (.html), or the
         data alone (.csv). Empty: no report.
     epsilon: The flow stops when the curvature of every vertex is this close to its target, in
@@ -667,8 +666,7 @@ def uniformize(
         flipped are repaired. Only for the method 'Intrinsic flips'.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
-    texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
-        ones.
+    texture_size: Width and height of the new texture, 16 to 16384 texels.
     report: A report of the run: a page with diagrams and its data beside it (.html), or the
         data alone (.csv). Empty: no report.
     epsilon: The flow stops when the curvature of every vertex is this close to its target, in
