@@ -133,6 +133,27 @@ TEST(BoundedMinimum, FulfilsItsConditions)
 	}
 }
 
+TEST(BoundedMinimum, IsTheSameFromAnywhere)
+{
+	Random random(242);
+	for (int trial = 0; trial < 400; ++trial) {
+		const int n = 2 + random.index(8);
+		const Problem problem(n, trial % 2 == 0, random);
+		const Eigen::VectorXd k = boundedMinimum(problem.gram, problem.linear, kMax, problem.total);
+		// Allowed: some entries at the bound, and the others with what the sum lacks.
+		Eigen::VectorXd start(n);
+		for (int i = 0; i < n; ++i)
+			start[i] = random.coin() ? kMax : random.real(-3.0, kMax);
+		if (problem.total)
+			start[0] += *problem.total - start.sum();
+		const Eigen::VectorXd again =
+			boundedMinimum(problem.gram, problem.linear, kMax, problem.total, start);
+		const double size = std::abs(problem(k)) + problem.linear.norm();
+		EXPECT_NEAR(problem(again), problem(k), 1e-10 * size) << trial;
+		EXPECT_LE(again.maxCoeff(), kMax);
+	}
+}
+
 TEST(BoundedMinimum, TakesTheBoundWhereTheSumIsOutOfReach)
 {
 	const Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(3, 3);

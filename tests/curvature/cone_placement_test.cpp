@@ -9,6 +9,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/curvature/area_change.h>
+#include <ricci/curvature/cone_model.h>
 #include <ricci/curvature/cone_placement.h>
 #include <ricci/curvature/target_curvature.h>
 #include <ricci/error.h>
@@ -159,9 +160,33 @@ TEST(ConePlacement, CountsAsManyAsTheDistortionAsksFor)
 	}
 }
 
+/// Cones that were found on aggregates have the curvatures of the least energy on the surface itself, or,
+/// as quarter turns, some of the right sum.
+TEST(ConePlacement, FitsWhatWasFoundOnAggregates)
+{
+	Random random(706);
+	const Packed p(shaken(perforatedSlab(1, 31), 0.002, random));
+	ASSERT_GT(p.triangulation.vertexCount(), 20000);
+	const EmbeddedSurface surface = surfaceOf(p);
+	LinearFlow flow(surface, initialPacking(surface, FlowOptions()), ConeBoundary::Fixed);
+	const PlacedCones cones = placeCones(surface, flow, ConeRequest());
+	expectAdmissible(p, cones);
+	EXPECT_NEAR(sum(cones.curvatures), 0.0, 1e-9);
+	ConeModel model(flow, 0.0);
+	model.append(cones.vertices);
+	model.fit();
+	EXPECT_GT(cones.distortion, (1.0 - 1e-9) * model.exactDistortion());
+	EXPECT_LT(cones.distortion, (1.0 + 1e-5) * model.exactDistortion());
+	ConeRequest request;
+	request.rounding = ConeRounding::QuarterTurns;
+	const PlacedCones rounded = placeCones(surface, flow, request);
+	EXPECT_NEAR(sum(rounded.curvatures), 0.0, 1e-9);
+	for (const double k : rounded.curvatures)
+		EXPECT_NEAR(k / kQuarter, std::round(k / kQuarter), 1e-12);
+}
+
 TEST(ConePlacement, KeepsItsPromisesOnLargeSurfaces)
 {
-	// Above 10000 vertices, cones are searched for on aggregates of them.
 	Random random(705);
 	for (int genus = 0; genus <= 1; ++genus) {
 		const SurfaceMesh mesh = shaken(perforatedSlab(genus, genus == 0 ? 28 : 20), 0.002, random);

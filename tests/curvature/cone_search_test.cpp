@@ -87,7 +87,7 @@ TEST(ConeSearch, TheFirstOfOneConeIsTheBestOfAll)
 	Search other(shakenSlab(2), 2);
 	std::vector<double> energies;
 	for (const Vertex v : other.model.area().indices()) {
-		other.model.append(v);
+		other.model.append({v});
 		other.model.fit();
 		energies.push_back(other.model.energy());
 		other.model.remove(0);
@@ -188,7 +188,7 @@ TEST(ConeSearch, ConesThatCarryNothingAreTakenOut)
 		search.model.append(all);
 		for (const Vertex v : {Vertex(20), Vertex(33), Vertex(41)})
 			if (!search.model.isCone(v))
-				search.model.append(v);
+				search.model.append({v});
 		search.model.fit();
 		ASSERT_GT(search.model.size(), 9);
 		if (drops)

@@ -102,7 +102,7 @@ TEST(SeamTree, IsNoLongerThanTheMinimumSpanningTree)
 		ConeModel model(linear.flow, 4 * kPi);
 		model.append(places(step, linear.flow.vertexCount()));
 		model.fit();
-		const SeamTree tree(sites, model);
+		const SeamTree tree(sites, model.vertices());
 		const double spanning = treeLength(distance, conesOf(model)) / whole;
 		EXPECT_LE(tree.length(), spanning * (1 + 1e-12));
 		EXPECT_GE(tree.length(), 0.5 * spanning);
@@ -174,7 +174,7 @@ TEST(ConeTree, MovesLowerEnergyAndPriceOfSeams)
 			model.fit();
 			const double distortion = model.distortion();
 			const std::vector<Vertex> before = conesOf(model);
-			SeamTree tree(sites, model);
+			SeamTree tree(sites, model.vertices());
 			const double least = cost(model, tree);
 			shortenConeTree(model, tree, sites, allowed * distortion);
 			EXPECT_EQ(model.size(), 5);
@@ -196,7 +196,7 @@ TEST(ConeTree, MovesToAllowedPlacesOnly)
 	ConeModel model(linear.flow, 4 * kPi);
 	model.append({Vertex(0), Vertex(13), Vertex(26), Vertex(39)});
 	model.fit();
-	SeamTree tree(sites, model);
+	SeamTree tree(sites, model.vertices());
 	shortenConeTree(model, tree, sites, 3.0 * model.distortion());
 	for (const Vertex v : conesOf(model))
 		EXPECT_LT(v.number(), allowed);

@@ -159,6 +159,21 @@ private:
 	HalfedgeArray<int> of;
 };
 
+/// The same halfedges leave the same circles.
+void expectCircles(const Triangulation& t, const CutSegments& cut, const CirclesByWedges& expected)
+{
+	std::map<int, int> there, back;
+	for (const Halfedge h : t.interiorHalfedges()) {
+		const int found = cut.circle(h), wanted = expected.circle(h);
+		ASSERT_EQ(found < 0, wanted < 0);
+		if (found < 0)
+			continue;
+		EXPECT_LT(found, expected.count);
+		EXPECT_EQ(there.try_emplace(found, wanted).first->second, wanted);
+		EXPECT_EQ(back.try_emplace(wanted, found).first->second, found);
+	}
+}
+
 TEST(CutSegments, CirclesAreTheBoundariesOfTheOpenedSurface)
 {
 	Random random(780);
@@ -176,20 +191,46 @@ TEST(CutSegments, CirclesAreTheBoundariesOfTheOpenedSurface)
 			const CirclesByWedges expected(t, marked, isCut);
 			for (int again = 0; again < 2; ++again)
 				EXPECT_EQ(cut.labelCircles(), expected.count);
-			// The same halfedges belong together.
-			std::map<int, int> there, back;
-			std::size_t labelled = 0;
-			for (const Halfedge h : t.interiorHalfedges()) {
-				const int found = cut.circle(h), wanted = expected.circle(h);
-				ASSERT_EQ(found < 0, wanted < 0);
-				if (found < 0)
-					continue;
-				++labelled;
-				EXPECT_LT(found, expected.count);
-				EXPECT_EQ(there.try_emplace(found, wanted).first->second, wanted);
-				EXPECT_EQ(back.try_emplace(wanted, found).first->second, found);
+			expectCircles(t, cut, expected);
+			// Once along every side of the border, each followed by the next one of its circle.
+			int sides = 0;
+			for (const Halfedge h : t.interiorHalfedges())
+				if (isCut[h.edge()] || t.isBoundary(h.edge())) {
+					++sides;
+					EXPECT_EQ(cut.sides()[at(cut.place(h))], h);
+				}
+			EXPECT_EQ(cut.sides().size(), at(sides));
+		}
+	}
+}
+
+/// What becomes of the circles without some edges is known from those with them, again and again.
+TEST(CutSegments, SplitCirclesAreTheBoundariesWithoutWhatWasRemoved)
+{
+	Random random(782);
+	for (const SurfaceMesh& mesh : surfacesOfEveryKind(random)) {
+		const Triangulation t = glued(mesh);
+		for (double share : {0.02, 0.2, 0.6}) {
+			VertexArray<char> marked(t.vertexCount(), 0);
+			for (char& mark : marked)
+				mark = random.real(0.0, 1.0) < 0.1;
+			EdgeArray<char> isCut(t.edgeCount(), 0);
+			for (const Edge e : t.edges())
+				isCut[e] = !t.isBoundary(e) && random.real(0.0, 1.0) < share;
+			const EdgeArray<char> nowhere;
+			CutSegments cut(t, marked, nowhere, isCut);
+			cut.labelCircles();
+			for (double part : {0.0, 0.1, 0.5, 1.0}) {
+				std::vector<Edge> removed;
+				for (const Edge e : t.edges())
+					if (isCut[e] && random.real(0.0, 1.0) < part)
+						removed.push_back(e);
+				cut.remove(removed);
+				const CirclesByWedges expected(t, marked, isCut);
+				EXPECT_EQ(cut.splitCircles(removed), expected.count);
+				expectCircles(t, cut, expected);
+				cut.add(removed);
 			}
-			EXPECT_EQ(cut.labelled().size(), labelled);
 		}
 	}
 }
@@ -223,7 +264,7 @@ TEST(CutSegments, KnowsAfterEveryChangeWhatANewOneKnows)
 			EXPECT_EQ(cut.segments(), fresh.segments());
 			EXPECT_EQ(cut.branchNodes(), fresh.branchNodes());
 			EXPECT_EQ(cut.labelCircles(), fresh.labelCircles());
-			EXPECT_EQ(cut.labelled(), fresh.labelled());
+			EXPECT_EQ(cut.sides(), fresh.sides());
 			const VertexArray<char> boundary = t.boundaryVertices();
 			for (const Vertex v : t.vertices()) {
 				EXPECT_EQ(cut.degree(v), fresh.degree(v));

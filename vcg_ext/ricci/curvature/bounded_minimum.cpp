@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace ricci {
 namespace {
 
 constexpr double kTiny = std::numeric_limits<double>::min();
+
+/// A sum that is off by less than this share of its terms is so by rounding.
+constexpr double kSumSlack = 1e-9;
 
 class ActiveSet
 {
@@ -29,12 +33,17 @@ public:
 	{
 	}
 
-	Eigen::VectorXd minimum()
+	Eigen::VectorXd minimum(const Eigen::VectorXd& start)
 	{
 		Eigen::VectorXd k =
 			Eigen::VectorXd::Constant(m_size, m_total ? *m_total / m_size : std::min(m_max, 0.0));
 		if (m_size == 0 || (m_total && k[0] >= m_max))
 			return Eigen::VectorXd::Constant(m_size, m_max);
+		if (isAllowed(start)) {
+			k = start;
+			for (int i = 0; i < m_size; ++i)
+				m_isBound[i] = k[i] == m_max;
+		}
 		double last = std::numeric_limits<double>::infinity();
 		for (;;) {
 			const Eigen::VectorXd wanted = unbounded();
@@ -54,6 +63,12 @@ public:
 	}
 
 private:
+	bool isAllowed(const Eigen::VectorXd& k) const
+	{
+		return k.size() == m_size && k.maxCoeff() <= m_max &&
+			   (!m_total || std::abs(k.sum() - *m_total) <= kSumSlack * k.cwiseAbs().sum());
+	}
+
 	/// Moves \p k towards \p wanted, up to the first bound of a free entry.
 	/// \return the entry, the first of several; -1 if \p k has become \p wanted
 	int stepTo(const Eigen::VectorXd& wanted, Eigen::VectorXd& k) const
@@ -148,9 +163,10 @@ Eigen::VectorXd boundedMinimum(
 	const Eigen::MatrixXd& gram,
 	const Eigen::VectorXd& linear,
 	double max,
-	std::optional<double> total)
+	std::optional<double> total,
+	const Eigen::VectorXd& start)
 {
-	return ActiveSet(gram, linear, max, total).minimum();
+	return ActiveSet(gram, linear, max, total).minimum(start);
 }
 
 } // namespace ricci

@@ -14,12 +14,14 @@ namespace ricci {
 /// \param gram G, symmetric
 /// \param linear b
 /// \param total sum of the entries, where it is fixed
+/// \param start where to begin, best near the minimum; of no effect where it breaks a condition
 /// \return k; all entries are \p max where the sum is out of their reach
 Eigen::VectorXd boundedMinimum(
 	const Eigen::MatrixXd& gram,
 	const Eigen::VectorXd& linear,
 	double max,
-	std::optional<double> total);
+	std::optional<double> total,
+	const Eigen::VectorXd& start = {});
 
 } // namespace ricci
 

@@ -5,6 +5,7 @@
 #include "bounded_minimum.h"
 #include "cone_rounding.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <limits>
@@ -22,126 +23,131 @@ constexpr double kBoundSlack = 1e-6;
 /// it is the difference of.
 constexpr double kMinPivot = 1e-8;
 
-/// An inverse that leaves a larger share of the right-hand side is made anew.
-constexpr double kMaxDrift = 1e-6;
+/// An inverse that leaves a larger share of the right-hand side, refined once, is made anew, and the minimum
+/// without bounds is not known well if that does not help.
+constexpr double kMaxRest = 1e-11;
+
+/// So many fields add up about as fast as the two linear solutions that give the same sum.
+constexpr int kFieldsOfASolution = 64;
 
 constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
 } // namespace
 
+int minConeCount(const LinearFlow& flow, double total)
+{
+	if (!flow.hasFixedSum() || total == 0.0)
+		return 0;
+	if (total < 0.0)
+		return 1;
+	return static_cast<int>(std::ceil(total / kMaxConeCurvature));
+}
+
 ConeModel::ConeModel(LinearFlow& flow, double total) :
 		m_flow(flow), m_total(total), m_isCone(flow.vertexCount(), 0)
 {
 	checkpoint();
-	m_startFactor = m_flow.factor(VertexVector::Zero(m_flow.vertexCount()));
-	m_startEnergy = m_flow.meanSquare(m_startFactor);
+	const VertexVector none = VertexVector::Zero(m_flow.vertexCount());
+	const VertexVector u =
+		m_flow.factor(hasFixedSum() ? VertexVector(total * m_flow.area()) : none);
+	m_startEnergy = m_now.fit.energy = m_flow.meanSquare(u);
+	m_start = centred(m_flow.gradient(u));
 }
 
-/// Makes the gradient fields of what is there. From now on cones come with theirs.
-void ConeModel::makeFields()
+/// The field less its mean, where it is known up to a constant.
+VertexVector ConeModel::centred(VertexVector field) const
 {
-	if (hasFields())
-		return;
-	checkpoint();
-	m_uniform = m_flow.gradient(m_flow.solve(m_flow.area()));
-	int i = 0;
-	for (; i + 1 < size(); i += 2) {
-		checkpoint();
-		LinearFlow::Pair fields =
-			m_flow.gradient({std::move(m_factors[i]), std::move(m_factors[i + 1])});
-		for (VertexVector& field : fields)
-			m_fields.push_back(std::make_shared<const VertexVector>(std::move(field)));
-	}
-	if (i < size())
-		m_fields.push_back(std::make_shared<const VertexVector>(m_flow.gradient(m_factors[i])));
-	m_factors.clear();
-	m_start = m_flow.gradient(m_startFactor);
-	m_startFactor.resize(0);
-}
-
-int ConeModel::minSize() const
-{
-	if (!hasFixedSum() || m_total == 0.0)
-		return 0;
-	if (m_total < 0.0)
-		return 1;
-	return static_cast<int>(std::ceil(m_total / kMaxConeCurvature));
+	if (hasFixedSum())
+		field.array() -= m_flow.area().dot(field);
+	return field;
 }
 
 VertexVector ConeModel::factor()
 {
-	VertexVector k = VertexVector::Zero(m_flow.vertexCount());
+	return m_flow.factor(spread(m_now.fit.values));
+}
+
+/// Curvatures of the cones as those of all vertices.
+VertexVector ConeModel::spread(const Eigen::VectorXd& k) const
+{
+	VertexVector whole = VertexVector::Zero(m_flow.vertexCount());
 	for (int i = 0; i < size(); ++i)
-		k[vertex(i)] += curvature(i);
-	return m_flow.factor(std::move(k));
+		whole[vertex(i)] += k[i];
+	return whole;
+}
+
+/// From the fields or, where there are many, by solutions that cost the same for any number.
+VertexVector ConeModel::gradientOf(const Eigen::VectorXd& k)
+{
+	if (size() > kFieldsOfASolution)
+		return centred(m_flow.gradient(m_flow.factor(spread(k))));
+	VertexVector phi = m_start;
+	for (int i = 0; i < size(); ++i)
+		phi += k[i] * *m_fields[i];
+	return phi;
 }
 
 const VertexVector& ConeModel::gradient()
 {
-	makeFields();
-	if (m_gradient.size() == 0) {
-		m_gradient = m_start;
-		for (int i = 0; i < size(); ++i)
-			m_gradient += curvature(i) * *m_fields[i];
-	}
+	if (m_gradient.size() == 0)
+		m_gradient = gradientOf(m_now.fit.values);
 	return m_gradient;
 }
 
-VertexVector ConeModel::gradientWithShares(double share)
+VertexVector ConeModel::gradientWithout(int i)
 {
-	makeFields();
-	VertexVector phi = m_start + (m_total - share * size()) * m_uniform;
+	if (m_now.inverse.rows() == 0)
+		invert();
+	const int row = i + border();
+	Eigen::VectorXd k = m_now.fit.values;
+	if (const double pivot = m_now.inverse(row, row); pivot > 0.0)
+		k -= m_now.inverse.col(row).tail(size()) * (curvature(i) / pivot);
+	k[i] = 0.0;
+	return gradientOf(k);
+}
+
+VertexVector ConeModel::gradientWithShares(double share) const
+{
+	VertexVector phi = m_start;
 	for (const Field& field : m_fields)
 		phi += share * *field;
 	return phi;
 }
 
-void ConeModel::append(Vertex v)
-{
-	append(v, unitFactor(v));
-}
-
 void ConeModel::append(const std::vector<Vertex>& vertices)
 {
-	std::size_t i = 0;
-	for (; i + 1 < vertices.size(); i += 2) {
+	const int before = size();
+	for (const Vertex v : vertices) {
+		m_now.vertices.push_back(v);
+		m_isCone[v] = 1;
+	}
+	for (int i = before; i < size(); i += 2) {
+		if (i + 1 == size()) {
+			m_fields.push_back(fieldOf(vertex(i)));
+			break;
+		}
 		checkpoint();
-		LinearFlow::Pair u = m_flow.solve({unit(vertices[i]), unit(vertices[i + 1])});
+		const LinearFlow::Pair u = m_flow.solve({unit(vertex(i)), unit(vertex(i + 1))});
+		LinearFlow::Pair fields = m_flow.gradient(u);
 		for (std::size_t k = 0; k < 2; ++k) {
-			m_ownProduct[vertices[i + k]] = m_flow.meanSquare(u[k]);
-			append(vertices[i + k], std::move(u[k]));
+			m_ownProduct[vertex(i + static_cast<int>(k))] = m_flow.meanSquare(u[k]);
+			m_fields.push_back(std::make_shared<const VertexVector>(centred(std::move(fields[k]))));
 		}
 	}
-	if (i < vertices.size())
-		append(vertices[i]);
-}
-
-/// \param factor of a unit of curvature at \p v
-void ConeModel::append(Vertex v, VertexVector factor)
-{
-	const int i = size();
-	m_isCone[v] = 1;
-	m_now.vertices.push_back(v);
 	m_now.gram.conservativeResize(size(), size());
 	m_now.linear.conservativeResize(size());
-	const int rows = size() + border();
-	if (m_now.inverse.rows() == rows - 1) {
-		m_now.inverse.conservativeResize(rows, rows);
-		m_now.inverse.row(rows - 1).setZero();
-		m_now.inverse.col(rows - 1).setZero();
+	m_now.fit.values.conservativeResize(size());
+	m_now.fit.values.tail(size() - before).setZero();
+	if (const Eigen::Index rows = m_now.inverse.rows(); rows > 0) {
+		const Eigen::Index more = size() - before;
+		m_now.inverse.conservativeResize(rows + more, rows + more);
+		m_now.inverse.bottomRows(more).setZero();
+		m_now.inverse.rightCols(more).setZero();
 	}
-	if (hasFields()) {
-		setRow(i, v);
-		m_fields.push_back(std::make_shared<const VertexVector>(m_flow.gradient(factor)));
-	}
-	else {
-		for (int k = 0; k < i; ++k)
-			m_now.gram(i, k) = m_now.gram(k, i) = m_flow.meanProduct(m_factors[k], factor);
-		m_now.gram(i, i) = ownProduct(v);
-		m_now.linear[i] = m_flow.meanProduct(m_startFactor, factor);
-		m_factors.push_back(std::move(factor));
-	}
-	join(i);
+	for (int i = before; i < size(); ++i)
+		setRow(i, vertex(i));
+	for (int i = before; i < size(); ++i)
+		join(i);
 	m_gradient.resize(0);
 }
 
@@ -149,11 +155,35 @@ void ConeModel::remove(int i)
 {
 	m_isCone[vertex(i)] = 0;
 	removeRow(i);
-	if (hasFields())
-		m_fields.values().erase(m_fields.begin() + i);
-	else
-		m_factors.values().erase(m_factors.begin() + i);
+	m_fields.values().erase(m_fields.begin() + i);
 	m_gradient.resize(0);
+}
+
+Eigen::VectorXd ConeModel::descent(const Eigen::VectorXd& rest)
+{
+	if (m_now.inverse.rows() == 0)
+		invert();
+	Eigen::VectorXd step = m_now.inverse.bottomRightCorner(size(), size()) * rest;
+	std::vector<int> bound;
+	for (int i = 0; i < size(); ++i)
+		if (curvature(i) >= kMaxConeCurvature)
+			bound.push_back(i);
+	const auto count = static_cast<Eigen::Index>(bound.size());
+	Eigen::MatrixXd columns(size(), count), system(count, count);
+	Eigen::VectorXd moved(count);
+	for (std::size_t i = 0; i < bound.size(); ++i) {
+		const auto a = static_cast<Eigen::Index>(i);
+		columns.col(a) = m_now.inverse.col(bound[i] + border()).tail(size());
+		moved[a] = step[bound[i]];
+	}
+	for (std::size_t i = 0; i < bound.size(); ++i)
+		system.row(static_cast<Eigen::Index>(i)) = columns.row(bound[i]);
+	// What holds those at the bound, the others make up for.
+	if (count > 0)
+		step -= columns * system.ldlt().solve(moved);
+	for (const int i : bound)
+		step[i] = 0.0;
+	return step;
 }
 
 double ConeModel::need(int i)
@@ -183,38 +213,49 @@ void ConeModel::setRounding(ConeRounding rounding)
 void ConeModel::fit()
 {
 	m_gradient.resize(0);
-	m_now.isFree = false;
+	Fit& fit = m_now.fit;
 	const auto total = hasFixedSum() ? std::optional<double>(m_total) : std::nullopt;
-	if (size() > 0) {
-		Eigen::VectorXd rhs(size() + border()), solution;
-		rhs.head(border()).setConstant(m_total);
-		rhs.tail(size()) = -m_now.linear;
-		for (const bool isNew : {false, true}) {
-			if (isNew || m_now.inverse.rows() == 0)
-				invert();
-			solution = m_now.inverse * rhs;
-			const Eigen::VectorXd rest = rhs - times(solution);
-			if (rest.norm() <= kMaxDrift * rhs.norm()) {
-				solution += m_now.inverse * rest;
-				break;
-			}
-		}
-		m_now.values = Eigen::VectorXd(solution.tail(size()));
-		m_now.level = border() > 0 ? solution[0] : 0.0;
-		m_now.isFree = m_rounding == ConeRounding::Free && solution.allFinite() &&
-					   m_now.values.maxCoeff() <= kMaxConeCurvature;
+	const bool isFree = findFree() && fit.free.maxCoeff() <= kMaxConeCurvature;
+	fit.values =
+		isFree ? fit.free
+			   : boundedMinimum(m_now.gram, m_now.linear, kMaxConeCurvature, total, fit.values);
+	fit.energy = isFree ? fit.lowest : energyOf(fit.values);
+	if (m_rounding == ConeRounding::QuarterTurns && size() > 0) {
+		fit.values = roundToQuarterTurns(m_now.gram, m_now.linear, fit.values, total);
+		fit.energy = energyOf(fit.values);
 	}
-	if (!m_now.isFree)
-		m_now.values = boundedMinimum(m_now.gram, m_now.linear, kMaxConeCurvature, total);
-	if (m_rounding == ConeRounding::QuarterTurns && size() > 0)
-		m_now.values = roundToQuarterTurns(m_now.gram, m_now.linear, m_now.values, total);
+}
+
+/// Finds the minimum without bounds. \return whether it is one, but for rounding
+bool ConeModel::findFree()
+{
+	Fit& fit = m_now.fit;
+	Eigen::VectorXd rhs(size() + border());
+	rhs.head(border()).setConstant(m_total);
+	rhs.tail(size()) = -m_now.linear;
+	for (const bool isNew : {false, true}) {
+		if (size() == 0)
+			break;
+		if (isNew || m_now.inverse.rows() == 0)
+			invert();
+		Eigen::VectorXd solution = symmetric(m_now.inverse) * rhs;
+		solution += symmetric(m_now.inverse) * (rhs - times(solution));
+		if (!((rhs - times(solution)).norm() <= kMaxRest * rhs.norm()))
+			continue;
+		fit.free = solution.tail(size());
+		fit.lowest = energyOf(fit.free);
+		fit.level = border() > 0 ? solution[0] : 0.0;
+		return true;
+	}
+	fit.free.resize(0);
+	return false;
 }
 
 /// The matrix of the fit times \p x: G, with a first row and column of ones where the sum is fixed.
 Eigen::VectorXd ConeModel::times(const Eigen::VectorXd& x) const
 {
 	Eigen::VectorXd result(x.size());
-	result.tail(size()) = m_now.gram * x.tail(size());
+	result.tail(size()) = symmetric(m_now.gram) * x.tail(size());
 	if (border() > 0) {
 		result[0] = x.tail(size()).sum();
 		result.tail(size()).array() += x[0];
@@ -259,7 +300,7 @@ void ConeModel::join(int i)
 	column.head(border()).setOnes();
 	column.tail(size()) = m_now.gram.col(i);
 	column[row] = 0.0;
-	Eigen::VectorXd moved = m_now.inverse * column;
+	Eigen::VectorXd moved = symmetric(m_now.inverse) * column;
 	const double own = m_now.gram(i, i), beyond = own - column.dot(moved);
 	if (!(beyond > kMinPivot * own)) {
 		m_now.inverse.resize(0, 0);
@@ -269,52 +310,48 @@ void ConeModel::join(int i)
 	m_now.inverse.noalias() += moved * (moved.transpose() / beyond);
 }
 
-/// Products of the factor of a unit of curvature at \p v with those of the cones, as a column of the
-/// matrix of the fit.
-Eigen::VectorXd ConeModel::column(Vertex v) const
+ConeModel::Reach ConeModel::reachOf(Vertex v) const
 {
-	Eigen::VectorXd result(size() + border());
-	result.head(border()).setOnes();
+	Reach reach{v, Eigen::VectorXd(size() + border()), 0.0};
+	reach.products.head(border()).setOnes();
 	for (int k = 0; k < size(); ++k)
-		result[k + border()] = (*m_fields[k])[v];
-	return result;
+		reach.products[k + border()] = (*m_fields[k])[v];
+	if (m_now.inverse.rows() > 0)
+		reach.span = reach.products.dot(symmetric(m_now.inverse) * reach.products);
+	return reach;
 }
 
-/// A bound of ownProduct(\p v) from below without a linear solution: u_v is no shorter than its
-/// distance from what the cones span.
-double ConeModel::minOwnProduct(Vertex v) const
+/// A bound of ownProduct() from below without a linear solution: u is no shorter than what lies in what the
+/// cones span.
+double ConeModel::minOwnProduct(const Reach& reach) const
 {
-	const auto known = m_ownProduct.find(v);
-	if (known != m_ownProduct.end())
-		return known->second;
-	if (!m_now.isFree || m_now.inverse.rows() == 0)
-		return 0.0;
-	const Eigen::VectorXd products = column(v);
-	return (1.0 - kBoundSlack) * products.dot(m_now.inverse * products);
+	const auto known = m_ownProduct.find(reach.vertex);
+	return known != m_ownProduct.end() ? known->second : (1.0 - kBoundSlack) * reach.span;
 }
 
-/// A bound from below of the energy with cone \p i at \p v instead, by the minimum without bounds of
-/// curvatures.
-/// \param ownProduct of \p v, or less
-/// \return the lowest number where there is none: the curvatures are not at that minimum, or \p v adds
-/// nothing to the other cones
-double ConeModel::minEnergyAt(int i, Vertex v, double ownProduct) const
+/// A bound from below of the energy with cone \p i there instead, by the minimum without bounds of
+/// curvatures and without rounding.
+/// \param ownProduct of the vertex, or less
+/// \return the lowest number where there is none: that minimum is not known, or the vertex adds nothing to
+/// the other cones
+double ConeModel::minEnergyAt(int i, const Reach& reach, double ownProduct) const
 {
-	if (!m_now.isFree || m_now.inverse.rows() == 0)
+	const Fit& fit = m_now.fit;
+	if (fit.free.size() != size() || m_now.inverse.rows() == 0)
 		return kUnknown;
 	const int row = i + border();
-	const Eigen::VectorXd products = column(v), left = m_now.inverse.col(row);
-	if (!(left[row] > 0.0))
+	const double pivot = m_now.inverse(row, row);
+	if (!(pivot > 0.0))
 		return kUnknown;
-	const double along = left.dot(products), k = curvature(i);
-	const double beyond =
-		ownProduct - products.dot(m_now.inverse * products) + along * along / left[row];
+	const double along = m_now.inverse.col(row).dot(reach.products), k = fit.free[i];
+	const double beyond = ownProduct - reach.span + along * along / pivot;
 	if (!(beyond > kMinPivot * ownProduct))
 		return kUnknown;
-	// Half the slope at v when the others have made up for cone i.
-	double slope = m_start[v] + products.tail(size()).dot(m_now.values) - along * k / left[row];
-	slope += border() > 0 ? m_now.level : 0.0;
-	return energy() + k * k / left[row] - slope * slope / beyond;
+	// Half the slope at the vertex when the others have made up for cone i.
+	double slope =
+		m_start[reach.vertex] + reach.products.tail(size()).dot(fit.free) - along * k / pivot;
+	slope += border() > 0 ? fit.level : 0.0;
+	return fit.lowest + k * k / pivot - slope * slope / beyond;
 }
 
 /// Mean square of the factor of a unit of curvature at \p v.
@@ -326,11 +363,13 @@ double ConeModel::ownProduct(Vertex v)
 	return m_ownProduct[v] = m_flow.meanSquare(unitFactor(v));
 }
 
-/// A unit of curvature at \p v.
+/// A unit of curvature at \p v, taken from the whole surface by area where the sum is fixed.
 VertexVector ConeModel::unit(Vertex v) const
 {
 	VertexVector k = VertexVector::Zero(m_flow.vertexCount());
-	k[v] = 1.0;
+	if (hasFixedSum())
+		k -= m_flow.area();
+	k[v] += 1.0;
 	return k;
 }
 
@@ -347,7 +386,7 @@ const VertexVector& ConeModel::unitFactor(Vertex v)
 
 ConeModel::Field ConeModel::fieldOf(Vertex v)
 {
-	return std::make_shared<const VertexVector>(m_flow.gradient(unitFactor(v)));
+	return std::make_shared<const VertexVector>(centred(m_flow.gradient(unitFactor(v))));
 }
 
 /// Back to what the cones were.
@@ -361,6 +400,14 @@ void ConeModel::restore(const State& state, const Array<Field>& fields)
 	for (const Vertex v : m_now.vertices)
 		m_isCone[v] = 1;
 	m_gradient.resize(0);
+}
+
+/// Puts cone \p i to \p v, but for its field.
+void ConeModel::put(int i, Vertex v)
+{
+	leave(i);
+	setRow(i, v);
+	join(i);
 }
 
 /// Puts cone \p i to \p v: row and column i of G, and entry i of b.
@@ -392,8 +439,15 @@ void ConeModel::removeRow(int i)
 	const Eigen::Index left = size() - i;
 	m_now.linear.segment(i, left) = m_now.linear.tail(left).eval();
 	m_now.linear.conservativeResize(size());
-	m_now.values = Eigen::VectorXd(Eigen::VectorXd::Zero(size()));
-	m_now.isFree = false;
+	// A start for the next fit: the others take an equal share of what is lost.
+	Eigen::VectorXd& k = m_now.fit.values;
+	const double lost = k.size() == size() + 1 && size() > 0 ? k[i] / size() : 0.0;
+	k.segment(i, left) = k.tail(left).eval();
+	k.conservativeResize(size());
+	if (hasFixedSum())
+		k.array() += lost;
+	m_now.fit.free.resize(0);
+	m_now.fit.energy = m_startEnergy;
 }
 
 } // namespace ricci

@@ -13,18 +13,20 @@
 
 namespace ricci {
 
+/// The smallest number of cones that can carry the curvature \p total on the surface of \p flow.
+int minConeCount(const LinearFlow& flow, double total);
+
 /// The cones chosen so far, with the quadratic function that their curvatures k minimise: the mean
 /// square of u (the L2 distortion of [Soliman Slepcev Crane 2018]),
 ///
 ///     E(k) = k.G k + 2 b.k + E(0).
 ///
-/// With u_v the factor of a unit of curvature at v, and phi_j the gradient field of u_j (see
-/// LinearFlow), the mean of u_v u_j is phi_j(v). A trial of a vertex therefore costs one linear
+/// Where the sum of the curvatures is fixed, each is taken from the whole surface by area, and without cones
+/// the surface has the total in that way: no other vertex plays a part, at which u may be anything. With u_v
+/// the factor of a unit of curvature at v, and phi_j the gradient field of u_j (see LinearFlow, with mean 0
+/// where it is known up to a constant), the mean of u_v u_j is phi_j(v). A trial of a vertex therefore costs one linear
 /// solution, that of its own u for the diagonal of G, and none if the vertex was tried before or a bound
 /// tells enough.
-///
-/// Cones that are only to be fitted need no fields: G holds products of their u, one for each pair. The
-/// fields are made when a search asks for the first one.
 class ConeModel
 {
 public:
@@ -34,26 +36,24 @@ public:
 
 	int size() const { return m_now.vertices.size(); }
 	Vertex vertex(int i) const { return m_now.vertices[i]; }
+	const std::vector<Vertex>& vertices() const { return m_now.vertices.values(); }
 	bool isCone(Vertex v) const { return m_isCone[v] != 0; }
 
 	/// Curvature of cone \p i in radians, by the last fit.
-	double curvature(int i) const { return m_now.values[i]; }
+	double curvature(int i) const { return m_now.fit.values[i]; }
+	const Eigen::VectorXd& curvatures() const { return m_now.fit.values; }
 
 	bool hasFixedSum() const { return m_flow.hasFixedSum(); }
 	double total() const { return m_total; }
 
 	/// The smallest number of cones that can carry the total curvature.
-	int minSize() const;
+	int minSize() const { return minConeCount(m_flow, m_total); }
 
 	/// Share of each vertex in the surface's area.
 	const VertexVector& area() const { return m_flow.area(); }
 
 	/// E at the curvatures, rounding kept from making it negative.
-	double energy() const
-	{
-		const Eigen::VectorXd& k = m_now.values;
-		return std::max(0.0, k.dot(m_now.gram * k) + 2.0 * m_now.linear.dot(k) + m_startEnergy);
-	}
+	double energy() const { return m_now.fit.energy; }
 
 	/// Standard deviation of 2 u by area.
 	double distortion() const { return 2.0 * std::sqrt(energy()); }
@@ -68,22 +68,21 @@ public:
 	/// where the sum is fixed.
 	const VertexVector& gradient();
 
+	/// gradient() as it would be without cone \p i, where no bound of a curvature is reached.
+	VertexVector gradientWithout(int i);
+
 	/// gradient() as it would be if every cone had curvature \p share, and the rest of the total
 	/// lay on the whole surface in proportion to area.
-	VertexVector gradientWithShares(double share);
+	VertexVector gradientWithShares(double share) const;
 
 	/// gradient() at \p v as it is without the field of cone \p i. Where the sum is fixed, the curvature
 	/// of cone \p i lies on the whole surface in proportion to area instead.
 	double gradientOfOthers(int i, Vertex v)
 	{
-		const double whole = gradient()[v];
-		return whole - curvature(i) * ((*m_fields[i])[v] - (hasFixedSum() ? m_uniform[v] : 0.0));
+		return gradient()[v] - curvature(i) * (*m_fields[i])[v];
 	}
 
-	/// Takes one more cone in; its curvature has to be fitted.
-	void append(Vertex v);
-
-	/// The same for several, of which two at a time take little longer than one.
+	/// Takes more cones in; curvatures have to be fitted. Two take little longer than one.
 	void append(const std::vector<Vertex>& vertices);
 
 	/// Takes cone \p i out; the curvatures of the others have to be fitted.
@@ -104,39 +103,30 @@ public:
 	template<class IsLow>
 	bool tryMove(int i, Vertex v, const IsLow& isLow)
 	{
-		makeFields();
-		if (!isLow(minEnergyAt(i, v, minOwnProduct(v))) || !isLow(minEnergyAt(i, v, ownProduct(v))))
+		const Reach reach = reachOf(v);
+		if (!isLow(minEnergyAt(i, reach, minOwnProduct(reach))) ||
+			!isLow(minEnergyAt(i, reach, ownProduct(v))))
 			return false;
-		State before = m_now;
+		const Vertex old = vertex(i);
+		const Fit before = m_now.fit;
 		VertexVector gradient = std::move(m_gradient);
-		leave(i);
-		setRow(i, v);
-		join(i);
+		put(i, v);
 		fit();
 		if (!isLow(energy())) {
-			m_now = std::move(before);
+			put(i, old);
+			m_now.fit = before;
 			m_gradient = std::move(gradient);
 			return false;
 		}
-		m_isCone[before.vertices[i]] = 0;
+		m_isCone[old] = 0;
 		m_isCone[v] = 1;
 		m_fields[i] = fieldOf(v);
-		m_gradient.resize(0);
 		return true;
 	}
 
-	/// Calls \p look() while cone \p i is out and the others are fitted without it.
-	template<class Look>
-	void without(int i, const Look& look)
-	{
-		makeFields();
-		const State before = m_now;
-		const Array<Field> fields = m_fields;
-		remove(i);
-		fit();
-		look();
-		restore(before, fields);
-	}
+	/// The change of the curvatures below their bound that has the slope \p rest of half the energy, up to a
+	/// constant where the sum is fixed: that then stays.
+	Eigen::VectorXd descent(const Eigen::VectorXd& rest);
 
 	/// By how much the lowest energy rises without cone \p i, as long as no bound of a curvature is
 	/// reached: k_i^2 over entry i of the diagonal of the inverse of G, bordered by the sum where it is
@@ -152,7 +142,6 @@ public:
 	template<class Accept>
 	bool tryWithout(int i, const Accept& accept)
 	{
-		makeFields();
 		const State before = m_now;
 		const Array<Field> fields = m_fields;
 		remove(i);
@@ -164,36 +153,65 @@ public:
 	}
 
 private:
+	/// The curvatures, radians, by cone.
+	struct Fit
+	{
+		Eigen::VectorXd values;
+		double energy = 0.0;
+		Eigen::VectorXd free; // the minimum without bounds and rounding; empty: not known well
+		double lowest = 0.0;  // the energy there
+		double level = 0.0;   // of half its slope by a cone's curvature there, times -1
+	};
+
 	/// The quadratic function, and where it is lowest. Arrays by cone.
 	struct State
 	{
 		Array<Vertex> vertices;
-		Eigen::VectorXd values;  // k, radians
 		Eigen::MatrixXd gram;    // G
 		Eigen::VectorXd linear;  // b
 		Eigen::MatrixXd inverse; // of G, with a first row and column for the sum where it is fixed;
 								 // empty: not known
-		double level = 0.0;      // of half the energy's slope by a cone's curvature, times -1
-		bool isFree = false;     // k is the minimum without bounds and rounding
+		Fit fit;
+	};
+
+	/// A vertex as what the cones span reaches it.
+	struct Reach
+	{
+		Vertex vertex;
+		Eigen::VectorXd
+			products;      // of its u with those of the cones, as a column of the matrix of the fit
+		double span = 0.0; // of its u, the mean square of what lies in what the cones span
 	};
 
 	/// Gradient field of a unit of curvature at one vertex.
 	using Field = std::shared_ptr<const VertexVector>;
 
+	/// Half of it tells all.
+	static auto symmetric(const Eigen::MatrixXd& matrix)
+	{
+		return matrix.selfadjointView<Eigen::Lower>();
+	}
+	double energyOf(const Eigen::VectorXd& k) const
+	{
+		return std::max(
+			0.0, k.dot(symmetric(m_now.gram) * k) + 2.0 * m_now.linear.dot(k) + m_startEnergy);
+	}
 	int border() const { return hasFixedSum() ? 1 : 0; }
-	double minOwnProduct(Vertex v) const;
-	double minEnergyAt(int i, Vertex v, double ownProduct) const;
-	Eigen::VectorXd column(Vertex v) const;
+	VertexVector gradientOf(const Eigen::VectorXd& k);
+	VertexVector spread(const Eigen::VectorXd& k) const;
+	Reach reachOf(Vertex v) const;
+	double minOwnProduct(const Reach& reach) const;
+	double minEnergyAt(int i, const Reach& reach, double ownProduct) const;
 	Eigen::VectorXd times(const Eigen::VectorXd& x) const;
 	void invert();
+	bool findFree();
 	void leave(int i);
 	void join(int i);
 	double ownProduct(Vertex v);
 	Field fieldOf(Vertex v);
 	VertexVector unit(Vertex v) const;
-	bool hasFields() const { return m_start.size() > 0; }
-	void makeFields();
-	void append(Vertex v, VertexVector factor);
+	VertexVector centred(VertexVector field) const;
+	void put(int i, Vertex v);
 	void restore(const State& state, const Array<Field>& fields);
 	const VertexVector& unitFactor(Vertex v);
 	void setRow(int i, Vertex v);
@@ -204,13 +222,10 @@ private:
 	ConeRounding m_rounding = ConeRounding::Free;
 	VertexArray<char> m_isCone;
 	State m_now;
-	Array<VertexVector> m_factors;         // by cone, until there are fields
-	Array<Field> m_fields;                 // by cone; see makeFields()
+	Array<Field> m_fields;                 // by cone
 	VertexVector m_gradient;               // empty: not known
 	double m_startEnergy = 0.0;            // without cones
-	VertexVector m_startFactor;            // without cones, until there are fields
 	VertexVector m_start;                  // gradient without cones
-	VertexVector m_uniform;                // gradient field of a unit of curvature spread by area
 	std::map<Vertex, double> m_ownProduct; // of vertices that were tried
 	Vertex m_lastVertex;                   // of the last unitFactor()
 	VertexVector m_lastFactor;

@@ -31,11 +31,16 @@ constexpr int kMaxSearched = 20000, kMaxAggregates = 12000;
 /// cones move on the surface itself.
 constexpr int kMaxCoarseRounds = 3, kMaxFineRounds = 2;
 
-void checkCount(const ConeRequest& request, const ConeModel& model, const ConeSites& sites)
+/// Steps that fit the curvatures found on aggregates to the surface, and the share of the energy below which
+/// a gain is none.
+constexpr int kMaxFitSteps = 20;
+constexpr double kNoGain = 1e-6;
+
+void checkCount(const ConeRequest& request, int least, const ConeSites& sites)
 {
-	if (request.count > 0 && request.count < model.minSize())
-		throw InvalidOption(InvalidOption::TooFewCones, request.count, model.minSize());
-	const int wanted = std::max(request.count, model.minSize());
+	if (request.count > 0 && request.count < least)
+		throw InvalidOption(InvalidOption::TooFewCones, request.count, least);
+	const int wanted = std::max(request.count, least);
 	if (wanted > sites.count())
 		throw InvalidOption(
 			InvalidOption::TooFewVertices,
@@ -72,8 +77,8 @@ class Growth
 {
 public:
 	Growth(const ConeRequest& request, ConeModel& model, const ConeSites& sites) :
-			m_model(model), m_sites(sites), m_tree(sites, model), m_most(maxCones(model, request)),
-			m_best(model.size()), m_least(objective())
+			m_model(model), m_sites(sites), m_tree(sites, model.vertices()),
+			m_most(maxCones(model, request)), m_best(model.size()), m_least(objective())
 	{
 	}
 
@@ -127,7 +132,7 @@ void placeForObjective(const ConeRequest& request, ConeModel& model, const ConeS
 		}
 	relocateCones(model, sites, 2);
 	for (int round = 0; round < kMaxObjectiveRounds; ++round) {
-		SeamTree tree(sites, model);
+		SeamTree tree(sites, model.vertices());
 		if (!dropCostlyCones(model, tree) && round > 0)
 			return;
 		if (request.shortSeams)
@@ -211,7 +216,7 @@ void search(const ConeRequest& request, ConeModel& model, const ConeSites& sites
 	}
 	removeWeakCones(model);
 	if (request.shortSeams && !isForObjective(request)) {
-		SeamTree tree(sites, model);
+		SeamTree tree(sites, model.vertices());
 		shortenConeTree(
 			model,
 			tree,
@@ -221,8 +226,87 @@ void search(const ConeRequest& request, ConeModel& model, const ConeSites& sites
 	}
 }
 
-/// The same on aggregates of vertices, then on the surface itself as far as its own distortion asks
-/// for it.
+PlacedCones result(
+	const ConeSites& sites,
+	const std::vector<Vertex>& vertices,
+	const Eigen::VectorXd& curvatures,
+	double distortion)
+{
+	PlacedCones placed;
+	placed.distortion = distortion;
+	placed.seams = SeamTree(sites, vertices).length();
+	placed.seamsWithout = sites.cutLength();
+	std::vector<std::pair<Vertex, double>> cones;
+	for (std::size_t i = 0; i < vertices.size(); ++i)
+		if (const double k = curvatures[static_cast<Eigen::Index>(i)]; k != 0.0)
+			cones.emplace_back(vertices[i], k);
+	std::sort(cones.begin(), cones.end());
+	for (const auto& [vertex, curvature] : cones) {
+		placed.vertices.push_back(vertex);
+		placed.curvatures.push_back(curvature);
+	}
+	return placed;
+}
+
+PlacedCones result(ConeModel& model, const ConeSites& sites)
+{
+	return result(sites, model.vertices(), model.curvatures(), model.exactDistortion());
+}
+
+/// All of the search on aggregates of vertices, for what is the least cost there. On the surface itself the
+/// curvatures are fitted by conjugate gradients, with the equation on the aggregates as the preconditioner:
+/// each step costs two linear solutions, however many cones there are.
+PlacedCones placeOnAggregates(
+	const ConeRequest& request, LinearFlow& flow, double total, const ConeSites& sites)
+{
+	CoarseFlow coarse(flow, kMaxAggregates);
+	ConeModel model(coarse.flow, total);
+	search(request, model, ConeSites(sites, coarse.roots));
+	std::vector<Vertex> vertices = model.vertices();
+	for (Vertex& v : vertices)
+		v = coarse.roots[v];
+	const auto spread = [&](const Eigen::VectorXd& k) {
+		VertexVector whole = VertexVector::Zero(flow.vertexCount());
+		for (std::size_t i = 0; i < vertices.size(); ++i)
+			whole[vertices[i]] = k[static_cast<Eigen::Index>(i)];
+		return whole;
+	};
+	const auto slope = [&](const VertexVector& u) { // half that of the energy
+		checkpoint();
+		const VertexVector phi = flow.gradient(u);
+		Eigen::VectorXd result(model.size());
+		for (std::size_t i = 0; i < vertices.size(); ++i)
+			result[static_cast<Eigen::Index>(i)] = phi[vertices[i]];
+		return result;
+	};
+	const Eigen::VectorXd found = model.curvatures();
+	Eigen::VectorXd k = found;
+	VertexVector u = flow.factor(spread(k));
+	if (request.rounding == ConeRounding::Free && model.size() > 0) {
+		Eigen::VectorXd rest = -slope(u), step = model.descent(rest), way = step;
+		double gain = rest.dot(step);
+		for (int i = 0; i < kMaxFitSteps && gain > kNoGain * flow.meanSquare(u); ++i) {
+			const Eigen::VectorXd pull = slope(flow.solve(spread(way)));
+			const double length = gain / way.dot(pull);
+			k += length * way;
+			rest -= length * pull;
+			step = model.descent(rest);
+			way = step + rest.dot(step) / gain * way;
+			gain = rest.dot(step);
+		}
+		// As far as no bound is passed: the energy falls all the way.
+		double share = 1.0;
+		for (Eigen::Index i = 0; i < k.size(); ++i)
+			if (k[i] > kMaxConeCurvature)
+				share = std::min(share, (kMaxConeCurvature - found[i]) / (k[i] - found[i]));
+		k = (found + share * (k - found)).cwiseMin(kMaxConeCurvature);
+		u = flow.factor(spread(k));
+	}
+	return result(sites, vertices, k, 2.0 * std::sqrt(flow.meanSquare(u)));
+}
+
+/// The same for a number of cones or a distortion, and then on the surface itself as far as its own
+/// distortion asks for it.
 void searchFromCoarse(
 	const ConeRequest& request, LinearFlow& flow, ConeModel& model, const ConeSites& sites)
 {
@@ -235,8 +319,6 @@ void searchFromCoarse(
 	for (int round = 0; round < kMaxCoarseRounds; ++round) {
 		search(coarseRequest, coarseModel, coarseSites);
 		copyCones(coarseModel, coarse.roots, model);
-		if (isForObjective(request))
-			return;
 		excess = model.distortion() / request.distortion;
 		if (request.count > 0 || excess <= 1.0)
 			break;
@@ -247,24 +329,6 @@ void searchFromCoarse(
 	if (request.count == 0)
 		addForDistortion(request, model, sites);
 	removeWeakCones(model);
-}
-
-PlacedCones result(ConeModel& model, const ConeSites& sites)
-{
-	PlacedCones placed;
-	placed.distortion = model.exactDistortion();
-	placed.seams = SeamTree(sites, model).length();
-	placed.seamsWithout = sites.cutLength();
-	std::vector<std::pair<Vertex, double>> cones;
-	for (int i = 0; i < model.size(); ++i)
-		if (model.curvature(i) != 0.0)
-			cones.emplace_back(model.vertex(i), model.curvature(i));
-	std::sort(cones.begin(), cones.end());
-	for (const auto& [vertex, curvature] : cones) {
-		placed.vertices.push_back(vertex);
-		placed.curvatures.push_back(curvature);
-	}
-	return placed;
 }
 
 } // namespace
@@ -280,9 +344,15 @@ PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const C
 {
 	advance(0.0, "Placing cones");
 	const ConeSites sites(surface, request.vertices);
-	ConeModel model(flow, 2 * kPi * surface.topology.type.eulerCharacteristic());
-	checkCount(request, model, sites);
-	if (surface.triangulation.vertexCount() <= kMaxSearched)
+	const double total = 2 * kPi * surface.topology.type.eulerCharacteristic();
+	const bool isLarge = surface.triangulation.vertexCount() > kMaxSearched;
+	if (isLarge && isForObjective(request)) {
+		checkCount(request, minConeCount(flow, total), sites);
+		return placeOnAggregates(request, flow, total, sites);
+	}
+	ConeModel model(flow, total);
+	checkCount(request, model.minSize(), sites);
+	if (!isLarge)
 		search(request, model, sites);
 	else
 		searchFromCoarse(request, flow, model, sites);

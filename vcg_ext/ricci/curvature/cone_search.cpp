@@ -51,14 +51,14 @@ Vertex lowest(const ConeModel& model, const ConeSites& sites, const Value& value
 
 /// The value of the gradient \p phi at which a cone gains nothing. Where the sum of the curvatures is
 /// fixed, only differences of the gradient count: it is the value at the cones that are there.
-double level(const ConeModel& model, const VertexVector& phi)
+double level(const ConeModel& model, const VertexVector& phi, Vertex freed)
 {
 	if (!model.hasFixedSum())
 		return 0.0;
 	double sum = 0.0;
 	int count = 0;
 	for (int i = 0; i < model.size(); ++i)
-		if (model.curvature(i) < kMaxConeCurvature - 1e-9) {
+		if (model.curvature(i) < kMaxConeCurvature - 1e-9 && model.vertex(i) != freed) {
 			sum += phi[model.vertex(i)];
 			++count;
 		}
@@ -67,11 +67,19 @@ double level(const ConeModel& model, const VertexVector& phi)
 
 /// The vertices where one more cone gains most of all places around, those first where it gains most of
 /// all: where the gradient is farthest from its level. At least one if a vertex is left, \p count at most.
-std::vector<Vertex> maxGains(ConeModel& model, const ConeSites& sites, int count)
+/// \param phi the gradient
+/// \param freed is no cone there
+std::vector<Vertex> maxGains(
+	const ConeModel& model,
+	const ConeSites& sites,
+	const VertexVector& phi,
+	int count,
+	Vertex freed = {})
 {
-	const VertexVector& phi = model.gradient();
-	const double base = level(model, phi);
-	const auto isFree = [&](Vertex v) { return sites.isAllowed(v) && !model.isCone(v); };
+	const double base = level(model, phi, freed);
+	const auto isFree = [&](Vertex v) {
+		return sites.isAllowed(v) && (!model.isCone(v) || v == freed);
+	};
 	// The first of equals counts as higher.
 	const auto isHigher = [&](Vertex a, Vertex b) {
 		const double x = std::abs(phi[a] - base), y = std::abs(phi[b] - base);
@@ -142,8 +150,7 @@ bool replant(ConeModel& model, const ConeSites& sites, int i, double& present)
 	if (model.size() <= model.minSize())
 		return false;
 	const Vertex old = model.vertex(i);
-	std::vector<Vertex> best;
-	model.without(i, [&] { best = maxGains(model, sites, 1); });
+	const std::vector<Vertex> best = maxGains(model, sites, model.gradientWithout(i), 1, old);
 	return !best.empty() && best.front() != old && move(model, i, best.front(), present);
 }
 
@@ -158,7 +165,7 @@ void startCones(ConeModel& model, const ConeSites& sites)
 		const Vertex v = lowest(model, sites, [&](Vertex w) { return sign * phi[w]; });
 		if (!v.isValid())
 			break;
-		model.append(v);
+		model.append({v});
 	}
 	model.fit();
 }
@@ -166,7 +173,7 @@ void startCones(ConeModel& model, const ConeSites& sites)
 bool addCones(ConeModel& model, const ConeSites& sites, int count)
 {
 	checkpoint();
-	const std::vector<Vertex> places = maxGains(model, sites, count);
+	const std::vector<Vertex> places = maxGains(model, sites, model.gradient(), count);
 	model.append(places);
 	model.fit();
 	return !places.empty();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_sites.h"
 
-#include "../math/disjoint_sets.h"
 #include "../math/shortest_paths.h"
 #include "../metric/area.h"
+#include "../surface/cotree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,14 +72,11 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 	for (const Halfedge h : paths.parent)
 		if (h.isValid())
 			isPath[h.edge()] = 1;
-	std::vector<std::pair<double, Edge>> others;
-	for (const Edge e : t.edges())
-		if (!isPath[e] && !t.isBoundary(e)) {
-			const auto [a, b] = t.ends(e);
-			others.emplace_back(-(paths.distance[a] + surface.lengths[e] + paths.distance[b]), e);
-		}
-	std::sort(others.begin(), others.end());
-	DisjointSetsOf<Face> joined(t.faceCount());
+	EdgeArray<double> loopLength(t.edgeCount(), 0.0);
+	for (const Edge e : t.edges()) {
+		const auto [a, b] = t.ends(e);
+		loopLength[e] = paths.distance[a] + surface.lengths[e] + paths.distance[b];
+	}
 	VertexArray<int> uses(t.vertexCount(), 0); // edges of the cut at a vertex
 	EdgeArray<char> isCut(t.edgeCount(), 0);
 	const auto take = [&](Edge e, int sign) {
@@ -88,9 +85,7 @@ void ConeSites::findCut(const EmbeddedSurface& surface)
 			uses[v] += sign;
 		m_cutLength += sign * surface.lengths[e];
 	};
-	for (const auto& [length, e] : others) {
-		if (joined.merge(t.face(e.halfedge()), t.face(e.halfedge().twin())))
-			continue;
+	for (const Edge e : edgesBesideCotree(t, isPath, loopLength)) {
 		take(e, 1);
 		for (Vertex v : t.ends(e))
 			for (Halfedge h = paths.parent[v]; h.isValid() && !isCut[h.edge()];

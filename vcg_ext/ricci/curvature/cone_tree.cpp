@@ -18,9 +18,9 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 /// Rounds in which every cone may move.
 constexpr int kMaxRounds = 4;
 
-/// Trials of one cone's move, and how far it goes at once.
+/// Trials of one cone's move, and how far it goes at once: not far beyond the next ones, where there are many.
 constexpr std::size_t kMaxAttempts = 3;
-constexpr double kMaxStep = 0.25;
+constexpr double kMaxStep = 0.25, kMaxStepOfMany = 2.0; // this over the root of their number
 
 /// A move must lower energy and price of seams together by this.
 constexpr double kMinGain = 1e-4;
@@ -42,7 +42,8 @@ bool moveNearby(
 	std::vector<std::pair<double, Vertex>> places; // change that is predicted
 	SearchFront<Vertex, Vertex> front(static_cast<int>(phi.size()));
 	front.offer(old, 0.0);
-	for (Vertex v = front.next(kMaxStep); v.isValid(); v = front.next(kMaxStep)) {
+	const double far = std::min(kMaxStep, kMaxStepOfMany / std::sqrt(model.size()));
+	for (Vertex v = front.next(far); v.isValid(); v = front.next(far)) {
 		for (const ConeSites::Way& way : sites.ways(v))
 			front.offer(way.to, front[v] + way.length, v);
 		if (model.isCone(v) || !sites.isAllowed(v))
@@ -80,12 +81,8 @@ SeamTree::SeamTree(const ConeSites& sites) :
 	spread(cut);
 }
 
-SeamTree::SeamTree(const ConeSites& sites, const ConeModel& model) : SeamTree(sites)
+SeamTree::SeamTree(const ConeSites& sites, std::vector<Vertex> cones) : SeamTree(sites)
 {
-	std::vector<Vertex> cones;
-	cones.reserve(positionOf(model.size()));
-	for (int i = 0; i < model.size(); ++i)
-		cones.push_back(model.vertex(i));
 	while (!cones.empty()) {
 		const auto nearest = std::min_element(cones.begin(), cones.end(), [&](Vertex a, Vertex b) {
 			return m_distance[a] < m_distance[b];

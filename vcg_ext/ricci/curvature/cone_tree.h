@@ -18,9 +18,9 @@ public:
 	/// Without cones.
 	explicit SeamTree(const ConeSites& sites);
 
-	/// With those of \p model, the nearest to the tree first, and the first one first where there are no
+	/// With \p cones, the nearest to the tree first, and the first one first where there are no
 	/// seams without cones.
-	SeamTree(const ConeSites& sites, const ConeModel& model);
+	SeamTree(const ConeSites& sites, std::vector<Vertex> cones);
 
 	double length() const { return m_length; }
 

@@ -23,6 +23,12 @@ CirclePaths::CirclePaths(
 		m_isNear(parts ? parts->triangulation().vertexCount() : 0, 0),
 		m_fronts(3, Front(t.vertexCount()))
 {
+	if (parts)
+		m_members = Adjacency<Vertex, Vertex>(m_isNear.size(), [&](const auto& add) {
+			for (const Vertex v : t.vertices())
+				if (parts->centreOf(v).isValid())
+					add(parts->centreOf(v), v);
+		});
 }
 
 void CirclePaths::findNear(const std::vector<Edge>& removed)
@@ -54,14 +60,47 @@ bool CirclePaths::isOpen(Vertex v) const
 	return !m_cut.isOnGraph(v) && (!m_parts || m_isNear[m_parts->centreOf(v)]);
 }
 
-int CirclePaths::labelCircles()
+int CirclePaths::splitCircles(const std::vector<Edge>& removed)
 {
-	const int count = m_cut.labelCircles();
-	m_starts.clear();
-	for (const Halfedge h : m_cut.labelled())
-		if (m_cut.isFree(h.edge()) && (isOpen(m_t.target(h)) || m_cut.circle(h.twin()) >= 0))
-			m_starts.push_back(h);
+	const int count = m_cut.splitCircles(removed);
+	findStarts();
 	return count;
+}
+
+void CirclePaths::findStarts()
+{
+	m_starts.clear();
+	const auto addFrom = [&](Vertex v) {
+		int circle = -1; // of the halfedges up to the next side
+		for (const Halfedge h : m_cut.around(v)) {
+			if (m_cut.isBorder(h.edge()))
+				circle = -1;
+			else if (
+				m_cut.isFree(h.edge()) &&
+				(isOpen(m_t.target(h)) || m_cut.isOnGraph(m_t.target(h)))) {
+				if (circle < 0)
+					circle = m_cut.circle(h);
+				m_starts.push_back({h, circle});
+			}
+		}
+	};
+	if (!m_parts)
+		for (const Vertex v : m_t.vertices())
+			if (m_cut.isOnGraph(v))
+				addFrom(v);
+	for (const Vertex part : m_near)
+		for (const Vertex v : m_members[part]) {
+			if (m_cut.isOnGraph(v)) {
+				addFrom(v);
+				continue;
+			}
+			for (const Halfedge h : m_t.around(v)) {
+				const Vertex beyond = m_t.target(h);
+				if (m_cut.isOnGraph(beyond) && !m_isNear[m_parts->centreOf(beyond)] &&
+					m_cut.isFree(h.edge()))
+					m_starts.push_back({h.twin(), m_cut.circle(h.twin())});
+			}
+		}
 }
 
 /// Lets \p front begin at the circles for which \p chosen(circle) holds.
@@ -69,8 +108,8 @@ template<class Chosen>
 void CirclePaths::startFrom(const Chosen& chosen, double bound, Front& front) const
 {
 	front.clear();
-	for (const Halfedge h : m_starts)
-		if (chosen(m_cut.circle(h)) && isOpen(m_t.target(h)) && m_cost[h.edge()] < bound)
+	for (const auto& [h, circle] : m_starts)
+		if (chosen(circle) && isOpen(m_t.target(h)) && m_cost[h.edge()] < bound)
 			front.offer(m_t.target(h), m_cost[h.edge()], h);
 }
 
@@ -96,9 +135,10 @@ std::vector<Edge> CirclePaths::shortestBridge(double bound)
 			middle = h;
 		}
 	};
-	for (const Halfedge h : m_starts)
-		if (isStart(m_cut.circle(h)) && isEnd(m_cut.circle(h.twin())))
-			offer(h, m_cost[h.edge()]);
+	for (const auto& [h, circle] : m_starts)
+		if (m_cost[h.edge()] < bound && !isOpen(m_t.target(h)) &&
+			isStart(circle) != isStart(m_cut.circle(h.twin())))
+			offer(isStart(circle) ? h : h.twin(), m_cost[h.edge()]);
 	Front &from = m_fronts[0], &to = m_fronts[1];
 	startFrom(isStart, bound, from);
 	startFrom(isEnd, bound, to);
@@ -132,6 +172,10 @@ std::vector<Edge> CirclePaths::shortestBridge(double bound)
 	path.push_back(middle.edge());
 	appendPath(from, m_t.origin(middle), path);
 	appendPath(to, m_t.target(middle), path);
+	Halfedge last = middle.twin();
+	while (!m_cut.isOnGraph(m_t.origin(last)))
+		last = to.parent(m_t.origin(last));
+	m_arrival = m_cut.circle(last);
 	return path;
 }
 
@@ -139,11 +183,13 @@ std::vector<Edge> CirclePaths::joinCircles(int circles, double bound)
 {
 	std::vector<Edge> edges;
 	bool found = true;
-	while (found && circles > 1) {
+	for (; found && circles > 1; --circles) {
 		const std::vector<Edge> bridge = shortestBridge(bound - costOf(edges));
+		found = !bridge.empty();
 		m_cut.add(bridge);
 		edges.insert(edges.end(), bridge.begin(), bridge.end());
-		found = !bridge.empty() && labelCircles() == --circles;
+		m_cut.joinCircles(m_arrival);
+		findStarts();
 	}
 	m_cut.remove(edges);
 	if (!found)
@@ -156,8 +202,8 @@ std::vector<Edge> CirclePaths::joinCircles(int circles, double bound)
 std::vector<Edge> CirclePaths::bestTripod(double bound)
 {
 	std::array<int, 3> starts{};
-	for (const Halfedge h : m_starts)
-		++starts[positionOf(m_cut.circle(h))];
+	for (const Start& start : m_starts)
+		++starts[positionOf(start.circle)];
 	const int last =
 		static_cast<int>(std::max_element(starts.begin(), starts.end()) - starts.begin());
 	searchFromBoth((last + 1) % 3, (last + 2) % 3, last, bound);
@@ -192,11 +238,10 @@ void CirclePaths::searchFromBoth(int first, int second, int last, double bound)
 	std::array<double, 2> toLast{kFar, kFar};
 	for (std::size_t k = 0; k < 2; ++k)
 		startFrom([&](int c) { return c == circle[k]; }, bound, m_fronts[k]);
-	for (const Halfedge h : m_starts)
-		if (m_cut.circle(h.twin()) == last)
-			for (std::size_t k = 0; k < 2; ++k)
-				if (m_cut.circle(h) == circle[k])
-					toLast[k] = std::min(toLast[k], m_cost[h.edge()]);
+	for (const auto& [h, from] : m_starts)
+		for (std::size_t k = 0; k < 2; ++k)
+			if (from == circle[k] && m_cost[h.edge()] < toLast[k] && m_cut.circle(h.twin()) == last)
+				toLast[k] = m_cost[h.edge()];
 	for (;;) {
 		// Two of the paths join their circles, so the third has at most the rest of the bound.
 		const double r[2] = {m_fronts[0].nearest(), m_fronts[1].nearest()};
@@ -255,7 +300,7 @@ double CirclePaths::costOf(const std::vector<Edge>& edges) const
 
 std::size_t CirclePaths::reached() const
 {
-	std::size_t count = 0;
+	std::size_t count = m_starts.size();
 	for (const Front& front : m_fronts)
 		count += front.reached().size();
 	return count;

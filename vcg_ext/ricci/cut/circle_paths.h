@@ -2,6 +2,7 @@
 #ifndef RICCI_CIRCLE_PATHS_H
 #define RICCI_CIRCLE_PATHS_H
 
+#include "../math/adjacency.h"
 #include "../math/shortest_paths.h"
 #include "coarse_surface.h"
 #include "cut_segments.h"
@@ -34,15 +35,16 @@ public:
 	/// These parts.
 	const std::vector<Vertex>& near() const { return m_near; }
 
-	/// Numbers the circles. To be called when the cut has changed, before paths are asked for.
+	/// Numbers the circles, see CutSegments::splitCircles(). To be called when edges have been taken out,
+	/// before paths are asked for.
 	/// \return how many there are
-	int labelCircles();
+	int splitCircles(const std::vector<Edge>& removed);
 
 	/// The shortest path from circle 0 to another, empty if none is shorter than \p bound.
 	std::vector<Edge> shortestBridge(double bound);
 
 	/// Paths that join the circles 0 .. \p circles - 1 one after another, each as short as can be. Empty if
-	/// they are not shorter than \p bound together. The cut is left as it is.
+	/// they are not shorter than \p bound together. The cut is left as it is, but the numbers are not.
 	std::vector<Edge> joinCircles(int circles, double bound);
 
 	/// The three paths from the circles 0, 1, 2 to one vertex that are shortest together, empty if they
@@ -54,11 +56,19 @@ public:
 	/// Appends the edges of the path by which \p front has come from the cut to \p v.
 	void appendPath(const Front& front, Vertex v, std::vector<Edge>& edges) const;
 
-	/// Vertices that the last searches have seen.
+	/// Vertices that the last searches have seen, and places where they may have begun.
 	std::size_t reached() const;
 
 private:
+	/// A halfedge by which a path may leave a circle.
+	struct Start
+	{
+		Halfedge halfedge;
+		int circle;
+	};
+
 	bool isOpen(Vertex v) const;
+	void findStarts();
 	template<class Chosen>
 	void startFrom(const Chosen& chosen, double bound, Front& front) const;
 	void searchFromBoth(int first, int second, int last, double bound);
@@ -69,10 +79,12 @@ private:
 	const EdgeArray<double>& m_cost;
 	CutSegments& m_cut;
 	const CoarseSurface* m_parts;
-	std::vector<Vertex> m_near;     // see near()
-	VertexArray<char> m_isNear;     // [part] the same
-	std::vector<Halfedge> m_starts; // labelled ones where a path may start
-	std::vector<Front> m_fronts;    // of the searches from up to three circles
+	std::vector<Vertex> m_near;          // see near()
+	VertexArray<char> m_isNear;          // [part] the same
+	Adjacency<Vertex, Vertex> m_members; // [part] its vertices
+	std::vector<Start> m_starts;
+	int m_arrival = -1;          // the circle at the end of the last bridge
+	std::vector<Front> m_fronts; // of the searches from up to three circles
 };
 
 } // namespace ricci

@@ -5,6 +5,7 @@
 #include "../math/adjacency.h"
 #include "../math/disjoint_sets.h"
 #include "../math/shortest_paths.h"
+#include "../surface/cotree.h"
 #include "coarse_surface.h"
 #include "shorten_cut.h"
 
@@ -138,30 +139,15 @@ std::vector<Edge>
 leftOver(const ContractedGraph& graph, const NodePaths& paths, const EdgeArray<char>& inTree)
 {
 	const Triangulation& t = graph.surface();
-	std::vector<Edge> edges;
-	// Of the loop that an edge closes with the paths from its ends. An edge that the cut must not
-	// use is crossed first.
+	// An edge that the cut must not use is crossed first.
 	EdgeArray<double> loopLength(t.edgeCount(), 0.0);
-	for (const Edge e : t.edges()) {
-		if (t.isBoundary(e) || inTree[e])
-			continue;
+	for (const Edge e : t.edges())
 		loopLength[e] = graph.isUsable(e) ? paths.distance[graph.from(e)] +
 												paths.distance[graph.to(e)] + graph.cost(e)
 										  : kFar;
-		edges.push_back(e);
-	}
-	std::sort(edges.begin(), edges.end(), [&](Edge a, Edge b) {
-		return loopLength[a] != loopLength[b] ? loopLength[a] > loopLength[b] : a < b;
-	});
-	DisjointSetsOf<Face> cotree(t.faceCount());
-	std::vector<Edge> rest;
-	for (const Edge e : edges) {
-		if (cotree.merge(t.face(e.halfedge()), t.face(e.halfedge().twin())))
-			continue;
-		if (loopLength[e] == kFar)
-			throw NotConverged(NotConverged::NoCut);
-		rest.push_back(e);
-	}
+	std::vector<Edge> rest = edgesBesideCotree(t, inTree, loopLength);
+	if (!rest.empty() && loopLength[rest.front()] == kFar) // the longest
+		throw NotConverged(NotConverged::NoCut);
 	return rest;
 }
 

@@ -13,7 +13,7 @@ CutSegments::CutSegments(
 		m_t(t),
 		m_marked(marked), m_forbidden(forbidden), m_isCut(isCut), m_boundary(t.boundaryVertices()),
 		m_first(t.vertexCount()), m_degree(t.vertexCount(), 0), m_onGraph(t.vertexCount()),
-		m_free(t.edgeCount()), m_circle(t.halfedgeCount(), -1)
+		m_free(t.edgeCount()), m_place(t.halfedgeCount(), -1)
 {
 	for (const Halfedge h : t.halfedges()) {
 		const Vertex v = t.origin(h);
@@ -177,45 +177,137 @@ std::vector<Edge> CutSegments::removeWithDeadEnds(const std::vector<Edge>& edges
 	return removed;
 }
 
+/// The first side that leaves the vertex of \p h, clockwise from it; none if the vertex has no side.
+Halfedge CutSegments::sideFrom(Halfedge h) const
+{
+	Halfedge side = h;
+	do {
+		if (isBorder(side.edge()))
+			return side;
+		side = m_t.next(side.twin());
+	} while (side != h);
+	return Halfedge();
+}
+
 int CutSegments::labelCircles()
 {
-	for (const Halfedge h : m_labelled)
-		m_circle[h] = -1;
-	m_labelled.clear();
+	for (const Halfedge side : m_sides)
+		m_place[side] = -1;
+	m_sides.clear();
+	m_firsts.clear();
+	m_loneMarks.clear();
+	m_wholeLoneMarks = 0;
 	tidy();
-	int count = 0;
 	for (const std::vector<Edge>* edges : {&m_cutEdges, &m_boundaryEdges})
 		for (const Edge e : *edges)
-			for (const Halfedge side : {e.halfedge(), e.halfedge().twin()})
-				if (!m_t.isExterior(side) && m_circle[side] < 0)
-					labelCircleOf(side, count++);
-	for (const Vertex v : m_marks)
-		if (m_degree[v] == 0) {
-			for (const Halfedge h : around(v)) {
-				m_circle[h] = count;
-				m_labelled.push_back(h);
+			for (const Halfedge first : {e.halfedge(), e.halfedge().twin()}) {
+				if (m_t.isExterior(first) || m_place[first] >= 0)
+					continue;
+				m_firsts.push_back(static_cast<int>(m_sides.size()));
+				for (Halfedge side = first; m_place[side] < 0; side = sideFrom(m_t.next(side))) {
+					m_place[side] = static_cast<int>(m_sides.size());
+					m_sides.push_back(side);
+				}
 			}
-			++count;
+	for (const Vertex v : m_marks)
+		noteLoneMark(v);
+	m_wholeLoneMarks = m_loneMarks.size();
+	return splitCircles({});
+}
+
+int CutSegments::splitCircles(const std::vector<Edge>& removed)
+{
+	m_loneMarks.resize(m_wholeLoneMarks);
+	std::vector<int> gone; // places
+	for (const Edge e : removed) {
+		for (const Halfedge side : {e.halfedge(), e.halfedge().twin()})
+			gone.push_back(m_place[side]);
+		for (const Vertex v : m_t.ends(e))
+			noteLoneMark(v);
+	}
+	std::sort(gone.begin(), gone.end());
+	constexpr int kOpen = -2; // not numbered yet
+	m_stretches.clear();
+	auto next = gone.begin();
+	for (std::size_t i = 0; i < m_firsts.size(); ++i) {
+		const int end =
+			i + 1 < m_firsts.size() ? m_firsts[i + 1] : static_cast<int>(m_sides.size());
+		for (int place = m_firsts[i]; place < end;) {
+			if (next == gone.end() || place < *next) {
+				m_stretches.push_back({place, kOpen});
+				place = next == gone.end() ? end : std::min(*next, end);
+			}
+			else {
+				if (m_stretches.empty() || m_stretches.back().circle != -1)
+					m_stretches.push_back({place, -1});
+				++place;
+				++next;
+			}
 		}
+	}
+	int count = 0;
+	for (std::size_t first = 0; first < m_stretches.size(); ++first) {
+		if (m_stretches[first].circle != kOpen)
+			continue;
+		for (std::size_t i = first; m_stretches[i].circle == kOpen;) {
+			m_stretches[i].circle = count;
+			const std::size_t end =
+				i + 1 < m_stretches.size() ? positionOf(m_stretches[i + 1].first) : m_sides.size();
+			i = stretchOf(m_place[sideFrom(m_t.next(m_sides[end - 1]))]);
+		}
+		++count;
+	}
+	for (LoneMark& mark : m_loneMarks)
+		mark.circle = count++;
 	return count;
 }
 
-/// Goes once round the circle with the border halfedge \p side.
-void CutSegments::labelCircleOf(Halfedge side, int number)
+/// The stretch with a place.
+std::size_t CutSegments::stretchOf(int place) const
 {
-	const auto label = [&](Halfedge h) {
-		m_circle[h] = number;
-		m_labelled.push_back(h);
-	};
-	Halfedge h = side;
-	do {
-		h = m_t.next(h);
-		while (!isBorder(h.edge())) {
-			label(h);
-			h = m_t.next(h.twin());
-		}
-		label(h);
-	} while (h != side);
+	const auto after = std::upper_bound(
+		m_stretches.begin(), m_stretches.end(), place, [](int p, const Stretch& s) {
+			return p < s.first;
+		});
+	return static_cast<std::size_t>(after - m_stretches.begin()) - 1;
+}
+
+void CutSegments::noteLoneMark(Vertex v)
+{
+	const auto isSame = [&](const LoneMark& mark) { return mark.vertex == v; };
+	if (m_marked[v] && !m_boundary[v] && m_degree[v] == 0 &&
+		std::none_of(
+			m_loneMarks.begin() + static_cast<std::ptrdiff_t>(m_wholeLoneMarks),
+			m_loneMarks.end(),
+			isSame))
+		m_loneMarks.push_back({v, -1});
+}
+
+void CutSegments::joinCircles(int number)
+{
+	for (Stretch& stretch : m_stretches)
+		if (stretch.circle == number)
+			stretch.circle = 0;
+}
+
+int CutSegments::place(Halfedge h) const
+{
+	const Halfedge side = sideFrom(h);
+	return side.isValid() ? m_place[side] : -1;
+}
+
+int CutSegments::circle(Halfedge h) const
+{
+	const Halfedge side = sideFrom(h);
+	if (!side.isValid()) {
+		for (const LoneMark& mark : m_loneMarks)
+			if (mark.vertex == m_t.origin(h))
+				return mark.circle;
+		return -1;
+	}
+	// What has been put onto the cut since belongs to a path from circle 0.
+	const int circle = m_place[side] < 0 ? -1 : m_stretches[stretchOf(m_place[side])].circle;
+	return std::max(circle, 0);
 }
 
 } // namespace ricci

@@ -30,6 +30,9 @@ public:
 	bool isCut(Edge e) const { return m_isCut[e]; }
 	bool isMarked(Vertex v) const { return m_marked[v]; }
 
+	/// Whether \p e is cut, or on the boundary.
+	bool isBorder(Edge e) const { return m_isCut[e] || m_t.isBoundary(e); }
+
 	/// Cut edges at \p v.
 	int degree(Vertex v) const { return m_degree[v]; }
 
@@ -73,8 +76,8 @@ public:
 
 	/// Numbers the circles: the boundaries of the surface opened along the cut. A marked vertex
 	/// that the cut does not reach counts as a circle of its own. The halfedges that leave a circle
-	/// are those between two border edges, the second of these included: from a border halfedge h
-	/// with the open surface on its left they are found clockwise.
+	/// are those between two sides (halfedges along the border, with the open surface on their left),
+	/// the second of these included: from a side h they are found clockwise.
 	///
 	///                \  |  /
 	///        ===h===> o ===n===>       border edges: cut or boundary .
@@ -82,21 +85,45 @@ public:
 	/// \return the number of circles
 	int labelCircles();
 
-	/// The circle that \p h leaves, as numbered by the last labelCircles(); -1 if none.
-	int circle(Halfedge h) const { return m_circle[h]; }
+	/// The same where \p removed has been taken out of the cut since labelCircles(), and nothing else has
+	/// changed: in time proportional to what was removed, as the sides elsewhere come one after another as
+	/// they did. To be called again for other edges of the same cut, once those are in it again.
+	int splitCircles(const std::vector<Edge>& removed);
 
-	/// The halfedges with a circle.
-	const std::vector<Halfedge>& labelled() const { return m_labelled; }
+	/// Makes circle \p number a part of circle 0, which a path has joined to it that is now on the cut.
+	void joinCircles(int number);
+
+	/// The circle that \p h leaves; -1 if none.
+	int circle(Halfedge h) const;
+
+	/// The sides in the order in which the last labelCircles() went along the circles.
+	const std::vector<Halfedge>& sides() const { return m_sides; }
+
+	/// The place in sides() of the one up to which \p h lies; -1 if there is none.
+	int place(Halfedge h) const;
 
 private:
 	bool isNode(Vertex v) const { return m_marked[v] || m_boundary[v] || m_degree[v] != 2; }
-	bool isBorder(Edge e) const { return m_isCut[e] || m_t.isBoundary(e); }
 	void set(Edge e, bool cut);
 	void noteVertex(Vertex v);
 	void noteEdge(Edge e);
 	void tidy();
 	Vertex walk(Halfedge h, std::vector<Edge>& edges) const;
-	void labelCircleOf(Halfedge side, int number);
+	Halfedge sideFrom(Halfedge h) const;
+
+	/// Places from the first one on up to the next stretch.
+	struct Stretch
+	{
+		int first;
+		int circle; ///< -1: taken out
+	};
+	struct LoneMark
+	{
+		Vertex vertex;
+		int circle;
+	};
+	std::size_t stretchOf(int place) const;
+	void noteLoneMark(Vertex v);
 
 	const Triangulation& m_t;
 	const VertexArray<char>& m_marked;
@@ -107,8 +134,12 @@ private:
 	VertexArray<int> m_degree;
 	VertexArray<char> m_onGraph;      // see isOnGraph()
 	EdgeArray<char> m_free;           // see isFree()
-	HalfedgeArray<int> m_circle;      // see circle()
-	std::vector<Halfedge> m_labelled; // see labelled()
+	std::vector<Halfedge> m_sides;    // see sides()
+	HalfedgeArray<int> m_place;       // in m_sides; -1: none
+	std::vector<int> m_firsts;        // [circle] place of its first side by labelCircles()
+	std::vector<Stretch> m_stretches; // of all places
+	std::vector<LoneMark> m_loneMarks;
+	std::size_t m_wholeLoneMarks = 0; // those of labelCircles(), which come first
 	std::vector<Edge> m_cutEdges;     // all of them, and some that are no longer; see tidy()
 	std::vector<Edge> m_boundaryEdges;
 	std::vector<Vertex> m_marks; // marked vertices inside

@@ -20,14 +20,14 @@ namespace {
 /// Rounds over all segments and nodes.
 constexpr int kMaxRounds = 12;
 
-/// Halfedges that are labelled, or take as long, between two checkpoints.
+/// Sides of the cut that are numbered, or what takes as long, between two checkpoints.
 constexpr std::size_t kWorkBetweenTicks = 1 << 21;
 
-/// The same in all, after which the cut stays as it is: every move labels the whole cut, so that
+/// The same in all, after which the cut stays as it is: every change numbers the whole cut, so that
 /// thousands of loops would take hours.
 constexpr std::size_t kMaxWork = 2000000000;
 
-/// What a vertex reached by a search takes, in halfedges labelled.
+/// What a vertex reached by a search takes, in sides numbered.
 constexpr std::size_t kWorkOfVertex = 16;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -54,6 +54,7 @@ public:
 		checkpoint();
 		shorten();
 		m_keepsWedges = true;
+		m_numberedAt = -1;
 		if (divideWedges())
 			shorten();
 	}
@@ -99,11 +100,25 @@ private:
 		Failure& failure = failures[element];
 		if (m_work > kMaxWork || isUpToDate(failure))
 			return;
+		bringUpToDate();
 		if (!(this->*move)(element)) {
 			failure.at = m_changes;
 			failure.near = m_paths.near();
 		}
-		countWork(m_paths.reached());
+		countWork(kWorkOfVertex * m_paths.reached());
+	}
+
+	/// Numbers the sides of the cut and measures its wedges, if it has changed.
+	/// \return whether it opens the surface to a disk
+	bool bringUpToDate()
+	{
+		if (m_numberedAt != m_changes) {
+			m_numberedAt = m_changes;
+			m_isDisk = m_cut.labelCircles() == 1;
+			m_excess = m_keepsWedges ? m_wedges.excess() : 0.0;
+			countWork(m_cut.sides().size());
+		}
+		return m_isDisk;
 	}
 
 	/// Counts a change of the cut at these edges.
@@ -117,9 +132,9 @@ private:
 						m_changedAt[m_parts->centreOf(v)] = m_changes;
 	}
 
-	void countWork(std::size_t reached)
+	void countWork(std::size_t work)
 	{
-		m_work += m_cut.labelled().size() + kWorkOfVertex * reached;
+		m_work += work;
 		if (m_work < m_workAtTick + kWorkBetweenTicks)
 			return;
 		m_workAtTick = m_work;
@@ -128,12 +143,11 @@ private:
 
 	/// Puts \p added in place of \p removed, which has been taken out, unless a wedge becomes too wide
 	/// by it.
-	/// \param excess of the wedges before
 	/// \return whether it did
-	bool replace(const std::vector<Edge>& removed, const std::vector<Edge>& added, double excess)
+	bool replace(const std::vector<Edge>& removed, const std::vector<Edge>& added)
 	{
 		m_cut.add(added);
-		if (!m_keepsWedges || m_wedges.excess() <= excess) {
+		if (!m_keepsWedges || m_wedges.excess() <= m_excess) {
 			noteChange(removed, added);
 			return true;
 		}
@@ -142,20 +156,17 @@ private:
 		return false;
 	}
 
-	double wedgeExcess() const { return m_keepsWedges ? m_wedges.excess() : 0.0; }
-
 	/// Replaces the segment of \p representative by the shortest path that opens the annulus.
 	/// \return whether the cut is shorter now; else it is what it was
 	bool exchange(Edge representative)
 	{
-		const double excess = wedgeExcess();
 		const std::vector<Edge> removed = m_cut.removeWithDeadEnds(m_cut.segmentOf(representative));
 		m_paths.findNear(removed);
 		std::vector<Edge> path;
-		if (m_paths.labelCircles() == 2)
+		if (m_paths.splitCircles(removed) == 2)
 			path = m_paths.shortestBridge((1.0 - kMinCutGain) * m_paths.costOf(removed));
 		if (!path.empty())
-			return replace(removed, path, excess);
+			return replace(removed, path);
 		m_cut.add(removed);
 		return false;
 	}
@@ -170,11 +181,10 @@ private:
 			return false;
 		// The open surface then has as many boundaries as it can have: it lies in a sphere, and
 		// any paths that join the boundaries make it a disk.
-		const double excess = wedgeExcess();
 		const std::vector<Edge> removed = m_cut.removeWithDeadEnds(star.edges);
 		const int circles = star.segments + (m_cut.isMarked(node) ? 1 : 0);
 		std::vector<Edge> joins;
-		if (m_paths.labelCircles() == circles) {
+		if (m_paths.splitCircles(removed) == circles) {
 			double bound = (1.0 - kMinCutGain) * m_paths.costOf(removed);
 			if (circles == 3) {
 				joins = m_paths.bestTripod(bound);
@@ -186,7 +196,7 @@ private:
 				joins = std::move(bridges);
 		}
 		if (!joins.empty())
-			return replace(removed, joins, excess);
+			return replace(removed, joins);
 		m_cut.add(removed);
 		return false;
 	}
@@ -195,7 +205,6 @@ private:
 	bool divideWedges()
 	{
 		const int before = m_changes;
-		m_place.assign(m_t.halfedgeCount(), -1);
 		m_segment.assign(m_t.edgeCount(), -1);
 		m_front = Front(m_t.vertexCount());
 		for (const Vertex v : m_wedges.cones())
@@ -239,18 +248,16 @@ private:
 	bool divideWedge(Vertex cone)
 	{
 		const std::vector<Halfedge> starts = m_wedges.dividing(cone);
-		if (starts.empty() || m_cut.labelCircles() != 1)
+		if (starts.empty() || !bringUpToDate())
 			return false;
 		// Once round the disk: which segment is the longest between its wedge and each place.
 		std::vector<Candidate> segments = candidates(cone);
-		const std::vector<Halfedge>& circle = m_cut.labelled();
-		for (std::size_t i = 0; i < circle.size(); ++i)
-			m_place[circle[i]] = static_cast<int>(i);
+		const std::vector<Halfedge>& circle = m_cut.sides();
 		std::vector<int> longest(circle.size(), -1);
 		double maxLength = 0.0;
 		std::set<std::pair<double, int>> open;
-		for (std::size_t i = 1; i < circle.size(); ++i) {
-			const std::size_t at = (positionOf(m_place[starts.front()]) + i) % circle.size();
+		for (std::size_t i = 0; i < circle.size(); ++i) {
+			const std::size_t at = (positionOf(m_cut.place(starts.front())) + i) % circle.size();
 			if (!open.empty()) {
 				longest[at] = open.rbegin()->second;
 				maxLength = std::max(maxLength, open.rbegin()->first);
@@ -265,10 +272,7 @@ private:
 					open.insert(entry);
 			}
 		}
-		const double excess = m_wedges.excess();
 		const auto [last, segment] = bestDivision(cone, starts, segments, longest, maxLength);
-		for (const Halfedge h : circle)
-			m_place[h] = -1;
 		if (!last.isValid())
 			return false;
 		std::vector<Edge> path{last.edge()};
@@ -277,14 +281,17 @@ private:
 		const std::vector<Edge> removed =
 			m_cut.removeWithDeadEnds(m_cut.segmentOf(segments[positionOf(segment)].edge));
 		m_cut.add(path);
-		const bool isDivided = m_cut.labelCircles() == 1 && m_wedges.excess() < excess;
+		m_numberedAt = -1;
+		const double excess = m_excess;
+		const bool isDivided = bringUpToDate() && m_excess < excess;
 		if (isDivided)
 			noteChange(removed, path);
 		else {
 			m_cut.remove(path);
 			m_cut.add(removed);
+			m_numberedAt = -1;
 		}
-		countWork(m_front.reached().size());
+		countWork(kWorkOfVertex * m_front.reached().size());
 		return isDivided;
 	}
 
@@ -307,7 +314,7 @@ private:
 				m_front.offer(v, distance, h);
 				return;
 			}
-			const int place = m_place[h.twin()];
+			const int place = m_cut.place(h.twin());
 			const int segment = place < 0 ? -1 : longest[positionOf(place)];
 			if (segment < 0)
 				return;
@@ -336,10 +343,12 @@ private:
 	Failures<Vertex> m_rebuilds;
 	int m_changes = 0;            // moves that gained
 	VertexArray<int> m_changedAt; // [part] which of them was the last in it
+	int m_numberedAt = -1;        // how many changes the cut had seen when its sides were numbered
+	bool m_isDisk = false;        // then
+	double m_excess = 0.0;        // of the wedges then, where they count
 	std::size_t m_work = 0, m_workAtTick = 0;
-	Front m_front;              // of the search from a wedge that is divided
-	HalfedgeArray<int> m_place; // on the circle of the disk, while a wedge is divided
-	EdgeArray<int> m_segment;   // number of its segment, at cut edges, while a wedge is divided
+	Front m_front;            // of the search from a wedge that is divided
+	EdgeArray<int> m_segment; // number of its segment, at cut edges, while a wedge is divided
 };
 
 } // namespace
