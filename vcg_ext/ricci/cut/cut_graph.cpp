@@ -404,7 +404,7 @@ CutGraph cutToDisk(
 	else
 		cut = shortestOfSeveral(graph, graph.terminals(marked), [](EdgeArray<char>&) {});
 	CutSegments segments(t, marked, forbidden, cut.isCut);
-	shortenCut(cost, segments, corners, coarse ? &*coarse : nullptr);
+	cut.endedEarly = shortenCut(cost, segments, corners, coarse ? &*coarse : nullptr);
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);
 	return cut;

@@ -17,8 +17,9 @@ struct CutGraph
 	/// nowhere else, generate the homology of the surface with every boundary loop filled.
 	std::vector<Edge> generators;
 
-	int edgeCount = 0;   ///< edges with isCut 1
-	double length = 0.0; ///< sum of their costs
+	int edgeCount = 0;       ///< edges with isCut 1
+	double length = 0.0;     ///< sum of their costs
+	bool endedEarly = false; ///< a bound on the work has ended the search for a shorter one
 };
 
 /// Finds a short cut graph by a tree and a cotree (greedy system of loops

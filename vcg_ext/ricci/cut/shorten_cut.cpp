@@ -49,7 +49,8 @@ public:
 	{
 	}
 
-	void run()
+	/// \return whether it has ended before it was done
+	bool run()
 	{
 		checkpoint();
 		shorten();
@@ -57,6 +58,7 @@ public:
 		m_numberedAt = -1;
 		if (divideWedges())
 			shorten();
+		return m_work > kMaxWork;
 	}
 
 private:
@@ -353,14 +355,13 @@ private:
 
 } // namespace
 
-void shortenCut(
+bool shortenCut(
 	const EdgeArray<double>& cost,
 	CutSegments& cut,
 	const HalfedgeArray<double>& corners,
 	const CoarseSurface* parts)
 {
-	if (!cut.segments().empty())
-		CutShortener(cost, cut, corners, parts).run();
+	return !cut.segments().empty() && CutShortener(cost, cut, corners, parts).run();
 }
 
 } // namespace ricci

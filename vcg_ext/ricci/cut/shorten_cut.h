@@ -54,8 +54,9 @@ namespace ricci {
 /// \param corners angles at cones, from coneCorners(); empty: wedges may be as wide as they like
 /// \param parts a coarse surface, with which every move looks for paths only in the parts (vertices of
 /// one centre) at which what it takes out lies, and in those beside them; null: everywhere
+/// \return whether a bound on the work has ended it
 /// \pre the surface opened along \p cut is a disk, or nothing is cut
-void shortenCut(
+bool shortenCut(
 	const EdgeArray<double>& cost,
 	CutSegments& cut,
 	const HalfedgeArray<double>& corners = {},

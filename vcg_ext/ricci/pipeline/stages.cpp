@@ -123,6 +123,10 @@ LinkedPieces cutAndOverlay(
 			if (domain.holes > 0)
 				dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, map.cones, map.cut);
 		});
+	if (map.cut.endedEarly) {
+		++map.endedEarly;
+		logLine("The search for shorter seams has ended at the bound on its work.");
+	}
 	advance(1.0 - kAfterFlow, "Cutting and layout");
 	return overlay;
 }
