@@ -11,8 +11,8 @@ namespace ricci {
 /// What the finish has done to the map of one component.
 struct FinishCounts
 {
-	int moved = 0; ///< points that the repair moved
-	int left = 0;  ///< triangles that it could not mend
+	int moved = 0;      ///< points that the repair moved
+	int left = 0;       ///< triangles that it could not mend
 	int endedEarly = 0; ///< parts of the finish that the bound on their work has ended
 };
 

@@ -86,8 +86,7 @@ public:
 			++result.steps;
 			result.after = m_value;
 		}
-		result.endedEarly =
-			result.steps == kMaxSteps && gain > kMinGain * (m_value - kIsometry);
+		result.endedEarly = result.steps == kMaxSteps && gain > kMinGain * (m_value - kIsometry);
 		return result;
 	}
 
