@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Cross-compiles for 64-bit Windows with Debian's mingw-w64. Used by tests/portability.sh.
+# Cross-compiles for 64-bit Windows with Debian's mingw-w64. Used by tests/deep.sh.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix) # the variant with std::thread

@@ -516,7 +516,7 @@ int preConditions()
 int postConditions()
 {
 	return MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR |
-		   MeshModel::MM_FACECOLOR | MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
+		   MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER;
 }
 
 Outcome applyFilter(

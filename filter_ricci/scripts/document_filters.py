@@ -20,11 +20,10 @@ MANUAL = os.path.join(os.path.dirname(HERE), "README.md")
 PACKAGE = os.path.join(os.path.dirname(HERE), "python", "pymeshlab_ricci")
 LICENCE = "# SPDX-License-Identifier: GPL-3.0-or-later\n"
 MADE = "# Made by document_filters.py.\n"
-MANUAL_WIDTH = 108
 PYTHON_WIDTH = 96
 
 
-def wrapped(text, indent="", first=None, width=MANUAL_WIDTH):
+def wrapped(text, indent="", first=None, width=PYTHON_WIDTH):
     """The words of a text in lines of at most so many characters."""
     lines, line = [], indent if first is None else first
     start = True
@@ -48,28 +47,36 @@ def paragraphs(info):
     return [markdown(part) for part in re.split(r"<br ?/?>(?=<b>[A-Z]\w+:</b>)|<br>(?=See:)", info)]
 
 
-def item(parameter):
+def words(parameter):
+    """What a list says of a parameter; which of the two lists of a dialog it is in does not matter."""
+    return {key: value for key, value in parameter.items() if key != "advanced"}
+
+
+def item(parameter, said):
+    """A parameter of the list. What the list of the other filter has said is not said again."""
     name, default = parameter["name"], parameter["default"]
     if parameter["type"] == "enum":
         number = parameter["choices"].index(default)
         kind = f"str = '{default}' (or int = {number})"
         values = ", ".join(f"{i}. `'{c}'`" for i, c in enumerate(parameter["choices"]))
-        values = "\n" + wrapped(f"Possible enum values: {values}<br>", "  ")
+        values = f"Possible enum values: {values}<br>"
     else:
         kind = {"bool": "bool", "int": "int", "float": "float", "file": "str"}[parameter["type"]]
         kind += f" = {default!r}" if not isinstance(default, float) else f" = {default:g}"
         values = ""
-    text = wrapped(f"*{parameter['label']}*: {markdown(parameter['tooltip'])}", "  ")
-    return f"- **`{name} : {kind}`**<br>{values}\n{text}"
+    if words(parameter) in said:
+        return f"- **`{name} : {kind}`**: as in the Euclidean filter."
+    return (f"- **`{name} : {kind}`**<br>{values}\n"
+            f"  *{parameter['label']}*: {markdown(parameter['tooltip'])}")
 
 
-def page(description):
-    """The filter as PyMeshLab's documentation would show it."""
+def page(description, said=()):
+    """The filter as PyMeshLab's documentation would show it, without what has been said before."""
     parts = [f"### {description['python_name']}", f"*MeshLab filter name*: '{description['name']}'"]
-    parts += [wrapped(text) for text in paragraphs(description["info"])]
-    shown, hidden = ([item(p) for p in description["parameters"] if p["advanced"] is advanced]
-                     for advanced in (False, True))
-    parts += ["**Parameters:**", *shown, "**Advanced parameters:**", *hidden]
+    parts += [text for text in paragraphs(description["info"]) if text not in said]
+    shown, hidden = ("\n".join(item(p, said) for p in description["parameters"]
+                               if p["advanced"] is advanced) for advanced in (False, True))
+    parts += ["**Parameters:**", shown, "**Advanced parameters:**", hidden]
     return "\n\n".join(parts)
 
 
@@ -79,7 +86,11 @@ def manual(text):
                  for word in ("begin", "end")]
         before, rest = text.split(marks[0])
         _, after = rest.split(marks[1])
-        text = before + marks[0] + "\n" + page(description) + "\n\n" + marks[1] + after
+        said = []
+        if description is not DESCRIPTIONS[0]:
+            said = paragraphs(DESCRIPTIONS[0]["info"])
+            said += map(words, DESCRIPTIONS[0]["parameters"])
+        text = before + marks[0] + "\n" + page(description, said) + "\n\n" + marks[1] + after
     return text
 
 

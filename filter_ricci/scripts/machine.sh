@@ -1,12 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash
-# What demo.sh and tests/run.sh share: a machine with everything installed, MeshLab's headers, a
-# Python with PyMeshLab, a private copy of MeshLab 2020.09, and the built plugin. Every step can be
+# What demo.sh, tests/run.sh and tests/deep.sh share: a machine with everything installed, MeshLab's headers,
+# a Python with PyMeshLab, a private copy of MeshLab 2020.09, and the built plugin. Every step can be
 # repeated, prints what it does, and says plainly what is missing; only the build itself is vital.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$root/build
 export LC_ALL=C.UTF-8
+
+# A compiler cache where there is one; precompiled headers need its patience.
+if command -v ccache >/dev/null; then
+	export CMAKE_C_COMPILER_LAUNCHER=${CMAKE_C_COMPILER_LAUNCHER-ccache}
+	export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}
+	export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS-pch_defines,time_macros,include_file_mtime,include_file_ctime}
+fi
 
 say() { printf '\n== %s\n' "$*"; }
 skipped() { printf 'SKIPPED: %s\n' "$*"; }

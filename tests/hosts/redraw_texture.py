@@ -5,8 +5,11 @@
 Each mesh gets an atlas of single triangles with a picture of smooth waves that is projected on it, in the
 current folder. The filter's `carry_texture` and MeshLab's 'Texture Map Defragmentation' make one with fewer
 seams of it. A line for each: errors against the exact projection where a renderer would sample it, in steps
-of 255. Not a test: it is run by hand. Needs numpy and Pillow, and Qt and a display for MeshLab's filter
-(tests/README.md)."""
+of 255. Not a test: it is run by hand. Needs numpy and Pillow, and Qt and a display for MeshLab's filter:
+
+    export QT_QPA_PLATFORM=offscreen
+    export QT_QPA_PLATFORM_PLUGIN_PATH=$(qmake -query QT_INSTALL_PLUGINS)/platforms
+    xvfb-run -a build/venv/bin/python tests/hosts/redraw_texture.py PLUGIN 20000 MESH..."""
 
 import os
 import sys

@@ -112,6 +112,9 @@ class Flattening(Parametrization):
     finish_moved: int
     """texture vertices that the repair moved; one moved again in the stored coordinates counts
     twice"""
+    ended_early: int
+    """searches for a better map or for a repair that stopped because their work is bounded; the
+    log says which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int
@@ -264,6 +267,9 @@ class Uniformization(Parametrization):
     finish_moved: int
     """texture vertices that the repair moved; one moved again in the stored coordinates counts
     twice"""
+    ended_early: int
+    """searches for a better map or for a repair that stopped because their work is bounded; the
+    log says which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int

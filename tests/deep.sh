@@ -1,0 +1,278 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What takes longer than tests/run.sh and asks the same code harder questions. Needs what tests/run.sh
+# installs and builds; a part whose tools are missing is skipped with the names of Debian's packages.
+#
+#     bash tests/deep.sh                      # all parts, within 35 minutes
+#     bash tests/deep.sh --within SECONDS     # all parts, within another time
+#     bash tests/deep.sh PART...              # these parts, without a limit
+#     bash tests/deep.sh --all [PART...]      # more programs, and clang's path-sensitive checks
+#
+#     windows         the core built by mingw-w64, run by Wine
+#     clang           clang, libc++ and char unsigned, as on ARM
+#     long-double     a long double of 64 bits, as with MSVC and on Apple silicon
+#     extra-plugins   the plugin, as meshlab-extra-plugins builds it
+#     threads         the thread sanitizer
+#     valgrind        the fuzz target under valgrind
+#     fuzzing         20000 hostile meshes
+#     clang-tidy      the checks of .clang-tidy
+#     sanitizers      the address and undefined-behaviour sanitizers
+#
+# Each part has its share of the time, and what it leaves goes to the parts after it: those that may be
+# skipped come first. The summary has a line for each part. A part at its limit is cut off; what it has
+# found until then counts.
+#
+# JOBS says how many compilers run at the same time (default: all processors).
+set -euo pipefail
+# shellcheck source=../filter_ricci/scripts/machine.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../filter_ricci/scripts/machine.sh"
+
+folder=$build/deep
+jobs=${JOBS:-$(nproc)}
+googletest=/usr/src/googletest
+parts=(windows clang long-double extra-plugins threads valgrind fuzzing clang-tidy sanitizers)
+# Seconds on two idle cores, rounded up.
+declare -A share=([windows]=300 [clang]=240 [long-double]=240 [extra-plugins]=90 [threads]=60
+	[valgrind]=100 [fuzzing]=150 [clang-tidy]=420 [sanitizers]=600)
+not_run=77
+
+# The programs of the core that read no files of others.
+portable=(math_test surface_test metric_test cut_test layout_test verify_test error_sentences_test)
+portable_all=(flow_test curvature_test seamless_test charts_test finish_test fuchsian_test measure_test
+	pipeline_test conformal_invariants_test free_memory_test)
+# The programs that meet hostile input.
+hostile=(math_test surface_test cut_test charts_test layout_test facade_test faults_test)
+hostile_all=(metric_test flow_test curvature_test seamless_test verify_test pipeline_test)
+
+have() {
+	command -v "$1" >/dev/null
+}
+
+missing() {
+	skipped "$1"
+	exit $not_run
+}
+
+# The time limit of one program. It stays in the group that the limit of a part ends.
+limited() {
+	timeout --foreground "$@"
+}
+
+compiles() {
+	"$@" -x c++ -fsyntax-only - 2>/dev/null
+}
+
+# build_core PART OPTION...: the programs of a part. Shows the errors alone.
+build_core() {
+	local part=$1
+	shift
+	{
+		cmake -S "$root" -B "$folder/$part" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DBUILD_TESTING=ON \
+			-DRICCI_BUILD_PLUGINS=OFF -DMESHLAB_2020_SOURCE_DIR="$build/sources/meshlab-2020.09" \
+			-DMESHLAB_2025_SOURCE_DIR="$build/sources/meshlab-2025.07" "$@" &&
+			cmake --build "$folder/$part" --parallel "$jobs" --target "${programs[@]}"
+	} >"$folder/$part.build.log" 2>&1 || {
+		grep -E 'error|Error|undefined' "$folder/$part.build.log" | head -n 30
+		return 1
+	}
+}
+
+# run_core PART [LAUNCHER]: from the repository's root, because some tests read files by paths from there.
+run_core() {
+	local part=$1 launcher=${2:-} program suffix='' status=0
+	[ "$part" = windows ] && suffix=.exe
+	for program in "${programs[@]}"; do
+		[ "$program" != ricci_fuzz ] || continue
+		echo "$part: $program"
+		# shellcheck disable=SC2086 # no launcher is no word
+		(cd "$root" && limited 900 $launcher "$folder/$part/tests/$program$suffix" --gtest_brief=1 |
+			tr -d '\r') || status=1
+	done
+	return $status
+}
+
+# portable_core PART OPTION...: GoogleTest is built from its sources, with the same options.
+portable_core() {
+	local part=$1
+	shift
+	[ -e "$googletest/CMakeLists.txt" ] || missing "$part: GoogleTest's sources (Debian: googletest)"
+	programs=("${portable[@]}")
+	[ -z "$all" ] || programs+=("${portable_all[@]}")
+	# Without MeshLab's trees: vcglib is not what these parts are about.
+	build_core "$part" -DCMAKE_CXX_FLAGS_DEBUG=-O1 -DRICCI_GTEST_SOURCE_DIR="$googletest" \
+		-DMESHLAB_2020_SOURCE_DIR= -DMESHLAB_2025_SOURCE_DIR= "$@"
+}
+
+part_windows() {
+	local wine
+	have x86_64-w64-mingw32-g++-posix || missing "windows (Debian: g++-mingw-w64-x86-64-posix)"
+	portable_core windows -DCMAKE_TOOLCHAIN_FILE="$root/tests/mingw-w64.cmake"
+	wine=$(command -v wine64 || command -v wine || ls /usr/lib/wine/wine64 2>/dev/null) ||
+		missing "windows: running what was built (Debian: wine64)"
+	export WINEPREFIX=$folder/wine WINEDEBUG=-all
+	run_core windows "$wine"
+}
+
+part_clang() {
+	if ! have clang++ || ! echo '#include <vector>' | compiles clang++ -stdlib=libc++; then
+		missing "clang with libc++ (Debian: clang, libc++-dev, libc++abi-dev)"
+	fi
+	portable_core clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS="-stdlib=libc++ -funsigned-char"
+	run_core clang
+}
+
+part_long_double() {
+	echo 'static_assert(sizeof(long double) == 8);' | compiles c++ -std=c++17 -mlong-double-64 ||
+		missing "long-double: this compiler has no -mlong-double-64"
+	portable_core long-double -DCMAKE_CXX_FLAGS=-mlong-double-64
+	run_core long-double
+}
+
+# MeshLab's own library is not built: what is linked against it stays open, as in every plugin here.
+part_extra_plugins() {
+	local meshlab=${MESHLAB_2025_SOURCE_DIR:-$build/sources/meshlab-2025.07}
+	[ -e "$meshlab/src/cmake/meshlab_tools.cmake" ] ||
+		missing "extra-plugins: there is no source tree of MeshLab 2025.07"
+	{
+		cmake -S "$root/tests/hosts/extra_plugins" -B "$folder/extra-plugins" -G Ninja \
+			-DCMAKE_BUILD_TYPE=Release -DMESHLAB_DIR="$meshlab" &&
+			cmake --build "$folder/extra-plugins" --parallel "$jobs" &&
+			test -e "$folder/extra-plugins/plugins/libfilter_ricci.so"
+	} >"$folder/extra-plugins.build.log" 2>&1 || {
+		tail -n 30 "$folder/extra-plugins.build.log"
+		return 1
+	}
+}
+
+# Data races, in the functions that start threads or that several threads meet in. That of the whole core
+# takes minutes to compile, and OpenMP in the system's CHOLMOD is reported where there is no race.
+part_threads() {
+	local test program
+	echo 'int main() {}' | c++ -fsanitize=thread -x c++ -o /dev/null - 2>/dev/null ||
+		missing "threads: this compiler has no thread sanitizer"
+	for test in base/parallel_test math/one_thread_test; do
+		program=$folder/${test##*/}
+		c++ -std=c++17 -O1 -g -fsanitize=thread -I"$root/vcg_ext" "$root/tests/$test.cpp" \
+			"$root"/vcg_ext/ricci/base/{task,error}.cpp \
+			-lgtest_main -lgtest -lpthread -o "$program"
+		limited 20 "$program" --gtest_brief=1 || return 1
+	done
+}
+
+# Sees also what was never set, and what the solver's library does: memory faults, crashes and hangs are
+# what counts here.
+part_valgrind() {
+	local status=0
+	have valgrind || missing "valgrind (Debian: valgrind)"
+	limited 600 valgrind --quiet --error-exitcode=99 --exit-on-first-error=yes \
+		"$build/tests/ricci_fuzz" --go-on --patience 300 --runs 100 "$root/tests/fuzz/corpus" || status=$?
+	[ $status -ne 99 ] && [ $status -lt 124 ]
+}
+
+# A process for each processor, each with a seed of its own. An input that shows a defect is left in its
+# folder.
+part_fuzzing() {
+	local seed count=$jobs processes=() status=0
+	for ((seed = 1; seed <= count; ++seed)); do
+		mkdir -p "$folder/fuzzing/$seed"
+		(cd "$folder/fuzzing/$seed" && exec "$build/tests/ricci_fuzz" --runs $((20000 / count)) \
+			--seed "$seed" "$root/tests/fuzz/corpus") &
+		processes+=($!)
+	done
+	for seed in "${processes[@]}"; do
+		wait "$seed" || status=1
+	done
+	return $status
+}
+
+part_clang_tidy() {
+	local checks=() status=0
+	have clang-tidy || missing "clang-tidy (Debian: clang-tidy)"
+	# It cannot read the headers that gcc has precompiled.
+	cmake -S "$root" -B "$folder/clang-tidy" -DRICCI_PRECOMPILE=OFF -DRICCI_BUILD_PLUGINS=OFF \
+		-DBUILD_TESTING=OFF >"$folder/clang-tidy.build.log"
+	[ -n "$all" ] || checks=(--checks='-clang-analyzer-*')
+	find "$root/vcg_ext/ricci" -name '*.cpp' -print0 | sort -z |
+		xargs -0 -n 4 -P "$jobs" clang-tidy -p "$folder/clang-tidy" --quiet "${checks[@]}" \
+			2>>"$folder/clang-tidy.build.log" || status=1
+	[ $status -eq 0 ] || tail -n 5 "$folder/clang-tidy.build.log"
+	return $status
+}
+
+# Allocations that fail cannot be tested here: the sanitizers bring an allocator of their own.
+part_sanitizers() {
+	local status=0
+	echo 'int main() {}' | c++ -fsanitize=address,undefined -x c++ -o /dev/null - 2>/dev/null ||
+		missing "sanitizers: this compiler has none"
+	programs=("${hostile[@]}" ricci_fuzz)
+	[ -z "$all" ] || programs+=("${hostile_all[@]}")
+	build_core sanitizers -DCMAKE_CXX_FLAGS_DEBUG="-O1 -g1" -DRICCI_SANITIZE=ON
+	run_core sanitizers || status=1
+	(cd "$folder/sanitizers" && limited 300 tests/ricci_fuzz --runs 1500 "$root/tests/fuzz/corpus") ||
+		status=1
+	return $status
+}
+
+# What a part that was cut off has found until then.
+found_something() {
+	grep -qE ': (error|warning):|runtime error:|Sanitizer:|\[ *FAILED *\]|^DEFECT' "$1"
+}
+
+# run_all SECONDS
+run_all() {
+	local deadline=$((SECONDS + $1)) part later sum limit start code word summary=() failed=0
+	for part in "${parts[@]}"; do
+		say "$part"
+		sum=0
+		for later in "${parts[@]:${#summary[@]}}"; do
+			sum=$((sum + share[$later]))
+		done
+		limit=$(((deadline - SECONDS) * share[$part] / sum))
+		[ $limit -ge 1 ] || limit=1
+		start=$SECONDS
+		code=0
+		# Not through a pipe: a server that a part leaves behind would keep it open.
+		timeout -k 10 "$limit" bash "${BASH_SOURCE[0]}" ${all:+--all} "$part" \
+			>"$folder/$part.log" 2>&1 || code=$?
+		cat "$folder/$part.log"
+		case $code in
+		0) word=passed ;;
+		"$not_run") word=skipped ;;
+		124 | 137) word="cut off" && ! found_something "$folder/$part.log" || word="failed, cut off" ;;
+		*) word=failed ;;
+		esac
+		[[ $word != failed* ]] || failed=1
+		summary+=("$(printf '%-14s %-16s %5d s of %5d s' "$part" "$word" $((SECONDS - start)) "$limit")")
+	done
+	say "Summary of the deep tests"
+	printf '%s\n' "${summary[@]}"
+	return $failed
+}
+
+all=
+within=2100
+chosen=()
+while [ $# -gt 0 ]; do
+	case $1 in
+	--all) all=yes ;;
+	--within) within=$2 && shift ;;
+	*) [ -n "${share[$1]:-}" ] || { echo "There is no part $1: ${parts[*]}"; exit 2; }
+		chosen+=("$1") ;;
+	esac
+	shift
+done
+mkdir -p "$folder"
+if [ ${#chosen[@]} -eq 0 ]; then
+	run_all "$within"
+elif [ ${#chosen[@]} -eq 1 ]; then
+	"part_${chosen[0]//-/_}"
+else
+	status=0
+	for part in "${chosen[@]}"; do
+		say "$part"
+		code=0
+		bash "${BASH_SOURCE[0]}" ${all:+--all} "$part" || code=$?
+		[ $code -eq 0 ] || [ $code -eq $not_run ] || status=1
+	done
+	exit $status
+fi
