@@ -116,7 +116,7 @@ STUB = LICENCE + '''\
 """Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab."""
 ''' + MADE + '''
 import os
-from typing import Any, Literal, Protocol, Union
+from typing import Any, Callable, Literal, Protocol, Union
 
 import numpy
 import numpy.typing
@@ -137,7 +137,7 @@ EUCLIDEAN: str
 HYPERBOLIC: str
 
 class Refused(pymeshlab.PyMeshLabException):
-    """The mesh or a parameter is refused; the text says why. The mesh is unchanged."""
+    """The mesh is refused; the text says why. It is unchanged."""
 
 '''
 
@@ -190,9 +190,11 @@ def stub_parameters(description, indent):
 
 def stub(both):
     euclidean, hyperbolic = DESCRIPTIONS
-    own = ("    mesh: MeshLike,\n    *,\n"
-           "    selected: Union[numpy.typing.ArrayLike, None] = None,\n"
-           "    curvature: Union[numpy.typing.ArrayLike, None] = None,\n")
+    own = ("    mesh: Union[MeshLike, numpy.typing.ArrayLike],\n"
+           "    faces: Union[numpy.typing.ArrayLike, None] = None,\n    *,\n"
+           "    selected: Union[numpy.typing.ArrayLike, set[int], None] = None,\n"
+           "    curvature: Union[numpy.typing.ArrayLike, None] = None,\n"
+           "    progress: Union[bool, Callable[[float, str], object], None] = None,\n")
     parts = [STUB, PARAMETRIZATION,
              "class Flattening(Parametrization):\n", attributes(both[0]),
              "\nclass Uniformization(Parametrization):\n    disk: Array\n"

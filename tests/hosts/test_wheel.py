@@ -9,10 +9,13 @@ import hashlib
 import inspect
 import os
 import re
+import signal
 import subprocess
 import sys
 import sysconfig
 import tempfile
+import threading
+import time
 import unittest
 import zipfile
 
@@ -110,6 +113,79 @@ class Wheel(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 
+def large():
+    """A mesh on which the filter works for seconds."""
+    return arrays(meshes.torus(columns=400, rows=200))
+
+
+class Progress(unittest.TestCase):
+    def test_told(self):
+        heard = []
+        flatten(*arrays(meshes.torus()), progress=lambda *told: heard.append(told))
+        self.assertEqual(heard[-1], (1.0, "Done"))
+        for fraction, what in heard:
+            self.assertTrue(0.0 <= fraction <= 1.0 and what, (fraction, what))
+        self.assertEqual([f for f, _ in heard], sorted(f for f, _ in heard))
+
+    def test_bar(self):
+        """On standard error: tqdm's, or a line without it."""
+        code = ("import sys, pymeshlab_ricci as r\n{}\n"
+                "import meshes; m = meshes.torus(); r.flatten(m.vertices, m.faces, progress=True)")
+        environment = {**os.environ, "PYTHONPATH": os.path.join(common.BUILD, "python")}
+        for before in ("", "sys.modules['tqdm'] = sys.modules['tqdm.auto'] = None"):
+            done = subprocess.run([sys.executable, "-c", code.format(before)], capture_output=True,
+                                  text=True, env=environment, check=True,
+                                  cwd=os.path.dirname(os.path.abspath(__file__)))
+            self.assertEqual(done.stdout, "")
+            self.assertIn("100%", done.stderr)
+
+    def ended(self, documents, problem, stop, **parameters):
+        """Seconds from a stop at the first sign of life to the end of the call."""
+        stopped = []
+
+        def tell(*_):
+            if not stopped:
+                stopped.append(time.monotonic())
+                stop()
+
+        with self.assertRaises(problem):
+            flatten(documents, progress=tell, **parameters)
+        return time.monotonic() - stopped[0]
+
+    def test_ctrl_c(self):
+        """The run ends within a second, and mesh, layers and files are as they were."""
+        vertices, faces = large()
+        documents = pymeshlab.MeshSet()
+        documents.add_mesh(pymeshlab.Mesh(vertices, faces.astype(numpy.int32)))
+
+        def interrupt():
+            os.kill(os.getpid(), signal.SIGINT)
+
+        def fail():
+            raise ZeroDivisionError
+
+        with tempfile.TemporaryDirectory() as folder:
+            for problem, stop in ((KeyboardInterrupt, interrupt), (ZeroDivisionError, fail)):
+                seconds = self.ended(documents, problem, stop, flat_layer=True,
+                                     report=os.path.join(folder, "run.html"))
+                self.assertLess(seconds, 1.0)
+            self.assertEqual(os.listdir(folder), [])
+        self.assertEqual(documents.mesh_number(), 1)
+        self.assertFalse(documents.current_mesh().has_wedge_tex_coord())
+        self.assertEqual([t.name for t in threading.enumerate() if "ricci" in t.name], [])
+        self.assertEqual(flatten(*arrays(meshes.torus())).flipped_faces, 0)
+
+    def test_ctrl_c_in_a_method(self):
+        documents = pymeshlab.MeshSet()
+        vertices, faces = large()
+        documents.add_mesh(pymeshlab.Mesh(vertices, faces.astype(numpy.int32)))
+        threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+        started = time.monotonic()
+        with self.assertRaises(KeyboardInterrupt):
+            documents.compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge()
+        self.assertLess(time.monotonic() - started, 1.3)
+
+
 class Functions(unittest.TestCase):
     def test_every_way_in(self):
         vertices, faces = arrays(meshes.torus())
@@ -123,7 +199,10 @@ class Functions(unittest.TestCase):
         mesh = flatten(documents.current_mesh(), cone_distortion=1.0)
         inside = flatten(documents, cone_distortion=1.0)
         self.assertIs(inside.mesh_set, documents)
-        for result in (mesh, inside):
+        apart = flatten(vertices, faces, cone_distortion=1.0)
+        lists = flatten(vertices.tolist(), faces=faces.tolist(), cone_distortion=1.0)
+        has_both = flatten(meshes.torus(), cone_distortion=1.0)
+        for result in (mesh, inside, apart, lists, has_both):
             self.assertTrue(numpy.array_equal(result.uv, expected.uv))
             self.assertEqual(set(result.results), set(expected.results))
             for key, value in expected.results.items():
@@ -202,19 +281,59 @@ class Functions(unittest.TestCase):
         good = arrays(meshes.hill())
         with self.assertRaisesRegex(pymeshlab_ricci.Refused, "^'Flat everywhere' needs"):
             flatten(good, target_curvature="Flat everywhere")
-        with self.assertRaises(pymeshlab.PyMeshLabException):
-            flatten("there is no such file.ply")
-        for bad in ((good[0][:, :2], good[1]), (good[0], good[1] + 1), (good[0], good[1] + 0.5),
-                    (good[0], good[1] - 1)):
-            with self.assertRaises(ValueError):
-                flatten(bad)
-        with self.assertRaises(pymeshlab_ricci.Refused):
-            flatten(good, target_curvature="Square")
-        for selected in ([0.5], [-1], [len(good[0])]):
+        for mistakes in ([0.5], [-1], [len(good[0])]):
             with self.assertRaisesRegex(ValueError, "^selected must hold indices"):
-                flatten(good, selected=selected)
+                flatten(good, selected=mistakes)
         with self.assertRaises(ValueError):
             flatten(good, curvature=[0.0])
+
+    def test_slips(self):
+        """Those of the caller are Python's own errors, and suggest what was meant."""
+        good = arrays(meshes.hill())
+        for bad in ((good[0][:, :2], good[1]), (good[0], good[1] + 1), (good[0], good[1] + 0.5),
+                    (good[0], good[1] - 1), (good[0][:0], good[1][:0]), (good[0], good[1][:0])):
+            with self.assertRaises(ValueError):
+                flatten(bad)
+        for bad in (None, 3, object(), good[0]):
+            with self.assertRaisesRegex(TypeError, "^A mesh is a path, vertices and faces"):
+                flatten(bad)
+        for error, pattern, slip in (
+                (TypeError, "'cone_distorsion': did you mean 'cone_distortion'", {"cone_distorsion": 1}),
+                (ValueError, "'Disc' is no choice: did you mean 'Disk'", {"target_curvature": "Disc"}),
+                (ValueError, "'Torus' is no choice: .*'Flat everywhere'", {"target_curvature": "Torus"}),
+                (ValueError, "^target_curvature: 99", {"target_curvature": 99}),
+                (TypeError, "^cone_distortion must be of type float", {"cone_distortion": "a"}),
+                (TypeError, "^flat_layer must be of type bool", {"flat_layer": "yes"}),
+                (TypeError, "^texture_size must be of type int", {"texture_size": 2.5}),
+                (ValueError, "cannot be used", {"cone_distortion": -1.0}),
+                (FileNotFoundError, "there is no folder", {"report": "no such folder/report.html"})):
+            with self.assertRaisesRegex(error, pattern):
+                flatten(good, **slip)
+        documents = pymeshlab.MeshSet()
+        documents.create_torus()
+        with self.assertRaisesRegex(TypeError, "did you mean 'seams'"):
+            documents.compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge(seam="Shortest")
+        flatten(good, target_curvature="disk", flat_layer=numpy.True_, cone_distortion=numpy.float32(1))
+
+    def test_files(self):
+        """One that is missing, one that is broken, and relative names."""
+        with self.assertRaisesRegex(FileNotFoundError, "no such file.ply"):
+            flatten("there is no such file.ply")
+        before = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            self.addCleanup(os.chdir, before)
+            broken = os.path.join(folder, "broken.ply")
+            with open(broken, "w", encoding="utf-8") as target:
+                target.write("ply\nformat ascii 1.0\nelement vertex 5\n")
+            with self.assertRaisesRegex(OSError, "broken.ply"):
+                flatten(broken)
+            os.makedirs(os.path.join(folder, "meshes"))
+            meshes.write_ply(os.path.join(folder, "meshes", "hill.ply"), meshes.hill())
+            os.chdir(folder)
+            flatten(os.path.join("meshes", "hill.ply"), report="hill.html")
+            self.assertEqual(sorted(os.listdir(folder)),
+                             ["broken.ply", "hill.csv", "hill.html", "meshes"])
+            os.chdir(before)
 
     def test_results_are_attributes(self):
         result = flatten(arrays(meshes.torus()))
@@ -233,7 +352,7 @@ class Functions(unittest.TestCase):
             method = getattr(pymeshlab.MeshSet, our_filter.PYTHON_NAME)
             names = [name for name, _, _ in our_filter.PARAMETERS]
             self.assertEqual(list(inspect.signature(method).parameters)[1:], names)
-            self.assertEqual(list(inspect.signature(function).parameters)[3:], names)
+            self.assertEqual(list(inspect.signature(function).parameters)[5:], names)
             for parameter in description["parameters"]:
                 self.assertIn(parameter["label"], method.__doc__)
                 self.assertIn(parameter["label"], function.__doc__)

@@ -3,7 +3,7 @@
 # Made by document_filters.py.
 
 import os
-from typing import Any, Literal, Protocol, Union
+from typing import Any, Callable, Literal, Protocol, Union
 
 import numpy
 import numpy.typing
@@ -24,7 +24,7 @@ EUCLIDEAN: str
 HYPERBOLIC: str
 
 class Refused(pymeshlab.PyMeshLabException):
-    """The mesh or a parameter is refused; the text says why. The mesh is unchanged."""
+    """The mesh is refused; the text says why. It is unchanged."""
 
 class Parametrization:
     """A mesh and its texture coordinates."""
@@ -475,10 +475,12 @@ class MeshSet(pymeshlab.MeshSet):
         """MeshLab's filter 'Generalized Ricci Flow (Hyperbolic)' on the current mesh."""
 
 def flatten(
-    mesh: MeshLike,
+    mesh: Union[MeshLike, numpy.typing.ArrayLike],
+    faces: Union[numpy.typing.ArrayLike, None] = None,
     *,
-    selected: Union[numpy.typing.ArrayLike, None] = None,
+    selected: Union[numpy.typing.ArrayLike, set[int], None] = None,
     curvature: Union[numpy.typing.ArrayLike, None] = None,
+    progress: Union[bool, Callable[[float, str], object], None] = None,
     target_curvature: Union[int, Literal[
         'Automatic',
         'Flat everywhere',
@@ -598,10 +600,12 @@ def flatten(
     """
 
 def uniformize(
-    mesh: MeshLike,
+    mesh: Union[MeshLike, numpy.typing.ArrayLike],
+    faces: Union[numpy.typing.ArrayLike, None] = None,
     *,
-    selected: Union[numpy.typing.ArrayLike, None] = None,
+    selected: Union[numpy.typing.ArrayLike, set[int], None] = None,
     curvature: Union[numpy.typing.ArrayLike, None] = None,
+    progress: Union[bool, Callable[[float, str], object], None] = None,
     target_curvature: Union[int, Literal[
         'Hyperbolic metric',
         'Cones at selected vertices',

@@ -25,18 +25,16 @@ import re
 import sys
 
 from . import _batch
-from ._filters import DESCRIPTIONS, plain
+from ._filters import DESCRIPTIONS, choice, plain
 
 
-def choice(names):
+def chosen(names):
     """Reads one of the names, in any case, or its number."""
     def read(text):
-        if text.isdigit() and int(text) < len(names):
-            return names[int(text)]
-        for name in names:
-            if name.lower() == text.lower():
-                return name
-        raise argparse.ArgumentTypeError(f"{text!r} is none of {', '.join(names)}")
+        try:
+            return choice(text, names)
+        except ValueError as problem:
+            raise argparse.ArgumentTypeError(str(problem)) from None
     return read
 
 
@@ -51,7 +49,7 @@ def add_parameter(group, parameter):
     if kind == "bool":
         options["action"] = argparse.BooleanOptionalAction
     else:
-        options["type"] = {"enum": choice(parameter.get("choices", ())), "int": int, "float": float,
+        options["type"] = {"enum": chosen(parameter.get("choices", ())), "int": int, "float": float,
                            "file": str}[kind]
         options["metavar"] = {"enum": "CHOICE", "int": "N", "float": "X", "file": "FILE"}[kind]
     group.add_argument("--" + parameter["name"].replace("_", "-"), **options)

@@ -19,7 +19,7 @@ import sys
 import threading
 import time
 
-from ._filters import PLUGIN
+from ._plugin import PLUGIN
 
 ENDINGS = (".ply", ".off", ".obj", ".stl")
 FINAL = ("solved", "refused")  # states that a second run would only repeat

@@ -8,12 +8,13 @@ import os
 import numpy
 import pymeshlab
 
-from ._filters import DESCRIPTIONS, EUCLIDEAN, HYPERBOLIC, apply, documentation, signature
+from ._filters import DESCRIPTIONS, apply, checked, documentation, signature
+from ._plugin import teller, watched
 from ._results import EUCLIDEAN_RESULTS, HYPERBOLIC_RESULTS
 
 
 class Refused(pymeshlab.PyMeshLabException):
-    """The mesh or a parameter is refused; the text says why. The mesh is unchanged, but for what
+    """The mesh is refused; the text says why. It is unchanged, but for what
     flatten() and uniformize() were given with it: `selected` stays as the selection of its vertices,
     `curvature` as their quality."""
 
@@ -91,34 +92,63 @@ for _class, _keys in ((Flattening, EUCLIDEAN_RESULTS),
         setattr(_class, _key, _result(_key, _text))
 
 
-def _arrays(mesh):
+def _arrays(vertices, faces):
     """Checked vertices and faces: PyMeshLab does not check them."""
-    vertices, faces = (mesh.vertices, mesh.faces) if hasattr(mesh, "vertices") else mesh
-    vertices = numpy.ascontiguousarray(vertices, dtype=numpy.float64)
-    given = numpy.asarray(faces)
-    faces = numpy.ascontiguousarray(given, dtype=numpy.int32)
+    try:
+        vertices = numpy.ascontiguousarray(vertices, dtype=numpy.float64)
+        given = numpy.asarray(faces)
+        faces = numpy.ascontiguousarray(given, dtype=numpy.int32)
+    except (TypeError, ValueError) as problem:
+        raise type(problem)(f"vertices and faces must be arrays of numbers: {problem}") from None
     for name, array in (("vertices", vertices), ("faces", faces)):
-        if array.ndim != 2 or array.shape[1] != 3:
+        if array.ndim != 2 or array.shape[1] != 3 or not len(array):
             raise ValueError(f"{name} must have the shape (N, 3), not {array.shape}")
     if (given != faces).any():
         raise ValueError("faces must hold whole numbers, the indices of vertices")
-    if faces.size and not (faces.min() >= 0 and faces.max() < len(vertices)):
+    if not (faces.min() >= 0 and faces.max() < len(vertices)):
         raise ValueError(f"faces must hold indices from 0 to {len(vertices) - 1}")
     return vertices, faces
 
 
-def _mesh_set(mesh):
-    """The MeshSet that is given, or a new one with the mesh."""
-    if isinstance(mesh, pymeshlab.MeshSet):
-        return mesh
+def load(path):
+    """A new MeshSet with the mesh in a file, of several meshes with all of them as one."""
+    path = os.fspath(path)
+    if not os.path.isfile(path):
+        raise FileNotFoundError(f"There is no file {path}")
     new = pymeshlab.MeshSet()
+    together = path.lower().endswith((".glb", ".gltf"))
+    try:
+        new.load_new_mesh(path, **({"load_in_a_single_layer": True} if together else {}))
+        if new.mesh_number() > 1:
+            new.generate_by_merging_visible_meshes()
+    except pymeshlab.PyMeshLabException as problem:
+        pymeshlab.MeshSet().create_cube()  # as in apply()
+        raise OSError(" ".join(str(problem).split())) from None
+    return new
+
+
+def _mesh_set(mesh, faces):
+    """The MeshSet that is given, or a new one with the mesh."""
+    if faces is None:
+        if isinstance(mesh, pymeshlab.MeshSet):
+            return mesh
+        if isinstance(mesh, (str, os.PathLike)):
+            return load(mesh)
+        if hasattr(mesh, "to_geometry"):  # a scene of trimesh
+            mesh = mesh.to_geometry()
+    new = pymeshlab.MeshSet()
+    if faces is not None:
+        mesh = (mesh, faces)
+    elif hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+        mesh = (mesh.vertices, mesh.faces)
     if isinstance(mesh, pymeshlab.Mesh):
         new.add_mesh(mesh)
-    elif isinstance(mesh, (str, os.PathLike)):
-        new.load_new_mesh(os.fspath(mesh))
-    else:
-        vertices, faces = _arrays(mesh)
+    elif isinstance(mesh, (tuple, list)) and len(mesh) == 2:
+        vertices, faces = _arrays(*mesh)
         new.add_mesh(pymeshlab.Mesh(vertex_matrix=vertices, face_matrix=faces))
+    else:
+        raise TypeError("A mesh is a path, vertices and faces, an object that has them, or a Mesh or "
+                        f"MeshSet of PyMeshLab, not {type(mesh).__name__}")
     return new
 
 
@@ -139,7 +169,7 @@ def _per_vertex(mesh_set, name, values):
 
 def _mask(mesh_set, selected):
     """Indices of vertices, or a truth value for each, as numbers 0 and 1."""
-    selected = numpy.asarray(selected)
+    selected = numpy.asarray(sorted(selected) if isinstance(selected, (set, frozenset)) else selected)
     if selected.dtype == bool:
         return selected.astype(numpy.float64)
     mask = numpy.zeros(mesh_set.current_mesh().vertex_number())
@@ -151,10 +181,10 @@ def _mask(mesh_set, selected):
     return mask
 
 
-def _solve(kind, name, mesh, selected, curvature, parameters):
-    mesh_set = _mesh_set(mesh)
-    parameters = {key: os.fspath(value) if isinstance(value, os.PathLike) else value
-                  for key, value in parameters.items()}
+def _solve(function, mesh, faces, selected, curvature, progress, parameters):
+    kind, description = _KINDS[function]
+    parameters = checked(function, description, parameters)
+    mesh_set = _mesh_set(mesh, faces)
     if selected is not None:
         attribute = _per_vertex(mesh_set, "selected", _mask(mesh_set, selected))
         apply(mesh_set, "compute_selection_by_condition_per_vertex",
@@ -166,29 +196,41 @@ def _solve(kind, name, mesh, selected, curvature, parameters):
         apply(mesh_set, "compute_scalar_by_function_per_vertex", q=attribute)
         parameters.setdefault("target_curvature", "From vertex quality")
     try:
-        return kind(mesh_set, apply(mesh_set, name, **parameters))
-    except (pymeshlab.PyMeshLabException, pymeshlab.InvalidEnumException) as refusal:
-        raise Refused(str(refusal).split("Details: ")[-1].strip()) from None
+        with teller(progress) as tell:
+            results = watched(
+                lambda: apply(mesh_set, description["python_name"], **parameters), tell)
+    except pymeshlab.PyMeshLabException as refusal:
+        text = str(refusal).split("Details: ")[-1].strip()
+        raise (ValueError if text.startswith("The value ") else Refused)(text) from None
+    return kind(mesh_set, results)
 
 
-def flatten(mesh, *, selected=None, curvature=None, **parameters):
-    return _solve(Flattening, EUCLIDEAN, mesh, selected, curvature, parameters)
+_KINDS = {"flatten": (Flattening, DESCRIPTIONS[0]), "uniformize": (Uniformization, DESCRIPTIONS[1])}
 
 
-def uniformize(mesh, *, selected=None, curvature=None, **parameters):
-    return _solve(Uniformization, HYPERBOLIC, mesh, selected, curvature, parameters)
+def flatten(mesh, faces=None, *, selected=None, curvature=None, progress=None, **parameters):
+    return _solve("flatten", mesh, faces, selected, curvature, progress, parameters)
+
+
+def uniformize(mesh, faces=None, *, selected=None, curvature=None, progress=None, **parameters):
+    return _solve("uniformize", mesh, faces, selected, curvature, progress, parameters)
 
 
 _INPUT = """
 
-mesh : a path; (vertices, faces), or an object that has them, such as one of trimesh; a
-    pymeshlab.Mesh; or a MeshSet, whose current mesh gets the texture coordinates
+mesh : a path; vertices and then faces, or both as a pair; an object that has them, such as one of
+    trimesh; a pymeshlab.Mesh; or a MeshSet, whose current mesh gets the texture coordinates
+faces : indices of vertices, three of each face, where `mesh` is the vertices
 selected : indices of vertices, or a truth value for each: the cones, or the corners of a rectangle
 curvature : target curvature of each vertex, in radians
+progress : True for a bar (of tqdm, where it is installed), or a function that is called with the
+    share of the work that is done and the name of the step; what it raises ends the run, as Ctrl-C
+    does, and the mesh stays as it is
 """
 _own = [inspect.Parameter("mesh", inspect.Parameter.POSITIONAL_OR_KEYWORD),
-        inspect.Parameter("selected", inspect.Parameter.KEYWORD_ONLY, default=None),
-        inspect.Parameter("curvature", inspect.Parameter.KEYWORD_ONLY, default=None)]
+        inspect.Parameter("faces", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None),
+        *(inspect.Parameter(_name, inspect.Parameter.KEYWORD_ONLY, default=None)
+          for _name in ("selected", "curvature", "progress"))]
 for _function, _description, _what in zip(
         (flatten, uniformize), DESCRIPTIONS,
         ("Conformal map of a mesh into the Euclidean plane. A Flattening; throws Refused.",
