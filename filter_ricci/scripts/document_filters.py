@@ -116,7 +116,7 @@ STUB = LICENCE + '''\
 """Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab."""
 ''' + MADE + '''
 import os
-from typing import Any, Callable, Literal, Protocol, Union
+from typing import Any, Callable, Literal, NamedTuple, Protocol, Union
 
 import numpy
 import numpy.typing
@@ -141,8 +141,16 @@ class Refused(pymeshlab.PyMeshLabException):
 
 '''
 
-PARAMETRIZATION = '''class Parametrization:
-    """A mesh and its texture coordinates."""
+PARAMETRIZATION = '''class Layer(NamedTuple):
+    """A new layer: vertices (V, 3) float64, and what joins them."""
+
+    vertices: Array
+    faces: Array
+    edges: Array
+
+class Parametrization:
+    """A mesh and its texture coordinates. It can be pickled and copied, but for images of
+    textures."""
 
     vertices: Array
     """(V, 3) float64"""
@@ -156,8 +164,12 @@ PARAMETRIZATION = '''class Parametrization:
     """(V,) float64, logarithms of the radii of the flow's circles, up to a constant"""
     target_curvature: Array
     """(V,) float64, the Gaussian curvature that the flow reached, in radians"""
-    mesh_set: pymeshlab.MeshSet
-    """holds the mesh, and the new layers if some were asked for"""
+    @property
+    def layers(self) -> dict[str, Layer]:
+        """those that were asked for, by what they are: flat, sphere, disk, cover, axes, polygon"""
+    @property
+    def mesh_set(self) -> pymeshlab.MeshSet:
+        """holds the mesh, and the new layers if some were asked for"""
     results: dict[str, Any]
     """what the filter returned; each result is an attribute too"""
     def indexed(self) -> tuple[Array, Array]:
@@ -172,6 +184,8 @@ def attributes(keys):
     lines = []
     for key, (kind, meaning) in keys.items():
         lines.append(f"    {key}: {TYPES[kind]}")
+        if key in ("generators", "generators_low"):
+            meaning += "; here (n, 2, 2) complex128, the matrices of the isometries"
         lines.append(wrapped(f'{meaning}"""', "    ", '    """', PYTHON_WIDTH))
     return "\n".join(lines) + "\n"
 

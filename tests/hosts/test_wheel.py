@@ -4,10 +4,14 @@ Usage: test_wheel.py BUILD_DIR [TEST...], with PyMeshLab's Python."""
 
 import ast
 import base64
+import concurrent.futures
+import copy
 import glob
 import hashlib
 import inspect
+import multiprocessing
 import os
+import pickle
 import re
 import signal
 import subprocess
@@ -17,6 +21,7 @@ import tempfile
 import threading
 import time
 import unittest
+import xml.etree.ElementTree
 import zipfile
 
 import common
@@ -269,11 +274,16 @@ class Functions(unittest.TestCase):
         result = uniformize(arrays(meshes.double_torus()), generator_axes=True)
         self.assertLess(abs(result.disk).max(), 1.0)
         self.assertAlmostEqual(result.hyperbolic_area, 4 * numpy.pi, delta=1e-6)
-        a, b = numpy.asarray(result.generators).reshape(-1, 2, 2).transpose(1, 0, 2) @ [1, 1j]
-        self.assertTrue(numpy.allclose(abs(a) ** 2 - abs(b) ** 2, 1.0))
-        high, low = numpy.asarray(result.generators), numpy.asarray(result.generators_low)
+        self.assertEqual(result.generators.shape, (4, 2, 2))
+        self.assertTrue(numpy.allclose(numpy.linalg.det(result.generators), 1.0))
+        a1, b1, a2, b2 = result.generators
+        inverse = numpy.linalg.inv
+        relation = a1 @ b1 @ inverse(a1) @ inverse(b1) @ a2 @ b2 @ inverse(a2) @ inverse(b2)
+        self.assertTrue(numpy.allclose(relation, relation[0, 0].real.round() * numpy.eye(2)))
+        high, low = result.generators, result.generators_low
         self.assertEqual(high.shape, low.shape)
-        self.assertTrue((abs(low) <= 2.0 ** -53 * abs(high)).all())
+        for part in (numpy.real, numpy.imag):
+            self.assertTrue((abs(part(low)) <= 2.0 ** -53 * abs(part(high))).all())
         self.assertTrue(low.any())
         self.assertLess(result.generators_error, 1e-8)
 
@@ -286,6 +296,65 @@ class Functions(unittest.TestCase):
                 flatten(good, selected=mistakes)
         with self.assertRaises(ValueError):
             flatten(good, curvature=[0.0])
+
+    def test_layers(self):
+        """By what they are; those of the disk lie in the unit disk, where the corners lie too."""
+        result = uniformize(arrays(meshes.double_torus()), flat_layer=True, universal_cover=1,
+                            generator_axes=True, canonical_polygon=True)
+        layers = result.layers
+        self.assertEqual(set(layers), {"disk", "cover", "axes", "polygon"})
+        for layer in layers.values():
+            self.assertLess(numpy.linalg.norm(layer.vertices, axis=1).max(), 1.0 + 1e-6)
+            self.assertTrue(len(layer.faces) or len(layer.edges))
+        x, y, _ = layers["disk"].vertices[layers["disk"].faces].transpose(2, 0, 1)
+        self.assertTrue(numpy.allclose(x + 1j * y, result.disk, atol=1e-6))
+        documents = pymeshlab.MeshSet()
+        documents.create_sphere()
+        self.assertEqual(set(flatten(documents, flat_layer=True, sphere_layer=True).layers),
+                         {"flat", "sphere"})
+        again = flatten(documents, sphere_layer=True)  # not those of the first run
+        self.assertEqual(set(again.layers), {"sphere"})
+        self.assertTrue(numpy.allclose(numpy.linalg.norm(again.layers["sphere"].vertices, axis=1), 1.0))
+
+    def test_pickled(self):
+        """Copies, and results of other processes, have and save the same."""
+        vertices, faces = arrays(meshes.double_torus())
+        result = flatten(vertices, faces, flat_layer=True)
+        with concurrent.futures.ProcessPoolExecutor(
+                1, multiprocessing.get_context("fork")) as pool:
+            elsewhere = pool.submit(flatten, vertices, faces, flat_layer=True).result()
+        with tempfile.TemporaryDirectory() as folder:
+            def saved(one):
+                path = os.path.join(folder, "one.ply")
+                one.save(path)
+                mesh = meshes.read_ply(path)
+                return mesh.vertices, mesh.faces, mesh.wedges
+            expected = saved(result)
+            for other in (pickle.loads(pickle.dumps(result)), copy.deepcopy(result), elsewhere):
+                self.assertIs(type(other), type(result))
+                self.assertEqual(repr(other), repr(result))
+                for key in ("vertices", "faces", "uv", "quality", "log_radius", "target_curvature"):
+                    self.assertTrue(numpy.array_equal(getattr(other, key), getattr(result, key)), key)
+                self.assertEqual(saved(other), expected)
+                self.assertEqual([m.label() for m in other.mesh_set][:-1],
+                                 [m.label() for m in result.mesh_set][1:])
+                self.assertTrue(numpy.array_equal(other.layers["flat"].vertices,
+                                                  result.layers["flat"].vertices))
+
+    def test_picture(self):
+        """The charts as SVG: the area inside the outlines is that of the faces in the plane."""
+        result = flatten(arrays(meshes.double_torus()))
+        text = result._repr_html_()
+        svg = xml.etree.ElementTree.fromstring(text[:text.index("</svg>") + 6])
+        path = svg.find("{http://www.w3.org/2000/svg}path").get("d")
+        area = 0.0
+        for outline in path.strip("MZ").split("ZM"):
+            x, y = numpy.array([point.split() for point in outline.split("L")], dtype=float).T
+            area += 0.5 * (x @ numpy.roll(y, -1) - y @ numpy.roll(x, -1))
+        (ax, ay), (bx, by) = ((result.uv[:, k] - result.uv[:, 0]).T for k in (1, 2))
+        extent = numpy.ptp(result.uv.reshape(-1, 2), axis=0).max()
+        scale = (max(map(float, svg.get("viewBox").split()[2:])) - 2) / extent
+        self.assertAlmostEqual(-area / scale ** 2, 0.5 * (ax * by - ay * bx).sum(), delta=0.001)
 
     def test_slips(self):
         """Those of the caller are Python's own errors, and suggest what was meant."""

@@ -3,7 +3,7 @@
 # Made by document_filters.py.
 
 import os
-from typing import Any, Callable, Literal, Protocol, Union
+from typing import Any, Callable, Literal, NamedTuple, Protocol, Union
 
 import numpy
 import numpy.typing
@@ -26,8 +26,16 @@ HYPERBOLIC: str
 class Refused(pymeshlab.PyMeshLabException):
     """The mesh is refused; the text says why. It is unchanged."""
 
+class Layer(NamedTuple):
+    """A new layer: vertices (V, 3) float64, and what joins them."""
+
+    vertices: Array
+    faces: Array
+    edges: Array
+
 class Parametrization:
-    """A mesh and its texture coordinates."""
+    """A mesh and its texture coordinates. It can be pickled and copied, but for images of
+    textures."""
 
     vertices: Array
     """(V, 3) float64"""
@@ -41,8 +49,12 @@ class Parametrization:
     """(V,) float64, logarithms of the radii of the flow's circles, up to a constant"""
     target_curvature: Array
     """(V,) float64, the Gaussian curvature that the flow reached, in radians"""
-    mesh_set: pymeshlab.MeshSet
-    """holds the mesh, and the new layers if some were asked for"""
+    @property
+    def layers(self) -> dict[str, Layer]:
+        """those that were asked for, by what they are: flat, sphere, disk, cover, axes, polygon"""
+    @property
+    def mesh_set(self) -> pymeshlab.MeshSet:
+        """holds the mesh, and the new layers if some were asked for"""
     results: dict[str, Any]
     """what the filter returned; each result is an attribute too"""
     def indexed(self) -> tuple[Array, Array]:
@@ -361,10 +373,11 @@ class Uniformization(Parametrization):
     generators: Array
     """with Axes of the generators or Canonical polygon, one component only: Re a, Im a, Re b,
     Im b of the isometries z → (az + b)/(b̄z + ā), |a|² − |b|² = 1: a canonical basis a₁, b₁, …,
-    then one isometry for each boundary loop and cone; Π[aᵢ, bᵢ] Π eₖ = ±1"""
+    then one isometry for each boundary loop and cone; Π[aᵢ, bᵢ] Π eₖ = ±1; here (n, 2, 2)
+    complex128, the matrices of the isometries"""
     generators_low: Array
-    """with generators, number by number: what a float cannot hold of it. The sum has 31
-    digits"""
+    """with generators, number by number: what a float cannot hold of it. The sum has 31 digits;
+    here (n, 2, 2) complex128, the matrices of the isometries"""
     generators_error: float
     """with generators: largest entry of Π[aᵢ, bᵢ] Π eₖ ∓ 1 for the sums"""
 

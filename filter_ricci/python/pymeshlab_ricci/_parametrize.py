@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The filters as functions from meshes to results."""
 
+import html
 import inspect
 import itertools
 import os
+import typing
 
 import numpy
 import pymeshlab
 
+from ._drawing import charts
 from ._filters import DESCRIPTIONS, apply, checked, documentation, signature
 from ._plugin import teller, watched
 from ._results import EUCLIDEAN_RESULTS, HYPERBOLIC_RESULTS
@@ -19,8 +22,22 @@ class Refused(pymeshlab.PyMeshLabException):
     `curvature` as their quality."""
 
 
+class Layer(typing.NamedTuple):
+    """A new layer: vertices (V, 3) float64, and what joins them."""
+
+    vertices: numpy.ndarray
+    faces: numpy.ndarray
+    edges: numpy.ndarray
+
+
+def kind_of(layer):
+    """What a new layer is, in one word: of 'Universal cover a.ply' it is 'cover'."""
+    first = layer.label().split()[0].lower()
+    return {"universal": "cover", "canonical": "polygon"}.get(first, first)
+
+
 class Parametrization:
-    """A mesh and its texture coordinates.
+    """A mesh and its texture coordinates. It can be pickled and copied, but for images of textures.
 
     vertices : (V, 3) float64
     faces : (F, 3) int32, indices of vertices
@@ -28,13 +45,14 @@ class Parametrization:
     quality : (V,) float64, quasi-conformal distortion sigma1/sigma2 at the vertices; 1: angles kept
     log_radius : (V,) float64, logarithms of the radii of the flow's circles, up to a constant
     target_curvature : (V,) float64, the Gaussian curvature that the flow reached, in radians
-    mesh_set : the MeshSet that holds the mesh, and the new layers if some were asked for
+    layers : those that were asked for, each with vertices, faces and edges, by what they are: flat,
+        sphere, disk, cover, axes, polygon
+    mesh_set : the MeshSet that holds the mesh, and the new layers
     results : what the filter returned, a dictionary; each result is an attribute too
     """
 
-    def __init__(self, mesh_set, results):
+    def __init__(self, mesh_set, results, before=()):
         mesh = mesh_set.current_mesh()
-        self.mesh_set = mesh_set
         self.results = results
         self.vertices = mesh.vertex_matrix()
         self.faces = mesh.face_matrix()
@@ -42,18 +60,58 @@ class Parametrization:
         self.quality = mesh.vertex_scalar_array()
         self.log_radius = mesh.vertex_custom_scalar_attribute_array("ricci_u")
         self.target_curvature = mesh.vertex_custom_scalar_attribute_array("ricci_target_curvature")
+        self._label = mesh.label()
+        self._layers = {
+            kind_of(layer): Layer(layer.vertex_matrix(), layer.face_matrix(), layer.edge_matrix())
+            for layer in mesh_set if layer.id() not in (mesh.id(), *before)}
+        self._mesh_set = mesh_set
 
     def __repr__(self):
         keys = ("genus", "boundary_loops", "charts", "cones", "qc_area_mean", "flipped_faces")
         shown = "".join(f", {key}={self.results[key]:.6g}" for key in keys if key in self.results)
         return f"<{type(self).__name__} faces={len(self.faces)}{shown}>"
 
+    def _repr_html_(self):
+        points, corners = self.indexed()
+        return f"{charts(points, corners)}<br><code>{html.escape(repr(self))}</code>"
+
+    def __getstate__(self):
+        return {**self.__dict__, "_mesh_set": None}
+
+    @property
+    def layers(self):
+        return dict(self._layers)
+
+    @property
+    def mesh_set(self):
+        if self._mesh_set is None:  # after pickling
+            new = pymeshlab.MeshSet()
+            for kind, layer in self._layers.items():
+                new.add_mesh(pymeshlab.Mesh(*layer), f"{kind.capitalize()} {self._label}")
+            mesh = pymeshlab.Mesh(
+                self.vertices, self.faces, v_scalar_array=self.quality,
+                w_tex_coords_matrix=numpy.ascontiguousarray(self.uv.reshape(-1, 2)))
+            mesh.add_vertex_custom_scalar_attribute(self.log_radius, "ricci_u")
+            mesh.add_vertex_custom_scalar_attribute(self.target_curvature, "ricci_target_curvature")
+            new.add_mesh(mesh, self._label)
+            self._mesh_set = new
+        return self._mesh_set
+
+    def _texture_vertices(self):
+        """The vertex of each texture vertex, its coordinates, and the indices at the corners."""
+        # Texture coordinates are floats: the bits of both are one number, and sort as fast as one.
+        bits = (self.uv.reshape(-1, 2) + 0.0).astype(numpy.float32).view(numpy.uint64).reshape(-1)
+        places, index = numpy.unique(bits, return_inverse=True)
+        vertex = self.faces.reshape(-1).astype(numpy.int64)
+        unique, index = numpy.unique(vertex * len(places) + index.reshape(-1), return_inverse=True)
+        vertex, place = numpy.divmod(unique, len(places))
+        points = places[place].view(numpy.float32).reshape(-1, 2).astype(numpy.float64)
+        return vertex, points, index.reshape(-1, 3)
+
     def indexed(self):
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3), as OBJ
         files have them: corners of one vertex share a texture vertex where they agree."""
-        corners = numpy.column_stack([self.faces.reshape(-1), self.uv.reshape(-1, 2)])
-        unique, index = numpy.unique(corners, axis=0, return_inverse=True)
-        return unique[:, 1:], index.reshape(-1, 3)
+        return self._texture_vertices()[1:]
 
     def save(self, path):
         """Writes the mesh with its texture coordinates, to a PLY file with the quality too. An OBJ file
@@ -85,11 +143,25 @@ class Uniformization(Parametrization):
         corners = 2.0 * self.uv - 1.0
         return corners[..., 0] + 1j * corners[..., 1]
 
+    @property
+    def layers(self):
+        return {kind: layer._replace(vertices=2.0 * layer.vertices - [1.0, 1.0, 0.0])
+                for kind, layer in self._layers.items()}
+
+
+def _matrices(key, text):
+    def get(self):
+        re_a, im_a, re_b, im_b = numpy.reshape(_result(key, text).fget(self), (-1, 4)).T
+        a, b = re_a + 1j * im_a, re_b + 1j * im_b
+        return numpy.array([[a, b], [b.conj(), a.conj()]]).transpose(2, 0, 1)
+    return property(get, doc=f"{text}; here (n, 2, 2) complex128, the matrices of the isometries")
+
 
 for _class, _keys in ((Flattening, EUCLIDEAN_RESULTS),
                       (Uniformization, {**EUCLIDEAN_RESULTS, **HYPERBOLIC_RESULTS})):
     for _key, (_kind, _text) in _keys.items():
-        setattr(_class, _key, _result(_key, _text))
+        _make = _matrices if _key in ("generators", "generators_low") else _result
+        setattr(_class, _key, _make(_key, _text))
 
 
 def _arrays(vertices, faces):
@@ -185,6 +257,7 @@ def _solve(function, mesh, faces, selected, curvature, progress, parameters):
     kind, description = _KINDS[function]
     parameters = checked(function, description, parameters)
     mesh_set = _mesh_set(mesh, faces)
+    before = [layer.id() for layer in mesh_set]
     if selected is not None:
         attribute = _per_vertex(mesh_set, "selected", _mask(mesh_set, selected))
         apply(mesh_set, "compute_selection_by_condition_per_vertex",
@@ -202,7 +275,7 @@ def _solve(function, mesh, faces, selected, curvature, progress, parameters):
     except pymeshlab.PyMeshLabException as refusal:
         text = str(refusal).split("Details: ")[-1].strip()
         raise (ValueError if text.startswith("The value ") else Refused)(text) from None
-    return kind(mesh_set, results)
+    return kind(mesh_set, results, before)
 
 
 _KINDS = {"flatten": (Flattening, DESCRIPTIONS[0]), "uniformize": (Uniformization, DESCRIPTIONS[1])}

@@ -11,6 +11,7 @@ import pymeshlab
 
 from . import flatten, uniformize
 from ._batch import partial_folder
+from ._parametrize import kind_of
 
 
 def die_with_parent():
@@ -25,10 +26,8 @@ def die_with_parent():
 def save_layers(documents, stem):
     """The new layers: of mesh.ply, 'Flat mesh' is mesh.flat.ply."""
     current = documents.current_mesh_id()
-    label = documents.current_mesh().label()
-    layers = [(mesh.id(), mesh.label()) for mesh in documents if mesh.id() != current]
-    for number, name in layers:
-        kind = name.removesuffix(label).strip().lower().replace(" ", "-")
+    layers = [(mesh.id(), kind_of(mesh)) for mesh in documents if mesh.id() != current]
+    for number, kind in layers:
         documents.set_current_mesh(number)
         documents.save_current_mesh(f"{stem}.{kind}.ply")
     documents.set_current_mesh(current)
