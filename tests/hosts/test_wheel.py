@@ -37,6 +37,7 @@ if not os.path.isdir(os.path.join(common.BUILD, "python")):
     common.skip("the Python package is not built")
 
 import pymeshlab_ricci
+import pymeshlab_ricci.xatlas
 from pymeshlab_ricci import flatten, uniformize
 from pymeshlab_ricci._filters import DESCRIPTIONS
 
@@ -466,6 +467,58 @@ class Functions(unittest.TestCase):
                 os.environ["MYPYPATH"] = os.path.join(common.BUILD, "python")
                 out, _, code = api.run(["--ignore-missing-imports", "--cache-dir", folder, program])
                 self.assertEqual(code, errors, line + "\n" + out)
+
+
+class Xatlas(unittest.TestCase):
+    def check(self, vertices, faces, parametrize):
+        """What every caller relies on: the same faces, and no texture vertex that is not needed."""
+        mapping, corners, uv = parametrize(vertices.astype(numpy.float32), faces.astype(numpy.uint32))
+        self.assertEqual((mapping.dtype, corners.dtype, uv.dtype),
+                         (numpy.uint32, numpy.uint32, numpy.float32))
+        self.assertEqual((mapping.shape, corners.shape), (uv.shape[:1], faces.shape))
+        self.assertTrue(numpy.array_equal(mapping[corners], faces))
+        self.assertEqual(set(corners.reshape(-1).tolist()), set(range(len(mapping))))
+        self.assertTrue((uv >= 0.0).all() and (uv <= 1.0).all())
+        self.assertEqual(uv.shape[1:], (2,))
+        return self.charts(corners, len(mapping))
+
+    @staticmethod
+    def charts(corners, count):
+        """The number of sets of texture vertices that faces join."""
+        label = numpy.arange(count)
+        while True:
+            least = label.copy()
+            for k in range(3):
+                numpy.minimum.at(least, corners[:, k], label[corners].min(axis=1))
+            if numpy.array_equal(least, label):
+                return len(set(label.tolist()))
+            label = least
+
+    surfaces = (meshes.torus, meshes.hill, meshes.sphere, meshes.double_torus, meshes.annulus)
+
+    def test_parametrize(self):
+        for surface in self.surfaces:
+            vertices, faces = arrays(surface())
+            with self.subTest(surface=surface.__name__):
+                self.check(vertices, faces, pymeshlab_ricci.xatlas.parametrize)
+                alone = numpy.vstack([vertices[:1], vertices])  # a vertex without a face
+                self.check(alone, faces + 1, pymeshlab_ricci.xatlas.parametrize)
+
+    def test_beside_xatlas(self):
+        """The same signature, and no more charts."""
+        try:
+            import xatlas
+        except ImportError as problem:
+            self.skipTest(f"xatlas cannot be imported: {problem}")
+        ours = inspect.signature(pymeshlab_ricci.xatlas.parametrize).parameters
+        stated = re.search(r"parametrize\((.*)\) ->", xatlas.parametrize.__doc__).group(1)
+        self.assertEqual(list(ours), re.findall(r"(\w+): ", stated))
+        for surface in self.surfaces:
+            vertices, faces = arrays(surface())
+            with self.subTest(surface=surface.__name__):
+                self.assertLessEqual(
+                    self.check(vertices, faces, pymeshlab_ricci.xatlas.parametrize),
+                    self.check(vertices, faces, xatlas.parametrize))
 
 
 if __name__ == "__main__":

@@ -100,7 +100,8 @@ class Parametrization:
     def _texture_vertices(self):
         """The vertex of each texture vertex, its coordinates, and the indices at the corners."""
         # Texture coordinates are floats: the bits of both are one number, and sort as fast as one.
-        bits = (self.uv.reshape(-1, 2) + 0.0).astype(numpy.float32).view(numpy.uint64).reshape(-1)
+        uv = numpy.ascontiguousarray(self.uv.reshape(-1, 2), dtype=numpy.float32) + numpy.float32(0)
+        bits = uv.view(numpy.uint64).reshape(-1)
         places, index = numpy.unique(bits, return_inverse=True)
         vertex = self.faces.reshape(-1).astype(numpy.int64)
         unique, index = numpy.unique(vertex * len(places) + index.reshape(-1), return_inverse=True)
