@@ -79,6 +79,14 @@ class Wheel(unittest.TestCase):
         self.assertLessEqual(max(needed), newest)
         self.assertEqual(newest, 35, "PyMeshLab's own wheels need no newer C library")
 
+    def test_metadata(self):
+        """The wheel says of the package what the README says, and names its command."""
+        with zipfile.ZipFile(wheel_file()) as wheel:
+            text, = (wheel.read(name).decode() for name in wheel.namelist() if name.endswith("/METADATA"))
+        said = re.search(r"```\n\n(Two MeshLab filters .*?)\n\n", read("README.md"), re.DOTALL).group(1)
+        self.assertIn(said, text)
+        self.assertIn(re.search(r"  - name: (.*)", read("CITATION.cff")).group(1), text)
+
     def test_in_an_empty_environment(self):
         """Installed by pip, which finds its needs fulfilled; then the README's first code runs."""
         code = re.search(r"```python\n(.*?)```", read("README.md"), re.DOTALL).group(1)
@@ -108,6 +116,10 @@ class Wheel(unittest.TestCase):
             self.assertTrue(os.path.exists(os.path.join(folder, "torus.obj")))
             run("-m", "pymeshlab_ricci", "torus.obj", "again.ply", "--output-triangulation", "1")
             self.assertIsNotNone(meshes.read_ply(os.path.join(folder, "again.ply")).wedges)
+            command = os.path.join(folder, "bin", "pymeshlab-ricci")
+            version = subprocess.run([command, "--version"], capture_output=True, text=True, check=True,
+                                     env=environment).stdout
+            self.assertEqual(version, f"pymeshlab-ricci {wheel_file().split('-')[1]}\n")
             run("-m", "pip", "uninstall", "-q", "-y", "pymeshlab-ricci")
             self.assertEqual(glob.glob(os.path.join(place, "*ricci*")), [])
 
@@ -317,6 +329,46 @@ class Functions(unittest.TestCase):
         self.assertEqual(set(again.layers), {"sphere"})
         self.assertTrue(numpy.allclose(numpy.linalg.norm(again.layers["sphere"].vertices, axis=1), 1.0))
 
+    def test_gltf(self):
+        """By trimesh; PyMeshLab reads the same coordinates back. Of a scene all meshes are taken."""
+        try:
+            import PIL.Image
+            import trimesh
+        except ImportError as problem:
+            with self.assertRaisesRegex(ImportError, "pip install trimesh"):
+                flatten(arrays(meshes.torus())).save("torus.glb")
+            self.skipTest(f"trimesh cannot be imported: {problem}")
+        vertices, faces = arrays(meshes.double_torus())
+        result = flatten(vertices, faces)
+        with tempfile.TemporaryDirectory() as folder:
+            for ending in (".glb", ".gltf"):
+                path = os.path.join(folder, "one" + ending)
+                result.save(path)
+                again = pymeshlab.MeshSet()
+                again.load_new_mesh(path)
+                uv = again.current_mesh().wedge_tex_coord_matrix().reshape(-1, 3, 2)
+                self.assertLess(abs(uv - result.uv).max(), 1e-6)
+                self.assertEqual(again.current_mesh().texture_number(), 0)
+            self.assertEqual(sorted(os.listdir(folder)), ["one.glb", "one.gltf"])
+            scene = trimesh.Scene([trimesh.Trimesh(vertices, faces),
+                                   trimesh.Trimesh(vertices + 9.0, faces)])
+            scene.export(os.path.join(folder, "two.glb"))
+            for given in (scene, os.path.join(folder, "two.glb")):
+                self.assertEqual(len(flatten(given).faces), 2 * len(faces))
+            # A texture that is drawn anew goes with the mesh, an old one does not.
+            white = trimesh.visual.material.SimpleMaterial(image=PIL.Image.new("RGB", (8, 8), "white"))
+            points = result.vertices[:, :2]
+            trimesh.Trimesh(result.vertices, result.faces, process=False,
+                            visual=trimesh.visual.TextureVisuals(uv=points, material=white)).export(
+                                os.path.join(folder, "old.glb"))
+            for texture in ("", os.path.join(folder, "new.png")):
+                result = flatten(os.path.join(folder, "old.glb"), carry_texture=texture, texture_size=64)
+                for name in ("saved.ply", "saved.obj", "saved.glb"):
+                    result.save(os.path.join(folder, name))
+                saved = trimesh.load(os.path.join(folder, "saved.glb"), force="mesh")
+                image = saved.visual.material.baseColorTexture
+                self.assertEqual(image and image.size, (64, 64) if texture else None)
+
     def test_pickled(self):
         """Copies, and results of other processes, have and save the same."""
         vertices, faces = arrays(meshes.double_torus())
@@ -383,6 +435,11 @@ class Functions(unittest.TestCase):
         documents.create_torus()
         with self.assertRaisesRegex(TypeError, "did you mean 'seams'"):
             documents.compute_texcoord_parametrization_ricci_flow_euclidean_per_wedge(seam="Shortest")
+        result = flatten(good)
+        for path, error, pattern in (("hill.stl", ValueError, "ends in .ply or .obj or .glb"),
+                                     ("no such folder/hill.ply", FileNotFoundError, "no such folder")):
+            with self.assertRaisesRegex(error, pattern):
+                result.save(path)
         flatten(good, target_curvature="disk", flat_layer=numpy.True_, cone_distortion=numpy.float32(1))
 
     def test_files(self):
@@ -461,9 +518,13 @@ class Functions(unittest.TestCase):
             for line, errors in (("flatten('x.ply', target_curvature='Disk').charts + 1", 0),
                                  ("flatten('x.ply', target_curvature='Square')", 1),
                                  ("flatten('x.ply', rounds=3)", 1),
+                                 ("flatten([[0.0, 0, 0]], [[0, 0, 0]], progress=True).layers['flat']", 0),
+                                 ("flatten('x.ply', progress=lambda share, what: print(share))", 0),
+                                 ("flatten('x.ply', progress=3)", 1),
+                                 ("xatlas.parametrize([[0.0, 0, 0]], [[0, 0, 0]])[2].max()", 0),
                                  ("uniformize('x.ply').hyperbolic_area.real", 0)):
                 with open(program, "w", encoding="utf-8") as source:
-                    source.write(f"from pymeshlab_ricci import flatten, uniformize\n{line}\n")
+                    source.write(f"from pymeshlab_ricci import flatten, uniformize, xatlas\n{line}\n")
                 os.environ["MYPYPATH"] = os.path.join(common.BUILD, "python")
                 out, _, code = api.run(["--ignore-missing-imports", "--cache-dir", folder, program])
                 self.assertEqual(code, errors, line + "\n" + out)

@@ -60,7 +60,8 @@ class Parametrization:
     def indexed(self) -> tuple[Array, Array]:
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes the mesh with its texture coordinates, to a PLY file with the quality too."""
+        """Writes the mesh with its texture coordinates: to PLY, with the quality too, OBJ, or with
+        trimesh GLB and glTF."""
 
 class Flattening(Parametrization):
     converged: bool

@@ -5,6 +5,7 @@ import html
 import inspect
 import itertools
 import os
+import tempfile
 import typing
 
 import numpy
@@ -20,6 +21,9 @@ class Refused(pymeshlab.PyMeshLabException):
     """The mesh is refused; the text says why. It is unchanged, but for what
     flatten() and uniformize() were given with it: `selected` stays as the selection of its vertices,
     `curvature` as their quality."""
+
+
+FORMATS = (".ply", ".obj", ".glb", ".gltf")  # that save() writes
 
 
 class Layer(typing.NamedTuple):
@@ -51,7 +55,7 @@ class Parametrization:
     results : what the filter returned, a dictionary; each result is an attribute too
     """
 
-    def __init__(self, mesh_set, results, before=()):
+    def __init__(self, mesh_set, results, before=(), has_new_texture=False):
         mesh = mesh_set.current_mesh()
         self.results = results
         self.vertices = mesh.vertex_matrix()
@@ -65,6 +69,7 @@ class Parametrization:
             kind_of(layer): Layer(layer.vertex_matrix(), layer.face_matrix(), layer.edge_matrix())
             for layer in mesh_set if layer.id() not in (mesh.id(), *before)}
         self._mesh_set = mesh_set
+        self._has_new_texture = has_new_texture
 
     def __repr__(self):
         keys = ("genus", "boundary_loops", "charts", "cones", "qc_area_mean", "flipped_faces")
@@ -97,30 +102,61 @@ class Parametrization:
             self._mesh_set = new
         return self._mesh_set
 
-    def _texture_vertices(self):
-        """The vertex of each texture vertex, its coordinates, and the indices at the corners."""
+    def indexed(self):
+        """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3), as OBJ
+        files have them: corners of one vertex share a texture vertex where they agree."""
         # Texture coordinates are floats: the bits of both are one number, and sort as fast as one.
         uv = numpy.ascontiguousarray(self.uv.reshape(-1, 2), dtype=numpy.float32) + numpy.float32(0)
         bits = uv.view(numpy.uint64).reshape(-1)
         places, index = numpy.unique(bits, return_inverse=True)
         vertex = self.faces.reshape(-1).astype(numpy.int64)
         unique, index = numpy.unique(vertex * len(places) + index.reshape(-1), return_inverse=True)
-        vertex, place = numpy.divmod(unique, len(places))
-        points = places[place].view(numpy.float32).reshape(-1, 2).astype(numpy.float64)
-        return vertex, points, index.reshape(-1, 3)
-
-    def indexed(self):
-        """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3), as OBJ
-        files have them: corners of one vertex share a texture vertex where they agree."""
-        return self._texture_vertices()[1:]
+        points = places[unique % len(places)].view(numpy.float32).reshape(-1, 2)
+        return points.astype(numpy.float64), index.reshape(-1, 3)
 
     def save(self, path):
-        """Writes the mesh with its texture coordinates, to a PLY file with the quality too. An OBJ file
-        gets triangles: PyMeshLab 2025.7 writes polygons without texture coordinates."""
+        """Writes the mesh with its texture coordinates: to a PLY file with the quality too; to OBJ with
+        triangles, because PyMeshLab 2025.7 writes polygons without texture coordinates; to GLB and
+        glTF by trimesh, with the texture that carry_texture has drawn."""
         path = os.fspath(path)
-        keep = {".ply": {"save_vertex_quality": True}, ".obj": {"save_polygonal": False}}
         ending = os.path.splitext(path)[1].lower()
-        self.mesh_set.save_current_mesh(path, save_wedge_texcoord=True, **keep.get(ending, {}))
+        if ending not in FORMATS:
+            raise ValueError(f"{path}: a file with texture coordinates ends in {' or '.join(FORMATS)}")
+        if not os.path.isdir(os.path.dirname(os.path.abspath(path))):
+            raise FileNotFoundError(f"{path} cannot be written: there is no such folder")
+        if ending in (".glb", ".gltf"):
+            self._save_gltf(path)
+            return
+        keep = {"save_vertex_quality": True} if ending == ".ply" else {"save_polygonal": False}
+        if not all(os.path.splitext(name)[1] for name in self.mesh_set.current_mesh().textures()):
+            keep["save_textures"] = False  # images of glTF have no name that says how to write them
+        try:
+            self.mesh_set.save_current_mesh(path, save_wedge_texcoord=True, **keep)
+        except pymeshlab.PyMeshLabException as problem:
+            raise OSError(" ".join(str(problem).split())) from None
+
+    def _save_gltf(self, path):
+        try:
+            import trimesh
+        except ImportError:
+            raise ImportError(f"{path} is written by trimesh: pip install trimesh") from None
+        points, corners = self.indexed()
+        vertices = numpy.empty((len(points), 3))
+        vertices[corners] = self.vertices[self.faces]
+        visual = trimesh.visual.TextureVisuals(uv=points, material=trimesh.visual.material.PBRMaterial())
+        if self._has_new_texture:  # an old one does not fit
+            from PIL import Image
+            with tempfile.TemporaryDirectory() as folder:
+                picture = os.path.join(folder, "texture.png")
+                for image in self.mesh_set.current_mesh().textures().values():
+                    image.save(picture)
+                    with Image.open(picture) as opened:
+                        visual.material.baseColorTexture = opened.copy()
+        mesh = trimesh.Trimesh(vertices, corners, visual=visual, process=False)
+        embed = {"embed_buffers": True} if path.lower().endswith(".gltf") else {}
+        with open(path, "wb") as target:
+            data = mesh.export(file_type=os.path.splitext(path)[1][1:].lower(), **embed)
+            target.write(data["model.gltf"] if embed else data)
 
 
 def _result(key, text):
@@ -276,7 +312,7 @@ def _solve(function, mesh, faces, selected, curvature, progress, parameters):
     except pymeshlab.PyMeshLabException as refusal:
         text = str(refusal).split("Details: ")[-1].strip()
         raise (ValueError if text.startswith("The value ") else Refused)(text) from None
-    return kind(mesh_set, results, before)
+    return kind(mesh_set, results, before, bool(parameters.get("carry_texture")))
 
 
 _KINDS = {"flatten": (Flattening, DESCRIPTIONS[0]), "uniformize": (Uniformization, DESCRIPTIONS[1])}

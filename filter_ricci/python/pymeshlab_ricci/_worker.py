@@ -7,11 +7,9 @@ import signal
 import sys
 
 import numpy
-import pymeshlab
 
-from . import flatten, uniformize
 from ._batch import partial_folder
-from ._parametrize import kind_of
+from ._parametrize import Refused, flatten, kind_of, load, uniformize
 
 
 def die_with_parent():
@@ -59,15 +57,22 @@ def main():
     die_with_parent()
     job = json.loads(sys.argv[1])
     solve = uniformize if job["hyperbolic"] else flatten
+    answer = {"files": []}
     try:
-        os.makedirs(os.path.dirname(job["target"]), exist_ok=True)  # for report and texture
-        result = solve(job["mesh"], **job["parameters"])
-        answer = {"state": "solved",
-                  "results": {key: numpy.asarray(value).tolist()
-                              for key, value in result.results.items()}}
-        answer["files"] = save(result, job["target"])
-    except pymeshlab.PyMeshLabException as refusal:
-        answer = {"state": "refused", "reason": " ".join(str(refusal).split()), "files": []}
+        mesh = load(job["mesh"])
+    except OSError as problem:
+        answer.update(state="unreadable", reason=str(problem))
+    else:
+        try:
+            os.makedirs(os.path.dirname(job["target"]), exist_ok=True)  # for report and texture
+            result = solve(mesh, **job["parameters"])
+            answer["files"] = save(result, job["target"])
+            answer.update(state="solved", results={key: numpy.asarray(value).tolist()
+                                                   for key, value in result.results.items()})
+        except Refused as refusal:
+            answer.update(state="refused", reason=" ".join(str(refusal).split()))
+        except (OSError, ValueError, ImportError) as problem:
+            answer.update(state="failed", reason=str(problem))
     answer["files"] += written_by_filter(job["parameters"])
     print("\n" + json.dumps(answer), flush=True)
 

@@ -10,7 +10,7 @@ from typing import Any, Union
 import numpy
 from numpy.typing import ArrayLike
 
-from ._parametrize import flatten
+from . import flatten
 
 __all__ = ["parametrize"]
 
@@ -26,5 +26,8 @@ def parametrize(
     (N, 2) float32. Vertices without a face are left out. `normals` and `uvs`, hints for xatlas, are
     not used."""
     del normals, uvs
-    vertices, points, corners = flatten(positions, indices)._texture_vertices()
-    return (vertices.astype(numpy.uint32), corners.astype(numpy.uint32), points.astype(numpy.float32))
+    result = flatten(positions, indices)
+    points, corners = result.indexed()
+    vmapping = numpy.empty(len(points), dtype=numpy.uint32)
+    vmapping[corners] = result.faces
+    return vmapping, corners.astype(numpy.uint32), points.astype(numpy.float32)
