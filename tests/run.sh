@@ -35,7 +35,7 @@ say "MeshLab's headers"
 fetch_sources 2020.09 2022.02 2025.07
 say "PyMeshLab"
 make_venv
-add_dask
+add_companions
 say "Build"
 configure_and_build -DBUILD_TESTING=ON "$@"
 built=$SECONDS

@@ -20,14 +20,18 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
 
 namespace filter_ricci {
 
+thread_local vcg::CallBackPos* listener = nullptr;
+
 namespace {
 
+using Clock = std::chrono::steady_clock;
 using Layers = vcg::tri::RicciFlowLayers<CMeshO>;
 
 /// Share of the map to the sphere in the work of both maps.
@@ -35,6 +39,9 @@ constexpr double kSphereShare = 0.4;
 
 /// Share of the texture in the work of a run.
 constexpr double kTextureShare = 0.15;
+
+/// Between two calls of a listener, which may be slow.
+constexpr std::chrono::milliseconds kListenerPause(50);
 
 /// Faces that the layer of the universal cover may have at most.
 constexpr std::size_t kMaxCoverFaces = 5000000;
@@ -51,15 +58,20 @@ public:
 
 	bool update(double fraction, const std::string& what) override
 	{
-		if (callback_ == nullptr)
-			return true;
 		const int percent = static_cast<int>(100.0 * std::clamp(fraction, 0.0, 1.0));
-		return callback_(percent, host::progressText(what).c_str());
+		if (callback_ != nullptr && !callback_(percent, host::progressText(what).c_str()))
+			return false;
+		if (listener == nullptr || Clock::now() < nextTold_)
+			return true;
+		const bool goesOn = listener(percent, what.c_str());
+		nextTold_ = Clock::now() + kListenerPause;
+		return goesOn;
 	}
 
 private:
 	vcg::CallBackPos* callback_;
 	const Log& log_;
+	Clock::time_point nextTold_;
 };
 
 /// Whether the vertex quality is a distortion: with the filter's attribute beside it, 1 or more everywhere,

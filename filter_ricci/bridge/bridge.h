@@ -53,6 +53,10 @@ struct Outcome
 	int changedElements;                ///< MeshModel::MeshElement bits
 };
 
+/// Told of the progress of this thread's runs besides the host, many times a second, unless it is null; false
+/// cancels. PyMeshLab's own callback cannot.
+extern thread_local vcg::CallBackPos* listener;
+
 /// Runs the filter on the current mesh of \p md. Parameters that \p par lacks have their defaults.
 /// Nothing is written before everything is computed.
 /// \throw Refusal, ricci::Error, std::bad_alloc and what vcglib throws; see currentErrorSentence().

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// PyMeshLab tells programs the names and values of parameters, but neither their texts nor their
-// choices. The Python package reads both here.
+// What PyMeshLab does not give to programs, for the Python package: the texts and choices of parameters, and
+// the progress of a run with a way to end it.
 #include "bridge.h"
 
 #include <QByteArray>
@@ -66,4 +66,10 @@ extern "C" Q_DECL_EXPORT const char* filter_ricci_description()
 													 describedFilter(filter_ricci::Hyperbolic)})
 									   .toJson(QJsonDocument::Compact);
 	return text.constData();
+}
+
+/// Sets the listener of the runs that this thread starts from now on (bridge.h); null: none.
+extern "C" Q_DECL_EXPORT void filter_ricci_listen(vcg::CallBackPos* listener)
+{
+	filter_ricci::listener = listener;
 }

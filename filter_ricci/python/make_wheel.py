@@ -18,6 +18,7 @@ Metadata-Version: 2.4
 Name: pymeshlab-ricci
 Version: {version}
 Summary: Conformal UV unwrapping of triangle meshes by discrete Ricci flow, for PyMeshLab
+Author: {author}
 License-Expression: GPL-3.0-or-later
 {licences}Keywords: mesh,uv,parametrization,conformal,ricci-flow,uniformization,meshlab
 Classifier: Operating System :: POSIX :: Linux
@@ -31,18 +32,18 @@ Provides-Extra: cluster
 Requires-Dist: dask[distributed]; extra == "cluster"
 Provides-Extra: progress
 Requires-Dist: tqdm; extra == "progress"
+Provides-Extra: gltf
+Requires-Dist: trimesh; extra == "gltf"
 Description-Content-Type: text/markdown
 
-Flattens oriented manifold triangle meshes conformally, thin triangles included, into texture
-coordinates in few charts without overlaps or flipped faces, or into the Poincaré disk.
-
-    from pymeshlab_ricci import flatten
-    result = flatten("scan.ply")
-    result.uv, result.charts, result.qc_area_mean
-    result.save("scan.obj")
-
-`python -m pymeshlab_ricci IN OUT` does a file or a folder. PyMeshLab needs the system's libGL and
-libOpenGL (Debian: libgl1, libopengl0).
+{description}"""
+SCRIPTS = """\
+[console_scripts]
+pymeshlab-ricci = pymeshlab_ricci.__main__:main
+"""
+COMMAND = """
+`pymeshlab-ricci IN OUT` does a file or a folder. PyMeshLab needs the system's libGL and libOpenGL
+(Debian: libgl1, libopengl0).
 """
 
 
@@ -54,6 +55,8 @@ def parse():
     parser.add_argument("--machine", required=True)
     parser.add_argument("--folder", required=True, help="for the package as it is imported")
     parser.add_argument("--wheels", required=True, help="folder for the wheel")
+    parser.add_argument("--readme", required=True, help="that begins with an example, then says what it is")
+    parser.add_argument("--author", required=True)
     parser.add_argument("--licences", nargs="*", default=[], metavar="FILE[=NAME]")
     return parser.parse_args()
 
@@ -67,6 +70,13 @@ def platform_tag(plugin, machine):
     """The oldest manylinux that has the C library which plugin and PyMeshLab need."""
     needed = [int(minor) for minor in re.findall(rb"GLIBC_2\.(\d+)", read(plugin))]
     return f"manylinux_2_{max([GLIBC] + needed)}_{machine}"
+
+
+def description(readme):
+    """The README's example and what it says below it, up to the next heading."""
+    text = read(readme).decode()
+    code, said = re.search(r"```python\n(?:# pip [^\n]*\n)?(.*?)```\n\n(.*?)\n## ", text, re.DOTALL).groups()
+    return f"{said}\n```python\n{code}```\n{COMMAND}"
 
 
 def content(options, plugin):
@@ -83,7 +93,9 @@ def content(options, plugin):
         files[f"{information}/licenses/{name}"] = read(path)
         licences += f"License-File: {name}\n"
     files[f"{information}/METADATA"] = METADATA.format(
-        version=options.version, licences=licences).encode()
+        version=options.version, licences=licences, author=options.author,
+        description=description(options.readme)).encode()
+    files[f"{information}/entry_points.txt"] = SCRIPTS.encode()
     files[f"{information}/WHEEL"] = (
         "Wheel-Version: 1.0\nGenerator: make_wheel\nRoot-Is-Purelib: false\n"
         f"Tag: py3-none-{platform_tag(plugin, options.machine)}\n").encode()

@@ -127,7 +127,7 @@ STUB = LICENCE + '''\
 """Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab."""
 ''' + MADE + '''
 import os
-from typing import Any, Literal, Protocol, Union
+from typing import Any, Callable, Literal, NamedTuple, Protocol, Union
 
 import numpy
 import numpy.typing
@@ -148,12 +148,20 @@ EUCLIDEAN: str
 HYPERBOLIC: str
 
 class Refused(pymeshlab.PyMeshLabException):
-    """The mesh or a parameter is refused; the text says why. The mesh is unchanged."""
+    """The mesh is refused; the text says why. It is unchanged."""
 
 '''
 
-PARAMETRIZATION = '''class Parametrization:
-    """A mesh and its texture coordinates."""
+PARAMETRIZATION = '''class Layer(NamedTuple):
+    """A new layer: vertices (V, 3) float64, and what joins them."""
+
+    vertices: Array
+    faces: Array
+    edges: Array
+
+class Parametrization:
+    """A mesh and its texture coordinates. It can be pickled and copied, but for images of
+    textures."""
 
     vertices: Array
     """(V, 3) float64"""
@@ -167,14 +175,19 @@ PARAMETRIZATION = '''class Parametrization:
     """(V,) float64, logarithms of the radii of the flow's circles, up to a constant"""
     target_curvature: Array
     """(V,) float64, the Gaussian curvature that the flow reached, in radians"""
-    mesh_set: pymeshlab.MeshSet
-    """holds the mesh, and the new layers if some were asked for"""
+    @property
+    def layers(self) -> dict[str, Layer]:
+        """those that were asked for, by what they are: flat, sphere, disk, cover, axes, polygon"""
+    @property
+    def mesh_set(self) -> pymeshlab.MeshSet:
+        """holds the mesh, and the new layers if some were asked for"""
     results: dict[str, Any]
     """what the filter returned; each result is an attribute too"""
     def indexed(self) -> tuple[Array, Array]:
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes the mesh with its texture coordinates, to a PLY file with the quality too."""
+        """Writes the mesh with its texture coordinates: to PLY, with the quality too, OBJ, or with
+        trimesh GLB and glTF."""
 
 '''
 
@@ -183,6 +196,8 @@ def attributes(keys):
     lines = []
     for key, (kind, meaning) in keys.items():
         lines.append(f"    {key}: {TYPES[kind]}")
+        if key in ("generators", "generators_low"):
+            meaning += "; here (n, 2, 2) complex128, the matrices of the isometries"
         lines.append(wrapped(f'{meaning}"""', "    ", '    """', PYTHON_WIDTH))
     return "\n".join(lines) + "\n"
 
@@ -201,9 +216,11 @@ def stub_parameters(description, indent):
 
 def stub(both):
     euclidean, hyperbolic = DESCRIPTIONS
-    own = ("    mesh: MeshLike,\n    *,\n"
-           "    selected: Union[numpy.typing.ArrayLike, None] = None,\n"
-           "    curvature: Union[numpy.typing.ArrayLike, None] = None,\n")
+    own = ("    mesh: Union[MeshLike, numpy.typing.ArrayLike],\n"
+           "    faces: Union[numpy.typing.ArrayLike, None] = None,\n    *,\n"
+           "    selected: Union[numpy.typing.ArrayLike, set[int], None] = None,\n"
+           "    curvature: Union[numpy.typing.ArrayLike, None] = None,\n"
+           "    progress: Union[bool, Callable[[float, str], object], None] = None,\n")
     parts = [STUB, PARAMETRIZATION,
              "class Flattening(Parametrization):\n", attributes(both[0]),
              "\nclass Uniformization(Parametrization):\n    disk: Array\n"

@@ -144,12 +144,15 @@ make_venv() {
 		skipped "PyMeshLab: installed in build/venv, but it cannot be imported; see build/venv.log"
 }
 
-# Dask runs the Python package on a cluster; nothing else needs it.
-add_dask() {
+# What the Python package works with where it is installed: its tests try them, nothing else needs them.
+add_companions() {
 	[ -x "$build/venv/bin/pip" ] || return 0
-	"$build/venv/bin/python" -c 'import dask.distributed' 2>/dev/null ||
-		"$build/venv/bin/pip" install -q 'dask[distributed]' >>"$build/venv.log" 2>&1 ||
-		skipped "Dask: pip could not install it; see build/venv.log"
+	local name
+	for name in 'dask[distributed]' tqdm trimesh xatlas; do
+		"$build/venv/bin/pip" show -q "${name%%[*}" 2>/dev/null ||
+			"$build/venv/bin/pip" install -q "$name" >>"$build/venv.log" 2>&1 ||
+			skipped "$name: pip could not install it; see build/venv.log"
+	done
 }
 
 configure_and_build() {

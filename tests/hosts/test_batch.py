@@ -17,7 +17,7 @@ import meshes
 import textures
 
 try:
-    import pymeshlab  # noqa: F401
+    import pymeshlab
 except ImportError as problem:
     common.skip(f"PyMeshLab cannot be imported here: {problem}")
 try:
@@ -89,12 +89,12 @@ class Batch(unittest.TestCase):
         return {mesh: os.stat(os.path.join(self.out, mesh + ".json")).st_mtime_ns
                 for mesh in self.records()}
 
-    def check_solved(self, names):
+    def check_solved(self, names, genus=1):
         records = self.records()
         self.assertEqual(set(records), set(names))
         for name in names:
             self.assertEqual(records[name]["state"], "solved", records[name])
-            self.assertEqual(records[name]["results"]["genus"], 1)
+            self.assertIn(genus, (records[name]["results"]["genus"], None))
             mesh = meshes.read_ply(os.path.join(self.out, name + ".ply"))
             self.assertIsNotNone(mesh.wedges)
         with open(os.path.join(self.out, "results.csv"), encoding="utf-8", newline="") as source:
@@ -223,6 +223,67 @@ class Batch(unittest.TestCase):
         code, text = self.batch("--workers", "1", *disk, "--retry")
         self.assertEqual(code, 0, text)
         self.assertIn("1 to run", text)
+
+    def test_every_format_and_what_is_skipped(self):
+        for ending in ("3ds", "dae", "obj", "off", "ply", "stl", "wrl", "x3d"):
+            documents = pymeshlab.MeshSet()
+            documents.create_sphere(subdiv=2)
+            documents.save_current_mesh(os.path.join(self.meshes, f"ball.{ending}"))
+        for name in ("notes.md", "more/old.png", "more/LICENCE"):
+            with open(os.path.join(self.meshes, name), "w", encoding="utf-8") as other:
+                other.write("{}")
+        with open(os.path.join(self.meshes, "broken.ply"), "w", encoding="utf-8") as broken:
+            broken.write("ply\nformat ascii 1.0\nelement vertex 5\n")
+        code, text = self.batch()
+        self.assertEqual(code, 1, text)
+        self.assertRegex(text, r"Skipped: 1 x \.md, .*1 x \.png, 1 x without an ending")
+        states = {name: record["state"] for name, record in self.records().items()}
+        self.assertEqual(states.pop("broken.ply"), "unreadable")
+        self.assertEqual(set(states.values()), {"solved"}, self.records())
+        self.assertEqual({name.split(".")[1] for name in states},
+                         {"3ds", "dae", "obj", "off", "ply", "stl", "wrl", "x3d"})
+        self.assertIn("0 to run", self.batch()[1])
+
+    def test_out_is_in(self):
+        """Results are no meshes, and no mesh is replaced by a result."""
+        self.out = self.meshes
+        self.write("hill.ply", meshes.hill())
+        self.write("more/torus.ply", meshes.torus())
+        for ran in (2, 0):
+            code, text = self.batch("--flat-layer", "--report", "run.html")
+            self.assertEqual(code, 0, text)
+            self.assertIn(f"2 meshes, {2 - ran} done before, {ran} to run", text)
+            self.assertNotIn("Skipped", text)
+        self.write("hill.ply", meshes.hill(9))
+        self.assertIn("2 meshes, 1 done before, 1 to run", self.batch("--flat-layer", "--report",
+                                                                      "run.html")[1])
+        self.check_solved(["hill.ply", "more/torus.ply"], genus=None)
+        self.write("double.ply", meshes.double_torus())
+        self.write("double.ply.ply", meshes.torus())
+        code, text = self.batch()
+        self.assertEqual(code, 2, text)
+        self.assertIn("would replace the mesh", text)
+
+    def test_sentences(self):
+        """What cannot be done is said in one line, without a traceback."""
+        self.write("hill.ply", meshes.hill())
+        path = os.path.join(self.meshes, "hill.ply")
+        for mesh, out, options, code, pattern in (
+                ("nothing", "out", (), 2, "There is no file or folder"),
+                (self.meshes, "out", ("--workers", "-1"), 2, "'-1' is no whole number"),
+                (self.meshes, path, (), 1, "hill.ply: File exists"),
+                (path, "out.stl", (), 2, "OUT must end in .ply or .obj"),
+                (path, os.path.join(path, "out.ply"), (), 1, "hill.ply"),
+                (path, "out.ply", ("--target-curvature", "Disc"), 2, "did you mean 'Disk'"),
+                (path, "out.ply", ("--cone-distortion", "-1"), 1, "failed: .* cannot be used")):
+            with self.subTest(out=out, options=options):
+                done = subprocess.run(
+                    [sys.executable, "-m", "pymeshlab_ricci", mesh, out, *options],
+                    capture_output=True, text=True, env={**os.environ, "PYTHONPATH": PACKAGE})
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertRegex(done.stderr, pattern)
+                self.assertLessEqual(len(done.stderr.splitlines()), 2, done.stderr)
+                self.assertNotIn("Traceback", done.stderr)
 
     def test_interrupted(self):
         names = self.write_tori()

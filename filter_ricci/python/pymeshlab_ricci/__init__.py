@@ -17,12 +17,13 @@ from importlib.metadata import PackageNotFoundError, version
 from pymeshlab import Mesh, MeshSet
 
 from ._filters import EUCLIDEAN, HYPERBOLIC
-from ._parametrize import Flattening, Parametrization, Refused, Uniformization, flatten, uniformize
+from ._parametrize import (Flattening, Layer, Parametrization, Refused, Uniformization, flatten,
+                           uniformize)
 
 try:
     __version__ = version("pymeshlab-ricci")
 except PackageNotFoundError:
     __version__ = "unknown"
 
-__all__ = ["EUCLIDEAN", "HYPERBOLIC", "Flattening", "Mesh", "MeshSet", "Parametrization", "Refused",
-           "Uniformization", "flatten", "uniformize"]
+__all__ = ["EUCLIDEAN", "HYPERBOLIC", "Flattening", "Layer", "Mesh", "MeshSet", "Parametrization",
+           "Refused", "Uniformization", "flatten", "uniformize"]

@@ -3,7 +3,7 @@
 # Made by document_filters.py.
 
 import os
-from typing import Any, Literal, Protocol, Union
+from typing import Any, Callable, Literal, NamedTuple, Protocol, Union
 
 import numpy
 import numpy.typing
@@ -24,10 +24,18 @@ EUCLIDEAN: str
 HYPERBOLIC: str
 
 class Refused(pymeshlab.PyMeshLabException):
-    """The mesh or a parameter is refused; the text says why. The mesh is unchanged."""
+    """The mesh is refused; the text says why. It is unchanged."""
+
+class Layer(NamedTuple):
+    """A new layer: vertices (V, 3) float64, and what joins them."""
+
+    vertices: Array
+    faces: Array
+    edges: Array
 
 class Parametrization:
-    """A mesh and its texture coordinates."""
+    """A mesh and its texture coordinates. It can be pickled and copied, but for images of
+    textures."""
 
     vertices: Array
     """(V, 3) float64"""
@@ -41,14 +49,19 @@ class Parametrization:
     """(V,) float64, logarithms of the radii of the flow's circles, up to a constant"""
     target_curvature: Array
     """(V,) float64, the Gaussian curvature that the flow reached, in radians"""
-    mesh_set: pymeshlab.MeshSet
-    """holds the mesh, and the new layers if some were asked for"""
+    @property
+    def layers(self) -> dict[str, Layer]:
+        """those that were asked for, by what they are: flat, sphere, disk, cover, axes, polygon"""
+    @property
+    def mesh_set(self) -> pymeshlab.MeshSet:
+        """holds the mesh, and the new layers if some were asked for"""
     results: dict[str, Any]
     """what the filter returned; each result is an attribute too"""
     def indexed(self) -> tuple[Array, Array]:
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
-        """Writes the mesh with its texture coordinates, to a PLY file with the quality too."""
+        """Writes the mesh with its texture coordinates: to PLY, with the quality too, OBJ, or with
+        trimesh GLB and glTF."""
 
 class Flattening(Parametrization):
     converged: bool
@@ -367,10 +380,11 @@ class Uniformization(Parametrization):
     generators: Array
     """with Axes of the generators or Canonical polygon, one component only: Re a, Im a, Re b,
     Im b of the isometries z → (az + b)/(b̄z + ā), |a|² − |b|² = 1: a canonical basis a₁, b₁, …,
-    then one isometry for each boundary loop and cone; Π[aᵢ, bᵢ] Π eₖ = ±1"""
+    then one isometry for each boundary loop and cone; Π[aᵢ, bᵢ] Π eₖ = ±1; here (n, 2, 2)
+    complex128, the matrices of the isometries"""
     generators_low: Array
-    """with generators, number by number: what a float cannot hold of it. The sum has 31
-    digits"""
+    """with generators, number by number: what a float cannot hold of it. The sum has 31 digits;
+    here (n, 2, 2) complex128, the matrices of the isometries"""
     generators_error: float
     """with generators: largest entry of Π[aᵢ, bᵢ] Π eₖ ∓ 1 for the sums"""
 
@@ -481,10 +495,12 @@ class MeshSet(pymeshlab.MeshSet):
         """MeshLab's filter 'Generalized Ricci Flow (Hyperbolic)' on the current mesh."""
 
 def flatten(
-    mesh: MeshLike,
+    mesh: Union[MeshLike, numpy.typing.ArrayLike],
+    faces: Union[numpy.typing.ArrayLike, None] = None,
     *,
-    selected: Union[numpy.typing.ArrayLike, None] = None,
+    selected: Union[numpy.typing.ArrayLike, set[int], None] = None,
     curvature: Union[numpy.typing.ArrayLike, None] = None,
+    progress: Union[bool, Callable[[float, str], object], None] = None,
     target_curvature: Union[int, Literal[
         'Automatic',
         'Flat everywhere',
@@ -603,10 +619,12 @@ def flatten(
     """
 
 def uniformize(
-    mesh: MeshLike,
+    mesh: Union[MeshLike, numpy.typing.ArrayLike],
+    faces: Union[numpy.typing.ArrayLike, None] = None,
     *,
-    selected: Union[numpy.typing.ArrayLike, None] = None,
+    selected: Union[numpy.typing.ArrayLike, set[int], None] = None,
     curvature: Union[numpy.typing.ArrayLike, None] = None,
+    progress: Union[bool, Callable[[float, str], object], None] = None,
     target_curvature: Union[int, Literal[
         'Hyperbolic metric',
         'Cones at selected vertices',

@@ -6,16 +6,17 @@
     python -m pymeshlab_ricci meshes out --workers 8
     python -m pymeshlab_ricci meshes out --scheduler tcp://host:8786
 
-Each mesh is a process of its own: a crash ends that mesh and nothing else. The folder OUT gets for
-meshes/a/b.off the files a/b.off.ply and a/b.off.json, a/b.off.html for --report and a/b.off.png for
---carry-texture, and at the end results.csv with a row for each mesh and failures.txt with the
-meshes without a result. A run that was interrupted goes on where it stopped; a mesh runs again
+Each mesh is a process of its own: a crash ends that mesh and nothing else. The folder OUT, which may be
+the folder of the meshes, gets for meshes/a/b.off the files a/b.off.ply and a/b.off.json, a/b.off.html
+for --report and a/b.off.png for --carry-texture, and at the end results.csv with a row for each mesh and
+failures.txt with the meshes without a result. An OUT that is a file is replaced, even if it is IN. A run that was interrupted goes on where it stopped; a mesh runs again
 where mesh, parameters or plugin have changed. With a cluster, this package and both folders have
 to be on every machine, the folders at the same path.
 
 Layers (--flat-layer and others) are files beside OUT: scan.flat.ply.
 
-Exit: 0 the mesh is solved (in a folder: or refused, each of them), 1 it is not, 130 interrupted.
+Exit: 0 the mesh is solved (in a folder: or refused, each of them), 1 it is not, 2 a slip in the command,
+130 interrupted.
 """
 
 import argparse
@@ -24,19 +25,18 @@ import os
 import re
 import sys
 
-from . import _batch
-from ._filters import DESCRIPTIONS, plain
+from . import __version__, _batch
+from ._filters import DESCRIPTIONS, choice, plain
+from ._parametrize import FORMATS
 
 
-def choice(names):
+def chosen(names):
     """Reads one of the names, in any case, or its number."""
     def read(text):
-        if text.isdigit() and int(text) < len(names):
-            return names[int(text)]
-        for name in names:
-            if name.lower() == text.lower():
-                return name
-        raise argparse.ArgumentTypeError(f"{text!r} is none of {', '.join(names)}")
+        try:
+            return choice(text, names)
+        except ValueError as problem:
+            raise argparse.ArgumentTypeError(str(problem)) from None
     return read
 
 
@@ -51,21 +51,39 @@ def add_parameter(group, parameter):
     if kind == "bool":
         options["action"] = argparse.BooleanOptionalAction
     else:
-        options["type"] = {"enum": choice(parameter.get("choices", ())), "int": int, "float": float,
+        options["type"] = {"enum": chosen(parameter.get("choices", ())), "int": int, "float": float,
                            "file": str}[kind]
         options["metavar"] = {"enum": "CHOICE", "int": "N", "float": "X", "file": "FILE"}[kind]
     group.add_argument("--" + parameter["name"].replace("_", "-"), **options)
 
 
+class Parser(argparse.ArgumentParser):
+    """One whose errors are one sentence."""
+
+    def error(self, message):
+        self.exit(2, f"{message}\n{self.prog} --help shows what can be given.\n")
+
+
+def count(text):
+    """Reads a whole number from 1."""
+    if not text.isdigit() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"{text!r} is no whole number from 1")
+    return int(text)
+
+
 def parse(arguments):
-    parser = argparse.ArgumentParser(prog="python -m pymeshlab_ricci", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    name = os.path.basename(sys.argv[0])
+    parser = Parser(prog="python -m pymeshlab_ricci" if name == "__main__.py" else name,
+                    description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--version", action="version", version=f"pymeshlab-ricci {__version__}")
     parser.add_argument("mesh", metavar="IN", help="a mesh, or a folder, with everything below it")
-    parser.add_argument("out", metavar="OUT", help="a file (.ply, .obj), or a folder")
+    parser.add_argument("out", metavar="OUT", help=f"a file ({', '.join(FORMATS)}), or a folder")
+    parser.add_argument("--format", choices=[ending[1:] for ending in FORMATS], default="ply",
+                        help="of the results of a folder; glTF needs trimesh. Default: ply")
     parser.add_argument("--hyperbolic", action="store_true",
                         help="the hyperbolic filter, whose parameters --hyperbolic --help shows")
     parser.add_argument("--timeout", type=float, default=3600, help="seconds for one mesh")
-    parser.add_argument("--workers", type=int, default=os.cpu_count(), help="meshes at a time")
+    parser.add_argument("--workers", type=count, default=os.cpu_count(), help="meshes at a time")
     parser.add_argument("--scheduler", help="address of a Dask scheduler, or 'local' for Dask here")
     parser.add_argument("--retry", action="store_true", help="run crashes and timeouts again")
     parser.add_argument("--quiet", action="store_true", help="failures only")
@@ -145,15 +163,22 @@ def one_mesh(options):
     return 0
 
 
-def folder(options):
+def folder(parser, options):
     source, out = os.path.abspath(options.mesh), os.path.abspath(options.out)
-    names = _batch.find_meshes(source)
+    names, others = _batch.find_meshes(source)
+    if others and not options.quiet:
+        print("Skipped: " + ", ".join(f"{n} x {ending}" for ending, n in sorted(others.items())))
     if not names:
-        sys.exit(f"There are no meshes ({', '.join(_batch.ENDINGS)}) below {options.mesh}.")
+        parser.error(f"There are no meshes ({', '.join(_batch.ENDINGS)}) below {options.mesh}.")
+    targets = {name: os.path.join(out, f"{name}.{options.format}") for name in names}
+    for name in names:
+        if os.path.relpath(targets[name], source) in targets:
+            parser.error(f"The result of {name} would replace the mesh {targets[name]}: choose "
+                         "another OUT.")
     os.makedirs(out, exist_ok=True)
-    common = _batch.fingerprint(options.hyperbolic, options.parameters)
+    common = _batch.fingerprint(options.hyperbolic, options.format, options.parameters)
     marks = {name: _batch.mark_of(os.path.join(source, name), common) for name in names}
-    jobs = [make_job(options, os.path.join(source, name), name, os.path.join(out, name + ".ply"),
+    jobs = [make_job(options, os.path.join(source, name), name, targets[name],
                      _batch.record_path(out, name), marks[name])
             for name in names if not _batch.is_done(
                 _batch.read_record(_batch.record_path(out, name)), marks[name], options.retry)]
@@ -187,19 +212,30 @@ def runner(options):
     return _batch.by_dask(options.scheduler, options.workers)
 
 
-def main(arguments):
-    parser, options = parse(arguments)
+def solve(parser, options):
     if os.path.isdir(options.mesh):
-        return folder(options)
+        return folder(parser, options)
     if not os.path.isfile(options.mesh):
-        parser.error(f"there is no {options.mesh}")
-    if not re.search(r"\.(ply|obj)$", options.out, re.IGNORECASE):
-        parser.error("OUT must end in .ply or .obj")
+        parser.error(f"There is no file or folder {options.mesh}.")
+    if not options.out.lower().endswith(FORMATS):
+        parser.error(f"OUT must end in {' or '.join(FORMATS)}.")
+    return one_mesh(options)
+
+
+def main(arguments=None):
+    parser, options = parse(sys.argv[1:] if arguments is None else arguments)
     try:
-        return one_mesh(options)
+        return solve(parser, options)
     except KeyboardInterrupt:
         return 130
+    except BrokenPipeError:  # such as of `| head`
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except OSError as problem:
+        print(f"{problem.filename}: {problem.strerror}" if problem.filename else problem,
+              file=sys.stderr)
+        return 1
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

@@ -6,6 +6,7 @@ and a/b.off.ply. The record is written last. A mesh whose record is there is not
 mesh, parameters or plugin differ: a run that was interrupted goes on where it stopped. What an
 earlier run wrote for a mesh goes before it runs again."""
 
+import collections
 import concurrent.futures
 import contextlib
 import csv
@@ -19,27 +20,40 @@ import sys
 import threading
 import time
 
-from ._filters import PLUGIN
+from ._plugin import PLUGIN
 
-ENDINGS = (".ply", ".off", ".obj", ".stl")
-FINAL = ("solved", "refused")  # states that a second run would only repeat
+# Of the formats that PyMeshLab loads, those that hold faces.
+ENDINGS = tuple(".3ds .3mf .asc .bre .ctm .dae .fbx .glb .gltf .obj .off .ply .ptx .qobj .stl .vmi .wrl "
+                ".x3d .x3dv".split())
+ANSWERED = ("solved", "refused")
+FINAL = (*ANSWERED, "unreadable")  # states that a second run would only repeat
 FAILED = ("crashed", "timeout")
 
 
 def find_meshes(folder):
-    """Paths below the folder, relative to it, in order."""
-    found = []
+    """Paths below the folder, relative to it, in order; and of the other files, how many have which
+    ending. Files that a run has written there count as neither."""
+    found, others = [], collections.Counter()
     for place, _, names in os.walk(folder):
-        found += [os.path.relpath(os.path.join(place, name), folder)
-                  for name in names if name.lower().endswith(ENDINGS)]
-    return sorted(found)
+        written = {"results.csv", "failures.txt"}
+        for name in names:
+            record = read_record(os.path.join(place, name)) if name.endswith(".json") else {}
+            if {"mesh", "state", "files"} <= set(record):
+                written.update(record["files"], [name])
+        for name in set(names) - written:
+            ending = os.path.splitext(name)[1].lower()
+            if ending in ENDINGS:
+                found.append(os.path.relpath(os.path.join(place, name), folder))
+            else:
+                others[ending or "without an ending"] += 1
+    return sorted(found), others
 
 
-def fingerprint(hyperbolic, parameters):
+def fingerprint(*settings):
     """What the results depend on besides their meshes."""
     with open(PLUGIN, "rb") as plugin:
         digest = hashlib.sha256(plugin.read())
-    digest.update(json.dumps([hyperbolic, parameters], sort_keys=True).encode())
+    digest.update(json.dumps(settings, sort_keys=True).encode())
     return digest.hexdigest()[:16]
 
 
@@ -56,9 +70,10 @@ def record_path(out, name):
 def read_record(path):
     try:
         with open(path, encoding="utf-8") as source:
-            return json.load(source)
+            record = json.load(source)
     except (OSError, ValueError):
         return {}
+    return record if isinstance(record, dict) else {}
 
 
 def write_record(path, record):
@@ -221,4 +236,4 @@ def summarize(out, names):
         for record in records:
             if record["state"] != "solved":
                 target.write(f"{record['mesh']}\t{record['state']}\t{record.get('reason', '')}\n")
-    return sum(record["state"] not in FINAL for record in records)
+    return sum(record["state"] not in ANSWERED for record in records)

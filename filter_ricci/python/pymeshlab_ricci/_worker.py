@@ -7,10 +7,9 @@ import signal
 import sys
 
 import numpy
-import pymeshlab
 
-from . import flatten, uniformize
 from ._batch import partial_folder
+from ._parametrize import Refused, flatten, kind_of, load, uniformize
 
 
 def die_with_parent():
@@ -25,10 +24,8 @@ def die_with_parent():
 def save_layers(documents, stem):
     """The new layers: of mesh.ply, 'Flat mesh' is mesh.flat.ply."""
     current = documents.current_mesh_id()
-    label = documents.current_mesh().label()
-    layers = [(mesh.id(), mesh.label()) for mesh in documents if mesh.id() != current]
-    for number, name in layers:
-        kind = name.removesuffix(label).strip().lower().replace(" ", "-")
+    layers = [(mesh.id(), kind_of(mesh)) for mesh in documents if mesh.id() != current]
+    for number, kind in layers:
         documents.set_current_mesh(number)
         documents.save_current_mesh(f"{stem}.{kind}.ply")
     documents.set_current_mesh(current)
@@ -60,15 +57,22 @@ def main():
     die_with_parent()
     job = json.loads(sys.argv[1])
     solve = uniformize if job["hyperbolic"] else flatten
+    answer = {"files": []}
     try:
-        os.makedirs(os.path.dirname(job["target"]), exist_ok=True)  # for report and texture
-        result = solve(job["mesh"], **job["parameters"])
-        answer = {"state": "solved",
-                  "results": {key: numpy.asarray(value).tolist()
-                              for key, value in result.results.items()}}
-        answer["files"] = save(result, job["target"])
-    except pymeshlab.PyMeshLabException as refusal:
-        answer = {"state": "refused", "reason": " ".join(str(refusal).split()), "files": []}
+        mesh = load(job["mesh"])
+    except OSError as problem:
+        answer.update(state="unreadable", reason=str(problem))
+    else:
+        try:
+            os.makedirs(os.path.dirname(job["target"]), exist_ok=True)  # for report and texture
+            result = solve(mesh, **job["parameters"])
+            answer["files"] = save(result, job["target"])
+            answer.update(state="solved", results={key: numpy.asarray(value).tolist()
+                                                   for key, value in result.results.items()})
+        except Refused as refusal:
+            answer.update(state="refused", reason=" ".join(str(refusal).split()))
+        except (OSError, ValueError, ImportError) as problem:
+            answer.update(state="failed", reason=str(problem))
     answer["files"] += written_by_filter(job["parameters"])
     print("\n" + json.dumps(answer), flush=True)
 
