@@ -42,6 +42,7 @@ check_with_tools() {
 mkdir -p "$build/sources"
 say "Packages"
 install_packages "${packages_build[@]}" "${packages_test[@]}" "${packages_meshlab[@]}" "${packages_python[@]}"
+require_build_tools
 say "MeshLab's headers"
 fetch_sources 2020.09 2022.02 2025.07
 say "PyMeshLab"
