@@ -124,6 +124,7 @@ show_result() {
 mkdir -p "$build/sources"
 say "Packages"
 install_packages "${packages_build[@]}" "${packages_meshlab[@]}" "${packages_python[@]}"
+require_build_tools
 say "MeshLab's headers"
 fetch_sources 2020.09 2022.02 2025.07
 say "PyMeshLab"

@@ -31,6 +31,7 @@ junit_count() {
 mkdir -p "$build/sources"
 say "Packages"
 install_packages "${packages_build[@]}" "${packages_test[@]}" "${packages_meshlab[@]}" "${packages_python[@]}"
+require_build_tools
 say "MeshLab's headers"
 fetch_sources 2020.09 2022.02 2025.07
 say "PyMeshLab"

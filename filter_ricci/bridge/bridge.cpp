@@ -106,6 +106,16 @@ constexpr double kManyCoincident = 0.1;
 /// Sides of faces at chosen seams, for each face: beyond it they part more faces than they leave joined.
 constexpr int kManySeams = 2;
 
+/// Vertices, faces, and extents as the mesh is seen.
+std::string sizeOf(const CMeshO& m)
+{
+	std::string size = std::to_string(m.vn) + " vertices, " + std::to_string(m.fn) + " faces, ";
+	const Box3m box = m.trBB();
+	for (int k = 0; k < 3; ++k)
+		size += (k == 0 ? "" : " x ") + ricci::numberText(static_cast<double>(box.Dim()[k]), 4);
+	return size;
+}
+
 /// Whether the layer's matrix changes angles: what is seen then is another surface than the file's.
 bool isStretched(const CMeshO& m)
 {
@@ -210,12 +220,72 @@ private:
 	std::vector<MeshModel*> m_layers;
 };
 
+/// The colours of all vertices as one number, for knowing them again.
+std::size_t fingerprint(const CMeshO& m)
+{
+	std::size_t sum = 14695981039346656037u; // FNV-1a
+	for (const CVertexO& v : m.vert)
+		for (int k = 0; k < 4; ++k)
+			sum = (sum ^ v.cC()[k]) * 1099511628211u;
+	return sum;
+}
+
+/// The attribute of a mesh that holds the fingerprint of the colours which the filter has given it.
+const char* const kOwnColours = "ricci_colours";
+
+/// The paper's colours (5.1): blue where angles are kept, red at \p top and above.
+void colorizeByDistortion(MeshModel& model, double top)
+{
+	// The ramp of vcglib begins with red, so its ends change places.
+	vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(
+		model.cm, static_cast<Scalarm>(top), static_cast<Scalarm>(1.0));
+}
+
+/// Whether the colours show the distortion of an earlier run, and are not those that others have given.
+bool hasOwnColours(MeshModel& model)
+{
+	using Allocator = vcg::tri::Allocator<CMeshO>;
+	auto own = Allocator::FindPerMeshAttribute<std::size_t>(model.cm, kOwnColours);
+	return Allocator::IsValidHandle(model.cm, own) && own() == fingerprint(model.cm);
+}
+
+void removeColours(MeshModel& model)
+{
+	vcg::tri::UpdateColor<CMeshO>::PerVertexConstant(model.cm, vcg::Color4b(vcg::Color4b::White));
+	model.clearDataMask(MeshModel::MM_VERTCOLOR);
+}
+
+/// Shows a layer that lies in the plane of the charts beside the mesh and as large, by its matrix: its
+/// coordinates stay those of the charts.
+void placeBeside(const MeshModel& model, const Flow::Result& result, MeshModel& layer)
+{
+	ricci::Box2 charts;
+	for (const ricci::Chart& chart : result.charts)
+		charts.add(chart.box);
+	const Box3m mesh = model.cm.trBB();
+	if (mesh.IsNull()) // nobody has filled it in
+		return;
+	const double size = static_cast<double>(mesh.Dim()[mesh.MaxDim()]);
+	const double scale = size / charts.extent();
+	const ricci::Point2 middle = charts.centre();
+	const double to[3] = {
+		static_cast<double>(mesh.max[0]) + 0.1 * size + scale * (middle[0] - charts.min[0]),
+		static_cast<double>(mesh.Center()[1]),
+		static_cast<double>(mesh.Center()[2])};
+	layer.cm.Tr.SetScale(
+		static_cast<Scalarm>(scale), static_cast<Scalarm>(scale), static_cast<Scalarm>(scale));
+	for (int k = 0; k < 3; ++k)
+		layer.cm.Tr[k][3] = static_cast<Scalarm>(
+			to[k] - scale * (k < 2 ? middle[static_cast<std::size_t>(k)] : 0.0));
+}
+
 void addFlatLayer(
 	NewLayers& layers,
 	MeshModel& model,
 	const QString& name,
 	const Flow::Result& result,
-	const CarriedTexture& texture)
+	const CarriedTexture& texture,
+	double colourTop)
 {
 	MeshModel& flat = layers.add(name + " " + model.label());
 	flat.updateDataMask(MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTQUALITY);
@@ -226,6 +296,11 @@ void addFlatLayer(
 		texture.assignTo(flat);
 	else
 		host::copyTextures(model, flat);
+	if (colourTop > 1.0) {
+		flat.updateDataMask(MeshModel::MM_VERTCOLOR);
+		colorizeByDistortion(flat, colourTop);
+	}
+	placeBeside(model, result, flat);
 }
 
 void addCoverLayer(NewLayers& layers, MeshModel& model, int rings, const Flow::Result& result)
@@ -235,6 +310,7 @@ void addCoverLayer(NewLayers& layers, MeshModel& model, int rings, const Flow::R
 	Layers::BuildUniversalCover(result, rings, kMaxCoverFaces, cover.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(cover.cm);
 	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(cover.cm);
+	placeBeside(model, result, cover);
 }
 
 void addAxesLayer(NewLayers& layers, MeshModel& model, const Flow::Result& result)
@@ -242,6 +318,7 @@ void addAxesLayer(NewLayers& layers, MeshModel& model, const Flow::Result& resul
 	MeshModel& axes = layers.add("Axes " + model.label());
 	Layers::BuildAxes(result, kGeodesicPieces, axes.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(axes.cm);
+	placeBeside(model, result, axes);
 }
 
 void addPolygonLayer(NewLayers& layers, MeshModel& model, const Flow::Result& result)
@@ -257,6 +334,7 @@ void addPolygonLayer(NewLayers& layers, MeshModel& model, const Flow::Result& re
 					  ", and the last one ends " + ricci::numberText(polygon.gap, 2) +
 					  " beside the first corner.");
 	vcg::tri::UpdateBounding<CMeshO>::Box(layer.cm);
+	placeBeside(model, result, layer);
 }
 
 /// The mesh on the sphere.
@@ -266,14 +344,6 @@ void addSphereLayer(NewLayers& layers, MeshModel& model, const ricci::SphereMap&
 	Layers::BuildSphereMesh(model.cm, map, sphere.cm);
 	vcg::tri::UpdateBounding<CMeshO>::Box(sphere.cm);
 	vcg::tri::UpdateNormal<CMeshO>::PerVertexNormalizedPerFace(sphere.cm);
-}
-
-/// The paper's colours (5.1): blue where angles are kept, red at \p top and above.
-void colorizeByDistortion(MeshModel& model, double top)
-{
-	// The ramp of vcglib begins with red, so its ends change places.
-	vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(
-		model.cm, static_cast<Scalarm>(top), static_cast<Scalarm>(1.0));
 }
 
 /// The host draws nothing of what the filter writes until it is told to.
@@ -310,6 +380,8 @@ void writeMesh(
 	const Results& results,
 	const CarriedTexture& texture)
 {
+	const bool hadOwnColours = hasOwnColours(model);
+	auto own = vcg::tri::Allocator<CMeshO>::GetPerMeshAttribute<std::size_t>(model.cm, kOwnColours);
 	model.updateDataMask(changedElements(colorize, false, output));
 	if (output == ricci::OutputTriangulation::CommonRefinement) {
 		model.clearDataMask(MeshModel::MM_FACEFACETOPO | MeshModel::MM_VERTFACETOPO);
@@ -321,8 +393,12 @@ void writeMesh(
 		Flow::WriteWedgeTexCoord(model.cm, result);
 	}
 	texture.assignTo(model);
-	if (colorize)
+	if (colorize) {
 		colorizeByDistortion(model, colourRampTop(results));
+		own() = fingerprint(model.cm);
+	}
+	else if (hadOwnColours)
+		removeColours(model);
 }
 
 /// The flow with room for the gutter of a texture between its charts.
@@ -399,10 +475,11 @@ public:
 		RunReport report{
 			filterText(filter).name.toStdString(),
 			model.shortName().toStdString(),
+			sizeOf(model.cm),
 			settingsAsText(par),
 			result.notes,
 			results,
-			result.report};
+			result};
 		report.notes.insert(report.notes.end(), sentences.begin(), sentences.end());
 		m_report.write(report);
 		NewLayers layers(m_md);
@@ -412,10 +489,10 @@ public:
 		texture.publish();
 		for (const std::string& file : m_report.publish())
 			ricci::logLine("Report: " + file);
+		const bool recolours = m_settings.colorize || hasOwnColours(model);
 		writeMesh(model, m_settings.colorize, output, result, results, texture);
 		layers.keep();
-		return {
-			results, sentences, changedElements(m_settings.colorize, texture.isWanted(), output)};
+		return {results, sentences, changedElements(recolours, texture.isWanted(), output)};
 	}
 
 	ricci::Task task;
@@ -480,7 +557,13 @@ Outcome applyEuclidean(const RichParameterList& par, MeshDocument& md, ricci::Pr
 		addSphereResults(sphere, results);
 	return run.end(Euclidean, par, settings.flow.output, result, results, [&](NewLayers& layers) {
 		if (settings.flatLayer)
-			addFlatLayer(layers, run.model, "Flat", result, run.texture);
+			addFlatLayer(
+				layers,
+				run.model,
+				"Flat",
+				result,
+				run.texture,
+				settings.colorize ? colourRampTop(results) : 0.0);
 		if (settings.sphereLayer)
 			addSphereLayer(layers, run.model, sphere);
 	});
@@ -500,7 +583,13 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 		addGenerators(result.charts.front().group, results);
 	return run.end(Hyperbolic, par, settings.flow.output, result, results, [&](NewLayers& layers) {
 		if (settings.flatLayer)
-			addFlatLayer(layers, run.model, "Disk", result, run.texture);
+			addFlatLayer(
+				layers,
+				run.model,
+				"Disk",
+				result,
+				run.texture,
+				settings.colorize ? colourRampTop(results) : 0.0);
 		if (settings.coverRings > 0)
 			addCoverLayer(layers, run.model, settings.coverRings, result);
 		if (settings.axes)

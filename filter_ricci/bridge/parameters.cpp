@@ -164,16 +164,13 @@ RichEnum outputTriangulationParameter(ricci::OutputTriangulation chosen)
 		static_cast<int>(chosen),
 		outputTriangulationChoices(),
 		"Output triangulation",
-		"<b>Keep the mesh</b>: vertices and faces stay as they are. <b>Common refinement</b>: "
-		"faces are divided where the flow's edges cross them, so that the map is exact on every "
-		"piece.");
+		"<b>Common refinement</b>: faces are divided where the flow's edges cross them, so that "
+		"the map is exact on every piece.");
 }
 
 const char* const kSeamsName = "Seams";
-const char* const kSeamsTip =
-	"<b>Shortest</b>: as short as can be. The others open the surface where you choose, and it is "
-	"cut further only where it has to be: where the <b>texture</b> of the mesh jumps, along "
-	"<b>selected edges</b> ('Select Crease Edges'), or <b>around the selected faces</b>.";
+const char* const kSeamsTip = "<b>Shortest</b>, or first where you choose: at texture seams, along "
+							  "selected edges ('Select Crease Edges'), or round selected faces.";
 
 const char* const kFinishTip =
 	"What is done to the flow's map before it is stored: faces that would come out flipped are "
@@ -185,8 +182,8 @@ RichBool colorizeParameter()
 		"colorize",
 		false,
 		"Colour by distortion",
-		"Colour the vertices by their quasi-conformal distortion: from blue (1: angles "
-		"kept) over cyan, green and yellow to red (the 99th percentile over the faces, and more).");
+		"Colour the vertices from blue (angles kept) over cyan, green and yellow to red (the 99th "
+		"percentile over the faces, and more).");
 }
 
 /// The last parameters of both filters: files to write, and how accurate and how long a run may be.
@@ -234,32 +231,28 @@ RichParameterList euclideanParameters(Shown shown)
 		static_cast<int>(defaults.target),
 		targetCurvatureChoices(),
 		"Target curvature",
-		"The curvature that the flow is asked to reach. <b>Automatic</b> suits most meshes: "
-		"flat, or with the metric of the boundary kept, and with cones where areas would change "
-		"much."));
+		"What the flow is asked to reach. <b>Automatic</b> suits most meshes: it places cones "
+		"where areas would change much."));
 	list.addParam(RichBool(
 		"free_boundary",
 		defaults.freeBoundary,
 		"Free boundary",
-		"The flow keeps the metric that the boundary has on the mesh, which distorts least; the "
-		"finish then changes its lengths a little, by the factors in the log. Disk, Rectangle and "
-		"the flat annulus prescribe the boundary and ignore this."));
+		"The boundary keeps its lengths, but for what the finish changes. Not read for Disk, "
+		"Rectangle and the flat annulus."));
 	list.addParam(RichFloat(
 		"cone_distortion",
 		static_cast<Scalarm>(defaults.cones.distortion),
 		"Cones: area distortion",
-		"0: as many cones as lower the distortion by more than their seams cost. Above 0: cones "
-		"are "
-		"added until areas typically change by less than this, relative to each other (0.25: by a "
-		"quarter). Read where cones are placed and their number is 0."));
+		"0: the cones that are worth their seams. Above 0: so many that areas change by less than "
+		"this (0.25: by a quarter)."));
 	list.addParam(RichEnum("seams", 0, seamsChoices(), kSeamsName, kSeamsTip));
 	list.addParam(outputTriangulationParameter(defaults.output));
 	list.addParam(RichFloat(
 		"chart_margin",
 		static_cast<Scalarm>(Flow::Params().chartMargin),
 		"Margin of the charts",
-		"Room between two charts, and between the charts and the border, as a share of the side "
-		"of the square, for baking textures. 0.004 is 4 pixels of an image 1024 wide, 8 of 2048."));
+		"Room round each chart, as a share of the side of the square, for baking. 0.004: 4 pixels "
+		"of 1024, 8 of 2048."));
 	list.addParam(colorizeParameter());
 	list.addParam(RichBool(
 		"flat_layer",

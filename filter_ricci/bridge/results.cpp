@@ -9,6 +9,7 @@
 #include <ios>
 #include <limits>
 #include <locale>
+#include <map>
 #include <optional>
 #include <ostream>
 #include <sstream>
@@ -138,6 +139,77 @@ Results toResults(const ricci::Report& report)
 	addIfPresent(results, "hyperbolic_area", report.hyperbolicArea);
 	addIfPresent(results, "relation_error", report.relationError);
 	return results;
+}
+
+std::string resultLabel(const std::string& key)
+{
+	static const std::map<std::string, const char*> labels = {
+		{"converged", "Converged"},
+		{"iterations", "Newton steps"},
+		{"max_curvature_error", "Largest error of the curvature (rad)"},
+		{"residual_floor", "Least error that rounding allows (rad)"},
+		{"lengthened", "Largest share added to an edge of faces without area"},
+		{"qc_mean", "Distortion of angles, mean over faces (1: none)"},
+		{"qc_vertex_mean", "Distortion of angles, mean over vertices"},
+		{"qc_area_mean", "Distortion of angles, mean by area"},
+		{"qc_p99", "Distortion of angles, 99th percentile"},
+		{"qc_max", "Distortion of angles, largest"},
+		{"area_distortion_mean", "Distortion of areas, mean factor (1: none)"},
+		{"area_distortion_spread", "Distortion of areas, spread of the logarithm"},
+		{"flipped_faces", "Faces turned over or without area"},
+		{"flipped_by_rounding", "Further ones as floats"},
+		{"finish_moved", "Points moved by the repair"},
+		{"ended_early", "Searches ended by the bound on their work"},
+		{"flips", "Flips of edges"},
+		{"refinement_points", "Points added by the refinement"},
+		{"edge_swaps", "Edges swapped"},
+		{"boundary_splits", "Boundary edges split"},
+		{"euler_characteristic", "Euler characteristic"},
+		{"genus", "Genus"},
+		{"boundary_loops", "Boundary loops"},
+		{"components", "Components"},
+		{"cut_nonmanifold_edges", "Non-manifold edges, cut open"},
+		{"split_vertices", "Vertices with several places"},
+		{"duplicate_faces", "Faces with the vertices of another"},
+		{"one_sided_components", "One-sided components, cut open"},
+		{"degenerate_faces", "Faces drawn as a segment or a point"},
+		{"cones", "Cones"},
+		{"chosen_seam_edges", "Edges of the chosen seams"},
+		{"chosen_seam_length", "Length of the chosen seams"},
+		{"seam_edges", "Edges of the other seams"},
+		{"seam_length", "Length of the other seams"},
+		{"seam_length_relative", "The same over the root of the area"},
+		{"charts", "Charts"},
+		{"occupancy", "Share of the square that is covered"},
+		{"capped_holes", "Holes capped"},
+		{"overlapping_charts", "Charts that overlap"},
+		{"overlapping_faces", "Faces that overlap"},
+		{"overlap_cuts", "Edges cut against overlap"},
+		{"stretch", "Stretch, mean by area (4: none)"},
+		{"objective", "Stretch and the price of the seams"},
+		{"target_used", "Target used, by its number"},
+		{"expected_spread", "Spread of areas that was expected"},
+		{"cone_vertices", "Vertices of the placed cones"},
+		{"cone_curvatures", "Curvatures of the placed cones (rad)"},
+		{"boundary_ratio_min", "Boundary edges: least change of length"},
+		{"boundary_ratio_max", "Boundary edges: largest change of length"},
+		{"torus_tau_re", "Modulus of the torus, real part"},
+		{"torus_tau_im", "Modulus of the torus, imaginary part"},
+		{"annulus_modulus", "Modulus of the annulus"},
+		{"rectangle_aspect", "Longer over shorter side of the rectangle"},
+		{"holonomy_error", "Largest error of a quarter turn (rad)"},
+		{"period_matrix", "Period matrix"},
+		{"period_error", "Bound of its error"},
+		{"texture_scale", "Texels for a unit of length, new over old"},
+		{"sphere_qc_area_mean", "Sphere: distortion of angles, mean by area"},
+		{"sphere_area_distortion_mean", "Sphere: distortion of areas, mean factor"},
+		{"sphere_flipped_faces", "Sphere: faces turned over"},
+		{"hyperbolic_area", "Hyperbolic area"},
+		{"relation_error", "How far the layout is from closing up"},
+		{"generators", "Generators of the Fuchsian group"},
+		{"generators_low", "The same, what a float cannot hold of them"},
+		{"generators_error", "Error of their relation"}};
+	return labels.at(key);
 }
 
 void addPlacedCones(const ricci::Parametrization& map, Results& results)

@@ -15,6 +15,9 @@ namespace filter_ricci {
 /// The report under the names that scripts read; an invariant that does not exist is left out.
 Results toResults(const ricci::Report& report);
 
+/// What a person calls the result with that key.
+std::string resultLabel(const std::string& key);
+
 /// Adds the cones that were placed, if any.
 void addPlacedCones(const ricci::Parametrization& map, Results& results);
 

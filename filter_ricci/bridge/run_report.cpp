@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "run_report.h"
 
+#include "charts_picture.h"
 #include "error_sentences.h"
 #include "output_path.h"
 #include "results.h"
@@ -11,6 +12,7 @@
 #include <limits>
 #include <locale>
 #include <sstream>
+#include <utility>
 
 namespace filter_ricci {
 
@@ -240,16 +242,23 @@ const char* const kStyle =
 	"body{font:15px/1.45 system-ui,sans-serif;max-width:1180px;margin:2em auto;padding:0 1em;"
 	"color:#222;background:#fff}\n"
 	"h1{font-size:1.5em}h2{font-size:1.1em;margin:1.6em 0 .3em}\n"
-	".pair{display:flex;flex-wrap:wrap;gap:2em}.pair>section{flex:1 1 480px;max-width:575px}\n"
-	"section>p{margin:0}svg{width:100%;height:auto;font:12px system-ui,sans-serif}\n"
+	".all{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(480px,100%),1fr));gap:0 "
+	"2em}\n"
+	".all>*{min-width:0}\n"
+	"section>p{margin:0}svg{width:100%;height:auto;font:12px "
+	"system-ui,sans-serif}svg.charts{font-size:9px}\n"
 	".bar{fill:#3b6ea5}.line{fill:none;stroke:#b5462f;stroke-width:1.5}.dot{fill:#b5462f}\n"
 	".axis{stroke:#222}.grid{stroke:#ddd}\n"
+	".frame{fill:none;stroke:#ddd}.outline{fill:none;stroke:#222;stroke-width:.5}\n"
 	"table{border-collapse:collapse}td,th{padding:.15em 1em .15em 0;text-align:left;"
-	"border-bottom:1px solid #e4e4e4;font-variant-numeric:tabular-nums}\n";
+	"border-bottom:1px solid #e4e4e4;font-variant-numeric:tabular-nums;vertical-align:top}\n"
+	"td:first-child{min-width:13em}td:last-child{overflow-wrap:anywhere}code{font-size:12px;color:#"
+	"666}\n";
 
-std::string tableRow(const std::string& key, const std::string& value)
+std::string tableRow(const ReportLine& line)
 {
-	return "<tr><td>" + escaped(key) + "</td><td>" + escaped(value) + "</td></tr>\n";
+	return "<tr><td>" + escaped(line.label) + "</td><td><code>" + escaped(line.key) +
+		   "</code></td><td>" + escaped(line.value) + "</td></tr>\n";
 }
 
 void addHistogram(std::ostream& csv, const char* start, const ricci::Histogram& h)
@@ -283,9 +292,9 @@ void fill(QSaveFile& file, const std::string& content)
 
 } // namespace
 
-std::vector<std::pair<std::string, std::string>> settingsAsText(const RichParameterList& par)
+std::vector<ReportLine> settingsAsText(const RichParameterList& par)
 {
-	std::vector<std::pair<std::string, std::string>> settings;
+	std::vector<ReportLine> settings;
 	for (const RichParameter& p : par) {
 		std::ostringstream value = plainStream(7);
 		if (const auto* choice = dynamic_cast<const RichEnum*>(&p)) {
@@ -308,23 +317,28 @@ std::vector<std::pair<std::string, std::string>> settingsAsText(const RichParame
 			value << host::text(par, p.name()).toStdString();
 		else
 			continue;
-		settings.emplace_back(p.name().toStdString(), value.str());
+		settings.push_back(
+			{p.name().toStdString(), p.fieldDescription().toStdString(), value.str()});
 	}
 	return settings;
 }
 
 std::string toHtml(const RunReport& report)
 {
-	const ricci::Histogram& qc = report.data.qcHistogram;
-	const ricci::Histogram& areas = report.data.areaHistogram;
+	const ricci::Report& data = report.map.report;
+	const ricci::Histogram &qc = data.qcHistogram, &areas = data.areaHistogram;
 	std::ostringstream page = plainStream(10);
 	page << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>"
 		 << escaped(report.filter + ": " + report.mesh) << "</title>\n<style>\n"
 		 << kStyle << "</style>\n</head>\n<body>\n<h1>" << escaped(report.filter) << "</h1>\n<p>"
-		 << escaped(report.mesh) << "</p>\n";
+		 << escaped(report.mesh) << "</p>\n<p>" << escaped(report.size) << "</p>\n";
 	for (const std::string& note : report.notes)
 		page << "<p>" << escaped(note) << "</p>\n";
-	page << "<div class=\"pair\">\n<section>\n<h2>Quasi-conformal distortion of the vertices</h2>\n"
+	page << "<div class=\"all\">\n<section>\n<h2>Charts</h2>\n"
+		 << chartsPicture(report.map.mesh)
+		 << "<p>The colour is the scale: the share of a face's area in the plane over its share in "
+			"space.</p>\n</section>\n<div>\n<section>\n"
+		 << "<h2>Quasi-conformal distortion of the vertices</h2>\n"
 		 << histogramPicture(
 				qc, "&sigma;&#8321;/&sigma;&#8322;, mean of the faces at the vertex by area")
 		 << "<p>1 where angles are kept. " << qc.above
@@ -334,18 +348,19 @@ std::string toHtml(const RunReport& report)
 		 << histogramPicture(areas, "log&#8322; of the share in the plane over the share in space")
 		 << "<p>0 where areas keep their ratios. " << areas.below + areas.above
 		 << " faces lie beyond the scale.</p>\n"
-		 << "</section>\n<section>\n<h2>Largest curvature error before each Newton step</h2>\n"
-		 << residualPicture(report.data)
-		 << "<p>max |K&#772; &minus; K| in radians; a line for each solve of each component"
-		 << (statesByComponent(report.data).size() > kMaxLines ? ", the first 20" : "")
-		 << ".</p>\n</section>\n</div>\n";
-	page << "<div class=\"pair\">\n<section>\n<h2>Results</h2>\n<table>\n";
+		 << "</section>\n</div>\n<section>\n<h2>Results</h2>\n<table>\n";
 	for (const auto& [key, value] : report.results)
-		page << tableRow(key, text(value));
-	page << "</table>\n</section>\n<section>\n<h2>Parameters</h2>\n<table>\n";
-	for (const auto& [id, value] : report.settings)
-		page << tableRow(id, value);
-	page << "</table>\n</section>\n</div>\n</body>\n</html>\n";
+		page << tableRow({key, resultLabel(key), text(value)});
+	page
+		<< "</table>\n</section>\n<div>\n<section>\n<h2>Largest curvature error before each Newton "
+		   "step</h2>\n"
+		<< residualPicture(data)
+		<< "<p>max |K&#772; &minus; K| in radians; a line for each solve of each component"
+		<< (statesByComponent(data).size() > kMaxLines ? ", the first 20" : "")
+		<< ".</p>\n</section>\n<section>\n<h2>Parameters</h2>\n<table>\n";
+	for (const ReportLine& line : report.settings)
+		page << tableRow(line);
+	page << "</table>\n</section>\n</div>\n</div>\n</body>\n</html>\n";
 	return page.str();
 }
 
@@ -355,14 +370,14 @@ std::string toCsv(const RunReport& report)
 	csv << "table,group,key,value\n";
 	csv << "setting,,filter," << csvField(report.filter) << "\n";
 	csv << "setting,,mesh," << csvField(report.mesh) << "\n";
-	for (const auto& [id, value] : report.settings)
-		csv << "setting,," << id << "," << csvField(value) << "\n";
+	for (const ReportLine& line : report.settings)
+		csv << "setting,," << line.key << "," << csvField(line.value) << "\n";
 	for (const auto& [key, value] : report.results)
 		csv << "result,," << key << "," << csvField(text(value)) << "\n";
-	for (const ricci::FlowState& state : report.data.flowStates)
+	for (const ricci::FlowState& state : report.map.report.flowStates)
 		csv << "newton," << state.component << "," << state.step << "," << state.residual << "\n";
-	addHistogram(csv, "qc_histogram,vertices,", report.data.qcHistogram);
-	addHistogram(csv, "area_histogram,faces,", report.data.areaHistogram);
+	addHistogram(csv, "qc_histogram,vertices,", report.map.report.qcHistogram);
+	addHistogram(csv, "area_histogram,faces,", report.map.report.areaHistogram);
 	return csv.str();
 }
 

@@ -5,30 +5,36 @@
 
 #include "bridge.h"
 
-#include <ricci/report.h>
+#include <ricci/charts/parametrization.h>
 
 #include <QSaveFile>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace filter_ricci {
 
+/// A parameter or a result.
+struct ReportLine
+{
+	std::string key, label, value;
+};
+
 struct RunReport
 {
-	std::string filter, mesh;                                  ///< their names
-	std::vector<std::pair<std::string, std::string>> settings; ///< parameter id, value as text
-	std::vector<std::string> notes;                            ///< what the log said of the mesh
+	std::string filter, mesh; ///< their names
+	std::string size;         ///< of the mesh, as part of a sentence
+	std::vector<ReportLine> settings;
+	std::vector<std::string> notes; ///< what the log said of the mesh
 	Results results;
-	ricci::Report data;
+	const ricci::Parametrization& map;
 };
 
 /// The parameters as text, choices by their names.
-std::vector<std::pair<std::string, std::string>> settingsAsText(const RichParameterList& par);
+std::vector<ReportLine> settingsAsText(const RichParameterList& par);
 
-/// The page: histograms of the distortion and of the area factors, residual of every Newton step,
-/// tables of results and settings; pictures are SVG inside it. UTF-8.
+/// The page: the charts, histograms of the distortion and of the area factors, residual of every Newton
+/// step, tables of results and settings; pictures are SVG inside it. UTF-8.
 std::string toHtml(const RunReport& report);
 
 /// The same data as rows "table,group,key,value": tables "setting" and "result" without a group,

@@ -6,6 +6,7 @@
 
 #include <QCoreApplication>
 #include <QSettings>
+#include <QStringList>
 
 namespace {
 
@@ -21,6 +22,33 @@ filter_ricci::Shown shownParameters()
 		return filter_ricci::Shown::All;
 	return filter_ricci::Shown::Basic;
 }
+
+/// Characters in a line of the dialog's help.
+constexpr int kHelpWidth = 62;
+
+/// The dialog has room for the lines of help that the text itself begins, and cuts off those that it breaks.
+struct Help : RichParameter
+{
+	static void breakLines(RichParameter& parameter)
+	{
+		QString& text = parameter.*&Help::tooltip;
+		QStringList lines;
+		int width = kHelpWidth;
+		for (const QString& word : text.split(' ')) {
+			QString plain = word;
+			const int length = plain.remove("<b>").remove("</b>").length();
+			if (width + 1 + length <= kHelpWidth) {
+				lines.back() += "&nbsp;" + word;
+				width += 1 + length;
+			}
+			else {
+				lines << word;
+				width = length;
+			}
+		}
+		text = lines.join("<br>");
+	}
+};
 
 } // namespace
 
@@ -69,7 +97,10 @@ int FilterRicciPlugin::postCondition(QAction*) const
 // The variant with a document, because the host's default asks a document without a mesh for one.
 void FilterRicciPlugin::initParameterSet(QAction* action, MeshDocument&, RichParameterList& par)
 {
-	par.join(filter_ricci::filterParameters(ID(action), shownParameters()));
+	RichParameterList list = filter_ricci::filterParameters(ID(action), shownParameters());
+	for (RichParameter& parameter : list)
+		Help::breakLines(parameter);
+	par.join(list);
 }
 
 // Called for each filter.

@@ -7,3 +7,14 @@ else()
 	set(CPACK_COMPONENTS_ALL ${CPACK_RICCI_HOSTS})
 	set(CPACK_PACKAGING_INSTALL_PREFIX /)
 endif()
+
+# The time in archives and packages, so that two builds of one commit give the same bytes; outside a
+# repository, when the sources' list of changes was last written.
+if(NOT DEFINED ENV{SOURCE_DATE_EPOCH})
+	execute_process(COMMAND git -C "${CPACK_RICCI_SOURCE_DIR}" log -1 --format=%ct
+		OUTPUT_VARIABLE time OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+	if(NOT time)
+		file(TIMESTAMP "${CPACK_RICCI_SOURCE_DIR}/CHANGELOG.md" time "%s" UTC)
+	endif()
+	set(ENV{SOURCE_DATE_EPOCH} "${time}")
+endif()

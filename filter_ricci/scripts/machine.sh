@@ -108,14 +108,22 @@ fetch_sources() {
 }
 
 fetch_source() {
-	local version=$1 revision target=$build/sources/meshlab-$1 work=$build/sources/download-$1
+	local version=$1 revision reason error target=$build/sources/meshlab-$1 work=$build/sources/download-$1
+	reason="Debian's archive cannot be reached"
+	! compgen -G "$build/sources/apt/lists/*Sources*" >/dev/null ||
+		reason="Debian's archive has no such source package"
 	rm -rf "$work"
-	mkdir -p "$work/tree"
 	while read -r revision; do
 		echo "MeshLab $version: fetching the source of Debian's $revision"
+		rm -rf "$work"
+		mkdir -p "$work/tree"
 		(cd "$work" && apt-get "${apt_options[@]}" source -q --download-only --tar-only \
 			"meshlab=$revision") >>"$build/sources/apt.log" 2>&1 || true
-		if tar -xf "$work"/meshlab_*.orig.tar.* -C "$work/tree" --strip-components=1 2>/dev/null; then
+		if ! compgen -G "$work/meshlab_*.orig.tar.*" >/dev/null; then
+			reason="Debian's source package cannot be downloaded"
+		elif ! error=$(tar -xf "$work"/meshlab_*.orig.tar.* -C "$work/tree" --strip-components=1 2>&1); then
+			reason="Debian's source package cannot be unpacked: ${error%%$'\n'*}"
+		else
 			mv "$work/tree" "$target"
 			rm -rf "$work"
 			return 0
@@ -123,7 +131,7 @@ fetch_source() {
 	done < <(apt-cache "${apt_options[@]}" showsrc meshlab 2>/dev/null |
 		sed -n 's/^Version: //p' | grep -F "$version" | sort -ruV)
 	rm -rf "$work"
-	skipped "MeshLab $version: Debian's archive has no such source package; see build/sources/apt.log"
+	skipped "MeshLab $version: $reason; see build/sources/apt.log"
 }
 
 # A Python with PyMeshLab in build/venv, where a package index can be reached.
@@ -155,9 +163,17 @@ add_companions() {
 	done
 }
 
+# Without these whatever else is fetched is of no use.
+require_build_tools() {
+	local tool missing=()
+	for tool in cmake "${CXX:-c++}"; do
+		command -v "$tool" >/dev/null || missing+=("$tool")
+	done
+	[ ${#missing[@]} -eq 0 ] || { echo "Not installed: ${missing[*]}. Nothing can be built."; return 1; }
+}
+
 configure_and_build() {
 	local generator=()
-	command -v cmake >/dev/null || { echo "cmake is missing: nothing can be built."; return 1; }
 	command -v ninja >/dev/null && [ ! -f "$build/CMakeCache.txt" ] && generator=(-G Ninja)
 	cmake -S "$root" -B "$build" "${generator[@]}" "$@"
 	cmake --build "$build" --parallel "$(nproc)"

@@ -86,12 +86,16 @@ close_meshlab() {
 	meshlab_pid=
 }
 
-# open_filter NAME: through the search field, as a user would.
-open_filter() {
+search() {
 	xdotool key --window "$main_window" ctrl+f
 	sleep 1
 	xdotool type --delay 20 "$1"
 	sleep 1
+}
+
+# open_filter NAME: through the search field, as a user would.
+open_filter() {
+	search "$1"
 	xdotool key Down
 	sleep 0.5
 	xdotool key Return

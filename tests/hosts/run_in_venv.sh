@@ -5,8 +5,6 @@ set -euo pipefail
 build=$1 script=$2
 shift 2
 python=$build/venv/bin/python
-if [ ! -x "$python" ]; then
-	echo "SKIPPED: there is no Python with PyMeshLab in build/venv"
-	exit 77
-fi
+[ -x "$python" ] || { echo "SKIPPED: there is no Python in build/venv"; exit 77; }
+"$python" -c 'import pymeshlab' || { echo "SKIPPED: the Python in build/venv cannot import PyMeshLab"; exit 77; }
 exec "$python" "$script" "$build" "$@"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # test_packages.sh BUILD_DIR: what a person installs is complete, needs only what its host brings, and
-# can be taken back. Exit 77: CPack is missing.
+# can be taken back; packed twice it is the same, byte for byte. Exit 77: CPack is missing.
 set -euo pipefail
 build=$(cd "${1:?usage: test_packages.sh BUILD_DIR}" && pwd)
 folder=$(mktemp -d)
@@ -34,7 +34,7 @@ hosts() {
 check_folder() {
 	local file kind=mlx
 	[[ $2 != pymeshlab* ]] || kind=py
-	for file in libfilter_ricci.so INSTALL.txt LICENSE; do
+	for file in libfilter_ricci.so INSTALL.txt LICENSE copyright; do
 		[ -s "$1/$2/$file" ] || fail "$1/$2 has no $file"
 	done
 	compgen -G "$1/$2/samples/*.$kind" >/dev/null || fail "$1/$2 has no samples"
@@ -88,10 +88,19 @@ uninstall() {
 		fail "uninstall"
 }
 
-check_packages() {
-	(cd "$folder" && cpack --config "$build/CPackConfig.cmake" -B "$folder/packages" >"$folder/log" 2>&1) ||
+pack() {
+	(cd "$folder" && cpack --config "$build/CPackConfig.cmake" -B "$folder/$1" >"$folder/log" 2>&1) ||
 		{ tail -n 20 "$folder/log"; fail "cpack"; }
+}
+
+check_packages() {
 	local host archive
+	pack packages
+	sleep 2 # the time is not in them
+	pack again
+	for archive in "$folder"/packages/*.*; do
+		[ -d "$archive" ] || cmp "$archive" "$folder/again/${archive##*/}" || fail "packing is not reproducible"
+	done
 	for host in $(hosts); do
 		archive=$(compgen -G "$folder/packages/$name-*-$host-*.tar.gz") || fail "no archive for $host"
 		tar -xzf "$archive" -C "$folder"
@@ -109,7 +118,11 @@ check_deb() {
 	done
 	dpkg-deb -c "$1" >"$folder/content"
 	grep -q '/usr/lib/[^/]*/meshlab/plugins/libfilter_ricci.so$' "$folder/content" || fail "the .deb has no plugin"
-	grep -q "/usr/share/doc/$name/copyright$" "$folder/content" || fail "the .deb has no licence"
+	dpkg-deb --fsys-tarfile "$1" | tar -xO "./usr/share/doc/$name/copyright" >"$folder/copyright" ||
+		fail "the .deb has no copyright file"
+	for wanted in 'Copyright: .*generalized_ricci_flow authors' 'Copyright: .*Eigen' 'Comment: vcglib' 'GPL-3+' 'MPL-2.0'; do
+		grep -q "$wanted" "$folder/copyright" || fail "the copyright file does not name $wanted"
+	done
 }
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

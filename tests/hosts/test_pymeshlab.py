@@ -172,6 +172,29 @@ class Results(unittest.TestCase):
         corners = flat.vertex_matrix()[flat.face_matrix()][:, :, :2]
         wedges = flat.wedge_tex_coord_matrix().reshape(-1, 3, 2)
         self.assertLess(numpy.abs(corners - wedges).max(), 1e-6)
+        # Where it is seen: beside the mesh, upright, and as large.
+        seen = flat.transformed_vertex_matrix()
+        mesh = documents.mesh(0).vertex_matrix()
+        size = (mesh.max(axis=0) - mesh.min(axis=0)).max()
+        self.assertAlmostEqual((seen.max(axis=0) - seen.min(axis=0)).max() / size, 1.0, delta=1e-3)
+        self.assertGreater(seen[:, 0].min(), mesh[:, 0].max())
+        self.assertLess(seen[:, 0].min(), mesh[:, 0].max() + 0.2 * size)
+        self.assertFalse(flat.has_vertex_color())
+
+    def test_colours_of_an_earlier_run_go(self):
+        documents = mesh_set(meshes.torus())
+        self.check(documents, colorize=True, flat_layer=True)
+        mesh, flat = documents.mesh(0), documents.mesh(1)
+        self.assertTrue(mesh.has_vertex_color() and flat.has_vertex_color())
+        self.assertGreater(len(numpy.unique(flat.vertex_color_matrix(), axis=0)), 9)
+        self.check(documents)
+        self.assertFalse(documents.mesh(0).has_vertex_color())
+        # Those that others give stay.
+        self.check(documents, colorize=True)
+        documents.apply_filter("set_color_per_vertex", color1=pymeshlab.Color(9, 8, 7, 255))
+        self.check(documents)
+        self.assertTrue(documents.mesh(0).has_vertex_color())
+        self.assertEqual(len(numpy.unique(documents.mesh(0).vertex_color_matrix(), axis=0)), 1)
 
     def test_capped_holes(self):
         documents = mesh_set(meshes.annulus())
@@ -381,10 +404,16 @@ class Report(unittest.TestCase):
         page = xml.etree.ElementTree.fromstring(
             re.sub(r"&(?!lt;|gt;|amp;|quot;)#?\w+;", "", text.replace("<!DOCTYPE html>", "")
                    .replace('<meta charset="utf-8">', "")))
-        cells = [cell.text for cell in page.iter("td")]
-        self.assertLessEqual(set(returned), set(cells))
-        self.assertIn("torus <1>.ply", [p.text for p in page.iter("p")])
-        self.assertEqual(len([e for e in page.iter() if e.tag.endswith("}svg")]), 3)
+        labels = {row[1].find("code").text: row[0].text for row in page.iter("tr")}
+        self.assertLessEqual(set(returned), set(labels))
+        self.assertTrue(all(labels.values()))
+        self.assertEqual(len(set(labels.values())), len(labels))
+        said = [p.text for p in page.iter("p")]
+        mesh = self.documents.current_mesh()
+        self.assertIn("torus <1>.ply", said)
+        self.assertTrue([line for line in said if line.startswith(
+            f"{mesh.vertex_number()} vertices, {mesh.face_number()} faces, ")], said)
+        self.assertEqual(len([e for e in page.iter() if e.tag.endswith("}svg")]), 4)
 
     def test_data_alone_and_in_another_folder(self):
         os.mkdir(self.path("out"))

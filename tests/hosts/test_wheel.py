@@ -123,6 +123,12 @@ class Wheel(unittest.TestCase):
             run("-m", "pip", "uninstall", "-q", "-y", "pymeshlab-ricci")
             self.assertEqual(glob.glob(os.path.join(place, "*ricci*")), [])
 
+    def test_found_by_its_words(self):
+        """MeshLab's search field takes the first letters, three at least, of a word of name or text."""
+        words = re.split(r"\W+", (DESCRIPTIONS[0]["name"] + " " + DESCRIPTIONS[0]["info"]).lower())
+        for wanted in ("uv", "unwrap", "flatten", "parametrization", "conformal", "ricci"):
+            self.assertTrue([word for word in words if word.startswith(wanted)], wanted)
+
     def test_documents_are_current(self):
         script = os.path.join(common.REPOSITORY, "filter_ricci", "scripts", "document_filters.py")
         environment = {**os.environ, "PYTHONPATH": os.path.join(common.BUILD, "python")}

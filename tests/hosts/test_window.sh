@@ -39,12 +39,35 @@ solved() {
 	open_filter "$name" || fail "the filter's dialog did not open"
 	picture "$pictures/dialog.png"
 	fits_the_screen || fail "the dialog is higher than the screen"
+	press_help
+	picture "$pictures/help.png"
+	fits_the_screen || fail "the dialog with its help is higher than the screen"
 	press_apply "$name"
 	wait_until 60 grep -q 'Result: converged=true' "$meshlab_log" || fail "no result in the log"
 	sleep 2
 	picture "$pictures/result.png"
 	kill -0 "$meshlab_pid" || fail "MeshLab has ended"
 	close_meshlab
+}
+
+# What its search field finds is for the eye, too: pictures search_WORD.png.
+found() {
+	local word
+	open_meshlab "$program" torus.ply || fail "MeshLab did not open the torus"
+	for word in uv unwrap flatten parametrization; do
+		search "$word"
+		picture "$pictures/search_$word.png"
+		xdotool key Escape
+		sleep 1
+	done
+	close_meshlab
+}
+
+press_help() {
+	local X Y WIDTH HEIGHT SCREEN WINDOW
+	eval "$(xdotool getwindowgeometry --shell "$(find_window "$name")")"
+	xdotool mousemove $((X + WIDTH * 3 / 4)) $((Y + HEIGHT - 52)) click 1
+	sleep 1
 }
 
 # Its lower end, where Apply is.
@@ -92,6 +115,7 @@ mkdir -p "$pictures"
 trap finish EXIT
 write_meshes
 open_display "$folder/display" || { echo "SKIPPED: no display could be opened"; exit 77; }
+found
 solved
 refused
 all_parameters
