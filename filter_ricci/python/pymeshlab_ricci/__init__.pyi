@@ -126,8 +126,8 @@ class Flattening(Parametrization):
     """texture vertices that the repair moved; one moved again in the stored coordinates counts
     twice"""
     ended_early: int
-    """searches for a better map or for a repair that stopped because their work is bounded; the
-    log says which"""
+    """searches for something better (cones that keep areas, shorter seams, repair, least
+    distortion or stretch) that the bound on their work has ended; the log says which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int
@@ -178,9 +178,11 @@ class Flattening(Parametrization):
     capped_holes: int
     """loops closed for the flow"""
     overlapping_charts: int
-    """charts that cover a part of the plane more than once; the faces that do so"""
+    """faces that cover a part of the plane together with another one, of their chart or not, in
+    the coordinates as floats; the charts that these are in"""
     overlapping_faces: int
-    """charts that cover a part of the plane more than once; the faces that do so"""
+    """faces that cover a part of the plane together with another one, of their chart or not, in
+    the coordinates as floats; the charts that these are in"""
     overlap_cuts: int
     """edges of the output that are cut to separate them, or to set apart faces that floats
     cannot hold in their chart; where parts are joined elsewhere, there are fewer seam_edges"""
@@ -281,8 +283,8 @@ class Uniformization(Parametrization):
     """texture vertices that the repair moved; one moved again in the stored coordinates counts
     twice"""
     ended_early: int
-    """searches for a better map or for a repair that stopped because their work is bounded; the
-    log says which"""
+    """searches for something better (cones that keep areas, shorter seams, repair, least
+    distortion or stretch) that the bound on their work has ended; the log says which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int
@@ -333,9 +335,11 @@ class Uniformization(Parametrization):
     capped_holes: int
     """loops closed for the flow"""
     overlapping_charts: int
-    """charts that cover a part of the plane more than once; the faces that do so"""
+    """faces that cover a part of the plane together with another one, of their chart or not, in
+    the coordinates as floats; the charts that these are in"""
     overlapping_faces: int
-    """charts that cover a part of the plane more than once; the faces that do so"""
+    """faces that cover a part of the plane together with another one, of their chart or not, in
+    the coordinates as floats; the charts that these are in"""
     overlap_cuts: int
     """edges of the output that are cut to separate them, or to set apart faces that floats
     cannot hold in their chart; where parts are joined elsewhere, there are fewer seam_edges"""
@@ -566,9 +570,9 @@ def flatten(
     target_curvature: The curvature that the flow is asked to reach. Automatic suits most
         meshes: flat, or with the metric of the boundary kept, and with cones where areas would
         change much.
-    free_boundary: The boundary keeps the metric that it has on the mesh: the least distortion
-        for a surface with boundary. Disk, Rectangle and the flat annulus prescribe the boundary
-        and ignore this.
+    free_boundary: The flow keeps the metric that the boundary has on the mesh, which distorts
+        least; the finish then changes its lengths a little, by the factors in the log. Disk,
+        Rectangle and the flat annulus prescribe the boundary and ignore this.
     cone_distortion: 0: as many cones as lower the distortion by more than their seams cost.
         Above 0: cones are added until areas typically change by less than this, relative to
         each other (0.25: by a quarter). Read where cones are placed and their number is 0.
@@ -609,7 +613,8 @@ def flatten(
         closed surface of genus 0.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
-    texture_size: Width and height of the new texture, 16 to 16384 texels.
+    texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
+        ones.
     report: A report of the run: a page with diagrams and its data beside it (.html), or the
         data alone (.csv). Empty: no report.
     epsilon: The flow stops when the curvature of every vertex is this close to its target, in
@@ -690,7 +695,8 @@ def uniformize(
         flipped are repaired. Only for the method 'Intrinsic flips'.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
-    texture_size: Width and height of the new texture, 16 to 16384 texels.
+    texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old
+        ones.
     report: A report of the run: a page with diagrams and its data beside it (.html), or the
         data alone (.csv). Empty: no report.
     epsilon: The flow stops when the curvature of every vertex is this close to its target, in

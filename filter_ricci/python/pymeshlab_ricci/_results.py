@@ -58,8 +58,9 @@ EUCLIDEAN_RESULTS = \
                   'texture vertices that the repair moved; one moved again in the stored '
                   'coordinates counts twice'),
  'ended_early': ('int',
-                 'searches for a better map or for a repair that stopped because their work is '
-                 'bounded; the log says which'),
+                 'searches for something better (cones that keep areas, shorter seams, repair, '
+                 'least distortion or stretch) that the bound on their work has ended; the log '
+                 'says which'),
  'flips': ('int', 'intrinsic flips, including those before the flow'),
  'refinement_points': ('int',
                        'points of the common refinement that are not vertices of the mesh; 0 '
@@ -102,11 +103,13 @@ EUCLIDEAN_RESULTS = \
                'charts, that the charts cover'),
  'capped_holes': ('int', 'loops closed for the flow'),
  'overlapping_charts': ('int',
-                        'charts that cover a part of the plane more than once; the faces that '
-                        'do so'),
+                        'faces that cover a part of the plane together with another one, of '
+                        'their chart or not, in the coordinates as floats; the charts that '
+                        'these are in'),
  'overlapping_faces': ('int',
-                       'charts that cover a part of the plane more than once; the faces that '
-                       'do so'),
+                       'faces that cover a part of the plane together with another one, of '
+                       'their chart or not, in the coordinates as floats; the charts that '
+                       'these are in'),
  'overlap_cuts': ('int',
                   'edges of the output that are cut to separate them, or to set apart faces '
                   'that floats cannot hold in their chart; where parts are joined elsewhere, '
