@@ -57,7 +57,7 @@ check_symbols() {
 	grep -E ' ((cholmod|amd|colamd|SuiteSparse|METIS|GOMP|omp|openblas)_|[dz][a-z]+_$)' \
 		"$folder/symbols" && fail "$1 shares the names of a solver with its host"
 	nm -D --defined-only "$1" |
-		grep -vE ' [WVu] | (qt_plugin_instance|qt_plugin_query_metadata|filter_ricci_description|__bss_start|_edata|_end)$' &&
+		grep -vE ' [WVu] | (qt_plugin_instance|qt_plugin_query_metadata|filter_ricci_description|filter_ricci_listen|__bss_start|_edata|_end)$' &&
 		fail "$1 defines names for its host"
 	local newest
 	newest=$(sed -n 's/.*@GLIBC_\([0-9.]*\)$/\1/p' "$folder/symbols" | sort -uV | tail -n 1)

@@ -567,26 +567,20 @@ def flatten(
 ) -> Flattening:
     """Conformal map of a mesh into the Euclidean plane.
 
-    target_curvature: The curvature that the flow is asked to reach. Automatic suits most
-        meshes: flat, or with the metric of the boundary kept, and with cones where areas would
-        change much.
-    free_boundary: The flow keeps the metric that the boundary has on the mesh, which distorts
-        least; the finish then changes its lengths a little, by the factors in the log. Disk,
-        Rectangle and the flat annulus prescribe the boundary and ignore this.
-    cone_distortion: 0: as many cones as lower the distortion by more than their seams cost.
-        Above 0: cones are added until areas typically change by less than this, relative to
-        each other (0.25: by a quarter). Read where cones are placed and their number is 0.
-    seams: Shortest: as short as can be. The others open the surface where you choose, and it is
-        cut further only where it has to be: where the texture of the mesh jumps, along selected
-        edges ('Select Crease Edges'), or around the selected faces.
-    output_triangulation: Keep the mesh: vertices and faces stay as they are. Common refinement:
-        faces are divided where the flow's edges cross them, so that the map is exact on every
-        piece.
-    chart_margin: Room between two charts, and between the charts and the border, as a share of
-        the side of the square, for baking textures. 0.004 is 4 pixels of an image 1024 wide, 8
-        of 2048.
-    colorize: Colour the vertices by their quasi-conformal distortion: from blue (1: angles
-        kept) over cyan, green and yellow to red (the 99th percentile over the faces, and more).
+    target_curvature: What the flow is asked to reach. Automatic suits most meshes: it places
+        cones where areas would change much.
+    free_boundary: The boundary keeps its lengths, but for what the finish changes. Not read for
+        Disk, Rectangle and the flat annulus.
+    cone_distortion: 0: the cones that are worth their seams. Above 0: so many that areas change
+        by less than this (0.25: by a quarter).
+    seams: Shortest, or first where you choose: at texture seams, along selected edges ('Select
+        Crease Edges'), or round selected faces.
+    output_triangulation: Common refinement: faces are divided where the flow's edges cross
+        them, so that the map is exact on every piece.
+    chart_margin: Room round each chart, as a share of the side of the square, for baking.
+        0.004: 4 pixels of 1024, 8 of 2048.
+    colorize: Colour the vertices from blue (angles kept) over cyan, green and yellow to red
+        (the 99th percentile over the faces, and more).
     flat_layer: Add a layer with the mesh laid out in the plane, cut along its seams.
     holes: What the boundary loops other than the longest are: boundaries too, or Capped, closed
         for the flow, so that the chart goes round them without seams. Short ones capped: loops
@@ -672,11 +666,10 @@ def uniformize(
         Hyperbolic metric: none, for surfaces of negative Euler characteristic.
     cone_angle: The sum of the angles at each selected vertex, for 'Cones at selected vertices'.
         360 is no cone.
-    output_triangulation: Keep the mesh: vertices and faces stay as they are. Common refinement:
-        faces are divided where the flow's edges cross them, so that the map is exact on every
-        piece.
-    colorize: Colour the vertices by their quasi-conformal distortion: from blue (1: angles
-        kept) over cyan, green and yellow to red (the 99th percentile over the faces, and more).
+    output_triangulation: Common refinement: faces are divided where the flow's edges cross
+        them, so that the map is exact on every piece.
+    colorize: Colour the vertices from blue (angles kept) over cyan, green and yellow to red
+        (the 99th percentile over the faces, and more).
     flat_layer: Add a layer with the mesh laid out in the Poincaré disk, cut along its seams.
     universal_cover: Add a layer with the mesh in the Poincaré disk and this many rings of
         copies round it, which tile the disk. 0: no layer.
@@ -684,9 +677,8 @@ def uniformize(
         as edges. On the surface they are closed geodesics.
     canonical_polygon: Add a layer with a fundamental polygon of 4 sides for each handle, as
         edges. Its sides are geodesics that the canonical generators pair.
-    seams: Shortest: as short as can be. The others open the surface where you choose, and it is
-        cut further only where it has to be: where the texture of the mesh jumps, along selected
-        edges ('Select Crease Edges'), or around the selected faces.
+    seams: Shortest, or first where you choose: at texture seams, along selected edges ('Select
+        Crease Edges'), or round selected faces.
     free_boundary: The circles of the boundary's vertices keep their radii, and the target holds
         inside only. Off: the target holds on the boundary too.
     method: If a triangle breaks, intrinsic flips give the flow others, and fixed triangles end
