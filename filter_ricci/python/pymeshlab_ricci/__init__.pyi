@@ -112,6 +112,9 @@ class Flattening(Parametrization):
     finish_moved: int
     """texture vertices that the repair moved; one moved again in the stored coordinates counts
     twice"""
+    ended_early: int
+    """searches for something better that the bound on their work has ended; the log says
+    which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int
@@ -264,6 +267,9 @@ class Uniformization(Parametrization):
     finish_moved: int
     """texture vertices that the repair moved; one moved again in the stored coordinates counts
     twice"""
+    ended_early: int
+    """searches for something better that the bound on their work has ended; the log says
+    which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int

@@ -57,6 +57,9 @@ EUCLIDEAN_RESULTS = \
  'finish_moved': ('int',
                   'texture vertices that the repair moved; one moved again in the stored '
                   'coordinates counts twice'),
+ 'ended_early': ('int',
+                 'searches for something better that the bound on their work has ended; the '
+                 'log says which'),
  'flips': ('int', 'intrinsic flips, including those before the flow'),
  'refinement_points': ('int',
                        'points of the common refinement that are not vertices of the mesh; 0 '
