@@ -242,7 +242,7 @@ bool ConeModel::findFree()
 		solution += symmetric(m_now.inverse) * (rhs - times(solution));
 		if (!((rhs - times(solution)).norm() <= kMaxRest * rhs.norm()))
 			continue;
-		fit.free = solution.tail(size());
+		fit.free = Eigen::VectorXd(solution.tail(size()));
 		fit.lowest = energyOf(fit.free);
 		fit.level = border() > 0 ? solution[0] : 0.0;
 		return true;

@@ -114,7 +114,7 @@ public:
 		fit();
 		if (!isLow(energy())) {
 			put(i, old);
-			m_now.fit = before;
+			m_now.fit = Fit(before);
 			m_gradient = std::move(gradient);
 			return false;
 		}
