@@ -460,11 +460,11 @@ Execution run(const HostileMesh& hostile)
 	params.chartMargin = hostile.chartMargin;
 	const typename Flow::SideMarks seams = seamsOf(hostile, m.face.size());
 	Watch watch(hostile.cancelAt, hostile.mesh.triangles.size());
-	Task task(watch);
-	task.setMemoryLimit(hostile.memoryLimit);
 	typename Flow::Result result;
 	SphereMap sphere;
 	try {
+		Task task(watch); // what is looked at afterwards is no part of it
+		task.setMemoryLimit(hostile.memoryLimit);
 		if (hostile.sphere)
 			sphere = Flow::ComputeSphere(m, params);
 		else
