@@ -329,14 +329,12 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 		return std::log(m.report.occupancy) -
 			   kRoomPrice * std::log(std::sqrt(area) + m.report.seamLength);
 	};
-	const double mostSeams = map.report.seamLength + kMostRoomSeams * std::sqrt(area);
 	std::optional<Parametrization> last; // where it is not the best
 	for (int cuts = 0, vain = 0; cuts < kMaxCuts && vain < kMaxVainCuts; ++cuts) {
 		if (map.report.occupancy > kEnoughCovered)
 			return;
-		const Parametrization& present = last ? *last : map;
 		std::optional<Parametrization> next =
-			cutForRoom(present, turns == ChartTurns::Free, mostSeams - present.report.seamLength);
+			cutForRoom(last ? *last : map, turns == ChartTurns::Free);
 		if (!next)
 			return;
 		try {

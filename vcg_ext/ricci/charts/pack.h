@@ -35,16 +35,12 @@ bool marginsMayFit(std::size_t charts, double margin);
 void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns);
 
 /// packCharts() into the unit square, with charts cut by cutForRoom() as long as that is worth it
-/// (kRoomPrice) and each cut brings kMinRoom besides; until kEnoughCovered is covered, or kMostRoomSeams is cut. Without turns nothing
+/// (kRoomPrice) and each cut brings kMinRoom besides; until kEnoughCovered is covered. Without turns nothing
 /// is cut.
 /// \throw what packCharts() does
 void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns turns);
 
 constexpr double kMinRoom = 0.01, kEnoughCovered = 0.6;
-
-/// What all these cuts may add to the seams, in units of the square root of the surface's area: 0.02 of what
-/// a map costs (kSeamPrice), which nobody sees.
-constexpr double kMostRoomSeams = 0.4;
 
 /// Cuts at most, and those in a row that bring nothing.
 constexpr int kMaxCuts = 24, kMaxVainCuts = 3;

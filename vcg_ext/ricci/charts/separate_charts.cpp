@@ -236,7 +236,7 @@ void joinCharts(Parametrization& map)
 	settle(charts, true, map);
 }
 
-std::optional<Parametrization> cutForRoom(const Parametrization& map, bool turns, double mostLength)
+std::optional<Parametrization> cutForRoom(const Parametrization& map, bool turns)
 {
 	struct Wide
 	{
@@ -276,7 +276,7 @@ std::optional<Parametrization> cutForRoom(const Parametrization& map, bool turns
 		// The square loses all that is beside the chart in a square round it at most.
 		const double width = wide.rectangle.width();
 		const double most = std::log(square / std::max(square - width * width + wide.area, total));
-		if (!cut || cut->length > mostLength ||
+		if (!cut ||
 			most < kRoomPrice *
 					   std::log1p(cut->length / (std::sqrt(onSurface) + map.report.seamLength)))
 			continue;

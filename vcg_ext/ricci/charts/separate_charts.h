@@ -38,10 +38,8 @@ constexpr double kRoomOfChart = 0.04;
 /// smallest bounding rectangle. Takes the chart that leaves most room there, of those whose cut may be worth
 /// what it costs by kRoomPrice. The parts are given back as those of separateCharts(), in the report, too.
 /// \param map packed
-/// \param mostLength of the cut on the surface
 /// \return none where there is no such chart
-std::optional<Parametrization>
-cutForRoom(const Parametrization& map, bool turns, double mostLength);
+std::optional<Parametrization> cutForRoom(const Parametrization& map, bool turns);
 
 /// Divides the charts that have triangles of both kinds: each connected part of one kind becomes a chart
 /// from the origin, in the directions that it has. The report counts the charts and the cuts as
