@@ -598,7 +598,7 @@ TEST(TargetCurvature, RectangleRefusesOtherSelections)
 TEST(TargetCurvature, ConesShareTheTotalCurvature)
 {
 	for (const TestSurface* s : {&sphere(), &genus2()})
-		for (std::size_t n : {3, 5, 8}) {
+		for (std::size_t n : {3u, 5u, 8u}) {
 			std::vector<Vertex> cones;
 			for (std::size_t i = 0; i < n; ++i)
 				cones.push_back(Vertex(2 * i));

@@ -241,7 +241,7 @@ TYPED_TEST(CarryTextureOf, TakesNothingFromTheOtherChartOfABlock)
 		const Picture<TypeParam> result = carried<TypeParam>(mesh, {&old}, size);
 		for (int y = 0; y < size; ++y)
 			for (int x = 0; x < size; ++x)
-				for (const std::size_t c : {0, 2})
+				for (const std::size_t c : {0u, 2u})
 					EXPECT_EQ(result.at(x, y)[c], (2 * x < size) == (c == 0) ? 200 : 0) << size;
 	}
 }
