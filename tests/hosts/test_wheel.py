@@ -338,12 +338,15 @@ class Functions(unittest.TestCase):
     def test_gltf(self):
         """By trimesh; PyMeshLab reads the same coordinates back. Of a scene all meshes are taken."""
         try:
-            import PIL.Image
             import trimesh
         except ImportError as problem:
             with self.assertRaisesRegex(ImportError, "pip install trimesh"):
                 flatten(arrays(meshes.torus())).save("torus.glb")
             self.skipTest(f"trimesh cannot be imported: {problem}")
+        try:
+            import PIL.Image
+        except ImportError as problem:
+            self.skipTest(f"Pillow cannot be imported: {problem}")
         vertices, faces = arrays(meshes.double_torus())
         result = flatten(vertices, faces)
         with tempfile.TemporaryDirectory() as folder:
