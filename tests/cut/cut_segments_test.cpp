@@ -174,18 +174,32 @@ void expectCircles(const Triangulation& t, const CutSegments& cut, const Circles
 	}
 }
 
+/// 1 at so many vertices.
+VertexArray<char> someVertices(const Triangulation& t, double share, Random& random)
+{
+	VertexArray<char> marked(t.vertexCount(), 0);
+	for (char& mark : marked)
+		mark = random.real(0.0, 1.0) < share;
+	return marked;
+}
+
+/// 1 at so many edges inside.
+EdgeArray<char> someEdges(const Triangulation& t, double share, Random& random)
+{
+	EdgeArray<char> isCut(t.edgeCount(), 0);
+	for (const Edge e : t.edges())
+		isCut[e] = !t.isBoundary(e) && random.real(0.0, 1.0) < share;
+	return isCut;
+}
+
 TEST(CutSegments, CirclesAreTheBoundariesOfTheOpenedSurface)
 {
 	Random random(780);
 	for (const SurfaceMesh& mesh : surfacesOfEveryKind(random)) {
 		const Triangulation t = glued(mesh);
 		for (double share : {0.0, 0.02, 0.2, 0.6}) {
-			VertexArray<char> marked(t.vertexCount(), 0);
-			for (char& mark : marked)
-				mark = random.real(0.0, 1.0) < 0.05;
-			EdgeArray<char> isCut(t.edgeCount(), 0);
-			for (const Edge e : t.edges())
-				isCut[e] = !t.isBoundary(e) && random.real(0.0, 1.0) < share;
+			const VertexArray<char> marked = someVertices(t, 0.05, random);
+			EdgeArray<char> isCut = someEdges(t, share, random);
 			const EdgeArray<char> nowhere;
 			CutSegments cut(t, marked, nowhere, isCut);
 			const CirclesByWedges expected(t, marked, isCut);
@@ -211,12 +225,8 @@ TEST(CutSegments, SplitCirclesAreTheBoundariesWithoutWhatWasRemoved)
 	for (const SurfaceMesh& mesh : surfacesOfEveryKind(random)) {
 		const Triangulation t = glued(mesh);
 		for (double share : {0.02, 0.2, 0.6}) {
-			VertexArray<char> marked(t.vertexCount(), 0);
-			for (char& mark : marked)
-				mark = random.real(0.0, 1.0) < 0.1;
-			EdgeArray<char> isCut(t.edgeCount(), 0);
-			for (const Edge e : t.edges())
-				isCut[e] = !t.isBoundary(e) && random.real(0.0, 1.0) < share;
+			const VertexArray<char> marked = someVertices(t, 0.1, random);
+			EdgeArray<char> isCut = someEdges(t, share, random);
 			const EdgeArray<char> nowhere;
 			CutSegments cut(t, marked, nowhere, isCut);
 			cut.labelCircles();
