@@ -119,8 +119,8 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	const bool isUnfolded = cost(*unfolded) < cost(map);
 	const std::string whole = "as a whole: " + costText(map);
 	const int steps = unfolded->report.iterations + map.report.iterations;
-	map = isUnfolded ? chosen(cut + "; " + whole, std::move(*unfolded))
-					 : chosen(map.report.choice + "; " + whole + "; " + cut, std::move(map));
+	const std::string choice = isUnfolded ? cut + "; " + whole : map.report.choice + "; " + whole + "; " + cut;
+	map = chosen(choice, isUnfolded ? std::move(*unfolded) : std::move(map));
 	map.report.iterations = steps;
 	return map;
 }
