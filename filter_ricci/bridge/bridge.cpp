@@ -579,7 +579,7 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 		return Flow::ComputeHyperbolic(run.model.cm, settings.flow, run.seams);
 	}();
 	Results results = toResults(result.report);
-	if (result.charts.size() == 1 && result.charts.front().group.isCanonical())
+	if (result.report.components == 1 && result.charts.front().group.isCanonical())
 		addGenerators(result.charts.front().group, results);
 	return run.end(Hyperbolic, par, settings.flow.output, result, results, [&](NewLayers& layers) {
 		if (settings.flatLayer)

@@ -4,6 +4,7 @@
 import html
 import inspect
 import itertools
+import math
 import os
 import tempfile
 import typing
@@ -176,8 +177,10 @@ class Uniformization(Parametrization):
 
     @property
     def disk(self):
-        """(F, 3) complex128: the corners of the faces in the Poincaré disk, |z| < 1."""
-        corners = 2.0 * self.uv - 1.0
+        """(F, 3) complex128: the corners of the faces in the Poincaré disk of their chart, |z| < 1."""
+        per_row = math.ceil(math.sqrt(self.charts))
+        corners = per_row * self.uv
+        corners = 2.0 * (corners - numpy.floor(corners.mean(axis=1, keepdims=True))) - 1.0
         return corners[..., 0] + 1j * corners[..., 1]
 
     @property

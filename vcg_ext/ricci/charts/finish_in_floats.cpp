@@ -2,10 +2,13 @@
 #include "finish_in_floats.h"
 
 #include "../base/floating_point.h"
+#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../finish/repair.h"
 #include "../math/box_tree.h"
 #include "../math/orientation.h"
+#include "divide_disks.h"
+#include "pack.h"
 #include "separate_charts.h"
 
 #include <algorithm>
@@ -257,6 +260,31 @@ finishEverywhere(const Wanted& wanted, bool mayGrow, WorkLimit& limit, Parametri
 	return finished;
 }
 
+/// Mends triangles of disks in their squares.
+Repair repairDisks(Parametrization& map)
+{
+	const Soundness soundness = Wanted(map.mesh, false).soundness;
+	if (badTriangles(map.mesh, soundness).empty())
+		return {};
+	const Array<int> chartOf = map.mesh.chartOfPoints();
+	const auto isInDisk = [&](const FlatMesh& flat, const Patch& patch) {
+		for (const int p : patch.points) {
+			const Box2& square = map.charts[positionOf(chartOf[p])].box;
+			if (!(distance(flat.place[p], square.centre()) < 0.5 * square.width()))
+				return false;
+		}
+		return true;
+	};
+	Repair result;
+	for (const RestShapes shapes : {RestShapes::OfDrawing, RestShapes::OfSurfaceEvenly}) {
+		WorkLimit limit(map.mesh.size());
+		result.add(repairFreely(map.mesh, isInDisk, shapes, soundness, limit));
+		if (result.left == 0)
+			break;
+	}
+	return result;
+}
+
 } // namespace
 
 void finishInFloats(const FloatFinish& finish, Parametrization& map)
@@ -287,23 +315,23 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 	}
 }
 
-bool finishDisksInFloats(Parametrization& map)
+bool placeDisksInFloats(Parametrization& map)
 {
-	const Wanted wanted(map.mesh, false);
-	if (badTriangles(map.mesh, wanted.soundness).empty())
-		return false;
-	const Array<int> chartOf = map.mesh.chartOfPoints();
-	const auto isInDisk = [&](const FlatMesh& flat, const Patch& patch) {
-		for (const int p : patch.points) {
-			const Box2& square = map.charts[positionOf(chartOf[p])].box;
-			if (!(distance(flat.place[p], square.centre()) < 0.5 * square.width()))
-				return false;
+	Parametrization divided = map;
+	placeDisks(map);
+	Repair result = repairDisks(map);
+	if (result.left > 0 && divideDisks(divided)) {
+		placeDisks(divided);
+		const Repair ofDivided = repairDisks(divided);
+		if (ofDivided.left < result.left) {
+			logLine(
+				"Floats cannot hold the disks, which reach too far out: they are divided into " +
+				std::to_string(divided.charts.size()) + ", each with its own middle.");
+			map = std::move(divided);
+			map.report.finishMoved += ofDivided.movedCount();
+			return true;
 		}
-		return true;
-	};
-	WorkLimit limit(map.mesh.size());
-	const Repair result =
-		repairFreely(map.mesh, isInDisk, RestShapes::OfDrawing, wanted.soundness, limit);
+	}
 	map.report.finishMoved += result.movedCount();
 	return result.movedCount() > 0;
 }

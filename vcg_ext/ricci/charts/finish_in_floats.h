@@ -30,10 +30,11 @@ struct FloatFinish
 /// \param map after packCharts()
 void finishInFloats(const FloatFinish& finish, Parametrization& map);
 
-/// The same for charts in disks, whose seams move by steps of floats like points inside.
-/// \param map after placeDisks()
-/// \return whether points were moved
-bool finishDisksInFloats(Parametrization& map);
+/// placeDisks(), and the same for the disks, whose seams move by steps of floats like points inside. Where
+/// triangles cannot be mended, the disks are divided before they are placed (divideDisks()), if that leaves
+/// fewer of them.
+/// \return whether points were moved or disks divided
+bool placeDisksInFloats(Parametrization& map);
 
 } // namespace ricci
 

@@ -17,6 +17,11 @@ struct Chart
 {
 	FuchsianGroup group; ///< hyperbolic flow
 	Box2 box;            ///< what packing has given it; hyperbolic flow: the square round its disk
+
+	/// Hyperbolic flow, a part of a disk that is divided (divideDisks()): the chart in the middle, which has
+	/// the group, and what takes its disk to that of the part. -1: itself.
+	int middle = -1;
+	ExtendedIsometry place;
 };
 
 /// A map of the whole mesh to the plane. Vertices and faces have the numbers of the opened mesh (see

@@ -76,26 +76,16 @@ public:
 	/// Moves the middle to 0. \return the triangle next to it
 	Face moveMiddleToZero(HyperbolicLayout& layout) const
 	{
-		// The area-weighted mean on the hyperboloid of x0^2 - |x|^2 = 1, without its common factor.
-		DoubleDouble x0;
-		ExtendedComplex x;
+		DiskMean middle;
 		for (const Face f : m_t.faces()) {
 			checkpointNowAndThen(positionOf(f));
 			const auto side = m_t.halfedges(f);
 			// By the sides: what the angles are short of pi is rounding where triangles are tiny.
 			const double area = hyperbolicArea({length(side[0]), length(side[1]), length(side[2])});
-			for (const Halfedge h : side) {
-				const ExtendedIsometry& g = layout.frame[h];
-				x0 += area * (norm(g.a) + norm(g.b));
-				x += 2 * area * (g.a * g.b);
-			}
+			for (const Halfedge h : side)
+				middle.add(area, layout.frame[h]);
 		}
-		const DoubleDouble r = abs(x);
-		if (!(x0 > r)) // no area at all, or beyond what the frames hold
-			return Face(0);
-		// The point of the disk in that direction: z = x / (x0 + sqrt(x0^2 - |x|^2)).
-		const ExtendedComplex middle = x / (x0 + sqrt((x0 - r) * (x0 + r)));
-		const ExtendedIsometry back = ExtendedIsometry::translationTo(middle).inverse();
+		const ExtendedIsometry back = middle.toZero();
 		Face nearest(0);
 		DoubleDouble minSpread;
 		for (const Face f : m_t.faces()) {
@@ -145,6 +135,15 @@ private:
 };
 
 } // namespace
+
+ExtendedIsometry DiskMean::toZero() const
+{
+	const DoubleDouble r = abs(m_x);
+	if (!(m_x0 > r))
+		return {};
+	// The point of the disk in that direction: z = x / (x0 + sqrt(x0^2 - |x|^2)).
+	return ExtendedIsometry::translationTo(m_x / (m_x0 + sqrt((m_x0 - r) * (m_x0 + r)))).inverse();
+}
 
 HyperbolicLayout layOutInDisk(
 	const Triangulation& t,

@@ -119,7 +119,8 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	const bool isUnfolded = cost(*unfolded) < cost(map);
 	const std::string whole = "as a whole: " + costText(map);
 	const int steps = unfolded->report.iterations + map.report.iterations;
-	const std::string choice = isUnfolded ? cut + "; " + whole : map.report.choice + "; " + whole + "; " + cut;
+	const std::string choice =
+		isUnfolded ? cut + "; " + whole : map.report.choice + "; " + whole + "; " + cut;
 	map = chosen(choice, isUnfolded ? std::move(*unfolded) : std::move(map));
 	map.report.iterations = steps;
 	return map;
@@ -267,9 +268,10 @@ Parametrization parametrizeHyperbolic(
 {
 	OpenedMesh opened;
 	Parametrization map = chartsInDisk(mesh, input, options, opened);
-	placeDisks(map);
 	advance(kMapped, "Finishing the coordinates");
-	if (isFinished(options) && finishDisksInFloats(map))
+	if (!isFinished(options))
+		placeDisks(map);
+	else if (placeDisksInFloats(map))
 		measureInDisk(opened, map);
 	const int flipped = map.report.flippedFaces; // of geodesic triangles
 	countFlipped(map.mesh, map.report);

@@ -172,7 +172,7 @@ Parametrization asParametrization(const Component& component, ComponentMap map)
 			part.placedCones.push_back(v.number());
 	part.notes = map.notes;
 	part.report = reportOf(map);
-	part.charts.push_back({std::move(map.group), {}});
+	part.charts.emplace_back().group = std::move(map.group);
 	part.mesh = std::move(map.mesh);
 	return part;
 }

@@ -118,7 +118,9 @@ public:
 		size_t copies = 0;
 		for (const ricci::Chart& chart : r.charts) {
 			const size_t limit = maxFaces / std::max<size_t>(1, faces) + 2;
-			tilings.push_back(ricci::tiling(chart.group.sides, rings, int(limit)));
+			tilings.push_back(
+				chart.middle < 0 ? ricci::tiling(chart.group.sides, rings, int(limit))
+								 : tilings[size_t(chart.middle)]);
 			copies = std::max(copies, tilings.back().deck.size());
 		}
 		if (copies * faces > maxFaces)
@@ -155,6 +157,8 @@ public:
 		const auto klein = [](std::complex<double> z) { return 2.0 * z / (1.0 + std::norm(z)); };
 		std::vector<ricci::CanonicalPolygon> polygons;
 		for (const ricci::Chart& chart : r.charts) {
+			if (chart.middle >= 0)
+				continue; // a part of another's disk
 			ricci::checkpoint();
 			polygons.push_back(ricci::canonicalPolygon(chart.group));
 			const std::vector<std::complex<double>>& corners = polygons.back().corners;
@@ -230,12 +234,19 @@ private:
 		VertexIterator vi = Allocator<MeshType>::AddVertices(cover, copied.size());
 		for (int i : copied) {
 			const size_t component = points.component[size_t(i)];
-			const ricci::Box2& disk = r.charts[component].box;
+			const ricci::Chart& chart = r.charts[component];
+			const ricci::Point2& p = r.mesh.place[i];
+			const auto inDisk = [](const ricci::Box2& square, const ricci::Point2& q) {
+				return 2.0 / square.width() *
+					   std::complex<double>(q[0] - square.centre()[0], q[1] - square.centre()[1]);
+			};
+			// The parts of a divided disk together, in that of the part in the middle.
+			const ricci::Box2& disk =
+				chart.middle < 0 ? chart.box : r.charts[size_t(chart.middle)].box;
 			const ricci::Point2 middle = disk.centre();
 			const double radius = 0.5 * disk.width();
-			const ricci::Point2& p = r.mesh.place[i];
 			const std::complex<double> z = tilings[component].deck[copy](
-				std::complex<double>((p[0] - middle[0]) / radius, (p[1] - middle[1]) / radius));
+				ricci::rounded(chart.place.inverse())(inDisk(chart.box, p)));
 			vi->P() = PlaceOf({middle[0] + radius * z.real(), middle[1] + radius * z.imag()});
 			vi->N() = CoordType(0, 0, 1);
 			vi->Q() = points.QualityAt(i);

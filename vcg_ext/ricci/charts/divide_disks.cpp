@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "divide_disks.h"
+
+#include "../base/floating_point.h"
+#include "../base/task.h"
+#include "../base/tolerances.h"
+#include "../finish/soundness.h"
+#include "../layout/hyperbolic_layout.h"
+#include "../math/shortest_paths.h"
+#include "separate_charts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <utility>
+
+namespace ricci {
+
+namespace {
+
+/// What a triangle must be in the unit disk where so many disks are placed in the square.
+Soundness soundnessOf(std::size_t disks)
+{
+	const double perRow = std::ceil(std::sqrt(static_cast<double>(disks)));
+	const double step = 2.0 * perRow * floatStep(1.0), height = kMinFloatSteps * step;
+	return {height, kWantedHeights * height, false, step};
+}
+
+Point2 moved(const ExtendedIsometry& g, const Point2& p)
+{
+	const auto z = static_cast<std::complex<double>>(g(asComplex(p)));
+	return {z.real(), z.imag()};
+}
+
+/// Moves the middle of the corners of some triangles to 0.
+ExtendedIsometry toMiddle(const FlatMesh& mesh, const std::vector<int>& triangles)
+{
+	DiskMean mean;
+	for (const int f : triangles)
+		for (const Point2& p : mesh.at(f))
+			mean.add(1.0, ExtendedIsometry::translationTo(asComplex(p)));
+	return mean.toZero();
+}
+
+/// Some triangles of a chart, and their Voronoi cells.
+struct Cells
+{
+	std::vector<int> centre;
+	std::vector<ExtendedIsometry> place; ///< [cell] moves its middle to 0, but that of the first
+	Array<int> of;                       ///< [triangle] number
+	Array<double> distance; ///< [triangle] from the centre, on the way through the chart
+};
+
+Cells cellsOf(const FlatMesh& chart, std::vector<int> centre)
+{
+	Array<std::complex<double>> middle; // [triangle]
+	for (const int f : chart.points.indices()) {
+		checkpointNowAndThen(positionOf(f));
+		middle.push_back(
+			static_cast<std::complex<double>>(toMiddle(chart, {f}).inverse().origin()));
+	}
+	if (centre.empty()) {
+		centre.push_back(0);
+		for (const int f : chart.points.indices())
+			if (std::abs(middle[f]) < std::abs(middle[centre[0]]))
+				centre[0] = f;
+	}
+	const Sides sides(chart.vertices.values());
+	Cells cells{
+		std::move(centre), {{}}, Array<int>(chart.size(), 0), Array<double>(chart.size(), 0.0)};
+	SearchFront<int, int> front(chart.size());
+	for (std::size_t i = 0; i < cells.centre.size(); ++i) {
+		cells.of[cells.centre[i]] = static_cast<int>(i);
+		front.offer(cells.centre[i], 0.0);
+	}
+	std::vector<std::vector<int>> triangles(cells.centre.size());
+	for (int f = front.next(); f >= 0; f = front.next()) {
+		if (const int from = front.parent(f); from >= 0)
+			cells.of[f] = cells.of[from];
+		cells.distance[f] = front[f];
+		triangles[positionOf(cells.of[f])].push_back(f);
+		for (const Corner side : cornersOf(f))
+			if (const Corner other = joinedSide(chart, sides, side); other.isValid()) {
+				const double chord = chordLength(middle[f], middle[other.face()]);
+				front.offer(other.face(), front[f] + 2.0 * std::asinh(0.5 * chord), f);
+			}
+	}
+	for (std::size_t i = 1; i < triangles.size(); ++i)
+		cells.place.push_back(toMiddle(chart, triangles[i]));
+	return cells;
+}
+
+/// Of each cell the triangle farthest from its centre of those that floats cannot hold, but could near 0.
+std::vector<int>
+farthestUnsound(const FlatMesh& chart, const Cells& cells, const Soundness& soundness)
+{
+	const auto isSound = [&](int f, const ExtendedIsometry& place) {
+		Triangle2 p = chart.at(f);
+		for (Point2& corner : p)
+			corner = moved(place, corner);
+		return soundness.isSound(p);
+	};
+	std::vector<int> farthest(cells.centre.size(), -1);
+	for (const int f : chart.points.indices()) {
+		checkpointNowAndThen(positionOf(f));
+		const std::size_t cell = positionOf(cells.of[f]);
+		int& far = farthest[cell];
+		if ((far < 0 || cells.distance[f] > cells.distance[far]) && f != cells.centre[cell] &&
+			!isSound(f, cells.place[cell]) && isSound(f, toMiddle(chart, {f})))
+			far = f;
+	}
+	farthest.erase(std::remove(farthest.begin(), farthest.end(), -1), farthest.end());
+	return farthest;
+}
+
+} // namespace
+
+bool divideDisks(Parametrization& map)
+{
+	FlatMesh& mesh = map.mesh;
+	std::size_t disks = map.charts.size();
+	const std::vector<std::vector<int>> triangles = mesh.trianglesByChart(disks);
+	std::vector<Cells> cells(disks); // [chart] without centres where it is not looked at
+	for (bool grows = true; grows && disks < kMaxDisks;) {
+		grows = false;
+		const Soundness soundness = soundnessOf(disks);
+		for (std::size_t c = 0; c < triangles.size(); ++c) {
+			const bool isSound = std::all_of(triangles[c].begin(), triangles[c].end(), [&](int f) {
+				return soundness.isSound(mesh.at(f));
+			});
+			if (isSound)
+				continue;
+			const FlatMesh chart = mesh.part(triangles[c]);
+			if (cells[c].centre.empty())
+				cells[c] = cellsOf(chart, {});
+			std::vector<int> more = farthestUnsound(chart, cells[c], soundness);
+			if (more.empty())
+				continue;
+			grows = true;
+			disks += more.size();
+			more.insert(more.begin(), cells[c].centre.begin(), cells[c].centre.end());
+			cells[c] = cellsOf(chart, std::move(more));
+		}
+	}
+	if (disks == map.charts.size())
+		return false;
+	const Sides sides(mesh.vertices.values());
+	const Seams before = seams(mesh, sides);
+	for (std::size_t c = 0; c < triangles.size(); ++c) {
+		const int more = static_cast<int>(map.charts.size()) - 1;
+		for (std::size_t i = 0; i < triangles[c].size() && cells[c].centre.size() > 1; ++i)
+			if (const int cell = cells[c].of[static_cast<int>(i)]; cell > 0)
+				mesh.chart[triangles[c][i]] = more + cell;
+		for (std::size_t i = 1; i < cells[c].centre.size(); ++i)
+			map.charts.push_back({{}, {}, static_cast<int>(c), cells[c].place[i]});
+	}
+	splitPoints(mesh);
+	const Array<int> chart = mesh.chartOfPoints();
+	for (const int p : chart.indices())
+		mesh.place[p] = moved(map.charts[positionOf(chart[p])].place, mesh.place[p]);
+	countCuts(before, sides, map);
+	map.report.charts = static_cast<int>(map.charts.size());
+	return true;
+}
+
+} // namespace ricci
