@@ -116,6 +116,7 @@ Results toResults(const ricci::Report& report)
 		{"capped_holes", report.cappedHoles},
 		{"overlapping_charts", report.overlappingCharts},
 		{"overlapping_faces", report.overlappingFaces},
+		{"unequal_seams", report.unequalSeams},
 		{"overlap_cuts", report.overlapCuts}};
 	addIfPresent(results, "stretch", report.stretch);
 	addIfPresent(results, "objective", report.objective);
@@ -184,6 +185,7 @@ std::string resultLabel(const std::string& key)
 		{"capped_holes", "Holes capped"},
 		{"overlapping_charts", "Charts that overlap"},
 		{"overlapping_faces", "Faces that overlap"},
+		{"unequal_seams", "Edges of seams with sides of unequal length"},
 		{"overlap_cuts", "Edges cut against overlap"},
 		{"stretch", "Stretch, mean by area (4: none)"},
 		{"objective", "Stretch and the price of the seams"},

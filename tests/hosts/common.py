@@ -25,7 +25,7 @@ ALWAYS = {
     "chosen_seam_length": float, "seam_edges": int,
     "seam_length": float, "seam_length_relative": float, "charts": int,
     "occupancy": float, "capped_holes": int,
-    "overlapping_charts": int, "overlapping_faces": int, "overlap_cuts": int}
+    "overlapping_charts": int, "overlapping_faces": int, "unequal_seams": int, "overlap_cuts": int}
 
 
 class vector(list):

@@ -80,5 +80,40 @@ TEST(CountOverlaps, GoesByTheCoordinatesAsFloats)
 	EXPECT_GT(facesAndCharts(squares({{1e3, 0}, {1e3 + 0.99, 0}}))[0], 0);
 }
 
+/// Two squares whose common side is a seam, the right one wider and higher by the factor \p scale.
+int unequalSeams(double scale)
+{
+	const SurfaceMesh mesh{
+		{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}},
+		{{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}};
+	FlatMesh flat = flatMesh(mesh);
+	flat.chart = Array<int>(std::vector<int>{0, 0, 1, 1});
+	splitPoints(flat);
+	const Array<int> chart = flat.chartOfPoints();
+	for (const int p : chart.indices())
+		if (chart[p] == 1)
+			for (double& x : flat.place[p])
+				x *= scale;
+	Parametrization map = mapWith(flat);
+	map.charts.resize(2);
+	countUnequalSeams(map);
+	return map.report.unequalSeams;
+}
+
+TEST(CountUnequalSeams, ComparesTheSidesOfEachEdge)
+{
+	EXPECT_EQ(unequalSeams(1.0), 0);
+	EXPECT_EQ(unequalSeams(1.0 + 0.9 * kUnequalShare), 0);
+	EXPECT_EQ(unequalSeams(1.0 + 1.1 * kUnequalShare), 1);
+	EXPECT_EQ(unequalSeams(1.0 / (1.0 + 1.1 * kUnequalShare)), 1);
+}
+
+TEST(CountUnequalSeams, CountsNoEdgeInsideAndNoBoundary)
+{
+	Parametrization map = mapWith(strip(1.5 * kPi));
+	countUnequalSeams(map);
+	EXPECT_EQ(map.report.unequalSeams, 0);
+}
+
 } // namespace
 } // namespace ricci::testing

@@ -110,6 +110,10 @@ EUCLIDEAN_RESULTS = \
                        'faces that cover a part of the plane together with another one, of '
                        'their chart or not, in the coordinates as floats; the charts that '
                        'these are in'),
+ 'unequal_seams': ('int',
+                   'Euclidean filter: edges of the seams whose two sides differ in length by '
+                   'more than 1/1000, in the coordinates as floats. Flipped faces beside them '
+                   'were mended'),
  'overlap_cuts': ('int',
                   'edges of the output that are cut to separate them, or to set apart faces '
                   'that floats cannot hold in their chart; where parts are joined elsewhere, '

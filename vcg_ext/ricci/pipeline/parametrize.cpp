@@ -169,6 +169,15 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 		finishInFloats(finish, map);
 	countFlipped(map.mesh, map.report);
 	countOverlaps(map);
+	countUnequalSeams(map);
+	if (map.report.unequalSeams > 0 && options.finish != Finish::LeastStretch) {
+		map.notes.push_back(
+			std::to_string(map.report.unequalSeams) +
+			" edges of the seams are longer on one side than on the other: flipped faces beside "
+			"them were "
+			"mended.");
+		logLine(map.notes.back());
+	}
 }
 
 /// Gives the result the input's indices.

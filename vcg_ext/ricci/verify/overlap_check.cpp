@@ -8,6 +8,7 @@
 #include "../charts/simple_border.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -31,18 +32,25 @@ bool coversNothingTwice(const FlatMesh& mesh, std::size_t charts, double room)
 	return charts == 1 || keepApart(outlines, room);
 }
 
-} // namespace
-
-void countOverlaps(Parametrization& map)
+/// The triangles with their coordinates rounded to float. \param step receives that of the largest one
+FlatMesh inFloats(FlatMesh mesh, double& step)
 {
-	FlatMesh stored = map.mesh;
 	double largest = 0.0;
-	for (Point2& p : stored.place)
+	for (Point2& p : mesh.place)
 		for (double& x : p) {
 			x = roundedToFloat(x);
 			largest = std::max(largest, std::abs(x));
 		}
-	const double step = floatStep(largest);
+	step = floatStep(largest);
+	return mesh;
+}
+
+} // namespace
+
+void countOverlaps(Parametrization& map)
+{
+	double step = 0.0;
+	const FlatMesh stored = inFloats(map.mesh, step);
 	map.report.overlappingFaces = map.report.overlappingCharts = 0;
 	if (coversNothingTwice(stored, map.charts.size(), step))
 		return;
@@ -55,6 +63,24 @@ void countOverlaps(Parametrization& map)
 			isChart[positionOf(stored.chart[f])] = 1;
 		}
 	map.report.overlappingCharts = static_cast<int>(std::count(isChart.begin(), isChart.end(), 1));
+}
+
+void countUnequalSeams(Parametrization& map)
+{
+	double step = 0.0;
+	const FlatMesh stored = inFloats(map.mesh, step);
+	const Sides sides(stored.vertices.values());
+	const auto length = [&](Corner side) {
+		const std::array<Point2, 2> ends = stored.ends(side);
+		return distance(ends[0], ends[1]);
+	};
+	const std::vector<Corner> edges = seams(stored, sides).edges;
+	map.report.unequalSeams =
+		static_cast<int>(std::count_if(edges.begin(), edges.end(), [&](Corner side) {
+			const double own = length(side), across = length(sides.across(side));
+			return std::abs(own - across) >
+				   std::max(kUnequalShare * std::max(own, across), kTouchingSteps * step);
+		}));
 }
 
 } // namespace ricci

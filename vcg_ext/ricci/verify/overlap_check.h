@@ -12,7 +12,13 @@ namespace ricci {
 /// rounding may have moved.
 void countOverlaps(Parametrization& map);
 
-constexpr double kTouchingSteps = 4.0;
+/// Sets the report's unequalSeams: the edges of seams whose two sides differ in length by more than
+/// kUnequalShare of the longer one, once their coordinates are rounded to float, and by more than
+/// kTouchingSteps steps of a float, which the rounding may have changed them by. A texture that should go on
+/// across such a seam is torn there.
+void countUnequalSeams(Parametrization& map);
+
+constexpr double kTouchingSteps = 4.0, kUnequalShare = 1e-3;
 
 } // namespace ricci
 
