@@ -12,7 +12,7 @@
 namespace {
 
 /// Characters in a line of the dialog's help.
-constexpr int kHelpWidth = 47;
+constexpr int kHelpWidth = 45;
 
 /// The dialog has room for the lines of help that the text itself begins, and cuts off those that it breaks.
 struct Help : RichParameter
