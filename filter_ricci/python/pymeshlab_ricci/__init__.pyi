@@ -83,9 +83,9 @@ class Flattening(Parametrization):
     qc_area_mean: float
     """the same, faces weighted by their area on the mesh"""
     qc_p99: float
-    """the same: 99th percentile over faces, largest"""
+    """the same: 99th percentile over faces"""
     qc_max: float
-    """the same: 99th percentile over faces, largest"""
+    """the same: largest of all faces"""
     qc_vertex_mean: float
     """mean over vertices of the vertex value: the paper's number"""
     area_distortion_mean: float
@@ -240,9 +240,9 @@ class Uniformization(Parametrization):
     qc_area_mean: float
     """the same, faces weighted by their area on the mesh"""
     qc_p99: float
-    """the same: 99th percentile over faces, largest"""
+    """the same: 99th percentile over faces"""
     qc_max: float
-    """the same: 99th percentile over faces, largest"""
+    """the same: largest of all faces"""
     qc_vertex_mean: float
     """mean over vertices of the vertex value: the paper's number"""
     area_distortion_mean: float
