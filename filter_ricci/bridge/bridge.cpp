@@ -49,6 +49,18 @@ constexpr std::size_t kMaxCoverFaces = 5000000;
 /// Edges of one drawn geodesic.
 constexpr int kGeodesicPieces = 200;
 
+/// Sentences name a parameter by its id in braces: with the name that the user knows, the label in a window
+/// and the id in a script.
+std::string withNames(int filter, const std::string& text)
+{
+	QString named = QString::fromStdString(text);
+	for (const RichParameter& parameter : filterParameters(filter))
+		named.replace(
+			"{" + parameter.name() + "}",
+			host::hasWindow() ? "'" + parameter.fieldDescription() + "'" : parameter.name());
+	return named.toStdString();
+}
+
 class HostProgress : public ricci::Progress
 {
 public:
@@ -143,12 +155,13 @@ MeshModel& checkedMesh(MeshDocument& md, bool readsQuality)
 				: "The mesh is a point cloud: it has vertices but no faces. Reconstruct a surface "
 				  "first.");
 	if (readsQuality && !model->hasDataMask(MeshModel::MM_VERTQUALITY))
-		throw Refusal(
-			"target_curvature is From vertex quality, but the mesh has no vertex quality. Store "
-			"the curvature of each vertex, in radians, as its quality first.");
+		throw Refusal("{target_curvature} is 'From vertex quality', but the mesh has no vertex "
+					  "quality. Store "
+					  "the curvature of each vertex, in radians, as its quality first.");
 	if (readsQuality && isOwnOutput(model->cm))
 		throw Refusal(
-			"target_curvature is From vertex quality, but the quality is the distortion that this "
+			"{target_curvature} is 'From vertex quality', but the quality is the distortion that "
+			"this "
 			"filter has written, not a curvature. Its own target is back with 'Per Vertex Quality "
 			"Function' and the function ricci_target_curvature.");
 	return *model;
@@ -166,9 +179,9 @@ Flow::SideMarks chosenSeams(const MeshModel& model, Seams seams)
 	case Seams::Texture:
 		if (!model.hasDataMask(MeshModel::MM_WEDGTEXCOORD) &&
 			!model.hasDataMask(MeshModel::MM_VERTTEXCOORD))
-			throw Refusal(
-				"seams is Existing texture seams, but the mesh has no texture coordinates: open "
-				"one that has them, or choose other seams.");
+			throw Refusal("{seams} is 'Existing texture seams', but the mesh has no texture "
+						  "coordinates: open "
+						  "one that has them, or choose other seams.");
 		marks = Chosen::OfTexture(model.cm);
 		if (marks.empty())
 			ricci::logLine(
@@ -179,15 +192,15 @@ Flow::SideMarks chosenSeams(const MeshModel& model, Seams seams)
 		marks = Chosen::OfSelectedEdges(model.cm);
 		if (marks.empty())
 			throw Refusal(
-				"seams is Selected edges, but no edge of a face is selected: select some first "
+				"{seams} is 'Selected edges', but no edge of a face is selected: select some first "
 				"('Select Crease Edges'), or choose other seams.");
 		break;
 	case Seams::SelectedFaces:
 		marks = Chosen::OfSelectedFaces(model.cm);
 		if (marks.empty())
-			throw Refusal(
-				"seams is Border of selected faces, but no edge lies between a selected face and "
-				"another: select a part of the surface first, or choose other seams.");
+			throw Refusal("{seams} is 'Border of selected faces', but no edge lies between a "
+						  "selected face and "
+						  "another: select a part of the surface first, or choose other seams.");
 		break;
 	}
 	return marks;
@@ -410,7 +423,7 @@ Flow::Result computeFor(
 	if (widens) {
 		par.chartMargin = texture.minMargin();
 		ricci::logLine(
-			"Texture: a chart_margin of " + ricci::numberText(par.chartMargin, 3) +
+			"Texture: {chart_margin} " + ricci::numberText(par.chartMargin, 3) +
 			" keeps its charts apart.");
 	}
 	try {
@@ -423,9 +436,9 @@ Flow::Result computeFor(
 			"There are " + std::to_string(e.count) +
 			(texture.size() < kMaxTextureSize
 				 ? " charts, too many to be kept apart in a texture of this size: raise "
-				   "texture_size, to " +
+				   "{texture_size}, to " +
 					   std::to_string(kMaxTextureSize) + " at most."
-				 : " charts, too many to be kept apart in any texture: leave carry_texture "
+				 : " charts, too many to be kept apart in any texture: leave {carry_texture} "
 				   "empty."));
 	}
 }
@@ -481,6 +494,8 @@ public:
 			results,
 			result};
 		report.notes.insert(report.notes.end(), sentences.begin(), sentences.end());
+		for (std::string& note : report.notes)
+			note = withNames(filter, note);
 		m_report.write(report);
 		NewLayers layers(m_md);
 		ricci::advance(1.0, "Adding the layers");
@@ -526,7 +541,7 @@ private:
 				" chosen edges, at most of those that it has: its charts are of single faces.");
 		if (!texture.isWanted() && !model.cm.textures.empty())
 			lines.push_back("The image that the mesh has no longer fits its texture coordinates: "
-							"'Carry the texture over to' draws it for the new ones.");
+							"{carry_texture} draws it for the new ones.");
 		return lines;
 	}
 
@@ -628,15 +643,21 @@ Outcome applyFilter(
 	const Log& log)
 {
 	const RichParameterList par = withDefaults(given, filter);
-	HostProgress progress(callback, log);
+	const Log named = [&](const std::string& line) { log(withNames(filter, line)); };
+	HostProgress progress(callback, named);
 	Outcome outcome = filter == Hyperbolic ? applyHyperbolic(par, md, progress)
 										   : applyEuclidean(par, md, progress);
 	for (const std::string& line : toLogLines(outcome.results))
 		log(line);
 	for (const std::string& line : outcome.sentences)
-		log(line);
+		named(line);
 	log(whereToLook(par.getBool("colorize"), outcome.results));
 	return outcome;
+}
+
+std::string failure(int filter)
+{
+	return withNames(filter, currentErrorSentence());
 }
 
 } // namespace filter_ricci

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What every host shares: the filters' texts and parameters, and one run of a filter on the current
-// mesh of a document. The hosts' plugin classes only pass calls on. error_sentences.h puts failures into
-// words.
+// mesh of a document. The hosts' plugin classes only pass calls on.
 #ifndef FILTER_RICCI_BRIDGE_H
 #define FILTER_RICCI_BRIDGE_H
 
@@ -28,11 +27,8 @@ struct FilterText
 
 FilterText filterText(int filter);
 
-/// Basic: without those that few runs need, for hosts that show every parameter they are told of.
-enum class Shown { Basic, All };
-
 /// The parameters in the order of the dialog. Hosts find them by their names.
-RichParameterList filterParameters(int filter, Shown shown = Shown::All);
+RichParameterList filterParameters(int filter);
 
 /// MeshModel::MeshElement bits the host checks before a run.
 int preConditions();
@@ -53,13 +49,17 @@ struct Outcome
 	int changedElements;                ///< MeshModel::MeshElement bits
 };
 
+/// The exception being handled, as one or more sentences for the user: the mesh is unchanged. Call it inside a
+/// catch block only.
+std::string failure(int filter);
+
 /// Told of the progress of this thread's runs besides the host, many times a second, unless it is null; false
 /// cancels. PyMeshLab's own callback cannot.
 extern thread_local vcg::CallBackPos* listener;
 
 /// Runs the filter on the current mesh of \p md. Parameters that \p par lacks have their defaults.
 /// Nothing is written before everything is computed.
-/// \throw Refusal, ricci::Error, std::bad_alloc and what vcglib throws; see currentErrorSentence().
+/// \throw Refusal, ricci::Error, std::bad_alloc and what vcglib throws; see failure().
 Outcome applyFilter(
 	int filter,
 	const RichParameterList& par,

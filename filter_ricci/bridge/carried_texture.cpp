@@ -230,12 +230,13 @@ void CarriedTexture::readFaces(const MeshModel& model)
 	if (!any)
 		refuse(
 			m.textures.empty()
-				? "carry_texture needs something to draw, but the mesh has neither a texture nor "
+				? "{carry_texture} needs something to draw, but the mesh has neither a texture nor "
 				  "colours."
-			: places ? "carry_texture needs something to draw, but no face of the mesh has one of "
-					   "its textures, and there are no colours."
-					 : "carry_texture needs old texture coordinates, but the mesh has none, and no "
-					   "colours either.");
+			: places
+				? "{carry_texture} needs something to draw, but no face of the mesh has one of "
+				  "its textures, and there are no colours."
+				: "{carry_texture} needs old texture coordinates, but the mesh has none, and no "
+				  "colours either.");
 }
 
 void CarriedTexture::loadPictures(const MeshModel& model)
@@ -249,7 +250,7 @@ void CarriedTexture::loadPictures(const MeshModel& model)
 			refuse(
 				"The texture " + name +
 				" of the mesh cannot be loaded: put its file beside the mesh and open the mesh "
-				"again, or leave carry_texture empty.");
+				"again, or leave {carry_texture} empty.");
 		m_hasAlpha = m_hasAlpha || image.hasAlphaChannel();
 		m_hasWords = m_hasWords || hasWords(image);
 		m_pictures[ricci::positionOf(face.picture)] = image;
@@ -296,7 +297,7 @@ void CarriedTexture::requireMemory() const
 	const double free = freeMemory();
 	if (free > 0.0 && needed > free)
 		refuse(
-			"A texture_size of " + std::to_string(m_size) + " needs about " +
+			"{texture_size} " + std::to_string(m_size) + " needs about " +
 			ricci::numberText(needed / 1e9, 2) + " GB of memory for this mesh, but " +
 			ricci::numberText(free / 1e9, 2) + " GB are free: choose a smaller one.");
 }

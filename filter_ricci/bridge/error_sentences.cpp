@@ -53,7 +53,7 @@ const char* remedy(const ricci::InvalidMesh& e)
 	case Error::NotPuncturable:
 		return ". Remesh it, or separate its sheets.";
 	case Error::BeyondFloats:
-		return ": choose normalize_uv, or run 'Transform: Scale, Normalize' first.";
+		return ": choose {normalize_uv}, or run 'Transform: Scale, Normalize' first.";
 	}
 	return ".";
 }
@@ -66,12 +66,12 @@ std::string inWords(const ricci::InvalidMesh& e)
 /// \p value as the user wrote it, and what to write instead.
 std::string unusable(double value, const char* parameter, const std::string& use)
 {
-	return "The value " + numberText(value, 6) + " of " + parameter + " cannot be used. " + use;
+	return "The value " + numberText(value, 6) + " of {" + parameter + "} cannot be used. " + use;
 }
 
 std::string unusable(int value, const char* parameter, const std::string& use)
 {
-	return "The value " + std::to_string(value) + " of " + parameter + " cannot be used. " + use;
+	return "The value " + std::to_string(value) + " of {" + parameter + "} cannot be used. " + use;
 }
 
 std::string unusableShare(double value, const char* parameter, double max)
@@ -91,19 +91,19 @@ std::string inWords(const ricci::InvalidOption& e)
 		return unusable(
 			static_cast<int>(e.value),
 			"cone_count",
-			"Use the number of cones, or 0 to have it chosen by cone_distortion.");
+			"Use the number of cones, or 0 to have it chosen by {cone_distortion}.");
 	case Error::ConeDistortion:
 		return unusable(
 			e.value, "cone_distortion", "Use 0, or a number greater than 0, for example 0.25.");
 	case Error::ConeAngle:
-		return "cone_angle must be greater than 0 degrees, not " +
+		return "{cone_angle} must be greater than 0 degrees, not " +
 			   numberText(e.value * 180.0 / ricci::kPi, 9) + ".";
 	case Error::SeamHiding:
 		return unusableShare(e.value, "seam_hiding", 1.0);
 	case Error::ChartMargin:
 		return unusableShare(e.value, "chart_margin", e.bound);
 	case Error::ChartMarginTooWide:
-		return "A chart_margin of " + numberText(e.value, 6, std::chars_format::fixed) +
+		return "{chart_margin} " + numberText(e.value, 6, std::chars_format::fixed) +
 			   " leaves no room for " + count + " charts: choose a smaller one.";
 	case Error::WithoutFlips:
 		return "The output 'Common refinement' and the holes 'Capped' belong to the method "
@@ -116,7 +116,7 @@ std::string inWords(const ricci::InvalidOption& e)
 				   e.target == ricci::TargetCurvature::Rectangle ? "'Rectangle'" : "'Disk'") +
 			   " needs a topological disk (genus 0, one boundary loop), but the surface is " +
 			   e.surface.name() +
-			   ": choose seams that open it to disks, or another target_curvature.";
+			   ": choose seams that open it to disks, or another {target_curvature}.";
 	case Error::TooFewBoundaryVertices:
 		return "'Rectangle' needs four boundary vertices, but the boundary has " + count + ".";
 	case Error::CornerCount:
@@ -130,17 +130,17 @@ std::string inWords(const ricci::InvalidOption& e)
 			   "select some on every component.";
 	case Error::TooFewCones:
 		return "The surface needs at least " + numberText(e.bound, 10) +
-			   " placed cones, but cone_count is " + numberText(e.value, 10) + ".";
+			   " placed cones, but {cone_count} is " + numberText(e.value, 10) + ".";
 	case Error::TooFewVertices:
 		return "The surface has " + count +
-			   " interior vertices, too few for the wanted cones: cone_count is " +
+			   " interior vertices, too few for the wanted cones: {cone_count} is " +
 			   numberText(e.value, 10) + ".";
 	case Error::SphereOfComponents:
 		return std::string(e.what()) + ": separate them first.";
 	case Error::NotASphere:
 		return std::string(e.what()) + ".";
 	case Error::CoverTooLarge:
-		return "universal_cover: " + numberText(e.value, 10) + " rings would need more than " +
+		return "{universal_cover}: " + numberText(e.value, 10) + " rings would need more than " +
 			   count + " faces. Ask for fewer rings, or simplify the mesh.";
 	}
 	return std::string(e.what()) + ".";
@@ -158,7 +158,7 @@ std::string inWords(const ricci::InadmissibleCurvature& e)
 	case Error::Flat:
 		return "'Flat everywhere' needs total curvature 2 pi chi = 0, but the surface is " +
 			   e.surface.name() + " with 2 pi chi = " + numberText(e.bound, 9) +
-			   ": choose another target_curvature.";
+			   ": choose another {target_curvature}.";
 	case Error::GaussBonnet:
 		return "The vertex qualities add up to " + numberText(e.value, 9) +
 			   ", but a metric on this surface has total curvature 2 pi chi = " +
@@ -185,7 +185,7 @@ std::string remedy(const ricci::NotConverged& e)
 	using Error = ricci::NotConverged;
 	switch (e.problem) {
 	case Error::StepsUsedUp:
-		return ": raise epsilon.";
+		return ": raise {epsilon}.";
 	case Error::BrokenTriangles:
 		return (e.method == ricci::Method::EdgeSwaps
 					? ", with " + std::to_string(e.swaps) + " edges swapped"
@@ -194,13 +194,13 @@ std::string remedy(const ricci::NotConverged& e)
 					? ": remesh the worst triangles."
 					: ": choose the method 'Intrinsic flips', or remesh the worst triangles.");
 	case Error::LostInRounding:
-		return ". Choose a target_curvature nearer to the curvature of the mesh.";
+		return ". Choose a {target_curvature} nearer to the curvature of the mesh.";
 	case Error::FlipsUsedUp:
 		return ": remesh the worst triangles.";
 	case Error::CircleUnsettled:
-		return ". Remesh the boundary, or choose another target_curvature.";
+		return ". Remesh the boundary, or choose another {target_curvature}.";
 	case Error::FlatTriangles:
-		return ". Choose the method 'Intrinsic flips', or another target_curvature.";
+		return ". Choose the method 'Intrinsic flips', or another {target_curvature}.";
 	case Error::SplitsUsedUp:
 		return ": remesh the boundary.";
 	case Error::NoCut:
@@ -225,7 +225,7 @@ std::string inWords(const ricci::SolverFailed& e)
 	case ricci::SolverFailed::Flow:
 		return what + ". Remesh the worst triangles.";
 	case ricci::SolverFailed::SeamCost:
-		return what + ". Set seam_hiding to 0, or remesh the worst triangles.";
+		return what + ". Set {seam_hiding} to 0, or remesh the worst triangles.";
 	}
 	return what + ".";
 }
@@ -263,8 +263,8 @@ std::string inWords(const ricci::Cancelled&)
 std::string inWords(const ricci::TimeOut& e)
 {
 	return "The run was stopped after " + numberText(e.elapsed, 3) + " seconds, with about " +
-		   numberText(100.0 * e.done, 2) + "% done (time_limit: " + numberText(e.limit, 6) +
-		   "): raise time_limit, or simplify the mesh. The mesh is unchanged.";
+		   numberText(100.0 * e.done, 2) + "% done ({time_limit}: " + numberText(e.limit, 6) +
+		   "): raise {time_limit}, or simplify the mesh. The mesh is unchanged.";
 }
 
 /// inWords() of the first of the classes that \p error belongs to.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the user reads of a failure. The algorithm throws its errors as data; here they become
-// sentences that name the filters of MeshLab and the parameters of the plugin.
+// sentences that name the filters of MeshLab and the parameters of the plugin. A parameter stands there by its
+// id in braces: bridge.cpp puts the name that the user knows in its place.
 #ifndef FILTER_RICCI_ERROR_SENTENCES_H
 #define FILTER_RICCI_ERROR_SENTENCES_H
 

@@ -96,7 +96,7 @@ void readChoice(
 		uses += std::to_string(i) + " (" + choices[i].toStdString() + ")";
 	}
 	throw Refusal(
-		"The value " + std::to_string(chosen) + " of " + id + " is not one of its choices. Use " +
+		"The value " + std::to_string(chosen) + " of {" + id + "} is not one of its choices. Use " +
 		uses + ".");
 }
 
@@ -112,7 +112,7 @@ double checkedTimeLimit(const RichParameterList& par)
 		return seconds;
 	throw Refusal(
 		"The value " + ricci::numberText(seconds, 6) +
-		" of time_limit cannot be used. Use a number of seconds, or 0 for no limit.");
+		" of {time_limit} cannot be used. Use a number of seconds, or 0 for no limit.");
 }
 
 TextureSettings checkedTexture(const RichParameterList& par)
@@ -122,9 +122,9 @@ TextureSettings checkedTexture(const RichParameterList& par)
 	texture.size = par.getInt("texture_size");
 	if (texture.size != 0 && (texture.size < kMinTextureSize || texture.size > kMaxTextureSize))
 		throw Refusal(
-			"The value " + std::to_string(texture.size) + " of texture_size cannot be used. Use " +
-			std::to_string(kMinTextureSize) + " to " + std::to_string(kMaxTextureSize) +
-			" texels, or 0 for as many as keep the old ones.");
+			"The value " + std::to_string(texture.size) +
+			" of {texture_size} cannot be used. Use " + std::to_string(kMinTextureSize) + " to " +
+			std::to_string(kMaxTextureSize) + " texels, or 0 for as many as keep the old ones.");
 	return texture;
 }
 
@@ -173,8 +173,7 @@ const char* const kSeamsTip = "<b>Shortest</b>, or first where you choose: at te
 							  "selected edges ('Select Crease Edges'), or round selected faces.";
 
 const char* const kFinishTip =
-	"What is done to the flow's map before it is stored: faces that would come out flipped are "
-	"repaired%1. Only for the method 'Intrinsic flips'.";
+	"Repairs faces that would come out flipped%1. Only for the method 'Intrinsic flips'.";
 
 RichBool colorizeParameter()
 {
@@ -222,7 +221,7 @@ void addFilesAndLimits(RichParameterList& list, double epsilon)
 }
 
 // What a first run needs comes first, and what few runs need after it.
-RichParameterList euclideanParameters(Shown shown)
+RichParameterList euclideanParameters()
 {
 	const ricci::Options defaults;
 	RichParameterList list;
@@ -259,18 +258,14 @@ RichParameterList euclideanParameters(Shown shown)
 		false,
 		"Flat mesh as new layer",
 		"Add a layer with the mesh laid out in the plane, cut along its seams."));
-	if (shown == Shown::Basic)
-		return list;
 	list.addParam(host::advanced<RichEnum>(
 		"holes",
 		static_cast<int>(defaults.holes),
 		holesChoices(),
 		"Holes",
-		"What the boundary loops other than the longest are: boundaries too, or <b>Capped</b>, "
-		"closed "
-		"for the flow, so that the chart goes round them without seams. <b>Short ones capped</b>: "
-		"loops no longer than a tenth of the root of the surface's area, even if all are so "
-		"short."));
+		"Boundary loops other than the longest: boundaries too, or <b>Capped</b> for the flow, so "
+		"that the chart goes round them without seams. <b>Short ones capped</b>: those within a "
+		"tenth of the root of the area, even if all are."));
 	list.addParam(host::advanced<RichFloat>(
 		"seam_hiding",
 		static_cast<Scalarm>(defaults.seamHiding),
@@ -304,19 +299,17 @@ RichParameterList euclideanParameters(Shown shown)
 		finishChoices(),
 		"Finish",
 		QString(kFinishTip)
-			.arg(", and on 'Keep the mesh' the faces get the least mean conformal distortion, or "
-				 "<b>least stretch</b>: lengths are kept as well as angles, best on chosen seams, "
-				 "whose two sides then differ")));
+			.arg(", and on 'Keep the mesh' gives the mesh the least mean conformal distortion, or "
+				 "the <b>least stretch</b>, of lengths too: best on chosen seams, whose sides then "
+				 "differ")));
 	list.addParam(host::advanced<RichEnum>(
 		"charts",
 		static_cast<int>(defaults.charts),
 		chartsChoices(),
 		"Charts",
-		"<b>Without overlap</b>: a chart that covers a part of the plane twice is cut along the "
-		"shortest lines that part what overlaps. <b>Cut for room</b>: with <b>Automatic</b>, a "
-		"chart "
-		"that leaves most of the unit square empty is also cut across where that gives all charts "
-		"enough room to be worth the seam."));
+		"<b>Without overlap</b>: charts that cover a part of the plane twice are cut apart along "
+		"the shortest lines. <b>Cut for room</b>: with <b>Automatic</b>, also a chart that fills "
+		"little of the square, where the room is worth the seam."));
 	list.addParam(host::advanced<RichBool>(
 		"normalize_uv",
 		Flow::Params().normalizeUV,
@@ -333,7 +326,7 @@ RichParameterList euclideanParameters(Shown shown)
 	return list;
 }
 
-RichParameterList hyperbolicParameters(Shown shown)
+RichParameterList hyperbolicParameters()
 {
 	const ricci::HyperbolicOptions defaults;
 	RichParameterList list;
@@ -375,8 +368,6 @@ RichParameterList hyperbolicParameters(Shown shown)
 		"Canonical polygon",
 		"Add a layer with a fundamental polygon of 4 sides for each handle, as edges. Its sides "
 		"are geodesics that the canonical generators pair."));
-	if (shown == Shown::Basic)
-		return list;
 	list.addParam(host::advanced<RichEnum>("seams", 0, seamsChoices(), kSeamsName, kSeamsTip));
 	list.addParam(host::advanced<RichBool>(
 		"free_boundary",
@@ -403,9 +394,9 @@ RichParameterList hyperbolicParameters(Shown shown)
 
 } // namespace
 
-RichParameterList filterParameters(int filter, Shown shown)
+RichParameterList filterParameters(int filter)
 {
-	return filter == Hyperbolic ? hyperbolicParameters(shown) : euclideanParameters(shown);
+	return filter == Hyperbolic ? hyperbolicParameters() : euclideanParameters();
 }
 
 Settings readSettings(const RichParameterList& par)
@@ -425,9 +416,9 @@ Settings readSettings(const RichParameterList& par)
 	readChoice(par, "charts", chartsChoices(), settings.flow.charts);
 	settings.sphereLayer = par.getBool("sphere_layer");
 	if (!settings.texture.file.trimmed().isEmpty() && !settings.flow.normalizeUV)
-		throw Refusal(
-			"carry_texture draws on the unit square: choose normalize_uv, or leave carry_texture "
-			"empty.");
+		throw Refusal("{carry_texture} draws on the unit square: choose {normalize_uv}, or leave "
+					  "{carry_texture} "
+					  "empty.");
 	ricci::checkOptions(settings.flow);
 	ricci::checkChartMargin(settings.flow.chartMargin);
 	return settings;
@@ -445,7 +436,7 @@ HyperbolicSettings readHyperbolicSettings(const RichParameterList& par)
 	if (settings.coverRings < 0 || settings.coverRings > kMaxRings)
 		throw Refusal(
 			"The value " + std::to_string(settings.coverRings) +
-			" of universal_cover cannot be used. Use 0 to " + std::to_string(kMaxRings) +
+			" of {universal_cover} cannot be used. Use 0 to " + std::to_string(kMaxRings) +
 			" rings.");
 	settings.axes = par.getBool("generator_axes");
 	settings.canonicalPolygon = par.getBool("canonical_polygon");

@@ -288,7 +288,7 @@ std::vector<std::string> doubts(int filter, const Results& results, const RichPa
 				ricci::numberText(std::get<double>(value), 2) +
 				" of their texels for a unit of length. " +
 				(par.getInt("texture_size") == 0 ? "It has the largest size that there is."
-												 : "A texture_size of 0 keeps them all."));
+												 : "{texture_size} 0 keeps them all."));
 	if (filter == Hyperbolic)
 		return lines; // a hyperbolic metric has areas of its own
 	const bool isAutomatic = is("target_curvature", 0);
@@ -299,14 +299,14 @@ std::vector<std::string> doubts(int filter, const Results& results, const RichPa
 			"The use of this map is doubtful: areas change by a factor of " +
 			ricci::numberText(areas, 3) + " on average. " +
 			(isAutomatic || is("target_curvature", 6)
-				 ? "A cone_distortion of 0.25 asks for more cones, which keep areas."
+				 ? "{cone_distortion} 0.25 asks for more cones, which keep areas."
 				 : "The target 'Automatic' places cones, which keep areas."));
 	if (occupancy < kDoubtfulOccupancy)
 		lines.push_back(
 			"The use of this map is doubtful: its charts cover " +
 			ricci::numberText(100.0 * occupancy, 2) + " % of the square. " +
 			(isAutomatic && is("charts", static_cast<int>(ricci::Charts::CutForRoom))
-				 ? "Seams that are chosen ('Seams') part it into charts that fit."
+				 ? "Seams that are chosen ({seams}) part it into charts that fit."
 				 : "The target 'Automatic' with the charts 'Without overlap, cut for room' cuts it "
 				   "into charts that fit."));
 	return lines;

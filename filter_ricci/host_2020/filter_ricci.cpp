@@ -2,29 +2,17 @@
 #include "filter_ricci.h"
 
 #include "bridge.h"
-#include "error_sentences.h"
 
-#include <QCoreApplication>
-#include <QSettings>
+#include <QApplication>
+#include <QDockWidget>
+#include <QGridLayout>
 #include <QStringList>
+#include <QTimer>
 
 namespace {
 
-const char* const kShowAll = "MeshLab::Ricci::ShowAllParameters";
-
-/// This host's dialog is a plain list, higher than many screens if it shows every parameter. What it
-/// shows is a setting of the window, in whose file the host keeps it as XML. meshlabserver has no
-/// settings; it takes no parameter that the filter does not tell it of.
-filter_ricci::Shown shownParameters()
-{
-	const bool hasWindow = !QCoreApplication::organizationName().isEmpty();
-	if (!hasWindow || QSettings().value(kShowAll).toString().contains("value=\"true\""))
-		return filter_ricci::Shown::All;
-	return filter_ricci::Shown::Basic;
-}
-
 /// Characters in a line of the dialog's help.
-constexpr int kHelpWidth = 62;
+constexpr int kHelpWidth = 45;
 
 /// The dialog has room for the lines of help that the text itself begins, and cuts off those that it breaks.
 struct Help : RichParameter
@@ -49,6 +37,43 @@ struct Help : RichParameter
 		text = lines.join("<br>");
 	}
 };
+
+/// This host's dialog is one column of rows (label, field, help), higher than many screens for so many
+/// parameters. Once it is made, the lower half of them moves beside the upper one.
+void showInTwoColumns(const QString& filter)
+{
+	constexpr int kFields = 3;
+	for (QWidget* widget : QApplication::allWidgets()) {
+		const auto* dialog = qobject_cast<QDockWidget*>(widget);
+		if (dialog == nullptr || dialog->windowTitle() != filter || dialog->widget() == nullptr)
+			continue;
+		const auto* whole = qobject_cast<QGridLayout*>(dialog->widget()->layout());
+		QLayoutItem* list = whole == nullptr ? nullptr : whole->itemAtPosition(1, 0);
+		auto* rows = list == nullptr || list->widget() == nullptr
+						 ? nullptr
+						 : qobject_cast<QGridLayout*>(list->widget()->layout());
+		if (rows == nullptr || rows->columnCount() > kFields)
+			continue;
+		const int count = rows->rowCount(), half = (count + 1) / 2;
+		for (int row = half; row < count; ++row)
+			for (int field = 0; field < kFields; ++field)
+				if (QLayoutItem* item = rows->itemAtPosition(row, field)) {
+					int at = 0, column = 0, height = 0, width = 0;
+					const int index = rows->indexOf(item->widget());
+					rows->getItemPosition(index, &at, &column, &height, &width);
+					rows->addItem(
+						rows->takeAt(index),
+						row - half,
+						kFields + column,
+						height,
+						width,
+						item->alignment());
+				}
+		list->widget()->setMinimumSize(rows->sizeHint());
+		widget->setMinimumSize(dialog->widget()->sizeHint());
+		widget->adjustSize();
+	}
+}
 
 } // namespace
 
@@ -97,21 +122,12 @@ int FilterRicciPlugin::postCondition(QAction*) const
 // The variant with a document, because the host's default asks a document without a mesh for one.
 void FilterRicciPlugin::initParameterSet(QAction* action, MeshDocument&, RichParameterList& par)
 {
-	RichParameterList list = filter_ricci::filterParameters(ID(action), shownParameters());
+	RichParameterList list = filter_ricci::filterParameters(ID(action));
 	for (RichParameter& parameter : list)
 		Help::breakLines(parameter);
 	par.join(list);
-}
-
-// Called for each filter.
-void FilterRicciPlugin::initGlobalParameterSet(QAction*, RichParameterList& settings)
-{
-	if (!settings.hasParameter(kShowAll))
-		settings.addParam(RichBool(
-			kShowAll,
-			false,
-			"Generalized Ricci Flow: show all parameters",
-			"The dialogs of both filters show the parameters that few runs need, too."));
+	if (filter_ricci::host::hasWindow())
+		QTimer::singleShot(0, this, [name = filterName(ID(action))] { showInTwoColumns(name); });
 }
 
 bool FilterRicciPlugin::applyFilter(
@@ -125,7 +141,7 @@ bool FilterRicciPlugin::applyFilter(
 	}
 	catch (...) {
 		// meshlabserver prints the log only, the window shows errorMessage only.
-		const std::string sentence = filter_ricci::currentErrorSentence();
+		const std::string sentence = filter_ricci::failure(ID(action));
 		Log(sentence);
 		errorMessage = QString::fromStdString(sentence);
 		return false;

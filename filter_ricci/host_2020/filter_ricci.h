@@ -25,7 +25,6 @@ public:
 	int postCondition(QAction* action) const override;
 
 	void initParameterSet(QAction* action, MeshDocument& md, RichParameterList& par) override;
-	void initGlobalParameterSet(QAction* action, RichParameterList& settings) override;
 	bool applyFilter(
 		QAction* action,
 		MeshDocument& md,

@@ -24,6 +24,12 @@ namespace filter_ricci::host {
 /// Of the entry of the menu Render that draws the histogram of the vertex quality.
 constexpr const char* kHistogramName = "Show Quality Histogram";
 
+/// meshlabserver has none, and no settings of an organization.
+inline bool hasWindow()
+{
+	return !QCoreApplication::organizationName().isEmpty();
+}
+
 inline void removeMesh(MeshDocument& md, MeshModel* mesh)
 {
 	md.delMesh(mesh);
@@ -44,11 +50,11 @@ inline QImage texture(const MeshModel& model, const std::string& name)
 }
 
 /// Makes an image, which has been written, the only texture. The window looks for it in the folder of
-/// the process; meshlabserver, which is of no organization, needs that folder for what it writes.
+/// the process; meshlabserver needs that folder for what it writes.
 inline void setTexture(MeshModel& model, const std::string& name, const QImage&)
 {
 	model.cm.textures.assign(1, name);
-	if (!QCoreApplication::organizationName().isEmpty())
+	if (hasWindow())
 		QDir::setCurrent(model.pathName());
 }
 
@@ -60,7 +66,7 @@ inline QString textureName(const QString& path, const QString& folder)
 	return QDir::isRelativePath(relative) && !relative.startsWith("..") ? relative : path;
 }
 
-/// A parameter that few runs need. Here the plugin itself leaves them out of the dialog.
+/// A parameter that few runs need. This host knows no difference.
 template<class Parameter, class... Arguments>
 Parameter advanced(Arguments&&... arguments)
 {

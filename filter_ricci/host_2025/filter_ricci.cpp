@@ -2,7 +2,6 @@
 #include "filter_ricci.h"
 
 #include "bridge.h"
-#include "error_sentences.h"
 
 namespace {
 
@@ -103,6 +102,6 @@ std::map<std::string, QVariant> FilterRicciPlugin::applyFilter(
 	catch (...) {
 		// PyMeshLab leaves a failed filter with the log of its document, which may not outlive it.
 		setLog(nullptr);
-		throw MLException(QString::fromStdString(filter_ricci::currentErrorSentence()));
+		throw MLException(QString::fromStdString(filter_ricci::failure(ID(action))));
 	}
 }

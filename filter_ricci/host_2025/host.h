@@ -5,6 +5,7 @@
 
 #include <common/plugins/interfaces/filter_plugin.h>
 
+#include <QCoreApplication>
 #include <QFileInfo>
 #include <QImage>
 
@@ -15,6 +16,12 @@ namespace filter_ricci::host {
 
 /// Of the entry of the menu Render that draws the histogram of the vertex quality.
 constexpr const char* kHistogramName = "Show Vertex Quality Histogram";
+
+/// PyMeshLab has none, and no settings of an organization.
+inline bool hasWindow()
+{
+	return !QCoreApplication::organizationName().isEmpty();
+}
 
 inline void removeMesh(MeshDocument& md, MeshModel* mesh)
 {

@@ -11,8 +11,7 @@ window_needs() {
 	[ ${#missing[@]} -eq 0 ] || { echo "not installed: ${missing[*]}"; return 1; }
 }
 
-# A display of its own, a window manager, and settings that keep MeshLab quiet and its canvas white,
-# and with window_all_parameters have the filters' dialogs show all parameters.
+# A display of its own, a window manager, and settings that keep MeshLab quiet and its canvas white.
 # As large as a small laptop's; window_screen=WxH asks for another.
 open_display() {
 	window_folder=$1
@@ -47,8 +46,6 @@ write_settings() {
 	color_setting backgroundTopColor 255 255 255
 	color_setting backgroundBotColor 255 255 255
 	color_setting logAreaColor 90 90 90
-	[ -z "${window_all_parameters-}" ] ||
-		printf 'MeshLab%%3A%%3ARicci%%3A%%3AShowAllParameters="<Param name=\\"MeshLab::Ricci::ShowAllParameters\\" type=\\"RichBool\\" value=\\"true\\"/>"\n'
 }
 
 color_setting() {

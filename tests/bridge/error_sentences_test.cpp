@@ -234,7 +234,7 @@ TEST(Sentences, EveryOtherErrorHasOne)
 		EXPECT_EQ(
 			sentence(InternalError(std::string("The fundamental polygon is inconsistent") + end)),
 			"The fundamental polygon is inconsistent: please report the mesh.");
-	expectSentence(ricci::TimeOut(12.25, 0.5, 10.0), {"12.2", "50%", "time_limit: 10"});
+	expectSentence(ricci::TimeOut(12.25, 0.5, 10.0), {"12.2", "50%", "{time_limit}: 10"});
 	EXPECT_EQ(sentence(ricci::Cancelled()), "Cancelled: the mesh is unchanged.");
 }
 
@@ -276,7 +276,7 @@ TEST(Sentences, OfMeshes)
 	EXPECT_EQ(
 		of(InvalidMesh::BeyondFloats, 1),
 		"The mesh is too large or too small for texture coordinates in its own scale: choose "
-		"normalize_uv, or run 'Transform: Scale, Normalize' first.");
+		"{normalize_uv}, or run 'Transform: Scale, Normalize' first.");
 }
 
 TEST(Sentences, OfParameters)
@@ -286,34 +286,36 @@ TEST(Sentences, OfParameters)
 	};
 	const double infinity = std::numeric_limits<double>::infinity();
 	const std::string epsilon =
-		" of epsilon cannot be used. Use a number of radians greater than 0, for example 1e-8.";
+		" of {epsilon} cannot be used. Use a number of radians greater than 0, for example 1e-8.";
 	EXPECT_EQ(of(InvalidOption::Epsilon, 0.0), "The value 0" + epsilon);
 	EXPECT_EQ(of(InvalidOption::Epsilon, -1.0), "The value -1" + epsilon);
 	EXPECT_EQ(of(InvalidOption::Epsilon, infinity), "The value inf" + epsilon);
 	EXPECT_EQ(of(InvalidOption::Epsilon, std::nan("")), "The value nan" + epsilon);
 	EXPECT_EQ(
 		of(InvalidOption::ConeCount, -2147483648.0),
-		"The value -2147483648 of cone_count cannot be used. Use the number of cones, or 0 to have "
-		"it chosen by cone_distortion.");
+		"The value -2147483648 of {cone_count} cannot be used. Use the number of cones, or 0 to "
+		"have "
+		"it chosen by {cone_distortion}.");
 	EXPECT_EQ(
 		of(InvalidOption::ConeDistortion, double(-0.1f)),
-		"The value -0.1 of cone_distortion cannot be used. Use 0, or a number greater than 0, for "
+		"The value -0.1 of {cone_distortion} cannot be used. Use 0, or a number greater than 0, "
+		"for "
 		"example 0.25.");
 	EXPECT_EQ(
 		of(InvalidOption::SeamHiding, double(1.1f)),
-		"The value 1.1 of seam_hiding cannot be used. Use a number from 0 to 1.");
+		"The value 1.1 of {seam_hiding} cannot be used. Use a number from 0 to 1.");
 	EXPECT_EQ(
 		of(InvalidOption::ChartMargin, double(0.3f), 0.25),
-		"The value 0.3 of chart_margin cannot be used. Use a number from 0 to 0.25.");
+		"The value 0.3 of {chart_margin} cannot be used. Use a number from 0 to 0.25.");
 	EXPECT_EQ(
 		of(InvalidOption::ConeAngle, -5.0 * (kPi / 180.0)),
-		"cone_angle must be greater than 0 degrees, not -5.");
+		"{cone_angle} must be greater than 0 degrees, not -5.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::ChartMarginTooWide, 0.25, 0.0, 30)),
-		"A chart_margin of 0.250000 leaves no room for 30 charts: choose a smaller one.");
+		"{chart_margin} 0.250000 leaves no room for 30 charts: choose a smaller one.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::CoverTooLarge, 9.0, 0.0, 5000000)),
-		"universal_cover: 9 rings would need more than 5000000 faces. Ask for fewer rings, or "
+		"{universal_cover}: 9 rings would need more than 5000000 faces. Ask for fewer rings, or "
 		"simplify the mesh.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::WithoutFlips)),
@@ -330,11 +332,11 @@ TEST(Sentences, OfTargetsThatTheSurfaceDoesNotHave)
 		sentence(InvalidOption(InvalidOption::NotADisk, TargetCurvature::Disk, surface(1, 0))),
 		"'Disk' needs a topological disk (genus 0, one boundary loop), but the surface is a closed "
 		"surface of genus 1 (a torus): choose seams that open it to disks, or another "
-		"target_curvature.");
+		"{target_curvature}.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::NotADisk, TargetCurvature::Rectangle, surface(0, 2))),
 		"'Rectangle' needs a topological disk (genus 0, one boundary loop), but the surface is an "
-		"annulus: choose seams that open it to disks, or another target_curvature.");
+		"annulus: choose seams that open it to disks, or another {target_curvature}.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::CornerCount, 0.0, 0.0, 3)),
 		"'Rectangle' needs four selected boundary vertices, or none, but 3 are selected. One on a "
@@ -350,10 +352,10 @@ TEST(Sentences, OfTargetsThatTheSurfaceDoesNotHave)
 		"every component.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::TooFewCones, 2.0, 3.0)),
-		"The surface needs at least 3 placed cones, but cone_count is 2.");
+		"The surface needs at least 3 placed cones, but {cone_count} is 2.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::TooFewVertices, 40.0, 0.0, 12)),
-		"The surface has 12 interior vertices, too few for the wanted cones: cone_count is 40.");
+		"The surface has 12 interior vertices, too few for the wanted cones: {cone_count} is 40.");
 	EXPECT_EQ(
 		sentence(InvalidOption(InvalidOption::SphereOfComponents, 0.0, 0.0, 2)),
 		"The map to the sphere takes one closed surface of genus 0, but the mesh has 2 components: "
@@ -370,7 +372,7 @@ TEST(Sentences, OfCurvatures)
 		sentence(
 			InadmissibleCurvature(InadmissibleCurvature::Flat, 0.0, 4.0 * kPi, 0, surface(0, 0))),
 		"'Flat everywhere' needs total curvature 2 pi chi = 0, but the surface is a closed surface "
-		"of genus 0 (a sphere) with 2 pi chi = 12.5663706: choose another target_curvature.");
+		"of genus 0 (a sphere) with 2 pi chi = 12.5663706: choose another {target_curvature}.");
 	EXPECT_EQ(
 		sentence(InadmissibleCurvature(InadmissibleCurvature::GaussBonnet, 0.96, 0.0)),
 		"The vertex qualities add up to 0.96, but a metric on this surface has total curvature 2 "
@@ -407,7 +409,7 @@ TEST(Sentences, OfFlowsThatStopped)
 	EXPECT_EQ(
 		sentence(NotConverged(2, 0.01234, 1e-8, 3e-14)),
 		"The flow stopped after 2 Newton steps with a curvature error of 0.0123 (wanted: 1e-08, "
-		"rounding floor: 3e-14): raise epsilon.");
+		"rounding floor: 3e-14): raise {epsilon}.");
 	NotConverged broken(NotConverged::BrokenTriangles, 1);
 	broken.method = Method::EdgeSwaps;
 	broken.swaps = 25;
@@ -429,7 +431,7 @@ TEST(Sentences, OfFlowsThatStopped)
 		sentence(NotConverged(NotConverged::FlatTriangles, 2)),
 		"2 triangles are flat at the end of the flow: the curvature asked for is the limit of what "
 		"these triangles reach. Choose the method 'Intrinsic flips', or another "
-		"target_curvature.");
+		"{target_curvature}.");
 	EXPECT_EQ(
 		sentence(NotConverged(NotConverged::SplitsUsedUp, 9)),
 		"Triangles on the boundary kept breaking after 9 boundary edges were split: remesh the "
@@ -441,20 +443,20 @@ TEST(Sentences, OfFlowsThatStopped)
 	EXPECT_EQ(
 		sentence(NotConverged(NotConverged::LostInRounding, 3, 17.0)),
 		"3 triangles are lost in rounding: the flow makes parts of the surface 1e17 times as large "
-		"as others. Choose a target_curvature nearer to the curvature of the mesh.");
+		"as others. Choose a {target_curvature} nearer to the curvature of the mesh.");
 	EXPECT_EQ(
 		sentence(NotConverged(NotConverged::LostInRounding, 0, 35.0)),
 		"The flow is lost in rounding: it makes parts of the surface 1e35 times as large as "
 		"others. "
-		"Choose a target_curvature nearer to the curvature of the mesh.");
+		"Choose a {target_curvature} nearer to the curvature of the mesh.");
 	EXPECT_EQ(
 		sentence(NotConverged("2 points lie outside the disk")),
 		"The finished map failed its check (2 points lie outside the disk): remesh the worst "
 		"triangles, and report the mesh.");
 	EXPECT_EQ(
 		sentence(ricci::TimeOut(61.25, 0.254, 60.0)),
-		"The run was stopped after 61.2 seconds, with about 25% done (time_limit: 60): raise "
-		"time_limit, or simplify the mesh. The mesh is unchanged.");
+		"The run was stopped after 61.2 seconds, with about 25% done ({time_limit}: 60): raise "
+		"{time_limit}, or simplify the mesh. The mesh is unchanged.");
 	EXPECT_EQ(
 		sentence(TooLarge(TooLarge::Memory, 5000000, 6.6e9, 2.5e9)),
 		"The mesh has 5000000 faces and needs about 6.6 GB of memory, but only 2.5 GB are free: "
@@ -497,7 +499,7 @@ TEST(Sentences, AreTheSameInAHostWithDecimalCommas)
 			   sentence(ricci::TimeOut(6.125, 0.25, 5.5));
 	};
 	const std::string wanted = all();
-	EXPECT_TRUE(contains(wanted, "-0.5 of epsilon"));
+	EXPECT_TRUE(contains(wanted, "-0.5 of {epsilon}"));
 	const ricci::testing::DecimalCommas commas;
 	if (!commas.found())
 		GTEST_SKIP() << "SKIPPED: this machine has no locale with decimal commas, nor localedef "

@@ -227,7 +227,7 @@ class Textured(Told):
         documents = self.written(self.wedges)
         returned, page = self.told(documents, carry_texture="new.png", texture_size=32)
         self.assertLess(returned["texture_scale"], 0.9)
-        self.assertIn("texture_size of 0", page)
+        self.assertIn("texture_size 0 keeps", page)
 
     def test_no_black_material_beside_the_new_image(self):
         """Programs multiply the image by the diffuse colour Kd."""

@@ -83,9 +83,9 @@ class Flattening(Parametrization):
     qc_area_mean: float
     """the same, faces weighted by their area on the mesh"""
     qc_p99: float
-    """the same: 99th percentile over faces, largest"""
+    """the same: 99th percentile over faces"""
     qc_max: float
-    """the same: 99th percentile over faces, largest"""
+    """the same: largest of all faces"""
     qc_vertex_mean: float
     """mean over vertices of the vertex value: the paper's number"""
     area_distortion_mean: float
@@ -243,9 +243,9 @@ class Uniformization(Parametrization):
     qc_area_mean: float
     """the same, faces weighted by their area on the mesh"""
     qc_p99: float
-    """the same: 99th percentile over faces, largest"""
+    """the same: 99th percentile over faces"""
     qc_max: float
-    """the same: 99th percentile over faces, largest"""
+    """the same: largest of all faces"""
     qc_vertex_mean: float
     """mean over vertices of the vertex value: the paper's number"""
     area_distortion_mean: float
@@ -588,9 +588,9 @@ def flatten(
     colorize: Colour the vertices from blue (angles kept) over cyan, green and yellow to red
         (the 99th percentile over the faces, and more).
     flat_layer: Add a layer with the mesh laid out in the plane, cut along its seams.
-    holes: What the boundary loops other than the longest are: boundaries too, or Capped, closed
-        for the flow, so that the chart goes round them without seams. Short ones capped: loops
-        no longer than a tenth of the root of the surface's area, even if all are so short.
+    holes: Boundary loops other than the longest: boundaries too, or Capped for the flow, so
+        that the chart goes round them without seams. Short ones capped: those within a tenth of
+        the root of the area, even if all are.
     seam_hiding: 0: the seams are as short as can be. Up to 1: an edge on a ridge counts up to
         ten times its length, so that seams run through hollows.
     cone_count: The number of placed cones. 0: as many as 'Cones: area distortion' asks for.
@@ -599,14 +599,12 @@ def flatten(
     method: If a triangle breaks, intrinsic flips or the paper's edge swaps give the flow
         others, and fixed triangles end with an error; the mesh is never changed. Thurston: the
         conventional flow on the mesh's triangles, to compare with.
-    finish: What is done to the flow's map before it is stored: faces that would come out
-        flipped are repaired, and on 'Keep the mesh' the faces get the least mean conformal
-        distortion, or least stretch: lengths are kept as well as angles, best on chosen seams,
-        whose two sides then differ. Only for the method 'Intrinsic flips'.
-    charts: Without overlap: a chart that covers a part of the plane twice is cut along the
-        shortest lines that part what overlaps. Cut for room: with Automatic, a chart that
-        leaves most of the unit square empty is also cut across where that gives all charts
-        enough room to be worth the seam.
+    finish: Repairs faces that would come out flipped, and on 'Keep the mesh' gives the mesh the
+        least mean conformal distortion, or the least stretch, of lengths too: best on chosen
+        seams, whose sides then differ. Only for the method 'Intrinsic flips'.
+    charts: Without overlap: charts that cover a part of the plane twice are cut apart along the
+        shortest lines. Cut for room: with Automatic, also a chart that fills little of the
+        square, where the room is worth the seam.
     normalize_uv: Scale the texture coordinates uniformly into [0,1] x [0,1]. Off: they keep the
         scale of the metric.
     sphere_layer: Add a layer with the mesh mapped conformally to the unit sphere. Only for one
@@ -689,8 +687,7 @@ def uniformize(
         inside only. Off: the target holds on the boundary too.
     method: If a triangle breaks, intrinsic flips give the flow others, and fixed triangles end
         with an error; the mesh is never changed.
-    finish: What is done to the flow's map before it is stored: faces that would come out
-        flipped are repaired. Only for the method 'Intrinsic flips'.
+    finish: Repairs faces that would come out flipped. Only for the method 'Intrinsic flips'.
     carry_texture: A PNG file that gets what the mesh shows now, its textures or else its
         colours, drawn for the new texture coordinates. Empty: no texture.
     texture_size: Width and height of the new texture, 16 to 16384 texels. 0: as fine as the old

@@ -16,8 +16,8 @@ EUCLIDEAN_RESULTS = \
              'three below leave out faces whose height is below 1e-9 of their side, and faces '
              'without area in the plane'),
  'qc_area_mean': ('float', 'the same, faces weighted by their area on the mesh'),
- 'qc_p99': ('float', 'the same: 99th percentile over faces, largest'),
- 'qc_max': ('float', 'the same: 99th percentile over faces, largest'),
+ 'qc_p99': ('float', 'the same: 99th percentile over faces'),
+ 'qc_max': ('float', 'the same: largest of all faces'),
  'qc_vertex_mean': ('float', "mean over vertices of the vertex value: the paper's number"),
  'area_distortion_mean': ('float',
                           "with s = a face's share of the area in the plane over its share in "
