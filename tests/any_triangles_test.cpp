@@ -19,7 +19,6 @@
 #include <array>
 #include <cmath>
 #include <set>
-#include <utility>
 #include <vector>
 
 namespace ricci::testing {
@@ -112,6 +111,15 @@ void expectWritten(const SurfaceMesh& mesh, OutputTriangulation output, const Fl
 	EXPECT_TRUE(std::includes(used.begin(), used.end(), usedBefore.begin(), usedBefore.end()));
 }
 
+/// Of a mesh that is developable between its cuts.
+void expectLaidFlat(const SurfaceMesh& mesh, OutputTriangulation output, const Flow::Result& r)
+{
+	expectFinite(r);
+	expectWritten(mesh, output, r);
+	if (output == OutputTriangulation::KeepMesh)
+		expectIsometric(mesh, wedgesOf(r), r.report);
+}
+
 SurfaceMesh bumpySheet(int n)
 {
 	return grid(n, n, Ends::Open, Ends::Open, [](int i, int j) {
@@ -143,12 +151,9 @@ TEST(AnyTriangles, UnconnectedTrianglesAreDrawnAsTheyAre)
 			EXPECT_EQ(r.report.charts, 60);
 			EXPECT_EQ(r.report.components, 60);
 			EXPECT_EQ(r.report.splitVertices, atOnePoint ? 1 : 0);
-			expectFinite(r);
-			expectWritten(mesh, output, r);
-			if (output == OutputTriangulation::KeepMesh) {
-				expectIsometric(mesh, wedgesOf(r), r.report);
+			expectLaidFlat(mesh, output, r);
+			if (output == OutputTriangulation::KeepMesh)
 				expectApart(r, charts);
-			}
 		}
 	}
 }
@@ -162,12 +167,9 @@ TEST(AnyTriangles, APillowIsTwoTriangles)
 		EXPECT_EQ(r.report.duplicateFaces, 1);
 		EXPECT_EQ(r.report.splitVertices, 3);
 		EXPECT_EQ(r.report.cones, 0);
-		expectFinite(r);
-		expectWritten(mesh, output, r);
-		if (output == OutputTriangulation::KeepMesh) {
-			expectIsometric(mesh, wedgesOf(r), r.report);
+		expectLaidFlat(mesh, output, r);
+		if (output == OutputTriangulation::KeepMesh)
 			expectApart(r, {{0}, {1}});
-		}
 	}
 }
 
@@ -183,10 +185,7 @@ TEST(AnyTriangles, TheSheetsOfABookAreLaidFlat)
 			EXPECT_EQ(r.report.charts, (sheets + 1) / 2);
 			EXPECT_EQ(r.report.cutNonmanifoldEdges, n);
 			EXPECT_EQ(r.report.splitVertices, n + 1);
-			expectFinite(r);
-			expectWritten(mesh, output, r);
-			if (output == OutputTriangulation::KeepMesh)
-				expectIsometric(mesh, wedgesOf(r), r.report);
+			expectLaidFlat(mesh, output, r);
 		}
 	}
 }
@@ -208,10 +207,7 @@ TEST(AnyTriangles, AFlatMoebiusBandIsAStrip)
 		EXPECT_EQ(r.report.splitVertices, 2);
 		EXPECT_EQ(r.report.eulerCharacteristic, 1);
 		EXPECT_EQ(r.report.cones, 0);
-		expectFinite(r);
-		expectWritten(mesh, output, r);
-		if (output == OutputTriangulation::KeepMesh)
-			expectIsometric(mesh, wedgesOf(r), r.report);
+		expectLaidFlat(mesh, output, r);
 	}
 }
 
@@ -257,11 +253,9 @@ TEST(AnyTriangles, ADoubledMeshIsDrawnTwice)
 			extent = std::max({extent, p[0], p[1]});
 	for (const bool turned : {false, true}) {
 		SurfaceMesh twice = single;
-		for (Triangle t : single.triangles) {
-			if (turned)
-				std::swap(t[1], t[2]);
-			twice.triangles.push_back(t);
-		}
+		const SurfaceMesh other = turned ? withReversedFaces(single, 1) : single;
+		twice.triangles.insert(
+			twice.triangles.end(), other.triangles.begin(), other.triangles.end());
 		for (const OutputTriangulation output : kOutputs) {
 			params.output = output;
 			const auto r = compute(twice, params);
@@ -283,15 +277,12 @@ TEST(AnyTriangles, ADoubledMeshIsDrawnTwice)
 				const auto corner = [&](std::size_t f, std::size_t k) {
 					return wedges[sheet * n + f][mirrored ? (3 - k) % 3 : k];
 				};
-				const auto gap = [](const Point2& p, const Point2& q) {
-					return std::hypot(p[0] - q[0], p[1] - q[1]);
-				};
 				for (std::size_t f = 0; f < n; ++f)
 					for (std::size_t k = 0; k < 3; ++k)
 						for (std::size_t from = 0; from < 3; ++from)
 							EXPECT_NEAR(
-								gap(corner(f, k), corner(0, from)),
-								gap(wedgesAlone[f][k], wedgesAlone[0][from]),
+								distance(corner(f, k), corner(0, from)),
+								distance(wedgesAlone[f][k], wedgesAlone[0][from]),
 								1e-6 * extent);
 			}
 		}
@@ -370,18 +361,12 @@ TEST(AnyTriangles, OnlyFacesWithoutAreaAreRefused)
 {
 	DoubleMesh m;
 	toVcg(SurfaceMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 1}, {2, 2, 2}}}, m);
-	for (const bool sphere : {false, true})
-		try {
-			if (sphere)
-				Flow::ComputeSphere(m, {});
-			else
-				Flow::Compute(m, {});
-			FAIL();
-		}
-		catch (const InvalidMesh& refusal) {
-			EXPECT_EQ(refusal.problem, InvalidMesh::NoArea);
-			EXPECT_EQ(refusal.count, 2u);
-		}
+	for (const InvalidMesh& refusal :
+		 {refusalOf<InvalidMesh>([&] { Flow::ComputeSphere(m, {}); }),
+		  refusalOf<InvalidMesh>([&] { Flow::Compute(m, {}); })}) {
+		EXPECT_EQ(refusal.problem, InvalidMesh::NoArea);
+		EXPECT_EQ(refusal.count, 2u);
+	}
 }
 
 /// A selected vertex is selected at every place.
@@ -456,26 +441,16 @@ TEST(AnyTriangles, RefusalsNameTheComponentInTheInputsNumbers)
 	mesh.triangles.push_back({first[0], first[1], static_cast<int>(mesh.positions.size()) - 1});
 	DoubleMesh m;
 	toVcg(mesh, m);
-	try {
-		Flow::ComputeHyperbolic(m, {});
-		FAIL();
-	}
-	catch (const InadmissibleCurvature& refusal) {
-		EXPECT_EQ(refusal.problem, InadmissibleCurvature::HyperbolicSurface);
-		EXPECT_EQ(refusal.componentFace, static_cast<int>(faces) + 1);
-		EXPECT_EQ(refusal.componentFaces, 1u);
-	}
+	const auto fin = refusalOf<InadmissibleCurvature>([&] { Flow::ComputeHyperbolic(m, {}); });
+	EXPECT_EQ(fin.problem, InadmissibleCurvature::HyperbolicSurface);
+	EXPECT_EQ(fin.componentFace, static_cast<int>(faces) + 1);
+	EXPECT_EQ(fin.componentFaces, 1u);
 	Flow::Params disk;
 	disk.target = TargetCurvature::Disk;
-	try {
-		Flow::Compute(m, disk);
-		FAIL();
-	}
-	catch (const InvalidOption& refusal) {
-		EXPECT_EQ(refusal.problem, InvalidOption::NotADisk);
-		EXPECT_EQ(refusal.componentFace, 1);
-		EXPECT_EQ(refusal.componentFaces, faces);
-	}
+	const auto slab = refusalOf<InvalidOption>([&] { Flow::Compute(m, disk); });
+	EXPECT_EQ(slab.problem, InvalidOption::NotADisk);
+	EXPECT_EQ(slab.componentFace, 1);
+	EXPECT_EQ(slab.componentFaces, faces);
 	// Of sheets that are disks each becomes a round one.
 	SurfaceMesh twice = bumpySheet(5);
 	for (std::size_t f = 0; f < 50; ++f)

@@ -22,7 +22,6 @@
 #include <functional>
 #include <map>
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -322,7 +321,7 @@ TEST(ChosenSeams, MakeARectangleOfACylinder)
 	expectCounts(mesh, insideEdges(mesh, marks), r.report);
 	// Uncut it is no disk.
 	EXPECT_EQ(
-		errorOf<InvalidOption>([&] { Flow::Compute(m, params); })->problem,
+		refusalOf<InvalidOption>([&] { Flow::Compute(m, params); }).problem,
 		InvalidOption::NotADisk);
 }
 

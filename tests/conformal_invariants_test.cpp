@@ -10,8 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <complex>
-#include <utility>
 #include <vector>
 
 namespace ricci::testing {

@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -201,17 +200,13 @@ TEST(HardCases, TVertex)
 		{{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 0}, {0.5, 1.5, 0.4}},
 		// 0-2 is the long edge with 4 on it.
 		{{0, 1, 2}, {0, 2, 4}, {4, 2, 5}, {0, 4, 5}, {5, 2, 3}, {0, 5, 3}}};
-	expectSolved(mesh, refined(TargetCurvature::Automatic));
-	expectSolved(mesh, refined(TargetCurvature::Disk));
-	expectSolved(mesh, refined(TargetCurvature::Rectangle));
+	for (TargetCurvature target : kDiskTargets)
+		expectSolved(mesh, refined(target));
 	// A closed surface, one end of which is pressed flat: four edges without length.
 	SurfaceMesh flatBox = perforatedSlab(0, 1);
 	for (std::size_t v = 4; v < 8; ++v)
 		flatBox.positions[v][0] = flatBox.positions[v - 4][0];
-	VertexInput cones;
-	cones.selected.assign(flatBox.positions.size(), 0);
-	cones.selected[0] = cones.selected[3] = cones.selected[5] = 1;
-	expectSolved(flatBox, refined(TargetCurvature::SelectedCones), cones);
+	expectSolved(flatBox, refined(TargetCurvature::SelectedCones), selecting(flatBox, {0, 3, 5}));
 }
 
 TEST(HardCases, TheOtherSurgeriesRefuseWhatHasNoArea)
@@ -222,11 +217,10 @@ TEST(HardCases, TheOtherSurgeriesRefuseWhatHasNoArea)
 	for (Method method : {Method::FixedTriangles, Method::EdgeSwaps}) {
 		Options options;
 		options.method = method;
-		const auto error = errorOf<InvalidMesh>([&] { run(mesh, options); });
-		ASSERT_TRUE(error);
-		EXPECT_EQ(error->problem, InvalidMesh::EdgesWithoutLength);
-		EXPECT_EQ(error->count, 1u);
-		expectWords(error->what(), {"no length"});
+		const auto error = refusalOf<InvalidMesh>([&] { run(mesh, options); });
+		EXPECT_EQ(error.problem, InvalidMesh::EdgesWithoutLength);
+		EXPECT_EQ(error.count, 1u);
+		expectWords(error.what(), {"no length"});
 	}
 }
 
@@ -239,11 +233,7 @@ TEST(HardCases, ValenceOfAThousand)
 	}
 	const SurfaceMesh closed = bipyramid(1000, 0.7);
 	const int apex = 1000, other = 1001;
-	VertexInput cones;
-	cones.selected.assign(closed.positions.size(), 0);
-	for (int v : {0, 300, 700})
-		cones.selected[at(v)] = 1;
-	expectSolved(closed, refined(TargetCurvature::SelectedCones), cones);
+	expectSolved(closed, refined(TargetCurvature::SelectedCones), selecting(closed, {0, 300, 700}));
 	std::vector<double> curvature(closed.positions.size(), 0.0);
 	curvature[apex] = curvature[other] = 2 * kPi - 0.01;
 	curvature[500] = 0.02;
@@ -298,11 +288,10 @@ TEST(HardCases, SingleTriangle)
 		expectSolved(mesh, refined(TargetCurvature::Automatic));
 		expectSolved(mesh, refined(TargetCurvature::Disk));
 		const auto error =
-			errorOf<InvalidOption>([&] { run(mesh, refined(TargetCurvature::Rectangle)); });
-		ASSERT_TRUE(error);
-		EXPECT_EQ(error->problem, InvalidOption::TooFewBoundaryVertices);
-		EXPECT_EQ(error->count, 3u);
-		expectWords(error->what(), {"needs four boundary vertices"});
+			refusalOf<InvalidOption>([&] { run(mesh, refined(TargetCurvature::Rectangle)); });
+		EXPECT_EQ(error.problem, InvalidOption::TooFewBoundaryVertices);
+		EXPECT_EQ(error.count, 3u);
+		expectWords(error.what(), {"needs four boundary vertices"});
 	}
 	expectSolved(
 		triangles[1],
@@ -343,8 +332,7 @@ TEST(HardCases, NegativeCurvatureAtAVertexOfThreeFaces)
 	const Triangle t = mesh.triangles.front();
 	Point3 middle{0, 0, 0};
 	for (int v : t)
-		for (std::size_t k = 0; k < 3; ++k)
-			middle[k] += mesh.positions[at(v)][k] / 3;
+		middle += mesh.positions[at(v)] / 3;
 	const int added = static_cast<int>(mesh.positions.size());
 	mesh.positions.push_back(middle);
 	mesh.triangles.front() = {t[0], t[1], added};
@@ -402,11 +390,10 @@ TEST(HardCases, FlatHandlesRoundASmallHole)
 	const VertexInput flat = curvatureInput(std::vector<double>(mesh.positions.size(), 0.0));
 	Options options;
 	options.target = TargetCurvature::Prescribed; // inside; the boundary is free
-	const auto error = errorOf<InadmissibleCurvature>([&] { run(mesh, options, flat); });
-	ASSERT_TRUE(error);
-	EXPECT_EQ(error->problem, InadmissibleCurvature::ScalesApart);
-	EXPECT_GT(error->value, 15.0); // orders of magnitude
-	expectWords(error->what(), {"times as large as others"});
+	const auto error = refusalOf<InadmissibleCurvature>([&] { run(mesh, options, flat); });
+	EXPECT_EQ(error.problem, InadmissibleCurvature::ScalesApart);
+	EXPECT_GT(error.value, 15.0); // orders of magnitude
+	expectWords(error.what(), {"times as large as others"});
 	options.target = TargetCurvature::PlacedCones;
 	options.cones.count = 80;
 	EXPECT_LT(run(mesh, options).report.maxCurvatureError, 1e-8);

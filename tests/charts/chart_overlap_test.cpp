@@ -16,8 +16,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <numeric>
 #include <set>
 #include <utility>
 

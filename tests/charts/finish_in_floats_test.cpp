@@ -10,8 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <numeric>
-#include <utility>
 #include <vector>
 
 namespace ricci::testing {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/expect.h"
 #include "support/flat_meshes.h"
 #include "support/random.h"
 
@@ -15,7 +16,6 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace ricci::testing {
@@ -164,26 +164,17 @@ TEST(PackCharts, WithoutTheUnitSquareKeepsTheScale)
 TEST(PackCharts, RefusesMarginsThatLeaveNoRoom)
 {
 	Parametrization map = boxes(std::vector<Point2>(40, Point2{1.0, 1.0}));
+	const auto refusal = [&](double margin) {
+		return refusalOf<InvalidOption>([&] { packCharts(map, true, margin, inARow); });
+	};
 	for (double margin : {-0.01, 0.26, std::numeric_limits<double>::quiet_NaN()}) {
-		try {
-			packCharts(map, true, margin, inARow);
-			ADD_FAILURE() << margin;
-		}
-		catch (const InvalidOption& e) {
-			EXPECT_EQ(e.problem, InvalidOption::ChartMargin);
-			EXPECT_EQ(e.bound, kMaxChartMargin);
-		}
+		EXPECT_EQ(refusal(margin).problem, InvalidOption::ChartMargin);
+		EXPECT_EQ(refusal(margin).bound, kMaxChartMargin);
 	}
 	for (double margin : {0.25, 0.1}) { // by area alone, and in one row
-		try {
-			packCharts(map, true, margin, inARow);
-			ADD_FAILURE() << margin;
-		}
-		catch (const InvalidOption& e) {
-			EXPECT_EQ(e.problem, InvalidOption::ChartMarginTooWide);
-			EXPECT_EQ(e.value, margin);
-			EXPECT_EQ(e.count, 40u);
-		}
+		EXPECT_EQ(refusal(margin).problem, InvalidOption::ChartMarginTooWide);
+		EXPECT_EQ(refusal(margin).value, margin);
+		EXPECT_EQ(refusal(margin).count, 40u);
 	}
 }
 
@@ -400,13 +391,8 @@ TEST(PackCharts, RefusesCoordinatesBeyondFloatInTheirOwnScaleOnly)
 {
 	for (const double size : {1e39, 1e-39}) {
 		Parametrization map = boxes({{size, 0.5 * size}});
-		try {
-			packCharts(map, false, 0.0, inARow);
-			ADD_FAILURE();
-		}
-		catch (const InvalidMesh& e) {
-			EXPECT_EQ(e.problem, InvalidMesh::BeyondFloats);
-		}
+		const auto error = refusalOf<InvalidMesh>([&] { packCharts(map, false, 0.0, inARow); });
+		EXPECT_EQ(error.problem, InvalidMesh::BeyondFloats);
 		packCharts(map, true, 0.0, inARow);
 		EXPECT_EQ(boxOf(map, 0).max[0], 1.0);
 	}

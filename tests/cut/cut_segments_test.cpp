@@ -3,7 +3,6 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/cut/cut_graph.h>
 #include <ricci/cut/cut_segments.h>
 #include <ricci/layout/planar_layout.h>
 #include <ricci/math/disjoint_sets.h>

@@ -8,7 +8,6 @@
 #include <ricci/base/numbers.h>
 #include <ricci/finish/repair.h>
 #include <ricci/math/orientation.h>
-#include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 #include <ricci/base/numbers.h>
 #include <ricci/finish/patch_energy.h>
 #include <ricci/finish/untangle.h>
-#include <ricci/math/orientation.h>
 
 #include <gtest/gtest.h>
 
@@ -15,7 +14,6 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <stdexcept>
 #include <vector>
 
 namespace ricci::testing {

@@ -137,6 +137,17 @@ TEST(CurvatureMap, GaussBonnet)
 	}
 }
 
+double curvatureSum(const SurfaceMesh& mesh)
+{
+	const Packed packed(mesh);
+	Map map = packed.map();
+	map.evaluate(packed.u());
+	long double sum = 0.0L;
+	for (double K : map.curvature())
+		sum += K;
+	return static_cast<double>(sum);
+}
+
 TEST(CurvatureMap, TheLowPartOfPiIsNotLostOnTheBoundary)
 {
 	// Left out or taken back, what a double of pi lacks would add up to 1e-12 and more over so many
@@ -148,26 +159,13 @@ TEST(CurvatureMap, TheLowPartOfPiIsNotLostOnTheBoundary)
 		const double r = 1.0 + 2 * kPi / n * (i + random.real(-0.2, 0.2));
 		return Point3{r * std::cos(a), r * std::sin(a), 0.0};
 	});
-	const Packed mesh(ring);
-	Map map = mesh.map();
-	map.evaluate(mesh.u());
-	long double sum = 0.0L;
-	for (double K : map.curvature())
-		sum += K;
-	EXPECT_LT(std::abs(static_cast<double>(sum)), 5e-13);
+	EXPECT_LT(std::abs(curvatureSum(ring)), 5e-13);
 }
 
 TEST(CurvatureMap, TheLowPartOfPiIsNotLostInside)
 {
 	Random random(48);
-	const Packed mesh(bumpyTorus(120, 100, random));
-	Map map = mesh.map();
-	map.evaluate(mesh.u());
-	long double sum = 0.0L;
-	for (double K : map.curvature())
-		sum += K;
-	// Left out, it would be 2.9e-12.
-	EXPECT_LT(std::abs(static_cast<double>(sum)), 1e-12);
+	EXPECT_LT(std::abs(curvatureSum(bumpyTorus(120, 100, random))), 1e-12); // left out: 2.9e-12
 }
 
 TEST(CurvatureMap, ScaleChangesLengthsAndNothingElse)
@@ -337,19 +335,18 @@ TEST(CurvatureMap, NumberOfThreadsChangesNoBit)
 	// Large enough for several parts, and so far from the start that edges flip.
 	Random random(90);
 	const Packed mesh(bumpyTorus(300, 150, random));
-	VertexVector u = mesh.u();
-	for (double& x : u)
-		x += random.real(-0.3, 0.3);
-	FlippingCurvatureMap<Euclidean> one(mesh.packing);
-	one.useThreads(1);
-	one.evaluate(u);
-	one.accept();
+	const VertexVector u = disturbed(mesh.u(), 0.3, random);
+	const auto evaluated = [&](int threads) {
+		FlippingCurvatureMap<Euclidean> map(mesh.packing);
+		map.useThreads(threads);
+		map.evaluate(u);
+		map.accept();
+		return map;
+	};
+	const auto one = evaluated(1);
 	EXPECT_GT(one.flips().size(), 1000u);
 	for (int threads : {2, 3, 5}) {
-		FlippingCurvatureMap<Euclidean> several(mesh.packing);
-		several.useThreads(threads);
-		several.evaluate(u);
-		several.accept();
+		const auto several = evaluated(threads);
 		EXPECT_EQ(several.flips(), one.flips());
 		EXPECT_EQ(several.curvature(), one.curvature());
 		EXPECT_EQ(several.weights(), one.weights());

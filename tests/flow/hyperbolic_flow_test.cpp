@@ -10,7 +10,6 @@
 #include "support/transform.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/error.h>
 #include <ricci/metric/area.h>
 #include <ricci/metric/hyperbolic.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/expect.h"
 #include "support/intrinsic.h"
 #include "support/listener.h"
 #include "support/packed.h"
@@ -193,16 +194,13 @@ TEST(DelaunayQueue, FlipsThatDoNotEndAreAnError)
 	DelaunayQueue queue;
 	queue.queued.assign(t.edgeCount(), 0);
 	std::int64_t flips = 0;
-	try {
+	const auto error = refusalOf<NotConverged>([&] {
 		queue.flipFrom(
 			Edge(0), t, flips, [](Edge) { return false; }, [&](Edge e) { t.flip(e); });
-		ADD_FAILURE() << "ended after " << flips;
-	}
-	catch (const NotConverged& error) {
-		EXPECT_EQ(error.problem, NotConverged::FlipsUsedUp);
-		EXPECT_EQ(error.count, static_cast<std::size_t>(flips));
-		EXPECT_EQ(flips, maxFlips(3));
-	}
+	});
+	EXPECT_EQ(error.problem, NotConverged::FlipsUsedUp);
+	EXPECT_EQ(error.count, static_cast<std::size_t>(flips));
+	EXPECT_EQ(flips, maxFlips(3));
 	EXPECT_EQ(maxFlips(1500000), 1500000000);
 }
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <vector>
 
 namespace ricci::testing {
@@ -85,6 +86,15 @@ TEST(HoleSeams, AreDroppedBackToWhatTheCutMustReach)
 	EXPECT_LE(cut.edgeCount, whole.edgeCount);
 }
 
+/// Every vertex has one place in the plane.
+void expectOnePlaceEach(const SurfaceMesh& mesh, const UV& uv)
+{
+	std::map<int, Point2> place;
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			EXPECT_EQ(place.emplace(mesh.triangles[f][k], uv[f][k]).first->second, uv[f][k]);
+}
+
 TEST(HoleSeams, AreLeftOutWhereTheMetricCloses)
 {
 	// A plane is flat as it is, and goes round its holes in one piece; a bumpy surface does not.
@@ -102,14 +112,7 @@ TEST(HoleSeams, AreLeftOutWhereTheMetricCloses)
 			if (height > 0.0)
 				continue;
 			EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
-			std::vector<Point2> place(mesh.positions.size(), {1e9, 1e9});
-			for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-				for (std::size_t k = 0; k < 3; ++k) {
-					Point2& p = place[at(mesh.triangles[f][k])];
-					if (p[0] > 1e8)
-						p = flat.uv[f][k];
-					EXPECT_EQ(p, flat.uv[f][k]);
-				}
+			expectOnePlaceEach(mesh, flat.uv);
 		}
 }
 
@@ -129,15 +132,8 @@ TEST(CappedHoles, OfAPlaneDoNotMoveIt)
 		EXPECT_NEAR(flat.report.areaDistortionSpread, 0.0, 1e-6);
 		EXPECT_EQ(flat.uv.size(), mesh.triangles.size());
 		for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-			for (std::size_t k = 0; k < 3; ++k) {
-				const std::size_t j = (k + 1) % 3;
-				EXPECT_NEAR(
-					distance(flat.uv[f][k], flat.uv[f][j]),
-					distance(
-						mesh.positions[at(mesh.triangles[f][k])],
-						mesh.positions[at(mesh.triangles[f][j])]),
-					1e-11);
-			}
+			for (std::size_t k = 0; k < 3; ++k)
+				EXPECT_NEAR(sideLength(flat.uv[f], k), sideLength(mesh, f, k), 1e-11);
 	}
 }
 
@@ -157,15 +153,8 @@ TEST(CappedHoles, GiveOneChartWithoutSeamsForEveryTargetOfADisk)
 			EXPECT_EQ(flat.report.flippedFaces, 0);
 			EXPECT_EQ(overlapsIn(flat.mesh), 0u);
 			ASSERT_EQ(flat.charts.size(), 1u);
-			// Every vertex has one place in the plane: holes close by rotation and translation.
-			std::vector<Point2> place(mesh.positions.size(), {1e9, 1e9});
-			for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
-				for (std::size_t k = 0; k < 3; ++k) {
-					Point2& p = place[at(mesh.triangles[f][k])];
-					if (p[0] > 1e8)
-						p = flat.uv[f][k];
-					EXPECT_EQ(p, flat.uv[f][k]);
-				}
+			// Holes close by rotation and translation.
+			expectOnePlaceEach(mesh, flat.uv);
 			// The chart is flat inside, and its boundary keeps its lengths where it is free.
 			const FlatMap map(mesh, flat.uv);
 			EXPECT_LT(map.insideError(std::vector<double>(mesh.positions.size(), 0.0)), 1e-9);
@@ -192,29 +181,21 @@ TEST(CappedHoles, TurnAnAnnulusIntoADisk)
 TEST(CappedHoles, CarryConesOnTheirRim)
 {
 	const SurfaceMesh mesh = perforated(16, 0.2);
-	const Triangulation t = glued(mesh);
-	VertexInput input;
-	input.selected.assign(mesh.positions.size(), 0);
 	const auto vertex = [](int i, int j) { return i * 17 + j; };
 	const int rim = vertex(3, 3); // the number of the removed vertex's next one, on the rim
-	ASSERT_TRUE(t.boundaryVertices()[Vertex(rim)]);
-	input.selected[at(rim)] = 1;
+	ASSERT_TRUE(glued(mesh).boundaryVertices()[Vertex(rim)]);
+	VertexInput input = selecting(mesh, {rim});
 	Options options = capped();
 	options.target = TargetCurvature::SelectedCones;
 	options.freeBoundary = false;
 	// The whole curvature of the disk in one cone would be 2 pi: too much, and for an inner vertex,
 	// which the rim becomes.
-	try {
-		run(mesh, options, input);
-		ADD_FAILURE() << "a cone of 2 pi";
-	}
-	catch (const InadmissibleCurvature& error) {
-		EXPECT_EQ(error.problem, InadmissibleCurvature::TooLargeInside);
-		EXPECT_NEAR(error.value, 2 * kPi, 1e-12);
-		EXPECT_EQ(error.bound, 2 * kPi);
-		EXPECT_EQ(error.count, 1u);
-		expectWords(error.what(), {"6.28318531", "at an interior vertex (1 "});
-	}
+	const auto error = refusalOf<InadmissibleCurvature>([&] { run(mesh, options, input); });
+	EXPECT_EQ(error.problem, InadmissibleCurvature::TooLargeInside);
+	EXPECT_NEAR(error.value, 2 * kPi, 1e-12);
+	EXPECT_EQ(error.bound, 2 * kPi);
+	EXPECT_EQ(error.count, 1u);
+	expectWords(error.what(), {"6.28318531", "at an interior vertex (1 "});
 	input.selected[at(vertex(8, 8))] = 1;
 	const FlatResult flat = run(mesh, options, input);
 	EXPECT_GT(flat.report.seamEdges, 0);
@@ -292,16 +273,12 @@ TEST(ShortHoles, ThatAreAllThereIsLeaveAClosedSurface)
 TEST(CappedHoles, BelongToIntrinsicFlips)
 {
 	Options options = capped();
-	for (const Method method : {Method::FixedTriangles, Method::EdgeSwaps, Method::Thurston})
-		try {
-			options.method = method;
-			run(perforated(9, 0.1), options);
-			ADD_FAILURE() << "capped holes without flips";
-		}
-		catch (const InvalidOption& error) {
-			EXPECT_EQ(error.problem, InvalidOption::WithoutFlips);
-			expectWords(error.what(), {"apped holes", "intrinsic flips"});
-		}
+	for (const Method method : {Method::FixedTriangles, Method::EdgeSwaps, Method::Thurston}) {
+		options.method = method;
+		const auto error = refusalOf<InvalidOption>([&] { run(perforated(9, 0.1), options); });
+		EXPECT_EQ(error.problem, InvalidOption::WithoutFlips);
+		expectWords(error.what(), {"apped holes", "intrinsic flips"});
+	}
 }
 
 } // namespace

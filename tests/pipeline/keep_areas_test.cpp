@@ -10,13 +10,13 @@
 #include <ricci/error.h>
 #include <ricci/parametrize.h>
 #include <ricci/pipeline/keep_areas.h>
-#include <ricci/pipeline/stages.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,39 +26,7 @@ namespace {
 
 constexpr int kMaxRounds = 6;
 
-/// Keeps lines and names of stages; cancels at the n-th update of one name, if asked to.
-class Listener : public Progress
-{
-public:
-	explicit Listener(std::string stage = {}, int last = 0) :
-			m_stage(std::move(stage)), m_last(last)
-	{
-	}
-
-	bool update(double, const std::string& what) override
-	{
-		if (what.rfind(m_stage, 0) == 0)
-			++updates;
-		return m_last == 0 || updates < m_last;
-	}
-
-	void log(const std::string& line) override { lines.push_back(line); }
-
-	int count(const std::string& words) const
-	{
-		return static_cast<int>(
-			std::count_if(lines.begin(), lines.end(), [&](const std::string& line) {
-				return line.find(words) != std::string::npos;
-			}));
-	}
-
-	std::vector<std::string> lines;
-	int updates = 0;
-
-private:
-	std::string m_stage;
-	int m_last;
-};
+constexpr int kAll = std::numeric_limits<int>::max();
 
 const char* const kRound = "more or other cones are needed";
 
@@ -359,22 +327,16 @@ TEST(KeepAreas, LeavesAFlowWhoseTargetPromisesNothing)
 TEST(KeepAreas, LeavesByCancelledWhereverItIs)
 {
 	for (const char* stage : {"Placing cones", "Newton step"}) {
-		const SurfaceMesh mesh = sphereWithTube(0.2, 4.0, 0.4, 12, 12);
-		int all = 0;
-		{
-			FirstFlow flow(mesh);
-			flow.runToFewCones();
-			Listener listener(stage);
-			flow.keepAreas(listener);
-			all = listener.updates;
-		}
-		ASSERT_GT(all, 2) << stage;
-		for (const int n : {1, all / 2, all}) {
-			FirstFlow flow(mesh);
-			flow.runToFewCones();
-			Listener listener(stage, n);
+		FirstFlow first(sphereWithTube(0.2, 4.0, 0.4, 12, 12));
+		first.runToFewCones();
+		Listener all(kAll, stage);
+		FirstFlow(first).keepAreas(all);
+		ASSERT_GT(all.calls(), 2) << stage;
+		for (const int n : {1, all.calls() / 2, all.calls()}) {
+			FirstFlow flow = first;
+			Listener listener(n, stage);
 			EXPECT_THROW(flow.keepAreas(listener), Cancelled) << stage << " " << n;
-			EXPECT_EQ(listener.updates, n);
+			EXPECT_EQ(listener.calls(), n);
 		}
 	}
 }
@@ -382,11 +344,11 @@ TEST(KeepAreas, LeavesByCancelledWhereverItIs)
 TEST(KeepAreas, TheWholeWayIsCancelledWhileConesArePlaced)
 {
 	const SurfaceMesh mesh = sphereWithTube(0.02, 3.0, 0.4, 12, 3);
-	Listener all("Placing cones");
+	Listener all(kAll, "Placing cones");
 	heard(all, [&] { return parametrizeEuclidean(mesh, {}, Options()); });
-	ASSERT_GT(all.updates, 2);
-	for (const int n : {1, all.updates}) {
-		Listener listener("Placing cones", n);
+	ASSERT_GT(all.calls(), 2);
+	for (const int n : {1, all.calls()}) {
+		Listener listener(n, "Placing cones");
 		EXPECT_THROW(
 			heard(listener, [&] { return parametrizeEuclidean(mesh, {}, Options()); }), Cancelled);
 	}

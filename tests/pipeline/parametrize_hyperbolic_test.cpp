@@ -22,7 +22,6 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,10 +43,9 @@ HyperbolicOptions refined()
 
 /// The error with which run() ends.
 template<class E>
-std::optional<E>
-refusal(const SurfaceMesh& mesh, const HyperbolicOptions& options, const VertexInput& input = {})
+E refusal(const SurfaceMesh& mesh, const HyperbolicOptions& options, const VertexInput& input = {})
 {
-	return errorOf<E>([&] { run(mesh, options, input); });
+	return refusalOf<E>([&] { run(mesh, options, input); });
 }
 
 SurfaceMesh genusTwo(std::uint64_t seed = 700, int subdivision = 3)
@@ -248,12 +246,8 @@ TEST(ParametrizeHyperbolic, ASurfaceOfHardlyAnyArea)
 	input.targetCurvature[30] = -1.0;
 	const FlatResult map = run(mesh, options, input);
 	EXPECT_EQ(map.report.flippedFaces, 0);
-	double largest = 0.0;
-	for (const auto& triangle : map.mesh.corners())
-		for (const Point2& p : triangle)
-			largest = std::max(largest, std::hypot(p[0], p[1]));
-	EXPECT_GT(largest, 0.0);
-	EXPECT_LT(largest, 1e-6);
+	EXPECT_GT(radius(map), 0.0);
+	EXPECT_LT(radius(map), 2e-6); // half of it in the disk's own lengths
 }
 
 TEST(ParametrizeHyperbolic, ResultDoesNotDependOnTheScale)
@@ -329,19 +323,16 @@ TEST(ParametrizeHyperbolic, SeveralComponentsAreSolvedOneByOne)
 		EXPECT_EQ(pair.uv[f], first.uv[f]);
 	const SurfaceMesh donut = torus(2, 1, 8, 6); // has no hyperbolic metric
 	const auto error = refusal<InadmissibleCurvature>(sideBySide(a, donut, 20.0), {});
-	ASSERT_TRUE(error);
-	EXPECT_EQ(error->componentFace, static_cast<int>(a.triangles.size()));
-	EXPECT_EQ(error->componentFaces, donut.triangles.size());
-	EXPECT_EQ(error->problem, InadmissibleCurvature::HyperbolicSurface);
-	EXPECT_TRUE(error->surface.isTorus());
+	EXPECT_EQ(error.componentFace, static_cast<int>(a.triangles.size()));
+	EXPECT_EQ(error.componentFaces, donut.triangles.size());
+	EXPECT_EQ(error.problem, InadmissibleCurvature::HyperbolicSurface);
+	EXPECT_TRUE(error.surface.isTorus());
 }
 
 TEST(ParametrizeHyperbolic, FacesOfTheOtherOrientationAreMappedLikeTheRest)
 {
 	const SurfaceMesh mesh = genusTwo(708, 2);
-	SurfaceMesh mixed = mesh;
-	for (std::size_t f = 0; f < mixed.triangles.size(); f += 5)
-		std::swap(mixed.triangles[f][1], mixed.triangles[f][2]);
+	const SurfaceMesh mixed = withReversedFaces(mesh, 5);
 	const FlatResult straight = run(mesh, refined()), map = run(mixed, refined());
 	EXPECT_EQ(map.report.flippedFaces, 0);
 	EXPECT_NEAR(map.report.qcMean, straight.report.qcMean, 1e-9);
@@ -354,10 +345,7 @@ TEST(ParametrizeHyperbolic, FacesOfTheOtherOrientationAreMappedLikeTheRest)
 	ASSERT_FALSE(map.notes.empty());
 	expectWords(map.notes[0], {"oriented against"});
 	// Reversed throughout it is a surface of the other orientation: the mirror image.
-	SurfaceMesh reversed = mesh;
-	for (Triangle& t : reversed.triangles)
-		std::swap(t[1], t[2]);
-	const FlatResult image = run(reversed, refined());
+	const FlatResult image = run(withReversedFaces(mesh, 1), refined());
 	EXPECT_EQ(image.report.flippedFaces, 0);
 	for (std::size_t v = 0; v < image.u.size(); ++v)
 		EXPECT_NEAR(image.u[v], straight.u[v], 1e-9);
@@ -366,15 +354,13 @@ TEST(ParametrizeHyperbolic, FacesOfTheOtherOrientationAreMappedLikeTheRest)
 TEST(ParametrizeHyperbolic, RefusesASurfaceWithoutHyperbolicMetric)
 {
 	const auto torusRefused = refusal<InadmissibleCurvature>(torus(2, 1, 12, 8), {});
-	ASSERT_TRUE(torusRefused);
-	EXPECT_EQ(torusRefused->problem, InadmissibleCurvature::HyperbolicSurface);
-	EXPECT_TRUE(torusRefused->surface.isTorus());
-	expectWords(torusRefused->what(), {"closed surface of genus 1", "Euler characteristic 0"});
+	EXPECT_EQ(torusRefused.problem, InadmissibleCurvature::HyperbolicSurface);
+	EXPECT_TRUE(torusRefused.surface.isTorus());
+	expectWords(torusRefused.what(), {"closed surface of genus 1", "Euler characteristic 0"});
 	const auto diskRefused = refusal<InadmissibleCurvature>(rectangle(4, 4, 1, 1), {});
-	ASSERT_TRUE(diskRefused);
-	EXPECT_EQ(diskRefused->problem, InadmissibleCurvature::HyperbolicSurface);
-	EXPECT_TRUE(diskRefused->surface.isDisk());
-	expectWords(diskRefused->what(), {"disk", "Euler characteristic 1"});
+	EXPECT_EQ(diskRefused.problem, InadmissibleCurvature::HyperbolicSurface);
+	EXPECT_TRUE(diskRefused.surface.isDisk());
+	expectWords(diskRefused.what(), {"disk", "Euler characteristic 1"});
 	// With a cone the torus has one.
 	const SurfaceMesh mesh = torus(2, 1, 12, 8);
 	HyperbolicOptions options = refined();
@@ -384,9 +370,8 @@ TEST(ParametrizeHyperbolic, RefusesASurfaceWithoutHyperbolicMetric)
 	EXPECT_NEAR(*map.report.hyperbolicArea / kPi, 1.0, 1e-8);
 	EXPECT_EQ(map.report.flippedFaces, 0);
 	const auto without = refusal<InvalidOption>(mesh, options, selecting(mesh, {}));
-	ASSERT_TRUE(without);
-	EXPECT_EQ(without->problem, InvalidOption::NothingSelected);
-	expectWords(without->what(), {"none is selected"});
+	EXPECT_EQ(without.problem, InvalidOption::NothingSelected);
+	expectWords(without.what(), {"none is selected"});
 }
 
 /// A cone of nearly no angle is nearly a cusp: sides of its triangles are about 20 long, and all digits
@@ -425,12 +410,11 @@ TEST(ParametrizeHyperbolic, TellsWhenTheDiskIsTooSmallForTheLayout)
 	for (int v = 5; v < static_cast<int>(mesh.positions.size()); v += 3)
 		many.push_back(v);
 	const auto error = refusal<NotConverged>(mesh, options, selecting(mesh, many));
-	ASSERT_TRUE(error);
-	EXPECT_EQ(error->problem, NotConverged::OutsideDisk);
-	EXPECT_GT(error->count, 0u);
+	EXPECT_EQ(error.problem, NotConverged::OutsideDisk);
+	EXPECT_GT(error.count, 0u);
 	expectWords(
-		error->what(),
-		{std::to_string(error->count), "so far from the middle of the layout", "Poincaré disk"});
+		error.what(),
+		{std::to_string(error.count), "so far from the middle of the layout", "Poincaré disk"});
 }
 
 TEST(ParametrizeHyperbolic, RefusesOptionsOutOfRange)
@@ -440,25 +424,22 @@ TEST(ParametrizeHyperbolic, RefusesOptionsOutOfRange)
 		HyperbolicOptions options;
 		options.epsilon = epsilon;
 		const auto error = refusal<InvalidOption>(mesh, options);
-		ASSERT_TRUE(error);
-		EXPECT_EQ(error->problem, InvalidOption::Epsilon);
-		EXPECT_TRUE(error->value == epsilon || (std::isnan(error->value) && std::isnan(epsilon)));
-		expectWords(error->what(), {"must be greater than 0 radians"});
+		EXPECT_EQ(error.problem, InvalidOption::Epsilon);
+		EXPECT_TRUE(error.value == epsilon || (std::isnan(error.value) && std::isnan(epsilon)));
+		expectWords(error.what(), {"must be greater than 0 radians"});
 	}
 	HyperbolicOptions options;
 	for (const Method method : {Method::EdgeSwaps, Method::Thurston}) {
 		options.method = method;
 		const auto error = refusal<InvalidOption>(mesh, options);
-		ASSERT_TRUE(error);
-		EXPECT_EQ(error->problem, InvalidOption::HyperbolicMethod);
-		expectWords(error->what(), {"no edge swaps and no Thurston packing"});
+		EXPECT_EQ(error.problem, InvalidOption::HyperbolicMethod);
+		expectWords(error.what(), {"no edge swaps and no Thurston packing"});
 	}
 	options = refined();
 	options.method = Method::FixedTriangles;
 	const auto withoutFlips = refusal<InvalidOption>(mesh, options);
-	ASSERT_TRUE(withoutFlips);
-	EXPECT_EQ(withoutFlips->problem, InvalidOption::WithoutFlips);
-	expectWords(withoutFlips->what(), {"common refinement", "intrinsic flips"});
+	EXPECT_EQ(withoutFlips.problem, InvalidOption::WithoutFlips);
+	expectWords(withoutFlips.what(), {"common refinement", "intrinsic flips"});
 }
 
 TEST(ParametrizeHyperbolic, TheGivenTriangulationCanBeKept)
@@ -523,30 +504,7 @@ TEST(ParametrizeHyperbolic, SaysWhyThereAreNoCanonicalGenerators)
 	const Parametrization map =
 		heard(patient, [&] { return parametrizeHyperbolic(perforatedSlab(12, 2), {}, options); });
 	EXPECT_FALSE(map.charts[0].group.isCanonical());
-	const auto says = [](const std::string& line) {
-		return line.find("no canonical generators") != line.npos;
-	};
-	EXPECT_EQ(std::count_if(patient.lines.begin(), patient.lines.end(), says), 1);
-}
-
-TEST(ParametrizeHyperbolic, CanBeCancelledAtEveryCall)
-{
-	const SurfaceMesh mesh = genusTwo(710, 1);
-	HyperbolicOptions options = refined();
-	options.canonicalGenerators = true;
-	Listener patient;
-	heard(patient, [&] { return parametrizeHyperbolic(mesh, {}, options); });
-	const int calls = static_cast<int>(patient.fractions.size());
-	ASSERT_GT(calls, 5);
-	EXPECT_TRUE(std::is_sorted(patient.fractions.begin(), patient.fractions.end()));
-	EXPECT_EQ(patient.fractions.front(), 0.0);
-	EXPECT_EQ(patient.fractions.back(), 1.0);
-	for (int last = 1; last <= calls; ++last) {
-		Listener impatient(last);
-		EXPECT_THROW(
-			heard(impatient, [&] { return parametrizeHyperbolic(mesh, {}, options); }), Cancelled);
-		EXPECT_EQ(static_cast<int>(impatient.fractions.size()), last);
-	}
+	EXPECT_EQ(patient.count("no canonical generators"), 1);
 }
 
 TEST(ParametrizeHyperbolic, DistortionIsThatOfTheChords)
@@ -564,23 +522,11 @@ TEST(ParametrizeHyperbolic, DistortionIsThatOfTheChords)
 /// With seams as short as can be these slabs reach 12 and 19 out in the disk, where floats end.
 TEST(ParametrizeHyperbolic, AMapThatIsTooWideIsCutAroundItsMiddle)
 {
-	struct Log : Progress
-	{
-		void log(const std::string& line) override
-		{
-			recut = recut || line.find("around the middle") != std::string::npos;
-		}
-		bool recut = false;
-	};
 	for (const int genus : {10, 16}) {
-		Log log;
-		const FlatResult map = heard(log, [&] { return run(perforatedSlab(genus, 2)); });
-		EXPECT_TRUE(log.recut);
-		double radius = 0.0;
-		for (const Triangle2& t : map.uv)
-			for (const Point2& p : t)
-				radius = std::max(radius, 2 * std::atanh(std::hypot(p[0], p[1])));
-		EXPECT_LT(radius, 12.5);
+		Listener listener;
+		const FlatResult map = heard(listener, [&] { return run(perforatedSlab(genus, 2)); });
+		EXPECT_GT(listener.count("around the middle"), 0);
+		EXPECT_LT(radius(map), 12.5);
 		EXPECT_EQ(map.report.flippedFaces, 0);
 		EXPECT_NEAR(map.report.hyperbolicArea.value_or(0), 4 * kPi * (genus - 1), 1e-9);
 	}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../support/flat_map.h"
+#include "../support/intrinsic.h"
 #include "../support/random_surface.h"
 #include "../support/shapes.h"
 
@@ -7,7 +8,6 @@
 #include <ricci/charts/chart_overlap.h>
 #include <ricci/measure/distortion.h>
 #include <ricci/pipeline/unfold.h>
-#include <ricci/surface/opened_mesh.h>
 
 #include <gtest/gtest.h>
 
@@ -16,14 +16,6 @@
 
 namespace ricci::testing {
 namespace {
-
-Component only(const SurfaceMesh& mesh)
-{
-	std::vector<std::string> notes;
-	const std::vector<Component> components = splitIntoComponents(openMesh(mesh, notes));
-	EXPECT_EQ(components.size(), 1u);
-	return components.front();
-}
 
 void expectIsometric(const Parametrization& map)
 {
@@ -41,7 +33,7 @@ void expectIsometric(const Parametrization& map)
 TEST(Unfold, ABoxIsItsNet)
 {
 	const SurfaceMesh box = perforatedSlab(0, 4);
-	const std::optional<Parametrization> map = unfold(only(box), Options());
+	const std::optional<Parametrization> map = unfold(onlyComponent(box), Options());
 	ASSERT_TRUE(map);
 	expectIsometric(*map);
 	EXPECT_EQ(map->charts.size(), 1u);
@@ -68,7 +60,7 @@ TEST(Unfold, ACylinderIsItsWallWithTwoLids)
 {
 	constexpr int kSides = 16;
 	const SurfaceMesh mesh = revolved({{0.0, 0.0}, {1.0, 0.0}, {1.0, 3.0}, {0.0, 3.0}}, kSides);
-	const std::optional<Parametrization> map = unfold(only(mesh), Options());
+	const std::optional<Parametrization> map = unfold(onlyComponent(mesh), Options());
 	ASSERT_TRUE(map);
 	expectIsometric(*map);
 	EXPECT_EQ(map->charts.size(), 1u);
@@ -78,15 +70,15 @@ TEST(Unfold, ACylinderIsItsWallWithTwoLids)
 
 TEST(Unfold, LeavesRoundSurfacesToTheFlow)
 {
-	EXPECT_FALSE(unfold(only(torus(2.0, 1.0, 40, 20)), Options()));
-	EXPECT_FALSE(unfold(only(ring(1.0, 2.0, 30, 5)), Options()));
+	EXPECT_FALSE(unfold(onlyComponent(torus(2.0, 1.0, 40, 20)), Options()));
+	EXPECT_FALSE(unfold(onlyComponent(ring(1.0, 2.0, 30, 5)), Options()));
 }
 
 /// Of both maps the one that costs less is given back.
 TEST(Unfold, IsTakenWhereItCostsLess)
 {
 	const SurfaceMesh box = perforatedSlab(2, 4);
-	const std::optional<Parametrization> unfolded = unfold(only(box), Options());
+	const std::optional<Parametrization> unfolded = unfold(onlyComponent(box), Options());
 	ASSERT_TRUE(unfolded);
 	const FlatResult given = run(box, Options());
 	Options placed;

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "../support/intrinsic.h"
 #include "../support/random.h"
 #include "../support/shapes.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/seamless/holonomy.h>
-#include <ricci/surface/component.h>
 #include <ricci/surface/flow_domain.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <string>
 #include <vector>
 
 namespace ricci::testing {
@@ -20,9 +18,7 @@ namespace {
 
 EmbeddedSurface surfaceOf(const SurfaceMesh& mesh)
 {
-	std::vector<std::string> notes;
-	return flowDomain(splitIntoComponents(openMesh(mesh, notes)).front(), Holes::Boundaries)
-		.surface;
+	return flowDomain(onlyComponent(mesh), Holes::Boundaries).surface;
 }
 
 /// Angles by the law of cosines.

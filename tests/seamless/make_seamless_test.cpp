@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -167,27 +168,16 @@ TEST(MakeSeamless, HoldsOnTheCommonRefinement)
 
 TEST(MakeSeamless, CanBeCancelledAtAnyCall)
 {
-	class Impatient : public Progress
-	{
-	public:
-		bool update(double, const std::string& what) override
-		{
-			return what != "Rounding the rotations" || ++calls < last;
-		}
-		int calls = 0, last = 1 << 30;
-	};
 	const SurfaceMesh mesh = bentSlab(1, 4);
-	Impatient patient;
-	heard(patient, [&] { return parametrizeEuclidean(mesh, {}, seamless(Finish::None)); });
-	ASSERT_GT(patient.calls, 3);
-	for (int last = 1; last <= patient.calls; last += std::max(1, patient.calls / 8)) {
-		Impatient impatient;
-		impatient.last = last;
-		EXPECT_THROW(
-			heard(
-				impatient, [&] { return parametrizeEuclidean(mesh, {}, seamless(Finish::None)); }),
-			Cancelled);
-	}
+	const auto callsUntil = [&](int last) {
+		Listener listener(last, "Rounding the rotations");
+		heard(listener, [&] { return parametrizeEuclidean(mesh, {}, seamless(Finish::None)); });
+		return listener.calls();
+	};
+	const int calls = callsUntil(std::numeric_limits<int>::max());
+	ASSERT_GT(calls, 3);
+	for (int last = 1; last <= calls; last += std::max(1, calls / 8))
+		EXPECT_THROW(callsUntil(last), Cancelled);
 }
 
 } // namespace

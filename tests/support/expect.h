@@ -37,12 +37,11 @@ std::optional<E> errorOf(const Call& call)
 	return std::nullopt;
 }
 
-/// Its sentence; empty if the call ends without an error.
+/// The same of a call that has to end with one: the test fails if it does not.
 template<class E, class Call>
-std::string sentenceOf(const Call& call)
+E refusalOf(const Call& call)
 {
-	const std::optional<E> error = errorOf<E>(call);
-	return error ? error->what() : "";
+	return errorOf<E>(call).value();
 }
 
 inline void expectWords(const std::string& sentence, const std::vector<std::string>& words)
@@ -98,6 +97,11 @@ inline double sideLength(const Triangle2& t, std::size_t k)
 {
 	return distance(t[k], t[(k + 1) % 3]);
 }
+inline double sideLength(const SurfaceMesh& mesh, std::size_t face, std::size_t k)
+{
+	const Triangle& t = mesh.triangles[face];
+	return distance(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 1) % 3])]);
+}
 
 /// The map \p uv draws every triangle congruent to itself, to what floats of the coordinates' size can.
 inline void
@@ -109,13 +113,8 @@ expectIsometric(const SurfaceMesh& mesh, const std::vector<Triangle2>& uv, const
 		for (const Point2& p : t)
 			extent = std::max({extent, std::abs(p[0]), std::abs(p[1])});
 	for (std::size_t f = 0; f < uv.size(); ++f)
-		for (std::size_t k = 0; k < 3; ++k) {
-			const Triangle& t = mesh.triangles[f];
-			EXPECT_NEAR(
-				sideLength(uv[f], k),
-				distance(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 1) % 3])]),
-				1e-6 * extent);
-		}
+		for (std::size_t k = 0; k < 3; ++k)
+			EXPECT_NEAR(sideLength(uv[f], k), sideLength(mesh, f, k), 1e-6 * extent);
 	EXPECT_NEAR(report.qcMax, 1.0, 1e-4);
 	EXPECT_NEAR(report.areaDistortionMean, 1.0, 1e-5);
 	EXPECT_EQ(report.flippedFaces + report.flippedByRounding, 0);

@@ -7,6 +7,8 @@
 
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace ricci::testing {
 
@@ -57,6 +59,25 @@ Point3 onCircle(int i, int n)
 Triangulation glued(const SurfaceMesh& mesh)
 {
 	return Triangulation(static_cast<int>(mesh.positions.size()), mesh.triangles);
+}
+
+OpenedMesh opened(const SurfaceMesh& mesh)
+{
+	std::vector<std::string> notes;
+	return openMesh(mesh, notes);
+}
+
+std::vector<Component> componentsOf(const SurfaceMesh& mesh)
+{
+	return splitIntoComponents(opened(mesh));
+}
+
+Component onlyComponent(const SurfaceMesh& mesh)
+{
+	const std::vector<Component> components = componentsOf(mesh);
+	if (components.size() != 1)
+		throw std::logic_error("the mesh is not connected");
+	return components.front();
 }
 
 Triangulation

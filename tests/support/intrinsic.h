@@ -5,6 +5,8 @@
 #include "random.h"
 
 #include <ricci/metric/initial_packing.h>
+#include <ricci/surface/component.h>
+#include <ricci/surface/opened_mesh.h>
 #include <ricci/surface/surface_mesh.h>
 #include <ricci/surface/triangulation.h>
 
@@ -13,6 +15,11 @@
 namespace ricci::testing {
 
 Triangulation glued(const SurfaceMesh& mesh);
+
+OpenedMesh opened(const SurfaceMesh& mesh);
+std::vector<Component> componentsOf(const SurfaceMesh& mesh);
+/// Of a connected surface.
+Component onlyComponent(const SurfaceMesh& mesh);
 
 /// Triangles glued side by side. \p sides [side] number of the other side, or -1.
 Triangulation

@@ -42,7 +42,6 @@ const char* const kUsage =
 	"  --margin M           between the charts, with --packed\n"
 	"  --prescribe-boundary free_boundary off\n"
 	"  --epsilon X          radians\n"
-	"  --max-iterations N\n"
 	"  --obj FOLDER         write each result with 17 digits to FOLDER/MESH.TARGET.obj\n"
 	"  --verbose            the log on standard error\n";
 

@@ -241,6 +241,25 @@ SurfaceMesh moebiusBand(int n)
 	return mesh;
 }
 
+SurfaceMesh fanWithGap(double gap)
+{
+	SurfaceMesh fan;
+	fan.positions.push_back({0, 0, 0});
+	for (int i = 0; i < 7; ++i) {
+		const double angle = (gap + (360 - gap) * i / 6) * kPi / 180;
+		fan.positions.push_back({std::cos(angle), std::sin(angle), 0});
+		fan.triangles.push_back({0, i + 1, (i + 1) % 7 + 1});
+	}
+	return fan;
+}
+
+SurfaceMesh withReversedFaces(SurfaceMesh mesh, std::size_t step)
+{
+	for (std::size_t f = 0; f < mesh.triangles.size(); f += step)
+		std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+	return mesh;
+}
+
 SurfaceMesh sideBySide(const SurfaceMesh& a, const SurfaceMesh& b, double shift)
 {
 	SurfaceMesh both = a;

@@ -77,6 +77,13 @@ SurfaceMesh kleinBottle(int nu, int nv, const std::function<Point3(int, int)>& p
 /// Moebius band of \p n squares.
 SurfaceMesh moebiusBand(int n);
 
+/// Seven triangles round a vertex, number 0, on the unit circle; six of them are equal, and the last one has
+/// an angle of \p gap degrees there, between the vertices 7 and 1.
+SurfaceMesh fanWithGap(double gap);
+
+/// \p mesh with its faces 0, step, 2 step, ... reversed.
+SurfaceMesh withReversedFaces(SurfaceMesh mesh, std::size_t step);
+
 /// Both meshes in one, the second moved by \p shift along x.
 SurfaceMesh sideBySide(const SurfaceMesh& a, const SurfaceMesh& b, double shift);
 

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -88,14 +87,6 @@ double signedArea(const std::vector<Vertex>& loop, const VertexArray<Point3>& po
 		area += p[0] * q[1] - p[1] * q[0];
 	}
 	return area;
-}
-
-Component componentOf(const SurfaceMesh& mesh)
-{
-	std::vector<std::string> notes;
-	std::vector<Component> components = splitIntoComponents(openMesh(mesh, notes));
-	EXPECT_EQ(components.size(), 1u);
-	return components.front();
 }
 
 /// A square of 9 x 9 cells without the stars of some inner vertices.
@@ -281,7 +272,7 @@ TEST(FlowDomain, WithoutCapsIsTheSurfaceItself)
 {
 	for (const Case& c : surfacesWithSeveralLoops()) {
 		SCOPED_TRACE(c.name);
-		const Component component = componentOf(c.mesh);
+		const Component component = onlyComponent(c.mesh);
 		const FlowDomain domain = flowDomain(component, Holes::Boundaries);
 		expectEmbedded(domain.surface, component.positions, component.triangles);
 		EXPECT_EQ(domain.surface.topology.type.genus, c.genus);
@@ -297,7 +288,7 @@ TEST(FlowDomain, CapsCloseAllLoopsButTheLongest)
 {
 	for (const Case& c : surfacesWithSeveralLoops()) {
 		SCOPED_TRACE(c.name);
-		const Component component = componentOf(c.mesh);
+		const Component component = onlyComponent(c.mesh);
 		const FlowDomain domain = flowDomain(component, Holes::Capped);
 		expectEmbedded(domain.surface, component.positions, component.triangles);
 		ASSERT_TRUE(domain.capped.has_value());
@@ -336,7 +327,7 @@ TEST(FlowDomain, CapsKeepTheNumbersAndTheMetricOfTheSurface)
 {
 	for (const Case& c : surfacesWithSeveralLoops()) {
 		SCOPED_TRACE(c.name);
-		const FlowDomain domain = flowDomain(componentOf(c.mesh), Holes::Capped);
+		const FlowDomain domain = flowDomain(onlyComponent(c.mesh), Holes::Capped);
 		ASSERT_TRUE(domain.capped.has_value());
 		const Triangulation& t = domain.surface.triangulation;
 		const Triangulation& closed = domain.capped->triangulation;
@@ -384,7 +375,7 @@ TEST(FlowDomain, ShortLoopsAreThoseBelowATenthOfTheRootOfTheArea)
 			if (far < 0.2)
 				p = centre + (0.5 * side / far) * d;
 		}
-		const FlowDomain domain = flowDomain(componentOf(mesh), Holes::ShortCapped);
+		const FlowDomain domain = flowDomain(onlyComponent(mesh), Holes::ShortCapped);
 		EXPECT_EQ(domain.holes, isShort ? 1 : 0) << side;
 		EXPECT_EQ(domain.capped.has_value(), isShort);
 		EXPECT_EQ(domain.surface.topology.type.boundaryLoops, 2);
@@ -392,7 +383,7 @@ TEST(FlowDomain, ShortLoopsAreThoseBelowATenthOfTheRootOfTheArea)
 		// The same at any scale.
 		for (Point3& p : mesh.positions)
 			p = 1e6 * p;
-		EXPECT_EQ(flowDomain(componentOf(mesh), Holes::ShortCapped).holes, domain.holes);
+		EXPECT_EQ(flowDomain(onlyComponent(mesh), Holes::ShortCapped).holes, domain.holes);
 	}
 }
 
@@ -402,12 +393,12 @@ TEST(FlowDomain, ASurfaceWithShortLoopsAloneIsClosed)
 	const SurfaceMesh fine = torus(3, 1, 160, 80), coarse = torus(3, 1, 20, 10);
 	for (const std::vector<int>& missing : {std::vector<int>{5}, {5, 2000, 7000}}) {
 		const FlowDomain domain =
-			flowDomain(componentOf(withoutStars(fine, missing)), Holes::ShortCapped);
+			flowDomain(onlyComponent(withoutStars(fine, missing)), Holes::ShortCapped);
 		EXPECT_EQ(domain.holes, static_cast<int>(missing.size()));
 		EXPECT_TRUE(domain.solved().topology.type.isTorus());
 	}
 	const FlowDomain domain =
-		flowDomain(componentOf(withoutStars(coarse, {5})), Holes::ShortCapped);
+		flowDomain(onlyComponent(withoutStars(coarse, {5})), Holes::ShortCapped);
 	EXPECT_EQ(domain.holes, 0);
 	EXPECT_FALSE(domain.capped.has_value());
 }
@@ -415,7 +406,7 @@ TEST(FlowDomain, ASurfaceWithShortLoopsAloneIsClosed)
 TEST(FlowDomain, OneLoopOrNoneHasNothingToCap)
 {
 	for (const SurfaceMesh& mesh : {rectangle(3, 3, 1, 1), tetrahedron(), torus(3, 1, 8, 6)}) {
-		const Component component = componentOf(mesh);
+		const Component component = onlyComponent(mesh);
 		const FlowDomain domain = flowDomain(component, Holes::Capped);
 		expectEmbedded(domain.surface, component.positions, component.triangles);
 		EXPECT_FALSE(domain.capped.has_value());

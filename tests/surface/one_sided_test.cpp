@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/intrinsic.h"
 #include "support/random.h"
 #include "support/shapes.h"
 
@@ -11,7 +12,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <map>
 #include <set>
@@ -20,12 +20,6 @@
 
 namespace ricci::testing {
 namespace {
-
-OpenedMesh opened(const SurfaceMesh& mesh)
-{
-	std::vector<std::string> notes;
-	return openMesh(mesh, notes);
-}
 
 SurfaceType typeOf(const OpenedMesh& mesh)
 {

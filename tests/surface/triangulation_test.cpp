@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/expect.h"
 #include "support/intrinsic.h"
 #include "support/random.h"
 #include "support/random_surface.h"
@@ -106,19 +107,14 @@ TEST(Triangulation, RefusesAnEdgeOfTwoTrianglesThatDisagree)
 								  const std::vector<Triangle>& triangles,
 								  std::size_t sides,
 								  std::array<int, 2> ends) {
-		try {
-			Triangulation(vertexCount, triangles);
-			ADD_FAILURE() << "accepted";
-		}
-		catch (const InvalidMesh& error) {
-			EXPECT_EQ(error.problem, InvalidMesh::IncoherentEdge);
-			EXPECT_EQ(error.count, sides);
-			EXPECT_EQ(error.vertices, ends);
-			EXPECT_EQ(
-				std::string(error.what()),
-				"The edge between vertices " + std::to_string(ends[0]) + " and " +
-					std::to_string(ends[1]) + " is not shared by two coherent triangles");
-		}
+		const auto error = refusalOf<InvalidMesh>([&] { Triangulation(vertexCount, triangles); });
+		EXPECT_EQ(error.problem, InvalidMesh::IncoherentEdge);
+		EXPECT_EQ(error.count, sides);
+		EXPECT_EQ(error.vertices, ends);
+		EXPECT_EQ(
+			std::string(error.what()),
+			"The edge between vertices " + std::to_string(ends[0]) + " and " +
+				std::to_string(ends[1]) + " is not shared by two coherent triangles");
 	};
 	expectRefusal(4, {{0, 1, 2}, {0, 1, 3}}, 2, {0, 1});
 	expectRefusal(5, {{0, 1, 2}, {1, 0, 3}, {1, 0, 4}}, 3, {0, 1});

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <stdexcept>
 #include <utility>
 
 namespace ricci::testing {
@@ -38,6 +37,19 @@ Picture<Sample> plain(int width, int height, const std::array<Sample, 4>& colour
 	for (std::size_t i = 0; i < picture.rgba.size(); ++i)
 		picture.rgba[i] = colour[i % 4];
 	return picture;
+}
+
+/// Two squares of four vertices and two faces each as one mesh.
+CarriedMesh both(CarriedMesh mesh, const CarriedMesh& other)
+{
+	for (std::size_t i = 0; i < 2; ++i) {
+		mesh.faces.push_back(other.faces[i]);
+		for (int& v : mesh.faces.back().vertices)
+			v += 4;
+		mesh.triangles.push_back(other.triangles[i]);
+		mesh.triangles.back().face += 2;
+	}
+	return mesh;
 }
 
 template<class Sample>
@@ -227,16 +239,9 @@ TYPED_TEST(CarryTextureOf, TakesNothingFromTheOtherChartOfABlock)
 			old.at(x, y)[x < border ? 0 : 2] = 200;
 	const Square square(1);
 	const double width = static_cast<double>(border) / oldSize;
-	CarriedMesh mesh = carriedMesh(square, box(0, 0, width, 1), box(0.05, 0.05, 0.4, 0.9));
-	const CarriedMesh other =
-		carriedMesh(square, box(width, 0, 1 - width, 1), box(0.55, 0.05, 0.4, 0.9));
-	for (std::size_t i = 0; i < 2; ++i) {
-		mesh.faces.push_back(other.faces[i]);
-		for (int& v : mesh.faces.back().vertices)
-			v += 4;
-		mesh.triangles.push_back(other.triangles[i]);
-		mesh.triangles.back().face += 2;
-	}
+	const CarriedMesh mesh = both(
+		carriedMesh(square, box(0, 0, width, 1), box(0.05, 0.05, 0.4, 0.9)),
+		carriedMesh(square, box(width, 0, 1 - width, 1), box(0.55, 0.05, 0.4, 0.9)));
 	for (const int size : {8, 20, 40}) {
 		const Picture<TypeParam> result = carried<TypeParam>(mesh, {&old}, size);
 		for (int y = 0; y < size; ++y)
@@ -338,17 +343,12 @@ TEST(CarryTexture, GutterServesThreeLevelsOfMipmaps)
 			if (in && (one || two))
 				std::fill_n(old.at(x, y), 4, static_cast<unsigned char>(one ? 200 : 50));
 		}
-	CarriedMesh mesh =
-		carriedMesh(square, box(8.0 / 64, 8.0 / 64, 0.25, 0.75), box(left, 0.2, width, 0.6));
-	const CarriedMesh other = carriedMesh(
-		square, box(40.0 / 64, 8.0 / 64, 0.25, 0.75), box(left + width + gutter, 0.2, width, 0.6));
-	for (std::size_t i = 0; i < 2; ++i) {
-		mesh.faces.push_back(other.faces[i]);
-		for (int& v : mesh.faces.back().vertices)
-			v += 4;
-		mesh.triangles.push_back(other.triangles[i]);
-		mesh.triangles.back().face += 2;
-	}
+	const CarriedMesh mesh = both(
+		carriedMesh(square, box(8.0 / 64, 8.0 / 64, 0.25, 0.75), box(left, 0.2, width, 0.6)),
+		carriedMesh(
+			square,
+			box(40.0 / 64, 8.0 / 64, 0.25, 0.75),
+			box(left + width + gutter, 0.2, width, 0.6)));
 	Picture<unsigned char> level = carried<unsigned char>(mesh, {&old}, size);
 	Random random(744);
 	for (int depth = 0; depth <= 3; ++depth) {
@@ -420,10 +420,9 @@ TEST(CarryTexture, RepeatsThePicture)
 	const Square square(3);
 	const Picture<unsigned char> old = noise<unsigned char>(64, 64, random);
 	const std::vector<Triangle2> atlas = mapped(square.place, curved);
-	std::vector<Triangle2> moved = square.place;
-	for (std::size_t i = 0; i < moved.size(); ++i)
-		for (Point2& p : moved[i])
-			p = {p[0] - 3.0, p[1] + 8.0};
+	const std::vector<Triangle2> moved = mapped(square.place, [](const Point2& p) {
+		return p + Point2{-3.0, 8.0};
+	});
 	const Picture<unsigned char> a =
 		carried<unsigned char>(carriedMesh(square, square.place, atlas), {&old}, 80);
 	const Picture<unsigned char> b =

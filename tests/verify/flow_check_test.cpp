@@ -34,21 +34,19 @@ TEST(FlowCheck, RequiresTheTargetThatTheFlowSaysItHasReached)
 	const VertexArray<char> closed(mesh.positions.size(), 0);
 	EXPECT_NO_THROW(requireMetric(flow.result, closed));
 	flow.result.target.curvature[Vertex(3)] += 1e-6;
-	const auto error = errorOf<NotConverged>([&] { requireMetric(flow.result, closed); });
-	ASSERT_TRUE(error);
-	EXPECT_EQ(error->problem, NotConverged::CheckFailed);
-	expectWords(error->finding, {"curvature 1e-06 off at one vertex"});
-	expectWords(error->what(), {error->finding});
+	const auto error = refusalOf<NotConverged>([&] { requireMetric(flow.result, closed); });
+	EXPECT_EQ(error.problem, NotConverged::CheckFailed);
+	expectWords(error.finding, {"curvature 1e-06 off at one vertex"});
+	expectWords(error.what(), {error.finding});
 	flow.result.target.fixed[Vertex(3)] = 1; // nothing is prescribed there
 	EXPECT_NO_THROW(requireMetric(flow.result, closed));
 }
 
 TEST(FlowCheck, FailsWithWhatWasFound)
 {
-	const auto error = errorOf<NotConverged>([] { failCheck("2 points lie outside the disk"); });
-	ASSERT_TRUE(error);
-	EXPECT_EQ(error->problem, NotConverged::CheckFailed);
-	EXPECT_EQ(error->finding, "2 points lie outside the disk");
+	const auto error = refusalOf<NotConverged>([] { failCheck("2 points lie outside the disk"); });
+	EXPECT_EQ(error.problem, NotConverged::CheckFailed);
+	EXPECT_EQ(error.finding, "2 points lie outside the disk");
 }
 
 } // namespace

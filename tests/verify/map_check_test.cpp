@@ -56,26 +56,13 @@ TEST(MapCheck, SeesSeamsOfDifferentLengths)
 	Sheet s;
 	for (Point2& p : s.plane[20])
 		p = {1.001 * p[0], 1.001 * p[1]};
-	double extent = 0.0;
-	for (std::size_t k = 0; k < 2; ++k) {
-		double low = 0.0, high = 0.0;
-		for (const Point3& p : s.mesh.positions) {
-			low = std::min(low, p[k]);
-			high = std::max(high, p[k]);
-		}
-		extent = std::max(extent, high - low);
-	}
-	const auto longest = [&] { // of the face's sides, all inside
-		double l = 0.0;
-		for (std::size_t k = 0; k < 3; ++k)
-			l = std::max(
-				l,
-				std::hypot(
-					s.plane[20][k][0] - s.plane[20][(k + 1) % 3][0],
-					s.plane[20][k][1] - s.plane[20][(k + 1) % 3][1]));
-		return l;
-	};
-	EXPECT_NEAR(s.check().seamGap, longest() * (1 - 1 / 1.001) / extent, 1e-14);
+	Box2 box;
+	for (const Point3& p : s.mesh.positions)
+		box.add(Point2{p[0], p[1]});
+	const Triangle2& p = s.plane[20]; // all of its sides are inside
+	const double longest =
+		std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+	EXPECT_NEAR(s.check().seamGap, longest * (1 - 1 / 1.001) / box.extent(), 1e-14);
 }
 
 TEST(MapCheck, SeesFlippedAndFlatFaces)
