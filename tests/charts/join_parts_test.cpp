@@ -28,7 +28,7 @@ struct Scattered
 	Scattered(const SurfaceMesh& mesh, const Array<int>& partOf, Random& random) :
 			parts(at(*std::max_element(partOf.begin(), partOf.end()) + 1))
 	{
-		std::vector<RigidMotion> motions;
+		std::vector<Motion> motions;
 		for (std::size_t i = 0; i < parts.size(); ++i)
 			motions.push_back(
 				{std::polar(1.0, random.real(0, 2 * kPi)),

@@ -40,7 +40,7 @@ std::vector<std::vector<int>> stripes(int triangleCount, int count)
 	return parts;
 }
 
-RigidMotion randomMotion(Random& random)
+Motion randomMotion(Random& random)
 {
 	return {
 		std::polar(1.0, random.real(0, 2 * kPi)), {random.real(-0.5, 0.5), random.real(-0.5, 0.5)}};

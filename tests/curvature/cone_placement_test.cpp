@@ -369,8 +369,7 @@ struct FlowToFewCones
 			surface,
 			initialPacking(surface, FlowOptions()),
 			target,
-			FlowOptions(),
-			[](int, double) {});
+			FlowOptions());
 	}
 
 	FlowResult to(const PlacedCones& cones) const

@@ -397,7 +397,7 @@ TEST(TargetCurvature, AutomaticDependsOnNoScaleAndNoNumbers)
 FlowResult flowTo(const TestSurface& surface, const Target& target)
 {
 	return runRicciFlow(
-		surface, initialPacking(surface, FlowOptions()), target, FlowOptions(), [](int, double) {});
+		surface, initialPacking(surface, FlowOptions()), target, FlowOptions());
 }
 
 TEST(TargetToKeepAreas, IsAskedForWhereAreasSpreadMoreThanTheTargetAllows)

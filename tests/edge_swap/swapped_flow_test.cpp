@@ -5,6 +5,7 @@
 #include "support/random_surface.h"
 
 #include <ricci/base/numbers.h>
+#include <ricci/base/task.h>
 #include <ricci/edge_swap/swapped_flow.h>
 #include <ricci/error.h>
 #include <ricci/math/points.h>
@@ -41,17 +42,18 @@ SurfaceMesh fanWithAWideTriangle()
 	return fan;
 }
 
-/// Runs flowWithEdgeSwaps() with the boundary kept, and notes what its listener is told.
-struct SwapRun
+/// Runs flowWithEdgeSwaps() with the boundary kept, and notes what it tells.
+struct SwapRun : Progress
 {
 	Component component;
 	VertexArray<double> curvature; ///< wanted at the component's inner vertices
 	Options options;
-	std::function<void(int)> atStep = [](int) {};
+	std::function<void()> atStep = [] {};
 
-	int starts = 0, ends = 0;
-	std::vector<int> steps, splits;
+	int starts = 0, steps = 0;
+	std::vector<int> splits;
 	std::vector<int> startVertices; ///< [start] of the surface
+	std::vector<FlowState> states;
 
 	SwapRun(const SurfaceMesh& mesh, double everywhere) : component(componentOf(mesh))
 	{
@@ -61,8 +63,8 @@ struct SwapRun
 
 	SwappedFlow operator()()
 	{
-		SwapListener listener;
-		listener.chooseTarget = [&](const EmbeddedSurface& surface, const InitialPacking& start) {
+		const Task task(*this);
+		const auto choose = [&](const EmbeddedSurface& surface, const InitialPacking& start) {
 			EXPECT_EQ(start.radii.size(), surface.positions.size());
 			++starts;
 			const int n = surface.triangulation.vertexCount();
@@ -74,15 +76,29 @@ struct SwapRun
 			target.fixed = surface.topology.boundary;
 			return target;
 		};
-		listener.step = [&](int step, double) {
-			steps.push_back(step);
-			atStep(step);
-		};
-		listener.end = [&](const FlowResult&) { ++ends; };
-		listener.split = [&](int count) { splits.push_back(count); };
-		return flowWithEdgeSwaps(component, options, listener);
+		return flowWithEdgeSwaps(component, options, choose, states);
+	}
+
+	void log(const std::string& line) override
+	{
+		if (line.find("boundary edges split") != std::string::npos)
+			splits.push_back(std::stoi(line));
+		else if (line.find("Newton step") == 0) {
+			++steps;
+			atStep();
+		}
 	}
 };
+
+/// The number of steps never falls, and ends with that of the flow.
+void expectCounted(const std::vector<FlowState>& states, const FlowResult& flow)
+{
+	EXPECT_TRUE(std::is_sorted(
+		states.begin(), states.end(), [](const FlowState& a, const FlowState& b) {
+			return a.step < b.step;
+		}));
+	EXPECT_EQ(states.back().step, flow.iterations);
+}
 
 /// The wanted curvature, by the lengths alone.
 void expectCurvature(const SwappedFlow& swapped, const VertexArray<double>& wanted)
@@ -92,7 +108,7 @@ void expectCurvature(const SwappedFlow& swapped, const VertexArray<double>& want
 	EXPECT_EQ(measure.broken, 0);
 	int checked = 0;
 	for (const Vertex v : wanted.indices()) {
-		if (swapped.surface.topology.boundary[v])
+		if (swapped.domain.surface.topology.boundary[v])
 			continue;
 		++checked;
 		EXPECT_NEAR(static_cast<double>(measure.curvature[v]), wanted[v], 1e-7);
@@ -105,12 +121,11 @@ TEST(SwappedFlow, ChangesNoEdgeWhereNothingBreaks)
 	SwapRun run(fanWithAWideTriangle(), -1.0);
 	const SwappedFlow swapped = run();
 	EXPECT_EQ(run.starts, 1);
-	EXPECT_EQ(run.ends, 1);
 	EXPECT_TRUE(run.splits.empty());
 	EXPECT_EQ(swapped.swaps, 0);
-	EXPECT_EQ(swapped.mesh.splits(), 0);
-	EXPECT_TRUE(swapped.forbidden.empty());
-	EXPECT_EQ(swapped.flow.iterations, run.steps.back());
+	EXPECT_EQ(swapped.splits, 0);
+	EXPECT_TRUE(swapped.domain.isForeign.empty());
+	expectCounted(run.states, swapped.flow);
 	expectCurvature(swapped, run.curvature);
 }
 
@@ -119,28 +134,26 @@ TEST(SwappedFlow, StartsAgainOnASplitBoundary)
 	SwapRun run(fanWithAWideTriangle(), -3.0);
 	const SwappedFlow swapped = run();
 	EXPECT_EQ(run.starts, 2);
-	EXPECT_EQ(run.ends, 1);
 	EXPECT_EQ(run.splits, std::vector<int>{1});
 	EXPECT_EQ(run.startVertices, (std::vector<int>{8, 9}));
 	EXPECT_EQ(swapped.swaps, 0);
-	EXPECT_EQ(swapped.mesh.splits(), 1);
+	EXPECT_EQ(swapped.splits, 1);
 	expectCurvature(swapped, run.curvature);
-	// The steps of both starts in one row.
-	EXPECT_TRUE(std::is_sorted(run.steps.begin(), run.steps.end()));
-	EXPECT_EQ(swapped.flow.iterations, run.steps.back());
+	expectCounted(run.states, swapped.flow); // the steps of both starts in one row
+	EXPECT_EQ(swapped.domain.corners.size(), 7);
 	// The new vertex is the middle of the edge between vertices 7 and 1 of the mesh.
-	const Triangulation& t = swapped.surface.triangulation;
+	const Triangulation& t = swapped.domain.surface.triangulation;
 	ASSERT_EQ(t.vertexCount(), 9);
 	const Point3 &a = run.component.positions[Vertex(7)], &b = run.component.positions[Vertex(1)];
 	EXPECT_LT(
 		distance(
-			swapped.surface.positions[Vertex(8)],
+			swapped.domain.surface.positions[Vertex(8)],
 			Point3{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.0}),
 		1e-15);
-	ASSERT_EQ(swapped.forbidden.size(), t.edgeCount());
+	ASSERT_EQ(swapped.domain.isForeign.size(), t.edgeCount());
 	for (const Edge e : t.edges()) {
 		const auto [i, j] = t.ends(e);
-		EXPECT_EQ(swapped.forbidden[e], i == Vertex(8) || j == Vertex(8));
+		EXPECT_EQ(swapped.domain.isForeign[e], i == Vertex(8) || j == Vertex(8));
 	}
 }
 
@@ -155,37 +168,34 @@ TEST(SwappedFlow, EndsInAMetricOrWithAReason)
 			K = random.real(-7.0, 5.0);
 		try {
 			const SwappedFlow swapped = run();
-			EXPECT_EQ(run.ends, 1);
 			EXPECT_EQ(static_cast<int>(run.splits.size()), run.starts - 1);
-			EXPECT_EQ(swapped.mesh.splits(), run.splits.empty() ? 0 : run.splits.back());
-			EXPECT_EQ(swapped.flow.iterations, run.steps.back());
-			EXPECT_TRUE(std::is_sorted(run.steps.begin(), run.steps.end()));
+			EXPECT_EQ(swapped.splits, run.splits.empty() ? 0 : run.splits.back());
+			expectCounted(run.states, swapped.flow);
 			expectCurvature(swapped, run.curvature);
 			if (swapped.swaps == 0) {
-				EXPECT_EQ(swapped.forbidden.empty(), swapped.mesh.splits() == 0);
+				EXPECT_EQ(swapped.domain.isForeign.empty(), swapped.splits == 0);
 				continue;
 			}
-			++(swapped.mesh.splits() == 0 ? swappedOnly : both);
+			++(swapped.splits == 0 ? swappedOnly : both);
 			// A cut may run on the component's own edges alone.
-			const Triangulation& before = swapped.surface.triangulation;
+			const Triangulation& before = swapped.domain.surface.triangulation;
 			const Triangulation& after = swapped.flow.metric->triangulation();
-			ASSERT_EQ(swapped.forbidden.size(), before.edgeCount());
+			ASSERT_EQ(swapped.domain.isForeign.size(), before.edgeCount());
 			int forbidden = 0;
 			for (const Edge e : before.edges()) {
-				forbidden += swapped.forbidden[e];
-				if (swapped.forbidden[e])
+				forbidden += swapped.domain.isForeign[e];
+				if (swapped.domain.isForeign[e])
 					continue;
 				const auto [i, j] = after.ends(e);
 				EXPECT_EQ(after.ends(e), before.ends(e));
 				EXPECT_LT(std::max(i, j).number(), run.curvature.size());
 			}
-			if (swapped.mesh.splits() == 0) {
+			if (swapped.splits == 0) {
 				EXPECT_GT(forbidden, 0);
 				EXPECT_LE(forbidden, swapped.swaps); // an edge may be swapped again
 			}
 		}
 		catch (const NotConverged& error) {
-			EXPECT_EQ(run.ends, 0);
 			++broken;
 			EXPECT_EQ(error.problem, NotConverged::BrokenTriangles) << error.what();
 			EXPECT_GT(error.count, 0u);
@@ -208,7 +218,6 @@ TEST(SwappedFlow, GivesUpAfterTwentyStarts)
 	catch (const NotConverged& error) {
 		EXPECT_EQ(error.problem, NotConverged::SplitsUsedUp);
 		EXPECT_EQ(run.starts, 20);
-		EXPECT_EQ(run.ends, 0);
 		ASSERT_EQ(run.splits.size(), 20u);
 		EXPECT_EQ(error.count, static_cast<std::size_t>(run.splits.back()));
 		expectWords(error.what(), {"kept breaking", std::to_string(run.splits.back())});
@@ -220,7 +229,7 @@ template<class E>
 SwapRun stoppedAt(int last, const E& error)
 {
 	SwapRun run(fanWithAWideTriangle(), -3.0);
-	run.atStep = [last, error, calls = 0](int) mutable {
+	run.atStep = [last, error, calls = 0]() mutable {
 		if (calls++ == last)
 			throw error;
 	};
@@ -233,7 +242,7 @@ TEST(SwappedFlow, ACircleThatDoesNotSettleIsNotSplit)
 	// that come then lead to a split.
 	SwapRun patient(fanWithAWideTriangle(), -3.0);
 	int stepsOfFirst = 0, atABrokenTriangle = 0;
-	patient.atStep = [&](int) { stepsOfFirst += patient.starts == 1; };
+	patient.atStep = [&] { stepsOfFirst += patient.starts == 1; };
 	patient();
 	for (int last = 0; last < stepsOfFirst; ++last) {
 		SCOPED_TRACE("step " + std::to_string(last));
@@ -248,7 +257,6 @@ TEST(SwappedFlow, ACircleThatDoesNotSettleIsNotSplit)
 		}
 		EXPECT_TRUE(circle.splits.empty());
 		EXPECT_EQ(circle.starts, 1);
-		EXPECT_EQ(circle.ends, 0);
 
 		SwapRun other = stoppedAt(last, NotConverged(NotConverged::BrokenTriangles, 1));
 		try {
@@ -267,24 +275,22 @@ TEST(SwappedFlow, CanBeCancelledAtEveryStep)
 {
 	SwapRun patient(fanWithAWideTriangle(), -3.0);
 	patient();
-	const int calls = static_cast<int>(patient.steps.size());
-	ASSERT_GT(calls, 5);
-	for (int last = 0; last < calls; ++last) {
+	ASSERT_GT(patient.steps, 5);
+	for (int last = 0; last < patient.steps; ++last) {
 		SwapRun impatient = stoppedAt(last, Cancelled());
 		EXPECT_THROW(impatient(), Cancelled);
-		EXPECT_EQ(static_cast<int>(impatient.steps.size()), last + 1);
-		EXPECT_EQ(impatient.ends, 0);
+		EXPECT_EQ(impatient.steps, last + 1);
 	}
 }
 
 TEST(SwappedFlow, ErrorsOfTheTargetPassThrough)
 {
 	SwapRun run(fanWithAWideTriangle(), -1.0);
-	SwapListener listener;
-	listener.chooseTarget = [](const EmbeddedSurface&, const InitialPacking&) -> Target {
+	const auto choose = [](const EmbeddedSurface&, const InitialPacking&) -> Target {
 		throw InvalidOption(InvalidOption::NothingSelected);
 	};
-	EXPECT_THROW(flowWithEdgeSwaps(run.component, run.options, listener), InvalidOption);
+	EXPECT_THROW(
+		flowWithEdgeSwaps(run.component, run.options, choose, run.states), InvalidOption);
 }
 
 } // namespace

@@ -59,12 +59,13 @@ TEST(TargetOnDouble, IsSymmetricAndHasTwiceTheCurvature)
 TEST(FlowRun, GoesOnFromTheHalfOnTheDouble)
 {
 	for (const Problem& p : problems()) {
-		const FlowListener silent = [](int, double) {};
+		std::vector<FlowState> states;
+		FlowProgress progress(p.options.epsilon, states);
 		const EmbeddedSurface& surface = p.flow.surface();
 		const Target& target = p.flow.result.target;
-		FlowRun half(surface, initialPacking(surface, p.options), target, p.options, silent);
+		FlowRun half(surface, initialPacking(surface, p.options), target, p.options, progress);
 		ASSERT_TRUE(half.solve());
-		FlowRun whole = FlowRun::onDouble(surface, target, p.options, silent);
+		FlowRun whole = FlowRun::onDouble(surface, target, p.options, progress);
 		whole.goOnFrom(half, true);
 		ASSERT_TRUE(whole.solve());
 		const int steps = half.result().iterations;
@@ -95,9 +96,10 @@ TEST(FlowRun, TellsWhyItStoppedEarly)
 		target.background = background;
 		if (background == Background::HyperbolicPlane)
 			target.curvature[Vertex(0)] = 1.0;
-		const FlowListener silent = [](int, double) {};
+		std::vector<FlowState> states;
+		FlowProgress progress(options.epsilon, states);
 		FlowRun run(
-			flow.surface(), initialPacking(flow.surface(), options), target, options, silent);
+			flow.surface(), initialPacking(flow.surface(), options), target, options, progress);
 		run.limitSteps(1);
 		ASSERT_FALSE(run.solve());
 		const NotConverged error = run.failure();

@@ -84,8 +84,7 @@ TEST(RicciFlow, SolvesWhatBreaksOnAFixedTriangulation)
 					flow.surface(),
 					initialPacking(flow.surface(), options),
 					flow.result.target,
-					options,
-					[](int, double) {});
+					options);
 			}
 			catch (const NotConverged&) {
 				++refused;

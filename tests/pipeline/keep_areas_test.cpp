@@ -74,9 +74,8 @@ struct FirstFlow
 	void run(const Target& target)
 	{
 		map.flowStates.clear();
-		FlowProgress progress(options.epsilon, map.flowStates);
-		map.flow =
-			runRicciFlow(surface, initialPacking(surface, options), target, options, progress);
+		map.flow = runRicciFlow(
+			surface, initialPacking(surface, options), target, options, map.flowStates);
 	}
 
 	double excess() const

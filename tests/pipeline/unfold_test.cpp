@@ -84,9 +84,9 @@ TEST(Unfold, IsTakenWhereItCostsLess)
 	Options placed;
 	placed.target = TargetCurvature::PlacedCones;
 	const FlatResult whole = run(box, placed);
-	const double cost = objective(given.mesh, given.report.seamLength);
-	EXPECT_LE(cost, objective(whole.mesh, whole.report.seamLength) + 1e-9);
-	EXPECT_LE(cost, objective(unfolded->mesh, unfolded->report.seamLength) + 1e-9);
+	const double cost = costOf(given).total();
+	EXPECT_LE(cost, costOf(whole).total() + 1e-9);
+	EXPECT_LE(cost, costOf(*unfolded).total() + 1e-9);
 }
 
 } // namespace

@@ -89,8 +89,7 @@ void FlippedFlow::run(HyperbolicRequest request, double epsilon)
 		surface(),
 		initialPacking(surface(), options),
 		chooseHyperbolicTarget(surface().topology, request.options, request),
-		options,
-		[](int, double) {});
+		options);
 }
 
 void FlippedFlow::run(TargetRequest request, double epsilon)
@@ -102,7 +101,7 @@ void FlippedFlow::run(TargetRequest request, double epsilon)
 	const FlowOptions options = optionsOf(epsilon);
 	InitialPacking start = initialPacking(surface(), options);
 	const Target target = chooseTarget(surface(), start, request);
-	result = runRicciFlow(surface(), std::move(start), target, options, [](int, double) {});
+	result = runRicciFlow(surface(), std::move(start), target, options);
 }
 
 VertexArray<char> FlippedFlow::cones() const

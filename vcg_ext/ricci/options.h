@@ -5,7 +5,6 @@
 #include "math/points.h"
 
 #include <functional>
-#include <limits>
 #include <vector>
 
 namespace ricci {
@@ -112,15 +111,11 @@ struct ConeOptions
 {
 	/// Their number, or 0 for as many as it takes to bring the expected Report::areaDistortionSpread
 	/// below \ref distortion, or, if that is 0, for as many as lower the expected energy of the map and
-	/// the price of its seams together, see kSeamPrice; with flips the areas that come out count as well,
+	/// the price of its seams together, see MapCost; with flips the areas that come out count as well,
 	/// see keepAreas(). The distortion also is the spread up to which Automatic does without cones.
 	int count = 0;
 	double distortion = 0.0;
 	ConeRounding rounding = ConeRounding::Free;
-
-	/// Energy and price of seams of another map that is at hand: no more than kMaxPlacedCones are placed
-	/// then to lower both, and no flow runs if they are expected to cost more.
-	double alternative = std::numeric_limits<double>::infinity();
 };
 
 /// Whether cones are to lower energy and price of seams together.

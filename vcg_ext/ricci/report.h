@@ -73,7 +73,7 @@ struct Report
 	Histogram areaHistogram;           ///< binary logarithms of s over the faces
 
 	/// Of a map to the plane: its symmetric Dirichlet energy at the best scale, stretchEnergy(); and with the
-	/// price of all seams, objective().
+	/// price of all seams, MapCost::total().
 	std::optional<double> stretch, objective;
 
 	int flippedFaces = 0;      ///< faces whose image in the plane is reversed or has no area

@@ -89,14 +89,11 @@ std::vector<int> near(const FlatMesh& mesh, const std::vector<int>& bad, int rin
 /// [chart] what it was given, and all its triangles.
 Array<Box2> boxesOf(const Parametrization& map)
 {
-	Array<Box2> boxes;
-	for (const Chart& chart : map.charts)
-		boxes.push_back(chart.box);
-	for (const int f : map.mesh.points.indices())
-		for (const Point2& p : map.mesh.at(f))
-			boxes[map.mesh.chart[f]].add(p);
-	for (Box2& box : boxes)
-		widenToFloats(box);
+	Array<Box2> boxes(map.mesh.boxes(map.charts.size()));
+	for (const int chart : boxes.indices()) {
+		boxes[chart].add(map.charts[positionOf(chart)].box);
+		widenToFloats(boxes[chart]);
+	}
 	return boxes;
 }
 
@@ -109,11 +106,11 @@ public:
 			m_boxes(boxes), m_staysInBox(staysInBox), m_chartOf(mesh.chartOfPoints()),
 			m_border(boxes.size()), m_near(boxes.size()), m_moves(mesh.place.size(), 0)
 	{
-		forEdges(sidesByEdge(mesh), [&](const FlatSide* side, int count) {
-			if (!isInside(side, count))
-				for (int i = 0; i < count; ++i)
-					m_border[m_chartOf[side[i].atLow]].push_back({side[i].atLow, side[i].atHigh});
-		});
+		const Sides sides(mesh.vertices.values());
+		for (const int f : mesh.points.indices())
+			for (const Corner side : cornersOf(f))
+				if (!joinedSide(mesh, sides, side).isValid())
+					m_border[mesh.chart[f]].push_back({mesh.points[side], mesh.points[side.next()]});
 		for (const int chart : m_near.indices())
 			m_near[chart].push_back(chart);
 		if (!m_staysInBox) // the charts' places count for nothing

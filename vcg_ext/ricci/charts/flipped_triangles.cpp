@@ -36,10 +36,7 @@ std::size_t oppositeLongest(const Triangle2& p)
 void reflectFlipped(Parametrization& map)
 {
 	FlatMesh& mesh = map.mesh;
-	std::vector<Box2> boxes(map.charts.size());
-	for (const int f : mesh.points.indices())
-		for (const Point2& p : mesh.at(f))
-			boxes[positionOf(mesh.chart[f])].add(p);
+	const std::vector<Box2> boxes = mesh.boxes(map.charts.size());
 	std::vector<int> flipped;
 	for (const int f : mesh.points.indices()) {
 		const Triangle2 p = mesh.at(f);

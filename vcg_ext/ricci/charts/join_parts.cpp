@@ -242,7 +242,7 @@ private:
 		if (covered.empty() || area > maxArea)
 			return false;
 		const int displaced = m_parts.addPart();
-		m_parts.move(covered, {displaced, RigidMotion(), 0.0});
+		m_parts.move(covered, {displaced, Motion(), 0.0});
 		if (!smallerPiecesRound(covered, place.other).empty())
 			return false;
 		m_parts.move(m_parts.trianglesOf(part), place);

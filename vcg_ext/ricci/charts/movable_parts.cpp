@@ -52,7 +52,7 @@ std::vector<int> MovableParts::trianglesOf(int part) const
 	return triangles;
 }
 
-RigidMotion MovableParts::across(Corner side) const
+Motion MovableParts::across(Corner side) const
 {
 	const auto own = endsOf(side), other = endsOf(m_sides.across(side));
 	const auto vector = [](const Point2& p, const Point2& q) {
@@ -63,14 +63,14 @@ RigidMotion MovableParts::across(Corner side) const
 	};
 	const std::complex<double> turn =
 		vector(other[1], other[0]) * std::conj(vector(own[0], own[1]));
-	RigidMotion motion;
+	Motion motion;
 	if (const double size = std::abs(turn); size > 0.0)
 		motion.turn = turn / size;
 	motion.shift = middle(other) - motion.turn * middle(own);
 	return motion;
 }
 
-bool MovableParts::fits(const RigidMotion& motion, Corner side) const
+bool MovableParts::fits(const Motion& motion, Corner side) const
 {
 	const auto own = endsOf(side), other = endsOf(m_sides.across(side));
 	return distance(motion(own[0]), other[1]) <= m_onePlace &&
@@ -105,9 +105,7 @@ void MovableParts::move(const std::vector<int>& triangles, const Place& place)
 		const auto [group, isNew] = groups.try_emplace(m_group[f], m_groups.size());
 		if (isNew) {
 			const Group& old = m_groups[m_group[f]];
-			const RigidMotion motion{
-				place.motion.turn * old.motion.turn,
-				place.motion.turn * old.motion.shift + place.motion.shift};
+			const Motion motion = place.motion.after(old.motion);
 			m_groups.push_back({old.origin, motion, motion.inverse(), Box2()});
 			m_groupsOf[to].push_back(group->second);
 		}

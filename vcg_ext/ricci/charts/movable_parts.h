@@ -7,30 +7,16 @@
 #include "chart_overlap.h"
 
 #include <array>
-#include <complex>
 #include <cstddef>
 #include <vector>
 
 namespace ricci {
 
-/// A rotation and a translation of the plane.
-struct RigidMotion
-{
-	std::complex<double> turn = 1.0, shift = 0.0;
-
-	Point2 operator()(const Point2& p) const { return asPoint(turn * asComplex(p) + shift); }
-	Triangle2 operator()(const Triangle2& p) const
-	{
-		return {(*this)(p[0]), (*this)(p[1]), (*this)(p[2])};
-	}
-	RigidMotion inverse() const { return {std::conj(turn), -std::conj(turn) * shift}; }
-};
-
 /// A place for a part beside another one.
 struct Place
 {
 	int other; ///< part
-	RigidMotion motion;
+	Motion motion;
 	double length; ///< of the common border, on the surface
 };
 
@@ -65,10 +51,10 @@ public:
 	}
 
 	/// The motion of a side to the one across.
-	RigidMotion across(Corner side) const;
+	Motion across(Corner side) const;
 
 	/// Whether \p motion brings a side to the place of the one across.
-	bool fits(const RigidMotion& motion, Corner side) const;
+	bool fits(const Motion& motion, Corner side) const;
 
 	/// Whether a side and the one across are at one place in one part.
 	bool isJoined(Corner side) const;
@@ -111,7 +97,7 @@ private:
 	struct Group
 	{
 		int origin;
-		RigidMotion motion, back; ///< since the beginning, and its inverse
+		Motion motion, back; ///< since the beginning, and its inverse
 		Box2 box;                 ///< round the triangles where they are now, at least
 	};
 

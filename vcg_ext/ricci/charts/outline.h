@@ -6,7 +6,6 @@
 #include "../math/points.h"
 
 #include <array>
-#include <complex>
 #include <vector>
 
 namespace ricci {
@@ -17,20 +16,6 @@ using Outline = std::vector<std::array<Point2, 2>>;
 /// The sides of a chart's triangles, each taken counter-clockwise, but for two that are joined and run
 /// opposite ways. A point off them is covered by as many triangles as they go round it.
 Outline outlineOf(const FlatMesh& mesh, const Sides& sides, const std::vector<int>& triangles);
-
-/// Where a chart goes: p to turn p + shift.
-struct Motion
-{
-	std::complex<double> turn{1.0, 0.0}; ///< of absolute value 1
-	Point2 shift{0.0, 0.0};
-
-	Point2 operator()(const Point2& p) const
-	{
-		return {
-			turn.real() * p[0] - turn.imag() * p[1] + shift[0],
-			turn.imag() * p[0] + turn.real() * p[1] + shift[1]};
-	}
-};
 
 /// Whether no point of a chart is nearer than \p room > 0 to another chart, or in it, as far as doubles
 /// tell.

@@ -113,8 +113,8 @@ public:
 		for (auto& side : m_sides) {
 			for (Point2& p : side)
 				p = {
-					(p[0] + shape.motion.shift[0]) / m_cell,
-					(p[1] + shape.motion.shift[1]) / m_cell};
+					(p[0] + shape.motion.shift.real()) / m_cell,
+					(p[1] + shape.motion.shift.imag()) / m_cell};
 			drawSide(side);
 		}
 		fillBetween();
@@ -418,8 +418,7 @@ std::vector<Motion> packOutlines(
 					break;
 				canvas.take(spot);
 				motions[i] = spot.shape->motion;
-				motions[i].shift[0] += spot.x * cell;
-				motions[i].shift[1] += spot.y * cell;
+				motions[i].shift += std::complex<double>(spot.x * cell, spot.y * cell);
 				if (i == order.back() && canvas.side() < minSide) {
 					minSide = canvas.side();
 					best = motions;

@@ -28,16 +28,6 @@ constexpr std::size_t kMaxOutlines = 200;
 /// A chart is too small for that if its box is shorter than this share of the square.
 constexpr double kMinOutlineExtent = 1.0 / 64.0;
 
-/// [chart]
-std::vector<Box2> boxesOf(const Parametrization& map)
-{
-	std::vector<Box2> boxes(map.charts.size());
-	for (const int f : map.mesh.points.indices())
-		for (const Point2& p : map.mesh.at(f))
-			boxes[positionOf(map.mesh.chart[f])].add(p);
-	return boxes;
-}
-
 /// Widens the boxes of charts about their middles, where a side is shorter than kThinSide times the room
 /// that the chart's triangles want: to be given a height they lie side by side in two directions.
 /// \param side of a square that holds all
@@ -119,7 +109,7 @@ Packing packBoxes(const std::vector<Box2>& boxes, double margin, const PlaceBoxe
 		for (std::size_t i = 0; i < boxes.size(); ++i) {
 			packing.whole.add(boxes[i].min + shift[i]);
 			packing.whole.add(boxes[i].max + shift[i]);
-			packing.motions.push_back({1.0, shift[i]});
+			packing.motions.push_back({1.0, asComplex(shift[i])});
 		}
 		size = packing.side();
 	}
@@ -148,7 +138,7 @@ Outline borderOf(const Box2& box)
 void place(const std::vector<Motion>& motions, const std::vector<Box2>& boxes, Parametrization& map)
 {
 	moveCharts(motions, map.mesh);
-	std::vector<Box2> own = boxesOf(map);
+	std::vector<Box2> own = map.mesh.boxes(boxes.size());
 	for (std::size_t i = 0; i < boxes.size(); ++i) {
 		const Motion& motion = motions[i];
 		Box2& box = map.charts[i].box;
@@ -157,7 +147,7 @@ void place(const std::vector<Motion>& motions, const std::vector<Box2>& boxes, P
 			box = own[i];
 		else
 			for (const Point2& p : {boxes[i].min, boxes[i].max})
-				box.add(asPoint(motion.turn * asComplex(p) + asComplex(motion.shift)));
+				box.add(motion(p));
 	}
 }
 
@@ -234,7 +224,7 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 	for (std::size_t k = 0; k < large.size(); ++k)
 		packing.motions[large[k]] = motions[k];
 	for (std::size_t k = 0; k < small.size(); ++k)
-		packing.motions[small[k]] = {motions.back().turn, motions.back()(shift[k])};
+		packing.motions[small[k]] = {motions.back().turn, asComplex(motions.back()(shift[k]))};
 	return packing;
 }
 
@@ -272,7 +262,7 @@ bool marginsMayFit(std::size_t charts, double margin)
 void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
 	checkChartMargin(options.chartMargin);
-	std::vector<Box2> boxes = boxesOf(map);
+	std::vector<Box2> boxes = map.mesh.boxes(map.charts.size());
 	// The square that holds all has this side at least.
 	double area = 0.0, extent = 0.0;
 	for (const Box2& box : boxes) {
@@ -306,12 +296,11 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 		if (!turned.motions.empty() && turned.side() <= (1.0 - kWorthTurning) * packing.side())
 			packing = std::move(turned);
 	}
-	const Point2 corner{packing.whole.min[0] - packing.room, packing.whole.min[1] - packing.room};
+	const std::complex<double> corner(
+		packing.whole.min[0] - packing.room, packing.whole.min[1] - packing.room);
 	const double scale = 1.0 / packing.side();
 	for (Motion& motion : packing.motions)
-		motion = {
-			scale * motion.turn,
-			{(motion.shift[0] - corner[0]) * scale, (motion.shift[1] - corner[1]) * scale}};
+		motion = {scale * motion.turn, scale * (motion.shift - corner)};
 	place(packing.motions, boxes, map);
 	clampToUnitSquare(map);
 	map.report.occupancy = coveredArea(map.mesh);

@@ -49,10 +49,7 @@ void settle(const std::vector<int>& charts, bool turns, Parametrization& map)
 /// Lays the charts out in rows, so that they do not lie on each other.
 void setApart(Parametrization& map)
 {
-	std::vector<Box2> boxes(map.charts.size());
-	for (const int f : map.mesh.points.indices())
-		for (const Point2& p : map.mesh.at(f))
-			boxes[positionOf(map.mesh.chart[f])].add(p);
+	const std::vector<Box2> boxes = map.mesh.boxes(map.charts.size());
 	double area = 0.0, width = 0.0;
 	for (const Box2& box : boxes) {
 		area += box.width() * box.height();

@@ -2,6 +2,7 @@
 #include "area_change.h"
 
 #include "../base/tolerances.h"
+#include "../flow/map_cost.h"
 #include "../metric/area.h"
 
 #include <algorithm>
@@ -73,7 +74,9 @@ AreaChange areaChange(const EmbeddedSurface& surface, const VertexVector& factor
 		logSquare += share[f] * x * x;
 	}
 	return {
-		mean, std::sqrt(std::max(0.0, logSquare - logSum * logSum)), 4.0 * std::sqrt(meanInverse)};
+		mean,
+		std::sqrt(std::max(0.0, logSquare - logSum * logSum)),
+		energyAtBestScale(2.0, 2.0 * meanInverse, 1.0)};
 }
 
 double areaExcess(const AreaChange& change, double spread, double slack)

@@ -12,9 +12,7 @@ struct AreaChange
 {
 	double mean = 1.0;   ///< of max(s, 1/s), weighted by the area in space
 	double spread = 0.0; ///< standard deviation of ln s, weighted by the area in space
-	/// Symmetric Dirichlet energy of a conformal map that changes areas so: 4 times the root of the mean of
-	/// 1 / s, weighted by the area in space.
-	double energy = 4.0;
+	double energy = 4.0; ///< of a conformal map that changes areas so, see MapCost
 };
 
 /// The change by the metric that scales lengths at each vertex by exp(\p factor). The factor of a

@@ -5,6 +5,7 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
+#include "../flow/map_cost.h"
 #include "area_change.h"
 #include "coarse_flow.h"
 #include "cone_search.h"
@@ -62,7 +63,7 @@ void placeCount(const ConeRequest& request, ConeModel& model, const ConeSites& s
 /// How many cones \p model can work with.
 int maxCones(const ConeModel& model, const ConeRequest& request)
 {
-	if (std::isfinite(request.alternative))
+	if (request.hasAlternative)
 		return kMaxPlacedCones;
 	const auto vertices = static_cast<int>(model.area().size());
 	return std::clamp(kMaxConeNumbers / vertices, kMaxPlacedCones, kMaxNeededCones);
@@ -109,8 +110,7 @@ private:
 
 	double objective() const
 	{
-		return kEnergyPrice * m_model.energy() + kSeamPrice * m_tree.length() +
-			   kConePrice * m_model.size();
+		return coneCost(m_model.energy(), m_tree.length(), m_model.size());
 	}
 
 	ConeModel& m_model;

@@ -9,22 +9,6 @@ namespace ricci {
 /// The largest curvature of a placed cone, 3 pi / 2 in radians: its angle is at least a right one.
 constexpr double kMaxConeCurvature = 4.71238898038468985769;
 
-/// What cones are to lower: the symmetric Dirichlet energy of the map, by area and at its best scale, and
-/// the price of its seams. A conformal map with area factors exp(2 u) has the energy
-/// 4 sqrt(mean exp(2 u) mean exp(-2 u)), which is 4 and kEnergyPrice times the mean square of u where that
-/// is small. A seam as long as the square root of the area costs kSeamPrice.
-constexpr double kEnergyPrice = 8.0, kSeamPrice = 0.05;
-
-/// What one more cone must save beyond the price of its seam: charts with more cones overlap themselves
-/// more often, and are divided there by seams that no tree of cones foretells.
-constexpr double kConePrice = 0.001;
-
-/// The energy to be expected where the standard deviation of 2 u is \p spread.
-inline double expectedEnergy(double spread)
-{
-	return 4.0 + 0.25 * kEnergyPrice * spread * spread;
-}
-
 /// By this factor the distortion of a given number of cones may grow for shorter seams.
 constexpr double kSeamAllowance = 1.05;
 
@@ -47,6 +31,7 @@ struct ConeRequest : ConeOptions
 {
 	ConeBoundary boundary = ConeBoundary::Fixed;
 	int vertices = -1; ///< cones lie at vertices with a number below this; -1: at any
+	bool hasAlternative = false; ///< to the map with cones: then there are no more than kMaxPlacedCones
 
 	/// Move cones towards the tree of their seams where that lowers energy and price of seams together:
 	/// up to the wanted distortion, or by kSeamAllowance for a given count.

@@ -2,6 +2,7 @@
 #include "cone_search.h"
 
 #include "../base/task.h"
+#include "../flow/map_cost.h"
 
 #include <algorithm>
 #include <cmath>

@@ -26,7 +26,7 @@ void relocateCones(ConeModel& model, const ConeSites& sites, int rounds = 5);
 /// the distortion stays below \p distortion.
 void dropCones(ConeModel& model, const ConeSites& sites, double distortion);
 
-/// Takes cones out that save less energy than they and their seams cost, see kSeamPrice.
+/// Takes cones out that save less energy than they and their seams cost, see MapCost.
 /// \param tree of the cones
 /// \return whether there were any
 bool dropCostlyCones(ConeModel& model, SeamTree& tree);

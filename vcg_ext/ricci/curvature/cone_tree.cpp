@@ -2,6 +2,7 @@
 #include "cone_tree.h"
 
 #include "../base/numbers.h"
+#include "../flow/map_cost.h"
 #include "../math/shortest_paths.h"
 
 #include <algorithm>
@@ -53,7 +54,7 @@ bool moveNearby(
 		const double r = front[v];
 		const double dipole = curvature * curvature * r * r * (0.5 - std::log(r)) / (8.0 * kPi);
 		const double rise = 2.0 * curvature * (phi[v] - phi[old]) + dipole;
-		const double change = kEnergyPrice * rise + kSeamPrice * (tree.distance(v) - own);
+		const double change = coneCost(rise, tree.distance(v) - own, 0);
 		if (change < -kMinGain && present + rise <= maxEnergy)
 			places.emplace_back(change, v);
 	}

@@ -48,7 +48,7 @@ private:
 };
 
 /// Moves cones towards the tree of their seams where that lowers the energy of the map and the price of
-/// its seams together (see kSeamPrice), in several rounds, and keeps the distortion (see
+/// its seams together (see MapCost), in several rounds, and keeps the distortion (see
 /// ConeModel::distortion()) at or below \p maxDistortion.
 /// \param tree of the cones of \p model
 void shortenConeTree(

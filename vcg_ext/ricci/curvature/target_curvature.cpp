@@ -210,13 +210,13 @@ void setPrescribedValues(
 		target.curvature += (defect / magnitude) * target.curvature.cwiseAbs();
 }
 
-ExpectedMap expectation(const PlacedCones& cones)
+MapCost expectation(const PlacedCones& cones)
 {
 	return {expectedEnergy(cones.distortion), cones.seams};
 }
 
 /// "expected energy 4.09, seams 3.31 (in units of the square root of the area)"
-std::string describe(const ExpectedMap& map)
+std::string describe(const MapCost& map)
 {
 	return "expected energy " + numberText(map.energy, 3) + ", seams " + numberText(map.seams, 3) +
 		   " (in units of the square root of the area)";
@@ -325,7 +325,7 @@ void choosePlainOrCones(
 	const double spread = 2.0 * std::sqrt(flow.meanSquare(flow.solve(-flow.curvature())));
 	const ConeOptions& wanted = request.options.cones;
 	const bool goesBySpread = wanted.count == 0 && !isForObjective(wanted);
-	ExpectedMap plain{expectedEnergy(spread), 0.0};
+	MapCost plain{expectedEnergy(spread), 0.0};
 	const bool isKept = goesBySpread ? spread <= wanted.distortion
 									 : plain.energy - expectedEnergy(0.0) < kNegligible;
 	std::optional<PlacedCones> cones;
@@ -336,7 +336,7 @@ void choosePlainOrCones(
 	}
 	const std::string without =
 		describe(plain) + ", area distortion " + numberText(spread, 3) + " (spread)";
-	const double costWithout = costOf(plain), cost = cones ? costOf(expectation(*cones)) : 0.0;
+	const double costWithout = plain.total(), cost = cones ? expectation(*cones).total() : 0.0;
 	if (cones && (goesBySpread || cost < costWithout)) {
 		// They may leave more to a short boundary than it can take.
 		std::optional<Target> admissible = attempt("no cones are placed", [&] {
@@ -399,11 +399,6 @@ void setAutomatic(
 
 } // namespace
 
-double costOf(const ExpectedMap& map)
-{
-	return map.energy + kSeamPrice * map.seams;
-}
-
 Target chooseTarget(
 	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request)
 {
@@ -441,14 +436,14 @@ bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow)
 {
 	const Target& target = flow.target;
 	if (target.expected)
-		return areaCost(surface, flow) <= costOf(*target.expected) + kWorthAFlow;
+		return areaCost(surface, flow) <= target.expected->total() + kWorthAFlow;
 	return !target.maxSpread || areaCost(surface, flow) <= 1.0;
 }
 
 double areaCost(const EmbeddedSurface& surface, const FlowResult& flow)
 {
 	const AreaChange change = areaChange(surface, flowFactor(flow));
-	return flow.target.expected ? costOf({change.energy, flow.target.expected->seams})
+	return flow.target.expected ? MapCost{change.energy, flow.target.expected->seams}.total()
 								: areaExcess(change, *flow.target.maxSpread, kSpreadSlack);
 }
 
@@ -462,7 +457,7 @@ std::optional<Target> targetToKeepAreas(
 	const PlacedCones cones = wasFlat && request.options.freeBoundary
 								  ? placeCones(surface, start, coneRequest(request))
 								  : moreCones(surface, flow, coneRequest(request));
-	if (flow.target.expected && costOf(expectation(cones)) > areaCost(surface, flow) - kWorthAFlow)
+	if (flow.target.expected && expectation(cones).total() > areaCost(surface, flow) - kWorthAFlow)
 		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
 	Target target = zeroTarget(surface.topology);
@@ -480,6 +475,7 @@ std::optional<Target> targetToKeepAreas(
 ConeRequest coneRequest(const TargetRequest& request)
 {
 	ConeRequest wanted{request.options.cones};
+	wanted.hasAlternative = request.hasAlternative;
 	if (!request.vertexNumbers.empty())
 		wanted.vertices = request.vertexNumbers.size();
 	wanted.boundary = request.options.freeBoundary ? ConeBoundary::Fixed : ConeBoundary::Prescribed;

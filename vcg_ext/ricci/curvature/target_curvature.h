@@ -16,6 +16,7 @@ struct TargetRequest : TargetInput
 	TargetOptions options;
 	bool measuresAreas = true; ///< false: Automatic decides by topology alone
 	bool hasSeam = false;      ///< see OpenedMesh: Automatic makes no flat annulus of it
+	bool hasAlternative = false; ///< see ConeRequest
 
 	/// Under which notes name vertices; placed cones lie at these alone. Empty: their own numbers,
 	/// and cones at any.
@@ -36,16 +37,13 @@ struct TargetRequest : TargetInput
 Target chooseTarget(
 	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request);
 
-/// Energy and price of seams, see kSeamPrice.
-double costOf(const ExpectedMap& map);
-
 /// Whether \p flow changes areas no more than its target was chosen for, or costs little more than was
 /// expected then; or its target was chosen by neither.
 /// \param flow with intrinsic flips
 bool keepsAreas(const EmbeddedSurface& surface, const FlowResult& flow);
 
-/// What \p flow has in excess of one that its target was chosen for: areaExcess(), or energy and price of
-/// the seams (see kSeamPrice).
+/// What \p flow has in excess of one that its target was chosen for: areaExcess(), or what its map costs
+/// (MapCost).
 /// \pre the target was chosen by one of them
 double areaCost(const EmbeddedSurface& surface, const FlowResult& flow);
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "swapped_flow.h"
 
+#include "../base/task.h"
 #include "../error.h"
+#include "../flow/flow_run.h"
+#include "boundary_split.h"
 #include "edge_swapper.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 namespace ricci {
@@ -30,24 +34,29 @@ foreignEdges(const Triangulation& beforeSwaps, EdgeArray<char> swapped, int comp
 
 } // namespace
 
-SwappedFlow
-flowWithEdgeSwaps(const Component& component, const Options& options, const SwapListener& listener)
+SwappedFlow flowWithEdgeSwaps(
+	const Component& component,
+	const FlowOptions& options,
+	const ChooseTarget& chooseTarget,
+	std::vector<FlowState>& states)
 {
-	SwappedFlow result{SplitMesh(component), {}, {}, {}, 0};
+	SplitMesh mesh(component);
+	SwappedFlow result;
 	int steps = 0;
 	for (int attempt = 0; attempt < kMaxStarts; ++attempt) {
-		result.surface = embeddedSurface(result.mesh.positions(), result.mesh.triangles());
-		InitialPacking start = initialPacking(result.surface, options);
-		const Target target = listener.chooseTarget(result.surface, start);
-		EdgeSwapper swapper(result.surface.positions, start.radii);
+		EmbeddedSurface& surface = result.domain.surface;
+		surface = embeddedSurface(mesh.positions(), mesh.triangles());
+		const Triangulation& t = surface.triangulation;
+		InitialPacking start = initialPacking(surface, options);
+		const Target target = chooseTarget(surface, start);
+		EdgeSwapper swapper(surface.positions, start.radii);
+		FlowProgress progress(options.epsilon, states);
+		FlowRun run(surface, std::move(start), target, options, progress);
+		run.operate([&](CurvatureMap& map) { return swapper(map); });
 		try {
-			result.flow = runRicciFlow(
-				result.surface,
-				std::move(start),
-				target,
-				options,
-				[&](int step, double residual) { listener.step(steps + step, residual); },
-				[&](CurvatureMap& map) { return swapper(map); });
+			if (!run.solve())
+				throw run.failure();
+			result.flow = run.result();
 			steps += result.flow.iterations;
 		}
 		catch (NotConverged& error) {
@@ -61,18 +70,23 @@ flowWithEdgeSwaps(const Component& component, const Options& options, const Swap
 		result.swaps += swapper.swaps();
 		// Also where the target is reached: a swap beside the broken triangle may have mended it.
 		if (!swapper.boundaryEdgesToSplit().empty()) {
-			result.mesh.split(result.surface.triangulation, swapper.boundaryEdgesToSplit());
-			listener.split(result.mesh.splits());
+			mesh.split(t, swapper.boundaryEdgesToSplit());
+			logLine(
+				std::to_string(mesh.splits()) + " boundary edges split; the flow starts again.");
 			continue;
 		}
 		result.flow.iterations = steps;
-		if (result.swaps > 0 || result.mesh.splits() > 0)
-			result.forbidden = foreignEdges(
-				result.surface.triangulation, swapper.swapped(), component.positions.size());
-		listener.end(result.flow);
+		result.splits = mesh.splits();
+		if (result.swaps > 0 || result.splits > 0)
+			result.domain.isForeign =
+				foreignEdges(t, swapper.swapped(), component.positions.size());
+		if (result.splits > 0)
+			for (const Face f : component.face.indices())
+				result.domain.corners.push_back(
+					{mesh.corner(t, f, 0), mesh.corner(t, f, 1), mesh.corner(t, f, 2)});
 		return result;
 	}
-	throw NotConverged(NotConverged::SplitsUsedUp, positionOf(result.mesh.splits()));
+	throw NotConverged(NotConverged::SplitsUsedUp, positionOf(mesh.splits()));
 }
 
 } // namespace ricci

@@ -2,12 +2,10 @@
 #ifndef RICCI_SWAPPED_FLOW_H
 #define RICCI_SWAPPED_FLOW_H
 
-#include "../curvature/target_curvature.h"
 #include "../flow/ricci_flow.h"
-#include "boundary_split.h"
 
 #include <functional>
-#include <string>
+#include <vector>
 
 namespace ricci {
 
@@ -15,25 +13,22 @@ namespace ricci {
 /// edges are split, after which the flow starts again.
 struct SwappedFlow
 {
-	SplitMesh mesh;
-	EmbeddedSurface surface;   ///< of the mesh, before any swap
-	FlowResult flow;           ///< its iterations are those of all starts
-	EdgeArray<char> forbidden; ///< 1 where an edge is not one of the component's; empty if all are
-	int swaps = 0;             ///< over all starts
+	FlowDomain domain; ///< with the boundary edges split, before any swap
+	FlowResult flow;   ///< its iterations are those of all starts, the triangulation of its metric is swapped
+	int swaps = 0;     ///< over all starts
+	int splits = 0;
 };
 
-/// What the loop of starts tells its caller.
-struct SwapListener
-{
-	std::function<Target(const EmbeddedSurface&, const InitialPacking&)> chooseTarget;
-	FlowListener step;                          ///< Newton steps over all starts, residual
-	std::function<void(const FlowResult&)> end; ///< after a start that reached its target
-	std::function<void(int)> split;             ///< boundary edges split so far
-};
+/// Chooses the target of one start of the flow.
+using ChooseTarget = std::function<Target(const EmbeddedSurface&, const InitialPacking&)>;
 
-/// \throw NotConverged, what chooseTarget throws
-SwappedFlow
-flowWithEdgeSwaps(const Component& component, const Options& options, const SwapListener& listener);
+/// \param states those before each Newton step of all starts are appended
+/// \throw NotConverged, what \p chooseTarget throws
+SwappedFlow flowWithEdgeSwaps(
+	const Component& component,
+	const FlowOptions& options,
+	const ChooseTarget& chooseTarget,
+	std::vector<FlowState>& states);
 
 } // namespace ricci
 

@@ -56,8 +56,8 @@ Target targetOnDouble(Target target, const VertexArray<Vertex>& mirror)
 	return target;
 }
 
-FlowRun::FlowRun(const FlowOptions& options, const FlowListener& listener) :
-		m_options(options), m_listener(listener)
+FlowRun::FlowRun(const FlowOptions& options, FlowProgress& progress) :
+		m_options(options), m_progress(progress)
 {
 }
 
@@ -66,11 +66,9 @@ FlowRun::FlowRun(
 	InitialPacking start,
 	const Target& target,
 	const FlowOptions& options,
-	const FlowListener& listener,
-	NewtonSolver::Surgeon surgeon) :
-		FlowRun(options, listener)
+	FlowProgress& progress) :
+		FlowRun(options, progress)
 {
-	m_surgeon = std::move(surgeon);
 	m_result.input = surface.triangulation;
 	m_result.start = std::move(start);
 	m_result.target = target;
@@ -81,9 +79,9 @@ FlowRun FlowRun::onDouble(
 	const EmbeddedSurface& surface,
 	const Target& target,
 	const FlowOptions& options,
-	const FlowListener& listener)
+	FlowProgress& progress)
 {
-	FlowRun run(options, listener);
+	FlowRun run(options, progress);
 	DoubleSurface d = doubleOf(surface.triangulation);
 	IntrinsicMesh mesh{d.triangulation, EdgeArray<double>(d.edgeOf.size())};
 	for (const Edge e : d.edgeOf.indices())
@@ -229,7 +227,7 @@ NewtonResult FlowRun::solveFor(double epsilon, bool polishes, double maxPolished
 		newtonOptions,
 		[&](int step, double residual) {
 			m_result.iterations = before + step;
-			m_listener(m_result.iterations, residual);
+			m_progress(m_result.iterations, residual);
 		},
 		m_surgeon);
 }

@@ -4,12 +4,14 @@
 
 #include "../error.h"
 #include "curvature_map.h"
+#include "flow_progress.h"
 #include "newton.h"
 #include "ricci_flow.h"
 #include "target.h"
 
 #include <limits>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -28,24 +30,26 @@ Target targetOnDouble(Target target, const VertexArray<Vertex>& mirror);
 class FlowRun
 {
 public:
-	/// On \p surface, from its initial packing. \p options and \p listener must live as long as the run.
+	/// On \p surface, from its initial packing. \p options and \p progress must live as long as the run.
 	FlowRun(
 		const EmbeddedSurface& surface,
 		InitialPacking start,
 		const Target& target,
 		const FlowOptions& options,
-		const FlowListener& listener,
-		NewtonSolver::Surgeon surgeon = nullptr);
+		FlowProgress& progress);
 
 	/// On the double of \p surface, with its own, symmetric initial packing.
 	static FlowRun onDouble(
 		const EmbeddedSurface& surface,
 		const Target& target,
 		const FlowOptions& options,
-		const FlowListener& listener);
+		FlowProgress& progress);
 
 	/// Bounds the Newton steps of one solve.
 	void limitSteps(int most) { m_maxSteps = most; }
+
+	/// Lets \p surgeon change the map, see NewtonSolver.
+	void operate(NewtonSolver::Surgeon surgeon) { m_surgeon = std::move(surgeon); }
 
 	/// Goes on from the run on the half of this double, which has ended: counts its steps, and starts
 	/// from its metric if that is \p solved.
@@ -75,7 +79,7 @@ public:
 	NotConverged failure() const;
 
 private:
-	FlowRun(const FlowOptions& options, const FlowListener& listener);
+	FlowRun(const FlowOptions& options, FlowProgress& progress);
 	void begin(const EmbeddedSurface& surface);
 	std::shared_ptr<CurvatureMap> makeMap(CirclePacking packing, bool isExtended) const;
 	VertexVector startU() const;
@@ -92,7 +96,7 @@ private:
 	NotConverged withState(NotConverged error) const;
 
 	const FlowOptions& m_options;
-	const FlowListener& m_listener;
+	FlowProgress& m_progress;
 	NewtonSolver::Surgeon m_surgeon;
 	FlowResult m_result;          // its target is that on the double, if there is one
 	VertexArray<Vertex> m_mirror; // [vertex of a double] its image; empty on the surface

@@ -37,10 +37,10 @@ FlowResult runRicciFlow(
 	InitialPacking start,
 	const Target& target,
 	const FlowOptions& options,
-	const FlowListener& listener,
-	const NewtonSolver::Surgeon& surgeon)
+	std::vector<FlowState>& states)
 {
-	FlowRun run(surface, std::move(start), target, options, listener, surgeon);
+	FlowProgress progress(options.epsilon, states);
+	FlowRun run(surface, std::move(start), target, options, progress);
 	const bool flips = options.method == Method::IntrinsicFlips;
 	if (!flips || surface.topology.loops.empty()) {
 		if (!run.solve())
@@ -66,7 +66,7 @@ FlowResult runRicciFlow(
 				: "the surface alone does not reach the target."));
 	try {
 		requireMemoryForDouble(static_cast<std::size_t>(surface.triangulation.faceCount()));
-		FlowRun onDouble = FlowRun::onDouble(surface, target, options, listener);
+		FlowRun onDouble = FlowRun::onDouble(surface, target, options, progress);
 		onDouble.goOnFrom(run, solved);
 		if (!onDouble.solve())
 			throw onDouble.failure();
@@ -83,7 +83,7 @@ FlowResult runRicciFlow(
 		logLine(alone + ", because its double fails (" + error.what() + ").");
 		if (!isRough)
 			return run.result();
-		FlowRun half(surface, initialPacking(surface, options), target, options, listener);
+		FlowRun half(surface, initialPacking(surface, options), target, options, progress);
 		half.limitSteps(kStepsBeforeDoubling);
 		if (!attempt("it fails, too", [&] { return half.solve(); }).value_or(false))
 			throw;

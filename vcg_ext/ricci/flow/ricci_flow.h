@@ -8,8 +8,8 @@
 #include "newton.h"
 #include "target.h"
 
-#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -42,10 +42,6 @@ struct FlowResult
 	int flipCount() const { return static_cast<int>(start.flips.size() + flips.size()); }
 };
 
-/// Gets the number of Newton steps so far and the residual before each step; a number that is no larger than
-/// the last one begins another solve. May throw to cancel.
-using FlowListener = std::function<void(int, double)>;
-
 /// Runs the flow from \p start, the initial packing of \p surface, to \p target.
 ///
 /// The start is the same in both backgrounds of \p target: the Euclidean inversive distances, which have no
@@ -59,15 +55,25 @@ using FlowListener = std::function<void(int, double)>;
 /// the flow runs on the double of the surface, which is closed, so that every admissible target is
 /// reached; the solution is symmetric, and the surface is one half of it.
 ///
-/// \param surgeon see NewtonSolver; for Method::EdgeSwaps
+/// \param states those before each Newton step are appended
 /// \throw NotConverged if the target is not reached within the options' limits
 FlowResult runRicciFlow(
 	const EmbeddedSurface& surface,
 	InitialPacking start,
 	const Target& target,
 	const FlowOptions& options,
-	const FlowListener& listener,
-	const NewtonSolver::Surgeon& surgeon = nullptr);
+	std::vector<FlowState>& states);
+
+/// The same, with its states forgotten.
+inline FlowResult runRicciFlow(
+	const EmbeddedSurface& surface,
+	InitialPacking start,
+	const Target& target,
+	const FlowOptions& options)
+{
+	std::vector<FlowState> states;
+	return runRicciFlow(surface, std::move(start), target, options, states);
+}
 
 /// [vertex of the surface] Logarithm of the factor by which a flow with intrinsic flips has scaled
 /// lengths: u at its end less u at its start.

@@ -6,6 +6,7 @@
 #include "../options.h"
 #include "../report.h"
 #include "../surface/elements.h"
+#include "map_cost.h"
 
 #include <algorithm>
 #include <array>
@@ -15,13 +16,6 @@
 #include <vector>
 
 namespace ricci {
-
-/// What a map costs that is still to be made.
-struct ExpectedMap
-{
-	double energy = 4.0; ///< symmetric Dirichlet energy by area, at the best scale
-	double seams = 0.0;  ///< their length, in units of the square root of the area
-};
 
 /// A target curvature that Gauss-Bonnet allows.
 struct Target
@@ -33,7 +27,7 @@ struct Target
 	std::optional<std::array<Vertex, 4>> corners; ///< of a rectangle, in boundary order
 	std::optional<double> maxSpread; ///< of the logarithm of the area factor, where the target was
 									 ///< chosen to keep areas so far
-	std::optional<ExpectedMap> expected; ///< where it was chosen to cost least
+	std::optional<MapCost> expected; ///< where it was chosen to cost least
 	bool isSeamless = false;             ///< cones were placed with multiples of pi / 2
 	TargetUsed used = TargetUsed::Prescribed;
 	std::optional<double> expectedSpread; ///< see Report

@@ -247,9 +247,29 @@ private:
 	Face m_root;
 };
 
+/// A layout of \p from on \p t, which has the same vertices, boundary and cut but other edges between: the
+/// wedge that begins at an edge of the cut or the boundary keeps its point, and so does a vertex off them.
+PlanarLayout carriedTo(
+	const Triangulation& t,
+	const EdgeArray<char>& isCut,
+	const Triangulation& from,
+	const PlanarLayout& layout)
+{
+	PlanarLayout carried;
+	carried.wedges = cornerWedges(t, isCut);
+	carried.points.resize(carried.wedges.count);
+	for (const Halfedge h : t.interiorHalfedges())
+		if (const Halfedge any = from.halfedge(t.origin(h)); !from.isExterior(any))
+			carried.points[carried.wedges.of[h]] = layout[any];
+	for (const Halfedge h : t.interiorHalfedges())
+		if (isCut[h.edge()] || t.isBoundary(h.edge()))
+			carried.points[carried.wedges.of[h]] = layout[h];
+	return carried;
+}
+
 bool hasFlips(const FlowResult& flow)
 {
-	return flow.input.faceCount() > 0;
+	return flow.flipCount() > 0 || flow.doubled;
 }
 
 } // namespace
@@ -258,8 +278,13 @@ PlanarLayout
 layOutCorners(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut)
 {
 	const CurvatureMap& metric = *flow.metric;
+	const Triangulation& end = metric.triangulation();
 	if (!hasFlips(flow))
-		return layOutInPlane(metric.triangulation(), metric.lengths(), metric.angles(), isCut);
+		return carriedTo(
+			domain.surface.triangulation,
+			isCut,
+			end,
+			layOutInPlane(end, metric.lengths(), metric.angles(), isCut));
 	const CornersOnSheets corners(domain, flow, isCut);
 	const EndSheets& sheets = corners.sheets();
 	const Triangulation& t = sheets.triangulation;

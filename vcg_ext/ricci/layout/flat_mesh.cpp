@@ -1,39 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_mesh.h"
 
-#include "../math/bucket_sort.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 
 namespace ricci {
-
-namespace {
-
-/// \param at [triangle] the number that each corner has
-std::vector<FlatSide> sidesOf(const Array<Triangle>& vertices, const Array<Triangle>& at)
-{
-	std::vector<FlatSide> sides;
-	sides.reserve(3 * vertices.values().size());
-	for (const int f : vertices.indices())
-		for (std::size_t k = 0; k < 3; ++k) {
-			const std::size_t next = (k + 1) % 3;
-			const int a = vertices[f][k], b = vertices[f][next];
-			sides.push_back(
-				a < b ? FlatSide{a, b, at[f][k], at[f][next], f}
-					  : FlatSide{b, a, at[f][next], at[f][k], f});
-		}
-	bucketSort(
-		sides,
-		[](const FlatSide& s) { return s.low; },
-		[](const FlatSide& a, const FlatSide& b) {
-			return a.high != b.high ? a.high < b.high : a.triangle < b.triangle;
-		});
-	return sides;
-}
-
-} // namespace
 
 int FlatMesh::vertexCount() const
 {
@@ -51,14 +23,13 @@ Box2 FlatMesh::box() const
 	return box;
 }
 
-std::vector<FlatSide> sidesByEdge(const FlatMesh& mesh)
+std::vector<Box2> FlatMesh::boxes(std::size_t chartCount) const
 {
-	return sidesOf(mesh.vertices, mesh.points);
-}
-
-bool isInside(const FlatSide* sides, int count)
-{
-	return count == 2 && sides[0].atLow == sides[1].atLow && sides[0].atHigh == sides[1].atHigh;
+	std::vector<Box2> boxes(chartCount);
+	for (const int f : points.indices())
+		for (const Point2& p : at(f))
+			boxes[positionOf(chart[f])].add(p);
+	return boxes;
 }
 
 Array<Triangle2> FlatMesh::corners() const

@@ -61,6 +61,8 @@ struct FlatMesh
 
 	/// Of all points.
 	Box2 box() const;
+	/// [chart] Of its triangles.
+	std::vector<Box2> boxes(std::size_t chartCount) const;
 };
 
 /// Whether the two sides of an edge have the same ends in the plane.
@@ -121,33 +123,6 @@ void weld(FlatMesh& mesh);
 /// Gives triangles that no chain of joined sides in one chart connects points of their own, and forgets
 /// points that no corner has.
 void splitPoints(FlatMesh& mesh);
-
-/// One side of a triangle, by the lower and the higher number of its ends.
-struct FlatSide
-{
-	int low, high;     ///< vertices
-	int atLow, atHigh; ///< points
-	int triangle;
-};
-
-/// Calls \p visit(sides, count) for every edge of the surface, with an array of its sides in order of
-/// their triangles.
-template<class Visit>
-void forEdges(const std::vector<FlatSide>& sides, const Visit& visit)
-{
-	for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-		while (end < sides.size() && sides[end].low == sides[i].low &&
-			   sides[end].high == sides[i].high)
-			++end;
-		visit(&sides[i], static_cast<int>(end - i));
-	}
-}
-
-/// The sides of all triangles, in order of their edges.
-std::vector<FlatSide> sidesByEdge(const FlatMesh& mesh);
-
-/// Whether the sides of an edge are those of two triangles with the same ends in the plane.
-bool isInside(const FlatSide* sides, int count);
 
 /// The flat mesh of triangles whose corners are placed one by one: two corners at one vertex are one
 /// point if a chain of triangles joins them whose common sides have the same ends in the plane.

@@ -156,8 +156,10 @@ struct Box2
 	}
 	void add(const Box2& box)
 	{
-		add(box.min);
-		add(box.max);
+		for (std::size_t k = 0; k < 2; ++k) {
+			min[k] = std::min(min[k], box.min[k]);
+			max[k] = std::max(max[k], box.max[k]);
+		}
 	}
 	/// Whether the boxes have inner points in common.
 	bool meets(const Box2& box) const
@@ -174,6 +176,30 @@ struct Box2
 	double height() const { return max[1] - min[1]; }
 	/// The longer side.
 	double extent() const { return std::max(width(), height()); }
+};
+
+/// Takes p to turn p + shift: a rotation and a translation where the absolute value of turn is 1.
+struct Motion
+{
+	std::complex<double> turn = 1.0, shift = 0.0;
+
+	Point2 operator()(const Point2& p) const
+	{
+		return {
+			turn.real() * p[0] - turn.imag() * p[1] + shift.real(),
+			turn.imag() * p[0] + turn.real() * p[1] + shift.imag()};
+	}
+	Triangle2 operator()(const Triangle2& p) const
+	{
+		return {(*this)(p[0]), (*this)(p[1]), (*this)(p[2])};
+	}
+	/// \pre a rotation and a translation
+	Motion inverse() const { return {std::conj(turn), -std::conj(turn) * shift}; }
+	/// First \p first.
+	Motion after(const Motion& first) const
+	{
+		return {turn * first.turn, turn * first.shift + shift};
+	}
 };
 
 } // namespace ricci

@@ -5,7 +5,6 @@
 #include "../base/indexed.h"
 #include "../base/parallel.h"
 #include "../base/tolerances.h"
-#include "../curvature/cone_request.h"
 #include "../math/orientation.h"
 #include "../metric/area.h"
 
@@ -239,16 +238,15 @@ double stretchEnergy(const FlatMesh& mesh)
 		forth += area * square;
 		back += area * (square / (determinant * determinant));
 	}
-	return total > 0.0 ? 2.0 * std::sqrt(forth * back) / total : 4.0;
+	return total > 0.0 ? energyAtBestScale(forth, back, total) : 4.0;
 }
 
-double objective(const FlatMesh& mesh, double seamLength)
+MapCost costOf(const FlatMesh& mesh, double seamLength)
 {
 	double area = 0.0;
 	for (const auto& lengths : mesh.lengths)
 		area += euclideanArea(lengths);
-	const double seams = area > 0.0 ? seamLength / std::sqrt(area) : 0.0;
-	return stretchEnergy(mesh) + kSeamPrice * seams;
+	return {stretchEnergy(mesh), area > 0.0 ? seamLength / std::sqrt(area) : 0.0};
 }
 
 } // namespace ricci

@@ -2,6 +2,7 @@
 #ifndef RICCI_DISTORTION_H
 #define RICCI_DISTORTION_H
 
+#include "../flow/map_cost.h"
 #include "../layout/flat_mesh.h"
 #include "../math/histogram.h"
 #include "../math/points.h"
@@ -61,14 +62,12 @@ DistortionField measureDistortion(
 DistortionField
 measureDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report);
 
-/// The symmetric Dirichlet energy of a map, |J|^2 + |J^-1|^2 for the derivative J, as mean by the area in
-/// space, at the scale at which it is least: 4 for an isometry, infinite where a triangle has no area in
-/// the plane. Orientation does not count. Triangles without area in space are left out.
+/// The energy of a map, see MapCost; infinite where a triangle has no area in the plane. Orientation does
+/// not count. Triangles without area in space are left out.
 double stretchEnergy(const FlatMesh& mesh);
 
-/// What a map costs: stretchEnergy() and kSeamPrice.
 /// \param seamLength on the surface
-double objective(const FlatMesh& mesh, double seamLength);
+MapCost costOf(const FlatMesh& mesh, double seamLength);
 
 /// Sets flippedFaces, the number of triangles that are not counter-clockwise in the plane, and
 /// flippedByRounding, how many more these are with coordinates rounded to float. Exact.

@@ -11,8 +11,8 @@
 #include "../measure/period_matrix.h"
 #include "../parametrize.h"
 #include "../surface/component.h"
-#include "progress_share.h"
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -51,13 +51,19 @@ struct ComponentMap
 	int edgeSwaps = 0, boundarySplits = 0; ///< Method::EdgeSwaps
 };
 
+constexpr double kNoAlternative = std::numeric_limits<double>::infinity();
+
 /// The stages of the paper on one component, in order, to the plane: flow domain, initial packing (4.1),
 /// target (5.2, 5.3), flow (4.2), cut and layout (4.3), invariants, the finish, and the checks of the
 /// result by other formulas.
-/// \return none if the target is expected to cost more than ConeOptions::alternative
+/// \param alternative what another map that is at hand costs (MapCost)
+/// \return none if the target is expected to cost more than that
 /// \throw what the stages throw
-std::optional<ComponentMap>
-flattenToPlane(const Component& component, const VertexInput& input, const Options& options);
+std::optional<ComponentMap> flattenToPlane(
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	double alternative = kNoAlternative);
 
 /// The same to the Poincaré disk, where neither areas nor rotations across seams are asked for, and the side
 /// pairings of the cut generate a Fuchsian group.

@@ -80,7 +80,7 @@ void layOut(
 			" out in the disk, too far for floats. Longer ones around the middle lead " +
 			numberText(radiusOf(map.layout), 3) + " out.");
 	}
-	map.uv = cornersOf(t, map.layout);
+	map.uv = cornersOf(domain, map.layout);
 	pairing = pairingOfArcs(t, map.cut, pairing, map.cones);
 	map.relationError = holonomyError(
 		t, map.cut, pairing, map.layout, domain.surface.topology, map.cones, map.flow.target);
@@ -110,7 +110,7 @@ void finish(const FlowDomain& domain, const HyperbolicOptions& options, Componen
 		return;
 	}
 	map.layout.points = std::move(flat.place);
-	map.uv = cornersOf(domain.surface.triangulation, map.layout);
+	map.uv = cornersOf(domain, map.layout);
 }
 
 } // namespace

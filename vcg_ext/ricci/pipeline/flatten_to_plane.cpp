@@ -8,6 +8,7 @@
 #include "../curvature/target_curvature.h"
 #include "../cut/cut_graph.h"
 #include "../cut/seam_cost.h"
+#include "../edge_swap/swapped_flow.h"
 #include "../finish/finish.h"
 #include "../layout/corner_layout.h"
 #include "../measure/distortion.h"
@@ -41,6 +42,31 @@ Holes holesOf(const Options& options)
 						options.target != TargetCurvature::Flat &&
 						options.target != TargetCurvature::Prescribed;
 	return options.holes == Holes::ShortCapped && !mayCap ? Holes::Boundaries : options.holes;
+}
+
+/// The flow with edge swaps (5.4), and the domain that it leaves.
+void flowWithEdgeSwaps(
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	FlowDomain& domain,
+	ComponentMap& map)
+{
+	const auto choose = [&](const EmbeddedSurface& surface, const InitialPacking& start) {
+		const int vertexCount = surface.positions.size(); // grows with each split
+		Target target =
+			chooseTarget(surface, start, targetRequest(component, input, options, vertexCount));
+		if (map.flowStates.empty())
+			noteTarget(target, map);
+		return target;
+	};
+	advance(0.0, "Solving for the metric");
+	const Task part(kBeforeFlow, 1.0 - kAfterFlow);
+	SwappedFlow swapped = flowWithEdgeSwaps(component, options, choose, map.flowStates);
+	domain = std::move(swapped.domain);
+	map.flow = std::move(swapped.flow);
+	map.edgeSwaps = swapped.swaps;
+	map.boundarySplits = swapped.splits;
 }
 
 /// makeSeamless() as the options say.
@@ -87,7 +113,7 @@ double areaInPlane(const FlowDomain& domain, const ComponentMap& map)
 	for (const Triangle2& p : map.refinement.uv)
 		area += 0.5 * doubledArea(p[0], p[1], p[2]);
 	if (map.refinement.uv.empty())
-		for (const Triangle2& p : cornersOf(domain.surface.triangulation, map.layout))
+		for (const Triangle2& p : cornersOf(domain, map.layout))
 			area += 0.5 * doubledArea(p[0], p[1], p[2]);
 	return area;
 }
@@ -121,7 +147,7 @@ void layOut(
 			surfaceArea(component.positions.values(), component.triangles) /
 			areaInPlane(domain, map));
 	turnUpright(map.scale, map);
-	map.uv = cornersOf(t, map.layout);
+	map.uv = cornersOf(domain, map.layout);
 }
 
 /// The finish that is asked for, or LeastDistortion where that would lose what the map has to keep.
@@ -151,7 +177,7 @@ void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 	flat.place.swap(map.layout.points);
 	if (map.layout.points != flat.place) // its border may have moved
 		turnUpright(1.0, map);
-	map.uv = cornersOf(domain.surface.triangulation, map.layout);
+	map.uv = cornersOf(domain, map.layout);
 }
 
 /// How the lengths of a free boundary compare in the map and on the mesh.
@@ -183,24 +209,30 @@ void measureBoundary(const EmbeddedSurface& surface, ComponentMap& map)
 
 } // namespace
 
-std::optional<ComponentMap>
-flattenToPlane(const Component& component, const VertexInput& input, const Options& options)
+std::optional<ComponentMap> flattenToPlane(
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	double alternative)
 {
-	if (options.method == Method::EdgeSwaps)
-		return flattenWithEdgeSwaps(component, input, options); // 5.4
 	ComponentMap map;
 	advance(0.0, "Circle packing");
-	const FlowDomain domain = flowDomain(component, holesOf(options));
+	FlowDomain domain = flowDomain(component, holesOf(options));
 	describe(component, domain, map);
-	advance(0.0, "Flipping edges");
-	InitialPacking start = initialPacking(domain.solved(), options); // 4.1
-	advance(0.0, "Choosing the target");
-	const TargetRequest request =
+	TargetRequest request =
 		targetRequest(component, input, options, domain.solved().positions.size());
-	const Target target = chooseTarget(domain.solved(), start, request); // 5.2, 5.3
-	if (target.expected && costOf(*target.expected) > options.cones.alternative)
-		return std::nullopt;
-	map.flow = runFlow(domain.solved(), std::move(start), target, options, map); // 4.2
+	request.hasAlternative = alternative < kNoAlternative;
+	if (options.method == Method::EdgeSwaps)
+		flowWithEdgeSwaps(component, input, options, domain, map); // 5.4
+	else {
+		advance(0.0, "Flipping edges");
+		InitialPacking start = initialPacking(domain.solved(), options); // 4.1
+		advance(0.0, "Choosing the target");
+		const Target target = chooseTarget(domain.solved(), start, request); // 5.2, 5.3
+		if (target.expected && target.expected->total() > alternative)
+			return std::nullopt;
+		map.flow = runFlow(domain.solved(), std::move(start), target, options, map); // 4.2
+	}
 	measurePeriods(map);
 	keepAreas(domain.solved(), request, options, map);
 	makeSeamless(domain.solved(), request, options, map);

@@ -7,7 +7,6 @@
 #include "../charts/input_indices.h"
 #include "../charts/pack.h"
 #include "../charts/separate_charts.h"
-#include "../curvature/cone_request.h"
 #include "../measure/distortion.h"
 #include "../measure/hyperbolic_distortion.h"
 #include "../verify/overlap_check.h"
@@ -81,10 +80,9 @@ bool mayUnfold(const Component& component, const Options& options)
 /// "energy 4.01, seams 11.9 (objective 4.6)"
 std::string costText(const Parametrization& map)
 {
-	const double energy = stretchEnergy(map.mesh);
-	const double cost = objective(map.mesh, map.report.seamLength);
-	return "energy " + numberText(energy, 3) + ", seams " +
-		   numberText((cost - energy) / kSeamPrice, 3) + " (objective " + numberText(cost, 3) + ")";
+	const MapCost cost = costOf(map);
+	return "energy " + numberText(cost.energy, 3) + ", seams " + numberText(cost.seams, 3) +
+		   " (objective " + numberText(cost.total(), 3) + ")";
 }
 
 /// The charts of a component: those of the flow or, where that costs less, of the surface unfolded between
@@ -92,22 +90,17 @@ std::string costText(const Parametrization& map)
 Parametrization
 mapToPlane(const Component& component, const VertexInput& input, const Options& options)
 {
-	const auto cost = [](const Parametrization& p) {
-		return objective(p.mesh, p.report.seamLength);
-	};
 	std::optional<Parametrization> unfolded;
 	if (mayUnfold(component, options))
 		unfolded = unfold(component, options);
-	Options ofFlow = options;
-	if (unfolded)
-		ofFlow.cones.alternative = cost(*unfolded);
+	const double alternative = unfolded ? costOf(*unfolded).total() : kNoAlternative;
 	const auto chosen = [](const std::string& choice, Parametrization map) {
 		map.report.choice = choice;
 		map.notes.push_back("Automatic: " + choice + ".");
 		logLine(map.notes.back());
 		return map;
 	};
-	std::optional<ComponentMap> flow = flattenToPlane(component, input, ofFlow);
+	std::optional<ComponentMap> flow = flattenToPlane(component, input, options, alternative);
 	const std::string cut =
 		unfolded ? "cut along creases and unfolded: " + costText(*unfolded) : "";
 	if (!flow)
@@ -116,7 +109,7 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	separateCharts(options, map);
 	if (!unfolded)
 		return map;
-	const bool isUnfolded = cost(*unfolded) < cost(map);
+	const bool isUnfolded = costOf(*unfolded).total() < costOf(map).total();
 	const std::string whole = "as a whole: " + costText(map);
 	const int steps = unfolded->report.iterations + map.report.iterations;
 	const std::string choice =
@@ -188,7 +181,7 @@ void complete(const SurfaceMesh& mesh, const OpenedMesh& opened, Parametrization
 		std::sqrt(surfaceArea(opened.mesh.positions, opened.mesh.triangles));
 	if (map.report.stretch)
 		map.report.objective =
-			objective(map.mesh, map.report.seamLength + map.report.chosenSeamLength);
+			costOf(map.mesh, map.report.seamLength + map.report.chosenSeamLength).total();
 	toInputIndices(mesh, opened, map);
 	advance(1.0, "Done");
 }

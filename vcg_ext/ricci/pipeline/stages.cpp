@@ -10,7 +10,6 @@
 #include "../error.h"
 #include "../math/min_area_rectangle.h"
 #include "../measure/invariants.h"
-#include "progress_share.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +20,9 @@ namespace {
 
 /// Beyond this genus the period matrix is left out: the log would drown in its numbers.
 constexpr int kMaxPeriodGenus = 10;
+
+/// Share of the part after the flow that the overlay takes.
+constexpr double kOverlay = 0.7;
 
 } // namespace
 
@@ -119,7 +121,7 @@ LinkedPieces cutAndOverlay(
 		threadsFor(t.faceCount()),
 		[&] { overlay = flowOverlay(domain, options, map); },
 		[&] {
-			map.cut = cutToDisk(t, cost, map.cones, {}, corners);
+			map.cut = cutToDisk(t, cost, map.cones, domain.isForeign, corners);
 			if (domain.holes > 0)
 				dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, map.cones, map.cut);
 		});
@@ -151,6 +153,13 @@ void describe(const Component& component, const FlowDomain& domain, ComponentMap
 	logLine(description(component, map.type));
 }
 
+void noteTarget(const Target& target, ComponentMap& map)
+{
+	for (const std::string& note : target.notes)
+		logLine(note);
+	map.notes.insert(map.notes.end(), target.notes.begin(), target.notes.end());
+}
+
 FlowResult runFlow(
 	const EmbeddedSurface& surface,
 	InitialPacking start,
@@ -158,14 +167,10 @@ FlowResult runFlow(
 	const FlowOptions& options,
 	ComponentMap& map)
 {
-	for (const std::string& note : target.notes)
-		logLine(note);
-	map.notes.insert(map.notes.end(), target.notes.begin(), target.notes.end());
+	noteTarget(target, map);
 	advance(0.0, "Solving for the metric");
-	FlowProgress flowProgress(options.epsilon, map.flowStates);
-	return runRicciFlow(surface, std::move(start), target, options, [&](int step, double residual) {
-		flowProgress(step, residual);
-	});
+	const Task flow(kBeforeFlow, 1.0 - kAfterFlow);
+	return runRicciFlow(surface, std::move(start), target, options, map.flowStates);
 }
 
 void turnUpright(double scale, ComponentMap& map)
@@ -182,11 +187,13 @@ void turnUpright(double scale, ComponentMap& map)
 			move(p);
 }
 
-FaceArray<Triangle2> cornersOf(const Triangulation& t, const PlanarLayout& layout)
+FaceArray<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout)
 {
-	FaceArray<Triangle2> corners(t.faceCount());
-	for (const Face f : t.faces()) {
-		const auto h = t.halfedges(f);
+	const Triangulation& t = domain.surface.triangulation;
+	const bool isSplit = !domain.corners.empty();
+	FaceArray<Triangle2> corners(isSplit ? domain.corners.size() : t.faceCount());
+	for (const Face f : corners.indices()) {
+		const auto h = isSplit ? domain.corners[f] : t.halfedges(f);
 		corners[f] = {layout[h[0]], layout[h[1]], layout[h[2]]};
 	}
 	return corners;

@@ -18,10 +18,8 @@
 
 namespace ricci {
 
-/// The flow with the paper's remedy for broken triangles (5.4), which changes the triangulation and
-/// may start again; then the same stages as flattenToPlane().
-ComponentMap
-flattenWithEdgeSwaps(const Component& component, const VertexInput& input, const Options& options);
+/// Share of a component's progress that is spent before the flow, and after it.
+constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1;
 
 /// "Component of 8 vertices, 12 faces: a closed surface of genus 0 (a sphere)."
 std::string description(const Component& component, const SurfaceType& type);
@@ -77,8 +75,11 @@ CommonRefinement refine(const FlowDomain& domain, const ComponentMap& map, Linke
 /// Takes down what is known of a component before its flow, and logs it.
 void describe(const Component& component, const FlowDomain& domain, ComponentMap& map);
 
-/// A flow of a component, first or again: states and steps go on from those of map.flowStates. Logs the notes
-/// of the target.
+/// Takes down the notes of a target, and logs them.
+void noteTarget(const Target& target, ComponentMap& map);
+
+/// A flow of a component, first or again: states and steps go on from those of map.flowStates. Notes the
+/// target.
 /// \throw as runRicciFlow()
 FlowResult runFlow(
 	const EmbeddedSurface& surface,
@@ -91,8 +92,8 @@ FlowResult runFlow(
 /// axes, from the origin.
 void turnUpright(double scale, ComponentMap& map);
 
-/// The points of the corners of all faces.
-FaceArray<Triangle2> cornersOf(const Triangulation& t, const PlanarLayout& layout);
+/// The points of the corners of the component's faces.
+FaceArray<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout);
 
 /// The modulus of a flat torus or annulus and the aspect of a rectangle, where the map is one.
 /// \param t the triangulation of the layout

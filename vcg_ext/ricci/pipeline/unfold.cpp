@@ -6,7 +6,6 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../charts/separate_charts.h"
-#include "../measure/distortion.h"
 #include "../surface/creases.h"
 #include "../surface/flow_domain.h"
 #include "../surface/opened_mesh.h"
@@ -111,9 +110,6 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 
 std::optional<Parametrization> unfold(const Component& component, const Options& options)
 {
-	const auto cost = [](const Parametrization& map) {
-		return objective(map.mesh, map.report.seamLength);
-	};
 	std::optional<Parametrization> best;
 	int edges = 0; // that are creases
 	int steps = 0; // Newton's
@@ -130,7 +126,7 @@ std::optional<Parametrization> unfold(const Component& component, const Options&
 		std::optional<Parametrization> map =
 			attempt("it is not unfolded", [&] { return joined(component, all, options); });
 		steps += map ? map->report.iterations : 0;
-		if (map && (!best || cost(*map) < cost(*best)))
+		if (map && (!best || costOf(*map).total() < costOf(*best).total()))
 			best = std::move(map);
 	}
 	if (best)

@@ -17,7 +17,7 @@ namespace ricci {
 /// is cut along its creases, each piece is mapped by itself with a free boundary, and the pieces are joined
 /// across creases again where they have room: a crease carries no curvature, only its corners do, so that
 /// joining distorts nothing. Of two kinds of creases, sharp and less sharp ones, those are taken with which
-/// the map costs less (objective()).
+/// the map costs less (MapCost).
 /// \return none where the curvature does not lie at creases
 /// \throw what the stages throw
 std::optional<Parametrization> unfold(const Component& component, const Options& options);

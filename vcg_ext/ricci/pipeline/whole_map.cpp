@@ -4,6 +4,7 @@
 #include "../base/memory_estimate.h"
 #include "../charts/flipped_triangles.h"
 #include "../charts/separate_charts.h"
+#include "../measure/distortion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -175,6 +176,11 @@ Parametrization asParametrization(const Component& component, ComponentMap map)
 	part.charts.emplace_back().group = std::move(map.group);
 	part.mesh = std::move(map.mesh);
 	return part;
+}
+
+MapCost costOf(const Parametrization& map)
+{
+	return costOf(map.mesh, map.report.seamLength);
 }
 
 void separateCharts(const Options& options, Parametrization& map)

@@ -6,6 +6,7 @@
 #include "../base/task.h"
 #include "../charts/outline_packing.h"
 #include "../charts/parametrization.h"
+#include "../flow/map_cost.h"
 #include "../options.h"
 #include "../parametrize.h"
 #include "../surface/component.h"
@@ -49,6 +50,9 @@ Report reportOf(const ComponentMap& map);
 
 /// A component's map as one chart, in the component's indices.
 Parametrization asParametrization(const Component& component, ComponentMap map);
+
+/// What it costs.
+MapCost costOf(const Parametrization& map);
 
 /// Whether charts may be cut where they cover themselves. A disk or a rectangle is asked for as one piece;
 /// that it is none at a few faces, which the finish could not mend, is counted.

@@ -6,6 +6,7 @@
 #include "component.h"
 #include "topology.h"
 
+#include <array>
 #include <optional>
 
 namespace ricci {
@@ -37,6 +38,11 @@ struct FlowDomain
 	std::optional<EmbeddedSurface> capped;
 	VertexArray<char> onHole; ///< [vertex of surface] 1 on a loop that is closed
 	int holes = 0;            ///< loops that are closed
+
+	/// Where edges are swapped or split (paper 5.4), and else empty: 1 on the edges that the component does
+	/// not have; and [face of the component] the halfedges of the surface at its corners.
+	EdgeArray<char> isForeign;
+	FaceArray<std::array<Halfedge, 3>> corners;
 
 	/// The surface on which the flow runs.
 	const EmbeddedSurface& solved() const { return capped ? *capped : surface; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_PROGRESS_SHARE_H
-#define RICCI_PROGRESS_SHARE_H
+#ifndef RICCI_FLOW_PROGRESS_H
+#define RICCI_FLOW_PROGRESS_H
 
 #include "../base/task.h"
 #include "../base/text.h"
@@ -13,14 +13,8 @@
 
 namespace ricci {
 
-/// Share of a component's progress that is spent before the flow, and after it.
-constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1;
-
-/// Share of the part after the flow that the overlay takes.
-constexpr double kOverlay = 0.7;
-
-/// The flow's part of the bar: the residual falls by orders of magnitude, so each step closes a part
-/// of the distance to epsilon on the logarithmic scale.
+/// Tells the task of each Newton step of a flow. The residual falls by orders of magnitude, so each step
+/// closes a part of the distance to epsilon on the logarithmic scale.
 class FlowProgress
 {
 public:
@@ -30,31 +24,27 @@ public:
 	{
 	}
 
+	/// \param step of the flow; a number that is no larger than the last one begins another solve, which
+	/// may go on where that ended
+	/// \param residual before it
 	void operator()(int step, double residual)
 	{
-		const bool begins =
-			step <= m_step; // another solve, which may go on where the last one ended
+		const bool begins = step <= m_step;
 		m_step = step;
 		const int count = m_states.empty() ? 0 : m_states.back().step + (begins ? 0 : 1);
 		const bool isKnown = begins && !m_states.empty() && m_states.back().residual == residual;
 		m_states.push_back({0, count, residual});
 		if (m_first < 0.0)
 			m_first = std::max(residual, 10 * m_epsilon);
-		const double done =
-			std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon);
-		m_done = std::max(m_done, std::clamp(done, 0.0, 1.0));
 		const std::string line = "Newton step " + std::to_string(count) + ": max |target - K| = " +
 								 numberText(residual, 3, std::chars_format::scientific);
 		if (!isKnown)
 			logLine(line);
-		// Rounding must not carry the bar past the stage that follows.
-		advance(
-			std::min(kBeforeFlow + m_done * (1.0 - kBeforeFlow - kAfterFlow), 1.0 - kAfterFlow),
-			line);
+		advance(std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon), line);
 	}
 
 private:
-	double m_epsilon, m_first = -1.0, m_done = 0.0;
+	double m_epsilon, m_first = -1.0;
 	std::vector<FlowState>& m_states;
 	int m_step = 0;
 };
