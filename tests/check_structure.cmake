@@ -21,7 +21,7 @@ set(more_parameters
 	charts/pack.cpp
 	verify/holonomy_check.cpp verify/holonomy_check.h math/cholmod_blas.cpp) # BLAS
 # The drivers choose by the options of the filters; the headers of the stages take what they need.
-set(naming_options charts/pack.h edge_swap/swapped_flow.h)
+set(naming_options charts/pack.h)
 set(host_words "MeshLab|PyMeshLab|meshlabserver|Qt[A-Z]|vcg::")
 
 get_filename_component(CORE "${CORE}" ABSOLUTE)

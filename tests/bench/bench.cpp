@@ -291,8 +291,7 @@ double oneFactorisation(const CurvatureMap& map, const Target& target, int repea
 [[gnu::noinline]] FlowResult
 startAndFlow(const EmbeddedSurface& surface, const Target& target, const FlowOptions& options)
 {
-	return runRicciFlow(
-		surface, initialPacking(surface, options), target, options);
+	return runRicciFlow(surface, initialPacking(surface, options), target, options);
 }
 
 /// From the mesh to the coordinates that a host stores, with default parameters; core.work_guard

@@ -365,11 +365,7 @@ struct FlowToFewCones
 
 	FlowResult to(const Target& target) const
 	{
-		return runRicciFlow(
-			surface,
-			initialPacking(surface, FlowOptions()),
-			target,
-			FlowOptions());
+		return runRicciFlow(surface, initialPacking(surface, FlowOptions()), target, FlowOptions());
 	}
 
 	FlowResult to(const PlacedCones& cones) const

@@ -194,8 +194,7 @@ struct AtTheEnd
 	{
 		FlowOptions options;
 		options.epsilon = 1e-11;
-		return runRicciFlow(
-			surface, initialPacking(surface, options), wanted, options);
+		return runRicciFlow(surface, initialPacking(surface, options), wanted, options);
 	}
 
 	/// The target with \p k more curvature at one cone. On a closed surface another gives it; a

@@ -396,8 +396,7 @@ TEST(TargetCurvature, AutomaticDependsOnNoScaleAndNoNumbers)
 /// The flow to \p target.
 FlowResult flowTo(const TestSurface& surface, const Target& target)
 {
-	return runRicciFlow(
-		surface, initialPacking(surface, FlowOptions()), target, FlowOptions());
+	return runRicciFlow(surface, initialPacking(surface, FlowOptions()), target, FlowOptions());
 }
 
 TEST(TargetToKeepAreas, IsAskedForWhereAreasSpreadMoreThanTheTargetAllows)

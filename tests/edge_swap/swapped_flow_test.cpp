@@ -93,8 +93,8 @@ struct SwapRun : Progress
 /// The number of steps never falls, and ends with that of the flow.
 void expectCounted(const std::vector<FlowState>& states, const FlowResult& flow)
 {
-	EXPECT_TRUE(std::is_sorted(
-		states.begin(), states.end(), [](const FlowState& a, const FlowState& b) {
+	EXPECT_TRUE(
+		std::is_sorted(states.begin(), states.end(), [](const FlowState& a, const FlowState& b) {
 			return a.step < b.step;
 		}));
 	EXPECT_EQ(states.back().step, flow.iterations);
@@ -289,8 +289,7 @@ TEST(SwappedFlow, ErrorsOfTheTargetPassThrough)
 	const auto choose = [](const EmbeddedSurface&, const InitialPacking&) -> Target {
 		throw InvalidOption(InvalidOption::NothingSelected);
 	};
-	EXPECT_THROW(
-		flowWithEdgeSwaps(run.component, run.options, choose, run.states), InvalidOption);
+	EXPECT_THROW(flowWithEdgeSwaps(run.component, run.options, choose, run.states), InvalidOption);
 }
 
 } // namespace

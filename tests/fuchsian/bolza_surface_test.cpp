@@ -229,8 +229,8 @@ TEST(BolzaSurface, PrintedStartIsTheMetricAndTheScaleFreeOneConvergesToIt)
 		target.curvature = Eigen::VectorXd::Zero(t.vertexCount());
 		target.fixed.assign(t.vertexCount(), 0);
 		const EmbeddedSurface embedded{t, {}, surface.lengths, topologyOf(t)};
-		const FlowResult flow = runRicciFlow(
-			embedded, initialPacking(embedded, options), target, options);
+		const FlowResult flow =
+			runRicciFlow(embedded, initialPacking(embedded, options), target, options);
 		double squares = 0.0;
 		for (const Edge e : t.edges())
 			squares += std::pow(flow.metric->lengths()[e] / surface.lengths[e] - 1.0, 2);

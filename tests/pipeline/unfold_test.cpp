@@ -8,6 +8,7 @@
 #include <ricci/charts/chart_overlap.h>
 #include <ricci/measure/distortion.h>
 #include <ricci/pipeline/unfold.h>
+#include <ricci/pipeline/whole_map.h>
 
 #include <gtest/gtest.h>
 

@@ -110,7 +110,8 @@ public:
 		for (const int f : mesh.points.indices())
 			for (const Corner side : cornersOf(f))
 				if (!joinedSide(mesh, sides, side).isValid())
-					m_border[mesh.chart[f]].push_back({mesh.points[side], mesh.points[side.next()]});
+					m_border[mesh.chart[f]].push_back(
+						{mesh.points[side], mesh.points[side.next()]});
 		for (const int chart : m_near.indices())
 			m_near[chart].push_back(chart);
 		if (!m_staysInBox) // the charts' places count for nothing

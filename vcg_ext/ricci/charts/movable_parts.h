@@ -98,7 +98,7 @@ private:
 	{
 		int origin;
 		Motion motion, back; ///< since the beginning, and its inverse
-		Box2 box;                 ///< round the triangles where they are now, at least
+		Box2 box;            ///< round the triangles where they are now, at least
 	};
 
 	struct Change

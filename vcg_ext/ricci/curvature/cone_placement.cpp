@@ -108,10 +108,7 @@ public:
 private:
 	static constexpr int kMaxVain = 8, kShareVain = 4, kShareAtOnce = 8;
 
-	double objective() const
-	{
-		return coneCost(m_model.energy(), m_tree.length(), m_model.size());
-	}
+	double objective() const { return coneCost(m_model.energy(), m_tree.length(), m_model.size()); }
 
 	ConeModel& m_model;
 	const ConeSites& m_sites;

@@ -31,7 +31,8 @@ struct ConeRequest : ConeOptions
 {
 	ConeBoundary boundary = ConeBoundary::Fixed;
 	int vertices = -1; ///< cones lie at vertices with a number below this; -1: at any
-	bool hasAlternative = false; ///< to the map with cones: then there are no more than kMaxPlacedCones
+	bool hasAlternative =
+		false; ///< to the map with cones: then there are no more than kMaxPlacedCones
 
 	/// Move cones towards the tree of their seams where that lowers energy and price of seams together:
 	/// up to the wanted distortion, or by kSeamAllowance for a given count.

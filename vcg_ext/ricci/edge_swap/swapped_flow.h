@@ -14,8 +14,9 @@ namespace ricci {
 struct SwappedFlow
 {
 	FlowDomain domain; ///< with the boundary edges split, before any swap
-	FlowResult flow;   ///< its iterations are those of all starts, the triangulation of its metric is swapped
-	int swaps = 0;     ///< over all starts
+	FlowResult
+		flow; ///< its iterations are those of all starts, the triangulation of its metric is swapped
+	int swaps = 0; ///< over all starts
 	int splits = 0;
 };
 

@@ -40,7 +40,9 @@ public:
 								 numberText(residual, 3, std::chars_format::scientific);
 		if (!isKnown)
 			logLine(line);
-		advance(std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon), line);
+		advance(
+			std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon),
+			line);
 	}
 
 private:

@@ -28,7 +28,7 @@ struct Target
 	std::optional<double> maxSpread; ///< of the logarithm of the area factor, where the target was
 									 ///< chosen to keep areas so far
 	std::optional<MapCost> expected; ///< where it was chosen to cost least
-	bool isSeamless = false;             ///< cones were placed with multiples of pi / 2
+	bool isSeamless = false;         ///< cones were placed with multiples of pi / 2
 	TargetUsed used = TargetUsed::Prescribed;
 	std::optional<double> expectedSpread; ///< see Report
 	std::string choice;                   ///< see Report

@@ -269,7 +269,7 @@ PlanarLayout carriedTo(
 
 bool hasFlips(const FlowResult& flow)
 {
-	return flow.flipCount() > 0 || flow.doubled;
+	return flow.input.faceCount() > 0;
 }
 
 } // namespace
@@ -279,7 +279,7 @@ layOutCorners(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<
 {
 	const CurvatureMap& metric = *flow.metric;
 	const Triangulation& end = metric.triangulation();
-	if (!hasFlips(flow))
+	if (flow.flipCount() == 0 && !flow.doubled)
 		return carriedTo(
 			domain.surface.triangulation,
 			isCut,

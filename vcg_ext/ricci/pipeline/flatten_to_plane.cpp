@@ -244,7 +244,8 @@ std::optional<ComponentMap> flattenToPlane(
 	LinkedPieces overlay = cutAndOverlay( // 4.3
 		domain,
 		seamCost(surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
-		cornersOfCones(surface, map.flow.target, map.cones),
+		options.method == Method::EdgeSwaps ? HalfedgeArray<double>()
+											: cornersOfCones(surface, map.flow.target, map.cones),
 		options,
 		map);
 	layOut(component, domain, std::move(overlay), options, map); // 4.3
