@@ -105,7 +105,7 @@ TEST(DivideDisks, CountsChartsAndCuts)
 
 TEST(PlaceDisksInFloats, HoldsEveryTriangle)
 {
-	Parametrization map = band(160, 0.2, 0.1);
+	Parametrization map = band(320, 0.2, 0.1);
 	placeDisksInFloats(map);
 	EXPECT_GT(map.charts.size(), 1U);
 	EXPECT_EQ(flippedInFloats(map.mesh), 0);
