@@ -215,21 +215,27 @@ leastCut(const DualGraph& graph, const std::vector<int>& from, const std::vector
 			if (const Corner other = graph.joined(own);
 				other.isValid() &&
 				(terminal[i] == kNoTerminal || terminal[i] != terminal[other.face()]))
-				visit(other.face(), graph.weight(own));
+				visit(other.face(), own);
 	};
 	const auto rimOf = [&](const std::vector<int>& triangles) {
 		std::vector<int> rim;
 		for (const int i : triangles) {
 			bool isOnRim = false;
-			forEdges(i, [&](int, std::int64_t) { isOnRim = true; });
+			forEdges(i, [&](int, Corner) { isOnRim = true; });
 			if (isOnRim)
 				rim.push_back(i);
 		}
 		return rim;
 	};
+	const std::vector<int> sources = rimOf(from), sinks = rimOf(to);
+	BorderFlow flow(graph);
+	flow.find(sources, sinks, terminal);
 	const MinCut::Side side =
-		MinCut(terminal.size()).run(rimOf(from), rimOf(to), [&](int i, const MinCut::AddEdge& add) {
-			forEdges(i, [&](int j, std::int64_t weight) { add(j, weight, weight); });
+		MinCut(terminal.size()).run(sources, sinks, [&](int i, const MinCut::AddEdge& add) {
+			forEdges(i, [&](int j, Corner own) {
+				const std::int64_t weight = graph.weight(own), along = flow.across(own);
+				add(j, weight - along, weight + along);
+			});
 		});
 	Array<int> part(terminal.size(), 0);
 	for (const int i : side.nodes)
