@@ -63,7 +63,7 @@ TEST(CountCuts, CountsTheEdgesThatAreCut)
 			const Triangle2 p = map.mesh.at(f);
 			map.mesh.chart[f] = (p[0][0] + p[1][0] + p[2][0]) / 3.0 > x;
 		}
-		splitPoints(map.mesh);
+		splitPoints(Sides(map.mesh.vertices.values()), map.mesh);
 	};
 	cutAt(0.5);
 	const Seams before = seams(map.mesh, sides);

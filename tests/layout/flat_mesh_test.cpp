@@ -69,7 +69,7 @@ TEST(FlatMesh, SplitPointsBelongToOneChartAndOneFan)
 	const Array<Triangle2> before = mesh.corners();
 	for (const int f : mesh.chart.indices())
 		mesh.chart[f] = f % 2;
-	splitPoints(mesh);
+	splitPoints(Sides(mesh.vertices.values()), mesh);
 	EXPECT_EQ(mesh.corners(), before);
 	// Triangles of one kind meet in points alone.
 	EXPECT_EQ(mesh.place.size(), 3 * mesh.size());

@@ -88,7 +88,7 @@ int unequalSeams(double scale)
 		{{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}};
 	FlatMesh flat = flatMesh(mesh);
 	flat.chart = Array<int>(std::vector<int>{0, 0, 1, 1});
-	splitPoints(flat);
+	splitPoints(Sides(flat.vertices.values()), flat);
 	const Array<int> chart = flat.chartOfPoints();
 	for (const int p : chart.indices())
 		if (chart[p] == 1)

@@ -155,7 +155,7 @@ bool divideDisks(Parametrization& map)
 		for (std::size_t i = 1; i < cells[c].centre.size(); ++i)
 			map.charts.push_back({{}, {}, static_cast<int>(c), cells[c].place[i]});
 	}
-	splitPoints(mesh);
+	splitPoints(sides, mesh);
 	const Array<int> chart = mesh.chartOfPoints();
 	for (const int p : chart.indices())
 		mesh.place[p] = moved(map.charts[positionOf(chart[p])].place, mesh.place[p]);

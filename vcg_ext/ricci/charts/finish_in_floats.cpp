@@ -195,7 +195,7 @@ std::optional<bool> finishNear(const Soundness& soundness, WorkLimit& limit, Par
 	FlatMesh part = map.mesh.part(taken);
 	for (const int i : part.chart.indices())
 		part.chart[i] = map.mesh.chart[taken[positionOf(i)]];
-	splitPoints(part);
+	splitPoints(Sides(part.vertices.values()), part);
 	const Array<Box2> boxes = boxesOf(map);
 	BorderTest test(part, boxes, true);
 	const PatchRules rules{kNearRings - 1, [&](const FlatMesh& flat, const Patch& patch) {

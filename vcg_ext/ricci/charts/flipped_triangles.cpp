@@ -59,7 +59,7 @@ void reflectFlipped(Parametrization& map)
 		mesh.points[flipped[i]][k] = mesh.place.size();
 		mesh.place.push_back(reflected(corners[i], k));
 	}
-	splitPoints(mesh);
+	splitPoints(sides, mesh);
 	countCuts(before, sides, map);
 }
 

@@ -318,12 +318,13 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 		return std::log(m.report.occupancy) -
 			   kRoomPrice * std::log(std::sqrt(area) + m.report.seamLength);
 	};
+	const Sides sides(map.mesh.vertices.values());
 	std::optional<Parametrization> last; // where it is not the best
 	for (int cuts = 0, vain = 0; cuts < kMaxCuts && vain < kMaxVainCuts; ++cuts) {
 		if (map.report.occupancy > kEnoughCovered)
 			return;
 		std::optional<Parametrization> next =
-			cutForRoom(last ? *last : map, turns == ChartTurns::Free);
+			cutForRoom(last ? *last : map, sides, turns == ChartTurns::Free);
 		if (!next)
 			return;
 		try {

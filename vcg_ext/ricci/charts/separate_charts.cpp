@@ -24,10 +24,11 @@ using Parts = std::vector<std::vector<int>>; // triangles of each
 
 /// Gives new charts points of their own, and moves each to the origin; where \p turns turns it so that
 /// its smallest bounding rectangle lies along the axes.
-void settle(const std::vector<int>& charts, bool turns, Parametrization& map)
+/// \param sides of the triangles of \p map
+void settle(const std::vector<int>& charts, bool turns, const Sides& sides, Parametrization& map)
 {
 	FlatMesh& mesh = map.mesh;
-	splitPoints(mesh);
+	splitPoints(sides, mesh);
 	const Parts triangles = mesh.trianglesByChart(map.charts.size());
 	for (const int chart : charts) {
 		const std::vector<int> points = mesh.pointsOf(triangles[positionOf(chart)]);
@@ -212,7 +213,7 @@ void separateCharts(bool turns, Parametrization& map)
 	map.report.charts = static_cast<int>(map.charts.size());
 	if (divided.empty())
 		return;
-	settle(divided, turns, map);
+	settle(divided, turns, *allSides, map);
 	countCuts(before, *allSides, map);
 }
 
@@ -230,10 +231,11 @@ void joinCharts(Parametrization& map)
 		charts.push_back(static_cast<int>(charts.size()));
 	}
 	map.report.charts = static_cast<int>(charts.size());
-	settle(charts, true, map);
+	settle(charts, true, sides, map);
 }
 
-std::optional<Parametrization> cutForRoom(const Parametrization& map, bool turns)
+std::optional<Parametrization>
+cutForRoom(const Parametrization& map, const Sides& allSides, bool turns)
 {
 	struct Wide
 	{
@@ -278,9 +280,12 @@ std::optional<Parametrization> cutForRoom(const Parametrization& map, bool turns
 					   std::log1p(cut->length / (std::sqrt(onSurface) + map.report.seamLength)))
 			continue;
 		Parametrization result = map;
-		const Sides allSides(map.mesh.vertices.values());
 		const Seams before = seams(map.mesh, allSides);
-		settle(divide(static_cast<int>(wide.chart), triangles, cut->graph, result), turns, result);
+		settle(
+			divide(static_cast<int>(wide.chart), triangles, cut->graph, result),
+			turns,
+			allSides,
+			result);
 		countCuts(before, allSides, result);
 		return result;
 	}
@@ -309,7 +314,7 @@ bool cutOff(const std::vector<char>& isOff, Parametrization& map)
 		return false;
 	const Sides sides(map.mesh.vertices.values());
 	const Seams before = seams(map.mesh, sides);
-	settle(divided, false, map);
+	settle(divided, false, sides, map);
 	countCuts(before, sides, map);
 	return true;
 }

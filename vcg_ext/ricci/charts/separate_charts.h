@@ -38,8 +38,10 @@ constexpr double kRoomOfChart = 0.04;
 /// smallest bounding rectangle. Takes the chart that leaves most room there, of those whose cut may be worth
 /// what it costs by kRoomPrice. The parts are given back as those of separateCharts(), in the report, too.
 /// \param map packed
+/// \param sides of its triangles
 /// \return none where there is no such chart
-std::optional<Parametrization> cutForRoom(const Parametrization& map, bool turns);
+std::optional<Parametrization>
+cutForRoom(const Parametrization& map, const Sides& sides, bool turns);
 
 /// Divides the charts that have triangles of both kinds: each connected part of one kind becomes a chart
 /// from the origin, in the directions that it has. The report counts the charts and the cuts as

@@ -124,10 +124,10 @@ void weld(FlatMesh& mesh)
 		mesh);
 }
 
-void splitPoints(FlatMesh& mesh)
+void splitPoints(const Sides& sides, FlatMesh& mesh)
 {
 	numberPoints(
-		Sides(mesh.vertices.values()),
+		sides,
 		[&](Corner c) { return mesh.at(c); },
 		[&](Corner a, Corner b) {
 			return mesh.chart[a.face()] == mesh.chart[b.face()] && isJoined(mesh, a, b);

@@ -122,7 +122,8 @@ void weld(FlatMesh& mesh);
 
 /// Gives triangles that no chain of joined sides in one chart connects points of their own, and forgets
 /// points that no corner has.
-void splitPoints(FlatMesh& mesh);
+/// \param sides of its triangles
+void splitPoints(const Sides& sides, FlatMesh& mesh);
 
 /// The flat mesh of triangles whose corners are placed one by one: two corners at one vertex are one
 /// point if a chain of triangles joins them whose common sides have the same ends in the plane.
