@@ -153,14 +153,14 @@ make_pictures() {
 			shoot_map bust_$map
 		done
 		row bust 420 "bust_plain=$(cat bust_plain.txt)" "bust_plain_chart=its chart" \
-			"bust_default=$(cat bust_default.txt)" "bust_default_chart=its chart"
+			"bust_default=$(cat bust_default.txt)" "bust_default_chart=its charts"
 	fi
 	if has texture; then
 		shoot texture_bunny_before texture_before.ply
 		shoot texture_bunny_after texture_after.ply
 		shoot texture_drawn texture_chart.ply
 		row texture 380 "texture_old=texture of single triangles" "texture_bunny_before=the mesh with it" \
-			"texture_drawn=carry_texture, in its chart" "texture_bunny_after=the mesh with this one"
+			"texture_drawn=carry_texture, in its charts" "texture_bunny_after=the mesh with this one"
 	fi
 	if has seams; then
 		local map
