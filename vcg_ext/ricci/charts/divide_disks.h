@@ -16,7 +16,7 @@ namespace ricci {
 /// \return whether charts were divided
 bool divideDisks(Parametrization& map);
 
-/// Of one mesh, so that squares of many disks do not get too small.
+/// Where a mesh has so many disks, none is divided further: their squares get too small.
 constexpr int kMaxDisks = 256;
 
 } // namespace ricci
