@@ -8,6 +8,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/error.h>
+#include <ricci/pipeline/whole_map.h>
 
 #include <gtest/gtest.h>
 
@@ -207,6 +208,30 @@ TEST_F(SharedMeshes, PizzaOfGenusSeventyThree)
 	const FlatResult flat = run(m_mesh, options);
 	EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
 	EXPECT_LT(FlatMap(m_mesh, flat.uv).seamMismatch, 1e-9);
+}
+
+/// Thin folded sheets, on which cones stretch more than is expected of them, by 1e3 and more in energy.
+TEST_F(SharedMeshes, WhatCostsMuchAsAWholeIsUnfolded)
+{
+	SKIP_IF_MISSING("hard/nm_chair.ply");
+	const FlatResult flat = run(m_mesh, Options());
+	EXPECT_LT(costOf(flat).total(), 5.0);
+	EXPECT_EQ(flat.report.flippedFaces, 0);
+}
+
+/// Genus 79: floats hold no disk of it, nor near needles that are flipped as straight triangles wherever they
+/// lie. What mends these reaches beyond their disks.
+TEST_F(SharedMeshes, FloatsHoldTheDisksOfAPlateOfGenusSeventyNine)
+{
+	SKIP_IF_MISSING("wild/lk_front_plate.ply");
+	const Parametrization map = parametrizeHyperbolic(m_mesh, {}, HyperbolicOptions());
+	EXPECT_EQ(map.report.flippedFaces, 0);
+	EXPECT_GT(map.charts.size(), 1U);
+	for (const int f : map.mesh.points.indices())
+		for (const Point2& p : map.mesh.at(f)) {
+			const Box2& square = map.charts[positionOf(map.mesh.chart[f])].box;
+			EXPECT_LT(distance(p, square.centre()), 0.5 * square.width());
+		}
 }
 
 TEST_F(SharedMeshes, FlatMetricsNeedEulerCharacteristicZero)

@@ -12,11 +12,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace ricci::testing {
 namespace {
+
+constexpr double kFlat = 0.25; // of the curvature at most lies between creases
 
 void expectIsometric(const Parametrization& map)
 {
@@ -34,7 +38,7 @@ void expectIsometric(const Parametrization& map)
 TEST(Unfold, ABoxIsItsNet)
 {
 	const SurfaceMesh box = perforatedSlab(0, 4);
-	const std::optional<Parametrization> map = unfold(onlyComponent(box), Options());
+	const std::optional<Parametrization> map = unfold(onlyComponent(box), Options(), kFlat);
 	ASSERT_TRUE(map);
 	expectIsometric(*map);
 	EXPECT_EQ(map->charts.size(), 1u);
@@ -61,7 +65,7 @@ TEST(Unfold, ACylinderIsItsWallWithTwoLids)
 {
 	constexpr int kSides = 16;
 	const SurfaceMesh mesh = revolved({{0.0, 0.0}, {1.0, 0.0}, {1.0, 3.0}, {0.0, 3.0}}, kSides);
-	const std::optional<Parametrization> map = unfold(onlyComponent(mesh), Options());
+	const std::optional<Parametrization> map = unfold(onlyComponent(mesh), Options(), kFlat);
 	ASSERT_TRUE(map);
 	expectIsometric(*map);
 	EXPECT_EQ(map->charts.size(), 1u);
@@ -71,15 +75,32 @@ TEST(Unfold, ACylinderIsItsWallWithTwoLids)
 
 TEST(Unfold, LeavesRoundSurfacesToTheFlow)
 {
-	EXPECT_FALSE(unfold(onlyComponent(torus(2.0, 1.0, 40, 20)), Options()));
-	EXPECT_FALSE(unfold(onlyComponent(ring(1.0, 2.0, 30, 5)), Options()));
+	EXPECT_FALSE(unfold(onlyComponent(torus(2.0, 1.0, 40, 20)), Options(), kFlat));
+	EXPECT_FALSE(unfold(onlyComponent(ring(1.0, 2.0, 30, 5)), Options(), kFlat));
+}
+
+/// A dome has half of its curvature at its rim, half between.
+TEST(Unfold, TakesAsMuchCurvatureAsItMay)
+{
+	std::vector<std::array<double, 2>> profile{{0.0, 0.0}};
+	for (int i = 0; i <= 8; ++i)
+		profile.push_back({std::cos(i * kPi / 16.0), std::sin(i * kPi / 16.0)});
+	const Component dome = onlyComponent(revolved(profile, 32));
+	EXPECT_FALSE(unfold(dome, Options(), 0.4));
+	const std::optional<Parametrization> map = unfold(dome, Options(), 0.6);
+	ASSERT_TRUE(map);
+	EXPECT_EQ(map->report.charts, 1); // dome and floor, joined
+	EXPECT_GT(stretchEnergy(map->mesh), 4.0 + 1e-3);
+	Report report;
+	countFlipped(map->mesh, report);
+	EXPECT_EQ(report.flippedFaces, 0);
 }
 
 /// Of both maps the one that costs less is given back.
 TEST(Unfold, IsTakenWhereItCostsLess)
 {
 	const SurfaceMesh box = perforatedSlab(2, 4);
-	const std::optional<Parametrization> unfolded = unfold(onlyComponent(box), Options());
+	const std::optional<Parametrization> unfolded = unfold(onlyComponent(box), Options(), kFlat);
 	ASSERT_TRUE(unfolded);
 	const FlatResult given = run(box, Options());
 	Options placed;

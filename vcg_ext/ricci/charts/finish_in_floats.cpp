@@ -40,6 +40,9 @@ void widenToFloats(Box2& box)
 /// Charts that need more room are packed so many times in all.
 constexpr int kMaxPackings = 4;
 
+/// A disk that has grown beyond its own is drawn again with this radius at most, of 1.
+constexpr double kRedrawnRadius = 0.999;
+
 /// Rings round bad triangles that are moved at first, of which one is the border of the largest patches.
 constexpr int kNearRings = 4;
 
@@ -259,24 +262,42 @@ finishEverywhere(const Wanted& wanted, bool mayGrow, WorkLimit& limit, Parametri
 }
 
 /// Mends triangles of disks in their squares.
-Repair repairDisks(Parametrization& map)
+/// \param mayRedraw a chart all of whose points move may leave its disk: then it is drawn smaller
+Repair repairDisks(bool mayRedraw, Parametrization& map)
 {
 	const Soundness soundness = Wanted(map.mesh, false).soundness;
 	if (badTriangles(map.mesh, soundness).empty())
 		return {};
 	const Array<int> chartOf = map.mesh.chartOfPoints();
+	// From the centre of its disk, over the radius
+	const auto radius = [&](const FlatMesh& flat, int p) {
+		const Box2& square = map.charts[positionOf(chartOf[p])].box;
+		return distance(flat.place[p], square.centre()) / (0.5 * square.width());
+	};
 	const auto isInDisk = [&](const FlatMesh& flat, const Patch& patch) {
-		for (const int p : patch.points) {
-			const Box2& square = map.charts[positionOf(chartOf[p])].box;
-			if (!(distance(flat.place[p], square.centre()) < 0.5 * square.width()))
-				return false;
-		}
-		return true;
+		return (mayRedraw && patch.isFree()) ||
+			   std::all_of(patch.points.begin(), patch.points.end(), [&](int p) {
+				   return radius(flat, p) < 1.0;
+			   });
+	};
+	const auto shrink = [&] {
+		Array<double> largest(map.charts.size(), 0.0);
+		for (const int p : chartOf.indices())
+			largest[chartOf[p]] = std::max(largest[chartOf[p]], radius(map.mesh, p));
+		for (const int p : chartOf.indices())
+			if (const double far = largest[chartOf[p]]; far >= 1.0) {
+				const Point2 centre = map.charts[positionOf(chartOf[p])].box.centre();
+				for (std::size_t k = 0; k < 2; ++k)
+					map.mesh.place[p][k] =
+						centre[k] + kRedrawnRadius / far * (map.mesh.place[p][k] - centre[k]);
+			}
 	};
 	Repair result;
 	for (const RestShapes shapes : {RestShapes::OfDrawing, RestShapes::OfSurfaceEvenly}) {
 		WorkLimit limit(map.mesh.size());
 		result.add(repairFreely(map.mesh, isInDisk, shapes, soundness, limit));
+		shrink();
+		result.left = static_cast<int>(badTriangles(map.mesh, soundness).size());
 		if (result.left == 0)
 			break;
 	}
@@ -315,23 +336,28 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 
 bool placeDisksInFloats(Parametrization& map)
 {
-	Parametrization divided = map;
+	const Array<Point2> unplaced = map.mesh.place;
 	placeDisks(map);
-	Repair result = repairDisks(map);
-	if (result.left > 0 && divideDisks(divided)) {
-		placeDisks(divided);
-		const Repair ofDivided = repairDisks(divided);
-		if (ofDivided.left < result.left) {
-			logLine(
-				"Floats cannot hold the disks, which reach too far out: they are divided into " +
-				std::to_string(divided.charts.size()) + ", each with its own middle.");
-			map = std::move(divided);
-			map.report.finishMoved += ofDivided.movedCount();
-			return true;
+	Repair result = repairDisks(false, map);
+	const std::size_t disks = map.charts.size();
+	if (result.left > 0) {
+		Parametrization divided = map;
+		divided.mesh.place = unplaced;
+		if (divideDisks(divided)) {
+			placeDisks(divided);
+			const Repair ofDivided = repairDisks(true, divided);
+			if (ofDivided.left < result.left) {
+				logLine(
+					"Floats cannot hold the disks, which reach too far out: they are divided "
+					"into " +
+					std::to_string(divided.charts.size()) + ", each with its own middle.");
+				map = std::move(divided);
+				result = ofDivided;
+			}
 		}
 	}
 	map.report.finishMoved += result.movedCount();
-	return result.movedCount() > 0;
+	return result.movedCount() > 0 || map.charts.size() > disks;
 }
 
 } // namespace ricci

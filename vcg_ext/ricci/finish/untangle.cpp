@@ -34,6 +34,9 @@ constexpr double kStress = 8.0;
 /// A round that leaves more than this share of the energy has gained nothing.
 constexpr double kMinGain = 0.99;
 
+/// A round whose least determinant stays below this share of the one before has hardly brought it nearer to 0.
+constexpr double kMaxLeft = 0.9;
+
 /// Steps of a search are halved, 29 times at most.
 constexpr LineSearch kHalving{0x1p-29, 0.5, 0.5};
 
@@ -95,7 +98,7 @@ private:
 	{
 		int idle = 0;
 		bool gained = true;
-		double least = m_energy.minDeterminant(m_x);
+		double least = m_energy.minDeterminant(m_x), last = least;
 		std::size_t before = m_patch.triangles.size();
 		m_eps = std::max(soft, -kEpsShare * least);
 		for (int round = 0; round < kMaxRounds; ++round) {
@@ -104,8 +107,11 @@ private:
 				m_eps = kMinEps;
 			else if (round > 0)
 				m_eps = std::max(
-					std::min(std::max(soft, -kEpsShare * least), gained ? m_eps : kEpsFall * m_eps),
+					std::min(
+						std::max(soft, -kEpsShare * least),
+						gained && least > kMaxLeft * last ? m_eps : kEpsFall * m_eps),
 					kMinEps);
+			last = least;
 			soft = std::max(kEpsFall * soft, kMinEps);
 			double value = m_energy.value(m_x, m_eps);
 			const double first = value;

@@ -77,6 +77,12 @@ bool mayUnfold(const Component& component, const Options& options)
 		   !component.hasSeam;
 }
 
+/// Share of the curvature that may be left between creases where a component is unfolded first.
+constexpr double kMaxCurvatureBetween = 0.25;
+
+/// A component whose map as a whole costs more is unfolded, too, whatever its curvature.
+constexpr double kPoorCost = 6.0;
+
 /// "energy 4.01, seams 11.9 (objective 4.6)"
 std::string costText(const Parametrization& map)
 {
@@ -92,7 +98,7 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 {
 	std::optional<Parametrization> unfolded;
 	if (mayUnfold(component, options))
-		unfolded = unfold(component, options);
+		unfolded = unfold(component, options, kMaxCurvatureBetween);
 	const double alternative = unfolded ? costOf(*unfolded).total() : kNoAlternative;
 	const auto chosen = [](const std::string& choice, Parametrization map) {
 		map.report.choice = choice;
@@ -101,19 +107,20 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 		return map;
 	};
 	std::optional<ComponentMap> flow = flattenToPlane(component, input, options, alternative);
-	const std::string cut =
-		unfolded ? "cut along creases and unfolded: " + costText(*unfolded) : "";
+	const auto cut = [&] { return "cut along creases and unfolded: " + costText(*unfolded); };
 	if (!flow)
-		return chosen(cut + "; cones are expected to cost more", std::move(*unfolded));
+		return chosen(cut() + "; cones are expected to cost more", std::move(*unfolded));
 	Parametrization map = asParametrization(component, std::move(*flow));
 	separateCharts(options, map);
+	if (!unfolded && mayUnfold(component, options) && costOf(map).total() > kPoorCost)
+		unfolded = unfold(component, options, 1.0);
 	if (!unfolded)
 		return map;
 	const bool isUnfolded = costOf(*unfolded).total() < costOf(map).total();
 	const std::string whole = "as a whole: " + costText(map);
 	const int steps = unfolded->report.iterations + map.report.iterations;
 	const std::string choice =
-		isUnfolded ? cut + "; " + whole : map.report.choice + "; " + whole + "; " + cut;
+		isUnfolded ? cut() + "; " + whole : map.report.choice + "; " + whole + "; " + cut();
 	map = chosen(choice, isUnfolded ? std::move(*unfolded) : std::move(map));
 	map.report.iterations = steps;
 	return map;

@@ -25,9 +25,6 @@ namespace {
 /// flat enough, and at sharper ones fillets of few triangles are left in one piece with what they round.
 constexpr double kCreaseAngles[] = {40.0 * kPi / 180.0, 60.0 * kPi / 180.0};
 
-/// Share of the curvature that may be left between creases.
-constexpr double kMaxCurvatureBetween = 0.25;
-
 /// The pieces of a component between creases, as components of it; none if pieces have no area.
 std::vector<Component> pieces(const Component& component, const Creases& creases)
 {
@@ -108,15 +105,15 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 
 } // namespace
 
-std::optional<Parametrization> unfold(const Component& component, const Options& options)
+std::optional<Parametrization>
+unfold(const Component& component, const Options& options, double maxBetween)
 {
 	std::optional<Parametrization> best;
 	int edges = 0; // that are creases
 	int steps = 0; // Newton's
 	for (const double angle : kCreaseAngles) {
 		const Creases found = creases(component.positions.values(), component.triangles, angle);
-		if (found.edges == 0 || found.edges == edges ||
-			found.curvatureBetween > kMaxCurvatureBetween)
+		if (found.edges == 0 || found.edges == edges || found.curvatureBetween > maxBetween)
 			continue;
 		edges = found.edges;
 		const std::vector<Component> all = pieces(component, found);

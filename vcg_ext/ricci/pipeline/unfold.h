@@ -18,9 +18,11 @@ namespace ricci {
 /// across creases again where they have room: a crease carries no curvature, only its corners do, so that
 /// joining distorts nothing. Of two kinds of creases, sharp and less sharp ones, those are taken with which
 /// the map costs less (MapCost).
-/// \return none where the curvature does not lie at creases
+/// \param maxBetween share of the curvature that may be left between creases
+/// \return none where more is left, or there are no creases
 /// \throw what the stages throw
-std::optional<Parametrization> unfold(const Component& component, const Options& options);
+std::optional<Parametrization>
+unfold(const Component& component, const Options& options, double maxBetween);
 
 } // namespace ricci
 
