@@ -20,30 +20,25 @@ namespace {
 constexpr int kWordBits = 64;
 
 /// Cells along a side of the square.
-constexpr int kLevels = 9, kCells = 1 << (kLevels - 1);
+constexpr int kLevels = 10, kCells = 1 << (kLevels - 1);
 
 /// Rows of cells compared after which no further angle of the largest chart is tried.
-constexpr long long kMaxWork = 4'000'000;
+constexpr long long kMaxWork = 2'000'000;
 
 /// Cells of a row that are taken, in its bits.
 using Row = std::array<std::uint64_t, kCells / kWordBits>;
 
-/// Adds the cells of \p row, moved to lower places.
-void addMovedDown(const Row& row, int cells, Row& sum)
+/// Adds the cells of \p row, moved to lower places, to the first \p count words.
+void addMovedDown(const Row& row, int cells, std::size_t count, Row& sum)
 {
 	const auto words = static_cast<std::size_t>(cells / kWordBits);
 	const int bits = cells % kWordBits;
-	for (std::size_t i = 0; i + words < row.size(); ++i) {
+	count = std::min(count, row.size() - words);
+	for (std::size_t i = 0; i < count; ++i) {
 		sum[i] |= row[i + words] >> bits;
 		if (bits > 0 && i + words + 1 < row.size())
 			sum[i] |= row[i + words + 1] << (kWordBits - bits);
 	}
-}
-
-bool isFull(const Row& row)
-{
-	return std::all_of(
-		row.begin(), row.end(), [](std::uint64_t w) { return w == ~std::uint64_t{0}; });
 }
 
 void fill(Row& row, int first, int last)
@@ -235,17 +230,23 @@ public:
 	/// Takes a better place of \p shape than \p best, if there is one.
 	void look(const Shape& shape, Spot& best)
 	{
+		m_runs = shape.runs;
 		for (int y = 0; y + shape.height <= farthest(best); ++y) {
 			const int last = farthest(best) - shape.width; // of x
 			if (last < 0)
 				return;
+			const std::size_t words = static_cast<std::size_t>(last / kWordBits) + 1;
 			Row blocked{};
 			fill(blocked, last + 1, kCells);
-			for (const Run& run : shape.runs) {
-				block(run, y, blocked);
+			for (std::size_t i = 0; i < m_runs.size(); ++i) {
+				block(m_runs[i], y, words, blocked);
 				++m_work;
-				if (isFull(blocked))
+				if (std::all_of(blocked.begin(), blocked.begin() + words, [](std::uint64_t w) {
+						return w == ~std::uint64_t{0};
+					})) {
+					std::swap(m_runs[i], m_runs[i / 2]); // it blocks the next row, too
 					break;
+				}
 			}
 			const int x = lowestFree(blocked);
 			if (x == kCells)
@@ -266,7 +267,7 @@ public:
 			fill(taken[0], spot.x + run.first, spot.x + run.last);
 			for (std::size_t k = 0; k + 1 < taken.size(); ++k) {
 				taken[k + 1] = taken[k];
-				addMovedDown(taken[k], 1 << k, taken[k + 1]);
+				addMovedDown(taken[k], 1 << k, taken[k].size(), taken[k + 1]);
 			}
 		}
 		m_side = spot.cost[0];
@@ -279,8 +280,8 @@ private:
 		return best.shape ? best.cost[1] : std::min(best.cost[0] - 1, kCells);
 	}
 
-	/// Adds the x at which \p run meets cells that are taken.
-	void block(const Run& run, int y, Row& blocked) const
+	/// Adds the x, of the first \p words, at which \p run meets cells that are taken.
+	void block(const Run& run, int y, std::size_t words, Row& blocked) const
 	{
 		const int count = run.last - run.first;
 		std::size_t k = 0;
@@ -288,13 +289,14 @@ private:
 			++k;
 		y += run.row;
 		const Row& taken = m_taken[static_cast<std::size_t>(y)][k];
-		addMovedDown(taken, run.first, blocked);
-		addMovedDown(taken, run.last - (1 << k), blocked);
+		addMovedDown(taken, run.first, words, blocked);
+		addMovedDown(taken, run.last - (1 << k), words, blocked);
 	}
 
 	/// [y][k] the x from which one of 2^k cells is taken
 	std::array<std::array<Row, kLevels>, kCells> m_taken{};
-	int m_side = 0; // of the square that holds all
+	std::vector<Run> m_runs; // of a shape, those that block most first
+	int m_side = 0;          // of the square that holds all
 	long long m_work = 0;
 };
 

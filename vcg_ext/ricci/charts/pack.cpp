@@ -13,6 +13,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace ricci {
@@ -320,9 +321,16 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 	};
 	const Sides sides(map.mesh.vertices.values());
 	std::optional<Parametrization> last; // where it is not the best
-	for (int cuts = 0, vain = 0; cuts < kMaxCuts && vain < kMaxVainCuts; ++cuts) {
+	for (int cuts = 0, vain = 0; vain < kMaxVainCuts; ++cuts) {
 		if (map.report.occupancy > kEnoughCovered)
 			return;
+		if (cuts == kMaxCuts) {
+			++map.report.endedEarly;
+			logLine(
+				"Cuts for room have ended at " + std::to_string(kMaxCuts) +
+				": more of them could still cover a little more of the square.");
+			return;
+		}
 		std::optional<Parametrization> next =
 			cutForRoom(last ? *last : map, sides, turns == ChartTurns::Free);
 		if (!next)

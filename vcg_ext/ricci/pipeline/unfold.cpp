@@ -22,8 +22,9 @@ namespace ricci {
 namespace {
 
 /// Angles above which an edge is a crease: less sharp ones are those of coarse round parts, whose pieces are
-/// flat enough, and at sharper ones fillets of few triangles are left in one piece with what they round.
-constexpr double kCreaseAngles[] = {40.0 * kPi / 180.0, 60.0 * kPi / 180.0};
+/// flat enough, and at sharper ones fillets of few triangles are left in one piece with what they round. The
+/// least sharp ones, which rough surfaces have everywhere, are those of parts that unfold at others.
+constexpr double kCreaseAngles[] = {40.0 * kPi / 180.0, 60.0 * kPi / 180.0, 25.0 * kPi / 180.0};
 
 /// The pieces of a component between creases, as components of it; none if pieces have no area.
 std::vector<Component> pieces(const Component& component, const Creases& creases)
@@ -112,6 +113,8 @@ unfold(const Component& component, const Options& options, double maxBetween)
 	int edges = 0; // that are creases
 	int steps = 0; // Newton's
 	for (const double angle : kCreaseAngles) {
+		if (angle < kCreaseAngles[0] && !best)
+			break;
 		const Creases found = creases(component.positions.values(), component.triangles, angle);
 		if (found.edges == 0 || found.edges == edges || found.curvatureBetween > maxBetween)
 			continue;
