@@ -118,8 +118,10 @@ check_deb() {
 	done
 	dpkg-deb -c "$1" >"$folder/content"
 	grep -q '/usr/lib/[^/]*/meshlab/plugins/libfilter_ricci.so$' "$folder/content" || fail "the .deb has no plugin"
-	dpkg-deb --fsys-tarfile "$1" | tar -xO "./usr/share/doc/$name/copyright" >"$folder/copyright" ||
-		fail "the .deb has no copyright file"
+	for wanted in README.md changelog.gz copyright; do
+		grep -q "/usr/share/doc/$name/$wanted\$" "$folder/content" || fail "the .deb has no $wanted"
+	done
+	dpkg-deb --fsys-tarfile "$1" | tar -xO "./usr/share/doc/$name/copyright" >"$folder/copyright"
 	for wanted in 'Copyright: .*generalized_ricci_flow authors' 'Copyright: .*Eigen' 'Comment: vcglib' 'GPL-3+' 'MPL-2.0'; do
 		grep -q "$wanted" "$folder/copyright" || fail "the copyright file does not name $wanted"
 	done
