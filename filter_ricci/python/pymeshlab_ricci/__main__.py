@@ -9,9 +9,10 @@
 Each mesh is a process of its own: a crash ends that mesh and nothing else. The folder OUT, which may be
 the folder of the meshes, gets for meshes/a/b.off the files a/b.off.ply and a/b.off.json, a/b.off.html
 for --report and a/b.off.png for --carry-texture, and at the end results.csv with a row for each mesh and
-failures.txt with the meshes without a result. An OUT that is a file is replaced, even if it is IN. A run that was interrupted goes on where it stopped; a mesh runs again
-where mesh, parameters or plugin have changed. With a cluster, this package and both folders have
-to be on every machine, the folders at the same path.
+failures.txt with the meshes without a result. An OUT that is a file is replaced, even if it is IN. A run
+that was interrupted goes on where it stopped; a mesh runs again where mesh, parameters or plugin have
+changed. With a cluster, this package and both folders have to be on every machine, the folders at the
+same path.
 
 Layers (--flat-layer and others) are files beside OUT: scan.flat.ply.
 

@@ -334,8 +334,10 @@ _INPUT = """
 mesh : a path; vertices and then faces, or both as a pair; an object that has them, such as one of
     trimesh; a pymeshlab.Mesh; or a MeshSet, whose current mesh gets the texture coordinates
 faces : indices of vertices, three of each face, where `mesh` is the vertices
-selected : indices of vertices, or a truth value for each: the cones, or the corners of a rectangle
-curvature : target curvature of each vertex, in radians
+selected : indices of vertices, or a truth value for each: the cones, or the corners of a rectangle;
+    target_curvature then is 'Cones at selected vertices', unless it is given
+curvature : target curvature of each vertex, in radians; target_curvature then is 'From vertex
+    quality', unless it is given
 progress : True for a bar (of tqdm, where it is installed), or a function that is called with the
     share of the work that is done and the name of the step; what it raises ends the run, as Ctrl-C
     does, and the mesh stays as it is
