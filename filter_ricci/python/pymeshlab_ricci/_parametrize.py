@@ -264,6 +264,15 @@ def _mesh_set(mesh, faces):
     return new
 
 
+def _require_faces(mesh_set):
+    """The host has words of its own for these, which name no remedy."""
+    if not mesh_set.mesh_number():
+        raise ValueError("The MeshSet holds no mesh: load one first")
+    if not mesh_set.current_mesh().face_number():
+        raise Refused("The mesh is a point cloud: it has vertices but no faces. Reconstruct a surface "
+                      "first.")
+
+
 def _per_vertex(mesh_set, name, values):
     """The name of a new attribute with the values: PyMeshLab cannot change those that are there."""
     mesh = mesh_set.current_mesh()
@@ -297,6 +306,7 @@ def _solve(function, mesh, faces, selected, curvature, progress, parameters):
     kind, description = _KINDS[function]
     parameters = checked(function, description, parameters)
     mesh_set = _mesh_set(mesh, faces)
+    _require_faces(mesh_set)
     before = [layer.id() for layer in mesh_set]
     if selected is not None:
         attribute = _per_vertex(mesh_set, "selected", _mask(mesh_set, selected))
