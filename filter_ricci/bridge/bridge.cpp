@@ -155,15 +155,14 @@ MeshModel& checkedMesh(MeshDocument& md, bool readsQuality)
 				: "The mesh is a point cloud: it has vertices but no faces. Reconstruct a surface "
 				  "first.");
 	if (readsQuality && !model->hasDataMask(MeshModel::MM_VERTQUALITY))
-		throw Refusal("{target_curvature} is 'From vertex quality', but the mesh has no vertex "
-					  "quality. Store "
-					  "the curvature of each vertex, in radians, as its quality first.");
+		throw Refusal(
+			"{target_curvature} is 'From vertex quality', but the mesh has no vertex quality. "
+			"Store the curvature of each vertex, in radians, as its quality first.");
 	if (readsQuality && isOwnOutput(model->cm))
 		throw Refusal(
 			"{target_curvature} is 'From vertex quality', but the quality is the distortion that "
-			"this "
-			"filter has written, not a curvature. Its own target is back with 'Per Vertex Quality "
-			"Function' and the function ricci_target_curvature.");
+			"this filter has written, not a curvature. Its own target is back with "
+			"'Per Vertex Quality Function' and the function ricci_target_curvature.");
 	return *model;
 }
 
@@ -180,27 +179,24 @@ Flow::SideMarks chosenSeams(const MeshModel& model, Seams seams)
 		if (!model.hasDataMask(MeshModel::MM_WEDGTEXCOORD) &&
 			!model.hasDataMask(MeshModel::MM_VERTTEXCOORD))
 			throw Refusal("{seams} is 'Existing texture seams', but the mesh has no texture "
-						  "coordinates: open "
-						  "one that has them, or choose other seams.");
+						  "coordinates: open one that has them, or choose other seams.");
 		marks = Chosen::OfTexture(model.cm);
 		if (marks.empty())
-			ricci::logLine(
-				"The texture coordinates jump at no edge inside the surface: there are no seams to "
-				"keep but its borders.");
+			ricci::logLine("The texture coordinates jump at no edge inside the surface: there are "
+						   "no seams to keep but its borders.");
 		break;
 	case Seams::SelectedEdges:
 		marks = Chosen::OfSelectedEdges(model.cm);
 		if (marks.empty())
-			throw Refusal(
-				"{seams} is 'Selected edges', but no edge of a face is selected: select some first "
-				"('Select Crease Edges'), or choose other seams.");
+			throw Refusal("{seams} is 'Selected edges', but no edge of a face is selected: select "
+						  "some first ('Select Crease Edges'), or choose other seams.");
 		break;
 	case Seams::SelectedFaces:
 		marks = Chosen::OfSelectedFaces(model.cm);
 		if (marks.empty())
-			throw Refusal("{seams} is 'Border of selected faces', but no edge lies between a "
-						  "selected face and "
-						  "another: select a part of the surface first, or choose other seams.");
+			throw Refusal(
+				"{seams} is 'Border of selected faces', but no edge lies between a selected face "
+				"and another: select a part of the surface first, or choose other seams.");
 		break;
 	}
 	return marks;
@@ -529,8 +525,8 @@ private:
 		if (static_cast<double>(coincident) > kManyCoincident * model.cm.vn)
 			lines.push_back(
 				std::to_string(coincident) +
-				" vertices lie where others do, and the surface is open between them: 'Merge Close "
-				"Vertices' joins its " +
+				" vertices lie where others do, and the surface is open between them: "
+				"'Merge Close Vertices' joins its " +
 				std::to_string(report.components) + " components.");
 		if (isStretched(model.cm))
 			lines.push_back("The matrix of the layer stretches the mesh: it is flattened as it is "

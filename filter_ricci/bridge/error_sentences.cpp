@@ -13,8 +13,9 @@ namespace {
 
 using ricci::numberText;
 
-constexpr const char* kSimplify = ": simplify it first ('Simplification: Quadric Edge Collapse "
-								  "Decimation'), or cut it into pieces.";
+constexpr const char* kSimplify =
+	": simplify it first ('Simplification: Quadric Edge Collapse Decimation'), or cut it into "
+	"pieces.";
 
 /// For what only the authors can mend. Programmers may have ended their words with a period.
 std::string reported(const ricci::Error& e)
@@ -109,8 +110,8 @@ std::string inWords(const ricci::InvalidOption& e)
 		return "The output 'Common refinement' and the holes 'Capped' belong to the method "
 			   "'Intrinsic flips': choose this, or 'Keep the mesh' and 'Boundaries'.";
 	case Error::HyperbolicMethod:
-		return "The hyperbolic flow has no such method: choose 'Intrinsic flips' or 'Fixed "
-			   "triangles'.";
+		return "The hyperbolic flow has no such method: choose 'Intrinsic flips' or "
+			   "'Fixed triangles'.";
 	case Error::NotADisk:
 		return std::string(
 				   e.target == ricci::TargetCurvature::Rectangle ? "'Rectangle'" : "'Disk'") +
@@ -172,8 +173,8 @@ std::string inWords(const ricci::InadmissibleCurvature& e)
 		return what + ". The quality of each vertex must be its curvature in radians, and not far "
 					  "from that of the mesh.";
 	case Error::HyperbolicSurface:
-		return what + ": use 'Generalized Ricci Flow (Euclidean)', or choose 'Cones at selected "
-					  "vertices' with small angles.";
+		return what + ": use 'Generalized Ricci Flow (Euclidean)', or choose "
+					  "'Cones at selected vertices' with small angles.";
 	case Error::HyperbolicSum:
 		return what + ": choose more or sharper cones, or 'Generalized Ricci Flow (Euclidean)'.";
 	}
@@ -240,12 +241,13 @@ std::string inWords(const ricci::TooLarge& e)
 	case Error::Unknowns:
 		return what + kSimplify;
 	case Error::DoubleMemory:
-		return what + ": simplify the mesh first ('Simplification: Quadric Edge Collapse "
-					  "Decimation'), or cut it into pieces.";
+		return what + ": simplify the mesh first "
+					  "('Simplification: Quadric Edge Collapse Decimation'), or cut it into "
+					  "pieces.";
 	case Error::Crossings:
 	case Error::OverlayMemory:
-		return what + ": divide long triangles and large fans first ('Remeshing: Isotropic "
-					  "Explicit Remeshing').";
+		return what + ": divide long triangles and large fans first "
+					  "('Remeshing: Isotropic Explicit Remeshing').";
 	}
 	return what + ".";
 }

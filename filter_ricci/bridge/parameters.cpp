@@ -290,8 +290,7 @@ RichParameterList euclideanParameters()
 		methodChoices(),
 		"Method",
 		"If a triangle breaks, <b>intrinsic flips</b> or the paper's <b>edge swaps</b> give the "
-		"flow "
-		"others, and <b>fixed triangles</b> end with an error; the mesh is never changed. "
+		"flow others, and <b>fixed triangles</b> end with an error; the mesh is never changed. "
 		"<b>Thurston</b>: the conventional flow on the mesh's triangles, to compare with."));
 	list.addParam(host::advanced<RichEnum>(
 		"finish",
@@ -417,8 +416,7 @@ Settings readSettings(const RichParameterList& par)
 	settings.sphereLayer = par.getBool("sphere_layer");
 	if (!settings.texture.file.trimmed().isEmpty() && !settings.flow.normalizeUV)
 		throw Refusal("{carry_texture} draws on the unit square: choose {normalize_uv}, or leave "
-					  "{carry_texture} "
-					  "empty.");
+					  "{carry_texture} empty.");
 	ricci::checkOptions(settings.flow);
 	ricci::checkChartMargin(settings.flow.chartMargin);
 	return settings;

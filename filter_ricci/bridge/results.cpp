@@ -294,6 +294,14 @@ std::vector<std::string> doubts(int filter, const Results& results, const RichPa
 	const bool isAutomatic = is("target_curvature", 0);
 	const double areas = valueOf<double>(results, "area_distortion_mean");
 	const double occupancy = valueOf<double>(results, "occupancy");
+	const int overlapping = valueOf<int>(results, "overlapping_faces");
+	if (overlapping > 0 &&
+		(is("target_curvature", static_cast<int>(ricci::TargetCurvature::Disk)) ||
+		 is("target_curvature", static_cast<int>(ricci::TargetCurvature::Rectangle))))
+		lines.push_back(
+			"The use of this map is doubtful: " + std::to_string(overlapping) +
+			" faces lie on each other. 'Disk' and 'Rectangle' give one chart, which is not cut: "
+			"'Automatic' cuts it.");
 	if (areas > kDoubtfulAreas)
 		lines.push_back(
 			"The use of this map is doubtful: areas change by a factor of " +

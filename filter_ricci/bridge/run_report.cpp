@@ -242,18 +242,18 @@ const char* const kStyle =
 	"body{font:15px/1.45 system-ui,sans-serif;max-width:1180px;margin:2em auto;padding:0 1em;"
 	"color:#222;background:#fff}\n"
 	"h1{font-size:1.5em}h2{font-size:1.1em;margin:1.6em 0 .3em}\n"
-	".all{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(480px,100%),1fr));gap:0 "
-	"2em}\n"
+	".all{display:grid;gap:0 2em;"
+	"grid-template-columns:repeat(auto-fit,minmax(min(480px,100%),1fr))}\n"
 	".all>*{min-width:0}\n"
-	"section>p{margin:0}svg{width:100%;height:auto;font:12px "
-	"system-ui,sans-serif}svg.charts{font-size:9px}\n"
+	"section>p{margin:0}svg{width:100%;height:auto;font:12px system-ui,sans-serif}\n"
+	"svg.charts{font-size:9px}\n"
 	".bar{fill:#3b6ea5}.line{fill:none;stroke:#b5462f;stroke-width:1.5}.dot{fill:#b5462f}\n"
 	".axis{stroke:#222}.grid{stroke:#ddd}\n"
 	".frame{fill:none;stroke:#ddd}.outline{fill:none;stroke:#222;stroke-width:.5}\n"
 	"table{border-collapse:collapse}td,th{padding:.15em 1em .15em 0;text-align:left;"
 	"border-bottom:1px solid #e4e4e4;font-variant-numeric:tabular-nums;vertical-align:top}\n"
-	"td:first-child{min-width:13em}td:last-child{overflow-wrap:anywhere}code{font-size:12px;color:#"
-	"666}\n";
+	"td:first-child{min-width:13em}td:last-child{overflow-wrap:anywhere}\n"
+	"code{font-size:12px;color:#666}\n";
 
 std::string tableRow(const ReportLine& line)
 {
@@ -336,8 +336,8 @@ std::string toHtml(const RunReport& report)
 		page << "<p>" << escaped(note) << "</p>\n";
 	page << "<div class=\"all\">\n<section>\n<h2>Charts</h2>\n"
 		 << chartsPicture(report.map.mesh)
-		 << "<p>The colour is the scale: the share of a face's area in the plane over its share in "
-			"space.</p>\n</section>\n<div>\n<section>\n"
+		 << "<p>The colour is the scale: the share of a face's area in the plane over its share "
+		 << "in space.</p>\n</section>\n<div>\n<section>\n"
 		 << "<h2>Quasi-conformal distortion of the vertices</h2>\n"
 		 << histogramPicture(
 				qc, "&sigma;&#8321;/&sigma;&#8322;, mean of the faces at the vertex by area")
@@ -351,13 +351,12 @@ std::string toHtml(const RunReport& report)
 		 << "</section>\n</div>\n<section>\n<h2>Results</h2>\n<table>\n";
 	for (const auto& [key, value] : report.results)
 		page << tableRow({key, resultLabel(key), text(value)});
-	page
-		<< "</table>\n</section>\n<div>\n<section>\n<h2>Largest curvature error before each Newton "
-		   "step</h2>\n"
-		<< residualPicture(data)
-		<< "<p>max |K&#772; &minus; K| in radians; a line for each solve of each component"
-		<< (statesByComponent(data).size() > kMaxLines ? ", the first 20" : "")
-		<< ".</p>\n</section>\n<section>\n<h2>Parameters</h2>\n<table>\n";
+	page << "</table>\n</section>\n<div>\n<section>\n"
+		 << "<h2>Largest curvature error before each Newton step</h2>\n"
+		 << residualPicture(data)
+		 << "<p>max |K&#772; &minus; K| in radians; a line for each solve of each component"
+		 << (statesByComponent(data).size() > kMaxLines ? ", the first 20" : "")
+		 << ".</p>\n</section>\n<section>\n<h2>Parameters</h2>\n<table>\n";
 	for (const ReportLine& line : report.settings)
 		page << tableRow(line);
 	page << "</table>\n</section>\n</div>\n</div>\n</body>\n</html>\n";

@@ -121,7 +121,7 @@ def results_module(both):
     return "".join(lines)
 
 
-TYPES = {"bool": "bool", "int": "int", "float": "float", "vector": "Array"}
+TYPES = {"bool": "bool", "int": "int", "float": "float", "vector": "Floats"}
 
 STUB = LICENCE + '''\
 """Conformal parametrization of triangle meshes by the discrete Ricci flow, in PyMeshLab."""
@@ -134,7 +134,9 @@ import numpy.typing
 import pymeshlab
 from pymeshlab import Mesh as Mesh
 
-Array = numpy.ndarray[Any, Any]
+Floats = numpy.typing.NDArray[numpy.float64]
+Integers = numpy.typing.NDArray[numpy.int32]
+Complex = numpy.typing.NDArray[numpy.complex128]
 
 class HasVerticesAndFaces(Protocol):
     vertices: Any
@@ -155,25 +157,25 @@ class Refused(pymeshlab.PyMeshLabException):
 PARAMETRIZATION = '''class Layer(NamedTuple):
     """A new layer: vertices (V, 3) float64, and what joins them."""
 
-    vertices: Array
-    faces: Array
-    edges: Array
+    vertices: Floats
+    faces: Integers
+    edges: Integers
 
 class Parametrization:
     """A mesh and its texture coordinates. It can be pickled and copied, but for images of
     textures."""
 
-    vertices: Array
+    vertices: Floats
     """(V, 3) float64"""
-    faces: Array
+    faces: Integers
     """(F, 3) int32, indices of vertices"""
-    uv: Array
+    uv: Floats
     """(F, 3, 2) float64, texture coordinates of each corner of each face, as floats have them"""
-    quality: Array
+    quality: Floats
     """(V,) float64, quasi-conformal distortion sigma1/sigma2 at the vertices; 1: angles kept"""
-    log_radius: Array
+    log_radius: Floats
     """(V,) float64, logarithms of the radii of the flow's circles, up to a constant"""
-    target_curvature: Array
+    target_curvature: Floats
     """(V,) float64, the Gaussian curvature that the flow reached, in radians"""
     @property
     def layers(self) -> dict[str, Layer]:
@@ -183,7 +185,7 @@ class Parametrization:
         """holds the mesh, and the new layers if some were asked for"""
     results: dict[str, Any]
     """what the filter returned; each result is an attribute too"""
-    def indexed(self) -> tuple[Array, Array]:
+    def indexed(self) -> tuple[Floats, numpy.typing.NDArray[numpy.intp]]:
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes the mesh with its texture coordinates: to PLY, with the quality too, OBJ, or with
@@ -195,8 +197,9 @@ class Parametrization:
 def attributes(keys):
     lines = []
     for key, (kind, meaning) in keys.items():
-        lines.append(f"    {key}: {TYPES[kind]}")
-        if key in ("generators", "generators_low"):
+        matrices = key in ("generators", "generators_low")
+        lines.append(f"    {key}: {'Complex' if matrices else TYPES[kind]}")
+        if matrices:
             meaning += "; here (n, 2, 2) complex128, the matrices of the isometries"
         lines.append(wrapped(f'{meaning}"""', "    ", '    """', PYTHON_WIDTH))
     return "\n".join(lines) + "\n"
@@ -223,7 +226,7 @@ def stub(both):
            "    progress: Union[bool, Callable[[float, str], object], None] = None,\n")
     parts = [STUB, PARAMETRIZATION,
              "class Flattening(Parametrization):\n", attributes(both[0]),
-             "\nclass Uniformization(Parametrization):\n    disk: Array\n"
+             "\nclass Uniformization(Parametrization):\n    disk: Complex\n"
              '    """(F, 3) complex128: the corners of the faces in the Poincaré disk, |z| < 1"""\n',
              attributes({**both[0], **both[1]}),
              "\nclass MeshSet(pymeshlab.MeshSet):\n"]

@@ -285,6 +285,22 @@ class Batch(unittest.TestCase):
                 self.assertLessEqual(len(done.stderr.splitlines()), 2, done.stderr)
                 self.assertNotIn("Traceback", done.stderr)
 
+    def test_a_folder_that_cannot_be_written(self):
+        """Root may write everywhere but on a medium that nobody may write: os.access() knows."""
+        self.write("hill.ply", meshes.hill())
+        os.makedirs(self.out, exist_ok=True)
+        for mesh, out in ((self.meshes, self.out),
+                          (os.path.join(self.meshes, "hill.ply"), os.path.join(self.out, "a.ply"))):
+            done = subprocess.run(
+                [sys.executable, "-c", "import os, sys\n"
+                 "from pymeshlab_ricci.__main__ import main\n"
+                 "os.access = lambda place, mode: mode != os.W_OK\n"
+                 "sys.exit(main(sys.argv[1:]))", mesh, out],
+                capture_output=True, text=True, env={**os.environ, "PYTHONPATH": PACKAGE})
+            self.assertEqual((done.returncode, done.stderr),
+                             (1, f"{self.out}: the folder cannot be written\n"))
+            self.assertEqual(os.listdir(self.out), [])
+
     def test_interrupted(self):
         names = self.write_tori()
         process = self.start("--workers", "2")

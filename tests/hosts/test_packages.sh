@@ -116,10 +116,13 @@ check_deb() {
 	for wanted in 'meshlab (>= 2020.09)' 'meshlab (<< 2020.10)' libqt5widgets5 libstdc++6; do
 		grep -qF "$wanted" "$folder/depends" || fail "the .deb does not depend on $wanted"
 	done
+	dpkg-deb -f "$1" Description | grep -q 'Flattens triangle meshes' || fail "the .deb does not say what it is"
 	dpkg-deb -c "$1" >"$folder/content"
 	grep -q '/usr/lib/[^/]*/meshlab/plugins/libfilter_ricci.so$' "$folder/content" || fail "the .deb has no plugin"
-	dpkg-deb --fsys-tarfile "$1" | tar -xO "./usr/share/doc/$name/copyright" >"$folder/copyright" ||
-		fail "the .deb has no copyright file"
+	for wanted in CHANGELOG.md README.md copyright; do
+		grep -q "/usr/share/doc/$name/$wanted\$" "$folder/content" || fail "the .deb has no $wanted"
+	done
+	dpkg-deb --fsys-tarfile "$1" | tar -xO "./usr/share/doc/$name/copyright" >"$folder/copyright"
 	for wanted in 'Copyright: .*generalized_ricci_flow authors' 'Copyright: .*Eigen' 'Comment: vcglib' 'GPL-3+' 'MPL-2.0'; do
 		grep -q "$wanted" "$folder/copyright" || fail "the copyright file does not name $wanted"
 	done

@@ -310,6 +310,10 @@ class Functions(unittest.TestCase):
         good = arrays(meshes.hill())
         with self.assertRaisesRegex(pymeshlab_ricci.Refused, "^'Flat everywhere' needs"):
             flatten(good, target_curvature="Flat everywhere")
+        with self.assertRaisesRegex(pymeshlab_ricci.Refused, "^The mesh is a point cloud"):
+            flatten(pymeshlab.Mesh(good[0]))
+        with self.assertRaisesRegex(ValueError, "holds no mesh"):
+            flatten(pymeshlab.MeshSet(), selected=[0])
         for mistakes in ([0.5], [-1], [len(good[0])]):
             with self.assertRaisesRegex(ValueError, "^selected must hold indices"):
                 flatten(good, selected=mistakes)

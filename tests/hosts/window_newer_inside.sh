@@ -46,7 +46,7 @@ redraw_texture() {
 		xdotool click 5
 		sleep 0.3
 	done
-	xdotool mousemove $((X + 262)) $((Y + 193)) click 1
+	xdotool mousemove $((X + 262)) $((Y + 265)) click 1
 	xdotool type --delay 40 "$PWD/redrawn.png"
 	sleep 1
 	press_apply "$name"

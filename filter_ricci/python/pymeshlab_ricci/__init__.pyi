@@ -10,7 +10,9 @@ import numpy.typing
 import pymeshlab
 from pymeshlab import Mesh as Mesh
 
-Array = numpy.ndarray[Any, Any]
+Floats = numpy.typing.NDArray[numpy.float64]
+Integers = numpy.typing.NDArray[numpy.int32]
+Complex = numpy.typing.NDArray[numpy.complex128]
 
 class HasVerticesAndFaces(Protocol):
     vertices: Any
@@ -29,25 +31,25 @@ class Refused(pymeshlab.PyMeshLabException):
 class Layer(NamedTuple):
     """A new layer: vertices (V, 3) float64, and what joins them."""
 
-    vertices: Array
-    faces: Array
-    edges: Array
+    vertices: Floats
+    faces: Integers
+    edges: Integers
 
 class Parametrization:
     """A mesh and its texture coordinates. It can be pickled and copied, but for images of
     textures."""
 
-    vertices: Array
+    vertices: Floats
     """(V, 3) float64"""
-    faces: Array
+    faces: Integers
     """(F, 3) int32, indices of vertices"""
-    uv: Array
+    uv: Floats
     """(F, 3, 2) float64, texture coordinates of each corner of each face, as floats have them"""
-    quality: Array
+    quality: Floats
     """(V,) float64, quasi-conformal distortion sigma1/sigma2 at the vertices; 1: angles kept"""
-    log_radius: Array
+    log_radius: Floats
     """(V,) float64, logarithms of the radii of the flow's circles, up to a constant"""
-    target_curvature: Array
+    target_curvature: Floats
     """(V,) float64, the Gaussian curvature that the flow reached, in radians"""
     @property
     def layers(self) -> dict[str, Layer]:
@@ -57,7 +59,7 @@ class Parametrization:
         """holds the mesh, and the new layers if some were asked for"""
     results: dict[str, Any]
     """what the filter returned; each result is an attribute too"""
-    def indexed(self) -> tuple[Array, Array]:
+    def indexed(self) -> tuple[Floats, numpy.typing.NDArray[numpy.intp]]:
         """Texture vertices (T, 2) and their indices at the corners of the faces (F, 3)."""
     def save(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes the mesh with its texture coordinates: to PLY, with the quality too, OBJ, or with
@@ -106,10 +108,10 @@ class Flattening(Parametrization):
     expected_spread: float
     """Euclidean filter, where cones are placed or declined: the area_distortion_spread that the
     linear problem predicts"""
-    cone_vertices: Array
+    cone_vertices: Floats
     """Euclidean filter: the vertices at which cones were placed, and their curvatures in
     radians"""
-    cone_curvatures: Array
+    cone_curvatures: Floats
     """Euclidean filter: the vertices at which cones were placed, and their curvatures in
     radians"""
     boundary_ratio_min: float
@@ -205,7 +207,7 @@ class Flattening(Parametrization):
     holonomy_error: float
     """with cone_rounding 1, but for Edge swaps: the largest distance of the rotation across a
     seam from a multiple of π/2, in radians"""
-    period_matrix: Array
+    period_matrix: Floats
     """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
     matrix, g × g, row by row; it is that of the mesh's own flat faces, and no target changes
     it"""
@@ -223,7 +225,7 @@ class Flattening(Parametrization):
     """of the sphere layer, if it was asked for"""
 
 class Uniformization(Parametrization):
-    disk: Array
+    disk: Complex
     """(F, 3) complex128: the corners of the faces in the Poincaré disk, |z| < 1"""
     converged: bool
     """always true; anything else is an error"""
@@ -267,10 +269,10 @@ class Uniformization(Parametrization):
     expected_spread: float
     """Euclidean filter, where cones are placed or declined: the area_distortion_spread that the
     linear problem predicts"""
-    cone_vertices: Array
+    cone_vertices: Floats
     """Euclidean filter: the vertices at which cones were placed, and their curvatures in
     radians"""
-    cone_curvatures: Array
+    cone_curvatures: Floats
     """Euclidean filter: the vertices at which cones were placed, and their curvatures in
     radians"""
     boundary_ratio_min: float
@@ -366,7 +368,7 @@ class Uniformization(Parametrization):
     holonomy_error: float
     """with cone_rounding 1, but for Edge swaps: the largest distance of the rotation across a
     seam from a multiple of π/2, in radians"""
-    period_matrix: Array
+    period_matrix: Floats
     """one closed component of genus g from 1 to 10: Re, Im of the entries of its Riemann period
     matrix, g × g, row by row; it is that of the mesh's own flat faces, and no target changes
     it"""
@@ -389,12 +391,12 @@ class Uniformization(Parametrization):
     by which the isometries between neighbouring copies miss a vertex of the seam on the way
     round it, seen from that vertex; at cones of angle θ the error of |trace| = 2 |cos(θ/2)|, at
     geodesic boundaries that of their length L in |trace| = 2 cosh(L/2)"""
-    generators: Array
+    generators: Complex
     """with Axes of the generators or Canonical polygon, one component only: Re a, Im a, Re b,
     Im b of the isometries z → (az + b)/(b̄z + ā), |a|² − |b|² = 1: a canonical basis a₁, b₁, …,
     then one isometry for each boundary loop and cone; Π[aᵢ, bᵢ] Π eₖ = ±1; here (n, 2, 2)
     complex128, the matrices of the isometries"""
-    generators_low: Array
+    generators_low: Complex
     """with generators, number by number: what a float cannot hold of it. The sum has 31 digits;
     here (n, 2, 2) complex128, the matrices of the isometries"""
     generators_error: float

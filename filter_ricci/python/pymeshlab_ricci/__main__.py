@@ -9,9 +9,10 @@
 Each mesh is a process of its own: a crash ends that mesh and nothing else. The folder OUT, which may be
 the folder of the meshes, gets for meshes/a/b.off the files a/b.off.ply and a/b.off.json, a/b.off.html
 for --report and a/b.off.png for --carry-texture, and at the end results.csv with a row for each mesh and
-failures.txt with the meshes without a result. An OUT that is a file is replaced, even if it is IN. A run that was interrupted goes on where it stopped; a mesh runs again
-where mesh, parameters or plugin have changed. With a cluster, this package and both folders have
-to be on every machine, the folders at the same path.
+failures.txt with the meshes without a result. An OUT that is a file is replaced, even if it is IN. A run
+that was interrupted goes on where it stopped; a mesh runs again where mesh, parameters or plugin have
+changed. With a cluster, this package and both folders have to be on every machine, the folders at the
+same path.
 
 Layers (--flat-layer and others) are files beside OUT: scan.flat.ply.
 
@@ -20,6 +21,7 @@ Exit: 0 the mesh is solved (in a folder: or refused, each of them), 1 it is not,
 """
 
 import argparse
+import errno
 import importlib.util
 import os
 import re
@@ -150,7 +152,14 @@ def progress(count, quiet):
     return Lines(count, quiet)
 
 
+def check_writable(place):
+    """So that the sentence names this folder, not a file of ours that it would get."""
+    if os.path.isdir(place) and not os.access(place, os.W_OK):
+        raise PermissionError(errno.EACCES, "the folder cannot be written", place)
+
+
 def one_mesh(options):
+    check_writable(os.path.dirname(os.path.abspath(options.out)))
     job = make_job(options, options.mesh, os.path.basename(options.mesh), options.out)
     with _batch.here(1) as run:
         record, = run([job])
@@ -176,6 +185,7 @@ def folder(parser, options):
             parser.error(f"The result of {name} would replace the mesh {targets[name]}: choose "
                          "another OUT.")
     os.makedirs(out, exist_ok=True)
+    check_writable(out)
     common = _batch.fingerprint(options.hyperbolic, options.format, options.parameters)
     marks = {name: _batch.mark_of(os.path.join(source, name), common) for name in names}
     jobs = [make_job(options, os.path.join(source, name), name, targets[name],
@@ -183,8 +193,8 @@ def folder(parser, options):
             for name in names if not _batch.is_done(
                 _batch.read_record(_batch.record_path(out, name)), marks[name], options.retry)]
     if not options.quiet:
-        print(f"{len(names)} meshes, {len(names) - len(jobs)} done before, {len(jobs)} to run",
-              flush=True)
+        print(f"{len(names)} {'mesh' if len(names) == 1 else 'meshes'}, {len(names) - len(jobs)} done "
+              f"before, {len(jobs)} to run", flush=True)
     shown = progress(len(jobs), options.quiet)
     interrupted = False
     try:
@@ -232,8 +242,7 @@ def main(arguments=None):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
     except OSError as problem:
-        print(f"{problem.filename}: {problem.strerror}" if problem.filename else problem,
-              file=sys.stderr)
+        print(_batch.in_words(problem), file=sys.stderr)
         return 1
 
 

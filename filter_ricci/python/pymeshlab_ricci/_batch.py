@@ -94,6 +94,12 @@ def clear(job):
             os.remove(os.path.join(folder, file))
 
 
+def in_words(problem):
+    """What an error says; one of the system names its file first."""
+    named = isinstance(problem, OSError) and problem.filename
+    return f"{problem.filename}: {problem.strerror}" if named else str(problem)
+
+
 def is_done(record, mark, retry):
     if record.get("fingerprint") != mark:
         return False

@@ -264,6 +264,15 @@ def _mesh_set(mesh, faces):
     return new
 
 
+def _require_faces(mesh_set):
+    """The host has words of its own for these, which name no remedy."""
+    if not mesh_set.mesh_number():
+        raise ValueError("The MeshSet holds no mesh: load one first")
+    if not mesh_set.current_mesh().face_number():
+        raise Refused("The mesh is a point cloud: it has vertices but no faces. Reconstruct a surface "
+                      "first.")
+
+
 def _per_vertex(mesh_set, name, values):
     """The name of a new attribute with the values: PyMeshLab cannot change those that are there."""
     mesh = mesh_set.current_mesh()
@@ -297,6 +306,7 @@ def _solve(function, mesh, faces, selected, curvature, progress, parameters):
     kind, description = _KINDS[function]
     parameters = checked(function, description, parameters)
     mesh_set = _mesh_set(mesh, faces)
+    _require_faces(mesh_set)
     before = [layer.id() for layer in mesh_set]
     if selected is not None:
         attribute = _per_vertex(mesh_set, "selected", _mask(mesh_set, selected))
@@ -334,8 +344,10 @@ _INPUT = """
 mesh : a path; vertices and then faces, or both as a pair; an object that has them, such as one of
     trimesh; a pymeshlab.Mesh; or a MeshSet, whose current mesh gets the texture coordinates
 faces : indices of vertices, three of each face, where `mesh` is the vertices
-selected : indices of vertices, or a truth value for each: the cones, or the corners of a rectangle
-curvature : target curvature of each vertex, in radians
+selected : indices of vertices, or a truth value for each: the cones, or the corners of a rectangle;
+    target_curvature then is 'Cones at selected vertices', unless it is given
+curvature : target curvature of each vertex, in radians; target_curvature then is 'From vertex
+    quality', unless it is given
 progress : True for a bar (of tqdm, where it is installed), or a function that is called with the
     share of the work that is done and the name of the step; what it raises ends the run, as Ctrl-C
     does, and the mesh stays as it is

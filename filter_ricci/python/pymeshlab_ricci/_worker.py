@@ -8,7 +8,7 @@ import sys
 
 import numpy
 
-from ._batch import partial_folder
+from ._batch import in_words, partial_folder
 from ._parametrize import Refused, flatten, kind_of, load, uniformize
 
 
@@ -72,7 +72,7 @@ def main():
         except Refused as refusal:
             answer.update(state="refused", reason=" ".join(str(refusal).split()))
         except (OSError, ValueError, ImportError) as problem:
-            answer.update(state="failed", reason=str(problem))
+            answer.update(state="failed", reason=in_words(problem))
     answer["files"] += written_by_filter(job["parameters"])
     print("\n" + json.dumps(answer), flush=True)
 

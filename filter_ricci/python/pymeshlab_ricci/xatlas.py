@@ -5,10 +5,10 @@
     vmapping, indices, uvs = xatlas.parametrize(positions, indices)
 """
 
-from typing import Any, Union
+from typing import Union
 
 import numpy
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import flatten
 
@@ -20,7 +20,7 @@ def parametrize(
     indices: ArrayLike,
     normals: Union[ArrayLike, None] = None,
     uvs: Union[ArrayLike, None] = None,
-) -> "tuple[numpy.ndarray[Any, Any], numpy.ndarray[Any, Any], numpy.ndarray[Any, Any]]":
+) -> "tuple[NDArray[numpy.uint32], NDArray[numpy.uint32], NDArray[numpy.float32]]":
     """New vertices of a mesh, so that each has one place in the texture: for each of them the vertex
     that it was (N,) uint32, the faces in their order (F, 3) uint32, and texture coordinates in [0, 1]
     (N, 2) float32. Vertices without a face are left out. `normals` and `uvs`, hints for xatlas, are
