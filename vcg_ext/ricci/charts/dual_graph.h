@@ -10,7 +10,7 @@
 
 namespace ricci {
 
-/// The dual graph of a chart that falls into parts: triangles with joined sides are neighbours. An edge
+/// The dual graph of charts that fall into parts: triangles with joined sides are neighbours. An edge
 /// weighs what it costs to cut it: its length.
 class DualGraph
 {
@@ -32,7 +32,7 @@ public:
 		return other.isValid() && part[other.face()] == part[side.face()] ? other : Corner();
 	}
 
-	/// In units of 1e-9 of the chart's longest edge, at least 1.
+	/// In units of 1e-9 of the longest edge, at least 1.
 	std::int64_t weight(Corner side) const
 	{
 		constexpr double kUnits = 1e9;
@@ -44,9 +44,16 @@ public:
 	/// The connected pieces of all parts: the triangles of each, in increasing order.
 	std::vector<std::vector<int>> connectedPieces() const
 	{
+		return connectedPieces(part.indices());
+	}
+
+	/// Those that have some of these triangles.
+	template<class Triangles>
+	std::vector<std::vector<int>> connectedPieces(const Triangles& triangles) const
+	{
 		Array<char> isDone(part.size(), 0);
 		std::vector<std::vector<int>> pieces;
-		for (const int first : part.indices()) {
+		for (const int first : triangles) {
 			if (isDone[first])
 				continue;
 			isDone[first] = 1;

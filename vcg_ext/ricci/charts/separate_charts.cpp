@@ -29,9 +29,9 @@ void settle(const std::vector<int>& charts, bool turns, const Sides& sides, Para
 {
 	FlatMesh& mesh = map.mesh;
 	splitPoints(sides, mesh);
-	const Parts triangles = mesh.trianglesByChart(map.charts.size());
+	const std::vector<std::vector<int>> pointsOf = mesh.pointsByChart(map.charts.size());
 	for (const int chart : charts) {
-		const std::vector<int> points = mesh.pointsOf(triangles[positionOf(chart)]);
+		const std::vector<int>& points = pointsOf[positionOf(chart)];
 		std::vector<Point2> places;
 		Box2 box;
 		for (const int p : points) {
@@ -75,25 +75,29 @@ void setApart(Parametrization& map)
 			map.mesh.place[p] += shifts[positionOf(chart[p])];
 }
 
-/// A chart in two parts, and how long the cut between them is on the surface.
+/// A chart in parts, and how long the cuts between them are on the surface.
 struct Halves
 {
-	DualGraph graph;
+	Parts pieces;
 	double length = 0.0;
 };
 
 /// The least cut across the middle fifth of a chart's smallest bounding rectangle. What is smaller than
 /// kCrumb of the chart goes to the other part.
+/// \param triangles of the chart
 /// \return none where such a crumb is left, or nothing is cut
-std::optional<Halves> halves(const FlatMesh& chart, const OrientedRectangle& r, const Sides& sides)
+std::optional<Halves> halves(
+	const FlatMesh& mesh,
+	const Sides& sides,
+	const std::vector<int>& triangles,
+	const OrientedRectangle& r)
 {
-	Halves cut{{chart, sides}};
-	DualGraph& graph = cut.graph;
+	DualGraph graph(mesh, sides);
 	// A triangle that reaches across the middle may go to either part.
 	std::vector<int> left, right;
-	for (const int i : chart.points.indices()) {
+	for (const int i : triangles) {
 		double first = 1.0, last = 0.0; // along the rectangle
-		for (const Point2& p : chart.at(i)) {
+		for (const Point2& p : mesh.at(i)) {
 			const double along = (r.inFrame(p)[0] - r.min[0]) / r.width();
 			first = std::min(first, along);
 			last = std::max(last, along);
@@ -104,45 +108,47 @@ std::optional<Halves> halves(const FlatMesh& chart, const OrientedRectangle& r, 
 			right.push_back(i);
 	}
 	graph.part = leastCut(graph, left, right);
-	const auto areaOf = [&](const auto& triangles) {
+	const auto areaOf = [&](const std::vector<int>& piece) {
 		double area = 0.0;
-		for (const int i : triangles)
-			area += euclideanArea(chart.lengths[i]);
+		for (const int i : piece)
+			area += euclideanArea(mesh.lengths[i]);
 		return area;
 	};
-	const double crumb = kCrumb * areaOf(chart.points.indices());
-	for (const std::vector<int>& piece : graph.connectedPieces())
-		if (areaOf(piece) < crumb)
+	Halves cut{graph.connectedPieces(triangles)};
+	const double crumb = kCrumb * areaOf(triangles);
+	bool hasCrumbs = false;
+	for (const std::vector<int>& piece : cut.pieces)
+		if (areaOf(piece) < crumb) {
+			hasCrumbs = true;
 			for (const int i : piece)
 				graph.part[i] = 1 - graph.part[i];
-	const Parts pieces = graph.connectedPieces();
-	if (pieces.size() < 2 || std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
-			return areaOf(piece) < crumb;
-		}))
+		}
+	if (hasCrumbs)
+		cut.pieces = graph.connectedPieces(triangles);
+	if (cut.pieces.size() < 2 ||
+		(hasCrumbs && std::any_of(cut.pieces.begin(), cut.pieces.end(), [&](const auto& piece) {
+			 return areaOf(piece) < crumb;
+		 })))
 		return std::nullopt;
-	for (const int f : chart.points.indices())
+	for (const int f : triangles)
 		for (const Corner own : cornersOf(f))
 			if (const Corner other = graph.joined(own);
 				other.isValid() && graph.part[other.face()] != graph.part[f])
-				cut.length += 0.5 * chart.lengths[own];
+				cut.length += 0.5 * mesh.lengths[own];
 	return cut;
 }
 
-/// Puts the connected pieces of the parts of a chart in its place, the first where it was, the others
-/// last.
-/// \param triangles of the chart \p number of \p map
-/// \param graph of that chart
+/// Puts pieces of the chart \p number in its place, the first where it was, the others last.
 /// \return the numbers of the pieces, which settle() has to be called for
-std::vector<int>
-divide(int number, const std::vector<int>& triangles, const DualGraph& graph, Parametrization& map)
+std::vector<int> divide(int number, const Parts& pieces, Parametrization& map)
 {
 	std::vector<int> charts;
-	for (const std::vector<int>& piece : graph.connectedPieces()) {
+	for (const std::vector<int>& piece : pieces) {
 		charts.push_back(charts.empty() ? number : static_cast<int>(map.charts.size()));
 		if (charts.size() > 1)
 			map.charts.emplace_back();
 		for (const int i : piece)
-			map.mesh.chart[triangles[positionOf(i)]] = charts.back();
+			map.mesh.chart[i] = charts.back();
 	}
 	map.charts[positionOf(number)] = {};
 	map.report.charts = static_cast<int>(map.charts.size());
@@ -245,12 +251,13 @@ cutForRoom(const Parametrization& map, const Sides& allSides, bool turns)
 		OrientedRectangle rectangle;
 	};
 	const Parts byChart = map.mesh.trianglesByChart(map.charts.size());
+	const std::vector<std::vector<int>> pointsOf = map.mesh.pointsByChart(byChart.size());
 	std::vector<Wide> byRoom;
 	double total = 0.0, onSurface = 0.0; // areas
 	for (std::size_t c = 0; c < byChart.size(); ++c) {
 		std::vector<Point2> places;
 		double area = 0.0;
-		for (const int p : map.mesh.pointsOf(byChart[c]))
+		for (const int p : pointsOf[c])
 			places.push_back(map.mesh.place[p]);
 		for (const int f : byChart[c]) {
 			const Triangle2 p = map.mesh.at(f);
@@ -269,9 +276,7 @@ cutForRoom(const Parametrization& map, const Sides& allSides, bool turns)
 		if (wide.room < kRoomOfChart * square)
 			return std::nullopt;
 		const std::vector<int>& triangles = byChart[wide.chart];
-		const FlatMesh chart = map.mesh.part(triangles);
-		const Sides sides(chart.vertices.values());
-		const std::optional<Halves> cut = halves(chart, wide.rectangle, sides);
+		const std::optional<Halves> cut = halves(map.mesh, allSides, triangles, wide.rectangle);
 		// The square loses all that is beside the chart in a square round it at most.
 		const double width = wide.rectangle.width();
 		const double most = std::log(square / std::max(square - width * width + wide.area, total));
@@ -281,11 +286,7 @@ cutForRoom(const Parametrization& map, const Sides& allSides, bool turns)
 			continue;
 		Parametrization result = map;
 		const Seams before = seams(map.mesh, allSides);
-		settle(
-			divide(static_cast<int>(wide.chart), triangles, cut->graph, result),
-			turns,
-			allSides,
-			result);
+		settle(divide(static_cast<int>(wide.chart), cut->pieces, result), turns, allSides, result);
 		countCuts(before, allSides, result);
 		return result;
 	}
@@ -294,26 +295,23 @@ cutForRoom(const Parametrization& map, const Sides& allSides, bool turns)
 
 bool cutOff(const std::vector<char>& isOff, Parametrization& map)
 {
+	const Sides sides(map.mesh.vertices.values());
+	DualGraph graph(map.mesh, sides);
+	for (const int f : graph.part.indices())
+		graph.part[f] = isOff[positionOf(f)];
+	const Seams before = seams(map.mesh, sides);
 	std::vector<int> divided;
 	const Parts byChart = map.mesh.trianglesByChart(map.charts.size());
 	for (std::size_t c = 0; c < byChart.size(); ++c) {
-		const std::vector<int>& triangles = byChart[c];
 		const auto off = std::count_if(
-			triangles.begin(), triangles.end(), [&](int f) { return isOff[positionOf(f)] != 0; });
-		if (off == 0 || off == static_cast<std::ptrdiff_t>(triangles.size()))
+			byChart[c].begin(), byChart[c].end(), [&](int f) { return graph.part[f] != 0; });
+		if (off == 0 || off == static_cast<std::ptrdiff_t>(byChart[c].size()))
 			continue;
-		const FlatMesh chart = map.mesh.part(triangles);
-		const Sides sides(chart.vertices.values());
-		DualGraph graph(chart, sides);
-		for (const int i : graph.part.indices())
-			graph.part[i] = isOff[positionOf(triangles[positionOf(i)])] != 0 ? 1 : 0;
-		for (const int piece : divide(static_cast<int>(c), triangles, graph, map))
+		for (const int piece : divide(static_cast<int>(c), graph.connectedPieces(byChart[c]), map))
 			divided.push_back(piece);
 	}
 	if (divided.empty())
 		return false;
-	const Sides sides(map.mesh.vertices.values());
-	const Seams before = seams(map.mesh, sides);
 	settle(divided, false, sides, map);
 	countCuts(before, sides, map);
 	return true;

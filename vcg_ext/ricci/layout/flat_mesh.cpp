@@ -50,14 +50,14 @@ Array<int> FlatMesh::chartOfPoints() const
 	return chartOf;
 }
 
-std::vector<int> FlatMesh::pointsOf(const std::vector<int>& triangles) const
+std::vector<std::vector<int>> FlatMesh::pointsByChart(std::size_t chartCount) const
 {
-	std::vector<int> found;
-	for (const int f : triangles)
-		found.insert(found.end(), points[f].begin(), points[f].end());
-	std::sort(found.begin(), found.end());
-	found.erase(std::unique(found.begin(), found.end()), found.end());
-	return found;
+	std::vector<std::vector<int>> byChart(chartCount);
+	const Array<int> chartOf = chartOfPoints();
+	for (const int p : chartOf.indices())
+		if (chartOf[p] >= 0)
+			byChart[positionOf(chartOf[p])].push_back(p);
+	return byChart;
 }
 
 std::vector<std::vector<int>> FlatMesh::trianglesByChart(std::size_t chartCount) const
@@ -72,7 +72,11 @@ std::vector<std::vector<int>> FlatMesh::trianglesByChart(std::size_t chartCount)
 FlatMesh FlatMesh::part(const std::vector<int>& triangles) const
 {
 	FlatMesh part;
-	const std::vector<int> known = pointsOf(triangles);
+	std::vector<int> known; // points, in increasing order
+	for (const int f : triangles)
+		known.insert(known.end(), points[f].begin(), points[f].end());
+	std::sort(known.begin(), known.end());
+	known.erase(std::unique(known.begin(), known.end()), known.end());
 	for (const int p : known)
 		part.place.push_back(place[p]);
 	for (const int f : triangles) {

@@ -47,8 +47,8 @@ struct FlatMesh
 	Array<Triangle2> corners() const;
 	/// [point]
 	Array<int> chartOfPoints() const;
-	/// The points of some triangles, in increasing order.
-	std::vector<int> pointsOf(const std::vector<int>& triangles) const;
+	/// [chart] its points, in increasing order.
+	std::vector<std::vector<int>> pointsByChart(std::size_t chartCount) const;
 	/// [chart] its triangles, in increasing order; those of no chart are left out.
 	std::vector<std::vector<int>> trianglesByChart(std::size_t chartCount) const;
 	/// Some triangles as one chart by itself. Vertices keep their numbers, and the part has no sources.
