@@ -118,7 +118,11 @@ TEST(FinishInFloats, MendsTrianglesThatAreChartsOfTheirOwn)
 	const Slivers slivers(0.9);
 	for (const bool normalize : {false, true}) {
 		Parametrization packed = slivers.map;
-		packCharts(packed, {normalize, 0.0, inAColumn(0.0)}, ChartTurns::None);
+		packCharts(
+			packed,
+			Sides(packed.mesh.vertices.values()),
+			{normalize, 0.0, inAColumn(0.0)},
+			ChartTurns::None);
 		ASSERT_EQ(flippedInFloats(packed), kSlivers);
 		finish(packed);
 		EXPECT_EQ(flippedInFloats(packed), 0);
@@ -133,7 +137,8 @@ TEST(FinishInFloats, GivesChartsTheRoomThatTheyNeed)
 {
 	const Slivers slivers(0.9);
 	Parametrization tight = slivers.map;
-	packCharts(tight, {true, 0.0, inAColumn(0.0)}, ChartTurns::None);
+	packCharts(
+		tight, Sides(tight.mesh.vertices.values()), {true, 0.0, inAColumn(0.0)}, ChartTurns::None);
 	for (Chart& chart : tight.charts)
 		chart.box = {};
 	for (const int f : tight.mesh.points.indices())
@@ -145,7 +150,11 @@ TEST(FinishInFloats, GivesChartsTheRoomThatTheyNeed)
 	int packings = 0;
 	const auto packAgain = [&] {
 		EXPECT_EQ(flippedInFloats(tight), 0);
-		packCharts(tight, {true, 0.0, inAColumn(0.0)}, ChartTurns::None);
+		packCharts(
+			tight,
+			Sides(tight.mesh.vertices.values()),
+			{true, 0.0, inAColumn(0.0)},
+			ChartTurns::None);
 		++packings;
 	};
 	finish(tight, packAgain);
@@ -159,7 +168,11 @@ TEST(FinishInFloats, MendsChartsWhoseBoxesEndBetweenFloats)
 	const Slivers slivers(0.001);
 	for (const double x : {8.01, 8.02, 8.03, 8.04}) {
 		Parametrization packed = slivers.map;
-		packCharts(packed, {false, 0.0, inAColumn(x)}, ChartTurns::None);
+		packCharts(
+			packed,
+			Sides(packed.mesh.vertices.values()),
+			{false, 0.0, inAColumn(x)},
+			ChartTurns::None);
 		ASSERT_EQ(flippedInFloats(packed), kSlivers);
 		finish(packed);
 		EXPECT_EQ(flippedInFloats(packed), 0);

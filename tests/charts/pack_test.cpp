@@ -55,13 +55,14 @@ void packCharts(
 	const PlaceBoxes& placeBoxes,
 	ChartTurns turns = ChartTurns::None)
 {
-	ricci::packCharts(map, {normalize, margin, placeBoxes}, turns);
+	ricci::packCharts(
+		map, Sides(map.mesh.vertices.values()), {normalize, margin, placeBoxes}, turns);
 }
 
 void packForRoom(
 	Parametrization& map, double margin, const PlaceBoxes& placeBoxes, ChartTurns turns)
 {
-	ricci::packForRoom(map, {true, margin, placeBoxes}, turns);
+	ricci::packForRoom(map, Sides(map.mesh.vertices.values()), {true, margin, placeBoxes}, turns);
 }
 
 /// In one row.

@@ -18,7 +18,8 @@ namespace {
 
 bool isSimple(const FlatMesh& chart)
 {
-	return hasSimpleBorder(chart, Sides(chart.vertices.values()));
+	return hasSimpleBorder(
+		chart, Sides(chart.vertices.values()), chart.trianglesByChart(1).front());
 }
 
 /// A ring that goes round by \p turns, with a border that is shifted at random.

@@ -45,7 +45,7 @@ Parametrization squares(const std::vector<Point2>& corners)
 
 std::array<int, 2> facesAndCharts(Parametrization map)
 {
-	countOverlaps(map);
+	countOverlaps(Sides(map.mesh.vertices.values()), map);
 	return {map.report.overlappingFaces, map.report.overlappingCharts};
 }
 
@@ -96,7 +96,7 @@ int unequalSeams(double scale)
 				x *= scale;
 	Parametrization map = mapWith(flat);
 	map.charts.resize(2);
-	countUnequalSeams(map);
+	countUnequalSeams(Sides(map.mesh.vertices.values()), map);
 	return map.report.unequalSeams;
 }
 
@@ -111,7 +111,7 @@ TEST(CountUnequalSeams, ComparesTheSidesOfEachEdge)
 TEST(CountUnequalSeams, CountsNoEdgeInsideAndNoBoundary)
 {
 	Parametrization map = mapWith(strip(1.5 * kPi));
-	countUnequalSeams(map);
+	countUnequalSeams(Sides(map.mesh.vertices.values()), map);
 	EXPECT_EQ(map.report.unequalSeams, 0);
 }
 

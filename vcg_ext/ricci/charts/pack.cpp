@@ -156,6 +156,7 @@ void place(const std::vector<Motion>& motions, const std::vector<Box2>& boxes, P
 struct OutlineTask
 {
 	const FlatMesh& mesh;
+	const Sides& sides;                             ///< of its triangles
 	const std::vector<std::vector<int>>& triangles; ///< [chart]
 	const std::vector<Box2>& boxes;                 ///< [chart]
 	const std::vector<char>& isThin;                ///< [chart]
@@ -167,7 +168,7 @@ struct OutlineTask
 /// \return without motions where they do not fit into the square of the task
 Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, ChartTurns turns)
 {
-	const auto& [mesh, triangles, boxes, isThin, side, room] = task;
+	const auto& [mesh, sides, triangles, boxes, isThin, side, room] = task;
 	std::vector<std::size_t> order(boxes.size());
 	std::iota(order.begin(), order.end(), std::size_t{0});
 	const auto area = [&boxes = boxes](std::size_t i) {
@@ -186,7 +187,6 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 	}
 	if (large.empty() || areaOfLarge < areaOfSmall)
 		return {};
-	const Sides sides(mesh.vertices.values());
 	std::vector<Outline> outlines;
 	for (const std::size_t i : large) {
 		outlines.push_back(outlineOf(mesh, sides, triangles[i]));
@@ -260,7 +260,8 @@ bool marginsMayFit(std::size_t charts, double margin)
 	return static_cast<double>(charts) * margin * margin <= free * free;
 }
 
-void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns)
+void packCharts(
+	Parametrization& map, const Sides& sides, const PackOptions& options, ChartTurns turns)
 {
 	checkChartMargin(options.chartMargin);
 	std::vector<Box2> boxes = map.mesh.boxes(map.charts.size());
@@ -285,12 +286,13 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 	if (turns != ChartTurns::None && packing.side() > 0.0 &&
 		!(boxes.size() == 1 && isThin.front())) {
 		const double room = std::max(packing.room, kMinOutlineRoom * packing.side());
-		Packing turned = boxes.size() == 1
-							 ? packAlone(map.mesh)
-							 : packByOutlines(
-								   {map.mesh, triangles, boxes, isThin, packing.side(), room},
-								   placeBoxes,
-								   turns);
+		Packing turned =
+			boxes.size() == 1
+				? packAlone(map.mesh)
+				: packByOutlines(
+					  {map.mesh, sides, triangles, boxes, isThin, packing.side(), room},
+					  placeBoxes,
+					  turns);
 		const double share =
 			(1.0 + kMarginSpare) * options.chartMargin; // of the square, on each side
 		turned.room = share / (1.0 - 2.0 * share) * turned.whole.extent();
@@ -307,9 +309,10 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 	map.report.occupancy = coveredArea(map.mesh);
 }
 
-void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns turns)
+void packForRoom(
+	Parametrization& map, const Sides& sides, const PackOptions& options, ChartTurns turns)
 {
-	packCharts(map, options, turns);
+	packCharts(map, sides, options, turns);
 	if (turns == ChartTurns::None)
 		return;
 	double area = 0.0;
@@ -319,7 +322,6 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 		return std::log(m.report.occupancy) -
 			   kRoomPrice * std::log(std::sqrt(area) + m.report.seamLength);
 	};
-	const Sides sides(map.mesh.vertices.values());
 	std::optional<Parametrization> last; // where it is not the best
 	for (int cuts = 0, vain = 0; vain < kMaxVainCuts; ++cuts) {
 		if (map.report.occupancy > kEnoughCovered)
@@ -336,7 +338,7 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 		if (!next)
 			return;
 		try {
-			packCharts(*next, options, turns);
+			packCharts(*next, sides, options, turns);
 		}
 		catch (const InvalidOption& e) {
 			if (e.problem != InvalidOption::ChartMarginTooWide)

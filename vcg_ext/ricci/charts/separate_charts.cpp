@@ -173,9 +173,9 @@ void countCuts(const Seams& before, const Sides& sides, Parametrization& map)
 void separateCharts(bool turns, Parametrization& map)
 {
 	std::vector<Chart> charts;
-	std::vector<int> divided;      // numbers of the parts
-	std::optional<Sides> allSides; // once there are such
-	Seams before;
+	std::vector<int> divided; // numbers of the parts
+	const Sides allSides(map.mesh.vertices.values());
+	Seams before; // once there are parts
 	const auto add = [&](const std::vector<int>& triangles, Chart chart) {
 		for (const int f : triangles)
 			map.mesh.chart[f] = static_cast<int>(charts.size());
@@ -184,23 +184,22 @@ void separateCharts(bool turns, Parametrization& map)
 	const Parts byChart = map.mesh.trianglesByChart(map.charts.size());
 	for (std::size_t c = 0; c < byChart.size(); ++c) {
 		const std::vector<int>& triangles = byChart[c];
-		FlatMesh chart = map.mesh.part(triangles);
-		const Sides sides(chart.vertices.values());
-		if (hasSimpleBorder(chart, sides)) {
+		checkpoint();
+		if (hasSimpleBorder(map.mesh, allSides, triangles)) {
 			add(triangles, std::move(map.charts[c]));
 			continue;
 		}
 		checkpoint();
+		FlatMesh chart = map.mesh.part(triangles);
 		const OverlapSearch overlaps(chart.corners());
 		checkpoint();
 		if (overlaps.pairs().empty()) {
 			add(triangles, std::move(map.charts[c]));
 			continue;
 		}
-		if (divided.empty()) {
-			allSides.emplace(map.mesh.vertices.values());
-			before = seams(map.mesh, *allSides);
-		}
+		if (divided.empty())
+			before = seams(map.mesh, allSides);
+		const Sides sides(chart.vertices.values());
 		Parts joined = joinParts(chart, sides, divideChart(chart, sides, overlaps));
 		const int first = map.mesh.place.size();
 		for (const Point2& p : chart.place)
@@ -219,8 +218,8 @@ void separateCharts(bool turns, Parametrization& map)
 	map.report.charts = static_cast<int>(map.charts.size());
 	if (divided.empty())
 		return;
-	settle(divided, turns, *allSides, map);
-	countCuts(before, *allSides, map);
+	settle(divided, turns, allSides, map);
+	countCuts(before, allSides, map);
 }
 
 void joinCharts(Parametrization& map)

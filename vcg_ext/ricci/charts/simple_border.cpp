@@ -25,21 +25,20 @@ struct BorderSide
 };
 
 /// In order of the triangles.
-Array<BorderSide> borderOf(const FlatMesh& chart, const Sides& sides)
+Array<BorderSide> borderOf(const FlatMesh& mesh, const Sides& sides, const std::vector<int>& chart)
 {
-	CornerArray<int> number(3 * chart.size(), -1);
-	std::vector<Corner> border;
-	for (const Corner side : number.indices())
-		if (!joinedSide(chart, sides, side).isValid()) {
-			number[side] = static_cast<int>(border.size());
-			border.push_back(side);
-		}
+	std::vector<Corner> border; // in increasing order
+	for (const int f : chart)
+		for (const Corner side : cornersOf(f))
+			if (!joinedSide(mesh, sides, side).isValid())
+				border.push_back(side);
 	Array<BorderSide> result;
 	for (const Corner side : border) {
 		Corner next = side.next();
-		for (Corner other; (other = joinedSide(chart, sides, next)).isValid();)
+		for (Corner other; (other = joinedSide(mesh, sides, next)).isValid();)
 			next = other.next();
-		result.push_back({chart.ends(side), number[next]});
+		const auto found = std::lower_bound(border.begin(), border.end(), next);
+		result.push_back({mesh.ends(side), static_cast<int>(found - border.begin())});
 	}
 	return result;
 }
@@ -106,12 +105,14 @@ int counterClockwisePolygons(const Array<BorderSide>& border)
 
 } // namespace
 
-bool hasSimpleBorder(const FlatMesh& chart, const Sides& sides)
+bool hasSimpleBorder(const FlatMesh& mesh, const Sides& sides, const std::vector<int>& chart)
 {
-	for (const Triangle2& p : chart.corners())
+	for (const int f : chart) {
+		const Triangle2 p = mesh.at(f);
 		if (orientation(p[0], p[1], p[2]) <= 0)
 			return false;
-	const Array<BorderSide> border = borderOf(chart, sides);
+	}
+	const Array<BorderSide> border = borderOf(mesh, sides, chart);
 	return areApart(border) && counterClockwisePolygons(border) == 1;
 }
 

@@ -4,6 +4,8 @@
 
 #include "../layout/flat_mesh.h"
 
+#include <vector>
+
 namespace ricci {
 
 /// Whether the border of a chart shows that the chart covers nothing twice: no triangle is flipped
@@ -15,7 +17,9 @@ namespace ricci {
 /// an edge inside the chart cancel: whatever the topology of the chart. A polygon of the border goes
 /// round a point once or not at all, and where it runs clockwise it only takes away. Orientations are
 /// exact, so this is.
-bool hasSimpleBorder(const FlatMesh& chart, const Sides& sides);
+/// \param sides of the triangles of \p mesh
+/// \param chart its triangles, in increasing order
+bool hasSimpleBorder(const FlatMesh& mesh, const Sides& sides, const std::vector<int>& chart);
 
 } // namespace ricci
 

@@ -154,22 +154,23 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 {
 	advance(kMapped, "Packing the charts");
 	const ChartTurns turns = chartTurns(options);
+	const Sides sides(map.mesh.vertices.values());
 	if (options.charts == Charts::CutForRoom && options.normalizeUV &&
 		options.target == TargetCurvature::Automatic)
-		packForRoom(map, options, turns);
+		packForRoom(map, sides, options, turns);
 	else
-		packCharts(map, options, turns);
+		packCharts(map, sides, options, turns);
 	advance(kMapped, "Finishing the coordinates");
 	FloatFinish finish;
 	finish.forText = options.output == OutputTriangulation::KeepMesh;
 	finish.measure = [&] { measure(opened, map); };
-	finish.packAgain = [&] { packCharts(map, options, turns); };
+	finish.packAgain = [&] { packCharts(map, sides, options, turns); };
 	finish.mayCut = mayCutCharts(options);
 	if (isFinished(options))
 		finishInFloats(finish, map);
 	countFlipped(map.mesh, map.report);
-	countOverlaps(map);
-	countUnequalSeams(map);
+	countOverlaps(sides, map);
+	countUnequalSeams(sides, map);
 	if (map.report.unequalSeams > 0 && options.finish != Finish::LeastStretch) {
 		map.notes.push_back(
 			std::to_string(map.report.unequalSeams) +

@@ -17,14 +17,12 @@ namespace ricci {
 namespace {
 
 /// Whether this can be seen from borders alone.
-bool coversNothingTwice(const FlatMesh& mesh, std::size_t charts, double room)
+bool coversNothingTwice(const FlatMesh& mesh, const Sides& sides, std::size_t charts, double room)
 {
-	const Sides sides(mesh.vertices.values());
 	std::vector<Outline> outlines;
 	for (const std::vector<int>& triangles : mesh.trianglesByChart(charts)) {
 		checkpoint();
-		const FlatMesh chart = mesh.part(triangles);
-		if (!hasSimpleBorder(chart, Sides(chart.vertices.values())))
+		if (!hasSimpleBorder(mesh, sides, triangles))
 			return false;
 		if (charts > 1)
 			outlines.push_back(outlineOf(mesh, sides, triangles));
@@ -47,12 +45,12 @@ FlatMesh inFloats(FlatMesh mesh, double& step)
 
 } // namespace
 
-void countOverlaps(Parametrization& map)
+void countOverlaps(const Sides& sides, Parametrization& map)
 {
 	double step = 0.0;
 	const FlatMesh stored = inFloats(map.mesh, step);
 	map.report.overlappingFaces = map.report.overlappingCharts = 0;
-	if (coversNothingTwice(stored, map.charts.size(), step))
+	if (coversNothingTwice(stored, sides, map.charts.size(), step))
 		return;
 	const OverlapSearch search(stored.corners(), kTouchingSteps * step);
 	const Array<char> overlaps = search.overlapping();
@@ -65,11 +63,10 @@ void countOverlaps(Parametrization& map)
 	map.report.overlappingCharts = static_cast<int>(std::count(isChart.begin(), isChart.end(), 1));
 }
 
-void countUnequalSeams(Parametrization& map)
+void countUnequalSeams(const Sides& sides, Parametrization& map)
 {
 	double step = 0.0;
 	const FlatMesh stored = inFloats(map.mesh, step);
-	const Sides sides(stored.vertices.values());
 	const auto length = [&](Corner side) {
 		const std::array<Point2, 2> ends = stored.ends(side);
 		return distance(ends[0], ends[1]);
