@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
-#include <ricci/curvature/bounded_minimum.h>
+#include <ricci/curvature/cone_curvatures.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/curvature/coarse_flow.h>
 #include <ricci/curvature/cone_sites.h>
+#include <ricci/curvature/linear_flow.h>
 #include <ricci/math/shortest_paths.h>
 
 #include <gtest/gtest.h>

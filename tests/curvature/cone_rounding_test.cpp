@@ -2,8 +2,7 @@
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/curvature/cone_request.h>
-#include <ricci/curvature/cone_rounding.h>
+#include <ricci/curvature/cone_curvatures.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>

@@ -125,8 +125,8 @@ TEST(LinearFlow, TheGradientSolvesTheAdjointProblem)
 			b.array() -= area.dot(b); // like all u
 			if (linear.flow.hasFixedSum())
 				a.array() -= a.mean();
-			const double left = linear.flow.solve(a).dot(area.cwiseProduct(b));
-			const double right = a.dot(linear.flow.gradient(b));
+			const VertexVector u = linear.flow.solve(a), phi = linear.flow.gradient(b);
+			const double left = u.dot(area.cwiseProduct(b)), right = a.dot(phi);
 			EXPECT_NEAR(left, right, 1e-12 * (1.0 + std::abs(left)));
 		}
 	}

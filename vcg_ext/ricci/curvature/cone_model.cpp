@@ -2,8 +2,6 @@
 #include "cone_model.h"
 
 #include "../base/task.h"
-#include "bounded_minimum.h"
-#include "cone_rounding.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -127,11 +125,12 @@ void ConeModel::append(const std::vector<Vertex>& vertices)
 			break;
 		}
 		checkpoint();
-		const LinearFlow::Pair u = m_flow.solve({unit(vertex(i)), unit(vertex(i + 1))});
-		LinearFlow::Pair fields = m_flow.gradient(u);
-		for (std::size_t k = 0; k < 2; ++k) {
-			m_ownProduct[vertex(i + static_cast<int>(k))] = m_flow.meanSquare(u[k]);
-			m_fields.push_back(std::make_shared<const VertexVector>(centred(std::move(fields[k]))));
+		Eigen::MatrixXd units(m_flow.vertexCount(), 2);
+		units << unit(vertex(i)), unit(vertex(i + 1));
+		const Eigen::MatrixXd u = m_flow.solve(units), fields = m_flow.gradient(u);
+		for (int k = 0; k < 2; ++k) {
+			m_ownProduct[vertex(i + k)] = m_flow.meanSquare(u.col(k));
+			m_fields.push_back(std::make_shared<const VertexVector>(centred(fields.col(k))));
 		}
 	}
 	m_now.gram.conservativeResize(size(), size());

@@ -2,6 +2,7 @@
 #ifndef RICCI_CONE_MODEL_H
 #define RICCI_CONE_MODEL_H
 
+#include "cone_curvatures.h"
 #include "linear_flow.h"
 
 #include <algorithm>

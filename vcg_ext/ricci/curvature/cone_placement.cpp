@@ -7,9 +7,7 @@
 #include "../error.h"
 #include "../flow/map_cost.h"
 #include "area_change.h"
-#include "coarse_flow.h"
 #include "cone_search.h"
-#include "cone_tree.h"
 
 #include <algorithm>
 #include <cmath>

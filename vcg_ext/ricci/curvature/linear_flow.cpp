@@ -3,6 +3,7 @@
 
 #include "../error.h"
 #include "../flow/curvature_map.h"
+#include "../math/aggregation.h"
 #include "../metric/circle_packing.h"
 #include "../metric/euclidean.h"
 
@@ -147,49 +148,27 @@ VertexVector LinearFlow::factor(VertexVector k)
 	return u;
 }
 
-VertexVector LinearFlow::solve(VertexVector rhs)
+Eigen::MatrixXd LinearFlow::solve(Eigen::MatrixXd rhs)
 {
-	balance(rhs);
-	VertexVector u = solveRows(rhs);
-	u.array() -= m_area.dot(u);
+	if (m_sink.size() > 0) // takes what the sum lacks
+		for (Eigen::Index k = 0; k < rhs.cols(); ++k)
+			rhs.col(k) -= rhs.col(k).sum() * m_sink;
+	Eigen::MatrixXd u = solveRows(rhs);
+	for (Eigen::Index k = 0; k < u.cols(); ++k)
+		u.col(k).array() -= m_area.dot(u.col(k));
 	return u;
 }
 
-LinearFlow::Pair LinearFlow::solve(Pair rhs)
+Eigen::MatrixXd LinearFlow::gradient(const Eigen::MatrixXd& u)
 {
-	for (VertexVector& r : rhs)
-		balance(r);
-	Pair pair = solveRows(rhs);
-	for (VertexVector& u : pair)
-		u.array() -= m_area.dot(u);
-	return pair;
-}
-
-VertexVector LinearFlow::gradient(const VertexVector& u)
-{
-	VertexVector phi = solveRows(m_area.cwiseProduct(u));
+	Eigen::MatrixXd phi = solveRows(m_area.asDiagonal() * u);
 	if (m_sink.size() > 0)
-		phi.array() -= m_sink.dot(phi);
+		for (Eigen::Index k = 0; k < phi.cols(); ++k)
+			phi.col(k).array() -= m_sink.dot(phi.col(k));
 	return phi;
 }
 
-LinearFlow::Pair LinearFlow::gradient(const Pair& u)
-{
-	Pair pair = solveRows(Pair{m_area.cwiseProduct(u[0]), m_area.cwiseProduct(u[1])});
-	for (VertexVector& phi : pair)
-		if (m_sink.size() > 0)
-			phi.array() -= m_sink.dot(phi);
-	return pair;
-}
-
-/// The sink takes what the sum of \p rhs lacks.
-void LinearFlow::balance(VertexVector& rhs) const
-{
-	if (m_sink.size() > 0)
-		rhs -= rhs.sum() * m_sink;
-}
-
-/// L^-1 rhs on the unknown vertices, 0 on the others, for one or two columns.
+/// L^-1 rhs on the unknown vertices, 0 on the others.
 Eigen::MatrixXd LinearFlow::solveRows(const Eigen::MatrixXd& rhs)
 {
 	if (m_system) {
@@ -206,15 +185,6 @@ Eigen::MatrixXd LinearFlow::solveRows(const Eigen::MatrixXd& rhs)
 	for (Eigen::Index column = 0; column < rhs.cols(); ++column)
 		x.col(column) = m_hessian->scatter(rows.col(column));
 	return x;
-}
-
-/// The same for two at once.
-LinearFlow::Pair LinearFlow::solveRows(const Pair& rhs)
-{
-	Eigen::MatrixXd columns(vertexCount(), 2);
-	columns << rhs[0], rhs[1];
-	const Eigen::MatrixXd x = solveRows(columns);
-	return {x.col(0), x.col(1)};
 }
 
 void LinearFlow::computeAreas(const CurvatureMap& map)
@@ -241,6 +211,69 @@ void LinearFlow::spreadSink(const EmbeddedSurface& surface)
 		for (const Vertex v : {t.origin(h), t.target(h)})
 			m_sink[v] += surface.lengths[h.edge()];
 	m_sink /= m_sink.sum();
+}
+
+namespace {
+
+/// \p values taken together by aggregate, each with its \p weight.
+VertexVector
+sums(const Aggregation& aggregation, const VertexVector& values, const VertexVector& weight)
+{
+	VertexVector result = VertexVector::Zero(aggregation.root.size());
+	for (const Vertex v : values.indices())
+		result[Vertex(aggregation.aggregate[v.number()])] += weight[v] * values[v];
+	return result;
+}
+
+LinearSystem coarser(const LinearSystem& fine, const Aggregation& aggregation)
+{
+	const VertexVector one = VertexVector::Ones(fine.area.size());
+	LinearSystem coarse;
+	coarse.fixesBoundary = fine.fixesBoundary;
+	coarse.laplacian = restricted(fine.laplacian, aggregation);
+	coarse.curvature = sums(aggregation, fine.curvature, one);
+	coarse.area = sums(aggregation, fine.area, one);
+	if (fine.sink.size() > 0)
+		coarse.sink = sums(aggregation, fine.sink, one);
+	if (fine.factor.size() > 0)
+		coarse.factor = sums(aggregation, fine.factor, fine.area).cwiseQuotient(coarse.area);
+	return coarse;
+}
+
+/// Root mean square of u for the curvature that \p flow starts with, spread over the surface by area.
+double flatteningSize(LinearFlow& flow)
+{
+	VertexVector rhs = -flow.curvature();
+	if (flow.hasFixedSum())
+		rhs -= rhs.sum() * flow.area();
+	return std::sqrt(flow.meanSquare(flow.solve(rhs)));
+}
+
+/// The equation of \p fine on aggregates of vertices, and in \p roots the vertices they grew from.
+LinearSystem coarsened(const LinearFlow& fine, int vertices, VertexArray<Vertex>& roots)
+{
+	LinearSystem system = fine.system(roots);
+	while (roots.size() > vertices) {
+		const Aggregation aggregation = aggregated(system.laplacian);
+		if (aggregation.root.size() == roots.size())
+			break;
+		system = coarser(system, aggregation);
+		VertexArray<Vertex> kept;
+		for (const int root : aggregation.root)
+			kept.push_back(roots[Vertex(root)]);
+		roots = std::move(kept);
+	}
+	return system;
+}
+
+} // namespace
+
+CoarseFlow::CoarseFlow(LinearFlow& fine, int vertices) : flow(coarsened(fine, vertices, roots))
+{
+	// Functions that are constant on aggregates are stiffer, on the whole evenly.
+	const double tooSmall = flatteningSize(flow);
+	if (tooSmall > 0.0)
+		flow.soften(flatteningSize(fine) / tooSmall);
 }
 
 } // namespace ricci
