@@ -12,7 +12,7 @@
 #include <ricci/base/numbers.h>
 #include <ricci/base/parallel.h>
 #include <ricci/curvature/target_curvature.h>
-#include <ricci/flow/factored_hessian.h>
+#include <ricci/flow/hessian.h>
 #include <ricci/flow/ricci_flow.h>
 #include <ricci/math/sparse_cholesky.h>
 #include <ricci/metric/euclidean.h>

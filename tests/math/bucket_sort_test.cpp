@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
-#include <ricci/math/bucket_sort.h>
+#include <ricci/math/adjacency.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/math/min_area_rectangle.h>
+#include <ricci/math/convex_hull.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
-#include <ricci/math/parity_sets.h>
+#include <ricci/math/disjoint_sets.h>
 
 #include <gtest/gtest.h>
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -219,7 +220,8 @@ void startCones(ConeModel& model, const ConeSites& sites)
 	const int count = model.minSize();
 	const double sign = model.total() < 0.0 ? -1.0 : 1.0;
 	while (model.size() < count) {
-		const VertexVector phi = model.gradientWithShares(model.total() / count);
+		const VertexVector phi =
+			model.gradientAt(Eigen::VectorXd::Constant(model.size(), model.total() / count));
 		const Vertex v = lowest(model, sites, [&](Vertex w) { return sign * phi[w]; });
 		if (!v.isValid())
 			break;
@@ -258,7 +260,11 @@ void dropCones(ConeModel& model, const ConeSites& sites, double distortion)
 		return model.distortion() <= distortion;
 	};
 	const auto dropOne = [&] {
-		std::vector<int> cones = model.byNeed();
+		std::vector<int> cones(positionOf(model.size()));
+		std::iota(cones.begin(), cones.end(), 0);
+		std::stable_sort(cones.begin(), cones.end(), [&](int a, int b) {
+			return model.need(a) < model.need(b);
+		});
 		cones.resize(std::min(cones.size(), kMaxDropTrials));
 		return std::any_of(
 			cones.begin(), cones.end(), [&](int i) { return model.tryWithout(i, isEnough); });

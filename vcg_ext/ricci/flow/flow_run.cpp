@@ -56,6 +56,23 @@ Target targetOnDouble(Target target, const VertexArray<Vertex>& mirror)
 	return target;
 }
 
+void FlowProgress::operator()(int step, double residual)
+{
+	const bool begins = step <= m_step;
+	m_step = step;
+	const int count = m_states.empty() ? 0 : m_states.back().step + (begins ? 0 : 1);
+	const bool isKnown = begins && !m_states.empty() && m_states.back().residual == residual;
+	m_states.push_back({0, count, residual});
+	if (m_first < 0.0)
+		m_first = std::max(residual, 10 * m_epsilon);
+	const std::string line = "Newton step " + std::to_string(count) + ": max |target - K| = " +
+							 numberText(residual, 3, std::chars_format::scientific);
+	if (!isKnown)
+		logLine(line);
+	advance(
+		std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon), line);
+}
+
 FlowRun::FlowRun(const FlowOptions& options, FlowProgress& progress) :
 		m_options(options), m_progress(progress)
 {

@@ -4,7 +4,7 @@
 
 #include "../base/tolerances.h"
 #include "curvature_map.h"
-#include "factored_hessian.h"
+#include "hessian.h"
 
 #include <Eigen/Core>
 

@@ -2,8 +2,7 @@
 #include "face_gluing.h"
 
 #include "../base/numbers.h"
-#include "../math/bucket_sort.h"
-#include "../math/parity_sets.h"
+#include "../math/disjoint_sets.h"
 #include "sides.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "one_sided.h"
 
 #include "../math/adjacency.h"
-#include "../math/parity_sets.h"
+#include "../math/disjoint_sets.h"
 
 #include <algorithm>
 #include <functional>
