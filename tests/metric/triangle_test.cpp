@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
-#include <ricci/metric/triangle.h>
+#include <ricci/metric/area.h>
 
 #include <gtest/gtest.h>
 

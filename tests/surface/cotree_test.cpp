@@ -5,7 +5,7 @@
 
 #include <ricci/math/disjoint_sets.h>
 #include <ricci/math/shortest_paths.h>
-#include <ricci/surface/cotree.h>
+#include <ricci/surface/topology.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/surface/double_surface.h>
+#include <ricci/surface/flow_domain.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "support/intrinsic.h"
 #include "support/shapes.h"
 
-#include <ricci/surface/hole_caps.h>
+#include <ricci/surface/flow_domain.h>
 
 #include <gtest/gtest.h>
 

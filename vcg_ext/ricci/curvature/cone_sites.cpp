@@ -3,7 +3,7 @@
 
 #include "../math/shortest_paths.h"
 #include "../metric/area.h"
-#include "../surface/cotree.h"
+#include "../surface/topology.h"
 
 #include <algorithm>
 #include <cmath>

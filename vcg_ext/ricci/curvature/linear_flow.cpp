@@ -23,10 +23,11 @@ constexpr double kNoEdge = 1e-9;
 /// The curvature map of \p packing at its radii.
 std::unique_ptr<CurvatureMap> mapOf(const InitialPacking& packing)
 {
-	CirclePacking circles =
-		inversiveDistancePacking(packing.mesh.triangulation, packing.mesh.lengths, packing.radii);
-	const VertexVector u = Eigen::Map<const Eigen::VectorXd>(circles.u.data(), circles.u.size());
-	auto map = std::make_unique<GeometricCurvatureMap<Euclidean>>(std::move(circles));
+	VertexVector u(packing.radii.size());
+	for (const Vertex v : packing.radii.indices())
+		u[v] = std::log(packing.radii[v]);
+	auto map = std::make_unique<GeometricCurvatureMap<Euclidean>>(
+		CirclePacking{packing.mesh.triangulation, packing.delta});
 	map->evaluate(u);
 	return map;
 }

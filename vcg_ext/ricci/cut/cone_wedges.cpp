@@ -2,7 +2,7 @@
 #include "cone_wedges.h"
 
 #include "../base/numbers.h"
-#include "../metric/triangle.h"
+#include "../metric/area.h"
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@ namespace ricci {
 class CutSegments
 {
 public:
-	using Around = Triangulation::Circulator<Triangulation::Clockwise>;
+	using Around = Triangulation::Around;
 
 	/// \param marked 1 at vertices that the cut must reach
 	/// \param forbidden 1 on edges where no path may run; may be empty

@@ -7,7 +7,7 @@
 #include "../base/tolerances.h"
 #include "../metric/area.h"
 #include "../metric/unfold.h"
-#include "../surface/double_surface.h"
+#include "../surface/flow_domain.h"
 #include "../surface/normal_coordinates.h"
 #include "circle_target.h"
 
@@ -125,7 +125,7 @@ void FlowRun::begin(const EmbeddedSurface& surface)
 		}
 	}
 	m_result.u = m_startU = startU();
-	m_map = makeMap({m_result.start.mesh.triangulation, m_result.start.delta, {}}, false);
+	m_map = makeMap({m_result.start.mesh.triangulation, m_result.start.delta}, false);
 	m_newton = std::make_unique<NewtonSolver>(*m_map, m_result.target.fixed, m_mirror);
 }
 
@@ -208,7 +208,6 @@ NewtonResult FlowRun::solveOnCircle()
 {
 	VertexVector& curvature = m_result.target.curvature;
 	const double copies = m_result.doubled ? 2.0 : 1.0;
-	CircleTarget circle(m_loopLengths, m_arcs);
 	int solves = 0;
 	const auto solveForAngles = [&](const std::vector<double>& angles, double epsilon) {
 		if (++solves > 1)
@@ -220,10 +219,12 @@ NewtonResult FlowRun::solveOnCircle()
 		return m_solved = solveFor(epsilon);
 	};
 	try {
-		const NewtonResult solved = circle.reach(
-			m_options.epsilon, [&] { return presentLoopLengths(); }, solveForAngles);
-		m_arcs = circle.arcs();
-		return solved;
+		return solveForCircle(
+			m_loopLengths,
+			m_options.epsilon,
+			[&] { return presentLoopLengths(); },
+			solveForAngles,
+			m_arcs);
 	}
 	catch (const NotConverged& error) {
 		throw withState(error);

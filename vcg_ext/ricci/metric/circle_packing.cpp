@@ -4,9 +4,7 @@
 #include "euclidean.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
 namespace ricci {
 
@@ -54,18 +52,6 @@ EdgeArray<double> thurstonDistancesLessOne(
 	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<double>& radii)
 {
 	return distancesLessOne(t, lengths, radii, -1.0, 0.0);
-}
-
-CirclePacking inversiveDistancePacking(
-	Triangulation triangulation, const EdgeArray<double>& lengths, const VertexArray<double>& radii)
-{
-	CirclePacking packing;
-	packing.delta = inversiveDistancesLessOne(triangulation, lengths, radii);
-	packing.u.resize(radii.size());
-	std::transform(
-		radii.begin(), radii.end(), packing.u.begin(), [](double g) { return std::log(g); });
-	packing.triangulation = std::move(triangulation);
-	return packing;
 }
 
 } // namespace ricci

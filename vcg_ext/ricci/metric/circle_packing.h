@@ -6,13 +6,12 @@
 
 namespace ricci {
 
-/// Discrete conformal class and one member of it (Definition 3.5): a triangulation, an inversive
-/// distance on each edge, and a circle at each vertex.
+/// Discrete conformal class (Definition 3.5): a triangulation and an inversive distance on each edge. With
+/// a circle at each vertex it is a metric.
 struct CirclePacking
 {
 	Triangulation triangulation;
 	EdgeArray<double> delta; ///< I - 1; at least 0 where circles are tangent or disjoint
-	VertexArray<double> u;   ///< ln radius (Eq. 6, Euclidean)
 };
 
 /// Initial radii of paper 4.1: the minimum of (l_ij + l_ki - l_jk) / 2 over the triangles at i,
@@ -30,12 +29,6 @@ EdgeArray<double> inversiveDistancesLessOne(
 /// that of \p lengths.
 EdgeArray<double> thurstonDistancesLessOne(
 	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<double>& radii);
-
-/// The packing of inversiveDistancesLessOne().
-CirclePacking inversiveDistancePacking(
-	Triangulation triangulation,
-	const EdgeArray<double>& lengths,
-	const VertexArray<double>& radii);
 
 } // namespace ricci
 

@@ -4,9 +4,9 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../math/disjoint_sets.h"
+#include "area.h"
 #include "circle_packing.h"
 #include "delaunay_queue.h"
-#include "triangle.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #ifndef RICCI_SURFACE_POINT_H
 #define RICCI_SURFACE_POINT_H
 
+#include "../base/indexed.h"
 #include "../math/points.h"
 
 #include <array>
@@ -18,7 +19,14 @@ struct SurfacePoint
 };
 
 /// The point in space. \p positions [vertex].
-Point3 placeOnSurface(const SurfacePoint& p, const std::vector<Point3>& positions);
+inline Point3 placeOnSurface(const SurfacePoint& p, const std::vector<Point3>& positions)
+{
+	Point3 x{0, 0, 0};
+	for (std::size_t i = 0; i < 4; ++i)
+		if (p.weight[i] != 0.0)
+			x += p.weight[i] * positions[positionOf(p.vertex[i])];
+	return x;
+}
 
 } // namespace ricci
 
