@@ -30,7 +30,6 @@ TEST(Adjacency, ListsTheItemsOfEachKeyInTheirOrder)
 				add(key, item);
 		});
 		ASSERT_EQ(lists.keyCount(), keys);
-		int first = 0;
 		for (const Key key : IndexRange<Key>(keys)) {
 			std::vector<int> expected;
 			for (const auto& [k, item] : given)
@@ -41,33 +40,9 @@ TEST(Adjacency, ListsTheItemsOfEachKeyInTheirOrder)
 			EXPECT_EQ(lists[key].empty(), expected.empty());
 			for (int i = 0; i < lists[key].size(); ++i)
 				EXPECT_EQ(lists[key][i], expected[positionOf(i)]);
-			EXPECT_EQ(lists.first(key), first);
-			first += lists[key].size();
-			EXPECT_EQ(lists.last(key), first);
 		}
 		EXPECT_EQ(lists.items().size(), given.size());
 	}
-}
-
-TEST(Adjacency, CountsKeysApartFromTheItems)
-{
-	// The items come in another order than their keys were counted.
-	const std::vector<int> keys{2, 0, 2, 1};
-	Adjacency<int, double> lists(
-		4,
-		[&](const auto& count) {
-			for (int key : keys)
-				count(key);
-		},
-		[&](const auto& add) {
-			for (std::size_t i = keys.size(); i-- > 0;)
-				add(keys[i], static_cast<double>(i));
-		});
-	EXPECT_EQ(lists.items(), (std::vector<double>{1.0, 3.0, 2.0, 0.0}));
-	EXPECT_TRUE(lists[3].empty());
-	for (double& item : lists[2])
-		item += 10.0;
-	EXPECT_EQ(lists.items(), (std::vector<double>{1.0, 3.0, 12.0, 10.0}));
 }
 
 TEST(Adjacency, WithoutKeysHasNone)

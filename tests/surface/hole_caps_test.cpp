@@ -19,9 +19,12 @@ SurfaceMesh squareWithHoles(int n)
 		rectangle(n, n, 1.0, 1.0), {vertex(2, 2), vertex(n - 2, 3), vertex(n / 2, n - 2)});
 }
 
-Triangulation triangulationOf(const CappedSurface& capped)
+FlowDomain capped(const SurfaceMesh& mesh, const EdgeArray<char>& isHole = {})
 {
-	return Triangulation(capped.positions.size(), capped.triangles);
+	FlowDomain domain;
+	domain.surface = embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles);
+	capHoles(loopsToClose(domain.surface, isHole, Holes::Capped), domain);
+	return domain;
 }
 
 TEST(HoleCaps, CloseAllLoopsButTheLongest)
@@ -29,19 +32,19 @@ TEST(HoleCaps, CloseAllLoopsButTheLongest)
 	const SurfaceMesh mesh = squareWithHoles(9);
 	const Triangulation t = glued(mesh);
 	ASSERT_EQ(t.boundaryLoops().size(), 4u);
-	const CappedSurface capped = capHoles(t, VertexArray<Point3>(mesh.positions));
-	const Triangulation closed = triangulationOf(capped);
-	EXPECT_EQ(capped.holes, 3);
+	const FlowDomain domain = capped(mesh);
+	const Triangulation& closed = domain.solved().triangulation;
+	EXPECT_EQ(domain.holes, 3);
 	EXPECT_EQ(closed.boundaryLoops().size(), 1u);
 	EXPECT_EQ(closed.eulerCharacteristic(), t.eulerCharacteristic() + 3);
 	EXPECT_EQ(closed.vertexCount(), t.vertexCount() + 3);
 	// The rims of the holes, and nothing else, are marked.
 	const VertexArray<char> before = t.boundaryVertices();
 	const VertexArray<char> after = closed.boundaryVertices();
-	ASSERT_EQ(capped.onHole.size(), t.vertexCount());
+	ASSERT_EQ(domain.onHole.size(), t.vertexCount());
 	for (const Vertex v : t.vertices()) {
-		EXPECT_EQ(before[v] != 0, after[v] != 0 || capped.onHole[v] != 0);
-		EXPECT_FALSE(after[v] && capped.onHole[v]);
+		EXPECT_EQ(before[v] != 0, after[v] != 0 || domain.onHole[v] != 0);
+		EXPECT_FALSE(after[v] && domain.onHole[v]);
 	}
 	for (const Vertex v : IndexRange<Vertex>(t.vertexCount(), closed.vertexCount()))
 		EXPECT_FALSE(after[v]);
@@ -51,20 +54,20 @@ TEST(HoleCaps, KeepTheNumbersOfTheSurface)
 {
 	const SurfaceMesh mesh = squareWithHoles(8);
 	const Triangulation t = glued(mesh);
-	const CappedSurface capped = capHoles(t, VertexArray<Point3>(mesh.positions));
-	const Triangulation c = triangulationOf(capped);
+	const FlowDomain domain = capped(mesh);
+	const Triangulation& c = domain.solved().triangulation;
 	for (const Halfedge h : t.halfedges()) {
 		EXPECT_EQ(c.origin(h), t.origin(h));
 		if (!t.isExterior(h)) {
 			EXPECT_EQ(c.face(h), t.face(h));
 			EXPECT_EQ(c.next(h), t.next(h));
 		}
-		else if (capped.onHole[t.origin(h)]) {
+		else if (domain.onHole[t.origin(h)]) {
 			EXPECT_GE(c.face(h).number(), t.faceCount());
 		}
 	}
 	for (const Vertex v : t.vertices())
-		EXPECT_EQ(capped.positions[v], mesh.positions[at(v)]);
+		EXPECT_EQ(domain.solved().positions[v], mesh.positions[at(v)]);
 }
 
 /// A loop is a hole if all its edges are marked.
@@ -83,9 +86,9 @@ TEST(HoleCaps, CloseMarkedLoops)
 				isHole[h.edge()] = isMarked || h != loops[l]; // else all but one of its edges
 				expected[t.origin(h)] = isMarked;
 			}
-		const CappedSurface capped = capHoles(t, VertexArray<Point3>(mesh.positions), isHole);
-		EXPECT_EQ(capped.onHole.values(), expected.values());
-		EXPECT_EQ(triangulationOf(capped).boundaryLoops().size(), at(4 - capped.holes));
+		const FlowDomain domain = capped(mesh, isHole);
+		EXPECT_EQ(domain.onHole.values(), expected.values());
+		EXPECT_EQ(domain.solved().triangulation.boundaryLoops().size(), at(4 - domain.holes));
 	}
 }
 
@@ -93,10 +96,10 @@ TEST(HoleCaps, LeaveASurfaceWithOneLoopOrNoneAlone)
 {
 	for (const SurfaceMesh& mesh : {rectangle(3, 3, 1.0, 1.0), tetrahedron()}) {
 		const Triangulation t = glued(mesh);
-		const CappedSurface capped = capHoles(t, VertexArray<Point3>(mesh.positions));
-		EXPECT_EQ(capped.holes, 0);
-		EXPECT_EQ(triangulationOf(capped).faceCount(), t.faceCount());
-		EXPECT_EQ(std::count(capped.onHole.begin(), capped.onHole.end(), 1), 0);
+		const FlowDomain domain = capped(mesh);
+		EXPECT_EQ(domain.holes, 0);
+		EXPECT_EQ(domain.solved().triangulation.faceCount(), t.faceCount());
+		EXPECT_EQ(std::count(domain.onHole.begin(), domain.onHole.end(), 1), 0);
 	}
 }
 

@@ -3,7 +3,6 @@
 
 #include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/tolerances.h"
 #include "../error.h"
 #include "../flow/map_cost.h"
 #include "area_change.h"

@@ -9,9 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 

@@ -6,8 +6,6 @@
 #include "curvature_map.h"
 #include "hessian.h"
 
-#include <Eigen/Core>
-
 #include <functional>
 #include <limits>
 #include <memory>

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -35,21 +36,6 @@ embeddedSurface(VertexArray<Point3> positions, const std::vector<Triangle>& tria
 
 namespace {
 
-/// Centre of mass of a closed line; the mean of its points where it has no length.
-Point3 centreOf(const std::vector<Vertex>& loop, const VertexArray<Point3>& positions)
-{
-	Point3 centre{0, 0, 0}, mean{0, 0, 0};
-	double length = 0.0;
-	for (std::size_t i = 0; i < loop.size(); ++i) {
-		const Point3 &p = positions[loop[i]], &q = positions[loop[(i + 1) % loop.size()]];
-		const double side = distance(p, q);
-		length += side;
-		centre += 0.5 * side * (p + q);
-		mean += p / static_cast<double>(loop.size());
-	}
-	return length > 0.0 ? centre / length : mean;
-}
-
 /// The edges with a marked side; empty without marks.
 EdgeArray<char> edgesOf(const Triangulation& t, const std::vector<std::array<char, 3>>& sides)
 {
@@ -62,6 +48,25 @@ EdgeArray<char> edgesOf(const Triangulation& t, const std::vector<std::array<cha
 			if (sides[positionOf(f)][k])
 				edges[t.halfedges(f)[k].edge()] = 1;
 	return edges;
+}
+
+/// Centre of mass of a boundary loop; the mean of its points where it has no length.
+Point3 centreOf(const EmbeddedSurface& surface, Halfedge first)
+{
+	const Triangulation& t = surface.triangulation;
+	std::vector<Halfedge> loop;
+	for (const Halfedge h : t.loop(first))
+		loop.push_back(h);
+	Point3 centre{0, 0, 0}, mean{0, 0, 0};
+	double length = 0.0;
+	for (const Halfedge h : loop) {
+		const Point3 &p = surface.positions[t.origin(h)], &q = surface.positions[t.target(h)];
+		const double side = surface.lengths[h.edge()];
+		length += side;
+		centre += 0.5 * side * (p + q);
+		mean += p / static_cast<double>(loop.size());
+	}
+	return length > 0.0 ? centre / length : mean;
 }
 
 /// The length up to which a loop is short.
@@ -77,76 +82,59 @@ double maxShortLength(const EmbeddedSurface& surface)
 	return kShortHole * std::sqrt(area) / std::max(1, 2 * surface.topology.type.genus - 2);
 }
 
-/// The edges of the short loops, of those whose edges are all marked in \p isHole, or of all where that is
-/// empty.
-EdgeArray<char> shortLoops(const EmbeddedSurface& surface, const EdgeArray<char>& isHole)
-{
-	const Triangulation& t = surface.triangulation;
-	const double maxLength = maxShortLength(surface);
-	EdgeArray<char> isShort(t.edgeCount(), 0);
-	for (const Halfedge first : t.boundaryLoops()) {
-		double loopLength = 0.0;
-		bool isMarked = true;
-		for (const Halfedge h : t.loop(first)) {
-			loopLength += surface.lengths[h.edge()];
-			isMarked &= isHole.empty() || isHole[h.edge()];
-		}
-		if (isMarked && loopLength <= maxLength)
-			for (const Halfedge h : t.loop(first))
-				isShort[h.edge()] = 1;
-	}
-	return isShort;
-}
-
 } // namespace
 
-CappedSurface capHoles(
-	const Triangulation& t, const VertexArray<Point3>& positions, const EdgeArray<char>& isHole)
+std::vector<Halfedge>
+loopsToClose(const EmbeddedSurface& surface, const EdgeArray<char>& isHole, Holes holes)
 {
-	CappedSurface capped;
-	capped.positions = positions;
-	capped.onHole.assign(t.vertexCount(), 0);
+	const Triangulation& t = surface.triangulation;
+	const bool areShort = holes == Holes::ShortCapped;
+	const double maxLength =
+		areShort ? maxShortLength(surface) : std::numeric_limits<double>::infinity();
+	std::vector<Halfedge> loops;
+	Halfedge longest;
+	double longestLength = -1.0;
+	for (const Halfedge first : t.boundaryLoops()) {
+		double length = 0.0;
+		bool isMarked = true;
+		for (const Halfedge h : t.loop(first)) {
+			length += surface.lengths[h.edge()];
+			isMarked &= isHole.empty() || isHole[h.edge()];
+		}
+		if (length > longestLength) {
+			longestLength = length;
+			longest = first;
+		}
+		if (isMarked && length <= maxLength)
+			loops.push_back(first);
+	}
+	if (isHole.empty() && !areShort)
+		loops.erase(std::remove(loops.begin(), loops.end(), longest), loops.end());
+	return loops;
+}
+
+void capHoles(const std::vector<Halfedge>& loops, FlowDomain& domain)
+{
+	const Triangulation& t = domain.surface.triangulation;
+	domain.onHole.assign(t.vertexCount(), 0);
+	domain.holes = static_cast<int>(loops.size());
+	if (loops.empty())
+		return;
+	VertexArray<Point3> positions = domain.surface.positions;
+	std::vector<Triangle> triangles;
 	for (const Face f : t.faces()) {
 		const auto [a, b, c] = t.vertices(f);
-		capped.triangles.push_back({a.number(), b.number(), c.number()});
+		triangles.push_back({a.number(), b.number(), c.number()});
 	}
-	// An exterior halfedge has the direction of the side of the cap there.
-	std::vector<std::vector<Vertex>> loops;
-	std::vector<char> isClosed; // [loop]
-	std::size_t longest = 0;
-	double maxLength = -1.0;
-	for (const Halfedge first : t.boundaryLoops()) {
-		std::vector<Vertex> loop;
-		double length = 0.0;
-		bool all = true;
-		for (const Halfedge h : t.loop(first)) {
-			all &= isHole.empty() || isHole[h.edge()];
-			loop.push_back(t.origin(h));
-			length += distance(positions[t.origin(h)], positions[t.target(h)]);
+	for (const Halfedge first : loops) {
+		const int centre = positions.size();
+		positions.push_back(centreOf(domain.surface, first));
+		for (const Halfedge h : t.loop(first)) { // in the direction of the side of the cap there
+			domain.onHole[t.origin(h)] = 1;
+			triangles.push_back({t.origin(h).number(), t.target(h).number(), centre});
 		}
-		if (length > maxLength) {
-			maxLength = length;
-			longest = loops.size();
-		}
-		isClosed.push_back(all);
-		loops.push_back(std::move(loop));
 	}
-	if (isHole.empty() && !loops.empty())
-		isClosed[longest] = 0;
-	for (std::size_t l = 0; l < loops.size(); ++l) {
-		if (!isClosed[l])
-			continue;
-		const std::vector<Vertex>& loop = loops[l];
-		const int centre = capped.positions.size();
-		capped.positions.push_back(centreOf(loop, positions));
-		for (std::size_t i = 0; i < loop.size(); ++i) {
-			capped.onHole[loop[i]] = 1;
-			capped.triangles.push_back(
-				{loop[i].number(), loop[(i + 1) % loop.size()].number(), centre});
-		}
-		++capped.holes;
-	}
-	return capped;
+	domain.capped = embeddedSurface(std::move(positions), triangles);
 }
 
 DoubleSurface doubleOf(const Triangulation& t)
@@ -205,18 +193,10 @@ FlowDomain flowDomain(const Component& component, Holes holes)
 	domain.surface = embeddedSurface(component.positions, component.triangles);
 	const Triangulation& t = domain.surface.triangulation;
 	domain.isDiagonal = edgesOf(t, component.diagonal);
-	domain.onHole.assign(domain.surface.triangulation.vertexCount(), 0);
-	if (holes == Holes::Boundaries || domain.surface.topology.type.isClosed())
-		return domain;
-	EdgeArray<char> isHole = edgesOf(t, component.hole);
-	if (holes == Holes::ShortCapped)
-		isHole = shortLoops(domain.surface, isHole);
-	CappedSurface capped = capHoles(t, domain.surface.positions, isHole);
-	if (capped.holes == 0)
-		return domain;
-	domain.capped = embeddedSurface(std::move(capped.positions), capped.triangles);
-	domain.onHole = std::move(capped.onHole);
-	domain.holes = capped.holes;
+	std::vector<Halfedge> loops;
+	if (holes != Holes::Boundaries && !domain.surface.topology.type.isClosed())
+		loops = loopsToClose(domain.surface, edgesOf(t, component.hole), holes);
+	capHoles(loops, domain);
 	return domain;
 }
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace ricci {
 
@@ -28,29 +29,6 @@ EdgeArray<double> edgeLengths(const Triangulation& t, const VertexArray<Point3>&
 EmbeddedSurface
 embeddedSurface(VertexArray<Point3> positions, const std::vector<Triangle>& triangles);
 
-/// The triangles of a surface whose holes are closed by caps.
-struct CappedSurface
-{
-	std::vector<Triangle> triangles; ///< those of the surface in order, then those of the caps
-	VertexArray<Point3> positions;   ///< of the surface's vertices, then the centres of the caps
-	VertexArray<char> onHole;        ///< [vertex of the surface] 1 on a loop that is closed
-	int holes = 0;                   ///< loops that are closed
-};
-
-/// Closes every hole by a fan round its centre of mass. Holes are the boundary loops all of whose
-/// edges are marked in \p isHole, or where that is empty, all but the longest. A Triangulation of the
-/// result keeps the numbers of the surface's vertices, edges, halfedges and faces.
-///
-/// Positions serve only to give the edges of the fan a length, and its triangles may be thin: the
-/// flow starts from the intrinsic Delaunay triangulation and makes the fan flat, inside and
-/// together with the faces at its rim. A finer filling, by rings of ever fewer vertices, changes
-/// the distortion of the surface in the fourth digit only. A plane hole that is star-shaped from
-/// its centre is filled by the plane.
-CappedSurface capHoles(
-	const Triangulation& t,
-	const VertexArray<Point3>& positions,
-	const EdgeArray<char>& isHole = {});
-
 /// Two copies of a surface with boundary, the second one turned round, glued along the boundary: a
 /// closed surface. Vertices, edges, halfedges and faces of the surface keep their numbers in the
 /// first copy; an exterior halfedge of the surface is an interior one of the second copy.
@@ -69,7 +47,8 @@ struct FlowDomain
 	EmbeddedSurface surface;    ///< the component's own triangles
 	EdgeArray<char> isDiagonal; ///< [edge of surface] see SurfaceMesh; may be empty
 
-	/// The surface with caps on its holes, where they are to be closed (capHoles()). Elements of the surface keep their numbers.
+	/// The surface with caps on its holes, where they are to be closed: after its own vertices the centres
+	/// of the caps, after its own triangles those of the caps. Elements of the surface keep their numbers.
 	std::optional<EmbeddedSurface> capped;
 	VertexArray<char> onHole; ///< [vertex of surface] 1 on a loop that is closed
 	int holes = 0;            ///< loops that are closed
@@ -88,6 +67,20 @@ struct FlowDomain
 /// by 2 genus - 2 if that is above 1: also the longest, so that a closed surface that lacks some faces is closed
 /// for the flow.
 FlowDomain flowDomain(const Component& component, Holes holes);
+
+/// Exterior halfedges of the loops that are to be closed: one of each. See flowDomain().
+/// \param isHole 1 on the edges of holes; empty: which loops are holes is told by their lengths
+std::vector<Halfedge>
+loopsToClose(const EmbeddedSurface& surface, const EdgeArray<char>& isHole, Holes holes);
+
+/// Closes \p loops of the surface of \p domain by fans round their centres of mass.
+///
+/// Positions serve only to give the edges of the fan a length, and its triangles may be thin: the
+/// flow starts from the intrinsic Delaunay triangulation and makes the fan flat, inside and
+/// together with the faces at its rim. A finer filling, by rings of ever fewer vertices, changes
+/// the distortion of the surface in the fourth digit only. A plane hole that is star-shaped from
+/// its centre is filled by the plane.
+void capHoles(const std::vector<Halfedge>& loops, FlowDomain& domain);
 
 } // namespace ricci
 

@@ -86,19 +86,11 @@ void NormalCoordinates::updateRoundabout(Halfedge h)
 		(m_roundabout[clockwise] + passed) % std::max(m_degree[m_triangulation.origin(h)], 1);
 }
 
-void NormalCoordinates::flip(Edge e)
+/// Follows a flip that \p change makes.
+void NormalCoordinates::follow(Edge e, void (Triangulation::*change)(Edge))
 {
 	const int normal = flippedNormalCoordinate(e);
-	m_triangulation.flip(e);
-	m_normal[e] = normal;
-	updateRoundabout(e.halfedge());
-	updateRoundabout(e.halfedge().twin());
-}
-
-void NormalCoordinates::unflip(Edge e)
-{
-	const int normal = flippedNormalCoordinate(e);
-	m_triangulation.unflip(e);
+	(m_triangulation.*change)(e);
 	m_normal[e] = normal;
 	updateRoundabout(e.halfedge());
 	updateRoundabout(e.halfedge().twin());

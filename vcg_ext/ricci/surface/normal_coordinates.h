@@ -59,8 +59,8 @@ public:
 
 	/// Follow a flip of edge \p e, forwards or backwards (see Triangulation).
 	/// \pre \p e is flippable
-	void flip(Edge e);
-	void unflip(Edge e);
+	void flip(Edge e) { follow(e, &Triangulation::flip); }
+	void unflip(Edge e) { follow(e, &Triangulation::unflip); }
 
 	const Triangulation& triangulation() const { return m_triangulation; }
 
@@ -111,6 +111,7 @@ public:
 
 private:
 	int flippedNormalCoordinate(Edge e) const;
+	void follow(Edge e, void (Triangulation::*change)(Edge));
 	void updateRoundabout(Halfedge h);
 
 	/// The original halfedge of this rank, modulo the degree, at \p v.
