@@ -105,7 +105,6 @@ TEST(DelaunayPacking, IsWeightedDelaunayWithDisjointCircles)
 				continue;
 			}
 			// Only where both forms are within rounding of a tie.
-			Triangulation t = t;
 			const double delta = flippedDelta(t, start.delta, e);
 			const Vertex k = t.apex(e.halfedge()), l = t.apex(e.halfedge().twin());
 			EXPECT_NEAR(

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -198,24 +199,19 @@ public:
 	void improve(bool keepSum)
 	{
 		for (int s = 0; s < kStepsPerCone * size(); ++s) {
-			const Change change = best(keepSum);
-			if (change.up < 0 && change.down < 0)
+			const auto [up, down] = best(keepSum);
+			if (up < 0 && down < 0)
 				return;
-			if (change.up >= 0)
-				step(change.up, 1.0);
-			if (change.down >= 0)
-				step(change.down, -1.0);
+			if (up >= 0)
+				step(up, 1.0);
+			if (down >= 0)
+				step(down, -1.0);
 		}
 	}
 
 	Eigen::VectorXd values() const { return kQuarterTurn * m_turns; }
 
 private:
-	struct Change
-	{
-		int up = -1, down = -1; // cones whose curvature grows and falls; -1: none
-	};
-
 	int size() const { return static_cast<int>(m_turns.size()); }
 
 	/// Half of what the energy rises by if curvature \p i changes by one quarter turn.
@@ -231,10 +227,10 @@ private:
 		m_slope += by * m_gram.col(i);
 	}
 
-	/// The change that lowers the energy most; none if no change lowers it.
-	Change best(bool keepSum) const
+	/// The cones whose curvatures are to grow and to fall to lower the energy most; -1: none.
+	std::pair<int, int> best(bool keepSum) const
 	{
-		Change found;
+		std::pair<int, int> found{-1, -1};
 		double lowest = -kMinRoundingGain * (1.0 + std::abs(m_gram(0, 0)));
 		const auto consider = [&](int up, int down, double change) {
 			if (change < lowest) {

@@ -31,6 +31,15 @@ constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
 } // namespace
 
+VertexVector
+spreadOut(const std::vector<Vertex>& cones, const Eigen::VectorXd& curvatures, int vertexCount)
+{
+	VertexVector whole = VertexVector::Zero(vertexCount);
+	for (std::size_t i = 0; i < cones.size(); ++i)
+		whole[cones[i]] += curvatures[static_cast<Eigen::Index>(i)];
+	return whole;
+}
+
 int minConeCount(const LinearFlow& flow, double total)
 {
 	if (!flow.hasFixedSum() || total == 0.0)
@@ -61,23 +70,15 @@ VertexVector ConeModel::centred(VertexVector field) const
 
 VertexVector ConeModel::factor()
 {
-	return m_flow.factor(spread(m_now.fit.values));
-}
-
-/// Curvatures of the cones as those of all vertices.
-VertexVector ConeModel::spread(const Eigen::VectorXd& k) const
-{
-	VertexVector whole = VertexVector::Zero(m_flow.vertexCount());
-	for (int i = 0; i < size(); ++i)
-		whole[vertex(i)] += k[i];
-	return whole;
+	return m_flow.factor(spreadOut(vertices(), m_now.fit.values, m_flow.vertexCount()));
 }
 
 /// From the fields or, where there are many, by solutions that cost the same for any number.
 VertexVector ConeModel::gradientAt(const Eigen::VectorXd& k)
 {
 	if (size() > kFieldsOfASolution)
-		return centred(m_flow.gradient(m_flow.factor(spread(k))));
+		return centred(
+			m_flow.gradient(m_flow.factor(spreadOut(vertices(), k, m_flow.vertexCount()))));
 	VertexVector phi = m_start;
 	for (int i = 0; i < size(); ++i)
 		phi += k[i] * *m_fields[i];

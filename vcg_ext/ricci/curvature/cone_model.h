@@ -14,6 +14,10 @@
 
 namespace ricci {
 
+/// Curvatures of some cones as those of all \p vertexCount vertices.
+VertexVector
+spreadOut(const std::vector<Vertex>& cones, const Eigen::VectorXd& curvatures, int vertexCount);
+
 /// The smallest number of cones that can carry the curvature \p total on the surface of \p flow.
 int minConeCount(const LinearFlow& flow, double total);
 
@@ -195,7 +199,6 @@ private:
 			0.0, k.dot(symmetric(m_now.gram) * k) + 2.0 * m_now.linear.dot(k) + m_startEnergy);
 	}
 	int border() const { return hasFixedSum() ? 1 : 0; }
-	VertexVector spread(const Eigen::VectorXd& k) const;
 	Reach reachOf(Vertex v) const;
 	double minOwnProduct(const Reach& reach) const;
 	double minEnergyAt(int i, const Reach& reach, double ownProduct) const;

@@ -65,6 +65,8 @@ LinearFlow::LinearFlow(LinearSystem system) :
 		m_curvature(std::move(system.curvature)), m_area(std::move(system.area)),
 		m_factor(std::move(system.factor)), m_sink(std::move(system.sink))
 {
+	for (int v = 0; v < vertexCount(); ++v)
+		m_row.push_back(m_fixesBoundary ? v : v - 1);
 	m_unknowns = std::max(0, vertexCount() - (m_fixesBoundary ? 0 : 1));
 	const SparseCholesky::Matrix lower =
 		system.laplacian.bottomRightCorner(m_unknowns, m_unknowns).triangularView<Eigen::Lower>();
@@ -79,11 +81,10 @@ void LinearFlow::soften(double factor)
 
 LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
 {
-	const VertexArray<int>& row = m_hessian->row();
 	vertices.clear();
 	Vertex pinned;
-	for (const Vertex v : row.indices()) {
-		if (row[v] >= 0)
+	for (const Vertex v : m_row.indices()) {
+		if (m_row[v] >= 0)
 			vertices.push_back(v);
 		else if (!m_fixesBoundary)
 			pinned = v;
@@ -130,6 +131,7 @@ void LinearFlow::factorize(
 	m_hessian = std::make_unique<FactoredHessian>(
 		m_fixesBoundary ? surface.topology.boundary : VertexArray<char>(vertexCount(), 0),
 		map.scaleInvariant());
+	m_row = m_hessian->row();
 	m_unknowns = m_hessian->unknowns();
 	if (m_unknowns > 0)
 		m_hessian->factorize(map);
@@ -170,19 +172,15 @@ Eigen::MatrixXd LinearFlow::gradient(const Eigen::MatrixXd& u)
 /// L^-1 rhs on the unknown vertices, 0 on the others.
 Eigen::MatrixXd LinearFlow::solveRows(const Eigen::MatrixXd& rhs)
 {
-	if (m_system) {
-		Eigen::MatrixXd x = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
-		x.bottomRows(m_unknowns) = m_softness * m_system->solve(rhs.bottomRows(m_unknowns));
-		return x;
-	}
-	Eigen::MatrixXd rows(m_unknowns, rhs.cols());
-	for (Eigen::Index column = 0; column < rhs.cols(); ++column)
-		rows.col(column) = m_hessian->gather(rhs.col(column));
+	Eigen::MatrixXd rows(m_unknowns, rhs.cols()), x = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
+	for (const Vertex v : m_row.indices())
+		if (m_row[v] >= 0)
+			rows.row(m_row[v]) = rhs.row(v.number());
 	if (m_unknowns > 0)
-		rows = m_hessian->cholesky().solve(rows);
-	Eigen::MatrixXd x(rhs.rows(), rhs.cols());
-	for (Eigen::Index column = 0; column < rhs.cols(); ++column)
-		x.col(column) = m_hessian->scatter(rows.col(column));
+		rows = m_softness * (m_system ? *m_system : m_hessian->cholesky()).solve(rows);
+	for (const Vertex v : m_row.indices())
+		if (m_row[v] >= 0)
+			x.row(v.number()) = rows.row(m_row[v]);
 	return x;
 }
 

@@ -103,6 +103,7 @@ private:
 
 	std::unique_ptr<SparseCholesky> m_system;   // of a LinearSystem; null where there is a Hessian
 	std::unique_ptr<FactoredHessian> m_hessian; // null where there is a LinearSystem
+	VertexArray<int> m_row;                     // of the unknown, or -1
 	int m_unknowns = 0;
 	double m_softness = 1.0; // L is divided by
 	bool m_fixesBoundary;

@@ -5,6 +5,7 @@
 #include "circle_packing.h"
 #include "delaunay_queue.h"
 
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -54,37 +55,14 @@ bool isWeightedDelaunay(
 	const VertexArray<double>& kappa,
 	Edge e);
 
-/// Edges flipped, in order, with what is needed to go back.
-class FlipJournal
-{
-public:
-	void clear() { m_flips.clear(); }
+/// Edges flipped, in order, each with its delta before the flip.
+using FlipJournal = std::vector<std::pair<Edge, double>>;
 
-	/// \p delta: of the edge before the flip.
-	void record(Edge e, double delta) { m_flips.push_back({e, delta}); }
-	int size() const { return static_cast<int>(m_flips.size()); }
-
-	/// Appends the recorded edges to \p edges, in order.
-	void appendTo(std::vector<Edge>& edges) const
-	{
-		for (const Flip& flip : m_flips)
-			edges.push_back(flip.edge);
-	}
-
-	/// Undoes every recorded flip, last first, bit for bit, and clears the journal.
-	void rewind(Triangulation& t, EdgeArray<double>& delta);
-
-private:
-	struct Flip
-	{
-		Edge edge;
-		double delta;
-	};
-	std::vector<Flip> m_flips;
-};
+/// Undoes every flip of \p journal, last first, bit for bit, and clears it.
+void rewind(FlipJournal& journal, Triangulation& t, EdgeArray<double>& delta);
 
 /// Flips edges until every one is weighted Delaunay, in an order that depends on the input alone
-/// and not on the number of \p threads, which test the edges beforehand. The flips are recorded in
+/// and not on the number of \p threads, which test the edges beforehand. The flips are appended to
 /// \p journal; \p queue is work space.
 /// \return number of flips
 /// \throw NotConverged (FlipsUsedUp) where rounding keeps the flips from ending
