@@ -4,7 +4,7 @@
 
 #include "support/packed.h"
 
-#include <ricci/metric/initial_packing.h>
+#include <ricci/metric/circle_packing.h>
 #include <ricci/surface/flow_domain.h>
 
 #include <Eigen/Dense>

@@ -7,9 +7,8 @@
 #include "support/shapes.h"
 
 #include <ricci/error.h>
+#include <ricci/metric/circle_packing.h>
 #include <ricci/metric/conformal_flip.h>
-#include <ricci/metric/delaunay_queue.h>
-#include <ricci/metric/initial_packing.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #ifndef RICCI_RICCI_FLOW_H
 #define RICCI_RICCI_FLOW_H
 
-#include "../metric/initial_packing.h"
+#include "../metric/circle_packing.h"
 #include "../options.h"
 #include "../surface/flow_domain.h"
 #include "newton.h"
