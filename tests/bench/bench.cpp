@@ -15,8 +15,8 @@
 #include <ricci/flow/hessian.h>
 #include <ricci/flow/ricci_flow.h>
 #include <ricci/math/sparse_cholesky.h>
-#include <ricci/metric/euclidean.h>
 #include <ricci/metric/circle_packing.h>
+#include <ricci/metric/euclidean.h>
 #include <ricci/parametrize.h>
 #include <ricci/surface/component.h>
 #include <ricci/surface/flow_domain.h>
