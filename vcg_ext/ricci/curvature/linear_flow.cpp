@@ -143,8 +143,8 @@ VertexVector LinearFlow::factor(VertexVector k)
 {
 	k -= m_curvature;
 	if (m_factor.size() == 0)
-		return solve(std::move(k));
-	VertexVector u = m_factor + solve(std::move(k));
+		return solve(k);
+	VertexVector u = m_factor + solve(k);
 	u.array() -= m_area.dot(u);
 	return u;
 }
