@@ -6,7 +6,6 @@
 #include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../metric/area.h"
-#include "../metric/unfold.h"
 #include "../surface/flow_domain.h"
 #include "../surface/normal_coordinates.h"
 #include "circle_target.h"
