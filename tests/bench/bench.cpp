@@ -12,11 +12,11 @@
 #include <ricci/base/numbers.h>
 #include <ricci/base/parallel.h>
 #include <ricci/curvature/target_curvature.h>
-#include <ricci/flow/factored_hessian.h>
+#include <ricci/flow/hessian.h>
 #include <ricci/flow/ricci_flow.h>
 #include <ricci/math/sparse_cholesky.h>
+#include <ricci/metric/circle_packing.h>
 #include <ricci/metric/euclidean.h>
-#include <ricci/metric/initial_packing.h>
 #include <ricci/parametrize.h>
 #include <ricci/surface/component.h>
 #include <ricci/surface/flow_domain.h>
@@ -365,8 +365,7 @@ void measure(
 	VertexVector u(surface.triangulation.vertexCount());
 	for (const Vertex v : u.indices())
 		u[v] = std::log(packing.radii[v]);
-	GeometricCurvatureMap<Euclidean> map(
-		inversiveDistancePacking(surface.triangulation, surface.lengths, packing.radii));
+	GeometricCurvatureMap<Euclidean> map(CirclePacking{packing.mesh.triangulation, packing.delta});
 	map.evaluate(u);
 	// K(u) and its derivative, what the flow does in several threads, in one and in all of them.
 	const auto evaluation = [&](int threads) {

@@ -4,7 +4,7 @@
 
 #include "support/packed.h"
 
-#include <ricci/metric/initial_packing.h>
+#include <ricci/metric/circle_packing.h>
 #include <ricci/surface/flow_domain.h>
 
 #include <Eigen/Dense>
@@ -33,8 +33,7 @@ struct DenseFlow
 		VertexVector u(t.vertexCount());
 		for (const Vertex v : t.vertices())
 			u[v] = std::log(start.radii[v]);
-		GeometricCurvatureMap<Euclidean> map(
-			inversiveDistancePacking(t, start.mesh.lengths, start.radii));
+		GeometricCurvatureMap<Euclidean> map(CirclePacking{t, start.delta});
 		// By central differences of the curvature, so that neither Hessian nor solver are trusted.
 		laplacian.resize(t.vertexCount(), t.vertexCount());
 		const double step = 1e-6;

@@ -102,7 +102,7 @@ TEST(EdgeSwap, AnEdgeIsNotSwappedForEver)
 	while (rounds < 100 && swapper(map)) {
 		++rounds;
 		const Triangulation& t = map.triangulation();
-		CirclePacking packing{t, map.delta(), {}};
+		CirclePacking packing{t, map.delta()};
 		packing.delta[e] = 1e4;
 		map = GeometricCurvatureMap<Euclidean>(packing);
 		map.evaluate(packed.u());

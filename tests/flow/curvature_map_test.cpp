@@ -236,7 +236,7 @@ TEST(CurvatureMap, CurvatureIsContinuousWhereATriangleBreaks)
 	// Equilateral triangle of touching circles with delta = 2 on one edge: growing that edge's ends
 	// breaks it. Angles approach pi and 0 like the square root of the distance to the break.
 	const Triangulation t(3, {{0, 1, 2}});
-	CirclePacking packing{t, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
+	CirclePacking packing{t, {0.0, 0.0, 0.0}};
 	for (const Edge e : t.edges())
 		if (t.origin(e.halfedge()) != Vertex(2) && t.target(e.halfedge()) != Vertex(2))
 			packing.delta[e] = 2.0;

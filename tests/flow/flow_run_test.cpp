@@ -5,7 +5,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/flow/flow_run.h>
-#include <ricci/surface/double_surface.h>
+#include <ricci/surface/flow_domain.h>
 
 #include <gtest/gtest.h>
 

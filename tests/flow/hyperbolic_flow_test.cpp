@@ -280,7 +280,8 @@ TEST(HyperbolicFlow, DistortedStartsLeadToTheSameMetric)
 		const VertexVector& u = flow.result.u;
 		for (double spread : {0.1, 1.0, 3.0}) {
 			SCOPED_TRACE(spread);
-			FlippingCurvatureMap<Hyperbolic> map(flow.result.metric->packing());
+			FlippingCurvatureMap<Hyperbolic> map(
+				CirclePacking{flow.result.metric->triangulation(), flow.result.metric->delta()});
 			VertexVector found = u;
 			for (double& x : found)
 				x = std::min(x + random.real(-spread, spread), -0.05);

@@ -57,7 +57,7 @@ VertexVector disturbed(VertexVector u, double spread, Random& random)
 /// extended precision, extrapolated.
 Eigen::MatrixXd differences(const CurvatureMap& state, const VertexVector& u)
 {
-	ExtendedFixed map(state.packing());
+	ExtendedFixed map(CirclePacking{state.triangulation(), state.delta()});
 	Eigen::MatrixXd derivative(u.size(), u.size());
 	const double h = 1e-3 * std::min(1.0, -u.maxCoeff());
 	for (const Vertex j : u.indices()) {

@@ -7,7 +7,7 @@
 #include <ricci/base/tolerances.h>
 #include <ricci/error.h>
 #include <ricci/flow/newton.h>
-#include <ricci/surface/double_surface.h>
+#include <ricci/surface/flow_domain.h>
 
 #include <gtest/gtest.h>
 
@@ -257,8 +257,9 @@ TEST(Newton, AStepIsAddedWithoutRounding)
 	EdgeArray<double> lengths = mesh.lengths;
 	for (double& l : lengths)
 		l /= radius;
-	ReluctantMap map(inversiveDistancePacking(
-		mesh.triangulation, lengths, VertexArray<double>(mesh.radii.size(), 1.0)));
+	const VertexArray<double> ones(mesh.radii.size(), 1.0);
+	ReluctantMap map(CirclePacking{
+		mesh.triangulation, inversiveDistancesLessOne(mesh.triangulation, lengths, ones)});
 	VertexVector start(mesh.u().size());
 	for (double& x : start)
 		x = 0x1p-60 * std::round(0x1p60 * random.real(-0.01, 0.01));

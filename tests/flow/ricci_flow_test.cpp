@@ -11,7 +11,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/error.h>
-#include <ricci/surface/double_surface.h>
+#include <ricci/surface/flow_domain.h>
 
 #include <gtest/gtest.h>
 

@@ -208,7 +208,7 @@ TEST(BolzaSurface, PrintedStartIsTheMetricAndTheScaleFreeOneConvergesToIt)
 		const BolzaSurface surface(levels);
 		const Triangulation& t = surface.triangulation;
 		const VertexArray<double> radii = initialRadii(t, surface.lengths);
-		CirclePacking packing{t, {}, {}};
+		CirclePacking packing{t, {}};
 		VertexVector u(t.vertexCount());
 		for (const Vertex v : t.vertices())
 			u[v] = std::log(std::tanh(0.5 * radii[v]));

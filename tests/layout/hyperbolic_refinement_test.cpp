@@ -269,7 +269,7 @@ TEST(HyperbolicRefinement, CrossingsAreWhereGeodesicsMeet)
 		VertexArray<double> radii = initialRadii(t, lengths);
 		for (double& r : radii)
 			r *= 0.5;
-		const CirclePacking packing = inversiveDistancePacking(t, lengths, radii);
+		const CirclePacking packing{t, inversiveDistancesLessOne(t, lengths, radii)};
 		Edge e(0);
 		while (!t.isFlippable(e))
 			e = Edge(e.number() + 1);

@@ -30,7 +30,6 @@ TEST(Adjacency, ListsTheItemsOfEachKeyInTheirOrder)
 				add(key, item);
 		});
 		ASSERT_EQ(lists.keyCount(), keys);
-		int first = 0;
 		for (const Key key : IndexRange<Key>(keys)) {
 			std::vector<int> expected;
 			for (const auto& [k, item] : given)
@@ -41,39 +40,35 @@ TEST(Adjacency, ListsTheItemsOfEachKeyInTheirOrder)
 			EXPECT_EQ(lists[key].empty(), expected.empty());
 			for (int i = 0; i < lists[key].size(); ++i)
 				EXPECT_EQ(lists[key][i], expected[positionOf(i)]);
-			EXPECT_EQ(lists.first(key), first);
-			first += lists[key].size();
-			EXPECT_EQ(lists.last(key), first);
 		}
 		EXPECT_EQ(lists.items().size(), given.size());
 	}
-}
-
-TEST(Adjacency, CountsKeysApartFromTheItems)
-{
-	// The items come in another order than their keys were counted.
-	const std::vector<int> keys{2, 0, 2, 1};
-	Adjacency<int, double> lists(
-		4,
-		[&](const auto& count) {
-			for (int key : keys)
-				count(key);
-		},
-		[&](const auto& add) {
-			for (std::size_t i = keys.size(); i-- > 0;)
-				add(keys[i], static_cast<double>(i));
-		});
-	EXPECT_EQ(lists.items(), (std::vector<double>{1.0, 3.0, 2.0, 0.0}));
-	EXPECT_TRUE(lists[3].empty());
-	for (double& item : lists[2])
-		item += 10.0;
-	EXPECT_EQ(lists.items(), (std::vector<double>{1.0, 3.0, 12.0, 10.0}));
 }
 
 TEST(Adjacency, WithoutKeysHasNone)
 {
 	EXPECT_EQ((Adjacency<int, int>().keyCount()), 0);
 	EXPECT_EQ((Adjacency<int, int>(0, [](const auto&) {}).keyCount()), 0);
+}
+
+TEST(BucketSort, IsASort)
+{
+	Random random(350);
+	using Item = std::pair<int, int>;
+	for (int trial = 0; trial < 200; ++trial) {
+		const int keys = trial % 2 == 0 ? 1 + random.index(30) : 1000000000; // few or far apart
+		const int first = random.index(1000) - 500;
+		std::vector<Item> items;
+		for (int i = random.index(100); i > 0; --i)
+			items.push_back({first + random.index(keys), random.index(10)});
+		std::vector<Item> sorted = items;
+		std::sort(sorted.begin(), sorted.end());
+		bucketSort(
+			items,
+			[](const Item& item) { return item.first; },
+			[](const Item& a, const Item& b) { return a.second < b.second; });
+		EXPECT_EQ(items, sorted);
+	}
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 #include "support/random.h"
 
 #include <ricci/math/double_double.h>
-#include <ricci/math/extended_complex.h>
 
 #include <gtest/gtest.h>
 

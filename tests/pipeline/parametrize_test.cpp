@@ -12,7 +12,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/error.h>
-#include <ricci/math/min_area_rectangle.h>
+#include <ricci/math/convex_hull.h>
 #include <ricci/measure/distortion.h>
 #include <ricci/parametrize.h>
 

@@ -3,7 +3,7 @@
 #define RICCI_TESTS_BOLZA_H
 
 #include <ricci/cut/cut_graph.h>
-#include <ricci/metric/initial_packing.h>
+#include <ricci/metric/circle_packing.h>
 #include <ricci/surface/triangulation.h>
 
 #include <complex>

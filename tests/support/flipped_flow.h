@@ -9,7 +9,7 @@
 #include <ricci/cut/cut_graph.h>
 #include <ricci/flow/ricci_flow.h>
 #include <ricci/layout/common_refinement.h>
-#include <ricci/metric/initial_packing.h>
+#include <ricci/metric/circle_packing.h>
 #include <ricci/options.h>
 #include <ricci/surface/flow_domain.h>
 

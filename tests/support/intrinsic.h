@@ -4,7 +4,7 @@
 
 #include "random.h"
 
-#include <ricci/metric/initial_packing.h>
+#include <ricci/metric/circle_packing.h>
 #include <ricci/surface/component.h>
 #include <ricci/surface/opened_mesh.h>
 #include <ricci/surface/surface_mesh.h>

@@ -8,9 +8,7 @@
 #include <ricci/metric/circle_packing.h>
 #include <ricci/metric/euclidean.h>
 
-#include <Eigen/Core>
-
-#include <vector>
+#include <cmath>
 
 namespace ricci::testing {
 
@@ -24,15 +22,17 @@ struct Packed
 
 	explicit Packed(const SurfaceMesh& mesh) : Packed(intrinsicMesh(mesh)) {}
 	Packed(const Triangulation& t, const EdgeArray<double>& l) :
-			triangulation(t), lengths(l), radii(initialRadii(t, l)),
-			packing(inversiveDistancePacking(t, l, radii))
+			triangulation(t), lengths(l),
+			radii(initialRadii(t, l)), packing{t, inversiveDistancesLessOne(t, l, radii)}
 	{
 	}
 
 	VertexVector u() const
 	{
-		return Eigen::Map<const Eigen::VectorXd>(
-			packing.u.data(), static_cast<Eigen::Index>(packing.u.size()));
+		VertexVector u(radii.size());
+		for (const Vertex v : radii.indices())
+			u[v] = std::log(radii[v]);
+		return u;
 	}
 	GeometricCurvatureMap<Euclidean> map() const
 	{

@@ -3,7 +3,6 @@
 #define RICCI_TESTS_REFINEMENT_CHECK_H
 
 #include <ricci/surface/surface_mesh.h>
-#include <ricci/surface/surface_point.h>
 
 #include <array>
 #include <vector>

@@ -7,7 +7,7 @@
 
 #include <ricci/base/indexed.h>
 #include <ricci/texture/carry_texture.h>
-#include <ricci/texture/texels_of_triangle.h>
+#include <ricci/texture/picture.h>
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/intrinsic.h"
+#include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
@@ -14,7 +14,6 @@
 
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace ricci::testing {
 namespace {
@@ -28,20 +27,11 @@ struct Example
 	Background background;
 
 	Example(const SurfaceMesh& mesh, Background b, double scale, double spread, Random& random) :
-			map(packed(mesh)), background(b)
+			map(Packed(mesh).packing), u(Packed(mesh).u()), background(b)
 	{
-		u.resize(map.triangulation().vertexCount());
-		for (const Vertex v : u.indices())
-			u[v] = map.packing().u[v] + std::log(scale) + random.real(-spread, spread);
+		for (double& x : u)
+			x += std::log(scale) + random.real(-spread, spread);
 		map.evaluate(u);
-	}
-
-	static CirclePacking packed(const SurfaceMesh& mesh)
-	{
-		Triangulation t = glued(mesh);
-		const EdgeArray<double> lengths = edgeLengths(t, mesh);
-		const VertexArray<double> radii = initialRadii(t, lengths);
-		return inversiveDistancePacking(std::move(t), lengths, radii);
 	}
 
 	MetricCheck check(const EdgeArray<double>& lengths, const VertexVector& target) const

@@ -2,7 +2,6 @@
 #ifndef RICCI_INDEXED_H
 #define RICCI_INDEXED_H
 
-#include <array>
 #include <cstddef>
 #include <initializer_list>
 #include <type_traits>

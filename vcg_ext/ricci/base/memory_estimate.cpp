@@ -29,6 +29,12 @@ constexpr std::size_t kMaxFaces = 300000000;
 /// A crossing makes up to eight corners of pieces, which int has to number.
 constexpr std::size_t kMaxCrossings = 250000000;
 
+void requireBytes(double needed, TooLarge::Problem problem, std::size_t count)
+{
+	if (const double limit = Task::memoryLimit(); limit > 0.0 && needed > limit)
+		throw TooLarge(problem, count, needed, limit);
+}
+
 } // namespace
 
 double estimatedMemory(std::size_t faces, std::size_t allFaces, bool refines)
@@ -44,25 +50,22 @@ void requireMemory(std::size_t faces, std::size_t allFaces, bool refines)
 {
 	if (allFaces > kMaxFaces)
 		throw TooLarge(TooLarge::Faces, allFaces, 0.0, static_cast<double>(kMaxFaces));
-	const double needed = estimatedMemory(faces, allFaces, refines);
-	if (const double limit = Task::memoryLimit(); limit > 0.0 && needed > limit)
-		throw TooLarge(TooLarge::Memory, allFaces, needed, limit);
+	requireBytes(estimatedMemory(faces, allFaces, refines), TooLarge::Memory, allFaces);
 }
 
 void requireMemoryForDouble(std::size_t faces)
 {
-	const double needed = estimatedMemory(2 * faces, faces, false);
-	if (const double limit = Task::memoryLimit(); limit > 0.0 && needed > limit)
-		throw TooLarge(TooLarge::DoubleMemory, 2 * faces, needed, limit);
+	requireBytes(estimatedMemory(2 * faces, faces, false), TooLarge::DoubleMemory, 2 * faces);
 }
 
 void requireOverlayMemory(std::size_t crossings, bool refines)
 {
 	if (crossings > kMaxCrossings)
 		throw TooLarge(TooLarge::Crossings, crossings, 0.0, static_cast<double>(kMaxCrossings));
-	const double needed = (refines ? kCrossingRefined : kCrossing) * static_cast<double>(crossings);
-	if (const double limit = Task::memoryLimit(); limit > 0.0 && needed > limit)
-		throw TooLarge(TooLarge::OverlayMemory, crossings, needed, limit);
+	requireBytes(
+		(refines ? kCrossingRefined : kCrossing) * static_cast<double>(crossings),
+		TooLarge::OverlayMemory,
+		crossings);
 }
 
 } // namespace ricci

@@ -69,19 +69,17 @@ void inParallel(int count, int threads, const Work& work, int minPart = 16384)
 /// A thread that waits for others calls checkpoint() after each such time.
 constexpr std::chrono::milliseconds kBetweenWaits(400);
 
-/// Calls work(i) for every i of [0, count), each in one of \p threads threads, in any order. The tasks
-/// must be independent of each other. checkpoint() is the run's own in the calling thread, which also calls
-/// it before each task and while it waits for the others; in these it does nothing but end them once another
-/// thread has thrown. What \p work or checkpoint() throws is thrown on.
-template<class Work>
-void tasksInParallel(int count, int threads, const Work& work)
+/// Calls own() in the calling thread and meanwhile help() in up to \p helpers others: fewer where there are
+/// no more threads. checkpoint() is the run's own in the calling thread, which also calls it while it waits for
+/// the others; in these it does nothing but end them. Once one thread has thrown, the others end. What any of
+/// them throws is thrown on.
+template<class Own, class Help>
+void withHelpers(int helpers, const Own& own, const Help& help)
 {
-	checkpoint();
-	std::atomic<int> next{0};
 	std::atomic<bool> ended{false};
 	const double memory = Task::memoryLimit();
-	std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(std::max(threads, 1)));
-	const auto unlessEnded = [&](std::size_t thread, const auto& run) {
+	std::exception_ptr ofOwn, ofHelp;
+	const auto unlessEnded = [&](const auto& run, std::exception_ptr& thrown) {
 		const HelpGuard guard(ended, memory);
 		try {
 			run();
@@ -89,86 +87,66 @@ void tasksInParallel(int count, int threads, const Work& work)
 		catch (const HelpEnded&) {
 		}
 		catch (...) {
-			thrown[thread] = std::current_exception();
-			ended = true;
+			if (!ended.exchange(true) || &thrown == &ofOwn) // the caller's comes first
+				thrown = std::current_exception();
 		}
 	};
+	std::vector<std::future<void>> others;
+	try {
+		others.reserve(static_cast<std::size_t>(std::max(helpers, 0)));
+		for (int i = 0; i < helpers; ++i)
+			others.push_back(std::async(std::launch::async, [&] { unlessEnded(help, ofHelp); }));
+	}
+	catch (const std::system_error&) { // no more threads to be had
+	}
+	catch (const std::bad_alloc&) { // nor memory for one
+	}
+	const auto runAndWait = [&] {
+		own();
+		for (const std::future<void>& other : others)
+			while (other.wait_for(kBetweenWaits) != std::future_status::ready)
+				checkpoint();
+	};
+	unlessEnded(runAndWait, ofOwn);
+	for (const std::future<void>& other : others)
+		other.wait();
+	for (const std::exception_ptr& thrown : {ofOwn, ofHelp})
+		if (thrown)
+			std::rethrow_exception(thrown);
+}
+
+/// Calls work(i) for every i of [0, count), each in one of \p threads threads, in any order, with
+/// withHelpers(); checkpoint() before each of them. The tasks must be independent of each other.
+template<class Work>
+void tasksInParallel(int count, int threads, const Work& work)
+{
+	checkpoint();
+	std::atomic<int> next{0};
 	const auto runTasks = [&] {
 		for (int i = next++; i < count; i = next++) {
 			checkpoint();
 			work(i);
 		}
 	};
-	std::vector<std::future<void>> others;
-	try {
-		others.reserve(thrown.size());
-		for (std::size_t i = 1; i < std::min(thrown.size(), static_cast<std::size_t>(count)); ++i)
-			others.push_back(std::async(std::launch::async, [&, i] { unlessEnded(i, runTasks); }));
-	}
-	catch (const std::system_error&) { // no more threads to be had
-	}
-	catch (const std::bad_alloc&) { // nor memory for one
-	}
-	unlessEnded(0, [&] {
-		runTasks();
-		for (const std::future<void>& other : others)
-			while (other.wait_for(kBetweenWaits) != std::future_status::ready)
-				checkpoint();
-	});
-	for (const std::future<void>& other : others)
-		other.wait();
-	for (const std::exception_ptr& exception : thrown)
-		if (exception)
-			std::rethrow_exception(exception);
+	withHelpers(std::min(threads, count) - 1, runTasks, runTasks);
 }
 
 /// Calls main() in the calling thread and meanwhile aside() in another one, if \p threads are more than
-/// one; else first aside(), then main(). They must be independent of each other. checkpoint() is the run's
-/// own in the calling thread, also while it waits; in the other one it does nothing but end \p aside once
-/// the calling thread has thrown. What any of them throws is thrown on.
+/// one and that is to be had before main() is done; else one after the other. See withHelpers(). They must be
+/// independent of each other.
 template<class Main, class Aside>
 void besides(int threads, const Main& main, const Aside& aside)
 {
-	std::atomic<bool> ended{false};
-	std::exception_ptr thrown;
-	const double memory = Task::memoryLimit();
-	std::future<void> other;
-	if (threads > 1)
-		try {
-			other = std::async(std::launch::async, [&] {
-				const HelpGuard guard(ended, memory);
-				aside();
-			});
-		}
-		catch (const std::system_error&) { // no more threads to be had
-		}
-		catch (const std::bad_alloc&) { // nor memory for one
-		}
-	if (!other.valid()) {
-		aside();
+	std::atomic<bool> isTaken{false};
+	const auto unlessTaken = [&] {
+		if (!isTaken.exchange(true))
+			aside();
+	};
+	const auto both = [&] {
 		main();
-		return;
-	}
-	try {
-		main();
-		while (other.wait_for(kBetweenWaits) != std::future_status::ready)
-			checkpoint();
-	}
-	catch (...) {
-		thrown = std::current_exception();
-		ended = true;
-	}
-	try {
-		other.get();
-	}
-	catch (const HelpEnded&) {
-	}
-	catch (...) {
-		if (!thrown)
-			thrown = std::current_exception();
-	}
-	if (thrown)
-		std::rethrow_exception(thrown);
+		unlessTaken();
+	};
+	withHelpers(threads > 1 ? 1 : 0, both, unlessTaken);
 }
 
 } // namespace ricci

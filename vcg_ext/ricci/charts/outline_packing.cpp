@@ -2,7 +2,7 @@
 #include "outline_packing.h"
 
 #include "../base/task.h"
-#include "../math/min_area_rectangle.h"
+#include "../math/convex_hull.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../math/min_area_rectangle.h"
+#include "../math/convex_hull.h"
 #include "../metric/area.h"
 #include "separate_charts.h"
 

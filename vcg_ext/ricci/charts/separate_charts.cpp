@@ -2,7 +2,7 @@
 #include "separate_charts.h"
 
 #include "../base/task.h"
-#include "../math/min_area_rectangle.h"
+#include "../math/convex_hull.h"
 #include "../metric/area.h"
 #include "chart_division.h"
 #include "chart_overlap.h"

@@ -25,11 +25,7 @@ FaceArray<double> areaShares(const EmbeddedSurface& surface)
 	FaceArray<double> share(t.faceCount());
 	double total = 0.0;
 	for (const Face f : t.faces()) {
-		const auto h = t.halfedges(f);
-		share[f] = euclideanArea(
-			{surface.lengths[h[0].edge()],
-			 surface.lengths[h[1].edge()],
-			 surface.lengths[h[2].edge()]});
+		share[f] = euclideanArea(sidesOf(t, surface.lengths, f));
 		total += share[f];
 	}
 	for (double& s : share)

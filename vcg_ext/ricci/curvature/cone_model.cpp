@@ -2,14 +2,11 @@
 #include "cone_model.h"
 
 #include "../base/task.h"
-#include "bounded_minimum.h"
-#include "cone_rounding.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <limits>
-#include <numeric>
 #include <optional>
 
 namespace ricci {
@@ -33,6 +30,15 @@ constexpr int kFieldsOfASolution = 64;
 constexpr double kUnknown = -std::numeric_limits<double>::infinity();
 
 } // namespace
+
+VertexVector
+spreadOut(const std::vector<Vertex>& cones, const Eigen::VectorXd& curvatures, int vertexCount)
+{
+	VertexVector whole = VertexVector::Zero(vertexCount);
+	for (std::size_t i = 0; i < cones.size(); ++i)
+		whole[cones[i]] += curvatures[static_cast<Eigen::Index>(i)];
+	return whole;
+}
 
 int minConeCount(const LinearFlow& flow, double total)
 {
@@ -64,23 +70,15 @@ VertexVector ConeModel::centred(VertexVector field) const
 
 VertexVector ConeModel::factor()
 {
-	return m_flow.factor(spread(m_now.fit.values));
-}
-
-/// Curvatures of the cones as those of all vertices.
-VertexVector ConeModel::spread(const Eigen::VectorXd& k) const
-{
-	VertexVector whole = VertexVector::Zero(m_flow.vertexCount());
-	for (int i = 0; i < size(); ++i)
-		whole[vertex(i)] += k[i];
-	return whole;
+	return m_flow.factor(spreadOut(vertices(), m_now.fit.values, m_flow.vertexCount()));
 }
 
 /// From the fields or, where there are many, by solutions that cost the same for any number.
-VertexVector ConeModel::gradientOf(const Eigen::VectorXd& k)
+VertexVector ConeModel::gradientAt(const Eigen::VectorXd& k)
 {
 	if (size() > kFieldsOfASolution)
-		return centred(m_flow.gradient(m_flow.factor(spread(k))));
+		return centred(
+			m_flow.gradient(m_flow.factor(spreadOut(vertices(), k, m_flow.vertexCount()))));
 	VertexVector phi = m_start;
 	for (int i = 0; i < size(); ++i)
 		phi += k[i] * *m_fields[i];
@@ -90,7 +88,7 @@ VertexVector ConeModel::gradientOf(const Eigen::VectorXd& k)
 const VertexVector& ConeModel::gradient()
 {
 	if (m_gradient.size() == 0)
-		m_gradient = gradientOf(m_now.fit.values);
+		m_gradient = gradientAt(m_now.fit.values);
 	return m_gradient;
 }
 
@@ -103,15 +101,7 @@ VertexVector ConeModel::gradientWithout(int i)
 	if (const double pivot = m_now.inverse(row, row); pivot > 0.0)
 		k -= m_now.inverse.col(row).tail(size()) * (curvature(i) / pivot);
 	k[i] = 0.0;
-	return gradientOf(k);
-}
-
-VertexVector ConeModel::gradientWithShares(double share) const
-{
-	VertexVector phi = m_start;
-	for (const Field& field : m_fields)
-		phi += share * *field;
-	return phi;
+	return gradientAt(k);
 }
 
 void ConeModel::append(const std::vector<Vertex>& vertices)
@@ -127,11 +117,12 @@ void ConeModel::append(const std::vector<Vertex>& vertices)
 			break;
 		}
 		checkpoint();
-		const LinearFlow::Pair u = m_flow.solve({unit(vertex(i)), unit(vertex(i + 1))});
-		LinearFlow::Pair fields = m_flow.gradient(u);
-		for (std::size_t k = 0; k < 2; ++k) {
-			m_ownProduct[vertex(i + static_cast<int>(k))] = m_flow.meanSquare(u[k]);
-			m_fields.push_back(std::make_shared<const VertexVector>(centred(std::move(fields[k]))));
+		Eigen::MatrixXd units(m_flow.vertexCount(), 2);
+		units << unit(vertex(i)), unit(vertex(i + 1));
+		const Eigen::MatrixXd u = m_flow.solve(units), fields = m_flow.gradient(u);
+		for (int k = 0; k < 2; ++k) {
+			m_ownProduct[vertex(i + k)] = m_flow.meanSquare(u.col(k));
+			m_fields.push_back(std::make_shared<const VertexVector>(centred(fields.col(k))));
 		}
 	}
 	m_now.gram.conservativeResize(size(), size());
@@ -154,9 +145,32 @@ void ConeModel::append(const std::vector<Vertex>& vertices)
 void ConeModel::remove(int i)
 {
 	m_isCone[vertex(i)] = 0;
-	removeRow(i);
 	m_fields.values().erase(m_fields.begin() + i);
 	m_gradient.resize(0);
+	leave(i);
+	m_now.vertices.values().erase(m_now.vertices.begin() + i);
+	// The last rows and columns move up.
+	const auto erase = [](Eigen::MatrixXd& matrix, int row) {
+		const Eigen::Index last = matrix.rows() - 1, left = last - row;
+		matrix.block(row, 0, left, last + 1) = matrix.bottomRows(left).eval();
+		matrix.block(0, row, last + 1, left) = matrix.rightCols(left).eval();
+		matrix.conservativeResize(last, last);
+	};
+	erase(m_now.gram, i);
+	if (m_now.inverse.rows() > 0)
+		erase(m_now.inverse, i + border());
+	const Eigen::Index left = size() - i;
+	m_now.linear.segment(i, left) = m_now.linear.tail(left).eval();
+	m_now.linear.conservativeResize(size());
+	// A start for the next fit: the others take an equal share of what is lost.
+	Eigen::VectorXd& k = m_now.fit.values;
+	const double lost = k.size() == size() + 1 && size() > 0 ? k[i] / size() : 0.0;
+	k.segment(i, left) = k.tail(left).eval();
+	k.conservativeResize(size());
+	if (hasFixedSum())
+		k.array() += lost;
+	m_now.fit.free.resize(0);
+	m_now.fit.energy = m_startEnergy;
 }
 
 Eigen::VectorXd ConeModel::descent(const Eigen::VectorXd& rest)
@@ -192,14 +206,6 @@ double ConeModel::need(int i)
 		invert();
 	const double pivot = m_now.inverse(i + border(), i + border());
 	return pivot > 0.0 ? curvature(i) * curvature(i) / pivot : std::numeric_limits<double>::max();
-}
-
-std::vector<int> ConeModel::byNeed()
-{
-	std::vector<int> cones(positionOf(size()));
-	std::iota(cones.begin(), cones.end(), 0);
-	std::stable_sort(cones.begin(), cones.end(), [&](int a, int b) { return need(a) < need(b); });
-	return cones;
 }
 
 void ConeModel::setRounding(ConeRounding rounding)
@@ -420,34 +426,6 @@ void ConeModel::setRow(int i, Vertex v)
 			m_now.gram(i, k) = m_now.gram(k, i) = (*m_fields[k])[v];
 	m_now.gram(i, i) = ownProduct(v);
 	m_now.linear[i] = m_start[v];
-}
-
-void ConeModel::removeRow(int i)
-{
-	leave(i);
-	m_now.vertices.values().erase(m_now.vertices.begin() + i);
-	// The last rows and columns move up.
-	const auto erase = [](Eigen::MatrixXd& matrix, int row) {
-		const Eigen::Index last = matrix.rows() - 1, left = last - row;
-		matrix.block(row, 0, left, last + 1) = matrix.bottomRows(left).eval();
-		matrix.block(0, row, last + 1, left) = matrix.rightCols(left).eval();
-		matrix.conservativeResize(last, last);
-	};
-	erase(m_now.gram, i);
-	if (m_now.inverse.rows() > 0)
-		erase(m_now.inverse, i + border());
-	const Eigen::Index left = size() - i;
-	m_now.linear.segment(i, left) = m_now.linear.tail(left).eval();
-	m_now.linear.conservativeResize(size());
-	// A start for the next fit: the others take an equal share of what is lost.
-	Eigen::VectorXd& k = m_now.fit.values;
-	const double lost = k.size() == size() + 1 && size() > 0 ? k[i] / size() : 0.0;
-	k.segment(i, left) = k.tail(left).eval();
-	k.conservativeResize(size());
-	if (hasFixedSum())
-		k.array() += lost;
-	m_now.fit.free.resize(0);
-	m_now.fit.energy = m_startEnergy;
 }
 
 } // namespace ricci

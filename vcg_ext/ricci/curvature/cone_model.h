@@ -2,6 +2,7 @@
 #ifndef RICCI_CONE_MODEL_H
 #define RICCI_CONE_MODEL_H
 
+#include "cone_curvatures.h"
 #include "linear_flow.h"
 
 #include <algorithm>
@@ -12,6 +13,10 @@
 #include <vector>
 
 namespace ricci {
+
+/// Curvatures of some cones as those of all \p vertexCount vertices.
+VertexVector
+spreadOut(const std::vector<Vertex>& cones, const Eigen::VectorXd& curvatures, int vertexCount);
 
 /// The smallest number of cones that can carry the curvature \p total on the surface of \p flow.
 int minConeCount(const LinearFlow& flow, double total);
@@ -68,12 +73,12 @@ public:
 	/// where the sum is fixed.
 	const VertexVector& gradient();
 
+	/// gradient() as it would be with the curvatures \p k; where the sum is fixed, what they lack of it
+	/// would lie on the whole surface in proportion to area.
+	VertexVector gradientAt(const Eigen::VectorXd& k);
+
 	/// gradient() as it would be without cone \p i, where no bound of a curvature is reached.
 	VertexVector gradientWithout(int i);
-
-	/// gradient() as it would be if every cone had curvature \p share, and the rest of the total
-	/// lay on the whole surface in proportion to area.
-	VertexVector gradientWithShares(double share) const;
 
 	/// gradient() at \p v as it is without the field of cone \p i. Where the sum is fixed, the curvature
 	/// of cone \p i lies on the whole surface in proportion to area instead.
@@ -132,9 +137,6 @@ public:
 	/// reached: k_i^2 over entry i of the diagonal of the inverse of G, bordered by the sum where it is
 	/// fixed.
 	double need(int i);
-
-	/// The cones by need(), the one needed least first.
-	std::vector<int> byNeed();
 
 	/// Takes cone \p i out, fits the others, and undoes that and whatever \p accept has done to the
 	/// model unless it returns true.
@@ -197,8 +199,6 @@ private:
 			0.0, k.dot(symmetric(m_now.gram) * k) + 2.0 * m_now.linear.dot(k) + m_startEnergy);
 	}
 	int border() const { return hasFixedSum() ? 1 : 0; }
-	VertexVector gradientOf(const Eigen::VectorXd& k);
-	VertexVector spread(const Eigen::VectorXd& k) const;
 	Reach reachOf(Vertex v) const;
 	double minOwnProduct(const Reach& reach) const;
 	double minEnergyAt(int i, const Reach& reach, double ownProduct) const;
@@ -215,7 +215,6 @@ private:
 	void restore(const State& state, const Array<Field>& fields);
 	const VertexVector& unitFactor(Vertex v);
 	void setRow(int i, Vertex v);
-	void removeRow(int i);
 
 	LinearFlow& m_flow;
 	double m_total;

@@ -3,13 +3,10 @@
 
 #include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/tolerances.h"
 #include "../error.h"
 #include "../flow/map_cost.h"
 #include "area_change.h"
-#include "coarse_flow.h"
 #include "cone_search.h"
-#include "cone_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -263,10 +260,7 @@ PlacedCones placeOnAggregates(
 	for (Vertex& v : vertices)
 		v = coarse.roots[v];
 	const auto spread = [&](const Eigen::VectorXd& k) {
-		VertexVector whole = VertexVector::Zero(flow.vertexCount());
-		for (std::size_t i = 0; i < vertices.size(); ++i)
-			whole[vertices[i]] = k[static_cast<Eigen::Index>(i)];
-		return whole;
+		return spreadOut(vertices, k, flow.vertexCount());
 	};
 	const auto slope = [&](const VertexVector& u) { // half that of the energy
 		checkpoint();
@@ -364,10 +358,10 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequ
 	LinearFlow linear(surface, flow, request.boundary, tailWeights(surface, flowFactor(flow)));
 	if (isForObjective(request)) {
 		PlacedCones placed = placeCones(surface, linear, request);
-		VertexVector k = VertexVector::Zero(linear.vertexCount());
-		for (std::size_t i = 0; i < placed.vertices.size(); ++i)
-			k[placed.vertices[i]] = placed.curvatures[i];
-		placed.distortion = areaChange(surface, linear.factor(std::move(k))).spread;
+		const auto k = Eigen::Map<const Eigen::VectorXd>(
+			placed.curvatures.data(), static_cast<Eigen::Index>(placed.curvatures.size()));
+		const VertexVector whole = spreadOut(placed.vertices, k, linear.vertexCount());
+		placed.distortion = areaChange(surface, linear.factor(whole)).spread;
 		return placed;
 	}
 	ConeModel model(linear, 2 * kPi * surface.topology.type.eulerCharacteristic());

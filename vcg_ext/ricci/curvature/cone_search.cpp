@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_search.h"
 
+#include "../base/numbers.h"
 #include "../base/task.h"
 #include "../flow/map_cost.h"
+#include "../math/shortest_paths.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -30,6 +34,16 @@ constexpr double kMinGain = 0.005;
 
 /// A cone weaker than this, in radians, is not worth its seam.
 constexpr double kMinCurvature = 0.02;
+
+/// Rounds in which every cone may move.
+constexpr int kMaxRounds = 4;
+
+/// Trials of one cone's move, and how far it goes at once: not far beyond the next ones, where there are many.
+constexpr std::size_t kMaxAttempts = 3;
+constexpr double kMaxStep = 0.25, kMaxStepOfMany = 2.0; // this over the root of their number
+
+/// A move must lower energy and price of seams together by this.
+constexpr double kMinObjectiveGain = 1e-4;
 
 /// The free vertex with the lowest \p value(v), the first of equals; invalid if there is none. \p
 /// freed counts as free though it is a cone.
@@ -155,6 +169,50 @@ bool replant(ConeModel& model, const ConeSites& sites, int i, double& present)
 	return !best.empty() && best.front() != old && move(model, i, best.front(), present);
 }
 
+/// Moves cone \p i to a place around where energy and price of seams are lower.
+/// \param tree without the cone, \p own shorter than with it
+/// \return whether it has moved
+bool moveNearby(
+	ConeModel& model,
+	const SeamTree& tree,
+	const ConeSites& sites,
+	int i,
+	double own,
+	double maxEnergy)
+{
+	const double present = model.energy(), curvature = model.curvature(i);
+	const Vertex old = model.vertex(i);
+	const VertexVector& phi = model.gradient();
+	std::vector<std::pair<double, Vertex>> places; // change that is predicted
+	SearchFront<Vertex, Vertex> front(static_cast<int>(phi.size()));
+	front.offer(old, 0.0);
+	const double far = std::min(kMaxStep, kMaxStepOfMany / std::sqrt(model.size()));
+	for (Vertex v = front.next(far); v.isValid(); v = front.next(far)) {
+		for (const ConeSites::Way& way : sites.ways(v))
+			front.offer(way.to, front[v] + way.length, v);
+		if (model.isCone(v) || !sites.isAllowed(v))
+			continue;
+		// The factor of curvature that goes the distance r is that of a dipole, with the mean square
+		// r^2 (ln(1 / r) + 1 / 2) / (4 pi) in a flat disk of radius 1.
+		const double r = front[v];
+		const double dipole = curvature * curvature * r * r * (0.5 - std::log(r)) / (8.0 * kPi);
+		const double rise = 2.0 * curvature * (phi[v] - phi[old]) + dipole;
+		const double change = coneCost(rise, tree.distance(v) - own, 0);
+		if (change < -kMinObjectiveGain && present + rise <= maxEnergy)
+			places.emplace_back(change, v);
+	}
+	std::sort(places.begin(), places.end());
+	for (std::size_t k = 0; k < places.size() && k < kMaxAttempts; ++k) {
+		const Vertex v = places[k].second;
+		const double most = std::min(
+			maxEnergy,
+			present + (kSeamPrice * (own - tree.distance(v)) - kMinObjectiveGain) / kEnergyPrice);
+		if (model.tryMove(i, v, [&](double energy) { return energy <= most; }))
+			return true;
+	}
+	return false;
+}
+
 } // namespace
 
 void startCones(ConeModel& model, const ConeSites& sites)
@@ -162,7 +220,8 @@ void startCones(ConeModel& model, const ConeSites& sites)
 	const int count = model.minSize();
 	const double sign = model.total() < 0.0 ? -1.0 : 1.0;
 	while (model.size() < count) {
-		const VertexVector phi = model.gradientWithShares(model.total() / count);
+		const VertexVector phi =
+			model.gradientAt(Eigen::VectorXd::Constant(model.size(), model.total() / count));
 		const Vertex v = lowest(model, sites, [&](Vertex w) { return sign * phi[w]; });
 		if (!v.isValid())
 			break;
@@ -201,7 +260,11 @@ void dropCones(ConeModel& model, const ConeSites& sites, double distortion)
 		return model.distortion() <= distortion;
 	};
 	const auto dropOne = [&] {
-		std::vector<int> cones = model.byNeed();
+		std::vector<int> cones(positionOf(model.size()));
+		std::iota(cones.begin(), cones.end(), 0);
+		std::stable_sort(cones.begin(), cones.end(), [&](int a, int b) {
+			return model.need(a) < model.need(b);
+		});
 		cones.resize(std::min(cones.size(), kMaxDropTrials));
 		return std::any_of(
 			cones.begin(), cones.end(), [&](int i) { return model.tryWithout(i, isEnough); });
@@ -243,6 +306,21 @@ void removeWeakCones(ConeModel& model)
 		if (model.size() > model.minSize())
 			model.remove(i);
 	model.fit();
+}
+
+void shortenConeTree(ConeModel& model, SeamTree& tree, const ConeSites& sites, double maxDistortion)
+{
+	const double maxEnergy = 0.25 * maxDistortion * maxDistortion;
+	for (int round = 0; round < kMaxRounds; ++round) {
+		bool hasMoved = false;
+		for (int i = 0; i < model.size(); ++i) {
+			const double own = tree.remove(model.vertex(i));
+			hasMoved |= moveNearby(model, tree, sites, i, own, maxEnergy);
+			tree.add(model.vertex(i));
+		}
+		if (!hasMoved)
+			return;
+	}
 }
 
 } // namespace ricci

@@ -4,7 +4,6 @@
 
 #include "cone_model.h"
 #include "cone_sites.h"
-#include "cone_tree.h"
 
 namespace ricci {
 
@@ -33,6 +32,13 @@ bool dropCostlyCones(ConeModel& model, SeamTree& tree);
 
 /// Takes out cones that are too weak to be worth a seam, down to ConeModel::minSize().
 void removeWeakCones(ConeModel& model);
+
+/// Moves cones towards the tree of their seams where that lowers the energy of the map and the price of
+/// its seams together (see MapCost), in several rounds, and keeps the distortion (see
+/// ConeModel::distortion()) at or below \p maxDistortion.
+/// \param tree of the cones of \p model
+void shortenConeTree(
+	ConeModel& model, SeamTree& tree, const ConeSites& sites, double maxDistortion);
 
 } // namespace ricci
 

@@ -3,13 +3,12 @@
 
 #include "../math/shortest_paths.h"
 #include "../metric/area.h"
-#include "../surface/cotree.h"
+#include "../surface/topology.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -144,6 +143,111 @@ ConeSites::ConeSites(const ConeSites& fine, const VertexArray<Vertex>& chosen) :
 int ConeSites::count() const
 {
 	return static_cast<int>(std::count(m_isAllowed.begin(), m_isAllowed.end(), 1));
+}
+
+SeamTree::SeamTree(const ConeSites& sites) :
+		m_sites(&sites), m_length(sites.cutLength()), m_distance(sites.toCut()),
+		m_next(sites.toCut().size()), m_uses(sites.toCut().size(), 0)
+{
+	std::vector<Vertex> cut;
+	for (const Vertex v : m_distance.indices())
+		if (m_distance[v] < kFar)
+			cut.push_back(v);
+	spread(cut);
+}
+
+SeamTree::SeamTree(const ConeSites& sites, std::vector<Vertex> cones) : SeamTree(sites)
+{
+	while (!cones.empty()) {
+		const auto nearest = std::min_element(cones.begin(), cones.end(), [&](Vertex a, Vertex b) {
+			return m_distance[a] < m_distance[b];
+		});
+		add(*nearest);
+		cones.erase(nearest);
+	}
+}
+
+void SeamTree::add(Vertex cone)
+{
+	std::vector<Vertex> path;
+	for (Vertex v = cone; v.isValid(); v = m_next[v]) {
+		if (m_uses[v]++ > 0)
+			break;
+		m_length += lengthOfStep(v);
+		m_distance[v] = 0.0;
+		path.push_back(v);
+	}
+	spread(path);
+}
+
+double SeamTree::ownLength(Vertex cone) const
+{
+	double length = 0.0;
+	for (Vertex v = cone; v.isValid() && m_uses[v] == 1; v = m_next[v])
+		length += lengthOfStep(v);
+	return length;
+}
+
+double SeamTree::remove(Vertex cone)
+{
+	std::vector<Vertex> loose;
+	double length = 0.0;
+	for (Vertex v = cone; v.isValid() && --m_uses[v] == 0; v = m_next[v]) {
+		length += lengthOfStep(v);
+		m_distance[v] = kFar;
+		loose.push_back(v);
+	}
+	// All whose shortest way led there look for another.
+	for (std::size_t i = 0; i < loose.size(); ++i)
+		for (const ConeSites::Way& way : m_sites->ways(loose[i]))
+			if (m_next[way.to] == loose[i] && m_distance[way.to] < kFar) {
+				m_distance[way.to] = kFar;
+				loose.push_back(way.to);
+			}
+	for (const Vertex v : loose) {
+		m_distance[v] = m_sites->toCut()[v];
+		m_next[v] = Vertex();
+		for (const ConeSites::Way& way : m_sites->ways(v))
+			if (m_distance[way.to] + way.length < m_distance[v]) {
+				m_distance[v] = m_distance[way.to] + way.length;
+				m_next[v] = way.to;
+			}
+	}
+	spread(loose);
+	m_length -= length;
+	return length;
+}
+
+/// From \p v on the way to the tree; nothing where the tree begins.
+double SeamTree::lengthOfStep(Vertex v) const
+{
+	if (!m_next[v].isValid())
+		return m_sites->toCut()[v] < kFar ? m_sites->toCut()[v] : 0.0;
+	double shortest = kFar;
+	for (const ConeSites::Way& way : m_sites->ways(v))
+		if (way.to == m_next[v])
+			shortest = std::min(shortest, way.length);
+	return shortest;
+}
+
+/// Makes the distances shorter that are so by those of \p from.
+void SeamTree::spread(const std::vector<Vertex>& from)
+{
+	DistanceQueue<Vertex> queue;
+	for (const Vertex v : from)
+		if (m_distance[v] < kFar)
+			queue.push(m_distance[v], v);
+	while (!queue.empty()) {
+		const auto [distance, v] = queue.pop();
+		if (distance != m_distance[v])
+			continue;
+		for (const ConeSites::Way& way : m_sites->ways(v))
+			if (distance + way.length < m_distance[way.to]) {
+				m_distance[way.to] = distance + way.length;
+				m_next[way.to] = v;
+				queue.push(m_distance[way.to], way.to);
+			}
+	}
 }
 
 } // namespace ricci

@@ -3,14 +3,13 @@
 
 #include "../error.h"
 #include "../flow/curvature_map.h"
+#include "../math/aggregation.h"
 #include "../metric/circle_packing.h"
 #include "../metric/euclidean.h"
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 
@@ -22,10 +21,11 @@ constexpr double kNoEdge = 1e-9;
 /// The curvature map of \p packing at its radii.
 std::unique_ptr<CurvatureMap> mapOf(const InitialPacking& packing)
 {
-	CirclePacking circles =
-		inversiveDistancePacking(packing.mesh.triangulation, packing.mesh.lengths, packing.radii);
-	const VertexVector u = Eigen::Map<const Eigen::VectorXd>(circles.u.data(), circles.u.size());
-	auto map = std::make_unique<GeometricCurvatureMap<Euclidean>>(std::move(circles));
+	VertexVector u(packing.radii.size());
+	for (const Vertex v : packing.radii.indices())
+		u[v] = std::log(packing.radii[v]);
+	auto map = std::make_unique<GeometricCurvatureMap<Euclidean>>(
+		CirclePacking{packing.mesh.triangulation, packing.delta});
 	map->evaluate(u);
 	return map;
 }
@@ -65,6 +65,8 @@ LinearFlow::LinearFlow(LinearSystem system) :
 		m_curvature(std::move(system.curvature)), m_area(std::move(system.area)),
 		m_factor(std::move(system.factor)), m_sink(std::move(system.sink))
 {
+	for (int v = 0; v < vertexCount(); ++v)
+		m_row.push_back(m_fixesBoundary ? v : v - 1);
 	m_unknowns = std::max(0, vertexCount() - (m_fixesBoundary ? 0 : 1));
 	const SparseCholesky::Matrix lower =
 		system.laplacian.bottomRightCorner(m_unknowns, m_unknowns).triangularView<Eigen::Lower>();
@@ -79,11 +81,10 @@ void LinearFlow::soften(double factor)
 
 LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
 {
-	const VertexArray<int>& row = m_hessian->row();
 	vertices.clear();
 	Vertex pinned;
-	for (const Vertex v : row.indices()) {
-		if (row[v] >= 0)
+	for (const Vertex v : m_row.indices()) {
+		if (m_row[v] >= 0)
 			vertices.push_back(v);
 		else if (!m_fixesBoundary)
 			pinned = v;
@@ -130,6 +131,7 @@ void LinearFlow::factorize(
 	m_hessian = std::make_unique<FactoredHessian>(
 		m_fixesBoundary ? surface.topology.boundary : VertexArray<char>(vertexCount(), 0),
 		map.scaleInvariant());
+	m_row = m_hessian->row();
 	m_unknowns = m_hessian->unknowns();
 	if (m_unknowns > 0)
 		m_hessian->factorize(map);
@@ -141,80 +143,45 @@ VertexVector LinearFlow::factor(VertexVector k)
 {
 	k -= m_curvature;
 	if (m_factor.size() == 0)
-		return solve(std::move(k));
-	VertexVector u = m_factor + solve(std::move(k));
+		return solve(k);
+	VertexVector u = m_factor + solve(k);
 	u.array() -= m_area.dot(u);
 	return u;
 }
 
-VertexVector LinearFlow::solve(VertexVector rhs)
+Eigen::MatrixXd LinearFlow::solve(Eigen::MatrixXd rhs)
 {
-	balance(rhs);
-	VertexVector u = solveRows(rhs);
-	u.array() -= m_area.dot(u);
+	if (m_sink.size() > 0) // takes what the sum lacks
+		for (Eigen::Index k = 0; k < rhs.cols(); ++k)
+			rhs.col(k) -= rhs.col(k).sum() * m_sink;
+	Eigen::MatrixXd u = solveRows(rhs);
+	for (Eigen::Index k = 0; k < u.cols(); ++k)
+		u.col(k).array() -= m_area.dot(u.col(k));
 	return u;
 }
 
-LinearFlow::Pair LinearFlow::solve(Pair rhs)
+Eigen::MatrixXd LinearFlow::gradient(const Eigen::MatrixXd& u)
 {
-	for (VertexVector& r : rhs)
-		balance(r);
-	Pair pair = solveRows(rhs);
-	for (VertexVector& u : pair)
-		u.array() -= m_area.dot(u);
-	return pair;
-}
-
-VertexVector LinearFlow::gradient(const VertexVector& u)
-{
-	VertexVector phi = solveRows(m_area.cwiseProduct(u));
+	Eigen::MatrixXd phi = solveRows(m_area.asDiagonal() * u);
 	if (m_sink.size() > 0)
-		phi.array() -= m_sink.dot(phi);
+		for (Eigen::Index k = 0; k < phi.cols(); ++k)
+			phi.col(k).array() -= m_sink.dot(phi.col(k));
 	return phi;
 }
 
-LinearFlow::Pair LinearFlow::gradient(const Pair& u)
-{
-	Pair pair = solveRows(Pair{m_area.cwiseProduct(u[0]), m_area.cwiseProduct(u[1])});
-	for (VertexVector& phi : pair)
-		if (m_sink.size() > 0)
-			phi.array() -= m_sink.dot(phi);
-	return pair;
-}
-
-/// The sink takes what the sum of \p rhs lacks.
-void LinearFlow::balance(VertexVector& rhs) const
-{
-	if (m_sink.size() > 0)
-		rhs -= rhs.sum() * m_sink;
-}
-
-/// L^-1 rhs on the unknown vertices, 0 on the others, for one or two columns.
+/// L^-1 rhs on the unknown vertices, 0 on the others.
 Eigen::MatrixXd LinearFlow::solveRows(const Eigen::MatrixXd& rhs)
 {
-	if (m_system) {
-		Eigen::MatrixXd x = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
-		x.bottomRows(m_unknowns) = m_softness * m_system->solve(rhs.bottomRows(m_unknowns));
-		return x;
-	}
-	Eigen::MatrixXd rows(m_unknowns, rhs.cols());
-	for (Eigen::Index column = 0; column < rhs.cols(); ++column)
-		rows.col(column) = m_hessian->gather(rhs.col(column));
+	Eigen::MatrixXd rows(m_unknowns, rhs.cols()), x = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
+	for (const Vertex v : m_row.indices())
+		if (m_row[v] >= 0)
+			rows.row(m_row[v]) = rhs.row(v.number());
 	if (m_unknowns > 0)
-		rows = m_hessian->cholesky().solve(rows);
-	Eigen::MatrixXd x(rhs.rows(), rhs.cols());
-	for (Eigen::Index column = 0; column < rhs.cols(); ++column)
-		x.col(column) = m_hessian->scatter(rows.col(column));
+		rows = m_softness * (m_system ? *m_system : m_hessian->cholesky()).solve(rows);
+	for (const Vertex v : m_row.indices())
+		if (m_row[v] >= 0)
+			x.row(v.number()) = rows.row(m_row[v]);
 	return x;
-}
-
-/// The same for two at once.
-LinearFlow::Pair LinearFlow::solveRows(const Pair& rhs)
-{
-	Eigen::MatrixXd columns(vertexCount(), 2);
-	columns << rhs[0], rhs[1];
-	const Eigen::MatrixXd x = solveRows(columns);
-	return {x.col(0), x.col(1)};
 }
 
 void LinearFlow::computeAreas(const CurvatureMap& map)
@@ -241,6 +208,69 @@ void LinearFlow::spreadSink(const EmbeddedSurface& surface)
 		for (const Vertex v : {t.origin(h), t.target(h)})
 			m_sink[v] += surface.lengths[h.edge()];
 	m_sink /= m_sink.sum();
+}
+
+namespace {
+
+/// \p values taken together by aggregate, each with its \p weight.
+VertexVector
+sums(const Aggregation& aggregation, const VertexVector& values, const VertexVector& weight)
+{
+	VertexVector result = VertexVector::Zero(aggregation.root.size());
+	for (const Vertex v : values.indices())
+		result[Vertex(aggregation.aggregate[v.number()])] += weight[v] * values[v];
+	return result;
+}
+
+LinearSystem coarser(const LinearSystem& fine, const Aggregation& aggregation)
+{
+	const VertexVector one = VertexVector::Ones(fine.area.size());
+	LinearSystem coarse;
+	coarse.fixesBoundary = fine.fixesBoundary;
+	coarse.laplacian = restricted(fine.laplacian, aggregation);
+	coarse.curvature = sums(aggregation, fine.curvature, one);
+	coarse.area = sums(aggregation, fine.area, one);
+	if (fine.sink.size() > 0)
+		coarse.sink = sums(aggregation, fine.sink, one);
+	if (fine.factor.size() > 0)
+		coarse.factor = sums(aggregation, fine.factor, fine.area).cwiseQuotient(coarse.area);
+	return coarse;
+}
+
+/// Root mean square of u for the curvature that \p flow starts with, spread over the surface by area.
+double flatteningSize(LinearFlow& flow)
+{
+	VertexVector rhs = -flow.curvature();
+	if (flow.hasFixedSum())
+		rhs -= rhs.sum() * flow.area();
+	return std::sqrt(flow.meanSquare(flow.solve(rhs)));
+}
+
+/// The equation of \p fine on aggregates of vertices, and in \p roots the vertices they grew from.
+LinearSystem coarsened(const LinearFlow& fine, int vertices, VertexArray<Vertex>& roots)
+{
+	LinearSystem system = fine.system(roots);
+	while (roots.size() > vertices) {
+		const Aggregation aggregation = aggregated(system.laplacian);
+		if (aggregation.root.size() == roots.size())
+			break;
+		system = coarser(system, aggregation);
+		VertexArray<Vertex> kept;
+		for (const int root : aggregation.root)
+			kept.push_back(roots[Vertex(root)]);
+		roots = std::move(kept);
+	}
+	return system;
+}
+
+} // namespace
+
+CoarseFlow::CoarseFlow(LinearFlow& fine, int vertices) : flow(coarsened(fine, vertices, roots))
+{
+	// Functions that are constant on aggregates are stiffer, on the whole evenly.
+	const double tooSmall = flatteningSize(flow);
+	if (tooSmall > 0.0)
+		flow.soften(flatteningSize(fine) / tooSmall);
 }
 
 } // namespace ricci

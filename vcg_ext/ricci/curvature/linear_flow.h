@@ -3,12 +3,16 @@
 #define RICCI_LINEAR_FLOW_H
 
 #include "../flow/ricci_flow.h"
-#include "cone_request.h"
 
-#include <array>
 #include <memory>
 
 namespace ricci {
+
+/// What the boundary does while cones are placed. A closed surface has none.
+enum class ConeBoundary {
+	Fixed,     ///< u = 0 on the boundary
+	Prescribed ///< the boundary takes what Gauss-Bonnet leaves, in proportion to its length
+};
 
 /// The equation L u = k - K of a LinearFlow on the vertices where u is unknown.
 struct LinearSystem
@@ -70,25 +74,17 @@ public:
 	VertexVector factor(VertexVector k);
 
 	/// The u, with mean 0 by area, that L maps to \p rhs. What is missing from the sum of \p rhs is
-	/// taken from the boundary or, on a closed surface, from one vertex that is always the same.
-	VertexVector solve(VertexVector rhs);
+	/// taken from the boundary or, on a closed surface, from one vertex that is always the same. Two
+	/// columns at once take little more than half as long as two calls, as in gradient().
+	Eigen::MatrixXd solve(Eigen::MatrixXd rhs);
 
-	/// solve() and gradient() of two at once, which take little more than half as long.
-	using Pair = std::array<VertexVector, 2>;
-	Pair solve(Pair rhs);
-	Pair gradient(const Pair& u);
-
-	/// Mean of u v, and of u^2, by area.
-	double meanProduct(const VertexVector& u, const VertexVector& v) const
-	{
-		return m_area.dot(u.cwiseProduct(v));
-	}
-	double meanSquare(const VertexVector& u) const { return meanProduct(u, u); }
+	/// Mean of u^2 by area.
+	double meanSquare(const VertexVector& u) const { return m_area.dot(u.cwiseProduct(u)); }
 
 	/// The adjoint problem: the field phi with L phi = A u, where A holds the areas. phi(v) is the
 	/// derivative of half the mean square of \p u = solve(k - K) by the curvature k of a cone at v,
 	/// up to a constant where the sum of the curvatures is fixed.
-	VertexVector gradient(const VertexVector& u);
+	Eigen::MatrixXd gradient(const Eigen::MatrixXd& u);
 
 	/// Divides L by \p factor. \pre made from a LinearSystem
 	void soften(double factor);
@@ -103,18 +99,31 @@ private:
 	void computeAreas(const CurvatureMap& map);
 	void factorize(const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary);
 	void spreadSink(const EmbeddedSurface& surface);
-	void balance(VertexVector& rhs) const;
 	Eigen::MatrixXd solveRows(const Eigen::MatrixXd& rhs);
-	Pair solveRows(const Pair& rhs);
 
 	std::unique_ptr<SparseCholesky> m_system;   // of a LinearSystem; null where there is a Hessian
 	std::unique_ptr<FactoredHessian> m_hessian; // null where there is a LinearSystem
+	VertexArray<int> m_row;                     // of the unknown, or -1
 	int m_unknowns = 0;
 	double m_softness = 1.0; // L is divided by
 	bool m_fixesBoundary;
 	VertexVector m_curvature, m_area;
 	VertexVector m_factor; // u where the flow is linearised; empty: 0
 	VertexVector m_sink;   // shares of the boundary vertices in a prescribed boundary; else empty
+};
+
+/// The linear problem of a surface on aggregates of its vertices, where the search for cones costs
+/// little. Its Laplacian is that of functions which are constant on every aggregate, weakened evenly
+/// until the curvature of the surface gives factors u of the right size (overcorrection
+/// [Braess 1995]). They are those of the surface to some percent, but for a cone's own aggregate.
+struct CoarseFlow
+{
+	VertexArray<Vertex> roots; ///< by aggregate: the vertex of the surface from which it grew
+	LinearFlow flow;           ///< with arrays by aggregate in place of arrays by vertex
+
+	/// \param vertices to take together until there are at most so many
+	/// \throw SolverFailed
+	CoarseFlow(LinearFlow& fine, int vertices);
 };
 
 } // namespace ricci

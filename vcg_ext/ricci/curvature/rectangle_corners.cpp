@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "rectangle_corners.h"
 
-#include "../math/min_area_rectangle.h"
+#include "../math/convex_hull.h"
 
 #include <Eigen/Eigenvalues>
 

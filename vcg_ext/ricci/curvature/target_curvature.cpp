@@ -48,15 +48,6 @@ void freeTheBoundary(const EmbeddedSurface& surface, Target& target)
 	target.notes.push_back("Free boundary: the flow keeps the boundary's metric.");
 }
 
-void noteImpliedBoundary(
-	const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
-{
-	if (request.options.freeBoundary && !surface.topology.type.isClosed())
-		target.notes.push_back(
-			"The target prescribes the boundary: the choice of a free boundary has no effect on "
-			"it.");
-}
-
 /// Total curvature \p total on the loops, in proportion to the length of the two boundary edges at
 /// each vertex; to all alike where the boundary has no length.
 void spreadOverBoundary(const EmbeddedSurface& surface, double total, Target& target)
@@ -90,21 +81,19 @@ void requireDisk(const EmbeddedSurface& surface, TargetCurvature mode)
 		throw InvalidOption(InvalidOption::NotADisk, mode, surface.topology.type);
 }
 
-void setFlat(const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
+void requireFlat(const EmbeddedSurface& surface)
 {
 	const SurfaceType& type = surface.topology.type;
 	if (type.eulerCharacteristic() != 0)
 		throw InadmissibleCurvature(
 			InadmissibleCurvature::Flat, 0.0, totalCurvature(surface), 0, type);
-	noteImpliedBoundary(surface, request, target);
 }
 
-void setDisk(const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
+void setDisk(const EmbeddedSurface& surface, Target& target)
 {
 	requireDisk(surface, TargetCurvature::Disk);
 	target.circular = true;
 	spreadOverBoundary(surface, 2 * kPi, target);
-	noteImpliedBoundary(surface, request, target);
 }
 
 /// The four selected vertices in the order of the loop.
@@ -140,7 +129,6 @@ void setRectangle(const EmbeddedSurface& surface, const TargetRequest& request, 
 		target.corners = selectedCorners(loop, request.selected);
 	for (const Vertex v : *target.corners)
 		target.curvature[v] = 0.5 * kPi;
-	noteImpliedBoundary(surface, request, target);
 }
 
 /// Equal shares of the total curvature at the selected vertices. The boundary is free only if no
@@ -270,16 +258,6 @@ void setPlacedCones(
 		prescribeByLength(surface, totalCurvature(surface) - total, target);
 }
 
-/// Cones where they lower the distortion of area.
-void choosePlacedCones(
-	const EmbeddedSurface& surface,
-	const InitialPacking& start,
-	const TargetRequest& request,
-	Target& target)
-{
-	setPlacedCones(surface, placeCones(surface, start, coneRequest(request)), request, target);
-}
-
 /// Whether Automatic makes it flat, boundary included. A boundary at seams that were chosen is none of the
 /// shape's own: where the rest of a disk that a piece is cut out of keeps its metric, it keeps its areas.
 bool isFlatAnnulus(const EmbeddedSurface& surface, const TargetRequest& request)
@@ -293,17 +271,15 @@ bool isFlatAnnulus(const EmbeddedSurface& surface, const TargetRequest& request)
 void setPlain(const EmbeddedSurface& surface, const TargetRequest& request, Target& target)
 {
 	const SurfaceType& type = surface.topology.type;
-	if (type.isTorus() || isFlatAnnulus(surface, request)) {
+	if (type.isTorus() || isFlatAnnulus(surface, request))
 		target.used = TargetUsed::Flat;
-		setFlat(surface, request, target);
-	}
 	else if (request.options.freeBoundary) {
 		target.used = TargetUsed::FreeBoundary;
 		freeTheBoundary(surface, target);
 	}
 	else if (type.isDisk()) {
 		target.used = TargetUsed::Disk;
-		setDisk(surface, request, target);
+		setDisk(surface, target);
 	}
 	else {
 		target.used = TargetUsed::PrescribedBoundary;
@@ -387,7 +363,7 @@ void setAutomatic(
 	if (type.isClosed() && !type.isTorus()) {
 		target.choice = "cones, because " + type.name() + " has no flat metric without them";
 		target.notes.push_back("Cones: " + type.name() + " has no flat metric without them.");
-		choosePlacedCones(surface, start, request, target);
+		setPlacedCones(surface, placeCones(surface, start, coneRequest(request)), request, target);
 	}
 	else if (request.measuresAreas && (type.isClosed() || request.options.freeBoundary))
 		choosePlainOrCones(surface, start, request, target);
@@ -410,10 +386,10 @@ Target chooseTarget(
 		setAutomatic(surface, start, request, target);
 		break;
 	case TargetCurvature::Flat:
-		setFlat(surface, request, target);
+		requireFlat(surface);
 		break;
 	case TargetCurvature::Disk:
-		setDisk(surface, request, target);
+		setDisk(surface, target);
 		break;
 	case TargetCurvature::Rectangle:
 		setRectangle(surface, request, target);
@@ -425,9 +401,15 @@ Target chooseTarget(
 		setPrescribedValues(surface, start, request, target);
 		break;
 	case TargetCurvature::PlacedCones:
-		choosePlacedCones(surface, start, request, target);
+		setPlacedCones(surface, placeCones(surface, start, coneRequest(request)), request, target);
 		break;
 	}
+	const bool isImplied = target.used == TargetUsed::Flat || target.used == TargetUsed::Disk ||
+						   target.used == TargetUsed::Rectangle;
+	if (isImplied && request.options.freeBoundary && !surface.topology.type.isClosed())
+		target.notes.push_back(
+			"The target prescribes the boundary: the choice of a free boundary has no effect on "
+			"it.");
 	check(surface, target);
 	return target;
 }
@@ -460,15 +442,14 @@ std::optional<Target> targetToKeepAreas(
 	if (flow.target.expected && expectation(cones).total() > areaCost(surface, flow) - kWorthAFlow)
 		return std::nullopt;
 	const AreaChange change = areaChange(surface, flowFactor(flow));
-	Target target = zeroTarget(surface.topology);
+	Target target = targetWithCones(surface, cones, request);
 	target.choice = flow.target.choice;
-	target.notes.push_back(
+	target.notes.insert(
+		target.notes.begin(),
 		"The spread of the logarithm of the area factor comes out as " +
-		numberText(change.spread, 3) + ", the mean of the factor or its inverse as " +
-		numberText(change.mean, 3) + ", the energy as " + numberText(change.energy, 3) +
-		": more or other cones are needed.");
-	setPlacedCones(surface, cones, request, target);
-	check(surface, target);
+			numberText(change.spread, 3) + ", the mean of the factor or its inverse as " +
+			numberText(change.mean, 3) + ", the energy as " + numberText(change.energy, 3) +
+			": more or other cones are needed.");
 	return target;
 }
 

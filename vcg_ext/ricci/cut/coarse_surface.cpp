@@ -2,7 +2,7 @@
 #include "coarse_surface.h"
 
 #include "../base/task.h"
-#include "../metric/triangle.h"
+#include "../metric/area.h"
 
 #include <algorithm>
 #include <array>

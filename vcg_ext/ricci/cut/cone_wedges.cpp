@@ -2,12 +2,11 @@
 #include "cone_wedges.h"
 
 #include "../base/numbers.h"
-#include "../metric/triangle.h"
+#include "../metric/area.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 namespace ricci {
 

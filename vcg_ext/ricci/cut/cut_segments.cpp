@@ -257,8 +257,8 @@ int CutSegments::splitCircles(const std::vector<Edge>& removed)
 		}
 		++count;
 	}
-	for (LoneMark& mark : m_loneMarks)
-		mark.circle = count++;
+	for (auto& [v, circle] : m_loneMarks)
+		circle = count++;
 	return count;
 }
 
@@ -274,13 +274,13 @@ std::size_t CutSegments::stretchOf(int place) const
 
 void CutSegments::noteLoneMark(Vertex v)
 {
-	const auto isSame = [&](const LoneMark& mark) { return mark.vertex == v; };
+	const auto isSame = [&](const auto& mark) { return mark.first == v; };
 	if (m_marked[v] && !m_boundary[v] && m_degree[v] == 0 &&
 		std::none_of(
 			m_loneMarks.begin() + static_cast<std::ptrdiff_t>(m_wholeLoneMarks),
 			m_loneMarks.end(),
 			isSame))
-		m_loneMarks.push_back({v, -1});
+		m_loneMarks.emplace_back(v, -1);
 }
 
 void CutSegments::joinCircles(int number)
@@ -300,9 +300,9 @@ int CutSegments::circle(Halfedge h) const
 {
 	const Halfedge side = sideFrom(h);
 	if (!side.isValid()) {
-		for (const LoneMark& mark : m_loneMarks)
-			if (mark.vertex == m_t.origin(h))
-				return mark.circle;
+		for (const auto& [v, circle] : m_loneMarks)
+			if (v == m_t.origin(h))
+				return circle;
 		return -1;
 	}
 	// What has been put onto the cut since belongs to a path from circle 0.

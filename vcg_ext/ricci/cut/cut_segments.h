@@ -4,6 +4,7 @@
 
 #include "../surface/triangulation.h"
 
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -15,7 +16,7 @@ namespace ricci {
 class CutSegments
 {
 public:
-	using Around = Triangulation::Circulator<Triangulation::Clockwise>;
+	using Around = Triangulation::Around;
 
 	/// \param marked 1 at vertices that the cut must reach
 	/// \param forbidden 1 on edges where no path may run; may be empty
@@ -117,11 +118,6 @@ private:
 		int first;
 		int circle; ///< -1: taken out
 	};
-	struct LoneMark
-	{
-		Vertex vertex;
-		int circle;
-	};
 	std::size_t stretchOf(int place) const;
 	void noteLoneMark(Vertex v);
 
@@ -138,7 +134,8 @@ private:
 	HalfedgeArray<int> m_place;       // in m_sides; -1: none
 	std::vector<int> m_firsts;        // [circle] place of its first side by labelCircles()
 	std::vector<Stretch> m_stretches; // of all places
-	std::vector<LoneMark> m_loneMarks;
+	std::vector<std::pair<Vertex, int>>
+		m_loneMarks;                  // marked vertices off the cut, and their circles
 	std::size_t m_wholeLoneMarks = 0; // those of labelCircles(), which come first
 	std::vector<Edge> m_cutEdges;     // all of them, and some that are no longer; see tidy()
 	std::vector<Edge> m_boundaryEdges;

@@ -148,34 +148,36 @@ std::vector<double> centredArcs(const std::vector<double>& arcs, const std::vect
 	return centred;
 }
 
-CircleTarget::CircleTarget(const std::vector<double>& sides, std::vector<double> arcs) :
-		m_weights(sides.size()), m_arcs(std::move(arcs))
+NewtonResult solveForCircle(
+	const std::vector<double>& sides,
+	double epsilon,
+	const BoundaryLengths& presentSides,
+	const SolveForAngles& solve,
+	std::vector<double>& arcs)
 {
+	std::vector<double> weights(sides.size());
 	for (std::size_t i = 0; i < sides.size(); ++i)
-		m_weights[i] = sides[i] + sides[(i + sides.size() - 1) % sides.size()];
-	if (m_arcs.empty())
-		m_arcs = centredArcs(inscribedPolygon(sides).arcs, m_weights);
-}
-
-NewtonResult CircleTarget::reach(double epsilon, const Sides& sides, const Solve& solve)
-{
+		weights[i] = sides[i] + sides[(i + sides.size() - 1) % sides.size()];
+	if (arcs.empty())
+		arcs = centredArcs(inscribedPolygon(sides).arcs, weights);
 	AndersonMixing mixing(kMixingDepth);
 	double change = 1.0;
 	for (int step = 0; step < kMaxCircleSteps; ++step) {
 		const bool last = change < kCircleTolerance;
 		const double accuracy =
 			last ? epsilon : std::max(epsilon, std::min(kInnerAccuracy, kInnerAccuracy * change));
-		const NewtonResult result = solve(exteriorAngles(m_arcs), accuracy);
+		const NewtonResult result = solve(exteriorAngles(arcs), accuracy);
 		if (last || !result.converged)
 			return result;
-		const std::vector<double> image = centredArcs(inscribedPolygon(sides()).arcs, m_weights);
-		change = largestTurn(image, m_arcs);
-		std::vector<double> next = mixing.next(m_arcs, image);
+		const std::vector<double> image =
+			centredArcs(inscribedPolygon(presentSides()).arcs, weights);
+		change = largestTurn(image, arcs);
+		std::vector<double> next = mixing.next(arcs, image);
 		if (*std::min_element(next.begin(), next.end()) <= 0.0) {
 			mixing.restart();
 			next = image;
 		}
-		m_arcs = std::move(next);
+		arcs = std::move(next);
 	}
 	throw NotConverged(NotConverged::CircleUnsettled, 0, change);
 }

@@ -31,36 +31,30 @@ std::vector<double> exteriorAngles(const std::vector<double>& arcs);
 std::vector<double>
 centredArcs(const std::vector<double>& arcs, const std::vector<double>& weights);
 
-/// The target of a disk that becomes round (paper 5.2): its boundary is inscribed in a circle. The
+/// Present lengths of the boundary's edges.
+using BoundaryLengths = std::function<std::vector<double>()>;
+
+/// Solves for exterior angles at the boundary's vertices, in radians, up to an epsilon.
+using SolveForAngles =
+	std::function<NewtonResult(const std::vector<double>& angles, double epsilon)>;
+
+/// Solves for a disk that becomes round (paper 5.2): its boundary is inscribed in a circle. The
 /// exterior angles follow the boundary's lengths, solve by solve (a fixed point, with Anderson
 /// mixing), and the Moebius freedom of the disk is fixed by the conformal barycentre of the
-/// original boundary, which is brought to the centre.
-class CircleTarget
-{
-public:
-	/// Present lengths of the boundary's edges.
-	using Sides = std::function<std::vector<double>()>;
-
-	/// Solves for exterior angles at the boundary's vertices, in radians, up to an epsilon.
-	using Solve = std::function<NewtonResult(const std::vector<double>& angles, double epsilon)>;
-
-	/// All arrays follow the vertices of the boundary loop, and its edges from each one to the
-	/// next.
-	/// \param sides lengths of the boundary's edges before the flow
-	/// \param arcs where to start, or empty
-	CircleTarget(const std::vector<double>& sides, std::vector<double> arcs);
-
-	/// The arcs of the last solve.
-	const std::vector<double>& arcs() const { return m_arcs; }
-
-	/// Solves until the points on the circle stand still, and then once more, to \p epsilon.
-	/// \return the result of the last solve, which is the first one that did not converge if any
-	/// \throw NotConverged (CircleUnsettled), and what \p solve throws
-	NewtonResult reach(double epsilon, const Sides& sides, const Solve& solve);
-
-private:
-	std::vector<double> m_weights, m_arcs;
-};
+/// original boundary, which is brought to the centre. It ends once the points on the circle stand
+/// still, after one more solve, to \p epsilon.
+///
+/// All arrays follow the vertices of the boundary loop, and its edges from each one to the next.
+/// \param sides lengths of the boundary's edges before the flow
+/// \param arcs where to start, or empty; afterwards those of the last solve
+/// \return the result of the last solve, which is the first one that did not converge if any
+/// \throw NotConverged (CircleUnsettled), and what \p solve throws
+NewtonResult solveForCircle(
+	const std::vector<double>& sides,
+	double epsilon,
+	const BoundaryLengths& presentSides,
+	const SolveForAngles& solve,
+	std::vector<double>& arcs);
 
 } // namespace ricci
 

@@ -230,16 +230,17 @@ void FlippingCurvatureMap<Geometry>::releaseWorkSpace()
 template<class Geometry>
 void FlippingCurvatureMap<Geometry>::accept()
 {
-	m_journal.appendTo(this->m_flips);
+	for (const auto& [e, delta] : m_journal)
+		this->m_flips.push_back(e);
 	m_journal.clear();
 }
 
 template<class Geometry>
 void FlippingCurvatureMap<Geometry>::reject()
 {
-	if (m_journal.size() > 0)
+	if (!m_journal.empty())
 		++this->m_revision;
-	m_journal.rewind(this->m_packing.triangulation, this->m_packing.delta);
+	rewind(m_journal, this->m_packing.triangulation, this->m_packing.delta);
 }
 
 template class GeometricCurvatureMap<Euclidean>;

@@ -31,15 +31,12 @@ public:
 	/// to that of u. A packing that does not exist at u (hyperbolic u >= 0, nested circles) gives
 	/// values that are not finite, or broken triangles; it is no error.
 	/// \throw NotConverged (FlipsUsedUp) where rounding keeps flips from ending
-	/// \throw NotConverged (FlipsUsedUp) where rounding keeps flips from ending
 	virtual void evaluate(const VertexVector& u, const VertexVector& low) = 0;
 
 	void evaluate(const VertexVector& u) { evaluate(u, VertexVector()); }
 
 	/// Whether adding a constant to u changes nothing (Euclidean background).
 	virtual bool scaleInvariant() const = 0;
-
-	const CirclePacking& packing() const { return m_packing; }
 
 	/// Gives the packing away, for a map of other precision. Only revision() and flips() may be
 	/// called afterwards.

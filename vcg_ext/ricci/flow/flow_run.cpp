@@ -6,8 +6,7 @@
 #include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../metric/area.h"
-#include "../metric/unfold.h"
-#include "../surface/double_surface.h"
+#include "../surface/flow_domain.h"
 #include "../surface/normal_coordinates.h"
 #include "circle_target.h"
 
@@ -54,6 +53,23 @@ Target targetOnDouble(Target target, const VertexArray<Vertex>& mirror)
 		target.fixed[image] = target.fixed[v];
 	}
 	return target;
+}
+
+void FlowProgress::operator()(int step, double residual)
+{
+	const bool begins = step <= m_step;
+	m_step = step;
+	const int count = m_states.empty() ? 0 : m_states.back().step + (begins ? 0 : 1);
+	const bool isKnown = begins && !m_states.empty() && m_states.back().residual == residual;
+	m_states.push_back({0, count, residual});
+	if (m_first < 0.0)
+		m_first = std::max(residual, 10 * m_epsilon);
+	const std::string line = "Newton step " + std::to_string(count) + ": max |target - K| = " +
+							 numberText(residual, 3, std::chars_format::scientific);
+	if (!isKnown)
+		logLine(line);
+	advance(
+		std::log(m_first / std::max(residual, m_epsilon)) / std::log(m_first / m_epsilon), line);
 }
 
 FlowRun::FlowRun(const FlowOptions& options, FlowProgress& progress) :
@@ -108,7 +124,7 @@ void FlowRun::begin(const EmbeddedSurface& surface)
 		}
 	}
 	m_result.u = m_startU = startU();
-	m_map = makeMap({m_result.start.mesh.triangulation, m_result.start.delta, {}}, false);
+	m_map = makeMap({m_result.start.mesh.triangulation, m_result.start.delta}, false);
 	m_newton = std::make_unique<NewtonSolver>(*m_map, m_result.target.fixed, m_mirror);
 }
 
@@ -191,7 +207,6 @@ NewtonResult FlowRun::solveOnCircle()
 {
 	VertexVector& curvature = m_result.target.curvature;
 	const double copies = m_result.doubled ? 2.0 : 1.0;
-	CircleTarget circle(m_loopLengths, m_arcs);
 	int solves = 0;
 	const auto solveForAngles = [&](const std::vector<double>& angles, double epsilon) {
 		if (++solves > 1)
@@ -203,10 +218,12 @@ NewtonResult FlowRun::solveOnCircle()
 		return m_solved = solveFor(epsilon);
 	};
 	try {
-		const NewtonResult solved = circle.reach(
-			m_options.epsilon, [&] { return presentLoopLengths(); }, solveForAngles);
-		m_arcs = circle.arcs();
-		return solved;
+		return solveForCircle(
+			m_loopLengths,
+			m_options.epsilon,
+			[&] { return presentLoopLengths(); },
+			solveForAngles,
+			m_arcs);
 	}
 	catch (const NotConverged& error) {
 		throw withState(error);

@@ -3,8 +3,8 @@
 #define RICCI_FLOW_RUN_H
 
 #include "../error.h"
+#include "../report.h"
 #include "curvature_map.h"
-#include "flow_progress.h"
 #include "newton.h"
 #include "ricci_flow.h"
 #include "target.h"
@@ -25,6 +25,28 @@ initialPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror, const Flow
 /// The target on the double of a surface, whose curvature is twice as large on the boundary.
 /// \param mirror [vertex of the double] its image in the other copy
 Target targetOnDouble(Target target, const VertexArray<Vertex>& mirror);
+
+/// Tells the task of each Newton step of a flow. The residual falls by orders of magnitude, so each step
+/// closes a part of the distance to epsilon on the logarithmic scale.
+class FlowProgress
+{
+public:
+	/// Every state that is passed is appended to \p states, with the steps counted on from those there.
+	FlowProgress(double epsilon, std::vector<FlowState>& states) :
+			m_epsilon(epsilon), m_states(states)
+	{
+	}
+
+	/// \param step of the flow; a number that is no larger than the last one begins another solve, which
+	/// may go on where that ended
+	/// \param residual before it
+	void operator()(int step, double residual);
+
+private:
+	double m_epsilon, m_first = -1.0;
+	std::vector<FlowState>& m_states;
+	int m_step = 0;
+};
 
 /// One run of the flow on one surface, or on its double.
 class FlowRun

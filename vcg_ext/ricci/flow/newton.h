@@ -4,9 +4,7 @@
 
 #include "../base/tolerances.h"
 #include "curvature_map.h"
-#include "factored_hessian.h"
-
-#include <Eigen/Core>
+#include "hessian.h"
 
 #include <functional>
 #include <limits>

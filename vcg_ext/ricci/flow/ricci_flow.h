@@ -2,13 +2,15 @@
 #ifndef RICCI_RICCI_FLOW_H
 #define RICCI_RICCI_FLOW_H
 
-#include "../metric/initial_packing.h"
+#include "../metric/circle_packing.h"
 #include "../options.h"
 #include "../surface/flow_domain.h"
 #include "newton.h"
 #include "target.h"
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -83,6 +85,26 @@ VertexVector flowFactor(const FlowResult& flow);
 /// intrinsic flips has found on it: Eq. 4 for the circles at their ends, which is exact for edges
 /// that no flip has touched.
 EdgeArray<double> hyperbolicLengths(const FlowResult& flow, const EmbeddedSurface& surface);
+
+/// Runs the flow on the surface of another flow once more, to a new target; none if it fails.
+using FlowTo = std::function<std::optional<FlowResult>(const Target&)>;
+
+/// Asks for other metrics in place of a flow's, round after round.
+/// \param propose () -> std::optional<FlowResult>: the next one; none ends the rounds
+/// \param take (FlowResult) -> bool: takes the next one if it is better
+/// \return rounds made. There are \p maxVain in a row at most in which \p take returns false
+template<class Propose, class Take>
+int improve(int maxRounds, int maxVain, Propose propose, Take take)
+{
+	int round = 0;
+	for (int vain = 0; round < maxRounds && vain < maxVain; ++round) {
+		std::optional<FlowResult> next = propose();
+		if (!next)
+			break;
+		vain = take(std::move(*next)) ? 0 : vain + 1;
+	}
+	return round;
+}
 
 } // namespace ricci
 

@@ -5,7 +5,7 @@
 #include "../flow/ricci_flow.h"
 #include "../overlay/piece_faces.h"
 #include "../surface/flow_domain.h"
-#include "../surface/surface_point.h"
+#include "../surface/surface_mesh.h"
 #include "flat_mesh.h"
 #include "hyperbolic_layout.h"
 #include "planar_layout.h"

@@ -7,7 +7,6 @@
 #include "../math/points.h"
 #include "../surface/sides.h"
 #include "../surface/surface_mesh.h"
-#include "../surface/surface_point.h"
 
 #include <array>
 #include <cstddef>

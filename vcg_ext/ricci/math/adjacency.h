@@ -4,6 +4,7 @@
 
 #include "../base/indexed.h"
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -37,22 +38,9 @@ public:
 	/// \param forItems forItems(add) calls add(key, item) for every item. It is called twice and must
 	/// give the same keys both times.
 	template<class ForItems>
-	Adjacency(int keyCount, const ForItems& forItems) :
-			Adjacency(
-				keyCount,
-				[&](const auto& count) { forItems([&](Key key, const Item&) { count(key); }); },
-				forItems)
+	Adjacency(int keyCount, const ForItems& forItems) : m_first(positionOf(keyCount) + 1, 0)
 	{
-	}
-
-	/// For items that take work to make.
-	/// \param forKeys forKeys(count) calls count(key) for every item
-	/// \param forItems forItems(add) calls add(key, item) for every item, in any order of the keys
-	template<class ForKeys, class ForItems>
-	Adjacency(int keyCount, const ForKeys& forKeys, const ForItems& forItems) :
-			m_first(positionOf(keyCount) + 1, 0)
-	{
-		forKeys([&](Key key) { ++m_first[positionOf(key) + 1]; });
+		forItems([&](Key key, const Item&) { ++m_first[positionOf(key) + 1]; });
 		std::partial_sum(m_first.begin(), m_first.end(), m_first.begin());
 		m_items.resize(positionOf(m_first.back()));
 		std::vector<int> next(m_first.begin(), m_first.end() - 1);
@@ -70,17 +58,46 @@ public:
 		return {m_items.data() + first(key), m_items.data() + last(key)};
 	}
 
-	/// Positions in items() of a key's first item, and behind its last.
-	int first(Key key) const { return m_first[positionOf(key)]; }
-	int last(Key key) const { return m_first[positionOf(key) + 1]; }
-
 	int keyCount() const { return static_cast<int>(m_first.size()) - 1; }
 	const std::vector<Item>& items() const { return m_items; }
 
 private:
-	std::vector<int> m_first{0}; // [key]
+	int first(Key key) const { return m_first[positionOf(key)]; }
+	int last(Key key) const { return m_first[positionOf(key) + 1]; }
+
+	std::vector<int> m_first{0}; // [key] in m_items, and behind the last one
 	std::vector<Item> m_items;   // by key
 };
+
+/// Sorts items by \p keyOf(item), an int, and where these are equal by \p less(item, item): in linear
+/// time if there are about as many items as keys between the lowest and the highest, and few with one
+/// key, like the sides of triangles by their lower vertex.
+template<class Item, class KeyOf, class Less>
+void bucketSort(std::vector<Item>& items, const KeyOf& keyOf, const Less& less)
+{
+	if (items.empty())
+		return;
+	int low = keyOf(items.front()), high = low;
+	for (const Item& item : items) {
+		low = std::min(low, keyOf(item));
+		high = std::max(high, keyOf(item));
+	}
+	if ((high - low) / 4 >= static_cast<int>(items.size())) {
+		std::sort(items.begin(), items.end(), [&](const Item& a, const Item& b) {
+			return keyOf(a) != keyOf(b) ? keyOf(a) < keyOf(b) : less(a, b);
+		});
+		return;
+	}
+	Adjacency<int, Item> buckets(high - low + 1, [&](const auto& add) {
+		for (const Item& item : items)
+			add(keyOf(item) - low, item);
+	});
+	for (int key = 0; key <= high - low; ++key) {
+		const ItemRange<Item> bucket = buckets[key];
+		std::sort(bucket.begin(), bucket.end(), less);
+	}
+	items = buckets.items();
+}
 
 } // namespace ricci
 

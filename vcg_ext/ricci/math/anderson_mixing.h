@@ -2,6 +2,8 @@
 #ifndef RICCI_ANDERSON_MIXING_H
 #define RICCI_ANDERSON_MIXING_H
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <vector>
 
@@ -27,7 +29,7 @@ public:
 
 private:
 	std::size_t m_depth;
-	std::vector<std::vector<double>> m_images, m_residuals; ///< residual: image - x; oldest first
+	std::vector<Eigen::VectorXd> m_images, m_residuals; ///< residual: image - x; oldest first
 };
 
 } // namespace ricci

@@ -48,6 +48,34 @@ private:
 /// The same on plain numbers.
 using DisjointSets = DisjointSetsOf<int>;
 
+/// Partition of the elements 0 .. n - 1 in which any two members of one set have a known parity to
+/// each other: 0 where they are alike, 1 where they are opposite, such as the orientations of faces.
+class ParitySets
+{
+public:
+	explicit ParitySets(int n) : m_sets(2 * n) {}
+
+	/// The lowest member of the set of \p i.
+	int find(int i) { return m_sets.find(2 * i) / 2; }
+
+	/// Parity of \p i to the lowest member of its set.
+	char parity(int i) { return static_cast<char>(m_sets.find(2 * i) % 2); }
+
+	/// Unites the sets of \p a and \p b, whose parity to each other shall be \p parity.
+	/// \return false, and nothing is done, if it is known to be the other
+	bool merge(int a, int b, char parity)
+	{
+		if (m_sets.find(2 * a) == m_sets.find(2 * b + 1 - parity))
+			return false;
+		m_sets.merge(2 * a, 2 * b + parity);
+		m_sets.merge(2 * a + 1, 2 * b + 1 - parity);
+		return true;
+	}
+
+private:
+	DisjointSets m_sets; // of 2 i: i as it is, and 2 i + 1: its opposite
+};
+
 } // namespace ricci
 
 #endif

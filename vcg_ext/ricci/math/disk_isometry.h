@@ -2,7 +2,7 @@
 #ifndef RICCI_DISK_ISOMETRY_H
 #define RICCI_DISK_ISOMETRY_H
 
-#include "extended_complex.h"
+#include "double_double.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace ricci {
 template<class T>
 struct BasicDiskIsometry
 {
-	using Complex = typename ComplexOf<T>::Type;
+	using Complex = ComplexOf<T>;
 
 	Complex a{1, 0}, b{0, 0};
 

@@ -6,7 +6,9 @@
 
 #include <cfloat>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <type_traits>
 
 namespace ricci {
 
@@ -16,6 +18,21 @@ static_assert(
 #if defined(__FAST_MATH__)
 #error "-ffast-math would undo the exact sums of DoubleDouble"
 #endif
+
+/// x y - p for the rounded product p, exactly: by a fused multiplication where that is an instruction, else
+/// by halves.
+inline double roundingOfProduct(double x, double y, double p)
+{
+#if defined(FP_FAST_FMA) || defined(__FMA__) || defined(__AVX2__) || defined(__aarch64__) ||       \
+	defined(_M_ARM64)
+	return std::fma(x, y, -p);
+#else
+	constexpr double kSplit = 134217729.0; // 2^27 + 1
+	const double bigX = kSplit * x, bigY = kSplit * y;
+	const double x1 = bigX - (bigX - x), x2 = x - x1, y1 = bigY - (bigY - y), y2 = y - y1;
+	return ((x1 * y1 - p) + x1 * y2 + x2 * y1) + x2 * y2;
+#endif
+}
 
 /// The unevaluated sum of two doubles, \p low at most half a unit in the last place of \p high: a
 /// precision of 106 bits on every platform, where long double has 53, 64 or 113 [Dekker 1971].
@@ -48,25 +65,14 @@ struct DoubleDouble
 		return {s, y - (s - x)};
 	}
 
-	/// x y, exactly: by a fused multiplication where that is an instruction, else by halves.
+	/// x y, exactly.
 	static DoubleDouble product(double x, double y)
 	{
 		const double p = x * y;
-#if defined(FP_FAST_FMA) || defined(__FMA__) || defined(__AVX2__) || defined(__aarch64__) ||       \
-	defined(_M_ARM64)
-		return {p, std::fma(x, y, -p)};
-#else
-		constexpr double kSplit = 134217729.0; // 2^27 + 1
-		const double bigX = kSplit * x, bigY = kSplit * y;
-		const double x1 = bigX - (bigX - x), x2 = x - x1, y1 = bigY - (bigY - y), y2 = y - y1;
-		return {p, ((x1 * y1 - p) + x1 * y2 + x2 * y1) + x2 * y2};
-#endif
+		return {p, roundingOfProduct(x, y, p)};
 	}
 
-	friend DoubleDouble operator-(DoubleDouble x)
-	{
-		return {-x.high, -x.low};
-	}
+	friend DoubleDouble operator-(DoubleDouble x) { return {-x.high, -x.low}; }
 
 	friend DoubleDouble operator+(DoubleDouble x, DoubleDouble y)
 	{
@@ -74,10 +80,7 @@ struct DoubleDouble
 		return orderedSum(s.high, s.low + (x.low + y.low));
 	}
 
-	friend DoubleDouble operator-(DoubleDouble x, DoubleDouble y)
-	{
-		return x + -y;
-	}
+	friend DoubleDouble operator-(DoubleDouble x, DoubleDouble y) { return x + -y; }
 
 	friend DoubleDouble operator*(DoubleDouble x, DoubleDouble y)
 	{
@@ -91,10 +94,7 @@ struct DoubleDouble
 		return orderedSum(p.high, p.low + x.low * y);
 	}
 
-	friend DoubleDouble operator*(double x, DoubleDouble y)
-	{
-		return y * x;
-	}
+	friend DoubleDouble operator*(double x, DoubleDouble y) { return y * x; }
 
 	friend DoubleDouble operator/(DoubleDouble x, DoubleDouble y)
 	{
@@ -102,47 +102,23 @@ struct DoubleDouble
 		return orderedSum(q, (x - y * q).high / y.high);
 	}
 
-	DoubleDouble& operator+=(DoubleDouble x)
-	{
-		return *this = *this + x;
-	}
-	DoubleDouble& operator-=(DoubleDouble x)
-	{
-		return *this = *this - x;
-	}
-	DoubleDouble& operator*=(DoubleDouble x)
-	{
-		return *this = *this * x;
-	}
-	DoubleDouble& operator/=(DoubleDouble x)
-	{
-		return *this = *this / x;
-	}
+	DoubleDouble& operator+=(DoubleDouble x) { return *this = *this + x; }
+	DoubleDouble& operator-=(DoubleDouble x) { return *this = *this - x; }
+	DoubleDouble& operator*=(DoubleDouble x) { return *this = *this * x; }
+	DoubleDouble& operator/=(DoubleDouble x) { return *this = *this / x; }
 
 	friend bool operator==(DoubleDouble x, DoubleDouble y)
 	{
 		return x.high == y.high && x.low == y.low;
 	}
-	friend bool operator!=(DoubleDouble x, DoubleDouble y)
-	{
-		return !(x == y);
-	}
+	friend bool operator!=(DoubleDouble x, DoubleDouble y) { return !(x == y); }
 	friend bool operator<(DoubleDouble x, DoubleDouble y)
 	{
 		return x.high < y.high || (x.high == y.high && x.low < y.low);
 	}
-	friend bool operator>(DoubleDouble x, DoubleDouble y)
-	{
-		return y < x;
-	}
-	friend bool operator<=(DoubleDouble x, DoubleDouble y)
-	{
-		return x < y || x == y;
-	}
-	friend bool operator>=(DoubleDouble x, DoubleDouble y)
-	{
-		return y < x || x == y;
-	}
+	friend bool operator>(DoubleDouble x, DoubleDouble y) { return y < x; }
+	friend bool operator<=(DoubleDouble x, DoubleDouble y) { return x < y || x == y; }
+	friend bool operator>=(DoubleDouble x, DoubleDouble y) { return y < x || x == y; }
 };
 
 /// pi, log(2).
@@ -184,6 +160,100 @@ struct SineAndCosine
 };
 
 SineAndCosine sineAndCosine(DoubleDouble x);
+
+/// A complex number in extended precision, with the functions of std::complex, which is not specified
+/// for such types.
+class ExtendedComplex
+{
+public:
+	constexpr ExtendedComplex() = default;
+	constexpr ExtendedComplex(double real) : m_real(real) {}
+	constexpr ExtendedComplex(DoubleDouble real, DoubleDouble imag = 0.0) :
+			m_real(real), m_imag(imag)
+	{
+	}
+	constexpr ExtendedComplex(std::complex<double> z) : m_real(z.real()), m_imag(z.imag()) {}
+
+	explicit operator std::complex<double>() const
+	{
+		return {static_cast<double>(m_real), static_cast<double>(m_imag)};
+	}
+
+	constexpr DoubleDouble real() const { return m_real; }
+	constexpr DoubleDouble imag() const { return m_imag; }
+
+	friend ExtendedComplex operator-(const ExtendedComplex& z) { return {-z.m_real, -z.m_imag}; }
+
+	friend ExtendedComplex operator+(const ExtendedComplex& z, const ExtendedComplex& w)
+	{
+		return {z.m_real + w.m_real, z.m_imag + w.m_imag};
+	}
+
+	friend ExtendedComplex operator-(const ExtendedComplex& z, const ExtendedComplex& w)
+	{
+		return {z.m_real - w.m_real, z.m_imag - w.m_imag};
+	}
+
+	friend ExtendedComplex operator*(const ExtendedComplex& z, const ExtendedComplex& w)
+	{
+		return {
+			z.m_real * w.m_real - z.m_imag * w.m_imag, z.m_real * w.m_imag + z.m_imag * w.m_real};
+	}
+
+	friend ExtendedComplex operator*(DoubleDouble x, const ExtendedComplex& z)
+	{
+		return {x * z.m_real, x * z.m_imag};
+	}
+
+	friend ExtendedComplex operator*(double x, const ExtendedComplex& z)
+	{
+		return {x * z.m_real, x * z.m_imag};
+	}
+
+	friend ExtendedComplex operator/(const ExtendedComplex& z, DoubleDouble x)
+	{
+		return {z.m_real / x, z.m_imag / x};
+	}
+
+	friend ExtendedComplex operator/(const ExtendedComplex& z, const ExtendedComplex& w)
+	{
+		return z * conj(w) / norm(w);
+	}
+
+	ExtendedComplex& operator+=(const ExtendedComplex& z) { return *this = *this + z; }
+
+	friend bool operator==(const ExtendedComplex& z, const ExtendedComplex& w)
+	{
+		return z.m_real == w.m_real && z.m_imag == w.m_imag;
+	}
+
+	friend ExtendedComplex conj(const ExtendedComplex& z) { return {z.m_real, -z.m_imag}; }
+
+	/// The square of the absolute value.
+	friend DoubleDouble norm(const ExtendedComplex& z)
+	{
+		return z.m_real * z.m_real + z.m_imag * z.m_imag;
+	}
+
+	friend DoubleDouble abs(const ExtendedComplex& z) { return sqrt(norm(z)); }
+
+	friend DoubleDouble arg(const ExtendedComplex& z) { return atan2(z.m_imag, z.m_real); }
+
+private:
+	DoubleDouble m_real, m_imag;
+};
+
+/// The complex number \p r exp(i \p angle), as std::polar.
+inline ExtendedComplex polar(DoubleDouble r, DoubleDouble angle)
+{
+	const SineAndCosine turn = sineAndCosine(angle);
+	return {r * turn.cosine, r * turn.sine};
+}
+
+/// The complex numbers with parts of type \p T.
+template<class T>
+using ComplexOf =
+	std::conditional_t<std::is_same_v<T, DoubleDouble>, ExtendedComplex, std::complex<T>>;
 
 } // namespace ricci
 

@@ -3,7 +3,7 @@
 
 #include "../layout/hyperbolic_layout.h"
 #include "../math/disk_isometry.h"
-#include "../metric/triangle.h"
+#include "../metric/area.h"
 
 #include <complex>
 

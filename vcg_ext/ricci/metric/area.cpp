@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "area.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace ricci {
 
 namespace {
@@ -27,10 +24,8 @@ template<class Area>
 double sumOverTriangles(const Triangulation& t, const EdgeArray<double>& lengths, Area area)
 {
 	double sum = 0.0;
-	for (const Face f : t.faces()) {
-		const auto h = t.halfedges(f);
-		sum += area({lengths[h[0].edge()], lengths[h[1].edge()], lengths[h[2].edge()]});
-	}
+	for (const Face f : t.faces())
+		sum += area(sidesOf(t, lengths, f));
 	return sum;
 }
 

@@ -4,9 +4,19 @@
 
 #include "../surface/triangulation.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace ricci {
+
+/// Lengths of the sides of a face, in the order of its halfedges.
+inline std::array<double, 3>
+sidesOf(const Triangulation& t, const EdgeArray<double>& lengths, Face f)
+{
+	const auto h = t.halfedges(f);
+	return {lengths[h[0].edge()], lengths[h[1].edge()], lengths[h[2].edge()]};
+}
 
 /// Area of a flat triangle with these sides, by Heron's formula in the order of operations of [Kahan
 /// 2014]; 0 where they break the triangle inequality.
@@ -27,6 +37,31 @@ double hyperbolicArea(const Triangulation& t, const EdgeArray<double>& lengths);
 ///
 /// 0 where the sides break the triangle inequality.
 double hyperbolicArea(std::array<double, 3> sides);
+
+/// Place of the apex of a plane triangle over its base, which runs from 0 along the x axis:
+///
+///            apex
+///           /    \           .
+///     left / height \ right  .
+///         /        \         .
+///        0 --------- base
+///          along
+struct TriangleApex
+{
+	double along, height;
+};
+
+/// Apex from the lengths of the sides, by Heron's formula. Where the sides break the triangle
+/// inequality, the height is 0.
+/// \pre \p base > 0
+inline TriangleApex triangleApex(double base, double left, double right)
+{
+	const double heron = (base + left + right) * (base + left - right) * (base + right - left) *
+						 (left + right - base);
+	return {
+		0.5 * ((left - right) * (left + right) / base + base),
+		std::sqrt(std::max(0.0, heron)) / (2 * base)};
+}
 
 } // namespace ricci
 

@@ -4,15 +4,16 @@
 
 #include "../surface/triangulation.h"
 
+#include <vector>
+
 namespace ricci {
 
-/// Discrete conformal class and one member of it (Definition 3.5): a triangulation, an inversive
-/// distance on each edge, and a circle at each vertex.
+/// Discrete conformal class (Definition 3.5): a triangulation and an inversive distance on each edge. With
+/// a circle at each vertex it is a metric.
 struct CirclePacking
 {
 	Triangulation triangulation;
 	EdgeArray<double> delta; ///< I - 1; at least 0 where circles are tangent or disjoint
-	VertexArray<double> u;   ///< ln radius (Eq. 6, Euclidean)
 };
 
 /// Initial radii of paper 4.1: the minimum of (l_ij + l_ki - l_jk) / 2 over the triangles at i,
@@ -31,11 +32,70 @@ EdgeArray<double> inversiveDistancesLessOne(
 EdgeArray<double> thurstonDistancesLessOne(
 	const Triangulation& t, const EdgeArray<double>& lengths, const VertexArray<double>& radii);
 
-/// The packing of inversiveDistancesLessOne().
-CirclePacking inversiveDistancePacking(
-	Triangulation triangulation,
-	const EdgeArray<double>& lengths,
-	const VertexArray<double>& radii);
+/// A flat surface with cone points: the metric of a mesh carried by some triangulation of it.
+struct IntrinsicMesh
+{
+	Triangulation triangulation;
+	EdgeArray<double> lengths;
+};
+
+/// What mollify() adds to the edges: atVertex[i] + atVertex[j] to edge ij.
+struct Lengthening
+{
+	VertexArray<double> atVertex; ///< empty where no triangle is degenerate
+	double largest =
+		0.0; ///< largest share of an edge that is added: 1 where it has no length itself
+
+	/// Length with what is added of edge \p e of \p t, whose own length is \p l.
+	double lengthOf(const Triangulation& t, Edge e, double l) const;
+};
+
+/// Where the flow starts (paper 4.1): the mesh's own metric on a triangulation of it, and the
+/// circle packing whose metric it is (with Method::Thurston, nearly).
+struct InitialPacking
+{
+	IntrinsicMesh mesh;
+	VertexArray<double> radii;
+	EdgeArray<double> delta; ///< inversive distance less one
+	std::vector<Edge> flips; ///< edges flipped since the input, in order
+	bool isDelaunay = false; ///< from delaunayPacking()
+	Lengthening lengthened;  ///< of the input's edges, by delaunayPacking()
+};
+
+/// Gives degenerate triangles a shape (intrinsic mollification [Sharp Crane 2020], but vertex by vertex): those
+/// that satisfy the triangle inequality by less than rounding can tell, or have a side a million times
+/// shorter than another. To add e_i + e_j to edge ij, with any e >= 0, changes the excess l_ij + l_ki - l_jk
+/// of a corner i by 2 e_i and no other excess. So no triangle inequality is lost, and triangles that touch no
+/// degenerate one are left alone, however large that is.
+///
+/// In a needle the two corners at the short side get an excess of 1e-5 of the longest, which bounds its two
+/// large angles away from pi. In a triangle flat on its longest side the corner there gets 1e-5 of the
+/// shorter side *at the corner*: its angle then is about pi - 0.0045, whatever the sides' ratio, and no
+/// edge changes by more than the angle needs. Less would do for the angle, but a circle's radius is at most
+/// half the excess at its corner, and radii of all scales make the flow ill-conditioned. Vertices at one place
+/// get the largest of what they need.
+Lengthening mollify(const Triangulation& t, EdgeArray<double>& lengths);
+
+/// Length of the other diagonal of the two plane triangles at edge \p e.
+/// \pre \p e is flippable
+double flippedLength(const IntrinsicMesh& mesh, Edge e);
+
+/// The start with intrinsic flips: flips to the intrinsic Delaunay triangulation of the metric,
+/// then, with half the initial radii of that, to the weighted one. Starting anywhere else would
+/// keep a conformal class that is not the surface's: a conformal flip is isometric only where the
+/// edge is both in and out of the weighted Delaunay triangulation. Degenerate triangles are given a
+/// little area first (mollify()). Radii are lowered further where circles would touch: I > 1 on
+/// every edge. That ends: it halves a radius each time that is at least half of an edge, and no edge
+/// is shorter than the shortest geodesic between vertices.
+/// \param mirror [vertex] the vertex whose radius must be the same (its image in a double, or
+/// itself); may be empty
+/// \throw InternalError where an edge is left without a length; NotConverged (FlipsUsedUp) where
+/// rounding keeps the flips from ending
+InitialPacking delaunayPacking(IntrinsicMesh mesh, const VertexArray<Vertex>& mirror);
+
+/// The start on the mesh's own triangles, with the radii of paper 4.1 (initialRadii()).
+/// \pre every triangle satisfies the strict triangle inequality
+InitialPacking inputPacking(IntrinsicMesh mesh);
 
 } // namespace ricci
 

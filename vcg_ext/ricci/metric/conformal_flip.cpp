@@ -70,13 +70,13 @@ bool isWeightedDelaunay(
 	return !(positive - negative < -kConformalTie * (positive + negative));
 }
 
-void FlipJournal::rewind(Triangulation& t, EdgeArray<double>& delta)
+void rewind(FlipJournal& journal, Triangulation& t, EdgeArray<double>& delta)
 {
-	for (auto flip = m_flips.rbegin(); flip != m_flips.rend(); ++flip) {
-		t.unflip(flip->edge);
-		delta[flip->edge] = flip->delta;
+	for (; !journal.empty(); journal.pop_back()) {
+		const auto [e, before] = journal.back();
+		t.unflip(e);
+		delta[e] = before;
 	}
-	m_flips.clear();
 }
 
 int makeWeightedDelaunay(
@@ -89,7 +89,7 @@ int makeWeightedDelaunay(
 {
 	const auto isGood = [&](Edge e) { return isWeightedDelaunay(t, delta, kappa, e); };
 	const auto flip = [&](Edge e) {
-		journal.record(e, delta[e]);
+		journal.emplace_back(e, delta[e]);
 		delta[e] = flippedDelta(t, delta, e);
 		t.flip(e);
 	};

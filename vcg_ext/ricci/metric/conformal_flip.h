@@ -2,12 +2,64 @@
 #ifndef RICCI_CONFORMAL_FLIP_H
 #define RICCI_CONFORMAL_FLIP_H
 
-#include "circle_packing.h"
-#include "delaunay_queue.h"
+#include "../base/task.h"
+#include "../error.h"
+#include "../surface/triangulation.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace ricci {
+
+/// Flips end by themselves in exact arithmetic: each one raises the function whose creases the edges
+/// are, so that no triangulation comes twice. But their number has no bound by that of the edges: a
+/// strip of triangles wound k times round a torus of one vertex takes k flips, and k may be about
+/// kNeedleRatio. More than this many are rounding's, which goes round in circles.
+inline std::int64_t maxFlips(int edgeCount)
+{
+	constexpr std::int64_t kWindings = 10000000, kPerEdge = 1000;
+	return std::max(kWindings, kPerEdge * edgeCount);
+}
+
+/// Edges that wait for their test, and the work space of the searches that flip them.
+struct DelaunayQueue
+{
+	std::vector<Edge> edges; ///< a stack
+	EdgeArray<char> queued;  ///< 1 where the edge waits, on the stack or for its turn by number
+
+	/// Tests \p first and, last come first served, the sides of the quad of every edge that is
+	/// flipped, until no edge is left on the stack. \p isGood(e) tells whether edge e stays, \p
+	/// flip(e) flips it in \p t and in what belongs to it.
+	/// \param flips counts the flips of all calls
+	/// \pre the stack is empty, queued[first] is 0; edges that are queued wait for a later call
+	/// \throw NotConverged (FlipsUsedUp) beyond maxFlips()
+	template<class IsGood, class Flip>
+	void flipFrom(Edge first, const Triangulation& t, std::int64_t& flips, IsGood isGood, Flip flip)
+	{
+		edges.push_back(first);
+		while (!edges.empty()) {
+			const Edge e = edges.back();
+			edges.pop_back();
+			queued[e] = 0;
+			if (isGood(e))
+				continue;
+			if (flips >= maxFlips(t.edgeCount()))
+				throw NotConverged(NotConverged::FlipsUsedUp, static_cast<std::size_t>(flips));
+			checkpointNowAndThen(static_cast<std::size_t>(flips));
+			const auto quad = t.quad(e);
+			flip(e);
+			++flips;
+			for (const Halfedge side : quad)
+				if (!queued[side.edge()]) {
+					queued[side.edge()] = 1;
+					edges.push_back(side.edge());
+				}
+		}
+	}
+};
 
 /// Flips of an edge ij of a packing that keep its discrete conformal class [Bobenko Lutz 2023]:
 ///
@@ -54,37 +106,14 @@ bool isWeightedDelaunay(
 	const VertexArray<double>& kappa,
 	Edge e);
 
-/// Edges flipped, in order, with what is needed to go back.
-class FlipJournal
-{
-public:
-	void clear() { m_flips.clear(); }
+/// Edges flipped, in order, each with its delta before the flip.
+using FlipJournal = std::vector<std::pair<Edge, double>>;
 
-	/// \p delta: of the edge before the flip.
-	void record(Edge e, double delta) { m_flips.push_back({e, delta}); }
-	int size() const { return static_cast<int>(m_flips.size()); }
-
-	/// Appends the recorded edges to \p edges, in order.
-	void appendTo(std::vector<Edge>& edges) const
-	{
-		for (const Flip& flip : m_flips)
-			edges.push_back(flip.edge);
-	}
-
-	/// Undoes every recorded flip, last first, bit for bit, and clears the journal.
-	void rewind(Triangulation& t, EdgeArray<double>& delta);
-
-private:
-	struct Flip
-	{
-		Edge edge;
-		double delta;
-	};
-	std::vector<Flip> m_flips;
-};
+/// Undoes every flip of \p journal, last first, bit for bit, and clears it.
+void rewind(FlipJournal& journal, Triangulation& t, EdgeArray<double>& delta);
 
 /// Flips edges until every one is weighted Delaunay, in an order that depends on the input alone
-/// and not on the number of \p threads, which test the edges beforehand. The flips are recorded in
+/// and not on the number of \p threads, which test the edges beforehand. The flips are appended to
 /// \p journal; \p queue is work space.
 /// \return number of flips
 /// \throw NotConverged (FlipsUsedUp) where rounding keeps the flips from ending

@@ -10,43 +10,31 @@
 
 namespace ricci {
 
-namespace {
-
-/// Calls use(halfedges, lengths of them, area) for every triangle.
-template<class Use>
-void forTriangles(const Triangulation& t, const EdgeArray<double>& lengths, const Use& use)
-{
-	for (const Face f : t.faces()) {
-		const auto h = t.halfedges(f);
-		const std::array<double, 3> l = {
-			lengths[h[0].edge()], lengths[h[1].edge()], lengths[h[2].edge()]};
-		use(h, l, euclideanArea(l));
-	}
-}
-
-} // namespace
-
 EdgeArray<double>
 cotangentWeights(const Triangulation& t, const EdgeArray<double>& lengths, double maxCotangent)
 {
 	EdgeArray<double> weights(t.edgeCount(), 0.0);
-	forTriangles(t, lengths, [&](const auto& h, const auto& l, double area) {
+	for (const Face f : t.faces()) {
+		const std::array<double, 3> l = sidesOf(t, lengths, f);
+		const double area = euclideanArea(l);
 		for (std::size_t k = 0; k < 3; ++k) {
 			const double a = l[k], b = l[(k + 1) % 3], c = l[(k + 2) % 3];
 			const double half = ((b - a) * (b + a) + c * c) / std::max(8.0 * area, kNoArea);
-			weights[h[k].edge()] += std::clamp(half, -0.5 * maxCotangent, 0.5 * maxCotangent);
+			weights[t.halfedges(f)[k].edge()] +=
+				std::clamp(half, -0.5 * maxCotangent, 0.5 * maxCotangent);
 		}
-	});
+	}
 	return weights;
 }
 
 VertexVector vertexAreas(const Triangulation& t, const EdgeArray<double>& lengths)
 {
 	VertexVector areas = VertexVector::Zero(t.vertexCount());
-	forTriangles(t, lengths, [&](const auto& h, const auto&, double area) {
-		for (const Halfedge side : h)
-			areas[t.origin(side)] += area / 3.0;
-	});
+	for (const Face f : t.faces()) {
+		const double third = euclideanArea(sidesOf(t, lengths, f)) / 3.0;
+		for (const Vertex v : t.vertices(f))
+			areas[v] += third;
+	}
 	return areas;
 }
 

@@ -5,7 +5,6 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../math/double_double.h"
-#include "../metric/unfold.h"
 
 #include <algorithm>
 #include <cmath>

@@ -24,7 +24,7 @@
 #define RICCI_OVERLAY_PIECES_H
 
 #include "../flow/ricci_flow.h"
-#include "../surface/surface_point.h"
+#include "../surface/surface_mesh.h"
 #include "barycentric.h"
 
 #include <array>

@@ -6,7 +6,7 @@
 #include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../curvature/area_change.h"
-#include "../flow/improve.h"
+#include "../flow/ricci_flow.h"
 #include "stages.h"
 
 #include <memory>

@@ -8,7 +8,7 @@
 #include "../base/tolerances.h"
 #include "../cut/cone_wedges.h"
 #include "../error.h"
-#include "../math/min_area_rectangle.h"
+#include "../math/convex_hull.h"
 #include "../measure/invariants.h"
 
 #include <algorithm>

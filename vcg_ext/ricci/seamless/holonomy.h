@@ -4,7 +4,7 @@
 #define RICCI_HOLONOMY_H
 
 #include "../flow/curvature_map.h"
-#include "../flow/factored_hessian.h"
+#include "../flow/hessian.h"
 #include "../surface/elements.h"
 #include "../surface/triangulation.h"
 

@@ -3,7 +3,7 @@
 #define RICCI_MAKE_SEAMLESS_H
 
 #include "../curvature/target_curvature.h"
-#include "../flow/improve.h"
+#include "../flow/ricci_flow.h"
 #include "seamless_metric.h"
 
 namespace ricci {

@@ -24,6 +24,36 @@ struct FaceGluing
 /// \pre no triangle uses a vertex twice
 FaceGluing glueFaces(const Array<Point3>& positions, const Array<Triangle>& triangles);
 
+/// Connected pieces of glued triangles, and an orientation of each.
+struct FacePartition
+{
+	Array<int> component;   ///< [face] in the order of their lowest faces
+	Array<char> reversed;   ///< [face] 1 for the minority in each component that is to be turned
+	Array<char> isOneSided; ///< [component] no orientation fits all its faces
+	Array<Corner> contradicted; ///< glued sides, the lower of each two, where it does not fit
+	int componentCount = 0;
+};
+
+FacePartition partitionFaces(const Array<Triangle>& triangles, const CornerArray<Corner>& glued);
+
+/// Cuts every one-sided component of \p partition along a short one-sided loop of edges, or, with
+/// \p everywhere, along all contradicted edges, which leaves no one-sided component. The cut may
+/// still leave one: a Klein bottle becomes a Möbius band or an annulus. Where the edges between faces
+/// of opposite orders are about as short, the cut is there, and no face has to be turned.
+///
+/// The loop is the shortest through any of a few vertices: two shortest paths and an edge, because of
+/// two loops that a third path makes of a one-sided loop one is one-sided ([Thomassen 1990]).
+/// \pre an edge of glued triangles is determined by its vertices (see OpenedMesh)
+void cutOneSided(
+	const Array<Point3>& positions,
+	const Array<Triangle>& triangles,
+	const FacePartition& partition,
+	bool everywhere,
+	CornerArray<Corner>& glued);
+
+/// Leaves a side without the other that it was glued to.
+void unglue(Corner side, CornerArray<Corner>& glued);
+
 } // namespace ricci
 
 #endif

@@ -3,11 +3,11 @@
 
 #include "../base/tolerances.h"
 #include "../math/points.h"
-#include "hole_caps.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -50,6 +50,25 @@ EdgeArray<char> edgesOf(const Triangulation& t, const std::vector<std::array<cha
 	return edges;
 }
 
+/// Centre of mass of a boundary loop; the mean of its points where it has no length.
+Point3 centreOf(const EmbeddedSurface& surface, Halfedge first)
+{
+	const Triangulation& t = surface.triangulation;
+	std::vector<Halfedge> loop;
+	for (const Halfedge h : t.loop(first))
+		loop.push_back(h);
+	Point3 centre{0, 0, 0}, mean{0, 0, 0};
+	double length = 0.0;
+	for (const Halfedge h : loop) {
+		const Point3 &p = surface.positions[t.origin(h)], &q = surface.positions[t.target(h)];
+		const double side = surface.lengths[h.edge()];
+		length += side;
+		centre += 0.5 * side * (p + q);
+		mean += p / static_cast<double>(loop.size());
+	}
+	return length > 0.0 ? centre / length : mean;
+}
+
 /// The length up to which a loop is short.
 double maxShortLength(const EmbeddedSurface& surface)
 {
@@ -63,28 +82,110 @@ double maxShortLength(const EmbeddedSurface& surface)
 	return kShortHole * std::sqrt(area) / std::max(1, 2 * surface.topology.type.genus - 2);
 }
 
-/// The edges of the short loops, of those whose edges are all marked in \p isHole, or of all where that is
-/// empty.
-EdgeArray<char> shortLoops(const EmbeddedSurface& surface, const EdgeArray<char>& isHole)
+} // namespace
+
+std::vector<Halfedge>
+loopsToClose(const EmbeddedSurface& surface, const EdgeArray<char>& isHole, Holes holes)
 {
 	const Triangulation& t = surface.triangulation;
-	const double maxLength = maxShortLength(surface);
-	EdgeArray<char> isShort(t.edgeCount(), 0);
+	const bool areShort = holes == Holes::ShortCapped;
+	const double maxLength =
+		areShort ? maxShortLength(surface) : std::numeric_limits<double>::infinity();
+	std::vector<Halfedge> loops;
+	Halfedge longest;
+	double longestLength = -1.0;
 	for (const Halfedge first : t.boundaryLoops()) {
-		double loopLength = 0.0;
+		double length = 0.0;
 		bool isMarked = true;
 		for (const Halfedge h : t.loop(first)) {
-			loopLength += surface.lengths[h.edge()];
+			length += surface.lengths[h.edge()];
 			isMarked &= isHole.empty() || isHole[h.edge()];
 		}
-		if (isMarked && loopLength <= maxLength)
-			for (const Halfedge h : t.loop(first))
-				isShort[h.edge()] = 1;
+		if (length > longestLength) {
+			longestLength = length;
+			longest = first;
+		}
+		if (isMarked && length <= maxLength)
+			loops.push_back(first);
 	}
-	return isShort;
+	if (isHole.empty() && !areShort)
+		loops.erase(std::remove(loops.begin(), loops.end(), longest), loops.end());
+	return loops;
 }
 
-} // namespace
+void capHoles(const std::vector<Halfedge>& loops, FlowDomain& domain)
+{
+	const Triangulation& t = domain.surface.triangulation;
+	domain.onHole.assign(t.vertexCount(), 0);
+	domain.holes = static_cast<int>(loops.size());
+	if (loops.empty())
+		return;
+	VertexArray<Point3> positions = domain.surface.positions;
+	std::vector<Triangle> triangles;
+	for (const Face f : t.faces()) {
+		const auto [a, b, c] = t.vertices(f);
+		triangles.push_back({a.number(), b.number(), c.number()});
+	}
+	for (const Halfedge first : loops) {
+		const int centre = positions.size();
+		positions.push_back(centreOf(domain.surface, first));
+		for (const Halfedge h : t.loop(first)) { // in the direction of the side of the cap there
+			domain.onHole[t.origin(h)] = 1;
+			triangles.push_back({t.origin(h).number(), t.target(h).number(), centre});
+		}
+	}
+	domain.capped = embeddedSurface(std::move(positions), triangles);
+}
+
+DoubleSurface doubleOf(const Triangulation& t)
+{
+	const int faceCount = t.faceCount();
+	const VertexArray<char> boundary = t.boundaryVertices();
+	DoubleSurface d;
+	int vertexCount = t.vertexCount();
+	d.mirror.resize(vertexCount);
+	for (const Vertex v : t.vertices())
+		d.mirror[v] = boundary[v] ? v : Vertex(vertexCount++);
+	d.mirror.resize(vertexCount);
+	for (const Vertex v : t.vertices())
+		d.mirror[d.mirror[v]] = v;
+
+	// Side k of a face runs from corner k to k + 1; side 2 - k of its image mirrors it.
+	HalfedgeArray<Corner> side(t.halfedgeCount());
+	Array<Triangle> triangles(2 * faceCount);
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		const auto v = t.vertices(f);
+		for (const Corner c : cornersOf(f.number())) {
+			side[h[c.index()]] = c;
+			triangles[c] = v[c.index()].number();
+		}
+		triangles[faceCount + f.number()] = {
+			d.mirror[v[0]].number(), d.mirror[v[2]].number(), d.mirror[v[1]].number()};
+	}
+	const auto image = [&](Corner c) {
+		return Corner(faceCount + c.face(), 2 - static_cast<int>(c.index()));
+	};
+	CornerArray<Corner> glued(6 * faceCount);
+	for (const Halfedge h : t.interiorHalfedges()) {
+		const Corner s = side[h], across = side[h.twin()];
+		glued[s] = across.isValid() ? across : image(s);
+		glued[image(s)] = across.isValid() ? image(across) : s;
+	}
+	d.triangulation = Triangulation(vertexCount, triangles.values(), glued);
+
+	d.edgeOf.resize(d.triangulation.edgeCount());
+	for (const Face f : t.faces()) {
+		const auto h = d.triangulation.halfedges(f);
+		const auto mirrored = d.triangulation.halfedges(Face(faceCount + f.number()));
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Edge e = h[k].edge();
+			d.edgeOf[e] = e;
+			d.edgeOf[mirrored[2 - k].edge()] = e;
+		}
+	}
+	return d;
+}
 
 FlowDomain flowDomain(const Component& component, Holes holes)
 {
@@ -92,18 +193,10 @@ FlowDomain flowDomain(const Component& component, Holes holes)
 	domain.surface = embeddedSurface(component.positions, component.triangles);
 	const Triangulation& t = domain.surface.triangulation;
 	domain.isDiagonal = edgesOf(t, component.diagonal);
-	domain.onHole.assign(domain.surface.triangulation.vertexCount(), 0);
-	if (holes == Holes::Boundaries || domain.surface.topology.type.isClosed())
-		return domain;
-	EdgeArray<char> isHole = edgesOf(t, component.hole);
-	if (holes == Holes::ShortCapped)
-		isHole = shortLoops(domain.surface, isHole);
-	CappedSurface capped = capHoles(t, domain.surface.positions, isHole);
-	if (capped.holes == 0)
-		return domain;
-	domain.capped = embeddedSurface(std::move(capped.positions), capped.triangles);
-	domain.onHole = std::move(capped.onHole);
-	domain.holes = capped.holes;
+	std::vector<Halfedge> loops;
+	if (holes != Holes::Boundaries && !domain.surface.topology.type.isClosed())
+		loops = loopsToClose(domain.surface, edgesOf(t, component.hole), holes);
+	capHoles(loops, domain);
 	return domain;
 }
 

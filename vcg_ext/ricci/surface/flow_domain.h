@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace ricci {
 
@@ -28,13 +29,26 @@ EdgeArray<double> edgeLengths(const Triangulation& t, const VertexArray<Point3>&
 EmbeddedSurface
 embeddedSurface(VertexArray<Point3> positions, const std::vector<Triangle>& triangles);
 
+/// Two copies of a surface with boundary, the second one turned round, glued along the boundary: a
+/// closed surface. Vertices, edges, halfedges and faces of the surface keep their numbers in the
+/// first copy; an exterior halfedge of the surface is an interior one of the second copy.
+struct DoubleSurface
+{
+	Triangulation triangulation;
+	VertexArray<Vertex> mirror; ///< the image in the other copy; on the boundary the vertex itself
+	EdgeArray<Edge> edgeOf;     ///< the surface's edge that it is or mirrors
+};
+
+DoubleSurface doubleOf(const Triangulation& t);
+
 /// What one component gives the flow to run on.
 struct FlowDomain
 {
 	EmbeddedSurface surface;    ///< the component's own triangles
 	EdgeArray<char> isDiagonal; ///< [edge of surface] see SurfaceMesh; may be empty
 
-	/// The surface with caps on its holes, where they are to be closed (hole_caps.h). Elements of the surface keep their numbers.
+	/// The surface with caps on its holes, where they are to be closed: after its own vertices the centres
+	/// of the caps, after its own triangles those of the caps. Elements of the surface keep their numbers.
 	std::optional<EmbeddedSurface> capped;
 	VertexArray<char> onHole; ///< [vertex of surface] 1 on a loop that is closed
 	int holes = 0;            ///< loops that are closed
@@ -53,6 +67,20 @@ struct FlowDomain
 /// by 2 genus - 2 if that is above 1: also the longest, so that a closed surface that lacks some faces is closed
 /// for the flow.
 FlowDomain flowDomain(const Component& component, Holes holes);
+
+/// Exterior halfedges of the loops that are to be closed: one of each. See flowDomain().
+/// \param isHole 1 on the edges of holes; empty: which loops are holes is told by their lengths
+std::vector<Halfedge>
+loopsToClose(const EmbeddedSurface& surface, const EdgeArray<char>& isHole, Holes holes);
+
+/// Closes \p loops of the surface of \p domain by fans round their centres of mass.
+///
+/// Positions serve only to give the edges of the fan a length, and its triangles may be thin: the
+/// flow starts from the intrinsic Delaunay triangulation and makes the fan flat, inside and
+/// together with the faces at its rim. A finer filling, by rings of ever fewer vertices, changes
+/// the distortion of the surface in the fourth digit only. A plane hole that is star-shaped from
+/// its centre is filled by the plane.
+void capHoles(const std::vector<Halfedge>& loops, FlowDomain& domain);
 
 } // namespace ricci
 

@@ -59,8 +59,8 @@ public:
 
 	/// Follow a flip of edge \p e, forwards or backwards (see Triangulation).
 	/// \pre \p e is flippable
-	void flip(Edge e);
-	void unflip(Edge e);
+	void flip(Edge e) { follow(e, &Triangulation::flip); }
+	void unflip(Edge e) { follow(e, &Triangulation::unflip); }
 
 	const Triangulation& triangulation() const { return m_triangulation; }
 
@@ -111,6 +111,7 @@ public:
 
 private:
 	int flippedNormalCoordinate(Edge e) const;
+	void follow(Edge e, void (Triangulation::*change)(Edge));
 	void updateRoundabout(Halfedge h);
 
 	/// The original halfedge of this rank, modulo the degree, at \p v.
@@ -126,6 +127,28 @@ private:
 	VertexArray<int> m_start;        // into m_ranked
 	Array<Halfedge> m_ranked;        // original halfedges, counter-clockwise round each vertex
 };
+
+/// The strip of plane triangles that a curve runs through, unfolded from the beginning of the curve
+/// at the origin of the plane.
+struct Strip
+{
+	struct Side
+	{
+		Point2 from, to; ///< ends of the crossed halfedge
+	};
+	std::vector<Side> sides; ///< of every crossing, in order
+	Point2 end{0.0, 0.0};    ///< of the curve
+};
+
+/// Unfolds \p curve in the flat metric of these \p lengths on \p t, on which the curve was traced.
+/// Directions are carried as angles, which rounding changes less than coordinates where triangles
+/// are thin. \p strip is overwritten.
+/// \pre the curve has at least one crossing
+void unfold(
+	const Triangulation& t,
+	const EdgeArray<double>& lengths,
+	const NormalCoordinates::Curve& curve,
+	Strip& strip);
 
 } // namespace ricci
 

@@ -5,7 +5,6 @@
 #include "../error.h"
 #include "../math/disjoint_sets.h"
 #include "face_gluing.h"
-#include "one_sided.h"
 #include "sides.h"
 
 #include <algorithm>

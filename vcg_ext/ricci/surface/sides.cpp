@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sides.h"
 
-#include "../math/bucket_sort.h"
-
 #include <algorithm>
 
 namespace ricci {

@@ -83,6 +83,15 @@ Triangulation::Triangulation(
 	}
 }
 
+std::vector<Halfedge> Triangulation::halfedgesThatAre(bool exterior) const
+{
+	std::vector<Halfedge> found;
+	for (const Halfedge h : halfedges())
+		if (isExterior(h) == exterior)
+			found.push_back(h);
+	return found;
+}
+
 VertexArray<char> Triangulation::boundaryVertices() const
 {
 	VertexArray<char> boundary(vertexCount(), 0);

@@ -91,22 +91,25 @@ public:
 		return isExterior(e.halfedge()) || isExterior(e.halfedge().twin());
 	}
 
-	/// Halfedges for a range-based loop, from \p first until it comes round, by \p Step.
-	template<class Step>
+	/// The next of the halfedges that leave the origin of \p h, clockwise.
+	Halfedge clockwise(Halfedge h) const { return next(h.twin()); }
+
+	/// Halfedges for a range-based loop, from \p first until it comes round, by \p step.
+	template<Halfedge (Triangulation::*step)(Halfedge) const>
 	class Circulator
 	{
 	public:
 		class Iterator
 		{
 		public:
-			Iterator(const Triangulation& t, Halfedge h, Halfedge first, bool done) :
-					m_t(t), m_h(h), m_first(first), m_done(done)
+			Iterator(const Triangulation& t, Halfedge h, bool done) :
+					m_t(t), m_h(h), m_first(h), m_done(done)
 			{
 			}
 			Halfedge operator*() const { return m_h; }
 			Iterator& operator++()
 			{
-				m_h = Step::from(m_t, m_h);
+				m_h = (m_t.*step)(m_h);
 				m_done = m_h == m_first;
 				return *this;
 			}
@@ -119,74 +122,26 @@ public:
 		};
 
 		Circulator(const Triangulation& t, Halfedge first) : m_t(t), m_first(first) {}
-		Iterator begin() const { return {m_t, m_first, m_first, !m_first.isValid()}; }
-		Iterator end() const { return {m_t, m_first, m_first, true}; }
+		Iterator begin() const { return {m_t, m_first, !m_first.isValid()}; }
+		Iterator end() const { return {m_t, m_first, true}; }
 
 	private:
 		const Triangulation& m_t;
 		Halfedge m_first;
 	};
-
-	struct Clockwise
-	{
-		static Halfedge from(const Triangulation& t, Halfedge h) { return t.next(h.twin()); }
-	};
-	struct Onward
-	{
-		static Halfedge from(const Triangulation& t, Halfedge h) { return t.next(h); }
-	};
+	using Around = Circulator<&Triangulation::clockwise>;
+	using Loop = Circulator<&Triangulation::next>;
 
 	/// The halfedges that leave \p v, clockwise from halfedge(v), exterior ones included. None if
 	/// \p v has no face.
-	Circulator<Clockwise> around(Vertex v) const { return {*this, halfedge(v)}; }
+	Around around(Vertex v) const { return {*this, halfedge(v)}; }
 
 	/// The halfedges of the triangle, or of the boundary loop, of \p h: from \p h on by next().
-	Circulator<Onward> loop(Halfedge h) const { return {*this, h}; }
+	Loop loop(Halfedge h) const { return {*this, h}; }
 
-	/// The halfedges that are exterior, or all others, in increasing order.
-	class SideRange
-	{
-	public:
-		class Iterator
-		{
-		public:
-			Iterator(const Triangulation& t, int number, bool exterior) :
-					m_t(t), m_number(number), m_exterior(exterior)
-			{
-				skip();
-			}
-			Halfedge operator*() const { return Halfedge(m_number); }
-			Iterator& operator++()
-			{
-				++m_number;
-				skip();
-				return *this;
-			}
-			bool operator!=(const Iterator& other) const { return m_number != other.m_number; }
-
-		private:
-			void skip()
-			{
-				while (m_number < m_t.halfedgeCount() &&
-					   m_t.isExterior(Halfedge(m_number)) != m_exterior)
-					++m_number;
-			}
-			const Triangulation& m_t;
-			int m_number;
-			bool m_exterior;
-		};
-
-		SideRange(const Triangulation& t, bool exterior) : m_t(t), m_exterior(exterior) {}
-		Iterator begin() const { return {m_t, 0, m_exterior}; }
-		Iterator end() const { return {m_t, m_t.halfedgeCount(), m_exterior}; }
-
-	private:
-		const Triangulation& m_t;
-		bool m_exterior;
-	};
-
-	SideRange interiorHalfedges() const { return {*this, false}; }
-	SideRange exteriorHalfedges() const { return {*this, true}; }
+	/// The halfedges that are exterior, and all others, in increasing order.
+	std::vector<Halfedge> exteriorHalfedges() const { return halfedgesThatAre(true); }
+	std::vector<Halfedge> interiorHalfedges() const { return halfedgesThatAre(false); }
 
 	/// For each vertex, whether it lies on the boundary.
 	VertexArray<char> boundaryVertices() const;
@@ -230,6 +185,7 @@ public:
 	void unflip(Edge e);
 
 private:
+	std::vector<Halfedge> halfedgesThatAre(bool exterior) const;
 	void rewire(Halfedge h, std::array<Halfedge, 4> quad, Vertex from, Vertex to);
 
 	HalfedgeArray<Halfedge> m_next;

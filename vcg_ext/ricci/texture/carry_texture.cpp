@@ -7,7 +7,6 @@
 #include "nearest_fill.h"
 #include "old_charts.h"
 #include "picture_sampler.h"
-#include "texels_of_triangle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -130,11 +129,8 @@ public:
 	/// \return the old place of this one where that of p would be far away
 	Point2 continued(const Point2& p, const Point3& weights) const
 	{
-		const Point2 nearest = old(weights), on = pointOf(m_new, weights);
-		const Point2 step = difference({p[0] - on[0], p[1] - on[1]});
-		if (!(std::hypot(step[0], step[1]) <= m_reach))
-			return nearest;
-		return {nearest[0] + step[0], nearest[1] + step[1]};
+		const Point2 nearest = old(weights), step = difference(p - pointOf(m_new, weights));
+		return length(step) <= m_reach ? nearest + step : nearest;
 	}
 
 private:
@@ -143,20 +139,15 @@ private:
 	{
 		if (m_area == 0.0)
 			return {0, 0};
-		const Point2 a{m_new[1][0] - m_new[0][0], m_new[1][1] - m_new[0][1]};
-		const Point2 b{m_new[2][0] - m_new[0][0], m_new[2][1] - m_new[0][1]};
-		const double s = (d[0] * b[1] - d[1] * b[0]) / m_area;
-		const double t = (a[0] * d[1] - a[1] * d[0]) / m_area;
-		return {
-			s * (m_old[1][0] - m_old[0][0]) + t * (m_old[2][0] - m_old[0][0]),
-			s * (m_old[1][1] - m_old[0][1]) + t * (m_old[2][1] - m_old[0][1])};
+		const double s = cross(d, m_new[2] - m_new[0]) / m_area;
+		const double t = cross(m_new[1] - m_new[0], d) / m_area;
+		return s * (m_old[1] - m_old[0]) + t * (m_old[2] - m_old[0]);
 	}
 
 	Point2 bounded(const Point2& side) const
 	{
-		const double length = std::hypot(side[0], side[1]);
-		const double scale = length > m_reach ? m_reach / length : 1.0;
-		return {scale * side[0], scale * side[1]};
+		const double size = length(side);
+		return size > m_reach ? m_reach / size * side : side;
 	}
 
 	Triangle2 m_new, m_old; // in texels

@@ -4,7 +4,6 @@
 #include "../base/task.h"
 #include "../math/disjoint_sets.h"
 #include "../surface/sides.h"
-#include "texels_of_triangle.h"
 
 #include <algorithm>
 #include <cmath>

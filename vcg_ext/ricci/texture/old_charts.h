@@ -3,7 +3,6 @@
 #define RICCI_OLD_CHARTS_H
 
 #include "../base/indexed.h"
-#include "blocks.h"
 #include "carry_texture.h"
 
 #include <array>

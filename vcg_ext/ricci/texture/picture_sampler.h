@@ -3,7 +3,6 @@
 #define RICCI_PICTURE_SAMPLER_H
 
 #include "../base/task.h"
-#include "blocks.h"
 #include "old_charts.h"
 #include "picture.h"
 
@@ -92,9 +91,7 @@ public:
 		for (int j = 0; j < m_rows; ++j)
 			for (int i = 0; i < m_columns; ++i) {
 				const double s = (i + 0.5) / m_columns - 0.5, t = (j + 0.5) / m_rows - 0.5;
-				visit(Point2{
-					p[0] + s * m_across[0] + t * m_down[0],
-					p[1] + s * m_across[1] + t * m_down[1]});
+				visit(p + s * m_across + t * m_down);
 			}
 	}
 

@@ -5,7 +5,6 @@
 
 #include <ricci/surface/component.h>
 #include <ricci/surface/face_gluing.h>
-#include <ricci/surface/one_sided.h>
 #include <ricci/surface/opened_mesh.h>
 #include <ricci/surface/topology.h>
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/random.h"
 
-#include <ricci/curvature/bounded_minimum.h>
+#include <ricci/base/numbers.h>
+#include <ricci/curvature/cone_curvatures.h>
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -161,6 +162,149 @@ TEST(BoundedMinimum, TakesTheBoundWhereTheSumIsOutOfReach)
 	for (const double total : {3 * kMax, 3 * kMax + 1.0})
 		EXPECT_EQ(boundedMinimum(gram, linear, kMax, total), Eigen::VectorXd::Constant(3, kMax));
 	EXPECT_EQ(boundedMinimum({}, Eigen::VectorXd(), kMax, 1.0).size(), 0);
+}
+
+constexpr double kQuarter = 0.5 * kPi;
+
+/// k.G k + 2 b.k with a positive definite G, and its minimum among all real k (of a given sum).
+struct Quadratic
+{
+	Eigen::MatrixXd gram;
+	Eigen::VectorXd linear, minimum;
+
+	Quadratic(int n, double coupling, std::optional<double> total, Random& random)
+	{
+		Eigen::MatrixXd root(n, n);
+		for (int i = 0; i < n; ++i)
+			for (int j = 0; j < n; ++j)
+				root(i, j) = (i == j ? 1.0 : 0.0) + random.real(-coupling, coupling);
+		gram = root.transpose() * root;
+		Eigen::VectorXd wanted(n);
+		for (int i = 0; i < n; ++i)
+			wanted[i] = random.real(-1.0, 2.5) * kQuarter;
+		linear = -gram * wanted;
+		minimum = wanted;
+		if (total) {
+			const Eigen::VectorXd ones = Eigen::VectorXd::Ones(n);
+			const Eigen::VectorXd way = gram.ldlt().solve(ones);
+			minimum += way * ((*total - wanted.sum()) / way.sum());
+		}
+	}
+
+	double operator()(const Eigen::VectorXd& k) const
+	{
+		return k.dot(gram * k) + 2.0 * linear.dot(k);
+	}
+};
+
+void expectQuarterTurns(const Eigen::VectorXd& k, std::optional<double> total)
+{
+	for (const double x : k) {
+		EXPECT_EQ(x, kQuarter * std::round(x / kQuarter));
+		EXPECT_LE(x, kMaxConeCurvature);
+	}
+	if (total) {
+		EXPECT_NEAR(k.sum(), *total, 1e-13);
+	}
+}
+
+/// No single step, or exchange of one between two cones, lowers the energy.
+void expectLocalMinimum(const Quadratic& energy, const Eigen::VectorXd& k, bool keepSum)
+{
+	const double found = energy(k), slack = 1e-9 * (1.0 + std::abs(found));
+	for (int up = 0; up < k.size(); ++up) {
+		const bool isFull = k[up] + kQuarter > kMaxConeCurvature + 1e-9;
+		for (int down = 0; down < k.size(); ++down) {
+			Eigen::VectorXd other = k;
+			other[down] -= kQuarter;
+			if (!keepSum) {
+				EXPECT_GE(energy(other), found - slack);
+			}
+			if (up == down || isFull)
+				continue;
+			other[up] += kQuarter;
+			EXPECT_GE(energy(other), found - slack);
+			other[down] += kQuarter;
+			if (!keepSum) {
+				EXPECT_GE(energy(other), found - slack);
+			}
+		}
+	}
+}
+
+/// The lowest energy among all quarter turns near the minimum.
+double bruteForce(const Quadratic& energy, std::optional<double> total)
+{
+	double lowest = std::numeric_limits<double>::infinity();
+	const int n = static_cast<int>(energy.minimum.size()), reach = 7;
+	int combinations = 1;
+	for (int i = 0; i < n; ++i)
+		combinations *= reach;
+	for (int c = 0; c < combinations; ++c) {
+		Eigen::VectorXd k(n);
+		for (int i = 0, rest = c; i < n; ++i, rest /= reach)
+			k[i] = kQuarter * (std::round(energy.minimum[i] / kQuarter) + rest % reach - reach / 2);
+		if (k.maxCoeff() <= kMaxConeCurvature + 1e-9 &&
+			(!total || std::abs(k.sum() - *total) < 1e-9))
+			lowest = std::min(lowest, energy(k));
+	}
+	return lowest;
+}
+
+TEST(ConeRounding, FindsALocalMinimumWhichMostlyIsTheGlobalOne)
+{
+	Random random(770);
+	int best = 0, all = 0;
+	for (int trial = 0; trial < 60; ++trial) {
+		const int n = 1 + trial % 4;
+		std::optional<double> total;
+		if (trial % 2 == 0)
+			total = kQuarter * (random.index(2 * n) + 1);
+		const Quadratic energy(n, 0.3, total, random);
+		const Eigen::VectorXd k =
+			roundToQuarterTurns(energy.gram, energy.linear, energy.minimum, total);
+		expectQuarterTurns(k, total);
+		expectLocalMinimum(energy, k, total.has_value());
+		const double lowest = bruteForce(energy, total), found = energy(k);
+		EXPECT_GE(found, lowest - 1e-9);
+		best += found < lowest + 1e-9;
+		++all;
+	}
+	EXPECT_GT(best, 9 * all / 10);
+}
+
+TEST(ConeRounding, KeepsQuarterTurns)
+{
+	const Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(4, 4);
+	Eigen::VectorXd values(4);
+	values << 3.0, -1.0, 2.0, 0.0;
+	values *= kQuarter;
+	for (const std::optional<double>& total :
+		 {std::optional<double>(), std::optional(4 * kQuarter)})
+		EXPECT_EQ(roundToQuarterTurns(gram, -gram * values, values, total), values);
+}
+
+TEST(ConeRounding, GivesNoConeMoreThanItMayHave)
+{
+	// The minimum of one cone is far above the bound: the others take the rest of the sum.
+	const Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(3, 3);
+	Eigen::VectorXd values(3);
+	values << 8.0, 0.0, 0.0;
+	values *= kQuarter;
+	const Eigen::VectorXd k = roundToQuarterTurns(gram, -gram * values, values, 8 * kQuarter);
+	expectQuarterTurns(k, 8 * kQuarter);
+	EXPECT_NEAR(k[0], kMaxConeCurvature, 1e-15);
+	EXPECT_NEAR(std::abs(k[1] - k[2]), kQuarter, 1e-15); // five quarters in two equal cones
+}
+
+TEST(ConeRounding, CorrectsTheSumWhereItIsCheapest)
+{
+	// Three cones of 1/3 each: one of them takes the quarter turn, the one with the least stiffness.
+	const Eigen::Vector3d stiffness(2.0, 1.0, 3.0);
+	const Eigen::MatrixXd gram = stiffness.asDiagonal();
+	const Eigen::VectorXd values = Eigen::VectorXd::Constant(3, kQuarter / 3);
+	const Eigen::VectorXd k = roundToQuarterTurns(gram, -gram * values, values, kQuarter);
+	EXPECT_EQ(k, kQuarter * Eigen::Vector3d(0.0, 1.0, 0.0));
 }
 
 } // namespace

@@ -5,7 +5,7 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/curvature/cone_tree.h>
+#include <ricci/curvature/cone_search.h>
 #include <ricci/metric/area.h>
 
 #include <gtest/gtest.h>
