@@ -4,9 +4,9 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../math/disjoint_sets.h"
 #include "../math/sparse_cholesky.h"
 #include "../metric/laplacian.h"
+#include "../seamless/holonomy.h"
 #include "invariants.h"
 
 #include <Eigen/Cholesky>
@@ -14,7 +14,6 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -25,81 +24,15 @@ namespace ricci {
 
 namespace {
 
-/// A closed path from triangle to triangle, which leaves the triangle of each halfedge across it and
-/// passes no triangle twice. The closed form that belongs to it is 1 on these halfedges, -1 on their
-/// twins and else 0.
-using DualLoop = std::vector<Halfedge>;
-
-/// A tree that spans the triangles, from one in breadth first.
-struct DualTree
-{
-	FaceArray<Halfedge> toParent; ///< none at the root
-	FaceArray<int> depth;
-	EdgeArray<char> isCrossed;
-
-	DualTree(const Triangulation& t) :
-			toParent(t.faceCount()), depth(t.faceCount(), -1), isCrossed(t.edgeCount(), 0)
-	{
-		std::vector<Face> reached = {Face(0)};
-		reached.reserve(positionOf(t.faceCount()));
-		depth[Face(0)] = 0;
-		for (std::size_t i = 0; i < reached.size(); ++i) {
-			checkpointNowAndThen(i);
-			const Face f = reached[i];
-			for (const Halfedge h : t.halfedges(f)) {
-				const Face g = t.face(h.twin());
-				if (depth[g] >= 0)
-					continue;
-				depth[g] = depth[f] + 1;
-				toParent[g] = h.twin();
-				isCrossed[h.edge()] = 1;
-				reached.push_back(g);
-			}
-		}
-	}
-
-	/// Across \p h and back in the tree.
-	DualLoop loopAcross(const Triangulation& t, Halfedge h) const
-	{
-		DualLoop loop = {h}, back;
-		Face to = t.face(h.twin()), from = t.face(h);
-		while (to != from)
-			if (depth[to] >= depth[from]) {
-				loop.push_back(toParent[to]);
-				to = t.face(toParent[to].twin());
-			}
-			else {
-				back.push_back(toParent[from].twin());
-				from = t.face(toParent[from].twin());
-			}
-		loop.insert(loop.end(), back.rbegin(), back.rend());
-		return loop;
-	}
-};
-
-/// 2 genus loops that generate the homology: those across the edges in neither of a tree of the
-/// triangles and a tree of the remaining edges.
-std::vector<DualLoop> dualLoops(const Triangulation& t)
-{
-	const DualTree tree(t);
-	DisjointSetsOf<Vertex> joined(t.vertexCount());
-	std::vector<DualLoop> loops;
-	for (const Edge e : t.edges()) {
-		checkpointNowAndThen(positionOf(e));
-		if (!tree.isCrossed[e] && !joined.merge(t.ends(e)[0], t.ends(e)[1]))
-			loops.push_back(tree.loopAcross(t, e.halfedge()));
-	}
-	return loops;
-}
-
-/// Values of a closed form, in the edges' direction.
+/// Values of a closed form, in the edges' direction. The form that belongs to a loop is 1 on its
+/// halfedges, -1 on their twins and else 0.
 class LoopForm
 {
 public:
 	explicit LoopForm(int edges) : m_value(edges, 0) {}
 
 	/// Adds \p factor times the form of \p loop.
-	void add(const DualLoop& loop, int factor)
+	void add(const FaceLoop& loop, int factor)
 	{
 		for (const Halfedge h : loop)
 			m_value[h.edge()] += h.isFirst() ? factor : -factor;
@@ -116,16 +49,16 @@ private:
 
 /// Integrals of the wedge products of the forms. On a triangle with the values a, b on one side and a',
 /// b' on the next, the integral is (a b' - a' b) / 2.
-Eigen::MatrixXi wedgeProducts(const Triangulation& t, const std::vector<DualLoop>& loops)
+Eigen::MatrixXi wedgeProducts(const Triangulation& t, const std::vector<FaceLoop>& loops)
 {
 	const auto n = static_cast<Eigen::Index>(loops.size());
 	Eigen::MatrixXi twice = Eigen::MatrixXi::Zero(n, n);
 	LoopForm form(t.edgeCount());
 	for (Eigen::Index j = 0; j < n; ++j) {
-		const DualLoop& first = loops[static_cast<std::size_t>(j)];
+		const FaceLoop& first = loops[static_cast<std::size_t>(j)];
 		form.add(first, 1);
 		for (Eigen::Index k = 0; k < n; ++k) {
-			const DualLoop& second = loops[static_cast<std::size_t>(k)];
+			const FaceLoop& second = loops[static_cast<std::size_t>(k)];
 			Halfedge entry = second.back().twin();
 			for (const Halfedge h : second) {
 				const Halfedge next = t.next(h);
@@ -180,7 +113,7 @@ Eigen::MatrixXd canonicalBasis(Eigen::MatrixXi wedge)
 /// Laplacian has no factor. With the forms t and the functions f that make them harmonic, they are
 /// <t_j, t_k + df_k>.
 Eigen::MatrixXd energies(
-	const Triangulation& t, const EdgeArray<double>& weights, const std::vector<DualLoop>& loops)
+	const Triangulation& t, const EdgeArray<double>& weights, const std::vector<FaceLoop>& loops)
 {
 	checkpoint();
 	const int unknowns = t.vertexCount() - 1; // the value at the first vertex is held
@@ -310,7 +243,7 @@ void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 
 PeriodMatrix periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths)
 {
-	const std::vector<DualLoop> loops = dualLoops(t);
+	const std::vector<FaceLoop> loops = homologyLoops(t, false);
 	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops);
 	if (energy.size() == 0)
 		return {};
