@@ -13,7 +13,7 @@
 #include <ricci/error.h>
 #include <ricci/measure/distortion.h>
 #include <ricci/pipeline/whole_map.h>
-#include <ricci/verify/result_check.h>
+#include <ricci/verify/chart_check.h>
 
 #include <gtest/gtest.h>
 

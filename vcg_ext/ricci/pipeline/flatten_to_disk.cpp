@@ -10,9 +10,9 @@
 #include "../layout/corner_layout.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../surface/flow_domain.h"
-#include "../verify/flow_check.h"
+#include "../verify/chart_check.h"
 #include "../verify/holonomy_check.h"
-#include "../verify/result_check.h"
+#include "../verify/metric_check.h"
 #include "stages.h"
 #include "whole_map.h"
 
@@ -36,8 +36,7 @@ EdgeArray<double> cutCost(const FlowDomain& domain, const FlowResult& flow, Meth
 }
 
 /// The layout of the corners in the disk, open along the cut.
-/// \return what continues it across the edges of the cut
-EdgeArray<SidePairing> placeInDisk(
+DiskLayout placeInDisk(
 	const FlowDomain& domain,
 	LinkedPieces overlay,
 	const HyperbolicOptions& options,
@@ -45,12 +44,9 @@ EdgeArray<SidePairing> placeInDisk(
 {
 	if (drawsPieces(options)) {
 		map.refinement = refine(domain, map, std::move(overlay));
-		map.layout = std::move(map.refinement.inputLayout);
-		return std::move(map.refinement.pairing);
+		return {std::move(map.refinement.inputLayout), std::move(map.refinement.pairing)};
 	}
-	DiskLayout disk = layOutCornersInDisk(domain, map.flow, map.cut.isCut);
-	map.layout = std::move(disk.corners);
-	return std::move(disk.pairing);
+	return layOutCornersInDisk(domain, map.flow, map.cut.isCut);
 }
 
 /// Farthest point of a layout from the centre of the disk, in the hyperbolic metric.
@@ -71,21 +67,21 @@ void layOut(
 	ComponentMap& map)
 {
 	const Triangulation& t = domain.surface.triangulation;
-	EdgeArray<SidePairing> pairing = placeInDisk(domain, std::move(overlay), options, map);
-	if (const double radius = radiusOf(map.layout); radius > kWideRadius) {
+	DiskLayout disk = placeInDisk(domain, std::move(overlay), options, map);
+	if (const double radius = radiusOf(disk.corners); radius > kWideRadius) {
 		map.cut = cutAroundCentre(t, cutCost(domain, map.flow, options.method), map.cones);
-		pairing = placeInDisk(domain, flowOverlay(domain, options, map), options, map);
+		disk = placeInDisk(domain, flowOverlay(domain, options, map), options, map);
 		logLine(
 			"The short seams lead " + numberText(radius, 3) +
 			" out in the disk, too far for floats. Longer ones around the middle lead " +
-			numberText(radiusOf(map.layout), 3) + " out.");
+			numberText(radiusOf(disk.corners), 3) + " out.");
 	}
-	map.uv = cornersOf(domain, map.layout);
-	pairing = pairingOfArcs(t, map.cut, pairing, map.cones);
-	map.relationError = holonomyError(
-		t, map.cut, pairing, map.layout, domain.surface.topology, map.cones, map.flow.target);
+	disk.pairing = pairingOfArcs(t, map.cut, disk.pairing, map.cones);
+	map.relationError = holonomyError(t, map.cut, disk, map.cones, map.flow.target);
 	advance(1.0 - kAfterFlow, "Canonical generators");
-	map.group = fuchsianGroup(t, map.cut, pairing, map.cones, options.canonicalGenerators);
+	map.group = fuchsianGroup(t, map.cut, disk.pairing, map.cones, options.canonicalGenerators);
+	map.layout = std::move(disk.corners);
+	map.uv = cornersOf(domain, map.layout);
 	if (options.canonicalGenerators && !map.group.isCanonical())
 		logLine(
 			"There are no canonical generators: they would move points farther than floating point "
