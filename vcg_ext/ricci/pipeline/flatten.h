@@ -5,7 +5,6 @@
 #include "../cut/cut_graph.h"
 #include "../flow/ricci_flow.h"
 #include "../fuchsian/fuchsian_group.h"
-#include "../layout/common_refinement.h"
 #include "../layout/flat_mesh.h"
 #include "../layout/planar_layout.h"
 #include "../measure/period_matrix.h"
@@ -28,11 +27,9 @@ struct ComponentMap
 	CutGraph cut;
 	double seamLength = 0.0; ///< of the cut on the mesh
 
-	PlanarLayout layout;         ///< on the triangulation of the cut
-	CommonRefinement refinement; ///< where drawsPieces()
-	FaceArray<Triangle2> uv;     ///< [face of the component][corner]
-	FlatMesh mesh;               ///< what is given back, see flatMesh()
-	double scale = 1.0;          ///< lengths in the layout over those of the flow's metric
+	PlanarLayout layout; ///< on the triangulation of the cut
+	FlatMesh mesh;       ///< what is given back
+	double scale = 1.0;  ///< lengths in the layout over those of the flow's metric
 
 	FuchsianGroup group;  ///< hyperbolic
 	PeriodMatrix periods; ///< of a closed surface, see measurePeriods()

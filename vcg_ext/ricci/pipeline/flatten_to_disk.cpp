@@ -42,9 +42,11 @@ DiskLayout placeInDisk(
 	const HyperbolicOptions& options,
 	ComponentMap& map)
 {
-	if (drawsPieces(options)) {
-		map.refinement = refine(domain, map, std::move(overlay));
-		return {std::move(map.refinement.inputLayout), std::move(map.refinement.pairing)};
+	if (isRefined(options)) {
+		CommonRefinement refinement =
+			commonRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
+		map.mesh = std::move(refinement.mesh);
+		return {std::move(refinement.inputLayout), std::move(refinement.pairing)};
 	}
 	return layOutCornersInDisk(domain, map.flow, map.cut.isCut);
 }
@@ -81,7 +83,6 @@ void layOut(
 	advance(1.0 - kAfterFlow, "Canonical generators");
 	map.group = fuchsianGroup(t, map.cut, disk.pairing, map.cones, options.canonicalGenerators);
 	map.layout = std::move(disk.corners);
-	map.uv = cornersOf(domain, map.layout);
 	if (options.canonicalGenerators && !map.group.isCanonical())
 		logLine(
 			"There are no canonical generators: they would move points farther than floating point "
@@ -93,20 +94,15 @@ void finish(const FlowDomain& domain, const HyperbolicOptions& options, Componen
 {
 	if (!isFinished(options))
 		return;
-	const bool freeBoundary = map.flow.target.hasFixed();
-	const bool refined = options.output == OutputTriangulation::CommonRefinement;
-	FlatMesh flat = refined ? flatMeshOf(domain.surface, map.refinement)
-							: flatMeshOf(domain.surface, map.layout);
-	const FinishCounts counts = finishInDisk(flat, freeBoundary);
+	FlatMesh own; // corners of the mesh
+	if (!isRefined(options))
+		own = flatMeshOf(domain.surface, map.layout);
+	const FinishCounts counts =
+		finishInDisk(isRefined(options) ? map.mesh : own, map.flow.target.hasFixed());
 	map.finishMoved = counts.moved;
 	map.endedEarly += counts.endedEarly;
-	if (refined) {
-		for (const int f : flat.points.indices())
-			map.refinement.uv[positionOf(f)] = flat.at(f);
-		return;
-	}
-	map.layout.points = std::move(flat.place);
-	map.uv = cornersOf(domain, map.layout);
+	if (!isRefined(options))
+		map.layout.points = std::move(own.place);
 }
 
 } // namespace
@@ -147,7 +143,8 @@ ComponentMap flattenToDisk(
 		[&] { requireMetric(map.flow, domain.solved().topology.boundary); });
 
 	advance(1.0, "Checking the result");
-	map.mesh = flatMesh(component, map, options.output);
+	if (!isRefined(options))
+		map.mesh = flatMesh(component, domain, map.layout);
 	requireDisk(map.mesh, map.flow, mayBeFlipped(map, options.output));
 	return map;
 }

@@ -96,9 +96,11 @@ void makeSeamless(
 void placeCorners(
 	const FlowDomain& domain, LinkedPieces overlay, const Options& options, ComponentMap& map)
 {
-	if (drawsPieces(options)) {
-		map.refinement = refine(domain, map, std::move(overlay));
-		map.layout = std::move(map.refinement.inputLayout);
+	if (isRefined(options)) {
+		CommonRefinement refinement =
+			commonRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
+		map.mesh = std::move(refinement.mesh);
+		map.layout = std::move(refinement.inputLayout);
 	}
 	else
 		map.layout = layOutCorners(domain, map.flow, map.cut.isCut);
@@ -110,11 +112,9 @@ double areaInPlane(const FlowDomain& domain, const ComponentMap& map)
 	if (domain.holes == 0)
 		return map.flow.area;
 	double area = 0.0;
-	for (const Triangle2& p : map.refinement.uv)
+	for (const Triangle2& p :
+		 map.mesh.size() > 0 ? map.mesh.corners() : cornersOf(domain, map.layout))
 		area += 0.5 * doubledArea(p[0], p[1], p[2]);
-	if (map.refinement.uv.empty())
-		for (const Triangle2& p : cornersOf(domain, map.layout))
-			area += 0.5 * doubledArea(p[0], p[1], p[2]);
 	return area;
 }
 
@@ -147,7 +147,6 @@ void layOut(
 			surfaceArea(component.positions.values(), component.triangles) /
 			areaInPlane(domain, map));
 	turnUpright(map.scale, map);
-	map.uv = cornersOf(domain, map.layout);
 }
 
 /// The finish that is asked for, or LeastDistortion where that would lose what the map has to keep.
@@ -165,7 +164,7 @@ Finish finishOf(const Options& options, const ComponentMap& map)
 /// The finish of what is given back. The invariants are those of the flow's own layout.
 void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 {
-	if (!isFinished(options) || options.output == OutputTriangulation::CommonRefinement)
+	if (!isFinished(options) || isRefined(options))
 		return; // the refinement is exact
 	const Finish finish = finishOf(options, map);
 	FlatMesh flat = flatMeshOf(domain.surface, map.layout);
@@ -177,7 +176,6 @@ void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 	flat.place.swap(map.layout.points);
 	if (map.layout.points != flat.place) // its border may have moved
 		turnUpright(1.0, map);
-	map.uv = cornersOf(domain, map.layout);
 }
 
 /// How the lengths of a free boundary compare in the map and on the mesh.
@@ -262,7 +260,8 @@ std::optional<ComponentMap> flattenToPlane(
 			holonomyError(surface.triangulation, map.layout, map.cut.isCut, map.cones);
 
 	advance(1.0, "Checking the result");
-	map.mesh = flatMesh(component, map, options.output);
+	if (!isRefined(options))
+		map.mesh = flatMesh(component, domain, map.layout);
 	requireMap(map.mesh, map.flow, mayBeFlipped(map, options.output), !map.hasFreeSeams);
 	return map;
 }

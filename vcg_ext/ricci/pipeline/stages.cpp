@@ -101,7 +101,7 @@ cornersOfCones(const EmbeddedSurface& surface, const Target& target, const Verte
 LinkedPieces
 flowOverlay(const FlowDomain& domain, const FlowOptions& options, const ComponentMap& map)
 {
-	if (!drawsPieces(options))
+	if (!isRefined(options))
 		return {};
 	const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
 	return overlayOf(domain, map.flow);
@@ -131,11 +131,6 @@ LinkedPieces cutAndOverlay(
 	}
 	advance(1.0 - kAfterFlow, "Cutting and layout");
 	return overlay;
-}
-
-CommonRefinement refine(const FlowDomain& domain, const ComponentMap& map, LinkedPieces overlay)
-{
-	return commonRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
 }
 
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)
@@ -182,21 +177,28 @@ void turnUpright(double scale, ComponentMap& map)
 	};
 	for (Point2& p : map.layout.points)
 		move(p);
-	for (Triangle2& triangle : map.refinement.uv)
-		for (Point2& p : triangle)
-			move(p);
+	for (Point2& p : map.mesh.place)
+		move(p);
 }
 
-FaceArray<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout)
+Array<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout)
 {
 	const Triangulation& t = domain.surface.triangulation;
 	const bool isSplit = !domain.corners.empty();
-	FaceArray<Triangle2> corners(isSplit ? domain.corners.size() : t.faceCount());
-	for (const Face f : corners.indices()) {
-		const auto h = isSplit ? domain.corners[f] : t.halfedges(f);
+	Array<Triangle2> corners(isSplit ? domain.corners.size() : t.faceCount());
+	for (const int f : corners.indices()) {
+		const auto h = isSplit ? domain.corners[Face(f)] : t.halfedges(Face(f));
 		corners[f] = {layout[h[0]], layout[h[1]], layout[h[2]]};
 	}
 	return corners;
+}
+
+FlatMesh flatMesh(const Component& component, const FlowDomain& domain, const PlanarLayout& layout)
+{
+	return flatMeshOf(
+		Array<Triangle>(component.triangles),
+		cornersOf(domain, layout),
+		component.positions.values());
 }
 
 void conformalInvariants(const Triangulation& t, ComponentMap& map)

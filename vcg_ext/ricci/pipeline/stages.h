@@ -7,6 +7,7 @@
 #include "../curvature/target_curvature.h"
 #include "../cut/cut_graph.h"
 #include "../cut/seam_cost.h"
+#include "../layout/common_refinement.h"
 #include "../surface/flow_domain.h"
 #include "flatten.h"
 
@@ -45,7 +46,7 @@ HalfedgeArray<double> cornersOfCones(
 
 /// The cut graph through all cones on edges of the surface (paper 4.3), without seams to holes that the
 /// flow closes with caps and, where it can, without seams inside polygons; and beside it, in another thread
-/// if there is one, the overlay of the flow if its pieces are drawn.
+/// if there is one, the overlay of the flow if its pieces are given back.
 /// \param cost [edge] of a seam
 /// \param corners see shortenCut()
 LinkedPieces cutAndOverlay(
@@ -58,19 +59,15 @@ LinkedPieces cutAndOverlay(
 /// Sum of the lengths of the cut's edges.
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths);
 
-/// Whether the pieces of the overlay of a flow with flips are drawn, not the corners of the mesh alone.
-inline bool drawsPieces(const FlowOptions& options)
+/// Whether the pieces of the overlay of a flow with flips are given back, not the triangles of the mesh.
+inline bool isRefined(const FlowOptions& options)
 {
-	return options.method == Method::IntrinsicFlips &&
-		   options.output == OutputTriangulation::CommonRefinement;
+	return options.output == OutputTriangulation::CommonRefinement;
 }
 
-/// overlayOf() the flow, with what the options ask of it; nothing where its pieces are not drawn.
+/// overlayOf() the flow, with what the options ask of it; nothing where its pieces are not given back.
 LinkedPieces
 flowOverlay(const FlowDomain& domain, const FlowOptions& options, const ComponentMap& map);
-
-/// commonRefinement() of the map.
-CommonRefinement refine(const FlowDomain& domain, const ComponentMap& map, LinkedPieces overlay);
 
 /// Takes down what is known of a component before its flow, and logs it.
 void describe(const Component& component, const FlowDomain& domain, ComponentMap& map);
@@ -92,8 +89,11 @@ FlowResult runFlow(
 /// axes, from the origin.
 void turnUpright(double scale, ComponentMap& map);
 
-/// The points of the corners of the component's faces.
-FaceArray<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout);
+/// [face of the component] The points of its corners.
+Array<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout);
+
+/// The faces of a component as they are laid out.
+FlatMesh flatMesh(const Component& component, const FlowDomain& domain, const PlanarLayout& layout);
 
 /// The modulus of a flat torus or annulus and the aspect of a rectangle, where the map is one.
 /// \param t the triangulation of the layout

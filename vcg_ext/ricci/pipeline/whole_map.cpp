@@ -25,14 +25,6 @@ std::size_t largestComponent(const std::vector<Component>& components)
 
 } // namespace
 
-std::vector<SurfacePoint> verticesOf(std::size_t count)
-{
-	std::vector<SurfacePoint> points(count);
-	for (std::size_t v = 0; v < count; ++v)
-		points[v].vertex[0] = static_cast<int>(v);
-	return points;
-}
-
 std::vector<Component> startMap(
 	const SurfaceMesh& mesh, const FlowOptions& options, OpenedMesh& opened, Parametrization& map)
 {
@@ -46,7 +38,7 @@ std::vector<Component> startMap(
 		options.output == OutputTriangulation::CommonRefinement);
 	for (const std::string& note : map.notes)
 		logLine(note);
-	map.mesh.source = Array<SurfacePoint>(verticesOf(opened.mesh.positions.size()));
+	map.mesh.source = verticesOf(opened.mesh.positions.size());
 	map.u.assign(opened.mesh.positions.size(), 0.0);
 	map.targetCurvature.assign(opened.mesh.positions.size(), 0.0);
 	map.report.cutNonmanifoldEdges = opened.cutEdges;
@@ -79,35 +71,6 @@ std::vector<char> silentComponents(const std::vector<Component>& components)
 	for (std::size_t i = 0; i < described; ++i)
 		isSilent[order[i]] = 0;
 	return isSilent;
-}
-
-FlatMesh flatMesh(const Component& component, const ComponentMap& map, OutputTriangulation output)
-{
-	const bool refined = output == OutputTriangulation::CommonRefinement;
-	FlatMesh mesh;
-	mesh.source = Array<SurfacePoint>(
-		refined ? map.refinement.points : verticesOf(component.positions.values().size()));
-	const std::vector<Point3> places = mesh.onSurface(component.positions.values());
-	Array<std::array<double, 3>> lengths;
-	Array<Triangle> vertices(refined ? map.refinement.triangles : component.triangles);
-	for (const Triangle& t : vertices) {
-		const auto length = [&](std::size_t i, std::size_t j) {
-			return distance(places[positionOf(t[i])], places[positionOf(t[j])]);
-		};
-		lengths.push_back({length(0, 1), length(1, 2), length(2, 0)});
-	}
-	Array<int> face;
-	for (const int f : vertices.indices())
-		face.push_back(refined ? map.refinement.inputFace[positionOf(f)].number() : f);
-	std::vector<SurfacePoint> source = std::move(mesh.source.values());
-	mesh = flatMeshOf(
-		std::move(vertices),
-		Array<Triangle2>(refined ? map.refinement.uv : map.uv.values()),
-		Array<int>(face.size(), 0),
-		std::move(lengths));
-	mesh.source = Array<SurfacePoint>(std::move(source));
-	mesh.face = std::move(face);
-	return mesh;
 }
 
 Report reportOf(const ComponentMap& map)

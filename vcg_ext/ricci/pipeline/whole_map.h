@@ -33,17 +33,11 @@ Parametrization chartsInDisk(
 /// Free; but a rectangle stays upright, and quarter turns across seams stay quarter turns.
 ChartTurns chartTurns(const Options& options);
 
-/// Vertices as points of their surface.
-std::vector<SurfacePoint> verticesOf(std::size_t count);
-
 /// Opens and checks \p mesh, sees whether memory will do, logs what there is to note, and makes \p map
 /// ready for its components: its arrays have their sizes, and its mesh the vertices of the opened one.
 /// \throw InvalidMesh, TooLarge
 std::vector<Component> startMap(
 	const SurfaceMesh& mesh, const FlowOptions& options, OpenedMesh& opened, Parametrization& map);
-
-/// The triangles of a component's map that are given back, in the component's indices, as one chart.
-FlatMesh flatMesh(const Component& component, const ComponentMap& map, OutputTriangulation output);
 
 /// What the run of one component has measured.
 Report reportOf(const ComponentMap& map);
