@@ -79,7 +79,7 @@ void layOut(
 			numberText(radiusOf(disk.corners), 3) + " out.");
 	}
 	disk.pairing = pairingOfArcs(t, map.cut, disk.pairing, map.cones);
-	map.relationError = holonomyError(t, map.cut, disk, map.cones, map.flow.target);
+	map.report.relationError = holonomyError(t, map.cut, disk, map.cones, map.flow.target);
 	advance(1.0 - kAfterFlow, "Canonical generators");
 	map.group = fuchsianGroup(t, map.cut, disk.pairing, map.cones, options.canonicalGenerators);
 	map.layout = std::move(disk.corners);
@@ -99,8 +99,8 @@ void finish(const FlowDomain& domain, const HyperbolicOptions& options, Componen
 		own = flatMeshOf(domain.surface, map.layout);
 	const FinishCounts counts =
 		finishInDisk(isRefined(options) ? map.mesh : own, map.flow.target.hasFixed());
-	map.finishMoved = counts.moved;
-	map.endedEarly += counts.endedEarly;
+	map.report.finishMoved = counts.moved;
+	map.report.endedEarly += counts.endedEarly;
 	if (!isRefined(options))
 		map.layout.points = std::move(own.place);
 }
@@ -134,8 +134,8 @@ ComponentMap flattenToDisk(
 		options,
 		map);
 	layOut(domain, std::move(overlay), options, map); // 4.3
-	map.seamLength = lengthOf(map.cut, domain.surface.lengths);
-	map.hyperbolicArea = map.flow.area;
+	map.report.seamLength = lengthOf(map.cut, domain.surface.lengths);
+	map.report.hyperbolicArea = map.flow.area;
 	advance(1.0 - kAfterFlow, "Repairing the map");
 	besides(
 		threadsFor(domain.surface.triangulation.faceCount()),

@@ -56,17 +56,17 @@ void flowWithEdgeSwaps(
 		const int vertexCount = surface.positions.size(); // grows with each split
 		Target target =
 			chooseTarget(surface, start, targetRequest(component, input, options, vertexCount));
-		if (map.flowStates.empty())
+		if (map.report.flowStates.empty())
 			noteTarget(target, map);
 		return target;
 	};
 	advance(0.0, "Solving for the metric");
 	const Task part(kBeforeFlow, 1.0 - kAfterFlow);
-	SwappedFlow swapped = flowWithEdgeSwaps(component, options, choose, map.flowStates);
+	SwappedFlow swapped = flowWithEdgeSwaps(component, options, choose, map.report.flowStates);
 	domain = std::move(swapped.domain);
 	map.flow = std::move(swapped.flow);
-	map.edgeSwaps = swapped.swaps;
-	map.boundarySplits = swapped.splits;
+	map.report.edgeSwaps = swapped.swaps;
+	map.report.boundarySplits = swapped.splits;
 }
 
 /// makeSeamless() as the options say.
@@ -84,7 +84,7 @@ void makeSeamless(
 		});
 	};
 	const HolonomyRounding done = makeSeamless(surface, request, options.epsilon, flowTo, map.flow);
-	map.seamlessSteps = done.steps;
+	map.report.iterations = done.steps;
 	if (done.before > 0.0)
 		logLine(
 			"The rotations across seams are up to " + numberText(done.before, 3) +
@@ -170,8 +170,8 @@ void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 	FlatMesh flat = flatMeshOf(domain.surface, map.layout);
 	const FinishCounts counts =
 		finishInPlane(flat, map.cones, map.flow.target.hasFixed(), domain.onHole, finish);
-	map.finishMoved = counts.moved;
-	map.endedEarly += counts.endedEarly;
+	map.report.finishMoved = counts.moved;
+	map.report.endedEarly += counts.endedEarly;
 	map.hasFreeSeams = finish == Finish::LeastStretch;
 	flat.place.swap(map.layout.points);
 	if (map.layout.points != flat.place) // its border may have moved
@@ -197,8 +197,8 @@ void measureBoundary(const EmbeddedSurface& surface, ComponentMap& map)
 	}
 	if (!(most > 0.0))
 		return;
-	map.boundaryRatioMin = least;
-	map.boundaryRatioMax = most;
+	map.report.boundaryRatioMin = least;
+	map.report.boundaryRatioMax = most;
 	if (std::max(most - 1.0, 1.0 - least) > kKeptLength)
 		logLine(
 			"Free boundary: in the map its edges are " + numberText(least, 3) + " to " +
@@ -247,7 +247,7 @@ std::optional<ComponentMap> flattenToPlane(
 		options,
 		map);
 	layOut(component, domain, std::move(overlay), options, map); // 4.3
-	map.seamLength = lengthOf(map.cut, surface.lengths);
+	map.report.seamLength = lengthOf(map.cut, surface.lengths);
 	conformalInvariants(surface.triangulation, map);
 	advance(1.0 - kAfterFlow, "Repairing the map");
 	besides(
@@ -256,7 +256,7 @@ std::optional<ComponentMap> flattenToPlane(
 		[&] { requireMetric(map.flow, domain.solved().topology.boundary); });
 	measureBoundary(surface, map);
 	if (options.cones.rounding == ConeRounding::QuarterTurns)
-		map.holonomyError =
+		map.report.holonomyError =
 			holonomyError(surface.triangulation, map.layout, map.cut.isCut, map.cones);
 
 	advance(1.0, "Checking the result");

@@ -10,6 +10,7 @@
 #include "../error.h"
 #include "../math/min_area_rectangle.h"
 #include "../measure/invariants.h"
+#include "../measure/period_matrix.h"
 
 #include <algorithm>
 #include <cmath>
@@ -126,7 +127,7 @@ LinkedPieces cutAndOverlay(
 				dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, map.cones, map.cut);
 		});
 	if (map.cut.endedEarly) {
-		++map.endedEarly;
+		++map.report.endedEarly;
 		logLine("The search for shorter seams has ended at the bound on its work.");
 	}
 	advance(1.0 - kAfterFlow, "Cutting and layout");
@@ -144,7 +145,11 @@ double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)
 void describe(const Component& component, const FlowDomain& domain, ComponentMap& map)
 {
 	map.type = domain.surface.topology.type;
-	map.cappedHoles = domain.holes;
+	map.report.components = 1;
+	map.report.eulerCharacteristic = map.type.eulerCharacteristic();
+	map.report.genus = map.type.genus;
+	map.report.boundaryLoops = map.type.boundaryLoops;
+	map.report.cappedHoles = domain.holes;
 	logLine(description(component, map.type));
 }
 
@@ -165,7 +170,7 @@ FlowResult runFlow(
 	noteTarget(target, map);
 	advance(0.0, "Solving for the metric");
 	const Task flow(kBeforeFlow, 1.0 - kAfterFlow);
-	return runRicciFlow(surface, std::move(start), target, options, map.flowStates);
+	return runRicciFlow(surface, std::move(start), target, options, map.report.flowStates);
 }
 
 void turnUpright(double scale, ComponentMap& map)
@@ -205,14 +210,17 @@ void conformalInvariants(const Triangulation& t, ComponentMap& map)
 {
 	const Target& target = map.flow.target;
 	const bool flat = target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
-	if (map.type.isTorus() && flat)
-		map.torusModulus = torusModulus(t, map.layout, map.cut);
+	if (map.type.isTorus() && flat) {
+		const std::complex<double> tau = torusModulus(t, map.layout, map.cut);
+		map.report.torusTauRe = tau.real();
+		map.report.torusTauIm = tau.imag();
+	}
 	// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
 	if (map.type.isAnnulus() && flat && !target.hasFixed() && map.cut.edgeCount > 0)
-		map.annulusModulus =
+		map.report.annulusModulus =
 			annulusModulus(t, map.layout, map.cut, map.scale * map.scale * map.flow.area);
 	if (target.corners)
-		map.rectangleAspect = rectangleAspect(t, map.layout, *target.corners);
+		map.report.rectangleAspect = rectangleAspect(t, map.layout, *target.corners);
 }
 
 void measurePeriods(ComponentMap& map)
@@ -221,14 +229,18 @@ void measurePeriods(ComponentMap& map)
 		return;
 	advance(0.0, "Period matrix");
 	const IntrinsicMesh& start = map.flow.start.mesh;
-	map.periods = periodMatrix(start.triangulation, start.lengths);
+	const PeriodMatrix periods = periodMatrix(start.triangulation, start.lengths);
+	for (const auto row : periods.omega.rowwise())
+		map.report.periodMatrix.insert(map.report.periodMatrix.end(), row.begin(), row.end());
+	if (periods.omega.size() > 0)
+		map.report.periodError = periods.error;
 }
 
 bool mayBeFlipped(const ComponentMap& map, OutputTriangulation output)
 {
-	const bool isBent =
-		map.flow.flipCount() > 0 || map.flow.doubled || map.edgeSwaps > 0 || map.boundarySplits > 0;
-	return map.finishMoved > 0 || (isBent && output == OutputTriangulation::KeepMesh);
+	const bool isBent = map.flow.flipCount() > 0 || map.flow.doubled || map.report.edgeSwaps > 0 ||
+						map.report.boundarySplits > 0;
+	return map.report.finishMoved > 0 || (isBent && output == OutputTriangulation::KeepMesh);
 }
 
 } // namespace ricci

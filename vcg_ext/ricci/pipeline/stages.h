@@ -75,7 +75,7 @@ void describe(const Component& component, const FlowDomain& domain, ComponentMap
 /// Takes down the notes of a target, and logs them.
 void noteTarget(const Target& target, ComponentMap& map);
 
-/// A flow of a component, first or again: states and steps go on from those of map.flowStates. Notes the
+/// A flow of a component, first or again: states and steps go on from those of map.report.flowStates. Notes the
 /// target.
 /// \throw as runRicciFlow()
 FlowResult runFlow(

@@ -23,6 +23,25 @@ std::size_t largestComponent(const std::vector<Component>& components)
 	return largest;
 }
 
+/// Adds what the flow and the cut say.
+void complete(const ComponentMap& map, Report& report)
+{
+	const FlowResult& flow = map.flow;
+	if (!report.flowStates.empty())
+		report.iterations += report.flowStates.back().step;
+	report.maxCurvatureError = flow.residual;
+	report.residualFloor = flow.floor;
+	report.lengthened = flow.start.lengthened.largest;
+	if (flow.target.background == Background::EuclideanPlane)
+		report.targetUsed = flow.target.used;
+	report.choice = flow.target.choice;
+	report.expectedSpread = flow.target.expectedSpread;
+	report.brokenTriangles = flow.metric->brokenTriangles();
+	report.flips = flow.flipCount();
+	report.cones = static_cast<int>(std::count(map.cones.begin(), map.cones.end(), 1));
+	report.seamEdges = map.cut.edgeCount;
+}
+
 } // namespace
 
 std::vector<Component> startMap(
@@ -73,54 +92,6 @@ std::vector<char> silentComponents(const std::vector<Component>& components)
 	return isSilent;
 }
 
-Report reportOf(const ComponentMap& map)
-{
-	Report report;
-	report.components = 1;
-	report.flowStates = map.flowStates;
-	report.iterations = map.seamlessSteps;
-	if (!map.flowStates.empty())
-		report.iterations += map.flowStates.back().step;
-	report.maxCurvatureError = map.flow.residual;
-	report.residualFloor = map.flow.floor;
-	report.lengthened = map.flow.start.lengthened.largest;
-	if (map.flow.target.background == Background::EuclideanPlane)
-		report.targetUsed = map.flow.target.used;
-	report.choice = map.flow.target.choice;
-	report.expectedSpread = map.flow.target.expectedSpread;
-	report.boundaryRatioMin = map.boundaryRatioMin;
-	report.boundaryRatioMax = map.boundaryRatioMax;
-	report.brokenTriangles = map.flow.metric->brokenTriangles();
-	report.flips = map.flow.flipCount();
-	report.finishMoved = map.finishMoved;
-	report.endedEarly = map.endedEarly;
-	report.edgeSwaps = map.edgeSwaps;
-	report.boundarySplits = map.boundarySplits;
-	report.eulerCharacteristic = map.type.eulerCharacteristic();
-	report.genus = map.type.genus;
-	report.boundaryLoops = map.type.boundaryLoops;
-	report.cappedHoles = map.cappedHoles;
-	report.cones = static_cast<int>(std::count(map.cones.begin(), map.cones.end(), 1));
-	report.seamEdges = map.cut.edgeCount;
-	report.seamLength = map.seamLength;
-	if (map.torusModulus) {
-		report.torusTauRe = map.torusModulus->real();
-		report.torusTauIm = map.torusModulus->imag();
-	}
-	report.annulusModulus = map.annulusModulus;
-	report.rectangleAspect = map.rectangleAspect;
-	const Eigen::MatrixXcd& omega = map.periods.omega;
-	for (Eigen::Index i = 0; i < omega.rows(); ++i)
-		for (Eigen::Index j = 0; j < omega.cols(); ++j)
-			report.periodMatrix.push_back(omega(i, j));
-	if (omega.size() > 0)
-		report.periodError = map.periods.error;
-	report.hyperbolicArea = map.hyperbolicArea;
-	report.holonomyError = map.holonomyError;
-	report.relationError = map.relationError;
-	return report;
-}
-
 Parametrization asParametrization(const Component& component, ComponentMap map)
 {
 	Parametrization part;
@@ -135,7 +106,8 @@ Parametrization asParametrization(const Component& component, ComponentMap map)
 		if (map.cones[v] && target.used == TargetUsed::PlacedCones)
 			part.placedCones.push_back(v.number());
 	part.notes = map.notes;
-	part.report = reportOf(map);
+	part.report = map.report;
+	complete(map, part.report);
 	part.charts.emplace_back().group = std::move(map.group);
 	part.mesh = std::move(map.mesh);
 	return part;

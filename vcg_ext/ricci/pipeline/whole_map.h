@@ -39,9 +39,6 @@ ChartTurns chartTurns(const Options& options);
 std::vector<Component> startMap(
 	const SurfaceMesh& mesh, const FlowOptions& options, OpenedMesh& opened, Parametrization& map);
 
-/// What the run of one component has measured.
-Report reportOf(const ComponentMap& map);
-
 /// A component's map as one chart, in the component's indices.
 Parametrization asParametrization(const Component& component, ComponentMap map);
 
