@@ -33,11 +33,9 @@ public:
 	/// x = matrix^-1 rhs, up to an error that leaves \p residual of what rhs is without x, both after
 	/// one Gauss-Seidel step.
 	/// \pre factorize() has returned true
-	void solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x, double residual = kRounding);
+	void solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x, double residual);
 
 private:
-	static constexpr double kRounding = 1e-14;
-
 	void solveForward(Eigen::VectorXcd& x) const;
 	void solveBackward(Eigen::VectorXcd& x) const;
 

@@ -57,9 +57,9 @@ public:
 		m_value = m_energy.evaluate(m_position);
 	}
 
-	LeastDistortion descend()
+	Descent descend()
 	{
-		LeastDistortion result{0, m_value, m_value};
+		Descent result{0, m_value, m_value};
 		if (!std::isfinite(m_value))
 			return result;
 		const double worth = kPointGain * m_value / m_points.unknowns;
@@ -166,7 +166,7 @@ double meanDistortion(const FlatMesh& flat)
 	return MeanDistortion(flat, points).evaluate(positionsOf(points, flat));
 }
 
-LeastDistortion leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves)
+Descent leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves)
 {
 	const NumberedPoints points(
 		flat, joinedPoints(flat, cones, [&](int) { return boundaryMoves; }));
@@ -176,7 +176,7 @@ LeastDistortion leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, 
 		return {0, value, value};
 	}
 	DistortionDescent descent(energy, points, flat);
-	const LeastDistortion result = descent.descend();
+	const Descent result = descent.descend();
 	if (result.steps > 0)
 		descent.write(flat);
 	return result;
