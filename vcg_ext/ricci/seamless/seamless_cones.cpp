@@ -8,6 +8,7 @@
 #include "../curvature/linear_flow.h"
 #include "../math/points.h"
 #include "../metric/area.h"
+#include "../metric/laplacian.h"
 
 #include <Eigen/Cholesky>
 
@@ -63,7 +64,7 @@ public:
 			m_linear(surface, flow, request.boundary, areaShares(surface)),
 			m_units(flow.curvature.size(), 0), m_curvature(flow.curvature),
 			m_errors(holonomy.errors), m_root(holonomy.cost.llt().matrixU()),
-			m_area(surfaceArea(surface))
+			m_area(euclideanArea(surface.triangulation, surface.lengths))
 	{
 		m_radius = radius * std::sqrt(m_area);
 		for (const Vertex v : m_units.indices())
@@ -105,23 +106,8 @@ public:
 private:
 	static VertexVector areaShares(const EmbeddedSurface& surface)
 	{
-		const Triangulation& t = surface.triangulation;
-		VertexVector areas = VertexVector::Zero(t.vertexCount());
-		for (const Face f : t.faces()) {
-			const auto h = t.halfedges(f);
-			const double area = euclideanArea(
-				{surface.lengths[h[0].edge()],
-				 surface.lengths[h[1].edge()],
-				 surface.lengths[h[2].edge()]});
-			for (const Vertex v : t.vertices(f))
-				areas[v] += area;
-		}
+		const VertexVector areas = vertexAreas(surface.triangulation, surface.lengths);
 		return areas / areas.sum();
-	}
-
-	static double surfaceArea(const EmbeddedSurface& surface)
-	{
-		return euclideanArea(surface.triangulation, surface.lengths);
 	}
 
 	/// The scale factor that the linear problem has for the present cones.
