@@ -47,6 +47,7 @@ struct Uniformized
 			marked[Vertex(v)] = 1;
 		cut = cutToDisk(flow.base(), flow.surface().lengths, marked, {});
 		refinement = flow.refinement(cut);
+		refinement.pairing = pairingOfArcs(flow.base(), cut, refinement.pairing, flow.cones());
 		group = fuchsianGroup(flow.base(), cut, refinement.pairing, flow.cones(), true);
 	}
 

@@ -24,6 +24,7 @@
 #define RICCI_OVERLAY_PIECES_H
 
 #include "../flow/ricci_flow.h"
+#include "../math/adjacency.h"
 #include "../surface/surface_point.h"
 #include "barycentric.h"
 
@@ -103,13 +104,7 @@ public:
 	const PieceCorner& operator()(int piece, int i) const { return m_corners[corner(piece, i)]; }
 
 	/// The corners of a piece, in order.
-	struct Corners
-	{
-		const PieceCorner *first, *last;
-		const PieceCorner* begin() const { return first; }
-		const PieceCorner* end() const { return last; }
-	};
-	Corners corners(int piece) const
+	ItemRange<const PieceCorner> corners(int piece) const
 	{
 		return {m_corners.data() + m_first[piece], m_corners.data() + m_first[piece + 1]};
 	}

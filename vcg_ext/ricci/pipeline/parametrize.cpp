@@ -43,11 +43,11 @@ void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
 
 /// Maps every component.
 /// \param flatten flatten(component, input) to a Parametrization
-template<class AnyOptions, class Flatten>
+template<class Flatten>
 Parametrization mapComponents(
 	const SurfaceMesh& mesh,
 	const VertexInput& input,
-	const AnyOptions& options,
+	const FlowOptions& options,
 	const Flatten& flatten,
 	OpenedMesh& opened)
 {

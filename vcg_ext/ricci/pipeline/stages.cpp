@@ -27,12 +27,6 @@ constexpr double kOverlay = 0.7;
 
 } // namespace
 
-std::string description(const Component& component, const SurfaceType& type)
-{
-	return "Component of " + std::to_string(component.positions.size()) + " vertices, " +
-		   std::to_string(component.triangles.size()) + " faces: " + type.name() + ".";
-}
-
 TargetInput targetInput(const Component& component, const VertexInput& input, int vertexCount)
 {
 	TargetInput values;
@@ -150,7 +144,9 @@ void describe(const Component& component, const FlowDomain& domain, ComponentMap
 	map.report.genus = map.type.genus;
 	map.report.boundaryLoops = map.type.boundaryLoops;
 	map.report.cappedHoles = domain.holes;
-	logLine(description(component, map.type));
+	logLine(
+		"Component of " + std::to_string(component.positions.size()) + " vertices, " +
+		std::to_string(component.triangles.size()) + " faces: " + map.type.name() + ".");
 }
 
 void noteTarget(const Target& target, ComponentMap& map)

@@ -22,9 +22,6 @@ namespace ricci {
 /// Share of a component's progress that is spent before the flow, and after it.
 constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1;
 
-/// "Component of 8 vertices, 12 faces: a closed surface of genus 0 (a sphere)."
-std::string description(const Component& component, const SurfaceType& type);
-
 /// The values of a surface of \p vertexCount vertices whose first ones are the component's.
 TargetInput targetInput(const Component& component, const VertexInput& input, int vertexCount);
 

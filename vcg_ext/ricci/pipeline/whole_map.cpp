@@ -2,6 +2,7 @@
 #include "whole_map.h"
 
 #include "../base/memory_estimate.h"
+#include "../base/task.h"
 #include "../charts/flipped_triangles.h"
 #include "../charts/separate_charts.h"
 #include "../measure/distortion.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace ricci {
@@ -21,6 +23,27 @@ std::size_t largestComponent(const std::vector<Component>& components)
 	for (const Component& component : components)
 		largest = std::max(largest, component.triangles.size());
 	return largest;
+}
+
+/// [component] 1 where the log says nothing of it.
+std::vector<char> silentComponents(const std::vector<Component>& components)
+{
+	std::vector<std::size_t> order(components.size());
+	std::iota(order.begin(), order.end(), std::size_t(0));
+	const std::size_t described = std::min(kDescribedComponents, order.size());
+	std::partial_sort(
+		order.begin(),
+		order.begin() + static_cast<std::ptrdiff_t>(described),
+		order.end(),
+		[&](std::size_t a, std::size_t b) {
+			const std::size_t m = components[a].triangles.size(),
+							  n = components[b].triangles.size();
+			return m != n ? m > n : a < b;
+		});
+	std::vector<char> isSilent(components.size(), 1);
+	for (std::size_t i = 0; i < described; ++i)
+		isSilent[order[i]] = 0;
+	return isSilent;
 }
 
 /// Adds what the flow and the cut say.
@@ -70,26 +93,6 @@ std::vector<Component> startMap(
 	map.report.seamEdges = opened.seamEdgesAdded;
 	map.report.seamLength = opened.seamLengthAdded;
 	return components;
-}
-
-std::vector<char> silentComponents(const std::vector<Component>& components)
-{
-	std::vector<std::size_t> order(components.size());
-	std::iota(order.begin(), order.end(), std::size_t(0));
-	const std::size_t described = std::min(kDescribedComponents, order.size());
-	std::partial_sort(
-		order.begin(),
-		order.begin() + static_cast<std::ptrdiff_t>(described),
-		order.end(),
-		[&](std::size_t a, std::size_t b) {
-			const std::size_t m = components[a].triangles.size(),
-							  n = components[b].triangles.size();
-			return m != n ? m > n : a < b;
-		});
-	std::vector<char> isSilent(components.size(), 1);
-	for (std::size_t i = 0; i < described; ++i)
-		isSilent[order[i]] = 0;
-	return isSilent;
 }
 
 Parametrization asParametrization(const Component& component, ComponentMap map)
@@ -169,6 +172,42 @@ void append(const Component& component, const Parametrization& part, Parametriza
 	if (source.size() > vertexCount)
 		report.refinementPoints = static_cast<int>(source.size() - vertexCount);
 	whole.report += report;
+}
+
+void runComponents(
+	const OpenedMesh& opened,
+	const std::vector<Component>& components,
+	const std::function<void(const Component&)>& run)
+{
+	const std::vector<char> isSilent = silentComponents(components);
+	std::size_t facesDone = 0;
+	const auto done = [&] {
+		return kComponentsDone *
+			   (static_cast<double>(facesDone) / static_cast<double>(opened.mesh.triangles.size()));
+	};
+	for (std::size_t i = 0; i < components.size(); ++i) {
+		const Component& component = components[i];
+		const double from = done();
+		facesDone += component.triangles.size();
+		try {
+			const Task part(from, done(), isSilent[i]);
+			run(component);
+		}
+		catch (const Stopped&) {
+			throw; // not the component's fault
+		}
+		catch (Error& error) {
+			if (components.size() > 1) {
+				error.componentFace = opened.face[positionOf(component.face.front())];
+				error.componentFaces = component.triangles.size();
+			}
+			throw;
+		}
+	}
+	if (components.size() > kDescribedComponents)
+		logLine(
+			"The log leaves out the smaller ones of " + std::to_string(components.size()) +
+			" components.");
 }
 
 } // namespace ricci
