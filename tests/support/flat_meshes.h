@@ -55,7 +55,7 @@ inline Parametrization mapWith(FlatMesh mesh)
 }
 
 /// measureDistortion() of the map of face f to \p plane[f].
-inline DistortionField
+inline std::vector<double>
 measured(const SurfaceMesh& mesh, const std::vector<Triangle2>& plane, Report& report)
 {
 	return measureDistortion(
