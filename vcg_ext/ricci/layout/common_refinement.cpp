@@ -275,15 +275,14 @@ private:
 	{
 		const Triangulation& t = m_surface.triangulation;
 		PlanarLayout& layout = m_result.inputLayout;
-		layout.wedges = cornerWedges(t, m_surfaceCut);
-		layout.points.assign(layout.wedges.count, {0.0, 0.0});
+		layout = cornerWedges(t, m_surfaceCut);
 		const OverlayPieces& pieces = m_linked.pieces;
 		for (int p = 0; p < pieces.count(); ++p)
 			for (int i = 0; i < pieces.size(p); ++i) {
 				const Halfedge h = pieces(p, i).inputCorner;
 				// In a piece of a face that is kept it is a halfedge of the surface, and the same one.
 				if (h.isValid() && !m_flow.input.isExterior(h))
-					layout.points[layout.wedges.of[h]] = m_point[pieces.corner(p, i)];
+					layout[h] = m_point[pieces.corner(p, i)];
 			}
 	}
 

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -24,28 +25,14 @@ namespace ricci {
 
 namespace {
 
-/// Values of a closed form, in the edges' direction. The form that belongs to a loop is 1 on its
-/// halfedges, -1 on their twins and else 0.
-class LoopForm
+/// Adds \p factor times the closed form of a loop, which is 1 on its halfedges, -1 on their twins and else 0.
+void addForm(const FaceLoop& loop, int factor, HalfedgeArray<int>& form)
 {
-public:
-	explicit LoopForm(int edges) : m_value(edges, 0) {}
-
-	/// Adds \p factor times the form of \p loop.
-	void add(const FaceLoop& loop, int factor)
-	{
-		for (const Halfedge h : loop)
-			m_value[h.edge()] += h.isFirst() ? factor : -factor;
+	for (const Halfedge h : loop) {
+		form[h] += factor;
+		form[h.twin()] -= factor;
 	}
-
-	int operator[](Halfedge h) const
-	{
-		return h.isFirst() ? m_value[h.edge()] : -m_value[h.edge()];
-	}
-
-private:
-	EdgeArray<int> m_value;
-};
+}
 
 /// Integrals of the wedge products of the forms. On a triangle with the values a, b on one side and a',
 /// b' on the next, the integral is (a b' - a' b) / 2.
@@ -53,10 +40,10 @@ Eigen::MatrixXi wedgeProducts(const Triangulation& t, const std::vector<FaceLoop
 {
 	const auto n = static_cast<Eigen::Index>(loops.size());
 	Eigen::MatrixXi twice = Eigen::MatrixXi::Zero(n, n);
-	LoopForm form(t.edgeCount());
+	HalfedgeArray<int> form(t.halfedgeCount(), 0);
 	for (Eigen::Index j = 0; j < n; ++j) {
 		const FaceLoop& first = loops[static_cast<std::size_t>(j)];
-		form.add(first, 1);
+		addForm(first, 1, form);
 		for (Eigen::Index k = 0; k < n; ++k) {
 			const FaceLoop& second = loops[static_cast<std::size_t>(k)];
 			Halfedge entry = second.back().twin();
@@ -66,7 +53,7 @@ Eigen::MatrixXi wedgeProducts(const Triangulation& t, const std::vector<FaceLoop
 				entry = h.twin();
 			}
 		}
-		form.add(first, -1);
+		addForm(first, -1, form);
 	}
 	return twice / 2;
 }
@@ -133,17 +120,17 @@ Eigen::MatrixXd energies(
 	functions = cholesky.solve(functions);
 	checkpoint();
 	Eigen::MatrixXd energy(n, n);
-	LoopForm form(t.edgeCount());
+	HalfedgeArray<int> form(t.halfedgeCount(), 0);
 	for (Eigen::Index i = 0; i < n; ++i) {
 		const auto at = [&](Vertex v) { return row[v] >= 0 ? functions(row[v], i) : 0.0; };
-		form.add(loops[static_cast<std::size_t>(i)], 1);
+		addForm(loops[static_cast<std::size_t>(i)], 1, form);
 		for (Eigen::Index j = 0; j <= i; ++j) {
 			double sum = 0.0;
 			for (const Halfedge h : loops[static_cast<std::size_t>(j)])
 				sum += weights[h.edge()] * (form[h] + at(t.target(h)) - at(t.origin(h)));
 			energy(i, j) = energy(j, i) = sum;
 		}
-		form.add(loops[static_cast<std::size_t>(i)], -1);
+		addForm(loops[static_cast<std::size_t>(i)], -1, form);
 	}
 	return energy;
 }
@@ -180,39 +167,35 @@ void addRow(Eigen::MatrixXcd& omega, Eigen::Index i, Eigen::Index j, double fact
 	omega.col(i) += factor * omega.col(j);
 }
 
-/// Makes vector \p i of the lattice with the Gram matrix Im \p omega shorter by up to \p terms others from
-/// \p first on, each with the factor +-1.
-/// \param change what has been added to the square of its length
+/// Makes vector \p i of the lattice with the Gram matrix Im \p omega shorter by up to three others, each with
+/// the factor +-1.
 /// \return whether that was possible
-bool shorten(
-	Eigen::MatrixXcd& omega,
-	Eigen::Index i,
-	Eigen::Index first,
-	int terms,
-	double change,
-	std::vector<std::pair<Eigen::Index, double>>& added)
+bool shorten(Eigen::MatrixXcd& omega, Eigen::Index i)
 {
-	if (change < -kDomainBorder * omega(i, i).imag()) {
-		for (const auto& [j, factor] : added)
-			addRow(omega, i, j, factor);
-		return true;
-	}
-	if (terms == 0)
-		return false;
-	for (Eigen::Index j = first; j < omega.rows(); ++j)
-		for (const double factor : {-1.0, 1.0}) {
-			if (j == i)
-				continue;
-			double product = omega(i, j).imag();
-			for (const auto& [k, other] : added)
-				product += other * omega(k, j).imag();
-			added.emplace_back(j, factor);
-			const double next = change + 2.0 * factor * product + omega(j, j).imag();
-			if (shorten(omega, i, j + 1, terms - 1, next, added))
+	std::vector<std::pair<Eigen::Index, double>> added;
+	// With up to so many terms more, from first on; change is what has been added to the square of the length.
+	const std::function<bool(Eigen::Index, int, double)> add =
+		[&](Eigen::Index first, int terms, double change) {
+			if (change < -kDomainBorder * omega(i, i).imag()) {
+				for (const auto& [j, factor] : added)
+					addRow(omega, i, j, factor);
 				return true;
-			added.pop_back();
-		}
-	return false;
+			}
+			for (Eigen::Index j = first; terms > 0 && j < omega.rows(); ++j)
+				for (const double factor : {-1.0, 1.0}) {
+					if (j == i)
+						continue;
+					double product = omega(i, j).imag();
+					for (const auto& [k, other] : added)
+						product += other * omega(k, j).imag();
+					added.emplace_back(j, factor);
+					if (add(j + 1, terms - 1, change + 2.0 * factor * product + omega(j, j).imag()))
+						return true;
+					added.pop_back();
+				}
+			return false;
+		};
+	return add(0, 3, 0.0);
 }
 
 /// Minkowski reduction of the imaginary part, by single steps. Up to g = 4 vectors none of which the
@@ -220,10 +203,8 @@ bool shorten(
 void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 {
 	const Eigen::Index genus = omega.rows();
-	for (Eigen::Index i = 0; i < genus;) {
-		std::vector<std::pair<Eigen::Index, double>> added;
-		i = shorten(omega, i, 0, 3, 0.0, added) ? 0 : i + 1;
-	}
+	for (Eigen::Index i = 0; i < genus;)
+		i = shorten(omega, i) ? 0 : i + 1;
 	for (Eigen::Index i = 0; i < genus; ++i) { // the shortest first
 		Eigen::Index least = i;
 		for (Eigen::Index j = i + 1; j < genus; ++j)
