@@ -12,7 +12,6 @@
 #include <ricci/finish/least_distortion.h>
 #include <ricci/finish/limited_memory_bfgs.h>
 #include <ricci/finish/mean_distortion.h>
-#include <ricci/finish/numbered_points.h>
 #include <ricci/measure/distortion.h>
 
 #include <gtest/gtest.h>
@@ -52,10 +51,11 @@ struct CutMap
 
 	Descent improve() { return leastDistortion(flat, cones, boundaryMoves); }
 
-	NumberedPoints points() const
+	PointGroups groups() const
 	{
-		return {flat, joinedPoints(flat, cones, [this](int) { return boundaryMoves; })};
+		return joinedPoints(flat, cones, [this](int) { return boundaryMoves; });
 	}
+	NumberedPoints points() const { return {flat, groups()}; }
 
 	int flipped() const { return notCounterClockwise(flat); }
 
@@ -157,12 +157,12 @@ std::vector<CutMap> mapsOfEveryKind(Random& random)
 /// An energy at the points of a map.
 struct Measured
 {
-	NumberedPoints points;
 	MeanDistortion energy;
+	const NumberedPoints& points;
 	Eigen::VectorXcd start; ///< [number of a point]
 
 	explicit Measured(const CutMap& d) :
-			points(d.points()), energy(d.flat, points), start(points.number.size())
+			energy(d.flat, d.groups()), points(energy.points()), start(points.number.size())
 	{
 		place(d.flat);
 	}
@@ -509,9 +509,9 @@ TEST(DistortionLaplacian, IsTheRealPartOfTheReweightedSquares)
 	Random random(615);
 	for (CutMap& d : validMapsWithSeams(random)) {
 		Measured m(d);
-		DistortionLaplacian laplacian(m.energy, m.points);
+		DistortionLaplacian laplacian(m.energy);
 		ASSERT_TRUE(std::isfinite(m.energy.evaluate(m.start)));
-		ASSERT_TRUE(laplacian.factorize(m.energy));
+		ASSERT_TRUE(laplacian.factorize());
 		const Eigen::VectorXcd rhs = randomVector(m.points.unknowns, 1.0, random);
 		Eigen::VectorXcd x;
 		laplacian.solve(rhs, x, 1e-14);
@@ -542,9 +542,9 @@ TEST(DistortionLaplacian, ComesNearerAsTheResidualFalls)
 	Random random(633);
 	for (CutMap& d : validMapsWithSeams(random)) {
 		Measured m(d);
-		DistortionLaplacian laplacian(m.energy, m.points);
+		DistortionLaplacian laplacian(m.energy);
 		ASSERT_TRUE(std::isfinite(m.energy.evaluate(m.start)));
-		ASSERT_TRUE(laplacian.factorize(m.energy));
+		ASSERT_TRUE(laplacian.factorize());
 		const Eigen::VectorXcd rhs = randomVector(m.points.unknowns, 1.0, random);
 		Eigen::VectorXcd x, exact;
 		laplacian.solve(rhs, exact, 1e-14);
