@@ -146,12 +146,5 @@ TEST(MetricCheck, RequiresTheTargetThatTheFlowSaysItHasReached)
 	EXPECT_NO_THROW(requireMetric(flow.result, closed));
 }
 
-TEST(MetricCheck, FailsWithWhatWasFound)
-{
-	const auto error = refusalOf<NotConverged>([] { failCheck("2 points lie outside the disk"); });
-	EXPECT_EQ(error.problem, NotConverged::CheckFailed);
-	EXPECT_EQ(error.finding, "2 points lie outside the disk");
-}
-
 } // namespace
 } // namespace ricci::testing

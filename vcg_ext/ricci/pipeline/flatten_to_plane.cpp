@@ -2,15 +2,18 @@
 #include "flatten.h"
 
 #include "../base/attempt.h"
+#include "../base/numbers.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
 #include "../base/text.h"
 #include "../curvature/target_curvature.h"
+#include "../cut/cone_wedges.h"
 #include "../cut/cut_graph.h"
 #include "../cut/seam_cost.h"
 #include "../edge_swap/swapped_flow.h"
 #include "../finish/finish.h"
 #include "../layout/corner_layout.h"
+#include "../math/min_area_rectangle.h"
 #include "../measure/distortion.h"
 #include "../measure/invariants.h"
 #include "../seamless/make_seamless.h"
@@ -42,6 +45,64 @@ Holes holesOf(const Options& options)
 						options.target != TargetCurvature::Flat &&
 						options.target != TargetCurvature::Prescribed;
 	return options.holes == Holes::ShortCapped && !mayCap ? Holes::Boundaries : options.holes;
+}
+
+/// What the target of a surface of \p vertexCount vertices is chosen from, of which the first are the component's.
+TargetRequest targetRequest(
+	const Component& component, const VertexInput& input, const Options& options, int vertexCount)
+{
+	TargetRequest request;
+	static_cast<TargetInput&>(request) = targetInput(component, input, vertexCount);
+	request.options = options;
+	request.measuresAreas = options.method == Method::IntrinsicFlips;
+	request.hasSeam = component.hasSeam;
+	request.vertexNumbers = component.vertex;
+	return request;
+}
+
+/// Angles at the corners of cones, see coneCorners().
+HalfedgeArray<double>
+cornersOfCones(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& cones)
+{
+	VertexArray<double> coneAngle(surface.triangulation.vertexCount(), 0.0);
+	for (const Vertex v : cones.indices())
+		if (cones[v])
+			coneAngle[v] = 2.0 * kPi - target.curvature[v];
+	return coneCorners(surface.triangulation, surface.lengths, coneAngle);
+}
+
+/// Scales the layout by \p scale and turns it so that its smallest bounding rectangle lies along the
+/// axes, from the origin.
+void turnUpright(double scale, ComponentMap& map)
+{
+	const OrientedRectangle r = minAreaRectangle(map.layout.points.values());
+	const auto move = [&](Point2& p) {
+		const Point2 q = r.inFrame(p);
+		p = {scale * (q[0] - r.min[0]), scale * (q[1] - r.min[1])};
+	};
+	for (Point2& p : map.layout.points)
+		move(p);
+	for (Point2& p : map.mesh.place)
+		move(p);
+}
+
+/// The modulus of a flat torus or annulus and the aspect of a rectangle, where the map is one.
+/// \param t the triangulation of the layout
+void conformalInvariants(const Triangulation& t, ComponentMap& map)
+{
+	const Target& target = map.flow.target;
+	const bool flat = target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
+	if (map.type.isTorus() && flat) {
+		const std::complex<double> tau = torusModulus(t, map.layout, map.cut);
+		map.report.torusTauRe = tau.real();
+		map.report.torusTauIm = tau.imag();
+	}
+	// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
+	if (map.type.isAnnulus() && flat && !target.hasFixed() && map.cut.edgeCount > 0)
+		map.report.annulusModulus =
+			annulusModulus(t, map.layout, map.cut, map.scale * map.scale * map.flow.area);
+	if (target.corners)
+		map.report.rectangleAspect = rectangleAspect(t, map.layout, *target.corners);
 }
 
 /// The flow with edge swaps (5.4), and the domain that it leaves.

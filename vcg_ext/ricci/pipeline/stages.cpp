@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages.h"
 
-#include "../base/numbers.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
 #include "../base/text.h"
 #include "../base/tolerances.h"
-#include "../cut/cone_wedges.h"
 #include "../error.h"
-#include "../math/min_area_rectangle.h"
-#include "../measure/invariants.h"
 #include "../measure/period_matrix.h"
 
 #include <algorithm>
@@ -42,18 +38,6 @@ TargetInput targetInput(const Component& component, const VertexInput& input, in
 	return values;
 }
 
-TargetRequest targetRequest(
-	const Component& component, const VertexInput& input, const Options& options, int vertexCount)
-{
-	TargetRequest request;
-	static_cast<TargetInput&>(request) = targetInput(component, input, vertexCount);
-	request.options = options;
-	request.measuresAreas = options.method == Method::IntrinsicFlips;
-	request.hasSeam = component.hasSeam;
-	request.vertexNumbers = component.vertex;
-	return request;
-}
-
 void logFlow(const FlowResult& flow, const FlowOptions& options)
 {
 	const Lengthening& added = flow.start.lengthened;
@@ -81,16 +65,6 @@ conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<
 		cones[v] = inside && std::abs(target.curvature[v]) > kConeCurvature;
 	}
 	return cones;
-}
-
-HalfedgeArray<double>
-cornersOfCones(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& cones)
-{
-	VertexArray<double> coneAngle(surface.triangulation.vertexCount(), 0.0);
-	for (const Vertex v : cones.indices())
-		if (cones[v])
-			coneAngle[v] = 2.0 * kPi - target.curvature[v];
-	return coneCorners(surface.triangulation, surface.lengths, coneAngle);
 }
 
 LinkedPieces
@@ -169,19 +143,6 @@ FlowResult runFlow(
 	return runRicciFlow(surface, std::move(start), target, options, map.report.flowStates);
 }
 
-void turnUpright(double scale, ComponentMap& map)
-{
-	const OrientedRectangle r = minAreaRectangle(map.layout.points.values());
-	const auto move = [&](Point2& p) {
-		const Point2 q = r.inFrame(p);
-		p = {scale * (q[0] - r.min[0]), scale * (q[1] - r.min[1])};
-	};
-	for (Point2& p : map.layout.points)
-		move(p);
-	for (Point2& p : map.mesh.place)
-		move(p);
-}
-
 Array<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout)
 {
 	const Triangulation& t = domain.surface.triangulation;
@@ -200,23 +161,6 @@ FlatMesh flatMesh(const Component& component, const FlowDomain& domain, const Pl
 		Array<Triangle>(component.triangles),
 		cornersOf(domain, layout),
 		component.positions.values());
-}
-
-void conformalInvariants(const Triangulation& t, ComponentMap& map)
-{
-	const Target& target = map.flow.target;
-	const bool flat = target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
-	if (map.type.isTorus() && flat) {
-		const std::complex<double> tau = torusModulus(t, map.layout, map.cut);
-		map.report.torusTauRe = tau.real();
-		map.report.torusTauIm = tau.imag();
-	}
-	// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
-	if (map.type.isAnnulus() && flat && !target.hasFixed() && map.cut.edgeCount > 0)
-		map.report.annulusModulus =
-			annulusModulus(t, map.layout, map.cut, map.scale * map.scale * map.flow.area);
-	if (target.corners)
-		map.report.rectangleAspect = rectangleAspect(t, map.layout, *target.corners);
 }
 
 void measurePeriods(ComponentMap& map)

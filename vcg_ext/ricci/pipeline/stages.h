@@ -25,10 +25,6 @@ constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1;
 /// The values of a surface of \p vertexCount vertices whose first ones are the component's.
 TargetInput targetInput(const Component& component, const VertexInput& input, int vertexCount);
 
-/// What the Euclidean target of that surface is chosen from.
-TargetRequest targetRequest(
-	const Component& component, const VertexInput& input, const Options& options, int vertexCount);
-
 /// Logs what the user should know of a flow that reached its target.
 void logFlow(const FlowResult& flow, const FlowOptions& options);
 
@@ -36,10 +32,6 @@ void logFlow(const FlowResult& flow, const FlowOptions& options);
 /// \p onHole 1 at vertices of holes that the flow closes with caps; may be empty.
 VertexArray<char>
 conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& onHole = {});
-
-/// Angles at the corners of cones, see coneCorners().
-HalfedgeArray<double> cornersOfCones(
-	const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& cones);
 
 /// The cut graph through all cones on edges of the surface (paper 4.3), without seams to holes that the
 /// flow closes with caps and, where it can, without seams inside polygons; and beside it, in another thread
@@ -82,19 +74,11 @@ FlowResult runFlow(
 	const FlowOptions& options,
 	ComponentMap& map);
 
-/// Scales the layout by \p scale and turns it so that its smallest bounding rectangle lies along the
-/// axes, from the origin.
-void turnUpright(double scale, ComponentMap& map);
-
 /// [face of the component] The points of its corners.
 Array<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout);
 
 /// The faces of a component as they are laid out.
 FlatMesh flatMesh(const Component& component, const FlowDomain& domain, const PlanarLayout& layout);
-
-/// The modulus of a flat torus or annulus and the aspect of a rectangle, where the map is one.
-/// \param t the triangulation of the layout
-void conformalInvariants(const Triangulation& t, ComponentMap& map);
 
 /// The period matrix of a closed surface of genus 1 to kMaxPeriodGenus, in the metric of the mesh, on the
 /// triangulation at the start of the flow.

@@ -148,7 +148,7 @@ void requireMap(const FlatMesh& chart, const FlowResult& flow, bool bent, bool s
 	const ChartCheck check = checkMap(chart, tolerance);
 	if (check.outside > 0 || (seamsFit && !(check.seamGap <= tolerance)) ||
 		(check.flipped > 0 && !bent))
-		failCheck(
+		throw NotConverged(
 			"seams " + numberText(check.seamGap, 3) + " of the chart apart, " +
 			std::to_string(check.flipped) + " faces flipped");
 }
@@ -168,9 +168,9 @@ void requireDisk(const FlatMesh& chart, const FlowResult& flow, bool bent)
 	if (check.outside > 0 && finite) // the doubles of the disk end at a distance of about 37
 		throw NotConverged(NotConverged::OutsideDisk, check.outside);
 	if (check.outside > 0)
-		failCheck(std::to_string(check.outside) + " points lie outside the disk");
+		throw NotConverged(std::to_string(check.outside) + " points lie outside the disk");
 	if (!(check.seamGap <= tolerance) || (check.flipped > 0 && !bent))
-		failCheck(
+		throw NotConverged(
 			"seams " + numberText(check.seamGap, 3) + " apart in the disk, " +
 			std::to_string(check.flipped) + " faces flipped");
 }

@@ -160,7 +160,7 @@ void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary)
 	if (exact && check.broken > 0)
 		throw NotConverged(NotConverged::FlatTriangles, static_cast<std::size_t>(check.broken));
 	if (!exact)
-		failCheck(
+		throw NotConverged(
 			"curvature " + numberText(check.curvatureError, 3) + " off at one vertex, lengths " +
 			numberText(check.lengthError, 3) + ", " + std::to_string(check.broken) +
 			" broken triangles");
@@ -173,11 +173,6 @@ double openCurvature(const FlowResult& flow)
 		if (!flow.target.fixed[v])
 			sum += std::abs(flow.curvature[v] - flow.target.curvature[v]);
 	return sum;
-}
-
-void failCheck(const std::string& finding)
-{
-	throw NotConverged(finding);
 }
 
 } // namespace ricci

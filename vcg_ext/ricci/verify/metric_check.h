@@ -4,8 +4,6 @@
 
 #include "../flow/ricci_flow.h"
 
-#include <string>
-
 namespace ricci {
 
 /// Errors of a finished metric, found by other formulas than the flow's.
@@ -46,10 +44,6 @@ void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary);
 /// Sum of |target - K| over the surface, in radians: all of the curvature by which the result
 /// misses its target.
 double openCurvature(const FlowResult& flow);
-
-/// \param finding what a check of the result found, as in "2 points lie outside the disk"
-/// \throw NotConverged always
-[[noreturn]] void failCheck(const std::string& finding);
 
 } // namespace ricci
 
