@@ -11,7 +11,6 @@
 #include "../parametrize.h"
 #include "../surface/component.h"
 #include "../surface/topology.h"
-#include "../verify/metric_check.h"
 #include "../verify/sphere_check.h"
 #include "whole_map.h"
 
