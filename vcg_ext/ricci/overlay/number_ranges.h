@@ -32,9 +32,6 @@ public:
 	int size(I i) const { return last(i) - first(i); }
 	int total() const { return m_first.back(); }
 
-	/// The numbers of a range, for range-based loops.
-	IndexRange<int> of(I i) const { return IndexRange<int>(first(i), last(i)); }
-
 private:
 	std::vector<int> m_first;
 };
