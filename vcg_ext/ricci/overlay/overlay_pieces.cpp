@@ -287,8 +287,7 @@ private:
 	const StartEdgeNodes m_edgeNodes;
 
 	std::array<Adjacency<Face, Chord>, 2> m_chords; // [family] by start triangle
-	NumberRanges<Edge>
-		m_sidesOn; // numbers of the sides on each start edge; they come before all others
+	EdgeRanges m_sidesOn; // numbers of the sides on each start edge; they come before all others
 
 	// Of the start triangle that is being divided:
 	std::array<Halfedge, 3> m_sides;
