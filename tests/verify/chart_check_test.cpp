@@ -39,7 +39,7 @@ struct MapSheet
 	}
 };
 
-TEST(MapCheck, AcceptsAMapWithAndWithoutSeams)
+TEST(ChartCheckInPlane, AcceptsAMapWithAndWithoutSeams)
 {
 	MapSheet s;
 	ChartCheck check = s.check();
@@ -55,7 +55,7 @@ TEST(MapCheck, AcceptsAMapWithAndWithoutSeams)
 	EXPECT_EQ(check.flipped, 0);
 }
 
-TEST(MapCheck, SeesSeamsOfDifferentLengths)
+TEST(ChartCheckInPlane, SeesSeamsOfDifferentLengths)
 {
 	MapSheet s;
 	for (Point2& p : s.plane[20])
@@ -69,7 +69,7 @@ TEST(MapCheck, SeesSeamsOfDifferentLengths)
 	EXPECT_NEAR(s.check().seamGap, longest * (1 - 1 / 1.001) / box.extent(), 1e-14);
 }
 
-TEST(MapCheck, SeesFlippedAndFlatFaces)
+TEST(ChartCheckInPlane, SeesFlippedAndFlatFaces)
 {
 	MapSheet s;
 	for (const std::size_t f : {7u, 8u})
@@ -89,7 +89,7 @@ TEST(MapCheck, SeesFlippedAndFlatFaces)
 	EXPECT_EQ(s.check(1e-11).flipped, 1);
 }
 
-TEST(MapCheck, SeesWhatIsNoNumber)
+TEST(ChartCheckInPlane, SeesWhatIsNoNumber)
 {
 	MapSheet s;
 	s.plane[9][2][1] = std::numeric_limits<double>::quiet_NaN();
@@ -144,7 +144,7 @@ struct KleinSheet
 	}
 };
 
-TEST(DiskCheck, AcceptsAMapWithAndWithoutSeams)
+TEST(ChartCheckInDisk, AcceptsAMapWithAndWithoutSeams)
 {
 	KleinSheet s;
 	ChartCheck check = s.check();
@@ -160,7 +160,7 @@ TEST(DiskCheck, AcceptsAMapWithAndWithoutSeams)
 
 const SurfaceMesh kTwoTriangles{std::vector<Point3>(4), {{0, 1, 2}, {1, 0, 3}}};
 
-TEST(DiskCheck, SeesASeamThatDoesNotFit)
+TEST(ChartCheckInDisk, SeesASeamThatDoesNotFit)
 {
 	// Two triangles on one diameter: their common sides have the lengths 1 and 1.01.
 	const auto on = [](double distance) { return std::tanh(0.5 * distance); };
@@ -179,7 +179,7 @@ TEST(DiskCheck, SeesASeamThatDoesNotFit)
 	EXPECT_GT(s.check().seamGap, 0.01);
 }
 
-TEST(DiskCheck, AllowsForTheRoundingOfBothSidesOfASeam)
+TEST(ChartCheckInDisk, AllowsForTheRoundingOfBothSidesOfASeam)
 {
 	// The same side twice, at 0 and where one unit in the last place is a distance of 1e-11: what the
 	// sides differ by there is rounding, whichever triangle comes first.
@@ -206,7 +206,7 @@ TEST(DiskCheck, AllowsForTheRoundingOfBothSidesOfASeam)
 	EXPECT_GT(largest, 1e-12); // or there is nothing to allow for
 }
 
-TEST(DiskCheck, CountsFlippedTrianglesByTheirHeight)
+TEST(ChartCheckInDisk, CountsFlippedTrianglesByTheirHeight)
 {
 	// The third corner lies at the distance 0.25 from a diameter, on the wrong side, anywhere in
 	// the disk.
@@ -225,7 +225,7 @@ TEST(DiskCheck, CountsFlippedTrianglesByTheirHeight)
 	}
 }
 
-TEST(DiskCheck, CountsPointsThatAreNotInTheDisk)
+TEST(ChartCheckInDisk, CountsPointsThatAreNotInTheDisk)
 {
 	const double nan = std::numeric_limits<double>::quiet_NaN();
 	for (const Point2& bad : {Point2{1.0, 0.0}, Point2{0.8, 0.8}, Point2{nan, 0.0}}) {
