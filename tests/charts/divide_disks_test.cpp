@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ricci/charts/divide_disks.h>
 #include <ricci/charts/finish_in_floats.h>
-#include <ricci/verify/disk_check.h>
+#include <ricci/verify/chart_check.h>
 
 #include <gtest/gtest.h>
 
@@ -84,7 +84,7 @@ TEST(DivideDisks, MovesFarPartsByIsometries)
 	}
 	// The parts lie about their middles: half a part of the band is the farthest.
 	const double half = 0.5 * 160 * 0.2;
-	const DiskCheck parts = checkDisk(map.mesh, 1e-6);
+	const ChartCheck parts = checkDisk(map.mesh, 1e-6);
 	EXPECT_EQ(parts.flipped, 0);
 	EXPECT_LT(parts.radius, 0.75 * half);
 	// The triangles of neighbouring parts keep the lengths of their common sides: at 16 a double tells 1e-9.

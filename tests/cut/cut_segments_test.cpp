@@ -123,18 +123,18 @@ struct CirclesByWedges
 	CirclesByWedges(
 		const Triangulation& t, const VertexArray<char>& marked, const EdgeArray<char>& isCut)
 	{
-		const Wedges wedges = cornerWedges(t, isCut);
+		const PlanarLayout wedges = cornerWedges(t, isCut);
 		const VertexArray<char> boundary = t.boundaryVertices();
 		VertexArray<int> degree(t.vertexCount(), 0);
 		for (const Halfedge h : t.halfedges())
 			degree[t.origin(h)] += isCut[h.edge()];
 		// A border side joins the wedges at its two ends.
-		DisjointSets joined(wedges.count);
-		std::vector<char> isBorder(at(wedges.count), 0);
+		DisjointSets joined(wedges.points.size());
+		std::vector<char> isBorder(at(wedges.points.size()), 0);
 		for (const Halfedge h : t.interiorHalfedges()) {
-			const int wedge = wedges.of[h];
+			const int wedge = wedges.wedge[h];
 			if (isCut[h.edge()] || t.isBoundary(h.edge())) {
-				const int next = wedges.of[t.next(h)];
+				const int next = wedges.wedge[t.next(h)];
 				joined.merge(wedge, next);
 				isBorder[at(wedge)] = isBorder[at(next)] = 1;
 			}
@@ -143,13 +143,13 @@ struct CirclesByWedges
 				isBorder[at(wedge)] = 1;
 		}
 		std::set<int> circles;
-		for (int w = 0; w < wedges.count; ++w) {
+		for (int w = 0; w < wedges.points.size(); ++w) {
 			ofWedge.push_back(isBorder[at(w)] ? joined.find(w) : -1);
 			if (isBorder[at(w)])
 				circles.insert(joined.find(w));
 		}
 		count = static_cast<int>(circles.size());
-		of = wedges.of;
+		of = wedges.wedge;
 	}
 
 	int circle(Halfedge h) const { return ofWedge[at(of[h])]; }

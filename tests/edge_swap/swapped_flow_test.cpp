@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/expect.h"
 #include "support/intrinsic.h"
+#include "support/packed.h"
 #include "support/random.h"
 #include "support/random_surface.h"
+#include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/task.h>
@@ -13,8 +15,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -27,6 +31,292 @@ Component componentOf(const SurfaceMesh& mesh)
 	std::vector<Component> components = splitIntoComponents(openMesh(mesh, notes));
 	EXPECT_EQ(components.size(), 1u);
 	return components.front();
+}
+
+/// A triangle over each side of a broken one: corners 0 1 2, outer vertices 3 4 5.
+SurfaceMesh star()
+{
+	return {
+		{{0, 0, 0}, {1, 0, 0}, {0.5, 0.8, 0}, {0.5, -0.8, 0.1}, {1.4, 0.8, 0.2}, {-0.4, 0.8, 0.3}},
+		{{0, 1, 2}, {1, 0, 3}, {2, 1, 4}, {0, 2, 5}}};
+}
+
+Edge edgeBetween(const Triangulation& t, Vertex a, Vertex b)
+{
+	for (const Edge e : t.edges())
+		if (std::minmax(t.origin(e.halfedge()), t.target(e.halfedge())) == std::minmax(a, b))
+			return e;
+	return Edge();
+}
+
+/// The map of the mesh with the ends of one edge put so far apart that its triangles break.
+GeometricCurvatureMap<Euclidean> breaking(const Packed& mesh, Edge e)
+{
+	CirclePacking packing = mesh.packing;
+	packing.delta[e] = 100.0;
+	GeometricCurvatureMap<Euclidean> map(packing);
+	map.evaluate(mesh.u());
+	return map;
+}
+
+TEST(EdgeSwap, DoesNothingWhereNothingIsBroken)
+{
+	const SurfaceMesh mesh = star();
+	const Packed packed(mesh);
+	auto map = packed.map();
+	map.evaluate(packed.u());
+	const VertexArray<Point3> positions(mesh.positions);
+	EdgeSwapper swapper(positions, packed.radii);
+	EXPECT_FALSE(swapper(map));
+	EXPECT_EQ(swapper.swaps(), 0);
+	EXPECT_TRUE(swapper.boundaryEdgesToSplit().empty());
+}
+
+TEST(EdgeSwap, SwapsTheLongestEdgeAndMeasuresTheNewOneInSpace)
+{
+	const SurfaceMesh mesh = star();
+	const Packed packed(mesh);
+	const Edge e = edgeBetween(packed.triangulation, Vertex(0), Vertex(1));
+	auto map = breaking(packed, e);
+	ASSERT_EQ(map.brokenTriangles(), 2); // on both sides of it
+	const VertexArray<Point3> positions(mesh.positions);
+	EdgeSwapper swapper(positions, packed.radii);
+	EXPECT_TRUE(swapper(map));
+	EXPECT_EQ(swapper.swaps(), 1);
+	const Triangulation& t = map.triangulation();
+	EXPECT_EQ(
+		std::minmax(t.origin(e.halfedge()), t.target(e.halfedge())),
+		std::minmax(Vertex(2), Vertex(3)));
+	// Paper 5.4: the inversive distance follows from the distance in space and the initial radii.
+	const double l = distance(mesh.positions[2], mesh.positions[3]);
+	const double gi = packed.radii[Vertex(2)], gj = packed.radii[Vertex(3)];
+	EXPECT_NEAR(1 + map.delta()[e], (l * l - gi * gi - gj * gj) / (2 * gi * gj), 1e-12);
+	for (const Edge edge : t.edges())
+		EXPECT_EQ(swapper.swapped()[edge], edge == e);
+}
+
+TEST(EdgeSwap, AsksForASplitOnTheBoundary)
+{
+	const SurfaceMesh mesh = star();
+	const Packed packed(mesh);
+	const Edge e = edgeBetween(packed.triangulation, Vertex(1), Vertex(3));
+	auto map = breaking(packed, e);
+	ASSERT_EQ(map.brokenTriangles(), 1);
+	const VertexArray<Point3> positions(mesh.positions);
+	EdgeSwapper swapper(positions, packed.radii);
+	swapper(map);
+	EXPECT_EQ(swapper.boundaryEdgesToSplit(), std::vector<Edge>{e});
+	EXPECT_FALSE(swapper.swapped()[e]);
+}
+
+TEST(EdgeSwap, AnEdgeIsNotSwappedForEver)
+{
+	// Made to break again after each swap, an edge is given up in the end.
+	const SurfaceMesh mesh = star();
+	const Packed packed(mesh);
+	const Edge e = edgeBetween(packed.triangulation, Vertex(0), Vertex(1));
+	auto map = breaking(packed, e);
+	const VertexArray<Point3> positions(mesh.positions);
+	EdgeSwapper swapper(positions, packed.radii);
+	int rounds = 0;
+	while (rounds < 100 && swapper(map)) {
+		++rounds;
+		const Triangulation& t = map.triangulation();
+		CirclePacking packing{t, map.delta()};
+		packing.delta[e] = 1e4;
+		map = GeometricCurvatureMap<Euclidean>(packing);
+		map.evaluate(packed.u());
+	}
+	EXPECT_GT(rounds, 0);
+	EXPECT_LT(rounds, 50);
+}
+
+Triangulation triangulationOf(const SplitMesh& mesh)
+{
+	return Triangulation(mesh.positions().size(), mesh.triangles());
+}
+
+using Corners = std::array<Point3, 3>;
+
+Corners cornersOf(const VertexArray<Point3>& positions, const Triangle& t)
+{
+	return {positions[Vertex(t[0])], positions[Vertex(t[1])], positions[Vertex(t[2])]};
+}
+
+/// Normal times twice the area.
+Point3 normalOf(const Corners& p)
+{
+	Point3 a, b;
+	for (std::size_t x = 0; x < 3; ++x) {
+		a[x] = p[1][x] - p[0][x];
+		b[x] = p[2][x] - p[0][x];
+	}
+	return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double dot(const Point3& a, const Point3& b)
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+double areaOf(const Corners& p)
+{
+	const Point3 n = normalOf(p);
+	return 0.5 * std::sqrt(dot(n, n));
+}
+
+/// Shares of \p p in the corners of a triangle in whose plane it lies.
+std::array<double, 3> weightsOf(const Point3& p, const Corners& triangle)
+{
+	const Point3 n = normalOf(triangle);
+	std::array<double, 3> weights;
+	for (std::size_t k = 0; k < 3; ++k) {
+		Corners part = triangle;
+		part[k] = p;
+		weights[k] = dot(normalOf(part), n) / dot(n, n);
+	}
+	return weights;
+}
+
+/// Whether \p part lies in \p whole and is turned the same way.
+bool isPartOf(const Corners& part, const Corners& whole)
+{
+	if (!(dot(normalOf(part), normalOf(whole)) > 0.0))
+		return false;
+	for (const Point3& p : part) {
+		const auto w = weightsOf(p, whole);
+		Point3 inPlane{};
+		for (std::size_t k = 0; k < 3; ++k)
+			for (std::size_t x = 0; x < 3; ++x)
+				inPlane[x] += w[k] * whole[k][x];
+		if (*std::min_element(w.begin(), w.end()) < -1e-12 || distance(p, inPlane) > 1e-12)
+			return false;
+	}
+	return true;
+}
+
+TEST(SplitMesh, IsTheComponentBeforeASplit)
+{
+	Random random(600);
+	const Component component = componentOf(randomPlanarDisk(4, random));
+	const SplitMesh mesh(component);
+	EXPECT_EQ(mesh.splits(), 0);
+	EXPECT_EQ(mesh.positions(), component.positions);
+	EXPECT_EQ(mesh.triangles(), component.triangles);
+	const Triangulation t = triangulationOf(mesh);
+	for (const Face f : t.faces())
+		for (std::size_t k = 0; k < 3; ++k)
+			EXPECT_EQ(mesh.corner(t, f, k), t.halfedges(f)[k]);
+}
+
+TEST(SplitMesh, SplitsATriangleIntoTwoHalves)
+{
+	// Each side of the first triangle in turn; the other triangle lies behind its side 1 - 2.
+	const SurfaceMesh square{
+		{{0, 0, 0}, {2, 0, 1}, {0, 3, 0}, {2, 3, 0.5}}, {{0, 1, 2}, {2, 1, 3}}};
+	const Component component = componentOf(square);
+	for (const int side : {0, 2}) {
+		SplitMesh mesh(component);
+		const Vertex i(side), j((side + 1) % 3), apex((side + 2) % 3);
+		const Triangulation before = triangulationOf(mesh);
+		mesh.split(before, {edgeBetween(before, i, j)});
+		EXPECT_EQ(mesh.splits(), 1);
+		ASSERT_EQ(mesh.positions().size(), 5);
+		const Point3 &a = component.positions[i], &b = component.positions[j];
+		EXPECT_EQ(
+			mesh.positions()[Vertex(4)],
+			(Point3{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])}));
+		ASSERT_EQ(mesh.triangles().size(), 3u);
+		EXPECT_EQ(mesh.triangles()[1], component.triangles[1]);
+		const Triangulation t = triangulationOf(mesh);
+		EXPECT_EQ(t.eulerCharacteristic(), 1);
+		const Edge cut = edgeBetween(t, Vertex(4), apex);
+		ASSERT_TRUE(cut.isValid());
+		EXPECT_FALSE(t.isBoundary(cut));
+		EXPECT_TRUE(t.isBoundary(edgeBetween(t, i, Vertex(4))));
+		EXPECT_TRUE(t.isBoundary(edgeBetween(t, Vertex(4), j)));
+		EXPECT_FALSE(edgeBetween(t, i, j).isValid());
+		const Corners whole = cornersOf(component.positions, component.triangles[0]);
+		for (const std::size_t half : {0u, 2u}) {
+			const Corners part = cornersOf(mesh.positions(), mesh.triangles()[half]);
+			EXPECT_TRUE(isPartOf(part, whole));
+			EXPECT_NEAR(areaOf(part) / areaOf(whole), 0.5, 1e-15);
+		}
+	}
+}
+
+TEST(SplitMesh, SplitsOneEdgeOfATriangleAtOnce)
+{
+	const Component component = componentOf(rectangle(1, 1, 1, 1));
+	SplitMesh mesh(component);
+	const Triangulation t = triangulationOf(mesh);
+	std::vector<Edge> edges;
+	for (const Edge e : t.edges())
+		if (t.isBoundary(e))
+			edges.insert(edges.begin(), 2, e); // every one twice, the last first
+	ASSERT_EQ(edges.size(), 8u);
+	mesh.split(t, edges);
+	EXPECT_EQ(mesh.splits(), 2);
+	EXPECT_EQ(mesh.positions().size(), 6);
+	EXPECT_EQ(mesh.triangles().size(), 4u);
+}
+
+TEST(SplitMesh, CornersAndFacesStayFindableAfterManySplits)
+{
+	Random random(601);
+	const SurfaceMesh surfaces[] = {
+		randomPlanarDisk(4, random),
+		sliverDisk(4, 1.0, random),
+		ring(1, 2, 7, 1),
+		withoutStars(shaken(perforatedSlab(1, 2), 0.05, random), {0})};
+	int refound = 0; // corners that lie in a triangle of another number than at first
+	for (const SurfaceMesh& surface : surfaces) {
+		const Component component = componentOf(surface);
+		SplitMesh mesh(component);
+		for (int round = 0; round < 8; ++round) {
+			const Triangulation before = triangulationOf(mesh);
+			std::vector<Edge> edges;
+			for (const Edge e : before.edges())
+				if (before.isBoundary(e) && random.index(3) == 0)
+					edges.push_back(e);
+			random.shuffle(edges);
+			const int splits = mesh.splits();
+			mesh.split(before, edges);
+			const Triangulation t = triangulationOf(mesh);
+			ASSERT_EQ(t.eulerCharacteristic(), before.eulerCharacteristic());
+			ASSERT_EQ(t.boundaryLoops().size(), before.boundaryLoops().size());
+			ASSERT_EQ(t.faceCount(), before.faceCount() + mesh.splits() - splits);
+			ASSERT_EQ(t.vertexCount(), before.vertexCount() + mesh.splits() - splits);
+
+			std::vector<double> area(component.triangles.size(), 0.0);
+			for (const Triangle& triangle : mesh.triangles()) {
+				const Corners part = cornersOf(mesh.positions(), triangle);
+				int faces = 0;
+				for (std::size_t f = 0; f < component.triangles.size(); ++f) {
+					const Corners whole = cornersOf(component.positions, component.triangles[f]);
+					if (!isPartOf(part, whole))
+						continue;
+					++faces;
+					area[f] += areaOf(part);
+				}
+				ASSERT_EQ(faces, 1);
+			}
+			for (std::size_t f = 0; f < component.triangles.size(); ++f) {
+				const Corners whole = cornersOf(component.positions, component.triangles[f]);
+				EXPECT_NEAR(area[f] / areaOf(whole), 1.0, 1e-13);
+				for (std::size_t k = 0; k < 3; ++k) {
+					const Halfedge h = mesh.corner(t, Face(f), k);
+					ASSERT_TRUE(t.face(h).isValid());
+					ASSERT_EQ(t.origin(h), Vertex(component.triangles[f][k]));
+					const Triangle& part = mesh.triangles()[positionOf(t.face(h))];
+					EXPECT_TRUE(isPartOf(cornersOf(mesh.positions(), part), whole));
+					refound += t.face(h) != Face(f);
+				}
+			}
+		}
+		EXPECT_GT(mesh.splits(), 10);
+	}
+	EXPECT_GT(refound, 100);
 }
 
 /// Seven triangles round vertex 0, one of them far wider than the others: that of vertices 0, 7, 1.

@@ -148,7 +148,7 @@ TEST(ConvexLayout, MendsADrawingWhosePointsAreAnywhere)
 		for (Point2& p : flat.place)
 			p = {random.real(0.0, kSide), 1e-9 * random.real(0.0, kSide)};
 		WorkLimit limit(flat.points.size());
-		const Repair result = repairFreely(flat, nullptr, RestShapes::OfSurface, wanted, limit);
+		const Repair result = repairFreely(flat, {RestShapes::OfSurface, wanted}, limit);
 		EXPECT_GT(result.bad, 100);
 		EXPECT_EQ(result.left, 0);
 		EXPECT_TRUE(badTriangles(flat, wanted).empty());
@@ -180,7 +180,7 @@ TEST(ConvexLayout, IsTakenWhereTheSearchLeadsToWhatIsRefused)
 		return patch.isFree() && error <= 0.01;
 	};
 	WorkLimit limit(flat.points.size());
-	const Repair result = repairFreely(flat, isRound, RestShapes::OfSurface, wanted, limit);
+	const Repair result = repairFreely(flat, {RestShapes::OfSurface, wanted, isRound}, limit);
 	EXPECT_EQ(result.bad, 2 * kSide * kSide);
 	EXPECT_GT(refused, 0);
 	EXPECT_EQ(result.left, 0);

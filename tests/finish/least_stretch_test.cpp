@@ -2,7 +2,7 @@
 #include "flat_maps.h"
 #include "support/random_surface.h"
 
-#include <ricci/finish/least_stretch.h>
+#include <ricci/finish/least_distortion.h>
 #include <ricci/finish/patch_energy.h>
 #include <ricci/finish/patches.h>
 
@@ -153,7 +153,7 @@ TEST(LeastStretch, OfADevelopableSurfaceIsAnIsometry)
 {
 	FlatMesh flat = cylinder();
 	ASSERT_EQ(notCounterClockwise(flat), 0);
-	const LeastStretch result = leastStretch(flat);
+	const Descent result = leastStretch(flat);
 	EXPECT_GT(result.before, 4.5);
 	EXPECT_NEAR(result.after, 4.0, 1e-10);
 	EXPECT_NEAR(energyOf(flat), 4.0, 1e-10);
@@ -168,14 +168,14 @@ TEST(LeastStretch, LowersTheEnergyAndFlipsNothing)
 {
 	const FlatMesh start = waves();
 	FlatMesh flat = start;
-	const LeastStretch result = leastStretch(flat);
+	const Descent result = leastStretch(flat);
 	EXPECT_GT(result.steps, 2);
 	EXPECT_LT(result.after, result.before);
 	EXPECT_GT(result.after, 4.0);
 	EXPECT_NEAR(energyOf(flat), result.after, 1e-12 * result.after);
 	EXPECT_EQ(notCounterClockwise(flat), 0);
 	// It is nearly a minimum: another run gains little more than what ends a run.
-	const LeastStretch again = leastStretch(flat);
+	const Descent again = leastStretch(flat);
 	EXPECT_LT(again.before - again.after, 0.01 * (again.before - 4.0));
 }
 
@@ -197,7 +197,7 @@ TEST(LeastStretch, ATriangleThatIsFlippedDoesNotCount)
 	flat.place[middle][0] += 1.6;
 	const int flipped = notCounterClockwise(flat);
 	ASSERT_GT(flipped, 0);
-	const LeastStretch result = leastStretch(flat);
+	const Descent result = leastStretch(flat);
 	EXPECT_TRUE(std::isfinite(result.before));
 	EXPECT_LT(result.after, result.before);
 	EXPECT_LE(notCounterClockwise(flat), flipped);

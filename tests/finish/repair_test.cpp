@@ -51,15 +51,15 @@ Soundness soundness()
 	return {1e-4, 1e-2, false};
 }
 
-BorderMoves nothingBeyond()
-{
-	return {SeamGeometry::Plane, [](int) { return false; }, nullptr};
-}
-
 Repair mend(FlatMesh& flat, const Soundness& wanted)
 {
 	WorkLimit limit(flat.points.size());
-	return repairInStages(flat, nothingBeyond(), RestShapes::OfSurface, wanted, limit);
+	return repairInStages(
+		flat,
+		SeamGeometry::Plane,
+		[](int) { return false; },
+		{RestShapes::OfSurface, wanted},
+		limit);
 }
 
 TEST(Repair, LeavesASoundDrawingAlone)
@@ -186,7 +186,7 @@ TEST(Repair, CountsWhatIsLeftOfThePatchesThatAreMendedPartly)
 		flat.place[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0}; // it stays there
 		WorkLimit limit(flat.points.size());
 		const Repair result = repair(
-			flat, insidePoints(flat), RestShapes::OfSurface, high, {3, nullptr, true}, limit);
+			flat, insidePoints(flat), {RestShapes::OfSurface, high, nullptr, 3, true}, limit);
 		EXPECT_EQ(result.left, static_cast<int>(badTriangles(flat, high).size()));
 		partly += result.left > 0 && result.movedCount() > 0;
 	}
@@ -224,9 +224,7 @@ TEST(Repair, EndsWhenItsLimitIsSpent)
 		const Repair result = repair(
 			flat,
 			insidePoints(flat),
-			RestShapes::OfSurface,
-			soundness(),
-			{34, nullptr, true},
+			{RestShapes::OfSurface, soundness(), nullptr, 34, true},
 			limit);
 		EXPECT_EQ(result.left, static_cast<int>(badTriangles(flat, soundness()).size()));
 		return Spent{before - limit.left(), result.left};

@@ -34,7 +34,8 @@ FuchsianGroup groupOf(
 	for (const Edge e : t.edges())
 		if (cut.isCut[e])
 			offerPairing(layout, lengths[e], e.halfedge(), e.halfedge().twin(), pairing[e]);
-	return fuchsianGroup(t, cut, pairing, VertexArray<char>(t.vertexCount(), 0), true);
+	const VertexArray<char> cones(t.vertexCount(), 0);
+	return fuchsianGroup(t, cut, pairingOfArcs(t, cut, pairing, cones), cones, true);
 }
 
 /// The surface's own metric laid out in its octagon.

@@ -47,6 +47,7 @@ struct Uniformized
 			marked[Vertex(v)] = 1;
 		cut = cutToDisk(flow.base(), flow.surface().lengths, marked, {});
 		refinement = flow.refinement(cut);
+		refinement.pairing = pairingOfArcs(flow.base(), cut, refinement.pairing, flow.cones());
 		group = fuchsianGroup(flow.base(), cut, refinement.pairing, flow.cones(), true);
 	}
 
@@ -194,6 +195,21 @@ double sumOfCosh(const FuchsianGroup& group, Complex p)
 	return sum;
 }
 
+/// Sum of the angles inside a polygon that runs counter-clockwise.
+double sumOfAngles(const std::vector<Complex>& corners)
+{
+	double sum = 0.0;
+	const std::size_t n = corners.size();
+	for (std::size_t i = 0; i < n; ++i) {
+		const DiskIsometry toCorner = DiskIsometry::translationTo(corners[i]).inverse();
+		const Complex next = toCorner(corners[(i + 1) % n]);
+		const Complex before = toCorner(corners[(i + n - 1) % n]);
+		const double angle = std::arg(before / next);
+		sum += angle < 0.0 ? angle + 2.0 * kPi : angle;
+	}
+	return sum;
+}
+
 TEST(CanonicalPolygon, IsAFundamentalPolygonWithPairedSides)
 {
 	Random random(652);
@@ -220,7 +236,7 @@ TEST(CanonicalPolygon, IsAFundamentalPolygonWithPairedSides)
 				16.0 * genus * kEpsilon * largest * std::norm(toBase.a) * farthest * farthest;
 			EXPECT_LT(tolerance, 1e-3);
 			EXPECT_LT(polygon.gap, tolerance);
-			EXPECT_NEAR(polygon.angleSum, 2.0 * kPi, tolerance);
+			EXPECT_NEAR(sumOfAngles(corners), 2.0 * kPi, tolerance);
 			const auto side = [&](std::size_t k) {
 				return chordLength(corners[k], corners[(k + 1) % corners.size()]);
 			};
@@ -316,7 +332,7 @@ TEST(CanonicalPolygon, CrossingsAndAnglesAreThoseOfAnyClosedPolygon)
 		++simple;
 		// Clockwise ones are seen from outside.
 		const double sides = static_cast<double>(n) + (area > 0.0 ? -2.0 : 2.0);
-		EXPECT_NEAR(polygon.angleSum, sides * kPi - area, 1e-9);
+		EXPECT_NEAR(sumOfAngles(z), sides * kPi - area, 1e-9);
 		clockwise += area < 0.0;
 	}
 	EXPECT_GT(simple, 50);

@@ -90,26 +90,22 @@ std::vector<Problem> problems(std::uint64_t seed)
 class MapOf
 {
 public:
-	explicit MapOf(const CommonRefinement& r) : m_inputFace(numbersOf(r.inputFace)), m_refinement(r)
-	{
-	}
+	explicit MapOf(const CommonRefinement& r) : m_mesh(r.mesh), m_uv(r.mesh.corners().values()) {}
 	operator RefinedMap() const
 	{
-		return {m_refinement.points, m_refinement.triangles, m_inputFace, m_refinement.uv};
+		return {m_mesh.source.values(), m_mesh.vertices.values(), m_mesh.face.values(), m_uv};
 	}
 
 private:
-	static std::vector<int> numbersOf(const std::vector<Face>& faces)
-	{
-		std::vector<int> numbers;
-		for (const Face f : faces)
-			numbers.push_back(f.number());
-		return numbers;
-	}
-
-	std::vector<int> m_inputFace;
-	const CommonRefinement& m_refinement;
+	const FlatMesh& m_mesh;
+	std::vector<Triangle2> m_uv;
 };
+
+/// Points that are not vertices of the surface.
+std::size_t crossingsIn(const CommonRefinement& refinement, const FlippedFlow& flow)
+{
+	return refinement.mesh.source.values().size() - flow.mesh.positions.size();
+}
 
 std::vector<double> targetOf(const FlippedFlow& flow)
 {
@@ -130,10 +126,10 @@ void expectSound(const FlippedFlow& flow, const CommonRefinement& refinement)
 	EXPECT_EQ(check.eulerCharacteristic, flow.surface().topology.type.eulerCharacteristic());
 	EXPECT_EQ(check.boundaryLoops, static_cast<int>(flow.surface().topology.loops.size()));
 	EXPECT_NEAR(check.area / flow.result.area, 1.0, 1e-9);
-	EXPECT_EQ(refinement.points.size(), flow.mesh.positions.size() + refinement.crossings);
-	for (std::size_t v = 0; v < flow.mesh.positions.size(); ++v) {
-		EXPECT_EQ(refinement.points[v].vertex[0], static_cast<int>(v));
-		EXPECT_EQ(refinement.points[v].weight[0], 1.0);
+	ASSERT_GE(refinement.mesh.source.values().size(), flow.mesh.positions.size());
+	for (int v = 0; at(v) < flow.mesh.positions.size(); ++v) {
+		EXPECT_EQ(refinement.mesh.source[v].vertex[0], v);
+		EXPECT_EQ(refinement.mesh.source[v].weight[0], 1.0);
 	}
 }
 
@@ -146,7 +142,7 @@ TEST(CommonRefinement, IsTheSurfaceWithAMapWithoutFlips)
 			const FlippedFlow flow(p.mesh, p.request, p.epsilon);
 			const CommonRefinement refinement = flow.refinement(flow.cut());
 			expectSound(flow, refinement);
-			crossings += refinement.crossings;
+			crossings += crossingsIn(refinement, flow);
 		}
 	EXPECT_GT(crossings, 5000u); // or the test says little
 }
@@ -201,7 +197,7 @@ long crossingsTooMany(const FlippedFlow& flow, const CommonRefinement& refinemen
 	long crossings = 0;
 	for (const StraightLine& line : straightLines(flow.mesh, MapOf(refinement), 1e-6))
 		for (int point : line.points)
-			crossings += !inputEdgeAt(refinement.points[at(point)]).empty();
+			crossings += !inputEdgeAt(refinement.mesh.source[point]).empty();
 	crossings /= 2; // a line is found from both its ends
 	NormalCoordinates tight(flow.result.input);
 	for (const auto* flips : {&flow.result.start.flips, &flow.result.flips})
@@ -264,13 +260,13 @@ double projectiveFactor(double x, double y)
 struct AlongEndEdge
 {
 	const StraightLine& line;
-	const std::vector<SurfacePoint>& points;
+	const Array<SurfacePoint>& points;
 	const std::set<std::pair<int, int>>& flipped;
 
 	/// Whether an input edge, but no start edge, crosses at point i of the line.
 	bool isInside(std::size_t i) const
 	{
-		const auto edge = inputEdgeAt(points[at(line.points[i])]);
+		const auto edge = inputEdgeAt(points[line.points[i]]);
 		return !edge.empty() && flipped.count({edge[0], edge[1]}) > 0;
 	}
 
@@ -355,12 +351,12 @@ TEST(CommonRefinement, TheMapIsTheProjectiveOneOfTheRadii)
 				// An edge of the input that is kept, or as good as straight, is no test.
 				bool inInputEdge = false;
 				for (std::size_t i = 1; i + 1 < line.points.size(); ++i)
-					inInputEdge |= inputEdgeAt(r.points[at(line.points[i])]) ==
+					inInputEdge |= inputEdgeAt(r.mesh.source[line.points[i]]) ==
 								   std::vector<int>{
 									   std::min(line.from, line.to), std::max(line.from, line.to)};
 				if (inInputEdge)
 					continue;
-				const AlongEndEdge along{line, r.points, flipped};
+				const AlongEndEdge along{line, r.mesh.source, flipped};
 				const double ratio = along.crossRatioChange();
 				EXPECT_LT(ratio, 1e-7);
 				crossRatios += ratio >= 0.0;
@@ -389,12 +385,12 @@ TEST(CommonRefinement, LayoutOfTheInputIsThatOfItsPieces)
 		const FlippedFlow flow(p.mesh, p.request, p.epsilon);
 		const CommonRefinement r = flow.refinement(flow.cut());
 		int seen = 0;
-		for (std::size_t piece = 0; piece < r.triangles.size(); ++piece) {
-			const auto h = flow.base().halfedges(r.inputFace[piece]);
+		for (const int piece : r.mesh.points.indices()) {
+			const auto h = flow.base().halfedges(Face(r.mesh.face[piece]));
 			for (std::size_t k = 0; k < 3; ++k)
 				for (const Halfedge side : h)
-					if (flow.base().origin(side) == Vertex(r.triangles[piece][k])) {
-						EXPECT_EQ(r.inputLayout[side], r.uv[piece][k]);
+					if (flow.base().origin(side) == Vertex(r.mesh.vertices[piece][k])) {
+						EXPECT_EQ(r.inputLayout[side], r.mesh.at(piece)[k]);
 						++seen;
 					}
 		}
@@ -413,13 +409,12 @@ TEST(CommonRefinement, IsTheInputWhereNothingFlips)
 	ASSERT_TRUE(flow.result.start.flips.empty());
 	ASSERT_TRUE(flow.result.flips.empty());
 	const CommonRefinement r = flow.refinement(flow.cut());
-	EXPECT_EQ(r.points.size(), mesh.positions.size());
-	EXPECT_EQ(r.crossings, 0u);
-	ASSERT_EQ(r.triangles.size(), mesh.triangles.size());
+	EXPECT_EQ(crossingsIn(r, flow), 0u);
+	ASSERT_EQ(r.mesh.vertices.values().size(), mesh.triangles.size());
 	std::vector<char> met(mesh.triangles.size(), 0);
-	for (std::size_t piece = 0; piece < r.triangles.size(); ++piece) {
-		Triangle t = r.triangles[piece];
-		const Face f = r.inputFace[piece];
+	for (const int piece : r.mesh.points.indices()) {
+		Triangle t = r.mesh.vertices[piece];
+		const Face f = Face(r.mesh.face[piece]);
 		const Triangle& face = mesh.triangles[at(f)];
 		for (int turn = 0; turn < 3 && t != face; ++turn)
 			std::rotate(t.begin(), t.begin() + 1, t.end());
@@ -441,20 +436,18 @@ TEST(CommonRefinement, APlaneIsMappedToItself)
 		const FlippedFlow flow(mesh, requestOf(TargetCurvature::Automatic));
 		EXPECT_GT(flow.result.start.flips.size(), 10u);
 		const CommonRefinement r = flow.refinement(flow.cut());
-		EXPECT_GT(r.crossings, 10u);
+		EXPECT_GT(crossingsIn(r, flow), 10u);
 		expectSound(flow, r);
 		const auto source = [&](int point) {
-			const Point3 p = placeOnSurface(r.points[at(point)], mesh.positions);
+			const Point3 p = placeOnSurface(r.mesh.source[point], mesh.positions);
 			return Complex(p[0], p[1]);
 		};
-		const auto image = [&](std::size_t piece, std::size_t k) {
-			return asComplex(r.uv[piece][k]);
-		};
+		const auto image = [&](int piece, std::size_t k) { return asComplex(r.mesh.at(piece)[k]); };
 		// The similarity that fits best: through the two corners farthest apart.
 		Complex a, b, fa, fb;
-		for (std::size_t piece = 0; piece < r.triangles.size(); ++piece)
+		for (const int piece : r.mesh.points.indices())
 			for (std::size_t k = 0; k < 3; ++k) {
-				const Complex z = source(r.triangles[piece][k]);
+				const Complex z = source(r.mesh.vertices[piece][k]);
 				if ((piece == 0 && k == 0) || z.real() + z.imag() < a.real() + a.imag())
 					a = z, fa = image(piece, k);
 				if ((piece == 0 && k == 0) || z.real() + z.imag() > b.real() + b.imag())
@@ -462,11 +455,12 @@ TEST(CommonRefinement, APlaneIsMappedToItself)
 			}
 		const Complex factor = (fb - fa) / (b - a);
 		double error = 0.0;
-		for (std::size_t piece = 0; piece < r.triangles.size(); ++piece)
+		for (const int piece : r.mesh.points.indices())
 			for (std::size_t k = 0; k < 3; ++k)
 				error = std::max(
 					error,
-					std::abs(fa + factor * (source(r.triangles[piece][k]) - a) - image(piece, k)));
+					std::abs(
+						fa + factor * (source(r.mesh.vertices[piece][k]) - a) - image(piece, k)));
 		EXPECT_LT(error / std::abs(fb - fa), 1e-9);
 	}
 }
@@ -496,11 +490,11 @@ TEST(CommonRefinement, IsTheDevelopmentWhereTheMetricStays)
 			const CommonRefinement r = flow.refinement(flow.cut());
 			ASSERT_LT((result.u - logOf(result.start.radii)).lpNorm<Eigen::Infinity>(), 1e-9);
 			expectSound(flow, r);
-			for (std::size_t piece = 0; piece < r.triangles.size(); ++piece) {
-				const auto h = flow.base().halfedges(r.inputFace[piece]);
+			for (const int piece : r.mesh.points.indices()) {
+				const auto h = flow.base().halfedges(Face(r.mesh.face[piece]));
 				std::array<Point3, 3> p;
 				for (std::size_t k = 0; k < 3; ++k) {
-					const SurfacePoint& point = r.points[at(r.triangles[piece][k])];
+					const SurfacePoint& point = r.mesh.source[r.mesh.vertices[piece][k]];
 					p[k] = placeOnSurface(point, mesh.positions);
 					Point2 developed{0.0, 0.0};
 					for (const Halfedge side : h)
@@ -509,12 +503,12 @@ TEST(CommonRefinement, IsTheDevelopmentWhereTheMetricStays)
 								Vertex(point.vertex[i]) == flow.base().origin(side))
 								for (std::size_t x = 0; x < 2; ++x)
 									developed[x] += point.weight[i] * r.inputLayout[side][x];
-					EXPECT_NEAR(developed[0], r.uv[piece][k][0], 1e-8);
-					EXPECT_NEAR(developed[1], r.uv[piece][k][1], 1e-8);
+					EXPECT_NEAR(developed[0], r.mesh.at(piece)[k][0], 1e-8);
+					EXPECT_NEAR(developed[1], r.mesh.at(piece)[k][1], 1e-8);
 				}
 				for (std::size_t k = 0; k < 3; ++k)
 					EXPECT_NEAR(
-						distance(r.uv[piece][k], r.uv[piece][(k + 1) % 3]),
+						distance(r.mesh.at(piece)[k], r.mesh.at(piece)[(k + 1) % 3]),
 						distance(p[k], p[(k + 1) % 3]),
 						1e-8);
 			}

@@ -33,7 +33,7 @@ PlanarLayout onOverlay(const FlippedFlow& flow, const EdgeArray<char>& isCut)
 void expectCongruent(const PlanarLayout& a, const PlanarLayout& b)
 {
 	ASSERT_EQ(a.points.size(), b.points.size());
-	EXPECT_EQ(a.wedges.of, b.wedges.of);
+	EXPECT_EQ(a.wedge, b.wedge);
 	const auto at = [](const PlanarLayout& layout, int i) {
 		return Complex(layout.points[i][0], layout.points[i][1]);
 	};

@@ -164,29 +164,29 @@ TEST(HyperbolicRefinement, IsAMetricOfCurvatureMinusOneOnTheInput)
 		const FlippedFlow flow(p.mesh, p.request, 1e-12);
 		const CutGraph cut = p.cutAnywhere ? flow.cutAnywhere(random) : flow.cut();
 		const CommonRefinement r = flow.refinement(cut);
-		crossings += r.crossings;
-		const Triangulation t(static_cast<int>(r.points.size()), r.triangles);
+		crossings += r.mesh.source.values().size() - p.mesh.positions.size();
+		const Triangulation t(r.mesh.source.size(), r.mesh.vertices.values());
 		const int chi = flow.surface().topology.type.eulerCharacteristic();
 		EXPECT_EQ(t.eulerCharacteristic(), chi);
 		const VertexArray<char> boundary = t.boundaryVertices();
 		HalfedgeArray<Complex> place(t.halfedgeCount());
-		VertexArray<long double> defect(r.points.size(), 2 * std::acos(-1.0L));
+		VertexArray<long double> defect(r.mesh.source.size(), 2 * std::acos(-1.0L));
 		long double area = 0.0L;
 		for (const Face f : t.faces()) {
 			const auto h = t.halfedges(f);
 			EXPECT_EQ(
 				hyperbolicOrientation(
-					asComplex(r.uv[at(f)][0]),
-					asComplex(r.uv[at(f)][1]),
-					asComplex(r.uv[at(f)][2])),
+					asComplex(r.mesh.at(f.number())[0]),
+					asComplex(r.mesh.at(f.number())[1]),
+					asComplex(r.mesh.at(f.number())[2])),
 				1);
 			area += std::acos(-1.0L);
 			for (std::size_t k = 0; k < 3; ++k) {
-				place[h[k]] = asComplex(r.uv[at(f)][k]);
+				place[h[k]] = asComplex(r.mesh.at(f.number())[k]);
 				const long double angle = angleInDisk(
-					asComplex(r.uv[at(f)][k]),
-					asComplex(r.uv[at(f)][(k + 1) % 3]),
-					asComplex(r.uv[at(f)][(k + 2) % 3]));
+					asComplex(r.mesh.at(f.number())[k]),
+					asComplex(r.mesh.at(f.number())[(k + 1) % 3]),
+					asComplex(r.mesh.at(f.number())[(k + 2) % 3]));
 				defect[t.origin(h[k])] -= angle;
 				area -= angle;
 			}
@@ -315,12 +315,12 @@ TEST(HyperbolicRefinement, CrossingsAreWhereGeodesicsMeet)
 		flow.flips = {e};
 		const CommonRefinement r =
 			commonRefinement(domain, flow, overlayOf(domain, flow), EdgeArray<char>(5, 0));
-		ASSERT_EQ(r.points.size(), 5u);
-		ASSERT_EQ(r.triangles.size(), 4u);
+		ASSERT_EQ(r.mesh.source.size(), 5);
+		ASSERT_EQ(r.mesh.size(), 4);
 		std::vector<Complex> place(5);
-		for (std::size_t f = 0; f < 4; ++f)
+		for (int f = 0; f < 4; ++f)
 			for (std::size_t k = 0; k < 3; ++k)
-				place[at(r.triangles[f][k])] = asComplex(r.uv[f][k]);
+				place[at(r.mesh.vertices[f][k])] = asComplex(r.mesh.at(f)[k]);
 		for (int diagonal : {0, 1}) {
 			const auto ends = (diagonal == 0 ? t : after->triangulation()).ends(e);
 			const Complex from = place[at(ends[0])], to = place[at(ends[1])];

@@ -107,8 +107,8 @@ TEST(PlanarLayout, ClosesRoundEveryVertexOffTheCut)
 		if (onCut[v])
 			continue;
 		if (wedge[v] < 0)
-			wedge[v] = flat.layout.wedges.of[h];
-		EXPECT_EQ(flat.layout.wedges.of[h], wedge[v]);
+			wedge[v] = flat.layout.wedge[h];
+		EXPECT_EQ(flat.layout.wedge[h], wedge[v]);
 		++inside;
 	}
 	EXPECT_GT(inside, 1000);

@@ -129,7 +129,7 @@ void expectArrangement(int places, const Chords& first, const Chords& second, Ra
 			if (side(i).node < places) {
 				EXPECT_EQ(side(i).node, from);
 				const auto here = arrangement.linesAt(from);
-				EXPECT_EQ(here.first[arrangement.rank(side(i))], side(i).line);
+				EXPECT_EQ(here[arrangement.rank(side(i))], side(i).line);
 			}
 		}
 		for (int i = 1; i + 1 < n; ++i)

@@ -47,7 +47,7 @@ TEST(EdgeCrossings, WithTheInputLieOnStraightLines)
 			std::vector<Point3> path{flow.surface().positions[i]};
 			std::vector<double> shares{0.0};
 			std::vector<Edge> edges;
-			for (const int n : x.inputOn.of(e)) {
+			for (int n = x.inputOn.first(e); n < x.inputOn.last(e); ++n) {
 				path.push_back(placeOf(flow, x.inputCrossings[n]));
 				shares.push_back(x.inputCrossings[n].onStart);
 				edges.push_back(x.inputCrossings[n].edge);
@@ -100,7 +100,7 @@ TEST(EdgeCrossings, InThePlaneAreThoseOfTheDrawing)
 					wanted.insert({e, s});
 			}
 		for (const Edge s : start.edges())
-			for (const int n : x.inputOn.of(s)) {
+			for (int n = x.inputOn.first(s); n < x.inputOn.last(s); ++n) {
 				const InputCrossing& crossing = x.inputCrossings[n];
 				EXPECT_TRUE(found.insert({crossing.edge, s}).second);
 				const auto [c, d] = start.ends(s);
@@ -120,7 +120,7 @@ TEST(EdgeCrossings, AreNumberedOnceEach)
 	for (const FlippedFlow& flow : closedFlows(random)) {
 		const EdgeCrossings x(flow.result);
 		const auto expectEachOnce = [](const EdgeArray<EdgeCrossings::Curve>& curves,
-									   const NumberRanges<Edge>& on,
+									   const EdgeRanges& on,
 									   const auto& numberOf,
 									   const auto& edgeOf) {
 			std::vector<int> numbers;
@@ -171,7 +171,7 @@ TEST(EdgeCrossings, WithTheEndAreInTheirOrder)
 			longest = std::max(longest, curve.crossings.size());
 		for (const Edge e : flow.result.start.mesh.triangulation.edges()) {
 			double before = 0.0;
-			for (const int n : x.endOn.of(e)) {
+			for (int n = x.endOn.first(e); n < x.endOn.last(e); ++n) {
 				const double share = x.endCrossings[n].onStart.affine();
 				EXPECT_GE(share, before - 1e-12) << trial;
 				before = share;
@@ -269,7 +269,7 @@ TEST(EdgeCrossings, WithTheEndAreVectorsOfBothTriangulations)
 		}
 		for (const Edge s : start.edges()) {
 			double ratio = 0.0;
-			for (const int n : x.endOn.of(s)) {
+			for (int n = x.endOn.first(s); n < x.endOn.last(s); ++n) {
 				const EdgeWeights& w = x.endCrossings[n].onStart;
 				EXPECT_GT(w.from, 0.0);
 				EXPECT_GT(w.to, 0.0);

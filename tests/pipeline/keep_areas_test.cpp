@@ -73,9 +73,9 @@ struct FirstFlow
 
 	void run(const Target& target)
 	{
-		map.flowStates.clear();
+		map.report.flowStates.clear();
 		map.flow = runRicciFlow(
-			surface, initialPacking(surface, options), target, options, map.flowStates);
+			surface, initialPacking(surface, options), target, options, map.report.flowStates);
 	}
 
 	double excess() const
@@ -268,20 +268,21 @@ TEST(KeepAreas, CountsTheStepsOfAllRounds)
 		FirstFlow flow(mesh, 0.2);
 		flow.runToFewCones();
 		const int first = flow.map.flow.iterations;
-		EXPECT_EQ(flow.map.flowStates.back().step, first);
-		const std::size_t states = flow.map.flowStates.size();
+		EXPECT_EQ(flow.map.report.flowStates.back().step, first);
+		const std::size_t states = flow.map.report.flowStates.size();
 		Listener listener;
 		flow.keepAreas(listener);
-		ASSERT_GT(flow.map.flowStates.size(), states);
-		EXPECT_GT(flow.map.flowStates.back().step, first);
-		EXPECT_EQ(flow.map.flowStates[states].step, first); // the second flow's start
+		ASSERT_GT(flow.map.report.flowStates.size(), states);
+		EXPECT_GT(flow.map.report.flowStates.back().step, first);
+		EXPECT_EQ(flow.map.report.flowStates[states].step, first); // the second flow's start
 		EXPECT_TRUE(std::is_sorted(
-			flow.map.flowStates.begin(),
-			flow.map.flowStates.end(),
+			flow.map.report.flowStates.begin(),
+			flow.map.report.flowStates.end(),
 			[](const FlowState& a, const FlowState& b) { return a.step < b.step; }));
 		int starts = 0; // of flows, where the residual jumps up
-		for (std::size_t i = 1; i < flow.map.flowStates.size(); ++i)
-			starts += flow.map.flowStates[i].residual > 1e3 * flow.map.flowStates[i - 1].residual;
+		for (std::size_t i = 1; i < flow.map.report.flowStates.size(); ++i)
+			starts += flow.map.report.flowStates[i].residual >
+					  1e3 * flow.map.report.flowStates[i - 1].residual;
 		EXPECT_EQ(starts, listener.count(kRound));
 	}
 }

@@ -89,7 +89,7 @@ inline void expectOpensToADisk(const Triangulation& t, const EdgeArray<char>& is
 			++cutEdges;
 			EXPECT_FALSE(t.isBoundary(e));
 		}
-	EXPECT_EQ(cornerWedges(t, isCut).count - (t.edgeCount() + cutEdges) + t.faceCount(), 1);
+	EXPECT_EQ(cornerWedges(t, isCut).points.size() - (t.edgeCount() + cutEdges) + t.faceCount(), 1);
 }
 
 /// Length of the side of a triangle from corner \p k.

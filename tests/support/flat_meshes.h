@@ -17,26 +17,7 @@ namespace ricci::testing {
 /// A mesh whose corners lie at \p plane, one chart. Two corners are joined where sides lie on each other.
 inline FlatMesh flatMesh(const SurfaceMesh& mesh, const std::vector<Triangle2>& plane)
 {
-	Array<std::array<double, 3>> lengths;
-	Array<int> face;
-	for (const Triangle& t : mesh.triangles) {
-		std::array<double, 3> l;
-		for (std::size_t k = 0; k < 3; ++k)
-			l[k] = distance(mesh.positions[at(t[k])], mesh.positions[at(t[(k + 1) % 3])]);
-		lengths.push_back(l);
-		face.push_back(face.size());
-	}
-	FlatMesh flat = flatMeshOf(
-		Array<Triangle>(mesh.triangles),
-		Array<Triangle2>(plane),
-		Array<int>(face.size(), 0),
-		std::move(lengths));
-	flat.face = std::move(face);
-	for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-		flat.source.push_back({});
-		flat.source.back().vertex[0] = static_cast<int>(v);
-	}
-	return flat;
+	return flatMeshOf(Array<Triangle>(mesh.triangles), Array<Triangle2>(plane), mesh.positions);
 }
 
 /// A mesh over the plane: its own x and y are its place there.
@@ -74,7 +55,7 @@ inline Parametrization mapWith(FlatMesh mesh)
 }
 
 /// measureDistortion() of the map of face f to \p plane[f].
-inline DistortionField
+inline std::vector<double>
 measured(const SurfaceMesh& mesh, const std::vector<Triangle2>& plane, Report& report)
 {
 	return measureDistortion(

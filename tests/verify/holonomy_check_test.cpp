@@ -29,37 +29,38 @@ struct LaidOut
 {
 	FlippedFlow flow;
 	CutGraph cut;
-	PlanarLayout layout;
-	EdgeArray<SidePairing> pairing;
+	DiskLayout disk;
 
 	LaidOut(const SurfaceMesh& mesh, const HyperbolicRequest& request) :
 			flow(mesh, request, 1e-12), cut(flow.cut())
 	{
 		CommonRefinement refinement = flow.refinement(cut);
-		layout = std::move(refinement.inputLayout);
-		pairing = pairingOfArcs(flow.base(), cut, refinement.pairing, flow.cones());
+		disk.corners = std::move(refinement.inputLayout);
+		disk.pairing = pairingOfArcs(flow.base(), cut, refinement.pairing, flow.cones());
 	}
 
 	double error() const { return error(flow.result.target); }
 	double error(const Target& target) const
 	{
-		return holonomyError(
-			flow.base(), cut, pairing, layout, flow.surface().topology, flow.cones(), target);
+		return holonomyError(flow.base(), cut, disk, flow.cones(), target);
 	}
 
-	FuchsianGroup group() const { return fuchsianGroup(flow.base(), cut, pairing, flow.cones()); }
+	FuchsianGroup group() const
+	{
+		return fuchsianGroup(flow.base(), cut, disk.pairing, flow.cones());
+	}
 
 	/// Moves all of it in the disk.
 	void move(const ExtendedIsometry& m)
 	{
-		for (Point2& p : layout.points) {
+		for (Point2& p : disk.corners.points) {
 			const auto z = std::complex<double>(m(asComplex(p)));
 			p = {z.real(), z.imag()};
 		}
 		for (const Edge e : flow.base().edges())
 			if (cut.isCut[e]) {
-				pairing[e].left = m * pairing[e].left;
-				pairing[e].right = m * pairing[e].right;
+				disk.pairing[e].left = m * disk.pairing[e].left;
+				disk.pairing[e].right = m * disk.pairing[e].right;
 			}
 	}
 
@@ -114,20 +115,20 @@ TEST(HolonomyCheck, SeesATurnAndAMoveAtTheirTrueSize)
 		if (!right.cut.isCut[h.edge()] || right.degree(v) == 2 || tried >= 6)
 			continue;
 		++tried;
-		const ExtendedIsometry place = placeOf(right.layout[h]);
+		const ExtendedIsometry place = placeOf(right.disk.corners[h]);
 		for (const double size : {1e-3, 1e-5, 1e-7})
 			for (const ExtendedIsometry& extra :
 				 {ExtendedIsometry::rotation(size), ExtendedIsometry::translation(size)}) {
 				LaidOut wrong = right;
 				// Only on this edge, so that nothing is wrong but at its ends.
-				SidePairing& side = wrong.pairing[h.edge()];
+				SidePairing& side = wrong.disk.pairing[h.edge()];
 				ExtendedIsometry& frame = h.isFirst() ? side.left : side.right;
 				frame = place * extra * place.inverse() * frame;
 				const Halfedge end = t.next(h);
-				const double length =
-					2.0 * std::asinh(
-							  0.5 * chordLength(
-										asComplex(right.layout[h]), asComplex(right.layout[end])));
+				const double length = 2.0 * std::asinh(
+												0.5 * chordLength(
+														  asComplex(right.disk.corners[h]),
+														  asComplex(right.disk.corners[end])));
 				EXPECT_GE(wrong.error(), size * (1.0 - 1e-3));
 				EXPECT_LE(wrong.error(), size * std::cosh(length) * (1.0 + 1e-3));
 			}
@@ -171,11 +172,11 @@ TEST(HolonomyCheck, AGeodesicBoundaryIsAsLongAsItsIsometryMovesItsAxis)
 				in = t.previous(in.twin());
 			if (t.isExterior(in.twin()))
 				continue;
-			const ExtendedIsometry place = placeOf(right.layout[h]);
-			const auto next = place.inverse()(asComplex(right.layout[t.next(h)]));
+			const ExtendedIsometry place = placeOf(right.disk.corners[h]);
+			const auto next = place.inverse()(asComplex(right.disk.corners[t.next(h)]));
 			const ExtendedIsometry along = place * ExtendedIsometry::rotation(arg(next));
 			LaidOut wrong = right;
-			SidePairing& side = wrong.pairing[in.edge()];
+			SidePairing& side = wrong.disk.pairing[in.edge()];
 			ExtendedIsometry& frame = in.isFirst() ? side.left : side.right;
 			frame = along * ExtendedIsometry::translation(0.01) * along.inverse() * frame;
 			EXPECT_GE(wrong.error(), 0.01 - 1e-9);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/expect.h"
+#include "support/flipped_flow.h"
+#include "support/intrinsic.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
+#include <ricci/error.h>
 #include <ricci/flow/curvature_map.h>
 #include <ricci/metric/circle_packing.h>
 #include <ricci/metric/euclidean.h>
@@ -14,6 +18,8 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -36,7 +42,7 @@ struct Example
 
 	MetricCheck check(const EdgeArray<double>& lengths, const VertexVector& target) const
 	{
-		return checkMetric(background, map.triangulation(), map.delta(), u, lengths, target);
+		return checkMetric(background, map, u, lengths, target);
 	}
 };
 
@@ -91,16 +97,45 @@ TEST(MetricCheck, AgreesWithTheHyperbolicFlowAndSeesWhatIsWrong)
 TEST(MetricCheck, KnowsTheRegularTetrahedron)
 {
 	const SurfaceMesh mesh = tetrahedron();
-	const Triangulation t(4, mesh.triangles);
 	const EdgeArray<double> lengths(6, 2.0), delta(6, 0.0); // touching circles of radius 1
+	const GeometricCurvatureMap<Euclidean> map({Triangulation(4, mesh.triangles), delta});
 	const VertexVector u = VertexVector::Zero(4);
 	const auto error = [&](double K) {
 		return checkMetric(
-				   Background::EuclideanPlane, t, delta, u, lengths, VertexVector::Constant(4, K))
+				   Background::EuclideanPlane, map, u, lengths, VertexVector::Constant(4, K))
 			.curvatureError;
 	};
 	EXPECT_EQ(error(kPi), 0.0);
 	EXPECT_NEAR(error(kPi - 0.25), 0.25, 1e-12); // less what rounding explains
+}
+
+TEST(MetricCheck, OpenCurvatureIsTheSumOfWhatTheFreeVerticesMiss)
+{
+	FlowResult flow;
+	flow.curvature = VertexVector::LinSpaced(4, 1.0, 4.0);
+	flow.target.curvature = VertexVector::Zero(4);
+	flow.target.curvature << 1.5, 1.75, 3.0, -100.0;
+	flow.target.fixed = {0, 0, 0, 1};
+	EXPECT_EQ(openCurvature(flow), 0.5 + 0.25);
+}
+
+TEST(MetricCheck, RequiresTheTargetThatTheFlowSaysItHasReached)
+{
+	Random random(630);
+	const SurfaceMesh mesh = bumpyTorus(10, 8, random);
+	std::vector<double> cones(mesh.positions.size(), 0.0);
+	cones[3] = 1.0;
+	cones[40] = -1.0;
+	FlippedFlow flow(mesh, prescribed(cones));
+	const VertexArray<char> closed(mesh.positions.size(), 0);
+	EXPECT_NO_THROW(requireMetric(flow.result, closed));
+	flow.result.target.curvature[Vertex(3)] += 1e-6;
+	const auto error = refusalOf<NotConverged>([&] { requireMetric(flow.result, closed); });
+	EXPECT_EQ(error.problem, NotConverged::CheckFailed);
+	expectWords(error.finding, {"curvature 1e-06 off at one vertex"});
+	expectWords(error.what(), {error.finding});
+	flow.result.target.fixed[Vertex(3)] = 1; // nothing is prescribed there
+	EXPECT_NO_THROW(requireMetric(flow.result, closed));
 }
 
 } // namespace

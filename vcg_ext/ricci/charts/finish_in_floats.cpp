@@ -201,11 +201,14 @@ std::optional<bool> finishNear(const Soundness& soundness, WorkLimit& limit, Par
 	splitPoints(Sides(part.vertices.values()), part);
 	const Array<Box2> boxes = boxesOf(map);
 	BorderTest test(part, boxes, true);
-	const PatchRules rules{kNearRings - 1, [&](const FlatMesh& flat, const Patch& patch) {
-							   return test(flat, patch);
-						   }};
-	const Repair result =
-		repair(part, insidePoints(part), RestShapes::OfDrawing, soundness, rules, limit);
+	const PatchTest accepts = [&](const FlatMesh& flat, const Patch& patch) {
+		return test(flat, patch);
+	};
+	const Repair result = repair(
+		part,
+		insidePoints(part),
+		{RestShapes::OfDrawing, soundness, accepts, kNearRings - 1},
+		limit);
 	if (result.left > 0)
 		return std::nullopt;
 	if (result.movedCount() == 0)
@@ -235,12 +238,16 @@ finishEverywhere(const Wanted& wanted, bool mayGrow, WorkLimit& limit, Parametri
 	const PatchTest accepts = [&](const FlatMesh& flat, const Patch& patch) {
 		return test(flat, patch);
 	};
-	const BorderMoves moves{SeamGeometry::Plane, [](int) { return false; }, accepts};
 	const auto inStages = [&](const Soundness& soundness) {
-		return repairInStages(map.mesh, moves, RestShapes::OfDrawing, soundness, limit);
+		return repairInStages(
+			map.mesh,
+			SeamGeometry::Plane,
+			[](int) { return false; },
+			{RestShapes::OfDrawing, soundness, accepts},
+			limit);
 	};
 	const auto freely = [&](const PatchTest& isAccepted) {
-		return repairFreely(map.mesh, isAccepted, RestShapes::OfDrawing, wanted.soundness, limit);
+		return repairFreely(map.mesh, {RestShapes::OfDrawing, wanted.soundness, isAccepted}, limit);
 	};
 	Repair result = inStages(wanted.inText);
 	// Where there is no room for that, floats have to do.
@@ -295,7 +302,7 @@ Repair repairDisks(bool mayRedraw, Parametrization& map)
 	Repair result;
 	for (const RestShapes shapes : {RestShapes::OfDrawing, RestShapes::OfSurfaceEvenly}) {
 		WorkLimit limit(map.mesh.size());
-		result.add(repairFreely(map.mesh, isInDisk, shapes, soundness, limit));
+		result.add(repairFreely(map.mesh, {shapes, soundness, isInDisk}, limit));
 		shrink();
 		result.left = static_cast<int>(badTriangles(map.mesh, soundness).size());
 		if (result.left == 0)

@@ -4,8 +4,8 @@
 #include "../base/task.h"
 #include "../error.h"
 #include "../flow/flow_run.h"
-#include "boundary_split.h"
-#include "edge_swapper.h"
+#include "../math/points.h"
+#include "../metric/euclidean.h"
 
 #include <algorithm>
 #include <string>
@@ -14,6 +14,9 @@
 namespace ricci {
 
 namespace {
+
+/// An edge that is swapped this often is left alone: nothing proves that the swaps end.
+constexpr int kMaxSwapsOfOneEdge = 4;
 
 /// Starts of the flow that the splitting of boundary edges may ask for.
 constexpr int kMaxStarts = 20;
@@ -33,6 +36,113 @@ foreignEdges(const Triangulation& beforeSwaps, EdgeArray<char> swapped, int comp
 }
 
 } // namespace
+
+EdgeSwapper::EdgeSwapper(const VertexArray<Point3>& positions, VertexArray<double> initialRadii) :
+		m_positions(positions), m_initialRadii(std::move(initialRadii))
+{
+}
+
+bool EdgeSwapper::operator()(CurvatureMap& map)
+{
+	const Triangulation& t = map.triangulation();
+	m_swapped.resize(t.edgeCount(), 0);
+	m_timesSwapped.resize(t.edgeCount(), 0);
+	m_toSplit.clear();
+	if (map.brokenTriangles() == 0)
+		return false;
+
+	m_touched.assign(t.faceCount(), 0);
+	std::vector<Halfedge> longestEdges;
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		const auto length = [&](Halfedge g) { return map.lengths()[g.edge()]; };
+		const Halfedge longest = *std::max_element(
+			h.begin(), h.end(), [&](Halfedge a, Halfedge b) { return length(a) < length(b); });
+		// The angle opposite the longest edge of a broken triangle is the constant pi, its others
+		// 0.
+		if (map.angles()[t.next(longest)] == 0.0 && map.angles()[longest] == 0.0)
+			longestEdges.push_back(longest);
+	}
+	bool changed = false;
+	for (const Halfedge h : longestEdges) {
+		const Edge e = h.edge();
+		if (t.isBoundary(e)) {
+			m_toSplit.push_back(e);
+			continue;
+		}
+		const Vertex k = t.apex(e.halfedge()), l = t.apex(e.halfedge().twin());
+		if (!t.isFlippable(e) || k == l || m_timesSwapped[e] >= kMaxSwapsOfOneEdge)
+			continue;
+		// Two broken triangles may share their longest edge, or one may just have been changed.
+		char& left = m_touched[t.face(e.halfedge())];
+		char& right = m_touched[t.face(e.halfedge().twin())];
+		if (left || right)
+			continue;
+		left = right = 1;
+		// Circles that overlap by more than a right angle (I < 0) would end the convexity.
+		const double delta = Euclidean::delta(
+			distance(m_positions[k], m_positions[l]), m_initialRadii[k], m_initialRadii[l]);
+		map.swapEdge(e, std::max(delta, -1.0));
+		m_swapped[e] = 1;
+		++m_timesSwapped[e];
+		++m_swaps;
+		changed = true;
+	}
+	return changed;
+}
+
+SplitMesh::SplitMesh(const Component& component) :
+		m_positions(component.positions), m_triangles(component.triangles),
+		m_corner(component.triangles.size())
+{
+	for (const Face f : m_corner.indices())
+		for (int k = 0; k < 3; ++k)
+			m_corner[f][positionOf(k)] = 3 * f.number() + k;
+}
+
+void SplitMesh::split(const Triangulation& t, std::vector<Edge> edges)
+{
+	std::sort(edges.begin(), edges.end());
+	edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+	FaceArray<char> touched(t.faceCount(), 0);
+	for (const Edge e : edges) {
+		const Halfedge h = t.isExterior(e.halfedge()) ? e.halfedge().twin() : e.halfedge();
+		const Face f = t.face(h);
+		if (touched[f])
+			continue;
+		touched[f] = 1;
+		const Triangle& corners = m_triangles[positionOf(f)];
+		const auto side = std::find(corners.begin(), corners.end(), t.origin(h).number());
+		splitSide(f.number(), static_cast<int>(side - corners.begin()));
+		++m_splits;
+	}
+}
+
+void SplitMesh::splitSide(int triangle, int side)
+{
+	Triangle& t = m_triangles[positionOf(triangle)];
+	const int i = t[positionOf(side)], j = t[positionOf((side + 1) % 3)];
+	const int apex = t[positionOf((side + 2) % 3)];
+	const int middle = m_positions.size(), added = static_cast<int>(m_triangles.size());
+	const Point3 &a = m_positions[Vertex(i)], &b = m_positions[Vertex(j)];
+	m_positions.push_back(Point3{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});
+	t = {i, middle, apex};
+	m_triangles.push_back({middle, j, apex});
+	for (std::array<int, 3>& corners : m_corner)
+		for (int& c : corners) {
+			if (c / 3 != triangle)
+				continue;
+			const int k = c % 3;
+			// The triangle now starts at i; its corner at j is one of the added triangle.
+			c = k == (side + 1) % 3 ? 3 * added + 1 : 3 * triangle + (k == side ? 0 : 2);
+		}
+}
+
+Halfedge SplitMesh::corner(const Triangulation& t, Face f, std::size_t k) const
+{
+	const int c = m_corner[f][k];
+	return t.halfedges(Face(c / 3))[positionOf(c % 3)];
+}
 
 SwappedFlow flowWithEdgeSwaps(
 	const Component& component,

@@ -2,33 +2,37 @@
 #include "convex_layout.h"
 
 #include "../base/numbers.h"
+#include "../surface/sides.h"
 
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <complex>
 #include <cstddef>
-#include <set>
 #include <utility>
 
 namespace ricci {
 
 namespace {
 
-using Side = std::pair<int, int>; // local points
-
-/// The borders of a patch, each with the patch on its left; none where two sides run the same way
-/// between the same points, or a border meets itself.
-std::vector<std::vector<int>> bordersOf(const Patch& patch, const std::set<Side>& sides)
+/// The borders of a patch, each with the patch on its left; none where an edge has more than two sides or two
+/// that run the same way, or a border meets itself.
+std::vector<std::vector<int>> bordersOf(const Patch& patch, const Sides& sides)
 {
 	const std::size_t count = patch.points.size();
-	std::vector<int> next(count, -1);
-	for (const auto& [a, b] : sides)
-		if (sides.count({b, a}) == 0) {
-			if (next[positionOf(a)] >= 0)
-				return {};
-			next[positionOf(a)] = b;
+	std::vector<int> next(count, -1); // [local point]
+	bool isManifold = true;
+	sides.forEdges([&](ItemRange<const Corner> edge) {
+		if (edge.size() > 1) {
+			isManifold = isManifold && sides.across(edge[0]).isValid();
+			return;
 		}
+		int& end = next[positionOf(patch.corners[edge[0]])];
+		isManifold = isManifold && end < 0;
+		end = patch.corners[edge[0].next()];
+	});
+	if (!isManifold)
+		return {};
 	std::vector<std::vector<int>> borders;
 	for (std::size_t first = 0; first < count; ++first) {
 		std::vector<int> border;
@@ -46,17 +50,10 @@ std::vector<std::vector<int>> bordersOf(const Patch& patch, const std::set<Side>
 
 std::vector<Point2> convexLayout(const Patch& patch)
 {
-	std::set<Side> sides;
-	std::size_t inside = 0; // edges of two triangles
-	for (const Triangle& t : patch.corners)
-		for (std::size_t k = 0; k < 3; ++k) {
-			const Side side{t[k], t[(k + 1) % 3]};
-			if (!sides.insert(side).second)
-				return {};
-			inside += sides.count({side.second, side.first});
-		}
+	const Sides sides(patch.corners.values());
 	std::vector<std::vector<int>> borders = bordersOf(patch, sides);
-	const std::size_t edges = sides.size() - inside;
+	std::size_t edges = 0;
+	sides.forEdges([&](const auto&) { ++edges; });
 	if (borders.empty() ||
 		patch.points.size() + patch.triangles.size() + borders.size() != edges + 2)
 		return {};
@@ -93,9 +90,9 @@ std::vector<Point2> convexLayout(const Patch& patch)
 		pull(a, b);
 		pull(b, a);
 	};
-	for (const auto& [a, b] : sides)
-		if (a < b || sides.count({b, a}) == 0)
-			join(a, b);
+	sides.forEdges([&](ItemRange<const Corner> edge) {
+		join(patch.corners[edge[0]], patch.corners[edge[0].next()]);
+	});
 	int centre = static_cast<int>(patch.points.size());
 	for (auto hole = borders.begin(); hole != borders.end(); ++hole)
 		if (hole != outer) {

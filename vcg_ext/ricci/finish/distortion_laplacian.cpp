@@ -20,19 +20,18 @@ double realProduct(Complex a, Complex b)
 
 } // namespace
 
-DistortionLaplacian::DistortionLaplacian(
-	const MeanDistortion& energy, const NumberedPoints& points) :
-		m_points(points),
-		m_slot(energy.size(), {-1, -1, -1}), m_below(points.unknowns, points.unknowns),
-		m_scale(points.unknowns), m_residual(points.unknowns), m_direction(points.unknowns),
-		m_solved(points.unknowns), m_product(points.unknowns)
+DistortionLaplacian::DistortionLaplacian(const MeanDistortion& energy) :
+		m_energy(energy), m_points(energy.points()), m_slot(energy.size(), {-1, -1, -1}),
+		m_below(m_points.unknowns, m_points.unknowns), m_scale(m_points.unknowns),
+		m_residual(m_points.unknowns), m_direction(m_points.unknowns), m_solved(m_points.unknowns),
+		m_product(m_points.unknowns)
 {
 	const auto eachSide = [&](const auto& use) {
 		for (const int f : m_slot.indices())
 			for (std::size_t k = 0; k < 3; ++k) {
 				const auto [column, row] = std::minmax(
-					{points.unknown[energy.corners(f)[k]],
-					 points.unknown[energy.corners(f)[(k + 1) % 3]]});
+					{m_points.unknown[energy.corners(f)[k]],
+					 m_points.unknown[energy.corners(f)[(k + 1) % 3]]});
 				if (column >= 0 && column != row)
 					use(row, column, m_slot[f][k]);
 			}
@@ -45,17 +44,17 @@ DistortionLaplacian::DistortionLaplacian(
 	});
 }
 
-bool DistortionLaplacian::factorize(const MeanDistortion& energy)
+bool DistortionLaplacian::factorize()
 {
 	Eigen::VectorXd& diagonal = m_scale;
 	diagonal.setZero();
 	m_below.coeffs().setZero();
 	for (const int f : m_slot.indices()) {
-		const double s = energy.stiffness(f);
-		std::array<Complex, 3> slopes = energy.slopes(f);
+		const double s = m_energy.stiffness(f);
+		std::array<Complex, 3> slopes = m_energy.slopes(f);
 		Triangle unknown{};
 		for (std::size_t k = 0; k < 3; ++k) {
-			const int point = energy.corners(f)[k];
+			const int point = m_energy.corners(f)[k];
 			unknown[k] = m_points.unknown[point];
 			if (unknown[k] >= 0 && unknown[k] != point) // an image
 				slopes[k] *= m_points.turn[point];

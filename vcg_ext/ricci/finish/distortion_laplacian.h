@@ -23,24 +23,23 @@ namespace ricci {
 class DistortionLaplacian
 {
 public:
-	/// Lays the matrix out for \p points, which \p energy must use, and which must outlive it.
-	DistortionLaplacian(const MeanDistortion& energy, const NumberedPoints& points);
+	/// \p energy must outlive it.
+	explicit DistortionLaplacian(const MeanDistortion& energy);
 
-	/// Takes the stiffness where \p energy was last evaluated.
+	/// Takes the stiffness where the energy was last evaluated.
 	/// \return false where a row has no positive diagonal
-	bool factorize(const MeanDistortion& energy);
+	bool factorize();
 
 	/// x = matrix^-1 rhs, up to an error that leaves \p residual of what rhs is without x, both after
 	/// one Gauss-Seidel step.
 	/// \pre factorize() has returned true
-	void solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x, double residual = kRounding);
+	void solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x, double residual);
 
 private:
-	static constexpr double kRounding = 1e-14;
-
 	void solveForward(Eigen::VectorXcd& x) const;
 	void solveBackward(Eigen::VectorXcd& x) const;
 
+	const MeanDistortion& m_energy;
 	const NumberedPoints& m_points;
 	Array<std::array<Eigen::Index, 3>> m_slot; // of the entry between corners k and k + 1, or -1
 

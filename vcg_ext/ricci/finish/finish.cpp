@@ -4,7 +4,6 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "least_distortion.h"
-#include "least_stretch.h"
 #include "repair.h"
 
 #include <string>
@@ -28,11 +27,11 @@ bool isInDisk(const FlatMesh& flat, const Patch& patch)
 	return true;
 }
 
-FinishCounts
-repaired(FlatMesh& flat, const BorderMoves& moves, RestShapes shapes, const Soundness& soundness)
+FinishCounts repaired(
+	FlatMesh& flat, SeamGeometry seams, const BoundaryRule& boundaryMoves, const RepairRules& rules)
 {
 	WorkLimit limit(flat.points.size());
-	const Repair repair = repairInStages(flat, moves, shapes, soundness, limit);
+	const Repair repair = repairInStages(flat, seams, boundaryMoves, rules, limit);
 	const bool endedEarly = repair.left > 0 && limit.left() == 0;
 	if (endedEarly)
 		logLine(
@@ -51,14 +50,16 @@ FinishCounts finishInPlane(
 	Finish finish)
 {
 	checkpoint();
-	const BorderMoves moves{
-		SeamGeometry::Plane,
-		[&](int v) { return freeBoundary || (!onHole.empty() && onHole[Vertex(v)]); },
-		nullptr};
+	const auto boundaryMoves = [&](int v) {
+		return freeBoundary || (!onHole.empty() && onHole[Vertex(v)]);
+	};
 	const auto repair = [&] {
 		const double height = kMinHeight * flat.box().extent();
 		return repaired(
-			flat, moves, RestShapes::OfSurface, {height, kWantedHeights * height, false});
+			flat,
+			SeamGeometry::Plane,
+			boundaryMoves,
+			{RestShapes::OfSurface, {height, kWantedHeights * height}});
 	};
 	if (finish == Finish::Repair)
 		return repair();
@@ -90,13 +91,14 @@ FinishCounts finishInPlane(
 
 FinishCounts finishInDisk(FlatMesh& flat, bool freeBoundary)
 {
-	const BorderMoves moves{
-		SeamGeometry::Disk, [freeBoundary](int) { return freeBoundary; }, isInDisk};
 	constexpr double height = kMinHeight * kDiskExtent;
-	if (!flat.source.empty())
-		return repaired(
-			flat, moves, RestShapes::OfDrawing, {kMinRefinedHeight * kDiskExtent, height, false});
-	return repaired(flat, moves, RestShapes::OfSurface, {height, kWantedHeights * height, false});
+	RepairRules rules{RestShapes::OfSurface, {height, kWantedHeights * height}, isInDisk};
+	if (!flat.source.empty()) {
+		rules.shapes = RestShapes::OfDrawing;
+		rules.soundness = {kMinRefinedHeight * kDiskExtent, height};
+	}
+	return repaired(
+		flat, SeamGeometry::Disk, [&](int) { return freeBoundary; }, rules);
 }
 
 } // namespace ricci

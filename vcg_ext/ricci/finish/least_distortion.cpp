@@ -48,19 +48,18 @@ Eigen::VectorXcd positionsOf(const NumberedPoints& points, const FlatMesh& flat)
 class DistortionDescent
 {
 public:
-	/// \p energy, which uses \p points, and they must outlive it.
-	DistortionDescent(MeanDistortion& energy, const NumberedPoints& points, const FlatMesh& flat) :
-			m_points(points), m_energy(energy), m_laplacian(energy, m_points),
+	DistortionDescent(const FlatMesh& flat, const PointGroups& groups) :
+			m_energy(flat, groups), m_points(m_energy.points()), m_laplacian(m_energy),
 			m_bfgs(m_points.unknowns, kDepth), m_start(positionsOf(m_points, flat)),
 			m_position(m_start), m_trial(m_start), m_direction(m_points.unknowns)
 	{
 		m_value = m_energy.evaluate(m_position);
 	}
 
-	LeastDistortion descend()
+	Descent descend()
 	{
-		LeastDistortion result{0, m_value, m_value};
-		if (!std::isfinite(m_value))
+		Descent result{0, m_value, m_value};
+		if (!std::isfinite(m_value) || m_points.unknowns == 0)
 			return result;
 		const double worth = kPointGain * m_value / m_points.unknowns;
 		double gain = kInfinity;
@@ -74,7 +73,7 @@ public:
 		double lastGain = kInfinity;
 		for (int i = 0; i < kMaxSteps; ++i, lastGain = gain) {
 			checkpoint();
-			if (i % kSameStiffness == 0 && !m_laplacian.factorize(m_energy))
+			if (i % kSameStiffness == 0 && !m_laplacian.factorize())
 				break;
 			m_bfgs.direction(
 				m_gradient,
@@ -147,8 +146,8 @@ private:
 		}
 	}
 
+	MeanDistortion m_energy;
 	const NumberedPoints& m_points;
-	MeanDistortion& m_energy;
 	DistortionLaplacian m_laplacian;
 	LimitedMemoryBfgs m_bfgs;
 	Eigen::VectorXcd m_start, m_position, m_trial;            // [number of a point]
@@ -162,21 +161,14 @@ double meanDistortion(const FlatMesh& flat)
 {
 	PointGroups groups = allPoints(flat);
 	groups.fixed.assign(groups.fixed.size(), 1);
-	const NumberedPoints points(flat, groups);
-	return MeanDistortion(flat, points).evaluate(positionsOf(points, flat));
+	MeanDistortion energy(flat, groups);
+	return energy.evaluate(positionsOf(energy.points(), flat));
 }
 
-LeastDistortion leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves)
+Descent leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves)
 {
-	const NumberedPoints points(
-		flat, joinedPoints(flat, cones, [&](int) { return boundaryMoves; }));
-	MeanDistortion energy(flat, points);
-	if (points.unknowns == 0) {
-		const double value = energy.evaluate(positionsOf(points, flat));
-		return {0, value, value};
-	}
-	DistortionDescent descent(energy, points, flat);
-	const LeastDistortion result = descent.descend();
+	DistortionDescent descent(flat, joinedPoints(flat, cones, [&](int) { return boundaryMoves; }));
+	const Descent result = descent.descend();
 	if (result.steps > 0)
 		descent.write(flat);
 	return result;

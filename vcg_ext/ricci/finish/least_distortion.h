@@ -7,12 +7,12 @@
 
 namespace ricci {
 
-/// What leastDistortion() has done.
-struct LeastDistortion
+/// What a descent to a map with less of something has done.
+struct Descent
 {
-	int steps = 0; ///< of single points, each of all of them, and of all at once; 0: nothing moved
-	double before = 0.0, after = 0.0; ///< MeanDistortion of the map
-	bool endedEarly = false;          ///< by the number of steps; it may become smaller still
+	int steps = 0; ///< 0: nothing moved
+	double before = 0.0, after = 0.0;
+	bool endedEarly = false; ///< by the number of steps; it may become smaller still
 };
 
 /// MeanDistortion of a map, its triangles that are not counter-clockwise left out.
@@ -41,8 +41,22 @@ double meanDistortion(const FlatMesh& flat);
 /// \param cones 1 at cones inside
 /// \param boundaryMoves whether the boundary is free; else its points stay
 /// It checks between steps whether the run has ended; then \p flat is what it was.
+/// \return its steps of single points, each of all of them, and of all at once; MeanDistortion of the map
 /// \throw std::bad_alloc
-LeastDistortion leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves);
+Descent leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves);
+
+/// Moves all points of a map to the plane, so that its mean symmetric Dirichlet energy
+/// |J|^2 + |J^-1|^2 by area becomes small [Smith Schaefer 2015]: the map that trades angles for areas, and
+/// stretches nothing much in any direction. The two sides of a seam move freely, so that they differ
+/// afterwards, and so does the boundary.
+///
+/// Newton's method with each triangle's Hessian made positive semidefinite [Smith de Goes Kim 2019]. Steps
+/// are shortened until no triangle is flipped, by an exact test, and the energy falls enough. They end when
+/// one gains less than a thousandth of what is above 4. A chart may cover itself afterwards.
+/// \param flat one component; it gets the area that it has on the surface. Its triangles that are not
+/// counter-clockwise do not count.
+/// \return its mean energies by area: 4 for an isometry
+Descent leastStretch(FlatMesh& flat);
 
 } // namespace ricci
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "least_stretch.h"
+#include "least_distortion.h"
 
 #include "../base/task.h"
 #include "../base/tolerances.h"
@@ -75,9 +75,9 @@ public:
 		m_value = m_energy.value(m_x, 0.0);
 	}
 
-	LeastStretch descend()
+	Descent descend()
 	{
-		LeastStretch result{0, m_value, m_value};
+		Descent result{0, m_value, m_value};
 		double gain = m_value;
 		while (result.steps < kMaxSteps && gain > kMinGain * (m_value - kIsometry)) {
 			gain = step();
@@ -141,7 +141,7 @@ private:
 
 } // namespace
 
-LeastStretch leastStretch(FlatMesh& flat)
+Descent leastStretch(FlatMesh& flat)
 {
 	checkpoint();
 	scaleToSurface(flat);
@@ -150,7 +150,7 @@ LeastStretch leastStretch(FlatMesh& flat)
 	const std::vector<RestShape> shapes =
 		restShapes(flat, wholePatch(flat), RestShapes::OfSurfaceEvenly, soundness);
 	StretchDescent descent(flat, shapes);
-	const LeastStretch result = descent.descend();
+	const Descent result = descent.descend();
 	flat.place = descent.places();
 	return result;
 }

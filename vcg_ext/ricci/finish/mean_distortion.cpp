@@ -91,25 +91,119 @@ struct PlacedTriangle
 	}
 };
 
+Point2 centreOf(const Array<Point2>& points)
+{
+	Point2 centre{0.0, 0.0};
+	for (const Point2& p : points)
+		for (std::size_t k = 0; k < 2; ++k)
+			centre[k] += p[k] / static_cast<double>(points.size());
+	return centre;
+}
+
+int farthestFrom(const Point2& from, const Array<Point2>& points)
+{
+	int farthest = 0;
+	for (const int p : points.indices())
+		if (distance(from, points[p]) > distance(from, points[farthest]))
+			farthest = p;
+	return farthest;
+}
+
+/// The vertices of a flat mesh in the order of a walk (see NumberedPoints).
+std::vector<int> walk(const FlatMesh& flat)
+{
+	const Point2 centre = centreOf(flat.place);
+	const int count = flat.vertexCount();
+	Array<double> reach(count, -1.0); // from the centre
+	for (int c = 0; c < 3 * flat.points.size(); ++c) {
+		double& known = reach[flat.vertices[Corner(c)]];
+		known = std::max(known, distance(centre, flat.place[flat.points[Corner(c)]]));
+	}
+	const auto isBefore = [&](int a, int b) {
+		return reach[a] != reach[b] ? reach[a] > reach[b] : a < b;
+	};
+	const Adjacency<int, int> neighbours(count, [&](const auto& add) {
+		for (const Triangle& t : flat.vertices)
+			for (std::size_t k = 0; k < 3; ++k) {
+				add(t[k], t[(k + 1) % 3]);
+				add(t[k], t[(k + 2) % 3]);
+			}
+	});
+	std::vector<int> walk;
+	Array<char> seen(count, 0);
+	const auto visit = [&](int v) {
+		if (!seen[v])
+			walk.push_back(v);
+		seen[v] = 1;
+	};
+	int farthest = 0;
+	for (int v = 1; v < count; ++v)
+		if (isBefore(v, farthest))
+			farthest = v;
+	visit(farthest);
+	for (std::size_t i = 0; i < walk.size(); ++i) {
+		const std::size_t first = walk.size();
+		for (const int next : neighbours[walk[i]])
+			visit(next);
+		std::sort(walk.begin() + static_cast<std::ptrdiff_t>(first), walk.end(), isBefore);
+	}
+	return walk;
+}
+
 } // namespace
 
-MeanDistortion::MeanDistortion(const FlatMesh& flat, const NumberedPoints& points) :
-		m_points(points), m_threads(defaultThreads()), m_shape(flat.points.size()),
-		m_corners(flat.points.size()), m_image(points.unknowns, -1), m_settled(points.unknowns, 0),
-		m_energy(flat.points.size(), 0.0), m_stiffness(flat.points.size(), 0.0),
-		m_pull(flat.points.size())
+NumberedPoints::NumberedPoints(const FlatMesh& flat, const PointGroups& groups) :
+		number(flat.place.size(), -1)
+{
+	const int count = number.size();
+	Array<char> stays(count);
+	for (const int p : stays.indices())
+		stays[p] = groups.fixed[groups.group[p]];
+	if (std::find(stays.begin(), stays.end(), 1) == stays.end()) {
+		const int first = farthestFrom(centreOf(flat.place), flat.place);
+		stays[first] = stays[farthestFrom(flat.place[first], flat.place)] = 1;
+	}
+	Array<int> firstAt(flat.vertexCount(), -1); // [vertex] first point of a group that moves
+	for (int c = 0; c < 3 * flat.points.size(); ++c)
+		if (const int p = flat.points[Corner(c)]; !stays[p] && groups.first[groups.group[p]] == p)
+			firstAt[flat.vertices[Corner(c)]] = p;
+	for (const int v : walk(flat))
+		if (firstAt[v] >= 0)
+			number[firstAt[v]] = unknowns++;
+	moving = unknowns;
+	for (const int p : number.indices())
+		if (!stays[p] && number[p] < 0)
+			number[p] = moving++;
+	int next = moving;
+	for (int& n : number)
+		if (n < 0)
+			n = next++;
+	unknown.assign(count, -1);
+	turn.assign(count, 1.0);
+	for (const int p : number.indices())
+		if (!stays[p]) {
+			unknown[number[p]] = number[groups.first[groups.group[p]]];
+			turn[number[p]] = groups.turn[p];
+		}
+}
+
+MeanDistortion::MeanDistortion(const FlatMesh& flat, const PointGroups& groups) :
+		m_points(flat, groups), m_threads(defaultThreads()), m_shape(flat.points.size()),
+		m_corners(flat.points.size()), m_image(m_points.unknowns, -1),
+		m_settled(m_points.unknowns, 0), m_energy(flat.points.size(), 0.0),
+		m_stiffness(flat.points.size(), 0.0), m_pull(flat.points.size())
 {
 	setShapes(flat);
 	for (const int f : m_corners.indices())
 		for (std::size_t k = 0; k < 3; ++k)
-			m_corners[f][k] = points.number[flat.points[f][k]];
-	m_cornersOf = Adjacency<int, Corner>(points.moving, [&](const auto& add) {
+			m_corners[f][k] = m_points.number[flat.points[f][k]];
+	m_cornersOf = Adjacency<int, Corner>(m_points.moving, [&](const auto& add) {
 		for (int c = 0; c < 3 * m_corners.size(); ++c)
-			if (const int p = m_corners[Corner(c)]; p < points.moving)
+			if (const int p = m_corners[Corner(c)]; p < m_points.moving)
 				add(p, Corner(c));
 	});
-	for (int p = points.unknowns; p < points.moving; ++p)
-		m_image[points.unknown[p]] = p;
+	for (int p = m_points.unknowns; p < m_points.moving; ++p)
+		m_image[m_points.unknown[p]] = p;
 }
 
 void MeanDistortion::setShapes(const FlatMesh& flat)

@@ -3,7 +3,7 @@
 #define RICCI_MEAN_DISTORTION_H
 
 #include "../math/adjacency.h"
-#include "numbered_points.h"
+#include "point_groups.h"
 
 #include <Eigen/Core>
 
@@ -11,6 +11,27 @@
 #include <complex>
 
 namespace ricci {
+
+/// The points of a flat mesh in the order in which an optimisation takes them: the unknowns, which are
+/// the first points of the groups that move, then their images, then the points that stay.
+///
+/// The unknowns follow a walk over the surface, breadth first from its point farthest from the middle
+/// of the mesh, and at every vertex to the farthest neighbours first: what takes them one after another
+/// does not depend on the numbers of the mesh, and finds neighbours near in memory.
+struct NumberedPoints
+{
+	Array<int> number; ///< [point of the mesh]
+	int unknowns = 0;
+	int moving = 0; ///< unknowns and images
+
+	// By number.
+	Array<int> unknown;               ///< that moves the point, or -1
+	Array<std::complex<double>> turn; ///< the derivative of the point by its unknown
+
+	/// If no group is fixed, two points far from each other stay, which takes away the similarities of
+	/// the plane.
+	NumberedPoints(const FlatMesh& flat, const PointGroups& groups);
+};
 
 /// The mean conformal distortion of a map f of triangles to the plane, as a function of the points
 /// that may move: E = sum over the faces of weight (K - 1)^(5/4), weights with the sum 1.
@@ -33,8 +54,9 @@ public:
 
 	/// A triangle that has no area by its lengths has no shape to keep: the shape that it has in the plane
 	/// takes the place. Triangles that are not counter-clockwise do not count.
-	/// \pre \p points, which number those of \p flat, outlive it
-	MeanDistortion(const FlatMesh& flat, const NumberedPoints& points);
+	MeanDistortion(const FlatMesh& flat, const PointGroups& groups);
+
+	const NumberedPoints& points() const { return m_points; }
 
 	/// Computes E at \p position [point] and prepares gradient(), stiffness().
 	/// \return infinity where a triangle is not counter-clockwise, by an exact test
@@ -94,7 +116,7 @@ private:
 		const Eigen::VectorXcd& start,
 		Eigen::VectorXcd& position);
 
-	const NumberedPoints& m_points;
+	const NumberedPoints m_points;
 	int m_threads;
 	Array<Shape> m_shape;
 	Array<Triangle> m_corners;

@@ -20,8 +20,8 @@ namespace {
 /// Rings of the patches, one size after another.
 constexpr int kRings[] = {1, 2, 3, 5, 8, 13, 21, 34};
 
-/// Those of the largest patches that move points inside alone, and of all.
-constexpr int kMaxInsideRings = 13, kMaxRings = 34;
+/// Those of the largest patches that move points inside alone.
+constexpr int kMaxInsideRings = 13;
 
 /// A patch that failed is tried again once it has so many times the triangles, or for
 /// RestShapes::OfSurfaceEvenly, the area: triangles round a limb that has shrunk are few and large.
@@ -51,13 +51,17 @@ struct PatchSetting
 {
 	const FlatMesh& flat;
 	const PointGroups& groups;
-	RestShapes shapes;
-	const Soundness& soundness;
+	const RepairRules& rules;
 
 	PatchProblem problem(const Patch& patch, int maxSteps) const
 	{
 		return {
-			flat, groups, patch, restShapes(flat, patch, shapes, soundness), soundness, maxSteps};
+			flat,
+			groups,
+			patch,
+			restShapes(flat, patch, rules.shapes, rules.soundness),
+			rules.soundness,
+			maxSteps};
 	}
 };
 
@@ -65,7 +69,7 @@ struct PatchSetting
 /// short; or the triangles need more than the area that the patch keeps where its border stays.
 bool isHopeless(const PatchSetting& setting, const Patch& patch)
 {
-	const Soundness& soundness = setting.soundness;
+	const Soundness& soundness = setting.rules.soundness;
 	double area = 0.0;
 	bool borderStays = true;
 	for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
@@ -182,7 +186,7 @@ enum class Outcome { Useless, Refused, TakenOver };
 std::vector<Outcome> takeOver(
 	const std::vector<Patch>& patches,
 	const std::vector<Untangled>& found,
-	const PatchRules& rules,
+	const RepairRules& rules,
 	FlatMesh& flat,
 	Repair& result)
 {
@@ -212,7 +216,7 @@ bool isUnsoundWhole(const PatchSetting& setting, const Patch& patch)
 {
 	return patch.isFree() &&
 		   std::none_of(patch.triangles.begin(), patch.triangles.end(), [&](int f) {
-			   return setting.soundness.isSound(setting.flat.at(f));
+			   return setting.rules.soundness.isSound(setting.flat.at(f));
 		   });
 }
 
@@ -240,22 +244,21 @@ strainedTriangles(const FlatMesh& flat, const Array<char>& moved, const Soundnes
 void easeStrained(
 	FlatMesh& flat,
 	const PointGroups& groups,
-	const Soundness& soundness,
-	const PatchTest& accepts,
+	const RepairRules& rules,
 	WorkLimit& limit,
 	Repair& result)
 {
 	PatchFinder finder(flat, groups);
-	const PatchSetting setting{flat, groups, RestShapes::OfSurface, soundness};
+	const PatchSetting setting{flat, groups, rules};
 	std::int64_t work = limit.ofStage();
 	const std::int64_t before = work;
 	for (const int rings : kEasedRings) {
-		const std::vector<int> strained = strainedTriangles(flat, result.moved, soundness);
+		const std::vector<int> strained = strainedTriangles(flat, result.moved, rules.soundness);
 		if (strained.empty())
 			break;
 		std::vector<Patch> patches = finder.patches(strained, rings);
 		const std::vector<Untangled> found = solveAll(setting, ease, patches, work);
-		takeOver(patches, found, {0, accepts}, flat, result);
+		takeOver(patches, found, rules, flat, result);
 	}
 	limit.spend(before - work);
 }
@@ -266,27 +269,28 @@ struct Stage
 	std::function<PointGroups()> groups; ///< what may move
 	RestShapes shapes;
 	int maxRings;
-	bool partly; ///< see PatchRules
+	bool partly; ///< see RepairRules
 };
 
 /// Repairs in stages, each for what those before have left.
 /// \param groups receives those of the last stage that was needed
 Repair
 run(const std::vector<Stage>& stages,
-	const PatchTest& accepts,
-	const Soundness& soundness,
+	RepairRules rules,
 	WorkLimit& limit,
 	FlatMesh& flat,
 	PointGroups& groups)
 {
 	Repair result;
-	result.bad = result.left = static_cast<int>(badTriangles(flat, soundness).size());
+	result.bad = result.left = static_cast<int>(badTriangles(flat, rules.soundness).size());
 	for (const Stage& stage : stages) {
 		if (result.left == 0)
 			break;
 		groups = stage.groups();
-		const PatchRules rules{stage.maxRings, accepts, stage.partly};
-		result.add(repair(flat, groups, stage.shapes, soundness, rules, limit));
+		rules.shapes = stage.shapes;
+		rules.maxRings = stage.maxRings;
+		rules.partly = stage.partly;
+		result.add(repair(flat, groups, rules, limit));
 	}
 	return result;
 }
@@ -316,22 +320,16 @@ std::vector<int> badTriangles(const FlatMesh& flat, const Soundness& soundness)
 	return bad;
 }
 
-Repair repair(
-	FlatMesh& flat,
-	const PointGroups& groups,
-	RestShapes shapes,
-	const Soundness& soundness,
-	const PatchRules& rules,
-	WorkLimit& limit)
+Repair repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rules, WorkLimit& limit)
 {
 	Repair result;
-	std::vector<int> bad = badTriangles(flat, soundness);
+	std::vector<int> bad = badTriangles(flat, rules.soundness);
 	result.bad = result.left = static_cast<int>(bad.size());
 	if (bad.empty())
 		return result;
 	result.moved.assign(flat.place.size(), 0);
 	PatchFinder finder(flat, groups);
-	const PatchSetting setting{flat, groups, shapes, soundness};
+	const PatchSetting setting{flat, groups, rules};
 	Array<PatchSize> failed(flat.points.size(), PatchSize{}); // [triangle] of its last patch
 	std::set<std::vector<int>> tried; // triangles of patches, since the map last changed
 	std::int64_t work = limit.ofStage();
@@ -347,7 +345,7 @@ Repair repair(
 				[&](const Patch& patch) {
 					return tried.count(patch.triangles) > 0 ||
 						   isHardlyLarger(
-							   flat, patch, failed, shapes == RestShapes::OfSurfaceEvenly) ||
+							   flat, patch, failed, rules.shapes == RestShapes::OfSurfaceEvenly) ||
 						   isHopeless(setting, patch);
 				}),
 			patches.end());
@@ -376,7 +374,8 @@ Repair repair(
 		if (!isAny)
 			continue;
 		tried.clear();
-		bad = badTriangles(flat, soundness); // a patch mended partly may have others than before
+		bad = badTriangles(
+			flat, rules.soundness); // a patch mended partly may have others than before
 		if (bad.empty())
 			break;
 	}
@@ -387,63 +386,59 @@ Repair repair(
 
 Repair repairInStages(
 	FlatMesh& flat,
-	const BorderMoves& moves,
-	RestShapes shapes,
-	const Soundness& soundness,
+	SeamGeometry seams,
+	const BoundaryRule& boundaryMoves,
+	RepairRules rules,
 	WorkLimit& limit)
 {
+	const RestShapes shapes = rules.shapes;
+	const Soundness& soundness = rules.soundness;
+	const int maxRings = rules.maxRings;
 	const auto inside = [&] { return insidePoints(flat); };
-	const auto asAllowed = [&] { return joinedPoints(flat, moves.seams, moves.boundary); };
-	const auto everywhere = [&] {
-		return joinedPoints(flat, moves.seams, [](int) { return true; });
-	};
+	const auto asAllowed = [&] { return joinedPoints(flat, seams, boundaryMoves); };
+	const auto everywhere = [&] { return joinedPoints(flat, seams, [](int) { return true; }); };
 	std::vector<Stage> stages{
 		{inside, shapes, kMaxInsideRings, false},
-		{asAllowed, shapes, kMaxRings, false},
-		{everywhere, shapes, kMaxRings, false}};
-	const Stage partly{everywhere, shapes, kMaxRings, true};
+		{asAllowed, shapes, maxRings, false},
+		{everywhere, shapes, maxRings, false}};
+	const Stage partly{everywhere, shapes, maxRings, true};
 	// Half a repair stretches what is right for fewer flipped triangles. In the plane, where those that
 	// are left get charts of their own, that is worth it only where it leads to a whole one.
-	const bool allOrNothing = moves.seams == SeamGeometry::Plane && shapes == RestShapes::OfSurface;
+	const bool allOrNothing = seams == SeamGeometry::Plane && shapes == RestShapes::OfSurface;
 	if (!allOrNothing)
 		stages.push_back(partly);
 	// A limb that the map has shrunk below any height needs room from all round it. That bends the
 	// map, so only what is stored as it is gets it: floats, not text.
 	if (soundness.asFloats && soundness.step == 0.0) {
-		stages.push_back({everywhere, RestShapes::OfSurfaceEvenly, kMaxRings, true});
+		stages.push_back({everywhere, RestShapes::OfSurfaceEvenly, maxRings, true});
 		stages.push_back(partly);
 	}
 	PointGroups groups;
-	Repair result = run(stages, moves.accepts, soundness, limit, flat, groups);
+	Repair result = run(stages, rules, limit, flat, groups);
 	if (result.left > 0 && allOrNothing) {
 		Array<Point2> before = flat.place;
-		const Repair last = run({partly}, moves.accepts, soundness, limit, flat, groups);
+		const Repair last = run({partly}, rules, limit, flat, groups);
 		if (last.left == 0)
 			result.add(last);
 		else
 			flat.place.swap(before);
 	}
 	if (result.bad > 0 && shapes == RestShapes::OfSurface)
-		easeStrained(flat, groups, soundness, moves.accepts, limit, result);
+		easeStrained(flat, groups, rules, limit, result);
 	return result;
 }
 
-Repair repairFreely(
-	FlatMesh& flat,
-	const PatchTest& accepts,
-	RestShapes shapes,
-	const Soundness& soundness,
-	WorkLimit& limit)
+Repair repairFreely(FlatMesh& flat, RepairRules rules, WorkLimit& limit)
 {
+	const RestShapes shapes = rules.shapes;
 	const auto inside = [&] { return insidePoints(flat); };
 	const auto all = [&] { return allPoints(flat); };
 	PointGroups groups;
 	return run(
 		{{inside, shapes, kMaxInsideRings, false},
-		 {all, shapes, kMaxRings, false},
-		 {all, shapes, kMaxRings, true}},
-		accepts,
-		soundness,
+		 {all, shapes, rules.maxRings, false},
+		 {all, shapes, rules.maxRings, true}},
+		rules,
 		limit,
 		flat,
 		groups);

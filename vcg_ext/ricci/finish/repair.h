@@ -7,8 +7,9 @@
 #include "point_groups.h"
 #include "rest_shape.h"
 #include "soundness.h"
-#include "work_limit.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -26,17 +27,45 @@ struct Repair
 	void add(const Repair& next);
 };
 
+/// What the repairs of one map may still spend, in triangles set up for a step of Newton: a third of a
+/// microsecond to one each. It bounds their time without a clock, so that the result is the same on every run.
+class WorkLimit
+{
+public:
+	/// \param triangles of the map
+	explicit WorkLimit(std::int64_t triangles) :
+			m_stage(kOfStage + kOfStagePerTriangle * triangles), m_left(kStages * m_stage)
+	{
+	}
+
+	/// What one stage may spend of it.
+	std::int64_t ofStage() const { return std::min(m_stage, m_left); }
+
+	/// \param work no more than is left
+	void spend(std::int64_t work) { m_left -= work; }
+	std::int64_t left() const { return m_left; }
+
+private:
+	/// CAD meshes of 20000 triangles with a thousand needles take all of it; the
+	/// repair of a refinement of millions takes 1 to 2 for each triangle.
+	static constexpr std::int64_t kOfStage = 1000000, kOfStagePerTriangle = 2, kStages = 6;
+
+	std::int64_t m_stage, m_left;
+};
+
 /// Triangles of \p flat that are not sound.
 std::vector<int> badTriangles(const FlatMesh& flat, const Soundness& soundness);
 
 /// Whether a patch may be as it is in the map; called one after another.
 using PatchTest = std::function<bool(const FlatMesh& flat, const Patch& patch)>;
 
-/// Which patches are tried, and which are taken over.
-struct PatchRules
+/// What a repair is after, which patches it tries, and which it takes over.
+struct RepairRules
 {
-	int maxRings;                ///< of the largest patches
+	RestShapes shapes;
+	Soundness soundness;
 	PatchTest accepts = nullptr; ///< a patch that it refuses stays as it was
+	int maxRings = 34;           ///< of the largest patches
 	bool partly = false;         ///< patches, too, of which a part was mended
 };
 
@@ -46,42 +75,25 @@ struct PatchRules
 /// (untangle.h) until one holds, or until the limit's share of a stage is spent; triangles that no patch
 /// mends stay as they are. Patches of one size move no triangle of each other, so they are solved side by
 /// side, and the result does not depend on the number of threads.
-Repair repair(
-	FlatMesh& flat,
-	const PointGroups& groups,
-	RestShapes shapes,
-	const Soundness& soundness,
-	const PatchRules& rules,
-	WorkLimit& limit);
-
-/// What may move beyond the points inside the charts.
-struct BorderMoves
-{
-	SeamGeometry seams = SeamGeometry::Plane;
-	std::function<bool(int vertex)> boundary; ///< whether the boundary moves freely there
-	PatchTest accepts; ///< a patch that is not sound, only better, may reach beyond its chart
-};
+Repair
+repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rules, WorkLimit& limit);
 
 /// repair() in stages, each for what the one before has left: the points inside the charts; the copies
 /// of seam vertices together, and the boundary where it is free; the boundary everywhere; this again,
 /// with patches of which only a part is mended, for a map of the surface to the plane only if nothing is
 /// left then; and, for coordinates stored as floats and not as text,
 /// once more with patches whose triangles share their area as they do on the surface.
+/// \param rules their maxRings and partly are those of the stage
 Repair repairInStages(
 	FlatMesh& flat,
-	const BorderMoves& moves,
-	RestShapes shapes,
-	const Soundness& soundness,
+	SeamGeometry seams,
+	const BoundaryRule& boundaryMoves,
+	RepairRules rules,
 	WorkLimit& limit);
 
 /// The same where seams need not stay isometric: the points inside the charts; then all points, each
 /// by itself; this again, with patches of which only a part is mended.
-Repair repairFreely(
-	FlatMesh& flat,
-	const PatchTest& accepts,
-	RestShapes shapes,
-	const Soundness& soundness,
-	WorkLimit& limit);
+Repair repairFreely(FlatMesh& flat, RepairRules rules, WorkLimit& limit);
 
 } // namespace ricci
 

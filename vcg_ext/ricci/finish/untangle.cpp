@@ -49,9 +49,8 @@ class Untangler
 {
 public:
 	explicit Untangler(const PatchProblem& problem, int stepsBefore = 0) :
-			m_flat(problem.flat), m_groups(problem.groups), m_patch(problem.patch),
-			m_soundness(problem.soundness), m_maxSteps(problem.maxSteps),
-			m_energy(m_flat, m_groups, m_patch, problem.shapes),
+			m_problem(problem), m_patch(problem.patch),
+			m_energy(problem.flat, problem.groups, m_patch, problem.shapes),
 			m_x(Eigen::VectorXd::Zero(m_energy.size())), m_least{
 															 m_patch.triangles.size() + 1,
 															 m_patch.triangles.size() + 1}
@@ -72,8 +71,8 @@ public:
 	{
 		for (std::size_t i = 0; i < places.size(); ++i) {
 			const int p = m_patch.points[i], variable = m_patch.variable[static_cast<int>(i)];
-			const Complex moved =
-				(asComplex(places[i]) - asComplex(m_flat.place[p])) / m_groups.turn[p];
+			const Complex moved = (asComplex(places[i]) - asComplex(m_problem.flat.place[p])) /
+								  m_problem.groups.turn[p];
 			m_x[2 * variable] = moved.real();
 			m_x[2 * variable + 1] = moved.imag();
 		}
@@ -137,7 +136,7 @@ private:
 			if (idle >= (many ? kMaxIdleRounds / 3 : kMaxIdleRounds))
 				break;
 			before = bad;
-			if (m_found.steps == m_maxSteps)
+			if (m_found.steps == m_problem.maxSteps)
 				break;
 		}
 	}
@@ -146,7 +145,7 @@ private:
 	/// \param soundOnly the step must leave the patch sound
 	bool descend(double& value, bool soundOnly)
 	{
-		if (m_found.steps == m_maxSteps)
+		if (m_found.steps == m_problem.maxSteps)
 			return false;
 		++m_found.steps;
 		if (!m_energy.newtonStep(m_x, m_eps, m_gradient, m_step))
@@ -190,9 +189,9 @@ private:
 			const int p = m_patch.points[i], variable = m_patch.variable[static_cast<int>(i)];
 			m_places.push_back(
 				variable < 0
-					? m_flat.place[p]
-					: m_soundness.stored(m_groups.displaced(
-						  p, m_flat.place, Complex(x[2 * variable], x[2 * variable + 1]))));
+					? m_problem.flat.place[p]
+					: m_problem.soundness.stored(m_problem.groups.displaced(
+						  p, m_problem.flat.place, Complex(x[2 * variable], x[2 * variable + 1]))));
 		}
 		m_unsound.clear();
 		std::size_t flipped = 0;
@@ -200,10 +199,10 @@ private:
 			const Triangle& t = m_patch.corners[i];
 			const Triangle2 corners{
 				m_places[positionOf(t[0])], m_places[positionOf(t[1])], m_places[positionOf(t[2])]};
-			if (m_soundness.isSound(corners))
+			if (m_problem.soundness.isSound(corners))
 				continue;
 			m_unsound.push_back(i);
-			flipped += !m_soundness.isUpright(corners);
+			flipped += !m_problem.soundness.isUpright(corners);
 		}
 		const std::array<std::size_t, 2> counts{flipped, m_unsound.size()};
 		const bool sound = m_unsound.empty();
@@ -218,11 +217,8 @@ private:
 	static constexpr double kEpsShare = 0.2, kMinEps = 1e-9;
 	static constexpr double kFirstEps = 0.1, kEpsFall = 0.2, kSmallEps = 0.02;
 
-	const FlatMesh& m_flat;
-	const PointGroups& m_groups;
+	const PatchProblem& m_problem;
 	const Patch& m_patch;
-	const Soundness& m_soundness;
-	const int m_maxSteps;
 	PatchEnergy m_energy;
 	Eigen::VectorXd m_x, m_trial, m_gradient, m_step;
 	double m_eps = 1.0;

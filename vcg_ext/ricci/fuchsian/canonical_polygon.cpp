@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "canonical_polygon.h"
 
-#include "../base/numbers.h"
-
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
@@ -79,21 +77,6 @@ bool isSimple(const std::vector<Complex>& corners)
 	return true;
 }
 
-/// Sum of the angles inside a polygon that runs counter-clockwise.
-double sumOfAngles(const std::vector<Complex>& corners)
-{
-	double sum = 0.0;
-	const std::size_t n = corners.size();
-	for (std::size_t i = 0; i < n; ++i) {
-		const ExtendedIsometry toCorner = ExtendedIsometry::translationTo(corners[i]).inverse();
-		const Complex next = toCorner(corners[(i + 1) % n]);
-		const Complex before = toCorner(corners[(i + n - 1) % n]);
-		const auto angle = static_cast<double>(arg(before / next));
-		sum += angle < 0.0 ? angle + 2.0 * kPi : angle;
-	}
-	return sum;
-}
-
 } // namespace
 
 CanonicalPolygon canonicalPolygon(const FuchsianGroup& group)
@@ -135,7 +118,6 @@ CanonicalPolygon canonicalPolygon(const FuchsianGroup& group)
 		return polygon;
 	}
 	polygon.isSimple = isSimple(corners);
-	polygon.angleSum = sumOfAngles(corners);
 	return polygon;
 }
 

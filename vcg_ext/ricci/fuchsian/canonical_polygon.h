@@ -18,7 +18,6 @@ struct CanonicalPolygon
 {
 	std::vector<std::complex<double>>
 		corners;           ///< in the Poincaré disk, in the order of the relation
-	double angleSum = 0.0; ///< radians; 2 pi for a fundamental polygon of a closed surface
 	bool isSimple = false; ///< no side crosses another
 	double gap = 0.0;      ///< hyperbolic distance by which the last side misses the first corner
 };

@@ -144,15 +144,6 @@ private:
 	Record m_record;
 };
 
-/// The most exact side pairing of an arc, for each of its halfedges.
-SidePairing bestOf(const std::vector<Halfedge>& arc, const EdgeArray<SidePairing>& pairing)
-{
-	const Halfedge best = *std::min_element(arc.begin(), arc.end(), [&](Halfedge g, Halfedge h) {
-		return pairing[g.edge()].loss < pairing[h.edge()].loss;
-	});
-	return across(best, pairing);
-}
-
 std::vector<DiskIsometry> allRounded(const std::vector<ExtendedIsometry>& isometries)
 {
 	std::vector<DiskIsometry> result;
@@ -208,7 +199,11 @@ EdgeArray<SidePairing> pairingOfArcs(
 {
 	EdgeArray<SidePairing> exact(t.edgeCount());
 	for (const std::vector<Halfedge>& arc : seamsOf(t, cut.isCut, cones)) {
-		const SidePairing best = bestOf(arc, pairing);
+		const Halfedge least =
+			*std::min_element(arc.begin(), arc.end(), [&](Halfedge g, Halfedge h) {
+				return pairing[g.edge()].loss < pairing[h.edge()].loss;
+			});
+		const SidePairing best = across(least, pairing);
 		for (const Halfedge h : arc)
 			exact[h.edge()] = h.isFirst() ? best : best.reversed();
 	}
@@ -223,17 +218,16 @@ FuchsianGroup fuchsianGroup(
 	bool canonical)
 {
 	FuchsianGroup group;
-	const EdgeArray<SidePairing> exact = pairingOfArcs(t, cut, pairing, cones);
 	for (const std::vector<Halfedge>& arc : seamsOf(t, cut.isCut, cones)) {
-		const ExtendedIsometry side = across(arc.front(), exact).isometry();
+		const ExtendedIsometry side = across(arc.front(), pairing).isometry();
 		group.sides.push_back(rounded(side));
 		group.sides.push_back(rounded(side.inverse()));
 	}
-	const CutTreeWalk::Record walk = CutTreeWalk(t, cut, exact, cones).run();
+	const CutTreeWalk::Record walk = CutTreeWalk(t, cut, pairing, cones).run();
 
 	Array<ExtendedIsometry> generators;
 	for (const Edge e : cut.generators)
-		generators.push_back(exact[e].isometry());
+		generators.push_back(pairing[e].isometry());
 	// The relation is the word times the inverses of the peripheral elements, last first.
 	std::vector<ExtendedIsometry> peripheral(walk.peripheral.rbegin(), walk.peripheral.rend());
 	ExtendedIsometry tail;

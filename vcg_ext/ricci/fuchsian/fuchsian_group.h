@@ -70,7 +70,7 @@ EdgeArray<SidePairing> pairingOfArcs(
 /// a polygon whose corners are one point; canonicalBases() makes it canonical in many ways, and
 /// bestConditioned() takes one.
 ///
-/// \param pairing [edge] of the layout, for the edges of the cut
+/// \param pairing [edge] pairingOfArcs()
 /// \param cones [vertex] 1 at interior vertices that are not regular points of the metric
 /// \param canonical find handles, relation and relationError, too
 /// \throw InternalError if the word of the polygon is none

@@ -232,40 +232,42 @@ private:
 				}
 				c.node = point[c.node];
 			}
-		m_result.crossings = static_cast<std::size_t>(m_node.size() - vertices);
 	}
 
-	/// Points, triangles and uv of all pieces.
+	/// Triangulates all pieces.
 	void emitPieces()
 	{
-		Array<Point3> space; // [point]
+		Array<SurfacePoint> points;
+		std::vector<Point3> space; // [point]
 		for (const int node : m_node) {
-			m_result.points.push_back(m_linked.pieces.nodes[node].point);
-			space.push_back(placeOnSurface(m_result.points.back(), m_surface.positions.values()));
+			points.push_back(m_linked.pieces.nodes[node].point);
+			space.push_back(
+				placeOnSurface(m_linked.pieces.nodes[node].point, m_surface.positions.values()));
 		}
-		for (int p = 0; p < m_linked.pieces.count(); ++p)
-			emit(p, space);
-	}
-
-	void emit(int p, const Array<Point3>& space)
-	{
-		const OverlayPieces& pieces = m_linked.pieces;
-		const int first = pieces.corner(p, 0), size = pieces.size(p);
-		const Point2* plane = m_point.data() + first;
-		// Geodesics are straight in the Klein model.
-		const Point2* straight = m_kleinPoint.empty() ? plane : m_kleinPoint.data() + first;
-		const std::vector<Point2> inPlane(straight, straight + size);
-		std::vector<Point3> inSpace;
-		for (const PieceCorner& c : pieces.corners(p))
-			inSpace.push_back(space[c.node]);
-		for (const auto& t : triangulatePiece(inPlane, inSpace)) {
-			const auto point = [&](std::size_t k) {
-				return pieces(p, static_cast<int>(t[k])).node;
-			};
-			m_result.triangles.push_back({point(0), point(1), point(2)});
-			m_result.inputFace.push_back(m_linked.inputFace[p]);
-			m_result.uv.push_back({plane[t[0]], plane[t[1]], plane[t[2]]});
+		Array<Triangle> triangles;
+		Array<Triangle2> plane;
+		Array<int> face;
+		for (int p = 0; p < m_linked.pieces.count(); ++p) {
+			const OverlayPieces& pieces = m_linked.pieces;
+			const int first = pieces.corner(p, 0), size = pieces.size(p);
+			const Point2* placed = m_point.data() + first;
+			// Geodesics are straight in the Klein model.
+			const Point2* straight = m_kleinPoint.empty() ? placed : m_kleinPoint.data() + first;
+			std::vector<Point3> inSpace;
+			for (const PieceCorner& c : pieces.corners(p))
+				inSpace.push_back(space[positionOf(c.node)]);
+			for (const auto& t : triangulatePiece({straight, straight + size}, inSpace)) {
+				const auto point = [&](std::size_t k) {
+					return pieces(p, static_cast<int>(t[k])).node;
+				};
+				triangles.push_back({point(0), point(1), point(2)});
+				plane.push_back({placed[t[0]], placed[t[1]], placed[t[2]]});
+				face.push_back(m_linked.inputFace[p].number());
+			}
 		}
+		m_result.mesh = flatMeshOf(std::move(triangles), plane, space);
+		m_result.mesh.source = std::move(points);
+		m_result.mesh.face = std::move(face);
 	}
 
 	/// The layout of the corners of the surface's own triangles.
@@ -273,15 +275,14 @@ private:
 	{
 		const Triangulation& t = m_surface.triangulation;
 		PlanarLayout& layout = m_result.inputLayout;
-		layout.wedges = cornerWedges(t, m_surfaceCut);
-		layout.points.assign(layout.wedges.count, {0.0, 0.0});
+		layout = cornerWedges(t, m_surfaceCut);
 		const OverlayPieces& pieces = m_linked.pieces;
 		for (int p = 0; p < pieces.count(); ++p)
 			for (int i = 0; i < pieces.size(p); ++i) {
 				const Halfedge h = pieces(p, i).inputCorner;
 				// In a piece of a face that is kept it is a halfedge of the surface, and the same one.
 				if (h.isValid() && !m_flow.input.isExterior(h))
-					layout.points[layout.wedges.of[h]] = m_point[pieces.corner(p, i)];
+					layout[h] = m_point[pieces.corner(p, i)];
 			}
 	}
 
@@ -320,28 +321,6 @@ CommonRefinement commonRefinement(
 	const EdgeArray<char>& isCut)
 {
 	return RefinementMaker(domain, flow, std::move(linked), isCut).run();
-}
-
-FlatMesh flatMeshOf(const EmbeddedSurface& surface, const CommonRefinement& refinement)
-{
-	std::vector<Point3> places;
-	for (const SurfacePoint& p : refinement.points)
-		places.push_back(placeOnSurface(p, surface.positions.values()));
-	Array<std::array<double, 3>> lengths;
-	for (const Triangle& t : refinement.triangles) {
-		const auto length = [&](std::size_t i, std::size_t j) {
-			return distance(places[positionOf(t[i])], places[positionOf(t[j])]);
-		};
-		lengths.push_back({length(0, 1), length(1, 2), length(2, 0)});
-	}
-	const std::size_t count = refinement.triangles.size();
-	FlatMesh flat = flatMeshOf(
-		Array<Triangle>(refinement.triangles),
-		Array<Triangle2>(refinement.uv),
-		Array<int>(count, 0),
-		std::move(lengths));
-	flat.source = Array<SurfacePoint>(refinement.points);
-	return flat;
 }
 
 } // namespace ricci

@@ -5,13 +5,9 @@
 #include "../flow/ricci_flow.h"
 #include "../overlay/piece_faces.h"
 #include "../surface/flow_domain.h"
-#include "../surface/surface_mesh.h"
 #include "flat_mesh.h"
 #include "hyperbolic_layout.h"
 #include "planar_layout.h"
-
-#include <cstddef>
-#include <vector>
 
 namespace ricci {
 
@@ -20,17 +16,10 @@ namespace ricci {
 /// own there.
 struct CommonRefinement
 {
-	std::vector<SurfacePoint> points; ///< the surface's vertices first, in order; its vertices
-	std::vector<Triangle> triangles;  ///< into points, the surface's orientation
-	std::vector<Face> inputFace;      ///< [triangle]
-	std::vector<Triangle2> uv;        ///< [triangle][corner] in the plane or Poincaré disk
-	EdgeArray<SidePairing> pairing;   ///< [edge of the surface] hyperbolic: across the cut
-	PlanarLayout inputLayout;         ///< of the corners of the surface's triangles
-	std::size_t crossings = 0;        ///< points that are not vertices of the surface
+	FlatMesh mesh;            ///< its vertices are the surface's, then the points where edges cross
+	PlanarLayout inputLayout; ///< of the corners of the surface's triangles
+	EdgeArray<SidePairing> pairing; ///< [edge of the surface] hyperbolic: across the cut
 };
-
-/// Its triangles, joined where they lie on each other.
-FlatMesh flatMeshOf(const EmbeddedSurface& surface, const CommonRefinement& refinement);
 
 /// The overlay (overlay_pieces.h) for the faces of the domain's surface. Where the flow's surface goes on
 /// beyond it (its double, caps on holes), the overlay ends at its boundary.

@@ -160,7 +160,7 @@ public:
 			m_wedges(cornerWedges(m_surface, isCut))
 	{
 		int root = -1;
-		eachCorner([&](int, int sheet, std::size_t) { root = root < 0 ? sheet : root; });
+		eachCorner([&](Halfedge, int sheet, std::size_t) { root = root < 0 ? sheet : root; });
 		m_sheets = m_parts.glued(root, m_number);
 		m_root = m_number[root];
 		takeMetric(flow, m_sheets);
@@ -173,9 +173,9 @@ public:
 	template<class Place>
 	PlanarLayout layout(const Place& place) const
 	{
-		PlanarLayout layout{m_wedges, Array<Point2>(m_wedges.count, {0.0, 0.0})};
-		eachCorner([&](int wedge, int sheet, std::size_t k) {
-			layout.points[wedge] = place(m_sheets.triangulation.halfedges(m_number[sheet])[k]);
+		PlanarLayout layout = m_wedges;
+		eachCorner([&](Halfedge corner, int sheet, std::size_t k) {
+			layout[corner] = place(m_sheets.triangulation.halfedges(m_number[sheet])[k]);
 		});
 		return layout;
 	}
@@ -215,7 +215,7 @@ public:
 	}
 
 private:
-	/// Calls \p use(wedge, sheet, k): corner k of the sheet is in this wedge of the surface.
+	/// Calls \p use(corner, sheet, k): corner k of the sheet is in the wedge of this corner of the surface.
 	template<class Use>
 	void eachCorner(const Use& use) const
 	{
@@ -231,7 +231,7 @@ private:
 						m_cut.hasCurves(v) ? m_cut.originalAtOrBefore(h, i) : m_surface.halfedge(v);
 					if (corner.number() < m_surface.halfedgeCount() &&
 						!m_surface.isExterior(corner))
-						use(m_wedges.of[corner], first + i, k);
+						use(corner, first + i, k);
 				}
 			}
 	}
@@ -241,8 +241,8 @@ private:
 	const EdgeArray<char>& m_isCut;
 	const NormalCoordinates m_cut;
 	const CutSheets m_parts;
-	const Wedges m_wedges;
-	Array<Face> m_number; // [sheet of m_parts] its face in m_sheets
+	const PlanarLayout m_wedges; // nothing placed
+	Array<Face> m_number;        // [sheet of m_parts] its face in m_sheets
 	EndSheets m_sheets;
 	Face m_root;
 };
@@ -255,15 +255,13 @@ PlanarLayout carriedTo(
 	const Triangulation& from,
 	const PlanarLayout& layout)
 {
-	PlanarLayout carried;
-	carried.wedges = cornerWedges(t, isCut);
-	carried.points.resize(carried.wedges.count);
+	PlanarLayout carried = cornerWedges(t, isCut);
 	for (const Halfedge h : t.interiorHalfedges())
 		if (const Halfedge any = from.halfedge(t.origin(h)); !from.isExterior(any))
-			carried.points[carried.wedges.of[h]] = layout[any];
+			carried[h] = layout[any];
 	for (const Halfedge h : t.interiorHalfedges())
 		if (isCut[h.edge()] || t.isBoundary(h.edge()))
-			carried.points[carried.wedges.of[h]] = layout[h];
+			carried[h] = layout[h];
 	return carried;
 }
 
@@ -315,11 +313,10 @@ layOutCornersInDisk(const FlowDomain& domain, const FlowResult& flow, const Edge
 	for (const Edge e : t.edges())
 		if (isCut[e])
 			offerPairing(disk, lengths[e], e.halfedge(), e.halfedge().twin(), layout.pairing[e]);
-	layout.corners.wedges = cornerWedges(t, isCut);
-	layout.corners.points.resize(layout.corners.wedges.count);
+	layout.corners = cornerWedges(t, isCut);
 	for (int i = t.halfedgeCount(); i-- > 0;) // the lowest halfedge gives a wedge its point
 		if (const Halfedge h(i); !t.isExterior(h))
-			layout.corners.points[layout.corners.wedges.of[h]] = asPoint(disk[h]);
+			layout.corners[h] = asPoint(disk[h]);
 	return layout;
 }
 

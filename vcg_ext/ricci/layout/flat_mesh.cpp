@@ -140,22 +140,33 @@ void splitPoints(const Sides& sides, FlatMesh& mesh)
 }
 
 FlatMesh flatMeshOf(
-	Array<Triangle> vertices,
-	const Array<Triangle2>& plane,
-	Array<int> chart,
-	Array<std::array<double, 3>> lengths)
+	Array<Triangle> vertices, const Array<Triangle2>& plane, const std::vector<Point3>& positions)
 {
 	FlatMesh mesh;
 	for (const int f : vertices.indices()) {
 		mesh.points.push_back({3 * f, 3 * f + 1, 3 * f + 2});
 		for (const Point2& p : plane[f])
 			mesh.place.push_back(p);
+		const auto length = [&](std::size_t i, std::size_t j) {
+			return distance(
+				positions[positionOf(vertices[f][i])], positions[positionOf(vertices[f][j])]);
+		};
+		mesh.lengths.push_back({length(0, 1), length(1, 2), length(2, 0)});
+		mesh.face.push_back(f);
 	}
 	mesh.vertices = std::move(vertices);
-	mesh.lengths = std::move(lengths);
-	mesh.chart = std::move(chart);
+	mesh.chart.assign(mesh.face.size(), 0);
+	mesh.source = verticesOf(positions.size());
 	weld(mesh);
 	return mesh;
+}
+
+Array<SurfacePoint> verticesOf(std::size_t count)
+{
+	Array<SurfacePoint> points(count);
+	for (const int v : points.indices())
+		points[v].vertex[0] = v;
+	return points;
 }
 
 } // namespace ricci

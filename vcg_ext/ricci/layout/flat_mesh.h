@@ -124,16 +124,16 @@ void weld(FlatMesh& mesh);
 /// \param sides of its triangles
 void splitPoints(const Sides& sides, FlatMesh& mesh);
 
-/// The flat mesh of triangles whose corners are placed one by one: two corners at one vertex are one
-/// point if a chain of triangles joins them whose common sides have the same ends in the plane.
+/// The flat mesh, one chart, of the faces of a surface whose corners are placed one by one: two corners at one
+/// vertex are one point if a chain of triangles joins them whose common sides have the same ends in the plane.
 /// \param vertices [triangle] corners by vertex, counter-clockwise where \p plane is right
 /// \param plane [triangle][corner]
-/// \param chart [triangle] triangles of different charts share no points
+/// \param positions [vertex] its place in space
 FlatMesh flatMeshOf(
-	Array<Triangle> vertices,
-	const Array<Triangle2>& plane,
-	Array<int> chart,
-	Array<std::array<double, 3>> lengths);
+	Array<Triangle> vertices, const Array<Triangle2>& plane, const std::vector<Point3>& positions);
+
+/// Vertices as points of their surface.
+Array<SurfacePoint> verticesOf(std::size_t count);
 
 } // namespace ricci
 

@@ -7,21 +7,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ricci {
 
-Wedges cornerWedges(const Triangulation& t, const EdgeArray<char>& isCut)
+PlanarLayout cornerWedges(const Triangulation& t, const EdgeArray<char>& isCut)
 {
 	const auto divides = [&](Halfedge h) { return isCut[h.edge()] || t.isBoundary(h.edge()); };
-	Wedges wedges;
-	wedges.of.assign(t.halfedgeCount(), -1);
+	PlanarLayout layout;
+	HalfedgeArray<int>& wedgeOf = layout.wedge;
+	wedgeOf.assign(t.halfedgeCount(), -1);
 	for (const Halfedge start : t.interiorHalfedges()) {
-		if (wedges.of[start] >= 0)
+		if (wedgeOf[start] >= 0)
 			continue;
-		const int wedge = wedges.count++;
+		const int wedge = layout.points.size();
+		layout.points.push_back({0.0, 0.0});
 		Halfedge h = start;
 		do { // counter-clockwise
-			wedges.of[h] = wedge;
+			wedgeOf[h] = wedge;
 			const Halfedge in = t.previous(h);
 			if (divides(in))
 				break;
@@ -29,12 +32,12 @@ Wedges cornerWedges(const Triangulation& t, const EdgeArray<char>& isCut)
 		} while (h != start);
 		for (h = start; !divides(h);) { // clockwise
 			h = t.next(h.twin());
-			if (wedges.of[h] >= 0)
+			if (wedgeOf[h] >= 0)
 				break;
-			wedges.of[h] = wedge;
+			wedgeOf[h] = wedge;
 		}
 	}
-	return wedges;
+	return layout;
 }
 
 FlatMesh flatMeshOf(const EmbeddedSurface& surface, const PlanarLayout& layout)
@@ -49,7 +52,7 @@ FlatMesh flatMeshOf(const EmbeddedSurface& surface, const PlanarLayout& layout)
 		Corner c(f.number(), 0);
 		for (const Halfedge h : t.halfedges(f)) {
 			flat.vertices[c] = t.origin(h).number();
-			flat.points[c] = layout.wedges.of[h];
+			flat.points[c] = layout.wedge[h];
 			flat.lengths[c] = surface.lengths[h.edge()];
 			c = c.next();
 		}
@@ -64,17 +67,11 @@ PlanarLayout layOutInPlane(
 	const EdgeArray<char>& isCut,
 	Face root)
 {
-	PlanarLayout layout;
-	layout.wedges = cornerWedges(t, isCut);
-	layout.points.assign(layout.wedges.count, {0.0, 0.0});
-	Array<char> placed(layout.wedges.count, 0); // [wedge]
-
+	PlanarLayout layout = cornerWedges(t, isCut);
+	Array<char> placed(layout.points.size(), 0); // [wedge]
 	const auto place = [&](Halfedge h, const Point2& p) {
-		const int wedge = layout.wedges.of[h];
-		if (!placed[wedge]) {
-			placed[wedge] = 1;
-			layout.points[wedge] = p;
-		}
+		if (!std::exchange(placed[layout.wedge[h]], 1))
+			layout[h] = p;
 	};
 	// Directions are carried from triangle to triangle as angles, never measured between points:
 	// across a short side of a needle that would magnify the error of the points without bound.

@@ -9,26 +9,20 @@
 
 namespace ricci {
 
-/// The wedges into which the cut divides the corners of a surface: those at one vertex between two
-/// cut or boundary edges.
-struct Wedges
-{
-	HalfedgeArray<int> of; ///< wedge of the corner at the halfedge's origin; -1 if exterior
-	int count = 0;
-};
-
-/// Wedges are numbered from 0 in order of their lowest halfedge.
-Wedges cornerWedges(const Triangulation& t, const EdgeArray<char>& isCut);
-
-/// A metric laid out in the plane, or in the Poincaré disk (paper 4.3). The corners of a wedge share
-/// one point, so that the layout is continuous everywhere off the cut.
+/// A metric laid out in the plane, or in the Poincaré disk (paper 4.3). The cut divides the corners of the surface
+/// into wedges: those at one vertex between two cut or boundary edges. The corners of a wedge share one point, so
+/// that the layout is continuous everywhere off the cut.
 struct PlanarLayout
 {
-	Wedges wedges;
-	Array<Point2> points; ///< [wedge]
+	HalfedgeArray<int> wedge; ///< of the corner at the halfedge's origin; -1 if exterior
+	Array<Point2> points;     ///< [wedge]
 
-	const Point2& operator[](Halfedge h) const { return points[wedges.of[h]]; }
+	const Point2& operator[](Halfedge h) const { return points[wedge[h]]; }
+	Point2& operator[](Halfedge h) { return points[wedge[h]]; }
 };
+
+/// The wedges, numbered from 0 in order of their lowest halfedge, all of them at 0.
+PlanarLayout cornerWedges(const Triangulation& t, const EdgeArray<char>& isCut);
 
 /// The triangles of the surface as they are laid out; their points are the wedges.
 FlatMesh flatMeshOf(const EmbeddedSurface& surface, const PlanarLayout& layout);

@@ -38,9 +38,22 @@ public:
 	/// \param forItems forItems(add) calls add(key, item) for every item. It is called twice and must
 	/// give the same keys both times.
 	template<class ForItems>
-	Adjacency(int keyCount, const ForItems& forItems) : m_first(positionOf(keyCount) + 1, 0)
+	Adjacency(int keyCount, const ForItems& forItems) :
+			Adjacency(
+				keyCount,
+				[&](const auto& count) { forItems([&](Key key, const Item&) { count(key); }); },
+				forItems)
 	{
-		forItems([&](Key key, const Item&) { ++m_first[positionOf(key) + 1]; });
+	}
+
+	/// For items that take work to make.
+	/// \param forKeys forKeys(count) calls count(key) for every item
+	/// \param forItems forItems(add) calls add(key, item) for every item, in any order of the keys
+	template<class ForKeys, class ForItems>
+	Adjacency(int keyCount, const ForKeys& forKeys, const ForItems& forItems) :
+			m_first(positionOf(keyCount) + 1, 0)
+	{
+		forKeys([&](Key key) { ++m_first[positionOf(key) + 1]; });
 		std::partial_sum(m_first.begin(), m_first.end(), m_first.begin());
 		m_items.resize(positionOf(m_first.back()));
 		std::vector<int> next(m_first.begin(), m_first.end() - 1);

@@ -5,6 +5,8 @@
 #include "../base/indexed.h"
 #include "../base/parallel.h"
 #include "../base/tolerances.h"
+#include "../layout/hyperbolic_layout.h"
+#include "../math/disk_isometry.h"
 #include "../math/orientation.h"
 #include "../metric/area.h"
 
@@ -77,6 +79,24 @@ bool isCounterClockwise(const Triangle2& p)
 	return orientation(p[0], p[1], p[2]) > 0;
 }
 
+int orientationInDisk(const Triangle2& p)
+{
+	return hyperbolicOrientation(asComplex(p[0]), asComplex(p[1]), asComplex(p[2]));
+}
+
+/// The flat triangle whose sides are the chords of a geodesic triangle of the disk, with the
+/// triangle's orientation. Where no flat triangle has these sides its height is 0.
+Triangle2 chordTriangle(const Triangle2& p)
+{
+	const std::complex<double> x = asComplex(p[0]), y = asComplex(p[1]), z = asComplex(p[2]);
+	const double base = chordLength(x, y), left = chordLength(x, z), right = chordLength(y, z);
+	if (!(base > 0.0))
+		return {};
+	const TriangleApex apex = triangleApex(base, left, right);
+	const double height = orientationInDisk(p) < 0 ? -apex.height : apex.height;
+	return {{{0.0, 0.0}, {base, 0.0}, {apex.along, height}}};
+}
+
 } // namespace
 
 double triangleArea(const std::array<Point3, 3>& p)
@@ -130,16 +150,14 @@ AreaDistortion areaDistortion(const std::vector<double>& before, const std::vect
 	return distortion;
 }
 
-DistortionField measureDistortion(
+std::vector<double> measureDistortion(
 	const Array<Triangle>& vertices,
 	const std::vector<Point3>& surface,
 	const Array<Triangle2>& plane,
 	Report& report)
 {
-	DistortionField field;
 	const std::vector<Triangle>& triangles = vertices.values();
-	field.face.resize(triangles.size());
-	field.vertex.assign(surface.size(), 0.0);
+	std::vector<double> faceQC(triangles.size()), vertexQC(surface.size(), 0.0);
 	std::vector<double> ringArea(surface.size(), 0.0), measured;
 	double sum = 0.0, areaSum = 0.0, weightedSum = 0.0;
 	std::vector<double> areaBefore(triangles.size(), 0.0), areaAfter = areaBefore;
@@ -148,8 +166,8 @@ DistortionField measureDistortion(
 			const Triangle& t = triangles[f];
 			const LaidOutTriangle own(
 				{surface[positionOf(t[0])], surface[positionOf(t[1])], surface[positionOf(t[2])]});
-			field.face[f] = distortionOf(own, plane.values()[f]);
-			if (!std::isfinite(field.face[f]))
+			faceQC[f] = distortionOf(own, plane.values()[f]);
+			if (!std::isfinite(faceQC[f]))
 				continue;
 			areaBefore[f] = own.area();
 			areaAfter[f] = planeArea(plane.values()[f]);
@@ -157,7 +175,7 @@ DistortionField measureDistortion(
 	});
 	report.flippedFaces = 0;
 	for (std::size_t f = 0; f < triangles.size(); ++f) {
-		const double qc = field.face[f], area = areaBefore[f];
+		const double qc = faceQC[f], area = areaBefore[f];
 		report.flippedFaces += !isCounterClockwise(plane.values()[f]);
 		if (!std::isfinite(qc))
 			continue;
@@ -166,7 +184,7 @@ DistortionField measureDistortion(
 		areaSum += area;
 		weightedSum += area * qc;
 		for (const int v : triangles[f]) {
-			field.vertex[positionOf(v)] += area * qc;
+			vertexQC[positionOf(v)] += area * qc;
 			ringArea[positionOf(v)] += area;
 		}
 	}
@@ -176,30 +194,44 @@ DistortionField measureDistortion(
 	report.areaHistogram = areas.histogram;
 	double vertexSum = 0.0;
 	std::vector<double> measuredVertices;
-	for (std::size_t v = 0; v < field.vertex.size(); ++v) {
+	for (std::size_t v = 0; v < vertexQC.size(); ++v) {
 		if (ringArea[v] > 0.0) {
-			field.vertex[v] /= ringArea[v];
-			vertexSum += field.vertex[v];
-			measuredVertices.push_back(field.vertex[v]);
+			vertexQC[v] /= ringArea[v];
+			vertexSum += vertexQC[v];
+			measuredVertices.push_back(vertexQC[v]);
 		}
 		else
-			field.vertex[v] = 1.0;
+			vertexQC[v] = 1.0;
 	}
 	if (measured.empty())
-		return field;
+		return vertexQC;
 	report.qcMean = sum / static_cast<double>(measured.size());
 	report.qcAreaMean = weightedSum / areaSum;
 	report.qcVertexMean = vertexSum / static_cast<double>(measuredVertices.size());
 	report.qcHistogram = distortionHistogram(measuredVertices);
 	report.qcMax = *std::max_element(measured.begin(), measured.end());
 	report.qcP99 = percentile(std::move(measured), 0.99);
-	return field;
+	return vertexQC;
 }
 
-DistortionField
+std::vector<double>
 measureDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report)
 {
 	return measureDistortion(mesh.vertices, surface, mesh.corners(), report);
+}
+
+std::vector<double> measureHyperbolicDistortion(
+	const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report)
+{
+	Array<Triangle2> chords;
+	int flipped = 0;
+	for (const int f : mesh.points.indices()) {
+		chords.push_back(chordTriangle(mesh.at(f)));
+		flipped += orientationInDisk(mesh.at(f)) <= 0;
+	}
+	std::vector<double> vertexQC = measureDistortion(mesh.vertices, surface, chords, report);
+	report.flippedFaces = flipped;
+	return vertexQC;
 }
 
 void countFlipped(const FlatMesh& mesh, Report& report)

@@ -26,14 +26,6 @@ double triangleArea(const std::array<Point3, 3>& p);
 /// Area of all triangles of \p mesh in space.
 double surfaceArea(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles);
 
-/// Distortion of a whole map.
-struct DistortionField
-{
-	std::vector<double> face;   ///< sigma1 / sigma2; NaN where the face has no area in space
-	std::vector<double> vertex; ///< mean over the faces at the vertex, weighted by their areas in
-								///< space (paper 5.1); 1 where none has any
-};
-
 /// Change of area by a map of triangles: their areas before and after, each relative to its total.
 struct AreaDistortion
 {
@@ -51,7 +43,9 @@ AreaDistortion areaDistortion(const std::vector<double>& before, const std::vect
 /// so are those of infinite distortion. Orientation is exact.
 /// \param surface [vertex] its place in space
 /// \param plane [triangle][corner] counter-clockwise where it is right
-DistortionField measureDistortion(
+/// \return [vertex] mean of qc over the triangles at it, weighted by their areas in space (paper 5.1); 1 where
+/// none has any
+std::vector<double> measureDistortion(
 	const Array<Triangle>& vertices,
 	const std::vector<Point3>& surface,
 	const Array<Triangle2>& plane,
@@ -59,8 +53,15 @@ DistortionField measureDistortion(
 
 /// Of a whole map to the plane.
 /// \param surface FlatMesh::onSurface()
-DistortionField
+std::vector<double>
 measureDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report);
+
+/// Of a map to the Poincaré disk. What is measured is the map to the flat triangles with the corners of the
+/// geodesic ones on the hyperboloid, whose sides are its chords, 2 sinh(d / 2) for the distance d.
+/// flippedFaces counts the geodesic triangles of the wrong orientation, or without area, as far as rounding
+/// can tell.
+std::vector<double> measureHyperbolicDistortion(
+	const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report);
 
 /// The energy of a map, see MapCost; infinite where a triangle has no area in the plane. Orientation does
 /// not count. Triangles without area in space are left out.

@@ -4,9 +4,9 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../math/disjoint_sets.h"
 #include "../math/sparse_cholesky.h"
 #include "../metric/laplacian.h"
+#include "../seamless/holonomy.h"
 #include "invariants.h"
 
 #include <Eigen/Cholesky>
@@ -14,10 +14,10 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -25,107 +25,27 @@ namespace ricci {
 
 namespace {
 
-/// A closed path from triangle to triangle, which leaves the triangle of each halfedge across it and
-/// passes no triangle twice. The closed form that belongs to it is 1 on these halfedges, -1 on their
-/// twins and else 0.
-using DualLoop = std::vector<Halfedge>;
-
-/// A tree that spans the triangles, from one in breadth first.
-struct DualTree
+/// Adds \p factor times the closed form of a loop, which is 1 on its halfedges, -1 on their twins and else 0.
+void addForm(const FaceLoop& loop, int factor, HalfedgeArray<int>& form)
 {
-	FaceArray<Halfedge> toParent; ///< none at the root
-	FaceArray<int> depth;
-	EdgeArray<char> isCrossed;
-
-	DualTree(const Triangulation& t) :
-			toParent(t.faceCount()), depth(t.faceCount(), -1), isCrossed(t.edgeCount(), 0)
-	{
-		std::vector<Face> reached = {Face(0)};
-		reached.reserve(positionOf(t.faceCount()));
-		depth[Face(0)] = 0;
-		for (std::size_t i = 0; i < reached.size(); ++i) {
-			checkpointNowAndThen(i);
-			const Face f = reached[i];
-			for (const Halfedge h : t.halfedges(f)) {
-				const Face g = t.face(h.twin());
-				if (depth[g] >= 0)
-					continue;
-				depth[g] = depth[f] + 1;
-				toParent[g] = h.twin();
-				isCrossed[h.edge()] = 1;
-				reached.push_back(g);
-			}
-		}
+	for (const Halfedge h : loop) {
+		form[h] += factor;
+		form[h.twin()] -= factor;
 	}
-
-	/// Across \p h and back in the tree.
-	DualLoop loopAcross(const Triangulation& t, Halfedge h) const
-	{
-		DualLoop loop = {h}, back;
-		Face to = t.face(h.twin()), from = t.face(h);
-		while (to != from)
-			if (depth[to] >= depth[from]) {
-				loop.push_back(toParent[to]);
-				to = t.face(toParent[to].twin());
-			}
-			else {
-				back.push_back(toParent[from].twin());
-				from = t.face(toParent[from].twin());
-			}
-		loop.insert(loop.end(), back.rbegin(), back.rend());
-		return loop;
-	}
-};
-
-/// 2 genus loops that generate the homology: those across the edges in neither of a tree of the
-/// triangles and a tree of the remaining edges.
-std::vector<DualLoop> dualLoops(const Triangulation& t)
-{
-	const DualTree tree(t);
-	DisjointSetsOf<Vertex> joined(t.vertexCount());
-	std::vector<DualLoop> loops;
-	for (const Edge e : t.edges()) {
-		checkpointNowAndThen(positionOf(e));
-		if (!tree.isCrossed[e] && !joined.merge(t.ends(e)[0], t.ends(e)[1]))
-			loops.push_back(tree.loopAcross(t, e.halfedge()));
-	}
-	return loops;
 }
-
-/// Values of a closed form, in the edges' direction.
-class LoopForm
-{
-public:
-	explicit LoopForm(int edges) : m_value(edges, 0) {}
-
-	/// Adds \p factor times the form of \p loop.
-	void add(const DualLoop& loop, int factor)
-	{
-		for (const Halfedge h : loop)
-			m_value[h.edge()] += h.isFirst() ? factor : -factor;
-	}
-
-	int operator[](Halfedge h) const
-	{
-		return h.isFirst() ? m_value[h.edge()] : -m_value[h.edge()];
-	}
-
-private:
-	EdgeArray<int> m_value;
-};
 
 /// Integrals of the wedge products of the forms. On a triangle with the values a, b on one side and a',
 /// b' on the next, the integral is (a b' - a' b) / 2.
-Eigen::MatrixXi wedgeProducts(const Triangulation& t, const std::vector<DualLoop>& loops)
+Eigen::MatrixXi wedgeProducts(const Triangulation& t, const std::vector<FaceLoop>& loops)
 {
 	const auto n = static_cast<Eigen::Index>(loops.size());
 	Eigen::MatrixXi twice = Eigen::MatrixXi::Zero(n, n);
-	LoopForm form(t.edgeCount());
+	HalfedgeArray<int> form(t.halfedgeCount(), 0);
 	for (Eigen::Index j = 0; j < n; ++j) {
-		const DualLoop& first = loops[static_cast<std::size_t>(j)];
-		form.add(first, 1);
+		const FaceLoop& first = loops[static_cast<std::size_t>(j)];
+		addForm(first, 1, form);
 		for (Eigen::Index k = 0; k < n; ++k) {
-			const DualLoop& second = loops[static_cast<std::size_t>(k)];
+			const FaceLoop& second = loops[static_cast<std::size_t>(k)];
 			Halfedge entry = second.back().twin();
 			for (const Halfedge h : second) {
 				const Halfedge next = t.next(h);
@@ -133,7 +53,7 @@ Eigen::MatrixXi wedgeProducts(const Triangulation& t, const std::vector<DualLoop
 				entry = h.twin();
 			}
 		}
-		form.add(first, -1);
+		addForm(first, -1, form);
 	}
 	return twice / 2;
 }
@@ -180,7 +100,7 @@ Eigen::MatrixXd canonicalBasis(Eigen::MatrixXi wedge)
 /// Laplacian has no factor. With the forms t and the functions f that make them harmonic, they are
 /// <t_j, t_k + df_k>.
 Eigen::MatrixXd energies(
-	const Triangulation& t, const EdgeArray<double>& weights, const std::vector<DualLoop>& loops)
+	const Triangulation& t, const EdgeArray<double>& weights, const std::vector<FaceLoop>& loops)
 {
 	checkpoint();
 	const int unknowns = t.vertexCount() - 1; // the value at the first vertex is held
@@ -200,17 +120,17 @@ Eigen::MatrixXd energies(
 	functions = cholesky.solve(functions);
 	checkpoint();
 	Eigen::MatrixXd energy(n, n);
-	LoopForm form(t.edgeCount());
+	HalfedgeArray<int> form(t.halfedgeCount(), 0);
 	for (Eigen::Index i = 0; i < n; ++i) {
 		const auto at = [&](Vertex v) { return row[v] >= 0 ? functions(row[v], i) : 0.0; };
-		form.add(loops[static_cast<std::size_t>(i)], 1);
+		addForm(loops[static_cast<std::size_t>(i)], 1, form);
 		for (Eigen::Index j = 0; j <= i; ++j) {
 			double sum = 0.0;
 			for (const Halfedge h : loops[static_cast<std::size_t>(j)])
 				sum += weights[h.edge()] * (form[h] + at(t.target(h)) - at(t.origin(h)));
 			energy(i, j) = energy(j, i) = sum;
 		}
-		form.add(loops[static_cast<std::size_t>(i)], -1);
+		addForm(loops[static_cast<std::size_t>(i)], -1, form);
 	}
 	return energy;
 }
@@ -247,39 +167,35 @@ void addRow(Eigen::MatrixXcd& omega, Eigen::Index i, Eigen::Index j, double fact
 	omega.col(i) += factor * omega.col(j);
 }
 
-/// Makes vector \p i of the lattice with the Gram matrix Im \p omega shorter by up to \p terms others from
-/// \p first on, each with the factor +-1.
-/// \param change what has been added to the square of its length
+/// Makes vector \p i of the lattice with the Gram matrix Im \p omega shorter by up to three others, each with
+/// the factor +-1.
 /// \return whether that was possible
-bool shorten(
-	Eigen::MatrixXcd& omega,
-	Eigen::Index i,
-	Eigen::Index first,
-	int terms,
-	double change,
-	std::vector<std::pair<Eigen::Index, double>>& added)
+bool shorten(Eigen::MatrixXcd& omega, Eigen::Index i)
 {
-	if (change < -kDomainBorder * omega(i, i).imag()) {
-		for (const auto& [j, factor] : added)
-			addRow(omega, i, j, factor);
-		return true;
-	}
-	if (terms == 0)
-		return false;
-	for (Eigen::Index j = first; j < omega.rows(); ++j)
-		for (const double factor : {-1.0, 1.0}) {
-			if (j == i)
-				continue;
-			double product = omega(i, j).imag();
-			for (const auto& [k, other] : added)
-				product += other * omega(k, j).imag();
-			added.emplace_back(j, factor);
-			const double next = change + 2.0 * factor * product + omega(j, j).imag();
-			if (shorten(omega, i, j + 1, terms - 1, next, added))
+	std::vector<std::pair<Eigen::Index, double>> added;
+	// With up to so many terms more, from first on; change is what has been added to the square of the length.
+	const std::function<bool(Eigen::Index, int, double)> add =
+		[&](Eigen::Index first, int terms, double change) {
+			if (change < -kDomainBorder * omega(i, i).imag()) {
+				for (const auto& [j, factor] : added)
+					addRow(omega, i, j, factor);
 				return true;
-			added.pop_back();
-		}
-	return false;
+			}
+			for (Eigen::Index j = first; terms > 0 && j < omega.rows(); ++j)
+				for (const double factor : {-1.0, 1.0}) {
+					if (j == i)
+						continue;
+					double product = omega(i, j).imag();
+					for (const auto& [k, other] : added)
+						product += other * omega(k, j).imag();
+					added.emplace_back(j, factor);
+					if (add(j + 1, terms - 1, change + 2.0 * factor * product + omega(j, j).imag()))
+						return true;
+					added.pop_back();
+				}
+			return false;
+		};
+	return add(0, 3, 0.0);
 }
 
 /// Minkowski reduction of the imaginary part, by single steps. Up to g = 4 vectors none of which the
@@ -287,10 +203,8 @@ bool shorten(
 void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 {
 	const Eigen::Index genus = omega.rows();
-	for (Eigen::Index i = 0; i < genus;) {
-		std::vector<std::pair<Eigen::Index, double>> added;
-		i = shorten(omega, i, 0, 3, 0.0, added) ? 0 : i + 1;
-	}
+	for (Eigen::Index i = 0; i < genus;)
+		i = shorten(omega, i) ? 0 : i + 1;
 	for (Eigen::Index i = 0; i < genus; ++i) { // the shortest first
 		Eigen::Index least = i;
 		for (Eigen::Index j = i + 1; j < genus; ++j)
@@ -310,7 +224,7 @@ void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 
 PeriodMatrix periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths)
 {
-	const std::vector<DualLoop> loops = dualLoops(t);
+	const std::vector<FaceLoop> loops = homologyLoops(t, false);
 	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops);
 	if (energy.size() == 0)
 		return {};

@@ -54,25 +54,20 @@ inline double determinant(const EdgeWeights& a, const EdgeWeights& b)
 	return a.from * b.to - a.to * b.from;
 }
 
-/// Affine coordinates of a point of a triangle.
-struct FaceWeights
-{
-	Face face;
-	std::array<double, 3> weight{0, 0, 0}; ///< of the origins of halfedges(face)
-};
+/// Affine coordinates of a point of a triangle, in the order of its halfedges().
+using FaceWeights = std::array<double, 3>;
 
 /// The point of halfedge \p h of \p t with \p share, counted from the origin of \p h, in the triangle
 /// on its left.
 /// \pre \p h is not exterior
 inline FaceWeights pointOnSide(const Triangulation& t, Halfedge h, double share)
 {
-	FaceWeights p;
-	p.face = t.face(h);
-	const auto sides = t.halfedges(p.face);
+	FaceWeights p{0, 0, 0};
+	const auto sides = t.halfedges(t.face(h));
 	for (std::size_t k = 0; k < 3; ++k)
 		if (sides[k] == h) {
-			p.weight[k] = 1.0 - share;
-			p.weight[(k + 1) % 3] = share;
+			p[k] = 1.0 - share;
+			p[(k + 1) % 3] = share;
 		}
 	return p;
 }

@@ -49,7 +49,7 @@ void ChordArrangement::makeLines(const std::vector<Chord>& first, const std::vec
 	for (std::size_t i = 0; i < second.size(); ++i) {
 		const Chord& chord = second[i];
 		int same = -1;
-		const LineRange here = linesAt(chord.from), there = linesAt(chord.to);
+		const ItemRange<const int> here = linesAt(chord.from), there = linesAt(chord.to);
 		if (here.size() <= there.size()) {
 			for (int line : here)
 				same = farEnd(line, chord.from) == chord.to ? line : same;

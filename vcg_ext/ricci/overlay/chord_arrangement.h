@@ -2,7 +2,7 @@
 #ifndef RICCI_CHORD_ARRANGEMENT_H
 #define RICCI_CHORD_ARRANGEMENT_H
 
-#include "../base/indexed.h"
+#include "../math/adjacency.h"
 
 #include <array>
 #include <vector>
@@ -75,14 +75,7 @@ public:
 
 	/// The lines that end at a place, counter-clockwise, beginning at the border's side that leaves
 	/// it.
-	struct LineRange
-	{
-		const int *first, *last;
-		const int* begin() const { return first; }
-		const int* end() const { return last; }
-		int size() const { return static_cast<int>(last - first); }
-	};
-	LineRange linesAt(int place) const
+	ItemRange<const int> linesAt(int place) const
 	{
 		return {m_lineAt.data() + m_firstLineAt[place], m_lineAt.data() + m_firstLineAt[place + 1]};
 	}

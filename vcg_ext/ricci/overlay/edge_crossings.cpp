@@ -56,10 +56,10 @@ public:
 			// Whether the next crossed side has the origin of x in common with x, or its target.
 			const bool fromStays =
 				!isLast && curve.crossings[i + 1].halfedge == m_start.next(x.twin());
-			const Across across(triangle(x), triangle(x.twin()), m_delta[x.edge()]);
+			const auto valueBeyond = across(x);
 			for (std::size_t k = 0; k < 3; ++k) {
 				const Values<Real> v = values[k].back();
-				const Real next = across(v.from, v.to, apex[k]);
+				const Real next = valueBeyond(v.from, v.to, apex[k]);
 				if (isLast)
 					atB[k] = next;
 				else if (fromStays) {
@@ -99,8 +99,8 @@ private:
 		return x;
 	}
 
-	/// Value at l of a linear function on R^{2,1} that is fi, fj, fk at the vectors x_i, x_j, x_k of the
-	/// corners of a start triangle; l is the apex on the other side of ij.
+	/// How to find the value at l of a linear function on R^{2,1} by those at the corners of a start
+	/// triangle ijk; l is the apex on the other side of ij = \p h.
 	///
 	///          k
 	///        /   \         D_k, D_l: of the triangles with apex k and l
@@ -110,28 +110,16 @@ private:
 	///
 	/// M_i = (P_i + I_ij P_j) / c2, P_i = rootD_l I_ik + rootD_k I_il, and likewise with i and j
 	/// exchanged: the products of both sides with x_i and x_j, where <x_i, x_k> = -I_ik.
-	class Across
+	/// \return value(fi, fj, fk)
+	auto across(Halfedge h) const
 	{
-	public:
-		/// \param b the triangle on the other side, with i and j exchanged
-		Across(const StartTriangle& a, const StartTriangle& b, double delta)
-		{
-			const Real c2 = Real(delta) * (Real(delta) + Real(2.0));
-			const Real pi = b.rootD * a.ki + a.rootD * b.jk;
-			const Real pj = b.rootD * a.jk + a.rootD * b.ki;
-			m_i = (pi + a.ij * pj) / c2;
-			m_j = (pj + a.ij * pi) / c2;
-			m_rootK = a.rootD;
-			m_rootL = b.rootD;
-		}
-		Real operator()(Real fi, Real fj, Real fk) const
-		{
-			return (m_i * fi + m_j * fj - m_rootL * fk) / m_rootK;
-		}
-
-	private:
-		Real m_i, m_j, m_rootK, m_rootL;
-	};
+		const StartTriangle a = triangle(h), b = triangle(h.twin()); // b with i and j exchanged
+		const Real delta(m_delta[h.edge()]), c2 = delta * (delta + Real(2.0));
+		const Real pi = b.rootD * a.ki + a.rootD * b.jk, pj = b.rootD * a.jk + a.rootD * b.ki;
+		const Real mi = (pi + a.ij * pj) / c2, mj = (pj + a.ij * pi) / c2;
+		const Real rootK = a.rootD, rootL = b.rootD;
+		return [=](Real fi, Real fj, Real fk) { return (mi * fi + mj * fj - rootL * fk) / rootK; };
+	}
 
 	const Triangulation& m_start;
 	const EdgeArray<double>& m_delta;

@@ -4,7 +4,6 @@
 
 #include "../surface/normal_coordinates.h"
 #include "barycentric.h"
-#include "number_ranges.h"
 #include "overlay_pieces.h"
 
 #include <array>
@@ -28,6 +27,33 @@ struct EndCrossing
 	EdgeWeights onStart, onEnd;
 };
 
+/// The numbers 0, 1, 2, ... divided into consecutive ranges, one for each edge.
+class EdgeRanges
+{
+public:
+	EdgeRanges() : m_first(1, 0) {}
+
+	/// Edge e gets the next \p size(e) numbers.
+	template<class Size>
+	EdgeRanges(IndexRange<Edge> edges, Size size) : EdgeRanges()
+	{
+		m_first.reserve(positionOf(edges.size()) + 1);
+		for (const Edge e : edges)
+			append(size(e));
+	}
+
+	/// Adds the range of one more edge.
+	void append(int size) { m_first.push_back(m_first.back() + size); }
+
+	int first(Edge e) const { return m_first[positionOf(e)]; }
+	int last(Edge e) const { return m_first[positionOf(e) + 1]; } ///< one past the range
+	int size(Edge e) const { return last(e) - first(e); }
+	int total() const { return m_first.back(); }
+
+private:
+	std::vector<int> m_first;
+};
+
 /// Where the edges of the input and of the end cross those of the start. Which and in what order:
 /// by integers. Where: straight lines in the input's metric, and planes through the origin of
 /// R^{2,1} for the conformal flips.
@@ -49,7 +75,7 @@ public:
 	EdgeArray<Curve> startCurves; ///< [start edge] on the end triangulation
 
 	/// The crossings on each start edge, in order from the origin of its halfedge().
-	NumberRanges<Edge> inputOn, endOn;
+	EdgeRanges inputOn, endOn;
 	Array<InputCrossing> inputCrossings;
 	Array<EndCrossing> endCrossings;
 

@@ -170,10 +170,12 @@ public:
 				std::max(0.0, determinant(here, after.onStart) / det) * before.sumOnEnd;
 			const double r =
 				std::max(0.0, determinant(before.onStart, here) / det) * after.sumOnEnd;
-			end = between(
-				startOfInterval(e, passed),
-				endOfInterval(e, passed),
-				keepInside(EdgeWeights{s, r}.affine()));
+			const double share = keepInside(EdgeWeights{s, r}.affine());
+			const FaceWeights from = startOfInterval(e, passed), to = endOfInterval(e, passed);
+			FaceWeights weights;
+			for (std::size_t c = 0; c < 3; ++c)
+				weights[c] = mix(from[c], to[c], share);
+			end = PointOnEnd(faceOfInterval(e, passed), weights);
 		}
 	}
 
@@ -186,13 +188,6 @@ private:
 		EdgeWeights onStart;
 		double sumOnEnd; ///< weight sum in the end metric
 	};
-
-	static PointOnEnd between(FaceWeights from, const FaceWeights& to, double share)
-	{
-		for (std::size_t c = 0; c < 3; ++c)
-			from.weight[c] = mix(from.weight[c], to.weight[c], share);
-		return PointOnEnd(from);
-	}
 
 	/// Weights of the ends of the end edge in the end metric.
 	EdgeWeights onEndMetric(const EndCrossing& x) const
@@ -210,6 +205,14 @@ private:
 		const double share =
 			shareOnEnd(m_crossings.endCrossings[m_crossings.endOn.first(e) + index]);
 		return pointOnSide(m_end, h, h.isFirst() ? share : 1.0 - share);
+	}
+
+	/// The end triangle that start edge e is in after \p passed crossings.
+	Face faceOfInterval(Edge e, int passed) const
+	{
+		const Curve& curve = m_crossings.startCurves[e];
+		return m_end.face(
+			passed == 0 ? curve.first : curve.crossings[positionOf(passed - 1)].halfedge.twin());
 	}
 
 	/// Where start edge e enters the end triangle that it is in after \p passed crossings.

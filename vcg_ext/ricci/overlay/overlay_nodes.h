@@ -3,7 +3,6 @@
 #define RICCI_OVERLAY_NODES_H
 
 #include "edge_crossings.h"
-#include "number_ranges.h"
 #include "overlay_pieces.h"
 
 namespace ricci {
@@ -49,7 +48,7 @@ private:
 	int slot(Halfedge h, int i) const { return m_on.first(h.edge()) + index(h, i); }
 
 	int m_vertexCount;
-	NumberRanges<Edge> m_on;
+	EdgeRanges m_on;
 	Array<double> m_share;                   // [node less m_vertexCount]
 	Array<int> m_indexOfInput, m_indexOfEnd; // [crossing]
 };

@@ -52,8 +52,8 @@ public:
 
 	OverlayPieces run()
 	{
-		collectChords(m_crossings.inputCurves, kInput);
-		collectChords(m_crossings.endCurves, kEnd);
+		m_chords = {
+			chordsOf(m_crossings.inputCurves, kInput), chordsOf(m_crossings.endCurves, kEnd)};
 		m_sidesOn = {m_start.edges(), [&](Edge e) { return m_edgeNodes.count(e) + 1; }};
 		m_result.sideCount = m_sidesOn.total();
 		int unheard = 0; // work since the last checkpoint
@@ -75,40 +75,37 @@ private:
 	using Curve = NormalCoordinates::Curve;
 
 	/// The chords of one family, by start triangle.
-	void collectChords(const EdgeArray<Curve>& curves, std::size_t family)
+	Adjacency<Face, Chord> chordsOf(const EdgeArray<Curve>& curves, std::size_t family) const
 	{
-		FaceArray<int> count(m_start.faceCount(), 0);
-		for (const Curve& curve : curves) {
-			if (curve.crossings.empty())
-				continue;
-			for (const auto& x : curve.crossings)
-				++count[m_start.face(x.halfedge)];
-			++count[m_start.face(curve.last)];
-		}
-		NumberRanges<Face>& in = m_chordsIn[family];
-		in = {m_start.faces(), [&](Face f) { return count[f]; }};
-		m_chords[family].resize(in.total());
-		count.assign(m_start.faceCount(), 0); // chords that are entered
-		const auto add = [&](const Chord& chord, Face f) {
-			m_chords[family][in.first(f) + count[f]++] = chord;
-		};
-		for (const Edge e : curves.indices()) {
-			const Curve& curve = curves[e];
-			if (curve.crossings.empty())
-				continue;
-			Chord chord;
-			chord.edge = e;
-			chord.from = {curve.first, -1, 0.0};
-			for (const auto& x : curve.crossings) {
-				const auto [index, share] = nodeAt(x, family);
-				chord.to = {x.halfedge, m_edgeNodes.index(x.halfedge, index), share};
-				add(chord, m_start.face(x.halfedge));
-				const Halfedge beyond = x.halfedge.twin();
-				chord.from = {beyond, m_edgeNodes.index(beyond, index), share};
+		const auto forFaces = [&](const auto& count) {
+			for (const Curve& curve : curves) {
+				if (curve.crossings.empty())
+					continue;
+				for (const auto& x : curve.crossings)
+					count(m_start.face(x.halfedge));
+				count(m_start.face(curve.last));
 			}
-			chord.to = {curve.last, -1, 1.0};
-			add(chord, m_start.face(chord.from.halfedge));
-		}
+		};
+		const auto forChords = [&](const auto& add) {
+			for (const Edge e : curves.indices()) {
+				const Curve& curve = curves[e];
+				if (curve.crossings.empty())
+					continue;
+				Chord chord;
+				chord.edge = e;
+				chord.from = {curve.first, -1, 0.0};
+				for (const auto& x : curve.crossings) {
+					const auto [index, share] = nodeAt(x, family);
+					chord.to = {x.halfedge, m_edgeNodes.index(x.halfedge, index), share};
+					add(m_start.face(x.halfedge), chord);
+					const Halfedge beyond = x.halfedge.twin();
+					chord.from = {beyond, m_edgeNodes.index(beyond, index), share};
+				}
+				chord.to = {curve.last, -1, 1.0};
+				add(m_start.face(chord.from.halfedge), chord);
+			}
+		};
+		return {m_start.faceCount(), forFaces, forChords};
 	}
 
 	/// The node of a crossing: index on its start edge, and share on the input or end edge.
@@ -136,10 +133,8 @@ private:
 		listBorder();
 		for (const std::size_t family : {kInput, kEnd}) {
 			m_places[family].clear();
-			for (const int c : m_chordsIn[family].of(f)) {
-				const Chord& chord = m_chords[family][c];
+			for (const Chord& chord : m_chords[family][f])
 				m_places[family].push_back({placeOf(chord.from), placeOf(chord.to)});
-			}
 		}
 		m_arrangement.divide(m_cornerPlace[3], m_places[kInput], m_places[kEnd]);
 		const int firstNode = m_result.nodes.size();
@@ -198,7 +193,7 @@ private:
 
 	const Chord& chordOf(const ChordArrangement::Line& line, std::size_t family, Face f) const
 	{
-		return m_chords[family][m_chordsIn[family].first(f) + line.chord[family]];
+		return m_chords[family][f][line.chord[family]];
 	}
 
 	PieceCorner
@@ -291,10 +286,8 @@ private:
 	const EdgeCrossings m_crossings;
 	const StartEdgeNodes m_edgeNodes;
 
-	std::array<Array<Chord>, 2> m_chords;         // [family]
-	std::array<NumberRanges<Face>, 2> m_chordsIn; // [family] numbers in m_chords by start triangle
-	NumberRanges<Edge>
-		m_sidesOn; // numbers of the sides on each start edge; they come before all others
+	std::array<Adjacency<Face, Chord>, 2> m_chords; // [family] by start triangle
+	EdgeRanges m_sidesOn; // numbers of the sides on each start edge; they come before all others
 
 	// Of the start triangle that is being divided:
 	std::array<Halfedge, 3> m_sides;

@@ -24,6 +24,7 @@
 #define RICCI_OVERLAY_PIECES_H
 
 #include "../flow/ricci_flow.h"
+#include "../math/adjacency.h"
 #include "../surface/surface_mesh.h"
 #include "barycentric.h"
 
@@ -42,10 +43,7 @@ public:
 	PointOnEnd() = default;
 	explicit PointOnEnd(Vertex v) : m_element(v.number()) {}
 	PointOnEnd(Edge e, double share) : m_kind(OnEdge), m_element(e.number()), m_share(share) {}
-	explicit PointOnEnd(const FaceWeights& p) :
-			m_kind(InFace), m_element(p.face.number()), m_weight(p.weight)
-	{
-	}
+	PointOnEnd(Face f, const FaceWeights& p) : m_kind(InFace), m_element(f.number()), m_weight(p) {}
 
 	Kind kind() const { return m_kind; }
 	Vertex vertex() const { return Vertex(m_element); } ///< \pre AtVertex
@@ -54,14 +52,14 @@ public:
 
 	/// \pre OnEdge
 	double share() const { return m_share; }
-	/// Of the origins of halfedges(face()). \pre InFace
-	const std::array<double, 3>& weight() const { return m_weight; }
+	/// \pre InFace
+	const FaceWeights& weight() const { return m_weight; }
 
 private:
 	Kind m_kind = AtVertex;
 	int m_element = -1;
 	double m_share = 0.0;
-	std::array<double, 3> m_weight{0, 0, 0};
+	FaceWeights m_weight{0, 0, 0};
 };
 
 /// A vertex of the overlay.
@@ -103,13 +101,7 @@ public:
 	const PieceCorner& operator()(int piece, int i) const { return m_corners[corner(piece, i)]; }
 
 	/// The corners of a piece, in order.
-	struct Corners
-	{
-		const PieceCorner *first, *last;
-		const PieceCorner* begin() const { return first; }
-		const PieceCorner* end() const { return last; }
-	};
-	Corners corners(int piece) const
+	ItemRange<const PieceCorner> corners(int piece) const
 	{
 		return {m_corners.data() + m_first[piece], m_corners.data() + m_first[piece + 1]};
 	}

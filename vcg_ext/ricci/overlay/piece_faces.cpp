@@ -110,7 +110,7 @@ LinkedPieces linkPieces(
 	return linked;
 }
 
-std::array<double, 3>
+FaceWeights
 inEndTriangle(const LinkedPieces& linked, const Triangulation& end, int piece, int corner)
 {
 	const OverlayPieces& pieces = linked.pieces;
@@ -128,7 +128,7 @@ inEndTriangle(const LinkedPieces& linked, const Triangulation& end, int piece, i
 					g = h;
 		if (!g.isValid())
 			throw InternalError("A piece of the overlay is not in its triangle.");
-		return pointOnSide(end, g, 0.0).weight;
+		return pointOnSide(end, g, 0.0);
 	}
 	// Where both sides of the edge are f, the piece's own sides tell which one it is.
 	const auto offer = [&](Halfedge h) {
@@ -141,7 +141,7 @@ inEndTriangle(const LinkedPieces& linked, const Triangulation& end, int piece, i
 	offer(c.end);
 	if (!g.isValid())
 		throw InternalError("A piece of the overlay is not in its triangle.");
-	return pointOnSide(end, g, g.isFirst() ? point.share() : 1.0 - point.share()).weight;
+	return pointOnSide(end, g, g.isFirst() ? point.share() : 1.0 - point.share());
 }
 
 } // namespace ricci

@@ -35,10 +35,9 @@ struct LinkedPieces
 LinkedPieces linkPieces(
 	OverlayPieces pieces, const Triangulation& input, const Triangulation& end, int keptFaces);
 
-/// Affine coordinates of a corner of a piece in the piece's end triangle, in the order of its
-/// halfedges().
+/// A corner of a piece in the piece's end triangle.
 /// \throw InternalError if the corner is not in that triangle: a fault of the program
-std::array<double, 3>
+FaceWeights
 inEndTriangle(const LinkedPieces& linked, const Triangulation& end, int piece, int corner);
 
 } // namespace ricci

@@ -5,15 +5,14 @@
 #include "../cut/cut_graph.h"
 #include "../flow/ricci_flow.h"
 #include "../fuchsian/fuchsian_group.h"
-#include "../layout/common_refinement.h"
 #include "../layout/flat_mesh.h"
 #include "../layout/planar_layout.h"
-#include "../measure/period_matrix.h"
 #include "../parametrize.h"
 #include "../surface/component.h"
 
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace ricci {
@@ -23,32 +22,16 @@ struct ComponentMap
 {
 	SurfaceType type;
 	FlowResult flow;
-	std::vector<FlowState> flowStates;
 	VertexArray<char> cones; ///< 1 at vertices inside that are not flat
 	CutGraph cut;
-	double seamLength = 0.0; ///< of the cut on the mesh
+	PlanarLayout layout; ///< on the triangulation of the cut
+	FlatMesh mesh;       ///< what is given back
+	double scale = 1.0;  ///< lengths in the layout over those of the flow's metric
+	FuchsianGroup group; ///< hyperbolic
 
-	PlanarLayout layout;         ///< on the triangulation of the cut
-	CommonRefinement refinement; ///< where drawsPieces()
-	FaceArray<Triangle2> uv;     ///< [face of the component][corner]
-	FlatMesh mesh;               ///< what is given back, see flatMesh()
-	double scale = 1.0;          ///< lengths in the layout over those of the flow's metric
-
-	FuchsianGroup group;  ///< hyperbolic
-	PeriodMatrix periods; ///< of a closed surface, see measurePeriods()
-	std::optional<std::complex<double>> torusModulus;
-	std::optional<double> annulusModulus, rectangleAspect, hyperbolicArea, relationError;
-	std::optional<double> holonomyError;
-
+	bool hasFreeSeams = false;      ///< the finish has let seams go
 	std::vector<std::string> notes; ///< what was chosen, in sentences
-	int seamlessSteps = 0;          ///< of Newton's method, for turns across seams
-	std::optional<double> boundaryRatioMin, boundaryRatioMax; ///< see Report
-
-	int finishMoved = 0;       ///< points that the repair moved
-	int endedEarly = 0;        ///< see Report::endedEarly
-	bool hasFreeSeams = false; ///< the finish has let seams go
-	int cappedHoles = 0;
-	int edgeSwaps = 0, boundarySplits = 0; ///< Method::EdgeSwaps
+	Report report;                  ///< but for what the flow and the cut say: asParametrization()
 };
 
 constexpr double kNoAlternative = std::numeric_limits<double>::infinity();

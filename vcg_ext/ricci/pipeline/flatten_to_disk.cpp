@@ -10,9 +10,9 @@
 #include "../layout/corner_layout.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../surface/flow_domain.h"
-#include "../verify/flow_check.h"
+#include "../verify/chart_check.h"
 #include "../verify/holonomy_check.h"
-#include "../verify/result_check.h"
+#include "../verify/metric_check.h"
 #include "stages.h"
 #include "whole_map.h"
 
@@ -36,21 +36,19 @@ EdgeArray<double> cutCost(const FlowDomain& domain, const FlowResult& flow, Meth
 }
 
 /// The layout of the corners in the disk, open along the cut.
-/// \return what continues it across the edges of the cut
-EdgeArray<SidePairing> placeInDisk(
+DiskLayout placeInDisk(
 	const FlowDomain& domain,
 	LinkedPieces overlay,
 	const HyperbolicOptions& options,
 	ComponentMap& map)
 {
-	if (drawsPieces(options)) {
-		map.refinement = refine(domain, map, std::move(overlay));
-		map.layout = std::move(map.refinement.inputLayout);
-		return std::move(map.refinement.pairing);
+	if (isRefined(options)) {
+		CommonRefinement refinement =
+			commonRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
+		map.mesh = std::move(refinement.mesh);
+		return {std::move(refinement.inputLayout), std::move(refinement.pairing)};
 	}
-	DiskLayout disk = layOutCornersInDisk(domain, map.flow, map.cut.isCut);
-	map.layout = std::move(disk.corners);
-	return std::move(disk.pairing);
+	return layOutCornersInDisk(domain, map.flow, map.cut.isCut);
 }
 
 /// Farthest point of a layout from the centre of the disk, in the hyperbolic metric.
@@ -71,21 +69,20 @@ void layOut(
 	ComponentMap& map)
 {
 	const Triangulation& t = domain.surface.triangulation;
-	EdgeArray<SidePairing> pairing = placeInDisk(domain, std::move(overlay), options, map);
-	if (const double radius = radiusOf(map.layout); radius > kWideRadius) {
+	DiskLayout disk = placeInDisk(domain, std::move(overlay), options, map);
+	if (const double radius = radiusOf(disk.corners); radius > kWideRadius) {
 		map.cut = cutAroundCentre(t, cutCost(domain, map.flow, options.method), map.cones);
-		pairing = placeInDisk(domain, flowOverlay(domain, options, map), options, map);
+		disk = placeInDisk(domain, flowOverlay(domain, options, map), options, map);
 		logLine(
 			"The short seams lead " + numberText(radius, 3) +
 			" out in the disk, too far for floats. Longer ones around the middle lead " +
-			numberText(radiusOf(map.layout), 3) + " out.");
+			numberText(radiusOf(disk.corners), 3) + " out.");
 	}
-	map.uv = cornersOf(domain, map.layout);
-	pairing = pairingOfArcs(t, map.cut, pairing, map.cones);
-	map.relationError = holonomyError(
-		t, map.cut, pairing, map.layout, domain.surface.topology, map.cones, map.flow.target);
+	disk.pairing = pairingOfArcs(t, map.cut, disk.pairing, map.cones);
+	map.report.relationError = holonomyError(t, map.cut, disk, map.cones, map.flow.target);
 	advance(1.0 - kAfterFlow, "Canonical generators");
-	map.group = fuchsianGroup(t, map.cut, pairing, map.cones, options.canonicalGenerators);
+	map.group = fuchsianGroup(t, map.cut, disk.pairing, map.cones, options.canonicalGenerators);
+	map.layout = std::move(disk.corners);
 	if (options.canonicalGenerators && !map.group.isCanonical())
 		logLine(
 			"There are no canonical generators: they would move points farther than floating point "
@@ -97,20 +94,15 @@ void finish(const FlowDomain& domain, const HyperbolicOptions& options, Componen
 {
 	if (!isFinished(options))
 		return;
-	const bool freeBoundary = map.flow.target.hasFixed();
-	const bool refined = options.output == OutputTriangulation::CommonRefinement;
-	FlatMesh flat = refined ? flatMeshOf(domain.surface, map.refinement)
-							: flatMeshOf(domain.surface, map.layout);
-	const FinishCounts counts = finishInDisk(flat, freeBoundary);
-	map.finishMoved = counts.moved;
-	map.endedEarly += counts.endedEarly;
-	if (refined) {
-		for (const int f : flat.points.indices())
-			map.refinement.uv[positionOf(f)] = flat.at(f);
-		return;
-	}
-	map.layout.points = std::move(flat.place);
-	map.uv = cornersOf(domain, map.layout);
+	FlatMesh own; // corners of the mesh
+	if (!isRefined(options))
+		own = flatMeshOf(domain.surface, map.layout);
+	const FinishCounts counts =
+		finishInDisk(isRefined(options) ? map.mesh : own, map.flow.target.hasFixed());
+	map.report.finishMoved = counts.moved;
+	map.report.endedEarly += counts.endedEarly;
+	if (!isRefined(options))
+		map.layout.points = std::move(own.place);
 }
 
 } // namespace
@@ -142,8 +134,8 @@ ComponentMap flattenToDisk(
 		options,
 		map);
 	layOut(domain, std::move(overlay), options, map); // 4.3
-	map.seamLength = lengthOf(map.cut, domain.surface.lengths);
-	map.hyperbolicArea = map.flow.area;
+	map.report.seamLength = lengthOf(map.cut, domain.surface.lengths);
+	map.report.hyperbolicArea = map.flow.area;
 	advance(1.0 - kAfterFlow, "Repairing the map");
 	besides(
 		threadsFor(domain.surface.triangulation.faceCount()),
@@ -151,7 +143,8 @@ ComponentMap flattenToDisk(
 		[&] { requireMetric(map.flow, domain.solved().topology.boundary); });
 
 	advance(1.0, "Checking the result");
-	map.mesh = flatMesh(component, map, options.output);
+	if (!isRefined(options))
+		map.mesh = flatMesh(component, domain, map.layout);
 	requireDisk(map.mesh, map.flow, mayBeFlipped(map, options.output));
 	return map;
 }

@@ -2,22 +2,25 @@
 #include "flatten.h"
 
 #include "../base/attempt.h"
+#include "../base/numbers.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
 #include "../base/text.h"
 #include "../curvature/target_curvature.h"
+#include "../cut/cone_wedges.h"
 #include "../cut/cut_graph.h"
 #include "../cut/seam_cost.h"
 #include "../edge_swap/swapped_flow.h"
 #include "../finish/finish.h"
 #include "../layout/corner_layout.h"
+#include "../math/convex_hull.h"
 #include "../measure/distortion.h"
 #include "../measure/invariants.h"
 #include "../seamless/make_seamless.h"
 #include "../surface/flow_domain.h"
-#include "../verify/flow_check.h"
+#include "../verify/chart_check.h"
 #include "../verify/holonomy_check.h"
-#include "../verify/result_check.h"
+#include "../verify/metric_check.h"
 #include "keep_areas.h"
 #include "stages.h"
 #include "whole_map.h"
@@ -44,6 +47,64 @@ Holes holesOf(const Options& options)
 	return options.holes == Holes::ShortCapped && !mayCap ? Holes::Boundaries : options.holes;
 }
 
+/// What the target of a surface of \p vertexCount vertices is chosen from, of which the first are the component's.
+TargetRequest targetRequest(
+	const Component& component, const VertexInput& input, const Options& options, int vertexCount)
+{
+	TargetRequest request;
+	static_cast<TargetInput&>(request) = targetInput(component, input, vertexCount);
+	request.options = options;
+	request.measuresAreas = options.method == Method::IntrinsicFlips;
+	request.hasSeam = component.hasSeam;
+	request.vertexNumbers = component.vertex;
+	return request;
+}
+
+/// Angles at the corners of cones, see coneCorners().
+HalfedgeArray<double>
+cornersOfCones(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& cones)
+{
+	VertexArray<double> coneAngle(surface.triangulation.vertexCount(), 0.0);
+	for (const Vertex v : cones.indices())
+		if (cones[v])
+			coneAngle[v] = 2.0 * kPi - target.curvature[v];
+	return coneCorners(surface.triangulation, surface.lengths, coneAngle);
+}
+
+/// Scales the layout by \p scale and turns it so that its smallest bounding rectangle lies along the
+/// axes, from the origin.
+void turnUpright(double scale, ComponentMap& map)
+{
+	const OrientedRectangle r = minAreaRectangle(map.layout.points.values());
+	const auto move = [&](Point2& p) {
+		const Point2 q = r.inFrame(p);
+		p = {scale * (q[0] - r.min[0]), scale * (q[1] - r.min[1])};
+	};
+	for (Point2& p : map.layout.points)
+		move(p);
+	for (Point2& p : map.mesh.place)
+		move(p);
+}
+
+/// The modulus of a flat torus or annulus and the aspect of a rectangle, where the map is one.
+/// \param t the triangulation of the layout
+void conformalInvariants(const Triangulation& t, ComponentMap& map)
+{
+	const Target& target = map.flow.target;
+	const bool flat = target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
+	if (map.type.isTorus() && flat) {
+		const std::complex<double> tau = torusModulus(t, map.layout, map.cut);
+		map.report.torusTauRe = tau.real();
+		map.report.torusTauIm = tau.imag();
+	}
+	// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
+	if (map.type.isAnnulus() && flat && !target.hasFixed() && map.cut.edgeCount > 0)
+		map.report.annulusModulus =
+			annulusModulus(t, map.layout, map.cut, map.scale * map.scale * map.flow.area);
+	if (target.corners)
+		map.report.rectangleAspect = rectangleAspect(t, map.layout, *target.corners);
+}
+
 /// The flow with edge swaps (5.4), and the domain that it leaves.
 void flowWithEdgeSwaps(
 	const Component& component,
@@ -56,17 +117,17 @@ void flowWithEdgeSwaps(
 		const int vertexCount = surface.positions.size(); // grows with each split
 		Target target =
 			chooseTarget(surface, start, targetRequest(component, input, options, vertexCount));
-		if (map.flowStates.empty())
+		if (map.report.flowStates.empty())
 			noteTarget(target, map);
 		return target;
 	};
 	advance(0.0, "Solving for the metric");
 	const Task part(kBeforeFlow, 1.0 - kAfterFlow);
-	SwappedFlow swapped = flowWithEdgeSwaps(component, options, choose, map.flowStates);
+	SwappedFlow swapped = flowWithEdgeSwaps(component, options, choose, map.report.flowStates);
 	domain = std::move(swapped.domain);
 	map.flow = std::move(swapped.flow);
-	map.edgeSwaps = swapped.swaps;
-	map.boundarySplits = swapped.splits;
+	map.report.edgeSwaps = swapped.swaps;
+	map.report.boundarySplits = swapped.splits;
 }
 
 /// makeSeamless() as the options say.
@@ -84,7 +145,7 @@ void makeSeamless(
 		});
 	};
 	const HolonomyRounding done = makeSeamless(surface, request, options.epsilon, flowTo, map.flow);
-	map.seamlessSteps = done.steps;
+	map.report.iterations = done.steps;
 	if (done.before > 0.0)
 		logLine(
 			"The rotations across seams are up to " + numberText(done.before, 3) +
@@ -96,9 +157,11 @@ void makeSeamless(
 void placeCorners(
 	const FlowDomain& domain, LinkedPieces overlay, const Options& options, ComponentMap& map)
 {
-	if (drawsPieces(options)) {
-		map.refinement = refine(domain, map, std::move(overlay));
-		map.layout = std::move(map.refinement.inputLayout);
+	if (isRefined(options)) {
+		CommonRefinement refinement =
+			commonRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
+		map.mesh = std::move(refinement.mesh);
+		map.layout = std::move(refinement.inputLayout);
 	}
 	else
 		map.layout = layOutCorners(domain, map.flow, map.cut.isCut);
@@ -110,11 +173,9 @@ double areaInPlane(const FlowDomain& domain, const ComponentMap& map)
 	if (domain.holes == 0)
 		return map.flow.area;
 	double area = 0.0;
-	for (const Triangle2& p : map.refinement.uv)
+	for (const Triangle2& p :
+		 map.mesh.size() > 0 ? map.mesh.corners() : cornersOf(domain, map.layout))
 		area += 0.5 * doubledArea(p[0], p[1], p[2]);
-	if (map.refinement.uv.empty())
-		for (const Triangle2& p : cornersOf(domain, map.layout))
-			area += 0.5 * doubledArea(p[0], p[1], p[2]);
 	return area;
 }
 
@@ -147,7 +208,6 @@ void layOut(
 			surfaceArea(component.positions.values(), component.triangles) /
 			areaInPlane(domain, map));
 	turnUpright(map.scale, map);
-	map.uv = cornersOf(domain, map.layout);
 }
 
 /// The finish that is asked for, or LeastDistortion where that would lose what the map has to keep.
@@ -165,19 +225,18 @@ Finish finishOf(const Options& options, const ComponentMap& map)
 /// The finish of what is given back. The invariants are those of the flow's own layout.
 void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 {
-	if (!isFinished(options) || options.output == OutputTriangulation::CommonRefinement)
+	if (!isFinished(options) || isRefined(options))
 		return; // the refinement is exact
 	const Finish finish = finishOf(options, map);
 	FlatMesh flat = flatMeshOf(domain.surface, map.layout);
 	const FinishCounts counts =
 		finishInPlane(flat, map.cones, map.flow.target.hasFixed(), domain.onHole, finish);
-	map.finishMoved = counts.moved;
-	map.endedEarly += counts.endedEarly;
+	map.report.finishMoved = counts.moved;
+	map.report.endedEarly += counts.endedEarly;
 	map.hasFreeSeams = finish == Finish::LeastStretch;
 	flat.place.swap(map.layout.points);
 	if (map.layout.points != flat.place) // its border may have moved
 		turnUpright(1.0, map);
-	map.uv = cornersOf(domain, map.layout);
 }
 
 /// How the lengths of a free boundary compare in the map and on the mesh.
@@ -199,8 +258,8 @@ void measureBoundary(const EmbeddedSurface& surface, ComponentMap& map)
 	}
 	if (!(most > 0.0))
 		return;
-	map.boundaryRatioMin = least;
-	map.boundaryRatioMax = most;
+	map.report.boundaryRatioMin = least;
+	map.report.boundaryRatioMax = most;
 	if (std::max(most - 1.0, 1.0 - least) > kKeptLength)
 		logLine(
 			"Free boundary: in the map its edges are " + numberText(least, 3) + " to " +
@@ -249,7 +308,7 @@ std::optional<ComponentMap> flattenToPlane(
 		options,
 		map);
 	layOut(component, domain, std::move(overlay), options, map); // 4.3
-	map.seamLength = lengthOf(map.cut, surface.lengths);
+	map.report.seamLength = lengthOf(map.cut, surface.lengths);
 	conformalInvariants(surface.triangulation, map);
 	advance(1.0 - kAfterFlow, "Repairing the map");
 	besides(
@@ -258,11 +317,12 @@ std::optional<ComponentMap> flattenToPlane(
 		[&] { requireMetric(map.flow, domain.solved().topology.boundary); });
 	measureBoundary(surface, map);
 	if (options.cones.rounding == ConeRounding::QuarterTurns)
-		map.holonomyError =
+		map.report.holonomyError =
 			holonomyError(surface.triangulation, map.layout, map.cut.isCut, map.cones);
 
 	advance(1.0, "Checking the result");
-	map.mesh = flatMesh(component, map, options.output);
+	if (!isRefined(options))
+		map.mesh = flatMesh(component, domain, map.layout);
 	requireMap(map.mesh, map.flow, mayBeFlipped(map, options.output), !map.hasFreeSeams);
 	return map;
 }

@@ -61,7 +61,7 @@ void keepAreas(
 		propose,
 		take);
 	if (!isForCost && round == kMaxRounds) {
-		++map.endedEarly;
+		++map.report.endedEarly;
 		logLine("The search for cones that keep areas has ended at the bound on its flows.");
 	}
 	if (round > 0) {

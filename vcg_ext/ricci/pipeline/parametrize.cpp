@@ -8,7 +8,6 @@
 #include "../charts/pack.h"
 #include "../charts/separate_charts.h"
 #include "../measure/distortion.h"
-#include "../measure/hyperbolic_distortion.h"
 #include "../verify/overlap_check.h"
 #include "flatten.h"
 #include "unfold.h"
@@ -43,11 +42,11 @@ void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
 
 /// Maps every component.
 /// \param flatten flatten(component, input) to a Parametrization
-template<class AnyOptions, class Flatten>
+template<class Flatten>
 Parametrization mapComponents(
 	const SurfaceMesh& mesh,
 	const VertexInput& input,
-	const AnyOptions& options,
+	const FlowOptions& options,
 	const Flatten& flatten,
 	OpenedMesh& opened)
 {
@@ -129,7 +128,7 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 void measure(const OpenedMesh& opened, Parametrization& map)
 {
 	const std::vector<Point3> surface = map.mesh.onSurface(opened.mesh.positions);
-	map.vertexQC = measureDistortion(map.mesh, surface, map.report).vertex;
+	map.vertexQC = measureDistortion(map.mesh, surface, map.report);
 	map.report.stretch = stretchEnergy(map.mesh);
 }
 
@@ -146,7 +145,7 @@ void measureInDisk(const OpenedMesh& opened, Parametrization& map)
 	}
 	moveCharts(motions, mesh);
 	const std::vector<Point3> surface = mesh.onSurface(opened.mesh.positions);
-	map.vertexQC = measureHyperbolicDistortion(mesh, surface, map.report).vertex;
+	map.vertexQC = measureHyperbolicDistortion(mesh, surface, map.report);
 }
 
 /// From charts to texture coordinates.

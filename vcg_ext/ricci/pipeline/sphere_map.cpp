@@ -11,7 +11,6 @@
 #include "../parametrize.h"
 #include "../surface/component.h"
 #include "../surface/topology.h"
-#include "../verify/flow_check.h"
 #include "../verify/sphere_check.h"
 #include "whole_map.h"
 
@@ -353,7 +352,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	if (!(check.radiusError <= kCheckedRadius) ||
 		!(std::abs(check.degree - coverings) <= kCheckedDegree) ||
 		std::abs(coverings - 1.0) > map.flippedFaces || check.turned > map.flippedFaces)
-		failCheck(
+		throw NotConverged(
 			"the sphere is covered " + numberText(check.degree, 9) + " times, radii " +
 			numberText(check.radiusError, 3) + " off, " + std::to_string(check.turned) +
 			" faces turned round");

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stages.h"
 
-#include "../base/numbers.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
 #include "../base/text.h"
 #include "../base/tolerances.h"
-#include "../cut/cone_wedges.h"
 #include "../error.h"
 #include "../math/convex_hull.h"
-#include "../measure/invariants.h"
+#include "../measure/period_matrix.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,12 +24,6 @@ constexpr double kOverlay = 0.7;
 
 } // namespace
 
-std::string description(const Component& component, const SurfaceType& type)
-{
-	return "Component of " + std::to_string(component.positions.size()) + " vertices, " +
-		   std::to_string(component.triangles.size()) + " faces: " + type.name() + ".";
-}
-
 TargetInput targetInput(const Component& component, const VertexInput& input, int vertexCount)
 {
 	TargetInput values;
@@ -45,18 +37,6 @@ TargetInput targetInput(const Component& component, const VertexInput& input, in
 			values.prescribed[v] = input.targetCurvature[positionOf(component.vertex[v])];
 	}
 	return values;
-}
-
-TargetRequest targetRequest(
-	const Component& component, const VertexInput& input, const Options& options, int vertexCount)
-{
-	TargetRequest request;
-	static_cast<TargetInput&>(request) = targetInput(component, input, vertexCount);
-	request.options = options;
-	request.measuresAreas = options.method == Method::IntrinsicFlips;
-	request.hasSeam = component.hasSeam;
-	request.vertexNumbers = component.vertex;
-	return request;
 }
 
 void logFlow(const FlowResult& flow, const FlowOptions& options)
@@ -88,20 +68,10 @@ conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<
 	return cones;
 }
 
-HalfedgeArray<double>
-cornersOfCones(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& cones)
-{
-	VertexArray<double> coneAngle(surface.triangulation.vertexCount(), 0.0);
-	for (const Vertex v : cones.indices())
-		if (cones[v])
-			coneAngle[v] = 2.0 * kPi - target.curvature[v];
-	return coneCorners(surface.triangulation, surface.lengths, coneAngle);
-}
-
 LinkedPieces
 flowOverlay(const FlowDomain& domain, const FlowOptions& options, const ComponentMap& map)
 {
-	if (!drawsPieces(options))
+	if (!isRefined(options))
 		return {};
 	const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
 	return overlayOf(domain, map.flow);
@@ -126,16 +96,11 @@ LinkedPieces cutAndOverlay(
 				dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, map.cones, map.cut);
 		});
 	if (map.cut.endedEarly) {
-		++map.endedEarly;
+		++map.report.endedEarly;
 		logLine("The search for shorter seams has ended at the bound on its work.");
 	}
 	advance(1.0 - kAfterFlow, "Cutting and layout");
 	return overlay;
-}
-
-CommonRefinement refine(const FlowDomain& domain, const ComponentMap& map, LinkedPieces overlay)
-{
-	return commonRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
 }
 
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)
@@ -149,8 +114,14 @@ double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)
 void describe(const Component& component, const FlowDomain& domain, ComponentMap& map)
 {
 	map.type = domain.surface.topology.type;
-	map.cappedHoles = domain.holes;
-	logLine(description(component, map.type));
+	map.report.components = 1;
+	map.report.eulerCharacteristic = map.type.eulerCharacteristic();
+	map.report.genus = map.type.genus;
+	map.report.boundaryLoops = map.type.boundaryLoops;
+	map.report.cappedHoles = domain.holes;
+	logLine(
+		"Component of " + std::to_string(component.positions.size()) + " vertices, " +
+		std::to_string(component.triangles.size()) + " faces: " + map.type.name() + ".");
 }
 
 void noteTarget(const Target& target, ComponentMap& map)
@@ -170,47 +141,27 @@ FlowResult runFlow(
 	noteTarget(target, map);
 	advance(0.0, "Solving for the metric");
 	const Task flow(kBeforeFlow, 1.0 - kAfterFlow);
-	return runRicciFlow(surface, std::move(start), target, options, map.flowStates);
+	return runRicciFlow(surface, std::move(start), target, options, map.report.flowStates);
 }
 
-void turnUpright(double scale, ComponentMap& map)
-{
-	const OrientedRectangle r = minAreaRectangle(map.layout.points.values());
-	const auto move = [&](Point2& p) {
-		const Point2 q = r.inFrame(p);
-		p = {scale * (q[0] - r.min[0]), scale * (q[1] - r.min[1])};
-	};
-	for (Point2& p : map.layout.points)
-		move(p);
-	for (Triangle2& triangle : map.refinement.uv)
-		for (Point2& p : triangle)
-			move(p);
-}
-
-FaceArray<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout)
+Array<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout)
 {
 	const Triangulation& t = domain.surface.triangulation;
 	const bool isSplit = !domain.corners.empty();
-	FaceArray<Triangle2> corners(isSplit ? domain.corners.size() : t.faceCount());
-	for (const Face f : corners.indices()) {
-		const auto h = isSplit ? domain.corners[f] : t.halfedges(f);
+	Array<Triangle2> corners(isSplit ? domain.corners.size() : t.faceCount());
+	for (const int f : corners.indices()) {
+		const auto h = isSplit ? domain.corners[Face(f)] : t.halfedges(Face(f));
 		corners[f] = {layout[h[0]], layout[h[1]], layout[h[2]]};
 	}
 	return corners;
 }
 
-void conformalInvariants(const Triangulation& t, ComponentMap& map)
+FlatMesh flatMesh(const Component& component, const FlowDomain& domain, const PlanarLayout& layout)
 {
-	const Target& target = map.flow.target;
-	const bool flat = target.curvature.lpNorm<Eigen::Infinity>() == 0.0;
-	if (map.type.isTorus() && flat)
-		map.torusModulus = torusModulus(t, map.layout, map.cut);
-	// A large epsilon can stop the flow where the metric closes round a hole, without a seam.
-	if (map.type.isAnnulus() && flat && !target.hasFixed() && map.cut.edgeCount > 0)
-		map.annulusModulus =
-			annulusModulus(t, map.layout, map.cut, map.scale * map.scale * map.flow.area);
-	if (target.corners)
-		map.rectangleAspect = rectangleAspect(t, map.layout, *target.corners);
+	return flatMeshOf(
+		Array<Triangle>(component.triangles),
+		cornersOf(domain, layout),
+		component.positions.values());
 }
 
 void measurePeriods(ComponentMap& map)
@@ -219,14 +170,18 @@ void measurePeriods(ComponentMap& map)
 		return;
 	advance(0.0, "Period matrix");
 	const IntrinsicMesh& start = map.flow.start.mesh;
-	map.periods = periodMatrix(start.triangulation, start.lengths);
+	const PeriodMatrix periods = periodMatrix(start.triangulation, start.lengths);
+	for (const auto row : periods.omega.rowwise())
+		map.report.periodMatrix.insert(map.report.periodMatrix.end(), row.begin(), row.end());
+	if (periods.omega.size() > 0)
+		map.report.periodError = periods.error;
 }
 
 bool mayBeFlipped(const ComponentMap& map, OutputTriangulation output)
 {
-	const bool isBent =
-		map.flow.flipCount() > 0 || map.flow.doubled || map.edgeSwaps > 0 || map.boundarySplits > 0;
-	return map.finishMoved > 0 || (isBent && output == OutputTriangulation::KeepMesh);
+	const bool isBent = map.flow.flipCount() > 0 || map.flow.doubled || map.report.edgeSwaps > 0 ||
+						map.report.boundarySplits > 0;
+	return map.report.finishMoved > 0 || (isBent && output == OutputTriangulation::KeepMesh);
 }
 
 } // namespace ricci

@@ -7,6 +7,7 @@
 #include "../curvature/target_curvature.h"
 #include "../cut/cut_graph.h"
 #include "../cut/seam_cost.h"
+#include "../layout/common_refinement.h"
 #include "../surface/flow_domain.h"
 #include "flatten.h"
 
@@ -21,15 +22,8 @@ namespace ricci {
 /// Share of a component's progress that is spent before the flow, and after it.
 constexpr double kBeforeFlow = 0.05, kAfterFlow = 0.1;
 
-/// "Component of 8 vertices, 12 faces: a closed surface of genus 0 (a sphere)."
-std::string description(const Component& component, const SurfaceType& type);
-
 /// The values of a surface of \p vertexCount vertices whose first ones are the component's.
 TargetInput targetInput(const Component& component, const VertexInput& input, int vertexCount);
-
-/// What the Euclidean target of that surface is chosen from.
-TargetRequest targetRequest(
-	const Component& component, const VertexInput& input, const Options& options, int vertexCount);
 
 /// Logs what the user should know of a flow that reached its target.
 void logFlow(const FlowResult& flow, const FlowOptions& options);
@@ -39,13 +33,9 @@ void logFlow(const FlowResult& flow, const FlowOptions& options);
 VertexArray<char>
 conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& onHole = {});
 
-/// Angles at the corners of cones, see coneCorners().
-HalfedgeArray<double> cornersOfCones(
-	const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& cones);
-
 /// The cut graph through all cones on edges of the surface (paper 4.3), without seams to holes that the
 /// flow closes with caps and, where it can, without seams inside polygons; and beside it, in another thread
-/// if there is one, the overlay of the flow if its pieces are drawn.
+/// if there is one, the overlay of the flow if its pieces are given back.
 /// \param cost [edge] of a seam
 /// \param corners see shortenCut()
 LinkedPieces cutAndOverlay(
@@ -58,19 +48,15 @@ LinkedPieces cutAndOverlay(
 /// Sum of the lengths of the cut's edges.
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths);
 
-/// Whether the pieces of the overlay of a flow with flips are drawn, not the corners of the mesh alone.
-inline bool drawsPieces(const FlowOptions& options)
+/// Whether the pieces of the overlay of a flow with flips are given back, not the triangles of the mesh.
+inline bool isRefined(const FlowOptions& options)
 {
-	return options.method == Method::IntrinsicFlips &&
-		   options.output == OutputTriangulation::CommonRefinement;
+	return options.output == OutputTriangulation::CommonRefinement;
 }
 
-/// overlayOf() the flow, with what the options ask of it; nothing where its pieces are not drawn.
+/// overlayOf() the flow, with what the options ask of it; nothing where its pieces are not given back.
 LinkedPieces
 flowOverlay(const FlowDomain& domain, const FlowOptions& options, const ComponentMap& map);
-
-/// commonRefinement() of the map.
-CommonRefinement refine(const FlowDomain& domain, const ComponentMap& map, LinkedPieces overlay);
 
 /// Takes down what is known of a component before its flow, and logs it.
 void describe(const Component& component, const FlowDomain& domain, ComponentMap& map);
@@ -78,7 +64,7 @@ void describe(const Component& component, const FlowDomain& domain, ComponentMap
 /// Takes down the notes of a target, and logs them.
 void noteTarget(const Target& target, ComponentMap& map);
 
-/// A flow of a component, first or again: states and steps go on from those of map.flowStates. Notes the
+/// A flow of a component, first or again: states and steps go on from those of map.report.flowStates. Notes the
 /// target.
 /// \throw as runRicciFlow()
 FlowResult runFlow(
@@ -88,16 +74,11 @@ FlowResult runFlow(
 	const FlowOptions& options,
 	ComponentMap& map);
 
-/// Scales the layout by \p scale and turns it so that its smallest bounding rectangle lies along the
-/// axes, from the origin.
-void turnUpright(double scale, ComponentMap& map);
+/// [face of the component] The points of its corners.
+Array<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout);
 
-/// The points of the corners of the component's faces.
-FaceArray<Triangle2> cornersOf(const FlowDomain& domain, const PlanarLayout& layout);
-
-/// The modulus of a flat torus or annulus and the aspect of a rectangle, where the map is one.
-/// \param t the triangulation of the layout
-void conformalInvariants(const Triangulation& t, ComponentMap& map);
+/// The faces of a component as they are laid out.
+FlatMesh flatMesh(const Component& component, const FlowDomain& domain, const PlanarLayout& layout);
 
 /// The period matrix of a closed surface of genus 1 to kMaxPeriodGenus, in the metric of the mesh, on the
 /// triangulation at the start of the flow.

@@ -72,7 +72,7 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 	ofPieces.holes = Holes::Boundaries; // they are pieces elsewhere
 	const auto vertexCount = component.positions.values().size();
 	Parametrization map;
-	map.mesh.source = Array<SurfacePoint>(verticesOf(vertexCount));
+	map.mesh.source = verticesOf(vertexCount);
 	map.u.resize(vertexCount, 0.0);
 	map.targetCurvature.resize(vertexCount, 0.0);
 	for (const Component& piece : pieces)

@@ -2,6 +2,7 @@
 #include "whole_map.h"
 
 #include "../base/memory_estimate.h"
+#include "../base/task.h"
 #include "../charts/flipped_triangles.h"
 #include "../charts/separate_charts.h"
 #include "../measure/distortion.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace ricci {
@@ -23,44 +25,7 @@ std::size_t largestComponent(const std::vector<Component>& components)
 	return largest;
 }
 
-} // namespace
-
-std::vector<SurfacePoint> verticesOf(std::size_t count)
-{
-	std::vector<SurfacePoint> points(count);
-	for (std::size_t v = 0; v < count; ++v)
-		points[v].vertex[0] = static_cast<int>(v);
-	return points;
-}
-
-std::vector<Component> startMap(
-	const SurfaceMesh& mesh, const FlowOptions& options, OpenedMesh& opened, Parametrization& map)
-{
-	opened = openMesh(mesh, map.notes);
-	std::vector<Component> components = splitIntoComponents(opened);
-	if (options.method != Method::IntrinsicFlips)
-		requireAreaEverywhere(components);
-	requireMemory(
-		largestComponent(components),
-		opened.mesh.triangles.size(),
-		options.output == OutputTriangulation::CommonRefinement);
-	for (const std::string& note : map.notes)
-		logLine(note);
-	map.mesh.source = Array<SurfacePoint>(verticesOf(opened.mesh.positions.size()));
-	map.u.assign(opened.mesh.positions.size(), 0.0);
-	map.targetCurvature.assign(opened.mesh.positions.size(), 0.0);
-	map.report.cutNonmanifoldEdges = opened.cutEdges;
-	map.report.splitVertices = opened.splitVertices;
-	map.report.duplicateFaces = opened.duplicateFaces;
-	map.report.oneSidedComponents = opened.oneSidedComponents;
-	map.report.degenerateFaces = static_cast<int>(opened.degenerate.size());
-	map.report.chosenSeamEdges = opened.seamEdges;
-	map.report.chosenSeamLength = opened.seamLength;
-	map.report.seamEdges = opened.seamEdgesAdded;
-	map.report.seamLength = opened.seamLengthAdded;
-	return components;
-}
-
+/// [component] 1 where the log says nothing of it.
 std::vector<char> silentComponents(const std::vector<Component>& components)
 {
 	std::vector<std::size_t> order(components.size());
@@ -81,81 +46,53 @@ std::vector<char> silentComponents(const std::vector<Component>& components)
 	return isSilent;
 }
 
-FlatMesh flatMesh(const Component& component, const ComponentMap& map, OutputTriangulation output)
+/// Adds what the flow and the cut say.
+void complete(const ComponentMap& map, Report& report)
 {
-	const bool refined = output == OutputTriangulation::CommonRefinement;
-	FlatMesh mesh;
-	mesh.source = Array<SurfacePoint>(
-		refined ? map.refinement.points : verticesOf(component.positions.values().size()));
-	const std::vector<Point3> places = mesh.onSurface(component.positions.values());
-	Array<std::array<double, 3>> lengths;
-	Array<Triangle> vertices(refined ? map.refinement.triangles : component.triangles);
-	for (const Triangle& t : vertices) {
-		const auto length = [&](std::size_t i, std::size_t j) {
-			return distance(places[positionOf(t[i])], places[positionOf(t[j])]);
-		};
-		lengths.push_back({length(0, 1), length(1, 2), length(2, 0)});
-	}
-	Array<int> face;
-	for (const int f : vertices.indices())
-		face.push_back(refined ? map.refinement.inputFace[positionOf(f)].number() : f);
-	std::vector<SurfacePoint> source = std::move(mesh.source.values());
-	mesh = flatMeshOf(
-		std::move(vertices),
-		Array<Triangle2>(refined ? map.refinement.uv : map.uv.values()),
-		Array<int>(face.size(), 0),
-		std::move(lengths));
-	mesh.source = Array<SurfacePoint>(std::move(source));
-	mesh.face = std::move(face);
-	return mesh;
-}
-
-Report reportOf(const ComponentMap& map)
-{
-	Report report;
-	report.components = 1;
-	report.flowStates = map.flowStates;
-	report.iterations = map.seamlessSteps;
-	if (!map.flowStates.empty())
-		report.iterations += map.flowStates.back().step;
-	report.maxCurvatureError = map.flow.residual;
-	report.residualFloor = map.flow.floor;
-	report.lengthened = map.flow.start.lengthened.largest;
-	if (map.flow.target.background == Background::EuclideanPlane)
-		report.targetUsed = map.flow.target.used;
-	report.choice = map.flow.target.choice;
-	report.expectedSpread = map.flow.target.expectedSpread;
-	report.boundaryRatioMin = map.boundaryRatioMin;
-	report.boundaryRatioMax = map.boundaryRatioMax;
-	report.brokenTriangles = map.flow.metric->brokenTriangles();
-	report.flips = map.flow.flipCount();
-	report.finishMoved = map.finishMoved;
-	report.endedEarly = map.endedEarly;
-	report.edgeSwaps = map.edgeSwaps;
-	report.boundarySplits = map.boundarySplits;
-	report.eulerCharacteristic = map.type.eulerCharacteristic();
-	report.genus = map.type.genus;
-	report.boundaryLoops = map.type.boundaryLoops;
-	report.cappedHoles = map.cappedHoles;
+	const FlowResult& flow = map.flow;
+	if (!report.flowStates.empty())
+		report.iterations += report.flowStates.back().step;
+	report.maxCurvatureError = flow.residual;
+	report.residualFloor = flow.floor;
+	report.lengthened = flow.start.lengthened.largest;
+	if (flow.target.background == Background::EuclideanPlane)
+		report.targetUsed = flow.target.used;
+	report.choice = flow.target.choice;
+	report.expectedSpread = flow.target.expectedSpread;
+	report.brokenTriangles = flow.metric->brokenTriangles();
+	report.flips = flow.flipCount();
 	report.cones = static_cast<int>(std::count(map.cones.begin(), map.cones.end(), 1));
 	report.seamEdges = map.cut.edgeCount;
-	report.seamLength = map.seamLength;
-	if (map.torusModulus) {
-		report.torusTauRe = map.torusModulus->real();
-		report.torusTauIm = map.torusModulus->imag();
-	}
-	report.annulusModulus = map.annulusModulus;
-	report.rectangleAspect = map.rectangleAspect;
-	const Eigen::MatrixXcd& omega = map.periods.omega;
-	for (Eigen::Index i = 0; i < omega.rows(); ++i)
-		for (Eigen::Index j = 0; j < omega.cols(); ++j)
-			report.periodMatrix.push_back(omega(i, j));
-	if (omega.size() > 0)
-		report.periodError = map.periods.error;
-	report.hyperbolicArea = map.hyperbolicArea;
-	report.holonomyError = map.holonomyError;
-	report.relationError = map.relationError;
-	return report;
+}
+
+} // namespace
+
+std::vector<Component> startMap(
+	const SurfaceMesh& mesh, const FlowOptions& options, OpenedMesh& opened, Parametrization& map)
+{
+	opened = openMesh(mesh, map.notes);
+	std::vector<Component> components = splitIntoComponents(opened);
+	if (options.method != Method::IntrinsicFlips)
+		requireAreaEverywhere(components);
+	requireMemory(
+		largestComponent(components),
+		opened.mesh.triangles.size(),
+		options.output == OutputTriangulation::CommonRefinement);
+	for (const std::string& note : map.notes)
+		logLine(note);
+	map.mesh.source = verticesOf(opened.mesh.positions.size());
+	map.u.assign(opened.mesh.positions.size(), 0.0);
+	map.targetCurvature.assign(opened.mesh.positions.size(), 0.0);
+	map.report.cutNonmanifoldEdges = opened.cutEdges;
+	map.report.splitVertices = opened.splitVertices;
+	map.report.duplicateFaces = opened.duplicateFaces;
+	map.report.oneSidedComponents = opened.oneSidedComponents;
+	map.report.degenerateFaces = static_cast<int>(opened.degenerate.size());
+	map.report.chosenSeamEdges = opened.seamEdges;
+	map.report.chosenSeamLength = opened.seamLength;
+	map.report.seamEdges = opened.seamEdgesAdded;
+	map.report.seamLength = opened.seamLengthAdded;
+	return components;
 }
 
 Parametrization asParametrization(const Component& component, ComponentMap map)
@@ -172,7 +109,8 @@ Parametrization asParametrization(const Component& component, ComponentMap map)
 		if (map.cones[v] && target.used == TargetUsed::PlacedCones)
 			part.placedCones.push_back(v.number());
 	part.notes = map.notes;
-	part.report = reportOf(map);
+	part.report = map.report;
+	complete(map, part.report);
 	part.charts.emplace_back().group = std::move(map.group);
 	part.mesh = std::move(map.mesh);
 	return part;
@@ -234,6 +172,42 @@ void append(const Component& component, const Parametrization& part, Parametriza
 	if (source.size() > vertexCount)
 		report.refinementPoints = static_cast<int>(source.size() - vertexCount);
 	whole.report += report;
+}
+
+void runComponents(
+	const OpenedMesh& opened,
+	const std::vector<Component>& components,
+	const std::function<void(const Component&)>& run)
+{
+	const std::vector<char> isSilent = silentComponents(components);
+	std::size_t facesDone = 0;
+	const auto done = [&] {
+		return kComponentsDone *
+			   (static_cast<double>(facesDone) / static_cast<double>(opened.mesh.triangles.size()));
+	};
+	for (std::size_t i = 0; i < components.size(); ++i) {
+		const Component& component = components[i];
+		const double from = done();
+		facesDone += component.triangles.size();
+		try {
+			const Task part(from, done(), isSilent[i]);
+			run(component);
+		}
+		catch (const Stopped&) {
+			throw; // not the component's fault
+		}
+		catch (Error& error) {
+			if (components.size() > 1) {
+				error.componentFace = opened.face[positionOf(component.face.front())];
+				error.componentFaces = component.triangles.size();
+			}
+			throw;
+		}
+	}
+	if (components.size() > kDescribedComponents)
+		logLine(
+			"The log leaves out the smaller ones of " + std::to_string(components.size()) +
+			" components.");
 }
 
 } // namespace ricci

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "holonomy.h"
 
+#include "../base/task.h"
 #include "../math/disjoint_sets.h"
 #include "../math/double_double.h"
 
@@ -21,7 +22,8 @@ FaceArray<Halfedge> treeOfFaces(const Triangulation& t)
 	FaceArray<char> isReached(t.faceCount(), 0);
 	std::vector<Face> queue{Face(0)};
 	isReached[Face(0)] = 1;
-	for (std::size_t i = 0; i < queue.size(); ++i)
+	for (std::size_t i = 0; i < queue.size(); ++i) {
+		checkpointNowAndThen(i);
 		for (const Halfedge h : t.halfedges(queue[i])) {
 			const Face other = t.face(h.twin());
 			if (!other.isValid() || isReached[other])
@@ -30,6 +32,7 @@ FaceArray<Halfedge> treeOfFaces(const Triangulation& t)
 			entry[other] = h;
 			queue.push_back(other);
 		}
+	}
 	return entry;
 }
 
@@ -53,6 +56,7 @@ edgesOffTrees(const Triangulation& t, const FaceArray<Halfedge>& entry, bool joi
 			isCrossed[h.edge()] = 1;
 	std::vector<Edge> off;
 	for (const Edge e : t.edges()) {
+		checkpointNowAndThen(positionOf(e));
 		if (isCrossed[e] || t.isBoundary(e))
 			continue;
 		const auto [i, j] = t.ends(e);
@@ -97,10 +101,10 @@ std::vector<FaceLoop> homologyLoops(const Triangulation& t, bool roundHoles)
 		std::size_t shared = 0;
 		while (shared < std::min(there.size(), back.size()) && there[shared] == back[shared])
 			++shared;
-		FaceLoop loop(there.begin() + static_cast<std::ptrdiff_t>(shared), there.end());
-		loop.push_back(h);
+		FaceLoop loop{h};
 		for (std::size_t i = back.size(); i-- > shared;)
 			loop.push_back(back[i].twin());
+		loop.insert(loop.end(), there.begin() + static_cast<std::ptrdiff_t>(shared), there.end());
 		loops.push_back(std::move(loop));
 	}
 	return loops;

@@ -16,7 +16,7 @@ namespace ricci {
 using FaceLoop = std::vector<Halfedge>;
 
 /// Loops on which the homology of the surface is based: two for each handle, from a spanning tree of
-/// the triangles and one of the vertices [Erickson Whittlesey 2005].
+/// the triangles and one of the vertices [Erickson Whittlesey 2005]. Each passes no triangle twice.
 /// \param roundHoles also one round each boundary loop but one
 std::vector<FaceLoop> homologyLoops(const Triangulation& t, bool roundHoles);
 

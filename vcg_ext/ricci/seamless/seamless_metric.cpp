@@ -68,31 +68,6 @@ Metric metricOf(const FlowResult& flow)
 	return metric;
 }
 
-/// [face] Its area, and that over the area in space.
-struct Areas
-{
-	FaceArray<double> plane, scale;
-	double inSpace = 0.0;
-};
-
-Areas areasOf(const Metric& metric, const VertexVector& startU)
-{
-	const Triangulation& t = metric.map->triangulation();
-	Areas areas;
-	for (const Face f : t.faces()) {
-		const auto h = t.halfedges(f);
-		areas.plane.push_back(
-			0.5 * metric.map->lengths()[h[0].edge()] * metric.map->lengths()[h[2].edge()] *
-			std::sin(metric.map->angles()[h[0]]));
-		double factor = 0.0;
-		for (const Vertex v : t.vertices(f))
-			factor += (metric.u[v] - startU[v]) / 3.0;
-		areas.scale.push_back(std::exp(2.0 * factor));
-		areas.inSpace += areas.plane[f] / areas.scale[f];
-	}
-	return areas;
-}
-
 /// The derivatives of the holonomies.
 struct Derivatives
 {
@@ -103,13 +78,68 @@ struct Derivatives
 	double area = 0.0;                      // in space
 };
 
+/// Of the metric of \p flow or one near it, where u was startU at the start. For the sides a, b, c of a triangle
+/// with area A and circumradius R, the change of a by exp(x) alone is a distortion with the energy
+/// 2 a^2 R^2 / A x^2.
+void setWeights(const Metric& metric, const VertexVector& startU, Derivatives& by)
+{
+	const CurvatureMap& map = *metric.map;
+	const Triangulation& t = map.triangulation();
+	by.inverseWeights.assign(t.edgeCount(), 0.0);
+	for (const Face f : t.faces()) {
+		const auto h = t.halfedges(f);
+		const auto length = [&](std::size_t k) { return map.lengths()[h[k].edge()]; };
+		const double sine = std::sin(map.angles()[h[0]]);
+		const double area = 0.5 * length(0) * length(2) * sine;
+		double factor = 0.0;
+		for (const Vertex v : t.vertices(f))
+			factor += (metric.u[v] - startU[v]) / 3.0;
+		const double scale = std::exp(2.0 * factor);
+		by.area += area / scale;
+		const double radius = 0.5 * length(1) / sine;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const double product = length(k) * radius;
+			by.inverseWeights[h[k].edge()] += 2.0 * product * product / (area * scale);
+		}
+	}
+	for (const Edge e : t.edges())
+		by.inverseWeights[e] = t.isBoundary(e) ? 0.0 : 1.0 / by.inverseWeights[e];
+}
+
+Derivatives derivatives(const FlowResult& flow, const Metric& metric)
+{
+	const CurvatureMap& map = *metric.map;
+	const Triangulation& t = map.triangulation();
+	FactoredHessian hessian(flow.target.fixed, true);
+	hessian.factorize(map);
+	Derivatives by;
+	setWeights(metric, flow.u - flowFactor(flow), by);
+	for (const FaceLoop& loop : metric.loops) {
+		checkpoint();
+		HalfedgeArray<double> corners = turnedCorners(t, loop);
+		by.curvatures.push_back(holonomyByCurvature(map, metric.u, hessian, corners));
+		// A length also changes curvatures, which u takes back, and with them the holonomy.
+		for (const Halfedge h : t.interiorHalfedges())
+			corners[h] += by.curvatures.back()[t.origin(h)];
+		by.lengths.push_back(derivativeByLengths(t, corners, map.angles()));
+	}
+	const std::size_t n = by.lengths.size();
+	by.gram.resize(Eigen::Index(n), Eigen::Index(n));
+	for (std::size_t i = 0; i < n; ++i)
+		for (std::size_t j = 0; j <= i; ++j) {
+			double sum = 0.0;
+			for (const Edge e : t.edges())
+				sum += by.inverseWeights[e] * by.lengths[i][e] * by.lengths[j][e];
+			by.gram(Eigen::Index(i), Eigen::Index(j)) = sum;
+			by.gram(Eigen::Index(j), Eigen::Index(i)) = sum;
+		}
+	return by;
+}
+
 class HolonomyRounder
 {
 public:
-	HolonomyRounder(const FlowResult& flow, double epsilon) :
-			m_flow(flow), m_epsilon(epsilon), m_startU(flow.u - flowFactor(flow))
-	{
-	}
+	HolonomyRounder(const FlowResult& flow, double epsilon) : m_flow(flow), m_epsilon(epsilon) {}
 
 	/// Goes from \p metric to the one of which the holonomies are multiples of pi / 2, as far as
 	/// Newton's method gets there.
@@ -126,63 +156,11 @@ public:
 	/// Newton's, for the metrics.
 	int steps() const { return m_steps; }
 
-	Derivatives derivatives(const Metric& metric) const
-	{
-		const CurvatureMap& map = *metric.map;
-		const Triangulation& t = map.triangulation();
-		FactoredHessian hessian(m_flow.target.fixed, true);
-		hessian.factorize(map);
-		Derivatives by;
-		setWeights(metric, by);
-		for (const FaceLoop& loop : metric.loops) {
-			checkpoint();
-			HalfedgeArray<double> corners = turnedCorners(t, loop);
-			by.curvatures.push_back(holonomyByCurvature(map, metric.u, hessian, corners));
-			// A length also changes curvatures, which u takes back, and with them the holonomy.
-			for (const Halfedge h : t.interiorHalfedges())
-				corners[h] += by.curvatures.back()[t.origin(h)];
-			by.lengths.push_back(derivativeByLengths(t, corners, map.angles()));
-		}
-		const std::size_t n = by.lengths.size();
-		by.gram.resize(Eigen::Index(n), Eigen::Index(n));
-		for (std::size_t i = 0; i < n; ++i)
-			for (std::size_t j = 0; j <= i; ++j) {
-				double sum = 0.0;
-				for (const Edge e : t.edges())
-					sum += by.inverseWeights[e] * by.lengths[i][e] * by.lengths[j][e];
-				by.gram(Eigen::Index(i), Eigen::Index(j)) = sum;
-				by.gram(Eigen::Index(j), Eigen::Index(i)) = sum;
-			}
-		return by;
-	}
-
 private:
-	/// For the sides a, b, c of a triangle with area A and circumradius R, the change of a by exp(x)
-	/// alone is a distortion with the energy 2 a^2 R^2 / A x^2.
-	void setWeights(const Metric& metric, Derivatives& by) const
-	{
-		const CurvatureMap& map = *metric.map;
-		const Triangulation& t = map.triangulation();
-		const Areas areas = areasOf(metric, m_startU);
-		by.area = areas.inSpace;
-		by.inverseWeights.assign(t.edgeCount(), 0.0);
-		for (const Face f : t.faces()) {
-			const auto h = t.halfedges(f);
-			const double radius = 0.5 * map.lengths()[h[1].edge()] / std::sin(map.angles()[h[0]]);
-			for (const Halfedge side : h) {
-				const double product = map.lengths()[side.edge()] * radius;
-				by.inverseWeights[side.edge()] +=
-					2.0 * product * product / (areas.plane[f] * areas.scale[f]);
-			}
-		}
-		for (const Edge e : t.edges())
-			by.inverseWeights[e] = t.isBoundary(e) ? 0.0 : 1.0 / by.inverseWeights[e];
-	}
-
 	/// The change of the logarithms of the lengths that removes the errors to first order.
 	EdgeArray<double> direction(const Metric& metric) const
 	{
-		const Derivatives by = derivatives(metric);
+		const Derivatives by = derivatives(m_flow, metric);
 		const Eigen::VectorXd c = by.gram.ldlt().solve(-metric.errors);
 		EdgeArray<double> change(by.inverseWeights.size(), 0.0);
 		for (std::size_t i = 0; i < by.lengths.size(); ++i)
@@ -255,7 +233,6 @@ private:
 
 	const FlowResult& m_flow;
 	double m_epsilon;
-	VertexVector m_startU;
 	int m_steps = 0;
 };
 
@@ -268,7 +245,7 @@ Holonomy holonomy(const FlowResult& flow)
 	result.errors = metric.errors;
 	if (result.errors.size() == 0)
 		return result;
-	Derivatives by = HolonomyRounder(flow, 0.0).derivatives(metric);
+	Derivatives by = derivatives(flow, metric);
 	result.byCurvature = std::move(by.curvatures);
 	// A metric that changes by h has the Beltrami coefficient mu with |h|^2 = 8 |mu|^2.
 	const Eigen::Index n = result.errors.size();

@@ -15,13 +15,8 @@ namespace {
 class WaysRound
 {
 public:
-	WaysRound(
-		const Triangulation& t,
-		const CutGraph& cut,
-		const EdgeArray<SidePairing>& pairing,
-		const PlanarLayout& layout) :
-			m_t(t),
-			m_cut(cut), m_pairing(pairing), m_layout(layout)
+	WaysRound(const Triangulation& t, const CutGraph& cut, const DiskLayout& layout) :
+			m_t(t), m_cut(cut), m_pairing(layout.pairing), m_layout(layout.corners)
 	{
 	}
 
@@ -90,15 +85,13 @@ bool isGeodesic(const std::vector<Vertex>& loop, const Target& target)
 double holonomyError(
 	const Triangulation& t,
 	const CutGraph& cut,
-	const EdgeArray<SidePairing>& pairing,
-	const PlanarLayout& layout,
-	const Topology& topology,
+	const DiskLayout& layout,
 	const VertexArray<char>& cones,
 	const Target& target)
 {
-	const WaysRound ways(t, cut, pairing, layout);
+	const WaysRound ways(t, cut, layout);
 	double error = 0.0;
-	VertexArray<char> seen = topology.boundary;
+	VertexArray<char> seen = t.boundaryVertices();
 	for (const Halfedge h : t.interiorHalfedges()) {
 		const Vertex v = t.origin(h);
 		if (!cut.isCut[h.edge()] || seen[v])

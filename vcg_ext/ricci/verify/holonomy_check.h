@@ -4,9 +4,7 @@
 
 #include "../cut/cut_graph.h"
 #include "../flow/target.h"
-#include "../layout/hyperbolic_layout.h"
-#include "../layout/planar_layout.h"
-#include "../surface/topology.h"
+#include "../layout/corner_layout.h"
 
 namespace ricci {
 
@@ -24,17 +22,13 @@ namespace ricci {
 /// Each isometry is the product of the side pairings that are crossed on the way round, every one as
 /// seen from the places of the vertex on its two sides. So all factors are about as large as what
 /// remains, and rounding is not multiplied by the way from 0 to the vertex and back.
-/// \param pairing [edge] on the cut, see pairingOfArcs()
-/// \param layout of \p t in the Poincaré disk, open along the cut
-/// \param topology of \p t
+/// \param layout of \p t in the Poincaré disk, open along the cut; its pairing is that of pairingOfArcs()
 /// \param cones [vertex] 1 at interior vertices that are not regular points of the metric
 /// \param target curvature that the metric has reached
 double holonomyError(
 	const Triangulation& t,
 	const CutGraph& cut,
-	const EdgeArray<SidePairing>& pairing,
-	const PlanarLayout& layout,
-	const Topology& topology,
+	const DiskLayout& layout,
 	const VertexArray<char>& cones,
 	const Target& target);
 

@@ -3,7 +3,9 @@
 
 #include "../base/numbers.h"
 #include "../base/task.h"
+#include "../base/text.h"
 #include "../base/tolerances.h"
+#include "../error.h"
 #include "../math/double_double.h"
 
 #include <algorithm>
@@ -83,12 +85,12 @@ double explainedError(Background background, double ui, double uj)
 
 MetricCheck checkMetric(
 	Background background,
-	const Triangulation& t,
-	const EdgeArray<double>& delta,
+	const CurvatureMap& metric,
 	const VertexVector& u,
 	const EdgeArray<double>& lengths,
 	const VertexVector& target)
 {
+	const Triangulation& t = metric.triangulation();
 	MetricCheck check;
 	VertexArray<double> radius(t.vertexCount());
 	for (const Vertex v : t.vertices())
@@ -99,7 +101,7 @@ MetricCheck checkMetric(
 		ofLength[e] = lengthFunction(background, lengths[e]);
 		const Vertex i = t.origin(e.halfedge()), j = t.target(e.halfedge());
 		const double ui = u[i], uj = u[j];
-		const double wanted = lengthOf(background, radius[i], radius[j], delta[e]);
+		const double wanted = lengthOf(background, radius[i], radius[j], metric.delta()[e]);
 		const double explained = explainedError(background, ui, uj);
 		const double difference = std::abs(lengths[e] - wanted) / wanted;
 		if (!(difference <= explained)) // NaN counts
@@ -140,6 +142,37 @@ MetricCheck checkMetric(
 		}
 	}
 	return check;
+}
+
+void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary)
+{
+	const CurvatureMap& metric = *flow.metric;
+	VertexVector target = VertexVector::Constant(
+		metric.triangulation().vertexCount(), std::numeric_limits<double>::quiet_NaN());
+	for (const Vertex v : flow.target.curvature.indices())
+		if (!flow.target.fixed[v])
+			target[v] = flow.target.curvature[v] * (flow.doubled && boundary[v] ? 2.0 : 1.0);
+	const MetricCheck check =
+		checkMetric(flow.target.background, metric, flow.u, metric.lengths(), target);
+	// On the boundary of a double the residual counts twice.
+	const bool exact = check.lengthError <= kCheckedLength &&
+					   check.curvatureError <= 2.0 * flow.residual + kCheckedCurvature;
+	if (exact && check.broken > 0)
+		throw NotConverged(NotConverged::FlatTriangles, static_cast<std::size_t>(check.broken));
+	if (!exact)
+		throw NotConverged(
+			"curvature " + numberText(check.curvatureError, 3) + " off at one vertex, lengths " +
+			numberText(check.lengthError, 3) + ", " + std::to_string(check.broken) +
+			" broken triangles");
+}
+
+double openCurvature(const FlowResult& flow)
+{
+	double sum = 0.0;
+	for (const Vertex v : flow.target.curvature.indices())
+		if (!flow.target.fixed[v])
+			sum += std::abs(flow.curvature[v] - flow.target.curvature[v]);
+	return sum;
 }
 
 } // namespace ricci

@@ -2,8 +2,7 @@
 #ifndef RICCI_METRIC_CHECK_H
 #define RICCI_METRIC_CHECK_H
 
-#include "../options.h"
-#include "../surface/triangulation.h"
+#include "../flow/ricci_flow.h"
 
 namespace ricci {
 
@@ -26,16 +25,25 @@ struct MetricCheck
 	int broken = 0; ///< triangles that break the triangle inequality
 };
 
-/// \param delta inversive distance less one
+/// \param metric its triangles and inversive distances
 /// \param u Eq. 6 of \p background
 /// \param target radians; NaN where nothing is prescribed
 MetricCheck checkMetric(
 	Background background,
-	const Triangulation& t,
-	const EdgeArray<double>& delta,
+	const CurvatureMap& metric,
 	const VertexVector& u,
 	const EdgeArray<double>& lengths,
 	const VertexVector& target);
+
+/// Checks the metric that the flow found against the target that it says it has
+/// reached.
+/// \param boundary [vertex of the surface on which the flow ran] 1 on its boundary
+/// \throw NotConverged
+void requireMetric(const FlowResult& flow, const VertexArray<char>& boundary);
+
+/// Sum of |target - K| over the surface, in radians: all of the curvature by which the result
+/// misses its target.
+double openCurvature(const FlowResult& flow);
 
 } // namespace ricci
 

@@ -1,20 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "disk_check.h"
+#include "chart_check.h"
 
 #include "../base/task.h"
+#include "../base/text.h"
 #include "../base/tolerances.h"
+#include "../error.h"
 #include "../math/double_double.h"
+#include "../math/orientation.h"
+#include "metric_check.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
+#include <string>
 
 namespace ricci {
 
 namespace {
 
-// What cancels is computed exactly, the rest in double.
+/// Over the longest side.
+double heightOf(const Triangle2& p)
+{
+	double longest = 0.0;
+	for (std::size_t k = 0; k < 3; ++k)
+		longest = std::max(longest, distance(p[(k + 1) % 3], p[k]));
+	return longest > 0.0 ? std::abs(doubledArea(p[0], p[1], p[2])) / longest : 0.0;
+}
+
+// In the disk, what cancels is computed exactly, the rest in double.
 
 /// |p|^2.
 DoubleDouble square(const Point2& p)
@@ -60,9 +73,35 @@ double determinant(const Point2& p, const Point2& q, const Point2& r)
 
 } // namespace
 
-DiskCheck checkDisk(const FlatMesh& chart, double tolerance)
+ChartCheck checkMap(const FlatMesh& chart, double tolerance)
 {
-	DiskCheck check;
+	ChartCheck check;
+	Box2 box;
+	for (const Point2& p : chart.place) {
+		check.outside += !(std::isfinite(p[0]) && std::isfinite(p[1]));
+		box.add(p);
+	}
+	if (check.outside > 0 || chart.size() == 0)
+		return check;
+	const double extent = box.extent();
+	const Sides sides(chart.vertices.values());
+	const auto lengthOf = [&](Corner side) {
+		return distance(chart.at(side), chart.at(side.next()));
+	};
+	for (const int f : chart.points.indices()) {
+		const Triangle2 p = chart.at(f);
+		check.flipped += orientation(p[0], p[1], p[2]) <= 0 && heightOf(p) > tolerance * extent;
+		for (const Corner side : cornersOf(f))
+			if (const Corner other = sides.across(side); other > side && extent > 0.0)
+				check.seamGap =
+					std::max(check.seamGap, std::abs(lengthOf(side) - lengthOf(other)) / extent);
+	}
+	return check;
+}
+
+ChartCheck checkDisk(const FlatMesh& chart, double tolerance)
+{
+	ChartCheck check;
 	Point2 farthest{0.0, 0.0};
 	double minGap = 1.0;
 	for (const Triangle& triangle : chart.points)
@@ -101,6 +140,39 @@ DiskCheck checkDisk(const FlatMesh& chart, double tolerance)
 		check.flipped += det <= 0 && -det > std::sinh(allowed) * std::sinh(longest);
 	}
 	return check;
+}
+
+void requireMap(const FlatMesh& chart, const FlowResult& flow, bool bent, bool seamsFit)
+{
+	const double tolerance = kCheckedGap + openCurvature(flow);
+	const ChartCheck check = checkMap(chart, tolerance);
+	if (check.outside > 0 || (seamsFit && !(check.seamGap <= tolerance)) ||
+		(check.flipped > 0 && !bent))
+		throw NotConverged(
+			"seams " + numberText(check.seamGap, 3) + " of the chart apart, " +
+			std::to_string(check.flipped) + " faces flipped");
+}
+
+void requireDisk(const FlatMesh& chart, const FlowResult& flow, bool bent)
+{
+	// The gap that an open angle leaves grows like sinh of the distance across the layout.
+	double radius = 0.0;
+	bool finite = true;
+	for (const Point2& p : chart.place) {
+		const double r = std::hypot(p[0], p[1]);
+		finite = finite && std::isfinite(r);
+		radius = std::max(radius, 2.0 * std::atanh(std::min(1.0, r)));
+	}
+	const double tolerance = kCheckedGap + openCurvature(flow) * std::sinh(2.0 * radius);
+	const ChartCheck check = checkDisk(chart, tolerance);
+	if (check.outside > 0 && finite) // the doubles of the disk end at a distance of about 37
+		throw NotConverged(NotConverged::OutsideDisk, check.outside);
+	if (check.outside > 0)
+		throw NotConverged(std::to_string(check.outside) + " points lie outside the disk");
+	if (!(check.seamGap <= tolerance) || (check.flipped > 0 && !bent))
+		throw NotConverged(
+			"seams " + numberText(check.seamGap, 3) + " apart in the disk, " +
+			std::to_string(check.flipped) + " faces flipped");
 }
 
 } // namespace ricci
