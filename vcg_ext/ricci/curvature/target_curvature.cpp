@@ -337,8 +337,8 @@ void choosePlainOrCones(
 						 ? "they leave more curvature to the boundary than its vertices can take"
 					 : cones ? "they are expected to raise the objective from " +
 								   numberText(costWithout, 3) + " to " + numberText(cost, 3)
-							 : "areas are expected to spread by " + numberText(spread, 3) +
-								   " only without them");
+							 : "without them areas are expected to spread by " +
+								   numberText(spread, 3) + " alone");
 	setPlain(surface, request, target);
 	target.expectedSpread = spread;
 	target.notes.push_back(
