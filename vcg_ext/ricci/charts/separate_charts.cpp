@@ -297,7 +297,7 @@ bool cutOff(const std::vector<char>& isOff, Parametrization& map)
 	const Sides sides(map.mesh.vertices.values());
 	DualGraph graph(map.mesh, sides);
 	for (const int f : graph.part.indices())
-		graph.part[f] = isOff[positionOf(f)];
+		graph.part[f] = isOff[positionOf(f)] != 0 ? 1 : 0;
 	const Seams before = seams(map.mesh, sides);
 	std::vector<int> divided;
 	const Parts byChart = map.mesh.trianglesByChart(map.charts.size());

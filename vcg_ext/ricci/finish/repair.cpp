@@ -388,7 +388,7 @@ Repair repairInStages(
 	FlatMesh& flat,
 	SeamGeometry seams,
 	const BoundaryRule& boundaryMoves,
-	RepairRules rules,
+	const RepairRules& rules,
 	WorkLimit& limit)
 {
 	const RestShapes shapes = rules.shapes;
@@ -428,7 +428,7 @@ Repair repairInStages(
 	return result;
 }
 
-Repair repairFreely(FlatMesh& flat, RepairRules rules, WorkLimit& limit)
+Repair repairFreely(FlatMesh& flat, const RepairRules& rules, WorkLimit& limit)
 {
 	const RestShapes shapes = rules.shapes;
 	const auto inside = [&] { return insidePoints(flat); };

@@ -88,12 +88,12 @@ Repair repairInStages(
 	FlatMesh& flat,
 	SeamGeometry seams,
 	const BoundaryRule& boundaryMoves,
-	RepairRules rules,
+	const RepairRules& rules,
 	WorkLimit& limit);
 
 /// The same where seams need not stay isometric: the points inside the charts; then all points, each
 /// by itself; this again, with patches of which only a part is mended.
-Repair repairFreely(FlatMesh& flat, RepairRules rules, WorkLimit& limit);
+Repair repairFreely(FlatMesh& flat, const RepairRules& rules, WorkLimit& limit);
 
 } // namespace ricci
 
