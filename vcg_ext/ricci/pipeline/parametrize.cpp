@@ -107,8 +107,10 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	};
 	std::optional<ComponentMap> flow = flattenToPlane(component, input, options, alternative);
 	const auto cut = [&] { return "cut along creases and unfolded: " + costText(*unfolded); };
-	if (!flow)
-		return chosen(cut() + "; cones are expected to cost more", std::move(*unfolded));
+	if (!flow) {
+		const std::string choice = cut() + "; cones are expected to cost more";
+		return chosen(choice, std::move(*unfolded));
+	}
 	Parametrization map = asParametrization(component, std::move(*flow));
 	separateCharts(options, map);
 	if (!unfolded && mayUnfold(component, options) && costOf(map).total() > kPoorCost)
