@@ -388,8 +388,8 @@ std::vector<Motion> packOutlines(
 				drawn.quarter = q;
 				if (drawing.draw(outlines[i], turn, drawn))
 					shapes[i].push_back(drawn);
-				checkpoint();
 			}
+		checkpoint();
 	}
 
 	int minSide = kCells + 1;
@@ -412,10 +412,9 @@ std::vector<Motion> packOutlines(
 				if (i == order.front())
 					canvas.look(firsts[k], spot);
 				else
-					for (const Shape& shape : shapes[i]) {
+					for (const Shape& shape : shapes[i])
 						canvas.look(shape, spot);
-						checkpoint();
-					}
+				checkpoint();
 				if (!spot.shape)
 					break;
 				canvas.take(spot);
