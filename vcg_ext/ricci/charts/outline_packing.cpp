@@ -22,9 +22,8 @@ constexpr int kWordBits = 64;
 /// Cells along a side of the square.
 constexpr int kLevels = 9, kCells = 1 << (kLevels - 1);
 
-/// Rows of cells compared after which no further angle of the largest chart is tried; and for each side of an
-/// outline, so that a small mesh is not packed for longer than it is mapped.
-constexpr long long kMaxWork = 2'000'000, kWorkOfSide = 5000;
+/// Rows of cells compared after which no further angle of the largest chart is tried.
+constexpr long long kMaxWork = 4'000'000;
 
 /// Cells of a row that are taken, in its bits.
 using Row = std::array<std::uint64_t, kCells / kWordBits>;
@@ -393,14 +392,10 @@ std::vector<Motion> packOutlines(
 		checkpoint();
 	}
 
-	long long maxWork = 0;
-	for (const Outline& outline : outlines)
-		maxWork += kWorkOfSide * static_cast<long long>(outline.size());
-	maxWork = std::min(maxWork, kMaxWork);
 	int minSide = kCells + 1;
 	long long work = 0;
 	std::vector<Motion> best;
-	for (std::size_t k = 0; work <= maxWork; ++k) {
+	for (std::size_t k = 0; work <= kMaxWork; ++k) {
 		bool isAny = false; // turn of the first outline left
 		for (const Order& order : orders) {
 			const std::vector<Shape>& firsts = shapes[order.front()];
