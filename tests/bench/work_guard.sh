@@ -65,5 +65,5 @@ no_more "instructions, flow over one factorisation" "$(quotient "$flow" "$factor
 # The whole way with cones, seams, charts and finish grows hardly faster than the mesh.
 small=$(instructions '*measureWholeWay*Row&)' --cone-distortion=0.25 slab:6000)
 large=$(instructions '*measureWholeWay*Row&)' --cone-distortion=0.25 slab:24000)
-no_more "instructions, whole way with four times as many faces" "$(quotient "$large" "$small")" 5.2
+no_more "instructions, whole way with four times as many faces" "$(quotient "$large" "$small")" 5
 exit $status

@@ -172,15 +172,18 @@ Eigen::MatrixXd LinearFlow::gradient(const Eigen::MatrixXd& u)
 /// L^-1 rhs on the unknown vertices, 0 on the others.
 Eigen::MatrixXd LinearFlow::solveRows(const Eigen::MatrixXd& rhs)
 {
-	Eigen::MatrixXd rows(m_unknowns, rhs.cols()), x = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
-	for (const Vertex v : m_row.indices())
-		if (m_row[v] >= 0)
-			rows.row(m_row[v]) = rhs.row(v.number());
+	// Entry by entry: expressions of rows cost more where there are few columns.
+	Eigen::MatrixXd rows(m_unknowns, rhs.cols());
+	for (Eigen::Index k = 0; k < rhs.cols(); ++k)
+		for (const Vertex v : m_row.indices())
+			if (m_row[v] >= 0)
+				rows(m_row[v], k) = rhs(v.number(), k);
 	if (m_unknowns > 0)
 		rows = m_softness * (m_system ? *m_system : m_hessian->cholesky()).solve(rows);
-	for (const Vertex v : m_row.indices())
-		if (m_row[v] >= 0)
-			x.row(v.number()) = rows.row(m_row[v]);
+	Eigen::MatrixXd x(rhs.rows(), rhs.cols());
+	for (Eigen::Index k = 0; k < rhs.cols(); ++k)
+		for (const Vertex v : m_row.indices())
+			x(v.number(), k) = m_row[v] >= 0 ? rows(m_row[v], k) : 0.0;
 	return x;
 }
 
