@@ -277,7 +277,8 @@ layOutCorners(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<
 {
 	const CurvatureMap& metric = *flow.metric;
 	const Triangulation& end = metric.triangulation();
-	if (flow.flipCount() == 0 && !flow.doubled)
+	const bool hasSurfacesEdges = flow.flipCount() == 0 && !flow.doubled && domain.holes == 0;
+	if (hasSurfacesEdges)
 		return carriedTo(
 			domain.surface.triangulation,
 			isCut,
