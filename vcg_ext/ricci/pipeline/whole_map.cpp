@@ -72,6 +72,8 @@ std::vector<Component> startMap(
 {
 	opened = openMesh(mesh, map.notes);
 	std::vector<Component> components = splitIntoComponents(opened);
+	for (Component& component : components)
+		numberBreadthFirst(component);
 	if (options.method != Method::IntrinsicFlips)
 		requireAreaEverywhere(components);
 	requireMemory(

@@ -2,6 +2,7 @@
 #include "component.h"
 
 #include "../error.h"
+#include "../math/adjacency.h"
 
 #include <algorithm>
 #include <set>
@@ -17,6 +18,19 @@ std::array<char, 3> inOrder(std::array<char, 3> sides, char reversed)
 	if (reversed)
 		std::swap(sides[0], sides[2]);
 	return sides;
+}
+
+/// Sorts what is known of each element; no \p items: it is known of none.
+template<class Item, class Index>
+void reorder(const std::vector<Index>& order, std::vector<Item>& items)
+{
+	if (items.empty())
+		return;
+	std::vector<Item> ordered;
+	ordered.reserve(order.size());
+	for (const Index i : order)
+		ordered.push_back(items[positionOf(i)]);
+	items.swap(ordered);
 }
 
 } // namespace
@@ -50,6 +64,40 @@ std::vector<Component> splitIntoComponents(const OpenedMesh& opened)
 			c.hole.push_back(inOrder(opened.hole[positionOf(f)], opened.reversed[f]));
 	}
 	return components;
+}
+
+void numberBreadthFirst(Component& component)
+{
+	std::vector<Triangle>& triangles = component.triangles;
+	const Adjacency<int, Face> facesAt(component.vertex.size(), [&](const auto& add) {
+		for (const Face f : component.face.indices())
+			for (const int v : triangles[positionOf(f)])
+				add(v, f);
+	});
+	FaceArray<char> isMet(component.face.size(), 0);
+	VertexArray<int> number(component.vertex.size(), -1);
+	std::vector<Face> faces{Face(0)};
+	std::vector<Vertex> vertices;
+	isMet[Face(0)] = 1;
+	for (std::size_t next = 0; next < faces.size(); ++next)
+		for (int& v : triangles[positionOf(faces[next])]) {
+			int& known = number[Vertex(v)];
+			if (known < 0) {
+				known = static_cast<int>(vertices.size());
+				vertices.push_back(Vertex(v));
+				for (const Face f : facesAt[v])
+					if (!std::exchange(isMet[f], 1))
+						faces.push_back(f);
+			}
+			v = known;
+		}
+	reorder(vertices, component.vertex.values());
+	reorder(vertices, component.positions.values());
+	reorder(faces, component.face.values());
+	reorder(faces, component.reversed.values());
+	reorder(faces, component.triangles);
+	reorder(faces, component.diagonal);
+	reorder(faces, component.hole);
 }
 
 void requireAreaEverywhere(const std::vector<Component>& components)

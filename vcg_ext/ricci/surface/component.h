@@ -32,6 +32,10 @@ struct Component
 /// minority of incoherent order turned.
 std::vector<Component> splitIntoComponents(const OpenedMesh& opened);
 
+/// Numbers the faces of \p component breadth first from its first one, and the vertices as these meet them:
+/// neighbours then lie near each other in memory, whatever the order of the input [Cuthill, McKee 1969].
+void numberBreadthFirst(Component& component);
+
 /// \throw InvalidMesh if edges have no length or faces no area, as rounding finds them
 void requireAreaEverywhere(const std::vector<Component>& components);
 
