@@ -109,7 +109,10 @@ struct SparseCholesky::Implementation
 		factor = cholmod_l_analyze(a.get(), &common);
 		flops = common.fl;
 		entries = common.lnz;
-		return factor != nullptr;
+		if (factor == nullptr)
+			return false;
+		solver.plan(*factor);
+		return true;
 	}
 
 	void analyze(const Matrix& pattern, int ordering, int postorder)
