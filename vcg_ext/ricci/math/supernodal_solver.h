@@ -155,7 +155,8 @@ private:
 		for (int g = 0; g < groups; ++g)
 			for (std::size_t i = 0; i < m_rowsAbove.size(); ++i)
 				for (int c = 0; c < Columns; ++c)
-					x[Columns * m_rowsAbove[i] + c] -= workOf(g)[room + Columns * i + positionOf(c)];
+					x[Columns * m_rowsAbove[i] + c] -=
+						workOf(g)[room + Columns * i + positionOf(c)];
 		for (const int k : m_above)
 			solveForward(columns, supernode(factor, k), x, workOf(groups), nullptr);
 		for (std::size_t i = m_above.size(); i-- > 0;)
@@ -172,10 +173,13 @@ private:
 	/// Calls inX(r, row) for the rows below \p node up to the first one above its group, above(r, number) from
 	/// there on. They are ancestors: none of the group comes after one above it.
 	template<class InX, class Above>
-	void forRowsBelow(const Supernode& node, bool hasAbove, const InX& inX, const Above& above) const
+	void
+	forRowsBelow(const Supernode& node, bool hasAbove, const InX& inX, const Above& above) const
 	{
 		int r = 0;
-		for (; r < node.height && (!hasAbove || m_numberAbove[static_cast<std::size_t>(node.below[r])] < 0); ++r)
+		for (; r < node.height &&
+			   (!hasAbove || m_numberAbove[static_cast<std::size_t>(node.below[r])] < 0);
+			 ++r)
 			inX(r, node.below[r]);
 		for (; r < node.height; ++r)
 			above(r, m_numberAbove[static_cast<std::size_t>(node.below[r])]);

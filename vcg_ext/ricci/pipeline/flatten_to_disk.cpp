@@ -121,24 +121,28 @@ ComponentMap flattenToDisk(
 	const Target target =
 		chooseHyperbolicTarget(domain.surface.topology, options, values);        // 5.2, 5.3
 	map.flow = runFlow(domain.solved(), std::move(start), target, options, map); // 4.2
-	measurePeriods(map);
 	logFlow(map.flow, options);
 
 	map.cones = conesOf(domain.surface, map.flow.target);
 	advance(1.0 - kAfterFlow, "Shortening the seams");
-	// Wedges at cones may be as wide as they like in the disk.
-	LinkedPieces overlay = cutAndOverlay( // 4.3
-		domain,
-		cutCost(domain, map.flow, options.method),
-		{},
-		options,
-		map);
-	layOut(domain, std::move(overlay), options, map); // 4.3
+	const int threads = threadsFor(domain.surface.triangulation.faceCount());
+	besides(
+		threads,
+		[&] {
+			LinkedPieces overlay = cutAndOverlay( // 4.3
+				domain,
+				cutCost(domain, map.flow, options.method),
+				{}, // wedges at cones may be as wide as they like in the disk
+				options,
+				map);
+			layOut(domain, std::move(overlay), options, map); // 4.3
+		},
+		[&] { measurePeriods(map); });
 	map.report.seamLength = lengthOf(map.cut, domain.surface.lengths);
 	map.report.hyperbolicArea = map.flow.area;
 	advance(1.0 - kAfterFlow, "Repairing the map");
 	besides(
-		threadsFor(domain.surface.triangulation.faceCount()),
+		threads,
 		[&] { finish(domain, options, map); },
 		[&] { requireMetric(map.flow, domain.solved().topology.boundary); });
 

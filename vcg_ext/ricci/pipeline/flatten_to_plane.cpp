@@ -60,14 +60,17 @@ TargetRequest targetRequest(
 	return request;
 }
 
-/// Angles at the corners of cones, see coneCorners().
+/// Angles at the corners of cones, see coneCorners(); none where edges are swapped.
 HalfedgeArray<double>
-cornersOfCones(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& cones)
+cornersOfCones(const FlowDomain& domain, const Options& options, const ComponentMap& map)
 {
+	if (options.method == Method::EdgeSwaps)
+		return {};
+	const EmbeddedSurface& surface = domain.surface;
 	VertexArray<double> coneAngle(surface.triangulation.vertexCount(), 0.0);
-	for (const Vertex v : cones.indices())
-		if (cones[v])
-			coneAngle[v] = 2.0 * kPi - target.curvature[v];
+	for (const Vertex v : map.cones.indices())
+		if (map.cones[v])
+			coneAngle[v] = 2.0 * kPi - map.flow.target.curvature[v];
 	return coneCorners(surface.triangulation, surface.lengths, coneAngle);
 }
 
@@ -208,6 +211,8 @@ void layOut(
 			surfaceArea(component.positions.values(), component.triangles) /
 			areaInPlane(domain, map));
 	turnUpright(map.scale, map);
+	map.report.seamLength = lengthOf(map.cut, domain.surface.lengths);
+	conformalInvariants(t, map);
 }
 
 /// The finish that is asked for, or LeastDistortion where that would lose what the map has to keep.
@@ -292,7 +297,6 @@ std::optional<ComponentMap> flattenToPlane(
 			return std::nullopt;
 		map.flow = runFlow(domain.solved(), std::move(start), target, options, map); // 4.2
 	}
-	measurePeriods(map);
 	keepAreas(domain.solved(), request, options, map);
 	makeSeamless(domain.solved(), request, options, map);
 	logFlow(map.flow, options);
@@ -300,19 +304,23 @@ std::optional<ComponentMap> flattenToPlane(
 	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
 	advance(1.0 - kAfterFlow, "Shortening the seams");
 	const EmbeddedSurface& surface = domain.surface;
-	LinkedPieces overlay = cutAndOverlay( // 4.3
-		domain,
-		seamCost(surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
-		options.method == Method::EdgeSwaps ? HalfedgeArray<double>()
-											: cornersOfCones(surface, map.flow.target, map.cones),
-		options,
-		map);
-	layOut(component, domain, std::move(overlay), options, map); // 4.3
-	map.report.seamLength = lengthOf(map.cut, surface.lengths);
-	conformalInvariants(surface.triangulation, map);
+	const int threads = threadsFor(surface.triangulation.faceCount());
+	besides(
+		threads,
+		[&] {
+			LinkedPieces overlay = cutAndOverlay( // 4.3
+				domain,
+				seamCost(
+					surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
+				cornersOfCones(domain, options, map),
+				options,
+				map);
+			layOut(component, domain, std::move(overlay), options, map); // 4.3
+		},
+		[&] { measurePeriods(map); });
 	advance(1.0 - kAfterFlow, "Repairing the map");
 	besides(
-		threadsFor(surface.triangulation.faceCount()),
+		threads,
 		[&] { finish(domain, options, map); },
 		[&] { requireMetric(map.flow, domain.solved().topology.boundary); });
 	measureBoundary(surface, map);

@@ -7,34 +7,30 @@ namespace ricci {
 
 Sides::Sides(const std::vector<Triangle>& triangles)
 {
-	struct Side
-	{
-		int low, high;
-		Corner corner;
-		bool ascends;
-	};
-	std::vector<Side> sides;
-	sides.reserve(3 * triangles.size());
+	const auto start = [&](Corner c) { return triangles[positionOf(c.face())][c.index()]; };
+	const auto low = [&](Corner c) { return std::min(start(c), start(c.next())); };
+	const auto high = [&](Corner c) { return std::max(start(c), start(c.next())); };
 	m_across.resize(3 * triangles.size());
-	for (const Corner c : m_across.indices()) {
-		const Triangle& t = triangles[positionOf(c.face())];
-		const int a = t[c.index()], b = t[c.next().index()];
-		sides.push_back({std::min(a, b), std::max(a, b), c, a < b});
-	}
-	bucketSort(
-		sides,
-		[](const Side& s) { return s.low; },
-		[](const Side& a, const Side& b) {
-			return a.high != b.high ? a.high < b.high : a.corner < b.corner;
-		});
-	m_sides.reserve(sides.size());
-	for (auto first = sides.begin(), last = first; first != sides.end(); first = last) {
-		m_first.push_back(m_sides.size());
-		for (; last != sides.end() && last->low == first->low && last->high == first->high; ++last)
-			m_sides.push_back(last->corner);
-		if (last - first == 2 && first->ascends != first[1].ascends) {
-			m_across[first->corner] = first[1].corner;
-			m_across[first[1].corner] = first->corner;
+	m_sides.reserve(m_across.size());
+	for (const Corner c : m_across.indices())
+		m_sides.push_back(c);
+	bucketSort(m_sides.values(), low, [&](Corner a, Corner b) {
+		const int highA = high(a), highB = high(b);
+		return highA != highB ? highA < highB : a < b;
+	});
+	for (int first = 0, last = 0; first < m_sides.size(); first = last) {
+		m_first.push_back(first);
+		const Corner side = m_sides[first];
+		const int lowEnd = low(side), highEnd = high(side);
+		while (last < m_sides.size() && low(m_sides[last]) == lowEnd &&
+			   high(m_sides[last]) == highEnd)
+			++last;
+		if (last - first != 2)
+			continue;
+		const Corner other = m_sides[first + 1];
+		if (start(side) != start(other)) {
+			m_across[side] = other;
+			m_across[other] = side;
 		}
 	}
 	m_first.push_back(m_sides.size());
