@@ -19,7 +19,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -453,12 +456,31 @@ SurfaceMesh twoComponents()
 	return sideBySide(rectangle(2, 2, 1, 1), tetrahedron(), 10);
 }
 
+/// Calls \p run for each component of \p mesh, whose map is empty.
+void runComponents(const SurfaceMesh& mesh, const std::function<void(const Component&)>& run)
+{
+	Parametrization whole;
+	whole.u.resize(mesh.positions.size());
+	whole.targetCurvature.resize(mesh.positions.size());
+	appendComponents(
+		opened(mesh),
+		componentsOf(mesh),
+		[&](const Component& c) {
+			run(c);
+			Parametrization part;
+			part.u.resize(c.vertex.values().size());
+			part.targetCurvature.resize(c.vertex.values().size());
+			return part;
+		},
+		whole);
+}
+
 /// The error \p thrown where the component with face 8 is run.
 template<class E>
 E thrownInTheSecond(const SurfaceMesh& mesh, const E& thrown)
 {
 	return refusalOf<E>([&] {
-		runComponents(opened(mesh), componentsOf(mesh), [&](const Component& c) {
+		runComponents(mesh, [&](const Component& c) {
 			if (c.face.front() == 8)
 				throw thrown;
 		});
@@ -495,9 +517,8 @@ TEST(WholeMap, AnErrorOfTheOnlyComponentHasNoComponent)
 {
 	const SurfaceMesh mesh = tetrahedron();
 	const auto error = refusalOf<InvalidOption>([&] {
-		runComponents(opened(mesh), componentsOf(mesh), [](const Component&) {
-			throw InvalidOption(InvalidOption::NothingSelected);
-		});
+		runComponents(
+			mesh, [](const Component&) { throw InvalidOption(InvalidOption::NothingSelected); });
 	});
 	EXPECT_EQ(error.componentFace, -1);
 	EXPECT_EQ(error.componentFaces, 0u);
@@ -519,11 +540,45 @@ TEST(WholeMap, OtherExceptionsPassThrough)
 {
 	const SurfaceMesh mesh = twoComponents();
 	EXPECT_THROW(
-		runComponents(
-			opened(mesh),
-			componentsOf(mesh),
-			[](const Component&) { throw std::runtime_error("full disk"); }),
+		runComponents(mesh, [](const Component&) { throw std::runtime_error("full disk"); }),
 		std::runtime_error);
+}
+
+/// So many components that threads share them: each logs its first face, those from \p failing on fail.
+void logComponents(int failing)
+{
+	constexpr int kComponents = 40;
+	SurfaceMesh mesh = rectangle(6, 6, 1, 1);
+	for (int i = 1; i < kComponents; ++i)
+		mesh = sideBySide(mesh, rectangle(6, 6, 1, 1), i);
+	runComponents(mesh, [&](const Component& c) {
+		logLine(std::to_string(c.face.front()));
+		if (c.face.front() >= failing)
+			throw InternalError("no map");
+	});
+}
+
+TEST(WholeMap, ComponentsInThreadsLogInTheirOrder)
+{
+	for (int round = 0; round < 50; ++round) {
+		Listener listener;
+		const Task task(listener);
+		logComponents(std::numeric_limits<int>::max());
+		ASSERT_EQ(listener.lines.size(), 21u); // and that the smaller ones are left out
+		for (std::size_t i = 0; i < 20; ++i)
+			EXPECT_EQ(listener.lines[i], std::to_string(72 * i));
+	}
+}
+
+TEST(WholeMap, OfErrorsInThreadsTheFirstComponentsIsThrown)
+{
+	for (int round = 0; round < 50; ++round) {
+		Listener listener;
+		const Task task(listener);
+		const auto error = refusalOf<InternalError>([&] { logComponents(72 * 5); });
+		EXPECT_EQ(error.componentFace, 72 * 5);
+		EXPECT_EQ(listener.lines.size(), 6u);
+	}
 }
 
 TEST(WholeMap, ComponentsShareTheProgressByTheirFaces)
@@ -531,15 +586,17 @@ TEST(WholeMap, ComponentsShareTheProgressByTheirFaces)
 	const SurfaceMesh mesh = twoComponents(); // 8 and 4 faces
 	Listener listener;
 	const Task task(listener);
-	runComponents(opened(mesh), componentsOf(mesh), [](const Component&) {
+	runComponents(mesh, [](const Component&) {
 		advance(0.0, "begin");
 		advance(0.5, "middle");
 		advance(0.25, "again");
 		advance(1.0, "end");
 	});
 	const double first = kComponentsDone * 8 / 12, all = kComponentsDone;
+	const double middle = 0.5 * (first + all);
+	// With a checkpoint before all of them and one before each.
 	const std::vector<double> expected{
-		0.0, 0.5 * first, 0.5 * first, first, first, 0.5 * (first + all), 0.5 * (first + all), all};
+		0.0, 0.0, 0.0, 0.5 * first, 0.5 * first, first, first, first, middle, middle, all};
 	ASSERT_EQ(listener.fractions.size(), expected.size());
 	for (std::size_t i = 0; i < expected.size(); ++i)
 		EXPECT_NEAR(listener.fractions[i], expected[i], 1e-15);

@@ -130,7 +130,8 @@ TEST(Component, OrientsTheMinorityLikeTheMajorityAndTellsIt)
 	const auto components = splitIntoComponents(openMesh(mixed, notes));
 	ASSERT_EQ(components.size(), 1u);
 	const Component& c = components[0];
-	EXPECT_EQ(c.reversed, isTurned);
+	for (const Face f : c.face.indices())
+		EXPECT_EQ(c.reversed[f], isTurned[Face(c.face[f])]);
 	EXPECT_NO_THROW(Triangulation(c.positions.size(), c.triangles));
 	ASSERT_EQ(c.face.size(), static_cast<int>(c.triangles.size()));
 	for (const Face f : c.face.indices())

@@ -78,6 +78,10 @@ void logLine(const std::string& line)
 	for (const Task* task = current; task; task = task->m_outer) {
 		if (task->m_isSilent)
 			return;
+		if (task->m_lines) {
+			task->m_lines->push_back(line);
+			return;
+		}
 		if (task->m_listener) {
 			task->m_listener->log(line);
 			return;

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace ricci {
 
@@ -30,6 +31,9 @@ public:
 	Task(const Task&) = delete;
 	Task& operator=(const Task&) = delete;
 
+	/// Its lines are kept in \p lines, not logged.
+	void keepLines(std::vector<std::string>& lines) { m_lines = &lines; }
+
 	/// Bytes that this task may use, and its parts; 0, the default: no limit.
 	void setMemoryLimit(double bytes) { m_memory = bytes; }
 	/// That of the thread's task.
@@ -46,6 +50,7 @@ private:
 	Progress* m_listener = nullptr;
 	double m_from = 0.0, m_to = 1.0, m_done = 0.0;
 	bool m_isSilent = false;
+	std::vector<std::string>* m_lines = nullptr;
 	double m_memory = 0.0, m_seconds = 0.0;
 	std::string m_what;
 	std::chrono::steady_clock::time_point m_start;

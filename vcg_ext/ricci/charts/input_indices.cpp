@@ -152,14 +152,37 @@ void orientLikeInput(const OpenedMesh& opened, FlatMesh& mesh)
 		}
 }
 
+/// Puts the triangles in the order of the faces that they are or lie in.
+void sortByFace(std::size_t faceCount, FlatMesh& mesh)
+{
+	const Adjacency<int, int> trianglesOf(static_cast<int>(faceCount), [&](const auto& add) {
+		for (const int f : mesh.face.indices())
+			add(mesh.face[f], f);
+	});
+	const auto sort = [&](auto& ofTriangles) {
+		auto sorted = ofTriangles;
+		int next = 0;
+		for (const int f : trianglesOf.items())
+			sorted[next++] = ofTriangles[f];
+		ofTriangles.swap(sorted);
+	};
+	sort(mesh.vertices);
+	sort(mesh.points);
+	sort(mesh.lengths);
+	sort(mesh.chart);
+	sort(mesh.face);
+}
+
 } // namespace
 
 void toInputIndices(const SurfaceMesh& input, const OpenedMesh& opened, Parametrization& map)
 {
 	FlatMesh& mesh = map.mesh;
 	orientLikeInput(opened, mesh);
-	if (opened.isAsGiven())
+	if (opened.isAsGiven()) {
+		sortByFace(input.triangles.size(), mesh);
 		return;
+	}
 	const std::size_t vertexCount = input.positions.size();
 	const std::size_t copies = opened.vertex.size() - vertexCount;
 	VertexMeans(opened, vertexCount)(map.vertexQC);
@@ -183,6 +206,7 @@ void toInputIndices(const SurfaceMesh& input, const OpenedMesh& opened, Parametr
 	for (const int f : opened.degenerate)
 		degenerate.layOut(f);
 	degenerate.append();
+	sortByFace(input.triangles.size(), mesh);
 }
 
 } // namespace ricci

@@ -7,8 +7,8 @@
 
 namespace ricci {
 
-/// Gives a map of an opened mesh the indices of its input, and its triangles the input's orders of
-/// corners. To be called last, once nothing asks any more which triangles are glued.
+/// Gives a map of an opened mesh the indices of its input, and its triangles the input's order and orders
+/// of corners. To be called last, once nothing asks any more which triangles are glued.
 ///
 /// A vertex takes the mean of its copies' distortion, weighted by the area of their faces, and the
 /// curvature and u of the vertex itself. The refinement's points at copies become the vertex. Degenerate

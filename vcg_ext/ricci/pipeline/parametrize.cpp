@@ -56,9 +56,11 @@ Parametrization mapComponents(
 	VertexInput ofCopies = input;
 	extendToCopies(opened, ofCopies.selected);
 	extendToCopies(opened, ofCopies.targetCurvature);
-	runComponents(opened, components, [&](const Component& component) {
-		append(component, flatten(component, ofCopies), map);
-	});
+	appendComponents(
+		opened,
+		components,
+		[&](const Component& component) { return flatten(component, ofCopies); },
+		map);
 	map.report.converged = true;
 	map.report.charts = static_cast<int>(map.charts.size());
 	advance(kComponentsDone, "Measuring the distortion");

@@ -3,6 +3,7 @@
 
 #include "../base/attempt.h"
 #include "../base/numbers.h"
+#include "../base/parallel.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../charts/separate_charts.h"
@@ -13,6 +14,7 @@
 #include "whole_map.h"
 
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -75,8 +77,17 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 	map.mesh.source = verticesOf(vertexCount);
 	map.u.resize(vertexCount, 0.0);
 	map.targetCurvature.resize(vertexCount, 0.0);
-	for (const Component& piece : pieces)
-		append(piece, asParametrization(piece, *flattenToPlane(piece, {}, ofPieces)), map);
+	std::vector<Parametrization> flat(pieces.size());
+	const auto flatten = [&](int i) {
+		const Component& piece = pieces[positionOf(i)];
+		flat[positionOf(i)] = asParametrization(piece, *flattenToPlane(piece, {}, ofPieces));
+	};
+	tasksInParallel(
+		static_cast<int>(pieces.size()),
+		threadsFor(static_cast<std::int64_t>(component.triangles.size())),
+		flatten);
+	for (std::size_t i = 0; i < pieces.size(); ++i)
+		append(pieces[i], flat[i], map);
 	separateCharts(ofPieces, map);
 	joinCharts(map);
 	const Topology topology = flowDomain(component, Holes::Boundaries).surface.topology;

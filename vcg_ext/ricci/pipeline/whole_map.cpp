@@ -2,15 +2,20 @@
 #include "whole_map.h"
 
 #include "../base/memory_estimate.h"
+#include "../base/parallel.h"
 #include "../base/task.h"
 #include "../charts/flipped_triangles.h"
 #include "../charts/separate_charts.h"
 #include "../measure/distortion.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <exception>
 #include <numeric>
+#include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 
 namespace ricci {
@@ -72,8 +77,6 @@ std::vector<Component> startMap(
 {
 	opened = openMesh(mesh, map.notes);
 	std::vector<Component> components = splitIntoComponents(opened);
-	for (Component& component : components)
-		numberBreadthFirst(component);
 	if (options.method != Method::IntrinsicFlips)
 		requireAreaEverywhere(components);
 	requireMemory(
@@ -176,36 +179,80 @@ void append(const Component& component, const Parametrization& part, Parametriza
 	whole.report += report;
 }
 
-void runComponents(
+void appendComponents(
 	const OpenedMesh& opened,
 	const std::vector<Component>& components,
-	const std::function<void(const Component&)>& run)
+	const std::function<Parametrization(const Component&)>& flatten,
+	Parametrization& whole)
 {
-	const std::vector<char> isSilent = silentComponents(components);
-	std::size_t facesDone = 0;
-	const auto done = [&] {
-		return kComponentsDone *
-			   (static_cast<double>(facesDone) / static_cast<double>(opened.mesh.triangles.size()));
+	struct Mapped
+	{
+		std::optional<Parametrization> part;
+		std::vector<std::string> lines;
+		std::exception_ptr error;
+		std::atomic<bool> isDone{false};
 	};
-	for (std::size_t i = 0; i < components.size(); ++i) {
-		const Component& component = components[i];
-		const double from = done();
-		facesDone += component.triangles.size();
+	const auto count = static_cast<int>(components.size());
+	const std::size_t faces = opened.mesh.triangles.size();
+	const std::vector<char> isSilent = silentComponents(components);
+	std::vector<Mapped> mapped(components.size());
+	const auto caller = std::this_thread::get_id();
+	int appended = 0; // components
+	std::atomic<int> firstFailed{count};
+	std::atomic<std::size_t> facesDone{0};
+	const auto appendDone = [&] {
+		for (; appended < count && mapped[positionOf(appended)].isDone; ++appended) {
+			Mapped& own = mapped[positionOf(appended)];
+			for (const std::string& line : own.lines)
+				logLine(line);
+			own.lines.clear();
+			if (own.error)
+				return;
+			append(components[positionOf(appended)], *own.part, whole);
+			own.part.reset();
+		}
+	};
+	const auto mapOne = [&](int i) {
+		if (i > firstFailed)
+			return;
+		const Component& component = components[positionOf(i)];
+		Mapped& own = mapped[positionOf(i)];
+		const auto share = [&](std::size_t done) {
+			return kComponentsDone * static_cast<double>(done) / static_cast<double>(faces);
+		};
+		const bool isCaller = std::this_thread::get_id() == caller;
 		try {
-			const Task part(from, done(), isSilent[i]);
-			run(component);
+			const std::size_t before = facesDone;
+			Task part(
+				share(before), share(before + component.triangles.size()), isSilent[positionOf(i)]);
+			if (!isCaller || i != appended)
+				part.keepLines(own.lines);
+			own.part = flatten(component);
 		}
 		catch (const Stopped&) {
 			throw; // not the component's fault
 		}
 		catch (Error& error) {
-			if (components.size() > 1) {
+			if (count > 1) {
 				error.componentFace = opened.face[positionOf(component.face.front())];
 				error.componentFaces = component.triangles.size();
 			}
-			throw;
+			own.error = std::current_exception();
+			for (int first = firstFailed;
+				 i < first && !firstFailed.compare_exchange_weak(first, i);) {
+			}
 		}
-	}
+		facesDone += component.triangles.size();
+		own.isDone = true;
+		if (isCaller)
+			appendDone();
+	};
+	const double limit = Task::memoryLimit();
+	const bool hasRoom = limit <= 0.0 || estimatedMemory(faces, faces, true) <= limit;
+	tasksInParallel(count, hasRoom ? threadsFor(static_cast<std::int64_t>(faces)) : 1, mapOne);
+	appendDone();
+	if (firstFailed < count)
+		std::rethrow_exception(mapped[positionOf(firstFailed)].error);
 	if (components.size() > kDescribedComponents)
 		logLine(
 			"The log leaves out the smaller ones of " + std::to_string(components.size()) +

@@ -65,12 +65,14 @@ constexpr double kComponentsDone = 0.9;
 /// Of more components than this, the log describes so many only, the largest.
 constexpr std::size_t kDescribedComponents = 20;
 
-/// Runs \p run(component) on every component as its part of the task. Where there are several, an error
-/// other than Stopped keeps its type and gets the component's data.
-void runComponents(
+/// Appends what \p flatten makes of each component, several of them at the same time in threads. The log has
+/// their lines in the order of the components. Of several errors that of the first component is thrown; where
+/// there are several components, it gets the component's data.
+void appendComponents(
 	const OpenedMesh& opened,
 	const std::vector<Component>& components,
-	const std::function<void(const Component&)>& run);
+	const std::function<Parametrization(const Component&)>& flatten,
+	Parametrization& whole);
 
 } // namespace ricci
 

@@ -33,39 +33,8 @@ void reorder(const std::vector<Index>& order, std::vector<Item>& items)
 	items.swap(ordered);
 }
 
-} // namespace
-
-std::vector<Component> splitIntoComponents(const OpenedMesh& opened)
-{
-	const SurfaceMesh& mesh = opened.mesh;
-	std::vector<Component> components(positionOf(opened.componentCount));
-	for (std::size_t c = 0; c < opened.hasSeam.size(); ++c)
-		components[c].hasSeam = opened.hasSeam[c] != 0;
-	std::vector<Vertex> local(mesh.positions.size()); // of each vertex of the mesh
-	for (const Face f : opened.component.indices()) {
-		Component& c = components[positionOf(opened.component[f])];
-		c.face.push_back(f.number());
-		c.reversed.push_back(opened.reversed[f]);
-		Triangle triangle;
-		for (std::size_t k = 0; k < 3; ++k) {
-			const int v = mesh.triangles[positionOf(f)][c.inputCorner(Face(c.face.size() - 1), k)];
-			Vertex& known = local[positionOf(v)];
-			if (!known.isValid()) {
-				known = Vertex(c.vertex.size());
-				c.vertex.push_back(v);
-				c.positions.push_back(mesh.positions[positionOf(v)]);
-			}
-			triangle[k] = known.number();
-		}
-		c.triangles.push_back(triangle);
-		if (!mesh.diagonal.empty())
-			c.diagonal.push_back(inOrder(mesh.diagonal[positionOf(f)], opened.reversed[f]));
-		if (!opened.hole.empty())
-			c.hole.push_back(inOrder(opened.hole[positionOf(f)], opened.reversed[f]));
-	}
-	return components;
-}
-
+/// Numbers the faces breadth first from the first one, and the vertices as these meet them: neighbours then
+/// lie near each other in memory, whatever the order of the input [Cuthill, McKee 1969].
 void numberBreadthFirst(Component& component)
 {
 	std::vector<Triangle>& triangles = component.triangles;
@@ -98,6 +67,41 @@ void numberBreadthFirst(Component& component)
 	reorder(faces, component.triangles);
 	reorder(faces, component.diagonal);
 	reorder(faces, component.hole);
+}
+
+} // namespace
+
+std::vector<Component> splitIntoComponents(const OpenedMesh& opened)
+{
+	const SurfaceMesh& mesh = opened.mesh;
+	std::vector<Component> components(positionOf(opened.componentCount));
+	for (std::size_t c = 0; c < opened.hasSeam.size(); ++c)
+		components[c].hasSeam = opened.hasSeam[c] != 0;
+	std::vector<Vertex> local(mesh.positions.size()); // of each vertex of the mesh
+	for (const Face f : opened.component.indices()) {
+		Component& c = components[positionOf(opened.component[f])];
+		c.face.push_back(f.number());
+		c.reversed.push_back(opened.reversed[f]);
+		Triangle triangle;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const int v = mesh.triangles[positionOf(f)][c.inputCorner(Face(c.face.size() - 1), k)];
+			Vertex& known = local[positionOf(v)];
+			if (!known.isValid()) {
+				known = Vertex(c.vertex.size());
+				c.vertex.push_back(v);
+				c.positions.push_back(mesh.positions[positionOf(v)]);
+			}
+			triangle[k] = known.number();
+		}
+		c.triangles.push_back(triangle);
+		if (!mesh.diagonal.empty())
+			c.diagonal.push_back(inOrder(mesh.diagonal[positionOf(f)], opened.reversed[f]));
+		if (!opened.hole.empty())
+			c.hole.push_back(inOrder(opened.hole[positionOf(f)], opened.reversed[f]));
+	}
+	for (Component& component : components)
+		numberBreadthFirst(component);
+	return components;
 }
 
 void requireAreaEverywhere(const std::vector<Component>& components)

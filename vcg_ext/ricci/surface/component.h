@@ -29,12 +29,8 @@ struct Component
 };
 
 /// The connected components of a mesh, in the order of their lowest faces, with the faces of a
-/// minority of incoherent order turned.
+/// minority of incoherent order turned. Each is numbered breadth first from its lowest face.
 std::vector<Component> splitIntoComponents(const OpenedMesh& opened);
-
-/// Numbers the faces of \p component breadth first from its first one, and the vertices as these meet them:
-/// neighbours then lie near each other in memory, whatever the order of the input [Cuthill, McKee 1969].
-void numberBreadthFirst(Component& component);
 
 /// \throw InvalidMesh if edges have no length or faces no area, as rounding finds them
 void requireAreaEverywhere(const std::vector<Component>& components);
