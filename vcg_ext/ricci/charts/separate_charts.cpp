@@ -75,6 +75,9 @@ void setApart(Parametrization& map)
 			map.mesh.place[p] += shifts[positionOf(chart[p])];
 }
 
+/// Triangles across the band in which a cut is looked for. A wider one would hardly have a shorter cut.
+constexpr double kBand = 50.0;
+
 /// A chart in parts, and how long the cuts between them are on the surface.
 struct Halves
 {
@@ -82,8 +85,8 @@ struct Halves
 	double length = 0.0;
 };
 
-/// The least cut across the middle fifth of a chart's smallest bounding rectangle. What is smaller than
-/// kCrumb of the chart goes to the other part.
+/// The least cut across the middle fifth of a chart's smallest bounding rectangle, or across so much of it as
+/// is about kBand triangles wide. What is smaller than kCrumb of the chart goes to the other part.
 /// \param triangles of the chart
 /// \return none where such a crumb is left, or nothing is cut
 std::optional<Halves> halves(
@@ -93,20 +96,29 @@ std::optional<Halves> halves(
 	const OrientedRectangle& r)
 {
 	DualGraph graph(mesh, sides);
-	// A triangle that reaches across the middle may go to either part.
-	std::vector<int> left, right;
+	// From the middle of the rectangle, along it: 0 for a triangle that reaches across.
+	std::vector<double> along;
 	for (const int i : triangles) {
-		double first = 1.0, last = 0.0; // along the rectangle
+		double first = 0.5, last = -0.5;
 		for (const Point2& p : mesh.at(i)) {
-			const double along = (r.inFrame(p)[0] - r.min[0]) / r.width();
-			first = std::min(first, along);
-			last = std::max(last, along);
+			const double at = (r.inFrame(p)[0] - r.min[0]) / r.width() - 0.5;
+			first = std::min(first, at);
+			last = std::max(last, at);
 		}
-		if (last < 0.4)
-			left.push_back(i);
-		else if (first > 0.6)
-			right.push_back(i);
+		along.push_back(std::max(first, 0.0) + std::min(last, 0.0));
 	}
+	std::vector<double> apart;
+	for (const double at : along)
+		apart.push_back(std::abs(at));
+	const auto count = static_cast<double>(apart.size());
+	const auto end = apart.begin() +
+					 static_cast<std::ptrdiff_t>(std::min(count - 1.0, kBand * std::sqrt(count)));
+	std::nth_element(apart.begin(), end, apart.end());
+	const double width = std::min(0.1, *end);
+	std::vector<int> left, right;
+	for (std::size_t i = 0; i < triangles.size(); ++i)
+		if (std::abs(along[i]) > width)
+			(along[i] < 0.0 ? left : right).push_back(triangles[i]);
 	graph.part = leastCut(graph, left, right);
 	const auto areaOf = [&](const std::vector<int>& piece) {
 		double area = 0.0;
