@@ -127,6 +127,8 @@ unfold(const Component& component, const Options& options, double maxBetween)
 		if (angle < kCreaseAngles[0] && !best)
 			break;
 		const Creases found = creases(component.positions.values(), component.triangles, angle);
+		if (found.edges == 0 && !best)
+			break; // nor will there be any that are sharper
 		if (found.edges == 0 || found.edges == edges || found.curvatureBetween > maxBetween)
 			continue;
 		edges = found.edges;

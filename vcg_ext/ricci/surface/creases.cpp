@@ -63,6 +63,8 @@ creases(const std::vector<Point3>& positions, const std::vector<Triangle>& trian
 		++result.edges;
 		mark(At::Crease);
 	});
+	if (result.edges == 0)
+		return result;
 	Array<double> curvature(where.size(), 2.0 * kPi);
 	for (const Triangle& t : triangles)
 		for (std::size_t k = 0; k < 3; ++k)
