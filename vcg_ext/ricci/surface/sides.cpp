@@ -5,32 +5,80 @@
 
 namespace ricci {
 
+namespace {
+
+/// Numbers of the vertices of triangles, in the order of their indices: not many more than there are vertices.
+class VertexNumbers
+{
+public:
+	explicit VertexNumbers(const std::vector<Triangle>& triangles)
+	{
+		if (triangles.empty())
+			return;
+		int last = m_first = triangles.front()[0];
+		for (const Triangle& t : triangles)
+			for (const int v : t) {
+				m_first = std::min(m_first, v);
+				last = std::max(last, v);
+			}
+		m_count = last + 1 - m_first;
+		if (m_count / 4 < static_cast<int>(3 * triangles.size()))
+			return;
+		for (const Triangle& t : triangles)
+			m_known.insert(m_known.end(), t.begin(), t.end());
+		std::sort(m_known.begin(), m_known.end());
+		m_known.erase(std::unique(m_known.begin(), m_known.end()), m_known.end());
+		m_count = static_cast<int>(m_known.size());
+	}
+
+	int count() const { return m_count; }
+	int operator()(int v) const
+	{
+		if (m_known.empty())
+			return v - m_first;
+		return static_cast<int>(
+			std::lower_bound(m_known.begin(), m_known.end(), v) - m_known.begin());
+	}
+
+private:
+	int m_first = 0, m_count = 0;
+	std::vector<int> m_known; // sorted, if there are few of those from the first to the last
+};
+
+} // namespace
+
 Sides::Sides(const std::vector<Triangle>& triangles)
 {
+	struct Side
+	{
+		int high; ///< the higher of its ends
+		Corner corner;
+	};
 	const auto start = [&](Corner c) { return triangles[positionOf(c.face())][c.index()]; };
-	const auto low = [&](Corner c) { return std::min(start(c), start(c.next())); };
-	const auto high = [&](Corner c) { return std::max(start(c), start(c.next())); };
 	m_across.resize(3 * triangles.size());
 	m_sides.reserve(m_across.size());
-	for (const Corner c : m_across.indices())
-		m_sides.push_back(c);
-	bucketSort(m_sides.values(), low, [&](Corner a, Corner b) {
-		const int highA = high(a), highB = high(b);
-		return highA != highB ? highA < highB : a < b;
+	m_first.reserve(m_across.size() / 2 + 1);
+	const VertexNumbers number(triangles);
+	Adjacency<int, Side> byLow(number.count(), [&](const auto& add) {
+		for (const Corner c : m_across.indices()) {
+			const int a = start(c), b = start(c.next());
+			add(number(std::min(a, b)), Side{std::max(a, b), c});
+		}
 	});
-	for (int first = 0, last = 0; first < m_sides.size(); first = last) {
-		m_first.push_back(first);
-		const Corner side = m_sides[first];
-		const int lowEnd = low(side), highEnd = high(side);
-		while (last < m_sides.size() && low(m_sides[last]) == lowEnd &&
-			   high(m_sides[last]) == highEnd)
-			++last;
-		if (last - first != 2)
-			continue;
-		const Corner other = m_sides[first + 1];
-		if (start(side) != start(other)) {
-			m_across[side] = other;
-			m_across[other] = side;
+	for (int v = 0; v < number.count(); ++v) {
+		const ItemRange<Side> sides = byLow[v];
+		std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+			return a.high != b.high ? a.high < b.high : a.corner < b.corner;
+		});
+		for (const Side *first = sides.begin(), *last = first; first != sides.end(); first = last) {
+			m_first.push_back(m_sides.size());
+			for (; last != sides.end() && last->high == first->high; ++last)
+				m_sides.push_back(last->corner);
+			const Corner side = first->corner, other = last[-1].corner;
+			if (last - first == 2 && start(side) != start(other)) {
+				m_across[side] = other;
+				m_across[other] = side;
+			}
 		}
 	}
 	m_first.push_back(m_sides.size());
