@@ -64,8 +64,6 @@ TEST(SparseCholesky, SolvesLikeADenseSolver)
 	EXPECT_EQ(solver.work().analyses, 1);
 }
 
-#ifdef RICCI_STATIC_CHOLMOD // other solvers have no checkpoints inside
-
 /// Laplacian of a square grid with shift 1; lower triangle. Its factor takes a good while.
 SparseCholesky::Matrix gridLaplacian(int side)
 {
@@ -81,6 +79,8 @@ SparseCholesky::Matrix gridLaplacian(int side)
 	lower.setFromTriplets(entries.begin(), entries.end());
 	return lower;
 }
+
+#ifdef RICCI_STATIC_CHOLMOD // other solvers have no checkpoints inside
 
 /// What checkpoint() throws at any time passes through, and leaves the solver usable.
 TEST(SparseCholesky, EndsWhenItIsCancelled)
@@ -129,6 +129,30 @@ TEST(SparseCholesky, SolvesForAnyNumberOfColumns)
 				EXPECT_LT((x.col(k) - solver.solve(b.col(k))).lpNorm<Eigen::Infinity>(), 1e-12);
 		}
 	}
+}
+
+/// A factor so large that threads share the subtrees of its elimination tree, in an order that does not matter.
+TEST(SparseCholesky, SubtreesGiveTheSameSolutionEachTime)
+{
+	Random random(66);
+	const SparseCholesky::Matrix lower = gridLaplacian(150);
+	SparseCholesky solver;
+	ASSERT_TRUE(solver.factorize(lower));
+	ASSERT_GT(solver.factorEntries(), 4e5);
+	Eigen::MatrixXd b(lower.rows(), 3);
+	for (Eigen::Index k = 0; k < b.cols(); ++k)
+		b.col(k) = randomVector(b.rows(), random);
+	const Eigen::MatrixXd x = solver.solve(b);
+	EXPECT_LT((lower.selfadjointView<Eigen::Lower>() * x - b).cwiseAbs().maxCoeff(), 1e-13);
+	for (int round = 0; round < 20; ++round) {
+		EXPECT_TRUE(solver.solve(b) == x);
+		EXPECT_TRUE(solver.solve(b.col(2)) == x.col(2));
+	}
+	Eigen::VectorXd unit = Eigen::VectorXd::Unit(b.rows(), 77);
+	EXPECT_LT(
+		(lower.selfadjointView<Eigen::Lower>() * solver.solve(unit) - unit)
+			.lpNorm<Eigen::Infinity>(),
+		1e-14);
 }
 
 TEST(SparseCholesky, IteratesWithTheFactorOfANearbyMatrix)
