@@ -52,15 +52,27 @@ void fill(Row& row, int first, int last)
 	}
 }
 
-/// The lowest cell that is free, or kCells.
-int lowestFree(const Row& row)
+/// Place of the lowest bit of \p word, which is not 0.
+int lowestBit(std::uint64_t word)
 {
-	for (int x = 0; x < kCells; ++x) {
+	int bit = 0;
+	for (int half = kWordBits / 2; half > 0; half /= 2)
+		if (word << (kWordBits - half) == 0) {
+			word >>= half;
+			bit += half;
+		}
+	return bit;
+}
+
+/// The first cell, not before \p x, that is taken or that is free, or kCells.
+int nextCell(const Row& row, int x, bool taken)
+{
+	while (x < kCells) {
 		const std::uint64_t word = row[static_cast<std::size_t>(x / kWordBits)];
-		if (word == ~std::uint64_t{0})
-			x += kWordBits - 1 - x % kWordBits;
-		else if ((word >> (x % kWordBits) & 1) == 0)
-			return x;
+		const std::uint64_t rest = (taken ? word : ~word) >> (x % kWordBits);
+		if (rest != 0)
+			return x + lowestBit(rest);
+		x += kWordBits - x % kWordBits;
 	}
 	return kCells;
 }
@@ -99,60 +111,36 @@ public:
 		}
 		const double reach = m_reach * m_cell;
 		shape.motion.shift = {reach - box.min[0], reach - box.min[1]};
-		m_width = cellAt(box.width() / m_cell + 2 * m_reach) + 1;
-		m_height = cellAt(box.height() / m_cell + 2 * m_reach) + 1;
-		if (std::max(m_width, m_height) > kCells)
+		shape.width = cellAt(box.width() / m_cell + 2 * m_reach) + 1;
+		shape.height = cellAt(box.height() / m_cell + 2 * m_reach) + 1;
+		if (std::max(shape.width, shape.height) > kCells)
 			return false;
-		m_spans.clear();
-		m_crossings.clear();
+		std::fill_n(m_rows.begin(), shape.height, Row{});
 		for (auto& side : m_sides) {
 			for (Point2& p : side)
 				p = {
 					(p[0] + shape.motion.shift.real()) / m_cell,
 					(p[1] + shape.motion.shift.imag()) / m_cell};
-			drawSide(side);
+			drawSide(side, shape);
 		}
-		fillBetween();
-		joinSpans();
-		std::sort(m_runs.begin(), m_runs.end(), [](const Run& a, const Run& b) {
-			return std::make_tuple(a.first - a.last, a.row, a.first) <
-				   std::make_tuple(b.first - b.last, b.row, b.first);
-		});
-		shape.width = m_width;
-		shape.height = m_height;
-		shape.runs.assign(m_runs.begin(), m_runs.end());
+		fillBetween(shape.height);
+		findRuns(shape);
 		return true;
 	}
 
 private:
 	struct Crossing
 	{
-		int row;
 		double x;
 		int turns; // 1 where the side runs down, the outline's inner side on its right
 
-		bool operator<(const Crossing& other) const
-		{
-			return std::tie(row, x, turns) < std::tie(other.row, other.x, other.turns);
-		}
+		bool operator<(const Crossing& other) const { return x < other.x; }
 	};
 
-	static int cellAt(double x) { return static_cast<int>(std::floor(x)); }
+	/// The first one where \p x is negative.
+	static int cellAt(double x) { return static_cast<int>(std::max(x, 0.0)); }
 
-	/// Sorted as fast as can be: by rows, then along them.
-	static std::uint64_t numberOf(const Run& run)
-	{
-		const auto bits = [](int x, int shift) { return static_cast<std::uint64_t>(x) << shift; };
-		return bits(run.row, 32) | bits(run.first, 16) | bits(run.last, 0);
-	}
-
-	static Run runOf(std::uint64_t number)
-	{
-		const auto field = [&](int shift) { return static_cast<int>(number >> shift & 0xffff); };
-		return {field(32), field(16), field(0)};
-	}
-
-	void drawSide(const std::array<Point2, 2>& side)
+	void drawSide(const std::array<Point2, 2>& side, const Shape& shape)
 	{
 		const bool up = side[0][1] < side[1][1];
 		const Point2 &low = up ? side[0] : side[1], &high = up ? side[1] : side[0];
@@ -160,55 +148,63 @@ private:
 		const auto xAt = [&](double y) {
 			return y <= low[1] ? low[0] : y >= high[1] ? high[0] : low[0] + slope * (y - low[1]);
 		};
-		const int first = std::max(cellAt(low[1] - m_reach), 0);
-		const int last = std::min(cellAt(high[1] + m_reach), m_height - 1);
-		for (int row = first; row <= last; ++row) {
-			double from = xAt(row - m_reach), to = xAt(row + 1 + m_reach);
+		const int last = std::min(cellAt(high[1] + m_reach), shape.height - 1);
+		for (int y = cellAt(low[1] - m_reach); y <= last; ++y) {
+			double from = xAt(y - m_reach), to = xAt(y + 1 + m_reach);
 			if (low[1] == high[1]) {
 				from = low[0];
 				to = high[0];
 			}
-			m_spans.push_back(numberOf(
-				{row,
-				 std::max(cellAt(std::min(from, to) - m_reach), 0),
-				 std::min(cellAt(std::max(from, to) + m_reach) + 1, m_width)}));
-			const double middle = row + 0.5;
+			const auto row = static_cast<std::size_t>(y);
+			fill(
+				m_rows[row],
+				cellAt(std::min(from, to) - m_reach),
+				std::min(cellAt(std::max(from, to) + m_reach) + 1, shape.width));
+			const double middle = y + 0.5;
 			if (low[1] <= middle && middle < high[1])
-				m_crossings.push_back({row, xAt(middle), up ? -1 : 1});
+				m_crossings[row].push_back({xAt(middle), up ? -1 : 1});
 		}
 	}
 
-	void fillBetween()
+	void fillBetween(int height)
 	{
-		std::sort(m_crossings.begin(), m_crossings.end());
-		int turns = 0; // 0 again at the end of each row
-		for (std::size_t i = 0; i + 1 < m_crossings.size(); ++i) {
-			const Crossing &a = m_crossings[i], &b = m_crossings[i + 1];
-			turns = a.row == b.row ? turns + a.turns : 0;
-			if (turns != 0)
-				m_spans.push_back(numberOf({a.row, cellAt(a.x), cellAt(b.x) + 1}));
+		for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+			std::vector<Crossing>& crossings = m_crossings[y];
+			std::sort(crossings.begin(), crossings.end());
+			int turns = 0; // 0 again at the end
+			for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
+				turns += crossings[i].turns;
+				if (turns != 0)
+					fill(m_rows[y], cellAt(crossings[i].x), cellAt(crossings[i + 1].x) + 1);
+			}
+			crossings.clear();
 		}
 	}
 
-	void joinSpans()
+	void findRuns(Shape& shape)
 	{
-		std::sort(m_spans.begin(), m_spans.end());
 		m_runs.clear();
-		for (const std::uint64_t number : m_spans) {
-			const Run span = runOf(number);
-			if (m_runs.empty() || m_runs.back().row != span.row || m_runs.back().last < span.first)
-				m_runs.push_back(span);
-			else
-				m_runs.back().last = std::max(m_runs.back().last, span.last);
+		std::array<std::size_t, kCells + 1> longer{}; // [length] runs
+		for (int y = 0; y < shape.height; ++y) {
+			const Row& row = m_rows[static_cast<std::size_t>(y)];
+			for (int first = nextCell(row, 0, true); first < kCells;) {
+				const int last = nextCell(row, first, false);
+				m_runs.push_back({y, first, last});
+				++longer[static_cast<std::size_t>(last - first) - 1];
+				first = nextCell(row, last, true);
+			}
 		}
+		std::partial_sum(longer.rbegin(), longer.rend(), longer.rbegin());
+		shape.runs.resize(m_runs.size());
+		for (const Run& run : m_runs)
+			shape.runs[longer[static_cast<std::size_t>(run.last - run.first)]++] = run;
 	}
 
-	double m_cell, m_reach; // m_reach in cells
-	int m_width = 0, m_height = 0;
+	double m_cell, m_reach;                     // m_reach in cells
 	std::vector<std::array<Point2, 2>> m_sides; // in cells
-	std::vector<std::uint64_t> m_spans;         // numbers of runs that may overlap
+	std::array<Row, kCells> m_rows;
+	std::array<std::vector<Crossing>, kCells> m_crossings; // [row]
 	std::vector<Run> m_runs;
-	std::vector<Crossing> m_crossings;
 };
 
 /// Less is better: the side of the square, then how far out the shape lies.
@@ -248,7 +244,7 @@ public:
 					break;
 				}
 			}
-			const int x = lowestFree(blocked);
+			const int x = nextCell(blocked, 0, false);
 			if (x == kCells)
 				continue;
 			const int right = x + shape.width, top = y + shape.height;
@@ -261,10 +257,10 @@ public:
 
 	void take(const Spot& spot)
 	{
-		for (const Run& run : spot.shape->runs) {
-			const int y = spot.y + run.row;
-			auto& taken = m_taken[static_cast<std::size_t>(y)];
-			fill(taken[0], spot.x + run.first, spot.x + run.last);
+		for (const Run& run : spot.shape->runs)
+			fill(rowsAt(spot.y + run.row)[0], spot.x + run.first, spot.x + run.last);
+		for (int y = spot.y; y < spot.y + spot.shape->height; ++y) {
+			auto& taken = rowsAt(y);
 			for (std::size_t k = 0; k + 1 < taken.size(); ++k) {
 				taken[k + 1] = taken[k];
 				addMovedDown(taken[k], 1 << k, taken[k].size(), taken[k + 1]);
@@ -287,11 +283,12 @@ private:
 		std::size_t k = 0;
 		while (2 << k <= count)
 			++k;
-		y += run.row;
-		const Row& taken = m_taken[static_cast<std::size_t>(y)][k];
+		const Row& taken = m_taken[static_cast<std::size_t>(y + run.row)][k];
 		addMovedDown(taken, run.first, words, blocked);
 		addMovedDown(taken, run.last - (1 << k), words, blocked);
 	}
+
+	std::array<Row, kLevels>& rowsAt(int y) { return m_taken[static_cast<std::size_t>(y)]; }
 
 	/// [y][k] the x from which one of 2^k cells is taken
 	std::array<std::array<Row, kLevels>, kCells> m_taken{};
