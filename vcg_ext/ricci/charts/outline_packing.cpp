@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "outline_packing.h"
 
+#include "../base/indexed.h"
 #include "../base/task.h"
 #include "../math/convex_hull.h"
 
@@ -8,9 +9,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace ricci {
@@ -19,62 +20,80 @@ namespace {
 
 constexpr int kWordBits = 64;
 
-/// Cells along a side of the square.
-constexpr int kLevels = 9, kCells = 1 << (kLevels - 1);
+/// Cells along a side of the square, where places are sought and where they are found.
+constexpr int kCoarse = 128, kFine = 512;
 
-/// Rows of cells compared after which no further angle of the largest chart is tried.
+/// Orders that are tried in coarse cells, and those of them that are tried in fine ones.
+constexpr int kTries = 17;
+constexpr std::size_t kFineTries = 4;
+
+/// Coarse cells that a square may be wider than the smallest so far, which finer ones may make up for.
+constexpr int kSlack = 4;
+
+/// Rows of cells compared after which no further order is tried.
 constexpr long long kMaxWork = 4'000'000;
 
-/// Cells of a row that are taken, in its bits.
-using Row = std::array<std::uint64_t, kCells / kWordBits>;
-
-/// Adds the cells of \p row, moved to lower places, to the first \p count words.
-void addMovedDown(const Row& row, int cells, std::size_t count, Row& sum)
+/// Rows of cells, a bit for each that is taken, and bits that stay free at the end.
+class Rows
 {
-	const auto words = static_cast<std::size_t>(cells / kWordBits);
-	const int bits = cells % kWordBits;
-	count = std::min(count, row.size() - words);
-	for (std::size_t i = 0; i < count; ++i) {
-		sum[i] |= row[i + words] >> bits;
-		if (bits > 0 && i + words + 1 < row.size())
-			sum[i] |= row[i + words + 1] << (kWordBits - bits);
+public:
+	Rows(int rows, int cells) : m_words(cells / kWordBits + 2), m_bits(positionOf(rows * m_words))
+	{
 	}
+
+	/// In a row, the bits at the end included.
+	int words() const { return m_words; }
+	std::uint64_t* operator[](int row) { return m_bits.data() + positionOf(row * m_words); }
+	const std::uint64_t* operator[](int row) const
+	{
+		return m_bits.data() + positionOf(row * m_words);
+	}
+	void clear(int rows) { std::fill_n(m_bits.begin(), rows * m_words, 0); }
+
+private:
+	int m_words;
+	std::vector<std::uint64_t> m_bits;
+};
+
+/// 64 cells of a row from \p x on.
+std::uint64_t bitsFrom(const std::uint64_t* row, int x)
+{
+	const int bit = x % kWordBits;
+	row += x / kWordBits;
+	return row[0] >> bit | row[1] << 1 << (kWordBits - 1 - bit);
 }
 
-void fill(Row& row, int first, int last)
+void fill(std::uint64_t* row, int first, int last)
 {
 	for (int x = first; x < last;) {
 		const int bit = x % kWordBits, count = std::min(kWordBits - bit, last - x);
 		const std::uint64_t ones =
 			count == kWordBits ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
-		row[static_cast<std::size_t>(x / kWordBits)] |= ones << bit;
+		row[x / kWordBits] |= ones << bit;
 		x += count;
 	}
 }
 
-/// Place of the lowest bit of \p word, which is not 0.
+/// Place of the lowest bit of \p word, which is not 0: the exponent of a double.
 int lowestBit(std::uint64_t word)
 {
-	int bit = 0;
-	for (int half = kWordBits / 2; half > 0; half /= 2)
-		if (word << (kWordBits - half) == 0) {
-			word >>= half;
-			bit += half;
-		}
-	return bit;
+	const auto lowest = static_cast<double>(word & (~word + 1));
+	std::uint64_t bits;
+	std::memcpy(&bits, &lowest, sizeof bits);
+	return static_cast<int>(bits >> 52) - 1023;
 }
 
-/// The first cell, not before \p x, that is taken or that is free, or kCells.
-int nextCell(const Row& row, int x, bool taken)
+/// The first cell from \p x to before \p end that is taken or that is free, or \p end.
+int nextCell(const std::uint64_t* row, int x, int end, bool taken)
 {
-	while (x < kCells) {
-		const std::uint64_t word = row[static_cast<std::size_t>(x / kWordBits)];
+	while (x < end) {
+		const std::uint64_t word = row[x / kWordBits];
 		const std::uint64_t rest = (taken ? word : ~word) >> (x % kWordBits);
 		if (rest != 0)
-			return x + lowestBit(rest);
+			return std::min(x + lowestBit(rest), end);
 		x += kWordBits - x % kWordBits;
 	}
-	return kCells;
+	return end;
 }
 
 /// Cells of one row, from first to before last.
@@ -86,8 +105,7 @@ struct Run
 /// An outline that is turned, in cells from the lower left corner of a box round it.
 struct Shape
 {
-	Motion motion;   ///< brings that corner to the origin
-	int quarter = 0; ///< right angles that it is turned by besides
+	Motion motion; ///< brings that corner to the origin
 	int width = 0, height = 0;
 	std::vector<Run> runs; ///< longest first
 };
@@ -97,7 +115,13 @@ class Drawing
 {
 public:
 	/// \param reach taken, too: what is nearer than this along both axes
-	Drawing(double cell, double reach) : m_cell(cell), m_reach(reach / cell) {}
+	Drawing(int cells, double side, double reach) :
+			m_cells(cells), m_cell(side / cells), m_reach(reach / m_cell), m_rows(cells, cells),
+			m_crossings(positionOf(cells))
+	{
+	}
+
+	double cell() const { return m_cell; }
 
 	/// \return whether it fits into the square
 	bool draw(const Outline& outline, std::complex<double> turn, Shape& shape)
@@ -113,9 +137,9 @@ public:
 		shape.motion.shift = {reach - box.min[0], reach - box.min[1]};
 		shape.width = cellAt(box.width() / m_cell + 2 * m_reach) + 1;
 		shape.height = cellAt(box.height() / m_cell + 2 * m_reach) + 1;
-		if (std::max(shape.width, shape.height) > kCells)
+		if (std::max(shape.width, shape.height) > m_cells)
 			return false;
-		std::fill_n(m_rows.begin(), shape.height, Row{});
+		m_rows.clear(shape.height);
 		for (auto& side : m_sides) {
 			for (Point2& p : side)
 				p = {
@@ -155,21 +179,20 @@ private:
 				from = low[0];
 				to = high[0];
 			}
-			const auto row = static_cast<std::size_t>(y);
 			fill(
-				m_rows[row],
+				m_rows[y],
 				cellAt(std::min(from, to) - m_reach),
 				std::min(cellAt(std::max(from, to) + m_reach) + 1, shape.width));
 			const double middle = y + 0.5;
 			if (low[1] <= middle && middle < high[1])
-				m_crossings[row].push_back({xAt(middle), up ? -1 : 1});
+				m_crossings[positionOf(y)].push_back({xAt(middle), up ? -1 : 1});
 		}
 	}
 
 	void fillBetween(int height)
 	{
-		for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
-			std::vector<Crossing>& crossings = m_crossings[y];
+		for (int y = 0; y < height; ++y) {
+			std::vector<Crossing>& crossings = m_crossings[positionOf(y)];
 			std::sort(crossings.begin(), crossings.end());
 			int turns = 0; // 0 again at the end
 			for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
@@ -184,27 +207,30 @@ private:
 	void findRuns(Shape& shape)
 	{
 		m_runs.clear();
-		std::array<std::size_t, kCells + 1> longer{}; // [length] runs
+		m_longer.assign(positionOf(m_cells + 1), 0);
 		for (int y = 0; y < shape.height; ++y) {
-			const Row& row = m_rows[static_cast<std::size_t>(y)];
-			for (int first = nextCell(row, 0, true); first < kCells;) {
-				const int last = nextCell(row, first, false);
+			for (int last = 0;;) {
+				const int first = nextCell(m_rows[y], last, shape.width, true);
+				if (first == shape.width)
+					break;
+				last = nextCell(m_rows[y], first, shape.width, false);
 				m_runs.push_back({y, first, last});
-				++longer[static_cast<std::size_t>(last - first) - 1];
-				first = nextCell(row, last, true);
+				++m_longer[positionOf(last - first - 1)];
 			}
 		}
-		std::partial_sum(longer.rbegin(), longer.rend(), longer.rbegin());
+		std::partial_sum(m_longer.rbegin(), m_longer.rend(), m_longer.rbegin());
 		shape.runs.resize(m_runs.size());
 		for (const Run& run : m_runs)
-			shape.runs[longer[static_cast<std::size_t>(run.last - run.first)]++] = run;
+			shape.runs[m_longer[positionOf(run.last - run.first)]++] = run;
 	}
 
+	int m_cells;
 	double m_cell, m_reach;                     // m_reach in cells
 	std::vector<std::array<Point2, 2>> m_sides; // in cells
-	std::array<Row, kCells> m_rows;
-	std::array<std::vector<Crossing>, kCells> m_crossings; // [row]
+	Rows m_rows;
+	std::vector<std::vector<Crossing>> m_crossings; // [row]
 	std::vector<Run> m_runs;
+	std::vector<std::size_t> m_longer; // [length] runs that are longer
 };
 
 /// Less is better: the side of the square, then how far out the shape lies.
@@ -220,33 +246,40 @@ struct Spot
 class Canvas
 {
 public:
+	explicit Canvas(int cells) :
+			m_cells(cells), m_levels(lowestBit(static_cast<std::uint64_t>(cells)) + 1),
+			m_taken(cells * m_levels, cells), m_blocked(1, cells)
+	{
+	}
+
 	int side() const { return m_side; }
 	long long work() const { return m_work; }
+
+	void clear()
+	{
+		m_taken.clear(m_side * m_levels);
+		m_side = 0;
+	}
 
 	/// Takes a better place of \p shape than \p best, if there is one.
 	void look(const Shape& shape, Spot& best)
 	{
 		m_runs = shape.runs;
 		for (int y = 0; y + shape.height <= farthest(best); ++y) {
-			const int last = farthest(best) - shape.width; // of x
-			if (last < 0)
+			const int end = farthest(best) - shape.width + 1; // of x
+			if (end <= 0)
 				return;
-			const std::size_t words = static_cast<std::size_t>(last / kWordBits) + 1;
-			Row blocked{};
-			fill(blocked, last + 1, kCells);
-			for (std::size_t i = 0; i < m_runs.size(); ++i) {
-				block(m_runs[i], y, words, blocked);
+			m_blocked.clear(1);
+			bool isFull = false;
+			for (std::size_t i = 0; i < m_runs.size() && !isFull; ++i) {
+				isFull = block(m_runs[i], y, end);
 				++m_work;
-				if (std::all_of(blocked.begin(), blocked.begin() + words, [](std::uint64_t w) {
-						return w == ~std::uint64_t{0};
-					})) {
+				if (isFull)
 					std::swap(m_runs[i], m_runs[i / 2]); // it blocks the next row, too
-					break;
-				}
 			}
-			const int x = nextCell(blocked, 0, false);
-			if (x == kCells)
+			if (isFull)
 				continue;
+			const int x = nextCell(m_blocked[0], 0, end, false);
 			const int right = x + shape.width, top = y + shape.height;
 			const Cost cost{
 				std::max({m_side, right, top}), std::max(right, top), right + top + x + y};
@@ -258,40 +291,48 @@ public:
 	void take(const Spot& spot)
 	{
 		for (const Run& run : spot.shape->runs)
-			fill(rowsAt(spot.y + run.row)[0], spot.x + run.first, spot.x + run.last);
-		for (int y = spot.y; y < spot.y + spot.shape->height; ++y) {
-			auto& taken = rowsAt(y);
-			for (std::size_t k = 0; k + 1 < taken.size(); ++k) {
-				taken[k + 1] = taken[k];
-				addMovedDown(taken[k], 1 << k, taken[k].size(), taken[k + 1]);
-			}
-		}
+			fill(rowAt(spot.y + run.row, 0), spot.x + run.first, spot.x + run.last);
+		for (int y = spot.y; y < spot.y + spot.shape->height; ++y)
+			for (int k = 0; k + 1 < m_levels; ++k)
+				for (int x = 0; x < m_cells; x += kWordBits)
+					rowAt(y, k + 1)[x / kWordBits] =
+						bitsFrom(rowAt(y, k), x) |
+						bitsFrom(rowAt(y, k), std::min(x + (1 << k), m_cells));
 		m_side = spot.cost[0];
 	}
 
 private:
 	/// No place that reaches farther along an axis is better.
-	static int farthest(const Spot& best)
+	int farthest(const Spot& best) const
 	{
-		return best.shape ? best.cost[1] : std::min(best.cost[0] - 1, kCells);
+		return best.shape ? best.cost[1] : std::min(best.cost[0] - 1, m_cells);
 	}
 
-	/// Adds the x, of the first \p words, at which \p run meets cells that are taken.
-	void block(const Run& run, int y, std::size_t words, Row& blocked) const
+	std::uint64_t* rowAt(int y, int k) { return m_taken[y * m_levels + k]; }
+
+	/// Adds the x before \p end at which \p run meets cells that are taken.
+	/// \return whether all are blocked now
+	bool block(const Run& run, int y, int end)
 	{
 		const int count = run.last - run.first;
-		std::size_t k = 0;
+		int k = 0;
 		while (2 << k <= count)
 			++k;
-		const Row& taken = m_taken[static_cast<std::size_t>(y + run.row)][k];
-		addMovedDown(taken, run.first, words, blocked);
-		addMovedDown(taken, run.last - (1 << k), words, blocked);
+		const std::uint64_t* taken = rowAt(y + run.row, k);
+		std::uint64_t* blocked = m_blocked[0];
+		bool isFull = true;
+		for (int x = 0; x < end; x += kWordBits, ++blocked) {
+			*blocked |= bitsFrom(taken, run.first + x) | bitsFrom(taken, run.last - (1 << k) + x);
+			const std::uint64_t beyond =
+				end - x < kWordBits ? ~std::uint64_t{0} << (end - x) : std::uint64_t{0};
+			isFull = isFull && (*blocked | beyond) == ~std::uint64_t{0};
+		}
+		return isFull;
 	}
 
-	std::array<Row, kLevels>& rowsAt(int y) { return m_taken[static_cast<std::size_t>(y)]; }
-
-	/// [y][k] the x from which one of 2^k cells is taken
-	std::array<std::array<Row, kLevels>, kCells> m_taken{};
+	int m_cells, m_levels;
+	Rows m_taken;            // [y, k] the x from which one of 2^k cells is taken
+	Rows m_blocked;          // one
 	std::vector<Run> m_runs; // of a shape, those that block most first
 	int m_side = 0;          // of the square that holds all
 	long long m_work = 0;
@@ -316,28 +357,18 @@ std::vector<Point2> pointsOf(const Outline& outline)
 
 using Order = std::vector<std::size_t>; // of outlines
 
-/// The largest first: by area, by that of the smallest rectangle round it, by the longer side of that. Which
-/// one packs best differs from case to case.
-std::vector<Order> ordersOf(const std::vector<Outline>& outlines)
+/// The largest first.
+Order orderOf(const std::vector<Outline>& outlines)
 {
-	std::array<std::vector<double>, 3> sizes;
-	for (const Outline& outline : outlines) {
-		const OrientedRectangle r = minAreaRectangle(pointsOf(outline));
-		sizes[0].push_back(areaOf(outline));
-		sizes[1].push_back(r.width() * r.height());
-		sizes[2].push_back(r.width());
-	}
-	std::vector<Order> orders;
-	for (const std::vector<double>& size : sizes) {
-		Order order(outlines.size());
-		std::iota(order.begin(), order.end(), std::size_t{0});
-		std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-			return size[a] > size[b];
-		});
-		if (std::find(orders.begin(), orders.end(), order) == orders.end())
-			orders.push_back(std::move(order));
-	}
-	return orders;
+	std::vector<double> areas;
+	for (const Outline& outline : outlines)
+		areas.push_back(areaOf(outline));
+	Order order(outlines.size());
+	std::iota(order.begin(), order.end(), std::size_t{0});
+	std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+		return areas[a] > areas[b];
+	});
+	return order;
 }
 
 std::complex<double> turnToMinExtent(const Outline& outline)
@@ -353,6 +384,46 @@ std::complex<double> rationalTurn(int numerator, int denominator)
 	return {(1.0 - t * t) / (1.0 + t * t), 2.0 * t / (1.0 + t * t)};
 }
 
+/// Outlines as they were placed.
+struct Try
+{
+	int side; ///< of the square
+	Order order;
+	std::vector<Motion> motions; ///< [outline]
+	std::size_t last;            ///< outline that reaches farthest, or that has no place
+};
+
+/// Places outlines one after the other where the square stays smallest and below \p side.
+/// \param shapes [outline] to choose from
+/// \return without motions where one has no place
+Try place(
+	const Order& order,
+	const std::vector<std::vector<Shape>>& shapes,
+	double cell,
+	int side,
+	Canvas& canvas)
+{
+	canvas.clear();
+	Try result{0, order, std::vector<Motion>(order.size()), order.front()};
+	for (const std::size_t i : order) {
+		Spot spot;
+		spot.cost[0] = side;
+		for (const Shape& shape : shapes[i])
+			canvas.look(shape, spot);
+		checkpoint();
+		if (!spot.shape)
+			return {0, order, {}, i};
+		canvas.take(spot);
+		if (spot.cost[1] > result.side) {
+			result.side = spot.cost[1];
+			result.last = i;
+		}
+		result.motions[i] = spot.shape->motion;
+		result.motions[i].shift += std::complex<double>(spot.x * cell, spot.y * cell);
+	}
+	return result;
+}
+
 } // namespace
 
 std::vector<Motion> packOutlines(
@@ -361,71 +432,70 @@ std::vector<Motion> packOutlines(
 	double side,
 	double room)
 {
-	const double cell = side / kCells, reach = 0.5 * room;
+	const double reach = 0.5 * room;
+	Order order = orderOf(outlines);
+	const std::size_t largest = order.front();
 	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 16);
-	const std::vector<Order> orders = ordersOf(outlines);
-	const auto isFirst = [&](std::size_t i) {
-		return std::any_of(
-			orders.begin(), orders.end(), [&](const Order& order) { return order.front() == i; });
-	};
 
-	Drawing drawing(cell, reach);
-	Shape drawn;
+	Drawing coarse(kCoarse, side, reach);
 	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]
+	std::vector<std::vector<Shape>> firsts;                  // one each, of the largest
 	for (std::size_t i = 0; i < outlines.size(); ++i) {
-		const int angles = turns[i] == ChartTurns::Free ? freeAngles : 1;
+		const bool isFree = turns[i] == ChartTurns::Free;
 		const int quarters = turns[i] == ChartTurns::None ? 1 : 4;
-		std::vector<std::complex<double>> firsts; // of the four turns by right angles
-		if (turns[i] == ChartTurns::Free && isFirst(i))
-			firsts.push_back(turnToMinExtent(outlines[i]));
-		for (int k = 0; k < angles; ++k)
-			firsts.push_back(rationalTurn(k, angles));
-		for (std::complex<double> turn : firsts)
-			for (int q = 0; q < quarters; ++q, turn = {-turn.imag(), turn.real()}) {
-				drawn.quarter = q;
-				if (drawing.draw(outlines[i], turn, drawn))
-					shapes[i].push_back(drawn);
-			}
+		std::vector<std::complex<double>> angles; // below a right one
+		if (isFree && i == largest)
+			angles.push_back(turnToMinExtent(outlines[i]));
+		for (int k = 0; k < (isFree ? freeAngles : 1); ++k)
+			angles.push_back(rationalTurn(k, freeAngles));
+		for (std::complex<double> turn : angles)
+			for (int q = 0; q < quarters; ++q, turn = {-turn.imag(), turn.real()})
+				if (Shape shape; coarse.draw(outlines[i], turn, shape)) {
+					if (i == largest && q == 0)
+						firsts.push_back({shape});
+					shapes[i].push_back(std::move(shape));
+				}
 		checkpoint();
 	}
 
-	int minSide = kCells + 1;
-	long long work = 0;
-	std::vector<Motion> best;
-	for (std::size_t k = 0; work <= kMaxWork; ++k) {
-		bool isAny = false; // turn of the first outline left
-		for (const Order& order : orders) {
-			const std::vector<Shape>& firsts = shapes[order.front()];
-			if (k >= firsts.size())
-				continue;
-			isAny = true;
-			if (firsts[k].quarter > 0)
-				continue;
-			Canvas canvas;
-			std::vector<Motion> motions(outlines.size());
-			for (const std::size_t i : order) {
-				Spot spot;
-				spot.cost[0] = minSide;
-				if (i == order.front())
-					canvas.look(firsts[k], spot);
-				else
-					for (const Shape& shape : shapes[i])
-						canvas.look(shape, spot);
-				checkpoint();
-				if (!spot.shape)
-					break;
-				canvas.take(spot);
-				motions[i] = spot.shape->motion;
-				motions[i].shift += std::complex<double>(spot.x * cell, spot.y * cell);
-				if (i == order.back() && canvas.side() < minSide) {
-					minSide = canvas.side();
-					best = motions;
-				}
-			}
-			work += canvas.work();
+	Canvas canvas(kCoarse);
+	std::vector<Try> tries;
+	int minSide = kCoarse + 1;
+	for (std::size_t t = 0; t < kTries && canvas.work() <= kMaxWork; ++t) {
+		if (firsts.empty())
+			return {};
+		shapes[largest] = firsts[t % firsts.size()];
+		Try next =
+			place(order, shapes, coarse.cell(), std::min(minSide + kSlack, kCoarse + 1), canvas);
+		// Earlier the next time, but not before the largest.
+		const auto last = std::find(order.begin(), order.end(), next.last);
+		std::rotate(order.begin() + (last - order.begin() + 1) / 2, last, last + 1);
+		if (!next.motions.empty()) {
+			minSide = std::min(minSide, next.side);
+			tries.push_back(std::move(next));
 		}
-		if (!isAny)
-			break;
+	}
+	std::stable_sort(
+		tries.begin(), tries.end(), [](const Try& a, const Try& b) { return a.side < b.side; });
+	tries.resize(std::min(tries.size(), kFineTries));
+	if (tries.empty())
+		return {};
+
+	// Each in the turns that it has found. Fine cells may be placed otherwise.
+	Drawing fine(kFine, (minSide + kSlack) * coarse.cell(), reach);
+	Canvas fineCanvas(kFine);
+	minSide = kFine + 1;
+	std::vector<Motion> best = tries.front().motions;
+	for (const Try& t : tries) {
+		for (std::size_t i = 0; i < outlines.size(); ++i) {
+			shapes[i].resize(1);
+			fine.draw(outlines[i], t.motions[i].turn, shapes[i].front());
+		}
+		Try next = place(t.order, shapes, fine.cell(), minSide, fineCanvas);
+		if (!next.motions.empty()) {
+			minSide = next.side;
+			best = std::move(next.motions);
+		}
 	}
 	return best;
 }
