@@ -24,14 +24,14 @@ constexpr int kWordBits = 64;
 constexpr int kCoarse = 128, kFine = 512;
 
 /// Orders that are tried in coarse cells, and those of them that are tried in fine ones.
-constexpr int kTries = 17;
-constexpr std::size_t kFineTries = 4;
+constexpr int kTries = 25;
+constexpr std::size_t kFineTries = 2;
 
 /// Coarse cells that a square may be wider than the smallest so far, which finer ones may make up for.
 constexpr int kSlack = 4;
 
 /// Rows of cells compared after which no further order is tried.
-constexpr long long kMaxWork = 4'000'000;
+constexpr long long kMaxWork = 1'000'000;
 
 /// Rows of cells, a bit for each that is taken, and bits that stay free at the end.
 class Rows
@@ -435,7 +435,7 @@ std::vector<Motion> packOutlines(
 	const double reach = 0.5 * room;
 	Order order = orderOf(outlines);
 	const std::size_t largest = order.front();
-	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 16);
+	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 24);
 
 	Drawing coarse(kCoarse, side, reach);
 	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]

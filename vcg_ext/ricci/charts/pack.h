@@ -43,10 +43,10 @@ void packCharts(
 void packForRoom(
 	Parametrization& map, const Sides& sides, const PackOptions& options, ChartTurns turns);
 
-constexpr double kMinRoom = 0.01, kEnoughCovered = 0.6;
+constexpr double kMinRoom = 0.005, kEnoughCovered = 0.7;
 
 /// Cuts at most, and those in a row that bring nothing.
-constexpr int kMaxCuts = 24, kMaxVainCuts = 3;
+constexpr int kMaxCuts = 24, kMaxVainCuts = 4;
 
 /// Places the unit disks of the charts, as the hyperbolic layout leaves them, in equal squares, row by
 /// row from the origin, which together lie in [0, 1]^2, and moves the charts there. Fills Chart::box.

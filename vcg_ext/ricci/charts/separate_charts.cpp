@@ -85,7 +85,7 @@ struct Halves
 	double length = 0.0;
 };
 
-/// The least cut across the middle fifth of a chart's smallest bounding rectangle, or across so much of it as
+/// The least cut across the middle two fifths of a chart's smallest bounding rectangle, or across so much of it as
 /// is about kBand triangles wide. What is smaller than kCrumb of the chart goes to the other part.
 /// \param triangles of the chart
 /// \return none where such a crumb is left, or nothing is cut
@@ -114,7 +114,7 @@ std::optional<Halves> halves(
 	const auto end = apart.begin() +
 					 static_cast<std::ptrdiff_t>(std::min(count - 1.0, kBand * std::sqrt(count)));
 	std::nth_element(apart.begin(), end, apart.end());
-	const double width = std::min(0.1, *end);
+	const double width = std::min(0.5 - kCutFrom, *end);
 	std::vector<int> left, right;
 	for (std::size_t i = 0; i < triangles.size(); ++i)
 		if (std::abs(along[i]) > width)

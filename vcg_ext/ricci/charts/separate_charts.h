@@ -34,8 +34,12 @@ constexpr double kRoomPrice = 2.0;
 /// Share of the square that has to lie beside a chart in its smallest bounding rectangle, where it is cut.
 constexpr double kRoomOfChart = 0.04;
 
-/// Cuts a chart in two: along the edges of least length on the surface across the middle fifth of its
-/// smallest bounding rectangle. Takes the chart that leaves most room there, of those whose cut may be worth
+/// Share of a chart's length, at either end, that a cut for room leaves whole: cuts get shorter where more lies
+/// between, and neither part is nearly as long as the chart.
+constexpr double kCutFrom = 0.3;
+
+/// Cuts a chart in two: along the edges of least length on the surface across the middle of its smallest
+/// bounding rectangle (kCutFrom). Takes the chart that leaves most room there, of those whose cut may be worth
 /// what it costs by kRoomPrice. The parts are given back as those of separateCharts(), in the report, too.
 /// \param map packed
 /// \param sides of its triangles
