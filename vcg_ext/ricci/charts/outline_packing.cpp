@@ -481,8 +481,8 @@ std::vector<Motion> packOutlines(
 	if (tries.empty())
 		return {};
 
-	// Each in the turns that it has found. Fine cells may be placed otherwise.
-	Drawing fine(kFine, (minSide + kSlack) * coarse.cell(), reach);
+	// In the turns that were found; finer cells may find other places.
+	Drawing fine(kFine, minSide * coarse.cell(), reach);
 	Canvas fineCanvas(kFine);
 	minSide = kFine + 1;
 	std::vector<Motion> best = tries.front().motions;

@@ -15,10 +15,11 @@ enum class ChartTurns {
 	Free
 };
 
-/// Packs outlines into a square from the origin, by cells that they touch, the largest first. Each goes
-/// where the square that holds all so far is smallest, also in holes of others. The largest chart is
-/// tried at several angles. The same outlines always get the same places: turns are rational points of
-/// the circle.
+/// Packs outlines into a square from the origin, by cells that they touch, one after the other. Each goes
+/// where the square that holds all so far is smallest, also in holes of others. The largest is the first, at
+/// several angles; of the others the one that reached farthest comes earlier the next time. Orders are tried in
+/// coarse cells, the best again in fine ones. The same outlines always get the same places: turns are rational
+/// points of the circle.
 /// \param outlines not empty, none without sides
 /// \param turns [outline]
 /// \param side of the square
