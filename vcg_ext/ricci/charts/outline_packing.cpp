@@ -25,7 +25,7 @@ constexpr int kCoarse = 128, kFine = 512;
 
 /// Orders that are tried in coarse cells, and those of them that are tried in fine ones.
 constexpr int kTries = 25;
-constexpr std::size_t kFineTries = 2;
+constexpr std::size_t kFineTries = 3;
 
 /// Coarse cells that a square may be wider than the smallest so far, which finer ones may make up for.
 constexpr int kSlack = 4;

@@ -85,7 +85,7 @@ struct Halves
 	double length = 0.0;
 };
 
-/// The least cut across the middle two fifths of a chart's smallest bounding rectangle, or across so much of it as
+/// The least cut across a chart's smallest bounding rectangle, but for \p from at either end, or across so much of it as
 /// is about kBand triangles wide. What is smaller than kCrumb of the chart goes to the other part.
 /// \param triangles of the chart
 /// \return none where such a crumb is left, or nothing is cut
@@ -93,7 +93,8 @@ std::optional<Halves> halves(
 	const FlatMesh& mesh,
 	const Sides& sides,
 	const std::vector<int>& triangles,
-	const OrientedRectangle& r)
+	const OrientedRectangle& r,
+	double from)
 {
 	DualGraph graph(mesh, sides);
 	// From the middle of the rectangle, along it: 0 for a triangle that reaches across.
@@ -114,7 +115,7 @@ std::optional<Halves> halves(
 	const auto end = apart.begin() +
 					 static_cast<std::ptrdiff_t>(std::min(count - 1.0, kBand * std::sqrt(count)));
 	std::nth_element(apart.begin(), end, apart.end());
-	const double width = std::min(0.5 - kCutFrom, *end);
+	const double width = std::min(0.5 - from, *end);
 	std::vector<int> left, right;
 	for (std::size_t i = 0; i < triangles.size(); ++i)
 		if (std::abs(along[i]) > width)
@@ -287,7 +288,10 @@ cutForRoom(const Parametrization& map, const Sides& allSides, bool turns)
 		if (wide.room < kRoomOfChart * square)
 			return std::nullopt;
 		const std::vector<int>& triangles = byChart[wide.chart];
-		const std::optional<Halves> cut = halves(map.mesh, allSides, triangles, wide.rectangle);
+		std::optional<Halves> cut;
+		for (const double from : kCutFrom)
+			if (!cut)
+				cut = halves(map.mesh, allSides, triangles, wide.rectangle, from);
 		// The square loses all that is beside the chart in a square round it at most.
 		const double width = wide.rectangle.width();
 		const double most = std::log(square / std::max(square - width * width + wide.area, total));

@@ -34,9 +34,9 @@ constexpr double kRoomPrice = 2.0;
 /// Share of the square that has to lie beside a chart in its smallest bounding rectangle, where it is cut.
 constexpr double kRoomOfChart = 0.04;
 
-/// Share of a chart's length, at either end, that a cut for room leaves whole: cuts get shorter where more lies
-/// between, and neither part is nearly as long as the chart.
-constexpr double kCutFrom = 0.3;
+/// Shares of a chart's length, at either end, that a cut for room leaves whole: neither part is nearly as long as
+/// the chart. Cuts are shorter where more lies between; where the least one takes off crumbs alone, less does.
+constexpr double kCutFrom[] = {0.3, 0.4};
 
 /// Cuts a chart in two: along the edges of least length on the surface across the middle of its smallest
 /// bounding rectangle (kCutFrom). Takes the chart that leaves most room there, of those whose cut may be worth
