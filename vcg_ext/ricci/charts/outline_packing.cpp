@@ -116,8 +116,7 @@ class Drawing
 public:
 	/// \param reach taken, too: what is nearer than this along both axes
 	Drawing(int cells, double side, double reach) :
-			m_cells(cells), m_cell(side / cells), m_reach(reach / m_cell), m_rows(cells, cells),
-			m_crossings(positionOf(cells))
+			m_cells(cells), m_cell(side / cells), m_reach(reach / m_cell), m_rows(cells, cells)
 	{
 	}
 
@@ -147,7 +146,7 @@ public:
 					(p[1] + shape.motion.shift.imag()) / m_cell};
 			drawSide(side, shape);
 		}
-		fillBetween(shape.height);
+		fillBetween();
 		findRuns(shape);
 		return true;
 	}
@@ -155,10 +154,14 @@ public:
 private:
 	struct Crossing
 	{
+		int row;
 		double x;
 		int turns; // 1 where the side runs down, the outline's inner side on its right
 
-		bool operator<(const Crossing& other) const { return x < other.x; }
+		bool operator<(const Crossing& other) const
+		{
+			return row != other.row ? row < other.row : x < other.x;
+		}
 	};
 
 	/// The first one where \p x is negative.
@@ -185,23 +188,21 @@ private:
 				std::min(cellAt(std::max(from, to) + m_reach) + 1, shape.width));
 			const double middle = y + 0.5;
 			if (low[1] <= middle && middle < high[1])
-				m_crossings[positionOf(y)].push_back({xAt(middle), up ? -1 : 1});
+				m_crossings.push_back({y, xAt(middle), up ? -1 : 1});
 		}
 	}
 
-	void fillBetween(int height)
+	void fillBetween()
 	{
-		for (int y = 0; y < height; ++y) {
-			std::vector<Crossing>& crossings = m_crossings[positionOf(y)];
-			std::sort(crossings.begin(), crossings.end());
-			int turns = 0; // 0 again at the end
-			for (std::size_t i = 0; i + 1 < crossings.size(); ++i) {
-				turns += crossings[i].turns;
-				if (turns != 0)
-					fill(m_rows[y], cellAt(crossings[i].x), cellAt(crossings[i + 1].x) + 1);
-			}
-			crossings.clear();
+		std::sort(m_crossings.begin(), m_crossings.end());
+		int turns = 0; // 0 again at the end of each row
+		for (std::size_t i = 0; i + 1 < m_crossings.size(); ++i) {
+			const Crossing &a = m_crossings[i], &b = m_crossings[i + 1];
+			turns = a.row == b.row ? turns + a.turns : 0;
+			if (turns != 0)
+				fill(m_rows[a.row], cellAt(a.x), cellAt(b.x) + 1);
 		}
+		m_crossings.clear();
 	}
 
 	void findRuns(Shape& shape)
@@ -228,7 +229,7 @@ private:
 	double m_cell, m_reach;                     // m_reach in cells
 	std::vector<std::array<Point2, 2>> m_sides; // in cells
 	Rows m_rows;
-	std::vector<std::vector<Crossing>> m_crossings; // [row]
+	std::vector<Crossing> m_crossings;
 	std::vector<Run> m_runs;
 	std::vector<std::size_t> m_longer; // [length] runs that are longer
 };
