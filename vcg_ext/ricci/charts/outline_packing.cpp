@@ -12,6 +12,7 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <utility>
 
 namespace ricci {
@@ -152,18 +153,6 @@ public:
 	}
 
 private:
-	struct Crossing
-	{
-		int row;
-		double x;
-		int turns; // 1 where the side runs down, the outline's inner side on its right
-
-		bool operator<(const Crossing& other) const
-		{
-			return row != other.row ? row < other.row : x < other.x;
-		}
-	};
-
 	/// The first one where \p x is negative.
 	static int cellAt(double x) { return static_cast<int>(std::max(x, 0.0)); }
 
@@ -188,7 +177,7 @@ private:
 				std::min(cellAt(std::max(from, to) + m_reach) + 1, shape.width));
 			const double middle = y + 0.5;
 			if (low[1] <= middle && middle < high[1])
-				m_crossings.push_back({y, xAt(middle), up ? -1 : 1});
+				m_crossings.emplace_back(y, xAt(middle), up ? -1 : 1);
 		}
 	}
 
@@ -197,10 +186,11 @@ private:
 		std::sort(m_crossings.begin(), m_crossings.end());
 		int turns = 0; // 0 again at the end of each row
 		for (std::size_t i = 0; i + 1 < m_crossings.size(); ++i) {
-			const Crossing &a = m_crossings[i], &b = m_crossings[i + 1];
-			turns = a.row == b.row ? turns + a.turns : 0;
+			const auto& [row, x, turn] = m_crossings[i];
+			const auto& next = m_crossings[i + 1];
+			turns = row == std::get<0>(next) ? turns + turn : 0;
 			if (turns != 0)
-				fill(m_rows[a.row], cellAt(a.x), cellAt(b.x) + 1);
+				fill(m_rows[row], cellAt(x), cellAt(std::get<1>(next)) + 1);
 		}
 		m_crossings.clear();
 	}
@@ -229,7 +219,8 @@ private:
 	double m_cell, m_reach;                     // m_reach in cells
 	std::vector<std::array<Point2, 2>> m_sides; // in cells
 	Rows m_rows;
-	std::vector<Crossing> m_crossings;
+	/// Rows, where in them, and 1 where the side runs down, the outline's inner side on its right.
+	std::vector<std::tuple<int, double, int>> m_crossings;
 	std::vector<Run> m_runs;
 	std::vector<std::size_t> m_longer; // [length] runs that are longer
 };
