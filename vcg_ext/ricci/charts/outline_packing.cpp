@@ -386,10 +386,12 @@ struct Try
 };
 
 /// Places outlines one after the other where the square stays smallest and below \p side.
+/// \param first shape of the first one
 /// \param shapes [outline] to choose from
 /// \return without motions where one has no place
 Try place(
 	const Order& order,
+	const Shape& first,
 	const std::vector<std::vector<Shape>>& shapes,
 	double cell,
 	int side,
@@ -400,8 +402,11 @@ Try place(
 	for (const std::size_t i : order) {
 		Spot spot;
 		spot.cost[0] = side;
-		for (const Shape& shape : shapes[i])
-			canvas.look(shape, spot);
+		if (i == order.front())
+			canvas.look(first, spot);
+		else
+			for (const Shape& shape : shapes[i])
+				canvas.look(shape, spot);
 		checkpoint();
 		if (!spot.shape)
 			return {0, order, {}, i};
@@ -431,7 +436,7 @@ std::vector<Motion> packOutlines(
 
 	Drawing coarse(kCoarse, side, reach);
 	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]
-	std::vector<std::vector<Shape>> firsts;                  // one each, of the largest
+	std::vector<std::size_t> firsts;                         // of the largest, below a right angle
 	for (std::size_t i = 0; i < outlines.size(); ++i) {
 		const bool isFree = turns[i] == ChartTurns::Free;
 		const int quarters = turns[i] == ChartTurns::None ? 1 : 4;
@@ -444,7 +449,7 @@ std::vector<Motion> packOutlines(
 			for (int q = 0; q < quarters; ++q, turn = {-turn.imag(), turn.real()})
 				if (Shape shape; coarse.draw(outlines[i], turn, shape)) {
 					if (i == largest && q == 0)
-						firsts.push_back({shape});
+						firsts.push_back(shapes[i].size());
 					shapes[i].push_back(std::move(shape));
 				}
 		checkpoint();
@@ -456,9 +461,9 @@ std::vector<Motion> packOutlines(
 	for (std::size_t t = 0; t < kTries && canvas.work() <= kMaxWork; ++t) {
 		if (firsts.empty())
 			return {};
-		shapes[largest] = firsts[t % firsts.size()];
-		Try next =
-			place(order, shapes, coarse.cell(), std::min(minSide + kSlack, kCoarse + 1), canvas);
+		const Shape& first = shapes[largest][firsts[t % firsts.size()]];
+		Try next = place(
+			order, first, shapes, coarse.cell(), std::min(minSide + kSlack, kCoarse + 1), canvas);
 		// Earlier the next time, but not before the largest.
 		const auto last = std::find(order.begin(), order.end(), next.last);
 		std::rotate(order.begin() + (last - order.begin() + 1) / 2, last, last + 1);
@@ -483,7 +488,8 @@ std::vector<Motion> packOutlines(
 			shapes[i].resize(1);
 			fine.draw(outlines[i], t.motions[i].turn, shapes[i].front());
 		}
-		Try next = place(t.order, shapes, fine.cell(), minSide, fineCanvas);
+		Try next =
+			place(t.order, shapes[largest].front(), shapes, fine.cell(), minSide, fineCanvas);
 		if (!next.motions.empty()) {
 			minSide = next.side;
 			best = std::move(next.motions);
