@@ -85,8 +85,8 @@ struct Halves
 	double length = 0.0;
 };
 
-/// The least cut across a chart's smallest bounding rectangle, but for \p from at either end, or across so much of it as
-/// is about kBand triangles wide. What is smaller than kCrumb of the chart goes to the other part.
+/// The least cut across a chart's smallest bounding rectangle, but for \p from at either end, or across so much
+/// of it as is about kBand triangles wide. What is smaller than kCrumb of the chart goes to the other part.
 /// \param triangles of the chart
 /// \return none where such a crumb is left, or nothing is cut
 std::optional<Halves> halves(
