@@ -25,7 +25,7 @@ constexpr int kWordBits = 64;
 constexpr int kCoarse = 128, kFine = 512;
 
 /// Orders that are tried in coarse cells, and those of them that are tried in fine ones.
-constexpr int kTries = 25;
+constexpr int kTries = 17;
 constexpr std::size_t kFineTries = 3;
 
 /// Coarse cells that a square may be wider than the smallest so far, which finer ones may make up for.
@@ -432,7 +432,7 @@ std::vector<Motion> packOutlines(
 	const double reach = 0.5 * room;
 	Order order = orderOf(outlines);
 	const std::size_t largest = order.front();
-	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 24);
+	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 16);
 
 	Drawing coarse(kCoarse, side, reach);
 	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]
