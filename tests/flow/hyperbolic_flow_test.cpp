@@ -45,7 +45,7 @@ TEST(HyperbolicFlow, FindsTheMetricOfCurvatureMinusOne)
 	for (int genus : {2, 3}) {
 		std::vector<SurfaceMesh> meshes{
 			perforatedSlab(genus, 2), shaken(perforatedSlab(genus, 3), 0.08, random)};
-		for (std::uint64_t seed : {1, 2})
+		for (std::uint64_t seed : {1u, 2u})
 			meshes.push_back(implicitClosed(genus, 5, seed));
 		for (const SurfaceMesh& mesh : meshes) {
 			SCOPED_TRACE(
@@ -99,7 +99,7 @@ TEST(HyperbolicFlow, LengthsOfTheInputAreExactWhereNothingFlips)
 TEST(HyperbolicFlow, ReachesRandomCones)
 {
 	for (int genus : {0, 1, 2})
-		for (std::uint64_t seed : {1, 2, 3}) {
+		for (std::uint64_t seed : {1u, 2u, 3u}) {
 			Random random(510 + seed);
 			for (const SurfaceMesh& mesh :
 				 {shaken(perforatedSlab(genus, 3), 0.08, random), implicitClosed(genus, 5, seed)}) {
