@@ -125,9 +125,14 @@ CutGraph FlippedFlow::cutAnywhere(Random& random) const
 	return cutToDisk(base(), costs, cones(), {});
 }
 
-CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
+OverlayPieces FlippedFlow::pieces() const
 {
-	return commonRefinement(domain, result, overlayOf(domain, result), cutGraph.isCut);
+	return divideStartTriangles(result, base().faceCount());
+}
+
+SurfaceLayout FlippedFlow::refinement(const CutGraph& cutGraph) const
+{
+	return layOutRefinement(domain, result, pieces(), cutGraph.isCut);
 }
 
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary)
