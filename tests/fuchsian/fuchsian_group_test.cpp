@@ -45,7 +45,7 @@ struct Uniformized
 		VertexArray<char> marked = flow.cones();
 		for (int v : detour)
 			marked[Vertex(v)] = 1;
-		cut = cutToDisk(flow.base(), flow.surface().lengths, marked, {});
+		cut = cutToDisk(flow.base(), flow.surface().lengths, marked);
 		refinement = flow.refinement(cut);
 		refinement.pairing = pairingOfArcs(flow.base(), cut, refinement.pairing, flow.cones());
 		group = fuchsianGroup(flow.base(), cut, refinement.pairing, flow.cones(), true);

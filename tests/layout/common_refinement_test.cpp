@@ -90,7 +90,10 @@ std::vector<Problem> problems(std::uint64_t seed)
 class MapOf
 {
 public:
-	explicit MapOf(const SurfaceLayout& r) : m_mesh(r.refinement), m_uv(r.refinement.corners().values()) {}
+	explicit MapOf(const SurfaceLayout& r) :
+			m_mesh(r.refinement), m_uv(r.refinement.corners().values())
+	{
+	}
 	operator RefinedMap() const
 	{
 		return {m_mesh.source.values(), m_mesh.vertices.values(), m_mesh.face.values(), m_uv};
@@ -442,7 +445,9 @@ TEST(CommonRefinement, APlaneIsMappedToItself)
 			const Point3 p = placeOnSurface(r.refinement.source[point], mesh.positions);
 			return Complex(p[0], p[1]);
 		};
-		const auto image = [&](int piece, std::size_t k) { return asComplex(r.refinement.at(piece)[k]); };
+		const auto image = [&](int piece, std::size_t k) {
+			return asComplex(r.refinement.at(piece)[k]);
+		};
 		// The similarity that fits best: through the two corners farthest apart.
 		Complex a, b, fa, fb;
 		for (const int piece : r.refinement.points.indices())
@@ -460,7 +465,8 @@ TEST(CommonRefinement, APlaneIsMappedToItself)
 				error = std::max(
 					error,
 					std::abs(
-						fa + factor * (source(r.refinement.vertices[piece][k]) - a) - image(piece, k)));
+						fa + factor * (source(r.refinement.vertices[piece][k]) - a) -
+						image(piece, k)));
 		EXPECT_LT(error / std::abs(fb - fa), 1e-9);
 	}
 }
@@ -494,7 +500,8 @@ TEST(CommonRefinement, IsTheDevelopmentWhereTheMetricStays)
 				const auto h = flow.base().halfedges(Face(r.refinement.face[piece]));
 				std::array<Point3, 3> p;
 				for (std::size_t k = 0; k < 3; ++k) {
-					const SurfacePoint& point = r.refinement.source[r.refinement.vertices[piece][k]];
+					const SurfacePoint& point =
+						r.refinement.source[r.refinement.vertices[piece][k]];
 					p[k] = placeOnSurface(point, mesh.positions);
 					Point2 developed{0.0, 0.0};
 					for (const Halfedge side : h)

@@ -53,8 +53,8 @@ void expectTheLayoutOnTheOverlay(const FlippedFlow& flow, Random& random)
 	const CutGraph ways[] = {flow.cut(), flow.cutAnywhere(random), flow.cutAnywhere(random)};
 	for (const CutGraph& cut : ways) {
 		Listener ticks;
-		const PlanarLayout layout =
-			heard(ticks, [&] { return layOutCorners(flow.domain, flow.result, cut.isCut).corners; });
+		const PlanarLayout layout = heard(
+			ticks, [&] { return layOutCorners(flow.domain, flow.result, cut.isCut).corners; });
 		expectCongruent(layout, onOverlay(flow, cut.isCut));
 		EXPECT_GT(ticks.calls(), 0);
 	}

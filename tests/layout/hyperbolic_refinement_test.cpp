@@ -83,7 +83,7 @@ TEST(HyperbolicLayout, TrianglesHaveTheLengthsAndAnglesOfTheMetric)
 		const Triangulation& t = metric.triangulation();
 		VertexArray<char> cones = flow.cones();
 		cones.resize(t.vertexCount(), 0);
-		const CutGraph cut = cutToDisk(t, metric.lengths(), cones, {});
+		const CutGraph cut = cutToDisk(t, metric.lengths(), cones);
 		const HyperbolicLayout layout =
 			layOutInDisk(t, metric.lengths(), metric.angles(), cut.isCut);
 		std::complex<long double> moment = 0.0L;
@@ -313,12 +313,11 @@ TEST(HyperbolicRefinement, CrossingsAreWhereGeodesicsMeet)
 		flow.start.delta = packing.delta;
 		flow.start.radii = radii;
 		flow.flips = {e};
-		const SurfaceLayout r =
-			layOutRefinement(
-				domain,
-				flow,
-				divideStartTriangles(flow, domain.surface.triangulation.faceCount()),
-				EdgeArray<char>(5, 0));
+		const SurfaceLayout r = layOutRefinement(
+			domain,
+			flow,
+			divideStartTriangles(flow, domain.surface.triangulation.faceCount()),
+			EdgeArray<char>(5, 0));
 		ASSERT_EQ(r.refinement.source.size(), 5);
 		ASSERT_EQ(r.refinement.size(), 4);
 		std::vector<Complex> place(5);

@@ -29,7 +29,7 @@ struct LaidOut
 			map(mesh.map())
 	{
 		map.evaluate(u);
-		cut = cutToDisk(map.triangulation(), mesh.lengths, marked, {});
+		cut = cutToDisk(map.triangulation(), mesh.lengths, marked);
 		layout = layOutInPlane(map.triangulation(), map.lengths(), map.angles(), cut.isCut);
 	}
 };

@@ -114,7 +114,7 @@ VertexArray<char> FlippedFlow::cones() const
 
 CutGraph FlippedFlow::cut() const
 {
-	return cutToDisk(base(), surface().lengths, cones(), {});
+	return cutToDisk(base(), surface().lengths, cones());
 }
 
 CutGraph FlippedFlow::cutAnywhere(Random& random) const
@@ -122,7 +122,7 @@ CutGraph FlippedFlow::cutAnywhere(Random& random) const
 	EdgeArray<double> costs(base().edgeCount());
 	for (double& cost : costs)
 		cost = random.real(0.0, 1.0);
-	return cutToDisk(base(), costs, cones(), {});
+	return cutToDisk(base(), costs, cones());
 }
 
 OverlayPieces FlippedFlow::pieces() const

@@ -273,39 +273,19 @@ PlanarLayout carriedTo(
 	return carried;
 }
 
-/// On the surface's own triangles.
-SurfaceLayout
-layOutInDisk(const Triangulation& t, const CurvatureMap& metric, const EdgeArray<char>& isCut)
-{
-	const HyperbolicLayout disk = layOutInDisk(t, metric.lengths(), metric.angles(), isCut);
-	SurfaceLayout layout{cornerWedges(t, isCut), EdgeArray<SidePairing>(t.edgeCount()), {}};
-	for (const Edge e : t.edges())
-		if (isCut[e])
-			offerPairing(
-				disk, metric.lengths()[e], e.halfedge(), e.halfedge().twin(), layout.pairing[e]);
-	for (int i = t.halfedgeCount(); i-- > 0;) // the lowest halfedge gives a wedge its point
-		if (const Halfedge h(i); !t.isExterior(h))
-			layout.corners[h] = asPoint(disk[h]);
-	return layout;
-}
-
 } // namespace
 
 SurfaceLayout
 layOutCorners(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut)
 {
-	const bool inPlane = flow.target.background == Background::EuclideanPlane;
-	if (flow.flipCount() > 0 || flow.doubled || domain.holes > 0) {
-		const CornersOnSheets corners(domain, flow, isCut);
-		return inPlane ? corners.inPlane() : corners.inDisk();
-	}
+	if (flow.target.background == Background::HyperbolicPlane)
+		return CornersOnSheets(domain, flow, isCut).inDisk();
+	if (flow.flipCount() > 0 || flow.doubled || domain.holes > 0)
+		return CornersOnSheets(domain, flow, isCut).inPlane();
 	const CurvatureMap& metric = *flow.metric;
-	const Triangulation& t = domain.surface.triangulation;
-	if (!inPlane)
-		return layOutInDisk(t, metric, isCut);
 	const Triangulation& end = metric.triangulation();
 	const PlanarLayout plane = layOutInPlane(end, metric.lengths(), metric.angles(), isCut);
-	return {carriedTo(t, isCut, end, plane), {}, {}};
+	return {carriedTo(domain.surface.triangulation, isCut, end, plane), {}, {}};
 }
 
 } // namespace ricci

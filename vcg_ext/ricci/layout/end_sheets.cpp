@@ -14,8 +14,10 @@ namespace {
 class SheetMaker
 {
 public:
-	SheetMaker(const OverlayPieces& pieces, const Triangulation& end, const EdgeArray<char>& isCut) :
-			m_pieces(pieces), m_end(end), m_isCut(isCut), m_sets(pieces.count())
+	SheetMaker(
+		const OverlayPieces& pieces, const Triangulation& end, const EdgeArray<char>& isCut) :
+			m_pieces(pieces),
+			m_end(end), m_isCut(isCut), m_sets(pieces.count())
 	{
 	}
 

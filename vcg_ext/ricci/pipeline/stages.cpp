@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ricci {
 
@@ -86,12 +87,15 @@ OverlayPieces cutAndOverlay(
 {
 	const Triangulation& t = domain.surface.triangulation;
 	avoidDiagonals(domain.isDiagonal, cost);
+	for (const Edge e : domain.isForeign.indices())
+		if (domain.isForeign[e])
+			cost[e] = std::numeric_limits<double>::infinity();
 	OverlayPieces overlay;
 	besides(
 		threadsFor(t.faceCount()),
 		[&] { overlay = flowOverlay(domain, options, map); },
 		[&] {
-			map.cut = cutToDisk(t, cost, map.cones, domain.isForeign, corners);
+			map.cut = cutToDisk(t, cost, map.cones, corners);
 			if (domain.holes > 0)
 				dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, map.cones, map.cut);
 		});
@@ -108,8 +112,7 @@ SurfaceLayout placeCorners(
 {
 	if (!isRefined(options))
 		return layOutCorners(domain, map.flow, map.cut.isCut);
-	SurfaceLayout layout =
-		layOutRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
+	SurfaceLayout layout = layOutRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
 	map.mesh = std::move(layout.refinement);
 	return layout;
 }
