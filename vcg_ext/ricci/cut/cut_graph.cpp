@@ -297,13 +297,9 @@ EdgeArray<char> cutOf(const CoarseSurface& coarse)
 /// Shortest paths along edges.
 NodePaths pathsAlongEdges(const Triangulation& t, const EdgeArray<double>& lengths, Vertex root)
 {
-	const Adjacency<Vertex, Halfedge> halfedges(t.vertexCount(), [&](const auto& add) {
-		for (const Halfedge h : t.halfedges())
-			add(t.origin(h), h);
-	});
 	return shortestPaths<Vertex, Halfedge>(
 		t.vertexCount(), {root}, [&](Vertex v, const auto& visit) {
-			for (const Halfedge h : halfedges[v])
+			for (const Halfedge h : t.around(v))
 				visit(t.target(h), lengths[h.edge()], h);
 		});
 }

@@ -146,13 +146,7 @@ void makeSeamless(
 			return runFlow(surface, initialPacking(surface, options), target, options, map);
 		});
 	};
-	const HolonomyRounding done = makeSeamless(surface, request, options.epsilon, flowTo, map.flow);
-	map.report.iterations = done.steps;
-	if (done.before > 0.0)
-		logLine(
-			"The rotations across seams are up to " + numberText(done.before, 3) +
-			" from a multiple of a quarter turn, and " + numberText(done.after, 3) +
-			" once the metric has changed.");
+	map.report.iterations = makeSeamless(surface, request, options.epsilon, flowTo, map.flow);
 }
 
 /// Area in the flow's metric of the triangles that are given back, without caps.
