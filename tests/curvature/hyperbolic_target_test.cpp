@@ -47,12 +47,7 @@ E refusal(
 	typename E::Problem problem,
 	const std::vector<std::string>& words)
 {
-	const auto error = errorOf<E>([&] { choose(mesh, request); });
-	EXPECT_TRUE(error) << "accepted";
-	const E refused = error.value_or(E(problem));
-	EXPECT_EQ(refused.problem, problem);
-	expectWords(refused.what(), words);
-	return refused;
+	return refusalFor<E>(problem, words, [&] { choose(mesh, request); });
 }
 
 TEST(HyperbolicTarget, AHyperbolicMetricHasNoCurvature)

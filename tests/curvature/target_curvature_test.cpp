@@ -88,12 +88,7 @@ E refusal(
 	typename E::Problem problem,
 	const std::vector<std::string>& words)
 {
-	const auto error = errorOf<E>([&] { surface.choose(r); });
-	EXPECT_TRUE(error) << "accepted";
-	const E refused = error.value_or(E(problem));
-	EXPECT_EQ(refused.problem, problem);
-	expectWords(refused.what(), words);
-	return refused;
+	return refusalFor<E>(problem, words, [&] { surface.choose(r); });
 }
 
 /// A refused curvature with its numbers.

@@ -41,15 +41,6 @@ struct CrossedTorus
 		}
 	}
 
-	Edge between(int a, int b) const
-	{
-		for (const Edge e : t.edges())
-			if (const auto ends = t.ends(e);
-				std::minmax(ends[0].number(), ends[1].number()) == std::minmax(a, b))
-				return e;
-		return Edge();
-	}
-
 	CutSegments cut() { return CutSegments(t, cost, marked, isCut); }
 };
 
@@ -109,8 +100,11 @@ TEST(CutSegments, RemovingAnEdgeRemovesItsDeadEnds)
 	torus.marked[Vertex(11)] = 1;
 	CutSegments marked = torus.cut();
 	EXPECT_EQ(
-		setOf(marked.removeWithDeadEnds({torus.between(10, 11)})),
-		(std::set<Edge>{torus.between(10, 11), torus.between(10, 14), torus.between(13, 14)}));
+		setOf(marked.removeWithDeadEnds({edgeBetween(torus.t, Vertex(10), Vertex(11))})),
+		(std::set<Edge>{
+			edgeBetween(torus.t, Vertex(10), Vertex(11)),
+			edgeBetween(torus.t, Vertex(10), Vertex(14)),
+			edgeBetween(torus.t, Vertex(13), Vertex(14))}));
 	EXPECT_EQ(marked.degree(Vertex(11)), 1);
 	EXPECT_EQ(marked.labelCircles(), 2);
 }
