@@ -234,14 +234,6 @@ std::string joined(const Target& target)
 	return notes;
 }
 
-/// The number after \p words; NaN if they are not there.
-double numberAfter(const std::string& text, const std::string& words)
-{
-	const std::size_t place = text.find(words);
-	return place == std::string::npos ? std::numeric_limits<double>::quiet_NaN()
-									  : std::stod(text.substr(place + words.size()));
-}
-
 /// Vertices inside with curvature.
 int coneCount(const TestSurface& surface, const Target& target)
 {

@@ -178,42 +178,6 @@ TEST(SplitMesh, IsTheComponentBeforeASplit)
 			EXPECT_EQ(mesh.corner(t, f, k), t.halfedges(f)[k]);
 }
 
-TEST(SplitMesh, SplitsATriangleIntoTwoHalves)
-{
-	// Each side of the first triangle in turn; the other triangle lies behind its side 1 - 2.
-	const SurfaceMesh square{
-		{{0, 0, 0}, {2, 0, 1}, {0, 3, 0}, {2, 3, 0.5}}, {{0, 1, 2}, {2, 1, 3}}};
-	const Component component = onlyComponent(square);
-	for (const int side : {0, 2}) {
-		SplitMesh mesh(component);
-		const Vertex i(side), j((side + 1) % 3), apex((side + 2) % 3);
-		const Triangulation before = triangulationOf(mesh);
-		mesh.split(before, {edgeBetween(before, i, j)});
-		EXPECT_EQ(mesh.splits(), 1);
-		ASSERT_EQ(mesh.positions().size(), 5);
-		const Point3 &a = component.positions[i], &b = component.positions[j];
-		EXPECT_EQ(
-			mesh.positions()[Vertex(4)],
-			(Point3{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])}));
-		ASSERT_EQ(mesh.triangles().size(), 3u);
-		EXPECT_EQ(mesh.triangles()[1], component.triangles[1]);
-		const Triangulation t = triangulationOf(mesh);
-		EXPECT_EQ(t.eulerCharacteristic(), 1);
-		const Edge cut = edgeBetween(t, Vertex(4), apex);
-		ASSERT_TRUE(cut.isValid());
-		EXPECT_FALSE(t.isBoundary(cut));
-		EXPECT_TRUE(t.isBoundary(edgeBetween(t, i, Vertex(4))));
-		EXPECT_TRUE(t.isBoundary(edgeBetween(t, Vertex(4), j)));
-		EXPECT_FALSE(edgeBetween(t, i, j).isValid());
-		const Corners whole = cornersOf(component.positions, component.triangles[0]);
-		for (const std::size_t half : {0u, 2u}) {
-			const Corners part = cornersOf(mesh.positions(), mesh.triangles()[half]);
-			EXPECT_TRUE(isPartOf(part, whole));
-			EXPECT_NEAR(triangleArea(part) / triangleArea(whole), 0.5, 1e-15);
-		}
-	}
-}
-
 TEST(SplitMesh, SplitsOneEdgeOfATriangleAtOnce)
 {
 	const Component component = onlyComponent(rectangle(1, 1, 1, 1));
