@@ -19,6 +19,9 @@ namespace {
 /// Triangles and sides of pieces in them between two checkpoints.
 constexpr int kWorkBetweenCalls = 1 << 14;
 
+/// Share of the work until the pieces are linked.
+constexpr double kDivided = 0.5;
+
 constexpr const char* kDividing = "Overlay of the two triangulations";
 
 /// The families of chords.
@@ -394,7 +397,11 @@ void OverlayPieces::link(const Triangulation& input, const Triangulation& end, i
 OverlayPieces divideStartTriangles(const FlowResult& flow, int keptFaces)
 {
 	advance(0.0, kDividing);
-	OverlayPieces pieces = PieceMaker(flow).run();
+	OverlayPieces pieces = [&] {
+		const Task dividing(0.0, kDivided);
+		return PieceMaker(flow).run();
+	}();
+	advance(kDivided, kDividing);
 	const Triangulation& end = flow.metric->triangulation();
 	requireOverlayMemory(static_cast<std::size_t>(pieces.nodes.size() - end.vertexCount()), true);
 	pieces.link(flow.input, end, keptFaces);
