@@ -135,11 +135,7 @@ std::string defectOf(const OpenedMesh& opened, const Parametrization& flat, int&
 	const Report& report = flat.report;
 	const SurfaceMesh input = coherent(opened);
 	const FlatMesh& mesh = flat.mesh;
-	const std::vector<Triangle2> plane = mesh.corners().values();
-	const RefinementCheck check(
-		input,
-		{mesh.source.values(), mesh.vertices.values(), mesh.face.values(), plane},
-		flat.targetCurvature);
+	const RefinementCheck check(input, mesh, flat.targetCurvature);
 	std::vector<char> covered(input.triangles.size(), 0);
 	for (int f : mesh.face)
 		covered[at(f)] = 1;

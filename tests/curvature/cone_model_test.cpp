@@ -30,14 +30,6 @@ std::vector<Vertex> someVertices()
 	return {Vertex(3), Vertex(40), Vertex(17), Vertex(29), Vertex(8)};
 }
 
-std::vector<Vertex> conesOf(const ConeModel& model)
-{
-	std::vector<Vertex> vertices;
-	for (int i = 0; i < model.size(); ++i)
-		vertices.push_back(model.vertex(i));
-	return vertices;
-}
-
 std::vector<double> curvaturesOf(const ConeModel& model)
 {
 	std::vector<double> curvatures;
@@ -76,7 +68,7 @@ conesAlone(const std::vector<Vertex>& vertices, const std::vector<double>& curva
 
 VertexVector conesAlone(const ConeModel& model, int size)
 {
-	return conesAlone(conesOf(model), curvaturesOf(model), size);
+	return conesAlone(model.vertices(), curvaturesOf(model), size);
 }
 
 /// No angle is below a right one: a cone has 3 pi / 2 at most.
@@ -155,7 +147,7 @@ TEST(ConeModel, HasTheEnergyAndTheFactorOfTheDenseSystem)
 		const VertexVector u = factorOf(dense, conesAlone(model, linear.flow.vertexCount()));
 		const double size = u.lpNorm<Eigen::Infinity>();
 		EXPECT_LT((model.factor() - u).lpNorm<Eigen::Infinity>(), 1e-7 * size);
-		const double distortion = dense.distortion(conesOf(model), curvaturesOf(model));
+		const double distortion = dense.distortion(model.vertices(), curvaturesOf(model));
 		EXPECT_GT(distortion, 0.01);
 		EXPECT_NEAR(model.distortion(), distortion, 1e-6 * distortion);
 		EXPECT_NEAR(model.exactDistortion(), distortion, 1e-6 * distortion);
@@ -188,7 +180,7 @@ TEST(ConeModel, TheGradientIsTheAdjointField)
 		// All cones alike, and what is left spread by area.
 		const double share = total / 7;
 		VertexVector shares = (total - 5 * share) * dense.area;
-		for (const Vertex v : conesOf(model))
+		for (const Vertex v : model.vertices())
 			shares[v] += share;
 		expectSame(
 			model.gradientAt(Eigen::VectorXd::Constant(model.size(), share)),
@@ -242,7 +234,7 @@ TEST(ConeModel, SeveralConesAtATimeAreTheSameAsOneByOne)
 		single.append({v});
 	together.fit();
 	single.fit();
-	EXPECT_EQ(conesOf(together), conesOf(single));
+	EXPECT_EQ(together.vertices(), single.vertices());
 	for (int i = 0; i < 5; ++i)
 		EXPECT_NEAR(together.curvature(i), single.curvature(i), 1e-10);
 	EXPECT_NEAR(together.energy(), single.energy(), 1e-10);
@@ -268,7 +260,7 @@ TEST(ConeModel, TrialsAreUndoneUnlessTheyAreTaken)
 	const std::vector<double> before = curvaturesOf(model);
 	const VertexVector gradient = model.gradient();
 	const auto expectUnchanged = [&] {
-		EXPECT_EQ(conesOf(model), someVertices());
+		EXPECT_EQ(model.vertices(), someVertices());
 		EXPECT_EQ(curvaturesOf(model), before);
 		EXPECT_LT((model.gradient() - gradient).lpNorm<Eigen::Infinity>(), 1e-13);
 		EXPECT_TRUE(model.isCone(someVertices()[2]));
@@ -278,7 +270,7 @@ TEST(ConeModel, TrialsAreUndoneUnlessTheyAreTaken)
 	EXPECT_FALSE(model.tryMove(2, to, [&](double energy) { return energy < there - 1e-9; }));
 	expectUnchanged();
 	EXPECT_FALSE(model.tryWithout(2, [&] {
-		EXPECT_EQ(conesOf(model), fewer);
+		EXPECT_EQ(model.vertices(), fewer);
 		EXPECT_NEAR(model.energy(), less.energy(), 1e-10);
 		model.append({to});
 		return false;
@@ -286,12 +278,12 @@ TEST(ConeModel, TrialsAreUndoneUnlessTheyAreTaken)
 	expectUnchanged();
 
 	EXPECT_TRUE(model.tryMove(2, to, [&](double energy) { return energy < there + 1e-9; }));
-	EXPECT_EQ(conesOf(model), elsewhere);
+	EXPECT_EQ(model.vertices(), elsewhere);
 	EXPECT_TRUE(model.isCone(to));
 	EXPECT_FALSE(model.isCone(someVertices()[2]));
 	EXPECT_LT((model.gradient() - moved.gradient()).lpNorm<Eigen::Infinity>(), 1e-9);
 	EXPECT_TRUE(model.tryWithout(2, [] { return true; }));
-	EXPECT_EQ(conesOf(model), fewer);
+	EXPECT_EQ(model.vertices(), fewer);
 	EXPECT_NEAR(model.energy(), less.energy(), 1e-10);
 }
 

@@ -19,14 +19,6 @@
 namespace ricci::testing {
 namespace {
 
-std::vector<Vertex> conesOf(const ConeModel& model)
-{
-	std::vector<Vertex> vertices;
-	for (int i = 0; i < model.size(); ++i)
-		vertices.push_back(model.vertex(i));
-	return vertices;
-}
-
 /// Lengths of shortest paths along edges between all vertices, by the algorithm of Floyd and Warshall.
 std::vector<std::vector<double>> distances(const EmbeddedSurface& surface)
 {
@@ -103,13 +95,13 @@ TEST(SeamTree, IsNoLongerThanTheMinimumSpanningTree)
 		model.append(places(step, linear.flow.vertexCount()));
 		model.fit();
 		const SeamTree tree(sites, model.vertices());
-		const double spanning = treeLength(distance, conesOf(model)) / whole;
+		const double spanning = treeLength(distance, model.vertices()) / whole;
 		EXPECT_LE(tree.length(), spanning * (1 + 1e-12));
 		EXPECT_GE(tree.length(), 0.5 * spanning);
-		for (const Vertex v : conesOf(model))
+		for (const Vertex v : model.vertices())
 			EXPECT_EQ(tree.distance(v), 0.0);
 		for (const Vertex v : model.area().indices())
-			for (const Vertex cone : conesOf(model))
+			for (const Vertex cone : model.vertices())
 				EXPECT_LE(tree.distance(v), distance[at(v)][at(cone)] / whole + 1e-12);
 	}
 }
@@ -173,15 +165,15 @@ TEST(ConeTree, MovesLowerEnergyAndPriceOfSeams)
 			model.append(places(step, linear.flow.vertexCount()));
 			model.fit();
 			const double distortion = model.distortion();
-			const std::vector<Vertex> before = conesOf(model);
+			const std::vector<Vertex> before = model.vertices();
 			SeamTree tree(sites, model.vertices());
 			const double least = cost(model, tree);
 			shortenConeTree(model, tree, sites, allowed * distortion);
 			EXPECT_EQ(model.size(), 5);
 			EXPECT_LE(model.distortion(), allowed * distortion * (1 + 1e-9));
 			EXPECT_LE(cost(model, tree), least + 1e-12);
-			moved += conesOf(model) != before;
-			if (conesOf(model) != before) {
+			moved += model.vertices() != before;
+			if (model.vertices() != before) {
 				EXPECT_LT(cost(model, tree), least - 9e-5);
 			}
 		}
@@ -198,7 +190,7 @@ TEST(ConeTree, MovesToAllowedPlacesOnly)
 	model.fit();
 	SeamTree tree(sites, model.vertices());
 	shortenConeTree(model, tree, sites, 3.0 * model.distortion());
-	for (const Vertex v : conesOf(model))
+	for (const Vertex v : model.vertices())
 		EXPECT_LT(v.number(), allowed);
 }
 

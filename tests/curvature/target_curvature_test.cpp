@@ -88,12 +88,7 @@ E refusal(
 	typename E::Problem problem,
 	const std::vector<std::string>& words)
 {
-	const auto error = errorOf<E>([&] { surface.choose(r); });
-	EXPECT_TRUE(error) << "accepted";
-	const E refused = error.value_or(E(problem));
-	EXPECT_EQ(refused.problem, problem);
-	expectWords(refused.what(), words);
-	return refused;
+	return refusalFor<E>(problem, words, [&] { surface.choose(r); });
 }
 
 /// A refused curvature with its numbers.
@@ -237,14 +232,6 @@ std::string joined(const Target& target)
 	for (const std::string& note : target.notes)
 		notes += note + "\n";
 	return notes;
-}
-
-/// The number after \p words; NaN if they are not there.
-double numberAfter(const std::string& text, const std::string& words)
-{
-	const std::size_t place = text.find(words);
-	return place == std::string::npos ? std::numeric_limits<double>::quiet_NaN()
-									  : std::stod(text.substr(place + words.size()));
 }
 
 /// Vertices inside with curvature.

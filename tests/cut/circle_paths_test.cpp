@@ -66,7 +66,7 @@ struct ThreeMarks
 	const Packed p;
 	const Triangulation& t;
 	VertexArray<char> marked;
-	EdgeArray<char> isCut, nowhere;
+	EdgeArray<char> isCut;
 	std::vector<Vertex> marks;
 	std::vector<VertexArray<double>> distance;
 };
@@ -76,8 +76,8 @@ TEST(CirclePaths, ABridgeIsAShortestPath)
 	Random random(750);
 	for (int i = 0; i < 20; ++i) {
 		ThreeMarks s(random);
-		CutSegments cut(s.t, s.marked, s.nowhere, s.isCut);
-		CirclePaths paths(s.t, s.p.lengths, cut, nullptr);
+		CutSegments cut(s.t, s.p.lengths, s.marked, s.isCut);
+		CirclePaths paths(cut, nullptr);
 		ASSERT_EQ(splitCircles(paths, cut), 3);
 		const double min = std::min(s.distance[0][s.marks[1]], s.distance[0][s.marks[2]]);
 		EXPECT_NEAR(paths.costOf(paths.shortestBridge(kFar)), min, 1e-12);
@@ -91,8 +91,8 @@ TEST(CirclePaths, ATripodIsShortest)
 	int found = 0;
 	for (int i = 0; i < 40; ++i) {
 		ThreeMarks s(random);
-		CutSegments cut(s.t, s.marked, s.nowhere, s.isCut);
-		CirclePaths paths(s.t, s.p.lengths, cut, nullptr);
+		CutSegments cut(s.t, s.p.lengths, s.marked, s.isCut);
+		CirclePaths paths(cut, nullptr);
 		ASSERT_EQ(splitCircles(paths, cut), 3);
 		double min = kFar;
 		for (const Vertex v : s.t.vertices())
@@ -116,8 +116,8 @@ TEST(CirclePaths, JoinsAllCirclesAndLeavesTheCut)
 	Random random(752);
 	for (int i = 0; i < 20; ++i) {
 		ThreeMarks s(random);
-		CutSegments cut(s.t, s.marked, s.nowhere, s.isCut);
-		CirclePaths paths(s.t, s.p.lengths, cut, nullptr);
+		CutSegments cut(s.t, s.p.lengths, s.marked, s.isCut);
+		CirclePaths paths(cut, nullptr);
 		splitCircles(paths, cut);
 		const std::vector<Edge> joins = paths.joinCircles(3, kFar);
 		EXPECT_EQ(std::count(s.isCut.begin(), s.isCut.end(), 1), 0);
@@ -137,9 +137,9 @@ TEST(CirclePaths, StayNearWhatWasRemoved)
 	for (int i = 0; i < 20; ++i) {
 		ThreeMarks s(random);
 		const CoarseSurface coarse(s.t, s.p.lengths, s.marked, 40);
-		CutSegments cut(s.t, s.marked, s.nowhere, s.isCut);
-		CirclePaths everywhere(s.t, s.p.lengths, cut, nullptr);
-		CirclePaths paths(s.t, s.p.lengths, cut, &coarse);
+		CutSegments cut(s.t, s.p.lengths, s.marked, s.isCut);
+		CirclePaths everywhere(cut, nullptr);
+		CirclePaths paths(cut, &coarse);
 		splitCircles(everywhere, cut);
 		const std::vector<Edge> shortest = everywhere.shortestBridge(kFar);
 		paths.findNear(shortest);

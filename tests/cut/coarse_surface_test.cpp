@@ -83,8 +83,7 @@ TEST(CoarseSurface, ItsCutsOpenTheGivenSurface)
 			const CoarseSurface coarse(t, p.lengths, marked, count);
 			if (coarse.triangulation().faceCount() == 0)
 				continue;
-			const CutGraph cut =
-				cutToDisk(coarse.triangulation(), coarse.cost(), coarse.marked(), {});
+			const CutGraph cut = cutToDisk(coarse.triangulation(), coarse.cost(), coarse.marked());
 			if (cut.edgeCount == 0)
 				continue;
 			++tried;

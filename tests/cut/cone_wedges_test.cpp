@@ -118,8 +118,8 @@ TEST(ConeWedges, NoneIsWiderThanAFullTurnAndTheCutStaysADisk)
 		if (std::count(chosen.marked.begin(), chosen.marked.end(), 1) < 2)
 			continue;
 		const HalfedgeArray<double> corners = coneCorners(t, p.lengths, chosen.angle);
-		const CutGraph plain = cutToDisk(t, p.lengths, chosen.marked, {});
-		const CutGraph cut = cutToDisk(t, p.lengths, chosen.marked, {}, corners);
+		const CutGraph plain = cutToDisk(t, p.lengths, chosen.marked);
+		const CutGraph cut = cutToDisk(t, p.lengths, chosen.marked, corners);
 		expectOpensToADisk(t, cut.isCut);
 		EXPECT_EQ(cut.generators.size(), plain.generators.size());
 		EXPECT_GE(cut.length, plain.length * (1 - 1e-9));
@@ -152,8 +152,8 @@ TEST(ConeWedges, NarrowConesChangeNothing)
 	const Triangulation& t = p.triangulation;
 	const Cones cones(t, 10, 1.8 * kPi, random);
 	const HalfedgeArray<double> corners = coneCorners(t, p.lengths, cones.angle);
-	const CutGraph plain = cutToDisk(t, p.lengths, cones.marked, {});
-	const CutGraph cut = cutToDisk(t, p.lengths, cones.marked, {}, corners);
+	const CutGraph plain = cutToDisk(t, p.lengths, cones.marked);
+	const CutGraph cut = cutToDisk(t, p.lengths, cones.marked, corners);
 	EXPECT_TRUE(cut.isCut == plain.isCut);
 }
 

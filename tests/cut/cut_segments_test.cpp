@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 #include <vector>
@@ -23,7 +24,7 @@ struct CrossedTorus
 {
 	Triangulation t = glued(torus(3, 1, 7, 5));
 	VertexArray<char> marked = VertexArray<char>(t.vertexCount(), 0);
-	EdgeArray<char> forbidden;
+	EdgeArray<double> cost = EdgeArray<double>(t.edgeCount(), 1.0);
 	EdgeArray<char> isCut = EdgeArray<char>(t.edgeCount(), 0);
 	std::set<Edge> column, row;
 	Vertex node = Vertex(13); // where they cross
@@ -40,16 +41,7 @@ struct CrossedTorus
 		}
 	}
 
-	Edge between(int a, int b) const
-	{
-		for (const Edge e : t.edges())
-			if (const auto ends = t.ends(e);
-				std::minmax(ends[0].number(), ends[1].number()) == std::minmax(a, b))
-				return e;
-		return Edge();
-	}
-
-	CutSegments cut() { return CutSegments(t, marked, forbidden, isCut); }
+	CutSegments cut() { return CutSegments(t, cost, marked, isCut); }
 };
 
 std::set<Edge> setOf(const std::vector<Edge>& edges)
@@ -108,8 +100,11 @@ TEST(CutSegments, RemovingAnEdgeRemovesItsDeadEnds)
 	torus.marked[Vertex(11)] = 1;
 	CutSegments marked = torus.cut();
 	EXPECT_EQ(
-		setOf(marked.removeWithDeadEnds({torus.between(10, 11)})),
-		(std::set<Edge>{torus.between(10, 11), torus.between(10, 14), torus.between(13, 14)}));
+		setOf(marked.removeWithDeadEnds({edgeBetween(torus.t, Vertex(10), Vertex(11))})),
+		(std::set<Edge>{
+			edgeBetween(torus.t, Vertex(10), Vertex(11)),
+			edgeBetween(torus.t, Vertex(10), Vertex(14)),
+			edgeBetween(torus.t, Vertex(13), Vertex(14))}));
 	EXPECT_EQ(marked.degree(Vertex(11)), 1);
 	EXPECT_EQ(marked.labelCircles(), 2);
 }
@@ -199,8 +194,8 @@ TEST(CutSegments, CirclesAreTheBoundariesOfTheOpenedSurface)
 		for (double share : {0.0, 0.02, 0.2, 0.6}) {
 			const VertexArray<char> marked = someVertices(t, 0.05, random);
 			EdgeArray<char> isCut = someEdges(t, share, random);
-			const EdgeArray<char> nowhere;
-			CutSegments cut(t, marked, nowhere, isCut);
+			const EdgeArray<double> cost(t.edgeCount(), 1.0);
+			CutSegments cut(t, cost, marked, isCut);
 			const CirclesByWedges expected(t, marked, isCut);
 			for (int again = 0; again < 2; ++again)
 				EXPECT_EQ(cut.labelCircles(), expected.count);
@@ -226,8 +221,8 @@ TEST(CutSegments, SplitCirclesAreTheBoundariesWithoutWhatWasRemoved)
 		for (double share : {0.02, 0.2, 0.6}) {
 			const VertexArray<char> marked = someVertices(t, 0.1, random);
 			EdgeArray<char> isCut = someEdges(t, share, random);
-			const EdgeArray<char> nowhere;
-			CutSegments cut(t, marked, nowhere, isCut);
+			const EdgeArray<double> cost(t.edgeCount(), 1.0);
+			CutSegments cut(t, cost, marked, isCut);
 			cut.labelCircles();
 			for (double part : {0.0, 0.1, 0.5, 1.0}) {
 				std::vector<Edge> removed;
@@ -252,11 +247,12 @@ TEST(CutSegments, KnowsAfterEveryChangeWhatANewOneKnows)
 		VertexArray<char> marked(t.vertexCount(), 0);
 		for (int i = 0; i < 4; ++i)
 			marked[Vertex(random.index(t.vertexCount()))] = 1;
-		EdgeArray<char> forbidden(t.edgeCount(), 0);
-		for (char& f : forbidden)
-			f = random.real(0.0, 1.0) < 0.1;
+		EdgeArray<double> cost(t.edgeCount(), 1.0);
+		for (double& c : cost)
+			if (random.real(0.0, 1.0) < 0.1)
+				c = std::numeric_limits<double>::infinity();
 		EdgeArray<char> isCut(t.edgeCount(), 0);
-		CutSegments cut(t, marked, forbidden, isCut);
+		CutSegments cut(t, cost, marked, isCut);
 		for (int step = 0; step < 6; ++step) {
 			std::vector<Edge> edges;
 			for (const Edge e : t.edges())
@@ -269,7 +265,7 @@ TEST(CutSegments, KnowsAfterEveryChangeWhatANewOneKnows)
 			else
 				cut.removeWithDeadEnds(edges);
 			EdgeArray<char> copy = isCut;
-			CutSegments fresh(t, marked, forbidden, copy);
+			CutSegments fresh(t, cost, marked, copy);
 			EXPECT_EQ(cut.segments(), fresh.segments());
 			EXPECT_EQ(cut.branchNodes(), fresh.branchNodes());
 			EXPECT_EQ(cut.labelCircles(), fresh.labelCircles());
@@ -280,7 +276,7 @@ TEST(CutSegments, KnowsAfterEveryChangeWhatANewOneKnows)
 				EXPECT_EQ(cut.isOnGraph(v), cut.degree(v) > 0 || marked[v] || boundary[v]);
 			}
 			for (const Edge e : t.edges())
-				EXPECT_EQ(cut.isFree(e), !isCut[e] && !t.isBoundary(e) && !forbidden[e]);
+				EXPECT_EQ(cut.isFree(e), !isCut[e] && !t.isBoundary(e) && cost[e] == 1.0);
 		}
 	}
 }
@@ -291,9 +287,9 @@ TEST(CutSegments, GoAroundAVertexFromTheLowestHalfedge)
 	for (const SurfaceMesh& mesh : surfacesOfEveryKind(random)) {
 		const Triangulation t = glued(mesh);
 		const VertexArray<char> marked(t.vertexCount(), 0);
-		const EdgeArray<char> nowhere;
+		const EdgeArray<double> cost(t.edgeCount(), 1.0);
 		EdgeArray<char> isCut(t.edgeCount(), 0);
-		const CutSegments cut(t, marked, nowhere, isCut);
+		const CutSegments cut(t, cost, marked, isCut);
 		for (const Vertex v : t.vertices()) {
 			std::set<Halfedge> expected, found;
 			Halfedge lowest;

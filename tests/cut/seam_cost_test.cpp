@@ -139,9 +139,9 @@ TEST(SeamCost, KeepsSeamsOffDiagonalsWhereThatCostsNothing)
 	VertexArray<char> marked(t.vertexCount(), 0);
 	for (int v : {0, 40, 67, 100})
 		marked[Vertex(v)] = 1;
-	const CutGraph any = cutToDisk(t, cost, marked, {});
+	const CutGraph any = cutToDisk(t, cost, marked);
 	avoidDiagonals(isDiagonal, cost);
-	const CutGraph cut = cutToDisk(t, cost, marked, {});
+	const CutGraph cut = cutToDisk(t, cost, marked);
 	int before = 0, after = 0;
 	for (const Edge e : t.edges()) {
 		before += isDiagonal[e] && any.isCut[e];

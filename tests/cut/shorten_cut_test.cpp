@@ -23,11 +23,10 @@ void shorten(
 	const Triangulation& t,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& marked,
-	const EdgeArray<char>& forbidden,
 	EdgeArray<char>& isCut)
 {
-	CutSegments cut(t, marked, forbidden, isCut);
-	shortenCut(cost, cut);
+	CutSegments cut(t, cost, marked, isCut);
+	shortenCut(cut);
 }
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -135,12 +134,12 @@ TEST(ShortenCut, StaysADiskThroughTheMarksAndGetsShorter)
 			EdgeArray<char> isCut = clumsyCut(t, marked);
 			expectDiskThroughMarks(t, isCut, marked);
 			const double before = costOf(isCut, p.lengths);
-			shorten(t, p.lengths, marked, {}, isCut);
+			shorten(t, p.lengths, marked, isCut);
 			expectDiskThroughMarks(t, isCut, marked);
 			const double after = costOf(isCut, p.lengths);
 			EXPECT_LE(after, before * (1 + 1e-12));
 			// Nothing is left to gain.
-			shorten(t, p.lengths, marked, {}, isCut);
+			shorten(t, p.lengths, marked, isCut);
 			EXPECT_NEAR(costOf(isCut, p.lengths), after, 1e-9 * after);
 		}
 	}
@@ -159,14 +158,13 @@ TEST(ShortenCut, ASearchThatIsEndedLeavesADisk)
 	const EdgeArray<char> clumsy = clumsyCut(t, marked);
 	Listener ticks;
 	EdgeArray<char> whole = clumsy;
-	heard(ticks, [&] { return shorten(t, p.lengths, marked, {}, whole); });
+	heard(ticks, [&] { return shorten(t, p.lengths, marked, whole); });
 	EXPECT_GE(ticks.calls(), 3);
 	double before = costOf(clumsy, p.lengths);
 	for (int n = 1; n <= ticks.calls(); ++n) {
 		EdgeArray<char> isCut = clumsy;
 		Listener impatient(n);
-		EXPECT_THROW(
-			heard(impatient, [&] { shorten(t, p.lengths, marked, {}, isCut); }), Cancelled);
+		EXPECT_THROW(heard(impatient, [&] { shorten(t, p.lengths, marked, isCut); }), Cancelled);
 		expectDiskThroughMarks(t, isCut, marked);
 		const double now = costOf(isCut, p.lengths);
 		EXPECT_LE(now, before * (1 + 1e-12));
@@ -190,7 +188,7 @@ TEST(ShortenCut, JoinsTwoMarksByAShortestPath)
 		VertexArray<char> marked(t.vertexCount(), 0);
 		marked[a] = marked[b] = 1;
 		EdgeArray<char> isCut = clumsyCut(t, marked);
-		shorten(t, p.lengths, marked, {}, isCut);
+		shorten(t, p.lengths, marked, isCut);
 		EXPECT_NEAR(costOf(isCut, p.lengths), distance[a][b], 1e-12);
 	}
 	EXPECT_GT(tried, 15);
@@ -213,7 +211,7 @@ TEST(ShortenCut, JoinsThreeMarksNearlyAsShortAsCanBe)
 		for (const Vertex m : mark)
 			marked[m] = 1;
 		EdgeArray<char> isCut = clumsyCut(t, marked);
-		shorten(t, p.lengths, marked, {}, isCut);
+		shorten(t, p.lengths, marked, isCut);
 		const double found = costOf(isCut, p.lengths);
 		double min = kFar;
 		for (const Vertex v : t.vertices())
@@ -236,14 +234,14 @@ TEST(ShortenCut, KeepsOffForbiddenEdges)
 	const Packed p(bumpyTorus(14, 9, random));
 	const VertexArray<char> unmarked(p.radii.size(), 0);
 	EdgeArray<char> isCut = clumsyCut(p.triangulation, unmarked);
-	EdgeArray<char> forbidden(p.lengths.size(), 0);
-	for (const Edge e : forbidden.indices())
-		if (e.number() % 3 == 0)
-			forbidden[e] = !isCut[e];
-	shorten(p.triangulation, p.lengths, unmarked, forbidden, isCut);
+	EdgeArray<double> cost = p.lengths;
+	for (const Edge e : cost.indices())
+		if (e.number() % 3 == 0 && !isCut[e])
+			cost[e] = kFar;
+	shorten(p.triangulation, cost, unmarked, isCut);
 	expectDiskThroughMarks(p.triangulation, isCut, unmarked);
-	for (const Edge e : forbidden.indices())
-		EXPECT_FALSE(forbidden[e] && isCut[e]);
+	for (const Edge e : cost.indices())
+		EXPECT_FALSE(cost[e] == kFar && isCut[e]);
 }
 
 } // namespace

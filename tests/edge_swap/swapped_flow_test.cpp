@@ -11,6 +11,7 @@
 #include <ricci/edge_swap/swapped_flow.h>
 #include <ricci/error.h>
 #include <ricci/math/points.h>
+#include <ricci/measure/distortion.h>
 
 #include <gtest/gtest.h>
 
@@ -25,28 +26,12 @@
 namespace ricci::testing {
 namespace {
 
-Component componentOf(const SurfaceMesh& mesh)
-{
-	std::vector<std::string> notes;
-	std::vector<Component> components = splitIntoComponents(openMesh(mesh, notes));
-	EXPECT_EQ(components.size(), 1u);
-	return components.front();
-}
-
 /// A triangle over each side of a broken one: corners 0 1 2, outer vertices 3 4 5.
 SurfaceMesh star()
 {
 	return {
 		{{0, 0, 0}, {1, 0, 0}, {0.5, 0.8, 0}, {0.5, -0.8, 0.1}, {1.4, 0.8, 0.2}, {-0.4, 0.8, 0.3}},
 		{{0, 1, 2}, {1, 0, 3}, {2, 1, 4}, {0, 2, 5}}};
-}
-
-Edge edgeBetween(const Triangulation& t, Vertex a, Vertex b)
-{
-	for (const Edge e : t.edges())
-		if (std::minmax(t.origin(e.halfedge()), t.target(e.halfedge())) == std::minmax(a, b))
-			return e;
-	return Edge();
 }
 
 /// The map of the mesh with the ends of one edge put so far apart that its triangles break.
@@ -146,23 +131,7 @@ Corners cornersOf(const VertexArray<Point3>& positions, const Triangle& t)
 /// Normal times twice the area.
 Point3 normalOf(const Corners& p)
 {
-	Point3 a, b;
-	for (std::size_t x = 0; x < 3; ++x) {
-		a[x] = p[1][x] - p[0][x];
-		b[x] = p[2][x] - p[0][x];
-	}
-	return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Point3& a, const Point3& b)
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-double areaOf(const Corners& p)
-{
-	const Point3 n = normalOf(p);
-	return 0.5 * std::sqrt(dot(n, n));
+	return cross(p[1] - p[0], p[2] - p[0]);
 }
 
 /// Shares of \p p in the corners of a triangle in whose plane it lies.
@@ -198,7 +167,7 @@ bool isPartOf(const Corners& part, const Corners& whole)
 TEST(SplitMesh, IsTheComponentBeforeASplit)
 {
 	Random random(600);
-	const Component component = componentOf(randomPlanarDisk(4, random));
+	const Component component = onlyComponent(randomPlanarDisk(4, random));
 	const SplitMesh mesh(component);
 	EXPECT_EQ(mesh.splits(), 0);
 	EXPECT_EQ(mesh.positions(), component.positions);
@@ -209,45 +178,9 @@ TEST(SplitMesh, IsTheComponentBeforeASplit)
 			EXPECT_EQ(mesh.corner(t, f, k), t.halfedges(f)[k]);
 }
 
-TEST(SplitMesh, SplitsATriangleIntoTwoHalves)
-{
-	// Each side of the first triangle in turn; the other triangle lies behind its side 1 - 2.
-	const SurfaceMesh square{
-		{{0, 0, 0}, {2, 0, 1}, {0, 3, 0}, {2, 3, 0.5}}, {{0, 1, 2}, {2, 1, 3}}};
-	const Component component = componentOf(square);
-	for (const int side : {0, 2}) {
-		SplitMesh mesh(component);
-		const Vertex i(side), j((side + 1) % 3), apex((side + 2) % 3);
-		const Triangulation before = triangulationOf(mesh);
-		mesh.split(before, {edgeBetween(before, i, j)});
-		EXPECT_EQ(mesh.splits(), 1);
-		ASSERT_EQ(mesh.positions().size(), 5);
-		const Point3 &a = component.positions[i], &b = component.positions[j];
-		EXPECT_EQ(
-			mesh.positions()[Vertex(4)],
-			(Point3{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])}));
-		ASSERT_EQ(mesh.triangles().size(), 3u);
-		EXPECT_EQ(mesh.triangles()[1], component.triangles[1]);
-		const Triangulation t = triangulationOf(mesh);
-		EXPECT_EQ(t.eulerCharacteristic(), 1);
-		const Edge cut = edgeBetween(t, Vertex(4), apex);
-		ASSERT_TRUE(cut.isValid());
-		EXPECT_FALSE(t.isBoundary(cut));
-		EXPECT_TRUE(t.isBoundary(edgeBetween(t, i, Vertex(4))));
-		EXPECT_TRUE(t.isBoundary(edgeBetween(t, Vertex(4), j)));
-		EXPECT_FALSE(edgeBetween(t, i, j).isValid());
-		const Corners whole = cornersOf(component.positions, component.triangles[0]);
-		for (const std::size_t half : {0u, 2u}) {
-			const Corners part = cornersOf(mesh.positions(), mesh.triangles()[half]);
-			EXPECT_TRUE(isPartOf(part, whole));
-			EXPECT_NEAR(areaOf(part) / areaOf(whole), 0.5, 1e-15);
-		}
-	}
-}
-
 TEST(SplitMesh, SplitsOneEdgeOfATriangleAtOnce)
 {
-	const Component component = componentOf(rectangle(1, 1, 1, 1));
+	const Component component = onlyComponent(rectangle(1, 1, 1, 1));
 	SplitMesh mesh(component);
 	const Triangulation t = triangulationOf(mesh);
 	std::vector<Edge> edges;
@@ -271,7 +204,7 @@ TEST(SplitMesh, CornersAndFacesStayFindableAfterManySplits)
 		withoutStars(shaken(perforatedSlab(1, 2), 0.05, random), {0})};
 	int refound = 0; // corners that lie in a triangle of another number than at first
 	for (const SurfaceMesh& surface : surfaces) {
-		const Component component = componentOf(surface);
+		const Component component = onlyComponent(surface);
 		SplitMesh mesh(component);
 		for (int round = 0; round < 8; ++round) {
 			const Triangulation before = triangulationOf(mesh);
@@ -297,13 +230,13 @@ TEST(SplitMesh, CornersAndFacesStayFindableAfterManySplits)
 					if (!isPartOf(part, whole))
 						continue;
 					++faces;
-					area[f] += areaOf(part);
+					area[f] += triangleArea(part);
 				}
 				ASSERT_EQ(faces, 1);
 			}
 			for (std::size_t f = 0; f < component.triangles.size(); ++f) {
 				const Corners whole = cornersOf(component.positions, component.triangles[f]);
-				EXPECT_NEAR(area[f] / areaOf(whole), 1.0, 1e-13);
+				EXPECT_NEAR(area[f] / triangleArea(whole), 1.0, 1e-13);
 				for (std::size_t k = 0; k < 3; ++k) {
 					const Halfedge h = mesh.corner(t, Face(f), k);
 					ASSERT_TRUE(t.face(h).isValid());
@@ -345,7 +278,7 @@ struct SwapRun : Progress
 	std::vector<int> startVertices; ///< [start] of the surface
 	std::vector<FlowState> states;
 
-	SwapRun(const SurfaceMesh& mesh, double everywhere) : component(componentOf(mesh))
+	SwapRun(const SurfaceMesh& mesh, double everywhere) : component(onlyComponent(mesh))
 	{
 		curvature.assign(component.positions.size(), everywhere);
 		options.method = Method::EdgeSwaps;

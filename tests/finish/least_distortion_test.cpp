@@ -39,7 +39,7 @@ struct CutMap
 	CutMap(const SurfaceMesh& m, const TargetRequest& request, Random& random) : mesh(m)
 	{
 		const FlippedFlow flow(m, request);
-		flat = flatMeshOf(flow.surface(), flow.refinement(flow.cutAnywhere(random)).inputLayout);
+		flat = flatMeshOf(flow.surface(), flow.refinement(flow.cutAnywhere(random)).corners);
 		cones = flow.cones();
 	}
 

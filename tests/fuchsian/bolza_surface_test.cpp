@@ -60,7 +60,7 @@ FuchsianGroup groupOfFlow(const IntrinsicMesh& metric)
 	const CurvatureMap& found = *flow.result.metric;
 	const Triangulation& t = found.triangulation();
 	// The cut runs on the triangles of the result: the surface has no places in space.
-	const CutGraph cut = cutToDisk(t, found.lengths(), VertexArray<char>(t.vertexCount(), 0), {});
+	const CutGraph cut = cutToDisk(t, found.lengths(), VertexArray<char>(t.vertexCount(), 0));
 	const HyperbolicLayout layout = layOutInDisk(t, found.lengths(), found.angles(), cut.isCut);
 	return groupOf(t, found.lengths(), cut, layout);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "isometries.h"
 #include "support/listener.h"
 #include "support/random.h"
 #include "support/shapes.h"
@@ -21,13 +22,6 @@
 
 namespace ricci::testing {
 namespace {
-
-ExtendedIsometry randomIsometry(double maxLength, Random& random)
-{
-	return ExtendedIsometry::rotation(random.real(-kPi, kPi)) *
-		   ExtendedIsometry::translation(random.real(0.0, maxLength)) *
-		   ExtendedIsometry::rotation(random.real(-kPi, kPi));
-}
 
 Array<ExtendedIsometry> randomIsometries(int count, double maxLength, Random& random)
 {
@@ -64,16 +58,6 @@ int cornerCount(const GroupWord& word)
 	for (int k = 0; k < n; ++k)
 		different.insert(points.find(k));
 	return static_cast<int>(different.size());
-}
-
-ExtendedIsometry relationOf(const std::vector<ExtendedIsometry>& handles)
-{
-	ExtendedIsometry product;
-	for (std::size_t i = 0; i + 1 < handles.size(); i += 2) {
-		const ExtendedIsometry &a = handles[i], &b = handles[i + 1];
-		product = product * a * b * a.inverse() * b.inverse();
-	}
-	return product;
 }
 
 TEST(CanonicalGenerators, ProductsAreReadFromTheLeft)

@@ -32,7 +32,7 @@ struct Uniformized
 {
 	FlippedFlow flow;
 	CutGraph cut;
-	CommonRefinement refinement;
+	SurfaceLayout refinement;
 	FuchsianGroup group;
 
 	/// \param detour vertices that the cut is to reach although nothing is there
@@ -45,7 +45,7 @@ struct Uniformized
 		VertexArray<char> marked = flow.cones();
 		for (int v : detour)
 			marked[Vertex(v)] = 1;
-		cut = cutToDisk(flow.base(), flow.surface().lengths, marked, {});
+		cut = cutToDisk(flow.base(), flow.surface().lengths, marked);
 		refinement = flow.refinement(cut);
 		refinement.pairing = pairingOfArcs(flow.base(), cut, refinement.pairing, flow.cones());
 		group = fuchsianGroup(flow.base(), cut, refinement.pairing, flow.cones(), true);
@@ -63,7 +63,7 @@ struct Uniformized
 				if (!t.isExterior(h.twin()) ||
 					std::find(loop.begin(), loop.end(), t.origin(h)) == loop.end())
 					continue;
-				const auto place = [&](Halfedge g) { return asComplex(refinement.inputLayout[g]); };
+				const auto place = [&](Halfedge g) { return asComplex(refinement.corners[g]); };
 				length += 2 * std::asinh(0.5 * chordLength(place(h), place(t.next(h))));
 			}
 		}

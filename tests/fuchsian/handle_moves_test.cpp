@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "isometries.h"
 #include "support/listener.h"
 #include "support/random.h"
 #include "support/shapes.h"
@@ -19,24 +20,6 @@ namespace ricci::testing {
 namespace {
 
 const auto kExtendedEpsilon = std::ldexp(1.0, -101); // of products
-
-ExtendedIsometry randomIsometry(double maxLength, Random& random)
-{
-	return (ExtendedIsometry::rotation(random.real(-kPi, kPi)) *
-			ExtendedIsometry::translation(random.real(0.0, maxLength)) *
-			ExtendedIsometry::rotation(random.real(-kPi, kPi)))
-		.normalised();
-}
-
-ExtendedIsometry relationOf(const Handles& handles)
-{
-	ExtendedIsometry product;
-	for (std::size_t i = 0; i + 1 < handles.size(); i += 2) {
-		const ExtendedIsometry &a = handles[i], &b = handles[i + 1];
-		product = product * a * b * a.inverse() * b.inverse();
-	}
-	return product;
-}
 
 /// The side pairings of the regular polygon with 4 \p genus sides and the sum of angles 2 pi: sides
 /// a1 b1 a1^-1 b1^-1 ... in their order. cosh(inradius) = cot(angle / 2) for the angle pi / (2 genus).

@@ -25,8 +25,7 @@ using Complex = std::complex<double>;
 /// The layout on the overlay, which is another way to the same points.
 PlanarLayout onOverlay(const FlippedFlow& flow, const EdgeArray<char>& isCut)
 {
-	return commonRefinement(flow.domain, flow.result, overlayOf(flow.domain, flow.result), isCut)
-		.inputLayout;
+	return layOutRefinement(flow.domain, flow.result, flow.pieces(), isCut).corners;
 }
 
 /// Both are one figure, but for a motion without reflection.
@@ -54,8 +53,8 @@ void expectTheLayoutOnTheOverlay(const FlippedFlow& flow, Random& random)
 	const CutGraph ways[] = {flow.cut(), flow.cutAnywhere(random), flow.cutAnywhere(random)};
 	for (const CutGraph& cut : ways) {
 		Listener ticks;
-		const PlanarLayout layout =
-			heard(ticks, [&] { return layOutCorners(flow.domain, flow.result, cut.isCut); });
+		const PlanarLayout layout = heard(
+			ticks, [&] { return layOutCorners(flow.domain, flow.result, cut.isCut).corners; });
 		expectCongruent(layout, onOverlay(flow, cut.isCut));
 		EXPECT_GT(ticks.calls(), 0);
 	}

@@ -6,47 +6,35 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace ricci::testing {
 namespace {
 
-LinkedPieces piecesOf(const FlippedFlow& flow)
-{
-	return linkPieces(
-		divideStartTriangles(flow.result),
-		flow.base(),
-		flow.result.metric->triangulation(),
-		flow.base().faceCount());
-}
-
 /// The halfedge of a piece's sheet that is end halfedge h.
 Halfedge inSheet(const EndSheets& sheets, const Triangulation& end, int piece, Halfedge h)
 {
 	const Face sheet = sheets.of[piece];
-	const auto sides = end.halfedges(sheets.endFace[sheet]);
-	const auto found = std::find(sides.begin(), sides.end(), h);
-	if (found == sides.end())
+	if (sheets.endFace[sheet] != end.face(h))
 		return Halfedge();
-	return sheets.triangulation.halfedges(sheet)[static_cast<std::size_t>(found - sides.begin())];
+	return sheets.triangulation.halfedges(sheet)[end.corner(h).index()];
 }
 
 /// What links of pieces say: two pieces of one end triangle that meet off the cut have one sheet, and
 /// two of neighbouring triangles have sheets that are glued there.
 void expectGluedOffTheCut(
 	const FlippedFlow& flow,
-	const LinkedPieces& linked,
+	const OverlayPieces& pieces,
 	const EdgeArray<char>& isCut,
 	const EndSheets& sheets)
 {
 	const Triangulation& end = flow.result.metric->triangulation();
 	for (const int p : sheets.of.indices())
-		EXPECT_EQ(sheets.endFace[sheets.of[p]], linked.endFace[p]);
-	for (const auto& link : linked.links) {
+		EXPECT_EQ(sheets.endFace[sheets.of[p]], pieces.endFace[p]);
+	for (const auto& link : pieces.links) {
 		ASSERT_TRUE(link[1].isValid());
-		const PieceCorner& side = linked.at(link[0]);
+		const PieceCorner& side = pieces.at(link[0]);
 		if (isOnCut(side, isCut))
 			continue;
 		if (!side.end.isValid()) {
@@ -85,9 +73,9 @@ TEST(Sheets, WithoutACutAreTheTrianglesOfTheEnd)
 {
 	Random random(850);
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const LinkedPieces linked = piecesOf(flow);
+		const OverlayPieces pieces = flow.pieces();
 		const EdgeArray<char> noCut(flow.base().edgeCount(), 0);
-		const EndSheets sheets = makeSheets(linked, flow.result, noCut);
+		const EndSheets sheets = makeSheets(pieces, flow.result, noCut);
 		const Triangulation& t = sheets.triangulation;
 		EXPECT_EQ(t.faceCount(), flow.base().faceCount());
 		EXPECT_EQ(t.edgeCount(), flow.base().edgeCount());
@@ -98,7 +86,7 @@ TEST(Sheets, WithoutACutAreTheTrianglesOfTheEnd)
 			++drawn[f];
 		for (const int times : drawn)
 			EXPECT_EQ(times, 1);
-		expectGluedOffTheCut(flow, linked, noCut, sheets);
+		expectGluedOffTheCut(flow, pieces, noCut, sheets);
 		expectMetricOfTheEnd(flow, sheets);
 	}
 }
@@ -109,13 +97,13 @@ TEST(Sheets, OfASurfaceCutOpenAreADisk)
 	int divided = 0;
 	for (int round = 0; round < 5; ++round)
 		for (const FlippedFlow& flow : closedFlows(random)) {
-			const LinkedPieces linked = piecesOf(flow);
+			const OverlayPieces pieces = flow.pieces();
 			const EdgeArray<char> isCut = flow.cutAnywhere(random).isCut;
-			const EndSheets sheets = makeSheets(linked, flow.result, isCut);
+			const EndSheets sheets = makeSheets(pieces, flow.result, isCut);
 			const Triangulation& t = sheets.triangulation;
 			divided += t.faceCount() - flow.base().faceCount();
 			expectOpensToADisk(t, EdgeArray<char>(t.edgeCount(), 0));
-			expectGluedOffTheCut(flow, linked, isCut, sheets);
+			expectGluedOffTheCut(flow, pieces, isCut, sheets);
 			expectMetricOfTheEnd(flow, sheets);
 		}
 	EXPECT_GT(divided, 100); // triangles that the cut runs through

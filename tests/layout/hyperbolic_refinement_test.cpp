@@ -83,7 +83,7 @@ TEST(HyperbolicLayout, TrianglesHaveTheLengthsAndAnglesOfTheMetric)
 		const Triangulation& t = metric.triangulation();
 		VertexArray<char> cones = flow.cones();
 		cones.resize(t.vertexCount(), 0);
-		const CutGraph cut = cutToDisk(t, metric.lengths(), cones, {});
+		const CutGraph cut = cutToDisk(t, metric.lengths(), cones);
 		const HyperbolicLayout layout =
 			layOutInDisk(t, metric.lengths(), metric.angles(), cut.isCut);
 		std::complex<long double> moment = 0.0L;
@@ -163,30 +163,30 @@ TEST(HyperbolicRefinement, IsAMetricOfCurvatureMinusOneOnTheInput)
 		SCOPED_TRACE(p.name);
 		const FlippedFlow flow(p.mesh, p.request, 1e-12);
 		const CutGraph cut = p.cutAnywhere ? flow.cutAnywhere(random) : flow.cut();
-		const CommonRefinement r = flow.refinement(cut);
-		crossings += r.mesh.source.values().size() - p.mesh.positions.size();
-		const Triangulation t(r.mesh.source.size(), r.mesh.vertices.values());
+		const SurfaceLayout r = flow.refinement(cut);
+		crossings += r.refinement.source.values().size() - p.mesh.positions.size();
+		const Triangulation t(r.refinement.source.size(), r.refinement.vertices.values());
 		const int chi = flow.surface().topology.type.eulerCharacteristic();
 		EXPECT_EQ(t.eulerCharacteristic(), chi);
 		const VertexArray<char> boundary = t.boundaryVertices();
 		HalfedgeArray<Complex> place(t.halfedgeCount());
-		VertexArray<long double> defect(r.mesh.source.size(), 2 * std::acos(-1.0L));
+		VertexArray<long double> defect(r.refinement.source.size(), 2 * std::acos(-1.0L));
 		long double area = 0.0L;
 		for (const Face f : t.faces()) {
 			const auto h = t.halfedges(f);
 			EXPECT_EQ(
 				hyperbolicOrientation(
-					asComplex(r.mesh.at(f.number())[0]),
-					asComplex(r.mesh.at(f.number())[1]),
-					asComplex(r.mesh.at(f.number())[2])),
+					asComplex(r.refinement.at(f.number())[0]),
+					asComplex(r.refinement.at(f.number())[1]),
+					asComplex(r.refinement.at(f.number())[2])),
 				1);
 			area += std::acos(-1.0L);
 			for (std::size_t k = 0; k < 3; ++k) {
-				place[h[k]] = asComplex(r.mesh.at(f.number())[k]);
+				place[h[k]] = asComplex(r.refinement.at(f.number())[k]);
 				const long double angle = angleInDisk(
-					asComplex(r.mesh.at(f.number())[k]),
-					asComplex(r.mesh.at(f.number())[(k + 1) % 3]),
-					asComplex(r.mesh.at(f.number())[(k + 2) % 3]));
+					asComplex(r.refinement.at(f.number())[k]),
+					asComplex(r.refinement.at(f.number())[(k + 1) % 3]),
+					asComplex(r.refinement.at(f.number())[(k + 2) % 3]));
 				defect[t.origin(h[k])] -= angle;
 				area -= angle;
 			}
@@ -231,9 +231,9 @@ TEST(HyperbolicRefinement, IsAMetricOfCurvatureMinusOneOnTheInput)
 				EXPECT_LT(std::abs(isometry(at(g)) - at(input.next(h))), 1e-9);
 			}
 		};
-		expectPairing(r.inputLayout, r.pairing);
+		expectPairing(r.corners, r.pairing);
 		// The layout of the corners alone is the same figure.
-		const DiskLayout disk = layOutCornersInDisk(flow.domain, flow.result, cut.isCut);
+		const SurfaceLayout disk = layOutCorners(flow.domain, flow.result, cut.isCut);
 		expectPairing(disk.corners, disk.pairing);
 		for (const Halfedge h : input.interiorHalfedges()) {
 			const auto fromFirst = [&](const PlanarLayout& layout) {
@@ -246,8 +246,8 @@ TEST(HyperbolicRefinement, IsAMetricOfCurvatureMinusOneOnTheInput)
 			};
 			EXPECT_NEAR(
 				fromFirst(disk.corners),
-				fromFirst(r.inputLayout),
-				1e-9 + rounding(disk.corners) + rounding(r.inputLayout));
+				fromFirst(r.corners),
+				1e-9 + rounding(disk.corners) + rounding(r.corners));
 		}
 	}
 	EXPECT_GT(crossings, 200u);
@@ -313,14 +313,17 @@ TEST(HyperbolicRefinement, CrossingsAreWhereGeodesicsMeet)
 		flow.start.delta = packing.delta;
 		flow.start.radii = radii;
 		flow.flips = {e};
-		const CommonRefinement r =
-			commonRefinement(domain, flow, overlayOf(domain, flow), EdgeArray<char>(5, 0));
-		ASSERT_EQ(r.mesh.source.size(), 5);
-		ASSERT_EQ(r.mesh.size(), 4);
+		const SurfaceLayout r = layOutRefinement(
+			domain,
+			flow,
+			divideStartTriangles(flow, domain.surface.triangulation.faceCount()),
+			EdgeArray<char>(5, 0));
+		ASSERT_EQ(r.refinement.source.size(), 5);
+		ASSERT_EQ(r.refinement.size(), 4);
 		std::vector<Complex> place(5);
 		for (int f = 0; f < 4; ++f)
 			for (std::size_t k = 0; k < 3; ++k)
-				place[at(r.mesh.vertices[f][k])] = asComplex(r.mesh.at(f)[k]);
+				place[at(r.refinement.vertices[f][k])] = asComplex(r.refinement.at(f)[k]);
 		for (int diagonal : {0, 1}) {
 			const auto ends = (diagonal == 0 ? t : after->triangulation()).ends(e);
 			const Complex from = place[at(ends[0])], to = place[at(ends[1])];

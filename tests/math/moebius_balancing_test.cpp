@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/complex.h"
 #include "support/random.h"
 
 #include <ricci/math/moebius_balancing.h>
@@ -12,8 +13,6 @@
 namespace ricci::testing {
 namespace {
 
-using Complex = std::complex<double>;
-
 std::vector<Point3> randomPoints(int n, Random& random)
 {
 	std::vector<Point3> points;
@@ -25,22 +24,10 @@ std::vector<Point3> randomPoints(int n, Random& random)
 	return points;
 }
 
-Complex inPlane(const Point3& p)
+/// Of four points from \p i on.
+Complex crossRatioAt(const std::vector<Point3>& p, std::size_t i)
 {
-	return Complex(p[0], p[1]) / (1.0 - p[2]);
-}
-
-Point3 onSphere(Complex z)
-{
-	const double s = std::norm(z);
-	return {2 * z.real() / (1 + s), 2 * z.imag() / (1 + s), (s - 1) / (1 + s)};
-}
-
-Complex crossRatio(const std::vector<Point3>& p, std::size_t i)
-{
-	const Complex a = inPlane(p[i]), b = inPlane(p[i + 1]), c = inPlane(p[i + 2]),
-				  d = inPlane(p[i + 3]);
-	return (a - c) * (b - d) / ((a - d) * (b - c));
+	return crossRatio(p[i], p[i + 1], p[i + 2], p[i + 3]);
 }
 
 Eigen::Vector3d mean(const std::vector<Point3>& points, const std::vector<double>& weights)
@@ -74,8 +61,8 @@ TEST(MoebiusBalancing, BalancesByAMoebiusTransformation)
 		for (const Point3& p : points)
 			EXPECT_NEAR(std::hypot(p[0], p[1], p[2]), 1.0, 1e-14);
 		for (std::size_t i = 0; i + 3 < points.size(); ++i) {
-			const Complex was = crossRatio(before, i);
-			EXPECT_LT(std::abs(crossRatio(points, i) - was), 1e-6 * (1.0 + std::abs(was)));
+			const Complex was = crossRatioAt(before, i);
+			EXPECT_LT(std::abs(crossRatioAt(points, i) - was), 1e-6 * (1.0 + std::abs(was)));
 		}
 	}
 }

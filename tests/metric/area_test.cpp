@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/bolza.h"
 #include "support/intrinsic.h"
 #include "support/random.h"
 #include "support/random_surface.h"
@@ -19,7 +20,7 @@
 namespace ricci::testing {
 namespace {
 
-using Complex = std::complex<long double>;
+using Complex = BolzaSurface::Complex;
 
 const Triangulation& oneTriangle()
 {
@@ -35,18 +36,6 @@ EdgeArray<double> ofSides(const std::array<double, 3>& side)
 	for (const Halfedge h : t.halfedges(Face(0)))
 		lengths[h.edge()] = side[at(t.origin(h))];
 	return lengths;
-}
-
-long double distanceInDisk(Complex z, Complex w)
-{
-	return 2 * std::atanh(std::abs((z - w) / (1.0L - std::conj(w) * z)));
-}
-
-/// Angle at p of the geodesic triangle pqr.
-long double angleInDisk(Complex p, Complex q, Complex r)
-{
-	const auto seen = [&](Complex z) { return (z - p) / (1.0L - std::conj(p) * z); };
-	return std::abs(std::arg(seen(r) / seen(q)));
 }
 
 TEST(Area, OfFlatTrianglesIsThatOfTheirPlacesInSpace)

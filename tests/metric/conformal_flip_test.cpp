@@ -32,17 +32,6 @@ Triangulation quad()
 	return Triangulation(4, {{0, 1, 2}, {1, 0, 3}});
 }
 
-Edge edgeBetween(const Triangulation& t, Vertex a, Vertex b)
-{
-	for (const Edge e : t.edges()) {
-		const auto [i, j] = t.ends(e);
-		if ((i == a && j == b) || (i == b && j == a))
-			return e;
-	}
-	ADD_FAILURE() << "no edge " << a.number() << "-" << b.number();
-	return Edge();
-}
-
 /// Of circles with these u, as a VertexArray or a VertexVector.
 template<class Values>
 VertexArray<double> curvatures(const Values& u)

@@ -34,7 +34,7 @@ TEST(OverlayPieces, AreTheFacesOfASurface)
 	Random random(810);
 	int crossings = 0;
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const OverlayPieces pieces = divideStartTriangles(flow.result);
+		const OverlayPieces pieces = flow.pieces();
 		EXPECT_EQ(
 			pieces.nodes.size() - pieces.sideCount + pieces.count(),
 			flow.base().eulerCharacteristic());
@@ -59,7 +59,7 @@ TEST(OverlayPieces, KnowTheEdgesAndCornersTheyLieAt)
 {
 	Random random(811);
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const OverlayPieces pieces = divideStartTriangles(flow.result);
+		const OverlayPieces pieces = flow.pieces();
 		const Triangulation& input = flow.base();
 		const Triangulation& end = flow.result.metric->triangulation();
 		HalfedgeArray<int> inputCorners(input.halfedgeCount(), 0), endCorners = inputCorners;
@@ -114,7 +114,7 @@ TEST(OverlayPieces, DivideStartTrianglesAlongStraightLines)
 	Random random(813);
 	int crossings = 0;
 	for (const FlippedFlow& flow : closedFlows(random)) {
-		const OverlayPieces pieces = divideStartTriangles(flow.result);
+		const OverlayPieces pieces = flow.pieces();
 		Array<OverlayNode> onStartEdges;
 		StartEdgeNodes(flow.result, EdgeCrossings(flow.result), onStartEdges);
 		const auto place = [&](int p, int i) {
@@ -155,7 +155,7 @@ TEST(OverlayPieces, OfAnInputThatStaysAreItsTriangles)
 	const SurfaceMesh mesh = tetrahedron();
 	const FlippedFlow flow(mesh, prescribed(curvatureInSpace(mesh)));
 	ASSERT_EQ(flow.result.flipCount(), 0);
-	const OverlayPieces pieces = divideStartTriangles(flow.result);
+	const OverlayPieces pieces = flow.pieces();
 	EXPECT_EQ(pieces.nodes.size(), 4);
 	EXPECT_EQ(pieces.sideCount, 6);
 	ASSERT_EQ(pieces.count(), 4);
@@ -172,34 +172,108 @@ TEST(OverlayPieces, AreHeardAndCanBeEnded)
 	Random random(812);
 	const FlippedFlow flow(bumpyTorus(90, 70, random), requestOf(TargetCurvature::Flat));
 	Listener listener;
-	heard(listener, [&] { return divideStartTriangles(flow.result); });
+	heard(listener, [&] { return flow.pieces(); });
 	EXPECT_GT(listener.calls(), 1);
 	EXPECT_GT(listener.fractions.back(), 0.3);
 	EXPECT_TRUE(std::is_sorted(listener.fractions.begin(), listener.fractions.end()));
 	Listener impatient(2);
-	EXPECT_THROW(heard(impatient, [&] { divideStartTriangles(flow.result); }), Cancelled);
+	EXPECT_THROW(heard(impatient, [&] { flow.pieces(); }), Cancelled);
 }
 
-TEST(OverlayPieces, KeepThoseThatAreWanted)
+using Weights = std::array<double, 3>;
+
+/// Share of a triangle that a polygon with these affine coordinates covers, positive if it is
+/// counter-clockwise.
+double shareOf(const std::vector<Weights>& polygon)
 {
-	OverlayPieces pieces;
-	for (int p = 0; p < 5; ++p) {
-		pieces.startPiece();
-		for (int i = 0; i < 3 + p; ++i) {
-			PieceCorner c;
-			c.node = 10 * p + i;
-			pieces.append(c);
+	double area = 0.0;
+	for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+		const Weights &a = polygon[0], &b = polygon[k], &c = polygon[k + 1];
+		area += (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]);
+	}
+	return area;
+}
+
+Weights inInputTriangle(const Triangulation& t, Face f, const SurfacePoint& p)
+{
+	Weights w{0, 0, 0};
+	const auto corner = t.vertices(f);
+	for (std::size_t i = 0; i < 4; ++i)
+		for (std::size_t k = 0; k < 3; ++k)
+			if (Vertex(p.vertex[i]) == corner[k])
+				w[k] += p.weight[i];
+	return w;
+}
+
+/// The pieces in one triangle cover it once.
+TEST(OverlayPieces, TileTheTrianglesOfTheInputAndOfTheEnd)
+{
+	Random random(820);
+	for (const FlippedFlow& flow : closedFlows(random)) {
+		const Triangulation& input = flow.base();
+		const Triangulation& end = flow.result.metric->triangulation();
+		const OverlayPieces pieces = flow.pieces();
+		FaceArray<double> ofInput(input.faceCount(), 0.0), ofEnd(end.faceCount(), 0.0);
+		for (int p = 0; p < pieces.count(); ++p) {
+			std::vector<Weights> onInput, onEnd;
+			for (int i = 0; i < pieces.size(p); ++i) {
+				onInput.push_back(inInputTriangle(
+					input, pieces.inputFace[p], pieces.nodes[pieces(p, i).node].point));
+				onEnd.push_back(inEndTriangle(pieces, end, p, i));
+				for (const Weights& w : {onInput.back(), onEnd.back()})
+					EXPECT_NEAR(w[0] + w[1] + w[2], 1.0, 1e-12);
+			}
+			const double inputShare = shareOf(onInput), endShare = shareOf(onEnd);
+			EXPECT_GT(inputShare, -1e-12);
+			EXPECT_GT(endShare, -1e-12);
+			ofInput[pieces.inputFace[p]] += inputShare;
+			ofEnd[pieces.endFace[p]] += endShare;
+		}
+		for (const double share : ofInput)
+			EXPECT_NEAR(share, 1.0, 1e-9);
+		for (const double share : ofEnd)
+			EXPECT_NEAR(share, 1.0, 1e-9);
+	}
+}
+
+TEST(OverlayPieces, ForgetWhatIsNotKept)
+{
+	Random random(821);
+	int moved = 0, border = 0;
+	for (const FlippedFlow& flow : closedFlows(random)) {
+		const Triangulation& input = flow.base();
+		const OverlayPieces whole = flow.pieces();
+		const int kept = input.faceCount() / 2;
+		const OverlayPieces half = divideStartTriangles(flow.result, kept);
+		int wanted = 0;
+		for (const int p : whole.inputFace.indices())
+			if (whole.inputFace[p] < Face(kept)) {
+				ASSERT_LT(wanted, half.count());
+				EXPECT_EQ(half.inputFace[wanted], whole.inputFace[p]);
+				EXPECT_EQ(half.endFace[wanted], whole.endFace[p]);
+				ASSERT_EQ(half.size(wanted), whole.size(p));
+				for (int i = 0; i <= whole.size(p); ++i)
+					EXPECT_EQ(half(wanted, i).node, whole(p, i).node);
+				moved += p != wanted;
+				++wanted;
+			}
+		EXPECT_EQ(half.count(), wanted);
+		EXPECT_EQ(half.inputFace.size(), wanted);
+		for (const auto& link : half.links) {
+			if (!link[0].isValid())
+				continue; // of pieces that are forgotten
+			const PieceCorner& side = half.at(link[0]);
+			if (link[1].isValid()) {
+				EXPECT_EQ(half.at(link[1]).side, side.side);
+				continue;
+			}
+			++border;
+			ASSERT_TRUE(side.input.isValid()); // the border runs along edges of the input
+			EXPECT_GE(input.face(side.input.twin()), Face(kept));
 		}
 	}
-	pieces.keep([](int p) { return p % 2 == 1; });
-	ASSERT_EQ(pieces.count(), 2);
-	EXPECT_EQ(pieces.cornerCount(), 4 + 6);
-	for (int p = 0; p < 2; ++p) {
-		const int before = 2 * p + 1;
-		ASSERT_EQ(pieces.size(p), 3 + before);
-		for (int i = 0; i <= pieces.size(p); ++i)
-			EXPECT_EQ(pieces(p, i).node, 10 * before + i % pieces.size(p));
-	}
+	EXPECT_GT(moved, 50);
+	EXPECT_GT(border, 50);
 }
 
 } // namespace

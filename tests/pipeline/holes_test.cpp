@@ -43,7 +43,7 @@ TEST(HoleSeams, AreDroppedBackToWhatTheCutMustReach)
 	const Triangulation t = glued(mesh);
 	const EdgeArray<double> lengths = edgeLengths(t, mesh);
 	VertexArray<char> marked(t.vertexCount(), 0), closes = marked;
-	const CutGraph whole = cutToDisk(t, lengths, marked, {});
+	const CutGraph whole = cutToDisk(t, lengths, marked);
 	ASSERT_GT(whole.edgeCount, 0);
 
 	CutGraph cut = whole; // no hole closes: nothing is dropped

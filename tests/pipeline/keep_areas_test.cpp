@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "../support/expect.h"
 #include "../support/flat_map.h"
 #include "../support/listener.h"
 #include "../support/random_surface.h"
@@ -29,17 +30,6 @@ constexpr int kMaxRounds = 6;
 constexpr int kAll = std::numeric_limits<int>::max();
 
 const char* const kRound = "more or other cones are needed";
-
-/// The number after \p words, which have to be there.
-double numberAfter(const std::string& text, const std::string& words)
-{
-	const std::size_t place = text.find(words);
-	if (place == std::string::npos) {
-		ADD_FAILURE() << words << " is not in: " << text;
-		return 0.0;
-	}
-	return std::stod(text.substr(place + words.size()));
-}
 
 /// The stages of the pipeline up to the first flow.
 struct FirstFlow

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "../support/complex.h"
 #include "../support/expect.h"
 #include "../support/flat_map.h"
 #include "../support/listener.h"
@@ -21,8 +22,6 @@
 
 namespace ricci::testing {
 namespace {
-
-using Complex = std::complex<double>;
 
 SphereMap toSphere(const SurfaceMesh& mesh)
 {
@@ -80,22 +79,9 @@ SurfaceMesh icosphere(int level)
 	return mesh;
 }
 
-Complex inPlane(const Point3& p)
+Complex crossRatioOf(const std::vector<Point3>& p, const std::array<std::size_t, 4>& i)
 {
-	return Complex(p[0], p[1]) / (1.0 - p[2]);
-}
-
-Point3 onSphere(Complex z)
-{
-	const double s = std::norm(z);
-	return {2 * z.real() / (1 + s), 2 * z.imag() / (1 + s), (s - 1) / (1 + s)};
-}
-
-Complex crossRatio(const std::vector<Point3>& p, const std::array<std::size_t, 4>& i)
-{
-	const Complex a = inPlane(p[i[0]]), b = inPlane(p[i[1]]), c = inPlane(p[i[2]]),
-				  d = inPlane(p[i[3]]);
-	return (a - c) * (b - d) / ((a - d) * (b - c));
+	return crossRatio(p[i[0]], p[i[1]], p[i[2]], p[i[3]]);
 }
 
 TEST(SphereMap, LeavesAnIcosphereInPlace)
@@ -137,8 +123,9 @@ TEST(SphereMap, ChangesAnInscribedPolyhedronByAMoebiusTransformation)
 				continue;
 			++compared;
 			const std::array<std::size_t, 4> four{at(t[0]), at(t[1]), at(t[2]), other};
-			const Complex was = crossRatio(mesh.positions, four);
-			EXPECT_LT(std::abs(crossRatio(map.positions, four) - was), 1e-7 * (1 + std::abs(was)));
+			const Complex was = crossRatioOf(mesh.positions, four);
+			EXPECT_LT(
+				std::abs(crossRatioOf(map.positions, four) - was), 1e-7 * (1 + std::abs(was)));
 		}
 	}
 	EXPECT_GT(compared, 5 * 300); // of 5 * 320 triangles

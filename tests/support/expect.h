@@ -50,6 +50,27 @@ inline void expectWords(const std::string& sentence, const std::vector<std::stri
 		EXPECT_NE(sentence.find(word), std::string::npos) << word << " is not in: " << sentence;
 }
 
+/// The number after \p words, which have to be there.
+inline double numberAfter(const std::string& text, const std::string& words)
+{
+	const std::size_t place = text.find(words);
+	if (place == std::string::npos) {
+		ADD_FAILURE() << words << " is not in: " << text;
+		return 0.0;
+	}
+	return std::stod(text.substr(place + words.size()));
+}
+
+/// refusalOf() for \p problem, with \p words in its sentence.
+template<class E, class Call>
+E refusalFor(typename E::Problem problem, const std::vector<std::string>& words, const Call& call)
+{
+	const E refused = refusalOf<E>(call);
+	EXPECT_EQ(refused.problem, problem);
+	expectWords(refused.what(), words);
+	return refused;
+}
+
 /// The flow's target is reached, by its own word and by the lengths it gives, which \p Measure reads
 /// (MetricMeasure or HyperbolicMeasure). \p maxFloor bounds what rounding may prevent.
 template<class Measure>

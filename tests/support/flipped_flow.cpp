@@ -114,7 +114,7 @@ VertexArray<char> FlippedFlow::cones() const
 
 CutGraph FlippedFlow::cut() const
 {
-	return cutToDisk(base(), surface().lengths, cones(), {});
+	return cutToDisk(base(), surface().lengths, cones());
 }
 
 CutGraph FlippedFlow::cutAnywhere(Random& random) const
@@ -122,12 +122,17 @@ CutGraph FlippedFlow::cutAnywhere(Random& random) const
 	EdgeArray<double> costs(base().edgeCount());
 	for (double& cost : costs)
 		cost = random.real(0.0, 1.0);
-	return cutToDisk(base(), costs, cones(), {});
+	return cutToDisk(base(), costs, cones());
 }
 
-CommonRefinement FlippedFlow::refinement(const CutGraph& cutGraph) const
+OverlayPieces FlippedFlow::pieces() const
 {
-	return commonRefinement(domain, result, overlayOf(domain, result), cutGraph.isCut);
+	return divideStartTriangles(result, base().faceCount());
+}
+
+SurfaceLayout FlippedFlow::refinement(const CutGraph& cutGraph) const
+{
+	return layOutRefinement(domain, result, pieces(), cutGraph.isCut);
 }
 
 TargetRequest requestOf(TargetCurvature mode, bool freeBoundary)

@@ -53,7 +53,8 @@ struct FlippedFlow
 	CutGraph cut() const;
 	/// The same along random ways.
 	CutGraph cutAnywhere(Random& random) const;
-	CommonRefinement refinement(const CutGraph& cut) const;
+	OverlayPieces pieces() const;
+	SurfaceLayout refinement(const CutGraph& cut) const;
 
 private:
 	void run(TargetRequest request, double epsilon);

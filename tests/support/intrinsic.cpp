@@ -3,6 +3,7 @@
 
 #include "shapes.h"
 
+#include <algorithm>
 #include <ricci/surface/flow_domain.h>
 
 #include <array>
@@ -87,6 +88,14 @@ glued(int vertexCount, const std::vector<Triangle>& triangles, const std::vector
 	for (const int side : sides)
 		across.push_back(ricci::Corner(side));
 	return Triangulation(vertexCount, triangles, across);
+}
+
+Edge edgeBetween(const Triangulation& t, Vertex a, Vertex b)
+{
+	for (const Edge e : t.edges())
+		if (const auto [i, j] = t.ends(e); std::minmax(i, j) == std::minmax(a, b))
+			return e;
+	return Edge();
 }
 
 EdgeArray<double> edgeLengths(const Triangulation& t, const SurfaceMesh& mesh)

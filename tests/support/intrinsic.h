@@ -25,6 +25,9 @@ Component onlyComponent(const SurfaceMesh& mesh);
 Triangulation
 glued(int vertexCount, const std::vector<Triangle>& triangles, const std::vector<int>& sides);
 
+/// The first edge between two vertices; none if there is none.
+Edge edgeBetween(const Triangulation& t, Vertex a, Vertex b);
+
 /// Lengths of the edges of a triangulation of the mesh.
 EdgeArray<double> edgeLengths(const Triangulation& t, const SurfaceMesh& mesh);
 

@@ -27,15 +27,15 @@ struct Glued
 	HalfedgeArray<Complex> place; // of its origin, in its triangle
 	HalfedgeArray<double> angle;  // at its origin
 
-	Glued(std::size_t pointCount, const RefinedMap& map) :
-			t(static_cast<int>(pointCount), map.triangles), place(t.halfedgeCount()),
+	explicit Glued(const FlatMesh& map) :
+			t(map.source.size(), map.vertices.values()), place(t.halfedgeCount()),
 			angle(t.halfedgeCount(), 0.0)
 	{
 		for (const Face f : t.faces()) {
 			const auto h = t.halfedges(f);
 			std::array<Complex, 3> p;
 			for (std::size_t k = 0; k < 3; ++k)
-				place[h[k]] = p[k] = asComplex(map.uv[at(f)][k]);
+				place[h[k]] = p[k] = asComplex(map.at(f.number())[k]);
 			for (std::size_t k = 0; k < 3; ++k)
 				angle[h[k]] = std::abs(std::arg((p[(k + 2) % 3] - p[k]) / (p[(k + 1) % 3] - p[k])));
 		}
@@ -44,7 +44,7 @@ struct Glued
 };
 
 /// Least height of a triangle that has hardly any area.
-double heightOf(const std::array<Point2, 3>& p)
+double heightOf(const Triangle2& p)
 {
 	const Complex a = asComplex(p[1]) - asComplex(p[0]), b = asComplex(p[2]) - asComplex(p[0]);
 	const double longest = std::max({std::abs(a), std::abs(b), std::abs(a - b)});
@@ -74,10 +74,10 @@ std::vector<int> support(const SurfacePoint& p)
 } // namespace
 
 RefinementCheck::RefinementCheck(
-	const SurfaceMesh& mesh, const RefinedMap& map, const std::vector<double>& curvature)
+	const SurfaceMesh& mesh, const FlatMesh& map, const std::vector<double>& curvature)
 {
 	std::vector<Point3> space;
-	for (const SurfacePoint& p : map.points) {
+	for (const SurfacePoint& p : map.source) {
 		space.push_back(placeOnSurface(p, mesh.positions));
 		double sum = 0.0;
 		for (double w : p.weight)
@@ -85,26 +85,25 @@ RefinementCheck::RefinementCheck(
 		weightError = std::max(weightError, std::abs(sum - 1.0));
 	}
 	double extent = 0.0;
-	for (const auto& triangle : map.uv)
-		for (const Point2& p : triangle)
-			extent = std::max({extent, std::abs(p[0]), std::abs(p[1])});
+	for (const Point2& p : map.place)
+		extent = std::max({extent, std::abs(p[0]), std::abs(p[1])});
 	std::vector<double> areas(mesh.triangles.size(), 0.0);
-	for (std::size_t f = 0; f < map.triangles.size(); ++f) {
-		const Triangle& t = map.triangles[f];
-		const Triangle& face = mesh.triangles[at(map.inputFace[f])];
-		areas[at(map.inputFace[f])] +=
-			triangleArea({space[at(t[0])], space[at(t[1])], space[at(t[2])]});
+	for (const int f : map.points.indices()) {
+		const Triangle& t = map.vertices[f];
+		const Triangle& face = mesh.triangles[at(map.face[f])];
+		areas[at(map.face[f])] += triangleArea({space[at(t[0])], space[at(t[1])], space[at(t[2])]});
 		for (int point : t) {
-			const SurfacePoint& p = map.points[at(point)];
+			const SurfacePoint& p = map.source[point];
 			for (int v : support(p)) {
 				const bool inFace = std::find(face.begin(), face.end(), v) != face.end();
 				minWeight = std::min(minWeight, inFace ? weightOf(p, v) : -1.0);
 			}
 		}
-		if (orientation(map.uv[f][0], map.uv[f][1], map.uv[f][2]) > 0)
+		const Triangle2 p = map.at(f);
+		if (orientation(p[0], p[1], p[2]) > 0)
 			continue;
 		++notPositive;
-		notPositiveByRounding += heightOf(map.uv[f]) <= kPlaceRounding * extent;
+		notPositiveByRounding += heightOf(p) <= kPlaceRounding * extent;
 	}
 	for (std::size_t f = 0; f < areas.size(); ++f) {
 		const Triangle& t = mesh.triangles[f];
@@ -113,12 +112,12 @@ RefinementCheck::RefinementCheck(
 		areaError = std::max(areaError, std::abs(areas[f] / own - 1.0));
 	}
 
-	const Glued glued(map.points.size(), map);
+	const Glued glued(map);
 	const Triangulation& t = glued.t;
 	eulerCharacteristic = t.eulerCharacteristic();
 	boundaryLoops = static_cast<int>(t.boundaryLoops().size());
 	const VertexArray<char> boundary = t.boundaryVertices();
-	VertexArray<double> defect(map.points.size(), 2 * kPi);
+	VertexArray<double> defect(map.source.size(), 2 * kPi);
 	for (const Halfedge h : t.interiorHalfedges()) {
 		defect[t.origin(h)] -= glued.angle[h];
 		area += 0.5 * (std::conj(glued.place[h]) * glued.place[t.next(h)]).imag();
@@ -137,8 +136,8 @@ RefinementCheck::RefinementCheck(
 		++seamEdges;
 		const double gap = std::abs(glued.length(h) - glued.length(g));
 		seamMismatch = std::max(seamMismatch, (gap - kPlaceRounding * extent) / glued.length(h));
-		std::vector<int> ends = support(map.points[at(t.origin(h))]);
-		for (int v : support(map.points[at(t.target(h))]))
+		std::vector<int> ends = support(map.source[t.origin(h).number()]);
+		for (int v : support(map.source[t.target(h).number()]))
 			if (std::find(ends.begin(), ends.end(), v) == ends.end())
 				ends.push_back(v);
 		seamsInside += ends.size() != 2;
@@ -146,9 +145,9 @@ RefinementCheck::RefinementCheck(
 }
 
 std::vector<StraightLine>
-straightLines(const SurfaceMesh& mesh, const RefinedMap& map, double angleTolerance)
+straightLines(const SurfaceMesh& mesh, const FlatMesh& map, double angleTolerance)
 {
-	const Glued glued(map.points.size(), map);
+	const Glued glued(map);
 	const Triangulation& t = glued.t;
 	const int vertexCount = static_cast<int>(mesh.positions.size());
 	const VertexArray<char> boundary = t.boundaryVertices();
@@ -170,7 +169,7 @@ straightLines(const SurfaceMesh& mesh, const RefinedMap& map, double angleTolera
 		return best;
 	};
 	std::vector<Point3> space;
-	for (const SurfacePoint& p : map.points)
+	for (const SurfacePoint& p : map.source)
 		space.push_back(placeOnSurface(p, mesh.positions));
 	std::vector<StraightLine> lines;
 	for (const Halfedge start : t.interiorHalfedges()) {

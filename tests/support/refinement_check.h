@@ -2,24 +2,17 @@
 #ifndef RICCI_TESTS_REFINEMENT_CHECK_H
 #define RICCI_TESTS_REFINEMENT_CHECK_H
 
+#include <ricci/layout/flat_mesh.h>
 #include <ricci/surface/surface_mesh.h>
 
-#include <array>
+#include <gtest/gtest.h>
+
 #include <vector>
 
 namespace ricci::testing {
 
-/// A refinement of a mesh with a map to the plane, by whichever part of the core it was handed
-/// over. All faces of \p mesh must be coherently oriented.
-struct RefinedMap
-{
-	const std::vector<SurfacePoint>& points;
-	const std::vector<Triangle>& triangles;
-	const std::vector<int>& inputFace;
-	const std::vector<Triangle2>& uv;
-};
-
-/// What can be seen of it without knowing how it was made.
+/// What can be seen of a refinement of a mesh in the plane without knowing how it was made. All faces of the
+/// mesh must be coherently oriented.
 struct RefinementCheck
 {
 	double areaError = 0.0;   ///< relative: pieces of an input face against the face, in space
@@ -39,7 +32,20 @@ struct RefinementCheck
 
 	/// \param curvature [vertex of mesh]
 	RefinementCheck(
-		const SurfaceMesh& mesh, const RefinedMap& map, const std::vector<double>& curvature);
+		const SurfaceMesh& mesh, const FlatMesh& map, const std::vector<double>& curvature);
+
+	/// Expects that the refinement is one of a surface of this kind, that its seams fit, and that no triangle is
+	/// flipped.
+	void expectSound(int chi, int loops) const
+	{
+		EXPECT_EQ(notPositive, 0);
+		EXPECT_LT(seamMismatch, 1e-9);
+		EXPECT_GE(minWeight, -1e-12);
+		EXPECT_LT(weightError, 1e-14);
+		EXPECT_EQ(seamsInside, 0);
+		EXPECT_EQ(eulerCharacteristic, chi);
+		EXPECT_EQ(boundaryLoops, loops);
+	}
 };
 
 /// Edges of the plane metric of a refinement that go straight on at every point which is not a
@@ -53,7 +59,7 @@ struct StraightLine
 	std::vector<double> inSpace; ///< the same on the surface
 };
 std::vector<StraightLine>
-straightLines(const SurfaceMesh& mesh, const RefinedMap& map, double angleTolerance);
+straightLines(const SurfaceMesh& mesh, const FlatMesh& map, double angleTolerance);
 
 } // namespace ricci::testing
 

@@ -12,85 +12,69 @@ namespace ricci::testing {
 // VCG meshes like those of the hosts: single precision in MeshLab, double in PyMeshLab; wedge
 // texture coordinates are float in both.
 
-class FloatEdge;
-class FloatFace;
-class FloatVertex;
-struct FloatTypes :
+template<class Scalar>
+struct VcgParts
+{
+	template<class T>
+	using Coord = vcg::vertex::Coord<vcg::Point3<Scalar>, T>;
+	template<class T>
+	using VertexNormal = vcg::vertex::Normal<vcg::Point3<Scalar>, T>;
+	template<class T>
+	using Quality = vcg::vertex::Quality<Scalar, T>;
+	template<class T>
+	using FaceNormal = vcg::face::NormalAbs<vcg::Point3<Scalar>, T>;
+};
+template<class Scalar>
+class VcgVertex;
+template<class Scalar>
+class VcgFace;
+template<class Scalar>
+class VcgEdge;
+template<class Scalar>
+struct VcgTypes :
 		public vcg::UsedTypes<
-			vcg::Use<FloatVertex>::AsVertexType,
-			vcg::Use<FloatEdge>::AsEdgeType,
-			vcg::Use<FloatFace>::AsFaceType>
+			vcg::Use<VcgVertex<Scalar>>::template AsVertexType,
+			vcg::Use<VcgEdge<Scalar>>::template AsEdgeType,
+			vcg::Use<VcgFace<Scalar>>::template AsFaceType>
 {
 };
-class FloatVertex :
+template<class Scalar>
+class VcgVertex :
 		public vcg::Vertex<
-			FloatTypes,
-			vcg::vertex::Coord3f,
-			vcg::vertex::Normal3f,
-			vcg::vertex::Qualityf,
+			VcgTypes<Scalar>,
+			VcgParts<Scalar>::template Coord,
+			VcgParts<Scalar>::template VertexNormal,
+			VcgParts<Scalar>::template Quality,
 			vcg::vertex::BitFlags>
 {
 };
-class FloatFace :
+template<class Scalar>
+class VcgFace :
 		public vcg::Face<
-			FloatTypes,
+			VcgTypes<Scalar>,
 			vcg::face::VertexRef,
-			vcg::face::Normal3f,
+			VcgParts<Scalar>::template FaceNormal,
 			vcg::face::WedgeTexCoord2f,
 			vcg::face::BitFlags>
 {
 };
-class FloatEdge : public vcg::Edge<FloatTypes, vcg::edge::VertexRef, vcg::edge::BitFlags>
+template<class Scalar>
+class VcgEdge : public vcg::Edge<VcgTypes<Scalar>, vcg::edge::VertexRef, vcg::edge::BitFlags>
 {
 };
-class FloatMesh :
-		public vcg::tri::
-			TriMesh<std::vector<FloatVertex>, std::vector<FloatFace>, std::vector<FloatEdge>>
-{
-public:
-	// vcglib leaves its attributes behind.
-	~FloatMesh() override { ClearAttributes(); }
-};
-
-class DoubleEdge;
-class DoubleFace;
-class DoubleVertex;
-struct DoubleTypes :
-		public vcg::UsedTypes<
-			vcg::Use<DoubleVertex>::AsVertexType,
-			vcg::Use<DoubleEdge>::AsEdgeType,
-			vcg::Use<DoubleFace>::AsFaceType>
-{
-};
-class DoubleVertex :
-		public vcg::Vertex<
-			DoubleTypes,
-			vcg::vertex::Coord3d,
-			vcg::vertex::Normal3d,
-			vcg::vertex::Qualityd,
-			vcg::vertex::BitFlags>
-{
-};
-class DoubleFace :
-		public vcg::Face<
-			DoubleTypes,
-			vcg::face::VertexRef,
-			vcg::face::Normal3d,
-			vcg::face::WedgeTexCoord2f,
-			vcg::face::BitFlags>
-{
-};
-class DoubleEdge : public vcg::Edge<DoubleTypes, vcg::edge::VertexRef, vcg::edge::BitFlags>
-{
-};
-class DoubleMesh :
-		public vcg::tri::
-			TriMesh<std::vector<DoubleVertex>, std::vector<DoubleFace>, std::vector<DoubleEdge>>
+template<class Scalar>
+class VcgMesh :
+		public vcg::tri::TriMesh<
+			std::vector<VcgVertex<Scalar>>,
+			std::vector<VcgFace<Scalar>>,
+			std::vector<VcgEdge<Scalar>>>
 {
 public:
 	// vcglib leaves its attributes behind.
-	~DoubleMesh() override { ClearAttributes(); }
+	~VcgMesh() override { this->ClearAttributes(); }
 };
+using FloatMesh = VcgMesh<float>;
+using DoubleMesh = VcgMesh<double>;
 
 /// Fills the empty VCG mesh \p to.
 template<class MeshType>

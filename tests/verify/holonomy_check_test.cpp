@@ -29,14 +29,12 @@ struct LaidOut
 {
 	FlippedFlow flow;
 	CutGraph cut;
-	DiskLayout disk;
+	SurfaceLayout disk;
 
 	LaidOut(const SurfaceMesh& mesh, const HyperbolicRequest& request) :
-			flow(mesh, request, 1e-12), cut(flow.cut())
+			flow(mesh, request, 1e-12), cut(flow.cut()), disk(flow.refinement(cut))
 	{
-		CommonRefinement refinement = flow.refinement(cut);
-		disk.corners = std::move(refinement.inputLayout);
-		disk.pairing = pairingOfArcs(flow.base(), cut, refinement.pairing, flow.cones());
+		disk.pairing = pairingOfArcs(flow.base(), cut, disk.pairing, flow.cones());
 	}
 
 	double error() const { return error(flow.result.target); }

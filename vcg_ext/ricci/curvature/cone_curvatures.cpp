@@ -160,8 +160,6 @@ private:
 	double m_level = 0.0;
 };
 
-constexpr double kQuarterTurn = 0.5 * kPi;
-
 /// Steps of the search, for each cone.
 constexpr int kStepsPerCone = 50;
 
@@ -175,7 +173,7 @@ public:
 			m_gram(kQuarterTurn * kQuarterTurn * gram)
 	{
 		for (int i = 0; i < size(); ++i)
-			m_turns[i] = std::min(m_max, std::round(values[i] / kQuarterTurn));
+			m_turns[i] = std::min<double>(kMaxQuarterTurns, std::round(values[i] / kQuarterTurn));
 		const Eigen::VectorXd scaled = kQuarterTurn * linear;
 		m_slope = m_gram * m_turns + scaled;
 	}
@@ -217,8 +215,8 @@ private:
 	/// Half of what the energy rises by if curvature \p i changes by one quarter turn.
 	double cost(int i, double by) const
 	{
-		return m_turns[i] + by > m_max ? std::numeric_limits<double>::infinity()
-									   : by * m_slope[i] + 0.5 * m_gram(i, i);
+		return m_turns[i] + by > kMaxQuarterTurns ? std::numeric_limits<double>::infinity()
+												  : by * m_slope[i] + 0.5 * m_gram(i, i);
 	}
 
 	void step(int i, double by)
@@ -250,7 +248,6 @@ private:
 		return found;
 	}
 
-	double m_max = std::floor(kMaxConeCurvature / kQuarterTurn + 1e-9);
 	Eigen::VectorXd m_turns;
 	Eigen::MatrixXd m_gram;  // of energies by quarter turns
 	Eigen::VectorXd m_slope; // half the derivative of the energy by m_turns

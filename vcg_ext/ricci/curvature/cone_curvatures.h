@@ -11,6 +11,7 @@ namespace ricci {
 
 /// The largest curvature of a placed cone, 3 pi / 2 in radians: its angle is at least a right one.
 constexpr double kMaxConeCurvature = 4.71238898038468985769;
+constexpr int kMaxQuarterTurns = 3; ///< the same
 
 /// The lowest energy with no entry of k above \p max: a primal active set method
 /// [Nocedal Wright 2006, 16.5], which ends at the minimum where G is positive definite (on vectors

@@ -13,19 +13,14 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 } // namespace
 
-CirclePaths::CirclePaths(
-	const Triangulation& t,
-	const EdgeArray<double>& cost,
-	CutSegments& cut,
-	const CoarseSurface* parts) :
-		m_t(t),
-		m_cost(cost), m_cut(cut), m_parts(parts),
+CirclePaths::CirclePaths(CutSegments& cut, const CoarseSurface* parts) :
+		m_t(cut.triangulation()), m_cost(cut.cost()), m_cut(cut), m_parts(parts),
 		m_isNear(parts ? parts->triangulation().vertexCount() : 0, 0),
-		m_fronts(3, Front(t.vertexCount()))
+		m_fronts(3, Front(m_t.vertexCount()))
 {
 	if (parts)
 		m_members = Adjacency<Vertex, Vertex>(m_isNear.size(), [&](const auto& add) {
-			for (const Vertex v : t.vertices())
+			for (const Vertex v : m_t.vertices())
 				if (parts->centreOf(v).isValid())
 					add(parts->centreOf(v), v);
 		});

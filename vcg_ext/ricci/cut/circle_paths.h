@@ -19,14 +19,9 @@ class CirclePaths
 public:
 	using Front = SearchFront<Vertex, Halfedge>;
 
-	/// \param cost not negative
 	/// \param cut may change between the calls
 	/// \param parts where findNear() is to have an effect; else null
-	CirclePaths(
-		const Triangulation& t,
-		const EdgeArray<double>& cost,
-		CutSegments& cut,
-		const CoarseSurface* parts);
+	CirclePaths(CutSegments& cut, const CoarseSurface* parts);
 
 	/// From now on paths run only through the parts of the surface (the vertices of one centre of
 	/// CoarseSurface) at which \p removed lies, and through those beside them.

@@ -38,11 +38,9 @@ using NodePaths = ShortestPaths<Vertex, Halfedge>;
 class ContractedGraph
 {
 public:
-	/// \param cost, forbidden must outlive the graph
-	ContractedGraph(
-		const Triangulation& t, const EdgeArray<double>& cost, const EdgeArray<char>& forbidden) :
-			m_t(t),
-			m_cost(cost), m_forbidden(forbidden), m_node(t.vertexCount())
+	/// \param cost must outlive the graph
+	ContractedGraph(const Triangulation& t, const EdgeArray<double>& cost) :
+			m_t(t), m_cost(cost), m_node(t.vertexCount())
 	{
 		for (const Vertex v : t.vertices())
 			m_node[v] = v;
@@ -60,10 +58,7 @@ public:
 
 	const Triangulation& surface() const { return m_t; }
 	double cost(Edge e) const { return m_cost[e]; }
-	bool isUsable(Edge e) const
-	{
-		return !m_t.isBoundary(e) && (m_forbidden.empty() || !m_forbidden[e]);
-	}
+	bool isUsable(Edge e) const { return !m_t.isBoundary(e) && m_cost[e] < kFar; }
 
 	Vertex node(Vertex v) const { return m_node[v]; }
 	Vertex from(Edge e) const { return node(m_t.origin(e.halfedge())); }
@@ -95,7 +90,6 @@ public:
 private:
 	const Triangulation& m_t;
 	const EdgeArray<double>& m_cost;
-	const EdgeArray<char>& m_forbidden;
 	VertexArray<Vertex> m_node;
 	std::vector<Vertex> m_loopNodes;
 	Adjacency<Vertex, Halfedge> m_halfedges;
@@ -274,14 +268,13 @@ std::vector<Edge> generators(const ContractedGraph& graph, const CutGraph& cut)
 
 /// The coarse surface on which a cut is looked for, if there is one.
 std::optional<CoarseSurface> coarseSurface(
-	const Triangulation& t,
-	const EdgeArray<double>& cost,
-	const VertexArray<char>& marked,
-	const EdgeArray<char>& forbidden)
+	const Triangulation& t, const EdgeArray<double>& cost, const VertexArray<char>& marked)
 {
 	std::optional<CoarseSurface> coarse;
 	const int count = std::max(kMinCoarseVertices, t.vertexCount() / kMaxCoarsening);
-	if (forbidden.empty() && t.vertexCount() > kMinCoarsening * count) {
+	const bool mayRunEverywhere =
+		std::all_of(cost.begin(), cost.end(), [](double c) { return c < kFar; });
+	if (mayRunEverywhere && t.vertexCount() > kMinCoarsening * count) {
 		coarse.emplace(t, cost, marked, count);
 		if (coarse->triangulation().faceCount() == 0)
 			coarse.reset();
@@ -293,11 +286,10 @@ std::optional<CoarseSurface> coarseSurface(
 EdgeArray<char> cutOf(const CoarseSurface& coarse)
 {
 	const Triangulation& t = coarse.triangulation();
-	const EdgeArray<char> nowhere;
-	const ContractedGraph graph(t, coarse.cost(), nowhere);
+	const ContractedGraph graph(t, coarse.cost());
 	const auto shorten = [&](EdgeArray<char>& isCut) {
-		CutSegments segments(t, coarse.marked(), nowhere, isCut);
-		shortenCut(coarse.cost(), segments);
+		CutSegments segments(t, coarse.cost(), coarse.marked(), isCut);
+		shortenCut(segments);
 	};
 	return shortestOfSeveral(graph, graph.terminals(coarse.marked()), shorten).isCut;
 }
@@ -305,13 +297,9 @@ EdgeArray<char> cutOf(const CoarseSurface& coarse)
 /// Shortest paths along edges.
 NodePaths pathsAlongEdges(const Triangulation& t, const EdgeArray<double>& lengths, Vertex root)
 {
-	const Adjacency<Vertex, Halfedge> halfedges(t.vertexCount(), [&](const auto& add) {
-		for (const Halfedge h : t.halfedges())
-			add(t.origin(h), h);
-	});
 	return shortestPaths<Vertex, Halfedge>(
 		t.vertexCount(), {root}, [&](Vertex v, const auto& visit) {
-			for (const Halfedge h : halfedges[v])
+			for (const Halfedge h : t.around(v))
 				visit(t.target(h), lengths[h.edge()], h);
 		});
 }
@@ -379,8 +367,7 @@ CutGraph cutAroundCentre(
 	cut.isCut = treeAround(t, paths.distance);
 	for (const Edge e : t.edges())
 		cut.isCut[e] = !t.isBoundary(e) && !cut.isCut[e];
-	const EdgeArray<char> nowhere;
-	const ContractedGraph graph(t, lengths, nowhere);
+	const ContractedGraph graph(t, lengths);
 	prune(graph, graph.terminals(marked), cut.isCut);
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);
@@ -391,20 +378,19 @@ CutGraph cutToDisk(
 	const Triangulation& t,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& marked,
-	const EdgeArray<char>& forbidden,
 	const HalfedgeArray<double>& corners)
 {
-	const ContractedGraph graph(t, cost, forbidden);
+	const ContractedGraph graph(t, cost);
 	CutGraph cut;
-	const std::optional<CoarseSurface> coarse = coarseSurface(t, cost, marked, forbidden);
+	const std::optional<CoarseSurface> coarse = coarseSurface(t, cost, marked);
 	if (coarse) {
 		cut.isCut = coarse->lifted(cutOf(*coarse));
 		prune(graph, graph.terminals(marked), cut.isCut);
 	}
 	else
 		cut = shortestOfSeveral(graph, graph.terminals(marked), [](EdgeArray<char>&) {});
-	CutSegments segments(t, marked, forbidden, cut.isCut);
-	cut.endedEarly = shortenCut(cost, segments, corners, coarse ? &*coarse : nullptr);
+	CutSegments segments(t, cost, marked, cut.isCut);
+	cut.endedEarly = shortenCut(segments, corners, coarse ? &*coarse : nullptr);
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);
 	return cut;
@@ -417,8 +403,7 @@ void dropSeamsToHoles(
 	const VertexArray<char>& marked,
 	CutGraph& cut)
 {
-	const EdgeArray<char> nowhere;
-	const ContractedGraph graph(t, cost, nowhere);
+	const ContractedGraph graph(t, cost);
 	VertexArray<char> terminal(t.vertexCount(), 0); // [node]
 	for (const Vertex v : t.vertices())
 		if (marked[v])

@@ -30,22 +30,20 @@ struct CutGraph
 /// tree through them [Mehlhorn 1988] competes as the first tree. On a closed surface several
 /// well-spread roots compete. The shortest of these cuts is shortened further by shortenCut().
 ///
-/// On a surface with thousands of vertices and no list of forbidden edges all this takes place on a
+/// On a surface with thousands of vertices on which the cut may run everywhere all this takes place on a
 /// CoarseSurface. Its cut is then shortened on the surface itself, near the place where it runs.
 ///
 /// A closed sphere with less than two marked vertices gets an empty cut. Deterministic.
 /// \param cost of a seam along the edge, positive; the length, or whatever else is to be small in
-/// sum
+/// sum; infinite where the cut must not run
 /// \param marked 1 where the cut must pass or end, inside
-/// \param forbidden 1 where the cut must not run; may be empty
 /// \param corners see shortenCut()
 /// \pre \p t is connected
-/// \throw NotConverged (NoCut) if the forbidden edges leave no cut
+/// \throw NotConverged (NoCut) if the edges of infinite cost leave no cut
 CutGraph cutToDisk(
 	const Triangulation& t,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& marked,
-	const EdgeArray<char>& forbidden,
 	const HalfedgeArray<double>& corners = {});
 
 /// The cut graph that leaves the disk with the least radius that a search finds: a shortest-path tree of

@@ -2,16 +2,17 @@
 #include "cut_segments.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace ricci {
 
 CutSegments::CutSegments(
 	const Triangulation& t,
+	const EdgeArray<double>& cost,
 	const VertexArray<char>& marked,
-	const EdgeArray<char>& forbidden,
 	EdgeArray<char>& isCut) :
 		m_t(t),
-		m_marked(marked), m_forbidden(forbidden), m_isCut(isCut), m_boundary(t.boundaryVertices()),
+		m_cost(cost), m_marked(marked), m_isCut(isCut), m_boundary(t.boundaryVertices()),
 		m_first(t.vertexCount()), m_degree(t.vertexCount(), 0), m_onGraph(t.vertexCount()),
 		m_free(t.edgeCount()), m_place(t.halfedgeCount(), -1)
 {
@@ -42,7 +43,7 @@ void CutSegments::noteVertex(Vertex v)
 
 void CutSegments::noteEdge(Edge e)
 {
-	m_free[e] = !isBorder(e) && (m_forbidden.empty() || !m_forbidden[e]);
+	m_free[e] = !isBorder(e) && m_cost[e] < std::numeric_limits<double>::infinity();
 }
 
 void CutSegments::set(Edge e, bool cut)

@@ -18,16 +18,17 @@ class CutSegments
 public:
 	using Around = Triangulation::Around;
 
+	/// \param cost of the edges, not negative; infinite where no path may run
 	/// \param marked 1 at vertices that the cut must reach
-	/// \param forbidden 1 on edges where no path may run; may be empty
 	/// \param isCut kept up to date
 	CutSegments(
 		const Triangulation& t,
+		const EdgeArray<double>& cost,
 		const VertexArray<char>& marked,
-		const EdgeArray<char>& forbidden,
 		EdgeArray<char>& isCut);
 
 	const Triangulation& triangulation() const { return m_t; }
+	const EdgeArray<double>& cost() const { return m_cost; }
 	bool isCut(Edge e) const { return m_isCut[e]; }
 	bool isMarked(Vertex v) const { return m_marked[v]; }
 
@@ -40,7 +41,7 @@ public:
 	/// Whether paths end at \p v: it lies on the cut or the boundary, or the cut must reach it.
 	bool isOnGraph(Vertex v) const { return m_onGraph[v]; }
 
-	/// Whether a path may run along \p e: not cut, not on the boundary, not forbidden.
+	/// Whether a path may run along \p e: not cut, not on the boundary, not of infinite cost.
 	bool isFree(Edge e) const { return m_free[e]; }
 
 	/// The halfedges that leave \p v, clockwise from the lowest one inside the surface. Of equally
@@ -122,8 +123,8 @@ private:
 	void noteLoneMark(Vertex v);
 
 	const Triangulation& m_t;
+	const EdgeArray<double>& m_cost;
 	const VertexArray<char>& m_marked;
-	const EdgeArray<char>& m_forbidden;
 	EdgeArray<char>& m_isCut;
 	VertexArray<char> m_boundary;
 	VertexArray<Halfedge> m_first; // lowest halfedge inside that leaves the vertex

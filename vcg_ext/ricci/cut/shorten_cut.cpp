@@ -38,14 +38,10 @@ class CutShortener
 {
 public:
 	CutShortener(
-		const EdgeArray<double>& cost,
-		CutSegments& cut,
-		const HalfedgeArray<double>& corners,
-		const CoarseSurface* parts) :
+		CutSegments& cut, const HalfedgeArray<double>& corners, const CoarseSurface* parts) :
 			m_t(cut.triangulation()),
-			m_cost(cost), m_cut(cut), m_wedges(m_t, cut, corners), m_paths(m_t, cost, cut, parts),
-			m_parts(parts), m_changedAt(parts ? parts->triangulation().vertexCount() : 0, 0),
-			m_front(0)
+			m_cut(cut), m_wedges(m_t, cut, corners), m_paths(cut, parts), m_parts(parts),
+			m_changedAt(parts ? parts->triangulation().vertexCount() : 0, 0), m_front(0)
 	{
 	}
 
@@ -327,15 +323,14 @@ private:
 			}
 		};
 		for (const Halfedge h : starts)
-			goOn(h, m_cost[h.edge()]);
+			goOn(h, m_cut.cost()[h.edge()]);
 		for (Vertex v; (v = m_front.next(minGrowth + maxLength)).isValid();)
 			for (const Halfedge h : m_cut.around(v))
-				goOn(h, m_front[v] + m_cost[h.edge()]);
+				goOn(h, m_front[v] + m_cut.cost()[h.edge()]);
 		return best;
 	}
 
 	const Triangulation& m_t;
-	const EdgeArray<double>& m_cost;
 	CutSegments& m_cut;
 	ConeWedges m_wedges;
 	CirclePaths m_paths;
@@ -355,13 +350,9 @@ private:
 
 } // namespace
 
-bool shortenCut(
-	const EdgeArray<double>& cost,
-	CutSegments& cut,
-	const HalfedgeArray<double>& corners,
-	const CoarseSurface* parts)
+bool shortenCut(CutSegments& cut, const HalfedgeArray<double>& corners, const CoarseSurface* parts)
 {
-	return !cut.segments().empty() && CutShortener(cost, cut, corners, parts).run();
+	return !cut.segments().empty() && CutShortener(cut, corners, parts).run();
 }
 
 } // namespace ricci

@@ -49,15 +49,13 @@ namespace ricci {
 ///
 /// Deterministic: of equally short paths always the same is taken. Between two moves the complement
 /// of the cut is a disk.
-/// \param cost positive
-/// \param cut changed in place
+/// \param cut changed in place; its costs are positive
 /// \param corners angles at cones, from coneCorners(); empty: wedges may be as wide as they like
 /// \param parts a coarse surface, with which every move looks for paths only in the parts (vertices of
 /// one centre) at which what it takes out lies, and in those beside them; null: everywhere
 /// \return whether a bound on the work has ended it
 /// \pre the surface opened along \p cut is a disk, or nothing is cut
 bool shortenCut(
-	const EdgeArray<double>& cost,
 	CutSegments& cut,
 	const HalfedgeArray<double>& corners = {},
 	const CoarseSurface* parts = nullptr);

@@ -5,6 +5,7 @@
 #include "../base/tolerances.h"
 #include "../math/line_search.h"
 #include "../math/orientation.h"
+#include "../metric/area.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,12 +66,7 @@ struct PlacedTriangle
 			scale(*std::max_element(sides.begin(), sides.end()))
 	{
 		const double a = sides[0] / scale, b = sides[1] / scale, c = sides[2] / scale;
-		// Heron's formula as [Kahan 2014] rounds it well.
-		std::array<double, 3> s{a, b, c};
-		std::sort(s.begin(), s.end());
-		const double square = (s[2] + (s[1] + s[0])) * (s[0] - (s[2] - s[1])) *
-							  (s[0] + (s[2] - s[1])) * (s[2] + (s[1] - s[0]));
-		area = 0.25 * std::sqrt(std::max(square, 0.0));
+		area = euclideanArea({a, b, c});
 		second = a;
 		third = {0.5 * (a + (c - b) * (c + b) / a), 2.0 * area / a};
 	}

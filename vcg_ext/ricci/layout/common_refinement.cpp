@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common_refinement.h"
 
-#include "../base/memory_estimate.h"
 #include "../base/task.h"
 #include "../math/disjoint_sets.h"
-#include "../overlay/piece_faces.h"
 #include "../overlay/piece_triangulation.h"
 #include "end_sheets.h"
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <utility>
@@ -17,11 +14,8 @@ namespace ricci {
 
 namespace {
 
-/// Shares of the work that are done after the division of the start triangles, after the layout.
-constexpr double kDivided = 0.5, kLaidOut = 0.85;
-
-constexpr const char* kOverlay = "Overlay of the two triangulations";
-constexpr const char* kPlacing = "Placing the pieces of the overlay";
+/// Share of the work on the overlay that is done after its layout.
+constexpr double kLaidOut = 0.85;
 
 /// The edges of the input on which the overlay is open: the cut, and the border of the wanted part.
 EdgeArray<char>
@@ -81,19 +75,19 @@ public:
 	RefinementMaker(
 		const FlowDomain& domain,
 		const FlowResult& flow,
-		LinkedPieces linked,
+		OverlayPieces pieces,
 		const EdgeArray<char>& isCut) :
 			m_surface(domain.surface),
 			m_flow(flow), m_end(flow.metric->triangulation()), m_surfaceCut(isCut),
-			m_isCut(opened(domain, flow, isCut)), m_linked(std::move(linked))
+			m_isCut(opened(domain, flow, isCut)), m_pieces(std::move(pieces))
 	{
 	}
 
-	CommonRefinement run()
+	SurfaceLayout run()
 	{
 		layOut();
-		advance(kLaidOut, kPlacing);
-		m_linked.links = {};
+		advance(kLaidOut, "Placing the pieces of the overlay");
+		m_pieces.links = {};
 		numberPoints();
 		emitPieces();
 		placeSurface();
@@ -104,14 +98,11 @@ private:
 	/// Lays the sheets out and places the pieces in them.
 	void layOut()
 	{
-		const EndSheets sheets = makeSheets(m_linked, m_flow, m_isCut);
-		const EdgeArray<char> noCut(sheets.triangulation.edgeCount(), 0);
+		const EndSheets sheets = makeSheets(m_pieces, m_flow, m_isCut);
 		if (m_flow.target.background == Background::EuclideanPlane)
-			placeInPlane(
-				sheets, layOutInPlane(sheets.triangulation, sheets.lengths, sheets.angles, noCut));
+			placeInPlane(sheets, layOutInPlane(sheets));
 		else {
-			const HyperbolicLayout disk =
-				layOutInDisk(sheets.triangulation, sheets.lengths, sheets.angles, noCut);
+			const HyperbolicLayout disk = layOutInDisk(sheets);
 			placeInDisk(sheets, disk);
 			findPairings(sheets, disk);
 		}
@@ -121,7 +112,7 @@ private:
 	{
 		placePieces([&](int p, int corner) {
 			const auto h = sheets.triangulation.halfedges(sheets.of[p]);
-			const auto weight = inEndTriangle(m_linked, m_end, p, corner);
+			const auto weight = inEndTriangle(m_pieces, m_end, p, corner);
 			Point2 x{0.0, 0.0};
 			for (std::size_t k = 0; k < 3; ++k)
 				x += weight[k] * plane[h[k]];
@@ -136,7 +127,7 @@ private:
 		const auto inSheet = [&](int p, int corner) {
 			const Halfedge h = t.halfedge(sheets.of[p]);
 			return hyperbolicPoint(
-				inEndTriangle(m_linked, m_end, p, corner),
+				inEndTriangle(m_pieces, m_end, p, corner),
 				sheets.lengths[h.edge()],
 				sheets.lengths[t.previous(h).edge()],
 				sheets.lengths[t.next(h).edge()],
@@ -147,11 +138,10 @@ private:
 			const ExtendedIsometry& frame = disk.frame[t.halfedge(sheets.of[p])];
 			return asPoint(std::complex<double>(frame(inSheet(p, corner).inDisk())));
 		});
-		const OverlayPieces& pieces = m_linked.pieces;
 		m_kleinPoint.reserve(m_point.size());
-		for (int p = 0; p < pieces.count(); ++p) {
+		for (int p = 0; p < m_pieces.count(); ++p) {
 			checkpointNowAndThen(positionOf(p));
-			for (int i = 0; i < pieces.size(p); ++i)
+			for (int i = 0; i < m_pieces.size(p); ++i)
 				m_kleinPoint.push_back(inSheet(p, i).inKleinModel());
 		}
 	}
@@ -161,20 +151,19 @@ private:
 	template<class Place>
 	void placePieces(Place place)
 	{
-		const OverlayPieces& pieces = m_linked.pieces;
-		DisjointSets sets(pieces.cornerCount());
-		for (const auto& link : m_linked.links) {
+		DisjointSets sets(m_pieces.cornerCount());
+		for (const auto& link : m_pieces.links) {
 			const PieceSide &a = link[0], &b = link[1];
-			if (!b.isValid() || isOnCut(m_linked.at(a), m_isCut))
+			if (!b.isValid() || isOnCut(m_pieces.at(a), m_isCut))
 				continue;
-			sets.merge(pieces.corner(a.piece, a.corner), pieces.corner(b.piece, b.corner + 1));
-			sets.merge(pieces.corner(a.piece, a.corner + 1), pieces.corner(b.piece, b.corner));
+			sets.merge(m_pieces.corner(a.piece, a.corner), m_pieces.corner(b.piece, b.corner + 1));
+			sets.merge(m_pieces.corner(a.piece, a.corner + 1), m_pieces.corner(b.piece, b.corner));
 		}
 		m_point.resize(sets.size());
-		for (int p = 0; p < pieces.count(); ++p) {
+		for (int p = 0; p < m_pieces.count(); ++p) {
 			checkpointNowAndThen(positionOf(p));
-			for (int i = 0; i < pieces.size(p); ++i) {
-				const int corner = pieces.corner(p, i), first = sets.find(corner);
+			for (int i = 0; i < m_pieces.size(p); ++i) {
+				const int corner = m_pieces.corner(p, i), first = sets.find(corner);
 				m_point[corner] = first == corner ? place(p, i) : m_point[first];
 			}
 		}
@@ -185,12 +174,12 @@ private:
 	{
 		EdgeArray<SidePairing>& pairing = m_result.pairing;
 		pairing.resize(m_surface.triangulation.edgeCount());
-		for (const auto& link : m_linked.links) {
+		for (const auto& link : m_pieces.links) {
 			if (!link[1].isValid())
 				continue;
-			const bool firstIsLeft = m_linked.at(link[0]).input.isFirst();
+			const bool firstIsLeft = m_pieces.at(link[0]).input.isFirst();
 			const PieceSide &left = link[firstIsLeft ? 0 : 1], &right = link[firstIsLeft ? 1 : 0];
-			const PieceCorner& side = m_linked.at(left);
+			const PieceCorner& side = m_pieces.at(left);
 			if (!isOnCut(side, m_isCut))
 				continue;
 			SidePairing& own = pairing[side.input.edge()];
@@ -200,32 +189,24 @@ private:
 				own.offer(disk.frame[a[0]], disk.frame[b[0]]);
 				continue;
 			}
-			const Halfedge h = a[positionIn(left.piece, side.end)];
-			const Halfedge twin = b[positionIn(right.piece, side.end.twin())];
+			const Halfedge h = a[m_end.corner(side.end).index()];
+			const Halfedge twin = b[m_end.corner(side.end.twin()).index()];
 			offerPairing(disk, sheets.lengths[h.edge()], h, twin, own);
 		}
-	}
-
-	/// Which side of a piece's end triangle \p h is.
-	std::size_t positionIn(int piece, Halfedge h) const
-	{
-		const auto sides = m_end.halfedges(m_linked.endFace[piece]);
-		return static_cast<std::size_t>(std::find(sides.begin(), sides.end(), h) - sides.begin());
 	}
 
 	/// Numbers the surface's vertices, which are the first nodes, and the nodes in use.
 	void numberPoints()
 	{
-		OverlayPieces& pieces = m_linked.pieces;
 		const int vertices = m_surface.triangulation.vertexCount();
-		Array<int> point(pieces.nodes.size(), -1); // [node]
+		Array<int> point(m_pieces.nodes.size(), -1); // [node]
 		for (int v = 0; v < vertices; ++v) {
 			point[v] = v;
 			m_node.push_back(v);
 		}
-		for (int p = 0; p < pieces.count(); ++p)
-			for (int i = 0; i < pieces.size(p); ++i) {
-				PieceCorner& c = pieces(p, i);
+		for (int p = 0; p < m_pieces.count(); ++p)
+			for (int i = 0; i < m_pieces.size(p); ++i) {
+				PieceCorner& c = m_pieces(p, i);
 				if (point[c.node] < 0) {
 					point[c.node] = m_node.size();
 					m_node.push_back(c.node);
@@ -240,49 +221,47 @@ private:
 		Array<SurfacePoint> points;
 		std::vector<Point3> space; // [point]
 		for (const int node : m_node) {
-			points.push_back(m_linked.pieces.nodes[node].point);
+			points.push_back(m_pieces.nodes[node].point);
 			space.push_back(
-				placeOnSurface(m_linked.pieces.nodes[node].point, m_surface.positions.values()));
+				placeOnSurface(m_pieces.nodes[node].point, m_surface.positions.values()));
 		}
 		Array<Triangle> triangles;
 		Array<Triangle2> plane;
 		Array<int> face;
-		for (int p = 0; p < m_linked.pieces.count(); ++p) {
-			const OverlayPieces& pieces = m_linked.pieces;
-			const int first = pieces.corner(p, 0), size = pieces.size(p);
+		for (int p = 0; p < m_pieces.count(); ++p) {
+			const int first = m_pieces.corner(p, 0), size = m_pieces.size(p);
 			const Point2* placed = m_point.data() + first;
 			// Geodesics are straight in the Klein model.
 			const Point2* straight = m_kleinPoint.empty() ? placed : m_kleinPoint.data() + first;
 			std::vector<Point3> inSpace;
-			for (const PieceCorner& c : pieces.corners(p))
+			for (const PieceCorner& c : m_pieces.corners(p))
 				inSpace.push_back(space[positionOf(c.node)]);
 			for (const auto& t : triangulatePiece({straight, straight + size}, inSpace)) {
 				const auto point = [&](std::size_t k) {
-					return pieces(p, static_cast<int>(t[k])).node;
+					return m_pieces(p, static_cast<int>(t[k])).node;
 				};
 				triangles.push_back({point(0), point(1), point(2)});
 				plane.push_back({placed[t[0]], placed[t[1]], placed[t[2]]});
-				face.push_back(m_linked.inputFace[p].number());
+				face.push_back(m_pieces.inputFace[p].number());
 			}
 		}
-		m_result.mesh = flatMeshOf(std::move(triangles), plane, space);
-		m_result.mesh.source = std::move(points);
-		m_result.mesh.face = std::move(face);
+		m_result.refinement = flatMeshOf(std::move(triangles), plane, space);
+		m_result.refinement.source = std::move(points);
+		m_result.refinement.face = std::move(face);
 	}
 
 	/// The layout of the corners of the surface's own triangles.
 	void placeSurface()
 	{
 		const Triangulation& t = m_surface.triangulation;
-		PlanarLayout& layout = m_result.inputLayout;
+		PlanarLayout& layout = m_result.corners;
 		layout = cornerWedges(t, m_surfaceCut);
-		const OverlayPieces& pieces = m_linked.pieces;
-		for (int p = 0; p < pieces.count(); ++p)
-			for (int i = 0; i < pieces.size(p); ++i) {
-				const Halfedge h = pieces(p, i).inputCorner;
+		for (int p = 0; p < m_pieces.count(); ++p)
+			for (int i = 0; i < m_pieces.size(p); ++i) {
+				const Halfedge h = m_pieces(p, i).inputCorner;
 				// In a piece of a face that is kept it is a halfedge of the surface, and the same one.
 				if (h.isValid() && !m_flow.input.isExterior(h))
-					layout[h] = m_point[pieces.corner(p, i)];
+					layout[h] = m_point[m_pieces.corner(p, i)];
 			}
 	}
 
@@ -292,35 +271,22 @@ private:
 	const EdgeArray<char>& m_surfaceCut; // [surface edge]
 	const EdgeArray<char> m_isCut;       // [input edge]
 
-	LinkedPieces m_linked;
+	OverlayPieces m_pieces;
 	Array<Point2> m_point;      // [corner of a piece] in the plane or the disk
 	Array<Point2> m_kleinPoint; // [corner of a piece] as its own sheet sees it; hyperbolic only
 	Array<int> m_node;          // [point of the result]
-	CommonRefinement m_result;
+	SurfaceLayout m_result;
 };
 
 } // namespace
 
-LinkedPieces overlayOf(const FlowDomain& domain, const FlowResult& flow)
-{
-	advance(0.0, kOverlay);
-	OverlayPieces pieces = [&] {
-		const Task dividing(0.0, kDivided);
-		return divideStartTriangles(flow);
-	}();
-	advance(kDivided, kOverlay);
-	const Triangulation& end = flow.metric->triangulation();
-	requireOverlayMemory(static_cast<std::size_t>(pieces.nodes.size() - end.vertexCount()), true);
-	return linkPieces(std::move(pieces), flow.input, end, domain.surface.triangulation.faceCount());
-}
-
-CommonRefinement commonRefinement(
+SurfaceLayout layOutRefinement(
 	const FlowDomain& domain,
 	const FlowResult& flow,
-	LinkedPieces linked,
+	OverlayPieces pieces,
 	const EdgeArray<char>& isCut)
 {
-	return RefinementMaker(domain, flow, std::move(linked), isCut).run();
+	return RefinementMaker(domain, flow, std::move(pieces), isCut).run();
 }
 
 } // namespace ricci

@@ -7,7 +7,6 @@
 #include "../surface/normal_coordinates.h"
 #include "end_sheets.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace ricci {
@@ -89,13 +88,6 @@ public:
 		return m_isDivided[m_end.face(h)] ? m_cut.cornerCurves(h).emanateFromI + 1 : 1;
 	}
 
-	/// Which of its triangle's halfedges end halfedge \p h is.
-	int place(Halfedge h) const
-	{
-		const auto sides = m_end.halfedges(m_end.face(h));
-		return static_cast<int>(std::find(sides.begin(), sides.end(), h) - sides.begin());
-	}
-
 	/// The sheets on the same side of the surface's boundary as \p root, glued along the end edges
 	/// that are not on the cut.
 	/// \param number becomes [sheet] its face; none beyond the boundary
@@ -109,7 +101,7 @@ public:
 			const Halfedge h = e.halfedge(), twin = h.twin();
 			const int n = m_cut.crossings(e);
 			for (int i = 0; i <= n; ++i) {
-				const Corner a(beside(h, i), place(h)), b(beside(twin, n - i), place(twin));
+				const Corner a = sideOf(beside(h, i), h), b = sideOf(beside(twin, n - i), twin);
 				across[a] = b;
 				across[b] = a;
 				joined.merge(a.face(), b.face());
@@ -140,6 +132,12 @@ public:
 	}
 
 private:
+	/// The side of a sheet that is end halfedge \p h.
+	Corner sideOf(int sheet, Halfedge h) const
+	{
+		return {sheet, static_cast<int>(m_end.corner(h).index())};
+	}
+
 	const Triangulation& m_end;
 	const NormalCoordinates& m_cut;
 	Array<Face> m_endFace;       // [sheet]
@@ -166,9 +164,20 @@ public:
 		takeMetric(flow, m_sheets);
 	}
 
-	const EndSheets& sheets() const { return m_sheets; }
-	Face root() const { return m_root; } ///< one of the sheets
+	SurfaceLayout inPlane() const
+	{
+		const PlanarLayout plane = layOutInPlane(m_sheets, m_root);
+		checkpoint();
+		return {layout([&](Halfedge h) { return plane[h]; }), {}, {}};
+	}
 
+	SurfaceLayout inDisk() const
+	{
+		const HyperbolicLayout disk = layOutInDisk(m_sheets);
+		return {layout([&](Halfedge h) { return asPoint(disk[h]); }), pairing(disk), {}};
+	}
+
+private:
 	/// \param place gives the point at the corner of a sheet that a halfedge of the sheets leaves
 	template<class Place>
 	PlanarLayout layout(const Place& place) const
@@ -206,7 +215,7 @@ public:
 			}
 			const auto inSheet = [&](Halfedge h) {
 				const Face sheet = m_number[m_parts.beside(h, 0)];
-				return sheets.halfedges(sheet)[positionOf(m_parts.place(h))];
+				return sheets.halfedges(sheet)[m_end.corner(h).index()];
 			};
 			const Halfedge h = inSheet(curves[e].first), twin = inSheet(curves[e].first.twin());
 			offerPairing(disk, m_sheets.lengths[h.edge()], h, twin, pairing[e]);
@@ -214,7 +223,6 @@ public:
 		return pairing;
 	}
 
-private:
 	/// Calls \p use(corner, sheet, k): corner k of the sheet is in the wedge of this corner of the surface.
 	template<class Use>
 	void eachCorner(const Use& use) const
@@ -265,60 +273,19 @@ PlanarLayout carriedTo(
 	return carried;
 }
 
-bool hasFlips(const FlowResult& flow)
-{
-	return flow.input.faceCount() > 0;
-}
-
 } // namespace
 
-PlanarLayout
+SurfaceLayout
 layOutCorners(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut)
 {
+	if (flow.target.background == Background::HyperbolicPlane)
+		return CornersOnSheets(domain, flow, isCut).inDisk();
+	if (flow.flipCount() > 0 || flow.doubled || domain.holes > 0)
+		return CornersOnSheets(domain, flow, isCut).inPlane();
 	const CurvatureMap& metric = *flow.metric;
 	const Triangulation& end = metric.triangulation();
-	const bool hasSurfacesEdges = flow.flipCount() == 0 && !flow.doubled && domain.holes == 0;
-	if (hasSurfacesEdges)
-		return carriedTo(
-			domain.surface.triangulation,
-			isCut,
-			end,
-			layOutInPlane(end, metric.lengths(), metric.angles(), isCut));
-	const CornersOnSheets corners(domain, flow, isCut);
-	const EndSheets& sheets = corners.sheets();
-	const Triangulation& t = sheets.triangulation;
-	const EdgeArray<char> noCut(t.edgeCount(), 0);
-	const PlanarLayout plane =
-		layOutInPlane(t, sheets.lengths, sheets.angles, noCut, corners.root());
-	checkpoint();
-	return corners.layout([&](Halfedge h) { return plane[h]; });
-}
-
-DiskLayout
-layOutCornersInDisk(const FlowDomain& domain, const FlowResult& flow, const EdgeArray<char>& isCut)
-{
-	const Triangulation& t = domain.surface.triangulation;
-	if (hasFlips(flow)) {
-		const CornersOnSheets corners(domain, flow, isCut);
-		const EndSheets& sheets = corners.sheets();
-		const EdgeArray<char> noCut(sheets.triangulation.edgeCount(), 0);
-		const HyperbolicLayout disk =
-			layOutInDisk(sheets.triangulation, sheets.lengths, sheets.angles, noCut);
-		return {
-			corners.layout([&](Halfedge h) { return asPoint(disk[h]); }), corners.pairing(disk)};
-	}
-	const EdgeArray<double>& lengths = flow.metric->lengths();
-	const HyperbolicLayout disk = layOutInDisk(t, lengths, flow.metric->angles(), isCut);
-	DiskLayout layout;
-	layout.pairing.resize(t.edgeCount());
-	for (const Edge e : t.edges())
-		if (isCut[e])
-			offerPairing(disk, lengths[e], e.halfedge(), e.halfedge().twin(), layout.pairing[e]);
-	layout.corners = cornerWedges(t, isCut);
-	for (int i = t.halfedgeCount(); i-- > 0;) // the lowest halfedge gives a wedge its point
-		if (const Halfedge h(i); !t.isExterior(h))
-			layout.corners[h] = asPoint(disk[h]);
-	return layout;
+	const PlanarLayout plane = layOutInPlane(end, metric.lengths(), metric.angles(), isCut);
+	return {carriedTo(domain.surface.triangulation, isCut, end, plane), {}, {}};
 }
 
 } // namespace ricci

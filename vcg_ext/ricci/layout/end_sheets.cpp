@@ -3,7 +3,6 @@
 
 #include "../math/disjoint_sets.h"
 
-#include <algorithm>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -15,17 +14,19 @@ namespace {
 class SheetMaker
 {
 public:
-	SheetMaker(const LinkedPieces& linked, const Triangulation& end, const EdgeArray<char>& isCut) :
-			m_linked(linked), m_end(end), m_isCut(isCut), m_sets(linked.pieces.count())
+	SheetMaker(
+		const OverlayPieces& pieces, const Triangulation& end, const EdgeArray<char>& isCut) :
+			m_pieces(pieces),
+			m_end(end), m_isCut(isCut), m_sets(pieces.count())
 	{
 	}
 
 	EndSheets run()
 	{
-		for (const auto& link : m_linked.links) {
+		for (const auto& link : m_pieces.links) {
 			if (!link[1].isValid())
 				continue;
-			const PieceCorner& side = m_linked.at(link[0]);
+			const PieceCorner& side = m_pieces.at(link[0]);
 			if (!isOnCut(side, m_isCut) && !side.end.isValid())
 				m_sets.merge(link[0].piece, link[1].piece);
 		}
@@ -42,11 +43,11 @@ private:
 	{
 		m_triangles.clear();
 		m_sheets.endFace.clear();
-		m_sheets.of.assign(m_linked.pieces.count(), Face());
+		m_sheets.of.assign(m_pieces.count(), Face());
 		for (const int p : m_sheets.of.indices()) {
 			if (m_sets.find(p) != p)
 				continue;
-			const Face f = m_linked.endFace[p];
+			const Face f = m_pieces.endFace[p];
 			const auto corner = m_end.vertices(f);
 			m_sheets.of[p] = Face(m_sheets.endFace.size());
 			m_sheets.endFace.push_back(f);
@@ -59,10 +60,7 @@ private:
 	/// Number of the side of a piece's sheet that is end halfedge h.
 	Corner sideOf(int piece, Halfedge h) const
 	{
-		const Face sheet = m_sheets.of[piece];
-		const auto sides = m_end.halfedges(m_sheets.endFace[sheet]);
-		const auto found = std::find(sides.begin(), sides.end(), h);
-		return {sheet.number(), static_cast<int>(found - sides.begin())};
+		return {m_sheets.of[piece].number(), static_cast<int>(m_end.corner(h).index())};
 	}
 
 	/// Glues the sheets. The cut is straight in another metric than the end edges and may cross one
@@ -74,10 +72,10 @@ private:
 		CornerArray<int> pieceAcross(3 * m_sheets.endFace.size(), -1); // [side] of the other sheet
 		m_glued.assign(3 * m_sheets.endFace.size(), Corner());
 		bool fits = true;
-		for (const auto& link : m_linked.links) {
+		for (const auto& link : m_pieces.links) {
 			if (!link[1].isValid())
 				continue;
-			const PieceCorner& side = m_linked.at(link[0]);
+			const PieceCorner& side = m_pieces.at(link[0]);
 			if (isOnCut(side, m_isCut) || !side.end.isValid())
 				continue;
 			const Corner a = sideOf(link[0].piece, side.end);
@@ -96,7 +94,7 @@ private:
 		return fits;
 	}
 
-	const LinkedPieces& m_linked;
+	const OverlayPieces& m_pieces;
 	const Triangulation& m_end;
 	const EdgeArray<char>& m_isCut;
 	DisjointSets m_sets; // of pieces: those of one sheet
@@ -122,10 +120,22 @@ void takeMetric(const FlowResult& flow, EndSheets& sheets)
 	}
 }
 
-EndSheets
-makeSheets(const LinkedPieces& linked, const FlowResult& flow, const EdgeArray<char>& isCut)
+PlanarLayout layOutInPlane(const EndSheets& sheets, Face root)
 {
-	EndSheets sheets = SheetMaker(linked, flow.metric->triangulation(), isCut).run();
+	const EdgeArray<char> noCut(sheets.triangulation.edgeCount(), 0);
+	return layOutInPlane(sheets.triangulation, sheets.lengths, sheets.angles, noCut, root);
+}
+
+HyperbolicLayout layOutInDisk(const EndSheets& sheets)
+{
+	const EdgeArray<char> noCut(sheets.triangulation.edgeCount(), 0);
+	return layOutInDisk(sheets.triangulation, sheets.lengths, sheets.angles, noCut);
+}
+
+EndSheets
+makeSheets(const OverlayPieces& pieces, const FlowResult& flow, const EdgeArray<char>& isCut)
+{
+	EndSheets sheets = SheetMaker(pieces, flow.metric->triangulation(), isCut).run();
 	takeMetric(flow, sheets);
 	return sheets;
 }

@@ -2,7 +2,9 @@
 #ifndef RICCI_END_SHEETS_H
 #define RICCI_END_SHEETS_H
 
-#include "../overlay/piece_faces.h"
+#include "../overlay/overlay_pieces.h"
+#include "hyperbolic_layout.h"
+#include "planar_layout.h"
 
 namespace ricci {
 
@@ -27,11 +29,15 @@ struct EndSheets
 /// Gives the sheets the lengths and angles of their end triangles.
 void takeMetric(const FlowResult& flow, EndSheets& sheets);
 
+/// Lays the sheets out, see layOutInPlane() and layOutInDisk().
+PlanarLayout layOutInPlane(const EndSheets& sheets, Face root = Face(0));
+HyperbolicLayout layOutInDisk(const EndSheets& sheets);
+
 /// Makes the sheets that belong to the pieces of an overlay, glued along end edges where the pieces
 /// meet off the cut. They form a surface without a cut.
 /// \param isCut [input edge]
 EndSheets
-makeSheets(const LinkedPieces& linked, const FlowResult& flow, const EdgeArray<char>& isCut);
+makeSheets(const OverlayPieces& pieces, const FlowResult& flow, const EdgeArray<char>& isCut);
 
 } // namespace ricci
 

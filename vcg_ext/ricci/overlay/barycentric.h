@@ -63,12 +63,9 @@ using FaceWeights = std::array<double, 3>;
 inline FaceWeights pointOnSide(const Triangulation& t, Halfedge h, double share)
 {
 	FaceWeights p{0, 0, 0};
-	const auto sides = t.halfedges(t.face(h));
-	for (std::size_t k = 0; k < 3; ++k)
-		if (sides[k] == h) {
-			p[k] = 1.0 - share;
-			p[(k + 1) % 3] = share;
-		}
+	const std::size_t k = t.corner(h).index();
+	p[k] = 1.0 - share;
+	p[(k + 1) % 3] = share;
 	return p;
 }
 

@@ -60,59 +60,45 @@ SurfacePoint between(const SurfacePoint& a, const SurfacePoint& b, double t)
 	return p;
 }
 
-/// Where a node is on the input: exact on input edges, straight between them.
-class InputLocator
+SurfacePoint atVertex(Vertex v)
 {
-public:
-	InputLocator(const FlowResult& flow, const EdgeCrossings& crossings) :
-			m_input(flow.input), m_start(flow.start.mesh.triangulation), m_crossings(crossings)
-	{
-	}
+	SurfacePoint p;
+	p.vertex[0] = v.number();
+	return p;
+}
 
-	/// \p nodes are those of start edge e, \p first is the first one's overlay node.
-	void locate(Edge e, const EdgeNodes& nodes, OverlayNode* first) const
-	{
-		const auto ends = m_start.ends(e);
-		SurfacePoint before = atVertex(ends[0]);
-		double beforeShare = 0.0;
-		for (int k = 0; k < nodes.size(); ++k) {
-			SurfacePoint& point = first[k].point;
-			if (nodes[k].input >= 0) {
-				point = onInputEdge(m_crossings.inputCrossings[nodes[k].input]);
-				before = point;
-				beforeShare = nodes[k].share;
-				continue;
-			}
-			int next = k + 1;
-			while (next < nodes.size() && nodes[next].input < 0)
-				++next;
-			const bool isLast = next == nodes.size();
-			const SurfacePoint after =
-				isLast ? atVertex(ends[1])
-					   : onInputEdge(m_crossings.inputCrossings[nodes[next].input]);
-			const double afterShare = isLast ? 1.0 : nodes[next].share;
-			const double gap = afterShare - beforeShare;
-			point = between(before, after, gap > 0.0 ? (nodes[k].share - beforeShare) / gap : 0.5);
+/// Where the nodes of start edge \p e are on the input: exact on input edges, straight between them.
+/// \param first the first one's overlay node
+void locateOnInput(
+	const FlowResult& flow,
+	const EdgeCrossings& crossings,
+	Edge e,
+	const EdgeNodes& nodes,
+	OverlayNode* first)
+{
+	const auto ends = flow.start.mesh.triangulation.ends(e);
+	const auto onInputEdge = [&](const NodeOnEdge& node) {
+		const InputCrossing& x = crossings.inputCrossings[node.input];
+		return pointOfEdge(flow.input, x.edge, x.onInput);
+	};
+	SurfacePoint before = atVertex(ends[0]);
+	double beforeShare = 0.0;
+	for (int k = 0; k < nodes.size(); ++k) {
+		SurfacePoint& point = first[k].point;
+		if (nodes[k].input >= 0) {
+			before = point = onInputEdge(nodes[k]);
+			beforeShare = nodes[k].share;
+			continue;
 		}
+		int next = k + 1;
+		while (next < nodes.size() && nodes[next].input < 0)
+			++next;
+		const bool isLast = next == nodes.size();
+		const SurfacePoint after = isLast ? atVertex(ends[1]) : onInputEdge(nodes[next]);
+		const double gap = (isLast ? 1.0 : nodes[next].share) - beforeShare;
+		point = between(before, after, gap > 0.0 ? (nodes[k].share - beforeShare) / gap : 0.5);
 	}
-
-	static SurfacePoint atVertex(Vertex v)
-	{
-		SurfacePoint p;
-		p.vertex[0] = v.number();
-		return p;
-	}
-
-private:
-	SurfacePoint onInputEdge(const InputCrossing& x) const
-	{
-		return pointOfEdge(m_input, x.edge, x.onInput);
-	}
-
-	const Triangulation& m_input;
-	const Triangulation& m_start;
-	const EdgeCrossings& m_crossings;
-};
+}
 
 /// Where a node is on the end: exact on end edges; between two of them straight in the homogeneous
 /// coordinates of the start edge.
@@ -279,14 +265,13 @@ StartEdgeNodes::StartEdgeNodes(
 	const FlowResult& flow, const EdgeCrossings& crossings, Array<OverlayNode>& nodes)
 {
 	const Triangulation& start = flow.start.mesh.triangulation;
-	const InputLocator input(flow, crossings);
 	const EndLocator end(flow, crossings);
 	m_vertexCount = start.vertexCount();
 	m_indexOfInput.resize(crossings.inputCrossings.size());
 	m_indexOfEnd.resize(crossings.endCrossings.size());
 	nodes.resize(m_vertexCount);
 	for (const Vertex v : start.vertices())
-		nodes[v.number()] = {InputLocator::atVertex(v), PointOnEnd(v), end.scale(v)};
+		nodes[v.number()] = {atVertex(v), PointOnEnd(v), end.scale(v)};
 	EdgeNodes onEdge;
 	for (const Edge e : start.edges()) {
 		const auto [i, j] = start.ends(e);
@@ -301,7 +286,7 @@ StartEdgeNodes::StartEdgeNodes(
 		m_on.append(onEdge.size());
 		const int first = nodes.size();
 		nodes.resize(first + onEdge.size());
-		input.locate(e, onEdge, nodes.data() + first);
+		locateOnInput(flow, crossings, e, onEdge, nodes.data() + first);
 		end.locate(e, onEdge, nodes.data() + first);
 	}
 }

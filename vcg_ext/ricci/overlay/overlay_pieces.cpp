@@ -19,6 +19,9 @@ namespace {
 /// Triangles and sides of pieces in them between two checkpoints.
 constexpr int kWorkBetweenCalls = 1 << 14;
 
+/// Share of the work until the pieces are linked.
+constexpr double kDivided = 0.5;
+
 constexpr const char* kDividing = "Overlay of the two triangulations";
 
 /// The families of chords.
@@ -300,9 +303,142 @@ private:
 
 } // namespace
 
-OverlayPieces divideStartTriangles(const FlowResult& flow)
+void OverlayPieces::findLinks()
 {
-	return PieceMaker(flow).run();
+	links.assign(sideCount, {PieceSide(), PieceSide()});
+	for (int p = 0; p < count(); ++p)
+		for (int i = 0; i < size(p); ++i) {
+			auto& link = links[(*this)(p, i).side];
+			(link[0].isValid() ? link[1] : link[0]) = {p, i};
+		}
+}
+
+/// Hands known faces on to neighbours whose face is not known, across the sides that are no border
+/// between faces.
+template<class IsBorder>
+void OverlayPieces::spread(Array<Face>& face, const IsBorder& isBorder) const
+{
+	std::vector<int> queue;
+	for (const int p : face.indices())
+		if (face[p].isValid())
+			queue.push_back(p);
+	for (std::size_t head = 0; head < queue.size(); ++head) {
+		const int p = queue[head];
+		for (int i = 0; i < size(p); ++i) {
+			const PieceCorner& c = (*this)(p, i);
+			if (isBorder(c))
+				continue;
+			const auto& link = links[c.side];
+			const PieceSide& next = link[link[0].piece == p && link[0].corner == i ? 1 : 0];
+			if (next.isValid() && !face[next.piece].isValid()) {
+				face[next.piece] = face[p];
+				queue.push_back(next.piece);
+			}
+		}
+	}
+}
+
+/// Input and end face of every piece: from its sides, corners or nodes, else from a neighbour.
+void OverlayPieces::findFaces(const Triangulation& input, const Triangulation& end)
+{
+	inputFace.assign(count(), Face());
+	endFace.assign(count(), Face());
+	for (int p = 0; p < count(); ++p)
+		for (const PieceCorner& c : corners(p)) {
+			if (c.input.isValid())
+				inputFace[p] = input.face(c.input);
+			else if (c.inputCorner.isValid())
+				inputFace[p] = input.face(c.inputCorner);
+			const PointOnEnd& onEnd = nodes[c.node].end;
+			if (c.end.isValid())
+				endFace[p] = end.face(c.end);
+			else if (c.endCorner.isValid())
+				endFace[p] = end.face(c.endCorner);
+			else if (onEnd.kind() == PointOnEnd::InFace)
+				endFace[p] = onEnd.face();
+		}
+	spread(inputFace, [](const PieceCorner& c) { return c.input.isValid(); });
+	spread(endFace, [](const PieceCorner& c) { return c.end.isValid(); });
+	for (int p = 0; p < count(); ++p)
+		if (!inputFace[p].isValid() || !endFace[p].isValid())
+			throw InternalError("A piece of the overlay lies in no triangle.");
+}
+
+void OverlayPieces::keepFacesBelow(Face firstDropped)
+{
+	int kept = 0, corners = 0;
+	for (int p = 0; p < count(); ++p) {
+		const int first = m_first[p], last = m_first[p + 1];
+		if (inputFace[p] >= firstDropped)
+			continue;
+		inputFace[kept] = inputFace[p];
+		endFace[kept] = endFace[p];
+		m_first[kept++] = corners;
+		for (int c = first; c < last; ++c)
+			m_corners[corners++] = m_corners[c];
+	}
+	m_first[kept] = corners;
+	m_first.resize(kept + 1);
+	m_corners.resize(corners);
+	inputFace.resize(kept);
+	endFace.resize(kept);
+}
+
+void OverlayPieces::link(const Triangulation& input, const Triangulation& end, int keptFaces)
+{
+	findLinks();
+	findFaces(input, end);
+	if (keptFaces < input.faceCount()) {
+		keepFacesBelow(Face(keptFaces));
+		findLinks();
+	}
+}
+
+OverlayPieces divideStartTriangles(const FlowResult& flow, int keptFaces)
+{
+	advance(0.0, kDividing);
+	OverlayPieces pieces = [&] {
+		const Task dividing(0.0, kDivided);
+		return PieceMaker(flow).run();
+	}();
+	advance(kDivided, kDividing);
+	const Triangulation& end = flow.metric->triangulation();
+	requireOverlayMemory(static_cast<std::size_t>(pieces.nodes.size() - end.vertexCount()), true);
+	pieces.link(flow.input, end, keptFaces);
+	return pieces;
+}
+
+FaceWeights
+inEndTriangle(const OverlayPieces& pieces, const Triangulation& end, int piece, int corner)
+{
+	const PieceCorner& c = pieces(piece, corner);
+	const Face f = pieces.endFace[piece];
+	const PointOnEnd& point = pieces.nodes[c.node].end;
+	if (point.kind() == PointOnEnd::InFace)
+		return point.weight();
+	Halfedge g; // halfedge of f at whose origin, or inside which, the point is
+	if (point.kind() == PointOnEnd::AtVertex) {
+		g = c.endCorner;
+		if (!g.isValid() || end.face(g) != f)
+			for (const Halfedge h : end.halfedges(f))
+				if (end.origin(h) == point.vertex())
+					g = h;
+		if (!g.isValid())
+			throw InternalError("A piece of the overlay is not in its triangle.");
+		return pointOnSide(end, g, 0.0);
+	}
+	// Where both sides of the edge are f, the piece's own sides tell which one it is.
+	const auto offer = [&](Halfedge h) {
+		if (h.isValid() && h.edge() == point.edge() && end.face(h) == f)
+			g = h;
+	};
+	for (const Halfedge h : end.halfedges(f))
+		offer(h);
+	offer(pieces(piece, corner + pieces.size(piece) - 1).end);
+	offer(c.end);
+	if (!g.isValid())
+		throw InternalError("A piece of the overlay is not in its triangle.");
+	return pointOnSide(end, g, g.isFirst() ? point.share() : 1.0 - point.share());
 }
 
 } // namespace ricci

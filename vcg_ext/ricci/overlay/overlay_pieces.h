@@ -83,12 +83,26 @@ struct PieceCorner
 	Halfedge endCorner;   ///< at a vertex: end halfedge whose corner this is
 };
 
-/// All pieces and their nodes.
+/// A corner of a piece, or the side from there to the next corner.
+struct PieceSide
+{
+	int piece = -1, corner = -1;
+
+	bool isValid() const { return piece >= 0; }
+};
+
+/// All pieces and their nodes, the neighbours of the pieces across their sides, and the triangles in which
+/// they lie.
 class OverlayPieces
 {
 public:
 	Array<OverlayNode> nodes; ///< the vertices first, in order
 	int sideCount = 0;
+
+	/// [side] The pieces on both sides of it, the lower one first; the second is none on the border.
+	Array<std::array<PieceSide, 2>> links;
+	Array<Face> inputFace; ///< [piece]
+	Array<Face> endFace;   ///< [piece]
 
 	int count() const { return m_first.size() - 1; }
 	int size(int piece) const { return m_first[piece + 1] - m_first[piece]; }
@@ -99,6 +113,8 @@ public:
 
 	PieceCorner& operator()(int piece, int i) { return m_corners[corner(piece, i)]; }
 	const PieceCorner& operator()(int piece, int i) const { return m_corners[corner(piece, i)]; }
+
+	const PieceCorner& at(const PieceSide& side) const { return (*this)(side.piece, side.corner); }
 
 	/// The corners of a piece, in order.
 	ItemRange<const PieceCorner> corners(int piece) const
@@ -114,30 +130,23 @@ public:
 		++m_first.back();
 	}
 
-	/// Forgets the pieces for which \p kept(piece) does not hold.
-	template<class Kept>
-	void keep(Kept kept)
-	{
-		int pieces = 0, corners = 0;
-		for (int p = 0; p < count(); ++p) {
-			const int first = m_first[p], last = m_first[p + 1];
-			if (!kept(p))
-				continue;
-			m_first[pieces++] = corners;
-			for (int c = first; c < last; ++c)
-				m_corners[corners++] = m_corners[c];
-		}
-		m_first[pieces] = corners;
-		m_first.resize(pieces + 1);
-		m_corners.resize(corners);
-	}
+	/// Finds the neighbours and the triangles of all pieces, then forgets the pieces that do not lie in
+	/// the first \p keptFaces faces of the input.
+	/// \throw InternalError if a piece has no triangle: a fault of the program
+	void link(const Triangulation& input, const Triangulation& end, int keptFaces);
 
 private:
+	void findLinks();
+	void findFaces(const Triangulation& input, const Triangulation& end);
+	template<class IsBorder>
+	void spread(Array<Face>& face, const IsBorder& isBorder) const;
+	void keepFacesBelow(Face firstDropped);
+
 	Array<PieceCorner> m_corners;
 	Array<int> m_first = Array<int>(1, 0);
 };
 
-/// Computes the pieces of all start triangles.
+/// Computes the pieces of all start triangles, and links them (OverlayPieces::link()).
 ///
 /// Which edge crosses which, and in what order, is decided by integers (normal coordinates,
 /// [Gillespie Sharp Crane 2021]) wherever two of the triangulations are concerned, so that the
@@ -151,8 +160,15 @@ private:
 ///
 /// Asks requireOverlayMemory() before there is an array of crossings.
 /// \pre the flow ran with intrinsic flips
+/// \param keptFaces of the input: where the flow's surface goes on beyond the one that is wanted (its double,
+/// caps on holes), the overlay ends at its boundary
 /// \throw InternalError if the chords do not fit together: a fault of the program
-OverlayPieces divideStartTriangles(const FlowResult& flow);
+OverlayPieces divideStartTriangles(const FlowResult& flow, int keptFaces);
+
+/// A corner of a piece in the piece's end triangle.
+/// \throw InternalError if the corner is not in that triangle: a fault of the program
+FaceWeights
+inEndTriangle(const OverlayPieces& pieces, const Triangulation& end, int piece, int corner);
 
 } // namespace ricci
 

@@ -7,7 +7,6 @@
 #include "../curvature/hyperbolic_target.h"
 #include "../cut/cut_graph.h"
 #include "../finish/finish.h"
-#include "../layout/corner_layout.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../surface/flow_domain.h"
 #include "../verify/chart_check.h"
@@ -35,22 +34,6 @@ EdgeArray<double> cutCost(const FlowDomain& domain, const FlowResult& flow, Meth
 											: flow.metric->lengths();
 }
 
-/// The layout of the corners in the disk, open along the cut.
-DiskLayout placeInDisk(
-	const FlowDomain& domain,
-	LinkedPieces overlay,
-	const HyperbolicOptions& options,
-	ComponentMap& map)
-{
-	if (isRefined(options)) {
-		CommonRefinement refinement =
-			commonRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
-		map.mesh = std::move(refinement.mesh);
-		return {std::move(refinement.inputLayout), std::move(refinement.pairing)};
-	}
-	return layOutCornersInDisk(domain, map.flow, map.cut.isCut);
-}
-
 /// Farthest point of a layout from the centre of the disk, in the hyperbolic metric.
 double radiusOf(const PlanarLayout& layout)
 {
@@ -64,15 +47,15 @@ double radiusOf(const PlanarLayout& layout)
 /// group.
 void layOut(
 	const FlowDomain& domain,
-	LinkedPieces overlay,
+	OverlayPieces overlay,
 	const HyperbolicOptions& options,
 	ComponentMap& map)
 {
 	const Triangulation& t = domain.surface.triangulation;
-	DiskLayout disk = placeInDisk(domain, std::move(overlay), options, map);
+	SurfaceLayout disk = placeCorners(domain, std::move(overlay), options, map);
 	if (const double radius = radiusOf(disk.corners); radius > kWideRadius) {
 		map.cut = cutAroundCentre(t, cutCost(domain, map.flow, options.method), map.cones);
-		disk = placeInDisk(domain, flowOverlay(domain, options, map), options, map);
+		disk = placeCorners(domain, flowOverlay(domain, options, map), options, map);
 		logLine(
 			"The short seams lead " + numberText(radius, 3) +
 			" out in the disk, too far for floats. Longer ones around the middle lead " +
@@ -129,7 +112,7 @@ ComponentMap flattenToDisk(
 	besides(
 		threads,
 		[&] {
-			LinkedPieces overlay = cutAndOverlay( // 4.3
+			OverlayPieces overlay = cutAndOverlay( // 4.3
 				domain,
 				cutCost(domain, map.flow, options.method),
 				{}, // wedges at cones may be as wide as they like in the disk

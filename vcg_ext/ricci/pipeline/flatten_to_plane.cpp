@@ -12,7 +12,6 @@
 #include "../cut/seam_cost.h"
 #include "../edge_swap/swapped_flow.h"
 #include "../finish/finish.h"
-#include "../layout/corner_layout.h"
 #include "../math/convex_hull.h"
 #include "../measure/distortion.h"
 #include "../measure/invariants.h"
@@ -147,27 +146,7 @@ void makeSeamless(
 			return runFlow(surface, initialPacking(surface, options), target, options, map);
 		});
 	};
-	const HolonomyRounding done = makeSeamless(surface, request, options.epsilon, flowTo, map.flow);
-	map.report.iterations = done.steps;
-	if (done.before > 0.0)
-		logLine(
-			"The rotations across seams are up to " + numberText(done.before, 3) +
-			" from a multiple of a quarter turn, and " + numberText(done.after, 3) +
-			" once the metric has changed.");
-}
-
-/// The layout of the corners of the component, open along the cut.
-void placeCorners(
-	const FlowDomain& domain, LinkedPieces overlay, const Options& options, ComponentMap& map)
-{
-	if (isRefined(options)) {
-		CommonRefinement refinement =
-			commonRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
-		map.mesh = std::move(refinement.mesh);
-		map.layout = std::move(refinement.inputLayout);
-	}
-	else
-		map.layout = layOutCorners(domain, map.flow, map.cut.isCut);
+	map.report.iterations = makeSeamless(surface, request, options.epsilon, flowTo, map.flow);
 }
 
 /// Area in the flow's metric of the triangles that are given back, without caps.
@@ -187,13 +166,13 @@ double areaInPlane(const FlowDomain& domain, const ComponentMap& map)
 void layOut(
 	const Component& component,
 	const FlowDomain& domain,
-	LinkedPieces overlay,
+	OverlayPieces overlay,
 	const Options& options,
 	ComponentMap& map)
 {
 	const Triangulation& t = domain.surface.triangulation;
 	const bool mayChangeCut = map.type.boundaryLoops - domain.holes > 1;
-	placeCorners(domain, std::move(overlay), options, map);
+	map.layout = placeCorners(domain, std::move(overlay), options, map).corners;
 	if (mayChangeCut) {
 		// A hole round which the metric closes needs no seam.
 		const int edges = map.cut.edgeCount;
@@ -204,7 +183,8 @@ void layOut(
 			map.cones,
 			map.cut);
 		if (map.cut.edgeCount < edges)
-			placeCorners(domain, flowOverlay(domain, options, map), options, map);
+			map.layout =
+				placeCorners(domain, flowOverlay(domain, options, map), options, map).corners;
 	}
 	if (!map.flow.target.hasFixed()) // else the boundary keeps its metric, which fixes the scale
 		map.scale = std::sqrt(
@@ -308,7 +288,7 @@ std::optional<ComponentMap> flattenToPlane(
 	besides(
 		threads,
 		[&] {
-			LinkedPieces overlay = cutAndOverlay( // 4.3
+			OverlayPieces overlay = cutAndOverlay( // 4.3
 				domain,
 				seamCost(
 					surface.triangulation, surface.lengths, surface.positions, options.seamHiding),

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ricci {
 
@@ -19,8 +20,8 @@ namespace {
 /// Beyond this genus the period matrix is left out: the log would drown in its numbers.
 constexpr int kMaxPeriodGenus = 10;
 
-/// Share of the part after the flow that the overlay takes.
-constexpr double kOverlay = 0.7;
+/// Share of the part after the flow that the overlay takes before it is laid out.
+constexpr double kOverlay = 0.35;
 
 } // namespace
 
@@ -68,16 +69,16 @@ conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<
 	return cones;
 }
 
-LinkedPieces
+OverlayPieces
 flowOverlay(const FlowDomain& domain, const FlowOptions& options, const ComponentMap& map)
 {
 	if (!isRefined(options))
 		return {};
 	const Task overlay(1.0 - kAfterFlow, 1.0 - kAfterFlow * (1.0 - kOverlay));
-	return overlayOf(domain, map.flow);
+	return divideStartTriangles(map.flow, domain.surface.triangulation.faceCount());
 }
 
-LinkedPieces cutAndOverlay(
+OverlayPieces cutAndOverlay(
 	const FlowDomain& domain,
 	EdgeArray<double> cost,
 	const HalfedgeArray<double>& corners,
@@ -86,12 +87,15 @@ LinkedPieces cutAndOverlay(
 {
 	const Triangulation& t = domain.surface.triangulation;
 	avoidDiagonals(domain.isDiagonal, cost);
-	LinkedPieces overlay;
+	for (const Edge e : domain.isForeign.indices())
+		if (domain.isForeign[e])
+			cost[e] = std::numeric_limits<double>::infinity();
+	OverlayPieces overlay;
 	besides(
 		threadsFor(t.faceCount()),
 		[&] { overlay = flowOverlay(domain, options, map); },
 		[&] {
-			map.cut = cutToDisk(t, cost, map.cones, domain.isForeign, corners);
+			map.cut = cutToDisk(t, cost, map.cones, corners);
 			if (domain.holes > 0)
 				dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, map.cones, map.cut);
 		});
@@ -101,6 +105,16 @@ LinkedPieces cutAndOverlay(
 	}
 	advance(1.0 - kAfterFlow, "Cutting and layout");
 	return overlay;
+}
+
+SurfaceLayout placeCorners(
+	const FlowDomain& domain, OverlayPieces overlay, const FlowOptions& options, ComponentMap& map)
+{
+	if (!isRefined(options))
+		return layOutCorners(domain, map.flow, map.cut.isCut);
+	SurfaceLayout layout = layOutRefinement(domain, map.flow, std::move(overlay), map.cut.isCut);
+	map.mesh = std::move(layout.refinement);
+	return layout;
 }
 
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths)

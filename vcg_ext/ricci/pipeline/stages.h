@@ -38,7 +38,7 @@ conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<
 /// if there is one, the overlay of the flow if its pieces are given back.
 /// \param cost [edge] of a seam
 /// \param corners see shortenCut()
-LinkedPieces cutAndOverlay(
+OverlayPieces cutAndOverlay(
 	const FlowDomain& domain,
 	EdgeArray<double> cost,
 	const HalfedgeArray<double>& corners,
@@ -54,9 +54,13 @@ inline bool isRefined(const FlowOptions& options)
 	return options.output == OutputTriangulation::CommonRefinement;
 }
 
-/// overlayOf() the flow, with what the options ask of it; nothing where its pieces are not given back.
-LinkedPieces
+/// The overlay of the flow for the faces of the domain's surface; nothing where its pieces are not given back.
+OverlayPieces
 flowOverlay(const FlowDomain& domain, const FlowOptions& options, const ComponentMap& map);
+
+/// The layout open along the cut, of the overlay if its pieces are given back: that goes to map.mesh.
+SurfaceLayout placeCorners(
+	const FlowDomain& domain, OverlayPieces overlay, const FlowOptions& options, ComponentMap& map);
 
 /// Takes down what is known of a component before its flow, and logs it.
 void describe(const Component& component, const FlowDomain& domain, ComponentMap& map);

@@ -37,8 +37,6 @@ constexpr double kFirstRadius = 0.3, kShorter = 0.3;
 /// angles change by about a hundredth.
 constexpr double kCheap = 2.5e-5;
 
-constexpr double kQuarterTurn = 0.5 * kPi;
-
 /// What areas and one more cone cost, where the mean square of the Beltrami coefficient costs 1.
 constexpr double kAreaCost = 0.05, kConeCost = 3e-4;
 
@@ -63,9 +61,6 @@ constexpr double kMinMoveGain = 0.02;
 /// shorter by this factor, so many times.
 constexpr double kShorterMove = 0.4;
 constexpr int kMaxShortenings = 4;
-
-/// The largest curvature of a cone in quarter turns.
-const int kMaxUnits = static_cast<int>(std::floor(kMaxConeCurvature / kQuarterTurn + 1e-9));
 
 /// Some quarter turns of the cone at one vertex move to another.
 struct Move
@@ -201,7 +196,7 @@ private:
 		std::vector<Move> found;
 		const auto add = [&](Vertex from, Vertex to, int units) {
 			const int left = m_units[from] - units, there = m_units[to] + units;
-			if (left > kMaxUnits || there > kMaxUnits)
+			if (left > kMaxQuarterTurns || there > kMaxQuarterTurns)
 				return;
 			const double way = distance(m_surface.positions[from], m_surface.positions[to]);
 			if (way > m_radius)
@@ -348,7 +343,7 @@ std::optional<PlacedCones> seamlessCones(
 
 } // namespace
 
-HolonomyRounding makeSeamless(
+int makeSeamless(
 	const EmbeddedSurface& surface,
 	const TargetRequest& request,
 	double epsilon,
@@ -356,7 +351,7 @@ HolonomyRounding makeSeamless(
 	FlowResult& flow)
 {
 	if (!flow.target.isSeamless || flow.doubled)
-		return {};
+		return 0;
 	Holonomy present = holonomy(flow);
 	SeamlessCost lowest = seamlessCost(surface, flow, present);
 	double radius = kFirstRadius;

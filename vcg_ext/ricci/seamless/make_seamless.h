@@ -15,7 +15,8 @@ namespace ricci {
 /// \param flow on \p surface, with intrinsic flips, to a target that was chosen for \p request
 /// \param epsilon of the flow, radians
 /// \param flowTo runs it again
-HolonomyRounding makeSeamless(
+/// \return steps of Newton's method that roundHolonomy() took
+int makeSeamless(
 	const EmbeddedSurface& surface,
 	const TargetRequest& request,
 	double epsilon,

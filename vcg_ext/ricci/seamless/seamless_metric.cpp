@@ -4,6 +4,7 @@
 #include "../base/attempt.h"
 #include "../base/numbers.h"
 #include "../base/task.h"
+#include "../base/text.h"
 #include "../metric/area.h"
 #include "../metric/euclidean.h"
 #include "holonomy.h"
@@ -21,8 +22,6 @@
 namespace ricci {
 
 namespace {
-
-constexpr double kQuarterTurn = 0.5 * kPi;
 
 /// A holonomy this near to a multiple of pi / 2 is one, radians: what the sums of some thousand angles
 /// lose.
@@ -253,19 +252,21 @@ Holonomy holonomy(const FlowResult& flow)
 	return result;
 }
 
-HolonomyRounding roundHolonomy(FlowResult& flow, double epsilon)
+int roundHolonomy(FlowResult& flow, double epsilon)
 {
-	HolonomyRounding result;
 	if (flow.doubled)
-		return result;
+		return 0;
 	Metric metric = metricOf(flow);
-	result.before = metric.error();
+	const double before = metric.error();
 	HolonomyRounder rounder(flow, epsilon);
 	rounder.solve(metric);
-	result.after = metric.error();
-	result.steps = rounder.steps();
+	if (before > 0.0)
+		logLine(
+			"The rotations across seams are up to " + numberText(before, 3) +
+			" from a multiple of a quarter turn, and " + numberText(metric.error(), 3) +
+			" once the metric has changed.");
 	if (metric.map == flow.metric)
-		return result;
+		return rounder.steps();
 	flow.metric = std::move(metric.map);
 	flow.u = std::move(metric.u);
 	flow.residual = metric.solved.residual;
@@ -273,7 +274,7 @@ HolonomyRounding roundHolonomy(FlowResult& flow, double epsilon)
 	flow.curvature = flow.metric->curvature();
 	flow.area = euclideanArea(flow.metric->triangulation(), flow.metric->lengths());
 	flow.flips.insert(flow.flips.end(), metric.flips.begin(), metric.flips.end());
-	return result;
+	return rounder.steps();
 }
 
 } // namespace ricci

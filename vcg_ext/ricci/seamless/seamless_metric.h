@@ -23,14 +23,6 @@ struct Holonomy
 /// \pre \p flow is Euclidean, not on a double
 Holonomy holonomy(const FlowResult& flow);
 
-/// What roundHolonomy() did.
-struct HolonomyRounding
-{
-	double before = 0.0; ///< largest distance from a multiple of pi / 2, radians
-	double after = 0.0;  ///< the same in the new metric
-	int steps = 0;       ///< of Newton's method
-};
-
 /// Changes the metric of \p flow, with the least distortion of angles, so that the holonomies of all
 /// loops (homologyLoops()) are multiples of pi / 2, as the curvatures of the cones are taken to be: all
 /// seams of a layout then are rotations by quarter turns. Curvatures stay those of the target, and
@@ -46,10 +38,12 @@ struct HolonomyRounding
 /// Flips on the way go into the history with those of the flow: the overlay with the new triangles is
 /// that of the conformal class of the flow, and so stays continuous.
 ///
-/// The metric stays as it is where that fails, and on the double of a surface.
+/// The metric stays as it is where that fails, and on the double of a surface. What has become of the
+/// holonomies is logged.
 /// \param epsilon of the flow, radians
 /// \pre Euclidean, with intrinsic flips
-HolonomyRounding roundHolonomy(FlowResult& flow, double epsilon);
+/// \return steps of Newton's method
+int roundHolonomy(FlowResult& flow, double epsilon);
 
 } // namespace ricci
 

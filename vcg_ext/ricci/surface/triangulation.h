@@ -74,6 +74,15 @@ public:
 		return {h, next(h), previous(h)};
 	}
 
+	/// The corner at which \p h begins: \p h is halfedges(face(h))[corner(h).index()].
+	/// \pre \p h is not exterior
+	Corner corner(Halfedge h) const
+	{
+		const Face f = face(h);
+		const Halfedge first = halfedge(f);
+		return {f.number(), h == first ? 0 : h == next(first) ? 1 : 2};
+	}
+
 	/// The three corners of face \p f: the origins of halfedges(f).
 	std::array<Vertex, 3> vertices(Face f) const
 	{

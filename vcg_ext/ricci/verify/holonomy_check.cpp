@@ -15,7 +15,7 @@ namespace {
 class WaysRound
 {
 public:
-	WaysRound(const Triangulation& t, const CutGraph& cut, const DiskLayout& layout) :
+	WaysRound(const Triangulation& t, const CutGraph& cut, const SurfaceLayout& layout) :
 			m_t(t), m_cut(cut), m_pairing(layout.pairing), m_layout(layout.corners)
 	{
 	}
@@ -85,7 +85,7 @@ bool isGeodesic(const std::vector<Vertex>& loop, const Target& target)
 double holonomyError(
 	const Triangulation& t,
 	const CutGraph& cut,
-	const DiskLayout& layout,
+	const SurfaceLayout& layout,
 	const VertexArray<char>& cones,
 	const Target& target)
 {

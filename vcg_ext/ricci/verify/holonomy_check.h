@@ -28,7 +28,7 @@ namespace ricci {
 double holonomyError(
 	const Triangulation& t,
 	const CutGraph& cut,
-	const DiskLayout& layout,
+	const SurfaceLayout& layout,
 	const VertexArray<char>& cones,
 	const Target& target);
 
