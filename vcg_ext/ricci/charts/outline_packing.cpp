@@ -353,6 +353,7 @@ using Order = std::vector<std::size_t>; // of outlines
 Order orderOf(const std::vector<Outline>& outlines)
 {
 	std::vector<double> areas;
+	areas.reserve(outlines.size());
 	for (const Outline& outline : outlines)
 		areas.push_back(areaOf(outline));
 	Order order(outlines.size());

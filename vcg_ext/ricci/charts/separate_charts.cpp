@@ -109,6 +109,7 @@ std::optional<Halves> halves(
 		along.push_back(std::max(first, 0.0) + std::min(last, 0.0));
 	}
 	std::vector<double> apart;
+	apart.reserve(along.size());
 	for (const double at : along)
 		apart.push_back(std::abs(at));
 	const auto count = static_cast<double>(apart.size());
