@@ -43,8 +43,8 @@ void packCharts(
 void packForRoom(
 	Parametrization& map, const Sides& sides, const PackOptions& options, ChartTurns turns);
 
-/// What a cut brings by chance alone, since the packing of other outlines is another one, is about kMinRoom.
-/// Between charts of any shape three tenths of a square are what no cut gives back.
+/// A cut that brings less than kMinRoom is not worth a chart more. Of a square that is covered by kEnoughCovered
+/// little is left to win.
 constexpr double kMinRoom = 0.005, kEnoughCovered = 0.7;
 
 /// Cuts at most, and those in a row that bring nothing.
