@@ -150,7 +150,7 @@ TEST(ShortenCut, StaysADiskThroughTheMarksAndGetsShorter)
 TEST(ShortenCut, ASearchThatIsEndedLeavesADisk)
 {
 	Random random(723);
-	const Packed p(shaken(perforatedSlab(6, 3), 0.05, random));
+	const Packed p(shaken(perforatedSlab(8, 4), 0.05, random));
 	const Triangulation& t = p.triangulation;
 	VertexArray<char> marked(t.vertexCount(), 0);
 	for (int i = 0; i < 120; ++i)

@@ -18,12 +18,6 @@ CirclePaths::CirclePaths(CutSegments& cut, const CoarseSurface* parts) :
 		m_isNear(parts ? parts->triangulation().vertexCount() : 0, 0),
 		m_fronts(3, Front(m_t.vertexCount()))
 {
-	if (parts)
-		m_members = Adjacency<Vertex, Vertex>(m_isNear.size(), [&](const auto& add) {
-			for (const Vertex v : m_t.vertices())
-				if (parts->centreOf(v).isValid())
-					add(parts->centreOf(v), v);
-		});
 }
 
 void CirclePaths::findNear(const std::vector<Edge>& removed)
@@ -58,54 +52,59 @@ bool CirclePaths::isOpen(Vertex v) const
 int CirclePaths::splitCircles(const std::vector<Edge>& removed)
 {
 	const int count = m_cut.splitCircles(removed);
-	findStarts();
+	m_starts = m_cut.departures();
+	if (m_parts)
+		keepStarts([&](const CutSegments::Departure& start) {
+			return isOpen(m_t.target(start.halfedge)) ||
+				   m_isNear[m_parts->centreOf(m_t.origin(start.halfedge))];
+		});
 	return count;
 }
 
-void CirclePaths::findStarts()
+template<class IsKept>
+void CirclePaths::keepStarts(const IsKept& isKept)
 {
-	m_starts.clear();
-	const auto addFrom = [&](Vertex v) {
-		int circle = -1; // of the halfedges up to the next side
-		for (const Halfedge h : m_cut.around(v)) {
-			if (m_cut.isBorder(h.edge()))
-				circle = -1;
-			else if (
-				m_cut.isFree(h.edge()) &&
-				(isOpen(m_t.target(h)) || m_cut.isOnGraph(m_t.target(h)))) {
-				if (circle < 0)
-					circle = m_cut.circle(h);
-				m_starts.push_back({h, circle});
-			}
-		}
-	};
-	if (!m_parts)
-		for (const Vertex v : m_t.vertices())
-			if (m_cut.isOnGraph(v))
-				addFrom(v);
-	for (const Vertex part : m_near)
-		for (const Vertex v : m_members[part]) {
-			if (m_cut.isOnGraph(v)) {
-				addFrom(v);
-				continue;
-			}
-			for (const Halfedge h : m_t.around(v)) {
-				const Vertex beyond = m_t.target(h);
-				if (m_cut.isOnGraph(beyond) && !m_isNear[m_parts->centreOf(beyond)] &&
-					m_cut.isFree(h.edge()))
-					m_starts.push_back({h.twin(), m_cut.circle(h.twin())});
-			}
-		}
+	m_starts.erase(
+		std::remove_if(
+			m_starts.begin(), m_starts.end(), [&](const auto& start) { return !isKept(start); }),
+		m_starts.end());
 }
 
-/// Lets \p front begin at the circles for which \p chosen(circle) holds.
-template<class Chosen>
-void CirclePaths::startFrom(const Chosen& chosen, double bound, Front& front) const
+/// Lets \p front begin at \p circle, or at all but circle 0 if that is 0.
+/// \return the shortest arrival at circle 0 by a single edge
+CirclePaths::Arrival CirclePaths::startFrom(int circle, double bound, Front& front) const
 {
 	front.clear();
-	for (const auto& [h, circle] : m_starts)
-		if (chosen(circle) && isOpen(m_t.target(h)) && m_cost[h.edge()] < bound)
-			front.offer(m_t.target(h), m_cost[h.edge()], h);
+	Arrival arrival{kFar, Halfedge()};
+	for (const auto& [h, from] : m_starts)
+		if (circle == 0 || from == circle)
+			goOn(h, m_cost[h.edge()], bound, front, arrival);
+	return arrival;
+}
+
+/// Continues a search by \p h to a path of this length, if that is below the bound, or below \p arrival if it
+/// arrives at circle 0.
+void CirclePaths::goOn(
+	Halfedge h, double length, double bound, Front& front, Arrival& arrival) const
+{
+	const Vertex v = m_t.target(h);
+	if (!m_cut.isFree(h.edge()))
+		return;
+	if (isOpen(v)) {
+		if (length < bound)
+			front.offer(v, length, h);
+	}
+	else if (length < arrival.first && m_cut.isOnGraph(v) && m_cut.circle(h.twin()) == 0)
+		arrival = {length, h};
+}
+
+/// Continues a search from \p v. \return the shortest arrival at circle 0
+CirclePaths::Arrival CirclePaths::goOn(Front& front, Vertex v, double bound) const
+{
+	Arrival arrival{kFar, Halfedge()};
+	for (const Halfedge h : m_cut.around(v))
+		goOn(h, front[v] + m_cost[h.edge()], bound, front, arrival);
+	return arrival;
 }
 
 void CirclePaths::appendPath(const Front& front, Vertex v, std::vector<Edge>& edges) const
@@ -117,60 +116,27 @@ void CirclePaths::appendPath(const Front& front, Vertex v, std::vector<Edge>& ed
 	}
 }
 
-/// By searches from both ends. Of these the one that has seen less goes on, so that a path to a point
-/// does not cost a search from all of a long cut.
+/// By a search from the others, which have fewer sides: a path from a point does not cost one from all of a
+/// long cut.
 std::vector<Edge> CirclePaths::shortestBridge(double bound)
 {
-	const auto isStart = [](int circle) { return circle == 0; };
-	const auto isEnd = [](int circle) { return circle > 0; };
-	Halfedge middle; // where the searches met
-	const auto offer = [&](Halfedge h, double length) {
-		if (length < bound) {
-			bound = length;
-			middle = h;
-		}
+	Front& front = m_fronts[0];
+	Arrival best{bound, Halfedge()};
+	const auto offer = [&](const Arrival& arrival) {
+		if (arrival.first < best.first)
+			best = arrival;
 	};
-	for (const auto& [h, circle] : m_starts)
-		if (m_cost[h.edge()] < bound && !isOpen(m_t.target(h)) &&
-			isStart(circle) != isStart(m_cut.circle(h.twin())))
-			offer(isStart(circle) ? h : h.twin(), m_cost[h.edge()]);
-	Front &from = m_fronts[0], &to = m_fronts[1];
-	startFrom(isStart, bound, from);
-	startFrom(isEnd, bound, to);
-	const auto step = [&](Front& own, const Front& other, auto isOther, auto towards) {
-		const Vertex v = own.next(bound);
-		for (const Halfedge h : m_cut.around(v)) {
-			const Edge e = h.edge();
-			const Vertex w = m_t.target(h);
-			if (!m_cut.isFree(e))
-				continue;
-			const double d = own[v] + m_cost[e];
-			if (m_cut.isOnGraph(w)) {
-				if (isOther(m_cut.circle(h.twin())))
-					offer(towards(h), d);
-				continue;
-			}
-			if (!(d < bound) || !isOpen(w))
-				continue;
-			own.offer(w, d, h);
-			offer(towards(h), d + other[w]);
-		}
-	};
-	while (from.nearest() + to.nearest() < bound)
-		if (from.reached().size() <= to.reached().size())
-			step(from, to, isEnd, [](Halfedge h) { return h; });
-		else
-			step(to, from, isStart, [](Halfedge h) { return h.twin(); });
+	offer(startFrom(0, bound, front));
+	for (Vertex v; (v = front.next(best.first)).isValid();)
+		offer(goOn(front, v, best.first));
 	std::vector<Edge> path;
-	if (!middle.isValid())
+	if (!best.second.isValid())
 		return path;
-	path.push_back(middle.edge());
-	appendPath(from, m_t.origin(middle), path);
-	appendPath(to, m_t.target(middle), path);
-	Halfedge last = middle.twin();
-	while (!m_cut.isOnGraph(m_t.origin(last)))
-		last = to.parent(m_t.origin(last));
-	m_arrival = m_cut.circle(last);
+	Halfedge h = best.second;
+	for (; !m_cut.isOnGraph(m_t.origin(h)); h = front.parent(m_t.origin(h)))
+		path.push_back(h.edge());
+	path.push_back(h.edge());
+	m_joined = m_cut.circle(h);
 	return path;
 }
 
@@ -183,8 +149,8 @@ std::vector<Edge> CirclePaths::joinCircles(int circles, double bound)
 		found = !bridge.empty();
 		m_cut.add(bridge);
 		edges.insert(edges.end(), bridge.begin(), bridge.end());
-		m_cut.joinCircles(m_arrival);
-		findStarts();
+		m_cut.joinCircles(m_joined);
+		keepStarts([&](const CutSegments::Departure& start) { return start.circle != m_joined; });
 	}
 	m_cut.remove(edges);
 	if (!found)
@@ -192,16 +158,11 @@ std::vector<Edge> CirclePaths::joinCircles(int circles, double bound)
 	return edges;
 }
 
-/// No search starts from the longest circle: the sums of the distances from the two others are continued
-/// until they arrive there.
+/// No search starts from circle 0, which has the most sides: the sums of the distances from the two others are
+/// continued until they arrive there.
 std::vector<Edge> CirclePaths::bestTripod(double bound)
 {
-	std::array<int, 3> starts{};
-	for (const Start& start : m_starts)
-		++starts[positionOf(start.circle)];
-	const int last =
-		static_cast<int>(std::max_element(starts.begin(), starts.end()) - starts.begin());
-	searchFromBoth((last + 1) % 3, (last + 2) % 3, last, bound);
+	searchFromBoth(bound);
 	Front& sums = m_fronts[2];
 	sums.clear();
 	for (const Vertex v : m_fronts[0].reached())
@@ -209,7 +170,7 @@ std::vector<Edge> CirclePaths::bestTripod(double bound)
 			sums.offer(v, sum);
 	Halfedge arrival;
 	for (Vertex v; (v = sums.next(bound)).isValid();)
-		if (const auto [length, h] = goOn(sums, v, last, bound); length < bound) {
+		if (const auto [length, h] = goOn(sums, v, bound); length < bound) {
 			bound = length;
 			arrival = h;
 		}
@@ -225,18 +186,13 @@ std::vector<Edge> CirclePaths::bestTripod(double bound)
 	return touch(edges, centre) ? std::vector<Edge>() : edges;
 }
 
-/// Searches from two circles, in the fronts 0 and 1, as far as a vertex may lie at which paths
-/// from them and from the circle \p last meet that are shorter than \p bound together.
-void CirclePaths::searchFromBoth(int first, int second, int last, double bound)
+/// Searches from the circles 1 and 2, in the fronts 0 and 1, as far as a vertex may lie at which paths from
+/// them and from circle 0 meet that are shorter than \p bound together.
+void CirclePaths::searchFromBoth(double bound)
 {
-	const std::array<int, 2> circle{first, second};
-	std::array<double, 2> toLast{kFar, kFar};
+	std::array<double, 2> toLast{};
 	for (std::size_t k = 0; k < 2; ++k)
-		startFrom([&](int c) { return c == circle[k]; }, bound, m_fronts[k]);
-	for (const auto& [h, from] : m_starts)
-		for (std::size_t k = 0; k < 2; ++k)
-			if (from == circle[k] && m_cost[h.edge()] < toLast[k] && m_cut.circle(h.twin()) == last)
-				toLast[k] = m_cost[h.edge()];
+		toLast[k] = startFrom(static_cast<int>(k) + 1, bound, m_fronts[k]).first;
 	for (;;) {
 		// Two of the paths join their circles, so the third has at most the rest of the bound.
 		const double r[2] = {m_fronts[0].nearest(), m_fronts[1].nearest()};
@@ -245,29 +201,8 @@ void CirclePaths::searchFromBoth(int first, int second, int last, double bound)
 		if (!(r[0] < limit[0]) && !(r[1] < limit[1]))
 			return;
 		const std::size_t k = r[0] < limit[0] && (r[0] <= r[1] || !(r[1] < limit[1])) ? 0 : 1;
-		const auto [length, h] = goOn(m_fronts[k], m_fronts[k].next(), last, limit[k]);
-		toLast[k] = std::min(toLast[k], length);
+		toLast[k] = std::min(toLast[k], goOn(m_fronts[k], m_fronts[k].next(), limit[k]).first);
 	}
-}
-
-/// Continues a search from \p v as far as \p limit. \return the shortest arrival at \p circle, and
-/// its length; infinite if there is none
-std::pair<double, Halfedge>
-CirclePaths::goOn(Front& front, Vertex v, int circle, double limit) const
-{
-	std::pair<double, Halfedge> arrival{kFar, Halfedge()};
-	for (const Halfedge h : m_cut.around(v)) {
-		const double d = front[v] + m_cost[h.edge()];
-		if (!m_cut.isFree(h.edge()))
-			continue;
-		if (isOpen(m_t.target(h))) {
-			if (d < limit)
-				front.offer(m_t.target(h), d, h);
-		}
-		else if (m_cut.circle(h.twin()) == circle && d < arrival.first)
-			arrival = {d, h};
-	}
-	return arrival;
 }
 
 /// Whether paths to \p centre touch before it: they would enclose something.

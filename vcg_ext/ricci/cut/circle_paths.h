@@ -2,7 +2,6 @@
 #ifndef RICCI_CIRCLE_PATHS_H
 #define RICCI_CIRCLE_PATHS_H
 
-#include "../math/adjacency.h"
 #include "../math/shortest_paths.h"
 #include "coarse_surface.h"
 #include "cut_segments.h"
@@ -35,7 +34,7 @@ public:
 	/// \return how many there are
 	int splitCircles(const std::vector<Edge>& removed);
 
-	/// The shortest path from circle 0 to another, empty if none is shorter than \p bound.
+	/// The shortest path from another circle to circle 0, empty if none is shorter than \p bound.
 	std::vector<Edge> shortestBridge(double bound);
 
 	/// Paths that join the circles 0 .. \p circles - 1 one after another, each as short as can be. Empty if
@@ -55,31 +54,26 @@ public:
 	std::size_t reached() const;
 
 private:
-	/// A halfedge by which a path may leave a circle.
-	struct Start
-	{
-		Halfedge halfedge;
-		int circle;
-	};
+	using Arrival = std::pair<double, Halfedge>; // length of the path, and its last halfedge
 
 	bool isOpen(Vertex v) const;
-	void findStarts();
-	template<class Chosen>
-	void startFrom(const Chosen& chosen, double bound, Front& front) const;
-	void searchFromBoth(int first, int second, int last, double bound);
-	std::pair<double, Halfedge> goOn(Front& front, Vertex v, int circle, double limit) const;
+	template<class IsKept>
+	void keepStarts(const IsKept& isKept);
+	Arrival startFrom(int circle, double bound, Front& front) const;
+	void searchFromBoth(double bound);
+	void goOn(Halfedge h, double length, double bound, Front& front, Arrival& arrival) const;
+	Arrival goOn(Front& front, Vertex v, double bound) const;
 	bool touch(const std::vector<Edge>& paths, Vertex centre) const;
 
 	const Triangulation& m_t;
 	const EdgeArray<double>& m_cost;
 	CutSegments& m_cut;
 	const CoarseSurface* m_parts;
-	std::vector<Vertex> m_near;          // see near()
-	VertexArray<char> m_isNear;          // [part] the same
-	Adjacency<Vertex, Vertex> m_members; // [part] its vertices
-	std::vector<Start> m_starts;
-	int m_arrival = -1;          // the circle at the end of the last bridge
-	std::vector<Front> m_fronts; // of the searches from up to three circles
+	std::vector<Vertex> m_near; // see near()
+	VertexArray<char> m_isNear; // [part] the same
+	std::vector<CutSegments::Departure> m_starts; // of the circles that are not joined to circle 0
+	int m_joined = -1;                            // the circle from which the last bridge came
+	std::vector<Front> m_fronts;                  // of two searches, and of their sums
 };
 
 } // namespace ricci

@@ -246,21 +246,35 @@ int CutSegments::splitCircles(const std::vector<Edge>& removed)
 			}
 		}
 	}
-	int count = 0;
+	int count = 0, longest = 0, most = 0;
 	for (std::size_t first = 0; first < m_stretches.size(); ++first) {
 		if (m_stretches[first].circle != kOpen)
 			continue;
+		int sides = 0;
 		for (std::size_t i = first; m_stretches[i].circle == kOpen;) {
 			m_stretches[i].circle = count;
-			const std::size_t end =
-				i + 1 < m_stretches.size() ? positionOf(m_stretches[i + 1].first) : m_sides.size();
-			i = stretchOf(m_place[sideFrom(m_t.next(m_sides[end - 1]))]);
+			sides += endOf(i) - m_stretches[i].first;
+			i = stretchOf(m_place[sideFrom(m_t.next(m_sides[positionOf(endOf(i)) - 1]))]);
+		}
+		if (sides > most) {
+			most = sides;
+			longest = count;
 		}
 		++count;
 	}
+	for (Stretch& stretch : m_stretches)
+		if (stretch.circle == 0 || stretch.circle == longest)
+			stretch.circle = longest - stretch.circle;
 	for (auto& [v, circle] : m_loneMarks)
 		circle = count++;
 	return count;
+}
+
+/// The place after the last one of a stretch.
+int CutSegments::endOf(std::size_t stretch) const
+{
+	return stretch + 1 < m_stretches.size() ? m_stretches[stretch + 1].first
+											: static_cast<int>(m_sides.size());
 }
 
 /// The stretch with a place.
@@ -289,6 +303,26 @@ void CutSegments::joinCircles(int number)
 	for (Stretch& stretch : m_stretches)
 		if (stretch.circle == number)
 			stretch.circle = 0;
+}
+
+std::vector<CutSegments::Departure> CutSegments::departures() const
+{
+	std::vector<Departure> found;
+	const auto before = [&](Halfedge h) { return m_t.next(m_t.next(h)).twin(); };
+	for (std::size_t i = 0; i < m_stretches.size(); ++i) {
+		const auto [first, circle] = m_stretches[i];
+		for (int place = first; circle > 0 && place < endOf(i); ++place)
+			for (Halfedge h = before(m_sides[positionOf(place)]); !isBorder(h.edge()); h = before(h))
+				found.push_back({h, circle});
+	}
+	for (const auto& [v, circle] : m_loneMarks)
+		if (circle > 0)
+			for (const Halfedge h : around(v))
+				found.push_back({h, circle});
+	std::stable_sort(found.begin(), found.end(), [&](const Departure& a, const Departure& b) {
+		return m_t.origin(a.halfedge) < m_t.origin(b.halfedge);
+	});
+	return found;
 }
 
 int CutSegments::place(Halfedge h) const

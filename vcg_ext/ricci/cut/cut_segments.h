@@ -84,6 +84,7 @@ public:
 	///                \  |  /
 	///        ===h===> o ===n===>       border edges: cut or boundary .
 	///
+	/// Circle 0 is the one with the most sides.
 	/// \return the number of circles
 	int labelCircles();
 
@@ -97,6 +98,16 @@ public:
 
 	/// The circle that \p h leaves; -1 if none.
 	int circle(Halfedge h) const;
+
+	/// A halfedge that leaves a circle.
+	struct Departure
+	{
+		Halfedge halfedge;
+		int circle;
+	};
+
+	/// Those of all circles but circle 0, by their origins.
+	std::vector<Departure> departures() const;
 
 	/// The sides in the order in which the last labelCircles() went along the circles.
 	const std::vector<Halfedge>& sides() const { return m_sides; }
@@ -120,6 +131,7 @@ private:
 		int circle; ///< -1: taken out
 	};
 	std::size_t stretchOf(int place) const;
+	int endOf(std::size_t stretch) const;
 	void noteLoneMark(Vertex v);
 
 	const Triangulation& m_t;

@@ -106,14 +106,13 @@ private:
 		countWork(kWorkOfVertex * m_paths.reached());
 	}
 
-	/// Numbers the sides of the cut and measures its wedges, if it has changed.
+	/// Numbers the sides of the cut if it has changed.
 	/// \return whether it opens the surface to a disk
 	bool bringUpToDate()
 	{
 		if (m_numberedAt != m_changes) {
 			m_numberedAt = m_changes;
 			m_isDisk = m_cut.labelCircles() == 1;
-			m_excess = m_keepsWedges ? m_wedges.excess() : 0.0;
 			countWork(m_cut.sides().size());
 		}
 		return m_isDisk;
@@ -139,19 +138,39 @@ private:
 		checkpoint();
 	}
 
-	/// Puts \p added in place of \p removed, which has been taken out, unless a wedge becomes too wide
-	/// by it.
+	/// Puts \p added in place of \p removed, which has been taken out, unless wedges become wider by it.
 	/// \return whether it did
 	bool replace(const std::vector<Edge>& removed, const std::vector<Edge>& added)
 	{
 		m_cut.add(added);
-		if (!m_keepsWedges || m_wedges.excess() <= m_excess) {
-			noteChange(removed, added);
-			return true;
+		const double after = m_keepsWedges ? excessAt(removed, added) : 0.0;
+		if (after > 0.0) {
+			m_cut.remove(added);
+			m_cut.add(removed);
+			if (after > excessAt(removed, added))
+				return false;
+			m_cut.remove(removed);
+			m_cut.add(added);
 		}
-		m_cut.remove(added);
-		m_cut.add(removed);
-		return false;
+		noteChange(removed, added);
+		return true;
+	}
+
+	/// By how much the wedges are too wide at the ends of these edges.
+	double excessAt(const std::vector<Edge>& some, const std::vector<Edge>& others) const
+	{
+		std::vector<Vertex> ends;
+		for (const std::vector<Edge>* edges : {&some, &others})
+			for (const Edge e : *edges)
+				for (const Vertex v : m_t.ends(e))
+					if (m_cut.isMarked(v))
+						ends.push_back(v);
+		std::sort(ends.begin(), ends.end());
+		ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+		double sum = 0.0;
+		for (const Vertex v : ends)
+			sum += m_wedges.excess(v);
+		return sum;
 	}
 
 	/// Replaces the segment of \p representative by the shortest path that opens the annulus.
@@ -276,12 +295,12 @@ private:
 		std::vector<Edge> path{last.edge()};
 		if (m_t.origin(last) != cone)
 			m_paths.appendPath(m_front, m_t.origin(last), path);
+		const double excess = m_wedges.excess();
 		const std::vector<Edge> removed =
 			m_cut.removeWithDeadEnds(m_cut.segmentOf(segments[positionOf(segment)].edge));
 		m_cut.add(path);
 		m_numberedAt = -1;
-		const double excess = m_excess;
-		const bool isDivided = bringUpToDate() && m_excess < excess;
+		const bool isDivided = bringUpToDate() && m_wedges.excess() < excess;
 		if (isDivided)
 			noteChange(removed, path);
 		else {
@@ -342,7 +361,6 @@ private:
 	VertexArray<int> m_changedAt; // [part] which of them was the last in it
 	int m_numberedAt = -1;        // how many changes the cut had seen when its sides were numbered
 	bool m_isDisk = false;        // then
-	double m_excess = 0.0;        // of the wedges then, where they count
 	std::size_t m_work = 0, m_workAtTick = 0;
 	Front m_front;            // of the search from a wedge that is divided
 	EdgeArray<int> m_segment; // number of its segment, at cut edges, while a wedge is divided
