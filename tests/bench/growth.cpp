@@ -171,7 +171,7 @@ std::vector<Case> cases()
 			 flatten(body(), options);
 		 }},
 		{"needles", "around", 1000, [=](int n) { flatten(can(n)); }},
-		{"needles, refined", "around", 250, [=](int n) { flatten(can(n), refined); }},
+		{"refinement of needles", "around", 250, [=](int n) { flatten(can(n), refined); }},
 		{"texture", "tiles", 1024, [=](int n) { drawTiles(root(n)); }}};
 }
 

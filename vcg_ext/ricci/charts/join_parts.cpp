@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <queue>
 #include <utility>
 
@@ -16,6 +17,10 @@ namespace {
 
 /// Places at which a part is tried before it is divided: the round wall of a hole has as many as facets.
 constexpr std::ptrdiff_t kMaxPlaces = 8;
+
+/// Motions that bring the middle of a chart to x that differ by more than this share of the chart's extent are not
+/// one: far more than what is called one place, as it lies far from the sides that tell the motions.
+constexpr double kOneMotion = 1e-4;
 
 using Parts = std::vector<std::vector<int>>; // triangles of each
 
@@ -49,6 +54,8 @@ public:
 	PartJoiner(const FlatMesh& chart, const Sides& sides, MovableParts& parts) :
 			m_chart(chart), m_sides(sides), m_parts(parts), m_borders(parts.count())
 	{
+		for (const Point2& p : chart.place)
+			m_box.add(p);
 	}
 
 	/// Two parts at a time, along the longest border at which the one with fewer triangles has room beside
@@ -63,7 +70,7 @@ public:
 			});
 		for (int part = 0; part < m_borders.size(); ++part)
 			for (const auto& [other, borders] : m_borders[part])
-				for (const Border& border : borders)
+				for (const auto& [x, border] : *borders)
 					if (part < other)
 						m_open.push({border, part, other});
 		while (!m_open.empty()) {
@@ -108,30 +115,44 @@ private:
 														  : m_sides.across(border.side);
 	}
 
+	/// The borders of two parts, by the x to which their motions bring the middle of the chart.
+	using Borders = std::multimap<double, Border>;
+
+	/// Of the part with the lower number.
+	double motionOf(const Border& border, int part, int other) const
+	{
+		return m_parts.across(sideIn(std::min(part, other), border))(m_box.centre())[0];
+	}
+
 	/// Adds a border to what two parts have in common. \return the border that it has become
 	Border add(const Border& added, int part, int other)
 	{
-		std::vector<Border>& borders = m_borders[part][other];
+		std::shared_ptr<Borders>& borders = m_borders[part][other];
+		if (!borders)
+			borders = m_borders[other][part] = std::make_shared<Borders>();
 		const Corner side = sideIn(part, added);
-		auto known = std::find_if(borders.begin(), borders.end(), [&](const Border& b) {
-			return m_parts.fits(m_parts.across(sideIn(part, b)), side);
+		const double x = motionOf(added, part, other), near = kOneMotion * m_box.extent();
+		const auto end = borders->upper_bound(x + near);
+		auto known = std::find_if(borders->lower_bound(x - near), end, [&](const auto& b) {
+			return m_parts.fits(m_parts.across(sideIn(part, b.second)), side);
 		});
-		if (known == borders.end())
-			known = borders.insert(known, added);
+		if (known == end)
+			known = borders->emplace(x, added);
 		else
-			known->length += added.length;
-		m_borders[other][part] = borders;
-		return *known;
+			known->second.length += added.length;
+		return known->second;
 	}
 
 	/// Whether the parts still are two, with a border as long as it was.
 	bool isPresent(const Candidate& c) const
 	{
 		const auto borders = m_borders[c.part].find(c.other);
-		return borders != m_borders[c.part].end() &&
-			   std::any_of(borders->second.begin(), borders->second.end(), [&](const Border& b) {
-				   return b.side == c.border.side && b.length == c.border.length;
-			   });
+		if (borders == m_borders[c.part].end())
+			return false;
+		const auto [first, end] = borders->second->equal_range(motionOf(c.border, c.part, c.other));
+		return std::any_of(first, end, [&](const auto& b) {
+			return b.second.side == c.border.side && b.second.length == c.border.length;
+		});
 	}
 
 	void join(int part, const Place& place)
@@ -144,7 +165,7 @@ private:
 			if (other == whole)
 				continue;
 			m_borders[other].erase(part);
-			for (const Border& border : borders)
+			for (const auto& [x, border] : *borders)
 				m_open.push({add(border, whole, other), whole, other});
 		}
 		m_borders[part].clear();
@@ -153,7 +174,8 @@ private:
 	const FlatMesh& m_chart;
 	const Sides& m_sides;
 	MovableParts& m_parts;
-	Array<std::map<int, std::vector<Border>>> m_borders; // [part] with each other part
+	Box2 m_box;
+	Array<std::map<int, std::shared_ptr<Borders>>> m_borders; // [part] with each other part
 	std::priority_queue<Candidate> m_open;
 };
 

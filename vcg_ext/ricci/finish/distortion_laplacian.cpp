@@ -12,6 +12,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
+/// So many iterations at most: a few are usual, fans of needles would take thousands. Fewer lead down, too.
+constexpr int kMaxIterations = 100;
+
 /// Re(conj(a) b).
 double realProduct(Complex a, Complex b)
 {
@@ -105,7 +108,7 @@ void DistortionLaplacian::solve(const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x
 	x.setZero(m_points.unknowns);
 	double square = dot(m_residual, m_residual);
 	const double wanted = residual * residual * square;
-	while (square > wanted) {
+	for (int i = 0; i < kMaxIterations && square > wanted; ++i) {
 		m_solved = m_direction;
 		solveBackward(m_solved);
 		m_product = m_direction - m_solved;
