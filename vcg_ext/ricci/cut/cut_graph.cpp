@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cut_graph.h"
 
+#include "../base/parallel.h"
 #include "../error.h"
 #include "../math/adjacency.h"
 #include "../math/disjoint_sets.h"
@@ -203,11 +204,9 @@ cutFrom(const ContractedGraph& graph, const VertexArray<char>& terminal, const S
 	return cut;
 }
 
-/// The shortest cut from a tree through the terminals and from the paths to single roots.
-/// \param shorten shorten(isCut) is called for each of them before they are compared
-template<class Shorten>
-CutGraph shortestOfSeveral(
-	const ContractedGraph& graph, const VertexArray<char>& terminal, const Shorten& shorten)
+/// Trees from which a cut is looked for: one through the terminals, and the paths to single roots.
+std::vector<SpanningTree>
+trees(const ContractedGraph& graph, const VertexArray<char>& terminal)
 {
 	const Triangulation& t = graph.surface();
 	const std::size_t loops = graph.loopNodes().size();
@@ -215,19 +214,12 @@ CutGraph shortestOfSeveral(
 	for (const Vertex n : t.vertices())
 		if (terminal[n])
 			terminals.push_back(n);
-	CutGraph best;
-	const bool hasTree = terminals.size() > 1;
-	const auto shortCutFrom = [&](const SpanningTree& tree) {
-		CutGraph cut = cutFrom(graph, terminal, tree);
-		shorten(cut.isCut);
-		measure(graph, cut);
-		return cut;
-	};
-	if (hasTree) {
-		best = shortCutFrom(treeOfTerminals(graph, terminals));
+	std::vector<SpanningTree> found;
+	if (terminals.size() > 1) {
+		found.push_back(treeOfTerminals(graph, terminals));
 		// The tree is all that a sphere with holes needs.
 		if (t.eulerCharacteristic() + static_cast<int>(loops) == 2)
-			return best;
+			return found;
 	}
 	// On a surface with boundary the first loop is the root. On a closed one every next root is the
 	// node farthest from the roots before it.
@@ -235,24 +227,39 @@ CutGraph shortestOfSeveral(
 	Vertex root = !closed             ? graph.loopNodes().front()
 				  : terminals.empty() ? t.origin(t.halfedge(Face(0)))
 									  : terminals.front();
-	VertexArray<double> fromRoots;
+	VertexArray<double> fromRoots(t.vertexCount(), kFar);
 	for (int attempt = 0; attempt < (closed ? kRoots : 1); ++attempt) {
-		const SpanningTree tree{graph.pathsFrom({root}), {}};
-		CutGraph cut = shortCutFrom(tree);
-		if ((attempt == 0 && !hasTree) || cut.length < best.length)
-			best = std::move(cut);
-		if (attempt == 0)
-			fromRoots = tree.paths.distance;
+		found.push_back({graph.pathsFrom({root}), {}});
 		double farthest = -1.0;
 		for (const Vertex n : fromRoots.indices()) {
-			fromRoots[n] = std::min(fromRoots[n], tree.paths.distance[n]);
+			fromRoots[n] = std::min(fromRoots[n], found.back().paths.distance[n]);
 			if (fromRoots[n] < kFar && fromRoots[n] > farthest) {
 				farthest = fromRoots[n];
 				root = n;
 			}
 		}
 	}
-	return best;
+	return found;
+}
+
+/// The shortest cut from any of trees().
+/// \param shorten shorten(isCut) is called for each of them before they are compared
+template<class Shorten>
+CutGraph shortestOfSeveral(
+	const ContractedGraph& graph, const VertexArray<char>& terminal, const Shorten& shorten)
+{
+	const std::vector<SpanningTree> from = trees(graph, terminal);
+	std::vector<CutGraph> cuts(from.size());
+	tasksInParallel(
+		static_cast<int>(from.size()), threadsFor(graph.surface().faceCount()), [&](int i) {
+			CutGraph& cut = cuts[positionOf(i)];
+			cut = cutFrom(graph, terminal, from[positionOf(i)]);
+			shorten(cut.isCut);
+			measure(graph, cut);
+		});
+	return *std::min_element(cuts.begin(), cuts.end(), [](const CutGraph& a, const CutGraph& b) {
+		return a.length < b.length;
+	});
 }
 
 /// Edges of the cut outside a spanning tree of it.
