@@ -11,7 +11,7 @@
 namespace ricci {
 
 /// The dual graph of charts that fall into parts: triangles with joined sides are neighbours. An edge
-/// weighs what it costs to cut it: its length.
+/// weighs what it costs to cut it: its length at the price there.
 class DualGraph
 {
 public:
@@ -36,9 +36,12 @@ public:
 	std::int64_t weight(Corner side) const
 	{
 		constexpr double kUnits = 1e9;
-		return m_longest > 0.0
-				   ? static_cast<std::int64_t>(m_chart.lengths[side] / m_longest * kUnits) + 1
-				   : 1;
+		if (!(m_longest > 0.0))
+			return 1;
+		double cost = m_chart.lengths[side] / m_longest;
+		if (!price.empty())
+			cost *= 0.5 * (price[side.face()] + price[joined(side).face()]);
+		return static_cast<std::int64_t>(cost * kUnits) + 1;
 	}
 
 	/// The connected pieces of all parts: the triangles of each, in increasing order.
@@ -71,7 +74,8 @@ public:
 		return pieces;
 	}
 
-	Array<int> part; ///< [triangle] number
+	Array<int> part;     ///< [triangle] number
+	Array<double> price; ///< [triangle] of a cut there, by its length; empty: 1
 
 private:
 	const FlatMesh& m_chart;

@@ -86,7 +86,8 @@ struct Halves
 };
 
 /// The least cut across a chart's smallest bounding rectangle, but for \p from at either end, or across so much
-/// of it as is about kBand triangles wide. What is smaller than kCrumb of the chart goes to the other part.
+/// of it as is about kBand triangles wide. Its length counts as much as the square is large that holds the
+/// longer part: a cut in the middle may be four times as long as one at the end. What is smaller than kCrumb of the chart goes to the other part.
 /// \param triangles of the chart
 /// \return none where such a crumb is left, or nothing is cut
 std::optional<Halves> halves(
@@ -108,6 +109,9 @@ std::optional<Halves> halves(
 		}
 		along.push_back(std::max(first, 0.0) + std::min(last, 0.0));
 	}
+	graph.price.assign(mesh.size(), 1.0);
+	for (std::size_t i = 0; i < triangles.size(); ++i)
+		graph.price[triangles[i]] = std::pow(1.0 + 2.0 * std::abs(along[i]), 2);
 	std::vector<double> apart;
 	apart.reserve(along.size());
 	for (const double at : along)

@@ -29,17 +29,17 @@ void joinCharts(Parametrization& map);
 
 /// Seams may grow by one part for this many parts more of covered square: the worth of a map is
 /// log(occupancy) - kRoomPrice log(sqrt(area) + seams), up to a constant.
-constexpr double kRoomPrice = 2.0;
+constexpr double kRoomPrice = 2.3;
 
 /// Share of the square that has to lie beside a chart in its smallest bounding rectangle, where it is cut.
 constexpr double kRoomOfChart = 0.04;
 
-/// Shares of a chart's length, at either end, that a cut for room leaves whole: neither part is nearly as long as
-/// the chart. Cuts are shorter where more lies between; where the least one takes off crumbs alone, less does.
-constexpr double kCutFrom[] = {0.3, 0.4};
+/// Shares of a chart's length, at either end, that a cut for room leaves whole. Where the least cut takes off crumbs
+/// alone, less lies between.
+constexpr double kCutFrom[] = {0.1, 0.4};
 
-/// Cuts a chart in two: along the edges of least length on the surface across the middle of its smallest
-/// bounding rectangle (kCutFrom). Takes the chart that leaves most room there, of those whose cut may be worth
+/// Cuts a chart in two: along the edges of least length on the surface, those in the middle before others, across its
+/// smallest bounding rectangle (kCutFrom). Takes the chart that leaves most room there, of those whose cut may be worth
 /// what it costs by kRoomPrice. The parts are given back as those of separateCharts(), in the report, too.
 /// \param map packed
 /// \param sides of its triangles
