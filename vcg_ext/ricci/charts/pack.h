@@ -45,7 +45,7 @@ void packForRoom(
 
 /// A cut that brings less than kMinRoom is not worth a chart more. Of a square that is covered by kEnoughCovered
 /// little is left to win.
-constexpr double kMinRoom = 0.005, kEnoughCovered = 0.7;
+constexpr double kMinRoom = 0.005, kEnoughCovered = 0.75;
 
 /// Cuts at most, and those in a row that bring nothing.
 constexpr int kMaxCuts = 24, kMaxVainCuts = 4;
