@@ -136,14 +136,16 @@ private:
 	static std::string stageOf(const std::string& what)
 	{
 		const std::vector<std::pair<std::string, std::string>> words = {
-			{"Circle packing", "rest"},
+			{"Choosing the target", "cones"},
 			{"Placing cones", "cones"},
+			{"Solving for the metric", "flows"},
 			{"Newton step", "flows"},
 			{"Cutting and layout", "cut"},
 			{"Shortening the seams", "cut"},
-			{"Overlay of the two triangulations", "overlay"},
+			{"Placing the pieces of the overlay", "overlay"},
 			{"Repairing the map", "finish"},
-			{"Looking for charts that overlap", "charts"},
+			{"Looking for overlaps", "charts"},
+			{"Packing the charts", "pack"},
 			{"Finishing the coordinates", "write"}};
 		for (const auto& [word, stage] : words)
 			if (what.rfind(word, 0) == 0)

@@ -113,6 +113,7 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 		const std::string choice = cut() + "; cones are expected to cost more";
 		return chosen(choice, std::move(*unfolded));
 	}
+	advance(1.0, "Looking for overlaps");
 	Parametrization map = asParametrization(component, std::move(*flow));
 	separateCharts(options, map);
 	if (!unfolded && mayUnfold(component, options) && costOf(map).total() > kPoorCost)
