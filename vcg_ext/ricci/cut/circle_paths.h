@@ -69,8 +69,8 @@ private:
 	const EdgeArray<double>& m_cost;
 	CutSegments& m_cut;
 	const CoarseSurface* m_parts;
-	std::vector<Vertex> m_near; // see near()
-	VertexArray<char> m_isNear; // [part] the same
+	std::vector<Vertex> m_near;                   // see near()
+	VertexArray<char> m_isNear;                   // [part] the same
 	std::vector<CutSegments::Departure> m_starts; // of the circles that are not joined to circle 0
 	int m_joined = -1;                            // the circle from which the last bridge came
 	std::vector<Front> m_fronts;                  // of two searches, and of their sums

@@ -205,8 +205,7 @@ cutFrom(const ContractedGraph& graph, const VertexArray<char>& terminal, const S
 }
 
 /// Trees from which a cut is looked for: one through the terminals, and the paths to single roots.
-std::vector<SpanningTree>
-trees(const ContractedGraph& graph, const VertexArray<char>& terminal)
+std::vector<SpanningTree> trees(const ContractedGraph& graph, const VertexArray<char>& terminal)
 {
 	const Triangulation& t = graph.surface();
 	const std::size_t loops = graph.loopNodes().size();

@@ -312,7 +312,8 @@ std::vector<CutSegments::Departure> CutSegments::departures() const
 	for (std::size_t i = 0; i < m_stretches.size(); ++i) {
 		const auto [first, circle] = m_stretches[i];
 		for (int place = first; circle > 0 && place < endOf(i); ++place)
-			for (Halfedge h = before(m_sides[positionOf(place)]); !isBorder(h.edge()); h = before(h))
+			for (Halfedge h = before(m_sides[positionOf(place)]); !isBorder(h.edge());
+				 h = before(h))
 				found.push_back({h, circle});
 	}
 	for (const auto& [v, circle] : m_loneMarks)
