@@ -102,6 +102,22 @@ TEST(TasksInParallel, WhatATaskOrTheListenerThrowsEndsAll)
 	}
 }
 
+/// What the caller throws ends help, and the help that this has.
+TEST(TasksInParallel, HelpWithinHelpEndsWithIt)
+{
+	std::atomic<bool> begun{false};
+	const auto endless = [&](int) {
+		for (begun = true;;)
+			checkpoint();
+	};
+	const auto fail = [&] {
+		for (int i = 0; !begun && i < 100000; ++i)
+			std::this_thread::sleep_for(std::chrono::microseconds(100));
+		throw std::logic_error("the caller");
+	};
+	EXPECT_THROW(besides(2, fail, [&] { tasksInParallel(2, 2, endless); }), std::logic_error);
+}
+
 /// The task in the other thread goes on after the caller's own is done.
 TEST(TasksInParallel, TheListenerIsHeardWhileTheCallerWaits)
 {

@@ -106,7 +106,7 @@ TEST(CutGraph, OpensLargeSurfacesToADisk)
 			const VertexArray<char> marked = someVertices(12, t, random);
 			Listener ticks;
 			const CutGraph cut = heard(ticks, [&] { return cutToDisk(t, packed.lengths, marked); });
-			EXPECT_GT(ticks.calls(), 5);
+			EXPECT_GE(ticks.calls(), 2); // other threads tick for themselves
 			expectCutToADisk(t, cut);
 			EXPECT_EQ(static_cast<int>(cut.generators.size()), 2 * genus);
 			EXPECT_NEAR(cut.length, lengthOf(cut, packed.lengths), 1e-12 * cut.length);

@@ -76,18 +76,18 @@ constexpr std::chrono::milliseconds kBetweenWaits(400);
 template<class Own, class Help>
 void withHelpers(int helpers, const Own& own, const Help& help)
 {
-	std::atomic<bool> ended{false};
+	HelpFlag flag;
 	const double memory = Task::memoryLimit();
 	std::exception_ptr ofOwn, ofHelp;
 	const auto unlessEnded = [&](const auto& run, std::exception_ptr& thrown) {
-		const HelpGuard guard(ended, memory);
+		const HelpGuard guard(flag, memory);
 		try {
 			run();
 		}
 		catch (const HelpEnded&) {
 		}
 		catch (...) {
-			if (!ended.exchange(true) || &thrown == &ofOwn) // the caller's comes first
+			if (!flag.end() || &thrown == &ofOwn) // the caller's comes first
 				thrown = std::current_exception();
 		}
 	};
@@ -113,6 +113,8 @@ void withHelpers(int helpers, const Own& own, const Help& help)
 	for (const std::exception_ptr& thrown : {ofOwn, ofHelp})
 		if (thrown)
 			std::rethrow_exception(thrown);
+	if (flag.isEnded()) // by those whom this thread helps
+		throw HelpEnded();
 }
 
 /// Calls work(i) for every i of [0, count), each in one of \p threads threads, in any order, with

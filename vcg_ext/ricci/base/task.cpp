@@ -8,7 +8,7 @@ namespace ricci {
 namespace {
 
 thread_local Task* current = nullptr;
-thread_local const std::atomic<bool>* helpEnded = nullptr;
+thread_local const HelpFlag* helpFlag = nullptr;
 thread_local double helperMemoryLimit = 0.0;
 
 } // namespace
@@ -59,7 +59,7 @@ void Task::tell(double fraction)
 
 void checkpoint()
 {
-	if (helpEnded && *helpEnded)
+	if (helpFlag && helpFlag->isEnded())
 		throw HelpEnded();
 	if (current)
 		current->tell(current->m_done);
@@ -89,16 +89,28 @@ void logLine(const std::string& line)
 	}
 }
 
-HelpGuard::HelpGuard(const std::atomic<bool>& ended, double memoryLimit) :
-		m_outerEnded(helpEnded), m_outerMemoryLimit(helperMemoryLimit)
+HelpFlag::HelpFlag() : m_outer(helpFlag)
 {
-	helpEnded = &ended;
+}
+
+bool HelpFlag::isEnded() const
+{
+	for (const HelpFlag* flag = this; flag; flag = flag->m_outer)
+		if (flag->m_ended)
+			return true;
+	return false;
+}
+
+HelpGuard::HelpGuard(const HelpFlag& flag, double memoryLimit) :
+		m_outerFlag(helpFlag), m_outerMemoryLimit(helperMemoryLimit)
+{
+	helpFlag = &flag;
 	helperMemoryLimit = memoryLimit;
 }
 
 HelpGuard::~HelpGuard()
 {
-	helpEnded = m_outerEnded;
+	helpFlag = m_outerFlag;
 	helperMemoryLimit = m_outerMemoryLimit;
 }
 

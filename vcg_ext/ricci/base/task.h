@@ -82,18 +82,35 @@ struct HelpEnded
 {
 };
 
-/// What a thread works for while it helps with the task of another one, which has set \p ended once its
-/// help is of no use; for parallel.h.
+/// Whether the help of some threads is of no use any more; for parallel.h. Help within help, which the thread that
+/// makes it may give, is of no use then, too.
+class HelpFlag
+{
+public:
+	HelpFlag();
+	HelpFlag(const HelpFlag&) = delete;
+	HelpFlag& operator=(const HelpFlag&) = delete;
+
+	/// \return whether it was ended before
+	bool end() { return m_ended.exchange(true); }
+	bool isEnded() const;
+
+private:
+	std::atomic<bool> m_ended{false};
+	const HelpFlag* m_outer;
+};
+
+/// What a thread works for while it helps with the task of another one.
 class HelpGuard
 {
 public:
-	HelpGuard(const std::atomic<bool>& ended, double memoryLimit);
+	HelpGuard(const HelpFlag& flag, double memoryLimit);
 	~HelpGuard();
 	HelpGuard(const HelpGuard&) = delete;
 	HelpGuard& operator=(const HelpGuard&) = delete;
 
 private:
-	const std::atomic<bool>* m_outerEnded;
+	const HelpFlag* m_outerFlag;
 	double m_outerMemoryLimit;
 };
 

@@ -11,7 +11,7 @@
 namespace ricci {
 
 /// The dual graph of charts that fall into parts: triangles with joined sides are neighbours. An edge
-/// weighs what it costs to cut it: its length at the price there.
+/// weighs what it costs to cut it: its length, times the mean price of its two triangles.
 class DualGraph
 {
 public:
@@ -33,6 +33,7 @@ public:
 	}
 
 	/// In units of 1e-9 of the longest edge, at least 1.
+	/// \pre the side is joined
 	std::int64_t weight(Corner side) const
 	{
 		constexpr double kUnits = 1e9;
@@ -75,7 +76,7 @@ public:
 	}
 
 	Array<int> part;     ///< [triangle] number
-	Array<double> price; ///< [triangle] of a cut there, by its length; empty: 1
+	Array<double> price; ///< [triangle] of a unit of length; empty: 1 everywhere
 
 private:
 	const FlatMesh& m_chart;

@@ -18,8 +18,9 @@ namespace {
 /// Places at which a part is tried before it is divided: the round wall of a hole has as many as facets.
 constexpr std::ptrdiff_t kMaxPlaces = 8;
 
-/// Motions that bring the middle of a chart to x that differ by more than this share of the chart's extent are not
-/// one: far more than what is called one place, as it lies far from the sides that tell the motions.
+/// Two motions are different if the x to which they bring the middle of the chart differ by more than this share
+/// of the chart's extent: far more than what is called one place, because the middle may lie far from the side
+/// that gives the motion.
 constexpr double kOneMotion = 1e-4;
 
 using Parts = std::vector<std::vector<int>>; // triangles of each
@@ -92,8 +93,9 @@ private:
 	/// Sides of two parts that one motion brings to those across.
 	struct Border
 	{
-		Corner side;   ///< one of them
-		double length; ///< of all, on the surface
+		Corner side;    ///< one of them
+		double length;  ///< of all, on the surface
+		double x = 0.0; ///< by which it is found
 	};
 
 	struct Candidate
@@ -118,12 +120,6 @@ private:
 	/// The borders of two parts, by the x to which their motions bring the middle of the chart.
 	using Borders = std::multimap<double, Border>;
 
-	/// Of the part with the lower number.
-	double motionOf(const Border& border, int part, int other) const
-	{
-		return m_parts.across(sideIn(std::min(part, other), border))(m_box.centre())[0];
-	}
-
 	/// Adds a border to what two parts have in common. \return the border that it has become
 	Border add(const Border& added, int part, int other)
 	{
@@ -131,13 +127,15 @@ private:
 		if (!borders)
 			borders = m_borders[other][part] = std::make_shared<Borders>();
 		const Corner side = sideIn(part, added);
-		const double x = motionOf(added, part, other), near = kOneMotion * m_box.extent();
+		// By the motion of the part with the lower number.
+		const Motion motion = m_parts.across(sideIn(std::min(part, other), added));
+		const double x = motion(m_box.centre())[0], near = kOneMotion * m_box.extent();
 		const auto end = borders->upper_bound(x + near);
 		auto known = std::find_if(borders->lower_bound(x - near), end, [&](const auto& b) {
 			return m_parts.fits(m_parts.across(sideIn(part, b.second)), side);
 		});
 		if (known == end)
-			known = borders->emplace(x, added);
+			known = borders->emplace(x, Border{added.side, added.length, x});
 		else
 			known->second.length += added.length;
 		return known->second;
@@ -149,7 +147,7 @@ private:
 		const auto borders = m_borders[c.part].find(c.other);
 		if (borders == m_borders[c.part].end())
 			return false;
-		const auto [first, end] = borders->second->equal_range(motionOf(c.border, c.part, c.other));
+		const auto [first, end] = borders->second->equal_range(c.border.x);
 		return std::any_of(first, end, [&](const auto& b) {
 			return b.second.side == c.border.side && b.second.length == c.border.length;
 		});

@@ -86,8 +86,9 @@ struct Halves
 };
 
 /// The least cut across a chart's smallest bounding rectangle, but for \p from at either end, or across so much
-/// of it as is about kBand triangles wide. Its length counts as much as the square is large that holds the
-/// longer part: a cut in the middle may be four times as long as one at the end. What is smaller than kCrumb of the chart goes to the other part.
+/// of it as is about kBand triangles wide. Its length is weighed by the square that holds the longer part: an edge
+/// at the end of the rectangle costs four times as much as one in the middle. What is smaller than kCrumb of the
+/// chart goes to the other part.
 /// \param triangles of the chart
 /// \return none where such a crumb is left, or nothing is cut
 std::optional<Halves> halves(

@@ -34,12 +34,12 @@ constexpr double kRoomPrice = 2.3;
 /// Share of the square that has to lie beside a chart in its smallest bounding rectangle, where it is cut.
 constexpr double kRoomOfChart = 0.04;
 
-/// Shares of a chart's length, at either end, that a cut for room leaves whole. Where the least cut takes off crumbs
-/// alone, less lies between.
+/// Shares of a chart's length, at either end, that a cut for room leaves whole. The second is tried where the first
+/// finds crumbs alone.
 constexpr double kCutFrom[] = {0.1, 0.4};
 
-/// Cuts a chart in two: along the edges of least length on the surface, those in the middle before others, across its
-/// smallest bounding rectangle (kCutFrom). Takes the chart that leaves most room there, of those whose cut may be worth
+/// Cuts a chart in two: along the edges of least length on the surface, where those far from the middle count as
+/// longer, across its smallest bounding rectangle (kCutFrom). Takes the chart that leaves most room there, of those whose cut may be worth
 /// what it costs by kRoomPrice. The parts are given back as those of separateCharts(), in the report, too.
 /// \param map packed
 /// \param sides of its triangles

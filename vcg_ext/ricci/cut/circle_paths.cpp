@@ -22,6 +22,7 @@ CirclePaths::CirclePaths(CutSegments& cut, const CoarseSurface* parts) :
 
 void CirclePaths::findNear(const std::vector<Edge>& removed)
 {
+	m_reached = 0;
 	if (!m_parts)
 		return;
 	for (const Vertex part : m_near)
@@ -52,22 +53,11 @@ bool CirclePaths::isOpen(Vertex v) const
 int CirclePaths::splitCircles(const std::vector<Edge>& removed)
 {
 	const int count = m_cut.splitCircles(removed);
-	m_starts = m_cut.departures();
-	if (m_parts)
-		keepStarts([&](const CutSegments::Departure& start) {
-			return isOpen(m_t.target(start.halfedge)) ||
-				   m_isNear[m_parts->centreOf(m_t.origin(start.halfedge))];
-		});
+	m_starts = m_cut.departures([&](Halfedge h) {
+		++m_reached;
+		return !m_parts || isOpen(m_t.target(h)) || m_isNear[m_parts->centreOf(m_t.origin(h))];
+	});
 	return count;
-}
-
-template<class IsKept>
-void CirclePaths::keepStarts(const IsKept& isKept)
-{
-	m_starts.erase(
-		std::remove_if(
-			m_starts.begin(), m_starts.end(), [&](const auto& start) { return !isKept(start); }),
-		m_starts.end());
 }
 
 /// Lets \p front begin at \p circle, or at all but circle 0 if that is 0.
@@ -116,8 +106,8 @@ void CirclePaths::appendPath(const Front& front, Vertex v, std::vector<Edge>& ed
 	}
 }
 
-/// By a search from the others, which have fewer sides: a path from a point does not cost one from all of a
-/// long cut.
+/// The search begins at the other circles, each of which has fewer sides: a path from a point does not cost a
+/// search from all of a long cut.
 std::vector<Edge> CirclePaths::shortestBridge(double bound)
 {
 	Front& front = m_fronts[0];
@@ -129,6 +119,7 @@ std::vector<Edge> CirclePaths::shortestBridge(double bound)
 	offer(startFrom(0, bound, front));
 	for (Vertex v; (v = front.next(best.first)).isValid();)
 		offer(goOn(front, v, best.first));
+	m_reached += front.reached().size();
 	std::vector<Edge> path;
 	if (!best.second.isValid())
 		return path;
@@ -144,13 +135,20 @@ std::vector<Edge> CirclePaths::joinCircles(int circles, double bound)
 {
 	std::vector<Edge> edges;
 	bool found = true;
-	for (; found && circles > 1; --circles) {
+	for (; circles > 1; --circles) {
 		const std::vector<Edge> bridge = shortestBridge(bound - costOf(edges));
 		found = !bridge.empty();
+		if (!found)
+			break;
 		m_cut.add(bridge);
 		edges.insert(edges.end(), bridge.begin(), bridge.end());
 		m_cut.joinCircles(m_joined);
-		keepStarts([&](const CutSegments::Departure& start) { return start.circle != m_joined; });
+		m_starts.erase(
+			std::remove_if(
+				m_starts.begin(),
+				m_starts.end(),
+				[&](const auto& start) { return start.circle == m_joined; }),
+			m_starts.end());
 	}
 	m_cut.remove(edges);
 	if (!found)
@@ -174,6 +172,8 @@ std::vector<Edge> CirclePaths::bestTripod(double bound)
 			bound = length;
 			arrival = h;
 		}
+	for (const Front& front : m_fronts)
+		m_reached += front.reached().size();
 	std::vector<Edge> edges;
 	if (!arrival.isValid())
 		return edges;
@@ -226,14 +226,6 @@ double CirclePaths::costOf(const std::vector<Edge>& edges) const
 	for (const Edge e : edges)
 		sum += m_cost[e];
 	return sum;
-}
-
-std::size_t CirclePaths::reached() const
-{
-	std::size_t count = m_starts.size();
-	for (const Front& front : m_fronts)
-		count += front.reached().size();
-	return count;
 }
 
 } // namespace ricci

@@ -50,15 +50,13 @@ public:
 	/// Appends the edges of the path by which \p front has come from the cut to \p v.
 	void appendPath(const Front& front, Vertex v, std::vector<Edge>& edges) const;
 
-	/// Vertices that the last searches have seen, and places where they may have begun.
-	std::size_t reached() const;
+	/// Vertices that searches have seen since findNear(), and halfedges with which they may have begun.
+	std::size_t reached() const { return m_reached; }
 
 private:
 	using Arrival = std::pair<double, Halfedge>; // length of the path, and its last halfedge
 
 	bool isOpen(Vertex v) const;
-	template<class IsKept>
-	void keepStarts(const IsKept& isKept);
 	Arrival startFrom(int circle, double bound, Front& front) const;
 	void searchFromBoth(double bound);
 	void goOn(Halfedge h, double length, double bound, Front& front, Arrival& arrival) const;
@@ -73,6 +71,7 @@ private:
 	VertexArray<char> m_isNear;                   // [part] the same
 	std::vector<CutSegments::Departure> m_starts; // of the circles that are not joined to circle 0
 	int m_joined = -1;                            // the circle from which the last bridge came
+	std::size_t m_reached = 0;                    // see reached()
 	std::vector<Front> m_fronts;                  // of two searches, and of their sums
 };
 

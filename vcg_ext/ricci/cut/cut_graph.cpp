@@ -256,9 +256,10 @@ CutGraph shortestOfSeveral(
 			shorten(cut.isCut);
 			measure(graph, cut);
 		});
-	return *std::min_element(cuts.begin(), cuts.end(), [](const CutGraph& a, const CutGraph& b) {
-		return a.length < b.length;
-	});
+	return std::move(
+		*std::min_element(cuts.begin(), cuts.end(), [](const CutGraph& a, const CutGraph& b) {
+			return a.length < b.length;
+		}));
 }
 
 /// Edges of the cut outside a spanning tree of it.

@@ -305,27 +305,6 @@ void CutSegments::joinCircles(int number)
 			stretch.circle = 0;
 }
 
-std::vector<CutSegments::Departure> CutSegments::departures() const
-{
-	std::vector<Departure> found;
-	const auto before = [&](Halfedge h) { return m_t.next(m_t.next(h)).twin(); };
-	for (std::size_t i = 0; i < m_stretches.size(); ++i) {
-		const auto [first, circle] = m_stretches[i];
-		for (int place = first; circle > 0 && place < endOf(i); ++place)
-			for (Halfedge h = before(m_sides[positionOf(place)]); !isBorder(h.edge());
-				 h = before(h))
-				found.push_back({h, circle});
-	}
-	for (const auto& [v, circle] : m_loneMarks)
-		if (circle > 0)
-			for (const Halfedge h : around(v))
-				found.push_back({h, circle});
-	std::stable_sort(found.begin(), found.end(), [&](const Departure& a, const Departure& b) {
-		return m_t.origin(a.halfedge) < m_t.origin(b.halfedge);
-	});
-	return found;
-}
-
 int CutSegments::place(Halfedge h) const
 {
 	const Halfedge side = sideFrom(h);
@@ -341,7 +320,7 @@ int CutSegments::circle(Halfedge h) const
 				return circle;
 		return -1;
 	}
-	// What has been put onto the cut since belongs to a path from circle 0.
+	// What has been put onto the cut since belongs to a path to circle 0.
 	const int circle = m_place[side] < 0 ? -1 : m_stretches[stretchOf(m_place[side])].circle;
 	return std::max(circle, 0);
 }

@@ -4,6 +4,7 @@
 
 #include "../surface/triangulation.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -84,7 +85,7 @@ public:
 	///                \  |  /
 	///        ===h===> o ===n===>       border edges: cut or boundary .
 	///
-	/// Circle 0 is the one with the most sides.
+	/// Circle 0 is the one with the most sides, or the first mark where there are none.
 	/// \return the number of circles
 	int labelCircles();
 
@@ -106,8 +107,32 @@ public:
 		int circle;
 	};
 
-	/// Those of all circles but circle 0, by their origins.
-	std::vector<Departure> departures() const;
+	/// Those of all circles but circle 0, by their origins, for which \p isKept(halfedge) holds.
+	template<class IsKept>
+	std::vector<Departure> departures(const IsKept& isKept) const
+	{
+		std::vector<Departure> found;
+		const auto add = [&](Halfedge h, int circle) {
+			if (isKept(h))
+				found.push_back({h, circle});
+		};
+		const auto before = [&](Halfedge h) { return m_t.next(m_t.next(h)).twin(); };
+		for (std::size_t i = 0; i < m_stretches.size(); ++i) {
+			const auto [first, circle] = m_stretches[i];
+			for (int place = first; circle > 0 && place < endOf(i); ++place)
+				for (Halfedge h = before(m_sides[positionOf(place)]); !isBorder(h.edge());
+					 h = before(h))
+					add(h, circle);
+		}
+		for (const auto& [v, circle] : m_loneMarks)
+			if (circle > 0)
+				for (const Halfedge h : around(v))
+					add(h, circle);
+		std::stable_sort(found.begin(), found.end(), [&](const Departure& a, const Departure& b) {
+			return m_t.origin(a.halfedge) < m_t.origin(b.halfedge);
+		});
+		return found;
+	}
 
 	/// The sides in the order in which the last labelCircles() went along the circles.
 	const std::vector<Halfedge>& sides() const { return m_sides; }

@@ -51,7 +51,6 @@ public:
 		checkpoint();
 		shorten();
 		m_keepsWedges = true;
-		m_numberedAt = -1;
 		if (divideWedges())
 			shorten();
 		return m_work > kMaxWork;

@@ -12,7 +12,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// So many iterations at most: a few are usual, fans of needles would take thousands. Fewer lead down, too.
+/// So many iterations at most: a few are usual, fans of needles would take thousands. The direction leads
+/// down after any number of them.
 constexpr int kMaxIterations = 100;
 
 /// Re(conj(a) b).

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -82,8 +81,7 @@ Array<int> layersOf(const Array<Triangle>& triangles, int& duplicates)
 		faces.emplace_back(triangles[f], f);
 		std::sort(faces.back().first.begin(), faces.back().first.end());
 	}
-	bucketSort(
-		faces, [](const auto& f) { return f.first[0]; }, std::less<>());
+	std::sort(faces.begin(), faces.end());
 	Array<int> layer(triangles.size(), 0);
 	for (std::size_t i = 1; i < faces.size(); ++i)
 		if (faces[i].first == faces[i - 1].first) {
