@@ -116,7 +116,8 @@ check_deb() {
 	for wanted in 'meshlab (>= 2020.09)' 'meshlab (<< 2020.10)' libqt5widgets5 libstdc++6; do
 		grep -qF "$wanted" "$folder/depends" || fail "the .deb does not depend on $wanted"
 	done
-	dpkg-deb -f "$1" Description | grep -q 'Flattens triangle meshes' || fail "the .deb does not say what it is"
+	[[ $(dpkg-deb -f "$1" Description) == *'Flattens triangle meshes'* ]] ||
+		fail "the .deb does not say what it is"
 	dpkg-deb -c "$1" >"$folder/content"
 	grep -q '/usr/lib/[^/]*/meshlab/plugins/libfilter_ricci.so$' "$folder/content" || fail "the .deb has no plugin"
 	for wanted in CHANGELOG.md README.md copyright; do
