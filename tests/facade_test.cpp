@@ -173,7 +173,7 @@ TYPED_TEST(Facade, SixDecimalsTurnNoTriangleRound)
 TYPED_TEST(Facade, AFinishedMapHasNoTriangleTurnedRoundAsItIsStored)
 {
 	int turned = 0;
-	for (const std::uint64_t seed : {1, 2, 3}) {
+	for (const std::uint64_t seed : {1u, 2u, 3u}) {
 		SCOPED_TRACE(seed);
 		Random random(seed);
 		TypeParam m;

@@ -87,7 +87,7 @@ void expectFlat(const Case& c, const FlatResult& flat)
 TEST(SliverSurfaces, EndInAFlatMetricOrAReason)
 {
 	int solved = 0, refused = 0;
-	for (std::uint64_t seed : {1, 2, 3})
+	for (std::uint64_t seed : {1u, 2u, 3u})
 		for (const Case& c : cases(seed)) {
 			SCOPED_TRACE(c.name + ", seed " + std::to_string(seed));
 			try {
@@ -109,7 +109,7 @@ TEST(SliverSurfaces, EndInAFlatMetricOrAReason)
 TEST(SliverSurfaces, EdgeSwapsMendWhatBreaks)
 {
 	int whole = 0, mended = 0, swapped = 0, refused = 0;
-	for (std::uint64_t seed : {1, 3})
+	for (std::uint64_t seed : {1u, 3u})
 		for (Case& c : cases(seed)) {
 			if (reason(c.mesh, c.options, c.input).empty()) {
 				++whole;
@@ -146,7 +146,7 @@ TEST(SliverSurfaces, EdgeSwapsMendWhatBreaks)
 
 TEST(SliverSurfaces, IntrinsicFlipsSolveAll)
 {
-	for (std::uint64_t seed : {1, 2, 3})
+	for (std::uint64_t seed : {1u, 2u, 3u})
 		for (Case& c : cases(seed)) {
 			SCOPED_TRACE(c.name + ", seed " + std::to_string(seed));
 			c.options.method = Method::IntrinsicFlips;

@@ -66,7 +66,7 @@ double minRelativeWeight(const FlowResult& r)
 TEST(RicciFlow, SolvesWhatBreaksOnAFixedTriangulation)
 {
 	int refused = 0;
-	for (std::uint64_t seed : {1, 2, 3})
+	for (const std::uint64_t seed : {1u, 2u, 3u})
 		for (int genus : {0, 2, 3}) {
 			SCOPED_TRACE("genus " + std::to_string(genus) + ", seed " + std::to_string(seed));
 			Random random(400 + seed);
@@ -226,7 +226,7 @@ TEST(RicciFlow, DoesNotDependOnTheTriangulationOfTheInput)
 TEST(RicciFlow, ReachesRandomCurvatures)
 {
 	for (int genus : {0, 1, 2})
-		for (std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+		for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u, 6u}) {
 			Random random(450 + 10 * seed);
 			const SurfaceMesh meshes[] = {
 				shaken(perforatedSlab(genus, 3), 0.08, random), implicitClosed(genus, 5, seed)};
@@ -311,7 +311,7 @@ TEST(RicciFlow, FreeBoundaryKeepsItsLengths)
 TEST(RicciFlow, DoubledSolutionIsSymmetric)
 {
 	int doubled = 0;
-	for (std::uint64_t seed : {1, 2, 3, 4}) {
+	for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
 		Random random(480 + seed);
 		const struct
 		{

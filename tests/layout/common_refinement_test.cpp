@@ -116,7 +116,7 @@ void expectSound(const FlippedFlow& flow, const SurfaceLayout& refinement)
 TEST(CommonRefinement, IsTheSurfaceWithAMapWithoutFlips)
 {
 	std::size_t crossings = 0;
-	for (std::uint64_t seed : {1, 2, 3})
+	for (std::uint64_t seed : {1u, 2u, 3u})
 		for (const Problem& p : problems(seed)) {
 			SCOPED_TRACE(p.name + ", seed " + std::to_string(seed));
 			const FlippedFlow flow(p.mesh, p.request, p.epsilon);
@@ -132,7 +132,7 @@ TEST(CommonRefinement, IsTheSurfaceWithAMapWithoutFlips)
 TEST(CommonRefinement, EdgesOfTheEndAreStraight)
 {
 	int seen = 0;
-	for (std::uint64_t seed : {1, 2})
+	for (std::uint64_t seed : {1u, 2u})
 		for (const Problem& p : problems(seed)) {
 			SCOPED_TRACE(p.name + ", seed " + std::to_string(seed));
 			const FlippedFlow flow(p.mesh, p.request, p.epsilon);
@@ -309,7 +309,7 @@ TEST(CommonRefinement, TheMapIsTheProjectiveOneOfTheRadii)
 {
 	int crossRatios = 0, factors = 0;
 	double largest = 0.0;
-	for (std::uint64_t seed : {1, 2, 3})
+	for (std::uint64_t seed : {1u, 2u, 3u})
 		for (const Problem& p : problems(seed)) {
 			SCOPED_TRACE(p.name + ", seed " + std::to_string(seed));
 			const FlippedFlow flow(p.mesh, p.request, p.epsilon);
