@@ -18,8 +18,8 @@ namespace {
 /// Places at which a part is tried before it is divided: the round wall of a hole has as many as facets.
 constexpr std::ptrdiff_t kMaxPlaces = 8;
 
-/// Two motions are different if the x to which they bring the middle of the chart differ by more than this share
-/// of the chart's extent: far more than what is called one place, because the middle may lie far from the side
+/// Two motions are different if the two x to which they bring the middle of the chart differ by more than this
+/// share of the chart's extent. It is far more than what is called one place, because the middle may lie far from the side
 /// that gives the motion.
 constexpr double kOneMotion = 1e-4;
 

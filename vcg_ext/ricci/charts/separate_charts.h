@@ -39,8 +39,9 @@ constexpr double kRoomOfChart = 0.04;
 constexpr double kCutFrom[] = {0.1, 0.4};
 
 /// Cuts a chart in two: along the edges of least length on the surface, where those far from the middle count as
-/// longer, across its smallest bounding rectangle (kCutFrom). Takes the chart that leaves most room there, of those whose cut may be worth
-/// what it costs by kRoomPrice. The parts are given back as those of separateCharts(), in the report, too.
+/// longer, across its smallest bounding rectangle (kCutFrom). Takes the chart that leaves most room there, of
+/// those whose cut may be worth what it costs by kRoomPrice. The parts are given back as those of
+/// separateCharts(), in the report, too.
 /// \param map packed
 /// \param sides of its triangles
 /// \return none where there is no such chart
