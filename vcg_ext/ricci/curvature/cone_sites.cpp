@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_sites.h"
 
-#include "../math/shortest_paths.h"
 #include "../metric/area.h"
 #include "../surface/topology.h"
 
@@ -156,18 +155,34 @@ SeamTree::SeamTree(const ConeSites& sites) :
 	spread(cut);
 }
 
-SeamTree::SeamTree(const ConeSites& sites, std::vector<Vertex> cones) : SeamTree(sites)
+SeamTree::SeamTree(const ConeSites& sites, const std::vector<Vertex>& cones) : SeamTree(sites)
 {
-	while (!cones.empty()) {
-		const auto nearest = std::min_element(cones.begin(), cones.end(), [&](Vertex a, Vertex b) {
-			return m_distance[a] < m_distance[b];
-		});
-		add(*nearest);
-		cones.erase(nearest);
+	VertexArray<char> isLeft(m_uses.size(), 0);
+	DistanceQueue<Vertex> queue;
+	for (const Vertex v : cones) {
+		isLeft[v] = 1;
+		if (m_distance[v] < kFar)
+			queue.push(m_distance[v], v);
 	}
+	const auto isCone = [&](Vertex v) { return isLeft[v] != 0; };
+	for (std::size_t left = cones.size(); left > 0; --left) {
+		Vertex next = spread(queue, isCone);
+		if (!next.isValid())
+			next = *std::find_if(cones.begin(), cones.end(), isCone);
+		isLeft[next] = 0;
+		for (const Vertex v : join(next))
+			queue.push(0.0, v);
+	}
+	spread(queue, [](Vertex) { return false; });
 }
 
 void SeamTree::add(Vertex cone)
+{
+	spread(join(cone));
+}
+
+/// Takes the way from \p cone into the tree. \return what has become part of it
+std::vector<Vertex> SeamTree::join(Vertex cone)
 {
 	std::vector<Vertex> path;
 	for (Vertex v = cone; v.isValid(); v = m_next[v]) {
@@ -177,7 +192,7 @@ void SeamTree::add(Vertex cone)
 		m_distance[v] = 0.0;
 		path.push_back(v);
 	}
-	spread(path);
+	return path;
 }
 
 double SeamTree::ownLength(Vertex cone) const
@@ -237,8 +252,19 @@ void SeamTree::spread(const std::vector<Vertex>& from)
 	for (const Vertex v : from)
 		if (m_distance[v] < kFar)
 			queue.push(m_distance[v], v);
+	spread(queue, [](Vertex) { return false; });
+}
+
+/// The same by those in \p queue, up to the first that \p isEnd.
+/// \return that one; invalid if there is none
+template<class IsEnd>
+Vertex SeamTree::spread(DistanceQueue<Vertex>& queue, const IsEnd& isEnd)
+{
 	while (!queue.empty()) {
-		const auto [distance, v] = queue.pop();
+		const auto [distance, v] = queue.top();
+		if (isEnd(v))
+			return v;
+		queue.pop();
 		if (distance != m_distance[v])
 			continue;
 		for (const ConeSites::Way& way : m_sites->ways(v))
@@ -248,6 +274,7 @@ void SeamTree::spread(const std::vector<Vertex>& from)
 				queue.push(m_distance[way.to], way.to);
 			}
 	}
+	return {};
 }
 
 } // namespace ricci

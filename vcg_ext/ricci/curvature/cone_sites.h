@@ -3,6 +3,7 @@
 #define RICCI_CONE_SITES_H
 
 #include "../math/adjacency.h"
+#include "../math/shortest_paths.h"
 #include "../surface/flow_domain.h"
 
 #include <vector>
@@ -66,7 +67,7 @@ public:
 
 	/// With \p cones, the nearest to the tree first, and the first one first where there are no
 	/// seams without cones.
-	SeamTree(const ConeSites& sites, std::vector<Vertex> cones);
+	SeamTree(const ConeSites& sites, const std::vector<Vertex>& cones);
 
 	double length() const { return m_length; }
 
@@ -84,7 +85,10 @@ public:
 
 private:
 	double lengthOfStep(Vertex v) const;
+	std::vector<Vertex> join(Vertex cone);
 	void spread(const std::vector<Vertex>& from);
+	template<class IsEnd>
+	Vertex spread(DistanceQueue<Vertex>& queue, const IsEnd& isEnd);
 
 	const ConeSites* m_sites;
 	double m_length;

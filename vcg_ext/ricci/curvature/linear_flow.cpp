@@ -41,6 +41,8 @@ LinearFlow::LinearFlow(
 	m_curvature = map->curvature();
 	computeAreas(*map);
 	factorize(surface, *map, boundary);
+	if (start.isDelaunay)
+		start.hessian = m_hessian;
 }
 
 LinearFlow::LinearFlow(
@@ -128,7 +130,7 @@ LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
 void LinearFlow::factorize(
 	const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary)
 {
-	m_hessian = std::make_unique<FactoredHessian>(
+	m_hessian = std::make_shared<FactoredHessian>(
 		m_fixesBoundary ? surface.topology.boundary : VertexArray<char>(vertexCount(), 0),
 		map.scaleInvariant());
 	m_row = m_hessian->row();

@@ -36,8 +36,8 @@ struct LinearSystem
 class LinearFlow
 {
 public:
-	/// Factorises L. If \p start is a Delaunay start, L is the Hessian there; else L is that of a
-	/// Delaunay start made here.
+	/// Factorises L. If \p start is a Delaunay start, L is the Hessian there, which it then keeps for the
+	/// flow; else L is that of a Delaunay start made here.
 	/// \param start the start of the flow on \p surface
 	/// \throw SolverFailed
 	LinearFlow(const EmbeddedSurface& surface, const InitialPacking& start, ConeBoundary boundary);
@@ -102,7 +102,7 @@ private:
 	Eigen::MatrixXd solveRows(const Eigen::MatrixXd& rhs);
 
 	std::unique_ptr<SparseCholesky> m_system;   // of a LinearSystem; null where there is a Hessian
-	std::unique_ptr<FactoredHessian> m_hessian; // null where there is a LinearSystem
+	std::shared_ptr<FactoredHessian> m_hessian; // null where there is a LinearSystem
 	VertexArray<int> m_row;                     // of the unknown, or -1
 	int m_unknowns = 0;
 	double m_softness = 1.0; // L is divided by

@@ -126,6 +126,8 @@ void FlowRun::begin(const EmbeddedSurface& surface)
 	m_result.u = m_startU = startU();
 	m_map = makeMap({m_result.start.mesh.triangulation, m_result.start.delta}, false);
 	m_newton = std::make_unique<NewtonSolver>(*m_map, m_result.target.fixed, m_mirror);
+	if (auto known = std::exchange(m_result.start.hessian, nullptr))
+		m_newton->beginWith(std::move(known));
 }
 
 std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing, bool isExtended) const

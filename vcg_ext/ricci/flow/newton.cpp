@@ -69,7 +69,7 @@ NewtonSolver::NewtonSolver(
 {
 	const bool anyFixed = std::find(m_fixed.begin(), m_fixed.end(), 1) != m_fixed.end();
 	m_gaugeFree = !anyFixed && map.scaleInvariant();
-	m_hessian = std::make_unique<FactoredHessian>(m_fixed, map.scaleInvariant(), mirror);
+	m_hessian = std::make_shared<FactoredHessian>(m_fixed, map.scaleInvariant(), mirror);
 	const int n = m_fixed.size();
 	m_gradient.resize(n);
 	m_direction.resize(n);
@@ -85,15 +85,23 @@ void NewtonSolver::continueOn(CurvatureMap& map)
 	m_map = &map;
 }
 
+void NewtonSolver::beginWith(std::shared_ptr<FactoredHessian> hessian)
+{
+	if (hessian->row() != m_hessian->row())
+		return;
+	m_hessian = std::move(hessian);
+	m_workBefore = -m_hessian->cholesky().work();
+}
+
 void NewtonSolver::dropSymmetry()
 {
-	m_symmetricWork = work();
-	m_hessian = std::make_unique<FactoredHessian>(m_fixed, m_map->scaleInvariant());
+	m_workBefore = work();
+	m_hessian = std::make_shared<FactoredHessian>(m_fixed, m_map->scaleInvariant());
 }
 
 CholeskyWork NewtonSolver::work() const
 {
-	return m_symmetricWork + m_hessian->cholesky().work();
+	return m_workBefore + m_hessian->cholesky().work();
 }
 
 /// Computes the gradient; returns max |target - K|, infinity if it is not finite.

@@ -77,10 +77,14 @@ public:
 	/// with the present factorisation: the same equations in other precision.
 	void continueOn(CurvatureMap& map);
 
+	/// Begins with the factor of \p hessian, which nobody else uses any more, if its unknowns are the same.
+	/// \pre its pattern is that of the map's triangulation
+	void beginWith(std::shared_ptr<FactoredHessian> hessian);
+
 	/// Goes on with an unknown for every vertex.
 	void dropSymmetry();
 
-	/// What the linear solver has done since the construction.
+	/// What the linear solver has done for this one.
 	CholeskyWork work() const;
 
 	/// Part of u below the last place of its doubles, as the last solve left it.
@@ -124,10 +128,10 @@ private:
 
 	CurvatureMap* m_map;
 	VertexArray<char> m_fixed;
-	CholeskyWork m_symmetricWork; // before dropSymmetry()
+	CholeskyWork m_workBefore;    // before dropSymmetry(), less what beginWith() has brought
 	bool m_gaugeFree = false;     // the mean of u is free
 	bool m_worn = false;          // the factor has become a bad preconditioner
-	std::unique_ptr<FactoredHessian> m_hessian;
+	std::shared_ptr<FactoredHessian> m_hessian;
 	VertexVector m_gradient; // K - target, 0 where fixed
 	VertexVector m_direction, m_trial, m_diagonal;
 	VertexVector m_low, m_trialLow; // of u, below its last place

@@ -25,6 +25,10 @@ struct CholeskyWork
 			a.solutions + b.solutions,
 			a.flops + b.flops};
 	}
+	friend CholeskyWork operator-(const CholeskyWork& a)
+	{
+		return {-a.orderings, -a.analyses, -a.factorizations, -a.solutions, -a.flops};
+	}
 };
 
 /// Solver of symmetric positive definite sparse systems given by their lower triangle: supernodal

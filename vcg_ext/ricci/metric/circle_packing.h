@@ -4,6 +4,7 @@
 
 #include "../surface/triangulation.h"
 
+#include <memory>
 #include <vector>
 
 namespace ricci {
@@ -50,6 +51,8 @@ struct Lengthening
 	double lengthOf(const Triangulation& t, Edge e, double l) const;
 };
 
+class FactoredHessian;
+
 /// Where the flow starts (paper 4.1): the mesh's own metric on a triangulation of it, and the
 /// circle packing whose metric it is (with Method::Thurston, nearly).
 struct InitialPacking
@@ -60,6 +63,9 @@ struct InitialPacking
 	std::vector<Edge> flips; ///< edges flipped since the input, in order
 	bool isDelaunay = false; ///< from delaunayPacking()
 	Lengthening lengthened;  ///< of the input's edges, by delaunayPacking()
+
+	/// The equations of Newton's first step, if someone has factorised them before the flow does.
+	mutable std::shared_ptr<FactoredHessian> hessian;
 };
 
 /// Gives degenerate triangles a shape (intrinsic mollification [Sharp Crane 2020], but vertex by vertex): those
