@@ -334,7 +334,7 @@ void packForRoom(
 			return;
 		}
 		std::optional<Parametrization> next =
-			cutForRoom(last ? *last : map, sides, turns == ChartTurns::Free);
+			cutForRoom(last ? *last : map, sides, area, turns == ChartTurns::Free);
 		if (!next)
 			return;
 		try {

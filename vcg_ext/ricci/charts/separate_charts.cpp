@@ -78,10 +78,11 @@ void setApart(Parametrization& map)
 /// Triangles across the band in which a cut is looked for. A wider one would hardly have a shorter cut.
 constexpr double kBand = 50.0;
 
-/// A chart in parts, and how long the cuts between them are on the surface.
+/// A chart in parts, and the edges cut between them: how many, and how long they are on the surface.
 struct Halves
 {
 	Parts pieces;
+	int edges = 0;
 	double length = 0.0;
 };
 
@@ -152,8 +153,10 @@ std::optional<Halves> halves(
 	for (const int f : triangles)
 		for (const Corner own : cornersOf(f))
 			if (const Corner other = graph.joined(own);
-				other.isValid() && graph.part[other.face()] != graph.part[f])
-				cut.length += 0.5 * mesh.lengths[own];
+				other.isValid() && graph.part[other.face()] < graph.part[f]) {
+				++cut.edges;
+				cut.length += mesh.lengths[own];
+			}
 	return cut;
 }
 
@@ -259,7 +262,7 @@ void joinCharts(Parametrization& map)
 }
 
 std::optional<Parametrization>
-cutForRoom(const Parametrization& map, const Sides& allSides, bool turns)
+cutForRoom(const Parametrization& map, const Sides& allSides, double onSurface, bool turns)
 {
 	struct Wide
 	{
@@ -271,7 +274,7 @@ cutForRoom(const Parametrization& map, const Sides& allSides, bool turns)
 	const Parts byChart = map.mesh.trianglesByChart(map.charts.size());
 	const std::vector<std::vector<int>> pointsOf = map.mesh.pointsByChart(byChart.size());
 	std::vector<Wide> byRoom;
-	double total = 0.0, onSurface = 0.0; // areas
+	double total = 0.0; // area
 	for (std::size_t c = 0; c < byChart.size(); ++c) {
 		std::vector<Point2> places;
 		double area = 0.0;
@@ -280,7 +283,6 @@ cutForRoom(const Parametrization& map, const Sides& allSides, bool turns)
 		for (const int f : byChart[c]) {
 			const Triangle2 p = map.mesh.at(f);
 			area += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
-			onSurface += euclideanArea(map.mesh.lengths[f]);
 		}
 		total += area;
 		const OrientedRectangle r = minAreaRectangle(std::move(places));
@@ -306,9 +308,9 @@ cutForRoom(const Parametrization& map, const Sides& allSides, bool turns)
 					   std::log1p(cut->length / (std::sqrt(onSurface) + map.report.seamLength)))
 			continue;
 		Parametrization result = map;
-		const Seams before = seams(map.mesh, allSides);
 		settle(divide(static_cast<int>(wide.chart), cut->pieces, result), turns, allSides, result);
-		countCuts(before, allSides, result);
+		result.report.overlapCuts += cut->edges;
+		result.report.seamLength += cut->length;
 		return result;
 	}
 	return std::nullopt;

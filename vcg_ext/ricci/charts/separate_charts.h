@@ -44,9 +44,10 @@ constexpr double kCutFrom[] = {0.1, 0.4};
 /// separateCharts(), in the report, too.
 /// \param map packed
 /// \param sides of its triangles
+/// \param onSurface area of the surface
 /// \return none where there is no such chart
 std::optional<Parametrization>
-cutForRoom(const Parametrization& map, const Sides& sides, bool turns);
+cutForRoom(const Parametrization& map, const Sides& sides, double onSurface, bool turns);
 
 /// Divides the charts that have triangles of both kinds: each connected part of one kind becomes a chart
 /// from the origin, in the directions that it has. The report counts the charts and the cuts as

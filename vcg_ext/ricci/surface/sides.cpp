@@ -51,7 +51,7 @@ Sides::Sides(const std::vector<Triangle>& triangles)
 {
 	struct Side
 	{
-		int high; ///< the higher of its ends
+		int high; ///< number of the higher of its ends
 		Corner corner;
 	};
 	const auto start = [&](Corner c) { return triangles[positionOf(c.face())][c.index()]; };
@@ -59,17 +59,18 @@ Sides::Sides(const std::vector<Triangle>& triangles)
 	m_sides.reserve(m_across.size());
 	m_first.reserve(m_across.size() / 2 + 1);
 	const VertexNumbers number(triangles);
-	Adjacency<int, Side> byLow(number.count(), [&](const auto& add) {
-		for (const Corner c : m_across.indices()) {
-			const int a = start(c), b = start(c.next());
-			add(number(std::min(a, b)), Side{std::max(a, b), c});
-		}
+	// By the lower end, of each by the higher one, of each by corner.
+	const Adjacency<int, Corner> byHigh(number.count(), [&](const auto& add) {
+		for (const Corner c : m_across.indices())
+			add(number(std::max(start(c), start(c.next()))), c);
+	});
+	const Adjacency<int, Side> byLow(number.count(), [&](const auto& add) {
+		for (int high = 0; high < number.count(); ++high)
+			for (const Corner c : byHigh[high])
+				add(number(std::min(start(c), start(c.next()))), Side{high, c});
 	});
 	for (int v = 0; v < number.count(); ++v) {
-		const ItemRange<Side> sides = byLow[v];
-		std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-			return a.high != b.high ? a.high < b.high : a.corner < b.corner;
-		});
+		const ItemRange<const Side> sides = byLow[v];
 		for (const Side *first = sides.begin(), *last = first; first != sides.end(); first = last) {
 			m_first.push_back(m_sides.size());
 			for (; last != sides.end() && last->high == first->high; ++last)
