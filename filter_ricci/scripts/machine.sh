@@ -8,13 +8,6 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 build=$root/build
 export LC_ALL=C.UTF-8
 
-# A compiler cache where there is one; precompiled headers need its patience.
-if command -v ccache >/dev/null; then
-	export CMAKE_C_COMPILER_LAUNCHER=${CMAKE_C_COMPILER_LAUNCHER-ccache}
-	export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}
-	export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS-pch_defines,time_macros,include_file_mtime,include_file_ctime}
-fi
-
 say() { printf '\n== %s\n' "$*"; }
 skipped() { printf 'SKIPPED: %s\n' "$*"; }
 

@@ -80,12 +80,9 @@ public:
 	/// gradient() as it would be without cone \p i, where no bound of a curvature is reached.
 	VertexVector gradientWithout(int i);
 
-	/// gradient() at \p v as it is without the field of cone \p i. Where the sum is fixed, the curvature
-	/// of cone \p i lies on the whole surface in proportion to area instead.
-	double gradientOfOthers(int i, Vertex v)
-	{
-		return gradient()[v] - curvature(i) * (*m_fields[i])[v];
-	}
+	/// What a unit of curvature at cone \p i adds to the gradient. Where the sum is fixed, it is taken from the
+	/// whole surface in proportion to area.
+	const VertexVector& field(int i) const { return *m_fields[i]; }
 
 	/// Takes more cones in; curvatures have to be fitted. Two take little longer than one.
 	void append(const std::vector<Vertex>& vertices);

@@ -135,7 +135,8 @@ bool relocate(ConeModel& model, const ConeSites& sites, int i, double& present)
 	// place beside the old one, it is the whole field.
 	const double enough = 0.5 * kMinGain * present;
 	const VertexVector whole = model.gradient();
-	const auto others = [&](Vertex v) { return own * model.gradientOfOthers(i, v); };
+	const VertexVector& field = model.field(i);
+	const auto others = [&](Vertex v) { return own * (whole[v] - own * field[v]); };
 	const Vertex far = lowest(model, sites, others, old);
 	if (far.isValid() && others(old) - others(far) > enough && move(model, i, far, present))
 		return true;

@@ -51,29 +51,34 @@ Sides::Sides(const std::vector<Triangle>& triangles)
 {
 	struct Side
 	{
-		int high; ///< number of the higher of its ends
+		int end; ///< number of its lower end in the first sort, of its higher one in the second
 		Corner corner;
 	};
-	const auto start = [&](Corner c) { return triangles[positionOf(c.face())][c.index()]; };
 	m_across.resize(3 * triangles.size());
 	m_sides.reserve(m_across.size());
 	m_first.reserve(m_across.size() / 2 + 1);
 	const VertexNumbers number(triangles);
 	// By the lower end, of each by the higher one, of each by corner.
-	const Adjacency<int, Corner> byHigh(number.count(), [&](const auto& add) {
-		for (const Corner c : m_across.indices())
-			add(number(std::max(start(c), start(c.next()))), c);
+	const Adjacency<int, Side> byHigh(number.count(), [&](const auto& add) {
+		int corner = 0;
+		for (const Triangle& t : triangles) {
+			const int a = number(t[0]), b = number(t[1]), c = number(t[2]);
+			add(std::max(a, b), Side{std::min(a, b), Corner(corner++)});
+			add(std::max(b, c), Side{std::min(b, c), Corner(corner++)});
+			add(std::max(c, a), Side{std::min(c, a), Corner(corner++)});
+		}
 	});
 	const Adjacency<int, Side> byLow(number.count(), [&](const auto& add) {
 		for (int high = 0; high < number.count(); ++high)
-			for (const Corner c : byHigh[high])
-				add(number(std::min(start(c), start(c.next()))), Side{high, c});
+			for (const Side& side : byHigh[high])
+				add(side.end, Side{high, side.corner});
 	});
-	for (int v = 0; v < number.count(); ++v) {
-		const ItemRange<const Side> sides = byLow[v];
+	const auto start = [&](Corner c) { return triangles[positionOf(c.face())][c.index()]; };
+	for (int low = 0; low < number.count(); ++low) {
+		const ItemRange<const Side> sides = byLow[low];
 		for (const Side *first = sides.begin(), *last = first; first != sides.end(); first = last) {
 			m_first.push_back(m_sides.size());
-			for (; last != sides.end() && last->high == first->high; ++last)
+			for (; last != sides.end() && last->end == first->end; ++last)
 				m_sides.push_back(last->corner);
 			const Corner side = first->corner, other = last[-1].corner;
 			if (last - first == 2 && start(side) != start(other)) {
