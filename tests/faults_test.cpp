@@ -236,28 +236,35 @@ TEST(Faults, TheNthAllocationFailsAndABlockFreedTwiceIsSeen)
 	}
 }
 
-TEST(Faults, OutOfMemoryOnAnyWayLeavesTheMesh)
+/// Every way, with memory that runs out at each allocation in turn.
+class OutOfMemory : public ::testing::TestWithParam<Failing>
+{
+};
+
+TEST_P(OutOfMemory, OnAnyWayLeavesTheMesh)
 {
 	RICCI_NEEDS_FAILING_MALLOC();
-	for (const Way& way : ways())
-		for (Failing which : {Failing::One, Failing::AllThatFollow}) {
-			Mesh m;
-			build(way.mesh, m);
-			const std::string before = contents(m);
-			const long tried = failEveryAllocation(
-				which,
-				[] {},
-				[&] { way.run(m); },
-				[&](bool completed, long failures, long n) {
-					EXPECT_EQ(contents(m) == before, true) << way.name << ", allocation " << n;
-					// What goes on after a failure had a way round it (CHOLMOD's).
-					if (which == Failing::AllThatFollow && failures > 0) {
-						EXPECT_FALSE(completed) << way.name << ", allocation " << n;
-					}
-				});
-			EXPECT_GT(tried, 100) << way.name;
-		}
+	for (const Way& way : ways()) {
+		Mesh m;
+		build(way.mesh, m);
+		const std::string before = contents(m);
+		const long tried = failEveryAllocation(
+			GetParam(),
+			[] {},
+			[&] { way.run(m); },
+			[&](bool completed, long failures, long n) {
+				EXPECT_EQ(contents(m) == before, true) << way.name << ", allocation " << n;
+				// What goes on after a failure had a way round it (CHOLMOD's).
+				if (GetParam() == Failing::AllThatFollow && failures > 0) {
+					EXPECT_FALSE(completed) << way.name << ", allocation " << n;
+				}
+			});
+		EXPECT_GT(tried, 100) << way.name;
+	}
 }
+
+INSTANTIATE_TEST_SUITE_P(
+	Faults, OutOfMemory, ::testing::Values(Failing::One, Failing::AllThatFollow));
 
 TEST(Faults, OutOfMemoryWhileWritingLeavesTheMesh)
 {

@@ -66,6 +66,20 @@ TEST(DivideDisks, LeavesWhatFloatsHold)
 	EXPECT_EQ(map.mesh.place.values(), before.values());
 }
 
+TEST(DivideDisks, TellsWhereThereAreTooManyDisks)
+{
+	Parametrization map = band(160, 0.2, 0.1);
+	const Array<Point2> before = map.mesh.place;
+	map.charts.resize(kMaxDisks);
+	EXPECT_FALSE(divideDisks(map));
+	EXPECT_EQ(map.report.endedEarly, 1);
+	EXPECT_EQ(map.mesh.place.values(), before.values());
+	map = band(40, 0.2, 0.1); // needs no more
+	map.charts.resize(kMaxDisks);
+	EXPECT_FALSE(divideDisks(map));
+	EXPECT_EQ(map.report.endedEarly, 0);
+}
+
 /// A band that reaches 16 out: floats end at about 14.
 TEST(DivideDisks, MovesFarPartsByIsometries)
 {

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <string>
 #include <utility>
 
 namespace ricci {
@@ -122,7 +123,8 @@ bool divideDisks(Parametrization& map)
 	std::size_t disks = map.charts.size();
 	const std::vector<std::vector<int>> triangles = mesh.trianglesByChart(disks);
 	std::vector<Cells> cells(disks); // [chart] without centres where it is not looked at
-	for (bool grows = true; grows && disks < kMaxDisks;) {
+	bool endsEarly = false;
+	for (bool grows = true; grows && !endsEarly;) {
 		grows = false;
 		const Soundness soundness = soundnessOf(disks);
 		for (std::size_t c = 0; c < triangles.size(); ++c) {
@@ -137,11 +139,21 @@ bool divideDisks(Parametrization& map)
 			std::vector<int> more = farthestUnsound(chart, cells[c], soundness);
 			if (more.empty())
 				continue;
+			if (disks >= kMaxDisks) {
+				endsEarly = true;
+				break;
+			}
 			grows = true;
 			disks += more.size();
 			more.insert(more.begin(), cells[c].centre.begin(), cells[c].centre.end());
 			cells[c] = cellsOf(chart, std::move(more));
 		}
+	}
+	if (endsEarly) {
+		++map.report.endedEarly;
+		logLine(
+			"The division of disks has ended at " + std::to_string(disks) +
+			": triangles are left that floats cannot hold.");
 	}
 	if (disks == map.charts.size())
 		return false;
