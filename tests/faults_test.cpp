@@ -264,7 +264,12 @@ TEST_P(OutOfMemory, OnAnyWayLeavesTheMesh)
 }
 
 INSTANTIATE_TEST_SUITE_P(
-	Faults, OutOfMemory, ::testing::Values(Failing::One, Failing::AllThatFollow));
+	Faults,
+	OutOfMemory,
+	::testing::Values(Failing::One, Failing::AllThatFollow),
+	[](const auto& which) {
+		return which.param == Failing::One ? "AtOneAllocation" : "AtAllThatFollow";
+	});
 
 TEST(Faults, OutOfMemoryWhileWritingLeavesTheMesh)
 {

@@ -7,14 +7,15 @@
 #include "../base/task.h"
 
 #include <exception>
-#include <utility>
 
 namespace ricci {
 
 /// Products of two numbers from one call of checkpoint() to the next: some milliseconds.
 constexpr double kProductsBetweenCheckpoints = 2e7;
 
-inline thread_local std::exception_ptr keptFromCholmod;
+/// What checkpoint() throws in the present factorisation of a thread. A pointer: an object with a destructor
+/// would be registered in every thread, which ends the process where memory has run out.
+inline thread_local std::exception_ptr* keptFromCholmod = nullptr;
 
 /// To be called before \p products of two numbers.
 /// \return false once checkpoint() has thrown: what is factorised will not be used
@@ -22,23 +23,28 @@ inline bool checkpointInCholmod(double products)
 {
 	static thread_local double sum = 0.0; // since the last call of checkpoint()
 	sum += products;
-	if (sum > kProductsBetweenCheckpoints && !keptFromCholmod) {
+	if (sum > kProductsBetweenCheckpoints && keptFromCholmod && !*keptFromCholmod) {
 		sum = 0.0;
 		try {
 			checkpoint();
 		}
 		catch (...) {
-			keptFromCholmod = std::current_exception();
+			*keptFromCholmod = std::current_exception();
 		}
 	}
-	return !keptFromCholmod;
+	return !keptFromCholmod || !*keptFromCholmod;
 }
 
-/// To be called when CHOLMOD has returned.
-inline void rethrowFromCholmod()
+/// Calls \p factorize, which calls CHOLMOD, and throws what checkpoint() has thrown in it.
+template<class Factorize>
+void rethrowFromCholmod(const Factorize& factorize)
 {
-	if (keptFromCholmod)
-		std::rethrow_exception(std::exchange(keptFromCholmod, nullptr));
+	std::exception_ptr kept;
+	keptFromCholmod = &kept;
+	factorize();
+	keptFromCholmod = nullptr;
+	if (kept)
+		std::rethrow_exception(kept);
 }
 
 } // namespace ricci

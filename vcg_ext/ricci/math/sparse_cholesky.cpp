@@ -153,8 +153,7 @@ struct SparseCholesky::Implementation
 	{
 		const OneThread oneThread;
 		View a(matrix);
-		cholmod_l_factorize(a.get(), factor, &common);
-		rethrowFromCholmod();
+		rethrowFromCholmod([&] { cholmod_l_factorize(a.get(), factor, &common); });
 		if (common.status < CHOLMOD_OK)
 			fail(matrix);
 		return common.status == CHOLMOD_OK;
