@@ -267,7 +267,7 @@ TEST(ConeModel, TrialsAreUndoneUnlessTheyAreTaken)
 		EXPECT_FALSE(model.isCone(to));
 	};
 	const double there = moved.energy();
-	EXPECT_FALSE(model.tryMove(2, to, [&](double energy) { return energy < there - 1e-9; }));
+	EXPECT_FALSE(model.tryMove(2, {to}, [&](Vertex, double energy) { return energy < there - 1e-9; }));
 	expectUnchanged();
 	EXPECT_FALSE(model.tryWithout(2, [&] {
 		EXPECT_EQ(model.vertices(), fewer);
@@ -277,7 +277,7 @@ TEST(ConeModel, TrialsAreUndoneUnlessTheyAreTaken)
 	}));
 	expectUnchanged();
 
-	EXPECT_TRUE(model.tryMove(2, to, [&](double energy) { return energy < there + 1e-9; }));
+	EXPECT_TRUE(model.tryMove(2, {to}, [&](Vertex, double energy) { return energy < there + 1e-9; }));
 	EXPECT_EQ(model.vertices(), elsewhere);
 	EXPECT_TRUE(model.isCone(to));
 	EXPECT_FALSE(model.isCone(someVertices()[2]));
@@ -443,7 +443,7 @@ TEST(ConeModel, AMoveIsMadeWhereTheEnergyIsLow)
 			if (std::abs(after - wanted) < 1e-6 * before)
 				continue;
 			const bool hasMoved =
-				model.tryMove(2, to, [&](double energy) { return energy < wanted; });
+				model.tryMove(2, {to}, [&](Vertex, double energy) { return energy < wanted; });
 			EXPECT_EQ(hasMoved, after < wanted);
 			EXPECT_NEAR(model.energy(), hasMoved ? after : before, 1e-9 * (1.0 + before));
 			EXPECT_EQ(model.isCone(to), hasMoved);

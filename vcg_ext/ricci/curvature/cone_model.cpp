@@ -58,6 +58,8 @@ ConeModel::ConeModel(LinearFlow& flow, double total) :
 		m_flow.factor(hasFixedSum() ? VertexVector(total * m_flow.area()) : none);
 	m_startEnergy = m_now.fit.energy = m_flow.meanSquare(u);
 	m_start = centred(m_flow.gradient(u));
+	if (hasFixedSum())
+		m_evenFactor = m_flow.solve(m_flow.area());
 }
 
 /// The field less its mean, where it is known up to a constant.
@@ -111,17 +113,12 @@ void ConeModel::append(const std::vector<Vertex>& vertices)
 		m_now.vertices.push_back(v);
 		m_isCone[v] = 1;
 	}
-	for (int i = before; i < size(); i += 2) {
-		if (i + 1 == size()) {
-			m_fields.push_back(fieldOf(vertex(i)));
-			break;
-		}
-		checkpoint();
-		Eigen::MatrixXd units(m_flow.vertexCount(), 2);
-		units << unit(vertex(i)), unit(vertex(i + 1));
-		const Eigen::MatrixXd u = m_flow.solve(units), fields = m_flow.gradient(u);
-		for (int k = 0; k < 2; ++k) {
-			m_ownProduct[vertex(i + k)] = m_flow.meanSquare(u.col(k));
+	for (std::size_t i = 0; i < vertices.size(); i += 2) {
+		const auto first = vertices.begin() + static_cast<std::ptrdiff_t>(i);
+		const std::vector<Vertex> two(first, std::min(first + 2, vertices.end()));
+		const Eigen::MatrixXd u = unitFactors(two), fields = m_flow.gradient(u);
+		for (Eigen::Index k = 0; k < u.cols(); ++k) {
+			m_ownProduct[two[static_cast<std::size_t>(k)]] = m_flow.meanSquare(u.col(k));
 			m_fields.push_back(std::make_shared<const VertexVector>(centred(fields.col(k))));
 		}
 	}
@@ -363,36 +360,48 @@ double ConeModel::minEnergyAt(int i, const Reach& reach, double ownProduct) cons
 /// Mean square of the factor of a unit of curvature at \p v.
 double ConeModel::ownProduct(Vertex v)
 {
-	const auto known = m_ownProduct.find(v);
-	if (known != m_ownProduct.end())
-		return known->second;
-	return m_ownProduct[v] = m_flow.meanSquare(unitFactor(v));
+	learn(v, v);
+	return m_ownProduct.at(v);
 }
 
-/// A unit of curvature at \p v, taken from the whole surface by area where the sum is fixed.
-VertexVector ConeModel::unit(Vertex v) const
+/// Finds ownProduct() of two vertices: that takes little longer than that of one.
+void ConeModel::learn(Vertex v, Vertex w)
 {
-	VertexVector k = VertexVector::Zero(m_flow.vertexCount());
+	std::vector<Vertex> unknown;
+	for (const Vertex next : {v, w})
+		if (m_ownProduct.count(next) == 0 && (unknown.empty() || next != v))
+			unknown.push_back(next);
+	if (unknown.empty())
+		return;
+	m_lastFactors = unitFactors(unknown);
+	m_lastVertices = std::move(unknown);
+	for (std::size_t k = 0; k < m_lastVertices.size(); ++k)
+		m_ownProduct[m_lastVertices[k]] =
+			m_flow.meanSquare(m_lastFactors.col(static_cast<Eigen::Index>(k)));
+}
+
+/// Factors of a unit of curvature at each of one or two vertices, taken from the whole surface by area where
+/// the sum is fixed. Right sides of one entry reach few rows.
+Eigen::MatrixXd ConeModel::unitFactors(const std::vector<Vertex>& vertices)
+{
+	checkpoint();
+	const auto count = static_cast<Eigen::Index>(vertices.size());
+	Eigen::MatrixXd units = Eigen::MatrixXd::Zero(m_flow.vertexCount(), count);
+	for (Eigen::Index k = 0; k < count; ++k)
+		units(vertices[static_cast<std::size_t>(k)].number(), k) = 1.0;
+	Eigen::MatrixXd u = m_flow.solve(std::move(units));
 	if (hasFixedSum())
-		k -= m_flow.area();
-	k[v] += 1.0;
-	return k;
-}
-
-/// Factor of a unit of curvature at \p v.
-const VertexVector& ConeModel::unitFactor(Vertex v)
-{
-	if (m_lastVertex != v) {
-		checkpoint();
-		m_lastFactor = m_flow.solve(unit(v));
-		m_lastVertex = v;
-	}
-	return m_lastFactor;
+		u.colwise() -= m_evenFactor;
+	return u;
 }
 
 ConeModel::Field ConeModel::fieldOf(Vertex v)
 {
-	return std::make_shared<const VertexVector>(centred(m_flow.gradient(unitFactor(v))));
+	const auto known = std::find(m_lastVertices.begin(), m_lastVertices.end(), v);
+	const VertexVector u = known != m_lastVertices.end()
+							   ? m_lastFactors.col(known - m_lastVertices.begin())
+							   : unitFactors({v}).col(0);
+	return std::make_shared<const VertexVector>(centred(m_flow.gradient(u)));
 }
 
 /// Back to what the cones were.

@@ -97,33 +97,42 @@ public:
 	/// kMaxConeCurvature, rounded as set.
 	void fit();
 
-	/// Moves cone \p i to \p v, fits the curvatures, and undoes both unless \p isLow(energy there).
+	/// Moves cone \p i to the first of \p places with \p isLow(place, energy there), with the curvatures fitted.
 	/// Most trials fail, and nearly all of those by bounds of the energy that need no fit, and many no
 	/// linear solution.
 	/// \param isLow holds for every energy below one for which it holds
 	/// \return whether the cone has moved
 	template<class IsLow>
-	bool tryMove(int i, Vertex v, const IsLow& isLow)
+	bool tryMove(int i, const std::vector<Vertex>& places, const IsLow& isLow)
 	{
-		const Reach reach = reachOf(v);
-		if (!isLow(minEnergyAt(i, reach, minOwnProduct(reach))) ||
-			!isLow(minEnergyAt(i, reach, ownProduct(v))))
-			return false;
+		std::vector<Reach> likely;
+		for (const Vertex v : places) {
+			Reach reach = reachOf(v);
+			if (isLow(v, minEnergyAt(i, reach, minOwnProduct(reach))))
+				likely.push_back(std::move(reach));
+		}
 		const Vertex old = vertex(i);
-		const Fit before = m_now.fit;
-		VertexVector gradient = std::move(m_gradient);
-		put(i, v);
-		fit();
-		if (!isLow(energy())) {
+		for (std::size_t k = 0; k < likely.size(); ++k) {
+			const Vertex v = likely[k].vertex;
+			if (k % 2 == 0)
+				learn(v, likely[std::min(k + 1, likely.size() - 1)].vertex);
+			if (!isLow(v, minEnergyAt(i, likely[k], ownProduct(v))))
+				continue;
+			const Fit before = m_now.fit;
+			VertexVector gradient = std::move(m_gradient);
+			put(i, v);
+			fit();
+			if (isLow(v, energy())) {
+				m_isCone[old] = 0;
+				m_isCone[v] = 1;
+				m_fields[i] = fieldOf(v);
+				return true;
+			}
 			put(i, old);
 			m_now.fit = Fit(before);
 			m_gradient = std::move(gradient);
-			return false;
 		}
-		m_isCone[old] = 0;
-		m_isCone[v] = 1;
-		m_fields[i] = fieldOf(v);
-		return true;
+		return false;
 	}
 
 	/// The change of the curvatures below their bound that has the slope \p rest of half the energy, up to a
@@ -205,12 +214,12 @@ private:
 	void leave(int i);
 	void join(int i);
 	double ownProduct(Vertex v);
+	void learn(Vertex v, Vertex w);
+	Eigen::MatrixXd unitFactors(const std::vector<Vertex>& vertices);
 	Field fieldOf(Vertex v);
-	VertexVector unit(Vertex v) const;
 	VertexVector centred(VertexVector field) const;
 	void put(int i, Vertex v);
 	void restore(const State& state, const Array<Field>& fields);
-	const VertexVector& unitFactor(Vertex v);
 	void setRow(int i, Vertex v);
 
 	LinearFlow& m_flow;
@@ -222,9 +231,10 @@ private:
 	VertexVector m_gradient;               // empty: not known
 	double m_startEnergy = 0.0;            // without cones
 	VertexVector m_start;                  // gradient without cones
+	VertexVector m_evenFactor;             // of a curvature of 1 on the whole surface by area
 	std::map<Vertex, double> m_ownProduct; // of vertices that were tried
-	Vertex m_lastVertex;                   // of the last unitFactor()
-	VertexVector m_lastFactor;
+	std::vector<Vertex> m_lastVertices;    // of the last unitFactors()
+	Eigen::MatrixXd m_lastFactors;
 };
 
 } // namespace ricci

@@ -116,10 +116,11 @@ std::vector<Vertex> maxGains(
 	return peaks;
 }
 
-/// Moves cone \p i to \p v if that lowers the energy \p present enough.
-bool move(ConeModel& model, int i, Vertex v, double& present)
+/// Moves cone \p i to the first of \p places where that lowers the energy \p present enough.
+bool move(ConeModel& model, int i, const std::vector<Vertex>& places, double& present)
 {
-	if (!model.tryMove(i, v, [&](double energy) { return energy < (1.0 - kMinGain) * present; }))
+	const double most = (1.0 - kMinGain) * present;
+	if (!model.tryMove(i, places, [&](Vertex, double energy) { return energy < most; }))
 		return false;
 	present = model.energy();
 	return true;
@@ -134,12 +135,12 @@ bool relocate(ConeModel& model, const ConeSites& sites, int i, double& present)
 	// field of the others, because the cone's own field is about the same around every place; for a
 	// place beside the old one, it is the whole field.
 	const double enough = 0.5 * kMinGain * present;
-	const VertexVector whole = model.gradient();
-	const VertexVector& field = model.field(i);
+	const VertexVector &whole = model.gradient(), &field = model.field(i);
 	const auto others = [&](Vertex v) { return own * (whole[v] - own * field[v]); };
 	const Vertex far = lowest(model, sites, others, old);
-	if (far.isValid() && others(old) - others(far) > enough && move(model, i, far, present))
-		return true;
+	std::vector<Vertex> places;
+	if (far.isValid() && others(old) - others(far) > enough)
+		places.push_back(far);
 	// Down the whole field, as far as it falls and then less far: it changes with the cone.
 	std::vector<Vertex> path{old};
 	for (;;) {
@@ -154,10 +155,9 @@ bool relocate(ConeModel& model, const ConeSites& sites, int i, double& present)
 	}
 	std::size_t n = path.size() - 1;
 	for (int trial = 0; trial < kMaxTrials && n > 0; ++trial, n /= 2)
-		if (path[n] != far && own * (whole[old] - whole[path[n]]) > enough &&
-			move(model, i, path[n], present))
-			return true;
-	return false;
+		if (path[n] != far && own * (whole[old] - whole[path[n]]) > enough)
+			places.push_back(path[n]);
+	return move(model, i, places, present);
 }
 
 /// Takes the weak cone \p i out and puts it where one more cone gains most.
@@ -167,7 +167,7 @@ bool replant(ConeModel& model, const ConeSites& sites, int i, double& present)
 		return false;
 	const Vertex old = model.vertex(i);
 	const std::vector<Vertex> best = maxGains(model, sites, model.gradientWithout(i), 1, old);
-	return !best.empty() && best.front() != old && move(model, i, best.front(), present);
+	return !best.empty() && best.front() != old && move(model, i, best, present);
 }
 
 /// Moves cone \p i to a place around where energy and price of seams are lower.
@@ -202,16 +202,16 @@ bool moveNearby(
 		if (change < -kMinObjectiveGain && present + rise <= maxEnergy)
 			places.emplace_back(change, v);
 	}
-	std::sort(places.begin(), places.end());
-	for (std::size_t k = 0; k < places.size() && k < kMaxAttempts; ++k) {
-		const Vertex v = places[k].second;
-		const double most = std::min(
-			maxEnergy,
-			present + (kSeamPrice * (own - tree.distance(v)) - kMinObjectiveGain) / kEnergyPrice);
-		if (model.tryMove(i, v, [&](double energy) { return energy <= most; }))
-			return true;
-	}
-	return false;
+	const std::size_t count = std::min(places.size(), kMaxAttempts);
+	const auto end = places.begin() + static_cast<std::ptrdiff_t>(count);
+	std::partial_sort(places.begin(), end, places.end());
+	std::vector<Vertex> best;
+	for (auto place = places.begin(); place != end; ++place)
+		best.push_back(place->second);
+	return model.tryMove(i, best, [&](Vertex v, double energy) {
+		const double saved = kSeamPrice * (own - tree.distance(v)) - kMinObjectiveGain;
+		return energy <= std::min(maxEnergy, present + saved / kEnergyPrice);
+	});
 }
 
 } // namespace

@@ -236,6 +236,8 @@ private:
 	void solveForward(Two, const Supernode& node, double* x, double* below, double* above) const
 	{
 		double* own = x + 2 * node.first;
+		if (std::all_of(own, own + 2 * node.width, [](double value) { return value == 0.0; }))
+			return;
 		for (int c = 0; c < node.width; ++c) {
 			const double* column = node.column(c);
 			const Pair solved = at(own, c) / column[c];
