@@ -106,6 +106,32 @@ TEST(SeamTree, IsNoLongerThanTheMinimumSpanningTree)
 	}
 }
 
+/// Each cone in turn that is nearest to what is there.
+TEST(SeamTree, TakesTheNearestConesFirst)
+{
+	Random random(921);
+	for (const int genus : {0, 1}) {
+		Linearised linear(
+			{"", shaken(perforatedSlab(genus, 3), 0.05, random), ConeBoundary::Fixed});
+		const ConeSites sites(linear.surface, -1);
+		std::vector<Vertex> left = places(13, linear.flow.vertexCount());
+		const SeamTree tree(sites, left);
+		SeamTree wanted(sites);
+		while (!left.empty()) {
+			const auto nearest = std::min_element(left.begin(), left.end(), [&](Vertex a, Vertex b) {
+				return wanted.distance(a) < wanted.distance(b);
+			});
+			wanted.add(*nearest);
+			left.erase(nearest);
+		}
+		EXPECT_NEAR(tree.length(), wanted.length(), 1e-12);
+		for (const Vertex v : linear.surface.triangulation.vertices()) {
+			EXPECT_NEAR(tree.distance(v), wanted.distance(v), 1e-12);
+			EXPECT_NEAR(tree.ownLength(v), wanted.ownLength(v), 1e-12);
+		}
+	}
+}
+
 /// Taking a cone out leaves the tree as if it had never been there.
 TEST(SeamTree, ForgetsConesThatAreTakenOut)
 {

@@ -226,6 +226,26 @@ struct AtTheEnd
 	}
 };
 
+/// The equations of the start are those of the flow's first step, which has no factorisation of its own then.
+TEST(LinearFlow, LeavesItsFactorToTheFlow)
+{
+	for (const bool isKnown : {false, true}) {
+		SCOPED_TRACE(isKnown);
+		const SurfaceMesh mesh = torus(2.0, 1.0, 24, 16);
+		const EmbeddedSurface surface =
+			embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles);
+		InitialPacking start = initialPacking(surface, {});
+		if (isKnown)
+			const LinearFlow linear(surface, start, ConeBoundary::Fixed);
+		EXPECT_EQ(start.hessian != nullptr, isKnown);
+		const FlowResult flow =
+			runRicciFlow(surface, std::move(start), zeroTarget(surface.topology), {});
+		EXPECT_EQ(flow.work.factorizations, isKnown ? 0 : 1);
+		EXPECT_EQ(flow.start.hessian, nullptr);
+		EXPECT_LT(flow.residual, 1e-12);
+	}
+}
+
 TEST(LinearFlow, AtAFlowsEndGivesBackItsFactor)
 {
 	Random random(766);

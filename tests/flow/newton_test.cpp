@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -491,6 +492,36 @@ TEST(Newton, StepsWithAnOldFactorReachTheSameMetric)
 	VertexVector difference = u - direct.u;
 	difference.array() -= difference.mean();
 	EXPECT_LT(difference.lpNorm<Eigen::Infinity>(), 1e-10);
+}
+
+/// The first step is solved with the factor that someone else has made, if its unknowns are the same ones.
+TEST(Newton, BeginsWithAFactorOfTheSameUnknowns)
+{
+	Random random(81);
+	const Packed mesh(bumpyTorus(30, 20, random));
+	const VertexVector zero = VertexVector::Zero(mesh.u().size());
+	const Solved direct = solve(mesh, zero, mesh.u(), nothingFixed(mesh));
+	for (const bool isSame : {true, false}) {
+		Map map = mesh.map();
+		map.evaluate(mesh.u());
+		VertexArray<char> fixed = nothingFixed(mesh);
+		fixed[Vertex(5)] = isSame ? 0 : 1;
+		const auto known = std::make_shared<FactoredHessian>(fixed, map.scaleInvariant());
+		ASSERT_TRUE(known->factorize(map));
+		NewtonSolver solver(map, nothingFixed(mesh));
+		solver.beginWith(known);
+		EXPECT_EQ(solver.work().factorizations, 0);
+		NewtonOptions oneStep;
+		oneStep.maxIterations = 1;
+		VertexVector u = mesh.u();
+		solver.solve(u, zero, oneStep, silent);
+		EXPECT_EQ(solver.work().factorizations, isSame ? 0 : 1);
+		EXPECT_GE(solver.work().solutions, 1);
+		ASSERT_TRUE(solver.solve(u, zero, {}, silent).converged);
+		VertexVector difference = u - direct.u;
+		difference.array() -= difference.mean();
+		EXPECT_LT(difference.lpNorm<Eigen::Infinity>(), 1e-10);
+	}
 }
 
 TEST(Newton, FollowsASurgeonThatChangesTheConnectivity)

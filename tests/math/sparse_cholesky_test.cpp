@@ -197,6 +197,12 @@ TEST(SparseCholesky, SolvesForASingleEntry)
 	for (int i = 0; i < n; ++i) {
 		const Eigen::VectorXd x = solver.solve(Eigen::VectorXd::Unit(n, i));
 		EXPECT_LT((x - inverse.col(i)).lpNorm<Eigen::Infinity>(), 1e-12);
+		const int other = n - 1 - i;
+		Eigen::MatrixXd two(n, 2);
+		two << Eigen::VectorXd::Unit(n, i), Eigen::VectorXd::Unit(n, other);
+		const Eigen::MatrixXd solved = solver.solve(two);
+		EXPECT_LT((solved.col(0) - inverse.col(i)).lpNorm<Eigen::Infinity>(), 1e-12);
+		EXPECT_LT((solved.col(1) - inverse.col(other)).lpNorm<Eigen::Infinity>(), 1e-12);
 	}
 	EXPECT_EQ(solver.solve(Eigen::VectorXd::Zero(n)), Eigen::VectorXd::Zero(n));
 }
