@@ -74,6 +74,12 @@ TEST(DivideDisks, TellsWhereThereAreTooManyDisks)
 	EXPECT_FALSE(divideDisks(map));
 	EXPECT_EQ(map.report.endedEarly, 1);
 	EXPECT_EQ(map.mesh.place.values(), before.values());
+	// What is divided before there are too many stays divided.
+	map = band(160, 0.2, 0.1);
+	map.charts.resize(kMaxDisks - 1);
+	EXPECT_TRUE(divideDisks(map));
+	EXPECT_EQ(map.report.endedEarly, 1);
+	EXPECT_GE(static_cast<int>(map.charts.size()), kMaxDisks);
 	map = band(40, 0.2, 0.1); // needs no more
 	map.charts.resize(kMaxDisks);
 	EXPECT_FALSE(divideDisks(map));

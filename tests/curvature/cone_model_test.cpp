@@ -277,7 +277,14 @@ TEST(ConeModel, TrialsAreUndoneUnlessTheyAreTaken)
 	}));
 	expectUnchanged();
 
-	EXPECT_TRUE(model.tryMove(2, {to}, [&](Vertex, double energy) { return energy < there + 1e-9; }));
+	// Both bounds let the first two places pass, and the energies there are too high.
+	const Vertex high(to.number() + 1), higher(to.number() + 2);
+	ASSERT_FALSE(model.isCone(high) || model.isCone(higher));
+	int asked = 0;
+	EXPECT_TRUE(model.tryMove(2, {high, higher, to}, [&](Vertex v, double energy) {
+		return v == to ? energy < there + 1e-9 : asked++ < 2 || asked == 3 || asked == 5;
+	}));
+	EXPECT_EQ(asked, 6);
 	EXPECT_EQ(model.vertices(), elsewhere);
 	EXPECT_TRUE(model.isCone(to));
 	EXPECT_FALSE(model.isCone(someVertices()[2]));

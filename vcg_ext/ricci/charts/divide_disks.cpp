@@ -126,6 +126,7 @@ bool divideDisks(Parametrization& map)
 	bool endsEarly = false;
 	for (bool grows = true; grows && !endsEarly;) {
 		grows = false;
+		const bool isFull = disks >= kMaxDisks;
 		const Soundness soundness = soundnessOf(disks);
 		for (std::size_t c = 0; c < triangles.size(); ++c) {
 			const bool isSound = std::all_of(triangles[c].begin(), triangles[c].end(), [&](int f) {
@@ -139,7 +140,7 @@ bool divideDisks(Parametrization& map)
 			std::vector<int> more = farthestUnsound(chart, cells[c], soundness);
 			if (more.empty())
 				continue;
-			if (disks >= kMaxDisks) {
+			if (isFull) {
 				endsEarly = true;
 				break;
 			}

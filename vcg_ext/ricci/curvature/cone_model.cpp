@@ -114,8 +114,8 @@ void ConeModel::append(const std::vector<Vertex>& vertices)
 		m_isCone[v] = 1;
 	}
 	for (std::size_t i = 0; i < vertices.size(); i += 2) {
-		const auto first = vertices.begin() + static_cast<std::ptrdiff_t>(i);
-		const std::vector<Vertex> two(first, std::min(first + 2, vertices.end()));
+		const std::vector<Vertex> two(
+			vertices.data() + i, vertices.data() + std::min(i + 2, vertices.size()));
 		const Eigen::MatrixXd u = unitFactors(two), fields = m_flow.gradient(u);
 		for (Eigen::Index k = 0; k < u.cols(); ++k) {
 			m_ownProduct[two[static_cast<std::size_t>(k)]] = m_flow.meanSquare(u.col(k));
@@ -364,7 +364,7 @@ double ConeModel::ownProduct(Vertex v)
 	return m_ownProduct.at(v);
 }
 
-/// Finds ownProduct() of two vertices: that takes little longer than that of one.
+/// Finds ownProduct() of two vertices, or of one that is given twice: two take little longer than one.
 void ConeModel::learn(Vertex v, Vertex w)
 {
 	std::vector<Vertex> unknown;

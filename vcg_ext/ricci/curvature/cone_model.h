@@ -100,23 +100,22 @@ public:
 	/// Moves cone \p i to the first of \p places with \p isLow(place, energy there), with the curvatures fitted.
 	/// Most trials fail, and nearly all of those by bounds of the energy that need no fit, and many no
 	/// linear solution.
-	/// \param isLow holds for every energy below one for which it holds
+	/// \param isLow holds for every energy below one for which it holds at the same place
 	/// \return whether the cone has moved
 	template<class IsLow>
 	bool tryMove(int i, const std::vector<Vertex>& places, const IsLow& isLow)
 	{
-		std::vector<Reach> likely;
-		for (const Vertex v : places) {
-			Reach reach = reachOf(v);
-			if (isLow(v, minEnergyAt(i, reach, minOwnProduct(reach))))
-				likely.push_back(std::move(reach));
-		}
+		std::vector<Vertex> likely;
+		for (const Vertex v : places)
+			if (const Reach reach = reachOf(v);
+				isLow(v, minEnergyAt(i, reach, minOwnProduct(reach))))
+				likely.push_back(v);
 		const Vertex old = vertex(i);
 		for (std::size_t k = 0; k < likely.size(); ++k) {
-			const Vertex v = likely[k].vertex;
+			const Vertex v = likely[k];
 			if (k % 2 == 0)
-				learn(v, likely[std::min(k + 1, likely.size() - 1)].vertex);
-			if (!isLow(v, minEnergyAt(i, likely[k], ownProduct(v))))
+				learn(v, likely[std::min(k + 1, likely.size() - 1)]);
+			if (!isLow(v, minEnergyAt(i, reachOf(v), ownProduct(v))))
 				continue;
 			const Fit before = m_now.fit;
 			VertexVector gradient = std::move(m_gradient);
@@ -233,7 +232,7 @@ private:
 	VertexVector m_start;                  // gradient without cones
 	VertexVector m_evenFactor;             // of a curvature of 1 on the whole surface by area
 	std::map<Vertex, double> m_ownProduct; // of vertices that were tried
-	std::vector<Vertex> m_lastVertices;    // of the last unitFactors()
+	std::vector<Vertex> m_lastVertices;    // of the last learn()
 	Eigen::MatrixXd m_lastFactors;
 };
 

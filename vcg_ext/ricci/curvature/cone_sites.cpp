@@ -159,13 +159,15 @@ SeamTree::SeamTree(const ConeSites& sites, const std::vector<Vertex>& cones) : S
 {
 	VertexArray<char> isLeft(m_uses.size(), 0);
 	DistanceQueue<Vertex> queue;
+	int left = 0;
 	for (const Vertex v : cones) {
+		left += isLeft[v] == 0;
 		isLeft[v] = 1;
 		if (m_distance[v] < kFar)
 			queue.push(m_distance[v], v);
 	}
 	const auto isCone = [&](Vertex v) { return isLeft[v] != 0; };
-	for (std::size_t left = cones.size(); left > 0; --left) {
+	for (; left > 0; --left) {
 		Vertex next = spread(queue, isCone);
 		if (!next.isValid())
 			next = *std::find_if(cones.begin(), cones.end(), isCone);

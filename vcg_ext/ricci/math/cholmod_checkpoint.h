@@ -7,6 +7,7 @@
 #include "../base/task.h"
 
 #include <exception>
+#include <utility>
 
 namespace ricci {
 
@@ -39,10 +40,9 @@ inline bool checkpointInCholmod(double products)
 template<class Factorize>
 void rethrowFromCholmod(const Factorize& factorize)
 {
-	std::exception_ptr kept;
-	keptFromCholmod = &kept;
-	factorize();
-	keptFromCholmod = nullptr;
+	std::exception_ptr kept, *const before = std::exchange(keptFromCholmod, &kept);
+	factorize(); // C: nothing is thrown
+	keptFromCholmod = before;
 	if (kept)
 		std::rethrow_exception(kept);
 }

@@ -64,7 +64,8 @@ struct InitialPacking
 	bool isDelaunay = false; ///< from delaunayPacking()
 	Lengthening lengthened;  ///< of the input's edges, by delaunayPacking()
 
-	/// The equations of Newton's first step, if someone has factorised them before the flow does.
+	/// The Hessian of the Ricci energy here, if a LinearFlow has factorised it: one flow from here takes it,
+	/// where its unknowns are the same. Mutable: it is kept work, and says nothing about the packing.
 	mutable std::shared_ptr<FactoredHessian> hessian;
 };
 
