@@ -267,7 +267,8 @@ TEST(ConeModel, TrialsAreUndoneUnlessTheyAreTaken)
 		EXPECT_FALSE(model.isCone(to));
 	};
 	const double there = moved.energy();
-	EXPECT_FALSE(model.tryMove(2, {to}, [&](Vertex, double energy) { return energy < there - 1e-9; }));
+	EXPECT_FALSE(
+		model.tryMove(2, {to}, [&](Vertex, double energy) { return energy < there - 1e-9; }));
 	expectUnchanged();
 	EXPECT_FALSE(model.tryWithout(2, [&] {
 		EXPECT_EQ(model.vertices(), fewer);

@@ -118,9 +118,10 @@ TEST(SeamTree, TakesTheNearestConesFirst)
 		const SeamTree tree(sites, left);
 		SeamTree wanted(sites);
 		while (!left.empty()) {
-			const auto nearest = std::min_element(left.begin(), left.end(), [&](Vertex a, Vertex b) {
-				return wanted.distance(a) < wanted.distance(b);
-			});
+			const auto nearest =
+				std::min_element(left.begin(), left.end(), [&](Vertex a, Vertex b) {
+					return wanted.distance(a) < wanted.distance(b);
+				});
 			wanted.add(*nearest);
 			left.erase(nearest);
 		}

@@ -128,9 +128,9 @@ private:
 
 	CurvatureMap* m_map;
 	VertexArray<char> m_fixed;
-	CholeskyWork m_workBefore;    // before dropSymmetry(), less what beginWith() has brought
-	bool m_gaugeFree = false;     // the mean of u is free
-	bool m_worn = false;          // the factor has become a bad preconditioner
+	CholeskyWork m_workBefore; // before dropSymmetry(), less what beginWith() has brought
+	bool m_gaugeFree = false;  // the mean of u is free
+	bool m_worn = false;       // the factor has become a bad preconditioner
 	std::shared_ptr<FactoredHessian> m_hessian;
 	VertexVector m_gradient; // K - target, 0 where fixed
 	VertexVector m_direction, m_trial, m_diagonal;
