@@ -220,6 +220,26 @@ TEST(Distortion, CountsFacesWithTheWrongOrNoOrientation)
 	EXPECT_NEAR(report.qcMean, 1.0, 1e-14);
 }
 
+TEST(StretchEnergy, OfAStretchHasAClosedForm)
+{
+	FlatMesh flat = flatMesh(rectangle(4, 3, 1.0, 1.0));
+	EXPECT_NEAR(stretchEnergy(flat), 4.0, 1e-13);
+	for (Point2& p : flat.place)
+		p = {5.0 * p[0], 10.0 * p[1]};
+	EXPECT_NEAR(stretchEnergy(flat), 2.0 * (2.0 + 1.0 / 2.0), 1e-13);
+}
+
+TEST(StretchEnergy, IsInfiniteWhereATriangleBecomesALineOrAPoint)
+{
+	const FlatMesh whole = flatMesh(rectangle(4, 3, 1.0, 1.0));
+	for (const std::size_t corners : {2U, 3U}) {
+		FlatMesh flat = whole;
+		for (std::size_t k = 0; k < corners; ++k)
+			flat.place[flat.points[5][k]] = whole.at(5)[0];
+		EXPECT_EQ(stretchEnergy(flat), std::numeric_limits<double>::infinity());
+	}
+}
+
 TEST(AreaDistortion, OfASimilarityIsOneAndOfALinearMapToo)
 {
 	Random random(118);

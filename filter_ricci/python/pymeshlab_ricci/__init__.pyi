@@ -129,8 +129,8 @@ class Flattening(Parametrization):
     twice"""
     ended_early: int
     """searches for something better (cones that keep areas, shorter seams, repair, least
-    distortion or stretch, cuts for room) that the bound on their work has ended; the log says
-    which"""
+    distortion or stretch, cuts for room, the division of disks) that the bound on their work
+    has ended; the log says which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int
@@ -291,8 +291,8 @@ class Uniformization(Parametrization):
     twice"""
     ended_early: int
     """searches for something better (cones that keep areas, shorter seams, repair, least
-    distortion or stretch, cuts for room) that the bound on their work has ended; the log says
-    which"""
+    distortion or stretch, cuts for room, the division of disks) that the bound on their work
+    has ended; the log says which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int

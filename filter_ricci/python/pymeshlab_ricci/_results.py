@@ -59,8 +59,8 @@ EUCLIDEAN_RESULTS = \
                   'coordinates counts twice'),
  'ended_early': ('int',
                  'searches for something better (cones that keep areas, shorter seams, repair, '
-                 'least distortion or stretch, cuts for room) that the bound on their work has '
-                 'ended; the log says which'),
+                 'least distortion or stretch, cuts for room, the division of disks) that the '
+                 'bound on their work has ended; the log says which'),
  'flips': ('int', 'intrinsic flips, including those before the flow'),
  'refinement_points': ('int',
                        'points of the common refinement that are not vertices of the mesh; 0 '

@@ -268,6 +268,8 @@ double stretchEnergy(const FlatMesh& mesh)
 		const double determinant = cross(along, up), square = dot(along, along) + dot(up, up);
 		total += area;
 		forth += area * square;
+		if (!(determinant * determinant > 0.0))
+			return std::numeric_limits<double>::infinity();
 		back += area * (square / (determinant * determinant));
 	}
 	return total > 0.0 ? energyAtBestScale(forth, back, total) : 4.0;
