@@ -179,6 +179,37 @@ TEST(ConeSearch, ConesMoveWhereTheEnergyIsLower)
 	}
 }
 
+/// From one place they move until none gains where the field of the others is best for it.
+TEST(ConeSearch, ConesMoveToFarPlaces)
+{
+	for (const int genus : {0, 1, 2, 3})
+		for (const int from : {0, 20, 40}) {
+			Search search(shakenSlab(genus), genus);
+			ConeModel& model = search.model;
+			std::vector<Vertex> start;
+			for (int i = 0; i < 8; ++i)
+				start.emplace_back(from + i);
+			model.append(start);
+			model.fit();
+			relocateCones(model, search.sites, 100);
+			for (int i = 0; i < model.size(); ++i) {
+				const double own = model.curvature(i), present = model.energy();
+				if (std::abs(own) <= 0.3) // these are placed anew
+					continue;
+				const VertexVector others = own * (model.gradient() - own * model.field(i));
+				Vertex best = model.vertex(i);
+				for (const Vertex v : others.indices())
+					if (!model.isCone(v) && others[v] < others[best])
+						best = v;
+				if (others[model.vertex(i)] - others[best] <= 0.0025 * present)
+					continue;
+				EXPECT_FALSE(model.tryMove(
+					i, {best}, [&](Vertex, double energy) { return energy < 0.995 * present; }))
+					<< genus << " " << from;
+			}
+		}
+}
+
 /// Cones in flat places of a box carry nothing.
 TEST(ConeSearch, ConesThatCarryNothingAreTakenOut)
 {
