@@ -99,8 +99,8 @@ class Flattening(Parametrization):
     """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
     4 if all lengths keep their ratios"""
     objective: float
-    """Euclidean filter: what Automatic makes small: stretch and, for all seams as long as the
-    square root of the area, 0.05"""
+    """Euclidean filter: what Automatic makes small: stretch + 0.05 × (length of all seams) /
+    √area"""
     target_used: int
     """Euclidean filter: what the map was made with in the end: the number of a
     target_curvature, or 7: a free boundary without cones, 8: a boundary prescribed by its
@@ -130,7 +130,7 @@ class Flattening(Parametrization):
     ended_early: int
     """searches for something better (cones that keep areas, shorter seams, repair, least
     distortion or stretch, cuts for room, the division of disks) that the bound on their work
-    has ended; the log says which"""
+    has ended: the map is valid, and could be a little better; the log says which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int
@@ -261,8 +261,8 @@ class Uniformization(Parametrization):
     """Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of the map:
     4 if all lengths keep their ratios"""
     objective: float
-    """Euclidean filter: what Automatic makes small: stretch and, for all seams as long as the
-    square root of the area, 0.05"""
+    """Euclidean filter: what Automatic makes small: stretch + 0.05 × (length of all seams) /
+    √area"""
     target_used: int
     """Euclidean filter: what the map was made with in the end: the number of a
     target_curvature, or 7: a free boundary without cones, 8: a boundary prescribed by its
@@ -292,7 +292,7 @@ class Uniformization(Parametrization):
     ended_early: int
     """searches for something better (cones that keep areas, shorter seams, repair, least
     distortion or stretch, cuts for room, the division of disks) that the bound on their work
-    has ended; the log says which"""
+    has ended: the map is valid, and could be a little better; the log says which"""
     flips: int
     """intrinsic flips, including those before the flow"""
     refinement_points: int

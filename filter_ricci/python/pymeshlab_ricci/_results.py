@@ -28,8 +28,8 @@ EUCLIDEAN_RESULTS = \
              'Euclidean filter: symmetric Dirichlet energy, mean by area at the best scale of '
              'the map: 4 if all lengths keep their ratios'),
  'objective': ('float',
-               'Euclidean filter: what Automatic makes small: stretch and, for all seams as '
-               'long as the square root of the area, 0.05'),
+               'Euclidean filter: what Automatic makes small: stretch + 0.05 × (length of all '
+               'seams) / √area'),
  'target_used': ('int',
                  'Euclidean filter: what the map was made with in the end: the number of a '
                  'target_curvature, or 7: a free boundary without cones, 8: a boundary '
@@ -60,7 +60,8 @@ EUCLIDEAN_RESULTS = \
  'ended_early': ('int',
                  'searches for something better (cones that keep areas, shorter seams, repair, '
                  'least distortion or stretch, cuts for room, the division of disks) that the '
-                 'bound on their work has ended; the log says which'),
+                 'bound on their work has ended: the map is valid, and could be a little '
+                 'better; the log says which'),
  'flips': ('int', 'intrinsic flips, including those before the flow'),
  'refinement_points': ('int',
                        'points of the common refinement that are not vertices of the mesh; 0 '
