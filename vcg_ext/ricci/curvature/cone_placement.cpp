@@ -2,6 +2,7 @@
 #include "cone_placement.h"
 
 #include "../base/numbers.h"
+#include "../base/parallel.h"
 #include "../base/task.h"
 #include "../error.h"
 #include "../flow/map_cost.h"
@@ -253,12 +254,16 @@ PlacedCones result(ConeModel& model, const ConeSites& sites)
 PlacedCones placeOnAggregates(
 	const ConeRequest& request, LinearFlow& flow, double total, const ConeSites& sites)
 {
-	CoarseFlow coarse(flow, kMaxAggregates);
-	ConeModel model(coarse.flow, total);
-	search(request, model, ConeSites(sites, coarse.roots));
+	VertexArray<Vertex> roots;
+	LinearFlow coarse = onAggregates(flow, kMaxAggregates, roots);
+	ConeModel model(coarse, total);
+	besides(
+		defaultThreads(),
+		[&] { search(request, model, ConeSites(sites, roots)); },
+		[&] { flow.factorize(); });
 	std::vector<Vertex> vertices = model.vertices();
 	for (Vertex& v : vertices)
-		v = coarse.roots[v];
+		v = roots[v];
 	const auto spread = [&](const Eigen::VectorXd& k) {
 		return spreadOut(vertices, k, flow.vertexCount());
 	};
@@ -301,15 +306,16 @@ PlacedCones placeOnAggregates(
 void searchFromCoarse(
 	const ConeRequest& request, LinearFlow& flow, ConeModel& model, const ConeSites& sites)
 {
-	CoarseFlow coarse(flow, kMaxAggregates);
-	const ConeSites coarseSites(sites, coarse.roots);
-	ConeModel coarseModel(coarse.flow, model.total());
+	VertexArray<Vertex> roots;
+	LinearFlow coarse = onAggregates(flow, kMaxAggregates, roots);
+	const ConeSites coarseSites(sites, roots);
+	ConeModel coarseModel(coarse, model.total());
 	ConeRequest coarseRequest = request;
 	model.setRounding(request.rounding);
 	double excess = 0.0; // of the distortion on the surface itself
 	for (int round = 0; round < kMaxCoarseRounds; ++round) {
 		search(coarseRequest, coarseModel, coarseSites);
-		copyCones(coarseModel, coarse.roots, model);
+		copyCones(coarseModel, roots, model);
 		excess = model.distortion() / request.distortion;
 		if (request.count > 0 || excess <= 1.0)
 			break;

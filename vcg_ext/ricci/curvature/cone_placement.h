@@ -66,7 +66,7 @@ struct PlacedCones
 ///    neither number nor distortion is given, cones are added beyond the least sum of the two, and those
 ///    that are not worth their seams taken out (dropCostlyCones()).
 ///
-/// On a large surface, all of this happens on aggregates of its vertices (CoarseFlow); on the surface
+/// On a large surface, all of this happens on aggregates of its vertices (onAggregates()); on the surface
 /// itself the curvatures are fitted, and cones moved or added where its own distortion asks for it.
 ///
 /// All of it is greedy: the cones are good ones, not provably the best. On a closed surface the

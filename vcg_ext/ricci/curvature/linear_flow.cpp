@@ -7,8 +7,11 @@
 #include "../metric/circle_packing.h"
 #include "../metric/euclidean.h"
 
+#include <Eigen/IterativeLinearSolvers>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace ricci {
@@ -36,11 +39,11 @@ LinearFlow::LinearFlow(
 	const EmbeddedSurface& surface, const InitialPacking& start, ConeBoundary boundary) :
 		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed())
 {
-	const auto map = mapOf(
+	m_unfactored = mapOf(
 		start.isDelaunay ? start : delaunayPacking({surface.triangulation, surface.lengths}, {}));
-	m_curvature = map->curvature();
-	computeAreas(*map);
-	factorize(surface, *map, boundary);
+	m_curvature = m_unfactored->curvature();
+	computeAreas(*m_unfactored);
+	layOut(surface, *m_unfactored, boundary);
 	if (start.isDelaunay)
 		start.hessian = m_hessian;
 }
@@ -53,13 +56,15 @@ LinearFlow::LinearFlow(
 		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed()),
 		m_curvature(flow.curvature), m_area(std::move(weights)), m_factor(flowFactor(flow))
 {
-	if (flow.doubled)
-		factorize(
-			surface,
-			*mapOf(delaunayPacking({surface.triangulation, surface.lengths}, {})),
-			boundary);
-	else
-		factorize(surface, *flow.metric, boundary);
+	if (flow.doubled) {
+		m_unfactored = mapOf(delaunayPacking({surface.triangulation, surface.lengths}, {}));
+		layOut(surface, *m_unfactored, boundary);
+		factorize();
+		return;
+	}
+	layOut(surface, *flow.metric, boundary);
+	if (m_unknowns > 0)
+		m_hessian->factorize(*flow.metric);
 }
 
 LinearFlow::LinearFlow(LinearSystem system) :
@@ -127,7 +132,14 @@ LinearSystem LinearFlow::system(VertexArray<Vertex>& vertices) const
 	return result;
 }
 
-void LinearFlow::factorize(
+void LinearFlow::factorize()
+{
+	if (m_unfactored && m_unknowns > 0)
+		m_hessian->factorize(*m_unfactored);
+	m_unfactored.reset();
+}
+
+void LinearFlow::layOut(
 	const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary)
 {
 	m_hessian = std::make_shared<FactoredHessian>(
@@ -135,8 +147,7 @@ void LinearFlow::factorize(
 		map.scaleInvariant());
 	m_row = m_hessian->row();
 	m_unknowns = m_hessian->unknowns();
-	if (m_unknowns > 0)
-		m_hessian->factorize(map);
+	m_hessian->fill(map, 0.0);
 	if (boundary == ConeBoundary::Prescribed && !surface.topology.type.isClosed())
 		spreadSink(surface);
 }
@@ -174,6 +185,7 @@ Eigen::MatrixXd LinearFlow::gradient(const Eigen::MatrixXd& u)
 /// L^-1 rhs on the unknown vertices, 0 on the others.
 Eigen::MatrixXd LinearFlow::solveRows(const Eigen::MatrixXd& rhs)
 {
+	factorize();
 	// Entry by entry: expressions of rows cost more where there are few columns.
 	Eigen::MatrixXd rows(m_unknowns, rhs.cols());
 	for (Eigen::Index k = 0; k < rhs.cols(); ++k)
@@ -242,19 +254,97 @@ LinearSystem coarser(const LinearSystem& fine, const Aggregation& aggregation)
 	return coarse;
 }
 
-/// Root mean square of u for the curvature that \p flow starts with, spread over the surface by area.
-double flatteningSize(LinearFlow& flow)
+/// What takes the curvature from \p system, that which is missing from the sum of a closed surface by area.
+VertexVector flattening(const LinearSystem& system)
 {
-	VertexVector rhs = -flow.curvature();
-	if (flow.hasFixedSum())
-		rhs -= rhs.sum() * flow.area();
-	return std::sqrt(flow.meanSquare(flow.solve(rhs)));
+	VertexVector rhs = -system.curvature;
+	if (system.sink.size() > 0)
+		rhs -= rhs.sum() * system.sink;
+	else if (!system.fixesBoundary)
+		rhs -= rhs.sum() * system.area;
+	return rhs;
 }
 
-/// The equation of \p fine on aggregates of vertices, and in \p roots the vertices they grew from.
-LinearSystem coarsened(const LinearFlow& fine, int vertices, VertexArray<Vertex>& roots)
+double rootMeanSquare(const LinearSystem& system, VertexVector u)
 {
-	LinearSystem system = fine.system(roots);
+	u.array() -= system.area.dot(u);
+	return std::sqrt(system.area.dot(u.cwiseProduct(u)));
+}
+
+/// An equation is solved about as well by its diagonal and, where the solution is smooth, by the equation on
+/// aggregates: functions there are about so much stiffer, whatever the surface.
+constexpr double kStiffer = 3.0;
+
+/// Steps of conjugate gradients, with that as the preconditioner, and the share of the right-hand side that is
+/// left to them.
+constexpr int kMaxSizeSteps = 50;
+constexpr double kSizeAccuracy = 0.03;
+
+class TwoLevels
+{
+public:
+	void attach(const LinearSystem& fine, const Array<int>& aggregate, LinearFlow& coarse)
+	{
+		m_diagonal = fine.laplacian.diagonal();
+		m_aggregate = &aggregate;
+		m_coarse = &coarse;
+	}
+
+	template<class Any>
+	TwoLevels& compute(const Any&)
+	{
+		return *this;
+	}
+	Eigen::VectorXd solve(const Eigen::VectorXd& rest) const
+	{
+		VertexVector sums = VertexVector::Zero(m_coarse->vertexCount());
+		for (const int v : m_aggregate->indices())
+			sums[Vertex((*m_aggregate)[v])] += rest[v];
+		// Of the two solutions the one that is symmetric: no mean is taken off.
+		const VertexVector smooth = m_coarse->gradient(sums.cwiseQuotient(m_coarse->area()));
+		Eigen::VectorXd result = rest.cwiseQuotient(m_diagonal);
+		for (const int v : m_aggregate->indices())
+			result[v] += kStiffer * smooth[Vertex((*m_aggregate)[v])];
+		return result;
+	}
+	Eigen::ComputationInfo info() { return Eigen::Success; }
+
+private:
+	Eigen::VectorXd m_diagonal;
+	const Array<int>* m_aggregate = nullptr;
+	LinearFlow* m_coarse = nullptr;
+};
+
+/// Less curvature than this in all, radians, is one of rounding.
+constexpr double kNoCurvature = 1e-6;
+
+/// Size of the factors that flatten the surface over that on aggregates, to about a percent.
+double softnessOf(
+	const LinearSystem& fine,
+	const Array<int>& aggregate,
+	const LinearSystem& onAggregates,
+	LinearFlow& coarse)
+{
+	const VertexVector rhs = flattening(fine);
+	if (rhs.lpNorm<1>() < kNoCurvature)
+		return kStiffer;
+	Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper, TwoLevels>
+		gradients;
+	gradients.preconditioner().attach(fine, aggregate, coarse);
+	gradients.setTolerance(kSizeAccuracy);
+	gradients.setMaxIterations(kMaxSizeSteps);
+	gradients.compute(fine.laplacian);
+	const double size = rootMeanSquare(fine, gradients.solve(rhs));
+	const double smaller = rootMeanSquare(onAggregates, coarse.solve(flattening(onAggregates)));
+	const double softness = size / smaller;
+	return softness > 0.0 && std::isfinite(softness) ? softness : kStiffer;
+}
+
+/// Takes the vertices of \p system together until there are at most so many. \return the aggregate of each
+Array<int> coarsen(LinearSystem& system, int vertices, VertexArray<Vertex>& roots)
+{
+	Array<int> aggregate(roots.size());
+	std::iota(aggregate.begin(), aggregate.end(), 0);
 	while (roots.size() > vertices) {
 		const Aggregation aggregation = aggregated(system.laplacian);
 		if (aggregation.root.size() == roots.size())
@@ -264,18 +354,22 @@ LinearSystem coarsened(const LinearFlow& fine, int vertices, VertexArray<Vertex>
 		for (const int root : aggregation.root)
 			kept.push_back(roots[Vertex(root)]);
 		roots = std::move(kept);
+		for (int& a : aggregate)
+			a = aggregation.aggregate[a];
 	}
-	return system;
+	return aggregate;
 }
 
 } // namespace
 
-CoarseFlow::CoarseFlow(LinearFlow& fine, int vertices) : flow(coarsened(fine, vertices, roots))
+LinearFlow onAggregates(const LinearFlow& fine, int vertices, VertexArray<Vertex>& roots)
 {
-	// Functions that are constant on aggregates are stiffer, on the whole evenly.
-	const double tooSmall = flatteningSize(flow);
-	if (tooSmall > 0.0)
-		flow.soften(flatteningSize(fine) / tooSmall);
+	const LinearSystem whole = fine.system(roots);
+	LinearSystem system = whole;
+	const Array<int> aggregate = coarsen(system, vertices, roots);
+	LinearFlow coarse(system);
+	coarse.soften(softnessOf(whole, aggregate, system, coarse));
+	return coarse;
 }
 
 } // namespace ricci

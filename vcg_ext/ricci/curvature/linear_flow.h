@@ -36,10 +36,9 @@ struct LinearSystem
 class LinearFlow
 {
 public:
-	/// Factorises L. If \p start is a Delaunay start, L is the Hessian there, which it then keeps for the
-	/// flow; else L is that of a Delaunay start made here.
+	/// If \p start is a Delaunay start, L is the Hessian there, which it then keeps for the flow; else L is
+	/// that of a Delaunay start made here.
 	/// \param start the start of the flow on \p surface
-	/// \throw SolverFailed
 	LinearFlow(const EmbeddedSurface& surface, const InitialPacking& start, ConeBoundary boundary);
 
 	/// Factorises L where \p flow has led. Where that ran on the double of the surface, L is that of
@@ -55,8 +54,12 @@ public:
 	/// The flow with the equation \p system.
 	/// \throw SolverFailed
 	explicit LinearFlow(LinearSystem system);
-	LinearFlow(const LinearFlow&) = delete;
-	LinearFlow& operator=(const LinearFlow&) = delete;
+	LinearFlow(LinearFlow&&) = default;
+
+	/// Factorises L, unless that has been done. The first solution does it otherwise: every function that is
+	/// not const may.
+	/// \throw SolverFailed
+	void factorize();
 
 	/// Whether the curvatures of the cones have a fixed sum: on closed surfaces, by Gauss-Bonnet.
 	bool hasFixedSum() const { return m_sink.size() == 0 && !m_fixesBoundary; }
@@ -97,12 +100,13 @@ public:
 
 private:
 	void computeAreas(const CurvatureMap& map);
-	void factorize(const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary);
+	void layOut(const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary);
 	void spreadSink(const EmbeddedSurface& surface);
 	Eigen::MatrixXd solveRows(const Eigen::MatrixXd& rhs);
 
 	std::unique_ptr<SparseCholesky> m_system;   // of a LinearSystem; null where there is a Hessian
 	std::shared_ptr<FactoredHessian> m_hessian; // null where there is a LinearSystem
+	std::unique_ptr<CurvatureMap> m_unfactored; // null where L is factorised
 	VertexArray<int> m_row;                     // of the unknown, or -1
 	int m_unknowns = 0;
 	double m_softness = 1.0; // L is divided by
@@ -115,16 +119,13 @@ private:
 /// The linear problem of a surface on aggregates of its vertices, where the search for cones costs
 /// little. Its Laplacian is that of functions which are constant on every aggregate, weakened evenly
 /// until the curvature of the surface gives factors u of the right size (overcorrection
-/// [Braess 1995]). They are those of the surface to some percent, but for a cone's own aggregate.
-struct CoarseFlow
-{
-	VertexArray<Vertex> roots; ///< by aggregate: the vertex of the surface from which it grew
-	LinearFlow flow;           ///< with arrays by aggregate in place of arrays by vertex
-
-	/// \param vertices to take together until there are at most so many
-	/// \throw SolverFailed
-	CoarseFlow(LinearFlow& fine, int vertices);
-};
+/// [Braess 1995]). They are those of the surface to some percent, but for a cone's own aggregate. \p fine is
+/// not factorised for it.
+/// \param vertices to take together until there are at most so many
+/// \param roots by aggregate: the vertex of the surface from which it grew
+/// \return the flow with arrays by aggregate in place of arrays by vertex
+/// \throw SolverFailed
+LinearFlow onAggregates(const LinearFlow& fine, int vertices, VertexArray<Vertex>& roots);
 
 } // namespace ricci
 

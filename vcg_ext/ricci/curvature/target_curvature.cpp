@@ -298,18 +298,17 @@ void choosePlainOrCones(
 	// In an annulus, cones come with a free boundary.
 	const bool isFlat = isFlatAnnulus(surface, request);
 	LinearFlow flow(surface, start, isFlat ? ConeBoundary::Prescribed : ConeBoundary::Fixed);
+	// The search first: flow is factorised meanwhile.
+	std::optional<PlacedCones> cones = isFlat ? placeCones(surface, start, coneRequest(request))
+											  : placeCones(surface, flow, coneRequest(request));
 	const double spread = 2.0 * std::sqrt(flow.meanSquare(flow.solve(-flow.curvature())));
 	const ConeOptions& wanted = request.options.cones;
 	const bool goesBySpread = wanted.count == 0 && !isForObjective(wanted);
-	MapCost plain{expectedEnergy(spread), 0.0};
+	MapCost plain{expectedEnergy(spread), cones->seamsWithout};
 	const bool isKept = goesBySpread ? spread <= wanted.distortion
 									 : plain.energy - expectedEnergy(0.0) < kNegligible;
-	std::optional<PlacedCones> cones;
-	if (!isKept) {
-		cones = isFlat ? placeCones(surface, start, coneRequest(request))
-					   : placeCones(surface, flow, coneRequest(request));
-		plain.seams = cones->seamsWithout;
-	}
+	if (isKept)
+		cones.reset();
 	const std::string without =
 		describe(plain) + ", area distortion " + numberText(spread, 3) + " (spread)";
 	const double costWithout = plain.total(), cost = cones ? expectation(*cones).total() : 0.0;

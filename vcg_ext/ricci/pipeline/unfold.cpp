@@ -127,9 +127,10 @@ unfold(const Component& component, const Options& options, double maxBetween)
 		if (angle < kCreaseAngles[0] && !best)
 			break;
 		const Creases found = creases(component.positions.values(), component.triangles, angle);
-		if (found.edges == 0 && !best)
-			break; // nor will there be any that are sharper
-		if (found.edges == 0 || found.edges == edges || found.curvatureBetween > maxBetween)
+		const bool isBent = found.edges == 0 || found.curvatureBetween > maxBetween;
+		if (isBent && !best)
+			break; // as it is between creases that are sharper
+		if (isBent || found.edges == edges)
 			continue;
 		edges = found.edges;
 		const std::vector<Component> all = pieces(component, found);
