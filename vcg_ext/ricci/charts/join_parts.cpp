@@ -177,7 +177,30 @@ private:
 	std::priority_queue<Candidate> m_open;
 };
 
-/// Divides parts that are too small to stay among others.
+/// Area below which a part is too small to stay.
+double maxCrumb(const MovableParts& parts)
+{
+	double total = 0.0;
+	for (int part = 0; part < parts.count(); ++part)
+		total += parts.area(part);
+	return kCrumb * total;
+}
+
+/// The parts that are too small, the smallest first.
+std::vector<int> crumbs(const MovableParts& parts)
+{
+	const double most = maxCrumb(parts);
+	std::vector<int> small;
+	for (int part = 0; part < parts.count(); ++part)
+		if (!parts.isEmpty(part) && parts.area(part) < most)
+			small.push_back(part);
+	std::stable_sort(small.begin(), small.end(), [&](int a, int b) {
+		return parts.area(a) < parts.area(b);
+	});
+	return small;
+}
+
+/// Divides crumbs among others.
 class CrumbDivider
 {
 public:
@@ -188,16 +211,9 @@ public:
 
 	void run()
 	{
-		double total = 0.0;
-		for (int part = 0; part < m_parts.count(); ++part)
-			total += m_parts.area(part);
-		std::vector<std::pair<double, int>> crumbs;
-		for (int part = 0; part < m_parts.count(); ++part)
-			if (!m_parts.isEmpty(part) && m_parts.area(part) < kCrumb * total)
-				crumbs.emplace_back(m_parts.area(part), part);
-		std::sort(crumbs.begin(), crumbs.end());
-		for (const auto& [area, part] : crumbs)
-			dissolve(part, kCrumb * total);
+		const double most = maxCrumb(m_parts);
+		for (const int part : crumbs(m_parts))
+			dissolve(part, most);
 	}
 
 private:
@@ -380,6 +396,8 @@ Parts joinParts(FlatMesh& chart, const Sides& sides, const Parts& parts)
 	MovableParts whole(chart, sides, parts);
 	PartJoiner(chart, sides, whole).run();
 	take(whole, sides, chart);
+	if (crumbs(whole).empty())
+		return partsOf(whole);
 	// Parts that were put together from many are looked through faster once they are one again.
 	MovableParts movable(chart, sides, partsOf(whole));
 	CrumbDivider(chart, movable).run();

@@ -72,19 +72,24 @@ std::vector<std::vector<int>> FlatMesh::trianglesByChart(std::size_t chartCount)
 FlatMesh FlatMesh::part(const std::vector<int>& triangles) const
 {
 	FlatMesh part;
-	std::vector<int> known; // points, in increasing order
+	int low = place.size(), high = -1; // points of a chart have numbers near each other
 	for (const int f : triangles)
-		known.insert(known.end(), points[f].begin(), points[f].end());
-	std::sort(known.begin(), known.end());
-	known.erase(std::unique(known.begin(), known.end()), known.end());
-	for (const int p : known)
-		part.place.push_back(place[p]);
+		for (const int p : points[f]) {
+			low = std::min(low, p);
+			high = std::max(high, p);
+		}
+	Array<int> number(std::max(0, high + 1 - low), -1); // [point - low]
+	for (const int f : triangles)
+		for (const int p : points[f])
+			number[p - low] = 0;
+	for (const int p : number.indices())
+		if (number[p] == 0) {
+			number[p] = part.place.size();
+			part.place.push_back(place[low + p]);
+		}
 	for (const int f : triangles) {
-		Triangle own{};
-		for (std::size_t k = 0; k < 3; ++k)
-			own[k] = static_cast<int>(
-				std::lower_bound(known.begin(), known.end(), points[f][k]) - known.begin());
-		part.points.push_back(own);
+		const Triangle& p = points[f];
+		part.points.push_back({number[p[0] - low], number[p[1] - low], number[p[2] - low]});
 		part.vertices.push_back(vertices[f]);
 		part.lengths.push_back(lengths[f]);
 		part.face.push_back(face[f]);
