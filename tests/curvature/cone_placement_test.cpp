@@ -168,7 +168,8 @@ TEST(ConePlacement, FitsWhatWasFoundOnAggregates)
 	const Packed p(shaken(perforatedSlab(1, 31), 0.002, random));
 	ASSERT_GT(p.triangulation.vertexCount(), 20000);
 	const EmbeddedSurface surface = surfaceOf(p);
-	LinearFlow flow(surface, initialPacking(surface, FlowOptions()), ConeBoundary::Fixed);
+	InitialPacking start = initialPacking(surface, FlowOptions());
+	LinearFlow flow(surface, start, ConeBoundary::Fixed);
 	const PlacedCones cones = placeCones(surface, flow, ConeRequest());
 	expectAdmissible(p, cones);
 	EXPECT_NEAR(sum(cones.curvatures), 0.0, 1e-9);

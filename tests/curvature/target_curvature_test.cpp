@@ -399,7 +399,7 @@ TEST(TargetToKeepAreas, IsAskedForWhereAreasSpreadMoreThanTheTargetAllows)
 		const auto next = [&]() -> std::optional<Target> {
 			if (keepsAreas(surface, flow))
 				return std::nullopt;
-			const InitialPacking start = initialPacking(surface, FlowOptions());
+			InitialPacking start = initialPacking(surface, FlowOptions());
 			return targetToKeepAreas(surface, start, flow, request);
 		};
 		EXPECT_FALSE(next()); // the target promises nothing

@@ -287,7 +287,7 @@ struct SwapRun : Progress
 	SwappedFlow operator()()
 	{
 		const Task task(*this);
-		const auto choose = [&](const EmbeddedSurface& surface, const InitialPacking& start) {
+		const auto choose = [&](const EmbeddedSurface& surface, InitialPacking& start) {
 			EXPECT_EQ(start.radii.size(), surface.positions.size());
 			++starts;
 			const int n = surface.triangulation.vertexCount();
@@ -509,7 +509,7 @@ TEST(SwappedFlow, CanBeCancelledAtEveryStep)
 TEST(SwappedFlow, ErrorsOfTheTargetPassThrough)
 {
 	SwapRun run(fanWithAWideTriangle(), -1.0);
-	const auto choose = [](const EmbeddedSurface&, const InitialPacking&) -> Target {
+	const auto choose = [](const EmbeddedSurface&, InitialPacking&) -> Target {
 		throw InvalidOption(InvalidOption::NothingSelected);
 	};
 	EXPECT_THROW(flowWithEdgeSwaps(run.component, run.options, choose, run.states), InvalidOption);

@@ -331,7 +331,7 @@ void searchFromCoarse(
 } // namespace
 
 PlacedCones
-placeCones(const EmbeddedSurface& surface, const InitialPacking& start, const ConeRequest& request)
+placeCones(const EmbeddedSurface& surface, InitialPacking& start, const ConeRequest& request)
 {
 	LinearFlow flow(surface, start, request.boundary);
 	return placeCones(surface, flow, request);

@@ -77,7 +77,7 @@ struct PlacedCones
 /// larger than its number of interior vertices
 /// \throw SolverFailed
 PlacedCones
-placeCones(const EmbeddedSurface& surface, const InitialPacking& start, const ConeRequest& request);
+placeCones(const EmbeddedSurface& surface, InitialPacking& start, const ConeRequest& request);
 
 /// The same with the linear problem at hand.
 /// \param flow at the start on \p surface, with the boundary of \p request

@@ -36,7 +36,7 @@ std::unique_ptr<CurvatureMap> mapOf(const InitialPacking& packing)
 } // namespace
 
 LinearFlow::LinearFlow(
-	const EmbeddedSurface& surface, const InitialPacking& start, ConeBoundary boundary) :
+	const EmbeddedSurface& surface, InitialPacking& start, ConeBoundary boundary) :
 		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed())
 {
 	m_unfactored = mapOf(

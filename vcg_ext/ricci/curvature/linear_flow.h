@@ -39,7 +39,7 @@ public:
 	/// If \p start is a Delaunay start, L is the Hessian there, which it then keeps for the flow; else L is
 	/// that of a Delaunay start made here.
 	/// \param start the start of the flow on \p surface
-	LinearFlow(const EmbeddedSurface& surface, const InitialPacking& start, ConeBoundary boundary);
+	LinearFlow(const EmbeddedSurface& surface, InitialPacking& start, ConeBoundary boundary);
 
 	/// Factorises L where \p flow has led. Where that ran on the double of the surface, L is that of
 	/// a Delaunay start.

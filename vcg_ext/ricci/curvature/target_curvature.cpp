@@ -157,7 +157,7 @@ void setCones(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 
 /// A free boundary takes whatever the curvature inside leaves of 2 pi chi: what it cannot take shows in the
 /// scale factors of the linear flow.
-void checkScales(const EmbeddedSurface& surface, const InitialPacking& start, const Target& target)
+void checkScales(const EmbeddedSurface& surface, InitialPacking& start, const Target& target)
 {
 	LinearFlow flow(surface, start, ConeBoundary::Fixed);
 	const VertexVector u = flow.solve(target.curvature - flow.curvature());
@@ -170,7 +170,7 @@ void checkScales(const EmbeddedSurface& surface, const InitialPacking& start, co
 /// Copies the prescribed values; a defect of rounding size is spread in proportion to |K|.
 void setPrescribedValues(
 	const EmbeddedSurface& surface,
-	const InitialPacking& start,
+	InitialPacking& start,
 	const TargetRequest& request,
 	Target& target)
 {
@@ -291,7 +291,7 @@ void setPlain(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 /// larger without them than is asked for.
 void choosePlainOrCones(
 	const EmbeddedSurface& surface,
-	const InitialPacking& start,
+	InitialPacking& start,
 	const TargetRequest& request,
 	Target& target)
 {
@@ -354,7 +354,7 @@ void choosePlainOrCones(
 
 void setAutomatic(
 	const EmbeddedSurface& surface,
-	const InitialPacking& start,
+	InitialPacking& start,
 	const TargetRequest& request,
 	Target& target)
 {
@@ -375,7 +375,7 @@ void setAutomatic(
 } // namespace
 
 Target chooseTarget(
-	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request)
+	const EmbeddedSurface& surface, InitialPacking& start, const TargetRequest& request)
 {
 	Target target = zeroTarget(surface.topology);
 	target.used =
@@ -430,7 +430,7 @@ double areaCost(const EmbeddedSurface& surface, const FlowResult& flow)
 
 std::optional<Target> targetToKeepAreas(
 	const EmbeddedSurface& surface,
-	const InitialPacking& start,
+	InitialPacking& start,
 	const FlowResult& flow,
 	const TargetRequest& request)
 {

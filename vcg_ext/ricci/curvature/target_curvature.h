@@ -35,7 +35,7 @@ struct TargetRequest : TargetInput
 /// \throw InvalidMesh (BoundaryWithoutLength)
 /// \throw SolverFailed where cones are placed
 Target chooseTarget(
-	const EmbeddedSurface& surface, const InitialPacking& start, const TargetRequest& request);
+	const EmbeddedSurface& surface, InitialPacking& start, const TargetRequest& request);
 
 /// Whether \p flow changes areas no more than its target was chosen for, or costs little more than was
 /// expected then; or its target was chosen by neither.
@@ -55,7 +55,7 @@ double areaCost(const EmbeddedSurface& surface, const FlowResult& flow);
 /// \throw as chooseTarget()
 std::optional<Target> targetToKeepAreas(
 	const EmbeddedSurface& surface,
-	const InitialPacking& start,
+	InitialPacking& start,
 	const FlowResult& flow,
 	const TargetRequest& request);
 

@@ -86,7 +86,7 @@ struct SwappedFlow
 };
 
 /// Chooses the target of one start of the flow.
-using ChooseTarget = std::function<Target(const EmbeddedSurface&, const InitialPacking&)>;
+using ChooseTarget = std::function<Target(const EmbeddedSurface&, InitialPacking&)>;
 
 /// \param states those before each Newton step of all starts are appended
 /// \throw NotConverged, what \p chooseTarget throws

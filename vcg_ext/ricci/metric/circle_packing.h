@@ -64,9 +64,9 @@ struct InitialPacking
 	bool isDelaunay = false; ///< from delaunayPacking()
 	Lengthening lengthened;  ///< of the input's edges, by delaunayPacking()
 
-	/// The Hessian of the Ricci energy here, if a LinearFlow has factorised it: one flow from here takes it,
-	/// where its unknowns are the same. Mutable: it is kept work, and says nothing about the packing.
-	mutable std::shared_ptr<FactoredHessian> hessian;
+	/// The Hessian of the Ricci energy here, where a LinearFlow has used it: the flow from here takes it, if its
+	/// unknowns are the same.
+	std::shared_ptr<FactoredHessian> hessian;
 };
 
 /// Gives degenerate triangles a shape (intrinsic mollification [Sharp Crane 2020], but vertex by vertex): those

@@ -115,7 +115,7 @@ void flowWithEdgeSwaps(
 	FlowDomain& domain,
 	ComponentMap& map)
 {
-	const auto choose = [&](const EmbeddedSurface& surface, const InitialPacking& start) {
+	const auto choose = [&](const EmbeddedSurface& surface, InitialPacking& start) {
 		const int vertexCount = surface.positions.size(); // grows with each split
 		Target target =
 			chooseTarget(surface, start, targetRequest(component, input, options, vertexCount));
