@@ -44,6 +44,29 @@ Eigen::VectorXd randomVector(Eigen::Index n, Random& random)
 	return Eigen::VectorXd::NullaryExpr(n, [&] { return random.real(-1, 1); });
 }
 
+/// A pattern with a few links more.
+TEST(SparseCholesky, TakesTheOrderOfAnother)
+{
+	Random random(61);
+	const int n = 500;
+	const SparseCholesky::Matrix matrix = laplacian(n, 0.5, random);
+	SparseCholesky first, second, alone;
+	ASSERT_TRUE(first.factorize(matrix));
+	SparseCholesky::Matrix next = matrix;
+	for (const int row : {100, 300, 499})
+		next.coeffRef(row, row / 2) = -0.1;
+	next.makeCompressed();
+	second.takeOrder(first.order());
+	ASSERT_TRUE(second.factorize(next));
+	EXPECT_EQ(second.work().orderings, 0);
+	EXPECT_TRUE(second.order() == first.order());
+	ASSERT_TRUE(alone.factorize(next));
+	EXPECT_EQ(alone.work().orderings, 1);
+	EXPECT_LT(second.factorEntries(), 1.5 * alone.factorEntries());
+	const Eigen::VectorXd b = randomVector(n, random);
+	EXPECT_LT((second.solve(b) - alone.solve(b)).lpNorm<Eigen::Infinity>(), 1e-12);
+}
+
 TEST(SparseCholesky, SolvesLikeADenseSolver)
 {
 	Random random(60);

@@ -325,6 +325,7 @@ std::vector<double> FlowRun::presentLoopLengths() const
 void FlowRun::end()
 {
 	m_result.work = m_newton->work();
+	m_result.order = m_newton->order();
 	m_newton.reset();
 	m_map->releaseWorkSpace();
 }

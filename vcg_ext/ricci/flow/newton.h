@@ -87,6 +87,9 @@ public:
 	/// What the linear solver has done for this one.
 	CholeskyWork work() const;
 
+	/// SparseCholesky::order().
+	const Eigen::VectorXi& order() const { return m_hessian->cholesky().order(); }
+
 	/// Part of u below the last place of its doubles, as the last solve left it.
 	const VertexVector& low() const { return m_low; }
 

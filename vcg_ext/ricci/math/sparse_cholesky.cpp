@@ -280,6 +280,14 @@ void SparseCholesky::takePattern(const Matrix& pattern)
 	layOut();
 }
 
+void SparseCholesky::takeOrder(const Eigen::VectorXi& order)
+{
+	m_order = order;
+	m_flopsWhenOrdered = std::numeric_limits<double>::infinity();
+	m_isAnalyzed = false;
+	m_starts.clear(); // so that the next pattern is laid out
+}
+
 /// Makes m_ordered, with numbers of entries for values, which are then put into m_entry.
 void SparseCholesky::layOut()
 {

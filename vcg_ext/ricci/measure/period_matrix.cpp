@@ -100,7 +100,10 @@ Eigen::MatrixXd canonicalBasis(Eigen::MatrixXi wedge)
 /// Laplacian has no factor. With the forms t and the functions f that make them harmonic, they are
 /// <t_j, t_k + df_k>.
 Eigen::MatrixXd energies(
-	const Triangulation& t, const EdgeArray<double>& weights, const std::vector<FaceLoop>& loops)
+	const Triangulation& t,
+	const EdgeArray<double>& weights,
+	const std::vector<FaceLoop>& loops,
+	const Eigen::VectorXi& order)
 {
 	checkpoint();
 	const int unknowns = t.vertexCount() - 1; // the value at the first vertex is held
@@ -108,6 +111,8 @@ Eigen::MatrixXd energies(
 	for (const Vertex v : t.vertices())
 		row[v] = v.number() - 1;
 	SparseCholesky cholesky;
+	if (order.size() == unknowns)
+		cholesky.takeOrder(order);
 	if (!cholesky.factorize(laplacian(t, weights, row, Eigen::VectorXd::Zero(unknowns))))
 		return {};
 	const auto n = static_cast<Eigen::Index>(loops.size());
@@ -222,10 +227,11 @@ void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 
 } // namespace
 
-PeriodMatrix periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths)
+PeriodMatrix periodMatrix(
+	const Triangulation& t, const EdgeArray<double>& lengths, const Eigen::VectorXi& order)
 {
 	const std::vector<FaceLoop> loops = homologyLoops(t, false);
-	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops);
+	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops, order);
 	if (energy.size() == 0)
 		return {};
 	const Eigen::MatrixXd basis = canonicalBasis(wedgeProducts(t, loops));

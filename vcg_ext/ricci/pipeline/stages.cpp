@@ -184,7 +184,7 @@ void measurePeriods(ComponentMap& map)
 		return;
 	advance(0.0, "Period matrix");
 	const IntrinsicMesh& start = map.flow.start.mesh;
-	const PeriodMatrix periods = periodMatrix(start.triangulation, start.lengths);
+	const PeriodMatrix periods = periodMatrix(start.triangulation, start.lengths, map.flow.order);
 	for (const auto row : periods.omega.rowwise())
 		map.report.periodMatrix.insert(map.report.periodMatrix.end(), row.begin(), row.end());
 	if (periods.omega.size() > 0)
