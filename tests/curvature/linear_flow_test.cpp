@@ -368,6 +368,29 @@ TEST(OnAggregates, KeepsAreaAndCurvature)
 	}
 }
 
+/// Root mean square of the factor that takes the curvature from a surface.
+double flatteningSize(LinearFlow& flow)
+{
+	VertexVector rhs = -flow.curvature();
+	if (flow.hasFixedSum())
+		rhs -= rhs.sum() * flow.area();
+	return std::sqrt(flow.meanSquare(flow.solve(rhs)));
+}
+
+TEST(OnAggregates, FlattensAsMuchAsTheSurface)
+{
+	for (const LinearCase& c : fineCases()) {
+		SCOPED_TRACE(c.name);
+		Linearised fine(c);
+		const double size = flatteningSize(fine.flow);
+		for (const int vertices : {300, 1500}) {
+			VertexArray<Vertex> roots;
+			LinearFlow coarse = onAggregates(fine.flow, vertices, roots);
+			EXPECT_NEAR(flatteningSize(coarse), size, 0.03 * size) << vertices;
+		}
+	}
+}
+
 TEST(OnAggregates, HasTheFactorsOfTheSurface)
 {
 	for (const LinearCase& c : fineCases()) {

@@ -194,9 +194,8 @@ std::vector<int> crumbs(const MovableParts& parts)
 	for (int part = 0; part < parts.count(); ++part)
 		if (!parts.isEmpty(part) && parts.area(part) < most)
 			small.push_back(part);
-	std::stable_sort(small.begin(), small.end(), [&](int a, int b) {
-		return parts.area(a) < parts.area(b);
-	});
+	std::stable_sort(
+		small.begin(), small.end(), [&](int a, int b) { return parts.area(a) < parts.area(b); });
 	return small;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "linear_flow.h"
 
+#include "../base/task.h"
 #include "../error.h"
 #include "../flow/curvature_map.h"
 #include "../math/aggregation.h"
@@ -271,15 +272,14 @@ double rootMeanSquare(const LinearSystem& system, VertexVector u)
 	return std::sqrt(system.area.dot(u.cwiseProduct(u)));
 }
 
-/// An equation is solved about as well by its diagonal and, where the solution is smooth, by the equation on
-/// aggregates: functions there are about so much stiffer, whatever the surface.
+/// Functions that are constant on aggregates are about so much stiffer, whatever the surface.
 constexpr double kStiffer = 3.0;
 
-/// Steps of conjugate gradients, with that as the preconditioner, and the share of the right-hand side that is
-/// left to them.
+/// Steps of conjugate gradients that find the size of a solution, and the residual that ends them.
 constexpr int kMaxSizeSteps = 50;
 constexpr double kSizeAccuracy = 0.03;
 
+/// Their preconditioner: the diagonal and, for what is smooth, the equation on aggregates.
 class TwoLevels
 {
 public:
@@ -297,6 +297,7 @@ public:
 	}
 	Eigen::VectorXd solve(const Eigen::VectorXd& rest) const
 	{
+		checkpoint();
 		VertexVector sums = VertexVector::Zero(m_coarse->vertexCount());
 		for (const int v : m_aggregate->indices())
 			sums[Vertex((*m_aggregate)[v])] += rest[v];
@@ -318,7 +319,8 @@ private:
 /// Less curvature than this in all, radians, is one of rounding.
 constexpr double kNoCurvature = 1e-6;
 
-/// Size of the factors that flatten the surface over that on aggregates, to about a percent.
+/// Size of the factors that flatten the surface over that on aggregates: to about a percent, and to some percent
+/// where vertices have been taken together several times, which is a worse preconditioner.
 double softnessOf(
 	const LinearSystem& fine,
 	const Array<int>& aggregate,

@@ -374,8 +374,8 @@ void setAutomatic(
 
 } // namespace
 
-Target chooseTarget(
-	const EmbeddedSurface& surface, InitialPacking& start, const TargetRequest& request)
+Target
+chooseTarget(const EmbeddedSurface& surface, InitialPacking& start, const TargetRequest& request)
 {
 	Target target = zeroTarget(surface.topology);
 	target.used =

@@ -34,8 +34,8 @@ struct TargetRequest : TargetInput
 /// \throw InadmissibleCurvature otherwise, with the numbers that contradict each other
 /// \throw InvalidMesh (BoundaryWithoutLength)
 /// \throw SolverFailed where cones are placed
-Target chooseTarget(
-	const EmbeddedSurface& surface, InitialPacking& start, const TargetRequest& request);
+Target
+chooseTarget(const EmbeddedSurface& surface, InitialPacking& start, const TargetRequest& request);
 
 /// Whether \p flow changes areas no more than its target was chosen for, or costs little more than was
 /// expected then; or its target was chosen by neither.

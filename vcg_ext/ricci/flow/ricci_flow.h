@@ -35,7 +35,8 @@ struct FlowResult
 	double floor = 0.0;     ///< what rounding lets the residual reach
 	int iterations = 0;
 	CholeskyWork work; ///< of the linear solver, on the surface the result is from
-	Eigen::VectorXi order; ///< [unknown] in which the solver eliminates them, see SparseCholesky::takeOrder()
+	Eigen::VectorXi
+		order; ///< [unknown] in which the solver eliminates them, see SparseCholesky::takeOrder()
 
 	// What leads from the input's triangles to those of the result:
 	Triangulation input;     ///< the surface, or its double
