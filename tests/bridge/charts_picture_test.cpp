@@ -34,11 +34,16 @@ ricci::FlatMesh square(double scale)
 std::map<std::string, int> cells(const std::string& svg)
 {
 	std::map<std::string, int> count;
-	const std::regex path("<path fill=\"([^\"]*)\" d=\"([^\"]*)\""), run("h([0-9]+)v");
-	for (std::sregex_iterator p(svg.begin(), svg.end(), path), end; p != end; ++p) {
-		const std::string d = (*p)[2];
-		for (std::sregex_iterator r(d.begin(), d.end(), run); r != end; ++r)
-			count[(*p)[1]] += std::stoi((*r)[1]);
+	const std::regex run(
+		"h([0-9]+)v"); // not of whole paths, on which it would need the whole stack
+	const std::string fill = "<path fill=\"", runs = "\" d=\"";
+	for (auto at = svg.find(fill); at != std::string::npos; at = svg.find(fill, at)) {
+		at += fill.size();
+		const auto path = svg.find(runs, at) + runs.size(), last = svg.find('"', path);
+		const std::string colour = svg.substr(at, path - runs.size() - at);
+		const std::string d = svg.substr(path, last - path);
+		for (std::sregex_iterator r(d.begin(), d.end(), run), end; r != end; ++r)
+			count[colour] += std::stoi((*r)[1]);
 	}
 	return count;
 }
