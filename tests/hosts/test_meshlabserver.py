@@ -417,9 +417,9 @@ class Texture(textures.TexturedTorus):
         self.assertEqual(code, 0, text)
         self.check()
         self.assertGreater(float(server.results(text)["texture_scale"]), 0.3)
-        # The host prints a step only where its percentage is another one.
+        # How often depends on the clock: the plugin tells of a step every 50 ms at most.
         for step in ("Drawing the texture", "Writing the texture"):
-            self.assertGreater(len(re.findall(f"(?m)^{step}$", text)), 1, step)
+            self.assertRegex(text, f"(?m)^{step}$")
         self.assertRegex(text, r"Texture: .*mesh/new\.png, 300 x 300 texels, from 1 image\.")
         with open(self.path("mesh", "out.ply"), "rb") as source:
             header = source.read(2000).split(b"end_header")[0].decode()

@@ -512,6 +512,12 @@ TEST(CarryTexture, VisitsOnlyTheTilesOfAPicture)
 		ticks, [&] { return carryTexture<unsigned char>(mesh, views, false, result.target(), 1); });
 	// All tiles of all pictures would be 64 * 64 of them, the rows of the fill are 512.
 	EXPECT_LT(ticks.calls(), 512 + pictures * 16);
+	Listener drawing(std::numeric_limits<int>::max(), "Drawing the texture");
+	heard(drawing, [&] {
+		return carryTexture<unsigned char>(mesh, views, false, result.target(), 1);
+	});
+	EXPECT_GE(drawing.calls(), cells); // a row of cells takes a row of tiles at least
+	EXPECT_TRUE(std::is_sorted(drawing.fractions.begin(), drawing.fractions.end()));
 	for (int y = 0; y < size; ++y)
 		for (int x = 0; x < size; ++x)
 			ASSERT_EQ(result.at(x, y)[0], (size - 1 - y) / 64 * cells + x / 64);
