@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <regex>
 #include <string>
 
 namespace filter_ricci {
@@ -42,8 +41,9 @@ std::map<std::string, int> cells(const std::string& svg)
 		const auto path = svg.find(runs, at) + runs.size(), last = svg.find('"', path);
 		const std::string colour = svg.substr(at, path - runs.size() - at);
 		const std::string d = svg.substr(path, last - path);
-		for (std::sregex_iterator r(d.begin(), d.end(), run), end; r != end; ++r)
-			count[colour] += std::stoi((*r)[1]);
+		for (auto run = d.find('h'); run != std::string::npos; run = d.find('h', run + 1))
+			if (d[run + 1] != '-') // back again
+				count[colour] += std::stoi(d.substr(run + 1));
 	}
 	return count;
 }

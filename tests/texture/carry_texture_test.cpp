@@ -271,7 +271,7 @@ TYPED_TEST(CarryTextureOf, WeighsColoursByTheirAlpha)
 	for (const int size : {40, 8}) { // of a few texels, and of blocks of them
 		const Picture<TypeParam> result = carried<TypeParam>(mesh, {&old}, size, true);
 		for (int i = 0; i < size * size; ++i) {
-			const TypeParam* texel = &result.rgba[static_cast<std::size_t>(4 * i)];
+			const TypeParam* texel = &result.rgba[4 * positionOf(i)];
 			if (texel[3] == 0)
 				continue;
 			EXPECT_EQ(texel[0], 0);
@@ -311,7 +311,7 @@ TYPED_TEST(CarryTextureOf, GathersPicturesAndColoursOfCorners)
 		const Hit& hit = found[static_cast<std::size_t>(i)];
 		if (hit.triangle < 0)
 			continue;
-		const TypeParam* texel = &result.rgba[static_cast<std::size_t>(4 * i)];
+		const TypeParam* texel = &result.rgba[4 * positionOf(i)];
 		const int picture = mesh.faces[positionOf(hit.triangle)].picture;
 		++counts[picture + 1];
 		if (picture >= 0) {
@@ -500,6 +500,7 @@ TEST(CarryTexture, VisitsOnlyTheTilesOfAPicture)
 	CarriedMesh mesh = carriedMesh(square, square.place, square.place);
 	std::vector<Picture<unsigned char>> old;
 	std::vector<PictureView<const unsigned char>> views;
+	old.reserve(positionOf(pictures));
 	for (int i = 0; i < pictures; ++i)
 		old.push_back(plain<unsigned char>(8, 8, {static_cast<unsigned char>(i), 0, 0, 255}));
 	for (int i = 0; i < pictures; ++i) {
