@@ -33,8 +33,6 @@ ricci::FlatMesh square(double scale)
 std::map<std::string, int> cells(const std::string& svg)
 {
 	std::map<std::string, int> count;
-	const std::regex run(
-		"h([0-9]+)v"); // not of whole paths, on which it would need the whole stack
 	const std::string fill = "<path fill=\"", runs = "\" d=\"";
 	for (auto at = svg.find(fill); at != std::string::npos; at = svg.find(fill, at)) {
 		at += fill.size();
