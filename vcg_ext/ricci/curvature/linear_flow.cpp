@@ -23,12 +23,12 @@ namespace {
 constexpr double kNoEdge = 1e-9;
 
 /// The curvature map of \p packing at its radii.
-std::unique_ptr<CurvatureMap> mapOf(const InitialPacking& packing)
+std::shared_ptr<const CurvatureMap> mapOf(const InitialPacking& packing)
 {
 	VertexVector u(packing.radii.size());
 	for (const Vertex v : packing.radii.indices())
 		u[v] = std::log(packing.radii[v]);
-	auto map = std::make_unique<GeometricCurvatureMap<Euclidean>>(
+	auto map = std::make_shared<GeometricCurvatureMap<Euclidean>>(
 		CirclePacking{packing.mesh.triangulation, packing.delta});
 	map->evaluate(u);
 	return map;
@@ -44,7 +44,7 @@ LinearFlow::LinearFlow(
 		start.isDelaunay ? start : delaunayPacking({surface.triangulation, surface.lengths}, {}));
 	m_curvature = m_unfactored->curvature();
 	computeAreas(*m_unfactored);
-	layOut(surface, *m_unfactored, boundary);
+	layOut(surface, boundary);
 	if (start.isDelaunay)
 		start.hessian = m_hessian;
 }
@@ -57,15 +57,10 @@ LinearFlow::LinearFlow(
 		m_fixesBoundary(boundary == ConeBoundary::Fixed && !surface.topology.type.isClosed()),
 		m_curvature(flow.curvature), m_area(std::move(weights)), m_factor(flowFactor(flow))
 {
-	if (flow.doubled) {
-		m_unfactored = mapOf(delaunayPacking({surface.triangulation, surface.lengths}, {}));
-		layOut(surface, *m_unfactored, boundary);
-		factorize();
-		return;
-	}
-	layOut(surface, *flow.metric, boundary);
-	if (m_unknowns > 0)
-		m_hessian->factorize(*flow.metric);
+	m_unfactored = flow.doubled
+					   ? mapOf(delaunayPacking({surface.triangulation, surface.lengths}, {}))
+					   : flow.metric;
+	layOut(surface, boundary);
 }
 
 LinearFlow::LinearFlow(LinearSystem system) :
@@ -140,15 +135,14 @@ void LinearFlow::factorize()
 	m_unfactored.reset();
 }
 
-void LinearFlow::layOut(
-	const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary)
+void LinearFlow::layOut(const EmbeddedSurface& surface, ConeBoundary boundary)
 {
 	m_hessian = std::make_shared<FactoredHessian>(
 		m_fixesBoundary ? surface.topology.boundary : VertexArray<char>(vertexCount(), 0),
-		map.scaleInvariant());
+		m_unfactored->scaleInvariant());
 	m_row = m_hessian->row();
 	m_unknowns = m_hessian->unknowns();
-	m_hessian->fill(map, 0.0);
+	m_hessian->fill(*m_unfactored, 0.0);
 	if (boundary == ConeBoundary::Prescribed && !surface.topology.type.isClosed())
 		spreadSink(surface);
 }
@@ -295,7 +289,7 @@ public:
 	{
 		return *this;
 	}
-	Eigen::VectorXd solve(const Eigen::VectorXd& rest) const
+	const Eigen::VectorXd& solve(const Eigen::VectorXd& rest) const
 	{
 		checkpoint();
 		VertexVector sums = VertexVector::Zero(m_coarse->vertexCount());
@@ -303,10 +297,10 @@ public:
 			sums[Vertex((*m_aggregate)[v])] += rest[v];
 		// Of the two solutions the one that is symmetric: no mean is taken off.
 		const VertexVector smooth = m_coarse->gradient(sums.cwiseQuotient(m_coarse->area()));
-		Eigen::VectorXd result = rest.cwiseQuotient(m_diagonal);
+		m_solution = rest.cwiseQuotient(m_diagonal);
 		for (const int v : m_aggregate->indices())
-			result[v] += kStiffer * smooth[Vertex((*m_aggregate)[v])];
-		return result;
+			m_solution[v] += kStiffer * smooth[Vertex((*m_aggregate)[v])];
+		return m_solution;
 	}
 	Eigen::ComputationInfo info() { return Eigen::Success; }
 
@@ -314,6 +308,7 @@ private:
 	Eigen::VectorXd m_diagonal;
 	const Array<int>* m_aggregate = nullptr;
 	LinearFlow* m_coarse = nullptr;
+	mutable Eigen::VectorXd m_solution; // kept as work space
 };
 
 /// Less curvature than this in all, radians, is one of rounding.

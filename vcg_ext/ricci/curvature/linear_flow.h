@@ -41,11 +41,10 @@ public:
 	/// \param start the start of the flow on \p surface
 	LinearFlow(const EmbeddedSurface& surface, InitialPacking& start, ConeBoundary boundary);
 
-	/// Factorises L where \p flow has led. Where that ran on the double of the surface, L is that of
+	/// L is the Hessian where \p flow has led. Where that ran on the double of the surface, L is that of
 	/// a Delaunay start.
 	/// \param flow on \p surface, with intrinsic flips
 	/// \param weights of the vertices, which take the place of area() everywhere; they add up to 1
-	/// \throw SolverFailed
 	LinearFlow(
 		const EmbeddedSurface& surface,
 		const FlowResult& flow,
@@ -100,14 +99,14 @@ public:
 
 private:
 	void computeAreas(const CurvatureMap& map);
-	void layOut(const EmbeddedSurface& surface, const CurvatureMap& map, ConeBoundary boundary);
+	void layOut(const EmbeddedSurface& surface, ConeBoundary boundary);
 	void spreadSink(const EmbeddedSurface& surface);
 	Eigen::MatrixXd solveRows(const Eigen::MatrixXd& rhs);
 
 	std::unique_ptr<SparseCholesky> m_system;   // of a LinearSystem; null where there is a Hessian
 	std::shared_ptr<FactoredHessian> m_hessian; // null where there is a LinearSystem
-	std::unique_ptr<CurvatureMap> m_unfactored; // null where L is factorised
-	VertexArray<int> m_row;                     // of the unknown, or -1
+	std::shared_ptr<const CurvatureMap> m_unfactored; // null where L is factorised
+	VertexArray<int> m_row;                           // of the unknown, or -1
 	int m_unknowns = 0;
 	double m_softness = 1.0; // L is divided by
 	bool m_fixesBoundary;

@@ -36,7 +36,7 @@ struct FlowResult
 	int iterations = 0;
 	CholeskyWork work; ///< of the linear solver, on the surface the result is from
 	Eigen::VectorXi
-		order; ///< [unknown] in which the solver eliminates them, see SparseCholesky::takeOrder()
+		order; ///< [unknown] when the solver eliminates it, see SparseCholesky::takeOrder()
 
 	// What leads from the input's triangles to those of the result:
 	Triangulation input;     ///< the surface, or its double
