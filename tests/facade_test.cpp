@@ -446,7 +446,8 @@ TYPED_TEST(Facade, ChartsOfSeveralComponentsDoNotOverlap)
 			const auto result = compute(m, par);
 			EXPECT_EQ(result.report.components, count);
 			std::vector<std::vector<Triangle2>> charts(at(count));
-			const FlatMesh& flat = result.mesh;
+			FlatMesh flat = result.mesh;
+			connect(flat);
 			for (const int f : flat.points.indices()) {
 				const int c = flat.chart[f];
 				EXPECT_TRUE(first[at(c)] <= flat.face[f] && flat.face[f] < first[at(c + 1)]);
@@ -457,12 +458,11 @@ TYPED_TEST(Facade, ChartsOfSeveralComponentsDoNotOverlap)
 					EXPECT_GE(p[k], margin);
 					EXPECT_LE(p[k], 1.0 - margin);
 				}
-			const Sides sides(flat.vertices.values());
 			const auto triangles = flat.trianglesByChart(charts.size());
 			std::vector<Outline> outlines;
 			int overlaps = 0;
 			for (std::size_t c = 0; c < charts.size(); ++c) {
-				outlines.push_back(outlineOf(flat, sides, triangles[c]));
+				outlines.push_back(outlineOf(flat, triangles[c]));
 				for (std::size_t d = 0; d < c; ++d)
 					for (const Triangle2& t : charts[c])
 						for (const Triangle2& other : charts[d])

@@ -19,12 +19,10 @@ namespace {
 struct RandomChart
 {
 	FlatMesh chart;
-	Sides sides;
 	DualGraph graph;
 
 	RandomChart(Random& random, int size, bool isWhole) :
-			chart(chartOf(random, size, isWhole)), sides(chart.vertices.values()),
-			graph(chart, sides)
+			chart(chartOf(random, size, isWhole)), graph(chart)
 	{
 		for (int& part : graph.part)
 			part = !isWhole && random.index(20) == 0;
@@ -57,11 +55,10 @@ private:
 			if (isWhole || random.index(20) != 0)
 				rest.triangles.push_back(t);
 		FlatMesh chart = flatMesh(rest);
-		const Sides sides(rest.triangles);
 		for (const int f : chart.points.indices())
 			for (const Corner side : cornersOf(f)) {
 				chart.lengths[side] = random.real(0.1, 1.0);
-				if (const Corner other = sides.across(side); other.isValid())
+				if (const Corner other = chart.across[side]; other.isValid())
 					chart.lengths[other] = chart.lengths[side]; // the same on both sides
 			}
 		return chart;

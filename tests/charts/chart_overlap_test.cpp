@@ -26,7 +26,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 std::vector<std::vector<int>> divided(const FlatMesh& chart)
 {
-	return divideChart(chart, Sides(chart.vertices.values()), OverlapSearch(chart.corners()));
+	return divideChart(chart, OverlapSearch(chart.corners()));
 }
 
 /// What of a chart's joined edges lies between its parts.
@@ -36,11 +36,10 @@ Seams cutsBetween(const std::vector<std::vector<int>>& parts, const FlatMesh& ch
 	for (std::size_t i = 0; i < parts.size(); ++i)
 		for (const int f : parts[i])
 			partOf[f] = static_cast<int>(i);
-	const Sides sides(chart.vertices.values());
 	Seams cuts;
 	for (const int f : chart.points.indices())
 		for (const Corner side : cornersOf(f))
-			if (const Corner other = joinedSide(chart, sides, side);
+			if (const Corner other = chart.joined(side);
 				other > side && partOf[other.face()] != partOf[f]) {
 				cuts.edges.push_back(side);
 				cuts.length += chart.lengths[side];
@@ -325,7 +324,6 @@ TEST(ChartDivision, OfManyTurnsTakesHardlyMoreStepsThanItHasTriangles)
 	double before = 0.0;
 	for (const int turns : {40, 160}) {
 		FlatMesh chart = flatMesh(sector(2 * kPi * turns, 20 * turns, 2));
-		const Sides sides(chart.vertices.values());
 		const OverlapSearch overlaps(chart.corners());
 		EXPECT_FALSE(overlaps.isComplete());
 		const Array<char> isIn = overlaps.overlapping();
@@ -335,10 +333,10 @@ TEST(ChartDivision, OfManyTurnsTakesHardlyMoreStepsThanItHasTriangles)
 			EXPECT_LT(steps, 5.0 * before); // of all pairs: 16 times
 		}
 		before = steps;
-		const auto parts = divideChart(chart, sides, overlaps);
+		const auto parts = divideChart(chart, overlaps);
 		expectDivided(chart, parts);
 		EXPECT_GE(parts.size(), at(turns));
-		const auto joined = joinParts(chart, sides, parts);
+		const auto joined = joinParts(chart, parts);
 		expectDivided(chart, joined);
 		EXPECT_GE(joined.size(), at(turns));
 		EXPECT_LE(joined.size(), at(turns + turns / 4));

@@ -36,6 +36,7 @@ Parametrization band(int n, double step, double halfWidth)
 		mesh.points.push_back({2 * i, 2 * i + 3, 2 * i + 1});
 	}
 	mesh.vertices = mesh.points;
+	connect(mesh);
 	mesh.source.assign(mesh.place.size(), {});
 	mesh.lengths.assign(mesh.points.size(), {1.0, 1.0, 1.0});
 	mesh.chart.assign(mesh.points.size(), 0);
@@ -116,7 +117,7 @@ TEST(DivideDisks, CountsChartsAndCuts)
 {
 	Parametrization map = band(160, 0.2, 0.1);
 	ASSERT_TRUE(divideDisks(map));
-	const Seams cuts = seams(map.mesh, Sides(map.mesh.vertices.values()));
+	const Seams cuts = seams(map.mesh);
 	EXPECT_EQ(map.report.charts, static_cast<int>(map.charts.size()));
 	EXPECT_EQ(map.report.overlapCuts, static_cast<int>(cuts.edges.size()));
 	EXPECT_EQ(cuts.edges.size(), map.charts.size() - 1);

@@ -118,11 +118,7 @@ TEST(FinishInFloats, MendsTrianglesThatAreChartsOfTheirOwn)
 	const Slivers slivers(0.9);
 	for (const bool normalize : {false, true}) {
 		Parametrization packed = slivers.map;
-		packCharts(
-			packed,
-			Sides(packed.mesh.vertices.values()),
-			{normalize, 0.0, inAColumn(0.0)},
-			ChartTurns::None);
+		packCharts(packed, {normalize, 0.0, inAColumn(0.0)}, ChartTurns::None);
 		ASSERT_EQ(flippedInFloats(packed), kSlivers);
 		finish(packed);
 		EXPECT_EQ(flippedInFloats(packed), 0);
@@ -137,8 +133,7 @@ TEST(FinishInFloats, GivesChartsTheRoomThatTheyNeed)
 {
 	const Slivers slivers(0.9);
 	Parametrization tight = slivers.map;
-	packCharts(
-		tight, Sides(tight.mesh.vertices.values()), {true, 0.0, inAColumn(0.0)}, ChartTurns::None);
+	packCharts(tight, {true, 0.0, inAColumn(0.0)}, ChartTurns::None);
 	for (Chart& chart : tight.charts)
 		chart.box = {};
 	for (const int f : tight.mesh.points.indices())
@@ -150,11 +145,7 @@ TEST(FinishInFloats, GivesChartsTheRoomThatTheyNeed)
 	int packings = 0;
 	const auto packAgain = [&] {
 		EXPECT_EQ(flippedInFloats(tight), 0);
-		packCharts(
-			tight,
-			Sides(tight.mesh.vertices.values()),
-			{true, 0.0, inAColumn(0.0)},
-			ChartTurns::None);
+		packCharts(tight, {true, 0.0, inAColumn(0.0)}, ChartTurns::None);
 		++packings;
 	};
 	finish(tight, packAgain);
@@ -168,11 +159,7 @@ TEST(FinishInFloats, MendsChartsWhoseBoxesEndBetweenFloats)
 	const Slivers slivers(0.001);
 	for (const double x : {8.01, 8.02, 8.03, 8.04}) {
 		Parametrization packed = slivers.map;
-		packCharts(
-			packed,
-			Sides(packed.mesh.vertices.values()),
-			{false, 0.0, inAColumn(x)},
-			ChartTurns::None);
+		packCharts(packed, {false, 0.0, inAColumn(x)}, ChartTurns::None);
 		ASSERT_EQ(flippedInFloats(packed), kSlivers);
 		finish(packed);
 		EXPECT_EQ(flippedInFloats(packed), 0);

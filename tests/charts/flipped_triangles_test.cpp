@@ -22,17 +22,16 @@ TEST(ReflectFlipped, SidesKeepTheirLengthsAndSeamsAreCounted)
 	EXPECT_EQ(flippedIn(map.mesh), 0);
 	int seams = 0;
 	double length = 0.0;
-	const Sides sides(mesh.triangles);
 	for (const int f : map.mesh.points.indices())
 		for (const Corner c : cornersOf(f)) {
 			EXPECT_NEAR(
 				distance(map.mesh.at(c), map.mesh.at(c.next())),
 				distance(before.mesh.at(c), before.mesh.at(c.next())),
 				1e-14);
-			const Corner other = sides.across(c);
+			const Corner other = map.mesh.across[c];
 			if (other > c && (map.mesh.at(c) != map.mesh.at(other.next()) ||
 							  map.mesh.at(c.next()) != map.mesh.at(other))) {
-				EXPECT_FALSE(isJoined(map.mesh, c, other));
+				EXPECT_FALSE(map.mesh.joined(c).isValid());
 				++seams;
 				length += map.mesh.lengths[c];
 			}

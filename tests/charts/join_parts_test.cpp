@@ -43,10 +43,9 @@ struct Scattered
 
 	std::vector<std::vector<int>> join()
 	{
-		const Sides sides(flat.vertices.values());
-		const Seams before = seams(flat, sides);
-		auto joined = joinParts(flat, sides, parts);
-		const Seams after = seams(flat, sides);
+		const Seams before = seams(flat);
+		auto joined = joinParts(flat, parts);
+		const Seams after = seams(flat);
 		edgesJoined = static_cast<int>(before.edges.size() - after.edges.size());
 		lengthJoined = before.length - after.length;
 		return joined;

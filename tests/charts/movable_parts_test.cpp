@@ -63,9 +63,8 @@ TEST(MovableParts, UndoRestoresAll)
 	Random random(1230);
 	for (int trial = 0; trial < 30; ++trial) {
 		const FlatMesh chart = square(6);
-		const Sides sides(chart.vertices.values());
 		const int n = chart.size();
-		MovableParts parts(chart, sides, stripes(n, 4));
+		MovableParts parts(chart, stripes(n, 4));
 		for (int i = 0; i < 5; ++i)
 			moveSome(parts, random);
 		parts.commit();
@@ -99,8 +98,7 @@ TEST(MovableParts, FindsWhatCoversAPart)
 	const FlatMesh chart = square(5);
 	int found = 0;
 	for (int trial = 0; trial < 200; ++trial) {
-		const Sides sides(chart.vertices.values());
-		MovableParts parts(chart, sides, stripes(chart.size(), 3));
+		MovableParts parts(chart, stripes(chart.size(), 3));
 		for (int i = random.index(4); i > 0; --i)
 			moveSome(parts, random);
 		const Place place{1, randomMotion(random), 0.0};

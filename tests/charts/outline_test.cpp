@@ -19,7 +19,7 @@ namespace {
 
 Outline outlineOf(const FlatMesh& chart)
 {
-	return outlineOf(chart, Sides(chart.vertices.values()), chart.trianglesByChart(1).front());
+	return outlineOf(chart, chart.trianglesByChart(1).front());
 }
 
 Outline square(const Point2& corner, double side)

@@ -55,14 +55,13 @@ void packCharts(
 	const PlaceBoxes& placeBoxes,
 	ChartTurns turns = ChartTurns::None)
 {
-	ricci::packCharts(
-		map, Sides(map.mesh.vertices.values()), {normalize, margin, placeBoxes}, turns);
+	ricci::packCharts(map, {normalize, margin, placeBoxes}, turns);
 }
 
 void packForRoom(
 	Parametrization& map, double margin, const PlaceBoxes& placeBoxes, ChartTurns turns)
 {
-	ricci::packForRoom(map, Sides(map.mesh.vertices.values()), {true, margin, placeBoxes}, turns);
+	ricci::packForRoom(map, {true, margin, placeBoxes}, turns);
 }
 
 /// In one row.
@@ -201,10 +200,9 @@ Parametrization stars(int n, double orders, Random& random)
 
 std::vector<Outline> outlinesOf(const Parametrization& map)
 {
-	const Sides sides(map.mesh.vertices.values());
 	std::vector<Outline> outlines;
 	for (const std::vector<int>& chart : map.mesh.trianglesByChart(map.charts.size()))
-		outlines.push_back(outlineOf(map.mesh, sides, chart));
+		outlines.push_back(outlineOf(map.mesh, chart));
 	return outlines;
 }
 

@@ -57,25 +57,24 @@ TEST(CutOff, MakesAChartOfEachConnectedPart)
 TEST(CountCuts, CountsTheEdgesThatAreCut)
 {
 	Parametrization map = squareMap();
-	const Sides sides(map.mesh.vertices.values());
 	const auto cutAt = [&](double x) {
 		for (const int f : map.mesh.chart.indices()) {
 			const Triangle2 p = map.mesh.at(f);
 			map.mesh.chart[f] = (p[0][0] + p[1][0] + p[2][0]) / 3.0 > x;
 		}
-		splitPoints(Sides(map.mesh.vertices.values()), map.mesh);
+		splitPoints(map.mesh);
 	};
 	cutAt(0.5);
-	const Seams before = seams(map.mesh, sides);
+	const Seams before = seams(map.mesh);
 	EXPECT_EQ(before.edges.size(), std::size_t(kSide));
 	map.mesh = squareMap().mesh;
 	map.report.seamEdges = kSide + 2;
-	countCuts(before, sides, map);
+	countCuts(before, map);
 	EXPECT_EQ(map.report.overlapCuts, 0);
 	EXPECT_EQ(map.report.seamEdges, 2);
 	EXPECT_NEAR(map.report.seamLength, -1.0, 1e-14);
 	cutAt(1.0 / 3.0);
-	countCuts(before, sides, map);
+	countCuts(before, map);
 	EXPECT_EQ(map.report.overlapCuts, kSide);
 	EXPECT_NEAR(map.report.seamLength, -1.0, 1e-14);
 }

@@ -18,8 +18,7 @@ namespace {
 
 bool isSimple(const FlatMesh& chart)
 {
-	return hasSimpleBorder(
-		chart, Sides(chart.vertices.values()), chart.trianglesByChart(1).front());
+	return hasSimpleBorder(chart, chart.trianglesByChart(1).front());
 }
 
 /// A ring that goes round by \p turns, with a border that is shifted at random.

@@ -40,6 +40,7 @@ FlatMesh squareWithout(const std::vector<std::array<int, 2>>& holes)
 		flat.points.push_back(whole.points[f]);
 		flat.lengths.push_back(whole.lengths[f]);
 	}
+	connect(flat);
 	return flat;
 }
 

@@ -39,6 +39,7 @@ inline FlatMesh flatDisk(const SurfaceMesh& mesh, std::vector<Point2> places)
 		};
 		flat.lengths.push_back({length(0, 1), length(1, 2), length(2, 0)});
 	}
+	connect(flat);
 	return flat;
 }
 

@@ -75,20 +75,18 @@ struct CutMap
 /// The seams and the boundary of a map.
 struct Borders
 {
-	Sides sides;
 	std::vector<Corner> seams; ///< sides
 	Array<int> seamsAt;        ///< [vertex]
 	Array<char> boundary;      ///< [vertex]
 
 	explicit Borders(const FlatMesh& flat) :
-			sides(flat.vertices.values()), seamsAt(flat.vertexCount(), 0),
-			boundary(flat.vertexCount(), 0)
+			seamsAt(flat.vertexCount(), 0), boundary(flat.vertexCount(), 0)
 	{
 		for (int c = 0; c < 3 * flat.points.size(); ++c) {
-			const Corner side(c), across = sides.across(side);
-			if (!across.isValid())
+			const Corner side(c);
+			if (!flat.across[side].isValid())
 				boundary[flat.vertices[side]] = boundary[flat.vertices[side.next()]] = 1;
-			else if (!isJoined(flat, side, across)) {
+			else if (!flat.joined(side).isValid()) {
 				seams.push_back(side);
 				++seamsAt[flat.vertices[side]];
 			}
@@ -271,7 +269,7 @@ TEST(NumberedPoints, CopiesTurnAsTheEdgesOfTheirSeam)
 		};
 		int compared = 0;
 		for (const Corner side : borders.seams) {
-			const Corner across = borders.sides.across(side);
+			const Corner across = d.flat.across[side];
 			const int p = points.number[d.flat.points[side]];
 			const int q = points.number[d.flat.points[across.next()]];
 			if (p >= points.unknowns || points.unknown[q] != p)
@@ -703,7 +701,7 @@ TEST(LeastDistortion, KeepsSeamsIsometricAndConesInPlace)
 			const auto along = [&](Corner c) {
 				return asComplex(flat.place[flat.points[c.next()]] - flat.place[flat.points[c]]);
 			};
-			return -along(borders.sides.across(side)) / along(side);
+			return -along(d.flat.across[side]) / along(side);
 		};
 		for (const Corner side : borders.seams) {
 			const Complex then = transition(start, side), after = transition(d.flat, side);

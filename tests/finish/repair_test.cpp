@@ -43,6 +43,7 @@ FlatMesh limb(int n, int rings, double ratio)
 		}
 	for (int i = 0; i < n; ++i)
 		add({at(rings, i), at(rings, i + 1), tip});
+	connect(flat);
 	return flat;
 }
 

@@ -55,7 +55,7 @@ TEST(Unfold, ABoxIsItsNet)
 	EXPECT_NEAR(sum, 4.0 * kPi, 1e-9);
 	EXPECT_EQ(map->report.components, 1);
 	EXPECT_EQ(map->report.eulerCharacteristic, 2);
-	const Seams seam = seams(map->mesh, Sides(map->mesh.vertices.values()));
+	const Seams seam = seams(map->mesh);
 	EXPECT_EQ(at(map->report.seamEdges), seam.edges.size());
 	EXPECT_DOUBLE_EQ(map->report.seamLength, seam.length);
 }

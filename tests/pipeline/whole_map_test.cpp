@@ -77,10 +77,8 @@ FlatMesh torn(FlatMesh mesh)
 	Box2 box;
 	for (const Point2& p : mesh.place)
 		box.add(p);
-	const Sides sides(mesh.vertices.values());
 	for (int c = 0; c < 3 * mesh.size(); ++c)
-		if (const Corner side(c), other = sides.across(side);
-			other.isValid() && !isJoined(mesh, side, other)) {
+		if (const Corner side(c); mesh.across[side].isValid() && !mesh.joined(side).isValid()) {
 			mesh.place[mesh.points[side]][0] += 0.01 * box.extent();
 			return mesh;
 		}

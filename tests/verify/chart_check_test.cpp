@@ -250,6 +250,7 @@ struct Sheet
 		FlatMesh flat = chart();
 		std::swap(flat.vertices[face][1], flat.vertices[face][2]);
 		std::swap(flat.points[face][1], flat.points[face][2]);
+		connect(flat);
 		return flat;
 	}
 };

@@ -45,7 +45,7 @@ Parametrization squares(const std::vector<Point2>& corners)
 
 std::array<int, 2> facesAndCharts(Parametrization map)
 {
-	countOverlaps(Sides(map.mesh.vertices.values()), map);
+	countOverlaps(map);
 	return {map.report.overlappingFaces, map.report.overlappingCharts};
 }
 
@@ -88,7 +88,7 @@ int unequalSeams(double scale)
 		{{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}}};
 	FlatMesh flat = flatMesh(mesh);
 	flat.chart = Array<int>(std::vector<int>{0, 0, 1, 1});
-	splitPoints(Sides(flat.vertices.values()), flat);
+	splitPoints(flat);
 	const Array<int> chart = flat.chartOfPoints();
 	for (const int p : chart.indices())
 		if (chart[p] == 1)
@@ -96,7 +96,7 @@ int unequalSeams(double scale)
 				x *= scale;
 	Parametrization map = mapWith(flat);
 	map.charts.resize(2);
-	countUnequalSeams(Sides(map.mesh.vertices.values()), map);
+	countUnequalSeams(map);
 	return map.report.unequalSeams;
 }
 
@@ -111,7 +111,7 @@ TEST(CountUnequalSeams, ComparesTheSidesOfEachEdge)
 TEST(CountUnequalSeams, CountsNoEdgeInsideAndNoBoundary)
 {
 	Parametrization map = mapWith(strip(1.5 * kPi));
-	countUnequalSeams(Sides(map.mesh.vertices.values()), map);
+	countUnequalSeams(map);
 	EXPECT_EQ(map.report.unequalSeams, 0);
 }
 

@@ -22,10 +22,8 @@ using Parts = std::vector<std::vector<int>>; // triangles of each
 class ChartDivider
 {
 public:
-	ChartDivider(
-		const FlatMesh& chart, const Sides& sides, const std::vector<TrianglePair>& pairs) :
-			m_chart(chart),
-			m_graph(chart, sides), m_flow(m_graph), m_minCut(chart.size()),
+	ChartDivider(const FlatMesh& chart, const std::vector<TrianglePair>& pairs) :
+			m_chart(chart), m_graph(chart), m_flow(m_graph), m_minCut(chart.size()),
 			m_terminal(chart.size(), kNoTerminal), m_scratch(chart.size(), -1),
 			m_rivals(chart.size(), [&](const auto& add) {
 				for (const TrianglePair& pair : pairs) {
@@ -187,9 +185,9 @@ std::vector<int> breadthFirst(int first, const DualGraph& graph)
 
 /// The connected pieces of a chart, of a connected one those on both sides of the least cut across the
 /// middle tenth of what lies between its ends.
-Parts halves(const FlatMesh& chart, const Sides& sides)
+Parts halves(const FlatMesh& chart)
 {
-	DualGraph graph(chart, sides);
+	DualGraph graph(chart);
 	Parts pieces = graph.connectedPieces();
 	if (pieces.size() > 1)
 		return pieces;
@@ -245,15 +243,14 @@ leastCut(const DualGraph& graph, const std::vector<int>& from, const std::vector
 	return part;
 }
 
-Parts divideChart(const FlatMesh& chart, const Sides& sides, const OverlapSearch& overlaps)
+Parts divideChart(const FlatMesh& chart, const OverlapSearch& overlaps)
 {
 	if (!overlaps.isComplete()) {
 		Parts parts;
-		for (const std::vector<int>& half : halves(chart, sides)) {
+		for (const std::vector<int>& half : halves(chart)) {
 			checkpoint();
 			const FlatMesh own = chart.part(half);
-			for (std::vector<int>& part :
-				 divideChart(own, Sides(own.vertices.values()), OverlapSearch(own.corners()))) {
+			for (std::vector<int>& part : divideChart(own, OverlapSearch(own.corners()))) {
 				for (int& i : part)
 					i = half[positionOf(i)];
 				parts.push_back(std::move(part));
@@ -264,7 +261,7 @@ Parts divideChart(const FlatMesh& chart, const Sides& sides, const OverlapSearch
 	}
 	std::vector<TrianglePair> pairs = overlaps.pairs();
 	for (;;) {
-		Parts parts = ChartDivider(chart, sides, pairs).run();
+		Parts parts = ChartDivider(chart, pairs).run();
 		Array<int> partOf(chart.size());
 		for (std::size_t p = 0; p < parts.size(); ++p)
 			for (const int i : parts[p])

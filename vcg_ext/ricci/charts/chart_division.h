@@ -14,7 +14,7 @@ Array<int>
 leastCut(const DualGraph& graph, const std::vector<int>& from, const std::vector<int>& to);
 
 /// Divides a chart along edges of its triangles so that no part covers itself. Two triangles are
-/// neighbours where their sides are joined (joinedSide()).
+/// neighbours where their sides are joined.
 ///
 /// As long as a part has an overlap, one sheet of it is grown from its largest overlapping triangle,
 /// and the minimum cut of the dual graph between this sheet and all that it covers divides the part
@@ -28,8 +28,7 @@ leastCut(const DualGraph& graph, const std::vector<int>& from, const std::vector
 /// all pairs are listed is first halved, across its middle.
 /// \param overlaps of chart.corners()
 /// \return the triangles of each connected part, in increasing order, the parts by their first
-std::vector<std::vector<int>>
-divideChart(const FlatMesh& chart, const Sides& sides, const OverlapSearch& overlaps);
+std::vector<std::vector<int>> divideChart(const FlatMesh& chart, const OverlapSearch& overlaps);
 
 } // namespace ricci
 

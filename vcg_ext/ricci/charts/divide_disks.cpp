@@ -67,7 +67,6 @@ Cells cellsOf(const FlatMesh& chart, std::vector<int> centre)
 			if (std::abs(middle[f]) < std::abs(middle[centre[0]]))
 				centre[0] = f;
 	}
-	const Sides sides(chart.vertices.values());
 	Cells cells{
 		std::move(centre), {{}}, Array<int>(chart.size(), 0), Array<double>(chart.size(), 0.0)};
 	SearchFront<int, int> front(chart.size());
@@ -82,7 +81,7 @@ Cells cellsOf(const FlatMesh& chart, std::vector<int> centre)
 		cells.distance[f] = front[f];
 		triangles[positionOf(cells.of[f])].push_back(f);
 		for (const Corner side : cornersOf(f))
-			if (const Corner other = joinedSide(chart, sides, side); other.isValid()) {
+			if (const Corner other = chart.joined(side); other.isValid()) {
 				const double chord = chordLength(middle[f], middle[other.face()]);
 				front.offer(other.face(), front[f] + 2.0 * std::asinh(0.5 * chord), f);
 			}
@@ -158,8 +157,7 @@ bool divideDisks(Parametrization& map)
 	}
 	if (disks == map.charts.size())
 		return false;
-	const Sides sides(mesh.vertices.values());
-	const Seams before = seams(mesh, sides);
+	const Seams before = seams(mesh);
 	for (std::size_t c = 0; c < triangles.size(); ++c) {
 		const int more = static_cast<int>(map.charts.size()) - 1;
 		for (std::size_t i = 0; i < triangles[c].size() && cells[c].centre.size() > 1; ++i)
@@ -168,11 +166,11 @@ bool divideDisks(Parametrization& map)
 		for (std::size_t i = 1; i < cells[c].centre.size(); ++i)
 			map.charts.push_back({{}, {}, static_cast<int>(c), cells[c].place[i]});
 	}
-	splitPoints(sides, mesh);
+	splitPoints(mesh);
 	const Array<int> chart = mesh.chartOfPoints();
 	for (const int p : chart.indices())
 		mesh.place[p] = moved(map.charts[positionOf(chart[p])].place, mesh.place[p]);
-	countCuts(before, sides, map);
+	countCuts(before, map);
 	map.report.charts = static_cast<int>(map.charts.size());
 	return true;
 }

@@ -15,15 +15,13 @@ namespace ricci {
 class DualGraph
 {
 public:
-	DualGraph(const FlatMesh& chart, const Sides& sides) :
-			part(chart.size(), 0), m_chart(chart), m_sides(sides)
+	explicit DualGraph(const FlatMesh& chart) : part(chart.size(), 0), m_chart(chart)
 	{
 		for (const auto& lengths : chart.lengths)
 			m_longest = std::max({m_longest, lengths[0], lengths[1], lengths[2]});
 	}
 
-	/// joinedSide().
-	Corner joined(Corner side) const { return joinedSide(m_chart, m_sides, side); }
+	Corner joined(Corner side) const { return m_chart.joined(side); }
 
 	/// joined(), if it is in the same part; else none.
 	Corner neighbour(Corner side) const
@@ -80,7 +78,6 @@ public:
 
 private:
 	const FlatMesh& m_chart;
-	const Sides& m_sides;
 	double m_longest = 0.0; // edge, on the surface
 };
 

@@ -109,10 +109,9 @@ public:
 			m_boxes(boxes), m_staysInBox(staysInBox), m_chartOf(mesh.chartOfPoints()),
 			m_border(boxes.size()), m_near(boxes.size()), m_moves(mesh.place.size(), 0)
 	{
-		const Sides sides(mesh.vertices.values());
 		for (const int f : mesh.points.indices())
 			for (const Corner side : cornersOf(f))
-				if (!joinedSide(mesh, sides, side).isValid())
+				if (!mesh.joined(side).isValid())
 					m_border[mesh.chart[f]].push_back(
 						{mesh.points[side], mesh.points[side.next()]});
 		for (const int chart : m_near.indices())
@@ -198,7 +197,7 @@ std::optional<bool> finishNear(const Soundness& soundness, WorkLimit& limit, Par
 	FlatMesh part = map.mesh.part(taken);
 	for (const int i : part.chart.indices())
 		part.chart[i] = map.mesh.chart[taken[positionOf(i)]];
-	splitPoints(Sides(part.vertices.values()), part);
+	splitPoints(part);
 	const Array<Box2> boxes = boxesOf(map);
 	BorderTest test(part, boxes, true);
 	const PatchTest accepts = [&](const FlatMesh& flat, const Patch& patch) {

@@ -48,8 +48,7 @@ void reflectFlipped(Parametrization& map)
 	}
 	if (flipped.empty())
 		return;
-	const Sides sides(mesh.vertices.values());
-	const Seams before = seams(mesh, sides);
+	const Seams before = seams(mesh);
 	std::vector<Triangle2> corners;
 	corners.reserve(flipped.size());
 	for (const int f : flipped)
@@ -59,8 +58,8 @@ void reflectFlipped(Parametrization& map)
 		mesh.points[flipped[i]][k] = mesh.place.size();
 		mesh.place.push_back(reflected(corners[i], k));
 	}
-	splitPoints(sides, mesh);
-	countCuts(before, sides, map);
+	splitPoints(mesh);
+	countCuts(before, map);
 }
 
 } // namespace ricci

@@ -178,6 +178,7 @@ void sortByFace(std::size_t faceCount, FlatMesh& mesh)
 void toInputIndices(const SurfaceMesh& input, const OpenedMesh& opened, Parametrization& map)
 {
 	FlatMesh& mesh = map.mesh;
+	mesh.across.clear();
 	orientLikeInput(opened, mesh);
 	if (opened.isAsGiven()) {
 		sortByFace(input.triangles.size(), mesh);

@@ -39,10 +39,9 @@ Parts partsOf(const MovableParts& movable)
 }
 
 /// Puts the triangles where the parts are, and joins the sides that lie on each other there.
-void take(const MovableParts& parts, const Sides& sides, FlatMesh& chart)
+void take(const MovableParts& parts, FlatMesh& chart)
 {
 	numberPoints(
-		sides,
 		[&](Corner c) { return parts.at(c.face())[c.index()]; },
 		[&](Corner side, Corner) { return parts.isJoined(side); },
 		chart);
@@ -52,8 +51,8 @@ void take(const MovableParts& parts, const Sides& sides, FlatMesh& chart)
 class PartJoiner
 {
 public:
-	PartJoiner(const FlatMesh& chart, const Sides& sides, MovableParts& parts) :
-			m_chart(chart), m_sides(sides), m_parts(parts), m_borders(parts.count())
+	PartJoiner(const FlatMesh& chart, MovableParts& parts) :
+			m_chart(chart), m_parts(parts), m_borders(parts.count())
 	{
 		for (const Point2& p : chart.place)
 			m_box.add(p);
@@ -114,7 +113,7 @@ private:
 	Corner sideIn(int part, const Border& border) const
 	{
 		return m_parts.partOf(border.side.face()) == part ? border.side
-														  : m_sides.across(border.side);
+														  : m_chart.across[border.side];
 	}
 
 	/// The borders of two parts, by the x to which their motions bring the middle of the chart.
@@ -170,7 +169,6 @@ private:
 	}
 
 	const FlatMesh& m_chart;
-	const Sides& m_sides;
 	MovableParts& m_parts;
 	Box2 m_box;
 	Array<std::map<int, std::shared_ptr<Borders>>> m_borders; // [part] with each other part
@@ -390,17 +388,17 @@ private:
 
 } // namespace
 
-Parts joinParts(FlatMesh& chart, const Sides& sides, const Parts& parts)
+Parts joinParts(FlatMesh& chart, const Parts& parts)
 {
-	MovableParts whole(chart, sides, parts);
-	PartJoiner(chart, sides, whole).run();
-	take(whole, sides, chart);
+	MovableParts whole(chart, parts);
+	PartJoiner(chart, whole).run();
+	take(whole, chart);
 	if (crumbs(whole).empty())
 		return partsOf(whole);
 	// Parts that were put together from many are looked through faster once they are one again.
-	MovableParts movable(chart, sides, partsOf(whole));
+	MovableParts movable(chart, partsOf(whole));
 	CrumbDivider(chart, movable).run();
-	take(movable, sides, chart);
+	take(movable, chart);
 	return partsOf(movable);
 }
 

@@ -20,7 +20,7 @@ constexpr double kCrumb = 0.01;
 /// \param parts triangles of each, connected; none covers itself
 /// \return the parts that are left: their triangles in increasing order, the parts by their first
 std::vector<std::vector<int>>
-joinParts(FlatMesh& chart, const Sides& sides, const std::vector<std::vector<int>>& parts);
+joinParts(FlatMesh& chart, const std::vector<std::vector<int>>& parts);
 
 } // namespace ricci
 

@@ -11,10 +11,8 @@
 
 namespace ricci {
 
-MovableParts::MovableParts(
-	const FlatMesh& chart, const Sides& sides, const std::vector<std::vector<int>>& parts) :
-		m_chart(chart),
-		m_sides(sides), m_plane(chart.corners()), m_isProper(chart.size()),
+MovableParts::MovableParts(const FlatMesh& chart, const std::vector<std::vector<int>>& parts) :
+		m_chart(chart), m_plane(chart.corners()), m_isProper(chart.size()),
 		m_part(chart.size(), -1), m_group(chart.size(), -1), m_before(chart.size(), -1),
 		m_next(chart.size(), -1)
 {
@@ -54,7 +52,7 @@ std::vector<int> MovableParts::trianglesOf(int part) const
 
 Motion MovableParts::across(Corner side) const
 {
-	const auto own = endsOf(side), other = endsOf(m_sides.across(side));
+	const auto own = endsOf(side), other = endsOf(m_chart.across[side]);
 	const auto vector = [](const Point2& p, const Point2& q) {
 		return asComplex(q) - asComplex(p);
 	};
@@ -72,14 +70,14 @@ Motion MovableParts::across(Corner side) const
 
 bool MovableParts::fits(const Motion& motion, Corner side) const
 {
-	const auto own = endsOf(side), other = endsOf(m_sides.across(side));
+	const auto own = endsOf(side), other = endsOf(m_chart.across[side]);
 	return distance(motion(own[0]), other[1]) <= m_onePlace &&
 		   distance(motion(own[1]), other[0]) <= m_onePlace;
 }
 
 bool MovableParts::isJoined(Corner side) const
 {
-	const Corner across = m_sides.across(side);
+	const Corner across = m_chart.across[side];
 	if (m_part[side.face()] != m_part[across.face()])
 		return false;
 	const auto own = endsOf(side), other = endsOf(across);

@@ -26,8 +26,7 @@ class MovableParts
 {
 public:
 	/// \param parts triangles
-	MovableParts(
-		const FlatMesh& chart, const Sides& sides, const std::vector<std::vector<int>>& parts);
+	MovableParts(const FlatMesh& chart, const std::vector<std::vector<int>>& parts);
 
 	int count() const { return m_area.size(); }
 	bool isEmpty(int part) const { return m_first[part] < 0; }
@@ -46,7 +45,7 @@ public:
 	void forSides(int triangle, const Visit& visit) const
 	{
 		for (const Corner side : cornersOf(triangle))
-			if (const Corner other = m_sides.across(side); other.isValid())
+			if (const Corner other = m_chart.across[side]; other.isValid())
 				visit(side, other);
 	}
 
@@ -142,7 +141,6 @@ private:
 	}
 
 	const FlatMesh& m_chart;
-	const Sides& m_sides;
 	double m_onePlace = 0.0, m_touching = 0.0;
 	Array<Triangle2> m_plane; // [triangle] where it is
 	Array<char> m_isProper;   // [triangle] counter-clockwise

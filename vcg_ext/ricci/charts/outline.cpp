@@ -65,7 +65,7 @@ Box2 boxOf(const Segment& s, double room)
 
 } // namespace
 
-Outline outlineOf(const FlatMesh& mesh, const Sides& sides, const std::vector<int>& triangles)
+Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles)
 {
 	const auto isFlipped = [&](int f) {
 		const Triangle2 t = mesh.at(f);
@@ -75,7 +75,7 @@ Outline outlineOf(const FlatMesh& mesh, const Sides& sides, const std::vector<in
 	for (const int f : triangles)
 		for (const Corner side : cornersOf(f)) {
 			const auto [a, b] = mesh.ends(side);
-			const Corner other = joinedSide(mesh, sides, side);
+			const Corner other = mesh.joined(side);
 			if (a != b && !(other.isValid() && isFlipped(f) == isFlipped(other.face())))
 				outline.push_back(isFlipped(f) ? Segment{b, a} : Segment{a, b});
 		}

@@ -15,7 +15,7 @@ using Outline = std::vector<std::array<Point2, 2>>;
 
 /// The sides of a chart's triangles, each taken counter-clockwise, but for two that are joined and run
 /// opposite ways. A point off them is covered by as many triangles as they go round it.
-Outline outlineOf(const FlatMesh& mesh, const Sides& sides, const std::vector<int>& triangles);
+Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles);
 
 /// Whether no point of a chart is nearer than \p room > 0 to another chart, or in it, as far as doubles
 /// tell.

@@ -156,7 +156,6 @@ void place(const std::vector<Motion>& motions, const std::vector<Box2>& boxes, P
 struct OutlineTask
 {
 	const FlatMesh& mesh;
-	const Sides& sides;                             ///< of its triangles
 	const std::vector<std::vector<int>>& triangles; ///< [chart]
 	const std::vector<Box2>& boxes;                 ///< [chart]
 	const std::vector<char>& isThin;                ///< [chart]
@@ -168,7 +167,7 @@ struct OutlineTask
 /// \return without motions where they do not fit into the square of the task
 Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, ChartTurns turns)
 {
-	const auto& [mesh, sides, triangles, boxes, isThin, side, room] = task;
+	const auto& [mesh, triangles, boxes, isThin, side, room] = task;
 	std::vector<std::size_t> order(boxes.size());
 	std::iota(order.begin(), order.end(), std::size_t{0});
 	const auto area = [&boxes = boxes](std::size_t i) {
@@ -189,7 +188,7 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 		return {};
 	std::vector<Outline> outlines;
 	for (const std::size_t i : large) {
-		outlines.push_back(outlineOf(mesh, sides, triangles[i]));
+		outlines.push_back(outlineOf(mesh, triangles[i]));
 		if (outlines.back().empty()) // without area
 			return {};
 		checkpoint();
@@ -260,8 +259,7 @@ bool marginsMayFit(std::size_t charts, double margin)
 	return static_cast<double>(charts) * margin * margin <= free * free;
 }
 
-void packCharts(
-	Parametrization& map, const Sides& sides, const PackOptions& options, ChartTurns turns)
+void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
 	checkChartMargin(options.chartMargin);
 	std::vector<Box2> boxes = map.mesh.boxes(map.charts.size());
@@ -286,13 +284,12 @@ void packCharts(
 	if (turns != ChartTurns::None && packing.side() > 0.0 &&
 		!(boxes.size() == 1 && isThin.front())) {
 		const double room = std::max(packing.room, kMinOutlineRoom * packing.side());
-		Packing turned =
-			boxes.size() == 1
-				? packAlone(map.mesh)
-				: packByOutlines(
-					  {map.mesh, sides, triangles, boxes, isThin, packing.side(), room},
-					  placeBoxes,
-					  turns);
+		Packing turned = boxes.size() == 1
+							 ? packAlone(map.mesh)
+							 : packByOutlines(
+								   {map.mesh, triangles, boxes, isThin, packing.side(), room},
+								   placeBoxes,
+								   turns);
 		const double share =
 			(1.0 + kMarginSpare) * options.chartMargin; // of the square, on each side
 		turned.room = share / (1.0 - 2.0 * share) * turned.whole.extent();
@@ -309,10 +306,9 @@ void packCharts(
 	map.report.occupancy = coveredArea(map.mesh);
 }
 
-void packForRoom(
-	Parametrization& map, const Sides& sides, const PackOptions& options, ChartTurns turns)
+void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns turns)
 {
-	packCharts(map, sides, options, turns);
+	packCharts(map, options, turns);
 	if (turns == ChartTurns::None)
 		return;
 	double area = 0.0;
@@ -334,11 +330,11 @@ void packForRoom(
 			return;
 		}
 		std::optional<Parametrization> next =
-			cutForRoom(last ? *last : map, sides, area, turns == ChartTurns::Free);
+			cutForRoom(last ? *last : map, area, turns == ChartTurns::Free);
 		if (!next)
 			return;
 		try {
-			packCharts(*next, sides, options, turns);
+			packCharts(*next, options, turns);
 		}
 		catch (const InvalidOption& e) {
 			if (e.problem != InvalidOption::ChartMarginTooWide)

@@ -29,19 +29,16 @@ bool marginsMayFit(std::size_t charts, double margin);
 /// boxes of the small and the thin ones as one more chart, where the square gets smaller by
 /// kWorthTurning. One chart is turned as the smallest square round it lies. The report's occupancy is
 /// set in all cases.
-/// \param sides of the triangles of \p map
 /// \throw InvalidOption ChartMargin, or ChartMarginTooWide if so many charts do not fit with it;
 /// InvalidMesh BeyondFloats if coordinates that keep their scale are too large or too small for float,
 /// in which they will be stored
-void packCharts(
-	Parametrization& map, const Sides& sides, const PackOptions& options, ChartTurns turns);
+void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns);
 
 /// packCharts() into the unit square, with charts cut by cutForRoom() as long as that is worth it
 /// (kRoomPrice) and each cut brings kMinRoom besides; until kEnoughCovered is covered. Without turns nothing
 /// is cut.
 /// \throw what packCharts() does
-void packForRoom(
-	Parametrization& map, const Sides& sides, const PackOptions& options, ChartTurns turns);
+void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns turns);
 
 /// A cut that brings less than kMinRoom is not worth a chart more. Of a square that is covered by kEnoughCovered
 /// little is left to win.

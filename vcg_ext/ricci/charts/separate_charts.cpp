@@ -24,11 +24,10 @@ using Parts = std::vector<std::vector<int>>; // triangles of each
 
 /// Gives new charts points of their own, and moves each to the origin; where \p turns turns it so that
 /// its smallest bounding rectangle lies along the axes.
-/// \param sides of the triangles of \p map
-void settle(const std::vector<int>& charts, bool turns, const Sides& sides, Parametrization& map)
+void settle(const std::vector<int>& charts, bool turns, Parametrization& map)
 {
 	FlatMesh& mesh = map.mesh;
-	splitPoints(sides, mesh);
+	splitPoints(mesh);
 	const std::vector<std::vector<int>> pointsOf = mesh.pointsByChart(map.charts.size());
 	for (const int chart : charts) {
 		const std::vector<int>& points = pointsOf[positionOf(chart)];
@@ -94,12 +93,11 @@ struct Halves
 /// \return none where such a crumb is left, or nothing is cut
 std::optional<Halves> halves(
 	const FlatMesh& mesh,
-	const Sides& sides,
 	const std::vector<int>& triangles,
 	const OrientedRectangle& r,
 	double from)
 {
-	DualGraph graph(mesh, sides);
+	DualGraph graph(mesh);
 	// From the middle of the rectangle, along it: 0 for a triangle that reaches across.
 	std::vector<double> along;
 	for (const int i : triangles) {
@@ -179,9 +177,9 @@ std::vector<int> divide(int number, const Parts& pieces, Parametrization& map)
 
 } // namespace
 
-void countCuts(const Seams& before, const Sides& sides, Parametrization& map)
+void countCuts(const Seams& before, Parametrization& map)
 {
-	const Seams after = seams(map.mesh, sides);
+	const Seams after = seams(map.mesh);
 	const std::set<Corner> old(before.edges.begin(), before.edges.end());
 	int cut = 0;
 	for (const Corner side : after.edges)
@@ -196,8 +194,7 @@ void separateCharts(bool turns, Parametrization& map)
 {
 	std::vector<Chart> charts;
 	std::vector<int> divided; // numbers of the parts
-	const Sides allSides(map.mesh.vertices.values());
-	Seams before; // once there are parts
+	Seams before;             // once there are parts
 	const auto add = [&](const std::vector<int>& triangles, Chart chart) {
 		for (const int f : triangles)
 			map.mesh.chart[f] = static_cast<int>(charts.size());
@@ -207,7 +204,7 @@ void separateCharts(bool turns, Parametrization& map)
 	for (std::size_t c = 0; c < byChart.size(); ++c) {
 		const std::vector<int>& triangles = byChart[c];
 		checkpoint();
-		if (hasSimpleBorder(map.mesh, allSides, triangles)) {
+		if (hasSimpleBorder(map.mesh, triangles)) {
 			add(triangles, std::move(map.charts[c]));
 			continue;
 		}
@@ -220,9 +217,8 @@ void separateCharts(bool turns, Parametrization& map)
 			continue;
 		}
 		if (divided.empty())
-			before = seams(map.mesh, allSides);
-		const Sides sides(chart.vertices.values());
-		Parts joined = joinParts(chart, sides, divideChart(chart, sides, overlaps));
+			before = seams(map.mesh);
+		Parts joined = joinParts(chart, divideChart(chart, overlaps));
 		const int first = map.mesh.place.size();
 		for (const Point2& p : chart.place)
 			map.mesh.place.push_back(p);
@@ -240,16 +236,15 @@ void separateCharts(bool turns, Parametrization& map)
 	map.report.charts = static_cast<int>(map.charts.size());
 	if (divided.empty())
 		return;
-	settle(divided, turns, allSides, map);
-	countCuts(before, allSides, map);
+	settle(divided, turns, map);
+	countCuts(before, map);
 }
 
 void joinCharts(Parametrization& map)
 {
 	FlatMesh& mesh = map.mesh;
 	setApart(map);
-	const Sides sides(mesh.vertices.values());
-	const Parts parts = joinParts(mesh, sides, mesh.trianglesByChart(map.charts.size()));
+	const Parts parts = joinParts(mesh, mesh.trianglesByChart(map.charts.size()));
 	map.charts.assign(parts.size(), {});
 	std::vector<int> charts;
 	for (const std::vector<int>& part : parts) {
@@ -258,11 +253,10 @@ void joinCharts(Parametrization& map)
 		charts.push_back(static_cast<int>(charts.size()));
 	}
 	map.report.charts = static_cast<int>(charts.size());
-	settle(charts, true, sides, map);
+	settle(charts, true, map);
 }
 
-std::optional<Parametrization>
-cutForRoom(const Parametrization& map, const Sides& allSides, double onSurface, bool turns)
+std::optional<Parametrization> cutForRoom(const Parametrization& map, double onSurface, bool turns)
 {
 	struct Wide
 	{
@@ -299,7 +293,7 @@ cutForRoom(const Parametrization& map, const Sides& allSides, double onSurface, 
 		std::optional<Halves> cut;
 		for (const double from : kCutFrom)
 			if (!cut)
-				cut = halves(map.mesh, allSides, triangles, wide.rectangle, from);
+				cut = halves(map.mesh, triangles, wide.rectangle, from);
 		// The square loses all that is beside the chart in a square round it at most.
 		const double width = wide.rectangle.width();
 		const double most = std::log(square / std::max(square - width * width + wide.area, total));
@@ -308,7 +302,7 @@ cutForRoom(const Parametrization& map, const Sides& allSides, double onSurface, 
 					   std::log1p(cut->length / (std::sqrt(onSurface) + map.report.seamLength)))
 			continue;
 		Parametrization result = map;
-		settle(divide(static_cast<int>(wide.chart), cut->pieces, result), turns, allSides, result);
+		settle(divide(static_cast<int>(wide.chart), cut->pieces, result), turns, result);
 		result.report.overlapCuts += cut->edges;
 		result.report.seamLength += cut->length;
 		return result;
@@ -318,11 +312,10 @@ cutForRoom(const Parametrization& map, const Sides& allSides, double onSurface, 
 
 bool cutOff(const std::vector<char>& isOff, Parametrization& map)
 {
-	const Sides sides(map.mesh.vertices.values());
-	DualGraph graph(map.mesh, sides);
+	DualGraph graph(map.mesh);
 	for (const int f : graph.part.indices())
 		graph.part[f] = isOff[positionOf(f)] != 0 ? 1 : 0;
-	const Seams before = seams(map.mesh, sides);
+	const Seams before = seams(map.mesh);
 	std::vector<int> divided;
 	const Parts byChart = map.mesh.trianglesByChart(map.charts.size());
 	for (std::size_t c = 0; c < byChart.size(); ++c) {
@@ -335,8 +328,8 @@ bool cutOff(const std::vector<char>& isOff, Parametrization& map)
 	}
 	if (divided.empty())
 		return false;
-	settle(divided, false, sides, map);
-	countCuts(before, sides, map);
+	settle(divided, false, map);
+	countCuts(before, map);
 	return true;
 }
 

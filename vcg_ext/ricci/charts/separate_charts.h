@@ -11,8 +11,7 @@ namespace ricci {
 
 /// Counts in the report, as overlapCuts and in its seamLength, by what the seams have grown since they were
 /// \p before.
-/// \param sides of the triangles of \p map
-void countCuts(const Seams& before, const Sides& sides, Parametrization& map);
+void countCuts(const Seams& before, Parametrization& map);
 
 /// Replaces the charts of \p map that cover a part of the plane more than once (see OverlapSearch) by the
 /// parts of divideChart(), joined again by joinParts() across seams where they have room, each from the
@@ -43,11 +42,9 @@ constexpr double kCutFrom[] = {0.1, 0.4};
 /// those whose cut may be worth what it costs by kRoomPrice. The parts are given back as those of
 /// separateCharts(), in the report, too.
 /// \param map packed
-/// \param sides of its triangles
 /// \param onSurface area of the surface
 /// \return none where there is no such chart
-std::optional<Parametrization>
-cutForRoom(const Parametrization& map, const Sides& sides, double onSurface, bool turns);
+std::optional<Parametrization> cutForRoom(const Parametrization& map, double onSurface, bool turns);
 
 /// Divides the charts that have triangles of both kinds: each connected part of one kind becomes a chart
 /// from the origin, in the directions that it has. The report counts the charts and the cuts as

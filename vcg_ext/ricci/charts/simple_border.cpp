@@ -25,17 +25,17 @@ struct BorderSide
 };
 
 /// In order of the triangles.
-Array<BorderSide> borderOf(const FlatMesh& mesh, const Sides& sides, const std::vector<int>& chart)
+Array<BorderSide> borderOf(const FlatMesh& mesh, const std::vector<int>& chart)
 {
 	std::vector<Corner> border; // in increasing order
 	for (const int f : chart)
 		for (const Corner side : cornersOf(f))
-			if (!joinedSide(mesh, sides, side).isValid())
+			if (!mesh.joined(side).isValid())
 				border.push_back(side);
 	Array<BorderSide> result;
 	for (const Corner side : border) {
 		Corner next = side.next();
-		for (Corner other; (other = joinedSide(mesh, sides, next)).isValid();)
+		for (Corner other; (other = mesh.joined(next)).isValid();)
 			next = other.next();
 		const auto found = std::lower_bound(border.begin(), border.end(), next);
 		result.push_back({mesh.ends(side), static_cast<int>(found - border.begin())});
@@ -105,14 +105,14 @@ int counterClockwisePolygons(const Array<BorderSide>& border)
 
 } // namespace
 
-bool hasSimpleBorder(const FlatMesh& mesh, const Sides& sides, const std::vector<int>& chart)
+bool hasSimpleBorder(const FlatMesh& mesh, const std::vector<int>& chart)
 {
 	for (const int f : chart) {
 		const Triangle2 p = mesh.at(f);
 		if (orientation(p[0], p[1], p[2]) <= 0)
 			return false;
 	}
-	const Array<BorderSide> border = borderOf(mesh, sides, chart);
+	const Array<BorderSide> border = borderOf(mesh, chart);
 	return areApart(border) && counterClockwisePolygons(border) == 1;
 }
 

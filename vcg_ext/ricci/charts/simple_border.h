@@ -17,9 +17,8 @@ namespace ricci {
 /// an edge inside the chart cancel: whatever the topology of the chart. A polygon of the border goes
 /// round a point once or not at all, and where it runs clockwise it only takes away. Orientations are
 /// exact, so this is.
-/// \param sides of the triangles of \p mesh
 /// \param chart its triangles, in increasing order
-bool hasSimpleBorder(const FlatMesh& mesh, const Sides& sides, const std::vector<int>& chart);
+bool hasSimpleBorder(const FlatMesh& mesh, const std::vector<int>& chart);
 
 } // namespace ricci
 

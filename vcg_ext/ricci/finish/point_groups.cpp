@@ -85,20 +85,17 @@ struct Copy
 	double error; ///< that the derivative may have by rounding; more than 1 where nothing is told
 };
 
-/// Calls \p visit(sides) for every edge that is on the border of a chart: whose sides are not two that
-/// are joined.
+/// Calls \p visit(side) for every side on the border of a chart: that is not joined to another one.
 template<class Visit>
-void forBorders(const FlatMesh& flat, const Sides& sides, const Visit& visit)
+void forBorders(const FlatMesh& flat, const Visit& visit)
 {
-	sides.forEdges([&](ItemRange<const Corner> edge) {
-		if (edge.size() != 2 || !isJoined(flat, edge[0], edge[1]))
-			visit(edge);
-	});
+	for (const Corner side : flat.across.indices())
+		if (!flat.joined(side).isValid())
+			visit(side);
 }
 
 /// Every point as a group; points of the boundary are fixed unless it moves there.
-PointGroups
-withBoundary(const FlatMesh& flat, const Sides& sides, const BoundaryRule& boundaryMoves)
+PointGroups withBoundary(const FlatMesh& flat, const BoundaryRule& boundaryMoves)
 {
 	PointGroups result;
 	const int count = flat.place.size();
@@ -108,15 +105,13 @@ withBoundary(const FlatMesh& flat, const Sides& sides, const BoundaryRule& bound
 	for (int p = 0; p < count; ++p)
 		result.group.push_back(p);
 	result.first = result.group;
-	forBorders(flat, sides, [&](ItemRange<const Corner> edge) {
-		for (const Corner side : edge)
-			for (const Corner c : {side, side.next()}) {
-				const int p = flat.points[c];
-				result.inside[p] = 0;
-				if (!sides.across(side).isValid() &&
-					(edge.size() > 1 || !boundaryMoves(flat.vertices[c])))
-					result.fixed[p] = 1;
-			}
+	forBorders(flat, [&](Corner side) {
+		for (const Corner c : {side, side.next()}) {
+			const int p = flat.points[c];
+			result.inside[p] = 0;
+			if (!flat.across[side].isValid() && !boundaryMoves(flat.vertices[c]))
+				result.fixed[p] = 1;
+		}
 	});
 	return result;
 }
@@ -127,13 +122,12 @@ class CopyGroups
 {
 public:
 	CopyGroups(const FlatMesh& flat, const BoundaryRule& boundaryMoves) :
-			m_flat(flat), m_sides(flat.vertices.values()),
-			m_points(withBoundary(flat, m_sides, boundaryMoves))
+			m_flat(flat), m_points(withBoundary(flat, boundaryMoves))
 	{
 		const double rounding = kCoordinateRounding * flat.box().extent();
-		forBorders(flat, m_sides, [&](ItemRange<const Corner> edge) {
-			if (m_sides.across(edge[0]).isValid())
-				joinSides(edge, rounding);
+		forBorders(flat, [&](Corner side) {
+			if (flat.across[side] > side)
+				joinSides(side, rounding);
 		});
 		// The longest sides are followed first.
 		std::stable_sort(m_copies.begin(), m_copies.end(), [](const auto& x, const auto& y) {
@@ -193,15 +187,11 @@ private:
 	Complex place(int point) const { return asComplex(m_flat.place[point]); }
 
 	/// Joins both ends of the two sides of an edge.
-	void joinSides(ItemRange<const Corner> edge, double rounding)
+	void joinSides(Corner side, double rounding)
 	{
-		const auto ends = [&](Corner side) { // the lower vertex first
-			std::array<int, 2> points{m_flat.points[side], m_flat.points[side.next()]};
-			if (m_flat.vertices[side] > m_flat.vertices[side.next()])
-				std::swap(points[0], points[1]);
-			return points;
-		};
-		const auto one = ends(edge[0]), other = ends(edge[1]);
+		const Corner across = m_flat.across[side];
+		const std::array<int, 2> one{m_flat.points[side], m_flat.points[side.next()]};
+		const std::array<int, 2> other{m_flat.points[across.next()], m_flat.points[across]};
 		const Complex a = place(one[0]), b = place(one[1]);
 		const Complex c = place(other[0]), d = place(other[1]);
 		const double first = Motion::length(a, b), second = Motion::length(c, d);
@@ -220,7 +210,6 @@ private:
 	}
 
 	const FlatMesh& m_flat;
-	const Sides m_sides;
 	PointGroups m_points;                               // each a group by itself
 	std::vector<std::pair<int, Copy<Motion>>> m_copies; // of points
 };
@@ -264,10 +253,7 @@ void joinSeam(
 
 PointGroups allPoints(const FlatMesh& flat)
 {
-	PointGroups result =
-		withBoundary(flat, Sides(flat.vertices.values()), [](int) { return true; });
-	result.fixed.assign(result.fixed.size(), 0); // nor are edges with more than two sides
-	return result;
+	return withBoundary(flat, [](int) { return true; });
 }
 
 PointGroups insidePoints(const FlatMesh& flat)
@@ -288,21 +274,17 @@ joinedPoints(const FlatMesh& flat, SeamGeometry geometry, const BoundaryRule& bo
 PointGroups joinedPoints(
 	const FlatMesh& flat, const VertexArray<char>& cones, const BoundaryRule& boundaryMoves)
 {
-	const Sides sides(flat.vertices.values());
-	PointGroups groups = withBoundary(flat, sides, boundaryMoves);
+	PointGroups groups = withBoundary(flat, boundaryMoves);
 	const double maxGap = kCheckedGap * flat.box().extent();
 	const auto origin = [&](Corner side) { return Vertex(flat.vertices[side]); };
 	const Adjacency<Vertex, Corner> leaving(cones.size(), [&](const auto& add) {
-		forBorders(flat, sides, [&](ItemRange<const Corner> edge) {
-			for (const Corner side : edge)
-				add(origin(side), side);
-		});
+		forBorders(flat, [&](Corner side) { add(origin(side), side); });
 	});
 	VertexArray<char> isOnSeam(cones.size()), seen(cones.size(), 0);
 	for (const Vertex v : cones.indices()) {
 		int seams = 0;
 		for (const Corner side : leaving[v])
-			seams += sides.across(side).isValid();
+			seams += flat.across[side].isValid();
 		isOnSeam[v] = !cones[v] && seams == 2 && leaving[v].size() == 2;
 		if (cones[v] || (seams > 0 && !isOnSeam[v]))
 			for (const Corner side : leaving[v])
@@ -311,7 +293,7 @@ PointGroups joinedPoints(
 	const auto goesOn = [&](Corner side) { return isOnSeam[origin(side.next())]; };
 	const auto onward = [&](Corner side) {
 		const ItemRange<const Corner> out = leaving[origin(side.next())];
-		return out[out[0] == sides.across(side)];
+		return out[out[0] == flat.across[side]];
 	};
 	for (const Vertex v : cones.indices()) {
 		if (!isOnSeam[v] || seen[v])
@@ -321,16 +303,16 @@ PointGroups joinedPoints(
 		while (goesOn(first) && origin(first.next()) != v)
 			first = onward(first);
 		const bool closed = goesOn(first);
-		std::vector<Corner> seam{closed ? onward(first) : sides.across(first)};
+		std::vector<Corner> seam{closed ? onward(first) : flat.across[first]};
 		while (goesOn(seam.back()) && !(closed && origin(seam.back().next()) == v)) {
 			seam.push_back(onward(seam.back()));
 			seen[origin(seam.back())] = 1;
 		}
 		const Corner last = seam.back();
 		std::vector<std::array<int, 2>> copies{
-			{flat.points[last.next()], flat.points[sides.across(last)]}};
+			{flat.points[last.next()], flat.points[flat.across[last]]}};
 		for (const Corner side : seam)
-			copies.push_back({flat.points[side], flat.points[sides.across(side).next()]});
+			copies.push_back({flat.points[side], flat.points[flat.across[side].next()]});
 		joinSeam(flat, copies, closed ? 1 : 2, maxGap, groups);
 	}
 	return groups;

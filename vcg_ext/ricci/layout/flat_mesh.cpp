@@ -94,6 +94,19 @@ FlatMesh FlatMesh::part(const std::vector<int>& triangles) const
 		part.lengths.push_back(lengths[f]);
 		part.face.push_back(face[f]);
 	}
+	const auto [first, last] = std::minmax_element(triangles.begin(), triangles.end());
+	Array<int> numberOf(triangles.empty() ? 0 : *last + 1 - *first, -1); // [triangle - first]
+	for (std::size_t i = 0; i < triangles.size(); ++i)
+		numberOf[triangles[i] - *first] = static_cast<int>(i);
+	for (const int f : triangles)
+		for (const Corner side : cornersOf(f)) {
+			const Corner other = across[side];
+			const int in = other.isValid() ? other.face() - *first : -1;
+			part.across.push_back(
+				in >= 0 && in < numberOf.size() && numberOf[in] >= 0
+					? Corner(numberOf[in], static_cast<int>(other.index()))
+					: Corner());
+		}
 	part.chart.assign(triangles.size(), 0);
 	return part;
 }
@@ -107,24 +120,20 @@ std::vector<Point3> FlatMesh::onSurface(const std::vector<Point3>& positions) co
 	return places;
 }
 
-Seams seams(const FlatMesh& mesh, const Sides& sides)
+Seams seams(const FlatMesh& mesh)
 {
 	Seams sum;
-	sides.forEdges([&](const auto& ofEdge) {
-		const Corner side = ofEdge[0];
-		if (const Corner other = sides.across(side);
-			!other.isValid() || isJoined(mesh, side, other))
-			return;
-		sum.edges.push_back(side);
-		sum.length += mesh.lengths[side];
-	});
+	for (const Corner side : mesh.across.indices())
+		if (mesh.across[side] > side && !mesh.joined(side).isValid()) {
+			sum.edges.push_back(side);
+			sum.length += mesh.lengths[side];
+		}
 	return sum;
 }
 
 void weld(FlatMesh& mesh)
 {
 	numberPoints(
-		Sides(mesh.vertices.values()),
 		[&](Corner c) { return mesh.at(c); },
 		[&](Corner a, Corner b) {
 			return mesh.chart[a.face()] == mesh.chart[b.face()] &&
@@ -133,15 +142,22 @@ void weld(FlatMesh& mesh)
 		mesh);
 }
 
-void splitPoints(const Sides& sides, FlatMesh& mesh)
+void splitPoints(FlatMesh& mesh)
 {
 	numberPoints(
-		sides,
 		[&](Corner c) { return mesh.at(c); },
 		[&](Corner a, Corner b) {
-			return mesh.chart[a.face()] == mesh.chart[b.face()] && isJoined(mesh, a, b);
+			return mesh.chart[a.face()] == mesh.chart[b.face()] && mesh.joined(a) == b;
 		},
 		mesh);
+}
+
+void connect(FlatMesh& mesh)
+{
+	const Sides sides(mesh.vertices.values());
+	mesh.across.resize(3 * mesh.vertices.size());
+	for (const Corner side : mesh.across.indices())
+		mesh.across[side] = sides.across(side);
 }
 
 FlatMesh flatMeshOf(
@@ -162,6 +178,7 @@ FlatMesh flatMeshOf(
 	mesh.vertices = std::move(vertices);
 	mesh.chart.assign(mesh.face.size(), 0);
 	mesh.source = verticesOf(positions.size());
+	connect(mesh);
 	weld(mesh);
 	return mesh;
 }

@@ -22,6 +22,9 @@ struct FlatMesh
 	/// [triangle] corners by vertex of the surface, or by point of the refinement, in the one order that
 	/// is counter-clockwise where the map is right
 	Array<Triangle> vertices;
+	/// [side] the other side of its edge, which runs the other way; none where the surface ends.
+	/// Empty where the triangles are in the input's order and directions.
+	CornerArray<Corner> across;
 	/// [triangle] corners by point: two corners are joined if and only if they have one point number
 	Array<Triangle> points;
 	Array<Point2> place;                  ///< [point]
@@ -41,6 +44,16 @@ struct FlatMesh
 	const Point2& at(Corner c) const { return place[points[c]]; }
 	/// Of a side.
 	std::array<Point2, 2> ends(Corner side) const { return {at(side), at(side.next())}; }
+
+	/// The side across, if both sides of the edge have the same ends in the plane; else none.
+	Corner joined(Corner side) const
+	{
+		const Corner other = across[side];
+		return other.isValid() && points[side] == points[other.next()] &&
+					   points[side.next()] == points[other]
+				   ? other
+				   : Corner();
+	}
 
 	/// at() of all triangles.
 	Array<Triangle2> corners() const;
@@ -64,38 +77,24 @@ struct FlatMesh
 	std::vector<Box2> boxes(std::size_t chartCount) const;
 };
 
-/// Whether the two sides of an edge have the same ends in the plane.
-inline bool isJoined(const FlatMesh& mesh, Corner side, Corner across)
-{
-	return mesh.points[side] == mesh.points[across.next()] &&
-		   mesh.points[side.next()] == mesh.points[across];
-}
-
-/// The side across (Sides::across()) if it is joined to \p side; else none.
-inline Corner joinedSide(const FlatMesh& mesh, const Sides& sides, Corner side)
-{
-	const Corner other = sides.across(side);
-	return other.isValid() && isJoined(mesh, side, other) ? other : Corner();
-}
-
 /// Edges of the surface whose two sides are not joined, in one chart or two.
 struct Seams
 {
 	std::vector<Corner> edges; ///< one side of each
 	double length = 0.0;       ///< on the surface, each edge once
 };
-Seams seams(const FlatMesh& mesh, const Sides& sides);
+Seams seams(const FlatMesh& mesh);
 
 /// Numbers the points anew: two corners are one point if a chain of triangles with joined sides connects
 /// them, at the place of the first of them. Points are in the order of their first corners.
 /// \param place place(corner)
 /// \param isJoined isJoined(side, across) for the two sides of an edge
 template<class Place, class IsJoined>
-void numberPoints(const Sides& sides, const Place& place, const IsJoined& isJoined, FlatMesh& mesh)
+void numberPoints(const Place& place, const IsJoined& isJoined, FlatMesh& mesh)
 {
 	DisjointSets sets(3 * mesh.vertices.size());
 	for (int c = 0; c < sets.size(); ++c)
-		if (const Corner side(c), other = sides.across(side);
+		if (const Corner side(c), other = mesh.across[side];
 			other > side && isJoined(side, other)) {
 			sets.merge(c, other.next().number());
 			sets.merge(side.next().number(), other.number());
@@ -121,8 +120,10 @@ void weld(FlatMesh& mesh);
 
 /// Gives triangles that no chain of joined sides in one chart connects points of their own, and forgets
 /// points that no corner has.
-/// \param sides of its triangles
-void splitPoints(const Sides& sides, FlatMesh& mesh);
+void splitPoints(FlatMesh& mesh);
+
+/// Finds FlatMesh::across by the vertices.
+void connect(FlatMesh& mesh);
 
 /// The flat mesh, one chart, of the faces of a surface whose corners are placed one by one: two corners at one
 /// vertex are one point if a chain of triangles joins them whose common sides have the same ends in the plane.

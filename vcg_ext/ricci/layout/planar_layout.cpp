@@ -46,12 +46,15 @@ FlatMesh flatMeshOf(const EmbeddedSurface& surface, const PlanarLayout& layout)
 	FlatMesh flat;
 	flat.place = layout.points;
 	flat.vertices.resize(t.faceCount());
+	flat.across.resize(3 * t.faceCount());
 	flat.points.resize(t.faceCount());
 	flat.lengths.resize(t.faceCount());
 	for (const Face f : t.faces()) {
 		Corner c(f.number(), 0);
 		for (const Halfedge h : t.halfedges(f)) {
 			flat.vertices[c] = t.origin(h).number();
+			if (!t.isExterior(h.twin()))
+				flat.across[c] = t.corner(h.twin());
 			flat.points[c] = layout.wedge[h];
 			flat.lengths[c] = surface.lengths[h.edge()];
 			c = c.next();

@@ -158,23 +158,22 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 {
 	advance(kMapped, "Packing the charts");
 	const ChartTurns turns = chartTurns(options);
-	const Sides sides(map.mesh.vertices.values());
 	if (options.charts == Charts::CutForRoom && options.normalizeUV &&
 		options.target == TargetCurvature::Automatic)
-		packForRoom(map, sides, options, turns);
+		packForRoom(map, options, turns);
 	else
-		packCharts(map, sides, options, turns);
+		packCharts(map, options, turns);
 	advance(kMapped, "Finishing the coordinates");
 	FloatFinish finish;
 	finish.forText = options.output == OutputTriangulation::KeepMesh;
 	finish.measure = [&] { measure(opened, map); };
-	finish.packAgain = [&] { packCharts(map, sides, options, turns); };
+	finish.packAgain = [&] { packCharts(map, options, turns); };
 	finish.mayCut = mayCutCharts(options);
 	if (isFinished(options))
 		finishInFloats(finish, map);
 	countFlipped(map.mesh, map.report);
-	countOverlaps(sides, map);
-	countUnequalSeams(sides, map);
+	countOverlaps(map);
+	countUnequalSeams(map);
 	if (map.report.unequalSeams > 0 && options.finish != Finish::LeastStretch) {
 		map.notes.push_back(
 			std::to_string(map.report.unequalSeams) +

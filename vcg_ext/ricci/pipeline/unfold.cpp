@@ -88,6 +88,7 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 		flatten);
 	for (std::size_t i = 0; i < pieces.size(); ++i)
 		append(pieces[i], flat[i], map);
+	connect(map.mesh); // across creases, too
 	separateCharts(ofPieces, map);
 	joinCharts(map);
 	const Topology topology = flowDomain(component, Holes::Boundaries).surface.topology;
@@ -100,7 +101,7 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 	report.eulerCharacteristic = topology.type.eulerCharacteristic();
 	report.cones = 0;
 	measureCurvature(topology.boundary, map);
-	const Seams seam = seams(map.mesh, Sides(map.mesh.vertices.values()));
+	const Seams seam = seams(map.mesh);
 	report.seamEdges = static_cast<int>(seam.edges.size());
 	report.seamLength = seam.length;
 	report.overlapCuts = 0;

@@ -148,9 +148,11 @@ void append(const Component& component, const Parametrization& part, Parametriza
 		index.push_back(mesh.source.size());
 		mesh.source.push_back(p);
 	}
-	const int firstPoint = mesh.place.size();
+	const int firstPoint = mesh.place.size(), firstCorner = mesh.across.size();
 	for (const Point2& p : part.mesh.place)
 		mesh.place.push_back(p);
+	for (const Corner other : part.mesh.across)
+		mesh.across.push_back(other.isValid() ? Corner(firstCorner + other.number()) : Corner());
 	for (const int f : part.mesh.points.indices()) {
 		Triangle vertices = part.mesh.vertices[f], points = part.mesh.points[f];
 		for (int& v : vertices)

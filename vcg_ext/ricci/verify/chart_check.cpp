@@ -84,7 +84,6 @@ ChartCheck checkMap(const FlatMesh& chart, double tolerance)
 	if (check.outside > 0 || chart.size() == 0)
 		return check;
 	const double extent = box.extent();
-	const Sides sides(chart.vertices.values());
 	const auto lengthOf = [&](Corner side) {
 		return distance(chart.at(side), chart.at(side.next()));
 	};
@@ -92,7 +91,7 @@ ChartCheck checkMap(const FlatMesh& chart, double tolerance)
 		const Triangle2 p = chart.at(f);
 		check.flipped += orientation(p[0], p[1], p[2]) <= 0 && heightOf(p) > tolerance * extent;
 		for (const Corner side : cornersOf(f))
-			if (const Corner other = sides.across(side); other > side && extent > 0.0)
+			if (const Corner other = chart.across[side]; other > side && extent > 0.0)
 				check.seamGap =
 					std::max(check.seamGap, std::abs(lengthOf(side) - lengthOf(other)) / extent);
 	}
@@ -123,7 +122,6 @@ ChartCheck checkDisk(const FlatMesh& chart, double tolerance)
 	const auto roundingOf = [&](Corner side) {
 		return rounding(chart.at(side)) + rounding(chart.at(side.next()));
 	};
-	const Sides sides(chart.vertices.values());
 	for (const int f : chart.points.indices()) {
 		checkpointNowAndThen(positionOf(f));
 		const Triangle2 p = chart.at(f);
@@ -131,7 +129,7 @@ ChartCheck checkDisk(const FlatMesh& chart, double tolerance)
 		for (const Corner side : cornersOf(f)) {
 			longest = std::max(longest, length[side]);
 			allowed += rounding(chart.at(side));
-			if (const Corner other = sides.across(side); other > side)
+			if (const Corner other = chart.across[side]; other > side)
 				check.seamGap = std::max(
 					check.seamGap,
 					std::abs(length[side] - length[other]) - roundingOf(side) - roundingOf(other));

@@ -17,15 +17,15 @@ namespace ricci {
 namespace {
 
 /// Whether this can be seen from borders alone.
-bool coversNothingTwice(const FlatMesh& mesh, const Sides& sides, std::size_t charts, double room)
+bool coversNothingTwice(const FlatMesh& mesh, std::size_t charts, double room)
 {
 	std::vector<Outline> outlines;
 	for (const std::vector<int>& triangles : mesh.trianglesByChart(charts)) {
 		checkpoint();
-		if (!hasSimpleBorder(mesh, sides, triangles))
+		if (!hasSimpleBorder(mesh, triangles))
 			return false;
 		if (charts > 1)
-			outlines.push_back(outlineOf(mesh, sides, triangles));
+			outlines.push_back(outlineOf(mesh, triangles));
 	}
 	return charts == 1 || keepApart(outlines, room);
 }
@@ -45,12 +45,12 @@ FlatMesh inFloats(FlatMesh mesh, double& step)
 
 } // namespace
 
-void countOverlaps(const Sides& sides, Parametrization& map)
+void countOverlaps(Parametrization& map)
 {
 	double step = 0.0;
 	const FlatMesh stored = inFloats(map.mesh, step);
 	map.report.overlappingFaces = map.report.overlappingCharts = 0;
-	if (coversNothingTwice(stored, sides, map.charts.size(), step))
+	if (coversNothingTwice(stored, map.charts.size(), step))
 		return;
 	const OverlapSearch search(stored.corners(), kTouchingSteps * step);
 	const Array<char> overlaps = search.overlapping();
@@ -63,7 +63,7 @@ void countOverlaps(const Sides& sides, Parametrization& map)
 	map.report.overlappingCharts = static_cast<int>(std::count(isChart.begin(), isChart.end(), 1));
 }
 
-void countUnequalSeams(const Sides& sides, Parametrization& map)
+void countUnequalSeams(Parametrization& map)
 {
 	double step = 0.0;
 	const FlatMesh stored = inFloats(map.mesh, step);
@@ -71,10 +71,10 @@ void countUnequalSeams(const Sides& sides, Parametrization& map)
 		const std::array<Point2, 2> ends = stored.ends(side);
 		return distance(ends[0], ends[1]);
 	};
-	const std::vector<Corner> edges = seams(stored, sides).edges;
+	const std::vector<Corner> edges = seams(stored).edges;
 	map.report.unequalSeams =
 		static_cast<int>(std::count_if(edges.begin(), edges.end(), [&](Corner side) {
-			const double own = length(side), across = length(sides.across(side));
+			const double own = length(side), across = length(stored.across[side]);
 			return std::abs(own - across) >
 				   std::max(kUnequalShare * std::max(own, across), kTouchingSteps * step);
 		}));

@@ -10,13 +10,13 @@ namespace ricci {
 /// together with another one, of their own chart or not, once their coordinates are rounded to float, and the
 /// charts that these are in. What is covered no deeper than kTouchingSteps steps of a float is what the
 /// rounding may have moved.
-void countOverlaps(const Sides& sides, Parametrization& map);
+void countOverlaps(Parametrization& map);
 
 /// Sets the report's unequalSeams: the edges of seams whose two sides differ in length by more than
 /// kUnequalShare of the longer one, once their coordinates are rounded to float, and by more than
 /// kTouchingSteps steps of a float, which the rounding may have changed them by. A texture that should go on
 /// across such a seam is torn there.
-void countUnequalSeams(const Sides& sides, Parametrization& map);
+void countUnequalSeams(Parametrization& map);
 
 constexpr double kTouchingSteps = 4.0, kUnequalShare = 1e-3;
 
