@@ -6,6 +6,7 @@
 #include "least_distortion.h"
 #include "repair.h"
 
+#include <cstdint>
 #include <string>
 
 namespace ricci {
@@ -19,6 +20,10 @@ constexpr double kDiskExtent = 2.0;
 /// far from what its triangles would have: it is repaired once that is made better, if that costs less.
 constexpr double kMaxRepairCost = 2.0;
 
+/// Steps on all triangles that a stage of a repair may spend. Few maps that are not repaired by then are
+/// repaired by more, and what is left can be cut off.
+constexpr std::int64_t kMaxSteps = 50;
+
 bool isInDisk(const FlatMesh& flat, const Patch& patch)
 {
 	for (const int p : patch.points)
@@ -30,7 +35,7 @@ bool isInDisk(const FlatMesh& flat, const Patch& patch)
 FinishCounts repaired(
 	FlatMesh& flat, SeamGeometry seams, const BoundaryRule& boundaryMoves, const RepairRules& rules)
 {
-	WorkLimit limit(flat.points.size());
+	WorkLimit limit(flat.points.size(), kMaxSteps);
 	const Repair repair = repairInStages(flat, seams, boundaryMoves, rules, limit);
 	const bool endedEarly = repair.left > 0 && limit.left() == 0;
 	if (endedEarly)

@@ -33,8 +33,10 @@ class WorkLimit
 {
 public:
 	/// \param triangles of the map
-	explicit WorkLimit(std::int64_t triangles) :
-			m_stage(kOfStage + kOfStagePerTriangle * triangles), m_left(kStages * m_stage)
+	/// \param steps on all of them that a stage may spend at most
+	explicit WorkLimit(std::int64_t triangles, std::int64_t steps = kOfStage) :
+			m_stage(std::min(steps * triangles, kOfStage + kOfStagePerTriangle * triangles)),
+			m_left(kStages * m_stage)
 	{
 	}
 
