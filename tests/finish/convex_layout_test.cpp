@@ -141,7 +141,7 @@ TEST(ConvexLayout, IsEmptyForWhatIsNoDisk)
 
 TEST(ConvexLayout, MendsADrawingWhosePointsAreAnywhere)
 {
-	const Soundness wanted{1e-6, 2e-6, false};
+	const Validity wanted{1e-6, 2e-6, false};
 	for (std::uint64_t seed = 0; seed < 10; ++seed) {
 		SCOPED_TRACE(seed);
 		FlatMesh flat = squareWithout({{5, 5}});
@@ -159,7 +159,7 @@ TEST(ConvexLayout, MendsADrawingWhosePointsAreAnywhere)
 /// A flat chart that may be in the plane only where its border is convex.
 TEST(ConvexLayout, IsTakenWhereTheSearchLeadsToWhatIsRefused)
 {
-	const Soundness wanted{1e-6, 2e-6, false};
+	const Validity wanted{1e-6, 2e-6, false};
 	FlatMesh flat = square();
 	for (Point2& p : flat.place)
 		p = {p[0], 1e-9 * p[0]};

@@ -47,12 +47,12 @@ FlatMesh limb(int n, int rings, double ratio)
 	return flat;
 }
 
-Soundness soundness()
+Validity validity()
 {
 	return {1e-4, 1e-2, false};
 }
 
-Repair mend(FlatMesh& flat, const Soundness& wanted)
+Repair mend(FlatMesh& flat, const Validity& wanted)
 {
 	WorkLimit limit(flat.points.size());
 	return repairInStages(
@@ -63,11 +63,11 @@ Repair mend(FlatMesh& flat, const Soundness& wanted)
 		limit);
 }
 
-TEST(Repair, LeavesASoundDrawingAlone)
+TEST(Repair, LeavesAValidDrawingAlone)
 {
 	FlatMesh flat = square();
 	const Array<Point2> before = flat.place;
-	const Repair result = mend(flat, soundness());
+	const Repair result = mend(flat, validity());
 	EXPECT_EQ(result.bad, 0);
 	EXPECT_EQ(result.movedCount(), 0);
 	EXPECT_EQ(flat.place.values(), before.values());
@@ -79,14 +79,14 @@ TEST(Repair, MendsEveryTriangleAndMovesNoBoundaryWithoutNeed)
 		SCOPED_TRACE(seed);
 		FlatMesh flat = tangled(6, seed);
 		const FlatMesh before = flat;
-		ASSERT_FALSE(badTriangles(flat, soundness()).empty());
-		const Repair result = mend(flat, soundness());
+		ASSERT_FALSE(badTriangles(flat, validity()).empty());
+		const Repair result = mend(flat, validity());
 		EXPECT_EQ(result.left, 0);
 		for (const int f : flat.points.indices()) {
 			const Triangle2 p = flat.at(f);
 			EXPECT_EQ(orientation(p[0], p[1], p[2]), 1) << f;
 		}
-		EXPECT_TRUE(badTriangles(flat, soundness()).empty());
+		EXPECT_TRUE(badTriangles(flat, validity()).empty());
 		for (const int p : flat.place.indices()) {
 			const bool isSame = flat.place[p] == before.place[p];
 			EXPECT_TRUE(isSame || isInside(p)) << p;
@@ -101,8 +101,8 @@ TEST(Repair, MovesOnlyWhatIsNearABadTriangle)
 	const int v = vertexAt(3, 3);
 	flat.place[v] = {4.5, 3.2};
 	const Array<Point2> before = flat.place;
-	mend(flat, soundness());
-	EXPECT_TRUE(badTriangles(flat, soundness()).empty());
+	mend(flat, validity());
+	EXPECT_TRUE(badTriangles(flat, validity()).empty());
 	for (const int p : flat.place.indices()) {
 		const bool isFar = std::abs(p % (kSide + 1) - 3) > 3 || std::abs(p / (kSide + 1) - 3) > 3;
 		EXPECT_TRUE(!isFar || flat.place[p] == before[p]) << p;
@@ -115,8 +115,8 @@ TEST(Repair, TheScaleOfTheDrawingPlaysNoPart)
 	FlatMesh flat = tangled(6, 5), small = flat;
 	for (const int p : small.place.indices())
 		small.place[p] = {kScale * small.place[p][0], kScale * small.place[p][1]};
-	const Soundness same = soundness();
-	const Soundness scaled{kScale * same.height, kScale * same.wanted, same.asFloats};
+	const Validity same = validity();
+	const Validity scaled{kScale * same.height, kScale * same.wanted, same.asFloats};
 	mend(flat, same);
 	mend(small, scaled);
 	for (const int p : flat.place.indices())
@@ -124,7 +124,7 @@ TEST(Repair, TheScaleOfTheDrawingPlaysNoPart)
 			EXPECT_NEAR(small.place[p][k] / kScale, flat.place[p][k], 1e-6) << p;
 }
 
-TEST(Repair, SoundMeansSoundInFloatsWhereFloatsAreStored)
+TEST(Repair, ValidMeansValidInFloatsWhereFloatsAreStored)
 {
 	FlatMesh flat = square();
 	constexpr double kFar = 0x1p20; // where a float's step is an eighth
@@ -132,8 +132,8 @@ TEST(Repair, SoundMeansSoundInFloatsWhereFloatsAreStored)
 		flat.place[p] = {flat.place[p][0] + kFar, flat.place[p][1] + kFar};
 	const int v = vertexAt(6, 6);
 	flat.place[v][0] = kFar + 6.97; // rounds to its neighbour's
-	const Soundness floats{0.2, 0.3, true};
-	const Soundness doubles{0.001, 0.3, false};
+	const Validity floats{0.2, 0.3, true};
+	const Validity doubles{0.001, 0.3, false};
 	EXPECT_TRUE(badTriangles(flat, doubles).empty());
 	ASSERT_FALSE(badTriangles(flat, floats).empty());
 	const Repair result = mend(flat, floats);
@@ -145,7 +145,7 @@ TEST(Repair, SoundMeansSoundInFloatsWhereFloatsAreStored)
 TEST(Repair, SixDecimalsAreJudgedExactly)
 {
 	constexpr double kStep = 1e-6;
-	const Soundness text{1e-12, 1e-6, true, kStep};
+	const Validity text{1e-12, 1e-6, true, kStep};
 	Random random(17);
 	int bent = 0;
 	for (int trial = 0; trial < 1000; ++trial) {
@@ -170,16 +170,16 @@ TEST(Repair, TheBoundaryMovesWhereNothingElseMends)
 	// A corner triangle whose three points are on the boundary, turned round.
 	const int corner = vertexAt(kSide, 0);
 	flat.place[corner] = {kSide - 2.0, 2.0};
-	const Repair result = mend(flat, soundness());
+	const Repair result = mend(flat, validity());
 	EXPECT_GT(result.bad, 0);
 	EXPECT_EQ(result.left, 0);
-	EXPECT_TRUE(badTriangles(flat, soundness()).empty());
+	EXPECT_TRUE(badTriangles(flat, validity()).empty());
 	EXPECT_EQ(result.moved[corner], 1);
 }
 
 TEST(Repair, CountsWhatIsLeftOfThePatchesThatAreMendedPartly)
 {
-	const Soundness high{0.7, 0.705, false}; // nearly that of the cells
+	const Validity high{0.7, 0.705, false}; // nearly that of the cells
 	int partly = 0;
 	for (std::uint64_t seed = 0; seed < 20; ++seed) {
 		SCOPED_TRACE(seed);
@@ -196,7 +196,7 @@ TEST(Repair, CountsWhatIsLeftOfThePatchesThatAreMendedPartly)
 
 TEST(Repair, ALimbThatHasShrunkBelowFloatsGetsRoom)
 {
-	const Soundness wanted{0x1p-20, 0x1p-19, true};
+	const Validity wanted{0x1p-20, 0x1p-19, true};
 	for (const double ratio : {0.6, 0.4, 0.25}) {
 		SCOPED_TRACE(ratio);
 		FlatMesh flat = limb(5, 80, ratio);
@@ -225,9 +225,9 @@ TEST(Repair, EndsWhenItsLimitIsSpent)
 		const Repair result = repair(
 			flat,
 			insidePoints(flat),
-			{RestShapes::OfSurface, soundness(), nullptr, 34, true},
+			{RestShapes::OfSurface, validity(), nullptr, 34, true},
 			limit);
-		EXPECT_EQ(result.left, static_cast<int>(badTriangles(flat, soundness()).size()));
+		EXPECT_EQ(result.left, static_cast<int>(badTriangles(flat, validity()).size()));
 		return Spent{before - limit.left(), result.left};
 	};
 	const Spent all = repairWith(-1), half = repairWith(all.work / 2), none = repairWith(0);
@@ -243,7 +243,7 @@ TEST(Repair, CanBeCancelled)
 {
 	FlatMesh flat = tangled(6, 3);
 	Listener impatient(1);
-	EXPECT_THROW(heard(impatient, [&] { mend(flat, soundness()); }), Cancelled);
+	EXPECT_THROW(heard(impatient, [&] { mend(flat, validity()); }), Cancelled);
 }
 
 } // namespace

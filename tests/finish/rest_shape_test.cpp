@@ -9,7 +9,7 @@
 namespace ricci::testing {
 namespace {
 
-constexpr Soundness kSound{1e-6, 2e-6, false};
+constexpr Validity kValid{1e-6, 2e-6, false};
 
 /// Three triangles round a point inside the triangle of three others, and the shapes that they get
 /// where the four points lie at \p places in space.
@@ -30,7 +30,7 @@ std::vector<RestShape> shapesOf(const std::vector<Point2>& places)
 	}
 	patch.points = {0, 1, 2, 3};
 	patch.variable = Array<int>(4, -1);
-	return restShapes(flat, patch, RestShapes::OfSurface, kSound);
+	return restShapes(flat, patch, RestShapes::OfSurface, kValid);
 }
 
 double longest(const RestShape& s)
@@ -55,7 +55,7 @@ TEST(RestShapes, TrianglesWithoutAreaHaveTheScaleOfTheirSides)
 		for (const RestShape& s : shapesOf({{0.0, 0.0}, {4.0, 0.0}, {2.5, height}, {1.5, 0.0}})) {
 			EXPECT_GE(longest(s), 1.0);
 			EXPECT_LE(longest(s), 6.0);
-			EXPECT_GE(s.apex.imag() * s.base, kSound.wanted * (1.0 - 1e-9) * longest(s));
+			EXPECT_GE(s.apex.imag() * s.base, kValid.wanted * (1.0 - 1e-9) * longest(s));
 		}
 	}
 }

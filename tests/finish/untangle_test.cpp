@@ -21,7 +21,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-const Soundness kSound{1e-4, 1e-2, false};
+const Validity kValid{1e-4, 1e-2, false};
 
 /// More than any of them takes.
 constexpr int kMaxSteps = 1000;
@@ -44,7 +44,7 @@ struct Whole
 					seeds.push_back(f);
 		std::vector<Patch> patches = PatchFinder(flat, groups).patches(seeds, 2 * kSide);
 		patch = patches.at(0);
-		shapes = restShapes(flat, patch, RestShapes::OfSurfaceEvenly, kSound);
+		shapes = restShapes(flat, patch, RestShapes::OfSurfaceEvenly, kValid);
 	}
 
 	/// \pre the tick lives as long
@@ -53,7 +53,7 @@ struct Whole
 	/// The same for the patch elsewhere.
 	PatchProblem problemOf(const FlatMesh& d, int maxSteps = kMaxSteps) const
 	{
-		return {d, groups, patch, shapes, kSound, maxSteps};
+		return {d, groups, patch, shapes, kValid, maxSteps};
 	}
 
 	/// The drawing with the patch's points at \p places.
@@ -95,7 +95,7 @@ TEST(Untangle, MakesATangledSquareInjectiveAndKeepsItsBorder)
 		ASSERT_GT(notCounterClockwise(whole.flat), 0);
 		ASSERT_GT(sumOfAreas(whole.flat), kSide * kSide + 0.1);
 		const Untangled result = untangle(whole.problem());
-		ASSERT_TRUE(result.sound);
+		ASSERT_TRUE(result.valid);
 		EXPECT_GT(result.steps, 0);
 		const FlatMesh moved = whole.with(result.points);
 		EXPECT_EQ(notCounterClockwise(moved), 0);
@@ -105,7 +105,7 @@ TEST(Untangle, MakesATangledSquareInjectiveAndKeepsItsBorder)
 				EXPECT_EQ(moved.place[p], whole.flat.place[p]);
 			}
 		for (const int f : moved.points.indices())
-			EXPECT_TRUE(kSound.isSound(moved.at(f)));
+			EXPECT_TRUE(kValid.isValid(moved.at(f)));
 	}
 }
 
@@ -114,11 +114,11 @@ TEST(Untangle, FindsTheSurfaceWhereItIsFlat)
 {
 	for (std::uint64_t seed = 1; seed <= 4; ++seed) {
 		const Whole whole(tangled(20, seed));
-		const Untangled sound = untangle(whole.problem());
-		ASSERT_TRUE(sound.sound);
-		const FlatMesh moved = whole.with(sound.points), flat = square();
+		const Untangled valid = untangle(whole.problem());
+		ASSERT_TRUE(valid.valid);
+		const FlatMesh moved = whole.with(valid.points), flat = square();
 		const Untangled eased = ease(whole.problemOf(moved));
-		ASSERT_TRUE(eased.sound);
+		ASSERT_TRUE(eased.valid);
 		const FlatMesh last = whole.with(eased.points);
 		EXPECT_LE(whole.strainOf(last), whole.strainOf(moved));
 		EXPECT_LT(whole.strainOf(last), 1.002 * (2.0 * kSide * kSide)); // the least: 1 each
@@ -135,7 +135,7 @@ TEST(Untangle, SaysWhatItCannotMend)
 	const Whole whole(flat);
 	const int before = notCounterClockwise(flat);
 	const Untangled result = untangle(whole.problem());
-	EXPECT_FALSE(result.sound);
+	EXPECT_FALSE(result.valid);
 	ASSERT_FALSE(result.points.empty());
 	const int after = notCounterClockwise(whole.with(result.points));
 	EXPECT_GT(after, 0);
@@ -162,7 +162,7 @@ TEST(Untangle, TakesNoMoreStepsThanItMay)
 		EXPECT_EQ(steps(maxSteps), std::min(maxSteps, all));
 }
 
-TEST(Ease, LowersTheStrainAndStaysSound)
+TEST(Ease, LowersTheStrainAndStaysValid)
 {
 	// Inner points are moved by less than what turns a triangle.
 	FlatMesh flat = square();
@@ -175,18 +175,18 @@ TEST(Ease, LowersTheStrainAndStaysSound)
 	const Whole whole(flat);
 	ASSERT_EQ(notCounterClockwise(flat), 0);
 	const Untangled result = ease(whole.problem());
-	ASSERT_TRUE(result.sound);
+	ASSERT_TRUE(result.valid);
 	const FlatMesh eased = whole.with(result.points);
 	EXPECT_EQ(notCounterClockwise(eased), 0);
 	EXPECT_GT(whole.strainOf(flat), 2.0 * kSide * kSide + 1.0);
 	EXPECT_LT(whole.strainOf(eased), 1.002 * (2.0 * kSide * kSide)); // the least: 1 each
 }
 
-TEST(Ease, LeavesWhatIsNotSoundAlone)
+TEST(Ease, LeavesWhatIsNotValidAlone)
 {
 	const Whole whole(tangled(20, 7));
 	const Untangled result = ease(whole.problem());
-	EXPECT_FALSE(result.sound);
+	EXPECT_FALSE(result.valid);
 	EXPECT_EQ(result.steps, 0);
 }
 

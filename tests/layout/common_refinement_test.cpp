@@ -98,11 +98,11 @@ std::vector<double> targetOf(const FlippedFlow& flow)
 	return {k.data(), k.data() + k.size()};
 }
 
-void expectSound(const FlippedFlow& flow, const SurfaceLayout& refinement)
+void expectValid(const FlippedFlow& flow, const SurfaceLayout& refinement)
 {
 	const RefinementCheck check(flow.mesh, refinement.refinement, targetOf(flow));
 	const SurfaceType& type = flow.surface().topology.type;
-	check.expectSound(type.eulerCharacteristic(), type.boundaryLoops);
+	check.expectValid(type.eulerCharacteristic(), type.boundaryLoops);
 	EXPECT_LT(check.areaError, 1e-9);
 	EXPECT_LT(check.angleError, 1e-8);
 	EXPECT_NEAR(check.area / flow.result.area, 1.0, 1e-9);
@@ -121,7 +121,7 @@ TEST(CommonRefinement, IsTheSurfaceWithAMapWithoutFlips)
 			SCOPED_TRACE(p.name + ", seed " + std::to_string(seed));
 			const FlippedFlow flow(p.mesh, p.request, p.epsilon);
 			const SurfaceLayout refinement = flow.refinement(flow.cut());
-			expectSound(flow, refinement);
+			expectValid(flow, refinement);
 			crossings += crossingsIn(refinement, flow);
 		}
 	EXPECT_GT(crossings, 5000u); // or the test says little
@@ -202,7 +202,7 @@ TEST(CommonRefinement, TheCutMayCrossAnEndEdgeTwice)
 			prescribed(randomCurvature(
 				static_cast<int>(mesh.positions.size()), 0, -12.0, 6.0, 0.4, random)));
 		const SurfaceLayout refinement = flow.refinement(flow.cutAnywhere(random));
-		expectSound(flow, refinement);
+		expectValid(flow, refinement);
 		tooMany += crossingsTooMany(flow, refinement);
 	}
 	EXPECT_GT(tooMany, 20); // or the test says little
@@ -417,7 +417,7 @@ TEST(CommonRefinement, APlaneIsMappedToItself)
 		EXPECT_GT(flow.result.start.flips.size(), 10u);
 		const SurfaceLayout r = flow.refinement(flow.cut());
 		EXPECT_GT(crossingsIn(r, flow), 10u);
-		expectSound(flow, r);
+		expectValid(flow, r);
 		const auto source = [&](int point) {
 			const Point3 p = placeOnSurface(r.refinement.source[point], mesh.positions);
 			return Complex(p[0], p[1]);
@@ -472,7 +472,7 @@ TEST(CommonRefinement, IsTheDevelopmentWhereTheMetricStays)
 			flips += static_cast<int>(result.start.flips.size());
 			const SurfaceLayout r = flow.refinement(flow.cut());
 			ASSERT_LT((result.u - logOf(result.start.radii)).lpNorm<Eigen::Infinity>(), 1e-9);
-			expectSound(flow, r);
+			expectValid(flow, r);
 			for (const int piece : r.refinement.points.indices()) {
 				const auto h = flow.base().halfedges(Face(r.refinement.face[piece]));
 				std::array<Point3, 3> p;

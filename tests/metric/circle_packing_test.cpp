@@ -410,7 +410,7 @@ EdgeArray<double> sidesOf(const Triangulation& t, const std::array<double, 3>& s
 	return lengths;
 }
 
-TEST(Mollify, LeavesASoundMeshAlone)
+TEST(Mollify, LeavesAValidMeshAlone)
 {
 	for (const SurfaceMesh& mesh : surfacesToFlip()) {
 		const Packed packed(mesh);

@@ -36,7 +36,7 @@ struct RefinementCheck
 
 	/// Expects that the refinement is one of a surface of this kind, that its seams fit, and that no triangle is
 	/// flipped.
-	void expectSound(int chi, int loops) const
+	void expectValid(int chi, int loops) const
 	{
 		EXPECT_EQ(notPositive, 0);
 		EXPECT_LT(seamMismatch, 1e-9);

@@ -128,8 +128,9 @@ inline bool isForObjective(const ConeOptions& options)
 constexpr double kMaxChartMargin = 0.25;
 
 /// Finds places for boxes along the axes, none of them empty: [box] translations that leave at least
-/// \p room >= 0 between any two. One box alone stays where it is. Neither turns nor scales.
-using PlaceBoxes = std::function<std::vector<Point2>(const std::vector<Box2>& boxes, double room)>;
+/// \p padding >= 0 between any two. One box alone stays where it is. Neither turns nor scales.
+using PlaceBoxes =
+	std::function<std::vector<Point2>(const std::vector<Box2>& boxes, double padding)>;
 
 /// How the charts of a map are packed.
 struct PackOptions

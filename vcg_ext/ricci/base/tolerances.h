@@ -153,12 +153,12 @@ constexpr double kMinRefinedHeight = 0x1p-46;
 /// side's length opens the seam by this share of it at most.
 constexpr double kSeamMatch = 1e-7;
 
-/// The room between charts is wider than the margin by this share, which rounding must not undercut.
+/// The padding between charts is wider than the margin by this share, which rounding must not undercut.
 constexpr double kMarginSpare = 1e-6;
 
 /// Outlines of charts, whose boxes may meet, keep at least this distance, as a share of the square:
 /// more than the steps of floats by which their points are moved afterwards.
-constexpr double kMinOutlineRoom = 2e-5;
+constexpr double kMinPadding = 2e-5;
 
 /// Charts are turned, and placed by their outlines, where the square's side gets shorter by this share:
 /// for less, upright charts are worth more.

@@ -4,7 +4,7 @@
 #include "../base/floating_point.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../finish/soundness.h"
+#include "../finish/validity.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../math/shortest_paths.h"
 #include "separate_charts.h"
@@ -21,7 +21,7 @@ namespace ricci {
 namespace {
 
 /// What a triangle must be in the unit disk where so many disks are placed in the square.
-Soundness soundnessOf(std::size_t disks)
+Validity validityOf(std::size_t disks)
 {
 	const double perRow = std::ceil(std::sqrt(static_cast<double>(disks)));
 	const double step = 2.0 * perRow * floatStep(1.0), height = kMinFloatSteps * step;
@@ -93,13 +93,13 @@ Cells cellsOf(const FlatMesh& chart, std::vector<int> centre)
 
 /// Of each cell the triangle farthest from its centre of those that floats cannot hold, but could near 0.
 std::vector<int>
-farthestUnsound(const FlatMesh& chart, const Cells& cells, const Soundness& soundness)
+farthestInvalid(const FlatMesh& chart, const Cells& cells, const Validity& validity)
 {
-	const auto isSound = [&](int f, const ExtendedIsometry& place) {
+	const auto isValid = [&](int f, const ExtendedIsometry& place) {
 		Triangle2 p = chart.at(f);
 		for (Point2& corner : p)
 			corner = moved(place, corner);
-		return soundness.isSound(p);
+		return validity.isValid(p);
 	};
 	std::vector<int> farthest(cells.centre.size(), -1);
 	for (const int f : chart.points.indices()) {
@@ -107,7 +107,7 @@ farthestUnsound(const FlatMesh& chart, const Cells& cells, const Soundness& soun
 		const std::size_t cell = positionOf(cells.of[f]);
 		int& far = farthest[cell];
 		if ((far < 0 || cells.distance[f] > cells.distance[far]) && f != cells.centre[cell] &&
-			!isSound(f, cells.place[cell]) && isSound(f, toMiddle(chart, {f})))
+			!isValid(f, cells.place[cell]) && isValid(f, toMiddle(chart, {f})))
 			far = f;
 	}
 	farthest.erase(std::remove(farthest.begin(), farthest.end(), -1), farthest.end());
@@ -126,17 +126,17 @@ bool divideDisks(Parametrization& map)
 	for (bool grows = true; grows && !endsEarly;) {
 		grows = false;
 		const bool isFull = disks >= kMaxDisks;
-		const Soundness soundness = soundnessOf(disks);
+		const Validity validity = validityOf(disks);
 		for (std::size_t c = 0; c < triangles.size(); ++c) {
-			const bool isSound = std::all_of(triangles[c].begin(), triangles[c].end(), [&](int f) {
-				return soundness.isSound(mesh.at(f));
+			const bool isValid = std::all_of(triangles[c].begin(), triangles[c].end(), [&](int f) {
+				return validity.isValid(mesh.at(f));
 			});
-			if (isSound)
+			if (isValid)
 				continue;
 			const FlatMesh chart = mesh.part(triangles[c]);
 			if (cells[c].centre.empty())
 				cells[c] = cellsOf(chart, {});
-			std::vector<int> more = farthestUnsound(chart, cells[c], soundness);
+			std::vector<int> more = farthestInvalid(chart, cells[c], validity);
 			if (more.empty())
 				continue;
 			if (isFull) {

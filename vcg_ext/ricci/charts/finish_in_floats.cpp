@@ -49,8 +49,8 @@ constexpr int kNearRings = 4;
 /// What the triangles of a map have to be once they are stored.
 struct Wanted
 {
-	Soundness soundness;
-	Soundness inText; ///< also for coordinates with six decimals, in the unit square
+	Validity validity;
+	Validity inText; ///< also for coordinates with six decimals, in the unit square
 
 	Wanted(const FlatMesh& mesh, bool forText)
 	{
@@ -59,14 +59,14 @@ struct Wanted
 			for (const double x : p)
 				largest = std::max(largest, std::abs(x));
 		const double height = kMinFloatSteps * floatStep(largest);
-		soundness = {height, kWantedHeights * height, true};
-		inText = soundness;
+		validity = {height, kWantedHeights * height, true};
+		inText = validity;
 		if (forText && largest > 0.5 && largest <= 1.0)
 			inText = {height, kWantedHeights * kTextStep, true, kTextStep};
 	}
 };
 
-/// The triangles that are not sound, and so many rings round them.
+/// The triangles that are not valid, and so many rings round them.
 std::vector<int> near(const FlatMesh& mesh, const std::vector<int>& bad, int rings)
 {
 	std::vector<char> isTaken(positionOf(mesh.size()), 0), isNear(mesh.source.values().size(), 0);
@@ -191,9 +191,9 @@ private:
 /// What finishEverywhere() does where small patches inside the charts mend all: then all but what is near
 /// bad triangles plays no part.
 /// \return whether points were moved; none where that does not do, and nothing is changed
-std::optional<bool> finishNear(const Soundness& soundness, WorkLimit& limit, Parametrization& map)
+std::optional<bool> finishNear(const Validity& validity, WorkLimit& limit, Parametrization& map)
 {
-	const std::vector<int> taken = near(map.mesh, badTriangles(map.mesh, soundness), kNearRings);
+	const std::vector<int> taken = near(map.mesh, badTriangles(map.mesh, validity), kNearRings);
 	FlatMesh part = map.mesh.part(taken);
 	for (const int i : part.chart.indices())
 		part.chart[i] = map.mesh.chart[taken[positionOf(i)]];
@@ -206,7 +206,7 @@ std::optional<bool> finishNear(const Soundness& soundness, WorkLimit& limit, Par
 	const Repair result = repair(
 		part,
 		insidePoints(part),
-		{RestShapes::OfDrawing, soundness, accepts, kNearRings - 1},
+		{RestShapes::OfDrawing, validity, accepts, kNearRings - 1},
 		limit);
 	if (result.left > 0)
 		return std::nullopt;
@@ -226,7 +226,7 @@ struct Finished
 {
 	bool points = false;
 	bool boxes = false; ///< charts have grown out of theirs
-	bool all = true;    ///< every triangle is sound
+	bool all = true;    ///< every triangle is valid
 };
 
 Finished
@@ -237,20 +237,20 @@ finishEverywhere(const Wanted& wanted, bool mayGrow, WorkLimit& limit, Parametri
 	const PatchTest accepts = [&](const FlatMesh& flat, const Patch& patch) {
 		return test(flat, patch);
 	};
-	const auto inStages = [&](const Soundness& soundness) {
+	const auto inStages = [&](const Validity& validity) {
 		return repairInStages(
 			map.mesh,
 			SeamGeometry::Plane,
 			[](int) { return false; },
-			{RestShapes::OfDrawing, soundness, accepts},
+			{RestShapes::OfDrawing, validity, accepts},
 			limit);
 	};
 	const auto freely = [&](const PatchTest& isAccepted) {
-		return repairFreely(map.mesh, {RestShapes::OfDrawing, wanted.soundness, isAccepted}, limit);
+		return repairFreely(map.mesh, {RestShapes::OfDrawing, wanted.validity, isAccepted}, limit);
 	};
 	Repair result = inStages(wanted.inText);
 	// Where there is no room for that, floats have to do.
-	result.add(inStages(wanted.soundness));
+	result.add(inStages(wanted.validity));
 	if (result.left > 0)
 		result.add(freely(accepts));
 	Finished finished;
@@ -271,8 +271,8 @@ finishEverywhere(const Wanted& wanted, bool mayGrow, WorkLimit& limit, Parametri
 /// \param mayRedraw a chart all of whose points move may leave its disk: then it is drawn smaller
 Repair repairDisks(bool mayRedraw, Parametrization& map)
 {
-	const Soundness soundness = Wanted(map.mesh, false).soundness;
-	if (badTriangles(map.mesh, soundness).empty())
+	const Validity validity = Wanted(map.mesh, false).validity;
+	if (badTriangles(map.mesh, validity).empty())
 		return {};
 	const Array<int> chartOf = map.mesh.chartOfPoints();
 	// From the centre of its disk, over the radius
@@ -301,9 +301,9 @@ Repair repairDisks(bool mayRedraw, Parametrization& map)
 	Repair result;
 	for (const RestShapes shapes : {RestShapes::OfDrawing, RestShapes::OfSurfaceEvenly}) {
 		WorkLimit limit(map.mesh.size());
-		result.add(repairFreely(map.mesh, {shapes, soundness, isInDisk}, limit));
+		result.add(repairFreely(map.mesh, {shapes, validity, isInDisk}, limit));
 		shrink();
-		result.left = static_cast<int>(badTriangles(map.mesh, soundness).size());
+		result.left = static_cast<int>(badTriangles(map.mesh, validity).size());
 		if (result.left == 0)
 			break;
 	}
@@ -329,7 +329,7 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 		bool isCut = false;
 		if (!finished.all && mayGrow && mayCut) {
 			std::vector<char> isBad(positionOf(map.mesh.size()), 0);
-			for (const int f : badTriangles(map.mesh, wanted.soundness))
+			for (const int f : badTriangles(map.mesh, wanted.validity))
 				isBad[positionOf(f)] = 1;
 			isCut = cutOff(isBad, map);
 		}

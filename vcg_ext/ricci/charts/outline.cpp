@@ -53,12 +53,12 @@ bool contains(const Outline& outline, const Point2& p)
 	return turns != 0;
 }
 
-Box2 boxOf(const Segment& s, double room)
+Box2 boxOf(const Segment& s, double padding)
 {
 	Box2 box;
 	for (const Point2& p : s) {
-		box.add(Point2{p[0] - room, p[1] - room});
-		box.add(Point2{p[0] + room, p[1] + room});
+		box.add(Point2{p[0] - padding, p[1] - padding});
+		box.add(Point2{p[0] + padding, p[1] + padding});
 	}
 	return box;
 }
@@ -83,7 +83,7 @@ Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles)
 	return outline;
 }
 
-bool keepApart(const std::vector<Outline>& outlines, double room)
+bool keepApart(const std::vector<Outline>& outlines, double padding)
 {
 	std::vector<BoxTree> sides;
 	std::vector<Box2> charts;
@@ -91,7 +91,7 @@ bool keepApart(const std::vector<Outline>& outlines, double room)
 		std::vector<Box2> boxes;
 		Box2 whole;
 		for (const Segment& s : outline) {
-			boxes.push_back(boxOf(s, 0.5 * room));
+			boxes.push_back(boxOf(s, 0.5 * padding));
 			whole.add(boxes.back());
 		}
 		sides.emplace_back(boxes);
@@ -106,8 +106,8 @@ bool keepApart(const std::vector<Outline>& outlines, double room)
 		const Outline &a = outlines[few], &b = outlines[many];
 		const auto isNear = [&](const Segment& s) {
 			checkpointNowAndThen(1024 * steps++);
-			return sides[many].meetsAny(boxOf(s, 0.5 * room), [&](int side) {
-				return distance(s, b[positionOf(side)]) < room;
+			return sides[many].meetsAny(boxOf(s, 0.5 * padding), [&](int side) {
+				return distance(s, b[positionOf(side)]) < padding;
 			});
 		};
 		// Where the sides keep apart, a chart that meets another lies in it.

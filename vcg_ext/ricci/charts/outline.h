@@ -17,9 +17,9 @@ using Outline = std::vector<std::array<Point2, 2>>;
 /// opposite ways. A point off them is covered by as many triangles as they go round it.
 Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles);
 
-/// Whether no point of a chart is nearer than \p room > 0 to another chart, or in it, as far as doubles
+/// Whether no point of a chart is nearer than \p padding > 0 to another chart, or in it, as far as doubles
 /// tell.
-bool keepApart(const std::vector<Outline>& outlines, double room);
+bool keepApart(const std::vector<Outline>& outlines, double padding);
 
 } // namespace ricci
 

@@ -428,9 +428,9 @@ std::vector<Motion> packOutlines(
 	const std::vector<Outline>& outlines,
 	const std::vector<ChartTurns>& turns,
 	double side,
-	double room)
+	double padding)
 {
-	const double reach = 0.5 * room;
+	const double reach = 0.5 * padding;
 	Order order = orderOf(outlines);
 	const std::size_t largest = order.front();
 	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 16);

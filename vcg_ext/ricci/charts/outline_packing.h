@@ -23,13 +23,13 @@ enum class ChartTurns {
 /// \param outlines not empty, none without sides
 /// \param turns [outline]
 /// \param side of the square
-/// \param room least distance of two outlines
+/// \param padding least distance of two outlines
 /// \return [outline] its motion; empty where they do not fit
 std::vector<Motion> packOutlines(
 	const std::vector<Outline>& outlines,
 	const std::vector<ChartTurns>& turns,
 	double side,
-	double room);
+	double padding);
 
 } // namespace ricci
 

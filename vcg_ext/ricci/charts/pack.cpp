@@ -20,7 +20,7 @@ namespace ricci {
 
 namespace {
 
-/// Attempts to find the room between charts, which grows with the square that holds them.
+/// Attempts to find the padding between charts, which grows with the square that holds them.
 constexpr int kMaxAttempts = 60;
 
 /// Charts that are placed by their outlines at most.
@@ -74,25 +74,25 @@ double coveredArea(const FlatMesh& mesh)
 }
 
 /// One box beside the other.
-std::vector<Point2> inARow(const std::vector<Box2>& boxes, double room)
+std::vector<Point2> inARow(const std::vector<Box2>& boxes, double padding)
 {
 	std::vector<Point2> shifts;
 	double x = boxes.empty() ? 0.0 : boxes.front().min[0];
 	for (const Box2& box : boxes) {
 		shifts.push_back({x - box.min[0], 0.0});
-		x += box.width() + room;
+		x += box.width() + padding;
 	}
 	return shifts;
 }
 
-/// Charts in a square: their motions, the box round them and the room between it and the square.
+/// Charts in a square: their motions, the box round them and the padding between it and the square.
 struct Packing
 {
 	std::vector<Motion> motions; ///< [chart]
 	Box2 whole;
-	double room = 0.0;
+	double padding = 0.0;
 
-	double side() const { return whole.extent() + 2.0 * room; }
+	double side() const { return whole.extent() + 2.0 * padding; }
 };
 
 /// By boxes alone.
@@ -101,12 +101,12 @@ Packing packBoxes(const std::vector<Box2>& boxes, double margin, const PlaceBoxe
 	// The margin is a share of a square that grows with the margin.
 	Packing packing;
 	double size = 0.0;
-	for (int attempt = 0; attempt == 0 || packing.room < margin * size; ++attempt) {
+	for (int attempt = 0; attempt == 0 || packing.padding < margin * size; ++attempt) {
 		if (attempt == kMaxAttempts || !marginsMayFit(boxes.size(), margin))
 			throw InvalidOption(InvalidOption::ChartMarginTooWide, margin, 0.0, boxes.size());
 		packing = {};
-		packing.room = (1.0 + kMarginSpare) * margin * size;
-		const std::vector<Point2> shift = placeBoxes(boxes, packing.room);
+		packing.padding = (1.0 + kMarginSpare) * margin * size;
+		const std::vector<Point2> shift = placeBoxes(boxes, packing.padding);
 		for (std::size_t i = 0; i < boxes.size(); ++i) {
 			packing.whole.add(boxes[i].min + shift[i]);
 			packing.whole.add(boxes[i].max + shift[i]);
@@ -160,14 +160,14 @@ struct OutlineTask
 	const std::vector<Box2>& boxes;                 ///< [chart]
 	const std::vector<char>& isThin;                ///< [chart]
 	double side;                                    ///< of the square that holds the boxes
-	double room;                                    ///< between charts
+	double padding;                                 ///< between charts
 };
 
 /// The largest charts by their outlines, the others in one box.
 /// \return without motions where they do not fit into the square of the task
 Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, ChartTurns turns)
 {
-	const auto& [mesh, triangles, boxes, isThin, side, room] = task;
+	const auto& [mesh, triangles, boxes, isThin, side, padding] = task;
 	std::vector<std::size_t> order(boxes.size());
 	std::iota(order.begin(), order.end(), std::size_t{0});
 	const auto area = [&boxes = boxes](std::size_t i) {
@@ -197,7 +197,7 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 	smallBoxes.reserve(small.size());
 	for (const std::size_t i : small)
 		smallBoxes.push_back(boxes[i]);
-	const std::vector<Point2> shift = placeBoxes(smallBoxes, room);
+	const std::vector<Point2> shift = placeBoxes(smallBoxes, padding);
 	Box2 ofSmall;
 	for (std::size_t k = 0; k < small.size(); ++k) {
 		ofSmall.add(smallBoxes[k].min + shift[k]);
@@ -208,7 +208,7 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 		outlines.push_back(borderOf(ofSmall));
 		turnsOf.push_back(ChartTurns::Quarter); // their boxes stay upright
 	}
-	const std::vector<Motion> motions = packOutlines(outlines, turnsOf, side - room, room);
+	const std::vector<Motion> motions = packOutlines(outlines, turnsOf, side - padding, padding);
 	if (motions.empty())
 		return {};
 	Packing packing;
@@ -218,7 +218,7 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 				p = motions[k](p);
 				packing.whole.add(p);
 			}
-	if (!keepApart(outlines, (1.0 - kMarginSpare) * room))
+	if (!keepApart(outlines, (1.0 - kMarginSpare) * padding))
 		return {};
 	packing.motions.resize(boxes.size());
 	for (std::size_t k = 0; k < large.size(); ++k)
@@ -283,21 +283,21 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 	}
 	if (turns != ChartTurns::None && packing.side() > 0.0 &&
 		!(boxes.size() == 1 && isThin.front())) {
-		const double room = std::max(packing.room, kMinOutlineRoom * packing.side());
+		const double padding = std::max(packing.padding, kMinPadding * packing.side());
 		Packing turned = boxes.size() == 1
 							 ? packAlone(map.mesh)
 							 : packByOutlines(
-								   {map.mesh, triangles, boxes, isThin, packing.side(), room},
+								   {map.mesh, triangles, boxes, isThin, packing.side(), padding},
 								   placeBoxes,
 								   turns);
 		const double share =
 			(1.0 + kMarginSpare) * options.chartMargin; // of the square, on each side
-		turned.room = share / (1.0 - 2.0 * share) * turned.whole.extent();
+		turned.padding = share / (1.0 - 2.0 * share) * turned.whole.extent();
 		if (!turned.motions.empty() && turned.side() <= (1.0 - kWorthTurning) * packing.side())
 			packing = std::move(turned);
 	}
 	const std::complex<double> corner(
-		packing.whole.min[0] - packing.room, packing.whole.min[1] - packing.room);
+		packing.whole.min[0] - packing.padding, packing.whole.min[1] - packing.padding);
 	const double scale = 1.0 / packing.side();
 	for (Motion& motion : packing.motions)
 		motion = {scale * motion.turn, scale * (motion.shift - corner)};

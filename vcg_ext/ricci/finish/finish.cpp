@@ -100,7 +100,7 @@ FinishCounts finishInDisk(FlatMesh& flat, bool freeBoundary)
 	RepairRules rules{RestShapes::OfSurface, {height, kWantedHeights * height}, isInDisk};
 	if (!flat.source.empty()) {
 		rules.shapes = RestShapes::OfDrawing;
-		rules.soundness = {kMinRefinedHeight * kDiskExtent, height};
+		rules.validity = {kMinRefinedHeight * kDiskExtent, height};
 	}
 	return repaired(
 		flat, SeamGeometry::Disk, [&](int) { return freeBoundary; }, rules);

@@ -146,9 +146,9 @@ Descent leastStretch(FlatMesh& flat)
 	checkpoint();
 	scaleToSurface(flat);
 	const double height = kMinHeight * flat.box().extent();
-	const Soundness soundness{height, kWantedHeights * height};
+	const Validity validity{height, kWantedHeights * height};
 	const std::vector<RestShape> shapes =
-		restShapes(flat, wholePatch(flat), RestShapes::OfSurfaceEvenly, soundness);
+		restShapes(flat, wholePatch(flat), RestShapes::OfSurfaceEvenly, validity);
 	StretchDescent descent(flat, shapes);
 	const Descent result = descent.descend();
 	flat.place = descent.places();

@@ -59,17 +59,17 @@ struct PatchSetting
 			flat,
 			groups,
 			patch,
-			restShapes(flat, patch, rules.shapes, rules.soundness),
-			rules.soundness,
+			restShapes(flat, patch, rules.shapes, rules.validity),
+			rules.validity,
 			maxSteps};
 	}
 };
 
-/// Whether no places of its variables make a patch sound: a triangle has a side that stays and is too
+/// Whether no places of its variables make a patch valid: a triangle has a side that stays and is too
 /// short; or the triangles need more than the area that the patch keeps where its border stays.
 bool isHopeless(const PatchSetting& setting, const Patch& patch)
 {
-	const Soundness& soundness = setting.rules.soundness;
+	const Validity& validity = setting.rules.validity;
 	double area = 0.0;
 	bool borderStays = true;
 	for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
@@ -82,16 +82,16 @@ bool isHopeless(const PatchSetting& setting, const Patch& patch)
 			const bool stays = patch.variable[local[k]] < 0;
 			staying += stays;
 			if (stays && patch.variable[local[next]] < 0 &&
-				distance(soundness.stored(p[k]), soundness.stored(p[next])) <= soundness.height)
+				distance(validity.stored(p[k]), validity.stored(p[next])) <= validity.height)
 				return true;
 			borderStays =
 				borderStays && (stays || setting.groups.inside[patch.points[positionOf(local[k])]]);
 		}
-		if (staying == 3 && !soundness.isSound(p))
+		if (staying == 3 && !validity.isValid(p))
 			return true;
 	}
 	// An equilateral triangle has the least area of all with its height.
-	const double minArea = soundness.height * soundness.height / std::sqrt(3.0);
+	const double minArea = validity.height * validity.height / std::sqrt(3.0);
 	return borderStays && area <= minArea * static_cast<double>(patch.triangles.size());
 }
 
@@ -181,7 +181,7 @@ std::vector<Untangled> solveAll(
 /// What has become of the places that were found for a patch.
 enum class Outcome { Useless, Refused, TakenOver };
 
-/// Takes over the patches that are sound, or better than before if that will do.
+/// Takes over the patches that are valid, or better than before if that will do.
 /// \return [patch]
 std::vector<Outcome> takeOver(
 	const std::vector<Patch>& patches,
@@ -192,7 +192,7 @@ std::vector<Outcome> takeOver(
 {
 	std::vector<Outcome> outcomes(patches.size(), Outcome::Useless);
 	for (std::size_t i = 0; i < patches.size(); ++i) {
-		if (found[i].points.empty() || !(found[i].sound || rules.partly))
+		if (found[i].points.empty() || !(found[i].valid || rules.partly))
 			continue;
 		if (!apply(flat, patches[i], found[i].points, rules.accepts)) {
 			outcomes[i] = Outcome::Refused;
@@ -211,18 +211,18 @@ bool isAnyTakenOver(const std::vector<Outcome>& outcomes)
 	return std::count(outcomes.begin(), outcomes.end(), Outcome::TakenOver) > 0;
 }
 
-/// Whether a patch is a whole chart, and none of its triangles is sound: nothing that could be lost.
-bool isUnsoundWhole(const PatchSetting& setting, const Patch& patch)
+/// Whether a patch is a whole chart, and none of its triangles is valid: nothing that could be lost.
+bool isInvalidWhole(const PatchSetting& setting, const Patch& patch)
 {
 	return patch.isFree() &&
 		   std::none_of(patch.triangles.begin(), patch.triangles.end(), [&](int f) {
-			   return setting.rules.soundness.isSound(setting.flat.at(f));
+			   return setting.rules.validity.isValid(setting.flat.at(f));
 		   });
 }
 
 /// Triangles at points that were moved whose shape on the surface is far from that in the map.
 std::vector<int>
-strainedTriangles(const FlatMesh& flat, const Array<char>& moved, const Soundness& soundness)
+strainedTriangles(const FlatMesh& flat, const Array<char>& moved, const Validity& validity)
 {
 	std::vector<int> strained;
 	for (const int f : flat.points.indices()) {
@@ -233,7 +233,7 @@ strainedTriangles(const FlatMesh& flat, const Array<char>& moved, const Soundnes
 		alone.triangles = {f};
 		alone.points = {c[0], c[1], c[2]};
 		alone.corners.push_back({0, 1, 2});
-		const RestShape shape = restShapes(flat, alone, RestShapes::OfSurface, soundness).front();
+		const RestShape shape = restShapes(flat, alone, RestShapes::OfSurface, validity).front();
 		if (strain(shape, flat.at(f)) > kMaxStrain)
 			strained.push_back(f);
 	}
@@ -253,7 +253,7 @@ void easeStrained(
 	std::int64_t work = limit.ofStage();
 	const std::int64_t before = work;
 	for (const int rings : kEasedRings) {
-		const std::vector<int> strained = strainedTriangles(flat, result.moved, rules.soundness);
+		const std::vector<int> strained = strainedTriangles(flat, result.moved, rules.validity);
 		if (strained.empty())
 			break;
 		std::vector<Patch> patches = finder.patches(strained, rings);
@@ -282,7 +282,7 @@ run(const std::vector<Stage>& stages,
 	PointGroups& groups)
 {
 	Repair result;
-	result.bad = result.left = static_cast<int>(badTriangles(flat, rules.soundness).size());
+	result.bad = result.left = static_cast<int>(badTriangles(flat, rules.validity).size());
 	for (const Stage& stage : stages) {
 		if (result.left == 0)
 			break;
@@ -311,11 +311,11 @@ void Repair::add(const Repair& next)
 	left = next.left;
 }
 
-std::vector<int> badTriangles(const FlatMesh& flat, const Soundness& soundness)
+std::vector<int> badTriangles(const FlatMesh& flat, const Validity& validity)
 {
 	std::vector<int> bad;
 	for (const int f : flat.points.indices())
-		if (!soundness.isSound(flat.at(f)))
+		if (!validity.isValid(flat.at(f)))
 			bad.push_back(f);
 	return bad;
 }
@@ -323,7 +323,7 @@ std::vector<int> badTriangles(const FlatMesh& flat, const Soundness& soundness)
 Repair repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rules, WorkLimit& limit)
 {
 	Repair result;
-	std::vector<int> bad = badTriangles(flat, rules.soundness);
+	std::vector<int> bad = badTriangles(flat, rules.validity);
 	result.bad = result.left = static_cast<int>(bad.size());
 	if (bad.empty())
 		return result;
@@ -354,7 +354,7 @@ Repair repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rule
 		});
 		const std::vector<Untangled> found = solveAll(setting, untangle, patches, work);
 		for (std::size_t i = 0; i < patches.size(); ++i)
-			if (!found[i].sound) {
+			if (!found[i].valid) {
 				const PatchSize size = sizeOf(flat, patches[i]);
 				for (const int f : patches[i].triangles)
 					failed[f] = size;
@@ -366,16 +366,16 @@ Repair repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rule
 		// Where a chart crosses itself now, its convex layout does not.
 		std::vector<Patch> refused;
 		for (std::size_t i = 0; i < patches.size(); ++i)
-			if (outcomes[i] == Outcome::Refused && found[i].sound &&
-				isUnsoundWhole(setting, patches[i]))
+			if (outcomes[i] == Outcome::Refused && found[i].valid &&
+				isInvalidWhole(setting, patches[i]))
 				refused.push_back(patches[i]);
 		const std::vector<Untangled> unfolded = solveAll(setting, unfold, refused, work);
 		isAny = isAnyTakenOver(takeOver(refused, unfolded, rules, flat, result)) || isAny;
 		if (!isAny)
 			continue;
 		tried.clear();
-		bad = badTriangles(
-			flat, rules.soundness); // a patch mended partly may have others than before
+		bad =
+			badTriangles(flat, rules.validity); // a patch mended partly may have others than before
 		if (bad.empty())
 			break;
 	}
@@ -392,7 +392,7 @@ Repair repairInStages(
 	WorkLimit& limit)
 {
 	const RestShapes shapes = rules.shapes;
-	const Soundness& soundness = rules.soundness;
+	const Validity& validity = rules.validity;
 	const int maxRings = rules.maxRings;
 	const auto inside = [&] { return insidePoints(flat); };
 	const auto asAllowed = [&] { return joinedPoints(flat, seams, boundaryMoves); };
@@ -409,7 +409,7 @@ Repair repairInStages(
 		stages.push_back(partly);
 	// A limb that the map has shrunk below any height needs room from all round it. That bends the
 	// map, so only what is stored as it is gets it: floats, not text.
-	if (soundness.asFloats && soundness.step == 0.0) {
+	if (validity.asFloats && validity.step == 0.0) {
 		stages.push_back({everywhere, RestShapes::OfSurfaceEvenly, maxRings, true});
 		stages.push_back(partly);
 	}

@@ -6,7 +6,7 @@
 #include "patches.h"
 #include "point_groups.h"
 #include "rest_shape.h"
-#include "soundness.h"
+#include "validity.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace ricci {
 struct Repair
 {
 	Array<char> moved; ///< [point] 1 where the repair moved it; empty where nothing was to be done
-	int bad = 0;       ///< triangles that were not sound before
+	int bad = 0;       ///< triangles that were not valid before
 	int left = 0;      ///< and after
 
 	int movedCount() const;
@@ -55,8 +55,8 @@ private:
 	std::int64_t m_stage, m_left;
 };
 
-/// Triangles of \p flat that are not sound.
-std::vector<int> badTriangles(const FlatMesh& flat, const Soundness& soundness);
+/// Triangles of \p flat that are not valid.
+std::vector<int> badTriangles(const FlatMesh& flat, const Validity& validity);
 
 /// Whether a patch may be as it is in the map; called one after another.
 using PatchTest = std::function<bool(const FlatMesh& flat, const Patch& patch)>;
@@ -65,13 +65,13 @@ using PatchTest = std::function<bool(const FlatMesh& flat, const Patch& patch)>;
 struct RepairRules
 {
 	RestShapes shapes;
-	Soundness soundness;
+	Validity validity;
 	PatchTest accepts = nullptr; ///< a patch that it refuses stays as it was
 	int maxRings = 34;           ///< of the largest patches
 	bool partly = false;         ///< patches, too, of which a part was mended
 };
 
-/// Mends the triangles that are not sound: moves points near them, and no others.
+/// Mends the triangles that are not valid: moves points near them, and no others.
 ///
 /// Patches of 1, 2, 3, 5, 8, ... rings round clusters of bad triangles are untangled
 /// (untangle.h) until one holds, or until the limit's share of a stage is spent; triangles that no patch

@@ -111,7 +111,7 @@ scales(const FlatMesh& flat, const Patch& patch, const std::vector<RestShape>& s
 } // namespace
 
 std::vector<RestShape>
-restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Soundness& soundness)
+restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Validity& validity)
 {
 	std::vector<RestShape> shapes;
 	for (const int f : patch.triangles)
@@ -123,7 +123,7 @@ restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Soun
 		shapes[i] = from == RestShapes::OfDrawing && doubledArea(p[0], p[1], p[2]) > 0.0
 						? shapeOf(p)
 						: scaled(shapes[i], scale[i]);
-		shapes[i] = heightened(shapes[i], soundness.wanted);
+		shapes[i] = heightened(shapes[i], validity.wanted);
 	}
 	return shapes;
 }

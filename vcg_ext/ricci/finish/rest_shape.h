@@ -4,7 +4,7 @@
 
 #include "../layout/flat_mesh.h"
 #include "patches.h"
-#include "soundness.h"
+#include "validity.h"
 
 #include <complex>
 #include <vector>
@@ -27,9 +27,9 @@ enum class RestShapes {
 };
 
 /// The shapes of the triangles of \p patch. A triangle without a shape, or with a thin one, gets one that is
-/// less thin. All are as high as \p soundness wants.
+/// less thin. All are as high as \p validity wants.
 std::vector<RestShape>
-restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Soundness& soundness);
+restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Validity& validity);
 
 } // namespace ricci
 

@@ -18,7 +18,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Values of eps that are tried, and Newton steps with each of them; the steps that follow once all
-/// triangles are sound.
+/// triangles are valid.
 constexpr int kMaxRounds = 40, kStepsPerRound = 3, kLastSteps = 10;
 
 /// Newton steps of ease(), and the share of the energy that a step must not leave to be followed by
@@ -26,7 +26,7 @@ constexpr int kMaxRounds = 40, kStepsPerRound = 3, kLastSteps = 10;
 constexpr int kEasingSteps = 40;
 constexpr double kMinImprovement = 0.9999;
 
-/// Rounds without a gain after which a patch is given up; the weight of triangles that are not sound
+/// Rounds without a gain after which a patch is given up; the weight of triangles that are not valid
 /// after such a round grows by this factor.
 constexpr int kMaxIdleRounds = 6;
 constexpr double kStress = 8.0;
@@ -44,7 +44,7 @@ constexpr LineSearch kHalving{0x1p-29, 0.5, 0.5};
 /// floats reach.
 constexpr double kMaxExtent = 1e4;
 
-/// The search for a sound patch.
+/// The search for a valid patch.
 class Untangler
 {
 public:
@@ -66,7 +66,7 @@ public:
 	}
 
 	/// The same from other places of the points, where all triangles are the right way round.
-	/// \param goOn if they are sound there, too
+	/// \param goOn if they are valid there, too
 	Untangled runFrom(const std::vector<Point2>& places, bool goOn)
 	{
 		for (std::size_t i = 0; i < places.size(); ++i) {
@@ -122,10 +122,10 @@ private:
 			}
 			least = m_energy.minDeterminant(m_x);
 			gained = value < kMinGain * first;
-			const std::size_t bad = m_unsound.size();
+			const std::size_t bad = m_invalid.size();
 			bool isIdle = false;
 			if (least > m_eps) { // all are the right way round, but some too low
-				for (const int i : m_unsound)
+				for (const int i : m_invalid)
 					m_energy.stress(i, kStress);
 				isIdle = 10 * bad >= 9 * before;
 			}
@@ -142,8 +142,8 @@ private:
 	}
 
 	/// One Newton step that lowers the energy.
-	/// \param soundOnly the step must leave the patch sound
-	bool descend(double& value, bool soundOnly)
+	/// \param validOnly the step must leave the patch valid
+	bool descend(double& value, bool validOnly)
 	{
 		if (m_found.steps == m_problem.maxSteps)
 			return false;
@@ -159,7 +159,7 @@ private:
 				m_trial = m_x + trial * m_step;
 				return next = m_energy.value(m_trial, m_eps);
 			},
-			[&] { return !soundOnly || place(m_trial); });
+			[&] { return !validOnly || place(m_trial); });
 		if (length == 0.0)
 			return false;
 		m_x.swap(m_trial);
@@ -167,7 +167,7 @@ private:
 		return true;
 	}
 
-	/// Goes on from a sound patch to a better one.
+	/// Goes on from a valid patch to a better one.
 	void improve(int steps)
 	{
 		m_eps = kMinEps;
@@ -179,9 +179,9 @@ private:
 		}
 	}
 
-	/// Lists the triangles that are not sound at \p x, and takes the places of the points over if that
+	/// Lists the triangles that are not valid at \p x, and takes the places of the points over if that
 	/// is better than what is known.
-	/// \return whether all are sound
+	/// \return whether all are valid
 	bool place(const Eigen::VectorXd& x)
 	{
 		m_places.clear();
@@ -190,28 +190,28 @@ private:
 			m_places.push_back(
 				variable < 0
 					? m_problem.flat.place[p]
-					: m_problem.soundness.stored(m_problem.groups.displaced(
+					: m_problem.validity.stored(m_problem.groups.displaced(
 						  p, m_problem.flat.place, Complex(x[2 * variable], x[2 * variable + 1]))));
 		}
-		m_unsound.clear();
+		m_invalid.clear();
 		std::size_t flipped = 0;
 		for (const int i : m_patch.corners.indices()) {
 			const Triangle& t = m_patch.corners[i];
 			const Triangle2 corners{
 				m_places[positionOf(t[0])], m_places[positionOf(t[1])], m_places[positionOf(t[2])]};
-			if (m_problem.soundness.isSound(corners))
+			if (m_problem.validity.isValid(corners))
 				continue;
-			m_unsound.push_back(i);
-			flipped += !m_problem.soundness.isUpright(corners);
+			m_invalid.push_back(i);
+			flipped += !m_problem.validity.isUpright(corners);
 		}
-		const std::array<std::size_t, 2> counts{flipped, m_unsound.size()};
-		const bool sound = m_unsound.empty();
-		if (sound || counts < m_least) {
+		const std::array<std::size_t, 2> counts{flipped, m_invalid.size()};
+		const bool valid = m_invalid.empty();
+		if (valid || counts < m_least) {
 			m_least = counts;
 			m_found.points = m_places;
-			m_found.sound = sound;
+			m_found.valid = valid;
 		}
-		return sound;
+		return valid;
 	}
 
 	static constexpr double kEpsShare = 0.2, kMinEps = 1e-9;
@@ -223,8 +223,8 @@ private:
 	Eigen::VectorXd m_x, m_trial, m_gradient, m_step;
 	double m_eps = 1.0;
 	std::vector<Point2> m_places;       // of the last trial
-	std::vector<int> m_unsound;         // triangles of the patch there
-	std::array<std::size_t, 2> m_least; // flipped and unsound ones at the best places
+	std::vector<int> m_invalid;         // triangles of the patch there
+	std::array<std::size_t, 2> m_least; // flipped and invalid ones at the best places
 	Untangled m_found;
 };
 
@@ -254,8 +254,8 @@ std::vector<Point2> unfolded(const PatchProblem& problem)
 		lowest = std::min(lowest, doubledArea(p[0], p[1], p[2]) / longest);
 	}
 	double scale = std::sqrt(wanted / has);
-	if (const double least = problem.soundness.wanted / lowest; least > scale)
-		scale = std::clamp(least, scale, std::max(scale, kMaxExtent * problem.soundness.height));
+	if (const double least = problem.validity.wanted / lowest; least > scale)
+		scale = std::clamp(least, scale, std::max(scale, kMaxExtent * problem.validity.height));
 	const double share = 1.0 / static_cast<double>(places.size());
 	Complex middle = 0.0;
 	for (const int p : patch.points)
@@ -270,13 +270,13 @@ std::vector<Point2> unfolded(const PatchProblem& problem)
 Untangled untangle(const PatchProblem& problem)
 {
 	Untangled found = Untangler(problem).run();
-	if (found.sound || found.steps == problem.maxSteps || !problem.patch.isFree())
+	if (found.valid || found.steps == problem.maxSteps || !problem.patch.isFree())
 		return found;
 	const std::vector<Point2> places = unfolded(problem);
 	if (places.empty())
 		return found;
 	Untangled next = Untangler(problem, found.steps).runFrom(places, true);
-	if (next.sound)
+	if (next.valid)
 		return next;
 	found.steps = next.steps;
 	return found;

@@ -5,35 +5,35 @@
 #include "../layout/flat_mesh.h"
 #include "patches.h"
 #include "rest_shape.h"
-#include "soundness.h"
+#include "validity.h"
 
 #include <vector>
 
 namespace ricci {
 
-/// A patch whose triangles are to be sound, and as near to their rest shapes as its border lets them be.
+/// A patch whose triangles are to be valid, and as near to their rest shapes as its border lets them be.
 struct PatchProblem
 {
 	const FlatMesh& flat;
 	const PointGroups& groups;
 	const Patch& patch;
 	std::vector<RestShape> shapes; ///< [triangle of the patch]
-	const Soundness& soundness;
+	const Validity& validity;
 	int maxSteps; ///< of Newton in all; then the search is over
 };
 
 /// What untangle() found.
 struct Untangled
 {
-	bool sound = false; ///< every triangle of the patch is
-	/// [local point] Places, as they are stored, where all triangles are sound, or where fewer are
+	bool valid = false; ///< every triangle of the patch is
+	/// [local point] Places, as they are stored, where all triangles are valid, or where fewer are
 	/// flipped or flat than before, or as many are and fewer are too low. Empty if none were
 	/// found.
 	std::vector<Point2> points;
 	int steps = 0; ///< of Newton
 };
 
-/// Moves the inner points of a patch until all its triangles are sound.
+/// Moves the inner points of a patch until all its triangles are valid.
 ///
 /// It minimises the sum over the triangles of w (|J|^2 + lambda (1 + det^2 J)) / chi(det J), where
 /// J is the linear map from the rest shape, w its area, and chi(d) = (d + sqrt(eps^2 + d^2)) / 2 is
@@ -42,15 +42,15 @@ struct Untangled
 /// triangle's Hessian made positive semidefinite: in terms of f_z and f_zbar its eigenvalues have
 /// closed forms.
 ///
-/// If no sound places are found for a free patch from where it is, the search starts anew from
+/// If no valid places are found for a free patch from where it is, the search starts anew from
 /// convexLayout(), where no triangle is flipped, and with eps next to 0.
 Untangled untangle(const PatchProblem& problem);
 
 /// convexLayout() of a free patch, enlarged for its lowest triangle within bounds. If a triangle still is not
-/// sound, the search goes on from there. Empty if there is no such layout.
+/// valid, the search goes on from there. Empty if there is no such layout.
 Untangled unfold(const PatchProblem& problem);
 
-/// Lowers the same energy, with eps = 0, on a patch that is sound, which it stays.
+/// Lowers the same energy, with eps = 0, on a patch that is valid, which it stays.
 Untangled ease(const PatchProblem& problem);
 
 } // namespace ricci

@@ -12,7 +12,7 @@
 #include "../verify/chart_check.h"
 #include "../verify/holonomy_check.h"
 #include "../verify/metric_check.h"
-#include "stages.h"
+#include "flatten_steps.h"
 #include "whole_map.h"
 
 #include <algorithm>

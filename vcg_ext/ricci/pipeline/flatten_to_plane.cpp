@@ -20,8 +20,8 @@
 #include "../verify/chart_check.h"
 #include "../verify/holonomy_check.h"
 #include "../verify/metric_check.h"
+#include "flatten_steps.h"
 #include "keep_areas.h"
-#include "stages.h"
 #include "whole_map.h"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include "../base/tolerances.h"
 #include "../curvature/area_change.h"
 #include "../flow/ricci_flow.h"
-#include "stages.h"
+#include "flatten_steps.h"
 
 #include <memory>
 #include <optional>

@@ -17,7 +17,7 @@ namespace ricci {
 namespace {
 
 /// Whether this can be seen from borders alone.
-bool coversNothingTwice(const FlatMesh& mesh, std::size_t charts, double room)
+bool coversNothingTwice(const FlatMesh& mesh, std::size_t charts, double padding)
 {
 	std::vector<Outline> outlines;
 	for (const std::vector<int>& triangles : mesh.trianglesByChart(charts)) {
@@ -27,7 +27,7 @@ bool coversNothingTwice(const FlatMesh& mesh, std::size_t charts, double room)
 		if (charts > 1)
 			outlines.push_back(outlineOf(mesh, triangles));
 	}
-	return charts == 1 || keepApart(outlines, room);
+	return charts == 1 || keepApart(outlines, padding);
 }
 
 /// The triangles with their coordinates rounded to float. \param step receives that of the largest one

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steps that the drivers of one component share.
-#ifndef RICCI_STAGES_H
-#define RICCI_STAGES_H
+// Steps that flattenToPlane() and flattenToDisk() share.
+#ifndef RICCI_FLATTEN_STEPS_H
+#define RICCI_FLATTEN_STEPS_H
 
 #include "../base/task.h"
 #include "../curvature/target_curvature.h"

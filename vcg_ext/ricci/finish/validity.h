@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_SOUNDNESS_H
-#define RICCI_SOUNDNESS_H
+#ifndef RICCI_VALIDITY_H
+#define RICCI_VALIDITY_H
 
 #include "../base/floating_point.h"
 #include "../math/orientation.h"
@@ -12,7 +12,7 @@
 namespace ricci {
 
 /// What a triangle must be in the plane.
-struct Soundness
+struct Validity
 {
 	double height = 0.0;   ///< its least height is above this
 	double wanted = 0.0;   ///< and should be this at least where it is mended
@@ -33,7 +33,7 @@ struct Soundness
 	}
 
 	/// Whether it is counter-clockwise, exactly, and high enough.
-	bool isSound(const Triangle2& p) const
+	bool isValid(const Triangle2& p) const
 	{
 		const Point2 a = inMemory(p[0]), b = inMemory(p[1]), c = inMemory(p[2]);
 		const auto square = [](const Point2& from, const Point2& to) {
