@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/flat_meshes.h"
+#include "support/random.h"
 
 #include <ricci/layout/flat_mesh.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 namespace ricci::testing {
@@ -81,6 +83,33 @@ TEST(FlatMesh, SplitPointsBelongToOneChartAndOneFan)
 	for (const int f : mesh.points.indices())
 		for (const int p : mesh.points[f])
 			EXPECT_EQ(chart[p], mesh.chart[f]);
+}
+
+/// A chart that is cut in two: the points of the other stay, those along the cut are two.
+TEST(FlatMesh, PointsOfSomeTrianglesAreSplitAsThoseOfAll)
+{
+	Random random(77);
+	for (int trial = 0; trial < 50; ++trial) {
+		FlatMesh mesh = withSeam({2.0, 0.0});
+		mesh.chart.assign(mesh.size(), random.index(2));
+		std::vector<int> all(at(mesh.size()));
+		std::iota(all.begin(), all.end(), 0);
+		for (const int f : all)
+			if (random.index(4) == 0)
+				mesh.chart[f] = 2;
+		FlatMesh some = mesh;
+		splitPoints(mesh);
+		splitPoints(all, some);
+		EXPECT_EQ(some.corners(), mesh.corners());
+		ASSERT_EQ(some.place.size(), mesh.place.size());
+		Array<int> pointOf(mesh.place.size(), -1);
+		for (const int f : all)
+			for (const Corner c : cornersOf(f)) {
+				int& point = pointOf[mesh.points[c]];
+				EXPECT_TRUE(point < 0 || point == some.points[c]);
+				point = some.points[c];
+			}
+	}
 }
 
 TEST(FlatMesh, PartsKeepTheirTrianglesAndShareNoIndices)

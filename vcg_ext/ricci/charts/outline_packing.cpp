@@ -2,6 +2,7 @@
 #include "outline_packing.h"
 
 #include "../base/indexed.h"
+#include "../base/parallel.h"
 #include "../base/task.h"
 #include "../math/convex_hull.h"
 
@@ -435,10 +436,14 @@ std::vector<Motion> packOutlines(
 	const std::size_t largest = order.front();
 	const int freeAngles = std::clamp(256 / static_cast<int>(outlines.size()), 2, 16);
 
-	Drawing coarse(kCoarse, side, reach);
 	std::vector<std::vector<Shape>> shapes(outlines.size()); // [outline][turn]
 	std::vector<std::size_t> firsts;                         // of the largest, below a right angle
-	for (std::size_t i = 0; i < outlines.size(); ++i) {
+	std::int64_t sides = 0;
+	for (const Outline& outline : outlines)
+		sides += static_cast<std::int64_t>(outline.size());
+	const auto draw = [&](int number) {
+		const std::size_t i = positionOf(number);
+		Drawing coarse(kCoarse, side, reach);
 		const bool isFree = turns[i] == ChartTurns::Free;
 		const int quarters = turns[i] == ChartTurns::None ? 1 : 4;
 		std::vector<std::complex<double>> angles; // below a right one
@@ -453,8 +458,8 @@ std::vector<Motion> packOutlines(
 						firsts.push_back(shapes[i].size());
 					shapes[i].push_back(std::move(shape));
 				}
-		checkpoint();
-	}
+	};
+	tasksInParallel(static_cast<int>(outlines.size()), threadsFor(sides), draw);
 
 	Canvas canvas(kCoarse);
 	std::vector<Try> tries;
@@ -464,7 +469,7 @@ std::vector<Motion> packOutlines(
 			return {};
 		const Shape& first = shapes[largest][firsts[t % firsts.size()]];
 		Try next = place(
-			order, first, shapes, coarse.cell(), std::min(minSide + kSlack, kCoarse + 1), canvas);
+			order, first, shapes, side / kCoarse, std::min(minSide + kSlack, kCoarse + 1), canvas);
 		// Earlier the next time, but not before the largest.
 		const auto last = std::find(order.begin(), order.end(), next.last);
 		std::rotate(order.begin() + (last - order.begin() + 1) / 2, last, last + 1);
@@ -480,7 +485,7 @@ std::vector<Motion> packOutlines(
 		return {};
 
 	// In the turns that were found; finer cells may find other places.
-	Drawing fine(kFine, minSide * coarse.cell(), reach);
+	Drawing fine(kFine, minSide * side / kCoarse, reach);
 	Canvas fineCanvas(kFine);
 	minSide = kFine + 1;
 	std::vector<Motion> best = tries.front().motions;

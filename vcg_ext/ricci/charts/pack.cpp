@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "pack.h"
 
+#include "../base/parallel.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
@@ -186,13 +187,12 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 	}
 	if (large.empty() || areaOfLarge < areaOfSmall)
 		return {};
-	std::vector<Outline> outlines;
-	for (const std::size_t i : large) {
-		outlines.push_back(outlineOf(mesh, triangles[i]));
-		if (outlines.back().empty()) // without area
-			return {};
-		checkpoint();
-	}
+	std::vector<Outline> outlines(large.size());
+	tasksInParallel(static_cast<int>(large.size()), threadsFor(mesh.size() / 32), [&](int k) {
+		outlines[positionOf(k)] = outlineOf(mesh, triangles[large[positionOf(k)]]);
+	});
+	if (std::any_of(outlines.begin(), outlines.end(), [](const Outline& o) { return o.empty(); }))
+		return {}; // without area
 	std::vector<Box2> smallBoxes;
 	smallBoxes.reserve(small.size());
 	for (const std::size_t i : small)

@@ -22,12 +22,11 @@ namespace {
 
 using Parts = std::vector<std::vector<int>>; // triangles of each
 
-/// Gives new charts points of their own, and moves each to the origin; where \p turns turns it so that
+/// Moves each of the charts, which have points of their own, to the origin; where \p turns turns it so that
 /// its smallest bounding rectangle lies along the axes.
 void settle(const std::vector<int>& charts, bool turns, Parametrization& map)
 {
 	FlatMesh& mesh = map.mesh;
-	splitPoints(mesh);
 	const std::vector<std::vector<int>> pointsOf = mesh.pointsByChart(map.charts.size());
 	for (const int chart : charts) {
 		const std::vector<int>& points = pointsOf[positionOf(chart)];
@@ -159,7 +158,7 @@ std::optional<Halves> halves(
 }
 
 /// Puts pieces of the chart \p number in its place, the first where it was, the others last.
-/// \return the numbers of the pieces, which settle() has to be called for
+/// \return the numbers of the pieces, which need points of their own, and settle()
 std::vector<int> divide(int number, const Parts& pieces, Parametrization& map)
 {
 	std::vector<int> charts;
@@ -236,6 +235,7 @@ void separateCharts(bool turns, Parametrization& map)
 	map.report.charts = static_cast<int>(map.charts.size());
 	if (divided.empty())
 		return;
+	splitPoints(map.mesh);
 	settle(divided, turns, map);
 	countCuts(before, map);
 }
@@ -253,6 +253,7 @@ void joinCharts(Parametrization& map)
 		charts.push_back(static_cast<int>(charts.size()));
 	}
 	map.report.charts = static_cast<int>(charts.size());
+	splitPoints(mesh);
 	settle(charts, true, map);
 }
 
@@ -302,7 +303,9 @@ std::optional<Parametrization> cutForRoom(const Parametrization& map, double onS
 					   std::log1p(cut->length / (std::sqrt(onSurface) + map.report.seamLength)))
 			continue;
 		Parametrization result = map;
-		settle(divide(static_cast<int>(wide.chart), cut->pieces, result), turns, result);
+		const std::vector<int> parts = divide(static_cast<int>(wide.chart), cut->pieces, result);
+		splitPoints(triangles, result.mesh);
+		settle(parts, turns, result);
 		result.report.overlapCuts += cut->edges;
 		result.report.seamLength += cut->length;
 		return result;
@@ -328,6 +331,7 @@ bool cutOff(const std::vector<char>& isOff, Parametrization& map)
 	}
 	if (divided.empty())
 		return false;
+	splitPoints(map.mesh);
 	settle(divided, false, map);
 	countCuts(before, map);
 	return true;

@@ -122,6 +122,9 @@ void weld(FlatMesh& mesh);
 /// points that no corner has.
 void splitPoints(FlatMesh& mesh);
 
+/// The same of some triangles, whose points no others have: one part at each point keeps it.
+void splitPoints(const std::vector<int>& triangles, FlatMesh& mesh);
+
 /// Finds FlatMesh::across by the vertices.
 void connect(FlatMesh& mesh);
 
