@@ -58,6 +58,14 @@ void logFlow(const FlowResult& flow, const FlowOptions& options)
 			numberText(flow.residual, 3) + " (rounding floor " + numberText(flow.floor, 3) + ").");
 }
 
+void logCut(ComponentMap& map)
+{
+	if (!map.cut.endedEarly)
+		return;
+	++map.report.endedEarly;
+	logLine("The search for shorter seams has ended at the bound on its work.");
+}
+
 VertexArray<char>
 conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& onHole)
 {
@@ -78,33 +86,22 @@ flowOverlay(const FlowDomain& domain, const FlowOptions& options, const Componen
 	return divideStartTriangles(map.flow, domain.surface.triangulation.faceCount());
 }
 
-OverlayPieces cutAndOverlay(
+CutGraph cutDomain(
 	const FlowDomain& domain,
 	EdgeArray<double> cost,
-	const HalfedgeArray<double>& corners,
-	const FlowOptions& options,
-	ComponentMap& map)
+	const VertexArray<char>& cones,
+	const HalfedgeArray<double>& corners)
 {
+	advance(1.0 - kAfterFlow, "Shortening the seams");
 	const Triangulation& t = domain.surface.triangulation;
 	avoidDiagonals(domain.isDiagonal, cost);
 	for (const Edge e : domain.isForeign.indices())
 		if (domain.isForeign[e])
 			cost[e] = std::numeric_limits<double>::infinity();
-	OverlayPieces overlay;
-	besides(
-		threadsFor(t.faceCount()),
-		[&] { overlay = flowOverlay(domain, options, map); },
-		[&] {
-			map.cut = cutToDisk(t, cost, map.cones, corners);
-			if (domain.holes > 0)
-				dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, map.cones, map.cut);
-		});
-	if (map.cut.endedEarly) {
-		++map.report.endedEarly;
-		logLine("The search for shorter seams has ended at the bound on its work.");
-	}
-	advance(1.0 - kAfterFlow, "Cutting and layout");
-	return overlay;
+	CutGraph cut = cutToDisk(t, cost, cones, corners);
+	if (domain.holes > 0)
+		dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, cones, cut);
+	return cut;
 }
 
 SurfaceLayout placeCorners(

@@ -28,22 +28,23 @@ TargetInput targetInput(const Component& component, const VertexInput& input, in
 /// Logs what the user should know of a flow that reached its target.
 void logFlow(const FlowResult& flow, const FlowOptions& options);
 
+/// Counts, and logs, a search for seams that has ended early.
+void logCut(ComponentMap& map);
+
 /// 1 at the vertices inside that are not flat in the target: the cut must reach them.
 /// \p onHole 1 at vertices of holes that the flow closes with caps; may be empty.
 VertexArray<char>
 conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& onHole = {});
 
 /// The cut graph through all cones on edges of the surface (paper 4.3), without seams to holes that the
-/// flow closes with caps and, where it can, without seams inside polygons; and beside it, in another thread
-/// if there is one, the overlay of the flow if its pieces are given back.
+/// flow closes with caps and, where it can, without seams inside polygons.
 /// \param cost [edge] of a seam
 /// \param corners see shortenCut()
-OverlayPieces cutAndOverlay(
+CutGraph cutDomain(
 	const FlowDomain& domain,
 	EdgeArray<double> cost,
-	const HalfedgeArray<double>& corners,
-	const FlowOptions& options,
-	ComponentMap& map);
+	const VertexArray<char>& cones,
+	const HalfedgeArray<double>& corners = {});
 
 /// Sum of the lengths of the cut's edges.
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths);

@@ -51,6 +51,7 @@ void layOut(
 	const HyperbolicOptions& options,
 	ComponentMap& map)
 {
+	advance(1.0 - kAfterFlow, "Layout");
 	const Triangulation& t = domain.surface.triangulation;
 	SurfaceLayout disk = placeCorners(domain, std::move(overlay), options, map);
 	if (const double radius = radiusOf(disk.corners); radius > kWideRadius) {
@@ -77,6 +78,7 @@ void finish(const FlowDomain& domain, const HyperbolicOptions& options, Componen
 {
 	if (!isFinished(options))
 		return;
+	advance(1.0 - kAfterFlow, "Repairing the map");
 	FlatMesh own; // corners of the mesh
 	if (!isRefined(options))
 		own = flatMeshOf(domain.surface, map.layout);
@@ -107,27 +109,27 @@ ComponentMap flattenToDisk(
 	logFlow(map.flow, options);
 
 	map.cones = conesOf(domain.surface, map.flow.target);
-	advance(1.0 - kAfterFlow, "Shortening the seams");
 	const int threads = threadsFor(domain.surface.triangulation.faceCount());
+	OverlayPieces overlay;
+	besides(
+		threads,
+		[&] { overlay = flowOverlay(domain, options, map); },
+		[&] { // 4.3; wedges at cones may be as wide as they like in the disk
+			map.cut = cutDomain(domain, cutCost(domain, map.flow, options.method), map.cones);
+		});
+	logCut(map);
 	besides(
 		threads,
 		[&] {
-			OverlayPieces overlay = cutAndOverlay( // 4.3
-				domain,
-				cutCost(domain, map.flow, options.method),
-				{}, // wedges at cones may be as wide as they like in the disk
-				options,
-				map);
 			layOut(domain, std::move(overlay), options, map); // 4.3
+			finish(domain, options, map);
 		},
-		[&] { measurePeriods(map); });
+		[&] {
+			measurePeriods(map);
+			requireMetric(map.flow, domain.solved().topology.boundary);
+		});
 	map.report.seamLength = lengthOf(map.cut, domain.surface.lengths);
 	map.report.hyperbolicArea = map.flow.area;
-	advance(1.0 - kAfterFlow, "Repairing the map");
-	besides(
-		threads,
-		[&] { finish(domain, options, map); },
-		[&] { requireMetric(map.flow, domain.solved().topology.boundary); });
 
 	advance(1.0, "Checking the result");
 	if (!isRefined(options))

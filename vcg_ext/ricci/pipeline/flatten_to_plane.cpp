@@ -59,18 +59,35 @@ TargetRequest targetRequest(
 	return request;
 }
 
-/// Angles at the corners of cones, see coneCorners(); none where edges are swapped.
-HalfedgeArray<double>
-cornersOfCones(const FlowDomain& domain, const Options& options, const ComponentMap& map)
+/// [vertex] The angle in all at each cone of a target, radians; 0 elsewhere.
+VertexArray<double> coneAngles(const FlowDomain& domain, const Target& target)
 {
-	if (options.method == Method::EdgeSwaps)
-		return {};
+	const VertexArray<char> cones = conesOf(domain.surface, target, domain.onHole);
+	VertexArray<double> angles(cones.size(), 0.0);
+	for (const Vertex v : cones.indices())
+		if (cones[v])
+			angles[v] = 2.0 * kPi - target.curvature[v];
+	return angles;
+}
+
+/// The cut through cones of these angles. No wedge of one is too wide, unless edges are swapped.
+void cutOpen(
+	const FlowDomain& domain,
+	const VertexArray<double>& coneAngle,
+	const Options& options,
+	ComponentMap& map)
+{
 	const EmbeddedSurface& surface = domain.surface;
-	VertexArray<double> coneAngle(surface.triangulation.vertexCount(), 0.0);
-	for (const Vertex v : map.cones.indices())
-		if (map.cones[v])
-			coneAngle[v] = 2.0 * kPi - map.flow.target.curvature[v];
-	return coneCorners(surface.triangulation, surface.lengths, coneAngle);
+	const Triangulation& t = surface.triangulation;
+	map.cones.assign(coneAngle.size(), 0);
+	for (const Vertex v : coneAngle.indices())
+		map.cones[v] = coneAngle[v] > 0.0;
+	map.cut = cutDomain(
+		domain,
+		seamCost(t, surface.lengths, surface.positions, options.seamHiding),
+		map.cones,
+		options.method == Method::EdgeSwaps ? HalfedgeArray<double>()
+											: coneCorners(t, surface.lengths, coneAngle));
 }
 
 /// Scales the layout by \p scale and turns it so that its smallest bounding rectangle lies along the
@@ -170,6 +187,7 @@ void layOut(
 	const Options& options,
 	ComponentMap& map)
 {
+	advance(1.0 - kAfterFlow, "Layout");
 	const Triangulation& t = domain.surface.triangulation;
 	const bool mayChangeCut = map.type.boundaryLoops - domain.holes > 1;
 	map.layout = placeCorners(domain, std::move(overlay), options, map).corners;
@@ -212,6 +230,7 @@ void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 {
 	if (!isFinished(options) || isRefined(options))
 		return; // the refinement is exact
+	advance(1.0 - kAfterFlow, "Repairing the map");
 	const Finish finish = finishOf(options, map);
 	FlatMesh flat = flatMeshOf(domain.surface, map.layout);
 	const FinishCounts counts =
@@ -266,6 +285,8 @@ std::optional<ComponentMap> flattenToPlane(
 	TargetRequest request =
 		targetRequest(component, input, options, domain.solved().positions.size());
 	request.hasAlternative = alternative < kNoAlternative;
+	const int threads = threadsFor(domain.surface.triangulation.faceCount());
+	VertexArray<double> coneAngle; // for which it is cut
 	if (options.method == Method::EdgeSwaps)
 		flowWithEdgeSwaps(component, input, options, domain, map); // 5.4
 	else {
@@ -275,34 +296,32 @@ std::optional<ComponentMap> flattenToPlane(
 		const Target target = chooseTarget(domain.solved(), start, request); // 5.2, 5.3
 		if (target.expected && target.expected->total() > alternative)
 			return std::nullopt;
-		map.flow = runFlow(domain.solved(), std::move(start), target, options, map); // 4.2
+		coneAngle = coneAngles(domain, target);
+		besides(
+			threads,
+			[&] { // 4.2
+				map.flow = runFlow(domain.solved(), std::move(start), target, options, map);
+			},
+			[&] { cutOpen(domain, coneAngle, options, map); }); // 4.3
 	}
 	keepAreas(domain.solved(), request, options, map);
 	makeSeamless(domain.solved(), request, options, map);
 	logFlow(map.flow, options);
 
-	map.cones = conesOf(domain.surface, map.flow.target, domain.onHole);
-	advance(1.0 - kAfterFlow, "Shortening the seams");
-	const EmbeddedSurface& surface = domain.surface;
-	const int threads = threadsFor(surface.triangulation.faceCount());
+	if (const auto now = coneAngles(domain, map.flow.target); !(now == coneAngle))
+		cutOpen(domain, now, options, map);
+	logCut(map);
 	besides(
 		threads,
 		[&] {
-			OverlayPieces overlay = cutAndOverlay( // 4.3
-				domain,
-				seamCost(
-					surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
-				cornersOfCones(domain, options, map),
-				options,
-				map);
-			layOut(component, domain, std::move(overlay), options, map); // 4.3
+			layOut(component, domain, flowOverlay(domain, options, map), options, map); // 4.3
+			finish(domain, options, map);
 		},
-		[&] { measurePeriods(map); });
-	advance(1.0 - kAfterFlow, "Repairing the map");
-	besides(
-		threads,
-		[&] { finish(domain, options, map); },
-		[&] { requireMetric(map.flow, domain.solved().topology.boundary); });
+		[&] {
+			measurePeriods(map);
+			requireMetric(map.flow, domain.solved().topology.boundary);
+		});
+	const EmbeddedSurface& surface = domain.surface;
 	measureBoundary(surface, map);
 	if (options.cones.rounding == ConeRounding::QuarterTurns)
 		map.report.holonomyError =
