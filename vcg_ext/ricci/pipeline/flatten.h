@@ -10,6 +10,7 @@
 #include "../parametrize.h"
 #include "../surface/component.h"
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -39,14 +40,15 @@ constexpr double kNoAlternative = std::numeric_limits<double>::infinity();
 /// The stages of the paper on one component, in order, to the plane: flow domain, initial packing (4.1),
 /// target (5.2, 5.3), flow (4.2), cut and layout (4.3), invariants, the finish, and the checks of the
 /// result by other formulas.
-/// \param alternative what another map that is at hand costs (MapCost)
+/// \param alternative tells what another map costs (MapCost), or kNoAlternative; called once, in another thread
+/// if there is one, beside the first stages
 /// \return none if the target is expected to cost more than that
 /// \throw what the stages throw
 std::optional<ComponentMap> flattenToPlane(
 	const Component& component,
 	const VertexInput& input,
 	const Options& options,
-	double alternative = kNoAlternative);
+	const std::function<double()>& alternative = [] { return kNoAlternative; });
 
 /// The same to the Poincaré disk, where neither areas nor rotations across seams are asked for, and the side
 /// pairings of the cut generate a Fuchsian group.

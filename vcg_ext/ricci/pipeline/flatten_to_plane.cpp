@@ -46,12 +46,15 @@ Holes holesOf(const Options& options)
 	return options.holes == Holes::ShortCapped && !mayCap ? Holes::Boundaries : options.holes;
 }
 
-/// What the target of a surface of \p vertexCount vertices is chosen from, of which the first are the component's.
+/// What the target of a surface is chosen from, whose first vertices are the component's.
 TargetRequest targetRequest(
-	const Component& component, const VertexInput& input, const Options& options, int vertexCount)
+	const Component& component,
+	const VertexInput& input,
+	const Options& options,
+	const EmbeddedSurface& surface)
 {
 	TargetRequest request;
-	static_cast<TargetInput&>(request) = targetInput(component, input, vertexCount);
+	static_cast<TargetInput&>(request) = targetInput(component, input, surface.positions.size());
 	request.options = options;
 	request.measuresAreas = options.method == Method::IntrinsicFlips;
 	request.hasSeam = component.hasSeam;
@@ -133,9 +136,8 @@ void flowWithEdgeSwaps(
 	ComponentMap& map)
 {
 	const auto choose = [&](const EmbeddedSurface& surface, InitialPacking& start) {
-		const int vertexCount = surface.positions.size(); // grows with each split
 		Target target =
-			chooseTarget(surface, start, targetRequest(component, input, options, vertexCount));
+			chooseTarget(surface, start, targetRequest(component, input, options, surface));
 		if (map.report.flowStates.empty())
 			noteTarget(target, map);
 		return target;
@@ -243,9 +245,13 @@ void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 		turnUpright(1.0, map);
 }
 
-/// How the lengths of a free boundary compare in the map and on the mesh.
-void measureBoundary(const EmbeddedSurface& surface, ComponentMap& map)
+/// How the lengths of a free boundary compare in the map and on the mesh, and how far turns across seams are
+/// from right angles where they should be none else.
+void measureBorders(const EmbeddedSurface& surface, const Options& options, ComponentMap& map)
 {
+	if (options.cones.rounding == ConeRounding::QuarterTurns)
+		map.report.holonomyError =
+			holonomyError(surface.triangulation, map.layout, map.cut.isCut, map.cones);
 	if (!map.flow.target.hasFixed())
 		return;
 	const Triangulation& t = surface.triangulation;
@@ -276,25 +282,32 @@ std::optional<ComponentMap> flattenToPlane(
 	const Component& component,
 	const VertexInput& input,
 	const Options& options,
-	double alternative)
+	const std::function<double()>& alternative)
 {
+	const int threads = threadsFor(static_cast<std::int64_t>(component.triangles.size()));
 	ComponentMap map;
-	advance(0.0, "Circle packing");
-	FlowDomain domain = flowDomain(component, holesOf(options));
-	describe(component, domain, map);
-	TargetRequest request =
-		targetRequest(component, input, options, domain.solved().positions.size());
-	request.hasAlternative = alternative < kNoAlternative;
-	const int threads = threadsFor(domain.surface.triangulation.faceCount());
+	FlowDomain domain;
+	InitialPacking start;
+	double other = kNoAlternative;
+	besides(
+		threads,
+		[&] {
+			advance(0.0, "Circle packing");
+			domain = flowDomain(component, holesOf(options));
+			describe(component, domain, map);
+			if (options.method != Method::EdgeSwaps)
+				start = initialPacking(domain.solved(), options); // 4.1
+		},
+		[&] { other = alternative(); });
+	TargetRequest request = targetRequest(component, input, options, domain.solved());
+	request.hasAlternative = other < kNoAlternative;
 	VertexArray<double> coneAngle; // for which it is cut
 	if (options.method == Method::EdgeSwaps)
 		flowWithEdgeSwaps(component, input, options, domain, map); // 5.4
 	else {
-		advance(0.0, "Flipping edges");
-		InitialPacking start = initialPacking(domain.solved(), options); // 4.1
 		advance(0.0, "Choosing the target");
 		const Target target = chooseTarget(domain.solved(), start, request); // 5.2, 5.3
-		if (target.expected && target.expected->total() > alternative)
+		if (target.expected && target.expected->total() > other)
 			return std::nullopt;
 		coneAngle = coneAngles(domain, target);
 		besides(
@@ -307,7 +320,6 @@ std::optional<ComponentMap> flattenToPlane(
 	keepAreas(domain.solved(), request, options, map);
 	makeSeamless(domain.solved(), request, options, map);
 	logFlow(map.flow, options);
-
 	if (const auto now = coneAngles(domain, map.flow.target); !(now == coneAngle))
 		cutOpen(domain, now, options, map);
 	logCut(map);
@@ -321,12 +333,7 @@ std::optional<ComponentMap> flattenToPlane(
 			measurePeriods(map);
 			requireMetric(map.flow, domain.solved().topology.boundary);
 		});
-	const EmbeddedSurface& surface = domain.surface;
-	measureBoundary(surface, map);
-	if (options.cones.rounding == ConeRounding::QuarterTurns)
-		map.report.holonomyError =
-			holonomyError(surface.triangulation, map.layout, map.cut.isCut, map.cones);
-
+	measureBorders(domain.surface, options, map);
 	advance(1.0, "Checking the result");
 	if (!isRefined(options))
 		map.mesh = flatMesh(component, domain, map.layout);

@@ -98,9 +98,11 @@ Parametrization
 mapToPlane(const Component& component, const VertexInput& input, const Options& options)
 {
 	std::optional<Parametrization> unfolded;
-	if (mayUnfold(component, options))
-		unfolded = unfold(component, options, kMaxCurvatureBetween);
-	const double alternative = unfolded ? costOf(*unfolded).total() : kNoAlternative;
+	const auto alternative = [&] {
+		if (mayUnfold(component, options))
+			unfolded = unfold(component, options, kMaxCurvatureBetween);
+		return unfolded ? costOf(*unfolded).total() : kNoAlternative;
+	};
 	const auto chosen = [](const std::string& choice, Parametrization map) {
 		map.report.choice = choice;
 		map.notes.push_back("Automatic: " + choice + ".");
