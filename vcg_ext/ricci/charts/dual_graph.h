@@ -53,23 +53,28 @@ public:
 	template<class Triangles>
 	std::vector<std::vector<int>> connectedPieces(const Triangles& triangles) const
 	{
-		Array<char> isDone(part.size(), 0);
+		Array<int> number(part.size(), -1); // of its piece
 		std::vector<std::vector<int>> pieces;
+		std::vector<int> next;
 		for (const int first : triangles) {
-			if (isDone[first])
+			if (number[first] >= 0)
 				continue;
-			isDone[first] = 1;
-			std::vector<int> piece{first};
-			for (std::size_t head = 0; head < piece.size(); ++head)
-				for (const Corner side : cornersOf(piece[head]))
+			const int piece = number[first] = static_cast<int>(pieces.size());
+			pieces.emplace_back();
+			for (next.push_back(first); !next.empty();) {
+				const int f = next.back();
+				next.pop_back();
+				for (const Corner side : cornersOf(f))
 					if (const Corner other = neighbour(side);
-						other.isValid() && !isDone[other.face()]) {
-						isDone[other.face()] = 1;
-						piece.push_back(other.face());
+						other.isValid() && number[other.face()] < 0) {
+						number[other.face()] = piece;
+						next.push_back(other.face());
 					}
-			std::sort(piece.begin(), piece.end());
-			pieces.push_back(std::move(piece));
+			}
 		}
+		for (const int f : number.indices())
+			if (number[f] >= 0)
+				pieces[positionOf(number[f])].push_back(f);
 		return pieces;
 	}
 
