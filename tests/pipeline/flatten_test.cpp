@@ -381,6 +381,37 @@ TEST(Flatten, DoesNotDependOnTheRestOfTheMesh)
 	}
 }
 
+/// Ribbons all of whose vertices lie on the boundary: no cone has a place, however many vertices they are.
+TEST(Flatten, ARibbonWithoutInnerVerticesGetsNoCones)
+{
+	std::vector<Options> all(3, euclidean(TargetCurvature::Automatic));
+	for (Options& options : all)
+		options.freeBoundary = true;
+	all[1].target = all[2].target = TargetCurvature::PlacedCones;
+	all[2].cones.distortion = 0.2;
+	for (const int length : {100, 11000})
+		for (const Ends ends : {Ends::Open, Ends::Joined})
+			for (const Options& options : all) {
+				SCOPED_TRACE(length);
+				const SurfaceMesh ribbon = grid(1, length, Ends::Open, ends, [&](int i, int j) {
+					const double turn = ends == Ends::Open ? 0.05 * j : 2.0 * kPi * j / length;
+					const double height = ends == Ends::Open ? 0.1 * j : 0.3 * std::sin(3.0 * turn);
+					return Point3{(1.0 + i) * std::cos(turn), (1.0 + i) * std::sin(turn), height};
+				});
+				const Component component = componentsOf(ribbon).front();
+				const ComponentMap map = flattened(component, options);
+				EXPECT_EQ(std::count(map.cones.begin(), map.cones.end(), 1), 0);
+				for (const int f : map.mesh.points.indices()) {
+					const Triangle2 p = map.mesh.at(f);
+					EXPECT_GT(doubledArea(p[0], p[1], p[2]), 0.0);
+					for (const Corner side : cornersOf(f)) {
+						const std::array<Point2, 2> at = map.mesh.ends(side);
+						EXPECT_NEAR(distance(at[0], at[1]), map.mesh.lengths[side], 1e-9);
+					}
+				}
+			}
+}
+
 TEST(Flatten, KeepsToItsShareOfTheProgress)
 {
 	Random random(4106);

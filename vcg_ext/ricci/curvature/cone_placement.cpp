@@ -63,8 +63,9 @@ int maxCones(const ConeModel& model, const ConeRequest& request)
 {
 	if (request.hasAlternative)
 		return kMaxPlacedCones;
-	const auto vertices = static_cast<int>(model.area().size());
-	return std::clamp(kMaxConeNumbers / vertices, kMaxPlacedCones, kMaxNeededCones);
+	const auto vertices =
+		static_cast<int>(model.area().size()); // none where all are on a free boundary
+	return std::clamp(kMaxConeNumbers / std::max(1, vertices), kMaxPlacedCones, kMaxNeededCones);
 }
 
 /// In a search for the objective, cones move first when there are so many, and again whenever there are
