@@ -5,6 +5,7 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../finish/repair.h"
+#include "../math/adjacency.h"
 #include "../math/box_tree.h"
 #include "../math/orientation.h"
 #include "divide_disks.h"
@@ -100,6 +101,8 @@ Array<Box2> boxesOf(const Parametrization& map)
 	return boxes;
 }
 
+using BorderSide = std::array<int, 2>; // points
+
 /// Tests patches that move borders of charts in the plane.
 class BorderTest
 {
@@ -107,13 +110,19 @@ public:
 	/// \param boxes [chart]
 	BorderTest(const FlatMesh& mesh, const Array<Box2>& boxes, bool staysInBox) :
 			m_boxes(boxes), m_staysInBox(staysInBox), m_chartOf(mesh.chartOfPoints()),
-			m_border(boxes.size()), m_near(boxes.size()), m_moves(mesh.place.size(), 0)
+			m_border(boxes.size()), m_near(boxes.size()),
+			m_sidesAt(mesh.place.size(), [&](const auto& add) {
+				for (const Corner side : mesh.across.indices())
+					if (!mesh.joined(side).isValid())
+						for (const Corner end : {side, side.next()})
+							add(mesh.points[end],
+								BorderSide{mesh.points[side], mesh.points[side.next()]});
+			})
 	{
-		for (const int f : mesh.points.indices())
-			for (const Corner side : cornersOf(f))
-				if (!mesh.joined(side).isValid())
-					m_border[mesh.chart[f]].push_back(
-						{mesh.points[side], mesh.points[side.next()]});
+		for (const int p : m_chartOf.indices())
+			for (const BorderSide& side : m_sidesAt[p])
+				if (side[0] == p)
+					m_border[m_chartOf[p]].push_back(side);
 		for (const int chart : m_near.indices())
 			m_near[chart].push_back(chart);
 		if (!m_staysInBox) // the charts' places count for nothing
@@ -126,32 +135,20 @@ public:
 
 	/// Whether the moved border sides of the patch cross none of its charts; and where these keep their
 	/// room, whether the patch stays in their boxes and crosses none of the charts whose boxes meet them.
-	bool operator()(const FlatMesh& flat, const Patch& patch)
+	bool operator()(const FlatMesh& flat, const Patch& patch) const
 	{
 		for (const int p : patch.points)
 			if (m_staysInBox && !m_boxes[m_chartOf[p]].contains(flat.place[p]))
 				return false;
-		std::vector<int> charts;
-		for (std::size_t i = 0; i < patch.points.size(); ++i) {
-			m_moves[patch.points[i]] = patch.variable[static_cast<int>(i)] >= 0;
-			charts.push_back(m_chartOf[patch.points[i]]);
-		}
-		std::sort(charts.begin(), charts.end());
-		charts.erase(std::unique(charts.begin(), charts.end()), charts.end());
-		const bool crosses = std::any_of(charts.begin(), charts.end(), [&](int chart) {
-			const std::vector<BorderSide>& sides = m_border[chart];
-			return std::any_of(sides.begin(), sides.end(), [&](const BorderSide& side) {
-				return (m_moves[side[0]] || m_moves[side[1]]) && crossesAny(flat, side, chart);
-			});
-		});
-		for (const int p : patch.points)
-			m_moves[p] = 0;
-		return !crosses;
+		for (std::size_t i = 0; i < patch.points.size(); ++i)
+			if (patch.variable[static_cast<int>(i)] >= 0)
+				for (const BorderSide& side : m_sidesAt[patch.points[i]])
+					if (crossesAny(flat, side, m_chartOf[patch.points[i]]))
+						return false;
+		return true;
 	}
 
 private:
-	using BorderSide = std::array<int, 2>; // points
-
 	static Box2 boxOf(const FlatMesh& flat, const BorderSide& side)
 	{
 		Box2 box;
@@ -185,7 +182,7 @@ private:
 	Array<int> m_chartOf;                    // [point]
 	Array<std::vector<BorderSide>> m_border; // [chart]
 	Array<std::vector<int>> m_near;          // [chart] itself, and those whose boxes meet its own
-	Array<char> m_moves;                     // [point] scratch, 0 between calls
+	Adjacency<int, BorderSide> m_sidesAt;    // [point]
 };
 
 /// What finishEverywhere() does where small patches inside the charts mend all: then all but what is near
