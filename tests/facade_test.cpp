@@ -537,7 +537,7 @@ TYPED_TEST(Facade, RefinementKeepsTheSurface)
 {
 	using Scalar = typename TypeParam::ScalarType;
 	Random random(308);
-	// Deleted elements, two components, some faces turned round, a loose vertex, faux sides.
+	// Deleted elements, two components, some faces reversed, a loose vertex, faux sides.
 	SurfaceMesh shape = sideBySide(
 		tetrahedron(),
 		sideBySide(shaken(bumpyTorus(14, 9, random), 0.3, random), rectangle(3, 3, 1, 1), 9),

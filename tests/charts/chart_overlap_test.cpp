@@ -117,7 +117,7 @@ TEST(ChartOverlap, OfAFanTakesHardlyMoreStepsThanItHasTriangles)
 		std::array<double, 2> steps{};
 		for (const int n : {4000, 16000}) {
 			SurfaceMesh mesh = kind % 2 == 0 ? fan(n, 7.0, round) : fan(n, 7.0, star);
-			if (kind > 1) // a triangle is turned round
+			if (kind > 1) // a triangle is flipped
 				std::swap(mesh.triangles[at(n / 3)][1], mesh.triangles[at(n / 3)][2]);
 			const FlatMesh chart = flatMesh(mesh);
 			const OverlapSearch search(chart.corners());
@@ -374,7 +374,7 @@ TEST(ChartDivision, LeavesAChartWithoutOverlapWhole)
 	EXPECT_EQ(parts[0].size(), mesh.triangles.size());
 }
 
-/// Two corners of a square of 2 x 2 cells are drawn elsewhere, so that a face is turned round. It hides
+/// Two corners of a square of 2 x 2 cells are drawn elsewhere, so that a face is flipped. It hides
 /// an overlap of other faces until a cut takes it away from them.
 TEST(SeparateCharts, FindsInAPartWhatAFoldHidInTheWhole)
 {

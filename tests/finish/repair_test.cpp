@@ -167,7 +167,7 @@ TEST(Repair, SixDecimalsAreJudgedExactly)
 TEST(Repair, TheBoundaryMovesWhereNothingElseMends)
 {
 	FlatMesh flat = square();
-	// A corner triangle whose three points are on the boundary, turned round.
+	// A corner triangle whose three points are on the boundary, flipped.
 	const int corner = vertexAt(kSide, 0);
 	flat.place[corner] = {kSide - 2.0, 2.0};
 	const Repair result = mend(flat, validity());

@@ -206,7 +206,7 @@ std::string defectOfPieces(const Reading& reading, const FlatMesh& refined, std:
 							w[0][1] * (w[1][0] * w[2][2] - w[1][2] * w[2][0]) +
 							w[0][2] * (w[1][0] * w[2][1] - w[1][1] * w[2][0]);
 		if (part < -kTolerance && isEven(reading.mesh, kEven))
-			return "a piece is turned round in its face";
+			return "a piece is flipped in its face";
 		area += part;
 	}
 	for (const int f : reading.face) {
@@ -219,7 +219,7 @@ std::string defectOfPieces(const Reading& reading, const FlatMesh& refined, std:
 }
 
 /// Whether the flow was asked for its target, floats have room for the map, its cones are those that the
-/// filter chose, and charts may be cut: of such a map no face may be turned round once it is finished.
+/// filter chose, and charts may be cut: of such a map no face may be flipped once it is finished.
 bool isOrdinary(const HostileMesh& hostile, const Reading& reading, const Report& report)
 {
 	return !hostile.hyperbolic && isFinished(hostile.options) &&
@@ -305,7 +305,7 @@ std::string miscounted(
 	if (isHyperbolic) // whose faces are geodesic triangles
 		return {};
 	if (mustBeRight && flipped + byRounding > 0)
-		return "a finished map has faces turned round: " + std::to_string(flipped) + " and " +
+		return "a finished map has flipped faces: " + std::to_string(flipped) + " and " +
 			   std::to_string(byRounding);
 	if (flipped == result.report.flippedFaces && byRounding == result.report.flippedByRounding)
 		return {};

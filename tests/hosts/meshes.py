@@ -165,7 +165,7 @@ def with_fin(mesh):
 
 
 def doubled(mesh):
-    """Every face twice, the second time turned round."""
+    """Every face twice, the second time reversed."""
     return Mesh(mesh.vertices, mesh.faces + [(a, c, b) for a, b, c in mesh.faces])
 
 

@@ -201,7 +201,7 @@ TEST(SphereMap, IsConformalWhateverAreasDo)
 }
 
 /// On the sphere a face of this solid spans more than a hemisphere. Drawn straight it lies on the other
-/// side, turned round, so that the faces cover the sphere no times in sum.
+/// side, flipped, so that the faces cover the sphere no times in sum.
 TEST(SphereMap, CountsFacesThatSpanMoreThanAHemisphere)
 {
 	SurfaceMesh mesh;
@@ -212,7 +212,7 @@ TEST(SphereMap, CountsFacesThatSpanMoreThanAHemisphere)
 	int turned = 0;
 	double area = 0.0;
 	for (const Triangle& t : mesh.triangles) {
-		// Girard: angles between the planes of the sides, less pi; negative where turned round.
+		// Girard: angles between the planes of the sides, less pi; negative where flipped.
 		std::array<Eigen::Vector3d, 3> p;
 		for (std::size_t k = 0; k < 3; ++k)
 			p[k] = Eigen::Map<const Eigen::Vector3d>(map.positions[at(t[k])].data());

@@ -17,7 +17,7 @@ struct CoveredTwice
 	/// Rounding of texture coordinates, which are floats, on both sides of a seam.
 	static constexpr double kContact = 3e-7;
 
-	/// \param uv in the unit square; taken as floats. Faces that are turned round, or have no area,
+	/// \param uv in the unit square; taken as floats. Faces that are flipped, or have no area,
 	/// are left out.
 	CoveredTwice(const SurfaceMesh& mesh, const UV& uv, const std::vector<char>& reversed);
 };

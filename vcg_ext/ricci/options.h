@@ -70,7 +70,7 @@ enum class Charts {
 /// straight triangles that are given back. Only maps found with flips are finished, see isFinished().
 enum class Finish {
 	None,            ///< the map is drawn as it is
-	Repair,          ///< no triangle is turned round or has no area
+	Repair,          ///< no triangle is flipped or has no area
 	LeastDistortion, ///< and on the mesh's own triangles, the conformal distortion is the least that
 					 ///< seams and cones allow
 	LeastStretch ///< and they keep lengths as well as they can, with the two sides of each seam, and the

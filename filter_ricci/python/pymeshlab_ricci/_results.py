@@ -52,7 +52,7 @@ EUCLIDEAN_RESULTS = \
                         'Euclidean filter, free boundary: the least and the largest length of '
                         'a boundary edge in the map, without normalize_uv, over that on the '
                         'mesh; 1 but for what the finish moves'),
- 'flipped_faces': ('int', 'faces that are turned over or have no area in the plane'),
+ 'flipped_faces': ('int', 'faces that are flipped or have no area in the plane'),
  'flipped_by_rounding': ('int', 'additional ones once the coordinates are floats'),
  'finish_moved': ('int',
                   'texture vertices that the repair moved; one moved again in the stored '

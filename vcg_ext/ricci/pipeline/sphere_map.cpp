@@ -346,7 +346,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 	alignWith(c.positions, weights, sphere);
 	measure(c, sphere, map);
 	const SphereCheck check = checkSphere(c.triangles, sphere.values());
-	// A face that spans more than a hemisphere is a straight triangle on the other side, turned round:
+	// A face that spans more than a hemisphere is a straight triangle on the other side, flipped:
 	// one covering less.
 	const double coverings = std::round(check.degree);
 	if (!(check.radiusError <= kCheckedRadius) ||
@@ -355,7 +355,7 @@ SphereMap mapToSphere(const SurfaceMesh& mesh, const Options& options)
 		throw NotConverged(
 			"the sphere is covered " + numberText(check.degree, 9) + " times, radii " +
 			numberText(check.radiusError, 3) + " off, " + std::to_string(check.turned) +
-			" faces turned round");
+			" faces flipped");
 	placeVertices(mesh, opened, c, sphere, map);
 	return map;
 }

@@ -29,7 +29,7 @@ EdgeArray<double> edgeLengths(const Triangulation& t, const VertexArray<Point3>&
 EmbeddedSurface
 embeddedSurface(VertexArray<Point3> positions, const std::vector<Triangle>& triangles);
 
-/// Two copies of a surface with boundary, the second one turned round, glued along the boundary: a
+/// Two copies of a surface with boundary, the second one reversed, glued along the boundary: a
 /// closed surface. Vertices, edges, halfedges and faces of the surface keep their numbers in the
 /// first copy; an exterior halfedge of the surface is an interior one of the second copy.
 struct DoubleSurface

@@ -425,7 +425,7 @@ void describe(const OpenedMesh& opened, const SurfaceMesh& mesh, std::vector<std
 		std::count(opened.reversed.begin(), opened.reversed.end(), 1),
 		"face was",
 		"faces were",
-		" oriented against the rest of the surface and counted as turned round.");
+		" oriented against the rest of the surface and counted as inverted.");
 	note(
 		opened.duplicateFaces,
 		"face has the vertices of another and is a sheet of its",
