@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -125,32 +126,33 @@ std::optional<Halves> halves(
 		if (std::abs(along[i]) > width)
 			(along[i] < 0.0 ? left : right).push_back(triangles[i]);
 	graph.part = leastCut(graph, left, right);
-	const auto areaOf = [&](const std::vector<int>& piece) {
-		double area = 0.0;
-		for (const int i : piece)
-			area += euclideanArea(mesh.lengths[i]);
-		return area;
+	const auto areasOf = [&](const Parts& pieces) {
+		std::vector<double> areas;
+		for (const std::vector<int>& piece : pieces) {
+			areas.push_back(0.0);
+			for (const int i : piece)
+				areas.back() += euclideanArea(mesh.lengths[i]);
+		}
+		return areas;
 	};
 	Halves cut{graph.connectedPieces(triangles)};
-	const double crumb = kCrumb * areaOf(triangles);
-	bool hasCrumbs = false;
-	for (const std::vector<int>& piece : cut.pieces)
-		if (areaOf(piece) < crumb) {
-			hasCrumbs = true;
-			for (const int i : piece)
-				graph.part[i] = 1 - graph.part[i];
-		}
-	if (hasCrumbs)
+	std::vector<double> areas = areasOf(cut.pieces);
+	const double crumb = kCrumb * std::accumulate(areas.begin(), areas.end(), 0.0);
+	const auto isCrumb = [&](double area) { return area < crumb; };
+	if (std::any_of(areas.begin(), areas.end(), isCrumb)) {
+		for (std::size_t p = 0; p < areas.size(); ++p)
+			if (isCrumb(areas[p]))
+				for (const int i : cut.pieces[p])
+					graph.part[i] = 1 - graph.part[i];
 		cut.pieces = graph.connectedPieces(triangles);
-	if (cut.pieces.size() < 2 ||
-		(hasCrumbs && std::any_of(cut.pieces.begin(), cut.pieces.end(), [&](const auto& piece) {
-			 return areaOf(piece) < crumb;
-		 })))
+		areas = areasOf(cut.pieces);
+	}
+	if (cut.pieces.size() < 2 || std::any_of(areas.begin(), areas.end(), isCrumb))
 		return std::nullopt;
 	for (const int f : triangles)
 		for (const Corner own : cornersOf(f))
-			if (const Corner other = graph.joined(own);
-				other.isValid() && graph.part[other.face()] < graph.part[f]) {
+			if (const Corner other = graph.part[f] > 0 ? graph.joined(own) : Corner();
+				other.isValid() && graph.part[other.face()] == 0) {
 				++cut.edges;
 				cut.length += mesh.lengths[own];
 			}
