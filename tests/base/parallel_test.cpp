@@ -165,6 +165,24 @@ TEST(Besides, BothAreDoneAndSeenAfterwards)
 		}
 }
 
+TEST(Besides, OfTwoErrorsItIsThatOfTheCaller)
+{
+	for (const int threads : {1, 2})
+		for (int run = 0; run < 20; ++run) {
+			std::atomic<bool> hasFailed{threads == 1};
+			const auto fails = [&] {
+				while (!hasFailed)
+					checkpoint();
+				throw std::runtime_error("main");
+			};
+			const auto failsAside = [&] {
+				hasFailed = true;
+				throw std::logic_error("aside");
+			};
+			EXPECT_THROW(besides(threads, fails, failsAside), std::runtime_error);
+		}
+}
+
 TEST(Besides, WhatIsThrownInOneEndsTheOther)
 {
 	for (int run = 0; run < 20; ++run) {

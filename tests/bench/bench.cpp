@@ -140,7 +140,7 @@ private:
 			{"Placing cones", "cones"},
 			{"Solving for the metric", "flows"},
 			{"Newton step", "flows"},
-			{"Layout", "cut"},
+			{"Laying out", "cut"},
 			{"Shortening the seams", "cut"},
 			{"Placing the pieces of the overlay", "overlay"},
 			{"Repairing the map", "finish"},

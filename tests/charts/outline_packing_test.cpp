@@ -39,9 +39,9 @@ Outline star(double size, Random& random)
 }
 
 std::vector<Motion>
-pack(const std::vector<Outline>& outlines, double side, double room, ChartTurns turns)
+pack(const std::vector<Outline>& outlines, double side, double padding, ChartTurns turns)
 {
-	return packOutlines(outlines, std::vector<ChartTurns>(outlines.size(), turns), side, room);
+	return packOutlines(outlines, std::vector<ChartTurns>(outlines.size(), turns), side, padding);
 }
 
 std::vector<Outline> moved(std::vector<Outline> outlines, const std::vector<Motion>& motions)
@@ -54,15 +54,15 @@ std::vector<Outline> moved(std::vector<Outline> outlines, const std::vector<Moti
 	return outlines;
 }
 
-void expectInSquare(const std::vector<Outline>& outlines, double side, double room)
+void expectInSquare(const std::vector<Outline>& outlines, double side, double padding)
 {
 	for (const Outline& outline : outlines)
 		for (const auto& ends : outline)
 			for (double x : ends[0]) {
-				EXPECT_GE(x, 0.5 * room * (1 - 1e-9));
-				EXPECT_LE(x, side - 0.5 * room * (1 - 1e-9));
+				EXPECT_GE(x, 0.5 * padding * (1 - 1e-9));
+				EXPECT_LE(x, side - 0.5 * padding * (1 - 1e-9));
 			}
-	EXPECT_TRUE(keepApart(outlines, room * (1 - 1e-9)));
+	EXPECT_TRUE(keepApart(outlines, padding * (1 - 1e-9)));
 }
 
 TEST(PackOutlines, KeepsTheRoomAndTheShapes)
@@ -72,11 +72,11 @@ TEST(PackOutlines, KeepsTheRoomAndTheShapes)
 		std::vector<Outline> outlines;
 		for (int i = 0; i <= trial; ++i)
 			outlines.push_back(star(random.real(0.1, 1.0), random));
-		const double side = 1.2 * (2.0 + trial), room = trial % 3 == 0 ? 0.0 : 0.03 * trial;
+		const double side = 1.2 * (2.0 + trial), padding = trial % 3 == 0 ? 0.0 : 0.03 * trial;
 		for (ChartTurns turns : {ChartTurns::None, ChartTurns::Quarter, ChartTurns::Free}) {
-			const std::vector<Motion> motions = pack(outlines, side, room, turns);
+			const std::vector<Motion> motions = pack(outlines, side, padding, turns);
 			ASSERT_EQ(motions.size(), outlines.size());
-			expectInSquare(moved(outlines, motions), side, room);
+			expectInSquare(moved(outlines, motions), side, padding);
 			for (const Motion& motion : motions) {
 				EXPECT_NEAR(std::abs(motion.turn), 1.0, 1e-15);
 				if (turns == ChartTurns::None) {

@@ -128,9 +128,9 @@ TEST(KeepApart, AgreesWithEveryPairOfCornersOfRoundCharts)
 								 distance(t[k], between(s[0], s[1], to)),
 								 distance(s[k], between(t[0], t[1], back))});
 						}
-		for (const double room : {0.5 * nearest, 0.999999 * nearest, 1.000001 * nearest, 3.0}) {
-			EXPECT_EQ(keepApart(outlines, room), room < nearest);
-			apart += room < nearest;
+		for (const double padding : {0.5 * nearest, 0.999999 * nearest, 1.000001 * nearest, 3.0}) {
+			EXPECT_EQ(keepApart(outlines, padding), padding < nearest);
+			apart += padding < nearest;
 		}
 	}
 	EXPECT_EQ(apart, 400);

@@ -65,23 +65,23 @@ void packForRoom(
 }
 
 /// In one row.
-std::vector<Point2> inARow(const std::vector<Box2>& boxes, double room)
+std::vector<Point2> inARow(const std::vector<Box2>& boxes, double padding)
 {
 	std::vector<Point2> shifts;
 	double x = boxes.empty() ? 0.0 : boxes[0].min[0];
 	for (const Box2& box : boxes) {
 		shifts.push_back({x - box.min[0], 0.0});
-		x += box.width() + room;
+		x += box.width() + padding;
 	}
 	return shifts;
 }
 
 /// In rows about as wide as high.
-std::vector<Point2> inRows(const std::vector<Box2>& boxes, double room)
+std::vector<Point2> inRows(const std::vector<Box2>& boxes, double padding)
 {
 	double area = 0.0;
 	for (const Box2& box : boxes)
-		area += (box.width() + room) * (box.height() + room);
+		area += (box.width() + padding) * (box.height() + padding);
 	std::vector<Point2> shifts;
 	double x = 0.0, y = 0.0, top = 0.0;
 	for (const Box2& box : boxes) {
@@ -90,8 +90,8 @@ std::vector<Point2> inRows(const std::vector<Box2>& boxes, double room)
 			y = top;
 		}
 		shifts.push_back({x - box.min[0], y - box.min[1]});
-		x += box.width() + room;
-		top = std::max(top, y + box.height() + room);
+		x += box.width() + padding;
+		top = std::max(top, y + box.height() + padding);
 	}
 	return shifts;
 }

@@ -3,6 +3,7 @@
 #include "support/random.h"
 
 #include <ricci/layout/flat_mesh.h>
+#include <ricci/surface/sides.h>
 
 #include <gtest/gtest.h>
 

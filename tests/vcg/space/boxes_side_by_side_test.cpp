@@ -33,9 +33,9 @@ std::vector<Box> randomBoxes(int n, double orders, std::uint64_t seed)
 	return boxes;
 }
 
-std::vector<Box> moved(std::vector<Box> boxes, double room)
+std::vector<Box> moved(std::vector<Box> boxes, double padding)
 {
-	const auto shifts = BoxesSideBySide::Shifts(boxes, room);
+	const auto shifts = BoxesSideBySide::Shifts(boxes, padding);
 	EXPECT_EQ(shifts.size(), boxes.size());
 	for (std::size_t i = 0; i < boxes.size(); ++i) {
 		boxes[i].min += shifts[i];
@@ -44,8 +44,8 @@ std::vector<Box> moved(std::vector<Box> boxes, double room)
 	return boxes;
 }
 
-/// Pairs nearer than \p room in both directions.
-int pairsTooNear(std::vector<Box> boxes, double room)
+/// Pairs nearer than \p padding in both directions.
+int pairsTooNear(std::vector<Box> boxes, double padding)
 {
 	std::sort(boxes.begin(), boxes.end(), [](const Box& a, const Box& b) {
 		return std::make_tuple(a.min[0], a.min[1], a.max[0]) <
@@ -53,10 +53,10 @@ int pairsTooNear(std::vector<Box> boxes, double room)
 	});
 	int pairs = 0;
 	for (std::size_t i = 0; i < boxes.size(); ++i)
-		for (std::size_t j = i + 1; j < boxes.size() && boxes[j].min[0] < boxes[i].max[0] + room;
+		for (std::size_t j = i + 1; j < boxes.size() && boxes[j].min[0] < boxes[i].max[0] + padding;
 			 ++j)
-			pairs += boxes[j].min[1] < boxes[i].max[1] + room &&
-					 boxes[i].min[1] < boxes[j].max[1] + room;
+			pairs += boxes[j].min[1] < boxes[i].max[1] + padding &&
+					 boxes[i].min[1] < boxes[j].max[1] + padding;
 	return pairs;
 }
 
@@ -76,10 +76,10 @@ TEST(BoxesSideBySide, NoTwoOverlapAndTheRoomIsKept)
 	const double rounding = 1e-9;
 	for (int n : {2, 9, 200, 513, 10000})
 		for (double orders : {0.0, 0.5, 3.0, 12.0})
-			for (double room : {0.0, 0.001, 0.3}) {
-				const auto boxes = moved(randomBoxes(n, orders, 7), room);
-				EXPECT_EQ(pairsTooNear(boxes, std::max(0.0, room - rounding)), 0)
-					<< n << " boxes over " << orders << " orders, room " << room;
+			for (double padding : {0.0, 0.001, 0.3}) {
+				const auto boxes = moved(randomBoxes(n, orders, 7), padding);
+				EXPECT_EQ(pairsTooNear(boxes, std::max(0.0, padding - rounding)), 0)
+					<< n << " boxes over " << orders << " orders, padding " << padding;
 			}
 }
 

@@ -135,20 +135,33 @@ void tasksInParallel(int count, int threads, const Work& work)
 
 /// Calls main() in the calling thread and meanwhile aside() in another one, if \p threads are more than
 /// one and that is to be had before main() is done; else one after the other. See withHelpers(). They must be
-/// independent of each other.
+/// independent of each other. What main() throws ends aside(); what aside() throws is thrown on once main() is
+/// done, so that of two errors it always is main()'s.
 template<class Main, class Aside>
 void besides(int threads, const Main& main, const Aside& aside)
 {
 	std::atomic<bool> isTaken{false};
+	std::exception_ptr ofAside;
 	const auto unlessTaken = [&] {
-		if (!isTaken.exchange(true))
+		if (isTaken.exchange(true))
+			return;
+		try {
 			aside();
+		}
+		catch (const HelpEnded&) {
+			throw;
+		}
+		catch (...) {
+			ofAside = std::current_exception();
+		}
 	};
 	const auto both = [&] {
 		main();
 		unlessTaken();
 	};
 	withHelpers(threads > 1 ? 1 : 0, both, unlessTaken);
+	if (ofAside)
+		std::rethrow_exception(ofAside);
 }
 
 } // namespace ricci

@@ -196,7 +196,7 @@ std::optional<bool> finishNear(const Validity& validity, WorkLimit& limit, Param
 		part.chart[i] = map.mesh.chart[taken[positionOf(i)]];
 	splitPoints(part);
 	const Array<Box2> boxes = boxesOf(map);
-	BorderTest test(part, boxes, true);
+	const BorderTest test(part, boxes, true);
 	const PatchTest accepts = [&](const FlatMesh& flat, const Patch& patch) {
 		return test(flat, patch);
 	};
@@ -230,7 +230,7 @@ Finished
 finishEverywhere(const Wanted& wanted, bool mayGrow, WorkLimit& limit, Parametrization& map)
 {
 	const Array<Box2> boxes = boxesOf(map);
-	BorderTest test(map.mesh, boxes, true);
+	const BorderTest test(map.mesh, boxes, true);
 	const PatchTest accepts = [&](const FlatMesh& flat, const Patch& patch) {
 		return test(flat, patch);
 	};

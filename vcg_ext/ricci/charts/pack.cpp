@@ -188,9 +188,12 @@ Packing packByOutlines(const OutlineTask& task, const PlaceBoxes& placeBoxes, Ch
 	if (large.empty() || areaOfLarge < areaOfSmall)
 		return {};
 	std::vector<Outline> outlines(large.size());
-	tasksInParallel(static_cast<int>(large.size()), threadsFor(mesh.size() / 32), [&](int k) {
-		outlines[positionOf(k)] = outlineOf(mesh, triangles[large[positionOf(k)]]);
-	});
+	tasksInParallel(
+		static_cast<int>(large.size()),
+		threadsFor(mesh.size() / 32),
+		[&, &mesh = mesh, &triangles = triangles](int k) {
+			outlines[positionOf(k)] = outlineOf(mesh, triangles[large[positionOf(k)]]);
+		});
 	if (std::any_of(outlines.begin(), outlines.end(), [](const Outline& o) { return o.empty(); }))
 		return {}; // without area
 	std::vector<Box2> smallBoxes;

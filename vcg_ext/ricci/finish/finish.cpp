@@ -70,14 +70,19 @@ FinishCounts finishInPlane(
 		return repair();
 	Array<Point2> best = flat.place;
 	FinishCounts counts = repair();
-	if (counts.moved > 0 && distortionRatio(flat, best) > kMaxRepairCost) {
+	if (counts.moved > 0) {
 		flat.place.swap(best);
-		leastDistortion(flat, cones, freeBoundary);
-		const FinishCounts next = repair();
-		if (distortionRatio(flat, best) < 1.0)
-			counts = next;
-		else
+		const double before = meanDistortion(flat);
+		flat.place.swap(best);
+		if (const double after = meanDistortion(flat); after > kMaxRepairCost * before) {
 			flat.place.swap(best);
+			leastDistortion(flat, cones, freeBoundary);
+			const FinishCounts next = repair();
+			if (meanDistortion(flat) < after)
+				counts = next;
+			else
+				flat.place.swap(best);
+		}
 	}
 	const bool endedEarly = finish == Finish::LeastStretch
 								? leastStretch(flat).endedEarly

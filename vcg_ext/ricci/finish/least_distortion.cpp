@@ -36,11 +36,11 @@ constexpr double kResidual = 0.1;
 constexpr double kMinStep = 1e-6;
 
 /// [number of a point]
-Eigen::VectorXcd positionsOf(const NumberedPoints& points, const Array<Point2>& place)
+Eigen::VectorXcd positionsOf(const NumberedPoints& points, const FlatMesh& flat)
 {
 	Eigen::VectorXcd positions(points.number.size());
-	for (const int p : place.indices())
-		positions[points.number[p]] = asComplex(place[p]);
+	for (const int p : flat.place.indices())
+		positions[points.number[p]] = asComplex(flat.place[p]);
 	return positions;
 }
 
@@ -50,7 +50,7 @@ class DistortionDescent
 public:
 	DistortionDescent(const FlatMesh& flat, const PointGroups& groups) :
 			m_energy(flat, groups), m_points(m_energy.points()), m_laplacian(m_energy),
-			m_bfgs(m_points.unknowns, kDepth), m_start(positionsOf(m_points, flat.place)),
+			m_bfgs(m_points.unknowns, kDepth), m_start(positionsOf(m_points, flat)),
 			m_position(m_start), m_trial(m_start), m_direction(m_points.unknowns)
 	{
 		m_value = m_energy.evaluate(m_position);
@@ -157,13 +157,12 @@ private:
 
 } // namespace
 
-double distortionRatio(const FlatMesh& flat, const Array<Point2>& before)
+double meanDistortion(const FlatMesh& flat)
 {
 	PointGroups groups = allPoints(flat);
 	groups.fixed.assign(groups.fixed.size(), 1);
 	MeanDistortion energy(flat, groups);
-	const double after = energy.evaluate(positionsOf(energy.points(), flat.place));
-	return after / energy.evaluate(positionsOf(energy.points(), before));
+	return energy.evaluate(positionsOf(energy.points(), flat));
 }
 
 Descent leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves)

@@ -33,7 +33,7 @@ class WorkLimit
 {
 public:
 	/// \param triangles of the map
-	/// \param steps on all of them that a stage may spend at most
+	/// \param steps on all of them that a stage may spend at most; by default the other bound is lower
 	explicit WorkLimit(std::int64_t triangles, std::int64_t steps = kOfStage) :
 			m_stage(std::min(steps * triangles, kOfStage + kOfStagePerTriangle * triangles)),
 			m_left(kStages * m_stage)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_mesh.h"
 
+#include "../surface/sides.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -72,7 +74,7 @@ std::vector<std::vector<int>> FlatMesh::trianglesByChart(std::size_t chartCount)
 FlatMesh FlatMesh::part(const std::vector<int>& triangles) const
 {
 	FlatMesh part;
-	int low = place.size(), high = -1; // points of a chart have numbers near each other
+	int low = place.size(), high = -1; // points of a chart mostly have numbers near each other
 	for (const int f : triangles)
 		for (const int p : points[f]) {
 			low = std::min(low, p);

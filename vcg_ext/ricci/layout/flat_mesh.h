@@ -5,7 +5,6 @@
 #include "../base/indexed.h"
 #include "../math/disjoint_sets.h"
 #include "../math/points.h"
-#include "../surface/sides.h"
 #include "../surface/surface_mesh.h"
 
 #include <array>
@@ -23,7 +22,7 @@ struct FlatMesh
 	/// is counter-clockwise where the map is right
 	Array<Triangle> vertices;
 	/// [side] the other side of its edge, which runs the other way; none where the surface ends.
-	/// Empty where the triangles are in the input's order and directions.
+	/// Empty in results, whose triangles are in the input's order.
 	CornerArray<Corner> across;
 	/// [triangle] corners by point: two corners are joined if and only if they have one point number
 	Array<Triangle> points;
@@ -122,7 +121,7 @@ void weld(FlatMesh& mesh);
 /// points that no corner has.
 void splitPoints(FlatMesh& mesh);
 
-/// The same of some triangles, whose points no others have: one part at each point keeps it.
+/// The same for some triangles, whose points belong to no others: at each point one part keeps the number.
 void splitPoints(const std::vector<int>& triangles, FlatMesh& mesh);
 
 /// Finds FlatMesh::across by the vertices.

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten_steps.h"
 
-#include "../base/parallel.h"
 #include "../base/task.h"
 #include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../error.h"
-#include "../math/convex_hull.h"
 #include "../measure/period_matrix.h"
 
 #include <algorithm>

@@ -11,12 +11,6 @@
 #include "../surface/flow_domain.h"
 #include "flatten.h"
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace ricci {
 
 /// Share of a component's progress that is spent before the flow, and after it.

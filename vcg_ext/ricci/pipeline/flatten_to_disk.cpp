@@ -51,7 +51,7 @@ void layOut(
 	const HyperbolicOptions& options,
 	ComponentMap& map)
 {
-	advance(1.0 - kAfterFlow, "Layout");
+	advance(1.0 - kAfterFlow, "Laying out the triangles");
 	const Triangulation& t = domain.surface.triangulation;
 	SurfaceLayout disk = placeCorners(domain, std::move(overlay), options, map);
 	if (const double radius = radiusOf(disk.corners); radius > kWideRadius) {
@@ -99,7 +99,6 @@ ComponentMap flattenToDisk(
 	advance(0.0, "Circle packing");
 	const FlowDomain domain = flowDomain(component, Holes::Boundaries);
 	describe(component, domain, map);
-	advance(0.0, "Flipping edges");
 	InitialPacking start = initialPacking(domain.solved(), options); // 4.1
 	advance(0.0, "Choosing the target");
 	const TargetInput values = targetInput(component, input, component.vertex.size());

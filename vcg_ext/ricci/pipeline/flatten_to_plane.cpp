@@ -189,7 +189,7 @@ void layOut(
 	const Options& options,
 	ComponentMap& map)
 {
-	advance(1.0 - kAfterFlow, "Layout");
+	advance(1.0 - kAfterFlow, "Laying out the triangles");
 	const Triangulation& t = domain.surface.triangulation;
 	const bool mayChangeCut = map.type.boundaryLoops - domain.holes > 1;
 	map.layout = placeCorners(domain, std::move(overlay), options, map).corners;
@@ -246,7 +246,7 @@ void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 }
 
 /// How the lengths of a free boundary compare in the map and on the mesh, and how far turns across seams are
-/// from right angles where they should be none else.
+/// from multiples of a right angle, where they should be such.
 void measureBorders(const EmbeddedSurface& surface, const Options& options, ComponentMap& map)
 {
 	if (options.cones.rounding == ConeRounding::QuarterTurns)
@@ -301,7 +301,7 @@ std::optional<ComponentMap> flattenToPlane(
 		[&] { other = alternative(); });
 	TargetRequest request = targetRequest(component, input, options, domain.solved());
 	request.hasAlternative = other < kNoAlternative;
-	VertexArray<double> coneAngle; // for which it is cut
+	VertexArray<double> coneAngle; // of the cones that it is cut through
 	if (options.method == Method::EdgeSwaps)
 		flowWithEdgeSwaps(component, input, options, domain, map); // 5.4
 	else {

@@ -27,14 +27,14 @@ public:
 	/// RectPacker searches its whole grid for each box: n boxes cost it more than n^2.
 	static constexpr size_t kMaxForRectPacker = 512;
 
-	/// [box] Translations that leave at least \p room >= 0 between any two of \p boxes. One box
+	/// [box] Translations that leave at least \p padding >= 0 between any two of \p boxes. One box
 	/// stays where it is. The boxes are not empty; they may have no width or no height.
-	static std::vector<Point2d> Shifts(std::vector<Box> boxes, double room)
+	static std::vector<Point2d> Shifts(std::vector<Box> boxes, double padding)
 	{
 		if (boxes.size() <= 1)
 			return std::vector<Point2d>(boxes.size(), Point2d(0, 0));
 		for (Box& box : boxes)
-			box.Offset(0.5 * room);
+			box.Offset(0.5 * padding);
 		std::vector<Point2d> shift;
 		if (boxes.size() > kMaxForRectPacker || !OnAGrid(boxes, shift))
 			shift = OnShelves(boxes);

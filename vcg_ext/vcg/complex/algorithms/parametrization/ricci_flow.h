@@ -429,14 +429,14 @@ private:
 
 	/// See ricci::PlaceBoxes.
 	static std::vector<ricci::Point2>
-	PlaceSideBySide(const std::vector<ricci::Box2>& boxes, double room)
+	PlaceSideBySide(const std::vector<ricci::Box2>& boxes, double padding)
 	{
 		std::vector<Box2<double>> own;
 		for (const ricci::Box2& box : boxes)
 			own.push_back(
 				Box2<double>(Point2d(box.min[0], box.min[1]), Point2d(box.max[0], box.max[1])));
 		std::vector<ricci::Point2> shifts;
-		for (const Point2d& shift : BoxesSideBySide::Shifts(own, room))
+		for (const Point2d& shift : BoxesSideBySide::Shifts(own, padding))
 			shifts.push_back({shift[0], shift[1]});
 		return shifts;
 	}
