@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "least_distortion.h"
 
+#include "../base/parallel.h"
 #include "../base/task.h"
 #include "../math/line_search.h"
 #include "distortion_laplacian.h"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace ricci {
 
@@ -44,14 +46,14 @@ Eigen::VectorXcd positionsOf(const NumberedPoints& points, const FlatMesh& flat)
 	return positions;
 }
 
-/// A flat mesh on its way to less distortion. Nothing is allocated between steps.
+/// A flat mesh on its way to less distortion. Nothing is allocated between steps along directions.
 class DistortionDescent
 {
 public:
 	DistortionDescent(const FlatMesh& flat, const PointGroups& groups) :
-			m_energy(flat, groups), m_points(m_energy.points()), m_laplacian(m_energy),
-			m_bfgs(m_points.unknowns, kDepth), m_start(positionsOf(m_points, flat)),
-			m_position(m_start), m_trial(m_start), m_direction(m_points.unknowns)
+			m_energy(flat, groups), m_points(m_energy.points()), m_bfgs(m_points.unknowns, kDepth),
+			m_start(positionsOf(m_points, flat)), m_position(m_start), m_trial(m_start),
+			m_direction(m_points.unknowns)
 	{
 		m_value = m_energy.evaluate(m_position);
 	}
@@ -61,24 +63,29 @@ public:
 		Descent result{0, m_value, m_value};
 		if (!std::isfinite(m_value) || m_points.unknowns == 0)
 			return result;
-		const double worth = kPointGain * m_value / m_points.unknowns;
 		double gain = kInfinity;
-		while (result.steps < kMaxSweeps && gain > kSweepGain * m_value) {
-			checkpoint();
-			gain = sweep(result.steps == 0 ? 1.0 : kOverrelaxation, worth);
-			result.steps += gain > 0.0;
-			result.after = m_value;
-		}
+		besides(
+			threadsFor(m_points.unknowns),
+			[&] {
+				const double worth = kPointGain * m_value / m_points.unknowns;
+				while (result.steps < kMaxSweeps && gain > kSweepGain * m_value) {
+					checkpoint();
+					gain = sweep(result.steps == 0 ? 1.0 : kOverrelaxation, worth);
+					result.steps += gain > 0.0;
+					result.after = m_value;
+				}
+			},
+			[&] { m_laplacian.emplace(m_energy); });
 		m_energy.gradient(m_gradient);
 		double lastGain = kInfinity;
 		for (int i = 0; i < kMaxSteps; ++i, lastGain = gain) {
 			checkpoint();
-			if (i % kSameStiffness == 0 && !m_laplacian.factorize())
+			if (i % kSameStiffness == 0 && !m_laplacian->factorize())
 				break;
 			m_bfgs.direction(
 				m_gradient,
 				[&](const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x) {
-					m_laplacian.solve(rhs, x, kResidual);
+					m_laplacian->solve(rhs, x, kResidual);
 				},
 				m_direction);
 			gain = step(2.0 * LimitedMemoryBfgs::dot(m_gradient, m_direction));
@@ -148,7 +155,7 @@ private:
 
 	MeanDistortion m_energy;
 	const NumberedPoints& m_points;
-	DistortionLaplacian m_laplacian;
+	std::optional<DistortionLaplacian> m_laplacian; // from the sweeps on
 	LimitedMemoryBfgs m_bfgs;
 	Eigen::VectorXcd m_start, m_position, m_trial;            // [number of a point]
 	Eigen::VectorXcd m_direction, m_gradient, m_nextGradient; // [unknown]
