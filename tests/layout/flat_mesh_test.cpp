@@ -129,6 +129,10 @@ TEST(FlatMesh, PartsKeepTheirTrianglesAndShareNoIndices)
 	const Sides sides(part.vertices.values());
 	for (const Corner side : part.across.indices())
 		EXPECT_EQ(part.across[side], sides.across(side));
+	FlatMesh result = mesh;
+	result.across.clear(); // as in results
+	EXPECT_EQ(result.part(some).points, part.points);
+	EXPECT_TRUE(result.part(some).across.empty());
 	EXPECT_EQ(at(part.place.size()), part.pointsByChart(1).front().size());
 	EXPECT_EQ(mesh.trianglesByChart(1).front().size(), at(mesh.size()));
 }

@@ -96,8 +96,11 @@ FlatMesh FlatMesh::part(const std::vector<int>& triangles) const
 		part.lengths.push_back(lengths[f]);
 		part.face.push_back(face[f]);
 	}
+	part.chart.assign(triangles.size(), 0);
+	if (across.empty() || triangles.empty())
+		return part;
 	const auto [first, last] = std::minmax_element(triangles.begin(), triangles.end());
-	Array<int> numberOf(triangles.empty() ? 0 : *last + 1 - *first, -1); // [triangle - first]
+	Array<int> numberOf(*last + 1 - *first, -1); // [triangle - first]
 	for (std::size_t i = 0; i < triangles.size(); ++i)
 		numberOf[triangles[i] - *first] = static_cast<int>(i);
 	for (const int f : triangles)
@@ -109,7 +112,6 @@ FlatMesh FlatMesh::part(const std::vector<int>& triangles) const
 					? Corner(numberOf[in], static_cast<int>(other.index()))
 					: Corner());
 		}
-	part.chart.assign(triangles.size(), 0);
 	return part;
 }
 
