@@ -63,8 +63,8 @@ int maxCones(const ConeModel& model, const ConeRequest& request)
 {
 	if (request.hasAlternative)
 		return kMaxPlacedCones;
-	const auto vertices =
-		static_cast<int>(model.area().size()); // none where all are on a free boundary
+	// There are none if all lie on a boundary that is free.
+	const auto vertices = static_cast<int>(model.area().size());
 	return std::clamp(kMaxConeNumbers / std::max(1, vertices), kMaxPlacedCones, kMaxNeededCones);
 }
 
