@@ -251,7 +251,9 @@ std::string toSentence(const Results& results, const std::string& choice)
 {
 	const int charts = valueOf<int>(results, "charts");
 	const int cones = valueOf<int>(results, "cones");
-	const int flipped = valueOf<int>(results, "flipped_faces");
+	const int flipped =
+		valueOf<int>(results, "flipped_faces") + valueOf<int>(results, "flipped_by_rounding");
+	const int overlapping = valueOf<int>(results, "overlapping_faces");
 	std::ostringstream line;
 	line.imbue(std::locale::classic());
 	line.precision(2);
@@ -262,8 +264,10 @@ std::string toSentence(const Results& results, const std::string& choice)
 		 << " Newton steps. Distortion " << std::fixed << std::setprecision(3)
 		 << valueOf<double>(results, "qc_area_mean") << " on average (1 keeps all angles), areas "
 		 << "by a factor of " << valueOf<double>(results, "area_distortion_mean") << ", " << flipped
-		 << (flipped == 1 ? " flipped face, " : " flipped faces, ") << cones
-		 << (cones == 1 ? " cone, " : " cones, ") << charts
+		 << (flipped == 1 ? " flipped face, " : " flipped faces, ");
+	if (overlapping > 0)
+		line << overlapping << (overlapping == 1 ? " overlapping face, " : " overlapping faces, ");
+	line << cones << (cones == 1 ? " cone, " : " cones, ") << charts
 		 << (charts == 1 ? " chart." : " charts.");
 	return line.str();
 }

@@ -209,6 +209,26 @@ TEST(ParametrizeHyperbolic, DiskAndAnnulusWithFreeBoundary)
 	}
 }
 
+TEST(ParametrizeHyperbolic, WhatLiesOnItselfIsCounted)
+{
+	// A strip that goes round an axis: in the disk its second turn meets the first.
+	const auto strip = [](int steps) {
+		return grid(3, steps, Ends::Open, Ends::Open, [](int i, int j) -> Point3 {
+			const double r = 0.01 * (3 + i), a = 2 * kPi * j / 24;
+			return {r * std::cos(a), r * std::sin(a), 0.001 * a};
+		});
+	};
+	HyperbolicOptions options;
+	options.freeBoundary = true;
+	const Parametrization half = parametrizeHyperbolic(strip(12), {}, options);
+	EXPECT_EQ(half.report.overlappingFaces, 0);
+	EXPECT_EQ(half.report.overlappingCharts, 0);
+	const Parametrization twice = parametrizeHyperbolic(strip(48), {}, options);
+	EXPECT_GT(twice.report.overlappingFaces, 0);
+	EXPECT_EQ(twice.report.overlappingCharts, 1);
+	EXPECT_EQ(twice.report.flippedFaces, 0);
+}
+
 TEST(ParametrizeHyperbolic, ConesAtSelectedVertices)
 {
 	Random random(703);

@@ -292,6 +292,7 @@ Parametrization parametrizeHyperbolic(
 	countFlipped(map.mesh, map.report);
 	if (!isFinished(options)) // straight triangles may be flipped where geodesic ones are not
 		map.report.flippedFaces = flipped;
+	countOverlaps(map);
 	complete(mesh, opened, map);
 	return map;
 }
