@@ -207,7 +207,7 @@ std::string remedy(const ricci::NotConverged& e)
 	case Error::NoCut:
 		return ": choose the method 'Intrinsic flips'.";
 	case Error::OutsideDisk:
-		return ": choose larger cone angles.";
+		return ": choose larger cone angles, or 'Generalized Ricci Flow (Euclidean)'.";
 	case Error::CheckFailed:
 		return ": remesh the worst triangles, and report the mesh.";
 	}

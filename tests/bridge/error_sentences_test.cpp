@@ -334,7 +334,8 @@ TEST(Sentences, AreTheseWords)
 		 "boundary."},
 		{sentence(NotConverged(NotConverged::OutsideDisk, 12)),
 		 "12 corners of faces lie so far from the middle of the layout that rounding puts them on "
-		 "the border of the Poincaré disk: choose larger cone angles."},
+		 "the border of the Poincaré disk: choose larger cone angles, or 'Generalized Ricci Flow "
+		 "(Euclidean)'."},
 		{sentence(NotConverged(NotConverged::LostInRounding, 3, 17.0)),
 		 "3 triangles are lost in rounding: the flow makes parts of the surface 1e17 times as "
 		 "large as others. Choose a {target_curvature} nearer to the curvature of the mesh."},
