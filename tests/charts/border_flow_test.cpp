@@ -196,5 +196,29 @@ TEST(BorderFlow, BetweenBlobsAtTheBorderIsTheMaximum)
 	EXPECT_GE(count, 80);
 }
 
+/// The least cut is far from both ends, which are few: the border leads a path there past hundreds of vertices.
+TEST(BorderFlow, FindsAFarCutToo)
+{
+	Random random(1222);
+	const int size = 40;
+	RandomChart c(random, size, true);
+	const auto isInMiddle = [](const Point2& p) { return std::abs(p[0] - 0.5) < 1e-9; };
+	for (const int f : c.chart.points.indices())
+		for (const Corner side : cornersOf(f)) {
+			const auto ends = c.chart.ends(side);
+			c.chart.lengths[side] = isInMiddle(ends[0]) && isInMiddle(ends[1]) ? 1e-4 : 1.0;
+		}
+	const int n = c.chart.size();
+	Array<Terminal> terminal(n, kNoTerminal);
+	const auto sources = c.blob(0, 1, kSource, terminal);
+	const auto sinks = c.blob(n - 1, 1, kSink, terminal);
+	BorderFlow flow(c.graph);
+	flow.find(sources, sinks, terminal);
+	expectFlow(c, terminal, flow);
+	const std::int64_t all = flowBetween(n + 2, linksOf(c, terminal), n, n + 1);
+	EXPECT_NEAR(static_cast<double>(all), size * 1e5, size * 1e2); // about 1e9 for the longest edge
+	EXPECT_EQ(sent(c, kSource, terminal, flow), all);
+}
+
 } // namespace
 } // namespace ricci::testing

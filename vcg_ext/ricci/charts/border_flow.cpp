@@ -15,13 +15,16 @@ namespace {
 /// Vertices that are looked at between two checkpoints.
 constexpr int kNodesBetweenTicks = 1 << 14;
 
-/// Vertices for each terminal that a path looks at; what is farther is left to be found. Where a chart has
-/// many holes, whose borders cost nothing, all of it can be nearer than the end of the path.
+/// Vertices for each terminal that a path looks at once the spare ones are used up; what is farther is left to
+/// be found. Where a chart has many holes, whose borders cost nothing, all of it can be nearer than the end of
+/// each path.
 constexpr std::size_t kNodesOfTriangle = 64;
 
 } // namespace
 
-BorderFlow::BorderFlow(const DualGraph& graph) : m_graph(graph), m_nodeAt(3 * graph.part.size(), -1)
+BorderFlow::BorderFlow(const DualGraph& graph) :
+		m_graph(graph), m_nodeAt(3 * graph.part.size(), -1),
+		m_spareNodes(positionOf(m_nodeAt.size()))
 {
 }
 
@@ -106,7 +109,7 @@ void BorderFlow::measure(Corner from, Corner to, const Array<Terminal>& terminal
 		const auto [distance, number] = queue.top();
 		queue.pop();
 		length = distance;
-		if (number == target || reached.size() > m_mostNodes)
+		if (number == target || reached.size() > m_mostNodes + m_spareNodes)
 			break;
 		if (distance > m_nodes[number].distance)
 			continue;
@@ -120,6 +123,8 @@ void BorderFlow::measure(Corner from, Corner to, const Array<Terminal>& terminal
 		});
 	}
 	m_paths[path].length = length;
+	if (reached.size() > m_mostNodes)
+		m_spareNodes -= std::min(m_spareNodes, reached.size() - m_mostNodes);
 	if (!isFree)
 		for (const int number : reached)
 			m_nodes[number].path = -1;

@@ -58,7 +58,8 @@ private:
 	std::vector<Corner> m_known; // corners where one has been
 	Array<Node> m_nodes;         // vertices of the part
 	Array<Path> m_paths;
-	std::size_t m_mostNodes = 0; // that a path looks at
+	std::size_t m_mostNodes = 0; // that a path looks at,
+	std::size_t m_spareNodes;    // and these beyond, of all paths: as many as corners
 };
 
 } // namespace ricci
