@@ -440,6 +440,10 @@ class Functions(unittest.TestCase):
                 (TypeError, "^cone_distortion must be of type float", {"cone_distortion": "a"}),
                 (TypeError, "^flat_layer must be of type bool", {"flat_layer": "yes"}),
                 (TypeError, "^texture_size must be of type int", {"texture_size": 2.5}),
+                (TypeError, "^selected must hold numbers, not 'first'", {"selected": "first"}),
+                (TypeError, "^selected must hold numbers, not {0: 1}", {"selected": {0: 1}}),
+                (TypeError, "^curvature must hold numbers, not .'a'", {"curvature": ["a"]}),
+                (TypeError, "^progress must be True or a function, not 'bar'", {"progress": "bar"}),
                 (ValueError, "cannot be used", {"cone_distortion": -1.0}),
                 (FileNotFoundError, "there is no folder", {"report": "no such folder/report.html"})):
             with self.assertRaisesRegex(error, pattern):

@@ -273,6 +273,14 @@ def _require_faces(mesh_set):
                       "first.")
 
 
+def _numbers(name, values):
+    """An array of the given numbers or truth values."""
+    array = numpy.asarray(sorted(values) if isinstance(values, (set, frozenset)) else values)
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"{name} must hold numbers, not {values!r:.80}")
+    return array
+
+
 def _per_vertex(mesh_set, name, values):
     """The name of a new attribute with the values: PyMeshLab cannot change those that are there."""
     mesh = mesh_set.current_mesh()
@@ -290,7 +298,7 @@ def _per_vertex(mesh_set, name, values):
 
 def _mask(mesh_set, selected):
     """Indices of vertices, or a truth value for each, as numbers 0 and 1."""
-    selected = numpy.asarray(sorted(selected) if isinstance(selected, (set, frozenset)) else selected)
+    selected = _numbers("selected", selected)
     if selected.dtype == bool:
         return selected.astype(numpy.float64)
     mask = numpy.zeros(mesh_set.current_mesh().vertex_number())
@@ -315,7 +323,7 @@ def _solve(function, mesh, faces, selected, curvature, progress, parameters):
         parameters.setdefault("target_curvature", "Cones at selected vertices")
     if curvature is not None:
         attribute = _per_vertex(mesh_set, "curvature",
-                                numpy.asarray(curvature, dtype=numpy.float64))
+                                _numbers("curvature", curvature).astype(numpy.float64))
         apply(mesh_set, "compute_scalar_by_function_per_vertex", q=attribute)
         parameters.setdefault("target_curvature", "From vertex quality")
     try:

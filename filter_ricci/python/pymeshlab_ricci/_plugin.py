@@ -60,11 +60,13 @@ def silent(fraction, what):
 
 @contextlib.contextmanager
 def teller(progress):
-    """The function of that kind for `progress`: a callable, true for a bar, or nothing."""
+    """The function of that kind for `progress`: a callable, True for a bar, or nothing."""
     if callable(progress):
         yield progress
-    elif not progress:
+    elif progress is None or progress is False:
         yield silent
+    elif progress is not True:
+        raise TypeError(f"progress must be True or a function, not {progress!r}")
     else:
         try:
             from tqdm.auto import tqdm
