@@ -149,7 +149,7 @@ make_venv() {
 add_companions() {
 	[ -x "$build/venv/bin/pip" ] || return 0
 	local name
-	for name in 'dask[distributed]' pillow tqdm trimesh xatlas; do
+	for name in 'dask[distributed]' matplotlib pillow tqdm trimesh xatlas; do
 		"$build/venv/bin/pip" show -q "${name%%[*}" 2>/dev/null ||
 			"$build/venv/bin/pip" install -q "$name" >>"$build/venv.log" 2>&1 ||
 			skipped "$name: pip could not install it; see build/venv.log"

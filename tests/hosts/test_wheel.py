@@ -27,6 +27,10 @@ import zipfile
 import common
 import meshes
 
+try:
+    from matplotlib import image
+except ImportError:
+    image = None
 sys.path.insert(0, os.path.join(common.BUILD, "python"))
 try:
     import numpy
@@ -257,6 +261,23 @@ class Functions(unittest.TestCase):
             with open(path["two.obj"], encoding="utf-8") as source:
                 self.assertGreater(sum(line.startswith("vt ") for line in source),
                                    len(meshes.double_torus().vertices))
+
+    @unittest.skipIf(image is None, "Matplotlib is not installed")
+    def test_paper_figures(self):
+        """On thin triangles the conventional flow's half has red where the other has blue."""
+        script = os.path.join(common.REPOSITORY, "filter_ricci", "samples", "paper_figures.py")
+        environment = {**os.environ, "PYTHONPATH": os.path.join(common.BUILD, "python")}
+        with tempfile.TemporaryDirectory() as folder:
+            mesh, picture = os.path.join(folder, "thin.ply"), os.path.join(folder, "thin.png")
+            meshes.write_ply(mesh, meshes.torus(columns=80, rows=8))
+            subprocess.run([sys.executable, script, mesh, picture], check=True, env=environment)
+            above, below = numpy.array_split(image.imread(picture)[..., :3], 2)
+
+        def pixels(half, low, high):
+            return ((half >= low) & (half <= high)).all(axis=2).sum()
+        red, blue = ((0.49, 0.0, 0.0), (0.51, 0.0, 0.0)), ((0.0, 0.3, 0.99), (0.2, 1.0, 1.0))
+        self.assertGreater(pixels(above, *red), 2000 + 5 * pixels(below, *red))
+        self.assertGreater(pixels(below, *blue), 2000 + 5 * pixels(above, *blue))
 
     def test_indexed(self):
         result = flatten(arrays(meshes.torus()), cone_distortion=1.0)
