@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Removes what "cmake --install" has put down: the files named by its manifests in the build folder.
+# Removes what "cmake --install" has put down: the files named by its manifests in the build folder, and
+# folders of ours that are empty then.
 file(GLOB manifests "${BUILD_DIR}/install_manifest*.txt")
 if(NOT manifests)
 	message(STATUS "Nothing has been installed from ${BUILD_DIR}.")
@@ -14,6 +15,15 @@ foreach(manifest IN LISTS manifests)
 				message(FATAL_ERROR "$ENV{DESTDIR}${file} could not be removed.")
 			endif()
 		endif()
+		cmake_path(GET file PARENT_PATH folder)
+		while(folder MATCHES "/(meshlab-filter-ricci|(py)?meshlab-20[0-9.]+|ricci|vcg)(/|$)")
+			file(GLOB left "$ENV{DESTDIR}${folder}/*")
+			if(left)
+				break()
+			endif()
+			file(REMOVE_RECURSE "$ENV{DESTDIR}${folder}")
+			cmake_path(GET folder PARENT_PATH folder)
+		endwhile()
 	endforeach()
 	file(REMOVE "${manifest}")
 endforeach()

@@ -69,7 +69,7 @@ check_install() {
 	local host
 	for host in $(hosts); do check_folder "$folder/prefix" "$host"; done
 	uninstall
-	[ -z "$(find "$folder/prefix" -type f)" ] || fail "uninstall leaves $(find "$folder/prefix" -type f)"
+	nothing_left "$folder/prefix"
 }
 
 check_system_install() {
@@ -79,8 +79,15 @@ check_system_install() {
 	compgen -G "$DESTDIR/usr/lib/*/meshlab/plugins/libfilter_ricci.so" >/dev/null ||
 		fail "the plugin is not in MeshLab's folder"
 	uninstall
-	[ -z "$(find "$DESTDIR" -type f)" ] || fail "uninstall leaves $(find "$DESTDIR" -type f)"
+	nothing_left "$DESTDIR"
 	unset DESTDIR
+}
+
+# No file, and no folder of ours; MeshLab's own stay.
+nothing_left() {
+	local left
+	left=$(find "$1" -type f -o -name 'meshlab-*' -o -name 'pymeshlab-*' -o -name ricci -o -name vcg)
+	[ -z "$left" ] || fail "uninstall leaves $left"
 }
 
 uninstall() {

@@ -62,7 +62,8 @@ stage() {
 	local work=$folder/debian/ricci
 	rm -rf "$work"
 	mkdir -p "$work"
-	cp "$here/../../filter_ricci/scripts/window.sh" "$here/window_newer_inside.sh" "$plugin" "$work/"
+	cp "$here/../../filter_ricci/scripts/window.sh" "$here/window_newer_inside.sh" \
+		"$here/../../filter_ricci/samples/automatic.mlx" "$plugin" "$work/"
 	python3 "$here/../../filter_ricci/demo/checkerboard.py" "$work/checkerboard.png"
 	(cd "$here" && python3 -c "import meshes, textures
 torus = meshes.torus()
