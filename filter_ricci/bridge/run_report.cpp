@@ -252,7 +252,7 @@ const char* const kStyle =
 	".frame{fill:none;stroke:#ddd}.outline{fill:none;stroke:#222;stroke-width:.5}\n"
 	"table{border-collapse:collapse}td,th{padding:.15em 1em .15em 0;text-align:left;"
 	"border-bottom:1px solid #e4e4e4;font-variant-numeric:tabular-nums;vertical-align:top}\n"
-	"td:first-child{min-width:13em}td:last-child{overflow-wrap:anywhere}\n"
+	"td:first-child{min-width:13em}td:last-child{min-width:9em;overflow-wrap:anywhere}\n"
 	"code{font-size:12px;color:#666}\n";
 
 std::string tableRow(const ReportLine& line)
@@ -341,13 +341,13 @@ std::string toHtml(const RunReport& report)
 		 << "<h2>Quasi-conformal distortion of the vertices</h2>\n"
 		 << histogramPicture(
 				qc, "&sigma;&#8321;/&sigma;&#8322;, mean of the faces at the vertex by area")
-		 << "<p>1 where angles are kept. " << qc.above
-		 << " vertices lie beyond the scale. <i>Colour by distortion</i> paints them from "
+		 << "<p>1 where angles are kept. Vertices beyond the scale: " << qc.above
+		 << ". <i>Colour by distortion</i> paints the vertices from "
 		 << escaped(colourRamp(report.results)) << ".</p>\n"
 		 << "</section>\n<section>\n<h2>Area factor of the faces</h2>\n"
 		 << histogramPicture(areas, "log&#8322; of the share in the plane over the share in space")
-		 << "<p>0 where areas keep their ratios. " << areas.below + areas.above
-		 << " faces lie beyond the scale.</p>\n"
+		 << "<p>0 where areas keep their ratios. Faces beyond the scale: "
+		 << areas.below + areas.above << ".</p>\n"
 		 << "</section>\n</div>\n<section>\n<h2>Results</h2>\n<table>\n";
 	for (const auto& [key, value] : report.results)
 		page << tableRow({key, resultLabel(key), text(value)});
