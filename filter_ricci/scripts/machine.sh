@@ -53,13 +53,23 @@ install_packages() {
 		install_one_by_one "${missing[@]}"
 }
 
-# One package that cannot be had must not keep the others away.
+# One package that cannot be had must not keep the others away, but without a network there are no others.
 install_one_by_one() {
-	local package
+	local package said
 	for package in "$@"; do
-		"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y \
-			--no-install-recommends "$package" >>"$build/apt.log" 2>&1 ||
-			skipped "package $package could not be installed; see build/apt.log"
+		! said=$("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -q -y \
+			--no-install-recommends "$package" 2>&1) || continue
+		printf '%s\n' "$said" >>"$build/apt.log"
+		case $said in
+		*'failure resolving'* | *'ould not resolve'* | *'ould not connect'* | *'nable to connect'*)
+			skipped "installing packages: Debian's archive cannot be reached; see build/apt.log. Please install: $(missing_packages "$@" | paste -sd ' ')"
+			return 0
+			;;
+		*'nable to locate package'* | *'no installation candidate'*)
+			skipped "package $package: Debian's archive has no such package; see build/apt.log"
+			;;
+		*) skipped "package $package could not be installed; see build/apt.log" ;;
+		esac
 	done
 }
 

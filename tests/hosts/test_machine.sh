@@ -23,6 +23,14 @@ program apt-get <<'END'
 case "$* " in
 *indextargets*) echo archive ;;
 *" update "*) [ "$archive" = unreachable ] || touch "$SOURCES/apt/lists/archive_Sources" ;;
+"install "*)
+	case $archive in
+	unreachable) echo "Err:1 archive one. Temporary failure resolving 'archive'" ;;
+	without) echo 'E: Unable to locate package' ;;
+	esac
+	[ "$archive" = whole ]
+	exit
+	;;
 *" source "*)
 	case $archive in
 	torn) echo torn >meshlab_2020.09.orig.tar.xz ;;
@@ -35,6 +43,30 @@ END
 program apt-cache <<'END'
 [ "$archive" = unreachable ] || [ "$archive" = without ] || echo 'Version: 2020.09+dfsg1-2'
 END
+
+program dpkg-query </dev/null
+program sudo <<'END'
+while [ "$1" = -n ]; do shift; done
+exec "$@"
+END
+
+# installed ARCHIVE TEXT...: what is said of two packages, a line each.
+installed() {
+	archive=$1
+	build=$folder/$archive
+	mkdir -p "$build"
+	shift
+	diff <(install_packages one two) <(printf '%s\n' 'Installing: one two' "$@") ||
+		{ echo "FAILED: $archive: another reason is given"; exit 1; }
+}
+
+installed unreachable 'apt-get update reported a problem; see build/apt.log.' \
+	"SKIPPED: installing packages: Debian's archive cannot be reached; see build/apt.log. Please install: one two"
+installed without "SKIPPED: package one: Debian's archive has no such package; see build/apt.log" \
+	"SKIPPED: package two: Debian's archive has no such package; see build/apt.log"
+installed breaking "SKIPPED: package one could not be installed; see build/apt.log" \
+	"SKIPPED: package two could not be installed; see build/apt.log"
+installed whole
 
 # fetched ARCHIVE TEXT
 fetched() {
