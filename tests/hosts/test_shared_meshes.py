@@ -70,6 +70,20 @@ class RockerArm(unittest.TestCase):
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
 
 
+class Finish(unittest.TestCase):
+    """No finish makes a map worse than it found it."""
+
+    def test_a_repair_that_stretches_is_undone(self):
+        path = os.path.join(MESHES, "wild", "pb_xavier.ply")
+        if not os.path.exists(path):
+            common.skip("../shared/meshes/wild/pb_xavier.ply is not there")
+        flow, finished = (run(load(path), target_curvature="Placed cones", finish=finish)
+                          for finish in ("None", "Least distortion"))
+        self.assertGreater(flow["flipped_faces"], 0)
+        self.assertEqual(finished["flipped_faces"], 0)
+        self.assertLess(finished["qc_area_mean"], flow["qc_area_mean"])
+
+
 class EveryMesh(unittest.TestCase):
     """Each is solved without a flipped face and with areas for a texture, or ends in a sentence."""
 
