@@ -301,6 +301,22 @@ TEST(ConePlacement, TakesAsManyAsLowerEnergyAndPriceOfSeams)
 	}
 }
 
+TEST(ConePlacement, EndsWhereAnotherMapIsOutOfReach)
+{
+	Random random(712);
+	const Packed p(shaken(perforatedSlab(9, 4), 0.02, random));
+	ConeRequest request;
+	const PlacedCones alone = place(p, request);
+	EXPECT_GT(alone.vertices.size(), 64u);
+	request.alternative = cost(alone) + 0.3;
+	EXPECT_EQ(place(p, request).vertices, alone.vertices);
+	request.alternative = 4.0; // no map costs less
+	const PlacedCones ended = place(p, request);
+	EXPECT_LT(ended.vertices.size(), 64u);
+	EXPECT_GT(cost(ended), request.alternative);
+	expectAdmissible(p, ended);
+}
+
 TEST(ConePlacement, ScaleChangesNothing)
 {
 	Random random(706);

@@ -61,11 +61,12 @@ void placeCount(const ConeRequest& request, ConeModel& model, const ConeSites& s
 /// How many cones \p model can work with.
 int maxCones(const ConeModel& model, const ConeRequest& request)
 {
-	if (request.hasAlternative)
-		return kMaxPlacedCones;
 	// There are none if all lie on a boundary that is free.
 	const auto vertices = static_cast<int>(model.area().size());
-	return std::clamp(kMaxConeNumbers / std::max(1, vertices), kMaxPlacedCones, kMaxNeededCones);
+	const int numbers = request.alternative < std::numeric_limits<double>::infinity()
+							? kMaxConeNumbersBeside
+							: kMaxConeNumbers;
+	return std::clamp(numbers / std::max(1, vertices), kMaxPlacedCones, kMaxNeededCones);
 }
 
 /// In a search for the objective, cones move first when there are so many, and again whenever there are
@@ -86,6 +87,22 @@ public:
 	bool mayGoOn() const
 	{
 		return m_model.size() < m_most && m_model.size() - m_best <= kMaxVain + m_best / kShareVain;
+	}
+
+	/// Whether a map with more cones, each at its price, may cost less than \p alternative, if energy falls and
+	/// seams grow as since the last call, when there were about half as many. The first call does not tell.
+	bool mayFallBelow(double alternative)
+	{
+		MapCost cost{4.0 + kEnergyPrice * m_model.energy(), m_tree.length()};
+		const MapCost last = std::exchange(m_last, cost);
+		const double pace = (cost.energy - 4.0) / (last.energy - 4.0);
+		bool mayFall = !std::isfinite(last.energy);
+		for (int n = m_model.size(); n <= m_most && !mayFall; n *= 2) {
+			mayFall = cost.total() + kConePrice * n < alternative;
+			cost.energy = 4.0 + pace * (cost.energy - 4.0);
+			cost.seams += m_last.seams - last.seams;
+		}
+		return mayFall;
 	}
 
 	/// Adds one cone, or some at a time where there are many already, and fits the curvatures.
@@ -114,6 +131,7 @@ private:
 	SeamTree m_tree;
 	int m_most, m_best; // numbers of cones
 	double m_least;
+	MapCost m_last{std::numeric_limits<double>::infinity()}; // at the last call of mayFallBelow()
 };
 
 /// As many cones as lower the energy and the price of the seams together: more than those at first, then
@@ -125,6 +143,8 @@ void placeForObjective(const ConeRequest& request, ConeModel& model, const ConeS
 		if (model.size() >= relocated) {
 			relocateCones(model, sites, 1);
 			relocated = 2 * model.size();
+			if (!growth.mayFallBelow(request.alternative))
+				break;
 		}
 	relocateCones(model, sites, 2);
 	for (int round = 0; round < kMaxObjectiveRounds; ++round) {

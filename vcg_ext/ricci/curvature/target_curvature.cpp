@@ -455,7 +455,7 @@ std::optional<Target> targetToKeepAreas(
 ConeRequest coneRequest(const TargetRequest& request)
 {
 	ConeRequest wanted{request.options.cones};
-	wanted.hasAlternative = request.hasAlternative;
+	wanted.alternative = request.alternative;
 	if (!request.vertexNumbers.empty())
 		wanted.vertices = request.vertexNumbers.size();
 	wanted.boundary = request.options.freeBoundary ? ConeBoundary::Fixed : ConeBoundary::Prescribed;

@@ -6,6 +6,7 @@
 #include "admissible.h"
 #include "cone_placement.h"
 
+#include <limits>
 #include <optional>
 
 namespace ricci {
@@ -16,7 +17,7 @@ struct TargetRequest : TargetInput
 	TargetOptions options;
 	bool measuresAreas = true;   ///< false: Automatic decides by topology alone
 	bool hasSeam = false;        ///< see OpenedMesh: Automatic makes no flat annulus of it
-	bool hasAlternative = false; ///< see ConeRequest
+	double alternative = std::numeric_limits<double>::infinity(); ///< see ConeRequest
 
 	/// Under which notes name vertices; placed cones lie at these alone. Empty: their own numbers,
 	/// and cones at any.

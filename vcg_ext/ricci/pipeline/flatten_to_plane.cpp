@@ -300,7 +300,7 @@ std::optional<ComponentMap> flattenToPlane(
 		},
 		[&] { other = alternative(); });
 	TargetRequest request = targetRequest(component, input, options, domain.solved());
-	request.hasAlternative = other < kNoAlternative;
+	request.alternative = other;
 	VertexArray<double> coneAngle; // of the cones that it is cut through
 	if (options.method == Method::EdgeSwaps)
 		flowWithEdgeSwaps(component, input, options, domain, map); // 5.4
