@@ -15,8 +15,8 @@ namespace ricci {
 struct TargetRequest : TargetInput
 {
 	TargetOptions options;
-	bool measuresAreas = true;   ///< false: Automatic decides by topology alone
-	bool hasSeam = false;        ///< see OpenedMesh: Automatic makes no flat annulus of it
+	bool measuresAreas = true; ///< false: Automatic decides by topology alone
+	bool hasSeam = false;      ///< see OpenedMesh: Automatic makes no flat annulus of it
 	double alternative = std::numeric_limits<double>::infinity(); ///< see ConeRequest
 
 	/// Under which notes name vertices; placed cones lie at these alone. Empty: their own numbers,
