@@ -352,7 +352,7 @@ TEST(OnAggregates, KeepsAreaAndCurvature)
 		SCOPED_TRACE(c.name);
 		Linearised fine(c);
 		VertexArray<Vertex> roots;
-		const LinearFlow coarse = onAggregates(fine.flow, 300, roots);
+		const LinearFlow coarse = onAggregates(fine.flow.system(roots), 300, roots);
 		EXPECT_LE(roots.size(), 300);
 		EXPECT_GE(roots.size(), 40);
 		EXPECT_NEAR(coarse.area().sum(), 1.0, 1e-12);
@@ -385,7 +385,7 @@ TEST(OnAggregates, FlattensAsMuchAsTheSurface)
 		const double size = flatteningSize(fine.flow);
 		for (const int vertices : {300, 1500}) {
 			VertexArray<Vertex> roots;
-			LinearFlow coarse = onAggregates(fine.flow, vertices, roots);
+			LinearFlow coarse = onAggregates(fine.flow.system(roots), vertices, roots);
 			EXPECT_NEAR(flatteningSize(coarse), size, 0.03 * size) << vertices;
 		}
 	}
@@ -397,7 +397,7 @@ TEST(OnAggregates, HasTheFactorsOfTheSurface)
 		SCOPED_TRACE(c.name);
 		Linearised fine(c);
 		VertexArray<Vertex> roots;
-		LinearFlow coarse = onAggregates(fine.flow, 1500, roots);
+		LinearFlow coarse = onAggregates(fine.flow.system(roots), 1500, roots);
 		const VertexVector& area = coarse.area();
 		for (const int k : {roots.size() / 5, roots.size() / 2}) {
 			// The adjoint field of a cone, by which cones are placed.

@@ -29,6 +29,10 @@ constexpr std::int64_t kManySteps = 64;
 /// sheets.
 constexpr std::size_t kManyPairs = 16;
 
+/// Sheets in the mean over the box of all triangles from which on it takes no search to know that there are
+/// more pairs.
+constexpr double kManySheets = 8.0;
+
 /// Corners of the polygon round a node.
 constexpr std::size_t kMaxCorners = 8;
 
@@ -117,10 +121,17 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching) :
 		m_plane(std::move(triangles)), m_isProper(m_plane.size()), m_tree(boxTreeOf(m_plane)),
 		m_touching(touching >= 0.0 ? touching : kTouching * m_tree.extent())
 {
-	for (const int i : m_plane.indices())
-		m_isProper[i] = orientation(m_plane[i][0], m_plane[i][1], m_plane[i][2]) > 0;
+	Box2 box;
+	double area = 0.0;
+	for (const int i : m_plane.indices()) {
+		const Triangle2& p = m_plane[i];
+		m_isProper[i] = orientation(p[0], p[1], p[2]) > 0;
+		area += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
+		box.add(boxOf(p));
+	}
 	m_hasFolds = std::find(m_isProper.begin(), m_isProper.end(), 0) != m_isProper.end();
-	const std::size_t most = kManyPairs * m_plane.values().size();
+	const bool hasManySheets = area > kManySheets * box.width() * box.height();
+	const std::size_t most = hasManySheets ? 0 : kManyPairs * m_plane.values().size();
 	m_tree.meetingPairs(
 		[&](int i, int j) {
 			step();

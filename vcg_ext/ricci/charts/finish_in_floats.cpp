@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 
 namespace ricci {
@@ -140,11 +141,14 @@ public:
 		for (const int p : patch.points)
 			if (m_staysInBox && !m_boxes[m_chartOf[p]].contains(flat.place[p]))
 				return false;
+		std::map<int, std::vector<BorderSide>> moved; // of each chart
 		for (std::size_t i = 0; i < patch.points.size(); ++i)
 			if (patch.variable[static_cast<int>(i)] >= 0)
 				for (const BorderSide& side : m_sidesAt[patch.points[i]])
-					if (crossesAny(flat, side, m_chartOf[patch.points[i]]))
-						return false;
+					moved[m_chartOf[patch.points[i]]].push_back(side);
+		for (const auto& [chart, sides] : moved)
+			if (crossesAny(flat, sides, chart))
+				return false;
 		return true;
 	}
 
@@ -157,13 +161,21 @@ private:
 		return box;
 	}
 
-	bool crossesAny(const FlatMesh& flat, const BorderSide& side, int chart) const
+	bool crossesAny(const FlatMesh& flat, const std::vector<BorderSide>& sides, int chart) const
 	{
-		const Box2 box = boxOf(flat, side);
+		std::vector<Box2> boxes;
+		Box2 all;
+		for (const BorderSide& side : sides) {
+			boxes.push_back(boxOf(flat, side));
+			all.add(boxes.back());
+		}
+		const BoxTree tree(boxes);
 		for (const int near : m_near[chart])
-			if (near == chart || m_boxes[near].meets(box))
+			if (near == chart || m_boxes[near].meets(all))
 				for (const BorderSide& other : m_border[near])
-					if (cross(flat, side, other))
+					if (tree.meetsAny(boxOf(flat, other), [&](int i) {
+							return cross(flat, sides[positionOf(i)], other);
+						}))
 						return true;
 		return false;
 	}
@@ -172,8 +184,7 @@ private:
 	{
 		const Point2 &a = flat.place[s[0]], &b = flat.place[s[1]];
 		const Point2 &c = flat.place[t[0]], &d = flat.place[t[1]];
-		return boxOf(flat, s).meets(boxOf(flat, t)) &&
-			   orientation(a, b, c) * orientation(a, b, d) < 0 &&
+		return orientation(a, b, c) * orientation(a, b, d) < 0 &&
 			   orientation(c, d, a) * orientation(c, d, b) < 0;
 	}
 

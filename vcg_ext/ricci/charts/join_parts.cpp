@@ -23,6 +23,9 @@ constexpr std::ptrdiff_t kMaxPlaces = 8;
 /// that gives the motion.
 constexpr double kOneMotion = 1e-4;
 
+/// Share of the largest part that is no crumb: where there are very many parts, all are small.
+constexpr double kCrumbOfLargest = 0.25;
+
 using Parts = std::vector<std::vector<int>>; // triangles of each
 
 /// What parts are left: the triangles of each in increasing order, the parts by their first.
@@ -178,10 +181,12 @@ private:
 /// Area below which a part is too small to stay.
 double maxCrumb(const MovableParts& parts)
 {
-	double total = 0.0;
-	for (int part = 0; part < parts.count(); ++part)
+	double total = 0.0, largest = 0.0;
+	for (int part = 0; part < parts.count(); ++part) {
 		total += parts.area(part);
-	return kCrumb * total;
+		largest = std::max(largest, parts.area(part));
+	}
+	return std::min(kCrumb * total, kCrumbOfLargest * largest);
 }
 
 /// The parts that are too small, the smallest first.
@@ -388,9 +393,9 @@ private:
 
 } // namespace
 
-Parts joinParts(FlatMesh& chart, const Parts& parts)
+Parts joinParts(FlatMesh& chart, const Parts& parts, const BoxTree* tree)
 {
-	MovableParts whole(chart, parts);
+	MovableParts whole(chart, parts, tree);
 	PartJoiner(chart, whole).run();
 	take(whole, chart);
 	if (crumbs(whole).empty())

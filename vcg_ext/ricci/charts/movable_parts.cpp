@@ -11,8 +11,10 @@
 
 namespace ricci {
 
-MovableParts::MovableParts(const FlatMesh& chart, const std::vector<std::vector<int>>& parts) :
-		m_chart(chart), m_plane(chart.corners()), m_isProper(chart.size()),
+MovableParts::MovableParts(
+	const FlatMesh& chart, const std::vector<std::vector<int>>& parts, const BoxTree* all) :
+		m_chart(chart),
+		m_all(all), m_plane(chart.corners()), m_isProper(chart.size()),
 		m_part(chart.size(), -1), m_group(chart.size(), -1), m_before(chart.size(), -1),
 		m_next(chart.size(), -1)
 {
@@ -24,7 +26,7 @@ MovableParts::MovableParts(const FlatMesh& chart, const std::vector<std::vector<
 	for (const std::vector<int>& triangles : parts) {
 		const int part = addPart();
 		m_groupsOf[part].push_back(m_groups.size());
-		Group group{m_origins.size(), {}, {}, {}};
+		Group group{m_all ? -1 : m_origins.size(), {}, {}, {}};
 		std::vector<Box2> boxes;
 		for (const int f : triangles) {
 			append(f, part);
@@ -35,7 +37,8 @@ MovableParts::MovableParts(const FlatMesh& chart, const std::vector<std::vector<
 			whole.add(boxes.back());
 		}
 		m_groups.push_back(group);
-		m_origins.push_back({triangles, BoxTree(boxes)});
+		if (!m_all)
+			m_origins.push_back({triangles, BoxTree(boxes)});
 	}
 	m_onePlace = kOnePlace * whole.extent();
 	m_touching = kTouching * whole.extent();

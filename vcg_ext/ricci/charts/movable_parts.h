@@ -26,7 +26,12 @@ class MovableParts
 {
 public:
 	/// \param parts triangles
-	MovableParts(const FlatMesh& chart, const std::vector<std::vector<int>>& parts);
+	/// \param all of the boxes of all triangles, if no point lies in many of them: it saves trees for the parts.
+	/// It must outlive this.
+	MovableParts(
+		const FlatMesh& chart,
+		const std::vector<std::vector<int>>& parts,
+		const BoxTree* all = nullptr);
 
 	int count() const { return m_area.size(); }
 	bool isEmpty(int part) const { return m_first[part] < 0; }
@@ -95,7 +100,7 @@ private:
 	/// Triangles of one part that were moved alike.
 	struct Group
 	{
-		int origin;
+		int origin; ///< -1: what has one tree with all others
 		Motion motion, back; ///< since the beginning, and its inverse
 		Box2 box;            ///< round the triangles where they are now, at least
 	};
@@ -124,9 +129,11 @@ private:
 		for (const int group : m_groupsOf[part]) {
 			if (!m_groups[group].box.meets(box))
 				continue;
-			const Origin& origin = m_origins[m_groups[group].origin];
-			if (origin.tree.meetsAny(boxOf(m_groups[group].back(p)), [&](int i) {
-					const int g = origin.triangles[positionOf(i)];
+			const int number = m_groups[group].origin;
+			const Origin* origin = number >= 0 ? &m_origins[number] : nullptr;
+			const BoxTree& tree = origin ? origin->tree : *m_all;
+			if (tree.meetsAny(boxOf(m_groups[group].back(p)), [&](int i) {
+					const int g = origin ? origin->triangles[positionOf(i)] : i;
 					return m_group[g] == group && m_isProper[g] &&
 						   overlap(p, m_plane[g], m_touching) && isFound(g);
 				}))
@@ -141,6 +148,7 @@ private:
 	}
 
 	const FlatMesh& m_chart;
+	const BoxTree* m_all;
 	double m_onePlace = 0.0, m_touching = 0.0;
 	Array<Triangle2> m_plane; // [triangle] where it is
 	Array<char> m_isProper;   // [triangle] counter-clockwise

@@ -219,7 +219,10 @@ void separateCharts(bool turns, Parametrization& map)
 		}
 		if (divided.empty())
 			before = seams(map.mesh);
-		Parts joined = joinParts(chart, divideChart(chart, overlaps));
+		Parts joined = joinParts(
+			chart,
+			divideChart(chart, overlaps),
+			overlaps.isComplete() ? &overlaps.tree() : nullptr);
 		const int first = map.mesh.place.size();
 		for (const Point2& p : chart.place)
 			map.mesh.place.push_back(p);

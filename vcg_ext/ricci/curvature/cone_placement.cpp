@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,12 @@ constexpr int kMaxCoarseRounds = 3, kMaxFineRounds = 2;
 /// a gain is none.
 constexpr int kMaxFitSteps = 20;
 constexpr double kNoGain = 1e-6;
+
+/// By Gauss-Bonnet.
+double totalCurvature(const EmbeddedSurface& surface)
+{
+	return 2 * kPi * surface.topology.type.eulerCharacteristic();
+}
 
 void checkCount(const ConeRequest& request, int least, const ConeSites& sites)
 {
@@ -269,19 +276,29 @@ PlacedCones result(ConeModel& model, const ConeSites& sites)
 	return result(sites, model.vertices(), model.curvatures(), model.exactDistortion());
 }
 
-/// All of the search on aggregates of vertices, for what is the least cost there. On the surface itself the
-/// curvatures are fitted by conjugate gradients, with the equation on the aggregates as the preconditioner:
-/// each step costs two linear solutions, however many cones there are.
-PlacedCones placeOnAggregates(
-	const ConeRequest& request, LinearFlow& flow, double total, const ConeSites& sites)
+/// All of the search on aggregates of vertices, for what is the least cost there, while another thread
+/// factorises the flow. On the surface itself the curvatures are fitted by conjugate gradients, with the equation
+/// on the aggregates as the preconditioner: each step costs two linear solutions, however many cones there are.
+PlacedCones
+placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request)
 {
+	const double total = totalCurvature(surface);
 	VertexArray<Vertex> roots;
-	LinearFlow coarse = onAggregates(flow, kMaxAggregates, roots);
-	ConeModel model(coarse, total);
+	const LinearSystem whole = flow.system(roots);
+	std::optional<ConeSites> sites;
+	std::optional<LinearFlow> coarse;
+	std::optional<ConeModel> found;
 	besides(
 		defaultThreads(),
-		[&] { search(request, model, ConeSites(sites, roots)); },
+		[&] {
+			sites.emplace(surface, request.vertices);
+			checkCount(request, minConeCount(flow, total), *sites);
+			coarse.emplace(onAggregates(whole, kMaxAggregates, roots));
+			found.emplace(*coarse, total);
+			search(request, *found, ConeSites(*sites, roots));
+		},
 		[&] { flow.factorize(); });
+	ConeModel& model = *found;
 	std::vector<Vertex> vertices = model.vertices();
 	for (Vertex& v : vertices)
 		v = roots[v];
@@ -296,8 +313,8 @@ PlacedCones placeOnAggregates(
 			result[static_cast<Eigen::Index>(i)] = phi[vertices[i]];
 		return result;
 	};
-	const Eigen::VectorXd found = model.curvatures();
-	Eigen::VectorXd k = found;
+	const Eigen::VectorXd start = model.curvatures();
+	Eigen::VectorXd k = start;
 	VertexVector u = flow.factor(spread(k));
 	if (request.rounding == ConeRounding::Free && model.size() > 0) {
 		Eigen::VectorXd rest = -slope(u), step = model.descent(rest), way = step;
@@ -315,11 +332,11 @@ PlacedCones placeOnAggregates(
 		double share = 1.0;
 		for (Eigen::Index i = 0; i < k.size(); ++i)
 			if (k[i] > kMaxConeCurvature)
-				share = std::min(share, (kMaxConeCurvature - found[i]) / (k[i] - found[i]));
-		k = (found + share * (k - found)).cwiseMin(kMaxConeCurvature);
+				share = std::min(share, (kMaxConeCurvature - start[i]) / (k[i] - start[i]));
+		k = (start + share * (k - start)).cwiseMin(kMaxConeCurvature);
 		u = flow.factor(spread(k));
 	}
-	return result(sites, vertices, k, 2.0 * std::sqrt(flow.meanSquare(u)));
+	return result(*sites, vertices, k, 2.0 * std::sqrt(flow.meanSquare(u)));
 }
 
 /// The same for a number of cones or a distortion, and then on the surface itself as far as its own
@@ -328,7 +345,7 @@ void searchFromCoarse(
 	const ConeRequest& request, LinearFlow& flow, ConeModel& model, const ConeSites& sites)
 {
 	VertexArray<Vertex> roots;
-	LinearFlow coarse = onAggregates(flow, kMaxAggregates, roots);
+	LinearFlow coarse = onAggregates(flow.system(roots), kMaxAggregates, roots);
 	const ConeSites coarseSites(sites, roots);
 	ConeModel coarseModel(coarse, model.total());
 	ConeRequest coarseRequest = request;
@@ -361,14 +378,11 @@ placeCones(const EmbeddedSurface& surface, InitialPacking& start, const ConeRequ
 PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request)
 {
 	advance(0.0, "Placing cones");
-	const ConeSites sites(surface, request.vertices);
-	const double total = 2 * kPi * surface.topology.type.eulerCharacteristic();
 	const bool isLarge = surface.triangulation.vertexCount() > kMaxSearched;
-	if (isLarge && isForObjective(request)) {
-		checkCount(request, minConeCount(flow, total), sites);
-		return placeOnAggregates(request, flow, total, sites);
-	}
-	ConeModel model(flow, total);
+	if (isLarge && isForObjective(request))
+		return placeOnAggregates(surface, flow, request);
+	const ConeSites sites(surface, request.vertices);
+	ConeModel model(flow, totalCurvature(surface));
 	checkCount(request, model.minSize(), sites);
 	if (!isLarge)
 		search(request, model, sites);
@@ -391,7 +405,7 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequ
 		placed.distortion = areaChange(surface, linear.factor(whole)).spread;
 		return placed;
 	}
-	ConeModel model(linear, 2 * kPi * surface.topology.type.eulerCharacteristic());
+	ConeModel model(linear, totalCurvature(surface));
 	std::vector<Vertex> cones;
 	for (const Vertex v : surface.triangulation.vertices())
 		if (sites.isAllowed(v) && flow.target.curvature[v] != 0.0)

@@ -359,9 +359,8 @@ Array<int> coarsen(LinearSystem& system, int vertices, VertexArray<Vertex>& root
 
 } // namespace
 
-LinearFlow onAggregates(const LinearFlow& fine, int vertices, VertexArray<Vertex>& roots)
+LinearFlow onAggregates(const LinearSystem& whole, int vertices, VertexArray<Vertex>& roots)
 {
-	const LinearSystem whole = fine.system(roots);
 	LinearSystem system = whole;
 	const Array<int> aggregate = coarsen(system, vertices, roots);
 	LinearFlow coarse(system);

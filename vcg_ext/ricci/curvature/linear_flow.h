@@ -118,13 +118,13 @@ private:
 /// The linear problem of a surface on aggregates of its vertices, where the search for cones costs
 /// little. Its Laplacian is that of functions which are constant on every aggregate, weakened evenly
 /// until the curvature of the surface gives factors u of the right size (overcorrection
-/// [Braess 1995]). They are those of the surface to some percent, but for a cone's own aggregate. \p fine is
-/// not factorised for it.
+/// [Braess 1995]). They are those of the surface to some percent, but for a cone's own aggregate.
+/// \param whole of a LinearFlow, which needs not be factorised
 /// \param vertices to take together until there are at most so many
-/// \param roots by aggregate: the vertex of the surface from which it grew
+/// \param roots the vertices of \p whole; receives by aggregate the one from which it grew
 /// \return the flow with arrays by aggregate in place of arrays by vertex
 /// \throw SolverFailed
-LinearFlow onAggregates(const LinearFlow& fine, int vertices, VertexArray<Vertex>& roots);
+LinearFlow onAggregates(const LinearSystem& whole, int vertices, VertexArray<Vertex>& roots);
 
 } // namespace ricci
 

@@ -163,9 +163,10 @@ NumberedPoints::NumberedPoints(const FlatMesh& flat, const PointGroups& groups) 
 	for (int c = 0; c < 3 * flat.points.size(); ++c)
 		if (const int p = flat.points[Corner(c)]; !stays[p] && groups.first[groups.group[p]] == p)
 			firstAt[flat.vertices[Corner(c)]] = p;
-	for (const int v : walk(flat))
-		if (firstAt[v] >= 0)
-			number[firstAt[v]] = unknowns++;
+	if (std::find(stays.begin(), stays.end(), 0) != stays.end())
+		for (const int v : walk(flat))
+			if (firstAt[v] >= 0)
+				number[firstAt[v]] = unknowns++;
 	moving = unknowns;
 	for (const int p : number.indices())
 		if (!stays[p] && number[p] < 0)
