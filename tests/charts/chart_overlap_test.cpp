@@ -326,6 +326,8 @@ TEST(ChartDivision, OfManyTurnsTakesHardlyMoreStepsThanItHasTriangles)
 		FlatMesh chart = flatMesh(sector(2 * kPi * turns, 20 * turns, 2));
 		const OverlapSearch overlaps(chart.corners());
 		EXPECT_FALSE(overlaps.isComplete());
+		EXPECT_EQ(overlaps.pairs().size(), 1u);
+		EXPECT_LT(overlaps.steps(), chart.size()); // the areas tell that there are too many
 		const Array<char> isIn = overlaps.overlapping();
 		EXPECT_EQ(std::count(isIn.begin(), isIn.end(), 0), 0);
 		const auto steps = static_cast<double>(overlaps.steps());

@@ -161,6 +161,35 @@ TEST(JoinParts, ACrumbWithoutRoomStays)
 	EXPECT_EQ(s.edgesJoined, 0);
 }
 
+/// Each second arc is a sixtieth of the strip or less, has no room as a whole, and both its neighbours have room
+/// for a half of it: it is a crumb if it is much smaller than they are.
+TEST(JoinParts, AmongManySmallPartsOnlyTheSmallestAreCrumbs)
+{
+	constexpr int around = 40, pairs = 60;
+	for (const bool isCrumb : {true, false}) {
+		const int large = isCrumb ? 37 : 30, small = isCrumb ? 6 : 20;
+		std::vector<int> begins;
+		for (int i = 0; i < pairs; ++i) {
+			begins.push_back(i * (large + small));
+			begins.push_back(i * (large + small) + large);
+		}
+		const int cells = pairs * (large + small);
+		Random random(925);
+		Scattered s(
+			manyTurns(cells, static_cast<double>(cells) / around), arcs(cells, begins), random);
+		const auto joined = s.join();
+		expectNothingCoveredTwice(s.flat, joined);
+		if (isCrumb) {
+			EXPECT_LT(joined.size(), at(2 * pairs - 5));
+			EXPECT_GT(s.edgesJoined, 5);
+		}
+		else {
+			EXPECT_EQ(joined.size(), at(2 * pairs));
+			EXPECT_EQ(s.edgesJoined, 0);
+		}
+	}
+}
+
 /// Every cut of a picture into parts is undone, whatever their shapes.
 TEST(JoinParts, RandomParts)
 {

@@ -91,14 +91,15 @@ TEST(MovableParts, UndoRestoresAll)
 	}
 }
 
-/// All pairs of triangles are compared, after some moves.
+/// All pairs of triangles are compared, after some moves; with a tree of all triangles, or one for each part.
 TEST(MovableParts, FindsWhatCoversAPart)
 {
 	Random random(1231);
 	const FlatMesh chart = square(5);
+	const BoxTree all = boxTreeOf(chart.corners());
 	int found = 0;
 	for (int trial = 0; trial < 200; ++trial) {
-		MovableParts parts(chart, stripes(chart.size(), 3));
+		MovableParts parts(chart, stripes(chart.size(), 3), trial % 2 == 0 ? &all : nullptr);
 		for (int i = random.index(4); i > 0; --i)
 			moveSome(parts, random);
 		const Place place{1, randomMotion(random), 0.0};

@@ -122,16 +122,29 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching) :
 		m_touching(touching >= 0.0 ? touching : kTouching * m_tree.extent())
 {
 	Box2 box;
-	double area = 0.0;
+	double area = 0.0; // that the sheets cover together
 	for (const int i : m_plane.indices()) {
 		const Triangle2& p = m_plane[i];
 		m_isProper[i] = orientation(p[0], p[1], p[2]) > 0;
-		area += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
+		area += 0.5 * doubledArea(p[0], p[1], p[2]);
 		box.add(boxOf(p));
 	}
 	m_hasFolds = std::find(m_isProper.begin(), m_isProper.end(), 0) != m_isProper.end();
-	const bool hasManySheets = area > kManySheets * box.width() * box.height();
-	const std::size_t most = hasManySheets ? 0 : kManyPairs * m_plane.values().size();
+	m_isComplete = area <= kManySheets * box.width() * box.height();
+	if (m_isComplete)
+		listPairs();
+	if (m_isComplete)
+		return;
+	m_pairs.clear();
+	m_pairs.shrink_to_fit();
+	for (int i = 0, other = -1; i < m_plane.size() && other < 0; ++i)
+		if ((other = partner(i)) >= 0)
+			m_pairs.push_back({std::min(i, other), std::max(i, other)});
+}
+
+void OverlapSearch::listPairs()
+{
+	const std::size_t most = kManyPairs * m_plane.values().size();
 	m_tree.meetingPairs(
 		[&](int i, int j) {
 			step();
@@ -148,11 +161,27 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching) :
 			step();
 			return !m_isComplete || (!m_hulls.empty() && isApart(m_hulls[a], b));
 		});
-	if (!m_isComplete) {
-		m_pairs.resize(1);
-		m_pairs.shrink_to_fit();
-	}
 	std::sort(m_pairs.begin(), m_pairs.end());
+}
+
+/// A triangle that overlaps another one; -1: there is none.
+int OverlapSearch::partner(int i) const
+{
+	int found = -1;
+	const auto overlapsWith = [&](int j) {
+		step();
+		Point2 common;
+		if (i == j || meeting(i, j, common) != Meeting::Overlap)
+			return false;
+		found = j;
+		return true;
+	};
+	if (m_isProper[i])
+		m_tree.meetsAny(boxOf(m_plane[i]), overlapsWith, [&](int node) {
+			step();
+			return isApart(m_plane[i], node);
+		});
+	return found;
 }
 
 void OverlapSearch::step() const
@@ -192,17 +221,8 @@ Array<char> OverlapSearch::overlapping() const
 			isIn[i] = 1;
 	if (m_isComplete)
 		return isIn;
-	for (const int i : isIn.indices()) {
-		const auto overlapsWith = [&](int j) {
-			step();
-			Point2 common;
-			return i != j && meeting(i, j, common) == Meeting::Overlap;
-		};
-		isIn[i] = m_isProper[i] && m_tree.meetsAny(boxOf(m_plane[i]), overlapsWith, [&](int node) {
-			step();
-			return isApart(m_plane[i], node);
-		});
-	}
+	for (const int i : isIn.indices())
+		isIn[i] = partner(i) >= 0;
 	return isIn;
 }
 

@@ -73,6 +73,8 @@ public:
 private:
 	enum class Meeting { None, Hidden, Overlap };
 
+	void listPairs();
+	int partner(int i) const;
 	void step() const;
 	void makeHulls() const;
 	Meeting meeting(int i, int j, Point2& common) const;

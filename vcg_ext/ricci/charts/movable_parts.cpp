@@ -14,9 +14,8 @@ namespace ricci {
 MovableParts::MovableParts(
 	const FlatMesh& chart, const std::vector<std::vector<int>>& parts, const BoxTree* all) :
 		m_chart(chart),
-		m_all(all), m_plane(chart.corners()), m_isProper(chart.size()),
-		m_part(chart.size(), -1), m_group(chart.size(), -1), m_before(chart.size(), -1),
-		m_next(chart.size(), -1)
+		m_all(all), m_plane(chart.corners()), m_isProper(chart.size()), m_part(chart.size(), -1),
+		m_group(chart.size(), -1), m_before(chart.size(), -1), m_next(chart.size(), -1)
 {
 	Box2 whole;
 	for (const int f : m_plane.indices()) {

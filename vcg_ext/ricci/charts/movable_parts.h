@@ -100,7 +100,7 @@ private:
 	/// Triangles of one part that were moved alike.
 	struct Group
 	{
-		int origin; ///< -1: what has one tree with all others
+		int origin;          ///< -1: what has one tree with all others
 		Motion motion, back; ///< since the beginning, and its inverse
 		Box2 box;            ///< round the triangles where they are now, at least
 	};

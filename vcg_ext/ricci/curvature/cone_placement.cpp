@@ -253,11 +253,12 @@ PlacedCones result(
 	const ConeSites& sites,
 	const std::vector<Vertex>& vertices,
 	const Eigen::VectorXd& curvatures,
-	double distortion)
+	double distortion,
+	double seams)
 {
 	PlacedCones placed;
 	placed.distortion = distortion;
-	placed.seams = SeamTree(sites, vertices).length();
+	placed.seams = seams;
 	placed.seamsWithout = sites.cutLength();
 	std::vector<std::pair<Vertex, double>> cones;
 	for (std::size_t i = 0; i < vertices.size(); ++i)
@@ -273,7 +274,13 @@ PlacedCones result(
 
 PlacedCones result(ConeModel& model, const ConeSites& sites)
 {
-	return result(sites, model.vertices(), model.curvatures(), model.exactDistortion());
+	const std::vector<Vertex>& vertices = model.vertices();
+	return result(
+		sites,
+		vertices,
+		model.curvatures(),
+		model.exactDistortion(),
+		SeamTree(sites, vertices).length());
 }
 
 /// All of the search on aggregates of vertices, for what is the least cost there, while another thread
@@ -315,8 +322,11 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRe
 	};
 	const Eigen::VectorXd start = model.curvatures();
 	Eigen::VectorXd k = start;
-	VertexVector u = flow.factor(spread(k));
-	if (request.rounding == ConeRounding::Free && model.size() > 0) {
+	VertexVector u;
+	const auto fit = [&] {
+		u = flow.factor(spread(k));
+		if (request.rounding != ConeRounding::Free || model.size() == 0)
+			return;
 		Eigen::VectorXd rest = -slope(u), step = model.descent(rest), way = step;
 		double gain = rest.dot(step);
 		for (int i = 0; i < kMaxFitSteps && gain > kNoGain * flow.meanSquare(u); ++i) {
@@ -335,8 +345,10 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRe
 				share = std::min(share, (kMaxConeCurvature - start[i]) / (k[i] - start[i]));
 		k = (start + share * (k - start)).cwiseMin(kMaxConeCurvature);
 		u = flow.factor(spread(k));
-	}
-	return result(*sites, vertices, k, 2.0 * std::sqrt(flow.meanSquare(u)));
+	};
+	double seams = 0.0;
+	besides(defaultThreads(), fit, [&] { seams = SeamTree(*sites, vertices).length(); });
+	return result(*sites, vertices, k, 2.0 * std::sqrt(flow.meanSquare(u)), seams);
 }
 
 /// The same for a number of cones or a distortion, and then on the surface itself as far as its own

@@ -88,11 +88,12 @@ public:
 	template<class Visit>
 	void forEachSample(const Point2& p, const Visit& visit) const
 	{
-		for (int j = 0; j < m_rows; ++j)
-			for (int i = 0; i < m_columns; ++i) {
-				const double s = (i + 0.5) / m_columns - 0.5, t = (j + 0.5) / m_rows - 0.5;
-				visit(p + s * m_across + t * m_down);
-			}
+		const double column = 1.0 / m_columns, row = 1.0 / m_rows;
+		for (int j = 0; j < m_rows; ++j) {
+			const Point2 middle = p + ((j + 0.5) * row - 0.5) * m_down;
+			for (int i = 0; i < m_columns; ++i)
+				visit(middle + ((i + 0.5) * column - 0.5) * m_across);
+		}
 	}
 
 private:
@@ -117,7 +118,9 @@ public:
 
 	/// \param lastLevel of the blocks that footprints are to be read in; larger ones are read in these
 	PictureSampler(const PictureView<const Sample>& picture, bool hasAlpha, int lastLevel) :
-			m_picture(picture), m_blocks{picture.width, picture.height}, m_hasAlpha(hasAlpha)
+			m_picture(picture), m_overWidth(1.0 / picture.width),
+			m_overHeight(1.0 / picture.height), m_blocks{picture.width, picture.height},
+			m_hasAlpha(hasAlpha)
 	{
 		for (int level = 1; level <= lastLevel; ++level)
 			addLevel(level);
@@ -170,8 +173,8 @@ private:
 	{
 		const double w = m_picture.width, h = m_picture.height;
 		return {
-			std::clamp(p[0] - w * std::floor(p[0] / w), 0.0, w),
-			std::clamp(p[1] - h * std::floor(p[1] / h), 0.0, h)};
+			std::clamp(p[0] - w * std::floor(p[0] * m_overWidth), 0.0, w),
+			std::clamp(p[1] - h * std::floor(p[1] * m_overHeight), 0.0, h)};
 	}
 
 	/// Of a texel at most a few beside the picture.
@@ -316,6 +319,7 @@ private:
 	static constexpr int kDepth = 3;
 
 	const PictureView<const Sample>& m_picture;
+	double m_overWidth, m_overHeight; // 1 over
 	Blocks m_blocks;
 	bool m_hasAlpha;
 	std::vector<std::vector<Word>> m_means; // [level - 1] of the blocks; colours by their alpha
