@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_sites.h"
 
+#include "../base/task.h"
 #include "../metric/area.h"
 #include "../surface/topology.h"
 
@@ -37,7 +38,9 @@ ConeSites::ConeSites(const EmbeddedSurface& surface, int vertices) :
 {
 	for (const Vertex v : m_isAllowed.indices())
 		m_isAllowed[v] = (vertices < 0 || v.number() < vertices) && !surface.topology.boundary[v];
+	checkpoint();
 	findCut(surface);
+	checkpoint();
 }
 
 /// What a tree of shortest paths, from the boundary if there is one, and a tree of dual edges leave over,
@@ -122,6 +125,7 @@ ConeSites::ConeSites(const ConeSites& fine, const VertexArray<Vertex>& chosen) :
 		for (const Way& way : fine.ways(v))
 			front.offer(way.to, front[v] + way.length, v);
 	}
+	checkpoint();
 	std::vector<std::tuple<Vertex, Vertex, double>> ways; // from, to, length
 	for (const Vertex v : nearest.indices())
 		for (const Way& way : fine.ways(v))
