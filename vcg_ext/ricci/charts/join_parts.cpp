@@ -23,7 +23,7 @@ constexpr std::ptrdiff_t kMaxPlaces = 8;
 /// that gives the motion.
 constexpr double kOneMotion = 1e-4;
 
-/// Share of the largest part that is no crumb: where there are very many parts, all are small.
+/// A part that has this share of the largest is no crumb: where there are very many parts, all are small.
 constexpr double kCrumbOfLargest = 0.25;
 
 using Parts = std::vector<std::vector<int>>; // triangles of each

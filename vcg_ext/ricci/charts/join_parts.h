@@ -13,9 +13,9 @@ constexpr double kCrumb = 0.01;
 
 /// Joins parts of a chart across seams: the sides of a seam are isometric, so that a part can be moved to
 /// the other side of it, where it often has room. Two parts at a time are joined, along the longest border
-/// at which nothing is covered twice then. What is left and smaller than kCrumb of all, and than the
-/// largest part by far, is divided among the parts round it, if they have room for all of it and seams get no longer. Sides that come to
-/// lie on each other are joined.
+/// at which nothing is covered twice then. What is left and smaller than kCrumb of all, and much smaller
+/// than the largest part, is divided among the parts round it, if they have room for all of it and seams
+/// get no longer. Sides that come to lie on each other are joined.
 /// \param chart its points are moved and numbered anew
 /// \param parts triangles of each, connected; none covers itself
 /// \param tree of the boxes of all triangles, if no point lies in many of them

@@ -100,7 +100,7 @@ private:
 	/// Triangles of one part that were moved alike.
 	struct Group
 	{
-		int origin;          ///< -1: what has one tree with all others
+		int origin;          ///< -1: its triangles are in m_all
 		Motion motion, back; ///< since the beginning, and its inverse
 		Box2 box;            ///< round the triangles where they are now, at least
 	};
@@ -148,7 +148,7 @@ private:
 	}
 
 	const FlatMesh& m_chart;
-	const BoxTree* m_all;
+	const BoxTree* m_all; // of all triangles where they were in the beginning, or none
 	double m_onePlace = 0.0, m_touching = 0.0;
 	Array<Triangle2> m_plane; // [triangle] where it is
 	Array<char> m_isProper;   // [triangle] counter-clockwise

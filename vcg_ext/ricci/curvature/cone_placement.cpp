@@ -291,7 +291,7 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRe
 {
 	const double total = totalCurvature(surface);
 	VertexArray<Vertex> roots;
-	const LinearSystem whole = flow.system(roots);
+	LinearSystem whole = flow.system(roots);
 	std::optional<ConeSites> sites;
 	std::optional<LinearFlow> coarse;
 	std::optional<ConeModel> found;
@@ -300,7 +300,7 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRe
 		[&] {
 			sites.emplace(surface, request.vertices);
 			checkCount(request, minConeCount(flow, total), *sites);
-			coarse.emplace(onAggregates(whole, kMaxAggregates, roots));
+			coarse.emplace(onAggregates(LinearSystem(std::move(whole)), kMaxAggregates, roots));
 			found.emplace(*coarse, total);
 			search(request, *found, ConeSites(*sites, roots));
 		},
