@@ -250,7 +250,7 @@ Parts divideChart(const FlatMesh& chart, const OverlapSearch& overlaps)
 		for (const std::vector<int>& half : halves(chart)) {
 			checkpoint();
 			const FlatMesh own = chart.part(half);
-			for (std::vector<int>& part : divideChart(own, OverlapSearch(own.corners()))) {
+			for (std::vector<int>& part : divideChart(own, OverlapSearch(own))) {
 				for (int& i : part)
 					i = half[positionOf(i)];
 				parts.push_back(std::move(part));

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -36,9 +37,11 @@ constexpr double kManySheets = 8.0;
 /// Corners of the polygon round a node.
 constexpr std::size_t kMaxCorners = 8;
 
-/// Whether \p r lies deeper than \p touching to the left of the line from \p p to \p q.
+/// Whether \p r lies deeper than \p touching to the left of the line from \p p to \p q; exact for 0.
 bool isDeeper(const Point2& p, const Point2& q, const Point2& r, double touching)
 {
+	if (touching == 0.0)
+		return orientation(p, q, r) > 0;
 	const double area = doubledArea(p, q, r);
 	const double x = std::abs(q[0] - p[0]), y = std::abs(q[1] - p[1]);
 	// distance(p, q) lies between max(x, y) and x + y.
@@ -113,11 +116,17 @@ bool overlap(const Triangle2& a, const Triangle2& b, double touching)
 	return !separates(a, b, touching) && !separates(b, a, touching);
 }
 
-OverlapSearch::OverlapSearch(Array<Triangle2> triangles) : OverlapSearch(std::move(triangles), -1.0)
+OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching) :
+		OverlapSearch(std::move(triangles), touching, nullptr)
 {
 }
 
-OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching) :
+OverlapSearch::OverlapSearch(const FlatMesh& chart) : OverlapSearch(chart.corners(), -1.0, &chart)
+{
+}
+
+/// \param chart of the triangles, or none
+OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching, const FlatMesh* chart) :
 		m_plane(std::move(triangles)), m_isProper(m_plane.size()), m_tree(boxTreeOf(m_plane)),
 		m_touching(touching >= 0.0 ? touching : kTouching * m_tree.extent())
 {
@@ -131,7 +140,9 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching) :
 	}
 	m_hasFolds = std::find(m_isProper.begin(), m_isProper.end(), 0) != m_isProper.end();
 	m_isComplete = area <= kManySheets * box.width() * box.height();
-	if (m_isComplete)
+	if (m_isComplete && chart && !m_hasFolds)
+		growPairs(*chart);
+	else if (m_isComplete)
 		listPairs();
 	if (m_isComplete)
 		return;
@@ -142,9 +153,53 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching) :
 			m_pairs.push_back({std::min(i, other), std::max(i, other)});
 }
 
+/// Follows pairs from the border, without folds: a point that two triangles cover can be moved on in any
+/// direction, over their neighbours, until one of its two ways ends at the border.
+void OverlapSearch::growPairs(const FlatMesh& chart)
+{
+	std::unordered_set<std::int64_t> known;
+	std::vector<TrianglePair> open;
+	const auto add = [&](int i, int j) {
+		step();
+		const TrianglePair pair{std::min(i, j), std::max(i, j)};
+		if (i != j && overlap(m_plane[i], m_plane[j], 0.0) &&
+			known.insert(std::int64_t(pair[0]) * m_plane.size() + pair[1]).second)
+			open.push_back(pair);
+	};
+	const auto follow = [&] {
+		while (!open.empty() && m_isComplete) {
+			const TrianglePair pair = open.back();
+			open.pop_back();
+			if (overlap(m_plane[pair[0]], m_plane[pair[1]], m_touching))
+				m_pairs.push_back(pair);
+			m_isComplete = m_pairs.size() <= mostPairs();
+			for (const auto& [i, other] : {pair, TrianglePair{pair[1], pair[0]}})
+				for (const Corner side : cornersOf(i))
+					if (const Corner across = chart.joined(side); across.isValid())
+						add(across.face(), other);
+		}
+		return !m_isComplete;
+	};
+	for (const int i : m_plane.indices()) {
+		bool isAtBorder = false;
+		for (const Corner side : cornersOf(i))
+			isAtBorder = isAtBorder || !chart.joined(side).isValid();
+		if (isAtBorder)
+			meetsAny(i, [&](int j) {
+				add(i, j);
+				return follow();
+			});
+	}
+	std::sort(m_pairs.begin(), m_pairs.end());
+}
+
+std::size_t OverlapSearch::mostPairs() const
+{
+	return kManyPairs * m_plane.values().size();
+}
+
 void OverlapSearch::listPairs()
 {
-	const std::size_t most = kManyPairs * m_plane.values().size();
 	m_tree.meetingPairs(
 		[&](int i, int j) {
 			step();
@@ -155,7 +210,7 @@ void OverlapSearch::listPairs()
 				m_pairs.push_back(pair);
 			else if (found == Meeting::Hidden)
 				m_hidden.push_back({pair, common});
-			m_isComplete = m_pairs.size() <= most;
+			m_isComplete = m_pairs.size() <= mostPairs();
 		},
 		[&](int a, int b) {
 			step();
@@ -177,11 +232,18 @@ int OverlapSearch::partner(int i) const
 		return true;
 	};
 	if (m_isProper[i])
-		m_tree.meetsAny(boxOf(m_plane[i]), overlapsWith, [&](int node) {
-			step();
-			return isApart(m_plane[i], node);
-		});
+		meetsAny(i, overlapsWith);
 	return found;
+}
+
+/// Whether isFound(j) for a triangle whose box meets that of the proper triangle \p i.
+template<class IsFound>
+bool OverlapSearch::meetsAny(int i, const IsFound& isFound) const
+{
+	return m_tree.meetsAny(boxOf(m_plane[i]), isFound, [&](int node) {
+		step();
+		return isApart(m_plane[i], node);
+	});
 }
 
 void OverlapSearch::step() const

@@ -25,7 +25,7 @@ BoxTree boxTreeOf(const Array<Triangle2>& triangles);
 /// Whether two counter-clockwise triangles cover a part of the plane twice, deeper than \p touching:
 /// no side of either then has the other triangle on its outer side (separating axes of convex
 /// polygons).
-/// \param touching above what rounding adds to the distances of points from lines
+/// \param touching above what rounding adds to the distances of points from lines; exact for 0
 bool overlap(const Triangle2& a, const Triangle2& b, double touching);
 
 /// Finds pairs of triangles that cover a part of the plane twice.
@@ -44,11 +44,14 @@ bool overlap(const Triangle2& a, const Triangle2& b, double touching);
 class OverlapSearch
 {
 public:
-	/// \param triangles of the chart in the plane; counter-clockwise where they are right
-	explicit OverlapSearch(Array<Triangle2> triangles);
+	/// Compares all triangles.
+	/// \param triangles in the plane; counter-clockwise where they are right
+	/// \param touching depth to which triangles only touch; -1: kTouching of their extent
+	explicit OverlapSearch(Array<Triangle2> triangles, double touching = -1.0);
 
-	/// \param touching depth to which triangles only touch, in place of kTouching of their extent
-	OverlapSearch(Array<Triangle2> triangles, double touching);
+	/// The same pairs from those at the border of the chart, if none of its triangles is flipped: the search
+	/// depends on the length of the border and on the number of pairs.
+	explicit OverlapSearch(const FlatMesh& chart);
 
 	/// In increasing order.
 	const std::vector<TrianglePair>& pairs() const { return m_pairs; }
@@ -67,17 +70,24 @@ public:
 	/// \param part [triangle]
 	std::vector<TrianglePair> uncovered(const Array<int>& part) const;
 
-	/// Pairs of boxes, pairs of nodes and boxes round points that have been looked at.
+	/// Pairs of boxes, of nodes and of triangles, and boxes round points, that have been looked at.
 	std::int64_t steps() const { return m_steps; }
 
 private:
 	enum class Meeting { None, Hidden, Overlap };
 
+	OverlapSearch(Array<Triangle2> triangles, double touching, const FlatMesh* chart);
+
+	void growPairs(const FlatMesh& chart);
 	void listPairs();
+	std::size_t mostPairs() const;
 	int partner(int i) const;
 	void step() const;
 	void makeHulls() const;
 	Meeting meeting(int i, int j, Point2& common) const;
+
+	template<class IsFound>
+	bool meetsAny(int i, const IsFound& isFound) const;
 
 	template<class Polygon>
 	bool isApart(const Polygon& polygon, int node) const;

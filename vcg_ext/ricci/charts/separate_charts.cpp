@@ -211,7 +211,7 @@ void separateCharts(bool turns, Parametrization& map)
 		}
 		checkpoint();
 		FlatMesh chart = map.mesh.part(triangles);
-		const OverlapSearch overlaps(chart.corners());
+		const OverlapSearch overlaps(chart);
 		checkpoint();
 		if (overlaps.pairs().empty()) {
 			add(triangles, std::move(map.charts[c]));
