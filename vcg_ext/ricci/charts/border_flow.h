@@ -48,8 +48,7 @@ private:
 	int
 	findFrom(const std::vector<int>& triangles, std::int64_t sign, const Array<Terminal>& terminal);
 	Corner besideOnRim(Corner side, bool isNext, const Array<Terminal>& terminal) const;
-	void
-	measure(Corner from, Corner to, std::int64_t sign, const Array<Terminal>& terminal);
+	void measure(Corner from, Corner to, std::int64_t sign, const Array<Terminal>& terminal);
 	int nodeAt(Corner corner);
 	std::int64_t excessAt(Corner corner) const;
 	template<class Visit>

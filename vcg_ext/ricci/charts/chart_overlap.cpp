@@ -34,6 +34,9 @@ constexpr std::size_t kManyPairs = 16;
 /// more pairs.
 constexpr double kManySheets = 8.0;
 
+/// Share of the triangles that lie at the border from which on all triangles are compared.
+constexpr double kLongBorder = 0.125;
+
 /// Corners of the polygon round a node.
 constexpr std::size_t kMaxCorners = 8;
 
@@ -140,9 +143,7 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching, const 
 	}
 	m_hasFolds = std::find(m_isProper.begin(), m_isProper.end(), 0) != m_isProper.end();
 	m_isComplete = area <= kManySheets * box.width() * box.height();
-	if (m_isComplete && chart && !m_hasFolds)
-		growPairs(*chart);
-	else if (m_isComplete)
+	if (m_isComplete && (!chart || m_hasFolds || !growPairs(*chart)))
 		listPairs();
 	if (m_isComplete)
 		return;
@@ -155,8 +156,19 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching, const 
 
 /// Follows pairs from the border, without folds: a point that two triangles cover can be moved on in any
 /// direction, over their neighbours, until one of its two ways ends at the border.
-void OverlapSearch::growPairs(const FlatMesh& chart)
+/// \return false if the border is so long that it is better to compare all
+bool OverlapSearch::growPairs(const FlatMesh& chart)
 {
+	std::vector<int> atBorder;
+	for (const int i : m_plane.indices()) {
+		bool hasBorder = false;
+		for (const Corner side : cornersOf(i))
+			hasBorder = hasBorder || !chart.joined(side).isValid();
+		if (hasBorder)
+			atBorder.push_back(i);
+	}
+	if (static_cast<double>(atBorder.size()) > kLongBorder * m_plane.size())
+		return false;
 	std::unordered_set<std::int64_t> known;
 	std::vector<TrianglePair> open;
 	const auto add = [&](int i, int j) {
@@ -180,17 +192,13 @@ void OverlapSearch::growPairs(const FlatMesh& chart)
 		}
 		return !m_isComplete;
 	};
-	for (const int i : m_plane.indices()) {
-		bool isAtBorder = false;
-		for (const Corner side : cornersOf(i))
-			isAtBorder = isAtBorder || !chart.joined(side).isValid();
-		if (isAtBorder)
-			meetsAny(i, [&](int j) {
-				add(i, j);
-				return follow();
-			});
-	}
+	for (const int i : atBorder)
+		meetsAny(i, [&](int j) {
+			add(i, j);
+			return follow();
+		});
 	std::sort(m_pairs.begin(), m_pairs.end());
+	return true;
 }
 
 std::size_t OverlapSearch::mostPairs() const

@@ -49,8 +49,8 @@ public:
 	/// \param touching depth to which triangles only touch; -1: kTouching of their extent
 	explicit OverlapSearch(Array<Triangle2> triangles, double touching = -1.0);
 
-	/// The same pairs from those at the border of the chart, if none of its triangles is flipped: the search
-	/// depends on the length of the border and on the number of pairs.
+	/// The same pairs. They are followed from the border of the chart where that is short and no triangle is
+	/// flipped: the search then depends on its length and on the number of pairs.
 	explicit OverlapSearch(const FlatMesh& chart);
 
 	/// In increasing order.
@@ -78,7 +78,7 @@ private:
 
 	OverlapSearch(Array<Triangle2> triangles, double touching, const FlatMesh* chart);
 
-	void growPairs(const FlatMesh& chart);
+	bool growPairs(const FlatMesh& chart);
 	void listPairs();
 	std::size_t mostPairs() const;
 	int partner(int i) const;

@@ -86,7 +86,7 @@ public:
 				std::swap(next.part, next.other);
 			const Corner side = sideIn(next.part, next.border);
 			const Place place{next.other, m_parts.across(side), next.border.length};
-			if (!m_parts.covering(next.part, place, [](int, int) { return true; }))
+			if (!m_parts.covering(next.part, place, [](int) { return true; }))
 				join(next.part, place);
 		}
 	}
@@ -268,17 +268,19 @@ private:
 	bool displace(int part, const Place& place, double maxArea)
 	{
 		std::vector<int> covered;
-		m_parts.covering(part, place, [&](int, int g) {
-			covered.push_back(g);
-			return false;
-		});
-		std::sort(covered.begin(), covered.end());
-		covered.erase(std::unique(covered.begin(), covered.end()), covered.end());
 		double area = 0.0;
-		for (const int g : covered)
-			area += m_parts.areaOf(g);
+		m_parts.covering(part, place, [&](int g) {
+			if (m_mark[g] == kNone) {
+				m_mark[g] = kTaken;
+				covered.push_back(g);
+				area += m_parts.areaOf(g);
+			}
+			return area > maxArea;
+		});
+		unmark(covered);
 		if (covered.empty() || area > maxArea)
 			return false;
+		std::sort(covered.begin(), covered.end());
 		const int displaced = m_parts.addPart();
 		m_parts.move(covered, {displaced, Motion(), 0.0});
 		if (!smallerPiecesRound(covered, place.other).empty())
@@ -349,17 +351,13 @@ private:
 	/// with the common border.
 	std::vector<int> freeAt(int part, const Place& place)
 	{
-		std::vector<int> marked, free;
-		m_parts.covering(part, place, [&](int f, int) {
-			marked.push_back(f);
-			m_mark[f] = kCovering;
-			return false;
-		});
+		std::vector<int> covering, free;
 		const auto take = [&](int f) {
-			if (m_parts.partOf(f) == part && m_mark[f] == kNone) {
-				m_mark[f] = kTaken;
-				free.push_back(f);
-			}
+			if (m_parts.partOf(f) != part || m_mark[f] != kNone)
+				return;
+			const bool isFree = !m_parts.covers(f, place);
+			m_mark[f] = isFree ? kTaken : kCovering;
+			(isFree ? free : covering).push_back(f);
 		};
 		for (const int f : m_parts.trianglesOf(part))
 			m_parts.forSides(f, [&](Corner side, Corner across) {
@@ -372,7 +370,7 @@ private:
 				if (m_parts.isJoined(side))
 					take(across.face());
 			});
-		unmark(marked);
+		unmark(covering);
 		unmark(free);
 		return free;
 	}

@@ -63,18 +63,23 @@ public:
 	/// Whether a side and the one across are at one place in one part.
 	bool isJoined(Corner side) const;
 
-	/// Calls isEnough(f, g) for the triangles f of the part and g of the other one that cover each
-	/// other at the part's new place, flipped ones left out, until it is.
+	/// Calls isEnough(g) for the triangles g of the other part that those of the part cover at its new place,
+	/// flipped ones left out, once for each of these, until it is.
 	/// \return whether it was
 	template<class IsEnough>
 	bool covering(int part, const Place& place, const IsEnough& isEnough) const
 	{
 		for (int f = m_first[part]; f >= 0; f = m_next[f])
-			if (m_isProper[f] && coveredBy(place.motion(m_plane[f]), place.other, [&](int g) {
-					return isEnough(f, g);
-				}))
+			if (m_isProper[f] && coveredBy(place.motion(m_plane[f]), place.other, isEnough))
 				return true;
 		return false;
+	}
+
+	/// Whether one triangle covers some of the other part at its new place.
+	bool covers(int triangle, const Place& place) const
+	{
+		return m_isProper[triangle] &&
+			   coveredBy(place.motion(m_plane[triangle]), place.other, [](int) { return true; });
 	}
 
 	/// Adds an empty part. \return its number

@@ -15,6 +15,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace ricci {
@@ -321,37 +322,45 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 		return std::log(m.report.occupancy) -
 			   kRoomPrice * std::log(std::sqrt(area) + m.report.seamLength);
 	};
-	std::optional<Parametrization> last; // where it is not the best
+	// What cuts and packing change, where the map is not the best.
+	std::optional<
+		std::tuple<Array<Triangle>, Array<Point2>, Array<int>, std::vector<Chart>, Report>>
+		best;
+	double most = worth(map);
+	bool isEnded = false;
 	for (int cuts = 0, vain = 0; vain < kMaxVainCuts; ++cuts) {
-		if (map.report.occupancy > kEnoughCovered)
-			return;
-		if (cuts == kMaxCuts) {
-			++map.report.endedEarly;
-			logLine(
-				"Cuts for room have ended at " + std::to_string(kMaxCuts) +
-				": more of them could still cover a little more of the square.");
-			return;
-		}
-		std::optional<Parametrization> next =
-			cutForRoom(last ? *last : map, area, turns == ChartTurns::Free);
-		if (!next)
-			return;
+		if (!best && map.report.occupancy > kEnoughCovered)
+			break;
+		isEnded = cuts == kMaxCuts;
+		const std::optional<ChartCut> cut = isEnded ? std::nullopt : findCutForRoom(map, area);
+		if (!cut)
+			break;
+		if (!best)
+			best.emplace(map.mesh.points, map.mesh.place, map.mesh.chart, map.charts, map.report);
+		cutChart(*cut, turns == ChartTurns::Free, map);
 		try {
-			packCharts(*next, options, turns);
+			packCharts(map, options, turns);
 		}
 		catch (const InvalidOption& e) {
 			if (e.problem != InvalidOption::ChartMarginTooWide)
 				throw;
-			return; // there is no room for one chart more
+			break; // there is no room for one chart more
 		}
 		++vain;
-		if (worth(*next) > worth(map) + vain * kMinRoom) {
-			map = *std::move(next);
-			last.reset();
+		if (const double reached = worth(map); reached > most + vain * kMinRoom) {
+			best.reset();
+			most = reached;
 			vain = 0;
 		}
-		else
-			last = std::move(next);
+	}
+	if (best)
+		std::tie(map.mesh.points, map.mesh.place, map.mesh.chart, map.charts, map.report) =
+			*std::move(best);
+	if (isEnded) {
+		++map.report.endedEarly;
+		logLine(
+			"Cuts for room have ended at " + std::to_string(kMaxCuts) +
+			": more of them could still cover a little more of the square.");
 	}
 }
 

@@ -34,7 +34,7 @@ bool marginsMayFit(std::size_t charts, double margin);
 /// in which they will be stored
 void packCharts(Parametrization& map, const PackOptions& options, ChartTurns turns);
 
-/// packCharts() into the unit square, with charts cut by cutForRoom() as long as that is worth it
+/// packCharts() into the unit square, with charts cut by findCutForRoom() as long as that is worth it
 /// (kRoomPrice) and each cut brings kMinRoom besides; until kEnoughCovered is covered. Without turns nothing
 /// is cut.
 /// \throw what packCharts() does

@@ -77,21 +77,13 @@ void setApart(Parametrization& map)
 /// Triangles across the band in which a cut is looked for. A wider one would hardly have a shorter cut.
 constexpr double kBand = 50.0;
 
-/// A chart in parts, and the edges cut between them: how many, and how long they are on the surface.
-struct Halves
-{
-	Parts pieces;
-	int edges = 0;
-	double length = 0.0;
-};
-
 /// The least cut across a chart's smallest bounding rectangle, but for \p from at either end, or across so much
 /// of it as is about kBand triangles wide. Its length is weighed by the square that holds the longer part: an edge
 /// at the end of the rectangle costs four times as much as one in the middle. What is smaller than kCrumb of the
 /// chart goes to the other part.
 /// \param triangles of the chart
 /// \return none where such a crumb is left, or nothing is cut
-std::optional<Halves> halves(
+std::optional<ChartCut> halves(
 	const FlatMesh& mesh,
 	const std::vector<int>& triangles,
 	const OrientedRectangle& r,
@@ -135,7 +127,7 @@ std::optional<Halves> halves(
 		}
 		return areas;
 	};
-	Halves cut{graph.connectedPieces(triangles)};
+	ChartCut cut{graph.connectedPieces(triangles)};
 	std::vector<double> areas = areasOf(cut.pieces);
 	const double crumb = kCrumb * std::accumulate(areas.begin(), areas.end(), 0.0);
 	const auto isCrumb = [&](double area) { return area < crumb; };
@@ -262,7 +254,7 @@ void joinCharts(Parametrization& map)
 	settle(charts, true, map);
 }
 
-std::optional<Parametrization> cutForRoom(const Parametrization& map, double onSurface, bool turns)
+std::optional<ChartCut> findCutForRoom(const Parametrization& map, double onSurface)
 {
 	struct Wide
 	{
@@ -296,26 +288,34 @@ std::optional<Parametrization> cutForRoom(const Parametrization& map, double onS
 		if (wide.room < kRoomOfChart * square)
 			return std::nullopt;
 		const std::vector<int>& triangles = byChart[wide.chart];
-		std::optional<Halves> cut;
+		std::optional<ChartCut> cut;
 		for (const double from : kCutFrom)
 			if (!cut)
 				cut = halves(map.mesh, triangles, wide.rectangle, from);
 		// The square loses all that is beside the chart in a square round it at most.
 		const double width = wide.rectangle.width();
 		const double most = std::log(square / std::max(square - width * width + wide.area, total));
-		if (!cut ||
-			most < kRoomPrice *
-					   std::log1p(cut->length / (std::sqrt(onSurface) + map.report.seamLength)))
-			continue;
-		Parametrization result = map;
-		const std::vector<int> parts = divide(static_cast<int>(wide.chart), cut->pieces, result);
-		splitPoints(triangles, result.mesh);
-		settle(parts, turns, result);
-		result.report.overlapCuts += cut->edges;
-		result.report.seamLength += cut->length;
-		return result;
+		if (cut &&
+			most >= kRoomPrice *
+						std::log1p(cut->length / (std::sqrt(onSurface) + map.report.seamLength))) {
+			cut->chart = static_cast<int>(wide.chart);
+			return cut;
+		}
 	}
 	return std::nullopt;
+}
+
+void cutChart(const ChartCut& cut, bool turns, Parametrization& map)
+{
+	std::vector<int> triangles;
+	for (const int f : map.mesh.chart.indices())
+		if (map.mesh.chart[f] == cut.chart)
+			triangles.push_back(f);
+	const std::vector<int> parts = divide(cut.chart, cut.pieces, map);
+	splitPoints(triangles, map.mesh);
+	settle(parts, turns, map);
+	map.report.overlapCuts += cut.edges;
+	map.report.seamLength += cut.length;
 }
 
 bool cutOff(const std::vector<char>& isOff, Parametrization& map)

@@ -37,14 +37,25 @@ constexpr double kRoomOfChart = 0.04;
 /// finds crumbs alone.
 constexpr double kCutFrom[] = {0.1, 0.4};
 
-/// Cuts a chart in two: along the edges of least length on the surface, where those far from the middle count as
-/// longer, across its smallest bounding rectangle (kCutFrom). Takes the chart that leaves most room there, of
-/// those whose cut may be worth what it costs by kRoomPrice. The parts are given back as those of
-/// separateCharts(), in the report, too.
+/// A cut that divides a chart.
+struct ChartCut
+{
+	std::vector<std::vector<int>> pieces; ///< triangles of each
+	int edges = 0;
+	double length = 0.0; ///< on the surface
+	int chart = -1;      ///< its number
+};
+
+/// Finds a cut of a chart in two: along the edges of least length on the surface, where those far from the middle
+/// count as longer, across its smallest bounding rectangle (kCutFrom). Takes the chart that leaves most room
+/// there, of those whose cut may be worth what it costs by kRoomPrice.
 /// \param map packed
 /// \param onSurface area of the surface
 /// \return none where there is no such chart
-std::optional<Parametrization> cutForRoom(const Parametrization& map, double onSurface, bool turns);
+std::optional<ChartCut> findCutForRoom(const Parametrization& map, double onSurface);
+
+/// Makes a cut. The pieces are left as those of separateCharts(), in the report, too.
+void cutChart(const ChartCut& cut, bool turns, Parametrization& map);
 
 /// Divides the charts that have triangles of both kinds: each connected part of one kind becomes a chart
 /// from the origin, in the directions that it has. The report counts the charts and the cuts as
