@@ -40,30 +40,41 @@ constexpr double kLongBorder = 0.125;
 /// Corners of the polygon round a node.
 constexpr std::size_t kMaxCorners = 8;
 
-/// Whether \p r lies deeper than \p touching to the left of the line from \p p to \p q; exact for 0.
-bool isDeeper(const Point2& p, const Point2& q, const Point2& r, double touching)
+/// Whether a point lies deeper than so much to the left of a line through two others.
+struct DeeperThan
 {
-	if (touching == 0.0)
-		return orientation(p, q, r) > 0;
-	const double area = doubledArea(p, q, r);
-	const double x = std::abs(q[0] - p[0]), y = std::abs(q[1] - p[1]);
-	// distance(p, q) lies between max(x, y) and x + y.
-	return area > touching * std::max(x, y) &&
-		   (area > touching * (x + y) || area > touching * distance(p, q));
-}
+	double touching;
 
-/// Whether a side of \p a has \p b on its outer side, or no deeper inside than \p touching, or there is
+	bool operator()(const Point2& p, const Point2& q, const Point2& r) const
+	{
+		const double area = doubledArea(p, q, r);
+		const double x = std::abs(q[0] - p[0]), y = std::abs(q[1] - p[1]);
+		// distance(p, q) lies between max(x, y) and x + y.
+		return area > touching * std::max(x, y) &&
+			   (area > touching * (x + y) || area > touching * distance(p, q));
+	}
+};
+
+/// Whether a side of \p a has \p b on its outer side, or no deeper inside than isDeeper(), or there is
 /// no side. Both are corners of counter-clockwise convex polygons, b of a point, too.
-template<class PolygonA, class PolygonB>
-bool separates(const PolygonA& a, const PolygonB& b, double touching)
+template<class PolygonA, class PolygonB, class IsDeeper>
+bool separates(const PolygonA& a, const PolygonB& b, const IsDeeper& isDeeper)
 {
 	for (std::size_t k = 0; k < a.size(); ++k) {
 		const Point2 &p = a[k], &q = a[k + 1 < a.size() ? k + 1 : 0];
-		if (std::none_of(
-				b.begin(), b.end(), [&](const Point2& r) { return isDeeper(p, q, r, touching); }))
+		if (std::none_of(b.begin(), b.end(), [&](const Point2& r) { return isDeeper(p, q, r); }))
 			return true;
 	}
 	return a.empty();
+}
+
+/// Whether two counter-clockwise triangles have inner points in common, exactly.
+bool meet(const Triangle2& a, const Triangle2& b)
+{
+	const auto isLeft = [](const Point2& p, const Point2& q, const Point2& r) {
+		return orientation(p, q, r) > 0;
+	};
+	return !separates(a, b, isLeft) && !separates(b, a, isLeft);
 }
 
 /// Mean of the corners of the common part of two counter-clockwise triangles.
@@ -116,7 +127,8 @@ BoxTree boxTreeOf(const Array<Triangle2>& triangles)
 
 bool overlap(const Triangle2& a, const Triangle2& b, double touching)
 {
-	return !separates(a, b, touching) && !separates(b, a, touching);
+	const DeeperThan isDeeper{touching};
+	return !separates(a, b, isDeeper) && !separates(b, a, isDeeper);
 }
 
 OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching) :
@@ -174,7 +186,7 @@ bool OverlapSearch::growPairs(const FlatMesh& chart)
 	const auto add = [&](int i, int j) {
 		step();
 		const TrianglePair pair{std::min(i, j), std::max(i, j)};
-		if (i != j && overlap(m_plane[i], m_plane[j], 0.0) &&
+		if (i != j && meet(m_plane[i], m_plane[j]) &&
 			known.insert(std::int64_t(pair[0]) * m_plane.size() + pair[1]).second)
 			open.push_back(pair);
 	};
@@ -267,8 +279,9 @@ void OverlapSearch::step() const
 template<class Polygon>
 bool OverlapSearch::isApart(const Polygon& polygon, int node) const
 {
-	return !m_hulls.empty() && (separates(polygon, m_hulls[node], nothing()) ||
-								separates(m_hulls[node], polygon, nothing()));
+	const DeeperThan isDeeper{nothing()};
+	return !m_hulls.empty() && (separates(polygon, m_hulls[node], isDeeper) ||
+								separates(m_hulls[node], polygon, isDeeper));
 }
 
 /// \param common takes a point of both where folds are asked
@@ -335,7 +348,8 @@ int OverlapSearch::cover(const Point2& p, const IsCounted& isCounted) const
 	};
 	m_tree.boxesAround(p, add, [&](int node) {
 		step();
-		return !m_hulls.empty() && separates(m_hulls[node], std::array<Point2, 1>{p}, -nothing());
+		return !m_hulls.empty() &&
+			   separates(m_hulls[node], std::array<Point2, 1>{p}, DeeperThan{-nothing()});
 	});
 	return sum;
 }

@@ -25,7 +25,7 @@ BoxTree boxTreeOf(const Array<Triangle2>& triangles);
 /// Whether two counter-clockwise triangles cover a part of the plane twice, deeper than \p touching:
 /// no side of either then has the other triangle on its outer side (separating axes of convex
 /// polygons).
-/// \param touching above what rounding adds to the distances of points from lines; exact for 0
+/// \param touching above what rounding adds to the distances of points from lines
 bool overlap(const Triangle2& a, const Triangle2& b, double touching);
 
 /// Finds pairs of triangles that cover a part of the plane twice.
