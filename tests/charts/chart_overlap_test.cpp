@@ -121,6 +121,7 @@ TEST(ChartOverlap, OfAFanTakesHardlyMoreStepsThanItHasTriangles)
 				std::swap(mesh.triangles[at(n / 3)][1], mesh.triangles[at(n / 3)][2]);
 			const FlatMesh chart = flatMesh(mesh);
 			const OverlapSearch search(chart.corners());
+			EXPECT_EQ(OverlapSearch(chart).pairs(), search.pairs()) << kind;
 			// 7 - 2 pi of the angle is covered twice, where each triangle meets two others.
 			const double twice = n * (1.0 - 2 * kPi / 7.0);
 			EXPECT_NEAR(static_cast<double>(search.pairs().size()), 2 * twice, 4.0) << kind;
@@ -162,6 +163,29 @@ TEST(ChartOverlap, OfFansIsWhatAllPairsGive)
 			EXPECT_GT(pairs.size(), at(chart.size()));
 		}
 	}
+}
+
+/// Sheets of a screw, some of them with moved points so that the triangles are of many shapes and none is flipped.
+/// What lies over itself far from the border is found by way of what lies between.
+TEST(ChartOverlap, FollowedFromTheBorderIsWhatAllTrianglesGive)
+{
+	Random random(405);
+	for (const double turns : {0.9, 1.02, 1.4, 2.7})
+		for (const double wobble : {0.0, 0.3}) {
+			const int around = static_cast<int>(200 * turns), across = 40;
+			FlatMesh chart = flatMesh(sector(2 * kPi * turns, around, across));
+			for (Point2& p : chart.place)
+				for (double& x : p)
+					x += wobble * random.real(-1.0, 1.0) / around;
+			const OverlapSearch all(chart.corners()), followed(chart);
+			EXPECT_EQ(followed.pairs(), all.pairs()) << turns;
+			EXPECT_EQ(all.pairs().empty(), turns < 1.0) << turns;
+			EXPECT_TRUE(followed.isComplete());
+			// That all are not compared shows where few of them overlap.
+			if (turns < 1.1) {
+				EXPECT_LT(2 * followed.steps(), all.steps()) << turns;
+			}
+		}
 }
 
 TEST(ChartOverlap, ALongSearchIsHeardAndCanBeEnded)

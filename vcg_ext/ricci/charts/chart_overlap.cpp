@@ -68,13 +68,23 @@ bool separates(const PolygonA& a, const PolygonB& b, const IsDeeper& isDeeper)
 	return a.empty();
 }
 
-/// Whether two counter-clockwise triangles have inner points in common, exactly.
-bool meet(const Triangle2& a, const Triangle2& b)
+template<class Points>
+Box2 boxAround(const Points& points)
+{
+	Box2 box;
+	for (const Point2& p : points)
+		box.add(p);
+	return box;
+}
+
+/// Whether inner points of a counter-clockwise triangle lie on a segment, exactly.
+bool crosses(const std::array<Point2, 2>& segment, const Triangle2& triangle)
 {
 	const auto isLeft = [](const Point2& p, const Point2& q, const Point2& r) {
 		return orientation(p, q, r) > 0;
 	};
-	return !separates(a, b, isLeft) && !separates(b, a, isLeft);
+	return boxAround(segment).meets(boxOf(triangle)) && !separates(segment, triangle, isLeft) &&
+		   !separates(triangle, segment, isLeft);
 }
 
 /// Mean of the corners of the common part of two counter-clockwise triangles.
@@ -110,10 +120,7 @@ bool commonPoint(const Triangle2& a, const Triangle2& b, Point2& point)
 
 Box2 boxOf(const Triangle2& triangle)
 {
-	Box2 box;
-	for (const Point2& p : triangle)
-		box.add(p);
-	return box;
+	return boxAround(triangle);
 }
 
 BoxTree boxTreeOf(const Array<Triangle2>& triangles)
@@ -171,44 +178,49 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching, const 
 /// \return false if the border is so long that it is better to compare all
 bool OverlapSearch::growPairs(const FlatMesh& chart)
 {
-	std::vector<int> atBorder;
-	for (const int i : m_plane.indices()) {
-		bool hasBorder = false;
-		for (const Corner side : cornersOf(i))
-			hasBorder = hasBorder || !chart.joined(side).isValid();
-		if (hasBorder)
-			atBorder.push_back(i);
-	}
-	if (static_cast<double>(atBorder.size()) > kLongBorder * m_plane.size())
+	std::vector<Corner> border;
+	for (const Corner side : chart.across.indices())
+		if (!chart.joined(side).isValid())
+			border.push_back(side);
+	if (static_cast<double>(border.size()) > kLongBorder * m_plane.size())
 		return false;
 	std::unordered_set<std::int64_t> known;
 	std::vector<TrianglePair> open;
 	const auto add = [&](int i, int j) {
-		step();
 		const TrianglePair pair{std::min(i, j), std::max(i, j)};
-		if (i != j && meet(m_plane[i], m_plane[j]) &&
-			known.insert(std::int64_t(pair[0]) * m_plane.size() + pair[1]).second)
+		if (known.insert(std::int64_t(pair[0]) * m_plane.size() + pair[1]).second)
 			open.push_back(pair);
 	};
-	const auto follow = [&] {
-		while (!open.empty() && m_isComplete) {
-			const TrianglePair pair = open.back();
-			open.pop_back();
-			if (overlap(m_plane[pair[0]], m_plane[pair[1]], m_touching))
-				m_pairs.push_back(pair);
-			m_isComplete = m_pairs.size() <= mostPairs();
-			for (const auto& [i, other] : {pair, TrianglePair{pair[1], pair[0]}})
-				for (const Corner side : cornersOf(i))
-					if (const Corner across = chart.joined(side); across.isValid())
-						add(across.face(), other);
-		}
-		return !m_isComplete;
+	const auto follow = [&](const TrianglePair& pair) {
+		if (overlap(m_plane[pair[0]], m_plane[pair[1]], m_touching))
+			m_pairs.push_back(pair);
+		for (const auto& [i, other] : {pair, TrianglePair{pair[1], pair[0]}})
+			for (const Corner side : cornersOf(i)) {
+				step();
+				if (const Corner across = chart.joined(side);
+					across.isValid() && crosses(chart.ends(side), m_plane[other]))
+					add(across.face(), other);
+			}
+		m_isComplete = m_pairs.size() <= mostPairs();
 	};
-	for (const int i : atBorder)
-		meetsAny(i, [&](int j) {
-			add(i, j);
-			return follow();
-		});
+	for (const Corner side : border)
+		m_tree.meetsAny(
+			boxAround(chart.ends(side)),
+			[&](int j) {
+				step();
+				if (crosses(chart.ends(side), m_plane[j]))
+					add(side.face(), j);
+				while (!open.empty() && m_isComplete) {
+					const TrianglePair pair = open.back();
+					open.pop_back();
+					follow(pair);
+				}
+				return !m_isComplete;
+			},
+			[&](int node) {
+				step();
+				return isApart(chart.ends(side), node, -nothing());
+			});
 	std::sort(m_pairs.begin(), m_pairs.end());
 	return true;
 }
@@ -234,7 +246,7 @@ void OverlapSearch::listPairs()
 		},
 		[&](int a, int b) {
 			step();
-			return !m_isComplete || (!m_hulls.empty() && isApart(m_hulls[a], b));
+			return !m_isComplete || (!m_hulls.empty() && isApart(m_hulls[a], b, nothing()));
 		});
 	std::sort(m_pairs.begin(), m_pairs.end());
 }
@@ -252,18 +264,11 @@ int OverlapSearch::partner(int i) const
 		return true;
 	};
 	if (m_isProper[i])
-		meetsAny(i, overlapsWith);
+		m_tree.meetsAny(boxOf(m_plane[i]), overlapsWith, [&](int node) {
+			step();
+			return isApart(m_plane[i], node, nothing());
+		});
 	return found;
-}
-
-/// Whether isFound(j) for a triangle whose box meets that of the proper triangle \p i.
-template<class IsFound>
-bool OverlapSearch::meetsAny(int i, const IsFound& isFound) const
-{
-	return m_tree.meetsAny(boxOf(m_plane[i]), isFound, [&](int node) {
-		step();
-		return isApart(m_plane[i], node);
-	});
 }
 
 void OverlapSearch::step() const
@@ -274,12 +279,11 @@ void OverlapSearch::step() const
 		makeHulls();
 }
 
-/// Whether a convex counter-clockwise polygon has nothing in common with the triangles of a node, where that
-/// is known.
+/// Whether it is known that a convex counter-clockwise polygon lies no deeper in the triangles of a node.
 template<class Polygon>
-bool OverlapSearch::isApart(const Polygon& polygon, int node) const
+bool OverlapSearch::isApart(const Polygon& polygon, int node, double depth) const
 {
-	const DeeperThan isDeeper{nothing()};
+	const DeeperThan isDeeper{depth};
 	return !m_hulls.empty() && (separates(polygon, m_hulls[node], isDeeper) ||
 								separates(m_hulls[node], polygon, isDeeper));
 }

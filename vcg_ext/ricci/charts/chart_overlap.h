@@ -86,11 +86,8 @@ private:
 	void makeHulls() const;
 	Meeting meeting(int i, int j, Point2& common) const;
 
-	template<class IsFound>
-	bool meetsAny(int i, const IsFound& isFound) const;
-
 	template<class Polygon>
-	bool isApart(const Polygon& polygon, int node) const;
+	bool isApart(const Polygon& polygon, int node, double depth) const;
 
 	/// Depth that polygons have in common where they are apart.
 	double nothing() const { return 0.5 * m_touching; }
