@@ -41,6 +41,7 @@ DistortionLaplacian::DistortionLaplacian(const MeanDistortion& energy) :
 			}
 	};
 	std::vector<Eigen::Triplet<double>> entries;
+	entries.reserve(3 * m_slot.values().size());
 	eachSide([&](int row, int column, Eigen::Index) { entries.emplace_back(row, column, 0.0); });
 	m_below.setFromTriplets(entries.begin(), entries.end());
 	eachSide([&](int row, int column, Eigen::Index& slot) {
