@@ -88,7 +88,7 @@ public:
 	CholeskyWork work() const;
 
 	/// SparseCholesky::order().
-	const Eigen::VectorXi& order() const { return m_hessian->cholesky().order(); }
+	const EliminationOrder& order() const { return m_hessian->cholesky().order(); }
 
 	/// Part of u below the last place of its doubles, as the last solve left it.
 	const VertexVector& low() const { return m_low; }

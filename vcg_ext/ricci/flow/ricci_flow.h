@@ -35,8 +35,7 @@ struct FlowResult
 	double floor = 0.0;     ///< what rounding lets the residual reach
 	int iterations = 0;
 	CholeskyWork work; ///< of the linear solver, on the surface the result is from
-	Eigen::VectorXi
-		order; ///< [unknown] when the solver eliminates it, see SparseCholesky::takeOrder()
+	EliminationOrder order; ///< of the linear solver, see SparseCholesky::takeOrder()
 
 	// What leads from the input's triangles to those of the result:
 	Triangulation input;     ///< the surface, or its double

@@ -273,17 +273,16 @@ void SparseCholesky::takePattern(const Matrix& pattern)
 	m_isAnalyzed = false;
 	m_starts.assign(starts, startsEnd);
 	m_rows.assign(rows, rowsEnd);
-	if (m_order.size() != pattern.rows()) {
-		m_order.setLinSpaced(pattern.rows(), 0, static_cast<int>(pattern.rows()) - 1);
-		m_flopsWhenOrdered = 0.0;
+	if (m_order.position.size() != pattern.rows()) {
+		m_order.position.setLinSpaced(pattern.rows(), 0, static_cast<int>(pattern.rows()) - 1);
+		m_order.flops = 0.0;
 	}
 	layOut();
 }
 
-void SparseCholesky::takeOrder(const Eigen::VectorXi& order)
+void SparseCholesky::takeOrder(const EliminationOrder& order)
 {
 	m_order = order;
-	m_flopsWhenOrdered = std::numeric_limits<double>::infinity();
 	m_isAnalyzed = false;
 	m_starts.clear(); // so that the next pattern is laid out
 }
@@ -294,13 +293,14 @@ void SparseCholesky::layOut()
 	std::vector<Eigen::Triplet<double>> entries;
 	entries.reserve(m_rows.size());
 	int entry = 0;
-	for (int column = 0; column < m_order.size(); ++column)
+	const Eigen::VectorXi& position = m_order.position;
+	for (int column = 0; column < position.size(); ++column)
 		for (; entry < m_starts[positionOf(column) + 1]; ++entry) {
 			const auto [low, high] =
-				std::minmax(m_order[m_rows[positionOf(entry)]], m_order[column]);
+				std::minmax(position[m_rows[positionOf(entry)]], position[column]);
 			entries.emplace_back(high, low, entry);
 		}
-	m_ordered.resize(m_order.size(), m_order.size());
+	m_ordered.resize(position.size(), position.size());
 	m_ordered.setFromTriplets(entries.begin(), entries.end());
 	m_entry.assign(m_ordered.valuePtr(), m_ordered.valuePtr() + m_ordered.nonZeros());
 }
@@ -315,22 +315,22 @@ void SparseCholesky::analyze(const Matrix& pattern)
 		own.analyze(m_ordered);
 		++m_work.analyses;
 	};
-	if (m_flopsWhenOrdered > 0.0)
+	if (m_order.flops > 0.0)
 		analyzeOrdered();
-	if (m_flopsWhenOrdered == 0.0 || own.flops > kMaxGrowth * m_flopsWhenOrdered) {
+	if (m_order.flops == 0.0 || own.flops > kMaxGrowth * m_order.flops) {
 		const std::vector<int> unknown = own.order(m_ordered);
 		++m_work.orderings;
-		Eigen::VectorXi position(m_order.size());
+		Eigen::VectorXi position(m_order.position.size());
 		for (int i = 0; i < position.size(); ++i)
 			position[unknown[positionOf(i)]] = i;
-		for (int& i : m_order)
+		for (int& i : m_order.position)
 			i = position[i];
 		layOut();
 		if (Implementation::kOrderAnalyzes)
 			++m_work.analyses;
 		else
 			analyzeOrdered();
-		m_flopsWhenOrdered = own.flops;
+		m_order.flops = own.flops;
 	}
 	m_isAnalyzed = true;
 }
@@ -363,7 +363,7 @@ void SparseCholesky::solveOrdered(Eigen::VectorXd& x)
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& rhs)
 {
-	const Eigen::PermutationWrapper<const Eigen::VectorXi> order(m_order);
+	const Eigen::PermutationWrapper<const Eigen::VectorXi> order(m_order.position);
 	Eigen::MatrixXd x = order * rhs;
 	if (x.rows() == 0)
 		return x;
@@ -400,7 +400,7 @@ int SparseCholesky::iterate(
 	gradients.setTolerance(accuracy);
 	gradients.setMaxIterations(maxIterations);
 	gradients.compute(m_ordered);
-	const Eigen::PermutationWrapper<const Eigen::VectorXi> order(m_order);
+	const Eigen::PermutationWrapper<const Eigen::VectorXi> order(m_order.position);
 	x = order.transpose() * gradients.solve(order * rhs).eval();
 	const bool isSolved = gradients.info() == Eigen::Success && x.allFinite();
 	return isSolved ? static_cast<int>(gradients.iterations()) : maxIterations + 1;

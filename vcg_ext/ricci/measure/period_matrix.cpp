@@ -103,7 +103,7 @@ Eigen::MatrixXd energies(
 	const Triangulation& t,
 	const EdgeArray<double>& weights,
 	const std::vector<FaceLoop>& loops,
-	const Eigen::VectorXi& order)
+	const EliminationOrder& order)
 {
 	checkpoint();
 	const int unknowns = t.vertexCount() - 1; // the value at the first vertex is held
@@ -111,7 +111,7 @@ Eigen::MatrixXd energies(
 	for (const Vertex v : t.vertices())
 		row[v] = v.number() - 1;
 	SparseCholesky cholesky;
-	if (order.size() == unknowns)
+	if (order.position.size() == unknowns)
 		cholesky.takeOrder(order);
 	if (!cholesky.factorize(laplacian(t, weights, row, Eigen::VectorXd::Zero(unknowns))))
 		return {};
@@ -228,7 +228,7 @@ void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 } // namespace
 
 PeriodMatrix
-periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths, const Eigen::VectorXi& order)
+periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths, const EliminationOrder& order)
 {
 	const std::vector<FaceLoop> loops = homologyLoops(t, false);
 	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops, order);

@@ -2,6 +2,7 @@
 #ifndef RICCI_PERIOD_MATRIX_H
 #define RICCI_PERIOD_MATRIX_H
 
+#include "../math/sparse_cholesky.h"
 #include "../surface/triangulation.h"
 
 #include <Eigen/Core>
@@ -40,7 +41,7 @@ struct PeriodMatrix
 /// \param order of a solver whose unknowns are all vertices but the first (SparseCholesky::order()), if there is one
 /// \pre \p t is connected, closed and of genus 1 at least; its triangles have an area
 PeriodMatrix periodMatrix(
-	const Triangulation& t, const EdgeArray<double>& lengths, const Eigen::VectorXi& order = {});
+	const Triangulation& t, const EdgeArray<double>& lengths, const EliminationOrder& order = {});
 
 /// The period matrix in another basis [Siegel 1989], [Deconinck et al. 2004]: its imaginary part is
 /// reduced in the sense of Minkowski up to g = 4 (beyond that, no vector of the basis is made shorter
