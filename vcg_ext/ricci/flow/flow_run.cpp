@@ -126,8 +126,10 @@ void FlowRun::begin(const EmbeddedSurface& surface)
 	m_result.u = m_startU = startU();
 	m_map = makeMap({m_result.start.mesh.triangulation, m_result.start.delta}, false);
 	m_newton = std::make_unique<NewtonSolver>(*m_map, m_result.target.fixed, m_mirror);
-	if (auto known = std::exchange(m_result.start.hessian, nullptr))
+	if (auto known = std::exchange(m_result.start.hessian, nullptr)) {
 		m_newton->beginWith(std::move(known));
+		m_result.order = m_newton->order();
+	}
 }
 
 std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing, bool isExtended) const
@@ -325,7 +327,8 @@ std::vector<double> FlowRun::presentLoopLengths() const
 void FlowRun::end()
 {
 	m_result.work = m_newton->work();
-	m_result.order = m_newton->order();
+	if (m_result.order.position.size() == 0)
+		m_result.order = m_newton->order();
 	m_newton.reset();
 	m_map->releaseWorkSpace();
 }

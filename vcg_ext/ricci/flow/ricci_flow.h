@@ -35,7 +35,8 @@ struct FlowResult
 	double floor = 0.0;     ///< what rounding lets the residual reach
 	int iterations = 0;
 	CholeskyWork work; ///< of the linear solver, on the surface the result is from
-	EliminationOrder order; ///< of the linear solver, see SparseCholesky::takeOrder()
+	/// Of the linear solver: on the start's triangles where that has been factorised before, else on the last.
+	EliminationOrder order;
 
 	// What leads from the input's triangles to those of the result:
 	Triangulation input;     ///< the surface, or its double
