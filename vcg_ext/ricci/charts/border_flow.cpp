@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <utility>
 
@@ -56,7 +55,8 @@ int BorderFlow::findFrom(
 			Corner last = side;
 			for (Corner s = side; s.isValid(); s = besideOnRim(s, true, terminal))
 				last = s;
-			measure(side, last.next(), sign, terminal);
+			m_paths.push_back({sign, 0});
+			measure(side, last.next(), terminal);
 			++count;
 		}
 	return count;
@@ -72,69 +72,57 @@ Corner BorderFlow::besideOnRim(Corner side, bool isNext, const Array<Terminal>& 
 	}
 }
 
-/// Finds the distances of vertices from corners \p from and \p to, for a path from each, up to half their
-/// distance from each other or as far as it may look: in these two distances the function rises to what it is
-/// far from both, and on from there. It has no length where it meets another path. A way that follows the
-/// border costs nothing.
-void BorderFlow::measure(Corner from, Corner to, std::int64_t sign, const Array<Terminal>& terminal)
+/// Finds the distances from a corner of those vertices that are nearer than corner \p to, or of the nearest
+/// ones, for the last path: cut off at any distance it is a flow. It has no length where it meets another
+/// one. A path that follows the border costs nothing.
+void BorderFlow::measure(Corner from, Corner to, const Array<Terminal>& terminal)
 {
-	const int first = m_paths.size(), last = first + 1;
-	m_paths.push_back({sign, 0});
-	m_paths.push_back({-sign, 0});
+	const int path = m_paths.size() - 1, target = nodeAt(to);
 	using Entry = std::pair<std::int64_t, int>; // distance, node
 	std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
 	bool isFree = true;
 	std::vector<int> reached;
-	constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
-	std::int64_t apart = kFar, length = 0; // the ends from each other; what is known from each
-	const auto reach = [&](Corner corner, int path, std::int64_t distance) {
+	const auto reach = [&](Corner corner, std::int64_t distance) {
 		const int number = nodeAt(corner);
 		Node& node = m_nodes[number];
-		if (node.path >= 0 && node.path < first)
+		if (node.path >= 0 && node.path != path)
 			isFree = false;
-		else if (node.path < 0)
-			reached.push_back(number);
-		else if (node.path != path)
-			apart = std::min(apart, distance + node.distance);
-		if (!isFree || (node.path >= 0 && distance >= node.distance))
-			return;
-		node.path = path;
-		node.distance = distance;
-		queue.push({distance, number});
+		else if (node.path < 0 || distance < node.distance) {
+			if (node.path < 0)
+				reached.push_back(number);
+			node.path = path;
+			node.distance = distance;
+			queue.push({distance, number});
+		}
 	};
-	reach(from, first, 0);
-	reach(to, last, 0);
+	const auto follow = [&](Corner side, Corner corner, std::int64_t distance) {
+		const Corner other = m_graph.neighbour(side);
+		const Terminal own = terminal[side.face()];
+		if (!other.isValid() && own == kNoTerminal)
+			reach(corner, distance);
+		else if (other.isValid() && (own == kNoTerminal || own != terminal[other.face()]))
+			reach(corner, distance + m_graph.weight(side));
+	};
 	int untilTick = kNodesBetweenTicks;
-	while (isFree && !queue.empty()) {
+	std::int64_t length = 0;
+	for (reach(from, 0); isFree && !queue.empty();) {
 		const auto [distance, number] = queue.top();
 		queue.pop();
 		length = distance;
-		if (length >= apart - length || reached.size() > m_mostNodes + m_spareNodes)
+		if (number == target || reached.size() > m_mostNodes + m_spareNodes)
 			break;
-		const Node node = m_nodes[number];
-		if (distance > node.distance)
+		if (distance > m_nodes[number].distance)
 			continue;
 		if (--untilTick == 0) {
 			untilTick = kNodesBetweenTicks;
 			checkpoint();
 		}
-		const auto follow = [&](Corner side, Corner corner) {
-			const Corner other = m_graph.neighbour(side);
-			const Terminal own = terminal[side.face()];
-			if (!other.isValid() && own == kNoTerminal)
-				reach(corner, node.path, node.distance);
-			else if (other.isValid() && (own == kNoTerminal || own != terminal[other.face()]))
-				reach(corner, node.path, node.distance + m_graph.weight(side));
-		};
-		forCorners(node.corner, [&](Corner corner) {
-			follow(corner, corner.next());
-			follow(corner.previous(), corner.previous());
+		forCorners(m_nodes[number].corner, [&, distance = distance](Corner corner) {
+			follow(corner, corner.next(), distance);
+			follow(corner.previous(), corner.previous(), distance);
 		});
 	}
-	if (apart < kFar && (queue.empty() || length >= apart - length))
-		length = apart - apart / 2;
-	m_paths[first].length = std::min(length, apart - length);
-	m_paths[last].length = length;
+	m_paths[path].length = length;
 	if (reached.size() > m_mostNodes)
 		m_spareNodes -= std::min(m_spareNodes, reached.size() - m_mostNodes);
 	if (!isFree)

@@ -16,8 +16,7 @@ enum Terminal : char { kNoTerminal, kSource, kSink };
 /// of a function of the vertices across each edge is a flow without sources but where the function
 /// has no single value. With the distance from one place where the rim of the sources meets the
 /// border of the part, cut off at the distance of the other one, this is the maximum flow if the
-/// sinks lie at the border too [Hassin 1981]; as well with the distances from both, each cut off at half of
-/// it. In other cases something is left to be found.
+/// sinks lie at the border too [Hassin 1981]. In other cases something is left to be found.
 class BorderFlow
 {
 public:
@@ -48,7 +47,7 @@ private:
 	int
 	findFrom(const std::vector<int>& triangles, std::int64_t sign, const Array<Terminal>& terminal);
 	Corner besideOnRim(Corner side, bool isNext, const Array<Terminal>& terminal) const;
-	void measure(Corner from, Corner to, std::int64_t sign, const Array<Terminal>& terminal);
+	void measure(Corner from, Corner to, const Array<Terminal>& terminal);
 	int nodeAt(Corner corner);
 	std::int64_t excessAt(Corner corner) const;
 	template<class Visit>
