@@ -123,9 +123,9 @@ private:
 	CholeskyWork m_work;
 	std::vector<int> m_starts, m_rows; // of the last matrix
 	EliminationOrder m_order;
-	Matrix m_ordered;                  // the last matrix, its unknowns in that order
-	std::vector<int> m_entry;          // [entry of it] number among those of the last matrix
-	bool m_isAnalyzed = false;         // the symbolic factor is that of the last matrix
+	Matrix m_ordered;          // the last matrix, its unknowns in that order
+	std::vector<int> m_entry;  // [entry of it] number among those of the last matrix
+	bool m_isAnalyzed = false; // the symbolic factor is that of the last matrix
 };
 
 } // namespace ricci

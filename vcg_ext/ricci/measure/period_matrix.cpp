@@ -227,8 +227,8 @@ void reduceImaginaryPart(Eigen::MatrixXcd& omega)
 
 } // namespace
 
-PeriodMatrix
-periodMatrix(const Triangulation& t, const EdgeArray<double>& lengths, const EliminationOrder& order)
+PeriodMatrix periodMatrix(
+	const Triangulation& t, const EdgeArray<double>& lengths, const EliminationOrder& order)
 {
 	const std::vector<FaceLoop> loops = homologyLoops(t, false);
 	const Eigen::MatrixXd energy = energies(t, cotangentWeights(t, lengths), loops, order);
