@@ -34,7 +34,7 @@ constexpr std::size_t kManyPairs = 16;
 /// more pairs.
 constexpr double kManySheets = 8.0;
 
-/// Share of the triangles that lie at the border from which on all triangles are compared.
+/// Sides at the border for each triangle from which on all triangles are compared.
 constexpr double kLongBorder = 0.125;
 
 /// Corners of the polygon round a node.
