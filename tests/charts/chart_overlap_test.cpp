@@ -188,6 +188,19 @@ TEST(ChartOverlap, FollowedFromTheBorderIsWhatAllTrianglesGive)
 		}
 }
 
+TEST(ChartOverlap, ManySheetsThatOnlyTouchAreNotFollowedThroughAllTheirPairs)
+{
+	const int turns = 40, around = 50 * turns, across = 20;
+	const SurfaceMesh strip = sector(2 * kPi * turns, around, across);
+	// A corner is so far away that all sheets lie within the rounding of the chart.
+	const FlatMesh chart =
+		flatMesh(strip, static_cast<int>(strip.positions.size()) - 1, {1e12, 1e12});
+	const OverlapSearch followed(chart);
+	EXPECT_TRUE(followed.pairs().empty());
+	EXPECT_TRUE(followed.isComplete());
+	EXPECT_LT(followed.steps(), 250 * chart.size());
+}
+
 TEST(ChartOverlap, ALongSearchIsHeardAndCanBeEnded)
 {
 	const SurfaceMesh mesh = fan(60000, 2 * kPi, [](int) { return 1.0; });

@@ -175,7 +175,8 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching, const 
 
 /// Follows pairs from the border, without folds: a point that two triangles cover can be moved on in any
 /// direction, over their neighbours, until one of its two ways ends at the border.
-/// \return false if the border is so long that it is better to compare all
+/// \return false if the border is so long, or so many pairs are met, deeper than touching or not, that it is
+/// better to compare all
 bool OverlapSearch::growPairs(const FlatMesh& chart)
 {
 	std::vector<Corner> border;
@@ -201,26 +202,29 @@ bool OverlapSearch::growPairs(const FlatMesh& chart)
 					across.isValid() && crosses(chart.ends(side), m_plane[other]))
 					add(across.face(), other);
 			}
-		m_isComplete = m_pairs.size() <= mostPairs();
 	};
+	const auto isTooMany = [&] { return known.size() > mostPairs(); };
 	for (const Corner side : border)
-		m_tree.meetsAny(
-			boxAround(chart.ends(side)),
-			[&](int j) {
-				step();
-				if (crosses(chart.ends(side), m_plane[j]))
-					add(side.face(), j);
-				while (!open.empty() && m_isComplete) {
-					const TrianglePair pair = open.back();
-					open.pop_back();
-					follow(pair);
-				}
-				return !m_isComplete;
-			},
-			[&](int node) {
-				step();
-				return isApart(chart.ends(side), node, -nothing());
-			});
+		if (m_tree.meetsAny(
+				boxAround(chart.ends(side)),
+				[&](int j) {
+					step();
+					if (crosses(chart.ends(side), m_plane[j]))
+						add(side.face(), j);
+					while (!open.empty() && !isTooMany()) {
+						const TrianglePair pair = open.back();
+						open.pop_back();
+						follow(pair);
+					}
+					return isTooMany();
+				},
+				[&](int node) {
+					step();
+					return isApart(chart.ends(side), node, -nothing());
+				})) {
+			m_pairs.clear();
+			return false;
+		}
 	std::sort(m_pairs.begin(), m_pairs.end());
 	return true;
 }
