@@ -57,13 +57,23 @@ private:
 	std::vector<std::uint64_t> m_bits;
 };
 
-/// 64 cells of a row from \p x on.
-std::uint64_t bitsFrom(const std::uint64_t* row, int x)
+/// Words of 64 cells each from a cell of a row on.
+class WordsFrom
 {
-	const int bit = x % kWordBits;
-	row += x / kWordBits;
-	return row[0] >> bit | row[1] << 1 << (kWordBits - 1 - bit);
-}
+public:
+	WordsFrom(const std::uint64_t* row, int x) : m_first(row + x / kWordBits), m_bit(x % kWordBits)
+	{
+	}
+
+	std::uint64_t operator[](int i) const
+	{
+		return m_first[i] >> m_bit | m_first[i + 1] << 1 << (kWordBits - 1 - m_bit);
+	}
+
+private:
+	const std::uint64_t* m_first;
+	int m_bit;
+};
 
 void fill(std::uint64_t* row, int first, int last)
 {
@@ -102,6 +112,7 @@ int nextCell(const std::uint64_t* row, int x, int end, bool taken)
 struct Run
 {
 	int row, first, last;
+	int level; ///< two runs of 2^level cells cover it, one from its first, one to its last cell
 };
 
 /// An outline that is turned, in cells from the lower left corner of a box round it.
@@ -206,7 +217,7 @@ private:
 				if (first == shape.width)
 					break;
 				last = nextCell(m_rows[y], first, shape.width, false);
-				m_runs.push_back({y, first, last});
+				m_runs.push_back({y, first, last, std::ilogb(last - first)});
 				++m_longer[positionOf(last - first - 1)];
 			}
 		}
@@ -262,17 +273,21 @@ public:
 			const int end = farthest(best) - shape.width + 1; // of x
 			if (end <= 0)
 				return;
-			m_blocked.clear(1);
+			std::uint64_t* blocked = m_blocked[0];
+			const int words = (end - 1) / kWordBits + 1;
+			std::fill_n(blocked, words, 0);
+			if (end % kWordBits != 0) // what begins there is no place
+				blocked[words - 1] = ~std::uint64_t{0} << (end % kWordBits);
 			bool isFull = false;
 			for (std::size_t i = 0; i < m_runs.size() && !isFull; ++i) {
-				isFull = block(m_runs[i], y, end);
+				isFull = block(m_runs[i], y, words);
 				++m_work;
 				if (isFull)
 					std::swap(m_runs[i], m_runs[i / 2]); // it blocks the next row, too
 			}
 			if (isFull)
 				continue;
-			const int x = nextCell(m_blocked[0], 0, end, false);
+			const int x = nextCell(blocked, 0, end, false);
 			const int right = x + shape.width, top = y + shape.height;
 			const Cost cost{
 				std::max({m_side, right, top}), std::max(right, top), right + top + x + y};
@@ -286,11 +301,12 @@ public:
 		for (const Run& run : spot.shape->runs)
 			fill(rowAt(spot.y + run.row, 0), spot.x + run.first, spot.x + run.last);
 		for (int y = spot.y; y < spot.y + spot.shape->height; ++y)
-			for (int k = 0; k + 1 < m_levels; ++k)
+			for (int k = 0; k + 1 < m_levels; ++k) {
+				const std::uint64_t* half = rowAt(y, k);
 				for (int x = 0; x < m_cells; x += kWordBits)
 					rowAt(y, k + 1)[x / kWordBits] =
-						bitsFrom(rowAt(y, k), x) |
-						bitsFrom(rowAt(y, k), std::min(x + (1 << k), m_cells));
+						half[x / kWordBits] | WordsFrom(half, std::min(x + (1 << k), m_cells))[0];
+			}
 		m_side = spot.cost[0];
 	}
 
@@ -303,24 +319,17 @@ private:
 
 	std::uint64_t* rowAt(int y, int k) { return m_taken[y * m_levels + k]; }
 
-	/// Adds the x before \p end at which \p run meets cells that are taken.
+	/// Adds the x at which \p run meets cells that are taken, in the first \p words.
 	/// \return whether all are blocked now
-	bool block(const Run& run, int y, int end)
+	bool block(const Run& run, int y, int words)
 	{
-		const int count = run.last - run.first;
-		int k = 0;
-		while (2 << k <= count)
-			++k;
-		const std::uint64_t* taken = rowAt(y + run.row, k);
+		const std::uint64_t* taken = rowAt(y + run.row, run.level);
+		const WordsFrom first(taken, run.first), last(taken, run.last - (1 << run.level));
 		std::uint64_t* blocked = m_blocked[0];
-		bool isFull = true;
-		for (int x = 0; x < end; x += kWordBits, ++blocked) {
-			*blocked |= bitsFrom(taken, run.first + x) | bitsFrom(taken, run.last - (1 << k) + x);
-			const std::uint64_t beyond =
-				end - x < kWordBits ? ~std::uint64_t{0} << (end - x) : std::uint64_t{0};
-			isFull = isFull && (*blocked | beyond) == ~std::uint64_t{0};
-		}
-		return isFull;
+		std::uint64_t all = ~std::uint64_t{0};
+		for (int i = 0; i < words; ++i)
+			all &= blocked[i] |= first[i] | last[i];
+		return all == ~std::uint64_t{0};
 	}
 
 	int m_cells, m_levels;

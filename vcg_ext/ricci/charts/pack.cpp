@@ -347,7 +347,10 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 			break; // there is no room for one chart more
 		}
 		++vain;
-		if (const double reached = worth(map); reached > most + vain * kMinRoom) {
+		const double reached = worth(map);
+		if (reached < most - kMaxLoss)
+			break;
+		if (reached > most + vain * kMinRoom) {
 			best.reset();
 			most = reached;
 			vain = 0;

@@ -47,6 +47,9 @@ constexpr double kMinRoom = 0.005, kEnoughCovered = 0.75;
 /// Cuts at most, and those in a row that bring nothing.
 constexpr int kMaxCuts = 24, kMaxVainCuts = 4;
 
+/// Loss of worth (kRoomPrice) that further cuts do not make up.
+constexpr double kMaxLoss = 0.1;
+
 /// Places the unit disks of the charts, as the hyperbolic layout leaves them, in equal squares, row by
 /// row from the origin, which together lie in [0, 1]^2, and moves the charts there. Fills Chart::box.
 void placeDisks(Parametrization& map);
