@@ -327,8 +327,9 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 		std::tuple<Array<Triangle>, Array<Point2>, Array<int>, std::vector<Chart>, Report>>
 		best;
 	double most = worth(map);
+	double loss = 0.0; // of the vain cuts together
 	bool isEnded = false;
-	for (int cuts = 0, vain = 0; vain < kMaxVainCuts; ++cuts) {
+	for (int cuts = 0, vain = 0; loss < kMaxLoss; ++cuts) {
 		if (!best && map.report.occupancy > kEnoughCovered)
 			break;
 		isEnded = cuts == kMaxCuts;
@@ -348,12 +349,12 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 		}
 		++vain;
 		const double reached = worth(map);
-		if (reached < most - kMaxLoss)
-			break;
+		loss += std::max(most - reached, 0.0);
 		if (reached > most + vain * kMinRoom) {
 			best.reset();
 			most = reached;
 			vain = 0;
+			loss = 0.0;
 		}
 	}
 	if (best)

@@ -44,11 +44,10 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 /// little is left to win.
 constexpr double kMinRoom = 0.005, kEnoughCovered = 0.75;
 
-/// Cuts at most, and those in a row that bring nothing.
-constexpr int kMaxCuts = 24, kMaxVainCuts = 4;
-
-/// Loss of worth (kRoomPrice) that further cuts do not make up.
-constexpr double kMaxLoss = 0.1;
+/// Cuts at most, and losses of worth by cuts in a row that bring nothing, together, which further cuts do not
+/// make up: a sixth.
+constexpr int kMaxCuts = 24;
+constexpr double kMaxLoss = 0.18;
 
 /// Places the unit disks of the charts, as the hyperbolic layout leaves them, in equal squares, row by
 /// row from the origin, which together lie in [0, 1]^2, and moves the charts there. Fills Chart::box.
