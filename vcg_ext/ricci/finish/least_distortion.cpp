@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "least_distortion.h"
 
-#include "../base/parallel.h"
 #include "../base/task.h"
 #include "../math/line_search.h"
 #include "distortion_laplacian.h"
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace ricci {
 
@@ -20,10 +18,10 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Steps at most: a few are enough for most maps, CAD with long triangles takes a hundred. They end when two
-/// in a row gain what this change of K in all triangles is worth: it is not seen in the fourth decimal of a
-/// mean.
+/// in a row, or the last of the sweeps before, gain less than this change of K in all triangles is worth: it is
+/// not seen in the fourth decimal of a mean.
 constexpr int kMaxSteps = 100;
-constexpr double kSeen = 2e-5;
+constexpr double kSeen = 2.5e-5;
 
 /// Steps of one point after another come first, as long as each gains this share of the distortion.
 /// Points whose step promises less than this share of the mean distortion at a point stay. The length
@@ -64,28 +62,26 @@ public:
 		if (!std::isfinite(m_value) || m_points.unknowns == 0)
 			return result;
 		double gain = kInfinity;
-		besides(
-			threadsFor(m_points.unknowns),
-			[&] {
-				const double worth = kPointGain * m_value / m_points.unknowns;
-				while (result.steps < kMaxSweeps && gain > kSweepGain * m_value) {
-					checkpoint();
-					gain = sweep(result.steps == 0 ? 1.0 : kOverrelaxation, worth);
-					result.steps += gain > 0.0;
-					result.after = m_value;
-				}
-			},
-			[&] { m_laplacian.emplace(m_energy); });
+		const double worth = kPointGain * m_value / m_points.unknowns;
+		while (result.steps < kMaxSweeps && gain > kSweepGain * m_value) {
+			checkpoint();
+			gain = sweep(result.steps == 0 ? 1.0 : kOverrelaxation, worth);
+			result.steps += gain > 0.0;
+			result.after = m_value;
+		}
+		if (gain < worthOf(kSeen))
+			return result;
+		DistortionLaplacian laplacian(m_energy);
 		m_energy.gradient(m_gradient);
 		double lastGain = kInfinity;
 		for (int i = 0; i < kMaxSteps; ++i, lastGain = gain) {
 			checkpoint();
-			if (i % kSameStiffness == 0 && !m_laplacian->factorize())
+			if (i % kSameStiffness == 0 && !laplacian.factorize())
 				break;
 			m_bfgs.direction(
 				m_gradient,
 				[&](const Eigen::VectorXcd& rhs, Eigen::VectorXcd& x) {
-					m_laplacian->solve(rhs, x, kResidual);
+					laplacian.solve(rhs, x, kResidual);
 				},
 				m_direction);
 			gain = step(2.0 * LimitedMemoryBfgs::dot(m_gradient, m_direction));
@@ -155,7 +151,6 @@ private:
 
 	MeanDistortion m_energy;
 	const NumberedPoints& m_points;
-	std::optional<DistortionLaplacian> m_laplacian; // from the sweeps on
 	LimitedMemoryBfgs m_bfgs;
 	Eigen::VectorXcd m_start, m_position, m_trial;            // [number of a point]
 	Eigen::VectorXcd m_direction, m_gradient, m_nextGradient; // [unknown]
