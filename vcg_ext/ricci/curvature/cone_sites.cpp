@@ -148,27 +148,19 @@ int ConeSites::count() const
 	return static_cast<int>(std::count(m_isAllowed.begin(), m_isAllowed.end(), 1));
 }
 
-SeamTree::SeamTree(const ConeSites& sites) :
+SeamTree::SeamTree(const ConeSites& sites, const std::vector<Vertex>& cones) :
 		m_sites(&sites), m_length(sites.cutLength()), m_distance(sites.toCut()),
 		m_next(sites.toCut().size()), m_uses(sites.toCut().size(), 0)
 {
-	std::vector<Vertex> cut;
+	DistanceQueue<Vertex> queue;
 	for (const Vertex v : m_distance.indices())
 		if (m_distance[v] < kFar)
-			cut.push_back(v);
-	spread(cut);
-}
-
-SeamTree::SeamTree(const ConeSites& sites, const std::vector<Vertex>& cones) : SeamTree(sites)
-{
+			queue.push(m_distance[v], v);
 	VertexArray<char> isLeft(m_uses.size(), 0);
-	DistanceQueue<Vertex> queue;
 	int left = 0;
 	for (const Vertex v : cones) {
 		left += isLeft[v] == 0;
 		isLeft[v] = 1;
-		if (m_distance[v] < kFar)
-			queue.push(m_distance[v], v);
 	}
 	const auto isCone = [&](Vertex v) { return isLeft[v] != 0; };
 	for (; left > 0; --left) {

@@ -62,12 +62,9 @@ private:
 class SeamTree
 {
 public:
-	/// Without cones.
-	explicit SeamTree(const ConeSites& sites);
-
 	/// With \p cones, the nearest to the tree first, and the first one first where there are no
 	/// seams without cones.
-	SeamTree(const ConeSites& sites, const std::vector<Vertex>& cones);
+	explicit SeamTree(const ConeSites& sites, const std::vector<Vertex>& cones = {});
 
 	double length() const { return m_length; }
 
