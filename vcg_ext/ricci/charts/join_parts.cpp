@@ -393,13 +393,8 @@ private:
 
 Parts joinParts(FlatMesh& chart, const Parts& parts, const BoxTree* tree)
 {
-	MovableParts whole(chart, parts, tree);
-	PartJoiner(chart, whole).run();
-	take(whole, chart);
-	if (crumbs(whole).empty())
-		return partsOf(whole);
-	// Parts that were put together from many are looked through faster once they are one again.
-	MovableParts movable(chart, partsOf(whole));
+	MovableParts movable(chart, parts, tree);
+	PartJoiner(chart, movable).run();
 	CrumbDivider(chart, movable).run();
 	take(movable, chart);
 	return partsOf(movable);
