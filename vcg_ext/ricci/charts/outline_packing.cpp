@@ -57,23 +57,11 @@ private:
 	std::vector<std::uint64_t> m_bits;
 };
 
-/// Words of 64 cells each from a cell of a row on.
-class WordsFrom
+/// 64 cells of a row from one of those in \p word on.
+std::uint64_t bitsFrom(const std::uint64_t* word, int bit)
 {
-public:
-	WordsFrom(const std::uint64_t* row, int x) : m_first(row + x / kWordBits), m_bit(x % kWordBits)
-	{
-	}
-
-	std::uint64_t operator[](int i) const
-	{
-		return m_first[i] >> m_bit | m_first[i + 1] << 1 << (kWordBits - 1 - m_bit);
-	}
-
-private:
-	const std::uint64_t* m_first;
-	int m_bit;
-};
+	return word[0] >> bit | word[1] << 1 << (kWordBits - 1 - bit);
+}
 
 void fill(std::uint64_t* row, int first, int last)
 {
@@ -303,9 +291,10 @@ public:
 		for (int y = spot.y; y < spot.y + spot.shape->height; ++y)
 			for (int k = 0; k + 1 < m_levels; ++k) {
 				const std::uint64_t* half = rowAt(y, k);
-				for (int x = 0; x < m_cells; x += kWordBits)
-					rowAt(y, k + 1)[x / kWordBits] =
-						half[x / kWordBits] | WordsFrom(half, std::min(x + (1 << k), m_cells))[0];
+				for (int i = 0; i < m_cells / kWordBits; ++i) {
+					const int x = std::min(i * kWordBits + (1 << k), m_cells);
+					rowAt(y, k + 1)[i] = half[i] | bitsFrom(half + x / kWordBits, x % kWordBits);
+				}
 			}
 		m_side = spot.cost[0];
 	}
@@ -324,11 +313,12 @@ private:
 	bool block(const Run& run, int y, int words)
 	{
 		const std::uint64_t* taken = rowAt(y + run.row, run.level);
-		const WordsFrom first(taken, run.first), last(taken, run.last - (1 << run.level));
+		const int first = run.first, last = run.last - (1 << run.level);
 		std::uint64_t* blocked = m_blocked[0];
 		std::uint64_t all = ~std::uint64_t{0};
 		for (int i = 0; i < words; ++i)
-			all &= blocked[i] |= first[i] | last[i];
+			all &= blocked[i] |= bitsFrom(taken + first / kWordBits + i, first % kWordBits) |
+								 bitsFrom(taken + last / kWordBits + i, last % kWordBits);
 		return all == ~std::uint64_t{0};
 	}
 
