@@ -22,6 +22,8 @@ struct Problem
 	Eigen::MatrixXd gram;
 	Eigen::VectorXd linear;
 	std::optional<double> total;
+	Eigen::MatrixXd inverse; // see multipliers()
+	Eigen::VectorXd free;    // the minimum without bounds
 
 	/// Strongly coupled, with the free minimum on both sides of the bound.
 	Problem(int n, bool fixedSum, Random& random)
@@ -37,6 +39,26 @@ struct Problem
 		linear = -gram * wanted;
 		if (fixedSum)
 			total = random.real(-2.0 * n, kMax * n);
+		const int rows = n + (fixedSum ? 1 : 0);
+		Eigen::MatrixXd system = Eigen::MatrixXd::Ones(rows, rows);
+		system.bottomRightCorner(rows - n, rows - n).setZero();
+		system.topLeftCorner(n, n) = gram;
+		Eigen::VectorXd rhs = Eigen::VectorXd::Constant(rows, total.value_or(0.0));
+		rhs.head(n) = -linear;
+		inverse = system.fullPivLu().inverse().topLeftCorner(n, n);
+		free = system.fullPivLu().solve(rhs).head(n);
+	}
+
+	/// The minimum with the bounds, and the multipliers there.
+	Eigen::VectorXd minimum(Eigen::VectorXd& m) const
+	{
+		m = boundMultipliers(inverse, free.array() - kMax, std::move(m));
+		return free - inverse * m;
+	}
+	Eigen::VectorXd minimum() const
+	{
+		Eigen::VectorXd m = Eigen::VectorXd::Zero(free.size());
+		return minimum(m);
 	}
 
 	double operator()(const Eigen::VectorXd& k) const
@@ -89,16 +111,16 @@ TEST(BoundedMinimum, IsTheLowestOfAllActiveSets)
 	int atBound = 0, freed = 0;
 	for (int trial = 0; trial < 4000; ++trial) {
 		const Problem problem(1 + random.index(6), random.coin(), random);
-		const Eigen::VectorXd k = boundedMinimum(problem.gram, problem.linear, kMax, problem.total);
+		const Eigen::VectorXd k = problem.minimum();
 		const Eigen::VectorXd expected = problem.lowest();
 		ASSERT_EQ(k.size(), expected.size());
-		EXPECT_LE(k.maxCoeff(), kMax);
+		EXPECT_LE(k.maxCoeff(), kMax + 1e-10 * (1.0 + problem.free.norm()));
 		if (problem.total) {
-			EXPECT_NEAR(k.sum(), *problem.total, 1e-11);
+			EXPECT_NEAR(k.sum(), *problem.total, 1e-10 * (1.0 + problem.free.norm()));
 		}
 		const double size = std::abs(problem(expected)) + problem.linear.norm();
 		EXPECT_NEAR(problem(k), problem(expected), 1e-10 * size) << trial;
-		atBound += (k.array() == kMax).count() > 0;
+		atBound += (k.array() > kMax - 1e-9).count() > 0;
 		freed += (k.array() < kMax - 1e-9).count() > 0;
 	}
 	EXPECT_GT(atBound, 1000);
@@ -108,27 +130,27 @@ TEST(BoundedMinimum, IsTheLowestOfAllActiveSets)
 TEST(BoundedMinimum, FulfilsItsConditions)
 {
 	// Larger problems: no active set can be looked up, but the conditions of a convex minimum hold. Half
-	// the gradient plus the multiplier of the sum is 0 at free entries, and not positive at the bound.
+	// the gradient plus the multipliers is 0, of which those of the bounds are not negative, and 0 below them.
 	Random random(241);
 	for (int trial = 0; trial < 200; ++trial) {
 		const Problem problem(20 + random.index(40), trial % 2 == 0, random);
-		const Eigen::VectorXd k = boundedMinimum(problem.gram, problem.linear, kMax, problem.total);
-		const Eigen::VectorXd slope = problem.gram * k + problem.linear;
-		const double slack = 1e-9 * (1.0 + problem.linear.lpNorm<Eigen::Infinity>());
-		double level = 0.0;
+		Eigen::VectorXd m = Eigen::VectorXd::Zero(problem.free.size());
+		const Eigen::VectorXd k = problem.minimum(m);
+		Eigen::VectorXd slope = problem.gram * k + problem.linear + m;
 		if (problem.total) {
-			EXPECT_NEAR(k.sum(), *problem.total, 1e-10 * static_cast<double>(k.size()));
-			Eigen::Index free = 0;
-			k.minCoeff(&free);
-			level = -slope[free];
+			EXPECT_NEAR(k.sum(), *problem.total, 1e-8 * static_cast<double>(k.size()));
+			slope.array() -= slope.mean();
 		}
+		const double size = problem.linear.lpNorm<Eigen::Infinity>();
+		EXPECT_LT(slope.lpNorm<Eigen::Infinity>(), 1e-8 * size);
+		EXPECT_GE(m.minCoeff(), 0.0);
+		EXPECT_GT(m.maxCoeff(), 0.0);
+		const double slack =
+			1e-14 * (problem.free.norm() + problem.inverse.norm() * m.norm()); // of rounding
 		for (Eigen::Index i = 0; i < k.size(); ++i) {
-			if (k[i] < kMax) {
-				EXPECT_NEAR(slope[i] + level, 0.0, slack);
-			}
-			else {
-				EXPECT_EQ(k[i], kMax);
-				EXPECT_LE(slope[i] + level, slack);
+			EXPECT_LT(k[i], kMax + slack);
+			if (k[i] < kMax - slack) {
+				EXPECT_EQ(m[i], 0.0);
 			}
 		}
 	}
@@ -140,28 +162,68 @@ TEST(BoundedMinimum, IsTheSameFromAnywhere)
 	for (int trial = 0; trial < 400; ++trial) {
 		const int n = 2 + random.index(8);
 		const Problem problem(n, trial % 2 == 0, random);
-		const Eigen::VectorXd k = boundedMinimum(problem.gram, problem.linear, kMax, problem.total);
-		// Allowed: some entries at the bound, and the others with what the sum lacks.
-		Eigen::VectorXd start(n);
+		const Eigen::VectorXd k = problem.minimum();
+		Eigen::VectorXd m(n);
 		for (int i = 0; i < n; ++i)
-			start[i] = random.coin() ? kMax : random.real(-3.0, kMax);
-		if (problem.total)
-			start[0] += *problem.total - start.sum();
-		const Eigen::VectorXd again =
-			boundedMinimum(problem.gram, problem.linear, kMax, problem.total, start);
+			m[i] = random.coin() ? 0.0 : random.real(0.0, 10.0);
+		m[0] = 0.0; // with a fixed sum, not all of them can be at the bound
+		const Eigen::VectorXd again = problem.minimum(m);
 		const double size = std::abs(problem(k)) + problem.linear.norm();
 		EXPECT_NEAR(problem(again), problem(k), 1e-10 * size) << trial;
-		EXPECT_LE(again.maxCoeff(), kMax);
+		EXPECT_LE(again.maxCoeff(), kMax + 1e-10 * (1.0 + problem.free.norm()));
 	}
 }
 
-TEST(BoundedMinimum, TakesTheBoundWhereTheSumIsOutOfReach)
+/// A multiplier is half of what the energy falls by as the bound of its entry rises: two problems with bounds
+/// that differ a little.
+TEST(BoundedMinimum, MultipliersAreTheDerivativeByTheBounds)
 {
-	const Eigen::MatrixXd gram = Eigen::MatrixXd::Identity(3, 3);
-	const Eigen::VectorXd linear = Eigen::VectorXd::LinSpaced(3, -1.0, 1.0);
-	for (const double total : {3 * kMax, 3 * kMax + 1.0})
-		EXPECT_EQ(boundedMinimum(gram, linear, kMax, total), Eigen::VectorXd::Constant(3, kMax));
-	EXPECT_EQ(boundedMinimum({}, Eigen::VectorXd(), kMax, 1.0).size(), 0);
+	Random random(243);
+	int held = 0;
+	for (int trial = 0; trial < 200; ++trial) {
+		const Problem problem(2 + random.index(6), trial % 2 == 0, random);
+		const int n = static_cast<int>(problem.free.size());
+		const Eigen::VectorXd bounds = Eigen::VectorXd::Constant(n, kMax);
+		const auto energy = [&](const Eigen::VectorXd& bound, Eigen::VectorXd& m) {
+			m = boundMultipliers(problem.inverse, problem.free - bound, Eigen::VectorXd::Zero(n));
+			return problem(problem.free - problem.inverse * m);
+		};
+		Eigen::VectorXd m, other;
+		energy(bounds, m);
+		const double step = 1e-4;
+		for (int i = 0; i < n; ++i) {
+			const Eigen::VectorXd by = step * Eigen::VectorXd::Unit(n, i);
+			const double higher = energy(bounds + by, other);
+			const bool isSame = ((other.array() > 0.0) == (m.array() > 0.0)).all();
+			const double lower = energy(bounds - by, other);
+			if (!isSame || !((other.array() > 0.0) == (m.array() > 0.0)).all())
+				continue;
+			// Quadratic in between: central differences are exact but for rounding.
+			EXPECT_NEAR((lower - higher) / (4 * step), m[i], 1e-6 * (1.0 + problem.linear.norm()));
+			held += m[i] > 0.0;
+		}
+	}
+	EXPECT_GT(held, 100);
+}
+
+TEST(Multipliers, HoldEntriesAtGivenValues)
+{
+	Random random(244);
+	for (int trial = 0; trial < 100; ++trial) {
+		const Problem problem(4 + random.index(6), trial % 2 == 0, random);
+		const std::vector<int> held{3, 1};
+		const Eigen::VectorXd wanted = Eigen::VectorXd::Random(problem.free.size());
+		const Eigen::VectorXd m = multipliers(problem.inverse, held, problem.free - wanted);
+		const Eigen::VectorXd k = problem.free - problem.inverse * m;
+		for (Eigen::Index i = 0; i < m.size(); ++i)
+			if (i == 1 || i == 3) {
+				EXPECT_NEAR(k[i], wanted[i], 1e-9 * (1.0 + problem.free.norm()));
+			}
+			else {
+				EXPECT_EQ(m[i], 0.0);
+			}
+		EXPECT_EQ(multipliers(problem.inverse, {}, problem.free), Eigen::VectorXd::Zero(m.size()));
+	}
 }
 
 constexpr double kQuarter = 0.5 * kPi;
@@ -242,8 +304,10 @@ double bruteForce(const Quadratic& energy, std::optional<double> total)
 		combinations *= reach;
 	for (int c = 0; c < combinations; ++c) {
 		Eigen::VectorXd k(n);
-		for (int i = 0, rest = c; i < n; ++i, rest /= reach)
-			k[i] = kQuarter * (std::round(energy.minimum[i] / kQuarter) + rest % reach - reach / 2);
+		for (int i = 0, rest = c; i < n; ++i, rest /= reach) {
+			const int turns = rest % reach - reach / 2;
+			k[i] = kQuarter * (std::round(energy.minimum[i] / kQuarter) + turns);
+		}
 		if (k.maxCoeff() <= kMaxConeCurvature + 1e-9 &&
 			(!total || std::abs(k.sum() - *total) < 1e-9))
 			lowest = std::min(lowest, energy(k));

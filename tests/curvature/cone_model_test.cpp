@@ -32,10 +32,7 @@ std::vector<Vertex> someVertices()
 
 std::vector<double> curvaturesOf(const ConeModel& model)
 {
-	std::vector<double> curvatures;
-	for (int i = 0; i < model.size(); ++i)
-		curvatures.push_back(model.curvature(i));
-	return curvatures;
+	return {model.curvatures().begin(), model.curvatures().end()};
 }
 
 /// \p phi less its mean by area: fields of closed surfaces are known up to a constant.
@@ -218,6 +215,7 @@ TEST(ConeModel, TheGradientIsTheDerivativeOfHalfTheEnergy)
 			++count;
 		}
 		model.remove(0);
+		model.fit();
 		EXPECT_NEAR(model.energy(), energy, 1e-12 * energy);
 		EXPECT_EQ(model.size(), 0);
 		EXPECT_FALSE(model.isCone(v));
@@ -430,16 +428,153 @@ TEST(ConeModel, TheGradientIsTheSameForFewAndManyCones)
 	}
 }
 
-/// The bound that spares a solution decides as the energy itself does.
-TEST(ConeModel, AMoveIsMadeWhereTheEnergyIsLow)
+/// At the lowest energy with bounds, more curvature changes it nowhere where a cone is below its bound, by as
+/// much everywhere if the sum is fixed, and lowers it where one is at its bound.
+TEST(ConeModel, CurvaturesAreTheBestWithNoneAboveTheBound)
 {
-	Random random(772);
-	int moved = 0, stayed = 0;
+	Random random(773);
+	int held = 0;
+	for (const LinearCase& c : cases()) {
+		SCOPED_TRACE(c.name);
+		Linearised linear(c);
+		const DenseFlow dense(linear.packed);
+		for (int trial = 0; trial < 20; ++trial) {
+			ConeModel model(linear.flow, totalOf(linear.surface));
+			std::vector<Vertex> cones =
+				verticesInside(linear.surface, at(5 + random.index(8)), random);
+			const Vertex last = cones.back();
+			cones.pop_back();
+			model.append(cones);
+			model.fit();
+			if (model.hasFixedSum()) {
+				EXPECT_NEAR(model.curvatures().sum(), model.total(), 1e-10);
+			}
+			// Not only from the beginning: from the bounds that were reached before.
+			model.append({last});
+			model.remove(0);
+			model.fit();
+			const VertexVector& phi = model.gradient();
+			double level = 0.0;
+			for (int i = 0; model.hasFixedSum() && i < model.size(); ++i)
+				if (model.curvature(i) < kMaxConeCurvature)
+					level = phi[model.vertex(i)];
+			const double size = phi.lpNorm<Eigen::Infinity>();
+			for (int i = 0; i < model.size(); ++i) {
+				const double slope = phi[model.vertex(i)] - level;
+				if (model.curvature(i) < kMaxConeCurvature) {
+					EXPECT_NEAR(slope, 0.0, 1e-9 * size);
+				}
+				else {
+					EXPECT_EQ(model.curvature(i), kMaxConeCurvature);
+					EXPECT_LT(slope, 1e-9 * size);
+					++held;
+				}
+			}
+		}
+	}
+	EXPECT_GT(held, 20);
+}
+
+/// With others at their bound, need() is no more than that.
+TEST(ConeModel, NeedIsABoundOfTheRise)
+{
+	Random random(775);
+	int held = 0, alone = 0;
 	for (const LinearCase& c : cases()) {
 		SCOPED_TRACE(c.name);
 		Linearised linear(c);
 		for (int trial = 0; trial < 60; ++trial) {
-			std::vector<Vertex> cones = verticesInside(linear.surface, 6, random);
+			ConeModel model(linear.flow, totalOf(linear.surface));
+			model.append(verticesInside(linear.surface, at(5 + random.index(8)), random));
+			model.fit();
+			const double before = model.energy();
+			const Eigen::VectorXd k = model.curvatures();
+			const auto isHeld = [](double x) { return x == kMaxConeCurvature; };
+			for (int i = 0; i < model.size(); ++i) {
+				const double need = model.need(i);
+				bool isAlone = true; // none of the others is at its bound, before or after
+				double rise = 0.0;
+				model.tryWithout(i, [&] {
+					rise = model.energy() - before;
+					const Eigen::VectorXd& after = model.curvatures();
+					isAlone = std::none_of(after.begin(), after.end(), isHeld) &&
+							  std::count_if(k.begin(), k.end(), isHeld) == isHeld(k[i]);
+					return false;
+				});
+				EXPECT_LT(need, rise + 1e-9 * before);
+				if (isAlone) {
+					EXPECT_NEAR(need, rise, 1e-9 * (rise + before));
+				}
+				held += isHeld(k[i]);
+				alone += isAlone;
+			}
+		}
+	}
+	EXPECT_GT(held, 20);
+	EXPECT_GT(alone, 100);
+}
+
+/// A sphere needs three cones: two carry what they can.
+TEST(ConeModel, TooFewConesAreAllAtTheirBound)
+{
+	Linearised linear(closed(0));
+	ConeModel model(linear.flow, 4 * kPi);
+	model.append({Vertex(3), Vertex(40)});
+	model.fit();
+	EXPECT_EQ(curvaturesOf(model), std::vector<double>(2, kMaxConeCurvature));
+	model.append({Vertex(17), Vertex(29)});
+	model.fit();
+	EXPECT_NEAR(model.curvatures().sum(), 4 * kPi, 1e-12);
+}
+
+/// Cones that no digit of the energy tells apart share what one of them would have.
+TEST(ConeModel, TwinsAreFittedAsOneCone)
+{
+	Random random(774);
+	SurfaceMesh mesh = shaken(perforatedSlab(0, 3), 0.05, random);
+	// One more vertex, very near to another one, in the middle of a triangle.
+	const Triangle t = mesh.triangles[10];
+	Point3 near = mesh.positions[at(t[0])];
+	for (std::size_t k = 0; k < 3; ++k)
+		near[k] += 1e-9 * (mesh.positions[at(t[1])][k] + mesh.positions[at(t[2])][k] - 2 * near[k]);
+	const int twin = static_cast<int>(mesh.positions.size());
+	mesh.positions.push_back(near);
+	mesh.triangles[10] = {t[0], t[1], twin};
+	mesh.triangles.push_back({t[1], t[2], twin});
+	mesh.triangles.push_back({t[2], t[0], twin});
+	Linearised linear({"", mesh, ConeBoundary::Fixed});
+	const auto fitted = [&](const std::vector<Vertex>& vertices) {
+		ConeModel model(linear.flow, 4 * kPi);
+		model.append(vertices);
+		model.fit();
+		return std::pair{model.energy(), curvaturesOf(model)};
+	};
+	std::vector<Vertex> cones;
+	for (const Vertex v : verticesInside(linear.surface, 6, random))
+		if (v != Vertex(t[0]) && v != Vertex(twin))
+			cones.push_back(v);
+	cones.push_back(Vertex(t[0]));
+	const auto [energy, k] = fitted(cones);
+	cones.push_back(Vertex(twin));
+	const auto [both, shares] = fitted(cones);
+	EXPECT_NEAR(both, energy, 1e-4 * energy);
+	const std::size_t last = k.size() - 1;
+	EXPECT_NEAR(shares[last] + shares[last + 1], k[last], 1e-3);
+	for (std::size_t i = 0; i < last; ++i)
+		EXPECT_NEAR(shares[i], k[i], 1e-3);
+}
+
+/// The bound that spares a solution decides as the energy itself does.
+TEST(ConeModel, AMoveIsMadeWhereTheEnergyIsLow)
+{
+	Random random(772);
+	int moved = 0, stayed = 0, held = 0;
+	for (const LinearCase& c : cases()) {
+		SCOPED_TRACE(c.name);
+		Linearised linear(c);
+		for (int trial = 0; trial < 60; ++trial) {
+			std::vector<Vertex> cones =
+				verticesInside(linear.surface, at(5 + random.index(3)), random);
 			const Vertex to = cones.back();
 			cones.pop_back();
 			ConeModel model(linear.flow, totalOf(linear.surface));
@@ -450,9 +585,16 @@ TEST(ConeModel, AMoveIsMadeWhereTheEnergyIsLow)
 			const double after = energyOf(linear, cones);
 			if (std::abs(after - wanted) < 1e-6 * before)
 				continue;
-			const bool hasMoved =
-				model.tryMove(2, {to}, [&](Vertex, double energy) { return energy < wanted; });
+			const double most = model.curvatures().maxCoeff();
+			std::vector<double> seen; // bounds, and in the end the energy itself
+			const bool hasMoved = model.tryMove(2, {to}, [&](Vertex, double energy) {
+				seen.push_back(energy);
+				return energy < wanted;
+			});
 			EXPECT_EQ(hasMoved, after < wanted);
+			for (const double bound : seen)
+				EXPECT_LT(bound, after + 1e-9 * (1.0 + before));
+			held += most == kMaxConeCurvature;
 			EXPECT_NEAR(model.energy(), hasMoved ? after : before, 1e-9 * (1.0 + before));
 			EXPECT_EQ(model.isCone(to), hasMoved);
 			(hasMoved ? moved : stayed) += 1;
@@ -460,6 +602,7 @@ TEST(ConeModel, AMoveIsMadeWhereTheEnergyIsLow)
 	}
 	EXPECT_GT(moved, 10);
 	EXPECT_GT(stayed, 10);
+	EXPECT_GT(held, 10);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <vector>
 
 namespace ricci {
 
@@ -13,20 +14,28 @@ namespace ricci {
 constexpr double kMaxConeCurvature = 4.71238898038468985769;
 constexpr int kMaxQuarterTurns = 3; ///< the same
 
-/// The lowest energy with no entry of k above \p max: a primal active set method
-/// [Nocedal Wright 2006, 16.5], which ends at the minimum where G is positive definite (on vectors
-/// of sum 0 where the sum is fixed).
-/// \param gram G
-/// \param linear b
-/// \param total sum of the entries, where it is fixed
-/// \param start where to begin, best near the minimum; of no effect where it breaks a condition
-/// \return k; all entries are \p max where the sum is out of their reach
-Eigen::VectorXd boundedMinimum(
-	const Eigen::MatrixXd& gram,
-	const Eigen::VectorXd& linear,
-	double max,
-	std::optional<double> total,
-	const Eigen::VectorXd& start = {});
+/// What holds the entries \p held of a minimum k at given values: multipliers m with k - H m there.
+/// \param inverse H: of G or, where the sum of the entries is fixed, of G with a row and a column of ones
+/// more, of which H is the part beside them
+/// \param excess of k over these values
+/// \return m, 0 at all other entries
+Eigen::VectorXd multipliers(
+	const Eigen::Ref<const Eigen::MatrixXd>& inverse,
+	const std::vector<int>& held,
+	const Eigen::VectorXd& excess);
+
+/// The lowest energy with no entry of k above a bound, by the multipliers m of the bounds: a dual active set
+/// method [Lawson Hanson 1974, 23.3].
+/// \param inverse H, see multipliers()
+/// \param excess of the minimum without bounds over the bound
+/// \param start multipliers to begin with, best near the result; none below 0
+/// \return m with k - H m as the minimum: 0 where that is below the bound, else half of what the energy falls by
+/// as the bound rises
+/// \pre the bound leaves room for the sum
+Eigen::VectorXd boundMultipliers(
+	const Eigen::Ref<const Eigen::MatrixXd>& inverse,
+	const Eigen::VectorXd& excess,
+	Eigen::VectorXd start);
 
 /// Multiples of pi / 2 near \p values with a low energy, none above kMaxConeCurvature: the values
 /// are rounded, corrected to the right sum, and changed by single steps of pi / 2, or by exchanges

@@ -20,9 +20,11 @@ constexpr double kBoundSlack = 1e-6;
 /// it is the difference of.
 constexpr double kMinPivot = 1e-8;
 
-/// An inverse that leaves a larger share of the right-hand side, refined once, is made anew, and the minimum
-/// without bounds is not known well if that does not help.
+/// An inverse that leaves a larger share of the right-hand side, refined once, is made anew.
 constexpr double kMaxRest = 1e-11;
+
+/// What each cone is taken to add to its own product where that does not help, either.
+constexpr double kTwinShare = 1e-6;
 
 /// So many fields add up about as fast as the two linear solutions that give the same sum.
 constexpr int kFieldsOfASolution = 64;
@@ -96,12 +98,9 @@ const VertexVector& ConeModel::gradient()
 
 VertexVector ConeModel::gradientWithout(int i)
 {
-	if (m_now.inverse.rows() == 0)
-		invert();
-	const int row = i + border();
 	Eigen::VectorXd k = m_now.fit.values;
-	if (const double pivot = m_now.inverse(row, row); pivot > 0.0)
-		k -= m_now.inverse.col(row).tail(size()) * (curvature(i) / pivot);
+	if (const Eigen::VectorXd step = descent(Eigen::VectorXd::Unit(size(), i)); step[i] > 0.0)
+		k -= step * (k[i] / step[i]);
 	k[i] = 0.0;
 	return gradientAt(k);
 }
@@ -124,8 +123,8 @@ void ConeModel::append(const std::vector<Vertex>& vertices)
 	}
 	m_now.gram.conservativeResize(size(), size());
 	m_now.linear.conservativeResize(size());
-	m_now.fit.values.conservativeResize(size());
-	m_now.fit.values.tail(size() - before).setZero();
+	m_now.fit.pull.conservativeResize(size());
+	m_now.fit.pull.tail(size() - before).setZero();
 	if (const Eigen::Index rows = m_now.inverse.rows(); rows > 0) {
 		const Eigen::Index more = size() - before;
 		m_now.inverse.conservativeResize(rows + more, rows + more);
@@ -159,42 +158,36 @@ void ConeModel::remove(int i)
 	const Eigen::Index left = size() - i;
 	m_now.linear.segment(i, left) = m_now.linear.tail(left).eval();
 	m_now.linear.conservativeResize(size());
-	// A start for the next fit: the others take an equal share of what is lost.
-	Eigen::VectorXd& k = m_now.fit.values;
-	const double lost = k.size() == size() + 1 && size() > 0 ? k[i] / size() : 0.0;
-	k.segment(i, left) = k.tail(left).eval();
-	k.conservativeResize(size());
-	if (hasFixedSum())
-		k.array() += lost;
-	m_now.fit.free.resize(0);
-	m_now.fit.energy = m_startEnergy;
+	Eigen::VectorXd& pull = m_now.fit.pull;
+	pull.segment(i, left) = pull.tail(left).eval();
+	pull.conservativeResize(size());
 }
 
 Eigen::VectorXd ConeModel::descent(const Eigen::VectorXd& rest)
 {
 	if (m_now.inverse.rows() == 0)
 		invert();
-	Eigen::VectorXd step = m_now.inverse.bottomRightCorner(size(), size()) * rest;
-	std::vector<int> bound;
+	Eigen::VectorXd whole = Eigen::VectorXd::Zero(size() + border());
+	whole.tail(size()) = rest;
+	return change(whole).tail(size());
+}
+
+/// The change of the minimum, as the solution of the fit, if the right side changes by \p rest and cones at their
+/// bound stay there.
+Eigen::VectorXd ConeModel::change(const Eigen::VectorXd& rest) const
+{
+	std::vector<int> held;
 	for (int i = 0; i < size(); ++i)
-		if (curvature(i) >= kMaxConeCurvature)
-			bound.push_back(i);
-	const auto count = static_cast<Eigen::Index>(bound.size());
-	Eigen::MatrixXd columns(size(), count), system(count, count);
-	Eigen::VectorXd moved(count);
-	for (std::size_t i = 0; i < bound.size(); ++i) {
-		const auto a = static_cast<Eigen::Index>(i);
-		columns.col(a) = m_now.inverse.col(bound[i] + border()).tail(size());
-		moved[a] = step[bound[i]];
-	}
-	for (std::size_t i = 0; i < bound.size(); ++i)
-		system.row(static_cast<Eigen::Index>(i)) = columns.row(bound[i]);
-	// What holds those at the bound, the others make up for.
-	if (count > 0)
-		step -= columns * system.ldlt().solve(moved);
-	for (const int i : bound)
-		step[i] = 0.0;
-	return step;
+		if (m_now.fit.pull[i] > 0.0)
+			held.push_back(i);
+	const auto inverse = symmetric(m_now.inverse);
+	Eigen::VectorXd whole = rest;
+	whole.tail(size()) -= multipliers(
+		m_now.inverse.bottomRightCorner(size(), size()), held, (inverse * rest).tail(size()));
+	Eigen::VectorXd result = inverse * whole;
+	for (const int i : held)
+		result[i + border()] = 0.0;
+	return result;
 }
 
 double ConeModel::need(int i)
@@ -202,7 +195,9 @@ double ConeModel::need(int i)
 	if (m_now.inverse.rows() == 0)
 		invert();
 	const double pivot = m_now.inverse(i + border(), i + border());
-	return pivot > 0.0 ? curvature(i) * curvature(i) / pivot : std::numeric_limits<double>::max();
+	const double k = curvature(i);
+	return pivot > 0.0 ? k * (k / pivot + 2.0 * m_now.fit.pull[i])
+					   : std::numeric_limits<double>::max();
 }
 
 void ConeModel::setRounding(ConeRounding rounding)
@@ -217,41 +212,67 @@ void ConeModel::fit()
 {
 	m_gradient.resize(0);
 	Fit& fit = m_now.fit;
-	const auto total = hasFixedSum() ? std::optional<double>(m_total) : std::nullopt;
-	const bool isFree = findFree() && fit.free.maxCoeff() <= kMaxConeCurvature;
-	fit.values =
-		isFree ? fit.free
-			   : boundedMinimum(m_now.gram, m_now.linear, kMaxConeCurvature, total, fit.values);
-	fit.energy = isFree ? fit.lowest : energyOf(fit.values);
+	findMinimum();
+	fit.values = fit.minimum;
+	fit.energy = fit.lowest;
 	if (m_rounding == ConeRounding::QuarterTurns && size() > 0) {
+		const auto total = hasFixedSum() ? std::optional<double>(m_total) : std::nullopt;
 		fit.values = roundToQuarterTurns(m_now.gram, m_now.linear, fit.values, total);
 		fit.energy = energyOf(fit.values);
 	}
 }
 
-/// Finds the minimum without bounds. \return whether it is one, but for rounding
-bool ConeModel::findFree()
+/// Finds the minimum without rounding.
+void ConeModel::findMinimum()
 {
 	Fit& fit = m_now.fit;
+	if (size() < std::max(1, minSize())) {
+		fit.minimum = Eigen::VectorXd::Constant(size(), kMaxConeCurvature);
+		fit.lowest = energyOf(fit.minimum);
+		m_now.inverse.resize(0, 0);
+		return;
+	}
+	Eigen::VectorXd solution = unboundedMinimum();
+	const Eigen::VectorXd excess = solution.tail(size()).array() - kMaxConeCurvature;
+	fit.pull = boundMultipliers(
+		m_now.inverse.bottomRightCorner(size(), size()), excess, std::move(fit.pull));
+	if (fit.pull.maxCoeff() > 0.0) {
+		solution -= m_now.inverse.rightCols(size()) * fit.pull;
+		for (int i = 0; i < size(); ++i)
+			if (fit.pull[i] > 0.0)
+				solution[i + border()] = kMaxConeCurvature;
+		solution += change(rightSide() - times(solution));
+	}
+	fit.minimum = solution.tail(size()).cwiseMin(kMaxConeCurvature);
+	fit.lowest = energyOf(fit.minimum);
+	fit.level = border() > 0 ? solution[0] : 0.0;
+}
+
+/// The solution of the fit without bounds, by an inverse that is made anew if it has lost digits and, where
+/// cones do about the same as others, of a matrix in which each does a little more.
+Eigen::VectorXd ConeModel::unboundedMinimum()
+{
+	const Eigen::VectorXd rhs = rightSide();
+	for (int attempt = 0;; ++attempt) {
+		if (attempt == 2)
+			m_now.gram.diagonal() *= 1.0 + kTwinShare;
+		if (attempt > 0 || m_now.inverse.rows() == 0)
+			invert();
+		const auto inverse = symmetric(m_now.inverse);
+		Eigen::VectorXd solution = inverse * rhs;
+		solution += inverse * (rhs - times(solution));
+		if (attempt == 2 || (rhs - times(solution)).norm() <= kMaxRest * rhs.norm())
+			return solution;
+	}
+}
+
+/// The right side of the fit.
+Eigen::VectorXd ConeModel::rightSide() const
+{
 	Eigen::VectorXd rhs(size() + border());
 	rhs.head(border()).setConstant(m_total);
 	rhs.tail(size()) = -m_now.linear;
-	for (const bool isNew : {false, true}) {
-		if (size() == 0)
-			break;
-		if (isNew || m_now.inverse.rows() == 0)
-			invert();
-		Eigen::VectorXd solution = symmetric(m_now.inverse) * rhs;
-		solution += symmetric(m_now.inverse) * (rhs - times(solution));
-		if (!((rhs - times(solution)).norm() <= kMaxRest * rhs.norm()))
-			continue;
-		fit.free = Eigen::VectorXd(solution.tail(size()));
-		fit.lowest = energyOf(fit.free);
-		fit.level = border() > 0 ? solution[0] : 0.0;
-		return true;
-	}
-	fit.free.resize(0);
-	return false;
+	return rhs;
 }
 
 /// The matrix of the fit times \p x: G, with a first row and column of ones where the sum is fixed.
@@ -340,21 +361,19 @@ double ConeModel::minOwnProduct(const Reach& reach) const
 double ConeModel::minEnergyAt(int i, const Reach& reach, double ownProduct) const
 {
 	const Fit& fit = m_now.fit;
-	if (fit.free.size() != size() || m_now.inverse.rows() == 0)
-		return kUnknown;
 	const int row = i + border();
-	const double pivot = m_now.inverse(row, row);
+	const double pivot = m_now.inverse.rows() > 0 ? m_now.inverse(row, row) : 0.0;
 	if (!(pivot > 0.0))
 		return kUnknown;
-	const double along = m_now.inverse.col(row).dot(reach.products), k = fit.free[i];
+	const double along = m_now.inverse.col(row).dot(reach.products), k = fit.minimum[i];
 	const double beyond = ownProduct - reach.span + along * along / pivot;
 	if (!(beyond > kMinPivot * ownProduct))
 		return kUnknown;
 	// Half the slope at the vertex when the others have made up for cone i.
 	double slope =
-		m_start[reach.vertex] + reach.products.tail(size()).dot(fit.free) - along * k / pivot;
+		m_start[reach.vertex] + reach.products.tail(size()).dot(fit.minimum) - along * k / pivot;
 	slope += border() > 0 ? fit.level : 0.0;
-	return fit.lowest + k * k / pivot - slope * slope / beyond;
+	return fit.lowest + k * (k / pivot + 2.0 * fit.pull[i]) - slope * slope / beyond;
 }
 
 /// Mean square of the factor of a unit of curvature at \p v.

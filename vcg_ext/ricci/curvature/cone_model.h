@@ -77,7 +77,7 @@ public:
 	/// would lie on the whole surface in proportion to area.
 	VertexVector gradientAt(const Eigen::VectorXd& k);
 
-	/// gradient() as it would be without cone \p i, where no bound of a curvature is reached.
+	/// gradient() as it would be without cone \p i, if those at their bound stay there and no other comes to it.
 	VertexVector gradientWithout(int i);
 
 	/// What a unit of curvature at cone \p i adds to the gradient. Where the sum is fixed, it is taken from the
@@ -94,7 +94,7 @@ public:
 	void setRounding(ConeRounding rounding);
 
 	/// Puts the curvatures to their best values, with the sum fixed where it is and none above
-	/// kMaxConeCurvature, rounded as set.
+	/// kMaxConeCurvature, rounded as set. All have that if they are fewer than minSize().
 	void fit();
 
 	/// Moves cone \p i to the first of \p places with \p isLow(place, energy there), with the curvatures fitted.
@@ -138,9 +138,9 @@ public:
 	/// constant where the sum is fixed: that then stays.
 	Eigen::VectorXd descent(const Eigen::VectorXd& rest);
 
-	/// By how much the lowest energy rises without cone \p i, as long as no bound of a curvature is
-	/// reached: k_i^2 over entry i of the diagonal of the inverse of G, bordered by the sum where it is
-	/// fixed.
+	/// By how much the lowest energy rises at least without cone \p i: k_i^2 over entry i of the diagonal of
+	/// the inverse of G, bordered by the sum where it is fixed, and k_i times its bound's own share. Exact where
+	/// no other cone is at its bound, or comes to it.
 	double need(int i);
 
 	/// Takes cone \p i out, fits the others, and undoes that and whatever \p accept has done to the
@@ -165,9 +165,11 @@ private:
 	{
 		Eigen::VectorXd values;
 		double energy = 0.0;
-		Eigen::VectorXd free; // the minimum without bounds and rounding; empty: not known well
-		double lowest = 0.0;  // the energy there
-		double level = 0.0;   // of half its slope by a cone's curvature there, times -1
+		Eigen::VectorXd minimum; // before rounding
+		double lowest = 0.0;     // the energy there
+		double level =
+			0.0; // of half its slope by the curvature of a cone below its bound, times -1
+		Eigen::VectorXd pull; // multipliers of the bounds, see boundMultipliers()
 	};
 
 	/// The quadratic function, and where it is lowest. Arrays by cone.
@@ -209,7 +211,10 @@ private:
 	double minEnergyAt(int i, const Reach& reach, double ownProduct) const;
 	Eigen::VectorXd times(const Eigen::VectorXd& x) const;
 	void invert();
-	bool findFree();
+	void findMinimum();
+	Eigen::VectorXd unboundedMinimum();
+	Eigen::VectorXd rightSide() const;
+	Eigen::VectorXd change(const Eigen::VectorXd& rest) const;
 	void leave(int i);
 	void join(int i);
 	double ownProduct(Vertex v);
