@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How processor time grows with the size of the input: generated cases, each of three sizes n, 4n and 16n, and
 // the exponent between the last two. Everyday inputs of which some stage could make more than n log n.
+#include "support/implicit_surface.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
 #include "texture/painted_square.h"
@@ -104,6 +105,33 @@ SurfaceMesh slab(int rows)
 	return mesh;
 }
 
+/// What marching cubes find of waves in a ball of so many units of volume: folds and handles everywhere, as of a
+/// cortex, and edges bent by roughness.
+SurfaceMesh folds(int volume)
+{
+	testing::Random random(5);
+	std::vector<std::array<double, 4>> waves(20);
+	for (std::array<double, 4>& wave : waves) {
+		for (double& x : wave)
+			x = random.real(-1.0, 1.0);
+		const double size = std::hypot(wave[0], wave[1], wave[2]);
+		for (std::size_t k = 0; k < 3; ++k)
+			wave[k] *= 9.0 / size;
+		wave[3] *= kPi;
+	}
+	const double r = std::cbrt(volume);
+	const auto level = [&](const Point3& p) {
+		double sum = 0.0;
+		for (const auto& [x, y, z, phase] : waves)
+			sum += std::cos(x * p[0] + y * p[1] + z * p[2] + phase);
+		return std::max(sum, std::hypot(p[0], p[1], p[2]) - r);
+	};
+	const double side = 1.1 * r;
+	const int cells = static_cast<int>(32 * r);
+	return testing::marchingCubes(
+		level, {-side, -side, -side}, {side, side, side}, {cells, cells, cells});
+}
+
 /// A closed body of 6000 triangles without symmetry.
 SurfaceMesh body()
 {
@@ -161,6 +189,7 @@ std::vector<Case> cases()
 		{"plate", "holes", 64, [=](int n) { flatten(plate(root(n))); }},
 		{"plate, holes open", "holes", 64, [=](int n) { flatten(plate(root(n)), boundaries); }},
 		{"slab", "genus", 9, [=](int n) { flatten(slab(root(n))); }},
+		{"folds", "volume", 1, [=](int n) { flatten(folds(n)); }},
 		{"cones",
 		 "cones",
 		 50,

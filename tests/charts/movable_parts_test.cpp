@@ -103,13 +103,14 @@ TEST(MovableParts, FindsWhatCoversAPart)
 		for (int i = random.index(4); i > 0; --i)
 			moveSome(parts, random);
 		const Place place{1, randomMotion(random), 0.0};
+		const MovableParts::Groups near = parts.groupsNear(0, place);
 		std::multiset<int> wanted, covered;
 		for (const int f : parts.trianglesOf(0)) {
 			const std::size_t before = wanted.size();
 			for (const int g : parts.trianglesOf(1))
 				if (overlap(place.motion(parts.at(f)), parts.at(g), 1e-9))
 					wanted.insert(g);
-			EXPECT_EQ(parts.covers(f, place), wanted.size() > before);
+			EXPECT_EQ(parts.covers(f, place.motion, near), wanted.size() > before);
 		}
 		EXPECT_FALSE(parts.covering(0, place, [&](int g) {
 			covered.insert(g);

@@ -264,8 +264,10 @@ private:
 	}
 
 	/// Moves a part where it covers something, and divides that among others.
-	/// \return whether nothing is left of it
-	bool displace(int part, const Place& place, double maxArea)
+	/// \return whether nothing is left of it, isShorter(), and the rest of the part there hangs together, which
+	/// takes longest to see
+	template<class IsShorter>
+	bool displace(int part, const Place& place, double maxArea, const IsShorter& isShorter)
 	{
 		std::vector<int> covered;
 		double area = 0.0;
@@ -281,12 +283,11 @@ private:
 		if (covered.empty() || area > maxArea)
 			return false;
 		std::sort(covered.begin(), covered.end());
+		const std::vector<int> moved = m_parts.trianglesOf(part);
 		const int displaced = m_parts.addPart();
 		m_parts.move(covered, {displaced, Motion(), 0.0});
-		if (!smallerPiecesRound(covered, place.other).empty())
-			return false;
-		m_parts.move(m_parts.trianglesOf(part), place);
-		return divide(displaced);
+		m_parts.move(moved, place);
+		return divide(displaced) && isShorter() && hangsTogether(place.other, covered, moved);
 	}
 
 	/// Length of the seams at \p triangles, which are in increasing order.
@@ -316,7 +317,7 @@ private:
 			m_parts.undo();
 			for (const Place& place : placesOf(part)) {
 				checkpoint();
-				isDone = displace(part, place, maxArea) && isShorter();
+				isDone = displace(part, place, maxArea, isShorter);
 				if (isDone)
 					break;
 				m_parts.undo();
@@ -325,26 +326,29 @@ private:
 		m_parts.commit();
 	}
 
-	/// The pieces but the largest into which what is left of a part falls without \p triangles, which
-	/// are marked as taken or in another part.
-	std::vector<std::vector<int>> smallerPiecesRound(const std::vector<int>& triangles, int part)
+	/// Whether a part is in one piece round the triangles \p removed, without these and those \p added.
+	bool hangsTogether(int part, const std::vector<int>& removed, const std::vector<int>& added)
 	{
+		for (const std::vector<int>* triangles : {&removed, &added})
+			for (const int f : *triangles)
+				m_mark[f] = kTaken;
 		const auto isIn = [&](int f) { return m_parts.partOf(f) == part && m_mark[f] != kTaken; };
 		std::vector<int> ends;
-		for (const int f : triangles)
+		for (const int f : removed)
 			m_parts.forSides(f, [&](Corner, Corner across) {
 				if (isIn(across.face()))
 					ends.push_back(across.face());
 			});
-		return smallerPieces(
-			ends,
-			[&](int f, const auto& visit) {
-				m_parts.forSides(f, [&](Corner side, Corner across) {
-					if (isIn(across.face()) && m_parts.isJoined(side))
-						visit(across.face());
-				});
-			},
-			m_scratch);
+		const auto forNeighbours = [&](int f, const auto& visit) {
+			m_parts.forSides(f, [&](Corner side, Corner across) {
+				if (isIn(across.face()) && m_parts.isJoined(side))
+					visit(across.face());
+			});
+		};
+		const bool isOne = smallerPieces(ends, forNeighbours, m_scratch).empty();
+		unmark(removed);
+		unmark(added);
+		return isOne;
 	}
 
 	/// The triangles of the part that cover nothing at its new place, as far as they hang together
@@ -352,10 +356,11 @@ private:
 	std::vector<int> freeAt(int part, const Place& place)
 	{
 		std::vector<int> covering, free;
+		const MovableParts::Groups near = m_parts.groupsNear(part, place);
 		const auto take = [&](int f) {
 			if (m_parts.partOf(f) != part || m_mark[f] != kNone)
 				return;
-			const bool isFree = !m_parts.covers(f, place);
+			const bool isFree = !m_parts.covers(f, place.motion, near);
 			m_mark[f] = isFree ? kTaken : kCovering;
 			(isFree ? free : covering).push_back(f);
 		};

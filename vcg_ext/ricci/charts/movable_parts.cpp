@@ -86,6 +86,25 @@ bool MovableParts::isJoined(Corner side) const
 	return (own[0] == other[1] && own[1] == other[0]) || fits({}, side);
 }
 
+MovableParts::Groups MovableParts::groupsNear(int part, const Place& place) const
+{
+	Box2 moved;
+	for (const int group : m_groupsOf[part]) {
+		const Box2& box = m_groups[group].box;
+		for (const double x : {box.min[0], box.max[0]})
+			for (const double y : {box.min[1], box.max[1]})
+				moved.add(place.motion(Point2{x, y}));
+	}
+	std::vector<int> near;
+	std::vector<Box2> boxes;
+	for (const int group : m_groupsOf[place.other])
+		if (const Box2& box = m_groups[group].box; box.meets(moved)) {
+			near.push_back(group);
+			boxes.push_back(box);
+		}
+	return {std::move(near), BoxTree(boxes)};
+}
+
 int MovableParts::addPart()
 {
 	m_first.push_back(-1);

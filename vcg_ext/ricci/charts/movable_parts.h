@@ -63,23 +63,40 @@ public:
 	/// Whether a side and the one across are at one place in one part.
 	bool isJoined(Corner side) const;
 
+	/// Groups of triangles of one part, see groupsNear().
+	struct Groups
+	{
+		std::vector<int> numbers;
+		BoxTree tree; ///< of their boxes
+	};
+
+	/// The groups of the other part that come near \p part at its new place: others it does not cover.
+	Groups groupsNear(int part, const Place& place) const;
+
 	/// Calls isEnough(g) for the triangles g of the other part that those of the part cover at its new place,
 	/// flipped ones left out, once for each of these, until it is.
 	/// \return whether it was
 	template<class IsEnough>
 	bool covering(int part, const Place& place, const IsEnough& isEnough) const
 	{
-		for (int f = m_first[part]; f >= 0; f = m_next[f])
-			if (m_isProper[f] && coveredBy(place.motion(m_plane[f]), place.other, isEnough))
-				return true;
+		const Groups near = groupsNear(part, place);
+		if (near.numbers.empty())
+			return false;
+		// Some all over the part first, for neighbours give about the same answer.
+		const std::vector<int> triangles = trianglesOf(part);
+		for (std::size_t first = 0; first < kStride; ++first)
+			for (std::size_t i = first; i < triangles.size(); i += kStride)
+				if (const int f = triangles[i];
+					m_isProper[f] && coveredBy(place.motion(m_plane[f]), near, isEnough))
+					return true;
 		return false;
 	}
 
-	/// Whether one triangle covers some of the other part at its new place.
-	bool covers(int triangle, const Place& place) const
+	/// Whether one triangle covers some of \p near at its new place.
+	bool covers(int triangle, const Motion& motion, const Groups& near) const
 	{
 		return m_isProper[triangle] &&
-			   coveredBy(place.motion(m_plane[triangle]), place.other, [](int) { return true; });
+			   coveredBy(motion(m_plane[triangle]), near, [](int) { return true; });
 	}
 
 	/// Adds an empty part. \return its number
@@ -95,6 +112,8 @@ public:
 	void undo();
 
 private:
+	static constexpr std::size_t kStride = 31;
+
 	/// A part as it was in the beginning: parts that lie over each other are not looked through together.
 	struct Origin
 	{
@@ -128,23 +147,19 @@ private:
 	void insertBehind(int before, int triangle, int part);
 
 	template<class IsFound>
-	bool coveredBy(const Triangle2& p, int part, const IsFound& isFound) const
+	bool coveredBy(const Triangle2& p, const Groups& groups, const IsFound& isFound) const
 	{
-		const Box2 box = boxOf(p);
-		for (const int group : m_groupsOf[part]) {
-			if (!m_groups[group].box.meets(box))
-				continue;
+		return groups.tree.meetsAny(boxOf(p), [&](int k) {
+			const int group = groups.numbers[positionOf(k)];
 			const int number = m_groups[group].origin;
 			const Origin* origin = number >= 0 ? &m_origins[number] : nullptr;
 			const BoxTree& tree = origin ? origin->tree : *m_all;
-			if (tree.meetsAny(boxOf(m_groups[group].back(p)), [&](int i) {
-					const int g = origin ? origin->triangles[positionOf(i)] : i;
-					return m_group[g] == group && m_isProper[g] &&
-						   overlap(p, m_plane[g], m_touching) && isFound(g);
-				}))
-				return true;
-		}
-		return false;
+			return tree.meetsAny(boxOf(m_groups[group].back(p)), [&](int i) {
+				const int g = origin ? origin->triangles[positionOf(i)] : i;
+				return m_group[g] == group && m_isProper[g] && overlap(p, m_plane[g], m_touching) &&
+					   isFound(g);
+			});
+		});
 	}
 
 	std::array<Point2, 2> endsOf(Corner side) const

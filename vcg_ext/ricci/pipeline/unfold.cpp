@@ -13,6 +13,7 @@
 #include "flatten.h"
 #include "whole_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -27,6 +28,10 @@ namespace {
 /// flat enough, and at sharper ones fillets of few triangles are left in one piece with what they round. The
 /// least sharp ones, which rough surfaces have everywhere, are those of parts that unfold at others.
 constexpr double kCreaseAngles[] = {40.0 * kPi / 180.0, 60.0 * kPi / 180.0, 25.0 * kPi / 180.0};
+
+/// The least sharp ones are those of a rough surface, and its map would cost more, where they make more than so
+/// many pieces, and by this factor more than the first ones.
+constexpr double kManyPieces = 200.0, kRough = 1.5;
 
 /// The pieces of a component between creases, as components of it; none if pieces have no area.
 std::vector<Component> pieces(const Component& component, const Creases& creases)
@@ -122,8 +127,9 @@ std::optional<Parametrization>
 unfold(const Component& component, const Options& options, double maxBetween)
 {
 	std::optional<Parametrization> best;
-	int edges = 0; // that are creases
-	int steps = 0; // Newton's
+	int edges = 0;      // that are creases
+	double first = 0.0; // pieces between the first ones
+	int steps = 0;      // Newton's
 	for (const double angle : kCreaseAngles) {
 		if (angle < kCreaseAngles[0] && !best)
 			break;
@@ -135,8 +141,10 @@ unfold(const Component& component, const Options& options, double maxBetween)
 			continue;
 		edges = found.edges;
 		const std::vector<Component> all = pieces(component, found);
-		if (all.empty())
+		const auto count = static_cast<double>(all.size());
+		if (all.empty() || (best && count > std::max(kManyPieces, kRough * first)))
 			continue;
+		first = first > 0.0 ? first : count;
 		const Task silent(0.0, 0.0, true);
 		std::optional<Parametrization> map =
 			attempt("it is not unfolded", [&] { return joined(component, all, options); });
