@@ -213,7 +213,7 @@ void ConeModel::fit()
 	m_gradient.resize(0);
 	Fit& fit = m_now.fit;
 	findMinimum();
-	fit.values = fit.minimum;
+	fit.values = Eigen::VectorXd(fit.minimum); // see restore()
 	fit.energy = fit.lowest;
 	if (m_rounding == ConeRounding::QuarterTurns && size() > 0) {
 		const auto total = hasFixedSum() ? std::optional<double>(m_total) : std::nullopt;
@@ -227,7 +227,7 @@ void ConeModel::findMinimum()
 {
 	Fit& fit = m_now.fit;
 	if (size() < std::max(1, minSize())) {
-		fit.minimum = Eigen::VectorXd::Constant(size(), kMaxConeCurvature);
+		fit.minimum = Eigen::VectorXd(Eigen::VectorXd::Constant(size(), kMaxConeCurvature));
 		fit.lowest = energyOf(fit.minimum);
 		m_now.inverse.resize(0, 0);
 		return;
@@ -243,7 +243,7 @@ void ConeModel::findMinimum()
 				solution[i + border()] = kMaxConeCurvature;
 		solution += change(rightSide() - times(solution));
 	}
-	fit.minimum = solution.tail(size()).cwiseMin(kMaxConeCurvature);
+	fit.minimum = Eigen::VectorXd(solution.tail(size()).cwiseMin(kMaxConeCurvature));
 	fit.lowest = energyOf(fit.minimum);
 	fit.level = border() > 0 ? solution[0] : 0.0;
 }
