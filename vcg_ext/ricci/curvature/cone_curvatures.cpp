@@ -17,7 +17,7 @@ namespace ricci {
 
 namespace {
 
-/// In radians, a curvature that is less above its bound is so by rounding.
+/// A curvature above its bound by less than this, in radians, is so by rounding.
 constexpr double kSlack = 1e-12;
 
 /// Steps of the search, for each cone.

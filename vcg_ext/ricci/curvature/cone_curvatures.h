@@ -14,10 +14,11 @@ namespace ricci {
 constexpr double kMaxConeCurvature = 4.71238898038468985769;
 constexpr int kMaxQuarterTurns = 3; ///< the same
 
-/// What holds the entries \p held of a minimum k at given values: multipliers m with k - H m there.
+/// The multipliers m that hold entries of a minimum k at given values: k - H m has them.
 /// \param inverse H: of G or, where the sum of the entries is fixed, of G with a row and a column of ones
 /// more, of which H is the part beside them
-/// \param excess of k over these values
+/// \param held the entries
+/// \param excess of k over the values
 /// \return m, 0 at all other entries
 Eigen::VectorXd multipliers(
 	const Eigen::Ref<const Eigen::MatrixXd>& inverse,

@@ -23,7 +23,8 @@ constexpr double kMinPivot = 1e-8;
 /// An inverse that leaves a larger share of the right-hand side, refined once, is made anew.
 constexpr double kMaxRest = 1e-11;
 
-/// What each cone is taken to add to its own product where that does not help, either.
+/// By this share the diagonal of G is raised where that does not help, either: cones that do the same are told
+/// apart by it.
 constexpr double kTwinShare = 1e-6;
 
 /// So many fields add up about as fast as the two linear solutions that give the same sum.
@@ -123,8 +124,8 @@ void ConeModel::append(const std::vector<Vertex>& vertices)
 	}
 	m_now.gram.conservativeResize(size(), size());
 	m_now.linear.conservativeResize(size());
-	m_now.fit.pull.conservativeResize(size());
-	m_now.fit.pull.tail(size() - before).setZero();
+	m_now.fit.multipliers.conservativeResize(size());
+	m_now.fit.multipliers.tail(size() - before).setZero();
 	if (const Eigen::Index rows = m_now.inverse.rows(); rows > 0) {
 		const Eigen::Index more = size() - before;
 		m_now.inverse.conservativeResize(rows + more, rows + more);
@@ -158,9 +159,9 @@ void ConeModel::remove(int i)
 	const Eigen::Index left = size() - i;
 	m_now.linear.segment(i, left) = m_now.linear.tail(left).eval();
 	m_now.linear.conservativeResize(size());
-	Eigen::VectorXd& pull = m_now.fit.pull;
-	pull.segment(i, left) = pull.tail(left).eval();
-	pull.conservativeResize(size());
+	Eigen::VectorXd& m = m_now.fit.multipliers;
+	m.segment(i, left) = m.tail(left).eval();
+	m.conservativeResize(size());
 }
 
 Eigen::VectorXd ConeModel::descent(const Eigen::VectorXd& rest)
@@ -178,7 +179,7 @@ Eigen::VectorXd ConeModel::change(const Eigen::VectorXd& rest) const
 {
 	std::vector<int> held;
 	for (int i = 0; i < size(); ++i)
-		if (m_now.fit.pull[i] > 0.0)
+		if (m_now.fit.multipliers[i] > 0.0)
 			held.push_back(i);
 	const auto inverse = symmetric(m_now.inverse);
 	Eigen::VectorXd whole = rest;
@@ -196,7 +197,7 @@ double ConeModel::need(int i)
 		invert();
 	const double pivot = m_now.inverse(i + border(), i + border());
 	const double k = curvature(i);
-	return pivot > 0.0 ? k * (k / pivot + 2.0 * m_now.fit.pull[i])
+	return pivot > 0.0 ? k * (k / pivot + 2.0 * m_now.fit.multipliers[i])
 					   : std::numeric_limits<double>::max();
 }
 
@@ -234,12 +235,12 @@ void ConeModel::findMinimum()
 	}
 	Eigen::VectorXd solution = unboundedMinimum();
 	const Eigen::VectorXd excess = solution.tail(size()).array() - kMaxConeCurvature;
-	fit.pull = boundMultipliers(
-		m_now.inverse.bottomRightCorner(size(), size()), excess, std::move(fit.pull));
-	if (fit.pull.maxCoeff() > 0.0) {
-		solution -= m_now.inverse.rightCols(size()) * fit.pull;
+	fit.multipliers = boundMultipliers(
+		m_now.inverse.bottomRightCorner(size(), size()), excess, std::move(fit.multipliers));
+	if (fit.multipliers.maxCoeff() > 0.0) {
+		solution -= m_now.inverse.rightCols(size()) * fit.multipliers;
 		for (int i = 0; i < size(); ++i)
-			if (fit.pull[i] > 0.0)
+			if (fit.multipliers[i] > 0.0)
 				solution[i + border()] = kMaxConeCurvature;
 		solution += change(rightSide() - times(solution));
 	}
@@ -248,8 +249,8 @@ void ConeModel::findMinimum()
 	fit.level = border() > 0 ? solution[0] : 0.0;
 }
 
-/// The solution of the fit without bounds, by an inverse that is made anew if it has lost digits and, where
-/// cones do about the same as others, of a matrix in which each does a little more.
+/// The solution of the fit without bounds, by an inverse that is made anew if it has lost digits, of a matrix
+/// with kTwinShare if it loses them at once.
 Eigen::VectorXd ConeModel::unboundedMinimum()
 {
 	const Eigen::VectorXd rhs = rightSide();
@@ -373,7 +374,7 @@ double ConeModel::minEnergyAt(int i, const Reach& reach, double ownProduct) cons
 	double slope =
 		m_start[reach.vertex] + reach.products.tail(size()).dot(fit.minimum) - along * k / pivot;
 	slope += border() > 0 ? fit.level : 0.0;
-	return fit.lowest + k * (k / pivot + 2.0 * fit.pull[i]) - slope * slope / beyond;
+	return fit.lowest + k * (k / pivot + 2.0 * fit.multipliers[i]) - slope * slope / beyond;
 }
 
 /// Mean square of the factor of a unit of curvature at \p v.

@@ -139,8 +139,8 @@ public:
 	Eigen::VectorXd descent(const Eigen::VectorXd& rest);
 
 	/// By how much the lowest energy rises at least without cone \p i: k_i^2 over entry i of the diagonal of
-	/// the inverse of G, bordered by the sum where it is fixed, and k_i times its bound's own share. Exact where
-	/// no other cone is at its bound, or comes to it.
+	/// the inverse of G, bordered by the sum where it is fixed, and 2 k_i times the multiplier of its bound.
+	/// Exact where no other cone is at its bound, or comes to it.
 	double need(int i);
 
 	/// Takes cone \p i out, fits the others, and undoes that and whatever \p accept has done to the
@@ -167,9 +167,8 @@ private:
 		double energy = 0.0;
 		Eigen::VectorXd minimum; // before rounding
 		double lowest = 0.0;     // the energy there
-		double level =
-			0.0; // of half its slope by the curvature of a cone below its bound, times -1
-		Eigen::VectorXd pull; // multipliers of the bounds, see boundMultipliers()
+		double level = 0.0;      // of half its slope by that of a cone below its bound, times -1
+		Eigen::VectorXd multipliers; // of the bounds, see boundMultipliers()
 	};
 
 	/// The quadratic function, and where it is lowest. Arrays by cone.
