@@ -7,6 +7,7 @@
 #include <ricci/base/numbers.h>
 #include <ricci/charts/chart_overlap.h>
 #include <ricci/measure/distortion.h>
+#include <ricci/pipeline/flatten.h>
 #include <ricci/pipeline/unfold.h>
 #include <ricci/pipeline/whole_map.h>
 
@@ -109,6 +110,29 @@ TEST(Unfold, IsTakenWhereItCostsLess)
 	const double cost = costOf(given).total();
 	EXPECT_LE(cost, costOf(whole).total() + 1e-9);
 	EXPECT_LE(cost, costOf(*unfolded).total() + 1e-9);
+}
+
+/// No flow where another map, made once it is known what this one is expected to cost, costs less than that.
+TEST(Unfold, EndsWhatIsExpectedToCostMore)
+{
+	const Component body = onlyComponent(revolved({{0, -1}, {1, -0.5}, {1.5, 0.5}, {0, 1}}, 12));
+	std::vector<double> asked;
+	const auto flattened = [&](double factor) {
+		asked.clear();
+		return flattenToPlane(body, {}, Options(), [&](double cost) {
+			asked.push_back(cost);
+			return cost > 0.0 ? factor * cost : kNoAlternative;
+		});
+	};
+	EXPECT_FALSE(flattened(0.99));
+	ASSERT_EQ(asked.size(), 2u);
+	EXPECT_EQ(asked.front(), 0.0);
+	const double expected = asked.back();
+	EXPECT_GT(expected, 4.0);
+	const std::optional<ComponentMap> map = flattened(1.01);
+	ASSERT_TRUE(map);
+	ASSERT_TRUE(map->flow.target.expected);
+	EXPECT_EQ(asked, (std::vector<double>{0.0, expected}));
 }
 
 } // namespace

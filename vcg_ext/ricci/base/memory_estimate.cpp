@@ -31,8 +31,8 @@ constexpr std::size_t kMaxCrossings = 250000000;
 
 void requireBytes(double needed, TooLarge::Problem problem, std::size_t count)
 {
-	if (const double limit = Task::memoryLimit(); limit > 0.0 && needed > limit)
-		throw TooLarge(problem, count, needed, limit);
+	if (!hasRoomFor(needed))
+		throw TooLarge(problem, count, needed, Task::memoryLimit());
 }
 
 } // namespace
@@ -44,6 +44,12 @@ double estimatedMemory(std::size_t faces, std::size_t allFaces, bool refines)
 	if (refines)
 		each += kFaceRefined;
 	return kEveryFace * static_cast<double>(allFaces) + each * n;
+}
+
+bool hasRoomFor(double bytes)
+{
+	const double limit = Task::memoryLimit();
+	return limit <= 0.0 || bytes <= limit;
 }
 
 void requireMemory(std::size_t faces, std::size_t allFaces, bool refines)

@@ -12,6 +12,9 @@ namespace ricci {
 /// which grows like n log n on surfaces.
 double estimatedMemory(std::size_t faces, std::size_t allFaces, bool refines);
 
+/// Whether \p bytes are below Task::memoryLimit(), if there is one.
+bool hasRoomFor(double bytes);
+
 /// \throw TooLarge if the estimate is above Task::memoryLimit(), or if int cannot number the elements
 void requireMemory(std::size_t faces, std::size_t allFaces, bool refines);
 

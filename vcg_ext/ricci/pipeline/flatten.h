@@ -40,15 +40,16 @@ constexpr double kNoAlternative = std::numeric_limits<double>::infinity();
 /// The stages of the paper on one component, in order, to the plane: flow domain, initial packing (4.1),
 /// target (5.2, 5.3), flow (4.2), cut and layout (4.3), invariants, the finish, and the checks of the
 /// result by other formulas.
-/// \param alternative tells what another map costs (MapCost), or kNoAlternative; called once, in another thread
-/// if there is one, beside the first stages
+/// \param alternative alternative(cost) tells what another map costs (MapCost), or kNoAlternative, where this
+/// one is expected to cost so much. Called with 0, in another thread if there is one, beside the first stages,
+/// and again when there is a target.
 /// \return none if the target is expected to cost more than that
 /// \throw what the stages throw
 std::optional<ComponentMap> flattenToPlane(
 	const Component& component,
 	const VertexInput& input,
 	const Options& options,
-	const std::function<double()>& alternative = [] { return kNoAlternative; });
+	const std::function<double(double)>& alternative = [](double) { return kNoAlternative; });
 
 /// The same to the Poincaré disk, where neither areas nor rotations across seams are asked for, and the side
 /// pairings of the cut generate a Fuchsian group.

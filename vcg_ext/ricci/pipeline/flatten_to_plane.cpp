@@ -282,7 +282,7 @@ std::optional<ComponentMap> flattenToPlane(
 	const Component& component,
 	const VertexInput& input,
 	const Options& options,
-	const std::function<double()>& alternative)
+	const std::function<double(double)>& alternative)
 {
 	const int threads = threadsFor(static_cast<std::int64_t>(component.triangles.size()));
 	ComponentMap map;
@@ -298,7 +298,7 @@ std::optional<ComponentMap> flattenToPlane(
 			if (options.method != Method::EdgeSwaps)
 				start = initialPacking(domain.solved(), options); // 4.1
 		},
-		[&] { other = alternative(); });
+		[&] { other = alternative(0.0); });
 	TargetRequest request = targetRequest(component, input, options, domain.solved());
 	request.alternative = other;
 	VertexArray<double> coneAngle; // of the cones that it is cut through
@@ -307,7 +307,7 @@ std::optional<ComponentMap> flattenToPlane(
 	else {
 		advance(0.0, "Choosing the target");
 		const Target target = chooseTarget(domain.solved(), start, request); // 5.2, 5.3
-		if (target.expected && target.expected->total() > other)
+		if (target.expected && target.expected->total() > alternative(target.expected->total()))
 			return std::nullopt;
 		coneAngle = coneAngles(domain, target);
 		besides(

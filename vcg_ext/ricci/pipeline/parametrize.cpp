@@ -81,7 +81,7 @@ bool mayUnfold(const Component& component, const Options& options)
 /// Share of the curvature that may be left between creases where a component is unfolded first.
 constexpr double kMaxCurvatureBetween = 0.25;
 
-/// A component whose map as a whole costs more is unfolded, too, whatever its curvature.
+/// A component whose map as a whole costs more, or is expected to, is unfolded, too, whatever its curvature.
 constexpr double kPoorCost = 6.0;
 
 /// "energy 4.01, seams 11.9 (objective 4.6)"
@@ -98,9 +98,10 @@ Parametrization
 mapToPlane(const Component& component, const VertexInput& input, const Options& options)
 {
 	std::optional<Parametrization> unfolded;
-	const auto alternative = [&] {
-		if (mayUnfold(component, options))
-			unfolded = unfold(component, options, kMaxCurvatureBetween);
+	const auto alternative = [&](double cost) {
+		const bool isPoor = cost > kPoorCost;
+		if (!unfolded && (isPoor || cost == 0.0) && mayUnfold(component, options))
+			unfolded = unfold(component, options, isPoor ? 1.0 : kMaxCurvatureBetween);
 		return unfolded ? costOf(*unfolded).total() : kNoAlternative;
 	};
 	const auto chosen = [](const std::string& choice, Parametrization map) {
@@ -118,11 +119,9 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	advance(1.0, "Looking for overlaps");
 	Parametrization map = asParametrization(component, std::move(*flow));
 	separateCharts(options, map);
-	if (!unfolded && mayUnfold(component, options) && costOf(map).total() > kPoorCost)
-		unfolded = unfold(component, options, 1.0);
+	const bool isUnfolded = alternative(costOf(map).total()) < costOf(map).total();
 	if (!unfolded)
 		return map;
-	const bool isUnfolded = costOf(*unfolded).total() < costOf(map).total();
 	const std::string whole = "as a whole: " + costText(map);
 	const int steps = unfolded->report.iterations + map.report.iterations;
 	const std::string choice =

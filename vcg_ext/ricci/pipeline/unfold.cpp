@@ -2,6 +2,7 @@
 #include "unfold.h"
 
 #include "../base/attempt.h"
+#include "../base/memory_estimate.h"
 #include "../base/numbers.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
@@ -126,28 +127,39 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 std::optional<Parametrization>
 unfold(const Component& component, const Options& options, double maxBetween)
 {
-	std::optional<Parametrization> best;
-	int edges = 0;      // that are creases
-	double first = 0.0; // pieces between the first ones
-	int steps = 0;      // Newton's
+	std::vector<std::vector<Component>> divisions; // the pieces
+	int edges = 0;                                 // that are creases
 	for (const double angle : kCreaseAngles) {
-		if (angle < kCreaseAngles[0] && !best)
-			break;
 		const Creases found = creases(component.positions.values(), component.triangles, angle);
 		const bool isBent = found.edges == 0 || found.curvatureBetween > maxBetween;
-		if (isBent && !best)
+		if (divisions.empty() && (isBent || angle < kCreaseAngles[0]))
 			break; // as it is between creases that are sharper
 		if (isBent || found.edges == edges)
 			continue;
 		edges = found.edges;
-		const std::vector<Component> all = pieces(component, found);
-		const auto count = static_cast<double>(all.size());
-		if (all.empty() || (best && count > std::max(kManyPieces, kRough * first)))
-			continue;
-		first = first > 0.0 ? first : count;
-		const Task silent(0.0, 0.0, true);
-		std::optional<Parametrization> map =
-			attempt("it is not unfolded", [&] { return joined(component, all, options); });
+		std::vector<Component> all = pieces(component, found);
+		const auto isRough = [&](const std::vector<Component>& first) {
+			const auto count = static_cast<double>(all.size());
+			return count > std::max(kManyPieces, kRough * static_cast<double>(first.size()));
+		};
+		if (!all.empty() && (divisions.empty() || !isRough(divisions.front())))
+			divisions.push_back(std::move(all));
+	}
+	std::vector<std::optional<Parametrization>> maps(divisions.size());
+	const std::size_t faces = component.triangles.size();
+	const bool hasRoom = hasRoomFor(2.0 * estimatedMemory(faces, faces, false));
+	tasksInParallel(
+		static_cast<int>(maps.size()),
+		hasRoom ? threadsFor(static_cast<std::int64_t>(faces)) : 1,
+		[&](int i) {
+			const Task silent(0.0, 0.0, true);
+			maps[positionOf(i)] = attempt("it is not unfolded", [&] {
+				return joined(component, divisions[positionOf(i)], options);
+			});
+		});
+	std::optional<Parametrization> best;
+	int steps = 0; // Newton's
+	for (std::optional<Parametrization>& map : maps) {
 		steps += map ? map->report.iterations : 0;
 		if (map && (!best || costOf(*map).total() < costOf(*best).total()))
 			best = std::move(map);

@@ -249,8 +249,7 @@ void appendComponents(
 		if (isCaller)
 			appendDone();
 	};
-	const double limit = Task::memoryLimit();
-	const bool hasRoom = limit <= 0.0 || estimatedMemory(faces, faces, true) <= limit;
+	const bool hasRoom = hasRoomFor(estimatedMemory(faces, faces, true));
 	tasksInParallel(count, hasRoom ? threadsFor(static_cast<std::int64_t>(faces)) : 1, mapOne);
 	appendDone();
 	if (firstFailed < count)
