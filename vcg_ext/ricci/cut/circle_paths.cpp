@@ -15,16 +15,25 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 CirclePaths::CirclePaths(CutSegments& cut, const CoarseSurface* parts) :
 		m_t(cut.triangulation()), m_cost(cut.cost()), m_cut(cut), m_parts(parts),
-		m_isNear(parts ? parts->triangulation().vertexCount() : 0, 0),
+		m_isNear(partCount(), 0),
 		m_fronts(3, Front(m_t.vertexCount()))
 {
+}
+
+int CirclePaths::labelCircles()
+{
+	const int count = m_cut.labelCircles();
+	const std::vector<Halfedge>& sides = m_cut.sides();
+	m_places = Adjacency<Vertex, int>(partCount(), [&](const auto& add) {
+		for (std::size_t i = 0; i < sides.size(); ++i)
+			add(partOf(m_t.origin(sides[i])), static_cast<int>(i));
+	});
+	return count;
 }
 
 void CirclePaths::findNear(const std::vector<Edge>& removed)
 {
 	m_reached = 0;
-	if (!m_parts)
-		return;
 	for (const Vertex part : m_near)
 		m_isNear[part] = 0;
 	m_near.clear();
@@ -36,27 +45,30 @@ void CirclePaths::findNear(const std::vector<Edge>& removed)
 	Vertex last;
 	for (const Edge e : removed)
 		for (const Vertex v : m_t.ends(e))
-			if (const Vertex part = m_parts->centreOf(v); part != last) {
+			if (const Vertex part = partOf(v); part != last) {
 				last = part;
 				add(part);
-				for (const Halfedge h : m_parts->triangulation().around(part))
-					add(m_parts->triangulation().target(h));
+				if (m_parts)
+					for (const Halfedge h : m_parts->triangulation().around(part))
+						add(m_parts->triangulation().target(h));
 			}
 }
 
 /// Whether paths may run through \p v.
 bool CirclePaths::isOpen(Vertex v) const
 {
-	return !m_cut.isOnGraph(v) && (!m_parts || m_isNear[m_parts->centreOf(v)]);
+	return !m_cut.isOnGraph(v) && m_isNear[partOf(v)];
 }
 
 int CirclePaths::splitCircles(const std::vector<Edge>& removed)
 {
 	const int count = m_cut.splitCircles(removed);
-	m_starts = m_cut.departures([&](Halfedge h) {
-		++m_reached;
-		return !m_parts || isOpen(m_t.target(h)) || m_isNear[m_parts->centreOf(m_t.origin(h))];
-	});
+	m_starts.clear();
+	for (const Vertex part : m_near) {
+		m_cut.addDepartures(std::as_const(m_places)[part], m_starts);
+		m_reached += positionOf(std::as_const(m_places)[part].size());
+	}
+	m_cut.addDeparturesOfMarks(m_starts);
 	return count;
 }
 
@@ -72,18 +84,16 @@ CirclePaths::Arrival CirclePaths::startFrom(int circle, double bound, Front& fro
 	return arrival;
 }
 
-/// Continues a search by \p h to a path of this length, if that is below the bound, or below \p arrival if it
+/// Continues a search by \p h to a path of this length, if that is below the bound, and below \p arrival if it
 /// arrives at circle 0.
 void CirclePaths::goOn(
 	Halfedge h, double length, double bound, Front& front, Arrival& arrival) const
 {
-	const Vertex v = m_t.target(h);
-	if (!m_cut.isFree(h.edge()))
+	if (!(length < bound) || !m_cut.isFree(h.edge()))
 		return;
-	if (isOpen(v)) {
-		if (length < bound)
-			front.offer(v, length, h);
-	}
+	const Vertex v = m_t.target(h);
+	if (isOpen(v))
+		front.offer(v, length, h);
 	else if (length < arrival.first && m_cut.isOnGraph(v) && m_cut.circle(h.twin()) == 0)
 		arrival = {length, h};
 }

@@ -19,11 +19,19 @@ public:
 	using Front = SearchFront<Vertex, Halfedge>;
 
 	/// \param cut may change between the calls
-	/// \param parts where findNear() is to have an effect; else null
+	/// \param parts of the surface: the vertices of one centre each; null: it is one part
 	CirclePaths(CutSegments& cut, const CoarseSurface* parts);
 
-	/// From now on paths run only through the parts of the surface (the vertices of one centre of
-	/// CoarseSurface) at which \p removed lies, and through those beside them.
+	int partCount() const { return m_parts ? m_parts->triangulation().vertexCount() : 1; }
+
+	/// The number of a part is that of its centre.
+	Vertex partOf(Vertex v) const { return m_parts ? m_parts->centreOf(v) : Vertex(0); }
+
+	/// Numbers the circles, see CutSegments::labelCircles(). To be called when the cut has changed.
+	/// \return how many there are
+	int labelCircles();
+
+	/// From now on paths run only through the parts at which \p removed lies, and through those beside them.
 	void findNear(const std::vector<Edge>& removed);
 
 	/// These parts.
@@ -67,6 +75,7 @@ private:
 	const EdgeArray<double>& m_cost;
 	CutSegments& m_cut;
 	const CoarseSurface* m_parts;
+	Adjacency<Vertex, int> m_places;              // of sides, by the parts of their origins
 	std::vector<Vertex> m_near;                   // see near()
 	VertexArray<char> m_isNear;                   // [part] the same
 	std::vector<CutSegments::Departure> m_starts; // of the circles that are not joined to circle 0

@@ -305,6 +305,28 @@ void CutSegments::joinCircles(int number)
 			stretch.circle = 0;
 }
 
+void CutSegments::addDepartures(ItemRange<const int> places, std::vector<Departure>& found) const
+{
+	const auto before = [&](Halfedge h) { return m_t.next(m_t.next(h)).twin(); };
+	std::size_t stretch = 0;
+	for (const int place : places) {
+		if (place < m_stretches[stretch].first || place >= endOf(stretch))
+			stretch = stretchOf(place);
+		if (const int circle = m_stretches[stretch].circle; circle > 0)
+			for (Halfedge h = before(m_sides[positionOf(place)]); !isBorder(h.edge());
+				 h = before(h))
+				found.push_back({h, circle});
+	}
+}
+
+void CutSegments::addDeparturesOfMarks(std::vector<Departure>& found) const
+{
+	for (const auto& [v, circle] : m_loneMarks)
+		if (circle > 0)
+			for (const Halfedge h : around(v))
+				found.push_back({h, circle});
+}
+
 int CutSegments::place(Halfedge h) const
 {
 	const Halfedge side = sideFrom(h);

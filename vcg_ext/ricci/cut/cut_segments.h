@@ -2,9 +2,9 @@
 #ifndef RICCI_CUT_SEGMENTS_H
 #define RICCI_CUT_SEGMENTS_H
 
+#include "../math/adjacency.h"
 #include "../surface/triangulation.h"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -107,32 +107,12 @@ public:
 		int circle;
 	};
 
-	/// Those of all circles but circle 0, by their origins, for which \p isKept(halfedge) holds.
-	template<class IsKept>
-	std::vector<Departure> departures(const IsKept& isKept) const
-	{
-		std::vector<Departure> found;
-		const auto add = [&](Halfedge h, int circle) {
-			if (isKept(h))
-				found.push_back({h, circle});
-		};
-		const auto before = [&](Halfedge h) { return m_t.next(m_t.next(h)).twin(); };
-		for (std::size_t i = 0; i < m_stretches.size(); ++i) {
-			const auto [first, circle] = m_stretches[i];
-			for (int place = first; circle > 0 && place < endOf(i); ++place)
-				for (Halfedge h = before(m_sides[positionOf(place)]); !isBorder(h.edge());
-					 h = before(h))
-					add(h, circle);
-		}
-		for (const auto& [v, circle] : m_loneMarks)
-			if (circle > 0)
-				for (const Halfedge h : around(v))
-					add(h, circle);
-		std::stable_sort(found.begin(), found.end(), [&](const Departure& a, const Departure& b) {
-			return m_t.origin(a.halfedge) < m_t.origin(b.halfedge);
-		});
-		return found;
-	}
+	/// Appends those between the sides at \p places, ascending, and the sides before them, where these belong
+	/// to other circles than circle 0.
+	void addDepartures(ItemRange<const int> places, std::vector<Departure>& found) const;
+
+	/// Appends those of marked vertices off the cut.
+	void addDeparturesOfMarks(std::vector<Departure>& found) const;
 
 	/// The sides in the order in which the last labelCircles() went along the circles.
 	const std::vector<Halfedge>& sides() const { return m_sides; }

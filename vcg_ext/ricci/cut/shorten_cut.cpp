@@ -40,8 +40,8 @@ public:
 	CutShortener(
 		CutSegments& cut, const HalfedgeArray<double>& corners, const CoarseSurface* parts) :
 			m_t(cut.triangulation()),
-			m_cut(cut), m_wedges(m_t, cut, corners), m_paths(cut, parts), m_parts(parts),
-			m_changedAt(parts ? parts->triangulation().vertexCount() : 0, 0), m_front(0)
+			m_cut(cut), m_wedges(m_t, cut, corners), m_paths(cut, parts),
+			m_changedAt(m_paths.partCount(), 0), m_front(0)
 	{
 	}
 
@@ -76,7 +76,7 @@ private:
 	struct Failure
 	{
 		int at = -1;              ///< how many changes the cut had seen
-		std::vector<Vertex> near; ///< the parts that the move saw; empty if it saw everything
+		std::vector<Vertex> near; ///< the parts that the move saw
 	};
 	template<class Element>
 	using Failures = std::map<Element, Failure>;
@@ -84,11 +84,10 @@ private:
 	/// Whether nothing has changed since, as far as the move could see.
 	bool isUpToDate(const Failure& failure) const
 	{
-		if (failure.at < 0 || failure.near.empty())
-			return failure.at == m_changes;
-		return std::none_of(failure.near.begin(), failure.near.end(), [&](Vertex part) {
-			return m_changedAt[part] > failure.at;
-		});
+		return failure.at >= 0 &&
+			   std::none_of(failure.near.begin(), failure.near.end(), [&](Vertex part) {
+				   return m_changedAt[part] > failure.at;
+			   });
 	}
 
 	template<class Element>
@@ -111,7 +110,7 @@ private:
 	{
 		if (m_numberedAt != m_changes) {
 			m_numberedAt = m_changes;
-			m_isDisk = m_cut.labelCircles() == 1;
+			m_isDisk = m_paths.labelCircles() == 1;
 			countWork(m_cut.sides().size());
 		}
 		return m_isDisk;
@@ -121,11 +120,10 @@ private:
 	void noteChange(const std::vector<Edge>& removed, const std::vector<Edge>& added)
 	{
 		++m_changes;
-		if (m_parts)
-			for (const std::vector<Edge>* edges : {&removed, &added})
-				for (const Edge e : *edges)
-					for (const Vertex v : m_t.ends(e))
-						m_changedAt[m_parts->centreOf(v)] = m_changes;
+		for (const std::vector<Edge>* edges : {&removed, &added})
+			for (const Edge e : *edges)
+				for (const Vertex v : m_t.ends(e))
+					m_changedAt[m_paths.partOf(v)] = m_changes;
 	}
 
 	void countWork(std::size_t work)
@@ -353,7 +351,6 @@ private:
 	ConeWedges m_wedges;
 	CirclePaths m_paths;
 	bool m_keepsWedges = false;
-	const CoarseSurface* m_parts; // null: moves look everywhere
 	Failures<Edge> m_exchanges;
 	Failures<Vertex> m_rebuilds;
 	int m_changes = 0;            // moves that gained
