@@ -40,9 +40,9 @@ VertexArray<double> distancesFrom(
 	return d;
 }
 
-int splitCircles(CirclePaths& paths, CutSegments& cut)
+int splitCircles(CirclePaths& paths)
 {
-	cut.labelCircles();
+	paths.labelCircles();
 	return paths.splitCircles({});
 }
 
@@ -78,7 +78,7 @@ TEST(CirclePaths, ABridgeIsAShortestPath)
 		ThreeMarks s(random);
 		CutSegments cut(s.t, s.p.lengths, s.marked, s.isCut);
 		CirclePaths paths(cut, nullptr);
-		ASSERT_EQ(splitCircles(paths, cut), 3);
+		ASSERT_EQ(splitCircles(paths), 3);
 		const double min = std::min(s.distance[0][s.marks[1]], s.distance[0][s.marks[2]]);
 		EXPECT_NEAR(paths.costOf(paths.shortestBridge(kFar)), min, 1e-12);
 		EXPECT_TRUE(paths.shortestBridge(min * (1 - 1e-9)).empty());
@@ -93,7 +93,7 @@ TEST(CirclePaths, ATripodIsShortest)
 		ThreeMarks s(random);
 		CutSegments cut(s.t, s.p.lengths, s.marked, s.isCut);
 		CirclePaths paths(cut, nullptr);
-		ASSERT_EQ(splitCircles(paths, cut), 3);
+		ASSERT_EQ(splitCircles(paths), 3);
 		double min = kFar;
 		for (const Vertex v : s.t.vertices())
 			if (!s.marked[v])
@@ -106,7 +106,7 @@ TEST(CirclePaths, ATripodIsShortest)
 		EXPECT_NEAR(paths.costOf(tripod), min, 1e-12);
 		EXPECT_EQ(paths.bestTripod(min * (1 + 1e-9)), tripod); // the bound changes nothing
 		cut.add(tripod);
-		EXPECT_EQ(splitCircles(paths, cut), 1);
+		EXPECT_EQ(splitCircles(paths), 1);
 	}
 	EXPECT_GT(found, 20);
 }
@@ -118,14 +118,14 @@ TEST(CirclePaths, JoinsAllCirclesAndLeavesTheCut)
 		ThreeMarks s(random);
 		CutSegments cut(s.t, s.p.lengths, s.marked, s.isCut);
 		CirclePaths paths(cut, nullptr);
-		splitCircles(paths, cut);
+		splitCircles(paths);
 		const std::vector<Edge> joins = paths.joinCircles(3, kFar);
 		EXPECT_EQ(std::count(s.isCut.begin(), s.isCut.end(), 1), 0);
 		const double ab = s.distance[0][s.marks[1]], bc = s.distance[1][s.marks[2]],
 					 ca = s.distance[2][s.marks[0]];
 		EXPECT_LE(paths.costOf(joins), ab + bc + ca - std::max({ab, bc, ca}) + 1e-12);
 		cut.add(joins);
-		EXPECT_EQ(splitCircles(paths, cut), 1);
+		EXPECT_EQ(splitCircles(paths), 1);
 	}
 }
 
@@ -140,14 +140,14 @@ TEST(CirclePaths, StayNearWhatWasRemoved)
 		CutSegments cut(s.t, s.p.lengths, s.marked, s.isCut);
 		CirclePaths everywhere(cut, nullptr);
 		CirclePaths paths(cut, &coarse);
-		splitCircles(everywhere, cut);
+		splitCircles(everywhere);
 		const std::vector<Edge> shortest = everywhere.shortestBridge(kFar);
 		paths.findNear(shortest);
-		splitCircles(paths, cut);
+		splitCircles(paths);
 		EXPECT_NEAR(paths.costOf(paths.shortestBridge(kFar)), paths.costOf(shortest), 1e-12);
 		const Edge one = shortest.front();
 		paths.findNear({one});
-		splitCircles(paths, cut);
+		splitCircles(paths);
 		VertexArray<char> isNear(coarse.triangulation().vertexCount(), 0);
 		for (const Vertex part : paths.near())
 			isNear[part] = 1;

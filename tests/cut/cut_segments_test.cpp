@@ -239,6 +239,49 @@ TEST(CutSegments, SplitCirclesAreTheBoundariesWithoutWhatWasRemoved)
 	}
 }
 
+/// Changes one after another: the circles are those that independent wedges tell, with and without edges that
+/// are taken out for a while, and every side is in one place.
+TEST(CutSegments, UpdatedCirclesAreTheBoundariesAfterEveryChange)
+{
+	Random random(783);
+	for (const SurfaceMesh& mesh : surfacesOfEveryKind(random)) {
+		const Triangulation t = glued(mesh);
+		const VertexArray<char> marked = someVertices(t, 0.1, random);
+		EdgeArray<char> isCut = someEdges(t, 0.2, random);
+		const EdgeArray<double> cost(t.edgeCount(), 1.0);
+		CutSegments cut(t, cost, marked, isCut);
+		cut.labelCircles();
+		const auto some = [&](bool areCut, double share) {
+			std::vector<Edge> edges;
+			for (const Edge e : t.edges())
+				if (!t.isBoundary(e) && (isCut[e] != 0) == areCut && random.real(0.0, 1.0) < share)
+					edges.push_back(e);
+			return edges;
+		};
+		for (int change = 0; change < 8; ++change) {
+			const std::vector<Edge> removed = some(true, 0.1), added = some(false, 0.03);
+			cut.remove(removed);
+			cut.add(added);
+			const auto firstNew = at(cut.update(removed, added));
+			EXPECT_EQ(cut.sides().size(), firstNew + 2 * added.size());
+			for (const Halfedge h : t.interiorHalfedges())
+				if (isCut[h.edge()] || t.isBoundary(h.edge())) {
+					EXPECT_EQ(cut.sides()[at(cut.place(h))], h);
+				}
+			for (const double share : {0.0, 0.2}) {
+				const std::vector<Edge> out = some(true, share);
+				cut.remove(out);
+				const CirclesByWedges expected(t, marked, isCut);
+				EXPECT_EQ(cut.splitCircles(out), expected.count);
+				expectCircles(t, cut, expected);
+				cut.add(out);
+			}
+		}
+		EXPECT_TRUE(cut.isInShreds());
+		cut.labelCircles();
+	}
+}
+
 TEST(CutSegments, KnowsAfterEveryChangeWhatANewOneKnows)
 {
 	Random random(781);

@@ -15,25 +15,39 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 CirclePaths::CirclePaths(CutSegments& cut, const CoarseSurface* parts) :
 		m_t(cut.triangulation()), m_cost(cut.cost()), m_cut(cut), m_parts(parts),
-		m_isNear(partCount(), 0),
-		m_fronts(3, Front(m_t.vertexCount()))
+		m_isNear(partCount(), 1), m_fronts(3, Front(m_t.vertexCount()))
 {
+	for (const Vertex part : m_isNear.indices())
+		m_near.push_back(part);
 }
 
 int CirclePaths::labelCircles()
 {
 	const int count = m_cut.labelCircles();
-	const std::vector<Halfedge>& sides = m_cut.sides();
-	m_places = Adjacency<Vertex, int>(partCount(), [&](const auto& add) {
-		for (std::size_t i = 0; i < sides.size(); ++i)
-			add(partOf(m_t.origin(sides[i])), static_cast<int>(i));
-	});
+	m_places.assign(partCount(), {});
+	addPlaces(0);
 	return count;
+}
+
+void CirclePaths::update(const std::vector<Edge>& removed, const std::vector<Edge>& added)
+{
+	addPlaces(m_cut.update(removed, added));
+	if (m_cut.isInShreds())
+		labelCircles();
+}
+
+/// Enters those from \p first on.
+void CirclePaths::addPlaces(int first)
+{
+	for (std::size_t i = positionOf(first); i < m_cut.sides().size(); ++i)
+		m_places[partOf(m_t.origin(m_cut.sides()[i]))].push_back(static_cast<int>(i));
 }
 
 void CirclePaths::findNear(const std::vector<Edge>& removed)
 {
 	m_reached = 0;
+	if (!m_parts)
+		return;
 	for (const Vertex part : m_near)
 		m_isNear[part] = 0;
 	m_near.clear();
@@ -48,9 +62,8 @@ void CirclePaths::findNear(const std::vector<Edge>& removed)
 			if (const Vertex part = partOf(v); part != last) {
 				last = part;
 				add(part);
-				if (m_parts)
-					for (const Halfedge h : m_parts->triangulation().around(part))
-						add(m_parts->triangulation().target(h));
+				for (const Halfedge h : m_parts->triangulation().around(part))
+					add(m_parts->triangulation().target(h));
 			}
 }
 
@@ -65,8 +78,8 @@ int CirclePaths::splitCircles(const std::vector<Edge>& removed)
 	const int count = m_cut.splitCircles(removed);
 	m_starts.clear();
 	for (const Vertex part : m_near) {
-		m_cut.addDepartures(std::as_const(m_places)[part], m_starts);
-		m_reached += positionOf(std::as_const(m_places)[part].size());
+		m_cut.addDepartures(m_places[part], m_starts);
+		m_reached += m_places[part].size();
 	}
 	m_cut.addDeparturesOfMarks(m_starts);
 	return count;

@@ -31,10 +31,13 @@ public:
 	/// \return how many there are
 	int labelCircles();
 
+	/// The same where \p removed has been taken out and \p added put in, and nothing else has changed.
+	void update(const std::vector<Edge>& removed, const std::vector<Edge>& added);
+
 	/// From now on paths run only through the parts at which \p removed lies, and through those beside them.
 	void findNear(const std::vector<Edge>& removed);
 
-	/// These parts.
+	/// These parts; all at first, and where there is but one.
 	const std::vector<Vertex>& near() const { return m_near; }
 
 	/// Numbers the circles, see CutSegments::splitCircles(). To be called when edges have been taken out,
@@ -64,6 +67,7 @@ public:
 private:
 	using Arrival = std::pair<double, Halfedge>; // length of the path, and its last halfedge
 
+	void addPlaces(int first);
 	bool isOpen(Vertex v) const;
 	Arrival startFrom(int circle, double bound, Front& front) const;
 	void searchFromBoth(double bound);
@@ -75,7 +79,7 @@ private:
 	const EdgeArray<double>& m_cost;
 	CutSegments& m_cut;
 	const CoarseSurface* m_parts;
-	Adjacency<Vertex, int> m_places;              // of sides, by the parts of their origins
+	VertexArray<std::vector<int>> m_places;       // [part] of sides from it, and some that are gone
 	std::vector<Vertex> m_near;                   // see near()
 	VertexArray<char> m_isNear;                   // [part] the same
 	std::vector<CutSegments::Departure> m_starts; // of the circles that are not joined to circle 0

@@ -6,6 +6,16 @@
 
 namespace ricci {
 
+namespace {
+
+/// The number of a circle that has none yet.
+constexpr int kOpen = -2;
+
+/// Whether a place comes before a stretch.
+constexpr auto isBefore = [](int place, const auto& stretch) { return place < stretch.first; };
+
+} // namespace
+
 CutSegments::CutSegments(
 	const Triangulation& t,
 	const EdgeArray<double>& cost,
@@ -195,57 +205,95 @@ int CutSegments::labelCircles()
 	for (const Halfedge side : m_sides)
 		m_place[side] = -1;
 	m_sides.clear();
-	m_firsts.clear();
+	m_whole.clear();
 	m_loneMarks.clear();
 	m_wholeLoneMarks = 0;
 	tidy();
 	for (const std::vector<Edge>* edges : {&m_cutEdges, &m_boundaryEdges})
 		for (const Edge e : *edges)
-			for (const Halfedge first : {e.halfedge(), e.halfedge().twin()}) {
-				if (m_t.isExterior(first) || m_place[first] >= 0)
-					continue;
-				m_firsts.push_back(static_cast<int>(m_sides.size()));
-				for (Halfedge side = first; m_place[side] < 0; side = sideFrom(m_t.next(side))) {
-					m_place[side] = static_cast<int>(m_sides.size());
-					m_sides.push_back(side);
-				}
-			}
+			for (const Halfedge first : {e.halfedge(), e.halfedge().twin()})
+				appendSides(first);
 	for (const Vertex v : m_marks)
-		noteLoneMark(v);
+		if (isLoneMark(v))
+			m_loneMarks.emplace_back(v, -1);
 	m_wholeLoneMarks = m_loneMarks.size();
 	return splitCircles({});
+}
+
+/// Gives the next places to \p first and to the sides that follow it, up to one that has a place.
+void CutSegments::appendSides(Halfedge first)
+{
+	if (m_t.isExterior(first) || m_place[first] >= 0)
+		return;
+	m_whole.push_back({static_cast<int>(m_sides.size()), kOpen});
+	for (Halfedge side = first; m_place[side] < 0; side = sideFrom(m_t.next(side))) {
+		m_place[side] = static_cast<int>(m_sides.size());
+		m_sides.push_back(side);
+	}
+}
+
+int CutSegments::update(const std::vector<Edge>& removed, const std::vector<Edge>& added)
+{
+	const auto firstNew = static_cast<int>(m_sides.size());
+	takeOut(removed, m_whole);
+	for (const Edge e : removed)
+		for (const Halfedge side : {e.halfedge(), e.halfedge().twin()})
+			m_place[side] = -1;
+	for (const Edge e : added)
+		for (const Halfedge side : {e.halfedge(), e.halfedge().twin()})
+			appendSides(side);
+	// What came before the side that is now next to a new one is followed by that.
+	for (std::size_t i = positionOf(firstNew); i < m_sides.size(); ++i)
+		if (const int place = m_place[sideFrom(m_t.next(m_sides[i].twin()))]; place < firstNew)
+			beginAt(place, m_whole);
+	m_loneMarks.resize(m_wholeLoneMarks);
+	m_loneMarks.erase(
+		std::remove_if(
+			m_loneMarks.begin(),
+			m_loneMarks.end(),
+			[&](const auto& mark) { return m_degree[mark.first] > 0; }),
+		m_loneMarks.end());
+	m_wholeLoneMarks = m_loneMarks.size();
+	noteLoneMarks(removed);
+	m_wholeLoneMarks = m_loneMarks.size();
+	return firstNew;
+}
+
+/// Lets a stretch begin at \p place, unless that is behind the last one.
+void CutSegments::beginAt(int place, std::vector<Stretch>& stretches) const
+{
+	const auto after = std::upper_bound(stretches.begin(), stretches.end(), place, isBefore);
+	if (const Stretch in = after[-1]; in.first < place && positionOf(place) < m_sides.size())
+		stretches.insert(after, {place, in.circle});
+}
+
+/// Lets the sides of \p edges be stretches that are taken out.
+void CutSegments::takeOut(const std::vector<Edge>& edges, std::vector<Stretch>& stretches) const
+{
+	std::vector<int> places;
+	for (const Edge e : edges)
+		for (const Halfedge side : {e.halfedge(), e.halfedge().twin()})
+			places.push_back(m_place[side]);
+	std::sort(places.begin(), places.end());
+	for (std::size_t i = 0; i < places.size();) {
+		const int first = places[i];
+		int end = first;
+		for (; i < places.size() && places[i] == end; ++i)
+			++end;
+		beginAt(first, stretches);
+		beginAt(end, stretches);
+		const auto at = std::upper_bound(stretches.begin(), stretches.end(), first, isBefore) - 1;
+		at->circle = -1;
+		stretches.erase(at + 1, std::upper_bound(at, stretches.end(), end - 1, isBefore));
+	}
 }
 
 int CutSegments::splitCircles(const std::vector<Edge>& removed)
 {
 	m_loneMarks.resize(m_wholeLoneMarks);
-	std::vector<int> gone; // places
-	for (const Edge e : removed) {
-		for (const Halfedge side : {e.halfedge(), e.halfedge().twin()})
-			gone.push_back(m_place[side]);
-		for (const Vertex v : m_t.ends(e))
-			noteLoneMark(v);
-	}
-	std::sort(gone.begin(), gone.end());
-	constexpr int kOpen = -2; // not numbered yet
-	m_stretches.clear();
-	auto next = gone.begin();
-	for (std::size_t i = 0; i < m_firsts.size(); ++i) {
-		const int end =
-			i + 1 < m_firsts.size() ? m_firsts[i + 1] : static_cast<int>(m_sides.size());
-		for (int place = m_firsts[i]; place < end;) {
-			if (next == gone.end() || place < *next) {
-				m_stretches.push_back({place, kOpen});
-				place = next == gone.end() ? end : std::min(*next, end);
-			}
-			else {
-				if (m_stretches.empty() || m_stretches.back().circle != -1)
-					m_stretches.push_back({place, -1});
-				++place;
-				++next;
-			}
-		}
-	}
+	noteLoneMarks(removed);
+	m_stretches = m_whole;
+	takeOut(removed, m_stretches);
 	int count = 0, longest = 0, most = 0;
 	for (std::size_t first = 0; first < m_stretches.size(); ++first) {
 		if (m_stretches[first].circle != kOpen)
@@ -280,22 +328,23 @@ int CutSegments::endOf(std::size_t stretch) const
 /// The stretch with a place.
 std::size_t CutSegments::stretchOf(int place) const
 {
-	const auto after = std::upper_bound(
-		m_stretches.begin(), m_stretches.end(), place, [](int p, const Stretch& s) {
-			return p < s.first;
-		});
+	const auto after = std::upper_bound(m_stretches.begin(), m_stretches.end(), place, isBefore);
 	return static_cast<std::size_t>(after - m_stretches.begin()) - 1;
 }
 
-void CutSegments::noteLoneMark(Vertex v)
+/// Notes those at the ends of edges that have been taken out.
+void CutSegments::noteLoneMarks(const std::vector<Edge>& removed)
 {
-	const auto isSame = [&](const auto& mark) { return mark.first == v; };
-	if (m_marked[v] && !m_boundary[v] && m_degree[v] == 0 &&
-		std::none_of(
+	const auto isNoted = [&](Vertex v) {
+		return std::any_of(
 			m_loneMarks.begin() + static_cast<std::ptrdiff_t>(m_wholeLoneMarks),
 			m_loneMarks.end(),
-			isSame))
-		m_loneMarks.emplace_back(v, -1);
+			[&](const auto& mark) { return mark.first == v; });
+	};
+	for (const Edge e : removed)
+		for (const Vertex v : m_t.ends(e))
+			if (isLoneMark(v) && !isNoted(v))
+				m_loneMarks.emplace_back(v, -1);
 }
 
 void CutSegments::joinCircles(int number)
@@ -305,7 +354,7 @@ void CutSegments::joinCircles(int number)
 			stretch.circle = 0;
 }
 
-void CutSegments::addDepartures(ItemRange<const int> places, std::vector<Departure>& found) const
+void CutSegments::addDepartures(const std::vector<int>& places, std::vector<Departure>& found) const
 {
 	const auto before = [&](Halfedge h) { return m_t.next(m_t.next(h)).twin(); };
 	std::size_t stretch = 0;

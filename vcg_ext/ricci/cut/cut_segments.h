@@ -2,7 +2,6 @@
 #ifndef RICCI_CUT_SEGMENTS_H
 #define RICCI_CUT_SEGMENTS_H
 
-#include "../math/adjacency.h"
 #include "../surface/triangulation.h"
 
 #include <utility>
@@ -89,9 +88,19 @@ public:
 	/// \return the number of circles
 	int labelCircles();
 
-	/// The same where \p removed has been taken out of the cut since labelCircles(), and nothing else has
-	/// changed: in time proportional to what was removed, as the sides elsewhere come one after another as
-	/// they did. To be called again for other edges of the same cut, once those are in it again.
+	/// Brings the numbers up to date where \p removed has been taken out of the cut and \p added put in, and
+	/// nothing else has changed. The other sides keep their places, and the new ones get the next, so that
+	/// sides() are in order only in stretches: the more there are, the longer all that follows takes.
+	/// \return the first new place
+	int update(const std::vector<Edge>& removed, const std::vector<Edge>& added);
+
+	/// Whether there are so many stretches that labelCircles() saves time.
+	bool isInShreds() const { return m_whole.size() * m_whole.size() > m_sides.size(); }
+
+	/// Numbers the circles where \p removed has been taken out of the cut, and nothing else has changed: in time
+	/// proportional to what was removed and to the stretches. To be called again for other edges of the same
+	/// cut, once those are in it again.
+	/// \return the number of circles
 	int splitCircles(const std::vector<Edge>& removed);
 
 	/// Makes circle \p number a part of circle 0, which a path has joined to it that is now on the cut.
@@ -107,20 +116,21 @@ public:
 		int circle;
 	};
 
-	/// Appends those between the sides at \p places, ascending, and the sides before them, where these belong
-	/// to other circles than circle 0.
-	void addDepartures(ItemRange<const int> places, std::vector<Departure>& found) const;
+	/// Appends those between the sides at \p places and the sides before them, where these belong to other
+	/// circles than circle 0.
+	void addDepartures(const std::vector<int>& places, std::vector<Departure>& found) const;
 
 	/// Appends those of marked vertices off the cut.
 	void addDeparturesOfMarks(std::vector<Departure>& found) const;
 
-	/// The sides in the order in which the last labelCircles() went along the circles.
+	/// The sides in the order in which labelCircles() went along the circles; see update().
 	const std::vector<Halfedge>& sides() const { return m_sides; }
 
 	/// The place in sides() of the one up to which \p h lies; -1 if there is none.
 	int place(Halfedge h) const;
 
 private:
+	bool isLoneMark(Vertex v) const { return m_marked[v] && !m_boundary[v] && m_degree[v] == 0; }
 	bool isNode(Vertex v) const { return m_marked[v] || m_boundary[v] || m_degree[v] != 2; }
 	void set(Edge e, bool cut);
 	void noteVertex(Vertex v);
@@ -129,15 +139,18 @@ private:
 	Vertex walk(Halfedge h, std::vector<Edge>& edges) const;
 	Halfedge sideFrom(Halfedge h) const;
 
-	/// Places from the first one on up to the next stretch.
+	/// Places from the first one on up to the next stretch, of sides that come one after another.
 	struct Stretch
 	{
 		int first;
 		int circle; ///< -1: taken out
 	};
+	void takeOut(const std::vector<Edge>& edges, std::vector<Stretch>& stretches) const;
+	void beginAt(int place, std::vector<Stretch>& stretches) const;
+	void appendSides(Halfedge first);
 	std::size_t stretchOf(int place) const;
 	int endOf(std::size_t stretch) const;
-	void noteLoneMark(Vertex v);
+	void noteLoneMarks(const std::vector<Edge>& removed);
 
 	const Triangulation& m_t;
 	const EdgeArray<double>& m_cost;
@@ -150,8 +163,8 @@ private:
 	EdgeArray<char> m_free;           // see isFree()
 	std::vector<Halfedge> m_sides;    // see sides()
 	HalfedgeArray<int> m_place;       // in m_sides; -1: none
-	std::vector<int> m_firsts;        // [circle] place of its first side by labelCircles()
-	std::vector<Stretch> m_stretches; // of all places
+	std::vector<Stretch> m_whole;     // of all places, in the whole cut; circles are not numbered
+	std::vector<Stretch> m_stretches; // without what splitCircles() was told of
 	std::vector<std::pair<Vertex, int>>
 		m_loneMarks;                  // marked vertices off the cut, and their circles
 	std::size_t m_wholeLoneMarks = 0; // those of labelCircles(), which come first

@@ -49,6 +49,7 @@ public:
 	bool run()
 	{
 		checkpoint();
+		orderSides();
 		shorten();
 		m_keepsWedges = true;
 		if (divideWedges())
@@ -96,7 +97,6 @@ private:
 		Failure& failure = failures[element];
 		if (m_work > kMaxWork || isUpToDate(failure))
 			return;
-		bringUpToDate();
 		if (!(this->*move)(element)) {
 			failure.at = m_changes;
 			failure.near = m_paths.near();
@@ -104,12 +104,12 @@ private:
 		countWork(kWorkOfVertex * m_paths.reached());
 	}
 
-	/// Numbers the sides of the cut if it has changed.
+	/// Numbers the sides of the cut in order, if they are not.
 	/// \return whether it opens the surface to a disk
-	bool bringUpToDate()
+	bool orderSides()
 	{
-		if (m_numberedAt != m_changes) {
-			m_numberedAt = m_changes;
+		if (!m_isOrdered) {
+			m_isOrdered = true;
 			m_isDisk = m_paths.labelCircles() == 1;
 			countWork(m_cut.sides().size());
 		}
@@ -150,6 +150,8 @@ private:
 			m_cut.add(added);
 		}
 		noteChange(removed, added);
+		m_paths.update(removed, added);
+		m_isOrdered = false;
 		return true;
 	}
 
@@ -225,6 +227,7 @@ private:
 			while (m_work <= kMaxWork && m_wedges.excess(v) > 0.0)
 				if (!divideWedge(v))
 					break;
+		orderSides();
 		return m_changes > before;
 	}
 
@@ -262,7 +265,7 @@ private:
 	bool divideWedge(Vertex cone)
 	{
 		const std::vector<Halfedge> starts = m_wedges.dividing(cone);
-		if (starts.empty() || !bringUpToDate())
+		if (starts.empty() || !orderSides())
 			return false;
 		// Once round the disk: which segment is the longest between its wedge and each place.
 		std::vector<Candidate> segments = candidates(cone);
@@ -296,14 +299,14 @@ private:
 		const std::vector<Edge> removed =
 			m_cut.removeWithDeadEnds(m_cut.segmentOf(segments[positionOf(segment)].edge));
 		m_cut.add(path);
-		m_numberedAt = -1;
-		const bool isDivided = bringUpToDate() && m_wedges.excess() < excess;
+		m_isOrdered = false;
+		const bool isDivided = orderSides() && m_wedges.excess() < excess;
 		if (isDivided)
 			noteChange(removed, path);
 		else {
 			m_cut.remove(path);
 			m_cut.add(removed);
-			m_numberedAt = -1;
+			m_isOrdered = false;
 		}
 		countWork(kWorkOfVertex * m_front.reached().size());
 		return isDivided;
@@ -355,8 +358,8 @@ private:
 	Failures<Vertex> m_rebuilds;
 	int m_changes = 0;            // moves that gained
 	VertexArray<int> m_changedAt; // [part] which of them was the last in it
-	int m_numberedAt = -1;        // how many changes the cut had seen when its sides were numbered
-	bool m_isDisk = false;        // then
+	bool m_isOrdered = false;     // see orderSides()
+	bool m_isDisk = false;        // when they were
 	std::size_t m_work = 0, m_workAtTick = 0;
 	Front m_front;            // of the search from a wedge that is divided
 	EdgeArray<int> m_segment; // number of its segment, at cut edges, while a wedge is divided
