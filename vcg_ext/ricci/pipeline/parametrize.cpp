@@ -119,7 +119,8 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	advance(1.0, "Looking for overlaps");
 	Parametrization map = asParametrization(component, std::move(*flow));
 	separateCharts(options, map);
-	const bool isUnfolded = alternative(costOf(map).total()) < costOf(map).total();
+	const double cost = costOf(map).total();
+	const bool isUnfolded = alternative(cost) < cost;
 	if (!unfolded)
 		return map;
 	const std::string whole = "as a whole: " + costText(map);
