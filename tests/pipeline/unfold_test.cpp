@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../support/flat_map.h"
 #include "../support/intrinsic.h"
+#include "../support/listener.h"
 #include "../support/random_surface.h"
 #include "../support/shapes.h"
 
+#include <ricci/base/memory_estimate.h>
 #include <ricci/base/numbers.h>
+#include <ricci/base/task.h>
 #include <ricci/charts/chart_overlap.h>
 #include <ricci/measure/distortion.h>
 #include <ricci/pipeline/flatten.h>
@@ -110,6 +113,26 @@ TEST(Unfold, IsTakenWhereItCostsLess)
 	const double cost = costOf(given).total();
 	EXPECT_LE(cost, costOf(whole).total() + 1e-9);
 	EXPECT_LE(cost, costOf(*unfolded).total() + 1e-9);
+}
+
+/// With memory for one map at a time they are the same; with less there is none, and the log says so.
+TEST(Unfold, TakesNoMoreMemoryThanThereIs)
+{
+	Listener log;
+	const SurfaceMesh slab = perforatedSlab(2, 8);
+	const std::size_t faces = slab.triangles.size();
+	const Component component = onlyComponent(slab);
+	Task task(log);
+	const std::optional<Parametrization> map = unfold(component, Options(), kFlat);
+	ASSERT_TRUE(map);
+	task.setMemoryLimit(1.7 * estimatedMemory(faces, faces, false));
+	const std::optional<Parametrization> again = unfold(component, Options(), kFlat);
+	ASSERT_TRUE(again);
+	EXPECT_EQ(again->mesh.place.values(), map->mesh.place.values());
+	EXPECT_TRUE(log.lines.empty());
+	task.setMemoryLimit(1.1 * estimatedMemory(faces, faces, false));
+	EXPECT_FALSE(unfold(component, Options(), kFlat));
+	EXPECT_EQ(log.count("There is not enough memory to unfold"), 1);
 }
 
 /// No flow where another map, made once it is known what this one is expected to cost, costs less than that.

@@ -34,6 +34,20 @@ constexpr double kCreaseAngles[] = {40.0 * kPi / 180.0, 60.0 * kPi / 180.0, 25.0
 /// many pieces, and by this factor more than the first ones.
 constexpr double kManyPieces = 200.0, kRough = 1.5;
 
+/// Memory that maps of a component take while its flow waits, in units of what the flow alone needs: in all, and
+/// for each at work. Fitted from above to measured peaks of 2e5 and 3e5 faces (1.6 for one, 2.6 for two).
+constexpr double kBesideMaps = 0.5, kOneMap = 1.1;
+
+/// How many of \p count maps there are threads and memory for at the same time.
+int mapsAtOnce(int count, std::size_t faces)
+{
+	const double flow = estimatedMemory(faces, faces, false);
+	int most = std::min(count, threadsFor(static_cast<std::int64_t>(faces)));
+	while (most > 0 && !hasRoomFor((kBesideMaps + kOneMap * most) * flow))
+		--most;
+	return most;
+}
+
 /// The pieces of a component between creases, as components of it; none if pieces have no area.
 std::vector<Component> pieces(const Component& component, const Creases& creases)
 {
@@ -127,36 +141,36 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 std::optional<Parametrization>
 unfold(const Component& component, const Options& options, double maxBetween)
 {
-	std::vector<std::vector<Component>> divisions; // the pieces
-	int edges = 0;                                 // that are creases
+	std::vector<Creases> divisions;
+	int edges = 0;      // that are creases
+	double first = 0.0; // pieces between the first ones
 	for (const double angle : kCreaseAngles) {
-		const Creases found = creases(component.positions.values(), component.triangles, angle);
+		Creases found = creases(component.positions.values(), component.triangles, angle);
 		const bool isBent = found.edges == 0 || found.curvatureBetween > maxBetween;
 		if (divisions.empty() && (isBent || angle < kCreaseAngles[0]))
 			break; // as it is between creases that are sharper
 		if (isBent || found.edges == edges)
 			continue;
 		edges = found.edges;
-		std::vector<Component> all = pieces(component, found);
-		const auto isRough = [&](const std::vector<Component>& first) {
-			const auto count = static_cast<double>(all.size());
-			return count > std::max(kManyPieces, kRough * static_cast<double>(first.size()));
-		};
-		if (!all.empty() && (divisions.empty() || !isRough(divisions.front())))
-			divisions.push_back(std::move(all));
+		const auto count = static_cast<double>(pieces(component, found).size());
+		const bool isRough = first > 0.0 && count > std::max(kManyPieces, kRough * first);
+		if (count == 0.0 || isRough)
+			continue;
+		first = first > 0.0 ? first : count;
+		divisions.push_back(std::move(found));
 	}
 	std::vector<std::optional<Parametrization>> maps(divisions.size());
-	const std::size_t faces = component.triangles.size();
-	const bool hasRoom = hasRoomFor(2.0 * estimatedMemory(faces, faces, false));
-	tasksInParallel(
-		static_cast<int>(maps.size()),
-		hasRoom ? threadsFor(static_cast<std::int64_t>(faces)) : 1,
-		[&](int i) {
-			const Task silent(0.0, 0.0, true);
-			maps[positionOf(i)] = attempt("it is not unfolded", [&] {
-				return joined(component, divisions[positionOf(i)], options);
-			});
+	const int atOnce = mapsAtOnce(static_cast<int>(maps.size()), component.triangles.size());
+	if (atOnce == 0 && !maps.empty()) {
+		logLine("There is not enough memory to unfold the surface between its creases, too.");
+		return std::nullopt;
+	}
+	tasksInParallel(static_cast<int>(maps.size()), atOnce, [&](int i) {
+		const Task silent(0.0, 0.0, true);
+		maps[positionOf(i)] = attempt("it is not unfolded", [&] {
+			return joined(component, pieces(component, divisions[positionOf(i)]), options);
 		});
+	});
 	std::optional<Parametrization> best;
 	int steps = 0; // Newton's
 	for (std::optional<Parametrization>& map : maps) {

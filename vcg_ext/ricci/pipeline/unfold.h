@@ -19,7 +19,7 @@ namespace ricci {
 /// joining distorts nothing. Of two kinds of creases, sharp and less sharp ones, those are taken with which
 /// the map costs less (MapCost).
 /// \param maxBetween share of the curvature that may be left between creases
-/// \return none where more is left, or there are no creases
+/// \return none where more is left, there are no creases, or there is no memory for it (Task::memoryLimit())
 /// \throw what the stages throw
 std::optional<Parametrization>
 unfold(const Component& component, const Options& options, double maxBetween);
