@@ -82,6 +82,12 @@ int CirclePaths::splitCircles(const std::vector<Edge>& removed)
 		m_reached += m_places[part].size();
 	}
 	m_cut.addDeparturesOfMarks(m_starts);
+	// Of equally short paths the first is taken: that does not depend on the changes before.
+	using Departure = CutSegments::Departure;
+	std::sort(m_starts.begin(), m_starts.end(), [&](const Departure& a, const Departure& b) {
+		const Vertex v = m_t.origin(a.halfedge), w = m_t.origin(b.halfedge);
+		return v != w ? v < w : a.halfedge < b.halfedge;
+	});
 	return count;
 }
 
