@@ -84,9 +84,8 @@ int CirclePaths::splitCircles(const std::vector<Edge>& removed)
 	m_cut.addDeparturesOfMarks(m_starts);
 	// Of equally short paths the first is taken: that does not depend on the changes before.
 	using Departure = CutSegments::Departure;
-	std::sort(m_starts.begin(), m_starts.end(), [&](const Departure& a, const Departure& b) {
-		const Vertex v = m_t.origin(a.halfedge), w = m_t.origin(b.halfedge);
-		return v != w ? v < w : a.halfedge < b.halfedge;
+	std::sort(m_starts.begin(), m_starts.end(), [](const Departure& a, const Departure& b) {
+		return a.origin != b.origin ? a.origin < b.origin : a.halfedge < b.halfedge;
 	});
 	return count;
 }
@@ -97,9 +96,9 @@ CirclePaths::Arrival CirclePaths::startFrom(int circle, double bound, Front& fro
 {
 	front.clear();
 	Arrival arrival{kFar, Halfedge()};
-	for (const auto& [h, from] : m_starts)
-		if (circle == 0 || from == circle)
-			goOn(h, m_cost[h.edge()], bound, front, arrival);
+	for (const CutSegments::Departure& start : m_starts)
+		if (circle == 0 || start.circle == circle)
+			goOn(start.halfedge, m_cost[start.halfedge.edge()], bound, front, arrival);
 	return arrival;
 }
 

@@ -364,7 +364,7 @@ void CutSegments::addDepartures(const std::vector<int>& places, std::vector<Depa
 		if (const int circle = m_stretches[stretch].circle; circle > 0)
 			for (Halfedge h = before(m_sides[positionOf(place)]); !isBorder(h.edge());
 				 h = before(h))
-				found.push_back({h, circle});
+				found.push_back({m_t.origin(m_sides[positionOf(place)]), h, circle});
 	}
 }
 
@@ -373,7 +373,7 @@ void CutSegments::addDeparturesOfMarks(std::vector<Departure>& found) const
 	for (const auto& [v, circle] : m_loneMarks)
 		if (circle > 0)
 			for (const Halfedge h : around(v))
-				found.push_back({h, circle});
+				found.push_back({v, h, circle});
 }
 
 int CutSegments::place(Halfedge h) const

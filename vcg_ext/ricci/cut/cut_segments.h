@@ -112,6 +112,7 @@ public:
 	/// A halfedge that leaves a circle.
 	struct Departure
 	{
+		Vertex origin; ///< of the halfedge
 		Halfedge halfedge;
 		int circle;
 	};
