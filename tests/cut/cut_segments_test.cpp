@@ -277,7 +277,7 @@ TEST(CutSegments, UpdatedCirclesAreTheBoundariesAfterEveryChange)
 				cut.add(out);
 			}
 		}
-		EXPECT_TRUE(cut.isInShreds());
+		EXPECT_TRUE(cut.isFragmented());
 		cut.labelCircles();
 	}
 }

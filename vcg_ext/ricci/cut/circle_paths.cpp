@@ -29,11 +29,15 @@ int CirclePaths::labelCircles()
 	return count;
 }
 
-void CirclePaths::update(const std::vector<Edge>& removed, const std::vector<Edge>& added)
+std::size_t CirclePaths::update(const std::vector<Edge>& removed, const std::vector<Edge>& added)
 {
-	addPlaces(m_cut.update(removed, added));
-	if (m_cut.isInShreds())
+	const int first = m_cut.update(removed, added);
+	if (m_cut.isFragmented()) {
 		labelCircles();
+		return m_cut.sides().size();
+	}
+	addPlaces(first);
+	return m_cut.sides().size() - positionOf(first);
 }
 
 /// Enters those from \p first on.

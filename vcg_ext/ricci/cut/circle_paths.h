@@ -32,7 +32,8 @@ public:
 	int labelCircles();
 
 	/// The same where \p removed has been taken out and \p added put in, and nothing else has changed.
-	void update(const std::vector<Edge>& removed, const std::vector<Edge>& added);
+	/// \return how many sides were numbered
+	std::size_t update(const std::vector<Edge>& removed, const std::vector<Edge>& added);
 
 	/// From now on paths run only through the parts at which \p removed lies, and through those beside them.
 	void findNear(const std::vector<Edge>& removed);

@@ -206,17 +206,12 @@ int CutSegments::labelCircles()
 		m_place[side] = -1;
 	m_sides.clear();
 	m_whole.clear();
-	m_loneMarks.clear();
-	m_wholeLoneMarks = 0;
 	tidy();
 	for (const std::vector<Edge>* edges : {&m_cutEdges, &m_boundaryEdges})
 		for (const Edge e : *edges)
 			for (const Halfedge first : {e.halfedge(), e.halfedge().twin()})
 				appendSides(first);
-	for (const Vertex v : m_marks)
-		if (isLoneMark(v))
-			m_loneMarks.emplace_back(v, -1);
-	m_wholeLoneMarks = m_loneMarks.size();
+	findLoneMarks();
 	return splitCircles({});
 }
 
@@ -246,16 +241,7 @@ int CutSegments::update(const std::vector<Edge>& removed, const std::vector<Edge
 	for (std::size_t i = positionOf(firstNew); i < m_sides.size(); ++i)
 		if (const int place = m_place[sideFrom(m_t.next(m_sides[i].twin()))]; place < firstNew)
 			beginAt(place, m_whole);
-	m_loneMarks.resize(m_wholeLoneMarks);
-	m_loneMarks.erase(
-		std::remove_if(
-			m_loneMarks.begin(),
-			m_loneMarks.end(),
-			[&](const auto& mark) { return m_degree[mark.first] > 0; }),
-		m_loneMarks.end());
-	m_wholeLoneMarks = m_loneMarks.size();
-	noteLoneMarks(removed);
-	m_wholeLoneMarks = m_loneMarks.size();
+	findLoneMarks();
 	return firstNew;
 }
 
@@ -291,7 +277,9 @@ void CutSegments::takeOut(const std::vector<Edge>& edges, std::vector<Stretch>& 
 int CutSegments::splitCircles(const std::vector<Edge>& removed)
 {
 	m_loneMarks.resize(m_wholeLoneMarks);
-	noteLoneMarks(removed);
+	for (const Edge e : removed)
+		for (const Vertex v : m_t.ends(e))
+			noteLoneMark(v);
 	m_stretches = m_whole;
 	takeOut(removed, m_stretches);
 	int count = 0, longest = 0, most = 0;
@@ -332,19 +320,25 @@ std::size_t CutSegments::stretchOf(int place) const
 	return static_cast<std::size_t>(after - m_stretches.begin()) - 1;
 }
 
-/// Notes those at the ends of edges that have been taken out.
-void CutSegments::noteLoneMarks(const std::vector<Edge>& removed)
+void CutSegments::noteLoneMark(Vertex v)
 {
-	const auto isNoted = [&](Vertex v) {
-		return std::any_of(
+	const auto isSame = [&](const auto& mark) { return mark.first == v; };
+	if (m_marked[v] && !m_boundary[v] && m_degree[v] == 0 &&
+		std::none_of(
 			m_loneMarks.begin() + static_cast<std::ptrdiff_t>(m_wholeLoneMarks),
 			m_loneMarks.end(),
-			[&](const auto& mark) { return mark.first == v; });
-	};
-	for (const Edge e : removed)
-		for (const Vertex v : m_t.ends(e))
-			if (isLoneMark(v) && !isNoted(v))
-				m_loneMarks.emplace_back(v, -1);
+			isSame))
+		m_loneMarks.emplace_back(v, -1);
+}
+
+/// Those of the whole cut.
+void CutSegments::findLoneMarks()
+{
+	m_loneMarks.clear();
+	m_wholeLoneMarks = 0;
+	for (const Vertex v : m_marks)
+		noteLoneMark(v);
+	m_wholeLoneMarks = m_loneMarks.size();
 }
 
 void CutSegments::joinCircles(int number)

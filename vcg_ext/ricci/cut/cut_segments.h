@@ -95,7 +95,7 @@ public:
 	int update(const std::vector<Edge>& removed, const std::vector<Edge>& added);
 
 	/// Whether there are so many stretches that labelCircles() saves time.
-	bool isInShreds() const { return m_whole.size() * m_whole.size() > m_sides.size(); }
+	bool isFragmented() const { return m_whole.size() * m_whole.size() > m_sides.size(); }
 
 	/// Numbers the circles where \p removed has been taken out of the cut, and nothing else has changed: in time
 	/// proportional to what was removed and to the stretches. To be called again for other edges of the same
@@ -131,7 +131,6 @@ public:
 	int place(Halfedge h) const;
 
 private:
-	bool isLoneMark(Vertex v) const { return m_marked[v] && !m_boundary[v] && m_degree[v] == 0; }
 	bool isNode(Vertex v) const { return m_marked[v] || m_boundary[v] || m_degree[v] != 2; }
 	void set(Edge e, bool cut);
 	void noteVertex(Vertex v);
@@ -151,7 +150,8 @@ private:
 	void appendSides(Halfedge first);
 	std::size_t stretchOf(int place) const;
 	int endOf(std::size_t stretch) const;
-	void noteLoneMarks(const std::vector<Edge>& removed);
+	void noteLoneMark(Vertex v);
+	void findLoneMarks();
 
 	const Triangulation& m_t;
 	const EdgeArray<double>& m_cost;
@@ -168,7 +168,7 @@ private:
 	std::vector<Stretch> m_stretches; // without what splitCircles() was told of
 	std::vector<std::pair<Vertex, int>>
 		m_loneMarks;                  // marked vertices off the cut, and their circles
-	std::size_t m_wholeLoneMarks = 0; // those of labelCircles(), which come first
+	std::size_t m_wholeLoneMarks = 0; // those of the whole cut, which come first
 	std::vector<Edge> m_cutEdges;     // all of them, and some that are no longer; see tidy()
 	std::vector<Edge> m_boundaryEdges;
 	std::vector<Vertex> m_marks; // marked vertices inside

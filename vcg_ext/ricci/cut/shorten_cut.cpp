@@ -23,8 +23,8 @@ constexpr int kMaxRounds = 12;
 /// Sides of the cut that are numbered, or what takes as long, between two checkpoints.
 constexpr std::size_t kWorkBetweenTicks = 1 << 21;
 
-/// The same in all, after which the cut stays as it is: every change numbers the whole cut, so that
-/// thousands of loops would take hours.
+/// The same in all, after which the cut stays as it is: moves look through much of the surface, and there are
+/// as many as loops, so that thousands of these would take hours.
 constexpr std::size_t kMaxWork = 2000000000;
 
 /// What a vertex reached by a search takes, in sides numbered.
@@ -150,7 +150,7 @@ private:
 			m_cut.add(added);
 		}
 		noteChange(removed, added);
-		m_paths.update(removed, added);
+		countWork(m_paths.update(removed, added));
 		m_isOrdered = false;
 		return true;
 	}

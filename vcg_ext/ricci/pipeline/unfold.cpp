@@ -141,23 +141,22 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 std::optional<Parametrization>
 unfold(const Component& component, const Options& options, double maxBetween)
 {
-	std::vector<Creases> divisions;
-	int edges = 0;      // that are creases
-	double first = 0.0; // pieces between the first ones
+	std::vector<std::vector<Component>> divisions; // the pieces
+	int edges = 0;                                 // that are creases
 	for (const double angle : kCreaseAngles) {
-		Creases found = creases(component.positions.values(), component.triangles, angle);
+		const Creases found = creases(component.positions.values(), component.triangles, angle);
 		const bool isBent = found.edges == 0 || found.curvatureBetween > maxBetween;
 		if (divisions.empty() && (isBent || angle < kCreaseAngles[0]))
 			break; // as it is between creases that are sharper
 		if (isBent || found.edges == edges)
 			continue;
 		edges = found.edges;
-		const auto count = static_cast<double>(pieces(component, found).size());
-		const bool isRough = first > 0.0 && count > std::max(kManyPieces, kRough * first);
-		if (count == 0.0 || isRough)
-			continue;
-		first = first > 0.0 ? first : count;
-		divisions.push_back(std::move(found));
+		std::vector<Component> all = pieces(component, found);
+		const auto count = static_cast<double>(all.size());
+		if (!all.empty() &&
+			(divisions.empty() ||
+			 count <= std::max(kManyPieces, kRough * static_cast<double>(divisions[0].size()))))
+			divisions.push_back(std::move(all));
 	}
 	std::vector<std::optional<Parametrization>> maps(divisions.size());
 	const int atOnce = mapsAtOnce(static_cast<int>(maps.size()), component.triangles.size());
@@ -168,7 +167,7 @@ unfold(const Component& component, const Options& options, double maxBetween)
 	tasksInParallel(static_cast<int>(maps.size()), atOnce, [&](int i) {
 		const Task silent(0.0, 0.0, true);
 		maps[positionOf(i)] = attempt("it is not unfolded", [&] {
-			return joined(component, pieces(component, divisions[positionOf(i)]), options);
+			return joined(component, divisions[positionOf(i)], options);
 		});
 	});
 	std::optional<Parametrization> best;

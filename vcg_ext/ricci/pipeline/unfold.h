@@ -16,8 +16,8 @@ namespace ricci {
 /// and a flow that has to spread that curvature over the surface distorts what could lie flat. The component
 /// is cut along its creases, each piece is mapped by itself with a free boundary, and the pieces are joined
 /// across creases again where they have room: a crease carries no curvature, only its corners do, so that
-/// joining distorts nothing. Of two kinds of creases, sharp and less sharp ones, those are taken with which
-/// the map costs less (MapCost).
+/// joining distorts nothing. Creases are all edges above one of several angles, each of which is tried; the map
+/// that costs least is taken (MapCost).
 /// \param maxBetween share of the curvature that may be left between creases
 /// \return none where more is left, there are no creases, or there is no memory for it (Task::memoryLimit())
 /// \throw what the stages throw
