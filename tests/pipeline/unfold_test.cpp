@@ -11,6 +11,7 @@
 #include <ricci/charts/chart_overlap.h>
 #include <ricci/measure/distortion.h>
 #include <ricci/pipeline/flatten.h>
+#include <ricci/pipeline/flatten_steps.h>
 #include <ricci/pipeline/unfold.h>
 #include <ricci/pipeline/whole_map.h>
 
@@ -18,6 +19,7 @@
 
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -136,18 +138,24 @@ TEST(Unfold, TakesNoMoreMemoryThanThereIs)
 }
 
 /// No flow where another map, made once it is known what this one is expected to cost, costs less than that.
+/// The progress of that is what the flow's would be.
 TEST(Unfold, EndsWhatIsExpectedToCostMore)
 {
 	const Component body = onlyComponent(revolved({{0, -1}, {1, -0.5}, {1.5, 0.5}, {0, 1}}, 12));
+	Listener listener;
+	const Task task(listener);
 	std::vector<double> asked;
 	const auto flattened = [&](double factor) {
 		asked.clear();
 		return flattenToPlane(body, {}, Options(), [&](double cost) {
 			asked.push_back(cost);
+			advance(1.0, "Another map");
 			return cost > 0.0 ? factor * cost : kNoAlternative;
 		});
 	};
 	EXPECT_FALSE(flattened(0.99));
+	EXPECT_EQ(listener.fractions.back(), 1.0 - kAfterFlow);
+	EXPECT_LT(*std::prev(listener.fractions.end(), 2), kBeforeFlow);
 	ASSERT_EQ(asked.size(), 2u);
 	EXPECT_EQ(asked.front(), 0.0);
 	const double expected = asked.back();

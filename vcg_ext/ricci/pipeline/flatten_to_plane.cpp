@@ -298,7 +298,10 @@ std::optional<ComponentMap> flattenToPlane(
 			if (options.method != Method::EdgeSwaps)
 				start = initialPacking(domain.solved(), options); // 4.1
 		},
-		[&] { other = alternative(0.0); });
+		[&] {
+			const Task still(0.0, 0.0);
+			other = alternative(0.0);
+		});
 	TargetRequest request = targetRequest(component, input, options, domain.solved());
 	request.alternative = other;
 	VertexArray<double> coneAngle; // of the cones that it is cut through
@@ -307,8 +310,12 @@ std::optional<ComponentMap> flattenToPlane(
 	else {
 		advance(0.0, "Choosing the target");
 		const Target target = chooseTarget(domain.solved(), start, request); // 5.2, 5.3
-		if (target.expected && target.expected->total() > alternative(target.expected->total()))
-			return std::nullopt;
+		if (target.expected) {
+			const Task inPlaceOfFlow(kBeforeFlow, 1.0 - kAfterFlow);
+			const double cost = target.expected->total();
+			if (cost > alternative(cost))
+				return std::nullopt;
+		}
 		coneAngle = coneAngles(domain, target);
 		besides(
 			threads,

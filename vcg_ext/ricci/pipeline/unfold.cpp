@@ -164,8 +164,9 @@ unfold(const Component& component, const Options& options, double maxBetween)
 		logLine("There is not enough memory to unfold the surface between its creases, too.");
 		return std::nullopt;
 	}
-	tasksInParallel(static_cast<int>(maps.size()), atOnce, [&](int i) {
-		const Task silent(0.0, 0.0, true);
+	const auto count = static_cast<int>(maps.size());
+	tasksInParallel(count, atOnce, [&](int i) {
+		const Task silent(double(i) / count, (i + 1.0) / count, true);
 		maps[positionOf(i)] = attempt("it is not unfolded", [&] {
 			return joined(component, divisions[positionOf(i)], options);
 		});
