@@ -157,6 +157,14 @@ public:
 	void clear() { m_values.clear(); }
 	void push_back(const T& value) { m_values.push_back(value); }
 	void push_back(T&& value) { m_values.push_back(std::move(value)); }
+	/// All of \p values, which are taken over where there have been none.
+	void append(IndexedArray values)
+	{
+		if (m_values.empty())
+			swap(values);
+		else
+			m_values.insert(m_values.end(), values.begin(), values.end());
+	}
 	void pop_back() { m_values.pop_back(); }
 	void swap(IndexedArray& other) { m_values.swap(other.m_values); }
 

@@ -27,6 +27,7 @@ MovableParts::MovableParts(
 		m_groupsOf[part].push_back(m_groups.size());
 		Group group{m_all ? -1 : m_origins.size(), {}, {}, {}};
 		std::vector<Box2> boxes;
+		boxes.reserve(triangles.size());
 		for (const int f : triangles) {
 			append(f, part);
 			m_group[f] = m_groups.size();

@@ -216,8 +216,7 @@ void separateCharts(bool turns, Parametrization& map)
 			divideChart(chart, overlaps),
 			overlaps.isComplete() ? &overlaps.tree() : nullptr);
 		const int first = map.mesh.place.size();
-		for (const Point2& p : chart.place)
-			map.mesh.place.push_back(p);
+		map.mesh.place.append(std::move(chart.place));
 		for (std::size_t i = 0; i < triangles.size(); ++i)
 			for (std::size_t k = 0; k < 3; ++k)
 				map.mesh.points[triangles[i]][k] = first + chart.points[static_cast<int>(i)][k];

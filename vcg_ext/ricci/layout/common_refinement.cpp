@@ -220,6 +220,8 @@ private:
 	{
 		Array<SurfacePoint> points;
 		std::vector<Point3> space; // [point]
+		points.reserve(m_node.size());
+		space.reserve(m_node.values().size());
 		for (const int node : m_node) {
 			points.push_back(m_pieces.nodes[node].point);
 			space.push_back(
@@ -228,6 +230,10 @@ private:
 		Array<Triangle> triangles;
 		Array<Triangle2> plane;
 		Array<int> face;
+		const int triangleCount = m_pieces.cornerCount() - 2 * m_pieces.count();
+		triangles.reserve(triangleCount);
+		plane.reserve(triangleCount);
+		face.reserve(triangleCount);
 		for (int p = 0; p < m_pieces.count(); ++p) {
 			const int first = m_pieces.corner(p, 0), size = m_pieces.size(p);
 			const Point2* placed = m_point.data() + first;

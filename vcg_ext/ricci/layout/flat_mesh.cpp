@@ -89,6 +89,10 @@ FlatMesh FlatMesh::part(const std::vector<int>& triangles) const
 			number[p] = part.place.size();
 			part.place.push_back(place[low + p]);
 		}
+	part.points.reserve(triangles.size());
+	part.vertices.reserve(triangles.size());
+	part.lengths.reserve(triangles.size());
+	part.face.reserve(triangles.size());
 	for (const int f : triangles) {
 		const Triangle& p = points[f];
 		part.points.push_back({number[p[0] - low], number[p[1] - low], number[p[2] - low]});
@@ -103,6 +107,7 @@ FlatMesh FlatMesh::part(const std::vector<int>& triangles) const
 	Array<int> numberOf(*last + 1 - *first, -1); // [triangle - first]
 	for (std::size_t i = 0; i < triangles.size(); ++i)
 		numberOf[triangles[i] - *first] = static_cast<int>(i);
+	part.across.reserve(3 * triangles.size());
 	for (const int f : triangles)
 		for (const Corner side : cornersOf(f)) {
 			const Corner other = across[side];
@@ -201,22 +206,26 @@ FlatMesh flatMeshOf(
 	Array<Triangle> vertices, const Array<Triangle2>& plane, const std::vector<Point3>& positions)
 {
 	FlatMesh mesh;
+	mesh.lengths.resize(vertices.size());
+	mesh.face.resize(vertices.size());
 	for (const int f : vertices.indices()) {
-		mesh.points.push_back({3 * f, 3 * f + 1, 3 * f + 2});
-		for (const Point2& p : plane[f])
-			mesh.place.push_back(p);
 		const auto length = [&](std::size_t i, std::size_t j) {
 			return distance(
 				positions[positionOf(vertices[f][i])], positions[positionOf(vertices[f][j])]);
 		};
-		mesh.lengths.push_back({length(0, 1), length(1, 2), length(2, 0)});
-		mesh.face.push_back(f);
+		mesh.lengths[f] = {length(0, 1), length(1, 2), length(2, 0)};
+		mesh.face[f] = f;
 	}
 	mesh.vertices = std::move(vertices);
 	mesh.chart.assign(mesh.face.size(), 0);
 	mesh.source = verticesOf(positions.size());
 	connect(mesh);
-	weld(mesh);
+	numberPoints(
+		[&](Corner c) { return plane[c]; },
+		[&](Corner a, Corner b) {
+			return plane[a] == plane[b.next()] && plane[a.next()] == plane[b];
+		},
+		mesh);
 	return mesh;
 }
 

@@ -7,16 +7,15 @@ namespace {
 
 /// \p area(s, s - a, s - b, s - c) of a triangle with the sides a <= b <= c, s half the perimeter.
 template<class Area>
-double ofSides(std::array<double, 3> l, Area area)
+double ofSides(const std::array<double, 3>& l, Area area)
 {
-	std::sort(l.begin(), l.end());
+	// Without branches, which nobody could predict.
+	const double low = std::min(l[0], l[1]), high = std::max(l[0], l[1]);
+	const double a = std::min(low, l[2]), c = std::max(high, l[2]);
+	const double b = std::max(low, std::min(high, l[2]));
 	// Kahan's order of operations: nothing cancels but the sides themselves.
-	const double twiceShortest = std::max(0.0, l[0] - (l[2] - l[1])); // 2 (s - c)
-	return area(
-		0.5 * (l[2] + (l[1] + l[0])),
-		0.5 * twiceShortest,
-		0.5 * (l[0] + (l[2] - l[1])),
-		0.5 * (l[2] + (l[1] - l[0])));
+	const double twiceShortest = std::max(0.0, a - (c - b)); // 2 (s - c)
+	return area(0.5 * (c + (b + a)), 0.5 * twiceShortest, 0.5 * (a + (c - b)), 0.5 * (c + (b - a)));
 }
 
 /// Sum of \p area(sides) over the triangles.

@@ -107,7 +107,7 @@ joined(const Component& component, const std::vector<Component>& pieces, const O
 		threadsFor(static_cast<std::int64_t>(component.triangles.size())),
 		flatten);
 	for (std::size_t i = 0; i < pieces.size(); ++i)
-		append(pieces[i], flat[i], map);
+		append(pieces[i], std::move(flat[i]), map);
 	connect(map.mesh); // across creases, too
 	separateCharts(ofPieces, map);
 	joinCharts(map);

@@ -135,36 +135,39 @@ void separateCharts(const Options& options, Parametrization& map)
 	separateCharts(options.cones.rounding != ConeRounding::QuarterTurns, map);
 }
 
-void append(const Component& component, const Parametrization& part, Parametrization& whole)
+void append(const Component& component, Parametrization part, Parametrization& whole)
 {
-	FlatMesh& mesh = whole.mesh;
-	const auto vertexCount = component.vertex.values().size();
-	const std::vector<SurfacePoint>& source = part.mesh.source.values();
-	std::vector<int> index = component.vertex.values(); // of each vertex of the component's mesh
-	for (std::size_t i = vertexCount; i < source.size(); ++i) {
-		SurfacePoint p = source[i];
+	FlatMesh &mesh = whole.mesh, &own = part.mesh;
+	const int vertexCount = component.vertex.size();
+	Array<int> index(component.vertex.values()); // of each vertex of the component's mesh
+	for (int i = vertexCount; i < own.source.size(); ++i) {
+		SurfacePoint p = own.source[i];
 		for (int& v : p.vertex)
 			v = component.vertex[Vertex(v)];
 		index.push_back(mesh.source.size());
 		mesh.source.push_back(p);
 	}
-	const int firstPoint = mesh.place.size(), firstCorner = mesh.across.size();
-	for (const Point2& p : part.mesh.place)
-		mesh.place.push_back(p);
-	for (const Corner other : part.mesh.across)
-		mesh.across.push_back(other.isValid() ? Corner(firstCorner + other.number()) : Corner());
-	for (const int f : part.mesh.points.indices()) {
-		Triangle vertices = part.mesh.vertices[f], points = part.mesh.points[f];
+	part.report.refinementPoints = std::max(0, own.source.size() - vertexCount);
+	own.source = {};
+	for (Triangle& vertices : own.vertices)
 		for (int& v : vertices)
-			v = index[positionOf(v)];
+			v = index[v];
+	for (Triangle& points : own.points)
 		for (int& p : points)
-			p += firstPoint;
-		mesh.vertices.push_back(vertices);
-		mesh.points.push_back(points);
-		mesh.lengths.push_back(part.mesh.lengths[f]);
-		mesh.chart.push_back(static_cast<int>(whole.charts.size()) + part.mesh.chart[f]);
-		mesh.face.push_back(component.face[Face(part.mesh.face[f])]);
-	}
+			p += mesh.place.size();
+	for (Corner& other : own.across)
+		other = other.isValid() ? Corner(mesh.across.size() + other.number()) : Corner();
+	for (int& chart : own.chart)
+		chart += static_cast<int>(whole.charts.size());
+	for (int& face : own.face)
+		face = component.face[Face(face)];
+	mesh.vertices.append(std::move(own.vertices));
+	mesh.across.append(std::move(own.across));
+	mesh.points.append(std::move(own.points));
+	mesh.place.append(std::move(own.place));
+	mesh.lengths.append(std::move(own.lengths));
+	mesh.chart.append(std::move(own.chart));
+	mesh.face.append(std::move(own.face));
 	whole.charts.insert(whole.charts.end(), part.charts.begin(), part.charts.end());
 	for (const Vertex v : component.vertex.indices()) {
 		const std::size_t vertex = positionOf(component.vertex[v]);
@@ -175,10 +178,7 @@ void append(const Component& component, const Parametrization& part, Parametriza
 		whole.placedCones.push_back(component.vertex[Vertex(v)]);
 	if (positionOf(whole.report.components) < kDescribedComponents)
 		whole.notes.insert(whole.notes.end(), part.notes.begin(), part.notes.end());
-	Report report = part.report;
-	if (source.size() > vertexCount)
-		report.refinementPoints = static_cast<int>(source.size() - vertexCount);
-	whole.report += report;
+	whole.report += part.report;
 }
 
 void appendComponents(
@@ -210,7 +210,7 @@ void appendComponents(
 			own.lines.clear();
 			if (own.error)
 				return;
-			append(components[positionOf(appended)], *own.part, whole);
+			append(components[positionOf(appended)], std::move(*own.part), whole);
 			own.part.reset();
 		}
 	};

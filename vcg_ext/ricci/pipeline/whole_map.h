@@ -57,7 +57,7 @@ inline bool mayCutCharts(const Options& options)
 void separateCharts(const Options& options, Parametrization& map);
 
 /// Appends the map of a component, in its indices, to that of the surface that it is a component of.
-void append(const Component& component, const Parametrization& part, Parametrization& whole);
+void append(const Component& component, Parametrization part, Parametrization& whole);
 
 /// Share of the progress after which all components are mapped.
 constexpr double kComponentsDone = 0.9;

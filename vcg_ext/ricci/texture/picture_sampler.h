@@ -36,6 +36,20 @@ public:
 			m_visible[c] += share * kUnit<Stored> * rgba[c];
 	}
 
+	/// Two neighbours of each of two rows, with the product of the weights of their column and their row.
+	template<class Stored>
+	void
+	add(const std::array<const Stored*, 2>& rgba,
+		const std::array<double, 2>& column,
+		const std::array<double, 2>& row)
+	{
+		MeanColour sum = *this; // can be held in registers
+		for (std::size_t j = 0; j < 2; ++j)
+			for (std::size_t i = 0; i < 2; ++i)
+				sum.add(rgba[j] + 4 * i, column[i] * row[j]);
+		*this = sum;
+	}
+
 	double weight() const { return m_weight; }
 
 	template<class Stored>
@@ -221,7 +235,8 @@ private:
 	{
 		if (chart.repeats())
 			p = inside(p);
-		const double side = 1 << level, x = p[0] / side - 0.5, y = p[1] / side - 0.5;
+		const double perTexel = 1.0 / (1 << level); // blocks
+		const double x = p[0] * perTexel - 0.5, y = p[1] * perTexel - 0.5;
 		const int across = m_blocks.across(level), down = m_blocks.down(level);
 		if (!(x > -1.0 && x < across && y > -1.0 && y < down))
 			return;
@@ -232,10 +247,7 @@ private:
 			const std::size_t upper = m_blocks.index(first), lower = upper + positionOf(across);
 			if (chart.hasAll(level, {upper, upper + 1, lower, lower + 1})) { // and none is cut off
 				const Word* means = m_means[positionOf(level - 1)].data();
-				sum.add(means + 4 * upper, right[0] * below[0]);
-				sum.add(means + 4 * upper + 4, right[1] * below[0]);
-				sum.add(means + 4 * lower, right[0] * below[1]);
-				sum.add(means + 4 * lower + 4, right[1] * below[1]);
+				sum.add(std::array{means + 4 * upper, means + 4 * lower}, right, below);
 				return;
 			}
 		}
@@ -250,7 +262,7 @@ private:
 					addBlock(
 						block,
 						level - kDepth,
-						right[positionOf(i)] * below[positionOf(j)] / (side * side),
+						right[positionOf(i)] * below[positionOf(j)] * perTexel * perTexel,
 						chart,
 						sum);
 			}
@@ -298,10 +310,8 @@ private:
 			const std::size_t upper = m_picture.index(x, y), lower = m_picture.index(x, y + 1);
 			if (chart.has(upper) && chart.has(upper + 1) && chart.has(lower) &&
 				chart.has(lower + 1)) {
-				sum.add(m_picture.rgba + 4 * upper, sx * sy);
-				sum.add(m_picture.rgba + 4 * upper + 4, tx * sy);
-				sum.add(m_picture.rgba + 4 * lower, sx * ty);
-				sum.add(m_picture.rgba + 4 * lower + 4, tx * ty);
+				const Sample* texels = m_picture.rgba;
+				sum.add(std::array{texels + 4 * upper, texels + 4 * lower}, {sx, tx}, {sy, ty});
 				return;
 			}
 		}

@@ -30,17 +30,17 @@ bool coversNothingTwice(const FlatMesh& mesh, std::size_t charts, double padding
 	return charts == 1 || keepApart(outlines, padding);
 }
 
-/// The triangles with their coordinates rounded to float. \param step receives that of the largest one
-FlatMesh inFloats(FlatMesh mesh, double& step)
+/// Coordinates rounded to float. \param step receives that of the largest one
+Array<Point2> inFloats(Array<Point2> places, double& step)
 {
 	double largest = 0.0;
-	for (Point2& p : mesh.place)
+	for (Point2& p : places)
 		for (double& x : p) {
 			x = roundedToFloat(x);
 			largest = std::max(largest, std::abs(x));
 		}
 	step = floatStep(largest);
-	return mesh;
+	return places;
 }
 
 } // namespace
@@ -48,7 +48,8 @@ FlatMesh inFloats(FlatMesh mesh, double& step)
 void countOverlaps(Parametrization& map)
 {
 	double step = 0.0;
-	const FlatMesh stored = inFloats(map.mesh, step);
+	FlatMesh stored = map.mesh;
+	stored.place = inFloats(std::move(stored.place), step);
 	map.report.overlappingFaces = map.report.overlappingCharts = 0;
 	if (coversNothingTwice(stored, map.charts.size(), step))
 		return;
@@ -66,15 +67,14 @@ void countOverlaps(Parametrization& map)
 void countUnequalSeams(Parametrization& map)
 {
 	double step = 0.0;
-	const FlatMesh stored = inFloats(map.mesh, step);
+	const Array<Point2> stored = inFloats(map.mesh.place, step);
 	const auto length = [&](Corner side) {
-		const std::array<Point2, 2> ends = stored.ends(side);
-		return distance(ends[0], ends[1]);
+		return distance(stored[map.mesh.points[side]], stored[map.mesh.points[side.next()]]);
 	};
-	const std::vector<Corner> edges = seams(stored).edges;
+	const std::vector<Corner> edges = seams(map.mesh).edges;
 	map.report.unequalSeams =
 		static_cast<int>(std::count_if(edges.begin(), edges.end(), [&](Corner side) {
-			const double own = length(side), across = length(stored.across[side]);
+			const double own = length(side), across = length(map.mesh.across[side]);
 			return std::abs(own - across) >
 				   std::max(kUnequalShare * std::max(own, across), kTouchingSteps * step);
 		}));
