@@ -45,7 +45,7 @@ VertexVector randomVector(int size, Random& random)
 }
 
 /// Shares of the boundary vertices in its length.
-VertexVector boundaryShares(const EmbeddedSurface& surface)
+VertexVector sharesInLength(const EmbeddedSurface& surface)
 {
 	const Triangulation& t = surface.triangulation;
 	VertexVector share = VertexVector::Zero(t.vertexCount());
@@ -54,6 +54,27 @@ VertexVector boundaryShares(const EmbeddedSurface& surface)
 			for (const Vertex v : t.ends(e))
 				share[v] += surface.lengths[e];
 	return share / share.sum();
+}
+
+TEST(LinearFlow, TheBoundaryHasSharesWithAndWithoutLength)
+{
+	Random random(771);
+	const SurfaceMesh mesh = withoutStars(shaken(perforatedSlab(1, 2), 0.05, random), {0, 40});
+	const Component component = onlyComponent(mesh);
+	EmbeddedSurface surface = embeddedSurface(component.positions, component.triangles);
+	const auto close = [&](const VertexVector& expected) {
+		EXPECT_LT((boundaryShares(surface) - expected).lpNorm<Eigen::Infinity>(), 1e-15);
+	};
+	close(sharesInLength(surface));
+	EdgeArray<double> lengths = surface.lengths;
+	for (const Edge e : lengths.indices())
+		if (surface.triangulation.isBoundary(e))
+			lengths[e] = 1.0;
+	surface.lengths = lengths;
+	const VertexVector alike = sharesInLength(surface);
+	for (double& length : surface.lengths)
+		length = 0.0;
+	close(alike);
 }
 
 TEST(LinearFlow, SolvesTheDenseSystem)
@@ -75,7 +96,7 @@ TEST(LinearFlow, SolvesTheDenseSystem)
 			expected = dense.solve(rhs);
 		}
 		else if (c.boundary == ConeBoundary::Prescribed)
-			expected = dense.solve(rhs - rhs.sum() * boundaryShares(linear.surface));
+			expected = dense.solve(rhs - rhs.sum() * sharesInLength(linear.surface));
 		else {
 			// u = 0 on the boundary.
 			Eigen::MatrixXd laplacian = dense.laplacian;
@@ -213,7 +234,7 @@ struct AtTheEnd
 		if (surface.topology.type.isClosed())
 			other.curvature[cones[1]] -= k;
 		else if (boundary == ConeBoundary::Prescribed)
-			other.curvature -= k * boundaryShares(surface);
+			other.curvature -= k * sharesInLength(surface);
 		return other;
 	}
 

@@ -55,21 +55,6 @@ TEST(FlatMesh, IsJoinedWhereSidesLieOnEachOther)
 	EXPECT_EQ(seamsOf(apart), kSide);
 }
 
-TEST(FlatMesh, WeldJoinsSeamsThatCloseButNoCharts)
-{
-	for (const bool twoCharts : {false, true}) {
-		FlatMesh mesh = withSeam({2.0, 0.0});
-		for (const int f : mesh.chart.indices())
-			mesh.chart[f] = twoCharts && mesh.at(f)[0][0] > 1.5 ? 1 : 0;
-		for (Point2& p : mesh.place)
-			if (p[0] > 1.5)
-				p[0] -= 2.0;
-		weld(mesh);
-		EXPECT_EQ(seamsOf(mesh), twoCharts ? kSide : 0);
-		EXPECT_EQ(mesh.corners(), withSeam({0.0, 0.0}).corners());
-	}
-}
-
 TEST(FlatMesh, SplitPointsBelongToOneChartAndOneFan)
 {
 	FlatMesh mesh = withSeam({0.0, 0.0});

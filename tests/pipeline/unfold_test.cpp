@@ -137,6 +137,24 @@ TEST(Unfold, TakesNoMoreMemoryThanThereIs)
 	EXPECT_EQ(log.count("There is not enough memory to unfold"), 1);
 }
 
+/// What the other map says while the first stages run is in the log, with any number of threads.
+TEST(Unfold, WhatIsSaidBesideTheFirstStagesIsLogged)
+{
+	const SurfaceMesh body = revolved({{0, -1}, {1, -0.5}, {1.5, 0.5}, {0, 1}}, 400);
+	for (const bool isLarge : {false, true}) {
+		Listener listener;
+		const Task task(listener);
+		const auto alternative = [](double cost) {
+			if (cost == 0.0)
+				logLine("No other map");
+			return kNoAlternative;
+		};
+		const SurfaceMesh small = revolved({{0, -1}, {1, -0.5}, {0, 1}}, 6);
+		flattenToPlane(onlyComponent(isLarge ? body : small), {}, Options(), alternative);
+		EXPECT_EQ(listener.count("No other map"), 1);
+	}
+}
+
 /// No flow where another map, made once it is known what this one is expected to cost, costs less than that.
 /// The progress of that is what the flow's would be.
 TEST(Unfold, EndsWhatIsExpectedToCostMore)

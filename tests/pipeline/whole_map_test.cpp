@@ -313,6 +313,21 @@ TEST(WholeMap, TheStatesOfTheFlowNameTheirComponent)
 		EXPECT_GT(n, 0);
 }
 
+TEST(WholeMap, NotesAreOfTheLargestComponents)
+{
+	const SurfaceMesh large = torus(2, 1, 9, 6);
+	SurfaceMesh mesh = rectangle(1, 1, 1, 1);
+	const std::size_t small = parametrizeEuclidean(mesh, {}, Options()).notes.size();
+	ASSERT_GT(small, 0u);
+	for (int i = 1; i < 24; ++i)
+		mesh = sideBySide(mesh, rectangle(1, 1, 1, 1), 3.0 * i);
+	const std::vector<std::string> whole =
+		parametrizeEuclidean(sideBySide(mesh, large, 100), {}, Options()).notes;
+	const std::vector<std::string> alone = parametrizeEuclidean(large, {}, Options()).notes;
+	ASSERT_EQ(whole.size(), 19 * small + alone.size());
+	EXPECT_EQ(whole[19 * small], alone.front());
+}
+
 TEST(WholeMap, StartsWithArraysOfTheMeshsSizes)
 {
 	SurfaceMesh mesh = withReversedFaces(torus(2, 1, 9, 6), 3);

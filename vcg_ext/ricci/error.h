@@ -69,7 +69,7 @@ public:
 	enum Problem {
 		Epsilon,                ///< value; must be above 0
 		ConeCount,              ///< value; must not be negative
-		ConeDistortion,         ///< value; must be above 0
+		ConeDistortion,         ///< value; must be finite and not negative
 		ConeAngle,              ///< value in radians; must be above 0 and finite
 		SeamHiding,             ///< value; must be in [0, 1]
 		ChartMargin,            ///< value; must be in [0, bound]
@@ -212,7 +212,7 @@ public:
 	Cancelled() : Stopped("Cancelled.") {}
 };
 
-/// The run took longer than its caller allows (time_limit.h).
+/// The run took longer than its caller allows (base/task.h).
 class TimeOut : public Stopped
 {
 public:

@@ -67,7 +67,8 @@ std::string words(const InvalidOption& e)
 	case InvalidOption::ConeCount:
 		return "The number of cones must be 0 or more, not " + number(e.value);
 	case InvalidOption::ConeDistortion:
-		return "The distortion that cones may leave must be greater than 0, not " + number(e.value);
+		return "The distortion that cones may leave must be 0 or more and finite, not " +
+			   number(e.value);
 	case InvalidOption::ConeAngle:
 		return "The angle of cones must be finite and greater than 0, not " + number(e.value) +
 			   " radians";

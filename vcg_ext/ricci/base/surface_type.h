@@ -2,6 +2,8 @@
 #ifndef RICCI_SURFACE_TYPE_H
 #define RICCI_SURFACE_TYPE_H
 
+#include "numbers.h"
+
 #include <string>
 
 namespace ricci {
@@ -13,6 +15,8 @@ struct SurfaceType
 	int boundaryLoops = 0;
 
 	int eulerCharacteristic() const { return 2 - 2 * genus - boundaryLoops; }
+	/// Of a metric on it, by Gauss-Bonnet.
+	double totalCurvature() const { return 2 * kPi * eulerCharacteristic(); }
 	bool isClosed() const { return boundaryLoops == 0; }
 	bool isSphere() const { return genus == 0 && boundaryLoops == 0; }
 	bool isDisk() const { return genus == 0 && boundaryLoops == 1; }

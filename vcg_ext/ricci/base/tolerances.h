@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every tolerance of the algorithm, by kind, with its reason. Limits of work (steps, rounds) and
-// parameters of step control stay beside the code that they control.
+// Tolerances that users see or that several files share, by kind, with their reasons. Those of one
+// computation, limits of work (steps, rounds) and parameters of step control stay beside their code.
 #ifndef RICCI_TOLERANCES_H
 #define RICCI_TOLERANCES_H
 

@@ -59,10 +59,8 @@ private:
 	{
 		std::vector<std::pair<double, int>> byArea;
 		for (const int i : m_part.indices())
-			if (!m_rivals[i].empty()) {
-				const Triangle2 p = m_chart.at(i);
-				byArea.push_back({-doubledArea(p[0], p[1], p[2]), i});
-			}
+			if (!m_rivals[i].empty())
+				byArea.push_back({-doubledArea(m_chart.at(i)), i});
 		std::sort(byArea.begin(), byArea.end());
 		std::vector<int> triangles;
 		triangles.reserve(byArea.size());

@@ -156,8 +156,8 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching, const 
 	double area = 0.0; // that the sheets cover together
 	for (const int i : m_plane.indices()) {
 		const Triangle2& p = m_plane[i];
-		m_isProper[i] = orientation(p[0], p[1], p[2]) > 0;
-		area += 0.5 * doubledArea(p[0], p[1], p[2]);
+		m_isProper[i] = orientation(p) > 0;
+		area += 0.5 * doubledArea(p);
 		box.add(boxOf(p));
 	}
 	m_hasFolds = std::find(m_isProper.begin(), m_isProper.end(), 0) != m_isProper.end();

@@ -7,7 +7,6 @@
 
 #include <complex>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -40,7 +39,7 @@ void reflectFlipped(Parametrization& map)
 	std::vector<int> flipped;
 	for (const int f : mesh.points.indices()) {
 		const Triangle2 p = mesh.at(f);
-		if (orientation(p[0], p[1], p[2]) >= 0)
+		if (orientation(p) >= 0)
 			continue;
 		const std::size_t k = oppositeLongest(p);
 		if (distance(reflected(p, k), p[k]) > kOnePlace * boxes[positionOf(mesh.chart[f])].extent())

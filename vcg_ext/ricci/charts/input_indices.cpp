@@ -13,45 +13,33 @@ namespace ricci {
 
 namespace {
 
-/// Means over the copies of each vertex of the input, weighted by the area of their faces.
-class VertexMeans
+/// Takes the means over the copies of each vertex of the input, weighted by the area of their faces.
+/// \param vertexCount of the input
+/// \param values [vertex of the opened mesh, and more that are kept as they are]
+void averageCopies(const OpenedMesh& opened, std::size_t vertexCount, std::vector<double>& values)
 {
-public:
-	VertexMeans(const OpenedMesh& opened, std::size_t vertexCount) :
-			m_opened(opened), m_vertexCount(vertexCount), m_area(opened.vertex.size(), 0.0)
-	{
-		for (const Triangle& t : opened.mesh.triangles) {
-			const double area = triangleArea(
-				{opened.mesh.positions[positionOf(t[0])],
-				 opened.mesh.positions[positionOf(t[1])],
-				 opened.mesh.positions[positionOf(t[2])]});
-			for (const int v : t)
-				m_area[positionOf(v)] += area;
-		}
+	std::vector<double> ofCopies(opened.vertex.size(), 0.0); // areas
+	for (const Triangle& t : opened.mesh.triangles) {
+		const double area = triangleArea(
+			{opened.mesh.positions[positionOf(t[0])],
+			 opened.mesh.positions[positionOf(t[1])],
+			 opened.mesh.positions[positionOf(t[2])]});
+		for (const int v : t)
+			ofCopies[positionOf(v)] += area;
 	}
-
-	/// \param values [vertex of the opened mesh, and more that are kept as they are]
-	void operator()(std::vector<double>& values) const
-	{
-		std::vector<double> sum(m_vertexCount, 0.0), area(m_vertexCount, 0.0);
-		for (std::size_t c = 0; c < m_area.size(); ++c) {
-			const std::size_t v = positionOf(m_opened.vertex[c]);
-			sum[v] += m_area[c] * values[c];
-			area[v] += m_area[c];
-		}
-		for (std::size_t v = 0; v < m_vertexCount; ++v)
-			if (area[v] > 0.0)
-				values[v] = sum[v] / area[v];
-		values.erase(
-			values.begin() + static_cast<std::ptrdiff_t>(m_vertexCount),
-			values.begin() + static_cast<std::ptrdiff_t>(m_area.size()));
+	std::vector<double> sum(vertexCount, 0.0), area(vertexCount, 0.0);
+	for (std::size_t c = 0; c < ofCopies.size(); ++c) {
+		const std::size_t v = positionOf(opened.vertex[c]);
+		sum[v] += ofCopies[c] * values[c];
+		area[v] += ofCopies[c];
 	}
-
-private:
-	const OpenedMesh& m_opened;
-	std::size_t m_vertexCount;
-	std::vector<double> m_area; // [vertex of the opened mesh]
-};
+	for (std::size_t v = 0; v < vertexCount; ++v)
+		if (area[v] > 0.0)
+			values[v] = sum[v] / area[v];
+	values.erase(
+		values.begin() + static_cast<std::ptrdiff_t>(vertexCount),
+		values.begin() + static_cast<std::ptrdiff_t>(ofCopies.size()));
+}
 
 /// Lays degenerate faces out beside the triangles that a map has.
 class DegenerateFaces
@@ -85,32 +73,16 @@ public:
 			points[k] = m_mesh.place.size();
 			m_mesh.place.push_back(corners[k].isValid() ? m_mesh.at(corners[k]) : Point2{0.0, 0.0});
 		}
-		m_added.push_back({t, points, {}, face});
-		for (std::size_t k = 0; k < 3; ++k)
-			m_added.back().lengths[k] = distance(at(k), at((k + 1) % 3));
-	}
-
-	/// Appends the triangles laid out.
-	void append()
-	{
-		for (const Added& added : m_added) {
-			m_mesh.vertices.push_back(added.vertices);
-			m_mesh.points.push_back(added.points);
-			m_mesh.lengths.push_back(added.lengths);
-			m_mesh.face.push_back(added.face);
-			m_mesh.chart.push_back(-1);
-		}
+		m_mesh.vertices.push_back(t);
+		m_mesh.points.push_back(points);
+		m_mesh.lengths.push_back(
+			{distance(at(0), at(1)), distance(at(1), at(2)), distance(at(2), at(0))});
+		m_mesh.face.push_back(face);
+		m_mesh.chart.push_back(-1);
 	}
 
 private:
 	using Corners = std::array<Corner, 3>;
-
-	struct Added
-	{
-		Triangle vertices, points;
-		std::array<double, 3> lengths;
-		int face;
-	};
 
 	/// Corners of one face of the map at whose places the corners of a degenerate face lie; or none.
 	Corners cornersFor(const Triangle& t) const
@@ -138,7 +110,6 @@ private:
 	const SurfaceMesh& m_input;
 	FlatMesh& m_mesh;
 	Adjacency<int, Corner> m_corners; // [vertex of the input]
-	std::vector<Added> m_added;
 };
 
 /// Swaps two corners of the triangles of reversed faces.
@@ -186,7 +157,7 @@ void toInputIndices(const SurfaceMesh& input, const OpenedMesh& opened, Parametr
 	}
 	const std::size_t vertexCount = input.positions.size();
 	const std::size_t copies = opened.vertex.size() - vertexCount;
-	VertexMeans(opened, vertexCount)(map.vertexQC);
+	averageCopies(opened, vertexCount, map.vertexQC);
 	map.u.resize(vertexCount);
 	map.targetCurvature.resize(vertexCount);
 	for (int& v : map.placedCones)
@@ -206,7 +177,6 @@ void toInputIndices(const SurfaceMesh& input, const OpenedMesh& opened, Parametr
 	DegenerateFaces degenerate(input, mesh);
 	for (const int f : opened.degenerate)
 		degenerate.layOut(f);
-	degenerate.append();
 	sortByFace(input.triangles.size(), mesh);
 }
 

@@ -5,7 +5,6 @@
 #include "../math/orientation.h"
 #include "../metric/area.h"
 
-#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -18,10 +17,8 @@ MovableParts::MovableParts(
 		m_group(chart.size(), -1), m_before(chart.size(), -1), m_next(chart.size(), -1)
 {
 	Box2 whole;
-	for (const int f : m_plane.indices()) {
-		const Triangle2& p = m_plane[f];
-		m_isProper[f] = orientation(p[0], p[1], p[2]) > 0;
-	}
+	for (const int f : m_plane.indices())
+		m_isProper[f] = orientation(m_plane[f]) > 0;
 	for (const std::vector<int>& triangles : parts) {
 		const int part = addPart();
 		m_groupsOf[part].push_back(m_groups.size());

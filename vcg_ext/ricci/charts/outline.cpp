@@ -5,7 +5,6 @@
 #include "../math/box_tree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -69,7 +68,7 @@ Outline outlineOf(const FlatMesh& mesh, const std::vector<int>& triangles)
 {
 	const auto isFlipped = [&](int f) {
 		const Triangle2 t = mesh.at(f);
-		return doubledArea(t[0], t[1], t[2]) < 0.0;
+		return doubledArea(t) < 0.0;
 	};
 	Outline outline;
 	for (const int f : triangles)

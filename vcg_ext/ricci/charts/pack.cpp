@@ -6,7 +6,6 @@
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../math/convex_hull.h"
-#include "../metric/area.h"
 #include "separate_charts.h"
 
 #include <algorithm>
@@ -70,7 +69,7 @@ double coveredArea(const FlatMesh& mesh)
 	double doubled = 0.0;
 	for (const int f : mesh.points.indices()) {
 		const Triangle2 t = mesh.at(f);
-		doubled += std::abs(doubledArea(t[0], t[1], t[2]));
+		doubled += std::abs(doubledArea(t));
 	}
 	return 0.5 * doubled;
 }
@@ -315,9 +314,7 @@ void packForRoom(Parametrization& map, const PackOptions& options, ChartTurns tu
 	packCharts(map, options, turns);
 	if (turns == ChartTurns::None)
 		return;
-	double area = 0.0;
-	for (const auto& lengths : map.mesh.lengths)
-		area += euclideanArea(lengths);
+	const double area = map.mesh.area();
 	const auto worth = [&](const Parametrization& m) {
 		return std::log(m.report.occupancy) -
 			   kRoomPrice * std::log(std::sqrt(area) + m.report.seamLength);
@@ -380,14 +377,10 @@ void placeDisks(Parametrization& map)
 		square = {};
 		square.min = {side * (i % perRow), side * row};
 		square.max = {square.min[0] + side, square.min[1] + side};
-		motions.push_back(
-			{0.5 * side,
-			 {(square.min[0] + square.max[0]) / 2, (square.min[1] + square.max[1]) / 2}});
+		motions.push_back({0.5 * side, asComplex(square.centre())});
 	}
 	moveCharts(motions, map.mesh);
-	for (Point2& p : map.mesh.place)
-		for (double& x : p)
-			x = std::min(std::max(x, 0.0), 1.0);
+	clampToUnitSquare(map);
 	map.report.occupancy = coveredArea(map.mesh);
 }
 

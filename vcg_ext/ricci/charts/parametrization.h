@@ -25,7 +25,7 @@ struct Chart
 };
 
 /// A map of the whole mesh to the plane. Vertices and faces have the numbers of the opened mesh (see
-/// OpenedMesh), and triangles the order in which they are counter-clockwise, until inputIndices() gives
+/// OpenedMesh), and triangles the order in which they are counter-clockwise, until toInputIndices() gives
 /// them those of the input.
 struct Parametrization
 {

@@ -271,10 +271,8 @@ std::optional<ChartCut> findCutForRoom(const Parametrization& map, double onSurf
 		double area = 0.0;
 		for (const int p : pointsOf[c])
 			places.push_back(map.mesh.place[p]);
-		for (const int f : byChart[c]) {
-			const Triangle2 p = map.mesh.at(f);
-			area += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
-		}
+		for (const int f : byChart[c])
+			area += 0.5 * std::abs(doubledArea(map.mesh.at(f)));
 		total += area;
 		const OrientedRectangle r = minAreaRectangle(std::move(places));
 		// Beside a strip there is room in the square, too.

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -107,11 +106,9 @@ int counterClockwisePolygons(const Array<BorderSide>& border)
 
 bool hasSimpleBorder(const FlatMesh& mesh, const std::vector<int>& chart)
 {
-	for (const int f : chart) {
-		const Triangle2 p = mesh.at(f);
-		if (orientation(p[0], p[1], p[2]) <= 0)
+	for (const int f : chart)
+		if (orientation(mesh.at(f)) <= 0)
 			return false;
-	}
 	const Array<BorderSide> border = borderOf(mesh, chart);
 	return areApart(border) && counterClockwisePolygons(border) == 1;
 }

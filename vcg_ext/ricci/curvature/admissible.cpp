@@ -81,8 +81,7 @@ void checkFreeBoundary(const Topology& topology, const Target& target)
 		else if (!target.fixed[v])
 			insideSum += target.curvature[v];
 	}
-	const double bound =
-		2 * kPi * topology.type.eulerCharacteristic() - kPi * static_cast<double>(boundaryCount);
+	const double bound = topology.type.totalCurvature() - kPi * static_cast<double>(boundaryCount);
 	if (insideSum <= bound)
 		throw InadmissibleCurvature(
 			InadmissibleCurvature::FreeBoundary, insideSum, bound, boundaryCount);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_curvatures.h"
 
-#include "../base/indexed.h"
 #include "../base/numbers.h"
 #include "../base/tolerances.h"
 

@@ -36,12 +36,6 @@ constexpr int kMaxCoarseRounds = 3, kMaxFineRounds = 2;
 constexpr int kMaxFitSteps = 20;
 constexpr double kNoGain = 1e-6;
 
-/// By Gauss-Bonnet.
-double totalCurvature(const EmbeddedSurface& surface)
-{
-	return 2 * kPi * surface.topology.type.eulerCharacteristic();
-}
-
 void checkCount(const ConeRequest& request, int least, const ConeSites& sites)
 {
 	if (request.count > 0 && request.count < least)
@@ -70,9 +64,8 @@ int maxCones(const ConeModel& model, const ConeRequest& request)
 {
 	// There are none if all lie on a boundary that is free.
 	const auto vertices = static_cast<int>(model.area().size());
-	const int numbers = request.alternative < std::numeric_limits<double>::infinity()
-							? kMaxConeNumbersBeside
-							: kMaxConeNumbers;
+	const int numbers =
+		request.alternative < kNoAlternative ? kMaxConeNumbersBeside : kMaxConeNumbers;
 	return std::clamp(numbers / std::max(1, vertices), kMaxPlacedCones, kMaxNeededCones);
 }
 
@@ -289,7 +282,7 @@ PlacedCones result(ConeModel& model, const ConeSites& sites)
 PlacedCones
 placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRequest& request)
 {
-	const double total = totalCurvature(surface);
+	const double total = surface.topology.type.totalCurvature();
 	VertexArray<Vertex> roots;
 	LinearSystem whole = flow.system(roots);
 	std::optional<ConeSites> sites;
@@ -394,7 +387,7 @@ PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const C
 	if (isLarge && isForObjective(request))
 		return placeOnAggregates(surface, flow, request);
 	const ConeSites sites(surface, request.vertices);
-	ConeModel model(flow, totalCurvature(surface));
+	ConeModel model(flow, surface.topology.type.totalCurvature());
 	checkCount(request, model.minSize(), sites);
 	if (!isLarge)
 		search(request, model, sites);
@@ -417,7 +410,7 @@ moreCones(const EmbeddedSurface& surface, const FlowResult& flow, const ConeRequ
 		placed.distortion = areaChange(surface, linear.factor(whole)).spread;
 		return placed;
 	}
-	ConeModel model(linear, totalCurvature(surface));
+	ConeModel model(linear, surface.topology.type.totalCurvature());
 	std::vector<Vertex> cones;
 	for (const Vertex v : surface.triangulation.vertices())
 		if (sites.isAllowed(v) && flow.target.curvature[v] != 0.0)

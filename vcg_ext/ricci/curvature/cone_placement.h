@@ -29,7 +29,7 @@ struct ConeRequest : ConeOptions
 	ConeBoundary boundary = ConeBoundary::Fixed;
 	int vertices = -1; ///< cones lie at vertices with a number below this; -1: at any
 	/// What another map costs, see MapCost: the search for the objective ends where that is out of its reach.
-	double alternative = std::numeric_limits<double>::infinity();
+	double alternative = kNoAlternative;
 
 	/// Move cones towards the tree of their seams where that lowers energy and price of seams together:
 	/// up to the wanted distortion, or by kSeamAllowance for a given count.

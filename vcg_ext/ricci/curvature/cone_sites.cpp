@@ -7,15 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <vector>
 
 namespace ricci {
 
 namespace {
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 double unit(const EmbeddedSurface& surface)
 {

@@ -43,7 +43,7 @@ void freeTheBoundary(const Topology& topology, Target& target)
 void checkSum(const Topology& topology, HyperbolicTarget mode, const Target& target)
 {
 	const double sum = target.curvature.sum();
-	const double bound = 2 * kPi * topology.type.eulerCharacteristic();
+	const double bound = topology.type.totalCurvature();
 	if (sum > bound)
 		return;
 	throw InadmissibleCurvature(

@@ -144,7 +144,7 @@ void LinearFlow::layOut(const EmbeddedSurface& surface, ConeBoundary boundary)
 	m_unknowns = m_hessian->unknowns();
 	m_hessian->fill(*m_unfactored, 0.0);
 	if (boundary == ConeBoundary::Prescribed && !surface.topology.type.isClosed())
-		spreadSink(surface);
+		m_sink = boundaryShares(surface);
 }
 
 VertexVector LinearFlow::factor(VertexVector k)
@@ -210,16 +210,21 @@ void LinearFlow::computeAreas(const CurvatureMap& map)
 	m_area /= m_area.sum();
 }
 
-/// Shares of the boundary vertices in the curvature of a prescribed boundary, by the length of their
-/// two boundary edges.
-void LinearFlow::spreadSink(const EmbeddedSurface& surface)
+VertexVector boundaryShares(const EmbeddedSurface& surface)
 {
 	const Triangulation& t = surface.triangulation;
-	m_sink.setZero(t.vertexCount());
+	double perimeter = 0.0;
+	int edges = 0;
+	for (const Halfedge h : t.exteriorHalfedges()) {
+		perimeter += surface.lengths[h.edge()];
+		++edges;
+	}
+	VertexVector shares = VertexVector::Zero(t.vertexCount());
 	for (const Halfedge h : t.exteriorHalfedges())
 		for (const Vertex v : {t.origin(h), t.target(h)})
-			m_sink[v] += surface.lengths[h.edge()];
-	m_sink /= m_sink.sum();
+			shares[v] +=
+				0.5 * (perimeter > 0.0 ? surface.lengths[h.edge()] / perimeter : 1.0 / edges);
+	return shares;
 }
 
 namespace {

@@ -14,6 +14,10 @@ enum class ConeBoundary {
 	Prescribed ///< the boundary takes what Gauss-Bonnet leaves, in proportion to its length
 };
 
+/// Shares of the boundary vertices in the curvature of a boundary, by the length of their two boundary edges; of
+/// all alike where the boundary has no length.
+VertexVector boundaryShares(const EmbeddedSurface& surface);
+
 /// The equation L u = k - K of a LinearFlow on the vertices where u is unknown.
 struct LinearSystem
 {
@@ -100,7 +104,6 @@ public:
 private:
 	void computeAreas(const CurvatureMap& map);
 	void layOut(const EmbeddedSurface& surface, ConeBoundary boundary);
-	void spreadSink(const EmbeddedSurface& surface);
 	Eigen::MatrixXd solveRows(const Eigen::MatrixXd& rhs);
 
 	std::unique_ptr<SparseCholesky> m_system;   // of a LinearSystem; null where there is a Hessian

@@ -28,12 +28,6 @@ std::string number(double x)
 	return numberText(x, 9);
 }
 
-/// 2 pi chi, what the curvature of the surface adds up to by Gauss-Bonnet.
-double totalCurvature(const EmbeddedSurface& surface)
-{
-	return 2 * kPi * surface.topology.type.eulerCharacteristic();
-}
-
 /// What any target has to fulfil.
 void check(const EmbeddedSurface& surface, const Target& target)
 {
@@ -48,29 +42,10 @@ void freeTheBoundary(const EmbeddedSurface& surface, Target& target)
 	target.notes.push_back("Free boundary: the flow keeps the boundary's metric.");
 }
 
-/// Total curvature \p total on the loops, in proportion to the length of the two boundary edges at
-/// each vertex; to all alike where the boundary has no length.
-void spreadOverBoundary(const EmbeddedSurface& surface, double total, Target& target)
-{
-	const Triangulation& t = surface.triangulation;
-	double perimeter = 0.0;
-	int edges = 0;
-	for (const Halfedge h : t.exteriorHalfedges()) {
-		perimeter += surface.lengths[h.edge()];
-		++edges;
-	}
-	for (const Halfedge h : t.exteriorHalfedges()) {
-		const double share =
-			0.5 * total * (perimeter > 0.0 ? surface.lengths[h.edge()] / perimeter : 1.0 / edges);
-		target.curvature[t.origin(h)] += share;
-		target.curvature[t.target(h)] += share;
-	}
-}
-
 /// Prescribes the boundary: it takes \p total in proportion to its length.
 void prescribeByLength(const EmbeddedSurface& surface, double total, Target& target)
 {
-	spreadOverBoundary(surface, total, target);
+	target.curvature += total * boundaryShares(surface);
 	target.notes.push_back(
 		"The boundary is prescribed: its curvature is proportional to its length.");
 }
@@ -86,14 +61,14 @@ void requireFlat(const EmbeddedSurface& surface)
 	const SurfaceType& type = surface.topology.type;
 	if (type.eulerCharacteristic() != 0)
 		throw InadmissibleCurvature(
-			InadmissibleCurvature::Flat, 0.0, totalCurvature(surface), 0, type);
+			InadmissibleCurvature::Flat, 0.0, surface.topology.type.totalCurvature(), 0, type);
 }
 
 void setDisk(const EmbeddedSurface& surface, Target& target)
 {
 	requireDisk(surface, TargetCurvature::Disk);
 	target.circular = true;
-	spreadOverBoundary(surface, 2 * kPi, target);
+	target.curvature += 2 * kPi * boundaryShares(surface);
 }
 
 /// The four selected vertices in the order of the loop.
@@ -137,7 +112,7 @@ void setCones(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 {
 	const Topology& topology = surface.topology;
 	const std::vector<Vertex> cones = selectedCones(request.selected);
-	const double share = totalCurvature(surface) / static_cast<double>(cones.size());
+	const double share = surface.topology.type.totalCurvature() / static_cast<double>(cones.size());
 	bool onBoundary = false;
 	for (const Vertex v : cones) {
 		target.curvature[v] = share;
@@ -189,7 +164,7 @@ void setPrescribedValues(
 		magnitude += std::abs(target.curvature[v]);
 	}
 	const auto sum = static_cast<double>(exactSum);
-	const double wanted = totalCurvature(surface);
+	const double wanted = surface.topology.type.totalCurvature();
 	const double defect = wanted - sum;
 	if (std::abs(defect) >
 		kPrescribedRounding * request.prescribedPrecision * (magnitude + 2 * kPi))
@@ -255,7 +230,7 @@ void setPlacedCones(
 	if (request.options.freeBoundary)
 		freeTheBoundary(surface, target);
 	else
-		prescribeByLength(surface, totalCurvature(surface) - total, target);
+		prescribeByLength(surface, surface.topology.type.totalCurvature() - total, target);
 }
 
 /// Whether Automatic makes it flat, boundary included. A boundary at seams that were chosen is none of the
@@ -283,7 +258,7 @@ void setPlain(const EmbeddedSurface& surface, const TargetRequest& request, Targ
 	}
 	else {
 		target.used = TargetUsed::PrescribedBoundary;
-		prescribeByLength(surface, totalCurvature(surface), target);
+		prescribeByLength(surface, surface.topology.type.totalCurvature(), target);
 	}
 }
 

@@ -15,9 +15,9 @@ namespace ricci {
 struct TargetRequest : TargetInput
 {
 	TargetOptions options;
-	bool measuresAreas = true; ///< false: Automatic decides by topology alone
-	bool hasSeam = false;      ///< see OpenedMesh: Automatic makes no flat annulus of it
-	double alternative = std::numeric_limits<double>::infinity(); ///< see ConeRequest
+	bool measuresAreas = true;           ///< false: Automatic decides by topology alone
+	bool hasSeam = false;                ///< see OpenedMesh: Automatic makes no flat annulus of it
+	double alternative = kNoAlternative; ///< see ConeRequest
 
 	/// Under which notes name vertices; placed cones lie at these alone. Empty: their own numbers,
 	/// and cones at any.
@@ -33,8 +33,7 @@ struct TargetRequest : TargetInput
 /// \param start of the flow on \p surface; placed cones belong to it
 /// \throw InvalidOption if the mode does not fit the topology or the selection
 /// \throw InadmissibleCurvature otherwise, with the numbers that contradict each other
-/// \throw InvalidMesh (BoundaryWithoutLength)
-/// \throw SolverFailed where cones are placed
+/// \throw SolverFailed where cones are placed, or curvatures prescribed with a free boundary
 Target
 chooseTarget(const EmbeddedSurface& surface, InitialPacking& start, const TargetRequest& request);
 

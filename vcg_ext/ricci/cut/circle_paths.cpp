@@ -3,15 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 namespace ricci {
-
-namespace {
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
-
-} // namespace
 
 CirclePaths::CirclePaths(CutSegments& cut, const CoarseSurface* parts) :
 		m_t(cut.triangulation()), m_cost(cut.cost()), m_cut(cut), m_parts(parts),

@@ -7,22 +7,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace ricci {
 
 namespace {
 
-/// Vertices reached between two checkpoints.
-constexpr int kVerticesBetweenTicks = 1 << 16;
-
-/// The same for centres.
+/// Centres between two checkpoints.
 constexpr int kCentresBetweenTicks = 1 << 6;
 
 /// Share of the surface's area, as a square, that a centre has: measured on smooth meshes.
 constexpr double kRadiusOfShare = 1.15;
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Area of a surface with the costs for lengths.
 double areaOf(const Triangulation& t, const EdgeArray<double>& cost)
@@ -123,15 +117,14 @@ CoarseSurface::CoarseSurface(
 /// Lets the paths grow from new centres.
 void CoarseSurface::grow(double radius, Front& front) const
 {
-	int reached = 0;
+	std::size_t reached = 0;
 	for (Vertex v; (v = front.next()).isValid();) {
 		for (const Halfedge h : m_t.around(v)) {
 			const double distance = front[v] + m_fineCost[h.edge()];
 			if (distance < radius && !m_t.isBoundary(h.edge()))
 				front.offer(m_t.target(h), distance, h);
 		}
-		if (++reached % kVerticesBetweenTicks == 0)
-			checkpoint();
+		checkpointNowAndThen(++reached);
 	}
 }
 

@@ -5,8 +5,6 @@
 #include "../math/shortest_paths.h"
 #include "../surface/triangulation.h"
 
-#include <vector>
-
 namespace ricci {
 
 /// A surface with fewer triangles, on which cuts are looked for.

@@ -11,7 +11,6 @@
 #include "shorten_cut.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -29,8 +28,6 @@ constexpr int kMinCoarseVertices = 1500;
 /// such parts; and at least, as else nothing is gained.
 constexpr int kMaxCoarsening = 100;
 constexpr double kMinCoarsening = 4.0;
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 using NodePaths = ShortestPaths<Vertex, Halfedge>;
 

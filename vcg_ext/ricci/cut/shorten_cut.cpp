@@ -7,7 +7,6 @@
 #include "cone_wedges.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -29,8 +28,6 @@ constexpr std::size_t kMaxWork = 2000000000;
 
 /// What a vertex reached by a search takes, in sides numbered.
 constexpr std::size_t kWorkOfVertex = 16;
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 using Front = CirclePaths::Front;
 

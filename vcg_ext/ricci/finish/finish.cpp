@@ -98,7 +98,7 @@ FinishCounts finishInDisk(FlatMesh& flat, bool freeBoundary)
 {
 	constexpr double height = kMinHeight * kDiskExtent;
 	RepairRules rules{RestShapes::OfSurface, {height, kWantedHeights * height}, isInDisk};
-	if (!flat.source.empty()) {
+	if (!flat.source.empty()) { // a refinement
 		rules.shapes = RestShapes::OfDrawing;
 		rules.validity = {kMinRefinedHeight * kDiskExtent, height};
 	}

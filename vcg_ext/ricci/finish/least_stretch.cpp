@@ -5,7 +5,6 @@
 #include "../base/tolerances.h"
 #include "../math/line_search.h"
 #include "../math/orientation.h"
-#include "../metric/area.h"
 #include "patch_energy.h"
 
 #include <cmath>
@@ -22,12 +21,6 @@ constexpr double kMinGain = 1e-3;
 constexpr double kMinStep = 1e-8;
 
 constexpr double kIsometry = 4.0;
-
-bool isUpright(const FlatMesh& flat, int triangle)
-{
-	const Triangle2 p = flat.at(triangle);
-	return orientation(p[0], p[1], p[2]) > 0;
-}
 
 /// All of a mesh, every point a variable.
 Patch wholePatch(const FlatMesh& flat)
@@ -46,13 +39,10 @@ Patch wholePatch(const FlatMesh& flat)
 /// Gives the map the area of the surface.
 void scaleToSurface(FlatMesh& flat)
 {
-	double surface = 0.0, plane = 0.0;
-	for (const int f : flat.points.indices()) {
-		const Triangle2 p = flat.at(f);
-		surface += euclideanArea(flat.lengths[f]);
-		plane += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
-	}
-	const double scale = std::sqrt(surface / plane);
+	double plane = 0.0;
+	for (const int f : flat.points.indices())
+		plane += 0.5 * std::abs(doubledArea(flat.at(f)));
+	const double scale = std::sqrt(flat.area() / plane);
 	for (Point2& p : flat.place)
 		p = {scale * p[0], scale * p[1]};
 }
@@ -68,7 +58,7 @@ public:
 			m_x(Eigen::VectorXd::Zero(m_energy.size()))
 	{
 		for (const int f : flat.points.indices())
-			if (isUpright(flat, f))
+			if (orientation(flat.at(f)) > 0)
 				m_counted.push_back(f);
 			else
 				m_energy.stress(f, 0.0);
@@ -119,7 +109,7 @@ private:
 			[&] {
 				m_trial.place = placesAt(x);
 				for (const int f : m_counted)
-					if (!isUpright(m_trial, f))
+					if (orientation(m_trial.at(f)) <= 0)
 						return false;
 				return true;
 			});

@@ -223,8 +223,7 @@ void MeanDistortion::setShapes(const FlatMesh& flat)
 	const auto vertices = static_cast<double>(
 		std::count_if(ring.begin(), ring.end(), [](double a) { return a > 0.0; }));
 	for (const int f : area.indices()) {
-		const Triangle2 p = flat.at(f);
-		if (orientation(p[0], p[1], p[2]) != 1)
+		if (orientation(flat.at(f)) != 1)
 			continue;
 		double& weight = m_shape[f].weight = kFacePart / size();
 		if (!(area[f] > 0.0))

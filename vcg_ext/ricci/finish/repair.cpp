@@ -75,7 +75,7 @@ bool isHopeless(const PatchSetting& setting, const Patch& patch)
 	for (std::size_t i = 0; i < patch.triangles.size(); ++i) {
 		const Triangle2 p = setting.flat.at(patch.triangles[i]);
 		const Triangle& local = patch.corners[static_cast<int>(i)];
-		area += 0.5 * doubledArea(p[0], p[1], p[2]);
+		area += 0.5 * doubledArea(p);
 		int staying = 0;
 		for (std::size_t k = 0; k < 3; ++k) {
 			const std::size_t next = (k + 1) % 3;
@@ -104,10 +104,8 @@ struct PatchSize
 PatchSize sizeOf(const FlatMesh& flat, const Patch& patch)
 {
 	PatchSize size{static_cast<double>(patch.triangles.size()), 0.0};
-	for (const int f : patch.triangles) {
-		const Triangle2 p = flat.at(f);
-		size.area += 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
-	}
+	for (const int f : patch.triangles)
+		size.area += 0.5 * std::abs(doubledArea(flat.at(f)));
 	return size;
 }
 

@@ -86,7 +86,7 @@ scales(const FlatMesh& flat, const Patch& patch, const std::vector<RestShape>& s
 	double planeSum = 0.0, surfaceSum = 0.0;
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
 		const Triangle2 p = flat.at(patch.triangles[i]);
-		double a = 0.5 * std::abs(doubledArea(p[0], p[1], p[2])), b = areaOf(shapes[i]);
+		double a = 0.5 * std::abs(doubledArea(p)), b = areaOf(shapes[i]);
 		if (const double side = longestSide(shapes[i]); b <= kMinRatio * side * side) {
 			a = longestSide(p) * longestSide(p);
 			b = side * side;
@@ -120,7 +120,7 @@ restShapes(const FlatMesh& flat, const Patch& patch, RestShapes from, const Vali
 		scales(flat, patch, shapes, from == RestShapes::OfSurfaceEvenly);
 	for (std::size_t i = 0; i < shapes.size(); ++i) {
 		const Triangle2 p = flat.at(patch.triangles[i]);
-		shapes[i] = from == RestShapes::OfDrawing && doubledArea(p[0], p[1], p[2]) > 0.0
+		shapes[i] = from == RestShapes::OfDrawing && doubledArea(p) > 0.0
 						? shapeOf(p)
 						: scaled(shapes[i], scale[i]);
 		shapes[i] = heightened(shapes[i], validity.wanted);

@@ -251,7 +251,7 @@ std::vector<Point2> unfolded(const PatchProblem& problem)
 		has += squareOfSides(p[0], p[1], p[2]);
 		const double longest =
 			std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
-		lowest = std::min(lowest, doubledArea(p[0], p[1], p[2]) / longest);
+		lowest = std::min(lowest, doubledArea(p) / longest);
 	}
 	double scale = std::sqrt(wanted / has);
 	if (const double least = problem.validity.wanted / lowest; least > scale)

@@ -4,6 +4,7 @@
 #define RICCI_MAP_COST_H
 
 #include <cmath>
+#include <limits>
 
 namespace ricci {
 
@@ -28,6 +29,9 @@ struct MapCost
 	/// The objective.
 	double total() const { return energy + kSeamPrice * seams; }
 };
+
+/// What a map costs that there is not.
+constexpr double kNoAlternative = std::numeric_limits<double>::infinity();
 
 /// The energy of a map: at the scale s it is s^2 \p forth + \p back / s^2 over \p area.
 /// \param forth, back integrals of |J|^2 and |J^-1|^2 over the \p area in space

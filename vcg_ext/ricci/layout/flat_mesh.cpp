@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_mesh.h"
 
+#include "../metric/area.h"
 #include "../surface/sides.h"
 
 #include <algorithm>
@@ -15,6 +16,14 @@ int FlatMesh::vertexCount() const
 	for (const Triangle& t : vertices)
 		count = std::max({count, t[0] + 1, t[1] + 1, t[2] + 1});
 	return count;
+}
+
+double FlatMesh::area() const
+{
+	double sum = 0.0;
+	for (const std::array<double, 3>& sides : lengths)
+		sum += euclideanArea(sides);
+	return sum;
 }
 
 Box2 FlatMesh::box() const
@@ -138,17 +147,6 @@ Seams seams(const FlatMesh& mesh)
 			sum.length += mesh.lengths[side];
 		}
 	return sum;
-}
-
-void weld(FlatMesh& mesh)
-{
-	numberPoints(
-		[&](Corner c) { return mesh.at(c); },
-		[&](Corner a, Corner b) {
-			return mesh.chart[a.face()] == mesh.chart[b.face()] &&
-				   mesh.at(a) == mesh.at(b.next()) && mesh.at(a.next()) == mesh.at(b);
-		},
-		mesh);
 }
 
 void splitPoints(FlatMesh& mesh)

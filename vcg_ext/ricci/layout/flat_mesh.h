@@ -67,6 +67,9 @@ struct FlatMesh
 	/// [vertex] its place on the surface with the vertices \p positions.
 	std::vector<Point3> onSurface(const std::vector<Point3>& positions) const;
 
+	/// Of all triangles, on the surface.
+	double area() const;
+
 	/// 1 + the highest number of a vertex.
 	int vertexCount() const;
 
@@ -112,10 +115,6 @@ void numberPoints(const Place& place, const IsJoined& isJoined, FlatMesh& mesh)
 	mesh.points = std::move(points);
 	mesh.place = std::move(places);
 }
-
-/// Joins the two sides of an edge in one chart where they lie on each other: a seam round which the
-/// metric closes by chance is none.
-void weld(FlatMesh& mesh);
 
 /// Gives triangles that no chain of joined sides in one chart connects points of their own, and forgets
 /// points that no corner has.

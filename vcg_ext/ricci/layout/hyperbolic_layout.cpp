@@ -81,7 +81,7 @@ public:
 			checkpointNowAndThen(positionOf(f));
 			const auto side = m_t.halfedges(f);
 			// By the sides: what the angles are short of pi is rounding where triangles are tiny.
-			const double area = hyperbolicArea({length(side[0]), length(side[1]), length(side[2])});
+			const double area = hyperbolicArea(sidesOf(m_t, m_lengths, f));
 			for (const Halfedge h : side)
 				middle.add(area, layout.frame[h]);
 		}

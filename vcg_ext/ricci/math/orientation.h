@@ -14,6 +14,10 @@ namespace ricci {
 /// rounding error underflows. Underflow changes the doubled area by less than 2e-323, so that the
 /// sign still holds for every triangle with a doubled area above that.
 int orientation(const Point2& a, const Point2& b, const Point2& c);
+inline int orientation(const Triangle2& t)
+{
+	return orientation(t[0], t[1], t[2]);
+}
 
 } // namespace ricci
 

@@ -130,6 +130,10 @@ inline double doubledArea(const Point2& a, const Point2& b, const Point2& c)
 {
 	return cross(b - a, c - a);
 }
+inline double doubledArea(const Triangle2& t)
+{
+	return doubledArea(t[0], t[1], t[2]);
+}
 
 inline std::complex<double> asComplex(const Point2& p)
 {

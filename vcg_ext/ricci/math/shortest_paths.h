@@ -36,6 +36,9 @@ private:
 	Queue m_queue;
 };
 
+/// The distance of what is not reached.
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
 /// Distances from some roots, and the way there.
 template<class Node, class Link>
 struct ShortestPaths
@@ -103,8 +106,6 @@ public:
 	ShortestPaths<Node, Link> release() { return std::move(m_paths); }
 
 private:
-	static constexpr double kFar = std::numeric_limits<double>::infinity();
-
 	ShortestPaths<Node, Link> m_paths;
 	std::vector<Node> m_reached;
 	DistanceQueue<Node> m_queue;

@@ -69,16 +69,6 @@ double distortionOf(const LaidOutTriangle& own, const Triangle2& plane)
 	return smaller > 0.0 ? (alpha + beta) / smaller : std::numeric_limits<double>::infinity();
 }
 
-double planeArea(const Triangle2& p)
-{
-	return 0.5 * std::abs(doubledArea(p[0], p[1], p[2]));
-}
-
-bool isCounterClockwise(const Triangle2& p)
-{
-	return orientation(p[0], p[1], p[2]) > 0;
-}
-
 int orientationInDisk(const Triangle2& p)
 {
 	return hyperbolicOrientation(asComplex(p[0]), asComplex(p[1]), asComplex(p[2]));
@@ -170,13 +160,13 @@ std::vector<double> measureDistortion(
 			if (!std::isfinite(faceQC[f]))
 				continue;
 			areaBefore[f] = own.area();
-			areaAfter[f] = planeArea(plane.values()[f]);
+			areaAfter[f] = 0.5 * std::abs(doubledArea(plane.values()[f]));
 		}
 	});
 	report.flippedFaces = 0;
 	for (std::size_t f = 0; f < triangles.size(); ++f) {
 		const double qc = faceQC[f], area = areaBefore[f];
-		report.flippedFaces += !isCounterClockwise(plane.values()[f]);
+		report.flippedFaces += orientation(plane.values()[f]) <= 0;
 		if (!std::isfinite(qc))
 			continue;
 		measured.push_back(qc);
@@ -242,11 +232,11 @@ void countFlipped(const FlatMesh& mesh, Report& report)
 	};
 	for (const int f : mesh.points.indices()) {
 		const Triangle2 p = mesh.at(f);
-		if (!isCounterClockwise(p))
+		if (orientation(p) <= 0)
 			++report.flippedFaces;
 		else
 			report.flippedByRounding +=
-				!isCounterClockwise({rounded(p[0]), rounded(p[1]), rounded(p[2])});
+				orientation(rounded(p[0]), rounded(p[1]), rounded(p[2])) <= 0;
 	}
 }
 
@@ -277,9 +267,7 @@ double stretchEnergy(const FlatMesh& mesh)
 
 MapCost costOf(const FlatMesh& mesh, double seamLength)
 {
-	double area = 0.0;
-	for (const auto& lengths : mesh.lengths)
-		area += euclideanArea(lengths);
+	const double area = mesh.area();
 	return {stretchEnergy(mesh), area > 0.0 ? seamLength / std::sqrt(area) : 0.0};
 }
 

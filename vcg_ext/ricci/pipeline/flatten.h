@@ -35,14 +35,12 @@ struct ComponentMap
 	Report report;                  ///< but for what the flow and the cut say: asParametrization()
 };
 
-constexpr double kNoAlternative = std::numeric_limits<double>::infinity();
-
 /// The stages of the paper on one component, in order, to the plane: flow domain, initial packing (4.1),
 /// target (5.2, 5.3), flow (4.2), cut and layout (4.3), invariants, the finish, and the checks of the
 /// result by other formulas.
 /// \param alternative alternative(cost) tells what another map costs (MapCost), or kNoAlternative, where this
 /// one is expected to cost so much. Called with 0, in another thread if there is one, beside the first stages,
-/// and again when there is a target.
+/// and again once a target is chosen by what it is expected to cost.
 /// \return none if the target is expected to cost more than that
 /// \throw what the stages throw
 std::optional<ComponentMap> flattenToPlane(

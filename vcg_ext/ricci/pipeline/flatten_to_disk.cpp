@@ -13,7 +13,6 @@
 #include "../verify/holonomy_check.h"
 #include "../verify/metric_check.h"
 #include "flatten_steps.h"
-#include "whole_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +38,7 @@ double radiusOf(const PlanarLayout& layout)
 {
 	double r = 0.0;
 	for (const Point2& p : layout.points)
-		r = std::max(r, std::hypot(p[0], p[1]));
+		r = std::max(r, length(p));
 	return 2.0 * std::atanh(std::min(1.0, r));
 }
 

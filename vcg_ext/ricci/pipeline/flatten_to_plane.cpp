@@ -22,7 +22,6 @@
 #include "../verify/metric_check.h"
 #include "flatten_steps.h"
 #include "keep_areas.h"
-#include "whole_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -176,7 +175,7 @@ double areaInPlane(const FlowDomain& domain, const ComponentMap& map)
 	double area = 0.0;
 	for (const Triangle2& p :
 		 map.mesh.size() > 0 ? map.mesh.corners() : cornersOf(domain, map.layout))
-		area += 0.5 * doubledArea(p[0], p[1], p[2]);
+		area += 0.5 * doubledArea(p);
 	return area;
 }
 
@@ -289,6 +288,7 @@ std::optional<ComponentMap> flattenToPlane(
 	FlowDomain domain;
 	InitialPacking start;
 	double other = kNoAlternative;
+	std::vector<std::string> linesOfOther;
 	besides(
 		threads,
 		[&] {
@@ -299,9 +299,12 @@ std::optional<ComponentMap> flattenToPlane(
 				start = initialPacking(domain.solved(), options); // 4.1
 		},
 		[&] {
-			const Task still(0.0, 0.0);
+			Task still(0.0, 0.0);
+			still.keepLines(linesOfOther);
 			other = alternative(0.0);
 		});
+	for (const std::string& line : linesOfOther)
+		logLine(line);
 	TargetRequest request = targetRequest(component, input, options, domain.solved());
 	request.alternative = other;
 	VertexArray<double> coneAngle; // of the cones that it is cut through

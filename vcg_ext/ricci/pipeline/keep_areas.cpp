@@ -4,7 +4,6 @@
 #include "../base/attempt.h"
 #include "../base/task.h"
 #include "../base/text.h"
-#include "../base/tolerances.h"
 #include "../curvature/area_change.h"
 #include "../flow/ricci_flow.h"
 #include "flatten_steps.h"
@@ -12,7 +11,6 @@
 #include <memory>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace ricci {
 

@@ -11,7 +11,7 @@ namespace ricci {
 /// was chosen for, runs the flow again, to targetToKeepAreas(), in a bounded number of rounds. The
 /// metric that keeps areas best stays in map.flow.
 /// \param surface on which map.flow has run
-/// \throw Cancelled
+/// \throw Stopped
 void keepAreas(
 	const EmbeddedSurface& surface,
 	const TargetRequest& request,

@@ -2,13 +2,11 @@
 #include "../sphere_map.h"
 #include "../base/task.h"
 
-#include "../base/numbers.h"
 #include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../math/moebius_balancing.h"
 #include "../measure/distortion.h"
-#include "../parametrize.h"
 #include "../surface/component.h"
 #include "../surface/topology.h"
 #include "../verify/sphere_check.h"
@@ -23,7 +21,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace ricci {
 

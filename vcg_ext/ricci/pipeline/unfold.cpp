@@ -159,6 +159,7 @@ unfold(const Component& component, const Options& options, double maxBetween)
 			divisions.push_back(std::move(all));
 	}
 	std::vector<std::optional<Parametrization>> maps(divisions.size());
+	std::vector<std::vector<std::string>> lines(divisions.size()); // of the log
 	const int atOnce = mapsAtOnce(static_cast<int>(maps.size()), component.triangles.size());
 	if (atOnce == 0 && !maps.empty()) {
 		logLine("There is not enough memory to unfold the surface between its creases, too.");
@@ -166,11 +167,16 @@ unfold(const Component& component, const Options& options, double maxBetween)
 	}
 	const auto count = static_cast<int>(maps.size());
 	tasksInParallel(count, atOnce, [&](int i) {
-		const Task silent(double(i) / count, (i + 1.0) / count, true);
+		Task part(double(i) / count, (i + 1.0) / count);
+		part.keepLines(lines[positionOf(i)]);
 		maps[positionOf(i)] = attempt("it is not unfolded", [&] {
+			const Task silent(0.0, 1.0, true);
 			return joined(component, divisions[positionOf(i)], options);
 		});
 	});
+	for (const std::vector<std::string>& own : lines)
+		for (const std::string& line : own)
+			logLine(line);
 	std::optional<Parametrization> best;
 	int steps = 0; // Newton's
 	for (std::optional<Parametrization>& map : maps) {

@@ -30,7 +30,10 @@ std::size_t largestComponent(const std::vector<Component>& components)
 	return largest;
 }
 
-/// [component] 1 where the log says nothing of it.
+/// Of more components than this, the log and the notes describe so many only, the largest.
+constexpr std::size_t kDescribedComponents = 20;
+
+/// [component] 1 where nothing is said of it.
 std::vector<char> silentComponents(const std::vector<Component>& components)
 {
 	std::vector<std::size_t> order(components.size());
@@ -176,8 +179,7 @@ void append(const Component& component, Parametrization part, Parametrization& w
 	}
 	for (const int v : part.placedCones)
 		whole.placedCones.push_back(component.vertex[Vertex(v)]);
-	if (positionOf(whole.report.components) < kDescribedComponents)
-		whole.notes.insert(whole.notes.end(), part.notes.begin(), part.notes.end());
+	whole.notes.insert(whole.notes.end(), part.notes.begin(), part.notes.end());
 	whole.report += part.report;
 }
 
@@ -210,6 +212,8 @@ void appendComponents(
 			own.lines.clear();
 			if (own.error)
 				return;
+			if (isSilent[positionOf(appended)] != 0)
+				own.part->notes.clear();
 			append(components[positionOf(appended)], std::move(*own.part), whole);
 			own.part.reset();
 		}

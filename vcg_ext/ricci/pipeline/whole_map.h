@@ -62,9 +62,6 @@ void append(const Component& component, Parametrization part, Parametrization& w
 /// Share of the progress after which all components are mapped.
 constexpr double kComponentsDone = 0.9;
 
-/// Of more components than this, the log describes so many only, the largest.
-constexpr std::size_t kDescribedComponents = 20;
-
 /// Appends what \p flatten makes of each component, several of them at the same time in threads. The log has
 /// their lines in the order of the components. Of several errors that of the first component is thrown; where
 /// there are several components, it gets the component's data.

@@ -104,7 +104,7 @@ public:
 	{
 		for (std::size_t k = 0; k < 3; ++k)
 			m_old[k] = pointOf(old, triangle.corners[k]);
-		m_area = doubledArea(m_new[0], m_new[1], m_new[2]);
+		m_area = doubledArea(m_new);
 		double longest = 0.0;
 		for (std::size_t k = 0; k < 3; ++k)
 			longest = std::max(longest, distance(m_old[k], m_old[(k + 1) % 3]));
@@ -382,7 +382,7 @@ std::vector<std::vector<int>> facesOfPictures(const CarriedMesh& mesh, std::size
 
 double area(const Triangle2& t)
 {
-	return 0.5 * std::abs(doubledArea(t[0], t[1], t[2]));
+	return 0.5 * std::abs(doubledArea(t));
 }
 
 } // namespace

@@ -157,7 +157,7 @@ void forEachTexelOf(const Triangle2& t, double reach, int first, int last, const
 /// The point of a triangle that is nearest to p, as barycentric coordinates.
 inline Point3 nearestInTriangle(const Triangle2& t, const Point2& p)
 {
-	const double area = doubledArea(t[0], t[1], t[2]);
+	const double area = doubledArea(t);
 	if (area != 0.0) {
 		const Point3 weights{
 			doubledArea(p, t[1], t[2]) / area,

@@ -24,7 +24,7 @@ double heightOf(const Triangle2& p)
 	double longest = 0.0;
 	for (std::size_t k = 0; k < 3; ++k)
 		longest = std::max(longest, distance(p[(k + 1) % 3], p[k]));
-	return longest > 0.0 ? std::abs(doubledArea(p[0], p[1], p[2])) / longest : 0.0;
+	return longest > 0.0 ? std::abs(doubledArea(p)) / longest : 0.0;
 }
 
 // In the disk, what cancels is computed exactly, the rest in double.
@@ -89,7 +89,7 @@ ChartCheck checkMap(const FlatMesh& chart, double tolerance)
 	};
 	for (const int f : chart.points.indices()) {
 		const Triangle2 p = chart.at(f);
-		check.flipped += orientation(p[0], p[1], p[2]) <= 0 && heightOf(p) > tolerance * extent;
+		check.flipped += orientation(p) <= 0 && heightOf(p) > tolerance * extent;
 		for (const Corner side : cornersOf(f))
 			if (const Corner other = chart.across[side]; other > side && extent > 0.0)
 				check.seamGap =
