@@ -89,6 +89,12 @@ void logLine(const std::string& line)
 	}
 }
 
+void logLines(const std::vector<std::string>& lines)
+{
+	for (const std::string& line : lines)
+		logLine(line);
+}
+
 HelpFlag::HelpFlag() : m_outer(helpFlag)
 {
 }

@@ -77,6 +77,9 @@ void advance(double fraction, const std::string& what);
 /// One line for the user's log, without a line end.
 void logLine(const std::string& line);
 
+/// logLine() of each.
+void logLines(const std::vector<std::string>& lines);
+
 /// Thrown by checkpoint() in threads whose result nobody waits for any more.
 struct HelpEnded
 {

@@ -5,7 +5,6 @@
 #include "../base/parallel.h"
 #include "../base/task.h"
 #include "../error.h"
-#include "../flow/map_cost.h"
 #include "area_change.h"
 #include "cone_search.h"
 

@@ -2,10 +2,10 @@
 #ifndef RICCI_CONE_PLACEMENT_H
 #define RICCI_CONE_PLACEMENT_H
 
+#include "../flow/map_cost.h"
 #include "cone_curvatures.h"
 #include "linear_flow.h"
 
-#include <limits>
 #include <vector>
 
 namespace ricci {

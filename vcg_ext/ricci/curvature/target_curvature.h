@@ -6,7 +6,6 @@
 #include "admissible.h"
 #include "cone_placement.h"
 
-#include <limits>
 #include <optional>
 
 namespace ricci {

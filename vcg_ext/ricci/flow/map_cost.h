@@ -30,7 +30,7 @@ struct MapCost
 	double total() const { return energy + kSeamPrice * seams; }
 };
 
-/// What a map costs that there is not.
+/// The cost of a map that does not exist.
 constexpr double kNoAlternative = std::numeric_limits<double>::infinity();
 
 /// The energy of a map: at the scale s it is s^2 \p forth + \p back / s^2 over \p area.

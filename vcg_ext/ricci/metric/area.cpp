@@ -9,7 +9,7 @@ namespace {
 template<class Area>
 double ofSides(const std::array<double, 3>& l, Area area)
 {
-	// Without branches, which nobody could predict.
+	// Without branches: no processor could predict them.
 	const double low = std::min(l[0], l[1]), high = std::max(l[0], l[1]);
 	const double a = std::min(low, l[2]), c = std::max(high, l[2]);
 	const double b = std::max(low, std::min(high, l[2]));

@@ -11,7 +11,6 @@
 #include "../surface/component.h"
 
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>

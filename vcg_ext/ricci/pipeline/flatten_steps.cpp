@@ -135,8 +135,7 @@ void describe(const Component& component, const FlowDomain& domain, ComponentMap
 
 void noteTarget(const Target& target, ComponentMap& map)
 {
-	for (const std::string& note : target.notes)
-		logLine(note);
+	logLines(target.notes);
 	map.notes.insert(map.notes.end(), target.notes.begin(), target.notes.end());
 }
 

@@ -303,8 +303,7 @@ std::optional<ComponentMap> flattenToPlane(
 			still.keepLines(linesOfOther);
 			other = alternative(0.0);
 		});
-	for (const std::string& line : linesOfOther)
-		logLine(line);
+	logLines(linesOfOther);
 	TargetRequest request = targetRequest(component, input, options, domain.solved());
 	request.alternative = other;
 	VertexArray<double> coneAngle; // of the cones that it is cut through

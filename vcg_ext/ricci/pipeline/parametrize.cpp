@@ -186,7 +186,7 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	}
 }
 
-/// The numbers of the whole map; then the result gets the input's indices.
+/// Adds the numbers of the whole map, then gives the result the input's indices.
 void complete(const SurfaceMesh& mesh, const OpenedMesh& opened, Parametrization& map)
 {
 	map.report.seamLengthRelative =

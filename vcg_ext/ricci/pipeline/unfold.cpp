@@ -175,8 +175,7 @@ unfold(const Component& component, const Options& options, double maxBetween)
 		});
 	});
 	for (const std::vector<std::string>& own : lines)
-		for (const std::string& line : own)
-			logLine(line);
+		logLines(own);
 	std::optional<Parametrization> best;
 	int steps = 0; // Newton's
 	for (std::optional<Parametrization>& map : maps) {

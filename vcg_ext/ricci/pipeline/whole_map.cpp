@@ -86,8 +86,7 @@ std::vector<Component> startMap(
 		largestComponent(components),
 		opened.mesh.triangles.size(),
 		options.output == OutputTriangulation::CommonRefinement);
-	for (const std::string& note : map.notes)
-		logLine(note);
+	logLines(map.notes);
 	map.mesh.source = verticesOf(opened.mesh.positions.size());
 	map.u.assign(opened.mesh.positions.size(), 0.0);
 	map.targetCurvature.assign(opened.mesh.positions.size(), 0.0);
@@ -207,8 +206,7 @@ void appendComponents(
 	const auto appendDone = [&] {
 		for (; appended < count && mapped[positionOf(appended)].isDone; ++appended) {
 			Mapped& own = mapped[positionOf(appended)];
-			for (const std::string& line : own.lines)
-				logLine(line);
+			logLines(own.lines);
 			own.lines.clear();
 			if (own.error)
 				return;
