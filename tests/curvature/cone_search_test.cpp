@@ -56,6 +56,12 @@ double treeLength(const Distances& distance)
 	return length;
 }
 
+SurfaceMesh slab(int genus, int subdivision = 2)
+{
+	Random random(910);
+	return shaken(perforatedSlab(genus, subdivision), 0.05, random);
+}
+
 /// The search's parts on one surface.
 struct Search
 {
@@ -65,15 +71,6 @@ struct Search
 
 	explicit Search(const SurfaceMesh& mesh, int vertices = -1) :
 			linear({"", mesh}), sites(linear.surface, vertices), model(linear.flow, linear.total())
-	{
-	}
-	explicit Search(int genus, int subdivision = 2, int vertices = -1) :
-			Search(
-				[&] {
-					Random random(910);
-					return shaken(perforatedSlab(genus, subdivision), 0.05, random);
-				}(),
-				vertices)
 	{
 	}
 
@@ -103,7 +100,7 @@ struct Search
 /// between the cones alone, and no shorter than half of them.
 TEST(SeamTree, IsNoLongerThanTheMinimumSpanningTree)
 {
-	const Search search(0, 3);
+	const Search search(slab(0, 3));
 	const auto distance = distances(search.linear.surface);
 	EXPECT_EQ(search.sites.cutLength(), 0.0);
 	for (const int step : {7, 13, 19}) {
@@ -127,7 +124,7 @@ TEST(SeamTree, IsNoLongerThanTheMinimumSpanningTree)
 TEST(SeamTree, TakesTheNearestConesFirstAndForgetsThem)
 {
 	for (const int genus : {0, 1, 2}) {
-		const Search search(genus, 3);
+		const Search search(slab(genus, 3));
 		EXPECT_EQ(search.sites.cutLength() > 0.0, genus > 0);
 		std::vector<Vertex> cones = search.places(17), left = cones;
 		const auto expectSame = [&](const SeamTree& a, const SeamTree& b) {
@@ -179,7 +176,7 @@ TEST(ConeSites, SeamsWithoutConesBeginOnTheBoundary)
 TEST(ConeSites, ChosenOnesKeepTheirSpanningTree)
 {
 	Random random(811);
-	const Search search(2, 6);
+	const Search search(slab(2, 6));
 	VertexArray<Vertex> chosen;
 	for (int v = 3; v < search.linear.flow.vertexCount(); v += 1 + random.index(40))
 		chosen.push_back(Vertex(v));
@@ -219,7 +216,7 @@ TEST(ConeTree, MovesLowerEnergyAndPriceOfSeams)
 	for (const int step : {7, 13, 19})
 		for (const double allowed : {1.0, 1.05, 1e9}) {
 			const int vertices = step == 7 ? 40 : -1; // where cones may lie
-			Search search(0, 3, vertices);
+			Search search(slab(0, 3), vertices);
 			ConeModel& model = search.with(search.places(step)).model;
 			const double distortion = model.distortion();
 			const std::vector<Vertex> before = model.vertices();
@@ -242,13 +239,13 @@ TEST(ConeTree, MovesLowerEnergyAndPriceOfSeams)
 TEST(ConeSearch, TheNextConeIsWhereTheGradientDiffersMost)
 {
 	for (const int genus : {0, 1, 2}) {
-		Search search(genus, 2, 12);
+		Search search(slab(genus), 12);
 		ConeModel& model = search.model;
 		startCones(model, search.sites);
 		EXPECT_EQ(model.size(), model.minSize());
 		double energy = model.energy();
 		if (genus == 2) {
-			Search other(genus);
+			Search other(slab(genus));
 			int better = 0;
 			for (int v = 0; v < 12; ++v) {
 				better += other.with({Vertex(v)}).model.energy() < energy;

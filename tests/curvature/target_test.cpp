@@ -338,16 +338,6 @@ TEST(Target, PrescribedBoundariesObeyGaussBonnet)
 		EXPECT_NEAR(sum(map.targetCurvature), 2 * kPi * map.report.eulerCharacteristic, 1e-9);
 		EXPECT_FALSE(map.report.boundaryRatioMin);
 	}
-	// Nobody says that the choice has no effect where none was made.
-	for (const TargetCurvature target : {TargetCurvature::Disk, TargetCurvature::Rectangle})
-		for (const bool isFree : {true, false}) {
-			Options options = towards(target);
-			options.freeBoundary = isFree;
-			std::string notes;
-			for (const std::string& note : onMesh(flatDisk(), options).notes)
-				notes += note;
-			EXPECT_EQ(notes.find("has no effect") != std::string::npos, isFree) << notes;
-		}
 }
 
 /// What rounding makes of values, of floats here, is spread in proportion to |K|; and is no cone.

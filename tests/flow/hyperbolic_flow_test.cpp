@@ -49,7 +49,7 @@ FlatResult reached(const SurfaceMesh& mesh, const std::vector<double>& curvature
 {
 	FlatResult map =
 		inUnitDisk(mesh, options(HyperbolicTarget::Prescribed), prescribing(curvature));
-	EXPECT_LT(largestDifference(mesh, map.targetCurvature, curvature), 1e-12);
+	EXPECT_LT(largestDifference(map.targetCurvature, curvature), 1e-12);
 	expectReached(mesh, map);
 	return map;
 }
@@ -70,8 +70,10 @@ TEST(HyperbolicFlow, FindsTheMetricOfCurvatureMinusOne)
 		}
 }
 
+/// On a triangulation that stays, some of them break it.
 TEST(HyperbolicFlow, ReachesRandomCones)
 {
+	int broken = 0;
 	for (const int genus : {0, 1, 2})
 		for (const std::uint64_t seed : {1u, 2u, 3u}) {
 			SCOPED_TRACE("genus " + std::to_string(genus) + ", seed " + std::to_string(seed));
@@ -85,7 +87,18 @@ TEST(HyperbolicFlow, ReachesRandomCones)
 			for (std::size_t v = 0; sum(curvature) <= 4 * kPi * (1 - genus) + 0.1; ++v)
 				curvature[v] = 3.0;
 			reached(mesh, curvature);
+			HyperbolicOptions fixed = options(HyperbolicTarget::Prescribed);
+			fixed.method = Method::FixedTriangles;
+			const auto error = errorOf<NotConverged>(
+				[&] { expectReached(mesh, inUnitDisk(mesh, fixed, prescribing(curvature))); });
+			if (error) {
+				EXPECT_EQ(error->problem, NotConverged::BrokenTriangles) << error->what();
+				EXPECT_GT(error->count, 0u);
+				EXPECT_EQ(error->method, Method::FixedTriangles);
+				++broken;
+			}
 		}
+	EXPECT_GE(broken, 2);
 }
 
 /// Cones of nearly no angle, whose circles grow beyond all bounds, u to 0, while the others have far to go; and one
@@ -107,26 +120,6 @@ TEST(HyperbolicFlow, ReachesSharpAndWideCones)
 	std::vector<double> curvature(genus2.positions.size(), 0.0);
 	curvature[7] = -4 * kPi + 0.5;
 	reached(genus2, curvature);
-}
-
-TEST(HyperbolicFlow, SolvesWhatBreaksOnAFixedTriangulation)
-{
-	int refused = 0;
-	for (const std::uint64_t seed : {1u, 2u, 3u}) {
-		const SurfaceMesh mesh = implicitClosed(2, 6, seed);
-		HyperbolicOptions fixed = options(HyperbolicTarget::HyperbolicMetric);
-		expectReached(mesh, inUnitDisk(mesh, fixed));
-		fixed.method = Method::FixedTriangles;
-		const auto error =
-			errorOf<NotConverged>([&] { expectReached(mesh, inUnitDisk(mesh, fixed)); });
-		if (error) {
-			EXPECT_EQ(error->problem, NotConverged::BrokenTriangles) << error->what();
-			EXPECT_GT(error->count, 0u);
-			EXPECT_EQ(error->method, Method::FixedTriangles);
-			++refused;
-		}
-	}
-	EXPECT_GE(refused, 1);
 }
 
 /// Without curvature at its vertices a boundary is a closed geodesic. A free one keeps its circles, at the scale

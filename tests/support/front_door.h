@@ -112,7 +112,7 @@ inline std::vector<char> boundaryOf(const SurfaceMesh& mesh)
 	return boundary;
 }
 
-/// 2 pi less the angles in all at each vertex, pi less them on the boundary.
+/// [vertex] 2 pi, on the boundary pi.
 template<class Number>
 std::vector<Number> fullAngles(const SurfaceMesh& mesh)
 {
@@ -158,18 +158,13 @@ inline void expectDrawn(
 		}
 }
 
-/// Largest |\p a - \p b|, over the vertices inside alone if there is a free boundary.
-inline double largestDifference(
-	const SurfaceMesh& mesh,
-	const std::vector<double>& a,
-	const std::vector<double>& b,
-	bool isFree = false)
+/// Largest |\p a - \p b|.
+inline double largestDifference(const std::vector<double>& a, const std::vector<double>& b)
 {
-	const std::vector<char> boundary = boundaryOf(mesh);
+	EXPECT_EQ(a.size(), b.size());
 	double largest = 0.0;
 	for (std::size_t v = 0; v < a.size(); ++v)
-		if (!isFree || !boundary[v])
-			largest = std::max(largest, std::abs(a[v] - b[v]));
+		largest = std::max(largest, std::abs(a[v] - b[v]));
 	return largest;
 }
 
