@@ -8,7 +8,6 @@
 #include "chart_overlap.h"
 #include "dual_graph.h"
 #include "join_parts.h"
-#include "simple_border.h"
 
 #include <algorithm>
 #include <cmath>
@@ -196,11 +195,6 @@ void separateCharts(bool turns, Parametrization& map)
 	const Parts byChart = map.mesh.trianglesByChart(map.charts.size());
 	for (std::size_t c = 0; c < byChart.size(); ++c) {
 		const std::vector<int>& triangles = byChart[c];
-		checkpoint();
-		if (hasSimpleBorder(map.mesh, triangles)) {
-			add(triangles, std::move(map.charts[c]));
-			continue;
-		}
 		checkpoint();
 		FlatMesh chart = map.mesh.part(triangles);
 		const OverlapSearch overlaps(chart);

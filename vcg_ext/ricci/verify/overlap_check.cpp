@@ -2,10 +2,7 @@
 #include "overlap_check.h"
 
 #include "../base/floating_point.h"
-#include "../base/task.h"
 #include "../charts/chart_overlap.h"
-#include "../charts/outline.h"
-#include "../charts/simple_border.h"
 
 #include <algorithm>
 #include <array>
@@ -15,20 +12,6 @@
 namespace ricci {
 
 namespace {
-
-/// Whether this can be seen from borders alone.
-bool coversNothingTwice(const FlatMesh& mesh, std::size_t charts, double padding)
-{
-	std::vector<Outline> outlines;
-	for (const std::vector<int>& triangles : mesh.trianglesByChart(charts)) {
-		checkpoint();
-		if (!hasSimpleBorder(mesh, triangles))
-			return false;
-		if (charts > 1)
-			outlines.push_back(outlineOf(mesh, triangles));
-	}
-	return charts == 1 || keepApart(outlines, padding);
-}
 
 /// Coordinates rounded to float. \param step receives that of the largest one
 Array<Point2> inFloats(Array<Point2> places, double& step)
@@ -51,9 +34,7 @@ void countOverlaps(Parametrization& map)
 	FlatMesh stored = map.mesh;
 	stored.place = inFloats(std::move(stored.place), step);
 	map.report.overlappingFaces = map.report.overlappingCharts = 0;
-	if (coversNothingTwice(stored, map.charts.size(), step))
-		return;
-	const OverlapSearch search(stored.corners(), kTouchingSteps * step);
+	const OverlapSearch search(stored, kTouchingSteps * step);
 	const Array<char> overlaps = search.overlapping();
 	std::vector<char> isChart(map.charts.size(), 0);
 	for (const int f : overlaps.indices())
