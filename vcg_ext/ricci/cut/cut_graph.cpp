@@ -7,7 +7,6 @@
 #include "../math/disjoint_sets.h"
 #include "../math/shortest_paths.h"
 #include "../surface/topology.h"
-#include "coarse_surface.h"
 #include "shorten_cut.h"
 
 #include <algorithm>
@@ -20,14 +19,6 @@ namespace {
 
 /// Roots tried on a closed surface.
 constexpr int kRoots = 4;
-
-/// Vertices of a coarse surface, at least. Cuts that are found on more are hardly shorter in the end.
-constexpr int kMinCoarseVertices = 1500;
-
-/// Vertices of the surface for one of the coarse surface: at most, as every move looks for paths in many
-/// such parts; and at least, as else nothing is gained.
-constexpr int kMaxCoarsening = 100;
-constexpr double kMinCoarsening = 4.0;
 
 using NodePaths = ShortestPaths<Vertex, Halfedge>;
 
@@ -213,6 +204,8 @@ std::vector<SpanningTree> trees(const ContractedGraph& graph, const VertexArray<
 	std::vector<SpanningTree> found;
 	if (terminals.size() > 1) {
 		found.push_back(treeOfTerminals(graph, terminals));
+		if (getenv("X_ONE"))
+			return found;
 		// The tree is all that a sphere with holes needs.
 		if (t.eulerCharacteristic() + static_cast<int>(loops) == 2)
 			return found;
@@ -224,7 +217,7 @@ std::vector<SpanningTree> trees(const ContractedGraph& graph, const VertexArray<
 				  : terminals.empty() ? t.origin(t.halfedge(Face(0)))
 									  : terminals.front();
 	VertexArray<double> fromRoots(t.vertexCount(), kFar);
-	for (int attempt = 0; attempt < (closed ? kRoots : 1); ++attempt) {
+	for (int attempt = 0; attempt < (closed ? (getenv("X_ROOTS") ? kRoots : 1) : 1); ++attempt) {
 		found.push_back({graph.pathsFrom({root}), {}});
 		double farthest = -1.0;
 		for (const Vertex n : fromRoots.indices()) {
@@ -268,34 +261,6 @@ std::vector<Edge> generators(const ContractedGraph& graph, const CutGraph& cut)
 		if (cut.isCut[e] && !joined.merge(graph.from(e), graph.to(e)))
 			edges.push_back(e);
 	return edges;
-}
-
-/// The coarse surface on which a cut is looked for, if there is one.
-std::optional<CoarseSurface> coarseSurface(
-	const Triangulation& t, const EdgeArray<double>& cost, const VertexArray<char>& marked)
-{
-	std::optional<CoarseSurface> coarse;
-	const int count = std::max(kMinCoarseVertices, t.vertexCount() / kMaxCoarsening);
-	const bool mayRunEverywhere =
-		std::all_of(cost.begin(), cost.end(), [](double c) { return c < kFar; });
-	if (mayRunEverywhere && t.vertexCount() > kMinCoarsening * count) {
-		coarse.emplace(t, cost, marked, count);
-		if (coarse->triangulation().faceCount() == 0)
-			coarse.reset();
-	}
-	return coarse;
-}
-
-/// A short cut graph of a coarse surface.
-EdgeArray<char> cutOf(const CoarseSurface& coarse)
-{
-	const Triangulation& t = coarse.triangulation();
-	const ContractedGraph graph(t, coarse.cost());
-	const auto shorten = [&](EdgeArray<char>& isCut) {
-		CutSegments segments(t, coarse.cost(), coarse.marked(), isCut);
-		shortenCut(segments);
-	};
-	return shortestOfSeveral(graph, graph.terminals(coarse.marked()), shorten).isCut;
 }
 
 /// Shortest paths along edges.
@@ -379,22 +344,11 @@ CutGraph cutAroundCentre(
 }
 
 CutGraph cutToDisk(
-	const Triangulation& t,
-	const EdgeArray<double>& cost,
-	const VertexArray<char>& marked,
-	const HalfedgeArray<double>& corners)
+	const Triangulation& t, const EdgeArray<double>& cost, const VertexArray<char>& marked)
 {
 	const ContractedGraph graph(t, cost);
-	CutGraph cut;
-	const std::optional<CoarseSurface> coarse = coarseSurface(t, cost, marked);
-	if (coarse) {
-		cut.isCut = coarse->lifted(cutOf(*coarse));
-		prune(graph, graph.terminals(marked), cut.isCut);
-	}
-	else
-		cut = shortestOfSeveral(graph, graph.terminals(marked), [](EdgeArray<char>&) {});
-	CutSegments segments(t, cost, marked, cut.isCut);
-	cut.endedEarly = shortenCut(segments, corners, coarse ? &*coarse : nullptr);
+	CutGraph cut = shortestOfSeveral(graph, graph.terminals(marked), [](EdgeArray<char>&) {});
+	cut.endedEarly = shortenCut(t, cost, marked, cut.isCut);
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);
 	return cut;

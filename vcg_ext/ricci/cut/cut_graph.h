@@ -37,14 +37,10 @@ struct CutGraph
 /// \param cost of a seam along the edge, positive; the length, or whatever else is to be small in
 /// sum; infinite where the cut must not run
 /// \param marked 1 where the cut must pass or end, inside
-/// \param corners see shortenCut()
 /// \pre \p t is connected
 /// \throw NotConverged (NoCut) if the edges of infinite cost leave no cut
 CutGraph cutToDisk(
-	const Triangulation& t,
-	const EdgeArray<double>& cost,
-	const VertexArray<char>& marked,
-	const HalfedgeArray<double>& corners = {});
+	const Triangulation& t, const EdgeArray<double>& cost, const VertexArray<char>& marked);
 
 /// The cut graph that leaves the disk with the least radius that a search finds: a shortest-path tree of
 /// the triangles from one in the middle, of which every other is reached inside the disk, and all edges

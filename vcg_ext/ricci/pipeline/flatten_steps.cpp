@@ -84,11 +84,8 @@ flowOverlay(const FlowDomain& domain, const FlowOptions& options, const Componen
 	return divideStartTriangles(map.flow, domain.surface.triangulation.faceCount());
 }
 
-CutGraph cutDomain(
-	const FlowDomain& domain,
-	EdgeArray<double> cost,
-	const VertexArray<char>& cones,
-	const HalfedgeArray<double>& corners)
+CutGraph
+cutDomain(const FlowDomain& domain, EdgeArray<double> cost, const VertexArray<char>& cones)
 {
 	advance(1.0 - kAfterFlow, "Shortening the seams");
 	const Triangulation& t = domain.surface.triangulation;
@@ -96,7 +93,7 @@ CutGraph cutDomain(
 	for (const Edge e : domain.isForeign.indices())
 		if (domain.isForeign[e])
 			cost[e] = std::numeric_limits<double>::infinity();
-	CutGraph cut = cutToDisk(t, cost, cones, corners);
+	CutGraph cut = cutToDisk(t, cost, cones);
 	if (domain.holes > 0)
 		dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, cones, cut);
 	return cut;

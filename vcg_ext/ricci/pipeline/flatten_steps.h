@@ -33,12 +33,8 @@ conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<
 /// The cut graph through all cones on edges of the surface (paper 4.3), without seams to holes that the
 /// flow closes with caps and, where it can, without seams inside polygons.
 /// \param cost [edge] of a seam
-/// \param corners see shortenCut()
-CutGraph cutDomain(
-	const FlowDomain& domain,
-	EdgeArray<double> cost,
-	const VertexArray<char>& cones,
-	const HalfedgeArray<double>& corners = {});
+CutGraph
+cutDomain(const FlowDomain& domain, EdgeArray<double> cost, const VertexArray<char>& cones);
 
 /// Sum of the lengths of the cut's edges.
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths);
