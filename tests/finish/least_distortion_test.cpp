@@ -451,57 +451,6 @@ TEST(MeanDistortion, HasTheSameBitsWithAnyNumberOfThreads)
 	}
 }
 
-TEST(MeanDistortion, FallsWhereSinglePointsMove)
-{
-	Random random(631);
-	int moved = 0;
-	for (CutMap& d : validMapsWithSeams(random)) {
-		Measured m(d);
-		Eigen::VectorXcd position = m.moved(shake(m, 0.02 * d.extent(), random));
-		const Eigen::VectorXcd start = position;
-		double value = m.energy.evaluate(position);
-		EXPECT_EQ(m.energy.relax(1.0, value, start, position), value); // no step is worth so much
-		EXPECT_EQ((position - start).norm(), 0.0);
-		m.energy.evaluate(position); // all are looked at again
-		for (const double relaxation : {1.0, 1.5, 1.5}) {
-			const double next = m.energy.relax(relaxation, 0.0, start, position);
-			EXPECT_LT(next, value);
-			value = next;
-			Eigen::VectorXcd kept, gradient;
-			m.energy.gradient(kept);
-			EXPECT_NEAR(m.energy.evaluate(position) / next, 1.0, 1e-13); // so none has turned
-			m.energy.gradient(gradient);
-			EXPECT_LT((kept - gradient).norm(), 1e-12 * gradient.norm());
-		}
-		for (int p = 0; p < static_cast<int>(position.size()); ++p) {
-			const int unknown = m.points.unknown[p];
-			const Complex step = position[p] - start[p];
-			moved += step != 0.0;
-			const Complex wanted = unknown < 0
-									   ? Complex(0.0)
-									   : m.points.turn[p] * (position[unknown] - start[unknown]);
-			EXPECT_LT(std::abs(step - wanted), 1e-14 * d.extent());
-		}
-	}
-	EXPECT_GT(moved, 100);
-}
-
-TEST(MeanDistortion, ComesNearlyAsLowWhereSinglePointsMoveForLong)
-{
-	Random random(632);
-	for (const int n : {5, 8}) {
-		const SurfaceMesh mesh = wavyDisk(n, random);
-		CutMap d(mesh, fromAbove(mesh));
-		Measured m(d);
-		Eigen::VectorXcd position = m.start;
-		double value = m.energy.evaluate(position);
-		for (int sweep = 0; sweep < 2000; ++sweep)
-			value = m.energy.relax(1.5, 0.0, m.start, position);
-		EXPECT_LT(
-			value, 1.05 * d.improve().after); // (K - 1)^(5/4) nearly has kinks, where they rest
-	}
-}
-
 TEST(DistortionLaplacian, IsTheRealPartOfTheReweightedSquares)
 {
 	Random random(615);

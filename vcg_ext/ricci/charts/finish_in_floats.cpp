@@ -46,7 +46,7 @@ constexpr int kMaxPackings = 4;
 constexpr double kRedrawnRadius = 0.999;
 
 /// Rings round bad triangles that are moved at first, of which one is the border of the largest patches.
-constexpr int kNearRings = 4;
+constexpr int kNearRings = 6;
 
 /// What the triangles of a map have to be once they are stored.
 struct Wanted
@@ -214,7 +214,7 @@ std::optional<bool> finishNear(const Validity& validity, WorkLimit& limit, Param
 	const Repair result = repair(
 		part,
 		insidePoints(part),
-		{RestShapes::OfDrawing, validity, accepts, kNearRings - 1},
+		{RestShapes::OfDrawing, validity, accepts},
 		limit);
 	if (result.left > 0)
 		return std::nullopt;
@@ -306,15 +306,10 @@ Repair repairDisks(bool mayRedraw, Parametrization& map)
 						centre[k] + kRedrawnRadius / far * (map.mesh.place[p][k] - centre[k]);
 			}
 	};
-	Repair result;
-	for (const RestShapes shapes : {RestShapes::OfDrawing, RestShapes::OfSurfaceEvenly}) {
-		WorkLimit limit(map.mesh.size());
-		result.add(repairFreely(map.mesh, {shapes, validity, isInDisk}, limit));
-		shrink();
-		result.left = static_cast<int>(badTriangles(map.mesh, validity).size());
-		if (result.left == 0)
-			break;
-	}
+	WorkLimit limit(map.mesh.size());
+	Repair result = repairFreely(map.mesh, {RestShapes::OfDrawing, validity, isInDisk}, limit);
+	shrink();
+	result.left = static_cast<int>(badTriangles(map.mesh, validity).size());
 	return result;
 }
 

@@ -16,10 +16,6 @@ namespace {
 /// Extent of the disk.
 constexpr double kDiskExtent = 2.0;
 
-/// Where a repair raises the mean distortion by more than this factor, the map that it starts from is too
-/// far from what its triangles would have: it is repaired once that is made better, if that costs less.
-constexpr double kMaxRepairCost = 2.0;
-
 /// Steps on all triangles that a stage of a repair may spend. Few maps that are not repaired by then are
 /// repaired by more, and what is left can be cut off.
 constexpr std::int64_t kMaxSteps = 50;
@@ -58,32 +54,14 @@ FinishCounts finishInPlane(
 	const auto boundaryMoves = [&](int v) {
 		return freeBoundary || (!onHole.empty() && onHole[Vertex(v)]);
 	};
-	const auto repair = [&] {
-		const double height = kMinHeight * flat.box().extent();
-		return repaired(
-			flat,
-			SeamGeometry::Plane,
-			boundaryMoves,
-			{RestShapes::OfSurface, {height, kWantedHeights * height}});
-	};
+	const double height = kMinHeight * flat.box().extent();
+	FinishCounts counts = repaired(
+		flat,
+		SeamGeometry::Plane,
+		boundaryMoves,
+		{RestShapes::OfSurface, {height, kWantedHeights * height}});
 	if (finish == Finish::Repair)
-		return repair();
-	Array<Point2> best = flat.place;
-	FinishCounts counts = repair();
-	if (counts.moved > 0) {
-		flat.place.swap(best);
-		const double before = meanDistortion(flat);
-		flat.place.swap(best);
-		if (const double after = meanDistortion(flat); after > kMaxRepairCost * before) {
-			flat.place.swap(best);
-			leastDistortion(flat, cones, freeBoundary);
-			const FinishCounts next = repair();
-			if (meanDistortion(flat) < after)
-				counts = next;
-			else
-				flat.place.swap(best);
-		}
-	}
+		return counts;
 	const bool endedEarly = finish == Finish::LeastStretch
 								? leastStretch(flat).endedEarly
 								: leastDistortion(flat, cones, freeBoundary).endedEarly;

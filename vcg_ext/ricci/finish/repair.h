@@ -67,13 +67,11 @@ struct RepairRules
 	RestShapes shapes;
 	Validity validity;
 	PatchTest accepts = nullptr; ///< a patch that it refuses stays as it was
-	int maxRings = 34;           ///< of the largest patches
-	bool partly = false;         ///< patches, too, of which a part was mended
 };
 
 /// Mends the triangles that are not valid: moves points near them, and no others.
 ///
-/// Patches of 1, 2, 3, 5, 8, ... rings round clusters of bad triangles are untangled
+/// Patches of 1, 2, 3 and 5 rings round clusters of bad triangles are untangled
 /// (untangle.h) until one holds, or until the limit's share of a stage is spent; triangles that no patch
 /// mends stay as they are. Patches of one size move no triangle of each other, so they are solved side by
 /// side, and the result does not depend on the number of threads.
@@ -81,11 +79,8 @@ Repair
 repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rules, WorkLimit& limit);
 
 /// repair() in stages, each for what the one before has left: the points inside the charts; the copies
-/// of seam vertices together, and the boundary where it is free; the boundary everywhere; this again,
-/// with patches of which only a part is mended, for a map of the surface to the plane only if nothing is
-/// left then; and, for coordinates stored as floats and not as text,
-/// once more with patches whose triangles share their area as they do on the surface.
-/// \param rules their maxRings and partly are those of the stage
+/// of seam vertices together, and the boundary where it is free; the boundary everywhere. Triangles of the
+/// surface that are far from their shapes afterwards are evened out with more of their neighbours.
 Repair repairInStages(
 	FlatMesh& flat,
 	SeamGeometry seams,
@@ -94,7 +89,7 @@ Repair repairInStages(
 	WorkLimit& limit);
 
 /// The same where seams need not stay isometric: the points inside the charts; then all points, each
-/// by itself; this again, with patches of which only a part is mended.
+/// by itself.
 Repair repairFreely(FlatMesh& flat, const RepairRules& rules, WorkLimit& limit);
 
 } // namespace ricci

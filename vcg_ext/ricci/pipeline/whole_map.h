@@ -52,8 +52,7 @@ inline bool mayCutCharts(const Options& options)
 		   options.target != TargetCurvature::Rectangle;
 }
 
-/// Finds charts that overlap, as \p options say; divides them, and reflects flipped triangles, unless the charts
-/// are to be those of the flow.
+/// Divides charts that overlap, unless the charts are to be those of the flow.
 void separateCharts(const Options& options, Parametrization& map);
 
 /// Appends the map of a component, in its indices, to that of the surface that it is a component of.
