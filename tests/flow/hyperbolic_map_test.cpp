@@ -25,7 +25,6 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 using Fixed = GeometricCurvatureMap<Hyperbolic>;
 using Flipping = FlippingCurvatureMap<Hyperbolic>;
-using ExtendedFixed = GeometricCurvatureMap<HyperbolicGeometry<DoubleDouble>>;
 
 std::vector<Packed> smallSurfaces()
 {
@@ -53,11 +52,11 @@ VertexVector disturbed(VertexVector u, double spread, Random& random)
 	return u;
 }
 
-/// The derivative of K by u_j where the combinatorics of the map are kept: central differences in
-/// extended precision, extrapolated.
+/// The derivative of K by u_j where the combinatorics of the map are kept: central differences,
+/// extrapolated.
 Eigen::MatrixXd differences(const CurvatureMap& state, const VertexVector& u)
 {
-	ExtendedFixed map(CirclePacking{state.triangulation(), state.delta()});
+	Fixed map(CirclePacking{state.triangulation(), state.delta()});
 	Eigen::MatrixXd derivative(u.size(), u.size());
 	const double h = 1e-3 * std::min(1.0, -u.maxCoeff());
 	for (const Vertex j : u.indices()) {
@@ -236,7 +235,7 @@ TEST(HyperbolicMap, SmallSurfacesAreEuclidean)
 			}));
 		const auto gapAt = [&](double largest) {
 			const VertexVector u = hyperbolicU(mesh, largest);
-			ExtendedFixed map(mesh.packing);
+			Fixed map(mesh.packing);
 			map.evaluate(u);
 			const double factor = 2.0 * std::exp(u[Vertex(0)] - mesh.u()[Vertex(0)]);
 			Gap gap;
