@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/closed_flows.h"
 #include "support/intrinsic.h"
+#include "support/planar_edges.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/math/orientation.h>
 #include <ricci/overlay/edge_crossings.h>
 
 #include <gtest/gtest.h>
@@ -12,25 +12,16 @@
 #include <cmath>
 #include <set>
 #include <utility>
-#include <vector>
 
 namespace ricci::testing {
 namespace {
-
-Point3 between(const Point3& a, const Point3& b, double share)
-{
-	Point3 p;
-	for (std::size_t k = 0; k < 3; ++k)
-		p[k] = (1.0 - share) * a[k] + share * b[k];
-	return p;
-}
 
 /// Where an input edge is crossed, in space.
 Point3 placeOf(const FlippedFlow& flow, const InputCrossing& x)
 {
 	const auto [a, b] = flow.base().ends(x.edge);
 	const VertexArray<Point3>& p = flow.surface().positions;
-	return between(p[a], p[b], x.onInput);
+	return (1.0 - x.onInput) * p[a] + x.onInput * p[b];
 }
 
 /// A path on the faces of the mesh whose length is the edge's length is the straight one.
@@ -88,25 +79,20 @@ TEST(EdgeCrossings, InThePlaneAreThoseOfTheDrawing)
 		const EdgeCrossings x(flow.result);
 		const Triangulation& start = flow.result.start.mesh.triangulation;
 		const VertexArray<Point3>& p = flow.surface().positions;
-		const auto side = [&](const std::array<Vertex, 2>& line, Vertex v) {
-			const auto flat = [&](Vertex w) { return Point2{p[w][0], p[w][1]}; };
-			return orientation(flat(line[0]), flat(line[1]), flat(v));
-		};
+		const PlanarEdges plane(mesh);
 		std::set<std::pair<Edge, Edge>> wanted, found;
 		for (const Edge e : flow.base().edges())
-			for (const Edge s : start.edges()) {
-				const auto a = flow.base().ends(e), b = start.ends(s);
-				if (side(a, b[0]) * side(a, b[1]) < 0 && side(b, a[0]) * side(b, a[1]) < 0)
+			for (const Edge s : start.edges())
+				if (plane.cross(flow.base().ends(e), start.ends(s)))
 					wanted.insert({e, s});
-			}
 		for (const Edge s : start.edges())
 			for (int n = x.inputOn.first(s); n < x.inputOn.last(s); ++n) {
 				const InputCrossing& crossing = x.inputCrossings[n];
 				EXPECT_TRUE(found.insert({crossing.edge, s}).second);
 				const auto [c, d] = start.ends(s);
+				const double share = crossing.onStart;
 				EXPECT_LT(
-					distance(placeOf(flow, crossing), between(p[c], p[d], crossing.onStart)),
-					1e-11);
+					distance(placeOf(flow, crossing), (1.0 - share) * p[c] + share * p[d]), 1e-11);
 			}
 		EXPECT_EQ(found, wanted);
 		crossings += found.size();
@@ -213,11 +199,7 @@ TEST(EdgeCrossings, WithTheEndAreVectorsOfBothTriangulations)
 		const EdgeCrossings x(flow.result);
 		const Triangulation& start = flow.result.start.mesh.triangulation;
 		const EdgeArray<double>& startDelta = flow.result.start.delta;
-		const auto corner = [&](Halfedge h) { // whose origin it is, in its triangle
-			const auto sides = start.halfedges(start.face(h));
-			return static_cast<std::size_t>(
-				std::find(sides.begin(), sides.end(), h) - sides.begin());
-		};
+		const auto corner = [&](Halfedge h) { return start.corner(h).index(); };
 		const auto atVertex = [&](Halfedge h, const EdgeWeights& onEnd) {
 			TwoBases p{start.face(h), {0, 0, 0}, onEnd};
 			p.inFace[corner(h)] = 1.0;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/closed_flows.h"
 #include "support/intrinsic.h"
-#include "support/listener.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/overlay/overlay_nodes.h>
@@ -10,11 +9,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
-#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -29,78 +26,94 @@ double weightOf(const SurfacePoint& p, Vertex v)
 	return weight;
 }
 
-TEST(OverlayPieces, AreTheFacesOfASurface)
+/// Share of a triangle that a polygon with these affine coordinates covers, positive if it is
+/// counter-clockwise.
+double shareOf(const std::vector<std::array<double, 3>>& polygon)
 {
-	Random random(810);
-	int crossings = 0;
-	for (const FlippedFlow& flow : closedFlows(random)) {
-		const OverlayPieces pieces = flow.pieces();
-		EXPECT_EQ(
-			pieces.nodes.size() - pieces.sideCount + pieces.count(),
-			flow.base().eulerCharacteristic());
-		crossings += pieces.nodes.size() - flow.base().vertexCount();
-		// Every side belongs to two pieces, which run along it in opposite directions.
-		Array<std::vector<std::array<int, 2>>> uses(pieces.sideCount); // nodes at its ends
-		for (int p = 0; p < pieces.count(); ++p) {
-			EXPECT_GE(pieces.size(p), 3);
-			for (int i = 0; i < pieces.size(p); ++i)
-				uses[pieces(p, i).side].push_back({pieces(p, i).node, pieces(p, i + 1).node});
-		}
-		for (const auto& ends : uses) {
-			ASSERT_EQ(ends.size(), 2u);
-			EXPECT_EQ(ends[0][0], ends[1][1]);
-			EXPECT_EQ(ends[0][1], ends[1][0]);
-		}
+	double area = 0.0;
+	for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+		const auto &a = polygon[0], &b = polygon[k], &c = polygon[k + 1];
+		area += (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]);
 	}
-	EXPECT_GT(crossings, 200); // or the test says little
+	return area;
 }
 
-TEST(OverlayPieces, KnowTheEdgesAndCornersTheyLieAt)
+/// Every side belongs to two pieces, which run along it in opposite directions; the pieces in one triangle of the
+/// input or of the end cover it once, and they know the edges and corners that they lie at.
+TEST(OverlayPieces, AreTheFacesOfASurfaceThatTileBothTriangulations)
 {
-	Random random(811);
-	for (const FlippedFlow& flow : closedFlows(random)) {
-		const OverlayPieces pieces = flow.pieces();
-		const Triangulation& input = flow.base();
-		const Triangulation& end = flow.result.metric->triangulation();
-		HalfedgeArray<int> inputCorners(input.halfedgeCount(), 0), endCorners = inputCorners;
-		HalfedgeArray<double> covered(input.halfedgeCount(), 0.0); // share of it along sides
-		for (int p = 0; p < pieces.count(); ++p)
-			for (int i = 0; i < pieces.size(p); ++i) {
-				const PieceCorner &c = pieces(p, i), &next = pieces(p, i + 1);
-				ASSERT_EQ(c.inputCorner.isValid(), c.node < input.vertexCount());
-				ASSERT_EQ(c.endCorner.isValid(), c.node < input.vertexCount());
-				if (c.inputCorner.isValid()) {
-					EXPECT_EQ(input.origin(c.inputCorner), Vertex(c.node));
-					EXPECT_EQ(end.origin(c.endCorner), Vertex(c.node));
-					++inputCorners[c.inputCorner];
-					++endCorners[c.endCorner];
-				}
-				if (c.input.isValid()) {
-					const Vertex from = input.origin(c.input), to = input.target(c.input);
+	int crossings = 0;
+	for (const std::uint64_t seed : {810u, 811u, 820u}) {
+		Random random(seed);
+		for (const FlippedFlow& flow : closedFlows(random)) {
+			const OverlayPieces pieces = flow.pieces();
+			const Triangulation& input = flow.base();
+			const Triangulation& end = flow.result.metric->triangulation();
+			EXPECT_EQ(
+				pieces.nodes.size() - pieces.sideCount + pieces.count(),
+				input.eulerCharacteristic());
+			crossings += pieces.nodes.size() - input.vertexCount();
+			Array<std::vector<std::array<int, 2>>> uses(pieces.sideCount); // nodes at its ends
+			HalfedgeArray<int> inputCorners(input.halfedgeCount(), 0), endCorners = inputCorners;
+			HalfedgeArray<double> covered(input.halfedgeCount(), 0.0); // share of it along sides
+			FaceArray<double> ofInput(input.faceCount(), 0.0), ofEnd = ofInput;
+			for (int p = 0; p < pieces.count(); ++p) {
+				EXPECT_GE(pieces.size(p), 3);
+				std::vector<std::array<double, 3>> onInput, onEnd;
+				for (int i = 0; i < pieces.size(p); ++i) {
+					const PieceCorner &c = pieces(p, i), &next = pieces(p, i + 1);
 					const SurfacePoint &a = pieces.nodes[c.node].point,
 									   &b = pieces.nodes[next.node].point;
-					for (const SurfacePoint* x : {&a, &b})
-						EXPECT_NEAR(weightOf(*x, from) + weightOf(*x, to), 1.0, 1e-14);
-					EXPECT_GE(weightOf(b, to), weightOf(a, to));
-					covered[c.input] += weightOf(b, to) - weightOf(a, to);
+					uses[c.side].push_back({c.node, next.node});
+					ASSERT_EQ(c.inputCorner.isValid(), c.node < input.vertexCount());
+					ASSERT_EQ(c.endCorner.isValid(), c.node < input.vertexCount());
+					if (c.inputCorner.isValid()) {
+						EXPECT_EQ(input.origin(c.inputCorner), Vertex(c.node));
+						EXPECT_EQ(end.origin(c.endCorner), Vertex(c.node));
+						++inputCorners[c.inputCorner];
+						++endCorners[c.endCorner];
+					}
+					if (c.input.isValid()) {
+						const Vertex from = input.origin(c.input), to = input.target(c.input);
+						for (const SurfacePoint* x : {&a, &b})
+							EXPECT_NEAR(weightOf(*x, from) + weightOf(*x, to), 1.0, 1e-14);
+						EXPECT_GE(weightOf(b, to), weightOf(a, to));
+						covered[c.input] += weightOf(b, to) - weightOf(a, to);
+					}
+					const auto corner = input.vertices(pieces.inputFace[p]);
+					onInput.push_back(
+						{weightOf(a, corner[0]), weightOf(a, corner[1]), weightOf(a, corner[2])});
+					onEnd.push_back(inEndTriangle(pieces, end, p, i));
+					for (const auto& w : {onInput.back(), onEnd.back()})
+						EXPECT_NEAR(w[0] + w[1] + w[2], 1.0, 1e-12);
 				}
+				EXPECT_GT(shareOf(onInput), -1e-12);
+				EXPECT_GT(shareOf(onEnd), -1e-12);
+				ofInput[pieces.inputFace[p]] += shareOf(onInput);
+				ofEnd[pieces.endFace[p]] += shareOf(onEnd);
 			}
-		for (const Halfedge h : input.halfedges()) {
-			EXPECT_GE(inputCorners[h], 1);
-			EXPECT_GE(endCorners[h], 1);
-			EXPECT_NEAR(covered[h], 1.0, 1e-12);
+			for (const auto& ends : uses) {
+				ASSERT_EQ(ends.size(), 2u);
+				EXPECT_EQ(ends[0], (std::array<int, 2>{ends[1][1], ends[1][0]}));
+			}
+			for (const Halfedge h : input.halfedges()) {
+				EXPECT_GE(inputCorners[h], 1);
+				EXPECT_GE(endCorners[h], 1);
+				EXPECT_NEAR(covered[h], 1.0, 1e-12);
+			}
+			for (const Face f : input.faces()) {
+				EXPECT_NEAR(ofInput[f], 1.0, 1e-9);
+				EXPECT_NEAR(ofEnd[f], 1.0, 1e-9);
+			}
 		}
 	}
+	EXPECT_GT(crossings, 600); // or the test says little
 }
 
 /// Angle at a of the triangle abc in space.
 double angleAt(const Point3& a, const Point3& b, const Point3& c)
 {
-	Point3 x, y;
-	for (std::size_t k = 0; k < 3; ++k) {
-		x[k] = b[k] - a[k];
-		y[k] = c[k] - a[k];
-	}
+	const Point3 x = b - a, y = c - a;
 	const double cosine = x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
 	const double sine =
 		std::hypot(x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]);
@@ -149,9 +162,9 @@ TEST(OverlayPieces, DivideStartTrianglesAlongStraightLines)
 	EXPECT_GT(crossings, 100); // or the test says little
 }
 
+/// Regular tetrahedra are Delaunay, and their own curvature asks for no step.
 TEST(OverlayPieces, OfAnInputThatStaysAreItsTriangles)
 {
-	// Regular tetrahedra are Delaunay, and their own curvature asks for no step.
 	const SurfaceMesh mesh = tetrahedron();
 	const FlippedFlow flow(mesh, prescribed(curvatureInSpace(mesh)));
 	ASSERT_EQ(flow.result.flipCount(), 0);
@@ -165,75 +178,6 @@ TEST(OverlayPieces, OfAnInputThatStaysAreItsTriangles)
 			EXPECT_EQ(c.end, c.input);
 			EXPECT_EQ(pieces.nodes[c.node].scale, pieces.nodes[0].scale);
 		}
-}
-
-TEST(OverlayPieces, AreHeardAndCanBeEnded)
-{
-	Random random(812);
-	const FlippedFlow flow(bumpyTorus(90, 70, random), requestOf(TargetCurvature::Flat));
-	Listener listener;
-	heard(listener, [&] { return flow.pieces(); });
-	EXPECT_GT(listener.calls(), 1);
-	EXPECT_GT(listener.fractions.back(), 0.3);
-	EXPECT_TRUE(std::is_sorted(listener.fractions.begin(), listener.fractions.end()));
-	Listener impatient(2);
-	EXPECT_THROW(heard(impatient, [&] { flow.pieces(); }), Cancelled);
-}
-
-using Weights = std::array<double, 3>;
-
-/// Share of a triangle that a polygon with these affine coordinates covers, positive if it is
-/// counter-clockwise.
-double shareOf(const std::vector<Weights>& polygon)
-{
-	double area = 0.0;
-	for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-		const Weights &a = polygon[0], &b = polygon[k], &c = polygon[k + 1];
-		area += (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]);
-	}
-	return area;
-}
-
-Weights inInputTriangle(const Triangulation& t, Face f, const SurfacePoint& p)
-{
-	Weights w{0, 0, 0};
-	const auto corner = t.vertices(f);
-	for (std::size_t i = 0; i < 4; ++i)
-		for (std::size_t k = 0; k < 3; ++k)
-			if (Vertex(p.vertex[i]) == corner[k])
-				w[k] += p.weight[i];
-	return w;
-}
-
-/// The pieces in one triangle cover it once.
-TEST(OverlayPieces, TileTheTrianglesOfTheInputAndOfTheEnd)
-{
-	Random random(820);
-	for (const FlippedFlow& flow : closedFlows(random)) {
-		const Triangulation& input = flow.base();
-		const Triangulation& end = flow.result.metric->triangulation();
-		const OverlayPieces pieces = flow.pieces();
-		FaceArray<double> ofInput(input.faceCount(), 0.0), ofEnd(end.faceCount(), 0.0);
-		for (int p = 0; p < pieces.count(); ++p) {
-			std::vector<Weights> onInput, onEnd;
-			for (int i = 0; i < pieces.size(p); ++i) {
-				onInput.push_back(inInputTriangle(
-					input, pieces.inputFace[p], pieces.nodes[pieces(p, i).node].point));
-				onEnd.push_back(inEndTriangle(pieces, end, p, i));
-				for (const Weights& w : {onInput.back(), onEnd.back()})
-					EXPECT_NEAR(w[0] + w[1] + w[2], 1.0, 1e-12);
-			}
-			const double inputShare = shareOf(onInput), endShare = shareOf(onEnd);
-			EXPECT_GT(inputShare, -1e-12);
-			EXPECT_GT(endShare, -1e-12);
-			ofInput[pieces.inputFace[p]] += inputShare;
-			ofEnd[pieces.endFace[p]] += endShare;
-		}
-		for (const double share : ofInput)
-			EXPECT_NEAR(share, 1.0, 1e-9);
-		for (const double share : ofEnd)
-			EXPECT_NEAR(share, 1.0, 1e-9);
-	}
 }
 
 TEST(OverlayPieces, ForgetWhatIsNotKept)

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ricci/surface/elements.h>
+#include <ricci/surface/sides.h>
 #include <ricci/surface/triangulation.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -19,12 +20,6 @@ template<class From, class To>
 constexpr bool standsFor = std::is_convertible_v<From, To> || std::is_constructible_v<To, From> ||
 						   std::is_assignable_v<To&, From>;
 
-template<class Array, class I, class = void>
-constexpr bool isIndexable = false;
-template<class Array, class I>
-constexpr bool
-	isIndexable<Array, I, std::void_t<decltype(std::declval<Array&>()[std::declval<I>()])>> = true;
-
 template<class A, class B>
 constexpr bool areComparable =
 	std::is_invocable_v<std::equal_to<>, A, B> || std::is_invocable_v<std::not_equal_to<>, A, B> ||
@@ -34,12 +29,9 @@ template<class A, class B>
 constexpr bool areStrangers =
 	!standsFor<A, B> && !standsFor<B, A> && !areComparable<A, B> && !areComparable<B, A>;
 
-static_assert(areStrangers<Halfedge, Edge>);
-static_assert(areStrangers<Halfedge, Vertex>);
-static_assert(areStrangers<Halfedge, Face>);
-static_assert(areStrangers<Edge, Vertex>);
-static_assert(areStrangers<Edge, Face>);
-static_assert(areStrangers<Vertex, Face>);
+static_assert(areStrangers<Halfedge, Edge> && areStrangers<Halfedge, Vertex>);
+static_assert(areStrangers<Halfedge, Face> && areStrangers<Edge, Vertex>);
+static_assert(areStrangers<Edge, Face> && areStrangers<Vertex, Face>);
 
 /// Numbers become indices by name only, and the other way round by number() only.
 template<class I>
@@ -51,31 +43,31 @@ constexpr bool isNoNumber =
 	!areComparable<int, I> && !std::is_invocable_v<std::plus<>, I, int> &&
 	!std::is_invocable_v<std::multiplies<>, int, I> && !std::is_invocable_v<std::modulus<>, I, int>;
 
-static_assert(isNoNumber<Halfedge>);
-static_assert(isNoNumber<Edge>);
-static_assert(isNoNumber<Vertex>);
-static_assert(isNoNumber<Face>);
+static_assert(isNoNumber<Halfedge> && isNoNumber<Edge> && isNoNumber<Vertex> && isNoNumber<Face>);
 
-/// Whether arrays with one entry for each \p I take no other index.
+struct At
+{
+	template<class Array, class I>
+	auto operator()(Array&& array, I i) const -> decltype(array[i]);
+};
+
+/// Whether \p Function, called with \p First, takes indices of the kinds \p Own and no others.
+template<class Function, class First, class... Own>
+constexpr bool takesOnly =
+	((std::is_invocable_v<Function, First, Vertex> == (std::is_same_v<Own, Vertex> || ...))) &&
+	std::is_invocable_v<Function, First, Edge> == (std::is_same_v<Own, Edge> || ...) &&
+	std::is_invocable_v<Function, First, Halfedge> == (std::is_same_v<Own, Halfedge> || ...) &&
+	std::is_invocable_v<Function, First, Face> == (std::is_same_v<Own, Face> || ...) &&
+	std::is_invocable_v<Function, First, int> == (std::is_same_v<Own, int> || ...);
+
 template<class I>
 constexpr bool hasArraysOfItsOwn =
-	isIndexable<IndexedArray<I, double>, I>&& isIndexable<const IndexedArray<I, double>, I>&&
-			isIndexable<IndexedArray<I, double>, Vertex> ==
-		std::is_same_v<I, Vertex>&& isIndexable<IndexedArray<I, double>, Edge> ==
-		std::is_same_v<I, Edge>&& isIndexable<IndexedArray<I, double>, Halfedge> ==
-		std::is_same_v<I, Halfedge>&& isIndexable<IndexedArray<I, double>, Face> ==
-		std::is_same_v<I, Face> &&
-	!isIndexable<IndexedArray<I, double>, int> &&
-	!isIndexable<IndexedArray<I, double>, std::size_t>;
+	takesOnly<At, IndexedArray<I, double>&, I>&& takesOnly<At, const IndexedArray<I, double>&, I>;
 
-static_assert(hasArraysOfItsOwn<Vertex>);
-static_assert(hasArraysOfItsOwn<Edge>);
-static_assert(hasArraysOfItsOwn<Halfedge>);
-static_assert(hasArraysOfItsOwn<Face>);
-static_assert(!isIndexable<EdgeArray<double>, Halfedge>);
-static_assert(!isIndexable<EdgeArray<double>, int>);
-static_assert(isIndexable<Array<double>, int>);
-static_assert(!isIndexable<Array<double>, Edge>);
+static_assert(hasArraysOfItsOwn<Vertex> && hasArraysOfItsOwn<Edge>);
+static_assert(hasArraysOfItsOwn<Halfedge> && hasArraysOfItsOwn<Face>);
+static_assert(takesOnly<At, Array<double>&, int>);
+static_assert(takesOnly<At, VertexVector&, Vertex> && takesOnly<At, const VertexVector&, Vertex>);
 
 // Arrays of different kinds, and plain vectors, are no substitutes for each other.
 static_assert(!standsFor<EdgeArray<double>, HalfedgeArray<double>>);
@@ -83,14 +75,6 @@ static_assert(!standsFor<EdgeArray<double>, VertexArray<double>>);
 static_assert(!standsFor<EdgeArray<double>, std::vector<double>>);
 static_assert(!std::is_convertible_v<std::vector<double>, EdgeArray<double>>);
 static_assert(!std::is_convertible_v<int, EdgeArray<double>>);
-
-static_assert(isIndexable<VertexVector, Vertex> && isIndexable<const VertexVector, Vertex>);
-static_assert(!isIndexable<VertexVector, int> && !isIndexable<const VertexVector, int>);
-static_assert(!isIndexable<VertexVector, Edge> && !isIndexable<VertexVector, Halfedge>);
-
-// The functions of a triangulation take their own kind only.
-template<class Function, class... Arguments>
-constexpr bool isCallable = std::is_invocable_v<Function, const Triangulation&, Arguments...>;
 
 /// Overloaded functions have no single type.
 struct HalfedgeOf
@@ -104,35 +88,20 @@ struct VerticesOf
 	auto operator()(const Triangulation& t, I i) const -> decltype(t.vertices(i));
 };
 
-static_assert(isCallable<decltype(&Triangulation::next), Halfedge>);
-static_assert(!isCallable<decltype(&Triangulation::next), Edge>);
-static_assert(!isCallable<decltype(&Triangulation::next), int>);
-static_assert(isCallable<decltype(&Triangulation::origin), Halfedge>);
-static_assert(!isCallable<decltype(&Triangulation::origin), Vertex>);
-static_assert(isCallable<decltype(&Triangulation::face), Halfedge>);
-static_assert(!isCallable<decltype(&Triangulation::face), Face>);
-static_assert(isCallable<decltype(&Triangulation::isFlippable), Edge>);
-static_assert(!isCallable<decltype(&Triangulation::isFlippable), Halfedge>);
-static_assert(!isCallable<decltype(&Triangulation::isFlippable), int>);
-static_assert(isCallable<decltype(&Triangulation::isBoundary), Edge>);
-static_assert(!isCallable<decltype(&Triangulation::isBoundary), Vertex>);
-static_assert(!isCallable<decltype(&Triangulation::isBoundary), Halfedge>);
-static_assert(isCallable<decltype(&Triangulation::isExterior), Halfedge>);
-static_assert(!isCallable<decltype(&Triangulation::isExterior), Edge>);
-static_assert(isCallable<decltype(&Triangulation::around), Vertex>);
-static_assert(!isCallable<decltype(&Triangulation::around), Halfedge>);
-static_assert(!isCallable<decltype(&Triangulation::around), int>);
-static_assert(isCallable<decltype(&Triangulation::loop), Halfedge>);
-static_assert(!isCallable<decltype(&Triangulation::loop), Face>);
-static_assert(isCallable<decltype(&Triangulation::quad), Edge>);
-static_assert(!isCallable<decltype(&Triangulation::quad), Halfedge>);
-static_assert(isCallable<HalfedgeOf, Face> && isCallable<HalfedgeOf, Vertex>);
-static_assert(!isCallable<HalfedgeOf, Edge> && !isCallable<HalfedgeOf, int>);
-static_assert(isCallable<VerticesOf, Face>);
-static_assert(!isCallable<VerticesOf, Edge> && !isCallable<VerticesOf, int>);
-static_assert(std::is_invocable_v<decltype(&Triangulation::flip), Triangulation&, Edge>);
-static_assert(!std::is_invocable_v<decltype(&Triangulation::flip), Triangulation&, Halfedge>);
-static_assert(!std::is_invocable_v<decltype(&Triangulation::flip), Triangulation&, int>);
+template<class Function, class... Own>
+constexpr bool ofTriangulation = takesOnly<Function, Triangulation&, Own...>;
+
+static_assert(ofTriangulation<decltype(&Triangulation::next), Halfedge>);
+static_assert(ofTriangulation<decltype(&Triangulation::origin), Halfedge>);
+static_assert(ofTriangulation<decltype(&Triangulation::face), Halfedge>);
+static_assert(ofTriangulation<decltype(&Triangulation::isExterior), Halfedge>);
+static_assert(ofTriangulation<decltype(&Triangulation::loop), Halfedge>);
+static_assert(ofTriangulation<decltype(&Triangulation::isFlippable), Edge>);
+static_assert(ofTriangulation<decltype(&Triangulation::isBoundary), Edge>);
+static_assert(ofTriangulation<decltype(&Triangulation::quad), Edge>);
+static_assert(ofTriangulation<decltype(&Triangulation::flip), Edge>);
+static_assert(ofTriangulation<decltype(&Triangulation::around), Vertex>);
+static_assert(ofTriangulation<HalfedgeOf, Face, Vertex> && ofTriangulation<VerticesOf, Face>);
 
 // An index costs what its number costs.
 static_assert(sizeof(Halfedge) == sizeof(int) && std::is_trivially_copyable_v<Halfedge>);
@@ -145,19 +114,7 @@ static_assert(Halfedge(6).isFirst() && !Halfedge(7).isFirst());
 static_assert(Edge(3).halfedge() == Halfedge(6));
 static_assert(Vertex(2).number() == 2 && positionOf(Vertex(2)) == 2u && positionOf(2) == 2u);
 static_assert(Vertex(0).isValid() && !Vertex().isValid() && Vertex() != Vertex(0));
-static_assert(!Halfedge().edge().isValid() && !Edge().halfedge().isValid());
-
-TEST(Elements, HalfedgesArePairsOfOneEdge)
-{
-	for (int number = 0; number < 20; ++number) {
-		const Halfedge h(number);
-		EXPECT_EQ(h.twin().twin(), h);
-		EXPECT_NE(h.twin(), h);
-		EXPECT_EQ(h.twin().edge(), h.edge());
-		EXPECT_NE(h.isFirst(), h.twin().isFirst());
-		EXPECT_EQ(h.isFirst() ? h : h.twin(), h.edge().halfedge());
-	}
-}
+static_assert(!Halfedge().edge().isValid() && !Edge().halfedge().isValid() && Edge() == Edge(-1));
 
 TEST(Elements, AreOrderedByTheirNumbers)
 {
@@ -170,7 +127,6 @@ TEST(Elements, AreOrderedByTheirNumbers)
 			EXPECT_EQ(Edge(a) <= Edge(b), a <= b);
 			EXPECT_EQ(Edge(a) >= Edge(b), a >= b);
 		}
-	EXPECT_EQ(Edge(), Edge(-1));
 }
 
 TEST(Elements, RangesCountUp)
@@ -182,11 +138,6 @@ TEST(Elements, RangesCountUp)
 	EXPECT_EQ(IndexRange<Face>(3, 7).size(), 4);
 	for (const Face f : IndexRange<Face>(0))
 		ADD_FAILURE() << f.number();
-	const Triangulation t(4, {{0, 1, 2}, {0, 2, 3}});
-	EXPECT_EQ(t.vertices().size(), t.vertexCount());
-	EXPECT_EQ(t.edges().size(), t.edgeCount());
-	EXPECT_EQ(t.faces().size(), t.faceCount());
-	EXPECT_EQ(t.halfedges().size(), t.halfedgeCount());
 }
 
 TEST(Elements, ArraysHoldTheirValuesInTheOrderOfTheIndices)
@@ -209,20 +160,80 @@ TEST(Elements, ArraysHoldTheirValuesInTheOrderOfTheIndices)
 	EXPECT_EQ(array.values(), (std::vector<int>{8, 8}));
 	array.clear();
 	EXPECT_TRUE(array.empty());
-}
 
-TEST(Elements, VectorsOfTheLinearAlgebraHaveAnEntryForEachVertex)
-{
 	VertexVector x(3);
 	for (const Vertex v : x.indices())
 		x[v] = v.number() + 1;
-	EXPECT_EQ(x.sum(), 6.0);
 	const VertexVector y = 2.0 * x - VertexVector(Eigen::VectorXd::Ones(3));
 	EXPECT_EQ(y[Vertex(0)], 1.0);
 	EXPECT_EQ(y[Vertex(2)], 5.0);
 	x = y + x;
 	EXPECT_EQ(x[Vertex(1)], 5.0);
-	EXPECT_EQ(VertexVector().size(), 0);
+}
+
+TEST(Corner, StepsRoundItsTriangle)
+{
+	for (const int f : {0, 1, 7}) {
+		EXPECT_EQ(Corner(f, 0).number(), 3 * f);
+		for (const Corner c : cornersOf(f)) {
+			EXPECT_EQ(c.face(), f);
+			EXPECT_EQ(c.next().face(), f);
+			EXPECT_EQ(c.next().index(), (c.index() + 1) % 3);
+			EXPECT_EQ(c.next().previous(), c);
+			EXPECT_EQ(c.next().next(), c.previous());
+		}
+	}
+	Array<Triangle> triangles{{4, 5, 6}, {7, 8, 9}};
+	EXPECT_EQ(triangles[Corner(1, 2)], 9);
+	triangles[Corner(0, 1)] = 0;
+	EXPECT_EQ(triangles[0][1], 0);
+}
+
+TEST(Sides, AreFoundByEdgeAndJoinedInPairsThatRunOppositeWays)
+{
+	// 12 has three sides; 23 has two that run opposite ways, 34 two that run the same way.
+	const std::vector<Triangle> triangles{{1, 2, 0}, {3, 2, 1}, {1, 2, 9}, {2, 3, 4}, {3, 4, 5}};
+	const Sides sides(triangles);
+	using Ends = std::pair<int, int>;
+	std::vector<Ends> edges;
+	int count = 0, joined = 0;
+	sides.forEdges([&](const auto& edge) {
+		const auto endsOf = [&](Corner c) -> Ends {
+			const Triangle& t = triangles[positionOf(c.face())];
+			return std::minmax({t[c.index()], t[c.next().index()]});
+		};
+		edges.push_back(endsOf(*edge.begin()));
+		EXPECT_TRUE(std::is_sorted(edge.begin(), edge.end()));
+		for (const Corner c : edge) {
+			EXPECT_EQ(endsOf(c), edges.back());
+			joined += sides.across(c).isValid();
+			++count;
+		}
+		if (edges.back() == Ends{1, 2}) {
+			EXPECT_EQ(
+				std::vector<Corner>(edge.begin(), edge.end()),
+				(std::vector<Corner>{Corner(0, 0), Corner(1, 1), Corner(2, 0)}));
+		}
+	});
+	EXPECT_EQ(
+		edges,
+		(std::vector<Ends>{
+			{0, 1},
+			{0, 2},
+			{1, 2},
+			{1, 3},
+			{1, 9},
+			{2, 3},
+			{2, 4},
+			{2, 9},
+			{3, 4},
+			{3, 5},
+			{4, 5}}));
+	EXPECT_EQ(count, 15);
+	EXPECT_EQ(joined, 2);
+	EXPECT_EQ(sides.across(Corner(1, 0)), Corner(3, 0));
+	EXPECT_EQ(sides.across(Corner(3, 0)), Corner(1, 0));
+	Sides({}).forEdges([](const auto&) { ADD_FAILURE(); });
 }
 
 } // namespace
