@@ -13,33 +13,9 @@ namespace ricci {
 
 namespace {
 
-/// Extent of the disk.
-constexpr double kDiskExtent = 2.0;
-
 /// Steps on all triangles that a stage of a repair may spend. Few maps that are not repaired by then are
 /// repaired by more, and what is left can be cut off.
 constexpr std::int64_t kMaxSteps = 50;
-
-bool isInDisk(const FlatMesh& flat, const Patch& patch)
-{
-	for (const int p : patch.points)
-		if (!(std::norm(asComplex(flat.place[p])) < 1.0))
-			return false;
-	return true;
-}
-
-FinishCounts repaired(
-	FlatMesh& flat, SeamGeometry seams, const BoundaryRule& boundaryMoves, const RepairRules& rules)
-{
-	WorkLimit limit(flat.points.size(), kMaxSteps);
-	const Repair repair = repairInStages(flat, seams, boundaryMoves, rules, limit);
-	const bool endedEarly = repair.left > 0 && limit.left() == 0;
-	if (endedEarly)
-		logLine(
-			"The repair of flipped faces has ended at the bound on its work, with " +
-			std::to_string(repair.left) + " left.");
-	return {repair.movedCount(), repair.left, endedEarly ? 1 : 0};
-}
 
 } // namespace
 
@@ -55,11 +31,18 @@ FinishCounts finishInPlane(
 		return freeBoundary || (!onHole.empty() && onHole[Vertex(v)]);
 	};
 	const double height = kMinHeight * flat.box().extent();
-	FinishCounts counts = repaired(
+	WorkLimit limit(flat.points.size(), kMaxSteps);
+	const Repair repair = repairInStages(
 		flat,
 		SeamGeometry::Plane,
 		boundaryMoves,
-		{RestShapes::OfSurface, {height, kWantedHeights * height}});
+		{RestShapes::OfSurface, {height, kWantedHeights * height}},
+		limit);
+	FinishCounts counts{repair.movedCount(), repair.left > 0 && limit.left() == 0};
+	if (counts.endedEarly > 0)
+		logLine(
+			"The repair of flipped faces has ended at the bound on its work, with " +
+			std::to_string(repair.left) + " left.");
 	if (finish == Finish::Repair)
 		return counts;
 	const bool endedEarly = finish == Finish::LeastStretch
@@ -70,18 +53,6 @@ FinishCounts finishInPlane(
 				"little better.");
 	counts.endedEarly += endedEarly;
 	return counts;
-}
-
-FinishCounts finishInDisk(FlatMesh& flat, bool freeBoundary)
-{
-	constexpr double height = kMinHeight * kDiskExtent;
-	RepairRules rules{RestShapes::OfSurface, {height, kWantedHeights * height}, isInDisk};
-	if (!flat.source.empty()) { // a refinement
-		rules.shapes = RestShapes::OfDrawing;
-		rules.validity = {kMinRefinedHeight * kDiskExtent, height};
-	}
-	return repaired(
-		flat, SeamGeometry::Disk, [&](int) { return freeBoundary; }, rules);
 }
 
 } // namespace ricci

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace ricci {
 
@@ -99,19 +100,19 @@ bool isHardlyLarger(const Patch& patch, const Array<std::size_t>& failed)
 						  : static_cast<double>(size) < kPatchGrowth * static_cast<double>(largest);
 }
 
-/// Puts the points of a patch in their places, unless the test refuses the patch there.
+/// Puts the points of a patch in their places, unless it has more faults there.
 bool apply(
-	FlatMesh& flat, const Patch& patch, const std::vector<Point2>& places, const PatchTest& accepts)
+	FlatMesh& flat, const Patch& patch, std::vector<Point2> places, const PatchFaults& faults)
 {
-	std::vector<Point2> before;
-	for (std::size_t k = 0; k < places.size(); ++k) {
-		before.push_back(flat.place[patch.points[k]]);
-		flat.place[patch.points[k]] = places[k];
-	}
-	if (!accepts || accepts(flat, patch))
+	const auto exchange = [&] {
+		for (std::size_t k = 0; k < places.size(); ++k)
+			std::swap(flat.place[patch.points[k]], places[k]);
+	};
+	const int before = faults ? faults(flat, patch) : 0;
+	exchange();
+	if (!faults || faults(flat, patch) <= before)
 		return true;
-	for (std::size_t k = 0; k < places.size(); ++k)
-		flat.place[patch.points[k]] = before[k];
+	exchange();
 	return false;
 }
 
@@ -160,7 +161,7 @@ bool takeOver(
 {
 	bool isAny = false;
 	for (std::size_t i = 0; i < patches.size(); ++i) {
-		if (found[i].points.empty() || !apply(flat, patches[i], found[i].points, rules.accepts))
+		if (found[i].points.empty() || !apply(flat, patches[i], found[i].points, rules.faults))
 			continue;
 		isAny = true;
 		for (std::size_t k = 0; k < patches[i].points.size(); ++k)
@@ -295,14 +296,6 @@ Repair repairInStages(
 	}
 	if (result.bad > 0 && rules.shapes == RestShapes::OfSurface)
 		easeStrained(flat, groups, rules, limit, result);
-	return result;
-}
-
-Repair repairFreely(FlatMesh& flat, const RepairRules& rules, WorkLimit& limit)
-{
-	Repair result = repair(flat, insidePoints(flat), rules, limit);
-	if (result.left > 0)
-		result.add(repair(flat, allPoints(flat), rules, limit));
 	return result;
 }
 

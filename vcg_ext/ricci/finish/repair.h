@@ -58,15 +58,15 @@ private:
 /// Triangles of \p flat that are not valid.
 std::vector<int> badTriangles(const FlatMesh& flat, const Validity& validity);
 
-/// Whether a patch may be as it is in the map; called one after another.
-using PatchTest = std::function<bool(const FlatMesh& flat, const Patch& patch)>;
+/// Counts what is wrong with a patch as it is in the map, beside its triangles; called one after another.
+using PatchFaults = std::function<int(const FlatMesh& flat, const Patch& patch)>;
 
-/// What a repair is after, which patches it tries, and which it takes over.
+/// What a repair is after, and which patches it takes over.
 struct RepairRules
 {
 	RestShapes shapes;
 	Validity validity;
-	PatchTest accepts = nullptr; ///< a patch that it refuses stays as it was
+	PatchFaults faults = nullptr; ///< a patch that would have more of them stays as it was
 };
 
 /// Mends the triangles that are not valid: moves points near them, and no others.
@@ -87,10 +87,6 @@ Repair repairInStages(
 	const BoundaryRule& boundaryMoves,
 	const RepairRules& rules,
 	WorkLimit& limit);
-
-/// The same where seams need not stay isometric: the points inside the charts; then all points, each
-/// by itself.
-Repair repairFreely(FlatMesh& flat, const RepairRules& rules, WorkLimit& limit);
 
 } // namespace ricci
 

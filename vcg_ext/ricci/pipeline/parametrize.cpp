@@ -139,20 +139,11 @@ void measure(const OpenedMesh& opened, Parametrization& map)
 	map.report.stretch = stretchEnergy(map.mesh);
 }
 
-/// In the unit disk, whatever the squares are in which the disks lie.
+/// In the unit disk, before the disks are placed.
 void measureInDisk(const OpenedMesh& opened, Parametrization& map)
 {
-	FlatMesh mesh = map.mesh;
-	std::vector<Motion> motions;
-	for (const Chart& chart : map.charts) {
-		const bool isPlaced = chart.box.width() > 0.0;
-		const double scale = isPlaced ? 2.0 / chart.box.width() : 1.0;
-		const Point2 centre = isPlaced ? chart.box.centre() : Point2{0.0, 0.0};
-		motions.push_back({scale, {-scale * centre[0], -scale * centre[1]}});
-	}
-	moveCharts(motions, mesh);
-	const std::vector<Point3> surface = mesh.onSurface(opened.mesh.positions);
-	map.vertexQC = measureHyperbolicDistortion(mesh, surface, map.report);
+	const std::vector<Point3> surface = map.mesh.onSurface(opened.mesh.positions);
+	map.vertexQC = measureHyperbolicDistortion(map.mesh, surface, map.report);
 }
 
 /// From charts to texture coordinates.
@@ -169,8 +160,8 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	FloatFinish finish;
 	finish.forText = options.output == OutputTriangulation::KeepMesh;
 	finish.measure = [&] { measure(opened, map); };
-	finish.packAgain = [&] { packCharts(map, options, turns); };
-	finish.mayCut = mayCutCharts(options);
+	if (mayCutCharts(options))
+		finish.packAgain = [&] { packCharts(map, options, turns); };
 	if (isFinished(options))
 		finishInFloats(finish, map);
 	countFlipped(map.mesh, map.report);
@@ -284,15 +275,16 @@ Parametrization parametrizeHyperbolic(
 	OpenedMesh opened;
 	Parametrization map = chartsInDisk(mesh, input, options, opened);
 	advance(kMapped, "Finishing the coordinates");
-	if (!isFinished(options))
-		placeDisks(map);
-	else if (placeDisksInFloats(map))
+	const bool isRefined = options.output == OutputTriangulation::CommonRefinement;
+	if (isFinished(options) && finishDisks({options.freeBoundary, isRefined}, map))
 		measureInDisk(opened, map);
+	placeDisks(map);
 	const int flipped = map.report.flippedFaces; // of geodesic triangles
 	countFlipped(map.mesh, map.report);
 	if (!isFinished(options)) // straight triangles may be flipped where geodesic ones are not
 		map.report.flippedFaces = flipped;
 	countOverlaps(map);
+	countUnequalSeamsInDisk(map);
 	complete(mesh, opened, map);
 	return map;
 }
