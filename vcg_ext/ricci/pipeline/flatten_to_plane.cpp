@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten.h"
 
-#include "../base/attempt.h"
 #include "../base/numbers.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../curvature/target_curvature.h"
 #include "../cut/cone_wedges.h"
 #include "../cut/cut_graph.h"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "keep_areas.h"
 
-#include "../base/attempt.h"
+#include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../curvature/area_change.h"
 #include "../flow/ricci_flow.h"
 #include "flatten_steps.h"

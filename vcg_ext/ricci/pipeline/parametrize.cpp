@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../parametrize.h"
 
+#include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../charts/finish_in_floats.h"
 #include "../charts/input_indices.h"
 #include "../charts/pack.h"

@@ -2,7 +2,7 @@
 #include "../sphere_map.h"
 #include "../base/task.h"
 
-#include "../base/text.h"
+#include "../base/numbers.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../math/moebius_balancing.h"
