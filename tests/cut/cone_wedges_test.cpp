@@ -8,7 +8,7 @@
 #include <ricci/base/numbers.h>
 #include <ricci/cut/cone_wedges.h>
 #include <ricci/cut/cut_graph.h>
-#include <ricci/surface/topology.h>
+#include <ricci/surface/triangulation.h>
 
 #include <gtest/gtest.h>
 

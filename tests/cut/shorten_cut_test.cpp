@@ -8,7 +8,7 @@
 
 #include <ricci/cut/shorten_cut.h>
 #include <ricci/error.h>
-#include <ricci/surface/topology.h>
+#include <ricci/surface/triangulation.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "support/random_surface.h"
 #include "support/shapes.h"
 
-#include <ricci/layout/layout_tree.h>
+#include <ricci/layout/planar_layout.h>
 
 #include <gtest/gtest.h>
 

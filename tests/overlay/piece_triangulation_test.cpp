@@ -3,7 +3,7 @@
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/overlay/piece_triangulation.h>
+#include <ricci/overlay/overlay_pieces.h>
 
 #include <gtest/gtest.h>
 

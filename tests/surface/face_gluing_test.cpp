@@ -6,7 +6,7 @@
 #include <ricci/surface/component.h>
 #include <ricci/surface/face_gluing.h>
 #include <ricci/surface/opened_mesh.h>
-#include <ricci/surface/topology.h>
+#include <ricci/surface/triangulation.h>
 
 #include <gtest/gtest.h>
 

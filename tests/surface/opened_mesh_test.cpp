@@ -8,7 +8,6 @@
 #include <ricci/error.h>
 #include <ricci/surface/component.h>
 #include <ricci/surface/opened_mesh.h>
-#include <ricci/surface/topology.h>
 #include <ricci/surface/triangulation.h>
 
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include <ricci/base/numbers.h>
 #include <ricci/math/disjoint_sets.h>
 #include <ricci/math/shortest_paths.h>
-#include <ricci/surface/topology.h>
+#include <ricci/surface/triangulation.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #ifndef RICCI_CONE_PLACEMENT_H
 #define RICCI_CONE_PLACEMENT_H
 
-#include "../flow/map_cost.h"
+#include "../flow/target.h"
 #include "cone_curvatures.h"
 #include "linear_flow.h"
 

@@ -30,18 +30,10 @@ struct LaidOutTriangle
 
 	explicit LaidOutTriangle(const std::array<Point3, 3>& p)
 	{
-		double a[3], b[3], dot = 0.0;
-		for (std::size_t i = 0; i < 3; ++i) {
-			a[i] = p[1][i] - p[0][i];
-			b[i] = p[2][i] - p[0][i];
-			dot += a[i] * b[i];
-		}
-		base = hypotOfThree(a[0], a[1], a[2]);
-		height =
-			std::hypot(
-				a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]) /
-			base;
-		apex = {dot / base, height};
+		const Point3 a = p[1] - p[0], b = p[2] - p[0], normal = cross(a, b);
+		base = length(a);
+		height = std::hypot(normal[0], normal[1], normal[2]) / base;
+		apex = {dot(a, b) / base, height};
 	}
 
 	double area() const { return base > 0.0 ? 0.5 * base * height : 0.0; }

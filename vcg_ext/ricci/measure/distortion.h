@@ -2,7 +2,7 @@
 #ifndef RICCI_DISTORTION_H
 #define RICCI_DISTORTION_H
 
-#include "../flow/map_cost.h"
+#include "../flow/target.h"
 #include "../layout/flat_mesh.h"
 #include "../math/points.h"
 #include "../report.h"

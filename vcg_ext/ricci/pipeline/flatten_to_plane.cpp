@@ -19,7 +19,6 @@
 #include "../verify/holonomy_check.h"
 #include "../verify/metric_check.h"
 #include "flatten_steps.h"
-#include "keep_areas.h"
 
 #include <algorithm>
 #include <cmath>

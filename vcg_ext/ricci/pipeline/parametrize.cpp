@@ -10,7 +10,6 @@
 #include "../measure/distortion.h"
 #include "../verify/overlap_check.h"
 #include "flatten.h"
-#include "unfold.h"
 #include "whole_map.h"
 
 #include <cmath>

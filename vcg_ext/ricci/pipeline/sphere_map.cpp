@@ -8,7 +8,7 @@
 #include "../math/moebius_balancing.h"
 #include "../measure/distortion.h"
 #include "../surface/component.h"
-#include "../surface/topology.h"
+#include "../surface/triangulation.h"
 #include "../verify/sphere_check.h"
 #include "whole_map.h"
 

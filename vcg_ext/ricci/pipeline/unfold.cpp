@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "unfold.h"
+#include "whole_map.h"
 
 #include "../base/memory_estimate.h"
 #include "../base/numbers.h"
@@ -11,7 +11,6 @@
 #include "../surface/flow_domain.h"
 #include "../surface/opened_mesh.h"
 #include "flatten.h"
-#include "whole_map.h"
 
 #include <algorithm>
 #include <cmath>
