@@ -263,31 +263,6 @@ double cost(const PlacedCones& cones)
 	return expectedEnergy(cones.distortion) + kSeamPrice * cones.seams;
 }
 
-TEST(ConePlacement, MovesConesForShorterSeamsWithinTheDistortion)
-{
-	Random random(708);
-	double gained = 0.0;
-	for (int trial = 0; trial < 4; ++trial) {
-		const Packed p(shaken(perforatedSlab(0, 3), 0.12, random));
-		for (int count : {0, 5, 8}) {
-			ConeRequest request;
-			request.count = count;
-			request.distortion = 0.6;
-			request.shortSeams = false;
-			const PlacedCones apart = place(p, request);
-			request.shortSeams = true;
-			const PlacedCones near = place(p, request);
-			expectAdmissible(p, near);
-			EXPECT_NEAR(sum(near.curvatures), 4 * kPi, 1e-11);
-			const double max = count > 0 ? kSeamAllowance * apart.distortion : request.distortion;
-			EXPECT_LE(near.distortion, max * (1 + 1e-9));
-			EXPECT_LE(cost(near), cost(apart) + 1e-9);
-			gained += cost(apart) - cost(near);
-		}
-	}
-	EXPECT_GT(gained, 0.0);
-}
-
 TEST(ConePlacement, TakesAsManyAsLowerEnergyAndPriceOfSeams)
 {
 	Random random(711);

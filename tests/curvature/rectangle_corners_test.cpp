@@ -5,7 +5,7 @@
 #include "support/transform.h"
 
 #include <ricci/curvature/rectangle_corners.h>
-#include <ricci/surface/topology.h>
+#include <ricci/surface/triangulation.h>
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 
 #include <ricci/cut/cut_graph.h>
 #include <ricci/error.h>
-#include <ricci/surface/topology.h>
+#include <ricci/surface/triangulation.h>
 
 #include <gtest/gtest.h>
 

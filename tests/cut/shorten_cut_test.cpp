@@ -11,7 +11,7 @@
 #include <ricci/error.h>
 #include <ricci/layout/planar_layout.h>
 #include <ricci/math/disjoint_sets.h>
-#include <ricci/surface/topology.h>
+#include <ricci/surface/triangulation.h>
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,6 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/tolerances.h>
-#include <ricci/fuchsian/canonical_polygon.h>
 #include <ricci/fuchsian/fuchsian_group.h>
 #include <ricci/fuchsian/tiling.h>
 #include <ricci/layout/hyperbolic_layout.h>

@@ -19,6 +19,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace ricci::testing {
@@ -166,7 +167,7 @@ TEST(Distortion, MeansByFaceAreaAndVertex)
 	EXPECT_EQ(report.flippedFaces, 0);
 }
 
-TEST(Distortion, TheHistogramRunsOverTheVerticesThatHaveFaces)
+TEST(Distortion, ValuesAreThoseOfTheVerticesThatHaveFaces)
 {
 	SurfaceMesh mesh = rectangle(3, 3, 1, 1);
 	const std::size_t vertices = mesh.positions.size();
@@ -175,17 +176,23 @@ TEST(Distortion, TheHistogramRunsOverTheVerticesThatHaveFaces)
 	const auto plane = mapped(mesh, stretch);
 	Report report;
 	measured(mesh, plane, report);
-	const Histogram& h = report.qcHistogram;
-	std::size_t counted = h.below + h.above;
-	for (std::size_t i = 0; i < h.counts.size(); ++i) {
-		counted += h.counts[i];
-		if (h.counts[i] > 0) {
-			EXPECT_LE(h.lowEdge(i), 1.5 + 1e-12);
-			EXPECT_GE(h.lowEdge(i) + h.binWidth(), 1.5 - 1e-12);
-		}
-	}
-	EXPECT_EQ(counted, vertices);
-	EXPECT_EQ(h.below + h.above, 0u);
+	EXPECT_EQ(report.qcValues.size(), vertices);
+	for (const double qc : report.qcValues)
+		EXPECT_NEAR(qc, 1.5, 1e-12);
+	ASSERT_EQ(report.areaFactors.size(), mesh.triangles.size());
+	for (const double factor : report.areaFactors)
+		EXPECT_NEAR(factor, 0.0, 1e-12);
+}
+
+TEST(Distortion, ThePercentileLeavesItsShareOfTheValuesBelow)
+{
+	std::vector<double> values(1000);
+	std::iota(values.begin(), values.end(), 1.0);
+	std::reverse(values.begin(), values.end());
+	EXPECT_EQ(percentile(values, 0.99), 990.0);
+	EXPECT_EQ(percentile(values, 1.0), 1000.0);
+	EXPECT_EQ(percentile({7.0}, 0.01), 7.0);
+	EXPECT_TRUE(std::isnan(percentile({}, 0.5)));
 }
 
 TEST(Distortion, PercentileIsTheValueThat99PercentDoNotExceed)

@@ -10,7 +10,7 @@
 #include <ricci/curvature/area_change.h>
 #include <ricci/error.h>
 #include <ricci/parametrize.h>
-#include <ricci/pipeline/keep_areas.h>
+#include <ricci/pipeline/flatten_steps.h>
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,6 @@
 #include <ricci/measure/distortion.h>
 #include <ricci/pipeline/flatten.h>
 #include <ricci/pipeline/flatten_steps.h>
-#include <ricci/pipeline/unfold.h>
 #include <ricci/pipeline/whole_map.h>
 
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 #include "../math/adjacency.h"
 #include "../math/disjoint_sets.h"
 #include "../math/shortest_paths.h"
-#include "../surface/topology.h"
+#include "../surface/triangulation.h"
 #include "shorten_cut.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 
 #include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../metric/area.h"
 #include "../surface/flow_domain.h"

@@ -31,7 +31,7 @@ double sizeOf(const Isometry& m)
 	return static_cast<double>(abs(m.a) + abs(m.b));
 }
 
-/// The share of one handle in relationCondition().
+/// The share of one handle in the condition, see bestConditioned().
 /// \param corner product of the letters before it; becomes that with its letters
 double conditionOf(const Isometry& a, const Isometry& b, Isometry& corner)
 {
@@ -193,15 +193,6 @@ private:
 };
 
 } // namespace
-
-double relationCondition(const Handles& handles)
-{
-	double sum = 0.0;
-	Isometry corner;
-	for (std::size_t i = 0; i + 1 < handles.size(); i += 2)
-		sum += conditionOf(handles[i], handles[i + 1], corner);
-	return sum;
-}
 
 Handles bestConditioned(const std::vector<Handles>& bases, const std::vector<Isometry>& peripheral)
 {

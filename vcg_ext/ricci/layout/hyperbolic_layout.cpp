@@ -4,7 +4,7 @@
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../metric/area.h"
-#include "layout_tree.h"
+#include "planar_layout.h"
 
 #include <cmath>
 #include <vector>

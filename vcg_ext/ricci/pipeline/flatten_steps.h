@@ -83,6 +83,17 @@ void measurePeriods(ComponentMap& map);
 /// and splits bend their edges, and the repair moves their corners.
 bool mayBeFlipped(const ComponentMap& map, OutputTriangulation output);
 
+/// The promise of Target::maxSpread: while the metric of map.flow changes areas more than its target
+/// was chosen for, runs the flow again, to targetToKeepAreas(), in a bounded number of rounds. The
+/// metric that keeps areas best stays in map.flow.
+/// \param surface on which map.flow has run
+/// \throw Stopped
+void keepAreas(
+	const EmbeddedSurface& surface,
+	const TargetRequest& request,
+	const Options& options,
+	ComponentMap& map);
+
 } // namespace ricci
 
 #endif

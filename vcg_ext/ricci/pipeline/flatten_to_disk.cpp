@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten.h"
 
+#include "../base/numbers.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../curvature/hyperbolic_target.h"
 #include "../cut/cut_graph.h"
 #include "../layout/hyperbolic_layout.h"

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten.h"
 
-#include "../base/attempt.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../curvature/target_curvature.h"
 #include "../cut/cut_graph.h"
 #include "../cut/seam_cost.h"
@@ -19,7 +17,6 @@
 #include "../verify/holonomy_check.h"
 #include "../verify/metric_check.h"
 #include "flatten_steps.h"
-#include "keep_areas.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../parametrize.h"
 
+#include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../charts/finish_in_floats.h"
 #include "../charts/input_indices.h"
 #include "../charts/pack.h"
@@ -10,7 +10,6 @@
 #include "../measure/distortion.h"
 #include "../verify/overlap_check.h"
 #include "flatten.h"
-#include "unfold.h"
 #include "whole_map.h"
 
 #include <cmath>

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "seamless_metric.h"
 
-#include "../base/attempt.h"
 #include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../metric/area.h"
 #include "../metric/euclidean.h"
 #include "holonomy.h"

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "histogram.h"
 
+#include <ricci/measure/distortion.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
-namespace ricci {
+namespace filter_ricci {
 
 namespace {
 
@@ -32,8 +34,6 @@ Histogram countInBins(const std::vector<double>& values, double low, double high
 	histogram.high = high;
 	histogram.counts.assign(bins, 0);
 	for (double x : values) {
-		if (std::isnan(x))
-			continue;
 		if (x < low)
 			++histogram.below;
 		else if (x >= high)
@@ -48,7 +48,7 @@ Histogram countInBins(const std::vector<double>& values, double low, double high
 
 Histogram distortionHistogram(const std::vector<double>& values)
 {
-	const double top = percentile(values, 0.99);
+	const double top = ricci::percentile(values, 0.99);
 	// An infinite distortion has no scale of its own.
 	const double high = std::isfinite(top) ? roundNumberAbove(top - 1.0) : 1.0;
 	return countInBins(values, 1.0, 1.0 + high, kBins);
@@ -60,22 +60,9 @@ Histogram factorHistogram(const std::vector<double>& binaryLogarithms)
 	sizes.reserve(binaryLogarithms.size());
 	for (double x : binaryLogarithms)
 		sizes.push_back(std::abs(x));
-	const double top = percentile(std::move(sizes), 0.99);
+	const double top = ricci::percentile(std::move(sizes), 0.99);
 	const double end = std::isfinite(top) ? roundNumberAbove(top) : 1.0;
 	return countInBins(binaryLogarithms, -end, end, kBins);
 }
 
-double percentile(std::vector<double> values, double share)
-{
-	values.erase(
-		std::remove_if(values.begin(), values.end(), [](double x) { return std::isnan(x); }),
-		values.end());
-	if (values.empty())
-		return std::numeric_limits<double>::quiet_NaN();
-	const double rank = std::ceil(share * static_cast<double>(values.size())) - 1.0;
-	const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 0.0));
-	std::nth_element(values.begin(), nth, values.end());
-	return *nth;
-}
-
-} // namespace ricci
+} // namespace filter_ricci

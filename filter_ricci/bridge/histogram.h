@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#ifndef RICCI_HISTOGRAM_H
-#define RICCI_HISTOGRAM_H
+#ifndef FILTER_RICCI_HISTOGRAM_H
+#define FILTER_RICCI_HISTOGRAM_H
 
 #include <cstddef>
 #include <vector>
 
-namespace ricci {
+namespace filter_ricci {
 
 /// Counts of values in bins of equal width; bin i holds [low + i w, low + (i + 1) w) with
 /// w = (high - low) / bins.
@@ -20,7 +20,7 @@ struct Histogram
 	double lowEdge(std::size_t bin) const { return low + static_cast<double>(bin) * binWidth(); }
 };
 
-/// Counts \p values in \p bins >= 1 bins between \p low and \p high; NaN belongs to no bin.
+/// Counts \p values in \p bins >= 1 bins between \p low and \p high. None of them is NaN.
 /// \pre low < high
 Histogram countInBins(const std::vector<double>& values, double low, double high, std::size_t bins);
 
@@ -32,10 +32,6 @@ Histogram distortionHistogram(const std::vector<double>& values);
 /// (1, 2 or 5) 10^k above the 99th percentile of their absolute values, and 1e-6 at least.
 Histogram factorHistogram(const std::vector<double>& binaryLogarithms);
 
-/// The smallest of \p values that at least a share \p share of them does not exceed (nearest rank),
-/// 0 < \p share <= 1. NaN among the values is left out; NaN if none is left.
-double percentile(std::vector<double> values, double share);
-
-} // namespace ricci
+} // namespace filter_ricci
 
 #endif
