@@ -11,7 +11,7 @@ namespace ricci::testing {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+
 
 } // namespace
 

@@ -3,6 +3,7 @@
 #define RICCI_TESTS_SHAPES_H
 
 #include <ricci/base/indexed.h>
+#include <ricci/base/numbers.h>
 #include <ricci/surface/surface_mesh.h>
 
 #include <array>
