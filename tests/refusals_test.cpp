@@ -74,17 +74,17 @@ void expectSameData(const NotConverged& error, const NotConverged& expected)
 }
 
 /// A call that is refused.
-struct Refusal : Run
+struct Refusal : Call
 {
 	template<class E>
 	Refusal(
-		const char* name,
-		SurfaceMesh mesh,
-		decltype(options) with,
+		const char* called,
+		SurfaceMesh surface,
+		decltype(options) asked,
 		const E& error,
 		std::vector<std::string> words,
-		VertexInput input = {}) :
-			Call{name, std::move(mesh), std::move(with), std::move(input)},
+		VertexInput values = {}) :
+			Call{called, std::move(surface), std::move(asked), std::move(values)},
 			expect([error, words](const std::function<void()>& call) {
 				const E refused = refusalOf<E>(call);
 				expectSameData(refused, error);
