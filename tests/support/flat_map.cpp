@@ -80,6 +80,8 @@ FlatResult withUV(const SurfaceMesh& mesh, Parametrization map)
 	return result;
 }
 
+} // namespace
+
 std::vector<std::array<Point3, 3>> inSpace(const SurfaceMesh& mesh, const Parametrization& map)
 {
 	const std::vector<Point3> places = map.mesh.onSurface(mesh.positions);
@@ -88,8 +90,6 @@ std::vector<std::array<Point3, 3>> inSpace(const SurfaceMesh& mesh, const Parame
 		triangles.push_back({places[at(t[0])], places[at(t[1])], places[at(t[2])]});
 	return triangles;
 }
-
-} // namespace
 
 Distortion::Distortion(const std::vector<std::array<Point3, 3>>& from, const UV& to)
 {

@@ -4,6 +4,8 @@
 
 #include <ricci/parametrize.h>
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,9 @@ struct FlatResult : Parametrization
 {
 	UV uv; ///< [face][corner]; of a refinement at those corners that a piece has
 };
+
+/// The triangles of a map of \p mesh, where they lie on it.
+std::vector<std::array<Point3, 3>> inSpace(const SurfaceMesh& mesh, const Parametrization& map);
 
 /// What the linear maps of triangles to their images do, by formulas of its own: ratio of the singular values,
 /// and areas at the scale at which the total area stays.
