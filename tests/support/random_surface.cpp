@@ -9,7 +9,7 @@ namespace ricci::testing {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+
 
 std::vector<double> randomSteps(int n, double decades, Random& random)
 {

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole way from a mesh to the Poincaré disk.
-#include "../support/complex.h"
-#include "../support/expect.h"
-#include "../support/flat_map.h"
-#include "../support/flipped_flow.h"
-#include "../support/listener.h"
-#include "../support/random_surface.h"
-#include "../support/shapes.h"
-#include "../support/transform.h"
-
-#include <ricci/base/numbers.h>
-#include <ricci/error.h>
-#include <ricci/fuchsian/tiling.h>
-#include <ricci/layout/hyperbolic_layout.h>
-#include <ricci/parametrize.h>
+#include "support/complex.h"
+#include "support/flat_map.h"
+#include "support/implicit_surface.h"
+#include "support/listener.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/transform.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +15,9 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ricci::testing {
@@ -41,13 +36,6 @@ HyperbolicOptions refined()
 	return options;
 }
 
-/// The error with which run() ends.
-template<class E>
-E refusal(const SurfaceMesh& mesh, const HyperbolicOptions& options, const VertexInput& input = {})
-{
-	return refusalOf<E>([&] { run(mesh, options, input); });
-}
-
 SurfaceMesh genusTwo(std::uint64_t seed = 700, int subdivision = 3)
 {
 	Random random(seed);
@@ -64,16 +52,48 @@ double radius(const Parametrization& map)
 	return largest;
 }
 
-std::vector<double> sideTraces(const Parametrization& map, std::size_t chart = 0)
+double length(const Point2& p, const Point2& q)
 {
-	std::vector<double> traces, spectrum;
-	for (const DiskIsometry& m : tiling(map.charts[chart].group.sides, 4, 20000).deck)
-		if (m.distanceFromIdentity() > 1e-3)
-			traces.push_back(std::abs(m.trace()));
+	return 2.0 * std::asinh(0.5 * chordLength(asComplex(p), asComplex(q)));
+}
+
+/// \p p seen from \p from, which is moved to the middle.
+Complex seenFrom(const Point2& from, const Point2& p)
+{
+	return (asComplex(p) - asComplex(from)) / (1.0 - std::conj(asComplex(from)) * asComplex(p));
+}
+
+/// Angles of a geodesic triangle, negative where it is flipped.
+std::array<double, 3> angles(const Triangle2& t)
+{
+	std::array<double, 3> angle;
+	for (std::size_t k = 0; k < 3; ++k)
+		angle[k] = std::arg(seenFrom(t[k], t[(k + 2) % 3]) / seenFrom(t[k], t[(k + 1) % 3]));
+	return angle;
+}
+
+/// The shortest closed geodesics that are products of four side pairings at most, by their traces.
+std::vector<double> shortestTraces(const Parametrization& map)
+{
+	const std::vector<DiskIsometry>& sides = map.charts[0].group.sides;
+	std::vector<double> traces;
+	std::vector<DiskIsometry> words{DiskIsometry()};
+	for (int letters = 0; letters < 4; ++letters) {
+		std::vector<DiskIsometry> longer;
+		for (const DiskIsometry& word : words)
+			for (const DiskIsometry& side : sides)
+				if (const DiskIsometry product = word * side; product.displacement() < 14.0) {
+					longer.push_back(product);
+					if (std::abs(product.trace()) > 2.0 + 1e-6)
+						traces.push_back(std::abs(product.trace()));
+				}
+		words = std::move(longer);
+	}
 	std::sort(traces.begin(), traces.end());
-	for (double x : traces)
-		if (spectrum.size() < 6 && (spectrum.empty() || x > spectrum.back() * (1 + 1e-7)))
-			spectrum.push_back(x);
+	std::vector<double> spectrum;
+	for (const double trace : traces)
+		if (spectrum.size() < 3 && (spectrum.empty() || trace > spectrum.back() * (1 + 1e-7)))
+			spectrum.push_back(trace);
 	return spectrum;
 }
 
@@ -117,12 +137,8 @@ TEST(ParametrizeHyperbolic, KeptFacesAndTheRefinementAgreeAtTheVertices)
 	const FlatResult kept = run(mesh), exact = run(mesh, refined());
 	// One figure but for a motion of the disk: seen from one corner in the direction of the next.
 	const auto seen = [](const FlatResult& map, const Point2& p) {
-		const auto moved = [&](const Point2& q) {
-			const auto from = asComplex(map.uv[0][0]);
-			return (asComplex(q) - from) / (1.0 - std::conj(from) * asComplex(q));
-		};
-		const auto towards = moved(map.uv[0][1]);
-		return moved(p) * std::abs(towards) / towards;
+		const Complex towards = seenFrom(map.uv[0][0], map.uv[0][1]);
+		return seenFrom(map.uv[0][0], p) * std::abs(towards) / towards;
 	};
 	ASSERT_EQ(kept.uv.size(), exact.uv.size());
 	for (std::size_t f = 0; f < kept.uv.size(); ++f)
@@ -136,12 +152,7 @@ TEST(ParametrizeHyperbolic, KeptFacesAndTheRefinementAgreeAtTheVertices)
 	// Corners of pieces at input vertices are corners of their input face.
 	for (const int f : exact.mesh.points.indices()) {
 		const std::size_t face = at(exact.mesh.face[f]);
-		EXPECT_EQ(
-			hyperbolicOrientation(
-				asComplex(exact.mesh.at(f)[0]),
-				asComplex(exact.mesh.at(f)[1]),
-				asComplex(exact.mesh.at(f)[2])),
-			1);
+		EXPECT_GT(angles(exact.mesh.at(f))[0], 0.0);
 		for (std::size_t k = 0; k < 3; ++k)
 			for (std::size_t j = 0; j < 3; ++j)
 				if (exact.mesh.vertices[f][k] == mesh.triangles[face][j]) {
@@ -259,6 +270,7 @@ TEST(ParametrizeHyperbolic, ASurfaceOfHardlyAnyArea)
 	Random random(706);
 	const SurfaceMesh mesh = bumpyTorus(8, 6, random);
 	HyperbolicOptions options = refined();
+	options.finish = Finish::None; // floats cannot hold it
 	options.target = HyperbolicTarget::Prescribed;
 	VertexInput input;
 	input.targetCurvature.assign(mesh.positions.size(), 0.0);
@@ -270,118 +282,26 @@ TEST(ParametrizeHyperbolic, ASurfaceOfHardlyAnyArea)
 	EXPECT_LT(radius(map), 2e-6); // half of it in the disk's own lengths
 }
 
-TEST(ParametrizeHyperbolic, ResultDoesNotDependOnTheScale)
-{
-	const SurfaceMesh mesh = genusTwo();
-	const FlatResult reference = run(mesh);
-	for (double factor : {0.25, 1024.0}) { // exact in binary: every step is the same
-		const FlatResult same = run(scaled(mesh, factor));
-		EXPECT_EQ(same.uv, reference.uv);
-		EXPECT_EQ(same.u, reference.u);
-	}
-	for (double factor : {1e-8, 3.0, 1e8}) {
-		const FlatResult same = run(scaled(mesh, factor));
-		double gap = 0.0;
-		for (std::size_t f = 0; f < same.uv.size(); ++f)
-			for (std::size_t k = 0; k < 3; ++k)
-				gap = std::max(
-					gap, std::abs(asComplex(same.uv[f][k]) - asComplex(reference.uv[f][k])));
-		EXPECT_LT(gap, 1e-7);
-		EXPECT_NEAR(same.report.qcMean, reference.report.qcMean, 1e-8);
-	}
-}
-
-TEST(ParametrizeHyperbolic, ResultDoesNotDependOnTheNumbersOfVerticesAndFaces)
+/// Lengths of closed geodesics belong to the metric, not to the cut or the numbers it is found with.
+TEST(ParametrizeHyperbolic, LengthsOfGeodesicsDoNotDependOnTheNumbers)
 {
 	Random random(704);
 	const SurfaceMesh mesh = genusTwo(705, 2);
 	HyperbolicOptions options;
 	options.epsilon = 1e-12;
-	const FlatResult reference = run(mesh, options);
-	const std::vector<double> wanted = sideTraces(reference);
-	ASSERT_EQ(wanted.size(), 6u);
+	const std::vector<double> expected = shortestTraces(run(mesh, options));
+	ASSERT_EQ(expected.size(), 3u);
 	for (int trial = 0; trial < 2; ++trial) {
-		const Renumbered other = renumbered(mesh, random);
-		const FlatResult map = run(other.mesh, options);
-		EXPECT_NEAR(*map.report.hyperbolicArea, *reference.report.hyperbolicArea, 1e-9);
-		EXPECT_EQ(map.report.genus, 2);
-		for (std::size_t v = 0; v < other.vertex.size(); ++v)
-			EXPECT_NEAR(map.u[v], reference.u[at(other.vertex[v])], 1e-9);
-		const std::vector<double> traces = sideTraces(map);
-		ASSERT_EQ(traces.size(), wanted.size());
-		for (std::size_t i = 0; i < traces.size(); ++i)
-			EXPECT_NEAR(traces[i] / wanted[i], 1.0, 1e-8);
-		EXPECT_NEAR(map.report.qcMean, reference.report.qcMean, 1e-8);
-		for (std::size_t v = 0; v < other.vertex.size(); ++v)
-			EXPECT_NEAR(map.vertexQC[v], reference.vertexQC[at(other.vertex[v])], 1e-7);
+		const std::vector<double> traces =
+			shortestTraces(run(renumbered(mesh, random).mesh, options));
+		ASSERT_EQ(traces.size(), 3u);
+		for (std::size_t i = 0; i < 3; ++i)
+			EXPECT_NEAR(traces[i] / expected[i], 1.0, 1e-8);
 	}
 }
 
-TEST(ParametrizeHyperbolic, TheSameRunGivesTheSameBits)
+TEST(ParametrizeHyperbolic, ATorusHasAHyperbolicMetricWithACone)
 {
-	const SurfaceMesh mesh = genusTwo();
-	const FlatResult a = run(mesh, refined()), b = run(mesh, refined());
-	EXPECT_EQ(a.uv, b.uv);
-	EXPECT_EQ(a.u, b.u);
-	EXPECT_EQ(a.mesh.corners(), b.mesh.corners());
-}
-
-TEST(ParametrizeHyperbolic, SeveralComponentsAreSolvedOneByOne)
-{
-	Random random(706);
-	const SurfaceMesh a = genusTwo(707, 2), b = shaken(perforatedSlab(3, 1), 0.05, random);
-	const FlatResult pair = run(sideBySide(a, b, 20.0), refined());
-	const FlatResult first = run(a, refined()), second = run(b, refined());
-	EXPECT_EQ(pair.report.components, 2);
-	ASSERT_EQ(pair.charts.size(), 2u);
-	EXPECT_EQ(pair.report.eulerCharacteristic, -6);
-	EXPECT_EQ(pair.report.genus, 5);
-	EXPECT_NEAR(*pair.report.hyperbolicArea / (12 * kPi), 1.0, 1e-8);
-	EXPECT_EQ(pair.report.iterations, first.report.iterations + second.report.iterations);
-	EXPECT_LT(*pair.report.relationError, 1e-8);
-	for (std::size_t f = 0; f < a.triangles.size(); ++f)
-		EXPECT_EQ(pair.uv[f], first.uv[f]);
-	const SurfaceMesh donut = torus(2, 1, 8, 6); // has no hyperbolic metric
-	const auto error = refusal<InadmissibleCurvature>(sideBySide(a, donut, 20.0), {});
-	EXPECT_EQ(error.componentFace, static_cast<int>(a.triangles.size()));
-	EXPECT_EQ(error.componentFaces, donut.triangles.size());
-	EXPECT_EQ(error.problem, InadmissibleCurvature::HyperbolicSurface);
-	EXPECT_TRUE(error.surface.isTorus());
-}
-
-TEST(ParametrizeHyperbolic, FacesOfTheOtherOrientationAreMappedLikeTheRest)
-{
-	const SurfaceMesh mesh = genusTwo(708, 2);
-	const SurfaceMesh mixed = withReversedFaces(mesh, 5);
-	const FlatResult straight = run(mesh, refined()), map = run(mixed, refined());
-	EXPECT_EQ(map.report.flippedFaces, 0);
-	EXPECT_NEAR(map.report.qcMean, straight.report.qcMean, 1e-9);
-	for (std::size_t f = 0; f < mixed.triangles.size(); ++f) {
-		for (std::size_t k = 0; k < 3; ++k) {
-			const std::size_t j = f % 5 == 0 ? (3 - k) % 3 : k;
-			EXPECT_LT(std::abs(asComplex(map.uv[f][j]) - asComplex(straight.uv[f][k])), 1e-9);
-		}
-	}
-	ASSERT_FALSE(map.notes.empty());
-	expectWords(map.notes[0], {"oriented against"});
-	// Reversed throughout it is a surface of the other orientation: the mirror image.
-	const FlatResult image = run(withReversedFaces(mesh, 1), refined());
-	EXPECT_EQ(image.report.flippedFaces, 0);
-	for (std::size_t v = 0; v < image.u.size(); ++v)
-		EXPECT_NEAR(image.u[v], straight.u[v], 1e-9);
-}
-
-TEST(ParametrizeHyperbolic, RefusesASurfaceWithoutHyperbolicMetric)
-{
-	const auto torusRefused = refusal<InadmissibleCurvature>(torus(2, 1, 12, 8), {});
-	EXPECT_EQ(torusRefused.problem, InadmissibleCurvature::HyperbolicSurface);
-	EXPECT_TRUE(torusRefused.surface.isTorus());
-	expectWords(torusRefused.what(), {"closed surface of genus 1", "Euler characteristic 0"});
-	const auto diskRefused = refusal<InadmissibleCurvature>(rectangle(4, 4, 1, 1), {});
-	EXPECT_EQ(diskRefused.problem, InadmissibleCurvature::HyperbolicSurface);
-	EXPECT_TRUE(diskRefused.surface.isDisk());
-	expectWords(diskRefused.what(), {"disk", "Euler characteristic 1"});
-	// With a cone the torus has one.
 	const SurfaceMesh mesh = torus(2, 1, 12, 8);
 	HyperbolicOptions options = refined();
 	options.target = HyperbolicTarget::SelectedCones;
@@ -389,9 +309,6 @@ TEST(ParametrizeHyperbolic, RefusesASurfaceWithoutHyperbolicMetric)
 	const FlatResult map = run(mesh, options, selecting(mesh, {5}));
 	EXPECT_NEAR(*map.report.hyperbolicArea / kPi, 1.0, 1e-8);
 	EXPECT_EQ(map.report.flippedFaces, 0);
-	const auto without = refusal<InvalidOption>(mesh, options, selecting(mesh, {}));
-	EXPECT_EQ(without.problem, InvalidOption::NothingSelected);
-	expectWords(without.what(), {"none is selected"});
 }
 
 /// A cone of nearly no angle is nearly a cusp: sides of its triangles are about 20 long, and all digits
@@ -410,56 +327,11 @@ TEST(ParametrizeHyperbolic, ConesThatAreNearlyCusps)
 	const VertexInput input = selecting(mesh, {5, 20, 33, 40});
 	const double far = radius(run(mesh, options, input));
 	options.coneAngle = 1e-5;
-	EXPECT_NEAR(far - radius(run(mesh, options, input)), std::log(1e3), 1e-3);
-}
-
-/// The smaller its angle, the farther away a cone lies, and the more there are, the more of them lie
-/// behind others; the doubles of the disk reach to 37.
-TEST(ParametrizeHyperbolic, TellsWhenTheDiskIsTooSmallForTheLayout)
-{
-	Random random(9);
-	const SurfaceMesh mesh = bumpyTorus(12, 9, random);
-	const VertexInput input = selecting(mesh, {5, 20, 33, 40});
-	HyperbolicOptions options;
-	options.target = HyperbolicTarget::SelectedCones;
-	options.coneAngle = 1e-5;
-	EXPECT_LT(*run(mesh, options, input).report.relationError, 1e-8);
+	const FlatResult map = run(mesh, options, input);
+	EXPECT_NEAR(far - radius(map), std::log(1e3), 1e-3);
+	EXPECT_LT(*map.report.relationError, 1e-8);
 	options.coneAngle = 1e-12;
 	EXPECT_EQ(run(mesh, options, input).report.flippedFaces, 0);
-	std::vector<int> many;
-	for (int v = 5; v < static_cast<int>(mesh.positions.size()); v += 3)
-		many.push_back(v);
-	const auto error = refusal<NotConverged>(mesh, options, selecting(mesh, many));
-	EXPECT_EQ(error.problem, NotConverged::OutsideDisk);
-	EXPECT_GT(error.count, 0u);
-	expectWords(
-		error.what(),
-		{std::to_string(error.count), "so far from the middle of the layout", "Poincaré disk"});
-}
-
-TEST(ParametrizeHyperbolic, RefusesOptionsOutOfRange)
-{
-	const SurfaceMesh mesh = genusTwo(709, 1);
-	for (double epsilon : {0.0, -1e-9, std::numeric_limits<double>::quiet_NaN()}) {
-		HyperbolicOptions options;
-		options.epsilon = epsilon;
-		const auto error = refusal<InvalidOption>(mesh, options);
-		EXPECT_EQ(error.problem, InvalidOption::Epsilon);
-		EXPECT_TRUE(error.value == epsilon || (std::isnan(error.value) && std::isnan(epsilon)));
-		expectWords(error.what(), {"must be greater than 0 radians"});
-	}
-	HyperbolicOptions options;
-	for (const Method method : {Method::EdgeSwaps, Method::Thurston}) {
-		options.method = method;
-		const auto error = refusal<InvalidOption>(mesh, options);
-		EXPECT_EQ(error.problem, InvalidOption::HyperbolicMethod);
-		expectWords(error.what(), {"no edge swaps and no Thurston packing"});
-	}
-	options = refined();
-	options.method = Method::FixedTriangles;
-	const auto withoutFlips = refusal<InvalidOption>(mesh, options);
-	EXPECT_EQ(withoutFlips.problem, InvalidOption::WithoutFlips);
-	expectWords(withoutFlips.what(), {"common refinement", "intrinsic flips"});
 }
 
 TEST(ParametrizeHyperbolic, TheGivenTriangulationCanBeKept)
@@ -478,12 +350,7 @@ TEST(ParametrizeHyperbolic, TheGivenTriangulationCanBeKept)
 	for (std::size_t f = 0; f < map.uv.size(); ++f) {
 		area += kPi;
 		for (std::size_t k = 0; k < 3; ++k) {
-			const Complex p = asComplex(map.uv[f][k]);
-			const auto seen = [&](const Point2& q) {
-				return (asComplex(q) - p) / (1.0 - std::conj(p) * asComplex(q));
-			};
-			const double angle =
-				std::abs(std::arg(seen(map.uv[f][(k + 2) % 3]) / seen(map.uv[f][(k + 1) % 3])));
+			const double angle = angles(map.uv[f])[k];
 			defect[at(mesh.triangles[f][k])] -= angle;
 			area -= angle;
 		}
@@ -515,18 +382,6 @@ TEST(ParametrizeHyperbolic, CanonicalGeneratorsAreFoundOnRequest)
 	}
 }
 
-/// A slab of many handles is so long that canonical generators leave floating point.
-TEST(ParametrizeHyperbolic, SaysWhyThereAreNoCanonicalGenerators)
-{
-	HyperbolicOptions options;
-	options.canonicalGenerators = true;
-	Listener patient;
-	const Parametrization map =
-		heard(patient, [&] { return parametrizeHyperbolic(perforatedSlab(12, 2), {}, options); });
-	EXPECT_FALSE(map.charts[0].group.isCanonical());
-	EXPECT_EQ(patient.count("no canonical generators"), 1);
-}
-
 TEST(ParametrizeHyperbolic, DistortionIsThatOfTheChords)
 {
 	// A fine mesh of equilateral-like triangles is mapped nearly conformally; the disk's own picture
@@ -539,6 +394,29 @@ TEST(ParametrizeHyperbolic, DistortionIsThatOfTheChords)
 	EXPECT_LT(second - 1.0, 0.5 * (first - 1.0));
 }
 
+/// The figures of the report are those of the coordinates that are given back, measured on the hyperboloid: flat
+/// triangles with its chords for sides.
+TEST(ParametrizeHyperbolic, TheReportMeasuresTheOutput)
+{
+	const SurfaceMesh mesh = genusTwo();
+	for (const HyperbolicOptions& options : {HyperbolicOptions(), refined()}) {
+		const FlatResult map = run(mesh, options);
+		UV chords;
+		for (const Triangle2& t : map.mesh.corners()) {
+			const double a = chordLength(asComplex(t[0]), asComplex(t[1]));
+			const double b = chordLength(asComplex(t[0]), asComplex(t[2]));
+			const double c = chordLength(asComplex(t[1]), asComplex(t[2]));
+			const double x = (a * a + b * b - c * c) / (2 * a);
+			chords.push_back({Point2{0, 0}, Point2{a, 0}, Point2{x, std::sqrt(b * b - x * x)}});
+		}
+		const Distortion found(inSpace(mesh, map), chords);
+		EXPECT_NEAR(map.report.qcMean, found.qcMean, 1e-6);
+		EXPECT_NEAR(map.report.qcAreaMean, found.qcAreaMean, 1e-6);
+		EXPECT_NEAR(map.report.areaDistortionMean, found.areaMean, 1e-6);
+		EXPECT_NEAR(map.report.areaDistortionSpread, found.areaSpread, 1e-6);
+	}
+}
+
 /// With seams as short as can be these slabs reach farther out in the disk than floats do.
 TEST(ParametrizeHyperbolic, AMapThatIsTooWideIsCutAroundItsMiddle)
 {
@@ -549,6 +427,209 @@ TEST(ParametrizeHyperbolic, AMapThatIsTooWideIsCutAroundItsMiddle)
 		EXPECT_LT(radius(map), 12.5);
 		EXPECT_EQ(map.report.flippedFaces, 0);
 		EXPECT_NEAR(map.report.hyperbolicArea.value_or(0), 4 * kPi * (genus - 1), 1e-9);
+	}
+}
+
+// Where the layout reaches far out: many handles, many holes; and cones so weak that the seam need not reach them.
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+/// The skin round the edges of a graph with corners in space. Of genus edges - corners + 1.
+SurfaceMesh skinOf(
+	const std::vector<Point3>& corners,
+	const std::vector<std::array<std::size_t, 2>>& edges,
+	double radius,
+	int cells)
+{
+	const auto distance = [&](const Point3& p) {
+		double least = std::numeric_limits<double>::infinity();
+		for (const auto& [i, j] : edges) {
+			const Point3 &a = corners[i], &b = corners[j];
+			double along = 0.0, length = 0.0, gap = 0.0;
+			for (std::size_t k = 0; k < 3; ++k) {
+				along += (p[k] - a[k]) * (b[k] - a[k]);
+				length += (b[k] - a[k]) * (b[k] - a[k]);
+			}
+			const double t = std::clamp(along / length, 0.0, 1.0);
+			for (std::size_t k = 0; k < 3; ++k)
+				gap += std::pow(p[k] - a[k] - t * (b[k] - a[k]), 2);
+			least = std::min(least, gap);
+		}
+		return std::sqrt(least) - radius;
+	};
+	const double size = 1.0 + 2.0 * radius;
+	return marchingCubes(
+		distance, {-size, -size, -size}, {size, size, size}, {cells, cells, cells});
+}
+
+/// Round the edges of a cube (genus 5), of an octahedron (7), or of a cube whose corners are joined to
+/// its middle (12).
+SurfaceMesh skeleton(int genus)
+{
+	std::vector<Point3> corners;
+	std::vector<std::array<std::size_t, 2>> edges;
+	if (genus == 7)
+		for (std::size_t k = 0; k < 3; ++k)
+			for (const double side : {-1.0, 1.0}) {
+				corners.push_back({0.0, 0.0, 0.0});
+				corners.back()[k] = side;
+			}
+	else
+		for (const double x : {-1.0, 1.0})
+			for (const double y : {-1.0, 1.0})
+				for (const double z : {-1.0, 1.0})
+					corners.push_back({x, y, z});
+	for (std::size_t i = 0; i < corners.size(); ++i)
+		for (std::size_t j = 0; j < i; ++j) {
+			int other = 0; // coordinates that differ
+			for (std::size_t k = 0; k < 3; ++k)
+				other += corners[i][k] != corners[j][k];
+			if (other == (genus == 7 ? 2 : 1))
+				edges.push_back({i, j});
+		}
+	if (genus == 12) { // 8 edges and one corner more
+		for (std::size_t i = 0; i < 8; ++i)
+			edges.push_back({i, 8});
+		corners.push_back({0.0, 0.0, 0.0});
+	}
+	return skinOf(corners, edges, 0.23, 26);
+}
+
+/// The refinement's geodesic triangles, before floats have a part in it.
+FlatResult asFound(const SurfaceMesh& mesh, const VertexInput& input = {})
+{
+	HyperbolicOptions options = refined();
+	options.finish = Finish::None;
+	options.target = input.targetCurvature.empty() ? HyperbolicTarget::HyperbolicMetric
+												   : HyperbolicTarget::Prescribed;
+	return run(mesh, options, input);
+}
+
+/// Of a hyperbolic triangle, as Heron's formula is for a flat one.
+double areaOfSides(double a, double b, double c)
+{
+	const double s = 0.5 * (a + b + c);
+	return 4.0 * std::atan(std::sqrt(std::max(
+					 0.0,
+					 std::tanh(s / 2) * std::tanh((s - a) / 2) * std::tanh((s - b) / 2) *
+						 std::tanh((s - c) / 2))));
+}
+
+/// What any hyperbolic map of a closed surface is: its pieces tile a polygon of the area that
+/// Gauss-Bonnet gives the surface, whose sides are paired by isometries of the group.
+void expectHyperbolicMap(const Parametrization& map, int genus)
+{
+	const Report& report = map.report;
+	EXPECT_EQ(report.genus, genus);
+	EXPECT_EQ(report.boundaryLoops, 0);
+	EXPECT_TRUE(report.converged);
+	EXPECT_LE(report.maxCurvatureError, std::max(1e-8, report.residualFloor));
+	EXPECT_EQ(report.flippedFaces, 0);
+	EXPECT_EQ(report.brokenTriangles, 0);
+	const double wanted = 4 * kPi * (genus - 1);
+	EXPECT_NEAR(*report.hyperbolicArea / wanted, 1.0, 1e-9);
+
+	// What the layout misses is the curvature that the flow has left, and the steps of doubles, which
+	// are longer by e^d / 4 at the distance d from 0.
+	const double left = static_cast<double>(map.u.size()) * report.maxCurvatureError;
+	const double step = kEpsilon * std::exp(radius(map)), slack = left + step;
+	EXPECT_LT(slack, 1e-6);
+	EXPECT_LT(*report.relationError, 4 * genus * slack); // of a product of so many
+	double area = 0.0;
+	std::map<std::pair<int, int>, std::vector<std::pair<Point2, Point2>>> sides;
+	for (const int f : map.mesh.points.indices()) {
+		const Triangle2 p = map.mesh.at(f);
+		area += areaOfSides(length(p[0], p[1]), length(p[1], p[2]), length(p[2], p[0]));
+		for (std::size_t k = 0; k < 3; ++k) {
+			const int i = map.mesh.vertices[f][k], j = map.mesh.vertices[f][(k + 1) % 3];
+			const Point2 &from = p[k], &to = p[(k + 1) % 3];
+			sides[std::minmax(i, j)].push_back(i < j ? std::pair(from, to) : std::pair(to, from));
+		}
+	}
+	EXPECT_NEAR(area / wanted, 1.0, slack);
+	int seams = 0;
+	for (const auto& [edge, drawn] : sides) {
+		ASSERT_EQ(drawn.size(), 2u);
+		if (drawn[0] == drawn[1])
+			continue;
+		++seams;
+		EXPECT_NEAR(
+			length(drawn[0].first, drawn[0].second),
+			length(drawn[1].first, drawn[1].second),
+			16 * slack);
+		double least = std::numeric_limits<double>::infinity();
+		for (const DiskIsometry& m : map.charts[0].group.sides) {
+			const auto gap = [&](const Point2& p, const Point2& q) {
+				return chordLength(m(asComplex(p)), asComplex(q));
+			};
+			least = std::min(
+				least, gap(drawn[0].first, drawn[1].first) + gap(drawn[0].second, drawn[1].second));
+		}
+		// Its matrix multiplies steps by as much again.
+		EXPECT_LT(least, 1e-9 + 16 * slack * std::exp(radius(map)));
+	}
+	EXPECT_GE(seams, report.seamEdges);
+	EXPECT_GT(report.seamEdges, 4 * genus);
+}
+
+TEST(HighGenus, SlabsWithManyHandles)
+{
+	Random random(910);
+	for (const int genus : {5, 6, 9, 14, 20}) {
+		SCOPED_TRACE("genus " + std::to_string(genus));
+		expectHyperbolicMap(asFound(shaken(perforatedSlab(genus, 2), 0.06, random)), genus);
+	}
+}
+
+TEST(HighGenus, SkeletonsOfSolids)
+{
+	for (const int genus : {5, 7, 12}) {
+		SCOPED_TRACE("genus " + std::to_string(genus));
+		expectHyperbolicMap(asFound(skeleton(genus)), genus);
+	}
+}
+
+/// As many relations as there are holes, each seen from its own place.
+TEST(HighGenus, ManyHoles)
+{
+	Random random(911);
+	const SurfaceMesh whole = shaken(perforatedSlab(3, 4), 0.03, random);
+	for (const std::size_t count : {10u, 40u}) {
+		std::vector<int> stars;
+		for (std::size_t i = 0; i < count; ++i)
+			stars.push_back(static_cast<int>(i * (whole.positions.size() / count)));
+		const FlatResult map = asFound(withoutStars(whole, stars));
+		const int holes = map.report.boundaryLoops;
+		EXPECT_GE(holes, static_cast<int>(count) * 3 / 4);
+		EXPECT_EQ(map.report.flippedFaces, 0);
+		EXPECT_NEAR(*map.report.hyperbolicArea / (2 * kPi * (4 + holes)), 1.0, 1e-9);
+		EXPECT_LT(*map.report.relationError, 1e-10 + 16 * kEpsilon * std::exp(radius(map)));
+		EXPECT_EQ(map.charts[0].group.peripheral.size(), static_cast<std::size_t>(holes));
+	}
+}
+
+/// The seam need not reach a cone of less than 1e-9. Its curvature then remains on the way round
+/// another vertex, and that is what the relation error says, at any genus.
+TEST(HighGenus, WeakConesAreLeftInTheRelation)
+{
+	Random random(912);
+	for (const int genus : {2, 3, 10}) {
+		SCOPED_TRACE("genus " + std::to_string(genus));
+		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 3), 0.06, random);
+		VertexInput input;
+		input.targetCurvature.assign(mesh.positions.size(), 0.0);
+		for (const double K : {1e-11, 1e-10, 9e-10}) {
+			input.targetCurvature[40] = K;
+			const FlatResult map = asFound(mesh, input);
+			EXPECT_EQ(map.report.cones, 0);
+			EXPECT_EQ(map.report.flippedFaces, 0);
+			EXPECT_GE(*map.report.relationError, K / (4 * genus - 2) - 1e-12);
+			EXPECT_LE(*map.report.relationError, 10 * K + 1e-12);
+		}
+		input.targetCurvature[40] = 1.1e-9;
+		const FlatResult map = asFound(mesh, input);
+		EXPECT_EQ(map.report.cones, 1);
+		EXPECT_LT(*map.report.relationError, 1e-11);
 	}
 }
 
