@@ -152,12 +152,11 @@ enum class Branched {
 
 /// The hyperelliptic curve that is branched at the n-th roots of unity. The sphere is tiled by 4 n triangles with
 /// their corners at 0 or infinity, at a root, and at the middle between two of them; each is on two sheets. Sides
-/// are divided by \p divisions.
-inline SurfaceMesh hyperelliptic(int n, Branched branched, int divisions)
+/// are divided by \p divisions. The triangles are those of regular polygons, \p stretch times as wide.
+inline SurfaceMesh hyperelliptic(int n, Branched branched, int divisions, double stretch = 1.0)
 {
-	const double angle = kPi / n;
-	const Tile tile =
-		triangleTile({0, 0}, {std::cos(angle), -std::sin(angle)}, {std::cos(angle), 0}, divisions);
+	const double angle = kPi / n, x = stretch * std::cos(angle);
+	const Tile tile = triangleTile({0, 0}, {x, -std::sin(angle)}, {x, 0}, divisions);
 	// A copy: pole, sector, half and sheet. The sheets cross over along edges from a pole to the roots.
 	return reflected(tile, 8 * n, [=](int copy, int side) {
 		const int sheet = copy % 2, half = copy / 2 % 2, pole = copy / 4 % 2, sector = copy / 8;
