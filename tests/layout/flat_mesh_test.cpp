@@ -4,7 +4,7 @@
 #include "support/random_surface.h"
 
 #include <ricci/layout/flat_mesh.h>
-#include <ricci/layout/layout_tree.h>
+#include <ricci/layout/planar_layout.h>
 #include <ricci/surface/sides.h>
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/overlay/chord_arrangement.h>
-#include <ricci/overlay/piece_triangulation.h>
+#include <ricci/overlay/overlay_pieces.h>
 
 #include <gtest/gtest.h>
 
