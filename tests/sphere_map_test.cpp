@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "../support/complex.h"
-#include "../support/expect.h"
-#include "../support/flat_map.h"
-#include "../support/listener.h"
-#include "../support/random.h"
-#include "../support/shapes.h"
-#include "../support/transform.h"
+#include "support/complex.h"
+#include "support/random.h"
+#include "support/shapes.h"
+#include "support/transform.h"
 
-#include <ricci/base/numbers.h>
-#include <ricci/error.h>
 #include <ricci/sphere_map.h>
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -213,48 +206,21 @@ TEST(SphereMap, CountsFacesThatSpanMoreThanAHemisphere)
 	double area = 0.0;
 	for (const Triangle& t : mesh.triangles) {
 		// Girard: angles between the planes of the sides, less pi; negative where flipped.
-		std::array<Eigen::Vector3d, 3> p;
+		std::array<Point3, 3> p;
 		for (std::size_t k = 0; k < 3; ++k)
-			p[k] = Eigen::Map<const Eigen::Vector3d>(map.positions[at(t[k])].data());
+			p[k] = map.positions[at(t[k])];
 		double excess = -kPi;
 		for (std::size_t k = 0; k < 3; ++k) {
-			const Eigen::Vector3d a = p[k].cross(p[(k + 1) % 3]), b = p[k].cross(p[(k + 2) % 3]);
-			excess += std::atan2(a.cross(b).norm(), a.dot(b));
+			const Point3 a = cross(p[k], p[(k + 1) % 3]), b = cross(p[k], p[(k + 2) % 3]);
+			excess += std::atan2(length(cross(a, b)), dot(a, b));
 		}
-		const bool isTurned = p[0].dot(p[1].cross(p[2])) < 0.0;
+		const bool isTurned = dot(p[0], cross(p[1], p[2])) < 0.0;
 		turned += isTurned;
 		area += isTurned ? -excess : excess;
 	}
 	EXPECT_NEAR(area, 0.0, 1e-9);
 	EXPECT_GT(turned, 0);
 	EXPECT_EQ(map.flippedFaces, turned);
-}
-
-TEST(SphereMap, RefusesOtherSurfaces)
-{
-	const auto refusal = [](const SurfaceMesh& mesh) {
-		return refusalOf<InvalidOption>([&] { toSphere(mesh); });
-	};
-	const auto donut = refusal(torus(2, 1, 8, 8));
-	EXPECT_EQ(donut.problem, InvalidOption::NotASphere);
-	EXPECT_TRUE(donut.surface.isTorus());
-	expectWords(donut.what(), {"(a torus)"});
-	const auto disk = refusal(rectangle(2, 2, 1, 1));
-	EXPECT_EQ(disk.problem, InvalidOption::NotASphere);
-	EXPECT_TRUE(disk.surface.isDisk());
-	expectWords(disk.what(), {"a disk"});
-	const auto pair = refusal(sideBySide(tetrahedron(), tetrahedron(), 5.0));
-	EXPECT_EQ(pair.problem, InvalidOption::SphereOfComponents);
-	EXPECT_EQ(pair.count, 2u);
-	expectWords(pair.what(), {"2 components"});
-}
-
-TEST(SphereMap, KeepsToTheMemoryLimitOfItsTask)
-{
-	Listener listener;
-	Task task(listener);
-	task.setMemoryLimit(1000.0);
-	EXPECT_THROW(toSphere(icosphere(2)), TooLarge);
 }
 
 } // namespace

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/expect.h"
 #include "support/flat_map.h"
-#include "support/intrinsic.h"
 #include "support/shapes.h"
-
-#include <ricci/base/numbers.h>
-#include <ricci/cut/cut_graph.h>
-#include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -35,55 +29,6 @@ Options capped()
 	Options options;
 	options.holes = Holes::Capped;
 	return options;
-}
-
-TEST(HoleSeams, AreDroppedBackToWhatTheCutMustReach)
-{
-	const SurfaceMesh mesh = perforated(14, 0.0);
-	const Triangulation t = glued(mesh);
-	const EdgeArray<double> lengths = edgeLengths(t, mesh);
-	VertexArray<char> marked(t.vertexCount(), 0), closes = marked;
-	const CutGraph whole = cutToDisk(t, lengths, marked);
-	ASSERT_GT(whole.edgeCount, 0);
-
-	CutGraph cut = whole; // no hole closes: nothing is dropped
-	dropSeamsToHoles(t, lengths, closes, marked, cut);
-	EXPECT_EQ(cut.isCut, whole.isCut);
-	EXPECT_EQ(cut.edgeCount, whole.edgeCount);
-
-	std::size_t longest = 0, loops = 0;
-	std::vector<Vertex> longestLoop, hole;
-	for (const Halfedge first : t.boundaryLoops()) {
-		std::vector<Vertex> loop;
-		for (const Halfedge h : t.loop(first))
-			loop.push_back(t.origin(h));
-		if (loop.size() > longest)
-			longest = loop.size(), longestLoop = loop;
-		else
-			hole = loop;
-		++loops;
-		for (const Vertex v : loop)
-			closes[v] = 1;
-	}
-	ASSERT_EQ(loops, 4u);
-	for (const Vertex v : longestLoop)
-		closes[v] = 0;
-	cut = whole; // all close: nothing is left
-	dropSeamsToHoles(t, lengths, closes, marked, cut);
-	EXPECT_EQ(cut.edgeCount, 0);
-	EXPECT_EQ(std::count(cut.isCut.begin(), cut.isCut.end(), 1), 0);
-
-	marked[hole.front()] = 1; // a cone on the rim of one
-	cut = whole;
-	dropSeamsToHoles(t, lengths, closes, marked, cut);
-	EXPECT_GT(cut.edgeCount, 0);
-	EXPECT_EQ(std::count(cut.isCut.begin(), cut.isCut.end(), 1), cut.edgeCount);
-	double length = 0.0;
-	for (const Edge e : t.edges())
-		if (cut.isCut[e])
-			length += lengths[e];
-	EXPECT_NEAR(cut.length, length, 1e-12);
-	EXPECT_LE(cut.edgeCount, whole.edgeCount);
 }
 
 /// Every vertex has one place in the plane.
@@ -127,7 +72,7 @@ TEST(CappedHoles, OfAPlaneDoNotMoveIt)
 		EXPECT_EQ(flat.report.cappedHoles, 3);
 		EXPECT_EQ(flat.report.boundaryLoops, 4);
 		EXPECT_EQ(flat.report.seamEdges, 0);
-		EXPECT_EQ(overlapsIn(flat.mesh), 0u);
+		EXPECT_EQ(flat.report.overlappingFaces, 0);
 		EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-10);
 		EXPECT_NEAR(flat.report.areaDistortionSpread, 0.0, 1e-6);
 		EXPECT_EQ(flat.uv.size(), mesh.triangles.size());
@@ -151,7 +96,7 @@ TEST(CappedHoles, GiveOneChartWithoutSeamsForEveryTargetOfADisk)
 			const FlatResult flat = run(mesh, options);
 			EXPECT_EQ(flat.report.seamEdges, 0);
 			EXPECT_EQ(flat.report.flippedFaces, 0);
-			EXPECT_EQ(overlapsIn(flat.mesh), 0u);
+			EXPECT_EQ(flat.report.overlappingFaces, 0);
 			ASSERT_EQ(flat.charts.size(), 1u);
 			// Holes close by rotation and translation.
 			expectOnePlaceEach(mesh, flat.uv);
@@ -183,7 +128,7 @@ TEST(CappedHoles, CarryConesOnTheirRim)
 	const SurfaceMesh mesh = perforated(16, 0.2);
 	const auto vertex = [](int i, int j) { return i * 17 + j; };
 	const int rim = vertex(3, 3); // the number of the removed vertex's next one, on the rim
-	ASSERT_TRUE(glued(mesh).boundaryVertices()[Vertex(rim)]);
+	ASSERT_TRUE(FlatMap(mesh, UV(mesh.triangles.size())).boundary[at(rim)]);
 	VertexInput input = selecting(mesh, {rim});
 	Options options = capped();
 	options.target = TargetCurvature::SelectedCones;
@@ -198,7 +143,11 @@ TEST(CappedHoles, CarryConesOnTheirRim)
 	expectWords(error.what(), {"6.28318531", "at an interior vertex (1 "});
 	input.selected[at(vertex(8, 8))] = 1;
 	const FlatResult flat = run(mesh, options, input);
+	// The seam goes from the cone on the rim to the other one, and to no other hole.
 	EXPECT_GT(flat.report.seamEdges, 0);
+	EXPECT_LE(
+		flat.report.seamLength,
+		1.1 * distance(mesh.positions[at(rim)], mesh.positions[at(vertex(8, 8))]));
 	EXPECT_NEAR(flat.targetCurvature[at(rim)], kPi, 1e-12);
 }
 
@@ -266,19 +215,8 @@ TEST(ShortHoles, ThatAreAllThereIsLeaveAClosedSurface)
 		total += k;
 	EXPECT_NEAR(total, 4 * kPi, 1e-9);
 	EXPECT_EQ(flat.report.flippedFaces, 0);
-	EXPECT_EQ(overlapsIn(flat.mesh), 0u);
+	EXPECT_EQ(flat.report.overlappingFaces, 0);
 	EXPECT_LT(FlatMap(mesh, flat.uv).seamMismatch, 1e-6);
-}
-
-TEST(CappedHoles, BelongToIntrinsicFlips)
-{
-	Options options = capped();
-	for (const Method method : {Method::FixedTriangles, Method::EdgeSwaps, Method::Thurston}) {
-		options.method = method;
-		const auto error = refusalOf<InvalidOption>([&] { run(perforated(9, 0.1), options); });
-		EXPECT_EQ(error.problem, InvalidOption::WithoutFlips);
-		expectWords(error.what(), {"apped holes", "intrinsic flips"});
-	}
 }
 
 } // namespace
