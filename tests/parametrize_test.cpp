@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -187,6 +188,32 @@ TEST(Parametrize, AFaceWithoutAreaChangesNoOther)
 	EXPECT_EQ(other.report.lengthened, 0.0);
 	EXPECT_NEAR(*one.report.rectangleAspect, *other.report.rectangleAspect, 1e-3);
 	EXPECT_NEAR(*one.report.rectangleAspect, 20.0, 20.0 / n);
+}
+
+/// Packing turns charts by right angles alone then.
+TEST(Parametrize, QuarterTurnsAcrossSeamsStaySoInTheSquare)
+{
+	Random random(218);
+	const SurfaceMesh mesh = sideBySide(
+		shaken(perforatedSlab(2, 2), 0.05, random), shaken(perforatedSlab(0, 3), 0.05, random), 20);
+	Options options;
+	options.target = TargetCurvature::PlacedCones;
+	options.cones.rounding = ConeRounding::QuarterTurns;
+	const Parametrization map = parametrizeEuclidean(mesh, {}, options);
+	std::map<std::pair<int, int>, Point2> sides; // from one vertex to the other
+	for (const int f : map.mesh.points.indices())
+		for (const Corner c : cornersOf(f))
+			sides[{map.mesh.vertices[c], map.mesh.vertices[c.next()]}] =
+				map.mesh.at(c.next()) - map.mesh.at(c);
+	int turned = 0;
+	for (const auto& [ends, side] : sides) {
+		const Point2 other = -1.0 * sides.at({ends.second, ends.first});
+		const double turns = std::arg(asComplex(side) / asComplex(other)) / (kPi / 2);
+		EXPECT_NEAR(turns, std::round(turns), 1e-5);
+		turned += std::abs(turns) > 0.5;
+	}
+	EXPECT_GT(turned, 10);
+	EXPECT_LT(map.report.holonomyError.value_or(1.0), 1e-6);
 }
 
 TEST(Parametrize, ARectangleHasFourStraightSides)
