@@ -16,24 +16,20 @@ namespace {
 
 using Complex = std::complex<double>;
 
-std::vector<double> chords(const std::vector<double>& arcs, double radius)
+double sum(const std::vector<double>& x)
 {
-	std::vector<double> sides;
-	for (double arc : arcs)
-		sides.push_back(2 * radius * std::sin(0.5 * arc));
-	return sides;
+	return std::accumulate(x.begin(), x.end(), 0.0);
 }
 
 /// Random arcs that add up to 2 pi; \p largest is the share of the first, the others random.
 std::vector<double> randomArcs(std::size_t n, double largest, Random& random)
 {
 	std::vector<double> arcs(n);
-	double sum = 0.0;
 	for (double& arc : arcs)
-		sum += arc = random.real(0.1, 1.0);
-	sum -= arcs[0];
+		arc = random.real(0.1, 1.0);
+	const double others = sum(arcs) - arcs[0];
 	for (double& arc : arcs)
-		arc *= 2 * kPi * (1 - largest) / sum;
+		arc *= 2 * kPi * (1 - largest) / others;
 	arcs[0] = 2 * kPi * largest;
 	return arcs;
 }
@@ -42,34 +38,14 @@ std::vector<Complex> points(const std::vector<double>& arcs)
 {
 	std::vector<Complex> z;
 	double angle = 0.0;
-	for (double arc : arcs) {
+	for (const double arc : arcs) {
 		z.push_back(std::polar(1.0, angle));
 		angle += arc;
 	}
 	return z;
 }
 
-Complex barycentre(const std::vector<double>& arcs, const std::vector<double>& weights)
-{
-	const auto z = points(arcs);
-	Complex b = 0.0;
-	for (std::size_t i = 0; i < z.size(); ++i)
-		b += weights[i] * z[i];
-	return b / std::accumulate(weights.begin(), weights.end(), 0.0);
-}
-
-TEST(InscribedPolygon, RegularPolygons)
-{
-	for (int n : {3, 4, 5, 17, 1000}) {
-		const InscribedPolygon polygon =
-			inscribedPolygon(std::vector<double>(static_cast<std::size_t>(n), 0.7));
-		EXPECT_NEAR(polygon.radius, 0.35 / std::sin(kPi / n), 1e-13 * n);
-		for (double arc : polygon.arcs)
-			EXPECT_NEAR(arc, 2 * kPi / n, 1e-13);
-	}
-}
-
-TEST(InscribedPolygon, FindsTheCircleOfRandomPolygons)
+TEST(InscribedPolygon, HasTheCircleThatItsSidesAreChordsOf)
 {
 	Random random(80);
 	int checked = 0;
@@ -84,22 +60,27 @@ TEST(InscribedPolygon, FindsTheCircleOfRandomPolygons)
 		++checked;
 		std::rotate(arcs.begin(), arcs.begin() + random.index(static_cast<int>(n)), arcs.end());
 		const double radius = std::pow(10.0, random.real(-6, 6));
-		const InscribedPolygon polygon = inscribedPolygon(chords(arcs, radius));
+		std::vector<double> chords;
+		for (const double arc : arcs)
+			chords.push_back(2 * radius * std::sin(0.5 * arc));
+		const InscribedPolygon polygon = inscribedPolygon(chords);
 		EXPECT_NEAR(polygon.radius / radius, 1.0, 1e-11);
 		ASSERT_EQ(polygon.arcs.size(), n);
 		for (std::size_t i = 0; i < n; ++i)
 			EXPECT_NEAR(polygon.arcs[i], arcs[i], 1e-10);
-		EXPECT_NEAR(std::accumulate(polygon.arcs.begin(), polygon.arcs.end(), 0.0), 2 * kPi, 1e-13);
+		EXPECT_NEAR(sum(polygon.arcs), 2 * kPi, 1e-13);
 	}
 	EXPECT_GT(checked, 250);
-}
-
-TEST(InscribedPolygon, CentreOnTheLongestSide)
-{
-	// 3-4-5: the hypotenuse is the diameter.
+	for (const int n : {3, 4, 5, 17, 1000}) { // regular ones
+		const InscribedPolygon polygon =
+			inscribedPolygon(std::vector<double>(static_cast<std::size_t>(n), 0.7));
+		EXPECT_NEAR(polygon.radius, 0.35 / std::sin(kPi / n), 1e-13 * n);
+		for (const double arc : polygon.arcs)
+			EXPECT_NEAR(arc, 2 * kPi / n, 1e-13);
+	}
+	// 3-4-5: the hypotenuse is the diameter, whose arc is as uncertain as the root of rounding.
 	const InscribedPolygon polygon = inscribedPolygon({3, 4, 5});
 	EXPECT_NEAR(polygon.radius, 2.5, 1e-12);
-	// The arc of a diameter is as uncertain as the square root of rounding.
 	EXPECT_NEAR(polygon.arcs[2], kPi, 1e-6);
 	EXPECT_NEAR(polygon.arcs[0], 2 * std::asin(3.0 / 5), 1e-6);
 }
@@ -107,7 +88,7 @@ TEST(InscribedPolygon, CentreOnTheLongestSide)
 TEST(ExteriorAngles, AreThoseOfThePolygonInThePlane)
 {
 	Random random(81);
-	for (double share : {0.1, 0.4, 0.7}) {
+	for (const double share : {0.1, 0.4, 0.7}) {
 		const std::vector<double> arcs = randomArcs(11, share, random);
 		const std::vector<double> angles = exteriorAngles(arcs);
 		const auto z = points(arcs);
@@ -116,7 +97,7 @@ TEST(ExteriorAngles, AreThoseOfThePolygonInThePlane)
 			const Complex in = z[i] - z[(i + n - 1) % n], out = z[(i + 1) % n] - z[i];
 			EXPECT_NEAR(angles[i], std::arg(out / in), 1e-13);
 		}
-		EXPECT_NEAR(std::accumulate(angles.begin(), angles.end(), 0.0), 2 * kPi, 1e-13);
+		EXPECT_NEAR(sum(angles), 2 * kPi, 1e-13);
 	}
 }
 
@@ -126,19 +107,21 @@ TEST(CentredArcs, PutTheBarycentreAtTheCentre)
 	int checked = 0;
 	for (int trial = 0; trial < 300; ++trial) {
 		const std::size_t n = 3 + static_cast<std::size_t>(random.index(50));
-		std::vector<double> arcs = randomArcs(n, random.real(0.05, 0.95), random), weights(n);
+		const std::vector<double> arcs = randomArcs(n, random.real(0.05, 0.95), random);
+		std::vector<double> weights(n);
 		for (double& w : weights)
 			w = random.real(0.2, 1.0);
-		const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-		if (*std::max_element(weights.begin(), weights.end()) > 0.45 * total)
+		if (*std::max_element(weights.begin(), weights.end()) > 0.45 * sum(weights))
 			continue;
 		++checked;
 		const std::vector<double> centred = centredArcs(arcs, weights);
-		EXPECT_LT(std::abs(barycentre(centred, weights)), 1e-13) << "n = " << n;
-		EXPECT_NEAR(std::accumulate(centred.begin(), centred.end(), 0.0), 2 * kPi, 1e-13);
-		// A Moebius transformation keeps cross ratios.
 		const auto a = points(arcs), b = points(centred);
-		for (std::size_t i = 0; i + 3 < n; ++i) {
+		Complex barycentre = 0.0;
+		for (std::size_t i = 0; i < n; ++i)
+			barycentre += weights[i] * b[i];
+		EXPECT_LT(std::abs(barycentre) / sum(weights), 1e-13) << "n = " << n;
+		EXPECT_NEAR(sum(centred), 2 * kPi, 1e-13);
+		for (std::size_t i = 0; i + 3 < n; ++i) { // a Moebius transformation keeps cross ratios
 			const auto ratio = [&](const std::vector<Complex>& z) {
 				return (z[i] - z[i + 2]) * (z[i + 1] - z[i + 3]) /
 					   ((z[i + 1] - z[i + 2]) * (z[i] - z[i + 3]));
@@ -147,19 +130,10 @@ TEST(CentredArcs, PutTheBarycentreAtTheCentre)
 		}
 	}
 	EXPECT_GT(checked, 250);
-}
-
-TEST(CentredArcs, KeepWhatIsCentred)
-{
-	const std::vector<double> arcs(12, 2 * kPi / 12), weights(12, 3.0);
-	const std::vector<double> centred = centredArcs(arcs, weights);
-	for (double arc : centred)
+	for (const double arc :
+		 centredArcs(std::vector<double>(12, 2 * kPi / 12), std::vector<double>(12, 3.0)))
 		EXPECT_NEAR(arc, 2 * kPi / 12, 1e-14);
-}
-
-TEST(CentredArcs, ReturnTheInputWhereOneWeightIsHalf)
-{
-	const std::vector<double> arcs{1.0, 2.0, 2 * kPi - 3.0};
+	const std::vector<double> arcs{1.0, 2.0, 2 * kPi - 3.0}; // one weight is half of all
 	EXPECT_EQ(centredArcs(arcs, {1.0, 2.0, 3.0}), arcs);
 }
 

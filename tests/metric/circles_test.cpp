@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The circles that the flow ends with, against the formulas of the paper.
+#include "support/front_door.h"
+#include "support/random_surface.h"
+
+#include <ricci/error.h>
+#include <ricci/parametrize.h>
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace ricci::testing {
+namespace {
+
+/// Closed, with boundaries, and with angles down to 1e-2 degrees.
+std::vector<SurfaceMesh> surfaces()
+{
+	Random random(10);
+	return {
+		tetrahedron(),
+		bumpyTorus(12, 8, random),
+		randomPlanarDisk(8, random),
+		sliverDisk(8, 2.0, random),
+		withoutStars(shaken(perforatedSlab(1, 4), 0.03, random), {0}),
+		shaken(perforatedSlab(2, 2), 0.03, random)};
+}
+
+/// The curvature of the mesh itself, some of it moved evenly to all vertices.
+std::vector<double> smoothedCurvature(const SurfaceMesh& mesh, double share)
+{
+	Circles circles(mesh);
+	std::vector<double> log, own;
+	for (const auto r : circles.radius)
+		log.push_back(static_cast<double>(std::log(r)));
+	for (const auto K : circles.curvatureWith(log))
+		own.push_back(static_cast<double>(K));
+	const double mean = sum(own) / static_cast<double>(own.size());
+	for (double& K : own)
+		K = (1.0 - share) * K + share * mean;
+	return own;
+}
+
+Options prescribed(Method method)
+{
+	Options options = towards(TargetCurvature::Prescribed, method);
+	options.freeBoundary = false;
+	return options;
+}
+
+/// Where the flow has nothing to do its radii are the least tangent lengths of the triangles at a vertex; with
+/// flips half of them, so that no circles touch, here without a flip.
+TEST(Circles, OfTheStartAreThoseOfThePaper)
+{
+	for (const SurfaceMesh& mesh : surfaces()) {
+		const VertexInput own = prescribing(smoothedCurvature(mesh, 0.0));
+		const FlatResult map = flattened(mesh, prescribed(Method::FixedTriangles), own);
+		EXPECT_EQ(map.report.iterations, 0);
+		const Circles circles(mesh);
+		for (std::size_t v = 0; v < map.u.size(); ++v)
+			EXPECT_NEAR(map.u[v], static_cast<double>(std::log(circles.radius[v])), 1e-10);
+	}
+	const SurfaceMesh mesh = tetrahedron();
+	const VertexInput own = prescribing(smoothedCurvature(mesh, 0.0));
+	const FlatResult map = flattened(mesh, prescribed(Method::IntrinsicFlips), own);
+	EXPECT_EQ(map.report.flips, 0);
+	for (const double u : map.u)
+		EXPECT_NEAR(std::exp(u), static_cast<double>(0.5L * Circles(mesh).radius[0]), 1e-12);
+}
+
+/// Radii change, inversive distances stay: every edge of the map is as long as Eq. 4 says, and the curvature of
+/// these lengths is the target.
+TEST(Circles, HaveTheLengthsOfTheMapAndItsCurvature)
+{
+	for (const SurfaceMesh& mesh : surfaces())
+		for (const Method method : {Method::FixedTriangles, Method::Thurston}) {
+			SCOPED_TRACE(static_cast<int>(method));
+			Circles circles(mesh);
+			circles.isThurston = method == Method::Thurston;
+			const std::vector<double> target = smoothedCurvature(mesh, 0.5);
+			const FlatResult map = flattened(mesh, prescribed(method), prescribing(target));
+			EXPECT_LE(map.report.maxCurvatureError, 1e-8);
+			EXPECT_LT(largestDifference(mesh, map.targetCurvature, target), 1e-12);
+			expectDrawn(mesh, map, target);
+			const auto curvature = circles.curvatureWith(map.u);
+			for (std::size_t v = 0; v < target.size(); ++v)
+				EXPECT_NEAR(static_cast<double>(curvature[v]), target[v], 1e-8);
+			for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+				for (std::size_t k = 0; k < 3; ++k) {
+					const int i = mesh.triangles[f][k], j = mesh.triangles[f][(k + 1) % 3];
+					const auto l = static_cast<double>(circles.lengthWith(map.u, i, j));
+					const Point2 side = map.uv[f][(k + 1) % 3] - map.uv[f][k];
+					EXPECT_NEAR(std::hypot(side[0], side[1]) / l, 1.0, 1e-9);
+				}
+		}
+}
+
+TEST(Circles, HaveTheLengthsOfTheMapInTheDiskAndItsCurvature)
+{
+	const SurfaceMesh mesh = perforatedSlab(2, 3); // no triangle breaks
+	Circles circles(mesh);
+	circles.isHyperbolic = true;
+	HyperbolicOptions options;
+	options.method = Method::FixedTriangles;
+	const FlatResult map = inUnitDisk(mesh, options);
+	EXPECT_EQ(map.report.flips, 0);
+	for (const auto K : circles.curvatureWith(map.u))
+		EXPECT_NEAR(static_cast<double>(K), 0.0, 1e-8);
+	expectDrawn(mesh, map, map.targetCurvature, false, true);
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const int i = mesh.triangles[f][k], j = mesh.triangles[f][(k + 1) % 3];
+			const auto p = asComplex(map.uv[f][k]), q = asComplex(map.uv[f][(k + 1) % 3]);
+			const double length = 2.0 * std::atanh(std::abs((q - p) / (1.0 - std::conj(p) * q)));
+			EXPECT_NEAR(length / static_cast<double>(circles.lengthWith(map.u, i, j)), 1.0, 1e-8);
+		}
+}
+
+/// A face without area gets a little: at its flat corner an excess of 1e-5 of the shorter side there, half of it
+/// on every edge at that vertex; an edge without length is nothing but what it gets.
+TEST(Circles, OfDegenerateFacesAreThoseOfLongerEdges)
+{
+	const Options options = towards(TargetCurvature::Automatic);
+	SurfaceMesh mesh = rectangle(8, 8, 1, 1);
+	EXPECT_EQ(flattened(mesh, options).report.lengthened, 0.0);
+	mesh.positions[40] = {0.4375, 0.375, 0.0}; // halfway between two vertices of one of its faces
+	double shortest = HUGE_VAL, excess = 0.0;
+	for (const Triangle& t : mesh.triangles)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Point3 &p = mesh.positions[at(t[k])], &q = mesh.positions[at(t[(k + 1) % 3])];
+			const Point3& r = mesh.positions[at(t[(k + 2) % 3])];
+			if (t[k] != 40)
+				continue;
+			const double left = distance(p, q), right = distance(p, r);
+			shortest = std::min({shortest, left, right});
+			if (length(cross(q - p, r - p)) < 1e-15)
+				excess = std::max(excess, 1e-5 * std::min(left, right));
+		}
+	ASSERT_GT(excess, 0.0);
+	const FlatResult flat = flattened(mesh, options);
+	EXPECT_NEAR(flat.report.lengthened, 0.5 * excess / (shortest + 0.5 * excess), 1e-12);
+	mesh.positions[12] = mesh.positions[13];
+	EXPECT_EQ(flattened(mesh, options).report.lengthened, 1.0);
+}
+
+} // namespace
+} // namespace ricci::testing
