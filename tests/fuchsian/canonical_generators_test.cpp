@@ -144,7 +144,7 @@ TEST(CanonicalGenerators, OfACanonicalWordOfOneHandleAreNoLongerThanItsLetters)
 TEST(CanonicalGenerators, OfManyHandlesHaveTheProductOfTheWord)
 {
 	Random random(874);
-	const int handles = 40;
+	const int handles = 30;
 	GroupWord word;
 	for (int g = 0; g < 2 * handles; g += 2) {
 		std::array<std::ptrdiff_t, 3> place{};
