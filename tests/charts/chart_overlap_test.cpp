@@ -120,24 +120,24 @@ double commonArea(const Triangle2& a, const Triangle2& b)
 TEST(ChartOverlap, OfARingNamesThePairsWithCommonArea)
 {
 	Random random(405);
-	for (const double turns : {0.3, 0.9, 0.999, 1.0, 1.001, 1.02, 1.4, 2.7})
+	for (const double turns : {0.9, 1.02, 1.4, 2.7})
 		for (const double wobble : {0.0, 0.3}) {
 			const int around = static_cast<int>(200 * turns), across = 40;
 			FlatMesh chart = flatMesh(screw(turns, around, across));
 			for (Point2& p : chart.place)
 				for (double& x : p)
-					x += (turns == 1.0 ? 0.0 : wobble) * random.real(-1.0, 1.0) / around;
+					x += wobble * random.real(-1.0, 1.0) / around;
 			const OverlapSearch all(chart.corners()), followed(chart);
 			EXPECT_EQ(followed.pairs(), all.pairs()) << turns;
+			EXPECT_EQ(all.pairs().empty(), turns < 1.0) << turns;
 			EXPECT_TRUE(followed.isComplete());
-			if (wobble == 0.0 || std::abs(turns - 1.0) > 0.01) {
-				EXPECT_EQ(all.pairs().empty(), turns <= 1.0) << turns;
-			}
 			// That all are not compared shows where few of them overlap.
-			if (turns > 0.5 && turns < 1.1) {
+			if (turns < 1.1) {
 				EXPECT_LT(2 * followed.steps(), all.steps()) << turns;
 			}
 		}
+	for (const double turns : {0.3, 0.999, 1.0, 1.001, 1.1, 1.9})
+		EXPECT_EQ(overlappingPairs(flatMesh(screw(turns, 60, 4))).empty(), turns <= 1.0) << turns;
 	for (const double turns : {0.8, 1.4, 2.7}) {
 		const FlatMesh chart = flatMesh(screw(turns, 50, 5));
 		const std::vector<TrianglePair> pairs = overlappingPairs(chart);

@@ -9,7 +9,6 @@
 #include <ricci/charts/chart_overlap.h>
 #include <ricci/charts/connected_pieces.h>
 #include <ricci/charts/join_parts.h>
-#include <ricci/charts/movable_parts.h>
 #include <ricci/charts/separate_charts.h>
 
 #include <gtest/gtest.h>
@@ -134,30 +133,6 @@ TEST(CutOff, MakesAChartOfEachConnectedPart)
 	EXPECT_EQ(sizes, (std::multiset<std::size_t>{2 * kSide, 4 * kSide, 6 * kSide}));
 	// The columns beside the cuts have points of their own.
 	EXPECT_EQ(map.mesh.place.size(), (kSide + 1) * (kSide + 3));
-}
-
-/// What is joined elsewhere takes nothing from what is cut.
-TEST(CountCuts, CountsTheEdgesThatAreCut)
-{
-	Parametrization map = squareMap();
-	const auto cutAt = [&](double x) {
-		for (const int f : map.mesh.chart.indices())
-			map.mesh.chart[f] = middleOf(map.mesh.at(f)) > x;
-		splitPoints(map.mesh);
-	};
-	cutAt(0.5);
-	const Seams before = seams(map.mesh);
-	EXPECT_EQ(before.edges.size(), std::size_t(kSide));
-	map.mesh = squareMap().mesh;
-	map.report.seamEdges = kSide + 2;
-	countCuts(before, map);
-	EXPECT_EQ(map.report.overlapCuts, 0);
-	EXPECT_EQ(map.report.seamEdges, 2);
-	EXPECT_NEAR(map.report.seamLength, -1.0, 1e-14);
-	cutAt(1.0 / 3.0);
-	countCuts(before, map);
-	EXPECT_EQ(map.report.overlapCuts, kSide);
-	EXPECT_NEAR(map.report.seamLength, -1.0, 1e-14);
 }
 
 Motion randomMotion(double reach, Random& random)
@@ -313,97 +288,6 @@ TEST(JoinParts, AmongManySmallPartsOnlyTheSmallestAreCrumbs)
 			EXPECT_EQ(joined, at(2 * pairs));
 		EXPECT_EQ(s.edgesJoined > (isCrumb ? 5 : 0), isCrumb);
 	}
-}
-
-FlatMesh square(int size)
-{
-	return flatMesh(rectangle(size, size, 1.0, 1.0));
-}
-
-/// Parts of consecutive triangles.
-Parts stripes(int triangleCount, int count)
-{
-	Parts parts(at(count));
-	for (int i = 0; i < triangleCount; ++i)
-		parts[at(i * count / triangleCount)].push_back(i);
-	return parts;
-}
-
-/// A part at random, and some of its triangles for another one.
-void moveSome(MovableParts& parts, Random& random)
-{
-	const int from = random.index(parts.count()), to = random.index(parts.count());
-	std::vector<int> some;
-	for (const int f : parts.trianglesOf(from))
-		if (random.coin())
-			some.push_back(f);
-	if (from != to && !some.empty())
-		parts.move(some, {to, randomMotion(0.5, random), 0.0});
-}
-
-TEST(MovableParts, UndoRestoresAll)
-{
-	Random random(1230);
-	for (int trial = 0; trial < 30; ++trial) {
-		const FlatMesh chart = square(6);
-		MovableParts parts(chart, stripes(chart.size(), 4));
-		for (int i = 0; i < 5; ++i)
-			moveSome(parts, random);
-		parts.commit();
-		const auto state = [&] {
-			Array<Triangle2> places;
-			std::vector<int> part;
-			for (int f = 0; f < chart.size(); ++f) {
-				places.push_back(parts.at(f));
-				part.push_back(parts.partOf(f));
-			}
-			Parts lists;
-			std::vector<double> areas;
-			for (int i = 0; i < parts.count(); ++i) {
-				lists.push_back(parts.trianglesOf(i));
-				areas.push_back(parts.area(i));
-			}
-			return std::make_tuple(places, part, lists, areas);
-		};
-		const auto before = state();
-		parts.addPart();
-		for (int i = random.index(8); i > 0; --i)
-			moveSome(parts, random);
-		parts.undo();
-		EXPECT_TRUE(state() == before);
-	}
-}
-
-/// All pairs of triangles are compared, after some moves; with a tree of all triangles, or one for each part.
-TEST(MovableParts, FindsWhatCoversAPart)
-{
-	Random random(1231);
-	const FlatMesh chart = square(5);
-	const BoxTree all = boxTreeOf(chart.corners());
-	int found = 0;
-	for (int trial = 0; trial < 200; ++trial) {
-		MovableParts parts(chart, stripes(chart.size(), 3), trial % 2 == 0 ? &all : nullptr);
-		for (int i = random.index(4); i > 0; --i)
-			moveSome(parts, random);
-		const Place place{1, randomMotion(0.5, random), 0.0};
-		const MovableParts::Groups near = parts.groupsNear(0, place);
-		std::multiset<int> wanted, covered;
-		for (const int f : parts.trianglesOf(0)) {
-			const std::size_t before = wanted.size();
-			for (const int g : parts.trianglesOf(1))
-				if (overlap(place.motion(parts.at(f)), parts.at(g), 1e-9))
-					wanted.insert(g);
-			EXPECT_EQ(parts.covers(f, place.motion, near), wanted.size() > before);
-		}
-		EXPECT_FALSE(parts.covering(0, place, [&](int g) {
-			covered.insert(g);
-			return false;
-		}));
-		EXPECT_EQ(covered, wanted);
-		EXPECT_EQ(parts.covering(0, place, [](int) { return true; }), !wanted.empty());
-		found += !wanted.empty();
-	}
-	EXPECT_GT(found, 20);
 }
 
 /// Of random graphs all pieces with one of the starts are returned but one, which is none of the smaller.

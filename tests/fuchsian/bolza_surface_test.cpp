@@ -10,7 +10,6 @@
 #include <ricci/fuchsian/tiling.h>
 #include <ricci/layout/hyperbolic_layout.h>
 #include <ricci/measure/period_matrix.h>
-#include <ricci/metric/area.h>
 #include <ricci/metric/hyperbolic.h>
 
 #include <gtest/gtest.h>
@@ -33,41 +32,6 @@ FuchsianGroup groupOf(
 			offerPairing(layout, lengths[e], e.halfedge(), e.halfedge().twin(), pairing[e]);
 	const VertexArray<char> cones(t.vertexCount(), 0);
 	return fuchsianGroup(t, cut, pairingOfArcs(t, cut, pairing, cones), cones, true);
-}
-
-/// The surface's own metric, laid out in its octagon, whose sides are glued by translations along axes through its
-/// centre. Eight-fold symmetry puts the middle at the centre; one turn is free.
-TEST(BolzaSurface, IsLaidOutInItsOctagon)
-{
-	for (int levels : {0, 1, 3}) {
-		const BolzaSurface surface(levels);
-		const Triangulation& t = surface.triangulation;
-		EXPECT_EQ(t.eulerCharacteristic(), -2);
-		EXPECT_EQ(t.faceCount(), 8 << (2 * levels));
-		const HyperbolicMeasure measure(t, surface.lengths);
-		for (long double K : measure.curvature)
-			EXPECT_NEAR(static_cast<double>(K), 0.0, 1e-12);
-		EXPECT_NEAR(hyperbolicArea(t, surface.lengths), 4 * kPi, 1e-11);
-		const HyperbolicLayout layout =
-			layOutInDisk(t, surface.lengths, surface.angles, surface.cut.isCut);
-		std::complex<double> turn = 0.0;
-		for (const Halfedge h : t.halfedges())
-			if (turn == 0.0 && std::abs(surface.place[h]) > 0.1L)
-				turn =
-					std::polar(1.0, std::arg(layout[h] / std::complex<double>(surface.place[h])));
-		for (const Halfedge h : t.halfedges())
-			EXPECT_LT(std::abs(layout[h] - turn * std::complex<double>(surface.place[h])), 1e-13);
-		const FuchsianGroup group = groupOf(t, surface.lengths, surface.cut, layout);
-		ASSERT_EQ(group.sides.size(), 8u);
-		for (const DiskIsometry& side : group.sides) {
-			EXPECT_NEAR(std::abs(side.trace()), 2 * BolzaSurface::halfTrace(), 1e-12);
-			EXPECT_NEAR(side.displacement(), 2 * BolzaSurface::inradius(), 1e-12);
-		}
-		EXPECT_EQ(group.handles.size(), 4u);
-		EXPECT_LT(group.polygonError, 1e-11);
-		EXPECT_LT(group.closingError, 1e-12);
-		EXPECT_LT(group.relationError, 1e-11);
-	}
 }
 
 /// Inversive distances of hyperbolic lengths (Eq. 3 as printed) know the scale: for the surface's own

@@ -96,15 +96,6 @@ std::size_t cornerCount(const GroupWord& word)
 	return different.size();
 }
 
-TEST(CanonicalGenerators, ProductsAreReadFromTheLeft)
-{
-	Random random(870);
-	const Array<ExtendedIsometry> g = randomIsometries(2, 1.0, random);
-	const ExtendedIsometry product = productOf({{0, false}, {1, true}, {0, true}}, g);
-	EXPECT_LT(errorOf(product.inverse() * g[0] * g[1].inverse() * g[0].inverse()), 1e-17);
-	EXPECT_EQ(errorOf(productOf({}, g)), 0.0);
-}
-
 /// The relation is one of the free group: it holds whatever isometries stand for the letters. A
 /// polygon whose corners are not all one point has no such basis.
 TEST(CanonicalGenerators, HaveTheProductOfTheWord)
@@ -153,7 +144,7 @@ TEST(CanonicalGenerators, OfACanonicalWordOfOneHandleAreNoLongerThanItsLetters)
 TEST(CanonicalGenerators, OfManyHandlesHaveTheProductOfTheWord)
 {
 	Random random(874);
-	const int handles = 40;
+	const int handles = 30;
 	GroupWord word;
 	for (int g = 0; g < 2 * handles; g += 2) {
 		std::array<std::ptrdiff_t, 3> place{};

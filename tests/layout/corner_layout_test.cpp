@@ -3,14 +3,12 @@
 // result shows.
 #include "support/closed_flows.h"
 #include "support/complex.h"
-#include "support/expect.h"
 #include "support/implicit_surface.h"
 #include "support/intrinsic.h"
 #include "support/refinement_check.h"
 
 #include <ricci/layout/common_refinement.h>
 #include <ricci/layout/corner_layout.h>
-#include <ricci/layout/end_sheets.h>
 #include <ricci/surface/normal_coordinates.h>
 
 #include <gtest/gtest.h>
@@ -281,84 +279,6 @@ TEST(CommonRefinement, MapsEndEdgesByTheProjectiveMapOfTheRadii)
 	EXPECT_GT(crossRatios, 50);
 	EXPECT_GT(factors, 15);
 	EXPECT_GT(largest, 0.3); // where an affine map would fail
-}
-
-/// The halfedge of a piece's sheet that is end halfedge h.
-Halfedge inSheet(const EndSheets& sheets, const Triangulation& end, int piece, Halfedge h)
-{
-	const Face sheet = sheets.of[piece];
-	if (sheets.endFace[sheet] != end.face(h))
-		return Halfedge();
-	return sheets.triangulation.halfedges(sheet)[end.corner(h).index()];
-}
-
-/// Two pieces of one end triangle that meet off the cut have one sheet, and two of neighbouring triangles have
-/// sheets that are glued there. Sides of the sheets are as long as the end's edges, and their angles fit by the
-/// law of cosines.
-void expectSheets(
-	const FlippedFlow& flow,
-	const OverlayPieces& pieces,
-	const EdgeArray<char>& isCut,
-	const EndSheets& sheets)
-{
-	const Triangulation& end = flow.result.metric->triangulation();
-	const Triangulation& t = sheets.triangulation;
-	for (const int p : sheets.of.indices())
-		EXPECT_EQ(sheets.endFace[sheets.of[p]], pieces.endFace[p]);
-	for (const auto& link : pieces.links) {
-		ASSERT_TRUE(link[1].isValid());
-		const PieceCorner& side = pieces.at(link[0]);
-		const bool onCut = side.input.isValid() && isCut[side.input.edge()];
-		EXPECT_EQ(isOnCut(side, isCut), onCut); // whatever the end's edge there is
-		if (onCut)
-			continue;
-		if (!side.end.isValid()) {
-			EXPECT_EQ(sheets.of[link[0].piece], sheets.of[link[1].piece]);
-			continue;
-		}
-		const Halfedge h = inSheet(sheets, end, link[0].piece, side.end);
-		ASSERT_TRUE(h.isValid());
-		EXPECT_EQ(inSheet(sheets, end, link[1].piece, side.end.twin()), h.twin());
-	}
-	for (const Face s : t.faces()) {
-		const auto h = t.halfedges(s), original = end.halfedges(sheets.endFace[s]);
-		for (std::size_t k = 0; k < 3; ++k) {
-			EXPECT_EQ(t.origin(h[k]), end.origin(original[k]));
-			const double a = sheets.lengths[h[k].edge()];
-			EXPECT_EQ(a, flow.result.metric->lengths()[original[k].edge()]);
-			const double b = sheets.lengths[h[(k + 2) % 3].edge()];
-			const double c = sheets.lengths[h[(k + 1) % 3].edge()];
-			const double cosine = std::cos(sheets.angles[h[k]]);
-			EXPECT_NEAR(c * c, a * a + b * b - 2 * a * b * cosine, 1e-9 * (a * a + b * b));
-		}
-	}
-}
-
-/// Without a cut they are the triangles of the end; of a surface cut open they make a disk.
-TEST(Sheets, AreTheTrianglesOfTheEndDividedByTheCut)
-{
-	Random random(851);
-	int divided = 0;
-	for (int round = 0; round < 5; ++round)
-		for (const FlippedFlow& flow : closedFlows(random)) {
-			const OverlayPieces pieces = flow.pieces();
-			const EdgeArray<char> noCut(flow.base().edgeCount(), 0);
-			const EndSheets whole = makeSheets(pieces, flow.result, noCut);
-			EXPECT_EQ(whole.triangulation.faceCount(), flow.base().faceCount());
-			EXPECT_EQ(whole.triangulation.edgeCount(), flow.base().edgeCount());
-			EXPECT_EQ(
-				std::set<Face>(whole.endFace.begin(), whole.endFace.end()).size(),
-				at(flow.base().faceCount()));
-			EXPECT_EQ(whole.triangulation.eulerCharacteristic(), flow.base().eulerCharacteristic());
-			expectSheets(flow, pieces, noCut, whole);
-			const EdgeArray<char> isCut = flow.cutAnywhere(random).isCut;
-			const EndSheets sheets = makeSheets(pieces, flow.result, isCut);
-			divided += sheets.triangulation.faceCount() - flow.base().faceCount();
-			expectOpensToADisk(
-				sheets.triangulation, EdgeArray<char>(sheets.triangulation.edgeCount(), 0));
-			expectSheets(flow, pieces, isCut, sheets);
-		}
-	EXPECT_GT(divided, 100); // triangles that the cut runs through
 }
 
 } // namespace

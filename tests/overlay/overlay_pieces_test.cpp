@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/closed_flows.h"
-#include "support/intrinsic.h"
 
-#include <ricci/base/numbers.h>
-#include <ricci/overlay/overlay_nodes.h>
 #include <ricci/overlay/overlay_pieces.h>
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <utility>
+#include <array>
+#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -108,76 +103,6 @@ TEST(OverlayPieces, AreTheFacesOfASurfaceThatTileBothTriangulations)
 		}
 	}
 	EXPECT_GT(crossings, 600); // or the test says little
-}
-
-/// Angle at a of the triangle abc in space.
-double angleAt(const Point3& a, const Point3& b, const Point3& c)
-{
-	const Point3 x = b - a, y = c - a;
-	const double cosine = x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
-	const double sine =
-		std::hypot(x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]);
-	return std::atan2(sine, cosine);
-}
-
-/// An end edge is straight inside a start triangle, which is flat in the input's metric: where it
-/// crosses an input edge there, the two pieces on its left make half a turn.
-TEST(OverlayPieces, DivideStartTrianglesAlongStraightLines)
-{
-	Random random(813);
-	int crossings = 0;
-	for (const FlippedFlow& flow : closedFlows(random)) {
-		const OverlayPieces pieces = flow.pieces();
-		Array<OverlayNode> onStartEdges;
-		StartEdgeNodes(flow.result, EdgeCrossings(flow.result), onStartEdges);
-		const auto place = [&](int p, int i) {
-			return placeOnSurface(pieces.nodes[pieces(p, i).node].point, flow.mesh.positions);
-		};
-		struct LeftSide
-		{
-			double angle = 0.0, rounding = 0.0;
-			int pieces = 0;
-		};
-		std::map<std::pair<int, Halfedge>, LeftSide> leftSides; // by node and end halfedge
-		for (int p = 0; p < pieces.count(); ++p)
-			for (int i = 0; i < pieces.size(p); ++i) {
-				const int node = pieces(p, i).node, before = i + pieces.size(p) - 1;
-				if (node < onStartEdges.size())
-					continue; // a vertex, or on the border of a start triangle
-				const Point3 a = place(p, i), b = place(p, i + 1), c = place(p, before);
-				for (const Halfedge h : {pieces(p, i).end, pieces(p, before).end})
-					if (h.isValid()) {
-						LeftSide& left = leftSides[{node, h}];
-						left.angle += angleAt(a, b, c);
-						left.rounding += 1e-13 / distance(a, b) + 1e-13 / distance(a, c);
-						++left.pieces;
-					}
-			}
-		for (const auto& [where, left] : leftSides) {
-			EXPECT_EQ(left.pieces, 2);
-			EXPECT_NEAR(left.angle, kPi, left.rounding);
-			crossings += left.rounding < 1e-6;
-		}
-	}
-	EXPECT_GT(crossings, 100); // or the test says little
-}
-
-/// Regular tetrahedra are Delaunay, and their own curvature asks for no step.
-TEST(OverlayPieces, OfAnInputThatStaysAreItsTriangles)
-{
-	const SurfaceMesh mesh = tetrahedron();
-	const FlippedFlow flow(mesh, prescribed(curvatureInSpace(mesh)));
-	ASSERT_EQ(flow.result.flipCount(), 0);
-	const OverlayPieces pieces = flow.pieces();
-	EXPECT_EQ(pieces.nodes.size(), 4);
-	EXPECT_EQ(pieces.sideCount, 6);
-	ASSERT_EQ(pieces.count(), 4);
-	for (int p = 0; p < 4; ++p)
-		for (const PieceCorner& c : pieces.corners(p)) {
-			EXPECT_EQ(c.input, c.inputCorner);
-			EXPECT_EQ(c.end, c.input);
-			EXPECT_EQ(pieces.nodes[c.node].scale, pieces.nodes[0].scale);
-		}
 }
 
 TEST(OverlayPieces, ForgetWhatIsNotKept)

@@ -116,61 +116,6 @@ static_assert(Vertex(2).number() == 2 && positionOf(Vertex(2)) == 2u && position
 static_assert(Vertex(0).isValid() && !Vertex().isValid() && Vertex() != Vertex(0));
 static_assert(!Halfedge().edge().isValid() && !Edge().halfedge().isValid() && Edge() == Edge(-1));
 
-TEST(Elements, AreOrderedByTheirNumbers)
-{
-	for (int a = -1; a < 4; ++a)
-		for (int b = -1; b < 4; ++b) {
-			EXPECT_EQ(Edge(a) == Edge(b), a == b);
-			EXPECT_EQ(Edge(a) != Edge(b), a != b);
-			EXPECT_EQ(Edge(a) < Edge(b), a < b);
-			EXPECT_EQ(Edge(a) > Edge(b), a > b);
-			EXPECT_EQ(Edge(a) <= Edge(b), a <= b);
-			EXPECT_EQ(Edge(a) >= Edge(b), a >= b);
-		}
-}
-
-TEST(Elements, RangesCountUp)
-{
-	std::vector<int> numbers;
-	for (const Face f : IndexRange<Face>(3, 7))
-		numbers.push_back(f.number());
-	EXPECT_EQ(numbers, (std::vector<int>{3, 4, 5, 6}));
-	EXPECT_EQ(IndexRange<Face>(3, 7).size(), 4);
-	for (const Face f : IndexRange<Face>(0))
-		ADD_FAILURE() << f.number();
-}
-
-TEST(Elements, ArraysHoldTheirValuesInTheOrderOfTheIndices)
-{
-	EdgeArray<int> array(3, 5);
-	array[Edge(1)] = 7;
-	array.push_back(9);
-	EXPECT_EQ(array.size(), 4);
-	EXPECT_EQ(array.values(), (std::vector<int>{5, 7, 5, 9}));
-	EXPECT_EQ(array, EdgeArray<int>(array.values()));
-	EXPECT_EQ(array, (EdgeArray<int>{5, 7, 5, 9}));
-	EXPECT_NE(array, (EdgeArray<int>{5, 7, 5}));
-	int sum = 0;
-	for (const Edge e : array.indices())
-		sum += array[e] * (e.number() + 1);
-	EXPECT_EQ(sum, 5 + 14 + 15 + 36);
-	array.resize(5, 1);
-	EXPECT_EQ(array.back(), 1);
-	array.assign(2, 8);
-	EXPECT_EQ(array.values(), (std::vector<int>{8, 8}));
-	array.clear();
-	EXPECT_TRUE(array.empty());
-
-	VertexVector x(3);
-	for (const Vertex v : x.indices())
-		x[v] = v.number() + 1;
-	const VertexVector y = 2.0 * x - VertexVector(Eigen::VectorXd::Ones(3));
-	EXPECT_EQ(y[Vertex(0)], 1.0);
-	EXPECT_EQ(y[Vertex(2)], 5.0);
-	x = y + x;
-	EXPECT_EQ(x[Vertex(1)], 5.0);
-}
-
 TEST(Corner, StepsRoundItsTriangle)
 {
 	for (const int f : {0, 1, 7}) {

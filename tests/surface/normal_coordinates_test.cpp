@@ -307,56 +307,6 @@ TEST(NormalCoordinates, AreThoseOfStraightEdgesInThePlane)
 	}
 }
 
-/// Coordinates of some of the edges are those of all with the other curves left out.
-TEST(NormalCoordinates, OfSomeEdgesAreThoseOfAllWithoutTheOthers)
-{
-	Random choice(340);
-	int total = 0;
-	for (const Surface& s : surfaces())
-		for (const double share : {0.1, 0.6}) {
-			SCOPED_TRACE(s.name);
-			EdgeArray<char> isCurve(s.triangulation.edgeCount(), 0);
-			for (const Edge e : s.triangulation.edges())
-				isCurve[e] = s.triangulation.isBoundary(e) || choice.real(0.0, 1.0) < share;
-			NormalCoordinates all(s.triangulation), some(s.triangulation, isCurve);
-			Random random(341);
-			for (const Edge e : flipAtRandom(all, s.flips, random))
-				some.flip(e);
-			const Triangulation& t = all.triangulation();
-			const auto curves = all.trace(), chosen = some.trace();
-			EdgeArray<int> crossings(t.edgeCount(), 0);
-			EdgeArray<char> isEdge(t.edgeCount(), 0);
-			for (const Edge e : curves.indices()) {
-				if (!isCurve[e])
-					continue;
-				const Curve &a = curves[e], &b = chosen[e];
-				EXPECT_EQ(a.first, b.first);
-				EXPECT_EQ(a.last, b.last);
-				ASSERT_EQ(a.crossings.size(), b.crossings.size());
-				for (std::size_t i = 0; i < a.crossings.size(); ++i) {
-					EXPECT_EQ(a.crossings[i].halfedge, b.crossings[i].halfedge);
-					++crossings[a.crossings[i].halfedge.edge()];
-					++total;
-				}
-				if (a.crossings.empty())
-					isEdge[a.first.edge()] = 1;
-			}
-			for (const Edge e : t.edges()) {
-				EXPECT_EQ(some.crossings(e), crossings[e]);
-				EXPECT_EQ(some.isCurve(e), isEdge[e] != 0);
-			}
-			for (const Halfedge h : t.halfedges()) {
-				if (!some.hasCurves(t.origin(h)))
-					continue;
-				Halfedge expected = all.originalAtOrBefore(h);
-				while (!isCurve[expected.edge()])
-					expected = s.triangulation.clockwise(expected);
-				EXPECT_EQ(some.originalAtOrBefore(h), expected);
-			}
-		}
-	EXPECT_GT(total, 1000);
-}
-
 /// From every corner of a plane mesh straight on over two edges, to the left and to the right.
 TEST(Unfold, AStripOfThePlaneIsItself)
 {

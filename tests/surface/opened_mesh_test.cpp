@@ -137,56 +137,6 @@ TEST(OpenedMesh, HoldsForAnyTriangles)
 	}
 }
 
-/// Nothing but the marked edges comes apart, and what has to so that a seam has two sides; on a manifold
-/// every other pair of sides stays glued.
-TEST(OpenedMesh, IsOpenAlongSeamsAndNowhereElse)
-{
-	const auto gluedSides = [](const OpenedMesh& o) { // as pairs of the input's
-		std::set<std::pair<Corner, Corner>> pairs;
-		for (const auto& [ends, sides] : sidesByEnds(o.mesh.triangles))
-			if (sides.size() == 2) {
-				const auto own = [&](Corner c) {
-					return Corner(o.face[at(c.face())], c.number() % 3);
-				};
-				pairs.insert({own(sides[0]), own(sides[1])});
-			}
-		return pairs;
-	};
-	Random random(11);
-	for (SurfaceMesh mesh :
-		 {tetrahedron(),
-		  torus(3.0, 1.0, 7, 6),
-		  rectangle(5, 4, 5.0, 4.0),
-		  perforatedSlab(2, 1),
-		  ring(1.0, 2.0, 9, 3)})
-		for (const double share : {0.005, 0.02, 0.1, 0.3, 1.0})
-			for (int run = 0; run < 8; ++run) {
-				mesh.seam.clear();
-				const auto whole = gluedSides(opened(mesh));
-				markSeams(mesh, share, random);
-				expectOpened(mesh);
-				const OpenedMesh o = opened(mesh);
-				const auto left = gluedSides(o);
-				EXPECT_TRUE(std::includes(whole.begin(), whole.end(), left.begin(), left.end()));
-				int chosen = 0;
-				for (const auto& pair : whole) {
-					const auto isMarked = [&](Corner side) {
-						return mesh.seam[at(side.face())][side.index()] != 0;
-					};
-					if (isMarked(pair.first) || isMarked(pair.second)) {
-						++chosen;
-						EXPECT_EQ(left.count(pair), 0u);
-					}
-				}
-				EXPECT_EQ(o.seamEdges, chosen);
-				EXPECT_EQ(whole.size() - left.size(), at(o.seamEdges + o.seamEdgesAdded));
-				EXPECT_EQ(o.splitVertices, 0);
-				EXPECT_EQ(o.cutEdges, 0);
-				EXPECT_EQ(o.hasSeam.size(), at(o.componentCount));
-				EXPECT_TRUE(chosen > 0 || o.isAsGiven());
-			}
-}
-
 /// What is no manifold is cut in the same way with seams and without.
 TEST(OpenedMesh, CountsWithoutSeamsWhatHadToBeCut)
 {

@@ -202,24 +202,65 @@ TEST(OpenedSurfaces, TurnTheMinorityOfAComponent)
 	EXPECT_EQ(half[0], 0);
 }
 
-/// Edges of the input whose sides lie apart in the map.
-int openEdges(const SurfaceMesh& mesh, const Parametrization& map)
+/// The edges of the input by their ends; for each of its sides the points of the map at the lower and the higher one.
+std::map<std::pair<int, int>, std::vector<std::pair<int, int>>>
+pointsOfEdges(const SurfaceMesh& mesh, const Parametrization& map)
 {
-	std::map<std::pair<int, int>, std::vector<std::pair<int, int>>>
-		points; // by the ends of an edge
+	std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> points;
 	for (const int f : map.mesh.points.indices())
 		for (std::size_t k = 0; k < 3; ++k) {
 			const std::size_t l = (k + 1) % 3;
-			const bool isForward = mesh.triangles[at(f)][k] < mesh.triangles[at(f)][l];
-			const int p = map.mesh.points[f][isForward ? k : l];
-			const int q = map.mesh.points[f][isForward ? l : k];
-			points[std::minmax(mesh.triangles[at(f)][k], mesh.triangles[at(f)][l])].push_back(
-				{p, q});
+			const Triangle &t = mesh.triangles[at(f)], &p = map.mesh.points[f];
+			points[std::minmax(t[k], t[l])].push_back(
+				t[k] < t[l] ? std::pair(p[k], p[l]) : std::pair(p[l], p[k]));
 		}
+	return points;
+}
+
+/// Edges of the input whose sides lie apart in the map.
+int openEdges(const SurfaceMesh& mesh, const Parametrization& map)
+{
 	int open = 0;
-	for (const auto& [ends, sides] : points)
+	for (const auto& [ends, sides] : pointsOfEdges(mesh, map))
 		open += sides.size() == 2 && sides[0] != sides[1];
 	return open;
+}
+
+/// Nothing but the marked edges and the flow's own cuts comes apart, and what has to so that a seam has two sides.
+TEST(OpenedSurfaces, AreOpenAlongSeamsAndNowhereElse)
+{
+	Random random(11);
+	for (SurfaceMesh mesh :
+		 {tetrahedron(),
+		  torus(3.0, 1.0, 7, 6),
+		  rectangle(5, 4, 5.0, 4.0),
+		  perforatedSlab(2, 1),
+		  ring(1.0, 2.0, 9, 3)})
+		for (const double share : {0.005, 0.02, 0.1, 0.3, 1.0})
+			for (int run = 0; run < 4; ++run) {
+				mesh.seam.assign(mesh.triangles.size(), {0, 0, 0});
+				std::set<std::pair<int, int>> marked;
+				for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+					for (std::size_t k = 0; k < 3; ++k)
+						if (random.real(0.0, 1.0) < share) {
+							mesh.seam[f][k] = 1;
+							const Triangle& t = mesh.triangles[f];
+							marked.insert(std::minmax(t[k], t[(k + 1) % 3]));
+						}
+				const Parametrization map = mapOf(mesh);
+				int chosen = 0;
+				for (const auto& [ends, sides] : pointsOfEdges(mesh, map))
+					if (sides.size() == 2 && marked.count(ends) > 0) {
+						++chosen;
+						EXPECT_FALSE(sides[0] == sides[1]);
+					}
+				EXPECT_GE(map.report.chosenSeamEdges, chosen);
+				EXPECT_LE(
+					map.report.chosenSeamEdges, 2 * chosen); // a lone edge goes on along one more
+				EXPECT_EQ(openEdges(mesh, map), map.report.chosenSeamEdges + map.report.seamEdges);
+				EXPECT_EQ(map.report.splitVertices, 0);
+				EXPECT_EQ(map.report.cutNonmanifoldEdges, 0);
+			}
 }
 
 /// Cut along one loop through each crosscap the surface is a disk with as many holes. Three edges go
