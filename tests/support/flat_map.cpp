@@ -140,7 +140,7 @@ std::size_t overlapsIn(FlatMesh mesh)
 	std::size_t pairs = 0;
 	const int last = *std::max_element(mesh.chart.begin(), mesh.chart.end());
 	for (const std::vector<int>& triangles : mesh.trianglesByChart(at(last + 1)))
-		pairs += overlappingPairs(mesh.part(triangles)).size();
+		pairs += OverlapSearch(mesh.part(triangles).corners()).pairs().size();
 	return pairs;
 }
 
