@@ -99,40 +99,34 @@ double middleOf(const Triangle2& p)
 	return (p[0][0] + p[1][0] + p[2][0]) / 3.0;
 }
 
-/// A column of squares off a square leaves it in two parts, with two cuts as long as a side.
-TEST(CutOff, MakesAChartOfEachConnectedPart)
+/// A column of squares off a square leaves it in two parts, and each of its triangles by itself.
+TEST(CutOff, MakesAChartOfEachTriangleAndOfEachConnectedPart)
 {
 	Parametrization map = squareMap();
 	const Array<Triangle2> before = map.mesh.corners();
-	for (const bool kind : {false, true}) {
-		EXPECT_FALSE(cutOff(std::vector<char>(at(before.size()), kind ? 1 : 0), map));
-		EXPECT_EQ(map.charts.size(), 1u);
-		EXPECT_EQ(map.mesh.corners(), before);
-	}
-	std::vector<char> isOff;
-	for (const Triangle2& p : before)
-		isOff.push_back(std::floor(kSide * middleOf(p)) == 2.0);
-	EXPECT_TRUE(cutOff(isOff, map));
-	ASSERT_EQ(map.charts.size(), 3u);
-	EXPECT_EQ(map.report.charts, 3);
-	EXPECT_EQ(map.report.overlapCuts, 2 * kSide);
-	EXPECT_NEAR(map.report.seamLength, 2.0, 1e-14);
+	std::vector<int> off;
+	for (const int f : before.indices())
+		if (std::floor(kSide * middleOf(before[f])) == 2.0)
+			off.push_back(f);
+	cutOff(off, map);
+	ASSERT_EQ(map.charts.size(), std::size_t(2 * kSide + 2));
+	EXPECT_EQ(map.report.charts, 2 * kSide + 2);
+	EXPECT_EQ(map.report.overlapCuts, 4 * kSide - 1);
+	EXPECT_NEAR(map.report.seamLength, 3.0 - 1.0 / kSide + std::sqrt(2.0), 1e-14);
 	std::multiset<std::size_t> sizes;
-	for (const std::vector<int>& chart : map.mesh.trianglesByChart(3)) {
+	for (const std::vector<int>& chart : map.mesh.trianglesByChart(map.charts.size())) {
 		sizes.insert(chart.size());
-		for (const int f : chart) {
-			EXPECT_EQ(isOff[at(f)], isOff[at(chart.front())]);
+		for (const int f : chart)
 			for (std::size_t k = 0; k < 3; ++k)
 				for (std::size_t i = 0; i < 2; ++i)
 					EXPECT_NEAR(
 						map.mesh.at(f)[k][i] - map.mesh.at(f)[0][i],
 						before[f][k][i] - before[f][0][i],
 						1e-15);
-		}
 	}
-	EXPECT_EQ(sizes, (std::multiset<std::size_t>{2 * kSide, 4 * kSide, 6 * kSide}));
-	// The columns beside the cuts have points of their own.
-	EXPECT_EQ(map.mesh.place.size(), (kSide + 1) * (kSide + 3));
+	EXPECT_EQ(sizes.count(1), std::size_t(2 * kSide));
+	EXPECT_EQ(sizes.count(4 * kSide), 1u);
+	EXPECT_EQ(sizes.count(6 * kSide), 1u);
 }
 
 Motion randomMotion(double reach, Random& random)

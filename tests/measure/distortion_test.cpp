@@ -107,8 +107,10 @@ TEST(Distortion, ValuesAreThoseOfTheVerticesThatHaveFaces)
 	SurfaceMesh mesh = rectangle(3, 3, 1, 1);
 	const std::size_t vertices = mesh.positions.size();
 	mesh.positions.push_back({9, 9, 9}); // in no face
-	const Eigen::Matrix2d stretch = Eigen::Vector2d(1.5, 1.0).asDiagonal();
-	const auto plane = mapped(mesh, stretch);
+	std::vector<Plane> plane = flatMesh(mesh).corners().values();
+	for (Plane& p : plane)
+		for (Point2& q : p)
+			q[0] *= 1.5;
 	Report report;
 	measured(mesh, plane, report);
 	EXPECT_EQ(report.qcValues.size(), vertices);
