@@ -94,7 +94,8 @@ std::vector<Problem> problems(std::uint64_t seed)
 void expectValid(const Problem& p, const Parametrization& map)
 {
 	const RefinementCheck check(p.mesh, map.mesh, map.targetCurvature);
-	check.expectValid(map.report.eulerCharacteristic, map.report.boundaryLoops);
+	check.expectValid(
+		map.report.eulerCharacteristic, map.report.boundaryLoops, map.report.maxCurvatureError);
 	EXPECT_LT(check.areaError, 1e-9);
 	EXPECT_LT(check.angleError, 1e-8);
 	if (map.report.boundaryRatioMin) { // free boundaries keep their lengths

@@ -405,7 +405,7 @@ TEST(DoubleSurface, IsTwoMirroredCopiesGluedAlongTheBoundary)
 
 Creases creasesOf(const SurfaceMesh& mesh, double degrees)
 {
-	return creases(mesh.positions, mesh.triangles, degrees * kPi / 180.0);
+	return creases(mesh.positions, mesh.triangles, Sides(mesh.triangles), degrees * kPi / 180.0);
 }
 
 /// The faces of a cylinder with n sides meet at 360 / n degrees along its length, and at a right angle along its
