@@ -2,6 +2,7 @@
 #include "overlap_check.h"
 
 #include "../base/floating_point.h"
+#include "../base/task.h"
 #include "../charts/chart_overlap.h"
 #include "../math/disk_isometry.h"
 
@@ -46,6 +47,7 @@ int unequalSeams(const FlatMesh& mesh, const Length& length, const Rounding& rou
 
 void countOverlaps(Parametrization& map)
 {
+	checkpoint();
 	double step = 0.0;
 	FlatMesh stored = map.mesh;
 	stored.place = inFloats(std::move(stored.place), step);
