@@ -235,7 +235,7 @@ TYPED_TEST(Facade, DistortionIsMeasuredWhereTheCoordinatesAreStored)
 	EXPECT_NE(result.report.qcMean, before.qcMean);
 	expectMeasuredAsStored(
 		mesh, result, [](const FlatMesh& map, const std::vector<Point3>& surface, Report& report) {
-			return measureDistortion(map, surface, report);
+			return measureDistortion(map.vertices, surface, map.corners(), report);
 		});
 }
 

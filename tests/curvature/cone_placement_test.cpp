@@ -4,6 +4,7 @@
 #include "support/expect.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
+#include "support/run_flow.h"
 #include "support/shapes.h"
 #include "support/transform.h"
 

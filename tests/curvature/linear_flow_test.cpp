@@ -3,6 +3,7 @@
 #include "linearised.h"
 
 #include "support/random_surface.h"
+#include "support/run_flow.h"
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>

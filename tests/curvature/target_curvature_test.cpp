@@ -3,6 +3,7 @@
 #include "support/intrinsic.h"
 #include "support/random.h"
 #include "support/random_surface.h"
+#include "support/run_flow.h"
 #include "support/shapes.h"
 #include "support/transform.h"
 

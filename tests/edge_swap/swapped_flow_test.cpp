@@ -174,8 +174,8 @@ TEST(SplitMesh, IsTheComponentBeforeASplit)
 	EXPECT_EQ(mesh.triangles(), component.triangles);
 	const Triangulation t = triangulationOf(mesh);
 	for (const Face f : t.faces())
-		for (std::size_t k = 0; k < 3; ++k)
-			EXPECT_EQ(mesh.corner(t, f, k), t.halfedges(f)[k]);
+		for (const Corner c : ricci::cornersOf(f.number()))
+			EXPECT_EQ(mesh.corner(t, c), t.halfedges(f)[c.index()]);
 }
 
 TEST(SplitMesh, SplitsOneEdgeOfATriangleAtOnce)
@@ -238,7 +238,8 @@ TEST(SplitMesh, CornersAndFacesStayFindableAfterManySplits)
 				const Corners whole = cornersOf(component.positions, component.triangles[f]);
 				EXPECT_NEAR(area[f] / triangleArea(whole), 1.0, 1e-13);
 				for (std::size_t k = 0; k < 3; ++k) {
-					const Halfedge h = mesh.corner(t, Face(f), k);
+					const Halfedge h =
+						mesh.corner(t, Corner(static_cast<int>(f), static_cast<int>(k)));
 					ASSERT_TRUE(t.face(h).isValid());
 					ASSERT_EQ(t.origin(h), Vertex(component.triangles[f][k]));
 					const Triangle& part = mesh.triangles()[positionOf(t.face(h))];
