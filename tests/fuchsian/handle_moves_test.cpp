@@ -185,7 +185,7 @@ TEST(BestConditioned, IsHeardAndStops)
 	const Handles found = heard(ticks, [&] { return bestConditioned({longer, longer}, {}); });
 	const double lowered = relationCondition(longer) / relationCondition(found);
 	EXPECT_GE(ticks.calls(), 2);
-	EXPECT_LE(ticks.calls(), 2 * (1 + std::log(lowered) / std::log(1 / 0.9) / 16));
+	EXPECT_LE(ticks.calls(), 2 * (1 + std::log(lowered) / std::log(1 / 0.9)));
 	Listener impatient(1);
 	EXPECT_THROW(heard(impatient, [&] { bestConditioned({longer}, {}); }), Cancelled);
 }
