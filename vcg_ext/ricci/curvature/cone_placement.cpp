@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_placement.h"
 
-#include "../base/numbers.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
 #include "../error.h"

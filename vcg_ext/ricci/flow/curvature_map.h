@@ -7,7 +7,6 @@
 #include "../surface/elements.h"
 
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace ricci {

@@ -2,7 +2,6 @@
 #ifndef RICCI_NEWTON_H
 #define RICCI_NEWTON_H
 
-#include "../base/tolerances.h"
 #include "curvature_map.h"
 #include "hessian.h"
 

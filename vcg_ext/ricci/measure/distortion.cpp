@@ -204,12 +204,6 @@ std::vector<double> measureDistortion(
 	return vertexQC;
 }
 
-std::vector<double>
-measureDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report)
-{
-	return measureDistortion(mesh.vertices, surface, mesh.corners(), report);
-}
-
 std::vector<double> measureHyperbolicDistortion(
 	const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report)
 {

@@ -54,11 +54,6 @@ std::vector<double> measureDistortion(
 	const Array<Triangle2>& plane,
 	Report& report);
 
-/// Of a whole map to the plane.
-/// \param surface FlatMesh::onSurface()
-std::vector<double>
-measureDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report);
-
 /// Of a map to the Poincaré disk. What is measured is the map to the flat triangles with the corners of the
 /// geodesic ones on the hyperboloid, whose sides are its chords, 2 sinh(d / 2) for the distance d.
 /// flippedFaces counts the geodesic triangles of the wrong orientation, or without area, as far as rounding

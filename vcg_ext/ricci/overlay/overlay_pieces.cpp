@@ -9,7 +9,6 @@
 #include "overlay_nodes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>

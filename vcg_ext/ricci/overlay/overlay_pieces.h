@@ -30,7 +30,6 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 namespace ricci {

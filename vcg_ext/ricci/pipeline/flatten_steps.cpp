@@ -5,7 +5,6 @@
 #include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../curvature/area_change.h"
-#include "../error.h"
 #include "../flow/ricci_flow.h"
 #include "../measure/period_matrix.h"
 

@@ -39,16 +39,19 @@ void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
 		values.push_back(values[positionOf(opened.vertex[v])]);
 }
 
-/// Maps every component.
+/// Maps every component, and measures the whole.
 /// \param flatten flatten(component, input) to a Parametrization
-template<class Flatten>
+template<class AnyOptions, class Flatten, class Measure>
 Parametrization mapComponents(
 	const SurfaceMesh& mesh,
 	const VertexInput& input,
-	const FlowOptions& options,
+	const AnyOptions& options,
 	const Flatten& flatten,
+	const Measure& measure,
 	OpenedMesh& opened)
 {
+	checkOptions(options);
+	const Task part(0.0, kMapped);
 	advance(0.0, "Checking the mesh");
 	Parametrization map;
 	const std::vector<Component> components = startMap(mesh, options, opened, map);
@@ -63,6 +66,8 @@ Parametrization mapComponents(
 	map.report.converged = true;
 	map.report.charts = static_cast<int>(map.charts.size());
 	advance(kComponentsDone, "Measuring the distortion");
+	measure(opened, map);
+	advance(1.0, "Layout done");
 	return map;
 }
 
@@ -134,7 +139,7 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 void measure(const OpenedMesh& opened, Parametrization& map)
 {
 	const std::vector<Point3> surface = map.mesh.onSurface(opened.mesh.positions);
-	map.vertexQC = measureDistortion(map.mesh, surface, map.report);
+	map.vertexQC = measureDistortion(map.mesh.vertices, surface, map.mesh.corners(), map.report);
 	map.report.stretch = stretchEnergy(map.mesh);
 }
 
@@ -222,19 +227,10 @@ ChartTurns chartTurns(const Options& options)
 Parametrization chartsInPlane(
 	const SurfaceMesh& mesh, const VertexInput& input, const Options& options, OpenedMesh& opened)
 {
-	checkOptions(options);
-	const Task part(0.0, kMapped);
-	Parametrization map = mapComponents(
-		mesh,
-		input,
-		options,
-		[&](const Component& component, const VertexInput& ofCopies) {
-			return mapToPlane(component, ofCopies, options);
-		},
-		opened);
-	measure(opened, map);
-	advance(1.0, "Layout done");
-	return map;
+	const auto flatten = [&](const Component& component, const VertexInput& ofCopies) {
+		return mapToPlane(component, ofCopies, options);
+	};
+	return mapComponents(mesh, input, options, flatten, measure, opened);
 }
 
 Parametrization chartsInDisk(
@@ -243,19 +239,10 @@ Parametrization chartsInDisk(
 	const HyperbolicOptions& options,
 	OpenedMesh& opened)
 {
-	checkOptions(options);
-	const Task part(0.0, kMapped);
-	Parametrization map = mapComponents(
-		mesh,
-		input,
-		options,
-		[&](const Component& component, const VertexInput& ofCopies) {
-			return asParametrization(component, flattenToDisk(component, ofCopies, options));
-		},
-		opened);
-	measureInDisk(opened, map);
-	advance(1.0, "Layout done");
-	return map;
+	const auto flatten = [&](const Component& component, const VertexInput& ofCopies) {
+		return asParametrization(component, flattenToDisk(component, ofCopies, options));
+	};
+	return mapComponents(mesh, input, options, flatten, measureInDisk, opened);
 }
 
 Parametrization
