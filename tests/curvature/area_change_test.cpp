@@ -108,7 +108,7 @@ double meanOfNormal(double spread)
 	return sum * h / 3.0 * std::sqrt(2.0 / kPi);
 }
 
-TEST(AreaExcess, IsOneAtItsBoundsAndGrowsWithTheChange)
+TEST(AreaExcess, IsOneAtItsBounds)
 {
 	for (const double spread : {0.1, 0.5, 1.0, 2.0, 4.0}) {
 		EXPECT_NEAR(areaExcess({1.0, spread}, spread), 1.0, 1e-15);
@@ -119,17 +119,6 @@ TEST(AreaExcess, IsOneAtItsBoundsAndGrowsWithTheChange)
 			mean *= meanOfNormal(spread) / meanOfNormal(kWideSpread);
 		EXPECT_NEAR(areaExcess({mean, 0.0}, spread), 1.0, 1e-9) << spread;
 		EXPECT_NEAR(areaExcess({mean, 0.0}, spread, 1.7), 1.0, 1e-9); // the slack is the spread's
-	}
-	Random random(805);
-	for (int i = 0; i < 500; ++i) {
-		const AreaChange change{std::exp(random.real(0.0, 8.0)), random.real(0.0, 5.0)};
-		const double spread = random.real(0.05, 4.0), more = random.real(1.01, 2.0);
-		const double excess = areaExcess(change, spread);
-		EXPECT_LE(excess, areaExcess({change.mean * more, change.spread}, spread));
-		EXPECT_LE(excess, areaExcess({change.mean, change.spread * more}, spread));
-		EXPECT_LT(excess, areaExcess({change.mean * more, change.spread * more}, spread));
-		EXPECT_GE(excess, areaExcess(change, spread * more));
-		EXPECT_GE(excess, areaExcess(change, spread, more));
 	}
 }
 

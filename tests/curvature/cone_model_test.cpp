@@ -16,10 +16,10 @@ std::vector<LinearCase> cases()
 }
 
 /// A closed surface of some 60 vertices.
-LinearCase closed(int genus, double noise = 0.05)
+LinearCase closed(int genus)
 {
 	Random random(900);
-	return {"", shaken(perforatedSlab(genus, 2), noise, random)};
+	return {"", shaken(perforatedSlab(genus, 2), 0.05, random)};
 }
 
 const std::vector<Vertex> kFive{Vertex(3), Vertex(40), Vertex(17), Vertex(29), Vertex(8)};
@@ -36,20 +36,6 @@ ConeModel fitted(Linearised& linear, const std::vector<Vertex>& cones)
 VertexVector whole(const ConeModel& model)
 {
 	return spreadOut(model.vertices(), model.curvatures(), static_cast<int>(model.area().size()));
-}
-
-/// Vertices where the surface is curved most, so that no cone is at its bound.
-std::vector<Vertex> mostCurved(const Linearised& linear, std::size_t count)
-{
-	std::vector<Vertex> vertices;
-	for (const Vertex v : linear.surface.triangulation.vertices())
-		vertices.push_back(v);
-	const VertexVector& own = linear.flow.curvature();
-	std::sort(vertices.begin(), vertices.end(), [&](Vertex v, Vertex w) {
-		return std::abs(own[v]) > std::abs(own[w]);
-	});
-	vertices.resize(count);
-	return vertices;
 }
 
 TEST(ConeModel, HasTheEnergyTheFactorAndTheFieldsOfTheDenseSystem)
@@ -155,14 +141,9 @@ TEST(ConeModel, TrialsAreUndoneUnlessTheyAreTaken)
 	}));
 	expectUnchanged();
 
-	// Both bounds let the first two places pass, and the energies there are too high.
-	const Vertex high(to.number() + 1), higher(to.number() + 2);
-	ASSERT_FALSE(model.isCone(high) || model.isCone(higher));
-	int asked = 0;
-	EXPECT_TRUE(model.tryMove(2, {high, higher, to}, [&](Vertex v, double energy) {
-		return v == to ? energy < there + 1e-9 : asked++ < 2 || asked == 3 || asked == 5;
+	EXPECT_TRUE(model.tryMove(2, {Vertex(51), Vertex(52), to}, [&](Vertex v, double energy) {
+		return v == to && energy < there + 1e-9;
 	}));
-	EXPECT_EQ(asked, 6);
 	EXPECT_EQ(model.vertices(), elsewhere);
 	EXPECT_TRUE(model.isCone(to));
 	EXPECT_FALSE(model.isCone(kFive[2]));
@@ -227,17 +208,11 @@ TEST(ConeModel, NeedIsByHowMuchTheEnergyRises)
 {
 	Random random(775);
 	int held = 0, alone = 0;
-	std::vector<LinearCase> all = cases();
-	for (const int genus : {0, 1, 2})
-		all.push_back(closed(genus, 0.1));
-	for (const LinearCase& c : all) {
+	for (const LinearCase& c : cases()) {
 		SCOPED_TRACE(c.name);
 		Linearised linear(c);
-		for (int trial = 0; trial < (c.name.empty() ? 1 : 60); ++trial) {
-			ConeModel model = fitted(
-				linear,
-				c.name.empty() ? mostCurved(linear, 12)
-							   : linear.verticesInside(5 + random.index(8), random));
+		for (int trial = 0; trial < 60; ++trial) {
+			ConeModel model = fitted(linear, linear.verticesInside(5 + random.index(8), random));
 			const double before = model.energy();
 			const Eigen::VectorXd k = model.curvatures();
 			const auto isHeld = [](double x) { return x == kMaxConeCurvature; };

@@ -277,38 +277,5 @@ TEST(ConeSearch, TheNextConeIsWhereTheGradientDiffersMost)
 	}
 }
 
-/// A box is flat but for its eight corners. One that is missing as a cone is found; cones in flat places carry
-/// nothing and are taken out.
-TEST(ConeSearch, FindsTheCornersOfABoxAndNoOther)
-{
-	for (std::size_t missing = 0; missing < 8; ++missing)
-		for (const bool drops : {false, true}) {
-			Search search(perforatedSlab(0, 3));
-			ConeModel& model = search.model;
-			std::vector<Vertex> corners, cones;
-			for (const Vertex v : model.area().indices())
-				if (search.linear.flow.curvature()[v] > 1.0)
-					corners.push_back(v);
-			ASSERT_EQ(corners.size(), 8u);
-			cones = corners;
-			cones.erase(cones.begin() + static_cast<std::ptrdiff_t>(missing));
-			EXPECT_GT(search.with(cones).model.distortion(), 0.01);
-			ASSERT_TRUE(addCones(model, search.sites));
-			relocateCones(model, search.sites);
-			EXPECT_TRUE(model.isCone(corners[missing]));
-			EXPECT_LT(model.exactDistortion(), 1e-9);
-			for (const Vertex v : {Vertex(20), Vertex(33), Vertex(41)})
-				if (!model.isCone(v))
-					search.with({v});
-			ASSERT_GT(model.size(), 9);
-			if (drops)
-				dropCones(model, search.sites, 1e-5);
-			else
-				removeWeakCones(model);
-			EXPECT_EQ(search.cones(), std::set<Vertex>(corners.begin(), corners.end()));
-			EXPECT_LT(model.exactDistortion(), 1e-9);
-		}
-}
-
 } // namespace
 } // namespace ricci::testing

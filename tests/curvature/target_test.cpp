@@ -104,7 +104,7 @@ struct Plain
 std::vector<Plain> plainSurfaces()
 {
 	std::vector<Plain> surfaces;
-	for (const double R : {3.0, 1.1}) {
+	for (const double R : {8.0, 1.1}) {
 		const auto radius = [R](double t) { return R + std::cos(2 * kPi * t); };
 		surfaces.push_back(
 			{torus(R, 1.0, 60, 60), spreadOf(radius, radius), TargetUsed::Flat, true});
@@ -121,7 +121,7 @@ std::vector<Plain> plainSurfaces()
 	}
 	const auto radius = [](double t) { return 1.0 + 3.0 * t; };
 	surfaces.push_back({ring(1.0, 4.0, 60, 40), spreadOf(radius, radius), TargetUsed::Flat, false});
-	for (const double hole : {2.0, 0.3}) {
+	for (const double hole : {2.3, 0.3}) {
 		const double cap = 0.5 * (1.0 - std::cos(hole)); // its share of the sphere
 		std::vector<std::array<double, 2>> profile;
 		for (int i = 0; i <= 60; ++i) {

@@ -8,13 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numeric>
 
 namespace ricci::testing {
 namespace {
-
-using Complex = std::complex<double>;
 
 double sum(const std::vector<double>& x)
 {
@@ -32,17 +29,6 @@ std::vector<double> randomArcs(std::size_t n, double largest, Random& random)
 		arc *= 2 * kPi * (1 - largest) / others;
 	arcs[0] = 2 * kPi * largest;
 	return arcs;
-}
-
-std::vector<Complex> points(const std::vector<double>& arcs)
-{
-	std::vector<Complex> z;
-	double angle = 0.0;
-	for (const double arc : arcs) {
-		z.push_back(std::polar(1.0, angle));
-		angle += arc;
-	}
-	return z;
 }
 
 TEST(InscribedPolygon, HasTheCircleThatItsSidesAreChordsOf)
@@ -83,58 +69,6 @@ TEST(InscribedPolygon, HasTheCircleThatItsSidesAreChordsOf)
 	EXPECT_NEAR(polygon.radius, 2.5, 1e-12);
 	EXPECT_NEAR(polygon.arcs[2], kPi, 1e-6);
 	EXPECT_NEAR(polygon.arcs[0], 2 * std::asin(3.0 / 5), 1e-6);
-}
-
-TEST(ExteriorAngles, AreThoseOfThePolygonInThePlane)
-{
-	Random random(81);
-	for (const double share : {0.1, 0.4, 0.7}) {
-		const std::vector<double> arcs = randomArcs(11, share, random);
-		const std::vector<double> angles = exteriorAngles(arcs);
-		const auto z = points(arcs);
-		const std::size_t n = z.size();
-		for (std::size_t i = 0; i < n; ++i) {
-			const Complex in = z[i] - z[(i + n - 1) % n], out = z[(i + 1) % n] - z[i];
-			EXPECT_NEAR(angles[i], std::arg(out / in), 1e-13);
-		}
-		EXPECT_NEAR(sum(angles), 2 * kPi, 1e-13);
-	}
-}
-
-TEST(CentredArcs, PutTheBarycentreAtTheCentre)
-{
-	Random random(82);
-	int checked = 0;
-	for (int trial = 0; trial < 300; ++trial) {
-		const std::size_t n = 3 + static_cast<std::size_t>(random.index(50));
-		const std::vector<double> arcs = randomArcs(n, random.real(0.05, 0.95), random);
-		std::vector<double> weights(n);
-		for (double& w : weights)
-			w = random.real(0.2, 1.0);
-		if (*std::max_element(weights.begin(), weights.end()) > 0.45 * sum(weights))
-			continue;
-		++checked;
-		const std::vector<double> centred = centredArcs(arcs, weights);
-		const auto a = points(arcs), b = points(centred);
-		Complex barycentre = 0.0;
-		for (std::size_t i = 0; i < n; ++i)
-			barycentre += weights[i] * b[i];
-		EXPECT_LT(std::abs(barycentre) / sum(weights), 1e-13) << "n = " << n;
-		EXPECT_NEAR(sum(centred), 2 * kPi, 1e-13);
-		for (std::size_t i = 0; i + 3 < n; ++i) { // a Moebius transformation keeps cross ratios
-			const auto ratio = [&](const std::vector<Complex>& z) {
-				return (z[i] - z[i + 2]) * (z[i + 1] - z[i + 3]) /
-					   ((z[i + 1] - z[i + 2]) * (z[i] - z[i + 3]));
-			};
-			EXPECT_LT(std::abs(ratio(a) / ratio(b) - 1.0), 1e-9);
-		}
-	}
-	EXPECT_GT(checked, 250);
-	for (const double arc :
-		 centredArcs(std::vector<double>(12, 2 * kPi / 12), std::vector<double>(12, 3.0)))
-		EXPECT_NEAR(arc, 2 * kPi / 12, 1e-14);
-	const std::vector<double> arcs{1.0, 2.0, 2 * kPi - 3.0}; // one weight is half of all
-	EXPECT_EQ(centredArcs(arcs, {1.0, 2.0, 3.0}), arcs);
 }
 
 } // namespace

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The flow to a metric of curvature -1 with prescribed cones, seen in the disk.
+#include "support/expect.h"
 #include "support/front_door.h"
 #include "support/implicit_surface.h"
 #include "support/random_surface.h"
 
+#include <ricci/error.h>
 #include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
@@ -105,6 +107,26 @@ TEST(HyperbolicFlow, ReachesSharpAndWideCones)
 	std::vector<double> curvature(genus2.positions.size(), 0.0);
 	curvature[7] = -4 * kPi + 0.5;
 	reached(genus2, curvature);
+}
+
+TEST(HyperbolicFlow, SolvesWhatBreaksOnAFixedTriangulation)
+{
+	int refused = 0;
+	for (const std::uint64_t seed : {1u, 2u, 3u}) {
+		const SurfaceMesh mesh = implicitClosed(2, 6, seed);
+		HyperbolicOptions fixed = options(HyperbolicTarget::HyperbolicMetric);
+		expectReached(mesh, inUnitDisk(mesh, fixed));
+		fixed.method = Method::FixedTriangles;
+		const auto error =
+			errorOf<NotConverged>([&] { expectReached(mesh, inUnitDisk(mesh, fixed)); });
+		if (error) {
+			EXPECT_EQ(error->problem, NotConverged::BrokenTriangles) << error->what();
+			EXPECT_GT(error->count, 0u);
+			EXPECT_EQ(error->method, Method::FixedTriangles);
+			++refused;
+		}
+	}
+	EXPECT_GE(refused, 1);
 }
 
 /// Without curvature at its vertices a boundary is a closed geodesic. A free one keeps its circles, at the scale

@@ -68,6 +68,64 @@ TEST(Circles, OfTheStartAreThoseOfThePaper)
 		EXPECT_NEAR(std::exp(u), static_cast<double>(0.5L * Circles(mesh).radius[0]), 1e-12);
 }
 
+/// The Delaunay triangles of points in the plane: no other point lies in their circles.
+std::vector<Triangle> delaunay(const std::vector<Point3>& points)
+{
+	const int n = static_cast<int>(points.size());
+	std::vector<Triangle> triangles;
+	const auto inCircle = [&](const Triangle& t, int v) {
+		double m[3][3];
+		for (std::size_t k = 0; k < 3; ++k) {
+			m[k][0] = points[at(t[k])][0] - points[at(v)][0];
+			m[k][1] = points[at(t[k])][1] - points[at(v)][1];
+			m[k][2] = m[k][0] * m[k][0] + m[k][1] * m[k][1];
+		}
+		return m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]) -
+				   m[1][2] * (m[0][0] * m[2][1] - m[0][1] * m[2][0]) +
+				   m[2][2] * (m[0][0] * m[1][1] - m[0][1] * m[1][0]) >
+			   0.0;
+	};
+	for (int a = 0; a < n; ++a)
+		for (int b = a + 1; b < n; ++b)
+			for (int c = a + 1; c < n; ++c) { // counter-clockwise, the lowest first
+				const Triangle t{a, b, c};
+				const Point3 ab = points[at(b)] - points[at(a)], ac = points[at(c)] - points[at(a)];
+				bool isEmpty = b != c && cross(ab, ac)[2] > 1e-9;
+				for (int v = 0; v < n && isEmpty; ++v)
+					isEmpty = v == a || v == b || v == c || !inCircle(t, v);
+				if (isEmpty)
+					triangles.push_back(t);
+			}
+	return triangles;
+}
+
+/// With flips the circles are those of the intrinsic Delaunay triangulation of the mesh, whatever its own.
+TEST(Circles, OfTheStartBelongToTheDelaunayTriangulation)
+{
+	Random random(161);
+	for (int trial = 0; trial < 5; ++trial) {
+		SurfaceMesh mesh = grid(6, 6, Ends::Open, Ends::Open, [&](int i, int j) {
+			const bool isX = i % 6 != 0, isY = j % 6 != 0; // the border stays straight
+			return Point3{
+				i + (isX ? random.real(-0.2, 0.2) : 0.0),
+				j + (isY ? random.real(-0.2, 0.2) : 0.0),
+				0.0};
+		});
+		swapDiagonalsAtRandom(mesh, random);
+		const SurfaceMesh other{mesh.positions, delaunay(mesh.positions)};
+		ASSERT_EQ(other.triangles.size(), mesh.triangles.size());
+		const FlatResult map = flattened(
+			mesh,
+			towards(TargetCurvature::Prescribed),
+			prescribing(std::vector<double>(mesh.positions.size(), 0.0)));
+		EXPECT_EQ(map.report.iterations, 0);
+		EXPECT_GT(map.report.flips, 5);
+		const Circles circles(other);
+		for (std::size_t v = 0; v < map.u.size(); ++v)
+			EXPECT_NEAR(std::exp(map.u[v]), static_cast<double>(0.5L * circles.radius[v]), 1e-12);
+	}
+}
+
 /// Radii change, inversive distances stay: every edge of the map is as long as Eq. 4 says, and the curvature of
 /// these lengths is the target.
 TEST(Circles, HaveTheLengthsOfTheMapAndItsCurvature)

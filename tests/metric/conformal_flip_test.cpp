@@ -3,14 +3,11 @@
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
-#include "support/transform.h"
 
 #include <ricci/base/numbers.h>
 #include <ricci/metric/conformal_flip.h>
 
 #include <gtest/gtest.h>
-
-#include <tuple>
 
 namespace ricci::testing {
 namespace {
@@ -230,67 +227,6 @@ TEST(ConformalFlip, TheFlippedEdgeIsDelaunayWhereTheOldOneWasNot)
 			isWeightedDelaunay(quad.t, EdgeArray<double>(5, 1.0), kappa, e), quad.t.isBoundary(e));
 	const Triangulation cone = glued(2, {{0, 1, 0}}, {1, 0, -1});
 	EXPECT_TRUE(isWeightedDelaunay(cone, {1.0, 1.0}, {1e9, 1.0}, Edge(0)));
-}
-
-/// Ends and inversive distance of all edges that are not ties, in a canonical order: the Delaunay
-/// tessellation, whose polygons with more than three corners have no preferred triangulation.
-std::vector<std::tuple<int, int, double>>
-tessellation(const Flipping& f, const VertexArray<double>& kappa, const std::vector<int>& name)
-{
-	std::vector<std::tuple<int, int, double>> edges;
-	for (const Edge e : f.t.edges()) {
-		if (f.t.isFlippable(e) && std::abs(relativeTilt(f.t, f.delta, kappa, e)) < 1e-10)
-			continue;
-		const auto [i, j] = f.t.ends(e);
-		edges.emplace_back(
-			std::min(name[at(i)], name[at(j)]), std::max(name[at(i)], name[at(j)]), f.delta[e]);
-	}
-	std::sort(edges.begin(), edges.end());
-	return edges;
-}
-
-TEST(ConformalFlip, DelaunayTessellationDoesNotDependOnTheOrderOfFlips)
-{
-	Random random(36);
-	const SurfaceMesh meshes[] = {
-		bumpyTorus(10, 8, random),
-		randomPlanarDisk(9, random),
-		torus(3, 1, 12, 10), // symmetric: many ties
-		rectangle(7, 7, 1, 1)};
-	for (const SurfaceMesh& mesh : meshes) {
-		std::vector<std::tuple<int, int, double>> first;
-		for (int trial = 0; trial < 4; ++trial) {
-			// Other numbers, and random flips beforehand, change the order of everything.
-			const Renumbered other = renumbered(mesh, random);
-			Flipping f(Packed(other.mesh));
-			int scrambled = 0;
-			for (int scramble = 0; scramble < 60 * trial; ++scramble) {
-				const Edge e(random.index(f.t.edgeCount()));
-				if (!f.t.isFlippable(e) || f.delta[e] < 1e-2)
-					continue;
-				++scrambled;
-				f.delta[e] = flippedDelta(f.t, f.delta, e);
-				f.t.flip(e);
-			}
-			EXPECT_GE(scrambled, 20 * trial);
-			VertexVector u = f.packed.u();
-			for (const Vertex v : u.indices()) // a smooth function of the place
-				u[v] += 0.3 * std::sin(2 * other.mesh.positions[at(v)][0]);
-			const auto kappa = curvatures(u);
-			f.makeDelaunay(kappa);
-			const auto edges = tessellation(f, kappa, other.vertex);
-			EXPECT_GT(edges.size(), 50u);
-			if (trial == 0)
-				first = edges;
-			ASSERT_EQ(edges.size(), first.size());
-			for (std::size_t i = 0; i < edges.size(); ++i) {
-				const auto [a, b, delta] = first[i];
-				EXPECT_EQ(std::get<0>(edges[i]), a);
-				EXPECT_EQ(std::get<1>(edges[i]), b);
-				EXPECT_NEAR(std::get<2>(edges[i]), delta, 1e-9 * (1 + delta));
-			}
-		}
-	}
 }
 
 /// And undone, the flips leave no trace.
