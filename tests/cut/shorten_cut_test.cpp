@@ -109,7 +109,8 @@ void expectNoShorterPath(
 				boundaries.merge(wedge[h], wedge[t.next(h)]);
 				isBorder[at(wedge[h])] = isBorder[at(wedge[t.next(h)])] = 1;
 			}
-		for (const Halfedge h : {segment.front(), segment.back().twin()}) // a mark that is left alone
+		for (const Halfedge h :
+			 {segment.front(), segment.back().twin()}) // a mark that is left alone
 			isBorder[at(wedge[h])] = isBorder[at(wedge[h])] || marked[t.origin(h)];
 		std::set<int> numbers;
 		for (const Halfedge h : t.interiorHalfedges())

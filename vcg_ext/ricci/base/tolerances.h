@@ -102,9 +102,6 @@ constexpr double kBalanced = 1e-14, kStalledBalance = 1e-10, kNoSlope = 1e-14;
 /// A step of the search for rounded curvatures must lower the energy by this share of its scale.
 constexpr double kMinRoundingGain = 1e-12;
 
-/// A move must shorten the cut by this share of what it replaces, or it could be undone by rounding.
-constexpr double kMinCutGain = 1e-9;
-
 /// The smoothing of a surface for the cost of seams: divisor in place of four times an area of 0;
 /// bound of cotangents; smallest weight of an edge, so that the matrix is positive definite; share of
 /// the mean mass that every vertex has at least; height, relative to the root of the area, below

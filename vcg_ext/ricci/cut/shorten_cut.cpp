@@ -2,7 +2,6 @@
 #include "shorten_cut.h"
 
 #include "../base/task.h"
-#include "../base/tolerances.h"
 #include "../math/shortest_paths.h"
 
 #include <algorithm>
@@ -13,15 +12,9 @@ namespace ricci {
 
 namespace {
 
-/// Rounds over all segments.
-constexpr int kMaxRounds = 12;
-
-/// Vertices reached by searches between two checkpoints.
-constexpr std::size_t kWorkBetweenTicks = 1 << 17;
-
-/// The same in all, after which the cut stays as it is: moves look through much of the surface, and there are
-/// as many as loops, so that thousands of these would take hours.
-constexpr std::size_t kMaxWork = 125000000;
+/// Vertices that the searches reach in all before they end: each may reach much of a large surface, and of some
+/// surfaces there are thousands.
+constexpr std::size_t kMaxReached = 1500000;
 
 /// What a vertex counts that is a node however many cut edges meet there.
 constexpr int kNode = 3;
@@ -36,7 +29,7 @@ public:
 		EdgeArray<char>& isCut) :
 			m_t(t),
 			m_cost(cost), m_isCut(isCut), m_degree(t.vertexCount(), 0),
-			m_place(t.halfedgeCount(), -1), m_failedAt(t.edgeCount(), -1), m_front(t.vertexCount())
+			m_place(t.halfedgeCount(), -1), m_front(t.vertexCount())
 	{
 		const VertexArray<char> boundary = t.boundaryVertices();
 		for (const Vertex v : t.vertices())
@@ -51,24 +44,21 @@ public:
 		} while (m_place[side] < 0);
 	}
 
-	/// \return whether it has ended before it was done
-	bool run()
+	void run()
 	{
-		checkpoint();
-		for (int before = -1, round = 0; m_changes != before && round < kMaxRounds; ++round) {
-			before = m_changes;
-			for (const Edge e : segments())
-				if (m_isCut[e] && m_failedAt[e] < m_changes && m_work < kMaxWork && !exchange(e))
-					m_failedAt[e] = m_changes;
-		}
-		return m_work >= kMaxWork;
+		for (const auto& [minusLength, e] : segments())
+			if (m_isCut[e] && m_reached < kMaxReached) {
+				checkpoint();
+				exchange(segmentAt(m_place[e.halfedge()]));
+			}
 	}
 
 private:
-	/// Sides of a segment by their places: as many from \p there and from \p back on, along both of its sides.
+	/// Edges from node to node: as many places from \p there and from \p back on, along both sides of them.
 	struct Segment
 	{
 		int there, back, count;
+		double length;
 	};
 
 	/// A boundary of the annulus: its sides' places from \p first on, or a marked vertex where there are none.
@@ -107,25 +97,26 @@ private:
 	/// That of the side at \p place.
 	Segment segmentAt(int place) const
 	{
-		Segment s{place, 0, 1};
-		for (; !isNode(m_t.origin(side(s.there))); s.there = after(s.there, -1))
-			++s.count;
-		for (; !isNode(m_t.target(side(s.there + s.count - 1)));)
-			++s.count;
+		Segment s{place, 0, 0, 0.0};
+		while (!isNode(m_t.origin(side(s.there))))
+			s.there = after(s.there, -1);
+		do
+			s.length += m_cost[side(s.there + s.count++).edge()];
+		while (!isNode(m_t.target(side(s.there + s.count - 1))));
 		s.back = m_place[side(s.there + s.count - 1).twin()];
 		return s;
 	}
 
-	/// One edge of every segment.
-	std::vector<Edge> segments() const
+	/// One edge of every segment, and less its length: the longest first.
+	std::vector<std::pair<double, Edge>> segments() const
 	{
-		std::vector<Edge> edges;
+		std::vector<std::pair<double, Edge>> found;
 		for (const Halfedge h : m_sides)
 			if (m_isCut[h.edge()] && isNode(m_t.origin(h)))
 				if (const Segment s = segmentAt(m_place[h]); s.there < s.back)
-					edges.push_back(h.edge());
-		std::sort(edges.begin(), edges.end());
-		return edges;
+					found.push_back({-s.length, h.edge()});
+		std::sort(found.begin(), found.end());
+		return found;
 	}
 
 	void set(Edge e, bool cut)
@@ -135,17 +126,9 @@ private:
 			m_degree[v] += cut ? 1 : -1;
 	}
 
-	/// Replaces the segment of an edge by the shortest path that opens the annulus.
-	/// \return whether the cut is shorter now; else it is what it was
-	bool exchange(Edge e)
+	/// Replaces a segment by the shortest path that opens the annulus, if that is shorter.
+	void exchange(const Segment& s)
 	{
-		const Segment s = segmentAt(m_place[e.halfedge()]);
-		std::vector<Edge> removed;
-		double length = 0.0;
-		for (int i = 0; i < s.count; ++i) {
-			removed.push_back(side(s.there + i).edge());
-			length += m_cost[removed.back()];
-		}
 		const auto n = static_cast<int>(m_sides.size());
 		Circle from{after(s.there, s.count), 0, m_t.origin(side(s.back))};
 		Circle to{after(s.back, s.count), 0, m_t.origin(side(s.there))};
@@ -153,17 +136,16 @@ private:
 		to.count = n - 2 * s.count - from.count;
 		if (to.count < from.count)
 			std::swap(from, to);
-		for (const Edge k : removed)
-			set(k, false);
-		const std::vector<Halfedge> path = shortestPath(from, to, (1.0 - kMinCutGain) * length);
-		if (path.empty()) {
-			for (const Edge k : removed)
-				set(k, true);
-			return false;
-		}
-		join(from, to, path);
-		++m_changes;
-		return true;
+		const auto setAll = [&](bool cut) {
+			for (int i = 0; i < s.count; ++i)
+				set(side(s.there + i).edge(), cut);
+		};
+		setAll(false);
+		const std::vector<Halfedge> path = shortestPath(from, to, s.length);
+		if (path.empty())
+			setAll(true);
+		else
+			join(from, to, path);
 	}
 
 	/// Whether \p h leaves this circle between two of its sides. \pre it leaves one of the two
@@ -206,10 +188,11 @@ private:
 		};
 		m_front.clear();
 		forDepartures(from, [&](Halfedge h) { goOn(h, m_cost[h.edge()]); });
-		for (Vertex v; (v = m_front.next(bound)).isValid();)
+		for (Vertex v; (v = m_front.next(bound)).isValid();) {
 			for (const Halfedge h : m_t.around(v))
 				goOn(h, m_front[v] + m_cost[h.edge()]);
-		countWork(m_front.reached().size());
+			checkpointNowAndThen(++m_reached);
+		}
 		std::vector<Halfedge> path;
 		for (Halfedge h = last; h.isValid(); h = m_front.parent(m_t.origin(h)))
 			path.push_back(h);
@@ -245,37 +228,26 @@ private:
 		goRound(from, firstBack);
 	}
 
-	void countWork(std::size_t work)
-	{
-		m_work += work;
-		if (m_work < m_workAtTick + kWorkBetweenTicks)
-			return;
-		m_workAtTick = m_work;
-		checkpoint();
-	}
-
 	const Triangulation& m_t;
 	const EdgeArray<double>& m_cost;
 	EdgeArray<char>& m_isCut;
 	VertexArray<int> m_degree;     // cut edges, and kNode where that is a node in any case
 	std::vector<Halfedge> m_sides; // of the cut and the boundary, in order round the disk
 	HalfedgeArray<int> m_place;    // in m_sides
-	EdgeArray<int> m_failedAt;     // how many changes there had been
-	int m_changes = 0;
-	std::size_t m_work = 0, m_workAtTick = 0;
 	SearchFront<Vertex, Halfedge> m_front;
+	std::size_t m_reached = 0;
 };
 
 } // namespace
 
-bool shortenCut(
+void shortenCut(
 	const Triangulation& t,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& marked,
 	EdgeArray<char>& isCut)
 {
-	const bool isAny = std::find(isCut.begin(), isCut.end(), 1) != isCut.end();
-	return isAny && CutShortener(t, cost, marked, isCut).run();
+	if (std::find(isCut.begin(), isCut.end(), 1) != isCut.end())
+		CutShortener(t, cost, marked, isCut).run();
 }
 
 } // namespace ricci

@@ -6,13 +6,14 @@
 
 namespace ricci {
 
-/// Shortens a cut graph, whose complement is a disk, by local search. The complement stays a disk,
-/// and the cut still reaches every marked vertex and every boundary loop.
+/// Shortens a cut graph, whose complement is a disk. The complement stays a disk, and the cut still reaches every
+/// marked vertex and every boundary loop.
 ///
-/// Segments (paths of the cut between vertices where it branches or ends, marked vertices and those on the
-/// boundary) are exchanged while that gains. Without one of them the cut leaves an annulus. Any path between the
-/// two boundaries A and B of the annulus makes it a disk again, and the shortest is taken. It may start and
-/// end anywhere, so the move straightens seams, moves branches, and changes the homotopy class of loops.
+/// Segments, the longest first, are exchanged where that gains: paths of the cut between vertices where it branches
+/// or ends, marked vertices and those on the boundary. Without one of them the cut leaves an annulus. Any path
+/// between the two boundaries A and B of the annulus makes it a disk again, and the shortest is taken. It may
+/// start and end anywhere, so the move straightens seams, moves branches, and changes the homotopy class of
+/// loops.
 ///
 ///        +---------------+        +---------------+
 ///        | A +---+       |        | A +---+       |
@@ -26,10 +27,9 @@ namespace ricci {
 /// \param cost of the edges, positive; infinite where no path may run
 /// \param marked 1 at vertices that the cut reaches, inside
 /// \param isCut changed in place
-/// \return whether a bound on the work has ended it
 /// \pre the surface opened along the cut is a disk, or nothing is cut; the cut has no dead ends but at
 /// marked vertices
-bool shortenCut(
+void shortenCut(
 	const Triangulation& t,
 	const EdgeArray<double>& cost,
 	const VertexArray<char>& marked,

@@ -64,14 +64,6 @@ void logFlow(const FlowResult& flow, const FlowOptions& options)
 			numberText(flow.residual, 3) + " (rounding floor " + numberText(flow.floor, 3) + ").");
 }
 
-void logCut(ComponentMap& map)
-{
-	if (!map.cut.endedEarly)
-		return;
-	++map.report.endedEarly;
-	logLine("The search for shorter seams has ended at the bound on its work.");
-}
-
 VertexArray<char>
 conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& onHole)
 {
@@ -92,8 +84,7 @@ flowOverlay(const FlowDomain& domain, const FlowOptions& options, const Componen
 	return divideStartTriangles(map.flow, domain.surface.triangulation.faceCount());
 }
 
-CutGraph
-cutDomain(const FlowDomain& domain, EdgeArray<double> cost, const VertexArray<char>& cones)
+CutGraph cutDomain(const FlowDomain& domain, EdgeArray<double> cost, const VertexArray<char>& cones)
 {
 	advance(1.0 - kAfterFlow, "Shortening the seams");
 	const Triangulation& t = domain.surface.triangulation;

@@ -22,9 +22,6 @@ TargetInput targetInput(const Component& component, const VertexInput& input, in
 /// Logs what the user should know of a flow that reached its target.
 void logFlow(const FlowResult& flow, const FlowOptions& options);
 
-/// Counts, and logs, a search for seams that has ended early.
-void logCut(ComponentMap& map);
-
 /// 1 at the vertices inside that are not flat in the target: the cut must reach them.
 /// \p onHole 1 at vertices of holes that the flow closes with caps; may be empty.
 VertexArray<char>

@@ -94,10 +94,9 @@ ComponentMap flattenToDisk(
 	besides(
 		threads,
 		[&] { overlay = flowOverlay(domain, options, map); },
-		[&] { // 4.3; wedges at cones may be as wide as they like in the disk
+		[&] { // 4.3
 			map.cut = cutDomain(domain, cutCost(domain, map.flow, options.method), map.cones);
 		});
-	logCut(map);
 	besides(
 		threads,
 		[&] { layOut(domain, std::move(overlay), options, map); }, // 4.3

@@ -58,17 +58,13 @@ TargetRequest targetRequest(
 
 /// The cut through the cones.
 void cutOpen(
-	const FlowDomain& domain,
-	VertexArray<char> cones,
-	const Options& options,
-	ComponentMap& map)
+	const FlowDomain& domain, VertexArray<char> cones, const Options& options, ComponentMap& map)
 {
 	const EmbeddedSurface& surface = domain.surface;
 	map.cones = std::move(cones);
 	map.cut = cutDomain(
 		domain,
-		seamCost(
-			surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
+		seamCost(surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
 		map.cones);
 }
 
@@ -311,7 +307,6 @@ std::optional<ComponentMap> flattenToPlane(
 	logFlow(map.flow, options);
 	if (auto cones = conesOf(domain.surface, map.flow.target, domain.onHole); !(cones == map.cones))
 		cutOpen(domain, std::move(cones), options, map);
-	logCut(map);
 	besides(
 		threads,
 		[&] {

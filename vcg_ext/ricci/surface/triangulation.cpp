@@ -179,18 +179,16 @@ Topology topologyOf(const Triangulation& t)
 std::vector<Edge> edgesBesideCotree(
 	const Triangulation& t, const EdgeArray<char>& inTree, const EdgeArray<double>& loopLength)
 {
-	std::vector<Edge> edges;
+	std::vector<std::pair<double, Edge>> byLength;
 	for (const Edge e : t.edges())
 		if (!t.isBoundary(e) && !inTree[e])
-			edges.push_back(e);
-	std::sort(edges.begin(), edges.end(), [&](Edge a, Edge b) {
-		return loopLength[a] != loopLength[b] ? loopLength[a] > loopLength[b] : a < b;
-	});
+			byLength.push_back({-loopLength[e], e});
+	std::sort(byLength.begin(), byLength.end());
 	DisjointSetsOf<Face> cotree(t.faceCount());
-	const auto isCrossed = [&](Edge e) {
-		return cotree.merge(t.face(e.halfedge()), t.face(e.halfedge().twin()));
-	};
-	edges.erase(std::remove_if(edges.begin(), edges.end(), isCrossed), edges.end());
+	std::vector<Edge> edges;
+	for (const auto& [length, e] : byLength)
+		if (!cotree.merge(t.face(e.halfedge()), t.face(e.halfedge().twin())))
+			edges.push_back(e);
 	return edges;
 }
 
