@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A surface of genus 2 whose metric is known, with metrics of its conformal class: how fast the flow converges.
 #include "../measure/siegel_distance.h"
-#include "support/run_flow.h"
 #include "support/bolza.h"
 #include "support/flipped_flow.h"
+#include "support/run_flow.h"
 #include "support/shapes.h"
 
 #include <ricci/base/numbers.h>

@@ -9,8 +9,6 @@ namespace ricci::testing {
 
 namespace {
 
-
-
 std::vector<double> randomSteps(int n, double decades, Random& random)
 {
 	std::vector<double> at{0.0};

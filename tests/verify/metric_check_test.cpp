@@ -162,28 +162,6 @@ SurfaceMesh pierced(Random& random)
 	return withoutStars(shaken(perforatedSlab(1, 3), 0.03, random), {0, 70});
 }
 
-/// What remains round a vertex is the same wherever the layout lies, but for the rounding of its
-/// places. As seen from 0 it is not: it grows with the way there.
-TEST(HolonomyCheck, DoesNotDependOnThePlaceOfTheLayout)
-{
-	Random random(792);
-	LaidOut surface(shaken(perforatedSlab(3, 2), 0.06, random), hyperbolicMetric());
-	EXPECT_LT(surface.error(), 1e-11);
-	const double atMiddle = surface.group().polygonError;
-	EXPECT_LT(atMiddle, 1e-8);
-	const double way = 12.0;
-	const ExtendedIsometry m = ExtendedIsometry::translation(way);
-	for (Point2& p : surface.disk.corners.points)
-		p = asPoint(Complex(m(asComplex(p))));
-	for (const Edge e : surface.flow.base().edges())
-		if (surface.cut.isCut[e]) {
-			surface.disk.pairing[e].left = m * surface.disk.pairing[e].left;
-			surface.disk.pairing[e].right = m * surface.disk.pairing[e].right;
-		}
-	EXPECT_LT(surface.error(), 1e-6);
-	EXPECT_GT(surface.group().polygonError, 1e-2 * std::exp(way) * atMiddle);
-}
-
 /// A side pairing that turns about a vertex by an angle too much, or moves it. Only on one edge, so that nothing is
 /// wrong but at its ends.
 TEST(HolonomyCheck, SeesATurnAndAMoveAtTheirTrueSize)

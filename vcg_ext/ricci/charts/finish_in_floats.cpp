@@ -74,8 +74,8 @@ public:
 			for (const int f : flat.points.indices())
 				if (planeOf(flat, f) == plane && box.meets(boxOf(flat.at(f)))) {
 					near.push_back(flat.at(f));
-					isOwn.push_back(std::binary_search(
-						patch.triangles.begin(), patch.triangles.end(), f));
+					isOwn.push_back(
+						std::binary_search(patch.triangles.begin(), patch.triangles.end(), f));
 				}
 			const Array<char> overlaps = OverlapSearch(std::move(near), m_touching).overlapping();
 			for (const int i : overlaps.indices())
@@ -136,8 +136,7 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 {
 	for (int packings = 1;; ++packings) {
 		const Wanted wanted(map.mesh, finish.forText);
-		const OverlapCount overlaps(
-			map.mesh, false, wanted.validity.height / kMinFloatSteps);
+		const OverlapCount overlaps(map.mesh, false, wanted.validity.height / kMinFloatSteps);
 		WorkLimit limit(map.mesh.size());
 		Repair result;
 		// Where there is no room for text, floats have to do.

@@ -178,7 +178,8 @@ NumberedPoints::NumberedPoints(const FlatMesh& flat, const PointGroups& groups) 
 
 MeanDistortion::MeanDistortion(const FlatMesh& flat, const PointGroups& groups) :
 		m_points(flat, groups), m_threads(defaultThreads()), m_shape(flat.points.size()),
-		m_corners(flat.points.size()), m_energy(flat.points.size(), 0.0), m_stiffness(flat.points.size(), 0.0), m_pull(flat.points.size())
+		m_corners(flat.points.size()), m_energy(flat.points.size(), 0.0),
+		m_stiffness(flat.points.size(), 0.0), m_pull(flat.points.size())
 {
 	setShapes(flat);
 	for (const int f : m_corners.indices())

@@ -36,8 +36,8 @@ int unequalSeams(const FlatMesh& mesh, const Length& length, const Rounding& rou
 	for (const Corner side : seams(mesh).edges) {
 		const Corner other = mesh.across[side];
 		const double own = length(side), across = length(other);
-		const double allowed = rounding(side) + rounding(side.next()) + rounding(other) +
-							   rounding(other.next());
+		const double allowed =
+			rounding(side) + rounding(side.next()) + rounding(other) + rounding(other.next());
 		count += std::abs(own - across) > std::max(kUnequalShare * std::max(own, across), allowed);
 	}
 	return count;
