@@ -58,10 +58,10 @@ EUCLIDEAN_RESULTS = \
                   'texture vertices that the repair moved; one moved again in the stored '
                   'coordinates counts twice'),
  'ended_early': ('int',
-                 'searches for something better (cones that keep areas, shorter seams, repair, '
-                 'least distortion or stretch, cuts for room, the division of disks) that the '
-                 'bound on their work has ended: the map is valid, and could be a little '
-                 'better; the log says which'),
+                 'searches for something better (cones that keep areas, repair, least '
+                 'distortion or stretch, cuts for room, the division of disks) that the bound '
+                 'on their work has ended: the map is valid, and could be a little better; the '
+                 'log says which'),
  'flips': ('int', 'intrinsic flips, including those before the flow'),
  'refinement_points': ('int',
                        'points of the common refinement that are not vertices of the mesh; 0 '
