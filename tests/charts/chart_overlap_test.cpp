@@ -16,6 +16,11 @@
 namespace ricci::testing {
 namespace {
 
+std::vector<TrianglePair> pairsOf(const FlatMesh& chart)
+{
+	return OverlapSearch(chart).pairs();
+}
+
 /// Triangles round a vertex that go round it by \p angle, to the distances \p radius(i).
 template<class Radius>
 SurfaceMesh fan(int n, double angle, const Radius& radius)
@@ -137,10 +142,10 @@ TEST(ChartOverlap, OfARingNamesThePairsWithCommonArea)
 			}
 		}
 	for (const double turns : {0.3, 0.999, 1.0, 1.001, 1.1, 1.9})
-		EXPECT_EQ(overlappingPairs(flatMesh(screw(turns, 60, 4))).empty(), turns <= 1.0) << turns;
+		EXPECT_EQ(pairsOf(flatMesh(screw(turns, 60, 4))).empty(), turns <= 1.0) << turns;
 	for (const double turns : {0.8, 1.4, 2.7}) {
 		const FlatMesh chart = flatMesh(screw(turns, 50, 5));
-		const std::vector<TrianglePair> pairs = overlappingPairs(chart);
+		const std::vector<TrianglePair> pairs = pairsOf(chart);
 		for (int i = 0; i < chart.size(); ++i)
 			for (int j = i + 1; j < chart.size(); ++j) {
 				const double area = commonArea(chart.at(i), chart.at(j));
@@ -167,7 +172,7 @@ TEST(ChartOverlap, ManySheetsThatOnlyTouchAreNotFollowedThroughAllTheirPairs)
 
 bool overlaps(const SurfaceMesh& mesh)
 {
-	return !overlappingPairs(flatMesh(mesh)).empty();
+	return !pairsOf(flatMesh(mesh)).empty();
 }
 
 TEST(ChartOverlap, TouchingIsNone)
@@ -216,7 +221,7 @@ TEST(ChartOverlap, AroundAVertexIsFound)
 		for (const int f : chart.points.indices())
 			if (orientation(chart.at(f)[0], chart.at(f)[1], chart.at(f)[2]) > 0)
 				proper.push_back(f);
-		EXPECT_EQ(overlappingPairs(chart.part(proper)).empty(), power <= 1.0);
+		EXPECT_EQ(pairsOf(chart.part(proper)).empty(), power <= 1.0);
 	}
 }
 
@@ -245,7 +250,7 @@ TEST(ChartOverlap, AFoldInsideAChartIsNone)
 	EXPECT_FALSE(overlaps(mesh));
 	// The same fold in a chart that does cover itself changes nothing there.
 	SurfaceMesh ring = screw(1.4, 60, 6);
-	const auto pairs = [&] { return static_cast<double>(overlappingPairs(flatMesh(ring)).size()); };
+	const auto pairs = [&] { return static_cast<double>(pairsOf(flatMesh(ring)).size()); };
 	const double plain = pairs();
 	Point3& inner = ring.positions[at(30 * 7 + 3)]; // on the opposite side of the ring
 	inner = 1.3 * inner;

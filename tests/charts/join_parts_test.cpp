@@ -31,7 +31,7 @@ void expectDivided(const FlatMesh& chart, const Parts& parts)
 	std::vector<int> all;
 	for (const std::vector<int>& part : parts) {
 		all.insert(all.end(), part.begin(), part.end());
-		EXPECT_TRUE(overlappingPairs(chart.part(part)).empty());
+		EXPECT_TRUE(OverlapSearch(chart.part(part)).pairs().empty());
 	}
 	std::sort(all.begin(), all.end());
 	std::vector<int> wanted(at(chart.size()));
@@ -86,56 +86,6 @@ TEST(SeparateCharts, FindsInAPartWhatAFoldHidInTheWhole)
 	EXPECT_EQ(map.report.charts, 3);
 }
 
-constexpr int kSide = 6; // squares along a side, two triangles each, row by row
-
-/// The unit square as its own map, one chart.
-Parametrization squareMap()
-{
-	return mapWith(flatMesh(rectangle(kSide, kSide, 1.0, 1.0)));
-}
-
-double middleOf(const Triangle2& p)
-{
-	return (p[0][0] + p[1][0] + p[2][0]) / 3.0;
-}
-
-/// A column of squares off a square leaves it in two parts, and each of its triangles by itself.
-TEST(CutOff, MakesAChartOfEachTriangleAndOfEachConnectedPart)
-{
-	Parametrization map = squareMap();
-	const Array<Triangle2> before = map.mesh.corners();
-	std::vector<int> off;
-	for (const int f : before.indices())
-		if (std::floor(kSide * middleOf(before[f])) == 2.0)
-			off.push_back(f);
-	cutOff(off, map);
-	ASSERT_EQ(map.charts.size(), std::size_t(2 * kSide + 2));
-	EXPECT_EQ(map.report.charts, 2 * kSide + 2);
-	EXPECT_EQ(map.report.overlapCuts, 4 * kSide - 1);
-	EXPECT_NEAR(map.report.seamLength, 3.0 - 1.0 / kSide + std::sqrt(2.0), 1e-14);
-	std::multiset<std::size_t> sizes;
-	for (const std::vector<int>& chart : map.mesh.trianglesByChart(map.charts.size())) {
-		sizes.insert(chart.size());
-		for (const int f : chart)
-			for (std::size_t k = 0; k < 3; ++k)
-				for (std::size_t i = 0; i < 2; ++i)
-					EXPECT_NEAR(
-						map.mesh.at(f)[k][i] - map.mesh.at(f)[0][i],
-						before[f][k][i] - before[f][0][i],
-						1e-15);
-	}
-	EXPECT_EQ(sizes.count(1), std::size_t(2 * kSide));
-	EXPECT_EQ(sizes.count(4 * kSide), 1u);
-	EXPECT_EQ(sizes.count(6 * kSide), 1u);
-}
-
-Motion randomMotion(double reach, Random& random)
-{
-	return {
-		std::polar(1.0, random.real(0, 2 * kPi)),
-		{random.real(-reach, reach), random.real(-reach, reach)}};
-}
-
 /// A mesh over the plane, of which each part lies elsewhere.
 struct Scattered
 {
@@ -150,7 +100,9 @@ struct Scattered
 	{
 		std::vector<Motion> motions;
 		for (std::size_t i = 0; i < parts.size(); ++i)
-			motions.push_back(randomMotion(20, random));
+			motions.push_back(
+				{std::polar(1.0, random.real(0, 2 * kPi)),
+				 {random.real(-20, 20), random.real(-20, 20)}});
 		std::vector<Triangle2> plane = flatMesh(mesh).corners().values();
 		for (const int f : partOf.indices()) {
 			plane[at(f)] = motions[at(partOf[f])](plane[at(f)]);
@@ -333,27 +285,6 @@ TEST(ConnectedPieces, AreTheSmallerOnesWithAStart)
 		several += found.size() > 1;
 	}
 	EXPECT_GT(several, 300);
-}
-
-/// Two lines of very different lengths.
-TEST(ConnectedPieces, AreFoundAtTheCostOfTheSmallOnes)
-{
-	const int shortEnd = 20, n = 100000;
-	int asked = 0;
-	Array<int> scratch(n, -1);
-	const Parts found = smallerPieces(
-		{n / 2, 0, n / 2 + 4, shortEnd - 1},
-		[&](int i, const auto& visit) {
-			++asked;
-			if (i > 0 && i != shortEnd)
-				visit(i - 1);
-			if (i + 1 < n && i + 1 != shortEnd)
-				visit(i + 1);
-		},
-		scratch);
-	ASSERT_EQ(found.size(), 1u);
-	EXPECT_EQ(found[0].size(), at(shortEnd));
-	EXPECT_LT(asked, 4 * shortEnd);
 }
 
 } // namespace

@@ -173,28 +173,6 @@ void expectPacked(std::vector<Outline> outlines, double side, double padding, Ch
 	EXPECT_TRUE(keepApart(outlines, padding * (1 - 1e-9)));
 }
 
-/// Round a point, with corners at random distances.
-TEST(PackOutlines, KeepsTheRoomAndTheShapes)
-{
-	Random random(380);
-	for (int trial = 0; trial < 12; ++trial) {
-		std::vector<Outline> outlines;
-		for (int i = 0; i <= trial; ++i) {
-			std::vector<Point2> corners;
-			const int n = 3 + random.index(20);
-			const double size = random.real(0.1, 1.0);
-			for (int k = 0; k < n; ++k) {
-				const double angle = 2.0 * kPi * k / n, r = size * random.real(0.2, 1.0);
-				corners.push_back({3.0 + r * std::cos(angle), -5.0 + r * std::sin(angle)});
-			}
-			outlines.push_back(polygon(corners));
-		}
-		const double side = 1.2 * (2.0 + trial), padding = trial % 3 == 0 ? 0.0 : 0.03 * trial;
-		for (ChartTurns turns : {ChartTurns::None, ChartTurns::Quarter, ChartTurns::Free})
-			expectPacked(outlines, side, padding, turns);
-	}
-}
-
 TEST(PackOutlines, UsesHolesNotchesAndTurns)
 {
 	// A frame of side 3 with a hole of side 2, clockwise, and squares that fit in.

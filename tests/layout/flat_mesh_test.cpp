@@ -97,30 +97,6 @@ TEST(FlatMesh, PointsOfSomeTrianglesAreSplitAsThoseOfAll)
 	}
 }
 
-TEST(FlatMesh, PartsKeepTheirTrianglesAndShareNoIndices)
-{
-	const FlatMesh mesh = withSeam({2.0, 0.0});
-	const std::vector<int> some = {17, 2, 3, 4, 5, 30};
-	const FlatMesh part = mesh.part(some);
-	ASSERT_EQ(at(part.size()), some.size());
-	for (std::size_t i = 0; i < some.size(); ++i) {
-		const int own = static_cast<int>(i);
-		EXPECT_EQ(part.at(own), mesh.at(some[i]));
-		EXPECT_EQ(part.vertices[own], mesh.vertices[some[i]]);
-		EXPECT_EQ(part.lengths[own], mesh.lengths[some[i]]);
-		EXPECT_EQ(part.face[own], mesh.face[some[i]]);
-	}
-	const Sides sides(part.vertices.values());
-	for (const Corner side : part.across.indices())
-		EXPECT_EQ(part.across[side], sides.across(side));
-	FlatMesh result = mesh;
-	result.across.clear(); // as in results
-	EXPECT_EQ(result.part(some).points, part.points);
-	EXPECT_TRUE(result.part(some).across.empty());
-	EXPECT_EQ(at(part.place.size()), part.pointsByChart(1).front().size());
-	EXPECT_EQ(mesh.trianglesByChart(1).front().size(), at(mesh.size()));
-}
-
 /// Units of rounding that the direction of an edge loses: the longest side of its triangles over it.
 double loss(const Triangulation& t, const EdgeArray<double>& lengths, Edge e)
 {

@@ -289,31 +289,5 @@ TEST(PieceTriangulation, IsTheBestOfAll)
 		(std::vector<Corners>{{0, 1, 2}}));
 }
 
-TEST(PieceTriangulation, FillsThePolygonCounterClockwise)
-{
-	Random random(831);
-	int straight = 0;
-	for (int trial = 0; trial < 300; ++trial) {
-		const int onSides = random.index(8);
-		const Polygon polygon(3 + random.index(12), onSides, random);
-		const auto area = [&](std::size_t a, std::size_t b, std::size_t c) {
-			return doubledArea(polygon.plane[a], polygon.plane[b], polygon.plane[c]);
-		};
-		const auto triangles = triangulatePiece(polygon.plane, polygon.space);
-		ASSERT_EQ(triangles.size(), polygon.plane.size() - 2);
-		double sum = 0.0, whole = 0.0;
-		for (std::size_t k = 1; k + 1 < polygon.plane.size(); ++k)
-			whole += area(0, k, k + 1);
-		for (const Corners& t : triangles) {
-			// More than rounding: straight corners make no triangle of their own.
-			EXPECT_GT(area(t[0], t[1], t[2]), 1e-9 * whole);
-			sum += area(t[0], t[1], t[2]);
-		}
-		EXPECT_NEAR(sum / whole, 1.0, 1e-12);
-		straight += onSides > 0;
-	}
-	EXPECT_GT(straight, 100); // or the test says little
-}
-
 } // namespace
 } // namespace ricci::testing

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/expect.h"
 #include "support/intrinsic.h"
-#include "support/planar_edges.h"
 #include "support/random_surface.h"
 
 #include <ricci/surface/triangulation.h>
@@ -177,16 +176,6 @@ void expectQuads(const Triangulation& t)
 	}
 }
 
-TEST(Triangulation, KeepsTheCornersOfItsTriangles)
-{
-	for (const SurfaceMesh& mesh : {tetrahedron(), ring(1, 2, 7, 3), perforatedSlab(2, 1)}) {
-		const Triangulation t = glued(mesh);
-		for (const Face f : t.faces())
-			for (std::size_t k = 0; k < 3; ++k)
-				EXPECT_EQ(t.origin(t.halfedges(f)[k]), Vertex(mesh.triangles[at(f)][k]));
-	}
-}
-
 TEST(Triangulation, RefusesAnEdgeOfTwoTrianglesThatDisagree)
 {
 	const struct
@@ -257,35 +246,6 @@ TEST(Triangulation, StaysConsistentUnderFlipsAndComesBack)
 	EXPECT_GT(onBoundary, 100);
 	EXPECT_GT(glueings, 100);
 	EXPECT_GT(loopsOfOneEdge, 100);
-}
-
-TEST(Triangulation, AroundAVertexIsClockwise)
-{
-	Random random(4);
-	const SurfaceMesh mesh = randomPlanarDisk(7, random);
-	const PlanarEdges plane(mesh);
-	Triangulation t = glued(mesh);
-	int flips = 0, turns = 0;
-	for (int attempt = 0; attempt < 400; ++attempt) {
-		const Edge e(random.index(t.edgeCount()));
-		if (plane.isConvexQuad(t, e)) {
-			t.flip(e);
-			++flips;
-		}
-	}
-	for (const Vertex v : t.vertices()) {
-		Halfedge before;
-		for (const Halfedge h : t.around(v)) {
-			// Across the exterior the turn may be of more than pi.
-			if (before.isValid() && !t.isExterior(h)) {
-				EXPECT_LT(plane.side(v, t.target(before), t.target(h)), 0);
-				++turns;
-			}
-			before = h;
-		}
-	}
-	EXPECT_GT(flips, 50);
-	EXPECT_GT(turns, 200);
 }
 
 } // namespace
