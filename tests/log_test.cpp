@@ -187,15 +187,19 @@ std::vector<Log> logs()
 		 "no cones, because without them areas are expected to spread by # alone"},
 		{{"AreasMaySpread", tube, with([](Options& o) { o.cones.distortion = 1e9; })},
 		 [=](const Lines& l, const Parametrization& map) -> Groups {
+			 std::vector<std::string> last{l.boundary()};
+			 if (map.report.unequalSeams > 0)
+				 last.push_back(
+					 std::to_string(map.report.unequalSeams) +
+					 " edges of the seams are longer on one side than on the other: flipped faces "
+					 "beside them were mended.");
 			 return {
 				 {l.component("a disk"),
 				  Lines::kFree,
 				  std::string(kNoCones) + Lines::kCost + ", area distortion " +
 					  three(*map.report.expectedSpread) + " (spread)."},
 				 l.newton(),
-				 {"The finish has ended at the bound on its steps: the map could still become a "
-				  "little better.",
-				  l.boundary()}};
+				 last};
 		 },
 		 "no cones, because without them areas are expected to spread by # alone"},
 		{{"AreasAreKept", tube, with([](Options& o) { o.cones.distortion = 0.2; })},
