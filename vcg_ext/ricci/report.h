@@ -117,7 +117,8 @@ struct Report
 	/// Faces of the output that cover a part of the plane together with another one, in coordinates rounded
 	/// to float, and charts that these are in: see countOverlaps().
 	int overlappingFaces = 0, overlappingCharts = 0;
-	/// Plane: edges of seams whose two sides differ in length in these coordinates: see countUnequalSeams().
+	/// Edges of seams whose two sides differ in length in these coordinates, in the disk in hyperbolic length: see
+	/// countUnequalSeams().
 	int unequalSeams = 0;
 	/// Edges of the output cut so that no chart covers itself, across strips, or round triangles that floats
 	/// cannot hold in their chart. Where parts are joined elsewhere, seamEdges get fewer.
