@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_maps.h"
-#include "support/listener.h"
 
 #include <ricci/finish/finish.h>
 #include <ricci/measure/distortion.h>
@@ -91,13 +90,6 @@ TEST(FinishInPlane, OfLeastDistortionIsConformalWhereTheSurfaceIsFlat)
 			expectBorderOf(sheared, flat);
 		}
 	}
-}
-
-TEST(FinishInPlane, CanBeCancelled)
-{
-	FlatMesh flat = folded(1.6);
-	Listener impatient(1);
-	EXPECT_THROW(heard(impatient, [&] { finishSquare(flat, false, Finish::Repair); }), Cancelled);
 }
 
 } // namespace

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_maps.h"
-
-#include "support/listener.h"
 #include "support/random.h"
 #include "support/shapes.h"
 
@@ -79,21 +77,6 @@ TEST(Repair, MovesOnlyWhatIsNearABadTriangle)
 		const bool isFar = std::abs(p % (kSide + 1) - 3) > 3 || std::abs(p / (kSide + 1) - 3) > 3;
 		EXPECT_TRUE(!isFar || flat.place[p] == before[p]) << p;
 	}
-}
-
-TEST(Repair, TheScaleOfTheDrawingPlaysNoPart)
-{
-	constexpr double kScale = 0x1p-30;
-	FlatMesh flat = tangled(6, 5), small = flat;
-	for (const int p : small.place.indices())
-		small.place[p] = {kScale * small.place[p][0], kScale * small.place[p][1]};
-	const Validity same = validity();
-	const Validity scaled{kScale * same.height, kScale * same.wanted, same.asFloats};
-	mend(flat, same);
-	mend(small, scaled);
-	for (const int p : flat.place.indices())
-		for (std::size_t k = 0; k < 2; ++k)
-			EXPECT_NEAR(small.place[p][k] / kScale, flat.place[p][k], 1e-6) << p;
 }
 
 TEST(Repair, ValidMeansValidInFloatsWhereFloatsAreStored)
@@ -176,13 +159,6 @@ TEST(Repair, EndsWhenItsLimitIsSpent)
 	EXPECT_GE(half.left, all.left);
 	EXPECT_EQ(none.work, 0);
 	EXPECT_GT(none.left, all.left);
-}
-
-TEST(Repair, CanBeCancelled)
-{
-	FlatMesh flat = tangled(6, 3);
-	Listener impatient(1);
-	EXPECT_THROW(heard(impatient, [&] { mend(flat, validity()); }), Cancelled);
 }
 
 } // namespace

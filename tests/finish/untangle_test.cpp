@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_maps.h"
-
-#include "support/listener.h"
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
@@ -135,16 +133,6 @@ TEST(Untangle, SaysWhatItCannotMend)
 	const Untangled result = untangle(Whole(flat).problem());
 	EXPECT_TRUE(result.points.empty());
 	EXPECT_GT(result.steps, 0);
-}
-
-TEST(Untangle, IsHeardAndCanBeEnded)
-{
-	const Whole whole(tangled(20, 5));
-	Listener ticks;
-	const Untangled result = heard(ticks, [&] { return untangle(whole.problem(kMaxSteps)); });
-	EXPECT_EQ(ticks.calls(), result.steps);
-	Listener impatient(1);
-	EXPECT_THROW(heard(impatient, [&] { untangle(whole.problem(kMaxSteps)); }), Cancelled);
 }
 
 TEST(Untangle, TakesNoMoreStepsThanItMay)
