@@ -20,25 +20,6 @@
 namespace ricci::testing {
 namespace {
 
-/// The condition of [a1,b1] ... [ag,bg] of which bestConditioned() speaks.
-double relationCondition(const Handles& handles)
-{
-	const auto size = [](const ExtendedIsometry& m) {
-		return static_cast<double>(abs(m.a) + abs(m.b));
-	};
-	double sum = 0.0;
-	ExtendedIsometry corner;
-	for (std::size_t i = 0; i + 1 < handles.size(); i += 2) {
-		const ExtendedIsometry &a = handles[i], &b = handles[i + 1];
-		for (const ExtendedIsometry& letter : {a, b, a.inverse(), b.inverse()}) {
-			const ExtendedIsometry next = corner * letter;
-			sum += size(corner) * size(letter) * size(next);
-			corner = next;
-		}
-	}
-	return sum;
-}
-
 double errorOf(const ExtendedIsometry& m)
 {
 	return static_cast<double>(m.distanceFromIdentity());
