@@ -31,8 +31,9 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A number that is not known before.
+/// Numbers that are not known before.
 constexpr std::size_t kSome = 1000000;
+constexpr double kBeyond = 1e9; ///< but beyond the bound
 
 void expectNumber(double found, double expected)
 {
@@ -52,8 +53,13 @@ template<class E> // InvalidOption, InadmissibleCurvature
 void expectSameData(const E& error, const E& expected)
 {
 	EXPECT_EQ(error.problem, expected.problem);
-	expectNumber(error.value, expected.value);
-	expectNumber(error.bound, expected.bound);
+	if (expected.value == kBeyond) {
+		EXPECT_GT(error.value, error.bound);
+	}
+	else {
+		expectNumber(error.value, expected.value);
+		expectNumber(error.bound, expected.bound);
+	}
 	EXPECT_EQ(error.count, expected.count);
 	EXPECT_EQ(error.surface.name(), expected.surface.name());
 	if constexpr (std::is_same_v<E, InvalidOption>) {
@@ -437,8 +443,8 @@ std::vector<Refusal> curvatures()
 		E(E::HyperbolicSum, 3 * kPi, 4 * kPi, 0, type(0, 0)),
 		"2 pi chi = 12.5663706");
 	// All the negative curvature of many handles is moved to one small hole.
-	const SurfaceMesh handles = withoutStars(perforatedSlab(40, 3), {0});
-	add("ScalesApart", handles, plane, {}, E(E::ScalesApart, 49, 30), "times as large as others");
+	const SurfaceMesh handles = withoutStars(perforatedSlab(20, 2), {0});
+	add("ScalesApart", handles, plane, {}, E(E::ScalesApart, kBeyond), "times as large as others");
 	return table.rows();
 }
 
@@ -475,7 +481,7 @@ std::vector<Refusal> flows()
 		E(E::LostInRounding, kSome),
 		Method::IntrinsicFlips,
 		"lost in rounding");
-	const SurfaceMesh handles = withoutStars(perforatedSlab(40, 3), {0});
+	const SurfaceMesh handles = withoutStars(perforatedSlab(20, 2), {0});
 	add("RoundAHole",
 		{"", handles, with([](Options& o) { o.cones.distortion = 1e9; })},
 		E(E::LostInRounding),
