@@ -538,6 +538,32 @@ TEST_P(Refusals, AreTheSameAtTheFacadeAndLeaveTheMesh)
 	EXPECT_EQ(contents(m) == before, true);
 }
 
+/// The façade cannot hand such faces over.
+TEST(FacesInArrays, HaveTheirVerticesThere)
+{
+	const SurfaceMesh sound = tetrahedron();
+	for (const int vertex : {-1, 4, 1000})
+		for (const std::size_t faces : {1u, 3u}) {
+			SurfaceMesh mesh = sound;
+			for (std::size_t f = 0; f < faces; ++f)
+				mesh.triangles[f][f] = vertex;
+			const std::function<void()> calls[] = {
+				[&] { parametrizeEuclidean(mesh, {}, {}); },
+				[&] { parametrizeHyperbolic(mesh, {}, {}); },
+				[&] { mapToSphere(mesh, {}); }};
+			for (const auto& call : calls) {
+				SCOPED_TRACE(std::to_string(faces) + " with " + std::to_string(vertex));
+				try {
+					call();
+					ADD_FAILURE() << "no refusal";
+				}
+				catch (const InvalidMesh& refusal) {
+					expectSameData(refusal, InvalidMesh(InvalidMesh::DamagedFaces, faces));
+				}
+			}
+		}
+}
+
 INSTANTIATE_TEST_SUITE_P(Options, Refusals, ::testing::ValuesIn(options()), CallName());
 INSTANTIATE_TEST_SUITE_P(Meshes, Refusals, ::testing::ValuesIn(meshes()), CallName());
 INSTANTIATE_TEST_SUITE_P(Targets, Refusals, ::testing::ValuesIn(targets()), CallName());
