@@ -187,9 +187,9 @@ class Flattening(Parametrization):
     """faces that cover a part of the plane together with another one, of their chart or not, in
     the coordinates as floats; the charts that these are in"""
     unequal_seams: int
-    """Euclidean filter: edges of the seams whose two sides differ in length by more than
-    1/1000, in the coordinates as floats: flipped faces beside them were mended, or finish Least
-    stretch has let the seams go"""
+    """edges of the seams whose two sides differ in length, in the disk in hyperbolic length, by
+    more than 1/1000, in the coordinates as floats: flipped faces beside them were mended, or
+    finish Least stretch has let the seams go"""
     overlap_cuts: int
     """edges of the output that are cut to separate them, or to set apart faces that floats
     cannot hold in their chart; where parts are joined elsewhere, there are fewer seam_edges"""
@@ -349,9 +349,9 @@ class Uniformization(Parametrization):
     """faces that cover a part of the plane together with another one, of their chart or not, in
     the coordinates as floats; the charts that these are in"""
     unequal_seams: int
-    """Euclidean filter: edges of the seams whose two sides differ in length by more than
-    1/1000, in the coordinates as floats: flipped faces beside them were mended, or finish Least
-    stretch has let the seams go"""
+    """edges of the seams whose two sides differ in length, in the disk in hyperbolic length, by
+    more than 1/1000, in the coordinates as floats: flipped faces beside them were mended, or
+    finish Least stretch has let the seams go"""
     overlap_cuts: int
     """edges of the output that are cut to separate them, or to set apart faces that floats
     cannot hold in their chart; where parts are joined elsewhere, there are fewer seam_edges"""
