@@ -2,12 +2,9 @@
 // Meshes of Debian's package libcgal-demo, clean and dirty, of many topologies: each is mapped
 // without a defect, or refused for a reason that holds.
 #include "support/intrinsic.h"
+#include "support/opened_map.h"
 #include "support/refinement_check.h"
 #include "support/shapes.h"
-
-#include <ricci/base/numbers.h>
-#include <ricci/error.h>
-#include <ricci/pipeline/whole_map.h>
 
 #include <gtest/gtest.h>
 
@@ -120,23 +117,13 @@ std::vector<double> admissibleCurvature(const SurfaceMesh& mesh)
 	return curvature;
 }
 
-/// The opened mesh with every face turned as the algorithm turned it.
-SurfaceMesh coherent(const OpenedMesh& opened)
+std::string defectOf(const OpenedMap& opened, int& belowResolution)
 {
-	SurfaceMesh mesh = opened.mesh;
-	for (const Face f : opened.reversed.indices())
-		if (opened.reversed[f])
-			std::swap(mesh.triangles[at(f)][1], mesh.triangles[at(f)][2]);
-	return mesh;
-}
-
-std::string defectOf(const OpenedMesh& opened, const Parametrization& flat, int& belowResolution)
-{
+	const Parametrization& flat = opened.map;
 	const Report& report = flat.report;
-	const SurfaceMesh input = coherent(opened);
 	const FlatMesh& mesh = flat.mesh;
-	const RefinementCheck check(input, mesh, flat.targetCurvature);
-	std::vector<char> covered(input.triangles.size(), 0);
+	const RefinementCheck check(opened.mesh, mesh, flat.targetCurvature);
+	std::vector<char> covered(opened.mesh.triangles.size(), 0);
 	for (int f : mesh.face)
 		covered[at(f)] = 1;
 	std::string defects;
@@ -189,10 +176,9 @@ PipelineCheck::PipelineCheck(const SurfaceMesh& mesh)
 	try {
 		VertexInput input;
 		input.targetCurvature = admissibleCurvature(mesh);
-		OpenedMesh opened;
-		const Parametrization flat = chartsInPlane(mesh, input, options, opened);
-		report = flat.report;
-		defect = defectOf(opened, flat, belowResolution);
+		const OpenedMap opened(mesh, input, options);
+		report = opened.map.report;
+		defect = defectOf(opened, belowResolution);
 	}
 	catch (const Error& error) {
 		refusal = error.what();

@@ -4,15 +4,9 @@
 #include "support/expect.h"
 #include "support/random.h"
 #include "support/shapes.h"
-#include "support/vcg_mesh.h"
+#include "support/written.h"
 
-#include <vcg/complex/algorithms/parametrization/ricci_flow.h>
 #include <vcg/complex/algorithms/parametrization/ricci_seams.h>
-
-#include <ricci/base/numbers.h>
-#include <ricci/error.h>
-#include <ricci/measure/distortion.h>
-#include <ricci/surface/opened_mesh.h>
 
 #include <gtest/gtest.h>
 
@@ -33,28 +27,12 @@ using Seams = vcg::tri::RicciSeams<DoubleMesh>;
 using Marks = Flow::SideMarks;
 using EdgeSet = std::set<std::pair<int, int>>; // of vertices, the lower first
 
-constexpr OutputTriangulation kOutputs[] = {
-	OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement};
-
 /// In the mesh's own size, without cones for the sake of areas.
-Flow::Params unscaled(OutputTriangulation output = OutputTriangulation::KeepMesh)
+Options withoutCones(OutputTriangulation output = OutputTriangulation::KeepMesh)
 {
-	Flow::Params params;
-	params.output = output;
-	params.normalizeUV = false;
+	Options params = unscaled(output);
 	params.cones.distortion = 100.0;
 	return params;
-}
-
-template<class Params>
-Flow::Result compute(const SurfaceMesh& mesh, const Params& params, const Marks& marks)
-{
-	DoubleMesh m;
-	toVcg(mesh, m);
-	if constexpr (std::is_same_v<Params, Flow::Params>)
-		return Flow::Compute(m, params, marks);
-	else
-		return Flow::ComputeHyperbolic(m, params, marks);
 }
 
 std::pair<int, int> edge(const Triangle& t, std::size_t k)
@@ -104,28 +82,6 @@ EdgeSet jumps(const SurfaceMesh& mesh, const Flow::Result& r)
 	return marks.empty() ? EdgeSet() : insideEdges(mesh, marks);
 }
 
-/// Of a refinement, no vertex is there besides the mesh's own and the crossings: pieces meet at the mesh's
-/// own vertices.
-void expectJoined(const SurfaceMesh& mesh, const Flow::Result& r)
-{
-	DoubleMesh m;
-	toVcg(mesh, m);
-	Flow::WriteRefinement(m, r);
-	EXPECT_EQ(at(m.VN()), mesh.positions.size() + at(r.report.refinementPoints));
-	const SurfaceMesh after = fromVcg(m);
-	std::vector<double> area(mesh.triangles.size(), 0.0);
-	const auto areaOf = [](const SurfaceMesh& surface, const Triangle& t) {
-		return triangleArea(
-			{surface.positions[at(t[0])],
-			 surface.positions[at(t[1])],
-			 surface.positions[at(t[2])]});
-	};
-	for (const int i : r.mesh.points.indices())
-		area[at(r.mesh.face[i])] += areaOf(after, r.mesh.vertices[i]);
-	for (std::size_t f = 0; f < area.size(); ++f)
-		EXPECT_NEAR(area[f], areaOf(mesh, mesh.triangles[f]), 1e-9);
-}
-
 void expectCounts(const SurfaceMesh& mesh, const EdgeSet& chosen, const Report& report)
 {
 	double length = 0.0;
@@ -168,7 +124,7 @@ TEST(ChosenSeams, OpenASphereAlongASlit)
 	const EdgeSet chosen = insideEdges(mesh, marks);
 	ASSERT_EQ(chosen.size(), 10u);
 	for (const OutputTriangulation output : kOutputs) {
-		const auto r = compute(mesh, unscaled(output), marks);
+		const auto r = compute(mesh, withoutCones(output), marks);
 		EXPECT_EQ(r.report.charts, 1);
 		EXPECT_EQ(r.report.components, 1);
 		EXPECT_EQ(r.report.boundaryLoops, 1);
@@ -176,11 +132,10 @@ TEST(ChosenSeams, OpenASphereAlongASlit)
 		EXPECT_EQ(r.report.seamEdges, 0);
 		EXPECT_EQ(r.report.seamLength, 0.0);
 		expectCounts(mesh, chosen, r.report);
+		expectWritten(mesh, output, r);
 		if (output == OutputTriangulation::KeepMesh) {
 			EXPECT_EQ(jumps(mesh, r), chosen);
 		}
-		else
-			expectJoined(mesh, r);
 	}
 }
 
@@ -205,17 +160,16 @@ TEST(ChosenSeams, UnfoldABoxToItsNet)
 	});
 	const EdgeSet chosen = insideEdges(mesh, marks);
 	for (const OutputTriangulation output : kOutputs) {
-		const auto r = compute(mesh, unscaled(output), marks);
+		const auto r = compute(mesh, withoutCones(output), marks);
 		EXPECT_EQ(r.report.charts, 1);
 		EXPECT_EQ(r.report.cones, 0);
 		EXPECT_EQ(r.report.seamEdges, 0);
 		expectCounts(mesh, chosen, r.report);
 		expectIsometric(mesh, wedgesOf(r), r.report);
+		expectWritten(mesh, output, r);
 		if (output == OutputTriangulation::KeepMesh) {
 			EXPECT_EQ(jumps(mesh, r), chosen);
 		}
-		else
-			expectJoined(mesh, r);
 	}
 }
 
@@ -229,7 +183,7 @@ TEST(ChosenSeams, OpenATorusAlongAHandleAndATunnelLoop)
 	});
 	const EdgeSet chosen = insideEdges(mesh, marks);
 	ASSERT_EQ(chosen.size(), std::size_t(kAround + kAcross));
-	const auto r = compute(mesh, unscaled(), marks);
+	const auto r = compute(mesh, withoutCones(), marks);
 	EXPECT_EQ(r.report.charts, 1);
 	EXPECT_EQ(r.report.genus, 0);
 	EXPECT_EQ(r.report.boundaryLoops, 1);
@@ -243,7 +197,7 @@ TEST(ChosenSeams, AlongAllEdgesLeaveTheTriangles)
 	const SurfaceMesh mesh = sphere(5, 7);
 	const Marks marks = marksOf(mesh, [](const Point3&, const Point3&) { return true; });
 	const int n = static_cast<int>(mesh.triangles.size());
-	const auto r = compute(mesh, unscaled(), marks);
+	const auto r = compute(mesh, withoutCones(), marks);
 	EXPECT_EQ(r.report.components, n);
 	EXPECT_EQ(r.report.charts, n);
 	EXPECT_EQ(r.report.cones, 0);
@@ -260,7 +214,7 @@ TEST(ChosenSeams, DivideASphereAlongItsEquator)
 	const Marks marks = marksOf(
 		mesh, [](const Point3& p, const Point3& q) { return onEquator(p) && onEquator(q); });
 	const EdgeSet chosen = insideEdges(mesh, marks);
-	Flow::Params params = unscaled();
+	Options params = withoutCones();
 	params.finish = Finish::None;
 	const auto r = compute(mesh, params, marks);
 	EXPECT_EQ(r.report.components, 2);
@@ -287,7 +241,7 @@ TEST(ChosenSeams, LeaveAPlaneAsItIs)
 		return p[1] == 3.0 && q[1] == 3.0 && std::min(p[0], q[0]) > 1.5 &&
 			   std::max(p[0], q[0]) < 6.5;
 	});
-	const auto r = compute(mesh, unscaled(), marks);
+	const auto r = compute(mesh, withoutCones(), marks);
 	EXPECT_EQ(r.report.charts, 1);
 	EXPECT_EQ(r.report.boundaryLoops, 2);
 	EXPECT_EQ(r.report.seamEdges, 0);
@@ -312,7 +266,7 @@ TEST(ChosenSeams, MakeARectangleOfACylinder)
 		if (onMeridian({v.P()[0], v.P()[1], v.P()[2]}) &&
 			(v.P()[2] < 0.1 || v.P()[2] > 0.6 * kUp - 0.1))
 			v.SetS();
-	Flow::Params params = unscaled();
+	Options params = withoutCones();
 	params.target = TargetCurvature::Rectangle;
 	const auto r = Flow::Compute(m, params, marks);
 	const double perimeter = 2 * kAround * std::sin(kPi / kAround);
@@ -335,7 +289,7 @@ TEST(ChosenSeams, OfOneEdgeGoOnAlongAnother)
 	});
 	const EdgeSet chosen = insideEdges(mesh, marks);
 	ASSERT_EQ(chosen.size(), 1u);
-	const auto r = compute(mesh, unscaled(), marks);
+	const auto r = compute(mesh, withoutCones(), marks);
 	EXPECT_EQ(r.report.charts, 1);
 	EXPECT_EQ(r.report.boundaryLoops, 1);
 	expectCounts(mesh, chosen, r.report);
@@ -354,7 +308,7 @@ TEST(ChosenSeams, AreNoHoles)
 	const auto vertex = [](int i, int j) { return i * 13 + j; };
 	const SurfaceMesh mesh =
 		withoutStars(rectangle(16, 12, 16.0, 12.0), {vertex(3, 3), vertex(10, 8)});
-	Flow::Params params = unscaled();
+	Options params = withoutCones();
 	params.holes = Holes::Capped;
 	const auto count = [&](double low, double high) {
 		const Marks marks = marksOf(mesh, [=](const Point3& p, const Point3& q) {
@@ -395,7 +349,9 @@ TEST(ChosenSeams, DividePiecesOfHyperbolicSurfaces)
 	for (const OutputTriangulation output : kOutputs) {
 		Flow::HyperbolicParams params;
 		params.output = output;
-		const auto r = compute(mesh, params, marks);
+		DoubleMesh m;
+		toVcg(mesh, m);
+		const auto r = Flow::ComputeHyperbolic(m, params, marks);
 		EXPECT_EQ(r.report.components, 2);
 		EXPECT_EQ(r.report.genus, 2);
 		EXPECT_EQ(r.report.boundaryLoops, 2);
@@ -407,8 +363,7 @@ TEST(ChosenSeams, DividePiecesOfHyperbolicSurfaces)
 			const EdgeSet cut = jumps(mesh, r);
 			EXPECT_TRUE(std::includes(cut.begin(), cut.end(), chosen.begin(), chosen.end()));
 		}
-		else
-			expectJoined(mesh, r);
+		expectWritten(mesh, output, r);
 	}
 }
 
@@ -418,7 +373,7 @@ TEST(ChosenSeams, AreThoseOfEdges)
 	const SurfaceMesh mesh = sphere(8, 10);
 	const Marks marks = marksOf(
 		mesh, [](const Point3& p, const Point3& q) { return onMeridian(p) && onMeridian(q); });
-	const auto expected = compute(mesh, unscaled(), marks);
+	const auto expected = compute(mesh, withoutCones(), marks);
 	Random random(7);
 	SurfaceMesh turned = mesh;
 	Marks some = marks;
@@ -434,7 +389,7 @@ TEST(ChosenSeams, AreThoseOfEdges)
 			turned.triangles[f].end());
 		std::rotate(some[f].begin(), some[f].begin() + turns, some[f].end());
 	}
-	const auto r = compute(turned, unscaled(), some);
+	const auto r = compute(turned, withoutCones(), some);
 	expectCounts(turned, insideEdges(turned, some), r.report);
 	EXPECT_EQ(insideEdges(turned, some), insideEdges(mesh, marks));
 	EXPECT_EQ(jumps(turned, r), jumps(mesh, expected));
@@ -451,7 +406,8 @@ TEST(ChosenSeams, DivideEverySheet)
 	const Marks spine = marksOf(mesh, [](const Point3& p, const Point3& q) {
 		return std::hypot(p[0], p[1]) + std::hypot(q[0], q[1]) < 1e-9;
 	});
-	const auto whole = compute(mesh, unscaled(), none), divided = compute(mesh, unscaled(), spine);
+	const auto whole = compute(mesh, withoutCones(), none),
+			   divided = compute(mesh, withoutCones(), spine);
 	EXPECT_EQ(whole.report.charts, 2);
 	EXPECT_EQ(whole.report.chosenSeamEdges, 0);
 	EXPECT_EQ(divided.report.charts, 4);
@@ -468,7 +424,7 @@ TEST(ChosenSeams, MakeAMoebiusBandTwoSided)
 	const auto across = marksOf(mesh, [&](const Point3& p, const Point3& q) {
 		return std::abs(p[1]) < 1e-9 && std::abs(q[1]) < 1e-9 && p[0] > 0.0 && q[0] > 0.0;
 	});
-	const auto r = compute(mesh, unscaled(), across);
+	const auto r = compute(mesh, withoutCones(), across);
 	EXPECT_EQ(r.report.chosenSeamEdges, 1);
 	EXPECT_EQ(r.report.oneSidedComponents, 0);
 	EXPECT_EQ(r.report.splitVertices, 0);

@@ -39,9 +39,9 @@ not_run=77
 # The programs of the core that read no files of others.
 portable=(math_test surface_test metric_test cut_test layout_test verify_test error_sentences_test)
 portable_all=(flow_test curvature_test seamless_test charts_test finish_test fuchsian_test measure_test
-	pipeline_test conformal_invariants_test free_memory_test)
+	public_test free_memory_test)
 # The programs that meet hostile input.
-hostile=(math_test surface_test cut_test charts_test layout_test pipeline_test facade_test faults_test)
+hostile=(math_test surface_test cut_test charts_test layout_test public_test faults_test)
 hostile_all=(metric_test flow_test curvature_test seamless_test verify_test)
 
 have() {

@@ -10,13 +10,6 @@
 #include "support/refinement_check.h"
 #include "support/shapes.h"
 
-#include <ricci/base/numbers.h>
-#include <ricci/error.h>
-#include <ricci/flow/curvature_map.h>
-#include <ricci/flow/newton.h>
-#include <ricci/metric/euclidean.h>
-#include <ricci/parametrize.h>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +29,8 @@ Options refined(TargetCurvature target, bool freeBoundary = true)
 	options.freeBoundary = freeBoundary;
 	options.epsilon = 1e-10;
 	options.output = OutputTriangulation::CommonRefinement;
-	options.charts = Charts::OfTheFlow; // such cuts may cross faces, the flow's own seams may not
+	options.finish = Finish::None;      // the refinement is exact, but for floats
+	options.charts = Charts::OfTheFlow; // other cuts may cross faces, the flow's own seams may not
 	return options;
 }
 
@@ -69,7 +63,7 @@ void expectSolved(const SurfaceMesh& mesh, const Options& options, const VertexI
 		for (const Point2& p : triangle)
 			EXPECT_TRUE(std::isfinite(p[0]) && std::isfinite(p[1]));
 	RefinementCheck(mesh, flat.mesh, flat.targetCurvature)
-		.expectValid(report.eulerCharacteristic, report.boundaryLoops);
+		.expectValid(report.eulerCharacteristic, report.boundaryLoops, report.maxCurvatureError);
 	std::vector<char> covered(mesh.triangles.size(), 0);
 	for (int f : flat.mesh.face)
 		covered[at(f)] = 1;
@@ -199,21 +193,6 @@ TEST(HardCases, TVertex)
 	expectSolved(flatBox, refined(TargetCurvature::SelectedCones), selecting(flatBox, {0, 3, 5}));
 }
 
-TEST(HardCases, TheOtherSurgeriesRefuseWhatHasNoArea)
-{
-	Random random(605);
-	SurfaceMesh mesh = randomPlanarDisk(5, random);
-	mesh.positions[14] = mesh.positions[15];
-	for (Method method : {Method::FixedTriangles, Method::EdgeSwaps}) {
-		Options options;
-		options.method = method;
-		const auto error = refusalOf<InvalidMesh>([&] { run(mesh, options); });
-		EXPECT_EQ(error.problem, InvalidMesh::EdgesWithoutLength);
-		EXPECT_EQ(error.count, 1u);
-		expectWords(error.what(), {"no length"});
-	}
-}
-
 TEST(HardCases, ValenceOfAThousand)
 {
 	const SurfaceMesh disk = fan(1000, 0.7);
@@ -277,11 +256,6 @@ TEST(HardCases, SingleTriangle)
 	for (const SurfaceMesh& mesh : triangles) {
 		expectSolved(mesh, refined(TargetCurvature::Automatic));
 		expectSolved(mesh, refined(TargetCurvature::Disk));
-		const auto error =
-			refusalOf<InvalidOption>([&] { run(mesh, refined(TargetCurvature::Rectangle)); });
-		EXPECT_EQ(error.problem, InvalidOption::TooFewBoundaryVertices);
-		EXPECT_EQ(error.count, 3u);
-		expectWords(error.what(), {"needs four boundary vertices"});
 	}
 	expectSolved(
 		triangles[1],
@@ -336,38 +310,11 @@ TEST(HardCases, NegativeCurvatureAtAVertexOfThreeFaces)
 	}
 }
 
-/// Circles that touch, I = 1 exactly: such edges cannot flip, and never have to.
+/// Circles that touch: the regular tetrahedron has no others.
 TEST(HardCases, TangentCircles)
 {
-	Random random(609);
-	for (int round = 0; round < 6; ++round) {
-		SCOPED_TRACE(round);
-		const Triangulation torus = glued(bumpyTorus(12, 9, random));
-		CirclePacking packing{torus, {}};
-		for (int e = 0; e < torus.edgeCount(); ++e)
-			packing.delta.push_back(random.index(3) == 0 ? 0.0 : random.real(0.0, 2.0));
-		VertexVector u(torus.vertexCount());
-		for (double& x : u)
-			x = random.real(-1.0, 1.0);
-		FlippingCurvatureMap<Euclidean> map(packing);
-		NewtonSolver newton(map, VertexArray<char>(torus.vertexCount(), 0));
-		NewtonOptions options;
-		options.epsilon = 1e-10;
-		const NewtonResult result = newton.solve(
-			u, VertexVector(Eigen::VectorXd::Zero(u.size())), options, [](int, double) {});
-		EXPECT_TRUE(result.converged);
-		EXPECT_TRUE(u.allFinite());
-		EXPECT_EQ(map.brokenTriangles(), 0);
-		for (double delta : map.delta())
-			EXPECT_TRUE(std::isfinite(delta) && delta >= 0.0);
-		const MetricMeasure measure(map.triangulation(), map.lengths());
-		for (long double k : measure.curvature)
-			EXPECT_LT(std::abs(k), 1e-9L);
-	}
-	// The same without flips, where the regular tetrahedron has tangent circles alone.
-	VertexInput cones;
-	cones.selected = {1, 1, 1, 1};
-	Options options = fixedTriangulation(TargetCurvature::SelectedCones);
+	const Options options = fixedTriangulation(TargetCurvature::SelectedCones);
+	const VertexInput cones = selecting(tetrahedron(), {0, 1, 2, 3});
 	EXPECT_LT(run(tetrahedron(), options, cones).report.maxCurvatureError, 1e-12);
 }
 

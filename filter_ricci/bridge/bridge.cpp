@@ -10,7 +10,6 @@
 
 #include <ricci/base/numbers.h>
 #include <ricci/base/task.h>
-#include <ricci/base/text.h>
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
 #include <vcg/complex/algorithms/parametrization/ricci_seams.h>

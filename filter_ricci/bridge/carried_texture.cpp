@@ -7,8 +7,8 @@
 
 #include <ricci/base/floating_point.h>
 #include <ricci/base/indexed.h>
+#include <ricci/base/numbers.h>
 #include <ricci/base/parallel.h>
-#include <ricci/base/text.h>
 #include <ricci/measure/distortion.h>
 #include <ricci/texture/old_charts.h>
 

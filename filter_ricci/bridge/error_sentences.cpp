@@ -2,7 +2,6 @@
 #include "error_sentences.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/base/text.h>
 
 #include <exception>
 #include <new>

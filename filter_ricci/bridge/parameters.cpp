@@ -4,7 +4,6 @@
 #include "error_sentences.h"
 
 #include <ricci/base/numbers.h>
-#include <ricci/base/text.h>
 #include <ricci/charts/pack.h>
 #include <ricci/parametrize.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results.h"
 
-#include <ricci/base/text.h>
+#include <ricci/base/numbers.h>
 
 #include <algorithm>
 #include <complex>

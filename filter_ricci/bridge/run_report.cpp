@@ -3,6 +3,7 @@
 
 #include "charts_picture.h"
 #include "error_sentences.h"
+#include "histogram.h"
 #include "output_path.h"
 #include "results.h"
 
@@ -165,7 +166,7 @@ private:
 	std::ostringstream m_svg = plainStream(7);
 };
 
-std::string histogramPicture(const ricci::Histogram& h, const std::string& label)
+std::string histogramPicture(const Histogram& h, const std::string& label)
 {
 	const std::size_t highest = std::max<std::size_t>(
 		1, h.counts.empty() ? 1 : *std::max_element(h.counts.begin(), h.counts.end()));
@@ -261,7 +262,7 @@ std::string tableRow(const ReportLine& line)
 		   "</code></td><td>" + escaped(line.value) + "</td></tr>\n";
 }
 
-void addHistogram(std::ostream& csv, const char* start, const ricci::Histogram& h)
+void addHistogram(std::ostream& csv, const char* start, const Histogram& h)
 {
 	if (h.below > 0)
 		csv << start << "-inf," << h.below << "\n";
@@ -326,7 +327,8 @@ std::vector<ReportLine> settingsAsText(const RichParameterList& par)
 std::string toHtml(const RunReport& report)
 {
 	const ricci::Report& data = report.map.report;
-	const ricci::Histogram &qc = data.qcHistogram, &areas = data.areaHistogram;
+	const Histogram qc = distortionHistogram(data.qcValues),
+					areas = factorHistogram(data.areaFactors);
 	std::ostringstream page = plainStream(10);
 	page << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>"
 		 << escaped(report.filter + ": " + report.mesh) << "</title>\n<style>\n"
@@ -375,8 +377,8 @@ std::string toCsv(const RunReport& report)
 		csv << "result,," << key << "," << csvField(text(value)) << "\n";
 	for (const ricci::FlowState& state : report.map.report.flowStates)
 		csv << "newton," << state.component << "," << state.step << "," << state.residual << "\n";
-	addHistogram(csv, "qc_histogram,vertices,", report.map.report.qcHistogram);
-	addHistogram(csv, "area_histogram,faces,", report.map.report.areaHistogram);
+	addHistogram(csv, "qc_histogram,vertices,", distortionHistogram(report.map.report.qcValues));
+	addHistogram(csv, "area_histogram,faces,", factorHistogram(report.map.report.areaFactors));
 	return csv.str();
 }
 

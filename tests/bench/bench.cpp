@@ -4,6 +4,7 @@
 // speed. One process measures one mesh, so that the peak of its memory means something; it is that of
 // the whole way from mesh to plane, which runs first.
 #include "support/random_surface.h"
+#include "support/run_flow.h"
 #include "support/shapes.h"
 #ifdef RICCI_HAVE_VCGLIB
 #include "support/mesh_file.h"
@@ -293,7 +294,7 @@ double oneFactorisation(const CurvatureMap& map, const Target& target, int repea
 [[gnu::noinline]] FlowResult
 startAndFlow(const EmbeddedSurface& surface, const Target& target, const FlowOptions& options)
 {
-	return runRicciFlow(surface, initialPacking(surface, options), target, options);
+	return testing::runRicciFlow(surface, initialPacking(surface, options), target, options);
 }
 
 /// From the mesh to the coordinates that a host stores, with default parameters; core.work_guard

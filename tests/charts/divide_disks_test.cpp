@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ricci/charts/divide_disks.h>
 #include <ricci/charts/finish_in_floats.h>
+#include <ricci/charts/pack.h>
 #include <ricci/verify/chart_check.h>
 
 #include <gtest/gtest.h>
@@ -124,10 +125,11 @@ TEST(DivideDisks, CountsChartsAndCuts)
 	EXPECT_DOUBLE_EQ(map.report.seamLength, cuts.length);
 }
 
-TEST(PlaceDisksInFloats, HoldsEveryTriangle)
+TEST(FinishDisks, HoldsEveryTriangle)
 {
 	Parametrization map = band(320, 0.2, 0.1);
-	placeDisksInFloats(map);
+	EXPECT_TRUE(finishDisks({}, map));
+	placeDisks(map);
 	EXPECT_GT(map.charts.size(), 1U);
 	EXPECT_EQ(flippedInFloats(map.mesh), 0);
 	for (const int f : map.mesh.points.indices())

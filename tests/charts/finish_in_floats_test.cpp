@@ -129,30 +129,6 @@ TEST(FinishInFloats, MendsTrianglesThatAreChartsOfTheirOwn)
 	}
 }
 
-TEST(FinishInFloats, GivesChartsTheRoomThatTheyNeed)
-{
-	const Slivers slivers(0.9);
-	Parametrization tight = slivers.map;
-	packCharts(tight, {true, 0.0, inAColumn(0.0)}, ChartTurns::None);
-	for (Chart& chart : tight.charts)
-		chart.box = {};
-	for (const int f : tight.mesh.points.indices())
-		for (const Point2& p : tight.mesh.at(f))
-			tight.charts[at(tight.mesh.chart[f])].box.add(p);
-	Parametrization kept = tight;
-	finish(kept);
-	EXPECT_GT(flippedInFloats(kept), 0);
-	int packings = 0;
-	const auto packAgain = [&] {
-		EXPECT_EQ(flippedInFloats(tight), 0);
-		packCharts(tight, {true, 0.0, inAColumn(0.0)}, ChartTurns::None);
-		++packings;
-	};
-	finish(tight, packAgain);
-	EXPECT_EQ(flippedInFloats(tight), 0);
-	EXPECT_EQ(packings, 1);
-}
-
 /// Points that move lie on floats, and these beyond the border of a box by less than a step.
 TEST(FinishInFloats, MendsChartsWhoseBoxesEndBetweenFloats)
 {

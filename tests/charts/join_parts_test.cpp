@@ -1,28 +1,98 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// How charts are divided, and parts joined. chart_division_test.cpp has what becomes of whole maps.
+#include "screw.h"
 #include "support/flat_meshes.h"
 #include "support/random.h"
-#include "support/random_surface.h"
-#include "support/shapes.h"
 
 #include <ricci/base/numbers.h>
+#include <ricci/charts/chart_division.h>
 #include <ricci/charts/chart_overlap.h>
+#include <ricci/charts/connected_pieces.h>
 #include <ricci/charts/join_parts.h>
+#include <ricci/charts/separate_charts.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <vector>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
 
 namespace ricci::testing {
 namespace {
+
+using Parts = std::vector<std::vector<int>>;
+
+/// Parts of a divided chart must be free of overlaps and make up the whole.
+void expectDivided(const FlatMesh& chart, const Parts& parts)
+{
+	std::vector<int> all;
+	for (const std::vector<int>& part : parts) {
+		all.insert(all.end(), part.begin(), part.end());
+		EXPECT_TRUE(OverlapSearch(chart.part(part)).pairs().empty());
+	}
+	std::sort(all.begin(), all.end());
+	std::vector<int> wanted(at(chart.size()));
+	std::iota(wanted.begin(), wanted.end(), 0);
+	EXPECT_EQ(all, wanted);
+}
+
+/// A staircase of so many turns that not all pairs are listed.
+TEST(ChartDivision, OfManyTurnsTakesHardlyMoreStepsThanItHasTriangles)
+{
+	double before = 0.0;
+	for (const int turns : {40, 160}) {
+		FlatMesh chart = flatMesh(screw(turns, 20 * turns, 2));
+		const OverlapSearch overlaps(chart.corners());
+		EXPECT_FALSE(overlaps.isComplete());
+		EXPECT_EQ(overlaps.pairs().size(), 1u);
+		EXPECT_LT(overlaps.steps(), chart.size()); // the areas tell that there are too many
+		const Array<char> isIn = overlaps.overlapping();
+		EXPECT_EQ(std::count(isIn.begin(), isIn.end(), 0), 0);
+		const auto steps = static_cast<double>(overlaps.steps());
+		if (before > 0.0) {
+			EXPECT_LT(steps, 5.0 * before); // of all pairs: 16 times
+		}
+		before = steps;
+		const auto parts = divideChart(chart, overlaps);
+		expectDivided(chart, parts);
+		EXPECT_GE(parts.size(), at(turns));
+		const auto joined = joinParts(chart, parts);
+		expectDivided(chart, joined);
+		EXPECT_GE(joined.size(), at(turns));
+		EXPECT_LE(joined.size(), at(turns + turns / 4));
+	}
+}
+
+/// Two corners of a square of 2 x 2 cells are drawn elsewhere, so that a face is flipped. It hides
+/// an overlap of other faces until a cut takes it away from them: each cut is one unit long, or a diagonal.
+TEST(SeparateCharts, FindsInAPartWhatAFoldHidInTheWhole)
+{
+	const SurfaceMesh square = rectangle(2, 2, 2.0, 2.0);
+	SurfaceMesh picture = square;
+	picture.positions[0] = {0, 3, 0};
+	picture.positions[1] = {3, 0, 0};
+	Parametrization map = mapWith(flatMesh(square, flatMesh(picture).corners().values()));
+	separateCharts(true, map);
+	for (const std::vector<int>& chart : map.mesh.trianglesByChart(map.charts.size()))
+		for (const int f : chart)
+			for (const int g : chart)
+				EXPECT_FALSE(f < g && overlap(map.mesh.at(f), map.mesh.at(g), 1e-9))
+					<< f << " and " << g;
+	EXPECT_EQ(map.report.overlapCuts, 3);
+	EXPECT_EQ(map.charts.size(), 3u);
+	EXPECT_EQ(map.report.charts, 3);
+}
 
 /// A mesh over the plane, of which each part lies elsewhere.
 struct Scattered
 {
 	FlatMesh flat;
-	std::vector<std::vector<int>> parts;
+	Parts parts;
+	int edgesJoined = 0;
+	double lengthJoined = 0.0;
 
 	/// \param partOf [triangle]
 	Scattered(const SurfaceMesh& mesh, const Array<int>& partOf, Random& random) :
@@ -38,21 +108,22 @@ struct Scattered
 			plane[at(f)] = motions[at(partOf[f])](plane[at(f)]);
 			parts[at(partOf[f])].push_back(f);
 		}
+		parts.erase(
+			std::remove_if(parts.begin(), parts.end(), [](const auto& p) { return p.empty(); }),
+			parts.end());
 		flat = flatMesh(mesh, plane);
 	}
 
-	std::vector<std::vector<int>> join()
+	Parts join()
 	{
 		const Seams before = seams(flat);
-		auto joined = joinParts(flat, parts);
+		Parts joined = joinParts(flat, parts);
 		const Seams after = seams(flat);
 		edgesJoined = static_cast<int>(before.edges.size() - after.edges.size());
 		lengthJoined = before.length - after.length;
+		expectDivided(flat, joined);
 		return joined;
 	}
-
-	int edgesJoined = 0;
-	double lengthJoined = 0.0;
 };
 
 Point2 centreOf(const SurfaceMesh& mesh, const Triangle& t)
@@ -64,101 +135,82 @@ Point2 centreOf(const SurfaceMesh& mesh, const Triangle& t)
 	return centre;
 }
 
-/// Triangles of one part must not cover each other.
-void expectNothingCoveredTwice(const FlatMesh& flat, const std::vector<std::vector<int>>& parts)
-{
-	for (const std::vector<int>& part : parts)
-		EXPECT_TRUE(overlappingPairs(flat.part(part)).empty());
-}
-
+/// In blocks of two by two, or Voronoi cells of a few triangles: every cut of a picture into connected parts is
+/// undone, whatever their shapes.
 TEST(JoinParts, PutsAPictureTogether)
 {
 	Random random(920);
-	const SurfaceMesh mesh = rectangle(6, 4, 6.0, 4.0);
-	Array<int> block; // two by two
-	for (const Triangle& t : mesh.triangles) {
-		const Point2 p = centreOf(mesh, t);
-		block.push_back(3 * static_cast<int>(p[1] / 2) + static_cast<int>(p[0] / 2));
+	for (int round = 0; round < 20; ++round) {
+		const SurfaceMesh mesh = rectangle(8, 8, 8.0, 8.0);
+		std::vector<Point2> seeds;
+		for (int i = 0; i < (round == 0 ? 16 : random.index(6) + 2); ++i)
+			seeds.push_back(
+				round == 0 ? Point2{2.0 * (i % 4) + 1, 2.0 * (i / 4) + 1}
+						   : Point2{random.real(0, 8), random.real(0, 8)});
+		Array<int> part;
+		for (const Triangle& t : mesh.triangles) {
+			const Point2 centre = centreOf(mesh, t);
+			const auto nearest =
+				std::min_element(seeds.begin(), seeds.end(), [&](auto& a, auto& b) {
+					return distance(centre, a) < distance(centre, b);
+				});
+			part.push_back(static_cast<int>(nearest - seeds.begin()));
+		}
+		Scattered s(mesh, part, random);
+		EXPECT_EQ(s.join().size(), 1u) << "round " << round;
+		if (round == 0) { // six lines of 8 edges of length 1 between the blocks
+			EXPECT_EQ(s.edgesJoined, 48);
+			EXPECT_NEAR(s.lengthJoined, 48.0, 1e-12);
+		}
+		// The picture is the square again, up to one motion.
+		ASSERT_EQ(at(s.flat.place.size()), mesh.positions.size());
+		std::vector<Point2> place(mesh.positions.size());
+		for (int c = 0; c < 3 * s.flat.size(); ++c)
+			place[at(s.flat.vertices[Corner(c)])] = s.flat.at(Corner(c));
+		for (std::size_t a = 0; a < place.size(); ++a)
+			for (std::size_t b = 0; b < a; ++b)
+				EXPECT_NEAR(
+					distance(place[a], place[b]),
+					distance(mesh.positions[a], mesh.positions[b]),
+					1e-11);
 	}
-	Scattered s(mesh, block, random);
-	ASSERT_EQ(s.parts.size(), 6u);
-	const auto joined = s.join();
-	ASSERT_EQ(joined.size(), 1u);
-	EXPECT_EQ(joined[0].size(), mesh.triangles.size());
-	// Three lines between the blocks: two of 4 and one of 6, in edges of length 1.
-	EXPECT_EQ(s.edgesJoined, 14);
-	EXPECT_NEAR(s.lengthJoined, 14.0, 1e-12);
-	// The picture is the rectangle again, up to one motion.
-	ASSERT_EQ(at(s.flat.place.size()), mesh.positions.size());
-	std::vector<Point2> place(mesh.positions.size());
-	for (const int f : s.flat.points.indices())
-		for (const Corner c : cornersOf(f))
-			place[at(s.flat.vertices[c])] = s.flat.at(c);
-	for (std::size_t a = 0; a < place.size(); ++a)
-		for (std::size_t b = 0; b < a; ++b)
-			EXPECT_NEAR(
-				distance(place[a], place[b]),
-				distance(mesh.positions[a], mesh.positions[b]),
-				1e-11);
 }
 
-/// A ring that goes round by \p turns, over the plane.
-SurfaceMesh manyTurns(int around, double turns)
-{
-	return grid(1, around, Ends::Open, Ends::Open, [=](int i, int j) {
-		const double r = 1.0 + i, a = 2 * kPi * turns * j / around;
-		return Point3{r * std::cos(a), r * std::sin(a), 0.0};
-	});
-}
-
-/// Parts of a ring, which begin at these cells.
-Array<int> arcs(int around, const std::vector<int>& begins)
+/// Parts of a ring of \p turns, one cell wide, which begin at these cells.
+Scattered arcs(int around, double turns, const std::vector<int>& begins, Random& random)
 {
 	Array<int> part;
 	for (int j = 0; j < around; ++j)
 		for (int k = 0; k < 2; ++k)
 			part.push_back(static_cast<int>(
 				std::upper_bound(begins.begin(), begins.end(), j) - begins.begin() - 1));
-	return part;
+	return {screw(turns, around, 1), part, random};
 }
 
-/// Together the two parts would cover a part of the plane twice.
-TEST(JoinParts, LeavesWhatHasNoRoom)
+TEST(JoinParts, LeavesWhatHasNoRoomAndDividesCrumbs)
 {
 	Random random(921);
-	Scattered s(manyTurns(24, 1.5), arcs(24, {0, 12}), random);
-	const FlatMesh before = s.flat;
-	const auto joined = s.join();
-	EXPECT_EQ(joined.size(), 2u);
-	EXPECT_EQ(s.edgesJoined, 0);
-	EXPECT_TRUE(s.flat.corners() == before.corners());
-}
-
-/// Two full turns in arcs of 398, 6 and 396 cells. The short one fits to neither of its neighbours as
-/// a whole: the first has room for two of its cells, the last for four.
-TEST(JoinParts, ACrumbIsDividedAmongItsNeighbours)
-{
-	Random random(922);
-	Scattered s(manyTurns(800, 2.0), arcs(800, {0, 398, 404}), random);
-	const auto joined = s.join();
-	expectNothingCoveredTwice(s.flat, joined);
+	// Together the two parts would cover a part of the plane twice.
+	Scattered two = arcs(24, 1.5, {0, 12}, random);
+	const Array<Triangle2> before = two.flat.corners();
+	EXPECT_EQ(two.join().size(), 2u);
+	EXPECT_EQ(two.edgesJoined, 0);
+	EXPECT_EQ(two.flat.corners(), before);
+	// Two full turns in arcs of 398, 6 and 396 cells. The short one fits to neither of its neighbours as
+	// a whole: the first has room for two of its cells, the last for four.
+	Scattered crumb = arcs(800, 2.0, {0, 398, 404}, random);
+	const Parts joined = crumb.join();
 	ASSERT_EQ(joined.size(), 2u);
 	EXPECT_EQ(joined[0].size(), 800u);
 	EXPECT_EQ(joined[1].size(), 800u);
-	EXPECT_EQ(s.edgesJoined, 1);
-	EXPECT_NEAR(s.lengthJoined, 1.0, 1e-12);
-}
-
-/// With three cells more neither has room for all of it, and the crumb stays.
-TEST(JoinParts, ACrumbWithoutRoomStays)
-{
-	Random random(924);
-	Scattered s(manyTurns(803, 803.0 / 400.0), arcs(803, {0, 400, 403}), random);
-	const auto joined = s.join();
-	expectNothingCoveredTwice(s.flat, joined);
-	ASSERT_EQ(joined.size(), 3u);
-	EXPECT_EQ(joined[1].size(), 6u);
-	EXPECT_EQ(s.edgesJoined, 0);
+	EXPECT_EQ(crumb.edgesJoined, 1);
+	EXPECT_NEAR(crumb.lengthJoined, 1.0, 1e-12);
+	// With three cells more neither has room for all of it, and the crumb stays.
+	Scattered stays = arcs(803, 803.0 / 400.0, {0, 400, 403}, random);
+	const Parts left = stays.join();
+	ASSERT_EQ(left.size(), 3u);
+	EXPECT_EQ(left[1].size(), 6u);
+	EXPECT_EQ(stays.edgesJoined, 0);
 }
 
 /// Each second arc is a sixtieth of the strip or less, has no room as a whole, and both its neighbours have room
@@ -169,54 +221,70 @@ TEST(JoinParts, AmongManySmallPartsOnlyTheSmallestAreCrumbs)
 	for (const bool isCrumb : {true, false}) {
 		const int large = isCrumb ? 37 : 30, small = isCrumb ? 6 : 20;
 		std::vector<int> begins;
-		for (int i = 0; i < pairs; ++i) {
-			begins.push_back(i * (large + small));
-			begins.push_back(i * (large + small) + large);
-		}
+		for (int i = 0; i < pairs; ++i)
+			for (const int offset : {0, large})
+				begins.push_back(i * (large + small) + offset);
 		const int cells = pairs * (large + small);
 		Random random(925);
-		Scattered s(
-			manyTurns(cells, static_cast<double>(cells) / around), arcs(cells, begins), random);
-		const auto joined = s.join();
-		expectNothingCoveredTwice(s.flat, joined);
-		if (isCrumb) {
-			EXPECT_LT(joined.size(), at(2 * pairs - 5));
-			EXPECT_GT(s.edgesJoined, 5);
-		}
-		else {
-			EXPECT_EQ(joined.size(), at(2 * pairs));
-			EXPECT_EQ(s.edgesJoined, 0);
-		}
+		Scattered s = arcs(cells, static_cast<double>(cells) / around, begins, random);
+		const std::size_t joined = s.join().size();
+		if (isCrumb)
+			EXPECT_LT(joined, at(2 * pairs - 5));
+		else
+			EXPECT_EQ(joined, at(2 * pairs));
+		EXPECT_EQ(s.edgesJoined > (isCrumb ? 5 : 0), isCrumb);
 	}
 }
 
-/// Every cut of a picture into parts is undone, whatever their shapes.
-TEST(JoinParts, RandomParts)
+/// Of random graphs all pieces with one of the starts are returned but one, which is none of the smaller.
+TEST(ConnectedPieces, AreTheSmallerOnesWithAStart)
 {
-	Random random(923);
-	for (int round = 0; round < 20; ++round) {
-		const SurfaceMesh mesh = rectangle(8, 8, 8.0, 8.0);
-		// Voronoi cells of a few triangles, as connected parts of the mesh.
-		Array<int> part(mesh.triangles.size(), -1);
-		const int count = random.index(6) + 2;
-		std::vector<Point2> seeds;
-		for (int i = 0; i < count; ++i)
-			seeds.push_back({random.real(0, 8), random.real(0, 8)});
-		for (const int f : part.indices()) {
-			const Point2 centre = centreOf(mesh, mesh.triangles[at(f)]);
-			part[f] = 0;
-			for (int i = 1; i < count; ++i)
-				if (distance(centre, seeds[at(i)]) < distance(centre, seeds[at(part[f])]))
-					part[f] = i;
+	Random random(1210);
+	int several = 0;
+	for (int trial = 0; trial < 2000; ++trial) {
+		const int n = 1 + random.index(40);
+		Parts neighbours(at(n));
+		DisjointSets sets(n);
+		for (int i = random.index(n + 1); i > 0; --i) {
+			const int a = random.index(n), b = random.index(n);
+			neighbours[at(a)].push_back(b);
+			neighbours[at(b)].push_back(a);
+			sets.merge(a, b);
 		}
-		Scattered s(mesh, part, random);
-		s.parts.erase(
-			std::remove_if(s.parts.begin(), s.parts.end(), [](const auto& p) { return p.empty(); }),
-			s.parts.end());
-		const auto joined = s.join();
-		EXPECT_EQ(joined.size(), 1u) << "round " << round;
-		expectNothingCoveredTwice(s.flat, joined);
+		std::vector<int> starts;
+		std::map<int, std::vector<int>> wanted; // by root
+		for (int i = random.index(n + 1); i > 0; --i) {
+			starts.push_back(random.index(n));
+			wanted[sets.find(starts.back())];
+		}
+		for (int i = 0; i < n; ++i)
+			if (const auto piece = wanted.find(sets.find(i)); piece != wanted.end())
+				piece->second.push_back(i);
+		Array<int> scratch(n, -1);
+		Parts found = smallerPieces(
+			starts,
+			[&](int i, const auto& visit) {
+				for (const int j : neighbours[at(i)])
+					visit(j);
+			},
+			scratch);
+		EXPECT_EQ(std::count(scratch.begin(), scratch.end(), -1), n);
+		std::size_t largestFound = 0;
+		for (std::vector<int>& piece : found) {
+			std::sort(piece.begin(), piece.end());
+			const auto known = wanted.find(sets.find(piece.front()));
+			ASSERT_NE(known, wanted.end());
+			EXPECT_EQ(piece, known->second);
+			largestFound = std::max(largestFound, piece.size());
+			wanted.erase(known);
+		}
+		ASSERT_EQ(wanted.size(), starts.empty() ? 0u : 1u);
+		if (!starts.empty()) {
+			EXPECT_GE(wanted.begin()->second.size(), largestFound);
+		}
+		several += found.size() > 1;
 	}
+	EXPECT_GT(several, 300);
 }
 
 } // namespace

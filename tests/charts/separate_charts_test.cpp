@@ -20,37 +20,40 @@ Parametrization squareMap()
 	return mapWith(flatMesh(rectangle(kSide, kSide, 1.0, 1.0)));
 }
 
-/// A column of squares off a square leaves it in two parts, with two cuts as long as a side.
-TEST(CutOff, MakesAChartOfEachConnectedPart)
+/// A column of squares off a square leaves it in two parts, and each of its triangles by itself.
+TEST(CutOff, MakesAChartOfEachTriangleAndOfEachConnectedPart)
 {
 	Parametrization map = squareMap();
 	const Array<Triangle2> before = map.mesh.corners();
-	std::vector<char> isOff;
-	for (const Triangle2& p : before)
-		isOff.push_back(std::floor(kSide * (p[0][0] + p[1][0] + p[2][0]) / 3.0) == 2.0);
-	ASSERT_EQ(std::count(isOff.begin(), isOff.end(), 1), 2 * kSide);
-	EXPECT_TRUE(cutOff(isOff, map));
-	ASSERT_EQ(map.charts.size(), 3u);
-	EXPECT_EQ(map.report.charts, 3);
-	EXPECT_EQ(map.report.overlapCuts, 2 * kSide);
-	EXPECT_NEAR(map.report.seamLength, 2.0, 1e-14);
+	std::vector<int> off;
+	for (const int f : before.indices()) {
+		const Triangle2& p = before[f];
+		if (std::floor(kSide * (p[0][0] + p[1][0] + p[2][0]) / 3.0) == 2.0)
+			off.push_back(f);
+	}
+	ASSERT_EQ(off.size(), std::size_t(2 * kSide));
+	cutOff(off, map);
+	ASSERT_EQ(map.charts.size(), std::size_t(2 * kSide + 2));
+	EXPECT_EQ(map.report.charts, 2 * kSide + 2);
+	EXPECT_EQ(map.report.overlapCuts, 4 * kSide - 1);
+	EXPECT_NEAR(map.report.seamLength, 3.0 - 1.0 / kSide + std::sqrt(2.0), 1e-14);
 	std::vector<std::size_t> sizes;
-	for (const std::vector<int>& chart : map.mesh.trianglesByChart(3)) {
+	for (const std::vector<int>& chart : map.mesh.trianglesByChart(map.charts.size())) {
 		sizes.push_back(chart.size());
-		for (const int f : chart) {
-			EXPECT_EQ(isOff[at(f)], isOff[at(chart.front())]);
+		for (const int f : chart)
 			for (std::size_t k = 0; k < 3; ++k)
 				for (std::size_t i = 0; i < 2; ++i)
 					EXPECT_NEAR(
 						map.mesh.at(f)[k][i] - map.mesh.at(f)[0][i],
 						before[f][k][i] - before[f][0][i],
 						1e-15);
-		}
 	}
 	std::sort(sizes.begin(), sizes.end());
-	EXPECT_EQ(sizes, (std::vector<std::size_t>{2 * kSide, 4 * kSide, 6 * kSide}));
-	// The columns beside the cuts have points of their own.
-	EXPECT_EQ(map.mesh.place.size(), (kSide + 1) * (kSide + 3));
+	std::vector<std::size_t> wanted(2 * kSide, 1);
+	wanted.insert(wanted.end(), {4 * kSide, 6 * kSide});
+	EXPECT_EQ(sizes, wanted);
+	// The columns beside the cuts, and the triangles between them, have points of their own.
+	EXPECT_EQ(map.mesh.place.size(), (kSide + 1) * (kSide + 1) + 6 * kSide);
 }
 
 /// What is joined elsewhere takes nothing from what is cut.
@@ -77,18 +80,6 @@ TEST(CountCuts, CountsTheEdgesThatAreCut)
 	countCuts(before, map);
 	EXPECT_EQ(map.report.overlapCuts, kSide);
 	EXPECT_NEAR(map.report.seamLength, -1.0, 1e-14);
-}
-
-TEST(CutOff, LeavesChartsOfOneKind)
-{
-	for (const bool kind : {false, true}) {
-		Parametrization map = squareMap();
-		const Array<Triangle2> before = map.mesh.corners();
-		EXPECT_FALSE(cutOff(std::vector<char>(at(before.size()), kind ? 1 : 0), map));
-		EXPECT_EQ(map.charts.size(), 1u);
-		EXPECT_EQ(map.report.overlapCuts, 0);
-		EXPECT_EQ(map.mesh.corners(), before);
-	}
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/expect.h"
-#include "support/listener.h"
 #include "support/packed.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
@@ -8,7 +7,7 @@
 
 #include <ricci/cut/cut_graph.h>
 #include <ricci/error.h>
-#include <ricci/surface/topology.h>
+#include <ricci/surface/triangulation.h>
 
 #include <gtest/gtest.h>
 
@@ -89,55 +88,6 @@ TEST(CutGraph, OpensSurfacesOfEveryKindToADisk)
 	}
 	EXPECT_EQ(needless, 2);
 	EXPECT_EQ(opened + needless, 3 * static_cast<int>(meshes.size()));
-}
-
-/// Surfaces with so many vertices that the cut is looked for on a coarse surface first.
-TEST(CutGraph, OpensLargeSurfacesToADisk)
-{
-	Random random(134);
-	for (int genus : {0, 1, 3}) {
-		SurfaceMesh mesh = shaken(perforatedSlab(genus, 22), 0.005, random);
-		for (const bool holes : {false, true}) {
-			if (holes)
-				mesh = withoutStars(mesh, {100, 2000});
-			const Packed packed(mesh);
-			const Triangulation& t = packed.triangulation;
-			ASSERT_GT(t.vertexCount(), 6000);
-			const VertexArray<char> marked = someVertices(12, t, random);
-			Listener ticks;
-			const CutGraph cut = heard(ticks, [&] { return cutToDisk(t, packed.lengths, marked); });
-			EXPECT_GE(ticks.calls(), 2); // other threads tick for themselves
-			expectCutToADisk(t, cut);
-			EXPECT_EQ(static_cast<int>(cut.generators.size()), 2 * genus);
-			EXPECT_NEAR(cut.length, lengthOf(cut, packed.lengths), 1e-12 * cut.length);
-			VertexArray<int> degree(t.vertexCount(), 0);
-			for (const Halfedge h : t.halfedges())
-				degree[t.origin(h)] += cut.isCut[h.edge()];
-			const VertexArray<char> boundary = t.boundaryVertices();
-			for (const Vertex v : t.vertices())
-				EXPECT_TRUE(boundary[v] || (marked[v] ? degree[v] > 0 : degree[v] != 1));
-			const CutGraph again = cutToDisk(t, packed.lengths, marked);
-			EXPECT_EQ(again.isCut, cut.isCut);
-		}
-	}
-}
-
-/// One edge where the cut must not run keeps the search from a coarse surface.
-TEST(CutGraph, ALargeCutIsAboutAsShortAsOneSoughtEverywhere)
-{
-	Random random(135);
-	double found = 0.0, sought = 0.0;
-	for (int genus : {0, 1}) {
-		const Packed packed(shaken(perforatedSlab(genus, 22), 0.005, random));
-		const Triangulation& t = packed.triangulation;
-		const VertexArray<char> marked = someVertices(6, t, random);
-		const CutGraph cut = cutToDisk(t, packed.lengths, marked);
-		found += cut.length;
-		EdgeArray<double> cost = packed.lengths;
-		cost[Edge(std::find(cut.isCut.begin(), cut.isCut.end(), 0) - cut.isCut.begin())] = kFar;
-		sought += cutToDisk(t, cost, marked).length;
-	}
-	EXPECT_LE(found, 1.05 * sought);
 }
 
 TEST(CutGraph, LeavesADiskAlone)

@@ -3,10 +3,8 @@
 #include "support/complex.h"
 #include "support/flipped_flow.h"
 #include "support/intrinsic.h"
-#include "support/listener.h"
 #include "support/random_surface.h"
 #include "support/shapes.h"
-#include "support/transform.h"
 
 #include <ricci/finish/distortion_laplacian.h>
 #include <ricci/finish/least_distortion.h>
@@ -284,38 +282,6 @@ TEST(NumberedPoints, CopiesTurnAsTheEdgesOfTheirSeam)
 	}
 }
 
-TEST(NumberedPoints, AreWalkedAlikeWhateverTheNumbers)
-{
-	Random random(604);
-	const SurfaceMesh mesh = wavyDisk(9, random);
-	const Renumbered other = renumbered(mesh, random);
-	for (const bool boundaryMoves : {true, false}) {
-		CutMap a(mesh, fromAbove(mesh)), b(other.mesh, fromAbove(other.mesh));
-		a.boundaryMoves = b.boundaryMoves = boundaryMoves;
-		const auto vertexOf = [](const CutMap& d) {
-			const NumberedPoints points = d.points();
-			std::vector<int> vertices(at(points.unknowns), -1);
-			for (const int v : points.number.indices()) // every vertex has one point
-				if (const int p = points.number[v]; p < points.unknowns)
-					vertices[at(p)] = v;
-			return vertices;
-		};
-		const std::vector<int> first = vertexOf(a), second = vertexOf(b);
-		ASSERT_EQ(first.size(), second.size());
-		int apart = 0; // unknowns that are no neighbours of an earlier one
-		for (std::size_t i = 0; i < first.size(); ++i) {
-			EXPECT_EQ(first[i], other.vertex[at(second[i])]);
-			const auto here = first.begin() + static_cast<std::ptrdiff_t>(i);
-			apart +=
-				std::none_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
-					return std::count(t.begin(), t.end(), *here) > 0 &&
-						   std::find_first_of(first.begin(), here, t.begin(), t.end()) != here;
-				});
-		}
-		EXPECT_EQ(apart, 1);
-	}
-}
-
 TEST(NumberedPoints, BoundaryStaysOrTwoFarPointsDo)
 {
 	Random random(603);
@@ -429,76 +395,6 @@ TEST(MeanDistortion, IsInfiniteWhereATriangleIsNotCounterClockwise)
 		ASSERT_GT(other.flipped(), 0);
 		m.place(other.flat);
 		EXPECT_EQ(m.energy.evaluate(m.start), kInfinity);
-	}
-}
-
-TEST(MeanDistortion, HasTheSameBitsWithAnyNumberOfThreads)
-{
-	Random random(614);
-	const SurfaceMesh mesh = wavyDisk(160, random);
-	const CutMap d(mesh, fromAbove(mesh));
-	ASSERT_GT(d.flat.points.size(), 3 * 16384); // enough for several
-	Measured m(d);
-	m.energy.useThreads(1);
-	const double one = m.energy.evaluate(m.start);
-	Eigen::VectorXcd gradient, other;
-	m.energy.gradient(gradient);
-	for (int threads : {2, 3}) {
-		m.energy.useThreads(threads);
-		EXPECT_EQ(m.energy.evaluate(m.start), one);
-		m.energy.gradient(other);
-		EXPECT_EQ((gradient - other).norm(), 0.0);
-	}
-}
-
-TEST(MeanDistortion, FallsWhereSinglePointsMove)
-{
-	Random random(631);
-	int moved = 0;
-	for (CutMap& d : validMapsWithSeams(random)) {
-		Measured m(d);
-		Eigen::VectorXcd position = m.moved(shake(m, 0.02 * d.extent(), random));
-		const Eigen::VectorXcd start = position;
-		double value = m.energy.evaluate(position);
-		EXPECT_EQ(m.energy.relax(1.0, value, start, position), value); // no step is worth so much
-		EXPECT_EQ((position - start).norm(), 0.0);
-		m.energy.evaluate(position); // all are looked at again
-		for (const double relaxation : {1.0, 1.5, 1.5}) {
-			const double next = m.energy.relax(relaxation, 0.0, start, position);
-			EXPECT_LT(next, value);
-			value = next;
-			Eigen::VectorXcd kept, gradient;
-			m.energy.gradient(kept);
-			EXPECT_NEAR(m.energy.evaluate(position) / next, 1.0, 1e-13); // so none has turned
-			m.energy.gradient(gradient);
-			EXPECT_LT((kept - gradient).norm(), 1e-12 * gradient.norm());
-		}
-		for (int p = 0; p < static_cast<int>(position.size()); ++p) {
-			const int unknown = m.points.unknown[p];
-			const Complex step = position[p] - start[p];
-			moved += step != 0.0;
-			const Complex wanted = unknown < 0
-									   ? Complex(0.0)
-									   : m.points.turn[p] * (position[unknown] - start[unknown]);
-			EXPECT_LT(std::abs(step - wanted), 1e-14 * d.extent());
-		}
-	}
-	EXPECT_GT(moved, 100);
-}
-
-TEST(MeanDistortion, ComesNearlyAsLowWhereSinglePointsMoveForLong)
-{
-	Random random(632);
-	for (const int n : {5, 8}) {
-		const SurfaceMesh mesh = wavyDisk(n, random);
-		CutMap d(mesh, fromAbove(mesh));
-		Measured m(d);
-		Eigen::VectorXcd position = m.start;
-		double value = m.energy.evaluate(position);
-		for (int sweep = 0; sweep < 2000; ++sweep)
-			value = m.energy.relax(1.5, 0.0, m.start, position);
-		EXPECT_LT(
-			value, 1.05 * d.improve().after); // (K - 1)^(5/4) nearly has kinks, where they rest
 	}
 }
 
@@ -617,28 +513,6 @@ TEST(LeastDistortion, FallsWithoutTurningATriangle)
 	EXPECT_EQ(better, static_cast<int>(maps.size()));
 }
 
-TEST(LeastDistortion, TicksBetweenStepsAndChangesNothingWhereItIsStopped)
-{
-	Random random(622);
-	const SurfaceMesh mesh = wavyDisk(12, random);
-	const CutMap start(mesh, fromAbove(mesh));
-	CutMap whole = start;
-	Listener ticks;
-	const Descent result = heard(ticks, [&] { return whole.improve(); });
-	EXPECT_GE(ticks.calls(), result.steps);
-	EXPECT_LE(ticks.calls(), result.steps + 1);
-	EXPECT_GT(result.steps, 3);
-	EXPECT_LT(result.after, 0.9 * result.before);
-	const Descent again = whole.improve();
-	EXPECT_NEAR(again.before / result.after, 1.0, 1e-12);
-	EXPECT_LE(again.after, again.before);
-	EXPECT_GT(again.after, 0.95 * again.before);
-	CutMap stopped = start;
-	Listener impatient(3);
-	EXPECT_THROW(heard(impatient, [&] { stopped.improve(); }), Cancelled);
-	EXPECT_EQ(stopped.flat.place, start.flat.place);
-}
-
 TEST(LeastDistortion, ComesAsLowAsALongDescentByGradients)
 {
 	Random random(623);
@@ -741,45 +615,6 @@ TEST(LeastDistortion, HoldsABoundaryThatDoesNotMove)
 		else
 			inside += d.flat.place[v] != start[v];
 	EXPECT_GT(inside, 100);
-}
-
-TEST(LeastDistortion, TurnsAndGrowsWithTheMap)
-{
-	Random random(627);
-	const SurfaceMesh mesh = wavyDisk(12, random);
-	CutMap d(mesh, fromAbove(mesh));
-	// Sizes that only just leave products of four lengths in the range of doubles.
-	for (const auto& [inSpace, turn] :
-		 {std::pair<double, Complex>{3.0, std::polar(0.2, 2.0)},
-		  {1e-40, std::polar(1e40, 0.3)},
-		  {1e45, std::polar(1e-45, -1.0)}}) {
-		CutMap other = d;
-		for (auto& lengths : other.flat.lengths)
-			for (double& length : lengths)
-				length *= inSpace;
-		for (Point2& p : other.flat.place)
-			p = asPoint(turn * asComplex(p));
-		CutMap first = d;
-		const Descent a = first.improve(), b = other.improve();
-		EXPECT_EQ(a.steps, b.steps);
-		EXPECT_NEAR(b.before / a.before, 1.0, 1e-12);
-		EXPECT_NEAR(b.after / a.after, 1.0, 1e-9);
-		for (const int p : first.flat.place.indices())
-			EXPECT_LT(
-				std::abs(asComplex(other.flat.place[p]) / turn - asComplex(first.flat.place[p])),
-				1e-8);
-	}
-}
-
-TEST(LeastDistortion, DoesNotDependOnNumbers)
-{
-	Random random(628);
-	const SurfaceMesh mesh = wavyDisk(12, random);
-	const Renumbered other = renumbered(mesh, random);
-	CutMap a(mesh, fromAbove(mesh)), b(other.mesh, fromAbove(other.mesh));
-	EXPECT_NEAR(a.improve().after / b.improve().after, 1.0, 1e-9);
-	for (const int v : b.flat.place.indices())
-		EXPECT_LT(distance(b.flat.place[v], a.flat.place[other.vertex[at(v)]]), 1e-8);
 }
 
 /// All others get better, and none of them turns.

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_maps.h"
-
-#include "support/listener.h"
 #include "support/random.h"
 
 #include <ricci/base/numbers.h>
@@ -95,7 +93,7 @@ TEST(Untangle, MakesATangledSquareInjectiveAndKeepsItsBorder)
 		ASSERT_GT(notCounterClockwise(whole.flat), 0);
 		ASSERT_GT(sumOfAreas(whole.flat), kSide * kSide + 0.1);
 		const Untangled result = untangle(whole.problem());
-		ASSERT_TRUE(result.valid);
+		ASSERT_FALSE(result.points.empty());
 		EXPECT_GT(result.steps, 0);
 		const FlatMesh moved = whole.with(result.points);
 		EXPECT_EQ(notCounterClockwise(moved), 0);
@@ -115,10 +113,10 @@ TEST(Untangle, FindsTheSurfaceWhereItIsFlat)
 	for (std::uint64_t seed = 1; seed <= 4; ++seed) {
 		const Whole whole(tangled(20, seed));
 		const Untangled valid = untangle(whole.problem());
-		ASSERT_TRUE(valid.valid);
+		ASSERT_FALSE(valid.points.empty());
 		const FlatMesh moved = whole.with(valid.points), flat = square();
 		const Untangled eased = ease(whole.problemOf(moved));
-		ASSERT_TRUE(eased.valid);
+		ASSERT_FALSE(eased.points.empty());
 		const FlatMesh last = whole.with(eased.points);
 		EXPECT_LE(whole.strainOf(last), whole.strainOf(moved));
 		EXPECT_LT(whole.strainOf(last), 1.002 * (2.0 * kSide * kSide)); // the least: 1 each
@@ -132,24 +130,9 @@ TEST(Untangle, SaysWhatItCannotMend)
 {
 	FlatMesh flat = tangled(20, 3);
 	flat.place[vertexAt(kSide, 0)] = {kSide - 2.0, 2.0};
-	const Whole whole(flat);
-	const int before = notCounterClockwise(flat);
-	const Untangled result = untangle(whole.problem());
-	EXPECT_FALSE(result.valid);
-	ASSERT_FALSE(result.points.empty());
-	const int after = notCounterClockwise(whole.with(result.points));
-	EXPECT_GT(after, 0);
-	EXPECT_LT(after, before);
-}
-
-TEST(Untangle, IsHeardAndCanBeEnded)
-{
-	const Whole whole(tangled(20, 5));
-	Listener ticks;
-	const Untangled result = heard(ticks, [&] { return untangle(whole.problem(kMaxSteps)); });
-	EXPECT_EQ(ticks.calls(), result.steps);
-	Listener impatient(1);
-	EXPECT_THROW(heard(impatient, [&] { untangle(whole.problem(kMaxSteps)); }), Cancelled);
+	const Untangled result = untangle(Whole(flat).problem());
+	EXPECT_TRUE(result.points.empty());
+	EXPECT_GT(result.steps, 0);
 }
 
 TEST(Untangle, TakesNoMoreStepsThanItMay)
@@ -175,7 +158,7 @@ TEST(Ease, LowersTheStrainAndStaysValid)
 	const Whole whole(flat);
 	ASSERT_EQ(notCounterClockwise(flat), 0);
 	const Untangled result = ease(whole.problem());
-	ASSERT_TRUE(result.valid);
+	ASSERT_FALSE(result.points.empty());
 	const FlatMesh eased = whole.with(result.points);
 	EXPECT_EQ(notCounterClockwise(eased), 0);
 	EXPECT_GT(whole.strainOf(flat), 2.0 * kSide * kSide + 1.0);
@@ -186,7 +169,7 @@ TEST(Ease, LeavesWhatIsNotValidAlone)
 {
 	const Whole whole(tangled(20, 7));
 	const Untangled result = ease(whole.problem());
-	EXPECT_FALSE(result.valid);
+	EXPECT_TRUE(result.points.empty());
 	EXPECT_EQ(result.steps, 0);
 }
 

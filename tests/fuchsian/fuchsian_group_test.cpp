@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The groups of hyperbolic results: their relations, and the geodesics that they tell.
+#include "support/bolza.h"
 #include "support/complex.h"
-#include "support/flipped_flow.h"
-#include "support/intrinsic.h"
+#include "support/flat_map.h"
 #include "support/random_surface.h"
-#include "support/shapes.h"
+#include "support/reflected.h"
 #include "support/transform.h"
 
-#include <ricci/base/numbers.h>
-#include <ricci/base/tolerances.h>
-#include <ricci/fuchsian/canonical_polygon.h>
-#include <ricci/fuchsian/fuchsian_group.h>
-#include <ricci/fuchsian/tiling.h>
-#include <ricci/layout/hyperbolic_layout.h>
+#include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <limits>
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace ricci::testing {
@@ -27,49 +25,21 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 constexpr auto kExtendedEpsilon = static_cast<double>(std::numeric_limits<DoubleDouble>::epsilon());
 
-/// From a mesh to its group.
-struct Uniformized
+/// Hyperbolic, with this curvature at vertices.
+Parametrization
+uniformized(const SurfaceMesh& mesh, const std::vector<std::pair<int, double>>& curvature = {})
 {
-	FlippedFlow flow;
-	CutGraph cut;
-	SurfaceLayout refinement;
-	FuchsianGroup group;
-
-	/// \param detour vertices that the cut is to reach although nothing is there
-	Uniformized(
-		const SurfaceMesh& mesh,
-		const HyperbolicRequest& request,
-		const std::vector<int>& detour = {}) :
-			flow(mesh, request, 1e-12)
-	{
-		VertexArray<char> marked = flow.cones();
-		for (int v : detour)
-			marked[Vertex(v)] = 1;
-		cut = cutToDisk(flow.base(), flow.surface().lengths, marked);
-		refinement = flow.refinement(cut);
-		refinement.pairing = pairingOfArcs(flow.base(), cut, refinement.pairing, flow.cones());
-		group = fuchsianGroup(flow.base(), cut, refinement.pairing, flow.cones(), true);
-	}
-
-	/// In the metric found, of the boundary loop through \p vertex.
-	double boundaryLength(Vertex vertex) const
-	{
-		const Triangulation& t = flow.base();
-		double length = 0.0;
-		for (const std::vector<Vertex>& loop : flow.surface().topology.loops) {
-			if (std::find(loop.begin(), loop.end(), vertex) == loop.end())
-				continue;
-			for (const Halfedge h : t.interiorHalfedges()) {
-				if (!t.isExterior(h.twin()) ||
-					std::find(loop.begin(), loop.end(), t.origin(h)) == loop.end())
-					continue;
-				const auto place = [&](Halfedge g) { return asComplex(refinement.corners[g]); };
-				length += 2 * std::asinh(0.5 * chordLength(place(h), place(t.next(h))));
-			}
-		}
-		return length;
-	}
-};
+	HyperbolicOptions options;
+	options.epsilon = 1e-12;
+	options.finish = Finish::None;
+	options.canonicalGenerators = true;
+	options.target = HyperbolicTarget::Prescribed;
+	VertexInput input;
+	input.targetCurvature.assign(mesh.positions.size(), 0.0);
+	for (const auto& [v, k] : curvature)
+		input.targetCurvature[at(v)] = k;
+	return parametrizeHyperbolic(mesh, input, options);
+}
 
 /// The left-hand side of the canonical relation, from the rounded isometries.
 struct Relation
@@ -108,253 +78,108 @@ private:
 	}
 };
 
-/// Frobenius norm of the difference of the canonical relation of a closed surface from +-1.
-double relationDistance(const std::vector<ExtendedIsometry>& generators)
+/// The layout closes up, and so does the relation: the isometries that are returned satisfy it as well as doubles
+/// can, and before rounding it held as well as extended precision can. Nothing but the identity and cones has a
+/// fixed point.
+void expectGroup(const Parametrization& map, std::size_t genus, std::size_t peripheral)
 {
-	ExtendedIsometry r;
-	for (std::size_t i = 0; i + 1 < generators.size(); i += 2) {
-		const ExtendedIsometry &a = generators[i], &b = generators[i + 1];
-		r = r * a * b * a.inverse() * b.inverse();
+	ASSERT_EQ(map.charts.size(), 1u);
+	const FuchsianGroup& group = map.charts[0].group;
+	EXPECT_EQ(map.report.genus, static_cast<int>(genus));
+	ASSERT_EQ(group.handles.size(), 2 * genus);
+	ASSERT_EQ(group.peripheral.size(), peripheral);
+	ASSERT_EQ(group.generators().size(), 2 * genus + peripheral);
+	EXPECT_TRUE(group.isCanonical());
+	EXPECT_LT(map.report.relationError.value_or(1.0), 1e-10);
+	if (genus < 5) { // as seen from 0, farther on
+		EXPECT_LT(group.polygonError, 1e-9);
 	}
-	const double sign = r.a.real() < 0.0 ? -1.0 : 1.0;
-	return std::sqrt(2.0 * static_cast<double>(norm(r.a - ExtendedComplex(sign)) + norm(r.b)));
-}
-
-/// The returned isometries satisfy the relation as well as doubles can, and before rounding it held as
-/// well as extended precision can.
-void expectRelation(const FuchsianGroup& group)
-{
+	EXPECT_LT(group.closingError, 1e-9);
 	const Relation relation(group);
 	EXPECT_LT(relation.error, 4 * kEpsilon * relation.sensitivity + group.relationError);
-	EXPECT_LT(group.relationError, 4 * kExtendedEpsilon * relation.sensitivity);
+	if (genus > 0)
+		EXPECT_LT(group.relationError, 4 * kExtendedEpsilon * relation.sensitivity);
+	else // there is nothing to move so that it holds
+		EXPECT_LE(group.relationError, group.polygonError);
+	ExtendedIsometry product;
+	for (const ExtendedIsometry& letter : group.relation)
+		product = product * letter;
+	EXPECT_LT(static_cast<double>(product.distanceFromIdentity()), 1e-8);
+	for (const DiskIsometry& m : group.handles) {
+		EXPECT_GT(std::abs(m.trace()), 2.0);
+		EXPECT_NEAR(std::norm(m.a) - std::norm(m.b), 1.0, 1e-14 * std::norm(m.a));
+	}
+	// Sides come in pairs, each followed by its inverse.
+	ASSERT_EQ(group.sides.size() % 2, 0u);
+	for (std::size_t i = 0; i < group.sides.size(); i += 2)
+		EXPECT_LT(
+			(group.sides[i] * group.sides[i + 1]).distanceFromIdentity(),
+			1e-12 * std::norm(group.sides[i].a));
 }
 
-/// The least |traces| of isometries along axes, each once: twice cosh of half the lengths of the
-/// shortest closed geodesics.
-std::vector<double> traceSpectrum(const FuchsianGroup& group, std::size_t count)
+/// |traces| of the words of up to \p length sides that move 0 by at most \p reach, in increasing order.
+std::vector<double> tracesOf(const FuchsianGroup& group, int length, double reach)
 {
-	std::vector<double> traces, spectrum;
-	for (const DiskIsometry& m : tiling(group.sides, 4, 20000).deck)
-		if (m.distanceFromIdentity() > 1e-3)
-			traces.push_back(std::abs(m.trace()));
+	std::vector<double> traces;
+	std::vector<std::pair<DiskIsometry, std::size_t>> ring{{DiskIsometry(), group.sides.size()}},
+		next;
+	for (; length > 0; --length) {
+		next.clear();
+		for (const auto& [m, last] : ring)
+			for (std::size_t s = 0; s < group.sides.size(); ++s) {
+				const DiskIsometry word = m * group.sides[s];
+				if (s == (last ^ 1) || word.displacement() > reach)
+					continue;
+				if (word.distanceFromIdentity() > 1e-3)
+					traces.push_back(std::abs(word.trace()));
+				next.push_back({word, s});
+			}
+		ring.swap(next);
+	}
 	std::sort(traces.begin(), traces.end());
-	for (double x : traces)
+	return traces;
+}
+
+/// The least of them, each once: twice cosh of half the lengths of the shortest closed geodesics.
+std::vector<double> spectrumOf(const FuchsianGroup& group, std::size_t count)
+{
+	std::vector<double> spectrum;
+	for (const double x : tracesOf(group, 5, 9.0))
 		if (spectrum.size() < count && (spectrum.empty() || x > spectrum.back() * (1 + 1e-7)))
 			spectrum.push_back(x);
 	return spectrum;
 }
 
-TEST(FuchsianGroup, ClosedSurfacesSatisfyTheCanonicalRelation)
+/// a and b of a handle cross once, so they do not commute: the commutator is that of a torus with a hole (Fricke).
+void expectHandles(const FuchsianGroup& group)
+{
+	for (std::size_t i = 0; i < group.handles.size(); i += 2) {
+		const DiskIsometry &a = group.handles[i], &b = group.handles[i + 1];
+		EXPECT_LT((a * b * a.inverse() * b.inverse()).trace(), -2.0);
+	}
+}
+
+/// Other numbers lead to other cuts, and these to other words. The geodesics are the same.
+TEST(FuchsianGroup, OfAClosedSurfaceSatisfiesTheCanonicalRelation)
 {
 	Random random(650);
-	struct Case
-	{
-		int genus;
-		SurfaceMesh mesh;
-	};
-	std::vector<Case> cases{{2, perforatedSlab(2, 2)}, {3, perforatedSlab(3, 2)}};
-	// Other numbers lead to other cuts, and these to other words.
-	for (int genus : {2, 3, 4, 5})
-		for (int trial = 0; trial < 4; ++trial)
-			cases.push_back(
-				{genus, renumbered(shaken(perforatedSlab(genus, 2), 0.06, random), random).mesh});
-	for (const Case& c : cases) {
-		SCOPED_TRACE(c.genus);
-		const Uniformized surface(c.mesh, hyperbolicMetric());
-		const FuchsianGroup& group = surface.group;
-		ASSERT_EQ(group.handles.size(), at(2 * c.genus));
-		EXPECT_TRUE(group.peripheral.empty());
-		if (c.genus < 5) { // as seen from 0, farther on
-			EXPECT_LT(group.polygonError, 1e-9);
-		}
-		EXPECT_LT(group.closingError, 1e-9);
-		EXPECT_LT(relationDistance(group.generators()), 1e-8);
-		expectRelation(group);
-		// Nothing but the identity has a fixed point: all isometries are along axes.
-		for (const std::vector<DiskIsometry>& isometries : {group.handles, group.sides})
-			for (const DiskIsometry& m : isometries) {
-				EXPECT_GT(std::abs(m.trace()), 2.0);
-				EXPECT_NEAR(std::norm(m.a) - std::norm(m.b), 1.0, 1e-14 * std::norm(m.a));
-			}
-		// a and b of a handle cross once, so they do not commute.
-		for (std::size_t i = 0; i < group.handles.size(); i += 2) {
-			const DiskIsometry &a = group.handles[i], &b = group.handles[i + 1];
-			const double trace = (a * b * a.inverse() * b.inverse()).trace();
-			EXPECT_LT(trace, -2.0); // Fricke: of a torus with a hole
-		}
-	}
-}
-
-/// Sum of cosh d(p, g p) over the canonical generators.
-double sumOfCosh(const FuchsianGroup& group, Complex p)
-{
-	const DiskIsometry toPoint = DiskIsometry::translationTo(p);
-	double sum = 0.0;
-	for (const DiskIsometry& g : group.handles)
-		sum += std::cosh((toPoint.inverse() * g * toPoint).displacement());
-	return sum;
-}
-
-/// Sum of the angles inside a polygon that runs counter-clockwise.
-double sumOfAngles(const std::vector<Complex>& corners)
-{
-	double sum = 0.0;
-	const std::size_t n = corners.size();
-	for (std::size_t i = 0; i < n; ++i) {
-		const DiskIsometry toCorner = DiskIsometry::translationTo(corners[i]).inverse();
-		const Complex next = toCorner(corners[(i + 1) % n]);
-		const Complex before = toCorner(corners[(i + n - 1) % n]);
-		const double angle = std::arg(before / next);
-		sum += angle < 0.0 ? angle + 2.0 * kPi : angle;
-	}
-	return sum;
-}
-
-TEST(CanonicalPolygon, IsAFundamentalPolygonWithPairedSides)
-{
-	Random random(652);
-	for (int genus : {2, 3})
-		for (int trial = 0; trial < 3; ++trial) {
-			SCOPED_TRACE(genus);
-			const SurfaceMesh mesh =
-				renumbered(shaken(perforatedSlab(genus, 2), 0.06, random), random).mesh;
-			const FuchsianGroup group = Uniformized(mesh, hyperbolicMetric()).group;
-			const CanonicalPolygon polygon = canonicalPolygon(group);
-			const auto& corners = polygon.corners;
-			ASSERT_EQ(corners.size(), at(4 * genus));
-			EXPECT_TRUE(polygon.isSimple);
-			// The rounding of the generators, as it is seen from the base point, in products that
-			// reach the corners.
-			const Complex base = corners[corners.size() / 2];
-			const DiskIsometry toBase = DiskIsometry::translationTo(base);
-			double largest = 1.0, farthest = 1.0;
-			for (const DiskIsometry& g : group.handles)
-				largest = std::max(largest, std::abs(g.a));
-			for (const Complex& z : corners)
-				farthest = std::max(farthest, 0.5 * chordLength(base, z));
-			const double tolerance =
-				16.0 * genus * kEpsilon * largest * std::norm(toBase.a) * farthest * farthest;
-			EXPECT_LT(tolerance, 1e-3);
-			EXPECT_LT(polygon.gap, tolerance);
-			EXPECT_NEAR(sumOfAngles(corners), 2.0 * kPi, tolerance);
-			const auto side = [&](std::size_t k) {
-				return chordLength(corners[k], corners[(k + 1) % corners.size()]);
-			};
-			for (std::size_t k = 0; k < corners.size(); k += 4)
-				for (std::size_t letter : {k, k + 1})
-					EXPECT_NEAR(side(letter), side(letter + 2), tolerance * side(letter));
-			// The base point cannot be improved.
-			for (int k = 0; k < 8; ++k)
-				EXPECT_LT(
-					sumOfCosh(group, base),
-					sumOfCosh(group, toBase(std::polar(1e-3, 0.25 * kPi * k))));
-		}
-}
-
-/// Two handles of a group whose relation does not hold, and far isometries, which no double can hold.
-TEST(CanonicalPolygon, HasNoCornersWhereTheSidesDoNotCloseUp)
-{
-	FuchsianGroup group;
-	EXPECT_TRUE(canonicalPolygon(group).corners.empty());
-	const auto along = [](double direction, double length) {
-		return DiskIsometry::rotation(direction) * DiskIsometry::translation(length) *
-			   DiskIsometry::rotation(-direction);
-	};
-	for (double length : {0.5, 3.0, 40.0, 80.0, 700.0}) {
-		SCOPED_TRACE(length);
-		group.handles = {
-			along(0.1, length), along(1.3, length), along(2.1, length), along(2.9, length)};
-		group.relation.clear();
-		for (std::size_t i = 0; i < 4; i += 2) {
-			const DiskIsometry &a = group.handles[i], &b = group.handles[i + 1];
-			for (const DiskIsometry& g : {a, b, a.inverse(), b.inverse()})
-				group.relation.push_back(
-					{ExtendedIsometry::Complex(g.a), ExtendedIsometry::Complex(g.b)});
-		}
-		const CanonicalPolygon polygon = canonicalPolygon(group);
-		EXPECT_FALSE(polygon.gap <= kMaxPolygonGap);
-		EXPECT_TRUE(polygon.corners.empty());
-		EXPECT_FALSE(polygon.isSimple);
-	}
-}
-
-/// Signed area of the geodesic triangle: with p at 0, tan(area / 2) = Im(conj(x) y) / (1 - Re(conj(x)
-/// y)).
-double signedArea(Complex p, Complex q, Complex r)
-{
-	const DiskIsometry toOrigin = DiskIsometry::translationTo(p).inverse();
-	const Complex product = std::conj(toOrigin(q)) * toOrigin(r);
-	return 2.0 * std::atan2(product.imag(), 1.0 - product.real());
-}
-
-/// Any isometries whose product is the identity spell a closed polygon. Its crossings are known from the
-/// orientations of triangles of corners, its angles from its area.
-TEST(CanonicalPolygon, CrossingsAndAnglesAreThoseOfAnyClosedPolygon)
-{
-	Random random(653);
-	int simple = 0, clockwise = 0;
-	for (int trial = 0; trial < 400; ++trial) {
-		SCOPED_TRACE(trial);
-		FuchsianGroup group;
-		ExtendedIsometry product;
-		const auto append = [&](const ExtendedIsometry& g) {
-			group.relation.push_back(g);
-			group.peripheral.push_back(rounded(g));
-			product = product * g;
-		};
-		const int letters = 3 + random.index(4);
-		for (int i = 0; i < letters; ++i)
-			append(
-				ExtendedIsometry::rotation(random.real(-kPi, kPi)) *
-				ExtendedIsometry::translation(random.real(0.2, 3.0)) *
-				ExtendedIsometry::rotation(random.real(-kPi, kPi)));
-		append(product.inverse());
-		const CanonicalPolygon polygon = canonicalPolygon(group);
-		const auto& z = polygon.corners;
-		const std::size_t n = group.relation.size();
-		ASSERT_EQ(z.size(), n);
-		EXPECT_LT(polygon.gap, 1e-12);
-		bool crosses = false;
-		for (std::size_t i = 0; i < n; ++i)
-			for (std::size_t j = i + 2; j < n; ++j) {
-				const Complex a = z[i], b = z[i + 1], c = z[j], d = z[(j + 1) % n];
-				if (j + 1 < n || i > 0)
-					crosses |=
-						hyperbolicOrientation(a, b, c) * hyperbolicOrientation(a, b, d) < 0 &&
-						hyperbolicOrientation(c, d, a) * hyperbolicOrientation(c, d, b) < 0;
-			}
-		EXPECT_EQ(polygon.isSimple, !crosses);
-		double area = 0.0;
-		for (std::size_t k = 1; k + 1 < n; ++k)
-			area += signedArea(z[0], z[k], z[k + 1]);
-		if (crosses)
-			continue;
-		++simple;
-		// Clockwise ones are seen from outside.
-		const double sides = static_cast<double>(n) + (area > 0.0 ? -2.0 : 2.0);
-		EXPECT_NEAR(sumOfAngles(z), sides * kPi - area, 1e-9);
-		clockwise += area < 0.0;
-	}
-	EXPECT_GT(simple, 50);
-	EXPECT_LT(simple, 350);
-	EXPECT_GT(clockwise, 10);
-}
-
-TEST(FuchsianGroup, LengthsOfGeodesicsDoNotDependOnTheCutOrTheNumbers)
-{
-	Random random(660);
-	for (int genus : {2, 3}) {
+	for (int genus : {2, 3, 4, 5}) {
+		SCOPED_TRACE(genus);
+		expectGroup(uniformized(perforatedSlab(genus, 2)), at(genus), 0);
 		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 2), 0.06, random);
-		const std::vector<double> wanted =
-			traceSpectrum(Uniformized(mesh, hyperbolicMetric()).group, 8);
-		ASSERT_EQ(wanted.size(), 8u);
-		EXPECT_GT(wanted.front(), 2.0);
-		const Uniformized detour(mesh, hyperbolicMetric(), {3, 11});
-		EXPECT_LT(detour.group.closingError, 1e-9); // regular points, although the cut ends there
-		const Uniformized other(renumbered(mesh, random).mesh, hyperbolicMetric());
-		for (const Uniformized* same : {&detour, &other}) {
-			const std::vector<double> found = traceSpectrum(same->group, 8);
+		const Parametrization first = uniformized(mesh);
+		expectGroup(first, at(genus), 0);
+		for (int trial = 0; trial < 3; ++trial) {
+			const Parametrization other = uniformized(renumbered(mesh, random).mesh);
+			expectGroup(other, at(genus), 0);
+			expectHandles(other.charts[0].group);
+			if (genus > 3)
+				continue;
+			const std::vector<double> wanted = spectrumOf(first.charts[0].group, 8);
+			const std::vector<double> found = spectrumOf(other.charts[0].group, 8);
+			ASSERT_EQ(wanted.size(), 8u);
 			ASSERT_EQ(found.size(), 8u);
+			EXPECT_GT(wanted.front(), 2.0);
 			for (std::size_t i = 0; i < 8; ++i)
 				EXPECT_NEAR(found[i] / wanted[i], 1.0, 1e-8);
 		}
@@ -369,16 +194,10 @@ TEST(FuchsianGroup, CanonicalGeneratorsDoNotDependOnTheScale)
 	for (int genus : {2, 3, 4, 5}) {
 		SCOPED_TRACE(genus);
 		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 2), 0.06, random);
-		const FuchsianGroup wanted = Uniformized(mesh, hyperbolicMetric()).group;
-		ASSERT_EQ(wanted.generators().size(), at(2 * genus));
+		const FuchsianGroup wanted = uniformized(mesh).charts[0].group;
 		for (const double scale : {1e-3, 3.7}) {
-			SurfaceMesh other = mesh;
-			for (Point3& p : other.positions)
-				for (double& x : p)
-					x *= scale;
-			const FuchsianGroup group = Uniformized(other, hyperbolicMetric()).group;
+			const FuchsianGroup group = uniformized(scaled(mesh, scale)).charts[0].group;
 			ASSERT_EQ(group.handles.size(), wanted.handles.size());
-			EXPECT_LT(relationDistance(group.generators()), 1e-8);
 			for (std::size_t i = 0; i < group.handles.size(); ++i) {
 				const DiskIsometry &m = group.handles[i], &n = wanted.handles[i];
 				const double sign = (m.a * std::conj(n.a)).real() < 0.0 ? -1.0 : 1.0;
@@ -389,45 +208,65 @@ TEST(FuchsianGroup, CanonicalGeneratorsDoNotDependOnTheScale)
 	}
 }
 
+/// Lengths of the boundary loops of a map, in the metric found.
+std::vector<double> boundaryLengths(const SurfaceMesh& mesh, const Parametrization& map)
+{
+	std::map<std::pair<int, int>, double> sides;
+	const Box2& box = map.charts.at(0).box;
+	for (const int f : map.mesh.points.indices())
+		for (const Corner c : cornersOf(f)) {
+			std::array<Complex, 2> z;
+			for (std::size_t k = 0; k < 2; ++k)
+				z[k] =
+					2.0 / box.width() * (asComplex(map.mesh.ends(c)[k]) - asComplex(box.centre()));
+			sides[{map.mesh.vertices[c], map.mesh.vertices[c.next()]}] =
+				static_cast<double>(distanceInDisk(z[0], z[1]));
+		}
+	std::map<int, std::pair<int, double>> next; // [vertex on the boundary]
+	for (const auto& [ends, length] : sides)
+		if (sides.count({ends.second, ends.first}) == 0)
+			next[ends.first] = {ends.second, length};
+	EXPECT_LE(next.size(), mesh.positions.size());
+	std::vector<double> lengths;
+	while (!next.empty()) {
+		lengths.push_back(0.0);
+		for (auto v = next.begin(); v != next.end();) {
+			const auto [to, length] = v->second;
+			lengths.back() += length;
+			next.erase(v);
+			v = next.find(to);
+		}
+	}
+	std::sort(lengths.begin(), lengths.end());
+	return lengths;
+}
+
 TEST(FuchsianGroup, GeodesicBoundariesAreAxes)
 {
 	Random random(670);
 	const struct
 	{
 		SurfaceMesh mesh;
-		std::size_t loops;
+		std::size_t genus, loops;
 	} cases[] = {
-		{withoutStars(shaken(perforatedSlab(1, 4), 0.03, random), {0}), 1},
-		{withoutStars(shaken(perforatedSlab(0, 5), 0.03, random), {0, 60, 120}), 3},
-		{withoutStars(shaken(perforatedSlab(2, 3), 0.03, random), {5, 70}), 2}};
+		{withoutStars(shaken(perforatedSlab(1, 4), 0.03, random), {0}), 1, 1},
+		{withoutStars(shaken(perforatedSlab(0, 5), 0.03, random), {0, 60, 120}), 0, 3},
+		{withoutStars(shaken(perforatedSlab(2, 3), 0.03, random), {5, 70}), 2, 2}};
 	for (const auto& c : cases) {
-		const Uniformized surface(c.mesh, hyperbolicMetric());
-		SCOPED_TRACE(surface.flow.surface().topology.type.name());
-		ASSERT_EQ(surface.flow.surface().topology.loops.size(), c.loops);
-		const FuchsianGroup& group = surface.group;
-		ASSERT_EQ(group.peripheral.size(), surface.flow.surface().topology.loops.size());
-		EXPECT_EQ(group.handles.size(), at(2 * surface.flow.surface().topology.type.genus));
-		EXPECT_LT(group.polygonError, 1e-9);
-		EXPECT_LT(group.closingError, 1e-9);
-		EXPECT_LT(group.relationError, 1e-8);
-		expectRelation(group);
-		std::vector<int> loops;
-		for (std::size_t i = 0; i < group.peripheral.size(); ++i) {
-			const double length = surface.boundaryLength(group.peripheralVertex[i]);
-			EXPECT_GT(length, 0.01);
-			EXPECT_NEAR(
-				std::abs(group.peripheral[i].trace()),
-				2 * std::cosh(length / 2),
-				1e-9 * std::cosh(length / 2));
-			for (std::size_t j = 0; j < surface.flow.surface().topology.loops.size(); ++j) {
-				const auto& loop = surface.flow.surface().topology.loops[j];
-				if (std::find(loop.begin(), loop.end(), group.peripheralVertex[i]) != loop.end())
-					loops.push_back(static_cast<int>(j));
-			}
+		SCOPED_TRACE(c.genus);
+		const Parametrization map = uniformized(c.mesh);
+		expectGroup(map, c.genus, c.loops);
+		expectHandles(map.charts[0].group);
+		std::vector<double> axes;
+		for (const DiskIsometry& e : map.charts[0].group.peripheral)
+			axes.push_back(2.0 * std::acosh(0.5 * std::abs(e.trace())));
+		std::sort(axes.begin(), axes.end());
+		const std::vector<double> lengths = boundaryLengths(c.mesh, map);
+		ASSERT_EQ(lengths.size(), c.loops);
+		for (std::size_t i = 0; i < c.loops; ++i) {
+			EXPECT_GT(lengths[i], 0.01);
+			EXPECT_NEAR(axes[i], lengths[i], 1e-8);
 		}
-		std::sort(loops.begin(), loops.end()); // each once
-		for (std::size_t j = 0; j < loops.size(); ++j)
-			EXPECT_EQ(loops[j], static_cast<int>(j));
 	}
 }
 
@@ -439,31 +278,87 @@ TEST(FuchsianGroup, ConesAreRotations)
 	const struct
 	{
 		const SurfaceMesh& mesh;
+		std::size_t genus;
 		std::vector<std::pair<int, double>> cones; // vertex, total angle
 	} cases[] = {
-		{sphere, {{3, 2 * kPi / 3}, {20, 2 * kPi / 4}, {40, 2 * kPi / 5}}},
-		{sphere, {{3, 1.0}, {20, 1.5}, {40, 2.0}, {11, 7.0}}},
-		{donut, {{5, 1.0}, {60, 2.5}}},
-		{donut, {{17, kPi}}}};
+		{sphere, 0, {{3, 2 * kPi / 3}, {20, 2 * kPi / 4}, {40, 2 * kPi / 5}}},
+		{sphere, 0, {{3, 1.0}, {20, 1.5}, {40, 2.0}, {11, 7.0}}},
+		{donut, 1, {{5, 1.0}, {60, 2.5}}},
+		{donut, 1, {{17, kPi}}}};
 	for (const auto& c : cases) {
-		std::vector<double> curvature(c.mesh.positions.size(), 0.0);
-		for (const auto& [v, angle] : c.cones)
-			curvature[at(v)] = 2 * kPi - angle;
-		const Uniformized surface(c.mesh, hyperbolicPrescribed(curvature));
-		const FuchsianGroup& group = surface.group;
-		ASSERT_EQ(group.peripheral.size(), c.cones.size());
-		EXPECT_LT(group.polygonError, 1e-9);
-		EXPECT_LT(group.closingError, 1e-9);
-		EXPECT_LT(group.relationError, 1e-9);
-		expectRelation(group);
+		std::vector<std::pair<int, double>> curvature;
+		std::vector<double> wanted, found;
 		for (const auto& [v, angle] : c.cones) {
-			const auto i = static_cast<std::size_t>(
-				std::find(group.peripheralVertex.begin(), group.peripheralVertex.end(), Vertex(v)) -
-				group.peripheralVertex.begin());
-			ASSERT_LT(i, group.peripheral.size());
-			EXPECT_NEAR(
-				std::abs(group.peripheral[i].trace()), 2 * std::abs(std::cos(angle / 2)), 1e-9);
+			curvature.push_back({v, 2 * kPi - angle});
+			wanted.push_back(2 * std::abs(std::cos(angle / 2)));
 		}
+		const Parametrization map = uniformized(c.mesh, curvature);
+		expectGroup(map, c.genus, c.cones.size());
+		for (const DiskIsometry& e : map.charts[0].group.peripheral)
+			found.push_back(std::abs(e.trace()));
+		std::sort(wanted.begin(), wanted.end());
+		std::sort(found.begin(), found.end());
+		for (std::size_t i = 0; i < found.size(); ++i)
+			EXPECT_NEAR(found[i], wanted[i], 1e-9);
+	}
+}
+
+/// A metric with all symmetries of a curve has it for its uniformization, whatever the triangles are. It is a
+/// regular polygon of 4 g or 4 g + 2 sides with opposite sides glued, whose angles add up to 2 pi or 4 pi: the
+/// translations that glue them are among its geodesics.
+TEST(FuchsianGroup, OfACurveWithSymmetriesIsKnown)
+{
+	const struct
+	{
+		int roots;
+		Branched branched;
+		int sides, genus;
+	} cases[] = {
+		{4, Branched::Both, 8, 2},
+		{5, Branched::One, 10, 2},
+		{6, Branched::Both, 12, 3},
+		{7, Branched::One, 14, 3}};
+	for (const auto& c : cases)
+		for (const double stretch : {0.6, 1.0, 2.5}) {
+			SCOPED_TRACE(std::to_string(c.roots) + ", stretched by " + std::to_string(stretch));
+			const Parametrization map = uniformized(hyperelliptic(c.roots, c.branched, 3, stretch));
+			expectGroup(map, at(c.genus), 0);
+			EXPECT_NEAR(map.report.hyperbolicArea.value_or(0.0), 4 * kPi * (c.genus - 1), 1e-9);
+			const double angle = (c.sides % 4 == 0 ? 2.0 : 4.0) * kPi / c.sides; // at a corner
+			const double expected = 2.0 * std::cos(0.5 * angle) / std::sin(kPi / c.sides);
+			double nearest = 1.0;
+			for (const double x : tracesOf(map.charts[0].group, 6, 7.5))
+				nearest = std::min(nearest, std::abs(x - expected));
+			EXPECT_LT(nearest, 1e-8);
+		}
+}
+
+/// The Bolza surface: every |trace| / 2 is an integer m + n sqrt(2), m odd and |m - n sqrt(2)| < 1 (Aurich and Steiner
+/// 1988).
+TEST(FuchsianGroup, TracesOfTheBolzaSurfaceAreIntegersOfTheFieldOfTheSquareRootOfTwo)
+{
+	for (const int n : {3, 5}) {
+		const Parametrization map = uniformized(hyperelliptic(4, Branched::Both, n));
+		std::vector<double> different;
+		for (const double trace : tracesOf(map.charts[0].group, 5, 8.0)) {
+			const double half = 0.5 * trace;
+			if (half > 40.0)
+				break;
+			if (different.empty() || half > different.back() + 1e-6)
+				different.push_back(half);
+			double nearest = 1.0;
+			for (int k = 0; k < 60; ++k) {
+				const double rest = half - k * std::sqrt(2.0);
+				const double odd = 2 * std::round((rest - 1) / 2) + 1;
+				if (std::abs(odd - k * std::sqrt(2.0)) <= 1.0)
+					nearest = std::min(nearest, std::abs(rest - odd));
+			}
+			EXPECT_LT(nearest, 1e-8) << half;
+		}
+		ASSERT_GT(different.size(), 8u);
+		EXPECT_NEAR(different[0], 1 + std::sqrt(2.0), 1e-9);
+		EXPECT_NEAR(different[1], 3 + 2 * std::sqrt(2.0), 1e-9);
+		EXPECT_NEAR(different[2], 5 + 3 * std::sqrt(2.0), 1e-9);
 	}
 }
 

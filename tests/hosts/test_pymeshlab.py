@@ -926,9 +926,13 @@ class BadInput(unittest.TestCase):
             " target_curvature=5)\n"
             "except pymeshlab.PyMeshLabException as e:\n"
             "    print(ascii(str(e)))\n")
-        finished = subprocess.run(
-            [sys.executable, "-c", program, common.BUILD], capture_output=True, text=True,
-            cwd=os.path.dirname(os.path.abspath(__file__)), env={**os.environ, "LC_ALL": "C"})
+        with tempfile.TemporaryDirectory() as folder:
+            # In such a locale the host finds no plugin in a folder whose name is not ASCII.
+            build = os.path.join(folder, "build")
+            os.symlink(common.BUILD, build)
+            finished = subprocess.run(
+                [sys.executable, "-c", program, build], capture_output=True, text=True,
+                cwd=os.path.dirname(os.path.abspath(__file__)), env={**os.environ, "LC_ALL": "C"})
         self.assertEqual(finished.returncode, 0, finished.stderr)
         self.assertNotIn("?", finished.stdout)
         self.assertIn("Details: ", finished.stdout)

@@ -123,7 +123,7 @@ class Wheel(unittest.TestCase):
             command = os.path.join(folder, "bin", "pymeshlab-ricci")
             version = subprocess.run([command, "--version"], capture_output=True, text=True, check=True,
                                      env=environment).stdout
-            self.assertEqual(version, f"pymeshlab-ricci {wheel_file().split('-')[1]}\n")
+            self.assertEqual(version, f"pymeshlab-ricci {os.path.basename(wheel_file()).split('-')[1]}\n")
             run("-m", "pip", "uninstall", "-q", "-y", "pymeshlab-ricci")
             self.assertEqual(glob.glob(os.path.join(place, "*ricci*")), [])
 

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/flat_meshes.h"
-#include "support/random.h"
+#include "support/intrinsic.h"
+#include "support/random_surface.h"
 
 #include <ricci/layout/flat_mesh.h>
+#include <ricci/layout/planar_layout.h>
 #include <ricci/surface/sides.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
-#include <vector>
 
 namespace ricci::testing {
 namespace {
@@ -21,38 +23,35 @@ FlatMesh withSeam(const Point2& shift)
 {
 	const SurfaceMesh mesh = rectangle(kSide, kSide, 1.0, 1.0);
 	std::vector<Triangle2> plane = flatMesh(mesh).corners().values();
-	for (std::size_t f = 0; f < plane.size(); ++f)
-		if (std::any_of(
-				plane[f].begin(), plane[f].end(), [](const Point2& p) { return p[1] > 0.5; }))
-			for (Point2& p : plane[f])
+	for (Triangle2& t : plane)
+		if (std::any_of(t.begin(), t.end(), [](const Point2& p) { return p[1] > 0.5; }))
+			for (Point2& p : t)
 				p += shift;
 	return flatMesh(mesh, plane);
 }
 
-int seamsOf(const FlatMesh& mesh)
-{
-	const Sides sides(mesh.vertices.values());
-	int seams = 0;
-	for (const Corner side : mesh.across.indices()) {
-		const Corner other = mesh.across[side], joined = mesh.joined(side);
-		EXPECT_EQ(other, sides.across(side));
-		if (!other.isValid()) {
-			EXPECT_FALSE(joined.isValid());
-			continue;
-		}
-		EXPECT_EQ(mesh.joined(other), joined.isValid() ? side : Corner());
-		seams += other > side && joined != other;
-	}
-	return seams;
-}
-
 TEST(FlatMesh, IsJoinedWhereSidesLieOnEachOther)
 {
-	const FlatMesh whole = withSeam({0.0, 0.0}), apart = withSeam({2.0, 0.0});
-	EXPECT_EQ(whole.place.size(), (kSide + 1) * (kSide + 1));
-	EXPECT_EQ(seamsOf(whole), 0);
-	EXPECT_EQ(apart.place.size(), (kSide + 1) * (kSide + 2));
-	EXPECT_EQ(seamsOf(apart), kSide);
+	for (const double shift : {0.0, 2.0}) {
+		const FlatMesh mesh = withSeam({shift, 0.0});
+		const int seamEdges = shift > 0.0 ? kSide : 0;
+		EXPECT_EQ(mesh.place.size(), (kSide + 1) * (kSide + 1 + (shift > 0.0)));
+		const Sides sides(mesh.vertices.values());
+		int open = 0;
+		for (const Corner side : mesh.across.indices()) {
+			const Corner other = mesh.across[side], joined = mesh.joined(side);
+			EXPECT_EQ(other, sides.across(side));
+			if (!other.isValid()) {
+				EXPECT_FALSE(joined.isValid());
+				continue;
+			}
+			EXPECT_EQ(mesh.joined(other), joined.isValid() ? side : Corner());
+			open += other > side && joined != other;
+		}
+		EXPECT_EQ(open, seamEdges);
+		EXPECT_EQ(seams(mesh).edges.size(), at(seamEdges));
+		EXPECT_NEAR(seams(mesh).length, shift > 0.0 ? 1.0 : 0.0, 1e-14);
+	}
 }
 
 TEST(FlatMesh, SplitPointsBelongToOneChartAndOneFan)
@@ -98,28 +97,70 @@ TEST(FlatMesh, PointsOfSomeTrianglesAreSplitAsThoseOfAll)
 	}
 }
 
-TEST(FlatMesh, PartsKeepTheirTrianglesAndShareNoIndices)
+/// Units of rounding that the direction of an edge loses: the longest side of its triangles over it.
+double loss(const Triangulation& t, const EdgeArray<double>& lengths, Edge e)
 {
-	const FlatMesh mesh = withSeam({2.0, 0.0});
-	const std::vector<int> some = {17, 2, 3, 4, 5, 30};
-	const FlatMesh part = mesh.part(some);
-	ASSERT_EQ(at(part.size()), some.size());
-	for (std::size_t i = 0; i < some.size(); ++i) {
-		const int own = static_cast<int>(i);
-		EXPECT_EQ(part.at(own), mesh.at(some[i]));
-		EXPECT_EQ(part.vertices[own], mesh.vertices[some[i]]);
-		EXPECT_EQ(part.lengths[own], mesh.lengths[some[i]]);
-		EXPECT_EQ(part.face[own], mesh.face[some[i]]);
-	}
-	const Sides sides(part.vertices.values());
-	for (const Corner side : part.across.indices())
-		EXPECT_EQ(part.across[side], sides.across(side));
-	FlatMesh result = mesh;
-	result.across.clear(); // as in results
-	EXPECT_EQ(result.part(some).points, part.points);
-	EXPECT_TRUE(result.part(some).across.empty());
-	EXPECT_EQ(at(part.place.size()), part.pointsByChart(1).front().size());
-	EXPECT_EQ(mesh.trianglesByChart(1).front().size(), at(mesh.size()));
+	double longest = 0.0;
+	for (const Halfedge h : {e.halfedge(), e.halfedge().twin()})
+		for (const Halfedge side : t.halfedges(t.face(h)))
+			longest = std::max(longest, lengths[side.edge()]);
+	return longest / lengths[e];
+}
+
+/// The least loss on a way from the root to every triangle is relaxed edge by edge until nothing changes
+/// (Bellman and Ford).
+TEST(LayoutTree, ReachesEveryTriangleByTheWayThatLosesLeast)
+{
+	constexpr double kNever = std::numeric_limits<double>::infinity();
+	Random random(840);
+	int unreached = 0;
+	std::vector<SurfaceMesh> meshes = surfacesOfEveryKind(random);
+	// A spoke of a wheel is short: its two triangles are neighbours, but directions keep more digits on the way
+	// round the hub through all others.
+	meshes.push_back(fan(6, 0.0));
+	meshes.back().positions[0] = {0.001, 0.0, 0.0};
+	for (const SurfaceMesh& mesh : meshes)
+		for (double share : {0.0, 0.2, 0.6}) {
+			const IntrinsicMesh metric = intrinsicMesh(mesh);
+			const Triangulation& t = metric.triangulation;
+			EdgeArray<char> isCut(t.edgeCount(), 0);
+			for (char& cut : isCut)
+				cut = random.real(0.0, 1.0) < share;
+			const Face root(random.index(t.faceCount()));
+			FaceArray<double> least(t.faceCount(), kNever), lost = least;
+			least[root] = lost[root] = 0.0;
+			for (bool changed = true; changed;) {
+				changed = false;
+				for (const Edge e : t.edges())
+					for (const Halfedge h : {e.halfedge(), e.halfedge().twin()})
+						if (!isCut[e] && !t.isBoundary(e)) {
+							const double way = least[t.face(h)] + loss(t, metric.lengths, e);
+							double& known = least[t.face(h.twin())];
+							changed |= way < known * (1.0 - 1e-12);
+							known = std::min(known, way);
+						}
+			}
+			const std::vector<Halfedge> order = layoutTree(t, metric.lengths, isCut, root);
+			for (const Halfedge h : order) {
+				EXPECT_FALSE(isCut[h.edge()]);
+				ASSERT_FALSE(t.isBoundary(h.edge()));
+				EXPECT_EQ(lost[t.face(h)], kNever);        // each once
+				ASSERT_LT(lost[t.face(h.twin())], kNever); // from one that is reached
+				lost[t.face(h)] = lost[t.face(h.twin())] + loss(t, metric.lengths, h.edge());
+			}
+			for (const Face f : t.faces()) {
+				unreached += least[f] == kNever;
+				if (least[f] == kNever)
+					EXPECT_EQ(lost[f], kNever);
+				else
+					EXPECT_NEAR(lost[f], least[f], 1e-12 * (1.0 + least[f]));
+			}
+			EdgeArray<double> larger = metric.lengths;
+			for (double& length : larger)
+				length *= 0x1p40;
+			EXPECT_EQ(layoutTree(t, larger, isCut, root), order);
+		}
+	EXPECT_GT(unreached, 100); // random cuts isolate triangles
 }
 
 } // namespace

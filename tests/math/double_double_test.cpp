@@ -132,8 +132,6 @@ TEST(DoubleDouble, FunctionsHaveTheirKnownValues)
 		{exp(DoubleDouble(-20)), "0.00000000206115362243855782796594038015582098"},
 		{exp(DoubleDouble(-40)) * 1e10 * 1e10, "424.83542552915889953292347828586580179"},
 		{expm1(small), "0.00097703949241653524284529261160650646585"},
-		{log1p(small), "0.00097608597305545889596082490801718667261"},
-		{log1p(DoubleDouble(2)), "1.09861228866810969139524523692252570465"},
 		{sinh(DoubleDouble(1)), "1.17520119364380145688238185059560081516"},
 		{sinh(small), "0.00097656265522043650406675150063853807332"},
 		{cosh(DoubleDouble(1)), "1.54308063481524377847790562075706168260"},
@@ -157,8 +155,6 @@ TEST(DoubleDouble, FunctionsAndTheirInversesFitTogether)
 		const DoubleDouble large = x * 10; // its unit in the last place, too
 		EXPECT_LE(relative(exp(large) * exp(-large), 1), kRounding);
 		EXPECT_LE(relative(exp(-large - x) * exp(large), exp(-x)), kRounding);
-		EXPECT_LE(relative(log1p(expm1(abs(x))), abs(x)), 2 * kRounding);
-		EXPECT_LE(relative(log1p(expm1(small)), small), 2 * kRounding);
 		EXPECT_LE(relative(asinh(sinh(x)), x), 2 * kRounding);
 		EXPECT_LE(relative(asinh(sinh(small)), small), 2 * kRounding);
 		EXPECT_LE(relative((cosh(x) - sinh(x)) * exp(x), 1), kRounding * std::cosh(2 * x.high));
@@ -191,7 +187,6 @@ TEST(DoubleDouble, WhatIsNotANumberStaysSo)
 			  x - x,
 			  1 + expm1(x),
 			  asinh(x),
-			  log1p(x),
 			  sineAndCosine(x).sine,
 			  sqrt(-abs(x)),
 			  x / x})

@@ -118,25 +118,6 @@ SparseCholesky::Matrix gridLaplacian(int side)
 
 #ifdef RICCI_STATIC_CHOLMOD // other solvers have no checkpoints inside
 
-/// What checkpoint() throws at any time passes through, and leaves the solver usable.
-TEST(SparseCholesky, EndsWhenItIsCancelled)
-{
-	const SparseCholesky::Matrix matrix = gridLaplacian(200);
-	SparseCholesky solver;
-	Listener ticks;
-	ASSERT_TRUE(heard(ticks, [&] { return solver.factorize(matrix); }));
-	const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(matrix.rows(), -1.0, 1.0);
-	const Eigen::VectorXd x = solver.solve(b);
-	EXPECT_GT(ticks.calls(), solver.factorFlops() / 1e8); // many a second
-	for (const int last : {1, 2, ticks.calls() / 2, ticks.calls()}) {
-		Listener impatient(last);
-		EXPECT_THROW(heard(impatient, [&] { solver.factorize(matrix); }), Cancelled) << last;
-		EXPECT_EQ(impatient.calls(), last); // none after it
-		ASSERT_TRUE(solver.factorize(matrix));
-		EXPECT_EQ(solver.solve(b), x);
-	}
-}
-
 #endif
 
 /// A surface whose radii are all fixed has no unknowns.

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "siegel_distance.h"
 #include "support/complex.h"
 #include "support/random.h"
 
 #include <ricci/measure/invariants.h>
+#include <ricci/measure/period_matrix.h>
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
-#include <complex>
 
 namespace ricci::testing {
 namespace {
-
-Complex apply(long a, long b, long c, long d, Complex tau)
-{
-	return (static_cast<double>(a) * tau + static_cast<double>(b)) /
-		   (static_cast<double>(c) * tau + static_cast<double>(d));
-}
 
 TEST(FundamentalDomain, ContainsTheResultAndEquivalentsAgree)
 {
@@ -24,16 +20,14 @@ TEST(FundamentalDomain, ContainsTheResultAndEquivalentsAgree)
 	for (int trial = 0; trial < 1000; ++trial) {
 		const Complex tau(random.real(-0.49, 0.49), random.real(1.01, 5.0)); // inside the domain
 		// A random word in the generators tau + n and -1 / tau.
-		long a = 1, b = 0, c = 0, d = 1;
+		std::array<double, 4> m{1, 0, 0, 1};
 		for (int letter = 0; letter < 4; ++letter) {
-			const long n = random.index(5) - 2;
-			a += n * c, b += n * d;
-			const long oldA = a, oldB = b;
-			a = -c, b = -d, c = oldA, d = oldB;
+			const double n = random.index(5) - 2;
+			m = {-m[2], -m[3], m[0] + n * m[2], m[1] + n * m[3]};
 		}
-		ASSERT_EQ(a * d - b * c, 1);
-		const Complex reduced = reduceToFundamentalDomain(apply(a, b, c, d, tau));
-		EXPECT_LT(std::abs(reduced - tau), 1e-10);
+		ASSERT_EQ(m[0] * m[3] - m[1] * m[2], 1);
+		const Complex moved = (m[0] * tau + m[1]) / (m[2] * tau + m[3]);
+		EXPECT_LT(std::abs(reduceToFundamentalDomain(moved) - tau), 1e-10);
 	}
 }
 
@@ -51,25 +45,45 @@ TEST(FundamentalDomain, HoldsTheKnownPoints)
 TEST(FundamentalDomain, ChoosesTheRightHalfOfItsBorder)
 {
 	for (double y : {1.0, 1.7, 4.0})
-		for (double side : {-0.5, 0.5, 1.5}) {
-			const Complex reduced = reduceToFundamentalDomain({side, y});
-			EXPECT_NEAR(reduced.real(), 0.5, 1e-14);
-			EXPECT_NEAR(reduced.imag(), y, 1e-14);
-		}
+		for (double side : {-0.5, 0.5, 1.5})
+			EXPECT_LT(std::abs(reduceToFundamentalDomain({side, y}) - Complex(0.5, y)), 1e-14);
 	for (double angle : {1.1, 1.3, 1.5}) {
 		const Complex right = std::polar(1.0, angle), left(-right.real(), right.imag());
 		EXPECT_LT(std::abs(reduceToFundamentalDomain(left) - right), 1e-13);
 		EXPECT_LT(std::abs(reduceToFundamentalDomain(right) - right), 1e-13);
 	}
+	for (double noise : {-1e-15, 1e-15}) { // rounding changes nothing
+		EXPECT_NEAR(reduceToFundamentalDomain({-0.5 + noise, 2.0}).real(), 0.5, 1e-14);
+		EXPECT_GT(reduceToFundamentalDomain(std::polar(1.0 + noise, 1.8)).real(), 0.0);
+	}
 }
 
-TEST(FundamentalDomain, RoundingOnTheBorderChangesNothing)
+TEST(SiegelReduced, StaysInTheClass)
 {
-	for (double noise : {-1e-15, 1e-15}) {
-		EXPECT_NEAR(reduceToFundamentalDomain({-0.5 + noise, 2.0}).real(), 0.5, 1e-14);
-		const Complex tau = std::polar(1.0 + noise, 1.8);
-		EXPECT_GT(reduceToFundamentalDomain(tau).real(), 0.0);
-	}
+	Random random(504);
+	for (const int genus : {1, 2, 3, 5, 8})
+		for (int trial = 0; trial < 20; ++trial) {
+			Eigen::MatrixXd root(genus, genus), real(genus, genus);
+			for (double& x : root.reshaped())
+				x = random.real(-1.0, 1.0);
+			for (double& x : real.reshaped())
+				x = random.real(-5.0, 5.0);
+			Eigen::MatrixXcd omega(genus, genus);
+			omega.real() = real + real.transpose();
+			omega.imag() = root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(genus, genus);
+			const Eigen::MatrixXcd reduced = siegelReduced(omega);
+			expectPeriodMatrix(reduced, genus);
+			EXPECT_GE(std::abs(reduced(0, 0)), 1.0 - 1e-9);
+			EXPECT_LE(reduced.real().cwiseAbs().maxCoeff(), 0.5 + 1e-9);
+			for (int i = 0; i < genus; ++i)
+				for (int j = i + 1; j < genus; ++j) { // Lagrange
+					EXPECT_LE(2.0 * std::abs(reduced(i, j).imag()), reduced(i, i).imag() + 1e-9);
+					EXPECT_LE(reduced(i, i).imag(), reduced(j, j).imag() + 1e-9);
+				}
+			if (genus < 4) {
+				EXPECT_LT(classDistance(omega, reduced, 1e-4), 1e-6);
+			}
+		}
 }
 
 } // namespace

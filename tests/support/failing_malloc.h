@@ -2,7 +2,10 @@
 #ifndef RICCI_TESTS_FAILING_MALLOC_H
 #define RICCI_TESTS_FAILING_MALLOC_H
 
+#include <gtest/gtest.h>
+
 #include <cstdlib> // tells whether the C library is glibc
+#include <new>
 
 // A C library whose allocations fail on demand. A program that lists failing_malloc.cpp among its
 // sources has it in place of malloc() and its kin for the whole process, CHOLMOD and BLAS included.
@@ -51,6 +54,36 @@ public:
 	/// Blocks that were released again after their release.
 	long freedTwice() const;
 };
+
+/// Fails the n-th allocation of \p action, for n = 0, 1, ..., in growing steps after some hundred, until it
+/// runs through without one.
+/// \param check is called after each try, with whether the action came to its end, the number of
+/// failures, and n
+/// \return how many n were tried
+template<class Prepare, class Action, class Check>
+long failEveryAllocation(Failing which, Prepare prepare, Action action, Check check)
+{
+	for (long n = 0;; n += 1 + n / 256) {
+		prepare();
+		bool completed = false, expected = true;
+		FailingMalloc failing(n, which);
+		try {
+			action();
+			completed = true;
+		}
+		catch (const std::bad_alloc&) {
+		}
+		catch (...) {
+			expected = false;
+		}
+		failing.end();
+		EXPECT_EQ(failing.freedTwice(), 0) << "freed twice after the failure of allocation " << n;
+		EXPECT_TRUE(expected) << "another exception than bad_alloc at allocation " << n;
+		check(completed, failing.failures(), n);
+		if (failing.failures() == 0 || ::testing::Test::HasFailure())
+			return n;
+	}
+}
 
 } // namespace ricci::testing
 

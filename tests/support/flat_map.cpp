@@ -1,61 +1,53 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_map.h"
 
-#include "complex.h"
 #include "shapes.h"
 
 #include <ricci/charts/chart_overlap.h>
-#include <ricci/charts/input_indices.h>
 #include <ricci/error.h>
-#include <ricci/measure/distortion.h>
-#include <ricci/pipeline/whole_map.h>
-#include <ricci/surface/triangulation.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace ricci::testing {
 
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-} // namespace
-
 FlatMap::FlatMap(const SurfaceMesh& mesh, const UV& uv)
 {
-	const Triangulation t(static_cast<int>(mesh.positions.size()), mesh.triangles);
-	boundary = t.boundaryVertices().values();
-	for (char b : boundary)
-		curvature.push_back(b ? kPi : 2 * kPi);
-	HalfedgeArray<Complex> place(t.halfedgeCount());
-	for (const Face f : t.faces()) {
-		const auto h = t.halfedges(f);
-		std::array<Complex, 3> p;
-		for (std::size_t k = 0; k < 3; ++k)
-			place[h[k]] = p[k] = asComplex(uv[at(f)][k]);
-		area += 0.5 * (std::conj(p[1] - p[0]) * (p[2] - p[0])).imag();
-		for (std::size_t k = 0; k < 3; ++k)
-			curvature[at(t.origin(h[k]))] -=
-				std::abs(std::arg((p[(k + 2) % 3] - p[k]) / (p[(k + 1) % 3] - p[k])));
+	curvature.assign(mesh.positions.size(), 2 * kPi);
+	boundary.assign(mesh.positions.size(), 0);
+	std::map<std::pair<int, int>, std::array<Point2, 2>>
+		sides; // by the vertices, from one to the other
+	double extent = 0.0;
+	for (std::size_t f = 0; f < uv.size(); ++f) {
+		const Triangle2& p = uv[f];
+		area += 0.5 * doubledArea(p);
+		for (std::size_t k = 0; k < 3; ++k) {
+			const std::size_t next = (k + 1) % 3, last = (k + 2) % 3;
+			sides[{mesh.triangles[f][k], mesh.triangles[f][next]}] = {p[k], p[next]};
+			curvature[at(mesh.triangles[f][k])] -=
+				std::abs(std::arg(asComplex(p[last] - p[k]) / asComplex(p[next] - p[k])));
+			extent = std::max(extent, length(p[k]));
+		}
 	}
 	// What the coordinates' own last places make of a length.
-	double rounding = 0.0;
-	for (const Complex& p : place)
-		rounding = std::max(rounding, 8 * std::numeric_limits<double>::epsilon() * std::abs(p));
-	for (const Edge e : t.edges()) {
-		if (t.isBoundary(e))
-			continue;
-		const Halfedge h = e.halfedge(), g = h.twin();
-		const Complex a = place[h], b = place[t.next(h)];
-		const Complex c = place[t.next(g)], d = place[g];
-		if (a == c && b == d)
-			continue;
-		++seamEdges;
-		const double difference = std::abs(std::abs(b - a) - std::abs(d - c));
-		seamMismatch = std::max(seamMismatch, (difference - rounding) / std::abs(d - c));
+	const double rounding = 8 * std::numeric_limits<double>::epsilon() * extent;
+	for (const auto& [ends, side] : sides) {
+		const auto found = sides.find({ends.second, ends.first});
+		if (found == sides.end())
+			boundary[at(ends.first)] = boundary[at(ends.second)] = 1;
+		else if (const auto& other = found->second;
+				 ends.first < ends.second && (side[0] != other[1] || side[1] != other[0])) {
+			++seamEdges;
+			const double own = distance(side[0], side[1]), its = distance(other[0], other[1]);
+			seamMismatch = std::max(seamMismatch, (std::abs(own - its) - rounding) / its);
+		}
 	}
+	for (std::size_t v = 0; v < curvature.size(); ++v)
+		if (boundary[v])
+			curvature[v] -= kPi;
 }
 
 double FlatMap::insideError(const std::vector<double>& target) const
@@ -77,9 +69,8 @@ double FlatMap::error(const std::vector<double>& target) const
 
 namespace {
 
-FlatResult withInputIndices(const SurfaceMesh& mesh, const OpenedMesh& opened, Parametrization map)
+FlatResult withUV(const SurfaceMesh& mesh, Parametrization map)
 {
-	toInputIndices(mesh, opened, map);
 	FlatResult result{std::move(map), UV(mesh.triangles.size())};
 	for (const int f : result.mesh.points.indices())
 		for (const Corner c : cornersOf(f))
@@ -91,36 +82,87 @@ FlatResult withInputIndices(const SurfaceMesh& mesh, const OpenedMesh& opened, P
 
 } // namespace
 
-double qcOf(const SurfaceMesh& mesh, const FlatResult& map, std::size_t face)
+std::vector<std::array<Point3, 3>> inSpace(const SurfaceMesh& mesh, const Parametrization& map)
 {
-	const Triangle& t = mesh.triangles[face];
-	return quasiConformalDistortion(
-		{mesh.positions[at(t[0])], mesh.positions[at(t[1])], mesh.positions[at(t[2])]},
-		map.uv[face]);
+	const std::vector<Point3> places = map.mesh.onSurface(mesh.positions);
+	std::vector<std::array<Point3, 3>> triangles;
+	for (const Triangle& t : map.mesh.vertices)
+		triangles.push_back({places[at(t[0])], places[at(t[1])], places[at(t[2])]});
+	return triangles;
 }
 
-std::size_t overlapsIn(const FlatMesh& mesh)
+Distortion::Distortion(const std::vector<std::array<Point3, 3>>& from, const UV& to)
 {
+	std::vector<double> after, larger; // singular value
+	double total = 0.0, totalAfter = 0.0;
+	for (std::size_t f = 0; f < to.size(); ++f) {
+		// The triangle in a plane of its own, and the map z -> a z + b conj(z) of its sides.
+		const Point3 u = from[f][1] - from[f][0], v = from[f][2] - from[f][0];
+		const double x = length(u);
+		const std::complex<double> w{dot(u, v) / x, length(cross(u, v)) / x};
+		const auto p = asComplex(to[f][1] - to[f][0]), q = asComplex(to[f][2] - to[f][0]);
+		const std::complex<double> along = p / x; // a + b
+		const std::complex<double> a =
+			(q - along * std::conj(w)) / std::complex<double>(0.0, 2.0 * w.imag());
+		const std::complex<double> b = along - a;
+		larger.push_back(std::abs(a) + std::abs(b));
+		qc.push_back(larger.back() / std::abs(std::abs(a) - std::abs(b)));
+		area.push_back(0.5 * x * w.imag());
+		after.push_back(0.5 * std::abs(doubledArea(to[f])));
+		total += area.back();
+		totalAfter += after.back();
+	}
+	double mean = 0.0, square = 0.0, energy = 0.0, inverse = 0.0;
+	for (std::size_t f = 0; f < to.size(); ++f) {
+		const double share = area[f] / total, s = after[f] / totalAfter / share;
+		qcMean += qc[f] / static_cast<double>(qc.size());
+		qcAreaMean += share * qc[f];
+		qcMax = std::max(qcMax, qc[f]);
+		areaMean += share * std::max(s, 1.0 / s);
+		mean += share * std::log(s);
+		square += share * std::log(s) * std::log(s);
+		const double squares = (1.0 + 1.0 / (qc[f] * qc[f])) * larger[f] * larger[f];
+		energy += share * squares;
+		inverse += share * squares / std::pow(larger[f] * larger[f] / qc[f], 2);
+	}
+	areaSpread = std::sqrt(std::max(0.0, square - mean * mean));
+	stretch = 2.0 * std::sqrt(energy * inverse);
+}
+
+Distortion::Distortion(const SurfaceMesh& mesh, const Parametrization& map) :
+		Distortion(inSpace(mesh, map), map.mesh.corners().values())
+{
+}
+
+std::size_t overlapsIn(FlatMesh mesh)
+{
+	connect(mesh);
 	std::size_t pairs = 0;
 	const int last = *std::max_element(mesh.chart.begin(), mesh.chart.end());
-	for (const std::vector<int>& triangles : mesh.trianglesByChart(positionOf(last + 1)))
-		pairs += overlappingPairs(mesh.part(triangles)).size();
+	for (const std::vector<int>& triangles : mesh.trianglesByChart(at(last + 1)))
+		pairs += OverlapSearch(mesh.part(triangles).corners()).pairs().size();
 	return pairs;
 }
 
 FlatResult run(const SurfaceMesh& mesh, const Options& options, const VertexInput& input)
 {
-	OpenedMesh opened;
-	Parametrization map = chartsInPlane(mesh, input, options, opened);
-	return withInputIndices(mesh, opened, std::move(map));
+	Options unscaled = options;
+	unscaled.normalizeUV = false;
+	return withUV(mesh, parametrizeEuclidean(mesh, input, unscaled));
 }
 
 FlatResult
 runInDisk(const SurfaceMesh& mesh, const HyperbolicOptions& options, const VertexInput& input)
 {
-	OpenedMesh opened;
-	Parametrization map = chartsInDisk(mesh, input, options, opened);
-	return withInputIndices(mesh, opened, std::move(map));
+	Parametrization map = parametrizeHyperbolic(mesh, input, options);
+	const Array<int> chart = map.mesh.chartOfPoints();
+	for (const int i : map.mesh.place.indices()) {
+		const Chart& own = map.charts[at(chart[i])];
+		const Point2 inDisk = (2.0 / own.box.width()) * (map.mesh.place[i] - own.box.centre());
+		map.mesh.place[i] =
+			own.middle < 0 ? inDisk : asPoint(rounded(own.place.inverse())(asComplex(inDisk)));
+	}
+	return withUV(mesh, std::move(map));
 }
 
 VertexInput selecting(const SurfaceMesh& mesh, const std::vector<int>& vertices)

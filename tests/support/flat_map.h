@@ -5,6 +5,8 @@
 #include <ricci/parametrize.h>
 
 #include <array>
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace ricci::testing {
@@ -29,22 +31,38 @@ struct FlatMap
 	double error(const std::vector<double>& target) const;
 };
 
-/// A map before its charts are packed, in the indices of the input, with what it gives the input's faces.
+/// A map in the indices of the input, with what it gives the input's faces.
 struct FlatResult : Parametrization
 {
-	UV uv; ///< [face][corner]
+	UV uv; ///< [face][corner]; of a refinement at those corners that a piece has
 };
 
-/// quasiConformalDistortion() of a face of \p mesh.
-double qcOf(const SurfaceMesh& mesh, const FlatResult& map, std::size_t face);
+/// The triangles of a map of \p mesh, where they lie on it.
+std::vector<std::array<Point3, 3>> inSpace(const SurfaceMesh& mesh, const Parametrization& map);
+
+/// What the linear maps of triangles to their images do, by formulas of its own: ratio of the singular values,
+/// and areas at the scale at which the total area stays.
+struct Distortion
+{
+	std::vector<double> qc, area; ///< [triangle] area in space
+	double qcMean = 0.0, qcAreaMean = 0.0, qcMax = 1.0;
+	double areaMean = 0.0;   ///< of max(s, 1/s), weighted by area
+	double areaSpread = 0.0; ///< standard deviation of ln s
+	double stretch = 0.0;    ///< symmetric Dirichlet energy at the best scale, 4 of an isometry
+
+	/// \param from triangles in space, \param to their images
+	Distortion(const std::vector<std::array<Point3, 3>>& from, const UV& to);
+	/// Of the triangles of a map of \p mesh.
+	Distortion(const SurfaceMesh& mesh, const Parametrization& map);
+};
 
 /// Pairs of triangles of one chart that cover a part of the plane together.
-std::size_t overlapsIn(const FlatMesh& mesh);
+std::size_t overlapsIn(FlatMesh mesh);
 
-/// Charts in the plane, each from the origin.
+/// Charts in the plane, one beside the other, at the scale of the mesh.
 FlatResult run(const SurfaceMesh& mesh, const Options& options, const VertexInput& input = {});
 
-/// Charts in the Poincaré disk.
+/// Charts in the Poincaré disk, parts of divided disks at their places in it.
 FlatResult
 runInDisk(const SurfaceMesh& mesh, const HyperbolicOptions& options, const VertexInput& input = {});
 

@@ -4,6 +4,7 @@
 
 #include "shapes.h"
 
+#include <ricci/charts/chart_overlap.h>
 #include <ricci/charts/parametrization.h>
 #include <ricci/layout/flat_mesh.h>
 #include <ricci/measure/distortion.h>
@@ -68,6 +69,12 @@ inline int flippedIn(const FlatMesh& mesh)
 	for (const Triangle2& p : mesh.corners())
 		count += doubledArea(p[0], p[1], p[2]) <= 0.0;
 	return count;
+}
+
+/// All pairs of triangles are compared.
+inline std::vector<TrianglePair> overlappingPairs(const FlatMesh& chart)
+{
+	return OverlapSearch(chart.corners()).pairs();
 }
 
 } // namespace ricci::testing

@@ -3,6 +3,7 @@
 #define RICCI_TESTS_FLIPPED_FLOW_H
 
 #include "random.h"
+#include "run_flow.h"
 
 #include <ricci/curvature/hyperbolic_target.h>
 #include <ricci/curvature/target_curvature.h>

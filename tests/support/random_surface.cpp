@@ -9,8 +9,6 @@ namespace ricci::testing {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 std::vector<double> randomSteps(int n, double decades, Random& random)
 {
 	std::vector<double> at{0.0};

@@ -9,11 +9,21 @@
 
 namespace ricci::testing {
 
-namespace {
+double areaOf(const SurfaceMesh& mesh, std::size_t face)
+{
+	const Triangle& t = mesh.triangles[face];
+	const Point3& origin = mesh.positions[at(t[0])];
+	return 0.5 *
+		   length(cross(mesh.positions[at(t[1])] - origin, mesh.positions[at(t[2])] - origin));
+}
 
-constexpr double kPi = 3.14159265358979323846;
-
-} // namespace
+double areaOf(const SurfaceMesh& mesh)
+{
+	double area = 0.0;
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+		area += areaOf(mesh, f);
+	return area;
+}
 
 std::vector<Triangle> cells(int nu, int nv, const std::function<int(int, int)>& vertex)
 {

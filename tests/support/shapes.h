@@ -3,6 +3,7 @@
 #define RICCI_TESTS_SHAPES_H
 
 #include <ricci/base/indexed.h>
+#include <ricci/base/numbers.h>
 #include <ricci/surface/surface_mesh.h>
 
 #include <array>
@@ -21,6 +22,10 @@ std::size_t at(const Index<Self>& index)
 {
 	return positionOf(index);
 }
+
+/// Area of a face, and of all.
+double areaOf(const SurfaceMesh& mesh, std::size_t face);
+double areaOf(const SurfaceMesh& mesh);
 
 /// Number of places in a grid direction: open, or closed into a ring.
 enum class Ends { Open, Joined };

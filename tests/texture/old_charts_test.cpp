@@ -3,6 +3,7 @@
 
 #include "support/listener.h"
 
+#include <ricci/texture/nearest_fill.h>
 #include <ricci/texture/old_charts.h>
 
 #include <gtest/gtest.h>
@@ -14,85 +15,77 @@
 namespace ricci::testing {
 namespace {
 
-std::vector<TexturedFace> facesOf(const Square& square, const std::vector<Triangle2>& old)
+/// Faces in old pictures, and their charts.
+struct Old
 {
-	return carriedMesh(square, old, old).faces;
-}
+	std::vector<TexturedFace> faces;
+	std::vector<int> charts, all;
 
-std::size_t chartsOf(const std::vector<TexturedFace>& faces)
-{
-	const std::vector<int> charts = oldCharts(faces);
-	return std::set<int>(charts.begin(), charts.end()).size();
-}
+	explicit Old(std::vector<TexturedFace> textured) :
+			faces(std::move(textured)), charts(oldCharts(faces)), all(faces.size())
+	{
+		std::iota(all.begin(), all.end(), 0);
+	}
+	Old(const Square& square, const std::vector<Triangle2>& old) :
+			Old(carriedMesh(square, old, old).faces)
+	{
+	}
 
-std::vector<int> allOf(const std::vector<TexturedFace>& faces)
-{
-	std::vector<int> numbers(faces.size());
-	std::iota(numbers.begin(), numbers.end(), 0);
-	return numbers;
-}
+	std::size_t count() const { return std::set<int>(charts.begin(), charts.end()).size(); }
+};
 
 TEST(OldCharts, AreJoinedByEqualCoordinates)
 {
-	const Square square(6);
-	std::vector<TexturedFace> faces = facesOf(square, square.place);
-	EXPECT_EQ(chartsOf(faces), 1u);
-	// The right half moves away.
-	for (TexturedFace& face : faces)
-		if (std::min({face.uv[0][0], face.uv[1][0], face.uv[2][0]}) > 0.49)
-			for (Point2& p : face.uv)
-				p[0] += 0.25;
-	EXPECT_EQ(chartsOf(faces), 2u);
-	// It stays, but in another picture.
-	faces = facesOf(square, square.place);
-	for (TexturedFace& face : faces)
-		if (std::min({face.uv[0][0], face.uv[1][0], face.uv[2][0]}) > 0.49)
-			face.picture = 1;
-	EXPECT_EQ(chartsOf(faces), 2u);
-}
-
-TEST(OldCharts, TouchInAShatteredAtlas)
-{
 	Random random(733);
-	const Square square(5);
-	EXPECT_EQ(chartsOf(facesOf(square, shatteredAtlas(50, random))), 50u);
+	const Square square(6);
+	const Old whole(square, square.place);
+	EXPECT_EQ(whole.count(), 1u);
+	// The right half moves away, or stays, but in another picture.
+	for (const bool moves : {false, true}) {
+		std::vector<TexturedFace> faces = whole.faces;
+		for (TexturedFace& face : faces) {
+			if (std::min({face.uv[0][0], face.uv[1][0], face.uv[2][0]}) < 0.49)
+				continue;
+			face.picture = moves ? 0 : 1;
+			for (Point2& p : face.uv)
+				p[0] += moves ? 0.25 : 0.0;
+		}
+		EXPECT_EQ(Old(faces).count(), 2u);
+	}
+	EXPECT_EQ(Old(Square(5), shatteredAtlas(50, random)).count(), 50u); // they touch
 }
 
+/// The diagonals of the cells of 20 x 20 run through middles of texels.
 TEST(OldOwners, KnowTheTexelsOfEachChart)
 {
 	Random random(734);
-	const Square square(4);
-	const std::vector<TexturedFace> faces = facesOf(square, shatteredAtlas(32, random));
-	const std::vector<int> charts = oldCharts(faces);
-	const int size = 80; // the diagonals of the cells of 20 x 20 run through middles of texels
-	const OldOwners owners(faces, charts, allOf(faces), size, size);
+	const Old old(Square(4), shatteredAtlas(32, random));
+	const int size = 80;
+	const OldOwners owners(old.faces, old.charts, old.all, size, size);
 	for (int y = 0; y < size; ++y)
 		for (int x = 0; x < size; ++x) {
-			const bool onDiagonal = x % 20 == 19 - y % 20;
 			int count = 0;
-			for (std::size_t f = 0; f < faces.size(); ++f) {
-				if (!owners.of(charts[f]).has(static_cast<std::size_t>(y * size + x)))
+			for (std::size_t f = 0; f < old.faces.size(); ++f) {
+				if (!owners.of(old.charts[f]).has(static_cast<std::size_t>(y * size + x)))
 					continue;
 				++count;
 				const Point3 w =
-					nearestInTriangle(oldTexels(faces[f], size, size), {x + 0.5, y + 0.5});
+					nearestInTriangle(oldTexels(old.faces[f], size, size), {x + 0.5, y + 0.5});
 				EXPECT_GT(std::min({w[0], w[1], w[2]}), 0.0);
 			}
-			EXPECT_EQ(count, onDiagonal ? 0 : 1);
+			EXPECT_EQ(count, x % 20 == 19 - y % 20 ? 0 : 1);
 		}
 }
 
 TEST(OldOwners, KnowTheBlocksOfEachChart)
 {
 	Random random(735);
-	const Square square(4);
-	const std::vector<TexturedFace> faces = facesOf(square, shatteredAtlas(32, random));
-	const std::vector<int> charts = oldCharts(faces);
+	const Old old(Square(4), shatteredAtlas(32, random));
 	const Blocks blocks{83, 57};
-	OldOwners owners(faces, charts, allOf(faces), blocks.width, blocks.height);
+	OldOwners owners(old.faces, old.charts, old.all, blocks.width, blocks.height);
 	owners.addLevels(blocks.lastLevel());
 	int whole = 0, parts = 0;
-	for (const int chart : charts)
+	for (const int chart : old.charts)
 		for (int level = 0; level <= blocks.lastLevel(); ++level)
 			blocks.forLevel(level, [&](const Block& b) {
 				const int side = 1 << level;
@@ -103,17 +96,14 @@ TEST(OldOwners, KnowTheBlocksOfEachChart)
 						own += owners.of(chart).has(blocks.index({0, x, y}));
 					}
 				ASSERT_EQ(blocks.texels(b), all);
-				switch (owners.of(chart).of(level, blocks.index(b))) {
-				case OldOwners::Share::All:
+				const OldOwners::Share share = owners.of(chart).of(level, blocks.index(b));
+				if (share == OldOwners::Share::All)
 					EXPECT_EQ(own, all);
-					break;
-				case OldOwners::Share::None:
+				else if (share == OldOwners::Share::None)
 					EXPECT_EQ(own, 0);
-					break;
-				case OldOwners::Share::Part: // what overlaps is own and may look like a part
+				else // what overlaps is own and may look like a part
 					EXPECT_LT(own, all);
-					++parts;
-				}
+				parts += share == OldOwners::Share::Part;
 				whole += level > 0 && own == all;
 			});
 	EXPECT_GT(whole, 100);
@@ -123,19 +113,18 @@ TEST(OldOwners, KnowTheBlocksOfEachChart)
 TEST(OldOwners, ShareWhatOverlaps)
 {
 	const Square square(1);
-	std::vector<TexturedFace> faces = facesOf(square, square.place);
+	std::vector<TexturedFace> faces = carriedMesh(square, square.place, square.place).faces;
 	faces[1].uv = {Point2{1, 0}, Point2{0, 0}, Point2{1, 1}}; // on the first one, turned over
 	faces[1].vertices = {4, 5, 6};
-	const std::vector<int> charts = oldCharts(faces);
-	const OldOwners owners(faces, charts, allOf(faces), 10, 10);
-	const std::size_t middle = 6 * 10 + 7;
-	EXPECT_TRUE(owners.of(charts[0]).has(middle));
-	EXPECT_TRUE(owners.of(charts[1]).has(middle));
+	const Old old(faces);
+	const OldOwners owners(old.faces, old.charts, old.all, 10, 10);
+	for (const int chart : old.charts)
+		EXPECT_TRUE(owners.of(chart).has(6 * 10 + 7));
 }
 
+/// A thousand tiles, each with the whole picture in two triangles of one chart, in turns mirrored.
 TEST(OldOwners, CostsNoMoreThanAFewPicturesWhereAllFacesShowAllOfIt)
 {
-	// A thousand tiles, each with the whole picture in two triangles of one chart, in turns mirrored.
 	std::vector<TexturedFace> faces;
 	const std::vector<Triangle2> whole = box(0.0, 0.0, 1.0, 1.0);
 	for (int tile = 0; tile < 1000; ++tile)
@@ -150,15 +139,15 @@ TEST(OldOwners, CostsNoMoreThanAFewPicturesWhereAllFacesShowAllOfIt)
 					p[0] = 1.0 - p[0];
 			faces.push_back(face);
 		}
-	const std::vector<int> charts = oldCharts(faces);
+	const Old old(faces);
 	const int size = 256; // 65536 texels: one tick
 	Listener ticks;
-	const Task task(ticks);
-	const OldOwners owners(faces, charts, allOf(faces), size, size);
+	const OldOwners owners =
+		heard(ticks, [&] { return OldOwners(old.faces, old.charts, old.all, size, size); });
 	const int ofPictures = static_cast<int>(OldOwners::kMaxLayers) + 2, ofFaces = 2;
 	EXPECT_LE(ticks.calls(), 2 * (ofPictures + ofFaces));
 	EXPECT_GE(ticks.calls(), 2 * ofPictures - 4);
-	for (const int chart : charts)
+	for (const int chart : old.charts)
 		for (std::size_t texel = 0; texel < size * size; texel += 37) {
 			ASSERT_TRUE(owners.of(chart).has(texel));
 			ASSERT_FALSE(owners.of(chart).repeats());
@@ -176,6 +165,45 @@ TEST(OldTexels, StartInTheFirstPicture)
 	face.uv[1][0] = std::numeric_limits<double>::quiet_NaN();
 	for (const Point2& p : oldTexels(face, 100, 200))
 		EXPECT_TRUE(std::isfinite(p[0]));
+}
+
+/// By trying all; with one thread and with several.
+TEST(NearestFill, IsTheNearest)
+{
+	Random random(731);
+	for (int n : {0, 1, 2, 7, 40, 400}) {
+		const int width = 37, height = 23;
+		Picture<unsigned short> one(width, height);
+		std::vector<char> covered(static_cast<std::size_t>(width * height), 0);
+		std::vector<int> places;
+		for (int i = 0; i < n; ++i) {
+			places.push_back(random.index(width * height));
+			covered[positionOf(places.back())] = 1;
+			one.rgba[4 * positionOf(places.back())] =
+				static_cast<unsigned short>(places.back() + 1);
+		}
+		Picture<unsigned short> many = one;
+		fillFromNearest(covered, one.target(), 1);
+		fillFromNearest(covered, many.target(), 5);
+		EXPECT_EQ(one.rgba, many.rgba);
+		for (int at = 0; at < width * height; ++at) {
+			const auto square = [&](int other) {
+				const int dx = other % width - at % width, dy = other / width - at / width;
+				return dx * dx + dy * dy;
+			};
+			int least = std::numeric_limits<int>::max();
+			for (int other : places)
+				least = std::min(least, square(other));
+			const int taken = one.rgba[4 * positionOf(at)] - 1;
+			if (n == 0)
+				EXPECT_EQ(taken, -1);
+			else
+				ASSERT_EQ(square(taken), least);
+		}
+		Listener impatient(1);
+		EXPECT_THROW(
+			heard(impatient, [&] { fillFromNearest(covered, many.target(), 2); }), Cancelled);
+	}
 }
 
 } // namespace

@@ -122,7 +122,9 @@ struct Hit
 	Point3 weights{};
 };
 
-inline std::vector<Hit> hits(const std::vector<Triangle2>& atlas, int width, int height)
+/// visit(texel, hit) for the texels of a picture whose middles lie in a triangle of the atlas.
+template<class Visit>
+void forHits(const std::vector<Triangle2>& atlas, int width, int height, const Visit& visit)
 {
 	std::vector<Hit> found(static_cast<std::size_t>(width * height));
 	for (std::size_t i = 0; i < atlas.size(); ++i) {
@@ -135,7 +137,15 @@ inline std::vector<Hit> hits(const std::vector<Triangle2>& atlas, int width, int
 				hit = {static_cast<int>(i), nearestInTriangle(t, {x + 0.5, y + 0.5})};
 		});
 	}
-	return found;
+	for (std::size_t i = 0; i < found.size(); ++i)
+		if (found[i].triangle >= 0)
+			visit(i, found[i]);
+}
+
+/// Where on the square a texel lies.
+inline Point2 placeOf(const Square& square, const Hit& hit)
+{
+	return pointOf(square.place[positionOf(hit.triangle)], hit.weights);
 }
 
 /// A smooth function of the place on the square, between 0 and 1, of each of three channels.
@@ -154,16 +164,12 @@ Picture<Sample>
 paint(const Square& square, const std::vector<Triangle2>& atlas, int width, int height)
 {
 	Picture<Sample> picture(width, height);
-	const std::vector<Hit> found = hits(atlas, width, height);
-	for (std::size_t i = 0; i < found.size(); ++i) {
-		if (found[i].triangle < 0)
-			continue;
-		const Point2 p = pointOf(square.place[positionOf(found[i].triangle)], found[i].weights);
+	forHits(atlas, width, height, [&](std::size_t texel, const Hit& hit) {
 		for (std::size_t c = 0; c < 3; ++c)
-			picture.rgba[4 * i + c] =
-				static_cast<Sample>(std::round(painted(p, c) * std::numeric_limits<Sample>::max()));
-		picture.rgba[4 * i + 3] = std::numeric_limits<Sample>::max();
-	}
+			picture.rgba[4 * texel + c] = static_cast<Sample>(
+				std::round(painted(placeOf(square, hit), c) * std::numeric_limits<Sample>::max()));
+		picture.rgba[4 * texel + 3] = std::numeric_limits<Sample>::max();
+	});
 	return picture;
 }
 
@@ -194,23 +200,18 @@ Difference difference(
 	const Square& square, const std::vector<Triangle2>& atlas, const Picture<Sample>& picture)
 {
 	Difference d;
-	double sum = 0.0;
-	int count = 0;
-	const std::vector<Hit> found = hits(atlas, picture.width, picture.height);
-	for (std::size_t i = 0; i < found.size(); ++i) {
-		if (found[i].triangle < 0)
-			continue;
-		const Point2 p = pointOf(square.place[positionOf(found[i].triangle)], found[i].weights);
+	double sum = 0.0, count = 0.0;
+	forHits(atlas, picture.width, picture.height, [&](std::size_t texel, const Hit& hit) {
 		for (std::size_t c = 0; c < 3; ++c) {
+			const double sample = picture.rgba[4 * texel + c];
 			const double off = std::abs(
-				picture.rgba[4 * i + c] / static_cast<double>(std::numeric_limits<Sample>::max()) -
-				painted(p, c));
+				sample / std::numeric_limits<Sample>::max() - painted(placeOf(square, hit), c));
 			d.worst = std::max(d.worst, off);
 			sum += off * off;
 			++count;
 		}
-	}
-	d.rms = std::sqrt(sum / std::max(count, 1));
+	});
+	d.rms = std::sqrt(sum / std::max(count, 1.0));
 	return d;
 }
 

@@ -2,8 +2,6 @@
 #ifndef RICCI_REPORT_H
 #define RICCI_REPORT_H
 
-#include "math/histogram.h"
-
 #include <complex>
 #include <optional>
 #include <string>
@@ -62,7 +60,7 @@ struct Report
 	double qcAreaMean = 1.0;   ///< mean over the faces, weighted by their 3D area
 	double qcP99 = 1.0;        ///< 99th percentile over the faces
 	double qcMax = 1.0;
-	Histogram qcHistogram; ///< over the vertices that qcVertexMean runs over
+	std::vector<double> qcValues; ///< at the vertices that qcVertexMean runs over
 
 	std::vector<FlowState> flowStates; ///< in the order in which they were passed
 
@@ -70,7 +68,7 @@ struct Report
 	/// max(s, 1/s) over the faces, weighted by their 3D area: 1 where all areas keep their ratios.
 	double areaDistortionMean = 1.0;
 	double areaDistortionSpread = 0.0; ///< standard deviation of ln s, weighted by 3D area
-	Histogram areaHistogram;           ///< binary logarithms of s over the faces
+	std::vector<double> areaFactors;   ///< binary logarithms of s of the faces
 
 	/// Of a map to the plane: its symmetric Dirichlet energy at the best scale, stretchEnergy(); and with the
 	/// price of all seams, MapCost::total().
@@ -119,7 +117,8 @@ struct Report
 	/// Faces of the output that cover a part of the plane together with another one, in coordinates rounded
 	/// to float, and charts that these are in: see countOverlaps().
 	int overlappingFaces = 0, overlappingCharts = 0;
-	/// Plane: edges of seams whose two sides differ in length in these coordinates: see countUnequalSeams().
+	/// Edges of seams whose two sides differ in length in these coordinates, in the disk in hyperbolic length: see
+	/// countUnequalSeams().
 	int unequalSeams = 0;
 	/// Edges of the output cut so that no chart covers itself, across strips, or round triangles that floats
 	/// cannot hold in their chart. Where parts are joined elsewhere, seamEdges get fewer.

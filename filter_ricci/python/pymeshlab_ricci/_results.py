@@ -58,10 +58,10 @@ EUCLIDEAN_RESULTS = \
                   'texture vertices that the repair moved; one moved again in the stored '
                   'coordinates counts twice'),
  'ended_early': ('int',
-                 'searches for something better (cones that keep areas, shorter seams, repair, '
-                 'least distortion or stretch, cuts for room, the division of disks) that the '
-                 'bound on their work has ended: the map is valid, and could be a little '
-                 'better; the log says which'),
+                 'searches for something better (cones that keep areas, repair, least '
+                 'distortion or stretch, cuts for room, the division of disks) that the bound '
+                 'on their work has ended: the map is valid, and could be a little better; the '
+                 'log says which'),
  'flips': ('int', 'intrinsic flips, including those before the flow'),
  'refinement_points': ('int',
                        'points of the common refinement that are not vertices of the mesh; 0 '
@@ -112,9 +112,10 @@ EUCLIDEAN_RESULTS = \
                        'their chart or not, in the coordinates as floats; the charts that '
                        'these are in'),
  'unequal_seams': ('int',
-                   'Euclidean filter: edges of the seams whose two sides differ in length by '
-                   'more than 1/1000, in the coordinates as floats: flipped faces beside them '
-                   'were mended, or finish Least stretch has let the seams go'),
+                   'edges of the seams whose two sides differ in length, in the disk in '
+                   'hyperbolic length, by more than 1/1000, in the coordinates as floats: '
+                   'flipped faces beside them were mended, or finish Least stretch has let the '
+                   'seams go'),
  'overlap_cuts': ('int',
                   'edges of the output that are cut to separate them, or to set apart faces '
                   'that floats cannot hold in their chart; where parts are joined elsewhere, '

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../error.h"
 
-#include "text.h"
+#include "numbers.h"
 
 namespace ricci {
 

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -116,6 +117,24 @@ private:
 	const HelpFlag* m_outerFlag;
 	double m_outerMemoryLimit;
 };
+
+/// What \p action() returns. An error is no result, but is logged; a stop of the run is a stop.
+/// \param otherwise what is done without the result, for the log
+/// \throw Stopped
+template<class Action>
+auto attempt(const std::string& otherwise, Action action) -> std::optional<decltype(action())>
+{
+	try {
+		return action();
+	}
+	catch (const Stopped&) {
+		throw;
+	}
+	catch (const Error& error) {
+		logLine(error.what() + (": " + otherwise) + ".");
+		return std::nullopt;
+	}
+}
 
 } // namespace ricci
 

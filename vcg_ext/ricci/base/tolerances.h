@@ -88,10 +88,6 @@ constexpr double kFirstShift = 1e-14;
 /// How far the estimate of Newton's rounding floor may be from what is observed.
 constexpr double kFloorUncertainty = 20.0;
 
-/// Above this rounding floor the last steps are made in extended precision, so that the layout
-/// closes.
-constexpr double kMaxDoubleFloor = 1e-12;
-
 /// Orders of magnitude between scale factors whose squares the digits of a double still hold.
 constexpr double kMaxScales = 7.0;
 
@@ -105,9 +101,6 @@ constexpr double kBalanced = 1e-14, kStalledBalance = 1e-10, kNoSlope = 1e-14;
 
 /// A step of the search for rounded curvatures must lower the energy by this share of its scale.
 constexpr double kMinRoundingGain = 1e-12;
-
-/// A move must shorten the cut by this share of what it replaces, or it could be undone by rounding.
-constexpr double kMinCutGain = 1e-9;
 
 /// The smoothing of a surface for the cost of seams: divisor in place of four times an area of 0;
 /// bound of cotangents; smallest weight of an edge, so that the matrix is positive definite; share of
@@ -205,9 +198,6 @@ constexpr double kRegularisation = 1e-6;
 
 /// Below this step length Newton's direction has failed.
 constexpr double kMinNewtonStep = 1e-10;
-
-/// Below this residual, in radians, a solve that rounding stopped goes on in extended precision.
-constexpr double kWorthExtending = 1e-4;
 
 /// Canonical generators that move 0 farther than this (hyperbolic distance) are not given: their
 /// numbers of about 1e8 no longer hold |a|^2 - |b|^2 = 1 in double precision.

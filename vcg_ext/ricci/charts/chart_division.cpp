@@ -4,7 +4,6 @@
 #include "../base/task.h"
 #include "../math/adjacency.h"
 #include "../math/min_cut.h"
-#include "border_flow.h"
 #include "connected_pieces.h"
 
 #include <algorithm>
@@ -18,12 +17,15 @@ namespace {
 
 using Parts = std::vector<std::vector<int>>; // triangles of each
 
+/// What a triangle is for a cut.
+enum Terminal : char { kNoTerminal, kSource, kSink };
+
 /// Divides a chart so that no part contains both triangles of a pair.
 class ChartDivider
 {
 public:
 	ChartDivider(const FlatMesh& chart, const std::vector<TrianglePair>& pairs) :
-			m_chart(chart), m_graph(chart), m_flow(m_graph), m_minCut(chart.size()),
+			m_chart(chart), m_graph(chart), m_minCut(chart.size()),
 			m_terminal(chart.size(), kNoTerminal), m_scratch(chart.size(), -1),
 			m_rivals(chart.size(), [&](const auto& add) {
 				for (const TrianglePair& pair : pairs) {
@@ -100,15 +102,11 @@ private:
 				if (m_terminal[i] == kNoTerminal && hasRival(i))
 					claim(i);
 			});
-		m_flow.find(sheet, covered, m_terminal);
 		const MinCut::Side side =
 			m_minCut.run(sheet, covered, [&](int i, const MinCut::AddEdge& add) {
 				neighbours(i, [&](int j, Corner across) {
-					if (m_terminal[i] != kNoTerminal && m_terminal[i] == m_terminal[j])
-						return;
-					const std::int64_t weight = m_graph.weight(across),
-									   flow = m_flow.across(across);
-					add(j, weight - flow, weight + flow);
+					if (m_terminal[i] == kNoTerminal || m_terminal[i] != m_terminal[j])
+						add(j, m_graph.weight(across), m_graph.weight(across));
 				});
 			});
 		for (const std::vector<int>* marked : {&sheet, &covered})
@@ -158,7 +156,6 @@ private:
 	DualGraph m_graph;
 	Array<int>& m_part = m_graph.part;
 	int m_partCount = 0;
-	BorderFlow m_flow;
 	MinCut m_minCut;
 	Array<Terminal> m_terminal;   // [triangle] kNoTerminal between cuts
 	Array<int> m_scratch;         // [triangle] -1 between uses
@@ -223,14 +220,11 @@ leastCut(const DualGraph& graph, const std::vector<int>& from, const std::vector
 		}
 		return rim;
 	};
-	const std::vector<int> sources = rimOf(from), sinks = rimOf(to);
-	BorderFlow flow(graph);
-	flow.find(sources, sinks, terminal);
 	const MinCut::Side side =
-		MinCut(terminal.size()).run(sources, sinks, [&](int i, const MinCut::AddEdge& add) {
+		MinCut(terminal.size()).run(rimOf(from), rimOf(to), [&](int i, const MinCut::AddEdge& add) {
 			forEdges(i, [&](int j, Corner own) {
-				const std::int64_t weight = graph.weight(own), along = flow.across(own);
-				add(j, weight - along, weight + along);
+				const std::int64_t weight = graph.weight(own);
+				add(j, weight, weight);
 			});
 		});
 	Array<int> part(terminal.size(), 0);

@@ -143,12 +143,13 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching) :
 {
 }
 
-OverlapSearch::OverlapSearch(const FlatMesh& chart) : OverlapSearch(chart.corners(), -1.0, &chart)
+OverlapSearch::OverlapSearch(const FlatMesh& charts, double touching) :
+		OverlapSearch(charts.corners(), touching, &charts)
 {
 }
 
-/// \param chart of the triangles, or none
-OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching, const FlatMesh* chart) :
+/// \param charts of the triangles, or none
+OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching, const FlatMesh* charts) :
 		m_plane(std::move(triangles)), m_isProper(m_plane.size()), m_tree(boxTreeOf(m_plane)),
 		m_touching(touching >= 0.0 ? touching : kTouching * m_tree.extent())
 {
@@ -162,7 +163,7 @@ OverlapSearch::OverlapSearch(Array<Triangle2> triangles, double touching, const 
 	}
 	m_hasFolds = std::find(m_isProper.begin(), m_isProper.end(), 0) != m_isProper.end();
 	m_isComplete = area <= kManySheets * box.width() * box.height();
-	if (m_isComplete && (!chart || m_hasFolds || !growPairs(*chart)))
+	if (m_isComplete && (!charts || m_hasFolds || !growPairs(*charts)))
 		listPairs();
 	if (m_isComplete)
 		return;
@@ -373,11 +374,6 @@ std::vector<TrianglePair> OverlapSearch::uncovered(const Array<int>& part) const
 	}
 	std::sort(pairs.begin(), pairs.end());
 	return pairs;
-}
-
-std::vector<TrianglePair> overlappingPairs(const FlatMesh& chart)
-{
-	return OverlapSearch(chart.corners()).pairs();
 }
 
 } // namespace ricci

@@ -49,9 +49,9 @@ public:
 	/// \param touching depth to which triangles only touch; -1: kTouching of their extent
 	explicit OverlapSearch(Array<Triangle2> triangles, double touching = -1.0);
 
-	/// The same pairs. They are followed from the border of the chart where that is short and no triangle is
-	/// flipped: the search then depends on its length and on the number of pairs.
-	explicit OverlapSearch(const FlatMesh& chart);
+	/// The same pairs. They are followed from the borders of the charts where these are short and no triangle
+	/// is flipped: the search then depends on their length and on the number of pairs.
+	explicit OverlapSearch(const FlatMesh& charts, double touching = -1.0);
 
 	/// In increasing order.
 	const std::vector<TrianglePair>& pairs() const { return m_pairs; }
@@ -76,7 +76,7 @@ public:
 private:
 	enum class Meeting { None, Hidden, Overlap };
 
-	OverlapSearch(Array<Triangle2> triangles, double touching, const FlatMesh* chart);
+	OverlapSearch(Array<Triangle2> triangles, double touching, const FlatMesh* charts);
 
 	bool growPairs(const FlatMesh& chart);
 	void listPairs();
@@ -112,9 +112,6 @@ private:
 	std::vector<TrianglePair> m_pairs;
 	std::vector<HiddenPair> m_hidden;
 };
-
-/// OverlapSearch::pairs().
-std::vector<TrianglePair> overlappingPairs(const FlatMesh& chart);
 
 } // namespace ricci
 

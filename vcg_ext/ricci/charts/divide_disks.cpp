@@ -4,7 +4,6 @@
 #include "../base/floating_point.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
-#include "../finish/validity.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../math/shortest_paths.h"
 #include "separate_charts.h"
@@ -19,14 +18,6 @@
 namespace ricci {
 
 namespace {
-
-/// What a triangle must be in the unit disk where so many disks are placed in the square.
-Validity validityOf(std::size_t disks)
-{
-	const double perRow = std::ceil(std::sqrt(static_cast<double>(disks)));
-	const double step = 2.0 * perRow * floatStep(1.0), height = kMinFloatSteps * step;
-	return {height, kWantedHeights * height, false, step};
-}
 
 Point2 moved(const ExtendedIsometry& g, const Point2& p)
 {
@@ -116,6 +107,13 @@ farthestInvalid(const FlatMesh& chart, const Cells& cells, const Validity& valid
 
 } // namespace
 
+Validity diskValidity(std::size_t disks)
+{
+	const double perRow = std::ceil(std::sqrt(static_cast<double>(disks)));
+	const double height = kMinFloatSteps * (2.0 * perRow * floatStep(1.0));
+	return {height, kWantedHeights * height};
+}
+
 bool divideDisks(Parametrization& map)
 {
 	FlatMesh& mesh = map.mesh;
@@ -126,7 +124,7 @@ bool divideDisks(Parametrization& map)
 	for (bool grows = true; grows && !endsEarly;) {
 		grows = false;
 		const bool isFull = disks >= kMaxDisks;
-		const Validity validity = validityOf(disks);
+		const Validity validity = diskValidity(disks);
 		for (std::size_t c = 0; c < triangles.size(); ++c) {
 			const bool isValid = std::all_of(triangles[c].begin(), triangles[c].end(), [&](int f) {
 				return validity.isValid(mesh.at(f));

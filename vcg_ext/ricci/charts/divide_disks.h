@@ -2,9 +2,15 @@
 #ifndef RICCI_DIVIDE_DISKS_H
 #define RICCI_DIVIDE_DISKS_H
 
+#include "../finish/validity.h"
 #include "parametrization.h"
 
+#include <cstddef>
+
 namespace ricci {
+
+/// What a triangle must be in the unit disk, so that floats hold it where so many disks are placed in the square.
+Validity diskValidity(std::size_t disks);
 
 /// Divides the charts in the Poincaré disk that reach too far out for floats: a triangle at the distance r from
 /// 0 is drawn e^r times smaller than at 0. The parts are the Voronoi cells of some triangles, the first of which

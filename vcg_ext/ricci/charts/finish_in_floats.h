@@ -15,26 +15,31 @@ struct FloatFinish
 	bool forText = true;
 	/// Measures the distortion of the map again.
 	std::function<void()> measure;
-	/// Packs the charts of the map once more: triangles that cannot be mended in the box of their chart
-	/// are mended as if the chart were alone, a few times at most. Without it all stay in their boxes.
+	/// Packs the charts of the map once more. Without it no triangle is cut off.
 	std::function<void()> packAgain;
-	/// With \p packAgain, too: triangles that cannot be mended so are cut off, as charts of their own.
-	bool mayCut = false;
 };
 
 /// The last look at a packed map, at the coordinates as they will be stored: mends the triangles that are
-/// flipped or flat once the coordinates are rounded to float, or lower than a few steps of a float.
-/// Points move by a few steps near these triangles, to floats, and no others; the report's finishMoved
-/// counts them, and where there are any the distortion is measured again. No border is made to cross
-/// another. Seams stay isometric up to the rounding, but where a triangle can be mended in no other way.
+/// flipped or flat once the coordinates are rounded to float, or lower than a few steps of a float. Points near
+/// them move by a few steps, and no others; the report's finishMoved counts them, and where there are any the
+/// distortion is measured again. Seams stay isometric, and nothing is made to overlap. A triangle that cannot
+/// be mended so is cut off as a chart of its own, as high as floats need, and all are packed again.
 /// \param map after packCharts()
 void finishInFloats(const FloatFinish& finish, Parametrization& map);
 
-/// placeDisks(), and the same for the disks, whose seams move by steps of floats like points inside. Where
-/// triangles cannot be mended, the disks are divided before they are placed (divideDisks()), if that leaves
-/// fewer of them.
+/// What finishDisks() has to know.
+struct DiskFinish
+{
+	bool freeBoundary = false;
+	bool isRefined = false; ///< the triangles keep their shapes
+};
+
+/// The same for charts in the Poincaré disk, before placeDisks(): mends the triangles that are flipped, or that
+/// floats cannot hold. Copies of a seam vertex move together, by the isometries that pair the sides, and a
+/// patch that would leave the disk or make triangles overlap stays as it was. Where triangles cannot be mended,
+/// the disks are divided (divideDisks()), if that leaves fewer of them.
 /// \return whether points were moved or disks divided
-bool placeDisksInFloats(Parametrization& map);
+bool finishDisks(const DiskFinish& finish, Parametrization& map);
 
 } // namespace ricci
 

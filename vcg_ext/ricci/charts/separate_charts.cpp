@@ -8,7 +8,6 @@
 #include "chart_overlap.h"
 #include "dual_graph.h"
 #include "join_parts.h"
-#include "simple_border.h"
 
 #include <algorithm>
 #include <cmath>
@@ -197,11 +196,6 @@ void separateCharts(bool turns, Parametrization& map)
 	for (std::size_t c = 0; c < byChart.size(); ++c) {
 		const std::vector<int>& triangles = byChart[c];
 		checkpoint();
-		if (hasSimpleBorder(map.mesh, triangles)) {
-			add(triangles, std::move(map.charts[c]));
-			continue;
-		}
-		checkpoint();
 		FlatMesh chart = map.mesh.part(triangles);
 		const OverlapSearch overlaps(chart);
 		checkpoint();
@@ -315,28 +309,24 @@ void cutChart(const ChartCut& cut, bool turns, Parametrization& map)
 	map.report.seamLength += cut.length;
 }
 
-bool cutOff(const std::vector<char>& isOff, Parametrization& map)
+void cutOff(const std::vector<int>& triangles, Parametrization& map)
 {
 	DualGraph graph(map.mesh);
-	for (const int f : graph.part.indices())
-		graph.part[f] = isOff[positionOf(f)] != 0 ? 1 : 0;
+	std::set<int> charts;
+	int off = 0;
+	for (const int f : triangles) {
+		graph.part[f] = ++off;
+		charts.insert(map.mesh.chart[f]);
+	}
 	const Seams before = seams(map.mesh);
 	std::vector<int> divided;
 	const Parts byChart = map.mesh.trianglesByChart(map.charts.size());
-	for (std::size_t c = 0; c < byChart.size(); ++c) {
-		const auto off = std::count_if(
-			byChart[c].begin(), byChart[c].end(), [&](int f) { return graph.part[f] != 0; });
-		if (off == 0 || off == static_cast<std::ptrdiff_t>(byChart[c].size()))
-			continue;
-		for (const int piece : divide(static_cast<int>(c), graph.connectedPieces(byChart[c]), map))
+	for (const int c : charts)
+		for (const int piece : divide(c, graph.connectedPieces(byChart[positionOf(c)]), map))
 			divided.push_back(piece);
-	}
-	if (divided.empty())
-		return false;
 	splitPoints(map.mesh);
 	settle(divided, false, map);
 	countCuts(before, map);
-	return true;
 }
 
 } // namespace ricci

@@ -57,12 +57,9 @@ std::optional<ChartCut> findCutForRoom(const Parametrization& map, double onSurf
 /// Makes a cut. The pieces are left as those of separateCharts(), in the report, too.
 void cutChart(const ChartCut& cut, bool turns, Parametrization& map);
 
-/// Divides the charts that have triangles of both kinds: each connected part of one kind becomes a chart
-/// from the origin, in the directions that it has. The report counts the charts and the cuts as
-/// separateCharts() does.
-/// \param isOff [triangle]
-/// \return whether there are such charts
-bool cutOff(const std::vector<char>& isOff, Parametrization& map);
+/// Makes each of some triangles a chart, and each connected part of what they leave of their charts: from the
+/// origin, in the directions that it has. The report counts the charts and the cuts as separateCharts() does.
+void cutOff(const std::vector<int>& triangles, Parametrization& map);
 
 } // namespace ricci
 

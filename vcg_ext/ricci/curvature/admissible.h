@@ -4,7 +4,7 @@
 
 #include "../base/tolerances.h"
 #include "../flow/target.h"
-#include "../surface/topology.h"
+#include "../surface/triangulation.h"
 
 #include <vector>
 

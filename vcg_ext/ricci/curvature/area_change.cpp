@@ -2,7 +2,7 @@
 #include "area_change.h"
 
 #include "../base/tolerances.h"
-#include "../flow/map_cost.h"
+#include "../flow/target.h"
 #include "../metric/area.h"
 
 #include <algorithm>

@@ -30,8 +30,6 @@ constexpr double kTwinShare = 1e-6;
 /// So many fields add up about as fast as the two linear solutions that give the same sum.
 constexpr int kFieldsOfASolution = 64;
 
-constexpr double kUnknown = -std::numeric_limits<double>::infinity();
-
 } // namespace
 
 VertexVector
@@ -364,12 +362,13 @@ double ConeModel::minEnergyAt(int i, const Reach& reach, double ownProduct) cons
 	const Fit& fit = m_now.fit;
 	const int row = i + border();
 	const double pivot = m_now.inverse.rows() > 0 ? m_now.inverse(row, row) : 0.0;
+	const double unknown = -std::numeric_limits<double>::infinity();
 	if (!(pivot > 0.0))
-		return kUnknown;
+		return unknown;
 	const double along = m_now.inverse.col(row).dot(reach.products), k = fit.minimum[i];
 	const double beyond = ownProduct - reach.span + along * along / pivot;
 	if (!(beyond > kMinPivot * ownProduct))
-		return kUnknown;
+		return unknown;
 	// Half the slope at the vertex when the others have made up for cone i.
 	double slope =
 		m_start[reach.vertex] + reach.products.tail(size()).dot(fit.minimum) - along * k / pivot;

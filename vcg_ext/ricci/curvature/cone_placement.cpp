@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cone_placement.h"
 
-#include "../base/numbers.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
 #include "../error.h"
@@ -18,6 +17,16 @@
 namespace ricci {
 
 namespace {
+
+/// By this factor the distortion of a given number of cones may grow for shorter seams.
+constexpr double kSeamAllowance = 1.05;
+
+/// Where the distortion decides how many cones are placed, there are at most this many, or as many as
+/// lower energy and price of seams, if those are more, up to the second number and while there are no
+/// more than so many numbers to keep, one for each cone and vertex. The search takes time in proportion to
+/// them, and less is worth while where there is another map.
+constexpr int kMaxPlacedCones = 64, kMaxNeededCones = 512, kMaxConeNumbers = 64000000,
+			  kMaxConeNumbersBeside = 600000;
 
 /// Cones move once the distortion is within this factor of the wanted one.
 constexpr double kNearlyEnough = 1.1;
@@ -150,8 +159,7 @@ void placeForObjective(const ConeRequest& request, ConeModel& model, const ConeS
 		SeamTree tree(sites, model.vertices());
 		if (!dropCostlyCones(model, tree) && round > 0)
 			return;
-		if (request.shortSeams)
-			shortenConeTree(model, tree, sites, std::numeric_limits<double>::infinity());
+		shortenConeTree(model, tree, sites, std::numeric_limits<double>::infinity());
 	}
 }
 
@@ -230,7 +238,7 @@ void search(const ConeRequest& request, ConeModel& model, const ConeSites& sites
 		relocateCones(model, sites);
 	}
 	removeWeakCones(model);
-	if (request.shortSeams && !isForObjective(request)) {
+	if (!isForObjective(request)) {
 		SeamTree tree(sites, model.vertices());
 		shortenConeTree(
 			model,

@@ -2,23 +2,13 @@
 #ifndef RICCI_CONE_PLACEMENT_H
 #define RICCI_CONE_PLACEMENT_H
 
-#include "../flow/map_cost.h"
+#include "../flow/target.h"
 #include "cone_curvatures.h"
 #include "linear_flow.h"
 
 #include <vector>
 
 namespace ricci {
-
-/// By this factor the distortion of a given number of cones may grow for shorter seams.
-constexpr double kSeamAllowance = 1.05;
-
-/// Where the distortion decides how many cones are placed, there are at most this many, or as many as
-/// lower energy and price of seams, if those are more, up to the second number and while there are no
-/// more than so many numbers to keep, one for each cone and vertex. The search takes time in proportion to
-/// them, and less is worth while where there is another map.
-constexpr int kMaxPlacedCones = 64, kMaxNeededCones = 512, kMaxConeNumbers = 64000000,
-			  kMaxConeNumbersBeside = 600000;
 
 /// Cones that moreCones() adds at a time.
 constexpr int kMaxMoreCones = 64;
@@ -30,10 +20,6 @@ struct ConeRequest : ConeOptions
 	int vertices = -1; ///< cones lie at vertices with a number below this; -1: at any
 	/// What another map costs, see MapCost: the search for the objective ends where that is out of its reach.
 	double alternative = kNoAlternative;
-
-	/// Move cones towards the tree of their seams where that lowers energy and price of seams together:
-	/// up to the wanted distortion, or by kSeamAllowance for a given count.
-	bool shortSeams = true;
 };
 
 /// Cones that placeCones() has found.

@@ -3,7 +3,7 @@
 
 #include "../base/numbers.h"
 #include "../base/task.h"
-#include "../flow/map_cost.h"
+#include "../flow/target.h"
 #include "../math/shortest_paths.h"
 
 #include <algorithm>

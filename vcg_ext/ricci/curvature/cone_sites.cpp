@@ -3,7 +3,7 @@
 
 #include "../base/task.h"
 #include "../metric/area.h"
-#include "../surface/topology.h"
+#include "../surface/triangulation.h"
 
 #include <algorithm>
 #include <cmath>

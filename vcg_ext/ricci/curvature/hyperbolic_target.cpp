@@ -2,7 +2,6 @@
 #include "hyperbolic_target.h"
 
 #include "../base/numbers.h"
-#include "../base/text.h"
 #include "../error.h"
 
 #include <cmath>

@@ -294,7 +294,7 @@ public:
 	{
 		return *this;
 	}
-	const Eigen::VectorXd& solve(const Eigen::VectorXd& rest) const
+	Eigen::VectorXd solve(const Eigen::VectorXd& rest) const
 	{
 		checkpoint();
 		VertexVector sums = VertexVector::Zero(m_coarse->vertexCount());
@@ -302,10 +302,10 @@ public:
 			sums[Vertex((*m_aggregate)[v])] += rest[v];
 		// Of the two solutions the one that is symmetric: no mean is taken off.
 		const VertexVector smooth = m_coarse->gradient(sums.cwiseQuotient(m_coarse->area()));
-		m_solution = rest.cwiseQuotient(m_diagonal);
+		Eigen::VectorXd solution = rest.cwiseQuotient(m_diagonal);
 		for (const int v : m_aggregate->indices())
-			m_solution[v] += kStiffer * smooth[Vertex((*m_aggregate)[v])];
-		return m_solution;
+			solution[v] += kStiffer * smooth[Vertex((*m_aggregate)[v])];
+		return solution;
 	}
 	Eigen::ComputationInfo info() { return Eigen::Success; }
 
@@ -313,7 +313,6 @@ private:
 	Eigen::VectorXd m_diagonal;
 	const Array<int>* m_aggregate = nullptr;
 	LinearFlow* m_coarse = nullptr;
-	mutable Eigen::VectorXd m_solution; // kept as work space
 };
 
 /// Less curvature than this in all, radians, is one of rounding.

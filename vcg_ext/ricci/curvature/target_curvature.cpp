@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "target_curvature.h"
 
-#include "../base/attempt.h"
 #include "../base/numbers.h"
-#include "../base/text.h"
+#include "../base/task.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../math/double_double.h"

@@ -1,33 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cut_graph.h"
 
-#include "../base/parallel.h"
 #include "../error.h"
 #include "../math/adjacency.h"
 #include "../math/disjoint_sets.h"
 #include "../math/shortest_paths.h"
-#include "../surface/topology.h"
-#include "coarse_surface.h"
+#include "../surface/triangulation.h"
 #include "shorten_cut.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace ricci {
 
 namespace {
-
-/// Roots tried on a closed surface.
-constexpr int kRoots = 4;
-
-/// Vertices of a coarse surface, at least. Cuts that are found on more are hardly shorter in the end.
-constexpr int kMinCoarseVertices = 1500;
-
-/// Vertices of the surface for one of the coarse surface: at most, as every move looks for paths in many
-/// such parts; and at least, as else nothing is gained.
-constexpr int kMaxCoarsening = 100;
-constexpr double kMinCoarsening = 4.0;
 
 using NodePaths = ShortestPaths<Vertex, Halfedge>;
 
@@ -93,54 +79,47 @@ private:
 	Adjacency<Vertex, Halfedge> m_halfedges;
 };
 
-/// A spanning tree of the graph: shortest paths to the nearest of several roots, and edges that
-/// join the trees of the roots.
-struct SpanningTree
-{
-	NodePaths paths;
-	std::vector<Edge> bridges;
-};
-
-/// Shortest paths to the nearest terminal, joined by edges of which those that belong to the
-/// shortest connections of two terminals come first. What is left of the tree without its dead ends
-/// is at most twice as long as the shortest tree through the terminals [Mehlhorn 1988].
-SpanningTree treeOfTerminals(const ContractedGraph& graph, const std::vector<Vertex>& terminals)
+/// The edges of a spanning tree of the graph, and those that neither it nor a spanning tree of the dual crosses. The
+/// first tree consists of shortest paths to the nearest terminal, joined by edges of which those that belong to
+/// the shortest connections of two terminals come first. Without its dead ends it is at most twice as long as
+/// the shortest tree through the terminals [Mehlhorn 1988].
+EdgeArray<char> treeAndLoops(const ContractedGraph& graph, const VertexArray<char>& terminal)
 {
 	const Triangulation& t = graph.surface();
-	SpanningTree tree{graph.pathsFrom(terminals), {}};
+	std::vector<Vertex> roots;
+	for (const Vertex n : t.vertices())
+		if (terminal[n])
+			roots.push_back(n);
+	if (roots.empty())
+		roots.push_back(t.origin(t.halfedge(Face(0))));
+	const NodePaths paths = graph.pathsFrom(roots);
+	EdgeArray<char> isCut(t.edgeCount(), 0);
 	DisjointSetsOf<Vertex> joined(t.vertexCount());
-	for (const Halfedge h : tree.paths.parent)
-		if (h.isValid())
+	for (const Halfedge h : paths.parent)
+		if (h.isValid()) {
+			isCut[h.edge()] = 1;
 			joined.merge(graph.node(t.origin(h)), graph.node(t.target(h)));
+		}
+	// Of the path or loop that an edge closes. The dual tree crosses first what the cut must not use.
+	EdgeArray<double> length(t.edgeCount(), kFar);
 	std::vector<std::pair<double, Edge>> connections;
 	for (const Edge e : t.edges()) {
 		const Vertex a = graph.from(e), b = graph.to(e);
-		if (graph.isUsable(e) && joined.find(a) != joined.find(b))
-			connections.push_back(
-				{tree.paths.distance[a] + graph.cost(e) + tree.paths.distance[b], e});
+		if (graph.isUsable(e))
+			length[e] = paths.distance[a] + graph.cost(e) + paths.distance[b];
+		if (length[e] < kFar && joined.find(a) != joined.find(b))
+			connections.push_back({length[e], e});
 	}
 	std::sort(connections.begin(), connections.end());
-	for (const auto& [length, e] : connections)
+	for (const auto& [d, e] : connections)
 		if (joined.merge(graph.from(e), graph.to(e)))
-			tree.bridges.push_back(e);
-	return tree;
-}
-
-/// Interior edges that are neither in the tree nor crossed by the cotree.
-std::vector<Edge>
-leftOver(const ContractedGraph& graph, const NodePaths& paths, const EdgeArray<char>& inTree)
-{
-	const Triangulation& t = graph.surface();
-	// An edge that the cut must not use is crossed first.
-	EdgeArray<double> loopLength(t.edgeCount(), 0.0);
-	for (const Edge e : t.edges())
-		loopLength[e] = graph.isUsable(e) ? paths.distance[graph.from(e)] +
-												paths.distance[graph.to(e)] + graph.cost(e)
-										  : kFar;
-	std::vector<Edge> rest = edgesBesideCotree(t, inTree, loopLength);
-	if (!rest.empty() && loopLength[rest.front()] == kFar) // the longest
+			isCut[e] = 1;
+	const std::vector<Edge> rest = edgesBesideCotree(t, isCut, length);
+	if (!rest.empty() && length[rest.front()] == kFar) // the longest
 		throw NotConverged(NotConverged::NoCut);
-	return rest;
+	for (const Edge e : rest)
+		isCut[e] = 1;
+	return isCut;
 }
 
 /// Removes dead ends that are not terminals.
@@ -184,81 +163,6 @@ void measure(const ContractedGraph& graph, CutGraph& cut)
 		}
 }
 
-/// The cut that \p tree belongs to.
-CutGraph
-cutFrom(const ContractedGraph& graph, const VertexArray<char>& terminal, const SpanningTree& tree)
-{
-	CutGraph cut;
-	cut.isCut.assign(graph.surface().edgeCount(), 0);
-	for (const Halfedge h : tree.paths.parent)
-		if (h.isValid())
-			cut.isCut[h.edge()] = 1;
-	for (const Edge e : tree.bridges)
-		cut.isCut[e] = 1;
-	for (const Edge e : leftOver(graph, tree.paths, cut.isCut))
-		cut.isCut[e] = 1;
-	prune(graph, terminal, cut.isCut);
-	return cut;
-}
-
-/// Trees from which a cut is looked for: one through the terminals, and the paths to single roots.
-std::vector<SpanningTree> trees(const ContractedGraph& graph, const VertexArray<char>& terminal)
-{
-	const Triangulation& t = graph.surface();
-	const std::size_t loops = graph.loopNodes().size();
-	std::vector<Vertex> terminals;
-	for (const Vertex n : t.vertices())
-		if (terminal[n])
-			terminals.push_back(n);
-	std::vector<SpanningTree> found;
-	if (terminals.size() > 1) {
-		found.push_back(treeOfTerminals(graph, terminals));
-		// The tree is all that a sphere with holes needs.
-		if (t.eulerCharacteristic() + static_cast<int>(loops) == 2)
-			return found;
-	}
-	// On a surface with boundary the first loop is the root. On a closed one every next root is the
-	// node farthest from the roots before it.
-	const bool closed = loops == 0;
-	Vertex root = !closed             ? graph.loopNodes().front()
-				  : terminals.empty() ? t.origin(t.halfedge(Face(0)))
-									  : terminals.front();
-	VertexArray<double> fromRoots(t.vertexCount(), kFar);
-	for (int attempt = 0; attempt < (closed ? kRoots : 1); ++attempt) {
-		found.push_back({graph.pathsFrom({root}), {}});
-		double farthest = -1.0;
-		for (const Vertex n : fromRoots.indices()) {
-			fromRoots[n] = std::min(fromRoots[n], found.back().paths.distance[n]);
-			if (fromRoots[n] < kFar && fromRoots[n] > farthest) {
-				farthest = fromRoots[n];
-				root = n;
-			}
-		}
-	}
-	return found;
-}
-
-/// The shortest cut from any of trees().
-/// \param shorten shorten(isCut) is called for each of them before they are compared
-template<class Shorten>
-CutGraph shortestOfSeveral(
-	const ContractedGraph& graph, const VertexArray<char>& terminal, const Shorten& shorten)
-{
-	const std::vector<SpanningTree> from = trees(graph, terminal);
-	std::vector<CutGraph> cuts(from.size());
-	tasksInParallel(
-		static_cast<int>(from.size()), threadsFor(graph.surface().faceCount()), [&](int i) {
-			CutGraph& cut = cuts[positionOf(i)];
-			cut = cutFrom(graph, terminal, from[positionOf(i)]);
-			shorten(cut.isCut);
-			measure(graph, cut);
-		});
-	return std::move(
-		*std::min_element(cuts.begin(), cuts.end(), [](const CutGraph& a, const CutGraph& b) {
-			return a.length < b.length;
-		}));
-}
-
 /// Edges of the cut outside a spanning tree of it.
 std::vector<Edge> generators(const ContractedGraph& graph, const CutGraph& cut)
 {
@@ -268,34 +172,6 @@ std::vector<Edge> generators(const ContractedGraph& graph, const CutGraph& cut)
 		if (cut.isCut[e] && !joined.merge(graph.from(e), graph.to(e)))
 			edges.push_back(e);
 	return edges;
-}
-
-/// The coarse surface on which a cut is looked for, if there is one.
-std::optional<CoarseSurface> coarseSurface(
-	const Triangulation& t, const EdgeArray<double>& cost, const VertexArray<char>& marked)
-{
-	std::optional<CoarseSurface> coarse;
-	const int count = std::max(kMinCoarseVertices, t.vertexCount() / kMaxCoarsening);
-	const bool mayRunEverywhere =
-		std::all_of(cost.begin(), cost.end(), [](double c) { return c < kFar; });
-	if (mayRunEverywhere && t.vertexCount() > kMinCoarsening * count) {
-		coarse.emplace(t, cost, marked, count);
-		if (coarse->triangulation().faceCount() == 0)
-			coarse.reset();
-	}
-	return coarse;
-}
-
-/// A short cut graph of a coarse surface.
-EdgeArray<char> cutOf(const CoarseSurface& coarse)
-{
-	const Triangulation& t = coarse.triangulation();
-	const ContractedGraph graph(t, coarse.cost());
-	const auto shorten = [&](EdgeArray<char>& isCut) {
-		CutSegments segments(t, coarse.cost(), coarse.marked(), isCut);
-		shortenCut(segments);
-	};
-	return shortestOfSeveral(graph, graph.terminals(coarse.marked()), shorten).isCut;
 }
 
 /// Shortest paths along edges.
@@ -378,23 +254,15 @@ CutGraph cutAroundCentre(
 	return cut;
 }
 
-CutGraph cutToDisk(
-	const Triangulation& t,
-	const EdgeArray<double>& cost,
-	const VertexArray<char>& marked,
-	const HalfedgeArray<double>& corners)
+CutGraph
+cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, const VertexArray<char>& marked)
 {
 	const ContractedGraph graph(t, cost);
+	const VertexArray<char> terminal = graph.terminals(marked);
 	CutGraph cut;
-	const std::optional<CoarseSurface> coarse = coarseSurface(t, cost, marked);
-	if (coarse) {
-		cut.isCut = coarse->lifted(cutOf(*coarse));
-		prune(graph, graph.terminals(marked), cut.isCut);
-	}
-	else
-		cut = shortestOfSeveral(graph, graph.terminals(marked), [](EdgeArray<char>&) {});
-	CutSegments segments(t, cost, marked, cut.isCut);
-	cut.endedEarly = shortenCut(segments, corners, coarse ? &*coarse : nullptr);
+	cut.isCut = treeAndLoops(graph, terminal);
+	prune(graph, terminal, cut.isCut);
+	shortenCut(t, cost, marked, cut.isCut);
 	measure(graph, cut);
 	cut.generators = generators(graph, cut);
 	return cut;

@@ -17,34 +17,25 @@ struct CutGraph
 	/// nowhere else, generate the homology of the surface with every boundary loop filled.
 	std::vector<Edge> generators;
 
-	int edgeCount = 0;       ///< edges with isCut 1
-	double length = 0.0;     ///< sum of their costs
-	bool endedEarly = false; ///< a bound on the work has ended the search for a shorter one
+	int edgeCount = 0;   ///< edges with isCut 1
+	double length = 0.0; ///< sum of their costs
 };
 
 /// Finds a short cut graph by a tree and a cotree (greedy system of loops
-/// [Erickson Whittlesey 2005]): a shortest-path tree of the edges, a spanning tree of the dual
-/// that crosses the edges with the longest loops first, and the 2 genus edges in neither. Every
-/// boundary loop counts as one point. The cut reaches every boundary loop and every vertex with
-/// \p marked (cones); other dead ends are taken back. Where there are several such points, a short
-/// tree through them [Mehlhorn 1988] competes as the first tree. On a closed surface several
-/// well-spread roots compete. The shortest of these cuts is shortened further by shortenCut().
-///
-/// On a surface with thousands of vertices on which the cut may run everywhere all this takes place on a
-/// CoarseSurface. Its cut is then shortened on the surface itself, near the place where it runs.
+/// [Erickson Whittlesey 2005]): a tree of shortest paths to the nearest of several roots and of short connections
+/// between these, a spanning tree of the dual that crosses the edges with the longest loops first, and the
+/// 2 genus edges in neither. Roots are the boundary loops, each of which counts as one point, and the vertices
+/// with \p marked (cones), or any vertex where there are none. The cut reaches them; other dead ends are
+/// taken back. What is left is shortened by shortenCut().
 ///
 /// A closed sphere with less than two marked vertices gets an empty cut. Deterministic.
 /// \param cost of a seam along the edge, positive; the length, or whatever else is to be small in
 /// sum; infinite where the cut must not run
 /// \param marked 1 where the cut must pass or end, inside
-/// \param corners see shortenCut()
 /// \pre \p t is connected
 /// \throw NotConverged (NoCut) if the edges of infinite cost leave no cut
-CutGraph cutToDisk(
-	const Triangulation& t,
-	const EdgeArray<double>& cost,
-	const VertexArray<char>& marked,
-	const HalfedgeArray<double>& corners = {});
+CutGraph
+cutToDisk(const Triangulation& t, const EdgeArray<double>& cost, const VertexArray<char>& marked);
 
 /// The cut graph that leaves the disk with the least radius that a search finds: a shortest-path tree of
 /// the triangles from one in the middle, of which every other is reached inside the disk, and all edges

@@ -93,11 +93,10 @@ bool EdgeSwapper::operator()(CurvatureMap& map)
 
 SplitMesh::SplitMesh(const Component& component) :
 		m_positions(component.positions), m_triangles(component.triangles),
-		m_corner(component.triangles.size())
+		m_corner(3 * component.triangles.size())
 {
-	for (const Face f : m_corner.indices())
-		for (int k = 0; k < 3; ++k)
-			m_corner[f][positionOf(k)] = 3 * f.number() + k;
+	for (const Corner c : m_corner.indices())
+		m_corner[c] = c;
 }
 
 void SplitMesh::split(const Triangulation& t, std::vector<Edge> edges)
@@ -125,23 +124,19 @@ void SplitMesh::splitSide(int triangle, int side)
 	const int apex = t[positionOf((side + 2) % 3)];
 	const int middle = m_positions.size(), added = static_cast<int>(m_triangles.size());
 	const Point3 &a = m_positions[Vertex(i)], &b = m_positions[Vertex(j)];
-	m_positions.push_back(Point3{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});
+	m_positions.push_back(0.5 * (a + b));
 	t = {i, middle, apex};
 	m_triangles.push_back({middle, j, apex});
-	for (std::array<int, 3>& corners : m_corner)
-		for (int& c : corners) {
-			if (c / 3 != triangle)
-				continue;
-			const int k = c % 3;
-			// The triangle now starts at i; its corner at j is one of the added triangle.
-			c = k == (side + 1) % 3 ? 3 * added + 1 : 3 * triangle + (k == side ? 0 : 2);
-		}
+	// The triangle now starts at i; its corner at j is one of the added triangle.
+	const Corner first(triangle, side);
+	for (Corner& c : m_corner)
+		if (c.face() == triangle)
+			c = c == first.next() ? Corner(added, 1) : Corner(triangle, c == first ? 0 : 2);
 }
 
-Halfedge SplitMesh::corner(const Triangulation& t, Face f, std::size_t k) const
+Halfedge SplitMesh::corner(const Triangulation& t, Corner c) const
 {
-	const int c = m_corner[f][k];
-	return t.halfedges(Face(c / 3))[positionOf(c % 3)];
+	return t.halfedges(Face(m_corner[c].face()))[m_corner[c].index()];
 }
 
 SwappedFlow flowWithEdgeSwaps(
@@ -193,7 +188,9 @@ SwappedFlow flowWithEdgeSwaps(
 		if (result.splits > 0)
 			for (const Face f : component.face.indices())
 				result.domain.corners.push_back(
-					{mesh.corner(t, f, 0), mesh.corner(t, f, 1), mesh.corner(t, f, 2)});
+					{mesh.corner(t, {f.number(), 0}),
+					 mesh.corner(t, {f.number(), 1}),
+					 mesh.corner(t, {f.number(), 2})});
 		return result;
 	}
 	throw NotConverged(NotConverged::SplitsUsedUp, positionOf(mesh.splits()));

@@ -61,16 +61,15 @@ public:
 	/// Splits boundary edges of \p t, the triangulation of triangles(): at most one of each triangle.
 	void split(const Triangulation& t, std::vector<Edge> edges);
 
-	/// The halfedge of \p t, the triangulation of triangles(), at corner \p k of the component's face
-	/// \p f.
-	Halfedge corner(const Triangulation& t, Face f, std::size_t k) const;
+	/// The halfedge of \p t, the triangulation of triangles(), at corner \p c of the component.
+	Halfedge corner(const Triangulation& t, Corner c) const;
 
 private:
 	void splitSide(int triangle, int side);
 
 	VertexArray<Point3> m_positions;
 	std::vector<Triangle> m_triangles;
-	FaceArray<std::array<int, 3>> m_corner; ///< [face][corner] 3 triangle + corner of m_triangles
+	CornerArray<Corner> m_corner; ///< [corner of the component] of m_triangles
 	int m_splits = 0;
 };
 

@@ -12,7 +12,6 @@ namespace ricci {
 struct FinishCounts
 {
 	int moved = 0;      ///< points that the repair moved
-	int left = 0;       ///< triangles that it could not mend
 	int endedEarly = 0; ///< parts of the finish that the bound on their work has ended
 };
 
@@ -29,11 +28,6 @@ FinishCounts finishInPlane(
 	bool freeBoundary,
 	const VertexArray<char>& onHole,
 	Finish finish);
-
-/// The repair of a component's map to the Poincaré disk, for the straight triangles between its points.
-/// Seams stay isometric in the hyperbolic metric, and all points in the disk. The triangles of a
-/// refinement keep their shapes.
-FinishCounts finishInDisk(FlatMesh& flat, bool freeBoundary);
 
 } // namespace ricci
 

@@ -18,16 +18,10 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Steps at most: a few are enough for most maps, CAD with long triangles takes a hundred. They end when two
-/// in a row, or the last of the sweeps before, gain less than this change of K in all triangles is worth: it is
-/// not seen in the fourth decimal of a mean.
+/// in a row gain less than this change of K in all triangles is worth: it is not seen in the fourth decimal of
+/// a mean.
 constexpr int kMaxSteps = 100;
 constexpr double kSeen = 2.5e-5;
-
-/// Steps of one point after another come first, as long as each gains this share of the distortion.
-/// Points whose step promises less than this share of the mean distortion at a point stay. The length
-/// of the steps, but for those of the first time.
-constexpr int kMaxSweeps = 20;
-constexpr double kSweepGain = 0.01, kPointGain = 1e-3, kOverrelaxation = 1.5;
 
 /// Steps that the direction remembers; steps with the same stiffness; and the residual of a direction.
 constexpr int kDepth = 5, kSameStiffness = 8;
@@ -61,19 +55,9 @@ public:
 		Descent result{0, m_value, m_value};
 		if (!std::isfinite(m_value) || m_points.unknowns == 0)
 			return result;
-		double gain = kInfinity;
-		const double worth = kPointGain * m_value / m_points.unknowns;
-		while (result.steps < kMaxSweeps && gain > kSweepGain * m_value) {
-			checkpoint();
-			gain = sweep(result.steps == 0 ? 1.0 : kOverrelaxation, worth);
-			result.steps += gain > 0.0;
-			result.after = m_value;
-		}
-		if (gain < worthOf(kSeen))
-			return result;
 		DistortionLaplacian laplacian(m_energy);
 		m_energy.gradient(m_gradient);
-		double lastGain = kInfinity;
+		double gain = kInfinity, lastGain = kInfinity;
 		for (int i = 0; i < kMaxSteps; ++i, lastGain = gain) {
 			checkpoint();
 			if (i % kSameStiffness == 0 && !laplacian.factorize())
@@ -105,14 +89,6 @@ public:
 private:
 	/// How much E = mean of (K - 1)^(5/4) changes where K changes by \p change everywhere.
 	double worthOf(double change) const { return 1.25 * std::pow(m_value, 0.2) * change; }
-
-	/// \return by how much E falls
-	double sweep(double relaxation, double worth)
-	{
-		const double before = m_value;
-		m_value = m_energy.relax(relaxation, worth, m_start, m_position);
-		return before - m_value;
-	}
 
 	/// Goes along the direction, down which E falls by -\p slope at first, as far as it falls.
 	/// \return by how much it falls; not positive where the direction does not lead down
@@ -158,14 +134,6 @@ private:
 };
 
 } // namespace
-
-double meanDistortion(const FlatMesh& flat)
-{
-	PointGroups groups = allPoints(flat);
-	groups.fixed.assign(groups.fixed.size(), 1);
-	MeanDistortion energy(flat, groups);
-	return energy.evaluate(positionsOf(energy.points(), flat));
-}
 
 Descent leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves)
 {

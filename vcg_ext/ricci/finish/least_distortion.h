@@ -15,9 +15,6 @@ struct Descent
 	bool endedEarly = false; ///< by the number of steps; it may become smaller still
 };
 
-/// MeanDistortion of a map, its triangles that are not counter-clockwise left out.
-double meanDistortion(const FlatMesh& flat);
-
 /// Moves the points of a map to the plane so that the mean conformal distortion of the map on the mesh's own
 /// straight triangles becomes small. A flow that flips edges finds the conformal map of the
 /// surface; with straight triangles between its vertices, it is near to the best map of these triangles, not
@@ -25,9 +22,7 @@ double meanDistortion(const FlatMesh& flat);
 /// stay isometric: the angles of the cones and the holonomy of the flat metric stay exactly what
 /// they are (joinedPoints() says what moves, mean_distortion.h what is minimised).
 ///
-/// Single points move first, one after another, each as far as it lowers the distortion: needles go,
-/// which would keep all others from moving far. Then all points move at once. Every such step solves
-/// with a Laplacian (distortion_laplacian.h) for its direction, which limited-memory BFGS improves by
+/// All points move at once. Every step solves with a Laplacian (distortion_laplacian.h) for its direction, which limited-memory BFGS improves by
 /// what the steps before have shown, as [Liu Bouaziz Kavan 2017] do for elastic bodies, and is
 /// shortened until no triangle is flipped, by an exact test, and the distortion falls enough
 /// [Nocedal Wright 2006, 3.1, 3.5]. A few iterations for the direction are enough: the flow's map is
@@ -41,7 +36,7 @@ double meanDistortion(const FlatMesh& flat);
 /// \param cones 1 at cones inside
 /// \param boundaryMoves whether the boundary is free; else its points stay
 /// It checks between steps whether the run has ended; then \p flat is what it was.
-/// \return its steps of single points, each of all of them, and of all at once; MeanDistortion of the map
+/// \return its steps; MeanDistortion of the map
 /// \throw std::bad_alloc
 Descent leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves);
 

@@ -3,7 +3,6 @@
 
 #include "../base/parallel.h"
 #include "../base/tolerances.h"
-#include "../math/line_search.h"
 #include "../math/orientation.h"
 #include "../metric/area.h"
 
@@ -29,13 +28,6 @@ constexpr double kUncountedStiffness = 1e-4;
 
 /// See MeanDistortion::stiffness().
 constexpr double kMaxBend = 4.0;
-
-/// Steps of relax() are at most so many times the shortest side at the point long: where triangles are
-/// small, a point that leaves them for the others' sake does not come back.
-constexpr double kMaxStep = 2.0;
-
-/// The length of the shortest of them, where 1 is what the stiffness asks for.
-constexpr double kMinStep = 1e-3;
 
 /// As in orientation(): a determinant above this share of its terms has the right sign, but for
 /// underflow.
@@ -186,8 +178,7 @@ NumberedPoints::NumberedPoints(const FlatMesh& flat, const PointGroups& groups) 
 
 MeanDistortion::MeanDistortion(const FlatMesh& flat, const PointGroups& groups) :
 		m_points(flat, groups), m_threads(defaultThreads()), m_shape(flat.points.size()),
-		m_corners(flat.points.size()), m_image(m_points.unknowns, -1),
-		m_settled(m_points.unknowns, 0), m_energy(flat.points.size(), 0.0),
+		m_corners(flat.points.size()), m_energy(flat.points.size(), 0.0),
 		m_stiffness(flat.points.size(), 0.0), m_pull(flat.points.size())
 {
 	setShapes(flat);
@@ -199,8 +190,6 @@ MeanDistortion::MeanDistortion(const FlatMesh& flat, const PointGroups& groups) 
 			if (const int p = m_corners[Corner(c)]; p < m_points.moving)
 				add(p, Corner(c));
 	});
-	for (int p = m_points.unknowns; p < m_points.moving; ++p)
-		m_image[m_points.unknown[p]] = p;
 }
 
 void MeanDistortion::setShapes(const FlatMesh& flat)
@@ -283,18 +272,11 @@ void MeanDistortion::evaluate(int f, const Eigen::VectorXcd& position)
 
 double MeanDistortion::evaluate(const Eigen::VectorXcd& position)
 {
-	std::fill(m_settled.begin(), m_settled.end(), 0);
 	inParallel(size(), m_threads, [&](int first, int last) {
 		for (int f = first; f < last; ++f)
 			evaluate(f, position);
 	});
-	return sum();
-}
-
-/// In the same order with any number of threads.
-double MeanDistortion::sum() const
-{
-	double sum = 0.0;
+	double sum = 0.0; // in the same order with any number of threads
 	for (const double energy : m_energy)
 		sum += energy;
 	return sum;
@@ -316,15 +298,11 @@ double MeanDistortion::stiffness(int f) const
 MeanDistortion::Complex MeanDistortion::pull(int point) const
 {
 	Complex sum = 0.0;
-	for (const Corner corner : m_cornersOf[point])
-		sum += pull(corner);
+	for (const Corner corner : m_cornersOf[point]) {
+		const std::array<Complex, 2>& pull = m_pull[corner.face()];
+		sum += corner.index() == 0 ? -(pull[0] + pull[1]) : pull[corner.index() - 1];
+	}
 	return sum;
-}
-
-MeanDistortion::Complex MeanDistortion::pull(Corner corner) const
-{
-	const std::array<Complex, 2>& pull = m_pull[corner.face()];
-	return corner.index() == 0 ? -(pull[0] + pull[1]) : pull[corner.index() - 1];
 }
 
 void MeanDistortion::gradient(Eigen::VectorXcd& gradient) const
@@ -336,81 +314,6 @@ void MeanDistortion::gradient(Eigen::VectorXcd& gradient) const
 	});
 	for (int i = m_points.unknowns; i < m_points.moving; ++i)
 		gradient[m_points.unknown[i]] += conjugateProduct(m_points.turn[i], pull(i));
-}
-
-double MeanDistortion::relax(
-	double relaxation, double worth, const Eigen::VectorXcd& start, Eigen::VectorXcd& position)
-{
-	for (int unknown = 0; unknown < m_points.unknowns; ++unknown)
-		if (!m_settled[unknown])
-			relax(unknown, relaxation, worth, start, position);
-	return sum();
-}
-
-void MeanDistortion::relax(
-	int unknown,
-	double relaxation,
-	double worth,
-	const Eigen::VectorXcd& start,
-	Eigen::VectorXcd& position)
-{
-	const int image = m_image[unknown];
-	const Complex turn = image < 0 ? 1.0 : m_points.turn[image];
-	double before = 0.0, stiffness = 0.0;
-	const auto gather = [&](int point) {
-		Complex sum = 0.0;
-		for (const Corner corner : m_cornersOf[point]) {
-			const int f = corner.face();
-			sum += pull(corner);
-			before += m_energy[f];
-			stiffness += m_stiffness[f] * std::norm(slopes(f)[corner.index()]);
-		}
-		return sum;
-	};
-	Complex gradient = gather(unknown);
-	if (image >= 0)
-		gradient += conjugateProduct(turn, gather(image));
-	const double promise = std::norm(gradient) / stiffness;
-	if (!(promise > worth)) {
-		m_settled[unknown] = 1;
-		return;
-	}
-	const Complex from = position[unknown], step = -gradient / stiffness;
-	double shortest = kInfinity; // squared
-	const auto lookRound = [&](int point) {
-		for (const Corner corner : m_cornersOf[point])
-			for (const int other : m_corners[corner.face()]) {
-				if (const int next = m_points.unknown[other]; next >= 0)
-					m_settled[next] = 0;
-				if (other != point)
-					shortest = std::min(shortest, std::norm(position[other] - position[point]));
-			}
-	};
-	lookRound(unknown);
-	if (image >= 0)
-		lookRound(image);
-	const double longest = kMaxStep * std::sqrt(shortest / std::norm(step));
-	const auto move = [&](double length) {
-		position[unknown] = from + length * step;
-		double after = 0.0;
-		const auto place = [&](int point) {
-			for (const Corner corner : m_cornersOf[point]) {
-				evaluate(corner.face(), position);
-				after += m_energy[corner.face()];
-			}
-		};
-		if (image >= 0)
-			position[image] = start[image] + product(turn, position[unknown] - start[unknown]);
-		place(unknown);
-		if (image >= 0)
-			place(image);
-		return after;
-	};
-	const double length = std::min(relaxation, longest);
-	if (LineSearch{kMinStep}.run(length, -2.0 * promise, before, move) > 0.0)
-		return;
-	move(0.0);
-	m_settled[unknown] = 1;
 }
 
 } // namespace ricci

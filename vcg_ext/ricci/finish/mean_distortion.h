@@ -66,18 +66,6 @@ public:
 	/// evaluated.
 	void gradient(Eigen::VectorXcd& gradient) const;
 
-	/// Moves the unknowns one after another to where E is less with all others in place, or a
-	/// little beyond: Gauss-Seidel steps with overrelaxation, each along the gradient as far as the
-	/// stiffness asks for times \p relaxation, or less. No triangle is flipped.
-	/// \param worth unknowns whose step promises to lower E by less stay, and are looked at again only
-	/// when something moves beside them
-	/// \param start [point] from where images follow
-	/// \param position [point] where E was last evaluated
-	/// \pre E is finite there
-	/// \return E, as evaluate() gives it
-	double relax(
-		double relaxation, double worth, const Eigen::VectorXcd& start, Eigen::VectorXcd& position);
-
 	/// By which E changes with |f_zbar|^2 of a triangle: dE / d |f_zbar|^2 where its shape is nearly
 	/// kept. Elsewhere more, as E bends upwards, so that the square is no lower than E for steps that
 	/// do not turn it.
@@ -106,23 +94,13 @@ private:
 
 	void setShapes(const FlatMesh& flat);
 	void evaluate(int triangle, const Eigen::VectorXcd& position);
-	double sum() const;
 	Complex pull(int point) const;
-	Complex pull(Corner corner) const;
-	void relax(
-		int unknown,
-		double relaxation,
-		double worth,
-		const Eigen::VectorXcd& start,
-		Eigen::VectorXcd& position);
 
 	const NumberedPoints m_points;
 	int m_threads;
 	Array<Shape> m_shape;
 	Array<Triangle> m_corners;
 	Adjacency<int, Corner> m_cornersOf; // [moving point]
-	Array<int> m_image;                 // [unknown] the point that is its image, or -1
-	Array<char> m_settled;              // [unknown] 1 where relax() need not look
 
 	Array<double> m_energy, m_stiffness;
 	Array<std::array<Complex, 2>> m_pull; // of the triangle at its corners 1 and 2

@@ -9,8 +9,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
-#include <set>
 #include <utility>
 
 namespace ricci {
@@ -18,15 +16,10 @@ namespace ricci {
 namespace {
 
 /// Rings of the patches, one size after another.
-constexpr int kRings[] = {1, 2, 3, 5, 8, 13, 21, 34};
+constexpr int kRings[] = {1, 2, 3, 5};
 
-/// Those of the largest patches that move points inside alone.
-constexpr int kMaxInsideRings = 13;
-
-/// A patch that failed is tried again once it has so many times the triangles, or for
-/// RestShapes::OfSurfaceEvenly, the area: triangles round a limb that has shrunk are few and large.
+/// A patch that failed is tried again once it has so many times the triangles.
 constexpr double kPatchGrowth = 1.4;
-constexpr double kAreaGrowth = 4.0;
 
 /// Strain (untangle.h) above which a mended patch is evened out, and the rings of the larger patches.
 constexpr double kMaxStrain = 3.0;
@@ -95,50 +88,31 @@ bool isHopeless(const PatchSetting& setting, const Patch& patch)
 	return borderStays && area <= minArea * static_cast<double>(patch.triangles.size());
 }
 
-/// What a patch has to work with.
-struct PatchSize
+/// Whether a patch has failed that was nearly as large, or for a free patch, as large.
+/// \param failed [triangle] triangles of its last patch that failed
+bool isHardlyLarger(const Patch& patch, const Array<std::size_t>& failed)
 {
-	double triangles = 0.0, area = 0.0;
-};
-
-PatchSize sizeOf(const FlatMesh& flat, const Patch& patch)
-{
-	PatchSize size{static_cast<double>(patch.triangles.size()), 0.0};
+	std::size_t largest = 0;
 	for (const int f : patch.triangles)
-		size.area += 0.5 * std::abs(doubledArea(flat.at(f)));
-	return size;
+		largest = std::max(largest, failed[f]);
+	const std::size_t size = patch.triangles.size();
+	return patch.isFree() ? size <= largest
+						  : static_cast<double>(size) < kPatchGrowth * static_cast<double>(largest);
 }
 
-/// Whether a patch has failed that was nearly as large, in area too if that counts; or for a free patch,
-/// as large.
-bool isHardlyLarger(
-	const FlatMesh& flat, const Patch& patch, const Array<PatchSize>& failed, bool byArea)
-{
-	PatchSize largest;
-	for (const int f : patch.triangles) {
-		largest.triangles = std::max(largest.triangles, failed[f].triangles);
-		largest.area = std::max(largest.area, failed[f].area);
-	}
-	const PatchSize size = sizeOf(flat, patch);
-	if (patch.isFree())
-		return size.triangles <= largest.triangles;
-	return size.triangles < kPatchGrowth * largest.triangles &&
-		   (!byArea || size.area < kAreaGrowth * largest.area);
-}
-
-/// Puts the points of a patch in their places, unless the test refuses the patch there.
+/// Puts the points of a patch in their places, unless it has more faults there.
 bool apply(
-	FlatMesh& flat, const Patch& patch, const std::vector<Point2>& places, const PatchTest& accepts)
+	FlatMesh& flat, const Patch& patch, std::vector<Point2> places, const PatchFaults& faults)
 {
-	std::vector<Point2> before;
-	for (std::size_t k = 0; k < places.size(); ++k) {
-		before.push_back(flat.place[patch.points[k]]);
-		flat.place[patch.points[k]] = places[k];
-	}
-	if (!accepts || accepts(flat, patch))
+	const auto exchange = [&] {
+		for (std::size_t k = 0; k < places.size(); ++k)
+			std::swap(flat.place[patch.points[k]], places[k]);
+	};
+	const int before = faults ? faults(flat, patch) : 0;
+	exchange();
+	if (!faults || faults(flat, patch) <= before)
 		return true;
-	for (std::size_t k = 0; k < places.size(); ++k)
-		flat.place[patch.points[k]] = before[k];
+	exchange();
 	return false;
 }
 
@@ -176,46 +150,25 @@ std::vector<Untangled> solveAll(
 	return found;
 }
 
-/// What has become of the places that were found for a patch.
-enum class Outcome { Useless, Refused, TakenOver };
-
-/// Takes over the patches that are valid, or better than before if that will do.
-/// \return [patch]
-std::vector<Outcome> takeOver(
+/// Takes over the patches that are valid.
+/// \return whether there are any
+bool takeOver(
 	const std::vector<Patch>& patches,
 	const std::vector<Untangled>& found,
 	const RepairRules& rules,
 	FlatMesh& flat,
 	Repair& result)
 {
-	std::vector<Outcome> outcomes(patches.size(), Outcome::Useless);
+	bool isAny = false;
 	for (std::size_t i = 0; i < patches.size(); ++i) {
-		if (found[i].points.empty() || !(found[i].valid || rules.partly))
+		if (found[i].points.empty() || !apply(flat, patches[i], found[i].points, rules.faults))
 			continue;
-		if (!apply(flat, patches[i], found[i].points, rules.accepts)) {
-			outcomes[i] = Outcome::Refused;
-			continue;
-		}
-		outcomes[i] = Outcome::TakenOver;
+		isAny = true;
 		for (std::size_t k = 0; k < patches[i].points.size(); ++k)
 			if (patches[i].variable[static_cast<int>(k)] >= 0)
 				result.moved[patches[i].points[k]] = 1;
 	}
-	return outcomes;
-}
-
-bool isAnyTakenOver(const std::vector<Outcome>& outcomes)
-{
-	return std::count(outcomes.begin(), outcomes.end(), Outcome::TakenOver) > 0;
-}
-
-/// Whether a patch is a whole chart, and none of its triangles is valid: nothing that could be lost.
-bool isInvalidWhole(const PatchSetting& setting, const Patch& patch)
-{
-	return patch.isFree() &&
-		   std::none_of(patch.triangles.begin(), patch.triangles.end(), [&](int f) {
-			   return setting.rules.validity.isValid(setting.flat.at(f));
-		   });
+	return isAny;
 }
 
 /// Triangles at points that were moved whose shape on the surface is far from that in the map.
@@ -261,38 +214,6 @@ void easeStrained(
 	limit.spend(before - work);
 }
 
-/// A stage of a repair.
-struct Stage
-{
-	std::function<PointGroups()> groups; ///< what may move
-	RestShapes shapes;
-	int maxRings;
-	bool partly; ///< see RepairRules
-};
-
-/// Repairs in stages, each for what those before have left.
-/// \param groups receives those of the last stage that was needed
-Repair
-run(const std::vector<Stage>& stages,
-	RepairRules rules,
-	WorkLimit& limit,
-	FlatMesh& flat,
-	PointGroups& groups)
-{
-	Repair result;
-	result.bad = result.left = static_cast<int>(badTriangles(flat, rules.validity).size());
-	for (const Stage& stage : stages) {
-		if (result.left == 0)
-			break;
-		groups = stage.groups();
-		rules.shapes = stage.shapes;
-		rules.maxRings = stage.maxRings;
-		rules.partly = stage.partly;
-		result.add(repair(flat, groups, rules, limit));
-	}
-	return result;
-}
-
 } // namespace
 
 int Repair::movedCount() const
@@ -328,52 +249,28 @@ Repair repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rule
 	result.moved.assign(flat.place.size(), 0);
 	PatchFinder finder(flat, groups);
 	const PatchSetting setting{flat, groups, rules};
-	Array<PatchSize> failed(flat.points.size(), PatchSize{}); // [triangle] of its last patch
-	std::set<std::vector<int>> tried; // triangles of patches, since the map last changed
+	Array<std::size_t> failed(flat.points.size(), 0); // [triangle] size of its last patch
 	std::int64_t work = limit.ofStage();
 	const std::int64_t before = work;
 	for (const int rings : kRings) {
-		if (rings > rules.maxRings)
-			break;
 		std::vector<Patch> patches = finder.patches(bad, rings);
 		patches.erase(
 			std::remove_if(
 				patches.begin(),
 				patches.end(),
 				[&](const Patch& patch) {
-					return tried.count(patch.triangles) > 0 ||
-						   isHardlyLarger(
-							   flat, patch, failed, rules.shapes == RestShapes::OfSurfaceEvenly) ||
-						   isHopeless(setting, patch);
+					return isHardlyLarger(patch, failed) || isHopeless(setting, patch);
 				}),
 			patches.end());
 		std::stable_sort(patches.begin(), patches.end(), [](const Patch& a, const Patch& b) {
 			return a.triangles.size() < b.triangles.size();
 		});
 		const std::vector<Untangled> found = solveAll(setting, untangle, patches, work);
-		for (std::size_t i = 0; i < patches.size(); ++i)
-			if (!found[i].valid) {
-				const PatchSize size = sizeOf(flat, patches[i]);
-				for (const int f : patches[i].triangles)
-					failed[f] = size;
-			}
+		takeOver(patches, found, rules, flat, result);
 		for (const Patch& patch : patches)
-			tried.insert(patch.triangles);
-		const std::vector<Outcome> outcomes = takeOver(patches, found, rules, flat, result);
-		bool isAny = isAnyTakenOver(outcomes);
-		// Where a chart crosses itself now, its convex layout does not.
-		std::vector<Patch> refused;
-		for (std::size_t i = 0; i < patches.size(); ++i)
-			if (outcomes[i] == Outcome::Refused && found[i].valid &&
-				isInvalidWhole(setting, patches[i]))
-				refused.push_back(patches[i]);
-		const std::vector<Untangled> unfolded = solveAll(setting, unfold, refused, work);
-		isAny = isAnyTakenOver(takeOver(refused, unfolded, rules, flat, result)) || isAny;
-		if (!isAny)
-			continue;
-		tried.clear();
-		bad =
-			badTriangles(flat, rules.validity); // a patch mended partly may have others than before
+			for (const int f : patch.triangles)
+				failed[f] = patch.triangles.size();
+		bad = badTriangles(flat, rules.validity);
 		if (bad.empty())
 			break;
 	}
@@ -389,57 +286,17 @@ Repair repairInStages(
 	const RepairRules& rules,
 	WorkLimit& limit)
 {
-	const RestShapes shapes = rules.shapes;
-	const Validity& validity = rules.validity;
-	const int maxRings = rules.maxRings;
-	const auto inside = [&] { return insidePoints(flat); };
-	const auto asAllowed = [&] { return joinedPoints(flat, seams, boundaryMoves); };
-	const auto everywhere = [&] { return joinedPoints(flat, seams, [](int) { return true; }); };
-	std::vector<Stage> stages{
-		{inside, shapes, kMaxInsideRings, false},
-		{asAllowed, shapes, maxRings, false},
-		{everywhere, shapes, maxRings, false}};
-	const Stage partly{everywhere, shapes, maxRings, true};
-	// Half a repair stretches what is right for fewer flipped triangles. In the plane, where those that
-	// are left get charts of their own, that is worth it only where it leads to a whole one.
-	const bool allOrNothing = seams == SeamGeometry::Plane && shapes == RestShapes::OfSurface;
-	if (!allOrNothing)
-		stages.push_back(partly);
-	// A limb that the map has shrunk below any height needs room from all round it. That bends the
-	// map, so only what is stored as it is gets it: floats, not text.
-	if (validity.asFloats && validity.step == 0.0) {
-		stages.push_back({everywhere, RestShapes::OfSurfaceEvenly, maxRings, true});
-		stages.push_back(partly);
-	}
+	Repair result;
+	result.bad = result.left = static_cast<int>(badTriangles(flat, rules.validity).size());
 	PointGroups groups;
-	Repair result = run(stages, rules, limit, flat, groups);
-	if (result.left > 0 && allOrNothing) {
-		Array<Point2> before = flat.place;
-		const Repair last = run({partly}, rules, limit, flat, groups);
-		if (last.left == 0)
-			result.add(last);
-		else
-			flat.place.swap(before);
+	for (int stage = 0; stage < 3 && result.left > 0; ++stage) {
+		const auto moves = [&](int v) { return stage == 2 || boundaryMoves(v); };
+		groups = stage == 0 ? insidePoints(flat) : joinedPoints(flat, seams, moves);
+		result.add(repair(flat, groups, rules, limit));
 	}
-	if (result.bad > 0 && shapes == RestShapes::OfSurface)
+	if (result.bad > 0 && rules.shapes == RestShapes::OfSurface)
 		easeStrained(flat, groups, rules, limit, result);
 	return result;
-}
-
-Repair repairFreely(FlatMesh& flat, const RepairRules& rules, WorkLimit& limit)
-{
-	const RestShapes shapes = rules.shapes;
-	const auto inside = [&] { return insidePoints(flat); };
-	const auto all = [&] { return allPoints(flat); };
-	PointGroups groups;
-	return run(
-		{{inside, shapes, kMaxInsideRings, false},
-		 {all, shapes, rules.maxRings, false},
-		 {all, shapes, rules.maxRings, true}},
-		rules,
-		limit,
-		flat,
-		groups);
 }
 
 } // namespace ricci

@@ -58,22 +58,20 @@ private:
 /// Triangles of \p flat that are not valid.
 std::vector<int> badTriangles(const FlatMesh& flat, const Validity& validity);
 
-/// Whether a patch may be as it is in the map; called one after another.
-using PatchTest = std::function<bool(const FlatMesh& flat, const Patch& patch)>;
+/// Counts what is wrong with a patch as it is in the map, beside its triangles; called one after another.
+using PatchFaults = std::function<int(const FlatMesh& flat, const Patch& patch)>;
 
-/// What a repair is after, which patches it tries, and which it takes over.
+/// What a repair is after, and which patches it takes over.
 struct RepairRules
 {
 	RestShapes shapes;
 	Validity validity;
-	PatchTest accepts = nullptr; ///< a patch that it refuses stays as it was
-	int maxRings = 34;           ///< of the largest patches
-	bool partly = false;         ///< patches, too, of which a part was mended
+	PatchFaults faults = nullptr; ///< a patch that would have more of them stays as it was
 };
 
 /// Mends the triangles that are not valid: moves points near them, and no others.
 ///
-/// Patches of 1, 2, 3, 5, 8, ... rings round clusters of bad triangles are untangled
+/// Patches of 1, 2, 3 and 5 rings round clusters of bad triangles are untangled
 /// (untangle.h) until one holds, or until the limit's share of a stage is spent; triangles that no patch
 /// mends stay as they are. Patches of one size move no triangle of each other, so they are solved side by
 /// side, and the result does not depend on the number of threads.
@@ -81,21 +79,14 @@ Repair
 repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rules, WorkLimit& limit);
 
 /// repair() in stages, each for what the one before has left: the points inside the charts; the copies
-/// of seam vertices together, and the boundary where it is free; the boundary everywhere; this again,
-/// with patches of which only a part is mended, for a map of the surface to the plane only if nothing is
-/// left then; and, for coordinates stored as floats and not as text,
-/// once more with patches whose triangles share their area as they do on the surface.
-/// \param rules their maxRings and partly are those of the stage
+/// of seam vertices together, and the boundary where it is free; the boundary everywhere. Triangles of the
+/// surface that are far from their shapes afterwards are evened out with more of their neighbours.
 Repair repairInStages(
 	FlatMesh& flat,
 	SeamGeometry seams,
 	const BoundaryRule& boundaryMoves,
 	const RepairRules& rules,
 	WorkLimit& limit);
-
-/// The same where seams need not stay isometric: the points inside the charts; then all points, each
-/// by itself; this again, with patches of which only a part is mended.
-Repair repairFreely(FlatMesh& flat, const RepairRules& rules, WorkLimit& limit);
 
 } // namespace ricci
 

@@ -2,14 +2,10 @@
 #include "untangle.h"
 
 #include "../math/line_search.h"
-#include "convex_layout.h"
 #include "patch_energy.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 namespace ricci {
 
@@ -40,22 +36,15 @@ constexpr double kMaxLeft = 0.9;
 /// Steps of a search are halved, 29 times at most.
 constexpr LineSearch kHalving{0x1p-29, 0.5, 0.5};
 
-/// A patch that is laid out anew is enlarged to so many of the least heights at most, a hundredth of what
-/// floats reach.
-constexpr double kMaxExtent = 1e4;
-
 /// The search for a valid patch.
 class Untangler
 {
 public:
-	explicit Untangler(const PatchProblem& problem, int stepsBefore = 0) :
+	explicit Untangler(const PatchProblem& problem) :
 			m_problem(problem), m_patch(problem.patch),
 			m_energy(problem.flat, problem.groups, m_patch, problem.shapes),
-			m_x(Eigen::VectorXd::Zero(m_energy.size())), m_least{
-															 m_patch.triangles.size() + 1,
-															 m_patch.triangles.size() + 1}
+			m_x(Eigen::VectorXd::Zero(m_energy.size()))
 	{
-		m_found.steps = stepsBefore;
 	}
 
 	Untangled ease()
@@ -65,38 +54,11 @@ public:
 		return m_found;
 	}
 
-	/// The same from other places of the points, where all triangles are the right way round.
-	/// \param goOn if they are valid there, too
-	Untangled runFrom(const std::vector<Point2>& places, bool goOn)
-	{
-		for (std::size_t i = 0; i < places.size(); ++i) {
-			const int p = m_patch.points[i], variable = m_patch.variable[static_cast<int>(i)];
-			const Complex moved = (asComplex(places[i]) - asComplex(m_problem.flat.place[p])) /
-								  m_problem.groups.turn[p];
-			m_x[2 * variable] = moved.real();
-			m_x[2 * variable + 1] = moved.imag();
-		}
-		if (!place(m_x))
-			search(0.0);
-		else if (goOn)
-			improve(kEasingSteps);
-		return m_found;
-	}
-
 	Untangled run()
-	{
-		place(m_x);
-		m_found.points.clear(); // they are where they were
-		search(kFirstEps);
-		return m_found;
-	}
-
-private:
-	/// \param soft eps that determinants above it do not need
-	void search(double soft)
 	{
 		int idle = 0;
 		bool gained = true;
+		double soft = kFirstEps; // determinants above it do not need it
 		double least = m_energy.minDeterminant(m_x), last = least;
 		std::size_t before = m_patch.triangles.size();
 		m_eps = std::max(soft, -kEpsShare * least);
@@ -139,8 +101,10 @@ private:
 			if (m_found.steps == m_problem.maxSteps)
 				break;
 		}
+		return m_found;
 	}
 
+private:
 	/// One Newton step that lowers the energy.
 	/// \param validOnly the step must leave the patch valid
 	bool descend(double& value, bool validOnly)
@@ -179,8 +143,8 @@ private:
 		}
 	}
 
-	/// Lists the triangles that are not valid at \p x, and takes the places of the points over if that
-	/// is better than what is known.
+	/// Lists the triangles that are not valid at \p x, and takes the places of the points over if there
+	/// are none.
 	/// \return whether all are valid
 	bool place(const Eigen::VectorXd& x)
 	{
@@ -194,24 +158,17 @@ private:
 						  p, m_problem.flat.place, Complex(x[2 * variable], x[2 * variable + 1]))));
 		}
 		m_invalid.clear();
-		std::size_t flipped = 0;
 		for (const int i : m_patch.corners.indices()) {
 			const Triangle& t = m_patch.corners[i];
-			const Triangle2 corners{
-				m_places[positionOf(t[0])], m_places[positionOf(t[1])], m_places[positionOf(t[2])]};
-			if (m_problem.validity.isValid(corners))
-				continue;
-			m_invalid.push_back(i);
-			flipped += !m_problem.validity.isUpright(corners);
+			if (!m_problem.validity.isValid(
+					{m_places[positionOf(t[0])],
+					 m_places[positionOf(t[1])],
+					 m_places[positionOf(t[2])]}))
+				m_invalid.push_back(i);
 		}
-		const std::array<std::size_t, 2> counts{flipped, m_invalid.size()};
-		const bool valid = m_invalid.empty();
-		if (valid || counts < m_least) {
-			m_least = counts;
+		if (m_invalid.empty())
 			m_found.points = m_places;
-			m_found.valid = valid;
-		}
-		return valid;
+		return m_invalid.empty();
 	}
 
 	static constexpr double kEpsShare = 0.2, kMinEps = 1e-9;
@@ -222,70 +179,16 @@ private:
 	PatchEnergy m_energy;
 	Eigen::VectorXd m_x, m_trial, m_gradient, m_step;
 	double m_eps = 1.0;
-	std::vector<Point2> m_places;       // of the last trial
-	std::vector<int> m_invalid;         // triangles of the patch there
-	std::array<std::size_t, 2> m_least; // flipped and invalid ones at the best places
+	std::vector<Point2> m_places; // of the last trial
+	std::vector<int> m_invalid;   // triangles of the patch there
 	Untangled m_found;
 };
-
-double squareOfSides(const Point2& a, const Point2& b, const Point2& c)
-{
-	const Complex p = asComplex(a), q = asComplex(b), r = asComplex(c);
-	return std::norm(q - p) + std::norm(r - q) + std::norm(p - r);
-}
-
-/// convexLayout() about where the patch is, as large as its shapes, or as its lowest triangle needs.
-std::vector<Point2> unfolded(const PatchProblem& problem)
-{
-	const Patch& patch = problem.patch;
-	const std::vector<RestShape>& shapes = problem.shapes;
-	std::vector<Point2> places = convexLayout(patch);
-	if (places.empty())
-		return places;
-	double wanted = 0.0, has = 0.0, lowest = std::numeric_limits<double>::infinity();
-	for (std::size_t i = 0; i < shapes.size(); ++i) {
-		const Triangle& t = patch.corners[static_cast<int>(i)];
-		wanted += squareOfSides({0.0, 0.0}, {shapes[i].base, 0.0}, asPoint(shapes[i].apex));
-		const Triangle2 p{
-			places[positionOf(t[0])], places[positionOf(t[1])], places[positionOf(t[2])]};
-		has += squareOfSides(p[0], p[1], p[2]);
-		const double longest =
-			std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
-		lowest = std::min(lowest, doubledArea(p) / longest);
-	}
-	double scale = std::sqrt(wanted / has);
-	if (const double least = problem.validity.wanted / lowest; least > scale)
-		scale = std::clamp(least, scale, std::max(scale, kMaxExtent * problem.validity.height));
-	const double share = 1.0 / static_cast<double>(places.size());
-	Complex middle = 0.0;
-	for (const int p : patch.points)
-		middle += share * asComplex(problem.flat.place[p]);
-	for (Point2& p : places)
-		p = asPoint(middle + scale * asComplex(p));
-	return places;
-}
 
 } // namespace
 
 Untangled untangle(const PatchProblem& problem)
 {
-	Untangled found = Untangler(problem).run();
-	if (found.valid || found.steps == problem.maxSteps || !problem.patch.isFree())
-		return found;
-	const std::vector<Point2> places = unfolded(problem);
-	if (places.empty())
-		return found;
-	Untangled next = Untangler(problem, found.steps).runFrom(places, true);
-	if (next.valid)
-		return next;
-	found.steps = next.steps;
-	return found;
-}
-
-Untangled unfold(const PatchProblem& problem)
-{
-	const std::vector<Point2> places = unfolded(problem);
-	return places.empty() ? Untangled{} : Untangler(problem).runFrom(places, false);
+	return Untangler(problem).run();
 }
 
 Untangled ease(const PatchProblem& problem)

@@ -25,10 +25,7 @@ struct PatchProblem
 /// What untangle() found.
 struct Untangled
 {
-	bool valid = false; ///< every triangle of the patch is
-	/// [local point] Places, as they are stored, where all triangles are valid, or where fewer are
-	/// flipped or flat than before, or as many are and fewer are too low. Empty if none were
-	/// found.
+	/// [local point] Places, as they are stored, where all triangles are valid; empty if none were found.
 	std::vector<Point2> points;
 	int steps = 0; ///< of Newton
 };
@@ -41,14 +38,7 @@ struct Untangled
 /// positive determinants remain [Garanzha et al. 2021, Eq. 3]. The steps are Newton's, with each
 /// triangle's Hessian made positive semidefinite: in terms of f_z and f_zbar its eigenvalues have
 /// closed forms.
-///
-/// If no valid places are found for a free patch from where it is, the search starts anew from
-/// convexLayout(), where no triangle is flipped, and with eps next to 0.
 Untangled untangle(const PatchProblem& problem);
-
-/// convexLayout() of a free patch, enlarged for its lowest triangle within bounds. If a triangle still is not
-/// valid, the search goes on from there. Empty if there is no such layout.
-Untangled unfold(const PatchProblem& problem);
 
 /// Lowers the same energy, with eps = 0, on a patch that is valid, which it stays.
 Untangled ease(const PatchProblem& problem);

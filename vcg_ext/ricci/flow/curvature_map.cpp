@@ -3,7 +3,6 @@
 
 #include "../base/numbers.h"
 #include "../base/parallel.h"
-#include "../math/double_double.h"
 #include "../metric/euclidean.h"
 #include "../metric/hyperbolic.h"
 
@@ -89,11 +88,10 @@ void GeometricCurvatureMap<Geometry>::evaluateEdges()
 			const auto& i = m_circles[t.origin(e.halfedge())];
 			const auto& j = m_circles[t.target(e.halfedge())];
 			const auto edge = Geometry::edge(i, j, m_packing.delta[e]);
-			m_lengths[e] = static_cast<double>(edge.length);
-			m_cosineLess1[e] = static_cast<double>(edge.cosineLess1);
+			m_lengths[e] = edge.length;
+			m_cosineLess1[e] = edge.cosineLess1;
 			m_excess[e] = edge.excess;
-			m_ratio[e] = static_cast<double>(i.s) * static_cast<double>(j.s) /
-						 static_cast<double>(edge.sine2);
+			m_ratio[e] = i.s * j.s / edge.sine2;
 		}
 	});
 }
@@ -142,7 +140,6 @@ void GeometricCurvatureMap<Geometry>::evaluateTriangles()
 template<class Geometry>
 bool GeometricCurvatureMap<Geometry>::evaluateTriangle(Face f, double& needleRatio)
 {
-	using Real = typename Geometry::Real;
 	const Triangulation& t = m_packing.triangulation;
 	// Vertex k is the origin of halfedge k; side k runs from vertex k to k + 1.
 	const std::array<Halfedge, 3> h = t.halfedges(f);
@@ -153,11 +150,11 @@ bool GeometricCurvatureMap<Geometry>::evaluateTriangle(Face f, double& needleRat
 		edge[k] = h[k].edge();
 	}
 	// tau_k = (two adjacent sides - opposite side) / 2, free of cancellation in the radii.
-	std::array<Real, 3> tau;
+	std::array<double, 3> tau;
 	for (std::size_t k = 0; k < 3; ++k)
-		tau[k] = m_circles[vertex[k]].radius +
-				 Real(0.5) * (m_excess[edge[k]] + m_excess[edge[(k + 2) % 3]] -
-							  m_excess[edge[(k + 1) % 3]]);
+		tau[k] =
+			m_circles[vertex[k]].radius +
+			0.5 * (m_excess[edge[k]] + m_excess[edge[(k + 2) % 3]] - m_excess[edge[(k + 1) % 3]]);
 	const auto smallest = std::min_element(tau.begin(), tau.end());
 	if (!(*smallest > 0.0)) {
 		for (std::size_t k = 0; k < 3; ++k) {
@@ -167,8 +164,7 @@ bool GeometricCurvatureMap<Geometry>::evaluateTriangle(Face f, double& needleRat
 		m_angles[h[static_cast<std::size_t>(smallest - tau.begin())]] = kPi;
 		return false;
 	}
-	// The tau hold what cancellation could lose: from here on doubles suffice. With s their sum,
-	// the tangents of the half angles are r / tau_k, r = sqrt(tau_0 tau_1 tau_2 / s), the radius of
+	// With s the sum of the tau, the tangents of the half angles are r / tau_k, r = sqrt(tau_0 tau_1 tau_2 / s), the radius of
 	// the inscribed circle.
 	const double s = Geometry::heron(tau[0] + tau[1] + tau[2]);
 	std::array<double, 3> x;
@@ -181,8 +177,8 @@ bool GeometricCurvatureMap<Geometry>::evaluateTriangle(Face f, double& needleRat
 	std::array<double, 3> inversive, radius, kappa;
 	for (std::size_t k = 0; k < 3; ++k) {
 		inversive[k] = 1.0 + m_packing.delta[edge[k]];
-		radius[k] = static_cast<double>(m_circles[vertex[k]].s);
-		kappa[k] = static_cast<double>(m_circles[vertex[k]].kappa);
+		radius[k] = m_circles[vertex[k]].s;
+		kappa[k] = m_circles[vertex[k]].kappa;
 	}
 	// 2 s r is the product of two sides and the sine between them.
 	const double factor = radius[0] * radius[1] * radius[2] / (2.0 * s * r);
@@ -209,7 +205,7 @@ void FlippingCurvatureMap<Geometry>::evaluate(const VertexVector& u, const Verte
 	this->evaluateCircles(u, low);
 	m_kappa.resize(this->m_circles.size());
 	for (const Vertex v : m_kappa.indices())
-		m_kappa[v] = static_cast<double>(this->m_circles[v].kappa);
+		m_kappa[v] = this->m_circles[v].kappa;
 	CirclePacking& packing = this->m_packing;
 	const int flips = makeWeightedDelaunay(
 		packing.triangulation, packing.delta, m_kappa, m_journal, m_queue, this->m_threads);
@@ -245,12 +241,8 @@ void FlippingCurvatureMap<Geometry>::reject()
 
 template class GeometricCurvatureMap<Euclidean>;
 template class FlippingCurvatureMap<Euclidean>;
-template class GeometricCurvatureMap<EuclideanGeometry<DoubleDouble>>;
-template class FlippingCurvatureMap<EuclideanGeometry<DoubleDouble>>;
 template class GeometricCurvatureMap<Hyperbolic>;
 template class FlippingCurvatureMap<Hyperbolic>;
-template class GeometricCurvatureMap<HyperbolicGeometry<DoubleDouble>>;
-template class FlippingCurvatureMap<HyperbolicGeometry<DoubleDouble>>;
 
 namespace {
 
@@ -264,14 +256,10 @@ std::shared_ptr<CurvatureMap> mapIn(CirclePacking packing, bool flips)
 
 } // namespace
 
-std::shared_ptr<CurvatureMap>
-curvatureMap(CirclePacking packing, Background background, bool flips, bool isExtended)
+std::shared_ptr<CurvatureMap> curvatureMap(CirclePacking packing, Background background, bool flips)
 {
-	if (background == Background::EuclideanPlane)
-		return isExtended ? mapIn<EuclideanGeometry<DoubleDouble>>(std::move(packing), flips)
-						  : mapIn<Euclidean>(std::move(packing), flips);
-	return isExtended ? mapIn<HyperbolicGeometry<DoubleDouble>>(std::move(packing), flips)
-					  : mapIn<Hyperbolic>(std::move(packing), flips);
+	return background == Background::EuclideanPlane ? mapIn<Euclidean>(std::move(packing), flips)
+													: mapIn<Hyperbolic>(std::move(packing), flips);
 }
 
 } // namespace ricci

@@ -6,9 +6,7 @@
 #include "../metric/conformal_flip.h"
 #include "../surface/elements.h"
 
-#include <limits>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -38,9 +36,6 @@ public:
 	/// Whether adding a constant to u changes nothing (Euclidean background).
 	virtual bool scaleInvariant() const = 0;
 
-	/// Gives the packing away, for a map of other precision. Only revision() and flips() may be
-	/// called afterwards.
-	CirclePacking releasePacking() { return std::move(m_packing); }
 	const Triangulation& triangulation() const { return m_packing.triangulation; }
 	const EdgeArray<double>& delta() const { return m_packing.delta; }
 
@@ -62,9 +57,6 @@ public:
 
 	/// Number of triangles that break the triangle inequality.
 	int brokenTriangles() const { return m_broken; }
-
-	/// Unit of rounding of the arithmetic in which the map is evaluated.
-	virtual double precision() const = 0;
 
 	/// Largest quotient of two sides of one triangle: the amplification of rounding in its angles.
 	double needleRatio() const { return m_needleRatio; }
@@ -119,10 +111,6 @@ public:
 	void evaluate(const VertexVector& u, const VertexVector& low) override;
 	bool scaleInvariant() const override { return Geometry::scaleInvariant; }
 	void releaseWorkSpace() override;
-	double precision() const override
-	{
-		return static_cast<double>(std::numeric_limits<typename Geometry::Real>::epsilon());
-	}
 
 protected:
 	void evaluateCircles(const VertexVector& u, const VertexVector& low);
@@ -131,9 +119,9 @@ protected:
 	bool evaluateTriangle(Face f, double& needleRatio);
 
 	VertexArray<typename Geometry::Circle> m_circles;
-	EdgeArray<typename Geometry::Real> m_excess; // length less the radii
-	EdgeArray<double> m_ratio;                   // s_i s_j / S_ij^2
-	HalfedgeArray<double> m_halfWeights;         // the triangle's share of the weight
+	EdgeArray<double> m_excess;          // length less the radii
+	EdgeArray<double> m_ratio;           // s_i s_j / S_ij^2
+	HalfedgeArray<double> m_halfWeights; // the triangle's share of the weight
 };
 
 /// The same map on the weighted Delaunay triangulation of every u, reached by flips that keep the
@@ -160,9 +148,8 @@ private:
 
 /// The map of \p packing in \p background.
 /// \param flips whether it is a FlippingCurvatureMap
-/// \param isExtended whether it is evaluated in double-double arithmetic, else in doubles
 std::shared_ptr<CurvatureMap>
-curvatureMap(CirclePacking packing, Background background, bool flips, bool isExtended);
+curvatureMap(CirclePacking packing, Background background, bool flips);
 
 } // namespace ricci
 

@@ -3,7 +3,6 @@
 
 #include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../metric/area.h"
 #include "../surface/flow_domain.h"
@@ -124,18 +123,15 @@ void FlowRun::begin(const EmbeddedSurface& surface)
 		}
 	}
 	m_result.u = m_startU = startU();
-	m_map = makeMap({m_result.start.mesh.triangulation, m_result.start.delta}, false);
+	m_map = curvatureMap(
+		{m_result.start.mesh.triangulation, m_result.start.delta},
+		m_result.target.background,
+		m_options.method == Method::IntrinsicFlips);
 	m_newton = std::make_unique<NewtonSolver>(*m_map, m_result.target.fixed, m_mirror);
 	if (auto known = std::exchange(m_result.start.hessian, nullptr)) {
 		m_newton->beginWith(std::move(known));
 		m_result.order = m_newton->order();
 	}
-}
-
-std::shared_ptr<CurvatureMap> FlowRun::makeMap(CirclePacking packing, bool isExtended) const
-{
-	const bool flips = m_options.method == Method::IntrinsicFlips;
-	return curvatureMap(std::move(packing), m_result.target.background, flips, isExtended);
 }
 
 /// ln radius. In the hyperbolic plane at the scale at which the flat surface has the area of the metric
@@ -183,15 +179,7 @@ void FlowRun::goOnFrom(const FlowRun& half, bool solved)
 
 bool FlowRun::solve()
 {
-	const double maxFloor =
-		isFlatDisk() ? std::numeric_limits<double>::infinity() : kMaxDoubleFloor;
-	m_solved =
-		m_result.target.circular ? solveOnCircle() : solveFor(m_options.epsilon, true, maxFloor);
-	const bool stopped =
-		!m_solved.converged && m_solved.residual < kWorthExtending && m_map->brokenTriangles() == 0;
-	const bool gaps = m_solved.converged && m_solved.floor > maxFloor;
-	if (stopped || gaps)
-		m_solved = solveExtended();
+	m_solved = m_result.target.circular ? solveOnCircle() : solveFor(m_options.epsilon);
 	if (m_result.doubled && m_solved.residual > kMaxAsymmetry && m_map->brokenTriangles() == 0) {
 		logLine(
 			"Another solve, without symmetry: rounding has made the copies of the double differ.");
@@ -234,13 +222,12 @@ NewtonResult FlowRun::solveOnCircle()
 	}
 }
 
-NewtonResult FlowRun::solveFor(double epsilon, bool polishes, double maxPolishedFloor)
+NewtonResult FlowRun::solveFor(double epsilon, bool polishes)
 {
 	NewtonOptions newtonOptions;
 	newtonOptions.epsilon = epsilon;
 	newtonOptions.maxIterations = m_maxSteps;
 	newtonOptions.polishes = polishes;
-	newtonOptions.maxPolishedFloor = maxPolishedFloor;
 	const int before = m_result.iterations;
 	return m_newton->solve(
 		m_result.u,
@@ -251,26 +238,6 @@ NewtonResult FlowRun::solveFor(double epsilon, bool polishes, double maxPolished
 			m_progress(m_result.iterations, residual);
 		},
 		m_surgeon);
-}
-
-/// Goes on from the present state in extended precision.
-NewtonResult FlowRun::solveExtended()
-{
-	logLine(
-		"Another solve, in extended precision: doubles end at " + numberText(m_solved.residual, 3) +
-		" rad (rounding floor " + numberText(m_solved.floor, 3) + ").");
-	m_flipsBefore = flowFlips();
-	std::shared_ptr<CurvatureMap> map = makeMap(m_map->releasePacking(), true);
-	m_newton->continueOn(*map);
-	m_map = std::move(map);
-	return solveFor(m_options.epsilon);
-}
-
-/// A disk without cones, around which nothing has to close.
-bool FlowRun::isFlatDisk() const
-{
-	return !m_result.doubled && m_map->triangulation().eulerCharacteristic() == 1 &&
-		   m_result.target.curvature.isZero(0.0);
 }
 
 bool FlowRun::bendsAtBoundary() const
@@ -289,13 +256,6 @@ double FlowRun::spreadOfScales() const
 	return (change.maxCoeff() - change.minCoeff()) / std::log(10.0);
 }
 
-std::vector<Edge> FlowRun::flowFlips() const
-{
-	std::vector<Edge> flips = m_flipsBefore;
-	flips.insert(flips.end(), m_map->flips().begin(), m_map->flips().end());
-	return flips;
-}
-
 /// Lengths of the boundary's edges in the present metric. In a double they may have been flipped
 /// away; they stay the axis of symmetry, a straight line across the present triangles.
 std::vector<double> FlowRun::presentLoopLengths() const
@@ -308,7 +268,7 @@ std::vector<double> FlowRun::presentLoopLengths() const
 	NormalCoordinates coordinates(m_result.input);
 	for (const Edge e : m_result.start.flips)
 		coordinates.flip(e);
-	for (const Edge e : flowFlips())
+	for (const Edge e : m_map->flips())
 		coordinates.flip(e);
 	const auto curves = coordinates.trace();
 	Strip strip;
@@ -340,7 +300,7 @@ FlowResult FlowRun::result()
 	m_result.metric = m_map;
 	m_result.residual = m_solved.residual;
 	m_result.floor = m_solved.floor;
-	m_result.flips = flowFlips();
+	m_result.flips = m_map->flips();
 	m_result.area = m_result.target.background == Background::EuclideanPlane
 						? euclideanArea(m_map->triangulation(), m_map->lengths())
 						: hyperbolicArea(m_map->triangulation(), m_map->lengths());
@@ -362,7 +322,7 @@ NotConverged FlowRun::failure() const
 {
 	const auto broken = static_cast<std::size_t>(m_map->brokenTriangles());
 	const double scales = spreadOfScales();
-	const bool stalls = m_solved.iterations < m_maxSteps && m_solved.residual > kWorthExtending;
+	const bool stalls = m_solved.iterations < m_maxSteps;
 	const bool lost =
 		m_options.method == Method::IntrinsicFlips && scales > kMaxScales && (broken > 0 || stalls);
 	if (lost || !std::isfinite(m_solved.floor))

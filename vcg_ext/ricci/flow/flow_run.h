@@ -9,7 +9,6 @@
 #include "ricci_flow.h"
 #include "target.h"
 
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -77,7 +76,7 @@ public:
 	/// from its metric if that is \p solved.
 	void goOnFrom(const FlowRun& half, bool solved);
 
-	/// Runs the flow, at the end in extended precision where rounding calls for it.
+	/// Runs the flow.
 	/// \return whether the target is reached
 	/// \throw NotConverged if a circular boundary does not settle; SolverFailed
 	bool solve();
@@ -103,17 +102,10 @@ public:
 private:
 	FlowRun(const FlowOptions& options, FlowProgress& progress);
 	void begin(const EmbeddedSurface& surface);
-	std::shared_ptr<CurvatureMap> makeMap(CirclePacking packing, bool isExtended) const;
 	VertexVector startU() const;
 	NewtonResult solveOnCircle();
-	NewtonResult solveFor(
-		double epsilon,
-		bool polishes = true,
-		double maxPolishedFloor = std::numeric_limits<double>::infinity());
-	NewtonResult solveExtended();
-	bool isFlatDisk() const;
+	NewtonResult solveFor(double epsilon, bool polishes = true);
 	double spreadOfScales() const;
-	std::vector<Edge> flowFlips() const;
 	std::vector<double> presentLoopLengths() const;
 	NotConverged withState(NotConverged error) const;
 
@@ -126,7 +118,6 @@ private:
 	int m_maxSteps = NewtonOptions().maxIterations;
 	VertexVector m_startU;
 	std::shared_ptr<CurvatureMap> m_map;
-	std::vector<Edge> m_flipsBefore; // those of the map in double, once the map is an extended one
 	std::unique_ptr<NewtonSolver> m_newton;
 	NewtonResult m_solved;
 

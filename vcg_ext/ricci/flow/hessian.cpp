@@ -135,11 +135,6 @@ bool FactoredHessian::factorize(const CurvatureMap& map)
 	return !m_isShifted;
 }
 
-void FactoredHessian::continueOn(const CurvatureMap& from, const CurvatureMap& to)
-{
-	m_revision = m_revision == from.revision() ? to.revision() : -1;
-}
-
 Eigen::VectorXd FactoredHessian::gather(const VertexVector& values) const
 {
 	Eigen::VectorXd rows = Eigen::VectorXd::Zero(m_unknowns);

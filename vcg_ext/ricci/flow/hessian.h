@@ -74,10 +74,6 @@ public:
 	/// Whether the last factor has a shift on the diagonal of its matrix.
 	bool isShifted() const { return m_isShifted; }
 
-	/// Keeps pattern and factor for \p to, a map with the triangulation that \p from has at
-	/// present: the same equations in other precision.
-	void continueOn(const CurvatureMap& from, const CurvatureMap& to);
-
 	/// Entries of \p values by unknown, those of images added up, and back (0 elsewhere).
 	Eigen::VectorXd gather(const VertexVector& values) const;
 	VertexVector scatter(const Eigen::VectorXd& rows) const;

@@ -79,12 +79,6 @@ NewtonSolver::NewtonSolver(
 	m_low.setZero(n);
 }
 
-void NewtonSolver::continueOn(CurvatureMap& map)
-{
-	m_hessian->continueOn(*m_map, map);
-	m_map = &map;
-}
-
 void NewtonSolver::beginWith(std::shared_ptr<FactoredHessian> hessian)
 {
 	if (hessian->row() != m_hessian->row())
@@ -164,7 +158,7 @@ double NewtonSolver::roundingFloor()
 	}
 	double amplification = m_map->needleRatio();
 	amplification = std::max(amplification, m_diagonal.maxCoeff());
-	return 4.0 * m_map->precision() * amplification + kSumRounding;
+	return 4.0 * kUnitRoundoff * amplification + kSumRounding;
 }
 
 /// One call of solve().
@@ -217,8 +211,8 @@ NewtonSolver::Verdict NewtonSolver::judge(Run& run)
 		return Verdict::Stop;
 	if (!isMetric || !(result.residual < run.options.epsilon))
 		return result.iterations < run.options.maxIterations ? Verdict::Step : Verdict::Stop;
-	const bool polishes = run.options.polishes && result.floor <= run.options.maxPolishedFloor;
-	return polishes && run.polishing < kPolishingSteps ? Verdict::Polish : Verdict::Stop;
+	return run.options.polishes && run.polishing < kPolishingSteps ? Verdict::Polish
+																   : Verdict::Stop;
 }
 
 /// Solves H d = -(K - target), with the last factor as long as that takes less work than a new one, or

@@ -2,12 +2,10 @@
 #ifndef RICCI_NEWTON_H
 #define RICCI_NEWTON_H
 
-#include "../base/tolerances.h"
 #include "curvature_map.h"
 #include "hessian.h"
 
 #include <functional>
-#include <limits>
 #include <memory>
 
 namespace ricci {
@@ -18,9 +16,6 @@ struct NewtonOptions
 	double epsilon = 1e-8;   ///< radians: wanted bound of max |target - K|
 	int maxIterations = 200; ///< fewer than 30 are needed as a rule
 	bool polishes = true;    ///< goes on beyond epsilon with the factor that is there
-
-	/// Above this rounding floor there is nothing to polish: the caller goes on in other precision.
-	double maxPolishedFloor = std::numeric_limits<double>::infinity();
 };
 
 struct NewtonResult
@@ -65,17 +60,13 @@ public:
 	/// which the map is evaluated anew.
 	using Surgeon = std::function<bool(CurvatureMap&)>;
 
-	/// \param map is evaluated by solve(); must live as long as the solver, or until continueOn()
+	/// \param map is evaluated by solve(); must live as long as the solver
 	/// \param fixed 1 where u keeps its value (du = 0 in paper 5.3); the target is ignored there.
 	/// If nothing is fixed and the background is scale invariant, the mean of u is kept.
 	/// \param mirror the images of the vertices where map, target and u are symmetric, or empty. Then u
 	/// stays symmetric, and there are half as many equations.
 	NewtonSolver(
 		CurvatureMap& map, VertexArray<char> fixed, const VertexArray<Vertex>& mirror = {});
-
-	/// Goes on with \p map, which has the triangulation of the present one, from the present u and
-	/// with the present factorisation: the same equations in other precision.
-	void continueOn(CurvatureMap& map);
 
 	/// Begins with the factor of \p hessian, which nobody else uses any more, if its unknowns are the same.
 	/// \pre its pattern is that of the map's triangulation

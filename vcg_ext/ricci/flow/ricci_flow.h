@@ -68,17 +68,6 @@ FlowResult runRicciFlow(
 	const FlowOptions& options,
 	std::vector<FlowState>& states);
 
-/// The same, with its states forgotten.
-inline FlowResult runRicciFlow(
-	const EmbeddedSurface& surface,
-	InitialPacking start,
-	const Target& target,
-	const FlowOptions& options)
-{
-	std::vector<FlowState> states;
-	return runRicciFlow(surface, std::move(start), target, options, states);
-}
-
 /// [vertex of the surface] Logarithm of the factor by which a flow with intrinsic flips has scaled
 /// lengths: u at its end less u at its start.
 VertexVector flowFactor(const FlowResult& flow);

@@ -31,9 +31,6 @@ constexpr int kClosingSteps = 3;
 /// are fewer.
 constexpr std::size_t kFollowed = 64, kReadPairs = kFollowed * 100 * 100;
 
-/// Letters from one checkpoint to the next.
-constexpr std::size_t kTickEvery = 64;
-
 std::size_t followed(std::size_t letters)
 {
 	return std::clamp<std::size_t>(kReadPairs / (letters * letters), 1, kFollowed);
@@ -158,8 +155,7 @@ void appendReadings(
 			p = p * letter[y];
 		}
 		outer = outer * letter[0];
-		if (x % kTickEvery == 0)
-			checkpoint();
+		checkpoint();
 	}
 }
 

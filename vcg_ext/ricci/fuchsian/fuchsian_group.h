@@ -26,8 +26,8 @@ struct FuchsianGroup
 	std::vector<Vertex> peripheralVertex; ///< for each of them a vertex of the loop, or the cone
 
 	/// The canonical relation letter by letter, a1, b1, a1^-1, b1^-1, ..., e1, ..., en, in extended
-	/// precision: the last place of a double makes of it what relationCondition() says. Empty where
-	/// it was not asked for, or moves points too far (see kMaxGeneratorDistance).
+	/// precision: the last place of a double is magnified by the condition (see bestConditioned()). Empty
+	/// where it was not asked for, or moves points too far (see kMaxGeneratorDistance).
 	std::vector<ExtendedIsometry> relation;
 
 	bool isCanonical() const { return !relation.empty(); }
@@ -50,7 +50,7 @@ struct FuchsianGroup
 	/// Largest entry of the difference of the canonical relation from +-1, in extended precision.
 	/// Its generators have been moved by about polygonError so that the relation holds. It multiplies
 	/// large isometries, so that rounding leaves more of it where the genus is higher or the surface
-	/// longer: 2^-101 of relationCondition(), to the order of magnitude.
+	/// longer: 2^-101 of the condition (see bestConditioned()), to the order of magnitude.
 	double relationError = 0.0;
 };
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -19,9 +18,6 @@ using Isometry = ExtendedIsometry;
 /// A move has to bring the condition below this share.
 constexpr double kWorthMoving = 0.9;
 
-/// Moves from one checkpoint to the next.
-constexpr int kTickEvery = 16;
-
 /// Bases at most, and bases times the square of the number of letters in their relation.
 constexpr std::size_t kMaxTried = 32, kTriedLetters = 64 * 20 * 20;
 
@@ -31,7 +27,7 @@ double sizeOf(const Isometry& m)
 	return static_cast<double>(abs(m.a) + abs(m.b));
 }
 
-/// The share of one handle in relationCondition().
+/// The share of one handle in the condition, see bestConditioned().
 /// \param corner product of the letters before it; becomes that with its letters
 double conditionOf(const Isometry& a, const Isometry& b, Isometry& corner)
 {
@@ -194,15 +190,6 @@ private:
 
 } // namespace
 
-double relationCondition(const Handles& handles)
-{
-	double sum = 0.0;
-	Isometry corner;
-	for (std::size_t i = 0; i + 1 < handles.size(); i += 2)
-		sum += conditionOf(handles[i], handles[i + 1], corner);
-	return sum;
-}
-
 Handles bestConditioned(const std::vector<Handles>& bases, const std::vector<Isometry>& peripheral)
 {
 	Handles best;
@@ -215,10 +202,8 @@ Handles bestConditioned(const std::vector<Handles>& bases, const std::vector<Iso
 	HandleMoves moves(bases.front().size(), peripheral);
 	for (std::size_t i = 0; i < std::min(tried, bases.size()); ++i) {
 		moves.start(bases[i]);
-		int steps = 0;
 		do
-			if (steps++ % kTickEvery == 0)
-				checkpoint();
+			checkpoint();
 		while (moves.improve());
 		const bool isFar =
 			std::any_of(moves.handles().begin(), moves.handles().end(), [](const Isometry& m) {

@@ -8,14 +8,6 @@
 
 namespace ricci {
 
-/// By how much [a1,b1] ... [ag,bg] may change, in units of the relative rounding of the letters: the
-/// sum of |p| |w| |q| over all letters w, where p is the product of the letters before w, q = p w, and
-/// |m| = |a| + |b| = exp(d / 2) for an isometry that moves 0 by d. The p are the corners of the
-/// canonical polygon, so this is large where the polygon reaches far out, as seen from 0. Where the
-/// product of the letters behind is q^-1, but for isometries of bounded size, this is the first order
-/// of the error.
-double relationCondition(const Handles& handles);
-
 /// Of several canonical bases of one group the best conditioned, after each has been improved by
 /// automorphisms that keep [a1,b1] ... [ag,bg] as an element of the free group:
 ///
@@ -24,9 +16,16 @@ double relationCondition(const Handles& handles);
 ///     a1 -> a1 c^-1, b1 -> c b1 c^-1, a2 -> c a2, c = (b1^-1 a2 b2 a2^-1)^+-1, a Dehn twist;
 ///
 /// and on closed surfaces, where the product is the identity, by conjugation with a letter, which
-/// takes another corner of the polygon to 0. The best move is taken while it lowers
-/// relationCondition() by a tenth or more, which bounds their number by its logarithm. Moves
-/// multiply large isometries, so the relation is closed anew after each by closeRelation().
+/// takes another corner of the polygon to 0. The best move is taken while it lowers the condition by a
+/// tenth or more, which bounds their number by its logarithm. Moves multiply large isometries, so the
+/// relation is closed anew after each by closeRelation().
+///
+/// The condition is by how much [a1,b1] ... [ag,bg] may change, in units of the relative rounding of the
+/// letters: the sum of |p| |w| |q| over all letters w, where p is the product of the letters before w,
+/// q = p w, and |m| = |a| + |b| = exp(d / 2) for an isometry that moves 0 by d. The p are the corners of
+/// the canonical polygon, so this is large where the polygon reaches far out, as seen from 0. Where the
+/// product of the letters behind is q^-1, but for isometries of bounded size, this is the first order of
+/// the error.
 ///
 /// As many bases are tried, the first ones, as keeps the work independent of the genus: 32 up to genus
 /// 7, 16 on genus 10, at least one.

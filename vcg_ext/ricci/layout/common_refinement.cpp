@@ -3,7 +3,7 @@
 
 #include "../base/task.h"
 #include "../math/disjoint_sets.h"
-#include "../overlay/piece_triangulation.h"
+#include "../overlay/overlay_pieces.h"
 #include "end_sheets.h"
 
 #include <cmath>

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperbolic_layout.h"
 
-#include "../base/numbers.h"
 #include "../base/task.h"
 #include "../metric/area.h"
-#include "layout_tree.h"
+#include "planar_layout.h"
 
-#include <cmath>
 #include <vector>
 
 namespace ricci {

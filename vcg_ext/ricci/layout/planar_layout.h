@@ -7,6 +7,8 @@
 #include "../surface/triangulation.h"
 #include "flat_mesh.h"
 
+#include <vector>
+
 namespace ricci {
 
 /// A metric laid out in the plane, or in the Poincaré disk (paper 4.3). The cut divides the corners of the surface
@@ -48,6 +50,23 @@ PlanarLayout layOutInPlane(
 /// \return 1 at the vertices of these loops
 VertexArray<char>
 loopsThatClose(const Triangulation& t, const PlanarLayout& layout, const EdgeArray<char>& isCut);
+
+/// The order in which triangles are laid out one after another across the edges with isCut 0: a
+/// spanning tree of the triangles with the root \p root, as the halfedges across which they are
+/// entered. A triangle's neighbour in the tree always comes before it.
+///
+/// Across a side that is short in its triangle, directions lose as many units of rounding as the
+/// longest side is times longer. The tree reaches every triangle by the way that loses least
+/// [Dijkstra 1959], which also keeps the number of triangles on the way low. The order is
+/// deterministic.
+/// \param lengths positive
+/// \return for each triangle that can be reached, but for the root, the halfedge of it that is
+/// entered first
+std::vector<Halfedge> layoutTree(
+	const Triangulation& t,
+	const EdgeArray<double>& lengths,
+	const EdgeArray<char>& isCut,
+	Face root);
 
 } // namespace ricci
 

@@ -4,7 +4,6 @@
 
 #include "../base/indexed.h"
 
-#include <algorithm>
 #include <numeric>
 #include <vector>
 

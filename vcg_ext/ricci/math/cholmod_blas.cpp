@@ -12,8 +12,6 @@
 #include "../base/parallel.h"
 #include "cholmod_checkpoint.h"
 
-#include "../base/task.h"
-
 #include <Eigen/Cholesky>
 
 #include <cholmod.h>

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <type_traits>
 
 namespace ricci {
 
@@ -17,7 +18,8 @@ namespace ricci {
 template<class T>
 struct BasicDiskIsometry
 {
-	using Complex = ComplexOf<T>;
+	using Complex =
+		std::conditional_t<std::is_same_v<T, DoubleDouble>, ExtendedComplex, std::complex<T>>;
 
 	Complex a{1, 0}, b{0, 0};
 

@@ -107,15 +107,6 @@ DoubleDouble expm1(DoubleDouble x)
 	return (r.power - 1) + r.power * r.rest;
 }
 
-DoubleDouble log1p(DoubleDouble x)
-{
-	const double y = std::log1p(x.high);
-	if (!std::isfinite(y))
-		return y;
-	// One step of Newton's method for exp(y) - 1 = x.
-	return DoubleDouble(y) + (x - expm1(y)).high / (1.0 + x.high);
-}
-
 DoubleDouble sinh(DoubleDouble x)
 {
 	const DoubleDouble e = expm1(abs(x)), result = (e + e / (1 + e)) * 0.5;
@@ -133,6 +124,7 @@ DoubleDouble asinh(DoubleDouble x)
 	const double y = std::asinh(x.high);
 	if (!std::isfinite(y))
 		return y;
+	// One step of Newton's method for sinh(y) = x.
 	return DoubleDouble(y) + (x - sinh(y)).high / std::hypot(1.0, x.high);
 }
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <type_traits>
 
 namespace ricci {
 
@@ -148,7 +147,6 @@ inline DoubleDouble sqrt(DoubleDouble x)
 /// below 1e3, an absolute one.
 DoubleDouble exp(DoubleDouble x);
 DoubleDouble expm1(DoubleDouble x);
-DoubleDouble log1p(DoubleDouble x);
 DoubleDouble sinh(DoubleDouble x);
 DoubleDouble cosh(DoubleDouble x);
 DoubleDouble asinh(DoubleDouble x);
@@ -249,11 +247,6 @@ inline ExtendedComplex polar(DoubleDouble r, DoubleDouble angle)
 	const SineAndCosine turn = sineAndCosine(angle);
 	return {r * turn.cosine, r * turn.sine};
 }
-
-/// The complex numbers with parts of type \p T.
-template<class T>
-using ComplexOf =
-	std::conditional_t<std::is_same_v<T, DoubleDouble>, ExtendedComplex, std::complex<T>>;
 
 } // namespace ricci
 

@@ -8,13 +8,6 @@
 
 namespace ricci {
 
-namespace {
-
-/// Nodes that are looked at between two checkpoints.
-constexpr int kNodesBetweenTicks = 1 << 12;
-
-} // namespace
-
 MinCut::Side MinCut::run(
 	const std::vector<int>& sources, const std::vector<int>& sinks, const ForEdges& forEdges)
 {
@@ -27,7 +20,8 @@ MinCut::Side MinCut::run(
 			activate(node);
 		}
 	std::int64_t work[2] = {0, 0};
-	for (int untilTick = kNodesBetweenTicks; !m_active[0].empty() && !m_active[1].empty();) {
+	while (!m_active[0].empty() && !m_active[1].empty()) {
+		checkpointNowAndThen(static_cast<std::size_t>(work[kSources] + work[kSinks]));
 		const Tree tree = work[kSources] <= work[kSinks] ? kSources : kSinks;
 		++work[tree];
 		const int node = m_active[tree].front();
@@ -35,10 +29,6 @@ MinCut::Side MinCut::run(
 		m_nodes[node].isActive[tree] = false;
 		if (m_nodes[node].tree == tree)
 			growFrom(node, forEdges);
-		if (--untilTick == 0) {
-			untilTick = kNodesBetweenTicks;
-			checkpoint();
-		}
 	}
 	const Tree found = m_active[kSources].empty() ? kSources : kSinks;
 	Side side{found == kSources, {}};

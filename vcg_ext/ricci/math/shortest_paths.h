@@ -99,8 +99,6 @@ public:
 
 	double operator[](Node node) const { return m_paths.distance[node]; }
 	Link parent(Node node) const { return m_paths.parent[node]; }
-	/// Nodes that were offered a distance, in the order of the first offers.
-	const std::vector<Node>& reached() const { return m_reached; }
 
 	/// Moves the result out of the front, which then is of no further use.
 	ShortestPaths<Node, Link> release() { return std::move(m_paths); }

@@ -242,17 +242,15 @@ public:
 	{
 		return *this;
 	}
-	const Eigen::VectorXd& solve(const Eigen::VectorXd& residual) const
+	Eigen::VectorXd solve(Eigen::VectorXd residual) const
 	{
-		m_solution = residual;
-		m_cholesky->solveOrdered(m_solution);
-		return m_solution;
+		m_cholesky->solveOrdered(residual);
+		return residual;
 	}
 	Eigen::ComputationInfo info() { return Eigen::Success; }
 
 private:
 	SparseCholesky* m_cholesky = nullptr;
-	mutable Eigen::VectorXd m_solution; // kept as work space
 };
 
 SparseCholesky::SparseCholesky(int nestedDissectionFrom) :

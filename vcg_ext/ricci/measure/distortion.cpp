@@ -30,18 +30,10 @@ struct LaidOutTriangle
 
 	explicit LaidOutTriangle(const std::array<Point3, 3>& p)
 	{
-		double a[3], b[3], dot = 0.0;
-		for (std::size_t i = 0; i < 3; ++i) {
-			a[i] = p[1][i] - p[0][i];
-			b[i] = p[2][i] - p[0][i];
-			dot += a[i] * b[i];
-		}
-		base = hypotOfThree(a[0], a[1], a[2]);
-		height =
-			std::hypot(
-				a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]) /
-			base;
-		apex = {dot / base, height};
+		const Point3 a = p[1] - p[0], b = p[2] - p[0], normal = cross(a, b);
+		base = length(a);
+		height = std::hypot(normal[0], normal[1], normal[2]) / base;
+		apex = {dot(a, b) / base, height};
 	}
 
 	double area() const { return base > 0.0 ? 0.5 * base * height : 0.0; }
@@ -123,21 +115,29 @@ AreaDistortion areaDistortion(const std::vector<double>& before, const std::vect
 	if (!(totalBefore > 0.0))
 		return distortion;
 	double mean = 0.0, logMean = 0.0, logSquare = 0.0;
-	std::vector<double> binaryLogs;
 	for (std::size_t f = 0; f < before.size(); ++f) {
 		const double weight = before[f] / totalBefore, share = after[f] / totalAfter;
 		if (!counts(f) || std::min(weight, share) < std::numeric_limits<double>::min())
 			continue;
 		const double logFactor = std::log(share) - std::log(weight);
-		binaryLogs.push_back(logFactor / std::log(2.0));
+		distortion.factors.push_back(logFactor / std::log(2.0));
 		mean += weight * std::exp(std::abs(logFactor));
 		logMean += weight * logFactor;
 		logSquare += weight * logFactor * logFactor;
 	}
-	distortion.histogram = factorHistogram(binaryLogs);
 	distortion.mean = mean;
 	distortion.spread = std::sqrt(std::max(0.0, logSquare - logMean * logMean));
 	return distortion;
+}
+
+double percentile(std::vector<double> values, double share)
+{
+	if (values.empty())
+		return std::numeric_limits<double>::quiet_NaN();
+	const double rank = std::ceil(share * static_cast<double>(values.size())) - 1.0;
+	const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 0.0));
+	std::nth_element(values.begin(), nth, values.end());
+	return *nth;
 }
 
 std::vector<double> measureDistortion(
@@ -178,10 +178,10 @@ std::vector<double> measureDistortion(
 			ringArea[positionOf(v)] += area;
 		}
 	}
-	const AreaDistortion areas = areaDistortion(areaBefore, areaAfter);
+	AreaDistortion areas = areaDistortion(areaBefore, areaAfter);
 	report.areaDistortionMean = areas.mean;
 	report.areaDistortionSpread = areas.spread;
-	report.areaHistogram = areas.histogram;
+	report.areaFactors = std::move(areas.factors);
 	double vertexSum = 0.0;
 	std::vector<double> measuredVertices;
 	for (std::size_t v = 0; v < vertexQC.size(); ++v) {
@@ -198,16 +198,10 @@ std::vector<double> measureDistortion(
 	report.qcMean = sum / static_cast<double>(measured.size());
 	report.qcAreaMean = weightedSum / areaSum;
 	report.qcVertexMean = vertexSum / static_cast<double>(measuredVertices.size());
-	report.qcHistogram = distortionHistogram(measuredVertices);
+	report.qcValues = std::move(measuredVertices);
 	report.qcMax = *std::max_element(measured.begin(), measured.end());
 	report.qcP99 = percentile(std::move(measured), 0.99);
 	return vertexQC;
-}
-
-std::vector<double>
-measureDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report)
-{
-	return measureDistortion(mesh.vertices, surface, mesh.corners(), report);
 }
 
 std::vector<double> measureHyperbolicDistortion(

@@ -2,9 +2,8 @@
 #ifndef RICCI_DISTORTION_H
 #define RICCI_DISTORTION_H
 
-#include "../flow/map_cost.h"
+#include "../flow/target.h"
 #include "../layout/flat_mesh.h"
-#include "../math/histogram.h"
 #include "../math/points.h"
 #include "../report.h"
 #include "../surface/surface_mesh.h"
@@ -31,12 +30,16 @@ struct AreaDistortion
 {
 	double mean = 1.0;   ///< of max(s, 1/s) for the area factors s, weighted by the area before
 	double spread = 0.0; ///< standard deviation of ln s, weighted by the area before
-	Histogram histogram; ///< of log2 s over the triangles
+	std::vector<double> factors; ///< log2 s of the triangles
 };
 
 /// \param before, after [triangle] areas, not negative. Triangles where either is 0 are left out,
 /// of the totals too, and those whose shares of the totals are below the normal numbers.
 AreaDistortion areaDistortion(const std::vector<double>& before, const std::vector<double>& after);
+
+/// The smallest of \p values that at least a share \p share of them does not exceed (nearest rank),
+/// 0 < \p share <= 1; NaN where there are none. None of them is NaN.
+double percentile(std::vector<double> values, double share);
 
 /// Measures the linear maps of triangles to the plane, and fills the fields of \p report that state qc
 /// and area distortion, and flippedFaces. Triangles without area in space are kept out of the means, and
@@ -50,11 +53,6 @@ std::vector<double> measureDistortion(
 	const std::vector<Point3>& surface,
 	const Array<Triangle2>& plane,
 	Report& report);
-
-/// Of a whole map to the plane.
-/// \param surface FlatMesh::onSurface()
-std::vector<double>
-measureDistortion(const FlatMesh& mesh, const std::vector<Point3>& surface, Report& report);
 
 /// Of a map to the Poincaré disk. What is measured is the map to the flat triangles with the corners of the
 /// geodesic ones on the hyperboloid, whose sides are its chords, 2 sinh(d / 2) for the distance d.

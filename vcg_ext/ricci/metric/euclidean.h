@@ -7,47 +7,42 @@
 namespace ricci {
 
 /// Euclidean background geometry (Definition 3.1): what the flow needs to know of a circle and of
-/// an edge. HyperbolicGeometry has the same members, so that the flow is written once.
+/// an edge. The struct Hyperbolic has the same members, so that the flow is written once.
 ///
 /// Everything is a function of u (log-radius) and delta = I - 1 (inversive distance less one; no
-/// cancellation for nearly tangent circles), evaluated in the precision of \p T.
-template<class T>
-struct EuclideanGeometry
+/// cancellation for nearly tangent circles).
+struct Euclidean
 {
-	using Real = T;
-
 	/// A metric is determined up to one common scale: the Hessian maps constants to 0.
 	static constexpr bool scaleInvariant = true;
 
 	struct Circle
 	{
-		Real radius;
-		Real s;     ///< factor of the length formula: the radius
-		Real kappa; ///< curvature of the circle: 1 / radius
+		double radius;
+		double s;     ///< factor of the length formula: the radius
+		double kappa; ///< curvature of the circle: 1 / radius
 	};
 
 	/// u + \p low = ln radius (Eq. 6); \p low is at most a unit in the last place of \p u.
 	static Circle circle(double u, double low = 0.0)
 	{
-		using std::exp;
-		const Real whole = exp(Real(u)), radius = whole + whole * Real(low);
+		const double whole = std::exp(u), radius = whole + whole * low;
 		return {radius, radius, 1 / radius};
 	}
 
 	struct Edge
 	{
-		Real length;      ///< Eq. 4; NaN if the circles are nested (I < -1)
-		Real excess;      ///< length less the sum of the radii, without cancellation
-		Real sine2;       ///< square of the length function of the law of sines: length^2
-		Real cosineLess1; ///< cosh(length) - 1 in the hyperbolic plane; 0 here
+		double length;      ///< Eq. 4; NaN if the circles are nested (I < -1)
+		double excess;      ///< length less the sum of the radii, without cancellation
+		double sine2;       ///< square of the length function of the law of sines: length^2
+		double cosineLess1; ///< cosh(length) - 1 in the hyperbolic plane; 0 here
 	};
 
 	/// Eq. 4 written with delta: l^2 = (gi + gj)^2 + 2 delta gi gj.
 	static Edge edge(const Circle& i, const Circle& j, double delta)
 	{
-		using std::sqrt;
-		const Real sum = i.radius + j.radius, p = 2 * Real(delta) * i.radius * j.radius;
-		const Real length2 = sum * sum + p, length = sqrt(length2);
+		const double sum = i.radius + j.radius, p = 2 * delta * i.radius * j.radius;
+		const double length2 = sum * sum + p, length = std::sqrt(length2);
 		return {length, p / (length + sum), length2, 0};
 	}
 
@@ -58,10 +53,8 @@ struct EuclideanGeometry
 	}
 
 	/// Length function of Heron's formula: the identity; sinh in the hyperbolic plane.
-	static double heron(Real x) { return static_cast<double>(x); }
+	static double heron(double x) { return x; }
 };
-
-using Euclidean = EuclideanGeometry<double>;
 
 } // namespace ricci
 

@@ -6,7 +6,7 @@
 
 namespace ricci {
 
-/// Hyperbolic background geometry of curvature -1, with the members of EuclideanGeometry.
+/// Hyperbolic background geometry of curvature -1, with the members of the struct Euclidean.
 ///
 /// The derivative of the angle at i by u_j (Lemma 3.8) has one closed form in both backgrounds,
 ///   s_i^2 s_j^2 s_k [kappa_i (I_ik + I_ij I_jk) + kappa_j (I_jk + I_ij I_ik)
@@ -19,20 +19,17 @@ namespace ricci {
 /// side. The diagonal is minus the sum of the other entries, each weighted by cosh(length) instead
 /// of 1, because larger triangles have more area and smaller angles: the Hessian is strictly
 /// positive definite.
-template<class T>
-struct HyperbolicGeometry
+struct Hyperbolic
 {
-	using Real = T;
-
 	/// Curvature -1 fixes the scale.
 	static constexpr bool scaleInvariant = false;
 
 	struct Circle
 	{
-		Real radius;
-		Real s;                  ///< sinh(radius)
-		Real kappa;              ///< geodesic curvature of the circle: coth(radius)
-		Real sinhHalf, coshHalf; ///< of half the radius
+		double radius;
+		double s;                  ///< sinh(radius)
+		double kappa;              ///< geodesic curvature of the circle: coth(radius)
+		double sinhHalf, coshHalf; ///< of half the radius
 	};
 
 	/// u + \p low = ln tanh(radius / 2) < 0 (Eq. 6); \p low is at most a unit in the last place of
@@ -40,29 +37,25 @@ struct HyperbolicGeometry
 	/// exists, and members of the result are infinite or NaN.
 	static Circle circle(double u, double low = 0.0)
 	{
-		using std::exp, std::expm1, std::log1p, std::sqrt;
-		const Real x = Real(u) + Real(low);
-		// Only a wider type holds low in x; in double its effect is added to first order.
-		const Real lost = Real(low) - (x - Real(u));
-		const Real t = exp(x), less = -expm1(x); // tanh(radius / 2), and 1 less that
-		const Real gap = less * (1 + t);         // 1 / cosh^2(radius / 2)
-		const Real s = 2 * t / gap, kappa = (1 + t * t) / (2 * t);
-		const Real coshHalf = 1 / sqrt(gap), sinhHalf = t * coshHalf;
-		// d radius / du = s, ds / du = s^2 kappa, d kappa / du = sinh(u) = -1 / s.
+		const double t = std::exp(u), less = -std::expm1(u); // tanh(radius / 2), and 1 less that
+		const double gap = less * (1 + t);                   // 1 / cosh^2(radius / 2)
+		const double s = 2 * t / gap, kappa = (1 + t * t) / (2 * t);
+		const double coshHalf = 1 / std::sqrt(gap), sinhHalf = t * coshHalf;
+		// The effect of low is added to first order: d radius / du = s, ds / du = s^2 kappa, d kappa / du = sinh(u) = -1 / s.
 		return {
-			log1p(2 * t / less) + s * lost,
-			s + s * s * kappa * lost,
-			kappa - lost / s,
-			sinhHalf + coshHalf * s * lost / 2,
-			coshHalf + sinhHalf * s * lost / 2};
+			std::log1p(2 * t / less) + s * low,
+			s + s * s * kappa * low,
+			kappa - low / s,
+			sinhHalf + coshHalf * s * low / 2,
+			coshHalf + sinhHalf * s * low / 2};
 	}
 
 	struct Edge
 	{
-		Real length;      ///< Eq. 4
-		Real excess;      ///< length less the sum of the radii, without cancellation
-		Real sine2;       ///< sinh^2(length)
-		Real cosineLess1; ///< cosh(length) - 1
+		double length;      ///< Eq. 4
+		double excess;      ///< length less the sum of the radii, without cancellation
+		double sine2;       ///< sinh^2(length)
+		double cosineLess1; ///< cosh(length) - 1
 	};
 
 	/// Eq. 4, cosh l = cosh gi cosh gj + I sinh gi sinh gj, written for half the length: with
@@ -70,13 +63,12 @@ struct HyperbolicGeometry
 	/// S^2 - sinh^2((gi + gj) / 2) = q = sinh((l - gi - gj) / 2) sinh((l + gi + gj) / 2).
 	static Edge edge(const Circle& i, const Circle& j, double delta)
 	{
-		using std::asinh, std::sqrt;
-		const Real q = Real(delta) * i.s * j.s / 2;
-		const Real sinhSum = i.sinhHalf * j.coshHalf + i.coshHalf * j.sinhHalf;
-		const Real coshSum = i.coshHalf * j.coshHalf + i.sinhHalf * j.sinhHalf;
-		const Real sine2 = sinhSum * sinhSum + q, cosine2 = 1 + sine2;
-		const Real sinhBoth = sqrt(sine2) * coshSum + sqrt(cosine2) * sinhSum;
-		const Real excess = 2 * asinh(q / sinhBoth);
+		const double q = delta * i.s * j.s / 2;
+		const double sinhSum = i.sinhHalf * j.coshHalf + i.coshHalf * j.sinhHalf;
+		const double coshSum = i.coshHalf * j.coshHalf + i.sinhHalf * j.sinhHalf;
+		const double sine2 = sinhSum * sinhSum + q, cosine2 = 1 + sine2;
+		const double sinhBoth = std::sqrt(sine2) * coshSum + std::sqrt(cosine2) * sinhSum;
+		const double excess = 2 * std::asinh(q / sinhBoth);
 		return {i.radius + j.radius + excess, excess, 4 * sine2 * cosine2, 2 * sine2};
 	}
 
@@ -90,9 +82,8 @@ struct HyperbolicGeometry
 
 	/// Length function of Heron's formula: sinh. The triangles of a mesh are small, where the
 	/// series is exact to a double and several times faster than the library.
-	static double heron(Real length)
+	static double heron(double x)
 	{
-		const auto x = static_cast<double>(length);
 		constexpr double kSmall = 0.25; // x^12 / 13! < 1e-17
 		if (!(std::abs(x) < kSmall))
 			return std::sinh(x);
@@ -100,8 +91,6 @@ struct HyperbolicGeometry
 		return x + x * y / 6 * (1 + y / 20 * (1 + y / 42 * (1 + y / 72 * (1 + y / 110))));
 	}
 };
-
-using Hyperbolic = HyperbolicGeometry<double>;
 
 } // namespace ricci
 

@@ -6,7 +6,6 @@
 #include "barycentric.h"
 #include "overlay_pieces.h"
 
-#include <array>
 #include <vector>
 
 namespace ricci {

@@ -30,7 +30,7 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
+#include <vector>
 
 namespace ricci {
 
@@ -169,6 +169,16 @@ OverlayPieces divideStartTriangles(const FlowResult& flow, int keptFaces);
 /// \throw InternalError if the corner is not in that triangle: a fault of the program
 FaceWeights
 inEndTriangle(const OverlayPieces& pieces, const Triangulation& end, int piece, int corner);
+
+/// Triangulates a polygon that is convex both in the plane and in space (where it is flat too); some
+/// of its corners may be straight. The worst triangle, in the plane or in space, is as good as it can
+/// be (quality: area over the square of the longest side), so that straight corners never make a
+/// triangle of their own. By dynamic programming over the diagonals [Klincsek 1980], cubic in the
+/// number of corners.
+/// \param plane, space the corners, counter-clockwise; at least 3
+/// \return triangles as indices into the corners, counter-clockwise
+std::vector<std::array<std::size_t, 3>>
+triangulatePiece(const std::vector<Point2>& plane, const std::vector<Point3>& space);
 
 } // namespace ricci
 

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten_steps.h"
 
+#include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../base/tolerances.h"
-#include "../error.h"
+#include "../curvature/area_change.h"
+#include "../flow/ricci_flow.h"
 #include "../measure/period_matrix.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
 
 namespace ricci {
 
@@ -20,6 +24,10 @@ constexpr int kMaxPeriodGenus = 10;
 
 /// Share of the part after the flow that the overlay takes before it is laid out.
 constexpr double kOverlay = 0.35;
+
+/// Flows after the first one, and those in a row that may bring nothing: where areas are to be kept so
+/// far, and where the map is to cost little.
+constexpr int kMaxRounds = 6, kMaxVainRounds = 2, kMaxCheaper = 2, kMaxVainCheaper = 1;
 
 } // namespace
 
@@ -56,14 +64,6 @@ void logFlow(const FlowResult& flow, const FlowOptions& options)
 			numberText(flow.residual, 3) + " (rounding floor " + numberText(flow.floor, 3) + ").");
 }
 
-void logCut(ComponentMap& map)
-{
-	if (!map.cut.endedEarly)
-		return;
-	++map.report.endedEarly;
-	logLine("The search for shorter seams has ended at the bound on its work.");
-}
-
 VertexArray<char>
 conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<char>& onHole)
 {
@@ -84,11 +84,7 @@ flowOverlay(const FlowDomain& domain, const FlowOptions& options, const Componen
 	return divideStartTriangles(map.flow, domain.surface.triangulation.faceCount());
 }
 
-CutGraph cutDomain(
-	const FlowDomain& domain,
-	EdgeArray<double> cost,
-	const VertexArray<char>& cones,
-	const HalfedgeArray<double>& corners)
+CutGraph cutDomain(const FlowDomain& domain, EdgeArray<double> cost, const VertexArray<char>& cones)
 {
 	advance(1.0 - kAfterFlow, "Shortening the seams");
 	const Triangulation& t = domain.surface.triangulation;
@@ -96,7 +92,7 @@ CutGraph cutDomain(
 	for (const Edge e : domain.isForeign.indices())
 		if (domain.isForeign[e])
 			cost[e] = std::numeric_limits<double>::infinity();
-	CutGraph cut = cutToDisk(t, cost, cones, corners);
+	CutGraph cut = cutToDisk(t, cost, cones);
 	if (domain.holes > 0)
 		dropSeamsToHoles(t, domain.surface.lengths, domain.onHole, cones, cut);
 	return cut;
@@ -190,6 +186,55 @@ bool mayBeFlipped(const ComponentMap& map, OutputTriangulation output)
 	const bool isBent = map.flow.flipCount() > 0 || map.flow.doubled || map.report.edgeSwaps > 0 ||
 						map.report.boundarySplits > 0;
 	return map.report.finishMoved > 0 || (isBent && output == OutputTriangulation::KeepMesh);
+}
+
+void keepAreas(
+	const EmbeddedSurface& surface,
+	const TargetRequest& request,
+	const Options& options,
+	ComponentMap& map)
+{
+	FlowResult& best = map.flow;
+	std::unique_ptr<const FlowResult> last; // where it is not the best
+	const auto propose = [&]() -> std::optional<FlowResult> {
+		const FlowResult& before = last ? *last : best;
+		if (keepsAreas(surface, before))
+			return std::nullopt; // without the cost of another start
+		auto next = attempt("the metric before it stays", [&]() -> std::optional<FlowResult> {
+			InitialPacking start = initialPacking(surface, options);
+			const auto target = targetToKeepAreas(surface, start, before, request);
+			if (!target)
+				return std::nullopt;
+			return runFlow(surface, std::move(start), *target, options, map);
+		});
+		return next ? std::move(*next) : std::nullopt;
+	};
+	const auto take = [&](FlowResult next) {
+		const bool isBest = areaCost(surface, next) <= areaCost(surface, best);
+		last.reset();
+		if (isBest)
+			best = std::move(next);
+		else
+			last = std::make_unique<const FlowResult>(std::move(next));
+		return isBest;
+	};
+	const bool isForCost = best.target.expected.has_value();
+	const int round = improve(
+		isForCost ? kMaxCheaper : kMaxRounds,
+		isForCost ? kMaxVainCheaper : kMaxVainRounds,
+		propose,
+		take);
+	if (!isForCost && round == kMaxRounds) {
+		++map.report.endedEarly;
+		logLine("The search for cones that keep areas has ended at the bound on its flows.");
+	}
+	if (round > 0) {
+		const AreaChange change = areaChange(surface, flowFactor(best));
+		logLine(
+			"The spread of the logarithm of the area factor is " + numberText(change.spread, 3) +
+			", the mean of the factor or its inverse " + numberText(change.mean, 3) +
+			", the energy " + numberText(change.energy, 3) + ".");
+	}
 }
 
 } // namespace ricci

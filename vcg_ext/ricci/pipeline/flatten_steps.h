@@ -22,9 +22,6 @@ TargetInput targetInput(const Component& component, const VertexInput& input, in
 /// Logs what the user should know of a flow that reached its target.
 void logFlow(const FlowResult& flow, const FlowOptions& options);
 
-/// Counts, and logs, a search for seams that has ended early.
-void logCut(ComponentMap& map);
-
 /// 1 at the vertices inside that are not flat in the target: the cut must reach them.
 /// \p onHole 1 at vertices of holes that the flow closes with caps; may be empty.
 VertexArray<char>
@@ -33,12 +30,8 @@ conesOf(const EmbeddedSurface& surface, const Target& target, const VertexArray<
 /// The cut graph through all cones on edges of the surface (paper 4.3), without seams to holes that the
 /// flow closes with caps and, where it can, without seams inside polygons.
 /// \param cost [edge] of a seam
-/// \param corners see shortenCut()
-CutGraph cutDomain(
-	const FlowDomain& domain,
-	EdgeArray<double> cost,
-	const VertexArray<char>& cones,
-	const HalfedgeArray<double>& corners = {});
+CutGraph
+cutDomain(const FlowDomain& domain, EdgeArray<double> cost, const VertexArray<char>& cones);
 
 /// Sum of the lengths of the cut's edges.
 double lengthOf(const CutGraph& cut, const EdgeArray<double>& lengths);
@@ -86,6 +79,17 @@ void measurePeriods(ComponentMap& map);
 /// Whether straight faces of the component may be flipped in the map although it is right: flips, swaps
 /// and splits bend their edges, and the repair moves their corners.
 bool mayBeFlipped(const ComponentMap& map, OutputTriangulation output);
+
+/// The promise of Target::maxSpread: while the metric of map.flow changes areas more than its target
+/// was chosen for, runs the flow again, to targetToKeepAreas(), in a bounded number of rounds. The
+/// metric that keeps areas best stays in map.flow.
+/// \param surface on which map.flow has run
+/// \throw Stopped
+void keepAreas(
+	const EmbeddedSurface& surface,
+	const TargetRequest& request,
+	const Options& options,
+	ComponentMap& map);
 
 } // namespace ricci
 

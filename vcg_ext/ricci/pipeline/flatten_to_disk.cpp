@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten.h"
 
+#include "../base/numbers.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../curvature/hyperbolic_target.h"
 #include "../cut/cut_graph.h"
-#include "../finish/finish.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../surface/flow_domain.h"
 #include "../verify/chart_check.h"
@@ -72,23 +71,6 @@ void layOut(
 			"numbers can tell.");
 }
 
-/// The finish of what is given back, the refinement or the mesh's own triangles.
-void finish(const FlowDomain& domain, const HyperbolicOptions& options, ComponentMap& map)
-{
-	if (!isFinished(options))
-		return;
-	advance(1.0 - kAfterFlow, "Repairing the map");
-	FlatMesh own; // corners of the mesh
-	if (!isRefined(options))
-		own = flatMeshOf(domain.surface, map.layout);
-	const FinishCounts counts =
-		finishInDisk(isRefined(options) ? map.mesh : own, map.flow.target.hasFixed());
-	map.report.finishMoved = counts.moved;
-	map.report.endedEarly += counts.endedEarly;
-	if (!isRefined(options))
-		map.layout.points = std::move(own.place);
-}
-
 } // namespace
 
 ComponentMap flattenToDisk(
@@ -112,16 +94,12 @@ ComponentMap flattenToDisk(
 	besides(
 		threads,
 		[&] { overlay = flowOverlay(domain, options, map); },
-		[&] { // 4.3; wedges at cones may be as wide as they like in the disk
+		[&] { // 4.3
 			map.cut = cutDomain(domain, cutCost(domain, map.flow, options.method), map.cones);
 		});
-	logCut(map);
 	besides(
 		threads,
-		[&] {
-			layOut(domain, std::move(overlay), options, map); // 4.3
-			finish(domain, options, map);
-		},
+		[&] { layOut(domain, std::move(overlay), options, map); }, // 4.3
 		[&] {
 			measurePeriods(map);
 			requireMetric(map.flow, domain.solved().topology.boundary);

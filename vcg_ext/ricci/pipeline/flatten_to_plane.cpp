@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten.h"
 
-#include "../base/attempt.h"
-#include "../base/numbers.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../curvature/target_curvature.h"
-#include "../cut/cone_wedges.h"
 #include "../cut/cut_graph.h"
 #include "../cut/seam_cost.h"
 #include "../edge_swap/swapped_flow.h"
@@ -21,7 +17,6 @@
 #include "../verify/holonomy_check.h"
 #include "../verify/metric_check.h"
 #include "flatten_steps.h"
-#include "keep_areas.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,35 +56,16 @@ TargetRequest targetRequest(
 	return request;
 }
 
-/// [vertex] The angle in all at each cone of a target, radians; 0 elsewhere.
-VertexArray<double> coneAngles(const FlowDomain& domain, const Target& target)
-{
-	const VertexArray<char> cones = conesOf(domain.surface, target, domain.onHole);
-	VertexArray<double> angles(cones.size(), 0.0);
-	for (const Vertex v : cones.indices())
-		if (cones[v])
-			angles[v] = 2.0 * kPi - target.curvature[v];
-	return angles;
-}
-
-/// The cut through cones of these angles. No wedge of one is too wide, unless edges are swapped.
+/// The cut through the cones.
 void cutOpen(
-	const FlowDomain& domain,
-	const VertexArray<double>& coneAngle,
-	const Options& options,
-	ComponentMap& map)
+	const FlowDomain& domain, VertexArray<char> cones, const Options& options, ComponentMap& map)
 {
 	const EmbeddedSurface& surface = domain.surface;
-	const Triangulation& t = surface.triangulation;
-	map.cones.assign(coneAngle.size(), 0);
-	for (const Vertex v : coneAngle.indices())
-		map.cones[v] = coneAngle[v] > 0.0;
+	map.cones = std::move(cones);
 	map.cut = cutDomain(
 		domain,
-		seamCost(t, surface.lengths, surface.positions, options.seamHiding),
-		map.cones,
-		options.method == Method::EdgeSwaps ? HalfedgeArray<double>()
-											: coneCorners(t, surface.lengths, coneAngle));
+		seamCost(surface.triangulation, surface.lengths, surface.positions, options.seamHiding),
+		map.cones);
 }
 
 /// Scales the layout by \p scale and turns it so that its smallest bounding rectangle lies along the
@@ -306,7 +282,6 @@ std::optional<ComponentMap> flattenToPlane(
 	logLines(linesOfOther);
 	TargetRequest request = targetRequest(component, input, options, domain.solved());
 	request.alternative = other;
-	VertexArray<double> coneAngle; // of the cones that it is cut through
 	if (options.method == Method::EdgeSwaps)
 		flowWithEdgeSwaps(component, input, options, domain, map); // 5.4
 	else {
@@ -318,20 +293,20 @@ std::optional<ComponentMap> flattenToPlane(
 			if (cost > alternative(cost))
 				return std::nullopt;
 		}
-		coneAngle = coneAngles(domain, target);
 		besides(
 			threads,
 			[&] { // 4.2
 				map.flow = runFlow(domain.solved(), std::move(start), target, options, map);
 			},
-			[&] { cutOpen(domain, coneAngle, options, map); }); // 4.3
+			[&] { // 4.3
+				cutOpen(domain, conesOf(domain.surface, target, domain.onHole), options, map);
+			});
 	}
 	keepAreas(domain.solved(), request, options, map);
 	makeSeamless(domain.solved(), request, options, map);
 	logFlow(map.flow, options);
-	if (const auto now = coneAngles(domain, map.flow.target); !(now == coneAngle))
-		cutOpen(domain, now, options, map);
-	logCut(map);
+	if (auto cones = conesOf(domain.surface, map.flow.target, domain.onHole); !(cones == map.cones))
+		cutOpen(domain, std::move(cones), options, map);
 	besides(
 		threads,
 		[&] {

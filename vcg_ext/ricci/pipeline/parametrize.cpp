@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "../parametrize.h"
 
+#include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../charts/finish_in_floats.h"
 #include "../charts/input_indices.h"
 #include "../charts/pack.h"
@@ -10,7 +10,6 @@
 #include "../measure/distortion.h"
 #include "../verify/overlap_check.h"
 #include "flatten.h"
-#include "unfold.h"
 #include "whole_map.h"
 
 #include <cmath>
@@ -40,16 +39,19 @@ void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
 		values.push_back(values[positionOf(opened.vertex[v])]);
 }
 
-/// Maps every component.
+/// Maps every component, and measures the whole.
 /// \param flatten flatten(component, input) to a Parametrization
-template<class Flatten>
+template<class AnyOptions, class Flatten, class Measure>
 Parametrization mapComponents(
 	const SurfaceMesh& mesh,
 	const VertexInput& input,
-	const FlowOptions& options,
+	const AnyOptions& options,
 	const Flatten& flatten,
+	const Measure& measure,
 	OpenedMesh& opened)
 {
+	checkOptions(options);
+	const Task part(0.0, kMapped);
 	advance(0.0, "Checking the mesh");
 	Parametrization map;
 	const std::vector<Component> components = startMap(mesh, options, opened, map);
@@ -64,6 +66,8 @@ Parametrization mapComponents(
 	map.report.converged = true;
 	map.report.charts = static_cast<int>(map.charts.size());
 	advance(kComponentsDone, "Measuring the distortion");
+	measure(opened, map);
+	advance(1.0, "Layout done");
 	return map;
 }
 
@@ -135,24 +139,15 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 void measure(const OpenedMesh& opened, Parametrization& map)
 {
 	const std::vector<Point3> surface = map.mesh.onSurface(opened.mesh.positions);
-	map.vertexQC = measureDistortion(map.mesh, surface, map.report);
+	map.vertexQC = measureDistortion(map.mesh.vertices, surface, map.mesh.corners(), map.report);
 	map.report.stretch = stretchEnergy(map.mesh);
 }
 
-/// In the unit disk, whatever the squares are in which the disks lie.
+/// In the unit disk, before the disks are placed.
 void measureInDisk(const OpenedMesh& opened, Parametrization& map)
 {
-	FlatMesh mesh = map.mesh;
-	std::vector<Motion> motions;
-	for (const Chart& chart : map.charts) {
-		const bool isPlaced = chart.box.width() > 0.0;
-		const double scale = isPlaced ? 2.0 / chart.box.width() : 1.0;
-		const Point2 centre = isPlaced ? chart.box.centre() : Point2{0.0, 0.0};
-		motions.push_back({scale, {-scale * centre[0], -scale * centre[1]}});
-	}
-	moveCharts(motions, mesh);
-	const std::vector<Point3> surface = mesh.onSurface(opened.mesh.positions);
-	map.vertexQC = measureHyperbolicDistortion(mesh, surface, map.report);
+	const std::vector<Point3> surface = map.mesh.onSurface(opened.mesh.positions);
+	map.vertexQC = measureHyperbolicDistortion(map.mesh, surface, map.report);
 }
 
 /// From charts to texture coordinates.
@@ -169,8 +164,8 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	FloatFinish finish;
 	finish.forText = options.output == OutputTriangulation::KeepMesh;
 	finish.measure = [&] { measure(opened, map); };
-	finish.packAgain = [&] { packCharts(map, options, turns); };
-	finish.mayCut = mayCutCharts(options);
+	if (mayCutCharts(options))
+		finish.packAgain = [&] { packCharts(map, options, turns); };
 	if (isFinished(options))
 		finishInFloats(finish, map);
 	countFlipped(map.mesh, map.report);
@@ -232,19 +227,10 @@ ChartTurns chartTurns(const Options& options)
 Parametrization chartsInPlane(
 	const SurfaceMesh& mesh, const VertexInput& input, const Options& options, OpenedMesh& opened)
 {
-	checkOptions(options);
-	const Task part(0.0, kMapped);
-	Parametrization map = mapComponents(
-		mesh,
-		input,
-		options,
-		[&](const Component& component, const VertexInput& ofCopies) {
-			return mapToPlane(component, ofCopies, options);
-		},
-		opened);
-	measure(opened, map);
-	advance(1.0, "Layout done");
-	return map;
+	const auto flatten = [&](const Component& component, const VertexInput& ofCopies) {
+		return mapToPlane(component, ofCopies, options);
+	};
+	return mapComponents(mesh, input, options, flatten, measure, opened);
 }
 
 Parametrization chartsInDisk(
@@ -253,19 +239,10 @@ Parametrization chartsInDisk(
 	const HyperbolicOptions& options,
 	OpenedMesh& opened)
 {
-	checkOptions(options);
-	const Task part(0.0, kMapped);
-	Parametrization map = mapComponents(
-		mesh,
-		input,
-		options,
-		[&](const Component& component, const VertexInput& ofCopies) {
-			return asParametrization(component, flattenToDisk(component, ofCopies, options));
-		},
-		opened);
-	measureInDisk(opened, map);
-	advance(1.0, "Layout done");
-	return map;
+	const auto flatten = [&](const Component& component, const VertexInput& ofCopies) {
+		return asParametrization(component, flattenToDisk(component, ofCopies, options));
+	};
+	return mapComponents(mesh, input, options, flatten, measureInDisk, opened);
 }
 
 Parametrization
@@ -284,15 +261,16 @@ Parametrization parametrizeHyperbolic(
 	OpenedMesh opened;
 	Parametrization map = chartsInDisk(mesh, input, options, opened);
 	advance(kMapped, "Finishing the coordinates");
-	if (!isFinished(options))
-		placeDisks(map);
-	else if (placeDisksInFloats(map))
+	const bool isRefined = options.output == OutputTriangulation::CommonRefinement;
+	if (isFinished(options) && finishDisks({options.freeBoundary, isRefined}, map))
 		measureInDisk(opened, map);
+	placeDisks(map);
 	const int flipped = map.report.flippedFaces; // of geodesic triangles
 	countFlipped(map.mesh, map.report);
 	if (!isFinished(options)) // straight triangles may be flipped where geodesic ones are not
 		map.report.flippedFaces = flipped;
 	countOverlaps(map);
+	countUnequalSeamsInDisk(map);
 	complete(mesh, opened, map);
 	return map;
 }

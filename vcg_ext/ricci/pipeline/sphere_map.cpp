@@ -2,13 +2,13 @@
 #include "../sphere_map.h"
 #include "../base/task.h"
 
-#include "../base/text.h"
+#include "../base/numbers.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../math/moebius_balancing.h"
 #include "../measure/distortion.h"
 #include "../surface/component.h"
-#include "../surface/topology.h"
+#include "../surface/triangulation.h"
 #include "../verify/sphere_check.h"
 #include "whole_map.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "unfold.h"
+#include "whole_map.h"
 
-#include "../base/attempt.h"
 #include "../base/memory_estimate.h"
 #include "../base/numbers.h"
 #include "../base/parallel.h"
@@ -12,7 +11,6 @@
 #include "../surface/flow_domain.h"
 #include "../surface/opened_mesh.h"
 #include "flatten.h"
-#include "whole_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -143,8 +141,10 @@ unfold(const Component& component, const Options& options, double maxBetween)
 {
 	std::vector<std::vector<Component>> divisions; // the pieces
 	int edges = 0;                                 // that are creases
+	const std::vector<Point3>& positions = component.positions.values();
+	const Sides sides(component.triangles);
 	for (const double angle : kCreaseAngles) {
-		const Creases found = creases(component.positions.values(), component.triangles, angle);
+		const Creases found = creases(positions, component.triangles, sides, angle);
 		const bool isBent = found.edges == 0 || found.curvatureBetween > maxBetween;
 		if (divisions.empty() && (isBent || angle < kCreaseAngles[0]))
 			break; // as it is between creases that are sharper

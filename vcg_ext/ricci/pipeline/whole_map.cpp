@@ -4,7 +4,6 @@
 #include "../base/memory_estimate.h"
 #include "../base/parallel.h"
 #include "../base/task.h"
-#include "../charts/flipped_triangles.h"
 #include "../charts/separate_charts.h"
 #include "../measure/distortion.h"
 
@@ -130,11 +129,8 @@ MapCost costOf(const Parametrization& map)
 
 void separateCharts(const Options& options, Parametrization& map)
 {
-	if (!mayCutCharts(options))
-		return;
-	if (isFinished(options) && options.output == OutputTriangulation::KeepMesh)
-		reflectFlipped(map);
-	separateCharts(options.cones.rounding != ConeRounding::QuarterTurns, map);
+	if (mayCutCharts(options))
+		separateCharts(options.cones.rounding != ConeRounding::QuarterTurns, map);
 }
 
 void append(const Component& component, Parametrization part, Parametrization& whole)

@@ -5,13 +5,14 @@
 
 #include "../charts/outline_packing.h"
 #include "../charts/parametrization.h"
-#include "../flow/map_cost.h"
+#include "../flow/target.h"
 #include "../options.h"
 #include "../parametrize.h"
 #include "../surface/component.h"
 #include "flatten.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace ricci {
@@ -52,8 +53,7 @@ inline bool mayCutCharts(const Options& options)
 		   options.target != TargetCurvature::Rectangle;
 }
 
-/// Finds charts that overlap, as \p options say; divides them, and reflects flipped triangles, unless the charts
-/// are to be those of the flow.
+/// Divides charts that overlap, unless the charts are to be those of the flow.
 void separateCharts(const Options& options, Parametrization& map);
 
 /// Appends the map of a component, in its indices, to that of the surface that it is a component of.
@@ -70,6 +70,20 @@ void appendComponents(
 	const std::vector<Component>& components,
 	const std::function<Parametrization(const Component&)>& flatten,
 	Parametrization& whole);
+
+/// A map of a component in several charts without overlap, in the component's indices.
+///
+/// Where nearly all curvature of a surface lies at its creases, what is between them is its own flat metric,
+/// and a flow that has to spread that curvature over the surface distorts what could lie flat. The component
+/// is cut along its creases, each piece is mapped by itself with a free boundary, and the pieces are joined
+/// across creases again where they have room: a crease carries no curvature, only its corners do, so that
+/// joining distorts nothing. Creases are all edges above one of several angles, each of which is tried; the map
+/// that costs least is taken (MapCost).
+/// \param maxBetween share of the curvature that may be left between creases
+/// \return none where more is left, there are no creases, or there is no memory for it (Task::memoryLimit())
+/// \throw what the stages throw
+std::optional<Parametrization>
+unfold(const Component& component, const Options& options, double maxBetween);
 
 } // namespace ricci
 

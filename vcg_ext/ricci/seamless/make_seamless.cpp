@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "make_seamless.h"
 
-#include "../base/attempt.h"
 #include "../base/numbers.h"
 #include "../base/task.h"
 #include "../curvature/area_change.h"

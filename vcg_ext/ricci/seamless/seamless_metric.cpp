@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "seamless_metric.h"
 
-#include "../base/attempt.h"
 #include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../metric/area.h"
 #include "../metric/euclidean.h"
 #include "holonomy.h"
@@ -13,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -202,9 +199,8 @@ private:
 			if (!(packing.delta[e] >= 0.0))
 				return std::nullopt;
 		}
-		const bool isExtended = map.precision() < std::numeric_limits<double>::epsilon();
 		const std::shared_ptr<CurvatureMap> next =
-			curvatureMap(std::move(packing), Background::EuclideanPlane, true, isExtended);
+			curvatureMap(std::move(packing), Background::EuclideanPlane, true);
 		Metric result;
 		result.u = metric.u;
 		const std::optional<NewtonResult> solved = attempt("a shorter step is tried", [&] {

@@ -2,7 +2,6 @@
 #include "creases.h"
 
 #include "../base/numbers.h"
-#include "sides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,8 +35,11 @@ enum class At : char { Between, Crease, Boundary };
 
 } // namespace
 
-Creases
-creases(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles, double angle)
+Creases creases(
+	const std::vector<Point3>& positions,
+	const std::vector<Triangle>& triangles,
+	const Sides& sides,
+	double angle)
 {
 	const auto at = [&](int v) -> const Point3& { return positions[positionOf(v)]; };
 	Array<Point3> normals;
@@ -47,7 +49,7 @@ creases(const std::vector<Point3>& positions, const std::vector<Triangle>& trian
 	result.sides.resize(triangles.size(), {0, 0, 0});
 	Array<At> where(static_cast<int>(positions.size()), At::Between);
 	const double cosine = std::cos(angle);
-	Sides(triangles).forEdges([&](const auto& edge) {
+	sides.forEdges([&](const auto& edge) {
 		const Corner side = edge[0];
 		const Triangle& t = triangles[positionOf(side.face())];
 		const auto mark = [&](At place) {

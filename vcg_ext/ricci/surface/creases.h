@@ -2,6 +2,7 @@
 #ifndef RICCI_CREASES_H
 #define RICCI_CREASES_H
 
+#include "sides.h"
 #include "surface_mesh.h"
 
 #include <array>
@@ -21,11 +22,14 @@ struct Creases
 	double curvatureBetween = 1.0;
 };
 
-/// \param positions, triangles of an oriented manifold
+/// \param positions, triangles, sides of an oriented manifold
 /// \param angle radians between the normals of the two triangles at an edge, above which it is a crease.
 /// Edges of a triangle so thin that it has no normal are none.
-Creases
-creases(const std::vector<Point3>& positions, const std::vector<Triangle>& triangles, double angle);
+Creases creases(
+	const std::vector<Point3>& positions,
+	const std::vector<Triangle>& triangles,
+	const Sides& sides,
+	double angle);
 
 } // namespace ricci
 

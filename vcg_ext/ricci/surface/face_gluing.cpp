@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -187,8 +186,6 @@ constexpr std::size_t kRoots = 16;
 /// orders may be.
 constexpr double kOrderFactor = 2.0;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// An edge as seen from one of its ends.
 struct Link
 {
@@ -273,7 +270,7 @@ public:
 					}
 				}
 				else if (length + link.length < next.length) {
-					if (next.length == kInfinity)
+					if (next.length == kFar)
 						touched.push_back(link.vertex);
 					next.length = length + link.length;
 					next.from = {v, link.side, link.parity, link.length};
@@ -304,7 +301,7 @@ public:
 private:
 	struct Place
 	{
-		double length = kInfinity; // from the root
+		double length = kFar; // from the root
 		Link from;
 		char parity = 0; // of the way from the root
 		bool done = false;
@@ -432,7 +429,7 @@ void cutOneSided(
 		const int component = componentOf(sides[first]);
 		for (last = first; last < sides.size() && componentOf(sides[last]) == component;)
 			++last;
-		EdgeSet loop{{}, kInfinity};
+		EdgeSet loop{{}, kFar};
 		const std::size_t count = std::min(kRoots, last - first);
 		for (std::size_t i = 0; i < count; ++i)
 			search.improve(triangles[sides[first + i * (last - first) / count]], loop);

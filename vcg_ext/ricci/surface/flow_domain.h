@@ -4,7 +4,7 @@
 
 #include "../options.h"
 #include "component.h"
-#include "topology.h"
+#include "triangulation.h"
 
 #include <array>
 #include <optional>

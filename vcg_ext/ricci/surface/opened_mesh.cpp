@@ -39,7 +39,11 @@ void checkElements(const SurfaceMesh& mesh)
 		const std::size_t vertices = mesh.positions.size() - mesh.absent;
 		throw InvalidMesh(vertices == 0 ? InvalidMesh::Empty : InvalidMesh::NoFaces, vertices);
 	}
-	std::size_t notFinite = 0, huge = 0;
+	const auto vertices = static_cast<int>(mesh.positions.size());
+	std::size_t damaged = 0, notFinite = 0, huge = 0;
+	for (const Triangle& t : mesh.triangles)
+		damaged += std::any_of(t.begin(), t.end(), [&](int v) { return v < 0 || v >= vertices; });
+	requireNone(damaged, InvalidMesh::DamagedFaces);
 	for (const Point3& p : mesh.positions)
 		notFinite += !(std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]));
 	requireNone(notFinite, InvalidMesh::NotFinite);

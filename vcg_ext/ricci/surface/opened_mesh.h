@@ -59,8 +59,9 @@ struct OpenedMesh
 /// another nor a boundary goes on along the edge that leads straightest on: else both its sides would
 /// have the same two vertices, and lie on each other in the plane. Left out are faces that use a
 /// vertex twice, and components that have no area. What was done is told in \p notes.
-/// \throw InvalidMesh for the first of these that is found, with its number: no faces; coordinates
-/// that are not finite or beyond 1e50; components smaller than 1e-50; no face with an area
+/// \throw InvalidMesh for the first of these that is found, with its number: no faces; faces that use
+/// vertices which are not in the mesh; coordinates that are not finite or beyond 1e50; components smaller
+/// than 1e-50; no face with an area
 OpenedMesh openMesh(const SurfaceMesh& mesh, std::vector<std::string>& notes);
 
 } // namespace ricci

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chart_check.h"
 
+#include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../math/double_double.h"
@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 namespace ricci {

@@ -3,7 +3,6 @@
 
 #include "../base/numbers.h"
 #include "../base/task.h"
-#include "../base/text.h"
 #include "../base/tolerances.h"
 #include "../error.h"
 #include "../math/double_double.h"

@@ -4,8 +4,7 @@
 #include "../base/floating_point.h"
 #include "../base/task.h"
 #include "../charts/chart_overlap.h"
-#include "../charts/outline.h"
-#include "../charts/simple_border.h"
+#include "../math/disk_isometry.h"
 
 #include <algorithm>
 #include <array>
@@ -15,20 +14,6 @@
 namespace ricci {
 
 namespace {
-
-/// Whether this can be seen from borders alone.
-bool coversNothingTwice(const FlatMesh& mesh, std::size_t charts, double padding)
-{
-	std::vector<Outline> outlines;
-	for (const std::vector<int>& triangles : mesh.trianglesByChart(charts)) {
-		checkpoint();
-		if (!hasSimpleBorder(mesh, triangles))
-			return false;
-		if (charts > 1)
-			outlines.push_back(outlineOf(mesh, triangles));
-	}
-	return charts == 1 || keepApart(outlines, padding);
-}
 
 /// Coordinates rounded to float. \param step receives that of the largest one
 Array<Point2> inFloats(Array<Point2> places, double& step)
@@ -43,17 +28,31 @@ Array<Point2> inFloats(Array<Point2> places, double& step)
 	return places;
 }
 
+/// Edges of seams whose sides differ by more than kUnequalShare and the \p rounding of their four ends.
+template<class Length, class Rounding>
+int unequalSeams(const FlatMesh& mesh, const Length& length, const Rounding& rounding)
+{
+	int count = 0;
+	for (const Corner side : seams(mesh).edges) {
+		const Corner other = mesh.across[side];
+		const double own = length(side), across = length(other);
+		const double allowed =
+			rounding(side) + rounding(side.next()) + rounding(other) + rounding(other.next());
+		count += std::abs(own - across) > std::max(kUnequalShare * std::max(own, across), allowed);
+	}
+	return count;
+}
+
 } // namespace
 
 void countOverlaps(Parametrization& map)
 {
+	checkpoint();
 	double step = 0.0;
 	FlatMesh stored = map.mesh;
 	stored.place = inFloats(std::move(stored.place), step);
 	map.report.overlappingFaces = map.report.overlappingCharts = 0;
-	if (coversNothingTwice(stored, map.charts.size(), step))
-		return;
-	const OverlapSearch search(stored.corners(), kTouchingSteps * step);
+	const OverlapSearch search(stored, kTouchingSteps * step);
 	const Array<char> overlaps = search.overlapping();
 	std::vector<char> isChart(map.charts.size(), 0);
 	for (const int f : overlaps.indices())
@@ -71,13 +70,30 @@ void countUnequalSeams(Parametrization& map)
 	const auto length = [&](Corner side) {
 		return distance(stored[map.mesh.points[side]], stored[map.mesh.points[side.next()]]);
 	};
-	const std::vector<Corner> edges = seams(map.mesh).edges;
 	map.report.unequalSeams =
-		static_cast<int>(std::count_if(edges.begin(), edges.end(), [&](Corner side) {
-			const double own = length(side), across = length(map.mesh.across[side]);
-			return std::abs(own - across) >
-				   std::max(kUnequalShare * std::max(own, across), kTouchingSteps * step);
-		}));
+		unequalSeams(map.mesh, length, [&](Corner) { return 0.25 * kTouchingSteps * step; });
+}
+
+void countUnequalSeamsInDisk(Parametrization& map)
+{
+	double step = 0.0;
+	const Array<Point2> stored = inFloats(map.mesh.place, step);
+	const auto square = [&](Corner c) -> const Box2& {
+		return map.charts[positionOf(map.mesh.chart[c.face()])].box;
+	};
+	const auto inDisk = [&](Corner c) {
+		const Point2 fromCentre = stored[map.mesh.points[c]] - square(c).centre();
+		return asComplex(fromCentre) / (0.5 * square(c).width());
+	};
+	const auto length = [&](Corner side) {
+		return 2.0 * std::asinh(0.5 * chordLength(inDisk(side), inDisk(side.next())));
+	};
+	// The metric is 2 |dz| / (1 - |z|^2).
+	const auto rounding = [&](Corner end) {
+		const double moved = 0.25 * kTouchingSteps * step / (0.5 * square(end).width());
+		return 2.0 * moved / std::max(1.0 - std::norm(inDisk(end)), 0.0);
+	};
+	map.report.unequalSeams = unequalSeams(map.mesh, length, rounding);
 }
 
 } // namespace ricci

@@ -18,6 +18,10 @@ void countOverlaps(Parametrization& map);
 /// across such a seam is torn there.
 void countUnequalSeams(Parametrization& map);
 
+/// The same in the hyperbolic metric, for charts in the disks that placeDisks() has placed: towards the border of
+/// its disk a step of a float is a longer way.
+void countUnequalSeamsInDisk(Parametrization& map);
+
 constexpr double kTouchingSteps = 4.0, kUnequalShare = 1e-3;
 
 } // namespace ricci

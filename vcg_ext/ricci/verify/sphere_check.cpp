@@ -6,7 +6,6 @@
 #include "../base/tolerances.h"
 #include "../math/double_double.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

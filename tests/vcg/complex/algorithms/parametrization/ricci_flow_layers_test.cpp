@@ -7,8 +7,6 @@
 
 #include <vcg/complex/algorithms/parametrization/ricci_flow_layers.h>
 
-#include <ricci/fuchsian/tiling.h>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -10,7 +10,6 @@
 
 #include <ricci/base/task.h>
 #include <ricci/error.h>
-#include <ricci/fuchsian/canonical_polygon.h>
 #include <ricci/fuchsian/fuchsian_group.h>
 #include <ricci/fuchsian/tiling.h>
 #include <ricci/math/disk_isometry.h>

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What Automatic chooses: cones or none, how many of them, or the surface unfolded between its creases.
+#include "support/expect.h"
+#include "support/flat_map.h"
+#include "support/listener.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+const char* const kRound = "more or other cones are needed";
+
+/// Torus, annulus, disk and sphere that no map without many cones keeps the areas of.
+std::vector<std::pair<std::string, SurfaceMesh>> hardSurfaces()
+{
+	Random random(900);
+	std::vector<std::array<double, 2>> vase;
+	for (int i = 0; i <= 40; ++i)
+		vase.push_back({1.0 - 0.9 * std::sin(kPi * i / 40.0), 4.0 * i / 40.0});
+	return {
+		{"torus", shaken(torus(1.1, 1.0, 24, 24), 0.004, random)},
+		{"annulus", shaken(revolved(vase, 24), 0.004, random)},
+		{"disk", shaken(sphereWithTube(0.2, 4.0, 0.4, 16, 16), 0.004, random)},
+		{"disk, few triangles around its tube", sphereWithTube(0.02, 3.0, 0.4, 12, 3)},
+		{"sphere", shaken(sphereWithTube(0.2, 4.0, 0.0, 16, 16), 0.004, random)},
+		{"sphere, few triangles around its tube", sphereWithTube(0.02, 3.0, 0.0, 12, 3)}};
+}
+
+/// On the refinement, whose pieces show all of the factor.
+Options keeping(double distortion)
+{
+	Options options;
+	options.output = OutputTriangulation::CommonRefinement;
+	options.cones.distortion = distortion;
+	return options;
+}
+
+TEST(KeptAreas, OfLongLimbs)
+{
+	for (const auto& [name, mesh] : hardSurfaces()) {
+		SCOPED_TRACE(name);
+		const Report report = run(mesh, keeping(0.25)).report;
+		EXPECT_GT(report.cones, 0);
+		// A tenth more is let pass; and much more is seen where three triangles go round a tube.
+		const bool isCoarse = name.find("few triangles") != std::string::npos;
+		EXPECT_LE(report.areaDistortionSpread, isCoarse ? 1.0 : 1.05 * 1.1 * 0.25);
+		EXPECT_LE(report.areaDistortionMean, 3.0);
+	}
+}
+
+TEST(KeptAreas, AreLeftWhereAnyDistortionIsAllowed)
+{
+	for (const auto& [name, mesh] : hardSurfaces()) {
+		SCOPED_TRACE(name);
+		const Report report = run(mesh, keeping(1e9)).report;
+		if (name.rfind("sphere", 0) == 0)
+			EXPECT_LE(report.cones, 3); // which it has to have
+		else
+			EXPECT_EQ(report.cones, 0);
+		EXPECT_GT(report.areaDistortionSpread, 1.0);
+	}
+}
+
+TEST(KeptAreas, OfGentleSurfacesNeedNoCones)
+{
+	const SurfaceMesh terrain = grid(30, 30, Ends::Open, Ends::Open, [&](int i, int j) {
+		const double x = i / 30.0, y = j / 30.0;
+		return Point3{x, y, 0.05 * std::sin(4 * kPi * x) * std::cos(2 * kPi * y)};
+	});
+	Options options;
+	options.cones.distortion = 1.0;
+	for (const SurfaceMesh& mesh : {terrain, torus(3.0, 1.0, 30, 30), ring(1.0, 3.0, 40, 20)}) {
+		Listener listener;
+		const Report report = heard(listener, [&] { return run(mesh, options).report; });
+		EXPECT_EQ(report.cones, 0);
+		EXPECT_LT(report.areaDistortionSpread, 1.0);
+		EXPECT_EQ(listener.count("No cones: expected energy"), 1);
+		EXPECT_EQ(listener.count(kRound), 0);
+	}
+}
+
+/// Flows follow each other while areas are not kept and more or other cones help: the best of them is taken.
+TEST(KeptAreas, AreThoseOfTheBestFlow)
+{
+	constexpr double kSlack = 1.1, kMaxMean = 2.6;
+	int rounds = 0, inVain = 0, ended = 0;
+	for (const double wanted : {0.5, 0.2, 0.05, 1e-3})
+		for (const ConeRounding rounding : {ConeRounding::Free, ConeRounding::QuarterTurns})
+			for (const auto& [name, mesh] : hardSurfaces()) {
+				SCOPED_TRACE(name + ", " + std::to_string(wanted));
+				if (wanted < 0.01 && (name != "disk" || rounding != ConeRounding::Free))
+					continue; // one such search is enough
+				Options options = keeping(wanted);
+				options.cones.rounding = rounding;
+				Listener listener;
+				const Report report = heard(listener, [&] { return run(mesh, options).report; });
+				const int count = listener.count(kRound);
+				EXPECT_LE(count, 6);
+				EXPECT_EQ(report.endedEarly, count == 6);
+				EXPECT_EQ(listener.count("has ended at the bound on its flows"), count == 6);
+				rounds += count;
+				ended += count == 6;
+				const std::vector<FlowState>& states = report.flowStates;
+				EXPECT_LE(states.back().step, report.iterations);
+				EXPECT_TRUE(std::is_sorted(states.begin(), states.end(), [](auto& a, auto& b) {
+					return a.step < b.step;
+				}));
+				if (count == 0)
+					continue;
+				// What was said, to three digits.
+				const std::string& last = *std::find_if(
+					listener.lines.begin(), listener.lines.end(), [](const std::string& line) {
+						return line.find("area factor is ") != std::string::npos;
+					});
+				const double spread = numberAfter(last, "area factor is ");
+				EXPECT_LE(numberAfter(last, "or its inverse "), 1.01 * kMaxMean);
+				EXPECT_GE(report.areaDistortionSpread, 0.98 * spread);
+				double before = 0.0;
+				for (const std::string& line : listener.lines) {
+					if (line.find(kRound) == std::string::npos)
+						continue;
+					const double passed = numberAfter(line, "comes out as ");
+					EXPECT_TRUE(
+						passed > 0.99 * kSlack * wanted ||
+						numberAfter(line, "or its inverse as ") > 0.99 * kMaxMean)
+						<< "no need for the next flow after: " << line;
+					EXPECT_LE(spread, 1.01 * passed);
+					before = passed;
+				}
+				if (spread > 1.01 * kSlack * wanted && count < 6) {
+					EXPECT_GT(before, spread) << "one flow in vain is not the end";
+					++inVain;
+				}
+			}
+	EXPECT_GT(rounds, 20);
+	EXPECT_GE(inVain, 3);
+	EXPECT_GE(ended, 2);
+}
+
+TEST(KeptAreas, AreNoConcernOfCountedCones)
+{
+	Options options = keeping(0.0);
+	options.target = TargetCurvature::PlacedCones;
+	options.cones.count = 3;
+	Listener listener;
+	const Report report =
+		heard(listener, [&] { return run(hardSurfaces()[4].second, options).report; });
+	EXPECT_EQ(report.cones, 3);
+	EXPECT_GT(report.areaDistortionSpread, 1.0);
+	EXPECT_EQ(listener.count(kRound), 0);
+}
+
+TEST(KeptAreas, AreForFlipsAlone)
+{
+	const SurfaceMesh mesh = sphereWithTube(0.5, 1.0, 0.4, 16, 16);
+	for (const Method method :
+		 {Method::FixedTriangles, Method::EdgeSwaps, Method::IntrinsicFlips}) {
+		Options options;
+		options.method = method;
+		const bool flips = method == Method::IntrinsicFlips;
+		const Report report = run(mesh, options).report;
+		EXPECT_EQ(report.cones > 0, flips);
+		EXPECT_EQ(report.areaDistortionSpread > 1.0, !flips);
+	}
+}
+
+/// A thin box of 1 x 3 x 1 / 10.
+SurfaceMesh plate()
+{
+	SurfaceMesh mesh = perforatedSlab(0, 4);
+	for (Point3& p : mesh.positions)
+		p[2] *= 0.1;
+	return mesh;
+}
+
+TEST(Automatic, IsReported)
+{
+	const auto reportFor = [](const SurfaceMesh& mesh) { return run(mesh, Options()).report; };
+	const Report flat = reportFor(rectangle(4, 4, 1, 1));
+	EXPECT_EQ(flat.targetUsed, TargetUsed::FreeBoundary);
+	EXPECT_EQ(flat.choice.rfind("no cones", 0), 0u);
+	EXPECT_NEAR(flat.expectedSpread.value(), 0.0, 1e-9);
+	const FlatResult closed = run(plate(), Options());
+	EXPECT_EQ(closed.report.targetUsed, TargetUsed::Unfolded);
+	EXPECT_TRUE(closed.placedCones.empty());
+	EXPECT_FALSE(closed.report.boundaryRatioMax);
+	Options options;
+	options.target = TargetCurvature::PlacedCones;
+	const FlatResult cones = run(perforatedSlab(0, 4), options);
+	EXPECT_EQ(cones.report.targetUsed, TargetUsed::PlacedCones);
+	EXPECT_TRUE(cones.report.choice.empty());
+	EXPECT_EQ(static_cast<int>(cones.placedCones.size()), cones.report.cones);
+	double sum = 0.0;
+	for (const int v : cones.placedCones)
+		sum += cones.targetCurvature[at(v)];
+	EXPECT_NEAR(sum, 4 * kPi, 1e-9);
+	const Report both = reportFor(sideBySide(rectangle(4, 4, 1, 1), perforatedSlab(0, 4), 10));
+	EXPECT_EQ(both.targetUsed, TargetUsed::Several);
+	EXPECT_TRUE(both.choice.empty());
+}
+
+/// A box is its net: of the 12 edges 5 are joined, the longest that make a tree of its faces.
+TEST(Unfolded, ABoxIsItsNet)
+{
+	const SurfaceMesh mesh = plate();
+	const FlatResult map = run(mesh, Options());
+	expectIsometric(mesh, map.uv, map.report);
+	EXPECT_EQ(map.report.charts, 1);
+	EXPECT_EQ(map.report.overlappingFaces, 0);
+	EXPECT_EQ(map.report.cones, 8);
+	EXPECT_NEAR(map.report.seamLength, 4 * 0.1 + 2 * 1.0 + 1 * 3.0, 1e-9);
+	// Eight corners of a quarter of 4 pi each, nothing elsewhere.
+	double sum = 0.0;
+	for (const double k : map.targetCurvature) {
+		sum += k;
+		EXPECT_NEAR(std::abs(k - 0.25 * kPi), 0.25 * kPi, 1e-9); // 0 or pi / 2
+	}
+	EXPECT_NEAR(sum, 4.0 * kPi, 1e-9);
+	EXPECT_EQ(FlatMap(mesh, map.uv).seamEdges, map.report.seamEdges + map.report.overlapCuts);
+}
+
+/// Wall, bottom and lid of a cylinder touch in one edge each then.
+TEST(Unfolded, ACylinderIsItsWallWithTwoLids)
+{
+	constexpr int kSides = 16;
+	const SurfaceMesh mesh = revolved({{0.0, 0.0}, {1.0, 0.0}, {1.0, 3.0}, {0.0, 3.0}}, kSides);
+	Options options;
+	options.charts = Charts::WithoutOverlap;
+	const FlatResult map = run(mesh, options);
+	EXPECT_EQ(map.report.targetUsed, TargetUsed::Unfolded);
+	expectIsometric(mesh, map.uv, map.report);
+	EXPECT_EQ(map.report.charts, 1);
+	EXPECT_EQ(map.report.overlappingFaces, 0);
+	const double side = 2.0 * std::sin(kPi / kSides);
+	EXPECT_NEAR(map.report.seamLength, 2.0 * (kSides - 1) * side + 3.0, 1e-9);
+}
+
+TEST(Unfolded, AreNoRoundSurfaces)
+{
+	for (const SurfaceMesh& mesh : {torus(2.0, 1.0, 40, 20), ring(1.0, 2.0, 30, 5)}) {
+		const Report report = run(mesh, Options()).report;
+		EXPECT_NE(report.targetUsed, TargetUsed::Unfolded);
+		EXPECT_EQ(report.choice.find("unfolded"), std::string::npos);
+	}
+}
+
+/// Of both maps the one that costs less is given back; and none is made as a whole where that is expected to
+/// cost more.
+TEST(Unfolded, WhatCostsLess)
+{
+	Options placed;
+	placed.target = TargetCurvature::PlacedCones;
+	placed.charts = Charts::WithoutOverlap;
+	Options automatic = placed;
+	automatic.target = TargetCurvature::Automatic;
+	for (const SurfaceMesh& mesh : {plate(), perforatedSlab(2, 4), perforatedSlab(0, 3)})
+		EXPECT_LE(
+			*run(mesh, automatic).report.objective, *run(mesh, placed).report.objective + 1e-9);
+	const Report handles = run(withoutStars(perforatedSlab(12, 1), {0}), automatic).report;
+	EXPECT_EQ(handles.targetUsed, TargetUsed::Unfolded);
+	EXPECT_NE(handles.choice.find("; cones are expected to cost more"), std::string::npos);
+}
+
+/// With memory for one map at a time they are the same; with less there is none, and the log says so, whichever
+/// thread it is found in.
+TEST(Unfolded, WhereThereIsMemory)
+{
+	for (const int subdivision : {2, 12}) {
+		SurfaceMesh mesh = perforatedSlab(0, subdivision);
+		for (Point3& p : mesh.positions)
+			p[2] *= 0.1;
+		const auto within = [&](double bytes, Listener& log) {
+			Task task(log);
+			task.setMemoryLimit(bytes);
+			return run(mesh, Options());
+		};
+		Listener log;
+		const double needed = refusalOf<TooLarge>([&] { within(1000.0, log); }).needed;
+		const FlatResult map = within(0.0, log);
+		EXPECT_EQ(map.report.targetUsed, TargetUsed::Unfolded);
+		EXPECT_EQ(within(2.2 * needed, log).uv, map.uv);
+		const char* const words = "There is not enough memory to unfold";
+		EXPECT_EQ(log.count(words), 0);
+		EXPECT_NE(within(1.1 * needed, log).report.targetUsed, TargetUsed::Unfolded);
+		EXPECT_GT(log.count(words), 0);
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Threads that do not start, and those that fail.
+#include "../support/failing_malloc.h"
+#include "../support/listener.h"
+#include "../support/shapes.h"
+
+#include <ricci/base/memory_estimate.h>
+#include <ricci/base/parallel.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+TEST(Parallel, WithoutMemoryForThreadsTheWorkIsDoneAllTheSame)
+{
+	RICCI_NEEDS_FAILING_MALLOC();
+	constexpr int kCount = 100000;
+	std::vector<int> done;
+	const long tried = failEveryAllocation(
+		Failing::AllThatFollow,
+		[&] { done.assign(kCount, 0); },
+		[&] {
+			inParallel(kCount, 4, [&](int first, int last) {
+				for (int i = first; i < last; ++i)
+					++done[at(i)];
+			});
+		},
+		[&](bool completed, long, long n) {
+			EXPECT_TRUE(completed) << "allocation " << n;
+			EXPECT_EQ(std::count(done.begin(), done.end(), 1), kCount) << "allocation " << n;
+		});
+	EXPECT_GT(tried, 1);
+}
+
+TEST(Besides, WithoutMemoryForAThreadBothAreDoneAllTheSame)
+{
+	RICCI_NEEDS_FAILING_MALLOC();
+	int main = 0, aside = 0;
+	const long tried = failEveryAllocation(
+		Failing::AllThatFollow,
+		[&] { main = aside = 0; },
+		[&] {
+			besides(
+				2, [&] { ++main; }, [&] { ++aside; });
+		},
+		[&](bool completed, long, long n) {
+			EXPECT_TRUE(completed) << "allocation " << n;
+			EXPECT_EQ(main, 1) << "allocation " << n;
+			EXPECT_EQ(aside, 1) << "allocation " << n;
+		});
+	EXPECT_GT(tried, 1);
+}
+
+TEST(Besides, WhatIsThrownIsThrownOn)
+{
+	struct Main
+	{
+	};
+	struct Aside
+	{
+	};
+	for (const int threads : {1, 2}) {
+		bool done = false;
+		EXPECT_THROW(
+			besides(
+				threads, [] { throw Main(); }, [&] { done = true; }),
+			Main);
+		EXPECT_THROW(
+			besides(
+				threads, [] {}, [] { throw Aside(); }),
+			Aside);
+		// The tick of the other thread ends it once the main one has thrown.
+		if (threads == 1)
+			continue;
+		std::atomic<bool> isRunning{false};
+		EXPECT_THROW(
+			besides(
+				threads,
+				[&] {
+					while (!isRunning)
+						std::this_thread::yield();
+					throw Main();
+				},
+				[&] {
+					isRunning = true;
+					for (;;)
+						checkpoint();
+				}),
+			Main);
+		// While it waits, the calling thread hears Cancel.
+		Listener impatient(1);
+		const Task task(impatient);
+		EXPECT_THROW(
+			besides(
+				threads,
+				[] {},
+				[] {
+					for (;;)
+						checkpoint();
+				}),
+			Cancelled);
+	}
+}
+
+/// More than int can number.
+TEST(MemoryEstimate, RefusesWhatCannotBeNumbered)
+{
+	EXPECT_NO_THROW(requireMemory(10000, 10000, false));
+	EXPECT_THROW(requireMemory(400000000, 400000000, false), TooLarge);
+	EXPECT_THROW(requireOverlayMemory(1000000000, false), TooLarge);
+}
+
+} // namespace
+} // namespace ricci::testing

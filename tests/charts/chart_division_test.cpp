@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Charts that cover a part of the plane more than once become several that do not.
+#include "screw.h"
+#include "support/covered_twice.h"
+#include "support/flat_map.h"
+
+#include <ricci/parametrize.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace ricci::testing {
+namespace {
+
+Parametrization
+mapOf(const SurfaceMesh& mesh, Charts charts, Finish finish = Finish::LeastDistortion)
+{
+	Options options;
+	options.charts = charts;
+	options.finish = finish;
+	options.cones.distortion = 100.0; // none
+	return parametrizeEuclidean(mesh, {}, options);
+}
+
+/// The report says nothing overlaps, and nothing does.
+void expectNothingTwice(const SurfaceMesh& mesh, const Parametrization& map)
+{
+	EXPECT_EQ(map.report.overlappingFaces, 0);
+	EXPECT_EQ(map.report.overlappingCharts, 0);
+	EXPECT_EQ(map.report.flippedFaces + map.report.flippedByRounding, 0);
+	const CoveredTwice covered(
+		mesh, map.mesh.corners().values(), std::vector<char>(mesh.triangles.size(), 0));
+	EXPECT_EQ(covered.charts, map.report.charts);
+	EXPECT_EQ(covered.betweenCharts + covered.withinCharts, 0);
+}
+
+/// Rings in the plane are their own maps. They overlap past a full turn, and are divided straight across, by as many
+/// cuts as it takes.
+TEST(ChartDivision, OfARingTakesAsManyPartsAsTurns)
+{
+	for (const double turns : {0.3, 0.999, 1.001, 1.2, 1.7, 2.5, 3.3, 20.0}) {
+		SCOPED_TRACE(turns);
+		const int across = 3, least = static_cast<int>(std::ceil(turns));
+		const SurfaceMesh mesh = screw(turns, static_cast<int>(40 * turns) + 8, across);
+		const Parametrization whole = mapOf(mesh, Charts::OfTheFlow);
+		EXPECT_EQ(whole.report.charts, 1);
+		EXPECT_EQ(whole.report.overlappingCharts, turns > 1.0 ? 1 : 0);
+		EXPECT_EQ(whole.report.overlappingFaces > 0, turns > 1.0);
+		const Parametrization map = mapOf(mesh, Charts::WithoutOverlap);
+		expectNothingTwice(mesh, map);
+		EXPECT_GE(map.report.charts, least);
+		EXPECT_LE(map.report.charts, turns > 1.0 ? least + 1 + least / 4 : 1);
+		const int cuts = map.report.charts - 1;
+		EXPECT_EQ(map.report.overlapCuts, across * cuts);
+		EXPECT_GE(map.report.seamLength, cuts - 1e-9); // the ring is 1 wide
+		EXPECT_LE(map.report.seamLength, 1.05 * cuts);
+		EXPECT_NEAR(map.report.qcMax, 1.0, 1e-6);
+		EXPECT_NEAR(map.report.areaDistortionSpread, 0.0, 1e-6); // one scale for all parts
+	}
+}
+
+/// Two turns that are joined by a narrow neck opposite to the place where they meet.
+TEST(ChartDivision, CutsWhereItIsShortest)
+{
+	const int around = 80, across = 6;
+	SurfaceMesh neck = screw(1.25, around, across);
+	std::vector<Triangle> kept;
+	for (std::size_t f = 0; f < neck.triangles.size(); ++f) {
+		const int cell = static_cast<int>(f / 2), i = cell / around, j = cell % around;
+		if (j != around / 2 || i == 0)
+			kept.push_back(neck.triangles[f]);
+	}
+	neck.triangles = kept;
+	const Parametrization map = mapOf(neck, Charts::WithoutOverlap);
+	expectNothingTwice(neck, map);
+	ASSERT_EQ(map.report.charts, 2);
+	EXPECT_EQ(map.report.overlapCuts, 1);
+	EXPECT_NEAR(map.report.seamLength, 1.0 / across, 1e-9);
+	const auto triangles = map.mesh.trianglesByChart(2);
+	EXPECT_NEAR(
+		static_cast<double>(triangles[0].size()) / static_cast<double>(triangles[1].size()),
+		1.0,
+		0.05);
+}
+
+/// On a screw the flow has something to do. Parts move, but nothing else changes, on the mesh or on its refinement.
+TEST(ChartDivision, OfAScrewSurfaceOnlyMovesItsParts)
+{
+	const SurfaceMesh mesh = screw(1.6, 70, 5, 0.3);
+	for (const OutputTriangulation output :
+		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+		Options options;
+		options.output = output;
+		options.charts = Charts::OfTheFlow;
+		const Parametrization whole = parametrizeEuclidean(mesh, {}, options);
+		options.charts = Charts::WithoutOverlap;
+		const Parametrization map = parametrizeEuclidean(mesh, {}, options);
+		EXPECT_EQ(whole.report.charts, 1);
+		EXPECT_EQ(whole.report.overlappingCharts, 1);
+		EXPECT_GT(whole.report.overlappingFaces, 0);
+		EXPECT_GT(overlapsIn(whole.mesh), 0u);
+		EXPECT_EQ(map.report.charts, 2);
+		EXPECT_EQ(map.report.overlappingFaces, 0);
+		EXPECT_EQ(overlapsIn(map.mesh), 0u);
+		EXPECT_GT(map.report.overlapCuts, 0);
+		EXPECT_NEAR(map.report.qcAreaMean, whole.report.qcAreaMean, 1e-9);
+		EXPECT_NEAR(map.report.stretch.value_or(0.0), whole.report.stretch.value_or(1.0), 1e-9);
+		ASSERT_EQ(map.mesh.size(), whole.mesh.size());
+		EXPECT_EQ(map.mesh.face, whole.mesh.face);
+		EXPECT_EQ(
+			std::set<int>(map.mesh.chart.begin(), map.mesh.chart.end()), (std::set<int>{0, 1}));
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

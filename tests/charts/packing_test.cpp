@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Charts as texture coordinates: where they lie, how far apart, and what they leave free. Pieces of the plane are
+// their own charts.
+#include "screw.h"
+#include "support/covered_twice.h"
+#include "support/expect.h"
+#include "support/random_surface.h"
+
+#include <ricci/error.h>
+#include <ricci/parametrize.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+/// Pieces over the plane as one mesh, one above the other.
+SurfaceMesh together(const std::vector<SurfaceMesh>& pieces)
+{
+	SurfaceMesh all;
+	for (SurfaceMesh piece : pieces) {
+		for (Point3& p : piece.positions)
+			p[2] = 0.01 * static_cast<double>(all.triangles.size());
+		all = sideBySide(all, piece, 0.0);
+	}
+	return all;
+}
+
+SurfaceMesh boxes(const std::vector<Point2>& sizes)
+{
+	std::vector<SurfaceMesh> pieces;
+	for (const auto& [x, y] : sizes)
+		pieces.push_back(rectangle(1, 1, x, y));
+	return together(pieces);
+}
+
+/// Fans of triangles, the next one smaller than the last.
+SurfaceMesh stars(int n, double orders, Random& random)
+{
+	std::vector<SurfaceMesh> pieces;
+	for (int i = 0; i < n; ++i) {
+		const int corners = 3 + random.index(9);
+		const double size = std::pow(10.0, -orders * i / n);
+		SurfaceMesh star;
+		star.positions.push_back({0, 0, 0});
+		for (int k = 0; k < corners; ++k) {
+			const double angle = 2 * kPi * k / corners, r = size * random.real(0.2, 1.0);
+			star.positions.push_back({r * std::cos(angle), r * std::sin(angle), 0});
+			star.triangles.push_back({0, 1 + k, 1 + (k + 1) % corners});
+		}
+		pieces.push_back(star);
+	}
+	return together(pieces);
+}
+
+/// In rows about as wide as high.
+std::vector<Point2> inRows(const std::vector<Box2>& boxes, double padding)
+{
+	double area = 0.0;
+	for (const Box2& box : boxes)
+		area += (box.width() + padding) * (box.height() + padding);
+	std::vector<Point2> shifts;
+	double x = 0.0, y = 0.0, top = 0.0;
+	for (const Box2& box : boxes) {
+		if (x > std::sqrt(area)) {
+			x = 0.0;
+			y = top;
+		}
+		shifts.push_back({x - box.min[0], y - box.min[1]});
+		x += box.width() + padding;
+		top = std::max(top, y + box.height() + padding);
+	}
+	return shifts;
+}
+
+Options packing(double margin, bool normalize = true)
+{
+	Options options;
+	options.charts = Charts::OfTheFlow;
+	options.holes = Holes::Boundaries;
+	options.chartMargin = margin;
+	options.normalizeUV = normalize;
+	options.placeBoxes = inRows;
+	return options;
+}
+
+/// Least distance of two sides of the borders of different charts, and of all points from the border of the unit
+/// square.
+double leastDistance(const Parametrization& map)
+{
+	FlatMesh mesh = map.mesh;
+	connect(mesh);
+	struct Side
+	{
+		int chart;
+		Point2 from, to;
+		Box2 box;
+	};
+	std::vector<Side> sides;
+	double least = 1.0;
+	for (const int f : mesh.points.indices())
+		for (const Corner c : cornersOf(f)) {
+			const auto [from, to] = mesh.ends(c);
+			for (const double x : from)
+				least = std::min({least, x, 1.0 - x});
+			if (mesh.joined(c).isValid())
+				continue;
+			sides.push_back({mesh.chart[f], from, to, {}});
+			sides.back().box.add(from);
+			sides.back().box.add(to);
+		}
+	for (const Side& s : sides)
+		for (const Side& t : sides) {
+			if (s.chart == t.chart)
+				continue;
+			double apart = 0.0; // of their boxes
+			for (std::size_t k = 0; k < 2; ++k)
+				apart = std::max({apart, s.box.min[k] - t.box.max[k], t.box.min[k] - s.box.max[k]});
+			if (apart >= least)
+				continue;
+			const double share = nearestOnSegment(s.from, s.to, t.from);
+			least = std::min(least, distance(t.from, between(s.from, s.to, share)));
+		}
+	return least;
+}
+
+/// Nothing lies on anything else, and charts lie in their boxes; all are similar to the pieces with one scale, which
+/// is returned.
+double expectPacked(const SurfaceMesh& mesh, const Parametrization& map, std::size_t charts)
+{
+	EXPECT_EQ(map.charts.size(), charts);
+	EXPECT_EQ(map.report.overlappingFaces, 0);
+	const CoveredTwice covered(
+		mesh, map.mesh.corners().values(), std::vector<char>(mesh.triangles.size(), 0));
+	EXPECT_EQ(covered.charts, static_cast<int>(charts));
+	EXPECT_EQ(covered.betweenCharts + covered.withinCharts, 0);
+	const Triangle2 first = map.mesh.at(0);
+	const double scale = sideLength(first, 0) / sideLength(mesh, 0, 0);
+	double area = 0.0;
+	for (const int f : map.mesh.points.indices()) {
+		const Triangle2 t = map.mesh.at(f);
+		area += 0.5 * doubledArea(t[0], t[1], t[2]);
+		for (std::size_t k = 0; k < 3; ++k) {
+			EXPECT_NEAR(sideLength(t, k), scale * sideLength(mesh, at(f), k), 1e-7 * scale);
+			EXPECT_TRUE(map.charts[at(map.mesh.chart[f])].box.contains(t[k]));
+		}
+	}
+	Box2 whole;
+	for (const Chart& chart : map.charts) {
+		whole.add(chart.box.min);
+		whole.add(chart.box.max);
+	}
+	const double side = whole.extent();
+	if (whole.max[0] <= 1.0 && whole.max[1] <= 1.0) {
+		EXPECT_NEAR(map.report.occupancy, area, 1e-9);
+	}
+	else {
+		EXPECT_LE(map.report.occupancy, area / (side * side) * (1.0 + 1e-9));
+	}
+	return scale;
+}
+
+TEST(Packing, KeepsTheMarginBetweenOutlinesInTheUnitSquare)
+{
+	Random random(372);
+	for (int n : {1, 2, 5, 30, 100})
+		for (double margin : {0.0, 0.0001, 0.002, 0.01}) {
+			SCOPED_TRACE(std::to_string(n) + " charts with the margin " + std::to_string(margin));
+			const SurfaceMesh mesh = stars(n, 1.5, random);
+			const Parametrization map = parametrizeEuclidean(mesh, {}, packing(margin));
+			expectPacked(mesh, map, at(n));
+			EXPECT_GE(leastDistance(map), margin - 1e-7);
+			Box2 whole;
+			for (const Point2& p : map.mesh.place)
+				whole.add(p);
+			if (n < 30) {
+				EXPECT_NEAR(whole.extent(), 1.0 - 2.0 * margin, 1e-5); // no smaller than it must
+			}
+			if (n == 30 && margin < 0.005) { // some of many fit between others
+				EXPECT_GT(map.report.occupancy, 0.35);
+			}
+		}
+}
+
+/// Boxes are placed by the caller where he wants to; the scale stays, and nothing is turned.
+TEST(Packing, WithoutTheUnitSquareKeepsTheScaleAndThePlacesThatTheCallerFinds)
+{
+	Random random(371);
+	for (const int n : {1, 2, 3, 10}) {
+		std::vector<Point2> sizes;
+		for (int i = 0; i < n; ++i)
+			sizes.push_back({random.real(0.1, 4.0), random.real(0.1, 4.0)});
+		const SurfaceMesh mesh = boxes(sizes);
+		Options options = packing(0.05, false);
+		std::vector<Box2> placed;
+		double between = -1.0;
+		options.placeBoxes = [&](const std::vector<Box2>& given, double padding) {
+			between = padding;
+			placed.clear();
+			std::vector<Point2> shifts;
+			double y = 7.0; // one above the other
+			for (const Box2& box : given) {
+				shifts.push_back({3.0 - box.min[0], y - box.min[1]});
+				placed.push_back({{3.0, y}, {3.0 + box.width(), y + box.height()}});
+				y += box.height() + padding;
+			}
+			return shifts;
+		};
+		const Parametrization map = parametrizeEuclidean(mesh, {}, options);
+		EXPECT_NEAR(expectPacked(mesh, map, at(n)), 1.0, 1e-12);
+		if (n == 1) { // stays where it is
+			EXPECT_NEAR(map.charts[0].box.min[0] + map.charts[0].box.min[1], 0.0, 1e-12);
+			continue;
+		}
+		ASSERT_EQ(placed.size(), at(n));
+		EXPECT_GT(between, 0.0);
+		const Point2 offset = map.charts[0].box.min - placed[0].min;
+		for (std::size_t i = 0; i < placed.size(); ++i) {
+			EXPECT_LT(distance(map.charts[i].box.min, placed[i].min + offset), 1e-9);
+			EXPECT_LT(distance(map.charts[i].box.max, placed[i].max + offset), 1e-9);
+			const double longer = std::max(sizes[i][0], sizes[i][1]);
+			EXPECT_NEAR(placed[i].extent(), longer, 1e-9);
+		}
+	}
+}
+
+TEST(Packing, TurnsOneChartIntoTheSmallestSquare)
+{
+	const auto occupancy = [](double height, TargetCurvature target) {
+		Options options = packing(0.0);
+		options.target = target;
+		return parametrizeEuclidean(rectangle(8, 4, 1.0, height), {}, options).report.occupancy;
+	};
+	// At half a right angle; no turn makes the square of the wide one smaller.
+	EXPECT_NEAR(occupancy(0.1, TargetCurvature::Automatic), 0.1 / (0.5 * 1.1 * 1.1), 1e-3);
+	EXPECT_NEAR(occupancy(0.5, TargetCurvature::Automatic), 0.5, 1e-9);
+	EXPECT_NEAR(occupancy(0.1, TargetCurvature::Rectangle), 0.1, 1e-6);
+}
+
+TEST(Packing, PutsManySmallChartsIntoOneBox)
+{
+	std::vector<Point2> sizes(1000, {0.01, 0.01});
+	for (const Point2& size : {Point2{1.0, 0.2}, Point2{0.2, 1.0}, Point2{0.5, 0.5}})
+		sizes.push_back(size);
+	const SurfaceMesh mesh = boxes(sizes);
+	const Parametrization map = parametrizeEuclidean(mesh, {}, packing(0.001));
+	expectPacked(mesh, map, sizes.size());
+	EXPECT_GE(leastDistance(map), 0.001 - 1e-7);
+	EXPECT_GT(map.report.occupancy, 0.4);
+}
+
+TEST(Packing, RefusesMarginsThatLeaveNoRoomAndWhatFloatsCannotHold)
+{
+	const SurfaceMesh mesh = boxes(std::vector<Point2>(40, Point2{1.0, 1.0}));
+	const auto refusal = [&](double margin, InvalidOption::Problem problem) {
+		Options options = packing(margin);
+		options.placeBoxes = nullptr; // one box beside the other
+		return refusalFor<InvalidOption>(
+			problem, {}, [&] { parametrizeEuclidean(mesh, {}, options); });
+	};
+	for (double margin : {-0.01, 0.26, std::numeric_limits<double>::quiet_NaN()})
+		EXPECT_EQ(refusal(margin, InvalidOption::ChartMargin).bound, kMaxChartMargin);
+	for (double margin : {0.25, 0.1}) { // by area alone, and in one row
+		const auto error = refusal(margin, InvalidOption::ChartMarginTooWide);
+		EXPECT_EQ(error.value, margin);
+		EXPECT_EQ(error.count, 40u);
+	}
+	for (const double size : {1e39, 1e-39}) { // in their own scale only
+		const SurfaceMesh box = rectangle(2, 2, size, 0.5 * size);
+		refusalFor<InvalidMesh>(InvalidMesh::BeyondFloats, {}, [&] {
+			parametrizeEuclidean(box, {}, packing(0.0, false));
+		});
+		EXPECT_NEAR(parametrizeEuclidean(box, {}, packing(0.0)).report.occupancy, 0.5, 1e-9);
+	}
+}
+
+Parametrization cutForRoom(const SurfaceMesh& mesh, double margin)
+{
+	Options options = packing(margin);
+	options.charts = Charts::CutForRoom;
+	return parametrizeEuclidean(mesh, {}, options);
+}
+
+/// A strip of 20 by 2 is cut across, by edges of length 1; what fills its square is left whole, and what the margin
+/// has no room for in two.
+TEST(Packing, CutsChartsForRoomWhereThatWins)
+{
+	const SurfaceMesh strip = rectangle(20, 2, 20, 2);
+	const Parametrization map = cutForRoom(strip, 0.01);
+	const std::size_t cuts = map.charts.size() - 1;
+	ASSERT_GE(cuts, 1u);
+	expectPacked(strip, map, cuts + 1);
+	EXPECT_GE(leastDistance(map), 0.01 - 1e-7);
+	EXPECT_EQ(map.report.charts, static_cast<int>(cuts + 1));
+	EXPECT_EQ(at(map.report.overlapCuts), 2 * cuts);
+	EXPECT_NEAR(map.report.seamLength, 2.0 * static_cast<double>(cuts), 1e-9);
+	const Report whole = parametrizeEuclidean(strip, {}, packing(0.01)).report;
+	EXPECT_GT(map.report.occupancy, 1.5 * whole.occupancy);
+	for (const auto& [mesh, margin] :
+		 {std::pair(rectangle(8, 8, 8, 8), 0.0),
+		  std::pair(rectangle(16, 10, 16, 10), 0.0),
+		  std::pair(
+			  together(
+				  {rectangle(20, 10, 20, 10),
+				   rectangle(12, 12, 12, 12),
+				   rectangle(12, 12, 12, 12),
+				   rectangle(12, 12, 12, 12)}),
+			  0.25)}) {
+		const Parametrization left = cutForRoom(mesh, margin);
+		EXPECT_EQ(left.report.overlapCuts, 0);
+		EXPECT_EQ(left.report.charts, left.report.components);
+		EXPECT_EQ(
+			left.mesh.corners(), parametrizeEuclidean(mesh, {}, packing(margin)).mesh.corners());
+	}
+}
+
+/// Disks lie in equal squares, row by row.
+TEST(Packing, GivesEachDiskASquareOfItsOwn)
+{
+	Random random(390);
+	const SurfaceMesh one = shaken(perforatedSlab(2, 2), 0.05, random);
+	SurfaceMesh mesh = one;
+	for (const int n : {1, 2, 4, 5}) {
+		while (mesh.triangles.size() < at(n) * one.triangles.size())
+			mesh = sideBySide(mesh, one, 10.0 * n);
+		const Parametrization map = parametrizeHyperbolic(mesh, {}, {});
+		ASSERT_EQ(map.charts.size(), at(n));
+		const double side = 1.0 / std::ceil(std::sqrt(n));
+		for (std::size_t i = 0; i < map.charts.size(); ++i) {
+			const Box2& box = map.charts[i].box;
+			EXPECT_NEAR(box.width(), side, 1e-15);
+			EXPECT_NEAR(box.height(), side, 1e-15);
+			for (std::size_t k = 0; k < 2; ++k) {
+				EXPECT_GE(box.min[k], 0.0);
+				EXPECT_LE(box.max[k], 1.0 + 1e-15);
+			}
+			for (std::size_t j = 0; j < i; ++j)
+				EXPECT_GE(distance(box.min, map.charts[j].box.min), side * (1 - 1e-14));
+		}
+		for (const int f : map.mesh.points.indices()) {
+			const Box2& box = map.charts[at(map.mesh.chart[f])].box;
+			for (const Point2& p : map.mesh.at(f))
+				EXPECT_LT(distance(p, box.centre()), 0.5 * side);
+		}
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Meshes of several components: their numbers in one map, their reports in one, and their threads.
+#include "support/expect.h"
+#include "support/flat_map.h"
+#include "support/listener.h"
+#include "support/random_surface.h"
+#include "support/refinement_check.h"
+#include "support/shapes.h"
+#include "support/transform.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+Options refined()
+{
+	Options options;
+	options.output = OutputTriangulation::CommonRefinement;
+	options.charts = Charts::OfTheFlow;
+	return options;
+}
+
+/// A torus, a closed surface of genus 2 and a disk, whose vertices and faces are mixed.
+SurfaceMesh threeComponents(Random& random)
+{
+	SurfaceMesh disk = randomPlanarDisk(6, random);
+	for (Point3& p : disk.positions)
+		p[2] = 0.3 * std::sin(4 * p[0]) * std::cos(3 * p[1]);
+	const SurfaceMesh closed = shaken(perforatedSlab(2, 2), 0.02, random);
+	return renumbered(
+			   sideBySide(sideBySide(bumpyTorus(10, 7, random), closed, 20), disk, 40), random)
+		.mesh;
+}
+
+/// Three components that have hyperbolic metrics.
+SurfaceMesh threeHyperbolicComponents(Random& random)
+{
+	const SurfaceMesh a = shaken(perforatedSlab(2, 2), 0.05, random);
+	const SurfaceMesh b = shaken(perforatedSlab(3, 1), 0.05, random);
+	const SurfaceMesh c = withoutStars(shaken(perforatedSlab(0, 5), 0.03, random), {0, 60, 120});
+	return renumbered(sideBySide(sideBySide(a, b, 20), c, 40), random).mesh;
+}
+
+/// The refinements of several components in one: each point belongs to the face of its triangles and
+/// to one chart, and all charts together are the mesh.
+void expectIndicesOfSeveralComponents(const SurfaceMesh& mesh, const Parametrization& map)
+{
+	const FlatMesh& r = map.mesh;
+	ASSERT_EQ(map.charts.size(), 3u);
+	ASSERT_EQ(at(r.source.size()), mesh.positions.size() + at(map.report.refinementPoints));
+	for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+		EXPECT_EQ(r.source[static_cast<int>(v)].vertex[0], static_cast<int>(v));
+		EXPECT_EQ(r.source[static_cast<int>(v)].weight, (std::array<double, 4>{1, 0, 0, 0}));
+	}
+	std::vector<int> chartOfPoint(at(r.source.size()), -1), chartOfFace(mesh.triangles.size(), -1);
+	std::vector<int> addedPoints(map.charts.size(), 0);
+	for (const int i : r.points.indices()) {
+		const Triangle& face = mesh.triangles[at(r.face[i])];
+		int& ofFace = chartOfFace[at(r.face[i])];
+		EXPECT_TRUE(ofFace == -1 || ofFace == r.chart[i]);
+		ofFace = r.chart[i];
+		for (const int p : r.vertices[i]) {
+			int& ofPoint = chartOfPoint[at(p)];
+			EXPECT_TRUE(ofPoint == -1 || ofPoint == r.chart[i]);
+			addedPoints[at(r.chart[i])] += ofPoint == -1 && at(p) >= mesh.positions.size();
+			ofPoint = r.chart[i];
+			double sum = 0.0, ofFaces = 0.0;
+			for (std::size_t x = 0; x < 4; ++x) {
+				sum += r.source[p].weight[x];
+				if (std::find(face.begin(), face.end(), r.source[p].vertex[x]) != face.end())
+					ofFaces += r.source[p].weight[x];
+			}
+			EXPECT_NEAR(sum, 1.0, 1e-14);
+			EXPECT_NEAR(ofFaces, 1.0, 1e-14);
+		}
+	}
+	for (const int count : addedPoints)
+		EXPECT_GT(count, 0) << "component without added points: nothing is tested";
+	EXPECT_EQ(std::count(chartOfFace.begin(), chartOfFace.end(), -1), 0);
+	EXPECT_EQ(std::count(chartOfPoint.begin(), chartOfPoint.end(), -1), 0);
+}
+
+TEST(Components, IndicesOfTheRefinedPointsOfSeveralComponents)
+{
+	Random random(4204);
+	const SurfaceMesh mesh = threeComponents(random);
+	const FlatResult map = run(mesh, refined());
+	expectIndicesOfSeveralComponents(mesh, map);
+	const RefinementCheck check(mesh, map.mesh, map.targetCurvature);
+	check.expectValid(0 - 2 + 1, 1);
+	EXPECT_LT(check.areaError, 1e-12);
+	EXPECT_LT(check.angleError, 1e-6);
+	// The same with faces of both orders, whose pieces have the order of their faces.
+	const SurfaceMesh mixed = withReversedFaces(mesh, 3);
+	const FlatResult other = run(mixed, refined());
+	expectIndicesOfSeveralComponents(mixed, other);
+	const std::vector<Point3> places = other.mesh.onSurface(mixed.positions);
+	const auto normal = [](const std::vector<Point3>& p, const Triangle& t) {
+		return cross(p[at(t[1])] - p[at(t[0])], p[at(t[2])] - p[at(t[0])]);
+	};
+	int seen = 0, tooSmall = 0;
+	for (const int i : other.mesh.points.indices()) {
+		const Point3 n = normal(places, other.mesh.vertices[i]);
+		const Point3 m = normal(mixed.positions, mixed.triangles[at(other.mesh.face[i])]);
+		if (length(n) < 1e-9 * length(m)) {
+			++tooSmall;
+			continue;
+		}
+		++seen;
+		EXPECT_GT(dot(n, m), 0.0);
+	}
+	EXPECT_GT(seen, 100 * tooSmall);
+}
+
+TEST(Components, IndicesOfTheRefinedPointsOfSeveralHyperbolicComponents)
+{
+	Random random(4205);
+	for (const bool mixed : {false, true}) {
+		SCOPED_TRACE(mixed);
+		SurfaceMesh mesh = threeHyperbolicComponents(random);
+		if (mixed)
+			mesh = withReversedFaces(mesh, 3);
+		HyperbolicOptions options;
+		options.output = OutputTriangulation::CommonRefinement;
+		const FlatResult map = runInDisk(mesh, options);
+		expectIndicesOfSeveralComponents(mesh, map);
+		for (const Chart& chart : map.charts)
+			EXPECT_FALSE(chart.group.sides.empty());
+	}
+}
+
+TEST(Components, ReportsOfComponentsAddUp)
+{
+	Report first, second, sum;
+	first.components = second.components = 1;
+	first.iterations = 3;
+	second.iterations = 4;
+	first.residualFloor = 2.0;
+	second.residualFloor = 1.0;
+	first.seamLength = 0.5;
+	second.seamLength = 0.25;
+	second.relationError = 3.0;
+	first.hyperbolicArea = 4.0;
+	second.hyperbolicArea = 5.0;
+	first.annulusModulus = 7.0;
+	first.targetUsed = TargetUsed::Flat;
+	second.targetUsed = TargetUsed::PlacedCones;
+	first.choice = "no cones";
+	second.choice = "cones";
+	second.expectedSpread = 0.5;
+	first.boundaryRatioMin = 0.9;
+	first.boundaryRatioMax = 1.1;
+	second.boundaryRatioMin = 0.8;
+	second.boundaryRatioMax = 1.05;
+	second.flowStates = {{0, 1, 0.1}};
+	sum += first;
+	EXPECT_EQ(sum.annulusModulus, 7.0);
+	EXPECT_FALSE(sum.relationError);
+	EXPECT_EQ(sum.targetUsed, TargetUsed::Flat);
+	EXPECT_EQ(sum.choice, "no cones");
+	sum += second;
+	EXPECT_EQ(sum.targetUsed, TargetUsed::Several);
+	EXPECT_EQ(sum.choice, "");
+	EXPECT_EQ(sum.expectedSpread, 0.5);
+	EXPECT_EQ(sum.boundaryRatioMin, 0.8);
+	EXPECT_EQ(sum.boundaryRatioMax, 1.1);
+	EXPECT_EQ(sum.components, 2);
+	EXPECT_EQ(sum.iterations, 7);
+	EXPECT_EQ(sum.residualFloor, 2.0);
+	EXPECT_EQ(sum.seamLength, 0.75);
+	EXPECT_EQ(sum.relationError, 3.0);
+	EXPECT_EQ(sum.hyperbolicArea, 9.0);
+	EXPECT_FALSE(sum.annulusModulus) << "of a component alone";
+	ASSERT_EQ(sum.flowStates.size(), 1u);
+	EXPECT_EQ(sum.flowStates[0].component, 1);
+}
+
+/// Sheets of rising size, of which those from \p bad on are rings.
+SurfaceMesh sheets(int count, int bad)
+{
+	SurfaceMesh mesh;
+	for (int i = 0; i < count; ++i)
+		mesh =
+			sideBySide(mesh, i < bad ? rectangle(6, 6 + i, 1, 1) : ring(1, 2, 9 + i, 4), 9.0 * i);
+	return mesh;
+}
+
+TEST(Components, LogInTheirOrderWhicheverThreadTheyAreIn)
+{
+	constexpr int kCount = 20; // of 2700 faces: enough for threads
+	const SurfaceMesh mesh = sheets(kCount, kCount);
+	for (int round = 0; round < 20; ++round) {
+		Listener listener;
+		heard(listener, [&] { return parametrizeEuclidean(mesh, {}, {}); });
+		int next = 0;
+		for (const std::string& line : listener.lines)
+			if (line.rfind("Component of ", 0) == 0) {
+				expectWords(line, {", " + std::to_string(12 * (6 + next)) + " faces"});
+				++next;
+			}
+		EXPECT_EQ(next, kCount);
+	}
+}
+
+TEST(Components, OfTheErrorsInThreadsThatOfTheFirstIsThrown)
+{
+	constexpr int kBad = 5;
+	const SurfaceMesh mesh = sheets(20, kBad);
+	Options options;
+	options.target = TargetCurvature::Disk;
+	for (int round = 0; round < 20; ++round) {
+		Listener listener;
+		const auto error = refusalOf<InvalidOption>(
+			[&] { heard(listener, [&] { return parametrizeEuclidean(mesh, {}, options); }); });
+		EXPECT_EQ(error.problem, InvalidOption::NotADisk);
+		EXPECT_EQ(error.componentFace, 12 * (6 + 7 + 8 + 9 + 10));
+		EXPECT_EQ(error.componentFaces, 8u * (9 + kBad));
+		EXPECT_EQ(listener.count("Component of "), kBad + 1);
+	}
+}
+
+TEST(Components, ShareTheProgressByTheirFaces)
+{
+	const SurfaceMesh mesh = sheets(3, 3); // of 72, 84 and 96 faces
+	struct Progresses : Progress
+	{
+		bool update(double fraction, const std::string&) override
+		{
+			now = fraction;
+			return true;
+		}
+		void log(const std::string& line) override
+		{
+			if (line.rfind("Component of ", 0) == 0)
+				begins.push_back(now);
+		}
+		double now = 0.0;
+		std::vector<double> begins;
+	} progress;
+	heard(progress, [&] { return parametrizeEuclidean(mesh, {}, {}); });
+	ASSERT_EQ(progress.begins.size(), 3u);
+	EXPECT_EQ(progress.begins[0], 0.0);
+	EXPECT_NEAR(progress.begins[1] / progress.begins[2], 72.0 / (72.0 + 84.0), 1e-12);
+	EXPECT_GT(progress.begins[2], 0.5);
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/expect.h"
+#include "support/flat_map.h"
+#include "support/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+/// A bumpy square of n x n cells without the stars of some inner vertices.
+SurfaceMesh perforated(int n, double height)
+{
+	const auto vertex = [&](int i, int j) { return i * (n + 1) + j; };
+	const SurfaceMesh whole = grid(n, n, Ends::Open, Ends::Open, [=](int i, int j) {
+		const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
+		return Point3{x, y, height * std::sin(3 * x + 1) * std::cos(4 * y)};
+	});
+	return withoutStars(whole, {vertex(3, 3), vertex(n - 3, 4), vertex(n / 2, n - 3)});
+}
+
+Options capped()
+{
+	Options options;
+	options.holes = Holes::Capped;
+	return options;
+}
+
+/// Every vertex has one place in the plane.
+void expectOnePlaceEach(const SurfaceMesh& mesh, const UV& uv)
+{
+	std::map<int, Point2> place;
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			EXPECT_EQ(place.emplace(mesh.triangles[f][k], uv[f][k]).first->second, uv[f][k]);
+}
+
+TEST(HoleSeams, AreLeftOutWhereTheMetricCloses)
+{
+	// A plane is flat as it is, and goes round its holes in one piece; a bumpy surface does not.
+	for (const Method method : {Method::IntrinsicFlips, Method::FixedTriangles})
+		for (const double height : {0.0, 0.3}) {
+			const SurfaceMesh mesh = perforated(16, height);
+			Options options;
+			options.method = method;
+			const FlatResult flat = run(mesh, options);
+			EXPECT_EQ(flat.report.cappedHoles, 0);
+			EXPECT_EQ(flat.report.seamEdges == 0, height == 0.0);
+			EXPECT_EQ(flat.report.flippedFaces, 0);
+			const FlatMap map(mesh, flat.uv);
+			EXPECT_LT(map.seamMismatch, 1e-10);
+			if (height > 0.0)
+				continue;
+			EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
+			expectOnePlaceEach(mesh, flat.uv);
+		}
+}
+
+TEST(CappedHoles, OfAPlaneDoNotMoveIt)
+{
+	const SurfaceMesh mesh = perforated(16, 0.0);
+	for (const OutputTriangulation output :
+		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+		Options options = capped();
+		options.output = output;
+		const FlatResult flat = run(mesh, options);
+		EXPECT_EQ(flat.report.cappedHoles, 3);
+		EXPECT_EQ(flat.report.boundaryLoops, 4);
+		EXPECT_EQ(flat.report.seamEdges, 0);
+		EXPECT_EQ(flat.report.overlappingFaces, 0);
+		EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-10);
+		EXPECT_NEAR(flat.report.areaDistortionSpread, 0.0, 1e-6);
+		EXPECT_EQ(flat.uv.size(), mesh.triangles.size());
+		for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+			for (std::size_t k = 0; k < 3; ++k)
+				EXPECT_NEAR(sideLength(flat.uv[f], k), sideLength(mesh, f, k), 1e-11);
+	}
+}
+
+TEST(CappedHoles, GiveOneChartWithoutSeamsForEveryTargetOfADisk)
+{
+	const SurfaceMesh mesh = perforated(16, 0.3);
+	for (const TargetCurvature target :
+		 {TargetCurvature::Automatic, TargetCurvature::Disk, TargetCurvature::Rectangle})
+		for (const bool freeBoundary : {true, false}) {
+			Options options = capped();
+			options.target = target;
+			options.freeBoundary = freeBoundary;
+			options.cones.distortion = 1.0; // none are needed then
+			options.charts = Charts::WithoutOverlap;
+			const FlatResult flat = run(mesh, options);
+			EXPECT_EQ(flat.report.seamEdges, 0);
+			EXPECT_EQ(flat.report.flippedFaces, 0);
+			EXPECT_EQ(flat.report.overlappingFaces, 0);
+			ASSERT_EQ(flat.charts.size(), 1u);
+			// Holes close by rotation and translation.
+			expectOnePlaceEach(mesh, flat.uv);
+			// The chart is flat inside, and its boundary keeps its lengths where it is free.
+			const FlatMap map(mesh, flat.uv);
+			EXPECT_LT(map.insideError(std::vector<double>(mesh.positions.size(), 0.0)), 1e-9);
+		}
+}
+
+TEST(CappedHoles, TurnAnAnnulusIntoADisk)
+{
+	// Removing a disk from the middle of a disk and closing it again is no change of the conformal
+	// structure in the limit: the ring becomes the plane ring that it is.
+	const SurfaceMesh mesh = ring(0.2, 1.0, 48, 12);
+	Options options = capped();
+	const FlatResult flat = run(mesh, options);
+	EXPECT_EQ(flat.report.genus, 0);
+	EXPECT_EQ(flat.report.boundaryLoops, 2);
+	EXPECT_EQ(flat.report.seamEdges, 0);
+	EXPECT_FALSE(flat.report.annulusModulus);
+	EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
+	options.target = TargetCurvature::Disk;
+	const FlatResult disk = run(mesh, options);
+	EXPECT_NEAR(disk.report.qcMax, 1.0, 1e-7);
+}
+
+TEST(CappedHoles, CarryConesOnTheirRim)
+{
+	const SurfaceMesh mesh = perforated(16, 0.2);
+	const auto vertex = [](int i, int j) { return i * 17 + j; };
+	const int rim = vertex(3, 3); // the number of the removed vertex's next one, on the rim
+	ASSERT_TRUE(FlatMap(mesh, UV(mesh.triangles.size())).boundary[at(rim)]);
+	VertexInput input = selecting(mesh, {rim});
+	Options options = capped();
+	options.target = TargetCurvature::SelectedCones;
+	options.freeBoundary = false;
+	// The whole curvature of the disk in one cone would be 2 pi: too much, and for an inner vertex,
+	// which the rim becomes.
+	const auto error = refusalOf<InadmissibleCurvature>([&] { run(mesh, options, input); });
+	EXPECT_EQ(error.problem, InadmissibleCurvature::TooLargeInside);
+	EXPECT_NEAR(error.value, 2 * kPi, 1e-12);
+	EXPECT_EQ(error.bound, 2 * kPi);
+	EXPECT_EQ(error.count, 1u);
+	expectWords(error.what(), {"6.28318531", "at an interior vertex (1 "});
+	input.selected[at(vertex(8, 8))] = 1;
+	const FlatResult flat = run(mesh, options, input);
+	// The seam goes from the cone on the rim to the other one, and to no other hole.
+	EXPECT_GT(flat.report.seamEdges, 0);
+	EXPECT_LE(
+		flat.report.seamLength,
+		1.1 * distance(mesh.positions[at(rim)], mesh.positions[at(vertex(8, 8))]));
+	EXPECT_NEAR(flat.targetCurvature[at(rim)], kPi, 1e-12);
+}
+
+/// A bumpy square of 80 x 80 cells without single vertices.
+SurfaceMesh withPinHoles()
+{
+	const auto vertex = [](int i, int j) { return i * 81 + j; };
+	const SurfaceMesh whole = grid(80, 80, Ends::Open, Ends::Open, [](int i, int j) {
+		const double x = i / 80.0, y = j / 80.0;
+		return Point3{x, y, 0.15 * std::sin(3 * x + 1) * std::cos(4 * y)};
+	});
+	return withoutStars(whole, {vertex(20, 20), vertex(40, 60), vertex(63, 17), vertex(9, 71)});
+}
+
+TEST(ShortHoles, AreCappedByDefault)
+{
+	const SurfaceMesh mesh = withPinHoles();
+	const FlatResult flat = run(mesh, Options());
+	EXPECT_EQ(flat.report.boundaryLoops, 5);
+	EXPECT_EQ(flat.report.cappedHoles, 4);
+	EXPECT_EQ(flat.report.seamEdges, 0);
+	EXPECT_EQ(flat.charts.size(), 1u);
+	EXPECT_EQ(flat.report.flippedFaces, 0);
+	EXPECT_EQ(run(mesh, capped()).uv, flat.uv);
+	Options open;
+	open.holes = Holes::Boundaries;
+	EXPECT_EQ(run(mesh, open).report.cappedHoles, 0);
+}
+
+TEST(ShortHoles, AreBoundariesWhereTheyCannotBeCapped)
+{
+	// Without flips, and where the target is one for the surface's own boundary.
+	SurfaceMesh mesh = withPinHoles();
+	Options options;
+	options.method = Method::FixedTriangles;
+	EXPECT_EQ(run(mesh, options).report.cappedHoles, 0);
+	options = Options();
+	options.target = TargetCurvature::Prescribed;
+	VertexInput input;
+	input.targetCurvature.assign(mesh.positions.size(), 0.0);
+	EXPECT_EQ(run(mesh, options, input).report.cappedHoles, 0);
+	options.target = TargetCurvature::Flat;
+	const FlatResult annulus =
+		run(withoutStars(rectangle(80, 80, 1.0, 1.0), {40 * 81 + 40}), options);
+	EXPECT_EQ(annulus.report.cappedHoles, 0);
+	EXPECT_TRUE(annulus.report.annulusModulus);
+}
+
+TEST(ShortHoles, ThatAreAllThereIsLeaveAClosedSurface)
+{
+	// The cones add up to 4 pi, and none is lost in the hole: all vertices of the mesh have the curvature
+	// that the sphere has there, those on the rim too.
+	std::vector<std::array<double, 2>> profile;
+	for (int i = 0; i <= 120; ++i)
+		profile.push_back(
+			{std::sin(kPi * i / 120) * (1 + 0.3 * std::sin(kPi * i / 40)),
+			 -3 * std::cos(kPi * i / 120)});
+	profile.front()[0] = profile.back()[0] = 0.0;
+	const SurfaceMesh mesh = withoutStars(revolved(profile, 90), {1000, 3000});
+	const FlatResult flat = run(mesh, Options());
+	EXPECT_EQ(flat.report.boundaryLoops, 2);
+	EXPECT_EQ(flat.report.cappedHoles, 2);
+	double total = 0.0;
+	for (const double k : flat.targetCurvature)
+		total += k;
+	EXPECT_NEAR(total, 4 * kPi, 1e-9);
+	EXPECT_EQ(flat.report.flippedFaces, 0);
+	EXPECT_EQ(flat.report.overlappingFaces, 0);
+	EXPECT_LT(FlatMap(mesh, flat.uv).seamMismatch, 1e-6);
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperbolic_check.h"
+#include "support/closed_flows.h"
+#include "support/packed.h"
+#include "support/wide.h"
+
+#include <ricci/layout/common_refinement.h>
+#include <ricci/layout/corner_layout.h>
+#include <ricci/layout/hyperbolic_layout.h>
+#include <ricci/metric/conformal_flip.h>
+#include <ricci/metric/hyperbolic.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+namespace ricci::testing {
+namespace {
+
+/// Closed and with boundary, and tori whose cuts cross end edges more often than they must.
+std::vector<FlippedFlow> flows()
+{
+	Random random(600);
+	std::vector<FlippedFlow> all;
+	for (const SurfaceMesh& mesh :
+		 {shaken(perforatedSlab(2, 3), 0.06, random),
+		  shaken(perforatedSlab(3, 2), 0.06, random),
+		  withoutStars(shaken(perforatedSlab(0, 5), 0.04, random), {0, 60, 120})})
+		all.emplace_back(mesh, hyperbolicMetric(), 1e-12);
+	for (int i = 0; i < 60; ++i) {
+		std::vector<double> cones(9, 0.0);
+		for (int k = 0; k < 3; ++k)
+			cones[at(random.index(9))] = 4.0;
+		all.emplace_back(foldedTorus(3, 3, 0.1, random), hyperbolicPrescribed(cones), 1e-12);
+	}
+	return all;
+}
+
+TEST(HyperbolicLayout, TrianglesHaveTheLengthsAndAnglesOfTheMetric)
+{
+	for (const FlippedFlow& flow : flows()) {
+		const CurvatureMap& metric = *flow.result.metric;
+		const Triangulation& t = metric.triangulation();
+		VertexArray<char> cones = flow.cones();
+		cones.resize(t.vertexCount(), 0);
+		const CutGraph cut = cutToDisk(t, metric.lengths(), cones);
+		const HyperbolicLayout layout =
+			layOutInDisk(t, metric.lengths(), metric.angles(), cut.isCut);
+		std::complex<long double> moment = 0.0L;
+		for (const Halfedge h : t.interiorHalfedges()) {
+			const auto z = wide(layout.frame[h].origin());
+			const auto w = wide(layout.frame[t.next(h)].origin());
+			const auto x = wide(layout.frame[t.previous(h)].origin());
+			ASSERT_LT(std::abs(z), 1.0L);
+			const double length = metric.lengths()[h.edge()];
+			EXPECT_NEAR(static_cast<double>(distanceInDisk(z, w)) / length, 1.0, 1e-11);
+			EXPECT_NEAR(
+				chordLength(layout[h], layout[t.next(h)]) / (2 * std::sinh(length / 2)), 1.0, 1e-8);
+			EXPECT_NEAR(static_cast<double>(angleInDisk(z, w, x)), metric.angles()[h], 1e-10);
+			EXPECT_EQ(
+				hyperbolicOrientation(layout[h], layout[t.next(h)], layout[t.previous(h)]), 1);
+			// The frame looks along the halfedge.
+			const auto ahead = wide(layout.frame[h].inverse()(layout.frame[t.next(h)].origin()));
+			EXPECT_LT(static_cast<double>(std::abs(ahead.imag())), 1e-12);
+			EXPECT_GT(ahead.real(), 0.0L);
+			// Its vector on the hyperboloid, by the area round it.
+			double area = kPi;
+			for (const Halfedge side : t.loop(h))
+				area -= metric.angles()[side];
+			moment += static_cast<long double>(2 * area) * z / (1.0L - std::norm(z));
+		}
+		// The middle is at 0.
+		EXPECT_LT(static_cast<double>(std::abs(moment)) / flow.result.area, 1e-9);
+		// Across the cut the two sides differ by the side pairing, across the rest by nothing.
+		for (const Edge e : t.edges()) {
+			if (t.isBoundary(e))
+				continue;
+			const Halfedge h = e.halfedge(), g = h.twin();
+			SidePairing pairing;
+			offerPairing(layout, metric.lengths()[e], h, g, pairing);
+			for (const auto& [from, to] : {std::pair(t.next(g), h), std::pair(g, t.next(h))})
+				EXPECT_LT(
+					std::abs(Complex(pairing.isometry()(layout.frame[from].origin())) - layout[to]),
+					1e-10);
+			if (!cut.isCut[e]) {
+				EXPECT_LT(static_cast<double>(pairing.isometry().distanceFromIdentity()), 1e-9);
+			}
+		}
+	}
+}
+
+/// Along any cut the refinement has the metric of the flow, its corners are those of the corners' own layout, and
+/// both sides of the cut differ by the isometry that is given.
+TEST(HyperbolicLayout, OfTheRefinementAlongAnyCut)
+{
+	Random random(615);
+	for (const FlippedFlow& flow : flows()) {
+		const CutGraph cut = flow.cutAnywhere(random);
+		const SurfaceLayout r = flow.refinement(cut);
+		const VertexVector& k = flow.result.target.curvature;
+		const HyperbolicCheck check(r.refinement);
+		check.expectCurvature({k.data(), k.data() + k.size()});
+		EXPECT_GE(static_cast<int>(check.seams.size()), cut.edgeCount);
+		const SurfaceLayout disk = layOutCorners(flow.domain, flow.result, cut.isCut);
+		const Triangulation& input = flow.base();
+		for (const SurfaceLayout* layout : {&r, &disk})
+			for (const Edge e : input.edges()) {
+				if (!cut.isCut[e])
+					continue;
+				const auto place = [&](Halfedge h) { return asComplex(layout->corners[h]); };
+				const Halfedge h = e.halfedge(), g = h.twin();
+				const DiskIsometry isometry = rounded(layout->pairing[e].isometry());
+				EXPECT_LT(std::abs(isometry(place(input.next(g))) - place(h)), 1e-9);
+				EXPECT_LT(std::abs(isometry(place(g)) - place(input.next(h))), 1e-9);
+			}
+		for (const Halfedge h : input.interiorHalfedges()) {
+			double rounding = 0.0, fromFirst[2];
+			for (const SurfaceLayout* layout : {&r, &disk}) {
+				const Complex z = asComplex(layout->corners[h]);
+				const Complex first = asComplex(layout->corners.points[0]);
+				fromFirst[layout == &r] = static_cast<double>(distanceInDisk(z, first));
+				rounding += 1e-14 / (1.0 - std::norm(z)) + 1e-14 / (1.0 - std::norm(first));
+			}
+			EXPECT_NEAR(fromFirst[0], fromFirst[1], 1e-9 + rounding);
+		}
+	}
+}
+
+TEST(HyperbolicLayout, OrientationIsThatOfTheGeodesicTriangle)
+{
+	Random random(610);
+	int clear = 0;
+	for (int i = 0; i < 1000; ++i) {
+		const auto point = [&] {
+			return std::polar(std::sqrt(random.real(0.0, 0.95)), random.real(0.0, 6.28));
+		};
+		const Complex p = point(), q = point(), r = point();
+		const int sign = hyperbolicOrientation(p, q, r);
+		EXPECT_EQ(hyperbolicOrientation(q, r, p), sign);
+		EXPECT_EQ(hyperbolicOrientation(q, p, r), -sign);
+		// In the Klein model geodesics are straight.
+		const auto klein = [](Complex z) { return 2.0 * z / (1.0 + std::norm(z)); };
+		const double area = (std::conj(klein(q) - klein(p)) * (klein(r) - klein(p))).imag();
+		if (std::abs(area) > 1e-12) {
+			EXPECT_EQ(sign, area > 0 ? 1 : -1);
+			++clear;
+		}
+	}
+	EXPECT_GT(clear, 900);
+	EXPECT_EQ(hyperbolicOrientation(0.0, 0.25, 0.5), 0);
+}
+
+/// Where an edge is just about to flip both diagonals of its quad are geodesics of one metric, and
+/// the crossing is where they meet.
+TEST(HyperbolicLayout, CrossingsAreWhereGeodesicsMeet)
+{
+	Random random(620);
+	int met = 0;
+	for (int trial = 0; trial < 200; ++trial) {
+		SurfaceMesh mesh = rectangle(1, 1, 1.0, 1.0);
+		for (Point3& p : mesh.positions)
+			for (std::size_t k = 0; k < 2; ++k)
+				p[k] += random.real(-0.2, 0.2);
+		const Triangulation t = glued(mesh);
+		const EdgeArray<double> lengths = edgeLengths(t, mesh);
+		VertexArray<double> radii = initialRadii(t, lengths);
+		for (double& r : radii)
+			r *= 0.5;
+		const CirclePacking packing{t, inversiveDistancesLessOne(t, lengths, radii)};
+		Edge e(0);
+		while (!t.isFlippable(e))
+			e = Edge(e.number() + 1);
+		// Circles of hyperbolic size; one of those beside the diagonal is made to fit.
+		const Vertex apex = t.apex(e.halfedge());
+		VertexVector u(4);
+		for (const Vertex v : t.vertices())
+			u[v] = std::log(radii[v]) + random.real(-0.3, 0.3);
+		GeometricCurvatureMap<Hyperbolic> before(packing);
+		const auto weightAt = [&](double x) {
+			u[apex] = x;
+			before.evaluate(u);
+			return before.brokenTriangles() > 0 ? -1.0 : before.weights()[e];
+		};
+		double low = u[apex] - 1.5, high = std::min(u[apex] + 1.5, -0.05);
+		if (weightAt(low) * weightAt(high) > 0.0)
+			continue;
+		const bool rising = weightAt(high) > 0.0;
+		for (int step = 0; step < 80; ++step) {
+			const double middle = 0.5 * (low + high);
+			((weightAt(middle) > 0.0) == rising ? high : low) = middle;
+		}
+		if (std::abs(weightAt(low)) > 1e-12)
+			continue; // a triangle breaks there
+		CirclePacking flipped = packing;
+		flipped.delta[e] = flippedDelta(t, packing.delta, e);
+		flipped.triangulation.flip(e);
+		const auto after = std::make_shared<GeometricCurvatureMap<Hyperbolic>>(flipped);
+		after->evaluate(u);
+		ASSERT_EQ(after->brokenTriangles(), 0);
+		++met;
+		FlowDomain domain;
+		domain.surface = embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles);
+		domain.onHole.assign(t.vertexCount(), 0);
+		FlowResult flow;
+		flow.target.background = Background::HyperbolicPlane;
+		flow.metric = after;
+		flow.u = u;
+		flow.input = t;
+		flow.start.mesh = {t, lengths};
+		flow.start.delta = packing.delta;
+		flow.start.radii = radii;
+		flow.flips = {e};
+		const FlatMesh r = layOutRefinement(
+							   domain,
+							   flow,
+							   divideStartTriangles(flow, domain.surface.triangulation.faceCount()),
+							   EdgeArray<char>(5, 0))
+							   .refinement;
+		ASSERT_EQ(r.source.size(), 5);
+		ASSERT_EQ(r.size(), 4);
+		std::array<Complex, 5> place;
+		for (int c = 0; c < 12; ++c)
+			place[at(r.vertices[Corner(c)])] = asComplex(r.at(Corner(c)));
+		for (int diagonal : {0, 1}) {
+			const auto ends = (diagonal == 0 ? t : after->triangulation()).ends(e);
+			const Complex from = place[at(ends[0])], to = place[at(ends[1])];
+			// To the root of what rounding leaves of the straight line's length.
+			EXPECT_NEAR(static_cast<double>(angleInDisk(place[4], from, to)), kPi, 1e-6);
+			const double length = diagonal == 0 ? before.lengths()[e] : after->lengths()[e];
+			EXPECT_NEAR(
+				static_cast<double>(distanceInDisk(place[4], from) + distanceInDisk(place[4], to)) /
+					length,
+				1.0,
+				1e-11);
+		}
+	}
+	EXPECT_GT(met, 30);
+}
+
+} // namespace
+} // namespace ricci::testing

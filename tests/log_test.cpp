@@ -1,0 +1,497 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run says of itself, line by line: the log, the notes and the choice of Automatic, with the numbers that
+// the report has.
+#include "support/calls.h"
+#include "support/flat_map.h"
+#include "support/listener.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <regex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+std::string text(const char* format, double x)
+{
+	char buffer[64];
+	std::snprintf(buffer, sizeof buffer, format, x);
+	return buffer;
+}
+std::string three(double x)
+{
+	return text("%.3g", x);
+}
+
+/// Whether \p line is \p pattern, in which # stands for any number, * for any text.
+bool matches(const std::string& line, const std::string& pattern)
+{
+	std::string regex;
+	for (const char c : pattern)
+		if (c == '#')
+			regex += "[-+.e0-9]+";
+		else if (c == '*')
+			regex += ".*";
+		else if (std::isalnum(static_cast<unsigned char>(c)) || c == ' ')
+			regex += c;
+		else
+			regex += std::string("\\") + c;
+	return std::regex_match(line, std::regex(regex));
+}
+
+/// The lines of a log that are made of what the call gives.
+class Lines
+{
+public:
+	Lines(const SurfaceMesh& mesh, const Parametrization& map) : m_mesh(mesh), m_map(map) {}
+
+	std::string component(const char* name) const
+	{
+		return "Component of " + std::to_string(m_mesh.positions.size()) + " vertices, " +
+			   std::to_string(m_mesh.triangles.size()) + " faces: " + name + ".";
+	}
+
+	/// The cones that were placed, by their numbers in the mesh.
+	std::string cones() const
+	{
+		std::vector<int> cones = m_map.placedCones;
+		std::sort(cones.begin(), cones.end());
+		std::string list;
+		for (const int v : cones)
+			list += (list.empty() ? " " : ", ") + std::to_string(v) + " (" +
+					text("%.9g", m_map.targetCurvature[at(v)] / kPi) + ")";
+		return std::to_string(cones.size()) + " cones placed: expected " + kCost +
+			   ", area distortion " + three(m_map.report.expectedSpread.value_or(-1)) +
+			   " (spread); vertex (curvature / pi):" + list + ".";
+	}
+
+	/// Every state of the flow, and \p again before a step that another solve begins with; without it, what
+	/// is known of the step already is not said again.
+	std::vector<std::string> newton(const std::string& again = "") const
+	{
+		std::vector<std::string> lines;
+		const std::vector<FlowState>& states = m_map.report.flowStates;
+		for (std::size_t i = 0; i < states.size(); ++i) {
+			if (i > 0 && states[i].step == states[i - 1].step) {
+				if (again.empty())
+					continue;
+				lines.push_back(again);
+			}
+			lines.push_back(
+				"Newton step " + std::to_string(states[i].step) +
+				": max |target - K| = " + text("%.3e", states[i].residual));
+		}
+		return lines;
+	}
+
+	std::string boundary() const
+	{
+		return "Free boundary: in the map its edges are " +
+			   three(m_map.report.boundaryRatioMin.value_or(-1)) + " to " +
+			   three(m_map.report.boundaryRatioMax.value_or(-1)) + " times as long as on the mesh.";
+	}
+
+	/// "energy 4.01, seams 11.9 (objective 4.6)" of the map that was taken
+	std::string cost() const
+	{
+		const Report& r = m_map.report;
+		return "energy " + three(r.stretch.value_or(-1)) + ", seams " +
+			   three(r.seamLengthRelative) + " (objective " + three(r.objective.value_or(-1)) + ")";
+	}
+
+	static constexpr const char* kCost =
+		"energy #, seams # (in units of the square root of the area)";
+	static constexpr const char* kFree = "Free boundary: the flow keeps the boundary's metric.";
+
+private:
+	const SurfaceMesh& m_mesh;
+	const Parametrization& m_map;
+};
+
+using Groups = std::vector<std::vector<std::string>>;
+
+/// A call, its log and its choice.
+struct Log : Call
+{
+	std::function<Groups(const Lines& lines, const Parametrization& map)> expected; ///< patterns
+	std::string choice;
+};
+
+std::vector<Log> logs()
+{
+	constexpr const char* kNoCones = "No cones: expected ";
+	const auto with = [](const std::function<void(Options&)>& change) {
+		Options options;
+		change(options);
+		return options;
+	};
+	const auto inDisk = [](const std::function<void(HyperbolicOptions&)>& change) {
+		HyperbolicOptions options;
+		change(options);
+		return options;
+	};
+	const auto target = [&](TargetCurvature t) { return with([=](Options& o) { o.target = t; }); };
+	Random random(90);
+	const SurfaceMesh donut = bumpyTorus(14, 9, random);
+	const SurfaceMesh handles = shaken(perforatedSlab(2, 2), 0.06, random);
+	const SurfaceMesh tube = shaken(sphereWithTube(0.2, 4, 0.4, 16, 16), 0.004, random);
+	SurfaceMesh sheet = randomPlanarDisk(6, random), plate = perforatedSlab(0, 4);
+	for (Point3& p : sheet.positions)
+		p[2] = 0.3 * std::sin(4 * p[0]) * std::cos(3 * p[1]);
+	for (Point3& p : plate.positions)
+		p[2] *= 0.1;
+	VertexInput bent;
+	bent.targetCurvature = {-3, 0, 0, 0, 0, 0, 0, 0};
+	const std::string noBoundary =
+		"The target prescribes the boundary: the choice of a free boundary has no effect on it.";
+	const std::string isSphere =
+		"a closed surface of genus 0 (a sphere) has no flat metric without them";
+	const Options separate = with([](Options& o) { o.charts = Charts::WithoutOverlap; });
+	return {
+		{{"Torus", donut, separate},
+		 [](const Lines& l, const Parametrization&) -> Groups {
+			 return {
+				 {l.component("a closed surface of genus 1 (a torus)"),
+				  "Cones: without them expected " + std::string(Lines::kCost) +
+					  ", area distortion # (spread).",
+				  l.cones()},
+				 l.newton(),
+				 {"Automatic: cones, which are expected to lower the objective from # to #; as a "
+				  "whole: " +
+				  l.cost() +
+				  "; cut along creases and unfolded: energy #, seams # "
+				  "(objective #)."}};
+		 },
+		 "cones, which are expected to lower the objective from # to #; as a whole: energy #, "
+		 "seams # "
+		 "(objective #); cut along creases and unfolded: energy #, seams # (objective #)"},
+		{{"FlatSheet", rectangle(4, 4, 1, 1), Options()},
+		 [=](const Lines& l, const Parametrization& map) -> Groups {
+			 return {
+				 {l.component("a disk"),
+				  Lines::kFree,
+				  std::string(kNoCones) + Lines::kCost + ", area distortion " +
+					  three(*map.report.expectedSpread) + " (spread)."},
+				 l.newton()};
+		 },
+		 "no cones, because without them areas are expected to spread by # alone"},
+		{{"AreasMaySpread", tube, with([](Options& o) { o.cones.distortion = 1e9; })},
+		 [=](const Lines& l, const Parametrization& map) -> Groups {
+			 std::vector<std::string> last{l.boundary()};
+			 if (map.report.unequalSeams > 0)
+				 last.push_back(
+					 std::to_string(map.report.unequalSeams) +
+					 " edges of the seams are longer on one side than on the other: flipped faces "
+					 "beside them were mended.");
+			 return {
+				 {l.component("a disk"),
+				  Lines::kFree,
+				  std::string(kNoCones) + Lines::kCost + ", area distortion " +
+					  three(*map.report.expectedSpread) + " (spread)."},
+				 l.newton(),
+				 last};
+		 },
+		 "no cones, because without them areas are expected to spread by # alone"},
+		{{"AreasAreKept", tube, with([](Options& o) { o.cones.distortion = 0.2; })},
+		 [](const Lines& l, const Parametrization&) -> Groups {
+			 return {
+				 {l.component("a disk"),
+				  "Cones: without them expected " + std::string(Lines::kCost) +
+					  ", area distortion # (spread).",
+				  l.cones(),
+				  Lines::kFree},
+				 l.newton(),
+				 {l.boundary()}};
+		 },
+		 "cones, because without them areas would spread by #, more than was asked for"},
+		{{"Unfolded", plate, separate},
+		 [=](const Lines& l, const Parametrization&) -> Groups {
+			 return {
+				 {l.component("a closed surface of genus 0 (a sphere)"),
+				  "Cones: " + isSphere + ".",
+				  "# cones placed: expected " + std::string(Lines::kCost) +
+					  ", area distortion # (spread); vertex (curvature / pi): *.",
+				  "Automatic: cut along creases and unfolded: " + l.cost() +
+					  "; as a whole: energy #, seams # (objective #)."}};
+		 },
+		 "cut along creases and unfolded: energy 4, seams # (objective #); as a whole: energy #, "
+		 "seams # (objective #)"},
+		{{"Box", perforatedSlab(0, 2), Options()},
+		 [=](const Lines& l, const Parametrization&) -> Groups {
+			 return {
+				 {l.component("a closed surface of genus 0 (a sphere)"),
+				  "Cones: " + isSphere + ".",
+				  l.cones()},
+				 l.newton(),
+				 // Before it is cut for room.
+				 {"Automatic: cones, because " + isSphere +
+				  "; as a whole: energy 4, seams # (objective #); cut along creases and unfolded: "
+				  "energy 4, seams # (objective #)."}};
+		 },
+		 "cones, because " + isSphere +
+			 "; as a whole: energy 4, seams # (objective #); cut along creases and unfolded: "
+			 "energy 4, seams # (objective #)"},
+		{{"RoundDisk", sheet, target(TargetCurvature::Disk)},
+		 [=](const Lines& l, const Parametrization&) -> Groups {
+			 return {
+				 {l.component("a disk"), noBoundary},
+				 l.newton("Solve # for the circle: its angles follow the lengths that the boundary "
+						  "has now.")};
+		 },
+		 ""},
+		{{"Rectangle", sheet, with([](Options& o) {
+			  o.target = TargetCurvature::Rectangle;
+			  o.finish = Finish::LeastStretch;
+		  })},
+		 [=](const Lines& l, const Parametrization&) -> Groups {
+			 return {
+				 {l.component("a disk"),
+				  "No vertices are selected: the corners are the boundary vertices nearest to the "
+				  "corners of the smallest rectangle around the boundary.",
+				  noBoundary},
+				 l.newton(),
+				 {"The boundary or the turns across seams are prescribed: least distortion, not "
+				  "least stretch."}};
+		 },
+		 ""},
+		{{"ConesOnTheBoundary",
+		  sheet,
+		  target(TargetCurvature::SelectedCones),
+		  selecting(sheet, {0, 3, 48})},
+		 [](const Lines& l, const Parametrization&) -> Groups {
+			 return {
+				 {l.component("a disk"),
+				  "3 cones of curvature 2.0943951 each.", // 2 pi / 3
+				  "Cones lie on the boundary, which is therefore prescribed: the choice of a free "
+				  "boundary has no effect."},
+				 l.newton("Another solve, on the double of the surface: on the surface alone, the "
+						  "boundary bends.")};
+		 },
+		 ""},
+		{{"PrescribedBoundary",
+		  withoutStars(torus(3, 1, 16, 12), {0, 50, 100}),
+		  with([](Options& o) { o.freeBoundary = false; })},
+		 [](const Lines& l, const Parametrization&) -> Groups {
+			 return {
+				 {l.component("a surface of genus 1 with 3 boundary loops"),
+				  "The boundary is prescribed: its curvature is proportional to its length."},
+				 l.newton("Another solve, on the double of the surface: on the surface alone, the "
+						  "boundary bends.")};
+		 },
+		 "no cones, because of the surface's topology and the boundary asked for"},
+		{{"QuarterTurns", handles, with([](Options& o) {
+			  o.target = TargetCurvature::PlacedCones;
+			  o.cones.rounding = ConeRounding::QuarterTurns;
+		  })},
+		 [](const Lines& l, const Parametrization&) -> Groups {
+			 return {
+				 {l.component("a closed surface of genus 2"), l.cones()},
+				 l.newton(),
+				 {"The rotations across seams are up to # from a multiple of a quarter turn, and # "
+				  "once the metric has changed."}};
+		 },
+		 ""},
+		{{"EdgeSwaps",
+		  fanWithGap(100),
+		  with([](Options& o) {
+			  o.target = TargetCurvature::Prescribed;
+			  o.method = Method::EdgeSwaps;
+		  }),
+		  bent},
+		 [](const Lines& l, const Parametrization& map) -> Groups {
+			 EXPECT_EQ(map.report.boundarySplits, 1);
+			 return {
+				 {l.component("a disk"), Lines::kFree},
+				 l.newton("1 boundary edges split; the flow starts again.")};
+		 },
+		 ""},
+		{{"Needles", withFlatTail(rectangle(6, 6, 0.5, 1), 47, 48, 100.0), with([](Options& o) {
+			  o.target = TargetCurvature::PlacedCones;
+			  o.cones.count = 1;
+			  o.epsilon = 1e-17;
+		  })},
+		 [](const Lines& l, const Parametrization& map) -> Groups {
+			 const Report& r = map.report;
+			 return {
+				 {l.component("a disk"), l.cones(), Lines::kFree},
+				 l.newton(),
+				 {"Some faces have no area, or one side a million times shorter than another: the "
+				  "flow sees the edges at 1 of the vertices longer, by up to " +
+					  three(r.lengthened) + " of what they then are.",
+				  "The residual asked for is below what rounding allows: the curvature is reached "
+				  "to " +
+					  three(r.maxCurvatureError) + " (rounding floor " + three(r.residualFloor) +
+					  ")."}};
+		 },
+		 ""},
+		{{"HyperbolicCones",
+		  handles,
+		  inDisk([](HyperbolicOptions& o) {
+			  o.target = HyperbolicTarget::SelectedCones;
+			  o.coneAngle = 1.0;
+		  }),
+		  selecting(handles, {3, 30})},
+		 [](const Lines& l, const Parametrization&) -> Groups {
+			 return {
+				 {l.component("a closed surface of genus 2"),
+				  "2 cones of angle 57.2957795 degrees each."},
+				 l.newton()};
+		 },
+		 ""},
+		{{"HyperbolicFreeBoundary", sheet, inDisk([](HyperbolicOptions& o) {
+			  o.freeBoundary = true;
+		  })},
+		 [](const Lines& l, const Parametrization&) -> Groups {
+			 return {
+				 {l.component("a disk"),
+				  "Free boundary: the boundary's circles keep their radii, at the scale at which "
+				  "the mesh has the area 6.28318531."}, // 2 pi
+				 l.newton()};
+		 },
+		 ""},
+		{{"WideDisk", perforatedSlab(16, 2), inDisk([](HyperbolicOptions& o) {
+			  o.canonicalGenerators = true;
+		  })},
+		 [](const Lines& l, const Parametrization& map) -> Groups {
+			 EXPECT_FALSE(map.charts[0].group.isCanonical());
+			 return {
+				 {l.component("a closed surface of genus 16")},
+				 l.newton(),
+				 {"The short seams lead # out in the disk, too far for floats. Longer ones around "
+				  "the middle lead # out.",
+				  "There are no canonical generators: they would move points farther than floating "
+				  "point numbers can tell."}};
+		 },
+		 ""}};
+}
+
+class Logs : public ::testing::TestWithParam<Log>
+{
+};
+
+TEST_P(Logs, SayWhatWasDone)
+{
+	const Log& log = GetParam();
+	Listener listener;
+	const Parametrization map = heard(listener, [&] { return outcomeOf(log).map; });
+	std::vector<std::string> expected;
+	for (const std::vector<std::string>& group : log.expected(Lines(log.mesh, map), map))
+		expected.insert(expected.end(), group.begin(), group.end());
+	std::vector<std::string> lines = listener.lines;
+	const auto isStep = [](const std::string& line) { return line.rfind("Newton step", 0) == 0; };
+	if (std::none_of(expected.begin(), expected.end(), isStep)) // of a map that was not taken
+		lines.erase(std::remove_if(lines.begin(), lines.end(), isStep), lines.end());
+	for (std::size_t i = 0; i < std::max(expected.size(), lines.size()); ++i) {
+		const std::string line = i < lines.size() ? lines[i] : "nothing";
+		const std::string pattern = i < expected.size() ? expected[i] : "nothing";
+		EXPECT_TRUE(matches(line, pattern)) << line << "\nis not\n" << pattern;
+	}
+	EXPECT_TRUE(matches(map.report.choice, log.choice)) << map.report.choice;
+	// Notes are the lines on what was chosen.
+	std::size_t next = 0;
+	for (const std::string& line : listener.lines)
+		next += next < map.notes.size() && line == map.notes[next];
+	EXPECT_EQ(next, map.notes.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Calls, Logs, ::testing::ValuesIn(logs()), CallName());
+
+/// All that can be wrong with a mesh, in numbers of one and of more.
+TEST(Logs, SayWhatWasDoneToTheMesh)
+{
+	SurfaceMesh mesh = book(3, 3);
+	mesh.triangles.push_back(mesh.triangles[0]);
+	mesh.triangles.push_back({5, 5, 5});
+	mesh.positions.push_back({9, 9, 9});
+	mesh = sideBySide(mesh, moebiusBand(9), 10);
+	mesh = sideBySide(mesh, withReversedFaces(rectangle(3, 3, 1, 1), 9), 20);
+	mesh.seam.assign(mesh.triangles.size(), {0, 0, 0});
+	mesh.seam[mesh.triangles.size() - 10] = {1, 0, 0};
+	const auto notesOf = [](const SurfaceMesh& surface) {
+		Listener listener;
+		const Parametrization map =
+			heard(listener, [&] { return parametrizeEuclidean(surface, {}, {}); });
+		EXPECT_TRUE(std::equal(map.notes.begin(), map.notes.begin() + 9, listener.lines.begin()));
+		const Report& r = map.report;
+		const auto expectCount = [&](std::size_t i, int count) {
+			EXPECT_EQ(std::stoi(map.notes[i]), count) << map.notes[i];
+		};
+		expectCount(2, r.duplicateFaces);
+		expectCount(3, r.cutNonmanifoldEdges);
+		expectCount(4, r.chosenSeamEdges);
+		expectCount(5, r.seamEdges);
+		expectCount(6, r.oneSidedComponents);
+		expectCount(7, r.splitVertices);
+		expectCount(8, r.degenerateFaces);
+		return std::vector<std::string>(map.notes.begin(), map.notes.begin() + 9);
+	};
+	const std::vector<std::string> once{
+		"1 vertex belongs to no face and is left out.",
+		"2 faces were oriented against the rest of the surface and counted as inverted.",
+		"1 face has the vertices of another and is a sheet of its own.",
+		"6 edges of more than two faces were cut: sheets go on where they are smoothest.",
+		"1 edge is a seam, as chosen.",
+		"1 seam of one edge alone goes on along one more: without it, nothing would come apart "
+		"there.",
+		"1 one-sided component was cut along short one-sided loops.",
+		"8 vertices have more than one fan of faces, each with a place of its own in the map.",
+		"1 face has no area and is drawn as the line or the point that it is."};
+	const std::vector<std::string> twice{
+		"2 vertices belong to no face and are left out.",
+		"4 faces were oriented against the rest of the surface and counted as inverted.",
+		"2 faces have the vertices of another and are sheets of their own.",
+		"12 edges of more than two faces were cut: sheets go on where they are smoothest.",
+		"2 edges are seams, as chosen.",
+		"2 seams of one edge alone go on along one more: without it, nothing would come apart "
+		"there.",
+		"2 one-sided components were cut along short one-sided loops.",
+		"16 vertices have more than one fan of faces, each with a place of its own in the map.",
+		"2 faces have no area and are drawn as the lines or the points that they are."};
+	EXPECT_EQ(notesOf(mesh), once);
+	SurfaceMesh both = sideBySide(mesh, mesh, 50);
+	both.seam = mesh.seam;
+	both.seam.insert(both.seam.end(), mesh.seam.begin(), mesh.seam.end());
+	EXPECT_EQ(notesOf(both), twice);
+}
+
+/// Of many components the largest are described, in their order, and each with its own states of the flow.
+TEST(Logs, AreOfTheLargestComponents)
+{
+	const SurfaceMesh large = torus(2, 1, 9, 6);
+	SurfaceMesh mesh = rectangle(1, 1, 1, 1);
+	for (int i = 1; i < 24; ++i)
+		mesh = sideBySide(mesh, rectangle(1, 1, 1, 1), 3.0 * i);
+	const auto notesOf = [](const SurfaceMesh& surface) {
+		return parametrizeEuclidean(surface, {}, Options()).notes;
+	};
+	const std::size_t small = notesOf(rectangle(1, 1, 1, 1)).size();
+	ASSERT_GT(small, 0u);
+	Listener listener;
+	const Parametrization map =
+		heard(listener, [&] { return parametrizeEuclidean(sideBySide(mesh, large, 100), {}, {}); });
+	const std::vector<std::string> alone = notesOf(large);
+	ASSERT_EQ(map.notes.size(), 19 * small + alone.size());
+	EXPECT_EQ(map.notes[19 * small], alone.front());
+	EXPECT_EQ(listener.count("Component of 4 vertices, 2 faces: a disk."), 19);
+	EXPECT_EQ(listener.count("Component of 54 vertices, 108 faces"), 1);
+	EXPECT_EQ(listener.lines.back(), "The log leaves out the smaller ones of 25 components.");
+	int component = 0;
+	for (const FlowState& state : map.report.flowStates) {
+		EXPECT_TRUE(state.component == component || state.component == component + 1);
+		component = state.component;
+	}
+	EXPECT_EQ(component, 24);
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,637 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The whole way from a mesh to the Poincaré disk.
+#include "support/complex.h"
+#include "support/flat_map.h"
+#include "support/implicit_surface.h"
+#include "support/listener.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/transform.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+FlatResult
+run(const SurfaceMesh& mesh, const HyperbolicOptions& options = {}, const VertexInput& input = {})
+{
+	return runInDisk(mesh, options, input);
+}
+
+HyperbolicOptions refined()
+{
+	HyperbolicOptions options;
+	options.output = OutputTriangulation::CommonRefinement;
+	return options;
+}
+
+SurfaceMesh genusTwo(std::uint64_t seed = 700, int subdivision = 3)
+{
+	Random random(seed);
+	return shaken(perforatedSlab(2, subdivision), 0.06, random);
+}
+
+/// The largest hyperbolic distance of a corner from 0.
+double radius(const Parametrization& map)
+{
+	double largest = 0.0;
+	for (const Triangle2& face : map.mesh.corners())
+		for (const Point2& p : face)
+			largest = std::max(largest, 2.0 * std::atanh(std::hypot(p[0], p[1])));
+	return largest;
+}
+
+double length(const Point2& p, const Point2& q)
+{
+	return 2.0 * std::asinh(0.5 * chordLength(asComplex(p), asComplex(q)));
+}
+
+/// \p p seen from \p from, which is moved to the middle.
+Complex seenFrom(const Point2& from, const Point2& p)
+{
+	return (asComplex(p) - asComplex(from)) / (1.0 - std::conj(asComplex(from)) * asComplex(p));
+}
+
+/// Angles of a geodesic triangle, negative where it is flipped.
+std::array<double, 3> angles(const Triangle2& t)
+{
+	std::array<double, 3> angle;
+	for (std::size_t k = 0; k < 3; ++k)
+		angle[k] = std::arg(seenFrom(t[k], t[(k + 2) % 3]) / seenFrom(t[k], t[(k + 1) % 3]));
+	return angle;
+}
+
+/// The shortest closed geodesics that are products of four side pairings at most, by their traces.
+std::vector<double> shortestTraces(const Parametrization& map)
+{
+	const std::vector<DiskIsometry>& sides = map.charts[0].group.sides;
+	std::vector<double> traces;
+	std::vector<DiskIsometry> words{DiskIsometry()};
+	for (int letters = 0; letters < 4; ++letters) {
+		std::vector<DiskIsometry> longer;
+		for (const DiskIsometry& word : words)
+			for (const DiskIsometry& side : sides)
+				if (const DiskIsometry product = word * side; product.displacement() < 14.0) {
+					longer.push_back(product);
+					if (std::abs(product.trace()) > 2.0 + 1e-6)
+						traces.push_back(std::abs(product.trace()));
+				}
+		words = std::move(longer);
+	}
+	std::sort(traces.begin(), traces.end());
+	std::vector<double> spectrum;
+	for (const double trace : traces)
+		if (spectrum.size() < 3 && (spectrum.empty() || trace > spectrum.back() * (1 + 1e-7)))
+			spectrum.push_back(trace);
+	return spectrum;
+}
+
+TEST(ParametrizeHyperbolic, ClosedSurfacesLieInTheDisk)
+{
+	Random random(701);
+	for (int genus : {2, 3}) {
+		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 3), 0.06, random);
+		const FlatResult map = run(mesh, refined());
+		const Report& report = map.report;
+		EXPECT_TRUE(report.converged);
+		EXPECT_LE(report.maxCurvatureError, std::max(1e-8, report.residualFloor));
+		EXPECT_EQ(report.genus, genus);
+		EXPECT_EQ(report.charts, 1);
+		EXPECT_EQ(report.flippedFaces, 0);
+		EXPECT_EQ(report.brokenTriangles, 0);
+		ASSERT_TRUE(report.hyperbolicArea && report.relationError);
+		EXPECT_NEAR(*report.hyperbolicArea / (4 * kPi * (genus - 1)), 1.0, 1e-8);
+		EXPECT_LT(*report.relationError, 1e-8);
+		EXPECT_GT(report.seamEdges, 0);
+		ASSERT_EQ(map.charts.size(), 1u);
+		for (const UV& uv : {map.uv, map.mesh.corners().values()})
+			for (const auto& corners : uv)
+				for (const Point2& p : corners)
+					EXPECT_LT(std::abs(asComplex(p)), 1.0);
+		// Near the middle, where its own area is nearly that of the disk's picture.
+		double least = 1.0;
+		for (const auto& corners : map.uv)
+			least = std::min(least, std::abs(asComplex(corners[0])));
+		EXPECT_LT(least, 0.1);
+		for (double u : map.u)
+			EXPECT_LT(u, 0.0);
+	}
+}
+
+/// A seam's two sides are as long as each other, on the mesh and on the refinement; the latter's
+/// pieces fill every face.
+TEST(ParametrizeHyperbolic, KeptFacesAndTheRefinementAgreeAtTheVertices)
+{
+	const SurfaceMesh mesh = genusTwo();
+	const FlatResult kept = run(mesh), exact = run(mesh, refined());
+	// One figure but for a motion of the disk: seen from one corner in the direction of the next.
+	const auto seen = [](const FlatResult& map, const Point2& p) {
+		const Complex towards = seenFrom(map.uv[0][0], map.uv[0][1]);
+		return seenFrom(map.uv[0][0], p) * std::abs(towards) / towards;
+	};
+	ASSERT_EQ(kept.uv.size(), exact.uv.size());
+	for (std::size_t f = 0; f < kept.uv.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			EXPECT_LT(std::abs(seen(kept, kept.uv[f][k]) - seen(exact, exact.uv[f][k])), 1e-10);
+	EXPECT_EQ(kept.u, exact.u);
+	EXPECT_GT(exact.report.refinementPoints, 0);
+	EXPECT_EQ(kept.report.hyperbolicArea, exact.report.hyperbolicArea);
+	EXPECT_EQ(
+		at(exact.mesh.source.size()), mesh.positions.size() + at(exact.report.refinementPoints));
+	// Corners of pieces at input vertices are corners of their input face.
+	for (const int f : exact.mesh.points.indices()) {
+		const std::size_t face = at(exact.mesh.face[f]);
+		EXPECT_GT(angles(exact.mesh.at(f))[0], 0.0);
+		for (std::size_t k = 0; k < 3; ++k)
+			for (std::size_t j = 0; j < 3; ++j)
+				if (exact.mesh.vertices[f][k] == mesh.triangles[face][j]) {
+					EXPECT_LT(
+						std::abs(asComplex(exact.mesh.at(f)[k]) - asComplex(exact.uv[face][j])),
+						1e-12);
+				}
+	}
+	EXPECT_GE(kept.report.qcMean, 1.0);
+}
+
+TEST(ParametrizeHyperbolic, SurfacesWithBoundary)
+{
+	Random random(702);
+	const SurfaceMesh meshes[] = {
+		withoutStars(shaken(perforatedSlab(1, 4), 0.03, random), {0}),
+		withoutStars(shaken(perforatedSlab(0, 5), 0.03, random), {0, 60, 120})};
+	for (const SurfaceMesh& mesh : meshes) {
+		const FlatResult map = run(mesh, refined());
+		EXPECT_EQ(map.report.eulerCharacteristic, -1);
+		EXPECT_NEAR(*map.report.hyperbolicArea / (2 * kPi), 1.0, 1e-8);
+		EXPECT_LT(*map.report.relationError, 1e-8); // lengths of the boundaries included
+		EXPECT_EQ(map.report.flippedFaces, 0);
+		EXPECT_EQ(map.charts[0].group.peripheral.size(), at(map.report.boundaryLoops));
+		HyperbolicOptions options = refined();
+		options.freeBoundary = true;
+		const FlatResult free = run(mesh, options);
+		EXPECT_EQ(free.report.flippedFaces, 0);
+		EXPECT_LE(free.report.maxCurvatureError, 1e-8);
+	}
+}
+
+/// The disk and the annulus have hyperbolic metrics as soon as their boundary is free. That of a
+/// round disk of area 2 pi is the disk of radius asinh(sqrt(2)); a cylinder of period 2 pi and height
+/// w has a closed geodesic of length 2 pi k, sqrt(w) k = cos(k w / 2): see hyperbolic_flow_test.cpp.
+TEST(ParametrizeHyperbolic, DiskAndAnnulusWithFreeBoundary)
+{
+	HyperbolicOptions options = refined();
+	options.freeBoundary = true;
+	std::vector<std::array<double, 2>> round, straight;
+	const int n = 48;
+	const double height = 1.7, error = 2 * std::pow(2 * kPi / n, 2); // second order
+	for (int i = 0; i <= n / 4; ++i)
+		round.push_back({4.0 * i / n, 0.0});
+	for (int i = 0; i <= n / 3; ++i)
+		straight.push_back({1.0, 3.0 * i / n * height});
+	for (const OutputTriangulation output :
+		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+		options.output = output;
+		const FlatResult disk = run(revolved(round, n), options);
+		EXPECT_EQ(disk.report.flippedFaces, 0);
+		EXPECT_EQ(disk.report.relationError, 0.0);
+		EXPECT_TRUE(disk.charts[0].group.sides.empty());
+		EXPECT_NEAR(*disk.report.hyperbolicArea, 2 * kPi * (std::sqrt(3.0) - 1.0), error);
+		EXPECT_NEAR(radius(disk), std::asinh(std::sqrt(2.0)), error);
+		const FlatResult annulus = run(revolved(straight, n), options);
+		EXPECT_EQ(annulus.report.flippedFaces, 0);
+		EXPECT_LT(*annulus.report.relationError, 1e-9);
+		double k = 1.0;
+		for (int i = 0; i < 200; ++i)
+			k = std::cos(0.5 * k * height) / std::sqrt(height);
+		ASSERT_EQ(annulus.charts[0].group.peripheral.size(), 2u);
+		for (const DiskIsometry& m : annulus.charts[0].group.peripheral)
+			EXPECT_NEAR(2.0 * std::acosh(0.5 * std::abs(m.trace())), 2 * kPi * k, error);
+	}
+}
+
+TEST(ParametrizeHyperbolic, WhatLiesOnItselfIsCounted)
+{
+	// A strip that goes round an axis: in the disk its second turn meets the first.
+	const auto strip = [](int steps) {
+		return grid(3, steps, Ends::Open, Ends::Open, [](int i, int j) -> Point3 {
+			const double r = 0.01 * (3 + i), a = 2 * kPi * j / 24;
+			return {r * std::cos(a), r * std::sin(a), 0.001 * a};
+		});
+	};
+	HyperbolicOptions options;
+	options.freeBoundary = true;
+	const Parametrization half = parametrizeHyperbolic(strip(12), {}, options);
+	EXPECT_EQ(half.report.overlappingFaces, 0);
+	EXPECT_EQ(half.report.overlappingCharts, 0);
+	const Parametrization twice = parametrizeHyperbolic(strip(48), {}, options);
+	EXPECT_GT(twice.report.overlappingFaces, 0);
+	EXPECT_EQ(twice.report.overlappingCharts, 1);
+	EXPECT_EQ(twice.report.flippedFaces, 0);
+}
+
+TEST(ParametrizeHyperbolic, ConesAtSelectedVertices)
+{
+	Random random(703);
+	const SurfaceMesh sphere = shaken(perforatedSlab(0, 3), 0.05, random);
+	HyperbolicOptions options = refined();
+	options.target = HyperbolicTarget::SelectedCones;
+	options.coneAngle = kPi / 2;
+	const FlatResult map = run(sphere, options, selecting(sphere, {3, 20, 40}));
+	EXPECT_NEAR(*map.report.hyperbolicArea / (0.5 * kPi), 1.0, 1e-8);
+	EXPECT_LT(*map.report.relationError, 1e-8);
+	EXPECT_EQ(map.report.flippedFaces, 0);
+	EXPECT_EQ(map.charts[0].group.peripheral.size(), 3u);
+	// The same from vertex quality.
+	VertexInput input;
+	input.targetCurvature.assign(sphere.positions.size(), 0.0);
+	for (std::size_t v : {3u, 20u, 40u})
+		input.targetCurvature[v] = 1.5 * kPi;
+	options.target = HyperbolicTarget::Prescribed;
+	const FlatResult same = run(sphere, options, input);
+	for (std::size_t v = 0; v < map.u.size(); ++v)
+		EXPECT_NEAR(same.u[v], map.u[v], 1e-10);
+}
+
+TEST(ParametrizeHyperbolic, ASurfaceOfHardlyAnyArea)
+{
+	// The area is what the curvatures add up to on a torus: far below the rounding of the angles of
+	// one triangle. The disk then is a picture of the flat metric with the same cones.
+	Random random(706);
+	const SurfaceMesh mesh = bumpyTorus(8, 6, random);
+	HyperbolicOptions options = refined();
+	options.finish = Finish::None; // floats cannot hold it
+	options.target = HyperbolicTarget::Prescribed;
+	VertexInput input;
+	input.targetCurvature.assign(mesh.positions.size(), 0.0);
+	input.targetCurvature[5] = 1.0 + 0x1p-51;
+	input.targetCurvature[30] = -1.0;
+	const FlatResult map = run(mesh, options, input);
+	EXPECT_EQ(map.report.flippedFaces, 0);
+	EXPECT_GT(radius(map), 0.0);
+	EXPECT_LT(radius(map), 2e-6); // half of it in the disk's own lengths
+}
+
+/// Lengths of closed geodesics belong to the metric, not to the cut or the numbers it is found with.
+TEST(ParametrizeHyperbolic, LengthsOfGeodesicsDoNotDependOnTheNumbers)
+{
+	Random random(704);
+	const SurfaceMesh mesh = genusTwo(705, 2);
+	HyperbolicOptions options;
+	options.epsilon = 1e-12;
+	const std::vector<double> expected = shortestTraces(run(mesh, options));
+	ASSERT_EQ(expected.size(), 3u);
+	for (int trial = 0; trial < 2; ++trial) {
+		const std::vector<double> traces =
+			shortestTraces(run(renumbered(mesh, random).mesh, options));
+		ASSERT_EQ(traces.size(), 3u);
+		for (std::size_t i = 0; i < 3; ++i)
+			EXPECT_NEAR(traces[i] / expected[i], 1.0, 1e-8);
+	}
+}
+
+TEST(ParametrizeHyperbolic, ATorusHasAHyperbolicMetricWithACone)
+{
+	const SurfaceMesh mesh = torus(2, 1, 12, 8);
+	HyperbolicOptions options = refined();
+	options.target = HyperbolicTarget::SelectedCones;
+	options.coneAngle = kPi;
+	const FlatResult map = run(mesh, options, selecting(mesh, {5}));
+	EXPECT_NEAR(*map.report.hyperbolicArea / kPi, 1.0, 1e-8);
+	EXPECT_EQ(map.report.flippedFaces, 0);
+}
+
+/// A cone of nearly no angle is nearly a cusp: sides of its triangles are about 20 long, and all digits
+/// of cosh and sinh are the same there.
+TEST(ParametrizeHyperbolic, ConesThatAreNearlyCusps)
+{
+	HyperbolicOptions options;
+	options.target = HyperbolicTarget::SelectedCones;
+	options.coneAngle = 1e-8;
+	for (const SurfaceMesh& mesh : {perforatedSlab(2, 1), torus(2, 1, 8, 8)})
+		EXPECT_EQ(run(mesh, options, selecting(mesh, {0})).report.flippedFaces, 0);
+	// The circumference at the distance r from a tip is the angle times sinh r: of a thousandth of
+	// the angle the tip lies ln 1000 farther away.
+	Random random(9);
+	const SurfaceMesh mesh = bumpyTorus(12, 9, random);
+	const VertexInput input = selecting(mesh, {5, 20, 33, 40});
+	const double far = radius(run(mesh, options, input));
+	options.coneAngle = 1e-5;
+	const FlatResult map = run(mesh, options, input);
+	EXPECT_NEAR(far - radius(map), std::log(1e3), 1e-3);
+	EXPECT_LT(*map.report.relationError, 1e-8);
+	options.coneAngle = 1e-12;
+	EXPECT_EQ(run(mesh, options, input).report.flippedFaces, 0);
+}
+
+TEST(ParametrizeHyperbolic, TheGivenTriangulationCanBeKept)
+{
+	const SurfaceMesh mesh = perforatedSlab(2, 3); // no triangle breaks
+	HyperbolicOptions options;
+	options.method = Method::FixedTriangles;
+	const FlatResult map = run(mesh, options);
+	EXPECT_EQ(map.report.flips, 0);
+	EXPECT_EQ(map.report.flippedFaces, 0);
+	EXPECT_NEAR(*map.report.hyperbolicArea / (4 * kPi), 1.0, 1e-8);
+	EXPECT_LT(*map.report.relationError, 1e-8);
+	// Geodesic triangles of the disk, glued without gaps: curvature and area of the picture.
+	std::vector<double> defect(mesh.positions.size(), 2 * kPi);
+	double area = 0.0;
+	for (std::size_t f = 0; f < map.uv.size(); ++f) {
+		area += kPi;
+		for (std::size_t k = 0; k < 3; ++k) {
+			const double angle = angles(map.uv[f])[k];
+			defect[at(mesh.triangles[f][k])] -= angle;
+			area -= angle;
+		}
+	}
+	for (double K : defect)
+		EXPECT_NEAR(K, 0.0, 1e-8);
+	EXPECT_NEAR(area / (4 * kPi), 1.0, 1e-8);
+}
+
+/// Everything else is the same with canonical generators and without, one set for each component.
+TEST(ParametrizeHyperbolic, CanonicalGeneratorsAreFoundOnRequest)
+{
+	Random random(712);
+	const SurfaceMesh mesh =
+		sideBySide(genusTwo(713, 2), shaken(perforatedSlab(3, 1), 0.05, random), 20.0);
+	HyperbolicOptions options;
+	const FlatResult without = run(mesh, options);
+	options.canonicalGenerators = true;
+	const FlatResult with = run(mesh, options);
+	EXPECT_EQ(with.uv, without.uv);
+	EXPECT_EQ(with.report.relationError, without.report.relationError);
+	ASSERT_EQ(with.charts.size(), 2u);
+	for (std::size_t i = 0; i < 2; ++i) {
+		EXPECT_FALSE(without.charts[i].group.isCanonical());
+		EXPECT_TRUE(without.charts[i].group.handles.empty());
+		EXPECT_TRUE(with.charts[i].group.isCanonical());
+		EXPECT_EQ(with.charts[i].group.handles.size(), 4 + 2 * i);
+		EXPECT_EQ(with.charts[i].group.sides.size(), without.charts[i].group.sides.size());
+	}
+}
+
+TEST(ParametrizeHyperbolic, DistortionIsThatOfTheChords)
+{
+	// A fine mesh of equilateral-like triangles is mapped nearly conformally; the disk's own picture
+	// would add the distortion of straight lines to curves, which does not vanish there.
+	Random random(711);
+	const SurfaceMesh coarse = perforatedSlab(2, 2), fine = perforatedSlab(2, 8);
+	const double first = run(coarse, refined()).report.qcAreaMean;
+	const double second = run(fine, refined()).report.qcAreaMean;
+	EXPECT_GT(first, 1.0);
+	EXPECT_LT(second - 1.0, 0.5 * (first - 1.0));
+}
+
+/// The figures of the report are those of the coordinates that are given back, measured on the hyperboloid: flat
+/// triangles with its chords for sides.
+TEST(ParametrizeHyperbolic, TheReportMeasuresTheOutput)
+{
+	const SurfaceMesh mesh = genusTwo();
+	for (const HyperbolicOptions& options : {HyperbolicOptions(), refined()}) {
+		const FlatResult map = run(mesh, options);
+		UV chords;
+		for (const Triangle2& t : map.mesh.corners()) {
+			const double a = chordLength(asComplex(t[0]), asComplex(t[1]));
+			const double b = chordLength(asComplex(t[0]), asComplex(t[2]));
+			const double c = chordLength(asComplex(t[1]), asComplex(t[2]));
+			const double x = (a * a + b * b - c * c) / (2 * a);
+			chords.push_back({Point2{0, 0}, Point2{a, 0}, Point2{x, std::sqrt(b * b - x * x)}});
+		}
+		const Distortion found(inSpace(mesh, map), chords);
+		EXPECT_NEAR(map.report.qcMean, found.qcMean, 1e-6);
+		EXPECT_NEAR(map.report.qcAreaMean, found.qcAreaMean, 1e-6);
+		EXPECT_NEAR(map.report.areaDistortionMean, found.areaMean, 1e-6);
+		EXPECT_NEAR(map.report.areaDistortionSpread, found.areaSpread, 1e-6);
+	}
+}
+
+/// With seams as short as can be these slabs reach farther out in the disk than floats do.
+TEST(ParametrizeHyperbolic, AMapThatIsTooWideIsCutAroundItsMiddle)
+{
+	for (const int genus : {14, 16}) {
+		Listener listener;
+		const FlatResult map = heard(listener, [&] { return run(perforatedSlab(genus, 2)); });
+		EXPECT_GT(listener.count("around the middle"), 0);
+		EXPECT_LT(radius(map), 12.5);
+		EXPECT_EQ(map.report.flippedFaces, 0);
+		EXPECT_NEAR(map.report.hyperbolicArea.value_or(0), 4 * kPi * (genus - 1), 1e-9);
+	}
+}
+
+// Where the layout reaches far out: many handles, many holes; and cones so weak that the seam need not reach them.
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+/// The skin round the edges of a graph with corners in space. Of genus edges - corners + 1.
+SurfaceMesh skinOf(
+	const std::vector<Point3>& corners,
+	const std::vector<std::array<std::size_t, 2>>& edges,
+	double radius,
+	int cells)
+{
+	const auto distance = [&](const Point3& p) {
+		double least = std::numeric_limits<double>::infinity();
+		for (const auto& [i, j] : edges) {
+			const Point3 &a = corners[i], &b = corners[j];
+			double along = 0.0, length = 0.0, gap = 0.0;
+			for (std::size_t k = 0; k < 3; ++k) {
+				along += (p[k] - a[k]) * (b[k] - a[k]);
+				length += (b[k] - a[k]) * (b[k] - a[k]);
+			}
+			const double t = std::clamp(along / length, 0.0, 1.0);
+			for (std::size_t k = 0; k < 3; ++k)
+				gap += std::pow(p[k] - a[k] - t * (b[k] - a[k]), 2);
+			least = std::min(least, gap);
+		}
+		return std::sqrt(least) - radius;
+	};
+	const double size = 1.0 + 2.0 * radius;
+	return marchingCubes(
+		distance, {-size, -size, -size}, {size, size, size}, {cells, cells, cells});
+}
+
+/// Round the edges of a cube (genus 5), of an octahedron (7), or of a cube whose corners are joined to
+/// its middle (12).
+SurfaceMesh skeleton(int genus)
+{
+	std::vector<Point3> corners;
+	std::vector<std::array<std::size_t, 2>> edges;
+	if (genus == 7)
+		for (std::size_t k = 0; k < 3; ++k)
+			for (const double side : {-1.0, 1.0}) {
+				corners.push_back({0.0, 0.0, 0.0});
+				corners.back()[k] = side;
+			}
+	else
+		for (const double x : {-1.0, 1.0})
+			for (const double y : {-1.0, 1.0})
+				for (const double z : {-1.0, 1.0})
+					corners.push_back({x, y, z});
+	for (std::size_t i = 0; i < corners.size(); ++i)
+		for (std::size_t j = 0; j < i; ++j) {
+			int other = 0; // coordinates that differ
+			for (std::size_t k = 0; k < 3; ++k)
+				other += corners[i][k] != corners[j][k];
+			if (other == (genus == 7 ? 2 : 1))
+				edges.push_back({i, j});
+		}
+	if (genus == 12) { // 8 edges and one corner more
+		for (std::size_t i = 0; i < 8; ++i)
+			edges.push_back({i, 8});
+		corners.push_back({0.0, 0.0, 0.0});
+	}
+	return skinOf(corners, edges, 0.23, 26);
+}
+
+/// The refinement's geodesic triangles, before floats have a part in it.
+FlatResult asFound(const SurfaceMesh& mesh, const VertexInput& input = {})
+{
+	HyperbolicOptions options = refined();
+	options.finish = Finish::None;
+	options.target = input.targetCurvature.empty() ? HyperbolicTarget::HyperbolicMetric
+												   : HyperbolicTarget::Prescribed;
+	return run(mesh, options, input);
+}
+
+/// Of a hyperbolic triangle, as Heron's formula is for a flat one.
+double areaOfSides(double a, double b, double c)
+{
+	const double s = 0.5 * (a + b + c);
+	return 4.0 * std::atan(std::sqrt(std::max(
+					 0.0,
+					 std::tanh(s / 2) * std::tanh((s - a) / 2) * std::tanh((s - b) / 2) *
+						 std::tanh((s - c) / 2))));
+}
+
+/// What any hyperbolic map of a closed surface is: its pieces tile a polygon of the area that
+/// Gauss-Bonnet gives the surface, whose sides are paired by isometries of the group.
+void expectHyperbolicMap(const Parametrization& map, int genus)
+{
+	const Report& report = map.report;
+	EXPECT_EQ(report.genus, genus);
+	EXPECT_EQ(report.boundaryLoops, 0);
+	EXPECT_TRUE(report.converged);
+	EXPECT_LE(report.maxCurvatureError, std::max(1e-8, report.residualFloor));
+	EXPECT_EQ(report.flippedFaces, 0);
+	EXPECT_EQ(report.brokenTriangles, 0);
+	const double wanted = 4 * kPi * (genus - 1);
+	EXPECT_NEAR(*report.hyperbolicArea / wanted, 1.0, 1e-9);
+
+	// What the layout misses is the curvature that the flow has left, and the steps of doubles, which
+	// are longer by e^d / 4 at the distance d from 0.
+	const double left = static_cast<double>(map.u.size()) * report.maxCurvatureError;
+	const double step = kEpsilon * std::exp(radius(map)), slack = left + step;
+	EXPECT_LT(slack, 1e-6);
+	EXPECT_LT(*report.relationError, 4 * genus * slack); // of a product of so many
+	double area = 0.0;
+	std::map<std::pair<int, int>, std::vector<std::pair<Point2, Point2>>> sides;
+	for (const int f : map.mesh.points.indices()) {
+		const Triangle2 p = map.mesh.at(f);
+		area += areaOfSides(length(p[0], p[1]), length(p[1], p[2]), length(p[2], p[0]));
+		for (std::size_t k = 0; k < 3; ++k) {
+			const int i = map.mesh.vertices[f][k], j = map.mesh.vertices[f][(k + 1) % 3];
+			const Point2 &from = p[k], &to = p[(k + 1) % 3];
+			sides[std::minmax(i, j)].push_back(i < j ? std::pair(from, to) : std::pair(to, from));
+		}
+	}
+	EXPECT_NEAR(area / wanted, 1.0, slack);
+	int seams = 0;
+	for (const auto& [edge, drawn] : sides) {
+		ASSERT_EQ(drawn.size(), 2u);
+		if (drawn[0] == drawn[1])
+			continue;
+		++seams;
+		EXPECT_NEAR(
+			length(drawn[0].first, drawn[0].second),
+			length(drawn[1].first, drawn[1].second),
+			16 * slack);
+		double least = std::numeric_limits<double>::infinity();
+		for (const DiskIsometry& m : map.charts[0].group.sides) {
+			const auto gap = [&](const Point2& p, const Point2& q) {
+				return chordLength(m(asComplex(p)), asComplex(q));
+			};
+			least = std::min(
+				least, gap(drawn[0].first, drawn[1].first) + gap(drawn[0].second, drawn[1].second));
+		}
+		// Its matrix multiplies steps by as much again.
+		EXPECT_LT(least, 1e-9 + 16 * slack * std::exp(radius(map)));
+	}
+	EXPECT_GE(seams, report.seamEdges);
+	EXPECT_GT(report.seamEdges, 4 * genus);
+}
+
+TEST(HighGenus, SlabsWithManyHandles)
+{
+	Random random(910);
+	for (const int genus : {5, 6, 9, 14, 20}) {
+		SCOPED_TRACE("genus " + std::to_string(genus));
+		expectHyperbolicMap(asFound(shaken(perforatedSlab(genus, 2), 0.06, random)), genus);
+	}
+}
+
+TEST(HighGenus, SkeletonsOfSolids)
+{
+	for (const int genus : {5, 7, 12}) {
+		SCOPED_TRACE("genus " + std::to_string(genus));
+		expectHyperbolicMap(asFound(skeleton(genus)), genus);
+	}
+}
+
+/// As many relations as there are holes, each seen from its own place.
+TEST(HighGenus, ManyHoles)
+{
+	Random random(911);
+	const SurfaceMesh whole = shaken(perforatedSlab(3, 4), 0.03, random);
+	for (const std::size_t count : {10u, 40u}) {
+		std::vector<int> stars;
+		for (std::size_t i = 0; i < count; ++i)
+			stars.push_back(static_cast<int>(i * (whole.positions.size() / count)));
+		const FlatResult map = asFound(withoutStars(whole, stars));
+		const int holes = map.report.boundaryLoops;
+		EXPECT_GE(holes, static_cast<int>(count) * 3 / 4);
+		EXPECT_EQ(map.report.flippedFaces, 0);
+		EXPECT_NEAR(*map.report.hyperbolicArea / (2 * kPi * (4 + holes)), 1.0, 1e-9);
+		EXPECT_LT(*map.report.relationError, 1e-10 + 16 * kEpsilon * std::exp(radius(map)));
+		EXPECT_EQ(map.charts[0].group.peripheral.size(), static_cast<std::size_t>(holes));
+	}
+}
+
+/// The seam need not reach a cone of less than 1e-9. Its curvature then remains on the way round
+/// another vertex, and that is what the relation error says, at any genus.
+TEST(HighGenus, WeakConesAreLeftInTheRelation)
+{
+	Random random(912);
+	for (const int genus : {2, 3, 10}) {
+		SCOPED_TRACE("genus " + std::to_string(genus));
+		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 3), 0.06, random);
+		VertexInput input;
+		input.targetCurvature.assign(mesh.positions.size(), 0.0);
+		for (const double K : {1e-11, 1e-10, 9e-10}) {
+			input.targetCurvature[40] = K;
+			const FlatResult map = asFound(mesh, input);
+			EXPECT_EQ(map.report.cones, 0);
+			EXPECT_EQ(map.report.flippedFaces, 0);
+			EXPECT_GE(*map.report.relationError, K / (4 * genus - 2) - 1e-12);
+			EXPECT_LE(*map.report.relationError, 10 * K + 1e-12);
+		}
+		input.targetCurvature[40] = 1.1e-9;
+		const FlatResult map = asFound(mesh, input);
+		EXPECT_EQ(map.report.cones, 1);
+		EXPECT_LT(*map.report.relationError, 1e-11);
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,543 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The whole way from a mesh to the plane, on surfaces whose conformal map is known or whose flat
+// metric can be checked in the plane.
+#include "support/expect.h"
+#include "support/flat_map.h"
+#include "support/intrinsic.h"
+#include "support/packed.h"
+#include "support/random_surface.h"
+#include "support/shapes.h"
+#include "support/transform.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace ricci::testing {
+namespace {
+
+/// A bumpy patch with a round outline that is not centred on anything.
+SurfaceMesh bumpyPatch(int n)
+{
+	return grid(n, n, Ends::Open, Ends::Open, [&](int i, int j) {
+		const double x = 2.0 * i / n - 1, y = 2.0 * j / n - 1;
+		return Point3{
+			x * std::sqrt(1 - 0.5 * y * y) + 0.1 * y,
+			y * std::sqrt(1 - 0.5 * x * x),
+			0.4 * std::exp(-2 * (x - 0.3) * (x - 0.3) - 3 * y * y)};
+	});
+}
+
+Box2 boxOf(const UV& uv)
+{
+	Box2 box;
+	for (const Triangle2& t : uv)
+		for (const Point2& p : t)
+			box.add(p);
+	return box;
+}
+
+TEST(Parametrize, APlaneIsMappedToItself)
+{
+	Random random(200);
+	for (int n : {5, 15, 30}) {
+		const SurfaceMesh mesh = turned(randomPlanarDisk(n, random), {0.3, 0.7, -1.1});
+		const FlatResult flat = run(mesh, fixedTriangulation());
+		EXPECT_EQ(flat.report.iterations, 0);
+		EXPECT_TRUE(flat.report.converged);
+		EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-10);
+		EXPECT_EQ(flat.report.flippedFaces, 0);
+		// A free boundary keeps its metric: a motion, not only a similarity.
+		for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+			for (std::size_t k = 0; k < 3; ++k)
+				EXPECT_NEAR(sideLength(flat.uv[f], k) / sideLength(mesh, f, k), 1.0, 1e-10);
+	}
+}
+
+/// In its own scale no rectangle round the chart is smaller than the upright one, in the unit square no square.
+TEST(Parametrize, AChartStandsUprightInItsLeastRectangleOrSquare)
+{
+	Random random(215);
+	Options options;
+	options.target = TargetCurvature::Rectangle;
+	const Box2 flat = boxOf(run(turned(rectangle(9, 4, 9, 4), {0.3, 0.7, -1.1}), options).uv);
+	EXPECT_NEAR(flat.width(), 9.0, 1e-11);
+	EXPECT_NEAR(flat.height(), 4.0, 1e-11);
+	options.target = TargetCurvature::Automatic;
+	options.charts = Charts::OfTheFlow;
+	for (const Finish finish : {Finish::None, Finish::LeastDistortion})
+		for (const bool normalize : {false, true}) {
+			options.finish = finish;
+			options.normalizeUV = normalize;
+			const FlatMesh mesh = parametrizeEuclidean(bumpyPatch(9), {}, options).mesh;
+			const auto sizeAt = [&](double angle) {
+				Box2 box;
+				for (const Point2& p : mesh.place)
+					box.add(asPoint(asComplex(p) * std::polar(1.0, angle)));
+				return normalize ? box.extent() : box.width() * box.height();
+			};
+			const double own = sizeAt(0.0);
+			for (int i = 1; i < 180; ++i)
+				EXPECT_GE(sizeAt(kPi * i / 180), own * (1.0 - 1e-9)) << i;
+			EXPECT_NEAR(mesh.box().min[0], 0.0, 1e-12);
+			EXPECT_NEAR(mesh.box().min[1], 0.0, 1e-12);
+		}
+}
+
+TEST(Parametrize, LeastStretchLetsSeamsGoAndKeepsAreasBetter)
+{
+	Random random(216);
+	const SurfaceMesh mesh = bumpyTorus(20, 12, random);
+	Options options;
+	const FlatResult conformal = run(mesh, options);
+	options.finish = Finish::LeastStretch;
+	const FlatResult even = run(mesh, options);
+	EXPECT_EQ(even.report.flippedFaces, 0);
+	EXPECT_EQ(even.report.overlappingFaces, 0);
+	EXPECT_LT(
+		even.report.areaDistortionMean - 1.0, 0.9 * (conformal.report.areaDistortionMean - 1.0));
+	EXPECT_LT(FlatMap(mesh, conformal.uv).seamMismatch, 1e-8);
+	EXPECT_GT(FlatMap(mesh, even.uv).seamMismatch, 1e-3);
+}
+
+/// What a map has to keep, it keeps.
+TEST(Parametrize, APrescribedBoundaryOrQuarterTurnsGetTheLeastDistortionForTheLeastStretch)
+{
+	Random random(217);
+	Options disk, quarters;
+	disk.target = TargetCurvature::Disk;
+	quarters.cones.rounding = ConeRounding::QuarterTurns;
+	for (const auto& [mesh, asked] :
+		 {std::pair(bumpyPatch(10), disk), std::pair(bumpyTorus(14, 9, random), quarters)}) {
+		Options options = asked;
+		const UV distortion = run(mesh, options).uv;
+		options.finish = Finish::LeastStretch;
+		EXPECT_EQ(run(mesh, options).uv, distortion);
+	}
+}
+
+TEST(Parametrize, TheStatesOfTheFlowRunFromTheMeshToTheResult)
+{
+	const SurfaceMesh mesh = torus(2.0, 1.0, 24, 14);
+	const FlatResult flat = run(mesh, fixedTriangulation());
+	const std::vector<FlowState>& states = flat.report.flowStates;
+	ASSERT_GE(states.size(), 2u);
+	// The flow starts at the mesh's own metric, whose curvatures are the angle defects.
+	double largest = 0.0;
+	for (double defect : curvatureInSpace(mesh))
+		largest = std::max(largest, std::abs(defect));
+	EXPECT_EQ(states.front().step, 0);
+	EXPECT_NEAR(states.front().residual, largest, 1e-12);
+	EXPECT_EQ(states.back().step, flat.report.iterations);
+	EXPECT_NEAR(states.back().residual, flat.report.maxCurvatureError, 1e-14);
+	for (std::size_t i = 1; i < states.size(); ++i) {
+		EXPECT_EQ(states[i].component, 0);
+		EXPECT_GE(states[i].step, states[i - 1].step);
+		EXPECT_LE(states[i].step, states[i - 1].step + 1);
+	}
+}
+
+TEST(Parametrize, AFlatRectangleKeepsItsAspect)
+{
+	Random random(202);
+	for (double width : {1.0, 2.5, 7.0}) {
+		const int nx = 14, ny = 8;
+		SurfaceMesh mesh = rectangle(nx, ny, width, 1.0);
+		for (int i = 1; i < nx; ++i)
+			for (int j = 1; j < ny; ++j)
+				for (std::size_t k = 0; k < 2; ++k)
+					mesh.positions[at(i * (ny + 1) + j)][k] +=
+						random.real(-0.2, 0.2) * (k == 0 ? width / nx : 1.0 / ny);
+		swapDiagonalsAtRandom(mesh, random);
+		const FlatResult flat = run(mesh, fixedTriangulation(TargetCurvature::Rectangle));
+		ASSERT_TRUE(flat.report.rectangleAspect);
+		EXPECT_NEAR(*flat.report.rectangleAspect, width, 1e-9 * width);
+		EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
+	}
+}
+
+TEST(Parametrize, AFaceWithoutAreaChangesNoOther)
+{
+	// Its edge is 1000 times as long as the rectangle, whose faces keep their angles all the same: the plane
+	// is mapped to itself.
+	const int n = 60, faces = 2 * n * n, corner = (n + 1) * (n + 1) - 1;
+	const SurfaceMesh tail = withFlatTail(rectangle(n, n, 0.05, 1), corner - 1, corner, 1000.0);
+	Options options;
+	options.finish = Finish::None;
+	const FlatResult flat = run(tail, options);
+	EXPECT_GT(flat.report.lengthened, 0.0);
+	EXPECT_LT(flat.report.lengthened, 2e-5);
+	const std::vector<double> qc = Distortion(tail, flat).qc;
+	for (int f = 0; f < faces; ++f)
+		EXPECT_NEAR(qc[at(f)], 1.0, 1e-6) << f;
+
+	// The tail opens a sixtieth of a side of the rectangle, and the face without area nothing.
+	options.target = TargetCurvature::Rectangle;
+	const std::vector<int> corners{0, n, n * (n + 1), corner};
+	SurfaceMesh without = tail;
+	without.triangles.pop_back();
+	without.positions.pop_back();
+	const FlatResult one = run(tail, options, selecting(tail, corners));
+	const FlatResult other = run(without, options, selecting(without, corners));
+	EXPECT_GT(one.report.lengthened, 0.0);
+	EXPECT_EQ(other.report.lengthened, 0.0);
+	EXPECT_NEAR(*one.report.rectangleAspect, *other.report.rectangleAspect, 1e-3);
+	EXPECT_NEAR(*one.report.rectangleAspect, 20.0, 20.0 / n);
+}
+
+/// Packing turns charts by right angles alone then.
+TEST(Parametrize, QuarterTurnsAcrossSeamsStaySoInTheSquare)
+{
+	Random random(218);
+	const SurfaceMesh mesh = sideBySide(
+		shaken(perforatedSlab(2, 2), 0.05, random), shaken(perforatedSlab(0, 3), 0.05, random), 20);
+	Options options;
+	options.target = TargetCurvature::PlacedCones;
+	options.cones.rounding = ConeRounding::QuarterTurns;
+	const Parametrization map = parametrizeEuclidean(mesh, {}, options);
+	std::map<std::pair<int, int>, Point2> sides; // from one vertex to the other
+	for (const int f : map.mesh.points.indices())
+		for (const Corner c : cornersOf(f))
+			sides[{map.mesh.vertices[c], map.mesh.vertices[c.next()]}] =
+				map.mesh.at(c.next()) - map.mesh.at(c);
+	int turned = 0;
+	for (const auto& [ends, side] : sides) {
+		const Point2 other = -1.0 * sides.at({ends.second, ends.first});
+		const double turns = std::arg(asComplex(side) / asComplex(other)) / (kPi / 2);
+		EXPECT_NEAR(turns, std::round(turns), 1e-5);
+		turned += std::abs(turns) > 0.5;
+	}
+	EXPECT_GT(turned, 10);
+	EXPECT_LT(map.report.holonomyError.value_or(1.0), 1e-6);
+}
+
+TEST(Parametrize, ARectangleHasFourStraightSides)
+{
+	const SurfaceMesh mesh = grid(24, 16, Ends::Open, Ends::Open, [](int i, int j) {
+		const double x = i / 16.0 + 0.02 * std::sin(j), y = j / 16.0;
+		return Point3{x, y, 0.3 * std::exp(-6 * (x - 0.6) * (x - 0.6) - 9 * (y - 0.4) * (y - 0.4))};
+	});
+	const FlatResult flat = run(mesh, fixedTriangulation(TargetCurvature::Rectangle));
+	ASSERT_TRUE(flat.report.rectangleAspect);
+	const double width = std::sqrt(areaOf(mesh) * *flat.report.rectangleAspect);
+	const double height = width / *flat.report.rectangleAspect;
+	int onSides = 0;
+	const FlatMap map(mesh, flat.uv);
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Point2& p = flat.uv[f][k];
+			if (!map.boundary[at(mesh.triangles[f][k])])
+				continue;
+			++onSides;
+			const double off = std::min(
+				{std::abs(p[0]), std::abs(p[0] - width), std::abs(p[1]), std::abs(p[1] - height)});
+			EXPECT_LT(off, 1e-8);
+		}
+	EXPECT_GT(onSides, 76);
+	EXPECT_EQ(flat.report.flippedFaces, 0);
+}
+
+/// Largest relative deviation of the boundary's points from a circle through three of them.
+double roundness(const SurfaceMesh& mesh, const UV& uv)
+{
+	const FlatMap map(mesh, uv);
+	std::vector<Point2> points;
+	for (std::size_t f = 0; f < uv.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			if (map.boundary[at(mesh.triangles[f][k])])
+				points.push_back(uv[f][k]);
+	// The points that reach farthest to three sides; the centre has one distance from them.
+	std::array<Point2, 3> far;
+	for (std::size_t k = 0; k < 3; ++k) {
+		const Point2 to{std::cos(2 * kPi * double(k) / 3), std::sin(2 * kPi * double(k) / 3)};
+		far[k] = *std::max_element(points.begin(), points.end(), [&](auto& p, auto& q) {
+			return dot(p, to) < dot(q, to);
+		});
+	}
+	const Point2 a = far[1] - far[0], b = far[2] - far[0];
+	const double d = 2 * cross(a, b), aa = dot(a, a), bb = dot(b, b);
+	const Point2 centre = far[0] + Point2{(b[1] * aa - a[1] * bb) / d, (a[0] * bb - b[0] * aa) / d};
+	double worst = 0.0;
+	for (const Point2& p : points)
+		worst = std::max(worst, std::abs(distance(p, centre) / distance(far[0], centre) - 1.0));
+	return worst;
+}
+
+TEST(Parametrize, ADiskIsRound)
+{
+	Random random(203);
+	for (const SurfaceMesh& mesh :
+		 {bumpyPatch(8),
+		  bumpyPatch(24),
+		  rectangle(30, 6, 5, 1),
+		  withoutStars(perforatedSlab(0, 6), {0})}) {
+		const FlatResult flat = run(mesh, fixedTriangulation(TargetCurvature::Disk));
+		EXPECT_LT(roundness(mesh, flat.uv), 1e-9);
+		EXPECT_EQ(flat.report.flippedFaces, 0);
+		EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+		const FlatMap map(mesh, flat.uv);
+		EXPECT_LT(map.error(flat.targetCurvature), 1e-8);
+	}
+}
+
+TEST(Parametrize, ARegularPolygonIsADiskAlready)
+{
+	for (int n : {5, 12}) {
+		const SurfaceMesh polygon = fan(n, 0.0);
+		const FlatResult flat = run(polygon, fixedTriangulation(TargetCurvature::Disk));
+		EXPECT_NEAR(flat.report.qcMax, 1.0, 1e-9);
+		EXPECT_LT(roundness(polygon, flat.uv), 1e-12);
+	}
+}
+
+TEST(Parametrize, ClosedSurfacesWithCones)
+{
+	Random random(204);
+	for (int genus : {0, 2, 3}) {
+		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 4), 0.02, random);
+		std::vector<int> cones;
+		for (std::size_t v = 3; v < mesh.positions.size() && cones.size() < 20; v += 17)
+			cones.push_back(static_cast<int>(v));
+		const FlatResult flat =
+			run(mesh, fixedTriangulation(TargetCurvature::SelectedCones), selecting(mesh, cones));
+		const FlatMap map(mesh, flat.uv);
+		EXPECT_EQ(flat.report.genus, genus);
+		EXPECT_LT(map.error(flat.targetCurvature), 1e-9);
+		EXPECT_LT(map.seamMismatch, 1e-9);
+		EXPECT_EQ(map.seamEdges, flat.report.seamEdges + flat.report.overlapCuts);
+		EXPECT_EQ(flat.report.flippedFaces, 0);
+		double sum = 0.0;
+		for (double K : flat.targetCurvature)
+			sum += K;
+		EXPECT_NEAR(sum, 2 * kPi * (2 - 2 * genus), 1e-11);
+		EXPECT_NEAR(map.area / areaOf(mesh), 1.0, 1e-10);
+	}
+}
+
+TEST(Parametrize, PrescribedCurvatureIsReached)
+{
+	Random random(205);
+	const SurfaceMesh mesh = bumpyTorus(14, 9, random);
+	VertexInput input;
+	double sum = 0.0;
+	for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+		input.targetCurvature.push_back(random.real(-0.3, 0.3));
+		sum += input.targetCurvature.back();
+	}
+	for (double& K : input.targetCurvature)
+		K -= sum / static_cast<double>(mesh.positions.size());
+	const FlatResult flat = run(mesh, fixedTriangulation(TargetCurvature::Prescribed), input);
+	const FlatMap map(mesh, flat.uv);
+	for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+		EXPECT_NEAR(map.curvature[v], input.targetCurvature[v], 1e-9);
+	EXPECT_FALSE(flat.report.torusTauRe); // not flat: no period lattice
+}
+
+TEST(Parametrize, SurfacesWithManyBoundaries)
+{
+	const SurfaceMesh mesh = withoutStars(torus(3, 1, 16, 12), {0, 50, 100});
+	const FlatResult free = run(mesh, fixedTriangulation());
+	EXPECT_EQ(free.report.boundaryLoops, 3);
+	EXPECT_EQ(free.report.genus, 1);
+	EXPECT_EQ(free.report.eulerCharacteristic, -3);
+	const FlatMap freeMap(mesh, free.uv);
+	EXPECT_LT(freeMap.insideError(std::vector<double>(mesh.positions.size(), 0.0)), 1e-9);
+	EXPECT_LT(freeMap.seamMismatch, 1e-9);
+	// The free boundary keeps its lengths.
+	int boundaryEdges = 0;
+	for (std::size_t f = 0; f < mesh.triangles.size(); ++f)
+		for (std::size_t k = 0; k < 3; ++k)
+			if (freeMap.boundary[at(mesh.triangles[f][k])] &&
+				freeMap.boundary[at(mesh.triangles[f][(k + 1) % 3])]) { // holes lie apart
+				++boundaryEdges;
+				EXPECT_NEAR(sideLength(free.uv[f], k) / sideLength(mesh, f, k), 1.0, 1e-10);
+			}
+	EXPECT_EQ(boundaryEdges, 3 * 6);
+	Options options = fixedTriangulation();
+	options.freeBoundary = false;
+	const FlatResult prescribed = run(mesh, options);
+	const FlatMap map(mesh, prescribed.uv);
+	EXPECT_LT(map.error(prescribed.targetCurvature), 1e-9);
+}
+
+TEST(Parametrize, ConventionalFlowIsLessConformal)
+{
+	Random random(209);
+	const SurfaceMesh mesh = bumpyTorus(20, 12, random);
+	Options options = fixedTriangulation();
+	const double inversive = run(mesh, options).report.qcVertexMean;
+	options.method = Method::Thurston;
+	const FlatResult conventional = run(mesh, options);
+	EXPECT_LT(conventional.report.maxCurvatureError, 1e-8);
+	EXPECT_GT(conventional.report.qcVertexMean, inversive + 0.1);
+}
+
+TEST(Parametrize, AFreeBoundaryTellsWhatTheFinishDoesToItsLengths)
+{
+	Options options;
+	options.finish = Finish::None;
+	const FlatResult kept = run(bumpyPatch(8), options);
+	EXPECT_NEAR(kept.report.boundaryRatioMin.value(), 1.0, 1e-9);
+	EXPECT_NEAR(kept.report.boundaryRatioMax.value(), 1.0, 1e-9);
+	options.finish = Finish::LeastDistortion;
+	const FlatResult moved = run(bumpyPatch(8), options);
+	EXPECT_LT(moved.report.boundaryRatioMin.value(), 1.0 - 1e-4);
+	EXPECT_GT(moved.report.boundaryRatioMax.value(), 1.0 + 1e-4);
+	options.target = TargetCurvature::Disk;
+	EXPECT_FALSE(run(bumpyPatch(8), options).report.boundaryRatioMax);
+}
+
+TEST(Parametrize, SplitsABoundaryEdgeThatWouldBreakItsTriangle)
+{
+	// The more negative the curvature asked of the middle, the nearer its vertex comes to the long
+	// side, whose triangle breaks. A boundary edge cannot be swapped: it is split.
+	const SurfaceMesh fan = fanWithGap(100);
+	VertexInput input;
+	input.targetCurvature.assign(8, 0.0);
+	Options options = fixedTriangulation(TargetCurvature::Prescribed);
+	options.method = Method::EdgeSwaps;
+	for (double K : {-1.0, -2.0, -3.0}) {
+		input.targetCurvature[0] = K;
+		const FlatResult flat = run(fan, options, input);
+		EXPECT_EQ(flat.report.boundarySplits, K < -2.5 ? 1 : 0);
+		EXPECT_EQ(flat.report.edgeSwaps, 0);
+		EXPECT_EQ(flat.report.brokenTriangles, 0);
+		EXPECT_EQ(flat.report.flippedFaces, 0);
+		EXPECT_LT(flat.report.maxCurvatureError, 1e-8);
+		const FlatMap map(fan, flat.uv);
+		EXPECT_NEAR(map.curvature[0], K, 1e-9);
+		ASSERT_EQ(flat.u.size(), fan.positions.size()); // the new vertex stays inside
+	}
+	options.method = Method::FixedTriangles;
+	const auto error = refusalOf<NotConverged>([&] { run(fan, options, input); });
+	EXPECT_EQ(error.problem, NotConverged::BrokenTriangles);
+	EXPECT_EQ(error.count, 1u);
+	EXPECT_EQ(error.method, Method::FixedTriangles);
+	expectWords(error.what(), {"the triangle inequality at the end"});
+}
+
+/// A corner of one triangle is to become straight: no triangle has an angle of pi, but flat ones come
+/// as near as one likes.
+TEST(Parametrize, ACurvatureAtTheLimitOfATriangleIsRefused)
+{
+	const SurfaceMesh mesh = rectangle(3, 3, 3, 3);
+	std::vector<int> faces(mesh.positions.size(), 0);
+	for (const Triangle& face : mesh.triangles)
+		for (int v : face)
+			++faces[at(v)];
+	const std::vector<char> boundary = FlatMap(mesh, UV(mesh.triangles.size())).boundary;
+	const auto others =
+		std::count(boundary.begin(), boundary.end(), 1) - std::count(faces.begin(), faces.end(), 1);
+	VertexInput input;
+	for (std::size_t v = 0; v < faces.size(); ++v)
+		input.targetCurvature.push_back(
+			boundary[v] && faces[v] > 1 ? 2 * kPi / static_cast<double>(others) : 0.0);
+	Options options = fixedTriangulation(TargetCurvature::Prescribed);
+	options.freeBoundary = false;
+	const auto error = refusalOf<NotConverged>([&] { run(mesh, options, input); });
+	EXPECT_EQ(error.problem, NotConverged::BrokenTriangles);
+	EXPECT_EQ(error.count, 2u);
+	EXPECT_EQ(error.method, Method::FixedTriangles); // for which the flips are the remedy
+	options.method = Method::IntrinsicFlips;
+	EXPECT_LT(run(mesh, options, input).report.maxCurvatureError, 1e-8);
+}
+
+TEST(Parametrize, ReportedRadiiBelongToTheLayout)
+{
+	// Scaling the layout to the area of the surface shifts u; edges of the layout must follow it.
+	Random random(213);
+	const SurfaceMesh mesh = bumpyTorus(12, 8, random);
+	const FlatResult flat = run(mesh, fixedTriangulation());
+	const Packed packed(mesh);
+	const Triangulation& t = packed.triangulation;
+	for (const Face f : t.faces())
+		for (std::size_t k = 0; k < 3; ++k) {
+			const Halfedge h = t.halfedges(f)[k];
+			const double gi = std::exp(flat.u[at(t.origin(h))]);
+			const double gj = std::exp(flat.u[at(t.target(h))]);
+			const double I = 1 + packed.packing.delta[h.edge()];
+			EXPECT_NEAR(
+				sideLength(flat.uv[at(f)], k) / std::sqrt(gi * gi + gj * gj + 2 * I * gi * gj),
+				1.0,
+				1e-9);
+		}
+}
+
+/// Ribbons all of whose vertices lie on the boundary: no cone has a place, however many vertices they are.
+TEST(Parametrize, ARibbonWithoutInnerVerticesGetsNoCones)
+{
+	std::vector<Options> all(3);
+	all[1].target = all[2].target = TargetCurvature::PlacedCones;
+	all[2].cones.distortion = 0.2;
+	for (const int length : {100, 11000})
+		for (const Ends ends : {Ends::Open, Ends::Joined})
+			for (Options options : all) {
+				SCOPED_TRACE(length);
+				const SurfaceMesh ribbon = grid(1, length, Ends::Open, ends, [&](int i, int j) {
+					const double turn = ends == Ends::Open ? 0.05 * j : 2.0 * kPi * j / length;
+					const double height = ends == Ends::Open ? 0.1 * j : 0.3 * std::sin(3.0 * turn);
+					return Point3{(1.0 + i) * std::cos(turn), (1.0 + i) * std::sin(turn), height};
+				});
+				options.charts = Charts::OfTheFlow;
+				const FlatResult map = run(ribbon, options);
+				EXPECT_EQ(map.report.cones, 0);
+				expectIsometric(ribbon, map.uv, map.report);
+			}
+}
+
+/// The figures of the report are those of the triangles that are given back: also where a component is so small
+/// that its faces have the size of a few steps of floats, which turn some round.
+TEST(Parametrize, TheReportMeasuresTheOutput)
+{
+	Random random(4207);
+	const SurfaceMesh donut = bumpyTorus(10, 7, random);
+	const SurfaceMesh large = sideBySide(
+		sideBySide(donut, shaken(perforatedSlab(2, 2), 0.02, random), 20), bumpyPatch(6), 40);
+	const SurfaceMesh uneven = sideBySide(donut, scaled(donut, 1e-5), 9.0);
+	for (const auto& [mesh, output] :
+		 {std::pair(large, OutputTriangulation::KeepMesh),
+		  std::pair(large, OutputTriangulation::CommonRefinement),
+		  std::pair(uneven, OutputTriangulation::KeepMesh)}) {
+		Options options;
+		options.output = output;
+		const Parametrization map = parametrizeEuclidean(mesh, {}, options);
+		const Distortion found(mesh, map);
+		const Report& r = map.report;
+		EXPECT_NEAR(r.qcMean, found.qcMean, 1e-9);
+		EXPECT_NEAR(r.qcAreaMean, found.qcAreaMean, 1e-9);
+		EXPECT_NEAR(r.qcMax, found.qcMax, 1e-6 * found.qcMax);
+		EXPECT_NEAR(r.areaDistortionMean, found.areaMean, 1e-9);
+		EXPECT_NEAR(r.areaDistortionSpread, found.areaSpread, 1e-9);
+		EXPECT_NEAR(*r.stretch, found.stretch, 1e-9 * found.stretch);
+		EXPECT_NEAR(*r.objective, *r.stretch + r.seamLengthRelative / 20, 1e-9);
+		std::vector<double> qc(map.vertexQC.size(), 0.0), area = qc;
+		for (const int f : map.mesh.points.indices())
+			for (const int v : map.mesh.vertices[f]) {
+				qc[at(v)] += found.area[at(f)] * found.qc[at(f)];
+				area[at(v)] += found.area[at(f)];
+			}
+		double mean = 0.0;
+		for (std::size_t v = 0; v < qc.size(); ++v) {
+			EXPECT_NEAR(map.vertexQC[v], qc[v] / area[v], 1e-6 * qc[v] / area[v]);
+			mean += qc[v] / area[v] / static_cast<double>(qc.size());
+		}
+		EXPECT_NEAR(r.qcVertexMean, mean, 1e-9);
+		std::vector<double> sorted = found.qc;
+		std::sort(sorted.begin(), sorted.end());
+		const double rank = 0.99 * static_cast<double>(sorted.size());
+		EXPECT_GE(r.qcP99, sorted[static_cast<std::size_t>(rank) - 1] * (1 - 1e-9));
+		EXPECT_LE(r.qcP99, sorted[static_cast<std::size_t>(rank) + 1] * (1 + 1e-9));
+		double covered = 0.0;
+		for (const Triangle2& t : map.mesh.corners())
+			covered += 0.5 * doubledArea(t);
+		EXPECT_NEAR(r.occupancy, covered, 1e-6);
+	}
+}
+
+} // namespace
+} // namespace ricci::testing

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "opened_map.h"
+
+#include "shapes.h"
+
+#include <ricci/pipeline/whole_map.h>
+
+#include <utility>
+
+namespace ricci::testing {
+
+OpenedMap::OpenedMap(const SurfaceMesh& input, const VertexInput& values, const Options& options)
+{
+	OpenedMesh opened;
+	map = chartsInPlane(input, values, options, opened);
+	mesh = opened.mesh;
+	for (const Face f : opened.reversed.indices())
+		if (opened.reversed[f])
+			std::swap(mesh.triangles[at(f)][1], mesh.triangles[at(f)][2]);
+}
+
+} // namespace ricci::testing
