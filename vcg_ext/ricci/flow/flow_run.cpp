@@ -322,7 +322,7 @@ NotConverged FlowRun::failure() const
 {
 	const auto broken = static_cast<std::size_t>(m_map->brokenTriangles());
 	const double scales = spreadOfScales();
-	const bool stalls = m_solved.iterations < m_maxSteps;
+	const bool stalls = m_solved.iterations < m_maxSteps || m_solved.floor > m_options.epsilon;
 	const bool lost =
 		m_options.method == Method::IntrinsicFlips && scales > kMaxScales && (broken > 0 || stalls);
 	if (lost || !std::isfinite(m_solved.floor))
