@@ -154,6 +154,7 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 			return;
 		setApart(badTriangles(map.mesh, wanted.validity), wanted.inText, map);
 		finish.packAgain();
+		finish.measure();
 	}
 }
 
