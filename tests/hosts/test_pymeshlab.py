@@ -225,7 +225,7 @@ class Results(unittest.TestCase):
     def test_finish(self):
         hill, slab = meshes.swirled(meshes.hill()), meshes.swirled(meshes.double_torus(), 4.0, 1.5)
         for mesh, values in ((hill, {"cone_distortion": 1.0}), (hill, {"target_curvature": "Rectangle"}),
-                             (slab, {"cone_count": 4})):
+                             (slab, {"cone_count": 6})):
             with self.subTest(vertices=len(mesh.vertices), **values):
                 self.check_finish(mesh, values)
 
