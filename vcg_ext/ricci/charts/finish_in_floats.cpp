@@ -121,13 +121,12 @@ Repair repairDisks(const DiskFinish& finish, Parametrization& map)
 		return overlaps(flat, patch);
 	};
 	WorkLimit limit(map.mesh.size(), kMaxSteps);
-	const Repair repair = repairInStages(
+	return repairInStages(
 		map.mesh,
 		SeamGeometry::Disk,
 		[&](int) { return finish.freeBoundary; },
 		{finish.isRefined ? RestShapes::OfDrawing : RestShapes::OfSurface, validity, faults},
 		limit);
-	return repair;
 }
 
 } // namespace
