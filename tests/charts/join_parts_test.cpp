@@ -75,7 +75,7 @@ TEST(SeparateCharts, FindsInAPartWhatAFoldHidInTheWhole)
 	picture.positions[0] = {0, 3, 0};
 	picture.positions[1] = {3, 0, 0};
 	Parametrization map = mapWith(flatMesh(square, flatMesh(picture).corners().values()));
-	separateCharts(true, map);
+	separateCharts({}, map);
 	for (const std::vector<int>& chart : map.mesh.trianglesByChart(map.charts.size()))
 		for (const int f : chart)
 			for (const int g : chart)

@@ -3,6 +3,8 @@
 
 #include "../base/task.h"
 #include "../math/convex_hull.h"
+#include "../math/disjoint_sets.h"
+#include "../math/orientation.h"
 #include "../metric/area.h"
 #include "chart_division.h"
 #include "chart_overlap.h"
@@ -71,6 +73,43 @@ void setApart(Parametrization& map)
 	for (const int p : map.mesh.place.indices())
 		if (chart[p] >= 0)
 			map.mesh.place[p] += shifts[positionOf(chart[p])];
+}
+
+/// Gives each connected set of flipped triangles points of their own, and lays it reflected to the right of
+/// all others: there it covers nothing but itself.
+/// \return whether there are any
+bool reflectFlipped(FlatMesh& chart)
+{
+	const auto isFlipped = [&](int f) { return orientation(chart.at(f)) < 0; };
+	for (const int f : chart.points.indices())
+		chart.chart[f] = isFlipped(f);
+	if (std::find(chart.chart.begin(), chart.chart.end(), 1) == chart.chart.end())
+		return false;
+	splitPoints(chart);
+	DisjointSets sets(chart.place.size());
+	for (const Triangle& t : chart.points)
+		for (const int p : t)
+			sets.merge(t[0], p);
+	Array<Box2> boxes(chart.place.size());
+	Box2 upright;
+	for (const int f : chart.points.indices())
+		for (const Point2& p : chart.at(f))
+			(chart.chart[f] > 0 ? boxes[sets.find(chart.points[f][0])] : upright).add(p);
+	double right = upright.width() > 0.0 ? upright.max[0] : 0.0;
+	Array<double> axis(chart.place.size(), 0.0); // [set] doubled
+	Array<char> isReflected(chart.place.size(), 0);
+	for (const int f : chart.points.indices())
+		for (const int p : chart.points[f]) {
+			if (chart.chart[f] == 0 || std::exchange(isReflected[p], 1) != 0)
+				continue;
+			const int set = sets.find(p);
+			if (axis[set] == 0.0) {
+				axis[set] = right + boxes[set].max[0];
+				right += boxes[set].width();
+			}
+			chart.place[p][0] = axis[set] - chart.place[p][0];
+		}
+	return true;
 }
 
 /// Triangles across the band in which a cut is looked for. A wider one would hardly have a shorter cut.
@@ -182,7 +221,7 @@ void countCuts(const Seams& before, Parametrization& map)
 	map.report.seamLength += after.length - before.length;
 }
 
-void separateCharts(bool turns, Parametrization& map)
+void separateCharts(const PartPlacing& placing, Parametrization& map)
 {
 	std::vector<Chart> charts;
 	std::vector<int> divided; // numbers of the parts
@@ -197,9 +236,10 @@ void separateCharts(bool turns, Parametrization& map)
 		const std::vector<int>& triangles = byChart[c];
 		checkpoint();
 		FlatMesh chart = map.mesh.part(triangles);
+		const bool isReflected = placing.reflects && reflectFlipped(chart);
 		const OverlapSearch overlaps(chart);
 		checkpoint();
-		if (overlaps.pairs().empty()) {
+		if (!isReflected && overlaps.pairs().empty()) {
 			add(triangles, std::move(map.charts[c]));
 			continue;
 		}
@@ -226,7 +266,7 @@ void separateCharts(bool turns, Parametrization& map)
 	if (divided.empty())
 		return;
 	splitPoints(map.mesh);
-	settle(divided, turns, map);
+	settle(divided, placing.turns, map);
 	countCuts(before, map);
 }
 

@@ -13,12 +13,18 @@ namespace ricci {
 /// \p before.
 void countCuts(const Seams& before, Parametrization& map);
 
+/// How parts of a divided chart are placed.
+struct PartPlacing
+{
+	bool turns = true;    ///< their smallest bounding rectangles along the axes; else in the directions they have
+	bool reflects = true; ///< flipped triangles are cut off and reflected
+};
+
 /// Replaces the charts of \p map that cover a part of the plane more than once (see OverlapSearch) by the
 /// parts of divideChart(), joined again by joinParts() across seams where they have room, each from the
-/// origin and, where \p turns, with its smallest bounding rectangle along the axes; else in the directions
-/// that it has. The report counts the charts, and what the seams have grown or shrunk by, in edges and in
+/// origin. The report counts the charts, and what the seams have grown or shrunk by, in edges and in
 /// length.
-void separateCharts(bool turns, Parametrization& map);
+void separateCharts(const PartPlacing& placing, Parametrization& map);
 
 /// Joins charts across seams where they have room (joinParts()): those whose sides are as long in the
 /// plane on both sides of the seam. Each is left as separateCharts() leaves a divided one. The report

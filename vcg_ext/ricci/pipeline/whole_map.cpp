@@ -130,7 +130,8 @@ MapCost costOf(const Parametrization& map)
 void separateCharts(const Options& options, Parametrization& map)
 {
 	if (mayCutCharts(options))
-		separateCharts(options.cones.rounding != ConeRounding::QuarterTurns, map);
+		separateCharts(
+			{options.cones.rounding != ConeRounding::QuarterTurns, isFinished(options)}, map);
 }
 
 void append(const Component& component, Parametrization part, Parametrization& whole)
