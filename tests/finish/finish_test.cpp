@@ -25,7 +25,7 @@ FlatMesh folded(double by)
 FinishCounts finishSquare(FlatMesh& flat, bool freeBoundary, Finish finish)
 {
 	const VertexArray<char> none(flat.vertexCount(), 0);
-	return finishInPlane(flat, none, freeBoundary, {}, finish);
+	return finishInPlane(flat, none, freeBoundary, {}, finish, true);
 }
 
 void expectBorderOf(const FlatMesh& wanted, const FlatMesh& flat)

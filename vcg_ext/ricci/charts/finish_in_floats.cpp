@@ -56,14 +56,14 @@ public:
 	{
 	}
 
-	int operator()(const FlatMesh& flat, const Patch& patch) const
+	double operator()(const FlatMesh& flat, const Patch& patch) const
 	{
 		bool movesBorder = false;
 		for (std::size_t i = 0; i < patch.points.size(); ++i)
 			movesBorder = movesBorder || (patch.variable[static_cast<int>(i)] >= 0 &&
 										  m_inside[patch.points[i]] == 0);
 		if (!movesBorder) // the triangles round the patch stay where they are
-			return 0;
+			return 0.0;
 		std::map<int, Box2> boxes; // of the patch, by plane
 		for (const int f : patch.triangles)
 			boxes[planeOf(flat, f)].add(boxOf(flat.at(f)));
@@ -114,10 +114,10 @@ Repair repairDisks(const DiskFinish& finish, Parametrization& map)
 {
 	const Validity validity = diskValidity(map.charts.size());
 	const OverlapCount overlaps(map.mesh, true, validity.height / kMinFloatSteps);
-	const auto faults = [&](const FlatMesh& flat, const Patch& patch) {
+	const auto cost = [&](const FlatMesh& flat, const Patch& patch) {
 		for (const int p : patch.points)
 			if (!(std::norm(asComplex(flat.place[p])) < 1.0))
-				return std::numeric_limits<int>::max();
+				return std::numeric_limits<double>::infinity();
 		return overlaps(flat, patch);
 	};
 	WorkLimit limit(map.mesh.size(), kMaxSteps);
@@ -125,7 +125,7 @@ Repair repairDisks(const DiskFinish& finish, Parametrization& map)
 		map.mesh,
 		SeamGeometry::Disk,
 		[&](int) { return finish.freeBoundary; },
-		{finish.isRefined ? RestShapes::OfDrawing : RestShapes::OfSurface, validity, faults},
+		{finish.isRefined ? RestShapes::OfDrawing : RestShapes::OfSurface, validity, cost},
 		limit);
 }
 

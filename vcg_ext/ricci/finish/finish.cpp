@@ -3,10 +3,13 @@
 
 #include "../base/task.h"
 #include "../base/tolerances.h"
+#include "../flow/target.h"
 #include "least_distortion.h"
 #include "repair.h"
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace ricci {
@@ -21,6 +24,45 @@ constexpr double kMaxRepairCost = 2.0;
 /// repaired by more, and what is left can be cut off.
 constexpr std::int64_t kMaxSteps = 50;
 
+/// What a patch costs in the objective (MapCost) at the scale at which the whole map costs least, where the
+/// triangles of it that are not valid are cut off.
+class CostWithCuts
+{
+public:
+	CostWithCuts(const FlatMesh& flat, const Validity& validity) :
+			m_validity(validity), m_area(flat.area())
+	{
+		double forth = 0.0, back = 0.0;
+		for (const int f : flat.points.indices())
+			if (const auto [ahead, behind] = flat.stretch(f);
+				behind < std::numeric_limits<double>::infinity()) {
+				forth += ahead;
+				back += behind;
+			}
+		m_scale = std::sqrt(back / forth);
+	}
+
+	double operator()(const FlatMesh& flat, const Patch& patch) const
+	{
+		double energy = 0.0, seams = 0.0;
+		for (const int f : patch.triangles) {
+			const auto [ahead, behind] = flat.stretch(f);
+			energy += m_scale * ahead + behind / m_scale;
+			if (m_validity.isValid(flat.at(f)))
+				continue;
+			for (const Corner side : cornersOf(f))
+				if (const Corner other = flat.joined(side);
+					other.isValid() && m_validity.isValid(flat.at(other.face())))
+					seams += flat.lengths[side];
+		}
+		return energy / m_area + kSeamPrice * seams / std::sqrt(m_area);
+	}
+
+private:
+	Validity m_validity;
+	double m_area, m_scale;
+};
+
 } // namespace
 
 FinishCounts finishInPlane(
@@ -28,7 +70,8 @@ FinishCounts finishInPlane(
 	const VertexArray<char>& cones,
 	bool freeBoundary,
 	const VertexArray<char>& onHole,
-	Finish finish)
+	Finish finish,
+	bool mayCut)
 {
 	checkpoint();
 	const auto boundaryMoves = [&](int v) {
@@ -36,12 +79,14 @@ FinishCounts finishInPlane(
 	};
 	const auto repair = [&] {
 		const double height = kMinHeight * flat.box().extent();
+		const Validity validity{height, kWantedHeights * height};
+		const CostOfPatch cost = mayCut ? CostOfPatch(CostWithCuts(flat, validity)) : nullptr;
 		WorkLimit limit(flat.points.size(), kMaxSteps);
 		const Repair result = repairInStages(
 			flat,
 			SeamGeometry::Plane,
 			boundaryMoves,
-			{RestShapes::OfSurface, {height, kWantedHeights * height}},
+			{RestShapes::OfSurface, validity, cost},
 			limit);
 		FinishCounts counts{result.movedCount(), result.left > 0 && limit.left() == 0};
 		if (counts.endedEarly > 0)

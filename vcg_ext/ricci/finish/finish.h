@@ -21,13 +21,15 @@ struct FinishCounts
 /// \param cones 1 at cones inside
 /// \param freeBoundary whether the curvature of the boundary is free
 /// \param onHole 1 at vertices of holes, where the boundary may be repaired in any case; may be empty
+/// \param mayCut whether triangles that stay flipped may be cut off: a repair that costs more is not made
 /// \pre finish is not Finish::None
 FinishCounts finishInPlane(
 	FlatMesh& flat,
 	const VertexArray<char>& cones,
 	bool freeBoundary,
 	const VertexArray<char>& onHole,
-	Finish finish);
+	Finish finish,
+	bool mayCut);
 
 } // namespace ricci
 

@@ -100,17 +100,16 @@ bool isHardlyLarger(const Patch& patch, const Array<std::size_t>& failed)
 						  : static_cast<double>(size) < kPatchGrowth * static_cast<double>(largest);
 }
 
-/// Puts the points of a patch in their places, unless it has more faults there.
-bool apply(
-	FlatMesh& flat, const Patch& patch, std::vector<Point2> places, const PatchFaults& faults)
+/// Puts the points of a patch in their places, unless it costs more there.
+bool apply(FlatMesh& flat, const Patch& patch, std::vector<Point2> places, const CostOfPatch& cost)
 {
 	const auto exchange = [&] {
 		for (std::size_t k = 0; k < places.size(); ++k)
 			std::swap(flat.place[patch.points[k]], places[k]);
 	};
-	const int before = faults ? faults(flat, patch) : 0;
+	const double before = cost ? cost(flat, patch) : 0.0;
 	exchange();
-	if (!faults || faults(flat, patch) <= before)
+	if (!cost || cost(flat, patch) <= before)
 		return true;
 	exchange();
 	return false;
@@ -161,7 +160,7 @@ bool takeOver(
 {
 	bool isAny = false;
 	for (std::size_t i = 0; i < patches.size(); ++i) {
-		if (found[i].points.empty() || !apply(flat, patches[i], found[i].points, rules.faults))
+		if (found[i].points.empty() || !apply(flat, patches[i], found[i].points, rules.cost))
 			continue;
 		isAny = true;
 		for (std::size_t k = 0; k < patches[i].points.size(); ++k)

@@ -58,15 +58,15 @@ private:
 /// Triangles of \p flat that are not valid.
 std::vector<int> badTriangles(const FlatMesh& flat, const Validity& validity);
 
-/// Counts what is wrong with a patch as it is in the map, beside its triangles; called one after another.
-using PatchFaults = std::function<int(const FlatMesh& flat, const Patch& patch)>;
+/// What a patch costs as it is in the map; called one after another.
+using CostOfPatch = std::function<double(const FlatMesh& flat, const Patch& patch)>;
 
 /// What a repair is after, and which patches it takes over.
 struct RepairRules
 {
 	RestShapes shapes;
 	Validity validity;
-	PatchFaults faults = nullptr; ///< a patch that would have more of them stays as it was
+	CostOfPatch cost = nullptr; ///< a patch that would cost more stays as it was
 };
 
 /// Mends the triangles that are not valid: moves points near them, and no others.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_mesh.h"
 
+#include "../base/tolerances.h"
 #include "../metric/area.h"
 #include "../surface/sides.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 namespace ricci {
@@ -24,6 +26,27 @@ double FlatMesh::area() const
 	for (const std::array<double, 3>& sides : lengths)
 		sum += euclideanArea(sides);
 	return sum;
+}
+
+std::array<double, 2> FlatMesh::stretch(int triangle) const
+{
+	const std::array<double, 3>& l = lengths[triangle];
+	const double area = euclideanArea(l);
+	const double longest = std::max({l[0], l[1], l[2]});
+	if (!(2.0 * area > kMinTriangleHeight * longest * longest))
+		return {0.0, 0.0};
+	// On the surface from corner 0 along side 0, which has length a: the others end at (x, h).
+	const double a = l[0], h = 2.0 * area / a;
+	const double x = (a * a + l[2] * l[2] - l[1] * l[1]) / (2.0 * a);
+	const Triangle2 p = at(triangle);
+	const Point2 along = (1.0 / a) * (p[1] - p[0]);
+	const Point2 up = (1.0 / h) * ((p[2] - p[0]) - x * along);
+	const double square = dot(along, along) + dot(up, up);
+	const double determinant = cross(along, up) * cross(along, up);
+	return {
+		area * square,
+		determinant > 0.0 ? area * (square / determinant)
+						  : std::numeric_limits<double>::infinity()};
 }
 
 Box2 FlatMesh::box() const

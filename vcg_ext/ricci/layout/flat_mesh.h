@@ -70,6 +70,10 @@ struct FlatMesh
 	/// Of all triangles, on the surface.
 	double area() const;
 
+	/// Integrals of |J|^2 and |J^-1|^2 over a triangle of the surface, where J is the derivative of the map;
+	/// 0 where it has no area there, infinite where it has none in the plane. Orientation does not count.
+	std::array<double, 2> stretch(int triangle) const;
+
 	/// 1 + the highest number of a vertex.
 	int vertexCount() const;
 

@@ -236,26 +236,16 @@ void countFlipped(const FlatMesh& mesh, Report& report)
 
 double stretchEnergy(const FlatMesh& mesh)
 {
-	double total = 0.0, forth = 0.0, back = 0.0; // of area, of area |J|^2, of area |J^-1|^2
+	double forth = 0.0, back = 0.0, total = 0.0;
 	for (const int f : mesh.points.indices()) {
-		const auto& l = mesh.lengths[f];
-		const double area = euclideanArea(l);
-		const double longest = std::max({l[0], l[1], l[2]});
-		if (!(2.0 * area > kMinTriangleHeight * longest * longest))
-			continue;
-		// In space from corner 0 along side 0, which has length a: the others end at (x, h).
-		const double a = l[0], h = 2.0 * area / a;
-		const double x = (a * a + l[2] * l[2] - l[1] * l[1]) / (2.0 * a);
-		const Triangle2 p = mesh.at(f);
-		const Point2 along = (1.0 / a) * (p[1] - p[0]);
-		const Point2 up = (1.0 / h) * ((p[2] - p[0]) - x * along);
-		const double determinant = cross(along, up), square = dot(along, along) + dot(up, up);
-		total += area;
-		forth += area * square;
-		if (!(determinant * determinant > 0.0))
-			return std::numeric_limits<double>::infinity();
-		back += area * (square / (determinant * determinant));
+		const auto [ahead, behind] = mesh.stretch(f);
+		forth += ahead;
+		back += behind;
+		if (behind > 0.0)
+			total += euclideanArea(mesh.lengths[f]);
 	}
+	if (!(back < std::numeric_limits<double>::infinity()))
+		return back;
 	return total > 0.0 ? energyAtBestScale(forth, back, total) : 4.0;
 }
 

@@ -53,6 +53,14 @@ std::optional<ComponentMap> flattenToPlane(
 ComponentMap flattenToDisk(
 	const Component& component, const VertexInput& input, const HyperbolicOptions& options);
 
+/// Whether charts may be cut where they cover themselves. A disk or a rectangle is asked for as one piece;
+/// that it is none at a few faces, which the finish could not mend, is counted.
+inline bool mayCutCharts(const Options& options)
+{
+	return options.charts != Charts::OfTheFlow && options.target != TargetCurvature::Disk &&
+		   options.target != TargetCurvature::Rectangle;
+}
+
 } // namespace ricci
 
 #endif

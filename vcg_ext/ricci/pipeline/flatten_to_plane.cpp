@@ -211,7 +211,8 @@ void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 	const Finish finish = finishOf(options, map);
 	FlatMesh flat = flatMeshOf(domain.surface, map.layout);
 	const FinishCounts counts =
-		finishInPlane(flat, map.cones, map.flow.target.hasFixed(), domain.onHole, finish);
+		finishInPlane(
+			flat, map.cones, map.flow.target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
 	map.report.finishMoved = counts.moved;
 	map.report.endedEarly += counts.endedEarly;
 	map.hasFreeSeams = finish == Finish::LeastStretch;

@@ -45,14 +45,6 @@ Parametrization asParametrization(const Component& component, ComponentMap map);
 /// What it costs.
 MapCost costOf(const Parametrization& map);
 
-/// Whether charts may be cut where they cover themselves. A disk or a rectangle is asked for as one piece;
-/// that it is none at a few faces, which the finish could not mend, is counted.
-inline bool mayCutCharts(const Options& options)
-{
-	return options.charts != Charts::OfTheFlow && options.target != TargetCurvature::Disk &&
-		   options.target != TargetCurvature::Rectangle;
-}
-
 /// Divides charts that overlap, unless the charts are to be those of the flow.
 void separateCharts(const Options& options, Parametrization& map);
 
