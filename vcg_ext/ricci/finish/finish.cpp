@@ -16,10 +16,6 @@ namespace ricci {
 
 namespace {
 
-/// Where a repair raises the mean distortion by more than this factor, the map that it starts from is too
-/// far from what its triangles would have: it is repaired once that is made better, if that costs less.
-constexpr double kMaxRepairCost = 2.0;
-
 /// Steps on all triangles that a stage of a repair may spend. Few maps that are not repaired by then are
 /// repaired by more, and what is left can be cut off.
 constexpr std::int64_t kMaxSteps = 50;
@@ -97,22 +93,7 @@ FinishCounts finishInPlane(
 	};
 	if (finish == Finish::Repair)
 		return repair();
-	Array<Point2> best = flat.place;
 	FinishCounts counts = repair();
-	if (counts.moved > 0) {
-		flat.place.swap(best);
-		const double before = meanDistortion(flat);
-		flat.place.swap(best);
-		if (const double after = meanDistortion(flat); after > kMaxRepairCost * before) {
-			flat.place.swap(best);
-			leastDistortion(flat, cones, freeBoundary);
-			const FinishCounts next = repair();
-			if (meanDistortion(flat) < after)
-				counts = next;
-			else
-				flat.place.swap(best);
-		}
-	}
 	const bool endedEarly = finish == Finish::LeastStretch
 								? leastStretch(flat).endedEarly
 								: leastDistortion(flat, cones, freeBoundary).endedEarly;

@@ -135,14 +135,6 @@ private:
 
 } // namespace
 
-double meanDistortion(const FlatMesh& flat)
-{
-	PointGroups groups = allPoints(flat);
-	groups.fixed.assign(groups.fixed.size(), 1);
-	MeanDistortion energy(flat, groups);
-	return energy.evaluate(positionsOf(energy.points(), flat));
-}
-
 Descent leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves)
 {
 	DistortionDescent descent(flat, joinedPoints(flat, cones, [&](int) { return boundaryMoves; }));

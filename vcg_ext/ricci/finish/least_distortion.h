@@ -15,9 +15,6 @@ struct Descent
 	bool endedEarly = false; ///< by the number of steps; it may become smaller still
 };
 
-/// MeanDistortion of a map, its triangles that are not counter-clockwise left out.
-double meanDistortion(const FlatMesh& flat);
-
 /// Moves the points of a map to the plane so that the mean conformal distortion of the map on the mesh's own
 /// straight triangles becomes small. A flow that flips edges finds the conformal map of the
 /// surface; with straight triangles between its vertices, it is near to the best map of these triangles, not
