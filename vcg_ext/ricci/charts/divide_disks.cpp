@@ -6,6 +6,7 @@
 #include "../base/tolerances.h"
 #include "../layout/hyperbolic_layout.h"
 #include "../math/shortest_paths.h"
+#include "chart_division.h"
 #include "separate_charts.h"
 
 #include <algorithm>
@@ -168,6 +169,48 @@ bool divideDisks(Parametrization& map)
 	const Array<int> chart = mesh.chartOfPoints();
 	for (const int p : chart.indices())
 		mesh.place[p] = moved(map.charts[positionOf(chart[p])].place, mesh.place[p]);
+	countCuts(before, map);
+	map.report.charts = static_cast<int>(map.charts.size());
+	return true;
+}
+
+bool separateDisks(Parametrization& map)
+{
+	FlatMesh& mesh = map.mesh;
+	const double touching = diskValidity(map.charts.size()).height / kMinFloatSteps;
+	const std::vector<std::vector<int>> triangles = mesh.trianglesByChart(map.charts.size());
+	const std::size_t disks = triangles.size();
+	std::vector<ExtendedIsometry> places(disks); // [chart] moves the points there
+	Seams before;
+	for (std::size_t c = 0; c < disks; ++c) {
+		checkpoint();
+		const FlatMesh chart = mesh.part(triangles[c]);
+		const OverlapSearch overlaps(chart, touching);
+		if (overlaps.pairs().empty())
+			continue;
+		if (map.charts.size() == disks)
+			before = seams(mesh);
+		std::vector<std::vector<int>> parts = divideChart(chart, overlaps);
+		std::iter_swap(
+			parts.begin(),
+			std::max_element(parts.begin(), parts.end(), [](const auto& a, const auto& b) {
+				return a.size() < b.size();
+			}));
+		const int middle = map.charts[c].middle < 0 ? static_cast<int>(c) : map.charts[c].middle;
+		for (std::size_t i = 1; i < parts.size() && map.charts.size() < kMaxDisks; ++i) {
+			for (const int f : parts[i])
+				mesh.chart[triangles[c][positionOf(f)]] = static_cast<int>(map.charts.size());
+			places.push_back(toMiddle(chart, parts[i]));
+			map.charts.push_back({{}, {}, middle, places.back() * map.charts[c].place});
+		}
+	}
+	if (map.charts.size() == disks)
+		return false;
+	splitPoints(mesh);
+	const Array<int> chart = mesh.chartOfPoints();
+	for (const int p : chart.indices())
+		if (positionOf(chart[p]) >= disks)
+			mesh.place[p] = moved(places[positionOf(chart[p])], mesh.place[p]);
 	countCuts(before, map);
 	map.report.charts = static_cast<int>(map.charts.size());
 	return true;

@@ -22,6 +22,11 @@ Validity diskValidity(std::size_t disks);
 /// \return whether charts were divided
 bool divideDisks(Parametrization& map);
 
+/// Divides the charts in the Poincaré disk that overlap themselves as straight triangles, as separateCharts() does
+/// in the plane. The largest part keeps its place, each other one has a disk of its own with its middle at 0.
+/// \return whether charts were divided
+bool separateDisks(Parametrization& map);
+
 /// Where a mesh has so many disks, none is divided further: their squares get too small.
 constexpr int kMaxDisks = 256;
 

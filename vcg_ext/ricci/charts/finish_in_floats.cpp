@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <map>
 #include <vector>
 
 namespace ricci {
@@ -22,6 +21,9 @@ namespace {
 
 /// Charts are packed so many times in all.
 constexpr int kMaxPackings = 4;
+
+/// A part of a disk that is moved to the middle of its own may still overlap itself there, which is rare.
+constexpr int kMaxSeparations = 3;
 
 /// Steps on all triangles that a stage of the repair of disks may spend.
 constexpr std::int64_t kMaxSteps = 50;
@@ -50,9 +52,8 @@ struct Wanted
 class OverlapCount
 {
 public:
-	/// \param apart whether each chart lies in a plane of its own
-	OverlapCount(const FlatMesh& mesh, bool apart, double touching) :
-			m_apart(apart), m_touching(touching), m_inside(insidePoints(mesh).inside)
+	OverlapCount(const FlatMesh& mesh, double touching) :
+			m_touching(touching), m_inside(insidePoints(mesh).inside)
 	{
 	}
 
@@ -64,30 +65,25 @@ public:
 										  m_inside[patch.points[i]] == 0);
 		if (!movesBorder) // the triangles round the patch stay where they are
 			return 0.0;
-		std::map<int, Box2> boxes; // of the patch, by plane
+		Box2 box;
 		for (const int f : patch.triangles)
-			boxes[planeOf(flat, f)].add(boxOf(flat.at(f)));
-		int count = 0;
-		for (const auto& [plane, box] : boxes) {
-			Array<Triangle2> near;
-			std::vector<char> isOwn;
-			for (const int f : flat.points.indices())
-				if (planeOf(flat, f) == plane && box.meets(boxOf(flat.at(f)))) {
-					near.push_back(flat.at(f));
-					isOwn.push_back(
-						std::binary_search(patch.triangles.begin(), patch.triangles.end(), f));
-				}
-			const Array<char> overlaps = OverlapSearch(std::move(near), m_touching).overlapping();
-			for (const int i : overlaps.indices())
-				count += overlaps[i] != 0 && isOwn[positionOf(i)] != 0;
-		}
+			box.add(boxOf(flat.at(f)));
+		Array<Triangle2> near;
+		std::vector<char> isOwn;
+		for (const int f : flat.points.indices())
+			if (box.meets(boxOf(flat.at(f)))) {
+				near.push_back(flat.at(f));
+				isOwn.push_back(
+					std::binary_search(patch.triangles.begin(), patch.triangles.end(), f));
+			}
+		const Array<char> overlaps = OverlapSearch(std::move(near), m_touching).overlapping();
+		double count = 0.0;
+		for (const int i : overlaps.indices())
+			count += overlaps[i] != 0 && isOwn[positionOf(i)] != 0;
 		return count;
 	}
 
 private:
-	int planeOf(const FlatMesh& flat, int f) const { return m_apart ? flat.chart[f] : 0; }
-
-	bool m_apart;
 	double m_touching;
 	Array<char> m_inside; // [point]
 };
@@ -109,24 +105,41 @@ void setApart(const std::vector<int>& triangles, const Validity& validity, Param
 	}
 }
 
-/// Mends triangles of charts in the unit disk.
-Repair repairDisks(const DiskFinish& finish, Parametrization& map)
+/// Mends triangles of charts in the unit disk, and divides those that overlap then.
+/// \return points that were moved
+int repairDisks(const DiskFinish& finish, Parametrization& map)
 {
-	const Validity validity = diskValidity(map.charts.size());
-	const OverlapCount overlaps(map.mesh, true, validity.height / kMinFloatSteps);
-	const auto cost = [&](const FlatMesh& flat, const Patch& patch) {
-		for (const int p : patch.points)
-			if (!(std::norm(asComplex(flat.place[p])) < 1.0))
-				return std::numeric_limits<double>::infinity();
-		return overlaps(flat, patch);
+	const auto outside = [](const FlatMesh& flat, const Patch& patch) {
+		const bool isIn = std::all_of(patch.points.begin(), patch.points.end(), [&](int p) {
+			return std::norm(asComplex(flat.place[p])) < 1.0;
+		});
+		return isIn ? 0.0 : std::numeric_limits<double>::infinity();
 	};
 	WorkLimit limit(map.mesh.size(), kMaxSteps);
-	return repairInStages(
+	const Repair result = repairInStages(
 		map.mesh,
 		SeamGeometry::Disk,
 		[&](int) { return finish.freeBoundary; },
-		{finish.isRefined ? RestShapes::OfDrawing : RestShapes::OfSurface, validity, cost},
+		{finish.isRefined ? RestShapes::OfDrawing : RestShapes::OfSurface,
+		 diskValidity(map.charts.size()),
+		 outside},
 		limit);
+	for (int i = 0; i < kMaxSeparations && separateDisks(map); ++i)
+		;
+	return result.movedCount();
+}
+
+/// Triangles of disks that are not valid, and those that overlap.
+int countFaults(const Parametrization& map)
+{
+	const Validity validity = diskValidity(map.charts.size());
+	auto count = static_cast<int>(badTriangles(map.mesh, validity).size());
+	for (const std::vector<int>& triangles : map.mesh.trianglesByChart(map.charts.size())) {
+		const Array<char> overlaps =
+			OverlapSearch(map.mesh.part(triangles), validity.height / kMinFloatSteps).overlapping();
+		count += static_cast<int>(std::count(overlaps.begin(), overlaps.end(), 1));
+	}
+	return count;
 }
 
 } // namespace
@@ -135,7 +148,7 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 {
 	for (int packings = 1;; ++packings) {
 		const Wanted wanted(map.mesh, finish.forText);
-		const OverlapCount overlaps(map.mesh, false, wanted.validity.height / kMinFloatSteps);
+		const OverlapCount overlaps(map.mesh, wanted.validity.height / kMinFloatSteps);
 		WorkLimit limit(map.mesh.size());
 		Repair result;
 		// Where there is no room for text, floats have to do.
@@ -159,21 +172,27 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 
 bool finishDisks(const DiskFinish& finish, Parametrization& map)
 {
-	Parametrization divided = map;
-	Repair result = repairDisks(finish, map);
-	const bool isDivided = result.left > 0 && divideDisks(divided);
-	if (isDivided) {
-		const Repair ofDivided = repairDisks(finish, divided);
-		if (ofDivided.left < result.left) {
-			logLine(
-				"Floats cannot hold the disks, which reach too far out: they are divided into " +
-				std::to_string(divided.charts.size()) + ", each with its own middle.");
-			map = std::move(divided);
-			result = ofDivided;
-		}
+	int faults = countFaults(map);
+	bool isChanged = false;
+	Parametrization asFound = map;
+	for (const bool divides : {false, true}) {
+		Parametrization next = asFound;
+		if (faults == 0 || (divides && !divideDisks(next)))
+			break;
+		const int moved = repairDisks(finish, next);
+		const int left = countFaults(next);
+		if (left >= faults)
+			continue;
+		faults = left;
+		isChanged = true;
+		map = std::move(next);
+		map.report.finishMoved += moved;
 	}
-	map.report.finishMoved += result.movedCount();
-	return result.movedCount() > 0 || isDivided;
+	if (map.charts.size() > asFound.charts.size())
+		logLine(
+			"Floats cannot hold the disks as they are: they are divided into " +
+			std::to_string(map.charts.size()) + ", each with its own middle.");
+	return isChanged;
 }
 
 } // namespace ricci
