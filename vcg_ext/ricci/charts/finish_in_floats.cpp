@@ -4,6 +4,7 @@
 #include "../base/floating_point.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
+#include "../finish/cover_repair.h"
 #include "../finish/repair.h"
 #include "chart_overlap.h"
 #include "divide_disks.h"
@@ -109,21 +110,13 @@ void setApart(const std::vector<int>& triangles, const Validity& validity, Param
 /// \return points that were moved
 int repairDisks(const DiskFinish& finish, Parametrization& map)
 {
-	const auto outside = [](const FlatMesh& flat, const Patch& patch) {
-		const bool isIn = std::all_of(patch.points.begin(), patch.points.end(), [&](int p) {
-			return std::norm(asComplex(flat.place[p])) < 1.0;
-		});
-		return isIn ? 0.0 : std::numeric_limits<double>::infinity();
-	};
 	WorkLimit limit(map.mesh.size(), kMaxSteps);
-	const Repair result = repairInStages(
-		map.mesh,
-		SeamGeometry::Disk,
-		[&](int) { return finish.freeBoundary; },
-		{finish.isRefined ? RestShapes::OfDrawing : RestShapes::OfSurface,
-		 diskValidity(map.charts.size()),
-		 outside},
-		limit);
+	const RepairRules rules{
+		finish.isRefined ? RestShapes::OfDrawing : RestShapes::OfSurface,
+		diskValidity(map.charts.size())};
+	Repair result = repairInCover(map.mesh, rules, finish.freeBoundary, limit);
+	if (result.left > 0 && !finish.freeBoundary)
+		result.add(repairInCover(map.mesh, rules, true, limit));
 	for (int i = 0; i < kMaxSeparations && separateDisks(map); ++i)
 		;
 	return result.movedCount();

@@ -22,20 +22,6 @@ constexpr double kMinStep = 1e-8;
 
 constexpr double kIsometry = 4.0;
 
-/// All of a mesh, every point a variable.
-Patch wholePatch(const FlatMesh& flat)
-{
-	Patch patch;
-	patch.triangles.resize(positionOf(flat.size()));
-	patch.points.resize(positionOf(flat.place.size()));
-	std::iota(patch.triangles.begin(), patch.triangles.end(), 0);
-	std::iota(patch.points.begin(), patch.points.end(), 0);
-	patch.corners = flat.points;
-	patch.variable = Array<int>(patch.points);
-	patch.variables = flat.place.size();
-	return patch;
-}
-
 /// Gives the map the area of the surface.
 void scaleToSurface(FlatMesh& flat)
 {

@@ -4,9 +4,23 @@
 #include "../math/disjoint_sets.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace ricci {
+
+Patch wholePatch(const FlatMesh& flat)
+{
+	Patch patch;
+	patch.triangles.resize(positionOf(flat.size()));
+	patch.points.resize(positionOf(flat.place.size()));
+	std::iota(patch.triangles.begin(), patch.triangles.end(), 0);
+	std::iota(patch.points.begin(), patch.points.end(), 0);
+	patch.corners = flat.points;
+	patch.variable = Array<int>(patch.points);
+	patch.variables = flat.place.size();
+	return patch;
+}
 
 PatchFinder::PatchFinder(const FlatMesh& flat, const PointGroups& groups) :
 		m_flat(flat), m_groups(groups), m_trianglesOf(

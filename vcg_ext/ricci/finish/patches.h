@@ -23,6 +23,9 @@ struct Patch
 	bool isFree() const { return variables == static_cast<int>(points.size()); }
 };
 
+/// All triangles; every point moves.
+Patch wholePatch(const FlatMesh& flat);
+
 /// Finds patches in one flat mesh.
 class PatchFinder
 {
