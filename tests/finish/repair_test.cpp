@@ -27,7 +27,6 @@ Repair mend(FlatMesh& flat, const Validity& wanted)
 	WorkLimit limit(flat.points.size());
 	return repairInStages(
 		flat,
-		SeamGeometry::Plane,
 		[](int) { return false; },
 		{RestShapes::OfSurface, wanted},
 		limit);

@@ -148,7 +148,6 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 		for (const Validity& validity : {wanted.inText, wanted.validity})
 			result.add(repairInStages(
 				map.mesh,
-				SeamGeometry::Plane,
 				[](int) { return false; },
 				{RestShapes::OfDrawing, validity, overlaps},
 				limit));

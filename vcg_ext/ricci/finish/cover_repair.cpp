@@ -69,7 +69,7 @@ public:
 		const std::vector<int> bad = badTriangles(m_flat, m_rules.validity);
 		result.bad = static_cast<int>(bad.size());
 		result.moved.assign(m_flat.place.size(), 0);
-		std::int64_t work = limit.ofStage();
+		std::int64_t work = limit.left();
 		const std::int64_t before = work;
 		for (const int f : bad) {
 			checkpoint();

@@ -80,7 +80,6 @@ FinishCounts finishInPlane(
 		WorkLimit limit(flat.points.size(), kMaxSteps);
 		const Repair result = repairInStages(
 			flat,
-			SeamGeometry::Plane,
 			boundaryMoves,
 			{RestShapes::OfSurface, validity, cost},
 			limit);

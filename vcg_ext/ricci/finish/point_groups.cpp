@@ -21,68 +21,18 @@ constexpr double kCoordinateRounding = 8 * kUnitRoundoff;
 /// Copies whose turn is less certain do not move.
 constexpr double kMaxTurnError = 1e-6;
 
-/// z -> turn z + something.
-struct PlaneMotion
+/// What turns the side ab to the direction of cd.
+Complex turnOf(Complex a, Complex b, Complex c, Complex d)
 {
-	Complex turn{1.0, 0.0};
+	return (d - c) * std::conj(b - a) / (std::abs(d - c) * std::abs(b - a));
+}
 
-	PlaneMotion inverse() const { return {std::conj(turn)}; }
-	friend PlaneMotion operator*(const PlaneMotion& p, const PlaneMotion& q)
-	{
-		return {p.turn * q.turn / std::abs(p.turn * q.turn)};
-	}
-	Complex derivative(Complex) const { return turn; }
-	void keep(PointGroups&) const {}
-
-	static double length(Complex a, Complex b) { return std::abs(b - a); }
-
-	PlaneMotion() = default;
-	PlaneMotion(Complex t) : turn(t) {}
-	/// Takes the side ab to cd, of the same length.
-	PlaneMotion(Complex a, Complex b, Complex c, Complex d) :
-			turn((d - c) * std::conj(b - a) / (std::abs(d - c) * std::abs(b - a)))
-	{
-	}
-};
-
-struct DiskMotion
-{
-	ExtendedIsometry isometry;
-
-	DiskMotion inverse() const { return {isometry.inverse()}; }
-	friend DiskMotion operator*(const DiskMotion& p, const DiskMotion& q)
-	{
-		return {(p.isometry * q.isometry).normalised()};
-	}
-	Complex derivative(Complex z) const
-	{
-		using Extended = ExtendedIsometry::Complex;
-		const Extended root = conj(isometry.b) * Extended(z) + conj(isometry.a);
-		return Complex(Extended(1) / (root * root));
-	}
-	void keep(PointGroups& groups) const { groups.isometry.push_back(rounded(isometry)); }
-
-	static double length(Complex a, Complex b) { return chordLength(a, b); }
-
-	DiskMotion() = default;
-	DiskMotion(const ExtendedIsometry& i) : isometry(i) {}
-	DiskMotion(Complex a, Complex b, Complex c, Complex d)
-	{
-		using Extended = ExtendedIsometry::Complex;
-		const auto from = ExtendedIsometry::translationTo(Extended(a));
-		const auto to = ExtendedIsometry::translationTo(Extended(c));
-		const Extended x = from.inverse()(Extended(b)), y = to.inverse()(Extended(d));
-		isometry = (to * ExtendedIsometry::rotation(arg(y) - arg(x)) * from.inverse()).normalised();
-	}
-};
-
-/// Another copy of a point, and what takes the point to it, as a side of the seam tells.
-template<class Motion>
+/// Another copy of a point, and how it is turned, as a side of the seam tells.
 struct Copy
 {
 	int point;
-	Motion motion;
-	double error; ///< that the derivative may have by rounding; more than 1 where nothing is told
+	Complex turn;
+	double error; ///< of the turn by rounding; more than 1 where nothing is told
 };
 
 /// Calls \p visit(side) for every side on the border of a chart: that is not joined to another one.
@@ -117,7 +67,6 @@ PointGroups withBoundary(const FlatMesh& flat, const BoundaryRule& boundaryMoves
 }
 
 /// Joins the copies of the seam vertices by the sides of the seams.
-template<class Motion>
 class CopyGroups
 {
 public:
@@ -139,14 +88,13 @@ public:
 	{
 		PointGroups result = m_points;
 		const int count = m_flat.place.size();
-		const Adjacency<int, Copy<Motion>> copies(count, [&](const auto& add) {
+		const Adjacency<int, Copy> copies(count, [&](const auto& add) {
 			for (const auto& [point, copy] : m_copies)
 				add(point, copy);
 		});
 		result.group.assign(count, -1);
 		result.first.clear();
 		result.fixed.clear();
-		Array<Motion> motion(count); // from the first point of the group
 		Array<double> error(count, 0.0);
 		std::vector<int> members;
 		for (int first = 0; first < count; ++first) {
@@ -159,13 +107,12 @@ public:
 			for (std::size_t i = 0; i < members.size(); ++i) {
 				const int p = members[i];
 				fixed = fixed || m_points.fixed[p];
-				for (const Copy<Motion>& copy : copies[p]) {
-					const Motion next = copy.motion * motion[p];
-					const Complex turn = next.derivative(place(first));
+				for (const Copy& copy : copies[p]) {
+					Complex turn = copy.turn * result.turn[p];
+					turn /= std::abs(turn);
 					if (result.group[copy.point] < 0) {
 						result.group[copy.point] = group;
 						result.turn[copy.point] = turn;
-						motion[copy.point] = next;
 						error[copy.point] = error[p] + copy.error;
 						members.push_back(copy.point);
 						fixed = fixed || error[copy.point] > kMaxTurnError;
@@ -178,8 +125,6 @@ public:
 			result.first.push_back(first);
 			result.fixed.push_back(fixed);
 		}
-		for (const Motion& m : motion)
-			m.keep(result);
 		return result;
 	}
 
@@ -194,24 +139,24 @@ private:
 		const std::array<int, 2> other{m_flat.points[across.next()], m_flat.points[across]};
 		const Complex a = place(one[0]), b = place(one[1]);
 		const Complex c = place(other[0]), d = place(other[1]);
-		const double first = Motion::length(a, b), second = Motion::length(c, d);
+		const double first = std::abs(b - a), second = std::abs(d - c);
 		const double error =
-			rounding / std::max(std::min(std::abs(b - a), std::abs(d - c)), rounding);
+			rounding / std::max(std::min(first, second), rounding);
 		if (!(std::abs(first - second) <= (kSeamMatch + error) * (first + second))) {
 			for (const int p : {one[0], one[1], other[0], other[1]})
 				m_points.fixed[p] = 1;
 			return;
 		}
-		const Motion motion = error < 1.0 ? Motion(a, b, c, d) : Motion();
+		const Complex turn = error < 1.0 ? turnOf(a, b, c, d) : 1.0;
 		for (std::size_t i = 0; i < 2; ++i) {
-			m_copies.push_back({one[i], {other[i], motion, error}});
-			m_copies.push_back({other[i], {one[i], motion.inverse(), error}});
+			m_copies.push_back({one[i], {other[i], turn, error}});
+			m_copies.push_back({other[i], {one[i], std::conj(turn), error}});
 		}
 	}
 
 	const FlatMesh& m_flat;
 	PointGroups m_points;                               // each a group by itself
-	std::vector<std::pair<int, Copy<Motion>>> m_copies; // of points
+	std::vector<std::pair<int, Copy>> m_copies; // of points
 };
 
 /// Joins the points on the right of a seam to those on its left by the turn that fits its sides best.
@@ -264,11 +209,9 @@ PointGroups insidePoints(const FlatMesh& flat)
 	return result;
 }
 
-PointGroups
-joinedPoints(const FlatMesh& flat, SeamGeometry geometry, const BoundaryRule& boundaryMoves)
+PointGroups joinedPoints(const FlatMesh& flat, const BoundaryRule& boundaryMoves)
 {
-	return geometry == SeamGeometry::Plane ? CopyGroups<PlaneMotion>(flat, boundaryMoves).groups()
-										   : CopyGroups<DiskMotion>(flat, boundaryMoves).groups();
+	return CopyGroups(flat, boundaryMoves).groups();
 }
 
 PointGroups joinedPoints(

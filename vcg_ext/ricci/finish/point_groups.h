@@ -3,7 +3,6 @@
 #define RICCI_POINT_GROUPS_H
 
 #include "../layout/flat_mesh.h"
-#include "../math/disk_isometry.h"
 #include "../surface/elements.h"
 
 #include <complex>
@@ -24,26 +23,13 @@ struct PointGroups
 	/// [point] The derivative of its place by that of the first point of its group.
 	Array<std::complex<double>> turn;
 
-	/// [point] In the disk: takes the first point of the group to it. Empty in the plane, where
-	/// images are displaced by their turn times the displacement of the first point.
-	Array<DiskIsometry> isometry;
-
 	/// The place of a point after the first one of its group was displaced.
 	/// \param points [point] before
 	Point2
 	displaced(int point, const Array<Point2>& points, std::complex<double> displacement) const
 	{
-		const int from = first[group[point]];
-		if (isometry.empty() || point == from)
-			return asPoint(asComplex(points[point]) + turn[point] * displacement);
-		return asPoint(isometry[point](asComplex(points[from]) + displacement));
+		return asPoint(asComplex(points[point]) + turn[point] * displacement);
 	}
-};
-
-/// What joins the two sides of a seam.
-enum class SeamGeometry {
-	Plane, ///< rotations and translations
-	Disk   ///< isometries of the Poincaré disk
 };
 
 /// Whether the boundary may move at a vertex.
@@ -59,10 +45,9 @@ PointGroups insidePoints(const FlatMesh& flat);
 /// the other, so that seams stay isometric where a group moves. Fixed are cones, where these do not
 /// close round the vertex; seams whose sides differ in length; and points of the boundary, unless
 /// \p boundaryMoves there.
-PointGroups
-joinedPoints(const FlatMesh& flat, SeamGeometry geometry, const BoundaryRule& boundaryMoves);
+PointGroups joinedPoints(const FlatMesh& flat, const BoundaryRule& boundaryMoves);
 
-/// The same in the plane for a map whose cones are known: a seam, from one of its ends to the other,
+/// The same for a map whose cones are known: a seam, from one of its ends to the other,
 /// has one motion, that which fits its two sides best, so that the holonomy stays what it is up to
 /// rounding.
 /// The first point of a group lies on the left of its seam. Fixed are, too: cones, vertices where seams

@@ -280,7 +280,6 @@ Repair repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rule
 
 Repair repairInStages(
 	FlatMesh& flat,
-	SeamGeometry seams,
 	const BoundaryRule& boundaryMoves,
 	const RepairRules& rules,
 	WorkLimit& limit)
@@ -290,7 +289,7 @@ Repair repairInStages(
 	PointGroups groups;
 	for (int stage = 0; stage < 3 && result.left > 0; ++stage) {
 		const auto moves = [&](int v) { return stage == 2 || boundaryMoves(v); };
-		groups = stage == 0 ? insidePoints(flat) : joinedPoints(flat, seams, moves);
+		groups = stage == 0 ? insidePoints(flat) : joinedPoints(flat, moves);
 		result.add(repair(flat, groups, rules, limit));
 	}
 	if (result.bad > 0 && rules.shapes == RestShapes::OfSurface)

@@ -83,7 +83,6 @@ repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rules, Work
 /// surface that are far from their shapes afterwards are evened out with more of their neighbours.
 Repair repairInStages(
 	FlatMesh& flat,
-	SeamGeometry seams,
 	const BoundaryRule& boundaryMoves,
 	const RepairRules& rules,
 	WorkLimit& limit);
