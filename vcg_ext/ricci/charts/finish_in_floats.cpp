@@ -110,13 +110,23 @@ void setApart(const std::vector<int>& triangles, const Validity& validity, Param
 /// \return points that were moved
 int repairDisks(const DiskFinish& finish, Parametrization& map)
 {
-	WorkLimit limit(map.mesh.size(), kMaxSteps);
-	const RepairRules rules{
-		finish.isRefined ? RestShapes::OfDrawing : RestShapes::OfSurface,
-		diskValidity(map.charts.size())};
-	Repair result = repairInCover(map.mesh, rules, finish.freeBoundary, limit);
-	if (result.left > 0 && !finish.freeBoundary)
-		result.add(repairInCover(map.mesh, rules, true, limit));
+	const RestShapes shapes = finish.isRefined ? RestShapes::OfDrawing : RestShapes::OfSurface;
+	const Validity validity = diskValidity(map.charts.size());
+	Repair result;
+	const auto inside = [&](RestShapes rest) {
+		WorkLimit limit(map.mesh.size(), kMaxSteps);
+		result.add(repair(map.mesh, insidePoints(map.mesh), {rest, validity}, limit));
+	};
+	const auto inCover = [&](bool boundaryMoves) {
+		if (result.left == 0)
+			return;
+		WorkLimit limit(map.mesh.size(), kMaxSteps);
+		result.add(repairInCover(map.mesh, {shapes, validity}, boundaryMoves, limit));
+	};
+	inside(shapes);
+	inCover(finish.freeBoundary);
+	inCover(true);
+	inside(RestShapes::OfSurfaceEvenly);
 	for (int i = 0; i < kMaxSeparations && separateDisks(map); ++i)
 		;
 	return result.movedCount();

@@ -16,7 +16,7 @@ namespace ricci {
 namespace {
 
 /// Rings of the patches, one size after another.
-constexpr int kRings[] = {1, 2, 3, 5};
+constexpr int kRings[] = {1, 2, 3, 5, 8, 13, 21, 34};
 
 /// A patch that failed is tried again once it has so many times the triangles.
 constexpr double kPatchGrowth = 1.4;
