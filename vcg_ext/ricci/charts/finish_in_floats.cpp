@@ -49,12 +49,13 @@ struct Wanted
 	}
 };
 
-/// Counts the triangles of a patch that cover a part of the plane together with another one.
+/// Counts the triangles of a patch that cover a part of the plane together with another one. No patch may leave
+/// the box of the map.
 class OverlapCount
 {
 public:
 	OverlapCount(const FlatMesh& mesh, double touching) :
-			m_touching(touching), m_inside(insidePoints(mesh).inside)
+			m_touching(touching), m_box(mesh.box()), m_inside(insidePoints(mesh).inside)
 	{
 	}
 
@@ -69,6 +70,9 @@ public:
 		Box2 box;
 		for (const int f : patch.triangles)
 			box.add(boxOf(flat.at(f)));
+		if (box.min[0] < m_box.min[0] || box.min[1] < m_box.min[1] || box.max[0] > m_box.max[0] ||
+			box.max[1] > m_box.max[1])
+			return std::numeric_limits<double>::infinity();
 		Array<Triangle2> near;
 		std::vector<char> isOwn;
 		for (const int f : flat.points.indices())
@@ -86,6 +90,7 @@ public:
 
 private:
 	double m_touching;
+	Box2 m_box;
 	Array<char> m_inside; // [point]
 };
 

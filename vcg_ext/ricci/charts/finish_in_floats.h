@@ -35,9 +35,10 @@ struct DiskFinish
 };
 
 /// The same for charts in the Poincaré disk, before placeDisks(): mends the triangles that are flipped, or that
-/// floats cannot hold. Copies of a seam vertex move together, by the isometries that pair the sides, and a
-/// patch that would leave the disk or make triangles overlap stays as it was. Where triangles cannot be mended,
-/// the disks are divided (divideDisks()), if that leaves fewer of them.
+/// floats cannot hold. Copies of a seam vertex move together, by the isometries that pair the sides
+/// (repairInCover()). Disks that overlap themselves as straight triangles are divided (separateDisks()); where
+/// triangles are left all the same, they are divided first (divideDisks()), if that leaves fewer. A map that
+/// would not have fewer faults stays as it was.
 /// \return whether points were moved or disks divided
 bool finishDisks(const DiskFinish& finish, Parametrization& map);
 

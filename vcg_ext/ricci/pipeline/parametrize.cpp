@@ -150,6 +150,28 @@ void measureInDisk(const OpenedMesh& opened, Parametrization& map)
 	map.vertexQC = measureHyperbolicDistortion(map.mesh, surface, map.report);
 }
 
+void note(std::string sentence, Parametrization& map)
+{
+	map.notes.push_back(std::move(sentence));
+	logLine(map.notes.back());
+}
+
+/// Says what the finish could not mend.
+void noteFlipped(OutputTriangulation output, Parametrization& map)
+{
+	const int flipped = map.report.flippedFaces + map.report.flippedByRounding;
+	if (flipped == 0)
+		return;
+	const std::string count = std::to_string(flipped) + (flipped == 1 ? " face stays" : " faces stay");
+	note(
+		count + " flipped" +
+			(output == OutputTriangulation::KeepMesh
+				 ? ": straight lines between the vertices do not fit the map there. The common refinement "
+				   "may draw it without flipped faces."
+				 : ": they are smaller than floats can hold."),
+		map);
+}
+
 /// From charts to texture coordinates.
 void pack(const OpenedMesh& opened, const Options& options, Parametrization& map)
 {
@@ -171,14 +193,14 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	countFlipped(map.mesh, map.report);
 	countOverlaps(map);
 	countUnequalSeams(map);
-	if (map.report.unequalSeams > 0 && options.finish != Finish::LeastStretch) {
-		map.notes.push_back(
+	if (map.report.unequalSeams > 0 && options.finish != Finish::LeastStretch)
+		note(
 			std::to_string(map.report.unequalSeams) +
-			" edges of the seams are longer on one side than on the other: flipped faces beside "
-			"them were "
-			"mended.");
-		logLine(map.notes.back());
-	}
+				" edges of the seams are longer on one side than on the other: flipped faces beside "
+				"them were mended.",
+			map);
+	if (isFinished(options))
+		noteFlipped(options.output, map);
 }
 
 /// Adds the numbers of the whole map, then gives the result the input's indices.
@@ -271,6 +293,8 @@ Parametrization parametrizeHyperbolic(
 		map.report.flippedFaces = flipped;
 	countOverlaps(map);
 	countUnequalSeamsInDisk(map);
+	if (isFinished(options))
+		noteFlipped(options.output, map);
 	complete(mesh, opened, map);
 	return map;
 }
