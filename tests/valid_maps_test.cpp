@@ -121,6 +121,39 @@ TEST_P(ValidMaps, HoldInFloats)
 	EXPECT_GE(maps, 3);
 }
 
+/// Long thin plates with holes, whose pictures are far from what straight triangles can draw.
+TEST(ValidDisks, HoldInFloats)
+{
+	Random random(81);
+	for (const int genus : {2, 3, 4, 6})
+		for (const double height : {1.0, 0.3, 0.1}) {
+			SurfaceMesh plate = shaken(perforatedSlab(genus, 1), 0.2, random);
+			for (Point3& p : plate.positions)
+				p = {p[0], height * p[1], height * p[2]};
+			const Parametrization map =
+				parametrizeHyperbolic(plate, VertexInput(), HyperbolicOptions());
+			UV uv(plate.triangles.size());
+			int flipped = 0;
+			for (int f = 0; f < map.mesh.size(); ++f) {
+				std::array<std::array<float, 2>, 3> stored;
+				for (std::size_t k = 0; k < 3; ++k)
+					for (std::size_t i = 0; i < 2; ++i) {
+						stored[k][i] = static_cast<float>(map.mesh.at(f)[k][i]);
+						uv[at(map.mesh.face[f])][k][i] = static_cast<double>(stored[k][i]);
+					}
+				flipped += !(doubledAreaOf(stored) > 0.0L);
+			}
+			EXPECT_EQ(map.report.flippedFaces + map.report.flippedByRounding, flipped);
+			EXPECT_EQ(flipped, 0);
+			const CoveredTwice covered(plate, uv, std::vector<char>(plate.triangles.size(), 0));
+			EXPECT_EQ(covered.betweenCharts, 0);
+			EXPECT_EQ(covered.withinCharts, 0);
+			EXPECT_EQ(map.report.overlappingFaces, 0);
+			EXPECT_EQ(map.report.unequalSeams, 0);
+			EXPECT_NEAR(map.report.hyperbolicArea.value_or(0.0), 4 * kPi * (genus - 1), 1e-9);
+		}
+}
+
 std::string nameOf(const ::testing::TestParamInfo<Case>& info)
 {
 	const char* finishes[] = {"None", "Repair", "LeastDistortion", "LeastStretch"};

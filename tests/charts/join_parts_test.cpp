@@ -10,6 +10,7 @@
 #include <ricci/charts/connected_pieces.h>
 #include <ricci/charts/join_parts.h>
 #include <ricci/charts/separate_charts.h>
+#include <ricci/math/orientation.h>
 
 #include <gtest/gtest.h>
 
@@ -75,7 +76,7 @@ TEST(SeparateCharts, FindsInAPartWhatAFoldHidInTheWhole)
 	picture.positions[0] = {0, 3, 0};
 	picture.positions[1] = {3, 0, 0};
 	Parametrization map = mapWith(flatMesh(square, flatMesh(picture).corners().values()));
-	separateCharts({}, map);
+	separateCharts({true, false}, map);
 	for (const std::vector<int>& chart : map.mesh.trianglesByChart(map.charts.size()))
 		for (const int f : chart)
 			for (const int g : chart)
@@ -84,6 +85,34 @@ TEST(SeparateCharts, FindsInAPartWhatAFoldHidInTheWhole)
 	EXPECT_EQ(map.report.overlapCuts, 3);
 	EXPECT_EQ(map.charts.size(), 3u);
 	EXPECT_EQ(map.report.charts, 3);
+}
+
+/// Every triangle keeps its sides, and no two cover the same.
+TEST(SeparateCharts, CutsOffFlippedTrianglesAndReflectsThem)
+{
+	Random random(17);
+	int flipped = 0;
+	for (int i = 0; i < 10; ++i) {
+		const SurfaceMesh square = rectangle(5, 5, 1.0, 1.0);
+		SurfaceMesh picture = square;
+		for (Point3& p : picture.positions)
+			p = {p[0] + random.real(-0.15, 0.15), p[1] + random.real(-0.15, 0.15), 0.0};
+		const std::vector<Triangle2> before = flatMesh(picture).corners().values();
+		Parametrization map = mapWith(flatMesh(square, before));
+		separateCharts({}, map);
+		for (const int f : map.mesh.points.indices()) {
+			const Triangle2 &was = before[at(f)], is = map.mesh.at(f);
+			flipped += orientation(was) < 0;
+			EXPECT_GT(orientation(is), 0);
+			for (std::size_t k = 0; k < 3; ++k)
+				EXPECT_NEAR(
+					distance(is[k], is[(k + 1) % 3]), distance(was[k], was[(k + 1) % 3]), 1e-12);
+			for (int g = 0; g < f; ++g)
+				EXPECT_FALSE(
+					map.mesh.chart[f] == map.mesh.chart[g] && overlap(is, map.mesh.at(g), 1e-9));
+		}
+	}
+	EXPECT_GT(flipped, 20);
 }
 
 /// A mesh over the plane, of which each part lies elsewhere.

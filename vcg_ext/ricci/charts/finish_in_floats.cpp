@@ -50,13 +50,16 @@ struct Wanted
 };
 
 /// Counts the triangles of a patch that cover a part of the plane together with another one. No patch may leave
-/// the box of the map.
+/// the box that holds those of the charts.
 class OverlapCount
 {
 public:
-	OverlapCount(const FlatMesh& mesh, double touching) :
-			m_touching(touching), m_box(mesh.box()), m_inside(insidePoints(mesh).inside)
+	OverlapCount(const Parametrization& map, double touching) :
+			m_touching(touching), m_inside(insidePoints(map.mesh).inside)
 	{
+		for (const Chart& chart : map.charts)
+			for (const Point2& corner : {chart.box.min, chart.box.max})
+				m_box.add(corner);
 	}
 
 	double operator()(const FlatMesh& flat, const Patch& patch) const
@@ -156,7 +159,7 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 {
 	for (int packings = 1;; ++packings) {
 		const Wanted wanted(map.mesh, finish.forText);
-		const OverlapCount overlaps(map.mesh, wanted.validity.height / kMinFloatSteps);
+		const OverlapCount overlaps(map, wanted.validity.height / kMinFloatSteps);
 		WorkLimit limit(map.mesh.size());
 		Repair result;
 		// Where there is no room for text, floats have to do.

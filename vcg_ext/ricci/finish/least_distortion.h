@@ -31,7 +31,8 @@ struct Descent
 /// what two in a row gain is not seen in a mean. All of it takes time in proportion to the triangles.
 ///
 /// The same result to the bit with any number of threads.
-/// \param flat one component. Its triangles that are not counter-clockwise do not count, and may be flipped.
+/// \param flat one component. Flipped triangles stay flipped, and count as reflected ones; those without area in
+/// the plane do not count.
 /// If nothing stays, its size may change.
 /// \param cones 1 at cones inside
 /// \param boundaryMoves whether the boundary is free; else its points stay

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace ricci {
 
@@ -71,6 +72,15 @@ struct PlacedTriangle
 		second /= scale;
 		third /= scale;
 		area = 0.5 * conjugateProduct(second, third).imag();
+	}
+
+	/// Reflected, with the second and the third corner exchanged.
+	PlacedTriangle reflected() const
+	{
+		PlacedTriangle other = *this;
+		other.second = std::conj(third);
+		other.third = std::conj(second);
+		return other;
 	}
 
 	bool hasShape() const
@@ -182,9 +192,12 @@ MeanDistortion::MeanDistortion(const FlatMesh& flat, const PointGroups& groups) 
 		m_stiffness(flat.points.size(), 0.0), m_pull(flat.points.size())
 {
 	setShapes(flat);
-	for (const int f : m_corners.indices())
+	for (const int f : m_corners.indices()) {
 		for (std::size_t k = 0; k < 3; ++k)
 			m_corners[f][k] = m_points.number[flat.points[f][k]];
+		if (orientation(flat.at(f)) < 0)
+			std::swap(m_corners[f][1], m_corners[f][2]);
+	}
 	m_cornersOf = Adjacency<int, Corner>(m_points.moving, [&](const auto& add) {
 		for (int c = 0; c < 3 * m_corners.size(); ++c)
 			if (const int p = m_corners[Corner(c)]; p < m_points.moving)
@@ -197,22 +210,28 @@ void MeanDistortion::setShapes(const FlatMesh& flat)
 	Array<double> area(flat.points.size(), 0.0), ring(flat.vertexCount(), 0.0);
 	double total = 0.0;
 	for (const int f : area.indices()) {
+		Triangle2 corners = flat.at(f);
+		const int side = orientation(corners);
+		if (side < 0)
+			std::swap(corners[1], corners[2]);
 		PlacedTriangle placed(flat.lengths[f]);
 		if (placed.hasShape()) {
 			area[f] = placed.area * placed.scale * placed.scale;
 			total += area[f];
 			for (const int v : flat.vertices[f])
 				ring[v] += area[f];
+			if (side < 0)
+				placed = placed.reflected();
 		}
 		else
-			placed = PlacedTriangle(flat.at(f));
+			placed = PlacedTriangle(corners);
 		const Complex over(0.0, 0.25 / placed.area);
 		m_shape[f] = {-over * placed.third, over * placed.second, 0.0};
 	}
 	const auto vertices = static_cast<double>(
 		std::count_if(ring.begin(), ring.end(), [](double a) { return a > 0.0; }));
 	for (const int f : area.indices()) {
-		if (orientation(flat.at(f)) != 1)
+		if (orientation(flat.at(f)) == 0)
 			continue;
 		double& weight = m_shape[f].weight = kFacePart / size();
 		if (!(area[f] > 0.0))

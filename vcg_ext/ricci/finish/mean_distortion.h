@@ -53,13 +53,13 @@ public:
 	using Complex = std::complex<double>;
 
 	/// A triangle that has no area by its lengths has no shape to keep: the shape that it has in the plane
-	/// takes the place. Triangles that are not counter-clockwise do not count.
+	/// takes the place. Flipped triangles count as reflected ones, those without area in the plane do not.
 	MeanDistortion(const FlatMesh& flat, const PointGroups& groups);
 
 	const NumberedPoints& points() const { return m_points; }
 
 	/// Computes E at \p position [point] and prepares gradient(), stiffness().
-	/// \return infinity where a triangle is not counter-clockwise, by an exact test
+	/// \return infinity where a triangle that counts is not turned as it was, by an exact test
 	double evaluate(const Eigen::VectorXcd& position);
 
 	/// dE / d conj(unknown), half of the gradient by real and imaginary parts, where E was last
