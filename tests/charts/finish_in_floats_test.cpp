@@ -37,7 +37,8 @@ void finish(Parametrization& map, const std::function<void()>& packAgain = nullp
 {
 	FloatFinish finish;
 	finish.measure = [] {};
-	finish.packAgain = packAgain;
+	finish.packAgain = packAgain ? packAgain : [] {};
+	finish.mayCut = static_cast<bool>(packAgain);
 	finishInFloats(finish, map);
 }
 

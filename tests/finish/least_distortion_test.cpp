@@ -47,7 +47,7 @@ struct CutMap
 	{
 	}
 
-	Descent improve() { return leastDistortion(flat, cones, boundaryMoves); }
+	Descent improve() { return leastDistortion(flat, cones, boundaryMoves, false); }
 
 	PointGroups groups() const
 	{

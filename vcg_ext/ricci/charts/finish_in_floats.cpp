@@ -14,6 +14,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace ricci {
@@ -49,17 +51,33 @@ struct Wanted
 	}
 };
 
-/// Counts the triangles of a patch that cover a part of the plane together with another one. No patch may leave
-/// the box that holds those of the charts.
+/// Whether a box lies in another one, up to less than a step of its floats.
+bool isIn(const Box2& box, const Box2& other)
+{
+	for (std::size_t k = 0; k < 2; ++k)
+		if (box.min[k] < roundedToFloat(other.min[k]) || box.max[k] > roundedToFloat(other.max[k]))
+			return false;
+	return true;
+}
+
+/// Round the boxes of the charts.
+Box2 boxOfCharts(const Parametrization& map)
+{
+	Box2 box;
+	for (const Chart& chart : map.charts)
+		for (const Point2& corner : {chart.box.min, chart.box.max})
+			box.add(corner);
+	return box;
+}
+
+/// Counts the triangles of a patch that cover a part of the plane together with another one.
 class OverlapCount
 {
 public:
-	OverlapCount(const Parametrization& map, double touching) :
-			m_touching(touching), m_inside(insidePoints(map.mesh).inside)
+	/// \param limits which no patch may leave, if there are any
+	OverlapCount(const FlatMesh& mesh, double touching, std::optional<Box2> limits) :
+			m_touching(touching), m_limits(std::move(limits)), m_inside(insidePoints(mesh).inside)
 	{
-		for (const Chart& chart : map.charts)
-			for (const Point2& corner : {chart.box.min, chart.box.max})
-				m_box.add(corner);
 	}
 
 	double operator()(const FlatMesh& flat, const Patch& patch) const
@@ -73,8 +91,7 @@ public:
 		Box2 box;
 		for (const int f : patch.triangles)
 			box.add(boxOf(flat.at(f)));
-		if (box.min[0] < m_box.min[0] || box.min[1] < m_box.min[1] || box.max[0] > m_box.max[0] ||
-			box.max[1] > m_box.max[1])
+		if (m_limits && !isIn(box, *m_limits))
 			return std::numeric_limits<double>::infinity();
 		Array<Triangle2> near;
 		std::vector<char> isOwn;
@@ -93,7 +110,7 @@ public:
 
 private:
 	double m_touching;
-	Box2 m_box;
+	std::optional<Box2> m_limits;
 	Array<char> m_inside; // [point]
 };
 
@@ -158,8 +175,13 @@ int countFaults(const Parametrization& map)
 void finishInFloats(const FloatFinish& finish, Parametrization& map)
 {
 	for (int packings = 1;; ++packings) {
+		const bool isLast = packings == kMaxPackings;
+		const Box2 limits = boxOfCharts(map);
 		const Wanted wanted(map.mesh, finish.forText);
-		const OverlapCount overlaps(map, wanted.validity.height / kMinFloatSteps);
+		const OverlapCount overlaps(
+			map.mesh,
+			wanted.validity.height / kMinFloatSteps,
+			isLast ? std::optional<Box2>(limits) : std::nullopt);
 		WorkLimit limit(map.mesh.size());
 		Repair result;
 		// Where there is no room for text, floats have to do.
@@ -172,9 +194,11 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 		map.report.finishMoved += result.movedCount();
 		if (result.movedCount() > 0)
 			finish.measure();
-		if (result.left == 0 || !finish.packAgain || packings == kMaxPackings)
+		const bool cuts = result.left > 0 && finish.mayCut;
+		if (isLast || (!cuts && isIn(map.mesh.box(), limits)))
 			return;
-		setApart(badTriangles(map.mesh, wanted.validity), wanted.inText, map);
+		if (cuts)
+			setApart(badTriangles(map.mesh, wanted.validity), wanted.inText, map);
 		finish.packAgain();
 		finish.measure();
 	}

@@ -15,15 +15,17 @@ struct FloatFinish
 	bool forText = true;
 	/// Measures the distortion of the map again.
 	std::function<void()> measure;
-	/// Packs the charts of the map once more. Without it no triangle is cut off.
+	/// Packs the charts of the map once more.
 	std::function<void()> packAgain;
+	bool mayCut = true; ///< else no triangle is cut off
 };
 
 /// The last look at a packed map, at the coordinates as they will be stored: mends the triangles that are
 /// flipped or flat once the coordinates are rounded to float, or lower than a few steps of a float. Points near
 /// them move by a few steps, and no others; the report's finishMoved counts them, and where there are any the
 /// distortion is measured again. Seams stay isometric, and nothing is made to overlap. A triangle that cannot
-/// be mended so is cut off as a chart of its own, as high as floats need, and all are packed again.
+/// be mended so is cut off as a chart of its own, as high as floats need, and all are packed again; so are charts
+/// that have left their boxes.
 /// \param map after packCharts()
 void finishInFloats(const FloatFinish& finish, Parametrization& map);
 

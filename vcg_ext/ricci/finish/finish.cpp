@@ -78,11 +78,8 @@ FinishCounts finishInPlane(
 		const Validity validity{height, kWantedHeights * height};
 		const CostOfPatch cost = mayCut ? CostOfPatch(CostWithCuts(flat, validity)) : nullptr;
 		WorkLimit limit(flat.points.size(), kMaxSteps);
-		const Repair result = repairInStages(
-			flat,
-			boundaryMoves,
-			{RestShapes::OfSurface, validity, cost},
-			limit);
+		const Repair result =
+			repairInStages(flat, boundaryMoves, {RestShapes::OfSurface, validity, cost}, limit);
 		FinishCounts counts{result.movedCount(), result.left > 0 && limit.left() == 0};
 		if (counts.endedEarly > 0)
 			logLine(
@@ -95,7 +92,7 @@ FinishCounts finishInPlane(
 	FinishCounts counts = repair();
 	const bool endedEarly = finish == Finish::LeastStretch
 								? leastStretch(flat).endedEarly
-								: leastDistortion(flat, cones, freeBoundary).endedEarly;
+								: leastDistortion(flat, cones, freeBoundary, mayCut).endedEarly;
 	if (endedEarly)
 		logLine("The finish has ended at the bound on its steps: the map could still become a "
 				"little better.");

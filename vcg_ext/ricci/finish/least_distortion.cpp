@@ -42,10 +42,10 @@ Eigen::VectorXcd positionsOf(const NumberedPoints& points, const FlatMesh& flat)
 class DistortionDescent
 {
 public:
-	DistortionDescent(const FlatMesh& flat, const PointGroups& groups) :
-			m_energy(flat, groups), m_points(m_energy.points()), m_bfgs(m_points.unknowns, kDepth),
-			m_start(positionsOf(m_points, flat)), m_position(m_start), m_trial(m_start),
-			m_direction(m_points.unknowns)
+	DistortionDescent(const FlatMesh& flat, const PointGroups& groups, bool countsFlipped) :
+			m_energy(flat, groups, countsFlipped), m_points(m_energy.points()),
+			m_bfgs(m_points.unknowns, kDepth), m_start(positionsOf(m_points, flat)),
+			m_position(m_start), m_trial(m_start), m_direction(m_points.unknowns)
 	{
 		m_value = m_energy.evaluate(m_position);
 	}
@@ -135,9 +135,11 @@ private:
 
 } // namespace
 
-Descent leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves)
+Descent leastDistortion(
+	FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves, bool countsFlipped)
 {
-	DistortionDescent descent(flat, joinedPoints(flat, cones, [&](int) { return boundaryMoves; }));
+	DistortionDescent descent(
+		flat, joinedPoints(flat, cones, [&](int) { return boundaryMoves; }), countsFlipped);
 	const Descent result = descent.descend();
 	if (result.steps > 0)
 		descent.write(flat);

@@ -31,15 +31,16 @@ struct Descent
 /// what two in a row gain is not seen in a mean. All of it takes time in proportion to the triangles.
 ///
 /// The same result to the bit with any number of threads.
-/// \param flat one component. Flipped triangles stay flipped, and count as reflected ones; those without area in
-/// the plane do not count.
+/// \param flat one component. Triangles without area in the plane do not count.
 /// If nothing stays, its size may change.
 /// \param cones 1 at cones inside
 /// \param boundaryMoves whether the boundary is free; else its points stay
+/// \param countsFlipped whether flipped triangles stay flipped, and count as reflected ones; else they do not count
 /// It checks between steps whether the run has ended; then \p flat is what it was.
 /// \return its steps; MeanDistortion of the map
 /// \throw std::bad_alloc
-Descent leastDistortion(FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves);
+Descent leastDistortion(
+	FlatMesh& flat, const VertexArray<char>& cones, bool boundaryMoves, bool countsFlipped);
 
 /// Moves all points of a map to the plane, so that its mean symmetric Dirichlet energy
 /// |J|^2 + |J^-1|^2 by area becomes small [Smith Schaefer 2015]: the map that trades angles for areas, and

@@ -186,12 +186,14 @@ NumberedPoints::NumberedPoints(const FlatMesh& flat, const PointGroups& groups) 
 		}
 }
 
-MeanDistortion::MeanDistortion(const FlatMesh& flat, const PointGroups& groups) :
-		m_points(flat, groups), m_threads(defaultThreads()), m_shape(flat.points.size()),
-		m_corners(flat.points.size()), m_energy(flat.points.size(), 0.0),
-		m_stiffness(flat.points.size(), 0.0), m_pull(flat.points.size())
+MeanDistortion::MeanDistortion(
+	const FlatMesh& flat, const PointGroups& groups, bool countsFlipped) :
+		m_points(flat, groups),
+		m_threads(defaultThreads()), m_shape(flat.points.size()), m_corners(flat.points.size()),
+		m_energy(flat.points.size(), 0.0), m_stiffness(flat.points.size(), 0.0),
+		m_pull(flat.points.size())
 {
-	setShapes(flat);
+	setShapes(flat, countsFlipped);
 	for (const int f : m_corners.indices()) {
 		for (std::size_t k = 0; k < 3; ++k)
 			m_corners[f][k] = m_points.number[flat.points[f][k]];
@@ -205,7 +207,7 @@ MeanDistortion::MeanDistortion(const FlatMesh& flat, const PointGroups& groups) 
 	});
 }
 
-void MeanDistortion::setShapes(const FlatMesh& flat)
+void MeanDistortion::setShapes(const FlatMesh& flat, bool countsFlipped)
 {
 	Array<double> area(flat.points.size(), 0.0), ring(flat.vertexCount(), 0.0);
 	double total = 0.0;
@@ -231,7 +233,8 @@ void MeanDistortion::setShapes(const FlatMesh& flat)
 	const auto vertices = static_cast<double>(
 		std::count_if(ring.begin(), ring.end(), [](double a) { return a > 0.0; }));
 	for (const int f : area.indices()) {
-		if (orientation(flat.at(f)) == 0)
+		const int side = orientation(flat.at(f));
+		if (side == 0 || (side < 0 && !countsFlipped))
 			continue;
 		double& weight = m_shape[f].weight = kFacePart / size();
 		if (!(area[f] > 0.0))

@@ -54,7 +54,8 @@ public:
 
 	/// A triangle that has no area by its lengths has no shape to keep: the shape that it has in the plane
 	/// takes the place. Flipped triangles count as reflected ones, those without area in the plane do not.
-	MeanDistortion(const FlatMesh& flat, const PointGroups& groups);
+	/// \param countsFlipped else flipped triangles do not count, either
+	MeanDistortion(const FlatMesh& flat, const PointGroups& groups, bool countsFlipped);
 
 	const NumberedPoints& points() const { return m_points; }
 
@@ -92,7 +93,7 @@ private:
 		double weight;
 	};
 
-	void setShapes(const FlatMesh& flat);
+	void setShapes(const FlatMesh& flat, bool countsFlipped);
 	void evaluate(int triangle, const Eigen::VectorXcd& position);
 	Complex pull(int point) const;
 

@@ -186,8 +186,8 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	FloatFinish finish;
 	finish.forText = options.output == OutputTriangulation::KeepMesh;
 	finish.measure = [&] { measure(opened, map); };
-	if (mayCutCharts(options))
-		finish.packAgain = [&] { packCharts(map, options, turns); };
+	finish.packAgain = [&] { packCharts(map, options, turns); };
+	finish.mayCut = mayCutCharts(options);
 	if (isFinished(options))
 		finishInFloats(finish, map);
 	countFlipped(map.mesh, map.report);
