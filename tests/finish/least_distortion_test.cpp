@@ -158,7 +158,7 @@ struct Measured
 	Eigen::VectorXcd start; ///< [number of a point]
 
 	explicit Measured(const CutMap& d) :
-			energy(d.flat, d.groups()), points(energy.points()), start(points.number.size())
+			energy(d.flat, d.groups(), false), points(energy.points()), start(points.number.size())
 	{
 		place(d.flat);
 	}
