@@ -187,7 +187,12 @@ std::vector<Log> logs()
 		 "no cones, because without them areas are expected to spread by # alone"},
 		{{"AreasMaySpread", tube, with([](Options& o) { o.cones.distortion = 1e9; })},
 		 [=](const Lines& l, const Parametrization& map) -> Groups {
-			 std::vector<std::string> last{l.boundary()};
+			 std::vector<std::string> last;
+			 if (map.report.endedEarly > 0)
+				 last.emplace_back(
+					 "The finish has ended at the bound on its steps: the map could still "
+					 "become a little better.");
+			 last.push_back(l.boundary());
 			 if (map.report.unequalSeams > 0)
 				 last.push_back(
 					 std::to_string(map.report.unequalSeams) +

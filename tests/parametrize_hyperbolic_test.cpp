@@ -220,7 +220,7 @@ TEST(ParametrizeHyperbolic, DiskAndAnnulusWithFreeBoundary)
 	}
 }
 
-TEST(ParametrizeHyperbolic, WhatLiesOnItselfIsCounted)
+TEST(ParametrizeHyperbolic, WhatLiesOnItselfIsCountedAndDivided)
 {
 	// A strip that goes round an axis: in the disk its second turn meets the first.
 	const auto strip = [](int steps) {
@@ -234,6 +234,12 @@ TEST(ParametrizeHyperbolic, WhatLiesOnItselfIsCounted)
 	const Parametrization half = parametrizeHyperbolic(strip(12), {}, options);
 	EXPECT_EQ(half.report.overlappingFaces, 0);
 	EXPECT_EQ(half.report.overlappingCharts, 0);
+	const Parametrization divided = parametrizeHyperbolic(strip(48), {}, options);
+	EXPECT_EQ(divided.report.overlappingFaces, 0);
+	EXPECT_EQ(divided.report.flippedFaces, 0);
+	EXPECT_EQ(divided.report.unequalSeams, 0);
+	EXPECT_GT(divided.report.charts, 1);
+	options.finish = Finish::None;
 	const Parametrization twice = parametrizeHyperbolic(strip(48), {}, options);
 	EXPECT_GT(twice.report.overlappingFaces, 0);
 	EXPECT_EQ(twice.report.overlappingCharts, 1);

@@ -51,11 +51,12 @@ struct Wanted
 	}
 };
 
-/// Whether a box lies in another one, up to less than a step of its floats.
+/// Whether a box lies in another one, both rounded to float.
 bool isIn(const Box2& box, const Box2& other)
 {
 	for (std::size_t k = 0; k < 2; ++k)
-		if (box.min[k] < roundedToFloat(other.min[k]) || box.max[k] > roundedToFloat(other.max[k]))
+		if (roundedToFloat(box.min[k]) < roundedToFloat(other.min[k]) ||
+			roundedToFloat(box.max[k]) > roundedToFloat(other.max[k]))
 			return false;
 	return true;
 }
@@ -195,7 +196,7 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 		if (result.movedCount() > 0)
 			finish.measure();
 		const bool cuts = result.left > 0 && finish.mayCut;
-		if (isLast || (!cuts && isIn(map.mesh.box(), limits)))
+		if (isLast || (!cuts && (result.movedCount() == 0 || isIn(map.mesh.box(), limits))))
 			return;
 		if (cuts)
 			setApart(badTriangles(map.mesh, wanted.validity), wanted.inText, map);
