@@ -34,6 +34,10 @@ const char* remedy(const ricci::InvalidMesh& e)
 		return ": open or create a triangle mesh first.";
 	case Error::NoFaces:
 		return ": reconstruct a surface from the points first.";
+	case Error::ArrayLength:
+		return ": report the mesh.";
+	case Error::ScalesApart:
+		return ": delete it first.";
 	case Error::DamagedFaces:
 		return ": open its file again.";
 	case Error::NotFinite:
@@ -84,6 +88,12 @@ std::string inWords(const ricci::InvalidOption& e)
 	using Error = ricci::InvalidOption;
 	const std::string count = std::to_string(e.count);
 	switch (e.problem) {
+	case Error::NoSuchChoice:
+	case Error::MemoryLimit:
+	case Error::BoxPlaces:
+		return reported(e);
+	case Error::TimeLimit:
+		return unusable(e.value, "time_limit", "Use a number of seconds, or 0 for no limit.");
 	case Error::Epsilon:
 		return unusable(
 			e.value, "epsilon", "Use a number of radians greater than 0, for example 1e-8.");

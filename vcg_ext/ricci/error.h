@@ -42,9 +42,11 @@ public:
 	enum Problem {
 		Empty,              ///< neither vertices nor faces
 		NoFaces,            ///< count: vertices
+		ArrayLength,        ///< count: length of \ref array; wanted: what it has to be, or 0
 		DamagedFaces,       ///< count: faces that use vertices which are not in the mesh
 		NotFinite,          ///< count: vertices with coordinates that are NaN or infinite
 		OutOfRange,         ///< count: vertices with coordinates beyond 1e50
+		ScalesApart,        ///< vertices: one so far away that doubles give the faces elsewhere no area
 		TooSmall,           ///< count: components smaller than 1e-50
 		NoArea,             ///< count: faces; the vertices of each component lie on one line
 		EdgesWithoutLength, ///< count; where no flips are allowed
@@ -57,9 +59,14 @@ public:
 	explicit InvalidMesh(
 		Problem problem, std::size_t count = 1, std::array<int, 2> vertices = {-1, -1});
 
+	/// ArrayLength
+	InvalidMesh(const char* array, std::size_t length, std::size_t wanted);
+
 	Problem problem;
 	std::size_t count;
 	std::array<int, 2> vertices;
+	const char* array = ""; ///< name of a member of SurfaceMesh or VertexInput
+	std::size_t wanted = 0;
 };
 
 /// An option or a prescribed value is out of range, or contradicts the topology of the mesh.
@@ -67,6 +74,10 @@ class InvalidOption : public Error
 {
 public:
 	enum Problem {
+		NoSuchChoice,           ///< value of \ref name; its choices have the numbers below bound
+		TimeLimit,              ///< value in seconds; must not be negative
+		MemoryLimit,            ///< value in bytes; must not be negative
+		BoxPlaces,              ///< value: places that PlaceBoxes gave for count boxes
 		Epsilon,                ///< value; must be above 0
 		ConeCount,              ///< value; must not be negative
 		ConeDistortion,         ///< value; must be finite and not negative
@@ -91,10 +102,13 @@ public:
 	explicit InvalidOption(
 		Problem problem, double value = 0.0, double bound = 0.0, std::size_t count = 0);
 	InvalidOption(Problem problem, TargetCurvature target, const SurfaceType& surface);
+	/// NoSuchChoice
+	InvalidOption(const char* name, int value, int choices);
 
 	Problem problem;
 	double value = 0.0, bound = 0.0;
 	std::size_t count = 0;
+	const char* name = ""; ///< of the option
 	TargetCurvature target = TargetCurvature::Automatic;
 	SurfaceType surface;
 };

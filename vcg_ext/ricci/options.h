@@ -128,7 +128,8 @@ inline bool isForObjective(const ConeOptions& options)
 constexpr double kMaxChartMargin = 0.25;
 
 /// Finds places for boxes along the axes, none of them empty: [box] translations that leave at least
-/// \p padding >= 0 between any two. One box alone stays where it is. Neither turns nor scales.
+/// \p padding >= 0 between any two. One box alone stays where it is. Neither turns nor scales. As many translations
+/// as boxes, or the run ends with InvalidOption BoxPlaces.
 using PlaceBoxes =
 	std::function<std::vector<Point2>(const std::vector<Box2>& boxes, double padding)>;
 

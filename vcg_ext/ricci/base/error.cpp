@@ -30,6 +30,11 @@ std::string words(InvalidMesh::Problem problem, std::size_t n, const std::array<
 		return "The mesh is empty";
 	case InvalidMesh::NoFaces:
 		return "The mesh has " + some(n, "vertex", "vertices") + " but no faces";
+	case InvalidMesh::ArrayLength:
+		return "An array has the wrong length, " + std::to_string(n);
+	case InvalidMesh::ScalesApart:
+		return "The coordinates differ by more than doubles hold: vertex " +
+			   std::to_string(vertices[0]) + " is so far away that other faces have no area";
 	case InvalidMesh::DamagedFaces:
 		return some(n, "face uses", "faces use") + " vertices that are deleted or not in the mesh";
 	case InvalidMesh::NotFinite:
@@ -61,6 +66,16 @@ std::string words(InvalidMesh::Problem problem, std::size_t n, const std::array<
 std::string words(const InvalidOption& e)
 {
 	switch (e.problem) {
+	case InvalidOption::NoSuchChoice:
+		return "The option " + std::string(e.name) + " has no choice of the number " +
+			   number(e.value) + ": its choices are 0 to " + number(e.bound - 1.0);
+	case InvalidOption::TimeLimit:
+		return "The time limit must be 0 seconds or more, not " + number(e.value);
+	case InvalidOption::MemoryLimit:
+		return "The memory limit must be 0 bytes or more, not " + number(e.value);
+	case InvalidOption::BoxPlaces:
+		return "The packer gave " + number(e.value) + " places for " + std::to_string(e.count) +
+			   " boxes";
 	case InvalidOption::Epsilon:
 		return "The curvature error asked for must be greater than 0 radians, not " +
 			   number(e.value);
@@ -233,6 +248,20 @@ std::string words(TooLarge::Problem problem, std::size_t count, double needed, d
 InvalidMesh::InvalidMesh(Problem p, std::size_t n, std::array<int, 2> v) :
 		Error(words(p, n, v)), problem(p), count(n), vertices(v)
 {
+}
+
+InvalidMesh::InvalidMesh(const char* name, std::size_t length, std::size_t needed) :
+		Error(
+			"The array " + std::string(name) + " has " + some(length, "entry", "entries") +
+			", but needs " + std::to_string(needed) + ", or none"),
+		problem(ArrayLength), count(length), vertices{-1, -1}, array(name), wanted(needed)
+{
+}
+
+InvalidOption::InvalidOption(const char* option, int v, int choices) :
+		problem(NoSuchChoice), value(v), bound(choices), name(option)
+{
+	describe(words(*this));
 }
 
 InvalidOption::InvalidOption(Problem p, double v, double b, std::size_t n) :

@@ -17,6 +17,8 @@ Task::Task(Progress& listener, double seconds) :
 		m_outer(current), m_listener(&listener), m_seconds(seconds), m_what("Starting"),
 		m_start(std::chrono::steady_clock::now())
 {
+	if (!(seconds >= 0.0))
+		throw InvalidOption(InvalidOption::TimeLimit, seconds);
 	current = this;
 }
 
@@ -30,6 +32,13 @@ Task::Task(double from, double to, bool isSilent) :
 Task::~Task()
 {
 	current = m_outer;
+}
+
+void Task::setMemoryLimit(double bytes)
+{
+	if (!(bytes >= 0.0))
+		throw InvalidOption(InvalidOption::MemoryLimit, bytes);
+	m_memory = bytes;
 }
 
 double Task::memoryLimit()

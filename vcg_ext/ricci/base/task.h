@@ -22,6 +22,7 @@ class Task
 public:
 	/// A whole run.
 	/// \param seconds of wall-clock time that it may take from now on; 0: no limit
+	/// \throw InvalidOption TimeLimit if it is negative or NaN
 	explicit Task(Progress& listener, double seconds = 0.0);
 
 	/// A part of the thread's task, from one share of it to another.
@@ -36,7 +37,8 @@ public:
 	void keepLines(std::vector<std::string>& lines) { m_lines = &lines; }
 
 	/// Bytes that this task may use, and its parts; 0, the default: no limit.
-	void setMemoryLimit(double bytes) { m_memory = bytes; }
+	/// \throw InvalidOption MemoryLimit if it is negative or NaN
+	void setMemoryLimit(double bytes);
 	/// That of the thread's task.
 	static double memoryLimit();
 

@@ -274,7 +274,14 @@ void packCharts(Parametrization& map, const PackOptions& options, ChartTurns tur
 	}
 	const auto triangles = map.mesh.trianglesByChart(boxes.size());
 	const std::vector<char> isThin = widen(triangles, std::max(extent, std::sqrt(area)), boxes);
-	const PlaceBoxes placeBoxes = options.placeBoxes ? options.placeBoxes : inARow;
+	const PlaceBoxes& asked = options.placeBoxes ? options.placeBoxes : inARow;
+	const PlaceBoxes placeBoxes = [&](const std::vector<Box2>& some, double padding) {
+		std::vector<Point2> places = asked(some, padding);
+		if (places.size() != some.size())
+			throw InvalidOption(
+				InvalidOption::BoxPlaces, static_cast<double>(places.size()), 0.0, some.size());
+		return places;
+	};
 	Packing packing = packBoxes(boxes, options.chartMargin, placeBoxes);
 	if (!options.normalizeUV) {
 		if (boxes.size() == 1)

@@ -13,6 +13,7 @@
 #include "whole_map.h"
 
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace ricci {
@@ -22,8 +23,26 @@ namespace {
 /// Share of the progress after which the charts are found.
 constexpr double kMapped = 0.95;
 
+/// \param last of the choices
+template<class Choice>
+void requireChoice(const char* name, Choice value, Choice last)
+{
+	const int number = static_cast<int>(value), count = static_cast<int>(last) + 1;
+	if (number < 0 || number >= count)
+		throw InvalidOption(name, number, count);
+}
+
+void requireLength(const char* name, std::size_t length, std::size_t vertices)
+{
+	if (length != 0 && length != vertices)
+		throw InvalidMesh(name, length, vertices);
+}
+
 void checkFlowOptions(const FlowOptions& options)
 {
+	requireChoice("method", options.method, Method::Thurston);
+	requireChoice("output", options.output, OutputTriangulation::CommonRefinement);
+	requireChoice("finish", options.finish, Finish::LeastStretch);
 	if (!(options.epsilon > 0.0 && std::isfinite(options.epsilon)))
 		throw InvalidOption(InvalidOption::Epsilon, options.epsilon);
 	if (options.output == OutputTriangulation::CommonRefinement &&
@@ -51,6 +70,8 @@ Parametrization mapComponents(
 	OpenedMesh& opened)
 {
 	checkOptions(options);
+	requireLength("selected", input.selected.size(), mesh.positions.size());
+	requireLength("targetCurvature", input.targetCurvature.size(), mesh.positions.size());
 	const Task part(0.0, kMapped);
 	advance(0.0, "Checking the mesh");
 	Parametrization map;
@@ -221,6 +242,10 @@ void complete(const SurfaceMesh& mesh, const OpenedMesh& opened, Parametrization
 void checkOptions(const Options& options)
 {
 	checkFlowOptions(options);
+	requireChoice("target", options.target, TargetCurvature::PlacedCones);
+	requireChoice("rounding", options.cones.rounding, ConeRounding::QuarterTurns);
+	requireChoice("holes", options.holes, Holes::ShortCapped);
+	requireChoice("charts", options.charts, Charts::CutForRoom);
 	if (options.holes == Holes::Capped && options.method != Method::IntrinsicFlips)
 		throw InvalidOption(InvalidOption::WithoutFlips);
 	if (options.cones.count < 0)
@@ -234,6 +259,7 @@ void checkOptions(const Options& options)
 
 void checkOptions(const HyperbolicOptions& options)
 {
+	requireChoice("target", options.target, HyperbolicTarget::Prescribed);
 	if (options.method == Method::EdgeSwaps || options.method == Method::Thurston)
 		throw InvalidOption(InvalidOption::HyperbolicMethod);
 	checkFlowOptions(options);

@@ -39,6 +39,12 @@ void checkElements(const SurfaceMesh& mesh)
 		const std::size_t vertices = mesh.positions.size() - mesh.absent;
 		throw InvalidMesh(vertices == 0 ? InvalidMesh::Empty : InvalidMesh::NoFaces, vertices);
 	}
+	const auto requireLength = [](const char* name, std::size_t length, std::size_t wanted) {
+		if (length != 0 && length != wanted)
+			throw InvalidMesh(name, length, wanted);
+	};
+	requireLength("diagonal", mesh.diagonal.size(), mesh.triangles.size());
+	requireLength("seam", mesh.seam.size(), mesh.triangles.size());
 	const auto vertices = static_cast<int>(mesh.positions.size());
 	std::size_t damaged = 0, notFinite = 0, huge = 0;
 	for (const Triangle& t : mesh.triangles)
@@ -135,7 +141,7 @@ public:
 			}
 		std::sort(m_opened.degenerate.begin(), m_opened.degenerate.end());
 		if (kept.empty())
-			throw InvalidMesh(InvalidMesh::NoArea, m_opened.degenerate.size());
+			throwNoArea();
 		const auto renumbered = [&](Corner c) {
 			const int face = c.isValid() ? number[c.face()] : -1;
 			return face < 0 ? Corner() : Corner(face, static_cast<int>(c.index()));
@@ -363,6 +369,26 @@ private:
 		for (const Corner s : cut)
 			unglue(s, m_glued);
 		return cut.empty();
+	}
+
+	/// Where nothing has an area beside the whole, though a face has one by itself, a vertex is too far away.
+	[[noreturn]] void throwNoArea() const
+	{
+		for (const Triangle& t : m_input.triangles) {
+			const auto at = [&](int v) { return m_input.positions[positionOf(v)]; };
+			const Point3 a = at(t[1]) - at(t[0]), b = at(t[2]) - at(t[0]), normal = cross(a, b);
+			const double longest = std::max({length(a), length(b), length(b - a)});
+			if (!(std::hypot(normal[0], normal[1], normal[2]) >
+				  kMinComponentArea * longest * longest))
+				continue;
+			int farthest = t[0];
+			for (const Triangle& other : m_input.triangles)
+				for (const int v : other)
+					if (distance(at(v), at(t[0])) > distance(at(farthest), at(t[0])))
+						farthest = v;
+			throw InvalidMesh(InvalidMesh::ScalesApart, 1, {farthest, -1});
+		}
+		throw InvalidMesh(InvalidMesh::NoArea, m_opened.degenerate.size());
 	}
 
 	/// [component] whether no triangle has an area.

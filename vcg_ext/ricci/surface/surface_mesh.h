@@ -21,11 +21,11 @@ struct SurfaceMesh
 	std::vector<Point3> positions;
 	std::vector<Triangle> triangles; ///< indices into positions
 	/// [face][k] 1 where the side from corner k is a diagonal of a polygon that was cut into triangles;
-	/// may be empty.
+	/// may be empty, else one entry for each triangle.
 	std::vector<std::array<char, 3>> diagonal = {};
 	std::size_t absent = 0; ///< positions that stand for no vertex (deleted elements)
 	/// [face][k] 1 where the caller wants a seam along the side from corner k; one face of an edge is
-	/// enough. May be empty.
+	/// enough. May be empty, else one entry for each triangle.
 	std::vector<std::array<char, 3>> seam = {};
 };
 
