@@ -18,6 +18,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -562,6 +563,146 @@ TEST(FacesInArrays, HaveTheirVerticesThere)
 				}
 			}
 		}
+}
+
+template<class E>
+E refusedBy(const std::function<void()>& call)
+{
+	try {
+		call();
+	}
+	catch (const E& refusal) {
+		return refusal;
+	}
+	throw std::runtime_error("no such refusal");
+}
+
+TEST(Arrays, HaveALengthThatFitsTheMesh)
+{
+	const SurfaceMesh sound = perforatedSlab(2, 1);
+	const std::size_t vertices = sound.positions.size(), faces = sound.triangles.size();
+	const struct
+	{
+		const char* name;
+		std::size_t wanted;
+		std::function<void(SurfaceMesh&, VertexInput&, std::size_t)> resize;
+	} arrays[] = {
+		{"seam",
+		 faces,
+		 [](SurfaceMesh& mesh, VertexInput&, std::size_t n) { mesh.seam.resize(n); }},
+		{"diagonal",
+		 faces,
+		 [](SurfaceMesh& mesh, VertexInput&, std::size_t n) { mesh.diagonal.resize(n); }},
+		{"selected",
+		 vertices,
+		 [](SurfaceMesh&, VertexInput& input, std::size_t n) { input.selected.resize(n); }},
+		{"targetCurvature", vertices, [](SurfaceMesh&, VertexInput& input, std::size_t n) {
+			 input.targetCurvature.resize(n);
+		 }}};
+	for (const auto& array : arrays)
+		for (const std::size_t n :
+			 {std::size_t(1), array.wanted - 1, array.wanted, array.wanted + 1}) {
+			SCOPED_TRACE(array.name + std::to_string(n));
+			SurfaceMesh mesh = sound;
+			VertexInput input;
+			array.resize(mesh, input, n);
+			const std::function<void()> calls[] = {
+				[&] { parametrizeEuclidean(mesh, input, {}); },
+				[&] { parametrizeHyperbolic(mesh, input, {}); }};
+			for (const auto& call : calls) {
+				if (n == array.wanted) {
+					EXPECT_NO_THROW(call());
+					continue;
+				}
+				const auto refusal = refusedBy<InvalidMesh>(call);
+				EXPECT_EQ(refusal.problem, InvalidMesh::ArrayLength);
+				EXPECT_EQ(refusal.array, std::string(array.name));
+				EXPECT_EQ(refusal.count, n);
+				EXPECT_EQ(refusal.wanted, array.wanted);
+				expectWords(
+					refusal.what(), {array.name, std::to_string(n), std::to_string(array.wanted)});
+			}
+		}
+}
+
+TEST(Choices, AreThoseThatThereAre)
+{
+	const SurfaceMesh mesh = tetrahedron();
+	const auto change = [](auto member) {
+		return [member](auto& options, int value) {
+			auto& choice = member(options);
+			choice = static_cast<std::remove_reference_t<decltype(choice)>>(value);
+		};
+	};
+	const auto expectRefused =
+		[](const char* name, int choices, const auto& options, const auto& call) {
+			for (const int value : {-1, choices, 99}) {
+				auto changed = options;
+				const auto refusal = refusedBy<InvalidOption>([&] { call(changed, value); });
+				EXPECT_EQ(refusal.problem, InvalidOption::NoSuchChoice);
+				EXPECT_EQ(refusal.name, std::string(name));
+				EXPECT_EQ(refusal.value, value);
+				EXPECT_EQ(refusal.bound, choices);
+				expectWords(refusal.what(), {name, std::to_string(value)});
+			}
+		};
+	const auto inPlane = [&](const char* name, int choices, const auto& member) {
+		expectRefused(name, choices, Options(), [&](Options& options, int value) {
+			change(member)(options, value);
+			parametrizeEuclidean(mesh, {}, options);
+		});
+	};
+	const auto inDisk = [&](const char* name, int choices, const auto& member) {
+		expectRefused(
+			name, choices, HyperbolicOptions(), [&](HyperbolicOptions& options, int value) {
+				change(member)(options, value);
+				parametrizeHyperbolic(mesh, {}, options);
+			});
+	};
+	inPlane(
+		"target", 7, [](Options & o) -> auto& { return o.target; });
+	inPlane(
+		"rounding", 2, [](Options & o) -> auto& { return o.cones.rounding; });
+	inPlane(
+		"holes", 3, [](Options & o) -> auto& { return o.holes; });
+	inPlane(
+		"charts", 3, [](Options & o) -> auto& { return o.charts; });
+	inDisk(
+		"target", 3, [](HyperbolicOptions & o) -> auto& { return o.target; });
+	inPlane(
+		"method", 4, [](Options & o) -> auto& { return o.method; });
+	inPlane(
+		"output", 2, [](Options & o) -> auto& { return o.output; });
+	inDisk(
+		"finish", 4, [](HyperbolicOptions & o) -> auto& { return o.finish; });
+}
+
+TEST(PlacesOfBoxes, AreAsManyAsBoxes)
+{
+	const SurfaceMesh two = sideBySide(rectangle(3, 3, 1.0, 1.0), rectangle(3, 3, 1.0, 1.0), 3.0);
+	for (const std::size_t places : {0u, 1u, 3u}) {
+		Options options;
+		options.normalizeUV = false;
+		options.placeBoxes = [&](const std::vector<Box2>&, double) {
+			return std::vector<Point2>(places, Point2{0.0, 0.0});
+		};
+		const auto refusal =
+			refusedBy<InvalidOption>([&] { parametrizeEuclidean(two, {}, options); });
+		EXPECT_EQ(refusal.problem, InvalidOption::BoxPlaces);
+		EXPECT_EQ(refusal.value, places);
+		EXPECT_EQ(refusal.count, 2u);
+	}
+}
+
+/// Beside a vertex so far away no face has an area that doubles can tell from 0.
+TEST(Coordinates, ThatDifferByMoreThanDoublesHoldAreNamed)
+{
+	SurfaceMesh mesh = rectangle(6, 6, 1.0, 1.0);
+	mesh.positions[17][0] = 1e49;
+	const auto refusal = refusedBy<InvalidMesh>([&] { parametrizeEuclidean(mesh, {}, {}); });
+	EXPECT_EQ(refusal.problem, InvalidMesh::ScalesApart);
+	EXPECT_EQ(refusal.vertices[0], 17);
+	expectWords(refusal.what(), {"17"});
 }
 
 INSTANTIATE_TEST_SUITE_P(Options, Refusals, ::testing::ValuesIn(options()), CallName());

@@ -90,6 +90,7 @@ TEST(Sentences, EveryInvalidMeshHasOne)
 		InvalidMesh::Empty,
 		InvalidMesh::IncoherentEdge,
 		InvalidMesh::NotPuncturable,
+		InvalidMesh::ScalesApart,
 		InvalidMesh::BeyondFloats};
 	for (int i = InvalidMesh::Empty; i <= InvalidMesh::BeyondFloats; ++i) {
 		const auto problem = static_cast<InvalidMesh::Problem>(i);
@@ -107,6 +108,9 @@ TEST(Sentences, EveryInvalidMeshHasOne)
 TEST(Sentences, EveryInvalidOptionHasOne)
 {
 	std::map<int, std::vector<std::string>> numbers = {
+		{InvalidOption::TimeLimit, {"-17"}},
+		{InvalidOption::MemoryLimit, {"-17"}},
+		{InvalidOption::BoxPlaces, {"-17", "61"}},
 		{InvalidOption::Epsilon, {"-17"}},
 		{InvalidOption::ConeCount, {"-17"}},
 		{InvalidOption::ConeDistortion, {"-17"}},
@@ -121,7 +125,7 @@ TEST(Sentences, EveryInvalidOptionHasOne)
 		{InvalidOption::CornerCount, {"61"}},
 		{InvalidOption::CornersOffBoundary, {"61"}},
 		{InvalidOption::SphereOfComponents, {"61"}}};
-	for (int i = InvalidOption::Epsilon; i <= InvalidOption::CoverTooLarge; ++i) {
+	for (int i = InvalidOption::NoSuchChoice; i <= InvalidOption::CoverTooLarge; ++i) {
 		const auto problem = static_cast<InvalidOption::Problem>(i);
 		expectSentence(InvalidOption(problem, -17.0, 23.0, 61), numbers[i]);
 		for (TargetCurvature target : {TargetCurvature::Disk, TargetCurvature::Rectangle})

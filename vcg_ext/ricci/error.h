@@ -40,15 +40,15 @@ class InvalidMesh : public Error
 {
 public:
 	enum Problem {
-		Empty,              ///< neither vertices nor faces
-		NoFaces,            ///< count: vertices
-		ArrayLength,        ///< count: length of \ref array; wanted: what it has to be, or 0
-		DamagedFaces,       ///< count: faces that use vertices which are not in the mesh
-		NotFinite,          ///< count: vertices with coordinates that are NaN or infinite
-		OutOfRange,         ///< count: vertices with coordinates beyond 1e50
-		ScalesApart,        ///< vertices: one so far away that doubles give the faces elsewhere no area
-		TooSmall,           ///< count: components smaller than 1e-50
-		NoArea,             ///< count: faces; the vertices of each component lie on one line
+		Empty,        ///< neither vertices nor faces
+		NoFaces,      ///< count: vertices
+		ArrayLength,  ///< count: length of \ref array; wanted: what it has to be, or 0
+		DamagedFaces, ///< count: faces that use vertices which are not in the mesh
+		NotFinite,    ///< count: vertices with coordinates that are NaN or infinite
+		OutOfRange,   ///< count: vertices with coordinates beyond 1e50
+		ScalesApart,  ///< vertices: one so far away that doubles give the faces elsewhere no area
+		TooSmall,     ///< count: components smaller than 1e-50
+		NoArea,       ///< count: faces; the vertices of each component lie on one line
 		EdgesWithoutLength, ///< count; where no flips are allowed
 		FacesWithoutArea,   ///< count; where no flips are allowed
 		IncoherentEdge,     ///< vertices: its ends; its triangles are not two of opposite direction

@@ -183,11 +183,13 @@ void noteFlipped(OutputTriangulation output, Parametrization& map)
 	const int flipped = map.report.flippedFaces + map.report.flippedByRounding;
 	if (flipped == 0)
 		return;
-	const std::string count = std::to_string(flipped) + (flipped == 1 ? " face stays" : " faces stay");
+	const std::string count =
+		std::to_string(flipped) + (flipped == 1 ? " face stays" : " faces stay");
 	note(
 		count + " flipped" +
 			(output == OutputTriangulation::KeepMesh
-				 ? ": straight lines between the vertices do not fit the map there. The common refinement "
+				 ? ": straight lines between the vertices do not fit the map there. The common "
+				   "refinement "
 				   "may draw it without flipped faces."
 				 : ": they are smaller than floats can hold."),
 		map);
@@ -216,9 +218,9 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	countUnequalSeams(map);
 	if (map.report.unequalSeams > 0 && options.finish != Finish::LeastStretch)
 		note(
-			std::to_string(map.report.unequalSeams) +
-				" edges of the seams are longer on one side than on the other: flipped faces beside "
-				"them were mended.",
+			std::to_string(map.report.unequalSeams) + " edges of the seams are longer on one side "
+													  "than on the other: flipped faces beside "
+													  "them were mended.",
 			map);
 	if (isFinished(options))
 		noteFlipped(options.output, map);
