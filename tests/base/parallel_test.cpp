@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -231,6 +232,19 @@ TEST(Task, ItsMemoryLimitHoldsInItsPartsAndInThreadsThatHelp)
 	whole.setMemoryLimit(1000.0);
 	const Task part(0.0, 1.0);
 	tasksInParallel(8, 4, [](int) { EXPECT_EQ(Task::memoryLimit(), 1000.0); });
+}
+
+TEST(Task, RefusesLimitsThatAreNone)
+{
+	Progress silent;
+	for (const double limit : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+		EXPECT_THROW(Task(silent, limit), InvalidOption);
+		Task task(silent);
+		EXPECT_THROW(task.setMemoryLimit(limit), InvalidOption);
+		EXPECT_EQ(Task::memoryLimit(), 0.0);
+	}
+	EXPECT_NO_THROW(checkpoint()); // no refused task is left behind
+	EXPECT_NO_THROW(Task(silent, std::numeric_limits<double>::infinity()));
 }
 
 } // namespace
