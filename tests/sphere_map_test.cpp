@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/complex.h"
+#include "support/listener.h"
 #include "support/random.h"
 #include "support/shapes.h"
 #include "support/transform.h"
@@ -8,10 +9,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
 #include <map>
+#include <string>
 
 namespace ricci::testing {
 namespace {
@@ -221,6 +224,40 @@ TEST(SphereMap, CountsFacesThatSpanMoreThanAHemisphere)
 	EXPECT_NEAR(area, 0.0, 1e-9);
 	EXPECT_GT(turned, 0);
 	EXPECT_EQ(map.flippedFaces, turned);
+}
+
+/// A spheroid so long that doubles hold no picture of its middle beside its ends. Before, some faces are flipped,
+/// which is said.
+TEST(SphereMap, OfALongSurfaceIsRefusedOrSaysWhatItLost)
+{
+	int refused = 0, told = 0;
+	for (const double length : {1.0, 5.0, 10.0, 15.0, 20.0, 30.0, 50.0}) {
+		SurfaceMesh mesh = icosphere(3);
+		for (Point3& p : mesh.positions)
+			p[2] *= length;
+		Listener listener;
+		const Task task(listener);
+		try {
+			const SphereMap map = toSphere(mesh);
+			EXPECT_EQ(refused, 0) << "of a shorter one";
+			const bool isTold =
+				std::any_of(listener.lines.begin(), listener.lines.end(), [&](const auto& line) {
+					return line.find("flipped") != std::string::npos &&
+						   line.find(std::to_string(map.flippedFaces)) == 0;
+				});
+			EXPECT_EQ(isTold, map.flippedFaces > 0);
+			told += isTold;
+			EXPECT_LT(map.flippedFaces, static_cast<int>(mesh.triangles.size() / 2));
+		}
+		catch (const NotConverged& refusal) {
+			EXPECT_EQ(refusal.problem, NotConverged::LostInRounding);
+			EXPECT_GT(refusal.count, mesh.triangles.size() / 4);
+			EXPECT_GE(length, 20.0);
+			++refused;
+		}
+	}
+	EXPECT_GT(refused, 0);
+	EXPECT_GT(told, 0);
 }
 
 } // namespace

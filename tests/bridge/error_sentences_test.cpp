@@ -125,7 +125,8 @@ TEST(Sentences, EveryInvalidOptionHasOne)
 		{InvalidOption::CornerCount, {"61"}},
 		{InvalidOption::CornersOffBoundary, {"61"}},
 		{InvalidOption::SphereOfComponents, {"61"}}};
-	for (int i = InvalidOption::NoSuchChoice; i <= InvalidOption::CoverTooLarge; ++i) {
+	expectSentence(InvalidOption("method", 99, 4), {"method", "99", "3"});
+	for (int i = InvalidOption::TimeLimit; i <= InvalidOption::CoverTooLarge; ++i) {
 		const auto problem = static_cast<InvalidOption::Problem>(i);
 		expectSentence(InvalidOption(problem, -17.0, 23.0, 61), numbers[i]);
 		for (TargetCurvature target : {TargetCurvature::Disk, TargetCurvature::Rectangle})

@@ -26,10 +26,7 @@ Repair mend(FlatMesh& flat, const Validity& wanted)
 {
 	WorkLimit limit(flat.points.size());
 	return repairInStages(
-		flat,
-		[](int) { return false; },
-		{RestShapes::OfSurface, wanted},
-		limit);
+		flat, [](int) { return false; }, {RestShapes::OfSurface, wanted}, limit);
 }
 
 TEST(Repair, LeavesAValidDrawingAlone)

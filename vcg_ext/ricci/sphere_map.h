@@ -26,8 +26,9 @@ struct SphereMap
 	/// Of the map from the mesh's triangles to the straight ones between the positions.
 	double qcAreaMean = 1.0, qcMax = 1.0;
 	double areaDistortionMean = 1.0, areaDistortionSpread = 0.0;
-	int flippedFaces = 0; ///< seen from the centre, against the orientation of the rest; also faces
-						  ///< that span more than a hemisphere, which no straight triangle does
+	int flippedFaces =
+		0; ///< logged where there are any; seen from the centre, against the orientation of the rest; also faces
+		   ///< that span more than a hemisphere, which no straight triangle does
 };
 
 /// Maps a mesh of one closed component of genus 0 conformally to the unit sphere.

@@ -16,7 +16,8 @@ void countCuts(const Seams& before, Parametrization& map);
 /// How parts of a divided chart are placed.
 struct PartPlacing
 {
-	bool turns = true;    ///< their smallest bounding rectangles along the axes; else in the directions they have
+	bool turns =
+		true; ///< their smallest bounding rectangles along the axes; else in the directions they have
 	bool reflects = true; ///< flipped triangles are cut off and reflected
 };
 

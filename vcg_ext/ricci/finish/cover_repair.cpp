@@ -91,8 +91,8 @@ private:
 		work -= size;
 		if (patch.whole.variables == 0)
 			return;
-		const int maxSteps = static_cast<int>(
-			std::clamp(work / size, std::int64_t(0), std::int64_t(std::numeric_limits<int>::max())));
+		const int maxSteps = static_cast<int>(std::clamp(
+			work / size, std::int64_t(0), std::int64_t(std::numeric_limits<int>::max())));
 		const Untangled found = untangle(
 			{patch.flat,
 			 patch.groups,
@@ -162,8 +162,7 @@ private:
 				return;
 			m_local[f] = static_cast<int>(patch.triangles.size());
 			patch.triangles.push_back(f);
-			patch.place.push_back(
-				placeAcross(side, patch.place[positionOf(m_local[side.face()])]));
+			patch.place.push_back(placeAcross(side, patch.place[positionOf(m_local[side.face()])]));
 		};
 		std::size_t first = 0;
 		for (int ring = 0; ring < rings; ++ring) {

@@ -15,7 +15,8 @@ namespace ricci {
 /// charts afterwards.
 /// \param rules cost is not asked
 /// \param boundaryMoves whether points of the surface's boundary may move
-Repair repairInCover(FlatMesh& flat, const RepairRules& rules, bool boundaryMoves, WorkLimit& limit);
+Repair
+repairInCover(FlatMesh& flat, const RepairRules& rules, bool boundaryMoves, WorkLimit& limit);
 
 } // namespace ricci
 

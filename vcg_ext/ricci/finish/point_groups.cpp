@@ -140,8 +140,7 @@ private:
 		const Complex a = place(one[0]), b = place(one[1]);
 		const Complex c = place(other[0]), d = place(other[1]);
 		const double first = std::abs(b - a), second = std::abs(d - c);
-		const double error =
-			rounding / std::max(std::min(first, second), rounding);
+		const double error = rounding / std::max(std::min(first, second), rounding);
 		if (!(std::abs(first - second) <= (kSeamMatch + error) * (first + second))) {
 			for (const int p : {one[0], one[1], other[0], other[1]})
 				m_points.fixed[p] = 1;
@@ -155,7 +154,7 @@ private:
 	}
 
 	const FlatMesh& m_flat;
-	PointGroups m_points;                               // each a group by itself
+	PointGroups m_points;                       // each a group by itself
 	std::vector<std::pair<int, Copy>> m_copies; // of points
 };
 

@@ -279,10 +279,7 @@ Repair repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rule
 }
 
 Repair repairInStages(
-	FlatMesh& flat,
-	const BoundaryRule& boundaryMoves,
-	const RepairRules& rules,
-	WorkLimit& limit)
+	FlatMesh& flat, const BoundaryRule& boundaryMoves, const RepairRules& rules, WorkLimit& limit)
 {
 	Repair result;
 	result.bad = result.left = static_cast<int>(badTriangles(flat, rules.validity).size());

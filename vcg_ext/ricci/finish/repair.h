@@ -82,10 +82,7 @@ repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rules, Work
 /// of seam vertices together, and the boundary where it is free; the boundary everywhere. Triangles of the
 /// surface that are far from their shapes afterwards are evened out with more of their neighbours.
 Repair repairInStages(
-	FlatMesh& flat,
-	const BoundaryRule& boundaryMoves,
-	const RepairRules& rules,
-	WorkLimit& limit);
+	FlatMesh& flat, const BoundaryRule& boundaryMoves, const RepairRules& rules, WorkLimit& limit);
 
 } // namespace ricci
 

@@ -210,9 +210,8 @@ void finish(const FlowDomain& domain, const Options& options, ComponentMap& map)
 	advance(1.0 - kAfterFlow, "Repairing the map");
 	const Finish finish = finishOf(options, map);
 	FlatMesh flat = flatMeshOf(domain.surface, map.layout);
-	const FinishCounts counts =
-		finishInPlane(
-			flat, map.cones, map.flow.target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
+	const FinishCounts counts = finishInPlane(
+		flat, map.cones, map.flow.target.hasFixed(), domain.onHole, finish, mayCutCharts(options));
 	map.report.finishMoved = counts.moved;
 	map.report.endedEarly += counts.endedEarly;
 	map.hasFreeSeams = finish == Finish::LeastStretch;

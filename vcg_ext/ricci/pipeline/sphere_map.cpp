@@ -230,10 +230,11 @@ void alignWith(
 }
 
 /// Distortion and orientation of the straight triangles.
+/// \throw NotConverged LostInRounding where most of the surface has no picture left
 void measure(const Component& c, const VertexArray<Point3>& sphere, SphereMap& map)
 {
 	std::vector<double> before, after;
-	double sum = 0.0, areaSum = 0.0;
+	double sum = 0.0, areaSum = 0.0, flippedArea = 0.0;
 	for (const Triangle& t : c.triangles) {
 		std::array<Point3, 3> own, image;
 		for (std::size_t k = 0; k < 3; ++k) {
@@ -242,8 +243,10 @@ void measure(const Component& c, const VertexArray<Point3>& sphere, SphereMap& m
 		}
 		const Vector a = vec(image[1]) - vec(image[0]), b = vec(image[2]) - vec(image[0]);
 		const Vector normal = a.cross(b);
-		map.flippedFaces += !(vec(image[0]).dot(normal) > 0.0);
+		const bool isFlipped = !(vec(image[0]).dot(normal) > 0.0);
+		map.flippedFaces += isFlipped;
 		before.push_back(triangleArea(own));
+		flippedArea += isFlipped ? before.back() : 0.0;
 		after.push_back(0.5 * normal.norm());
 		const double base = a.norm();
 		const double qc =
@@ -257,8 +260,26 @@ void measure(const Component& c, const VertexArray<Point3>& sphere, SphereMap& m
 		areaSum += before.back();
 		map.qcMax = std::max(map.qcMax, qc);
 	}
-	if (areaSum > 0.0)
-		map.qcAreaMean = sum / areaSum;
+	const double total = std::accumulate(before.begin(), before.end(), 0.0);
+	if (!(areaSum > 0.0) || 2.0 * flippedArea > total) {
+		double smallest = 1.0, largest = 1.0;
+		for (std::size_t f = 0; f < before.size(); ++f)
+			if (const double ratio = after[f] / before[f] * total / (4.0 * kPi); ratio > 0.0) {
+				smallest = std::min(smallest, ratio);
+				largest = std::max(largest, ratio);
+			}
+		throw NotConverged(
+			NotConverged::LostInRounding,
+			positionOf(map.flippedFaces),
+			0.5 * std::log10(largest / smallest));
+	}
+	map.qcAreaMean = sum / areaSum;
+	if (map.flippedFaces > 0)
+		logLine(
+			std::to_string(map.flippedFaces) +
+			(map.flippedFaces == 1 ? " face of the sphere is" : " faces of the sphere are") +
+			" flipped: parts of the surface become smaller there than straight faces, or doubles, "
+			"can draw.");
 	const AreaDistortion area = areaDistortion(before, after);
 	map.areaDistortionMean = area.mean;
 	map.areaDistortionSpread = area.spread;
