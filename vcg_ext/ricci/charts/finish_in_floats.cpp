@@ -76,8 +76,8 @@ class OverlapCount
 {
 public:
 	/// \param limits which no patch may leave, if there are any
-	OverlapCount(const FlatMesh& mesh, double touching, std::optional<Box2> limits) :
-			m_touching(touching), m_limits(std::move(limits)), m_inside(insidePoints(mesh).inside)
+	OverlapCount(const FlatMesh& mesh, double touching, const std::optional<Box2>& limits) :
+			m_touching(touching), m_limits(limits), m_inside(insidePoints(mesh).inside)
 	{
 	}
 
