@@ -296,5 +296,54 @@ TEST(Unfolded, WhereThereIsMemory)
 	}
 }
 
+/// A closed bar of octagonal section: rectangles with small chamfers, of random sizes along it.
+SurfaceMesh chamferedBar(int rings, Random& random)
+{
+	SurfaceMesh bar;
+	double along = 0.0;
+	for (int r = 0; r < rings; ++r) {
+		along += std::pow(10.0, random.real(-2.0, -0.5));
+		const double shift = random.real(-0.01, 0.01),
+					 chamfer = std::pow(10.0, random.real(-4.0, -3.0));
+		const double w = std::pow(10.0, random.real(-2.7, -1.8)),
+					 h = std::pow(10.0, random.real(-2.8, -2.0));
+		const double y[] = {chamfer - w, w - chamfer, w, w},
+					 z[] = {-h, -h, chamfer - h, h - chamfer};
+		for (const double side : {1.0, -1.0}) // the second half is the first turned by pi
+			for (std::size_t k = 0; k < 4; ++k)
+				bar.positions.push_back({along, shift + side * y[k], side * z[k]});
+	}
+	const int last = 8 * (rings - 1);
+	for (int r = 0; r < last; r += 8)
+		for (int k = 0; k < 8; ++k) {
+			const int a = r + k, b = r + (k + 1) % 8;
+			bar.triangles.push_back({a, b + 8, b});
+			bar.triangles.push_back({a, a + 8, b + 8});
+		}
+	for (int k = 1; k < 7; ++k) {
+		bar.triangles.push_back({0, k, k + 1});
+		bar.triangles.push_back({last, last + k + 1, last + k});
+	}
+	return bar;
+}
+
+/// A search that ends where areas are expected to change much looks elsewhere: no number that a caller could
+/// have asked for gives a map that costs a third.
+TEST(PlacedCones, AreNoneThatACallerWouldKnowToBePoor)
+{
+	Random random(11);
+	for (int i = 0; i < 60; ++i) {
+		const SurfaceMesh bar = chamferedBar(4, random);
+		Options options;
+		options.target = TargetCurvature::PlacedCones;
+		const double own = *parametrizeEuclidean(bar, {}, options).report.objective;
+		for (const double distortion : {0.15, 0.25, 0.5}) {
+			options.cones.distortion = distortion;
+			EXPECT_LE(own, 3.0 * *parametrizeEuclidean(bar, {}, options).report.objective)
+				<< i << " with " << distortion;
+		}
+	}
+}
+
 } // namespace
 } // namespace ricci::testing
