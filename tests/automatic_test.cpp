@@ -303,10 +303,10 @@ SurfaceMesh chamferedBar(int rings, Random& random)
 	double along = 0.0;
 	for (int r = 0; r < rings; ++r) {
 		along += std::pow(10.0, random.real(-2.0, -0.5));
-		const double shift = random.real(-0.01, 0.01),
-					 chamfer = std::pow(10.0, random.real(-4.0, -3.0));
-		const double w = std::pow(10.0, random.real(-2.7, -1.8)),
-					 h = std::pow(10.0, random.real(-2.8, -2.0));
+		const double shift = random.real(-0.015, 0.015);
+		const double w = std::pow(10.0, random.real(-2.8, -1.7));
+		const double h = std::pow(10.0, random.real(-3.0, -2.0));
+		const double chamfer = std::min(w, h) / random.real(6.0, 20.0);
 		const double y[] = {chamfer - w, w - chamfer, w, w},
 					 z[] = {-h, -h, chamfer - h, h - chamfer};
 		for (const double side : {1.0, -1.0}) // the second half is the first turned by pi
@@ -332,7 +332,7 @@ SurfaceMesh chamferedBar(int rings, Random& random)
 TEST(PlacedCones, AreNoneThatACallerWouldKnowToBePoor)
 {
 	Random random(11);
-	for (int i = 0; i < 60; ++i) {
+	for (int i = 0; i < 300; ++i) {
 		const SurfaceMesh bar = chamferedBar(4, random);
 		Options options;
 		options.target = TargetCurvature::PlacedCones;
