@@ -68,6 +68,28 @@ long double doubledAreaOf(const std::array<std::array<float, 2>, 3>& p)
 	return side(1, 0) * side(2, 1) - side(1, 1) * side(2, 0);
 }
 
+/// A map as floats.
+struct Stored
+{
+	UV uv; ///< [face of the mesh]
+	int flipped = 0;
+
+	explicit Stored(const FlatMesh& mesh) : uv(at(mesh.size()))
+	{
+		for (int f = 0; f < mesh.size(); ++f) {
+			std::array<std::array<float, 2>, 3> stored;
+			for (std::size_t k = 0; k < 3; ++k)
+				for (std::size_t i = 0; i < 2; ++i) {
+					stored[k][i] = static_cast<float>(mesh.at(f)[k][i]);
+					EXPECT_GE(stored[k][i], 0.0f);
+					EXPECT_LE(stored[k][i], 1.0f);
+					uv[at(mesh.face[f])][k][i] = static_cast<double>(stored[k][i]);
+				}
+			flipped += !(doubledAreaOf(stored) > 0.0L);
+		}
+	}
+};
+
 using Case = std::tuple<std::size_t, Finish>;
 
 class ValidMaps : public ::testing::TestWithParam<Case>
@@ -94,29 +116,18 @@ TEST_P(ValidMaps, HoldInFloats)
 		}
 		++maps;
 		ASSERT_EQ(at(map.mesh.size()), body.mesh.triangles.size());
-		UV uv(body.mesh.triangles.size());
-		int flipped = 0;
-		for (int f = 0; f < map.mesh.size(); ++f) {
-			std::array<std::array<float, 2>, 3> stored;
-			for (std::size_t k = 0; k < 3; ++k)
-				for (std::size_t i = 0; i < 2; ++i) {
-					stored[k][i] = static_cast<float>(map.mesh.at(f)[k][i]);
-					EXPECT_GE(stored[k][i], 0.0f);
-					EXPECT_LE(stored[k][i], 1.0f);
-					uv[at(map.mesh.face[f])][k][i] = static_cast<double>(stored[k][i]);
-				}
-			flipped += !(doubledAreaOf(stored) > 0.0L);
-		}
-		EXPECT_EQ(flipped, 0);
-		EXPECT_EQ(map.report.flippedFaces + map.report.flippedByRounding, flipped);
-		const CoveredTwice covered(body.mesh, uv, std::vector<char>(body.mesh.triangles.size(), 0));
+		const Stored stored(map.mesh);
+		EXPECT_EQ(stored.flipped, 0);
+		EXPECT_EQ(map.report.flippedFaces + map.report.flippedByRounding, stored.flipped);
+		const CoveredTwice covered(
+			body.mesh, stored.uv, std::vector<char>(body.mesh.triangles.size(), 0));
 		EXPECT_EQ(covered.betweenCharts, 0);
 		EXPECT_EQ(covered.withinCharts, 0);
 		EXPECT_EQ(map.report.overlappingFaces, 0);
 		if (options.finish == Finish::LeastStretch) // it leaves both sides free
 			continue;
 		EXPECT_EQ(map.report.unequalSeams, 0);
-		EXPECT_LT(FlatMap(body.mesh, uv).seamMismatch, 1e-3);
+		EXPECT_LT(FlatMap(body.mesh, stored.uv).seamMismatch, 1e-3);
 	}
 	EXPECT_GE(maps, 3);
 }
@@ -132,20 +143,11 @@ TEST(ValidDisks, HoldInFloats)
 				p = {p[0], height * p[1], height * p[2]};
 			const Parametrization map =
 				parametrizeHyperbolic(plate, VertexInput(), HyperbolicOptions());
-			UV uv(plate.triangles.size());
-			int flipped = 0;
-			for (int f = 0; f < map.mesh.size(); ++f) {
-				std::array<std::array<float, 2>, 3> stored;
-				for (std::size_t k = 0; k < 3; ++k)
-					for (std::size_t i = 0; i < 2; ++i) {
-						stored[k][i] = static_cast<float>(map.mesh.at(f)[k][i]);
-						uv[at(map.mesh.face[f])][k][i] = static_cast<double>(stored[k][i]);
-					}
-				flipped += !(doubledAreaOf(stored) > 0.0L);
-			}
-			EXPECT_EQ(map.report.flippedFaces + map.report.flippedByRounding, flipped);
-			EXPECT_EQ(flipped, 0);
-			const CoveredTwice covered(plate, uv, std::vector<char>(plate.triangles.size(), 0));
+			const Stored stored(map.mesh);
+			EXPECT_EQ(map.report.flippedFaces + map.report.flippedByRounding, stored.flipped);
+			EXPECT_EQ(stored.flipped, 0);
+			const CoveredTwice covered(
+				plate, stored.uv, std::vector<char>(plate.triangles.size(), 0));
 			EXPECT_EQ(covered.betweenCharts, 0);
 			EXPECT_EQ(covered.withinCharts, 0);
 			EXPECT_EQ(map.report.overlappingFaces, 0);

@@ -20,22 +20,6 @@ namespace ricci {
 
 namespace {
 
-Point2 moved(const ExtendedIsometry& g, const Point2& p)
-{
-	const auto z = static_cast<std::complex<double>>(g(asComplex(p)));
-	return {z.real(), z.imag()};
-}
-
-/// Moves the middle of the corners of some triangles to 0.
-ExtendedIsometry toMiddle(const FlatMesh& mesh, const std::vector<int>& triangles)
-{
-	DiskMean mean;
-	for (const int f : triangles)
-		for (const Point2& p : mesh.at(f))
-			mean.add(1.0, ExtendedIsometry::translationTo(asComplex(p)));
-	return mean.toZero();
-}
-
 /// Some triangles of a chart, and their Voronoi cells.
 struct Cells
 {

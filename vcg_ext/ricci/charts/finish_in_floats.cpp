@@ -208,8 +208,10 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 bool finishDisks(const DiskFinish& finish, Parametrization& map)
 {
 	int faults = countFaults(map);
+	if (faults == 0)
+		return false;
 	bool isChanged = false;
-	Parametrization asFound = map;
+	const Parametrization asFound = map;
 	for (const bool divides : {false, true}) {
 		Parametrization next = asFound;
 		if (faults == 0 || (divides && !divideDisks(next)))

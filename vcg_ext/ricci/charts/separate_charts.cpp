@@ -97,18 +97,15 @@ bool reflectFlipped(FlatMesh& chart)
 			(chart.chart[f] > 0 ? boxes[sets.find(chart.points[f][0])] : upright).add(p);
 	double right = upright.width() > 0.0 ? upright.max[0] : 0.0;
 	Array<double> axis(chart.place.size(), 0.0); // [set] doubled
-	Array<char> isReflected(chart.place.size(), 0);
-	for (const int f : chart.points.indices())
-		for (const int p : chart.points[f]) {
-			if (chart.chart[f] == 0 || std::exchange(isReflected[p], 1) != 0)
-				continue;
-			const int set = sets.find(p);
-			if (axis[set] == 0.0) {
-				axis[set] = right + boxes[set].max[0];
-				right += boxes[set].width();
-			}
-			chart.place[p][0] = axis[set] - chart.place[p][0];
+	for (const int p : chart.place.indices())
+		if (boxes[p].width() > 0.0) {
+			axis[p] = right + boxes[p].max[0];
+			right += boxes[p].width();
 		}
+	const Array<int> isReflected = chart.chartOfPoints();
+	for (const int p : chart.place.indices())
+		if (isReflected[p] > 0)
+			chart.place[p][0] = axis[sets.find(p)] - chart.place[p][0];
 	return true;
 }
 

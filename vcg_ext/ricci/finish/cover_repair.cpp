@@ -7,7 +7,6 @@
 #include "untangle.h"
 
 #include <algorithm>
-#include <complex>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -16,18 +15,11 @@ namespace ricci {
 
 namespace {
 
-using Complex = std::complex<double>;
-
 /// Rings of the patches, one size after another.
 constexpr int kRings[] = {1, 2, 3, 5};
 
 /// Ends of two sides are one point of the layout up to this share of the side.
 constexpr double kOnePoint = 1e-6;
-
-Point2 moved(const ExtendedIsometry& isometry, const Point2& p)
-{
-	return asPoint(Complex(isometry(asComplex(p))));
-}
 
 /// Takes the geodesic from \p a to \p b to that from \p c to \p d, of the same length.
 ExtendedIsometry taking(const Point2& a, const Point2& b, const Point2& c, const Point2& d)
@@ -151,11 +143,8 @@ private:
 	CoverPatch lay(int seed, int rings, bool atMiddle)
 	{
 		CoverPatch patch;
-		DiskMean mean;
-		for (const Point2& p : m_flat.at(seed))
-			mean.add(1.0, ExtendedIsometry::translationTo(asComplex(p)));
 		patch.triangles.push_back(seed);
-		patch.place.push_back(atMiddle ? mean.toZero() : ExtendedIsometry());
+		patch.place.push_back(atMiddle ? toMiddle(m_flat, {seed}) : ExtendedIsometry());
 		m_local[seed] = 0;
 		const auto add = [&](int f, Corner side) { // across the side
 			if (m_local[f] >= 0)

@@ -8,7 +8,6 @@
 #include "patch_energy.h"
 
 #include <cmath>
-#include <numeric>
 
 namespace ricci {
 

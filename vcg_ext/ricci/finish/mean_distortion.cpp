@@ -193,13 +193,17 @@ MeanDistortion::MeanDistortion(
 		m_energy(flat.points.size(), 0.0), m_stiffness(flat.points.size(), 0.0),
 		m_pull(flat.points.size())
 {
-	setShapes(flat, countsFlipped);
-	for (const int f : m_corners.indices()) {
+	Array<int> side(flat.points.size()); // 0: it does not count
+	for (const int f : side.indices()) {
+		side[f] = orientation(flat.at(f));
+		if (side[f] < 0 && !countsFlipped)
+			side[f] = 0;
 		for (std::size_t k = 0; k < 3; ++k)
 			m_corners[f][k] = m_points.number[flat.points[f][k]];
-		if (orientation(flat.at(f)) < 0)
+		if (side[f] < 0)
 			std::swap(m_corners[f][1], m_corners[f][2]);
 	}
+	setShapes(flat, side);
 	m_cornersOf = Adjacency<int, Corner>(m_points.moving, [&](const auto& add) {
 		for (int c = 0; c < 3 * m_corners.size(); ++c)
 			if (const int p = m_corners[Corner(c)]; p < m_points.moving)
@@ -207,14 +211,13 @@ MeanDistortion::MeanDistortion(
 	});
 }
 
-void MeanDistortion::setShapes(const FlatMesh& flat, bool countsFlipped)
+void MeanDistortion::setShapes(const FlatMesh& flat, const Array<int>& side)
 {
 	Array<double> area(flat.points.size(), 0.0), ring(flat.vertexCount(), 0.0);
 	double total = 0.0;
 	for (const int f : area.indices()) {
 		Triangle2 corners = flat.at(f);
-		const int side = orientation(corners);
-		if (side < 0)
+		if (side[f] < 0)
 			std::swap(corners[1], corners[2]);
 		PlacedTriangle placed(flat.lengths[f]);
 		if (placed.hasShape()) {
@@ -222,7 +225,7 @@ void MeanDistortion::setShapes(const FlatMesh& flat, bool countsFlipped)
 			total += area[f];
 			for (const int v : flat.vertices[f])
 				ring[v] += area[f];
-			if (side < 0)
+			if (side[f] < 0)
 				placed = placed.reflected();
 		}
 		else
@@ -233,8 +236,7 @@ void MeanDistortion::setShapes(const FlatMesh& flat, bool countsFlipped)
 	const auto vertices = static_cast<double>(
 		std::count_if(ring.begin(), ring.end(), [](double a) { return a > 0.0; }));
 	for (const int f : area.indices()) {
-		const int side = orientation(flat.at(f));
-		if (side == 0 || (side < 0 && !countsFlipped))
+		if (side[f] == 0)
 			continue;
 		double& weight = m_shape[f].weight = kFacePart / size();
 		if (!(area[f] > 0.0))

@@ -93,7 +93,7 @@ private:
 		double weight;
 	};
 
-	void setShapes(const FlatMesh& flat, bool countsFlipped);
+	void setShapes(const FlatMesh& flat, const Array<int>& side);
 	void evaluate(int triangle, const Eigen::VectorXcd& position);
 	Complex pull(int point) const;
 

@@ -71,7 +71,7 @@ struct RepairRules
 
 /// Mends the triangles that are not valid: moves points near them, and no others.
 ///
-/// Patches of 1, 2, 3 and 5 rings round clusters of bad triangles are untangled
+/// Patches of 1, 2, 3, 5, 8, ... rings round clusters of bad triangles are untangled
 /// (untangle.h) until one holds, or until the limit's share of a stage is spent; triangles that no patch
 /// mends stay as they are. Patches of one size move no triangle of each other, so they are solved side by
 /// side, and the result does not depend on the number of threads.

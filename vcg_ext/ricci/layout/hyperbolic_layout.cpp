@@ -143,6 +143,15 @@ ExtendedIsometry DiskMean::toZero() const
 	return ExtendedIsometry::translationTo(m_x / (m_x0 + sqrt((m_x0 - r) * (m_x0 + r)))).inverse();
 }
 
+ExtendedIsometry toMiddle(const FlatMesh& mesh, const std::vector<int>& triangles)
+{
+	DiskMean mean;
+	for (const int f : triangles)
+		for (const Point2& p : mesh.at(f))
+			mean.add(1.0, ExtendedIsometry::translationTo(asComplex(p)));
+	return mean.toZero();
+}
+
 HyperbolicLayout layOutInDisk(
 	const Triangulation& t,
 	const EdgeArray<double>& lengths,

@@ -4,9 +4,11 @@
 
 #include "../math/disk_isometry.h"
 #include "../surface/triangulation.h"
+#include "flat_mesh.h"
 
 #include <complex>
 #include <limits>
+#include <vector>
 
 namespace ricci {
 
@@ -106,6 +108,15 @@ private:
 	DoubleDouble m_x0; // of the mean, up to the sum of the weights
 	ExtendedComplex m_x;
 };
+
+/// The image of a point of the disk.
+inline Point2 moved(const ExtendedIsometry& isometry, const Point2& p)
+{
+	return asPoint(std::complex<double>(isometry(asComplex(p))));
+}
+
+/// Moves the middle of the corners of some triangles in the disk to 0.
+ExtendedIsometry toMiddle(const FlatMesh& mesh, const std::vector<int>& triangles);
 
 /// +1 if the geodesic triangle of the three points of the disk is counter-clockwise, -1 if it is
 /// clockwise, 0 if rounding cannot tell.

@@ -32,12 +32,6 @@ void requireChoice(const char* name, Choice value, Choice last)
 		throw InvalidOption(name, number, count);
 }
 
-void requireLength(const char* name, std::size_t length, std::size_t vertices)
-{
-	if (length != 0 && length != vertices)
-		throw InvalidMesh(name, length, vertices);
-}
-
 void checkFlowOptions(const FlowOptions& options)
 {
 	requireChoice("method", options.method, Method::Thurston);

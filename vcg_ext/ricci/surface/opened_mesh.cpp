@@ -39,10 +39,6 @@ void checkElements(const SurfaceMesh& mesh)
 		const std::size_t vertices = mesh.positions.size() - mesh.absent;
 		throw InvalidMesh(vertices == 0 ? InvalidMesh::Empty : InvalidMesh::NoFaces, vertices);
 	}
-	const auto requireLength = [](const char* name, std::size_t length, std::size_t wanted) {
-		if (length != 0 && length != wanted)
-			throw InvalidMesh(name, length, wanted);
-	};
 	requireLength("diagonal", mesh.diagonal.size(), mesh.triangles.size());
 	requireLength("seam", mesh.seam.size(), mesh.triangles.size());
 	const auto vertices = static_cast<int>(mesh.positions.size());
@@ -490,6 +486,12 @@ void describe(const OpenedMesh& opened, const SurfaceMesh& mesh, std::vector<std
 }
 
 } // namespace
+
+void requireLength(const char* array, std::size_t length, std::size_t wanted)
+{
+	if (length != 0 && length != wanted)
+		throw InvalidMesh(array, length, wanted);
+}
 
 OpenedMesh openMesh(const SurfaceMesh& mesh, std::vector<std::string>& notes)
 {
