@@ -356,7 +356,51 @@ TEST(AnyTriangles, PrescribedCurvatureBesideFacesWithoutArea)
 	}
 }
 
-/// A fin is a disk of its own, which the hyperbolic filter refuses by its number.
+/// The body with handles fills the disk as it would alone; a fin on it, a loose sphere and a torus lie beside it.
+TEST(AnyTriangles, PiecesWithoutAHyperbolicMetricLieBesideTheDisk)
+{
+	SurfaceMesh body = perforatedSlab(2, 1);
+	const auto faces = static_cast<int>(body.triangles.size());
+	const HyperbolicOptions options;
+	const Parametrization alone = parametrizeHyperbolic(body, {}, options);
+	const Triangle first = body.triangles[0];
+	body.positions.push_back({9, 9, 9});
+	body.triangles.push_back({first[0], first[1], static_cast<int>(body.positions.size()) - 1});
+	const SurfaceMesh mesh =
+		sideBySide(sideBySide(body, tetrahedron(), 20.0), torus(2.0, 1.0, 8, 6), 40.0);
+	for (const OutputTriangulation output :
+		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
+		HyperbolicOptions asked = options;
+		asked.output = output;
+		const Parametrization map = parametrizeHyperbolic(mesh, {}, asked);
+		const Report& report = map.report;
+		EXPECT_EQ(report.components, 4);
+		EXPECT_EQ(report.leftOutComponents, 3);
+		EXPECT_EQ(report.eulerCharacteristic, -2 + 1 + 2 + 0);
+		EXPECT_NEAR(*report.hyperbolicArea, 4.0 * kPi, 1e-9);
+		EXPECT_LE(*report.relationError, 1e-9);
+		EXPECT_EQ(report.flippedFaces + report.flippedByRounding, 0);
+		EXPECT_EQ(report.overlappingFaces + report.unequalSeams, 0);
+		EXPECT_EQ(report.charts, 2);
+		ASSERT_EQ(map.charts.size(), 2u);
+		for (const int f : map.mesh.face.indices())
+			EXPECT_EQ(map.mesh.chart[f], map.mesh.face[f] < faces ? 0 : 1);
+		EXPECT_EQ(
+			std::count_if(
+				map.notes.begin(),
+				map.notes.end(),
+				[&](const std::string& note) {
+					return note.find("3 components have no hyperbolic metric") == 0 &&
+						   note.find("with face " + std::to_string(faces + 5) + ", has 96 faces") !=
+							   std::string::npos;
+				}),
+			1);
+		for (int f = 0; f < faces && output == OutputTriangulation::KeepMesh; ++f)
+			for (int k = 0; k < 3; ++k) // its disk has a quarter of the square
+				EXPECT_LT(distance(map.mesh.at(f)[at(k)], 0.5 * alone.mesh.at(f)[at(k)]), 1e-12);
+	}
+}
+
 TEST(AnyTriangles, RefusalsNameTheComponentInTheInputsNumbers)
 {
 	SurfaceMesh mesh = perforatedSlab(2, 1);
@@ -367,10 +411,13 @@ TEST(AnyTriangles, RefusalsNameTheComponentInTheInputsNumbers)
 	mesh.triangles.push_back({first[0], first[1], static_cast<int>(mesh.positions.size()) - 1});
 	DoubleMesh m;
 	toVcg(mesh, m);
-	const auto fin = refusalOf<InadmissibleCurvature>([&] { Flow::ComputeHyperbolic(m, {}); });
-	EXPECT_EQ(fin.problem, InadmissibleCurvature::HyperbolicSurface);
-	EXPECT_EQ(fin.componentFace, static_cast<int>(faces) + 1);
-	EXPECT_EQ(fin.componentFaces, 1u);
+	// No component has a hyperbolic metric: the largest is named.
+	const SurfaceMesh spheres = sideBySide(tetrahedron(), torus(2.0, 1.0, 8, 6), 9.0);
+	const auto flat = refusalOf<InadmissibleCurvature>(
+		[&] { parametrizeHyperbolic(spheres, {}, HyperbolicOptions()); });
+	EXPECT_EQ(flat.problem, InadmissibleCurvature::HyperbolicSurface);
+	EXPECT_EQ(flat.componentFace, 4);
+	EXPECT_EQ(flat.componentFaces, 96u);
 	Options disk;
 	disk.target = TargetCurvature::Disk;
 	const auto slab = refusalOf<InvalidOption>([&] { Flow::Compute(m, disk); });

@@ -589,7 +589,8 @@ Outcome applyHyperbolic(const RichParameterList& par, MeshDocument& md, ricci::P
 		return Flow::ComputeHyperbolic(run.model.cm, settings.flow, run.seams);
 	}();
 	Results results = toResults(result.report);
-	if (result.report.components == 1 && result.charts.front().group.isCanonical())
+	if (result.report.components - result.report.leftOutComponents == 1 &&
+		result.charts.front().group.isCanonical())
 		addGenerators(result.charts.front().group, results);
 	return run.end(Hyperbolic, par, settings.flow.output, result, results, [&](NewLayers& layers) {
 		if (settings.flatLayer)

@@ -138,6 +138,8 @@ Results toResults(const ricci::Report& report)
 	}
 	addIfPresent(results, "period_error", report.periodError);
 	addIfPresent(results, "hyperbolic_area", report.hyperbolicArea);
+	if (report.hyperbolicArea)
+		results.emplace_back("left_out_components", report.leftOutComponents);
 	addIfPresent(results, "relation_error", report.relationError);
 	return results;
 }
@@ -207,6 +209,7 @@ std::string resultLabel(const std::string& key)
 		{"sphere_area_distortion_mean", "Sphere: distortion of areas, mean factor"},
 		{"sphere_flipped_faces", "Sphere: faces flipped"},
 		{"hyperbolic_area", "Hyperbolic area"},
+		{"left_out_components", "Components without a hyperbolic metric, beside the disk"},
 		{"relation_error", "How far the layout is from closing up"},
 		{"generators", "Generators of the Fuchsian group"},
 		{"generators_low", "The same, what a float cannot hold of them"},

@@ -94,7 +94,8 @@ class Readme(unittest.TestCase):
                     **common.TEXTURE, **common.SPHERE}
         self.assertEqual(euclidean, {key: kind.__name__ for key, kind in expected.items()})
         self.assertEqual(
-            hyperbolic, {"hyperbolic_area": "float", "relation_error": "float", "generators": "vector",
+            hyperbolic, {"hyperbolic_area": "float", "left_out_components": "int",
+                         "relation_error": "float", "generators": "vector",
                          "generators_low": "vector", "generators_error": "float"})
 
     def test_messages(self):

@@ -92,6 +92,9 @@ struct Report
 	int genus = 0;
 	int boundaryLoops = 0;
 	int components = 0;
+	/// Hyperbolic flow: components without a hyperbolic metric, which lie beside the disks, in the plane's metric.
+	/// Areas and distortion are those of the others.
+	int leftOutComponents = 0;
 	int cones = 0;           ///< vertices inside that are not flat
 	int seamEdges = 0;       ///< edges of the input along which the layout is cut, but for those
 							 ///< that SurfaceMesh::seam asks for

@@ -388,6 +388,9 @@ class Uniformization(Parametrization):
     """of the sphere layer, if it was asked for"""
     hyperbolic_area: float
     """computed from the side lengths alone, so it is an independent check of Gauss-Bonnet"""
+    left_out_components: int
+    """components without a hyperbolic metric, which lie beside the disk; areas and distortion
+    are those of the others"""
     relation_error: float
     """how far the layout is from closing up: the largest angle (radians) or hyperbolic length
     by which the isometries between neighbouring copies miss a vertex of the seam on the way

@@ -10,8 +10,10 @@
 #include "../measure/distortion.h"
 #include "../verify/overlap_check.h"
 #include "flatten.h"
+#include "left_out.h"
 #include "whole_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -22,6 +24,9 @@ namespace {
 
 /// Share of the progress after which the charts are found.
 constexpr double kMapped = 0.95;
+
+/// Between charts that lie beside a disk: two pixels of a texture of a thousand.
+constexpr double kMarginBeside = 0.002;
 
 /// \param last of the choices
 template<class Choice>
@@ -52,38 +57,42 @@ void extendToCopies(const OpenedMesh& opened, std::vector<T>& values)
 		values.push_back(values[positionOf(opened.vertex[v])]);
 }
 
-/// Maps every component, and measures the whole.
-/// \param flatten flatten(component, input) to a Parametrization
-template<class AnyOptions, class Flatten, class Measure>
-Parametrization mapComponents(
+/// Opens and checks the mesh.
+/// \param values of the vertices of the opened mesh
+template<class AnyOptions>
+std::vector<Component> open(
 	const SurfaceMesh& mesh,
-	const VertexInput& input,
 	const AnyOptions& options,
-	const Flatten& flatten,
-	const Measure& measure,
-	OpenedMesh& opened)
+	VertexInput& values,
+	OpenedMesh& opened,
+	Parametrization& map)
 {
 	checkOptions(options);
-	requireLength("selected", input.selected.size(), mesh.positions.size());
-	requireLength("targetCurvature", input.targetCurvature.size(), mesh.positions.size());
-	const Task part(0.0, kMapped);
+	requireLength("selected", values.selected.size(), mesh.positions.size());
+	requireLength("targetCurvature", values.targetCurvature.size(), mesh.positions.size());
 	advance(0.0, "Checking the mesh");
-	Parametrization map;
-	const std::vector<Component> components = startMap(mesh, options, opened, map);
-	VertexInput ofCopies = input;
-	extendToCopies(opened, ofCopies.selected);
-	extendToCopies(opened, ofCopies.targetCurvature);
-	appendComponents(
-		opened,
-		components,
-		[&](const Component& component) { return flatten(component, ofCopies); },
-		map);
+	std::vector<Component> components = startMap(mesh, options, opened, map);
+	extendToCopies(opened, values.selected);
+	extendToCopies(opened, values.targetCurvature);
+	return components;
+}
+
+/// Maps every component, and measures the whole.
+/// \param flatten flatten(component) to a Parametrization
+template<class Flatten, class Measure>
+void mapComponents(
+	const OpenedMesh& opened,
+	const std::vector<Component>& components,
+	const Flatten& flatten,
+	const Measure& measure,
+	Parametrization& map)
+{
+	appendComponents(opened, components, flatten, map);
 	map.report.converged = true;
 	map.report.charts = static_cast<int>(map.charts.size());
 	advance(kComponentsDone, "Measuring the distortion");
 	measure(opened, map);
 	advance(1.0, "Layout done");
-	return map;
 }
 
 /// Whether Automatic may unfold a component: nothing but the default has been asked for that a flow of the
@@ -169,6 +178,71 @@ void note(std::string sentence, Parametrization& map)
 {
 	map.notes.push_back(std::move(sentence));
 	logLine(map.notes.back());
+}
+
+/// Maps the components that have no hyperbolic metric to the unit square, and says so.
+Parametrization mapBeside(
+	const OpenedMesh& opened,
+	const std::vector<Component>& components,
+	const FlowOptions& options,
+	Parametrization& map)
+{
+	Options inPlane;
+	inPlane.epsilon = options.epsilon;
+	inPlane.finish = options.finish;
+	inPlane.chartMargin = kMarginBeside;
+	Parametrization leftOut;
+	leftOut.u.resize(map.u.size());
+	leftOut.targetCurvature.resize(map.u.size());
+	appendComponents(
+		opened,
+		components,
+		[&](const Component& component) { return mapToPlane(component, {}, inPlane); },
+		leftOut);
+	packCharts(leftOut, inPlane, chartTurns(inPlane));
+	const auto& largest = *std::max_element(
+		components.begin(), components.end(), [](const Component& a, const Component& b) {
+			return a.face.size() < b.face.size();
+		});
+	const std::size_t count = components.size();
+	note(
+		std::to_string(count) + (count == 1 ? " component has" : " components have") +
+			" no hyperbolic metric with this target, and lie in a square beside the disk: the "
+			"largest, with face " +
+			std::to_string(opened.face[positionOf(largest.face.front())]) + ", has " +
+			std::to_string(largest.face.size()) + " faces.",
+		map);
+	return leftOut;
+}
+
+/// The charts of parametrizeHyperbolic() before they are placed, each in the unit disk.
+/// \param leftOut receives the map of the components that have no hyperbolic metric
+Parametrization chartsInDisk(
+	const SurfaceMesh& mesh,
+	const VertexInput& input,
+	const HyperbolicOptions& options,
+	OpenedMesh& opened,
+	Parametrization& leftOut)
+{
+	const Task part(0.0, kMapped);
+	Parametrization map;
+	VertexInput values = input;
+	std::vector<Component> components = open(mesh, options, values, opened, map);
+	const std::vector<Component> flat = leaveOut(opened, values, options, components);
+	const double share = static_cast<double>(faceCount(components)) /
+						 static_cast<double>(opened.mesh.triangles.size());
+	{
+		const Task ofDisks(0.0, share);
+		const auto flatten = [&](const Component& component) {
+			return asParametrization(component, flattenToDisk(component, values, options));
+		};
+		mapComponents(opened, components, flatten, measureInDisk, map);
+	}
+	if (!flat.empty()) {
+		const Task beside(share, 1.0, true);
+		leftOut = mapBeside(opened, flat, options, map);
+	}
+	return map;
 }
 
 /// Says what the finish could not mend.
@@ -271,22 +345,15 @@ ChartTurns chartTurns(const Options& options)
 Parametrization chartsInPlane(
 	const SurfaceMesh& mesh, const VertexInput& input, const Options& options, OpenedMesh& opened)
 {
-	const auto flatten = [&](const Component& component, const VertexInput& ofCopies) {
-		return mapToPlane(component, ofCopies, options);
+	const Task part(0.0, kMapped);
+	Parametrization map;
+	VertexInput values = input;
+	const std::vector<Component> components = open(mesh, options, values, opened, map);
+	const auto flatten = [&](const Component& component) {
+		return mapToPlane(component, values, options);
 	};
-	return mapComponents(mesh, input, options, flatten, measure, opened);
-}
-
-Parametrization chartsInDisk(
-	const SurfaceMesh& mesh,
-	const VertexInput& input,
-	const HyperbolicOptions& options,
-	OpenedMesh& opened)
-{
-	const auto flatten = [&](const Component& component, const VertexInput& ofCopies) {
-		return asParametrization(component, flattenToDisk(component, ofCopies, options));
-	};
-	return mapComponents(mesh, input, options, flatten, measureInDisk, opened);
+	mapComponents(opened, components, flatten, measure, map);
+	return map;
 }
 
 Parametrization
@@ -303,11 +370,14 @@ Parametrization parametrizeHyperbolic(
 	const SurfaceMesh& mesh, const VertexInput& input, const HyperbolicOptions& options)
 {
 	OpenedMesh opened;
-	Parametrization map = chartsInDisk(mesh, input, options, opened);
+	Parametrization leftOut;
+	Parametrization map = chartsInDisk(mesh, input, options, opened, leftOut);
 	advance(kMapped, "Finishing the coordinates");
 	const bool isRefined = options.output == OutputTriangulation::CommonRefinement;
 	if (isFinished(options) && finishDisks({options.freeBoundary, isRefined}, map))
 		measureInDisk(opened, map);
+	if (!leftOut.charts.empty())
+		addBeside(std::move(leftOut), map);
 	placeDisks(map);
 	const int flipped = map.report.flippedFaces; // of geodesic triangles
 	countFlipped(map.mesh, map.report);

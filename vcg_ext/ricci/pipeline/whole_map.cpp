@@ -179,6 +179,22 @@ void append(const Component& component, Parametrization part, Parametrization& w
 	whole.report += part.report;
 }
 
+std::size_t faceCount(const std::vector<Component>& components)
+{
+	std::size_t count = 0;
+	for (const Component& component : components)
+		count += component.triangles.size();
+	return count;
+}
+
+void nameComponent(const OpenedMesh& opened, const Component& component, Error& error)
+{
+	if (component.triangles.size() == opened.mesh.triangles.size())
+		return;
+	error.componentFace = opened.face[positionOf(component.face.front())];
+	error.componentFaces = component.triangles.size();
+}
+
 void appendComponents(
 	const OpenedMesh& opened,
 	const std::vector<Component>& components,
@@ -193,7 +209,7 @@ void appendComponents(
 		std::atomic<bool> isDone{false};
 	};
 	const auto count = static_cast<int>(components.size());
-	const std::size_t faces = opened.mesh.triangles.size();
+	const std::size_t faces = faceCount(components);
 	const std::vector<char> isSilent = silentComponents(components);
 	std::vector<Mapped> mapped(components.size());
 	const auto caller = std::this_thread::get_id();
@@ -234,10 +250,7 @@ void appendComponents(
 			throw; // not the component's fault
 		}
 		catch (Error& error) {
-			if (count > 1) {
-				error.componentFace = opened.face[positionOf(component.face.front())];
-				error.componentFaces = component.triangles.size();
-			}
+			nameComponent(opened, component, error);
 			own.error = std::current_exception();
 			for (int first = firstFailed;
 				 i < first && !firstFailed.compare_exchange_weak(first, i);) {

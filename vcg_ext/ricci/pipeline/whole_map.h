@@ -5,6 +5,7 @@
 
 #include "../charts/outline_packing.h"
 #include "../charts/parametrization.h"
+#include "../error.h"
 #include "../flow/target.h"
 #include "../options.h"
 #include "../parametrize.h"
@@ -22,13 +23,6 @@ namespace ricci {
 /// \param opened receives it
 Parametrization chartsInPlane(
 	const SurfaceMesh& mesh, const VertexInput& input, const Options& options, OpenedMesh& opened);
-
-/// The charts of parametrizeHyperbolic() before they are placed, each in the unit disk.
-Parametrization chartsInDisk(
-	const SurfaceMesh& mesh,
-	const VertexInput& input,
-	const HyperbolicOptions& options,
-	OpenedMesh& opened);
 
 /// Free; but a rectangle stays upright, and quarter turns across seams stay quarter turns.
 ChartTurns chartTurns(const Options& options);
@@ -53,6 +47,12 @@ void append(const Component& component, Parametrization part, Parametrization& w
 
 /// Share of the progress after which all components are mapped.
 constexpr double kComponentsDone = 0.9;
+
+/// Of all of them together.
+std::size_t faceCount(const std::vector<Component>& components);
+
+/// Gives an error the data of the component that it is of, where there are several.
+void nameComponent(const OpenedMesh& opened, const Component& component, Error& error);
 
 /// Appends what \p flatten makes of each component, several of them at the same time in threads. The log has
 /// their lines in the order of the components. Of several errors that of the first component is thrown; where

@@ -156,8 +156,8 @@ public:
 		const auto klein = [](std::complex<double> z) { return 2.0 * z / (1.0 + std::norm(z)); };
 		std::vector<ricci::CanonicalPolygon> polygons;
 		for (const ricci::Chart& chart : r.charts) {
-			if (chart.middle >= 0)
-				continue; // a part of another's disk
+			if (chart.middle >= 0 || chart.group.sides.empty())
+				continue; // a part of another's disk, or no sides to pair
 			ricci::checkpoint();
 			polygons.push_back(ricci::canonicalPolygon(chart.group));
 			const std::vector<std::complex<double>>& corners = polygons.back().corners;
