@@ -175,6 +175,31 @@ TEST(AnyTriangles, AFlatKleinBottleIsAnAnnulusOfKnownModulus)
 	}
 }
 
+/// In the disk, a one-sided surface is cut clear of its boundary, which keeps the Euler characteristic and so the area.
+TEST(AnyTriangles, PuncturedKleinBottlesKeepTheirHyperbolicArea)
+{
+	const int nu = 20, nv = 12;
+	const SurfaceMesh bottle = kleinBottle(nu, nv, [&](int i, int j) {
+		const double u = 2 * kPi * i / nu, v = 2 * kPi * j / nv;
+		return Point3{
+			(2.0 + std::cos(v)) * std::cos(u),
+			(2.0 + std::cos(v)) * std::sin(u),
+			std::sin(v) * std::cos(0.5 * u)};
+	});
+	std::vector<int> stars;
+	for (const int star : {4 * nv + 6, 9 * nv, 14 * nv + 3, 17 * nv + 9}) {
+		stars.push_back(star);
+		const auto punctures = static_cast<int>(stars.size());
+		const Parametrization map =
+			parametrizeHyperbolic(withoutStars(bottle, stars), {}, HyperbolicOptions());
+		EXPECT_EQ(map.report.oneSidedComponents, 1);
+		EXPECT_EQ(map.report.eulerCharacteristic, -punctures);
+		EXPECT_NEAR(*map.report.hyperbolicArea, 2.0 * kPi * punctures, 1e-9);
+		EXPECT_EQ(map.report.flippedFaces + map.report.flippedByRounding, 0);
+		EXPECT_EQ(map.report.overlappingFaces + map.report.unequalSeams, 0);
+	}
+}
+
 /// Faces of equal vertices are sheets of their own: each is drawn like the mesh alone, one with the
 /// opposite order as its mirror image.
 TEST(AnyTriangles, ADoubledMeshIsDrawnTwice)

@@ -63,6 +63,7 @@ template<class AnyOptions>
 std::vector<Component> open(
 	const SurfaceMesh& mesh,
 	const AnyOptions& options,
+	OneSidedCut cut,
 	VertexInput& values,
 	OpenedMesh& opened,
 	Parametrization& map)
@@ -71,7 +72,7 @@ std::vector<Component> open(
 	requireLength("selected", values.selected.size(), mesh.positions.size());
 	requireLength("targetCurvature", values.targetCurvature.size(), mesh.positions.size());
 	advance(0.0, "Checking the mesh");
-	std::vector<Component> components = startMap(mesh, options, opened, map);
+	std::vector<Component> components = startMap(mesh, options, cut, opened, map);
 	extendToCopies(opened, values.selected);
 	extendToCopies(opened, values.targetCurvature);
 	return components;
@@ -227,7 +228,8 @@ Parametrization chartsInDisk(
 	const Task part(0.0, kMapped);
 	Parametrization map;
 	VertexInput values = input;
-	std::vector<Component> components = open(mesh, options, values, opened, map);
+	std::vector<Component> components =
+		open(mesh, options, OneSidedCut::ClearOfBoundary, values, opened, map);
 	const std::vector<Component> flat = leaveOut(opened, values, options, components);
 	const double share = static_cast<double>(faceCount(components)) /
 						 static_cast<double>(opened.mesh.triangles.size());
@@ -348,7 +350,8 @@ Parametrization chartsInPlane(
 	const Task part(0.0, kMapped);
 	Parametrization map;
 	VertexInput values = input;
-	const std::vector<Component> components = open(mesh, options, values, opened, map);
+	const std::vector<Component> components =
+		open(mesh, options, OneSidedCut::Shortest, values, opened, map);
 	const auto flatten = [&](const Component& component) {
 		return mapToPlane(component, values, options);
 	};

@@ -75,9 +75,13 @@ void complete(const ComponentMap& map, Report& report)
 } // namespace
 
 std::vector<Component> startMap(
-	const SurfaceMesh& mesh, const FlowOptions& options, OpenedMesh& opened, Parametrization& map)
+	const SurfaceMesh& mesh,
+	const FlowOptions& options,
+	OneSidedCut cut,
+	OpenedMesh& opened,
+	Parametrization& map)
 {
-	opened = openMesh(mesh, map.notes);
+	opened = openMesh(mesh, map.notes, cut);
 	std::vector<Component> components = splitIntoComponents(opened);
 	if (options.method != Method::IntrinsicFlips)
 		requireAreaEverywhere(components);

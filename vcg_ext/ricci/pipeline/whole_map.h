@@ -31,7 +31,11 @@ ChartTurns chartTurns(const Options& options);
 /// ready for its components: its arrays have their sizes, and its mesh the vertices of the opened one.
 /// \throw InvalidMesh, TooLarge
 std::vector<Component> startMap(
-	const SurfaceMesh& mesh, const FlowOptions& options, OpenedMesh& opened, Parametrization& map);
+	const SurfaceMesh& mesh,
+	const FlowOptions& options,
+	OneSidedCut cut,
+	OpenedMesh& opened,
+	Parametrization& map);
 
 /// A component's map as one chart, in the component's indices.
 Parametrization asParametrization(const Component& component, ComponentMap map);

@@ -197,10 +197,13 @@ struct Link
 
 /// The graph of the edges, in which a loop is one-sided if the parities of its edges add up to an odd
 /// number.
+/// \param length length(side)
+template<class Length>
 Adjacency<int, Link> orientationGraph(
-	const Array<Point3>& positions,
+	int vertexCount,
 	const Array<Triangle>& triangles,
-	const CornerArray<Corner>& glued)
+	const CornerArray<Corner>& glued,
+	const Length& length)
 {
 	// Round a vertex the corners of its triangles agree on an orientation.
 	ParitySets corners(glued.size());
@@ -212,16 +215,15 @@ Adjacency<int, Link> orientationGraph(
 		corners.merge(s.number(), (sameWay ? t : t.next()).number(), sameWay);
 		corners.merge(s.next().number(), (sameWay ? t.next() : t).number(), sameWay);
 	}
-	return Adjacency<int, Link>(positions.size(), [&](const auto& add) {
+	return Adjacency<int, Link>(vertexCount, [&](const auto& add) {
 		for (const Corner s : glued.indices()) {
 			if (glued[s].isValid() && glued[s] < s)
 				continue;
 			const int a = triangles[s], b = triangles[s.next()];
 			const auto parity =
 				static_cast<char>(corners.parity(s.number()) ^ corners.parity(s.next().number()));
-			const double length = distance(positions[a], positions[b]);
-			add(a, Link{b, s, parity, length});
-			add(b, Link{a, s, parity, length});
+			add(a, Link{b, s, parity, length(s)});
+			add(b, Link{a, s, parity, length(s)});
 		}
 	});
 }
@@ -397,17 +399,32 @@ void cutOneSided(
 	const Array<Point3>& positions,
 	const Array<Triangle>& triangles,
 	const FacePartition& partition,
-	bool everywhere,
+	OneSidedCut cut,
 	CornerArray<Corner>& glued)
 {
-	if (everywhere) {
+	if (cut == OneSidedCut::Everywhere) {
 		for (const Corner s : partition.contradicted)
 			unglue(s, glued);
 		return;
 	}
+	const auto inSpace = [&](Corner s) {
+		return distance(positions[triangles[s]], positions[triangles[s.next()]]);
+	};
+	Array<double> price(positions.size(), 0.0); // half that of passing a vertex
+	if (cut == OneSidedCut::ClearOfBoundary) {
+		double all = 0.0;
+		for (const Corner s : glued.indices())
+			all += inSpace(s);
+		for (const Corner s : glued.indices())
+			if (!glued[s].isValid())
+				price[triangles[s]] = price[triangles[s.next()]] = all;
+	}
+	const auto length = [&](Corner s) {
+		return inSpace(s) + price[triangles[s]] + price[triangles[s.next()]];
+	};
 	const auto add = [&](Corner s, EdgeSet& set) {
 		set.sides.push_back(s);
-		set.length += distance(positions[triangles[s]], positions[triangles[s.next()]]);
+		set.length += length(s);
 	};
 	const auto edgeSet = [&](const std::vector<Corner>& loop) { // a loop may run along the border
 		EdgeSet set;
@@ -422,7 +439,7 @@ void cutOneSided(
 		if (const Corner t = glued[s];
 			t > s && partition.isOneSided[componentOf(s)] && triangles[s] == triangles[t])
 			add(s, incoherent[componentOf(s)]);
-	LoopSearch search(orientationGraph(positions, triangles, glued));
+	LoopSearch search(orientationGraph(positions.size(), triangles, glued, length));
 	// The contradicted edges of a component follow each other, and every one-sided loop crosses them.
 	const std::vector<Corner>& sides = partition.contradicted.values();
 	for (std::size_t first = 0, last; first < sides.size(); first = last) {
@@ -430,9 +447,13 @@ void cutOneSided(
 		for (last = first; last < sides.size() && componentOf(sides[last]) == component;)
 			++last;
 		EdgeSet loop{{}, kFar};
-		const std::size_t count = std::min(kRoots, last - first);
+		std::vector<int> roots;
+		for (std::size_t i = first; i < last; ++i)
+			if (const int v = triangles[sides[i]]; roots.empty() || price[v] == 0.0)
+				roots.push_back(v);
+		const std::size_t count = std::min(kRoots, roots.size());
 		for (std::size_t i = 0; i < count; ++i)
-			search.improve(triangles[sides[first + i * (last - first) / count]], loop);
+			search.improve(roots[i * roots.size() / count], loop);
 		const EdgeSet shortest = edgeSet(loop.sides);
 		const EdgeSet& given = incoherent[component];
 		for (const Corner s :

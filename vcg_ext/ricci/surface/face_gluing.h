@@ -36,10 +36,18 @@ struct FacePartition
 
 FacePartition partitionFaces(const Array<Triangle>& triangles, const CornerArray<Corner>& glued);
 
-/// Cuts every one-sided component of \p partition along a short one-sided loop of edges, or, with
-/// \p everywhere, along all contradicted edges, which leaves no one-sided component. The cut may
-/// still leave one: a Klein bottle becomes a Möbius band or an annulus. Where the edges between faces
-/// of opposite orders are about as short, the cut is there, and no face has to be turned.
+/// Where a one-sided surface is cut.
+enum class OneSidedCut {
+	Shortest, ///< along a short one-sided loop of edges
+	/// Along a short one of those that touch the boundary least: clear of it, a cut keeps the Euler
+	/// characteristic, and a loop through it is an arc, which raises it by 1
+	ClearOfBoundary,
+	Everywhere ///< along all contradicted edges, which leaves no one-sided component
+};
+
+/// Cuts every one-sided component of \p partition. The cut may still leave one: a Klein bottle becomes a Möbius
+/// band or an annulus. Where the edges between faces of opposite orders are about as short, the cut is there, and
+/// no face has to be turned.
 ///
 /// The loop is the shortest through any of a few vertices: two shortest paths and an edge, because of
 /// two loops that a third path makes of a one-sided loop one is one-sided ([Thomassen 1990]).
@@ -48,7 +56,7 @@ void cutOneSided(
 	const Array<Point3>& positions,
 	const Array<Triangle>& triangles,
 	const FacePartition& partition,
-	bool everywhere,
+	OneSidedCut cut,
 	CornerArray<Corner>& glued);
 
 /// Leaves a side without the other that it was glued to.

@@ -106,14 +106,15 @@ public:
 		lengthenLoneSeams();
 	}
 
-	void cutOneSidedComponents()
+	void cutOneSidedComponents(OneSidedCut cut)
 	{
 		m_partition = partitionFaces(m_corners, m_glued);
 		m_opened.oneSidedComponents = static_cast<int>(
 			std::count(m_partition.isOneSided.begin(), m_partition.isOneSided.end(), 1));
 		for (int cuts = 0; !m_partition.contradicted.empty(); ++cuts) {
-			const bool everywhere = cuts == kMaxOneSidedCuts;
-			cutOneSided(m_places, m_corners, m_partition, everywhere, m_glued);
+			const bool isLast = cuts == kMaxOneSidedCuts;
+			cutOneSided(
+				m_places, m_corners, m_partition, isLast ? OneSidedCut::Everywhere : cut, m_glued);
 			do
 				splitVertices();
 			while (!separateEdges());
@@ -493,13 +494,13 @@ void requireLength(const char* array, std::size_t length, std::size_t wanted)
 		throw InvalidMesh(array, length, wanted);
 }
 
-OpenedMesh openMesh(const SurfaceMesh& mesh, std::vector<std::string>& notes)
+OpenedMesh openMesh(const SurfaceMesh& mesh, std::vector<std::string>& notes, OneSidedCut cut)
 {
 	checkElements(mesh);
 	Opening opening(mesh);
 	opening.cutEdges();
 	opening.openSeams();
-	opening.cutOneSidedComponents();
+	opening.cutOneSidedComponents(cut);
 	opening.leaveOutFlatComponents();
 	OpenedMesh opened = opening.result();
 	describe(opened, mesh, notes);

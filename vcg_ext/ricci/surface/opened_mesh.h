@@ -3,6 +3,7 @@
 #define RICCI_OPENED_MESH_H
 
 #include "elements.h"
+#include "face_gluing.h"
 #include "surface_mesh.h"
 
 #include <string>
@@ -57,7 +58,7 @@ void requireLength(const char* array, std::size_t length, std::size_t wanted);
 
 /// Cuts a triangle soup open, so that every triangle with an area can be mapped (after the cutting of
 /// [Gueziec et al. 2001]): edges with more than two faces by glueFaces(), vertices with more than one
-/// fan into one copy for each, one-sided components along short one-sided loops. Before the last of
+/// fan into one copy for each, one-sided components as \p cut says. Before the last of
 /// these, all sheets are opened along SurfaceMesh::seam. A seam of one edge that touches neither
 /// another nor a boundary goes on along the edge that leads straightest on: else both its sides would
 /// have the same two vertices, and lie on each other in the plane. Left out are faces that use a
@@ -65,7 +66,10 @@ void requireLength(const char* array, std::size_t length, std::size_t wanted);
 /// \throw InvalidMesh for the first of these that is found, with its number: no faces; marks of sides for another
 /// number of faces; faces that use vertices which are not in the mesh; coordinates that are not finite or
 /// beyond 1e50; components smaller than 1e-50; no face with an area, or none beside a vertex too far away
-OpenedMesh openMesh(const SurfaceMesh& mesh, std::vector<std::string>& notes);
+OpenedMesh openMesh(
+	const SurfaceMesh& mesh,
+	std::vector<std::string>& notes,
+	OneSidedCut cut = OneSidedCut::Shortest);
 
 } // namespace ricci
 
