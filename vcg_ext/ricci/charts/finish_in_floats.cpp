@@ -190,7 +190,7 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 			result.add(repairInStages(
 				map.mesh,
 				[](int) { return false; },
-				{RestShapes::OfDrawing, validity, overlaps},
+				{RestShapes::OfDrawing, validity, overlaps, finish.keepsBoundary},
 				limit));
 		map.report.finishMoved += result.movedCount();
 		if (result.movedCount() > 0)

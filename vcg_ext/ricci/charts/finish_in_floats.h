@@ -17,7 +17,8 @@ struct FloatFinish
 	std::function<void()> measure;
 	/// Packs the charts of the map once more.
 	std::function<void()> packAgain;
-	bool mayCut = true; ///< else no triangle is cut off
+	bool mayCut = true;         ///< else no triangle is cut off
+	bool keepsBoundary = false; ///< see RepairRules
 };
 
 /// The last look at a packed map, at the coordinates as they will be stored: mends the triangles that are

@@ -78,8 +78,8 @@ FinishCounts finishInPlane(
 		const Validity validity{height, kWantedHeights * height};
 		const CostOfPatch cost = mayCut ? CostOfPatch(CostWithCuts(flat, validity)) : nullptr;
 		WorkLimit limit(flat.points.size(), kMaxSteps);
-		const Repair result =
-			repairInStages(flat, boundaryMoves, {RestShapes::OfSurface, validity, cost}, limit);
+		const Repair result = repairInStages(
+			flat, boundaryMoves, {RestShapes::OfSurface, validity, cost, !freeBoundary}, limit);
 		FinishCounts counts{result.movedCount(), result.left > 0 && limit.left() == 0};
 		if (counts.endedEarly > 0)
 			logLine(

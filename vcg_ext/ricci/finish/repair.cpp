@@ -284,7 +284,11 @@ Repair repairInStages(
 	Repair result;
 	result.bad = result.left = static_cast<int>(badTriangles(flat, rules.validity).size());
 	PointGroups groups;
+	Validity upright = rules.validity;
+	upright.height = 0.0;
 	for (int stage = 0; stage < 3 && result.left > 0; ++stage) {
+		if (stage == 2 && rules.keepsBoundary && badTriangles(flat, upright).empty())
+			break;
 		const auto moves = [&](int v) { return stage == 2 || boundaryMoves(v); };
 		groups = stage == 0 ? insidePoints(flat) : joinedPoints(flat, moves);
 		result.add(repair(flat, groups, rules, limit));

@@ -281,6 +281,8 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	finish.measure = [&] { measure(opened, map); };
 	finish.packAgain = [&] { packCharts(map, options, turns); };
 	finish.mayCut = mayCutCharts(options);
+	finish.keepsBoundary =
+		options.target == TargetCurvature::Disk || options.target == TargetCurvature::Rectangle;
 	if (isFinished(options))
 		finishInFloats(finish, map);
 	countFlipped(map.mesh, map.report);
