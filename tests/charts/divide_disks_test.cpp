@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <complex>
-#include <utility>
 #include <vector>
 
 namespace ricci::testing {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curvatures that no metric has, at the bound, and just below it some that one has. refusals_test.cpp has what else is
-// refused.
+// Curvatures that no metric has, at the bound, and just below it some that one has. refusals_test.cpp has what else
+// is refused.
 #include "support/expect.h"
 #include "support/front_door.h"
 

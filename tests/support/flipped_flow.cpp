@@ -6,7 +6,6 @@
 #include <ricci/base/numbers.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
