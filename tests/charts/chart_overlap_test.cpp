@@ -209,22 +209,6 @@ TEST(ChartOverlap, TouchingIsNone)
 		}
 }
 
-/// The map z -> z^2 winds twice round the centre, z -> z^(1/2) on a slit disk only half.
-TEST(ChartOverlap, AroundAVertexIsFound)
-{
-	for (const double power : {0.5, 1.0, 2.0}) {
-		const FlatMesh chart = flatMesh(grid(3, 24, Ends::Open, Ends::Open, [&](int i, int j) {
-			const double r = i / 3.0, a = power * 2 * kPi * j / 24.0;
-			return Point3{r * std::cos(a), r * std::sin(a), 0.0};
-		}));
-		std::vector<int> proper;
-		for (const int f : chart.points.indices())
-			if (orientation(chart.at(f)[0], chart.at(f)[1], chart.at(f)[2]) > 0)
-				proper.push_back(f);
-		EXPECT_EQ(pairsOf(chart.part(proper)).empty(), power <= 1.0);
-	}
-}
-
 /// How many triangles contain \p p in their inside.
 int covers(const FlatMesh& chart, const Point2& p)
 {

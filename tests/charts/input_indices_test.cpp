@@ -66,14 +66,10 @@ TEST(InputIndices, VerticesTakeMeansWeightedByArea)
 		ASSERT_EQ(map.targetCurvature.size(), at(vertices));
 		const auto areaAtFirst = [](const SurfaceMesh& surface) {
 			double area = 0.0;
-			for (const Triangle& t : surface.triangles)
-				if (t[0] == 0 || t[1] == 0 || t[2] == 0) {
-					const Point3 &p = surface.positions[at(t[0])], &q = surface.positions[at(t[1])],
-								 &r = surface.positions[at(t[2])];
-					const double x = distance(p, q), y = distance(q, r), z = distance(r, p);
-					const double s = 0.5 * (x + y + z);
-					area += std::sqrt(s * (s - x) * (s - y) * (s - z));
-				}
+			for (std::size_t f = 0; f < surface.triangles.size(); ++f) {
+				const Triangle& t = surface.triangles[f];
+				area += t[0] == 0 || t[1] == 0 || t[2] == 0 ? areaOf(surface, f) : 0.0;
+			}
 			return area;
 		};
 		const double areaA = areaAtFirst(a), areaB = areaAtFirst(b);

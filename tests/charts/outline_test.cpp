@@ -10,7 +10,6 @@
 #include <ricci/charts/outline.h>
 #include <ricci/charts/outline_packing.h>
 #include <ricci/charts/pack.h>
-#include <ricci/charts/separate_charts.h>
 
 #include <gtest/gtest.h>
 
@@ -265,24 +264,6 @@ TEST(PackCharts, MarginsMayFitAgreesWithPointsOnAGrid)
 		EXPECT_TRUE(marginsMayFit(positionOf(k * k), 0.999999 * bound));
 		EXPECT_FALSE(marginsMayFit(positionOf(k * k), 1.000001 * bound));
 	}
-}
-
-/// A strip of 20 by 2 is cut across, by edges of length 1, as long as each cut is worth its seam.
-TEST(PackForRoom, CutsWhereThatIsWorthTheSeam)
-{
-	const Parametrization before = mapWith(flatMesh(rectangle(20, 2, 20, 2)));
-	Parametrization whole = before, map = before;
-	packCharts(whole, {true, 0.01, {}}, ChartTurns::Free);
-	packForRoom(map, {true, 0.01, {}}, ChartTurns::Free);
-	const std::size_t cuts = map.charts.size() - 1;
-	ASSERT_GE(cuts, 1u);
-	EXPECT_EQ(at(map.report.overlapCuts), 2 * cuts);
-	EXPECT_EQ(map.report.seamLength, 2.0 * static_cast<double>(cuts));
-	EXPECT_GT(
-		map.report.occupancy,
-		whole.report.occupancy *
-			std::pow(1.0 + map.report.seamLength / std::sqrt(40.0), kRoomPrice));
-	EXPECT_EQ(flippedIn(map.mesh), 0);
 }
 
 } // namespace

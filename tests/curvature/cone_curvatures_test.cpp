@@ -137,14 +137,14 @@ double lowest(const Quadratic& energy, const Eigen::VectorXd& centre, int reach)
 TEST(ConeRounding, FindsALocalMinimumWhichMostlyIsTheGlobalOne)
 {
 	Random random(770);
-	int best = 0;
+	int best = 0, atBound = 0;
 	for (int trial = 0; trial < 60; ++trial) {
 		const int n = 1 + trial % 4;
 		std::optional<double> total;
 		if (trial % 2 == 0)
 			total = kQuarter * (random.index(2 * n) + 1);
 		const Quadratic energy(
-			randomRoot(n, 1.0, 0.3, random), -kQuarter, 2.5 * kQuarter, total, random);
+			randomRoot(n, 1.0, 0.3, random), -kQuarter, 5.0 * kQuarter, total, random);
 		const Eigen::VectorXd k = rounded(energy);
 		const double found = energy(k), slack = 1e-9 * (1.0 + std::abs(found));
 		for (int up = 0; up < n; ++up)
@@ -161,35 +161,10 @@ TEST(ConeRounding, FindsALocalMinimumWhichMostlyIsTheGlobalOne)
 		const double least = lowest(energy, energy.free, 3);
 		EXPECT_GE(found, least - 1e-9);
 		best += found < least + 1e-9;
+		atBound += k.maxCoeff() > kMaxConeCurvature - 1e-9;
 	}
 	EXPECT_GT(best, 54);
-}
-
-/// Of uncoupled cones with this stiffness and minimum, in quarter turns.
-Eigen::VectorXd roundedTurns(
-	const Eigen::VectorXd& stiffness, const Eigen::VectorXd& values, std::optional<double> total)
-{
-	const Eigen::MatrixXd gram = stiffness.asDiagonal();
-	if (total)
-		total = *total * kQuarter;
-	return roundToQuarterTurns(gram, -kQuarter * gram * values, kQuarter * values, total) /
-		   kQuarter;
-}
-
-TEST(ConeRounding, KeepsQuarterTurnsAndCorrectsTheSumWhereItIsCheapest)
-{
-	const Eigen::Vector3d turns(3.0, -1.0, 2.0), even(1.0, 1.0, 1.0);
-	EXPECT_EQ(roundedTurns(even, turns, std::nullopt), turns);
-	EXPECT_EQ(roundedTurns(even, turns, 4.0), turns);
-	// Three cones of 1/3 each: the one with the least stiffness takes the quarter turn.
-	EXPECT_EQ(
-		roundedTurns(Eigen::Vector3d(2.0, 1.0, 3.0), even / 3, 1.0),
-		Eigen::Vector3d(0.0, 1.0, 0.0));
-	// The minimum of one cone is far above the bound: the others take the rest of the sum.
-	const Eigen::VectorXd k = roundedTurns(even, Eigen::Vector3d(8.0, 0.0, 0.0), 8.0);
-	EXPECT_EQ(k[0], kMaxQuarterTurns);
-	EXPECT_EQ(k[1] + k[2], 5.0);
-	EXPECT_EQ(std::abs(k[1] - k[2]), 1.0);
+	EXPECT_GT(atBound, 20);
 }
 
 } // namespace

@@ -18,7 +18,7 @@ constexpr int kSide = 12; // cells of a square
 
 inline int vertexAt(int i, int j)
 {
-	return j * (kSide + 1) + i;
+	return i * (kSide + 1) + j;
 }
 
 inline bool isInside(int vertex)
@@ -43,24 +43,20 @@ inline FlatMesh flatDisk(const SurfaceMesh& mesh, std::vector<Point2> places)
 	return flat;
 }
 
+/// The vertices of a mesh as they are seen from above.
+inline std::vector<Point2> fromAbove(const SurfaceMesh& mesh)
+{
+	std::vector<Point2> places;
+	for (const Point3& p : mesh.positions)
+		places.push_back({p[0], p[1]});
+	return places;
+}
+
 /// A square of kSide by kSide cells, two triangles each, laid out as it is.
 inline FlatMesh square()
 {
-	SurfaceMesh mesh;
-	std::vector<Point2> places;
-	for (int v = 0; v < (kSide + 1) * (kSide + 1); ++v) {
-		places.push_back({double(v % (kSide + 1)), double(v / (kSide + 1))});
-		mesh.positions.push_back({places.back()[0], places.back()[1], 0.0});
-	}
-	for (int j = 0; j < kSide; ++j) {
-		for (int i = 0; i < kSide; ++i) {
-			const int a = vertexAt(i, j), b = vertexAt(i + 1, j);
-			const int c = vertexAt(i + 1, j + 1), d = vertexAt(i, j + 1);
-			mesh.triangles.push_back({a, b, c});
-			mesh.triangles.push_back({a, c, d});
-		}
-	}
-	return flatDisk(mesh, places);
+	const SurfaceMesh mesh = rectangle(kSide, kSide, kSide, kSide);
+	return flatDisk(mesh, fromAbove(mesh));
 }
 
 /// The square with \p count points inside moved up to two cells away.

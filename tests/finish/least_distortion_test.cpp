@@ -100,15 +100,6 @@ SurfaceMesh wavyDisk(int n, Random& random)
 	return mesh;
 }
 
-/// The disk's vertices as they are seen from above.
-std::vector<Point2> fromAbove(const SurfaceMesh& mesh)
-{
-	std::vector<Point2> places;
-	for (const Point3& p : mesh.positions)
-		places.push_back({p[0], p[1]});
-	return places;
-}
-
 /// A sphere with cones of pi, whose seams turn; a torus, whose seams are translations; a disk with
 /// a free boundary and a cone inside, whose seam ends there.
 std::vector<CutMap> mapsWithSeams(Random& random)
@@ -431,32 +422,6 @@ TEST(DistortionLaplacian, IsTheRealPartOfTheReweightedSquares)
 	}
 }
 
-TEST(DistortionLaplacian, ComesNearerAsTheResidualFalls)
-{
-	Random random(633);
-	for (CutMap& d : validMapsWithSeams(random)) {
-		Measured m(d);
-		DistortionLaplacian laplacian(m.energy);
-		ASSERT_TRUE(std::isfinite(m.energy.evaluate(m.start)));
-		ASSERT_TRUE(laplacian.factorize());
-		const Eigen::VectorXcd rhs = randomVector(m.points.unknowns, 1.0, random);
-		Eigen::VectorXcd x, exact;
-		laplacian.solve(rhs, exact, 1e-14);
-		// x^T A x for the matrix A is x^T rhs where x solves; conjugate gradients lower the error in
-		// that norm, so that x^T rhs grows to it.
-		const double whole = LimitedMemoryBfgs::dot(rhs, exact);
-		double before = 0.0;
-		for (const double residual : {0.5, 0.1, 1e-2, 1e-4, 1e-8}) {
-			laplacian.solve(rhs, x, residual);
-			const double reached = LimitedMemoryBfgs::dot(rhs, x);
-			EXPECT_GE(reached, before);
-			EXPECT_LE(reached, whole * (1.0 + 1e-9));
-			before = reached;
-		}
-		EXPECT_NEAR(before / whole, 1.0, 1e-9);
-	}
-}
-
 TEST(LimitedMemoryBfgs, TakesTheLastStepBackFromItsChange)
 {
 	Random random(616);
@@ -595,26 +560,6 @@ TEST(LeastDistortion, KeepsSeamsIsometricAndConesInPlace)
 	}
 	EXPECT_GT(seams, 30);
 	EXPECT_GT(moved, 15);
-}
-
-TEST(LeastDistortion, HoldsABoundaryThatDoesNotMove)
-{
-	Random random(626);
-	const SurfaceMesh mesh = wavyDisk(12, random);
-	CutMap d(mesh, fromAbove(mesh));
-	d.boundaryMoves = false;
-	const Array<Point2> start = d.flat.place;
-	const Borders borders(d.flat);
-	EXPECT_GT(d.improve().steps, 0);
-	EXPECT_EQ(d.flipped(), 0);
-	int inside = 0;
-	for (const int v : start.indices()) // every vertex has one point
-		if (borders.boundary[v]) {
-			EXPECT_EQ(d.flat.place[v], start[v]);
-		}
-		else
-			inside += d.flat.place[v] != start[v];
-	EXPECT_GT(inside, 100);
 }
 
 /// All others get better, and none of them turns.

@@ -289,29 +289,6 @@ double conditionOf(const Handles& handles)
 	return sum;
 }
 
-/// Each letter wrong by a relative error of e changes the product by e times the condition at most,
-/// and by much of it where errors add up.
-TEST(BestConditioned, LowersABoundOfTheRelationsError)
-{
-	Random random(880);
-	constexpr double kError = 1e-12;
-	for (const int genus : {2, 3, 4}) {
-		const Handles exact = tangled(regularHandles(genus), 4, random);
-		const double bound = kError * conditionOf(exact);
-		double largest = 0.0;
-		for (int trial = 0; trial < 200; ++trial) {
-			Handles wrong = exact;
-			for (ExtendedIsometry& m : wrong)
-				m = {
-					m.a + polar(kError, random.real(-kPi, kPi)) * m.a,
-					m.b + polar(kError, random.real(-kPi, kPi)) * m.b};
-			largest = std::max(largest, errorOf(relationOf(wrong)));
-		}
-		EXPECT_LT(largest, bound + 1e-15);
-		EXPECT_GT(largest, 1e-4 * bound);
-	}
-}
-
 /// Generators that random twists have made long become short again, and stand for the same surface: they
 /// close the relation, and no element has a fixed point.
 TEST(BestConditioned, ShortensWhatTwistsHaveMadeLong)

@@ -12,16 +12,6 @@ namespace ricci::testing {
 
 namespace {
 
-int vertexCount(const SurfaceMesh& mesh)
-{
-	return static_cast<int>(mesh.positions.size());
-}
-
-int faceCount(const SurfaceMesh& mesh)
-{
-	return static_cast<int>(mesh.triangles.size());
-}
-
 int anyVertex(const SurfaceMesh& mesh, ByteSource& bytes)
 {
 	return bytes.below(vertexCount(mesh));
@@ -35,8 +25,7 @@ int add(SurfaceMesh& mesh, const Point3& p)
 
 int addRandom(SurfaceMesh& mesh, ByteSource& bytes)
 {
-	const double x = bytes.real(-1, 1), y = bytes.real(-1, 1), z = bytes.real(-1, 1);
-	return add(mesh, {x, y, z});
+	return add(mesh, randomPoint(bytes));
 }
 
 /// Sheets with a row of edges in common.

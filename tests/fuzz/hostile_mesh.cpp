@@ -19,22 +19,6 @@ namespace {
 
 using Limits = std::numeric_limits<double>;
 
-int vertexCount(const SurfaceMesh& mesh)
-{
-	return static_cast<int>(mesh.positions.size());
-}
-
-int faceCount(const SurfaceMesh& mesh)
-{
-	return static_cast<int>(mesh.triangles.size());
-}
-
-Point3 randomPoint(ByteSource& bytes)
-{
-	const double x = bytes.real(-1, 1), y = bytes.real(-1, 1), z = bytes.real(-1, 1);
-	return {x, y, z};
-}
-
 /// Faces of any vertices.
 SurfaceMesh soup(ByteSource& bytes)
 {

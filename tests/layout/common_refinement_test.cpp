@@ -1,99 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The overlay of the input's and the flow's triangles, on which the map is exact.
+// The overlay of the input's and the flow's triangles, where the map on it is known. corner_layout_test.cpp and
+// sliver_surfaces_test.cpp have what else it is.
 #include "support/complex.h"
-#include "support/flat_map.h"
-#include "support/flipped_flow.h"
-#include "support/implicit_surface.h"
+#include "support/front_door.h"
 #include "support/intrinsic.h"
 #include "support/random_surface.h"
 #include "support/refinement_check.h"
-#include "support/shapes.h"
-
-#include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace ricci::testing {
 namespace {
 
-struct Problem
+/// With the curvature \p wanted, or a free boundary.
+Parametrization refined(const SurfaceMesh& mesh, const std::vector<double>& wanted = {})
 {
-	std::string name;
-	SurfaceMesh mesh;
-	Options options;
-	VertexInput input;
-
-	Problem(std::string n, SurfaceMesh m, TargetCurvature target, VertexInput values = {}) :
-			name(std::move(n)), mesh(std::move(m)), input(std::move(values))
-	{
-		options.target = target;
-		options.freeBoundary = target == TargetCurvature::Automatic;
-		options.epsilon = 1e-10;
-		options.output = OutputTriangulation::CommonRefinement;
-		options.finish = Finish::None;
-		options.holes = Holes::Boundaries;
-		options.charts = Charts::OfTheFlow;
-		options.normalizeUV = false;
-	}
-
-	Parametrization solve() const { return parametrizeEuclidean(mesh, input, options); }
-};
-
-Problem withCurvature(std::string name, const SurfaceMesh& mesh, std::vector<double> curvature)
-{
-	VertexInput input;
-	input.targetCurvature = std::move(curvature);
-	return {std::move(name), mesh, TargetCurvature::Prescribed, input};
-}
-
-Problem withRandomCurvature(
-	std::string name, const SurfaceMesh& mesh, int chi, double share, Random& random)
-{
-	const int vertices = static_cast<int>(mesh.positions.size());
-	return withCurvature(
-		std::move(name), mesh, randomCurvature(vertices, chi, -3, 3, share, random));
-}
-
-std::vector<Problem> problems(std::uint64_t seed)
-{
-	Random random(500 + seed);
-	std::vector<Problem> all;
-	for (int genus : {0, 2}) {
-		const std::string name = "genus " + std::to_string(genus);
-		const SurfaceMesh mesh = implicitClosed(genus, 7, seed);
-		std::vector<int> cones;
-		for (int i = 0; i < 6; ++i)
-			cones.push_back(random.index(static_cast<int>(mesh.positions.size())));
-		all.emplace_back(name, mesh, TargetCurvature::SelectedCones, selecting(mesh, cones));
-		const SurfaceMesh slab = shaken(perforatedSlab(genus, 2), 0.1, random);
-		all.push_back(withRandomCurvature("slab of " + name, slab, 2 - 2 * genus, 1.0, random));
-	}
-	const SurfaceMesh donut = implicitClosed(1, 8, seed);
-	all.emplace_back("torus", donut, TargetCurvature::Flat);
-	all.push_back(withRandomCurvature("torus with cones", donut, 0, 0.1, random));
-	const SurfaceMesh annulus = implicitAnnulus(16, seed), disk = implicitDisk(16, seed);
-	all.emplace_back("annulus", annulus, TargetCurvature::Flat);
-	all.emplace_back("free annulus", annulus, TargetCurvature::Automatic);
-	all.emplace_back("free disk", disk, TargetCurvature::Automatic);
-	const SurfaceMesh sliver = sliverDisk(9, 1.5, random);
-	for (const auto& [name, mesh] : {std::pair("disk", disk), std::pair("sliver disk", sliver)}) {
-		all.emplace_back(name, mesh, TargetCurvature::Disk);
-		all.emplace_back(std::string(name) + " as rectangle", mesh, TargetCurvature::Rectangle);
-	}
-	return all;
+	Options options =
+		towards(wanted.empty() ? TargetCurvature::Automatic : TargetCurvature::Prescribed);
+	options.freeBoundary = wanted.empty();
+	options.epsilon = 1e-10;
+	options.output = OutputTriangulation::CommonRefinement;
+	options.finish = Finish::None;
+	options.charts = Charts::OfTheFlow;
+	options.normalizeUV = false;
+	return parametrizeEuclidean(mesh, prescribing(wanted), options);
 }
 
 /// A surface of the input's kind, whose metric in the plane is flat but for the cones.
-void expectValid(const Problem& p, const Parametrization& map)
+void expectValid(const SurfaceMesh& mesh, const Parametrization& map)
 {
-	const RefinementCheck check(p.mesh, map.mesh, map.targetCurvature);
+	const RefinementCheck check(mesh, map.mesh, map.targetCurvature);
 	check.expectValid(
 		map.report.eulerCharacteristic, map.report.boundaryLoops, map.report.maxCurvatureError);
 	EXPECT_LT(check.areaError, 1e-9);
@@ -105,63 +46,6 @@ void expectValid(const Problem& p, const Parametrization& map)
 	else { // others the surface its area
 		EXPECT_NEAR(check.area / map.mesh.area(), 1.0, 1e-9);
 	}
-	const std::size_t vertices = p.mesh.positions.size();
-	ASSERT_EQ(at(map.mesh.source.size()), vertices + at(map.report.refinementPoints));
-	for (int v = 0; at(v) < vertices; ++v) {
-		EXPECT_EQ(map.mesh.source[v].vertex[0], v);
-		EXPECT_EQ(map.mesh.source[v].weight[0], 1.0);
-	}
-}
-
-/// The flow's triangles have 3 (V - chi) edges, if the surface is closed, which go from vertex to vertex straight
-/// on.
-void expectStraightLines(const Problem& p, const Parametrization& map)
-{
-	const std::size_t lines = straightLines(p.mesh, map.mesh, 1e-6).size(); // from both their ends
-	const int edges =
-		3 * (static_cast<int>(p.mesh.positions.size()) - map.report.eulerCharacteristic);
-	EXPECT_GE(lines / 2, at(edges));
-}
-
-/// The layout of the input's corners alone is that of the refinement's at them, up to a similarity.
-void expectCornersOfKeptMesh(const Problem& p, const Parametrization& refined)
-{
-	Problem kept = p;
-	kept.options.output = OutputTriangulation::KeepMesh;
-	const Parametrization map = kept.solve();
-	std::vector<std::pair<Complex, Complex>> places;
-	for (const int piece : refined.mesh.points.indices())
-		for (const Corner c : cornersOf(piece))
-			for (const Corner own : cornersOf(refined.mesh.face[piece]))
-				if (map.mesh.vertices[own] == refined.mesh.vertices[c])
-					places.push_back({asComplex(map.mesh.at(own)), asComplex(refined.mesh.at(c))});
-	ASSERT_GE(places.size(), 3 * p.mesh.triangles.size());
-	const auto far = *std::max_element(places.begin(), places.end(), [&](auto& a, auto& b) {
-		return std::abs(a.first - places[0].first) < std::abs(b.first - places[0].first);
-	});
-	const Complex side = far.first - places[0].first;
-	const Complex turn = (far.second - places[0].second) / side;
-	for (const auto& [a, b] : places)
-		EXPECT_LT(
-			std::abs(places[0].second + turn * (a - places[0].first) - b),
-			1e-8 * std::abs(turn * side));
-}
-
-TEST(CommonRefinement, IsTheSurfaceWithAMapThatIsExactAndWithoutFlips)
-{
-	int crossings = 0;
-	for (std::uint64_t seed : {1u, 2u, 3u})
-		for (const Problem& p : problems(seed)) {
-			SCOPED_TRACE(p.name + ", seed " + std::to_string(seed));
-			const Parametrization map = p.solve();
-			expectValid(p, map);
-			if (map.report.boundaryLoops == 0)
-				expectStraightLines(p, map);
-			if (seed == 3)
-				expectCornersOfKeptMesh(p, map);
-			crossings += map.report.refinementPoints;
-		}
-	EXPECT_GT(crossings, 5000); // or the test says little
 }
 
 /// Equilateral triangles are Delaunay with room, and flat already.
@@ -171,7 +55,7 @@ TEST(CommonRefinement, IsTheInputWhereNothingFlips)
 		// The grid's diagonal is the third direction of the lattice.
 		return Point3{0.5 * (i + j), (i - j) * -0.5 * std::sqrt(3.0), 0.0};
 	});
-	const Parametrization map = Problem("lattice", mesh, TargetCurvature::Automatic).solve();
+	const Parametrization map = refined(mesh);
 	EXPECT_EQ(map.report.refinementPoints, 0);
 	EXPECT_EQ(map.report.flips, 0);
 	ASSERT_EQ(map.mesh.vertices.values().size(), mesh.triangles.size());
@@ -196,10 +80,9 @@ TEST(CommonRefinement, APlaneIsMappedToItself)
 		if (i == 3)
 			for (Point3& p : mesh.positions)
 				p[0] *= 30.0; // needles
-		const Problem p("plane", mesh, TargetCurvature::Automatic);
-		const Parametrization map = p.solve();
+		const Parametrization map = refined(mesh);
 		EXPECT_GT(map.report.refinementPoints, 10);
-		expectValid(p, map);
+		expectValid(mesh, map);
 		const std::vector<Point3> source = map.mesh.onSurface(mesh.positions);
 		const auto place = [&](Corner c) {
 			const Point3& q = source[at(map.mesh.vertices[c])];
@@ -241,9 +124,8 @@ TEST(CommonRefinement, IsTheDevelopmentWhereTheMetricStays)
 		for (const SurfaceMesh& original : meshes) {
 			SCOPED_TRACE("round " + std::to_string(round));
 			const SurfaceMesh mesh = shaken(original, 0.2, random);
-			const Problem p = withCurvature("own", mesh, curvatureInSpace(mesh));
-			const Parametrization map = p.solve();
-			expectValid(p, map);
+			const Parametrization map = refined(mesh, curvatureInSpace(mesh));
+			expectValid(mesh, map);
 			crossings += map.report.refinementPoints;
 			const std::vector<Point3> source = map.mesh.onSurface(mesh.positions);
 			std::vector<std::vector<Corner>> cornersIn(mesh.triangles.size());

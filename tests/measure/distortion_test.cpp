@@ -132,23 +132,6 @@ TEST(Distortion, ThePercentileLeavesItsShareOfTheValuesBelow)
 	EXPECT_TRUE(std::isnan(percentile({}, 0.5)));
 }
 
-/// 200 faces with distortions 1, 2, ..., 200.
-TEST(Distortion, PercentileIsTheValueThat99PercentDoNotExceed)
-{
-	SurfaceMesh mesh;
-	std::vector<Plane> plane;
-	for (int i = 0; i < 200; ++i) {
-		for (const Point3& p : {Point3{0, 0, 0}, Point3{1, 0, 0}, Point3{0, 1, 0}})
-			mesh.positions.push_back(p);
-		mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-		plane.push_back({{{0, 0}, {1.0 + i, 0}, {0, 1}}});
-	}
-	Report report;
-	measured(mesh, plane, report);
-	EXPECT_NEAR(report.qcP99, 198.0, 1e-11);
-	EXPECT_NEAR(report.qcMax, 200.0, 1e-11);
-}
-
 /// Shares p and 1 - p of the area; the second part grows by q. The factors relative to the total
 /// are 1 / (p + q - p q) and q times that.
 TEST(AreaDistortion, OfTwoScalesHasAClosedForm)

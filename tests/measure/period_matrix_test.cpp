@@ -5,7 +5,6 @@
 #include "support/intrinsic.h"
 #include "support/random.h"
 #include "support/reflected.h"
-#include "support/transform.h"
 
 #include <ricci/parametrize.h>
 
@@ -168,20 +167,6 @@ TEST(PeriodMatrix, ErrorIsABoundOnFlatTriangles)
 			EXPECT_LE(distance, errorOf(report));
 			EXPECT_GT(distance, 1e-6);
 		}
-}
-
-TEST(PeriodMatrix, DoesNotDependOnScaleAndNumbers)
-{
-	Random random(503);
-	for (const int genus : {1, 2, 3}) {
-		const SurfaceMesh mesh = perforatedSlab(genus, 2);
-		const Report first = reportOf(mesh);
-		for (int trial = 0; trial < 3; ++trial) {
-			const Report again = reportOf(scaled(renumbered(mesh, random).mesh, 37.0));
-			EXPECT_LT(classDistance(omegaOf(first), omegaOf(again), 1e-3), 1e-9);
-			EXPECT_NEAR(errorOf(again), errorOf(first), 1e-9);
-		}
-	}
 }
 
 /// Energies of the piecewise linear harmonic forms with integer periods on a torus of rows of

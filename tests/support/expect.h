@@ -3,7 +3,6 @@
 #ifndef RICCI_TESTS_EXPECT_H
 #define RICCI_TESTS_EXPECT_H
 
-#include "flipped_flow.h"
 #include "shapes.h"
 
 #include <ricci/error.h>
@@ -71,25 +70,10 @@ E refusalFor(typename E::Problem problem, const std::vector<std::string>& words,
 	return refused;
 }
 
-/// The flow's target is reached, by its own word and by the lengths it gives, which \p Measure reads
-/// (MetricMeasure or HyperbolicMeasure). \p maxFloor bounds what rounding may prevent.
-template<class Measure>
-void expectTarget(const FlippedFlow& flow, double maxFloor)
-{
-	const FlowResult& r = flow.result;
-	EXPECT_LE(r.residual, std::max(1e-10, r.floor));
-	EXPECT_LE(r.floor, maxFloor);
-	EXPECT_EQ(r.metric->brokenTriangles(), 0);
-	EXPECT_TRUE(r.u.allFinite());
-	const Measure measure(r.metric->triangulation(), r.metric->lengths());
-	EXPECT_EQ(measure.broken, 0);
-	const IndependentError independent(flow);
-	EXPECT_LE(independent.error, std::max(1e-10, r.floor) + independent.rounding);
-}
-
-/// The surface cut open is connected and has Euler characteristic 1: a disk. Boundary edges are no
-/// cuts.
-inline void expectOpensToADisk(const Triangulation& t, const EdgeArray<char>& isCut)
+/// The surface cut open is connected and has Euler characteristic 1: a disk, with every marked vertex on its
+/// boundary. Boundary edges are no cuts.
+inline void expectDiskThroughMarks(
+	const Triangulation& t, const EdgeArray<char>& isCut, const VertexArray<char>& marked)
 {
 	ASSERT_EQ(isCut.size(), t.edgeCount());
 	FaceArray<char> seen(t.faceCount(), 0);
@@ -105,12 +89,25 @@ inline void expectOpensToADisk(const Triangulation& t, const EdgeArray<char>& is
 		}
 	EXPECT_EQ(static_cast<int>(queue.size()), t.faceCount());
 	int cutEdges = 0;
+	VertexArray<char> onCut = t.boundaryVertices();
 	for (const Edge e : t.edges())
 		if (isCut[e]) {
 			++cutEdges;
 			EXPECT_FALSE(t.isBoundary(e));
+			for (const Vertex v : t.ends(e))
+				onCut[v] = 1;
 		}
+	for (const Vertex v : t.vertices())
+		EXPECT_TRUE(!marked[v] || onCut[v]) << "vertex " << v.number();
 	EXPECT_EQ(cornerWedges(t, isCut).points.size() - (t.edgeCount() + cutEdges) + t.faceCount(), 1);
+}
+
+inline double lengthOf(const EdgeArray<char>& isCut, const EdgeArray<double>& lengths)
+{
+	double sum = 0.0;
+	for (const Edge e : lengths.indices())
+		sum += isCut[e] ? lengths[e] : 0.0;
+	return sum;
 }
 
 /// Length of the side of a triangle from corner \p k.

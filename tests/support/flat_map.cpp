@@ -67,9 +67,7 @@ double FlatMap::error(const std::vector<double>& target) const
 	return largest;
 }
 
-namespace {
-
-FlatResult withUV(const SurfaceMesh& mesh, Parametrization map)
+FlatResult withCorners(const SurfaceMesh& mesh, Parametrization map)
 {
 	FlatResult result{std::move(map), UV(mesh.triangles.size())};
 	for (const int f : result.mesh.points.indices())
@@ -79,8 +77,6 @@ FlatResult withUV(const SurfaceMesh& mesh, Parametrization map)
 					result.uv[at(result.mesh.face[f])][k] = result.mesh.at(c);
 	return result;
 }
-
-} // namespace
 
 std::vector<std::array<Point3, 3>> inSpace(const SurfaceMesh& mesh, const Parametrization& map)
 {
@@ -148,7 +144,7 @@ FlatResult run(const SurfaceMesh& mesh, const Options& options, const VertexInpu
 {
 	Options unscaled = options;
 	unscaled.normalizeUV = false;
-	return withUV(mesh, parametrizeEuclidean(mesh, input, unscaled));
+	return withCorners(mesh, parametrizeEuclidean(mesh, input, unscaled));
 }
 
 FlatResult
@@ -162,7 +158,7 @@ runInDisk(const SurfaceMesh& mesh, const HyperbolicOptions& options, const Verte
 		map.mesh.place[i] =
 			own.middle < 0 ? inDisk : asPoint(rounded(own.place.inverse())(asComplex(inDisk)));
 	}
-	return withUV(mesh, std::move(map));
+	return withCorners(mesh, std::move(map));
 }
 
 VertexInput selecting(const SurfaceMesh& mesh, const std::vector<int>& vertices)

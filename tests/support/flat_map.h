@@ -37,6 +37,9 @@ struct FlatResult : Parametrization
 	UV uv; ///< [face][corner]; of a refinement at those corners that a piece has
 };
 
+/// A map with the places that it gives the corners of the input's faces.
+FlatResult withCorners(const SurfaceMesh& mesh, Parametrization map);
+
 /// The triangles of a map of \p mesh, where they lie on it.
 std::vector<std::array<Point3, 3>> inSpace(const SurfaceMesh& mesh, const Parametrization& map);
 

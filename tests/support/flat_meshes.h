@@ -71,12 +71,6 @@ inline int flippedIn(const FlatMesh& mesh)
 	return count;
 }
 
-/// All pairs of triangles are compared.
-inline std::vector<TrianglePair> overlappingPairs(const FlatMesh& chart)
-{
-	return OverlapSearch(chart.corners()).pairs();
-}
-
 } // namespace ricci::testing
 
 #endif

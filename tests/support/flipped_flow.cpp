@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flipped_flow.h"
 
-#include "intrinsic.h"
 #include "shapes.h"
 
 #include <ricci/base/numbers.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -17,14 +15,8 @@ namespace ricci::testing {
 
 namespace {
 
-constexpr long double kExtendedPi = 3.14159265358979323846264338327950288L;
-
 /// Curvature above which a vertex counts as a cone.
 constexpr double kCone = 1e-9;
-
-} // namespace
-
-namespace {
 
 EmbeddedSurface surfaceOf(const SurfaceMesh& mesh)
 {
@@ -191,67 +183,6 @@ randomCurvature(int vertexCount, int chi, double low, double high, double share,
 			curvature[v] = std::min(curvature[v] + move, high);
 	}
 	return curvature;
-}
-
-HyperbolicMeasure::HyperbolicMeasure(const Triangulation& t, const EdgeArray<double>& lengths) :
-		curvature(t.vertexCount(), 2 * kExtendedPi), sensitivity(t.vertexCount(), 0.0L)
-{
-	const VertexArray<char> boundary = t.boundaryVertices();
-	for (const Vertex v : t.vertices())
-		if (boundary[v])
-			curvature[v] = kExtendedPi;
-	for (const Face f : t.faces()) {
-		const auto h = t.halfedges(f);
-		std::array<long double, 3> l;
-		for (std::size_t k = 0; k < 3; ++k)
-			l[k] = lengths[h[k].edge()];
-		const long double s = (l[0] + l[1] + l[2]) / 2;
-		if (!(std::max({l[0], l[1], l[2]}) < s)) {
-			++broken;
-			continue;
-		}
-		long double sum = 0.0L, cotangents = 0.0L;
-		for (std::size_t k = 0; k < 3; ++k) {
-			// Half the angle between sides k and k - 1, opposite side k + 1.
-			const long double opposite = l[(k + 1) % 3];
-			const long double tangent = std::sqrt(
-				std::sinh(s - l[k]) * std::sinh(s - l[(k + 2) % 3]) /
-				(std::sinh(s) * std::sinh(s - opposite)));
-			curvature[t.origin(h[k])] -= 2 * std::atan(tangent);
-			sum += 2 * std::atan(tangent);
-			cotangents += 1 / tangent + tangent;
-		}
-		area += kExtendedPi - sum;
-		// The flat triangle's bound, times what a length adds in the hyperbolic plane.
-		for (const Vertex v : t.vertices(f))
-			sensitivity[v] += 2 * cotangents * (1 + s) * std::cosh(s);
-	}
-}
-
-IndependentError::IndependentError(const FlippedFlow& flow)
-{
-	if (flow.result.target.background == Background::HyperbolicPlane)
-		compare<HyperbolicMeasure>(flow);
-	else
-		compare<MetricMeasure>(flow);
-}
-
-template<class Measure>
-void IndependentError::compare(const FlippedFlow& flow)
-{
-	const Triangulation& t = flow.result.metric->triangulation();
-	const Measure measure(t, flow.result.metric->lengths());
-	for (const Vertex v : flow.base().vertices()) {
-		if (flow.result.target.fixed[v])
-			continue;
-		long double k = measure.curvature[v];
-		if (flow.result.doubled && flow.surface().topology.boundary[v])
-			k /= 2;
-		const long double target = flow.result.target.curvature[v];
-		error = std::max(error, static_cast<double>(std::abs(k - target)));
-		rounding = std::max(rounding, static_cast<double>(measure.sensitivity[v]));
-	}
-	rounding *= std::numeric_limits<double>::epsilon();
 }
 
 } // namespace ricci::testing

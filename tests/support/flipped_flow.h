@@ -74,33 +74,6 @@ HyperbolicRequest hyperbolicPrescribed(std::vector<double> curvature);
 std::vector<double>
 randomCurvature(int vertexCount, int chi, double low, double high, double share, Random& random);
 
-/// What the lengths of triangles of curvature -1 say, in extended precision and by formulas of its
-/// own, so that nothing of the core is trusted.
-struct HyperbolicMeasure
-{
-	VertexArray<long double> curvature; ///< 2 pi (boundary: pi) less the angles
-	/// Bound of the change of curvature for a relative change of 1 of every length.
-	VertexArray<long double> sensitivity;
-	long double area = 0.0L; ///< sum of pi less the angles
-	int broken = 0;          ///< triangles without the strict triangle inequality
-
-	HyperbolicMeasure(const Triangulation& t, const EdgeArray<double>& lengths);
-};
-
-/// Curvature error of a result by its lengths alone, in extended precision, and the part of it that
-/// the last place of the lengths accounts for.
-struct IndependentError
-{
-	double error = 0.0;    ///< max |K - target|, where K is prescribed
-	double rounding = 0.0; ///< what one unit in the last place of all lengths makes of K
-
-	explicit IndependentError(const FlippedFlow& flow);
-
-private:
-	template<class Measure>
-	void compare(const FlippedFlow& flow);
-};
-
 } // namespace ricci::testing
 
 #endif

@@ -24,20 +24,6 @@
 
 namespace ricci::testing {
 
-/// A map with the places that it gives the corners of the input's faces.
-inline FlatResult withCorners(const SurfaceMesh& mesh, Parametrization map)
-{
-	FlatResult result{std::move(map), UV(mesh.triangles.size())};
-	for (int t = 0; t < result.mesh.size(); ++t) {
-		const std::size_t f = at(result.mesh.face[t]);
-		for (std::size_t i = 0; i < 3; ++i)
-			for (std::size_t k = 0; k < 3; ++k)
-				if (mesh.triangles[f][k] == result.mesh.vertices[t][i])
-					result.uv[f][k] = result.mesh.at(t)[i];
-	}
-	return result;
-}
-
 /// parametrizeEuclidean() with the charts of the flow, at its scale and as it draws them.
 inline FlatResult flattened(const SurfaceMesh& mesh, Options options, const VertexInput& input = {})
 {
@@ -52,11 +38,7 @@ inline FlatResult
 inUnitDisk(const SurfaceMesh& mesh, HyperbolicOptions options, const VertexInput& input = {})
 {
 	options.finish = Finish::None;
-	Parametrization map = parametrizeHyperbolic(mesh, input, options);
-	const Box2 box = map.charts[0].box;
-	for (Point2& p : map.mesh.place)
-		p = (2.0 / box.width()) * (p - box.centre());
-	return withCorners(mesh, std::move(map));
+	return runInDisk(mesh, options, input);
 }
 
 /// Options of a flow whose map is drawn on the mesh, with holes as boundaries.

@@ -20,33 +20,23 @@ constexpr long double kPi = 3.14159265358979323846264338327950288L;
 /// Least angle that a side of the quad may turn by at the ends of a flipped edge.
 constexpr long double kConvexityMargin = 1e-3L;
 
-/// Corner between sides a and b of a triangle, opposite c.
-struct Corner
-{
-	long double angle, cotangent;
-	bool valid;
-};
-
-/// Kahan's triangle: the products are formed so that nothing is lost to cancellation.
-Corner cornerOf(long double a, long double b, long double c)
+/// Angle between sides a and b of a triangle, opposite c; 0 where there is no such triangle. The products are formed
+/// so that nothing is lost to cancellation (Kahan).
+long double angleOf(long double a, long double b, long double c)
 {
 	if (a < b)
 		std::swap(a, b);
 	const long double difference = a - b;
 	const long double mu = c > b ? b - (a - c) : c - difference;
 	const long double sine = (difference + c) * mu, cosine = (a + (b + c)) * ((a - c) + b);
-	const bool valid = sine > 0 && cosine > 0;
-	if (!valid)
-		return {0, 0, false};
-	const long double half = std::sqrt(sine / cosine); // tan(angle / 2)
-	return {2 * std::atan(half), (1 / half - half) / 2, true};
+	return sine > 0 && cosine > 0 ? 2 * std::atan(std::sqrt(sine / cosine)) : 0;
 }
 
 long double cornerAt(const IntrinsicMesh& mesh, Halfedge h)
 {
 	const Triangulation& t = mesh.triangulation;
 	const auto length = [&](Halfedge g) { return mesh.lengths[g.edge()]; };
-	return cornerOf(length(h), length(t.previous(h)), length(t.next(h))).angle;
+	return angleOf(length(h), length(t.previous(h)), length(t.next(h)));
 }
 
 Point3 onCircle(int i, int n)
@@ -117,8 +107,7 @@ Triangulation oneVertexTorus()
 }
 
 MetricMeasure::MetricMeasure(const Triangulation& t, const EdgeArray<double>& lengths) :
-		curvature(t.vertexCount(), 2 * kPi), cotangent(t.edgeCount(), 0.0L),
-		sensitivity(t.vertexCount(), 0.0L)
+		curvature(t.vertexCount(), 2 * kPi)
 {
 	const VertexArray<char> boundary = t.boundaryVertices();
 	for (const Vertex v : t.vertices())
@@ -129,20 +118,12 @@ MetricMeasure::MetricMeasure(const Triangulation& t, const EdgeArray<double>& le
 		std::array<long double, 3> l;
 		for (std::size_t k = 0; k < 3; ++k)
 			l[k] = lengths[h[k].edge()];
-		bool valid = true;
-		long double cotangents = 0.0L;
 		for (std::size_t k = 0; k < 3; ++k) {
-			const Corner c = cornerOf(l[k], l[(k + 2) % 3], l[(k + 1) % 3]);
-			valid &= c.valid;
-			curvature[t.origin(h[k])] -= c.angle;
-			cotangent[h[(k + 1) % 3].edge()] += c.cotangent;
-			cotangents += std::abs(c.cotangent);
+			const long double angle = angleOf(l[k], l[(k + 2) % 3], l[(k + 1) % 3]);
+			curvature[t.origin(h[k])] -= angle;
 			if (k == 0)
-				area += l[0] * l[2] * std::sin(c.angle) / 2;
+				area += l[0] * l[2] * std::sin(angle) / 2;
 		}
-		broken += !valid;
-		for (const Vertex v : t.vertices(f))
-			sensitivity[v] += 2 * cotangents;
 	}
 }
 

@@ -42,11 +42,7 @@ Triangulation oneVertexTorus();
 struct MetricMeasure
 {
 	VertexArray<long double> curvature; ///< 2 pi (boundary: pi) less the angles
-	EdgeArray<long double> cotangent;   ///< sum of the cotangents of the opposite angles
-	/// Bound of the change of curvature for a relative change of 1 of every length.
-	VertexArray<long double> sensitivity;
 	long double area = 0.0L;
-	int broken = 0; ///< triangles without the strict triangle inequality
 
 	MetricMeasure(const Triangulation& t, const EdgeArray<double>& lengths);
 };

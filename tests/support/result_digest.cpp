@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints a digest of every array and number that runs on meshes give back, a line for each: what a
 // change that should change nothing is compared by, bit for bit.
+#include "calls.h"
 #include "mesh_file.h"
 #include "vcg_mesh.h"
 
@@ -57,41 +58,8 @@ void print(const std::string& run, const char* what, double value)
 
 void printReport(const std::string& run, const Report& r)
 {
-	const std::pair<const char*, double> numbers[] = {
-		{"iterations", r.iterations},
-		{"curvature_error", r.maxCurvatureError},
-		{"lengthened", r.lengthened},
-		{"qc_mean", r.qcMean},
-		{"qc_area_mean", r.qcAreaMean},
-		{"qc_max", r.qcMax},
-		{"area_mean", r.areaDistortionMean},
-		{"area_spread", r.areaDistortionSpread},
-		{"flipped", r.flippedFaces},
-		{"flipped_by_rounding", r.flippedByRounding},
-		{"finish_moved", r.finishMoved},
-		{"edge_swaps", r.edgeSwaps},
-		{"flips", r.flips},
-		{"refinement_points", r.refinementPoints},
-		{"boundary_splits", r.boundarySplits},
-		{"broken", r.brokenTriangles},
-		{"cones", r.cones},
-		{"seam_edges", r.seamEdges},
-		{"seam_length", r.seamLength},
-		{"charts", r.charts},
-		{"occupancy", r.occupancy},
-		{"overlapping_charts", r.overlappingCharts},
-		{"overlapping_faces", r.overlappingFaces},
-		{"overlap_cuts", r.overlapCuts},
-		{"tau_re", r.torusTauRe.value_or(0.0)},
-		{"tau_im", r.torusTauIm.value_or(0.0)},
-		{"modulus", r.annulusModulus.value_or(0.0)},
-		{"aspect", r.rectangleAspect.value_or(0.0)},
-		{"holonomy", r.holonomyError.value_or(0.0)},
-		{"period_error", r.periodError.value_or(0.0)},
-		{"hyperbolic_area", r.hyperbolicArea.value_or(0.0)},
-		{"relation_error", r.relationError.value_or(0.0)}};
-	for (const auto& [name, value] : numbers)
-		print(run, name, value);
+	for (const testing::Figure& figure : testing::figuresOf(r))
+		print(run, figure.name, figure.value);
 	Digest periods;
 	periods.addAll(r.periodMatrix);
 	print(run, "periods", periods);
