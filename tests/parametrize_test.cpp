@@ -285,6 +285,39 @@ TEST(Parametrize, ADiskIsRound)
 	}
 }
 
+/// Faces with two boundary edges at the corners of a square become low, but not flipped: the finish leaves the circle
+/// alone for that, and mends what is inside.
+TEST(Parametrize, TheFinishKeepsTheCircleOfADisk)
+{
+	Random random(204);
+	for (const int n : {12, 24, 60}) {
+		SurfaceMesh square = rectangle(n, n, n, n);
+		for (Point3& p : square.positions)
+			if (p[0] > 0 && p[0] < n && p[1] > 0 && p[1] < n)
+				for (const std::size_t k : {0, 1})
+					p[k] += random.real(-0.3, 0.3);
+		Options options;
+		options.target = TargetCurvature::Disk;
+		options.finish = Finish::None;
+		const FlatResult drawn = run(square, options);
+		options.finish = Finish::LeastDistortion;
+		const FlatResult finished = run(square, options);
+		EXPECT_EQ(drawn.report.flippedFaces, 0);
+		EXPECT_EQ(finished.report.flippedFaces, 0);
+		EXPECT_LT(roundness(square, drawn.uv), 1e-11);
+		EXPECT_LE(roundness(square, finished.uv), roundness(square, drawn.uv) + 1e-15);
+		const Parametrization packed = parametrizeEuclidean(square, {}, options);
+		EXPECT_EQ(packed.report.flippedFaces + packed.report.flippedByRounding, 0);
+		UV stored;
+		for (const Triangle2& t : packed.mesh.corners()) {
+			stored.push_back(t);
+			for (Point2& p : stored.back())
+				p = {static_cast<float>(p[0]), static_cast<float>(p[1])};
+		}
+		EXPECT_LT(roundness(square, stored), 2e-7); // half a step of a float, twice
+	}
+}
+
 TEST(Parametrize, ARegularPolygonIsADiskAlready)
 {
 	for (int n : {5, 12}) {
