@@ -8,6 +8,7 @@
 #include "../charts/pack.h"
 #include "../charts/separate_charts.h"
 #include "../measure/distortion.h"
+#include "../verify/holonomy_check.h"
 #include "../verify/overlap_check.h"
 #include "flatten.h"
 #include "left_out.h"
@@ -250,19 +251,19 @@ Parametrization chartsInDisk(
 /// Says what the finish could not mend.
 void noteFlipped(OutputTriangulation output, Parametrization& map)
 {
-	const int flipped = map.report.flippedFaces + map.report.flippedByRounding;
-	if (flipped == 0)
-		return;
-	const std::string count =
-		std::to_string(flipped) + (flipped == 1 ? " face stays" : " faces stay");
-	note(
-		count + " flipped" +
-			(output == OutputTriangulation::KeepMesh
-				 ? ": straight lines between the vertices do not fit the map there. The common "
-				   "refinement "
-				   "may draw it without flipped faces."
-				 : ": they are smaller than floats can hold."),
-		map);
+	const auto noteCount = [&](int count, const std::string& why) {
+		if (count > 0)
+			note(std::to_string(count) + (count == 1 ? " face stays" : " faces stay") + why, map);
+	};
+	const std::string tooSmall =
+		" flipped in the coordinates stored: smaller than floats can hold.";
+	noteCount(
+		map.report.flippedFaces,
+		output == OutputTriangulation::KeepMesh
+			? " flipped: straight lines between the vertices do not fit the map there. The common "
+			  "refinement may draw it without flipped faces."
+			: tooSmall);
+	noteCount(map.report.flippedByRounding, tooSmall);
 }
 
 /// From charts to texture coordinates.
@@ -381,6 +382,8 @@ Parametrization parametrizeHyperbolic(
 	const bool isRefined = options.output == OutputTriangulation::CommonRefinement;
 	if (isFinished(options) && finishDisks({options.freeBoundary, isRefined}, map))
 		measureInDisk(opened, map);
+	map.report.relationError =
+		std::max(*map.report.relationError, closingError(map.mesh, map.targetCurvature));
 	if (!leftOut.charts.empty())
 		addBeside(std::move(leftOut), map);
 	placeDisks(map);

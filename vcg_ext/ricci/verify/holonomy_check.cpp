@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "holonomy_check.h"
 
+#include "../base/numbers.h"
+#include "../base/task.h"
 #include "../math/disk_isometry.h"
 #include "../math/points.h"
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <limits>
 
 namespace ricci {
 
@@ -116,6 +120,52 @@ double holonomyError(
 		const double translation = 2.0 * std::asinh(std::sqrt(std::max(sine2, 0.0)));
 		error = std::max(error, std::abs(translation - ways.lengthFrom(first)));
 	}
+	return error;
+}
+
+double closingError(const FlatMesh& disks, const std::vector<double>& curvature)
+{
+	struct Star
+	{
+		double angle = 0.0, shortest = std::numeric_limits<double>::infinity();
+		bool isOnSeam = false, isOnBoundary = false;
+	};
+	std::vector<Star> stars(positionOf(disks.vertexCount()));
+	const auto length = [&](Corner side) {
+		return 2.0 *
+			   std::asinh(
+				   0.5 * chordLength(asComplex(disks.at(side)), asComplex(disks.at(side.next()))));
+	};
+	double error = 0.0;
+	for (const int f : disks.points.indices()) {
+		checkpointNowAndThen(positionOf(f));
+		for (const Corner c : cornersOf(f)) {
+			const double own = length(c);
+			const std::complex<double> p = asComplex(disks.at(c));
+			const auto seen = [&](Corner end) {
+				const std::complex<double> z = asComplex(disks.at(end));
+				return (z - p) / (1.0 - std::conj(p) * z);
+			};
+			Star& star = stars[positionOf(disks.vertices[c])];
+			star.angle += std::arg(seen(c.previous()) * std::conj(seen(c.next())));
+			for (const Corner end : {c, c.next()}) {
+				Star& at = stars[positionOf(disks.vertices[end])];
+				const Corner other = disks.across[c];
+				at.shortest = std::min(at.shortest, own);
+				at.isOnBoundary = at.isOnBoundary || !other.isValid();
+				at.isOnSeam = at.isOnSeam || !disks.joined(c).isValid();
+			}
+			if (const Corner other = disks.across[c]; other > c && !disks.joined(c).isValid())
+				error = std::max(error, std::abs(own - length(other)));
+		}
+	}
+	for (std::size_t v = 0; v < stars.size(); ++v)
+		if (stars[v].isOnSeam && !stars[v].isOnBoundary) {
+			const double wanted = 2.0 * kPi - (v < curvature.size() ? curvature[v] : 0.0);
+			error = std::max(
+				error,
+				std::abs(std::remainder(stars[v].angle - wanted, 2.0 * kPi)) * stars[v].shortest);
+		}
 	return error;
 }
 

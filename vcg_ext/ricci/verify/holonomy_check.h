@@ -5,6 +5,9 @@
 #include "../cut/cut_graph.h"
 #include "../flow/target.h"
 #include "../layout/corner_layout.h"
+#include "../layout/flat_mesh.h"
+
+#include <vector>
 
 namespace ricci {
 
@@ -31,6 +34,13 @@ double holonomyError(
 	const SurfaceLayout& layout,
 	const VertexArray<char>& cones,
 	const Target& target);
+
+/// The same of a finished map, by its points alone: the largest difference of the hyperbolic lengths of the two
+/// sides of a seam; and at inner vertices on seams, that of the sum of the angles of the triangles from 2 pi less
+/// the curvature, up to full turns, as a length: times the shortest side there.
+/// \param disks with \ref FlatMesh::across, each chart in the unit disk
+/// \param curvature [vertex] of the metric; 0 at points beyond its end
+double closingError(const FlatMesh& disks, const std::vector<double>& curvature);
 
 } // namespace ricci
 
