@@ -351,17 +351,6 @@ placeOnAggregates(const EmbeddedSurface& surface, LinearFlow& flow, const ConeRe
 	return result(*sites, vertices, k, 2.0 * std::sqrt(flow.meanSquare(u)), seams);
 }
 
-/// An expected spread of areas with which the search has ended in a poor place: areas change by e and more. There
-/// the cones are taken that bring it to kSpreadInstead, if they are expected to cost less.
-constexpr double kPoorSpread = 1.0, kSpreadInstead = 0.25;
-
-/// Energy, seams and cones, see MapCost.
-double expectedCost(const PlacedCones& placed)
-{
-	return expectedEnergy(placed.distortion) + kSeamPrice * placed.seams +
-		   kConePrice * static_cast<double>(placed.vertices.size());
-}
-
 /// The same for a number of cones or a distortion, and then on the surface itself as far as its own
 /// distortion asks for it.
 void searchFromCoarse(
@@ -411,17 +400,7 @@ PlacedCones placeCones(const EmbeddedSurface& surface, LinearFlow& flow, const C
 		search(request, model, sites);
 	else
 		searchFromCoarse(request, flow, model, sites);
-	PlacedCones placed = result(model, sites);
-	if (isForObjective(request) && placed.distortion > kPoorSpread) {
-		ConeRequest other = request;
-		other.distortion = kSpreadInstead;
-		ConeModel second(flow, surface.topology.type.totalCurvature());
-		search(other, second, sites);
-		PlacedCones found = result(second, sites);
-		if (expectedCost(found) < expectedCost(placed))
-			placed = std::move(found);
-	}
-	return placed;
+	return result(model, sites);
 }
 
 PlacedCones

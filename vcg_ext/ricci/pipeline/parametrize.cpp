@@ -104,8 +104,7 @@ bool mayUnfold(const Component& component, const Options& options)
 	return options.target == TargetCurvature::Automatic && options.freeBoundary &&
 		   isForObjective(options.cones) && options.cones.rounding == ConeRounding::Free &&
 		   isFinished(options) && options.output == OutputTriangulation::KeepMesh &&
-		   options.holes != Holes::Capped && options.charts != Charts::OfTheFlow &&
-		   !component.hasSeam;
+		   options.charts != Charts::OfTheFlow && !component.hasSeam;
 }
 
 /// Share of the curvature that may be left between creases where a component is unfolded first.
@@ -113,6 +112,10 @@ constexpr double kMaxCurvatureBetween = 0.25;
 
 /// A component whose map as a whole costs more, or is expected to, is unfolded, too, whatever its curvature.
 constexpr double kPoorCost = 6.0;
+
+/// Where the map of the cones that were expected to cost least is poor all the same, those that bring the expected
+/// spread of areas below these are tried: the linear model promises too much where scales differ much.
+constexpr double kSpreadsInstead[] = {0.25, 0.5};
 
 /// "energy 4.01, seams 11.9 (objective 4.6)"
 std::string costText(const Parametrization& map)
@@ -149,7 +152,25 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	advance(1.0, "Looking for overlaps");
 	Parametrization map = asParametrization(component, std::move(*flow));
 	separateCharts(options, map);
-	const double cost = costOf(map).total();
+	double cost = costOf(map).total();
+	for (const double spread : kSpreadsInstead) {
+		if (std::min(cost, alternative(cost)) <= kPoorCost || map.report.cones == 0 ||
+			!isForObjective(options.cones))
+			break;
+		Options other = options;
+		other.cones.distortion = spread;
+		auto next = attempt("the map before it stays", [&] {
+			Parametrization part =
+				asParametrization(component, *flattenToPlane(component, input, other));
+			separateCharts(options, part);
+			return part;
+		});
+		if (next && costOf(*next).total() < cost) {
+			cost = costOf(*next).total();
+			next->report.iterations += map.report.iterations;
+			map = std::move(*next);
+		}
+	}
 	const bool isUnfolded = alternative(cost) < cost;
 	if (!unfolded)
 		return map;
@@ -266,6 +287,21 @@ void noteFlipped(OutputTriangulation output, Parametrization& map)
 	noteCount(map.report.flippedByRounding, tooSmall);
 }
 
+/// A disk or a rectangle, which must not be cut, is none where most of its faces are flipped or cover each other.
+/// \throw NotConverged LostInRounding
+void requirePicture(const Options& options, const Report& report, int faces)
+{
+	const int lost = report.flippedFaces + report.flippedByRounding + report.overlappingFaces;
+	const bool isDisk =
+		options.target == TargetCurvature::Disk || options.target == TargetCurvature::Rectangle;
+	if (!isDisk || !isFinished(options) || 2 * lost <= faces)
+		return;
+	const auto [least, most] =
+		std::minmax_element(report.areaFactors.begin(), report.areaFactors.end());
+	throw NotConverged(
+		NotConverged::LostInRounding, positionOf(lost), 0.5 * std::log10(2.0) * (*most - *least));
+}
+
 /// From charts to texture coordinates.
 void pack(const OpenedMesh& opened, const Options& options, Parametrization& map)
 {
@@ -289,6 +325,7 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	countFlipped(map.mesh, map.report);
 	countOverlaps(map);
 	countUnequalSeams(map);
+	requirePicture(options, map.report, map.mesh.size());
 	if (map.report.unequalSeams > 0 && options.finish != Finish::LeastStretch)
 		note(
 			std::to_string(map.report.unequalSeams) + " edges of the seams are longer on one side "
