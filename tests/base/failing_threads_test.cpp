@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Threads that do not start, and those that fail.
+// Threads that do not start.
 #include "../support/failing_malloc.h"
-#include "../support/listener.h"
 #include "../support/shapes.h"
 
 #include <ricci/base/memory_estimate.h>
@@ -10,8 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
-#include <thread>
 #include <vector>
 
 namespace ricci::testing {
@@ -55,57 +52,6 @@ TEST(Besides, WithoutMemoryForAThreadBothAreDoneAllTheSame)
 			EXPECT_EQ(aside, 1) << "allocation " << n;
 		});
 	EXPECT_GT(tried, 1);
-}
-
-TEST(Besides, WhatIsThrownIsThrownOn)
-{
-	struct Main
-	{
-	};
-	struct Aside
-	{
-	};
-	for (const int threads : {1, 2}) {
-		bool done = false;
-		EXPECT_THROW(
-			besides(
-				threads, [] { throw Main(); }, [&] { done = true; }),
-			Main);
-		EXPECT_THROW(
-			besides(
-				threads, [] {}, [] { throw Aside(); }),
-			Aside);
-		// The tick of the other thread ends it once the main one has thrown.
-		if (threads == 1)
-			continue;
-		std::atomic<bool> isRunning{false};
-		EXPECT_THROW(
-			besides(
-				threads,
-				[&] {
-					while (!isRunning)
-						std::this_thread::yield();
-					throw Main();
-				},
-				[&] {
-					isRunning = true;
-					for (;;)
-						checkpoint();
-				}),
-			Main);
-		// While it waits, the calling thread hears Cancel.
-		Listener impatient(1);
-		const Task task(impatient);
-		EXPECT_THROW(
-			besides(
-				threads,
-				[] {},
-				[] {
-					for (;;)
-						checkpoint();
-				}),
-			Cancelled);
-	}
 }
 
 /// More than int can number.

@@ -200,10 +200,11 @@ TEST(Besides, WhatIsThrownInOneEndsTheOther)
 		const std::vector<int> seen = written;
 		EXPECT_EQ(written, seen);
 		const auto failsAside = [] { throw std::logic_error("aside"); };
-		EXPECT_THROW(
-			besides(
-				2, [] {}, failsAside),
-			std::logic_error);
+		for (const int threads : {1, 2})
+			EXPECT_THROW(
+				besides(
+					threads, [] {}, failsAside),
+				std::logic_error);
 	}
 }
 

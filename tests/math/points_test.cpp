@@ -28,6 +28,8 @@ TEST(Points, DistancesAreThoseOfPythagoras)
 		const Point2 p = randomPoint(random), q = randomPoint(random);
 		EXPECT_EQ(distance(p, q), distance(q, p));
 		EXPECT_NEAR(distance(p, q), std::abs(asComplex(p) - asComplex(q)), 1e-15);
+		EXPECT_EQ(asComplex(p), std::complex<double>(p[0], p[1]));
+		EXPECT_EQ(asPoint(asComplex(p)), p);
 	}
 }
 
@@ -44,13 +46,6 @@ TEST(Points, DoubledAreaIsThatOfTheShoelaceFormula)
 		EXPECT_NEAR(doubledArea(a, b, c), shoelace, 1e-13);
 		EXPECT_NEAR(doubledArea(b, c, a), shoelace, 1e-13);
 	}
-}
-
-TEST(Points, AreComplexNumbersAndBack)
-{
-	const Point2 p{0.25, -7.5};
-	EXPECT_EQ(asComplex(p), std::complex<double>(0.25, -7.5));
-	EXPECT_EQ(asPoint(asComplex(p)), p);
 }
 
 TEST(Box2, HoldsItsPointsAndNoMore)

@@ -152,25 +152,5 @@ TEST(SearchFront, TakesEqualDistancesByNumber)
 	EXPECT_EQ(front.nearest(), kFar);
 }
 
-TEST(DistanceQueue, GivesWhatItWasGivenInOrder)
-{
-	Random random(322);
-	DistanceQueue<int> queue;
-	std::vector<std::pair<double, int>> entries;
-	for (int i = 0; i < 200; ++i) {
-		entries.push_back({random.index(9), random.index(9)});
-		queue.push(entries.back().first, entries.back().second);
-	}
-	std::sort(entries.begin(), entries.end());
-	for (const auto& entry : entries) {
-		EXPECT_EQ(queue.top(), entry);
-		EXPECT_EQ(queue.pop(), entry);
-	}
-	EXPECT_TRUE(queue.empty());
-	queue.push(1.0, 2);
-	queue.clear();
-	EXPECT_TRUE(queue.empty());
-}
-
 } // namespace
 } // namespace ricci::testing

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "support/listener.h"
 #include "support/random.h"
 
 #include <ricci/base/indexed.h>
@@ -116,10 +115,6 @@ SparseCholesky::Matrix gridLaplacian(int side)
 	return lower;
 }
 
-#ifdef RICCI_STATIC_CHOLMOD // other solvers have no checkpoints inside
-
-#endif
-
 /// A surface whose radii are all fixed has no unknowns.
 TEST(SparseCholesky, SolvesWithoutUnknowns)
 {
@@ -134,7 +129,8 @@ TEST(SparseCholesky, SolvesForAnyNumberOfColumns)
 	Random random(65);
 	SparseCholesky solver;
 	for (int n : {1, 30, 400}) { // from one column of the factor to many of its blocks
-		ASSERT_TRUE(solver.factorize(laplacian(n, 0.5, random)));
+		const SparseCholesky::Matrix lower = laplacian(n, 0.5, random);
+		ASSERT_TRUE(solver.factorize(lower)); // another pattern follows
 		for (const int columns : {1, 2, 3, 4}) {
 			Eigen::MatrixXd b(n, columns);
 			for (int k = 0; k < columns; ++k)
@@ -142,6 +138,7 @@ TEST(SparseCholesky, SolvesForAnyNumberOfColumns)
 			const int solutions = solver.work().solutions;
 			const Eigen::MatrixXd x = solver.solve(b);
 			EXPECT_EQ(solver.work().solutions, solutions + columns);
+			EXPECT_LT((lower.selfadjointView<Eigen::Lower>() * x - b).cwiseAbs().maxCoeff(), 1e-12);
 			for (int k = 0; k < columns; ++k)
 				EXPECT_LT((x.col(k) - solver.solve(b.col(k))).lpNorm<Eigen::Infinity>(), 1e-12);
 		}
@@ -215,11 +212,10 @@ TEST(SparseCholesky, SolvesForASingleEntry)
 		const Eigen::VectorXd x = solver.solve(Eigen::VectorXd::Unit(n, i));
 		EXPECT_LT((x - inverse.col(i)).lpNorm<Eigen::Infinity>(), 1e-12);
 		const int other = n - 1 - i;
-		Eigen::MatrixXd two(n, 2);
+		Eigen::MatrixXd two(n, 2), expected(n, 2);
 		two << Eigen::VectorXd::Unit(n, i), Eigen::VectorXd::Unit(n, other);
-		const Eigen::MatrixXd solved = solver.solve(two);
-		EXPECT_LT((solved.col(0) - inverse.col(i)).lpNorm<Eigen::Infinity>(), 1e-12);
-		EXPECT_LT((solved.col(1) - inverse.col(other)).lpNorm<Eigen::Infinity>(), 1e-12);
+		expected << inverse.col(i), inverse.col(other);
+		EXPECT_LT((solver.solve(two) - expected).cwiseAbs().maxCoeff(), 1e-12);
 	}
 	EXPECT_EQ(solver.solve(Eigen::VectorXd::Zero(n)), Eigen::VectorXd::Zero(n));
 }
@@ -274,18 +270,6 @@ TEST(SparseCholesky, FactorizesFullBlocksOfAnySize)
 			}
 		ASSERT_TRUE(solver.factorize(lower.sparseView()));
 		EXPECT_EQ(solver.solve(b), x);
-	}
-}
-
-TEST(SparseCholesky, AnotherPatternCanFollow)
-{
-	Random random(61);
-	SparseCholesky solver;
-	for (int n : {40, 25, 60}) {
-		ASSERT_TRUE(solver.factorize(laplacian(n, 1.0, random)));
-		const Eigen::VectorXd b = Eigen::VectorXd::Ones(n);
-		// Rows of a Laplacian sum to zero, so that the ones are solved by themselves.
-		EXPECT_LT((solver.solve(b) - b).lpNorm<Eigen::Infinity>(), 1e-12);
 	}
 }
 
@@ -371,15 +355,6 @@ TEST(SparseCholesky, FactorsMayHaveMoreEntriesThanIntCanTell)
 	SparseCholesky solver;
 	solver.analyze(graph);
 	EXPECT_GT(solver.factorEntries(), std::numeric_limits<int>::max() / 2);
-}
-
-TEST(SparseCholesky, TellsWhenAMatrixIsNotPositiveDefinite)
-{
-	Random random(62);
-	SparseCholesky solver;
-	EXPECT_FALSE(solver.factorize(laplacian(30, -50.0, random)));
-	EXPECT_TRUE(solver.factorize(laplacian(30, 1.0, random))); // and recovers
-	EXPECT_NE(std::string(SparseCholesky::name()), "");
 }
 
 } // namespace

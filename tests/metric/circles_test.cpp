@@ -3,12 +3,9 @@
 #include "support/front_door.h"
 #include "support/random_surface.h"
 
-#include <ricci/error.h>
 #include <ricci/parametrize.h>
 
 #include <gtest/gtest.h>
-
-#include <numeric>
 
 namespace ricci::testing {
 namespace {
@@ -172,33 +169,6 @@ TEST(Circles, HaveTheLengthsOfTheMapInTheDiskAndItsCurvature)
 			const double length = 2.0 * std::atanh(std::abs((q - p) / (1.0 - std::conj(p) * q)));
 			EXPECT_NEAR(length / static_cast<double>(circles.lengthWith(map.u, i, j)), 1.0, 1e-8);
 		}
-}
-
-/// A face without area gets a little: at its flat corner an excess of 1e-5 of the shorter side there, half of it
-/// on every edge at that vertex; an edge without length is nothing but what it gets.
-TEST(Circles, OfDegenerateFacesAreThoseOfLongerEdges)
-{
-	const Options options = towards(TargetCurvature::Automatic);
-	SurfaceMesh mesh = rectangle(8, 8, 1, 1);
-	EXPECT_EQ(flattened(mesh, options).report.lengthened, 0.0);
-	mesh.positions[40] = {0.4375, 0.375, 0.0}; // halfway between two vertices of one of its faces
-	double shortest = HUGE_VAL, excess = 0.0;
-	for (const Triangle& t : mesh.triangles)
-		for (std::size_t k = 0; k < 3; ++k) {
-			const Point3 &p = mesh.positions[at(t[k])], &q = mesh.positions[at(t[(k + 1) % 3])];
-			const Point3& r = mesh.positions[at(t[(k + 2) % 3])];
-			if (t[k] != 40)
-				continue;
-			const double left = distance(p, q), right = distance(p, r);
-			shortest = std::min({shortest, left, right});
-			if (length(cross(q - p, r - p)) < 1e-15)
-				excess = std::max(excess, 1e-5 * std::min(left, right));
-		}
-	ASSERT_GT(excess, 0.0);
-	const FlatResult flat = flattened(mesh, options);
-	EXPECT_NEAR(flat.report.lengthened, 0.5 * excess / (shortest + 0.5 * excess), 1e-12);
-	mesh.positions[12] = mesh.positions[13];
-	EXPECT_EQ(flattened(mesh, options).report.lengthened, 1.0);
 }
 
 } // namespace

@@ -105,45 +105,5 @@ TEST(OverlayPieces, AreTheFacesOfASurfaceThatTileBothTriangulations)
 	EXPECT_GT(crossings, 600); // or the test says little
 }
 
-TEST(OverlayPieces, ForgetWhatIsNotKept)
-{
-	Random random(821);
-	int moved = 0, border = 0;
-	for (const FlippedFlow& flow : closedFlows(random)) {
-		const Triangulation& input = flow.base();
-		const OverlayPieces whole = flow.pieces();
-		const int kept = input.faceCount() / 2;
-		const OverlayPieces half = divideStartTriangles(flow.result, kept);
-		int wanted = 0;
-		for (const int p : whole.inputFace.indices())
-			if (whole.inputFace[p] < Face(kept)) {
-				ASSERT_LT(wanted, half.count());
-				EXPECT_EQ(half.inputFace[wanted], whole.inputFace[p]);
-				EXPECT_EQ(half.endFace[wanted], whole.endFace[p]);
-				ASSERT_EQ(half.size(wanted), whole.size(p));
-				for (int i = 0; i <= whole.size(p); ++i)
-					EXPECT_EQ(half(wanted, i).node, whole(p, i).node);
-				moved += p != wanted;
-				++wanted;
-			}
-		EXPECT_EQ(half.count(), wanted);
-		EXPECT_EQ(half.inputFace.size(), wanted);
-		for (const auto& link : half.links) {
-			if (!link[0].isValid())
-				continue; // of pieces that are forgotten
-			const PieceCorner& side = half.at(link[0]);
-			if (link[1].isValid()) {
-				EXPECT_EQ(half.at(link[1]).side, side.side);
-				continue;
-			}
-			++border;
-			ASSERT_TRUE(side.input.isValid()); // the border runs along edges of the input
-			EXPECT_GE(input.face(side.input.twin()), Face(kept));
-		}
-	}
-	EXPECT_GT(moved, 50);
-	EXPECT_GT(border, 50);
-}
-
 } // namespace
 } // namespace ricci::testing

@@ -177,25 +177,6 @@ TEST(ChordArrangement, ChordsWithTheSameEndsAreOneLine)
 	EXPECT_TRUE(arrangement.line(1).secondReversed);
 }
 
-/// As a fan of triangles makes them: bundles of parallel chords, and others that leave one corner.
-TEST(ChordArrangement, OfBundlesRoundCorners)
-{
-	Random random(5);
-	const int n = 40, places = 3 * (n + 1);
-	const auto place = [&](int side, int k) { return (side * (n + 1) + k) % places; };
-	std::vector<Chords> all(5); // three bundles, all of them, and a fan
-	for (int k = 1; k <= n / 2; ++k)
-		for (int corner = 0; corner < 3; ++corner)
-			for (const int to : {corner, 3})
-				all[at(to)].push_back({place(corner, k), place((corner + 2) % 3, n + 1 - k)});
-	for (int k = 1; k <= n; ++k)
-		all[4].push_back({place(0, 0), place(1, k)});
-	ChordArrangement kept;
-	for (const Chords& first : all)
-		for (const Chords& second : all)
-			expectArrangement(places, first, second, kept, random);
-}
-
 using Corners = std::array<std::size_t, 3>;
 
 /// A convex polygon in the plane and in space.

@@ -192,26 +192,6 @@ TEST(Cotree, LeavesTheShortestLoopsThatOpenTheSurface)
 	}
 }
 
-/// Of the triangulation that is handed over, in space: after a flip the length of the other diagonal.
-TEST(FlowDomain, EdgeLengthsAreStraight)
-{
-	Triangulation t(4, {{0, 1, 2}, {0, 2, 3}});
-	const VertexArray<Point3> positions{{0, 0, 0}, {3, 0, 0}, {3, 4, 0}, {0, 0, 12}};
-	const auto expectLengths = [&](double diagonal) {
-		const EdgeArray<double> lengths = edgeLengths(t, positions);
-		ASSERT_EQ(lengths.size(), 5);
-		const double known[4][4] = {
-			{0, 3, diagonal, 12}, {3, 0, 4, diagonal}, {diagonal, 4, 0, 13}, {12, diagonal, 13, 0}};
-		for (const Edge e : t.edges())
-			EXPECT_NEAR(lengths[e], known[at(t.ends(e)[0])][at(t.ends(e)[1])], 1e-14);
-	};
-	expectLengths(5.0);
-	for (const Edge e : t.edges())
-		if (t.isFlippable(e))
-			t.flip(e);
-	expectLengths(std::sqrt(9.0 + 144.0));
-}
-
 /// The surface of \p triangles with their metric in space.
 void expectEmbedded(
 	const EmbeddedSurface& s,
@@ -225,7 +205,11 @@ void expectEmbedded(
 	for (const Face f : t.faces())
 		for (std::size_t k = 0; k < 3; ++k)
 			ASSERT_EQ(t.origin(t.halfedges(f)[k]), Vertex(triangles[at(f)][k]));
-	EXPECT_EQ(s.lengths, edgeLengths(t, positions));
+	ASSERT_EQ(s.lengths.size(), t.edgeCount());
+	for (const Edge e : t.edges()) {
+		const auto [i, j] = t.ends(e);
+		EXPECT_DOUBLE_EQ(s.lengths[e], distance(s.positions[i], s.positions[j]));
+	}
 	EXPECT_EQ(s.topology.type.eulerCharacteristic(), t.eulerCharacteristic());
 	expectLoops(s.topology.loops, triangles);
 }
@@ -298,30 +282,6 @@ TEST(FlowDomain, CapsCloseAllLoopsButTheLongest)
 			EXPECT_GE(k.number(), t.vertexCount());
 		}
 		expectEmbedded(domain.solved(), domain.solved().positions, triangles);
-	}
-}
-
-/// A loop is a hole if all its edges are marked.
-TEST(FlowDomain, CapsCloseMarkedLoops)
-{
-	const SurfaceMesh mesh = squareWithHoles(9);
-	const Triangulation t = glued(mesh);
-	const std::vector<Halfedge> loops = t.boundaryLoops();
-	ASSERT_EQ(loops.size(), 4u);
-	for (unsigned marked = 0; marked < 15; ++marked) {
-		EdgeArray<char> isHole(t.edgeCount(), 0);
-		VertexArray<char> expected(t.vertexCount(), 0);
-		for (std::size_t l = 0; l < loops.size(); ++l)
-			for (const Halfedge h : t.loop(loops[l])) {
-				const bool isMarked = (marked >> l & 1u) != 0;
-				isHole[h.edge()] = isMarked || h != loops[l]; // else all but one of its edges
-				expected[t.origin(h)] = isMarked;
-			}
-		FlowDomain domain;
-		domain.surface = embeddedSurface(VertexArray<Point3>(mesh.positions), mesh.triangles);
-		capHoles(loopsToClose(domain.surface, isHole, Holes::Capped), domain);
-		EXPECT_EQ(domain.onHole, expected);
-		EXPECT_EQ(domain.solved().triangulation.boundaryLoops().size(), at(4 - domain.holes));
 	}
 }
 

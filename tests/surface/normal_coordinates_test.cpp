@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 namespace ricci::testing {
@@ -57,109 +56,6 @@ int fromOrigin(const NormalCoordinates& c, const NormalCoordinates::Crossing& x)
 	return x.halfedge.isFirst() ? x.position : c.crossings(x.halfedge.edge()) - 1 - x.position;
 }
 
-/// The way from its beginning to its end, triangle by triangle.
-void expectConnected(
-	const NormalCoordinates& c, const Curve& curve, const Triangulation& original, Edge edge)
-{
-	SCOPED_TRACE("original edge " + std::to_string(edge.number()));
-	const Triangulation& t = c.triangulation();
-	ASSERT_TRUE(curve.first.isValid() && curve.last.isValid());
-	EXPECT_EQ(t.origin(curve.first), original.ends(edge)[0]);
-	EXPECT_EQ(t.origin(curve.last), original.ends(edge)[1]);
-	if (curve.crossings.empty()) {
-		EXPECT_EQ(curve.last, curve.first.twin());
-		EXPECT_TRUE(c.isCurve(curve.first.edge()));
-		return;
-	}
-	EXPECT_EQ(curve.crossings.front().halfedge, t.next(curve.first));
-	for (std::size_t i = 0; i + 1 < curve.crossings.size(); ++i) {
-		const Halfedge entered = curve.crossings[i].halfedge.twin();
-		ASSERT_EQ(t.face(entered), t.face(curve.crossings[i + 1].halfedge));
-		ASSERT_NE(entered, curve.crossings[i + 1].halfedge);
-	}
-	EXPECT_EQ(t.next(curve.last), curve.crossings.back().halfedge.twin());
-}
-
-/// Every place at which an edge counts a crossing belongs to exactly one crossing of one curve.
-void expectCrossingsCounted(const NormalCoordinates& c, const EdgeArray<Curve>& curves)
-{
-	const Triangulation& t = c.triangulation();
-	EdgeArray<std::vector<int>> visits(t.edgeCount());
-	for (const Edge e : t.edges())
-		visits[e].assign(at(c.crossings(e)), 0);
-	for (const Curve& curve : curves)
-		for (const auto& x : curve.crossings) {
-			const int position = fromOrigin(c, x);
-			ASSERT_GE(position, 0);
-			ASSERT_LT(position, c.crossings(x.halfedge.edge()));
-			++visits[x.halfedge.edge()][at(position)];
-		}
-	for (const auto& edge : visits)
-		EXPECT_EQ(edge, std::vector<int>(edge.size(), 1));
-}
-
-/// Halfedges that leave the origin of \p first, counter-clockwise; open at the boundary.
-std::vector<Halfedge> star(const Triangulation& t, Halfedge first)
-{
-	std::vector<Halfedge> halfedges;
-	for (const Halfedge h : t.around(t.origin(first)))
-		halfedges.push_back(h);
-	if (t.isExterior(halfedges.front().twin())) // the exterior one lies behind the first
-		std::rotate(halfedges.begin(), halfedges.begin() + 1, halfedges.end());
-	std::reverse(halfedges.begin(), halfedges.end());
-	return halfedges;
-}
-
-/// The curves leave every vertex in the order of the original edges.
-void expectRoundabouts(
-	const Triangulation& original, const NormalCoordinates& c, const EdgeArray<Curve>& curves)
-{
-	const Triangulation& t = c.triangulation();
-	/// By the position among the curves of the corner, -1 along its halfedge.
-	HalfedgeArray<std::vector<std::pair<int, Halfedge>>> leaving(t.halfedgeCount());
-	for (const Edge e : curves.indices()) {
-		const Curve& curve = curves[e];
-		const Halfedge h = e.halfedge();
-		const bool isEdge = curve.crossings.empty();
-		leaving[curve.first].push_back({isEdge ? -1 : curve.crossings.front().position, h});
-		const int back = isEdge ? -1
-								: c.crossings(curve.crossings.back().halfedge.edge()) - 1 -
-									  curve.crossings.back().position;
-		leaving[curve.last].push_back({back, h.twin()});
-	}
-	for (const Vertex v : t.vertices()) {
-		std::vector<Halfedge> order;
-		for (const Halfedge spoke : star(t, t.halfedge(v))) {
-			auto& curvesHere = leaving[spoke];
-			std::sort(curvesHere.begin(), curvesHere.end());
-			const Halfedge before = c.originalAtOrBefore(spoke);
-			if (!curvesHere.empty() && curvesHere.front().first < 0) {
-				EXPECT_EQ(before, curvesHere.front().second);
-			}
-			else if (!order.empty()) {
-				EXPECT_EQ(before, order.back());
-			}
-			for (const auto& [position, originalHalfedge] : curvesHere)
-				order.push_back(originalHalfedge);
-		}
-		ASSERT_FALSE(order.empty());
-		std::vector<Halfedge> expected = star(original, order.front());
-		const auto first = std::find(expected.begin(), expected.end(), order.front());
-		std::rotate(expected.begin(), first, expected.end());
-		EXPECT_EQ(order, expected) << "vertex " << v.number();
-	}
-}
-
-void expectConsistent(const Triangulation& original, const NormalCoordinates& c)
-{
-	const auto curves = c.trace();
-	ASSERT_EQ(curves.size(), original.edgeCount());
-	for (const Edge e : original.edges())
-		expectConnected(c, curves[e], original, e);
-	expectCrossingsCounted(c, curves);
-	expectRoundabouts(original, c, curves);
-}
-
 void expectEdgesThemselves(const Triangulation& original, const NormalCoordinates& c)
 {
 	const auto curves = c.trace();
@@ -175,32 +71,27 @@ void expectEdgesThemselves(const Triangulation& original, const NormalCoordinate
 		EXPECT_EQ(c.triangulation().next(h), original.next(h));
 }
 
-TEST(NormalCoordinates, TracesAreWholeAfterRandomFlipsAndComeBack)
+/// What they are after flips, overlay_pieces_test.cpp and the refinements show of the pieces that they make.
+TEST(NormalCoordinates, ComeBackWithTheFlipsUndone)
 {
-	const std::vector<Surface> all = surfaces();
-	std::vector<int> crossed(all.size(), 0);
-	for (std::uint64_t seed : {1u, 2u, 3u})
-		for (std::size_t i = 0; i < all.size(); ++i) {
-			const Triangulation& original = all[i].triangulation;
-			SCOPED_TRACE(std::string(all[i].name) + ", seed " + std::to_string(seed));
+	for (const Surface& surface : surfaces()) {
+		SCOPED_TRACE(surface.name);
+		const Triangulation& original = surface.triangulation;
+		int crossed = 0;
+		for (std::uint64_t seed : {1u, 2u, 3u}) {
 			Random random(310 + seed);
 			NormalCoordinates c(original);
 			expectEdgesThemselves(original, c);
-			std::vector<Edge> flipped;
-			for (int part = 0; part < 3; ++part) {
-				for (const Edge e : flipAtRandom(c, all[i].flips / 3, random))
-					flipped.push_back(e);
-				expectConsistent(original, c);
-			}
+			const std::vector<Edge> flipped = flipAtRandom(c, surface.flips, random);
 			for (const Edge e : original.edges())
-				crossed[i] = std::max(crossed[i], c.crossings(e));
+				crossed = std::max(crossed, c.crossings(e));
 			for (auto e = flipped.rbegin(); e != flipped.rend(); ++e)
 				c.unflip(*e);
 			expectEdgesThemselves(original, c);
 		}
-	// Or the test says little. On a sphere with three vertices arcs hardly cross at all.
-	for (std::size_t i = 0; i + 1 < crossed.size(); ++i)
-		EXPECT_GT(crossed[i], 5) << all[i].name;
+		// Or the test says little. On a sphere with three vertices arcs hardly cross at all.
+		EXPECT_TRUE(crossed > 5 || original.vertexCount() == 3);
+	}
 }
 
 TEST(NormalCoordinates, AreThoseOfStraightEdgesInThePlane)
@@ -251,47 +142,6 @@ TEST(NormalCoordinates, AreThoseOfStraightEdgesInThePlane)
 		for (const Edge x : t.edges())
 			EXPECT_EQ(curveAt[x], edgesOf(onEdge[x]));
 	}
-}
-
-/// From every corner of a plane mesh straight on over two edges, to the left and to the right.
-TEST(Unfold, AStripOfThePlaneIsItself)
-{
-	Random random(630);
-	const SurfaceMesh mesh = randomPlanarDisk(5, random);
-	const Triangulation t = glued(mesh);
-	const EdgeArray<double> lengths = edgeLengths(t, mesh);
-	int strips = 0;
-	for (const Halfedge h : t.interiorHalfedges())
-		for (bool left : {true, false}) {
-			const Halfedge y = t.next(h).twin();
-			if (t.isExterior(y))
-				continue;
-			const Halfedge second = left ? t.previous(y) : t.next(y);
-			if (t.isExterior(second.twin()))
-				continue;
-			Curve curve;
-			curve.first = h;
-			curve.crossings = {{t.next(h), 0}, {second, 0}};
-			Strip strip;
-			unfold(t, lengths, curve, strip);
-			// The plane seen from the curve's beginning, along its first halfedge.
-			const Point3& o = mesh.positions[at(t.origin(h))];
-			const Point3& e = mesh.positions[at(t.target(h))];
-			const double c = (e[0] - o[0]) / distance(o, e), s = (e[1] - o[1]) / distance(o, e);
-			const auto expectAt = [&](const Point2& p, Vertex v) {
-				const Point3 q = mesh.positions[at(v)] - o;
-				EXPECT_NEAR(p[0], c * q[0] + s * q[1], 1e-12);
-				EXPECT_NEAR(p[1], c * q[1] - s * q[0], 1e-12);
-			};
-			ASSERT_EQ(strip.sides.size(), 2u);
-			for (std::size_t i = 0; i < 2; ++i) {
-				expectAt(strip.sides[i].from, t.origin(curve.crossings[i].halfedge));
-				expectAt(strip.sides[i].to, t.target(curve.crossings[i].halfedge));
-			}
-			expectAt(strip.end, t.apex(second.twin()));
-			++strips;
-		}
-	EXPECT_GT(strips, 20);
 }
 
 } // namespace

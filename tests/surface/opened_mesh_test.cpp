@@ -155,23 +155,6 @@ TEST(OpenedMesh, CountsWithoutSeamsWhatHadToBeCut)
 		}
 }
 
-/// Of each component the longest loop of the mesh itself is no hole, however long a seam is.
-TEST(OpenedMesh, KnowsHolesFromSeams)
-{
-	const auto vertex = [](int i, int j) { return i * 11 + j; };
-	SurfaceMesh mesh = withoutStars(rectangle(10, 10, 10.0, 10.0), {vertex(3, 3), vertex(7, 6)});
-	EXPECT_TRUE(opened(mesh).hole.empty());
-	mesh.seam.assign(mesh.triangles.size(), {1, 1, 1});
-	const OpenedMesh o = opened(mesh);
-	ASSERT_EQ(o.hole.size(), o.face.size());
-	for (const auto& [ends, sides] : sidesByEnds(mesh.triangles)) {
-		const Point3& p = mesh.positions[at(ends.first)];
-		const bool isInside = p[0] > 0.0 && p[0] < 10.0 && p[1] > 0.0 && p[1] < 10.0;
-		for (const Corner side : sides)
-			EXPECT_EQ(o.hole[at(side.face())][side.index()] != 0, sides.size() == 1 && isInside);
-	}
-}
-
 /// A flat component, a face with a vertex twice and one at a single point, round a square whose two
 /// triangles are glued.
 TEST(OpenedMesh, WhatIsLeftOutTakesNothingAlong)

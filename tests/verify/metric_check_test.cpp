@@ -74,21 +74,6 @@ TEST(MetricCheck, AgreesWithTheFlowsAndSeesWhatIsWrong)
 		agreesAndDetects<Hyperbolic>(Background::HyperbolicPlane, scale);
 }
 
-TEST(MetricCheck, KnowsTheRegularTetrahedron)
-{
-	const SurfaceMesh mesh = tetrahedron();
-	const EdgeArray<double> lengths(6, 2.0), delta(6, 0.0); // touching circles of radius 1
-	const GeometricCurvatureMap<Euclidean> map({Triangulation(4, mesh.triangles), delta});
-	const VertexVector u = VertexVector::Zero(4);
-	const auto error = [&](double K) {
-		return checkMetric(
-				   Background::EuclideanPlane, map, u, lengths, VertexVector::Constant(4, K))
-			.curvatureError;
-	};
-	EXPECT_EQ(error(kPi), 0.0);
-	EXPECT_NEAR(error(kPi - 0.25), 0.25, 1e-12); // less what rounding explains
-}
-
 TEST(MetricCheck, OpenCurvatureIsTheSumOfWhatTheFreeVerticesMiss)
 {
 	FlowResult flow;

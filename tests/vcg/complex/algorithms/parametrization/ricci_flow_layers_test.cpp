@@ -13,8 +13,6 @@
 #include <cmath>
 #include <complex>
 #include <functional>
-#include <limits>
-#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -168,59 +166,6 @@ TYPED_TEST(UniversalCover, CopiesAreMovedBeforeTheyAreRounded)
 		TypeParam cover;
 		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(r, 1, 1000000, cover);
 		expectCover(cover, expectedCover<TypeParam>(r, 1, 1000));
-	}
-}
-
-/// Where two copies meet, their vertices are at one place up to the last place of a float of the
-/// texture plane.
-TYPED_TEST(UniversalCover, CopiesMeetAtTheirSeams)
-{
-	Random random(921);
-	const SurfaceMesh shape = shaken(perforatedSlab(2, 3), 0.06, random);
-	TypeParam m;
-	toVcg(shape, m);
-	for (const OutputTriangulation output :
-		 {OutputTriangulation::KeepMesh, OutputTriangulation::CommonRefinement}) {
-		typename Flow<TypeParam>::HyperbolicParams par;
-		par.output = output;
-		par.finish = Finish::None;
-		const auto r = Flow<TypeParam>::ComputeHyperbolic(m, par);
-		TypeParam cover;
-		vcg::tri::RicciFlowLayers<TypeParam>::BuildUniversalCover(r, 1, 1000000, cover);
-		const std::size_t copies = tiling(r.charts[0].group.sides, 1, 1000).deck.size();
-		ASSERT_EQ(cover.vert.size() % copies, 0u);
-		const std::size_t perCopy = cover.vert.size() / copies;
-		ASSERT_GT(copies, 8u);
-		// Sides of the first copy that only one of its faces has: the seam.
-		std::map<std::pair<std::size_t, std::size_t>, int> faces;
-		for (const auto& f : cover.face)
-			for (int k = 0; k < 3; ++k) {
-				const std::size_t i = vcg::tri::Index(cover, f.cV(k));
-				const std::size_t j = vcg::tri::Index(cover, f.cV((k + 1) % 3));
-				if (i < perCopy)
-					++faces[std::minmax(i, j)];
-			}
-		std::set<std::size_t> seam;
-		for (const auto& [side, count] : faces)
-			if (count == 1) {
-				seam.insert(side.first);
-				seam.insert(side.second);
-			}
-		EXPECT_GT(seam.size(), 40u);
-		for (const std::size_t v : seam) {
-			const auto& p = cover.vert[v].cP();
-			double least = 1.0;
-			for (std::size_t w = perCopy; w < cover.vert.size(); ++w)
-				least = std::min(
-					least,
-					std::max(
-						std::abs(double(p[0]) - double(cover.vert[w].cP()[0])),
-						std::abs(double(p[1]) - double(cover.vert[w].cP()[1]))));
-			const double step = std::is_same_v<typename TypeParam::CoordType::ScalarType, float>
-									? 0.5 * std::numeric_limits<float>::epsilon()
-									: 1e-13;
-			EXPECT_LE(least, step);
-		}
 	}
 }
 
