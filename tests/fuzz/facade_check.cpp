@@ -96,7 +96,7 @@ struct Reading
 	std::vector<char> isDegenerate; // [VCG face]
 
 	template<class Mesh>
-	Reading(const Mesh& m, const std::vector<std::array<char, 3>>& seams) :
+	Reading(const Mesh& m, const std::vector<std::array<char, 3>>& seams, OneSidedCut cut) :
 			wanted(m.face.size(), 0), isDegenerate(m.face.size(), 0)
 	{
 		mesh = fromVcg(m);
@@ -111,7 +111,7 @@ struct Reading
 					mesh.seam.push_back(seams[f]);
 			}
 		std::vector<std::string> notes;
-		opened = openMesh(mesh, notes);
+		opened = openMesh(mesh, notes, cut);
 		for (std::size_t f = 0; f < opened.face.size(); ++f)
 			wanted[inVcg(opened.face[f])] = opened.reversed[Face(f)] ? -1 : 1;
 		for (const int f : opened.degenerate)
@@ -505,7 +505,8 @@ Execution run(const HostileMesh& hostile)
 	execution.defect = defectOf(
 		result.report,
 		hostile.hyperbolic ? hostile.hyperbolicOptions.epsilon : hostile.options.epsilon);
-	const Reading reading(m, seams);
+	const Reading reading(
+		m, seams, hostile.hyperbolic ? OneSidedCut::ClearOfBoundary : OneSidedCut::Shortest);
 	if (execution.defect.empty())
 		execution.defect = contradictionOf(result.report, reading.opened);
 	const bool refined =

@@ -115,7 +115,7 @@ constexpr double kPoorCost = 6.0;
 
 /// Where the map of the cones that were expected to cost least is poor all the same, those that bring the expected
 /// spread of areas below these are tried: the linear model promises too much where scales differ much.
-constexpr double kSpreadsInstead[] = {0.25, 0.5};
+constexpr double kSpreadsInstead[] = {0.5, 0.25};
 
 /// "energy 4.01, seams 11.9 (objective 4.6)"
 std::string costText(const Parametrization& map)
@@ -154,8 +154,8 @@ mapToPlane(const Component& component, const VertexInput& input, const Options& 
 	separateCharts(options, map);
 	double cost = costOf(map).total();
 	for (const double spread : kSpreadsInstead) {
-		if (std::min(cost, alternative(cost)) <= kPoorCost || map.report.cones == 0 ||
-			!isForObjective(options.cones))
+		if (std::min(cost, alternative(cost)) <= kPoorCost ||
+			map.report.targetUsed != TargetUsed::PlacedCones || !isForObjective(options.cones))
 			break;
 		Options other = options;
 		other.cones.distortion = spread;
