@@ -13,6 +13,7 @@
 #include <complex>
 #include <functional>
 #include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -377,6 +378,56 @@ TEST(Invariants, OfASphereWithThreeCones)
 				 return 2 * std::atanh(std::abs((a - b) / (1.0 - std::conj(a) * b)));
 			 }))
 			EXPECT_NEAR(side, exact, 1e-6 * exact);
+	}
+}
+
+/// Complete elliptic integral of the first kind, by the parameter.
+double ellipticK(double m)
+{
+	double a = 1.0, b = std::sqrt(1.0 - m);
+	for (int i = 0; i < 40; ++i)
+		std::tie(a, b) = std::pair(0.5 * (a + b), std::sqrt(a * b));
+	return kPi / (2.0 * a);
+}
+
+/// A sphere with four cones of pi on a circle is the double of a rectangle, whose sides are as K(l) to K(1 - l) for the
+/// cross-ratio l of the cones. The flat metric is like a square root near a cone: triangles of the size h have the
+/// size of the root of h there, which takes from the order of convergence, unless they get smaller towards the cone.
+TEST(Invariants, OfASphereWithFourConesOfPi)
+{
+	const double angles[] = {0.0, kPi / 4, kPi / 2, kPi};
+	const auto place = [](double angle) { return Point3{std::cos(angle), std::sin(angle), 0.0}; };
+	const auto chord = [&](int i, int j) { return std::sin(0.5 * (angles[j] - angles[i])); };
+	const double ratio = chord(0, 1) * chord(2, 3) / (chord(0, 2) * chord(1, 3));
+	const double exact = ellipticK(ratio) / ellipticK(1.0 - ratio);
+	constexpr double kNear = 0.35; // half the way to the next cone
+	for (const bool isGraded : {false, true}) {
+		std::vector<double> errors;
+		for (const int subdivision : {8, 16, 32}) {
+			SurfaceMesh sphere = perforatedSlab(0, subdivision); // a box of 1 x 3 x 1
+			const auto onSphere = [](const Point3& p) { return (1.0 / length(p)) * p; };
+			std::vector<int> cones(4);
+			for (std::size_t v = 0; v < sphere.positions.size(); ++v) {
+				Point3& p = sphere.positions[v];
+				p = onSphere(p - Point3{0.5, 1.5, 0.5});
+				for (std::size_t k = 0; k < 4; ++k)
+					if (const double r = distance(p, place(angles[k])); r < 1e-9)
+						cones[k] = static_cast<int>(v);
+					else if (isGraded && r < kNear)
+						p = onSphere(place(angles[k]) + (r / kNear) * (p - place(angles[k])));
+			}
+			Options options;
+			options.target = TargetCurvature::SelectedCones;
+			options.output = OutputTriangulation::CommonRefinement;
+			const UV uv = run(sphere, options, selecting(sphere, cones)).uv;
+			const auto sides =
+				apart(sphere, uv, {cones[0], cones[1], cones[2]}, [](auto& p, auto& q) {
+					return distance(p, q);
+				});
+			errors.push_back(std::abs(sides[0] / sides[1] / exact - 1.0));
+		}
+		EXPECT_LT(errors.back(), 6e-4);
+		expectOrder(errors, isGraded ? 1.85 : 1.55, 0.15);
 	}
 }
 
