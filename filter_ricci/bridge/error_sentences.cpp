@@ -217,6 +217,8 @@ std::string remedy(const ricci::NotConverged& e)
 		return ": choose the method 'Intrinsic flips'.";
 	case Error::OutsideDisk:
 		return ": choose larger cone angles, or 'Generalized Ricci Flow (Euclidean)'.";
+	case Error::PiecesLost:
+		return ": choose the output 'Keep the mesh'.";
 	case Error::CheckFailed:
 		return ": remesh the worst triangles, and report the mesh.";
 	}

@@ -159,6 +159,7 @@ TEST(Sentences, EveryNotConvergedHasOne)
 		{NotConverged::FlatTriangles, {"61"}},
 		{NotConverged::SplitsUsedUp, {"61"}},
 		{NotConverged::OutsideDisk, {"61"}},
+		{NotConverged::PiecesLost, {"61"}},
 		{NotConverged::FlipsUsedUp, {"61"}},
 		{NotConverged::LostInRounding, {"61", "1e17 times"}},
 		{NotConverged::CircleUnsettled, {"17"}}};

@@ -211,6 +211,9 @@ std::string words(const NotConverged& e)
 	case NotConverged::OutsideDisk:
 		return n + " corners of faces lie so far from the middle of the layout that rounding puts "
 				   "them on the border of the Poincaré disk";
+	case NotConverged::PiecesLost:
+		return n + " of the " + numberText(e.value, 9) +
+			   " pieces of the common refinement are smaller than floats can hold";
 	case NotConverged::CheckFailed:
 		return "The finished map failed its check (" + e.finding + ")";
 	}

@@ -4,6 +4,7 @@
 #include "../base/floating_point.h"
 #include "../base/task.h"
 #include "../base/tolerances.h"
+#include "../error.h"
 #include "../finish/cover_repair.h"
 #include "../finish/repair.h"
 #include "chart_overlap.h"
@@ -24,6 +25,9 @@ namespace {
 
 /// Charts are packed so many times in all.
 constexpr int kMaxPackings = 4;
+
+/// A refinement of whose pieces more than this share are lost is not cut into so many charts.
+constexpr double kMostLost = 0.01;
 
 /// A part of a disk that is moved to the middle of its own may still overlap itself there, which is rare.
 constexpr int kMaxSeparations = 3;
@@ -198,8 +202,12 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 		const bool cuts = result.left > 0 && finish.mayCut;
 		if (isLast || (!cuts && (result.movedCount() == 0 || isIn(map.mesh.box(), limits))))
 			return;
-		if (cuts)
-			setApart(badTriangles(map.mesh, wanted.validity), wanted.inText, map);
+		if (cuts) {
+			const std::vector<int> lost = badTriangles(map.mesh, wanted.validity);
+			if (!finish.forText && static_cast<double>(lost.size()) > kMostLost * map.mesh.size())
+				throw NotConverged(NotConverged::PiecesLost, lost.size(), map.mesh.size());
+			setApart(lost, wanted.inText, map);
+		}
 		finish.packAgain();
 		finish.measure();
 	}

@@ -11,7 +11,8 @@ namespace ricci {
 /// What finishInFloats() may do, and what it calls for.
 struct FloatFinish
 {
-	/// Also mend the triangles of a map that fills the unit square which six decimals would flip.
+	/// The triangles are the mesh's own: also mend those of a map that fills the unit square which six decimals
+	/// would flip.
 	bool forText = true;
 	/// Measures the distortion of the map again.
 	std::function<void()> measure;
@@ -28,6 +29,7 @@ struct FloatFinish
 /// be mended so is cut off as a chart of its own, as high as floats need, and all are packed again; so are charts
 /// that have left their boxes.
 /// \param map after packCharts()
+/// \throw NotConverged PiecesLost where that would be too many pieces of a refinement
 void finishInFloats(const FloatFinish& finish, Parametrization& map);
 
 /// What finishDisks() has to know.

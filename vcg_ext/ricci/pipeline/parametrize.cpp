@@ -299,7 +299,9 @@ void requirePicture(const Options& options, const Report& report, int faces)
 	const auto [least, most] =
 		std::minmax_element(report.areaFactors.begin(), report.areaFactors.end());
 	throw NotConverged(
-		NotConverged::LostInRounding, positionOf(lost), 0.5 * std::log10(2.0) * (*most - *least));
+		NotConverged::LostInRounding,
+		positionOf(lost),
+		std::round(0.5 * std::log10(2.0) * (*most - *least)));
 }
 
 /// From charts to texture coordinates.

@@ -271,7 +271,7 @@ void measure(const Component& c, const VertexArray<Point3>& sphere, SphereMap& m
 		throw NotConverged(
 			NotConverged::LostInRounding,
 			positionOf(map.flippedFaces),
-			0.5 * std::log10(largest / smallest));
+			std::round(0.5 * std::log10(largest / smallest)));
 	}
 	map.qcAreaMean = sum / areaSum;
 	if (map.flippedFaces > 0)
