@@ -156,8 +156,8 @@ public:
 		SplitsUsedUp,    ///< count: boundary edges that were split
 		NoCut,           ///< no cut graph avoids the swapped edges
 		OutsideDisk,     ///< count: corners that rounding puts on the border of the Poincaré disk
-		PiecesLost,      ///< count: pieces of the common refinement, of value, that floats cannot hold
-		CheckFailed      ///< finding: what the check of the result found
+		PiecesLost, ///< count: pieces of the common refinement, of value, that floats cannot hold
+		CheckFailed ///< finding: what the check of the result found
 	};
 
 	explicit NotConverged(Problem problem, std::size_t count = 0, double value = 0.0);

@@ -26,8 +26,8 @@ namespace {
 /// Charts are packed so many times in all.
 constexpr int kMaxPackings = 4;
 
-/// A refinement of whose pieces more than this share are lost is not cut into so many charts.
-constexpr double kMostLost = 0.01;
+/// A refinement of which more pieces are lost is not cut into so many charts.
+constexpr std::size_t kMostLost = 1000;
 
 /// A part of a disk that is moved to the middle of its own may still overlap itself there, which is rare.
 constexpr int kMaxSeparations = 3;
@@ -204,7 +204,7 @@ void finishInFloats(const FloatFinish& finish, Parametrization& map)
 			return;
 		if (cuts) {
 			const std::vector<int> lost = badTriangles(map.mesh, wanted.validity);
-			if (!finish.forText && static_cast<double>(lost.size()) > kMostLost * map.mesh.size())
+			if (!finish.forText && lost.size() > kMostLost)
 				throw NotConverged(NotConverged::PiecesLost, lost.size(), map.mesh.size());
 			setApart(lost, wanted.inText, map);
 		}

@@ -26,7 +26,7 @@ constexpr double kMaxStrain = 3.0;
 constexpr int kEasedRings[] = {2, 5, 13};
 
 /// Share of the height that triangles need, below which one is flat.
-constexpr double kFlat = 0x1p-4;
+constexpr double kFlat = 0x1p-10;
 
 /// Steps that a patch is expected to take to be untangled, or evened out.
 constexpr std::int64_t kExpectedSteps = 30;
