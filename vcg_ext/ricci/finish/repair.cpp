@@ -25,7 +25,7 @@ constexpr double kPatchGrowth = 1.4;
 constexpr double kMaxStrain = 3.0;
 constexpr int kEasedRings[] = {2, 5, 13};
 
-/// Share of the height that triangles need, below which one is flat.
+/// Share of the height that triangles need, below which one is flat: rounding alone has given it a height.
 constexpr double kFlat = 0x1p-10;
 
 /// Steps that a patch is expected to take to be untangled, or evened out.
@@ -287,8 +287,7 @@ Repair repairInStages(
 	Repair result;
 	result.bad = result.left = static_cast<int>(badTriangles(flat, rules.validity).size());
 	PointGroups groups;
-	Validity upright =
-		rules.validity; // flat are, too, those that rounding alone has given a height
+	Validity upright = rules.validity;
 	upright.height *= kFlat;
 	for (int stage = 0; stage < 3 && result.left > 0; ++stage) {
 		if (stage == 2 && rules.keepsBoundary && badTriangles(flat, upright).empty())

@@ -67,8 +67,8 @@ struct RepairRules
 	RestShapes shapes;
 	Validity validity;
 	CostOfPatch cost = nullptr; ///< a patch that would cost more stays as it was
-	bool keepsBoundary =
-		false; ///< that is prescribed: it moves only where a triangle is flipped or flat
+	/// The boundary is prescribed: it moves only if a triangle is flipped or flat.
+	bool keepsBoundary = false;
 };
 
 /// Mends the triangles that are not valid: moves points near them, and no others.
@@ -81,8 +81,8 @@ Repair
 repair(FlatMesh& flat, const PointGroups& groups, const RepairRules& rules, WorkLimit& limit);
 
 /// repair() in stages, each for what the one before has left: the points inside the charts; the copies
-/// of seam vertices together, and the boundary where it is free; the boundary everywhere, if the rules let it. Triangles of the
-/// surface that are far from their shapes afterwards are evened out with more of their neighbours.
+/// of seam vertices together, and the boundary where it is free; the boundary everywhere, if the rules let it.
+/// Triangles of the surface that are far from their shapes afterwards are evened out with more of their neighbours.
 Repair repairInStages(
 	FlatMesh& flat, const BoundaryRule& boundaryMoves, const RepairRules& rules, WorkLimit& limit);
 

@@ -20,6 +20,22 @@ int FlatMesh::vertexCount() const
 	return count;
 }
 
+void FlatMesh::append(FlatMesh other)
+{
+	for (Triangle& corners : other.points)
+		for (int& p : corners)
+			p += place.size();
+	for (Corner& side : other.across)
+		side = side.isValid() ? Corner(across.size() + side.number()) : Corner();
+	vertices.append(std::move(other.vertices));
+	across.append(std::move(other.across));
+	points.append(std::move(other.points));
+	place.append(std::move(other.place));
+	lengths.append(std::move(other.lengths));
+	chart.append(std::move(other.chart));
+	face.append(std::move(other.face));
+}
+
 double FlatMesh::area() const
 {
 	double sum = 0.0;

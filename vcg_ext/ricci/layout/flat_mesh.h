@@ -67,6 +67,10 @@ struct FlatMesh
 	/// [vertex] its place on the surface with the vertices \p positions.
 	std::vector<Point3> onSurface(const std::vector<Point3>& positions) const;
 
+	/// Adds the triangles of another mesh, whose vertices, charts and faces have their numbers here already, and
+	/// its points after those here. Sources are not added.
+	void append(FlatMesh other);
+
 	/// Of all triangles, on the surface.
 	double area() const;
 

@@ -53,12 +53,17 @@ std::optional<ComponentMap> flattenToPlane(
 ComponentMap flattenToDisk(
 	const Component& component, const VertexInput& input, const HyperbolicOptions& options);
 
+/// Whether a component is to be one chart with the boundary that is asked for.
+inline bool isOneChart(const Options& options)
+{
+	return options.target == TargetCurvature::Disk || options.target == TargetCurvature::Rectangle;
+}
+
 /// Whether charts may be cut where they cover themselves. A disk or a rectangle is asked for as one piece;
 /// that it is none at a few faces, which the finish could not mend, is counted.
 inline bool mayCutCharts(const Options& options)
 {
-	return options.charts != Charts::OfTheFlow && options.target != TargetCurvature::Disk &&
-		   options.target != TargetCurvature::Rectangle;
+	return options.charts != Charts::OfTheFlow && !isOneChart(options);
 }
 
 } // namespace ricci

@@ -4,13 +4,12 @@
 #include "../base/task.h"
 #include "../curvature/hyperbolic_target.h"
 #include "../error.h"
-#include "../surface/flow_domain.h"
+#include "../surface/triangulation.h"
 #include "flatten_steps.h"
 #include "whole_map.h"
 
 #include <cstddef>
 #include <exception>
-#include <string>
 #include <utility>
 
 namespace ricci {
@@ -27,7 +26,8 @@ std::exception_ptr whyNot(
 	const VertexInput& input,
 	const HyperbolicTargetOptions& options)
 {
-	const Topology topology = flowDomain(component, Holes::Boundaries).surface.topology;
+	const Topology topology =
+		topologyOf(Triangulation(component.positions.size(), component.triangles));
 	try {
 		chooseHyperbolicTarget(
 			topology, options, targetInput(component, input, component.vertex.size()));
@@ -81,19 +81,10 @@ void addBeside(Parametrization leftOut, Parametrization& map)
 	for (Point2& p : own.place)
 		for (double& x : p)
 			x = kHalfSquare * (2.0 * x - 1.0);
-	for (Triangle& points : own.points)
-		for (int& p : points)
-			p += mesh.place.size();
 	own.across.assign(own.across.size(), Corner());
 	own.chart.assign(own.chart.size(), static_cast<int>(map.charts.size()));
 	map.charts.emplace_back();
-	mesh.vertices.append(std::move(own.vertices));
-	mesh.across.append(std::move(own.across));
-	mesh.points.append(std::move(own.points));
-	mesh.place.append(std::move(own.place));
-	mesh.lengths.append(std::move(own.lengths));
-	mesh.chart.append(std::move(own.chart));
-	mesh.face.append(std::move(own.face));
+	mesh.append(std::move(own));
 	Report& report = map.report;
 	for (int Report::*count :
 		 {&Report::components,

@@ -292,9 +292,7 @@ void noteFlipped(OutputTriangulation output, Parametrization& map)
 void requirePicture(const Options& options, const Report& report, int faces)
 {
 	const int lost = report.flippedFaces + report.flippedByRounding + report.overlappingFaces;
-	const bool isDisk =
-		options.target == TargetCurvature::Disk || options.target == TargetCurvature::Rectangle;
-	if (!isDisk || !isFinished(options) || 2 * lost <= faces)
+	if (!isOneChart(options) || !isFinished(options) || 2 * lost <= faces)
 		return;
 	const auto [least, most] =
 		std::minmax_element(report.areaFactors.begin(), report.areaFactors.end());
@@ -320,8 +318,7 @@ void pack(const OpenedMesh& opened, const Options& options, Parametrization& map
 	finish.measure = [&] { measure(opened, map); };
 	finish.packAgain = [&] { packCharts(map, options, turns); };
 	finish.mayCut = mayCutCharts(options);
-	finish.keepsBoundary =
-		options.target == TargetCurvature::Disk || options.target == TargetCurvature::Rectangle;
+	finish.keepsBoundary = isOneChart(options);
 	if (isFinished(options))
 		finishInFloats(finish, map);
 	countFlipped(map.mesh, map.report);

@@ -155,22 +155,11 @@ void append(const Component& component, Parametrization part, Parametrization& w
 	for (Triangle& vertices : own.vertices)
 		for (int& v : vertices)
 			v = index[v];
-	for (Triangle& points : own.points)
-		for (int& p : points)
-			p += mesh.place.size();
-	for (Corner& other : own.across)
-		other = other.isValid() ? Corner(mesh.across.size() + other.number()) : Corner();
 	for (int& chart : own.chart)
 		chart += static_cast<int>(whole.charts.size());
 	for (int& face : own.face)
 		face = component.face[Face(face)];
-	mesh.vertices.append(std::move(own.vertices));
-	mesh.across.append(std::move(own.across));
-	mesh.points.append(std::move(own.points));
-	mesh.place.append(std::move(own.place));
-	mesh.lengths.append(std::move(own.lengths));
-	mesh.chart.append(std::move(own.chart));
-	mesh.face.append(std::move(own.face));
+	mesh.append(std::move(own));
 	whole.charts.insert(whole.charts.end(), part.charts.begin(), part.charts.end());
 	for (const Vertex v : component.vertex.indices()) {
 		const std::size_t vertex = positionOf(component.vertex[v]);
