@@ -112,6 +112,7 @@ std::vector<FlippedFlow> flows()
 
 TEST(HyperbolicLayout, TrianglesHaveTheLengthsAndAnglesOfTheMetric)
 {
+	RICCI_NEEDS_WIDE_LONG_DOUBLE();
 	for (const FlippedFlow& flow : flows()) {
 		const CurvatureMap& metric = *flow.result.metric;
 		const Triangulation& t = metric.triangulation();
@@ -167,6 +168,7 @@ TEST(HyperbolicLayout, TrianglesHaveTheLengthsAndAnglesOfTheMetric)
 /// both sides of the cut differ by the isometry that is given.
 TEST(HyperbolicLayout, OfTheRefinementAlongAnyCut)
 {
+	RICCI_NEEDS_WIDE_LONG_DOUBLE();
 	Random random(615);
 	for (const FlippedFlow& flow : flows()) {
 		const CutGraph cut = flow.cutAnywhere(random);

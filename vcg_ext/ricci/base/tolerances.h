@@ -78,7 +78,8 @@ constexpr double kConformalTie = 1e-15;
 constexpr double kTieWeight = 1e-9;
 
 /// What rounding may make of a prescribed curvature, in units of the precision of its values: the
-/// share of sum |K| between the sum and Gauss-Bonnet, and values that count as 0.
+/// share of sum |K| (and, in double, of 2 pi a vertex) between the sum and Gauss-Bonnet, and values
+/// that count as 0.
 constexpr double kPrescribedRounding = 4.0;
 
 /// First shift of a matrix that is not positive definite, relative to its largest diagonal entry:

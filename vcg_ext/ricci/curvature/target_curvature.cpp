@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -165,8 +166,11 @@ void setPrescribedValues(
 	const auto sum = static_cast<double>(exactSum);
 	const double wanted = surface.topology.type.totalCurvature();
 	const double defect = wanted - sum;
+	// Each value is at best a full angle less angles, all in double.
+	const double angles = 2 * kPi * static_cast<double>(target.curvature.size());
 	if (std::abs(defect) >
-		kPrescribedRounding * request.prescribedPrecision * (magnitude + 2 * kPi))
+		kPrescribedRounding * (request.prescribedPrecision * (magnitude + 2 * kPi) +
+							   std::numeric_limits<double>::epsilon() * angles))
 		throw InadmissibleCurvature(InadmissibleCurvature::GaussBonnet, sum, wanted);
 	if (magnitude > 0.0)
 		target.curvature += (defect / magnitude) * target.curvature.cwiseAbs();
